@@ -1,0 +1,21 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <iosfwd>
+
+#include "trimtab/units/result.h"
+
+/// The commands of trimtab-cli: one file each, each adds itself to the program and sets `exitCode` when it runs.
+namespace trimtab::cli {
+
+inline constexpr int kDone = 0, kRefused = 1, kUsage = 2;
+
+void addPreset(CLI::App& app, int& exitCode);
+void addDecide(CLI::App& app, int& exitCode);
+void addTerrain(CLI::App& app, int& exitCode);
+void addFeed(CLI::App& app, int& exitCode);
+
+/// Findings on standard error, one a line, with their severity.
+void report(const Findings& findings);
+
+}  // namespace trimtab::cli

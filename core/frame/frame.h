@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "trimtab/preset/parameters.h"
+#include "trimtab/units/geodesy.h"
+
+/// The nouns of a frame, in the order it meets them: state, input, decision, visible set, cost.
+namespace trimtab {
+
+/// Half-angles of a view that a host asks for (CIGI View Definition); left and bottom negative, degrees.
+struct HostView {
+  std::optional<Metres> nearDistance;
+  std::optional<Degrees> left, right, bottom, top;
+
+  friend bool operator==(const HostView&, const HostView&) = default;
+};
+
+/// What one packet (or one row of a flight) says of the aircraft.
+struct AircraftState {
+  double time = 0;                    ///< seconds on the host's clock; arrival time where the host sends none
+  std::uint64_t packet = 0;           ///< host frame number where there is one, else a running count: joins two receivers
+  GeodeticPosition position;
+  Attitude attitude;
+  std::optional<Metres> aboveGround;  ///< as the host says; without it the terrain is asked
+  std::optional<Attitude> head;       ///< line of sight relative to the aircraft
+  std::optional<Metres> visibility;
+  std::optional<HostView> view;
+
+  friend bool operator==(const AircraftState&, const AircraftState&) = default;
+};
+
+/// The perspective a frame is drawn with. Tangents of the half-angles; left and bottom negative.
+struct ViewShape {
+  int widthPx = 1280, heightPx = 720;
+  double left = -0.57735, right = 0.57735, bottom = -0.32492, top = 0.32492;
+  double nearM = 1;
+
+  friend bool operator==(const ViewShape&, const ViewShape&) = default;
+};
+
+/// The shape of a view from parameters, the window's size (for RenderSize::fit) and what the host asked for.
+ViewShape viewShape(const ViewParameters& parameters, int windowWidthPx, int windowHeightPx,
+                    const std::optional<HostView>& host);
+
+/// A frame's stages, milliseconds on real clocks; NaN where a stage was not run or cannot be measured.
+struct FrameCost {
+  double decide = 0, select = 0, occlusion = 0, cull = 0, draw = 0, gpu = 0, total = 0;
+};
+
+struct FrameInput {
+  AircraftState state;
+  std::optional<Metres> aboveGround;  ///< what decide() uses for AltitudeReference::above_ground
+  FrameCost lastCost;
+};
+
+enum class Scheme { frustum, dynamic };
+
+/// Why a scheme and size were chosen. `explain` (core/decision) makes a sentence of it.
+enum class SchemeReason {
+  below_first_band,     ///< total under the lowest edge: view frustum alone
+  in_band,              ///< the band that holds the total
+  held_by_hysteresis,   ///< the total left the band by less than the hysteresis
+  no_rule_fires,        ///< the rule base yields nothing
+  invalid_input,        ///< altitude or pitch is not a finite number: frustum
+  altitude_unknown      ///< above ground was asked for, and nobody knows the ground
+};
+
+struct DepthMapSize {
+  int widthPx = 0, heightPx = 0;
+  friend bool operator==(const DepthMapSize&, const DepthMapSize&) = default;
+};
+
+struct FrameDecision {
+  double altitudeFt = 0;  ///< the altitude that was used, by reference
+  double pitchDeg = 0;
+  double altitudeMembership = 0, pitchMembership = 0, totalMembership = 0;
+  std::array<double, 4> ruleFiring{};  ///< mu of low-down, low-up, high-down, high-up
+  Scheme scheme = Scheme::frustum;
+  int band = -1;                            ///< index into the bands; -1: below all
+  std::optional<DepthMapSize> depthMap;     ///< none: no occlusion test of any kind
+  SchemeReason reason = SchemeReason::below_first_band;
+  double lodScale = 1;
+
+  friend bool operator==(const FrameDecision&, const FrameDecision&) = default;
+};
+
+}  // namespace trimtab

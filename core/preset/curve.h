@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <initializer_list>
+#include <span>
+
+#include "trimtab/units/quantity.h"
+
+namespace trimtab {
+
+struct CurvePoint {
+  double x = 0;  ///< in the curve's own unit
+  double y = 0;  ///< membership, 0..1
+
+  friend constexpr bool operator==(const CurvePoint&, const CurvePoint&) = default;
+};
+
+/// A piecewise linear membership function: up to kCapacity points with rising x. Flat, so that parameters stay one
+/// block of memory that copies without allocating. Validation, not this type, refuses falling x and fewer than two points.
+struct CurvePoints {
+  static constexpr std::size_t kCapacity = 32;
+
+  std::array<CurvePoint, kCapacity> point{};
+  std::size_t size = 0;
+
+  constexpr CurvePoints() = default;
+  constexpr CurvePoints(std::initializer_list<CurvePoint> points) {
+    for (const CurvePoint& p : points) point[size++] = p;
+  }
+  constexpr std::span<const CurvePoint> span() const { return {point.data(), size}; }
+  friend constexpr bool operator==(const CurvePoints& a, const CurvePoints& b) {
+    if (a.size != b.size) return false;
+    for (std::size_t i = 0; i < a.size; ++i)
+      if (a.point[i] != b.point[i]) return false;
+    return true;
+  }
+};
+
+/// CurvePoints whose x is a quantity of type X.
+template <class X>
+struct Curve : CurvePoints {
+  using Argument = X;
+  using CurvePoints::CurvePoints;
+};
+
+/// One depth-map size: serves total memberships from `low` up to the next band's low, half-open; the last one up to
+/// and including kTop.
+struct Band {
+  double low = 0;
+  int widthPx = 0;
+  int heightPx = 0;
+
+  friend constexpr bool operator==(const Band&, const Band&) = default;
+};
+
+/// Bands by rising low; below the first no depth map is made (scheme *frustum*).
+struct BandList {
+  static constexpr std::size_t kCapacity = 16;
+  static constexpr double kTop = 2.0;  ///< the largest total membership (documents A and B, Table 2)
+
+  std::array<Band, kCapacity> band{};
+  std::size_t size = 0;
+
+  constexpr BandList() = default;
+  constexpr BandList(std::initializer_list<Band> bands) {
+    for (const Band& b : bands) band[size++] = b;
+  }
+  constexpr std::span<const Band> span() const { return {band.data(), size}; }
+  friend constexpr bool operator==(const BandList& a, const BandList& b) {
+    if (a.size != b.size) return false;
+    for (std::size_t i = 0; i < a.size; ++i)
+      if (a.band[i] != b.band[i]) return false;
+    return true;
+  }
+};
+
+}  // namespace trimtab

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace trimtab {
+
+enum class Severity { note, warning, error };
+
+/// One thing that is wrong (or worth knowing) about data that came from outside: a preset, a packet, a terrain file.
+struct Finding {
+  Severity severity = Severity::error;
+  std::string where;     ///< file, with line or byte offset where there is one: "a.json:12", "udp 127.0.0.1:5500 #14"
+  std::string key;       ///< parameter key or field name; empty when the whole file is meant
+  std::string expected;  ///< what would have been right, with its unit
+  std::string found;     ///< what was there
+
+  friend bool operator==(const Finding&, const Finding&) = default;
+};
+
+using Findings = std::vector<Finding>;
+
+/// "where: key: expected ..., found ..." in one line, for terminals and message boxes.
+std::string toString(const Finding& finding);
+std::string toString(const Findings& findings);
+
+/// A value, or the reasons why there is none: all of them, not the first. A value may come with notes and warnings.
+template <class T>
+class [[nodiscard]] Result {
+ public:
+  Result(T value, Findings notes = {}) : value_(std::move(value)), findings_(std::move(notes)) {}
+  Result(Finding error) { findings_.push_back(std::move(error)); }
+  Result(Findings errors) : findings_(std::move(errors)) {}
+
+  explicit operator bool() const { return value_.has_value(); }
+  bool ok() const { return value_.has_value(); }
+  const T& value() const& { return value_.value(); }
+  T& value() & { return value_.value(); }
+  T&& value() && { return std::move(value_).value(); }
+  const T* operator->() const { return &value_.value(); }
+  const T& operator*() const { return value_.value(); }
+  T& operator*() { return value_.value(); }
+  const Findings& findings() const { return findings_; }
+
+ private:
+  std::optional<T> value_;
+  Findings findings_;
+};
+
+/// For work that yields nothing but success.
+struct Done {};
+
+}  // namespace trimtab

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trimtab/culling/select.h"
+#include "trimtab/frame/frame.h"
+#include "trimtab/preset/parameters.h"
+#include "trimtab/terrain/database.h"
+
+/// Draws a frame. The same class behind the workbench's widget, the IG's window and the surfaceless context.
+namespace trimtab::scene {
+
+/// What of the picture is for the engineer, not for the pilot.
+struct Overlays {
+  bool wireframe = false, tileBounds = false, colourByReason = false, colourByLevel = false;
+  friend bool operator==(const Overlays&, const Overlays&) = default;
+};
+
+/// Everything one picture depends on.
+struct FrameRequest {
+  GeodeticPosition eye;
+  Attitude attitude;              ///< of the view: aircraft, or aircraft and head
+  ViewShape view;                 ///< size of the picture
+  FrameDecision decision;
+  CullingCase method = CullingCase::proposed;
+  LodParameters lod;
+  Overlays overlays;
+  /// Culling and levels stand still as of this view while the eye moves on; its frustum is drawn.
+  std::optional<EyePose> frozenEye;
+};
+
+struct FrameResult {
+  VisibleSet visible;
+  FrameCost cost;                        ///< milliseconds; gpu is NaN where there is no timer query yet
+  std::size_t tilesInCut = 0;
+  std::optional<DepthMapSize> depthMap;  ///< drawn this frame
+  std::string note;                      ///< why occlusion was not used although asked for; empty otherwise
+  // Counters of work that was skipped or done, since the renderer was made.
+  std::uint64_t depthMapsDrawn = 0, cutsSelected = 0, tilesBuilt = 0;
+};
+
+/// GL text of the current context, and whether what the renderer needs is there.
+struct GlReport {
+  std::string vendor, renderer, version;
+  bool software = false;
+  bool usable = false;
+  std::string missing;  ///< what is not there
+};
+
+class Renderer {
+ public:
+  Renderer();
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  /// All calls below need the context current that `initialize` was called with. No-throw; the report says what is missing.
+  GlReport initialize();
+  /// The context is going away: frees GL objects. `initialize` may be called again.
+  void release();
+
+  void setTerrain(std::shared_ptr<const terrain::Database> database);
+  /// Draws into framebuffer `fbo` (0: the window's), whose size is at least the view's; leaves that framebuffer bound.
+  FrameResult draw(const FrameRequest& request, unsigned fbo);
+
+  /// The last depth map as 0..1 greys by distance (0 near), row 0 at the bottom; empty when the last frame had none.
+  struct Grey {
+    int width = 0, height = 0;
+    std::vector<std::uint8_t> pixels;
+  };
+  Grey readDepthMap();
+  /// RGBA of what `draw` left, row 0 at the bottom.
+  std::vector<std::uint8_t> readPixels(int width, int height);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace trimtab::scene
