@@ -8,12 +8,13 @@ namespace trimtab {
 
 struct GeodeticPosition {
   Degrees latitude, longitude;  ///< WGS84 geodetic; longitude -180..180
-  Metres height;                ///< placed as ellipsoid height; hosts' and terrains' mean sea level heights are used alike
+  Metres height;  ///< placed as ellipsoid height; hosts' and terrains' mean sea level heights are used alike
 
   friend bool operator==(const GeodeticPosition&, const GeodeticPosition&) = default;
 };
 
-/// Aircraft or view attitude: heading true, clockwise from north; pitch nose up positive; roll right wing down positive.
+/// Aircraft or view attitude: heading true, clockwise from north; pitch nose up positive; roll right wing
+/// down positive.
 struct Attitude {
   Degrees heading, pitch, roll;
 
@@ -21,14 +22,16 @@ struct Attitude {
 };
 
 Vec3 toEcef(const GeodeticPosition& position);
-/// Inverse of toEcef to below a nanometre from the earth's centre outwards of 1,000 km; the centre itself gives the north pole.
+/// Inverse of toEcef, to below 10 nm within 1,000 km of the surface; meant for positions farther than 1,000 km from the
+/// earth's centre. The centre itself gives the north pole.
+/// gives the north pole.
 GeodeticPosition toGeodetic(Vec3 ecef);
 
 /// East, north and up at a position as the rows of a rotation from ECEF.
 Mat3 eastNorthUp(Degrees latitude, Degrees longitude);
 
-/// The frame a terrain lives in: metres east (x), north (y) and up (z) of its origin, by an isometry of ECEF: the earth
-/// stays curved in it.
+/// The frame a terrain lives in: metres east (x), north (y) and up (z) of its origin, by an isometry of ECEF:
+/// the earth stays curved in it.
 class LocalFrame {
  public:
   LocalFrame() : LocalFrame(GeodeticPosition{}) {}
@@ -46,7 +49,8 @@ class LocalFrame {
   Mat3 rotation_;
 };
 
-/// Rotation from `frame` to the eye's axes, x right, y up, -z forward (OpenGL's), for an attitude at a position.
+/// Rotation from `frame` to the eye's axes, x right, y up, -z forward (OpenGL's), for an attitude at a
+/// position.
 Mat3 eyeAxes(const LocalFrame& frame, const GeodeticPosition& position, const Attitude& attitude);
 
 /// The same direction in -180..180; NaN and infinities come back as NaN.

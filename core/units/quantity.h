@@ -16,19 +16,64 @@ struct Speed {};
 struct Screen {};
 struct Dimensionless {};
 
-/// A unit has a dimension, its size in the dimension's base unit, a symbol for people and a suffix for parameter keys.
-struct Metre       { using Dimension = Length; static constexpr double size = 1.0;      static constexpr std::string_view symbol = "m",  suffix = "_m"; };
-struct Foot        { using Dimension = Length; static constexpr double size = 0.3048;   static constexpr std::string_view symbol = "ft", suffix = "_ft"; };
-struct Degree      { using Dimension = Angle;  static constexpr double size = std::numbers::pi / 180; static constexpr std::string_view symbol = "°", suffix = "_deg"; };
-struct Radian      { using Dimension = Angle;  static constexpr double size = 1.0;      static constexpr std::string_view symbol = "rad", suffix = "_rad"; };
-struct Second      { using Dimension = Time;   static constexpr double size = 1.0;      static constexpr std::string_view symbol = "s",  suffix = "_s"; };
-struct Millisecond { using Dimension = Time;   static constexpr double size = 1e-3;     static constexpr std::string_view symbol = "ms", suffix = "_ms"; };
-struct MetrePerSecond { using Dimension = Speed; static constexpr double size = 1.0;    static constexpr std::string_view symbol = "m/s", suffix = "_mps"; };
-struct Knot        { using Dimension = Speed;  static constexpr double size = 1852.0 / 3600; static constexpr std::string_view symbol = "kt", suffix = "_kt"; };
-struct Pixel       { using Dimension = Screen; static constexpr double size = 1.0;      static constexpr std::string_view symbol = "px", suffix = "_px"; };
-struct Ratio       { using Dimension = Dimensionless; static constexpr double size = 1.0; static constexpr std::string_view symbol = "", suffix = ""; };
+/// A unit has a dimension, its size in the dimension's base unit, a symbol for people and a suffix for
+/// parameter keys.
+struct Metre {
+  using Dimension = Length;
+  static constexpr double size = 1.0;
+  static constexpr std::string_view symbol = "m", suffix = "_m";
+};
+struct Foot {
+  using Dimension = Length;
+  static constexpr double size = 0.3048;
+  static constexpr std::string_view symbol = "ft", suffix = "_ft";
+};
+struct Degree {
+  using Dimension = Angle;
+  static constexpr double size = std::numbers::pi / 180;
+  static constexpr std::string_view symbol = "°", suffix = "_deg";
+};
+struct Radian {
+  using Dimension = Angle;
+  static constexpr double size = 1.0;
+  static constexpr std::string_view symbol = "rad", suffix = "_rad";
+};
+struct Second {
+  using Dimension = Time;
+  static constexpr double size = 1.0;
+  static constexpr std::string_view symbol = "s", suffix = "_s";
+};
+struct Millisecond {
+  using Dimension = Time;
+  static constexpr double size = 1e-3;
+  static constexpr std::string_view symbol = "ms", suffix = "_ms";
+};
+struct MetrePerSecond {
+  using Dimension = Speed;
+  static constexpr double size = 1.0;
+  static constexpr std::string_view symbol = "m/s", suffix = "_mps";
+};
+struct Knot {
+  using Dimension = Speed;
+  static constexpr double size = 1852.0 / 3600;
+  static constexpr std::string_view symbol = "kt", suffix = "_kt";
+};
+struct Pixel {
+  using Dimension = Screen;
+  static constexpr double size = 1.0;
+  static constexpr std::string_view symbol = "px", suffix = "_px";
+};
+struct Ratio {
+  using Dimension = Dimensionless;
+  static constexpr double size = 1.0;
+  static constexpr std::string_view symbol = "", suffix = "";
+};
 /// Fuzzy degree of membership; 0..1 for one input, 0..2 for the sum of two.
-struct Degree01    { using Dimension = Dimensionless; static constexpr double size = 1.0; static constexpr std::string_view symbol = "", suffix = ""; };
+struct Degree01 {
+  using Dimension = Dimensionless;
+  static constexpr double size = 1.0;
+  static constexpr std::string_view symbol = "", suffix = "";
+};
 }  // namespace unit
 
 template <class U>
@@ -51,8 +96,10 @@ class Quantity {
   constexpr To as() const {
     using V = typename To::Unit;
     static_assert(std::is_same_v<typename U::Dimension, typename V::Dimension>, "not the same dimension");
-    if constexpr (std::is_same_v<U, V>) return To{value_};
-    else return To{value_ * (U::size / V::size)};
+    if constexpr (std::is_same_v<U, V>)
+      return To{value_};
+    else
+      return To{value_ * (U::size / V::size)};
   }
 
   friend constexpr auto operator<=>(const Quantity&, const Quantity&) = default;

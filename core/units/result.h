@@ -9,10 +9,12 @@ namespace trimtab {
 
 enum class Severity { note, warning, error };
 
-/// One thing that is wrong (or worth knowing) about data that came from outside: a preset, a packet, a terrain file.
+/// One thing that is wrong (or worth knowing) about data that came from outside: a preset, a packet, a
+/// terrain file.
 struct Finding {
   Severity severity = Severity::error;
-  std::string where;     ///< file, with line or byte offset where there is one: "a.json:12", "udp 127.0.0.1:5500 #14"
+  std::string
+      where;  ///< file, with line or byte offset where there is one: "a.json:12", "udp 127.0.0.1:5500 #14"
   std::string key;       ///< parameter key or field name; empty when the whole file is meant
   std::string expected;  ///< what would have been right, with its unit
   std::string found;     ///< what was there
@@ -26,7 +28,8 @@ using Findings = std::vector<Finding>;
 std::string toString(const Finding& finding);
 std::string toString(const Findings& findings);
 
-/// A value, or the reasons why there is none: all of them, not the first. A value may come with notes and warnings.
+/// A value, or the reasons why there is none: all of them, not the first. A value may come with notes and
+/// warnings.
 template <class T>
 class [[nodiscard]] Result {
  public:
