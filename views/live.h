@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "trimtab/frame/frame.h"
+
+namespace trimtab::views {
+
+/// One frame as the docks see it. Widgets take it by `showFrame(const LiveFrame&)`: cheap enough for every
+/// frame, as they repaint at most some 30 times a second and not at all while hidden. Logs and plots record
+/// hidden or not.
+struct LiveFrame {
+  double time = 0;  ///< seconds on any clock that rises; one clock a session
+  std::uint64_t packet = 0;
+  FrameDecision decision;
+  FrameCost cost;  ///< NaN: not run or not measured
+  std::uint64_t triangles = 0, vertices = 0;
+  std::size_t tilesDrawn = 0, tilesInCut = 0, outsideFrustum = 0, occluded = 0;
+  double fps = std::numeric_limits<double>::quiet_NaN();
+  std::optional<DepthMapSize> depthMap;  ///< that was drawn this frame
+};
+
+}  // namespace trimtab::views
