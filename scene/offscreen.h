@@ -9,8 +9,8 @@
 
 namespace trimtab::scene {
 
-/// A GL compatibility context without a window system (EGL surfaceless on Mesa, device platform elsewhere) with one
-/// RGBA8 framebuffer.
+/// A GL compatibility context without a window system (EGL surfaceless on Mesa, device platform elsewhere)
+/// with one RGBA8 framebuffer.
 class Offscreen {
  public:
   static Result<std::unique_ptr<Offscreen>> create(int width, int height);
@@ -21,6 +21,7 @@ class Offscreen {
 };
 
 /// RGBA rows from the bottom (as GL reads them) to a PNG, written atomically.
-Result<Done> writePng(const std::filesystem::path& file, std::span<const std::uint8_t> rgba, int width, int height);
+Result<Done> writePng(const std::filesystem::path& file, std::span<const std::uint8_t> rgba, int width,
+                      int height);
 
 }  // namespace trimtab::scene

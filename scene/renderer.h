@@ -23,8 +23,8 @@ struct Overlays {
 /// Everything one picture depends on.
 struct FrameRequest {
   GeodeticPosition eye;
-  Attitude attitude;              ///< of the view: aircraft, or aircraft and head
-  ViewShape view;                 ///< size of the picture
+  Attitude attitude;  ///< of the view: aircraft, or aircraft and head
+  ViewShape view;     ///< size of the picture
   FrameDecision decision;
   CullingCase method = CullingCase::proposed;
   LodParameters lod;
@@ -35,7 +35,7 @@ struct FrameRequest {
 
 struct FrameResult {
   VisibleSet visible;
-  FrameCost cost;                        ///< milliseconds; gpu is NaN where there is no timer query yet
+  FrameCost cost;  ///< milliseconds; gpu is NaN where there is no timer query yet
   std::size_t tilesInCut = 0;
   std::optional<DepthMapSize> depthMap;  ///< drawn this frame
   std::string note;                      ///< why occlusion was not used although asked for; empty otherwise
@@ -58,16 +58,19 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// All calls below need the context current that `initialize` was called with. No-throw; the report says what is missing.
+  /// All calls below need the context current that `initialize` was called with. No-throw; the report says
+  /// what is missing.
   GlReport initialize();
   /// The context is going away: frees GL objects. `initialize` may be called again.
   void release();
 
   void setTerrain(std::shared_ptr<const terrain::Database> database);
-  /// Draws into framebuffer `fbo` (0: the window's), whose size is at least the view's; leaves that framebuffer bound.
+  /// Draws into framebuffer `fbo` (0: the window's), whose size is at least the view's; leaves that
+  /// framebuffer bound.
   FrameResult draw(const FrameRequest& request, unsigned fbo);
 
-  /// The last depth map as 0..1 greys by distance (0 near), row 0 at the bottom; empty when the last frame had none.
+  /// The last depth map as 0..1 greys by distance (0 near), row 0 at the bottom; empty when the last frame
+  /// had none.
   struct Grey {
     int width = 0, height = 0;
     std::vector<std::uint8_t> pixels;

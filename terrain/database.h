@@ -14,29 +14,30 @@
 /// A baked terrain: heights by level and an index, in one folder; opened read-only by any number of programs.
 namespace trimtab::terrain {
 
-/// A vertex as the renderer uploads it. Position: local frame, relative to the tile's origin, a multiple of 1/256 m.
-/// Shared posts have the same position in every tile and level to the bit, so borders close exactly.
+/// A vertex as the renderer uploads it. Position: local frame, relative to the tile's origin, a multiple of
+/// 1/256 m. Shared posts have the same position in every tile and level to the bit, so borders close exactly.
 struct TileVertex {
   float x, y, z;
-  std::int8_t normal[3];        ///< local frame, x 127
-  std::uint8_t slope;           ///< steepest adjacent triangle of the finest level within two posts, 16 steps a unit, rounded up; 255: no bound
-  std::uint8_t colour[4];       ///< sRGB + unused; land cover by slope and height, or the draped image
+  std::int8_t normal[3];  ///< local frame, x 127
+  std::uint8_t slope;  ///< steepest adjacent triangle of the finest level within two posts, 16 steps a unit,
+                       ///< rounded up; 255: no bound
+  std::uint8_t colour[4];  ///< sRGB + unused; land cover by slope and height, or the draped image
 };
 static_assert(sizeof(TileVertex) == 20);
 
 /// (kTileCells + 1)^2 vertices, rows from south, and where the tile is.
 struct TileMesh {
   static constexpr int kSide = TerrainIndex::kTileCells + 1;
-  std::int32_t origin[3];             ///< multiples of 16 m in the local frame: metres = origin * 16
-  std::vector<TileVertex> vertices;   ///< kSide * kSide
+  std::int32_t origin[3];            ///< multiples of 16 m in the local frame: metres = origin * 16
+  std::vector<TileVertex> vertices;  ///< kSide * kSide
 };
 
 /// What a terrain is, for `terrain info` and the title bar.
 struct TerrainInfo {
   std::string name, source;
   GeodeticPosition southWest, northEast;
-  std::uint32_t columns = 0, rows = 0;      ///< posts
-  Degrees postLongitude, postLatitude;      ///< spacing
+  std::uint32_t columns = 0, rows = 0;  ///< posts
+  Degrees postLongitude, postLatitude;  ///< spacing
   Metres lowest, highest;
   std::uint64_t voidsFilled = 0;
   std::uint64_t bytes = 0;
@@ -77,12 +78,14 @@ struct SampleOptions {
   double postM = 60;
   Progress progress;
 };
-/// The embedded default terrain: mountains, valleys, rivers and a coast around 36.63 N 128.35 E, as a GeoTIFF.
+/// The embedded default terrain: mountains, valleys, rivers and a coast around 36.63 N 128.35 E, as a
+/// GeoTIFF.
 Result<Done> writeSample(const std::filesystem::path& tif, const SampleOptions& options);
 
-/// Opens a database folder as it is; bakes anything else into the cache folder first (and finds it there next time:
-/// keyed by paths, sizes and times of the sources).
+/// Opens a database folder as it is; bakes anything else into the cache folder first (and finds it there next
+/// time: keyed by paths, sizes and times of the sources).
 Result<std::shared_ptr<const Database>> openOrBake(const std::filesystem::path& source,
-                                                   const std::filesystem::path& cacheFolder, const Progress& progress);
+                                                   const std::filesystem::path& cacheFolder,
+                                                   const Progress& progress);
 
 }  // namespace trimtab::terrain

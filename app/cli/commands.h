@@ -5,7 +5,8 @@
 
 #include "trimtab/units/result.h"
 
-/// The commands of trimtab-cli: one file each, each adds itself to the program and sets `exitCode` when it runs.
+/// The commands of trimtab-cli: one file each, each adds itself to the program and sets `exitCode` when it
+/// runs.
 namespace trimtab::cli {
 
 inline constexpr int kDone = 0, kRefused = 1, kUsage = 2;

@@ -6,7 +6,9 @@ namespace trimtab::cli {
 
 void report(const Findings& findings) {
   for (const Finding& f : findings) {
-    const char* label = f.severity == Severity::error ? "error" : f.severity == Severity::warning ? "warning" : "note";
+    const char* label = f.severity == Severity::error     ? "error"
+                        : f.severity == Severity::warning ? "warning"
+                                                          : "note";
     std::cerr << label << ": " << toString(f) << '\n';
   }
 }

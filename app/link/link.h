@@ -13,7 +13,8 @@
 #include "trimtab/host/flight.h"
 #include "trimtab/units/result.h"
 
-/// UDP at the edge: the one receiver and the one sender that workbench, IG and CLI share. IPv4, no GUI, no GL.
+/// UDP at the edge: the one receiver and the one sender that workbench, IG and CLI share. IPv4, no GUI, no
+/// GL.
 namespace trimtab::link {
 
 struct Endpoint {
@@ -30,10 +31,10 @@ struct ReceivedState {
 };
 
 struct ReceiverOptions {
-  std::uint16_t port = 0;                ///< 0: any free one
+  std::uint16_t port = 0;  ///< 0: any free one
   std::string bindAddress = "0.0.0.0";
   HostProtocol protocol = HostProtocol::automatic;
-  std::optional<Endpoint> reply;         ///< Start of Frame goes there at `replyRateHz`
+  std::optional<Endpoint> reply;  ///< Start of Frame goes there at `replyRateHz`
   double replyRateHz = 60;
   /// Called on the receiver's thread after each state was queued: a place to post an event, nothing more.
   std::function<void()> wake;
@@ -62,10 +63,11 @@ double now();
 struct PlayOptions {
   Endpoint to;
   WireProtocol protocol = WireProtocol::cigi3;
-  double rateHz = 60;     ///< states are interpolated at this rate; 0: send the flight's rows as they are, at their times
+  double rateHz =
+      60;  ///< states are interpolated at this rate; 0: send the flight's rows as they are, at their times
   double speed = 1;
   bool loop = false;
-  double startS = 0;      ///< seconds into the flight
+  double startS = 0;  ///< seconds into the flight
 };
 class FeedPlayer {
  public:

@@ -13,8 +13,8 @@ namespace trimtab {
 
 /// Eye in the terrain's local frame.
 struct EyePose {
-  Vec3 position;   ///< metres, local frame
-  Mat3 axes;       ///< rows: right, up, backward (OpenGL eye axes) in the local frame
+  Vec3 position;  ///< metres, local frame
+  Mat3 axes;      ///< rows: right, up, backward (OpenGL eye axes) in the local frame
 
   friend bool operator==(const EyePose&, const EyePose&) = default;
 };
@@ -22,39 +22,39 @@ struct EyePose {
 enum class CullReason : std::uint8_t {
   drawn,
   outside_frustum,
-  occluded,       ///< proven hidden by the depth map
-  other_level     ///< its ancestor or descendants stand for it
+  occluded,    ///< proven hidden by the depth map
+  other_level  ///< its ancestor or descendants stand for it
 };
 
-/// One tile of the cut. `coarser` has bits W=1, E=2, S=4, N=8 where the neighbour is one level coarser and the border
-/// uses the coarser posts.
+/// One tile of the cut. `coarser` has bits W=1, E=2, S=4, N=8 where the neighbour is one level coarser and
+/// the border uses the coarser posts.
 struct TileDraw {
   std::uint32_t node = 0;
   std::uint8_t coarser = 0;
 };
 
-/// The cut through the levels for an eye's position: independent of view direction and of culling, so that culling
-/// cannot change what a drawn tile looks like. Neighbouring tiles differ by at most one level.
+/// The cut through the levels for an eye's position: independent of view direction and of culling, so that
+/// culling cannot change what a drawn tile looks like. Neighbouring tiles differ by at most one level.
 struct LevelCut {
   std::vector<TileDraw> tiles;  ///< order is a function of the terrain only
 };
 
-/// Tiles whose screen-space error at `eye` is at most `maxErrorPx` x `lodScale` where the data allow, restricted to one
-/// level's difference between neighbours. `pixelsPerRadian` is of the view's finer axis.
-void selectLevels(const TerrainIndex& index, Vec3 eye, double maxErrorPx, double lodScale, double pixelsPerRadian,
-                  LevelCut& cut);
+/// Tiles whose screen-space error at `eye` is at most `maxErrorPx` x `lodScale` where the data allow,
+/// restricted to one level's difference between neighbours. `pixelsPerRadian` is of the view's finer axis.
+void selectLevels(const TerrainIndex& index, Vec3 eye, double maxErrorPx, double lodScale,
+                  double pixelsPerRadian, LevelCut& cut);
 
 struct VisibleSet {
-  std::vector<TileDraw> tiles;            ///< to draw
-  std::vector<CullReason> reason;         ///< one a node of the index
+  std::vector<TileDraw> tiles;                   ///< to draw
+  std::vector<CullReason> reason;                ///< one a node of the index
   std::size_t outsideFrustum = 0, occluded = 0;  ///< tiles of the cut, by reason
   std::uint64_t triangles = 0, vertices = 0;     ///< of the tiles drawn; degenerate triangles not counted
 };
 
-/// Tests every tile of the cut against the view frustum (near, left, right, bottom, top; the far plane is infinite).
-/// Never drops a tile that owns a pixel. `test` false draws the whole cut (culling case *none*).
-void selectVisible(const TerrainIndex& index, const LevelCut& cut, const EyePose& eye, const ViewShape& view, bool test,
-                   VisibleSet& visible);
+/// Tests every tile of the cut against the view frustum (near, left, right, bottom, top; the far plane is
+/// infinite). Never drops a tile that owns a pixel. `test` false draws the whole cut (culling case *none*).
+void selectVisible(const TerrainIndex& index, const LevelCut& cut, const EyePose& eye, const ViewShape& view,
+                   bool test, VisibleSet& visible);
 
 /// Removes tiles that `occluded` (one flag a tile of `visible.tiles`, in order) proves hidden.
 void removeOccluded(const TerrainIndex& index, std::span<const std::uint8_t> occluded, VisibleSet& visible);

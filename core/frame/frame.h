@@ -20,8 +20,9 @@ struct HostView {
 
 /// What one packet (or one row of a flight) says of the aircraft.
 struct AircraftState {
-  double time = 0;                    ///< seconds on the host's clock; arrival time where the host sends none
-  std::uint64_t packet = 0;           ///< host frame number where there is one, else a running count: joins two receivers
+  double time = 0;  ///< seconds on the host's clock; arrival time where the host sends none
+  std::uint64_t packet =
+      0;  ///< host frame number where there is one, else a running count: joins two receivers
   GeodeticPosition position;
   Attitude attitude;
   std::optional<Metres> aboveGround;  ///< as the host says; without it the terrain is asked
@@ -60,12 +61,12 @@ enum class Scheme { frustum, dynamic };
 
 /// Why a scheme and size were chosen. `explain` (core/decision) makes a sentence of it.
 enum class SchemeReason {
-  below_first_band,     ///< total under the lowest edge: view frustum alone
-  in_band,              ///< the band that holds the total
-  held_by_hysteresis,   ///< the total left the band by less than the hysteresis
-  no_rule_fires,        ///< the rule base yields nothing
-  invalid_input,        ///< altitude or pitch is not a finite number: frustum
-  altitude_unknown      ///< above ground was asked for, and nobody knows the ground
+  below_first_band,    ///< total under the lowest edge: view frustum alone
+  in_band,             ///< the band that holds the total
+  held_by_hysteresis,  ///< the total left the band by less than the hysteresis
+  no_rule_fires,       ///< the rule base yields nothing
+  invalid_input,       ///< altitude or pitch is not a finite number: frustum
+  altitude_unknown     ///< above ground was asked for, and nobody knows the ground
 };
 
 struct DepthMapSize {
@@ -79,8 +80,8 @@ struct FrameDecision {
   double altitudeMembership = 0, pitchMembership = 0, totalMembership = 0;
   std::array<double, 4> ruleFiring{};  ///< mu of low-down, low-up, high-down, high-up
   Scheme scheme = Scheme::frustum;
-  int band = -1;                            ///< index into the bands; -1: below all
-  std::optional<DepthMapSize> depthMap;     ///< none: no occlusion test of any kind
+  int band = -1;                         ///< index into the bands; -1: below all
+  std::optional<DepthMapSize> depthMap;  ///< none: no occlusion test of any kind
   SchemeReason reason = SchemeReason::below_first_band;
   double lodScale = 1;
 

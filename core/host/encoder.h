@@ -6,8 +6,8 @@
 
 #include "trimtab/frame/frame.h"
 
-/// What we send: a host's packets for `feed play`, an IG's Start of Frame for synchronous hosts. Layouts are in the
-/// .cpp beside each writer.
+/// What we send: a host's packets for `feed play`, an IG's Start of Frame for synchronous hosts. Layouts are
+/// in the .cpp beside each writer.
 namespace trimtab {
 
 enum class ByteOrder { big, little };
@@ -16,10 +16,10 @@ enum class ByteOrder { big, little };
 std::vector<std::byte> encodeNativeFdm(const AircraftState& state);
 /// One CIGI 3.3 message: IG Control, Entity Control of the ownship, View Control where there is a head,
 /// View Definition where there is a view, Atmosphere Control where there is a visibility.
-std::vector<std::byte> encodeCigiHost(const AircraftState& state, std::uint32_t frame, std::uint32_t lastIgFrame,
-                                      ByteOrder order = ByteOrder::big);
+std::vector<std::byte> encodeCigiHost(const AircraftState& state, std::uint32_t frame,
+                                      std::uint32_t lastIgFrame, ByteOrder order = ByteOrder::big);
 /// CIGI 3.3 Start of Frame, 24 bytes.
-std::vector<std::byte> encodeCigiStartOfFrame(std::uint32_t igFrame, std::uint32_t lastHostFrame, double timeS,
-                                              ByteOrder order = ByteOrder::big);
+std::vector<std::byte> encodeCigiStartOfFrame(std::uint32_t igFrame, std::uint32_t lastHostFrame,
+                                              double timeS, ByteOrder order = ByteOrder::big);
 
 }  // namespace trimtab

@@ -11,23 +11,25 @@
 
 namespace trimtab {
 
-/// A flight by rows: what `--flight` reads. Times rise; the findings tell what was dropped, filled in or found odd.
+/// A flight by rows: what `--flight` reads. Times rise; the findings tell what was dropped, filled in or
+/// found odd.
 struct Flight {
   std::string name;
   std::vector<AircraftState> states;
 };
 
-/// A CSV with named columns (design.md; FlightGear's hyphenated names too; without a time column rows are 0.1 s apart
-/// unless `defaultStepS` says otherwise), a decision trace of ours, or a .pcap of a host: told apart by content.
-/// Rows before the simulator was ready (below -1,000 ft) are dropped with a note; gaps and jumps are noted.
+/// A CSV with named columns (design.md; FlightGear's hyphenated names too; without a time column rows are 0.1
+/// s apart unless `defaultStepS` says otherwise), a decision trace of ours, or a .pcap of a host: told apart
+/// by content. Rows before the simulator was ready (below -1,000 ft) are dropped with a note; gaps and jumps
+/// are noted.
 Result<Flight> readFlight(const std::filesystem::path& file, double defaultStepS = 0.1);
 Result<Flight> parseFlightCsv(std::string_view text, const std::string& where, double defaultStepS = 0.1);
 
 /// The CSV form: header of design.md, every number so that it reads back bit for bit.
 std::string flightCsv(const Flight& flight);
 
-/// UDP payloads of a capture in file order (classic pcap, either byte order, micro- or nanoseconds; Ethernet, raw IP,
-/// Linux cooked, BSD loopback).
+/// UDP payloads of a capture in file order (classic pcap, either byte order, micro- or nanoseconds; Ethernet,
+/// raw IP, Linux cooked, BSD loopback).
 struct CapturedDatagram {
   double time = 0;
   std::string from, to;  ///< "address:port"
@@ -37,7 +39,8 @@ Result<std::vector<CapturedDatagram>> readPcap(const std::filesystem::path& file
 /// Classic little-endian microsecond pcap, raw IPv4, so that any dissector reads it.
 Result<Done> writePcap(const std::filesystem::path& file, std::span<const CapturedDatagram> datagrams);
 
-/// Where along a flight: state interpolated at `time` (positions along the chord, angles the short way round).
+/// Where along a flight: state interpolated at `time` (positions along the chord, angles the short way
+/// round).
 AircraftState stateAt(const Flight& flight, double time);
 
 }  // namespace trimtab

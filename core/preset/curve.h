@@ -16,8 +16,9 @@ struct CurvePoint {
   friend constexpr bool operator==(const CurvePoint&, const CurvePoint&) = default;
 };
 
-/// A piecewise linear membership function: up to kCapacity points with rising x. Flat, so that parameters stay one
-/// block of memory that copies without allocating. Validation, not this type, refuses falling x and fewer than two points.
+/// A piecewise linear membership function: up to kCapacity points with rising x. Flat, so that parameters
+/// stay one block of memory that copies without allocating. Validation, not this type, refuses falling x and
+/// fewer than two points.
 struct CurvePoints {
   static constexpr std::size_t kCapacity = 32;
 
@@ -44,8 +45,8 @@ struct Curve : CurvePoints {
   using CurvePoints::CurvePoints;
 };
 
-/// One depth-map size: serves total memberships from `low` up to the next band's low, half-open; the last one up to
-/// and including kTop.
+/// One depth-map size: serves total memberships from `low` up to the next band's low, half-open; the last one
+/// up to and including kTop.
 struct Band {
   double low = 0;
   int widthPx = 0;

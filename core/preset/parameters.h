@@ -3,8 +3,8 @@
 #include "trimtab/preset/curve.h"
 #include "trimtab/units/quantity.h"
 
-/// Every number an engineer tunes. A field here is the only home of its default; its row in rows.cpp is the only home
-/// of everything else (key, label, range, help). Adding a parameter: field, row, use, test.
+/// Every number an engineer tunes. A field here is the only home of its default; its row in rows.cpp is the
+/// only home of everything else (key, label, range, help). Adding a parameter: field, row, use, test.
 namespace trimtab {
 
 /// How altitude becomes a membership (documents A and B, Table 1 and Eq. 1; they contradict each other).
@@ -44,8 +44,8 @@ struct SchemeParameters {
   BandList bands{{0.1, 320, 240}, {0.5, 400, 300}, {1.0, 640, 480}, {1.5, 800, 600}};
 };
 
-/// The shipped rule base of Eq. (2): weight lambda and singleton output u (0..2) of four rules. "low" is the altitude
-/// membership, "high" its complement; "down" is the pitch membership, "up" its complement.
+/// The shipped rule base of Eq. (2): weight lambda and singleton output u (0..2) of four rules. "low" is the
+/// altitude membership, "high" its complement; "down" is the pitch membership, "up" its complement.
 struct RuleParameters {
   Ratio lowDownWeight{1}, lowUpWeight{1}, highDownWeight{1}, highUpWeight{1};
   Membership lowDownOutput{2.0}, lowUpOutput{1.0}, highDownOutput{0.5}, highUpOutput{0.0};

@@ -8,13 +8,14 @@
 
 #include "trimtab/preset/table.h"
 
-/// Preset files: what an engineer edits (differences from a base), and exports (complete, with provenance and checksum).
+/// Preset files: what an engineer edits (differences from a base), and exports (complete, with provenance and
+/// checksum).
 namespace trimtab {
 
 /// A preset being edited. Keys this version does not know are kept as JSON text and written back.
 struct Preset {
   std::string name;
-  std::string base;         ///< a shipped preset's name or a file beside this one; empty: the defaults
+  std::string base;  ///< a shipped preset's name or a file beside this one; empty: the defaults
   std::string description;
   TuningParameters parameters;
   std::map<std::string, std::string> unknown;  ///< key -> its JSON text
@@ -30,16 +31,17 @@ enum class ExportFormat { json, xml, ini };
 /// Names of the presets that ship: "default", "as-published", "as-printed". They are compiled in.
 std::vector<std::string_view> shippedPresets();
 
-/// Reads an edited preset or an export (told apart by content); a shipped preset's name is taken too. Findings name
-/// file, line where JSON breaks, key, expected and found; a damaged export (checksum) is refused.
+/// Reads an edited preset or an export (told apart by content); a shipped preset's name is taken too.
+/// Findings name file, line where JSON breaks, key, expected and found; a damaged export (checksum) is
+/// refused.
 Result<Preset> loadPreset(const std::string& nameOrFile);
 Result<Preset> parsePreset(std::string_view json, const std::string& where);
 
 /// JSON with only the differences from the base, in the table's order.
 Result<std::string> presetText(const Preset& preset);
 /// Every parameter resolved, provenance and checksum over every byte but its own value.
-std::string exportText(const ValidatedParameters& parameters, const std::string& name, const Provenance& provenance,
-                       ExportFormat format);
+std::string exportText(const ValidatedParameters& parameters, const std::string& name,
+                       const Provenance& provenance, ExportFormat format);
 /// Where differences lie, key by key, as text in the table's order.
 struct Difference {
   std::string key, left, right;

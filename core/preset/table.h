@@ -8,8 +8,8 @@
 #include "trimtab/preset/parameters.h"
 #include "trimtab/units/result.h"
 
-/// The parameter table: one row for each field of TuningParameters, checked by the compiler. Panels, files, the command
-/// line, undo text, validation and the reference page all derive from it.
+/// The parameter table: one row for each field of TuningParameters, checked by the compiler. Panels, files,
+/// the command line, undo text, validation and the reference page all derive from it.
 namespace trimtab {
 
 struct Range {
@@ -34,19 +34,19 @@ struct ChoiceOption {
 };
 
 struct ParameterRow {
-  std::string_view key;    ///< "fuzzy.hysteresis"; ends in the unit's suffix
-  std::string_view label;  ///< a few words, no unit
-  std::string_view help;   ///< what it does and what to watch; never the default or the range
-  std::string_view source; ///< document and equation or table; empty where it is ours
-  Range hard;              ///< refused outside (a curve's x; a band's width and height)
-  Range usual;             ///< a slider's travel; a warning outside
+  std::string_view key;     ///< "fuzzy.hysteresis"; ends in the unit's suffix
+  std::string_view label;   ///< a few words, no unit
+  std::string_view help;    ///< what it does and what to watch; never the default or the range
+  std::string_view source;  ///< document and equation or table; empty where it is ours
+  Range hard;               ///< refused outside (a curve's x; a band's width and height)
+  Range usual;              ///< a slider's travel; a warning outside
   double step = 1;
   int decimals = 0;
   Tier tier = Tier::basic;
   Effect effect = Effect::next_frame;
   bool logarithmic = false;  ///< a slider should be exponential
   Kind kind = Kind::scalar;
-  std::string_view unit;     ///< symbol; of x for a curve
+  std::string_view unit;  ///< symbol; of x for a curve
   std::span<const ChoiceOption> choices;
   ParameterValue (*get)(const TuningParameters&) = nullptr;
   void (*set)(TuningParameters&, const ParameterValue&) = nullptr;  ///< the value must have the row's kind
@@ -60,11 +60,12 @@ const ParameterRow* findRow(std::string_view key);
 /// A value as text: C locale, shortest form that reads back bit for bit; a choice by its name; a curve as
 /// "4000:1 5000:0.6"; bands as "0.1:320x240 0.5:400x300".
 std::string toText(const ParameterRow& row, const ParameterValue& value);
-/// The inverse; findings say what was expected. A scalar may carry the row's unit ("4000 ft"), and metres, feet,
-/// degrees, radians, seconds and milliseconds are converted.
+/// The inverse; findings say what was expected. A scalar may carry the row's unit ("4000 ft"), and metres,
+/// feet, degrees, radians, seconds and milliseconds are converted.
 Result<ParameterValue> parseValue(const ParameterRow& row, std::string_view text);
 
-/// Parameters that passed every rule. There is no other way to get one, so unchecked numbers do not reach decide().
+/// Parameters that passed every rule. There is no other way to get one, so unchecked numbers do not reach
+/// decide().
 class ValidatedParameters {
  public:
   const TuningParameters& operator*() const { return parameters_; }
@@ -76,7 +77,8 @@ class ValidatedParameters {
   TuningParameters parameters_;
 };
 
-/// Every broken range and rule as an error, every value outside its usual range as a warning (with the value).
+/// Every broken range and rule as an error, every value outside its usual range as a warning (with the
+/// value).
 Result<ValidatedParameters> validate(const TuningParameters& parameters);
 /// The defaults, validated.
 ValidatedParameters defaultParameters();
