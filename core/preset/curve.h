@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <initializer_list>
@@ -27,7 +28,8 @@ struct CurvePoints {
 
   constexpr CurvePoints() = default;
   constexpr CurvePoints(std::initializer_list<CurvePoint> points) {
-    for (const CurvePoint& p : points) point[size++] = p;
+    std::copy(points.begin(), points.end(), point.begin());
+    size = points.size();
   }
   constexpr std::span<const CurvePoint> span() const { return {point.data(), size}; }
   friend constexpr bool operator==(const CurvePoints& a, const CurvePoints& b) {
@@ -65,7 +67,8 @@ struct BandList {
 
   constexpr BandList() = default;
   constexpr BandList(std::initializer_list<Band> bands) {
-    for (const Band& b : bands) band[size++] = b;
+    std::copy(bands.begin(), bands.end(), band.begin());
+    size = bands.size();
   }
   constexpr std::span<const Band> span() const { return {band.data(), size}; }
   friend constexpr bool operator==(const BandList& a, const BandList& b) {
