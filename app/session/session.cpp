@@ -1,0 +1,258 @@
+#include "trimtab/session/session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace trimtab::session {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+/// Waiting kernel times are dropped beyond this, when nobody draws and nobody says so.
+constexpr std::size_t kMostWaiting = 8192;
+/// A step of the host's clock against ours that is not jitter: pause, restart, another speed.
+constexpr double kClockStepS = 0.25;
+/// Share of a packet's clock difference that is believed at once; smooths the eye against arrival jitter.
+constexpr double kClockGain = 0.05;
+/// Faster than anything that has an image generator; a jump after a silence counts as one of this long.
+constexpr double kFastestMps = 1500, kJumpSlackM = 50, kJumpWindowS = 2, kJumpShownS = 1;
+
+double millisecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool samePose(const AircraftState& a, const AircraftState& b) {
+  return a.position == b.position && a.attitude == b.attitude && a.head == b.head && a.view == b.view;
+}
+
+/// Body axes (x forward, y right, z down) to north, east, down.
+Mat3 bodyToWorld(const Attitude& a) {
+  const auto radians = [](Degrees d) { return d.in<Radians>(); };
+  const double ch = std::cos(radians(a.heading)), sh = std::sin(radians(a.heading));
+  const double cp = std::cos(radians(a.pitch)), sp = std::sin(radians(a.pitch));
+  const double cr = std::cos(radians(a.roll)), sr = std::sin(radians(a.roll));
+  return {{Vec3{ch * cp, ch * sp * sr - sh * cr, ch * sp * cr + sh * sr},
+           Vec3{sh * cp, sh * sp * sr + ch * cr, sh * sp * cr - ch * sr}, Vec3{-sp, cp * sr, cp * cr}}};
+}
+
+}  // namespace
+
+std::string_view toText(LinkState state) {
+  switch (state) {
+    case LinkState::never:
+      return "never";
+    case LinkState::live:
+      return "live";
+    case LinkState::silent:
+      return "silent";
+    case LinkState::jumped:
+      return "jumped";
+  }
+  return "";
+}
+
+Attitude viewAttitude(const Attitude& aircraft, const std::optional<Attitude>& head) {
+  if (!head || *head == Attitude{}) return aircraft;
+  const Mat3 m = bodyToWorld(aircraft) * bodyToWorld(*head);
+  const auto degrees = [](double radians) { return Radians{radians}.as<Degrees>(); };
+  const double down = m.row[2].x;
+  // Straight up or down, heading and roll turn about one axis: roll is taken as zero.
+  if (std::abs(down) > 1 - 1e-12)
+    return {wrapped360(degrees(std::atan2(-m.row[0].y, m.row[1].y))), Degrees{down < 0 ? 90.0 : -90.0},
+            Degrees{0}};
+  return {wrapped360(degrees(std::atan2(m.row[1].x, m.row[0].x))), degrees(-std::asin(down)),
+          degrees(std::atan2(m.row[2].y, m.row[2].z))};
+}
+
+Session::Session(const ValidatedParameters& parameters) : parameters_(parameters) {}
+
+void Session::setParameters(const ValidatedParameters& parameters) {
+  parameters_ = parameters;
+  dirty_ = true;
+  if (!current_) return;
+  current_ = FrameInput{current_->state, groundBelow(current_->state), current_->lastCost};
+  DecisionMemory copy = looking_ ? lookMemory_ : memory_;
+  decision_ = decide(*current_, parameters_, copy);
+}
+
+void Session::setTerrain(std::shared_ptr<const terrain::Database> terrain) {
+  terrain_ = std::move(terrain);
+  dirty_ = true;
+}
+
+void Session::receive(std::span<const link::ReceivedState> states) {
+  for (const link::ReceivedState& received : states) {
+    latency_.decoded.add((received.decodedTime - received.kernelTime) * 1e3);
+    follow(received);
+    decideNext(inputFor(received.state), received.kernelTime);
+  }
+}
+
+void Session::fly(const AircraftState& state) {
+  linked_ = false;
+  decideNext(inputFor(state), kNan);
+}
+
+void Session::replay(const TraceRow& row) {
+  linked_ = false;
+  if (!replayed_) memory_ = row.before;
+  replayed_ = true;
+  FrameInput input = row.input;
+  if (!input.aboveGround && row.decision.reason != SchemeReason::altitude_unknown)
+    input.aboveGround = groundBelow(input.state);
+  decideNext(input, kNan);
+}
+
+void Session::look(const AircraftState& state) {
+  if (!looking_) lookMemory_ = {};
+  looking_ = true;
+  linked_ = false;
+  current_ = inputFor(state);
+  decision_ = decide(*current_, parameters_, lookMemory_);
+  dirty_ = true;
+}
+
+void Session::restart() {
+  Session fresh(parameters_);
+  fresh.terrain_ = std::move(terrain_);
+  fresh.keepRows_ = keepRows_;
+  fresh.rows_ = std::move(rows_);
+  fresh.completeRows_ = fresh.requestedRows_ = fresh.rows_.size();
+  fresh.dirty_ = true;
+  *this = std::move(fresh);
+}
+
+/// Where the host does not say, and only if the decision wants it: a height from the terrain costs a look-up.
+std::optional<Metres> Session::groundBelow(const AircraftState& state) const {
+  if (state.aboveGround) return state.aboveGround;
+  if (parameters_->altitude.reference != AltitudeReference::above_ground || !terrain_) return std::nullopt;
+  const std::optional<Metres> ground = terrain_->heightAt(state.position.latitude, state.position.longitude);
+  if (!ground) return std::nullopt;
+  return state.position.height - *ground;
+}
+
+FrameInput Session::inputFor(const AircraftState& state) const {
+  return {state, groundBelow(state), lastCost_};
+}
+
+/// Link bookkeeping of one packet: clock, silence, jumps, velocity.
+void Session::follow(const link::ReceivedState& received) {
+  const double arrival = received.kernelTime;
+  const double offset = received.state.time - arrival;
+  const bool first = packets_ == 0 || !linked_;
+  if (first || !(std::abs(offset - clockOffset_) <= kClockStepS))
+    clockOffset_ = offset;
+  else
+    clockOffset_ += (offset - clockOffset_) * kClockGain;
+  if (!first && current_) {
+    const double gap = std::clamp(arrival - lastArrival_, 0.0, kJumpWindowS);
+    const double moved = length(toEcef(received.state.position) - toEcef(current_->state.position));
+    if (moved > kJumpSlackM + kFastestMps * gap) {
+      ++jumps_;
+      lastJump_ = arrival;
+    }
+  }
+  linked_ = true;
+  lastArrival_ = arrival;
+  extrapolator_.push(received.state);
+}
+
+void Session::decideNext(const FrameInput& input, double kernelTime) {
+  looking_ = false;
+  ++packets_;
+  const DecisionMemory before = memory_;
+  const auto start = std::chrono::steady_clock::now();
+  decision_ = decide(input, parameters_, memory_);
+  decideMs_ += millisecondsSince(start);
+  current_ = input;
+  dirty_ = true;
+  if (std::isfinite(kernelTime)) {
+    if (waiting_.size() >= kMostWaiting)
+      waiting_.erase(waiting_.begin(), waiting_.begin() + kMostWaiting / 2);
+    waiting_.push_back(kernelTime);
+  }
+  if (keepRows_) rows_.push_back({input, before, decision_, std::nullopt});
+}
+
+LinkState Session::linkState(double now) const {
+  if (lastArrival_ == 0) return LinkState::never;
+  if (now - lastArrival_ > parameters_->host.silenceAfter.in<Seconds>()) return LinkState::silent;
+  if (jumps_ > 0 && now - lastJump_ < kJumpShownS) return LinkState::jumped;
+  return LinkState::live;
+}
+
+double Session::packetAge(double now) const {
+  return lastArrival_ == 0 ? kNan : now - lastArrival_;
+}
+
+AircraftState Session::eyeState(double now) const {
+  if (!linked_ || !parameters_->host.extrapolate) return current_->state;
+  AircraftState eye = extrapolator_.at(now + clockOffset_, parameters_->host.silenceAfter.in<Seconds>());
+  eye.view = current_->state.view;
+  return eye;
+}
+
+bool Session::needsPicture(double now) const {
+  if (!current_) return false;
+  if (dirty_ || !drawnEye_) return true;
+  return linked_ && !samePose(eyeState(now), *drawnEye_);
+}
+
+std::optional<scene::FrameRequest> Session::request(double now, int windowWidthPx, int windowHeightPx) {
+  if (!current_) return std::nullopt;
+  AircraftState eye = eyeState(now);
+  scene::FrameRequest request;
+  request.eye = eye.position;
+  request.attitude = viewAttitude(eye.attitude, eye.head);
+  request.view = viewShape(parameters_->view, windowWidthPx, windowHeightPx, eye.view);
+  request.decision = decision_;
+  request.method = parameters_->culling.method;
+  request.lod = parameters_->lod;
+  inPicture_.insert(inPicture_.end(), waiting_.begin(), waiting_.end());
+  waiting_.clear();
+  requestedRows_ = rows_.size();
+  dirty_ = false;
+  drawnEye_ = std::move(eye);
+  return request;
+}
+
+FrameCost Session::finished(const scene::FrameResult& result, double now) {
+  lastCost_ = result.cost;
+  lastCost_.decide = decideMs_;
+  lastCost_.total = result.cost.total + decideMs_;
+  decideMs_ = 0;
+  for (const double kernelTime : inPicture_) latency_.picture.add((now - kernelTime) * 1e3);
+  inPicture_.clear();
+  if (requestedRows_ > completeRows_) {
+    const VisibleSet& visible = result.visible;
+    rows_[requestedRows_ - 1].frame = TraceFrame{
+        {visible.triangles, visible.vertices, visible.tiles.size(), visible.outsideFrustum, visible.occluded},
+        lastCost_};
+    completeRows_ = requestedRows_;
+  }
+  return lastCost_;
+}
+
+void Session::noPicture() {
+  waiting_.clear();
+  inPicture_.clear();
+  decideMs_ = 0;
+  completeRows_ = requestedRows_ = rows_.size();
+}
+
+void Session::keepRows(bool keep) {
+  keepRows_ = keep;
+}
+
+void Session::takeRows(std::vector<TraceRow>& rows, bool all) {
+  if (all) completeRows_ = requestedRows_ = rows_.size();
+  const auto end = rows_.begin() + static_cast<std::ptrdiff_t>(completeRows_);
+  rows.insert(rows.end(), std::make_move_iterator(rows_.begin()), std::make_move_iterator(end));
+  rows_.erase(rows_.begin(), end);
+  requestedRows_ -= completeRows_;
+  completeRows_ = 0;
+}
+
+}  // namespace trimtab::session
