@@ -1,0 +1,146 @@
+#include "decide.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "trimtab/fuzzy/bands.h"
+#include "trimtab/fuzzy/combination.h"
+#include "trimtab/fuzzy/membership.h"
+
+namespace trimtab {
+namespace {
+
+/// The nearest double to the height in feet, except that a height which is a whole number of feet comes back
+/// as that number: breakpoints are whole feet, and the equation readings jump there.
+double toFeet(Metres height) {
+  const double feet = height.value() / unit::Foot::size;
+  const double whole = std::round(feet);
+  return whole * unit::Foot::size == height.value() ? whole : feet;
+}
+
+/// Writes `text` as std::snprintf does, into a string.
+template <class... Values>
+std::string formatted(const char* format, Values... values) {
+  char text[256];
+  const int length = std::snprintf(text, sizeof text, format, values...);
+  return length > 0 ? std::string(text, std::min(static_cast<std::size_t>(length), sizeof text - 1))
+                    : std::string();
+}
+
+std::string bandText(const BandList& bands, int band) {
+  if (band < 0) return bands.size > 0 ? formatted("below %.4g", bands.band[0].low) : "no bands";
+  const auto at = static_cast<std::size_t>(band);
+  if (at >= bands.size) return "a band that is no more";
+  const bool top = at + 1 == bands.size;
+  return formatted("band [%.4g, %.4g%s", bands.band[at].low, top ? BandList::kTop : bands.band[at + 1].low,
+                   top ? "]" : ")");
+}
+
+/// The rules that fire, by how far: "low-down 0.3, high-down 0.7".
+std::string firingText(const std::array<double, 4>& firing) {
+  static constexpr const char* kNames[4] = {"low-down", "low-up", "high-down", "high-up"};
+  std::string text;
+  for (std::size_t i = 0; i < firing.size(); ++i)
+    if (firing[i] > 0) text += formatted("%s%s %.3f", text.empty() ? "" : ", ", kNames[i], firing[i]);
+  return text;
+}
+
+const char* combinationText(Combination combination) {
+  switch (combination) {
+    case Combination::sum:
+      return "sum";
+    case Combination::twice_minimum:
+      return "twice the minimum";
+    case Combination::rules:
+      return "rules";
+  }
+  return "";
+}
+
+std::string outcomeText(const FrameDecision& d) {
+  if (d.scheme == Scheme::frustum || !d.depthMap) return "frustum, no depth map";
+  return formatted("dynamic, depth map %d x %d", d.depthMap->widthPx, d.depthMap->heightPx);
+}
+
+}  // namespace
+
+FrameDecision decide(const FrameInput& input, const ValidatedParameters& parameters, DecisionMemory& memory) {
+  FrameDecision decision;
+  decision.lodScale = parameters->lod.scale.value();
+
+  const bool aboveGround = parameters->altitude.reference == AltitudeReference::above_ground;
+  if (aboveGround && !input.aboveGround) {
+    decision.reason = SchemeReason::altitude_unknown;
+    return decision;
+  }
+  const double altitude = toFeet(aboveGround ? *input.aboveGround : input.state.position.height);
+  const double pitch = input.state.attitude.pitch.value();
+  if (!std::isfinite(altitude) || !std::isfinite(pitch)) {
+    decision.reason = SchemeReason::invalid_input;
+    return decision;
+  }
+
+  decision.altitudeFt = altitude;
+  decision.pitchDeg = pitch;
+  decision.altitudeMembership = altitudeMembership(parameters->altitude, altitude);
+  decision.pitchMembership = pitchMembership(parameters->pitch, pitch);
+  decision.ruleFiring = ruleFiring(decision.altitudeMembership, decision.pitchMembership);
+  const TotalMembership total = combine(parameters->scheme.combination, parameters->rules,
+                                        decision.altitudeMembership, decision.pitchMembership);
+  decision.totalMembership = total.total;
+
+  const BandList& bands = parameters->scheme.bands;
+  const BandChoice choice = nextBand(bands, parameters->scheme.hysteresis.value(), total.total, memory.band);
+  memory.band = choice.band;
+  decision.band = choice.band;
+  if (choice.band >= 0) {
+    const Band& band = bands.band[static_cast<std::size_t>(choice.band)];
+    decision.scheme = Scheme::dynamic;
+    decision.depthMap = DepthMapSize{band.widthPx, band.heightPx};
+  }
+  if (!total.anyFires)
+    decision.reason = SchemeReason::no_rule_fires;
+  else if (choice.held)
+    decision.reason = SchemeReason::held_by_hysteresis;
+  else
+    decision.reason = choice.band >= 0 ? SchemeReason::in_band : SchemeReason::below_first_band;
+  return decision;
+}
+
+std::string explain(const FrameDecision& d, const ValidatedParameters& parameters) {
+  const bool aboveGround = parameters->altitude.reference == AltitudeReference::above_ground;
+  if (d.reason == SchemeReason::invalid_input)
+    return outcomeText(d) + ": the altitude or the pitch is not a number";
+  if (d.reason == SchemeReason::altitude_unknown)
+    return outcomeText(d) + ": the height above ground is not known";
+
+  std::string text =
+      outcomeText(d) + formatted(": %.0f ft%s gives %.3f, pitch %.2f deg gives %.3f, %s %.3f", d.altitudeFt,
+                                 aboveGround ? " above ground" : "", d.altitudeMembership, d.pitchDeg,
+                                 d.pitchMembership, combinationText(parameters->scheme.combination),
+                                 d.totalMembership);
+  if (parameters->scheme.combination == Combination::rules && d.reason != SchemeReason::no_rule_fires)
+    text += " (" + firingText(d.ruleFiring) + ")";
+  const std::string band = bandText(parameters->scheme.bands, d.band);
+  switch (d.reason) {
+    case SchemeReason::below_first_band:
+      text += ", " + band;
+      break;
+    case SchemeReason::in_band:
+      text += ", in " + band;
+      break;
+    case SchemeReason::held_by_hysteresis:
+      text += formatted(", held %s%s by hysteresis %.4g", d.band >= 0 ? "in " : "", band.c_str(),
+                        parameters->scheme.hysteresis.value());
+      break;
+    case SchemeReason::no_rule_fires:
+      text += ", no rule fires";
+      break;
+    case SchemeReason::invalid_input:
+    case SchemeReason::altitude_unknown:
+      break;
+  }
+  return text;
+}
+
+}  // namespace trimtab

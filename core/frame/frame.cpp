@@ -1,0 +1,59 @@
+#include "frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace trimtab {
+namespace {
+
+/// A perspective's plane is infinitely far out at 90 degrees; a host that asks for more than this is ignored.
+constexpr double kLargestHalfAngle = 89;
+
+struct Span {
+  double low = 0, high = 0;  ///< degrees
+};
+
+double tangent(double degrees) {
+  return std::tan(degrees * (std::numbers::pi / 180));
+}
+
+/// The host's half-angles where it names both, or one beside the preset's other; the preset's where they make
+/// no view.
+Span halfAngles(Degrees field, const std::optional<Degrees>& low, const std::optional<Degrees>& high) {
+  const Span preset{-field.value() / 2, field.value() / 2};
+  const Span asked{low ? low->value() : preset.low, high ? high->value() : preset.high};
+  const bool usable =
+      asked.low >= -kLargestHalfAngle && asked.high <= kLargestHalfAngle && asked.low < asked.high;
+  return usable ? asked : preset;
+}
+
+int pixels(Pixels value) {
+  constexpr double kLargest = std::numeric_limits<int>::max();
+  return static_cast<int>(std::clamp(std::round(value.value()), 1.0, kLargest));
+}
+
+}  // namespace
+
+ViewShape viewShape(const ViewParameters& parameters, int windowWidthPx, int windowHeightPx,
+                    const std::optional<HostView>& host) {
+  const HostView asked = parameters.source == ViewSource::host && host ? *host : HostView{};
+  const Span horizontal = halfAngles(parameters.horizontalFov, asked.left, asked.right);
+  const Span vertical = halfAngles(parameters.verticalFov, asked.bottom, asked.top);
+
+  ViewShape shape;
+  shape.left = tangent(horizontal.low);
+  shape.right = tangent(horizontal.high);
+  shape.bottom = tangent(vertical.low);
+  shape.top = tangent(vertical.high);
+  shape.nearM = parameters.nearDistance.value();
+  if (asked.nearDistance && std::isfinite(asked.nearDistance->value()) && asked.nearDistance->value() > 0)
+    shape.nearM = asked.nearDistance->value();
+  const bool fixed = parameters.renderSize == RenderSize::fixed;
+  shape.widthPx = fixed ? pixels(parameters.width) : std::max(windowWidthPx, 1);
+  shape.heightPx = fixed ? pixels(parameters.height) : std::max(windowHeightPx, 1);
+  return shape;
+}
+
+}  // namespace trimtab
