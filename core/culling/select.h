@@ -37,6 +37,11 @@ struct TileDraw {
 /// culling cannot change what a drawn tile looks like. Neighbouring tiles differ by at most one level.
 struct LevelCut {
   std::vector<TileDraw> tiles;  ///< order is a function of the terrain only
+
+  // What selectLevels works with, kept so that a frame allocates nothing.
+  std::vector<std::uint8_t> split;                     ///< one a node: its children stand for it
+  std::vector<std::vector<std::uint32_t>> splitNodes;  ///< by level
+  std::vector<std::uint32_t> stack;
 };
 
 /// Tiles whose screen-space error at `eye` is at most `maxErrorPx` x `lodScale` where the data allow,

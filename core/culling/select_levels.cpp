@@ -1,0 +1,100 @@
+#include <algorithm>
+
+#include "trimtab/culling/select.h"
+
+namespace trimtab {
+namespace {
+
+double distanceSquared(const Box& box, Vec3 p) {
+  const double x = std::max({box.minX - p.x, 0.0, p.x - box.maxX});
+  const double y = std::max({box.minY - p.y, 0.0, p.y - box.maxY});
+  const double z = std::max({box.minZ - p.z, 0.0, p.z - box.maxZ});
+  return x * x + y * y + z * z;
+}
+
+bool isSplit(const LevelCut& cut, std::uint32_t node) {
+  return node != TerrainIndex::kNone && cut.split[node] != 0;
+}
+
+void split(const TerrainIndex& index, std::uint32_t node, LevelCut& cut) {
+  if (node == TerrainIndex::kNone || cut.split[node] || index.level[node] == 0) return;
+  cut.split[node] = 1;
+  cut.splitNodes[index.level[node]].push_back(node);
+}
+
+/// Splits what the error asks for, from the roots down: only the part of the tree that is in use is visited.
+void splitByError(const TerrainIndex& index, Vec3 eye, double errorOverDistance, LevelCut& cut) {
+  const double limit = errorOverDistance * errorOverDistance;
+  while (!cut.stack.empty()) {
+    const std::uint32_t node = cut.stack.back();
+    cut.stack.pop_back();
+    const double error = index.errorM[node];
+    // Squares of both sides, so that an eye inside the box (distance 0) splits whenever there is any error at
+    // all, and an eye that is not a number splits nothing.
+    if (!(error * error > limit * distanceSquared(index.bounds[node], eye))) continue;
+    split(index, node, cut);
+    if (!cut.split[node]) continue;
+    for (const std::uint32_t child : index.children[node])
+      if (child != TerrainIndex::kNone) cut.stack.push_back(child);
+  }
+}
+
+/// A split node's children may only border leaves of the node's own level or finer: so its neighbours must be
+/// in the tree, which they are when their parents are split. From finest to coarsest, since what is added
+/// lies one level up.
+void restrictNeighbours(const TerrainIndex& index, LevelCut& cut) {
+  for (auto& nodes : cut.splitNodes)
+    for (const std::uint32_t node : nodes) {
+      split(index, index.parent[node], cut);
+      for (const std::uint32_t neighbour : index.neighbours[node])
+        if (neighbour != TerrainIndex::kNone) split(index, index.parent[neighbour], cut);
+    }
+}
+
+std::uint8_t coarserSides(const TerrainIndex& index, const LevelCut& cut, std::uint32_t node) {
+  std::uint8_t bits = 0;
+  for (std::size_t side = 0; side < 4; ++side) {
+    const std::uint32_t neighbour = index.neighbours[node][side];
+    if (neighbour == TerrainIndex::kNone || index.parent[neighbour] == TerrainIndex::kNone) continue;
+    if (!isSplit(cut, index.parent[neighbour])) bits = static_cast<std::uint8_t>(bits | (1u << side));
+  }
+  return bits;
+}
+
+void pushRoots(const TerrainIndex& index, std::vector<std::uint32_t>& stack) {
+  stack.clear();
+  // Nodes are ordered by level, so the roots come last.
+  for (std::uint32_t node = static_cast<std::uint32_t>(index.size()); node-- > 0;)
+    if (index.parent[node] == TerrainIndex::kNone)
+      stack.push_back(node);
+    else
+      break;
+}
+
+}  // namespace
+
+void selectLevels(const TerrainIndex& index, Vec3 eye, double maxErrorPx, double lodScale,
+                  double pixelsPerRadian, LevelCut& cut) {
+  cut.tiles.clear();
+  cut.split.assign(index.size(), 0);
+  cut.splitNodes.resize(index.levels.size());
+  for (auto& nodes : cut.splitNodes) nodes.clear();
+
+  pushRoots(index, cut.stack);
+  splitByError(index, eye, maxErrorPx * lodScale / pixelsPerRadian, cut);
+  restrictNeighbours(index, cut);
+
+  pushRoots(index, cut.stack);
+  while (!cut.stack.empty()) {
+    const std::uint32_t node = cut.stack.back();
+    cut.stack.pop_back();
+    if (!cut.split[node]) {
+      cut.tiles.push_back({node, coarserSides(index, cut, node)});
+      continue;
+    }
+    for (std::size_t i = 4; i-- > 0;)
+      if (index.children[node][i] != TerrainIndex::kNone) cut.stack.push_back(index.children[node][i]);
+  }
+}
+
+}  // namespace trimtab
