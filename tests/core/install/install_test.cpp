@@ -1,0 +1,58 @@
+#include "support.h"
+#include "trimtab/decision/decide.h"
+#include "trimtab/preset/preset.h"
+
+// A production IG's view of the library: nothing but an installed copy and an exported preset.
+namespace trimtab::test {
+namespace {
+
+class InstalledCore : public testing::Test {
+ protected:
+  void SetUp() override {
+    prefix_ = (dir_ / "prefix").string();
+    const Ran installed = run("cmake --install " TRIMTAB_BUILD_DIR " --component core --prefix " + prefix_);
+    ASSERT_EQ(installed.exitCode, 0) << installed.err;
+    const auto preset = loadPreset("as-published");
+    ASSERT_TRUE(preset) << toString(preset.findings());
+    const auto parameters = validate(preset->parameters);
+    ASSERT_TRUE(parameters);
+    writeFile(dir_ / "export.json",
+              exportText(*parameters, "as-published", Provenance{}, ExportFormat::json));
+    FrameInput input;
+    input.state.position.height = Feet{5000}.as<Metres>();
+    DecisionMemory memory;
+    expected_ = explain(decide(input, *parameters, memory), *parameters) + "\n";
+  }
+
+  ScratchDir dir_;
+  std::string prefix_, expected_;
+  const std::string source_ = (sourceDir() / "tests/core/install/consumer").string();
+};
+
+TEST_F(InstalledCore, servesAConsumerThroughItsCmakePackage) {
+  const std::string build = (dir_ / "build").string();
+  const Ran built = run("cmake -S " + source_ + " -B " + build + " -DCMAKE_PREFIX_PATH=" + prefix_ +
+                        " -DCMAKE_CXX_COMPILER=" TRIMTAB_CXX " && cmake --build " + build);
+  ASSERT_EQ(built.exitCode, 0) << built.out << built.err;
+  const Ran ran = run(build + "/consumer " + (dir_ / "export.json").string());
+  EXPECT_EQ(ran.exitCode, 0);
+  EXPECT_EQ(ran.out, expected_);
+}
+
+TEST_F(InstalledCore, servesAConsumerThroughPkgConfigAlsoAfterAMove) {
+  std::filesystem::rename(prefix_, dir_ / "moved");
+  const std::string program = (dir_ / "consumer").string();
+  const Ran built = run("export PKG_CONFIG_PATH=$(dirname $(find " + (dir_ / "moved").string() +
+                        " -name trimtab-core.pc)); " TRIMTAB_CXX " " + source_ +
+                        "/main.cpp $(pkg-config --cflags --libs trimtab-core) -o " + program);
+  ASSERT_EQ(built.exitCode, 0) << built.err;
+  EXPECT_EQ(run(program + " " + (dir_ / "export.json").string()).out, expected_);
+}
+
+TEST_F(InstalledCore, bringsNoHeaderOfQtOsgGdalOrJson) {
+  const Ran found = run("grep -rnE '#include *[<\"](Q[A-Z]|osg|gdal|ogr|nlohmann)' " + prefix_);
+  EXPECT_EQ(found.out, "");
+}
+
+}  // namespace
+}  // namespace trimtab::test
