@@ -54,5 +54,16 @@ TEST_F(InstalledCore, bringsNoHeaderOfQtOsgGdalOrJson) {
   EXPECT_EQ(found.out, "");
 }
 
+// The layer rule's other half: the library builds where there is no Qt, OSG or GDAL to be found.
+TEST(CoreOnly, buildsWithWarningsAsErrors) {
+  const ScratchDir dir;
+  const Ran ran =
+      run("cd " + sourceDir().string() + " && cmake --preset core-only -DTRIMTAB_TESTS=OFF -B " +
+          dir.path().string() + " && cmake --build " + dir.path().string() +
+          " && grep -icE '^(qt|opengl|openscenegraph|gdal|osg)' " + (dir / "CMakeCache.txt").string());
+  EXPECT_EQ(ran.exitCode, 1) << ran.out << ran.err;
+  EXPECT_TRUE(ran.out.ends_with("\n0\n")) << "found a package that core must not look for: " << ran.out;
+}
+
 }  // namespace
 }  // namespace trimtab::test
