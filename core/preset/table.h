@@ -45,6 +45,7 @@ struct ParameterRow {
   Tier tier = Tier::basic;
   Effect effect = Effect::next_frame;
   bool logarithmic = false;  ///< a slider should be exponential
+  bool whole = false;        ///< only whole numbers
   Kind kind = Kind::scalar;
   std::string_view unit;  ///< symbol; of x for a curve
   std::span<const ChoiceOption> choices;
@@ -60,8 +61,9 @@ const ParameterRow* findRow(std::string_view key);
 /// A value as text: C locale, shortest form that reads back bit for bit; a choice by its name; a curve as
 /// "4000:1 5000:0.6"; bands as "0.1:320x240 0.5:400x300".
 std::string toText(const ParameterRow& row, const ParameterValue& value);
-/// The inverse; findings say what was expected. A scalar may carry the row's unit ("4000 ft"), and metres,
-/// feet, degrees, radians, seconds and milliseconds are converted.
+/// The inverse; findings say what was expected. A scalar may carry a unit ("4000 ft"), which is converted to
+/// the row's when both measure the same thing. Refuses what is no finite number; ranges and rules are
+/// validate()'s.
 Result<ParameterValue> parseValue(const ParameterRow& row, std::string_view text);
 
 /// Parameters that passed every rule. There is no other way to get one, so unchecked numbers do not reach
@@ -78,7 +80,7 @@ class ValidatedParameters {
 };
 
 /// Every broken range and rule as an error, every value outside its usual range as a warning (with the
-/// value).
+/// value). Rules are asked once every range holds. Does not allocate while nothing is wrong.
 Result<ValidatedParameters> validate(const TuningParameters& parameters);
 /// The defaults, validated.
 ValidatedParameters defaultParameters();

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+
+#include "trimtab/preset/parameters.h"
+#include "trimtab/preset/table.h"
+
+/// What must hold inside a curve or band list and between parameters. Constant expressions, so that the
+/// compiler holds the defaults to them.
+namespace trimtab {
+
+constexpr bool isFinite(double value) {
+  return value - value == 0;
+}
+
+enum class CurveFlaw { none, count, not_a_number, outside_x, outside_y, falling, triple };
+
+/// The first flaw and the point that has it. Two points may share an x (a step, on which the later one
+/// counts).
+struct CurveCheck {
+  CurveFlaw flaw = CurveFlaw::none;
+  std::size_t at = 0;
+};
+
+constexpr CurveCheck checkCurve(const CurvePoints& curve, Range x) {
+  if (curve.size < 2 || curve.size > CurvePoints::kCapacity) return {CurveFlaw::count, curve.size};
+  for (std::size_t i = 0; i < curve.size; ++i) {
+    const CurvePoint p = curve.point[i];
+    if (!isFinite(p.x) || !isFinite(p.y)) return {CurveFlaw::not_a_number, i};
+    if (p.x < x.low || p.x > x.high) return {CurveFlaw::outside_x, i};
+    if (p.y < 0 || p.y > 1) return {CurveFlaw::outside_y, i};
+    if (i > 0 && p.x < curve.point[i - 1].x) return {CurveFlaw::falling, i};
+    if (i > 1 && p.x == curve.point[i - 2].x) return {CurveFlaw::triple, i};
+  }
+  return {};
+}
+
+enum class BandFlaw { none, count, not_a_number, outside_low, falling, size };
+
+struct BandCheck {
+  BandFlaw flaw = BandFlaw::none;
+  std::size_t at = 0;
+};
+
+constexpr BandCheck checkBands(const BandList& bands, Range size) {
+  if (bands.size < 1 || bands.size > BandList::kCapacity) return {BandFlaw::count, bands.size};
+  for (std::size_t i = 0; i < bands.size; ++i) {
+    const Band& b = bands.band[i];
+    if (!isFinite(b.low)) return {BandFlaw::not_a_number, i};
+    if (b.low <= 0 || b.low >= BandList::kTop) return {BandFlaw::outside_low, i};
+    if (i > 0 && b.low <= bands.band[i - 1].low) return {BandFlaw::falling, i};
+    for (const int px : {b.widthPx, b.heightPx})
+      if (px < size.low || px > size.high) return {BandFlaw::size, i};
+  }
+  return {};
+}
+
+/// The narrowest band, the last one up to the scale's top.
+constexpr double narrowestBand(const BandList& bands) {
+  double narrowest = BandList::kTop;
+  for (std::size_t i = 0; i < bands.size; ++i) {
+    const double high = i + 1 < bands.size ? bands.band[i + 1].low : BandList::kTop;
+    narrowest = high - bands.band[i].low < narrowest ? high - bands.band[i].low : narrowest;
+  }
+  return narrowest;
+}
+
+constexpr bool hysteresisLeavesBands(const TuningParameters& p) {
+  return 2 * p.scheme.hysteresis.value() < narrowestBand(p.scheme.bands);
+}
+/// Else the total would have to fall below 0 for the scheme to become *frustum* again.
+constexpr bool hysteresisLeavesFrustum(const TuningParameters& p) {
+  return p.scheme.bands.size == 0 || p.scheme.hysteresis.value() < p.scheme.bands.band[0].low;
+}
+constexpr bool maximumCoversCurve(const TuningParameters& p) {
+  const CurvePoints& curve = p.altitude.curve;
+  return p.altitude.reading == AltitudeReading::table || curve.size == 0 ||
+         p.altitude.maximum.value() >= curve.point[curve.size - 1].x;
+}
+constexpr bool someRuleCounts(const TuningParameters& p) {
+  const RuleParameters& r = p.rules;
+  return (r.lowDownWeight + r.lowUpWeight + r.highDownWeight + r.highUpWeight).value() > 0;
+}
+
+/// A condition between parameters whose ranges hold; `key` is the parameter that the finding names.
+struct Rule {
+  std::string_view key;
+  bool (*holds)(const TuningParameters&);
+  std::string (*expected)(const TuningParameters&);
+  std::string (*found)(const TuningParameters&);
+};
+std::span<const Rule> parameterRules();
+
+}  // namespace trimtab

@@ -1,0 +1,180 @@
+#include <array>
+#include <cmath>
+
+#include "trimtab/preset/number.h"
+#include "trimtab/preset/rules.h"
+#include "trimtab/preset/table.h"
+
+namespace trimtab {
+
+namespace {
+
+std::string withUnit(double value, std::string_view unit) {
+  return numberText(value) + (unit.empty() ? "" : " ") + std::string(unit);
+}
+
+std::string rangeText(Range range, std::string_view unit) {
+  return numberText(range.low) + " to " + withUnit(range.high, unit);
+}
+
+std::string numberOf(std::size_t index) {
+  return std::to_string(index + 1);
+}
+
+Finding finding(Severity severity, const ParameterRow& row, std::string expected, std::string found) {
+  return {severity, "", std::string(row.key), std::move(expected), std::move(found)};
+}
+
+bool outside(double value, Range range) {
+  return !(value >= range.low && value <= range.high);
+}
+
+void checkScalar(const ParameterRow& row, double value, Findings& findings) {
+  if (!std::isfinite(value) || outside(value, row.hard))
+    findings.push_back(
+        finding(Severity::error, row, rangeText(row.hard, row.unit), withUnit(value, row.unit)));
+  else if (row.whole && value != std::floor(value))
+    findings.push_back(finding(Severity::error, row, "a whole number", withUnit(value, row.unit)));
+  else if (outside(value, row.usual))
+    findings.push_back(finding(Severity::warning, row, "usually " + rangeText(row.usual, row.unit),
+                               withUnit(value, row.unit)));
+}
+
+void checkCurveRow(const ParameterRow& row, const CurvePoints& curve, Findings& findings) {
+  const CurveCheck check = checkCurve(curve, row.hard);
+  const auto error = [&](std::string expected, std::string found) {
+    findings.push_back(finding(Severity::error, row, std::move(expected), std::move(found)));
+  };
+  const CurvePoint p =
+      check.at < curve.size && check.at < CurvePoints::kCapacity ? curve.point[check.at] : CurvePoint{};
+  const std::string point = "point " + numberOf(check.at) + " at " + withUnit(p.x, row.unit);
+  switch (check.flaw) {
+    case CurveFlaw::none:
+      break;
+    case CurveFlaw::count:
+      return error("2 to " + std::to_string(CurvePoints::kCapacity) + " points", std::to_string(curve.size));
+    case CurveFlaw::not_a_number:
+      return error("finite numbers",
+                   "point " + numberOf(check.at) + ": " + numberText(p.x) + ", " + numberText(p.y));
+    case CurveFlaw::outside_x:
+      return error(rangeText(row.hard, row.unit), point);
+    case CurveFlaw::outside_y:
+      return error("membership 0 to 1", numberText(p.y) + " in point " + numberOf(check.at));
+    case CurveFlaw::falling:
+      return error("points in rising order",
+                   point + " after " + withUnit(curve.point[check.at - 1].x, row.unit));
+    case CurveFlaw::triple:
+      return error("at most two points at one place", point + " is the third");
+  }
+  for (const CurvePoint& q : curve.span())
+    if (outside(q.x, row.usual))
+      findings.push_back(finding(Severity::warning, row, "usually " + rangeText(row.usual, row.unit),
+                                 "a point at " + withUnit(q.x, row.unit)));
+}
+
+void checkBandsRow(const ParameterRow& row, const BandList& bands, Findings& findings) {
+  const BandCheck check = checkBands(bands, row.hard);
+  const auto error = [&](std::string expected, std::string found) {
+    findings.push_back(finding(Severity::error, row, std::move(expected), std::move(found)));
+  };
+  const Band b = check.at < bands.size && check.at < BandList::kCapacity ? bands.band[check.at] : Band{};
+  const std::string edge = "band " + numberOf(check.at) + " from " + numberText(b.low);
+  const auto sizeText = [](const Band& band) {
+    return std::to_string(band.widthPx) + "x" + std::to_string(band.heightPx) + " px";
+  };
+  switch (check.flaw) {
+    case BandFlaw::none:
+      break;
+    case BandFlaw::count:
+      return error("1 to " + std::to_string(BandList::kCapacity) + " bands", std::to_string(bands.size));
+    case BandFlaw::not_a_number:
+      return error("finite numbers", edge);
+    case BandFlaw::outside_low:
+      return error("lower edges above 0 and below " + numberText(BandList::kTop), edge);
+    case BandFlaw::falling:
+      return error("lower edges in rising order",
+                   edge + " after " + numberText(bands.band[check.at - 1].low));
+    case BandFlaw::size:
+      return error("sizes of " + rangeText(row.hard, row.unit),
+                   sizeText(b) + " in band " + numberOf(check.at));
+  }
+  for (const Band& band : bands.span())
+    if (outside(band.widthPx, row.usual) || outside(band.heightPx, row.usual))
+      findings.push_back(
+          finding(Severity::warning, row, "usually " + rangeText(row.usual, row.unit), sizeText(band)));
+}
+
+void checkRow(const ParameterRow& row, const TuningParameters& parameters, Findings& findings) {
+  const ParameterValue value = row.get(parameters);
+  switch (row.kind) {
+    case Kind::scalar:
+      return checkScalar(row, std::get<double>(value), findings);
+    case Kind::flag:
+      return;
+    case Kind::choice:
+      if (const std::size_t index = std::get<ChoiceIndex>(value).index; index >= row.choices.size())
+        findings.push_back(finding(Severity::error, row,
+                                   "one of " + std::to_string(row.choices.size()) + " options",
+                                   "option " + numberOf(index)));
+      return;
+    case Kind::curve:
+      return checkCurveRow(row, std::get<CurvePoints>(value), findings);
+    case Kind::bands:
+      return checkBandsRow(row, std::get<BandList>(value), findings);
+  }
+}
+
+constexpr std::array kRules{
+    Rule{"fuzzy.hysteresis", hysteresisLeavesBands,
+         [](const TuningParameters& p) {
+           return "less than half the narrowest band, " + numberText(narrowestBand(p.scheme.bands));
+         },
+         [](const TuningParameters& p) { return numberText(p.scheme.hysteresis.value()); }},
+    Rule{"fuzzy.hysteresis", hysteresisLeavesFrustum,
+         [](const TuningParameters& p) {
+           return "less than the first band's edge, " + numberText(p.scheme.bands.band[0].low);
+         },
+         [](const TuningParameters& p) { return numberText(p.scheme.hysteresis.value()); }},
+    Rule{"fuzzy.altitude.maximum_ft", maximumCoversCurve,
+         [](const TuningParameters& p) {
+           const CurvePoints& curve = p.altitude.curve;
+           return "at least the altitude curve's last point, " +
+                  withUnit(curve.point[curve.size - 1].x, "ft");
+         },
+         [](const TuningParameters& p) { return withUnit(p.altitude.maximum.value(), "ft"); }},
+    Rule{"fuzzy.rules.low_down_weight", someRuleCounts,
+         [](const TuningParameters&) {
+           return std::string("at least one of the four rules' weights above 0");
+         },
+         [](const TuningParameters&) { return std::string("0 for all four"); }},
+};
+
+}  // namespace
+
+std::span<const Rule> parameterRules() {
+  return kRules;
+}
+
+Result<ValidatedParameters> validate(const TuningParameters& parameters) {
+  Findings findings;
+  for (const ParameterRow& row : parameterRows()) checkRow(row, parameters, findings);
+  const auto hasError = [&] {
+    for (const Finding& f : findings)
+      if (f.severity == Severity::error) return true;
+    return false;
+  };
+  // Rules read several parameters, so they are asked only of values that make sense one by one.
+  if (!hasError())
+    for (const Rule& rule : kRules)
+      if (!rule.holds(parameters))
+        findings.push_back(
+            {Severity::error, "", std::string(rule.key), rule.expected(parameters), rule.found(parameters)});
+  if (hasError()) return findings;
+  return {ValidatedParameters(parameters), std::move(findings)};
+}
+
+ValidatedParameters defaultParameters() {
+  return validate(TuningParameters{}).value();
+}
+
+}  // namespace trimtab
