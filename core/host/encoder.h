@@ -5,12 +5,11 @@
 #include <vector>
 
 #include "trimtab/frame/frame.h"
+#include "trimtab/host/byte_order.h"
 
 /// What we send: a host's packets for `feed play`, an IG's Start of Frame for synchronous hosts. Layouts are
 /// in the .cpp beside each writer.
 namespace trimtab {
-
-enum class ByteOrder { big, little };
 
 /// FlightGear native-fdm version 24, 408 bytes.
 std::vector<std::byte> encodeNativeFdm(const AircraftState& state);

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "trimtab/frame/frame.h"
+#include "trimtab/host/packet_fault.h"
+
+/// CIGI 3.x as an image generator reads it: messages of packets `u8 id, u8 size, ...` in the sender's byte
+/// order.
+namespace trimtab::cigi3 {
+
+enum PacketId : std::uint8_t {
+  kIgControl = 1,
+  kEntityControl = 2,
+  kAtmosphereControl = 10,
+  kViewControl = 16,
+  kViewDefinition = 21,
+  kStartOfFrame = 101
+};
+inline constexpr std::size_t kIgControlSize = 24, kOldIgControlSize = 16, kEntityControlSize = 48,
+                             kAtmosphereControlSize = 32, kViewControlSize = 32, kViewDefinitionSize = 32,
+                             kStartOfFrameSize = 24;
+inline constexpr std::uint16_t kByteSwapMagic = 0x8000;
+/// A timestamp counts ticks of 10 microseconds (dissectors label them microseconds) and wraps after 11.9
+/// hours.
+inline constexpr double kTickS = 1e-5;
+inline constexpr std::uint16_t kOwnship = 0;
+
+/// What the packets of a session add up to: a packet that is not sent again keeps its effect.
+struct Session {
+  std::optional<GeodeticPosition> position;  ///< of the ownship
+  Attitude attitude;
+  std::optional<Attitude> head;
+  std::optional<std::uint16_t> headView;  ///< the view whose eyepoint is followed: the first one seen
+  std::optional<Metres> visibility;
+  std::optional<HostView> view;
+  std::optional<std::uint16_t> definedView;
+};
+
+struct Message {
+  ByteOrder order = ByteOrder::big;
+  std::uint32_t frame = 0;
+  std::optional<std::uint32_t> ticks;  ///< timestamp, where the host says that it is valid
+  std::optional<PacketFault> fault;    ///< the message is refused
+  std::optional<PacketFault> cutAt;    ///< packets from here on were dropped; those before count
+};
+
+/// The byte order that the first packet's magic tells, when this looks like CIGI 3 at all.
+std::optional<ByteOrder> byteOrder(std::span<const std::byte> bytes);
+/// Reads one message into `session`; with a fault, `session` is only meant to be thrown away.
+Message parse(std::span<const std::byte> bytes, Session& session);
+
+}  // namespace trimtab::cigi3

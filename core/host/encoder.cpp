@@ -1,0 +1,128 @@
+#include "trimtab/host/encoder.h"
+
+#include <cmath>
+
+#include "trimtab/host/cigi3.h"
+
+namespace trimtab {
+namespace {
+
+constexpr std::uint8_t kMajor = 3, kHostMinor = 3, kIgMinor = 2;
+
+class Writer {
+ public:
+  explicit Writer(ByteOrder order) : order_(order) {}
+
+  /// Appends a zeroed packet; offsets of `put` count from its start.
+  void begin(std::uint8_t id, std::size_t size) {
+    start_ = bytes_.size();
+    bytes_.resize(start_ + size);
+    put(0, id);
+    put(1, static_cast<std::uint8_t>(size));
+  }
+  template <class T>
+  void put(std::size_t offset, T value) {
+    wire::put<T>(bytes_, start_ + offset, order_, value);
+  }
+  void putFloat(std::size_t offset, double value) { put(offset, static_cast<float>(value)); }
+  std::vector<std::byte> take() { return std::move(bytes_); }
+
+ private:
+  ByteOrder order_;
+  std::size_t start_ = 0;
+  std::vector<std::byte> bytes_;
+};
+
+std::uint32_t ticks(double timeS) {
+  if (!std::isfinite(timeS)) return 0;
+  const double wrapped = std::fmod(std::round(timeS / cigi3::kTickS), 4294967296.0);
+  return static_cast<std::uint32_t>(wrapped < 0 ? wrapped + 4294967296.0 : wrapped);
+}
+
+constexpr std::uint8_t bits(unsigned value) {
+  return static_cast<std::uint8_t>(value);
+}
+
+void putEntityControl(Writer& w, const AircraftState& state) {
+  constexpr unsigned kActive = 1;
+  w.begin(cigi3::kEntityControl, cigi3::kEntityControlSize);
+  w.put(2, cigi3::kOwnship);
+  w.put(4, bits(kActive));
+  w.put(6, bits(255));  // opaque
+  w.putFloat(12, state.attitude.roll.value());
+  w.putFloat(16, state.attitude.pitch.value());
+  w.putFloat(20, state.attitude.heading.value());
+  w.put(24, state.position.latitude.value());
+  w.put(32, state.position.longitude.value());
+  w.put(40, state.position.height.value());
+}
+
+void putViewControl(Writer& w, const Attitude& head) {
+  constexpr unsigned kRollPitchYaw = 0x38;
+  w.begin(cigi3::kViewControl, cigi3::kViewControlSize);
+  w.put(5, bits(kRollPitchYaw));
+  w.put(6, cigi3::kOwnship);
+  w.putFloat(20, head.roll.value());
+  w.putFloat(24, head.pitch.value());
+  w.putFloat(28, head.heading.value());
+}
+
+void putViewDefinition(Writer& w, const HostView& view) {
+  w.begin(cigi3::kViewDefinition, cigi3::kViewDefinitionSize);
+  unsigned enabled = 0;
+  const auto put = [&](unsigned bit, std::size_t offset, const auto& value) {
+    if (!value) return;
+    enabled |= 1U << bit;
+    w.putFloat(offset, value->value());
+  };
+  put(0, 8, view.nearDistance);
+  put(2, 16, view.left);
+  put(3, 20, view.right);
+  put(4, 24, view.top);
+  put(5, 28, view.bottom);
+  w.put(5, bits(enabled));
+}
+
+void putAtmosphereControl(Writer& w, Metres visibility) {
+  w.begin(cigi3::kAtmosphereControl, cigi3::kAtmosphereControlSize);
+  w.put(2, bits(1));  // atmospheric model on
+  w.putFloat(4, 15);  // standard atmosphere at sea level
+  w.putFloat(8, visibility.value());
+  w.putFloat(24, 1013.25);
+}
+
+}  // namespace
+
+std::vector<std::byte> encodeCigiHost(const AircraftState& state, std::uint32_t frame,
+                                      std::uint32_t lastIgFrame, ByteOrder order) {
+  constexpr unsigned kOperate = 1, kTimestampValid = 4;
+  Writer w(order);
+  w.begin(cigi3::kIgControl, cigi3::kIgControlSize);
+  w.put(2, kMajor);
+  w.put(4, bits(kOperate | kTimestampValid | (kHostMinor << 4U)));
+  w.put(6, cigi3::kByteSwapMagic);
+  w.put(8, frame);
+  w.put(12, ticks(state.time));
+  w.put(16, lastIgFrame);
+  putEntityControl(w, state);
+  if (state.head) putViewControl(w, *state.head);
+  if (state.view) putViewDefinition(w, *state.view);
+  if (state.visibility) putAtmosphereControl(w, *state.visibility);
+  return w.take();
+}
+
+std::vector<std::byte> encodeCigiStartOfFrame(std::uint32_t igFrame, std::uint32_t lastHostFrame,
+                                              double timeS, ByteOrder order) {
+  constexpr unsigned kOperate = 1, kTimestampValid = 4;
+  Writer w(order);
+  w.begin(cigi3::kStartOfFrame, cigi3::kStartOfFrameSize);
+  w.put(2, kMajor);
+  w.put(5, bits(kOperate | kTimestampValid | (kIgMinor << 4U)));
+  w.put(6, cigi3::kByteSwapMagic);
+  w.put(8, igFrame);
+  w.put(12, ticks(timeS));
+  w.put(16, lastHostFrame);
+  return w.take();
+}
+
+}  // namespace trimtab

@@ -1,0 +1,86 @@
+#include "trimtab/host/native_fdm.h"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "trimtab/host/encoder.h"
+#include "trimtab/host/limits.h"
+
+namespace trimtab {
+namespace {
+
+constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
+
+}  // namespace
+
+namespace native_fdm {
+
+bool matches(std::span<const std::byte> bytes) {
+  return bytes.size() == kSize && wire::get<std::uint32_t>(bytes, kVersionAt, ByteOrder::big) == kVersion;
+}
+
+std::optional<PacketFault> parse(std::span<const std::byte> bytes, AircraftState& state) {
+  if (bytes.size() >= 4) {
+    const auto version = wire::get<std::uint32_t>(bytes, kVersionAt, ByteOrder::big);
+    if (version != kVersion)
+      return PacketFault{kVersionAt, "native-fdm version", std::to_string(kVersion), std::to_string(version)};
+  }
+  if (bytes.size() != kSize)
+    return PacketFault{bytes.size(), "native-fdm length", std::to_string(kSize) + " bytes",
+                       std::to_string(bytes.size()) + " bytes"};
+
+  FieldReader read(bytes, ByteOrder::big);
+  const double longitude = read.number<double>(kLongitude, "longitude", -limits::kLongitude,
+                                               limits::kLongitude, "deg", kDegreesPerRadian);
+  const double latitude = read.number<double>(kLatitude, "latitude", -limits::kLatitude, limits::kLatitude,
+                                              "deg", kDegreesPerRadian);
+  const double height = read.number<double>(kAltitude, "altitude", limits::kLowest, limits::kHighest, "m");
+  const double aboveGround =
+      read.number<float>(kAboveGround, "agl", -limits::kHighest, limits::kHighest, "m");
+  const double roll =
+      read.number<float>(kRoll, "phi (roll)", -limits::kTurn, limits::kTurn, "deg", kDegreesPerRadian);
+  const double pitch =
+      read.number<float>(kPitch, "theta (pitch)", -limits::kPitch, limits::kPitch, "deg", kDegreesPerRadian);
+  const double heading =
+      read.number<float>(kHeading, "psi (heading)", -limits::kTurn, limits::kTurn, "deg", kDegreesPerRadian);
+  const double visibility = read.number<float>(kVisibility, "visibility", 0, limits::kVisibility, "m");
+  if (read.fault()) return read.fault();
+
+  state.position = {Degrees{limits::clampedLatitude(latitude)}, wrapped180(Degrees{longitude}),
+                    Metres{height}};
+  state.attitude = {wrapped360(Degrees{heading}), Degrees{limits::clampedPitch(pitch)},
+                    wrapped180(Degrees{roll})};
+  // FlightGear sends agl 0 while its scene loads; zero means that nobody knows.
+  state.aboveGround = aboveGround > 0 ? std::optional(Metres{aboveGround}) : std::nullopt;
+  state.visibility = visibility > 0 ? std::optional(Metres{visibility}) : std::nullopt;
+  state.head.reset();
+  state.view.reset();
+  return std::nullopt;
+}
+
+}  // namespace native_fdm
+
+std::vector<std::byte> encodeNativeFdm(const AircraftState& state) {
+  using namespace native_fdm;
+  std::vector<std::byte> bytes(kSize);
+  const auto put = [&bytes]<class T>(std::size_t offset, T value) {
+    wire::put<T>(bytes, offset, ByteOrder::big, value);
+  };
+  const auto putRadians = [&put](std::size_t offset, Degrees angle) {
+    put(offset, static_cast<float>(angle.in<Radians>()));
+  };
+  put(kVersionAt, kVersion);
+  put(kLongitude, state.position.longitude.in<Radians>());
+  put(kLatitude, state.position.latitude.in<Radians>());
+  put(kAltitude, state.position.height.value());
+  put(kAboveGround, static_cast<float>(state.aboveGround.value_or(Metres{0}).value()));
+  putRadians(kRoll, state.attitude.roll);
+  putRadians(kPitch, state.attitude.pitch);
+  putRadians(kHeading, state.attitude.heading);
+  if (state.time >= 0 && state.time < 4294967296.0) put(kUnixTime, static_cast<std::uint32_t>(state.time));
+  put(kVisibility, static_cast<float>(state.visibility.value_or(Metres{0}).value()));
+  return bytes;
+}
+
+}  // namespace trimtab
