@@ -9,24 +9,34 @@ namespace trimtab::views {
 
 namespace {
 
-QString text(std::string_view s) { return QString::fromUtf8(s.data(), static_cast<qsizetype>(s.size())); }
-
-std::string rangeText(const ParameterRow& row) {
-  return "a number from " + toText(row, row.hard.low) + " to " + toText(row, row.hard.high) +
-         (row.unit.empty() ? "" : " " + std::string(row.unit));
+QString text(std::string_view s) {
+  return QString::fromUtf8(s.data(), static_cast<qsizetype>(s.size()));
 }
 
-/// What no draft may hold, because no editor could show or store it. Everything else is the validator's to judge.
+std::string rangeText(const ParameterRow& row) {
+  std::string said = "a number from ";
+  said += toText(row, row.hard.low);
+  said += " to ";
+  said += toText(row, row.hard.high);
+  if (!row.unit.empty()) said.append(" ").append(row.unit);
+  return said;
+}
+
+/// What no draft may hold, because no editor could show or store it. Everything else is the validator's to
+/// judge.
 Findings refusals(const ParameterRow& row, const ParameterValue& value) {
   const auto refuse = [&](std::string expected, std::string found) {
     return Findings{{Severity::error, "", std::string(row.key), std::move(expected), std::move(found)}};
   };
   if (const double* number = std::get_if<double>(&value)) {
     // Written so that NaN is refused too.
-    if (!(*number >= row.hard.low && *number <= row.hard.high)) return refuse(rangeText(row), toText(row, value));
+    if (!(*number >= row.hard.low && *number <= row.hard.high))
+      return refuse(rangeText(row), toText(row, value));
+    if (row.whole && *number != std::floor(*number)) return refuse("a whole number", toText(row, value));
   } else if (const ChoiceIndex* choice = std::get_if<ChoiceIndex>(&value)) {
     if (choice->index >= row.choices.size())
-      return refuse("one of " + std::to_string(row.choices.size()) + " choices", std::to_string(choice->index));
+      return refuse("one of " + std::to_string(row.choices.size()) + " choices",
+                    std::to_string(choice->index));
   } else if (const CurvePoints* curve = std::get_if<CurvePoints>(&value)) {
     for (const CurvePoint& p : curve->span())
       if (!std::isfinite(p.x) || !std::isfinite(p.y)) return refuse("finite numbers", toText(row, value));
@@ -76,8 +86,7 @@ Draft::Draft(QObject* parent) : QObject(parent), active_(defaultParameters()) {
 Findings Draft::findingsOf(std::string_view key) const {
   Findings found;
   std::ranges::copy_if(findings_, std::back_inserter(found), [&](const Finding& f) { return f.key == key; });
-  std::ranges::stable_sort(
-      found, [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
+  std::ranges::stable_sort(found, [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
   return found;
 }
 
@@ -118,7 +127,9 @@ void Draft::reset(std::string_view key) {
     stack_.push(new Edit(*this, {{row, before, after}}, tr("Reset %1").arg(text(row->label)), 0));
 }
 
-void Draft::resetAll() { takeAll(baseline_, tr("Reset All Parameters")); }
+void Draft::resetAll() {
+  takeAll(baseline_, tr("Reset All Parameters"));
+}
 
 void Draft::takeParameters(const TuningParameters& parameters, const QString& undoText) {
   takeAll(parameters, undoText);

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QApplication>
+#include <QDir>
+#include <QElapsedTimer>
+#include <QFontDatabase>
+#include <QStyleFactory>
+#include <clocale>
+#include <cstdio>
+
+#include "live_flight.h"
+#include "trimtab/views/curve_plot.h"
+#include "trimtab/views/membership_editor.h"
+
+// Draws every dock with live data into PNG files, for a person to look at: views_gallery DIR [dark].
+namespace {
+
+using namespace trimtab;
+using namespace trimtab::views;
+
+QPalette darkPalette() {
+  QPalette p;
+  p.setColor(QPalette::Window, QColor(45, 45, 48));
+  p.setColor(QPalette::WindowText, QColor(230, 230, 230));
+  p.setColor(QPalette::Base, QColor(30, 30, 32));
+  p.setColor(QPalette::AlternateBase, QColor(38, 38, 41));
+  p.setColor(QPalette::Text, QColor(230, 230, 230));
+  p.setColor(QPalette::Button, QColor(55, 55, 58));
+  p.setColor(QPalette::ButtonText, QColor(230, 230, 230));
+  p.setColor(QPalette::ToolTipBase, QColor(55, 55, 58));
+  p.setColor(QPalette::ToolTipText, QColor(230, 230, 230));
+  p.setColor(QPalette::Highlight, QColor(42, 110, 180));
+  p.setColor(QPalette::PlaceholderText, QColor(150, 150, 150));
+  for (const auto role : {QPalette::Text, QPalette::WindowText, QPalette::ButtonText})
+    p.setColor(QPalette::Disabled, role, QColor(128, 128, 128));
+  return p;
+}
+
+void settle(int ms = 120) {
+  QElapsedTimer timer;
+  timer.start();
+  while (timer.elapsed() < ms) QCoreApplication::processEvents(QEventLoop::AllEvents, 10);
+}
+
+void shoot(QWidget& widget, const QSize& size, const QString& file) {
+  widget.resize(size);
+  widget.show();
+  settle();
+  widget.grab().save(file);
+  std::printf("%s\n", qPrintable(file));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  QApplication app(argc, argv);
+  std::setlocale(LC_NUMERIC, "C");
+  if (argc < 2) return 2;
+  app.setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
+  if (argc > 2) app.setPalette(darkPalette());
+  const QDir dir(QString::fromLocal8Bit(argv[1]));
+  dir.mkpath(QStringLiteral("."));
+
+  Draft draft;
+  test::LiveFlight flight(14);
+  MembershipEditor memberships(draft);
+  for (int i = 0; i < 60; ++i) memberships.showFrame(flight.next(draft.active()));
+  memberships.altitude().plot().select(1);
+  shoot(memberships, {480, 560}, dir.filePath(QStringLiteral("memberships.png")));
+  draft.setValue("fuzzy.altitude.reading", ChoiceIndex{2});
+  draft.setValue("fuzzy.pitch.reading", ChoiceIndex{1});
+  shoot(memberships, {640, 560}, dir.filePath(QStringLiteral("memberships_as_printed.png")));
+  return 0;
+}

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+
+#include "trimtab/decision/decide.h"
+#include "trimtab/views/live.h"
+
+namespace trimtab::test {
+
+inline FrameInput inputAt(double altitudeFt, double pitchDeg) {
+  FrameInput input;
+  input.state.position.height = Feet{altitudeFt}.as<Metres>();
+  input.state.attitude.pitch = Degrees{pitchDeg};
+  return input;
+}
+
+/// A made-up climb and descent with its decisions and believable costs; one frame a call.
+class LiveFlight {
+ public:
+  explicit LiveFlight(double startS = 0, double hz = 60) : startS_(startS), hz_(hz) {}
+
+  views::LiveFrame next(const ValidatedParameters& parameters) {
+    const double t = startS_ + static_cast<double>(frame_) / hz_;
+    views::LiveFrame f;
+    f.time = t;
+    f.packet = frame_++;
+    f.decision =
+        decide(inputAt(6200 - 3400 * std::cos(t * 0.06), 14 * std::sin(t * 0.35) - 3), parameters, memory_);
+    const double size =
+        f.decision.depthMap ? f.decision.depthMap->widthPx * f.decision.depthMap->heightPx / 480e3 : 0;
+    const double ripple = std::sin(t * 37.1) * std::sin(t * 11.3);
+    f.cost = {.decide = 0.01,
+              .select = 0.3,
+              .occlusion = size > 0 ? 0.4 + size : std::nan(""),
+              .cull = 1.4 + 0.6 * size + 0.15 * ripple,
+              .draw = 4.5 + 0.5 * ripple,
+              .gpu = 6.5 - 2.2 * size + 0.9 * ripple};
+    f.cost.total = f.cost.cull + f.cost.draw + f.cost.gpu;
+    f.fps = 1000 / f.cost.total;
+    f.triangles = static_cast<std::uint64_t>(900e3 - 350e3 * size + 30e3 * ripple);
+    f.vertices = f.triangles / 2;
+    f.tilesInCut = 1024;
+    f.outsideFrustum = 620;
+    f.occluded = static_cast<std::size_t>(180 * size);
+    f.tilesDrawn = f.tilesInCut - f.outsideFrustum - f.occluded;
+    f.depthMap = f.decision.depthMap;
+    return f;
+  }
+
+ private:
+  double startS_, hz_;
+  std::uint64_t frame_ = 0;
+  DecisionMemory memory_;
+};
+
+}  // namespace trimtab::test
