@@ -4,7 +4,8 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "trimtab/host/motion.h"
 
 namespace trimtab::session {
 namespace {
@@ -16,8 +17,8 @@ constexpr std::size_t kMostWaiting = 8192;
 constexpr double kClockStepS = 0.25;
 /// Share of a packet's clock difference that is believed at once; smooths the eye against arrival jitter.
 constexpr double kClockGain = 0.05;
-/// Faster than anything that has an image generator; a jump after a silence counts as one of this long.
-constexpr double kFastestMps = 1500, kJumpSlackM = 50, kJumpWindowS = 2, kJumpShownS = 1;
+/// How long a jump is shown.
+constexpr double kJumpShownS = 1;
 
 double millisecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -147,9 +148,8 @@ void Session::follow(const link::ReceivedState& received) {
   else
     clockOffset_ += (offset - clockOffset_) * kClockGain;
   if (!first && current_) {
-    const double gap = std::clamp(arrival - lastArrival_, 0.0, kJumpWindowS);
-    const double moved = length(toEcef(received.state.position) - toEcef(current_->state.position));
-    if (moved > kJumpSlackM + kFastestMps * gap) {
+    const double gap = std::max(arrival - lastArrival_, 0.0);
+    if (isJump(current_->state.position, received.state.position, gap, gap > kSilenceS)) {
       ++jumps_;
       lastJump_ = arrival;
     }

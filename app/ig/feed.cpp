@@ -1,0 +1,140 @@
+#include "feed.h"
+
+#include <fstream>
+#include <iostream>
+#include <limits>
+#include <string>
+
+namespace trimtab::ig {
+namespace {
+
+class FlightFeed : public Feed {
+ public:
+  explicit FlightFeed(Flight flight) : flight_(std::move(flight)) {}
+  bool advance(session::Session& session, double) override {
+    if (finished()) return false;
+    session.fly(flight_.states[next_++]);
+    return true;
+  }
+  double dueIn(double) const override { return 0; }
+  bool finished() const override { return next_ >= flight_.states.size(); }
+
+ private:
+  Flight flight_;
+  std::size_t next_ = 0;
+};
+
+class TraceFeed : public Feed {
+ public:
+  explicit TraceFeed(std::vector<TraceRow> rows) : rows_(std::move(rows)) {}
+  bool advance(session::Session& session, double) override {
+    if (finished()) return false;
+    session.replay(rows_[next_++]);
+    return true;
+  }
+  double dueIn(double) const override { return 0; }
+  bool finished() const override { return next_ >= rows_.size(); }
+
+ private:
+  std::vector<TraceRow> rows_;
+  std::size_t next_ = 0;
+};
+
+/// Rows become packets that arrive at their times, counted from the first call.
+class RealtimeFeed : public Feed {
+ public:
+  explicit RealtimeFeed(Flight flight) : flight_(std::move(flight)) {}
+  bool advance(session::Session& session, double now) override {
+    if (finished()) return false;
+    if (!start_) start_ = now;
+    due_.clear();
+    while (!finished() && dueAt(next_) <= now) {
+      due_.push_back({flight_.states[next_], dueAt(next_), dueAt(next_)});
+      ++next_;
+    }
+    session.receive(due_);
+    return !due_.empty();
+  }
+  double dueIn(double now) const override {
+    return start_ && !finished() ? std::max(0.0, dueAt(next_) - now) : 0;
+  }
+  bool finished() const override { return next_ >= flight_.states.size(); }
+
+ private:
+  double dueAt(std::size_t i) const {
+    return *start_ + (flight_.states[i].time - flight_.states.front().time);
+  }
+
+  Flight flight_;
+  std::size_t next_ = 0;
+  std::optional<double> start_;
+  std::vector<link::ReceivedState> due_;
+};
+
+class LinkFeed : public Feed {
+ public:
+  explicit LinkFeed(std::unique_ptr<link::Receiver> receiver) : receiver_(std::move(receiver)) {}
+  bool advance(session::Session& session, double) override {
+    states_.clear();
+    receiver_->take(states_);
+    session.receive(states_);
+    return !states_.empty();
+  }
+  double dueIn(double) const override { return std::numeric_limits<double>::infinity(); }
+  bool finished() const override { return false; }
+  std::optional<HostStatistics> statistics() const override { return receiver_->statistics(); }
+  std::uint64_t dropped() const override { return receiver_->dropped(); }
+
+ private:
+  std::unique_ptr<link::Receiver> receiver_;
+  std::vector<link::ReceivedState> states_;
+};
+
+bool isTraceFile(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string start(8192, '\0');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(in.gcount()));
+  return isTrace(start);
+}
+
+Result<std::unique_ptr<Feed>> openFlight(const Options& options) {
+  const auto empty = [&options] {
+    return Finding{Severity::error, options.flight.string(), {}, "at least one row", "none"};
+  };
+  if (!options.realtime && isTraceFile(options.flight)) {
+    Result<std::vector<TraceRow>> rows = readTrace(options.flight);
+    if (!rows) return rows.findings();
+    if (rows->empty()) return empty();
+    Findings notes = rows.findings();
+    return {std::make_unique<TraceFeed>(std::move(rows).value()), std::move(notes)};
+  }
+  Result<Flight> flight = readFlight(options.flight);
+  if (!flight) return flight.findings();
+  if (flight->states.empty()) return empty();
+  Findings notes = flight.findings();
+  if (options.realtime) return {std::make_unique<RealtimeFeed>(std::move(flight).value()), std::move(notes)};
+  return {std::make_unique<FlightFeed>(std::move(flight).value()), std::move(notes)};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Feed>> openFeed(const Options& options, const Wake& wake) {
+  if (!options.listen) return openFlight(options);
+  link::ReceiverOptions receiver;
+  receiver.port = *options.listen;
+  receiver.protocol = options.protocol;
+  receiver.wake = [&wake] { wake.post(); };
+  if (!options.reply.empty()) {
+    Result<link::Endpoint> reply = link::parseEndpoint(options.reply);
+    if (!reply) return reply.findings();
+    receiver.reply = *reply;
+  }
+  Result<std::unique_ptr<link::Receiver>> opened = link::Receiver::open(receiver);
+  if (!opened) return opened.findings();
+  Findings notes = opened.findings();
+  std::cerr << "listening on UDP port " << (*opened)->port() << std::endl;
+  return {std::make_unique<LinkFeed>(std::move(opened).value()), std::move(notes)};
+}
+
+}  // namespace trimtab::ig

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "options.h"
+#include "trimtab/session/session.h"
+#include "wake.h"
+
+namespace trimtab::ig {
+
+/// Where states come from.
+class Feed {
+ public:
+  virtual ~Feed() = default;
+  /// Gives the session what has come or is due; whether there was anything.
+  virtual bool advance(session::Session& session, double now) = 0;
+  /// Seconds until something is due; infinite when only a wake-up tells.
+  virtual double dueIn(double now) const = 0;
+  virtual bool finished() const = 0;
+  /// Health of the link; none for a flight.
+  virtual std::optional<HostStatistics> statistics() const { return std::nullopt; }
+  virtual std::uint64_t dropped() const { return 0; }
+};
+
+/// Opens the flight or the port that the options name. Findings may come with the value.
+Result<std::unique_ptr<Feed>> openFeed(const Options& options, const Wake& wake);
+
+}  // namespace trimtab::ig

@@ -1,0 +1,147 @@
+#include "loop.h"
+
+#include <cmath>
+#include <iostream>
+#include <limits>
+
+#include "trimtab/scene/offscreen.h"
+
+namespace trimtab::ig {
+namespace {
+
+/// Between packets a viewer sees the eye move on at this rate.
+constexpr double kViewerPeriodS = 1.0 / 60;
+
+class Loop {
+ public:
+  explicit Loop(const Run& run) : run_(run), frameMs_(8192) {
+    if (run_.options.watch) watch_.emplace(run_.options.preset);
+  }
+
+  Summary run() {
+    while (!run_.wake.stop() && !enough()) {
+      const double start = link::now();
+      const bool news = run_.feed.advance(run_.session, start);
+      bool stale = false;
+      if (!run_.surface.handleEvents(stale)) break;
+      stale |= reloaded(start);
+      if (news || ((stale || viewerIsDue(start)) && run_.session.hasState()))
+        drawFrame(start);
+      else if (run_.feed.finished())
+        break;
+      else
+        sleep();
+    }
+    return finishedSummary();
+  }
+
+ private:
+  bool enough() const { return run_.options.frames > 0 && summary_.frames >= run_.options.frames; }
+
+  bool viewerIsDue(double now) const {
+    return run_.surface.hasViewer() && now - lastFrame_ >= kViewerPeriodS && run_.session.needsPicture(now);
+  }
+
+  void sleep() {
+    const double now = link::now();
+    double seconds = run_.feed.dueIn(now);
+    if (watch_) seconds = std::fmin(seconds, PresetWatch::kPeriodS);
+    const session::LinkState link = run_.session.linkState(now);
+    const bool moving = link == session::LinkState::live || link == session::LinkState::jumped;
+    if (run_.surface.hasViewer() && moving) seconds = std::fmin(seconds, kViewerPeriodS);
+    run_.wake.wait(seconds, run_.surface.eventFd());
+  }
+
+  /// Whether a changed preset took effect. A refused one is reported and changes nothing.
+  bool reloaded(double now) {
+    if (!watch_ || now - lastWatch_ < PresetWatch::kPeriodS) return false;
+    lastWatch_ = now;
+    const std::optional<Result<ActivePreset>> changed = watch_->poll();
+    if (!changed) return false;
+    report(changed->findings());
+    if (!*changed) {
+      ++summary_.presetsRefused;
+      std::cerr << "warning: " << run_.options.preset << ": refused; the last good preset stays" << std::endl;
+      return false;
+    }
+    ++summary_.presetReloads;
+    run_.session.setParameters((*changed)->parameters);
+    std::cerr << "note: " << run_.options.preset << ": loaded again" << std::endl;
+    return true;
+  }
+
+  void drawFrame(double start) {
+    const std::optional<scene::FrameRequest> request =
+        run_.session.request(start, run_.options.headless ? run_.options.width : run_.surface.width(),
+                             run_.options.headless ? run_.options.height : run_.surface.height());
+    run_.surface.fit(request->view.widthPx, request->view.heightPx);
+    const scene::FrameResult result = run_.renderer.draw(*request, run_.surface.framebuffer());
+    run_.surface.present();
+    const double end = link::now();
+    run_.session.finished(result, end);
+    frameMs_.add((end - start) * 1e3);
+    lastFrame_ = end;
+    if (summary_.frames++ == 0) summary_.firstFrameTime = end;
+    summary_.lastRequest = request;
+    summary_.depthMapsDrawn = result.depthMapsDrawn;
+    writeRows(false);
+  }
+
+  void writeRows(bool all) {
+    rows_.clear();
+    run_.session.takeRows(rows_, all);
+    for (const TraceRow& row : rows_) {
+      if (lastBand_ && *lastBand_ != row.decision.band) ++summary_.decisionChanges;
+      lastBand_ = row.decision.band;
+    }
+    if (run_.trace) run_.trace->write(rows_);
+  }
+
+  Summary finishedSummary() {
+    writeRows(true);
+    const session::Latency& latency = run_.session.latency();
+    summary_.packets = run_.session.packets();
+    summary_.jumps = run_.session.jumps();
+    summary_.medianFrameMs = frameMs_.median();
+    summary_.p99FrameMs = frameMs_.quantile(0.99);
+    summary_.decodedP50Ms = latency.decoded.median();
+    summary_.decodedP99Ms = latency.decoded.quantile(0.99);
+    summary_.pictureP50Ms = latency.picture.median();
+    summary_.pictureP99Ms = latency.picture.quantile(0.99);
+    return summary_;
+  }
+
+  const Run& run_;
+  Summary summary_;
+  SampleWindow frameMs_;
+  std::optional<PresetWatch> watch_;
+  std::optional<int> lastBand_;
+  std::vector<TraceRow> rows_;
+  double lastFrame_ = 0, lastWatch_ = 0;
+};
+
+}  // namespace
+
+Summary drawFrames(const Run& run) {
+  return Loop(run).run();
+}
+
+Result<Done> takeScreenshot(const Run& run, const Summary& summary, const std::filesystem::path& file) {
+  if (!summary.lastRequest)
+    return Finding{Severity::error, file.string(), {}, "a picture to write", "no frame was drawn"};
+  const ViewShape& view = summary.lastRequest->view;
+  run.renderer.draw(*summary.lastRequest, run.surface.framebuffer());
+  return scene::writePng(file, run.renderer.readPixels(view.widthPx, view.heightPx), view.widthPx,
+                         view.heightPx);
+}
+
+void report(const Findings& findings) {
+  for (const Finding& f : findings) {
+    const char* label = f.severity == Severity::error     ? "error"
+                        : f.severity == Severity::warning ? "warning"
+                                                          : "note";
+    std::cerr << label << ": " << toString(f) << '\n';
+  }
+}
+
+}  // namespace trimtab::ig

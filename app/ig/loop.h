@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "feed.h"
+#include "preset_watch.h"
+#include "surface.h"
+#include "trace_file.h"
+
+namespace trimtab::ig {
+
+/// All that a run needs, opened and checked.
+struct Run {
+  const Options& options;
+  const Wake& wake;
+  session::Session& session;
+  scene::Renderer& renderer;
+  Surface& surface;
+  Feed& feed;
+  TraceFile* trace = nullptr;
+};
+
+struct Summary {
+  std::uint64_t frames = 0, packets = 0, decisionChanges = 0, jumps = 0, presetReloads = 0,
+                presetsRefused = 0;
+  std::uint64_t depthMapsDrawn = 0;
+  double firstFrameTime = 0;  ///< link::now() when the first picture was finished; 0: none
+  double medianFrameMs = 0, p99FrameMs = 0;
+  std::optional<scene::FrameRequest> lastRequest;
+  double decodedP50Ms = 0, decodedP99Ms = 0, pictureP50Ms = 0,
+         pictureP99Ms = 0;  ///< NaN where nothing was measured
+};
+
+/// Draws until the feed ends, enough frames are drawn, the window closes or a signal comes. Sleeps between
+/// packets.
+Summary drawFrames(const Run& run);
+
+/// Draws the last picture again, as after a swap of buffers its pixels are not defined, and writes it.
+Result<Done> takeScreenshot(const Run& run, const Summary& summary, const std::filesystem::path& file);
+
+/// One line for people.
+std::string summaryLine(const Summary& summary, const Feed& feed);
+/// One JSON document.
+std::string summaryJson(const Summary& summary, const Feed& feed, const Options& options,
+                        const scene::GlReport& gl);
+
+/// Findings on standard error, one a line, with their severity.
+void report(const Findings& findings);
+
+}  // namespace trimtab::ig

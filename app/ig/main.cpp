@@ -1,0 +1,99 @@
+#include <cstdlib>
+#include <iostream>
+#include <optional>
+
+#include "loop.h"
+#include "trimtab/scene/renderer.h"
+#include "trimtab/session/paths.h"
+#include "trimtab/terrain/database.h"
+
+namespace trimtab::ig {
+namespace {
+
+/// Whether there is a value; findings are told either way.
+template <class T>
+bool accepted(const Result<T>& result) {
+  report(result.findings());
+  return result.ok();
+}
+
+terrain::Progress progressOnError() {
+  return [shown = -1](double fraction, const std::string& what) mutable {
+    const int percent = static_cast<int>(fraction * 100);
+    if (percent / 10 != shown / 10 || shown < 0)
+      std::cerr << "terrain: " << percent << " % " << what << std::endl;
+    shown = percent;
+    return true;
+  };
+}
+
+Result<Done> checkWatch(const Options& options) {
+  std::error_code error;
+  if (!options.watch || std::filesystem::is_regular_file(options.preset, error)) return Done{};
+  return Finding{Severity::error, "--watch", {}, "a preset file", options.preset + ", which is not a file"};
+}
+
+Result<scene::GlReport> initialized(scene::Renderer& renderer) {
+  scene::GlReport gl = renderer.initialize();
+  if (gl.usable) return gl;
+  return Finding{Severity::error, "OpenGL", {}, gl.missing, gl.renderer + ", version " + gl.version};
+}
+
+int runWith(const Options& options) {
+  const Wake wake;
+  // All inputs are looked at before any refusal ends the program: one run tells everything that is wrong.
+  const Result<ActivePreset> preset = loadActivePreset(options.preset);
+  const Result<std::shared_ptr<const terrain::Database>> database =
+      terrain::openOrBake(options.terrain, session::cacheFolder(), progressOnError());
+  Result<std::unique_ptr<Feed>> feed = openFeed(options, wake);
+  bool usable = accepted(preset);
+  usable &= accepted(database);
+  usable &= accepted(feed);
+  usable &= accepted(checkWatch(options));
+  std::optional<TraceFile> trace;
+  if (usable && !options.trace.empty()) {
+    Result<TraceFile> opened = TraceFile::open(options.trace);
+    usable = accepted(opened);
+    if (usable) trace.emplace(std::move(opened).value());
+  }
+  if (!usable) return kRefused;
+
+  Result<std::unique_ptr<Surface>> surface = options.headless
+                                                 ? openHeadless(options.width, options.height)
+                                                 : openWindow(options.width, options.height, "trimtab-ig");
+  if (!accepted(surface)) return kRefused;
+  scene::Renderer renderer;
+  const Result<scene::GlReport> gl = initialized(renderer);
+  if (!accepted(gl)) return kRefused;
+  if (gl->software) std::cerr << "note: OpenGL by software: " << gl->renderer << std::endl;
+  renderer.setTerrain(*database);
+
+  session::Session session(preset->parameters);
+  session.setTerrain(*database);
+  session.keepRows(true);
+  const Run run{options, wake, session, renderer, **surface, **feed, trace ? &*trace : nullptr};
+  const Summary summary = drawFrames(run);
+
+  bool written = true;
+  if (trace) written &= accepted(trace->finish());
+  if (!options.screenshot.empty()) written &= accepted(takeScreenshot(run, summary, options.screenshot));
+  std::cout << (options.json ? summaryJson(summary, **feed, options, *gl) : summaryLine(summary, **feed))
+            << std::endl;
+  renderer.release();
+  return written ? kDone : kRefused;
+}
+
+}  // namespace
+}  // namespace trimtab::ig
+
+int main(int argc, char** argv) {
+  int exitCode = trimtab::ig::kDone;
+  const std::optional<trimtab::ig::Options> options = trimtab::ig::parseOptions(argc, argv, exitCode);
+  if (!options) return exitCode;
+  try {
+    return trimtab::ig::runWith(*options);
+  } catch (const std::exception& error) {
+    std::cerr << "error: " << error.what() << '\n';
+    return trimtab::ig::kRefused;
+  }
+}

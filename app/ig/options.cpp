@@ -1,0 +1,67 @@
+#include "options.h"
+
+#include <CLI/CLI.hpp>
+#include <map>
+
+namespace trimtab::ig {
+namespace {
+
+constexpr int kLargestSide = 16384;
+
+/// "1280x720" to its two numbers; a message when it is not that.
+std::string parseSize(const std::string& text, Options& options) {
+  const std::size_t cross = text.find('x');
+  const auto side = [](const std::string& part, int& value) {
+    return CLI::detail::lexical_cast(part, value) && value >= 1 && value <= kLargestSide;
+  };
+  if (cross != std::string::npos && side(text.substr(0, cross), options.width) &&
+      side(text.substr(cross + 1), options.height))
+    return {};
+  return "expected WxH with sides of 1 to " + std::to_string(kLargestSide) + " px, found " + text;
+}
+
+}  // namespace
+
+std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
+  Options options;
+  CLI::App app{
+      "Trimtab's reference image generator: draws what a host or a flight asks for, as an exported preset "
+      "says"};
+  app.set_version_flag("--version", TRIMTAB_VERSION);
+  app.add_option("--preset", options.preset, "exported preset, edited preset, or a shipped one's name")
+      ->required();
+  app.add_option("--terrain", options.terrain, "baked database, or elevation to bake first")->required();
+  const std::map<std::string, HostProtocol> protocols{{"auto", HostProtocol::automatic},
+                                                      {"native-fdm", HostProtocol::native_fdm},
+                                                      {"cigi3", HostProtocol::cigi3}};
+  auto* listen =
+      app.add_option("--listen", options.listen, "UDP port of the host's packets; 0: any free one");
+  app.add_option("--reply", options.reply, "HOST:PORT that gets a Start of Frame for each frame's time")
+      ->needs(listen);
+  app.add_option("--protocol", options.protocol, "auto, native-fdm or cigi3")
+      ->needs(listen)
+      ->transform(CLI::CheckedTransformer(protocols));
+  auto* flight =
+      app.add_option("--flight", options.flight, "flight (CSV, pcap) or decision trace: one frame a row");
+  app.add_flag("--realtime", options.realtime, "play the flight on its own clock")->needs(flight);
+  app.add_flag("--headless", options.headless, "draw without a window");
+  app.add_option("--size", "size of the picture, WxH")->check([&options](const std::string& text) {
+    return parseSize(text, options);
+  });
+  app.add_option("--frames", options.frames, "end after so many frames; 0: no end");
+  app.add_option("--trace", options.trace, "write every decided packet to this CSV file");
+  app.add_option("--screenshot", options.screenshot, "write the last frame to this PNG file");
+  app.add_flag("--watch", options.watch, "load the preset again whenever its file changes");
+  app.add_flag("--json", options.json, "print the summary as JSON");
+  listen->excludes(flight);
+  try {
+    app.parse(argc, argv);
+    if (!options.listen && options.flight.empty()) throw CLI::RequiredError("--listen or --flight");
+  } catch (const CLI::ParseError& error) {
+    exitCode = app.exit(error) == 0 ? kDone : kUsage;
+    return std::nullopt;
+  }
+  return options;
+}
+
+}  // namespace trimtab::ig

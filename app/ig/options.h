@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "trimtab/preset/parameters.h"
+
+namespace trimtab::ig {
+
+inline constexpr int kDone = 0, kRefused = 1, kUsage = 2;
+
+struct Options {
+  std::string preset;  ///< a file, or a shipped preset's name
+  std::filesystem::path terrain;
+  std::optional<std::uint16_t> listen;
+  std::string reply;  ///< HOST:PORT, empty for none
+  HostProtocol protocol = HostProtocol::automatic;
+  std::filesystem::path flight;
+  bool realtime = false;
+  bool headless = false;
+  int width = 1280, height = 720;
+  std::uint64_t frames = 0;  ///< 0: until the flight ends or a signal comes
+  std::filesystem::path trace, screenshot;
+  bool watch = false;
+  bool json = false;
+};
+
+/// None when the program is to end with `exitCode` (help, version, wrong usage: all said).
+std::optional<Options> parseOptions(int argc, char** argv, int& exitCode);
+
+}  // namespace trimtab::ig

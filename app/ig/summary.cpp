@@ -1,0 +1,68 @@
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "loop.h"
+
+namespace trimtab::ig {
+namespace {
+
+std::string milliseconds(double value) {
+  if (!std::isfinite(value)) return "-";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f ms", value);
+  return text;
+}
+
+nlohmann::ordered_json number(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+}
+
+}  // namespace
+
+std::string summaryLine(const Summary& s, const Feed& feed) {
+  std::string text = std::to_string(s.frames) + " frames, " + std::to_string(s.packets) + " packets";
+  if (const std::optional<HostStatistics> host = feed.statistics()) {
+    text += ", lost " + (host->lost ? std::to_string(*host->lost) : std::string("unknown"));
+    text += ", bad " + std::to_string(host->bad) + ", dropped " + std::to_string(feed.dropped());
+    text += "; kernel to decoded p99 " + milliseconds(s.decodedP99Ms);
+  }
+  if (std::isfinite(s.pictureP99Ms))
+    text += "; packet to finished picture p99 " + milliseconds(s.pictureP99Ms);
+  return text + "; frame median " + milliseconds(s.medianFrameMs) + ", p99 " + milliseconds(s.p99FrameMs);
+}
+
+std::string summaryJson(const Summary& s, const Feed& feed, const Options& options,
+                        const scene::GlReport& gl) {
+  nlohmann::ordered_json json;
+  json["frames"] = s.frames;
+  json["packets"] = s.packets;
+  json["decision_changes"] = s.decisionChanges;
+  json["jumps"] = s.jumps;
+  json["depth_maps_drawn"] = s.depthMapsDrawn;
+  json["preset_reloads"] = s.presetReloads;
+  json["presets_refused"] = s.presetsRefused;
+  json["first_frame_unix_s"] =
+      s.firstFrameTime > 0 ? nlohmann::ordered_json(s.firstFrameTime) : nlohmann::ordered_json();
+  json["frame_median_ms"] = number(s.medianFrameMs);
+  json["frame_p99_ms"] = number(s.p99FrameMs);
+  json["decoded_p50_ms"] = number(s.decodedP50Ms);
+  json["decoded_p99_ms"] = number(s.decodedP99Ms);
+  json["picture_p50_ms"] = number(s.pictureP50Ms);
+  json["picture_p99_ms"] = number(s.pictureP99Ms);
+  if (const std::optional<HostStatistics> host = feed.statistics()) {
+    json["host"] = {
+        {"received", host->received}, {"states", host->states},       {"bad", host->bad},
+        {"repeated", host->repeated}, {"reordered", host->reordered}, {"dropped", feed.dropped()}};
+    json["host"]["lost"] = host->lost ? nlohmann::ordered_json(*host->lost) : nlohmann::ordered_json();
+    if (host->bad > 0)
+      json["host"]["first_bad"] = {{"reason", host->firstBadReason}, {"hex", host->firstBadHex}};
+  }
+  json["preset"] = options.preset;
+  json["terrain"] = options.terrain.string();
+  json["gl"] = {
+      {"vendor", gl.vendor}, {"renderer", gl.renderer}, {"version", gl.version}, {"software", gl.software}};
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+}  // namespace trimtab::ig

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <filesystem>
+
+namespace trimtab::session {
+
+/// Where terrain that a program was given as elevation is baked to: $XDG_CACHE_HOME/trimtab, else
+/// ~/.cache/trimtab, else a folder for temporary files.
+std::filesystem::path cacheFolder();
+
+}  // namespace trimtab::session
