@@ -18,7 +18,9 @@ struct Preset {
   std::string base;  ///< a shipped preset's name or a file beside this one; empty: the defaults
   std::string description;
   TuningParameters parameters;
-  std::map<std::string, std::string> unknown;  ///< key -> its JSON text
+  std::map<std::string, std::string> unknown;         ///< parameter key -> its JSON text
+  std::map<std::string, std::string> unknownMembers;  ///< the same for members beside "parameters"
+  std::filesystem::path folder;  ///< where a base that is a file is looked up; empty: the working folder
 };
 
 /// Who made an export, when, with what.

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
-#include <span>
-#include <string>
+#include <cstddef>
 
 #include "trimtab/preset/parameters.h"
 #include "trimtab/preset/table.h"
@@ -84,13 +82,8 @@ constexpr bool someRuleCounts(const TuningParameters& p) {
   return (r.lowDownWeight + r.lowUpWeight + r.highDownWeight + r.highUpWeight).value() > 0;
 }
 
-/// A condition between parameters whose ranges hold; `key` is the parameter that the finding names.
-struct Rule {
-  std::string_view key;
-  bool (*holds)(const TuningParameters&);
-  std::string (*expected)(const TuningParameters&);
-  std::string (*found)(const TuningParameters&);
-};
-std::span<const Rule> parameterRules();
+/// What validate() says of each value by itself, and of values together (which need finite values in range).
+Findings rangeFindings(const TuningParameters& parameters);
+Findings ruleFindings(const TuningParameters& parameters);
 
 }  // namespace trimtab

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -124,6 +125,14 @@ void checkRow(const ParameterRow& row, const TuningParameters& parameters, Findi
   }
 }
 
+/// A condition between parameters; `key` is the one that the finding names.
+struct Rule {
+  std::string_view key;
+  bool (*holds)(const TuningParameters&);
+  std::string (*expected)(const TuningParameters&);
+  std::string (*found)(const TuningParameters&);
+};
+
 constexpr std::array kRules{
     Rule{"fuzzy.hysteresis", hysteresisLeavesBands,
          [](const TuningParameters& p) {
@@ -151,25 +160,28 @@ constexpr std::array kRules{
 
 }  // namespace
 
-std::span<const Rule> parameterRules() {
-  return kRules;
+Findings rangeFindings(const TuningParameters& parameters) {
+  Findings findings;
+  for (const ParameterRow& row : parameterRows()) checkRow(row, parameters, findings);
+  return findings;
+}
+
+Findings ruleFindings(const TuningParameters& parameters) {
+  Findings findings;
+  for (const Rule& rule : kRules)
+    if (!rule.holds(parameters))
+      findings.push_back(
+          {Severity::error, "", std::string(rule.key), rule.expected(parameters), rule.found(parameters)});
+  return findings;
 }
 
 Result<ValidatedParameters> validate(const TuningParameters& parameters) {
-  Findings findings;
-  for (const ParameterRow& row : parameterRows()) checkRow(row, parameters, findings);
-  const auto hasError = [&] {
-    for (const Finding& f : findings)
-      if (f.severity == Severity::error) return true;
-    return false;
-  };
-  // Rules read several parameters, so they are asked only of values that make sense one by one.
-  if (!hasError())
-    for (const Rule& rule : kRules)
-      if (!rule.holds(parameters))
-        findings.push_back(
-            {Severity::error, "", std::string(rule.key), rule.expected(parameters), rule.found(parameters)});
-  if (hasError()) return findings;
+  Findings findings = rangeFindings(parameters);
+  const auto isError = [](const Finding& f) { return f.severity == Severity::error; };
+  if (std::any_of(findings.begin(), findings.end(), isError)) return findings;
+  Findings broken = ruleFindings(parameters);
+  findings.insert(findings.end(), broken.begin(), broken.end());
+  if (!broken.empty()) return findings;
   return {ValidatedParameters(parameters), std::move(findings)};
 }
 

@@ -1,0 +1,123 @@
+#include "trimtab/preset/file_io.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <system_error>
+
+#include "trimtab/preset/preset.h"
+
+namespace trimtab {
+
+namespace {
+
+constexpr std::size_t kLargestFile = std::size_t{16} << 20;
+
+Finding refused(const std::filesystem::path& file, std::string expected, int error) {
+  return {Severity::error, file.string(), "", std::move(expected), std::generic_category().message(error)};
+}
+
+/// Closes at the end of its scope; close() is for those who must know whether it worked.
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() { close(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return fd_; }
+  bool isOpen() const { return fd_ >= 0; }
+  bool close() {
+    const bool good = fd_ < 0 || ::close(fd_) == 0;
+    fd_ = -1;
+    return good;
+  }
+
+ private:
+  int fd_;
+};
+
+bool writeAll(int fd, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(fd, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
+/// The mode of the file that is replaced, else what the process creates files with.
+mode_t modeOf(const std::filesystem::path& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) == 0) return status.st_mode & 07777;
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  return 0666 & ~mask;
+}
+
+/// For a pipe or device there is nothing to keep, and renaming over it would destroy it.
+Result<Done> writeInPlace(const std::filesystem::path& file, std::string_view bytes) {
+  Descriptor out(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
+  if (!out.isOpen() || !writeAll(out.get(), bytes) || !out.close())
+    return refused(file, "to be written", errno);
+  return Done{};
+}
+
+}  // namespace
+
+Result<std::string> readWhole(const std::filesystem::path& file) {
+  const std::string expected = "a readable file";
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
+    return Finding{Severity::error, file.string(), "", expected, "a folder"};
+  Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!in.isOpen()) return refused(file, expected, errno);
+  std::string bytes;
+  char block[1 << 16];
+  for (;;) {
+    const ssize_t count = ::read(in.get(), block, sizeof block);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return refused(file, expected, errno);
+    if (count == 0) return bytes;
+    bytes.append(block, static_cast<std::size_t>(count));
+    if (bytes.size() > kLargestFile)
+      return Finding{Severity::error, file.string(), "", "at most 16 MiB", "more"};
+  }
+}
+
+Result<Done> writeAtomically(const std::filesystem::path& file, std::string_view bytes) {
+  std::error_code failed;
+  // A link is kept: the file that it names is replaced.
+  std::filesystem::path target = std::filesystem::weakly_canonical(file, failed);
+  if (failed || target.empty()) target = file;
+  const std::filesystem::file_status status = std::filesystem::status(target, failed);
+  if (std::filesystem::is_directory(status))
+    return Finding{Severity::error, file.string(), "", "a file's name", "a folder"};
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    return writeInPlace(target, bytes);
+  if (std::filesystem::exists(status) && ::access(target.c_str(), W_OK) != 0)
+    return refused(file, "to be written", errno);
+
+  const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
+  std::string beside = (folder / ("." + target.filename().string() + ".XXXXXX")).string();
+  Descriptor out(::mkostemp(beside.data(), O_CLOEXEC));
+  if (!out.isOpen()) return refused(file, "a folder that can be written, " + folder.string(), errno);
+  const bool written = writeAll(out.get(), bytes) && ::fchmod(out.get(), modeOf(target)) == 0 &&
+                       ::fsync(out.get()) == 0 && out.close() &&
+                       ::rename(beside.c_str(), target.c_str()) == 0;
+  if (!written) {
+    const int error = errno;
+    ::unlink(beside.c_str());
+    return refused(file, "to be written", error);
+  }
+  // The new name must survive a crash too; file systems that cannot sync a folder have nothing to sync.
+  if (const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+      directory.isOpen())
+    ::fsync(directory.get());
+  return Done{};
+}
+
+}  // namespace trimtab

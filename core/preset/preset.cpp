@@ -1,0 +1,282 @@
+#include "trimtab/preset/preset.h"
+
+#include <algorithm>
+#include <set>
+
+#include "trimtab/preset/file_io.h"
+#include "trimtab/preset/json_text.h"
+#include "trimtab/preset/migration.h"
+#include "trimtab/preset/number.h"
+#include "trimtab/preset/rules.h"
+#include "trimtab/preset/sealed.h"
+#include "trimtab/preset/shipped.h"
+
+namespace trimtab {
+
+namespace {
+
+constexpr int kLongestBaseChain = 8;
+
+Result<Preset> load(const std::string& nameOrFile, const std::filesystem::path& folder, int depth);
+
+bool anyError(const Findings& findings) {
+  return std::any_of(findings.begin(), findings.end(),
+                     [](const Finding& f) { return f.severity == Severity::error; });
+}
+
+/// Insertions, deletions and replacements between two keys.
+std::size_t editDistance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t corner = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t above = row[j];
+      row[j] = std::min({above + 1, row[j - 1] + 1, corner + (a[i - 1] != b[j - 1])});
+      corner = above;
+    }
+  }
+  return row[b.size()];
+}
+
+std::string expectedKey(std::string_view unknown) {
+  constexpr std::size_t kTypingError = 4, kLongestKey = 80;
+  std::string_view nearest;
+  std::size_t best = kTypingError;
+  if (unknown.size() <= kLongestKey)
+    for (const ParameterRow& row : parameterRows())
+      if (const std::size_t distance = editDistance(unknown, row.key); distance < best)
+        best = distance, nearest = row.key;
+  return "a parameter of this version" + (nearest.empty() ? "" : " (" + std::string(nearest) + "?)");
+}
+
+/// One reading of one file: what was found so far, and where.
+class Reader {
+ public:
+  Reader(std::string_view text, std::string where, std::filesystem::path folder, int depth)
+      : text_(text), where_(std::move(where)), depth_(depth) {
+    preset_.folder = std::move(folder);
+  }
+
+  Result<Preset> read() {
+    if (const auto syntax = json::checkSyntax(text_, where_); !syntax) return syntax.findings();
+    const std::size_t begin = std::min(text_.find_first_not_of(" \t\r\n"), text_.size());
+    for (json::Member& member : json::members(text_.substr(begin), text_)) {
+      if (!top_.emplace(member.key, member).second)
+        refuse(member.at, member.key, "each member once", "it a second time");
+    }
+    if (!readFormat()) return findings_;
+    if (isExport_ && !sealHolds()) return findings_;
+    const int version = readVersion();
+    if (version == 0) return findings_;
+    readTexts();
+    readBase();
+    readParameters(version);
+    if (anyError(findings_)) return findings_;
+    for (Finding& f : ruleFindings(preset_.parameters)) addPlaced(std::move(f));
+    return {std::move(preset_), std::move(findings_)};
+  }
+
+ private:
+  void refuse(std::size_t at, std::string key, std::string expected, std::string found) {
+    findings_.push_back({Severity::error, json::place(where_, text_, at), std::move(key), std::move(expected),
+                         std::move(found)});
+  }
+  void addPlaced(Finding f) {
+    const auto at = places_.find(f.key);
+    f.where = at == places_.end() ? where_ : at->second;
+    findings_.push_back(std::move(f));
+  }
+  const json::Member* member(const std::string& key) const {
+    const auto at = top_.find(key);
+    return at == top_.end() ? nullptr : &at->second;
+  }
+
+  bool readFormat() {
+    const json::Member* const format = member("format");
+    const auto name = format ? json::readString(format->value) : std::nullopt;
+    isExport_ = name == "trimtab-export";
+    if (isExport_ || name == "trimtab-preset") return !anyError(findings_);
+    refuse(format ? format->at : 0, "format", "\"trimtab-preset\" or \"trimtab-export\"",
+           format ? std::string(format->value.substr(0, 60)) : "none");
+    return false;
+  }
+
+  bool sealHolds() {
+    const auto seal = checkSeal(text_, where_);
+    if (!seal) {
+      findings_.insert(findings_.end(), seal.findings().begin(), seal.findings().end());
+      return false;
+    }
+    const json::Member* const checksum = member("checksum");
+    if (checksum && json::readString(checksum->value) == *seal) return true;
+    refuse(checksum ? checksum->at : 0, "checksum", *seal,
+           checksum ? std::string(checksum->value.substr(0, 80)) : "none");
+    return false;
+  }
+
+  /// 0 where the file's version cannot be read.
+  int readVersion() {
+    const json::Member* const version = member("version");
+    const auto number = version ? readNumber(version->value) : std::nullopt;
+    for (int v = 1; v <= kPresetVersion; ++v)
+      if (number == v) return v;
+    refuse(version ? version->at : 0, "version",
+           "a format version from 1 to " + std::to_string(kPresetVersion),
+           version ? std::string(version->value.substr(0, 60)) : "none");
+    return 0;
+  }
+
+  void readTexts() {
+    for (const auto& [key, target] : {std::pair<std::string, std::string*>{"name", &preset_.name},
+                                      {"description", &preset_.description},
+                                      {"base", &preset_.base}})
+      if (const json::Member* const text = member(key)) {
+        const auto value = json::readString(text->value);
+        if (value)
+          *target = *value;
+        else
+          refuse(text->at, key, "text", std::string(text->value.substr(0, 60)));
+      }
+    for (const auto& [key, value] : top_) {
+      static const std::set<std::string> known{"format",      "version",    "name",       "base",
+                                               "description", "parameters", "provenance", "checksum"};
+      if (!known.contains(key)) preset_.unknownMembers.emplace(key, value.value);
+    }
+  }
+
+  void readBase() {
+    if (isExport_ || preset_.base.empty()) return;
+    const std::size_t at = member("base")->at;
+    if (depth_ >= kLongestBaseChain)
+      return refuse(at, "base",
+                    "at most " + std::to_string(kLongestBaseChain) + " presets based on each other",
+                    "more; does one name itself?");
+    const Result<Preset> base = load(preset_.base, preset_.folder, depth_ + 1);
+    if (base) {
+      preset_.parameters = base->parameters;
+      return;
+    }
+    refuse(at, "base", "a shipped preset's name or a preset file",
+           "\"" + preset_.base + "\", which cannot be read");
+    findings_.insert(findings_.end(), base.findings().begin(), base.findings().end());
+  }
+
+  void readParameters(int version) {
+    const json::Member* const all = member("parameters");
+    if (!all || !json::isObject(all->value))
+      return refuse(all ? all->at : 0, "parameters", "an object",
+                    all ? std::string(all->value.substr(0, 60)) : "none");
+    std::vector<RawParameter> raw;
+    for (const json::Member& m : json::members(all->value, text_))
+      raw.push_back({m.key, std::string(m.value), json::place(where_, text_, m.at)});
+    migrate(version, raw, findings_);
+    for (const RawParameter& parameter : raw) readParameter(parameter);
+    for (const ParameterRow& row : parameterRows())
+      if (isExport_ && !places_.contains(std::string(row.key)))
+        findings_.push_back({Severity::warning, where_, std::string(row.key), "every parameter in an export",
+                             "none; " + toText(row, row.get(preset_.parameters)) + " is used"});
+    for (Finding& f : rangeFindings(preset_.parameters)) addPlaced(std::move(f));
+  }
+
+  void readParameter(const RawParameter& parameter) {
+    if (!places_.emplace(parameter.key, parameter.where).second) {
+      findings_.push_back(
+          {Severity::error, parameter.where, parameter.key, "each parameter once", "it a second time"});
+      return;
+    }
+    const ParameterRow* const row = findRow(parameter.key);
+    if (!row) {
+      preset_.unknown.emplace(parameter.key, parameter.value);
+      findings_.push_back({Severity::warning, parameter.where, parameter.key, expectedKey(parameter.key),
+                           "an unknown key, kept without effect"});
+      return;
+    }
+    const Result<ParameterValue> value = json::readValue(*row, parameter.value);
+    if (value) return row->set(preset_.parameters, *value);
+    for (Finding f : value.findings()) {
+      f.where = parameter.where;
+      f.key = parameter.key;
+      findings_.push_back(std::move(f));
+    }
+  }
+
+  std::string_view text_;
+  std::string where_;
+  int depth_;
+  bool isExport_ = false;
+  std::map<std::string, json::Member> top_;
+  std::map<std::string, std::string> places_;  ///< parameter -> file and line
+  Preset preset_;
+  Findings findings_;
+};
+
+Result<Preset> load(const std::string& nameOrFile, const std::filesystem::path& folder, int depth) {
+  for (const ShippedPreset& shipped : kShippedPresets)
+    if (shipped.name == nameOrFile) return Reader(shipped.text, "preset " + nameOrFile, {}, depth).read();
+  const std::filesystem::path file = folder / nameOrFile;
+  std::error_code ignored;
+  if (depth > 0 && !std::filesystem::is_regular_file(file, ignored))
+    return Finding{Severity::error, file.string(), "", "a preset file", "none"};
+  const Result<std::string> text = readWhole(file);
+  if (!text) return text.findings();
+  return Reader(*text, file.string(), file.parent_path(), depth).read();
+}
+
+}  // namespace
+
+std::vector<std::string_view> shippedPresets() {
+  std::vector<std::string_view> names;
+  for (const ShippedPreset& shipped : kShippedPresets) names.push_back(shipped.name);
+  return names;
+}
+
+Result<Preset> loadPreset(const std::string& nameOrFile) {
+  return load(nameOrFile, {}, 0);
+}
+
+Result<Preset> parsePreset(std::string_view json, const std::string& where) {
+  return Reader(json, where, std::filesystem::path(where).parent_path(), 0).read();
+}
+
+Result<std::string> presetText(const Preset& preset) {
+  if (Findings broken = rangeFindings(preset.parameters); anyError(broken)) return broken;
+  TuningParameters base;
+  if (!preset.base.empty()) {
+    const Result<Preset> loaded = load(preset.base, preset.folder, 1);
+    if (!loaded) return loaded.findings();
+    base = loaded->parameters;
+  }
+  std::string text = "{\n  \"format\": \"trimtab-preset\",\n  \"version\": " + std::to_string(kPresetVersion);
+  const auto member = [&text](const std::string& key, const std::string& value) {
+    text += ",\n  " + json::stringText(key) + ": " + value;
+  };
+  member("name", json::stringText(preset.name));
+  if (!preset.base.empty()) member("base", json::stringText(preset.base));
+  if (!preset.description.empty()) member("description", json::stringText(preset.description));
+  for (const auto& [key, value] : preset.unknownMembers) member(key, value);
+  std::string parameters;
+  const auto parameter = [&parameters](std::string_view key, const std::string& value) {
+    parameters += (parameters.empty() ? "\n    " : ",\n    ") + json::stringText(key) + ": " + value;
+  };
+  for (const ParameterRow& row : parameterRows()) {
+    // As text, because a negative zero differs from zero and has to come back as one.
+    std::string value = json::valueText(row, row.get(preset.parameters));
+    if (value != json::valueText(row, row.get(base))) parameter(row.key, value);
+  }
+  for (const auto& [key, value] : preset.unknown) parameter(key, value);
+  member("parameters", parameters.empty() ? "{}" : "{" + parameters + "\n  }");
+  return text + "\n}\n";
+}
+
+std::vector<Difference> differences(const TuningParameters& left, const TuningParameters& right) {
+  std::vector<Difference> found;
+  for (const ParameterRow& row : parameterRows()) {
+    std::string a = toText(row, row.get(left)), b = toText(row, row.get(right));
+    if (a != b) found.push_back({std::string(row.key), std::move(a), std::move(b)});
+  }
+  return found;
+}
+
+}  // namespace trimtab

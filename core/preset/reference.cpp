@@ -1,0 +1,102 @@
+#include "trimtab/preset/number.h"
+#include "trimtab/preset/preset.h"
+
+namespace trimtab {
+
+namespace {
+
+std::string rangeText(Range range, std::string_view unit) {
+  return numberText(range.low) + " to " + numberText(range.high) + (unit.empty() ? "" : " ") +
+         std::string(unit);
+}
+
+std::string_view groupOf(std::string_view key) {
+  return key.substr(0, key.find('.'));
+}
+
+std::string_view groupTitle(std::string_view group) {
+  if (group == "fuzzy") return "Fuzzy choice of the culling scheme";
+  if (group == "culling") return "Culling";
+  if (group == "lod") return "Level of detail";
+  if (group == "view") return "View";
+  if (group == "host") return "Host";
+  if (group == "measure") return "Measurement";
+  return group;
+}
+
+std::string_view effectText(Effect effect) {
+  switch (effect) {
+    case Effect::next_frame:
+      return "the next frame";
+    case Effect::resize:
+      return "the next frame, after the picture has been set up again";
+    case Effect::host:
+      return "the next packet";
+  }
+  return "";
+}
+
+std::string describe(const ParameterRow& row) {
+  std::string text = "### `" + std::string(row.key) + "`\n\n" + std::string(row.label) + ". " +
+                     std::string(row.help) + "\n\n";
+  const auto item = [&text](std::string_view name, const std::string& value) {
+    text += "* " + std::string(name) + ": " + value + "\n";
+  };
+  item("default", "`" + toText(row, row.get(TuningParameters{})) + "`" +
+                      (row.kind == Kind::scalar && !row.unit.empty() ? " " + std::string(row.unit) : ""));
+  switch (row.kind) {
+    case Kind::scalar:
+      item("accepted", rangeText(row.hard, row.unit) + (row.whole ? ", whole numbers" : ""));
+      item("usual", rangeText(row.usual, row.unit));
+      break;
+    case Kind::flag:
+      item("values", "`true`, `false`");
+      break;
+    case Kind::choice: {
+      std::string names;
+      for (const ChoiceOption& option : row.choices)
+        names += (names.empty() ? "`" : ", `") + std::string(option.name) + "` (" +
+                 std::string(option.label) + ")";
+      item("values", names);
+      break;
+    }
+    case Kind::curve:
+      item("accepted", "2 to " + std::to_string(CurvePoints::kCapacity) +
+                           " points `x:y` in rising order, x " + rangeText(row.hard, row.unit) +
+                           ", y 0 to 1; two points may share an x");
+      item("usual", "x " + rangeText(row.usual, row.unit));
+      break;
+    case Kind::bands:
+      item("accepted", "1 to " + std::to_string(BandList::kCapacity) +
+                           " bands `low:WIDTHxHEIGHT` in rising order, low above 0 and below " +
+                           numberText(BandList::kTop) + ", sizes " + rangeText(row.hard, row.unit));
+      item("usual", "sizes " + rangeText(row.usual, row.unit));
+      break;
+  }
+  item("takes effect with", std::string(effectText(row.effect)));
+  if (!row.source.empty()) item("source", std::string(row.source));
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string parameterReference() {
+  std::string text =
+      "# Parameters\n\nWritten by `trimtab-cli preset reference`. Keys are those of preset files, exports "
+      "and `--set key=value`; "
+      "the unit is the\nkey's suffix. What is outside the accepted range is refused; what is outside the "
+      "usual one is "
+      "accepted with a warning.\n\n";
+  std::string_view group;
+  for (const ParameterRow& row : parameterRows()) {
+    if (groupOf(row.key) != group) {
+      group = groupOf(row.key);
+      text += "## " + std::string(groupTitle(group)) + "\n\n";
+    }
+    text += describe(row);
+  }
+  text.pop_back();
+  return text;
+}
+
+}  // namespace trimtab
