@@ -14,6 +14,7 @@ namespace trimtab {
 
 namespace {
 
+constexpr const char* kWritable = "room and permission to write it";
 constexpr std::size_t kLargestFile = std::size_t{16} << 20;
 
 Finding refused(const std::filesystem::path& file, std::string expected, int error) {
@@ -61,8 +62,7 @@ mode_t modeOf(const std::filesystem::path& file) {
 /// For a pipe or device there is nothing to keep, and renaming over it would destroy it.
 Result<Done> writeInPlace(const std::filesystem::path& file, std::string_view bytes) {
   Descriptor out(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
-  if (!out.isOpen() || !writeAll(out.get(), bytes) || !out.close())
-    return refused(file, "to be written", errno);
+  if (!out.isOpen() || !writeAll(out.get(), bytes) || !out.close()) return refused(file, kWritable, errno);
   return Done{};
 }
 
@@ -99,7 +99,7 @@ Result<Done> writeAtomically(const std::filesystem::path& file, std::string_view
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     return writeInPlace(target, bytes);
   if (std::filesystem::exists(status) && ::access(target.c_str(), W_OK) != 0)
-    return refused(file, "to be written", errno);
+    return refused(file, kWritable, errno);
 
   const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
   std::string beside = (folder / ("." + target.filename().string() + ".XXXXXX")).string();
@@ -111,7 +111,7 @@ Result<Done> writeAtomically(const std::filesystem::path& file, std::string_view
   if (!written) {
     const int error = errno;
     ::unlink(beside.c_str());
-    return refused(file, "to be written", error);
+    return refused(file, kWritable, error);
   }
   // The new name must survive a crash too; file systems that cannot sync a folder have nothing to sync.
   if (const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));

@@ -1,0 +1,221 @@
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "trimtab/preset/file_io.h"
+#include "trimtab/preset/preset.h"
+#include "trimtab/preset/sealed.h"
+
+namespace trimtab::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::vector<std::string> files, settings;
+  std::string left, right, output, format = "json";
+  Provenance provenance;
+  bool json = false;
+};
+
+bool anyError(const Findings& findings) {
+  return std::any_of(findings.begin(), findings.end(),
+                     [](const Finding& f) { return f.severity == Severity::error; });
+}
+
+void printJson(const Json& document) {
+  std::cout << document.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+}
+
+Json toJson(const Findings& findings) {
+  Json list = Json::array();
+  for (const Finding& f : findings)
+    list.push_back({{"severity", f.severity == Severity::error     ? "error"
+                                 : f.severity == Severity::warning ? "warning"
+                                                                   : "note"},
+                    {"where", f.where},
+                    {"key", f.key},
+                    {"expected", f.expected},
+                    {"found", f.found}});
+  return list;
+}
+
+/// XML and INI exports are for other programs; of them only the checksum can be held against the text.
+bool isForeignExport(const std::string& text) {
+  const std::size_t begin = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+  return text.compare(begin, 5, "<?xml") == 0 || text.compare(begin, 1, ";") == 0 ||
+         text.compare(begin, 8, "[export]") == 0;
+}
+
+Findings checkFile(const std::string& file) {
+  const auto shipped = shippedPresets();
+  if (std::find(shipped.begin(), shipped.end(), file) != shipped.end()) return loadPreset(file).findings();
+  const auto text = readWhole(file);
+  if (!text) return text.findings();
+  return isForeignExport(*text) ? checkSeal(*text, file).findings() : parsePreset(*text, file).findings();
+}
+
+int check(const Options& options) {
+  bool good = true;
+  Json files = Json::array();
+  for (const std::string& file : options.files) {
+    const Findings findings = checkFile(file);
+    const bool fileIsGood = !anyError(findings);
+    good = good && fileIsGood;
+    if (options.json) {
+      files.push_back({{"file", file}, {"ok", fileIsGood}, {"findings", toJson(findings)}});
+      continue;
+    }
+    report(findings);
+    std::cout << file << (fileIsGood ? ": good\n" : ": refused\n");
+  }
+  if (options.json) printJson({{"ok", good}, {"files", files}});
+  return good ? kDone : kRefused;
+}
+
+/// Now, or the time that reproducible builds ask for, as ISO 8601 UTC.
+std::string timestamp() {
+  std::time_t now = std::time(nullptr);
+  if (const char* const fixed = std::getenv("SOURCE_DATE_EPOCH"))
+    now = static_cast<std::time_t>(std::atoll(fixed));
+  std::tm utc{};
+  char text[sizeof "-2147483648-12-31T23:59:59Z"];
+  if (!gmtime_r(&now, &utc) || std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc) == 0) return "";
+  return text;
+}
+
+/// Applies "key=value" texts; every one that cannot be applied is a finding.
+Findings applySettings(const std::vector<std::string>& settings, TuningParameters& parameters) {
+  Findings findings;
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    const ParameterRow* const row = findRow(setting.substr(0, equals));
+    if (equals == std::string::npos || !row) {
+      findings.push_back(
+          {Severity::error, "--set", "", "key=value with a key of `preset reference`", setting});
+      continue;
+    }
+    const auto value = parseValue(*row, setting.substr(equals + 1));
+    if (value) {
+      row->set(parameters, *value);
+      continue;
+    }
+    for (Finding f : value.findings()) {
+      f.where = "--set";
+      findings.push_back(std::move(f));
+    }
+  }
+  return findings;
+}
+
+int writeOut(const std::string& output, const std::string& text) {
+  if (output.empty() || output == "-") {
+    std::cout << text << std::flush;
+    return std::cout ? kDone : kRefused;
+  }
+  const auto written = writeAtomically(output, text);
+  report(written.findings());
+  return written ? kDone : kRefused;
+}
+
+int exportPreset(Options options) {
+  auto preset = loadPreset(options.left);
+  if (!preset) {
+    report(preset.findings());
+    return kRefused;
+  }
+  TuningParameters parameters = preset->parameters;
+  if (const Findings refused = applySettings(options.settings, parameters); !refused.empty()) {
+    report(refused);
+    return kRefused;
+  }
+  Findings notes = preset.findings();
+  // Ranges and rules are asked again below, of what --set has made of the file.
+  std::erase_if(notes,
+                [](const Finding& f) { return findRow(f.key) != nullptr && f.severity != Severity::note; });
+  report(notes);
+  const auto validated = validate(parameters);
+  for (Finding f : validated.findings()) {
+    f.where = options.left;
+    report({f});
+  }
+  if (!validated) return kRefused;
+  options.provenance.created = timestamp();
+  options.provenance.program = "trimtab-cli " TRIMTAB_VERSION;
+  const std::string name =
+      preset->name.empty() ? std::filesystem::path(options.left).stem().string() : preset->name;
+  const ExportFormat format = options.format == "xml"   ? ExportFormat::xml
+                              : options.format == "ini" ? ExportFormat::ini
+                                                        : ExportFormat::json;
+  return writeOut(options.output, exportText(*validated, name, options.provenance, format));
+}
+
+int diff(const Options& options) {
+  const auto left = loadPreset(options.left), right = loadPreset(options.right);
+  if (!left || !right) {
+    report(left.findings());
+    report(right.findings());
+    return kRefused;
+  }
+  const auto found = differences(left->parameters, right->parameters);
+  if (options.json) {
+    Json list = Json::array();
+    for (const Difference& d : found) list.push_back({{"key", d.key}, {"left", d.left}, {"right", d.right}});
+    printJson({{"left", options.left}, {"right", options.right}, {"differences", list}});
+    return kDone;
+  }
+  for (const Difference& d : found) std::cout << d.key << ": " << d.left << " -> " << d.right << '\n';
+  return kDone;
+}
+
+}  // namespace
+
+void addPreset(CLI::App& app, int& exitCode) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* const preset = app.add_subcommand("preset", "Check, export and compare presets");
+  preset->require_subcommand(1);
+
+  CLI::App* const checking = preset->add_subcommand(
+      "check", "Say everything that is wrong with preset files; exports must be whole");
+  checking->add_option("files", options->files, "Preset files, exports, or names of shipped presets")
+      ->required();
+  checking->add_flag("--json", options->json, "One JSON document on standard output");
+  checking->callback([&exitCode, options] { exitCode = check(*options); });
+
+  CLI::App* const exporting =
+      preset->add_subcommand("export", "Write every parameter, with provenance and checksum");
+  exporting->add_option("file", options->left, "Preset file or the name of a shipped preset")->required();
+  exporting->add_option("--format", options->format, "json, xml (FlightGear property list) or ini")
+      ->check(CLI::IsMember({"json", "xml", "ini"}));
+  exporting->add_option("-o,--output", options->output, "File to write; - for standard output")->required();
+  exporting->add_option("--set", options->settings, "key=value, applied before the export; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  exporting->add_option("--author", options->provenance.author, "Provenance: who");
+  exporting->add_option("--terrain", options->provenance.terrain, "Provenance: terrain it was tuned on");
+  exporting->add_option("--comment", options->provenance.comment, "Provenance: anything else");
+  exporting->callback([&exitCode, options] { exitCode = exportPreset(*options); });
+
+  CLI::App* const comparing =
+      preset->add_subcommand("diff", "List the parameters that differ, as key: left -> right");
+  comparing->add_option("left", options->left)->required();
+  comparing->add_option("right", options->right)->required();
+  comparing->add_flag("--json", options->json, "One JSON document on standard output");
+  comparing->callback([&exitCode, options] { exitCode = diff(*options); });
+
+  for (const auto& [name, what, text] :
+       {std::tuple{"schema", "Print the JSON schema of preset files", &presetSchema},
+        std::tuple{"reference", "Print the reference page of all parameters (Markdown)",
+                   &parameterReference}}) {
+    CLI::App* const page = preset->add_subcommand(name, what);
+    page->add_option("-o,--output", options->output, "File to write instead of standard output");
+    page->callback([&exitCode, options, text = text] { exitCode = writeOut(options->output, text()); });
+  }
+}
+
+}  // namespace trimtab::cli
