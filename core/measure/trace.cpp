@@ -324,6 +324,7 @@ void TraceWriter::write(const TraceRow& row) {
   line_.clear();
   appendTraceRow(line_, row);
   stream_.write(line_.data(), static_cast<std::streamsize>(line_.size()));
+  stream_.flush();
 }
 
 Result<Done> TraceWriter::close() {
