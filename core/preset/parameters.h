@@ -22,10 +22,16 @@ enum class ViewSource { preset, host };
 enum class RenderSize { fit, fixed };
 enum class HostProtocol { automatic, native_fdm, cigi3 };
 
+// Defaults that are lists. As constants, because g++ 12 takes a list inside a member's initialiser for
+// uninitialised.
+inline constexpr Curve<Feet> kAltitudeCurve{{4000, 1.0}, {5000, 0.6}, {6000, 0.3}, {7000, 0.1}, {8000, 0.0}};
+inline constexpr Curve<Degrees> kPitchCurve{{-30, 1.0}, {30, 0.0}};
+inline constexpr BandList kDepthMapBands{{0.1, 320, 240}, {0.5, 400, 300}, {1.0, 640, 480}, {1.5, 800, 600}};
+
 struct AltitudeParameters {
   AltitudeReading reading = AltitudeReading::table;
   AltitudeReference reference = AltitudeReference::mean_sea_level;
-  Curve<Feet> curve{{4000, 1.0}, {5000, 0.6}, {6000, 0.3}, {7000, 0.1}, {8000, 0.0}};
+  Curve<Feet> curve = kAltitudeCurve;
   Feet maximum{8000};                 ///< h_max of the equations
   Feet heightOffset{10};              ///< h_offset of the equations
   Membership membershipOffset{1e-6};  ///< x_offset of the equations
@@ -33,15 +39,15 @@ struct AltitudeParameters {
 
 struct PitchParameters {
   PitchReading reading = PitchReading::linear;
-  Curve<Degrees> curve{{-30, 1.0}, {30, 0.0}};  ///< used by `linear`
-  Membership step{0.017};                       ///< per degree; used by `rounded_step`
-  Degrees limit{30};                            ///< used by `rounded_step`
+  Curve<Degrees> curve = kPitchCurve;  ///< used by `linear`
+  Membership step{0.017};              ///< per degree; used by `rounded_step`
+  Degrees limit{30};                   ///< used by `rounded_step`
 };
 
 struct SchemeParameters {
   Combination combination = Combination::sum;
   Membership hysteresis{0.05};
-  BandList bands{{0.1, 320, 240}, {0.5, 400, 300}, {1.0, 640, 480}, {1.5, 800, 600}};
+  BandList bands = kDepthMapBands;
 };
 
 /// The shipped rule base of Eq. (2): weight lambda and singleton output u (0..2) of four rules. "low" is the

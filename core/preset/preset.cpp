@@ -62,11 +62,13 @@ class Reader {
   Result<Preset> read() {
     if (const auto syntax = json::checkSyntax(text_, where_); !syntax) return syntax.findings();
     const std::size_t begin = std::min(text_.find_first_not_of(" \t\r\n"), text_.size());
+    if (!json::isObject(text_.substr(begin)))
+      refuse(begin, "", "an object", std::string(text_.substr(begin, 20)));
     for (json::Member& member : json::members(text_.substr(begin), text_)) {
       if (!top_.emplace(member.key, member).second)
         refuse(member.at, member.key, "each member once", "it a second time");
     }
-    if (!readFormat()) return findings_;
+    if (anyError(findings_) || !readFormat()) return findings_;
     if (isExport_ && !sealHolds()) return findings_;
     const int version = readVersion();
     if (version == 0) return findings_;
@@ -97,7 +99,7 @@ class Reader {
     const json::Member* const format = member("format");
     const auto name = format ? json::readString(format->value) : std::nullopt;
     isExport_ = name == "trimtab-export";
-    if (isExport_ || name == "trimtab-preset") return !anyError(findings_);
+    if (isExport_ || name == "trimtab-preset") return true;
     refuse(format ? format->at : 0, "format", "\"trimtab-preset\" or \"trimtab-export\"",
            format ? std::string(format->value.substr(0, 60)) : "none");
     return false;
@@ -158,8 +160,10 @@ class Reader {
       preset_.parameters = base->parameters;
       return;
     }
-    refuse(at, "base", "a shipped preset's name or a preset file",
-           "\"" + preset_.base + "\", which cannot be read");
+    // Once, not for every link of a chain: the findings below say which file is bad.
+    if (depth_ == 0)
+      refuse(at, "base", "a shipped preset's name or a preset file",
+             "\"" + preset_.base + "\", which cannot be read");
     findings_.insert(findings_.end(), base.findings().begin(), base.findings().end());
   }
 
@@ -240,14 +244,17 @@ Result<Preset> parsePreset(std::string_view json, const std::string& where) {
   return Reader(json, where, std::filesystem::path(where).parent_path(), 0).read();
 }
 
+Result<TuningParameters> baseParameters(const Preset& preset) {
+  if (preset.base.empty()) return TuningParameters{};
+  const Result<Preset> base = load(preset.base, preset.folder, 1);
+  if (!base) return base.findings();
+  return base->parameters;
+}
+
 Result<std::string> presetText(const Preset& preset) {
   if (Findings broken = rangeFindings(preset.parameters); anyError(broken)) return broken;
-  TuningParameters base;
-  if (!preset.base.empty()) {
-    const Result<Preset> loaded = load(preset.base, preset.folder, 1);
-    if (!loaded) return loaded.findings();
-    base = loaded->parameters;
-  }
+  const Result<TuningParameters> base = baseParameters(preset);
+  if (!base) return base.findings();
   std::string text = "{\n  \"format\": \"trimtab-preset\",\n  \"version\": " + std::to_string(kPresetVersion);
   const auto member = [&text](const std::string& key, const std::string& value) {
     text += ",\n  " + json::stringText(key) + ": " + value;
@@ -263,7 +270,7 @@ Result<std::string> presetText(const Preset& preset) {
   for (const ParameterRow& row : parameterRows()) {
     // As text, because a negative zero differs from zero and has to come back as one.
     std::string value = json::valueText(row, row.get(preset.parameters));
-    if (value != json::valueText(row, row.get(base))) parameter(row.key, value);
+    if (value != json::valueText(row, row.get(*base))) parameter(row.key, value);
   }
   for (const auto& [key, value] : preset.unknown) parameter(key, value);
   member("parameters", parameters.empty() ? "{}" : "{" + parameters + "\n  }");

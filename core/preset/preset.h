@@ -39,6 +39,8 @@ std::vector<std::string_view> shippedPresets();
 Result<Preset> loadPreset(const std::string& nameOrFile);
 Result<Preset> parsePreset(std::string_view json, const std::string& where);
 
+/// What the preset starts from: its base's parameters, or the defaults.
+Result<TuningParameters> baseParameters(const Preset& preset);
 /// JSON with only the differences from the base, in the table's order.
 Result<std::string> presetText(const Preset& preset);
 /// Every parameter resolved, provenance and checksum over every byte but its own value.

@@ -136,12 +136,12 @@ struct Rule {
 constexpr std::array kRules{
     Rule{"fuzzy.hysteresis", hysteresisLeavesBands,
          [](const TuningParameters& p) {
-           return "less than half the narrowest band, " + numberText(narrowestBand(p.scheme.bands));
+           return "less than " + numberText(narrowestBand(p.scheme.bands) / 2) + ", half the narrowest band";
          },
          [](const TuningParameters& p) { return numberText(p.scheme.hysteresis.value()); }},
     Rule{"fuzzy.hysteresis", hysteresisLeavesFrustum,
          [](const TuningParameters& p) {
-           return "less than the first band's edge, " + numberText(p.scheme.bands.band[0].low);
+           return "less than " + numberText(p.scheme.bands.band[0].low) + ", the first band's edge";
          },
          [](const TuningParameters& p) { return numberText(p.scheme.hysteresis.value()); }},
     Rule{"fuzzy.altitude.maximum_ft", maximumCoversCurve,
