@@ -18,6 +18,10 @@ namespace {
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
+/// Copied from, not made in place: g++ 12 takes a default made in a function for uninitialised.
+const AltitudeParameters kTable;
+const PitchParameters kLine;
+
 /// Table 1 of documents A and B (published/altitude_membership.csv, pitch_membership.csv), as printed.
 struct Printed {
   double x;
@@ -42,19 +46,19 @@ std::string threeDecimals(double value) {
 }
 
 AltitudeParameters reading(AltitudeReading r) {
-  AltitudeParameters p;
+  AltitudeParameters p = kTable;
   p.reading = r;
   return p;
 }
 PitchParameters roundedStep() {
-  PitchParameters p;
+  PitchParameters p = kLine;
   p.reading = PitchReading::rounded_step;
   return p;
 }
 
 TEST(AltitudeMembership, reproducesThePublishedTable) {
   for (const Printed& row : kAltitude) {
-    const double value = altitudeMembership(AltitudeParameters{}, row.x);
+    const double value = altitudeMembership(kTable, row.x);
     EXPECT_EQ(likePrinted(value, row.membership), row.membership) << row.x << " ft";
     EXPECT_NEAR(value, std::stod(row.membership), 0.0005) << row.x << " ft";
   }
@@ -103,13 +107,10 @@ TEST(PitchMembership, roundedStepReproducesThePublishedTable) {
 
 TEST(PitchMembership, linearIsTheLineFromNoseDownToNoseUp) {
   for (double pitch = -90; pitch <= 90; pitch += 0.37)
-    EXPECT_NEAR(pitchMembership(PitchParameters{}, pitch), std::min(1.0, std::max(0.0, (30 - pitch) / 60)),
-                1e-15);
-  EXPECT_EQ(pitchMembership(PitchParameters{}, 0), 0.5);
-  EXPECT_EQ(threeDecimals(pitchMembership(PitchParameters{}, 1)), "0.483")
-      << "the table's 0.493 is off the line";
-  EXPECT_EQ(threeDecimals(pitchMembership(PitchParameters{}, -1)), "0.517")
-      << "the table's 0.507 is off the line";
+    EXPECT_NEAR(pitchMembership(kLine, pitch), std::min(1.0, std::max(0.0, (30 - pitch) / 60)), 1e-15);
+  EXPECT_EQ(pitchMembership(kLine, 0), 0.5);
+  EXPECT_EQ(threeDecimals(pitchMembership(kLine, 1)), "0.483") << "the table's 0.493 is off the line";
+  EXPECT_EQ(threeDecimals(pitchMembership(kLine, -1)), "0.517") << "the table's 0.507 is off the line";
 }
 
 TEST(PitchMembership, roundedStepIsNotMonotoneAroundLevelFlight) {
@@ -123,7 +124,7 @@ TEST(Membership, isNotANumberWhereTheInputIsNone) {
   for (const AltitudeReading r :
        {AltitudeReading::table, AltitudeReading::equation_a, AltitudeReading::equation_b})
     EXPECT_TRUE(std::isnan(altitudeMembership(reading(r), kNan)));
-  EXPECT_TRUE(std::isnan(pitchMembership(PitchParameters{}, kNan)));
+  EXPECT_TRUE(std::isnan(pitchMembership(kLine, kNan)));
   EXPECT_TRUE(std::isnan(pitchMembership(roundedStep(), kNan)));
   EXPECT_TRUE(std::isnan(curveValue(CurvePoints{}, 1)));
 }
@@ -134,7 +135,7 @@ TEST(Membership, hasTheCurvesEndsAtInfinity) {
     EXPECT_EQ(altitudeMembership(reading(r), -kInf), 1);
     EXPECT_EQ(altitudeMembership(reading(r), kInf), 0);
   }
-  for (const PitchParameters& p : {PitchParameters{}, roundedStep()}) {
+  for (const PitchParameters& p : {kLine, roundedStep()}) {
     EXPECT_EQ(pitchMembership(p, -kInf), 1);
     EXPECT_EQ(pitchMembership(p, kInf), 0);
   }
@@ -157,7 +158,7 @@ TEST(Membership, staysBetweenZeroAndOneWhateverTheInput) {
       const double value = altitudeMembership(reading(r), x);
       ASSERT_TRUE(value >= 0 && value <= 1) << x;
     }
-    for (const PitchParameters& p : {PitchParameters{}, roundedStep()}) {
+    for (const PitchParameters& p : {kLine, roundedStep()}) {
       const double value = pitchMembership(p, x);
       ASSERT_TRUE(value >= 0 && value <= 1) << x;
     }
@@ -165,7 +166,7 @@ TEST(Membership, staysBetweenZeroAndOneWhateverTheInput) {
 }
 
 TEST(CurveValue, isExactAtEveryPointAndContinuousAnUlpBeside) {
-  const AltitudeParameters p;
+  const AltitudeParameters& p = kTable;
   for (const CurvePoint& point : p.curve.span()) {
     EXPECT_EQ(curveValue(p.curve, point.x), point.y);
     EXPECT_NEAR(curveValue(p.curve, std::nextafter(point.x, -kInf)), point.y, 1e-15);

@@ -1,0 +1,85 @@
+#include "trimtab/measure/statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace trimtab {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(SampleWindow, hasNoStatisticsWhileEmpty) {
+  const SampleWindow window(10);
+  EXPECT_EQ(window.size(), 0u);
+  for (const double value :
+       {window.last(), window.mean(), window.largest(), window.median(), window.quantile(0.99)})
+    EXPECT_TRUE(std::isnan(value));
+}
+
+TEST(SampleWindow, agreesWithSortingTheNewestSamples) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> values(0, 100);
+  for (const std::size_t capacity : {1u, 2u, 7u, 100u}) {
+    SampleWindow window(capacity);
+    std::deque<double> newest;
+    for (int i = 0; i < 350; ++i) {
+      const double value = values(random);
+      window.add(value);
+      newest.push_back(value);
+      if (newest.size() > capacity) newest.pop_front();
+      std::vector<double> sorted(newest.begin(), newest.end());
+      std::sort(sorted.begin(), sorted.end());
+      ASSERT_EQ(window.size(), newest.size());
+      ASSERT_EQ(window.last(), value);
+      ASSERT_EQ(window.largest(), sorted.back());
+      for (const double q : {0.0, 0.25, 0.5, 0.95, 0.99, 1.0}) {
+        // Nearest rank, stated directly: the first that enough samples do not exceed.
+        std::size_t at = 0;
+        while (static_cast<double>(at + 1) < q * static_cast<double>(sorted.size())) ++at;
+        ASSERT_EQ(window.quantile(q), sorted[at]) << q << " of " << sorted.size();
+      }
+    }
+  }
+}
+
+TEST(SampleWindow, leavesOutWhatIsNotANumber) {
+  SampleWindow window(4);
+  for (const double value : {1.0, kNan, 2.0, std::numeric_limits<double>::infinity(), 6.0}) window.add(value);
+  EXPECT_EQ(window.size(), 3u);
+  EXPECT_EQ(window.mean(), 3);
+  EXPECT_EQ(window.last(), 6);
+  EXPECT_TRUE(std::isnan(window.quantile(kNan)));
+  EXPECT_EQ(window.quantile(-1), 1);
+  EXPECT_EQ(window.quantile(2), 6);
+  window.clear();
+  EXPECT_EQ(window.size(), 0u);
+}
+
+TEST(FrameStatistics, keepsStagesApartAndSkipsThoseNotRun) {
+  FrameStatistics statistics(100);
+  for (int i = 1; i <= 100; ++i) {
+    FrameCost cost;
+    cost.total = i;
+    cost.gpu = kNan;
+    cost.occlusion = i % 2 ? 5 : kNan;
+    statistics.add(cost);
+  }
+  const Distribution total = statistics.of(FrameStatistics::total);
+  EXPECT_EQ(total.median, 50);
+  EXPECT_EQ(total.p95, 95);
+  EXPECT_EQ(total.p99, 99);
+  EXPECT_EQ(total.mean, 50.5);
+  EXPECT_EQ(total.largest, 100);
+  EXPECT_EQ(statistics.of(FrameStatistics::gpu).samples, 0u);
+  EXPECT_EQ(statistics.of(FrameStatistics::occlusion).samples, 50u);
+  EXPECT_EQ(statistics.frames(), 100u);
+}
+
+}  // namespace
+}  // namespace trimtab

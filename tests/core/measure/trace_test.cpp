@@ -1,0 +1,278 @@
+#include "trimtab/measure/trace.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <sstream>
+
+#include "support.h"
+
+namespace trimtab {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+const TuningParameters kDefaults;
+
+/// Any finite double, by its bits: every exponent, denormals and negative zero too.
+double anyDouble(std::mt19937_64& random) {
+  for (;;) {
+    const auto value = std::bit_cast<double>(random());
+    if (std::isfinite(value)) return value;
+  }
+}
+
+bool sameBits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+TraceRow anyRow(std::mt19937_64& random) {
+  const auto number = [&random] { return anyDouble(random); };
+  const auto maybe = [&random, &number]<class T>(std::optional<T>& value) {
+    if (random() % 2) value = T{number()};
+  };
+  TraceRow row;
+  AircraftState& state = row.input.state;
+  state.time = number();
+  state.packet = random();
+  state.position = {Degrees{number()}, Degrees{number()}, Metres{number()}};
+  state.attitude = {Degrees{number()}, Degrees{number()}, Degrees{number()}};
+  maybe(row.input.aboveGround);
+  state.aboveGround = row.input.aboveGround;
+  maybe(state.visibility);
+  if (random() % 2) state.head = Attitude{Degrees{number()}, Degrees{number()}, Degrees{number()}};
+  if (random() % 2) {
+    state.view = HostView{};
+    state.view->left = Degrees{number()};
+    maybe(state.view->top);
+    maybe(state.view->nearDistance);
+  }
+  row.input.lastCost = {number(), number(), number(), number(), number(), number(), number()};
+  if (random() % 2) row.before.band = static_cast<int>(random() % 17) - 1;
+  FrameDecision& d = row.decision;
+  for (double* value :
+       {&d.altitudeFt, &d.pitchDeg, &d.altitudeMembership, &d.pitchMembership, &d.totalMembership})
+    *value = number();
+  for (double& firing : d.ruleFiring) firing = number();
+  d.scheme = random() % 2 ? Scheme::dynamic : Scheme::frustum;
+  d.band = static_cast<int>(random() % 17) - 1;
+  if (random() % 2)
+    d.depthMap = DepthMapSize{static_cast<int>(random() % 4096), static_cast<int>(random() % 4096)};
+  d.reason = static_cast<SchemeReason>(random() % 6);
+  d.lodScale = number();
+  if (random() % 2) {
+    row.frame = TraceFrame{{random(), random(), random(), random(), random()},
+                           {number(), number(), number(), number(), number(), number(), number()}};
+    if (random() % 2) row.frame->cost.gpu = kNan;
+  }
+  return row;
+}
+
+void expectSame(const TraceRow& a, const TraceRow& b) {
+  const AircraftState &s = a.input.state, &t = b.input.state;
+  EXPECT_EQ(s, t);
+  EXPECT_TRUE(sameBits(s.position.height.value(), t.position.height.value()));
+  EXPECT_TRUE(sameBits(s.attitude.pitch.value(), t.attitude.pitch.value()));
+  EXPECT_EQ(a.input.aboveGround, b.input.aboveGround);
+  EXPECT_TRUE(sameBits(a.input.lastCost.total, b.input.lastCost.total));
+  EXPECT_TRUE(sameBits(a.input.lastCost.decide, b.input.lastCost.decide));
+  EXPECT_EQ(a.before, b.before);
+  EXPECT_EQ(a.decision, b.decision);
+  ASSERT_EQ(a.frame.has_value(), b.frame.has_value());
+  if (!a.frame) return;
+  EXPECT_EQ(a.frame->counts, b.frame->counts);
+  EXPECT_TRUE(sameBits(a.frame->cost.total, b.frame->cost.total));
+  EXPECT_TRUE(sameBits(a.frame->cost.gpu, b.frame->cost.gpu));
+}
+
+TEST(Trace, readsBackEveryNumberBitForBit) {
+  std::mt19937_64 random(4);
+  std::vector<TraceRow> rows;
+  std::string text = traceHeader() + '\n';
+  for (int i = 0; i < 2000; ++i) {
+    rows.push_back(anyRow(random));
+    appendTraceRow(text, rows.back());
+  }
+  const Result<std::vector<TraceRow>> read = parseTrace(text, "trace");
+  ASSERT_TRUE(read.ok()) << toString(read.findings());
+  ASSERT_EQ(read->size(), rows.size());
+  for (std::size_t i = 0; i < rows.size() && !HasFailure(); ++i) expectSame(rows[i], (*read)[i]);
+
+  std::string again = traceHeader() + '\n';
+  for (const TraceRow& row : *read) appendTraceRow(again, row);
+  EXPECT_EQ(again, text) << "and every column is among those compared";
+}
+
+TEST(Trace, writesTheStartOfEachLineAsAFlight) {
+  EXPECT_EQ(
+      traceHeader().rfind("time_s,latitude_deg,longitude_deg,altitude_ft,pitch_deg,roll_deg,heading_deg,"
+                          "head_heading_deg,head_pitch_deg,packet,",
+                          0),
+      0u);
+  EXPECT_TRUE(isTrace(traceHeader() + "\n1,2,3"));
+  EXPECT_FALSE(isTrace("time_s,latitude_deg,longitude_deg,altitude_ft,pitch_deg,roll_deg,heading_deg\n"));
+  EXPECT_FALSE(isTrace(""));
+}
+
+TEST(Trace, givesTheHeightAboveGroundToTheStateSoThatAReplayNeedsNoTerrain) {
+  TraceRow row;
+  row.input.aboveGround = Metres{123.25};
+  std::string text = traceHeader() + '\n';
+  appendTraceRow(text, row);
+  const Result<std::vector<TraceRow>> read = parseTrace(text, "trace");
+  ASSERT_TRUE(read.ok());
+  EXPECT_EQ(read->at(0).input.state.aboveGround, Metres{123.25});
+}
+
+/// Decisions over a wild walk, as a program records them.
+std::vector<TraceRow> recorded(const ValidatedParameters& parameters) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> climb(-30, 30), nod(-2, 2);
+  std::vector<TraceRow> rows;
+  DecisionMemory memory{1};
+  double height = 1500, pitch = 0;
+  for (std::uint64_t i = 0; i < 5000; ++i) {
+    height = std::clamp(height + climb(random), 0.0, 3500.0);
+    pitch = std::clamp(pitch + nod(random), -40.0, 40.0);
+    TraceRow row;
+    row.input.state.packet = i;
+    row.input.state.position.height = Metres{i % 97 == 0 ? kNan : height};
+    row.input.state.attitude.pitch = Degrees{pitch};
+    if (i % 3) row.input.aboveGround = Metres{height / 2};
+    row.before = memory;
+    row.decision = decide(row.input, parameters, memory);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+TEST(Trace, decidesAgainBitForBit) {
+  TuningParameters aboveGround = kDefaults;
+  aboveGround.altitude.reference = AltitudeReference::above_ground;
+  TuningParameters rules = kDefaults;
+  rules.scheme.combination = Combination::rules;
+  for (const TuningParameters& p : {kDefaults, aboveGround, rules}) {
+    const Result<ValidatedParameters> parameters = validate(p);
+    ASSERT_TRUE(parameters.ok());
+    const std::vector<TraceRow> rows = recorded(*parameters);
+    std::string text = traceHeader() + '\n';
+    for (const TraceRow& row : rows) appendTraceRow(text, row);
+    const Result<std::vector<TraceRow>> read = parseTrace(text, "trace");
+    ASSERT_TRUE(read.ok()) << toString(read.findings());
+    EXPECT_TRUE(decideAgain(*read, *parameters).empty());
+
+    // The chain of memories is whole as well.
+    DecisionMemory memory = read->front().before;
+    for (const TraceRow& row : *read) {
+      ASSERT_EQ(memory, row.before);
+      ASSERT_EQ(decide(row.input, *parameters, memory), row.decision);
+    }
+  }
+}
+
+TEST(Trace, findsTheRowsThatOtherParametersDecideOtherwise) {
+  std::vector<TraceRow> rows = recorded(defaultParameters());
+  rows[10].decision.totalMembership = std::nextafter(rows[10].decision.totalMembership, 3);
+  const std::vector<TraceDifference> differences = decideAgain(rows, defaultParameters());
+  ASSERT_EQ(differences.size(), 1u);
+  EXPECT_EQ(differences[0].row, 10u);
+}
+
+TEST(Trace, readsColumnsInAnyOrderAndPassesOverOthers) {
+  TraceRow row;
+  row.input.state.packet = 77;
+  std::string text = traceHeader() + '\n';
+  appendTraceRow(text, row);
+  // Columns turned round, one more at the front, Windows line ends.
+  std::istringstream lines(text);
+  std::string line, turned;
+  while (std::getline(lines, line)) {
+    std::vector<std::string> cells(1);
+    for (const char c : line)
+      if (c == ',')
+        cells.emplace_back();
+      else
+        cells.back() += c;
+    turned += turned.empty() ? "remark" : "none";
+    for (auto cell = cells.rbegin(); cell != cells.rend(); ++cell) turned += ',' + *cell;
+    turned += "\r\n";
+  }
+  const Result<std::vector<TraceRow>> read = parseTrace(turned, "trace");
+  ASSERT_TRUE(read.ok()) << toString(read.findings());
+  EXPECT_EQ(read->at(0).input.state.packet, 77u);
+}
+
+TEST(Trace, namesEveryBadCellWithLineAndColumn) {
+  TraceRow row;
+  std::string good;
+  appendTraceRow(good, row);
+  std::string bad = good;
+  bad.replace(0, 1, "soon");
+  std::string reason = good;
+  reason.replace(reason.find("below_first_band"), 16, "because");
+  std::string packet = good;
+  const Result<std::vector<TraceRow>> read =
+      parseTrace(traceHeader() + '\n' + good + bad + "\n" + reason + "1,2,3\n", "t.csv");
+  ASSERT_FALSE(read.ok());
+  ASSERT_EQ(read.findings().size(), 3u);
+  EXPECT_EQ(toString(read.findings()[0]), "t.csv:3: time_s: expected a number, found \"soon\"");
+  EXPECT_EQ(toString(read.findings()[1]),
+            "t.csv:5: reason: expected the name of a reason, found \"because\"");
+  EXPECT_EQ(toString(read.findings()[2]).rfind("t.csv:6: expected ", 0), 0u);
+}
+
+TEST(Trace, refusesAFileWithoutItsColumnsAndNamesThem) {
+  const Result<std::vector<TraceRow>> read = parseTrace("time_s,latitude_deg\n1,2\n", "t.csv");
+  ASSERT_FALSE(read.ok());
+  EXPECT_GT(read.findings().size(), 10u);
+  EXPECT_EQ(toString(read.findings()[0]),
+            "t.csv:1: longitude_deg: expected this column, found no such column");
+  EXPECT_FALSE(parseTrace("", "t.csv").ok());
+}
+
+TEST(Trace, survivesAnyBytes) {
+  std::mt19937_64 random(6);
+  TraceRow row;
+  std::string good = traceHeader() + '\n';
+  appendTraceRow(good, row);
+  for (int i = 0; i < 3000; ++i) {
+    std::string text = good;
+    for (std::uint64_t n = random() % 6; n > 0; --n)
+      text[random() % text.size()] = static_cast<char>(random());
+    text.resize(random() % (text.size() + 1));
+    (void)parseTrace(text, "noise");
+  }
+}
+
+TEST(TraceWriter, writesWhatReadTraceReads) {
+  test::ScratchDir dir;
+  std::mt19937_64 random(12);
+  const TraceRow row = anyRow(random);
+  Result<TraceWriter> writer = TraceWriter::open(dir / "trace.csv");
+  ASSERT_TRUE(writer.ok());
+  (*writer).write(row);
+  (*writer).write(row);
+  EXPECT_TRUE((*writer).close().ok());
+  const Result<std::vector<TraceRow>> read = readTrace(dir / "trace.csv");
+  ASSERT_TRUE(read.ok()) << toString(read.findings());
+  ASSERT_EQ(read->size(), 2u);
+  expectSame(row, read->at(1));
+}
+
+TEST(TraceWriter, saysWhenAFileCannotBeOpenedOrTheDiskIsFull) {
+  test::ScratchDir dir;
+  EXPECT_FALSE(TraceWriter::open(dir / "absent" / "trace.csv").ok());
+  EXPECT_FALSE(readTrace(dir / "absent.csv").ok());
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
+  Result<TraceWriter> writer = TraceWriter::open("/dev/full");
+  ASSERT_TRUE(writer.ok());
+  for (int i = 0; i < 100; ++i) (*writer).write(TraceRow{});
+  EXPECT_FALSE((*writer).close().ok());
+}
+
+}  // namespace
+}  // namespace trimtab
