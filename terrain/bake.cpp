@@ -1,0 +1,171 @@
+#include <fcntl.h>
+#include <stdio.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "trimtab/terrain/database.h"
+#include "trimtab/terrain/import.h"
+#include "trimtab/terrain/store.h"
+#include "trimtab/terrain/tiled_database.h"
+
+namespace trimtab::terrain {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder beside the output that is gone again unless it takes the output's place.
+class UnfinishedFolder {
+ public:
+  explicit UnfinishedFolder(const fs::path& output) : output_(output) {
+    path_ = output.parent_path() / ("." + output.filename().string() + ".part-" + std::to_string(::getpid()));
+  }
+  ~UnfinishedFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  UnfinishedFolder(const UnfinishedFolder&) = delete;
+  UnfinishedFolder& operator=(const UnfinishedFolder&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+  std::error_code create() const {
+    std::error_code error;
+    if (!path_.parent_path().empty()) fs::create_directories(path_.parent_path(), error);
+    fs::remove_all(path_, error);
+    fs::create_directory(path_, error);
+    return error;
+  }
+  /// The old database, where there is one, changes places with the new one and goes with this folder.
+  std::error_code finish() const {
+    std::error_code error;
+    if (!fs::exists(output_, error)) {
+      fs::rename(path_, output_, error);
+      return error;
+    }
+    if (::renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, output_.c_str(), RENAME_EXCHANGE) == 0) return {};
+    const fs::path old = path_.string() + ".old";
+    fs::rename(output_, old, error);
+    if (!error) fs::rename(path_, output_, error);
+    std::error_code ignored;
+    fs::remove_all(old, ignored);
+    return error;
+  }
+
+ private:
+  fs::path output_, path_;
+};
+
+Finding refused(const fs::path& where, std::string expected, std::string found) {
+  return {Severity::error, where.string(), "", std::move(expected), std::move(found)};
+}
+
+bool isDatabase(const fs::path& folder) {
+  std::error_code error;
+  return fs::is_regular_file(folder / kManifestName, error);
+}
+
+/// Only a database or an empty folder may be replaced.
+bool mayReplace(const fs::path& output) {
+  std::error_code error;
+  return !fs::exists(output, error) || isDatabase(output) ||
+         (fs::is_directory(output, error) && fs::is_empty(output, error));
+}
+
+std::string joinedNames(const std::vector<fs::path>& sources) {
+  std::string all;
+  for (const fs::path& source : sources) all += (all.empty() ? "" : ", ") + source.string();
+  return all;
+}
+
+std::string nameOf(const fs::path& path) {
+  const fs::path last = path.has_filename() ? path.filename() : path.parent_path().filename();
+  return last.stem().string();
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const Database>> bake(const BakeOptions& options) {
+  if (options.sources.empty()) return refused("bake", "at least one elevation file", "none");
+  const fs::path output = options.output.has_filename() ? options.output : options.output.parent_path();
+  if (output.empty()) return refused("bake", "an output folder", "none");
+  if (!mayReplace(output))
+    return refused(output, "a new folder, an empty one or a terrain database",
+                   "something else, left as it is");
+  const auto stage = [&](double from, double to) -> Progress {
+    return [&options, from, to](double fraction, const std::string& what) {
+      return !options.progress || options.progress(from + (to - from) * fraction, what);
+    };
+  };
+
+  auto imported = importElevation(options.sources, stage(0, 0.35));
+  if (!imported) return imported.findings();
+  Findings findings = imported.findings();
+  HeightGrid& grid = (*imported).grid;
+  if (options.imagery) {
+    auto image = readImagery(*options.imagery, grid.posts, stage(0.35, 0.5));
+    findings.insert(findings.end(), image.findings().begin(), image.findings().end());
+    if (!image) return findings;
+    grid.image = std::move(image).value();
+  }
+
+  TerrainIndex index = makeLevels(grid.posts);
+  CellSlopes slopes(index);
+  const PostGeometry geometry(grid.posts);
+  const Progress measuring = stage(0.5, 0.9);
+  if (!measureLevels(grid.posts, grid.heights, geometry, index, slopes,
+                     [&](double f) { return measuring(f, "measuring levels"); }))
+    return cancelled("measuring levels");
+
+  const auto [lowest, highest] = std::minmax_element(grid.heights.begin(), grid.heights.end());
+  TerrainInfo info;
+  info.name = nameOf(output);
+  info.source = joinedNames(options.sources);
+  if (options.imagery) info.source += ", " + options.imagery->string();
+  info.lowest = Metres{*lowest};
+  info.highest = Metres{*highest};
+  info.voidsFilled = imported->voidsFilled;
+  Contents contents{info, std::move(grid), std::move(index), std::move(slopes)};
+
+  const UnfinishedFolder unfinished(output);
+  if (const auto error = unfinished.create())
+    return refused(unfinished.path(), "a folder that can be written", error.message());
+  if (auto written = writeContents(unfinished.path(), contents); !written) return written.findings();
+  if (!stage(0.9, 1)(1, "writing")) return cancelled(output.string());
+  std::error_code error;
+  for (const auto& file : fs::directory_iterator(unfinished.path(), error))
+    contents.info.bytes += fs::file_size(file, error);
+  if ((error = unfinished.finish())) return refused(output, "a place to put the database", error.message());
+  return Result<std::shared_ptr<const Database>>(makeDatabase(std::move(contents)), std::move(findings));
+}
+
+Result<std::shared_ptr<const Database>> openOrBake(const fs::path& source, const fs::path& cacheFolder,
+                                                   const Progress& progress) {
+  if (isDatabase(source)) return Database::open(source);
+  const std::vector<fs::path> sources{source};
+  const auto files = elevationFiles(sources);
+  if (!files) return files.findings();
+  std::string key = "v" + std::to_string(kFormatVersion);
+  for (const fs::path& file : *files) {
+    std::error_code error;
+    const fs::path whole = fs::weakly_canonical(file, error);
+    key += '\n' + whole.string() + ' ' + std::to_string(fs::file_size(file, error)) + ' ' +
+           std::to_string(fs::last_write_time(file, error).time_since_epoch().count());
+  }
+  const std::string name = nameOf(source);
+  const fs::path cached = cacheFolder / (name + "-" + hexadecimal(checksum(key)));
+  if (isDatabase(cached)) {
+    // A damaged copy is made again.
+    if (auto database = Database::open(cached)) return database;
+  }
+  BakeOptions options;
+  options.sources = sources;
+  options.output = cached;
+  options.progress = progress;
+  return bake(options);
+}
+
+}  // namespace trimtab::terrain

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+
+#include "trimtab/units/result.h"
+
+namespace trimtab::terrain {
+
+/// While it lives, what GDAL says on this thread is kept instead of printed.
+class GdalErrors {
+ public:
+  GdalErrors();
+  ~GdalErrors();
+  GdalErrors(const GdalErrors&) = delete;
+  GdalErrors& operator=(const GdalErrors&) = delete;
+
+  /// The last thing it complained of, or `otherwise`.
+  std::string last(const std::string& otherwise) const;
+  /// All of it as findings about a file, each text once: `worst` for what GDAL calls errors.
+  void moveTo(Findings& findings, const std::string& where, Severity worst);
+
+ private:
+  struct Said {
+    bool error;
+    std::string text;
+  };
+  std::vector<Said> said_;
+  friend struct GdalErrorsAccess;
+};
+
+/// Registers GDAL's drivers, once.
+void useGdal();
+
+}  // namespace trimtab::terrain

@@ -1,0 +1,206 @@
+#include "trimtab/terrain/georeference.h"
+
+#include <gdal_utils.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace trimtab::terrain {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kMostPosts = 4e8;
+
+OGRSpatialReference wgs84() {
+  OGRSpatialReference crs;
+  crs.importFromEPSG(4326);
+  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return crs;
+}
+
+}  // namespace
+
+Dataset owned(GDALDataset* dataset) {
+  return {dataset, [](GDALDataset* d) { GDALClose(d); }};
+}
+
+Finding about(Severity severity, const fs::path& file, std::string key, std::string expected,
+              std::string found) {
+  return {severity, file.string(), std::move(key), std::move(expected), std::move(found)};
+}
+
+std::optional<PostGrid> geographicPosts(const PlacedRaster& raster) {
+  const auto& g = raster.transform;
+  const OGRSpatialReference& crs = raster.crs;
+  GDALDataset& data = *raster.data;
+  if (!crs.IsGeographic() || g[2] != 0 || g[4] != 0 || g[1] <= 0 || g[5] == 0) return {};
+  PostGrid posts;
+  posts.columns = static_cast<std::uint32_t>(data.GetRasterXSize());
+  posts.rows = static_cast<std::uint32_t>(data.GetRasterYSize());
+  posts.stepLongitude = g[1];
+  posts.stepLatitude = std::abs(g[5]);
+  // GDAL's origin is the corner of the first pixel, whether the file says area or point; posts are pixel
+  // centres.
+  posts.west = g[0] + g[1] / 2;
+  posts.south = g[5] < 0 ? g[3] + g[5] * (posts.rows - 0.5) : g[3] + g[5] / 2;
+  OGRSpatialReference to = wgs84();
+  std::unique_ptr<OGRCoordinateTransformation> shift(OGRCreateCoordinateTransformation(&crs, &to));
+  if (!shift) return {};
+  for (const double across : {0.0, 0.5, 1.0})
+    for (const double up : {0.0, 0.5, 1.0}) {
+      const double x = posts.longitude(across * (posts.columns - 1)),
+                   y = posts.latitude(up * (posts.rows - 1));
+      double lon = x, lat = y;
+      if (!shift->Transform(1, &lon, &lat)) return {};
+      // Datums within some 2 m are the same for elevation: NAD83, ETRS89 and their kind are read post by
+      // post.
+      if (std::abs(std::remainder(lon - x, 360)) > 2e-5 || std::abs(lat - y) > 2e-5) return {};
+    }
+  return posts;
+}
+
+std::optional<PostGrid> fittingPosts(const PlacedRaster& raster) {
+  const auto& g = raster.transform;
+  const OGRSpatialReference& crs = raster.crs;
+  GDALDataset& data = *raster.data;
+  OGRSpatialReference to = wgs84();
+  std::unique_ptr<OGRCoordinateTransformation> transform(OGRCreateCoordinateTransformation(&crs, &to));
+  if (!transform) return {};
+  const double columns = data.GetRasterXSize(), rows = data.GetRasterYSize();
+  std::optional<double> reference;
+  const auto place = [&](double column, double row) -> std::optional<std::array<double, 2>> {
+    double x = g[0] + g[1] * (column + 0.5) + g[2] * (row + 0.5),
+           y = g[3] + g[4] * (column + 0.5) + g[5] * (row + 0.5);
+    if (!transform->Transform(1, &x, &y) || !std::isfinite(x) || !std::isfinite(y)) return {};
+    if (!reference) reference = x;
+    return std::array<double, 2>{*reference + std::remainder(x - *reference, 360.0), y};
+  };
+  const auto middle = place(columns / 2, rows / 2), right = place(columns / 2 + 1, rows / 2),
+             below = place(columns / 2, rows / 2 + 1);
+  if (!middle || !right || !below) return {};
+  const double cosine = std::cos((*middle)[1] * std::numbers::pi / 180);
+  const auto apart = [&](const std::array<double, 2>& a) {
+    return std::hypot((a[0] - (*middle)[0]) * cosine, a[1] - (*middle)[1]);
+  };
+  const double step = std::sqrt(apart(*right) * apart(*below));
+
+  // Inner: the least far each of four sides reaches. Outer: the farthest.
+  constexpr double kFar = 1e9;
+  double outer[4] = {kFar, -kFar, kFar, -kFar};
+  double side[4][2] = {
+      {kFar, -kFar}, {kFar, -kFar}, {kFar, -kFar}, {kFar, -kFar}};  // lon, lon, lat, lat of W, E, S, N
+  const bool flipped = (*below)[1] > (*middle)[1];
+  const int steps = 200;
+  for (int k = 0; k <= steps; ++k) {
+    const double c = (columns - 1) * k / steps, r = (rows - 1) * k / steps;
+    const std::optional<std::array<double, 2>> ends[4] = {place(0, r), place(columns - 1, r),
+                                                          place(c, flipped ? 0 : rows - 1),
+                                                          place(c, flipped ? rows - 1 : 0)};
+    for (int s = 0; s < 4; ++s) {
+      if (!ends[s]) return {};
+      const auto [lon, lat] = *ends[s];
+      outer[0] = std::min(outer[0], lon), outer[1] = std::max(outer[1], lon);
+      outer[2] = std::min(outer[2], lat), outer[3] = std::max(outer[3], lat);
+      const double along = s < 2 ? lon : lat;
+      side[s][0] = std::min(side[s][0], along), side[s][1] = std::max(side[s][1], along);
+    }
+  }
+  double west = side[0][1], east = side[1][0], south = side[2][1], north = side[3][0];
+  if ((east - west) * (north - south) < 0.85 * (outer[1] - outer[0]) * (outer[3] - outer[2]) ||
+      east <= west || north <= south)
+    west = outer[0], east = outer[1], south = outer[2], north = outer[3];
+  PostGrid posts;
+  posts.stepLatitude = step;
+  posts.stepLongitude = step / std::max(cosine, 1e-3);
+  posts.west = west;
+  posts.south = south;
+  const double across = std::floor((east - west) / posts.stepLongitude + 1e-6) + 1,
+               up = std::floor((north - south) / posts.stepLatitude + 1e-6) + 1;
+  if (!(across >= 2 && up >= 2 && across * up < kMostPosts)) return {};
+  posts.columns = static_cast<std::uint32_t>(across);
+  posts.rows = static_cast<std::uint32_t>(up);
+  return posts;
+}
+
+Dataset warped(GDALDataset& data, const OGRSpatialReference& crs, const PostGrid& posts,
+               std::vector<std::string> more) {
+  char* text = nullptr;
+  crs.exportToWkt(&text);
+  const std::string source = text ? text : "";
+  CPLFree(text);
+  const auto number = [](double v) {
+    std::array<char, 40> buffer;
+    CPLsnprintf(buffer.data(), buffer.size(), "%.17g", v);
+    return std::string(buffer.data());
+  };
+  std::vector<std::string> words = {"-of",
+                                    "MEM",
+                                    "-s_srs",
+                                    source,
+                                    "-t_srs",
+                                    "EPSG:4326",
+                                    "-et",
+                                    "0",
+                                    "-multi",
+                                    "-wo",
+                                    "NUM_THREADS=ALL_CPUS",
+                                    "-te",
+                                    number(posts.west - posts.stepLongitude / 2),
+                                    number(posts.south - posts.stepLatitude / 2),
+                                    number(posts.longitude(posts.columns - 0.5)),
+                                    number(posts.latitude(posts.rows - 0.5)),
+                                    "-ts",
+                                    std::to_string(posts.columns),
+                                    std::to_string(posts.rows)};
+  words.insert(words.end(), more.begin(), more.end());
+  std::vector<char*> list;
+  for (std::string& word : words) list.push_back(word.data());
+  list.push_back(nullptr);
+  GDALWarpAppOptions* options = GDALWarpAppOptionsNew(list.data(), nullptr);
+  if (options == nullptr) return owned(nullptr);
+  GDALDatasetH handle = GDALDataset::ToHandle(&data);
+  GDALDatasetH result = GDALWarp("", nullptr, 1, &handle, options, nullptr);
+  GDALWarpAppOptionsFree(options);
+  return owned(GDALDataset::FromHandle(result));
+}
+
+Result<PlacedRaster> openRaster(const fs::path& file, GdalErrors& errors) {
+  Findings notes;
+  PlacedRaster opened{owned(GDALDataset::FromHandle(
+                          GDALOpenEx(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                                     nullptr, nullptr, nullptr))),
+                      {},
+                      wgs84()};
+  if (!opened.data)
+    return about(Severity::error, file, "", "a raster that GDAL can read",
+                 errors.last("GDAL gives no reason"));
+  if (opened.data->GetRasterCount() < 1)
+    return about(Severity::error, file, "", "a raster with a band", "none");
+  errors.moveTo(notes, file.string(), Severity::warning);
+  if (opened.data->GetGeoTransform(opened.transform.data()) != CE_None)
+    return about(Severity::error, file, "georeference", "where the raster is on earth", "none");
+  for (const double g : opened.transform)
+    if (!std::isfinite(g))
+      return about(Severity::error, file, "georeference", "finite numbers", "not a number");
+  if (const OGRSpatialReference* crs = opened.data->GetSpatialRef(); crs != nullptr && !crs->IsLocal()) {
+    opened.crs = *crs;
+    opened.crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  } else {
+    const auto& g = opened.transform;
+    const double east = g[0] + g[1] * opened.data->GetRasterXSize(),
+                 south = g[3] + g[5] * opened.data->GetRasterYSize();
+    const auto onEarth = [](double lon, double lat) { return std::abs(lon) <= 360 && std::abs(lat) <= 90.5; };
+    if (!onEarth(g[0], g[3]) || !onEarth(east, south))
+      return about(Severity::error, file, "coordinate reference system",
+                   "one, or degrees of longitude and latitude",
+                   "none, and an origin of " + std::to_string(g[0]) + ", " + std::to_string(g[3]));
+    notes.push_back(
+        about(Severity::note, file, "coordinate reference system", "one", "none: taken as WGS84 degrees"));
+  }
+  return Result<PlacedRaster>(std::move(opened), std::move(notes));
+}
+
+}  // namespace trimtab::terrain
