@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -16,9 +17,16 @@ namespace trimtab::scene {
 
 /// What of the picture is for the engineer, not for the pilot.
 struct Overlays {
-  bool wireframe = false, tileBounds = false, colourByReason = false, colourByLevel = false;
+  bool wireframe = false, tileBounds = false, colourByLevel = false;
+  bool colourByReason =
+      false;               ///< draws what was culled too, so that it can be seen (with `frozenEye` above all)
+  bool showHoles = false;  ///< no sky: magenta wherever no terrain is drawn
   friend bool operator==(const Overlays&, const Overlays&) = default;
 };
+
+/// The colours of the overlays, sRGB, told apart by the colour-blind too (Okabe and Ito's set).
+std::array<std::uint8_t, 3> reasonColour(CullReason reason);
+std::array<std::uint8_t, 3> levelColour(int level);
 
 /// Everything one picture depends on.
 struct FrameRequest {

@@ -1,0 +1,37 @@
+#include "trimtab/scene/frame_buffer.h"
+
+#include "trimtab/scene/gl_api.h"
+
+namespace trimtab::scene {
+
+FrameBuffer::~FrameBuffer() {
+  release();
+}
+
+void FrameBuffer::release() {
+  if (id_ == 0) return;
+  glDeleteFramebuffers(1, &id_);
+  glDeleteRenderbuffers(1, &colour_);
+  glDeleteRenderbuffers(1, &depth_);
+  id_ = 0;
+}
+
+void FrameBuffer::resize(int width, int height) {
+  if (id_ != 0 && width == width_ && height == height_) return;
+  release();
+  width_ = width;
+  height_ = height;
+  glGenFramebuffers(1, &id_);
+  glGenRenderbuffers(1, &colour_);
+  glGenRenderbuffers(1, &depth_);
+  glBindRenderbuffer(GL_RENDERBUFFER, colour_);
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
+  glBindRenderbuffer(GL_RENDERBUFFER, depth_);
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, width, height);
+  glBindRenderbuffer(GL_RENDERBUFFER, 0);
+  glBindFramebuffer(GL_FRAMEBUFFER, id_);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
+}
+
+}  // namespace trimtab::scene

@@ -1,0 +1,25 @@
+#pragma once
+
+namespace trimtab::scene {
+
+/// RGBA8 with 32-bit float depth, which reversed depth needs and windows do not have.
+class FrameBuffer {
+ public:
+  FrameBuffer() = default;
+  ~FrameBuffer();
+  FrameBuffer(const FrameBuffer&) = delete;
+  FrameBuffer& operator=(const FrameBuffer&) = delete;
+
+  /// Makes it that size if it is not.
+  void resize(int width, int height);
+  unsigned id() const { return id_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+ private:
+  void release();
+  unsigned id_ = 0, colour_ = 0, depth_ = 0;
+  int width_ = 0, height_ = 0;
+};
+
+}  // namespace trimtab::scene

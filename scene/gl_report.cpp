@@ -1,0 +1,41 @@
+#include <array>
+
+#include "trimtab/scene/gl_api.h"
+#include "trimtab/scene/gl_report.h"
+
+namespace trimtab::scene {
+
+GlReport reportContext() {
+  GlReport report;
+  const auto text = [](GLenum name) {
+    const auto* bytes = reinterpret_cast<const char*>(glGetString(name));
+    return std::string(bytes ? bytes : "");
+  };
+  report.version = text(GL_VERSION);
+  if (report.version.empty()) {
+    report.missing = "a current OpenGL context";
+    return report;
+  }
+  report.vendor = text(GL_VENDOR);
+  report.renderer = text(GL_RENDERER);
+  for (const char* software : {"llvmpipe", "softpipe", "swrast", "SWR", "Software"})
+    if (report.renderer.find(software) != std::string::npos) report.software = true;
+
+  const auto lacks = [&report](const char* what) {
+    report.missing += (report.missing.empty() ? "" : "; ") + std::string(what);
+  };
+  GLint major = 0, minor = 0, profile = 0;
+  glGetIntegerv(GL_MAJOR_VERSION, &major);
+  glGetIntegerv(GL_MINOR_VERSION, &minor);
+  if (major < 4 || (major == 4 && minor < 5)) lacks("OpenGL 4.5 (clip control, texture buffers, GLSL 4.30)");
+  if (major > 3 || (major == 3 && minor > 1)) {
+    glGetIntegerv(GL_CONTEXT_PROFILE_MASK, &profile);
+    if (!(profile & GL_CONTEXT_COMPATIBILITY_PROFILE_BIT)) lacks("the compatibility profile");
+  }
+  while (glGetError() != GL_NO_ERROR) {
+  }
+  report.usable = report.missing.empty();
+  return report;
+}
+
+}  // namespace trimtab::scene

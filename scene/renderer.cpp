@@ -1,0 +1,248 @@
+#include "trimtab/scene/renderer.h"
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "trimtab/scene/frame_buffer.h"
+#include "trimtab/scene/gl_api.h"
+#include "trimtab/scene/gl_report.h"
+#include "trimtab/scene/gpu_timer.h"
+#include "trimtab/scene/lines.h"
+#include "trimtab/scene/scene_graph.h"
+#include "trimtab/scene/shaders.h"
+#include "trimtab/scene/tile_cache.h"
+
+namespace trimtab::scene {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+double millisecondsBetween(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double, std::milli>(to - from).count();
+}
+
+/// What the level cut depends on.
+struct CutKey {
+  Vec3 eye;
+  double maxErrorPx = 0, lodScale = 0, pixelsPerRadian = 0;
+  friend bool operator==(const CutKey&, const CutKey&) = default;
+};
+
+std::uint32_t rgba(std::array<std::uint8_t, 3> c, std::uint8_t alpha) {
+  return c[0] | static_cast<std::uint32_t>(c[1]) << 8 | static_cast<std::uint32_t>(c[2]) << 16 |
+         static_cast<std::uint32_t>(alpha) << 24;
+}
+
+}  // namespace
+
+struct Renderer::Impl {
+  GlReport report;
+  std::shared_ptr<const terrain::Database> database;
+  std::optional<CutKey> cutKey;
+  LevelCut cut;
+  VisibleSet visible;
+  FrameResult counters;
+
+  // The frame in progress.
+  const FrameRequest* request = nullptr;
+  EyePose eye, cullEye;
+  FrameCost cost;
+  Clock::time_point frameStart, cullDone, drawStart;
+  std::vector<TileDraw> drawn;
+  std::vector<std::uint32_t> tints;
+  std::vector<LineVertex> lines;
+
+  /// Everything that lives in the context.
+  struct Gl {
+    explicit Gl(ScenePasses passes) : graph(std::move(passes)) {}
+    FrameBuffer frame;
+    TileCache tiles;
+    LineBuffer lineBuffer;
+    GpuTimer timer;
+    SceneGraph graph;
+  };
+  std::unique_ptr<Gl> gl;
+
+  ScenePasses passes() {
+    return {[this] { cullDone = Clock::now(); }, [this] { drawTerrain(); }, [this] { drawWire(); },
+            [this] { gl->lineBuffer.draw(lines); }};
+  }
+
+  void select();
+  void prepareTiles();
+  void drawTerrain();
+  void drawWire();
+  void bindTileTextures(bool on);
+  FrameResult draw(const FrameRequest& r, unsigned fbo);
+};
+
+void Renderer::Impl::select() {
+  const TerrainIndex& index = database->index();
+  const FrameRequest& r = *request;
+  const ViewShape& v = r.view;
+  const CutKey key{cullEye.position, r.lod.screenSpaceError.value(),
+                   r.decision.lodScale * r.lod.scale.value(),
+                   std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom))};
+  if (cutKey != key) {
+    selectLevels(index, key.eye, key.maxErrorPx, key.lodScale, key.pixelsPerRadian, cut);
+    cutKey = key;
+    ++counters.cutsSelected;
+  }
+  selectVisible(index, cut, cullEye, v, r.method != CullingCase::none, visible);
+}
+
+void Renderer::Impl::prepareTiles() {
+  counters.tilesBuilt += gl->tiles.prepare(request->overlays.colourByReason ? cut.tiles : visible.tiles);
+}
+
+void Renderer::Impl::bindTileTextures(bool on) {
+  glActiveTexture(GL_TEXTURE0 + kSlotUnit);
+  glBindTexture(GL_TEXTURE_BUFFER, on ? gl->tiles.slotTexture() : 0);
+  glActiveTexture(GL_TEXTURE0 + kTintUnit);
+  glBindTexture(GL_TEXTURE_BUFFER, on ? gl->tiles.tintTexture() : 0);
+  glActiveTexture(GL_TEXTURE0);
+}
+
+void Renderer::Impl::drawTerrain() {
+  const Overlays& overlays = request->overlays;
+  drawn = overlays.colourByReason ? cut.tiles : visible.tiles;
+  if (overlays.colourByReason || overlays.colourByLevel) {
+    tints.clear();
+    for (const TileDraw& tile : drawn)
+      tints.push_back(overlays.colourByReason ? rgba(reasonColour(visible.reason[tile.node]), 150)
+                                              : rgba(levelColour(database->index().level[tile.node]), 150));
+    gl->tiles.setTints(drawn, tints);
+  }
+  drawStart = Clock::now();
+  bindTileTextures(true);
+  gl->tiles.draw(drawn);
+  bindTileTextures(false);
+}
+
+void Renderer::Impl::drawWire() {
+  bindTileTextures(true);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+  gl->tiles.draw(drawn);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  bindTileTextures(false);
+}
+
+FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
+  const auto start = Clock::now();
+  request = &r;
+  cost = {kNone, 0, kNone, 0, 0, kNone, 0};
+  SceneView view;
+  view.shape = r.view;
+  view.sky = !r.overlays.showHoles;
+  view.wireframe = r.overlays.wireframe;
+  view.tinted = r.overlays.colourByReason || r.overlays.colourByLevel;
+  lines.clear();
+  drawn.clear();
+  if (database) {
+    const LocalFrame& frame = database->index().frame;
+    eye = {frame.fromGeodetic(r.eye), eyeAxes(frame, r.eye, r.attitude)};
+    view.up = frame.ecefToLocal() * eastNorthUp(r.eye.latitude, r.eye.longitude).row[2];
+    cullEye = r.frozenEye.value_or(eye);
+    select();
+    cost.select = millisecondsBetween(start, Clock::now());
+    prepareTiles();
+  } else {
+    eye = {{}, eyeAxes(LocalFrame(r.eye), r.eye, r.attitude)};
+    visible = {};
+  }
+  view.eye = eye;
+  constexpr double kEarthRadius = 6371e3;
+  view.horizonDip = std::acos(std::min(1.0, kEarthRadius / (kEarthRadius + r.eye.height.value())));
+
+  gl->timer.begin();
+  gl->frame.resize(r.view.widthPx, r.view.heightPx);
+  glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
+  for (const GLenum off : {GL_BLEND, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_CULL_FACE, GL_DEPTH_CLAMP,
+                           GL_FRAMEBUFFER_SRGB, GL_MULTISAMPLE})
+    glDisable(off);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  if (database && r.overlays.tileBounds)
+    addBoxes(database->index(), cut.tiles, visible.reason, eye.position, lines);
+  if (r.frozenEye) addFrustum(*r.frozenEye, r.view, eye.position, lines);
+  view.lines = !lines.empty();
+  frameStart = Clock::now();
+  gl->graph.frame(view, gl->frame.id());
+
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, gl->frame.id());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, fbo);
+  glDisable(GL_SCISSOR_TEST);
+  glBlitFramebuffer(0, 0, r.view.widthPx, r.view.heightPx, 0, 0, r.view.widthPx, r.view.heightPx,
+                    GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  // What others who share the context take for granted.
+  glBindFramebuffer(GL_FRAMEBUFFER, fbo);
+  glUseProgram(0);
+  glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+  glDisable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_TRUE);
+  glClearDepth(1);
+  gl->timer.end();
+  // A software rasteriser works on after the calls return; without waiting its cost would show up anywhere.
+  if (report.software) glFinish();
+
+  const auto end = Clock::now();
+  cost.cull = millisecondsBetween(frameStart, cullDone);
+  cost.draw = millisecondsBetween(cullDone, end);
+  cost.gpu = gl->timer.milliseconds();
+  cost.total = millisecondsBetween(start, end);
+  counters.visible = visible;
+  counters.cost = cost;
+  counters.tilesInCut = database ? cut.tiles.size() : 0;
+  return counters;
+}
+
+Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
+Renderer::~Renderer() = default;
+
+GlReport Renderer::initialize() {
+  release();
+  impl_->report = reportContext();
+  if (impl_->report.usable) {
+    impl_->gl = std::make_unique<Impl::Gl>(impl_->passes());
+    impl_->gl->tiles.setDatabase(impl_->database);
+  }
+  return impl_->report;
+}
+
+void Renderer::release() {
+  impl_->gl.reset();
+}
+
+void Renderer::setTerrain(std::shared_ptr<const terrain::Database> database) {
+  impl_->database = std::move(database);
+  impl_->cutKey.reset();
+  impl_->cut.tiles.clear();
+  if (impl_->gl) impl_->gl->tiles.setDatabase(impl_->database);
+}
+
+FrameResult Renderer::draw(const FrameRequest& request, unsigned fbo) {
+  if (!impl_->gl || request.view.widthPx <= 0 || request.view.heightPx <= 0) return {};
+  return impl_->draw(request, fbo);
+}
+
+Renderer::Grey Renderer::readDepthMap() {
+  return {};
+}
+
+std::vector<std::uint8_t> Renderer::readPixels(int width, int height) {
+  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
+  if (!impl_->gl) return pixels;
+  GLint before = 0;
+  glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &before);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, impl_->gl->frame.id());
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(before));
+  return pixels;
+}
+
+}  // namespace trimtab::scene

@@ -1,0 +1,98 @@
+#include "trimtab/scene/shaders.h"
+
+namespace trimtab::scene {
+
+// A vertex's place relative to the eye. The vertex is a multiple of 1/256 m and the tile's offset from eyeHi
+// one of 16 m, so their sum is the same number in every tile that shares the post: borders close to the bit
+// and nothing jitters, however far the origin is. `precise` forbids to sum in another order.
+#define TRIMTAB_RELATIVE_POSITION                                \
+  "uniform isamplerBuffer slots;\n"                              \
+  "uniform ivec3 eyeHi;\n"                                       \
+  "uniform vec3 eyeLo;\n"                                        \
+  "vec3 relativePosition(vec3 inTile, ivec4 slot) {\n"           \
+  "  precise vec3 p = inTile + vec3(slot.xyz - eyeHi) * 16.0;\n" \
+  "  p -= eyeLo;\n"                                              \
+  "  return p;\n"                                                \
+  "}\n"
+
+const char* const kTerrainVertex = R"(#version 430 compatibility
+)" TRIMTAB_RELATIVE_POSITION R"(
+in vec3 vertexPosition;
+in vec3 vertexNormal;
+in vec4 vertexColour;
+uniform vec3 sun;          // unit, towards it
+uniform vec3 haze;         // sRGB
+uniform vec3 up;           // unit, at the eye
+uniform float hazeDistance;
+uniform bool tinted;
+uniform bool wire;
+uniform samplerBuffer tints;
+out vec3 colour;
+void main() {
+  int tile = gl_VertexID / 1089;
+  vec3 p = relativePosition(vertexPosition, texelFetch(slots, tile));
+  float light = 0.32 + 0.10 * vertexNormal.z + 0.62 * max(dot(normalize(vertexNormal), sun), 0.0);
+  vec3 lit = vertexColour.rgb * light;
+  if (tinted) {
+    vec4 tint = texelFetch(tints, tile);
+    lit = mix(lit, tint.rgb * (0.25 + 0.75 * light), tint.a);
+  }
+  colour = mix(haze, lit, exp(-length(p) / hazeDistance));
+  gl_Position = gl_ModelViewProjectionMatrix * vec4(p, 1.0);
+  if (wire) {
+    colour = vec3(0.05, 0.05, 0.08);
+    gl_Position.z *= 1.002;  // nearer, as depth is reversed
+  }
+}
+)";
+
+const char* const kTerrainFragment = R"(#version 430 compatibility
+in vec3 colour;
+out vec4 fragment;
+void main() { fragment = vec4(colour, 1.0); }
+)";
+
+// One triangle over the picture at reversed depth 0, infinitely far: it fills what nothing else did.
+const char* const kSkyVertex = R"(#version 430 compatibility
+uniform vec4 tangents;     // left, right, bottom, top
+out vec3 direction;        // eye axes
+void main() {
+  vec2 corner = vec2((gl_VertexID & 1) * 2, gl_VertexID & 2);
+  direction = vec3(mix(tangents.xz, tangents.yw, corner), -1.0);
+  gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
+}
+)";
+
+const char* const kSkyFragment = R"(#version 430 compatibility
+in vec3 direction;
+uniform vec3 upInEye;
+uniform vec3 haze;
+uniform float dip;         // of the earth's horizon, radians
+out vec4 fragment;
+void main() {
+  float elevation = asin(clamp(dot(normalize(direction), upInEye), -1.0, 1.0)) + dip;
+  vec3 zenith = vec3(0.20, 0.40, 0.72);
+  vec3 ground = haze * 0.94;
+  vec3 sky = mix(haze, zenith, 1.0 - exp(-max(elevation, 0.0) * 3.0));
+  fragment = vec4(mix(ground, sky, smoothstep(-0.003, 0.003, elevation)), 1.0);
+}
+)";
+
+const char* const kLineVertex = R"(#version 430 compatibility
+in vec3 vertexPosition;
+in vec4 vertexColour;
+out vec4 colour;
+void main() {
+  colour = vertexColour;
+  gl_Position = gl_ModelViewProjectionMatrix * vec4(vertexPosition, 1.0);
+  gl_Position.z *= 1.002;
+}
+)";
+
+const char* const kLineFragment = R"(#version 430 compatibility
+in vec4 colour;
+out vec4 fragment;
+void main() { fragment = colour; }
+)";
+
+}  // namespace trimtab::scene

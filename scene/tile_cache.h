@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "trimtab/culling/select.h"
+#include "trimtab/scene/tile_indices.h"
+#include "trimtab/terrain/database.h"
+
+namespace trimtab::scene {
+
+/// Tiles' vertices on the GPU: slots of one growing buffer, filled on first use, the longest unused given up
+/// first. Where a slot's tile lies stands in a texture buffer that shaders read by gl_VertexID, so a frame
+/// uploads nothing per tile.
+///
+/// All calls need the context current.
+class TileCache {
+ public:
+  static constexpr int kVerticesPerTile = terrain::TileMesh::kSide * terrain::TileMesh::kSide;
+  static constexpr std::uint32_t kNoSlot = 0xffffffffu;
+
+  TileCache();
+  ~TileCache();
+  TileCache(const TileCache&) = delete;
+  TileCache& operator=(const TileCache&) = delete;
+
+  /// Forgets all tiles.
+  void setDatabase(std::shared_ptr<const terrain::Database> database);
+  /// Makes sure that the tiles have slots, building those that lack one. Returns how many were built.
+  std::size_t prepare(std::span<const TileDraw> tiles);
+
+  /// One multi-draw of the tiles, in order; those without a slot are skipped. A program that reads attributes
+  /// 0 position, 1 normal, 2 slope, 3 colour is in use.
+  void draw(std::span<const TileDraw> tiles);
+  /// The same with every `2^shift`-th post only (shift 1 to 3): occluders.
+  void drawCoarse(std::span<const TileDraw> tiles, unsigned shift);
+
+  /// RGBA32I per slot: origin in units of 16 m, and the bits of a float: how far the coarse mesh of shift
+  /// kCoarseShift may rise above the tile as drawn, metres.
+  unsigned slotTexture() const { return slotTexture_; }
+  /// RGBA8 per slot, for the engineer's colours: `colours` in the order of `tiles`.
+  void setTints(std::span<const TileDraw> tiles, std::span<const std::uint32_t> colours);
+  unsigned tintTexture() const { return tintTexture_; }
+
+  std::uint32_t slotOf(std::uint32_t node) const { return slotOfNode_[node]; }
+  std::size_t bytes() const;
+
+ private:
+  struct Slot {
+    std::uint32_t node = TerrainIndex::kNone;
+    std::uint64_t lastUse = 0;
+  };
+  struct SlotData {
+    std::int32_t origin[3];
+    float coarseRise;
+  };
+
+  std::uint32_t takeSlot();
+  void grow();
+  void fill(std::uint32_t slot, std::uint32_t node);
+  void multiDraw(std::size_t count);
+
+  std::shared_ptr<const terrain::Database> database_;
+  TileIndices indices_;
+  TileIndices::Range coarse_[4];
+  std::vector<Slot> slots_;
+  std::vector<SlotData> slotData_;
+  std::vector<std::uint32_t> slotOfNode_;
+  std::vector<std::uint32_t> tints_;
+  std::vector<int> counts_, baseVertices_;
+  std::vector<const void*> offsets_;
+  terrain::TileMesh mesh_;
+  std::uint64_t frame_ = 0;
+  std::uint32_t used_ = 0;
+  unsigned vertexBuffer_ = 0, indexBuffer_ = 0, slotBuffer_ = 0, slotTexture_ = 0, tintBuffer_ = 0,
+           tintTexture_ = 0;
+  unsigned vertexArray_ = 0;
+};
+
+}  // namespace trimtab::scene

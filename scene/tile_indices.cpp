@@ -1,0 +1,64 @@
+#include "trimtab/scene/tile_indices.h"
+
+#include "trimtab/frame/terrain_index.h"
+
+namespace trimtab::scene {
+namespace {
+
+constexpr int kCells = TerrainIndex::kTileCells;
+
+std::uint16_t vertex(int column, int row) {
+  return static_cast<std::uint16_t>(row * (kCells + 1) + column);
+}
+
+std::uint16_t foldedVertex(int column, int row, unsigned coarser) {
+  if (row % 2 != 0 && ((column == 0 && (coarser & 1u)) || (column == kCells && (coarser & 2u)))) --row;
+  if (column % 2 != 0 && ((row == 0 && (coarser & 4u)) || (row == kCells && (coarser & 8u)))) --column;
+  return vertex(column, row);
+}
+
+void addTriangle(std::vector<std::uint16_t>& indices, std::uint16_t a, std::uint16_t b, std::uint16_t c) {
+  if (a == b || b == c || c == a) return;
+  indices.insert(indices.end(), {a, b, c});
+}
+
+/// Diagonals alternate, so that each 2 x 2 block of cells is a fan round its odd post: what the terrain's
+/// errors and slopes are measured on.
+void addCell(std::vector<std::uint16_t>& indices, bool southWestToNorthEast, std::uint16_t southWest,
+             std::uint16_t southEast, std::uint16_t northWest, std::uint16_t northEast) {
+  if (southWestToNorthEast) {
+    addTriangle(indices, southWest, southEast, northEast);
+    addTriangle(indices, southWest, northEast, northWest);
+  } else {
+    addTriangle(indices, southWest, southEast, northWest);
+    addTriangle(indices, southEast, northEast, northWest);
+  }
+}
+
+}  // namespace
+
+TileIndices makeTileIndices() {
+  TileIndices result;
+  for (unsigned coarser = 0; coarser < 16; ++coarser) {
+    const auto first = static_cast<std::uint32_t>(result.indices.size());
+    const auto at = [coarser](int column, int row) { return foldedVertex(column, row, coarser); };
+    for (int y = 0; y < kCells; ++y)
+      for (int x = 0; x < kCells; ++x) {
+        addCell(result.indices, (x + y) % 2 == 0, at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1));
+      }
+    result.variant[coarser] = {first, static_cast<std::uint32_t>(result.indices.size()) - first};
+  }
+  return result;
+}
+
+std::vector<std::uint16_t> makeCoarseIndices(int step) {
+  std::vector<std::uint16_t> indices;
+  for (int y = 0; y < kCells; y += step)
+    for (int x = 0; x < kCells; x += step) {
+      addCell(indices, (x + y) / step % 2 == 0, vertex(x, y), vertex(x + step, y), vertex(x, y + step),
+              vertex(x + step, y + step));
+    }
+  return indices;
+}
+
+}  // namespace trimtab::scene
