@@ -33,6 +33,18 @@ Result<Done> checkWatch(const Options& options) {
   return Finding{Severity::error, "--watch", {}, "a preset file", options.preset + ", which is not a file"};
 }
 
+/// Told before the first frame, not after the last one.
+Result<Done> checkScreenshot(const Options& options) {
+  std::error_code error;
+  const std::filesystem::path folder = options.screenshot.parent_path();
+  if (folder.empty() || std::filesystem::is_directory(folder, error)) return Done{};
+  return Finding{Severity::error,
+                 options.screenshot.string(),
+                 {},
+                 "a folder to write to",
+                 folder.string() + ", which is none"};
+}
+
 Result<scene::GlReport> initialized(scene::Renderer& renderer) {
   scene::GlReport gl = renderer.initialize();
   if (gl.usable) return gl;
@@ -50,6 +62,7 @@ int runWith(const Options& options) {
   usable &= accepted(database);
   usable &= accepted(feed);
   usable &= accepted(checkWatch(options));
+  usable &= accepted(checkScreenshot(options));
   std::optional<TraceFile> trace;
   if (usable && !options.trace.empty()) {
     Result<TraceFile> opened = TraceFile::open(options.trace);
