@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# Measures every performance and accuracy row of the project and sets it beside a peer.
+# Options: --quick (fewer repeats), --only GROUP, --json (one document {"rows": [...]} on standard output)
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+usage() { echo "usage: tests/bench.sh [--quick] [--only GROUP] [--json]" >&2; exit 2; }
+only= json= options=()
+while [ $# -gt 0 ]; do
+  case $1 in
+    --quick) options+=(--quick); shift ;;
+    --json) json=1; options+=(--json); shift ;;
+    --only) [ $# -ge 2 ] || usage; only=$2; shift 2 ;;
+    *) usage ;;
+  esac
+done
+
+{
+  bash resources/install-packages.sh
+  cmake --preset release
+  cmake --build build --target $(sed -n 's/^./bench_&/p' build/bench.list)
+} >build.bench.log 2>&1 || { tail -40 build.bench.log >&2; echo "building failed" >&2; exit 1; }
+rm -f build.bench.log
+
+if [ -n "$only" ] && ! grep -qx "$only" build/bench.list; then
+  echo "no group $only; there are: $(paste -sd' ' build/bench.list)" >&2
+  exit 2
+fi
+
+rows=() status=0
+ended() { echo "bench_$1 ended with status $2" >&2; status=1; }
+while read -r group; do
+  [ -n "$group" ] || continue
+  [ -z "$only" ] || [ "$only" = "$group" ] || continue
+  echo "measuring $group" >&2
+  if [ -z "$json" ]; then
+    timeout 1200 build/bin/bench_"$group" "${options[@]}" </dev/null || ended "$group" $?
+    continue
+  fi
+  # The programs print one row a line, between the document's first and last line.
+  output=$(timeout 1200 build/bin/bench_"$group" "${options[@]}" </dev/null) || ended "$group" $?
+  while read -r row; do
+    [[ $row == '{"id"'* ]] && rows+=("${row%,}")
+  done <<<"$output"
+done <build/bench.list
+
+if [ -n "$json" ]; then
+  printf '{"rows": ['
+  separator=
+  for row in "${rows[@]+"${rows[@]}"}"; do printf '%s\n%s' "$separator" "$row"; separator=,; done
+  printf '\n]}\n'
+fi
+exit $status

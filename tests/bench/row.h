@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Rows of measured facts: what every benchmark program prints, as text or as JSON.
+namespace trimtab::bench {
+
+/// A measured number beside a peer's. `ratio` is value / peerValue unless it is given.
+struct Row {
+  std::string id;    ///< "group.what"
+  std::string what;  ///< a sentence
+  double value = 0;
+  std::string unit;
+  std::string peer = {};  ///< what it is held against; empty: nothing but the goal
+  std::optional<double> peerValue = {};
+  std::string peerFrom = {};  ///< "run": measured here and now; "quoted": from a publication
+  std::optional<double> ratio = {};
+  std::string goal = {};  ///< filled in by the functions below
+  bool holds = true;
+};
+
+// A row with its goal, held or not. NaN holds no goal.
+
+Row ratioAtLeast(double goal, Row row);
+Row ratioAtMost(double goal, Row row);
+Row valueAtLeast(double goal, Row row);
+Row valueAtMost(double goal, Row row);
+
+/// Options --quick and --json, and the rows so far. In text mode rows are printed as they come.
+class Report {
+ public:
+  /// Ends the program with status 2 on any other option.
+  Report(int argc, char** argv);
+  bool quick() const { return quick_; }
+  void add(Row row);
+  /// Prints what is left; the program's exit status, 0 whether goals hold or not.
+  int finish() const;
+
+ private:
+  bool quick_ = false, json_ = false;
+  std::vector<Row> rows_;
+};
+
+/// Seconds that `work` takes: the least of `repeats` runs, after one that is not counted.
+template <class Work>
+double leastSeconds(int repeats, const Work& work);
+
+/// Keeps the compiler from leaving out what makes `value`.
+template <class T>
+inline void keep(const T& value) {
+  asm volatile("" : : "r,m"(value) : "memory");
+}
+
+double monotonicSeconds();
+
+template <class Work>
+double leastSeconds(int repeats, const Work& work) {
+  work();
+  double least = 0;
+  for (int i = 0; i < repeats; ++i) {
+    const double start = monotonicSeconds();
+    work();
+    const double took = monotonicSeconds() - start;
+    if (i == 0 || took < least) least = took;
+  }
+  return least;
+}
+
+}  // namespace trimtab::bench

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trimtab/preset/parameters.h"
+
+/// The `fuzzylite` program as an independent oracle of the fuzzy arithmetic, and as a peer in speed.
+namespace trimtab::test {
+
+bool fuzzylitePresent();
+
+/// Every pair of an altitude and a pitch.
+struct Grid {
+  std::vector<double> altitude, pitch;
+  std::size_t size() const { return altitude.size() * pitch.size(); }
+};
+/// Evenly spaced, and the curves' own points.
+Grid gridFor(const AltitudeParameters& altitude, const PitchParameters& pitch, int altitudes, int pitches);
+
+/// Altitude membership, pitch membership, sum, twice the minimum, Eq. (2).
+using FuzzyResult = std::array<double, 5>;
+/// By the oracle, altitude by altitude; fewer than the grid has where the program fails, and then `error` is
+/// set.
+std::vector<FuzzyResult> byFuzzylite(const AltitudeParameters& altitude, const PitchParameters& pitch,
+                                     const RuleParameters& rules, const Grid& grid, std::string& error);
+/// By us, in the same order.
+FuzzyResult byUs(const AltitudeParameters& altitude, const PitchParameters& pitch,
+                 const RuleParameters& rules, double altitudeFt, double pitchDeg);
+
+/// Nanoseconds that fuzzylite says it takes to evaluate the four rules of Eq. (2) once: its own benchmark
+/// over the grid, the least of `runs`.
+std::optional<double> fuzzyliteNanoseconds(const Grid& grid, int runs);
+
+}  // namespace trimtab::test
