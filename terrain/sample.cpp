@@ -1,0 +1,177 @@
+#include <gdal_priv.h>
+#include <ogr_spatialref.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "trimtab/terrain/georeference.h"
+#include "trimtab/terrain/import.h"
+#include "trimtab/terrain/landscape.h"
+#include "trimtab/terrain/post_geometry.h"
+
+namespace trimtab::terrain {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kLatitude = 36.63, kLongitude = 128.35;
+constexpr double kAirfieldM = 108;  ///< height of the flat in the middle
+constexpr double kMostSide = 12000;
+
+double smoothStep(double low, double high, double x) {
+  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+double fromMiddle(const Landscape& land, std::uint32_t row, std::uint32_t column) {
+  const double half = (land.side - 1) / 2.0;
+  return std::hypot(row - half, column - half) * land.cellM;
+}
+
+/// Fits the heights of the process to the country: the valley by the middle at 102 m, the highest peak at
+/// 1,500 m (less on a small square). The map is monotone: water still runs to the sea.
+void fitHeights(Landscape& land, double sizeM) {
+  const float highest = *std::max_element(land.heights.begin(), land.heights.end());
+  float valley = highest;
+  for (std::uint32_t r = 0; r < land.side; ++r)
+    for (std::uint32_t c = 0; c < land.side; ++c) {
+      const float h = land.heights[std::size_t{r} * land.side + c];
+      if (fromMiddle(land, r, c) < 0.08 * sizeM && h > 0) valley = std::min(valley, h);
+    }
+  const double peak = 1500 * std::clamp(std::sqrt(sizeM / 1e5), 0.25, 1.5), floor = 102;
+  const double bend = std::clamp(std::log(floor / peak) / std::log(valley / highest), 0.4, 3.0);
+  for (float& h : land.heights) h = static_cast<float>(peak * std::pow(h / highest, bend));
+}
+
+void flattenAirfield(Landscape& land, double sizeM) {
+  const double flat = std::min(2800.0, 0.06 * sizeM), hills = std::min(7500.0, 0.16 * sizeM);
+  for (std::uint32_t r = 0; r < land.side; ++r)
+    for (std::uint32_t c = 0; c < land.side; ++c) {
+      float& h = land.heights[std::size_t{r} * land.side + c];
+      const double t = smoothStep(flat, hills, fromMiddle(land, r, c));
+      if (h > 0) h = static_cast<float>(kAirfieldM + (h - kAirfieldM) * t);
+    }
+}
+
+/// Rivers lie in floors as wide as the water they carry, not in notches one post wide.
+void widenValleys(Landscape& land, double sizeM) {
+  const std::vector<float> before = land.heights;
+  const auto side = static_cast<std::int32_t>(land.side);
+  for (std::int32_t r = 0; r < side; ++r)
+    for (std::int32_t c = 0; c < side; ++c) {
+      const std::size_t i = static_cast<std::size_t>(r) * land.side + static_cast<std::size_t>(c);
+      const double km2 = land.drainedM2[i] / 1e6;
+      if (km2 < 6 || before[i] <= 0 ||
+          fromMiddle(land, static_cast<std::uint32_t>(r), static_cast<std::uint32_t>(c)) <
+              std::min(2800.0, 0.06 * sizeM))
+        continue;
+      const double wide = std::min(900.0, 70 * std::pow(km2 / 10, 0.42)), reach = wide * 1.6;
+      const double bed = before[i] - std::min(3.0, 0.6 * std::pow(km2 / 10, 0.3));
+      const auto span = static_cast<std::int32_t>(reach / land.cellM);
+      for (std::int32_t y = std::max(0, r - span); y <= std::min(side - 1, r + span); ++y)
+        for (std::int32_t x = std::max(0, c - span); x <= std::min(side - 1, c + span); ++x) {
+          const double away = std::hypot(y - r, x - c) * land.cellM;
+          if (away > reach) continue;
+          const double t = away / wide;
+          const double floor = bed + (t < 1 ? 3.0 * t + 5 * t * t : 8 + 0.3 * (away - wide));
+          float& h = land.heights[static_cast<std::size_t>(y) * land.side + static_cast<std::size_t>(x)];
+          if (h > floor && h > 0) h = static_cast<float>(std::max(floor, 0.3));
+        }
+    }
+}
+
+/// Creep rounds what the steps of the process left.
+void soften(Landscape& land) {
+  const std::vector<float> before = land.heights;
+  const std::size_t side = land.side;
+  for (std::size_t r = 1; r + 1 < side; ++r)
+    for (std::size_t c = 1; c + 1 < side; ++c) {
+      const std::size_t i = r * side + c;
+      if (before[i] <= 0) continue;
+      const float around = (before[i - 1] + before[i + 1] + before[i - side] + before[i + side]) / 4;
+      const float corners =
+          (before[i - side - 1] + before[i - side + 1] + before[i + side - 1] + before[i + side + 1]) / 4;
+      land.heights[i] = 0.4f * before[i] + 0.4f * around + 0.2f * corners;
+    }
+}
+
+Result<Done> writeTiff(const fs::path& tif, const PostGrid& posts, std::vector<float>& heights) {
+  useGdal();
+  GdalErrors errors;
+  const fs::path unfinished =
+      tif.parent_path() / ("." + tif.filename().string() + ".part-" + std::to_string(::getpid()));
+  const auto failed = [&](const std::string& otherwise) {
+    std::error_code ignored;
+    fs::remove(unfinished, ignored);
+    return about(Severity::error, tif, "", "a GeoTIFF to be written", errors.last(otherwise));
+  };
+  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+  const int columns = static_cast<int>(posts.columns), rows = static_cast<int>(posts.rows);
+  {
+    std::array<const char*, 2> options{"BIGTIFF=IF_SAFER", nullptr};
+    Dataset data = owned(driver->Create(unfinished.c_str(), columns, rows, 1, GDT_Float32,
+                                        const_cast<char**>(options.data())));
+    if (!data) return failed("GDAL gives no reason");
+    std::array<double, 6> corner{posts.west - posts.stepLongitude / 2,
+                                 posts.stepLongitude,
+                                 0,
+                                 posts.latitude(posts.rows - 0.5),
+                                 0,
+                                 -posts.stepLatitude};
+    OGRSpatialReference crs;
+    crs.importFromEPSG(4326);
+    data->SetGeoTransform(corner.data());
+    data->SetSpatialRef(&crs);
+    data->SetMetadataItem(GDALMD_AREA_OR_POINT, GDALMD_AOP_POINT);
+    GDALRasterBand* band = data->GetRasterBand(1);
+    band->SetUnitType("m");
+    float* last = heights.data() + static_cast<std::ptrdiff_t>(rows - 1) * columns;
+    if (band->RasterIO(GF_Write, 0, 0, columns, rows, last, columns, rows, GDT_Float32, sizeof(float),
+                       -static_cast<GSpacing>(sizeof(float)) * columns, nullptr) != CE_None)
+      return failed("GDAL gives no reason");
+    data->FlushCache();
+    if (CPLGetLastErrorType() == CE_Failure) return failed(CPLGetLastErrorMsg());
+  }
+  std::error_code error;
+  fs::rename(unfinished, tif, error);
+  if (error) return failed(error.message());
+  return Done{};
+}
+
+}  // namespace
+
+Result<Done> writeSample(const fs::path& tif, const SampleOptions& options) {
+  const double sizeM = options.sizeKm * 1000;
+  const double side = std::round(sizeM / options.postM) + 1;
+  if (!(options.sizeKm >= 5 && options.sizeKm <= 1000))
+    return Finding{Severity::error, tif.string(), "size", "5 to 1000 km",
+                   std::to_string(options.sizeKm) + " km"};
+  if (!(options.postM > 0) || !(side >= 33 && side <= kMostSide))
+    return Finding{Severity::error, tif.string(), "posts", "33 to 12000 a side", std::to_string(side)};
+
+  const LandscapeShape shape{static_cast<std::uint32_t>(side), options.postM, options.seed};
+  Landscape land = erodedLandscape(
+      shape, [&](double f) { return !options.progress || options.progress(0.9 * f, "shaping the sample"); });
+  if (land.heights.empty()) return cancelled(tif.string());
+  fitHeights(land, sizeM);
+  flattenAirfield(land, sizeM);
+  widenValleys(land, sizeM);
+  soften(land);
+  // Steps of 1/64 m: exact in the file, and what a person reads is short.
+  for (float& h : land.heights) h = std::round(h * 64) / 64;
+  if (options.progress && !options.progress(0.95, "writing the sample")) return cancelled(tif.string());
+
+  const PostGeometry middle({kLongitude, kLatitude, 1, 1, 2, 2});
+  PostGrid posts;
+  posts.columns = posts.rows = shape.side;
+  posts.stepLongitude = options.postM / middle.columnM(0);
+  posts.stepLatitude = options.postM / middle.rowM(0);
+  posts.west = kLongitude - posts.stepLongitude * (shape.side - 1) / 2;
+  posts.south = kLatitude - posts.stepLatitude * (shape.side - 1) / 2;
+  return writeTiff(tif, posts, land.heights);
+}
+
+}  // namespace trimtab::terrain
