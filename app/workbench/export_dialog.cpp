@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "export_dialog.h"
+
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QFormLayout>
+#include <QLineEdit>
+#include <QPlainTextEdit>
+#include <QSettings>
+
+namespace trimtab::workbench {
+namespace {
+
+const QString kAuthorKey = QStringLiteral("export/author");
+
+}  // namespace
+
+ExportDialog::ExportDialog(QWidget* parent)
+    : QDialog(parent),
+      format_(new QComboBox(this)),
+      author_(new QLineEdit(this)),
+      comment_(new QPlainTextEdit(this)) {
+  setWindowTitle(tr("Export preset"));
+  format_->addItem(tr("JSON"), int(ExportFormat::json));
+  format_->addItem(tr("FlightGear property list (XML)"), int(ExportFormat::xml));
+  format_->addItem(tr("Flat INI"), int(ExportFormat::ini));
+  author_->setText(QSettings().value(kAuthorKey, qEnvironmentVariable("USER")).toString());
+  comment_->setPlaceholderText(tr("What this preset is for"));
+  comment_->setMinimumWidth(380);
+  comment_->setTabChangesFocus(true);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
+  connect(buttons, &QDialogButtonBox::accepted, this, [this] {
+    QSettings().setValue(kAuthorKey, author());
+    accept();
+  });
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  auto* form = new QFormLayout(this);
+  form->addRow(tr("&Format"), format_);
+  form->addRow(tr("&Author"), author_);
+  form->addRow(tr("Co&mment"), comment_);
+  form->addRow(buttons);
+}
+
+ExportFormat ExportDialog::format() const {
+  return static_cast<ExportFormat>(format_->currentData().toInt());
+}
+QString ExportDialog::author() const {
+  return author_->text().trimmed();
+}
+QString ExportDialog::comment() const {
+  return comment_->toPlainText().trimmed();
+}
+
+QString ExportDialog::suffix() const {
+  switch (format()) {
+    case ExportFormat::xml:
+      return QStringLiteral("xml");
+    case ExportFormat::ini:
+      return QStringLiteral("ini");
+    case ExportFormat::json:
+      break;
+  }
+  return QStringLiteral("json");
+}
+
+QString ExportDialog::fileFilter() const {
+  return QStringLiteral("%1 (*.%2)").arg(format_->currentText(), suffix());
+}
+
+}  // namespace trimtab::workbench

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QTimer>
+#include <QWidget>
+
+#include "feed.h"
+
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QLabel;
+class QPushButton;
+class QSlider;
+
+namespace trimtab::workbench {
+
+/// Plays a flight: here, or over real UDP into this program's own port.
+class FlightDock : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit FlightDock(Feed& feed, QWidget* parent = nullptr);
+
+  Findings open(const QString& file);
+  void play();
+  void pause();
+  void stop();  ///< pauses and returns to the start
+  bool playing() const;
+
+ signals:
+  void openRequested();
+  void refused(const QString& what, const trimtab::Findings& findings);
+
+ protected:
+  void showEvent(QShowEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
+
+ private:
+  enum Via { here, udpCigi, udpNativeFdm };
+  bool overUdp() const;
+  void showState();
+  void showPosition();
+  double position() const;
+
+  Feed& feed_;
+  QLabel *name_, *time_, *where_;
+  QPushButton *play_, *stop_;
+  QSlider* scrub_;
+  QDoubleSpinBox* speed_;
+  QCheckBox* loop_;
+  QComboBox* via_;
+  bool udpPaused_ = false;
+  QTimer refresh_;  ///< runs only while a flight plays and this can be seen
+};
+
+}  // namespace trimtab::workbench

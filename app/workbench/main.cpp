@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <signal.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <QApplication>
+#include <QIcon>
+#include <QSocketNotifier>
+#include <QSurfaceFormat>
+#include <clocale>
+#include <cstdio>
+#include <cstdlib>
+
+#include "gl_setup.h"
+#include "main_window.h"
+#include "options.h"
+
+namespace {
+
+int signalPipe[2] = {-1, -1};
+
+void onSignal(int) {
+  const char byte = 1;
+  if (::write(signalPipe[1], &byte, 1) < 0) _exit(130);
+}
+
+/// SIGINT and SIGTERM end the event loop; what an async handler may do is one write.
+void endOnSignals(QApplication& app, trimtab::workbench::MainWindow& window) {
+  if (::socketpair(AF_UNIX, SOCK_STREAM, 0, signalPipe) != 0) return;
+  auto* notifier = new QSocketNotifier(signalPipe[0], QSocketNotifier::Read, &app);
+  QObject::connect(notifier, &QSocketNotifier::activated, &app, [&app, &window] {
+    window.keepUnsavedEdits();
+    app.exit(0);
+  });
+  struct sigaction action = {};
+  action.sa_handler = onSignal;
+  action.sa_flags = SA_RESTART;
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+}
+
+bool displayNamed() {
+  const char* platform = std::getenv("QT_QPA_PLATFORM");
+  return platform != nullptr || std::getenv("DISPLAY") != nullptr ||
+         std::getenv("WAYLAND_DISPLAY") != nullptr;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace trimtab::workbench;
+  QStringList arguments;
+  for (int i = 0; i < argc; ++i) arguments << QString::fromLocal8Bit(argv[i]);
+  const Parsed parsed = parseOptions(arguments);
+  if (parsed.exitCode) return *parsed.exitCode;
+  if (!displayNamed()) {
+    std::fputs(
+        "trimtab: no display: neither DISPLAY nor WAYLAND_DISPLAY is set (without one, run: xvfb-run trimtab "
+        "...)\n",
+        stderr);
+    return 1;
+  }
+
+  prepareGl();
+  QApplication app(argc, argv);
+  // Numbers in files and reasons are written with a point, whatever the desktop speaks; widgets go by
+  // QLocale.
+  std::setlocale(LC_NUMERIC, "C");
+  nameApplication();
+  if (const QString missing = checkGl(); !missing.isEmpty()) {
+    std::fprintf(stderr, "trimtab: this display has no OpenGL that can draw the terrain: %s\n",
+                 qPrintable(missing));
+    return 1;
+  }
+  MainWindow window;
+  endOnSignals(app, window);
+  window.start(parsed.options);
+  return app.exec();
+}

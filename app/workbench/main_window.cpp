@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "main_window.h"
+
+#include <QCloseEvent>
+#include <QDockWidget>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QScreen>
+#include <QSettings>
+#include <QStatusBar>
+#include <QUndoView>
+#include <QVBoxLayout>
+
+#include "flight_dock.h"
+#include "host_dock.h"
+#include "notice_bar.h"
+#include "trimtab/views/bands_editor.h"
+#include "trimtab/views/decision_panel.h"
+#include "trimtab/views/membership_editor.h"
+#include "trimtab/views/parameter_table.h"
+#include "trimtab/views/plots_panel.h"
+
+namespace trimtab::workbench {
+namespace {
+
+/// Raised when docks come or go, so that an old layout is not forced on new docks.
+constexpr int kLayoutVersion = 1;
+
+}  // namespace
+
+MainWindow::MainWindow() {
+  setObjectName(QStringLiteral("trimtab"));
+  setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks | GroupedDragging);
+  setAcceptDrops(true);
+  setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
+
+  auto* middle = new QWidget(this);
+  auto* column = new QVBoxLayout(middle);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  notices_ = new NoticeBar(middle);
+  viewport_ = new Viewport(middle);
+  column->addWidget(notices_);
+  column->addWidget(viewport_, 1);
+  setCentralWidget(middle);
+
+  makeDocks();
+  makeStatusBar();
+  makeMenus();
+  connectParts();
+  arrangeDocks();
+  resize(1600, 1000);
+  defaultLayout_ = saveState(kLayoutVersion);
+  const QSettings settings;
+  restoreGeometry(settings.value(QStringLiteral("window/geometry")).toByteArray());
+  restoreState(settings.value(QStringLiteral("window/state")).toByteArray(), kLayoutVersion);
+  updateTitle();
+}
+
+MainWindow::~MainWindow() {
+  // Docks and viewport use the draft and the feed, which are members: they go first, and report to nobody.
+  disconnect(&feed_, nullptr, this, nullptr);
+  disconnect(&terrainJob_, nullptr, this, nullptr);
+  disconnect(viewport_, nullptr, this, nullptr);
+  viewport_->setSource({});
+  stopTrace();
+  qDeleteAll(findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly));
+  delete takeCentralWidget();
+}
+
+QDockWidget* MainWindow::addDock(const QString& name, const QString& title, QWidget* content,
+                                 Qt::DockWidgetArea area) {
+  auto* dock = new QDockWidget(title, this);
+  dock->setObjectName(name);
+  dock->setWidget(content);
+  addDockWidget(area, dock);
+  return dock;
+}
+
+QDockWidget* MainWindow::dock(const QString& name) const {
+  return findChild<QDockWidget*>(name);
+}
+
+void MainWindow::makeDocks() {
+  memberships_ = new views::MembershipEditor(draft_);
+  bands_ = new views::BandsEditor(draft_);
+  decision_ = new views::DecisionPanel(draft_);
+  plots_ = new views::PlotsPanel(draft_);
+  parameters_ = new views::ParameterTable(draft_);
+  hostDock_ = new HostDock(feed_, draft_);
+  flightDock_ = new FlightDock(feed_);
+  messages_ = new MessagePanel;
+  auto* history = new QUndoView(&draft_.undoStack());
+  history->setEmptyLabel(tr("as opened"));
+  history->setAccessibleName(tr("History of edits"));
+
+  addDock(QStringLiteral("memberships"), tr("Memberships"), memberships_, Qt::RightDockWidgetArea);
+  addDock(QStringLiteral("depth_map"), tr("Depth map"), bands_, Qt::RightDockWidgetArea);
+  addDock(QStringLiteral("preset"), tr("Preset"), parameters_, Qt::RightDockWidgetArea);
+  addDock(QStringLiteral("history"), tr("History"), history, Qt::RightDockWidgetArea);
+  addDock(QStringLiteral("decision"), tr("Decision"), decision_, Qt::RightDockWidgetArea);
+  addDock(QStringLiteral("host"), tr("Host"), hostDock_, Qt::RightDockWidgetArea);
+  addDock(QStringLiteral("flight"), tr("Flight"), flightDock_, Qt::RightDockWidgetArea);
+  addDock(QStringLiteral("plots"), tr("Plots"), plots_, Qt::BottomDockWidgetArea);
+  addDock(QStringLiteral("messages"), tr("Messages"), messages_, Qt::BottomDockWidgetArea);
+  connect(dock(QStringLiteral("depth_map")), &QDockWidget::visibilityChanged, viewport_,
+          &Viewport::setDepthMapWanted);
+}
+
+/// Edits on the right, what they do below them, history of a run at the foot.
+void MainWindow::arrangeDocks() {
+  const auto at = [this](const char* name) { return dock(QLatin1String(name)); };
+  for (QDockWidget* each : findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
+    each->setFloating(false);
+    each->show();
+  }
+  setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+  addDockWidget(Qt::RightDockWidgetArea, at("memberships"));
+  splitDockWidget(at("memberships"), at("decision"), Qt::Vertical);
+  tabifyDockWidget(at("memberships"), at("depth_map"));
+  tabifyDockWidget(at("depth_map"), at("preset"));
+  tabifyDockWidget(at("preset"), at("history"));
+  tabifyDockWidget(at("decision"), at("host"));
+  tabifyDockWidget(at("host"), at("flight"));
+  addDockWidget(Qt::BottomDockWidgetArea, at("plots"));
+  tabifyDockWidget(at("plots"), at("messages"));
+  at("memberships")->raise();
+  at("decision")->raise();
+  at("plots")->raise();
+  resizeDocks({at("memberships")}, {500}, Qt::Horizontal);
+  resizeDocks({at("memberships"), at("decision")}, {560, 400}, Qt::Vertical);
+  resizeDocks({at("plots")}, {290}, Qt::Vertical);
+}
+
+void MainWindow::resetLayout() {
+  restoreState(defaultLayout_, kLayoutVersion);
+  arrangeDocks();
+}
+
+void MainWindow::makeStatusBar() {
+  sourceLabel_ = new QLabel(this);
+  jobLabel_ = new QLabel(this);
+  jobBar_ = new QProgressBar(this);
+  jobBar_->setMaximumWidth(220);
+  jobBar_->setRange(0, 100);
+  jobCancel_ = new QPushButton(tr("Cancel"), this);
+  connect(jobCancel_, &QPushButton::clicked, &terrainJob_, &TerrainJob::cancel);
+  statusBar()->addPermanentWidget(jobLabel_);
+  statusBar()->addPermanentWidget(jobBar_);
+  statusBar()->addPermanentWidget(jobCancel_);
+  statusBar()->addPermanentWidget(sourceLabel_);
+  for (QWidget* part :
+       {static_cast<QWidget*>(jobLabel_), static_cast<QWidget*>(jobBar_), static_cast<QWidget*>(jobCancel_)})
+    part->hide();
+}
+
+void MainWindow::connectParts() {
+  viewport_->setSource([this](int widthPx, int heightPx) { return picture(widthPx, heightPx); });
+  connect(viewport_, &Viewport::painted, this, &MainWindow::onPainted);
+  connect(viewport_, &Viewport::cameraMoved, this, [this] { feed_.look(viewport_->camera()); });
+  connect(viewport_, &Viewport::depthMapRead, this, [this](const QImage& grey) {
+    if (grey.isNull()) return bands_->clearDepthMap();
+    bands_->showDepthMap(grey, tr("%1 × %2 px").arg(grey.width()).arg(grey.height()));
+  });
+  connect(viewport_, &Viewport::glFailed, this, [this](const QString& why) {
+    messages_->add(tr("The terrain cannot be drawn"),
+                   {{Severity::error, "OpenGL", "", "what the renderer needs", why.toStdString()}});
+  });
+
+  connect(&feed_, &Feed::statesArrived, viewport_, &Viewport::invalidate);
+  connect(&feed_, &Feed::decisionChanged, this, &MainWindow::onDecision);
+  connect(&feed_, &Feed::sourceChanged, this, &MainWindow::onSource);
+  connect(&feed_, &Feed::linkChanged, this, &MainWindow::onLink);
+  connect(&feed_, &Feed::flightChanged, this, [this] {
+    onSource();
+    viewport_->invalidate();
+  });
+  connect(&feed_, &Feed::jumped, this, [this] {
+    messages_->note(
+        tr("The host moved the aircraft farther than it can fly (jump %L1)").arg(feed_.session().jumps()));
+  });
+
+  connect(&draft_, &views::Draft::activeChanged, this, [this] {
+    feed_.session().setParameters(draft_.active());
+    onDecision();
+    viewport_->invalidate();
+  });
+  connect(&draft_, &views::Draft::dirtyChanged, this, &MainWindow::updateTitle);
+  connect(&document_, &Document::fileChanged, this, &MainWindow::updateTitle);
+  connect(&document_, &Document::changedOnDisk, this, &MainWindow::onChangedOnDisk);
+
+  connect(messages_, &MessagePanel::errorAdded, this, [this] {
+    dock(QStringLiteral("messages"))->show();
+    dock(QStringLiteral("messages"))->raise();
+  });
+  const auto refused = [this](const QString& what, const Findings& findings) {
+    messages_->add(what, findings);
+  };
+  connect(hostDock_, &HostDock::refused, this, refused);
+  connect(flightDock_, &FlightDock::refused, this, refused);
+  connect(flightDock_, &FlightDock::openRequested, this, &MainWindow::askOpenFlight);
+
+  const auto showJob = [this](bool on) {
+    jobLabel_->setVisible(on);
+    jobBar_->setVisible(on);
+    jobCancel_->setVisible(on);
+  };
+  connect(&terrainJob_, &TerrainJob::started, this, [this, showJob](const QString& what) {
+    jobLabel_->setText(what);
+    jobBar_->setValue(0);
+    showJob(true);
+    if (!terrain_) viewport_->setNotice(tr("%1...").arg(what));
+  });
+  connect(&terrainJob_, &TerrainJob::progressed, this, [this](double fraction, const QString& what) {
+    jobBar_->setValue(static_cast<int>(fraction * 100));
+    if (!what.isEmpty()) jobLabel_->setText(what);
+  });
+  const QString hint =
+      tr("No terrain is open.\nFile > Open terrain, or drop an elevation file or a folder here.");
+  connect(&terrainJob_, &TerrainJob::cancelled, this, [this, showJob, hint] {
+    showJob(false);
+    messages_->note(tr("Cancelled: the terrain stays as it was"));
+    viewport_->setNotice(hint);
+  });
+  connect(&terrainJob_, &TerrainJob::failed, this, [this, showJob, hint](const Findings& findings) {
+    showJob(false);
+    messages_->add(tr("The terrain cannot be opened"), findings);
+    viewport_->setNotice(hint);
+  });
+  connect(&terrainJob_, &TerrainJob::opened, this,
+          [this, showJob](std::shared_ptr<const terrain::Database> database) {
+            showJob(false);
+            onTerrainOpened(std::move(database));
+          });
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  if (!mayLoseEdits()) return event->ignore();
+  document_.dropCopy();
+  QSettings settings;
+  settings.setValue(QStringLiteral("window/geometry"), saveGeometry());
+  settings.setValue(QStringLiteral("window/state"), saveState(kLayoutVersion));
+  stopTrace();
+  feed_.closeHost();
+  event->accept();
+}
+
+}  // namespace trimtab::workbench

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QElapsedTimer>
+#include <QMainWindow>
+#include <memory>
+#include <optional>
+
+#include "document.h"
+#include "feed.h"
+#include "message_panel.h"
+#include "options.h"
+#include "terrain_job.h"
+#include "trimtab/measure/trace.h"
+#include "trimtab/preset/preset.h"
+#include "trimtab/views/draft.h"
+#include "trimtab/views/live.h"
+#include "viewport.h"
+
+class QAction;
+class QActionGroup;
+class QDockWidget;
+class QLabel;
+class QMenu;
+class QProgressBar;
+class QPushButton;
+
+namespace trimtab::views {
+class BandsEditor;
+class DecisionPanel;
+class MembershipEditor;
+class ParameterTable;
+class PlotsPanel;
+}  // namespace trimtab::views
+
+namespace trimtab::workbench {
+
+class FlightDock;
+class HostDock;
+class NoticeBar;
+
+/// The workbench: viewport in the middle, docks around it, one draft, one feed.
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+
+ public:
+  MainWindow();
+  ~MainWindow() override;
+
+  /// Shows itself and does what the command line asks for.
+  void start(const Options& options);
+  /// Before an end that asks nobody.
+  void keepUnsavedEdits();
+
+  // What menus, drops and tests call. All of them report failures in the Messages dock and leave the state
+  // untouched.
+  bool openPreset(const QString& nameOrFile);
+  bool savePreset(const QString& file);
+  void openTerrain(const QString& source);
+  bool openFlight(const QString& file);
+  /// By content's ending: preset, flight, else terrain.
+  void openAny(const QString& path);
+  bool exportPreset(const QString& file, ExportFormat format, const QString& author, const QString& comment);
+  bool startTrace(const QString& file);
+  void stopTrace();
+  void setFrozen(bool frozen);
+  void resetLayout();
+
+  views::Draft& draft() { return draft_; }
+  Document& document() { return document_; }
+  Feed& feed() { return feed_; }
+  Viewport& viewport() { return *viewport_; }
+  MessagePanel& messages() { return *messages_; }
+  TerrainJob& terrainJob() { return terrainJob_; }
+  HostDock& hostDock() { return *hostDock_; }
+  FlightDock& flightDock() { return *flightDock_; }
+  NoticeBar& notices() { return *notices_; }
+  bool hasTerrain() const { return terrain_ != nullptr; }
+  QDockWidget* dock(const QString& name) const;
+
+ protected:
+  void closeEvent(QCloseEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+  void changeEvent(QEvent* event) override;
+
+ private:
+  // main_window.cpp: what it is made of
+  void makeDocks();
+  void arrangeDocks();
+  void makeStatusBar();
+  void connectParts();
+  QDockWidget* addDock(const QString& name, const QString& title, QWidget* content, Qt::DockWidgetArea area);
+  // window_menus.cpp
+  void makeMenus();
+  void makeFileMenu();
+  void makeEditMenu();
+  void makeViewMenu();
+  void makeFlightMenu();
+  void makeHelpMenu();
+  void fillRecentMenu();
+  void remember(const QString& kind, const QString& path);
+  void showKeys();
+  void showReference();
+  void showAbout();
+  // window_files.cpp
+  bool mayLoseEdits();
+  bool save();
+  bool saveAs();
+  void askOpenPreset();
+  void askOpenTerrain(bool folder);
+  void askOpenFlight();
+  void askExport();
+  void askTrace();
+  void offerRecovery();
+  void onChangedOnDisk(bool gone);
+  void onTerrainOpened(std::shared_ptr<const terrain::Database> database);
+  void drainTrace(bool all);
+  void updateTitle();
+  // window_frame.cpp
+  std::optional<Picture> picture(int widthPx, int heightPx);
+  void onPainted();
+  void onDecision();
+  void onSource();
+  void onLink();
+  void placeCamera();
+  views::LiveFrame liveFrame() const;
+  void show(const views::LiveFrame& frame);
+  QString hudText(const AircraftState& eye) const;
+  void takeScreenshot();
+
+  views::Draft draft_;
+  Document document_{draft_};
+  Feed feed_{draft_.active()};
+  TerrainJob terrainJob_;
+  std::shared_ptr<const terrain::Database> terrain_;
+  QString terrainSource_;
+
+  Viewport* viewport_ = nullptr;
+  NoticeBar* notices_ = nullptr;
+  views::MembershipEditor* memberships_ = nullptr;
+  views::BandsEditor* bands_ = nullptr;
+  views::DecisionPanel* decision_ = nullptr;
+  views::PlotsPanel* plots_ = nullptr;
+  views::ParameterTable* parameters_ = nullptr;
+  HostDock* hostDock_ = nullptr;
+  FlightDock* flightDock_ = nullptr;
+  MessagePanel* messages_ = nullptr;
+  QByteArray defaultLayout_;
+
+  QMenu *recentMenu_ = nullptr, *dockMenu_ = nullptr;
+  QAction *freezeAction_ = nullptr, *traceAction_ = nullptr;
+  QActionGroup* caseActions_ = nullptr;
+  QLabel *sourceLabel_ = nullptr, *jobLabel_ = nullptr;
+  QProgressBar* jobBar_ = nullptr;
+  QPushButton* jobCancel_ = nullptr;
+
+  scene::Overlays overlays_;
+  std::optional<EyePose> frozenEye_;
+  std::optional<scene::FrameRequest> shown_;  ///< the last request
+  std::optional<TraceWriter> trace_;
+  std::vector<TraceRow> traceRows_;
+  std::uint64_t traceCount_ = 0;
+  FrameCost lastCost_;
+  QElapsedTimer sincePicture_;
+  double fps_ = 0;
+  Options options_;
+  bool scheduledShot_ = false;
+};
+
+}  // namespace trimtab::workbench

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options.h"
+
+#include <QCommandLineParser>
+#include <cstdio>
+
+namespace trimtab::workbench {
+namespace {
+
+constexpr int kDone = 0, kUsage = 2;
+
+int complain(const QString& text) {
+  std::fprintf(stderr, "trimtab: %s\n", qPrintable(text));
+  return kUsage;
+}
+
+}  // namespace
+
+Parsed parseOptions(const QStringList& arguments) {
+  QCommandLineParser parser;
+  parser.setApplicationDescription(
+      "Tune culling and level of detail while you watch terrain, decisions and cost.");
+  const QCommandLineOption help({"h", "help"}, "Show this text.");
+  const QCommandLineOption version({"v", "version"}, "Show the version.");
+  const QCommandLineOption preset("preset", "Open this preset: a file, or default, as-published, as-printed.",
+                                  "P");
+  const QCommandLineOption terrain("terrain", "Open this terrain: an elevation file, a folder or a database.",
+                                   "DB");
+  const QCommandLineOption listen("listen", "Listen for a host on this UDP port.", "PORT");
+  const QCommandLineOption fly("fly", "Play this flight here.", "FLIGHT");
+  const QCommandLineOption screenshot("screenshot", "Save a picture of the whole window and end.", "OUT.png");
+  const QCommandLineOption after("after-s", "So many seconds after the first picture of the terrain.", "S",
+                                 "0");
+  const QCommandLineOption exportTo(
+      "export", "Write an export (.json, .xml or .ini), with the screenshot if there is one.", "OUT");
+  const QCommandLineOption size("size", "Size of the window.", "WxH");
+  parser.addOptions({help, version, preset, terrain, listen, fly, screenshot, after, exportTo, size});
+
+  Parsed parsed;
+  Options& options = parsed.options;
+  if (!parser.parse(arguments)) {
+    parsed.exitCode = complain(parser.errorText());
+    return parsed;
+  }
+  if (parser.isSet(help)) {
+    std::fputs(qPrintable(parser.helpText()), stdout);
+    parsed.exitCode = kDone;
+    return parsed;
+  }
+  if (parser.isSet(version)) {
+    std::puts("trimtab " TRIMTAB_VERSION);
+    parsed.exitCode = kDone;
+    return parsed;
+  }
+  if (!parser.positionalArguments().isEmpty()) {
+    parsed.exitCode = complain("unexpected argument: " + parser.positionalArguments().first());
+    return parsed;
+  }
+  options.preset = parser.value(preset);
+  options.terrain = parser.value(terrain);
+  options.flight = parser.value(fly);
+  options.screenshot = parser.value(screenshot);
+  options.exportFile = parser.value(exportTo);
+  bool good = true;
+  options.afterS = parser.value(after).toDouble(&good);
+  if (!good || !(options.afterS >= 0))
+    parsed.exitCode = complain("--after-s: expected seconds, found " + parser.value(after));
+  if (parser.isSet(listen)) {
+    const int port = parser.value(listen).toInt(&good);
+    if (good && port >= 0 && port <= 65535)
+      options.listenPort = static_cast<std::uint16_t>(port);
+    else
+      parsed.exitCode = complain("--listen: expected a port, 0 to 65535, found " + parser.value(listen));
+  }
+  if (parser.isSet(size)) {
+    const QStringList sides = parser.value(size).split('x');
+    const QSize wanted = sides.size() == 2 ? QSize(sides[0].toInt(), sides[1].toInt()) : QSize();
+    if (wanted.width() >= 320 && wanted.height() >= 200)
+      options.window = wanted;
+    else
+      parsed.exitCode = complain("--size: expected WxH of at least 320x200, found " + parser.value(size));
+  }
+  return parsed;
+}
+
+}  // namespace trimtab::workbench

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QObject>
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <thread>
+
+#include "trimtab/terrain/database.h"
+
+namespace trimtab::workbench {
+
+/// Opens or bakes terrain on a thread of its own. One at a time: a second start cancels the first.
+class TerrainJob : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit TerrainJob(QObject* parent = nullptr);
+  ~TerrainJob() override;
+
+  /// Elevation file, folder of them, or database.
+  void open(const std::filesystem::path& source);
+  /// The embedded default terrain, made and baked once for a user.
+  void openSample();
+  void cancel();
+  bool running() const { return running_; }
+  const std::filesystem::path& source() const { return source_; }
+
+ signals:
+  void started(const QString& what);
+  void progressed(double fraction, const QString& what);
+  void opened(std::shared_ptr<const trimtab::terrain::Database> database);
+  void failed(const trimtab::Findings& findings);
+  void cancelled();
+
+ private:
+  using Work = std::function<Result<std::shared_ptr<const terrain::Database>>(const terrain::Progress&)>;
+  void start(const std::filesystem::path& source, const QString& what, Work work);
+  void stop();
+
+  std::filesystem::path source_;
+  std::jthread thread_;
+  std::shared_ptr<std::atomic<bool>> stop_;  ///< of the running job; a job that was cancelled keeps its own
+  bool running_ = false;
+  int serial_ = 0;
+};
+
+}  // namespace trimtab::workbench

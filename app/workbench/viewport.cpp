@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "viewport.h"
+
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QOpenGLContext>
+#include <QOpenGLExtraFunctions>
+#include <QOpenGLFramebufferObject>
+#include <QPainter>
+#include <QScreen>
+#include <QTimer>
+#include <QWheelEvent>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace trimtab::workbench {
+namespace {
+
+constexpr qint64 kDepthMapGapMs = 100;
+const QColor kEmptyColour(38, 42, 48);
+
+/// Where a W x H picture lies in the widget without being distorted, device pixels, origin at the lower left.
+QRect letterbox(QSize picture, QSize widget) {
+  const QSize fits = picture.scaled(widget, Qt::KeepAspectRatio);
+  return {QPoint((widget.width() - fits.width()) / 2, (widget.height() - fits.height()) / 2), fits};
+}
+
+/// OSG leaves its own state; QPainter expects the default of what it does not set itself.
+void prepareForPainter(QOpenGLExtraFunctions& gl, QSize pixels) {
+  gl.glBindVertexArray(0);
+  gl.glUseProgram(0);
+  gl.glBindBuffer(GL_ARRAY_BUFFER, 0);
+  gl.glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
+  gl.glActiveTexture(GL_TEXTURE0);
+  gl.glDisable(GL_DEPTH_TEST);
+  gl.glDisable(GL_CULL_FACE);
+  gl.glDisable(GL_SCISSOR_TEST);
+  gl.glDepthMask(GL_TRUE);
+  gl.glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl.glViewport(0, 0, pixels.width(), pixels.height());
+}
+
+}  // namespace
+
+Viewport::Viewport(QWidget* parent) : QOpenGLWidget(parent), notice_(tr("No terrain yet")) {
+  setFocusPolicy(Qt::StrongFocus);
+  setMinimumSize(320, 200);
+  setAccessibleName(tr("Terrain view"));
+  setAttribute(Qt::WA_AcceptTouchEvents, false);
+  connect(this, &QOpenGLWidget::frameSwapped, this, [this] {
+    report();
+    if (again_) paintAgain();
+  });
+}
+
+Viewport::~Viewport() {
+  // The context may die before or after this object: stop listening first, then free with it current.
+  if (context() != nullptr) disconnect(context(), nullptr, this, nullptr);
+  releaseGl();
+}
+
+void Viewport::initializeGL() {
+  connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, &Viewport::releaseGl, Qt::DirectConnection);
+  renderer_ = std::make_unique<scene::Renderer>();
+  gl_ = renderer_->initialize();
+  terrainChanged_ = true;
+  if (!gl_.usable) {
+    renderer_.reset();
+    setNotice(tr("This display cannot draw the terrain: %1 (%2)")
+                  .arg(QString::fromStdString(gl_.missing), QString::fromStdString(gl_.renderer)));
+    emit glFailed(QString::fromStdString(gl_.missing));
+  }
+}
+
+void Viewport::releaseGl() {
+  if (renderer_ == nullptr) return;
+  makeCurrent();
+  fixedSize_.reset();
+  renderer_->release();
+  renderer_.reset();
+  doneCurrent();
+}
+
+void Viewport::setTerrain(std::shared_ptr<const terrain::Database> database) {
+  terrain_ = std::move(database);
+  terrainChanged_ = true;
+  invalidate();
+}
+
+void Viewport::invalidate() {
+  if (dirty_) return;
+  dirty_ = true;
+  if (isVisible()) update();
+}
+
+void Viewport::showEvent(QShowEvent* event) {
+  QOpenGLWidget::showEvent(event);
+  update();
+}
+
+void Viewport::setCameraEnabled(bool on) {
+  cameraEnabled_ = on;
+  if (!on) camera_.releaseAll();
+}
+
+void Viewport::setNotice(const QString& text) {
+  notice_ = text;
+  invalidate();
+}
+
+void Viewport::setDepthMapWanted(bool wanted) {
+  if (wanted && !depthMapWanted_) invalidate();
+  depthMapWanted_ = wanted;
+}
+
+void Viewport::paintGL() {
+  report();
+  dirty_ = false;
+  ++paints_;
+  sincePaint_.start();
+  if (camera_.moving()) {
+    const double step = sinceMove_.isValid() ? double(sinceMove_.nsecsElapsed()) * 1e-9 : 1.0 / 60;
+    sinceMove_.start();
+    camera_.advance(step);
+    emit cameraMoved();
+  } else {
+    sinceMove_.invalidate();
+  }
+
+  const QSize pixels = size() * devicePixelRatioF();
+  std::optional<Picture> picture;
+  if (renderer_ != nullptr && terrain_ != nullptr && source_)
+    picture = source_(pixels.width(), pixels.height());
+  if (picture) {
+    drawPicture(*picture, pixels.width(), pixels.height());
+  } else {
+    QOpenGLFunctions& gl = *context()->functions();
+    gl.glClearColor(float(kEmptyColour.redF()), float(kEmptyColour.greenF()), float(kEmptyColour.blueF()), 1);
+    gl.glClear(GL_COLOR_BUFFER_BIT);
+  }
+  paintOverlays(picture);
+  again_ = camera_.moving() || (picture && picture->again);
+  unreported_ = picture.has_value();
+}
+
+void Viewport::report() {
+  if (std::exchange(unreported_, false)) emit painted();
+}
+
+/// A display without vertical sync would otherwise be painted as fast as one core can.
+void Viewport::paintAgain() {
+  const double refreshHz = screen() != nullptr && screen()->refreshRate() >= 1 ? screen()->refreshRate() : 60;
+  const qint64 wait =
+      static_cast<qint64>(1000 / refreshHz) - (sincePaint_.isValid() ? sincePaint_.elapsed() : 0);
+  if (wait <= 1) return invalidate();
+  QTimer::singleShot(wait, Qt::PreciseTimer, this, &Viewport::invalidate);
+}
+
+void Viewport::drawPicture(const Picture& picture, int widthPx, int heightPx) {
+  if (terrainChanged_) {
+    renderer_->setTerrain(terrain_);
+    terrainChanged_ = false;
+  }
+  QOpenGLExtraFunctions& gl = *context()->extraFunctions();
+  const QSize wanted(picture.request.view.widthPx, picture.request.view.heightPx), have(widthPx, heightPx);
+  if (wanted == have) {
+    fixedSize_.reset();
+    result_ = renderer_->draw(picture.request, defaultFramebufferObject());
+    if (depthMapWanted_) readDepthMap();
+  } else {
+    if (fixedSize_ == nullptr || fixedSize_->size() != wanted)
+      fixedSize_ = std::make_unique<QOpenGLFramebufferObject>(wanted);
+    result_ = renderer_->draw(picture.request, fixedSize_->handle());
+    if (depthMapWanted_) readDepthMap();
+    gl.glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
+    gl.glDisable(GL_SCISSOR_TEST);
+    gl.glClearColor(0, 0, 0, 1);
+    gl.glClear(GL_COLOR_BUFFER_BIT);
+    const QRect to = letterbox(wanted, have);
+    gl.glBindFramebuffer(GL_READ_FRAMEBUFFER, fixedSize_->handle());
+    gl.glBlitFramebuffer(0, 0, wanted.width(), wanted.height(), to.left(), to.top(), to.left() + to.width(),
+                         to.top() + to.height(), GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  }
+  gl.glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
+}
+
+void Viewport::readDepthMap() {
+  if (sinceDepthMap_.isValid() && sinceDepthMap_.elapsed() < kDepthMapGapMs) return;
+  sinceDepthMap_.start();
+  const scene::Renderer::Grey grey = renderer_->readDepthMap();
+  if (grey.width <= 0 || grey.height <= 0) {
+    emit depthMapRead({});
+    return;
+  }
+  const QImage rows(grey.pixels.data(), grey.width, grey.height, grey.width, QImage::Format_Grayscale8);
+  emit depthMapRead(rows.mirrored());
+}
+
+void Viewport::paintOverlays(const std::optional<Picture>& picture) {
+  prepareForPainter(*context()->extraFunctions(), size() * devicePixelRatioF());
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  if (!picture) {
+    paintNotice(painter, rect(), notice_);
+    return;
+  }
+  if (picture->frozen) paintFreezeBanner(painter, rect());
+  if (!picture->legend.isEmpty()) paintLegend(painter, rect(), picture->legendTitle, picture->legend);
+  paintHud(painter, rect(), picture->hud);
+}
+
+void Viewport::keyPressEvent(QKeyEvent* event) {
+  if (!cameraEnabled_ || event->modifiers() & (Qt::ControlModifier | Qt::AltModifier) ||
+      !camera_.press(event->key()))
+    return QOpenGLWidget::keyPressEvent(event);
+  invalidate();
+}
+
+void Viewport::keyReleaseEvent(QKeyEvent* event) {
+  if (event->isAutoRepeat()) return;
+  if (!camera_.release(event->key())) QOpenGLWidget::keyReleaseEvent(event);
+}
+
+void Viewport::focusOutEvent(QFocusEvent* event) {
+  camera_.releaseAll();
+  QOpenGLWidget::focusOutEvent(event);
+}
+
+void Viewport::mousePressEvent(QMouseEvent* event) {
+  lastMouse_ = event->position();
+}
+
+void Viewport::mouseMoveEvent(QMouseEvent* event) {
+  if (!cameraEnabled_ || !(event->buttons() & Qt::LeftButton)) return;
+  const QPointF moved = event->position() - lastMouse_;
+  lastMouse_ = event->position();
+  // The picture follows the hand: one height of the widget turns by some 36 degrees, the shipped field of
+  // view.
+  const double degreesPerPx = 36.0 / std::max(1, height());
+  camera_.look(Degrees{-moved.x() * degreesPerPx}, Degrees{moved.y() * degreesPerPx});
+  emit cameraMoved();
+  invalidate();
+}
+
+void Viewport::wheelEvent(QWheelEvent* event) {
+  if (!cameraEnabled_) return;
+  camera_.changeSpeed(event->angleDelta().y() / 120.0);
+  invalidate();
+}
+
+}  // namespace trimtab::workbench

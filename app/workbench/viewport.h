@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QElapsedTimer>
+#include <QImage>
+#include <QOpenGLWidget>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "free_camera.h"
+#include "overlay_painter.h"
+#include "trimtab/scene/renderer.h"
+
+class QOpenGLFramebufferObject;
+
+namespace trimtab::workbench {
+
+/// What the next picture is made of; asked for once in each paint.
+struct Picture {
+  scene::FrameRequest request;
+  bool frozen = false;  ///< the banner is painted
+  bool again = false;   ///< something moves on its own: paint again as soon as the display takes it
+  QString hud;          ///< one line at the foot
+  QString legendTitle;
+  QList<LegendEntry> legend;
+};
+
+/// The terrain through scene::Renderer. Paints on demand only: `invalidate` any number of times gives one
+/// paint, and nothing is painted while hidden. Without terrain it says how to open some.
+class Viewport : public QOpenGLWidget {
+  Q_OBJECT
+
+ public:
+  using Source = std::function<std::optional<Picture>(int widthPx, int heightPx)>;
+
+  explicit Viewport(QWidget* parent = nullptr);
+  ~Viewport() override;
+
+  void setSource(Source source) { source_ = std::move(source); }
+  void setTerrain(std::shared_ptr<const terrain::Database> database);
+  void invalidate();
+  FreeCamera& camera() { return camera_; }
+  /// Mouse and keys move the camera only while this is on.
+  void setCameraEnabled(bool on);
+  bool cameraEnabled() const { return cameraEnabled_; }
+  /// Shown instead of a picture, until there is one.
+  void setNotice(const QString& text);
+  /// From now on `depthMapRead` tells each depth map that was drawn, at most ten a second.
+  void setDepthMapWanted(bool wanted);
+
+  const scene::GlReport& gl() const { return gl_; }
+  std::uint64_t paints() const { return paints_; }
+  const std::optional<scene::FrameResult>& lastResult() const { return result_; }
+
+ signals:
+  void cameraMoved();
+  void painted();  ///< the picture is on the display; `lastResult` is new
+  void depthMapRead(const QImage& grey);
+  void glFailed(const QString& why);
+
+ protected:
+  void initializeGL() override;
+  void paintGL() override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void keyReleaseEvent(QKeyEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
+  void showEvent(QShowEvent* event) override;
+
+ private:
+  void releaseGl();
+  void drawPicture(const Picture& picture, int widthPx, int heightPx);
+  void paintOverlays(const std::optional<Picture>& picture);
+  void readDepthMap();
+  void report();
+  void paintAgain();
+
+  Source source_;
+  std::unique_ptr<scene::Renderer> renderer_;
+  std::unique_ptr<QOpenGLFramebufferObject> fixedSize_;
+  std::shared_ptr<const terrain::Database> terrain_;
+  bool terrainChanged_ = false;
+  scene::GlReport gl_;
+  std::optional<scene::FrameResult> result_;
+  FreeCamera camera_;
+  bool cameraEnabled_ = true, dirty_ = false, again_ = false, depthMapWanted_ = false;
+  QPointF lastMouse_;
+  QString notice_;
+  QElapsedTimer sinceMove_, sinceDepthMap_, sincePaint_;
+  bool unreported_ = false;  ///< `painted` is due
+  std::uint64_t paints_ = 0;
+};
+
+}  // namespace trimtab::workbench

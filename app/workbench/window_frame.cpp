@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QCoreApplication>
+#include <QEvent>
+#include <QLabel>
+#include <QStatusBar>
+#include <QTimer>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "export_dialog.h"
+#include "flight_dock.h"
+#include "host_dock.h"
+#include "main_window.h"
+#include "trimtab/views/bands_editor.h"
+#include "trimtab/views/decision_panel.h"
+#include "trimtab/views/membership_editor.h"
+#include "trimtab/views/plots_panel.h"
+
+// From states to pictures and from pictures to docks.
+namespace trimtab::workbench {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+/// Pictures farther apart than this are not a rate: they are drawn on demand.
+constexpr double kLongestRateGapS = 0.5;
+
+QColor colourOf(const std::array<std::uint8_t, 3>& c) {
+  return {c[0], c[1], c[2]};
+}
+
+QList<LegendEntry> reasonLegend() {
+  return {{MainWindow::tr("drawn"), colourOf(scene::reasonColour(CullReason::drawn))},
+          {MainWindow::tr("outside the frustum"), colourOf(scene::reasonColour(CullReason::outside_frustum))},
+          {MainWindow::tr("occluded"), colourOf(scene::reasonColour(CullReason::occluded))}};
+}
+
+QList<LegendEntry> levelLegend(std::size_t levels) {
+  QList<LegendEntry> entries;
+  for (int level = 0; level < static_cast<int>(levels); ++level)
+    entries.append({MainWindow::tr("level %1").arg(level), colourOf(scene::levelColour(level))});
+  return entries;
+}
+
+}  // namespace
+
+std::optional<Picture> MainWindow::picture(int widthPx, int heightPx) {
+  const double now = link::now();
+  feed_.advance(now);
+  std::optional<scene::FrameRequest> request = feed_.session().request(now, widthPx, heightPx);
+  if (!request) return std::nullopt;
+  request->overlays = overlays_;
+  request->frozenEye = frozenEye_;
+  shown_ = request;
+  Picture picture;
+  picture.request = std::move(*request);
+  picture.frozen = frozenEye_.has_value();
+  picture.again = feed_.movesOnItsOwn(now);
+  picture.hud = hudText(feed_.session().eyeState(now));
+  if (overlays_.colourByReason) {
+    picture.legendTitle = tr("Why a tile is drawn or not");
+    picture.legend = reasonLegend();
+  } else if (overlays_.colourByLevel) {
+    picture.legendTitle = tr("Level of detail, 0 is finest");
+    picture.legend = levelLegend(terrain_->index().levels.size());
+  }
+  return picture;
+}
+
+QString MainWindow::hudText(const AircraftState& eye) const {
+  QStringList parts;
+  parts << tr("%L1 ft").arg(eye.position.height.in<Feet>(), 0, 'f', 0);
+  parts << tr("heading %1°")
+               .arg(std::fmod(std::round(eye.attitude.heading.value()) + 360, 360.0), 3, 'f', 0,
+                    QLatin1Char('0'));
+  parts << tr("pitch %1°").arg(eye.attitude.pitch.value(), 0, 'f', 1);
+  if (const auto& last = viewport_->lastResult()) {
+    parts << tr("%L1 triangles").arg(last->visible.triangles);
+    parts << tr("%1 ms").arg(lastCost_.total, 0, 'f', 1);
+  }
+  if (std::isfinite(fps_)) parts << tr("%1 fps").arg(fps_, 0, 'f', 0);
+  if (feed_.source() == Feed::Source::camera)
+    parts << tr("free camera at %L1 kt")
+                 .arg(MetresPerSecond{viewport_->camera().speedMps()}.in<Knots>(), 0, 'f', 0);
+  return parts.join(QStringLiteral("   "));
+}
+
+void MainWindow::onPainted() {
+  const double gap = sincePicture_.isValid() ? double(sincePicture_.nsecsElapsed()) * 1e-9 : kNan;
+  sincePicture_.start();
+  if (gap > 0 && gap < kLongestRateGapS)
+    fps_ = std::isfinite(fps_) ? fps_ + (1 / gap - fps_) * 0.1 : 1 / gap;
+  else
+    fps_ = kNan;
+  lastCost_ = feed_.session().finished(*viewport_->lastResult(), link::now());
+  drainTrace(false);
+  show(liveFrame());
+  if (options_.afterS >= 0 && !options_.screenshot.isEmpty() && !scheduledShot_) {
+    scheduledShot_ = true;
+    QTimer::singleShot(static_cast<int>(options_.afterS * 1000), this, &MainWindow::takeScreenshot);
+  }
+}
+
+/// Between two pictures: the decision is new, the picture and its cost are the last one's.
+void MainWindow::onDecision() {
+  if (!feed_.session().hasState()) return;
+  show(liveFrame());
+}
+
+void MainWindow::changeEvent(QEvent* event) {
+  QMainWindow::changeEvent(event);
+  if (event->type() == QEvent::WindowStateChange) feed_.setPicturesDrawn(!isMinimized());
+}
+
+views::LiveFrame MainWindow::liveFrame() const {
+  views::LiveFrame frame;
+  frame.time = link::now();
+  frame.packet = feed_.session().input().state.packet;
+  frame.decision = feed_.session().decision();
+  frame.cost = lastCost_;
+  frame.fps = fps_;
+  if (const auto& last = viewport_->lastResult()) {
+    frame.triangles = last->visible.triangles;
+    frame.vertices = last->visible.vertices;
+    frame.tilesDrawn = last->visible.tiles.size();
+    frame.tilesInCut = last->tilesInCut;
+    frame.outsideFrustum = last->visible.outsideFrustum;
+    frame.occluded = last->visible.occluded;
+    frame.depthMap = last->depthMap;
+  }
+  return frame;
+}
+
+void MainWindow::show(const views::LiveFrame& frame) {
+  memberships_->showFrame(frame);
+  bands_->showFrame(frame);
+  decision_->showFrame(frame);
+  plots_->showFrame(frame);
+}
+
+void MainWindow::setFrozen(bool frozen) {
+  if (frozen && shown_ && terrain_) {
+    const LocalFrame& local = terrain_->index().frame;
+    frozenEye_ = EyePose{local.fromGeodetic(shown_->eye), eyeAxes(local, shown_->eye, shown_->attitude)};
+  } else {
+    frozenEye_.reset();
+  }
+  viewport_->invalidate();
+}
+
+/// South of the middle, looking north over it, above the ground there.
+void MainWindow::placeCamera() {
+  const terrain::TerrainInfo& info = terrain_->info();
+  const double south = info.southWest.latitude.value(), north = info.northEast.latitude.value();
+  GeodeticPosition at;
+  at.latitude = Degrees{south + (north - south) * 0.3};
+  at.longitude = Degrees{(info.southWest.longitude.value() + info.northEast.longitude.value()) / 2};
+  const std::optional<Metres> ground = terrain_->highestWithin(at.latitude, at.longitude, Metres{4000});
+  at.height = (ground ? *ground : info.highest) + Feet{1500}.as<Metres>();
+  viewport_->camera().place(at, {Degrees{0}, Degrees{-6}, Degrees{0}});
+}
+
+void MainWindow::onSource() {
+  const Feed::Source source = feed_.source();
+  // The camera takes over where the aircraft is, wings level.
+  if (source == Feed::Source::camera && shown_ && !viewport_->cameraEnabled()) {
+    viewport_->camera().place(shown_->eye, {shown_->attitude.heading, shown_->attitude.pitch, Degrees{0}});
+    feed_.look(viewport_->camera());
+  }
+  viewport_->setCameraEnabled(source == Feed::Source::camera);
+  switch (source) {
+    case Feed::Source::camera:
+      sourceLabel_->setText(tr("free camera"));
+      break;
+    case Feed::Source::flight:
+      sourceLabel_->setText(feed_.playback().playing() ? tr("flight") : tr("flight, paused"));
+      break;
+    case Feed::Source::host:
+      onLink();
+      break;
+  }
+}
+
+void MainWindow::onLink() {
+  if (feed_.receiver() == nullptr) {
+    if (feed_.source() == Feed::Source::host) sourceLabel_->clear();
+    return;
+  }
+  const std::uint16_t port = feed_.receiver()->port();
+  switch (feed_.session().linkState(link::now())) {
+    case session::LinkState::never:
+      sourceLabel_->setText(tr("free camera, listening on port %1").arg(port));
+      break;
+    case session::LinkState::live:
+    case session::LinkState::jumped:
+      sourceLabel_->setText(tr("host on port %1").arg(port));
+      break;
+    case session::LinkState::silent:
+      sourceLabel_->setText(tr("host on port %1 is SILENT").arg(port));
+      messages_->note(tr("The host on port %1 fell silent; the picture stands still").arg(port));
+      break;
+  }
+}
+
+void MainWindow::start(const Options& options) {
+  options_ = options;
+  if (options.window) resize(*options.window);
+  QMainWindow::show();
+  viewport_->setFocus();
+  if (!options.preset.isEmpty()) openPreset(options.preset);
+  if (options.terrain.isEmpty())
+    terrainJob_.openSample();
+  else
+    openTerrain(options.terrain);
+  if (!options.flight.isEmpty() && openFlight(options.flight)) flightDock_->play();
+  if (options.listenPort) {
+    hostDock_->setPort(*options.listenPort);
+    hostDock_->connectHost();
+  }
+  if (options.screenshot.isEmpty()) {
+    if (!options.exportFile.isEmpty())
+      exportPreset(options.exportFile, exportFormatOf(options.exportFile), {}, {});
+    offerRecovery();
+  }
+}
+
+void MainWindow::takeScreenshot() {
+  bool good = grab().save(options_.screenshot);
+  if (!good)
+    std::fprintf(stderr, "trimtab: the picture cannot be saved: %s\n", qPrintable(options_.screenshot));
+  if (!options_.exportFile.isEmpty())
+    good = exportPreset(options_.exportFile, exportFormatOf(options_.exportFile), {}, {}) && good;
+  keepUnsavedEdits();
+  QCoreApplication::exit(good ? 0 : 1);
+}
+
+void MainWindow::keepUnsavedEdits() {
+  document_.keepCopyNow();
+  stopTrace();
+}
+
+}  // namespace trimtab::workbench
