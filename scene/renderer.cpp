@@ -159,11 +159,6 @@ FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
   gl->timer.begin();
   gl->frame.resize(r.view.widthPx, r.view.heightPx);
   glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
-  for (const GLenum off : {GL_BLEND, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_CULL_FACE, GL_DEPTH_CLAMP,
-                           GL_FRAMEBUFFER_SRGB, GL_MULTISAMPLE})
-    glDisable(off);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   if (database && r.overlays.tileBounds)
     addBoxes(database->index(), cut.tiles, visible.reason, eye.position, lines);
   if (r.frozenEye) addFrustum(*r.frozenEye, r.view, eye.position, lines);
@@ -180,7 +175,7 @@ FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
   glBindFramebuffer(GL_FRAMEBUFFER, fbo);
   glUseProgram(0);
   glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
-  glDisable(GL_DEPTH_TEST);
+  for (const GLenum off : {GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND}) glDisable(off);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
   glClearDepth(1);

@@ -168,9 +168,8 @@ SceneGraph::~SceneGraph() {
   osg::State* state = nodes_->window->getState();
   nodes_->root->releaseGLObjects(state);
   nodes_->viewer->getCamera()->releaseGLObjects(state);
-  const unsigned context = state->getContextID();
-  nodes_.reset();
-  osg::flushAllDeletedGLObjects(context);
+  // While the window lives: with the last window of a context, OSG forgets the context's lists.
+  osg::flushAllDeletedGLObjects(state->getContextID());
 }
 
 void SceneGraph::frame(const SceneView& view, unsigned fbo) {
@@ -199,10 +198,17 @@ void SceneGraph::frame(const SceneView& view, unsigned fbo) {
   camera->setClearColor(view.sky ? osg::Vec4(kHaze[0], kHaze[1], kHaze[2], 1) : osg::Vec4(1, 0, 1, 1));
   n.window->setDefaultFboId(fbo);
 
-  // Whoever shares the context (a widget's painter) has changed state behind OSG's back. Cheap with so few
-  // passes.
+  // Whoever shares the context (a widget's painter) has changed state behind OSG's back. State::dirtyAllModes
+  // only flips what OSG believes, so what is true and what is believed are brought together here.
   osg::State* state = n.window->getState();
-  state->dirtyAllModes();
+  for (const GLenum off : {GL_BLEND, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_CULL_FACE, GL_DEPTH_TEST,
+                           GL_LIGHTING, GL_ALPHA_TEST, GL_DEPTH_CLAMP, GL_FRAMEBUFFER_SRGB}) {
+    glDisable(off);
+    state->haveAppliedMode(off, false);
+  }
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthMask(GL_TRUE);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   state->dirtyAllAttributes();
   state->dirtyAllVertexArrays();
   state->setLastAppliedProgramObject(nullptr);

@@ -31,8 +31,8 @@ out vec3 colour;
 void main() {
   int tile = gl_VertexID / 1089;
   vec3 p = relativePosition(vertexPosition, texelFetch(slots, tile));
-  float light = 0.32 + 0.10 * vertexNormal.z + 0.62 * max(dot(normalize(vertexNormal), sun), 0.0);
-  vec3 lit = vertexColour.rgb * light;
+  float light = 0.42 + 0.14 * vertexNormal.z + 0.78 * max(dot(normalize(vertexNormal), sun), 0.0);
+  vec3 lit = min(vertexColour.rgb * light * 1.15, vec3(1.0));
   if (tinted) {
     vec4 tint = texelFetch(tints, tile);
     lit = mix(lit, tint.rgb * (0.25 + 0.75 * light), tint.a);
@@ -67,14 +67,14 @@ const char* const kSkyFragment = R"(#version 430 compatibility
 in vec3 direction;
 uniform vec3 upInEye;
 uniform vec3 haze;
-uniform float dip;         // of the earth's horizon, radians
+uniform float dip;         // of the earth's horizon, its sine
 out vec4 fragment;
 void main() {
-  float elevation = asin(clamp(dot(normalize(direction), upInEye), -1.0, 1.0)) + dip;
-  vec3 zenith = vec3(0.20, 0.40, 0.72);
-  vec3 ground = haze * 0.94;
-  vec3 sky = mix(haze, zenith, 1.0 - exp(-max(elevation, 0.0) * 3.0));
-  fragment = vec4(mix(ground, sky, smoothstep(-0.003, 0.003, elevation)), 1.0);
+  // A rational ramp and no trigonometry: a software rasteriser pays for every pixel of it.
+  float elevation = dot(direction, upInEye) * inversesqrt(dot(direction, direction)) + dip;
+  float above = max(elevation, 0.0) * 3.0;
+  vec3 sky = mix(haze, vec3(0.20, 0.40, 0.72), above / (above + 0.6));
+  fragment = vec4(mix(haze * 0.94, sky, clamp(elevation * 200.0 + 0.5, 0.0, 1.0)), 1.0);
 }
 )";
 
