@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "trimtab/terrain/parallel.h"
+
 namespace trimtab::terrain {
 
 namespace {
@@ -48,7 +50,7 @@ double uplift(double x, double y, std::uint32_t seed) {
   // The ranges bend.
   const double bx = x + 0.16 * fractalNoise(1.3 * x, 1.3 * y + 9, 3, seed + 21),
                by = y + 0.16 * fractalNoise(1.3 * x + 7, 1.3 * y, 3, seed + 22);
-  double rise = 0.10;
+  double rise = 0.17;
   rise += 0.95 * ridge(bx, by, -1.0, -0.35, -0.2, 1.0, 0.30);
   rise += 0.60 * ridge(bx, by, 0.42, 1.05, 0.46, 0.34, 0.20);
   rise += 0.42 * ridge(bx, by, -0.75, -0.85, 0.35, -0.72, 0.22);
@@ -56,7 +58,7 @@ double uplift(double x, double y, std::uint32_t seed) {
   // The basin in the middle opens to the coast; a low swell in it keeps its rivers off the very centre.
   const double basin =
       std::max(ridge(bx, by, -0.10, -0.04, 0.10, -0.02, 0.22), ridge(x, y, 0.0, -0.05, 0.85, -0.25, 0.14));
-  rise *= 1 - 0.82 * basin;
+  rise *= 1 - 0.75 * basin;
   rise += 0.05 * std::exp(-(x * x + y * y) / (0.065 * 0.065));
   return std::max(0.012, rise);
 }
@@ -69,20 +71,23 @@ class Process {
     heights.assign(size, 0);
     land_.resize(size);
     rise_.resize(size);
-    steepest_.resize(size);
+    softness_.resize(size);
     drained.resize(size);
     receiver_.resize(size);
     next_.resize(size);
     order_.reserve(size);
-    for (std::uint32_t r = 0; r < side; ++r)
-      for (std::uint32_t c = 0; c < side; ++c) {
-        const double x = 2.0 * c / (side - 1) - 1, y = 2.0 * r / (side - 1) - 1;
-        const std::size_t i = std::size_t{r} * side + c;
-        land_[i] = c + 1 < side && coast(x, y, seed) > 0;
-        rise_[i] = static_cast<float>(uplift(x, y, seed));
-        // Rock of different strength gives slopes of different steepness.
-        steepest_[i] = static_cast<float>(0.55 + 0.16 * fractalNoise(9 * x, 9 * y, 3, seed + 31));
-      }
+    forEachParallel(
+        side,
+        [&](std::uint32_t r) {
+          for (std::uint32_t c = 0; c < side; ++c) {
+            const double x = 2.0 * c / (side - 1) - 1, y = 2.0 * r / (side - 1) - 1;
+            const std::size_t i = std::size_t{r} * side + c;
+            land_[i] = c + 1 < side && coast(x, y, seed) > 0;
+            rise_[i] = static_cast<float>(uplift(x, y, seed));
+            softness_[i] = static_cast<float>(std::exp2(1.6 * fractalNoise(7 * x, 7 * y, 5, seed + 31)));
+          }
+        },
+        nullptr);
   }
 
   /// Starts as a rough ramp away from the coast.
@@ -113,8 +118,10 @@ class Process {
 
   void step(double years) {
     flood();
+    drain();
     accumulate();
     erode(years);
+    creep(0.5f);
   }
 
   std::vector<float> heights, drained;
@@ -166,6 +173,29 @@ class Process {
       }
   }
 
+  /// A cell drains down its steepest side, and through the flood's way out of a hollow where there is none.
+  /// Diagonals are weighed at random (Fairfield and Leymarie's rho8): else valleys run in eight directions.
+  void drain() {
+    // The place in the order stands in next_: a receiver must come earlier.
+    for (std::uint32_t k = 0; k < order_.size(); ++k) next_[order_[k]] = k;
+    const auto width = static_cast<std::int32_t>(side_);
+    ++turn_;
+    for (const std::uint32_t cell : order_) {
+      if (receiver_[cell] == cell) continue;
+      const auto r = static_cast<std::int32_t>(cell / side_), c = static_cast<std::int32_t>(cell % side_);
+      double best = 0;
+      const double diagonal = 1 / (1.41421356 + 0.35 * lattice(c, r, turn_));
+      for (std::int32_t dr = -1; dr <= 1; ++dr)
+        for (std::int32_t dc = -1; dc <= 1; ++dc) {
+          const std::int32_t row = r + dr, column = c + dc;
+          if (row < 0 || column < 0 || row >= width || column >= width) continue;
+          const auto other = static_cast<std::uint32_t>(row * width + column);
+          const double fall = (heights[cell] - heights[other]) * (dr != 0 && dc != 0 ? diagonal : 1);
+          if (fall > best && next_[other] < next_[cell]) best = fall, receiver_[cell] = other;
+        }
+    }
+  }
+
   void accumulate() {
     std::fill(drained.begin(), drained.end(), static_cast<float>(cellM_ * cellM_));
     for (std::size_t k = order_.size(); k-- > 0;) {
@@ -178,26 +208,74 @@ class Process {
   /// slopes kept below what rock stands at.
   void erode(double years) {
     constexpr double kRise = 1,
-                     kCut = 1.0 / 150;  // metres a year are a matter of scale: heights are fitted later
+                     kCut = 1.0 / 70;  // metres a year are a matter of scale: heights are fitted later
     for (const std::uint32_t cell : order_) {
       const std::uint32_t down = receiver_[cell];
       if (down == cell) continue;
       const bool across = down % side_ != cell % side_ && down / side_ != cell / side_;
       const double distance = across ? cellM_ * 1.41421356 : cellM_;
-      const double cut = kCut * years * std::sqrt(static_cast<double>(drained[cell])) / distance;
+      const double cut =
+          kCut * softness_[cell] * years * std::sqrt(static_cast<double>(drained[cell])) / distance;
       const double base = heights[down];
       double height = (heights[cell] + kRise * rise_[cell] * years + cut * base) / (1 + cut);
-      height = std::min(height, base + steepest_[cell] * distance);
+      height = std::min(height, base + kSteepest * distance);
       heights[cell] = static_cast<float>(std::max(height, base + 2e-4 * distance));
     }
   }
 
+  /// Soil creeps: ridges are round, and slopes between streams are one piece.
+  void creep(float share) {
+    scratch_ = heights;
+    for (std::size_t r = 0; r < side_; ++r)
+      for (std::size_t c = 0; c < side_; ++c) {
+        const std::size_t i = r * side_ + c;
+        if (!land_[i] || drained[i] > kStreamM2) continue;
+        const std::size_t w = c == 0 ? i : i - 1, e = c + 1 == side_ ? i : i + 1, s = r == 0 ? i : i - side_,
+                          n = r + 1 == side_ ? i : i + side_;
+        heights[i] += share * ((scratch_[w] + scratch_[e] + scratch_[s] + scratch_[n]) / 4 - scratch_[i]);
+      }
+  }
+
+  static constexpr double kSteepest = 0.9;
+  static constexpr float kStreamM2 = 1.5e6f;
+
   std::uint32_t side_;
   double cellM_;
   std::vector<std::uint8_t> land_;
-  std::vector<float> rise_, steepest_;
+  std::vector<float> rise_, softness_, scratch_;
   std::vector<std::uint32_t> receiver_, next_, order_;
+  std::uint32_t turn_ = 0;
 };
+
+/// The same ground drawn on cloth that was pulled a little here and there: no valley is straight, and what
+/// runs down still does.
+Landscape bent(const Landscape& land, std::uint32_t seed) {
+  Landscape result = land;
+  const double last = land.side - 1.0, km = land.cellM / 1000;
+  forEachParallel(
+      land.side,
+      [&](std::uint32_t r) {
+        for (std::uint32_t c = 0; c < land.side; ++c) {
+          const double x = c * km, y = r * km;
+          const double dx = 0.75 * smoothNoise(x / 4.1, y / 4.1, seed + 61) +
+                            0.16 * smoothNoise(x / 0.9, y / 0.9, seed + 62);
+          const double dy = 0.75 * smoothNoise(x / 4.1, y / 4.1, seed + 63) +
+                            0.16 * smoothNoise(x / 0.9, y / 0.9, seed + 64);
+          const double column = std::clamp(c + dx / km, 0.0, last), row = std::clamp(r + dy / km, 0.0, last);
+          const auto i = std::min(static_cast<std::uint32_t>(column), land.side - 2),
+                     j = std::min(static_cast<std::uint32_t>(row), land.side - 2);
+          const auto u = static_cast<float>(column - i), v = static_cast<float>(row - j);
+          const std::size_t at = std::size_t{j} * land.side + i, to = std::size_t{r} * land.side + c;
+          const float* h = &land.heights[at];
+          result.heights[to] =
+              (h[0] * (1 - u) + h[1] * u) * (1 - v) + (h[land.side] * (1 - u) + h[land.side + 1] * u) * v;
+          // What drains through a stream is the stream's alone.
+          result.drainedM2[to] = land.drainedM2[at + (u < 0.5f ? 0 : 1) + (v < 0.5f ? 0 : land.side)];
+        }
+      },
+      nullptr);
+  return result;
+}
 
 }  // namespace
 
@@ -216,7 +294,7 @@ Landscape erodedLandscape(const LandscapeShape& shape, const std::function<bool(
   // Large forms come from a coarse grid, where a step is cheap; each finer one adds its own valleys.
   std::vector<std::uint32_t> sides{shape.side};
   while (sides.back() > 450) sides.push_back((sides.back() + 1) / 2);
-  constexpr std::array<int, 3> kSteps{4, 10, 70};
+  constexpr std::array<int, 3> kSteps{3, 6, 50};
   const auto stepsOf = [&](std::size_t k) {
     return k + 1 == sides.size() ? kSteps[2] : kSteps[std::min<std::size_t>(k, 1)];
   };
@@ -235,12 +313,13 @@ Landscape erodedLandscape(const LandscapeShape& shape, const std::function<bool(
     process = std::move(finer);
     const bool coarsest = k + 1 == sides.size();
     for (int step = 0; step < stepsOf(k); ++step) {
-      process->step(coarsest ? (step < 40 ? 60 : 25) : 8);
+      process->step(coarsest ? (step < 30 ? 70 : 30) : 8);
       done += costOf(k);
       if (carryOn && !carryOn(done / total)) return {};
     }
   }
-  return {shape.side, shape.cellM, std::move(process->heights), std::move(process->drained)};
+  return bent({shape.side, shape.cellM, std::move(process->heights), std::move(process->drained)},
+              shape.seed);
 }
 
 }  // namespace trimtab::terrain

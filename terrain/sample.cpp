@@ -57,30 +57,35 @@ void flattenAirfield(Landscape& land, double sizeM) {
 }
 
 /// Rivers lie in floors as wide as the water they carry, not in notches one post wide.
-void widenValleys(Landscape& land, double sizeM) {
-  const std::vector<float> before = land.heights;
+void widenValleys(Landscape& land, double sizeM, std::uint32_t seed) {
+  constexpr float kFar = 2;
+  std::vector<float> away(land.heights.size(), kFar), beds(land.heights.size(), 0);
   const auto side = static_cast<std::int32_t>(land.side);
   for (std::int32_t r = 0; r < side; ++r)
     for (std::int32_t c = 0; c < side; ++c) {
       const std::size_t i = static_cast<std::size_t>(r) * land.side + static_cast<std::size_t>(c);
       const double km2 = land.drainedM2[i] / 1e6;
-      if (km2 < 6 || before[i] <= 0 ||
-          fromMiddle(land, static_cast<std::uint32_t>(r), static_cast<std::uint32_t>(c)) <
-              std::min(2800.0, 0.06 * sizeM))
+      if (km2 < 4 || land.heights[i] <= 0) continue;
+      if (fromMiddle(land, static_cast<std::uint32_t>(r), static_cast<std::uint32_t>(c)) <
+          std::min(2800.0, 0.06 * sizeM))
         continue;
-      const double wide = std::min(900.0, 70 * std::pow(km2 / 10, 0.42)), reach = wide * 1.6;
-      const double bed = before[i] - std::min(3.0, 0.6 * std::pow(km2 / 10, 0.3));
-      const auto span = static_cast<std::int32_t>(reach / land.cellM);
+      const double vary = 1 + 0.9 * fractalNoise(c * land.cellM / 2500, r * land.cellM / 2500, 3, seed + 71);
+      const double wide = std::min(1100.0, 60 * std::pow(km2 / 10, 0.45)) * vary;
+      const double bed = land.heights[i] - std::min(4.0, 0.8 * std::pow(km2 / 10, 0.3));
+      const auto span = static_cast<std::int32_t>(wide * kFar / land.cellM);
       for (std::int32_t y = std::max(0, r - span); y <= std::min(side - 1, r + span); ++y)
         for (std::int32_t x = std::max(0, c - span); x <= std::min(side - 1, c + span); ++x) {
-          const double away = std::hypot(y - r, x - c) * land.cellM;
-          if (away > reach) continue;
-          const double t = away / wide;
-          const double floor = bed + (t < 1 ? 3.0 * t + 5 * t * t : 8 + 0.3 * (away - wide));
-          float& h = land.heights[static_cast<std::size_t>(y) * land.side + static_cast<std::size_t>(x)];
-          if (h > floor && h > 0) h = static_cast<float>(std::max(floor, 0.3));
+          const std::size_t k = static_cast<std::size_t>(y) * land.side + static_cast<std::size_t>(x);
+          const auto t = static_cast<float>(std::hypot(y - r, x - c) * land.cellM / wide);
+          if (t < away[k]) away[k] = t, beds[k] = static_cast<float>(bed);
         }
     }
+  for (std::size_t k = 0; k < away.size(); ++k) {
+    float& h = land.heights[k];
+    if (away[k] >= kFar || h <= 0) continue;
+    const float floor = std::max(0.25f, beds[k] + 2 * away[k] * away[k]);
+    if (h > floor) h = floor + (h - floor) * static_cast<float>(smoothStep(0.15, kFar, away[k]));
+  }
 }
 
 /// Creep rounds what the steps of the process left.
@@ -158,7 +163,7 @@ Result<Done> writeSample(const fs::path& tif, const SampleOptions& options) {
   if (land.heights.empty()) return cancelled(tif.string());
   fitHeights(land, sizeM);
   flattenAirfield(land, sizeM);
-  widenValleys(land, sizeM);
+  widenValleys(land, sizeM, options.seed);
   soften(land);
   // Steps of 1/64 m: exact in the file, and what a person reads is short.
   for (float& h : land.heights) h = std::round(h * 64) / 64;
