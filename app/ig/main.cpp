@@ -17,13 +17,14 @@ bool accepted(const Result<T>& result) {
   return result.ok();
 }
 
-terrain::Progress progressOnError() {
-  return [shown = -1](double fraction, const std::string& what) mutable {
+/// A signal cancels the baking.
+terrain::Progress progressOnError(const Wake& wake) {
+  return [&wake, shown = -1](double fraction, const std::string& what) mutable {
     const int percent = static_cast<int>(fraction * 100);
     if (percent / 10 != shown / 10 || shown < 0)
       std::cerr << "terrain: " << percent << " % " << what << std::endl;
     shown = percent;
-    return true;
+    return !wake.stop();
   };
 }
 
@@ -56,7 +57,7 @@ int runWith(const Options& options) {
   // All inputs are looked at before any refusal ends the program: one run tells everything that is wrong.
   const Result<ActivePreset> preset = loadActivePreset(options.preset);
   const Result<std::shared_ptr<const terrain::Database>> database =
-      terrain::openOrBake(options.terrain, session::cacheFolder(), progressOnError());
+      terrain::openOrBake(options.terrain, session::cacheFolder(), progressOnError(wake));
   Result<std::unique_ptr<Feed>> feed = openFeed(options, wake);
   bool usable = accepted(preset);
   usable &= accepted(database);
