@@ -1,0 +1,270 @@
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "trimtab/decision/decide.h"
+#include "trimtab/host/flight.h"
+#include "trimtab/measure/trace.h"
+#include "trimtab/preset/preset.h"
+
+namespace trimtab::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string preset = "default", flight;
+  std::vector<std::string> settings;
+  std::optional<double> altitudeFt, pitchDeg, aboveGroundFt;
+  double rollDeg = 0, headingDeg = 0;
+  bool json = false, csv = false;
+};
+
+/// What one run decides: rows in order, and for a trace how many came out as they were recorded.
+struct Decided {
+  std::vector<TraceRow> rows;
+  std::optional<std::size_t> asRecorded;
+};
+
+Findings applySettings(const std::vector<std::string>& settings, TuningParameters& parameters) {
+  Findings findings;
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    const ParameterRow* row = findRow(std::string_view(setting).substr(0, equals));
+    if (equals == std::string::npos || !row) {
+      findings.push_back(
+          {Severity::error, "--set", "", "KEY=VALUE with a key of the parameter table", setting});
+      continue;
+    }
+    const Result<ParameterValue> value = parseValue(*row, std::string_view(setting).substr(equals + 1));
+    if (value)
+      row->set(parameters, *value);
+    else
+      for (Finding finding : value.findings()) {
+        finding.where = "--set";
+        findings.push_back(finding);
+      }
+  }
+  return findings;
+}
+
+std::optional<ValidatedParameters> parametersFor(const Options& options) {
+  const Result<Preset> preset = loadPreset(options.preset);
+  if (!preset) {
+    report(preset.findings());
+    return std::nullopt;
+  }
+  TuningParameters parameters = preset->parameters;
+  if (const Findings findings = applySettings(options.settings, parameters); !findings.empty()) {
+    report(findings);
+    return std::nullopt;
+  }
+  const Result<ValidatedParameters> valid = validate(parameters);
+  report(valid.findings());
+  if (!valid) return std::nullopt;
+  return *valid;
+}
+
+void decideRow(TraceRow& row, const ValidatedParameters& parameters, DecisionMemory& memory) {
+  row.before = memory;
+  row.decision = decide(row.input, parameters, memory);
+}
+
+/// The altitude is the one that the preset's reference asks for, unless the height above ground is given
+/// apart.
+Result<Decided> decideOne(const Options& options, const ValidatedParameters& parameters) {
+  Findings findings;
+  const auto check = [&findings](const char* option, std::optional<double> value) {
+    if (value && !std::isfinite(*value))
+      findings.push_back({Severity::error, option, "", "a finite number", std::to_string(*value)});
+  };
+  check("--altitude-ft", options.altitudeFt);
+  check("--pitch-deg", options.pitchDeg);
+  check("--roll-deg", options.rollDeg);
+  check("--heading-deg", options.headingDeg);
+  check("--above-ground-ft", options.aboveGroundFt);
+  if (!findings.empty()) return findings;
+
+  TraceRow row;
+  AircraftState& state = row.input.state;
+  state.position.height = Feet{*options.altitudeFt}.as<Metres>();
+  state.attitude = {Degrees{options.headingDeg}, Degrees{*options.pitchDeg}, Degrees{options.rollDeg}};
+  state.aboveGround = Feet{options.aboveGroundFt.value_or(*options.altitudeFt)}.as<Metres>();
+  row.input.aboveGround = state.aboveGround;
+  DecisionMemory memory;
+  decideRow(row, parameters, memory);
+  return Decided{{row}, std::nullopt};
+}
+
+/// Whether a file begins as a trace of ours; a file that cannot be read is readFlight's to refuse.
+bool isTraceFile(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string header;
+  std::getline(in, header);
+  return isTrace(header);
+}
+
+Result<Decided> decideTrace(const std::string& file, const ValidatedParameters& parameters) {
+  Result<std::vector<TraceRow>> trace = readTrace(file);
+  if (!trace) return trace.findings();
+  Decided decided{std::move(*trace), 0};
+  DecisionMemory memory;
+  if (!decided.rows.empty()) memory = decided.rows.front().before;
+  for (TraceRow& row : decided.rows) {
+    const FrameDecision recorded = row.decision;
+    decideRow(row, parameters, memory);
+    if (row.decision == recorded) ++*decided.asRecorded;
+  }
+  return decided;
+}
+
+Result<Decided> decideFlight(const std::string& file, const ValidatedParameters& parameters) {
+  if (isTraceFile(file)) return decideTrace(file, parameters);
+  const Result<Flight> flight = readFlight(file);
+  if (!flight) return flight.findings();
+  Decided decided;
+  decided.rows.reserve(flight->states.size());
+  DecisionMemory memory;
+  for (const AircraftState& state : flight->states) {
+    TraceRow row;
+    row.input.state = state;
+    row.input.aboveGround = state.aboveGround;
+    decideRow(row, parameters, memory);
+    decided.rows.push_back(row);
+  }
+  return Result<Decided>(std::move(decided), flight.findings());
+}
+
+Json toJson(const TraceRow& row, const ValidatedParameters& parameters) {
+  const FrameDecision& d = row.decision;
+  return {{"altitude_ft", d.altitudeFt},
+          {"pitch_deg", d.pitchDeg},
+          {"altitude_membership", d.altitudeMembership},
+          {"pitch_membership", d.pitchMembership},
+          {"total_membership", d.totalMembership},
+          {"rule_firing",
+           {{"low_down", d.ruleFiring[0]},
+            {"low_up", d.ruleFiring[1]},
+            {"high_down", d.ruleFiring[2]},
+            {"high_up", d.ruleFiring[3]}}},
+          {"scheme", toText(d.scheme)},
+          {"band", d.band},
+          {"depth_map_px", d.depthMap ? Json{d.depthMap->widthPx, d.depthMap->heightPx} : Json(nullptr)},
+          {"lod_scale", d.lodScale},
+          {"reason", toText(d.reason)},
+          {"explanation", explain(d, parameters)}};
+}
+
+bool sameOutcome(const FrameDecision& a, const FrameDecision& b) {
+  return a.scheme == b.scheme && a.band == b.band;
+}
+
+std::size_t changes(const std::vector<TraceRow>& rows) {
+  std::size_t count = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) count += !sameOutcome(rows[i - 1].decision, rows[i].decision);
+  return count;
+}
+
+void printJson(const Options& options, const Decided& decided, const ValidatedParameters& parameters) {
+  if (options.flight.empty()) {
+    std::cout << toJson(decided.rows.front(), parameters).dump(2) << '\n';
+    return;
+  }
+  Json list = Json::array();
+  for (const TraceRow& row : decided.rows) {
+    Json entry{{"time_s", row.input.state.time}, {"packet", row.input.state.packet}};
+    entry.update(toJson(row, parameters));
+    list.push_back(std::move(entry));
+  }
+  Json document{{"preset", options.preset},
+                {"flight", options.flight},
+                {"rows", decided.rows.size()},
+                {"changes", changes(decided.rows)},
+                {"as_recorded", decided.asRecorded ? Json(*decided.asRecorded) : Json(nullptr)},
+                {"decisions", std::move(list)}};
+  std::cout << document.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+}
+
+/// A flight's decisions as a trace; it flies again.
+void printCsv(const Decided& decided) {
+  std::string text = traceHeader() + '\n';
+  for (const TraceRow& row : decided.rows) appendTraceRow(text, row);
+  std::cout << text;
+}
+
+void printText(const Options& options, const Decided& decided, const ValidatedParameters& parameters) {
+  if (options.flight.empty()) {
+    std::cout << explain(decided.rows.front().decision, parameters) << '\n';
+    return;
+  }
+  const FrameDecision* last = nullptr;
+  for (const TraceRow& row : decided.rows) {
+    if (!last || !sameOutcome(*last, row.decision))
+      std::printf("%10.3f s  %s\n", row.input.state.time, explain(row.decision, parameters).c_str());
+    last = &row.decision;
+  }
+  std::printf("%zu rows, %zu changes\n", decided.rows.size(), changes(decided.rows));
+  if (decided.asRecorded)
+    std::printf("%zu of %zu decisions are as the trace recorded them\n", *decided.asRecorded,
+                decided.rows.size());
+  std::fflush(stdout);
+}
+
+int run(const Options& options) {
+  const std::optional<ValidatedParameters> parameters = parametersFor(options);
+  if (!parameters) return kRefused;
+  const Result<Decided> decided =
+      options.flight.empty() ? decideOne(options, *parameters) : decideFlight(options.flight, *parameters);
+  report(decided.findings());
+  if (!decided) return kRefused;
+  if (options.json)
+    printJson(options, *decided, *parameters);
+  else if (options.csv)
+    printCsv(*decided);
+  else
+    printText(options, *decided, *parameters);
+  std::cout.flush();
+  return std::cout ? kDone : kRefused;
+}
+
+}  // namespace
+
+void addDecide(CLI::App& app, int& exitCode) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("decide", "Decide scheme and depth-map size for one state or for a flight");
+  command->add_option("--preset", options->preset, "A shipped preset's name or a preset file")
+      ->capture_default_str();
+  CLI::Option* flight = command->add_option("--flight", options->flight, "A flight, a capture or a trace");
+  CLI::Option* altitude = command->add_option("--altitude-ft", options->altitudeFt,
+                                              "Altitude, above what the preset's altitude reference says");
+  CLI::Option* pitch = command->add_option("--pitch-deg", options->pitchDeg, "Pitch, nose up positive");
+  CLI::Option* ground = command->add_option("--above-ground-ft", options->aboveGroundFt,
+                                            "Height above ground, where it differs");
+  command->add_option("--roll-deg", options->rollDeg,
+                      "Roll, right wing down positive; recorded, not decided by");
+  command->add_option("--heading-deg", options->headingDeg, "Heading; recorded, not decided by");
+  command->add_option("--set", options->settings, "KEY=VALUE: one parameter, whatever the preset says");
+  CLI::Option* json = command->add_flag("--json", options->json, "One JSON document");
+  CLI::Option* csv = command->add_flag("--csv", options->csv, "A decision trace, which flies again");
+  altitude->needs(pitch);
+  pitch->needs(altitude);
+  ground->needs(altitude);
+  flight->excludes(altitude);
+  json->excludes(csv);
+  command->callback([options, &exitCode] {
+    if (options->flight.empty() && !options->altitudeFt)
+      throw CLI::RequiredError("--flight, or --altitude-ft and --pitch-deg");
+    exitCode = run(*options);
+  });
+}
+
+}  // namespace trimtab::cli
