@@ -86,7 +86,7 @@ BandsEditor::BandsEditor(Draft& draft, QWidget* parent)
   split->addWidget(upper);
   split->addWidget(inset_);
   split->setChildrenCollapsible(false);
-  split->setStretchFactor(1, 1);
+  split->setSizes({10, 10000});
   QVBoxLayout* layout = new QVBoxLayout(this);
   layout->setContentsMargins(4, 4, 4, 4);
   layout->addWidget(split);

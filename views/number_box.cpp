@@ -44,6 +44,7 @@ NumberBox::NumberBox(Draft& draft, std::string_view key, QWidget* parent)
   setToolTip(helpText(*row_));
   if (!row_->unit.empty())
     setSuffix((row_->unit == "°" ? QString() : QStringLiteral(" ")) + fromView(row_->unit));
+  setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("0.00000000") + suffix()) + 34);
   read();
   connect(&draft_, &Draft::valueChanged, this, [this](const QString& changed) {
     if (changed.toStdString() == row_->key) read();

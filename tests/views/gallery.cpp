@@ -11,7 +11,10 @@
 #include "trimtab/views/band_scale.h"
 #include "trimtab/views/bands_editor.h"
 #include "trimtab/views/curve_plot.h"
+#include "trimtab/views/decision_panel.h"
 #include "trimtab/views/membership_editor.h"
+#include "trimtab/views/plots_panel.h"
+#include "trimtab/views/time_plot.h"
 
 // Draws every dock with live data into PNG files, for a person to look at: views_gallery DIR [dark].
 namespace {
@@ -84,5 +87,31 @@ int main(int argc, char** argv) {
   bands.showDepthMap(map, QStringLiteral("400 × 300 px, near 1 m, far 38,200 m"));
   draft.setValue("fuzzy.hysteresis", 0.3);
   shoot(bands, {480, 560}, dir.filePath(QStringLiteral("bands_broken.png")));
+  draft.resetAll();
+
+  DecisionPanel decision(draft);
+  for (int i = 0; i < 6000; ++i) decision.showFrame(flight.next(draft.active()));
+  shoot(decision, {520, 520}, dir.filePath(QStringLiteral("decision.png")));
+
+  PlotsPanel plots(draft);
+  for (int i = 0; i < 60 * 90; ++i) plots.showFrame(flight.next(draft.active()));
+  shoot(plots, {680, 520}, dir.filePath(QStringLiteral("plots.png")));
+  plots.setCursors(true);
+  shoot(plots, {680, 700}, dir.filePath(QStringLiteral("plots_cursors.png")));
+  plots.setCursors(false);
+  for (int i = 0; i < 60 * 3500; ++i) plots.showFrame(flight.next(draft.active()));
+  for (const double span : {60.0, 600.0, 3600.0}) {
+    plots.plot().setSpan(span);
+    settle();
+    QElapsedTimer timer;
+    timer.start();
+    for (int i = 0; i < 20; ++i) {
+      plots.showFrame(flight.next(draft.active()));
+      plots.plot().refresh(true);
+      plots.plot().replot();
+    }
+    std::printf("%g s shown: %.2f ms a refresh\n", span, static_cast<double>(timer.nsecsElapsed()) / 20e6);
+  }
+  shoot(plots, {680, 520}, dir.filePath(QStringLiteral("plots_hour.png")));
   return 0;
 }

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QString>
+#include <QWidget>
+#include <vector>
+
+namespace trimtab::views {
+
+/// Named values as horizontal bars, one a line.
+class BarList : public QWidget {
+  Q_OBJECT
+ public:
+  struct Bar {
+    QString name;
+    double value = 0;
+    double top = 1;
+    QString text;               ///< beside the bar
+    std::vector<double> ticks;  ///< places worth seeing, such as band edges
+    int colour = 0;             ///< of seriesColour
+    bool quiet = false;         ///< computed, but not used now
+    friend bool operator==(const Bar&, const Bar&) = default;
+  };
+
+  explicit BarList(QWidget* parent = nullptr);
+  void setBars(std::vector<Bar> bars);
+
+  QSize sizeHint() const override;
+  QSize minimumSizeHint() const override;
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  int lineHeight() const;
+  int nameWidth() const;
+  int textWidth() const;
+
+  std::vector<Bar> bars_;
+};
+
+}  // namespace trimtab::views

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QAbstractTableModel>
+#include <QString>
+#include <deque>
+#include <optional>
+
+#include "trimtab/frame/frame.h"
+
+namespace trimtab::views {
+
+/// Every *change* of decision with its time and reason: newest last, bounded, the oldest forgotten. Held by
+/// hysteresis or not is no change; another scheme, band, depth-map size or LOD scale is, and so is input that
+/// stops making sense.
+class DecisionLog : public QAbstractTableModel {
+  Q_OBJECT
+ public:
+  enum Column { kTime, kPacket, kScheme, kDepthMap, kReason, kColumns };
+  static constexpr int kCapacity = 10000;
+
+  using QAbstractTableModel::QAbstractTableModel;
+
+  /// Whether `decision` differs from the last one: then, and only then, a reason has to be made for `append`.
+  bool isChange(const FrameDecision& decision) const;
+  void append(double time, std::uint64_t packet, const FrameDecision& decision, const QString& reason);
+  void clear();
+  std::uint64_t forgotten() const { return forgotten_; }
+
+  int rowCount(const QModelIndex& parent = {}) const override;
+  int columnCount(const QModelIndex& = {}) const override { return kColumns; }
+  QVariant data(const QModelIndex& index, int role) const override;
+  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+
+  /// Rows as text in the C locale, with a header line: tabs between (for the clipboard) or CSV.
+  QString toText(const QList<int>& rows) const;
+  QString toCsv() const;
+
+ private:
+  struct Entry {
+    double time = 0;
+    std::uint64_t packet = 0;
+    Scheme scheme = Scheme::frustum;
+    std::optional<DepthMapSize> depthMap;
+    QString reason;
+  };
+  QStringList cells(const Entry& entry) const;
+
+  std::deque<Entry> entries_;
+  std::optional<FrameDecision> last_;
+  std::uint64_t forgotten_ = 0;
+};
+
+}  // namespace trimtab::views

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trimtab/views/time_plot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trimtab/views/theme.h"
+
+namespace trimtab::views {
+
+namespace {
+constexpr double kShortestSpanS = 0.05, kLongestSpanS = 3600 * 4;
+}
+
+TimePlot::TimePlot(const TraceBuffer& buffer, QWidget* parent) : QCustomPlot(parent), buffer_(buffer) {
+  setFocusPolicy(Qt::StrongFocus);
+  setMouseTracking(true);
+  setAccessibleName(tr("Live plots"));
+  setAccessibleDescription(
+      tr("Space pauses, F follows, plus and minus zoom, the arrow keys move the view, or with cursors shown "
+         "the cursor "
+         "chosen by A or B."));
+  setNoAntialiasingOnDrag(true);
+  setPlottingHints(QCP::phFastPolylines | QCP::phCacheLabels);
+  setNotAntialiasedElements(QCP::aeAxes | QCP::aeGrid | QCP::aeSubGrid | QCP::aePlottables | QCP::aeFills);
+  // Pan and zoom are made here, so that zooming keeps the newest frame at the edge while it is followed.
+  plotLayout()->clear();
+  plotLayout()->setRowSpacing(2);
+  for (const char* name : {"cursors", "tracker"}) {
+    addLayer(QString::fromLatin1(name));
+    layer(QString::fromLatin1(name))->setMode(QCPLayer::lmBuffered);
+  }
+  makeLane(tr("Membership"), 2.06, false);
+  makeLane(tr("Triangles"), 0, false);
+  makeLane(tr("Frame"), 0, true);
+  makeLane(tr("Stages"), 0, true);
+  using S = QCPScatterStyle;
+  addTrace(0, {Trace::altitude_membership, tr("altitude"), {}, 0, S::ssCircle, Qt::SolidLine, 1, 3});
+  addTrace(0, {Trace::pitch_membership, tr("pitch"), {}, 2, S::ssSquare, Qt::SolidLine, 1, 3});
+  addTrace(0, {Trace::total_membership, tr("total"), {}, 1, S::ssDiamond, Qt::SolidLine, 1, 3});
+  addTrace(1, {Trace::triangles, tr("triangles"), tr("thousand"), 3, S::ssTriangle, Qt::SolidLine, 1e-3, 1});
+  addTrace(2, {Trace::frame_ms, tr("frame"), QStringLiteral("ms"), 0, S::ssCircle, Qt::SolidLine, 1, 2});
+  addTrace(2, {Trace::fps, tr("rate"), tr("fps, right"), 2, S::ssSquare, Qt::DotLine, 1, 1}, true);
+  // The tallest sum first: each next one is drawn over its foot.
+  addTrace(
+      3, {Trace::cull_draw_gpu_ms, tr("GPU"), QStringLiteral("ms"), 1, S::ssNone, Qt::SolidLine, 1, 2, true});
+  addTrace(3,
+           {Trace::cull_draw_ms, tr("draw"), QStringLiteral("ms"), 0, S::ssNone, Qt::SolidLine, 1, 2, true});
+  addTrace(3, {Trace::cull_ms, tr("cull"), QStringLiteral("ms"), 2, S::ssNone, Qt::SolidLine, 1, 2, true});
+  for (std::size_t i = 0; i < 2; ++i) {
+    cursorText_[i] = new QCPItemText(this);
+    cursorText_[i]->setLayer(QStringLiteral("cursors"));
+    cursorText_[i]->setText(i == 0 ? QStringLiteral("A") : QStringLiteral("B"));
+    cursorText_[i]->setPositionAlignment(Qt::AlignHCenter | Qt::AlignTop);
+    cursorText_[i]->position->setAxes(timeAxis(), lanes_.front().rect->axis(QCPAxis::atLeft));
+    cursorText_[i]->position->setTypeY(QCPItemPosition::ptAxisRectRatio);
+    cursorText_[i]->position->setAxisRect(lanes_.front().rect);
+    cursorText_[i]->setPadding(QMargins(4, 1, 4, 1));
+    cursorText_[i]->setVisible(false);
+  }
+  lanes_.back().rect->axis(QCPAxis::atBottom)->setTickLabels(true);
+  lanes_.back().rect->axis(QCPAxis::atBottom)->setLabel(tr("Time (s)"));
+  colour();
+  setShown(0, span_);
+}
+
+void TimePlot::makeLane(const QString& title, double fixedTop, bool budget) {
+  Lane lane;
+  lane.fixedTop = fixedTop;
+  lane.rect = new QCPAxisRect(this, true);
+  plotLayout()->addElement(static_cast<int>(lanes_.size()), 0, lane.rect);
+  QCPMarginGroup* group =
+      lanes_.empty() ? new QCPMarginGroup(this) : lanes_.front().rect->marginGroup(QCP::msLeft);
+  lane.rect->setMarginGroup(QCP::msLeft | QCP::msRight, group);
+  lane.rect->setMinimumMargins(QMargins(4, 4, 4, 2));
+  QCPAxis *time = lane.rect->axis(QCPAxis::atBottom), *left = lane.rect->axis(QCPAxis::atLeft);
+  left->setLabel(title);
+  left->ticker()->setTickCount(3);
+  left->setSubTicks(false);
+  time->setSubTicks(false);
+  time->setTickLabels(false);
+  time->ticker()->setTickCount(6);
+  time->setNumberFormat(QStringLiteral("f"));
+  lane.legend = new QCPLegend;
+  lane.rect->insetLayout()->addElement(lane.legend, Qt::AlignLeft | Qt::AlignTop);
+  lane.rect->insetLayout()->setMargins(QMargins(4, 3, 4, 3));
+  lane.legend->setLayer(QStringLiteral("legend"));
+  lane.legend->setFillOrder(QCPLayoutGrid::foColumnsFirst);
+  lane.legend->setMargins(QMargins(4, 1, 4, 1));
+  lane.legend->setIconSize(22, 10);
+  const auto line = [&](const char* layerName) {
+    QCPItemStraightLine* item = new QCPItemStraightLine(this);
+    item->setLayer(QString::fromLatin1(layerName));
+    item->setClipAxisRect(lane.rect);
+    for (QCPItemPosition* point : {item->point1, item->point2}) point->setAxes(time, left);
+    return item;
+  };
+  if (budget) lane.budget = line("main");
+  for (QCPItemStraightLine*& cursor : lane.cursor) {
+    cursor = line("cursors");
+    cursor->setVisible(false);
+  }
+  lane.tracker = line("tracker");
+  lane.tracker->setVisible(false);
+  lanes_.push_back(lane);
+}
+
+void TimePlot::addTrace(std::size_t lane, TraceGraph::Look look, bool right) {
+  QCPAxisRect* rect = lanes_[lane].rect;
+  QCPAxis* value = rect->axis(right ? QCPAxis::atRight : QCPAxis::atLeft);
+  if (right) {
+    value->setVisible(true);
+    value->setTickLabels(true);
+    value->setSubTicks(false);
+    value->ticker()->setTickCount(3);
+    value->setLabel(QStringLiteral("fps"));
+  }
+  setAutoAddPlottableToLegend(false);
+  TraceGraph* graph = new TraceGraph(rect->axis(QCPAxis::atBottom), value, std::move(look));
+  graph->addToLegend(lanes_[lane].legend);
+  traces_.push_back(graph);
+}
+
+void TimePlot::colour() {
+  applyTheme(*this);
+  const QPalette& p = palette();
+  const QColor ink = p.color(QPalette::Text), base = p.color(QPalette::Base);
+  for (TraceGraph* trace : traces_) trace->colour(p);
+  QColor back = base;
+  back.setAlpha(200);
+  for (Lane& lane : lanes_) {
+    lane.legend->setBrush(back);
+    lane.legend->setBorderPen(Qt::NoPen);
+    lane.legend->setTextColor(ink);
+    lane.legend->setFont(font());
+    if (lane.budget) lane.budget->setPen(QPen(errorColour(p), 1.4, Qt::DashLine));
+    lane.cursor[0]->setPen(QPen(ink, 1.2));
+    lane.cursor[1]->setPen(QPen(ink, 1.2, Qt::DashDotLine));
+    lane.tracker->setPen(QPen(blend(base, ink, 0.4), 1, Qt::DotLine));
+  }
+  for (QCPItemText* text : cursorText_) {
+    text->setColor(base);
+    text->setBrush(ink);
+    text->setFont(font());
+  }
+}
+
+void TimePlot::setBudget(double ms) {
+  budget_ = ms;
+  for (Lane& lane : lanes_)
+    if (lane.budget) {
+      lane.budget->point1->setCoords(0, ms);
+      lane.budget->point2->setCoords(1, ms);
+    }
+  draw();
+}
+
+void TimePlot::setShown(double from, double to) {
+  span_ = std::clamp(to - from, kShortestSpanS, kLongestSpanS);
+  for (Lane& lane : lanes_) lane.rect->axis(QCPAxis::atBottom)->setRange(from, from + span_);
+  draw();
+}
+
+void TimePlot::setSpan(double seconds) {
+  const double right = shown().upper;
+  span_ = std::clamp(seconds, kShortestSpanS, kLongestSpanS);
+  if (following_ && !buffer_.empty())
+    refresh(true);
+  else
+    setShown(right - span_, right);
+}
+
+void TimePlot::refresh(bool follow) {
+  following_ = follow;
+  if (follow && !buffer_.empty()) {
+    const double newest = buffer_.time(buffer_.end() - 1), oldest = buffer_.time(buffer_.begin());
+    // The first frames start at the left edge.
+    const double from = newest - oldest < span_ ? oldest : newest - span_;
+    setShown(from, from + span_);
+  } else {
+    draw();
+  }
+}
+
+void TimePlot::draw() {
+  const QCPRange range = shown();
+  // One frame more on each side, so that lines reach the edges.
+  std::uint64_t from = buffer_.atOrAfter(range.lower), to = buffer_.atOrAfter(range.upper);
+  if (from > buffer_.begin()) --from;
+  if (to < buffer_.end()) ++to;
+  const std::size_t columns = static_cast<std::size_t>(std::max(100, width() / 2));
+  const double markerStep = roundStep(range.size() / 5);
+  std::array<double, 4> top{};
+  double fps = 0;
+  for (TraceGraph* trace : traces_) {
+    const double largest = trace->take(buffer_, from, to, columns, markerStep);
+    if (trace->look().trace == Trace::fps)
+      fps = largest;
+    else
+      for (std::size_t i = 0; i < lanes_.size(); ++i)
+        if (lanes_[i].rect == trace->keyAxis()->axisRect()) top[i] = std::max(top[i], largest);
+  }
+  for (std::size_t i = 0; i < lanes_.size(); ++i) {
+    double high = lanes_[i].fixedTop;
+    if (high == 0) {
+      // Room above for the legend; the budget line stays in sight.
+      if (lanes_[i].budget) top[i] = std::max(top[i], budget_);
+      high = top[i] > 0 ? top[i] * 1.4 : 1;
+    }
+    lanes_[i].rect->axis(QCPAxis::atLeft)->setRange(0, high);
+  }
+  lanes_[2].rect->axis(QCPAxis::atRight)->setRange(0, fps > 0 ? fps * 1.4 : 100);
+  lanes_.back().rect->axis(QCPAxis::atBottom)->setNumberPrecision(span_ < 2 ? 2 : span_ < 20 ? 1 : 0);
+  placeCursors();
+  replot(QCustomPlot::rpQueuedReplot);
+}
+
+void TimePlot::setCursors(bool on) {
+  if (on == hasCursors()) return;
+  if (on)
+    cursors_ = {shown().lower + shown().size() / 3, shown().lower + 2 * shown().size() / 3};
+  else
+    cursors_.reset();
+  placeCursors();
+  layer(QStringLiteral("cursors"))->replot();
+  emit cursorsMoved();
+}
+
+void TimePlot::moveCursor(int which, double time) {
+  if (!cursors_) return;
+  (*cursors_)[static_cast<std::size_t>(which)] = time;
+  placeCursors();
+  layer(QStringLiteral("cursors"))->replot();
+  emit cursorsMoved();
+}
+
+void TimePlot::placeCursors() {
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (Lane& lane : lanes_) {
+      lane.cursor[i]->setVisible(hasCursors());
+      if (!cursors_) continue;
+      lane.cursor[i]->point1->setCoords((*cursors_)[i], 0);
+      lane.cursor[i]->point2->setCoords((*cursors_)[i], 1);
+    }
+    cursorText_[i]->setVisible(hasCursors());
+    if (cursors_) cursorText_[i]->position->setCoords((*cursors_)[i], 0);
+  }
+}
+
+QPointF TimePlot::pixelOfTime(double time) const {
+  return {timeAxis()->coordToPixel(time), static_cast<double>(lanes_.front().rect->center().y())};
+}
+
+void TimePlot::changeEvent(QEvent* event) {
+  QCustomPlot::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) {
+    colour();
+    draw();
+  }
+}
+
+}  // namespace trimtab::views

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <qcustomplot.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "trimtab/views/trace_graph.h"
+
+namespace trimtab::views {
+
+/// Four lanes against one time axis: memberships, triangles, frame time and rate, and the stages of a frame
+/// stacked; a budget line, two cursors and a tracker. It draws what a TraceBuffer holds and owns no data.
+class TimePlot : public QCustomPlot {
+  Q_OBJECT
+ public:
+  explicit TimePlot(const TraceBuffer& buffer, QWidget* parent = nullptr);
+
+  /// Draws the buffer again; with `follow`, the newest frame is at the right edge.
+  void refresh(bool follow);
+  QCPRange shown() const { return timeAxis()->range(); }
+  void setShown(double from, double to);
+  void setSpan(double seconds);
+  double span() const { return span_; }
+  void setBudget(double ms);
+
+  bool hasCursors() const { return cursors_.has_value(); }
+  void setCursors(bool on);
+  /// Time of cursor 0 (A) or 1 (B); they snap to frames when read, not when moved.
+  double cursor(int which) const { return cursors_ ? (*cursors_)[static_cast<std::size_t>(which)] : 0; }
+  void moveCursor(int which, double time);
+  QPointF pixelOfTime(double time) const;
+
+  const std::vector<TraceGraph*>& traces() const { return traces_; }
+  QSize sizeHint() const override { return {560, 420}; }
+  QSize minimumSizeHint() const override { return {260, 260}; }
+
+ signals:
+  void movedByHand();  ///< the person panned or zoomed away from the newest frame
+  void cursorsMoved();
+  void tracked(double time);  ///< NaN: the mouse left
+  void pauseAsked();
+  void followAsked();
+
+ protected:
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+  void changeEvent(QEvent* event) override;
+
+ private:
+  struct Lane {
+    QCPAxisRect* rect = nullptr;
+    QCPLegend* legend = nullptr;
+    QCPItemStraightLine* budget = nullptr;
+    std::array<QCPItemStraightLine*, 2> cursor{};
+    QCPItemStraightLine* tracker = nullptr;
+    double fixedTop = 0;  ///< 0: by what is shown
+  };
+  void makeLane(const QString& title, double fixedTop, bool budget);
+  void addTrace(std::size_t lane, TraceGraph::Look look, bool right = false);
+  void colour();
+  QCPAxis* timeAxis() const { return lanes_.front().rect->axis(QCPAxis::atBottom); }
+  void draw();
+  void placeCursors();
+  void zoom(double factor, double anchor);
+  int cursorAt(QPointF pixel) const;
+
+  const TraceBuffer& buffer_;
+  std::vector<Lane> lanes_;
+  std::vector<TraceGraph*> traces_;
+  std::array<QCPItemText*, 2> cursorText_{};
+  std::optional<std::array<double, 2>> cursors_;
+  double span_ = 60;
+  bool following_ = true;
+  int draggedCursor_ = -1, keyCursor_ = 0;
+  std::optional<double> panFrom_;
+  double budget_ = 0;
+};
+
+}  // namespace trimtab::views
