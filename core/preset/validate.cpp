@@ -147,8 +147,8 @@ constexpr std::array kRules{
     Rule{"fuzzy.altitude.maximum_ft", maximumCoversCurve,
          [](const TuningParameters& p) {
            const CurvePoints& curve = p.altitude.curve;
-           return "at least the altitude curve's last point, " +
-                  withUnit(curve.point[curve.size - 1].x, "ft");
+           return "at least " + withUnit(curve.point[curve.size - 1].x, "ft") +
+                  ", the altitude curve's last point";
          },
          [](const TuningParameters& p) { return withUnit(p.altitude.maximum.value(), "ft"); }},
     Rule{"fuzzy.rules.low_down_weight", someRuleCounts,

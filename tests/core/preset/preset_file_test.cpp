@@ -1,0 +1,273 @@
+#include <gmock/gmock.h>
+
+#include <map>
+
+#include "random_parameters.h"
+#include "support.h"
+#include "trimtab/preset/preset.h"
+
+namespace trimtab {
+namespace {
+
+using test::sameBits;
+using ::testing::HasSubstr;
+
+std::filesystem::path data() {
+  return test::sourceDir() / "tests/data/presets";
+}
+
+std::string presetWith(const std::string& parameters, const std::string& members = "") {
+  return "{\n  \"format\": \"trimtab-preset\",\n  \"version\": 2,\n  \"name\": \"p\",\n" + members +
+         "  \"parameters\": {\n    " + parameters + "\n  }\n}\n";
+}
+
+TEST(PresetFile, readsBackBitForBitWhateverItsBase) {
+  test::RandomParameters random(4);
+  for (int i = 0; i < 200; ++i) {
+    Preset preset;
+    preset.name = "caf\xc3\xa9 \"\\\n\x01";
+    preset.base = i % 3 == 0 ? "" : i % 3 == 1 ? "default" : "as-printed";
+    preset.description = "</x>";
+    preset.parameters = random();
+    const auto text = presetText(preset);
+    ASSERT_TRUE(text) << toString(text.findings());
+    const auto back = parsePreset(*text, "memory");
+    ASSERT_TRUE(back) << toString(back.findings()) << *text;
+    EXPECT_TRUE(sameBits(back->parameters, preset.parameters));
+    EXPECT_EQ(back->name, preset.name);
+    EXPECT_EQ(back->base, preset.base);
+    EXPECT_EQ(back->description, preset.description);
+    EXPECT_EQ(*presetText(*back), *text);
+  }
+}
+
+TEST(PresetFile, keepsANegativeZero) {
+  Preset preset;
+  preset.parameters.pitch.curve = {{-0.0, 1}, {30, -0.0}};
+  preset.parameters.rules.highUpOutput = Membership{-0.0};
+  const auto back = parsePreset(*presetText(preset), "memory");
+  ASSERT_TRUE(back);
+  EXPECT_TRUE(sameBits(back->parameters, preset.parameters));
+}
+
+TEST(PresetFile, holdsOnlyWhatDiffersFromItsBaseInTheTablesOrder) {
+  Preset preset;
+  preset.name = "p";
+  preset.base = "as-published";
+  preset.parameters = loadPreset("as-published")->parameters;
+  preset.parameters.lod.scale = Ratio{3};
+  preset.parameters.scheme.hysteresis = Membership{0.05};
+  EXPECT_EQ(*presetText(preset), presetWith("\"fuzzy.hysteresis\": 0.05,\n    \"lod.scale\": 3",
+                                            "  \"base\": \"as-published\",\n"));
+}
+
+TEST(PresetFile, refusesToWriteWhatCouldNotBeRead) {
+  Preset preset;
+  preset.parameters.lod.scale = Ratio{std::nan("")};
+  EXPECT_FALSE(presetText(preset));
+  preset.parameters = {};
+  preset.base = "nowhere.json";
+  EXPECT_FALSE(presetText(preset));
+}
+
+TEST(PresetFile, keepsUnknownKeysToTheByte) {
+  const std::string unknown =
+      "\"future.list_px\": [1,   2,\n      {\"a\\u00e9\": [\"]\", \"}\\\"\"]}],\n    \"future.number\": "
+      "1.00000000000000000000001e-3";
+  const std::string members = "  \"$schema\": \"preset.schema.json\",\n  \"tags\": {\"a\": [ ]},\n";
+  const std::string text = presetWith("\"lod.scale\": 3,\n    " + unknown, members);
+  const auto preset = parsePreset(text, "memory");
+  ASSERT_TRUE(preset);
+  EXPECT_EQ(*presetText(*preset), text);
+}
+
+TEST(PresetFile, saysWhichKeyWasProbablyMeant) {
+  const auto preset = parsePreset(presetWith("\"fuzzy.histeresis\": 0.01"), "p.json");
+  ASSERT_TRUE(preset);
+  ASSERT_EQ(preset.findings().size(), 1u);
+  EXPECT_EQ(toString(preset.findings()[0]),
+            "p.json:6: fuzzy.histeresis: expected a parameter of this version (fuzzy.hysteresis?), found an "
+            "unknown key, kept "
+            "without effect");
+  EXPECT_EQ(preset.findings()[0].severity, Severity::warning);
+}
+
+TEST(PresetFile, listsEveryOffenceWithItsLine) {
+  const auto preset = parsePreset(presetWith("\"lod.scale\": \"x\",\n    \"view.near_m\": -1,\n    "
+                                             "\"fuzzy.bands_px\": [[0.1, 1]],\n    \"host.extrapolate\": 0"),
+                                  "p.json");
+  ASSERT_FALSE(preset);
+  std::map<std::string, std::string> places;
+  for (const Finding& f : preset.findings()) places[f.key] = f.where;
+  EXPECT_EQ(places, (std::map<std::string, std::string>{{"lod.scale", "p.json:6"},
+                                                        {"view.near_m", "p.json:7"},
+                                                        {"fuzzy.bands_px", "p.json:8"},
+                                                        {"host.extrapolate", "p.json:9"}}));
+}
+
+TEST(PresetFile, findsItsBaseBesideItself) {
+  const test::ScratchDir dir;
+  std::filesystem::create_directory(dir / "sub");
+  test::writeFile(dir / "sub/base.json", presetWith("\"lod.scale\": 3", "  \"base\": \"as-published\",\n"));
+  test::writeFile(dir / "sub/top.json", presetWith("\"view.near_m\": 2", "  \"base\": \"base.json\",\n"));
+  const auto preset = loadPreset((dir / "sub/top.json").string());
+  ASSERT_TRUE(preset) << toString(preset.findings());
+  EXPECT_EQ(preset->parameters.lod.scale.value(), 3);
+  EXPECT_EQ(preset->parameters.scheme.hysteresis.value(), 0);
+  EXPECT_EQ(*presetText(*preset), test::readFile(dir / "sub/top.json"));
+  EXPECT_EQ(baseParameters(*preset)->lod.scale.value(), 3);
+}
+
+TEST(PresetFile, keepsABrokenRuleAsADraftAndSaysSo) {
+  const auto preset = parsePreset(presetWith("\"fuzzy.hysteresis\": 0.3"), "p.json");
+  ASSERT_TRUE(preset) << "a draft must survive being saved";
+  ASSERT_FALSE(preset.findings().empty());
+  EXPECT_EQ(preset->parameters.scheme.hysteresis.value(), 0.3);
+  EXPECT_FALSE(validate(preset->parameters));
+  EXPECT_EQ(*presetText(*preset), presetWith("\"fuzzy.hysteresis\": 0.3"));
+}
+
+TEST(PresetFile, readsAnOldVersionAndSaysWhatChanged) {
+  const auto preset = loadPreset((data() / "old/version-1.json").string());
+  ASSERT_TRUE(preset) << toString(preset.findings());
+  EXPECT_EQ(preset->parameters.culling.method, CullingCase::view_frustum);
+  EXPECT_EQ(preset->parameters.lod.screenSpaceError.value(), 4);
+  EXPECT_EQ(preset->parameters.scheme.hysteresis.value(), 2.4 / 60);
+  EXPECT_EQ(preset->parameters.altitude.curve.point[1], (CurvePoint{5200, 0.55}));
+  ASSERT_EQ(preset.findings().size(), 3u);
+  for (const Finding& f : preset.findings()) EXPECT_EQ(f.severity, Severity::note);
+  EXPECT_TRUE(preset->unknown.empty());
+  EXPECT_THAT(*presetText(*preset), HasSubstr("\"version\": 2"));
+}
+
+TEST(ShippedPresets, areWhatTheyWouldBeSavedAs) {
+  const auto names = shippedPresets();
+  EXPECT_EQ(names, (std::vector<std::string_view>{"default", "as-published", "as-printed"}));
+  for (const std::string_view name : names) {
+    const auto preset = loadPreset(std::string(name));
+    ASSERT_TRUE(preset) << toString(preset.findings());
+    EXPECT_TRUE(preset.findings().empty());
+    EXPECT_TRUE(validate(preset->parameters));
+    EXPECT_EQ(preset->name, name);
+    EXPECT_EQ(*presetText(*preset),
+              test::readFile(test::sourceDir() / "presets" / (std::string(name) + ".json")));
+  }
+  EXPECT_TRUE(sameBits(loadPreset("default")->parameters, TuningParameters{}));
+}
+
+TEST(ShippedPresets, differWhereTheirNamesSay) {
+  const auto keys = [](const char* left, const char* right) {
+    std::vector<std::string> result;
+    for (const Difference& d : differences(loadPreset(left)->parameters, loadPreset(right)->parameters))
+      result.push_back(d.key + " " + d.left + " " + d.right);
+    return result;
+  };
+  EXPECT_EQ(keys("default", "default"), std::vector<std::string>{});
+  EXPECT_EQ(keys("default", "as-published"),
+            (std::vector<std::string>{"fuzzy.pitch.reading linear rounded_step", "fuzzy.hysteresis 0.05 0"}));
+  EXPECT_EQ(keys("as-published", "as-printed"),
+            std::vector<std::string>{"fuzzy.altitude.reading table equation_a"});
+}
+
+/// One mistake a file, named after it: the finding's place, key, and parts of what was expected and found.
+struct Bad {
+  const char *name, *place, *key, *expected, *found;
+};
+constexpr Bad kBad[] = {
+    {"array-at-top", ":1", "", "an object", "[]"},
+    {"bands-falling", ":6", "fuzzy.bands_px", "rising order", "band 2 from 0.1 after 0.5"},
+    {"bands-from-top", ":6", "fuzzy.bands_px", "below 2", "band 1 from 2"},
+    {"bands-from-zero", ":6", "fuzzy.bands_px", "above 0", "band 1 from 0"},
+    {"bands-none", ":6", "fuzzy.bands_px", "1 to 16 bands", "0"},
+    {"bands-of-two", ":6", "fuzzy.bands_px", "[low, width, height]", "[0.1, 320]"},
+    {"bands-size-not-whole", ":6", "fuzzy.bands_px", "whole numbers", "320.5"},
+    {"bands-size-too-small", ":6", "fuzzy.bands_px", "16 to 8192 px", "8x240 px"},
+    {"bands-too-many", ":6", "fuzzy.bands_px", "at most 16", "17"},
+    {"base-bad", ":4", "base", "a preset file", "scale-too-large.json"},
+    {"base-folder", ":4", "base", "a preset file", ".."},
+    {"base-itself", ":4", "base", "a preset file", "base-itself.json"},
+    {"base-missing", ":4", "base", "a preset file", "nowhere.json"},
+    {"choice-as-number", ":6", "fuzzy.combination", "\"sum\", \"twice_minimum\", \"rules\"", "1"},
+    {"choice-unknown", ":6", "fuzzy.combination", "\"sum\", \"twice_minimum\", \"rules\"", "average"},
+    {"comment", ":6", "", "JSON", "invalid literal"},
+    {"curve-beyond-vertical", ":6", "fuzzy.pitch.curve_deg", "-90 to 90", "-100"},
+    {"curve-falling", ":6", "fuzzy.altitude.curve_ft", "rising order", "point 2 at 4000 ft after 5000 ft"},
+    {"curve-membership-above-one", ":6", "fuzzy.altitude.curve_ft", "0 to 1", "1.5 in point 1"},
+    {"curve-not-list", ":6", "fuzzy.pitch.curve_deg", "a list of points", "30"},
+    {"curve-one-point", ":6", "fuzzy.pitch.curve_deg", "2 to 32 points", "1"},
+    {"curve-point-of-three", ":6", "fuzzy.pitch.curve_deg", "a point [x, y]", "[-30, 1, 2]"},
+    {"curve-three-at-one-place", ":6", "fuzzy.altitude.curve_ft", "at most two", "point 3 at 4000 ft"},
+    {"curve-too-many-points", ":6", "fuzzy.pitch.curve_deg", "at most 32", "33"},
+    {"empty", ":1", "", "JSON", "end of input"},
+    {"flag-as-number", ":6", "host.extrapolate", "true or false", "1"},
+    {"fractional-version", ":3", "version", "from 1 to 2", "1.5"},
+    {"future-version", ":3", "version", "from 1 to 2", "3"},
+    {"hysteresis-reaches-zero", ":6", "fuzzy.hysteresis", "first band's edge", "0.1"},
+    {"hysteresis-wider-than-band", ":7", "fuzzy.hysteresis", "half the narrowest band", "0.2"},
+    {"maximum-below-curve", ":7", "fuzzy.altitude.maximum_ft", "at least 8000 ft", "7500 ft"},
+    {"member-twice", ":4", "version", "once", "second time"},
+    {"name-not-text", ":4", "name", "text", "7"},
+    {"near-zero", ":6", "view.near_m", "0.001 to 1000 m", "0 m"},
+    {"no-format", ":1", "format", "trimtab-preset", "none"},
+    {"no-parameters", ":1", "parameters", "an object", "none"},
+    {"no-rule-counts", ":6", "fuzzy.rules.low_down_weight", "above 0", "0 for all four"},
+    {"no-version", ":1", "version", "from 1 to 2", "none"},
+    {"not-a-number", ":6", "", "JSON", "invalid literal"},
+    {"not-json", ":1", "", "JSON", "invalid literal"},
+    {"number-as-text", ":6", "lod.scale", "a number", "\"2\""},
+    {"number-overflow", ":6", "", "JSON", "number overflow"},
+    {"other-format", ":2", "format", "trimtab-preset", "property-list"},
+    {"parameter-twice", ":7", "lod.scale", "once", "second time"},
+    {"parameters-not-object", ":4", "parameters", "an object", "[]"},
+    {"scale-too-large", ":6", "lod.scale", "0.05 to 100", "101"},
+    {"trailing-comma", ":7", "", "JSON", "unexpected '}'"},
+    {"truncated", ":6", "", "JSON", "missing closing quote"},
+    {"width-not-whole", ":6", "view.width_px", "whole number", "1280.5 px"},
+};
+
+TEST(BadPreset, isRefusedWithPlaceExpectedAndFound) {
+  for (const Bad& bad : kBad) {
+    const std::string file = (data() / "bad" / (std::string(bad.name) + ".json")).string();
+    const auto preset = loadPreset(file);
+    EXPECT_FALSE(preset && validate(preset->parameters)) << bad.name;
+    ASSERT_FALSE(preset.findings().empty()) << bad.name;
+    const Finding& f = preset.findings()[0];
+    EXPECT_EQ(f.severity, Severity::error);
+    EXPECT_EQ(f.where, file + bad.place);
+    EXPECT_EQ(f.key, bad.key) << bad.name;
+    EXPECT_THAT(f.expected, HasSubstr(bad.expected)) << bad.name;
+    EXPECT_THAT(f.found, HasSubstr(bad.found)) << bad.name;
+    // A bad base has a second finding, in the base's own file.
+    EXPECT_LE(preset.findings().size(), std::string_view(bad.name).starts_with("base") ? 2u : 1u)
+        << toString(preset.findings());
+  }
+}
+
+TEST(BadPreset, hasAFileForEachRowAndARowForEachFile) {
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(data() / "bad")) {
+    const std::string name = entry.path().stem().string();
+    EXPECT_TRUE(std::any_of(std::begin(kBad), std::end(kBad), [&](const Bad& b) { return name == b.name; }))
+        << name;
+    ++files;
+  }
+  EXPECT_EQ(files, std::size(kBad));
+}
+
+TEST(BadPreset, thatIsNoFileIsNamed) {
+  EXPECT_EQ(toString(loadPreset("no/such.json").findings()),
+            "no/such.json: expected a readable file, found No such file or directory");
+  EXPECT_THAT(toString(loadPreset("/").findings()), HasSubstr("found a folder"));
+}
+
+TEST(BadPreset, mayNestWithoutEnd) {
+  const std::string deep = std::string(1000000, '[') + std::string(1000000, ']');
+  const auto preset = parsePreset(presetWith("\"future.deep\": " + deep), "memory");
+  ASSERT_TRUE(preset);
+  EXPECT_EQ(preset->unknown.at("future.deep"), deep);
+  EXPECT_FALSE(parsePreset(presetWith("\"lod.scale\": " + deep), "memory"));
+  EXPECT_FALSE(parsePreset(std::string(1000000, '['), "memory"));
+}
+
+}  // namespace
+}  // namespace trimtab

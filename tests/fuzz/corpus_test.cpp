@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "support.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+namespace {
+
+std::vector<std::string> corpus() {
+  std::vector<std::filesystem::path> files;
+  std::istringstream folders(TRIMTAB_CORPUS);
+  for (std::string folder; std::getline(folders, folder, ':');)
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      if (entry.is_regular_file()) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  std::vector<std::string> inputs;
+  for (const auto& file : files) inputs.push_back(trimtab::test::readFile(file));
+  return inputs;
+}
+
+/// Runs one input from memory of exactly its size, so that a sanitizer sees a read beyond.
+void feed(const std::string& input) {
+  const std::vector<std::uint8_t> exact(input.begin(), input.end());
+  LLVMFuzzerTestOneInput(exact.data(), exact.size());
+}
+
+/// What damage looks like: changed, lost, repeated and moved bytes, and pieces of another input.
+std::string mutated(std::string input, const std::string& other, std::mt19937& random) {
+  const auto below = [&](std::size_t end) {
+    return end == 0 ? 0 : std::uniform_int_distribution<std::size_t>(0, end - 1)(random);
+  };
+  for (std::size_t edits = 1 + below(4); edits > 0; --edits) {
+    const std::size_t at = below(input.size()), length = 1 + below(16);
+    switch (below(6)) {
+      case 0:
+        if (!input.empty()) input[at] = static_cast<char>(random());
+        break;
+      case 1:
+        if (!input.empty()) input[at] = static_cast<char>(input[at] ^ 1 << below(8));
+        break;
+      case 2:
+        input.erase(at, length);
+        break;
+      case 3:
+        input.insert(at, input.substr(below(input.size()), length));
+        break;
+      case 4:
+        input.insert(at, other.substr(below(other.size()), length * 4));
+        break;
+      case 5:
+        if (below(4) == 0) input.resize(at);
+        break;
+    }
+  }
+  return input;
+}
+
+TEST(FuzzCorpus, runsWithoutHarm) {
+  const std::vector<std::string> inputs = corpus();
+  ASSERT_FALSE(inputs.empty());
+  for (const std::string& input : inputs) feed(input);
+}
+
+TEST(FuzzCorpus, survivesRandomDamage) {
+  const std::vector<std::string> inputs = corpus();
+  ASSERT_FALSE(inputs.empty());
+  std::mt19937 random(20240501);
+  for (int i = 0; i < TRIMTAB_MUTATIONS; ++i)
+    feed(mutated(inputs[random() % inputs.size()], inputs[random() % inputs.size()], random));
+}
+
+}  // namespace
