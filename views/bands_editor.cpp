@@ -154,7 +154,7 @@ void BandsEditor::showNote() {
     if (findings.front().severity != Severity::error) colour = warningColour(palette());
   }
   note_->setText(text);
-  note_->setStyleSheet(QStringLiteral("color: %1").arg(colour.name()));
+  setTextColour(*note_, colour);
   note_->setVisible(!text.isEmpty());
   remove_->setEnabled(scale_->selected() >= 0);
 }

@@ -121,7 +121,7 @@ void CurveEditor::showNote() {
     colour = quietColour(palette());
   }
   note_->setText(text);
-  note_->setStyleSheet(QStringLiteral("color: %1").arg(colour.name()));
+  setTextColour(*note_, colour);
   note_->setVisible(!text.isEmpty());
   const bool editable = spec_.usesPoints(draft_.parameters());
   add_->setEnabled(editable);

@@ -53,8 +53,7 @@ NumberBox::NumberBox(Draft& draft, std::string_view key, QWidget* parent)
   connect(lineEdit(), &QLineEdit::textChanged, this, [this](QString text) {
     int position = 0;
     const bool good = validate(text, position) == QValidator::Acceptable;
-    lineEdit()->setStyleSheet(good ? QString()
-                                   : QStringLiteral("color: %1").arg(errorColour(palette()).name()));
+    setTextColour(*lineEdit(), good ? palette().color(QPalette::Text) : errorColour(palette()));
   });
 }
 

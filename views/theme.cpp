@@ -41,6 +41,13 @@ QColor blend(const QColor& under, const QColor& over, double amount) {
   return {mix(under.red(), over.red()), mix(under.green(), over.green()), mix(under.blue(), over.blue())};
 }
 
+void setTextColour(QWidget& widget, const QColor& colour) {
+  QPalette palette = widget.palette();
+  if (palette.color(widget.foregroundRole()) == colour) return;
+  palette.setColor(widget.foregroundRole(), colour);
+  widget.setPalette(palette);
+}
+
 void applyTheme(QCustomPlot& plot) {
   const QPalette palette = plot.palette();
   const QColor base = palette.color(QPalette::Base), ink = palette.color(QPalette::Text);

@@ -7,7 +7,7 @@
 #include <optional>
 
 class QCustomPlot;
-class QCPAxisRect;
+class QWidget;
 
 /// Colours and number texts that all docks share. Colours follow the palette, so dark mode works, and are
 /// told apart by the colour blind (Okabe and Ito's set); plots add shapes and dashes.
@@ -23,6 +23,9 @@ QColor warningColour(const QPalette& palette);
 QColor quietColour(const QPalette& palette);
 /// `amount` of `over` on `under`, 0..1.
 QColor blend(const QColor& under, const QColor& over, double amount);
+
+/// By palette, which is cheaper than a style sheet.
+void setTextColour(QWidget& widget, const QColor& colour);
 
 /// Palette colours and font on every axis, label, grid and legend of a plot.
 void applyTheme(QCustomPlot& plot);

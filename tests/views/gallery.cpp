@@ -13,6 +13,7 @@
 #include "trimtab/views/curve_plot.h"
 #include "trimtab/views/decision_panel.h"
 #include "trimtab/views/membership_editor.h"
+#include "trimtab/views/parameter_table.h"
 #include "trimtab/views/plots_panel.h"
 #include "trimtab/views/time_plot.h"
 
@@ -87,6 +88,12 @@ int main(int argc, char** argv) {
   bands.showDepthMap(map, QStringLiteral("400 × 300 px, near 1 m, far 38,200 m"));
   draft.setValue("fuzzy.hysteresis", 0.3);
   shoot(bands, {480, 560}, dir.filePath(QStringLiteral("bands_broken.png")));
+  draft.resetAll();
+
+  ParameterTable parameters(draft);
+  draft.setValue("fuzzy.hysteresis", 0.3);
+  draft.setValue("lod.scale", 30.0);
+  shoot(parameters, {520, 760}, dir.filePath(QStringLiteral("parameters.png")));
   draft.resetAll();
 
   DecisionPanel decision(draft);
