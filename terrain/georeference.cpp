@@ -87,42 +87,50 @@ std::optional<PostGrid> fittingPosts(const PlacedRaster& raster) {
   };
   const double step = std::sqrt(apart(*right) * apart(*below));
 
-  // Inner: the least far each of four sides reaches. Outer: the farthest.
   constexpr double kFar = 1e9;
-  double outer[4] = {kFar, -kFar, kFar, -kFar};
-  double side[4][2] = {
-      {kFar, -kFar}, {kFar, -kFar}, {kFar, -kFar}, {kFar, -kFar}};  // lon, lon, lat, lat of W, E, S, N
-  const bool flipped = (*below)[1] > (*middle)[1];
-  const int steps = 200;
-  for (int k = 0; k <= steps; ++k) {
-    const double c = (columns - 1) * k / steps, r = (rows - 1) * k / steps;
-    const std::optional<std::array<double, 2>> ends[4] = {place(0, r), place(columns - 1, r),
-                                                          place(c, flipped ? 0 : rows - 1),
-                                                          place(c, flipped ? rows - 1 : 0)};
-    for (int s = 0; s < 4; ++s) {
-      if (!ends[s]) return {};
-      const auto [lon, lat] = *ends[s];
-      outer[0] = std::min(outer[0], lon), outer[1] = std::max(outer[1], lon);
-      outer[2] = std::min(outer[2], lat), outer[3] = std::max(outer[3], lat);
-      const double along = s < 2 ? lon : lat;
-      side[s][0] = std::min(side[s][0], along), side[s][1] = std::max(side[s][1], along);
+  double west = kFar, east = -kFar, south = kFar, north = -kFar;
+  constexpr int kSteps = 200;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double c = (columns - 1) * k / kSteps, r = (rows - 1) * k / kSteps;
+    for (const auto& edge : {place(0, r), place(columns - 1, r), place(c, 0), place(c, rows - 1)}) {
+      if (!edge) return {};
+      west = std::min(west, (*edge)[0]), east = std::max(east, (*edge)[0]);
+      south = std::min(south, (*edge)[1]), north = std::max(north, (*edge)[1]);
     }
   }
-  double west = side[0][1], east = side[1][0], south = side[2][1], north = side[3][0];
-  if ((east - west) * (north - south) < 0.85 * (outer[1] - outer[0]) * (outer[3] - outer[2]) ||
-      east <= west || north <= south)
-    west = outer[0], east = outer[1], south = outer[2], north = outer[3];
   PostGrid posts;
   posts.stepLatitude = step;
   posts.stepLongitude = step / std::max(cosine, 1e-3);
   posts.west = west;
   posts.south = south;
-  const double across = std::floor((east - west) / posts.stepLongitude + 1e-6) + 1,
-               up = std::floor((north - south) / posts.stepLatitude + 1e-6) + 1;
+  const double across = std::ceil((east - west) / posts.stepLongitude - 1e-6) + 1,
+               up = std::ceil((north - south) / posts.stepLatitude - 1e-6) + 1;
   if (!(across >= 2 && up >= 2 && across * up < kMostPosts)) return {};
   posts.columns = static_cast<std::uint32_t>(across);
   posts.rows = static_cast<std::uint32_t>(up);
   return posts;
+}
+
+std::uint64_t countOutside(const PlacedRaster& raster, const HeightGrid& grid) {
+  const OGRSpatialReference from = wgs84();
+  std::unique_ptr<OGRCoordinateTransformation> transform(
+      OGRCreateCoordinateTransformation(&from, &raster.crs));
+  std::array<double, 6> inverse{};
+  std::array<double, 6> forward = raster.transform;
+  if (!transform || !GDALInvGeoTransform(forward.data(), inverse.data())) return 0;
+  std::uint64_t outside = 0;
+  for (std::size_t i = 0; i < grid.heights.size(); ++i) {
+    if (!std::isnan(grid.heights[i])) continue;
+    double x = grid.posts.longitude(static_cast<double>(i % grid.posts.columns));
+    double y = grid.posts.latitude(static_cast<double>(i / grid.posts.columns));
+    const bool placed = transform->Transform(1, &x, &y);
+    const double column = inverse[0] + inverse[1] * x + inverse[2] * y;
+    const double row = inverse[3] + inverse[4] * x + inverse[5] * y;
+    const bool inside = placed && column >= 0 && row >= 0 && column <= raster.data->GetRasterXSize() &&
+                        row <= raster.data->GetRasterYSize();
+    if (!inside) ++outside;
+  }
+  return outside;
 }
 
 Dataset warped(GDALDataset& data, const OGRSpatialReference& crs, const PostGrid& posts,

@@ -35,6 +35,9 @@ std::optional<PostGrid> geographicPosts(const PlacedRaster& raster);
 /// where PROJ cannot place it.
 std::optional<PostGrid> fittingPosts(const PlacedRaster& raster);
 
+/// Voids of a grid that are there because the raster ends, not because it has one.
+std::uint64_t countOutside(const PlacedRaster& raster, const HeightGrid& grid);
+
 /// The raster on a grid of posts, in memory; `more` are options of gdalwarp. Null where GDAL refuses.
 Dataset warped(GDALDataset& data, const OGRSpatialReference& crs, const PostGrid& posts,
                std::vector<std::string> more);

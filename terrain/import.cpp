@@ -204,7 +204,7 @@ Result<HeightGrid> readElevation(const fs::path& file, const Progress& progress)
 
   // Posts go from the south: rows that come from the north are put by a line spacing that runs backwards.
   HeightGrid grid{
-      *posts, std::vector<float>(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)), {}};
+      *posts, std::vector<float>(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)), 0, {}};
   const bool backwards = direct && opened->transform[5] < 0;
   if (auto read = readRows(file, band, backwards, grid.heights, errors, progress); !read)
     return read.findings();
@@ -218,6 +218,7 @@ Result<HeightGrid> readElevation(const fs::path& file, const Progress& progress)
   if (!direct && !warpHeights(*opened, grid))
     return about(Severity::error, file, "", "a raster that GDAL can warp to WGS84",
                  errors.last("GDAL gives no reason"));
+  if (!direct) grid.outside = countOutside(*opened, grid);
   errors.moveTo(notes, file.string(), Severity::warning);
   return Result<HeightGrid>(std::move(grid), std::move(notes));
 }
@@ -248,7 +249,12 @@ Result<Imported> importElevation(std::span<const fs::path> sources, const Progre
   auto joined = mosaic(std::move(parts), progress);
   if (!joined) return joined.findings();
   Imported imported{std::move(joined).value(), 0};
-  imported.voidsFilled = fillVoids(imported.grid);
+  const std::uint64_t filled = fillVoids(imported.grid), outside = std::min(filled, imported.grid.outside);
+  imported.voidsFilled = filled - outside;
+  if (outside > 0)
+    findings.push_back({Severity::note, (*files)[0].string(), "outline",
+                        "elevation over the whole rectangle of the terrain",
+                        std::to_string(outside) + " posts beyond it, continued from its edge"});
   return Result<Imported>(std::move(imported), std::move(findings));
 }
 

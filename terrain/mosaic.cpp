@@ -1,3 +1,5 @@
+#include <cpl_string.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -62,11 +64,12 @@ Result<HeightGrid> mosaic(std::vector<HeightGrid> parts, const Progress& progres
   if (!(columns * rows <= kMostPosts))
     return Finding{Severity::error, "all files together", "size",
                    "at most 400 million posts at the finest spacing",
-                   std::to_string(columns) + " x " + std::to_string(rows)};
+                   CPLSPrintf("%.0f x %.0f", columns, rows)};
   whole.columns = static_cast<std::uint32_t>(columns);
   whole.rows = static_cast<std::uint32_t>(rows);
 
-  HeightGrid grid{whole, std::vector<float>(whole.size(), kVoid), {}};
+  std::vector<std::uint8_t> reached(whole.size(), 0);
+  HeightGrid grid{whole, std::vector<float>(whole.size(), kVoid), 0, {}};
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (progress && !progress(static_cast<double>(k) / static_cast<double>(parts.size()), "joining files"))
       return cancelled("joining files");
@@ -81,10 +84,13 @@ Result<HeightGrid> mosaic(std::vector<HeightGrid> parts, const Progress& progres
       if (!row.inside) continue;
       for (std::uint32_t c = 0; c < whole.columns; ++c) {
         float& height = grid.heights[std::size_t{r} * whole.columns + c];
-        if (across[c].inside && std::isnan(height)) height = between(part, row, across[c]);
+        if (!across[c].inside) continue;
+        reached[std::size_t{r} * whole.columns + c] = 1;
+        if (std::isnan(height)) height = between(part, row, across[c]);
       }
     }
   }
+  grid.outside = static_cast<std::uint64_t>(std::count(reached.begin(), reached.end(), 0));
   return Result<HeightGrid>(std::move(grid));
 }
 

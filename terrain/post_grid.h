@@ -25,6 +25,7 @@ struct PostGrid {
 struct HeightGrid {
   PostGrid posts;
   std::vector<float> heights;
+  std::uint64_t outside = 0;  ///< voids that no source reaches: the corners about a raster that stands askew
   std::vector<std::uint8_t>
       image;  ///< RGBA a post, alpha 0 where the image has nothing; empty without an image
 };

@@ -242,7 +242,7 @@ Result<Contents> readContents(const fs::path& folder) {
 
   TerrainIndex index = makeLevels(posts);
   CellSlopes slopes(index);
-  Contents contents{info, {posts, {}, {}}, std::move(index), std::move(slopes)};
+  Contents contents{info, {posts, {}, 0, {}}, std::move(index), std::move(slopes)};
   std::uint64_t bytes = text->size();
   std::vector<float> nodes;
   readArray(folder, "heights.f32", files, posts.size(), contents.grid.heights, bytes, findings);
