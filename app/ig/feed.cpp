@@ -133,7 +133,8 @@ Result<std::unique_ptr<Feed>> openFeed(const Options& options, const Wake& wake)
   Result<std::unique_ptr<link::Receiver>> opened = link::Receiver::open(receiver);
   if (!opened) return opened.findings();
   Findings notes = opened.findings();
-  std::cerr << "listening on UDP port " << (*opened)->port() << std::endl;
+  // In one piece, for whoever waits for the line.
+  std::cerr << "listening on UDP port " + std::to_string((*opened)->port()) + "\n" << std::flush;
   return {std::make_unique<LinkFeed>(std::move(opened).value()), std::move(notes)};
 }
 

@@ -122,6 +122,23 @@ class Loop {
 
 }  // namespace
 
+void warmUp(const Run& run, const terrain::Database& database) {
+  const terrain::TerrainInfo& info = database.info();
+  session::Session session(run.session.parameters());
+  AircraftState state;
+  state.position = {(info.southWest.latitude + info.northEast.latitude) / 2,
+                    (info.southWest.longitude + info.northEast.longitude) / 2,
+                    info.highest + Feet{1000}.as<Metres>()};
+  session.look(state);
+  scene::FrameRequest request = *session.request(0, run.options.width, run.options.height);
+  // Whatever this state decides: the depth map's programs are wanted too.
+  request.decision.scheme = Scheme::dynamic;
+  if (!request.decision.depthMap) request.decision.depthMap = DepthMapSize{640, 480};
+  run.surface.fit(request.view.widthPx, request.view.heightPx);
+  run.renderer.draw(request, run.surface.framebuffer());
+  run.surface.present();
+}
+
 Summary drawFrames(const Run& run) {
   return Loop(run).run();
 }

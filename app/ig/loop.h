@@ -34,6 +34,10 @@ struct Summary {
          pictureP99Ms = 0;  ///< NaN where nothing was measured
 };
 
+/// Draws one picture of the terrain's middle that nobody counts: shaders are compiled and memory is there
+/// before the first packet comes.
+void warmUp(const Run& run, const terrain::Database& database);
+
 /// Draws until the feed ends, enough frames are drawn, the window closes or a signal comes. Sleeps between
 /// packets.
 Summary drawFrames(const Run& run);

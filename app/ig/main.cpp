@@ -86,6 +86,7 @@ int runWith(const Options& options) {
   session.setTerrain(*database);
   session.keepRows(true);
   const Run run{options, wake, session, renderer, **surface, **feed, trace ? &*trace : nullptr};
+  if (options.listen || options.realtime) warmUp(run, **database);
   const Summary summary = drawFrames(run);
 
   bool written = true;

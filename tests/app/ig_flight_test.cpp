@@ -1,0 +1,187 @@
+#include <sstream>
+
+#include "ig_support.h"
+
+namespace trimtab {
+namespace {
+
+using test::IgProcess;
+
+/// The named columns of a CSV as text, read without any code of the trace's own.
+std::vector<std::string> columns(const std::filesystem::path& file, const std::vector<std::string>& names) {
+  std::istringstream in(test::readFile(file));
+  const auto split = [](const std::string& line) {
+    std::vector<std::string> cells(1);
+    for (const char c : line)
+      if (c == ',')
+        cells.emplace_back();
+      else
+        cells.back() += c;
+    return cells;
+  };
+  std::string line;
+  std::getline(in, line);
+  const std::vector<std::string> header = split(line);
+  std::vector<std::string> rows;
+  while (std::getline(in, line)) {
+    const std::vector<std::string> cells = split(line);
+    std::string row;
+    for (const std::string& name : names) {
+      const auto at = std::find(header.begin(), header.end(), name);
+      if (at == header.end() || cells.size() != header.size()) return {};
+      row += cells[static_cast<std::size_t>(at - header.begin())] + ";";
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+const std::vector<std::string> kDecisionColumns = {"packet",
+                                                   "decision_altitude_ft",
+                                                   "decision_pitch_deg",
+                                                   "altitude_membership",
+                                                   "pitch_membership",
+                                                   "total_membership",
+                                                   "rule_low_down",
+                                                   "rule_low_up",
+                                                   "rule_high_down",
+                                                   "rule_high_up",
+                                                   "scheme",
+                                                   "band",
+                                                   "depth_map_width_px",
+                                                   "depth_map_height_px",
+                                                   "reason",
+                                                   "lod_scale"};
+
+class IgFlight : public ::testing::Test {
+ protected:
+  IgProcess fly(const std::filesystem::path& flight, const std::filesystem::path& trace,
+                std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments{"--preset",   (dir_ / "preset.json").string(),
+                                       "--terrain",  test::smallTerrain().string(),
+                                       "--flight",   flight.string(),
+                                       "--trace",    trace.string(),
+                                       "--headless", "--size",
+                                       "320x200",    "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return IgProcess(arguments);
+  }
+  std::vector<TraceRow> rowsOf(const std::filesystem::path& trace) const {
+    const Result<std::vector<TraceRow>> rows = readTrace(trace);
+    EXPECT_TRUE(rows) << toString(rows.findings());
+    return rows ? *rows : std::vector<TraceRow>{};
+  }
+  void write(const ValidatedParameters& parameters, const Flight& flight) const {
+    test::writeFile(dir_ / "preset.json", test::exported(parameters));
+    test::writeFile(dir_ / "flight.csv", flightCsv(flight));
+  }
+
+  test::ScratchDir dir_;
+};
+
+TEST_F(IgFlight, drawsOneFrameAndWritesOneRowForEachRowOfTheFlight) {
+  const Flight flight = test::weavingFlight(120);
+  write(defaultParameters(), flight);
+  IgProcess ig = fly(dir_ / "flight.csv", dir_ / "trace.csv");
+  ASSERT_EQ(ig.end(), 0) << ig.err();
+  const nlohmann::json summary = ig.summary();
+  EXPECT_EQ(summary["frames"], 120) << ig.out();
+  EXPECT_EQ(summary["packets"], 120);
+  EXPECT_GT(summary["decision_changes"], 3);
+  EXPECT_GT(summary["depth_maps_drawn"], 0);
+
+  const std::vector<TraceRow> rows = rowsOf(dir_ / "trace.csv");
+  ASSERT_EQ(rows.size(), flight.states.size());
+  const std::vector<FrameDecision> decisions = test::decided(rows, defaultParameters());
+  std::size_t withTerrain = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i].input.state.position, flight.states[i].position) << i;
+    EXPECT_EQ(rows[i].decision, decisions[i]) << i;
+    ASSERT_TRUE(rows[i].frame) << i;
+    withTerrain += rows[i].frame->counts.triangles > 0;
+    EXPECT_GT(rows[i].frame->cost.total, 0) << i;
+  }
+  EXPECT_GT(withTerrain, rows.size() / 3)
+      << "the flight looks away from its few kilometres of terrain at times";
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "trace.csv.part"));
+}
+
+TEST_F(IgFlight, replaysItsOwnTraceToTheBit) {
+  write(test::edited([](TuningParameters& p) { p.altitude.reference = AltitudeReference::above_ground; }),
+        test::weavingFlight(100));
+  IgProcess first = fly(dir_ / "flight.csv", dir_ / "first.csv");
+  ASSERT_EQ(first.end(), 0) << first.err();
+  IgProcess second = fly(dir_ / "first.csv", dir_ / "second.csv");
+  ASSERT_EQ(second.end(), 0) << second.err();
+
+  std::vector<std::string> names = kDecisionColumns;
+  for (const char* state : {"time_s", "latitude_deg", "longitude_deg", "height_m", "pitch_deg", "roll_deg",
+                            "heading_deg", "above_ground_m", "band_before"})
+    names.push_back(state);
+  const std::vector<std::string> recorded = columns(dir_ / "first.csv", names);
+  ASSERT_EQ(recorded.size(), 100u);
+  EXPECT_EQ(recorded, columns(dir_ / "second.csv", names));
+  for (const TraceRow& row : rowsOf(dir_ / "first.csv")) {
+    ASSERT_TRUE(row.input.aboveGround) << "the terrain was asked";
+    EXPECT_LT(row.input.aboveGround->value(), row.input.state.position.height.value());
+  }
+}
+
+TEST_F(IgFlight, endsAfterSoManyFramesAndWritesThePictureOfTheLast) {
+  write(defaultParameters(), test::weavingFlight(50));
+  IgProcess ig = fly(dir_ / "flight.csv", dir_ / "trace.csv",
+                     {"--frames", "7", "--screenshot", (dir_ / "a.png").string()});
+  ASSERT_EQ(ig.end(), 0) << ig.err();
+  EXPECT_EQ(ig.summary()["frames"], 7);
+  EXPECT_EQ(rowsOf(dir_ / "trace.csv").size(), 7u);
+  const std::string png = test::readFile(dir_ / "a.png");
+  ASSERT_GT(png.size(), 24u);
+  EXPECT_EQ(png.substr(1, 3), "PNG");
+  EXPECT_EQ(png.substr(16, 8), std::string("\0\0\1\x40\0\0\0\xc8", 8)) << "320 x 200";
+
+  test::writeFile(dir_ / "seventh.csv", flightCsv({"", {test::weavingFlight(50).states[6]}}));
+  IgProcess alone =
+      fly(dir_ / "seventh.csv", dir_ / "alone.csv", {"--screenshot", (dir_ / "b.png").string()});
+  ASSERT_EQ(alone.end(), 0) << alone.err();
+  EXPECT_EQ(png, test::readFile(dir_ / "b.png")) << "a picture depends on its row alone";
+}
+
+TEST_F(IgFlight, playsOnTheFlightsOwnClockWhenAsked) {
+  write(defaultParameters(), test::weavingFlight(60, 60));
+  const auto start = std::chrono::steady_clock::now();
+  IgProcess ig = fly(dir_ / "flight.csv", dir_ / "trace.csv", {"--realtime"});
+  ASSERT_EQ(ig.end(), 0) << ig.err();
+  EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(59 * 1000 / 60));
+  EXPECT_EQ(rowsOf(dir_ / "trace.csv").size(), 60u);
+  EXPECT_LE(ig.summary()["frames"], 60);
+  EXPECT_TRUE(ig.summary()["picture_p99_ms"].is_number());
+}
+
+TEST_F(IgFlight, aKilledRunLeavesItsRowsInAPartAndTheOldTraceUntouched) {
+  write(defaultParameters(), test::weavingFlight(100000));
+  test::writeFile(dir_ / "trace.csv", "old");
+  IgProcess ig = fly(dir_ / "flight.csv", dir_ / "trace.csv");
+  const auto lines = [&] {
+    const std::string part = test::readFile(dir_ / "trace.csv.part");
+    return std::count(part.begin(), part.end(), '\n');
+  };
+  ASSERT_TRUE(ig.until([&] { return lines() > 20; })) << ig.err();
+  ig.signal(SIGKILL);
+  EXPECT_EQ(ig.end(), 128 + SIGKILL);
+  EXPECT_EQ(test::readFile(dir_ / "trace.csv"), "old");
+  EXPECT_GE(rowsOf(dir_ / "trace.csv.part").size(), 20u);
+}
+
+TEST_F(IgFlight, aSignalEndsTheRunWithACompleteTrace) {
+  write(defaultParameters(), test::weavingFlight(100000));
+  IgProcess ig = fly(dir_ / "flight.csv", dir_ / "trace.csv");
+  ASSERT_TRUE(ig.until([&] { return test::readFile(dir_ / "trace.csv.part").size() > 10000; })) << ig.err();
+  ig.signal(SIGTERM);
+  ASSERT_EQ(ig.end(), 0) << ig.err();
+  const std::vector<TraceRow> rows = rowsOf(dir_ / "trace.csv");
+  EXPECT_EQ(rows.size(), ig.summary()["packets"]);
+  EXPECT_TRUE(rows.back().frame);
+}
+
+}  // namespace
+}  // namespace trimtab

@@ -1,0 +1,193 @@
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <fstream>
+#include <iostream>
+
+#include "ig_support.h"
+#include "trimtab/link/link.h"
+
+namespace trimtab {
+namespace {
+
+using test::IgProcess;
+
+class IgLink : public ::testing::Test {
+ protected:
+  IgLink() { writePreset(defaultParameters()); }
+
+  void writePreset(const ValidatedParameters& parameters) const {
+    ASSERT_TRUE(writeAtomically(dir_ / "preset.json", test::exported(parameters)));
+  }
+  IgProcess listen(std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments{"--preset",   (dir_ / "preset.json").string(),
+                                       "--terrain",  test::smallTerrain().string(),
+                                       "--listen",   "0",
+                                       "--trace",    (dir_ / "trace.csv").string(),
+                                       "--headless", "--size",
+                                       "320x200",    "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return IgProcess(arguments);
+  }
+  /// Rows written so far.
+  std::size_t written() const {
+    const std::string part = test::readFile(dir_ / "trace.csv.part");
+    const auto lines = std::count(part.begin(), part.end(), '\n');
+    return lines > 0 ? static_cast<std::size_t>(lines - 1) : 0;
+  }
+  /// Plays the flight's rows as they are and waits until the IG has a row for each.
+  void play(const IgProcess& ig, const Flight& flight, WireProtocol protocol, std::size_t rowsAfter) const {
+    link::PlayOptions options;
+    options.to.port = ig.port();
+    options.protocol = protocol;
+    options.rateHz = 0;
+    auto player = link::FeedPlayer::start(flight, options);
+    ASSERT_TRUE(player) << toString(player.findings());
+    EXPECT_TRUE(ig.until([&] { return (*player)->finished() && written() >= rowsAfter; }))
+        << written() << " rows of " << rowsAfter << ", sent " << (*player)->sent() << "\n"
+        << ig.err();
+    EXPECT_EQ((*player)->sent(), flight.states.size());
+  }
+  std::vector<TraceRow> rows() const {
+    const Result<std::vector<TraceRow>> read = readTrace(dir_ / "trace.csv");
+    EXPECT_TRUE(read) << toString(read.findings());
+    return read ? *read : std::vector<TraceRow>{};
+  }
+
+  test::ScratchDir dir_;
+};
+
+TEST_F(IgLink, decidesEveryPacketOnceAsDecideDoes) {
+  const Flight flight = test::weavingFlight(300);
+  for (const WireProtocol protocol : {WireProtocol::cigi3, WireProtocol::native_fdm}) {
+    IgProcess ig = listen();
+    ASSERT_NE(ig.port(), 0) << ig.err();
+    play(ig, flight, protocol, flight.states.size());
+    ig.signal(SIGINT);
+    ASSERT_EQ(ig.end(), 0) << ig.err();
+
+    const std::vector<TraceRow> trace = rows();
+    ASSERT_EQ(trace.size(), flight.states.size());
+    const std::vector<FrameDecision> decisions = test::decided(trace, defaultParameters());
+    std::size_t drawn = 0;
+    for (std::size_t i = 0; i < trace.size(); ++i) {
+      const AircraftState& sent = flight.states[i];
+      const AircraftState& got = trace[i].input.state;
+      EXPECT_NEAR(got.position.latitude.value(), sent.position.latitude.value(), 1e-9) << i;
+      EXPECT_NEAR(got.position.height.value(), sent.position.height.value(), 1e-6) << i;
+      EXPECT_NEAR(got.attitude.pitch.value(), sent.attitude.pitch.value(), 1e-4) << i;
+      if (i > 0) {
+        EXPECT_GT(got.packet, trace[i - 1].input.state.packet) << i;
+      }
+      EXPECT_EQ(trace[i].decision, decisions[i]) << i;
+      drawn += trace[i].frame.has_value();
+    }
+    const nlohmann::json summary = ig.summary();
+    EXPECT_EQ(summary["packets"], flight.states.size());
+    EXPECT_EQ(summary["host"]["bad"], 0);
+    EXPECT_EQ(summary["frames"], drawn) << "headless, a picture is drawn for a packet and for nothing else";
+    EXPECT_EQ(summary["host"]["lost"].is_null(), protocol == WireProtocol::native_fdm)
+        << "it carries no frame numbers";
+    // Reported, not asserted: how fast this machine is, is no property of the code.
+    const double median = summary["frame_median_ms"];
+    std::cout << "kernel to decoded p99 " << summary["decoded_p99_ms"] << " ms; to finished picture p50 "
+              << summary["picture_p50_ms"] << ", p99 " << summary["picture_p99_ms"]
+              << " ms = " << double(summary["picture_p99_ms"]) / median << " median frames of " << median
+              << " ms" << std::endl;
+  }
+}
+
+TEST_F(IgLink, watchTakesAChangedExportAndKeepsTheLastGoodOne) {
+  const auto level = [](double from) {
+    Flight flight;
+    for (int i = 0; i < 20; ++i) {
+      AircraftState state = test::weavingFlight(1).states[0];
+      state.time = from + i * 0.02;
+      state.packet = static_cast<std::uint64_t>(state.time * 100);
+      state.position.height = Feet{5000}.as<Metres>();
+      state.attitude.pitch = Degrees{0};
+      flight.states.push_back(state);
+    }
+    return flight;
+  };
+  IgProcess ig = listen({"--watch"});
+  ASSERT_NE(ig.port(), 0) << ig.err();
+  play(ig, level(0), WireProtocol::native_fdm, 20);
+
+  const auto lower = test::edited([](TuningParameters& p) { p.altitude.curve.point[1].y = 0.35; });
+  writePreset(lower);
+  ASSERT_TRUE(ig.says("loaded again")) << ig.err();
+  play(ig, level(1), WireProtocol::native_fdm, 40);
+
+  std::string damaged =
+      test::exported(test::edited([](TuningParameters& p) { p.altitude.curve.point[1].y = 0.8; }));
+  const std::size_t digit = damaged.find("0.8");
+  ASSERT_NE(digit, std::string::npos);
+  damaged[digit + 2] = '7';
+  ASSERT_TRUE(writeAtomically(dir_ / "preset.json", damaged));
+  ASSERT_TRUE(ig.says("the last good preset stays")) << ig.err();
+  EXPECT_NE(ig.err().find("checksum"), std::string::npos) << ig.err();
+  play(ig, level(2), WireProtocol::native_fdm, 60);
+
+  test::writeFile(dir_ / "preset.json", damaged.substr(0, damaged.size() / 2));
+  ASSERT_TRUE(ig.says("the last good preset stays", 2)) << ig.err();
+  std::filesystem::remove(dir_ / "preset.json");
+  play(ig, level(3), WireProtocol::native_fdm, 80);
+
+  writePreset(defaultParameters());
+  ASSERT_TRUE(ig.says("loaded again", 2)) << ig.err();
+  play(ig, level(4), WireProtocol::native_fdm, 100);
+
+  ig.signal(SIGINT);
+  ASSERT_EQ(ig.end(), 0) << ig.err();
+  const std::vector<TraceRow> trace = rows();
+  ASSERT_EQ(trace.size(), 100u);
+  const double totals[] = {1.1, 0.85, 0.85, 0.85, 1.1};
+  for (std::size_t i = 0; i < trace.size(); ++i)
+    EXPECT_NEAR(trace[i].decision.totalMembership, totals[i / 20], 1e-4) << i;
+  EXPECT_EQ(ig.summary()["preset_reloads"], 2);
+  EXPECT_EQ(ig.summary()["presets_refused"], 2);
+}
+
+TEST_F(IgLink, sleepsWhenNobodySends) {
+  IgProcess ig = listen({"--watch"});
+  ASSERT_NE(ig.port(), 0) << ig.err();
+  play(ig, test::weavingFlight(10), WireProtocol::cigi3, 10);
+  const auto cpuSeconds = [&] {
+    std::istringstream stat(test::readFile("/proc/" + std::to_string(ig.pid()) + "/stat"));
+    std::string field;
+    double ticks = 0;
+    for (int i = 1; i <= 15 && stat >> field; ++i)
+      if (i >= 14) ticks += std::stod(field);
+    return ticks / static_cast<double>(::sysconf(_SC_CLK_TCK));
+  };
+  const double before = cpuSeconds();
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  const double share = (cpuSeconds() - before) / 3;
+  std::cout << "idle: " << share * 100 << " % of a core" << std::endl;
+  EXPECT_LT(share, 0.01);
+  ig.signal(SIGINT);
+  EXPECT_EQ(ig.end(), 0);
+}
+
+TEST_F(IgLink, bytesThatAreNoPacketsChangeNothingButACounter) {
+  IgProcess ig = listen();
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_port = htons(ig.port());
+  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  const int socket = ::socket(AF_INET, SOCK_DGRAM, 0);
+  for (const std::string& bytes :
+       {std::string("hello"), std::string(408, '\xff'), std::string(1400, '\0'), std::string()})
+    ::sendto(socket, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof to);
+  ::close(socket);
+  play(ig, test::weavingFlight(20), WireProtocol::cigi3, 20);
+  ig.signal(SIGINT);
+  ASSERT_EQ(ig.end(), 0) << ig.err();
+  EXPECT_EQ(rows().size(), 20u);
+  EXPECT_GE(ig.summary()["host"]["bad"], 3);
+  EXPECT_TRUE(ig.summary()["host"]["first_bad"]["hex"].get<std::string>().starts_with("68")) << ig.out();
+}
+
+}  // namespace
+}  // namespace trimtab
