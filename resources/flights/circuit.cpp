@@ -11,7 +11,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180, kGravity = 9.81, kFoot = 0.3048;
 constexpr double kStep = 0.01;  ///< seconds, of the integration
 constexpr double kCentreLatitude = 36.63, kCentreLongitude = 128.35;
-constexpr double kFieldM = 354 * kFoot;
+constexpr double kFieldM = 354 * kFoot + 2.5;  ///< the pilot's eye above a runway 354 ft high
 constexpr double kRunwayHeading = 280, kRunwayStartM = -1200;  ///< along the runway from the centre
 constexpr double kLiftOffMps = 77, kRotateMps = 62;
 constexpr double kLiftOffAlpha = 8;  ///< angle of attack that carries the aircraft at kLiftOffMps, degrees
