@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <clocale>
+#include <cstdlib>
 #include <map>
 
 #include "random_parameters.h"
@@ -39,6 +41,30 @@ TEST(PresetFile, readsBackBitForBitWhateverItsBase) {
     EXPECT_EQ(back->description, preset.description);
     EXPECT_EQ(*presetText(*back), *text);
   }
+}
+
+TEST(PresetFile, doesNotDependOnTheLocale) {
+  const test::ScratchDir dir;
+  if (test::run("localedef -i de_DE -f UTF-8 " + (dir / "de_DE.UTF-8").string()).exitCode != 0)
+    GTEST_SKIP() << "needs localedef and its sources";
+  ::setenv("LOCPATH", dir.path().c_str(), 1);
+  const bool comma = std::setlocale(LC_ALL, "de_DE.UTF-8") != nullptr && std::strtod("0,5", nullptr) == 0.5;
+  Preset preset;
+  preset.parameters.scheme.hysteresis = Membership{0.025};
+  preset.parameters.scheme.bands.band[0].low = 0.15;
+  const auto text = presetText(preset);
+  const auto back = parsePreset(*text, "memory");
+  const auto exported =
+      parsePreset(exportText(*validate(preset.parameters), "n", {}, ExportFormat::json), "memory");
+  const auto typed = parseValue(*findRow("lod.scale"), "1.5");
+  std::setlocale(LC_ALL, "C");
+  ::unsetenv("LOCPATH");
+  ASSERT_TRUE(comma);
+  EXPECT_THAT(*text, HasSubstr("\"fuzzy.hysteresis\": 0.025"));
+  ASSERT_TRUE(back && exported && typed);
+  EXPECT_TRUE(sameBits(back->parameters, preset.parameters));
+  EXPECT_TRUE(sameBits(exported->parameters, preset.parameters));
+  EXPECT_EQ(std::get<double>(*typed), 1.5);
 }
 
 TEST(PresetFile, keepsANegativeZero) {

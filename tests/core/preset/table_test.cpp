@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <clocale>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -229,14 +228,6 @@ TEST(ParameterText, refusesWhatItCannotRead) {
   std::string points;
   for (std::size_t i = 0; i <= CurvePoints::kCapacity; ++i) points += std::to_string(i) + ":0 ";
   EXPECT_FALSE(parseValue(rowOf("fuzzy.pitch.curve_deg"), points));
-}
-
-TEST(ParameterText, doesNotDependOnTheLocale) {
-  const char* const comma = std::setlocale(LC_ALL, "de_DE.UTF-8");
-  if (!comma) GTEST_SKIP() << "needs the locale de_DE.UTF-8";
-  EXPECT_EQ(numberText(0.5), "0.5");
-  EXPECT_EQ(readNumber("0.5"), 0.5);
-  std::setlocale(LC_ALL, "C");
 }
 
 }  // namespace

@@ -1,0 +1,146 @@
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support.h"
+#include "trimtab/preset/preset.h"
+#include "trimtab/preset/sealed.h"
+
+namespace trimtab {
+namespace {
+
+using nlohmann::json;
+using test::Ran;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+Ran preset(const std::string& arguments) {
+  return test::run("SOURCE_DATE_EPOCH=1700000000 " + test::program("trimtab-cli").string() + " preset " +
+                   arguments);
+}
+
+std::string bad(const std::string& name) {
+  return (test::sourceDir() / "tests/data/presets/bad" / (name + ".json")).string();
+}
+const std::string kGood = (test::sourceDir() / "tests/data/presets/good/everything.json").string();
+
+TEST(PresetCommand, checksGoodAndBadFilesTogether) {
+  const Ran good = preset("check default as-published as-printed " + kGood);
+  EXPECT_EQ(good.exitCode, 0) << good.err;
+  EXPECT_THAT(good.err, HasSubstr("warning: " + kGood + ":15: future.list"));
+  const Ran mixed = preset("check default " + bad("near-zero") + " " + bad("truncated"));
+  EXPECT_EQ(mixed.exitCode, 1);
+  EXPECT_THAT(mixed.out, HasSubstr("default: good\n"));
+  EXPECT_THAT(mixed.err, HasSubstr("error: " + bad("near-zero") +
+                                   ":6: view.near_m: expected 0.001 to 1000 m, found 0 m"));
+  EXPECT_THAT(mixed.err, HasSubstr(bad("truncated") + ":6: expected JSON"));
+}
+
+TEST(PresetCommand, refusesEachBadFileWithPlaceAndExpectation) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(test::sourceDir() / "tests/data/presets/bad")) {
+    const Ran ran = preset("check " + entry.path().string());
+    EXPECT_EQ(ran.exitCode, 1) << entry.path();
+    EXPECT_THAT(ran.err, StartsWith("error: " + entry.path().string() + ":")) << entry.path();
+    EXPECT_THAT(ran.err, HasSubstr("expected "));
+    EXPECT_THAT(ran.err, HasSubstr("found "));
+  }
+}
+
+TEST(PresetCommand, reportsAsJsonAlone) {
+  const Ran ran = preset("check --json default " + bad("near-zero"));
+  EXPECT_EQ(ran.exitCode, 1);
+  const json report = json::parse(ran.out);
+  EXPECT_FALSE(report.at("ok").get<bool>());
+  EXPECT_TRUE(report.at("files")[0].at("ok").get<bool>());
+  EXPECT_EQ(report.at("files")[1].at("findings")[0].at("key"), "view.near_m");
+}
+
+TEST(PresetCommand, exportsWhatTheLibraryLoads) {
+  const test::ScratchDir dir;
+  const std::string out = (dir / "e.json").string();
+  const Ran ran = preset(
+      "export " + kGood + " --format json -o " + out +
+      " --set fuzzy.hysteresis=0.125 --set 'view.near_m=10 ft' --author me --terrain T --comment 'x y'");
+  ASSERT_EQ(ran.exitCode, 0) << ran.err;
+  const auto loaded = loadPreset(out);
+  ASSERT_TRUE(loaded) << toString(loaded.findings());
+  EXPECT_EQ(loaded->parameters.scheme.hysteresis.value(), 0.125);
+  EXPECT_DOUBLE_EQ(loaded->parameters.view.nearDistance.value(), 3.048);
+  EXPECT_EQ(loaded->parameters.view.width.value(), 1920);
+  const json exported = json::parse(test::readFile(out));
+  EXPECT_EQ(exported.at("provenance").at("created"), "2023-11-14T22:13:20Z");
+  EXPECT_EQ(exported.at("provenance").at("author"), "me");
+  EXPECT_EQ(preset("check " + out).exitCode, 0);
+}
+
+TEST(PresetCommand, exportsEachFormatWithAChecksumThatCheckVerifies) {
+  const test::ScratchDir dir;
+  for (const std::string format : {"json", "xml", "ini"}) {
+    const std::string out = (dir / format).string();
+    ASSERT_EQ(preset("export as-published --format " + format + " -o " + out).exitCode, 0);
+    std::string text = test::readFile(out);
+    EXPECT_TRUE(checkSeal(text, out));
+    EXPECT_EQ(preset("check " + out).exitCode, 0);
+    EXPECT_EQ(preset("export as-published --format " + format + " -o -").out, text);
+    text[text.size() / 2] = static_cast<char>(text[text.size() / 2] ^ 1);
+    test::writeFile(out, text);
+    EXPECT_EQ(preset("check " + out).exitCode, 1) << format;
+  }
+}
+
+TEST(PresetCommand, leavesTheOldExportWhenItRefuses) {
+  const test::ScratchDir dir;
+  const std::string out = (dir / "e.json").string();
+  test::writeFile(out, "old");
+  const std::pair<std::string, std::string> refused[] = {
+      {"default --set lod.scale=0", "error: default: lod.scale: expected 0.05 to 100, found 0"},
+      {"default --set lod.scale=x", "error: --set: lod.scale: expected a number"},
+      {"default --set lod.scala=1", "found lod.scala=1"},
+      {"default --set lod.scale", "expected key=value"},
+      {"default --set fuzzy.hysteresis=0.3", "expected less than 0.2, half the narrowest band"},
+      {bad("near-zero"), "view.near_m"},
+      {"nowhere.json", "nowhere.json: expected a readable file, found No such file"}};
+  for (const auto& [arguments, message] : refused) {
+    const Ran ran = preset("export " + arguments + " -o " + out);
+    EXPECT_EQ(ran.exitCode, 1) << arguments;
+    EXPECT_THAT(ran.err, HasSubstr(message));
+    EXPECT_EQ(test::readFile(out), "old");
+  }
+  EXPECT_THAT(preset("export default -o /dev/full").err, HasSubstr("/dev/full: expected room"));
+  EXPECT_EQ(preset("export default -o /dev/full").exitCode, 1);
+  EXPECT_EQ(preset("export default -o " + (dir / "no/e.json").string()).exitCode, 1);
+}
+
+TEST(PresetCommand, repairsABrokenRuleBySet) {
+  EXPECT_EQ(preset("export " + bad("hysteresis-reaches-zero") + " -o - --set fuzzy.hysteresis=0.01").exitCode,
+            0);
+}
+
+TEST(PresetCommand, listsDifferences) {
+  const Ran text = preset("diff default as-published");
+  EXPECT_EQ(text.exitCode, 0);
+  EXPECT_EQ(text.out, "fuzzy.pitch.reading: linear -> rounded_step\nfuzzy.hysteresis: 0.05 -> 0\n");
+  const json found = json::parse(preset("diff --json default as-published").out);
+  EXPECT_EQ(found.at("differences").size(), 2u);
+  EXPECT_EQ(found.at("differences")[1],
+            (json{{"key", "fuzzy.hysteresis"}, {"left", "0.05"}, {"right", "0"}}));
+  EXPECT_EQ(preset("diff default default").out, "");
+  EXPECT_EQ(preset("diff default " + bad("no-format")).exitCode, 1);
+}
+
+TEST(PresetCommand, printsSchemaAndReference) {
+  EXPECT_EQ(preset("schema").out, presetSchema());
+  EXPECT_EQ(preset("reference").out, parameterReference());
+}
+
+TEST(PresetCommand, tellsWrongUsageFromBadInput) {
+  for (const char* const usage : {"", "check", "export default", "export default -o x --format yaml",
+                                  "diff default", "frob", "check --frob default"})
+    EXPECT_EQ(preset(usage).exitCode, 2) << usage;
+  EXPECT_EQ(preset("--help").exitCode, 0);
+  EXPECT_EQ(preset("export --help").exitCode, 0);
+}
+
+}  // namespace
+}  // namespace trimtab
