@@ -15,23 +15,20 @@ while [ $# -gt 0 ]; do
   esac
 done
 
-{
-  bash resources/install-packages.sh
-  cmake --preset release
-  cmake --build build --target $(sed -n 's/^./bench_&/p' build/bench.list)
-} >build.bench.log 2>&1 || { tail -40 build.bench.log >&2; echo "building failed" >&2; exit 1; }
-rm -f build.bench.log
-
-if [ -n "$only" ] && ! grep -qx "$only" build/bench.list; then
-  echo "no group $only; there are: $(paste -sd' ' build/bench.list)" >&2
-  exit 2
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+fail() { tail -40 "$log" >&2; echo "$1 failed" >&2; exit 1; }
+{ bash resources/install-packages.sh && cmake --preset release; } >"$log" 2>&1 || fail configuring
+groups=$(cat build/bench.list)
+if [ -n "$only" ]; then
+  grep -qx "$only" build/bench.list || { echo "no group $only; there are: $(echo $groups)" >&2; exit 2; }
+  groups=$only
 fi
+cmake --build build --target $(printf 'bench_%s ' $groups) >"$log" 2>&1 || fail building
 
 rows=() status=0
 ended() { echo "bench_$1 ended with status $2" >&2; status=1; }
-while read -r group; do
-  [ -n "$group" ] || continue
-  [ -z "$only" ] || [ "$only" = "$group" ] || continue
+for group in $groups; do
   echo "measuring $group" >&2
   if [ -z "$json" ]; then
     timeout 1200 build/bin/bench_"$group" "${options[@]}" </dev/null || ended "$group" $?
@@ -42,7 +39,7 @@ while read -r group; do
   while read -r row; do
     [[ $row == '{"id"'* ]] && rows+=("${row%,}")
   done <<<"$output"
-done <build/bench.list
+done
 
 if [ -n "$json" ]; then
   printf '{"rows": ['
