@@ -1,5 +1,6 @@
 #include "trimtab/preset/number.h"
 #include "trimtab/preset/preset.h"
+#include "trimtab/preset/rules.h"
 
 namespace trimtab {
 
@@ -78,6 +79,48 @@ std::string describe(const ParameterRow& row) {
   return text + "\n";
 }
 
+/// The rules of Eq. (2): which keys weigh them and say what they ask for.
+std::string ruleBase() {
+  std::string text =
+      "## The rule base\n\nUsed when `fuzzy.combination` is `rules`. *Low* is the altitude membership, "
+      "*high* its complement to 1; *nose "
+      "down* is the\npitch membership, *nose up* its complement. A rule fires with the smaller of its two, "
+      "and the total is the average of "
+      "the\noutputs, weighted by firing times weight. When nothing fires the total is 0.\n\n"
+      "| Rule | Weight | Output |\n|---|---|---|\n";
+  const TuningParameters defaults;
+  for (const char* const rule : {"low_down", "low_up", "high_down", "high_up"}) {
+    const std::string prefix = std::string("fuzzy.rules.") + rule;
+    std::string name = rule;
+    name.replace(name.find('_'), 1, " and nose ");
+    text += "| " + name;
+    for (const char* const column : {"_weight", "_output"}) {
+      const ParameterRow* const row = findRow(prefix + column);
+      text += " | `" + std::string(row->key) + "` (" + toText(*row, row->get(defaults)) + ")";
+    }
+    text += " |\n";
+  }
+  return text + "\n";
+}
+
+std::string rulesBetweenParameters() {
+  std::string text =
+      "## Rules between parameters\n\nA preset that breaks one can be edited and saved, but does not run and "
+      "is not exported.\n\n";
+  for (const RuleText& rule : ruleTexts())
+    text += "* `" + std::string(rule.key) + "`: " + std::string(rule.text) + "\n";
+  return text + "\n";
+}
+
+constexpr std::string_view kSources =
+    "## Sources\n\n"
+    "* A: C. J. Lee, K. C. Park, K. Kim: Dynamic Culling Scheme for Graphic Rendering System of Flight "
+    "Simulator\n"
+    "* B: C. Lee, S. Kang, K. Kim: Dynamic Culling Scheme Based on Altitude for Real-Time Rendering System "
+    "(in Korean, 2015)\n"
+    "* C: J. H. Lim, C. J. Lee, K. H. Kim, K. Kim: Preventing Rendering Speed Degradation for Helmet Mounted "
+    "Display Simulation\n";
+
 }  // namespace
 
 std::string parameterReference() {
@@ -95,8 +138,7 @@ std::string parameterReference() {
     }
     text += describe(row);
   }
-  text.pop_back();
-  return text;
+  return text + ruleBase() + rulesBetweenParameters() + std::string(kSources);
 }
 
 }  // namespace trimtab

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
+#include <vector>
 
 #include "trimtab/preset/parameters.h"
 #include "trimtab/preset/table.h"
@@ -85,5 +87,11 @@ constexpr bool someRuleCounts(const TuningParameters& p) {
 /// What validate() says of each value by itself, and of values together (which need finite values in range).
 Findings rangeFindings(const TuningParameters& parameters);
 Findings ruleFindings(const TuningParameters& parameters);
+
+/// What each rule demands, in a sentence, and the parameter that its finding names.
+struct RuleText {
+  std::string_view key, text;
+};
+std::vector<RuleText> ruleTexts();
 
 }  // namespace trimtab

@@ -127,31 +127,36 @@ void checkRow(const ParameterRow& row, const TuningParameters& parameters, Findi
 
 /// A condition between parameters; `key` is the one that the finding names.
 struct Rule {
-  std::string_view key;
+  std::string_view key, text;
   bool (*holds)(const TuningParameters&);
   std::string (*expected)(const TuningParameters&);
   std::string (*found)(const TuningParameters&);
 };
 
 constexpr std::array kRules{
-    Rule{"fuzzy.hysteresis", hysteresisLeavesBands,
+    Rule{"fuzzy.hysteresis",
+         "Twice the hysteresis is less than the narrowest band; the last band reaches up to 2.",
+         hysteresisLeavesBands,
          [](const TuningParameters& p) {
            return "less than " + numberText(narrowestBand(p.scheme.bands) / 2) + ", half the narrowest band";
          },
          [](const TuningParameters& p) { return numberText(p.scheme.hysteresis.value()); }},
-    Rule{"fuzzy.hysteresis", hysteresisLeavesFrustum,
+    Rule{"fuzzy.hysteresis",
+         "It is less than the first band's edge, else the scheme would never become frustum again.",
+         hysteresisLeavesFrustum,
          [](const TuningParameters& p) {
            return "less than " + numberText(p.scheme.bands.band[0].low) + ", the first band's edge";
          },
          [](const TuningParameters& p) { return numberText(p.scheme.hysteresis.value()); }},
-    Rule{"fuzzy.altitude.maximum_ft", maximumCoversCurve,
+    Rule{"fuzzy.altitude.maximum_ft",
+         "With an equation reading it is at least the altitude curve's last point.", maximumCoversCurve,
          [](const TuningParameters& p) {
            const CurvePoints& curve = p.altitude.curve;
            return "at least " + withUnit(curve.point[curve.size - 1].x, "ft") +
                   ", the altitude curve's last point";
          },
          [](const TuningParameters& p) { return withUnit(p.altitude.maximum.value(), "ft"); }},
-    Rule{"fuzzy.rules.low_down_weight", someRuleCounts,
+    Rule{"fuzzy.rules.low_down_weight", "At least one of the four rules' weights is above 0.", someRuleCounts,
          [](const TuningParameters&) {
            return std::string("at least one of the four rules' weights above 0");
          },
@@ -173,6 +178,12 @@ Findings ruleFindings(const TuningParameters& parameters) {
       findings.push_back(
           {Severity::error, "", std::string(rule.key), rule.expected(parameters), rule.found(parameters)});
   return findings;
+}
+
+std::vector<RuleText> ruleTexts() {
+  std::vector<RuleText> texts;
+  for (const Rule& rule : kRules) texts.push_back({rule.key, rule.text});
+  return texts;
 }
 
 Result<ValidatedParameters> validate(const TuningParameters& parameters) {
