@@ -1,5 +1,6 @@
 #include "trimtab/scene/renderer.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -9,6 +10,8 @@
 #include "trimtab/scene/gl_report.h"
 #include "trimtab/scene/gpu_timer.h"
 #include "trimtab/scene/lines.h"
+#include "trimtab/scene/occlusion.h"
+#include "trimtab/scene/occlusion_conditions.h"
 #include "trimtab/scene/scene_graph.h"
 #include "trimtab/scene/shaders.h"
 #include "trimtab/scene/tile_cache.h"
@@ -42,15 +45,22 @@ struct Renderer::Impl {
   std::shared_ptr<const terrain::Database> database;
   std::optional<CutKey> cutKey;
   LevelCut cut;
+  double loweringScale = 1;
   VisibleSet visible;
   FrameResult counters;
+
+  OcclusionConditions conditions;
+  bool depthMapCurrent = false;  ///< the last frame drew one
+  double nearM = 1;              ///< of the last depth map
 
   // The frame in progress.
   const FrameRequest* request = nullptr;
   EyePose eye, cullEye;
   FrameCost cost;
   Clock::time_point frameStart, cullDone, drawStart;
-  std::vector<TileDraw> drawn;
+  std::vector<std::uint32_t> testedSlots;
+  std::vector<TileDraw> occluders, drawn;
+  std::vector<std::uint8_t> flags;
   std::vector<std::uint32_t> tints;
   std::vector<LineVertex> lines;
 
@@ -59,6 +69,7 @@ struct Renderer::Impl {
     explicit Gl(ScenePasses passes) : graph(std::move(passes)) {}
     FrameBuffer frame;
     TileCache tiles;
+    OcclusionPass occlusion;
     LineBuffer lineBuffer;
     GpuTimer timer;
     SceneGraph graph;
@@ -66,12 +77,19 @@ struct Renderer::Impl {
   std::unique_ptr<Gl> gl;
 
   ScenePasses passes() {
-    return {[this] { cullDone = Clock::now(); }, [this] { drawTerrain(); }, [this] { drawWire(); },
-            [this] { gl->lineBuffer.draw(lines); }};
+    return {.begin = [this](unsigned) { cullDone = drawStart = Clock::now(); },
+            .occluders = [this](unsigned) { drawOccluders(); },
+            .reduce = [this](unsigned program) { gl->occlusion.reduce(program); },
+            .test = [this](unsigned) { removeHidden(); },
+            .terrain = [this](unsigned) { drawTerrain(); },
+            .wire = [this](unsigned) { drawWire(); },
+            .lines = [this](unsigned) { gl->lineBuffer.draw(lines); }};
   }
 
   void select();
-  void prepareTiles();
+  std::optional<DepthView> prepareOcclusion();
+  void drawOccluders();
+  void removeHidden();
   void drawTerrain();
   void drawWire();
   void bindTileTextures(bool on);
@@ -93,8 +111,47 @@ void Renderer::Impl::select() {
   selectVisible(index, cut, cullEye, v, r.method != CullingCase::none, visible);
 }
 
-void Renderer::Impl::prepareTiles() {
-  counters.tilesBuilt += gl->tiles.prepare(request->overlays.colourByReason ? cut.tiles : visible.tiles);
+std::optional<DepthView> Renderer::Impl::prepareOcclusion() {
+  counters.depthMap.reset();
+  counters.note.clear();
+  depthMapCurrent = false;
+  const auto& size = request->decision.depthMap;
+  if (request->method != CullingCase::proposed || !size || visible.tiles.empty()) return {};
+  counters.note = conditions.refusal(cut, cullEye, request->view);
+  if (!counters.note.empty()) return {};
+  testedSlots.clear();
+  occluders.clear();
+  for (const TileDraw& tile : visible.tiles) {
+    testedSlots.push_back(gl->tiles.slotOf(tile.node));
+    if (conditions.mayOcclude(tile.node)) occluders.push_back(tile);
+  }
+  if (occluders.empty()) return {};
+  gl->occlusion.prepare(size->widthPx, size->heightPx, testedSlots);
+  counters.depthMap = size;
+  ++counters.depthMapsDrawn;
+  depthMapCurrent = true;
+  nearM = request->view.nearM;
+  return DepthView{cullEye,
+                   size->widthPx,
+                   size->heightPx,
+                   gl->occlusion.levels(),
+                   static_cast<int>(testedSlots.size()),
+                   loweringScale};
+}
+
+void Renderer::Impl::drawOccluders() {
+  gl->occlusion.beginDepth();
+  bindTileTextures(true);
+  gl->tiles.drawOccluders(occluders);
+  bindTileTextures(false);
+}
+
+void Renderer::Impl::removeHidden() {
+  gl->occlusion.test(gl->tiles, flags);
+  removeOccluded(database->index(), flags, visible);
+  glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
+  drawStart = Clock::now();
+  cost.occlusion = millisecondsBetween(cullDone, drawStart);
 }
 
 void Renderer::Impl::bindTileTextures(bool on) {
@@ -115,7 +172,6 @@ void Renderer::Impl::drawTerrain() {
                                               : rgba(levelColour(database->index().level[tile.node]), 150));
     gl->tiles.setTints(drawn, tints);
   }
-  drawStart = Clock::now();
   bindTileTextures(true);
   gl->tiles.draw(drawn);
   bindTileTextures(false);
@@ -147,10 +203,12 @@ FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
     cullEye = r.frozenEye.value_or(eye);
     select();
     cost.select = millisecondsBetween(start, Clock::now());
-    prepareTiles();
+    counters.tilesBuilt += gl->tiles.prepare(r.overlays.colourByReason ? cut.tiles : visible.tiles);
+    view.depth = prepareOcclusion();
   } else {
     eye = {{}, eyeAxes(LocalFrame(r.eye), r.eye, r.attitude)};
     visible = {};
+    depthMapCurrent = false;
   }
   view.eye = eye;
   constexpr double kEarthRadius = 6371e3;
@@ -185,7 +243,7 @@ FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
 
   const auto end = Clock::now();
   cost.cull = millisecondsBetween(frameStart, cullDone);
-  cost.draw = millisecondsBetween(cullDone, end);
+  cost.draw = millisecondsBetween(drawStart, end);
   cost.gpu = gl->timer.milliseconds();
   cost.total = millisecondsBetween(start, end);
   counters.visible = visible;
@@ -215,6 +273,7 @@ void Renderer::setTerrain(std::shared_ptr<const terrain::Database> database) {
   impl_->database = std::move(database);
   impl_->cutKey.reset();
   impl_->cut.tiles.clear();
+  impl_->conditions.setDatabase(impl_->database);
   if (impl_->gl) impl_->gl->tiles.setDatabase(impl_->database);
 }
 
@@ -224,7 +283,24 @@ FrameResult Renderer::draw(const FrameRequest& request, unsigned fbo) {
 }
 
 Renderer::Grey Renderer::readDepthMap() {
-  return {};
+  if (!impl_->gl || !impl_->depthMapCurrent) return {};
+  std::vector<float> depths;
+  const OcclusionPass& pass = impl_->gl->occlusion;
+  pass.read(depths);
+  Grey grey{pass.width(), pass.height(), std::vector<std::uint8_t>(depths.size(), 255)};
+  // By the logarithm of the distance from 50 m to 200 km: the same step is the same ratio near and far.
+  constexpr double kFrom = 50, kTo = 200e3;
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    if (!(depths[i] > 0)) continue;
+    const double distance = std::clamp(impl_->nearM / double{depths[i]}, kFrom, kTo);
+    grey.pixels[i] =
+        static_cast<std::uint8_t>(std::lround(254 * std::log(distance / kFrom) / std::log(kTo / kFrom)));
+  }
+  return grey;
+}
+
+void Renderer::spoilLowering(double scale) {
+  impl_->loweringScale = scale;
 }
 
 std::vector<std::uint8_t> Renderer::readPixels(int width, int height) {

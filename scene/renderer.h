@@ -84,6 +84,9 @@ class Renderer {
     std::vector<std::uint8_t> pixels;
   };
   Grey readDepthMap();
+  /// For tests only: lowers occluders by so much of what the proof asks for. Less than 1 loses pixels, and a
+  /// test must be able to see that.
+  void spoilLowering(double scale);
   /// RGBA of what `draw` left, row 0 at the bottom.
   std::vector<std::uint8_t> readPixels(int width, int height);
 

@@ -16,36 +16,43 @@ namespace {
 
 constexpr std::array<float, 3> kHaze{0.74f, 0.80f, 0.86f};
 constexpr float kHazeDistance = 160e3f;
+/// Texels a side of the pyramid's level that a box is held against: more see more hidden, and cost more.
+constexpr int kTestedSpan = 16;
+
+unsigned programInUse(osg::State& state) {
+  const auto* program = state.getLastAppliedProgramObject();
+  return program ? program->getHandle() : 0;
+}
 
 /// A drawable that is nothing but a call.
 class Pass final : public osg::Drawable {
  public:
   Pass() = default;
   Pass(const Pass& other, const osg::CopyOp& op) : osg::Drawable(other, op), draw_(other.draw_) {}
-  explicit Pass(std::function<void()> draw) : draw_(std::move(draw)) {
+  explicit Pass(ScenePasses::Call draw) : draw_(std::move(draw)) {
     setUseDisplayList(false);
     setSupportsDisplayList(false);
     setCullingActive(false);
   }
-  META_Object(trimtab, Pass)
+  META_Object(trimtab, Pass);
 
-      void drawImplementation(osg::RenderInfo&) const override {
-    if (draw_) draw_();
+  void drawImplementation(osg::RenderInfo& info) const override {
+    if (draw_) draw_(programInUse(*info.getState()));
   }
 
  private:
-  std::function<void()> draw_;
+  ScenePasses::Call draw_;
 };
 
 class Begin final : public osg::Camera::DrawCallback {
  public:
-  explicit Begin(std::function<void()> call) : call_(std::move(call)) {}
+  explicit Begin(ScenePasses::Call call) : call_(std::move(call)) {}
   void operator()(osg::RenderInfo&) const override {
-    if (call_) call_();
+    if (call_) call_(0);
   }
 
  private:
-  std::function<void()> call_;
+  ScenePasses::Call call_;
 };
 
 osg::ref_ptr<osg::Program> makeProgram(const char* vertex, const char* fragment) {
@@ -54,9 +61,18 @@ osg::ref_ptr<osg::Program> makeProgram(const char* vertex, const char* fragment)
   program->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragment));
   program->addBindAttribLocation("vertexPosition", 0);
   program->addBindAttribLocation("vertexNormal", 1);
-  program->addBindAttribLocation("vertexSlope", 2);
   program->addBindAttribLocation("vertexColour", 3);
   return program;
+}
+
+Pass* addPass(osg::Group* group, ScenePasses::Call call, int order, const char* vertex,
+              const char* fragment) {
+  Pass* pass = new Pass(std::move(call));
+  osg::StateSet* state = pass->getOrCreateStateSet();
+  state->setAttributeAndModes(makeProgram(vertex, fragment));
+  state->setRenderBinDetails(order, "RenderBin");
+  group->addChild(pass);
+  return pass;
 }
 
 osg::Matrixd rotationOf(const Mat3& axes) {
@@ -72,30 +88,49 @@ osg::Matrixd rotationOf(const Mat3& axes) {
 
 /// Depth is near / distance: 1 at the near plane, 0 at infinity (with zero-to-one clip control).
 osg::Matrixd reversedProjection(const ViewShape& v) {
-  return {2 / (v.right - v.left),
-          0,
-          0,
-          0,
-          0,
-          2 / (v.top - v.bottom),
-          0,
-          0,
-          (v.right + v.left) / (v.right - v.left),
-          (v.top + v.bottom) / (v.top - v.bottom),
-          0,
-          -1,
-          0,
-          0,
-          v.nearM,
-          0};
+  osg::Matrixd m = osg::Matrixd::scale(2 / (v.right - v.left), 2 / (v.top - v.bottom), 0);
+  m(2, 0) = (v.right + v.left) / (v.right - v.left);
+  m(2, 1) = (v.top + v.bottom) / (v.top - v.bottom);
+  m(2, 3) = -1;
+  m(3, 2) = v.nearM;
+  m(3, 3) = 0;
+  return m;
 }
 
 osg::Vec3f toFloat(Vec3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-osg::Uniform* vec3(const char* name) {
-  return new osg::Uniform(osg::Uniform::FLOAT_VEC3, name);
+osg::Vec4f tangentsOf(const ViewShape& v) {
+  return {static_cast<float>(v.left), static_cast<float>(v.right), static_cast<float>(v.bottom),
+          static_cast<float>(v.top)};
+}
+
+using Type = osg::Uniform::Type;
+
+/// Uniforms by name, made on first use.
+class Uniforms {
+ public:
+  explicit Uniforms(osg::StateSet* state) : state_(state) {}
+  template <class... Values>
+  void set(const char* name, Type type, const Values&... values) {
+    state_->getOrCreateUniform(name, type)->set(values...);
+  }
+  /// In whole units of 16 m and a rest of at most 8 m: relativePosition in shaders.h says why.
+  void setEye(Vec3 p) {
+    const auto whole = [](double x) { return static_cast<int>(std::lround(x / 16)); };
+    const int x = whole(p.x), y = whole(p.y), z = whole(p.z);
+    set("eyeHi", Type::INT_VEC3, x, y, z);
+    set("eyeLo", Type::FLOAT_VEC3, toFloat(p - Vec3{16.0 * x, 16.0 * y, 16.0 * z}));
+  }
+
+ private:
+  osg::StateSet* state_;
+};
+
+/// How far the corner of a picture element is from its centre, at distance 1.
+double halfDiagonal(const ViewShape& v, int widthPx, int heightPx) {
+  return 0.5 * std::hypot((v.right - v.left) / widthPx, (v.top - v.bottom) / heightPx);
 }
 
 }  // namespace
@@ -104,24 +139,31 @@ struct SceneGraph::Nodes {
   osg::ref_ptr<osgViewer::Viewer> viewer = new osgViewer::Viewer;
   osg::ref_ptr<osgViewer::GraphicsWindowEmbedded> window = new osgViewer::GraphicsWindowEmbedded(0, 0, 1, 1);
   osg::ref_ptr<osg::Group> root = new osg::Group;
-  osg::ref_ptr<Pass> terrain, wire, lines, sky;
-
-  osg::ref_ptr<osg::Uniform> eyeHi = new osg::Uniform(osg::Uniform::INT_VEC3, "eyeHi");
-  osg::ref_ptr<osg::Uniform> eyeLo = vec3("eyeLo"), up = vec3("up"), upInEye = vec3("upInEye");
-  osg::ref_ptr<osg::Uniform> tangents = new osg::Uniform(osg::Uniform::FLOAT_VEC4, "tangents");
-  osg::ref_ptr<osg::Uniform> dip = new osg::Uniform("dip", 0.0f);
-  osg::ref_ptr<osg::Uniform> tinted = new osg::Uniform("tinted", false);
+  osg::ref_ptr<osg::Camera> depthCamera = new osg::Camera;
+  osg::ref_ptr<Pass> wire, lines, sky;
+  bool begun = false;  ///< this frame's drawing
 
   explicit Nodes(ScenePasses& passes) {
     makeState();
-    terrain = add(new Pass(std::move(passes.terrain)), 1, makeProgram(kTerrainVertex, kTerrainFragment));
-    terrain->getOrCreateStateSet()->addUniform(new osg::Uniform("wire", false));
-    wire = add(new Pass(std::move(passes.wire)), 2, makeProgram(kTerrainVertex, kTerrainFragment));
-    wire->getOrCreateStateSet()->addUniform(new osg::Uniform("wire", true));
-    lines = add(new Pass(std::move(passes.lines)), 3, makeProgram(kLineVertex, kLineFragment));
-    sky = add(new Pass([] { glDrawArrays(GL_TRIANGLES, 0, 3); }), 4, makeProgram(kSkyVertex, kSkyFragment));
+    makeDepthCamera(passes);
+    // A camera that is drawn first, is drawn before the main one's callback too: whichever comes first
+    // counts.
+    const osg::ref_ptr<Begin> begin = new Begin([this, call = std::move(passes.begin)](unsigned program) {
+      if (!begun) call(program);
+      begun = true;
+    });
+    depthCamera->setInitialDrawCallback(begin);
+    viewer->getCamera()->setInitialDrawCallback(begin);
+    addPass(root, std::move(passes.terrain), 1, kTerrainVertex, kTerrainFragment)
+        ->getStateSet()
+        ->addUniform(new osg::Uniform("wire", false));
+    wire = addPass(root, std::move(passes.wire), 2, kTerrainVertex, kTerrainFragment);
+    wire->getStateSet()->addUniform(new osg::Uniform("wire", true));
+    lines = addPass(root, std::move(passes.lines), 3, kLineVertex, kLineFragment);
+    sky = addPass(
+        root, [](unsigned) { glDrawArrays(GL_TRIANGLES, 0, 3); }, 4, kScreenVertex, kSkyFragment);
     // Where nothing was drawn depth still is 0, infinitely far.
-    sky->getOrCreateStateSet()->setAttributeAndModes(new osg::Depth(osg::Depth::GEQUAL, 0, 1, false));
+    sky->getStateSet()->setAttributeAndModes(new osg::Depth(osg::Depth::GEQUAL, 0, 1, false));
 
     osg::Camera* camera = viewer->getCamera();
     camera->setGraphicsContext(window);
@@ -129,19 +171,11 @@ struct SceneGraph::Nodes {
     camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
     camera->setCullingMode(osg::CullSettings::NO_CULLING);
     camera->setClearDepth(0);
-    camera->setInitialDrawCallback(new Begin(std::move(passes.begin)));
     viewer->setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     viewer->setReleaseContextAtEndOfFrameHint(false);
     viewer->setLightingMode(osg::View::NO_LIGHT);
     viewer->setKeyEventSetsDone(0);
     viewer->setSceneData(root);
-  }
-
-  Pass* add(Pass* pass, int order, const osg::ref_ptr<osg::Program>& program) {
-    pass->getOrCreateStateSet()->setAttributeAndModes(program);
-    pass->getOrCreateStateSet()->setRenderBinDetails(order, "RenderBin");
-    root->addChild(pass);
-    return pass;
   }
 
   void makeState() {
@@ -152,13 +186,81 @@ struct SceneGraph::Nodes {
     state->setAttributeAndModes(new osg::Depth(osg::Depth::GREATER, 0, 1, true));
     for (const GLenum off : {GL_LIGHTING, GL_BLEND, GL_CULL_FACE, GL_ALPHA_TEST})
       state->setMode(off, osg::StateAttribute::OFF);
-    const Vec3 towardsSun = normalized({0.45, -0.60, 0.66});
-    for (osg::Uniform* uniform : {eyeHi.get(), eyeLo.get(), up.get(), upInEye.get(), tangents.get(),
-                                  dip.get(), tinted.get(), new osg::Uniform("sun", toFloat(towardsSun)),
-                                  new osg::Uniform("haze", osg::Vec3f(kHaze[0], kHaze[1], kHaze[2])),
-                                  new osg::Uniform("hazeDistance", kHazeDistance),
-                                  new osg::Uniform("slots", kSlotUnit), new osg::Uniform("tints", kTintUnit)})
-      state->addUniform(uniform);
+    Uniforms uniforms(state);
+    uniforms.set("sun", Type::FLOAT_VEC3, toFloat(normalized({0.45, -0.60, 0.66})));
+    uniforms.set("haze", Type::FLOAT_VEC3, osg::Vec3f(kHaze[0], kHaze[1], kHaze[2]));
+    uniforms.set("hazeDistance", Type::FLOAT, kHazeDistance);
+    uniforms.set("slots", Type::INT, kSlotUnit);
+    uniforms.set("tints", Type::INT, kTintUnit);
+  }
+
+  /// The papers' z-map camera: subordinate to the main one, with its matrices, drawn before it in the same
+  /// frame. Its framebuffer is the passes' own.
+  void makeDepthCamera(ScenePasses& passes) {
+    depthCamera->setRenderOrder(osg::Camera::PRE_RENDER);
+    depthCamera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+    depthCamera->setClearMask(0);
+    depthCamera->setCullingActive(false);
+    depthCamera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+    depthCamera->setCullingMode(osg::CullSettings::NO_CULLING);
+    Uniforms uniforms(depthCamera->getOrCreateStateSet());
+    uniforms.set("source", Type::INT, kDepthUnit);
+    uniforms.set("depthMap", Type::INT, kDepthUnit);
+    uniforms.set("pyramid", Type::INT, kPyramidUnit);
+    uniforms.set("parts", Type::INT, kPartUnit);
+    uniforms.set("tested", Type::INT, kTestedUnit);
+    uniforms.set("span", Type::INT, kTestedSpan);
+    addPass(depthCamera, std::move(passes.occluders), 1, kOccluderVertex, kOccluderFragment);
+    addPass(depthCamera, std::move(passes.reduce), 2, kScreenVertex, kReduceFragment)
+        ->getStateSet()
+        ->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+    addPass(depthCamera, std::move(passes.test), 3, kScreenVertex, kTestFragment)
+        ->getStateSet()
+        ->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+    root->addChild(depthCamera);
+  }
+
+  void setDepthView(const DepthView& depth, const ViewShape& shape) {
+    depthCamera->setViewport(0, 0, depth.widthPx, depth.heightPx);
+    depthCamera->setViewMatrix(rotationOf(depth.eye.axes));
+    depthCamera->setProjectionMatrix(reversedProjection(shape));
+    Uniforms uniforms(depthCamera->getStateSet());
+    uniforms.setEye(depth.eye.position);
+    uniforms.set("right", Type::FLOAT_VEC3, toFloat(depth.eye.axes.row[0]));
+    uniforms.set("up", Type::FLOAT_VEC3, toFloat(depth.eye.axes.row[1]));
+    uniforms.set("forward", Type::FLOAT_VEC3, toFloat(-depth.eye.axes.row[2]));
+    uniforms.set("nearM", Type::FLOAT, static_cast<float>(shape.nearM));
+    uniforms.set("mapSize", Type::INT_VEC2, depth.widthPx, depth.heightPx);
+    uniforms.set("levels", Type::INT, depth.levels);
+    uniforms.set("count", Type::INT, depth.tiles);
+    // Rasterisers snap vertices to a fraction of a pixel, in the picture and in the map: a tenth covers both.
+    const double texel = halfDiagonal(shape, depth.widthPx, depth.heightPx);
+    const double pixel = halfDiagonal(shape, shape.widthPx, shape.heightPx);
+    uniforms.set("texelReach", Type::FLOAT, static_cast<float>(texel * 1.04 + pixel * 0.1));
+    const auto pad = [](int map, int picture) {
+      return 0.05f + 0.1f * static_cast<float>(map) / static_cast<float>(picture);
+    };
+    uniforms.set("pad", Type::FLOAT_VEC2,
+                 osg::Vec2f(pad(depth.widthPx, shape.widthPx), pad(depth.heightPx, shape.heightPx)));
+    uniforms.set("loweringScale", Type::FLOAT, static_cast<float>(depth.loweringScale));
+  }
+
+  /// Whoever shares the context (a widget's painter) has changed state behind OSG's back.
+  /// State::dirtyAllModes only flips what OSG believes, so what is true and what is believed are brought
+  /// together here.
+  void settleState() {
+    osg::State* state = window->getState();
+    for (const GLenum off : {GL_BLEND, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_CULL_FACE, GL_DEPTH_TEST,
+                             GL_LIGHTING, GL_ALPHA_TEST, GL_DEPTH_CLAMP, GL_FRAMEBUFFER_SRGB}) {
+      glDisable(off);
+      state->haveAppliedMode(off, false);
+    }
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthMask(GL_TRUE);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    state->dirtyAllAttributes();
+    state->dirtyAllVertexArrays();
+    state->setLastAppliedProgramObject(nullptr);
   }
 };
 
@@ -174,22 +276,17 @@ SceneGraph::~SceneGraph() {
 
 void SceneGraph::frame(const SceneView& view, unsigned fbo) {
   Nodes& n = *nodes_;
-  // The eye in whole units of 16 m and a rest of at most 8 m: relativePosition in shaders.cpp says why.
-  const Vec3 p = view.eye.position;
-  const std::array<int, 3> hi{static_cast<int>(std::lround(p.x / 16)),
-                              static_cast<int>(std::lround(p.y / 16)),
-                              static_cast<int>(std::lround(p.z / 16))};
-  n.eyeHi->set(hi[0], hi[1], hi[2]);
-  n.eyeLo->set(toFloat(p - Vec3{16.0 * hi[0], 16.0 * hi[1], 16.0 * hi[2]}));
-  n.up->set(toFloat(view.up));
-  n.upInEye->set(toFloat(view.eye.axes * view.up));
-  n.tangents->set(osg::Vec4f(static_cast<float>(view.shape.left), static_cast<float>(view.shape.right),
-                             static_cast<float>(view.shape.bottom), static_cast<float>(view.shape.top)));
-  n.dip->set(static_cast<float>(view.horizonDip));
-  n.tinted->set(view.tinted);
+  Uniforms uniforms(n.root->getStateSet());
+  uniforms.setEye(view.eye.position);
+  uniforms.set("upInEye", Type::FLOAT_VEC3, toFloat(view.eye.axes * view.up));
+  uniforms.set("tangents", Type::FLOAT_VEC4, tangentsOf(view.shape));
+  uniforms.set("dip", Type::FLOAT, static_cast<float>(view.horizonDip));
+  uniforms.set("tinted", Type::BOOL, view.tinted);
   n.sky->setNodeMask(view.sky ? ~0u : 0u);
   n.wire->setNodeMask(view.wireframe ? ~0u : 0u);
   n.lines->setNodeMask(view.lines ? ~0u : 0u);
+  n.depthCamera->setNodeMask(view.depth ? ~0u : 0u);
+  if (view.depth) n.setDepthView(*view.depth, view.shape);
 
   osg::Camera* camera = n.viewer->getCamera();
   camera->setViewport(0, 0, view.shape.widthPx, view.shape.heightPx);
@@ -197,21 +294,8 @@ void SceneGraph::frame(const SceneView& view, unsigned fbo) {
   camera->setProjectionMatrix(reversedProjection(view.shape));
   camera->setClearColor(view.sky ? osg::Vec4(kHaze[0], kHaze[1], kHaze[2], 1) : osg::Vec4(1, 0, 1, 1));
   n.window->setDefaultFboId(fbo);
-
-  // Whoever shares the context (a widget's painter) has changed state behind OSG's back. State::dirtyAllModes
-  // only flips what OSG believes, so what is true and what is believed are brought together here.
-  osg::State* state = n.window->getState();
-  for (const GLenum off : {GL_BLEND, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_CULL_FACE, GL_DEPTH_TEST,
-                           GL_LIGHTING, GL_ALPHA_TEST, GL_DEPTH_CLAMP, GL_FRAMEBUFFER_SRGB}) {
-    glDisable(off);
-    state->haveAppliedMode(off, false);
-  }
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glDepthMask(GL_TRUE);
-  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-  state->dirtyAllAttributes();
-  state->dirtyAllVertexArrays();
-  state->setLastAppliedProgramObject(nullptr);
+  n.settleState();
+  n.begun = false;
   n.viewer->frame();
 }
 

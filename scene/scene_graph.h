@@ -3,17 +3,31 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "trimtab/culling/select.h"
 
 namespace trimtab::scene {
 
-/// What the graph calls back to, in the order of a frame; raw GL is allowed inside.
+/// What the graph calls back to, in the order of a frame; raw GL is allowed inside. Each gets the program in
+/// use.
 struct ScenePasses {
-  std::function<void()> begin;    ///< OSG's cull is done, nothing is drawn yet
-  std::function<void()> terrain;  ///< the one multi-draw; the terrain program is in use
-  std::function<void()> wire;     ///< the same again as lines
-  std::function<void()> lines;    ///< overlay lines
+  using Call = std::function<void(unsigned program)>;
+  Call begin;      ///< OSG's cull is done, nothing is drawn yet
+  Call occluders;  ///< into the depth map
+  Call reduce;     ///< the depth map's pyramid
+  Call test;       ///< tiles against the depth map; afterwards the visible set stands
+  Call terrain;    ///< the one multi-draw
+  Call wire;       ///< the same again as lines
+  Call lines;      ///< overlay lines
+};
+
+/// The depth map's side of a frame.
+struct DepthView {
+  EyePose eye;  ///< the main view's, or the frozen one
+  int widthPx = 0, heightPx = 0;
+  int levels = 0, tiles = 0;
+  double loweringScale = 1;  ///< less than 1 is wrong: for the test that sees the picture break
 };
 
 /// A frame's view as the graph's uniforms and matrices need it.
@@ -22,6 +36,7 @@ struct SceneView {
   Vec3 up{0, 0, 1};       ///< local vertical at the eye
   double horizonDip = 0;  ///< radians
   ViewShape shape;
+  std::optional<DepthView> depth;
   bool sky = true, tinted = false, wireframe = false, lines = false;
 };
 

@@ -2,19 +2,6 @@
 
 namespace trimtab::scene {
 
-// A vertex's place relative to the eye. The vertex is a multiple of 1/256 m and the tile's offset from eyeHi
-// one of 16 m, so their sum is the same number in every tile that shares the post: borders close to the bit
-// and nothing jitters, however far the origin is. `precise` forbids to sum in another order.
-#define TRIMTAB_RELATIVE_POSITION                                \
-  "uniform isamplerBuffer slots;\n"                              \
-  "uniform ivec3 eyeHi;\n"                                       \
-  "uniform vec3 eyeLo;\n"                                        \
-  "vec3 relativePosition(vec3 inTile, ivec4 slot) {\n"           \
-  "  precise vec3 p = inTile + vec3(slot.xyz - eyeHi) * 16.0;\n" \
-  "  p -= eyeLo;\n"                                              \
-  "  return p;\n"                                                \
-  "}\n"
-
 const char* const kTerrainVertex = R"(#version 430 compatibility
 )" TRIMTAB_RELATIVE_POSITION R"(
 in vec3 vertexPosition;
@@ -30,7 +17,7 @@ uniform samplerBuffer tints;
 out vec3 colour;
 void main() {
   int tile = gl_VertexID / 1089;
-  vec3 p = relativePosition(vertexPosition, texelFetch(slots, tile));
+  vec3 p = relativePosition(vertexPosition, texelFetch(slots, tile * 2));
   float light = 0.42 + 0.14 * vertexNormal.z + 0.78 * max(dot(normalize(vertexNormal), sun), 0.0);
   vec3 lit = min(vertexColour.rgb * light * 1.15, vec3(1.0));
   if (tinted) {
@@ -53,7 +40,7 @@ void main() { fragment = vec4(colour, 1.0); }
 )";
 
 // One triangle over the picture at reversed depth 0, infinitely far: it fills what nothing else did.
-const char* const kSkyVertex = R"(#version 430 compatibility
+const char* const kScreenVertex = R"(#version 430 compatibility
 uniform vec4 tangents;     // left, right, bottom, top
 out vec3 direction;        // eye axes
 void main() {

@@ -15,6 +15,8 @@ constexpr std::uint32_t kFirstSlots = 256;
 constexpr std::uint32_t kKeptSlots = 8192;
 constexpr std::size_t kVertexBytes = sizeof(terrain::TileVertex);
 constexpr std::size_t kSlotBytes = TileCache::kVerticesPerTile * kVertexBytes;
+constexpr std::size_t kOccluderBytes = kOccluderVertices * sizeof(OccluderVertex);
+constexpr std::size_t kPartBytes = kParts * sizeof(PartBox);
 
 void defineAttributes() {
   const auto attribute = [](unsigned index, int size, unsigned type, unsigned char normalise,
@@ -30,35 +32,71 @@ void defineAttributes() {
   attribute(3, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(TileVertex, colour));
 }
 
-}  // namespace
-
-TileCache::TileCache() : indices_(makeTileIndices()) {
-  auto indices = indices_.indices;
-  for (unsigned shift = 1; shift < 4; ++shift) {
-    const auto coarse = makeCoarseIndices(1 << shift);
-    coarse_[shift] = {static_cast<std::uint32_t>(indices.size()), static_cast<std::uint32_t>(coarse.size())};
-    indices.insert(indices.end(), coarse.begin(), coarse.end());
-  }
-  glGenVertexArrays(1, &vertexArray_);
-  glBindVertexArray(vertexArray_);
-  glGenBuffers(1, &indexBuffer_);
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indexBuffer_);
+/// A vertex array with its own index buffer.
+GLuint makeArray(const std::vector<std::uint16_t>& indices, GLuint& indexBuffer) {
+  GLuint array = 0;
+  glGenVertexArrays(1, &array);
+  glBindVertexArray(array);
+  glGenBuffers(1, &indexBuffer);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indexBuffer);
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint16_t)),
                indices.data(), GL_STATIC_DRAW);
   glBindVertexArray(0);
-  glGenBuffers(1, &slotBuffer_);
-  glGenBuffers(1, &tintBuffer_);
-  glGenTextures(1, &slotTexture_);
-  glGenTextures(1, &tintTexture_);
+  return array;
+}
+
+void growBuffer(GLuint& buffer, std::size_t before, std::size_t after) {
+  GLuint larger = 0;
+  glGenBuffers(1, &larger);
+  glBindBuffer(GL_COPY_WRITE_BUFFER, larger);
+  glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(after), nullptr, GL_STATIC_DRAW);
+  if (buffer != 0) {
+    glBindBuffer(GL_COPY_READ_BUFFER, buffer);
+    glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0, static_cast<GLsizeiptr>(before));
+    glBindBuffer(GL_COPY_READ_BUFFER, 0);
+    glDeleteBuffers(1, &buffer);
+  }
+  glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
+  buffer = larger;
+}
+
+void upload(GLuint buffer, const void* data, std::size_t bytes) {
+  glBindBuffer(GL_COPY_WRITE_BUFFER, buffer);
+  glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_DYNAMIC_DRAW);
+  glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
+}
+
+void uploadPart(GLuint buffer, std::size_t slot, const void* data, std::size_t bytes) {
+  glBindBuffer(GL_COPY_WRITE_BUFFER, buffer);
+  glBufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(slot * bytes), static_cast<GLsizeiptr>(bytes),
+                  data);
+  glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
+}
+
+void attach(GLuint texture, GLenum format, GLuint buffer) {
+  glBindTexture(GL_TEXTURE_BUFFER, texture);
+  glTexBuffer(GL_TEXTURE_BUFFER, format, buffer);
+  glBindTexture(GL_TEXTURE_BUFFER, 0);
+}
+
+}  // namespace
+
+TileCache::TileCache() : indices_(makeTileIndices()) {
+  const auto occluder = makeCoarseIndices(kOccluderStep);
+  occluderIndices_ = static_cast<int>(occluder.size());
+  vertexArray_ = makeArray(indices_.indices, indexBuffer_);
+  occluderArray_ = makeArray(occluder, occluderIndexBuffer_);
+  for (GLuint* buffer : {&slotBuffer_, &tintBuffer_}) glGenBuffers(1, buffer);
+  for (GLuint* texture : {&slotTexture_, &tintTexture_, &partTexture_}) glGenTextures(1, texture);
   grow();
 }
 
 TileCache::~TileCache() {
-  const std::array<GLuint, 4> buffers{vertexBuffer_, indexBuffer_, slotBuffer_, tintBuffer_};
-  const std::array<GLuint, 2> textures{slotTexture_, tintTexture_};
-  glDeleteTextures(2, textures.data());
-  glDeleteBuffers(4, buffers.data());
-  glDeleteVertexArrays(1, &vertexArray_);
+  for (const GLuint texture : {slotTexture_, tintTexture_, partTexture_}) glDeleteTextures(1, &texture);
+  for (const GLuint buffer : {vertexBuffer_, indexBuffer_, occluderBuffer_, occluderIndexBuffer_, slotBuffer_,
+                              tintBuffer_, partBuffer_})
+    glDeleteBuffers(1, &buffer);
+  for (const GLuint array : {vertexArray_, occluderArray_}) glDeleteVertexArrays(1, &array);
 }
 
 void TileCache::setDatabase(std::shared_ptr<const terrain::Database> database) {
@@ -75,37 +113,27 @@ std::size_t TileCache::bytes() const {
 void TileCache::grow() {
   const std::size_t before = slots_.size();
   const std::size_t after = before == 0 ? kFirstSlots : before * 2;
-  GLuint larger = 0;
-  glGenBuffers(1, &larger);
-  glBindBuffer(GL_ARRAY_BUFFER, larger);
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(after * kSlotBytes), nullptr, GL_STATIC_DRAW);
-  if (before != 0) {
-    glBindBuffer(GL_COPY_READ_BUFFER, vertexBuffer_);
-    glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_ARRAY_BUFFER, 0, 0,
-                        static_cast<GLsizeiptr>(before * kSlotBytes));
-    glBindBuffer(GL_COPY_READ_BUFFER, 0);
-    glDeleteBuffers(1, &vertexBuffer_);
-  }
-  vertexBuffer_ = larger;
+  growBuffer(vertexBuffer_, before * kSlotBytes, after * kSlotBytes);
+  growBuffer(occluderBuffer_, before * kOccluderBytes, after * kOccluderBytes);
+  growBuffer(partBuffer_, before * kPartBytes, after * kPartBytes);
   glBindVertexArray(vertexArray_);
+  glBindBuffer(GL_ARRAY_BUFFER, vertexBuffer_);
   defineAttributes();
+  glBindVertexArray(occluderArray_);
+  glBindBuffer(GL_ARRAY_BUFFER, occluderBuffer_);
+  glEnableVertexAttribArray(0);
+  glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(OccluderVertex), nullptr);
   glBindVertexArray(0);
   glBindBuffer(GL_ARRAY_BUFFER, 0);
 
   slots_.resize(after);
   slotData_.resize(after);
   tints_.resize(after);
-  const auto resizeTexture = [after](GLuint texture, GLuint buffer, GLenum format, const void* data,
-                                     std::size_t item) {
-    glBindBuffer(GL_TEXTURE_BUFFER, buffer);
-    glBufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(after * item), data, GL_DYNAMIC_DRAW);
-    glBindTexture(GL_TEXTURE_BUFFER, texture);
-    glTexBuffer(GL_TEXTURE_BUFFER, format, buffer);
-    glBindTexture(GL_TEXTURE_BUFFER, 0);
-    glBindBuffer(GL_TEXTURE_BUFFER, 0);
-  };
-  resizeTexture(slotTexture_, slotBuffer_, GL_RGBA32I, slotData_.data(), sizeof(SlotData));
-  resizeTexture(tintTexture_, tintBuffer_, GL_RGBA8, tints_.data(), sizeof(std::uint32_t));
+  upload(slotBuffer_, slotData_.data(), after * sizeof(SlotData));
+  upload(tintBuffer_, tints_.data(), after * sizeof(std::uint32_t));
+  attach(slotTexture_, GL_RGBA32I, slotBuffer_);
+  attach(tintTexture_, GL_RGBA8, tintBuffer_);
+  attach(partTexture_, GL_RGBA32F, partBuffer_);
 }
 
 std::uint32_t TileCache::takeSlot() {
@@ -124,15 +152,12 @@ std::uint32_t TileCache::takeSlot() {
 
 void TileCache::fill(std::uint32_t slot, std::uint32_t node) {
   database_->buildTile(node, mesh_);
-  glBindBuffer(GL_ARRAY_BUFFER, vertexBuffer_);
-  glBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(slot * kSlotBytes),
-                  static_cast<GLsizeiptr>(kSlotBytes), mesh_.vertices.data());
-  glBindBuffer(GL_ARRAY_BUFFER, 0);
-  slotData_[slot] = {{mesh_.origin[0], mesh_.origin[1], mesh_.origin[2]}, 0};
-  glBindBuffer(GL_TEXTURE_BUFFER, slotBuffer_);
-  glBufferSubData(GL_TEXTURE_BUFFER, static_cast<GLintptr>(slot * sizeof(SlotData)), sizeof(SlotData),
-                  &slotData_[slot]);
-  glBindBuffer(GL_TEXTURE_BUFFER, 0);
+  makeOccluder(mesh_, database_->index().slopeMax[node], occluder_);
+  uploadPart(vertexBuffer_, slot, mesh_.vertices.data(), kSlotBytes);
+  uploadPart(occluderBuffer_, slot, occluder_.vertices.data(), kOccluderBytes);
+  uploadPart(partBuffer_, slot, occluder_.parts.data(), kPartBytes);
+  slotData_[slot] = {{mesh_.origin[0], mesh_.origin[1], mesh_.origin[2], 0}, occluder_.limits};
+  uploadPart(slotBuffer_, slot, &slotData_[slot], sizeof(SlotData));
   slots_[slot].node = node;
   slotOfNode_[node] = slot;
 }
@@ -156,10 +181,7 @@ std::size_t TileCache::prepare(std::span<const TileDraw> tiles) {
 void TileCache::setTints(std::span<const TileDraw> tiles, std::span<const std::uint32_t> colours) {
   for (std::size_t i = 0; i < tiles.size(); ++i)
     if (const std::uint32_t slot = slotOfNode_[tiles[i].node]; slot != kNoSlot) tints_[slot] = colours[i];
-  glBindBuffer(GL_TEXTURE_BUFFER, tintBuffer_);
-  glBufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(tints_.size() * sizeof(std::uint32_t)),
-               tints_.data(), GL_DYNAMIC_DRAW);
-  glBindBuffer(GL_TEXTURE_BUFFER, 0);
+  upload(tintBuffer_, tints_.data(), tints_.size() * sizeof(std::uint32_t));
 }
 
 void TileCache::draw(std::span<const TileDraw> tiles) {
@@ -175,23 +197,23 @@ void TileCache::draw(std::span<const TileDraw> tiles) {
     offsets_[count] = reinterpret_cast<const void*>(range.first * sizeof(std::uint16_t));
     baseVertices_[count++] = static_cast<int>(slot) * kVerticesPerTile;
   }
-  multiDraw(count);
+  multiDraw(vertexArray_, count);
 }
 
-void TileCache::drawCoarse(std::span<const TileDraw> tiles, unsigned shift) {
-  counts_.assign(tiles.size(), static_cast<int>(coarse_[shift].count));
-  offsets_.assign(tiles.size(), reinterpret_cast<const void*>(coarse_[shift].first * sizeof(std::uint16_t)));
+void TileCache::drawOccluders(std::span<const TileDraw> tiles) {
+  counts_.assign(tiles.size(), occluderIndices_);
+  offsets_.assign(tiles.size(), nullptr);
   baseVertices_.resize(tiles.size());
   std::size_t count = 0;
   for (const TileDraw& tile : tiles)
     if (const std::uint32_t slot = slotOfNode_[tile.node]; slot != kNoSlot)
-      baseVertices_[count++] = static_cast<int>(slot) * kVerticesPerTile;
-  multiDraw(count);
+      baseVertices_[count++] = static_cast<int>(slot) * kOccluderVertices;
+  multiDraw(occluderArray_, count);
 }
 
-void TileCache::multiDraw(std::size_t count) {
+void TileCache::multiDraw(unsigned vertexArray, std::size_t count) {
   if (count == 0) return;
-  glBindVertexArray(vertexArray_);
+  glBindVertexArray(vertexArray);
   glMultiDrawElementsBaseVertex(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_SHORT, offsets_.data(),
                                 static_cast<int>(count), baseVertices_.data());
   glBindVertexArray(0);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "trimtab/culling/select.h"
+#include "trimtab/scene/occluder.h"
 #include "trimtab/scene/tile_indices.h"
 #include "trimtab/terrain/database.h"
 
@@ -34,12 +35,14 @@ class TileCache {
   /// One multi-draw of the tiles, in order; those without a slot are skipped. A program that reads attributes
   /// 0 position, 1 normal, 2 slope, 3 colour is in use.
   void draw(std::span<const TileDraw> tiles);
-  /// The same with every `2^shift`-th post only (shift 1 to 3): occluders.
-  void drawCoarse(std::span<const TileDraw> tiles, unsigned shift);
+  /// One multi-draw of the tiles' occluder meshes: attribute 0 is OccluderVertex.
+  void drawOccluders(std::span<const TileDraw> tiles);
 
-  /// RGBA32I per slot: origin in units of 16 m, and the bits of a float: how far the coarse mesh of shift
-  /// kCoarseShift may rise above the tile as drawn, metres.
+  /// RGBA32I, two texels a slot: the tile's origin in units of 16 m, and OccluderLimits as the bits of
+  /// floats.
   unsigned slotTexture() const { return slotTexture_; }
+  /// RGBA32F, 2 x kParts texels a slot: low and high corner of each part.
+  unsigned partTexture() const { return partTexture_; }
   /// RGBA8 per slot, for the engineer's colours: `colours` in the order of `tiles`.
   void setTints(std::span<const TileDraw> tiles, std::span<const std::uint32_t> colours);
   unsigned tintTexture() const { return tintTexture_; }
@@ -53,18 +56,17 @@ class TileCache {
     std::uint64_t lastUse = 0;
   };
   struct SlotData {
-    std::int32_t origin[3];
-    float coarseRise;
+    std::int32_t origin[4];
+    OccluderLimits limits;
   };
 
   std::uint32_t takeSlot();
   void grow();
   void fill(std::uint32_t slot, std::uint32_t node);
-  void multiDraw(std::size_t count);
+  void multiDraw(unsigned vertexArray, std::size_t count);
 
   std::shared_ptr<const terrain::Database> database_;
   TileIndices indices_;
-  TileIndices::Range coarse_[4];
   std::vector<Slot> slots_;
   std::vector<SlotData> slotData_;
   std::vector<std::uint32_t> slotOfNode_;
@@ -72,11 +74,14 @@ class TileCache {
   std::vector<int> counts_, baseVertices_;
   std::vector<const void*> offsets_;
   terrain::TileMesh mesh_;
+  TileOccluder occluder_;
   std::uint64_t frame_ = 0;
   std::uint32_t used_ = 0;
-  unsigned vertexBuffer_ = 0, indexBuffer_ = 0, slotBuffer_ = 0, slotTexture_ = 0, tintBuffer_ = 0,
-           tintTexture_ = 0;
-  unsigned vertexArray_ = 0;
+  unsigned vertexArray_ = 0, vertexBuffer_ = 0, indexBuffer_ = 0;
+  unsigned occluderArray_ = 0, occluderBuffer_ = 0, occluderIndexBuffer_ = 0;
+  int occluderIndices_ = 0;
+  unsigned slotBuffer_ = 0, slotTexture_ = 0, tintBuffer_ = 0, tintTexture_ = 0, partBuffer_ = 0,
+           partTexture_ = 0;
 };
 
 }  // namespace trimtab::scene

@@ -52,12 +52,14 @@ TileIndices makeTileIndices() {
 }
 
 std::vector<std::uint16_t> makeCoarseIndices(int step) {
+  const int cells = kCells / step;
+  const auto at = [cells](int column, int row) {
+    return static_cast<std::uint16_t>(row * (cells + 1) + column);
+  };
   std::vector<std::uint16_t> indices;
-  for (int y = 0; y < kCells; y += step)
-    for (int x = 0; x < kCells; x += step) {
-      addCell(indices, (x + y) / step % 2 == 0, vertex(x, y), vertex(x + step, y), vertex(x, y + step),
-              vertex(x + step, y + step));
-    }
+  for (int y = 0; y < cells; ++y)
+    for (int x = 0; x < cells; ++x)
+      addCell(indices, (x + y) % 2 == 0, at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1));
   return indices;
 }
 

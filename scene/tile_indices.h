@@ -18,9 +18,10 @@ struct TileIndices {
 
 /// On a coarser side the odd vertices fall onto their even neighbour, so that the border's edges are the
 /// coarser tile's; triangles that collapse are left out.
-///
-/// `step` 2, 4, 8, ...: the tile by every so-manyth post, for occluders. Sides are then coarse anyway.
 TileIndices makeTileIndices();
+
+/// A tile by every `step`-th post, numbered row by row: (32 / step + 1)^2 vertices, diagonals as the levels
+/// have them.
 std::vector<std::uint16_t> makeCoarseIndices(int step);
 
 }  // namespace trimtab::scene

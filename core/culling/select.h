@@ -61,7 +61,8 @@ struct VisibleSet {
 void selectVisible(const TerrainIndex& index, const LevelCut& cut, const EyePose& eye, const ViewShape& view,
                    bool test, VisibleSet& visible);
 
-/// Removes tiles that `occluded` (one flag a tile of `visible.tiles`, in order) proves hidden.
-void removeOccluded(const TerrainIndex& index, std::span<const std::uint8_t> occluded, VisibleSet& visible);
+/// Removes tiles by one flag a tile of `visible.tiles`, in order: 0 stays, 1 is proven hidden, 2 is proven
+/// outside the view (by finer boxes than the index has).
+void removeOccluded(const TerrainIndex& index, std::span<const std::uint8_t> flags, VisibleSet& visible);
 
 }  // namespace trimtab

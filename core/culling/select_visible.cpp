@@ -70,17 +70,18 @@ void selectVisible(const TerrainIndex& index, const LevelCut& cut, const EyePose
   }
 }
 
-void removeOccluded(const TerrainIndex&, std::span<const std::uint8_t> occluded, VisibleSet& visible) {
+void removeOccluded(const TerrainIndex&, std::span<const std::uint8_t> flags, VisibleSet& visible) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < visible.tiles.size(); ++i) {
     const TileDraw tile = visible.tiles[i];
-    if (i < occluded.size() && occluded[i]) {
-      visible.reason[tile.node] = CullReason::occluded;
-      ++visible.occluded;
-      count(visible, tile, -1);
-    } else {
+    if (i >= flags.size() || flags[i] == 0) {
       visible.tiles[kept++] = tile;
+      continue;
     }
+    const bool hidden = flags[i] == 1;
+    visible.reason[tile.node] = hidden ? CullReason::occluded : CullReason::outside_frustum;
+    ++(hidden ? visible.occluded : visible.outsideFrustum);
+    count(visible, tile, -1);
   }
   visible.tiles.resize(kept);
 }
