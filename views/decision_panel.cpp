@@ -115,9 +115,12 @@ DecisionPanel::DecisionPanel(Draft& draft, QWidget* parent)
 void DecisionPanel::showFrame(const LiveFrame& frame) {
   frame_ = frame;
   any_ = true;
-  if (log_->isChange(frame.decision))
+  if (log_->isChange(frame.decision)) {
+    // Scheme and depth map have columns of their own.
+    const QString reason = QString::fromStdString(explain(frame.decision, draft_.active()));
     log_->append(frame.time, frame.packet, frame.decision,
-                 QString::fromStdString(explain(frame.decision, draft_.active())));
+                 reason.mid(reason.indexOf(QStringLiteral(": ")) + 1).trimmed());
+  }
   throttle_.request();
 }
 

@@ -146,9 +146,8 @@ void Draft::takeAll(const TuningParameters& to, const QString& what) {
 
 void Draft::load(const Preset& preset) {
   preset_ = preset;
-  baseline_ = TuningParameters{};
-  if (!preset.base.empty())
-    if (const Result<Preset> base = loadPreset(preset.base)) baseline_ = base->parameters;
+  const Result<TuningParameters> base = baseParameters(preset);
+  baseline_ = base ? *base : *defaultParameters();
   stack_.clear();
   check();
   emit loaded();

@@ -29,6 +29,13 @@ std::string inC(const QString& typed) {
   return (ok ? QString::number(value, 'g', 17) + text.mid(end) : text).toStdString();
 }
 
+/// A spin box puts its suffix behind whatever is typed: "10 ft" arrives as "10 ft m".
+Result<ParameterValue> parseTyped(const ParameterRow& row, const QString& text, const QString& suffix) {
+  if (!suffix.isEmpty() && text.endsWith(suffix))
+    if (Result<ParameterValue> bare = parseValue(row, inC(text.chopped(suffix.size())))) return bare;
+  return parseValue(row, inC(text));
+}
+
 }  // namespace
 
 NumberBox::NumberBox(Draft& draft, std::string_view key, QWidget* parent)
@@ -44,7 +51,7 @@ NumberBox::NumberBox(Draft& draft, std::string_view key, QWidget* parent)
   setToolTip(helpText(*row_));
   if (!row_->unit.empty())
     setSuffix((row_->unit == "°" ? QString() : QStringLiteral(" ")) + fromView(row_->unit));
-  setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("0.00000000") + suffix()) + 34);
+  setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("0.000000 ms")) + 34);
   read();
   connect(&draft_, &Draft::valueChanged, this, [this](const QString& changed) {
     if (changed.toStdString() == row_->key) read();
@@ -91,12 +98,12 @@ QString NumberBox::textFromValue(double value) const {
 }
 
 double NumberBox::valueFromText(const QString& text) const {
-  const Result<ParameterValue> parsed = parseValue(*row_, inC(text));
+  const Result<ParameterValue> parsed = parseTyped(*row_, text, suffix());
   return parsed ? std::get<double>(*parsed) : value();
 }
 
 QValidator::State NumberBox::validate(QString& text, int&) const {
-  const Result<ParameterValue> parsed = parseValue(*row_, inC(text));
+  const Result<ParameterValue> parsed = parseTyped(*row_, text, suffix());
   if (!parsed) return QValidator::Intermediate;
   const double number = std::get<double>(*parsed);
   if (!(number >= row_->hard.low && number <= row_->hard.high)) return QValidator::Intermediate;

@@ -17,6 +17,12 @@
 
 namespace trimtab::views {
 
+namespace {
+// A picture of four lanes costs some ten milliseconds: a dozen a second look live and leave the core to the
+// renderer.
+constexpr int kRefreshMs = 80;
+}  // namespace
+
 PlotsPanel::PlotsPanel(Draft& draft, QWidget* parent)
     : QWidget(parent),
       draft_(draft),
@@ -24,7 +30,8 @@ PlotsPanel::PlotsPanel(Draft& draft, QWidget* parent)
       readout_(new QTableWidget),
       tracked_(new QLabel),
       span_(new QComboBox),
-      throttle_(this, [this] { refresh(); }) {
+      throttle_(
+          this, [this] { refresh(); }, kRefreshMs) {
   makeActions();
   for (const auto& [seconds, text] : {std::pair{10, tr("10 s")},
                                       {30, tr("30 s")},
@@ -58,7 +65,8 @@ PlotsPanel::PlotsPanel(Draft& draft, QWidget* parent)
   readout_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   readout_->setTabKeyNavigation(false);
   readout_->setRowCount(static_cast<int>(plot_->traces().size()) + 1);
-  readout_->setMaximumHeight((fontMetrics().height() + 4) * (readout_->rowCount() + 1) + 12);
+  readout_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
+  readout_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Maximum);
   readout_->hide();
   tracked_->setTextFormat(Qt::PlainText);
   tracked_->setMinimumWidth(10);

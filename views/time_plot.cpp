@@ -31,16 +31,17 @@ TimePlot::TimePlot(const TraceBuffer& buffer, QWidget* parent) : QCustomPlot(par
     layer(QString::fromLatin1(name))->setMode(QCPLayer::lmBuffered);
   }
   makeLane(tr("Membership"), 2.06, false);
-  makeLane(tr("Triangles"), 0, false);
-  makeLane(tr("Frame"), 0, true);
-  makeLane(tr("Stages"), 0, true);
+  makeLane(tr("Triangles (k)"), 0, false);
+  makeLane(tr("Frame (ms)"), 0, true);
+  makeLane(tr("Stages (ms)"), 0, true);
   using S = QCPScatterStyle;
   addTrace(0, {Trace::altitude_membership, tr("altitude"), {}, 0, S::ssCircle, Qt::SolidLine, 1, 3});
   addTrace(0, {Trace::pitch_membership, tr("pitch"), {}, 2, S::ssSquare, Qt::SolidLine, 1, 3});
   addTrace(0, {Trace::total_membership, tr("total"), {}, 1, S::ssDiamond, Qt::SolidLine, 1, 3});
-  addTrace(1, {Trace::triangles, tr("triangles"), tr("thousand"), 3, S::ssTriangle, Qt::SolidLine, 1e-3, 1});
+  addTrace(
+      1, {Trace::triangles, tr("triangles"), QStringLiteral("k"), 3, S::ssTriangle, Qt::SolidLine, 1e-3, 1});
   addTrace(2, {Trace::frame_ms, tr("frame"), QStringLiteral("ms"), 0, S::ssCircle, Qt::SolidLine, 1, 2});
-  addTrace(2, {Trace::fps, tr("rate"), tr("fps, right"), 2, S::ssSquare, Qt::DotLine, 1, 1}, true);
+  addTrace(2, {Trace::fps, tr("rate"), tr("fps, right"), 2, S::ssSquare, Qt::SolidLine, 1, 1}, true);
   // The tallest sum first: each next one is drawn over its foot.
   addTrace(
       3, {Trace::cull_draw_gpu_ms, tr("GPU"), QStringLiteral("ms"), 1, S::ssNone, Qt::SolidLine, 1, 2, true});
@@ -51,7 +52,7 @@ TimePlot::TimePlot(const TraceBuffer& buffer, QWidget* parent) : QCustomPlot(par
     cursorText_[i] = new QCPItemText(this);
     cursorText_[i]->setLayer(QStringLiteral("cursors"));
     cursorText_[i]->setText(i == 0 ? QStringLiteral("A") : QStringLiteral("B"));
-    cursorText_[i]->setPositionAlignment(Qt::AlignHCenter | Qt::AlignTop);
+    cursorText_[i]->setPositionAlignment(Qt::AlignHCenter | Qt::AlignBottom);
     cursorText_[i]->position->setAxes(timeAxis(), lanes_.front().rect->axis(QCPAxis::atLeft));
     cursorText_[i]->position->setTypeY(QCPItemPosition::ptAxisRectRatio);
     cursorText_[i]->position->setAxisRect(lanes_.front().rect);
@@ -95,7 +96,15 @@ void TimePlot::makeLane(const QString& title, double fixedTop, bool budget) {
     for (QCPItemPosition* point : {item->point1, item->point2}) point->setAxes(time, left);
     return item;
   };
-  if (budget) lane.budget = line("main");
+  if (budget) {
+    lane.budget = line("main");
+    lane.budgetText = new QCPItemText(this);
+    lane.budgetText->setClipAxisRect(lane.rect);
+    lane.budgetText->position->setAxes(time, left);
+    lane.budgetText->position->setTypeX(QCPItemPosition::ptAxisRectRatio);
+    lane.budgetText->position->setAxisRect(lane.rect);
+    lane.budgetText->setPositionAlignment(Qt::AlignRight | Qt::AlignBottom);
+  }
   for (QCPItemStraightLine*& cursor : lane.cursor) {
     cursor = line("cursors");
     cursor->setVisible(false);
@@ -133,7 +142,11 @@ void TimePlot::colour() {
     lane.legend->setBorderPen(Qt::NoPen);
     lane.legend->setTextColor(ink);
     lane.legend->setFont(font());
-    if (lane.budget) lane.budget->setPen(QPen(errorColour(p), 1.4, Qt::DashLine));
+    if (lane.budget) {
+      lane.budget->setPen(QPen(errorColour(p), 1.4, Qt::DashLine));
+      lane.budgetText->setColor(errorColour(p));
+      lane.budgetText->setFont(font());
+    }
     lane.cursor[0]->setPen(QPen(ink, 1.2));
     lane.cursor[1]->setPen(QPen(ink, 1.2, Qt::DashDotLine));
     lane.tracker->setPen(QPen(blend(base, ink, 0.4), 1, Qt::DotLine));
@@ -151,6 +164,8 @@ void TimePlot::setBudget(double ms) {
     if (lane.budget) {
       lane.budget->point1->setCoords(0, ms);
       lane.budget->point2->setCoords(1, ms);
+      lane.budgetText->setText(tr("budget %1 ms").arg(numberText(ms, 2)));
+      lane.budgetText->position->setCoords(0.995, ms);
     }
   draw();
 }
@@ -243,7 +258,7 @@ void TimePlot::placeCursors() {
       lane.cursor[i]->point2->setCoords((*cursors_)[i], 1);
     }
     cursorText_[i]->setVisible(hasCursors());
-    if (cursors_) cursorText_[i]->position->setCoords((*cursors_)[i], 0);
+    if (cursors_) cursorText_[i]->position->setCoords((*cursors_)[i], 1);
   }
 }
 

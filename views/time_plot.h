@@ -58,6 +58,7 @@ class TimePlot : public QCustomPlot {
     QCPAxisRect* rect = nullptr;
     QCPLegend* legend = nullptr;
     QCPItemStraightLine* budget = nullptr;
+    QCPItemText* budgetText = nullptr;
     std::array<QCPItemStraightLine*, 2> cursor{};
     QCPItemStraightLine* tracker = nullptr;
     double fixedTop = 0;  ///< 0: by what is shown

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trimtab/views/bands_editor.h"
+
+#include <QLabel>
+#include <QSignalSpy>
+#include <QTableView>
+
+#include "application.h"
+#include "trimtab/views/band_scale.h"
+#include "trimtab/views/bands_model.h"
+#include "trimtab/views/depth_map_inset.h"
+#include "trimtab/views/number_box.h"
+
+namespace trimtab::views {
+namespace {
+
+using test::bandsOf;
+using test::drag;
+
+class BandsEditorTest : public testing::Test {
+ protected:
+  void SetUp() override { test::expose(editor_, {560, 620}); }
+  BandScale& scale() { return editor_.scale(); }
+  QPointF edge(std::size_t band) { return scale().pixelOf(bandsOf(draft_).band[band].low); }
+  bool type(int row, int column, const QString& text) {
+    QAbstractItemModel* model = editor_.table().model();
+    return model->setData(model->index(row, column), text, Qt::EditRole);
+  }
+
+  Draft draft_;
+  BandsEditor editor_{draft_};
+};
+
+TEST_F(BandsEditorTest, dragMovesAnEdgeInOneStepAndUndoRestoresIt) {
+  const BandList before = bandsOf(draft_);
+  drag(scale(), edge(2), scale().pixelOf(1.2));
+  EXPECT_NEAR(bandsOf(draft_).band[2].low, 1.2, 0.011);
+  EXPECT_EQ(bandsOf(draft_).band[2].widthPx, 640);
+  EXPECT_EQ(draft_.undoStack().count(), 1);
+  draft_.undoStack().undo();
+  EXPECT_EQ(bandsOf(draft_), before);
+}
+
+TEST_F(BandsEditorTest, neighboursStopAnEdge) {
+  drag(scale(), edge(1), scale().pixelOf(1.9));
+  EXPECT_DOUBLE_EQ(bandsOf(draft_).band[1].low, 0.99);
+  drag(scale(), edge(0), scale().pixelOf(0) - QPointF(50, 0));
+  EXPECT_DOUBLE_EQ(bandsOf(draft_).band[0].low, 0.01);
+}
+
+TEST_F(BandsEditorTest, anEdgeThatLeavesNoRoomForHysteresisIsShownAndTheLastValidSetRuns) {
+  drag(scale(), edge(1), scale().pixelOf(0.96));
+  EXPECT_TRUE(draft_.isBroken());
+  EXPECT_NEAR(bandsOf(draft_).band[1].low, 0.96, 0.011);
+  EXPECT_LT(draft_.active()->scheme.bands.band[1].low, 0.9) << "the last place of the drag that left room";
+  bool said = false;
+  for (const QLabel* label : editor_.findChildren<QLabel*>())
+    said = said || (label->isVisible() && label->text().contains("Hysteresis:"));
+  EXPECT_TRUE(said);
+}
+
+TEST_F(BandsEditorTest, escapeCancelsADrag) {
+  const BandList before = bandsOf(draft_);
+  drag(scale(), edge(1), scale().pixelOf(0.7), false);
+  EXPECT_NE(bandsOf(draft_), before);
+  QTest::keyClick(&scale(), Qt::Key_Escape);
+  EXPECT_EQ(bandsOf(draft_), before);
+  EXPECT_EQ(draft_.undoStack().count(), 0);
+}
+
+TEST_F(BandsEditorTest, bandsAreSplitAndRemoved) {
+  QTest::mouseDClick(&scale(), Qt::LeftButton, Qt::NoModifier, scale().pixelOf(0.75).toPoint());
+  ASSERT_EQ(bandsOf(draft_).size, 5u);
+  EXPECT_NEAR(bandsOf(draft_).band[2].low, 0.75, 0.011);
+  EXPECT_EQ(bandsOf(draft_).band[2].widthPx, 400) << "the size of the band that was split";
+  QTest::keyClick(&scale(), Qt::Key_Delete);
+  EXPECT_EQ(bandsOf(draft_).size, 4u);
+  QSignalSpy refused(&scale(), &BandScale::refused);
+  scale().select(0);
+  for (int i = 0; i < 6; ++i) QTest::keyClick(&scale(), Qt::Key_Delete);
+  EXPECT_EQ(bandsOf(draft_).size, 1u);
+  EXPECT_EQ(refused.count(), 3);
+}
+
+TEST_F(BandsEditorTest, aFullListTakesNoMoreBands) {
+  QSignalSpy refused(&scale(), &BandScale::refused);
+  for (int i = 0; i < 20; ++i) scale().addBand(1.51 + 0.02 * i);
+  EXPECT_EQ(bandsOf(draft_).size, BandList::kCapacity);
+  EXPECT_EQ(refused.count(), 20 - static_cast<int>(BandList::kCapacity - 4));
+}
+
+TEST_F(BandsEditorTest, arrowKeysNudgeTheEdge) {
+  scale().setFocus();
+  scale().select(1);
+  QTest::keyClick(&scale(), Qt::Key_Right);
+  EXPECT_DOUBLE_EQ(bandsOf(draft_).band[1].low, 0.51);
+  QTest::keyClick(&scale(), Qt::Key_Left, Qt::ShiftModifier);
+  EXPECT_DOUBLE_EQ(bandsOf(draft_).band[1].low, 0.41);
+}
+
+TEST_F(BandsEditorTest, typedSizesAndEdgesAreTakenOrRefused) {
+  EXPECT_TRUE(type(1, BandsModel::kWidth, "512 px"));
+  EXPECT_TRUE(type(1, BandsModel::kHeight, "384"));
+  EXPECT_TRUE(type(1, BandsModel::kFrom, "0.455"));
+  const Band band = bandsOf(draft_).band[1];
+  EXPECT_EQ(band, (Band{0.455, 512, 384}));
+  for (const char* text : {"", "0", "15", "8193", "512.5", "-1", "nan", "wide"})
+    EXPECT_FALSE(type(1, BandsModel::kWidth, text)) << text;
+  for (const char* text : {"", "0.1", "1", "2", "-1", "nan", "inf"})
+    EXPECT_FALSE(type(1, BandsModel::kFrom, text)) << text;
+  EXPECT_FALSE(type(1, BandsModel::kTo, "0.9"));
+  EXPECT_EQ(bandsOf(draft_).band[1], band);
+}
+
+TEST_F(BandsEditorTest, theInsetSaysWhyThereIsNoDepthMap) {
+  DepthMapInset* inset = editor_.findChild<DepthMapInset*>();
+  ASSERT_NE(inset, nullptr);
+  LiveFrame frame;
+  editor_.showFrame(frame);
+  QTest::qWait(60);
+  EXPECT_EQ(inset->accessibleDescription(), "No depth map: scheme is frustum");
+  QImage map(32, 24, QImage::Format_Grayscale8);
+  map.fill(90);
+  frame.decision.scheme = Scheme::dynamic;
+  frame.depthMap = DepthMapSize{32, 24};
+  editor_.showFrame(frame);
+  editor_.showDepthMap(map, "32 × 24 px, near 1 m, far 5 km");
+  QTest::qWait(60);
+  EXPECT_EQ(inset->accessibleDescription(), "32 × 24 px, near 1 m, far 5 km");
+  editor_.showFrame(LiveFrame{});
+  QTest::qWait(60);
+  EXPECT_EQ(inset->accessibleDescription(), "No depth map: scheme is frustum");
+}
+
+}  // namespace
+}  // namespace trimtab::views

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trimtab/views/draft.h"
+
+#include <QSignalSpy>
+#include <limits>
+
+#include "application.h"
+#include "trimtab/views/keys.h"
+
+namespace trimtab::views {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(ViewKeys, areRowsOfTheTable) {
+  for (const std::string_view key :
+       {key::kAltitudeCurve, key::kAltitudeReading, key::kAltitudeReference, key::kPitchCurve,
+        key::kPitchReading, key::kBands, key::kHysteresis, key::kCombination, key::kBudget})
+    EXPECT_NE(findRow(key), nullptr) << key;
+}
+
+TEST(Draft, isValidCleanAndUnchangedAtTheStart) {
+  const Draft draft;
+  EXPECT_FALSE(draft.isBroken());
+  EXPECT_FALSE(draft.isDirty());
+  EXPECT_TRUE(draft.findings().empty());
+  for (const ParameterRow& row : parameterRows()) EXPECT_FALSE(draft.isChanged(row.key)) << row.key;
+}
+
+TEST(Draft, namesTheUndoStepByTheRowsLabel) {
+  Draft draft;
+  ASSERT_TRUE(draft.setValue("fuzzy.hysteresis", 0.03).empty());
+  EXPECT_EQ(draft.undoStack().undoText(), "Change Hysteresis");
+  EXPECT_TRUE(draft.isDirty());
+  draft.reset("fuzzy.hysteresis");
+  EXPECT_EQ(draft.undoStack().undoText(), "Reset Hysteresis");
+}
+
+TEST(Draft, undoRestoresEveryKindBitForBit) {
+  Draft draft;
+  const double odd = 0.1 + 0.2;
+  ASSERT_TRUE(draft.setValue("lod.scale", odd).empty());
+  for (const ParameterRow& row : parameterRows()) {
+    const ParameterValue before = draft.value(row.key);
+    ParameterValue after = before;
+    if (double* number = std::get_if<double>(&after)) *number = row.hard.low;
+    if (bool* flag = std::get_if<bool>(&after)) *flag = !*flag;
+    if (ChoiceIndex* choice = std::get_if<ChoiceIndex>(&after))
+      choice->index = (choice->index + 1) % row.choices.size();
+    if (CurvePoints* curve = std::get_if<CurvePoints>(&after)) curve->point[0].y = 1.0 / 3;
+    if (BandList* bands = std::get_if<BandList>(&after)) bands->band[0].low = 1.0 / 9;
+    if (before == after) continue;
+    ASSERT_TRUE(draft.setValue(row.key, after).empty()) << row.key;
+    EXPECT_EQ(draft.value(row.key), after) << row.key;
+    draft.undoStack().undo();
+    EXPECT_EQ(draft.value(row.key), before) << row.key;
+    draft.undoStack().redo();
+    EXPECT_EQ(draft.value(row.key), after) << row.key;
+    draft.undoStack().undo();
+  }
+  EXPECT_EQ(std::get<double>(draft.value("lod.scale")), odd);
+}
+
+TEST(Draft, editsOfOneTokenAreOneStep) {
+  Draft draft;
+  const MergeToken token = draft.newToken();
+  for (int i = 1; i <= 20; ++i) draft.setValue("lod.scale", 1 + i * 0.1, token);
+  EXPECT_EQ(draft.undoStack().count(), 1);
+  draft.setValue("lod.scale", 5.0, draft.newToken());
+  EXPECT_EQ(draft.undoStack().count(), 2);
+  draft.undoStack().undo();
+  EXPECT_EQ(std::get<double>(draft.value("lod.scale")), 3.0);
+  draft.undoStack().undo();
+  EXPECT_EQ(std::get<double>(draft.value("lod.scale")), 1.0);
+}
+
+TEST(Draft, aTokenThatReturnsToItsStartLeavesNoStep) {
+  Draft draft;
+  const MergeToken token = draft.newToken();
+  draft.setValue("lod.scale", 2.0, token);
+  draft.setValue("lod.scale", 1.0, token);
+  EXPECT_EQ(draft.undoStack().count(), 0);
+  EXPECT_FALSE(draft.isDirty());
+}
+
+TEST(Draft, settingTheSameValueIsNoStep) {
+  Draft draft;
+  draft.setValue("lod.scale", 1.0);
+  EXPECT_EQ(draft.undoStack().count(), 0);
+}
+
+TEST(Draft, refusesWhatIsOutsideTheHardRange) {
+  const struct {
+    const char* key;
+    double value;
+  } refused[] = {{"fuzzy.hysteresis", -0.01}, {"fuzzy.hysteresis", 1.01}, {"fuzzy.hysteresis", kNaN},
+                 {"lod.scale", kInfinity},    {"lod.scale", -kInfinity},  {"view.width_px", 640.5}};
+  Draft draft;
+  for (const auto& [key, value] : refused) {
+    const Findings findings = draft.setValue(key, value);
+    ASSERT_EQ(findings.size(), 1u) << key << " " << value;
+    EXPECT_EQ(findings[0].key, key);
+    EXPECT_FALSE(findings[0].expected.empty());
+  }
+  EXPECT_EQ(draft.undoStack().count(), 0);
+}
+
+TEST(Draft, aBrokenRuleIsHeldWhileTheLastValidSetRuns) {
+  Draft draft;
+  QSignalSpy active(&draft, &Draft::activeChanged), findings(&draft, &Draft::findingsChanged);
+  ASSERT_TRUE(draft.setValue("fuzzy.hysteresis", 0.3).empty());
+  EXPECT_TRUE(draft.isBroken());
+  EXPECT_EQ(draft.active()->scheme.hysteresis.value(), 0.05);
+  EXPECT_EQ(draft.parameters().scheme.hysteresis.value(), 0.3);
+  ASSERT_FALSE(draft.findingsOf("fuzzy.hysteresis").empty());
+  EXPECT_EQ(draft.findingsOf("fuzzy.hysteresis").front().severity, Severity::error);
+  EXPECT_EQ(active.count(), 0);
+  EXPECT_EQ(findings.count(), 1);
+
+  draft.undoStack().undo();
+  EXPECT_FALSE(draft.isBroken());
+  EXPECT_EQ(active.count(), 0) << "the same values run as before";
+  draft.setValue("fuzzy.hysteresis", 0.02);
+  EXPECT_EQ(active.count(), 1);
+  EXPECT_EQ(draft.active()->scheme.hysteresis.value(), 0.02);
+}
+
+TEST(Draft, typedTextIsParsedByTheTableOrRefused) {
+  Draft draft;
+  EXPECT_TRUE(draft.setText("view.near_m", "10 ft").empty());
+  EXPECT_DOUBLE_EQ(std::get<double>(draft.value("view.near_m")), 3.048);
+  EXPECT_FALSE(draft.setText("view.near_m", "far").empty());
+  EXPECT_FALSE(draft.setText("view.near_m", "10 deg").empty());
+  EXPECT_DOUBLE_EQ(std::get<double>(draft.value("view.near_m")), 3.048);
+}
+
+TEST(Draft, resetAllIsOneStepBackToTheBase) {
+  Draft draft;
+  const Result<Preset> published = loadPreset("as-published");
+  ASSERT_TRUE(published);
+  Preset mine;
+  mine.base = "as-published";
+  mine.parameters = published->parameters;
+  draft.load(mine);
+  EXPECT_EQ(draft.value("fuzzy.hysteresis"), ParameterValue{0.0});
+  EXPECT_FALSE(draft.isChanged("fuzzy.hysteresis"))
+      << "the base, not the default, is what it is held against";
+  draft.setValue("fuzzy.hysteresis", 0.04);
+  draft.setValue("lod.scale", 4.0);
+  draft.resetAll();
+  EXPECT_EQ(draft.undoStack().count(), 3);
+  EXPECT_EQ(draft.value("fuzzy.hysteresis"), ParameterValue{0.0});
+  draft.undoStack().undo();
+  EXPECT_EQ(draft.value("fuzzy.hysteresis"), ParameterValue{0.04});
+  EXPECT_EQ(draft.value("lod.scale"), ParameterValue{4.0});
+}
+
+TEST(Draft, loadingStartsACleanHistory) {
+  Draft draft;
+  draft.setValue("lod.scale", 4.0);
+  QSignalSpy dirty(&draft, &Draft::dirtyChanged), loaded(&draft, &Draft::loaded);
+  draft.load(Preset{});
+  EXPECT_FALSE(draft.isDirty());
+  EXPECT_EQ(draft.undoStack().count(), 0);
+  EXPECT_EQ(loaded.count(), 1);
+  EXPECT_EQ(dirty.count(), 1);
+  EXPECT_EQ(draft.value("lod.scale"), ParameterValue{1.0});
+}
+
+TEST(Draft, isCleanAgainWhenUndoReturnsToWhatWasSaved) {
+  Draft draft;
+  draft.setValue("lod.scale", 4.0);
+  draft.undoStack().setClean();
+  draft.setValue("lod.scale", 5.0);
+  EXPECT_TRUE(draft.isDirty());
+  draft.undoStack().undo();
+  EXPECT_FALSE(draft.isDirty());
+}
+
+}  // namespace
+}  // namespace trimtab::views

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trimtab/views/membership_editor.h"
+
+#include <QSignalSpy>
+#include <QTableView>
+#include <cmath>
+
+#include "application.h"
+#include "live_flight.h"
+#include "trimtab/views/curve_plot.h"
+#include "trimtab/views/keys.h"
+
+namespace trimtab::views {
+namespace {
+
+using test::curveOf;
+using test::drag;
+
+class MembershipEditorTest : public testing::Test {
+ protected:
+  void SetUp() override { test::expose(editor_, {640, 640}); }
+
+  CurvePlot& plot() { return editor_.altitude().plot(); }
+  CurvePoints curve() const { return curveOf(draft_, key::kAltitudeCurve); }
+  QPointF pixel(std::size_t point) { return plot().pixelOf(curve().point[point]); }
+  bool type(int row, int column, const QString& text) {
+    QAbstractItemModel* model = editor_.altitude().table().model();
+    return model->setData(model->index(row, column), text, Qt::EditRole);
+  }
+
+  Draft draft_;
+  MembershipEditor editor_{draft_};
+};
+
+TEST_F(MembershipEditorTest, dragMovesTheBreakpointInOneStepAndUndoRestoresIt) {
+  const CurvePoints before = curve();
+  drag(plot(), pixel(1), pixel(1) + QPointF(20, -40));
+  const CurvePoints after = curve();
+  EXPECT_GT(after.point[1].x, before.point[1].x);
+  EXPECT_GT(after.point[1].y, before.point[1].y);
+  const double unitsPerPixel = plot().xAxis->range().size() / plot().axisRect()->width();
+  EXPECT_NEAR(after.point[1].x - before.point[1].x, 20 * unitsPerPixel, 2 * unitsPerPixel);
+  EXPECT_EQ(draft_.undoStack().count(), 1);
+  EXPECT_EQ(draft_.active()->altitude.curve.point[1], after.point[1]) << "what runs follows the drag";
+  draft_.undoStack().undo();
+  EXPECT_EQ(curve(), before);
+}
+
+TEST_F(MembershipEditorTest, grabbingWithoutMovingChangesNothing) {
+  drag(plot(), pixel(1) + QPointF(3, 3), pixel(1) + QPointF(3, 3), true, 1);
+  EXPECT_EQ(draft_.undoStack().count(), 0);
+  EXPECT_EQ(plot().selected(), 1);
+}
+
+TEST_F(MembershipEditorTest, neighboursAndTheScaleStopADrag) {
+  drag(plot(), pixel(1), pixel(3) + QPointF(30, 400));
+  EXPECT_LT(curve().point[1].x, curve().point[2].x);
+  EXPECT_EQ(curve().point[1].x, 5999);
+  EXPECT_EQ(curve().point[1].y, 0);
+  drag(plot(), pixel(1), QPointF(0, -200));
+  EXPECT_EQ(curve().point[1].x, 4001);
+  EXPECT_EQ(curve().point[1].y, 1);
+  EXPECT_FALSE(draft_.isBroken());
+}
+
+TEST_F(MembershipEditorTest, escapeCancelsADragWithoutAStep) {
+  const CurvePoints before = curve();
+  drag(plot(), pixel(2), pixel(2) + QPointF(15, 30), false);
+  EXPECT_NE(curve(), before);
+  QTest::keyClick(&plot(), Qt::Key_Escape);
+  EXPECT_EQ(curve(), before);
+  EXPECT_EQ(draft_.undoStack().count(), 0);
+  QTest::mouseMove(&plot(), (pixel(2) + QPointF(30, 30)).toPoint());
+  EXPECT_EQ(curve(), before) << "the drag is over though the button is still down";
+}
+
+TEST_F(MembershipEditorTest, doubleClickAddsAndDeleteRemovesAPoint) {
+  const QPoint at = plot().pixelOf({5500, 0.8}).toPoint();
+  QTest::mouseDClick(&plot(), Qt::LeftButton, Qt::NoModifier, at);
+  ASSERT_EQ(curve().size, 6u);
+  EXPECT_NEAR(curve().point[2].x, 5500, 30);
+  EXPECT_NEAR(curve().point[2].y, 0.8, 0.02);
+  EXPECT_EQ(plot().selected(), 2);
+  QTest::keyClick(&plot(), Qt::Key_Delete);
+  EXPECT_EQ(curve().size, 5u);
+  QTest::keyClick(&plot(), Qt::Key_Home);
+  QTest::keyClick(&plot(), Qt::Key_Insert);
+  ASSERT_EQ(curve().size, 6u);
+  EXPECT_EQ(curve().point[1], (CurvePoint{4500, 0.8}));
+}
+
+TEST_F(MembershipEditorTest, twoPointsStay) {
+  plot().select(0);
+  QSignalSpy refused(&plot(), &CurvePlot::refused);
+  for (int i = 0; i < 10; ++i) QTest::keyClick(&plot(), Qt::Key_Delete);
+  EXPECT_EQ(curve().size, 2u);
+  EXPECT_EQ(refused.count(), 7);
+}
+
+TEST_F(MembershipEditorTest, aFullCurveTakesNoMorePoints) {
+  QSignalSpy refused(&plot(), &CurvePlot::refused);
+  for (int i = 0; i < 40; ++i) plot().addPoint({8100.0 + 100 * i, 0});
+  EXPECT_EQ(curve().size, CurvePoints::kCapacity);
+  EXPECT_EQ(refused.count(), 40 - static_cast<int>(CurvePoints::kCapacity - 5));
+  EXPECT_FALSE(draft_.isBroken());
+}
+
+TEST_F(MembershipEditorTest, arrowKeysNudgeByTheRowsStep) {
+  plot().setFocus();
+  plot().select(1);
+  QTest::keyClick(&plot(), Qt::Key_Right);
+  EXPECT_EQ(curve().point[1].x, 5000 + findRow(key::kAltitudeCurve)->step);
+  QTest::keyClick(&plot(), Qt::Key_Up);
+  EXPECT_DOUBLE_EQ(curve().point[1].y, 0.61);
+  QTest::keyClick(&plot(), Qt::Key_Down, Qt::ShiftModifier);
+  EXPECT_DOUBLE_EQ(curve().point[1].y, 0.51);
+  EXPECT_EQ(draft_.undoStack().count(), 3);
+  QTest::keyPress(&plot(), Qt::Key_Left);
+  QTest::keyPress(&plot(), Qt::Key_Left);
+  QTest::keyPress(&plot(), Qt::Key_Left);
+  QTest::keyRelease(&plot(), Qt::Key_Left);
+  EXPECT_EQ(draft_.undoStack().count(), 4) << "a key held down is one step";
+}
+
+TEST_F(MembershipEditorTest, tabWalksThroughThePointsAndOn) {
+  editor_.activateWindow();
+  plot().setFocus(Qt::TabFocusReason);
+  ASSERT_EQ(plot().selected(), 0);
+  for (int i = 1; i < 5; ++i) {
+    QTest::keyClick(&plot(), Qt::Key_Tab);
+    EXPECT_EQ(plot().selected(), i);
+  }
+  QTest::keyClick(&plot(), Qt::Key_Tab);
+  EXPECT_FALSE(plot().hasFocus());
+}
+
+TEST_F(MembershipEditorTest, typedValuesAreTakenOrRefusedWithAReason) {
+  EXPECT_TRUE(type(1, 0, "5,250 ft"));
+  EXPECT_EQ(curve().point[1].x, 5250);
+  EXPECT_TRUE(type(1, 1, "0.55"));
+  EXPECT_EQ(curve().point[1].y, 0.55);
+  QSignalSpy refused(editor_.altitude().table().model(), SIGNAL(refused(QString)));
+  const char* const bad[] = {"", "high", "6000", "6001", "4000", "nan", "inf", "5250 m", "1e400"};
+  for (const char* text : bad) EXPECT_FALSE(type(1, 0, text)) << text;
+  const char* const badMemberships[] = {"", "1.0001", "-0.1", "nan", "half"};
+  for (const char* text : badMemberships) EXPECT_FALSE(type(1, 1, text)) << text;
+  EXPECT_EQ(refused.count(), 14);
+  EXPECT_TRUE(refused.at(2).at(0).toString().contains("neighbours"));
+  EXPECT_EQ(curve().point[1], (CurvePoint{5250, 0.55}));
+  EXPECT_EQ(draft_.undoStack().count(), 2);
+}
+
+TEST_F(MembershipEditorTest, whatTheReadingComputesIsDrawn) {
+  draft_.setValue(key::kAltitudeReading, ChoiceIndex{1});
+  // equation_a jumps from 0.7 to 0.6 at 5000 ft (document A, Eq. 1 against Table 1).
+  const QCPGraph* effective = plot().graph(1);
+  double below = 0, at = 0;
+  for (const QCPGraphData& d : *effective->data()) {
+    if (d.key < 5000) below = d.value;
+    if (d.key == 5000) at = d.value;
+  }
+  EXPECT_NEAR(below, 0.7, 1e-3);
+  EXPECT_NEAR(at, 0.6, 1e-3);
+  EXPECT_TRUE(plot().graph(0)->visible()) << "the straight lines differ, so they are drawn too";
+  draft_.setValue(key::kAltitudeReading, ChoiceIndex{0});
+  EXPECT_FALSE(plot().graph(0)->visible());
+}
+
+TEST_F(MembershipEditorTest, pointsThatTheReadingIgnoresAreNotEdited) {
+  draft_.setValue(key::kPitchReading, ChoiceIndex{1});
+  CurvePlot& pitch = editor_.pitch().plot();
+  const CurvePoints before = curveOf(draft_, key::kPitchCurve);
+  drag(pitch, pitch.pixelOf(before.point[0]), pitch.pixelOf({0, 0.5}));
+  pitch.addPoint({0, 0.5});
+  EXPECT_EQ(curveOf(draft_, key::kPitchCurve), before);
+}
+
+TEST_F(MembershipEditorTest, theOperatingPointIsTheDecisions) {
+  LiveFrame frame;
+  DecisionMemory memory;
+  frame.decision = decide(test::inputAt(6500, 5), draft_.active(), memory);
+  editor_.showFrame(frame);
+  QTest::qWait(60);
+  const auto data = plot().graph(5)->data();
+  ASSERT_EQ(data->size(), 1);
+  EXPECT_NEAR(data->begin()->key, 6500, 1e-9);
+  EXPECT_NEAR(data->begin()->value, 0.2, 1e-12);
+}
+
+TEST(Throttle, refreshesAtMostSomeThirtyTimesASecondAndNotWhileHidden) {
+  QWidget probe;
+  int refreshes = 0;
+  Throttle counted(&probe, [&] { ++refreshes; });
+  for (int i = 0; i < 100; ++i) counted.request();
+  QTest::qWait(100);
+  EXPECT_EQ(refreshes, 0) << "hidden";
+  test::expose(probe, {100, 100});
+  QTest::qWait(50);
+  EXPECT_EQ(refreshes, 1) << "what was asked for while hidden";
+  QElapsedTimer timer;
+  timer.start();
+  while (timer.elapsed() < 300) {
+    counted.request();
+    QCoreApplication::processEvents();
+  }
+  EXPECT_LE(refreshes, 2 + static_cast<int>(timer.elapsed() / 33));
+  const int now = refreshes;
+  QTest::qWait(100);
+  EXPECT_LE(refreshes, now + 1) << "idle";
+}
+
+}  // namespace
+}  // namespace trimtab::views

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trimtab/views/parameter_table.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QToolButton>
+#include <algorithm>
+#include <set>
+
+#include "application.h"
+#include "trimtab/views/number_box.h"
+#include "trimtab/views/parameter_line.h"
+#include "trimtab/views/parameter_slider.h"
+
+namespace trimtab::views {
+namespace {
+
+using test::numberOf;
+
+class ParameterTableTest : public testing::Test {
+ protected:
+  void SetUp() override { test::expose(table_, {560, 760}); }
+  template <class Editor>
+  Editor& editor(std::string_view key) {
+    Editor* found = qobject_cast<Editor*>(table_.line(key)->editor());
+    EXPECT_NE(found, nullptr) << key;
+    return *found;
+  }
+  void type(QWidget& widget, const QString& text) {
+    widget.setFocus();
+    QLineEdit* line = qobject_cast<QLineEdit*>(&widget);
+    if (!line) line = widget.findChild<QLineEdit*>();
+    line->selectAll();
+    QTest::keyClicks(line, text);
+    QTest::keyClick(line, Qt::Key_Return);
+  }
+  bool isShown(std::string_view key) const {
+    const auto keys = table_.visibleKeys();
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
+  }
+
+  Draft draft_;
+  ParameterTable table_{draft_};
+};
+
+TEST_F(ParameterTableTest, hasALineForEveryRow) {
+  for (const ParameterRow& row : parameterRows()) {
+    const ParameterLine* line = table_.line(row.key);
+    ASSERT_NE(line, nullptr) << row.key;
+    EXPECT_FALSE(line->editor()->accessibleName().isEmpty()) << row.key;
+    EXPECT_NE(line->editor()->focusPolicy(), Qt::NoFocus) << row.key;
+    EXPECT_FALSE(line->resetButton()->isEnabled()) << row.key;
+  }
+}
+
+TEST_F(ParameterTableTest, basicHidesAdvancedRowsUnlessTheyAreSearchedOrChanged) {
+  EXPECT_FALSE(isShown("fuzzy.pitch.step"));
+  table_.search().setText("pitch step");
+  EXPECT_TRUE(isShown("fuzzy.pitch.step"));
+  EXPECT_FALSE(isShown("lod.scale"));
+  table_.search().clear();
+  table_.tier().setCurrentIndex(1);
+  EXPECT_EQ(table_.visibleKeys().size(), parameterRows().size());
+  table_.tier().setCurrentIndex(0);
+  draft_.setValue("fuzzy.pitch.step", 0.02);
+  table_.changedOnly().setChecked(true);
+  ASSERT_EQ(table_.visibleKeys().size(), 1u);
+  EXPECT_EQ(table_.visibleKeys()[0], "fuzzy.pitch.step");
+}
+
+TEST_F(ParameterTableTest, searchLooksAtLabelKeyAndHelp) {
+  const struct {
+    const char* text;
+    const char* key;
+  } found[] = {{"hysteresis", "fuzzy.hysteresis"},
+               {"LOD SCALE", "lod.scale"},
+               {"budget_ms", "measure.budget_ms"},
+               {"membership offset", "fuzzy.altitude.membership_offset"}};
+  for (const auto& [text, key] : found) {
+    table_.search().setText(text);
+    EXPECT_TRUE(isShown(key)) << text;
+    EXPECT_LT(table_.visibleKeys().size(), parameterRows().size() / 2) << text;
+  }
+  table_.search().setText("no such thing");
+  EXPECT_TRUE(table_.visibleKeys().empty());
+}
+
+TEST_F(ParameterTableTest, typedNumbersAreOneStepAndUnitsAreConverted) {
+  type(editor<NumberBox>("view.near_m"), "10 ft");
+  EXPECT_DOUBLE_EQ(numberOf(draft_, "view.near_m"), 3.048);
+  EXPECT_EQ(draft_.undoStack().count(), 1);
+  EXPECT_EQ(draft_.undoStack().undoText(), "Change Near plane");
+  type(editor<NumberBox>("view.width_px"), "1,920");
+  EXPECT_EQ(numberOf(draft_, "view.width_px"), 1920);
+  draft_.undoStack().undo();
+  EXPECT_EQ(editor<NumberBox>("view.width_px").value(), 1280);
+}
+
+TEST_F(ParameterTableTest, textThatIsNoNumberOrOutOfRangeIsRefusedAndShown) {
+  const char* const bad[] = {"abc", "", "-3", "99999999", "12 kt"};
+  for (const char* text : bad) {
+    type(editor<NumberBox>("view.near_m"), text);
+    EXPECT_EQ(numberOf(draft_, "view.near_m"), 1) << text;
+    EXPECT_TRUE(table_.line("view.near_m")->problem().contains("refused")) << text;
+    EXPECT_EQ(editor<NumberBox>("view.near_m").text(), "1 m") << text;
+  }
+  EXPECT_EQ(draft_.undoStack().count(), 0);
+  type(editor<NumberBox>("view.near_m"), "2");
+  EXPECT_TRUE(table_.line("view.near_m")->problem().isEmpty()) << "a good value takes the message away";
+}
+
+TEST_F(ParameterTableTest, aNumberThatTheBoxCannotShowExactlyIsNotTouchedByLookingAtIt) {
+  const double odd = 0.1 + 0.2;
+  draft_.setValue("lod.scale", odd);
+  NumberBox& box = editor<NumberBox>("lod.scale");
+  box.setFocus();
+  box.clearFocus();
+  EXPECT_EQ(numberOf(draft_, "lod.scale"), odd);
+}
+
+TEST_F(ParameterTableTest, curvesAndBandsAreTypedAsText) {
+  type(editor<QLineEdit>("fuzzy.pitch.curve_deg"), "-20:1 20:0");
+  EXPECT_EQ(test::curveOf(draft_, "fuzzy.pitch.curve_deg"), (CurvePoints{{-20, 1}, {20, 0}}));
+  type(editor<QLineEdit>("fuzzy.bands_px"), "0.2:100x");
+  EXPECT_EQ(test::bandsOf(draft_).size, 4u);
+  EXPECT_TRUE(table_.line("fuzzy.bands_px")->problem().contains("refused"));
+}
+
+TEST_F(ParameterTableTest, aBrokenRuleIsShownAtItsLine) {
+  draft_.setValue("fuzzy.hysteresis", 0.3);
+  EXPECT_TRUE(table_.line("fuzzy.hysteresis")->problem().contains("half the narrowest band"));
+  draft_.undoStack().undo();
+  EXPECT_TRUE(table_.line("fuzzy.hysteresis")->problem().isEmpty());
+}
+
+TEST_F(ParameterTableTest, resetOfOneAndOfAll) {
+  draft_.setValue("lod.scale", 3.0);
+  draft_.setValue("fuzzy.combination", ChoiceIndex{1});
+  draft_.setValue("host.extrapolate", false);
+  EXPECT_TRUE(table_.line("lod.scale")->resetButton()->isEnabled());
+  table_.line("lod.scale")->resetButton()->click();
+  EXPECT_EQ(numberOf(draft_, "lod.scale"), 1);
+  EXPECT_FALSE(table_.line("lod.scale")->resetButton()->isEnabled());
+  for (QPushButton* button : table_.findChildren<QPushButton*>())
+    if (button->text() == "Reset all") button->click();
+  EXPECT_FALSE(draft_.isChanged("fuzzy.combination"));
+  EXPECT_TRUE(editor<QCheckBox>("host.extrapolate").isChecked());
+  draft_.undoStack().undo();
+  EXPECT_FALSE(editor<QCheckBox>("host.extrapolate").isChecked());
+  EXPECT_EQ(editor<QComboBox>("fuzzy.combination").currentIndex(), 1);
+}
+
+TEST_F(ParameterTableTest, slidersSpanTheUsualRangeAndDragInOneStep) {
+  ParameterSlider slider(draft_, "lod.scale");
+  test::expose(slider, {300, 30});
+  // Exponential: half way between 0.25 and 16 is their geometric mean.
+  slider.setSliderDown(true);
+  for (int i = 300; i <= 500; i += 20) slider.setValue(i);
+  slider.setSliderDown(false);
+  EXPECT_NEAR(numberOf(draft_, "lod.scale"), 2.0, 0.05);
+  EXPECT_EQ(draft_.undoStack().count(), 1);
+  draft_.undoStack().undo();
+  EXPECT_EQ(numberOf(draft_, "lod.scale"), 1);
+  slider.setValue(1000);
+  EXPECT_EQ(numberOf(draft_, "lod.scale"), 16);
+  draft_.setValue("lod.scale", 50.0);
+  EXPECT_EQ(slider.value(), 1000) << "beyond the usual range it stays at its end";
+  EXPECT_EQ(numberOf(draft_, "lod.scale"), 50.0);
+}
+
+TEST_F(ParameterTableTest, theWheelDoesNotChangeWhatIsMerelyScrolledPast) {
+  NumberBox& box = editor<NumberBox>("lod.scale");
+  table_.search().setFocus();
+  QWheelEvent event(QPointF(5, 5), box.mapToGlobal(QPointF(5, 5)), {}, {0, 120}, Qt::NoButton, Qt::NoModifier,
+                    Qt::NoScrollPhase, false);
+  QApplication::sendEvent(&box, &event);
+  EXPECT_EQ(numberOf(draft_, "lod.scale"), 1);
+}
+
+TEST_F(ParameterTableTest, tabReachesEveryEditor) {
+  table_.activateWindow();
+  table_.tier().setCurrentIndex(1);
+  table_.search().setFocus();
+  std::set<QWidget*> reached;
+  for (int i = 0; i < 400; ++i) {
+    QWidget* now = QApplication::focusWidget();
+    ASSERT_NE(now, nullptr);
+    if (!reached.insert(now).second && now == &table_.search()) break;
+    QTest::keyClick(now, Qt::Key_Tab);
+  }
+  for (const ParameterRow& row : parameterRows())
+    EXPECT_TRUE(reached.contains(table_.line(row.key)->editor())) << row.key;
+}
+
+}  // namespace
+}  // namespace trimtab::views

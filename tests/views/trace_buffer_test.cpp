@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trimtab/views/trace_buffer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <sstream>
+
+namespace trimtab::views {
+namespace {
+
+LiveFrame frameAt(double time, double ms, std::uint64_t packet = 0) {
+  LiveFrame frame;
+  frame.time = time;
+  frame.packet = packet;
+  frame.cost.total = ms;
+  return frame;
+}
+
+TEST(TraceBuffer, columnsHoldTheExtremesOfTheirFrames) {
+  TraceBuffer buffer(64 * 100);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> ms(0, 100);
+  std::vector<float> all;
+  for (int i = 0; i < 64 * 170 + 11; ++i) {
+    all.push_back(i % 9 == 0 ? std::nanf("") : ms(random));
+    buffer.append(frameAt(i * 0.01, all.back()));
+  }
+  std::vector<TraceBuffer::Column> columns;
+  for (const std::size_t wanted : {1u, 3u, 40u, 700u, 100'000u}) {
+    const std::uint64_t from = buffer.begin() + 5, to = buffer.end() - 3;
+    buffer.columns(Trace::frame_ms, from, to, wanted, columns);
+    ASSERT_FALSE(columns.empty());
+    EXPECT_LE(columns.size(), 2 * wanted + 2) << wanted;
+    float low = 1e9f, high = -1e9f;
+    for (std::uint64_t f = from; f < to; ++f)
+      if (!std::isnan(all[f])) {
+        low = std::min(low, all[f]);
+        high = std::max(high, all[f]);
+      }
+    float lowest = 1e9f, highest = -1e9f;
+    for (const TraceBuffer::Column& c : columns)
+      if (!std::isnan(c.low)) {
+        lowest = std::min(lowest, c.low);
+        highest = std::max(highest, c.high);
+      }
+    EXPECT_EQ(lowest, low) << wanted;
+    EXPECT_EQ(highest, high) << wanted;
+    // Frame by frame where there is a column for each.
+    if (wanted > to - from) {
+      ASSERT_EQ(columns.size(), to - from);
+      for (std::uint64_t f = from; f < to; ++f) {
+        const float drawn = columns[f - from].low;
+        EXPECT_TRUE(drawn == all[f] || (std::isnan(drawn) && std::isnan(all[f]))) << f;
+      }
+    }
+  }
+}
+
+TEST(TraceBuffer, keepsTheNewestFramesInTheirOrder) {
+  TraceBuffer buffer(64 * 4);
+  for (int i = 0; i < 1000; ++i) buffer.append(frameAt(i, i, static_cast<std::uint64_t>(i)));
+  EXPECT_EQ(buffer.end(), 1000u);
+  EXPECT_GE(buffer.begin(), 1000u - 64 * 4);
+  EXPECT_LE(buffer.begin(), 1000u - 64 * 3);
+  for (std::uint64_t f = buffer.begin(); f < buffer.end(); ++f) {
+    EXPECT_EQ(buffer.time(f), static_cast<double>(f));
+    EXPECT_EQ(buffer.value(Trace::frame_ms, f), static_cast<float>(f));
+  }
+}
+
+TEST(TraceBuffer, findsFramesByTime) {
+  TraceBuffer buffer;
+  EXPECT_EQ(buffer.atOrAfter(3), 0u);
+  for (int i = 0; i < 10; ++i) buffer.append(frameAt(i, 1));
+  EXPECT_EQ(buffer.atOrAfter(-5), 0u);
+  EXPECT_EQ(buffer.atOrAfter(3), 3u);
+  EXPECT_EQ(buffer.atOrAfter(3.1), 4u);
+  EXPECT_EQ(buffer.atOrAfter(9.5), 10u);
+  EXPECT_EQ(buffer.nearest(3.4), 3u);
+  EXPECT_EQ(buffer.nearest(3.6), 4u);
+  EXPECT_EQ(buffer.nearest(99), 9u);
+  EXPECT_EQ(buffer.nearest(-99), 0u);
+}
+
+TEST(TraceBuffer, aClockThatGoesBackGoesOnFromTheLastFrame) {
+  TraceBuffer buffer;
+  for (const double t : {10.0, 11.0, 0.0, 1.0, 2.0}) buffer.append(frameAt(t, 1));
+  const double expected[] = {10, 11, 11, 12, 13};
+  for (std::uint64_t f = 0; f < 5; ++f) EXPECT_EQ(buffer.time(f), expected[f]);
+}
+
+TEST(TraceBuffer, csvHoldsExactlyTheFramesOfTheRange) {
+  TraceBuffer buffer;
+  for (int i = 0; i < 100; ++i) {
+    LiveFrame frame =
+        frameAt(i * 0.1, i % 2 == 0 ? 0.1 + i : std::nan(""), static_cast<std::uint64_t>(1000 + i));
+    frame.decision.totalMembership = 0.6;
+    frame.triangles = 123456;
+    buffer.append(frame);
+  }
+  std::istringstream lines(buffer.csv(2.05, 3.0));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line,
+            "time_s,packet,altitude_membership,pitch_membership,total_membership,triangles,frame_ms,fps,cull_"
+            "ms,draw_ms,"
+            "gpu_ms,depth_map_width_px");
+  int frame = 21;
+  while (std::getline(lines, line)) {
+    std::istringstream cells(line);
+    std::vector<std::string> cell;
+    for (std::string text; std::getline(cells, text, ',');) cell.push_back(text);
+    ASSERT_EQ(cell.size(), 12u);
+    EXPECT_EQ(std::stod(cell[0]), frame * 0.1);
+    EXPECT_EQ(cell[1], std::to_string(1000 + frame));
+    EXPECT_EQ(cell[4], "0.6");
+    EXPECT_EQ(cell[5], "123456");
+    EXPECT_EQ(cell[6].empty(), frame % 2 == 1) << "not measured is an empty cell";
+    ++frame;
+  }
+  EXPECT_EQ(frame, 31) << "30 * 0.1 is 3.0, and the range is closed";
+}
+
+}  // namespace
+}  // namespace trimtab::views
