@@ -30,6 +30,7 @@ constexpr int kLayoutVersion = 1;
 }  // namespace
 
 MainWindow::MainWindow() {
+  sinceStart_.start();
   setObjectName(QStringLiteral("trimtab"));
   setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks | GroupedDragging);
   setAcceptDrops(true);

@@ -162,7 +162,7 @@ class MainWindow : public QMainWindow {
   std::vector<TraceRow> traceRows_;
   std::uint64_t traceCount_ = 0;
   FrameCost lastCost_;
-  QElapsedTimer sincePicture_;
+  QElapsedTimer sincePicture_, sinceStart_;
   double fps_ = 0;
   Options options_;
   bool scheduledShot_ = false;

@@ -6,6 +6,7 @@
 #include <QOpenGLContext>
 #include <QOpenGLExtraFunctions>
 #include <QOpenGLFramebufferObject>
+#include <QOpenGLPaintDevice>
 #include <QPainter>
 #include <QScreen>
 #include <QTimer>
@@ -18,6 +19,7 @@ namespace trimtab::workbench {
 namespace {
 
 constexpr qint64 kDepthMapGapMs = 100;
+constexpr GLuint kPainterArrays = 8;
 const QColor kEmptyColour(38, 42, 48);
 
 /// Where a W x H picture lies in the widget without being distorted, device pixels, origin at the lower left.
@@ -30,14 +32,20 @@ QRect letterbox(QSize picture, QSize widget) {
 void prepareForPainter(QOpenGLExtraFunctions& gl, QSize pixels) {
   gl.glBindVertexArray(0);
   gl.glUseProgram(0);
+  gl.glBindSampler(0, 0);
+  // Arrays that OSG left on would be read by the painter's draws, with the painter's counts.
+  for (GLuint array = 0; array < kPainterArrays; ++array) {
+    gl.glDisableVertexAttribArray(array);
+    gl.glVertexAttribDivisor(array, 0);
+  }
   gl.glBindBuffer(GL_ARRAY_BUFFER, 0);
   gl.glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
   gl.glActiveTexture(GL_TEXTURE0);
-  gl.glDisable(GL_DEPTH_TEST);
-  gl.glDisable(GL_CULL_FACE);
-  gl.glDisable(GL_SCISSOR_TEST);
+  for (const GLenum off : {GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST, GL_STENCIL_TEST}) gl.glDisable(off);
+  gl.glStencilMask(0xff);
   gl.glDepthMask(GL_TRUE);
   gl.glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl.glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   gl.glViewport(0, 0, pixels.width(), pixels.height());
 }
 
@@ -50,7 +58,7 @@ Viewport::Viewport(QWidget* parent) : QOpenGLWidget(parent), notice_(tr("No terr
   setAttribute(Qt::WA_AcceptTouchEvents, false);
   connect(this, &QOpenGLWidget::frameSwapped, this, [this] {
     report();
-    if (again_) paintAgain();
+    if (std::exchange(again_, false)) paintAgain();
   });
 }
 
@@ -139,9 +147,10 @@ void Viewport::paintGL() {
     gl.glClearColor(float(kEmptyColour.redF()), float(kEmptyColour.greenF()), float(kEmptyColour.blueF()), 1);
     gl.glClear(GL_COLOR_BUFFER_BIT);
   }
-  paintOverlays(picture);
   again_ = camera_.moving() || (picture && picture->again);
   unreported_ = picture.has_value();
+  shownOverlay_ = picture ? std::move(picture->overlay) : OverlayContents{notice_, false, {}, {}, {}};
+  paintOverlays();
 }
 
 void Viewport::report() {
@@ -197,17 +206,16 @@ void Viewport::readDepthMap() {
   emit depthMapRead(rows.mirrored());
 }
 
-void Viewport::paintOverlays(const std::optional<Picture>& picture) {
-  prepareForPainter(*context()->extraFunctions(), size() * devicePixelRatioF());
-  QPainter painter(this);
-  painter.setRenderHint(QPainter::Antialiasing);
-  if (!picture) {
-    paintNotice(painter, rect(), notice_);
-    return;
-  }
-  if (picture->frozen) paintFreezeBanner(painter, rect());
-  if (!picture->legend.isEmpty()) paintLegend(painter, rect(), picture->legendTitle, picture->legend);
-  paintHud(painter, rect(), picture->hud);
+/// On a paint device of its own: a painter on the widget itself would be led away from GL while the window is
+/// grabbed.
+void Viewport::paintOverlays() {
+  const QSize pixels = size() * devicePixelRatioF();
+  prepareForPainter(*context()->extraFunctions(), pixels);
+  QOpenGLPaintDevice device(pixels);
+  device.setDevicePixelRatio(devicePixelRatioF());
+  QPainter painter(&device);
+  painter.setFont(font());
+  paintOverlay(painter, rect(), shownOverlay_);
 }
 
 void Viewport::keyPressEvent(QKeyEvent* event) {

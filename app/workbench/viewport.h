@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "free_camera.h"
-#include "overlay_painter.h"
+#include "overlay.h"
 #include "trimtab/scene/renderer.h"
 
 class QOpenGLFramebufferObject;
@@ -19,11 +19,8 @@ namespace trimtab::workbench {
 /// What the next picture is made of; asked for once in each paint.
 struct Picture {
   scene::FrameRequest request;
-  bool frozen = false;  ///< the banner is painted
-  bool again = false;   ///< something moves on its own: paint again as soon as the display takes it
-  QString hud;          ///< one line at the foot
-  QString legendTitle;
-  QList<LegendEntry> legend;
+  OverlayContents overlay;
+  bool again = false;  ///< something moves on its own: paint again as soon as the display takes it
 };
 
 /// The terrain through scene::Renderer. Paints on demand only: `invalidate` any number of times gives one
@@ -49,6 +46,7 @@ class Viewport : public QOpenGLWidget {
   /// From now on `depthMapRead` tells each depth map that was drawn, at most ten a second.
   void setDepthMapWanted(bool wanted);
 
+  const OverlayContents& overlayContents() const { return shownOverlay_; }
   const scene::GlReport& gl() const { return gl_; }
   std::uint64_t paints() const { return paints_; }
   const std::optional<scene::FrameResult>& lastResult() const { return result_; }
@@ -73,12 +71,13 @@ class Viewport : public QOpenGLWidget {
  private:
   void releaseGl();
   void drawPicture(const Picture& picture, int widthPx, int heightPx);
-  void paintOverlays(const std::optional<Picture>& picture);
   void readDepthMap();
+  void paintOverlays();
   void report();
   void paintAgain();
 
   Source source_;
+  OverlayContents shownOverlay_;
   std::unique_ptr<scene::Renderer> renderer_;
   std::unique_ptr<QOpenGLFramebufferObject> fixedSize_;
   std::shared_ptr<const terrain::Database> terrain_;

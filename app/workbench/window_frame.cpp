@@ -54,15 +54,15 @@ std::optional<Picture> MainWindow::picture(int widthPx, int heightPx) {
   shown_ = request;
   Picture picture;
   picture.request = std::move(*request);
-  picture.frozen = frozenEye_.has_value();
+  picture.overlay.frozen = frozenEye_.has_value();
   picture.again = feed_.movesOnItsOwn(now);
-  picture.hud = hudText(feed_.session().eyeState(now));
+  picture.overlay.hud = hudText(feed_.session().eyeState(now));
   if (overlays_.colourByReason) {
-    picture.legendTitle = tr("Why a tile is drawn or not");
-    picture.legend = reasonLegend();
+    picture.overlay.legendTitle = tr("Why a tile is drawn or not");
+    picture.overlay.legend = reasonLegend();
   } else if (overlays_.colourByLevel) {
-    picture.legendTitle = tr("Level of detail, 0 is finest");
-    picture.legend = levelLegend(terrain_->index().levels.size());
+    picture.overlay.legendTitle = tr("Level of detail, 0 is finest");
+    picture.overlay.legend = levelLegend(terrain_->index().levels.size());
   }
   return picture;
 }
@@ -114,7 +114,7 @@ void MainWindow::changeEvent(QEvent* event) {
 
 views::LiveFrame MainWindow::liveFrame() const {
   views::LiveFrame frame;
-  frame.time = link::now();
+  frame.time = double(sinceStart_.nsecsElapsed()) * 1e-9;
   frame.packet = feed_.session().input().state.packet;
   frame.decision = feed_.session().decision();
   frame.cost = lastCost_;

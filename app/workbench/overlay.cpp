@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "overlay_painter.h"
+#include "overlay.h"
 
 #include <QFontMetrics>
 #include <QObject>
@@ -34,8 +34,6 @@ void paintShape(QPainter& painter, Shape shape, const QRectF& box, const QColor&
       break;
   }
 }
-
-}  // namespace
 
 void paintFreezeBanner(QPainter& painter, const QRect& area) {
   const QFont font = scaled(painter.font(), 1.2);
@@ -98,6 +96,16 @@ void paintNotice(QPainter& painter, const QRect& area, const QString& text) {
   painter.setPen(QColor(220, 220, 220));
   painter.drawText(area.adjusted(40, 20, -40, -20), Qt::AlignCenter | Qt::TextWordWrap, text);
   painter.restore();
+}
+
+}  // namespace
+
+void paintOverlay(QPainter& painter, const QRect& area, const OverlayContents& contents) {
+  painter.setRenderHint(QPainter::Antialiasing);
+  if (!contents.notice.isEmpty()) return paintNotice(painter, area, contents.notice);
+  if (contents.frozen) paintFreezeBanner(painter, area);
+  if (!contents.legend.isEmpty()) paintLegend(painter, area, contents.legendTitle, contents.legend);
+  paintHud(painter, area, contents.hud);
 }
 
 }  // namespace trimtab::workbench
