@@ -38,7 +38,7 @@ AircraftState Extrapolator::at(double time, double limitS) const {
   if (count_ == 0) return {};
   const AircraftState& last = states_[count_ - 1];
   const double ahead = std::min(time - last.time, limitS);
-  if (!(ahead > 0)) return last;
+  if (!(ahead > 0 && limitS > 0)) return last;
   std::size_t from = count_ - 1;
   while (from > 0 && last.time - states_[from].time < kBaselineS) --from;
   const AircraftState& before = states_[from];

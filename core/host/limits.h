@@ -6,7 +6,7 @@
 namespace trimtab::limits {
 
 /// A float's rounding of 90 or 180 degrees from radians lies just outside; it is meant as the limit itself.
-inline constexpr double kSlack = 1e-5;
+inline constexpr double kSlack = 1e-4;
 inline constexpr double kLatitude = 90 + kSlack;
 inline constexpr double kLongitude = 180 + kSlack;
 inline constexpr double kPitch = 90 + kSlack;

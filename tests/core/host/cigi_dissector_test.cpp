@@ -1,0 +1,146 @@
+#include <cmath>
+#include <map>
+
+#include "host_support.h"
+#include "support.h"
+#include "trimtab/host/flight.h"
+
+namespace trimtab::test {
+namespace {
+
+/// What tshark reads in each message of `datagrams`, field by field.
+std::vector<std::map<std::string, double>> dissected(const std::vector<CapturedDatagram>& datagrams,
+                                                     const std::vector<std::string>& fields) {
+  ScratchDir dir;
+  const auto written = writePcap(dir / "sent.pcap", datagrams);
+  EXPECT_TRUE(written) << toString(written.findings());
+  std::string command =
+      "tshark -r '" + (dir / "sent.pcap").string() + "' -d udp.port==8004,cigi -T fields -E separator=,";
+  for (const std::string& field : fields) command += " -e " + field;
+  const Ran ran = run(command);
+  EXPECT_EQ(ran.exitCode, 0) << ran.err;
+  std::vector<std::map<std::string, double>> rows;
+  std::istringstream lines(ran.out);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream cells(line);
+    std::map<std::string, double> row;
+    for (const std::string& field : fields) {
+      std::string cell;
+      std::getline(cells, cell, ',');
+      if (cell == "True") cell = "1";
+      if (cell == "False") cell = "0";
+      row[field] = cell.empty() ? std::nan("") : std::strtod(cell.c_str(), nullptr);
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+void expectFields(const std::map<std::string, double>& row, const std::map<std::string, double>& expected) {
+  for (const auto& [field, value] : expected) {
+    const auto found = row.find(field);
+    ASSERT_NE(found, row.end()) << field;
+    EXPECT_NEAR(found->second, value, 1e-6 * std::max(1.0, std::abs(value))) << field;
+  }
+}
+
+std::vector<std::string> names(const std::map<std::string, double>& expected) {
+  std::vector<std::string> fields;
+  for (const auto& [field, value] : expected) fields.push_back(field);
+  return fields;
+}
+
+class SentCigi : public testing::TestWithParam<ByteOrder> {
+ protected:
+  void SetUp() override {
+    if (run("tshark --version").exitCode != 0) GTEST_SKIP() << "needs tshark";
+  }
+};
+INSTANTIATE_TEST_SUITE_P(EitherOrder, SentCigi, testing::Values(ByteOrder::big, ByteOrder::little));
+
+TEST_P(SentCigi, isReadByTheDissectorFieldByField) {
+  std::vector<CapturedDatagram> datagrams;
+  std::vector<std::map<std::string, double>> expected;
+  for (std::uint32_t i = 0; i < 40; ++i) {
+    AircraftState s = aFullState();
+    s.time = 7.25 + i * 300.125;
+    s.position = {Degrees{-89.5 + 4.5 * i}, Degrees{-179.75 + 9.125 * i}, Metres{-250.5 + 333.25 * i}};
+    s.attitude = {Degrees{9.0 * i}, Degrees{-80.5 + 4.0 * i}, Degrees{-170.0 + 8.5 * i}};
+    s.head = Attitude{Degrees{-150.0 + 7.5 * i}, Degrees{-60.25 + 3.0 * i}, Degrees{0.5 * i}};
+    s.visibility = Metres{50.0 + 800.0 * i};
+    s.view = HostView{Metres{0.25 + i}, Degrees{-10.5 - i}, Degrees{11.25 + i}, Degrees{-12.75 - i},
+                      Degrees{13.5 + i}};
+    const std::uint32_t frame = 4294967290U + i;
+    datagrams.push_back(
+        {1e9 + i, "127.0.0.1:40000", "127.0.0.1:8004", encodeCigiHost(s, frame, 1000 + i, GetParam())});
+    expected.push_back({
+        {"cigi.ig_control.ig_mode", 1},
+        {"cigi.ig_control.minor_version", 3},
+        {"cigi.ig_control.timestamp_valid", 1},
+        {"cigi.ig_control.host_frame_number", frame},
+        {"cigi.ig_control.timestamp", std::round(s.time * 1e5)},
+        {"cigi.ig_control.last_ig_frame_number", 1000.0 + i},
+        {"cigi.entity_control.entity_id", 0},
+        {"cigi.entity_control.entity_state", 1},
+        {"cigi.entity_control.attach_state", 0},
+        {"cigi.entity_control.alpha", 255},
+        {"cigi.entity_control.roll", s.attitude.roll.value()},
+        {"cigi.entity_control.pitch", s.attitude.pitch.value()},
+        {"cigi.entity_control.yaw", s.attitude.heading.value()},
+        {"cigi.entity_control.lat_xoff", s.position.latitude.value()},
+        {"cigi.entity_control.lon_yoff", s.position.longitude.value()},
+        {"cigi.entity_control.alt_zoff", s.position.height.value()},
+        {"cigi.view_control.view_id", 0},
+        {"cigi.view_control.group_id", 0},
+        {"cigi.view_control.entity_id", 0},
+        {"cigi.view_control.xoff_enable", 0},
+        {"cigi.view_control.roll_enable", 1},
+        {"cigi.view_control.pitch_enable", 1},
+        {"cigi.view_control.yaw_enable", 1},
+        {"cigi.view_control.roll", s.head->roll.value()},
+        {"cigi.view_control.pitch", s.head->pitch.value()},
+        {"cigi.view_control.yaw", s.head->heading.value()},
+        {"cigi.view_def.near_enable", 1},
+        {"cigi.view_def.far_enable", 0},
+        {"cigi.view_def.left_enable", 1},
+        {"cigi.view_def.right_enable", 1},
+        {"cigi.view_def.top_enable", 1},
+        {"cigi.view_def.bottom_enable", 1},
+        {"cigi.view_def.near", s.view->nearDistance->value()},
+        {"cigi.view_def.left", s.view->left->value()},
+        {"cigi.view_def.right", s.view->right->value()},
+        {"cigi.view_def.top", s.view->top->value()},
+        {"cigi.view_def.bottom", s.view->bottom->value()},
+        {"cigi.atmosphere_control.atmospheric_model_enable", 1},
+        {"cigi.atmosphere_control.visibility_range", s.visibility->value()},
+        {"cigi.atmosphere_control.air_temp", 15},
+        {"cigi.atmosphere_control.barometric_pressure", 1013.25},
+    });
+  }
+  const auto rows = dissected(datagrams, names(expected.front()));
+  ASSERT_EQ(rows.size(), expected.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    SCOPED_TRACE(i);
+    expectFields(rows[i], expected[i]);
+  }
+}
+
+TEST_P(SentCigi, startOfFrameIsReadByTheDissector) {
+  const CapturedDatagram sent{1e9, "127.0.0.1:8004", "127.0.0.1:8005",
+                              encodeCigiStartOfFrame(4294967295U, 123456, 42949.0, GetParam())};
+  const std::map<std::string, double> expected{{"cigi.sof.ig_frame_number", 4294967295.0},
+                                               {"cigi.sof.last_host_frame_number", 123456},
+                                               {"cigi.sof.timestamp", 4294900000.0},
+                                               {"cigi.sof.timestamp_valid", 1},
+                                               {"cigi.sof.ig_mode", 1},
+                                               {"cigi.sof.earth_reference_model", 0},
+                                               {"cigi.sof.minor_version", 2},
+                                               {"cigi.sof.ig_status", 0},
+                                               {"cigi.sof.db_number", 0}};
+  const auto rows = dissected({sent}, names(expected));
+  ASSERT_EQ(rows.size(), 1U);
+  expectFields(rows[0], expected);
+}
+
+}  // namespace
+}  // namespace trimtab::test
