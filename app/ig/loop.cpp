@@ -14,7 +14,7 @@ constexpr double kViewerPeriodS = 1.0 / 60;
 
 class Loop {
  public:
-  explicit Loop(const Run& run) : run_(run), frameMs_(8192) {
+  explicit Loop(const Run& run) : run_(run), frameMs_(8192), inFrames_(8192) {
     if (run_.options.watch) watch_.emplace(run_.options.preset);
   }
 
@@ -79,7 +79,10 @@ class Loop {
     run_.surface.present();
     const double end = link::now();
     run_.session.finished(result, end);
-    frameMs_.add((end - start) * 1e3);
+    const double ms = (end - start) * 1e3;
+    frameMs_.add(ms);
+    inFrames_.add(run_.session.oldestShownMs() / ((ms + (lastMs_ > 0 ? lastMs_ : ms)) / 2));
+    lastMs_ = ms;
     lastFrame_ = end;
     if (summary_.frames++ == 0) summary_.firstFrameTime = end;
     summary_.lastRequest = request;
@@ -107,17 +110,18 @@ class Loop {
     summary_.decodedP50Ms = latency.decoded.median();
     summary_.decodedP99Ms = latency.decoded.quantile(0.99);
     summary_.pictureP50Ms = latency.picture.median();
+    summary_.pictureP99Frames = inFrames_.quantile(0.99);
     summary_.pictureP99Ms = latency.picture.quantile(0.99);
     return summary_;
   }
 
   const Run& run_;
   Summary summary_;
-  SampleWindow frameMs_;
+  SampleWindow frameMs_, inFrames_;
   std::optional<PresetWatch> watch_;
   std::optional<int> lastBand_;
   std::vector<TraceRow> rows_;
-  double lastFrame_ = 0, lastWatch_ = 0;
+  double lastFrame_ = 0, lastMs_ = 0, lastWatch_ = 0;
 };
 
 }  // namespace
@@ -131,11 +135,15 @@ void warmUp(const Run& run, const terrain::Database& database) {
                     info.highest + Feet{1000}.as<Metres>()};
   session.look(state);
   scene::FrameRequest request = *session.request(0, run.options.width, run.options.height);
-  // Whatever this state decides: the depth map's programs are wanted too.
-  request.decision.scheme = Scheme::dynamic;
-  if (!request.decision.depthMap) request.decision.depthMap = DepthMapSize{640, 480};
   run.surface.fit(request.view.widthPx, request.view.heightPx);
+  request.decision.scheme = Scheme::frustum;
+  request.decision.depthMap.reset();
   run.renderer.draw(request, run.surface.framebuffer());
+  request.decision.scheme = Scheme::dynamic;
+  for (const Band& band : run.session.parameters()->scheme.bands.span()) {
+    request.decision.depthMap = DepthMapSize{band.widthPx, band.heightPx};
+    run.renderer.draw(request, run.surface.framebuffer());
+  }
   run.surface.present();
 }
 

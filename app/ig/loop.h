@@ -29,13 +29,15 @@ struct Summary {
   std::uint64_t depthMapsDrawn = 0;
   double firstFrameTime = 0;  ///< link::now() when the first picture was finished; 0: none
   double medianFrameMs = 0, p99FrameMs = 0;
+  /// The same in frames: by the mean of the frame that shows the packet and the one before it.
+  double pictureP99Frames = 0;
   std::optional<scene::FrameRequest> lastRequest;
   double decodedP50Ms = 0, decodedP99Ms = 0, pictureP50Ms = 0,
          pictureP99Ms = 0;  ///< NaN where nothing was measured
 };
 
-/// Draws one picture of the terrain's middle that nobody counts: shaders are compiled and memory is there
-/// before the first packet comes.
+/// Draws the terrain's middle once without and once with each band's depth map, not counted: shaders are
+/// compiled and memory is there before the first packet comes.
 void warmUp(const Run& run, const terrain::Database& database);
 
 /// Draws until the feed ends, enough frames are drawn, the window closes or a signal comes. Sleeps between

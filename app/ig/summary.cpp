@@ -14,6 +14,12 @@ std::string milliseconds(double value) {
   return text;
 }
 
+std::string shortNumber(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
+
 nlohmann::ordered_json number(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
 }
@@ -28,7 +34,8 @@ std::string summaryLine(const Summary& s, const Feed& feed) {
     text += "; kernel to decoded p99 " + milliseconds(s.decodedP99Ms);
   }
   if (std::isfinite(s.pictureP99Ms))
-    text += "; packet to finished picture p99 " + milliseconds(s.pictureP99Ms);
+    text += "; packet to finished picture p99 " + milliseconds(s.pictureP99Ms) + " (" +
+            shortNumber(s.pictureP99Frames) + " frames)";
   return text + "; frame median " + milliseconds(s.medianFrameMs) + ", p99 " + milliseconds(s.p99FrameMs);
 }
 
@@ -50,6 +57,7 @@ std::string summaryJson(const Summary& s, const Feed& feed, const Options& optio
   json["decoded_p99_ms"] = number(s.decodedP99Ms);
   json["picture_p50_ms"] = number(s.pictureP50Ms);
   json["picture_p99_ms"] = number(s.pictureP99Ms);
+  json["picture_p99_frames"] = number(s.pictureP99Frames);
   if (const std::optional<HostStatistics> host = feed.statistics()) {
     json["host"] = {
         {"received", host->received}, {"states", host->states},       {"bad", host->bad},

@@ -223,7 +223,12 @@ FrameCost Session::finished(const scene::FrameResult& result, double now) {
   lastCost_.decide = decideMs_;
   lastCost_.total = result.cost.total + decideMs_;
   decideMs_ = 0;
-  for (const double kernelTime : inPicture_) latency_.picture.add((now - kernelTime) * 1e3);
+  oldestShownMs_ = kNan;
+  for (const double kernelTime : inPicture_) {
+    const double ms = (now - kernelTime) * 1e3;
+    latency_.picture.add(ms);
+    oldestShownMs_ = std::fmax(oldestShownMs_, ms);
+  }
   inPicture_.clear();
   if (requestedRows_ > completeRows_) {
     const VisibleSet& visible = result.visible;

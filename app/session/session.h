@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -92,6 +93,9 @@ class Session {
   /// The requested picture is finished: completes rows, latency and the cost that the next decision is given.
   /// `cost.decide` is filled in here. Returns the completed cost.
   FrameCost finished(const scene::FrameResult& result, double now);
+  /// Milliseconds from the oldest packet that the last finished picture was the first to show; NaN where
+  /// there was none.
+  double oldestShownMs() const { return oldestShownMs_; }
   /// No picture is drawn of what has arrived (hidden window): rows and latencies do not wait for one.
   void noPicture();
 
@@ -117,6 +121,7 @@ class Session {
   FrameDecision decision_;
   FrameCost lastCost_;
   double decideMs_ = 0;  ///< spent since the last picture
+  double oldestShownMs_ = std::numeric_limits<double>::quiet_NaN();
   bool looking_ = false;
   bool replayed_ = false;
 

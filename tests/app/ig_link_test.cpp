@@ -89,11 +89,9 @@ TEST_F(IgLink, decidesEveryPacketOnceAsDecideDoes) {
     EXPECT_EQ(summary["host"]["lost"].is_null(), protocol == WireProtocol::native_fdm)
         << "it carries no frame numbers";
     // Reported, not asserted: how fast this machine is, is no property of the code.
-    const double median = summary["frame_median_ms"];
-    std::cout << "kernel to decoded p99 " << summary["decoded_p99_ms"] << " ms; to finished picture p50 "
-              << summary["picture_p50_ms"] << ", p99 " << summary["picture_p99_ms"]
-              << " ms = " << double(summary["picture_p99_ms"]) / median << " median frames of " << median
-              << " ms" << std::endl;
+    std::cout << "kernel to decoded p99 " << summary["decoded_p99_ms"] << " ms; to finished picture p99 "
+              << summary["picture_p99_ms"] << " ms, or " << summary["picture_p99_frames"]
+              << " frames of the moment; frame median " << summary["frame_median_ms"] << " ms" << std::endl;
   }
 }
 

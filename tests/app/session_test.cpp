@@ -267,6 +267,7 @@ TEST(Session, everyPacketsLatencyEndsWithThePictureThatFirstShowsItOrANewerOne) 
   const FrameCost cost = session.finished(resultCosting(20), 1001.04);
   EXPECT_EQ(session.latency().picture.size(), 2u);
   EXPECT_NEAR(session.latency().picture.largest(), 40, 1e-6);
+  EXPECT_NEAR(session.oldestShownMs(), 40, 1e-6);
   EXPECT_NEAR(session.latency().decoded.largest(), 0.1, 1e-3);
   EXPECT_GE(cost.total, 20);
   EXPECT_GE(cost.decide, 0);
@@ -299,6 +300,7 @@ TEST(Session, aHiddenWindowNeitherKeepsRowsWaitingNorCountsAsLatency) {
   EXPECT_EQ(rows.size(), 1u);
   session.request(1002, 64, 64);
   session.finished(resultCosting(1), 1002);
+  EXPECT_TRUE(std::isnan(session.oldestShownMs()));
   EXPECT_EQ(session.latency().picture.size(), 0u);
 }
 
