@@ -66,23 +66,27 @@ double uplift(double x, double y, std::uint32_t seed) {
 /// One resolution of the process.
 class Process {
  public:
-  Process(std::uint32_t side, double cellM, std::uint32_t seed) : side_(side), cellM_(cellM) {
+  Process(std::uint32_t side, double cellM) : side_(side), cellM_(cellM) {
     const std::size_t size = std::size_t{side} * side;
     heights.assign(size, 0);
     land_.resize(size);
-    rise_.resize(size);
-    softness_.resize(size);
     drained.resize(size);
     receiver_.resize(size);
     next_.resize(size);
     order_.reserve(size);
+  }
+
+  /// Where land is, how it rises and how soft it is.
+  void lay(std::uint32_t seed) {
+    rise_.resize(heights.size());
+    softness_.resize(heights.size());
     forEachParallel(
-        side,
+        side_,
         [&](std::uint32_t r) {
-          for (std::uint32_t c = 0; c < side; ++c) {
-            const double x = 2.0 * c / (side - 1) - 1, y = 2.0 * r / (side - 1) - 1;
-            const std::size_t i = std::size_t{r} * side + c;
-            land_[i] = c + 1 < side && coast(x, y, seed) > 0;
+          for (std::uint32_t c = 0; c < side_; ++c) {
+            const double x = 2.0 * c / (side_ - 1) - 1, y = 2.0 * r / (side_ - 1) - 1;
+            const std::size_t i = std::size_t{r} * side_ + c;
+            land_[i] = c + 1 < side_ && coast(x, y, seed) > 0;
             rise_[i] = static_cast<float>(uplift(x, y, seed));
             softness_[i] = static_cast<float>(std::exp2(1.6 * fractalNoise(7 * x, 7 * y, 5, seed + 31)));
           }
@@ -122,6 +126,23 @@ class Process {
     accumulate();
     erode(years);
     creep(0.5f);
+  }
+
+  /// Takes ground as it is, and cuts through what dams a hollow.
+  void carve() {
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+      land_[i] = heights[i] > 0.02f;
+      if (!land_[i]) heights[i] = 0;
+    }
+    flood();
+    for (std::size_t k = order_.size(); k-- > 0;) {
+      const std::uint32_t cell = order_[k], down = receiver_[cell];
+      if (down != cell && land_[down])
+        heights[down] = std::min(heights[down], std::max(0.03f, heights[cell] - 0.002f));
+    }
+    flood();
+    drain();
+    accumulate();
   }
 
   std::vector<float> heights, drained;
@@ -249,8 +270,9 @@ class Process {
 
 /// The same ground drawn on cloth that was pulled a little here and there: no valley is straight, and what
 /// runs down still does.
-Landscape bent(const Landscape& land, std::uint32_t seed) {
-  Landscape result = land;
+Landscape bent(const std::vector<float>& heights, const LandscapeShape& land) {
+  Landscape result{land.side, land.cellM, heights, {}};
+  const std::uint32_t seed = land.seed;
   const double last = land.side - 1.0, km = land.cellM / 1000;
   forEachParallel(
       land.side,
@@ -266,11 +288,9 @@ Landscape bent(const Landscape& land, std::uint32_t seed) {
                      j = std::min(static_cast<std::uint32_t>(row), land.side - 2);
           const auto u = static_cast<float>(column - i), v = static_cast<float>(row - j);
           const std::size_t at = std::size_t{j} * land.side + i, to = std::size_t{r} * land.side + c;
-          const float* h = &land.heights[at];
+          const float* h = &heights[at];
           result.heights[to] =
               (h[0] * (1 - u) + h[1] * u) * (1 - v) + (h[land.side] * (1 - u) + h[land.side + 1] * u) * v;
-          // What drains through a stream is the stream's alone.
-          result.drainedM2[to] = land.drainedM2[at + (u < 0.5f ? 0 : 1) + (v < 0.5f ? 0 : land.side)];
         }
       },
       nullptr);
@@ -290,6 +310,14 @@ double fractalNoise(double x, double y, int octaves, std::uint32_t seed) {
   return sum;
 }
 
+void carveHollows(Landscape& land) {
+  Process process(land.side, land.cellM);
+  process.heights = std::move(land.heights);
+  process.carve();
+  land.heights = std::move(process.heights);
+  land.drainedM2 = std::move(process.drained);
+}
+
 Landscape erodedLandscape(const LandscapeShape& shape, const std::function<bool(double)>& carryOn) {
   // Large forms come from a coarse grid, where a step is cheap; each finer one adds its own valleys.
   std::vector<std::uint32_t> sides{shape.side};
@@ -304,8 +332,8 @@ Landscape erodedLandscape(const LandscapeShape& shape, const std::function<bool(
 
   std::unique_ptr<Process> process;
   for (std::size_t k = sides.size(); k-- > 0;) {
-    auto finer =
-        std::make_unique<Process>(sides[k], shape.cellM * (shape.side - 1) / (sides[k] - 1), shape.seed);
+    auto finer = std::make_unique<Process>(sides[k], shape.cellM * (shape.side - 1) / (sides[k] - 1));
+    finer->lay(shape.seed);
     if (process)
       finer->refine(*process, shape.seed + static_cast<std::uint32_t>(k));
     else
@@ -318,8 +346,10 @@ Landscape erodedLandscape(const LandscapeShape& shape, const std::function<bool(
       if (carryOn && !carryOn(done / total)) return {};
     }
   }
-  return bent({shape.side, shape.cellM, std::move(process->heights), std::move(process->drained)},
-              shape.seed);
+  Landscape land = bent(process->heights, shape);
+  process.reset();
+  carveHollows(land);
+  return land;
 }
 
 }  // namespace trimtab::terrain

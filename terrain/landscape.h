@@ -25,6 +25,9 @@ struct LandscapeShape {
 /// sea. The heights are those of the process, not yet of any country. Empty when `carryOn` says no.
 Landscape erodedLandscape(const LandscapeShape& shape, const std::function<bool(double)>& carryOn);
 
+/// Cuts through whatever keeps a cell from draining to the sea, and finds anew what drains where.
+void carveHollows(Landscape& land);
+
 /// -1..1, smooth, from a seed: sum of octaves, each twice as fine and half as high.
 double fractalNoise(double x, double y, int octaves, std::uint32_t seed);
 

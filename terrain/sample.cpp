@@ -26,6 +26,10 @@ double smoothStep(double low, double high, double x) {
   return t * t * (3 - 2 * t);
 }
 
+double flatRadius(double sizeM) {
+  return std::min(2800.0, 0.06 * sizeM);
+}
+
 double fromMiddle(const Landscape& land, std::uint32_t row, std::uint32_t column) {
   const double half = (land.side - 1) / 2.0;
   return std::hypot(row - half, column - half) * land.cellM;
@@ -47,7 +51,7 @@ void fitHeights(Landscape& land, double sizeM) {
 }
 
 void flattenAirfield(Landscape& land, double sizeM) {
-  const double flat = std::min(2800.0, 0.06 * sizeM), hills = std::min(7500.0, 0.16 * sizeM);
+  const double flat = flatRadius(sizeM), hills = std::min(7500.0, 0.16 * sizeM);
   for (std::uint32_t r = 0; r < land.side; ++r)
     for (std::uint32_t c = 0; c < land.side; ++c) {
       float& h = land.heights[std::size_t{r} * land.side + c];
@@ -66,8 +70,7 @@ void widenValleys(Landscape& land, double sizeM, std::uint32_t seed) {
       const std::size_t i = static_cast<std::size_t>(r) * land.side + static_cast<std::size_t>(c);
       const double km2 = land.drainedM2[i] / 1e6;
       if (km2 < 4 || land.heights[i] <= 0) continue;
-      if (fromMiddle(land, static_cast<std::uint32_t>(r), static_cast<std::uint32_t>(c)) <
-          std::min(2800.0, 0.06 * sizeM))
+      if (fromMiddle(land, static_cast<std::uint32_t>(r), static_cast<std::uint32_t>(c)) < flatRadius(sizeM))
         continue;
       const double vary = 1 + 0.9 * fractalNoise(c * land.cellM / 2500, r * land.cellM / 2500, 3, seed + 71);
       const double wide = std::min(1100.0, 60 * std::pow(km2 / 10, 0.45)) * vary;
@@ -165,6 +168,12 @@ Result<Done> writeSample(const fs::path& tif, const SampleOptions& options) {
   flattenAirfield(land, sizeM);
   widenValleys(land, sizeM, options.seed);
   soften(land);
+  carveHollows(land);
+  // A stream that was cut through the airfield runs under it.
+  for (std::uint32_t r = 0; r < land.side; ++r)
+    for (std::uint32_t c = 0; c < land.side; ++c)
+      if (fromMiddle(land, r, c) < flatRadius(sizeM))
+        land.heights[std::size_t{r} * land.side + c] = kAirfieldM;
   // Steps of 1/64 m: exact in the file, and what a person reads is short.
   for (float& h : land.heights) h = std::round(h * 64) / 64;
   if (options.progress && !options.progress(0.95, "writing the sample")) return cancelled(tif.string());

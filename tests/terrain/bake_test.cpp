@@ -1,0 +1,251 @@
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "rasters.h"
+
+/// What is left on disk, and what a damaged database says.
+namespace trimtab::terrain {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Bake : public ::testing::Test {
+ protected:
+  Bake() {
+    test::RasterRecipe recipe;
+    recipe.columns = 90;
+    recipe.rows = 70;
+    recipe.value = [](int c, int r, int) { return test::roughGround(c, r); };
+    source_ = test::writeRaster(dir_ / "ground.tif", recipe);
+    options_.sources = {source_};
+    options_.output = dir_ / "db";
+  }
+  test::ScratchDir dir_;
+  fs::path source_;
+  BakeOptions options_;
+};
+
+bool sameContents(const Database& a, const Database& b) {
+  if (a.index().size() != b.index().size()) return false;
+  TileMesh left, right;
+  for (std::uint32_t node = 0; node < a.index().size(); ++node) {
+    a.buildTile(node, left);
+    b.buildTile(node, right);
+    if (std::memcmp(left.vertices.data(), right.vertices.data(), left.vertices.size() * sizeof(TileVertex)) !=
+        0)
+      return false;
+    if (!std::equal(left.origin, left.origin + 3, right.origin)) return false;
+  }
+  return a.index().errorM == b.index().errorM && a.index().slopeMax == b.index().slopeMax;
+}
+
+TEST_F(Bake, givesWhatOpenGives) {
+  const auto made = bake(options_);
+  ASSERT_TRUE(made) << toString(made.findings());
+  const auto opened = Database::open(dir_ / "db");
+  ASSERT_TRUE(opened) << toString(opened.findings());
+  EXPECT_TRUE(sameContents(**made, **opened));
+  const TerrainInfo& info = (*opened)->info();
+  EXPECT_EQ(info.name, "db");
+  EXPECT_EQ(info.source, source_.string());
+  EXPECT_EQ(info.columns, 90u);
+  EXPECT_EQ(info.rows, 70u);
+  EXPECT_EQ(info.bytes, (*made)->info().bytes);
+  EXPECT_NEAR(info.southWest.longitude.value(), 10.0005, 1e-12);
+  EXPECT_NEAR(info.northEast.latitude.value(), 49.9995, 1e-12);
+  std::uint64_t bytes = 0;
+  for (const auto& file : fs::directory_iterator(dir_ / "db")) bytes += fs::file_size(file);
+  EXPECT_EQ(info.bytes, bytes);
+  EXPECT_EQ(test::namesIn(dir_.path()), (std::vector<std::string>{"db", "ground.tif"}));
+}
+
+TEST_F(Bake, isTheSameToTheByteEachTime) {
+  ASSERT_TRUE(bake(options_));
+  std::vector<std::string> first;
+  for (const std::string& name : test::namesIn(dir_ / "db"))
+    first.push_back(test::readFile(dir_ / "db" / name));
+  ASSERT_TRUE(bake(options_));
+  std::size_t k = 0;
+  for (const std::string& name : test::namesIn(dir_ / "db"))
+    EXPECT_EQ(test::readFile(dir_ / "db" / name), first[k++]) << name;
+}
+
+TEST_F(Bake, leavesNothingWhereverItIsCancelled) {
+  int calls = 0;
+  options_.progress = [&](double fraction, const std::string&) {
+    EXPECT_GE(fraction, 0);
+    EXPECT_LE(fraction, 1);
+    ++calls;
+    return true;
+  };
+  ASSERT_TRUE(bake(options_));
+  fs::remove_all(dir_ / "db");
+  for (int stop = 1; stop <= calls; stop += std::max(1, calls / 12)) {
+    int call = 0;
+    options_.progress = [&](double, const std::string&) { return ++call < stop; };
+    const auto made = bake(options_);
+    // How often it asks depends on the cores: the last few may not come.
+    if (call < stop) continue;
+    ASSERT_FALSE(made) << stop;
+    EXPECT_NE(toString(made.findings()).find("cancelled"), std::string::npos);
+    EXPECT_EQ(test::namesIn(dir_.path()), std::vector<std::string>{"ground.tif"}) << stop;
+  }
+}
+
+TEST_F(Bake, keepsTheOldDatabaseWhenTheNewOneFails) {
+  ASSERT_TRUE(bake(options_));
+  const std::string before = test::readFile(dir_ / "db/manifest.json");
+  options_.progress = [](double fraction, const std::string&) { return fraction < 0.6; };
+  ASSERT_FALSE(bake(options_));
+  EXPECT_EQ(test::readFile(dir_ / "db/manifest.json"), before);
+  EXPECT_TRUE(Database::open(dir_ / "db"));
+  options_.progress = nullptr;
+  options_.sources = {dir_ / "absent.tif"};
+  ASSERT_FALSE(bake(options_));
+  EXPECT_TRUE(Database::open(dir_ / "db"));
+}
+
+TEST_F(Bake, replacesADatabaseButNothingElse) {
+  ASSERT_TRUE(bake(options_));
+  ASSERT_TRUE(bake(options_));
+  fs::create_directory(dir_ / "mine");
+  test::writeFile(dir_ / "mine/letter.txt", "dear");
+  options_.output = dir_ / "mine";
+  ASSERT_FALSE(bake(options_));
+  EXPECT_EQ(test::readFile(dir_ / "mine/letter.txt"), "dear");
+  options_.output = source_;
+  ASSERT_FALSE(bake(options_));
+  EXPECT_TRUE(fs::is_regular_file(source_));
+  options_.output = "";
+  EXPECT_FALSE(bake(options_));
+  options_.output = dir_ / "db2";
+  options_.sources.clear();
+  EXPECT_FALSE(bake(options_));
+}
+
+TEST_F(Bake, saysSoWhereItCannotWrite) {
+  options_.output = "/proc/db";
+  const auto made = bake(options_);
+  ASSERT_FALSE(made);
+  EXPECT_NE(toString(made.findings()).find("/proc/"), std::string::npos);
+}
+
+TEST_F(Bake, refusesAFlippedByteInAnyFile) {
+  ASSERT_TRUE(bake(options_));
+  for (const std::string& name : test::namesIn(dir_ / "db")) {
+    const std::string whole = test::readFile(dir_ / "db" / name);
+    for (int k = 0; k < 40; ++k) {
+      const std::size_t at = whole.size() * static_cast<std::size_t>(k) / 40;
+      std::string damaged = whole;
+      damaged[at] = static_cast<char>(damaged[at] ^ (1 << k % 8));
+      test::writeFile(dir_ / "db" / name, damaged);
+      const auto opened = Database::open(dir_ / "db");
+      ASSERT_FALSE(opened) << name << " byte " << at;
+      const Finding& finding = opened.findings().front();
+      EXPECT_EQ(finding.where, (dir_ / "db" / name).string());
+      EXPECT_FALSE(finding.expected.empty());
+      EXPECT_FALSE(finding.found.empty());
+    }
+    test::writeFile(dir_ / "db" / name, whole);
+  }
+  EXPECT_TRUE(Database::open(dir_ / "db"));
+}
+
+TEST_F(Bake, refusesATruncatedLongerOrAbsentFile) {
+  ASSERT_TRUE(bake(options_));
+  for (const std::string& name : test::namesIn(dir_ / "db")) {
+    const fs::path file = dir_ / "db" / name;
+    const std::string whole = test::readFile(file);
+    for (const std::string& damaged : {std::string(), whole.substr(0, 1), whole.substr(0, whole.size() / 2),
+                                       whole.substr(0, whole.size() - 1), whole + "x"}) {
+      if (name == "manifest.json" && damaged == whole + "x") continue;
+      test::writeFile(file, damaged);
+      const auto opened = Database::open(dir_ / "db");
+      ASSERT_FALSE(opened) << name << " of " << damaged.size() << " bytes";
+      EXPECT_EQ(opened.findings().front().where, file.string());
+    }
+    fs::remove(file);
+    const auto opened = Database::open(dir_ / "db");
+    ASSERT_FALSE(opened) << name;
+    EXPECT_EQ(opened.findings().front().where, file.string());
+    test::writeFile(file, whole);
+  }
+}
+
+TEST_F(Bake, refusesAnotherVersionSayingWhich) {
+  ASSERT_TRUE(bake(options_));
+  std::string text = test::readFile(dir_ / "db/manifest.json");
+  const std::string old = "\"version\": 1";
+  text.replace(text.find(old), old.size(), "\"version\": 7");
+  test::writeFile(dir_ / "db/manifest.json", text);
+  const auto opened = Database::open(dir_ / "db");
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.findings().front().key, "version");
+  EXPECT_EQ(opened.findings().front().found, "7");
+}
+
+TEST_F(Bake, opensNothingThatIsNoDatabase) {
+  EXPECT_FALSE(Database::open(dir_ / "nowhere"));
+  EXPECT_FALSE(Database::open(source_));
+  fs::create_directory(dir_ / "other");
+  test::writeFile(dir_ / "other/manifest.json", "[1, 2]");
+  EXPECT_FALSE(Database::open(dir_ / "other"));
+  test::writeFile(dir_ / "other/manifest.json", "{\"format\": \"something\"}");
+  const auto opened = Database::open(dir_ / "other");
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.findings().front().key, "format");
+}
+
+TEST_F(Bake, onceIsEnoughForOpenOrBake) {
+  const fs::path cache = dir_ / "cache";
+  int asked = 0;
+  const Progress count = [&](double, const std::string&) { return ++asked, true; };
+  ASSERT_TRUE(openOrBake(source_, cache, count));
+  EXPECT_GT(asked, 0);
+  asked = 0;
+  const auto again = openOrBake(source_, cache, count);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(asked, 0);
+  ASSERT_EQ(test::namesIn(cache).size(), 1u);
+  const fs::path made = cache / test::namesIn(cache).front();
+  // A database is opened as it is.
+  ASSERT_TRUE(openOrBake(made, dir_ / "unused", count));
+  EXPECT_EQ(asked, 0);
+  EXPECT_FALSE(fs::exists(dir_ / "unused"));
+  // A damaged copy is made again; a changed source is another one.
+  fs::resize_file(made / "heights.f32", 10);
+  ASSERT_TRUE(openOrBake(source_, cache, count));
+  EXPECT_GT(asked, 0);
+  fs::last_write_time(source_, fs::last_write_time(source_) + std::chrono::seconds(5));
+  ASSERT_TRUE(openOrBake(source_, cache, count));
+  EXPECT_EQ(test::namesIn(cache).size(), 2u);
+  EXPECT_FALSE(openOrBake(dir_ / "absent", cache, count));
+}
+
+TEST_F(Bake, isReadByManyThreadsAtOnce) {
+  const auto made = bake(options_);
+  ASSERT_TRUE(made);
+  const Database& database = **made;
+  TileMesh alone;
+  database.buildTile(1, alone);
+  std::vector<std::thread> threads;
+  std::atomic<int> wrong{0};
+  for (int t = 0; t < 4; ++t)
+    threads.emplace_back([&] {
+      TileMesh mesh;
+      for (int k = 0; k < 200; ++k) {
+        database.buildTile(
+            static_cast<std::uint32_t>(k) % static_cast<std::uint32_t>(database.index().size()), mesh);
+        database.buildTile(1, mesh);
+        if (std::memcmp(mesh.vertices.data(), alone.vertices.data(),
+                        alone.vertices.size() * sizeof(TileVertex)) != 0)
+          ++wrong;
+      }
+    });
+  for (std::thread& t : threads) t.join();
+  EXPECT_EQ(wrong, 0);
+}
+
+}  // namespace
+}  // namespace trimtab::terrain
