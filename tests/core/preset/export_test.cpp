@@ -244,6 +244,14 @@ TEST(ExportChecksum, holdsForXmlAndIniToo) {
   }
 }
 
+TEST(ExportChecksum, isWantedInItsOwnMember) {
+  std::string text = exported({}, ExportFormat::json);
+  text.replace(text.find("\"checksum\""), 10, "\"remark\"");
+  text = sealed(text);
+  EXPECT_TRUE(checkSeal(text, "e"));
+  EXPECT_FALSE(parsePreset(text, "e")) << "a true sum in another place";
+}
+
 TEST(ExportChecksum, saysThatTheFileWasChanged) {
   std::string text = exported({}, ExportFormat::json);
   text.replace(text.find("16.7"), 4, "17.7");
