@@ -1,0 +1,88 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "support.h"
+#include "synthetic_terrain.h"
+#include "trimtab/scene/offscreen.h"
+#include "trimtab/scene/renderer.h"
+
+/// What tests of pictures share: a surfaceless context, a renderer, a terrain.
+namespace trimtab::test {
+
+class SceneTest : public testing::Test {
+ protected:
+  static constexpr int kWidth = 640, kHeight = 360;
+
+  void SetUp() override {
+    auto created = scene::Offscreen::create(kWidth, kHeight);
+    if (!created) GTEST_SKIP() << toString(created.findings());
+    offscreen = std::move(created).value();
+    const scene::GlReport report = renderer.initialize();
+    ASSERT_TRUE(report.usable) << report.missing;
+  }
+  void TearDown() override {
+    if (offscreen) renderer.release();
+  }
+
+  void use(std::shared_ptr<const terrain::Database> terrain) {
+    database = std::move(terrain);
+    renderer.setTerrain(database);
+  }
+
+  /// Real data, baked once into a folder beside the temporary files; none when it cannot be.
+  static std::shared_ptr<const terrain::Database> bakeShared(const std::string& folder) {
+    const auto cache = std::filesystem::temp_directory_path() / "trimtab-scene-test";
+    auto opened = terrain::openOrBake(sharedDir() / "data" / folder, cache, {});
+    if (!opened) {
+      ADD_FAILURE() << toString(opened.findings());
+      return nullptr;
+    }
+    return opened.value();
+  }
+
+  scene::FrameRequest request(const GeodeticPosition& eye, const Attitude& attitude) const {
+    scene::FrameRequest r;
+    r.eye = eye;
+    r.attitude = attitude;
+    r.view.widthPx = kWidth;
+    r.view.heightPx = kHeight;
+    return r;
+  }
+  /// A place by fractions of the terrain's extent, so far above the ground there.
+  GeodeticPosition over(double east, double north, double aboveM) const {
+    const auto& i = database->info();
+    const Degrees latitude = i.southWest.latitude + (i.northEast.latitude - i.southWest.latitude) * north;
+    const Degrees longitude = i.southWest.longitude + (i.northEast.longitude - i.southWest.longitude) * east;
+    return {latitude, longitude,
+            database->heightAt(latitude, longitude).value_or(Metres{0}) + Metres{aboveM}};
+  }
+
+  std::vector<std::uint8_t> picture(const scene::FrameRequest& r, scene::FrameResult* result = nullptr) {
+    offscreen->makeCurrent();
+    const auto drawn = renderer.draw(r, offscreen->framebuffer());
+    if (result) *result = drawn;
+    return renderer.readPixels(r.view.widthPx, r.view.heightPx);
+  }
+  static std::size_t differing(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < a.size(); i += 4)
+      n += !std::equal(a.begin() + static_cast<std::ptrdiff_t>(i),
+                       a.begin() + static_cast<std::ptrdiff_t>(i) + 4,
+                       b.begin() + static_cast<std::ptrdiff_t>(i));
+    return n;
+  }
+
+  std::unique_ptr<scene::Offscreen> offscreen;
+  scene::Renderer renderer;
+  std::shared_ptr<const terrain::Database> database;
+};
+
+/// 16 x 16 tiles of 90 m posts in mountains: 46 km a side.
+inline std::shared_ptr<const SyntheticTerrain> syntheticMountains() {
+  static const auto terrain = std::make_shared<const SyntheticTerrain>(
+      16, 1.0 / 1200, GeodeticPosition{Degrees{36.4}, Degrees{128.1}, Metres{0}}, mountains);
+  return terrain;
+}
+
+}  // namespace trimtab::test
