@@ -48,11 +48,14 @@ class EverySecond {
   void operator()(F&& report) {
     if (Clock::now() < due_) return;
     report();
+    called_ = true;
     due_ += std::chrono::seconds(1);
   }
+  bool justCalled() const { return called_ && due_ - Clock::now() > std::chrono::milliseconds(900); }
 
  private:
   Clock::time_point due_ = Clock::now() + std::chrono::seconds(1);
+  bool called_ = false;
 };
 
 struct Options {
@@ -254,7 +257,7 @@ int show(const Options& options) {
     nap();
     everySecond(line);
   }
-  line();
+  if (!everySecond.justCalled()) line();
   return kDone;
 }
 

@@ -1,0 +1,159 @@
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <thread>
+
+#include "support.h"
+#include "trimtab/host/flight.h"
+#include "udp_socket.h"
+
+namespace trimtab::test {
+namespace {
+
+std::string cli() {
+  return "'" + program("trimtab-cli").string() + "'";
+}
+
+std::string freePort() {
+  return std::to_string(UdpSocket().port());
+}
+
+/// A program in the background, its standard error in a file.
+class Background {
+ public:
+  Background(std::vector<std::string> arguments, const std::filesystem::path& err) : pid_(::fork()) {
+    if (pid_ != 0) return;
+    if (!std::freopen(err.c_str(), "w", stderr)) ::_exit(126);
+    std::vector<char*> argv;
+    for (std::string& a : arguments) argv.push_back(a.data());
+    argv.push_back(nullptr);
+    ::execv(argv[0], argv.data());
+    ::_exit(127);
+  }
+  ~Background() {
+    if (pid_ > 0) end(SIGKILL);
+  }
+  Background(const Background&) = delete;
+  Background& operator=(const Background&) = delete;
+  int end(int signal = 0) {
+    if (signal != 0) ::kill(pid_, signal);
+    int status = 0;
+    ::waitpid(pid_, &status, 0);
+    pid_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+
+ private:
+  pid_t pid_;
+};
+
+void waitFor(const std::filesystem::path& file, const std::string& text) {
+  for (int i = 0; i < 1000 && readFile(file).find(text) == std::string::npos; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+}
+
+std::string aFlight(const ScratchDir& dir) {
+  std::string text = "time_s,latitude_deg,longitude_deg,altitude_ft,pitch_deg,roll_deg,heading_deg\n";
+  for (int i = 0; i < 20; ++i)
+    text += std::to_string(i * 0.1) + ",36.6," + std::to_string(128.3 + i * 1e-4) + ",5000,2,0,90\n";
+  writeFile(dir / "flight.csv", text);
+  return (dir / "flight.csv").string();
+}
+
+TEST(FeedCommand, recordsWhatItPlaysAndTheRecordingPlaysAgain) {
+  for (const char* name : {"first.pcap", "first.csv"}) {
+    SCOPED_TRACE(name);
+    ScratchDir dir;
+    const std::string port = freePort(), first = (dir / name).string();
+    Background recorder({program("trimtab-cli").string(), "feed", "record", "--listen", port, "-o", first},
+                        dir / "err");
+    waitFor(dir / "err", "listening");
+    const Ran played = run(cli() + " feed play " + aFlight(dir) + " --to 127.0.0.1:" + port +
+                           " --protocol cigi3 --rate-hz 50");
+    EXPECT_EQ(played.exitCode, 0) << played.err;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    EXPECT_EQ(recorder.end(SIGINT), 0) << readFile(dir / "err");
+    const auto flight = readFlight(first);
+    ASSERT_TRUE(flight) << toString(flight.findings());
+    EXPECT_EQ(flight->states.size(), 96U);  // 1.9 s at 50 Hz, both ends
+    EXPECT_NEAR(flight->durationS(), 1.9, 1e-3);
+    EXPECT_NEAR(flight->states.back().position.longitude.value(), 128.3019, 1e-9);
+    std::size_t files = 0;
+    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(dir.path())) ++files;
+    EXPECT_EQ(files, 3U) << "the recording, the flight and the messages: nothing half-made is left";
+
+    Background again({program("trimtab-cli").string(), "feed", "record", "--listen", port, "-o",
+                      (dir / "again.csv").string(), "--packets", "50"},
+                     dir / "err2");
+    waitFor(dir / "err2", "listening");
+    EXPECT_EQ(run(cli() + " feed play " + first + " --to " + port + " --protocol native-fdm").exitCode, 0);
+    EXPECT_EQ(again.end(), 0) << readFile(dir / "err2");
+    const auto second = readFlight(dir / "again.csv");
+    ASSERT_TRUE(second) << toString(second.findings());
+    EXPECT_GE(second->states.size(), 50U);
+  }
+}
+
+TEST(FeedCommand, showsALineASecond) {
+  ScratchDir dir;
+  const std::string port = freePort();
+  Background player({program("trimtab-cli").string(), "feed", "play", aFlight(dir), "--to", port,
+                     "--protocol", "cigi3", "--loop"},
+                    dir / "err");
+  const Ran ran = run(cli() + " feed show --listen " + port + " --seconds 2.1");
+  EXPECT_EQ(player.end(SIGINT), 0);
+  EXPECT_EQ(ran.exitCode, 0) << ran.err;
+  EXPECT_GE(std::count(ran.out.begin(), ran.out.end(), '\n'), 2);
+  for (const char* part :
+       {"cigi3", " Hz", "jitter", "lost 0", "bad 0", "age", "latency", "at 36.600000 128.30", "5000.0 ft"})
+    EXPECT_NE(ran.out.find(part), std::string::npos) << part << " in\n" << ran.out;
+}
+
+TEST(FeedCommand, showsTheFirstBadPacketInHex) {
+  const std::string port = freePort();
+  ScratchDir dir;
+  Background shower({program("trimtab-cli").string(), "feed", "show", "--listen", port, "--packets", "1"},
+                    dir / "err");
+  waitFor(dir / "err", "listening");
+  UdpSocket host;
+  host.send(static_cast<std::uint16_t>(std::stoi(port)),
+            std::vector<std::byte>{std::byte{0xde}, std::byte{0xad}});
+  EXPECT_EQ(shower.end(), 0);
+  EXPECT_NE(readFile(dir / "err").find("de ad"), std::string::npos) << readFile(dir / "err");
+}
+
+TEST(FeedCommand, refusesWithTheExitCodeOfItsKind) {
+  ScratchDir dir;
+  UdpSocket taken;
+  const std::string port = std::to_string(taken.port());
+  struct Case {
+    std::string arguments;
+    int exitCode;
+    std::string says;
+  };
+  const Case cases[] = {
+      {"play nothing.csv --to 8004 --protocol cigi3", 1, "nothing.csv"},
+      {"play " + (sourceDir() / "tests/data/host/bad-flights/heading-text.csv").string() +
+           " --to 8004 --protocol cigi3",
+       1, "heading-text.csv:3: heading_deg"},
+      {"play " + aFlight(dir) + " --to 70000 --protocol cigi3", 2, "1..65535"},
+      {"play " + aFlight(dir) + " --to 8004 --protocol dis", 2, "dis"},
+      {"play " + aFlight(dir) + " --to 8004", 2, "protocol"},
+      {"show --listen " + port, 1, "port " + port + " is taken"},
+      {"show", 2, "listen"},
+      {"record --listen " + freePort() + " -o " + (dir / "no/where.csv").string(), 1, "a folder that exists"},
+      {"record --listen " + freePort() + " --seconds 0.1 -o " + (dir / "out.csv").string(), 1,
+       "nothing written"},
+      {"", 2, "subcommand"},
+  };
+  for (const Case& c : cases) {
+    const Ran ran = run(cli() + " feed " + c.arguments);
+    EXPECT_EQ(ran.exitCode, c.exitCode) << c.arguments << '\n' << ran.err;
+    EXPECT_NE((ran.err + ran.out).find(c.says), std::string::npos) << c.arguments << '\n' << ran.err;
+  }
+}
+
+}  // namespace
+}  // namespace trimtab::test
