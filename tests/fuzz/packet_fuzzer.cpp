@@ -1,0 +1,23 @@
+#include <cmath>
+#include <cstdlib>
+
+#include "trimtab/host/decoder.h"
+#include "trimtab/host/encoder.h"
+
+/// A datagram is good or bad, never both; a state it yields is finite, in range, and survives being sent
+/// again.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace trimtab;
+  HostDecoder decoder, again;
+  const auto state = decoder.accept({std::as_bytes(std::span(data, size)), 1, "fuzz"});
+  const HostStatistics& s = decoder.statistics();
+  if (s.received != 1 || s.states + s.bad + s.notReady > 1 || s.states != (state ? 1U : 0U)) std::abort();
+  if (s.bad == 1 && (s.firstBadReason.empty() || (size > 0 && s.firstBadHex.empty()))) std::abort();
+  if (!state) return 0;
+  const GeodeticPosition& p = state->position;
+  if (!(std::abs(p.latitude.value()) <= 90 && std::abs(p.longitude.value()) <= 180)) std::abort();
+  if (!std::isfinite(p.height.value()) || !(std::abs(state->attitude.pitch.value()) <= 90)) std::abort();
+  const auto sent = again.accept({encodeCigiHost(*state, 1, 0), 1, "fuzz"});
+  if (!sent || sent->position != p) std::abort();
+  return 0;
+}
