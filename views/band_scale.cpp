@@ -230,6 +230,8 @@ void BandScale::paintEvent(QPaintEvent*) {
   paintBands(painter);
   paintEdges(painter);
   paintLive(painter);
+  painter.end();
+  paintFocusFrame(*this);
 }
 
 void BandScale::paintBands(QPainter& painter) {

@@ -240,6 +240,11 @@ void CurvePlot::resizeEvent(QResizeEvent* event) {
   redraw();
 }
 
+void CurvePlot::paintEvent(QPaintEvent* event) {
+  QCustomPlot::paintEvent(event);
+  paintFocusFrame(*this);
+}
+
 void CurvePlot::changeEvent(QEvent* event) {
   QCustomPlot::changeEvent(event);
   if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) {

@@ -52,6 +52,7 @@ class CurvePlot : public QCustomPlot {
   void resizeEvent(QResizeEvent* event) override;
   void leaveEvent(QEvent* event) override;
   void changeEvent(QEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
 
  private:
   void makeItems();

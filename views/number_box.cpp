@@ -97,6 +97,16 @@ QString NumberBox::textFromValue(double value) const {
   return text;
 }
 
+void NumberBox::mouseReleaseEvent(QMouseEvent* event) {
+  QDoubleSpinBox::mouseReleaseEvent(event);
+  stepToken_ = 0;
+}
+
+void NumberBox::focusOutEvent(QFocusEvent* event) {
+  QDoubleSpinBox::focusOutEvent(event);
+  stepToken_ = 0;
+}
+
 double NumberBox::valueFromText(const QString& text) const {
   const Result<ParameterValue> parsed = parseTyped(*row_, text, suffix());
   return parsed ? std::get<double>(*parsed) : value();

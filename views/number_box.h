@@ -27,6 +27,8 @@ class NumberBox : public QDoubleSpinBox {
  protected:
   void wheelEvent(QWheelEvent* event) override;
   void keyReleaseEvent(QKeyEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
 
  private:
   void read();
@@ -34,7 +36,7 @@ class NumberBox : public QDoubleSpinBox {
 
   Draft& draft_;
   const ParameterRow* row_;
-  MergeToken stepToken_ = 0;  ///< of an arrow key held down
+  MergeToken stepToken_ = 0;  ///< of an arrow held down, or the wheel turned on
 };
 
 }  // namespace trimtab::views

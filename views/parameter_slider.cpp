@@ -86,6 +86,11 @@ void ParameterSlider::keyReleaseEvent(QKeyEvent* event) {
   QSlider::keyReleaseEvent(event);
 }
 
+void ParameterSlider::mouseReleaseEvent(QMouseEvent* event) {
+  QSlider::mouseReleaseEvent(event);
+  token_ = 0;
+}
+
 void ParameterSlider::wheelEvent(QWheelEvent* event) {
   if (hasFocus())
     QSlider::wheelEvent(event);

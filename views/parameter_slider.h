@@ -16,6 +16,7 @@ class ParameterSlider : public QSlider {
  protected:
   void wheelEvent(QWheelEvent* event) override;
   void keyReleaseEvent(QKeyEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
 
  private:
   double toValue(int position) const;

@@ -4,6 +4,7 @@
 #include <qcustomplot.h>
 
 #include <QLocale>
+#include <QPainter>
 #include <array>
 #include <cmath>
 
@@ -39,6 +40,13 @@ QColor quietColour(const QPalette& palette) {
 QColor blend(const QColor& under, const QColor& over, double amount) {
   const auto mix = [&](int a, int b) { return static_cast<int>(std::lround(a + (b - a) * amount)); };
   return {mix(under.red(), over.red()), mix(under.green(), over.green()), mix(under.blue(), over.blue())};
+}
+
+void paintFocusFrame(QWidget& widget) {
+  if (!widget.hasFocus()) return;
+  QPainter painter(&widget);
+  painter.setPen(QPen(widget.palette().color(QPalette::Highlight), 2));
+  painter.drawRect(widget.rect().adjusted(1, 1, -1, -1));
 }
 
 void setTextColour(QWidget& widget, const QColor& colour) {

@@ -24,6 +24,9 @@ QColor quietColour(const QPalette& palette);
 /// `amount` of `over` on `under`, 0..1.
 QColor blend(const QColor& under, const QColor& over, double amount);
 
+/// What a focused widget that paints itself draws last.
+void paintFocusFrame(QWidget& widget);
+
 /// By palette, which is cheaper than a style sheet.
 void setTextColour(QWidget& widget, const QColor& colour);
 

@@ -266,6 +266,11 @@ QPointF TimePlot::pixelOfTime(double time) const {
   return {timeAxis()->coordToPixel(time), static_cast<double>(lanes_.front().rect->center().y())};
 }
 
+void TimePlot::paintEvent(QPaintEvent* event) {
+  QCustomPlot::paintEvent(event);
+  paintFocusFrame(*this);
+}
+
 void TimePlot::changeEvent(QEvent* event) {
   QCustomPlot::changeEvent(event);
   if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) {

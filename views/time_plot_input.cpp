@@ -111,6 +111,16 @@ void TimePlot::keyPressEvent(QKeyEvent* event) {
   }
 }
 
+void TimePlot::focusInEvent(QFocusEvent* event) {
+  QCustomPlot::focusInEvent(event);
+  update();
+}
+
+void TimePlot::focusOutEvent(QFocusEvent* event) {
+  QCustomPlot::focusOutEvent(event);
+  update();
+}
+
 void TimePlot::leaveEvent(QEvent* event) {
   for (Lane& lane : lanes_) lane.tracker->setVisible(false);
   layer(QStringLiteral("tracker"))->replot();

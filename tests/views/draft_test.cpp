@@ -73,6 +73,8 @@ TEST(Draft, editsOfOneTokenAreOneStep) {
   EXPECT_EQ(std::get<double>(draft.value("lod.scale")), 3.0);
   draft.undoStack().undo();
   EXPECT_EQ(std::get<double>(draft.value("lod.scale")), 1.0);
+  draft.undoStack().redo();
+  EXPECT_EQ(std::get<double>(draft.value("lod.scale")), 3.0) << "the last value of the drag, not its first";
 }
 
 TEST(Draft, aTokenThatReturnsToItsStartLeavesNoStep) {

@@ -3,9 +3,14 @@
 #include <QDir>
 #include <QElapsedTimer>
 #include <QFontDatabase>
+#include <QMouseEvent>
 #include <QStyleFactory>
+#include <QThread>
+#include <QTimer>
+#include <array>
 #include <clocale>
 #include <cstdio>
+#include <ctime>
 
 #include "live_flight.h"
 #include "trimtab/views/band_scale.h"
@@ -47,6 +52,62 @@ void settle(int ms = 120) {
   while (timer.elapsed() < ms) QCoreApplication::processEvents(QEventLoop::AllEvents, 10);
 }
 
+void hover(QWidget& widget, QPointF at) {
+  QMouseEvent event(QEvent::MouseMove, at, widget.mapToGlobal(at), Qt::NoButton, Qt::NoButton,
+                    Qt::NoModifier);
+  QApplication::sendEvent(&widget, &event);
+}
+
+double cpuSeconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+/// What the docks cost the main thread, all in sight and fed at 60 Hz, then left alone, then edited.
+void measure(Draft& draft, test::LiveFlight& flight) {
+  MembershipEditor memberships(draft);
+  BandsEditor bands(draft);
+  DecisionPanel decision(draft);
+  PlotsPanel plots(draft);
+  ParameterTable parameters(draft);
+  const std::array<QWidget*, 5> all{&memberships, &bands, &decision, &plots, &parameters};
+  for (QWidget* widget : all) {
+    widget->resize(520, 560);
+    widget->show();
+  }
+  for (int i = 0; i < 3600; ++i) plots.showFrame(flight.next(draft.active()));
+  settle(500);
+  QElapsedTimer timer;
+  timer.start();
+  double cpu = cpuSeconds();
+  int frames = 0;
+  while (timer.elapsed() < 5000) {
+    const LiveFrame frame = flight.next(draft.active());
+    memberships.showFrame(frame);
+    bands.showFrame(frame);
+    decision.showFrame(frame);
+    plots.showFrame(frame);
+    ++frames;
+    while (timer.elapsed() < frames * 1000 / 60) {
+      QCoreApplication::processEvents();
+      QThread::msleep(1);
+    }
+  }
+  std::printf("live at %.1f Hz: %.1f %% of a core\n", frames / 5.0, 20 * (cpuSeconds() - cpu));
+  settle(300);
+  cpu = cpuSeconds();
+  QTimer::singleShot(3000, qApp, &QCoreApplication::quit);
+  QCoreApplication::exec();
+  std::printf("idle: %.2f %% of a core\n", 100 * (cpuSeconds() - cpu) / 3);
+  cpu = cpuSeconds();
+  const MergeToken token = draft.newToken();
+  for (int i = 0; i < 200; ++i) {
+    draft.setValue("lod.scale", 1 + 0.01 * i, token);
+    QCoreApplication::processEvents();
+  }
+  std::printf("an edit: %.2f ms\n", 1000 * (cpuSeconds() - cpu) / 200);
+  draft.resetAll();
+}
+
 void shoot(QWidget& widget, const QSize& size, const QString& file) {
   widget.resize(size);
   widget.show();
@@ -71,6 +132,11 @@ int main(int argc, char** argv) {
   MembershipEditor memberships(draft);
   for (int i = 0; i < 60; ++i) memberships.showFrame(flight.next(draft.active()));
   memberships.altitude().plot().select(1);
+  memberships.resize(480, 560);
+  memberships.show();
+  settle();
+  hover(memberships.altitude().plot(), memberships.altitude().plot().pixelOf({6500, 0.5}));
+  memberships.altitude().plot().setFocus();
   shoot(memberships, {480, 560}, dir.filePath(QStringLiteral("memberships.png")));
   draft.setValue("fuzzy.altitude.reading", ChoiceIndex{2});
   draft.setValue("fuzzy.pitch.reading", ChoiceIndex{1});
@@ -90,18 +156,27 @@ int main(int argc, char** argv) {
   shoot(bands, {480, 560}, dir.filePath(QStringLiteral("bands_broken.png")));
   draft.resetAll();
 
+  measure(draft, flight);
+  shoot(memberships, {300, 480}, dir.filePath(QStringLiteral("narrow_memberships.png")));
+  draft.setValue("fuzzy.hysteresis", 0.05);
+  shoot(bands, {300, 480}, dir.filePath(QStringLiteral("narrow_bands.png")));
+
   ParameterTable parameters(draft);
   draft.setValue("fuzzy.hysteresis", 0.3);
   draft.setValue("lod.scale", 30.0);
   shoot(parameters, {520, 760}, dir.filePath(QStringLiteral("parameters.png")));
+  shoot(parameters, {340, 560}, dir.filePath(QStringLiteral("narrow_parameters.png")));
   draft.resetAll();
 
   DecisionPanel decision(draft);
   for (int i = 0; i < 6000; ++i) decision.showFrame(flight.next(draft.active()));
+  shoot(decision, {300, 420}, dir.filePath(QStringLiteral("narrow_decision.png")));
   shoot(decision, {520, 520}, dir.filePath(QStringLiteral("decision.png")));
 
   PlotsPanel plots(draft);
   for (int i = 0; i < 60 * 90; ++i) plots.showFrame(flight.next(draft.active()));
+  shoot(plots, {300, 400}, dir.filePath(QStringLiteral("narrow_plots.png")));
+  hover(plots.plot(), {200, 100});
   shoot(plots, {680, 520}, dir.filePath(QStringLiteral("plots.png")));
   plots.setCursors(true);
   shoot(plots, {680, 700}, dir.filePath(QStringLiteral("plots_cursors.png")));

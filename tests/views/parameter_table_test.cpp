@@ -170,6 +170,14 @@ TEST_F(ParameterTableTest, slidersSpanTheUsualRangeAndDragInOneStep) {
   EXPECT_EQ(numberOf(draft_, "lod.scale"), 50.0);
 }
 
+TEST_F(ParameterTableTest, separateClicksOnTheArrowsAreSeparateSteps) {
+  NumberBox& box = editor<NumberBox>("view.horizontal_fov_deg");
+  const QPoint up(box.width() - 6, 5);
+  for (int i = 0; i < 3; ++i) QTest::mouseClick(&box, Qt::LeftButton, Qt::NoModifier, up);
+  EXPECT_EQ(numberOf(draft_, "view.horizontal_fov_deg"), 63);
+  EXPECT_EQ(draft_.undoStack().count(), 3);
+}
+
 TEST_F(ParameterTableTest, theWheelDoesNotChangeWhatIsMerelyScrolledPast) {
   NumberBox& box = editor<NumberBox>("lod.scale");
   table_.search().setFocus();
