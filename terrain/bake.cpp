@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 
@@ -21,7 +22,9 @@ namespace fs = std::filesystem;
 class UnfinishedFolder {
  public:
   explicit UnfinishedFolder(const fs::path& output) : output_(output) {
-    path_ = output.parent_path() / ("." + output.filename().string() + ".part-" + std::to_string(::getpid()));
+    static std::atomic<unsigned> count{0};
+    path_ = output.parent_path() / ("." + output.filename().string() + ".part-" + std::to_string(::getpid()) +
+                                    "-" + std::to_string(count++));
   }
   ~UnfinishedFolder() {
     std::error_code ignored;
@@ -122,7 +125,8 @@ Result<std::shared_ptr<const Database>> bake(const BakeOptions& options) {
 
   const auto [lowest, highest] = std::minmax_element(grid.heights.begin(), grid.heights.end());
   TerrainInfo info;
-  info.name = nameOf(output);
+  info.name = nameOf(options.sources.front());
+  if (options.sources.size() > 1) info.name += " and " + std::to_string(options.sources.size() - 1) + " more";
   info.source = joinedNames(options.sources);
   if (options.imagery) info.source += ", " + options.imagery->string();
   info.lowest = Metres{*lowest};

@@ -160,6 +160,8 @@ Result<std::vector<fs::path>> elevationFiles(std::span<const fs::path> sources) 
         if (it->is_regular_file(error)) inside.insert(it->path());
       const std::size_t before = files.size();
       for (const fs::path& file : inside) {
+        // Overviews and masks are rasters too, but belong to the file beside them.
+        if (file.extension() == ".ovr" || file.extension() == ".msk") continue;
         const GdalErrors quiet;
         if (GDALIdentifyDriverEx(file.c_str(), GDAL_OF_RASTER, nullptr, nullptr) == nullptr) continue;
         const Dataset data = owned(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER));

@@ -12,6 +12,10 @@ namespace trimtab::terrain {
 namespace {
 
 constexpr std::uint32_t kCells = TerrainIndex::kTileCells;
+/// Columns meet at a pole. Nothing that close to it is drawn apart.
+constexpr double kShortest = 0.01;
+/// Steeper ground than this adds nothing more to what a shift sideways does to a height.
+constexpr double kCliff = 50;
 
 struct Measure {
   const PostGrid& posts;
@@ -92,7 +96,7 @@ void Measure::errorAndSlope(std::uint32_t node) const {
     if (r0 == r1) break;
     // Runs at their shortest within the cell.
     const double dy = std::min(geometry.rowM(r0), geometry.rowM(r1)) * (r1 - r0);
-    const double columnM = std::min(geometry.columnM(r0), geometry.columnM(r1));
+    const double columnM = std::max(std::min(geometry.columnM(r0), geometry.columnM(r1)), kShortest);
     for (std::uint32_t i = 0; i < kCells; ++i) {
       const std::uint32_t c0 = tile.column(i), c1 = tile.column(i + 1);
       if (c0 == c1) break;
@@ -115,7 +119,7 @@ void Measure::errorAndSlope(std::uint32_t node) const {
     const auto at = [&](std::uint32_t along) { return horizontal ? tile.column(along) : tile.row(along); };
     const double before = at(k + 1) - at(k), both = at(k + 2) - at(k);
     const std::uint32_t rowA = tile.row(horizontal ? even : k), rowB = tile.row(horizontal ? inner : k + 2);
-    const double columnM = std::min(geometry.columnM(rowA), geometry.columnM(rowB));
+    const double columnM = std::max(std::min(geometry.columnM(rowA), geometry.columnM(rowB)), kShortest);
     const double rowM = std::min(geometry.rowM(rowA), geometry.rowM(rowB));
     const double across = horizontal ? std::abs(double{1} * tile.row(inner) - tile.row(even)) * rowM
                                      : std::abs(double{1} * tile.column(inner) - tile.column(even)) * columnM;
@@ -155,7 +159,7 @@ void Measure::errorAndSlope(std::uint32_t node) const {
     }
   index.slopeMax[node] = static_cast<float>(steepest * (1 + 1e-6));
   const double astray = (level > 0 ? geometry.sagM(level) : 0.0) + geometry.roundingM();
-  index.errorM[node] = static_cast<float>((worst + astray * (1 + steepest)) * (1 + 1e-6));
+  index.errorM[node] = static_cast<float>((worst + astray * (1 + std::min(steepest, kCliff))) * (1 + 1e-6));
 }
 
 void gatherFromChildren(TerrainIndex& index) {

@@ -1,5 +1,8 @@
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <thread>
 
 #include "rasters.h"
@@ -47,7 +50,7 @@ TEST_F(Bake, givesWhatOpenGives) {
   ASSERT_TRUE(opened) << toString(opened.findings());
   EXPECT_TRUE(sameContents(**made, **opened));
   const TerrainInfo& info = (*opened)->info();
-  EXPECT_EQ(info.name, "db");
+  EXPECT_EQ(info.name, "ground");
   EXPECT_EQ(info.source, source_.string());
   EXPECT_EQ(info.columns, 90u);
   EXPECT_EQ(info.rows, 70u);
@@ -129,6 +132,45 @@ TEST_F(Bake, saysSoWhereItCannotWrite) {
   const auto made = bake(options_);
   ASSERT_FALSE(made);
   EXPECT_NE(toString(made.findings()).find("/proc/"), std::string::npos);
+}
+
+TEST_F(Bake, leavesNothingOnAFullDisk) {
+  // A limit on the size of files stands in for it.
+  const auto before = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &limit), 0);
+  rlimit little = limit;
+  little.rlim_cur = 9000;
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &little), 0);
+  const auto made = bake(options_);
+  const auto sample = writeSample(dir_ / "sample.tif", SampleOptions{1, 20, 300, nullptr});
+  setrlimit(RLIMIT_FSIZE, &limit);
+  std::signal(SIGXFSZ, before);
+  ASSERT_FALSE(made);
+  EXPECT_NE(toString(made.findings()).find("heights.f32"), std::string::npos) << toString(made.findings());
+  EXPECT_FALSE(sample);
+  EXPECT_EQ(test::namesIn(dir_.path()), std::vector<std::string>{"ground.tif"});
+}
+
+TEST_F(Bake, standsAPole) {
+  test::RasterRecipe recipe;
+  recipe.west = -180, recipe.north = -89.5, recipe.step = 0.5 / 49.5;
+  recipe.rows = 50;
+  recipe.columns = 300;
+  recipe.point = true;
+  recipe.value = [](int c, int r, int) { return 2800 + test::roughGround(c, r); };
+  options_.sources = {test::writeRaster(dir_ / "pole.tif", recipe)};
+  const auto made = bake(options_);
+  ASSERT_TRUE(made) << toString(made.findings());
+  const TerrainIndex& index = (*made)->index();
+  TileMesh mesh;
+  for (std::uint32_t node = 0; node < index.size(); ++node) {
+    EXPECT_TRUE(std::isfinite(index.errorM[node]) && std::isfinite(index.slopeMax[node]));
+    EXPECT_TRUE(std::isfinite(index.bounds[node].minX) && std::isfinite(index.bounds[node].maxZ));
+    (*made)->buildTile(node, mesh);
+    for (const TileVertex& v : mesh.vertices)
+      ASSERT_TRUE(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z));
+  }
 }
 
 TEST_F(Bake, refusesAFlippedByteInAnyFile) {
