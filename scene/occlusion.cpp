@@ -9,7 +9,7 @@
 namespace trimtab::scene {
 namespace {
 
-constexpr int kMaxLevels = 5;
+constexpr int kLevels = OcclusionPass::kLevels;
 constexpr int kResultWidth = OcclusionPass::kTilesPerRow * kParts;
 
 GLuint makeTexture() {
@@ -25,6 +25,11 @@ GLuint makeTexture() {
 
 int halved(int size, int times) {
   return (size + (1 << times) - 1) >> times;
+}
+
+/// The least multiple of `block` that holds `size` in an odd number of blocks, three at least.
+int oddBlocks(int size, int block) {
+  return block * std::max(3, (size + block - 1) / block | 1);
 }
 
 void bindTexture(int unit, GLenum target, GLuint texture) {
@@ -49,22 +54,24 @@ OcclusionPass::~OcclusionPass() {
 }
 
 void OcclusionPass::resizeMap(int width, int height) {
-  if (depth_ != 0 && width == width_ && height == height_) return;
-  for (const GLuint texture : {depth_, pyramid_}) glDeleteTextures(1, &texture);
   width_ = width;
   height_ = height;
+  if (width <= storedWidth_ && height <= storedHeight_) return;
+  // Storage only grows, and its sides are never powers of two: a software rasteriser compiles shaders anew
+  // for a texture whose are (half a second, measured), and the decision changes size in mid-flight.
+  storedWidth_ = oddBlocks(std::max(width, storedWidth_), 1);
+  storedHeight_ = oddBlocks(std::max(height, storedHeight_), 1);
+  for (const GLuint texture : {depth_, pyramid_}) glDeleteTextures(1, &texture);
   depth_ = makeTexture();
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width, height, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
-               nullptr);
-  // Sizes of texture levels round down; a pyramid that must cover every texel rounds up. So the whole texture
-  // is a multiple of what its levels halve.
-  levels_ = 0;
-  while (levels_ < kMaxLevels && std::max(halved(width, levels_), halved(height, levels_)) > 16) ++levels_;
-  levels_ = std::max(levels_, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, storedWidth_, storedHeight_, 0, GL_DEPTH_COMPONENT,
+               GL_FLOAT, nullptr);
+  // Sizes of texture levels round down; a pyramid that must cover every texel rounds up. So its base is a
+  // multiple of what its levels halve.
+  constexpr int kBlock = 1 << (kLevels - 1);
   pyramid_ = makeTexture();
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
-  glTexStorage2D(GL_TEXTURE_2D, levels_, GL_R32F, halved(width, levels_) << (levels_ - 1),
-                 halved(height, levels_) << (levels_ - 1));
+  glTexStorage2D(GL_TEXTURE_2D, kLevels, GL_R32F, oddBlocks(halved(storedWidth_, 1), kBlock),
+                 oddBlocks(halved(storedHeight_, 1), kBlock));
   glBindTexture(GL_TEXTURE_2D, 0);
   glBindFramebuffer(GL_FRAMEBUFFER, frame_);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_, 0);
@@ -108,7 +115,7 @@ void OcclusionPass::reduce(unsigned program) {
   const GLint size = glGetUniformLocation(program, "sourceSize");
   glBindFramebuffer(GL_FRAMEBUFFER, reduceFrame_);
   glBindVertexArray(emptyArray_);
-  for (int level = 0; level < levels_; ++level) {
+  for (int level = 0; level < kLevels; ++level) {
     if (level == 0) {
       bindTexture(kDepthUnit, GL_TEXTURE_2D, depth_);
     } else {
@@ -123,7 +130,7 @@ void OcclusionPass::reduce(unsigned program) {
   }
   bindTexture(kDepthUnit, GL_TEXTURE_2D, pyramid_);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, 0);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, levels_ - 1);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, kLevels - 1);
   bindTexture(kDepthUnit, GL_TEXTURE_2D, 0);
   glActiveTexture(GL_TEXTURE0);
   glBindVertexArray(0);
@@ -162,9 +169,8 @@ void OcclusionPass::test(const TileCache& tiles, std::vector<std::uint8_t>& flag
 void OcclusionPass::read(std::vector<float>& depths) const {
   depths.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   if (depths.empty()) return;
-  glBindTexture(GL_TEXTURE_2D, depth_);
-  glGetTexImage(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
-  glBindTexture(GL_TEXTURE_2D, 0);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_);
+  glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
 }
 
 }  // namespace trimtab::scene

@@ -34,11 +34,10 @@ class OcclusionPass {
   OcclusionPass& operator=(const OcclusionPass&) = delete;
 
   static constexpr int kTilesPerRow = 64;
+  static constexpr int kLevels = 5;  ///< halvings that the pyramid has
 
   /// Sizes the depth map and lists the tiles (by slot) to be tested.
   void prepare(int width, int height, std::span<const std::uint32_t> slots);
-  /// Halvings that the pyramid has.
-  int levels() const { return levels_; }
 
   /// Binds and clears the depth map; the occluders are drawn next.
   void beginDepth();
@@ -47,7 +46,7 @@ class OcclusionPass {
   /// Tests and reads back, waiting for it: one flag a tile in the order of `prepare`. 0 drawn, 1 hidden, 2
   /// outside the view.
   void test(const TileCache& tiles, std::vector<std::uint8_t>& flags);
-  /// Depths of the last map (near / distance), row 0 at the bottom.
+  /// Depths of the last map (near / distance), row 0 at the bottom. Leaves its framebuffer bound for reading.
   void read(std::vector<float>& depths) const;
   int width() const { return width_; }
   int height() const { return height_; }
@@ -56,7 +55,7 @@ class OcclusionPass {
   void resizeMap(int width, int height);
   void resizeResult(int rows);
 
-  int width_ = 0, height_ = 0, levels_ = 0, resultRows_ = 0, count_ = 0;
+  int width_ = 0, height_ = 0, storedWidth_ = 0, storedHeight_ = 0, resultRows_ = 0, count_ = 0;
   unsigned depth_ = 0, pyramid_ = 0, frame_ = 0, reduceFrame_ = 0;
   unsigned result_ = 0, resultFrame_ = 0;
   unsigned testedBuffer_ = 0, testedTexture_ = 0, emptyArray_ = 0;

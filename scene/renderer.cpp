@@ -134,7 +134,7 @@ std::optional<DepthView> Renderer::Impl::prepareOcclusion() {
   return DepthView{cullEye,
                    size->widthPx,
                    size->heightPx,
-                   gl->occlusion.levels(),
+                   OcclusionPass::kLevels,
                    static_cast<int>(testedSlots.size()),
                    loweringScale};
 }
@@ -286,7 +286,10 @@ Renderer::Grey Renderer::readDepthMap() {
   if (!impl_->gl || !impl_->depthMapCurrent) return {};
   std::vector<float> depths;
   const OcclusionPass& pass = impl_->gl->occlusion;
+  GLint before = 0;
+  glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &before);
   pass.read(depths);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(before));
   Grey grey{pass.width(), pass.height(), std::vector<std::uint8_t>(depths.size(), 255)};
   // By the logarithm of the distance from 50 m to 200 km: the same step is the same ratio near and far.
   constexpr double kFrom = 50, kTo = 200e3;
