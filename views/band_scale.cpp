@@ -188,6 +188,10 @@ void BandScale::keyPressEvent(QKeyEvent* event) {
     case Qt::Key_Right:
     case Qt::Key_Up:
       return nudge(step);
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
+      if (selected_ >= 0) emit typingAsked();
+      return;
     case Qt::Key_Insert:
       return addBandInSelected();
     case Qt::Key_Delete:

@@ -33,6 +33,7 @@ class BandScale : public QWidget {
  signals:
   void selectedChanged(int index);
   void refused(const QString& why);
+  void typingAsked();  ///< the person wants to type the selected band's values
 
  protected:
   void paintEvent(QPaintEvent* event) override;

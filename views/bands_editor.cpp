@@ -110,6 +110,10 @@ BandsEditor::BandsEditor(Draft& draft, QWidget* parent)
           [this](const QModelIndex& current) {
             if (current.isValid()) scale_->select(current.row());
           });
+  connect(scale_, &BandScale::typingAsked, this, [this] {
+    table_->setFocus();
+    table_->edit(model_->index(scale_->selected(), BandsModel::kFrom));
+  });
   connect(scale_, &BandScale::refused, this, &BandsEditor::say);
   connect(model_, &BandsModel::refused, this, &BandsEditor::say);
   connect(hysteresis, &NumberBox::refused, this, &BandsEditor::say);

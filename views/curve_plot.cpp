@@ -17,10 +17,6 @@ CurvePlot::CurvePlot(Draft& draft, CurveSpec spec, QWidget* parent)
   setFocusPolicy(Qt::StrongFocus);
   setMouseTracking(true);
   setAccessibleName(tr("%1 membership curve").arg(spec_.quantity));
-  setAccessibleDescription(
-      tr("Tab selects a breakpoint, arrow keys move it (Shift: ten times as far), Insert adds one, Delete "
-         "removes "
-         "it."));
   makeItems();
   colour();
   fitView();
@@ -32,7 +28,9 @@ CurvePlot::CurvePlot(Draft& draft, CurveSpec spec, QWidget* parent)
     redraw();
   });
   connect(&draft_, &Draft::loaded, this, &CurvePlot::fitView);
-  connect(&draft_, &Draft::findingsChanged, this, &CurvePlot::redraw);
+  connect(&draft_, &Draft::findingsChanged, this, [this] {
+    if (isAtFault() != shownAtFault_) redraw();
+  });
 }
 
 void CurvePlot::makeItems() {
@@ -119,6 +117,24 @@ void CurvePlot::fitView() {
   redraw();
 }
 
+bool CurvePlot::isAtFault() const {
+  return draft_.isBroken() && !draft_.findingsOf(spec_.key).empty();
+}
+
+void CurvePlot::describe(const CurvePoints& shown) {
+  QString text;
+  if (selected_ >= 0 && selected_ < static_cast<int>(shown.size)) {
+    const CurvePoint& p = shown.point[static_cast<std::size_t>(selected_)];
+    text = tr("Breakpoint %1 of %2: %3 %4, membership %5. ")
+               .arg(selected_ + 1)
+               .arg(shown.size)
+               .arg(numberText(p.x, 3), spec_.unit, numberText(p.y, 4));
+  }
+  setAccessibleDescription(
+      text + tr("Tab selects a breakpoint, arrow keys move it (Shift: ten times as far), Enter types "
+                "its values, Insert adds one, Delete removes it."));
+}
+
 void CurvePlot::redraw() {
   const CurvePoints shown = curve();
   QVector<double> px, py;
@@ -127,8 +143,8 @@ void CurvePlot::redraw() {
     py.append(p.y);
   }
   handles_->setData(px, py);
-  const QColor edge = !draft_.findingsOf(spec_.key).empty() && draft_.isBroken() ? errorColour(palette())
-                                                                                 : seriesColour(0, palette());
+  shownAtFault_ = isAtFault();
+  const QColor edge = shownAtFault_ ? errorColour(palette()) : seriesColour(0, palette());
   QCPScatterStyle style = handles_->scatterStyle();
   style.setPen(QPen(editable() ? edge : blend(palette().color(QPalette::Base), edge, 0.4), 1.6));
   handles_->setScatterStyle(style);
@@ -136,6 +152,7 @@ void CurvePlot::redraw() {
     chosen_->setData({px[selected_]}, {py[selected_]});
   else
     chosen_->data()->clear();
+  describe(shown);
 
   // The curve's own lines, constant beyond its ends; drawn only where the reading makes something else of
   // them.

@@ -37,6 +37,7 @@ class CurvePlot : public QCustomPlot {
  signals:
   void selectedChanged(int index);
   void refused(const QString& why);
+  void typingAsked();  ///< the person wants to type the selected point's values
 
  protected:
   void mousePressEvent(QMouseEvent* event) override;
@@ -56,6 +57,8 @@ class CurvePlot : public QCustomPlot {
 
  private:
   void makeItems();
+  bool isAtFault() const;
+  void describe(const CurvePoints& shown);
   void colour();
   void redraw();
   void redrawEffective(const CurvePoints& shown);
@@ -78,6 +81,7 @@ class CurvePlot : public QCustomPlot {
   CurvePoints dragStart_;
   QPointF grabOffset_;
   bool fitted_ = true;
+  bool shownAtFault_ = false;
   std::optional<CurvePoint> live_;
   Throttle liveThrottle_;
 

@@ -168,6 +168,10 @@ void CurvePlot::keyPressEvent(QKeyEvent* event) {
     case Qt::Key_Delete:
     case Qt::Key_Backspace:
       return removeSelected();
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
+      if (selected_ >= 0) emit typingAsked();
+      return;
     case Qt::Key_Home:
       return select(0);
     case Qt::Key_End:

@@ -90,6 +90,10 @@ CurveEditor::CurveEditor(Draft& draft, const CurveSpec& spec, const QList<QWidge
           [this](const QModelIndex& current) {
             if (current.isValid()) plot_->select(current.row());
           });
+  connect(plot_, &CurvePlot::typingAsked, this, [this] {
+    table_->setFocus();
+    table_->edit(table_->model()->index(plot_->selected(), 0));
+  });
   connect(plot_, &CurvePlot::refused, this, &CurveEditor::say);
   connect(model, &CurvePointsModel::refused, this, &CurveEditor::say);
   connect(model, &CurvePointsModel::accepted, this, [this] { say({}); });

@@ -51,7 +51,7 @@ NumberBox::NumberBox(Draft& draft, std::string_view key, QWidget* parent)
   setToolTip(helpText(*row_));
   if (!row_->unit.empty())
     setSuffix((row_->unit == "°" ? QString() : QStringLiteral(" ")) + fromView(row_->unit));
-  setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("0.000000 ms")) + 34);
+  setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("0.0000 ms")) + 32);
   read();
   connect(&draft_, &Draft::valueChanged, this, [this](const QString& changed) {
     if (changed.toStdString() == row_->key) read();

@@ -62,7 +62,8 @@ ParameterLine::ParameterLine(Draft& draft, const ParameterRow& row, QGridLayout&
   label_->setBuddy(editor_);
   label_->setWordWrap(true);
   label_->setMinimumWidth(label_->fontMetrics().horizontalAdvance(QStringLiteral("membership offset")));
-  default_->setForegroundRole(QPalette::WindowText);
+  default_->setWordWrap(true);
+  default_->setMinimumWidth(default_->fontMetrics().horizontalAdvance(QStringLiteral("0.00001")));
   for (QWidget* widget : {static_cast<QWidget*>(label_), static_cast<QWidget*>(default_), field_})
     widget->setToolTip(help);
   reset_->setText(QStringLiteral("↺"));

@@ -25,7 +25,7 @@ ParameterSlider::ParameterSlider(Draft& draft, std::string_view key, QWidget* pa
                     ? 10
                     : std::clamp(static_cast<int>(std::ceil(kPositions / steps)), 1, kPositions / 10));
   setFocusPolicy(Qt::StrongFocus);
-  setMinimumWidth(60);
+  setMinimumWidth(40);
   setAccessibleName(
       tr("%1, slider")
           .arg(QString::fromUtf8(row_->label.data(), static_cast<qsizetype>(row_->label.size()))));

@@ -9,8 +9,9 @@
 namespace trimtab::views {
 
 namespace {
+constexpr int kRoomForBudgetTextPx = 320;
 constexpr double kShortestSpanS = 0.05, kLongestSpanS = 3600 * 4;
-}
+}  // namespace
 
 TimePlot::TimePlot(const TraceBuffer& buffer, QWidget* parent) : QCustomPlot(parent), buffer_(buffer) {
   setFocusPolicy(Qt::StrongFocus);
@@ -223,6 +224,9 @@ void TimePlot::draw() {
       high = top[i] > 0 ? top[i] * 1.4 : 1;
     }
     lanes_[i].rect->axis(QCPAxis::atLeft)->setRange(0, high);
+    // In a narrow dock the legend needs the room.
+    if (lanes_[i].budgetText)
+      lanes_[i].budgetText->setVisible(lanes_[i].rect->width() > kRoomForBudgetTextPx);
   }
   lanes_[2].rect->axis(QCPAxis::atRight)->setRange(0, fps > 0 ? fps * 1.4 : 100);
   lanes_.back().rect->axis(QCPAxis::atBottom)->setNumberPrecision(span_ < 2 ? 2 : span_ < 20 ? 1 : 0);

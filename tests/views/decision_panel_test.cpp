@@ -84,8 +84,10 @@ TEST_F(DecisionPanelTest, copiesTheSelectionOrAll) {
   ASSERT_EQ(some.size(), 2);
   EXPECT_EQ(some[0], "time_s\tpacket\tscheme\tdepth_map_px\treason");
   EXPECT_TRUE(some[1].startsWith("0.500\t1\tdynamic\t400x300\t"));
-  view.selectAll();
-  panel_.copyLog();
+  panel_.activateWindow();
+  view.setFocus();
+  QTest::keyClick(&view, Qt::Key_A, Qt::ControlModifier);
+  QTest::keyClick(&view, Qt::Key_C, Qt::ControlModifier);
   EXPECT_EQ(QApplication::clipboard()->text().split('\n', Qt::SkipEmptyParts).size(), 4);
 }
 

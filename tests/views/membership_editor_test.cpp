@@ -150,6 +150,20 @@ TEST_F(MembershipEditorTest, typedValuesAreTakenOrRefusedWithAReason) {
   EXPECT_EQ(draft_.undoStack().count(), 2);
 }
 
+TEST_F(MembershipEditorTest, enterTypesTheSelectedPoint) {
+  editor_.activateWindow();
+  plot().setFocus();
+  plot().select(1);
+  QTest::keyClick(&plot(), Qt::Key_Return);
+  QWidget* cell = QApplication::focusWidget();
+  ASSERT_NE(cell, &plot());
+  QTest::keyClicks(cell, "5300");
+  QTest::keyClick(cell, Qt::Key_Return);
+  QCoreApplication::processEvents();
+  EXPECT_EQ(curve().point[1].x, 5300);
+  EXPECT_TRUE(plot().accessibleDescription().startsWith("Breakpoint 2 of 5: 5,300 ft"));
+}
+
 TEST_F(MembershipEditorTest, whatTheReadingComputesIsDrawn) {
   draft_.setValue(key::kAltitudeReading, ChoiceIndex{1});
   // equation_a jumps from 0.7 to 0.6 at 5000 ft (document A, Eq. 1 against Table 1).
