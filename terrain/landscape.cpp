@@ -201,20 +201,25 @@ class Process {
     for (std::uint32_t k = 0; k < order_.size(); ++k) next_[order_[k]] = k;
     const auto width = static_cast<std::int32_t>(side_);
     ++turn_;
-    for (const std::uint32_t cell : order_) {
-      if (receiver_[cell] == cell) continue;
-      const auto r = static_cast<std::int32_t>(cell / side_), c = static_cast<std::int32_t>(cell % side_);
-      double best = 0;
-      const double diagonal = 1 / (1.41421356 + 0.35 * lattice(c, r, turn_));
-      for (std::int32_t dr = -1; dr <= 1; ++dr)
-        for (std::int32_t dc = -1; dc <= 1; ++dc) {
-          const std::int32_t row = r + dr, column = c + dc;
-          if (row < 0 || column < 0 || row >= width || column >= width) continue;
-          const auto other = static_cast<std::uint32_t>(row * width + column);
-          const double fall = (heights[cell] - heights[other]) * (dr != 0 && dc != 0 ? diagonal : 1);
-          if (fall > best && next_[other] < next_[cell]) best = fall, receiver_[cell] = other;
-        }
-    }
+    forEachParallel(
+        side_,
+        [&](std::uint32_t at) {
+          const auto r = static_cast<std::int32_t>(at);
+          for (std::int32_t c = 0; c < width; ++c) {
+            const std::uint32_t cell = at * side_ + static_cast<std::uint32_t>(c);
+            if (!land_[cell]) continue;
+            const double diagonal = 1 / (1.41421356 + 0.35 * lattice(c, r, turn_));
+            double best = 0;
+            for (std::int32_t row = std::max(0, r - 1); row <= std::min(width - 1, r + 1); ++row)
+              for (std::int32_t column = std::max(0, c - 1); column <= std::min(width - 1, c + 1); ++column) {
+                const auto other = static_cast<std::uint32_t>(row * width + column);
+                const double fall =
+                    (heights[cell] - heights[other]) * (row != r && column != c ? diagonal : 1);
+                if (fall > best && next_[other] < next_[cell]) best = fall, receiver_[cell] = other;
+              }
+          }
+        },
+        nullptr);
   }
 
   void accumulate() {
@@ -247,14 +252,18 @@ class Process {
   /// Soil creeps: ridges are round, and slopes between streams are one piece.
   void creep(float share) {
     scratch_ = heights;
-    for (std::size_t r = 0; r < side_; ++r)
-      for (std::size_t c = 0; c < side_; ++c) {
-        const std::size_t i = r * side_ + c;
-        if (!land_[i] || drained[i] > kStreamM2) continue;
-        const std::size_t w = c == 0 ? i : i - 1, e = c + 1 == side_ ? i : i + 1, s = r == 0 ? i : i - side_,
-                          n = r + 1 == side_ ? i : i + side_;
-        heights[i] += share * ((scratch_[w] + scratch_[e] + scratch_[s] + scratch_[n]) / 4 - scratch_[i]);
-      }
+    forEachParallel(
+        side_,
+        [&](std::uint32_t r) {
+          for (std::size_t c = 0; c < side_; ++c) {
+            const std::size_t i = r * side_ + c;
+            if (!land_[i] || drained[i] > kStreamM2) continue;
+            const std::size_t w = c == 0 ? i : i - 1, e = c + 1 == side_ ? i : i + 1,
+                              s = r == 0 ? i : i - side_, n = r + 1 == side_ ? i : i + side_;
+            heights[i] += share * ((scratch_[w] + scratch_[e] + scratch_[s] + scratch_[n]) / 4 - scratch_[i]);
+          }
+        },
+        nullptr);
   }
 
   static constexpr double kSteepest = 0.9;
@@ -322,7 +331,7 @@ Landscape erodedLandscape(const LandscapeShape& shape, const std::function<bool(
   // Large forms come from a coarse grid, where a step is cheap; each finer one adds its own valleys.
   std::vector<std::uint32_t> sides{shape.side};
   while (sides.back() > 450) sides.push_back((sides.back() + 1) / 2);
-  constexpr std::array<int, 3> kSteps{3, 6, 50};
+  constexpr std::array<int, 3> kSteps{2, 6, 40};
   const auto stepsOf = [&](std::size_t k) {
     return k + 1 == sides.size() ? kSteps[2] : kSteps[std::min<std::size_t>(k, 1)];
   };
@@ -341,7 +350,7 @@ Landscape erodedLandscape(const LandscapeShape& shape, const std::function<bool(
     process = std::move(finer);
     const bool coarsest = k + 1 == sides.size();
     for (int step = 0; step < stepsOf(k); ++step) {
-      process->step(coarsest ? (step < 30 ? 70 : 30) : 8);
+      process->step(coarsest ? (step < 25 ? 80 : 30) : 8);
       done += costOf(k);
       if (carryOn && !carryOn(done / total)) return {};
     }
