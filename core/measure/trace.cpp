@@ -70,6 +70,9 @@ bool parse(std::string_view cell, SchemeReason& reason, Expected& expected) {
   return parseName(cell, reason, SchemeReason::altitude_unknown);
 }
 
+/// Whether a cell may be empty; cells of the frame are all empty where no frame showed the decision.
+enum class Cell { required, optional, frame };
+
 /// A row as a flat list of cells. Groups that may be absent as a whole have a flag that their first cell
 /// decides.
 struct Flat {
@@ -89,77 +92,71 @@ struct IsOptional : std::false_type {};
 template <class T>
 struct IsOptional<std::optional<T>> : std::true_type {};
 
-/// Calls `visit(name, required, cell)` for each column in the file's order: the one list that header, writer
+/// Calls `visit(name, cell, value)` for each column in the file's order: the one list that header, writer
 /// and reader share.
 template <class F, class Visit>
 void forEachColumn(F& f, const Visit& visit) {
   auto& state = f.row.input.state;
-  visit("time_s", true, state.time);
-  visit("latitude_deg", true, state.position.latitude);
-  visit("longitude_deg", true, state.position.longitude);
-  visit("altitude_ft", false, f.altitude);
-  visit("pitch_deg", true, state.attitude.pitch);
-  visit("roll_deg", true, state.attitude.roll);
-  visit("heading_deg", true, state.attitude.heading);
-  visit("head_heading_deg", false, f.headHeading);
-  visit("head_pitch_deg", false, f.headPitch);
+  visit("time_s", Cell::required, state.time);
+  visit("latitude_deg", Cell::required, state.position.latitude);
+  visit("longitude_deg", Cell::required, state.position.longitude);
+  visit("altitude_ft", Cell::optional, f.altitude);
+  visit("pitch_deg", Cell::required, state.attitude.pitch);
+  visit("roll_deg", Cell::required, state.attitude.roll);
+  visit("heading_deg", Cell::required, state.attitude.heading);
+  visit("head_heading_deg", Cell::optional, f.headHeading);
+  visit("head_pitch_deg", Cell::optional, f.headPitch);
 
-  visit("packet", true, state.packet);
-  visit("height_m", true, f.height);
-  visit("above_ground_m", false, f.row.input.aboveGround);
-  visit("head_roll_deg", false, f.headRoll);
-  visit("visibility_m", false, state.visibility);
-  visit("view_near_m", false, f.view.nearDistance);
-  visit("view_left_deg", false, f.view.left);
-  visit("view_right_deg", false, f.view.right);
-  visit("view_bottom_deg", false, f.view.bottom);
-  visit("view_top_deg", false, f.view.top);
-  visit("band_before", false, f.row.before.band);
+  visit("packet", Cell::required, state.packet);
+  visit("height_m", Cell::required, f.height);
+  visit("above_ground_m", Cell::optional, f.row.input.aboveGround);
+  visit("head_roll_deg", Cell::optional, f.headRoll);
+  visit("visibility_m", Cell::optional, state.visibility);
+  visit("view_near_m", Cell::optional, f.view.nearDistance);
+  visit("view_left_deg", Cell::optional, f.view.left);
+  visit("view_right_deg", Cell::optional, f.view.right);
+  visit("view_bottom_deg", Cell::optional, f.view.bottom);
+  visit("view_top_deg", Cell::optional, f.view.top);
+  visit("band_before", Cell::optional, f.row.before.band);
   auto& last = f.row.input.lastCost;
-  visit("last_decide_ms", false, last.decide);
-  visit("last_select_ms", false, last.select);
-  visit("last_occlusion_ms", false, last.occlusion);
-  visit("last_cull_ms", false, last.cull);
-  visit("last_draw_ms", false, last.draw);
-  visit("last_gpu_ms", false, last.gpu);
-  visit("last_total_ms", false, last.total);
+  visit("last_decide_ms", Cell::optional, last.decide);
+  visit("last_select_ms", Cell::optional, last.select);
+  visit("last_occlusion_ms", Cell::optional, last.occlusion);
+  visit("last_cull_ms", Cell::optional, last.cull);
+  visit("last_draw_ms", Cell::optional, last.draw);
+  visit("last_gpu_ms", Cell::optional, last.gpu);
+  visit("last_total_ms", Cell::optional, last.total);
 
   auto& d = f.row.decision;
-  visit("decision_altitude_ft", true, d.altitudeFt);
-  visit("decision_pitch_deg", true, d.pitchDeg);
-  visit("altitude_membership", true, d.altitudeMembership);
-  visit("pitch_membership", true, d.pitchMembership);
-  visit("total_membership", true, d.totalMembership);
-  visit("rule_low_down", true, d.ruleFiring[0]);
-  visit("rule_low_up", true, d.ruleFiring[1]);
-  visit("rule_high_down", true, d.ruleFiring[2]);
-  visit("rule_high_up", true, d.ruleFiring[3]);
-  visit("scheme", true, d.scheme);
-  visit("band", true, d.band);
-  visit("depth_map_width_px", false, f.depthMapWidth);
-  visit("depth_map_height_px", false, f.depthMapHeight);
-  visit("reason", true, d.reason);
-  visit("lod_scale", true, d.lodScale);
+  visit("decision_altitude_ft", Cell::required, d.altitudeFt);
+  visit("decision_pitch_deg", Cell::required, d.pitchDeg);
+  visit("altitude_membership", Cell::required, d.altitudeMembership);
+  visit("pitch_membership", Cell::required, d.pitchMembership);
+  visit("total_membership", Cell::required, d.totalMembership);
+  visit("rule_low_down", Cell::required, d.ruleFiring[0]);
+  visit("rule_low_up", Cell::required, d.ruleFiring[1]);
+  visit("rule_high_down", Cell::required, d.ruleFiring[2]);
+  visit("rule_high_up", Cell::required, d.ruleFiring[3]);
+  visit("scheme", Cell::required, d.scheme);
+  visit("band", Cell::required, d.band);
+  visit("depth_map_width_px", Cell::optional, f.depthMapWidth);
+  visit("depth_map_height_px", Cell::optional, f.depthMapHeight);
+  visit("reason", Cell::required, d.reason);
+  visit("lod_scale", Cell::required, d.lodScale);
 
-  visit("triangles", false, f.frame.counts.triangles);
-  visit("vertices", false, f.frame.counts.vertices);
-  visit("tiles_drawn", false, f.frame.counts.tilesDrawn);
-  visit("culled_frustum", false, f.frame.counts.culledFrustum);
-  visit("culled_occluded", false, f.frame.counts.culledOccluded);
+  visit("triangles", Cell::frame, f.frame.counts.triangles);
+  visit("vertices", Cell::frame, f.frame.counts.vertices);
+  visit("tiles_drawn", Cell::frame, f.frame.counts.tilesDrawn);
+  visit("culled_frustum", Cell::frame, f.frame.counts.culledFrustum);
+  visit("culled_occluded", Cell::frame, f.frame.counts.culledOccluded);
   auto& cost = f.frame.cost;
-  visit("decide_ms", false, cost.decide);
-  visit("select_ms", false, cost.select);
-  visit("occlusion_ms", false, cost.occlusion);
-  visit("cull_ms", false, cost.cull);
-  visit("draw_ms", false, cost.draw);
-  visit("gpu_ms", false, cost.gpu);
-  visit("total_ms", false, cost.total);
-}
-
-bool isFrameColumn(const void* cell, const Flat& flat) {
-  const auto* begin = reinterpret_cast<const char*>(&flat.frame);
-  const auto* at = static_cast<const char*>(cell);
-  return at >= begin && at < begin + sizeof flat.frame;
+  visit("decide_ms", Cell::frame, cost.decide);
+  visit("select_ms", Cell::frame, cost.select);
+  visit("occlusion_ms", Cell::frame, cost.occlusion);
+  visit("cull_ms", Cell::frame, cost.cull);
+  visit("draw_ms", Cell::frame, cost.draw);
+  visit("gpu_ms", Cell::frame, cost.gpu);
+  visit("total_ms", Cell::frame, cost.total);
 }
 
 Flat flatten(const TraceRow& row) {
@@ -167,7 +164,7 @@ Flat flatten(const TraceRow& row) {
   f.row = row;
   const AircraftState& state = row.input.state;
   f.height = state.position.height;
-  f.altitude = f.height.as<Feet>();
+  f.altitude = Feet{f.height.value() / unit::Foot::size};
   if (!f.row.input.aboveGround) f.row.input.aboveGround = state.aboveGround;
   if (state.head) {
     f.headHeading = state.head->heading.value();
@@ -224,11 +221,11 @@ std::vector<std::size_t> placesOf(std::string_view header, const std::string& wh
   const std::vector<std::string_view> names = cellsOf(header);
   std::vector<std::size_t> places;
   Flat none;
-  forEachColumn(none, [&](const char* name, bool required, const auto&) {
+  forEachColumn(none, [&](const char* name, Cell kind, const auto&) {
     std::size_t place = kAbsent;
     for (std::size_t i = 0; i < names.size(); ++i)
       if (names[i] == name) place = i;
-    if (place == kAbsent && required)
+    if (place == kAbsent && kind == Cell::required)
       findings.push_back({Severity::error, where + ":1", name, "this column", "no such column"});
     places.push_back(place);
   });
@@ -239,20 +236,20 @@ std::vector<std::size_t> placesOf(std::string_view header, const std::string& wh
 void readCells(const std::vector<std::string_view>& cells, const std::vector<std::size_t>& places,
                const std::string& where, Flat& flat, Findings& findings) {
   std::size_t column = 0;
-  forEachColumn(flat, [&](const char* name, bool required, auto& value) {
+  forEachColumn(flat, [&](const char* name, Cell kind, auto& value) {
     const std::size_t place = places[column++];
     const std::string_view cell = place < cells.size() ? cells[place] : std::string_view{};
     Expected expected;
     bool good = true;
     if (cell.empty()) {
-      good = !required;
+      good = kind != Cell::required;
       expected.what = "a value";
     } else if constexpr (IsOptional<std::remove_reference_t<decltype(value)>>::value) {
       good = parse(cell, value.emplace(), expected);
     } else {
       good = parse(cell, value, expected);
     }
-    if (!cell.empty() && isFrameColumn(&value, flat)) flat.hasFrame = true;
+    if (!cell.empty() && kind == Cell::frame) flat.hasFrame = true;
     if (!good && findings.size() < kMostFindings)
       findings.push_back({Severity::error, where, name, expected.what,
                           cell.empty() ? "nothing" : '"' + std::string(cell.substr(0, 40)) + '"'});
@@ -286,7 +283,7 @@ std::string_view toText(SchemeReason reason) {
 std::string traceHeader() {
   std::string header;
   Flat none;
-  forEachColumn(none, [&header](const char* name, bool, const auto&) {
+  forEachColumn(none, [&header](const char* name, Cell, const auto&) {
     if (!header.empty()) header += ',';
     header += name;
   });
@@ -296,10 +293,10 @@ std::string traceHeader() {
 void appendTraceRow(std::string& text, const TraceRow& row) {
   const Flat flat = flatten(row);
   bool first = true;
-  forEachColumn(flat, [&](const char*, bool, const auto& value) {
+  forEachColumn(flat, [&](const char*, Cell kind, const auto& value) {
     if (!first) text += ',';
     first = false;
-    if (!flat.hasFrame && isFrameColumn(&value, flat)) return;
+    if (!flat.hasFrame && kind == Cell::frame) return;
     if constexpr (IsOptional<std::remove_cvref_t<decltype(value)>>::value) {
       if (value) print(text, *value);
     } else {
