@@ -62,7 +62,7 @@ ParameterLine::ParameterLine(Draft& draft, const ParameterRow& row, QGridLayout&
   label_->setBuddy(editor_);
   label_->setWordWrap(true);
   label_->setMinimumWidth(label_->fontMetrics().horizontalAdvance(QStringLiteral("membership offset")));
-  default_->setWordWrap(true);
+
   default_->setMinimumWidth(default_->fontMetrics().horizontalAdvance(QStringLiteral("0.00001")));
   for (QWidget* widget : {static_cast<QWidget*>(label_), static_cast<QWidget*>(default_), field_})
     widget->setToolTip(help);
@@ -156,9 +156,14 @@ void ParameterLine::setVisible(bool visible) {
   visible_ = visible;
   label_->setVisible(visible);
   field_->setVisible(visible);
-  default_->setVisible(visible);
+  default_->setVisible(visible && !compact_);
   reset_->setVisible(visible);
   problem_->setVisible(visible && !problem_->text().isEmpty());
+}
+
+void ParameterLine::setCompact(bool compact) {
+  compact_ = compact;
+  default_->setVisible(visible_ && !compact_);
 }
 
 void ParameterLine::refresh() {

@@ -28,6 +28,8 @@ class ParameterLine : public QObject {
   QString problem() const;
   bool matches(const QString& search) const;
   void setVisible(bool visible);
+  /// In a narrow dock the default is left to the tool tips.
+  void setCompact(bool compact);
   bool isVisible() const { return visible_; }
   void refresh();
   void clearRefusal() { refusal_.clear(); }
@@ -49,7 +51,7 @@ class ParameterLine : public QObject {
     friend bool operator==(const State&, const State&) = default;
   };
   State shown_;
-  bool visible_ = true;
+  bool visible_ = true, compact_ = false;
 };
 
 }  // namespace trimtab::views

@@ -44,6 +44,7 @@ ParameterTable::ParameterTable(Draft& draft, QWidget* parent)
   QGridLayout* grid = new QGridLayout(content);
   grid->setHorizontalSpacing(8);
   grid->setVerticalSpacing(3);
+  grid->setContentsMargins(4, 4, 4, 4);
   grid->setColumnStretch(1, 1);
   makeLines(*grid);
   QScrollArea* area = new QScrollArea;
@@ -136,6 +137,15 @@ std::vector<std::string_view> ParameterTable::visibleKeys() const {
     for (const ParameterLine* line : group.lines)
       if (line->isVisible()) keys.push_back(line->row().key);
   return keys;
+}
+
+void ParameterTable::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  const bool compact = width() < fontMetrics().horizontalAdvance(QLatin1Char('0')) * 56;
+  if (compact == compact_) return;
+  compact_ = compact;
+  for (const Group& group : groups_)
+    for (ParameterLine* line : group.lines) line->setCompact(compact);
 }
 
 void ParameterTable::filter() {

@@ -31,6 +31,9 @@ class ParameterTable : public QWidget {
   ParameterLine* line(std::string_view key) const;
   std::vector<std::string_view> visibleKeys() const;
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
   struct Group {
     QString name;
@@ -50,6 +53,7 @@ class ParameterTable : public QWidget {
   QPushButton* resetAll_;
   QLabel *summary_, *nothing_;
   std::vector<Group> groups_;
+  bool compact_ = false;
 };
 
 }  // namespace trimtab::views
