@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include "trimtab/preset/json_text.h"
 #include "trimtab/preset/migration.h"

@@ -19,7 +19,7 @@ namespace {
 using test::sameBits;
 using ::testing::HasSubstr;
 
-const Provenance kProvenance{"A. \"Author\" <a@b> & co", "2024-05-06T07:08:09Z", "test 1.0",
+const Provenance kProvenance{"A. \"Author\" <a@b> & &lt; co", "2024-05-06T07:08:09Z", "test 1.0",
                              "/data/caf\xc3\xa9.db", "two\nlines; # sha256: \\ end"};
 const std::string kName = "tuned = best";
 
