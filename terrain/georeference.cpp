@@ -176,6 +176,8 @@ Dataset warped(GDALDataset& data, const OGRSpatialReference& crs, const PostGrid
 }
 
 Result<PlacedRaster> openRaster(const fs::path& file, GdalErrors& errors) {
+  // A DTED profile carries a sum that GDAL leaves unread unless it is asked to.
+  CPLSetThreadLocalConfigOption("DTED_VERIFY_CHECKSUM", "YES");
   Findings notes;
   PlacedRaster opened{owned(GDALDataset::FromHandle(
                           GDALOpenEx(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,

@@ -17,8 +17,9 @@ struct Imported {
 Result<std::vector<std::filesystem::path>> elevationFiles(std::span<const std::filesystem::path> sources);
 
 /// Reads elevation of any format, CRS and vertical unit that GDAL knows to heights in metres on one WGS84
-/// grid. Several files make one grid at the finest spacing; the first one that has a height at a post gives
-/// it. Voids are filled. Findings carry notes about what was assumed, and GDAL's own words.
+/// grid. Several files make one grid at the finest spacing; of those that have a height at a post the finest
+/// gives it, and of equals the first. Voids are filled. Findings carry notes about what was assumed, and
+/// GDAL's own words.
 Result<Imported> importElevation(std::span<const std::filesystem::path> sources, const Progress& progress);
 
 /// One file, with its voids as NaN.

@@ -44,6 +44,13 @@ float between(const HeightGrid& part, const Place& row, const Place& column) {
 
 Result<HeightGrid> mosaic(std::vector<HeightGrid> parts, const Progress& progress) {
   if (parts.size() == 1) return Result<HeightGrid>(std::move(parts.front()));
+  // Finer parts first: where a coarse file and a fine one overlap, the fine one tells. Steps within 1 % are
+  // alike.
+  const auto fineness = [](const HeightGrid& part) {
+    return std::lround(100 * std::log(part.posts.stepLatitude));
+  };
+  std::stable_sort(parts.begin(), parts.end(),
+                   [&](const HeightGrid& a, const HeightGrid& b) { return fineness(a) < fineness(b); });
   // Longitudes of all parts on the first one's side of the earth.
   const double reference = parts.front().posts.west;
   for (HeightGrid& part : parts)

@@ -89,6 +89,18 @@ TEST(ImportElevation, readsDtedLikeTheFileItWasMadeFrom) {
   EXPECT_NEAR(dted->grid.posts.west, hgt->grid.posts.west, 1e-9);
 }
 
+TEST(ImportElevation, refusesAFlippedBitInDted) {
+  TRIMTAB_NEEDS_SHARED("data/dem-dted1-saotome");
+  test::ScratchDir dir;
+  std::string bytes = test::readFile(test::sharedDir() / "data/dem-dted1-saotome/n00_e006_3arc_v2.dt1");
+  bytes[2000000] = static_cast<char>(bytes[2000000] ^ 0x10);
+  test::writeFile(dir / "n00_e006.dt1", bytes);
+  const auto imported = importOne(dir / "n00_e006.dt1");
+  ASSERT_FALSE(imported);
+  EXPECT_TRUE(speaksOf(imported.findings(), "n00_e006.dt1"));
+  EXPECT_TRUE(speaksOf(imported.findings(), "checksum")) << toString(imported.findings());
+}
+
 TEST(ImportElevation, putsUtmGroundWhereGeographicLibDoes) {
   TRIMTAB_NEEDS_SHARED("data/dem-30m-bigtujunga");
   const fs::path file = test::sharedDir() / "data/dem-30m-bigtujunga/bigtujunga.tif";

@@ -72,6 +72,19 @@ TEST_F(Mosaic, takesTheFinestSpacing) {
   for (std::uint32_t c = 2; c < 90; ++c) ASSERT_NEAR(joined->grid.heights[row + c], 5.0 * c, 1e-3) << c;
 }
 
+TEST_F(Mosaic, believesTheFinerOfTwoFiles) {
+  auto coarse = part(0, 0, 50, 40);
+  coarse.step = 0.002;
+  coarse.value = [](int, int, int) { return 10.0; };
+  auto fine = part(0, 0, 100, 80);
+  for (const bool coarseFirst : {true, false}) {
+    const auto joined = coarseFirst ? join({coarse, fine}) : join({fine, coarse});
+    ASSERT_TRUE(joined);
+    const auto only = join({fine});
+    EXPECT_EQ(joined->grid.heights, only->grid.heights);
+  }
+}
+
 TEST_F(Mosaic, joinsAcrossTheDateLine) {
   auto west = part(0, 0, 40, 40), east = part(0, 0, 40, 40);
   west.west = 179.96;
