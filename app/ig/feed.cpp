@@ -82,6 +82,10 @@ class LinkFeed : public Feed {
   }
   double dueIn(double) const override { return std::numeric_limits<double>::infinity(); }
   bool finished() const override { return false; }
+  void ready() const override {
+    // In one piece, for whoever waits for the line.
+    std::cerr << "listening on UDP port " + std::to_string(receiver_->port()) + "\n" << std::flush;
+  }
   std::optional<HostStatistics> statistics() const override { return receiver_->statistics(); }
   std::uint64_t dropped() const override { return receiver_->dropped(); }
 
@@ -133,8 +137,6 @@ Result<std::unique_ptr<Feed>> openFeed(const Options& options, const Wake& wake)
   Result<std::unique_ptr<link::Receiver>> opened = link::Receiver::open(receiver);
   if (!opened) return opened.findings();
   Findings notes = opened.findings();
-  // In one piece, for whoever waits for the line.
-  std::cerr << "listening on UDP port " + std::to_string((*opened)->port()) + "\n" << std::flush;
   return {std::make_unique<LinkFeed>(std::move(opened).value()), std::move(notes)};
 }
 

@@ -19,6 +19,8 @@ class Feed {
   /// Seconds until something is due; infinite when only a wake-up tells.
   virtual double dueIn(double now) const = 0;
   virtual bool finished() const = 0;
+  /// Everything stands ready for what comes: says so where someone may wait for it.
+  virtual void ready() const {}
   /// Health of the link; none for a flight.
   virtual std::optional<HostStatistics> statistics() const { return std::nullopt; }
   virtual std::uint64_t dropped() const { return 0; }

@@ -19,6 +19,7 @@ class Loop {
   }
 
   Summary run() {
+    if (run_.options.listen) begin();
     while (!run_.wake.stop() && !enough()) {
       const double start = link::now();
       const bool news = run_.feed.advance(run_.session, start);
@@ -36,6 +37,15 @@ class Loop {
   }
 
  private:
+  /// What came while the program made itself ready is decided like all else, but no picture can have shown it
+  /// in time.
+  void begin() {
+    run_.feed.ready();
+    run_.feed.advance(run_.session, link::now());
+    run_.session.noPicture();
+    if (run_.session.hasState()) drawFrame(link::now());
+  }
+
   bool enough() const { return run_.options.frames > 0 && summary_.frames >= run_.options.frames; }
 
   bool viewerIsDue(double now) const {

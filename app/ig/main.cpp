@@ -1,6 +1,9 @@
-#include <cstdlib>
+#include <unistd.h>
+
+#include <cstdio>
 #include <iostream>
 #include <optional>
+#include <string>
 
 #include "loop.h"
 #include "trimtab/scene/renderer.h"
@@ -16,6 +19,24 @@ bool accepted(const Result<T>& result) {
   report(result.findings());
   return result.ok();
 }
+
+/// Standard output for the summary alone: what libraries print there (OpenSceneGraph its notices) goes to
+/// standard error.
+class SummaryOutput {
+ public:
+  SummaryOutput() : file_(::fdopen(::dup(STDOUT_FILENO), "w")) { ::dup2(STDERR_FILENO, STDOUT_FILENO); }
+  ~SummaryOutput() {
+    if (file_) std::fclose(file_);
+  }
+  SummaryOutput(const SummaryOutput&) = delete;
+  SummaryOutput& operator=(const SummaryOutput&) = delete;
+  void print(const std::string& text) const {
+    if (file_) std::fprintf(file_, "%s\n", text.c_str());
+  }
+
+ private:
+  std::FILE* file_;
+};
 
 /// A signal cancels the baking.
 terrain::Progress progressOnError(const Wake& wake) {
@@ -53,6 +74,7 @@ Result<scene::GlReport> initialized(scene::Renderer& renderer) {
 }
 
 int runWith(const Options& options) {
+  const SummaryOutput output;
   const Wake wake;
   // All inputs are looked at before any refusal ends the program: one run tells everything that is wrong.
   const Result<ActivePreset> preset = loadActivePreset(options.preset);
@@ -92,8 +114,7 @@ int runWith(const Options& options) {
   bool written = true;
   if (trace) written &= accepted(trace->finish());
   if (!options.screenshot.empty()) written &= accepted(takeScreenshot(run, summary, options.screenshot));
-  std::cout << (options.json ? summaryJson(summary, **feed, options, *gl) : summaryLine(summary, **feed))
-            << std::endl;
+  output.print(options.json ? summaryJson(summary, **feed, options, *gl) : summaryLine(summary, **feed));
   renderer.release();
   return written ? kDone : kRefused;
 }

@@ -183,5 +183,29 @@ TEST_F(IgFlight, aSignalEndsTheRunWithACompleteTrace) {
   EXPECT_TRUE(rows.back().frame);
 }
 
+TEST_F(IgFlight, playsRecordingsOfRealHostsWithTheirFlaws) {
+  struct Case {
+    const char* file;
+    std::size_t packets;
+    const char* says;
+  };
+  const Case cases[] = {{"captures/fgfs-2020.3.16-native-fdm-v24-ufo-60hz.pcap", 1320, "silence of 18"},
+                        {"captures/ccl-3.3.3-minihost-dummyig-cigi33.pcap", 234, "Start of Frame"},
+                        {"data/flight-fg-keflavik/reg_flight.csv", 2138, "36 rows"}};
+  for (const Case& c : cases) {
+    TRIMTAB_NEEDS_SHARED(c.file);
+    write(defaultParameters(), test::weavingFlight(1));
+    IgProcess ig = fly(test::sharedDir() / c.file, dir_ / "trace.csv");
+    ASSERT_EQ(ig.end(), 0) << c.file << "\n" << ig.err();
+    EXPECT_EQ(ig.summary()["frames"], c.packets) << c.file;
+    EXPECT_NE(ig.err().find(c.says), std::string::npos) << ig.err();
+    const std::vector<TraceRow> rows = rowsOf(dir_ / "trace.csv");
+    ASSERT_EQ(rows.size(), c.packets) << c.file;
+    const std::vector<FrameDecision> decisions = test::decided(rows, defaultParameters());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      ASSERT_EQ(rows[i].decision, decisions[i]) << c.file << " " << i;
+  }
+}
+
 }  // namespace
 }  // namespace trimtab

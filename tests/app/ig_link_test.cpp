@@ -151,17 +151,7 @@ TEST_F(IgLink, sleepsWhenNobodySends) {
   IgProcess ig = listen({"--watch"});
   ASSERT_NE(ig.port(), 0) << ig.err();
   play(ig, test::weavingFlight(10), WireProtocol::cigi3, 10);
-  const auto cpuSeconds = [&] {
-    std::istringstream stat(test::readFile("/proc/" + std::to_string(ig.pid()) + "/stat"));
-    std::string field;
-    double ticks = 0;
-    for (int i = 1; i <= 15 && stat >> field; ++i)
-      if (i >= 14) ticks += std::stod(field);
-    return ticks / static_cast<double>(::sysconf(_SC_CLK_TCK));
-  };
-  const double before = cpuSeconds();
-  std::this_thread::sleep_for(std::chrono::seconds(3));
-  const double share = (cpuSeconds() - before) / 3;
+  const double share = ig.share(3);
   std::cout << "idle: " << share * 100 << " % of a core" << std::endl;
   EXPECT_LT(share, 0.01);
   ig.signal(SIGINT);
@@ -185,6 +175,30 @@ TEST_F(IgLink, bytesThatAreNoPacketsChangeNothingButACounter) {
   EXPECT_EQ(rows().size(), 20u);
   EXPECT_GE(ig.summary()["host"]["bad"], 3);
   EXPECT_TRUE(ig.summary()["host"]["first_bad"]["hex"].get<std::string>().starts_with("68")) << ig.out();
+}
+
+TEST_F(IgLink, sendsStartsOfFrameToASynchronousHost) {
+  const int host = ::socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  ASSERT_EQ(::bind(host, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  socklen_t size = sizeof address;
+  ::getsockname(host, reinterpret_cast<sockaddr*>(&address), &size);
+  const timeval patience{20, 0};
+  ::setsockopt(host, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  IgProcess ig =
+      listen({"--protocol", "cigi3", "--reply", "127.0.0.1:" + std::to_string(ntohs(address.sin_port))});
+  for (int i = 0; i < 5; ++i) {
+    unsigned char bytes[64];
+    ASSERT_EQ(::recv(host, bytes, sizeof bytes, 0), 24) << ig.err();
+    EXPECT_EQ(bytes[0], 101) << "Start of Frame";
+    EXPECT_EQ(bytes[1], 24);
+    EXPECT_EQ(bytes[2], 3) << "CIGI 3";
+  }
+  ::close(host);
+  ig.signal(SIGINT);
+  EXPECT_EQ(ig.end(), 0) << ig.err();
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -72,6 +73,7 @@ class IgProcess {
     for (std::string& argument : all) argv.push_back(argument.data());
     argv.push_back(nullptr);
     const std::string out = (dir_ / "out").string(), err = (dir_ / "err").string();
+    std::fflush(nullptr);  // else the child writes it, too
     pid_ = ::fork();
     if (pid_ != 0) return;
     if (!std::freopen(out.c_str(), "w", stdout) || !std::freopen(err.c_str(), "w", stderr)) ::_exit(126);
@@ -114,6 +116,21 @@ class IgProcess {
     if (!says(lead)) return 0;
     const std::string all = err();
     return static_cast<std::uint16_t>(std::stoi(all.substr(all.find(lead) + lead.size())));
+  }
+  /// Seconds of processor time that it has used.
+  double cpuSeconds() const {
+    std::istringstream stat(readFile("/proc/" + std::to_string(pid_) + "/stat"));
+    std::string field;
+    double ticks = 0;
+    for (int i = 1; i <= 15 && stat >> field; ++i)
+      if (i >= 14) ticks += std::stod(field);
+    return ticks / static_cast<double>(::sysconf(_SC_CLK_TCK));
+  }
+  /// The share of a core that it takes over the next seconds.
+  double share(int seconds) const {
+    const double before = cpuSeconds();
+    std::this_thread::sleep_for(std::chrono::seconds(seconds));
+    return (cpuSeconds() - before) / seconds;
   }
   /// Waits for the end; the exit code, or 128 + signal.
   int end() {

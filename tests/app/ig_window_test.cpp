@@ -1,0 +1,61 @@
+#include <iostream>
+
+#include "ig_support.h"
+#include "trimtab/link/link.h"
+
+namespace trimtab {
+namespace {
+
+using test::IgProcess;
+
+TEST(IgWindow, showsWhatTheHeadlessOneDraws) {
+  const test::ScratchDir dir;
+  test::writeFile(dir / "flight.csv", flightCsv(test::weavingFlight(8)));
+  const auto picture = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"--preset",     "default",
+                                       "--terrain",    test::smallTerrain().string(),
+                                       "--flight",     (dir / "flight.csv").string(),
+                                       "--size",       "400x300",
+                                       "--screenshot", (dir / name).string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    IgProcess ig(arguments);
+    EXPECT_EQ(ig.end(), 0) << ig.err();
+  };
+  picture("window.png", {});
+  picture("headless.png", {"--headless"});
+  // Two ways to a context may round a channel differently by one step here and there, and by no more.
+  const test::Ran compared = test::run("compare -metric AE -fuzz 0.5% " + (dir / "window.png").string() +
+                                       " " + (dir / "headless.png").string() + " null:");
+  EXPECT_EQ(compared.exitCode, 0) << compared.err << " of 120000 pixels differ";
+}
+
+TEST(IgWindow, movesTheEyeBetweenPacketsAndStandsStillWhenTheHostIsSilent) {
+  const test::ScratchDir dir;
+  IgProcess ig({"--preset", "default", "--terrain", test::smallTerrain().string(), "--listen", "0", "--size",
+                "160x90", "--trace", (dir / "trace.csv").string(), "--json"});
+  ASSERT_NE(ig.port(), 0) << ig.err();
+  link::PlayOptions options;
+  options.to.port = ig.port();
+  options.rateHz = 0;
+  Flight flight = test::weavingFlight(2000, 10);  // at 70 m/s
+  flight.states.resize(21);
+  auto player = link::FeedPlayer::start(flight, options);
+  ASSERT_TRUE(player) << toString(player.findings());
+  ASSERT_TRUE(ig.until([&] { return (*player)->finished(); }));
+  std::this_thread::sleep_for(
+      std::chrono::milliseconds(1500));  // host.silence_after_ms, and a picture under load
+  const double share = ig.share(3);
+  std::cout << "idle in a window: " << share * 100 << " % of a core" << std::endl;
+  EXPECT_LT(share, 0.01);
+  ig.signal(SIGTERM);
+  ASSERT_EQ(ig.end(), 0) << ig.err();
+  ASSERT_TRUE(ig.summary().is_object()) << ig.out();
+  EXPECT_EQ(ig.summary()["packets"], 21);
+  EXPECT_GT(ig.summary()["frames"], 30) << "10 packets a second, and pictures between them";
+  const Result<std::vector<TraceRow>> rows = readTrace(dir / "trace.csv");
+  ASSERT_TRUE(rows) << toString(rows.findings());
+  EXPECT_EQ(rows->size(), 21u) << "the pictures between packets decide nothing";
+}
+
+}  // namespace
+}  // namespace trimtab
