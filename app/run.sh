@@ -50,7 +50,7 @@ trap 'exit 130' INT TERM
 if [ "$host" = yes ]; then
   flight=resources/flights/yecheon-circuit.csv
   echo "simulated host: $flight over CIGI 3.3 to UDP port $port"
-  build/bin/trimtab-cli feed play "$flight" --to "127.0.0.1:$port" --protocol cigi3 2>build/feed.log &
+  build/bin/trimtab-cli feed play "$flight" --to "127.0.0.1:$port" --protocol cigi3 --start-s 60 --loop 2>build/feed.log &
   children+=($!)
 fi
 

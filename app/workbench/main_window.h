@@ -125,7 +125,7 @@ class MainWindow : public QMainWindow {
   void onLink();
   void placeCamera();
   views::LiveFrame liveFrame() const;
-  void show(const views::LiveFrame& frame);
+  void showInDocks(const views::LiveFrame& frame);
   QString hudText(const AircraftState& eye) const;
   void takeScreenshot();
 

@@ -43,7 +43,7 @@ Parsed parseOptions(const QStringList& arguments) {
     return parsed;
   }
   if (parser.isSet(help)) {
-    std::fputs(qPrintable(parser.helpText()), stdout);
+    std::fputs(qPrintable(parser.helpText().replace("<executable_name>", "trimtab")), stdout);
     parsed.exitCode = kDone;
     return parsed;
   }

@@ -94,7 +94,7 @@ void MainWindow::onPainted() {
     fps_ = kNan;
   lastCost_ = feed_.session().finished(*viewport_->lastResult(), link::now());
   drainTrace(false);
-  show(liveFrame());
+  showInDocks(liveFrame());
   if (options_.afterS >= 0 && !options_.screenshot.isEmpty() && !scheduledShot_) {
     scheduledShot_ = true;
     QTimer::singleShot(static_cast<int>(options_.afterS * 1000), this, &MainWindow::takeScreenshot);
@@ -104,7 +104,7 @@ void MainWindow::onPainted() {
 /// Between two pictures: the decision is new, the picture and its cost are the last one's.
 void MainWindow::onDecision() {
   if (!feed_.session().hasState()) return;
-  show(liveFrame());
+  showInDocks(liveFrame());
 }
 
 void MainWindow::changeEvent(QEvent* event) {
@@ -131,7 +131,7 @@ views::LiveFrame MainWindow::liveFrame() const {
   return frame;
 }
 
-void MainWindow::show(const views::LiveFrame& frame) {
+void MainWindow::showInDocks(const views::LiveFrame& frame) {
   memberships_->showFrame(frame);
   bands_->showFrame(frame);
   decision_->showFrame(frame);
@@ -205,7 +205,7 @@ void MainWindow::onLink() {
 void MainWindow::start(const Options& options) {
   options_ = options;
   if (options.window) resize(*options.window);
-  QMainWindow::show();
+  show();
   viewport_->setFocus();
   if (!options.preset.isEmpty()) openPreset(options.preset);
   if (options.terrain.isEmpty())

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <QAction>
+#include <QDir>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QStandardPaths>
+
+#include "gui_support.h"
+#include "trimtab/workbench/notice_bar.h"
+
+namespace trimtab::test {
+namespace {
+
+constexpr auto kHysteresis = "fuzzy.hysteresis";
+
+QString path(const std::filesystem::path& file) {
+  return QString::fromStdString(file.string());
+}
+
+/// Presses a button of the next modal question.
+void answer(QMessageBox::StandardButton button) {
+  auto* timer = new QTimer(qApp);
+  QObject::connect(timer, &QTimer::timeout, qApp, [timer, button] {
+    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+    if (box == nullptr) return;
+    timer->deleteLater();
+    QTest::mouseClick(box->button(button), Qt::LeftButton);
+  });
+  timer->start(20);
+}
+
+QPushButton* noticeButton(workbench::MainWindow& window, const QString& text) {
+  for (QPushButton* button : window.notices().findChildren<QPushButton*>())
+    if (button->isVisible() && button->text().remove('&').startsWith(text)) return button;
+  return nullptr;
+}
+
+class WorkbenchFiles : public Bench {
+ protected:
+  void edit() { ASSERT_TRUE(w().draft().setText(kHysteresis, "0.04").empty()); }
+  double hysteresis() { return w().draft().parameters().scheme.hysteresis.value(); }
+  ScratchDir dir;
+};
+
+TEST_F(WorkbenchFiles, badFilesDroppedAreSaidAndChangeNothing) {
+  const std::string good = exportText(defaultParameters(), "x", {}, ExportFormat::json);
+  std::string damaged = good;
+  damaged[damaged.find("8000")] = '9';
+  struct Case {
+    std::string name, bytes, says;
+  };
+  const std::vector<Case> cases = {
+      {"cut.json", good.substr(0, 200), "cut.json"},
+      {"damaged.json", damaged, "damaged.json"},
+      {"range.json", R"({"format": "trimtab-preset", "version": 2, "parameters": {"fuzzy.hysteresis": 99}})",
+       "range.json"},
+      {"words.tif", "not an image", "words.tif"},
+      {"noise.hgt", std::string(77, '\x17'), "noise.hgt"},
+      {"header.csv", "a,b,c\n1,2,3\n", "header.csv"},
+      {"cut.pcap", std::string("\xd4\xc3\xb2\xa1\x02\x00", 6), "cut.pcap"}};
+  edit();
+  ASSERT_TRUE(settle());
+  const FrameDecision decision = session().decision();
+  const TuningParameters before = w().draft().parameters();
+  const QString title = w().windowTitle();
+  for (const Case& c : cases) {
+    writeFile(dir / c.name, c.bytes);
+    const int messages = w().messages().count();
+    if (c.name.ends_with(".json")) answer(QMessageBox::Discard);
+    drop(dir / c.name);
+    ASSERT_TRUE(waitFor([&] { return w().messages().count() > messages && !w().terrainJob().running(); }))
+        << c.name;
+    EXPECT_TRUE(w().messages().text().contains(QString::fromStdString(c.says))) << c.name;
+    EXPECT_TRUE(differences(before, w().draft().parameters()).empty()) << c.name;
+    EXPECT_TRUE(w().draft().isDirty()) << c.name;
+    EXPECT_EQ(w().draft().undoStack().count(), 1) << c.name;
+    EXPECT_EQ(w().windowTitle(), title) << c.name;
+    EXPECT_TRUE(w().hasTerrain());
+    EXPECT_EQ(session().decision(), decision) << c.name;
+    EXPECT_FALSE(w().feed().playback().loaded()) << c.name;
+  }
+}
+
+TEST_F(WorkbenchFiles, goodFilesDroppedAreOpened) {
+  writeFile(dir / "mine.json", exportText(defaultParameters(), "mine", {}, ExportFormat::json));
+  drop(dir / "mine.json");
+  EXPECT_EQ(w().document().title(), "mine.json");
+  drop(sampleFlight());
+  EXPECT_TRUE(w().feed().playback().loaded());
+  ASSERT_TRUE(terrain::writeSample(dir / "other.tif", {2, 12, 120, {}}));
+  const std::uint64_t before = paints();
+  drop(dir / "other.tif");
+  ASSERT_TRUE(waitFor([&] { return w().windowTitle().contains("other"); }))
+      << w().messages().text().toStdString();
+  EXPECT_TRUE(waitFor([&] { return paints() > before; }));
+}
+
+TEST_F(WorkbenchFiles, saveUndoAndTheDirtyMarkAgree) {
+  EXPECT_FALSE(w().isWindowModified());
+  edit();
+  EXPECT_TRUE(w().isWindowModified());
+  w().draft().undoStack().undo();
+  EXPECT_FALSE(w().isWindowModified());
+  w().draft().undoStack().redo();
+  ASSERT_TRUE(w().savePreset(path(dir / "p.json")));
+  EXPECT_FALSE(w().isWindowModified());
+  EXPECT_TRUE(w().windowTitle().contains("p.json"));
+  const auto saved = loadPreset((dir / "p.json").string());
+  ASSERT_TRUE(saved) << toString(saved.findings());
+  EXPECT_EQ(saved->parameters.scheme.hysteresis.value(), 0.04);
+  w().draft().undoStack().undo();
+  EXPECT_TRUE(w().isWindowModified()) << "what is shown is not what is saved";
+}
+
+TEST_F(WorkbenchFiles, aSaveThatFailsKeepsTheEditsAndTheOldFile) {
+  edit();
+  EXPECT_FALSE(w().savePreset(path(dir / "no" / "such" / "p.json")));
+  EXPECT_TRUE(w().draft().isDirty());
+  EXPECT_TRUE(w().messages().text().contains("cannot be saved"));
+  EXPECT_FALSE(w().exportPreset("/proc/nowhere/e.json", ExportFormat::json, {}, {}));
+}
+
+TEST_F(WorkbenchFiles, asksBeforeEditsAreLost) {
+  edit();
+  answer(QMessageBox::Cancel);
+  EXPECT_FALSE(w().close());
+  EXPECT_TRUE(w().isVisible());
+  EXPECT_EQ(hysteresis(), 0.04);
+  ASSERT_TRUE(w().savePreset(path(dir / "p.json")));
+  w().draft().undoStack().undo();
+  answer(QMessageBox::Save);
+  EXPECT_TRUE(w().close());
+  EXPECT_EQ(loadPreset((dir / "p.json").string())->parameters.scheme.hysteresis,
+            TuningParameters{}.scheme.hysteresis);
+}
+
+TEST_F(WorkbenchFiles, editsOfAProgramThatDiedAreOfferedAndComeBackAsOneStep) {
+  edit();
+  w().document().keepCopyNow();
+  const QDir folder(QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) + "/recovery");
+  const QString own = folder.filePath(QString::number(QCoreApplication::applicationPid()) + ".json");
+  ASSERT_TRUE(QFile::exists(own));
+  const pid_t dead = ::fork();
+  if (dead == 0) ::_exit(0);
+  ::waitpid(dead, nullptr, 0);
+  ASSERT_TRUE(QFile::copy(own, folder.filePath(QString::number(dead) + ".json")));
+  w().document().dropCopy();
+  EXPECT_FALSE(QFile::exists(own));
+  w().draft().undoStack().setClean();
+  window.reset();
+
+  SetUp();
+  QPushButton* recover = nullptr;
+  ASSERT_TRUE(waitFor([&] { return (recover = noticeButton(w(), "Recover")) != nullptr; }));
+  EXPECT_NE(hysteresis(), 0.04);
+  QTest::mouseClick(recover, Qt::LeftButton);
+  EXPECT_EQ(hysteresis(), 0.04);
+  EXPECT_TRUE(w().isWindowModified());
+  w().draft().undoStack().undo();
+  EXPECT_NE(hysteresis(), 0.04);
+  EXPECT_TRUE(workbench::Document::abandoned().empty());
+}
+
+TEST_F(WorkbenchFiles, aFileChangedByAnotherProgramIsSaidAndReloadedOnRequest) {
+  ASSERT_TRUE(w().savePreset(path(dir / "p.json")));
+  Preset other;
+  other.parameters.scheme.hysteresis = Membership{0.03};
+  ASSERT_TRUE(writeAtomically(dir / "p.json", *presetText(other)));
+  QPushButton* reload = nullptr;
+  ASSERT_TRUE(waitFor([&] { return (reload = noticeButton(w(), "Reload")) != nullptr; }));
+  EXPECT_NE(hysteresis(), 0.03) << "nothing happens unasked";
+  QTest::mouseClick(reload, Qt::LeftButton);
+  EXPECT_EQ(hysteresis(), 0.03);
+  // Own saves are no news.
+  edit();
+  ASSERT_TRUE(w().savePreset(path(dir / "p.json")));
+  QTest::qWait(400);
+  EXPECT_EQ(noticeButton(w(), "Reload"), nullptr);
+}
+
+TEST_F(WorkbenchFiles, bakingCanBeCancelledAndTheOldTerrainStays) {
+  ASSERT_TRUE(terrain::writeSample(dir / "big.tif", {5, 60, 60, {}}));
+  const QString title = w().windowTitle();
+  w().openTerrain(path(dir / "big.tif"));
+  EXPECT_TRUE(w().terrainJob().running());
+  w().terrainJob().cancel();
+  EXPECT_FALSE(w().terrainJob().running());
+  EXPECT_TRUE(w().messages().text().contains("Cancelled"));
+  EXPECT_EQ(w().windowTitle(), title);
+  EXPECT_TRUE(w().hasTerrain());
+}
+
+}  // namespace
+}  // namespace trimtab::test

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <QApplication>
+#include <QMimeData>
+#include <QTest>
+#include <functional>
+#include <memory>
+
+#include "support.h"
+#include "trimtab/workbench/main_window.h"
+
+namespace trimtab::test {
+
+/// Runs the event loop until the condition holds; the limit is for what will never hold.
+inline bool waitFor(const std::function<bool()>& condition, int limitMs = 60000) {
+  return QTest::qWaitFor(condition, limitMs);
+}
+
+/// The sample terrain, 60 km of it at 120 m: the flight that ships stays over it. Made once a program.
+inline const std::filesystem::path& sampleTerrain() {
+  static const ScratchDir dir;
+  static const std::filesystem::path database = [] {
+    const auto sample = terrain::writeSample(dir / "sample.tif", {1, 60, 120, {}});
+    EXPECT_TRUE(sample) << toString(sample.findings());
+    const auto baked = terrain::bake({{dir / "sample.tif"}, {}, dir / "terrain", {}});
+    EXPECT_TRUE(baked) << toString(baked.findings());
+    return dir / "terrain";
+  }();
+  return database;
+}
+
+inline std::string sampleFlight() {
+  return (sourceDir() / "resources/flights/yecheon-circuit.csv").string();
+}
+
+/// Seconds into the flight when it first climbs through an altitude.
+inline double climbsThrough(const Flight& flight, double altitudeFt) {
+  for (const AircraftState& state : flight.states)
+    if (state.position.height.in<Feet>() >= altitudeFt) return state.time - flight.states.front().time;
+  return 0;
+}
+
+/// The real window with the sample terrain and its first picture drawn.
+class Bench : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    window = std::make_unique<workbench::MainWindow>();
+    workbench::Options options;
+    options.terrain = QString::fromStdString(sampleTerrain().string());
+    options.window = QSize(1400, 900);
+    window->start(options);
+    ASSERT_TRUE(waitFor([this] { return window->viewport().lastResult().has_value(); }))
+        << window->messages().text().toStdString();
+  }
+  void TearDown() override {
+    if (window) window->draft().undoStack().setClean();
+    window.reset();
+  }
+  workbench::MainWindow& w() { return *window; }
+  session::Session& session() { return window->feed().session(); }
+  std::uint64_t paints() const { return window->viewport().paints(); }
+  /// A host's link on any free port.
+  std::uint16_t listen() {
+    const Findings findings = window->feed().openHost({});
+    EXPECT_TRUE(findings.empty()) << toString(findings);
+    return window->feed().receiver()->port();
+  }
+  /// Waits until nothing is painted for a while.
+  bool settle() {
+    for (int i = 0; i < 200; ++i) {
+      const std::uint64_t before = paints();
+      QTest::qWait(250);
+      if (paints() == before) return true;
+    }
+    return false;
+  }
+  void drop(const std::filesystem::path& file) {
+    QMimeData data;
+    data.setUrls({QUrl::fromLocalFile(QString::fromStdString(file.string()))});
+    const QPoint middle = window->rect().center();
+    QDragEnterEvent enter(middle, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(window.get(), &enter);
+    EXPECT_TRUE(enter.isAccepted());
+    QDropEvent event(middle, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(window.get(), &event);
+  }
+
+  std::unique_ptr<workbench::MainWindow> window;
+};
+
+}  // namespace trimtab::test

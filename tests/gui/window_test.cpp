@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <arpa/inet.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <QDockWidget>
+#include <QEventLoop>
+#include <QLabel>
+#include <QMenuBar>
+#include <QProcess>
+#include <QTimer>
+
+#include "gui_support.h"
+#include "trimtab/workbench/host_dock.h"
+
+namespace trimtab::test {
+namespace {
+
+double cpuSeconds() {
+  timespec t{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return double(t.tv_sec) + double(t.tv_nsec) * 1e-9;
+}
+
+/// The event loop alone, without a test's own polling.
+void idle(int ms) {
+  QEventLoop loop;
+  QTimer::singleShot(ms, &loop, &QEventLoop::quit);
+  loop.exec();
+}
+
+QAction* command(workbench::MainWindow& window, const QString& text) {
+  for (const QMenu* menu : window.menuBar()->findChildren<QMenu*>())
+    for (QAction* action : menu->actions())
+      if (action->text().remove('&').startsWith(text)) return action;
+  return nullptr;
+}
+
+class WorkbenchWindow : public Bench {};
+
+TEST_F(WorkbenchWindow, idleCostsNothing) {
+  ASSERT_TRUE(settle());
+  const std::uint64_t before = paints();
+  const double cpu = cpuSeconds();
+  constexpr int kSeconds = 5;
+  idle(kSeconds * 1000);
+  EXPECT_EQ(paints(), before) << "no host, no input: no repaint";
+  EXPECT_LT((cpuSeconds() - cpu) / kSeconds, 0.01) << "share of a core";
+}
+
+TEST_F(WorkbenchWindow, manyChangesMakeOnePaintAndHiddenNone) {
+  ASSERT_TRUE(settle());
+  std::uint64_t before = paints();
+  for (int i = 0; i < 100; ++i) w().viewport().invalidate();
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(paints(), before + 1);
+  w().hide();
+  before = paints();
+  for (int i = 0; i < 10; ++i) w().viewport().invalidate();
+  QTest::qWait(100);
+  EXPECT_EQ(paints(), before);
+  w().show();
+  EXPECT_TRUE(waitFor([&] { return paints() > before; }));
+}
+
+TEST_F(WorkbenchWindow, frozenCullingKeepsItsTilesWhileTheViewFliesOnAndSaysSo) {
+  ASSERT_TRUE(settle());
+  const auto drawn = [&] { return w().viewport().lastResult()->visible.reason; };
+  const auto before = drawn();
+  command(w(), "Freeze culling")->trigger();
+  ASSERT_TRUE(settle());
+  EXPECT_TRUE(w().viewport().overlayContents().frozen);
+  w().viewport().camera().look(Degrees{120}, Degrees{0});
+  w().feed().look(w().viewport().camera());
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(drawn(), before);
+  command(w(), "Freeze culling")->trigger();
+  ASSERT_TRUE(settle());
+  EXPECT_FALSE(w().viewport().overlayContents().frozen);
+  EXPECT_NE(drawn(), before);
+}
+
+TEST_F(WorkbenchWindow, theCullingCaseIsSwitchedLiveAndCanBeUndone) {
+  ASSERT_TRUE(settle());
+  const QImage proposed = w().viewport().grabFramebuffer();
+  const auto triangles = [&] { return w().viewport().lastResult()->visible.triangles; };
+  const auto fewest = triangles();
+  ASSERT_TRUE(w().draft().setText("culling.method", "none").empty());
+  ASSERT_TRUE(settle());
+  EXPECT_GT(triangles(), fewest);
+  EXPECT_EQ(w().viewport().lastResult()->visible.outsideFrustum, 0u);
+  w().draft().undoStack().undo();
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(triangles(), fewest);
+}
+
+TEST_F(WorkbenchWindow, mouseAndKeysFlyTheCameraWhileNoHostDoes) {
+  ASSERT_TRUE(settle());
+  workbench::Viewport& view = w().viewport();
+  const Attitude before = view.camera().attitude();
+  const QPoint middle = view.rect().center();
+  QTest::mousePress(&view, Qt::LeftButton, {}, middle);
+  QTest::mouseMove(&view, middle + QPoint(-120, 0));
+  QMouseEvent drag(QEvent::MouseMove, middle + QPoint(-120, 40), view.mapToGlobal(middle + QPoint(-120, 40)),
+                   Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(&view, &drag);
+  QTest::mouseRelease(&view, Qt::LeftButton, {}, middle + QPoint(-120, 40));
+  EXPECT_NE(view.camera().attitude(), before);
+  EXPECT_EQ(session().input().state.attitude, view.camera().attitude());
+  const GeodeticPosition place = view.camera().position();
+  QTest::keyPress(&view, Qt::Key_W);
+  ASSERT_TRUE(waitFor([&] { return view.camera().position() != place; }));
+  QTest::keyRelease(&view, Qt::Key_W);
+  ASSERT_TRUE(settle()) << "a released key stops the camera";
+}
+
+TEST_F(WorkbenchWindow, aFixedRenderSizeIsDrawnAtThatSizeAndScaledIntoTheWindow) {
+  ASSERT_TRUE(w().draft().setText("view.render_size", "fixed").empty());
+  ASSERT_TRUE(w().draft().setText("view.width_px", "640").empty());
+  ASSERT_TRUE(w().draft().setText("view.height_px", "640").empty());
+  ASSERT_TRUE(settle());
+  const QImage shown = w().viewport().grabFramebuffer();
+  const QColor edge = shown.pixelColor(2, shown.height() / 2),
+               middle = shown.pixelColor(shown.width() / 2, shown.height() / 2);
+  EXPECT_EQ(edge, QColor(Qt::black)) << "a square picture leaves bars beside it";
+  EXPECT_NE(middle, QColor(Qt::black));
+}
+
+TEST_F(WorkbenchWindow, floatingADockKeepsThePictureAndResetLayoutBringsItBack) {
+  ASSERT_TRUE(settle());
+  const std::size_t tiles = w().viewport().lastResult()->visible.tiles.size();
+  for (const char* name :
+       {"memberships", "depth_map", "decision", "host", "flight", "plots", "preset", "messages", "history"}) {
+    QDockWidget* dock = w().dock(name);
+    ASSERT_NE(dock, nullptr) << name;
+    ASSERT_NE(command(w(), dock->windowTitle()), nullptr) << name << " is in the View menu";
+    dock->setFloating(true);
+  }
+  ASSERT_TRUE(settle());
+  EXPECT_GT(w().viewport().lastResult()->visible.tiles.size(), tiles / 4);
+  const QImage picture = w().viewport().grabFramebuffer();
+  EXPECT_NE(picture.pixelColor(picture.width() / 2, 5),
+            picture.pixelColor(picture.width() / 2, picture.height() - 60));
+  w().resetLayout();
+  ASSERT_TRUE(settle());
+  EXPECT_FALSE(w().dock("memberships")->isFloating());
+  EXPECT_TRUE(w().dock("memberships")->isVisible());
+}
+
+TEST_F(WorkbenchWindow, aPortInUseIsSaidAndTheWorkGoesOn) {
+  const int socket = ::socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  ASSERT_EQ(::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  socklen_t size = sizeof address;
+  ::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size);
+  const std::uint16_t taken = ntohs(address.sin_port);
+  w().hostDock().setPort(taken);
+  EXPECT_FALSE(w().hostDock().connectHost().empty());
+  EXPECT_TRUE(w().messages().text().contains(QString::number(taken)));
+  EXPECT_EQ(w().feed().receiver(), nullptr);
+  ::close(socket);
+  EXPECT_TRUE(w().hostDock().connectHost().empty()) << "free again";
+}
+
+TEST(WorkbenchProgram, withoutADisplayItSaysSoAndEndsWithOne) {
+  const Ran ran = run("env -u DISPLAY -u WAYLAND_DISPLAY -u QT_QPA_PLATFORM " + program("trimtab").string());
+  EXPECT_EQ(ran.exitCode, 1);
+  EXPECT_NE(ran.err.find("display"), std::string::npos) << ran.err;
+  EXPECT_EQ(run("env -u DISPLAY " + program("trimtab").string() + " --help").exitCode, 0);
+  EXPECT_EQ(run("env -u DISPLAY " + program("trimtab").string() + " --wrong").exitCode, 2);
+}
+
+TEST(WorkbenchProgram, leavesAScreenshotAndAnExport) {
+  ScratchDir dir;
+  const Ran ran = run(program("trimtab").string() + " --terrain " + sampleTerrain().string() +
+                      " --size 900x700 --screenshot " + (dir / "w.png").string() +
+                      " --after-s 0.5 --export " + (dir / "e.json").string());
+  ASSERT_EQ(ran.exitCode, 0) << ran.err;
+  const QImage picture(QString::fromStdString((dir / "w.png").string()));
+  EXPECT_EQ(picture.size(), QSize(900, 700));
+  const auto exported = loadPreset((dir / "e.json").string());
+  ASSERT_TRUE(exported) << toString(exported.findings());
+  EXPECT_TRUE(differences(exported->parameters, TuningParameters{}).empty());
+}
+
+TEST(WorkbenchProgram, endsCleanlyOnASignal) {
+  QProcess process;
+  process.start(QString::fromStdString(program("trimtab").string()),
+                {"--terrain", QString::fromStdString(sampleTerrain().string())});
+  ASSERT_TRUE(process.waitForStarted());
+  QTest::qWait(1500);
+  ::kill(static_cast<pid_t>(process.processId()), SIGINT);
+  ASSERT_TRUE(waitFor([&] { return process.state() == QProcess::NotRunning; }));
+  EXPECT_EQ(process.exitStatus(), QProcess::NormalExit);
+  EXPECT_EQ(process.exitCode(), 0);
+}
+
+}  // namespace
+}  // namespace trimtab::test
