@@ -53,7 +53,7 @@ PlotsPanel::PlotsPanel(Draft& draft, QWidget* parent)
     bar->addWidget(button);
   }
   bar->insertWidget(2, span_);
-  bar->addStretch(1);
+  bar->addWidget(tracked_, 1);
 
   readout_->setAccessibleName(tr("Values at the cursors and their difference"));
   readout_->setColumnCount(4);
@@ -76,7 +76,6 @@ PlotsPanel::PlotsPanel(Draft& draft, QWidget* parent)
   layout->setContentsMargins(4, 4, 4, 4);
   layout->addLayout(bar);
   layout->addWidget(plot_, 1);
-  layout->addWidget(tracked_);
   layout->addWidget(readout_);
 
   connect(plot_, &TimePlot::movedByHand, this, [this] { follow_->setChecked(false); });

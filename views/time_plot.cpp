@@ -9,6 +9,7 @@
 namespace trimtab::views {
 
 namespace {
+constexpr int kLowPx = 330, kWidePx = 560;
 constexpr int kRoomForBudgetTextPx = 320;
 constexpr double kShortestSpanS = 0.05, kLongestSpanS = 3600 * 4;
 }  // namespace
@@ -31,7 +32,7 @@ TimePlot::TimePlot(const TraceBuffer& buffer, QWidget* parent) : QCustomPlot(par
     addLayer(QString::fromLatin1(name));
     layer(QString::fromLatin1(name))->setMode(QCPLayer::lmBuffered);
   }
-  makeLane(tr("Membership"), 2.06, false);
+  makeLane(tr("Membership"), 2.6, false);
   makeLane(tr("Triangles (k)"), 0, false);
   makeLane(tr("Frame (ms)"), 0, true);
   makeLane(tr("Stages (ms)"), 0, true);
@@ -60,8 +61,8 @@ TimePlot::TimePlot(const TraceBuffer& buffer, QWidget* parent) : QCustomPlot(par
     cursorText_[i]->setPadding(QMargins(4, 1, 4, 1));
     cursorText_[i]->setVisible(false);
   }
-  lanes_.back().rect->axis(QCPAxis::atBottom)->setTickLabels(true);
-  lanes_.back().rect->axis(QCPAxis::atBottom)->setLabel(tr("Time (s)"));
+  for (QCPMarginGroup*& group : columnMargins_) group = new QCPMarginGroup(this);
+  arrange();
   colour();
   setShown(0, span_);
 }
@@ -71,9 +72,6 @@ void TimePlot::makeLane(const QString& title, double fixedTop, bool budget) {
   lane.fixedTop = fixedTop;
   lane.rect = new QCPAxisRect(this, true);
   plotLayout()->addElement(static_cast<int>(lanes_.size()), 0, lane.rect);
-  QCPMarginGroup* group =
-      lanes_.empty() ? new QCPMarginGroup(this) : lanes_.front().rect->marginGroup(QCP::msLeft);
-  lane.rect->setMarginGroup(QCP::msLeft | QCP::msRight, group);
   lane.rect->setMinimumMargins(QMargins(4, 4, 4, 2));
   QCPAxis *time = lane.rect->axis(QCPAxis::atBottom), *left = lane.rect->axis(QCPAxis::atLeft);
   left->setLabel(title);
@@ -113,6 +111,30 @@ void TimePlot::makeLane(const QString& title, double fixedTop, bool budget) {
   lane.tracker = line("tracker");
   lane.tracker->setVisible(false);
   lanes_.push_back(lane);
+}
+
+void TimePlot::arrange() {
+  // Four lanes one above the other, or two by two in a dock that is wide and low.
+  const int columns = height() < kLowPx && width() > kWidePx ? 2 : 1;
+  if (columns == columns_) return;
+  columns_ = columns;
+  for (Lane& lane : lanes_) plotLayout()->take(lane.rect);
+  plotLayout()->simplify();
+  const int rows = static_cast<int>(lanes_.size()) / columns;
+  for (int i = 0; i < static_cast<int>(lanes_.size()); ++i) {
+    // Down the first column, then down the second.
+    QCPAxisRect* rect = lanes_[static_cast<std::size_t>(i)].rect;
+    plotLayout()->addElement(i % rows, i / rows, rect);
+    rect->setMarginGroup(QCP::msLeft | QCP::msRight, columnMargins_[static_cast<std::size_t>(i / rows)]);
+    const bool lowest = i % rows == rows - 1;
+    rect->axis(QCPAxis::atBottom)->setTickLabels(lowest);
+    rect->axis(QCPAxis::atBottom)->setLabel(lowest ? tr("Time (s)") : QString());
+  }
+}
+
+void TimePlot::resizeEvent(QResizeEvent* event) {
+  arrange();
+  QCustomPlot::resizeEvent(event);
 }
 
 void TimePlot::addTrace(std::size_t lane, TraceGraph::Look look, bool right) {
@@ -204,7 +226,7 @@ void TimePlot::draw() {
   std::uint64_t from = buffer_.atOrAfter(range.lower), to = buffer_.atOrAfter(range.upper);
   if (from > buffer_.begin()) --from;
   if (to < buffer_.end()) ++to;
-  const std::size_t columns = static_cast<std::size_t>(std::max(100, width() / 2));
+  const std::size_t columns = static_cast<std::size_t>(std::max(100, lanes_.front().rect->width() / 2));
   const double markerStep = roundStep(range.size() / 5);
   std::array<double, 4> top{};
   double fps = 0;
@@ -229,7 +251,8 @@ void TimePlot::draw() {
       lanes_[i].budgetText->setVisible(lanes_[i].rect->width() > kRoomForBudgetTextPx);
   }
   lanes_[2].rect->axis(QCPAxis::atRight)->setRange(0, fps > 0 ? fps * 1.4 : 100);
-  lanes_.back().rect->axis(QCPAxis::atBottom)->setNumberPrecision(span_ < 2 ? 2 : span_ < 20 ? 1 : 0);
+  for (Lane& lane : lanes_)
+    lane.rect->axis(QCPAxis::atBottom)->setNumberPrecision(span_ < 2 ? 2 : span_ < 20 ? 1 : 0);
   placeCursors();
   replot(QCustomPlot::rpQueuedReplot);
 }

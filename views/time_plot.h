@@ -35,7 +35,7 @@ class TimePlot : public QCustomPlot {
 
   const std::vector<TraceGraph*>& traces() const { return traces_; }
   QSize sizeHint() const override { return {560, 420}; }
-  QSize minimumSizeHint() const override { return {260, 260}; }
+  QSize minimumSizeHint() const override { return {260, 190}; }
 
  signals:
   void movedByHand();  ///< the person panned or zoomed away from the newest frame
@@ -52,6 +52,7 @@ class TimePlot : public QCustomPlot {
   void keyPressEvent(QKeyEvent* event) override;
   void focusInEvent(QFocusEvent* event) override;
   void focusOutEvent(QFocusEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
   void leaveEvent(QEvent* event) override;
   void changeEvent(QEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
@@ -66,6 +67,7 @@ class TimePlot : public QCustomPlot {
     QCPItemStraightLine* tracker = nullptr;
     double fixedTop = 0;  ///< 0: by what is shown
   };
+  void arrange();
   void makeLane(const QString& title, double fixedTop, bool budget);
   void addTrace(std::size_t lane, TraceGraph::Look look, bool right = false);
   void colour();
@@ -78,6 +80,8 @@ class TimePlot : public QCustomPlot {
   const TraceBuffer& buffer_;
   std::vector<Lane> lanes_;
   std::vector<TraceGraph*> traces_;
+  std::array<QCPMarginGroup*, 2> columnMargins_{};
+  int columns_ = 0;
   std::array<QCPItemText*, 2> cursorText_{};
   std::optional<std::array<double, 2>> cursors_;
   double span_ = 60;

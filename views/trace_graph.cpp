@@ -7,6 +7,10 @@
 
 namespace trimtab::views {
 
+namespace {
+constexpr double kGapS = 1;
+}
+
 TraceGraph::TraceGraph(QCPAxis* timeAxis, QCPAxis* valueAxis, Look look)
     : QCPGraph(timeAxis, valueAxis), look_(std::move(look)) {
   setName(look_.unit.isEmpty() ? look_.name : QStringLiteral("%1 (%2)").arg(look_.name, look_.unit));
@@ -27,9 +31,15 @@ double TraceGraph::take(const TraceBuffer& buffer, std::uint64_t from, std::uint
   buffer.columns(look_.trace, from, to, columns, columns_);
   points_.clear();
   double largest = 0;
+  // Nothing is drawn across a stretch without frames: an idle view paints none.
+  const double span = columns_.size() > 1 ? columns_.back().time - columns_.front().time : 0;
+  const double gap = std::max(kGapS, 4 * span / static_cast<double>(columns));
+  double last = columns_.empty() ? 0 : columns_.front().time;
   for (const TraceBuffer::Column& column : columns_) {
     const double low = column.low * look_.scale, high = column.high * look_.scale;
     if (high > largest) largest = high;
+    if (column.time - last > gap) points_.append({(column.time + last) / 2, std::nan("")});
+    last = column.time;
     // Stacked areas show their crests; lines show both ends of what a column holds.
     if (low != high && !look_.filled) points_.append({column.time, low});
     points_.append({column.time, high});

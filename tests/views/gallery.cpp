@@ -176,6 +176,7 @@ int main(int argc, char** argv) {
   PlotsPanel plots(draft);
   for (int i = 0; i < 60 * 90; ++i) plots.showFrame(flight.next(draft.active()));
   shoot(plots, {300, 400}, dir.filePath(QStringLiteral("narrow_plots.png")));
+  shoot(plots, {980, 300}, dir.filePath(QStringLiteral("wide_plots.png")));
   hover(plots.plot(), {200, 100});
   shoot(plots, {680, 520}, dir.filePath(QStringLiteral("plots.png")));
   plots.setCursors(true);

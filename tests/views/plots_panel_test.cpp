@@ -131,6 +131,29 @@ TEST_F(PlotsPanelTest, drawsNoMorePointsThanTheScreenNeeds) {
     EXPECT_LE(trace->data()->size(), 4 * plot().width()) << trace->name().toStdString();
 }
 
+TEST_F(PlotsPanelTest, drawsNoLineAcrossAStretchWithoutFrames) {
+  LiveFrame frame;
+  frame.time = newest() + 20;
+  panel_.showFrame(frame);
+  plot().setSpan(60);
+  const auto data = plot().traces().front()->data();
+  EXPECT_EQ(
+      std::count_if(data->begin(), data->end(), [](const QCPGraphData& d) { return std::isnan(d.value); }),
+      1);
+}
+
+TEST_F(PlotsPanelTest, aWideAndLowDockHasItsLanesTwoByTwo) {
+  EXPECT_EQ(plot().plotLayout()->columnCount(), 1);
+  panel_.resize(900, 280);
+  QTest::qWait(50);
+  EXPECT_EQ(plot().plotLayout()->columnCount(), 2);
+  EXPECT_EQ(plot().plotLayout()->rowCount(), 2);
+  panel_.resize(640, 640);
+  QTest::qWait(50);
+  EXPECT_EQ(plot().plotLayout()->columnCount(), 1);
+  EXPECT_EQ(plot().plotLayout()->rowCount(), 4);
+}
+
 TEST_F(PlotsPanelTest, theBudgetLineFollowsTheActivePreset) {
   draft_.setValue("measure.budget_ms", 8.3);
   bool found = false;
