@@ -12,7 +12,11 @@ struct GdalErrorsAccess {
   static void CPL_STDCALL say(CPLErr kind, CPLErrorNum, const char* text) {
     auto* errors = static_cast<GdalErrors*>(CPLGetErrorHandlerUserData());
     if (kind == CE_Debug || kind == CE_None || errors == nullptr) return;
-    const GdalErrors::Said said{kind != CE_Warning, text};
+    // One line each: some of its texts have several.
+    std::string line(text);
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    while (!line.empty() && line.back() == ' ') line.pop_back();
+    const GdalErrors::Said said{kind != CE_Warning, line};
     const bool known = std::any_of(errors->said_.begin(), errors->said_.end(),
                                    [&](const auto& s) { return s.text == said.text; });
     if (!known && errors->said_.size() < 20) errors->said_.push_back(said);
