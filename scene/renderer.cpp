@@ -56,6 +56,7 @@ struct Renderer::Impl {
   // The frame in progress.
   const FrameRequest* request = nullptr;
   EyePose eye, cullEye;
+  std::string refusal;  ///< why nothing may be hidden from the eye
   FrameCost cost;
   Clock::time_point frameStart, cullDone, drawStart;
   std::vector<std::uint32_t> testedSlots;
@@ -117,8 +118,8 @@ std::optional<DepthView> Renderer::Impl::prepareOcclusion() {
   depthMapCurrent = false;
   const auto& size = request->decision.depthMap;
   if (request->method != CullingCase::proposed || !size || visible.tiles.empty()) return {};
-  counters.note = conditions.refusal(cut, cullEye, request->view);
-  if (!counters.note.empty()) return {};
+  counters.note = refusal;
+  if (!refusal.empty()) return {};
   testedSlots.clear();
   occluders.clear();
   for (const TileDraw& tile : visible.tiles) {
@@ -204,7 +205,10 @@ FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
     select();
     cost.select = millisecondsBetween(start, Clock::now());
     counters.tilesBuilt += gl->tiles.prepare(r.overlays.colourByReason ? cut.tiles : visible.tiles);
+    refusal = conditions.refusal(cut, cullEye, r.view);
     view.depth = prepareOcclusion();
+    view.oneSided = refusal.empty() && !r.frozenEye;
+    view.dropBackFaces = view.oneSided && view.depth.has_value();
   } else {
     eye = {{}, eyeAxes(LocalFrame(r.eye), r.eye, r.attitude)};
     visible = {};

@@ -140,7 +140,7 @@ struct SceneGraph::Nodes {
   osg::ref_ptr<osgViewer::GraphicsWindowEmbedded> window = new osgViewer::GraphicsWindowEmbedded(0, 0, 1, 1);
   osg::ref_ptr<osg::Group> root = new osg::Group;
   osg::ref_ptr<osg::Camera> depthCamera = new osg::Camera;
-  osg::ref_ptr<Pass> wire, lines, sky;
+  osg::ref_ptr<Pass> terrain, wire, lines, sky;
   bool begun = false;  ///< this frame's drawing
 
   explicit Nodes(ScenePasses& passes) {
@@ -154,9 +154,8 @@ struct SceneGraph::Nodes {
     });
     depthCamera->setInitialDrawCallback(begin);
     viewer->getCamera()->setInitialDrawCallback(begin);
-    addPass(root, std::move(passes.terrain), 1, kTerrainVertex, kTerrainFragment)
-        ->getStateSet()
-        ->addUniform(new osg::Uniform("wire", false));
+    terrain = addPass(root, std::move(passes.terrain), 1, kTerrainVertex, kTerrainFragment);
+    terrain->getStateSet()->addUniform(new osg::Uniform("wire", false));
     wire = addPass(root, std::move(passes.wire), 2, kTerrainVertex, kTerrainFragment);
     wire->getStateSet()->addUniform(new osg::Uniform("wire", true));
     lines = addPass(root, std::move(passes.lines), 3, kLineVertex, kLineFragment);
@@ -286,6 +285,9 @@ void SceneGraph::frame(const SceneView& view, unsigned fbo) {
   uniforms.set("tangents", Type::FLOAT_VEC4, tangentsOf(view.shape));
   uniforms.set("dip", Type::FLOAT, static_cast<float>(view.horizonDip));
   uniforms.set("tinted", Type::BOOL, view.tinted);
+  n.terrain->getStateSet()->setMode(GL_CULL_FACE,
+                                    view.dropBackFaces ? osg::StateAttribute::ON : osg::StateAttribute::OFF);
+  uniforms.set("oneSided", Type::BOOL, view.oneSided);
   n.sky->setNodeMask(view.sky ? ~0u : 0u);
   n.wire->setNodeMask(view.wireframe ? ~0u : 0u);
   n.lines->setNodeMask(view.lines ? ~0u : 0u);

@@ -37,6 +37,9 @@ struct SceneView {
   double horizonDip = 0;  ///< radians
   ViewShape shape;
   std::optional<DepthView> depth;
+  /// The ground's underside is never seen (an eye over it, above it): fragments of triangles that face away
+  /// are not shown, and with `dropBackFaces` such triangles are not even rasterised. The picture is the same.
+  bool oneSided = false, dropBackFaces = false;
   bool sky = true, tinted = false, wireframe = false, lines = false;
 };
 
