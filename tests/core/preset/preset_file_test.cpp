@@ -166,6 +166,14 @@ TEST(PresetFile, readsAnOldVersionAndSaysWhatChanged) {
   EXPECT_THAT(*presetText(*preset), HasSubstr("\"version\": 2"));
 }
 
+TEST(PresetFile, andAnExportKeptFromItMeanTheSame) {
+  const auto preset = loadPreset((data() / "good/everything.json").string());
+  const auto exported = loadPreset((data() / "good/export.json").string());
+  ASSERT_TRUE(preset && exported) << toString(exported.findings());
+  EXPECT_TRUE(sameBits(preset->parameters, exported->parameters));
+  EXPECT_EQ(exported->parameters.altitude.curve.point[0].x, 3937.0078740157483);
+}
+
 TEST(ShippedPresets, areWhatTheyWouldBeSavedAs) {
   const auto names = shippedPresets();
   EXPECT_EQ(names, (std::vector<std::string_view>{"default", "as-published", "as-printed"}));

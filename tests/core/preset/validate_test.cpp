@@ -95,7 +95,7 @@ TEST(Validation, holdsCurvesToTheirShape) {
                                                      {{{2, 0}, {1, 0}}, "rising"},
                                                      {{{1, 0}, {1, 0.5}, {1, 1}}, "at most two"}};
   for (const auto& [curve, expected] : bad) {
-    const Findings findings = findingsAfter([&](auto& p) { p.altitude.curve = curve; });
+    const Findings findings = findingsAfter([&shape = curve](auto& p) { p.altitude.curve = shape; });
     ASSERT_EQ(findings.size(), 1u) << expected << toString(findings);
     EXPECT_EQ(findings[0].key, "fuzzy.altitude.curve_ft");
     EXPECT_THAT(findings[0].expected, HasSubstr(expected));
@@ -122,7 +122,7 @@ TEST(Validation, holdsBandsToTheirShape) {
                                                   {{{1, 64, 8193}}, "16 to 8192 px"},
                                                   {{{1, -64, 64}}, "16 to 8192 px"}};
   for (const auto& [bands, expected] : bad) {
-    const Findings findings = findingsAfter([&](auto& p) { p.scheme.bands = bands; });
+    const Findings findings = findingsAfter([&shape = bands](auto& p) { p.scheme.bands = shape; });
     ASSERT_EQ(findings.size(), 1u) << expected << toString(findings);
     EXPECT_EQ(findings[0].key, "fuzzy.bands_px");
     EXPECT_THAT(findings[0].expected, HasSubstr(expected));
