@@ -10,7 +10,7 @@ namespace trimtab::views {
 
 namespace {
 constexpr int kLowPx = 330, kWidePx = 560;
-constexpr int kRoomForBudgetTextPx = 320;
+constexpr int kRoomForBudgetTextPx = 420;
 constexpr double kShortestSpanS = 0.05, kLongestSpanS = 3600 * 4;
 }  // namespace
 
@@ -135,6 +135,7 @@ void TimePlot::arrange() {
 void TimePlot::resizeEvent(QResizeEvent* event) {
   arrange();
   QCustomPlot::resizeEvent(event);
+  draw();
 }
 
 void TimePlot::addTrace(std::size_t lane, TraceGraph::Look look, bool right) {
@@ -247,8 +248,7 @@ void TimePlot::draw() {
     }
     lanes_[i].rect->axis(QCPAxis::atLeft)->setRange(0, high);
     // In a narrow dock the legend needs the room.
-    if (lanes_[i].budgetText)
-      lanes_[i].budgetText->setVisible(lanes_[i].rect->width() > kRoomForBudgetTextPx);
+    if (lanes_[i].budgetText) lanes_[i].budgetText->setVisible(width() / columns_ > kRoomForBudgetTextPx);
   }
   lanes_[2].rect->axis(QCPAxis::atRight)->setRange(0, fps > 0 ? fps * 1.4 : 100);
   for (Lane& lane : lanes_)
