@@ -30,6 +30,12 @@ inline double numberOf(const views::Draft& draft, std::string_view key) {
   return std::get<double>(draft.value(key));
 }
 
+/// Whether `holds` comes true while events are processed; patient, because machines are loaded.
+template <class Predicate>
+bool eventually(Predicate holds) {
+  return QTest::qWaitFor(holds, 5000);
+}
+
 /// Press, `steps` moves and, unless it is to be held, release.
 inline void drag(QWidget& widget, QPointF from, QPointF to, bool release = true, int steps = 8) {
   QTest::mousePress(&widget, Qt::LeftButton, Qt::NoModifier, from.toPoint());

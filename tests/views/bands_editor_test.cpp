@@ -117,19 +117,19 @@ TEST_F(BandsEditorTest, theInsetSaysWhyThereIsNoDepthMap) {
   ASSERT_NE(inset, nullptr);
   LiveFrame frame;
   editor_.showFrame(frame);
-  QTest::qWait(60);
-  EXPECT_EQ(inset->accessibleDescription(), "No depth map: scheme is frustum");
+  EXPECT_TRUE(
+      test::eventually([&] { return inset->accessibleDescription() == "No depth map: scheme is frustum"; }));
   QImage map(32, 24, QImage::Format_Grayscale8);
   map.fill(90);
   frame.decision.scheme = Scheme::dynamic;
   frame.depthMap = DepthMapSize{32, 24};
   editor_.showFrame(frame);
   editor_.showDepthMap(map, "32 × 24 px, near 1 m, far 5 km");
-  QTest::qWait(60);
-  EXPECT_EQ(inset->accessibleDescription(), "32 × 24 px, near 1 m, far 5 km");
+  EXPECT_TRUE(
+      test::eventually([&] { return inset->accessibleDescription() == "32 × 24 px, near 1 m, far 5 km"; }));
   editor_.showFrame(LiveFrame{});
-  QTest::qWait(60);
-  EXPECT_EQ(inset->accessibleDescription(), "No depth map: scheme is frustum");
+  EXPECT_TRUE(
+      test::eventually([&] { return inset->accessibleDescription() == "No depth map: scheme is frustum"; }));
 }
 
 }  // namespace

@@ -103,12 +103,14 @@ TEST_F(DecisionPanelTest, savesTheLogAndSaysWhenItCannot) {
 
 TEST_F(DecisionPanelTest, showsSchemeAndReason) {
   fly(6000);
-  QTest::qWait(60);
-  QStringList said;
-  for (const QLabel* label : panel_.findChildren<QLabel*>()) said << label->text();
-  EXPECT_TRUE(said.contains("Dynamic: depth map 400 × 300 px"));
+  const auto isSaid = [this](const QString& text) {
+    for (const QLabel* label : panel_.findChildren<QLabel*>())
+      if (label->text() == text) return true;
+    return false;
+  };
+  EXPECT_TRUE(test::eventually([&] { return isSaid("Dynamic: depth map 400 × 300 px"); }));
   DecisionMemory memory;
-  EXPECT_TRUE(said.contains(QString::fromStdString(
+  EXPECT_TRUE(isSaid(QString::fromStdString(
       explain(decide(test::inputAt(6000, 0), draft_.active(), memory), draft_.active()))));
 }
 
