@@ -126,7 +126,10 @@ std::optional<DepthView> Renderer::Impl::prepareOcclusion() {
     testedSlots.push_back(gl->tiles.slotOf(tile.node));
     if (conditions.mayOcclude(tile.node)) occluders.push_back(tile);
   }
-  if (occluders.empty()) return {};
+  if (occluders.empty()) {
+    counters.note = "every tile in view is at the terrain's edge";
+    return {};
+  }
   gl->occlusion.prepare(size->widthPx, size->heightPx, testedSlots);
   counters.depthMap = size;
   ++counters.depthMapsDrawn;

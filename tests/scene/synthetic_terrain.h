@@ -16,11 +16,13 @@ class SyntheticTerrain final : public terrain::Database {
   using Height = std::function<double(int column, int row)>;
 
   /// `tiles` x `tiles` tiles of the finest level, a power of two; posts `stepDegrees` apart.
-  SyntheticTerrain(int tiles, double stepDegrees, GeodeticPosition southWest, Height height)
+  /// The frame's origin stands in the middle, or `frameOffset` north-east of it.
+  SyntheticTerrain(int tiles, double stepDegrees, GeodeticPosition southWest, Height height,
+                   Degrees frameOffset = Degrees{0})
       : posts_(tiles * kCells + 1), step_(stepDegrees), southWest_(southWest) {
     const double middle = stepDegrees * (posts_ - 1) / 2;
-    index_.frame =
-        LocalFrame({southWest.latitude + Degrees{middle}, southWest.longitude + Degrees{middle}, Metres{0}});
+    index_.frame = LocalFrame({southWest.latitude + Degrees{middle} + frameOffset,
+                               southWest.longitude + Degrees{middle} + frameOffset, Metres{0}});
     info_.name = "synthetic";
     info_.southWest = southWest;
     info_.northEast = {southWest.latitude + Degrees{2 * middle}, southWest.longitude + Degrees{2 * middle},
