@@ -7,6 +7,7 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QScreen>
+#include <QScrollArea>
 #include <QSettings>
 #include <QStatusBar>
 #include <QUndoView>
@@ -26,6 +27,15 @@ namespace {
 
 /// Raised when docks come or go, so that an old layout is not forced on new docks.
 constexpr int kLayoutVersion = 1;
+
+/// Editors stacked in one column would ask for more height than a small screen has.
+QScrollArea* scrollable(QWidget* content) {
+  auto* area = new QScrollArea;
+  area->setFrameShape(QFrame::NoFrame);
+  area->setWidgetResizable(true);
+  area->setWidget(content);
+  return area;
+}
 
 }  // namespace
 
@@ -74,7 +84,7 @@ QDockWidget* MainWindow::addDock(const QString& name, const QString& title, QWid
                                  Qt::DockWidgetArea area) {
   auto* dock = new QDockWidget(title, this);
   dock->setObjectName(name);
-  dock->setWidget(content);
+  dock->setWidget(area == Qt::RightDockWidgetArea ? scrollable(content) : content);
   addDockWidget(area, dock);
   return dock;
 }

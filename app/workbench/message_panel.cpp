@@ -94,6 +94,7 @@ void MessagePanel::add(const QString& headline, const Findings& findings) {
       row->setToolTip(column, QString::fromStdString(toString(finding)));
   }
   tree_->insertTopLevelItem(0, top);
+  top->setFirstColumnSpanned(true);
   top->setExpanded(true);
   while (tree_->topLevelItemCount() > kMostRows) delete tree_->takeTopLevelItem(kMostRows);
   tree_->scrollToTop();

@@ -24,7 +24,7 @@ namespace trimtab::workbench {
 namespace {
 
 constexpr int kMostRecent = 8;
-constexpr auto kMethodKey = "culling.method";
+constexpr auto kMethodKey = "culling.case";
 
 QString fromView(std::string_view text) {
   return QString::fromUtf8(text.data(), qsizetype(text.size()));

@@ -87,7 +87,10 @@ TEST_F(WorkbenchWindow, theCullingCaseIsSwitchedLiveAndCanBeUndone) {
   const QImage proposed = w().viewport().grabFramebuffer();
   const auto triangles = [&] { return w().viewport().lastResult()->visible.triangles; };
   const auto fewest = triangles();
-  ASSERT_TRUE(w().draft().setText("culling.method", "none").empty());
+  QAction* none = command(w(), "No culling");
+  ASSERT_NE(none, nullptr);
+  none->trigger();
+  EXPECT_EQ(w().draft().parameters().culling.method, CullingCase::none);
   ASSERT_TRUE(settle());
   EXPECT_GT(triangles(), fewest);
   EXPECT_EQ(w().viewport().lastResult()->visible.outsideFrustum, 0u);
