@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "trimtab/scene/tile_indices.h"
+
 namespace trimtab::scene {
 namespace {
 
@@ -87,6 +89,23 @@ Spacing spacingOf(const terrain::TileMesh& mesh) {
   return {s.smallest * 0.99f, s.largest * 1.01f};
 }
 
+/// Vertex of the border, counter-clockwise from the south-west corner.
+std::size_t onRing(int i) {
+  constexpr int kEdge = kOccluderSide - 1;
+  const int along = i % kEdge;
+  const auto index = [](int x, int y) { return static_cast<std::size_t>(y * kOccluderSide + x); };
+  switch (i / kEdge % 4) {
+    case 0:
+      return index(along, 0);
+    case 1:
+      return index(kEdge, along);
+    case 2:
+      return index(kEdge - along, kEdge);
+    default:
+      return index(0, kEdge - along);
+  }
+}
+
 void makeParts(const terrain::TileMesh& mesh, TileOccluder& occluder) {
   constexpr int kPartCells = kCells / kPartsPerSide;
   for (int part = 0; part < kParts; ++part) {
@@ -107,6 +126,19 @@ void makeParts(const terrain::TileMesh& mesh, TileOccluder& occluder) {
 }
 
 }  // namespace
+
+std::vector<std::uint16_t> makeOccluderIndices() {
+  std::vector<std::uint16_t> indices = makeCoarseIndices(kOccluderStep);
+  constexpr int kFirst = kOccluderSide * kOccluderSide;
+  for (int i = 0; i < kRing; ++i) {
+    const int next = (i + 1) % kRing;
+    const auto a = static_cast<std::uint16_t>(onRing(i)), b = static_cast<std::uint16_t>(onRing(next));
+    const auto low = static_cast<std::uint16_t>(kFirst + i),
+               lowNext = static_cast<std::uint16_t>(kFirst + next);
+    indices.insert(indices.end(), {low, lowNext, b, low, b, a});
+  }
+  return indices;
+}
 
 void makeOccluder(const terrain::TileMesh& mesh, float slopeMax, TileOccluder& occluder) {
   static_assert(kOccluderStep == 2, "riseOf looks at the 2 x 2 blocks");
@@ -146,6 +178,14 @@ void makeOccluder(const terrain::TileMesh& mesh, float slopeMax, TileOccluder& o
       const float curved = occluder.limits.edge * occluder.limits.edge / 6.3e6f * (1 + slope) + 0.01f;
       occluder.vertices[i] = {v.x, v.y, v.z - rise[i] - curved, slope};
     }
+  // Deeper than neighbours' borders can differ. What is lower still hides no more than the border over it
+  // does.
+  const float depth = *std::max_element(rise.begin(), rise.end()) + 0.25f * occluder.limits.edge;
+  for (int i = 0; i < kRing; ++i) {
+    OccluderVertex v = occluder.vertices[onRing(i)];
+    v.z -= depth;
+    occluder.vertices[static_cast<std::size_t>(kOccluderSide * kOccluderSide + i)] = v;
+  }
   makeParts(mesh, occluder);
 }
 

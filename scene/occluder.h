@@ -11,7 +11,10 @@ namespace trimtab::scene {
 
 constexpr int kOccluderStep = 2;  ///< every so-manyth post
 constexpr int kOccluderSide = TerrainIndex::kTileCells / kOccluderStep + 1;
-constexpr int kOccluderVertices = kOccluderSide * kOccluderSide;
+constexpr int kRing = 4 * (kOccluderSide - 1);
+/// The posts row by row, then the border once more, lower: a wall all round, or rays would slip through
+/// between tiles whose borders are lowered differently.
+constexpr int kOccluderVertices = kOccluderSide * kOccluderSide + kRing;
 constexpr int kPartsPerSide =
     4;  ///< a tile is tested as 4 x 4 boxes: one box pokes over the ridge that hides it
 constexpr int kParts = kPartsPerSide * kPartsPerSide;
@@ -42,6 +45,9 @@ struct TileOccluder {
   OccluderLimits limits;
   std::array<PartBox, kParts> parts;
 };
+
+/// Triangles of every occluder; counter-clockwise from above and from outside.
+std::vector<std::uint16_t> makeOccluderIndices();
 
 /// `slopeMax` is the index's for the node.
 void makeOccluder(const terrain::TileMesh& mesh, float slopeMax, TileOccluder& occluder);

@@ -1,6 +1,9 @@
+#include "trimtab/scene/occluder.h"
 #include "trimtab/scene/shaders.h"
 
 namespace trimtab::scene {
+
+static_assert(kOccluderVertices == 353 && kParts == 16, "the shaders say so in numbers");
 
 // Lowers the occluders: the proof is in occlusion.h.
 const char* const kOccluderVertex = R"(#version 430 compatibility
@@ -12,7 +15,7 @@ uniform float loweringScale; // 1; tests set less to see that the picture breaks
 const float kMuch = 1e6;     // metres: hides nothing
 
 void main() {
-  int slot = gl_VertexID / 289;
+  int slot = gl_VertexID / 353;
   ivec4 place = texelFetch(slots, slot * 2);
   vec4 limits = intBitsToFloat(texelFetch(slots, slot * 2 + 1));  // reach, farReach, farSlope, edge
   vec3 p = relativePosition(vertexPosition.xyz, place);

@@ -82,7 +82,7 @@ void attach(GLuint texture, GLenum format, GLuint buffer) {
 }  // namespace
 
 TileCache::TileCache() : indices_(makeTileIndices()) {
-  const auto occluder = makeCoarseIndices(kOccluderStep);
+  const auto occluder = makeOccluderIndices();
   occluderIndices_ = static_cast<int>(occluder.size());
   vertexArray_ = makeArray(indices_.indices, indexBuffer_);
   occluderArray_ = makeArray(occluder, occluderIndexBuffer_);
