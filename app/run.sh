@@ -31,8 +31,8 @@ if [ -z "$terrain" ]; then
   if [ ! -d "$terrain" ]; then
     echo "making the sample terrain in build/sample (once)"
     mkdir -p build/sample
-    [ -f build/sample/sample.tif ] || build/bin/trimtab-cli terrain sample -o build/sample/sample.tif 2>build/sample/log
-    build/bin/trimtab-cli terrain bake build/sample/sample.tif -o "$terrain" 2>>build/sample/log
+    [ -f build/sample/sample.tif ] || build/bin/trimtab-cli terrain sample -o build/sample/sample.tif >build/sample/log 2>&1
+    build/bin/trimtab-cli terrain bake build/sample/sample.tif -o "$terrain" >>build/sample/log 2>&1
   fi
 fi
 
@@ -50,7 +50,7 @@ trap 'exit 130' INT TERM
 if [ "$host" = yes ]; then
   flight=resources/flights/yecheon-circuit.csv
   echo "simulated host: $flight over CIGI 3.3 to UDP port $port"
-  build/bin/trimtab-cli feed play "$flight" --to "127.0.0.1:$port" --protocol cigi3 --start-s 60 --loop 2>build/feed.log &
+  build/bin/trimtab-cli feed play "$flight" --to "127.0.0.1:$port" --protocol cigi3 --start-s 232 --loop 2>build/feed.log &
   children+=($!)
 fi
 
