@@ -137,6 +137,15 @@ void PlotsPanel::setPaused(bool paused) {
 void PlotsPanel::setFollowing(bool following) {
   follow_->setChecked(following);
 }
+void PlotsPanel::setSpan(double seconds) {
+  int nearest = span_->currentIndex();
+  const auto off = [&](int i) { return std::abs(std::log(span_->itemData(i).toDouble() / seconds)); };
+  for (int i = 0; i < span_->count(); ++i)
+    if (off(i) < off(nearest)) nearest = i;
+  span_->setCurrentIndex(nearest);
+  plot_->setSpan(span_->currentData().toDouble());
+}
+
 void PlotsPanel::setCursors(bool on) {
   cursors_->setChecked(on);
 }

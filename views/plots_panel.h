@@ -32,6 +32,8 @@ class PlotsPanel : public QWidget {
   void setPaused(bool paused);
   void setFollowing(bool following);
   void setCursors(bool on);
+  /// Seconds shown; the nearest of those that the panel offers.
+  void setSpan(double seconds);
   /// Every recorded frame of the shown range, in the C locale.
   QString visibleRangeCsv() const;
   Findings saveCsv(const QString& file) const;

@@ -39,6 +39,13 @@ void endOnSignals(QApplication& app, trimtab::workbench::MainWindow& window) {
   ::sigaction(SIGTERM, &action, nullptr);
 }
 
+/// While QApplication is made: Qt would abort where there is no display to be had.
+void endOnFatal(QtMsgType type, const QMessageLogContext&, const QString& text) {
+  if (type != QtFatalMsg && type != QtWarningMsg) return;
+  std::fprintf(stderr, "trimtab: %s\n", qPrintable(text.section('\n', 0, 0)));
+  if (type == QtFatalMsg) _exit(1);
+}
+
 bool displayNamed() {
   const char* platform = std::getenv("QT_QPA_PLATFORM");
   return platform != nullptr || std::getenv("DISPLAY") != nullptr ||
@@ -62,7 +69,9 @@ int main(int argc, char** argv) {
   }
 
   prepareGl();
+  qInstallMessageHandler(endOnFatal);
   QApplication app(argc, argv);
+  qInstallMessageHandler(nullptr);
   // Numbers in files and reasons are written with a point, whatever the desktop speaks; widgets go by
   // QLocale.
   std::setlocale(LC_NUMERIC, "C");

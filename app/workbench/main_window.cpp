@@ -21,12 +21,14 @@
 #include "trimtab/views/membership_editor.h"
 #include "trimtab/views/parameter_table.h"
 #include "trimtab/views/plots_panel.h"
+#include "trimtab/views/time_plot.h"
 
 namespace trimtab::workbench {
 namespace {
 
 /// Raised when docks come or go, so that an old layout is not forced on new docks.
 constexpr int kLayoutVersion = 1;
+const QString kSpanKey = QStringLiteral("plots/span_s");
 
 /// Editors stacked in one column would ask for more height than a small screen has.
 QScrollArea* scrollable(QWidget* content) {
@@ -66,6 +68,7 @@ MainWindow::MainWindow() {
   const QSettings settings;
   restoreGeometry(settings.value(QStringLiteral("window/geometry")).toByteArray());
   restoreState(settings.value(QStringLiteral("window/state")).toByteArray(), kLayoutVersion);
+  if (const double span = settings.value(kSpanKey).toDouble(); span > 0) plots_->setSpan(span);
   updateTitle();
 }
 
@@ -252,6 +255,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   QSettings settings;
   settings.setValue(QStringLiteral("window/geometry"), saveGeometry());
   settings.setValue(QStringLiteral("window/state"), saveState(kLayoutVersion));
+  settings.setValue(kSpanKey, plots_->plot().span());
   stopTrace();
   feed_.closeHost();
   event->accept();

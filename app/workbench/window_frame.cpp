@@ -24,6 +24,7 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// Pictures farther apart than this are not a rate: they are drawn on demand.
 constexpr double kLongestRateGapS = 0.5;
+constexpr double kStretchUnseen = 0.01;
 
 QColor colourOf(const std::array<std::uint8_t, 3>& c) {
   return {c[0], c[1], c[2]};
@@ -42,12 +43,27 @@ QList<LegendEntry> levelLegend(std::size_t levels) {
   return entries;
 }
 
+/// The largest size inside the widget whose pixels are square in the view: both fields of view are given, so
+/// that the widget's own shape would stretch the picture. The whole widget where that is within a hundredth.
+QSize squarePixels(const TuningParameters& parameters, const session::Session& session, QSize widget) {
+  if (parameters.view.renderSize != RenderSize::fit || !session.hasState() || widget.isEmpty()) return widget;
+  const ViewShape view =
+      viewShape(parameters.view, widget.width(), widget.height(), session.input().state.view);
+  const double wanted = (view.right - view.left) / (view.top - view.bottom);
+  const double shape = double(widget.width()) / widget.height();
+  if (!(wanted > 0) || std::abs(shape / wanted - 1) <= kStretchUnseen) return widget;
+  const QSize fits = shape > wanted ? QSize(int(std::lround(widget.height() * wanted)), widget.height())
+                                    : QSize(widget.width(), int(std::lround(widget.width() / wanted)));
+  return fits.expandedTo({1, 1});
+}
+
 }  // namespace
 
 std::optional<Picture> MainWindow::picture(int widthPx, int heightPx) {
   const double now = link::now();
   feed_.advance(now);
-  std::optional<scene::FrameRequest> request = feed_.session().request(now, widthPx, heightPx);
+  const QSize square = squarePixels(*feed_.session().parameters(), feed_.session(), {widthPx, heightPx});
+  std::optional<scene::FrameRequest> request = feed_.session().request(now, square.width(), square.height());
   if (!request) return std::nullopt;
   request->overlays = overlays_;
   request->frozenEye = frozenEye_;

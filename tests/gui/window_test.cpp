@@ -131,6 +131,22 @@ TEST_F(WorkbenchWindow, aFixedRenderSizeIsDrawnAtThatSizeAndScaledIntoTheWindow)
   EXPECT_NE(middle, QColor(Qt::black));
 }
 
+TEST_F(WorkbenchWindow, aWindowOfAnotherShapeDoesNotStretchThePicture) {
+  // 60 by 36 degrees has square pixels at tan 30 : tan 18; a view twice as high is narrower than any layout
+  // of the docks.
+  ASSERT_TRUE(w().draft().setText("view.horizontal_fov_deg", "40").empty());
+  ASSERT_TRUE(w().draft().setText("view.vertical_fov_deg", "70").empty());
+  ASSERT_TRUE(settle());
+  const QImage shown = w().viewport().grabFramebuffer();
+  const QRgb bar = shown.pixel(1, shown.height() / 2);
+  EXPECT_EQ(QColor(bar), QColor(Qt::black));
+  int left = 0;
+  while (left < shown.width() / 2 && shown.pixel(left, shown.height() / 2) == bar) ++left;
+  const double width = shown.width() - 2 * left;
+  const double wanted = std::tan(20 * M_PI / 180) / std::tan(35 * M_PI / 180);
+  EXPECT_NEAR(width / shown.height(), wanted, 0.02);
+}
+
 TEST_F(WorkbenchWindow, floatingADockKeepsThePictureAndResetLayoutBringsItBack) {
   ASSERT_TRUE(settle());
   const std::size_t tiles = w().viewport().lastResult()->visible.tiles.size();
@@ -172,6 +188,12 @@ TEST(WorkbenchProgram, withoutADisplayItSaysSoAndEndsWithOne) {
   const Ran ran = run("env -u DISPLAY -u WAYLAND_DISPLAY -u QT_QPA_PLATFORM " + program("trimtab").string());
   EXPECT_EQ(ran.exitCode, 1);
   EXPECT_NE(ran.err.find("display"), std::string::npos) << ran.err;
+  const Ran gone = run("env DISPLAY=:4242 " + program("trimtab").string());
+  EXPECT_EQ(gone.exitCode, 1) << "a display that is not there";
+  EXPECT_NE(gone.err.find("display"), std::string::npos) << gone.err;
+  const Ran noGl = run("env QT_XCB_GL_INTEGRATION=none " + program("trimtab").string());
+  EXPECT_EQ(noGl.exitCode, 1) << "a display without OpenGL";
+  EXPECT_NE(noGl.err.find("OpenGL"), std::string::npos) << noGl.err;
   EXPECT_EQ(run("env -u DISPLAY " + program("trimtab").string() + " --help").exitCode, 0);
   EXPECT_EQ(run("env -u DISPLAY " + program("trimtab").string() + " --wrong").exitCode, 2);
 }
