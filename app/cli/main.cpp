@@ -1,16 +1,12 @@
 #include <iostream>
 
 #include "commands.h"
+#include "trimtab/units/labelled.h"
 
 namespace trimtab::cli {
 
 void report(const Findings& findings) {
-  for (const Finding& f : findings) {
-    const char* label = f.severity == Severity::error     ? "error"
-                        : f.severity == Severity::warning ? "warning"
-                                                          : "note";
-    std::cerr << label << ": " << toString(f) << '\n';
-  }
+  std::cerr << labelled(findings);
 }
 
 }  // namespace trimtab::cli
@@ -20,18 +16,10 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", TRIMTAB_VERSION);
   app.require_subcommand(1);
   int exitCode = trimtab::cli::kDone;
-#ifdef TRIMTAB_HAS_PRESET
   trimtab::cli::addPreset(app, exitCode);
-#endif
-#ifdef TRIMTAB_HAS_DECIDE
   trimtab::cli::addDecide(app, exitCode);
-#endif
-#ifdef TRIMTAB_HAS_TERRAIN
   trimtab::cli::addTerrain(app, exitCode);
-#endif
-#ifdef TRIMTAB_HAS_FEED
   trimtab::cli::addFeed(app, exitCode);
-#endif
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

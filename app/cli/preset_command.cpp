@@ -9,6 +9,7 @@
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/preset/sealed.h"
+#include "trimtab/units/labelled.h"
 
 namespace trimtab::cli {
 
@@ -35,9 +36,7 @@ void printJson(const Json& document) {
 Json toJson(const Findings& findings) {
   Json list = Json::array();
   for (const Finding& f : findings)
-    list.push_back({{"severity", f.severity == Severity::error     ? "error"
-                                 : f.severity == Severity::warning ? "warning"
-                                                                   : "note"},
+    list.push_back({{"severity", label(f.severity)},
                     {"where", f.where},
                     {"key", f.key},
                     {"expected", f.expected},

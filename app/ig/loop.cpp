@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "trimtab/scene/offscreen.h"
+#include "trimtab/units/labelled.h"
 
 namespace trimtab::ig {
 namespace {
@@ -171,12 +172,7 @@ Result<Done> takeScreenshot(const Run& run, const Summary& summary, const std::f
 }
 
 void report(const Findings& findings) {
-  for (const Finding& f : findings) {
-    const char* label = f.severity == Severity::error     ? "error"
-                        : f.severity == Severity::warning ? "warning"
-                                                          : "note";
-    std::cerr << label << ": " << toString(f) << '\n';
-  }
+  std::cerr << labelled(findings);
 }
 
 }  // namespace trimtab::ig

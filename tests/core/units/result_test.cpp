@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "trimtab/units/labelled.h"
+
 namespace trimtab {
 
 TEST(Finding, readsAsOneLine) {
@@ -10,6 +12,11 @@ TEST(Finding, readsAsOneLine) {
   EXPECT_EQ(toString(Finding{Severity::error, "a.json", "", "", "an empty file"}),
             "a.json: found an empty file");
   EXPECT_EQ(toString(Finding{Severity::error, "", "", "a port", ""}), "expected a port");
+}
+
+TEST(Finding, isLabelledByItsSeverity) {
+  EXPECT_EQ(labelled({Finding{Severity::note, "a", "", "", "x"}, Finding{Severity::error, "b", "", "y", ""}}),
+            "note: a: found x\nerror: b: expected y\n");
 }
 
 TEST(Result, carriesAValueWithNotesOrAllErrors) {
