@@ -2,13 +2,27 @@
 #include "trimtab/views/throttle.h"
 
 #include <QEvent>
-#include <algorithm>
 
 namespace trimtab::views {
+namespace {
+
+constexpr int kRestPeriods = 3;
+
+const QElapsedTimer& beat() {
+  static const QElapsedTimer timer = [] {
+    QElapsedTimer started;
+    started.start();
+    return started;
+  }();
+  return timer;
+}
+
+}  // namespace
 
 Throttle::Throttle(QWidget* widget, std::function<void()> refresh, int periodMs)
     : QObject(widget), widget_(widget), refresh_(std::move(refresh)), periodMs_(periodMs) {
   timer_.setSingleShot(true);
+  timer_.setTimerType(Qt::PreciseTimer);  // a beat met early would be met twice
   connect(&timer_, &QTimer::timeout, this, &Throttle::fire);
   widget->installEventFilter(this);
 }
@@ -16,8 +30,9 @@ Throttle::Throttle(QWidget* widget, std::function<void()> refresh, int periodMs)
 void Throttle::request() {
   wanted_ = true;
   if (timer_.isActive() || !widget_->isVisible() || widget_->window()->isMinimized()) return;
-  const qint64 wait = sinceLast_.isValid() ? periodMs_ - sinceLast_.elapsed() : 0;
-  timer_.start(static_cast<int>(std::clamp<qint64>(wait, 0, periodMs_)));
+  // After a rest at once; else on the beat that all share.
+  const bool rested = !sinceLast_.isValid() || sinceLast_.elapsed() >= kRestPeriods * periodMs_;
+  timer_.start(rested ? 0 : periodMs_ - static_cast<int>(beat().elapsed() % periodMs_));
 }
 
 bool Throttle::eventFilter(QObject* watched, QEvent* event) {

@@ -10,11 +10,13 @@
 namespace trimtab::views {
 
 /// Turns any number of requests into at most one call each `periodMs`, and none while `widget` cannot be
-/// seen: what was asked for meanwhile happens once it is shown. Idle, it costs nothing.
+/// seen: what was asked for meanwhile happens once it is shown. Idle, it costs nothing. All throttles of one
+/// period fire together: a window with OpenGL in it is put together and sent anew for each widget that
+/// changes on its own.
 class Throttle : public QObject {
   Q_OBJECT
  public:
-  Throttle(QWidget* widget, std::function<void()> refresh, int periodMs = 33);
+  Throttle(QWidget* widget, std::function<void()> refresh, int periodMs = 66);
 
   void request();
   std::uint64_t refreshes() const { return refreshes_; }
