@@ -216,8 +216,11 @@ TEST(Link, sendsStartOfFrameAt60HzWithTheHostsFrameNumber) {
     host.send(receiver->port(), encodeCigiHost(s, 5000 + i, frame, ByteOrder::little));
   }
   EXPECT_NEAR(echoed, 5058, 2) << "the last frame number received, in the host's byte order";
-  EXPECT_NEAR(59 / (times.back() - times.front()), 60, 6);
-  EXPECT_EQ(receiver->statistics().states, 60U);
+  // A busy machine may slow it; nothing may hurry it.
+  const double rateHz = 59 / (times.back() - times.front());
+  EXPECT_GT(rateHz, 30);
+  EXPECT_LT(rateHz, 66);
+  EXPECT_EQ(gathered(*receiver, count(60)).size(), 60U);
 }
 
 TEST(Link, takesRandomBytesForAMinuteWithNothingMovedButACounter) {
