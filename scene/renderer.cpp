@@ -122,12 +122,23 @@ std::optional<DepthView> Renderer::Impl::prepareOcclusion() {
   if (!refusal.empty()) return {};
   testedSlots.clear();
   occluders.clear();
+  // Far tiles cost as much to draw as near ones and hide little: measured over Everest and Fuji, leaving out
+  // what is narrower than 48 texels costs a few percent of the hidden tiles and saves up to half of the pass.
+  const TerrainIndex& index = database->index();
+  const double texelsPerTangent = size->widthPx / (request->view.right - request->view.left);
+  const double leastTexels = std::min(48.0, 0.12 * size->widthPx);
+  const auto texelsAcross = [&](const Box& b) {
+    const Vec3 middle{0.5 * (double{b.minX} + b.maxX), 0.5 * (double{b.minY} + b.maxY),
+                      0.5 * (double{b.minZ} + b.maxZ)};
+    return (double{b.maxX} - b.minX) * texelsPerTangent / length(middle - cullEye.position);
+  };
   for (const TileDraw& tile : visible.tiles) {
     testedSlots.push_back(gl->tiles.slotOf(tile.node));
-    if (conditions.mayOcclude(tile.node)) occluders.push_back(tile);
+    if (conditions.mayOcclude(tile.node) && texelsAcross(index.bounds[tile.node]) >= leastTexels)
+      occluders.push_back(tile);
   }
   if (occluders.empty()) {
-    counters.note = "every tile in view is at the terrain's edge";
+    counters.note = "no tile in view may hide another: too far, or at the terrain's edge";
     return {};
   }
   gl->occlusion.prepare(size->widthPx, size->heightPx, testedSlots);
@@ -211,7 +222,6 @@ FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
     refusal = conditions.refusal(cut, cullEye, r.view);
     view.depth = prepareOcclusion();
     view.oneSided = refusal.empty() && !r.frozenEye;
-    view.dropBackFaces = view.oneSided && view.depth.has_value();
   } else {
     eye = {{}, eyeAxes(LocalFrame(r.eye), r.eye, r.attitude)};
     visible = {};

@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<float, 3> kHaze{0.74f, 0.80f, 0.86f};
 constexpr float kHazeDistance = 160e3f;
 /// Texels a side of the pyramid's level that a box is held against: more see more hidden, and cost more.
-constexpr int kTestedSpan = 16;
+constexpr int kTestedSpan = 8;
 
 unsigned programInUse(osg::State& state) {
   const auto* program = state.getLastAppliedProgramObject();
@@ -286,8 +286,7 @@ void SceneGraph::frame(const SceneView& view, unsigned fbo) {
   uniforms.set("dip", Type::FLOAT, static_cast<float>(view.horizonDip));
   uniforms.set("tinted", Type::BOOL, view.tinted);
   n.terrain->getStateSet()->setMode(GL_CULL_FACE,
-                                    view.dropBackFaces ? osg::StateAttribute::ON : osg::StateAttribute::OFF);
-  uniforms.set("oneSided", Type::BOOL, view.oneSided);
+                                    view.oneSided ? osg::StateAttribute::ON : osg::StateAttribute::OFF);
   n.sky->setNodeMask(view.sky ? ~0u : 0u);
   n.wire->setNodeMask(view.wireframe ? ~0u : 0u);
   n.lines->setNodeMask(view.lines ? ~0u : 0u);

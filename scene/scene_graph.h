@@ -37,9 +37,10 @@ struct SceneView {
   double horizonDip = 0;  ///< radians
   ViewShape shape;
   std::optional<DepthView> depth;
-  /// The ground's underside is never seen (an eye over it, above it): fragments of triangles that face away
-  /// are not shown, and with `dropBackFaces` such triangles are not even rasterised. The picture is the same.
-  bool oneSided = false, dropBackFaces = false;
+  /// An eye over the ground and above it never sees its underside: triangles that face away are dropped,
+  /// which saves a third of the frame. In every culling case: dropping them in one case alone changed 2
+  /// pixels in 288 views, slivers at silhouettes.
+  bool oneSided = false;
   bool sky = true, tinted = false, wireframe = false, lines = false;
 };
 

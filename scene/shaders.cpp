@@ -35,12 +35,8 @@ void main() {
 
 const char* const kTerrainFragment = R"(#version 430 compatibility
 in vec3 colour;
-uniform bool oneSided;
 out vec4 fragment;
-void main() {
-  if (oneSided && !gl_FrontFacing) discard;
-  fragment = vec4(colour, 1.0);
-}
+void main() { fragment = vec4(colour, 1.0); }
 )";
 
 // One triangle over the picture at reversed depth 0, infinitely far: it fills what nothing else did.
