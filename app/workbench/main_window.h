@@ -3,6 +3,7 @@
 
 #include <QElapsedTimer>
 #include <QMainWindow>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -163,7 +164,7 @@ class MainWindow : public QMainWindow {
   std::uint64_t traceCount_ = 0;
   FrameCost lastCost_;
   QElapsedTimer sincePicture_, sinceStart_;
-  double fps_ = 0;
+  double fps_ = std::numeric_limits<double>::quiet_NaN();
   Options options_;
   bool scheduledShot_ = false;
 };

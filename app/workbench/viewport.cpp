@@ -142,6 +142,7 @@ void Viewport::paintGL() {
     picture = source_(pixels.width(), pixels.height());
   if (picture) {
     drawPicture(*picture, pixels.width(), pixels.height());
+    if (picture->hud) picture->overlay.hud = picture->hud();
   } else {
     QOpenGLFunctions& gl = *context()->functions();
     gl.glClearColor(float(kEmptyColour.redF()), float(kEmptyColour.greenF()), float(kEmptyColour.blueF()), 1);

@@ -20,7 +20,8 @@ namespace trimtab::workbench {
 struct Picture {
   scene::FrameRequest request;
   OverlayContents overlay;
-  bool again = false;  ///< something moves on its own: paint again as soon as the display takes it
+  std::function<QString()> hud;  ///< asked for once the picture is drawn and `lastResult` is its own
+  bool again = false;            ///< something moves on its own: paint again as soon as the display takes it
 };
 
 /// The terrain through scene::Renderer. Paints on demand only: `invalidate` any number of times gives one

@@ -72,7 +72,7 @@ std::optional<Picture> MainWindow::picture(int widthPx, int heightPx) {
   picture.request = std::move(*request);
   picture.overlay.frozen = frozenEye_.has_value();
   picture.again = feed_.movesOnItsOwn(now);
-  picture.overlay.hud = hudText(feed_.session().eyeState(now));
+  picture.hud = [this, eye = feed_.session().eyeState(now)] { return hudText(eye); };
   if (overlays_.colourByReason) {
     picture.overlay.legendTitle = tr("Why a tile is drawn or not");
     picture.overlay.legend = reasonLegend();
@@ -92,7 +92,7 @@ QString MainWindow::hudText(const AircraftState& eye) const {
   parts << tr("pitch %1°").arg(eye.attitude.pitch.value(), 0, 'f', 1);
   if (const auto& last = viewport_->lastResult()) {
     parts << tr("%L1 triangles").arg(last->visible.triangles);
-    parts << tr("%1 ms").arg(lastCost_.total, 0, 'f', 1);
+    parts << tr("%1 ms").arg(last->cost.total, 0, 'f', 1);
   }
   if (std::isfinite(fps_)) parts << tr("%1 fps").arg(fps_, 0, 'f', 0);
   if (feed_.source() == Feed::Source::camera)

@@ -42,6 +42,8 @@ class WorkbenchWindow : public Bench {};
 
 TEST_F(WorkbenchWindow, idleCostsNothing) {
   ASSERT_TRUE(settle());
+  const QString hud = w().viewport().overlayContents().hud;
+  EXPECT_TRUE(hud.contains("triangles")) << "figures are of the picture they stand on: " << hud.toStdString();
   const std::uint64_t before = paints();
   const double cpu = cpuSeconds();
   constexpr int kSeconds = 5;
