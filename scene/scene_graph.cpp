@@ -15,7 +15,7 @@ namespace trimtab::scene {
 namespace {
 
 constexpr std::array<float, 3> kHaze{0.74f, 0.80f, 0.86f};
-constexpr float kHazeDistance = 160e3f;
+constexpr float kHazeDistance = 110e3f;
 /// Texels a side of the pyramid's level that a box is held against: more see more hidden, and cost more.
 constexpr int kTestedSpan = 8;
 
@@ -186,7 +186,7 @@ struct SceneGraph::Nodes {
     for (const GLenum off : {GL_LIGHTING, GL_BLEND, GL_CULL_FACE, GL_ALPHA_TEST})
       state->setMode(off, osg::StateAttribute::OFF);
     Uniforms uniforms(state);
-    uniforms.set("sun", Type::FLOAT_VEC3, toFloat(normalized({0.45, -0.60, 0.66})));
+    uniforms.set("sun", Type::FLOAT_VEC3, toFloat(normalized({0.55, -0.60, 0.58})));
     uniforms.set("haze", Type::FLOAT_VEC3, osg::Vec3f(kHaze[0], kHaze[1], kHaze[2]));
     uniforms.set("hazeDistance", Type::FLOAT, kHazeDistance);
     uniforms.set("slots", Type::INT, kSlotUnit);
