@@ -261,7 +261,8 @@ FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
   const auto end = Clock::now();
   cost.cull = millisecondsBetween(frameStart, cullDone);
   cost.draw = millisecondsBetween(drawStart, end);
-  cost.gpu = gl->timer.milliseconds();
+  // A software rasteriser's GPU is this processor: its time is in `draw` already, and would count twice.
+  cost.gpu = report.software ? std::numeric_limits<double>::quiet_NaN() : gl->timer.milliseconds();
   cost.total = millisecondsBetween(start, end);
   counters.visible = visible;
   counters.cost = cost;
@@ -308,8 +309,8 @@ Renderer::Grey Renderer::readDepthMap() {
   pass.read(depths);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(before));
   Grey grey{pass.width(), pass.height(), std::vector<std::uint8_t>(depths.size(), 255)};
-  // By the logarithm of the distance from 50 m to 200 km: the same step is the same ratio near and far.
-  constexpr double kFrom = 50, kTo = 200e3;
+  // By the logarithm of the distance: the same step is the same ratio near and far.
+  constexpr double kFrom = Grey::kNearestM, kTo = Grey::kFurthestM;
   for (std::size_t i = 0; i < depths.size(); ++i) {
     if (!(depths[i] > 0)) continue;
     const double distance = std::clamp(impl_->nearM / double{depths[i]}, kFrom, kTo);

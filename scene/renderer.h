@@ -80,6 +80,7 @@ class Renderer {
   /// The last depth map as 0..1 greys by distance (0 near), row 0 at the bottom; empty when the last frame
   /// had none.
   struct Grey {
+    static constexpr double kNearestM = 50, kFurthestM = 200e3;  ///< black and nearly white, by the logarithm
     int width = 0, height = 0;
     std::vector<std::uint8_t> pixels;
   };

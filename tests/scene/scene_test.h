@@ -18,7 +18,7 @@ class SceneTest : public testing::Test {
     auto created = scene::Offscreen::create(kWidth, kHeight);
     if (!created) GTEST_SKIP() << toString(created.findings());
     offscreen = std::move(created).value();
-    const scene::GlReport report = renderer.initialize();
+    report = renderer.initialize();
     ASSERT_TRUE(report.usable) << report.missing;
   }
   void TearDown() override {
@@ -75,6 +75,7 @@ class SceneTest : public testing::Test {
 
   std::unique_ptr<scene::Offscreen> offscreen;
   scene::Renderer renderer;
+  scene::GlReport report;
   std::shared_ptr<const terrain::Database> database;
 };
 
