@@ -31,7 +31,7 @@ class InstalledCore : public testing::Test {
 
 TEST_F(InstalledCore, servesAConsumerThroughItsCmakePackage) {
   const std::string build = (dir_ / "build").string();
-  const Ran built = run("cmake -S " + source_ + " -B " + build + " -DCMAKE_PREFIX_PATH=" + prefix_ +
+  const Ran built = run("cmake -S " + source_ + " -B " + build + " -G Ninja -DCMAKE_PREFIX_PATH=" + prefix_ +
                         " -DCMAKE_CXX_COMPILER=" TRIMTAB_CXX " && cmake --build " + build);
   ASSERT_EQ(built.exitCode, 0) << built.out << built.err;
   const Ran ran = run(build + "/consumer " + (dir_ / "export.json").string());
