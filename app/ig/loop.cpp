@@ -15,9 +15,7 @@ constexpr double kViewerPeriodS = 1.0 / 60;
 
 class Loop {
  public:
-  explicit Loop(const Run& run) : run_(run), frameMs_(8192), inFrames_(8192) {
-    if (run_.options.watch) watch_.emplace(run_.options.preset);
-  }
+  explicit Loop(const Run& run) : run_(run), frameMs_(8192), inFrames_(8192) {}
 
   Summary run() {
     if (run_.options.listen) begin();
@@ -56,7 +54,7 @@ class Loop {
   void sleep() {
     const double now = link::now();
     double seconds = run_.feed.dueIn(now);
-    if (watch_) seconds = std::fmin(seconds, PresetWatch::kPeriodS);
+    if (run_.watch) seconds = std::fmin(seconds, PresetWatch::kPeriodS);
     const session::LinkState link = run_.session.linkState(now);
     const bool moving = link == session::LinkState::live || link == session::LinkState::jumped;
     if (run_.surface.hasViewer() && moving) seconds = std::fmin(seconds, kViewerPeriodS);
@@ -65,9 +63,9 @@ class Loop {
 
   /// Whether a changed preset took effect. A refused one is reported and changes nothing.
   bool reloaded(double now) {
-    if (!watch_ || now - lastWatch_ < PresetWatch::kPeriodS) return false;
+    if (!run_.watch || now - lastWatch_ < PresetWatch::kPeriodS) return false;
     lastWatch_ = now;
-    const std::optional<Result<ActivePreset>> changed = watch_->poll();
+    const std::optional<Result<ActivePreset>> changed = run_.watch->poll();
     if (!changed) return false;
     report(changed->findings());
     if (!*changed) {
@@ -129,7 +127,6 @@ class Loop {
   const Run& run_;
   Summary summary_;
   SampleWindow frameMs_, inFrames_;
-  std::optional<PresetWatch> watch_;
   std::optional<int> lastBand_;
   std::vector<TraceRow> rows_;
   double lastFrame_ = 0, lastMs_ = 0, lastWatch_ = 0;

@@ -21,6 +21,7 @@ struct Run {
   Surface& surface;
   Feed& feed;
   TraceFile* trace = nullptr;
+  PresetWatch* watch = nullptr;  ///< made before the preset was loaded, so that no change is missed
 };
 
 struct Summary {

@@ -77,6 +77,8 @@ int runWith(const Options& options) {
   const SummaryOutput output;
   const Wake wake;
   // All inputs are looked at before any refusal ends the program: one run tells everything that is wrong.
+  std::optional<PresetWatch> watch;
+  if (options.watch) watch.emplace(options.preset);
   const Result<ActivePreset> preset = loadActivePreset(options.preset);
   const Result<std::shared_ptr<const terrain::Database>> database =
       terrain::openOrBake(options.terrain, session::cacheFolder(), progressOnError(wake));
@@ -107,7 +109,14 @@ int runWith(const Options& options) {
   session::Session session(preset->parameters);
   session.setTerrain(*database);
   session.keepRows(true);
-  const Run run{options, wake, session, renderer, **surface, **feed, trace ? &*trace : nullptr};
+  const Run run{options,
+                wake,
+                session,
+                renderer,
+                **surface,
+                **feed,
+                trace ? &*trace : nullptr,
+                watch ? &*watch : nullptr};
   if (options.listen || options.realtime) warmUp(run, **database);
   const Summary summary = drawFrames(run);
 

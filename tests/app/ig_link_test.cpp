@@ -147,6 +147,14 @@ TEST_F(IgLink, watchTakesAChangedExportAndKeepsTheLastGoodOne) {
   EXPECT_EQ(ig.summary()["presets_refused"], 2);
 }
 
+TEST_F(IgLink, watchSeesAnExportThatChangesWhileTheProgramMakesItselfReady) {
+  IgProcess ig = listen({"--watch"});
+  // Opened between the preset and the first frame.
+  ASSERT_TRUE(ig.until([&] { return std::filesystem::exists(dir_ / "trace.csv.part"); })) << ig.err();
+  writePreset(test::edited([](TuningParameters& p) { p.altitude.curve.point[1].y = 0.35; }));
+  EXPECT_TRUE(ig.says("loaded again")) << ig.err();
+}
+
 TEST_F(IgLink, sleepsWhenNobodySends) {
   IgProcess ig = listen({"--watch"});
   ASSERT_NE(ig.port(), 0) << ig.err();
