@@ -35,7 +35,7 @@ struct ReceiverOptions {
   std::string bindAddress = "0.0.0.0";
   HostProtocol protocol = HostProtocol::automatic;
   std::optional<Endpoint> reply;  ///< Start of Frame goes there at `replyRateHz`
-  double replyRateHz = 60;
+  double replyRateHz = 60;        ///< 0.001..10000
   /// Called on the receiver's thread after each state was queued: a place to post an event, nothing more.
   std::function<void()> wake;
 };
@@ -59,21 +59,23 @@ class Receiver {
 /// Current CLOCK_REALTIME in seconds.
 double now();
 
-/// Sends a flight over UDP on the flight's own clock, from its own thread.
 struct PlayOptions {
   Endpoint to;
   WireProtocol protocol = WireProtocol::cigi3;
-  double rateHz =
-      60;  ///< states are interpolated at this rate; 0: send the flight's rows as they are, at their times
-  double speed = 1;
+  /// States are interpolated at this rate, 0.001..10000; 0: send the flight's rows as they are, at their
+  /// times.
+  double rateHz = 60;
+  double speed = 1;  ///< 0.001..1000
   bool loop = false;
   double startS = 0;  ///< seconds into the flight
 };
+/// Sends a flight over UDP on the flight's own clock, from its own thread.
 class FeedPlayer {
  public:
   static Result<std::unique_ptr<FeedPlayer>> start(Flight flight, const PlayOptions& options);
   virtual ~FeedPlayer() = default;  ///< stops
   virtual void pause(bool paused) = 0;
+  /// A speed that `PlayOptions` does not allow changes nothing.
   virtual void setSpeed(double speed) = 0;
   virtual void setLoop(bool loop) = 0;
   virtual void seek(double timeS) = 0;

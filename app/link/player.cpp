@@ -16,6 +16,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// Rates and speeds so low, and gaps so long, that deadlines would not fit the clock's 292 years.
+constexpr double kLowestRateHz = 1e-3, kLongestGapS = 1e9;
+
+bool isSpeed(double speed) {
+  return speed >= 1e-3 && speed <= 1000;
+}
+
 class UdpPlayer final : public FeedPlayer {
  public:
   UdpPlayer(Descriptor socket, Flight flight, const PlayOptions& options)
@@ -42,7 +49,7 @@ class UdpPlayer final : public FeedPlayer {
     change([&] { paused_ = paused; });
   }
   void setSpeed(double speed) override {
-    if (!(speed > 0 && std::isfinite(speed))) return;
+    if (!isSpeed(speed)) return;
     change([&] { speed_ = speed; });
   }
   void setLoop(bool loop) override {
@@ -181,8 +188,8 @@ void UdpPlayer::runByRows(std::unique_lock<std::mutex>& lock) {
       if (row_ >= flight_.states.size()) continue;
     }
     const double rowS = flight_.states[row_].time - flight_.beginS();
-    const auto due = anchor + std::chrono::duration_cast<Clock::duration>(
-                                  std::chrono::duration<double>((rowS - anchorS) / speed_));
+    const auto due = anchor + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
+                                  std::min((rowS - anchorS) / speed_, kLongestGapS)));
     if (changed_.wait_until(lock, due, [&] { return stop_ || seen != edits_; })) continue;
     send(flight_.states[row_], due - begin);
     position_ = rowS;
@@ -198,10 +205,9 @@ Result<std::unique_ptr<FeedPlayer>> FeedPlayer::start(Flight flight, const PlayO
     errors.push_back({Severity::error, "feed", key, expected, found});
   };
   if (flight.states.empty()) refuse("flight", "at least one state", "none");
-  if (!(options.rateHz >= 0 && options.rateHz <= 10000))
-    refuse("rate", "0..10000 Hz", std::to_string(options.rateHz));
-  if (!(options.speed > 0 && options.speed <= 1000))
-    refuse("speed", "above 0 and up to 1000", std::to_string(options.speed));
+  if (!(options.rateHz == 0 || (options.rateHz >= kLowestRateHz && options.rateHz <= 10000)))
+    refuse("rate", "0, or 0.001..10000 Hz", std::to_string(options.rateHz));
+  if (!isSpeed(options.speed)) refuse("speed", "0.001..1000", std::to_string(options.speed));
   if (options.protocol == WireProtocol::none) refuse("protocol", "native-fdm or cigi3", "none");
   const auto address = resolve(options.to);
   if (!address) errors.insert(errors.end(), address.findings().begin(), address.findings().end());

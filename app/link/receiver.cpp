@@ -212,8 +212,8 @@ Result<std::unique_ptr<Receiver>> Receiver::open(const ReceiverOptions& options)
   const auto failure = [&where](const std::string& expected, const std::string& found) {
     return Finding{Severity::error, where, "", expected, found};
   };
-  if (!(options.replyRateHz > 0 && options.replyRateHz <= 10000))
-    return failure("a reply rate above 0 and up to 10000 Hz", std::to_string(options.replyRateHz));
+  if (!(options.replyRateHz >= 1e-3 && options.replyRateHz <= 10000))
+    return failure("a reply rate of 0.001..10000 Hz", std::to_string(options.replyRateHz));
   const auto own = resolve({options.bindAddress, options.port});
   if (!own) return own.findings();
   std::optional<sockaddr_in> reply;

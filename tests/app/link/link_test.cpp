@@ -307,6 +307,25 @@ TEST(Endpoint, isAddressAndPort) {
     EXPECT_FALSE(link::parseEndpoint(bad)) << bad;
 }
 
+TEST(Link, refusesAReplyRateThatItCannotKeep) {
+  for (const double rateHz : {0.0, -60.0, 1e-12, 1e6, std::nan("")}) {
+    link::ReceiverOptions options;
+    options.replyRateHz = rateHz;
+    EXPECT_FALSE(link::Receiver::open(options)) << rateHz;
+  }
+}
+
+TEST(FeedPlayer, waitsForARowThatIsCenturiesAway) {
+  Flight flight = aFlight();
+  flight.states.resize(2);
+  flight.states[1].time = 1e12;
+  const auto receiver = opened();
+  const auto player = playing(receiver->port(), {.to = {}, .rateHz = 0, .loop = true}, flight);
+  ASSERT_EQ(gathered(*receiver, count(1)).size(), 1U);
+  std::this_thread::sleep_for(50ms);
+  EXPECT_EQ(player->sent(), 1U);
+}
+
 TEST(FeedPlayer, refusesWhatCannotBePlayed) {
   const auto refused = [](const link::PlayOptions& options, Flight flight) {
     return !link::FeedPlayer::start(std::move(flight), options);
@@ -316,9 +335,14 @@ TEST(FeedPlayer, refusesWhatCannotBePlayed) {
   EXPECT_TRUE(refused(options, Flight{}));
   options.rateHz = std::nan("");
   EXPECT_TRUE(refused(options, aFlight()));
-  options.rateHz = 60;
-  options.speed = 0;
+  // The next packet would be due when the clock has long wrapped.
+  options.rateHz = 1e-12;
   EXPECT_TRUE(refused(options, aFlight()));
+  options.rateHz = 60;
+  for (const double speed : {0.0, -1.0, 1e-12, 1001.0, std::nan("")}) {
+    options.speed = speed;
+    EXPECT_TRUE(refused(options, aFlight())) << speed;
+  }
   options.speed = 1;
   options.to.address = "no such host";
   EXPECT_TRUE(refused(options, aFlight()));
