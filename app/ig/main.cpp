@@ -1,6 +1,8 @@
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -30,8 +32,11 @@ class SummaryOutput {
   }
   SummaryOutput(const SummaryOutput&) = delete;
   SummaryOutput& operator=(const SummaryOutput&) = delete;
-  void print(const std::string& text) const {
-    if (file_) std::fprintf(file_, "%s\n", text.c_str());
+  /// Refused where the text cannot be written, as to a full disk. Nowhere to write to is no refusal.
+  Result<Done> print(const std::string& text) const {
+    if (!file_ || (std::fprintf(file_, "%s\n", text.c_str()) >= 0 && std::fflush(file_) == 0)) return Done{};
+    return Finding{
+        Severity::error, "summary", {}, "standard output that can be written", std::strerror(errno)};
   }
 
  private:
@@ -123,7 +128,8 @@ int runWith(const Options& options) {
   bool written = true;
   if (trace) written &= accepted(trace->finish());
   if (!options.screenshot.empty()) written &= accepted(takeScreenshot(run, summary, options.screenshot));
-  output.print(options.json ? summaryJson(summary, **feed, options, *gl) : summaryLine(summary, **feed));
+  written &= accepted(
+      output.print(options.json ? summaryJson(summary, **feed, options, *gl) : summaryLine(summary, **feed)));
   renderer.release();
   return written ? kDone : kRefused;
 }

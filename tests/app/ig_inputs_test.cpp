@@ -40,6 +40,16 @@ TEST_F(IgInputs, theGoodOnesRun) {
   EXPECT_NE(ran.out.find("2 frames, 2 packets"), std::string::npos) << ran.out;
 }
 
+TEST_F(IgInputs, aSummaryThatCannotBeWrittenIsARefusal) {
+  for (const char* more : {" >/dev/full", " --json >/dev/full"}) {
+    Arguments arguments = good_;
+    arguments.more += more;
+    const test::Ran ran = run(arguments);
+    EXPECT_EQ(ran.exitCode, 1) << more;
+    EXPECT_NE(ran.err.find("summary"), std::string::npos) << ran.err;
+  }
+}
+
 TEST_F(IgInputs, badOnesAreRefusedWithFileAndReason) {
   const std::string preset = test::exported(defaultParameters());
   std::string damaged = preset;
