@@ -121,8 +121,12 @@ void UdpPlayer::send(AircraftState state, Clock::duration elapsed) {
   if (protocol_ == WireProtocol::native_fdm) state.time += epoch_;
   const auto bytes =
       protocol_ == WireProtocol::native_fdm ? encodeNativeFdm(state) : encodeCigiHost(state, ++frame_, 0);
-  // Nobody there (ECONNREFUSED) is no reason to stop: a host sends whether it is heard or not.
-  static_cast<void>(::send(socket_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL));
+  // Nobody there (ECONNREFUSED) is no reason to stop: a host sends whether it is heard or not. It is told of
+  // the packet before and in place of this one, which is sent once more: someone may listen by now.
+  const auto attempt = [&] {
+    return ::send(socket_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+  };
+  if (attempt() < 0 && errno == ECONNREFUSED) static_cast<void>(attempt());
   ++sent_;
 }
 

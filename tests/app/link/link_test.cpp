@@ -315,6 +315,20 @@ TEST(Link, refusesAReplyRateThatItCannotKeep) {
   }
 }
 
+TEST(FeedPlayer, isHeardFromTheFirstPacketOnThatSomeoneListensTo) {
+  Flight flight = aFlight();
+  flight.states.resize(3);
+  flight.states[1].time = flight.states[0].time + 1;
+  flight.states[2].time = flight.states[0].time + 1.2;
+  const std::uint16_t port = opened()->port();
+  const auto player = playing(port, {.to = {}, .rateHz = 0}, flight);
+  for (int i = 0; i < 500 && player->sent() < 1; ++i) std::this_thread::sleep_for(1ms);
+  const auto receiver = opened({.port = port, .reply = {}, .wake = {}});
+  const auto all = gathered(*receiver, count(2));
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].state.position, flight.states[1].position);
+}
+
 TEST(FeedPlayer, waitsForARowThatIsCenturiesAway) {
   Flight flight = aFlight();
   flight.states.resize(2);
