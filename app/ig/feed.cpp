@@ -1,5 +1,6 @@
 #include "feed.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iostream>
 #include <limits>

@@ -1,5 +1,6 @@
 #include "decide.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
