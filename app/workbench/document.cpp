@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "document.h"
 
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <QCoreApplication>
 #include <QDateTime>
@@ -29,6 +32,20 @@ QString recoveryFolder() {
 
 QString ownCopy() {
   return QStringLiteral("%1/%2.json").arg(recoveryFolder()).arg(QCoreApplication::applicationPid());
+}
+
+/// Locked while the program that keeps the copy lives: the number of a dead program may be given anew, or
+/// stay taken until somebody asks how it ended.
+QString lockOf(const QString& copy) {
+  return copy.chopped(5) + QStringLiteral(".lock");
+}
+
+bool isKept(const QString& copy, qint64 pid) {
+  const int lock = ::open(QFile::encodeName(lockOf(copy)).constData(), O_RDWR | O_CLOEXEC);
+  if (lock < 0) return ::kill(static_cast<pid_t>(pid), 0) == 0;
+  const bool kept = ::flock(lock, LOCK_EX | LOCK_NB) != 0;
+  ::close(lock);
+  return kept;
 }
 
 bool isShipped(std::string_view name) {
@@ -69,7 +86,12 @@ Document::Document(views::Draft& draft, QObject* parent) : QObject(parent), draf
   });
 }
 
-Document::~Document() = default;
+Document::~Document() {
+  if (lock_ < 0) return;
+  // What is left behind now is for the next start to offer.
+  if (!QFile::exists(ownCopy())) QFile::remove(lockOf(ownCopy()));
+  ::close(lock_);
+}
 
 QString Document::title() const {
   if (!file_.isEmpty()) return QFileInfo(file_).fileName();
@@ -135,6 +157,13 @@ void Document::keepCopyNow() {
   const Result<std::string> text = presetText(draft_.preset());
   if (!text) return;
   QDir().mkpath(recoveryFolder());
+  if (lock_ < 0) {
+    lock_ = ::open(QFile::encodeName(lockOf(ownCopy())).constData(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+      ::close(lock_);
+      lock_ = -1;
+    }
+  }
   const QJsonObject copy{{"file", file_},
                          {"saved_at", QDateTime::currentDateTime().toString(Qt::ISODate)},
                          {"preset", QString::fromStdString(*text)}};
@@ -155,8 +184,7 @@ std::vector<Document::Recovered> Document::abandoned() {
   for (const QFileInfo& info : folder.entryInfoList({QStringLiteral("*.json")}, QDir::Files, QDir::Time)) {
     bool isPid = false;
     const qint64 pid = info.completeBaseName().toLongLong(&isPid);
-    if (!isPid || pid == QCoreApplication::applicationPid() || ::kill(static_cast<pid_t>(pid), 0) == 0)
-      continue;
+    if (!isPid || pid == QCoreApplication::applicationPid() || isKept(info.filePath(), pid)) continue;
     const QJsonObject copy =
         QJsonDocument::fromJson(QByteArray::fromStdString(readAll(info.filePath()))).object();
     found.push_back(
@@ -181,6 +209,7 @@ Result<Done> Document::recover(const Recovered& recovered) {
 
 void Document::discard(const Recovered& recovered) {
   QFile::remove(recovered.copy);
+  QFile::remove(lockOf(recovered.copy));
 }
 
 }  // namespace trimtab::workbench

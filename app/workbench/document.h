@@ -65,6 +65,7 @@ class Document : public QObject {
   std::string bytes_;  ///< as last read or written
   QFileSystemWatcher watcher_;
   QTimer copySoon_, lookSoon_;
+  int lock_ = -1;  ///< held from the first copy on
 };
 
 }  // namespace trimtab::workbench

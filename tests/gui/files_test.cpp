@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -162,6 +164,28 @@ TEST_F(WorkbenchFiles, editsOfAProgramThatDiedAreOfferedAndComeBackAsOneStep) {
   w().draft().undoStack().undo();
   EXPECT_NE(hysteresis(), 0.04);
   EXPECT_TRUE(workbench::Document::abandoned().empty());
+}
+
+TEST_F(WorkbenchFiles, editsAreOfferedByWhoHoldsTheirLockAndNotByWhoHasTheNumber) {
+  edit();
+  w().document().keepCopyNow();
+  const QDir folder(QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) + "/recovery");
+  const QString own = folder.filePath(QString::number(QCoreApplication::applicationPid()));
+  const QString other = folder.filePath(QString::number(::getppid()));  // lives, and is no workbench
+  ASSERT_TRUE(QFile::copy(own + ".json", other + ".json"));
+  EXPECT_TRUE(workbench::Document::abandoned().empty());
+  const int lock = ::open(qPrintable(other + ".lock"), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  ASSERT_EQ(::flock(lock, LOCK_EX | LOCK_NB), 0);
+  EXPECT_TRUE(workbench::Document::abandoned().empty());
+  ::close(lock);
+  const auto left = workbench::Document::abandoned();
+  ASSERT_EQ(left.size(), 1U);
+  workbench::Document::discard(left[0]);
+  EXPECT_FALSE(QFile::exists(other + ".json") || QFile::exists(other + ".lock"));
+  w().draft().undoStack().setClean();
+  w().document().dropCopy();
+  window.reset();
+  EXPECT_FALSE(QFile::exists(own + ".lock"));
 }
 
 TEST_F(WorkbenchFiles, aFileChangedByAnotherProgramIsSaidAndReloadedOnRequest) {
