@@ -56,9 +56,10 @@ MessagePanel::MessagePanel(QWidget* parent) : QWidget(parent), tree_(new QTreeWi
   tree_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   tree_->setUniformRowHeights(true);
   tree_->setAccessibleName(tr("Messages"));
-  tree_->header()->resizeSection(kWhat, 420);
+  // A headline spans all columns, so the first holds a severity only: what was found must be in sight.
+  tree_->header()->resizeSection(kWhat, 120);
   tree_->header()->resizeSection(kWhere, 260);
-  tree_->header()->resizeSection(kExpected, 220);
+  tree_->header()->resizeSection(kExpected, 240);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(tree_);

@@ -94,6 +94,8 @@ QString MainWindow::hudText(const AircraftState& eye) const {
     parts << tr("%L1 triangles").arg(last->visible.triangles);
     parts << tr("%1 ms").arg(last->cost.total, 0, 'f', 1);
   }
+  if (terrain_ && !terrain_->heightAt(eye.position.latitude, eye.position.longitude))
+    parts << tr("not over the terrain");
   if (std::isfinite(fps_)) parts << tr("%1 fps").arg(fps_, 0, 'f', 0);
   if (feed_.source() == Feed::Source::camera)
     parts << tr("free camera at %L1 kt")

@@ -52,6 +52,17 @@ TEST_F(WorkbenchWindow, idleCostsNothing) {
   EXPECT_LT((cpuSeconds() - cpu) / kSeconds, 0.01) << "share of a core";
 }
 
+TEST_F(WorkbenchWindow, anEmptySkySaysThatTheEyeIsNotOverTheTerrain) {
+  ASSERT_TRUE(settle());
+  EXPECT_FALSE(w().viewport().overlayContents().hud.contains("not over the terrain"));
+  GeodeticPosition away = w().viewport().camera().position();
+  away.longitude = Degrees{away.longitude.value() + 20};
+  w().viewport().camera().place(away, {});
+  w().feed().look(w().viewport().camera());
+  ASSERT_TRUE(settle());
+  EXPECT_TRUE(w().viewport().overlayContents().hud.contains("not over the terrain"));
+}
+
 TEST_F(WorkbenchWindow, manyChangesMakeOnePaintAndHiddenNone) {
   ASSERT_TRUE(settle());
   std::uint64_t before = paints();
