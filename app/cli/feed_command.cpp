@@ -76,6 +76,13 @@ int play(const Options& options) {
   report(flight.findings());
   if (!flight) return kRefused;
   const double durationS = flight->durationS();
+  if (options.startS > durationS) {
+    char most[64], found[32];
+    std::snprintf(most, sizeof most, "at most %.1f s, the flight's end", durationS);
+    std::snprintf(found, sizeof found, "%g", options.startS);
+    report({{Severity::error, options.flight, "--start-s", most, found}});
+    return kRefused;
+  }
   link::PlayOptions how;
   how.to = *to;
   how.protocol = options.protocol == "native-fdm" ? WireProtocol::native_fdm : WireProtocol::cigi3;

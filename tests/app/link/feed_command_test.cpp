@@ -141,6 +141,7 @@ TEST(FeedCommand, refusesWithTheExitCodeOfItsKind) {
       {"play " + aFlight(dir) + " --to 70000 --protocol cigi3", 2, "1..65535"},
       {"play " + aFlight(dir) + " --to 8004 --protocol dis", 2, "dis"},
       {"play " + aFlight(dir) + " --to 8004", 2, "protocol"},
+      {"play " + aFlight(dir) + " --to 8004 --protocol cigi3 --start-s 60", 1, "at most 1.9 s"},
       {"show --listen " + port, 1, "port " + port + " is taken"},
       {"show", 2, "listen"},
       {"record --listen " + freePort() + " -o " + (dir / "no/where.csv").string(), 1, "a folder that exists"},
