@@ -5,7 +5,6 @@
 #include <QApplication>
 #include <QBoxLayout>
 #include <QClipboard>
-#include <QFileDialog>
 #include <QHeaderView>
 #include <QLabel>
 #include <QMessageBox>
@@ -15,6 +14,7 @@
 #include <algorithm>
 
 #include "trimtab/decision/decide.h"
+#include "trimtab/views/ask_csv_file.h"
 #include "trimtab/views/bar_list.h"
 #include "trimtab/views/decision_log.h"
 #include "trimtab/views/theme.h"
@@ -185,8 +185,7 @@ Findings DecisionPanel::saveLog(const QString& file) const {
 }
 
 void DecisionPanel::askAndSave() {
-  const QString file = QFileDialog::getSaveFileName(this, tr("Save Decision Log"),
-                                                    QStringLiteral("decisions.csv"), tr("CSV (*.csv)"));
+  const QString file = askCsvFile(this, tr("Save Decision Log"), QStringLiteral("decisions.csv"));
   if (file.isEmpty()) return;
   if (const Findings findings = saveLog(file); !findings.empty())
     QMessageBox::warning(this, tr("The log was not saved"), QString::fromStdString(toString(findings)));

@@ -4,7 +4,6 @@
 #include <QAction>
 #include <QBoxLayout>
 #include <QComboBox>
-#include <QFileDialog>
 #include <QHeaderView>
 #include <QLabel>
 #include <QMessageBox>
@@ -12,6 +11,7 @@
 #include <QToolButton>
 #include <cmath>
 
+#include "trimtab/views/ask_csv_file.h"
 #include "trimtab/views/theme.h"
 #include "trimtab/views/time_plot.h"
 
@@ -207,8 +207,7 @@ Findings PlotsPanel::saveCsv(const QString& file) const {
 }
 
 void PlotsPanel::askAndSave() {
-  const QString file = QFileDialog::getSaveFileName(this, tr("Save Shown Range"),
-                                                    QStringLiteral("frames.csv"), tr("CSV (*.csv)"));
+  const QString file = askCsvFile(this, tr("Save Shown Range"), QStringLiteral("frames.csv"));
   if (file.isEmpty()) return;
   if (const Findings findings = saveCsv(file); !findings.empty())
     QMessageBox::warning(this, tr("The frames were not saved"), QString::fromStdString(toString(findings)));
