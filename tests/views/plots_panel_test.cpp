@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trimtab/views/plots_panel.h"
 
+#include <QFileDialog>
+#include <QLineEdit>
 #include <QTableWidget>
+#include <QTimer>
 #include <cmath>
 
 #include "application.h"
 #include "live_flight.h"
+#include "trimtab/views/ask_csv_file.h"
 #include "trimtab/views/time_plot.h"
 
 namespace trimtab::views {
@@ -165,6 +169,17 @@ TEST_F(PlotsPanelTest, clearForgetsEverything) {
   for (int i = 0; i < 10; ++i) panel_.showFrame(flight_.next(draft_.active()));
   QTest::qWait(150);
   EXPECT_EQ(panel_.buffer().end(), 10u);
+}
+
+TEST(AskCsvFile, aNameWithoutAnEndingGetsOne) {
+  QWidget parent;
+  QTimer::singleShot(0, &parent, [] {
+    auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+    ASSERT_NE(dialog, nullptr);
+    dialog->findChild<QLineEdit*>()->setText(QDir::tempPath() + "/no-such-trimtab-table");
+    static_cast<QDialog*>(dialog)->accept();
+  });
+  EXPECT_EQ(askCsvFile(&parent, "Save", "frames.csv"), QDir::tempPath() + "/no-such-trimtab-table.csv");
 }
 
 }  // namespace
