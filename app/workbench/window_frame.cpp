@@ -98,7 +98,7 @@ QString MainWindow::hudText(const AircraftState& eye) const {
     parts << tr("not over the terrain");
   if (std::isfinite(fps_)) parts << tr("%1 fps").arg(fps_, 0, 'f', 0);
   if (feed_.source() == Feed::Source::camera)
-    parts << tr("free camera at %L1 kt")
+    parts << tr("free camera, keys move it at %L1 kt")
                  .arg(MetresPerSecond{viewport_->camera().speedMps()}.in<Knots>(), 0, 'f', 0);
   return parts.join(QStringLiteral("   "));
 }

@@ -138,7 +138,9 @@ constexpr std::array kRules{
          "Twice the hysteresis is less than the narrowest band; the last band reaches up to 2.",
          hysteresisLeavesBands,
          [](const TuningParameters& p) {
-           return "less than " + numberText(narrowestBand(p.scheme.bands) / 2) + ", half the narrowest band";
+           // To a billionth: a difference of two typed edges should read as people would write it.
+           const double half = std::round(narrowestBand(p.scheme.bands) / 2 * 1e9) / 1e9;
+           return "less than " + numberText(half) + ", half the narrowest band";
          },
          [](const TuningParameters& p) { return numberText(p.scheme.hysteresis.value()); }},
     Rule{"fuzzy.hysteresis",
