@@ -9,8 +9,8 @@
 
 namespace trimtab::views {
 
-BandsModel::BandsModel(Draft& draft, QObject* parent) : QAbstractTableModel(parent), draft_(draft) {
-  rows_ = static_cast<int>(bands().size);
+BandsModel::BandsModel(Draft& draft, QObject* parent) : RowsModel(parent), draft_(draft) {
+  refresh();
   connect(&draft_, &Draft::valueChanged, this, [this](const QString& key) {
     if (key.toStdString() == key::kBands) refresh();
   });
@@ -21,23 +21,13 @@ BandList BandsModel::bands() const {
 }
 
 void BandsModel::refresh() {
-  const int now = static_cast<int>(bands().size);
-  if (now > rows_) {
-    beginInsertRows({}, rows_, now - 1);
-    rows_ = now;
-    endInsertRows();
-  } else if (now < rows_) {
-    beginRemoveRows({}, now, rows_ - 1);
-    rows_ = now;
-    endRemoveRows();
-  }
-  if (rows_ > 0) emit dataChanged(index(0, 0), index(rows_ - 1, kColumns - 1));
+  refreshRows(static_cast<int>(bands().size));
 }
 
 void BandsModel::setLiveBand(int band) {
   if (band == liveBand_) return;
   liveBand_ = band;
-  if (rows_ > 0) emit dataChanged(index(0, 0), index(rows_ - 1, kColumns - 1), {Qt::FontRole});
+  if (rows() > 0) emit dataChanged(index(0, 0), index(rows() - 1, kColumns - 1), {Qt::FontRole});
 }
 
 QVariant BandsModel::data(const QModelIndex& index, int role) const {

@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QAbstractTableModel>
-
 #include "trimtab/views/band_edit.h"
 #include "trimtab/views/draft.h"
+#include "trimtab/views/rows_model.h"
 
 namespace trimtab::views {
 
 /// The depth-map bands as typed values: lower edge, upper edge (the next band's, read only), width and
 /// height.
-class BandsModel : public QAbstractTableModel {
+class BandsModel : public RowsModel {
   Q_OBJECT
  public:
   enum Column { kFrom, kTo, kWidth, kHeight, kColumns };
   explicit BandsModel(Draft& draft, QObject* parent = nullptr);
 
-  int rowCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : rows_; }
   int columnCount(const QModelIndex& = {}) const override { return kColumns; }
   QVariant data(const QModelIndex& index, int role) const override;
   QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
@@ -34,7 +32,6 @@ class BandsModel : public QAbstractTableModel {
   void refresh();
 
   Draft& draft_;
-  int rows_ = 0;
   int liveBand_ = -1;
 };
 

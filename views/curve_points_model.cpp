@@ -6,8 +6,8 @@
 namespace trimtab::views {
 
 CurvePointsModel::CurvePointsModel(Draft& draft, CurveSpec spec, QObject* parent)
-    : QAbstractTableModel(parent), draft_(draft), spec_(std::move(spec)) {
-  rows_ = static_cast<int>(curve().size);
+    : RowsModel(parent), draft_(draft), spec_(std::move(spec)) {
+  refresh();
   connect(&draft_, &Draft::valueChanged, this, [this](const QString& key) {
     if (key.toStdString() == spec_.key || key.toStdString() == spec_.readingKey) refresh();
   });
@@ -18,22 +18,7 @@ CurvePoints CurvePointsModel::curve() const {
 }
 
 void CurvePointsModel::refresh() {
-  // Rows are added and removed at the end, so that a selection survives a drag.
-  const int now = static_cast<int>(curve().size);
-  if (now > rows_) {
-    beginInsertRows({}, rows_, now - 1);
-    rows_ = now;
-    endInsertRows();
-  } else if (now < rows_) {
-    beginRemoveRows({}, now, rows_ - 1);
-    rows_ = now;
-    endRemoveRows();
-  }
-  emit dataChanged(index(0, 0), index(rows_ - 1, 1));
-}
-
-int CurvePointsModel::rowCount(const QModelIndex& parent) const {
-  return parent.isValid() ? 0 : rows_;
+  refreshRows(static_cast<int>(curve().size));
 }
 
 QVariant CurvePointsModel::data(const QModelIndex& index, int role) const {

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QAbstractTableModel>
-
 #include "trimtab/views/curve_edit.h"
 #include "trimtab/views/draft.h"
+#include "trimtab/views/rows_model.h"
 
 namespace trimtab::views {
 
 /// The breakpoints of a curve as typed values: one row a point, x and membership.
-class CurvePointsModel : public QAbstractTableModel {
+class CurvePointsModel : public RowsModel {
   Q_OBJECT
  public:
   CurvePointsModel(Draft& draft, CurveSpec spec, QObject* parent = nullptr);
 
-  int rowCount(const QModelIndex& parent = {}) const override;
   int columnCount(const QModelIndex& = {}) const override { return 2; }
   QVariant data(const QModelIndex& index, int role) const override;
   QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
@@ -32,7 +30,6 @@ class CurvePointsModel : public QAbstractTableModel {
 
   Draft& draft_;
   CurveSpec spec_;
-  int rows_ = 0;
 };
 
 }  // namespace trimtab::views

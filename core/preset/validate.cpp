@@ -138,9 +138,10 @@ constexpr std::array kRules{
          "Twice the hysteresis is less than the narrowest band; the last band reaches up to 2.",
          hysteresisLeavesBands,
          [](const TuningParameters& p) {
-           // To a billionth: a difference of two typed edges should read as people would write it.
-           const double half = std::round(narrowestBand(p.scheme.bands) / 2 * 1e9) / 1e9;
-           return "less than " + numberText(half) + ", half the narrowest band";
+           // To twelve digits: a difference of two typed edges should read as people would write it.
+           const double half = narrowestBand(p.scheme.bands) / 2;
+           const double scale = half > 0 ? std::pow(10, 11 - std::floor(std::log10(half))) : 1;
+           return "less than " + numberText(std::round(half * scale) / scale) + ", half the narrowest band";
          },
          [](const TuningParameters& p) { return numberText(p.scheme.hysteresis.value()); }},
     Rule{"fuzzy.hysteresis",

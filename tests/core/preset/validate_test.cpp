@@ -148,6 +148,12 @@ TEST(Validation, keepsHysteresisInsideEveryBand) {
   EXPECT_TRUE(with(0, {{0.1, 64, 64}, {0.10000001, 64, 64}}));
 }
 
+TEST(Validation, writesHalfABandAsPeopleWould) {
+  const auto findings = findingsAfter([](auto& p) { p.scheme.bands = {{0.99, 64, 64}, {1, 64, 64}}; });
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].expected, "less than 0.005, half the narrowest band");
+}
+
 TEST(Validation, asksTheMaximumOnlyOfEquations) {
   const auto with = [](AltitudeReading reading, double maximum) {
     return findingsAfter([&](auto& p) {
