@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <iostream>
-#include <limits>
 
 #include "trimtab/scene/offscreen.h"
 #include "trimtab/units/labelled.h"
@@ -15,7 +14,7 @@ constexpr double kViewerPeriodS = 1.0 / 60;
 
 class Loop {
  public:
-  explicit Loop(const Run& run) : run_(run), frameMs_(8192), inFrames_(8192) {}
+  explicit Loop(const Run& run) : run_(run), frameMs_(8192) {}
 
   Summary run() {
     if (run_.options.listen) begin();
@@ -90,8 +89,6 @@ class Loop {
     run_.session.finished(result, end);
     const double ms = (end - start) * 1e3;
     frameMs_.add(ms);
-    inFrames_.add(run_.session.oldestShownMs() / ((ms + (lastMs_ > 0 ? lastMs_ : ms)) / 2));
-    lastMs_ = ms;
     lastFrame_ = end;
     if (summary_.frames++ == 0) summary_.firstFrameTime = end;
     summary_.lastRequest = request;
@@ -118,18 +115,18 @@ class Loop {
     summary_.p99FrameMs = frameMs_.quantile(0.99);
     summary_.decodedP50Ms = latency.decoded.median();
     summary_.decodedP99Ms = latency.decoded.quantile(0.99);
-    summary_.pictureP50Ms = latency.picture.median();
-    summary_.pictureP99Frames = inFrames_.quantile(0.99);
-    summary_.pictureP99Ms = latency.picture.quantile(0.99);
+    summary_.shownP50Ms = latency.shown.median();
+    summary_.shownP99Ms = latency.shown.quantile(0.99);
+    summary_.everyP99Ms = latency.every.quantile(0.99);
     return summary_;
   }
 
   const Run& run_;
   Summary summary_;
-  SampleWindow frameMs_, inFrames_;
+  SampleWindow frameMs_;
   std::optional<int> lastBand_;
   std::vector<TraceRow> rows_;
-  double lastFrame_ = 0, lastMs_ = 0, lastWatch_ = 0;
+  double lastFrame_ = 0, lastWatch_ = 0;
 };
 
 }  // namespace

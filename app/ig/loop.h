@@ -30,11 +30,9 @@ struct Summary {
   std::uint64_t depthMapsDrawn = 0;
   double firstFrameTime = 0;  ///< link::now() when the first picture was finished; 0: none
   double medianFrameMs = 0, p99FrameMs = 0;
-  /// The same in frames: by the mean of the frame that shows the packet and the one before it.
-  double pictureP99Frames = 0;
   std::optional<scene::FrameRequest> lastRequest;
-  double decodedP50Ms = 0, decodedP99Ms = 0, pictureP50Ms = 0,
-         pictureP99Ms = 0;  ///< NaN where nothing was measured
+  /// session::Latency's; NaN where nothing was measured.
+  double decodedP50Ms = 0, decodedP99Ms = 0, shownP50Ms = 0, shownP99Ms = 0, everyP99Ms = 0;
 };
 
 /// Draws the terrain's middle once without and once with each band's depth map, not counted: shaders are

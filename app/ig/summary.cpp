@@ -33,9 +33,10 @@ std::string summaryLine(const Summary& s, const Feed& feed) {
     text += ", bad " + std::to_string(host->bad) + ", dropped " + std::to_string(feed.dropped());
     text += "; kernel to decoded p99 " + milliseconds(s.decodedP99Ms);
   }
-  if (std::isfinite(s.pictureP99Ms))
-    text += "; packet to finished picture p99 " + milliseconds(s.pictureP99Ms) + " (" +
-            shortNumber(s.pictureP99Frames) + " frames)";
+  if (std::isfinite(s.shownP99Ms))
+    text += "; packet to finished picture p99 " + milliseconds(s.shownP99Ms) + " (" +
+            shortNumber(s.shownP99Ms / s.medianFrameMs) + " frames; overtaken packets too: " +
+            milliseconds(s.everyP99Ms) + ")";
   return text + "; frame median " + milliseconds(s.medianFrameMs) + ", p99 " + milliseconds(s.p99FrameMs);
 }
 
@@ -55,9 +56,10 @@ std::string summaryJson(const Summary& s, const Feed& feed, const Options& optio
   json["frame_p99_ms"] = number(s.p99FrameMs);
   json["decoded_p50_ms"] = number(s.decodedP50Ms);
   json["decoded_p99_ms"] = number(s.decodedP99Ms);
-  json["picture_p50_ms"] = number(s.pictureP50Ms);
-  json["picture_p99_ms"] = number(s.pictureP99Ms);
-  json["picture_p99_frames"] = number(s.pictureP99Frames);
+  json["picture_p50_ms"] = number(s.shownP50Ms);
+  json["picture_p99_ms"] = number(s.shownP99Ms);
+  json["picture_p99_frames"] = number(s.shownP99Ms / s.medianFrameMs);
+  json["picture_every_p99_ms"] = number(s.everyP99Ms);
   if (const std::optional<HostStatistics> host = feed.statistics()) {
     json["host"] = {
         {"received", host->received}, {"states", host->states},       {"bad", host->bad},

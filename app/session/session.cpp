@@ -212,6 +212,7 @@ std::optional<scene::FrameRequest> Session::request(double now, int windowWidthP
   request.lod = parameters_->lod;
   inPicture_.insert(inPicture_.end(), waiting_.begin(), waiting_.end());
   waiting_.clear();
+  requestedAt_ = now;
   requestedRows_ = rows_.size();
   dirty_ = false;
   drawnEye_ = std::move(eye);
@@ -223,12 +224,11 @@ FrameCost Session::finished(const scene::FrameResult& result, double now) {
   lastCost_.decide = decideMs_;
   lastCost_.total = result.cost.total + decideMs_;
   decideMs_ = 0;
-  oldestShownMs_ = kNan;
-  for (const double kernelTime : inPicture_) {
-    const double ms = (now - kernelTime) * 1e3;
-    latency_.picture.add(ms);
-    oldestShownMs_ = std::fmax(oldestShownMs_, ms);
+  if (!inPicture_.empty()) {
+    latency_.shown.add((now - inPicture_.back()) * 1e3);
+    latency_.frame.add((now - requestedAt_) * 1e3);
   }
+  for (const double kernelTime : inPicture_) latency_.every.add((now - kernelTime) * 1e3);
   inPicture_.clear();
   if (requestedRows_ > completeRows_) {
     const VisibleSet& visible = result.visible;

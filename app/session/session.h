@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -32,8 +31,10 @@ std::string_view toText(LinkState state);
 /// Milliseconds over the newest packets.
 struct Latency {
   SampleWindow decoded{4096};  ///< kernel time stamp to decoded state
-  SampleWindow picture{
-      4096};  ///< kernel time stamp to the finished picture that first shows the packet or a newer one
+  SampleWindow shown{4096};    ///< kernel time stamp of the packet that a picture shows, to that picture
+  /// Also of the packets that a newer one overtook: to the picture that shows the newer one.
+  SampleWindow every{4096};
+  SampleWindow frame{4096};  ///< from the request of a picture that shows a packet to its end
 };
 
 /// The line of sight: the head's attitude, relative to the aircraft's axes, in the world.
@@ -93,9 +94,6 @@ class Session {
   /// The requested picture is finished: completes rows, latency and the cost that the next decision is given.
   /// `cost.decide` is filled in here. Returns the completed cost.
   FrameCost finished(const scene::FrameResult& result, double now);
-  /// Milliseconds from the oldest packet that the last finished picture was the first to show; NaN where
-  /// there was none.
-  double oldestShownMs() const { return oldestShownMs_; }
   /// No picture is drawn of what has arrived (hidden window): rows and latencies do not wait for one.
   void noPicture();
 
@@ -121,7 +119,6 @@ class Session {
   FrameDecision decision_;
   FrameCost lastCost_;
   double decideMs_ = 0;  ///< spent since the last picture
-  double oldestShownMs_ = std::numeric_limits<double>::quiet_NaN();
   bool looking_ = false;
   bool replayed_ = false;
 
@@ -135,6 +132,7 @@ class Session {
   bool dirty_ = false;
   std::optional<AircraftState> drawnEye_;
   std::vector<double> waiting_, inPicture_;  ///< kernel times
+  double requestedAt_ = 0;
   bool keepRows_ = false;
   std::vector<TraceRow> rows_;
   std::size_t completeRows_ = 0, requestedRows_ = 0;

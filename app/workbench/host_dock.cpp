@@ -48,6 +48,16 @@ QString p99(const SampleWindow& samples) {
            milliseconds(samples.largest()));
 }
 
+/// Of the packets that pictures show, in that run's own frames, and of all packets.
+QString pictureText(const session::Latency& latency) {
+  if (latency.shown.size() == 0) return kNone;
+  const double shown = latency.shown.quantile(0.99), frame = latency.frame.median();
+  return HostDock::tr("%1, %2 frames of %3  (overtaken packets too: %4)")
+      .arg(milliseconds(shown))
+      .arg(shown / frame, 0, 'f', 2)
+      .arg(milliseconds(frame), milliseconds(latency.every.quantile(0.99)));
+}
+
 /// Sixteen bytes a line with their offset.
 QString hexDump(const std::string& hex) {
   QString digits = QString::fromStdString(hex).remove(' ');
@@ -253,7 +263,7 @@ void HostDock::refresh() {
     loss_->setText(host.lost ? number(*host.lost) : kNone);
   age_->setText(any && std::isfinite(age) ? tr("%1 ago").arg(milliseconds(age * 1e3)) : kNone);
   decoded_->setText(any ? p99(session.latency().decoded) : kNone);
-  picture_->setText(any ? p99(session.latency().picture) : kNone);
+  picture_->setText(any ? pictureText(session.latency()) : kNone);
   counts_->setText(any ? tr("%1 received, %2 states, %3 repeated, %4 out of order, %5 dropped here")
                              .arg(number(host.received), number(host.states), number(host.repeated),
                                   number(host.reordered), number(feed_.receiver()->dropped()))

@@ -91,7 +91,7 @@ TEST_F(IgLink, decidesEveryPacketOnceAsDecideDoes) {
     // Reported, not asserted: how fast this machine is, is no property of the code.
     std::cout << "kernel to decoded p99 " << summary["decoded_p99_ms"] << " ms; to finished picture p99 "
               << summary["picture_p99_ms"] << " ms, or " << summary["picture_p99_frames"]
-              << " frames of the moment; frame median " << summary["frame_median_ms"] << " ms" << std::endl;
+              << " median frames; frame median " << summary["frame_median_ms"] << " ms" << std::endl;
   }
 }
 

@@ -265,9 +265,11 @@ TEST(Session, everyPacketsLatencyEndsWithThePictureThatFirstShowsItOrANewerOne) 
   ASSERT_TRUE(session.request(1001.02, 64, 64));
   session.receive(std::vector{packet(stateAt(1.03, 5000, 0))});  // while the picture is drawn
   const FrameCost cost = session.finished(resultCosting(20), 1001.04);
-  EXPECT_EQ(session.latency().picture.size(), 2u);
-  EXPECT_NEAR(session.latency().picture.largest(), 40, 1e-6);
-  EXPECT_NEAR(session.oldestShownMs(), 40, 1e-6);
+  EXPECT_EQ(session.latency().every.size(), 2u);
+  EXPECT_NEAR(session.latency().every.largest(), 40, 1e-6);
+  EXPECT_EQ(session.latency().shown.size(), 1u) << "one a picture: the newest packet's";
+  EXPECT_NEAR(session.latency().shown.last(), 30, 1e-6);
+  EXPECT_NEAR(session.latency().frame.last(), 20, 1e-6);
   EXPECT_NEAR(session.latency().decoded.largest(), 0.1, 1e-3);
   EXPECT_GE(cost.total, 20);
   EXPECT_GE(cost.decide, 0);
@@ -287,7 +289,8 @@ TEST(Session, everyPacketsLatencyEndsWithThePictureThatFirstShowsItOrANewerOne) 
   session.finished(resultCosting(5), 1001.07);
   session.takeRows(rows);
   ASSERT_EQ(rows.size(), 4u);
-  EXPECT_EQ(session.latency().picture.size(), 4u);
+  EXPECT_EQ(session.latency().every.size(), 4u);
+  EXPECT_EQ(session.latency().shown.size(), 2u);
 }
 
 TEST(Session, aHiddenWindowNeitherKeepsRowsWaitingNorCountsAsLatency) {
@@ -300,8 +303,8 @@ TEST(Session, aHiddenWindowNeitherKeepsRowsWaitingNorCountsAsLatency) {
   EXPECT_EQ(rows.size(), 1u);
   session.request(1002, 64, 64);
   session.finished(resultCosting(1), 1002);
-  EXPECT_TRUE(std::isnan(session.oldestShownMs()));
-  EXPECT_EQ(session.latency().picture.size(), 0u);
+  EXPECT_EQ(session.latency().shown.size(), 0u);
+  EXPECT_EQ(session.latency().every.size(), 0u);
 }
 
 TEST(Session, aFreeCameraLeavesNoMarkOnThePackets) {
