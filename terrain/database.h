@@ -44,6 +44,8 @@ struct TerrainInfo {
   bool hasImage = false;
 };
 
+struct StaticLodTerrain;
+
 class Database {
  public:
   virtual ~Database() = default;
@@ -56,6 +58,8 @@ class Database {
   virtual void buildTile(std::uint32_t node, TileMesh& mesh) const = 0;
   /// Height of the finest surface (bilinear between posts), or none outside the data.
   virtual std::optional<Metres> heightAt(Degrees latitude, Degrees longitude) const = 0;
+  /// The trees of static levels of detail, in the index's frame; null where the source was no scenery.
+  virtual std::shared_ptr<const StaticLodTerrain> staticLod() const { return nullptr; }
   /// Highest post within a distance, or none when no post is that near.
   virtual std::optional<Metres> highestWithin(Degrees latitude, Degrees longitude, Metres radius) const = 0;
 };
@@ -66,6 +70,7 @@ using Progress = std::function<bool(double fraction, const std::string& what)>;
 struct BakeOptions {
   std::vector<std::filesystem::path> sources;  ///< elevation files or folders of them
   std::optional<std::filesystem::path> imagery;
+  std::uint32_t trianglesPerNode = 2000;  ///< of the static levels of detail, where the source is scenery
   std::filesystem::path output;
   Progress progress;
 };

@@ -176,6 +176,18 @@ consteval CheckedRow row(const RowText& text) {
   return {r, &field, &group, fieldCount<std::remove_cvref_t<decltype(group)>>()};
 }
 
+/// Several lists of rows as one.
+template <std::size_t... Sizes>
+constexpr auto joined(const std::array<CheckedRow, Sizes>&... lists) {
+  std::array<CheckedRow, (Sizes + ...)> all{};
+  std::size_t next = 0;
+  const auto append = [&](const auto& list) {
+    for (const CheckedRow& row : list) all[next++] = row;
+  };
+  (append(lists), ...);
+  return all;
+}
+
 /// The part of a key that makes its group: "fuzzy.altitude" of "fuzzy.altitude.reading".
 constexpr std::string_view prefixOf(std::string_view key) {
   const std::size_t dot = key.rfind('.');

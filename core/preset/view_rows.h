@@ -1,0 +1,92 @@
+#pragma once
+
+#include "trimtab/preset/rows.h"
+
+/// Rows of culling, level of detail and view.
+namespace trimtab::table {
+
+inline constexpr std::array kViewRows{
+    row<&TuningParameters::culling, &CullingParameters::method>(
+        {.key = "culling.case",
+         .label = "Culling",
+         .help = "Which of the published cases runs. All draw the same picture; they differ in what they "
+                 "spend on it.",
+         .source = "A, B: comparison of culling"}),
+    row<&TuningParameters::lod, &LodParameters::screenSpaceError>(
+        {.key = "lod.screen_space_error_px",
+         .label = "Screen-space error",
+         .help = "How far a drawn surface may lie from the finest one, seen on the screen. Smaller is finer "
+                 "and slower.",
+         .hard = {0.05, 256},
+         .usual = {0.25, 32},
+         .step = 0.25,
+         .decimals = 2,
+         .logarithmic = true}),
+    row<&TuningParameters::lod, &LodParameters::scale>(
+        {.key = "lod.scale",
+         .label = "LOD scale",
+         .help = "Multiplies the screen-space error: 1 is full detail, larger is coarser.",
+         .source = "C: LOD scale controller",
+         .hard = {0.05, 100},
+         .usual = {0.25, 16},
+         .step = 0.25,
+         .decimals = 2,
+         .logarithmic = true}),
+    row<&TuningParameters::view, &ViewParameters::source>(
+        {.key = "view.source",
+         .label = "View comes from",
+         .help = "Whether field of view and near plane are this preset's or those of the host's view "
+                 "definition, where "
+                 "it sends one."}),
+    row<&TuningParameters::view, &ViewParameters::horizontalFov>(
+        {.key = "view.horizontal_fov_deg",
+         .label = "Horizontal field of view",
+         .help = "Width of the view. Levels of detail and depth maps follow from it.",
+         .hard = {1, 170},
+         .usual = {10, 120},
+         .step = 1,
+         .decimals = 1,
+         .effect = Effect::resize}),
+    row<&TuningParameters::view, &ViewParameters::verticalFov>(
+        {.key = "view.vertical_fov_deg",
+         .label = "Vertical field of view",
+         .help = "Height of the view. A ratio to the width other than the picture's stretches what is drawn.",
+         .hard = {1, 170},
+         .usual = {10, 120},
+         .step = 1,
+         .decimals = 1,
+         .effect = Effect::resize}),
+    row<&TuningParameters::view, &ViewParameters::nearDistance>(
+        {.key = "view.near_m",
+         .label = "Near plane",
+         .help = "Nothing nearer to the eye is drawn.",
+         .hard = {0.001, 1000},
+         .usual = {0.1, 100},
+         .step = 0.1,
+         .decimals = 2,
+         .logarithmic = true}),
+    row<&TuningParameters::view, &ViewParameters::renderSize>(
+        {.key = "view.render_size",
+         .label = "Render size",
+         .help = "Whether the picture has the window's size or a fixed one. Results of different windows "
+                 "compare only at "
+                 "a fixed size.",
+         .effect = Effect::resize}),
+    row<&TuningParameters::view, &ViewParameters::width>({.key = "view.width_px",
+                                                          .label = "Width",
+                                                          .help = "Width of a fixed render size.",
+                                                          .hard = {16, 16384},
+                                                          .usual = {320, 7680},
+                                                          .step = 16,
+                                                          .effect = Effect::resize,
+                                                          .whole = true}),
+    row<&TuningParameters::view, &ViewParameters::height>({.key = "view.height_px",
+                                                           .label = "Height",
+                                                           .help = "Height of a fixed render size.",
+                                                           .hard = {16, 16384},
+                                                           .usual = {240, 4320},
+                                                           .step = 16,
+                                                           .effect = Effect::resize,
+                                                           .whole = true})};
+
+}  // namespace trimtab::table
