@@ -221,7 +221,8 @@ TEST(Trace, namesEveryBadCellWithLineAndColumn) {
   ASSERT_EQ(read.findings().size(), 3u);
   EXPECT_EQ(toString(read.findings()[0]), "t.csv:3: time_s: expected a number, found \"soon\"");
   EXPECT_EQ(toString(read.findings()[1]),
-            "t.csv:5: reason: expected the name of a reason, found \"because\"");
+            "t.csv:5: reason: expected below_first_band, in_band, held_by_hysteresis, no_rule_fires, "
+            "invalid_input, altitude_unknown, found \"because\"");
   EXPECT_EQ(toString(read.findings()[2]).rfind("t.csv:6: expected ", 0), 0u);
 }
 

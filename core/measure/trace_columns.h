@@ -1,0 +1,137 @@
+#pragma once
+
+#include <optional>
+#include <type_traits>
+
+#include "trimtab/measure/trace.h"
+
+/// The trace's columns: the one list that header, writer and reader share. A column that a later version adds
+/// is `Cell::optional`, so that traces without it stay readable: its field keeps its default.
+namespace trimtab::trace {
+
+/// Whether a cell may be empty; cells of the frame are all empty where no frame showed the decision.
+enum class Cell { required, optional, frame };
+
+/// A row as a flat list of cells. Groups that may be absent as a whole have a flag that their first cell
+/// decides.
+struct Flat {
+  TraceRow row;
+  Metres height;
+  Feet altitude;  ///< for people and other programs; `height` is the number that counts
+  std::optional<double> headHeading, headPitch, headRoll;
+  HostView view;
+  DepthMapSize depthMap;
+  std::optional<int> depthMapWidth, depthMapHeight;
+  TraceFrame frame;
+  bool hasFrame = false;
+};
+
+template <class T>
+struct IsOptional : std::false_type {};
+template <class T>
+struct IsOptional<std::optional<T>> : std::true_type {};
+
+/// Calls `visit(name, cell, value)` for each column in the file's order: the one list that header, writer
+/// and reader share.
+template <class F, class Visit>
+void forEachColumn(F& f, const Visit& visit) {
+  auto& state = f.row.input.state;
+  visit("time_s", Cell::required, state.time);
+  visit("latitude_deg", Cell::required, state.position.latitude);
+  visit("longitude_deg", Cell::required, state.position.longitude);
+  visit("altitude_ft", Cell::optional, f.altitude);
+  visit("pitch_deg", Cell::required, state.attitude.pitch);
+  visit("roll_deg", Cell::required, state.attitude.roll);
+  visit("heading_deg", Cell::required, state.attitude.heading);
+  visit("head_heading_deg", Cell::optional, f.headHeading);
+  visit("head_pitch_deg", Cell::optional, f.headPitch);
+
+  visit("packet", Cell::required, state.packet);
+  visit("height_m", Cell::required, f.height);
+  visit("above_ground_m", Cell::optional, f.row.input.aboveGround);
+  visit("head_roll_deg", Cell::optional, f.headRoll);
+  visit("visibility_m", Cell::optional, state.visibility);
+  visit("view_near_m", Cell::optional, f.view.nearDistance);
+  visit("view_left_deg", Cell::optional, f.view.left);
+  visit("view_right_deg", Cell::optional, f.view.right);
+  visit("view_bottom_deg", Cell::optional, f.view.bottom);
+  visit("view_top_deg", Cell::optional, f.view.top);
+  visit("band_before", Cell::optional, f.row.before.band);
+  auto& last = f.row.input.lastCost;
+  visit("last_decide_ms", Cell::optional, last.decide);
+  visit("last_select_ms", Cell::optional, last.select);
+  visit("last_occlusion_ms", Cell::optional, last.occlusion);
+  visit("last_cull_ms", Cell::optional, last.cull);
+  visit("last_draw_ms", Cell::optional, last.draw);
+  visit("last_gpu_ms", Cell::optional, last.gpu);
+  visit("last_total_ms", Cell::optional, last.total);
+
+  auto& d = f.row.decision;
+  visit("decision_altitude_ft", Cell::required, d.altitudeFt);
+  visit("decision_pitch_deg", Cell::required, d.pitchDeg);
+  visit("altitude_membership", Cell::required, d.altitudeMembership);
+  visit("pitch_membership", Cell::required, d.pitchMembership);
+  visit("total_membership", Cell::required, d.totalMembership);
+  visit("rule_low_down", Cell::required, d.ruleFiring[0]);
+  visit("rule_low_up", Cell::required, d.ruleFiring[1]);
+  visit("rule_high_down", Cell::required, d.ruleFiring[2]);
+  visit("rule_high_up", Cell::required, d.ruleFiring[3]);
+  visit("scheme", Cell::required, d.scheme);
+  visit("band", Cell::required, d.band);
+  visit("depth_map_width_px", Cell::optional, f.depthMapWidth);
+  visit("depth_map_height_px", Cell::optional, f.depthMapHeight);
+  visit("reason", Cell::required, d.reason);
+  visit("lod_scale", Cell::required, d.lodScale);
+
+  visit("triangles", Cell::frame, f.frame.counts.triangles);
+  visit("vertices", Cell::frame, f.frame.counts.vertices);
+  visit("tiles_drawn", Cell::frame, f.frame.counts.tilesDrawn);
+  visit("culled_frustum", Cell::frame, f.frame.counts.culledFrustum);
+  visit("culled_occluded", Cell::frame, f.frame.counts.culledOccluded);
+  auto& cost = f.frame.cost;
+  visit("decide_ms", Cell::frame, cost.decide);
+  visit("select_ms", Cell::frame, cost.select);
+  visit("occlusion_ms", Cell::frame, cost.occlusion);
+  visit("cull_ms", Cell::frame, cost.cull);
+  visit("draw_ms", Cell::frame, cost.draw);
+  visit("gpu_ms", Cell::frame, cost.gpu);
+  visit("total_ms", Cell::frame, cost.total);
+}
+
+inline Flat flatten(const TraceRow& row) {
+  Flat f;
+  f.row = row;
+  const AircraftState& state = row.input.state;
+  f.height = state.position.height;
+  f.altitude = Feet{f.height.value() / unit::Foot::size};
+  if (!f.row.input.aboveGround) f.row.input.aboveGround = state.aboveGround;
+  if (state.head) {
+    f.headHeading = state.head->heading.value();
+    f.headPitch = state.head->pitch.value();
+    f.headRoll = state.head->roll.value();
+  }
+  if (state.view) f.view = *state.view;
+  if (row.decision.depthMap) {
+    f.depthMapWidth = row.decision.depthMap->widthPx;
+    f.depthMapHeight = row.decision.depthMap->heightPx;
+  }
+  f.hasFrame = row.frame.has_value();
+  if (row.frame) f.frame = *row.frame;
+  return f;
+}
+
+inline TraceRow unflatten(Flat& f) {
+  AircraftState& state = f.row.input.state;
+  state.position.height = f.height;
+  state.aboveGround = f.row.input.aboveGround;
+  if (f.headHeading || f.headPitch || f.headRoll)
+    state.head = Attitude{Degrees{f.headHeading.value_or(0)}, Degrees{f.headPitch.value_or(0)},
+                          Degrees{f.headRoll.value_or(0)}};
+  if (f.view != HostView{}) state.view = f.view;
+  if (f.depthMapWidth && f.depthMapHeight)
+    f.row.decision.depthMap = DepthMapSize{*f.depthMapWidth, *f.depthMapHeight};
+  if (f.hasFrame) f.row.frame = f.frame;
+  return f.row;
+}
+
+}  // namespace trimtab::trace
