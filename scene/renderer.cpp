@@ -6,12 +6,12 @@
 #include <limits>
 
 #include "trimtab/scene/frame_buffer.h"
+#include "trimtab/scene/frame_culling.h"
 #include "trimtab/scene/gl_api.h"
 #include "trimtab/scene/gl_report.h"
 #include "trimtab/scene/gpu_timer.h"
 #include "trimtab/scene/lines.h"
 #include "trimtab/scene/occlusion.h"
-#include "trimtab/scene/occlusion_conditions.h"
 #include "trimtab/scene/scene_graph.h"
 #include "trimtab/scene/shaders.h"
 #include "trimtab/scene/tile_cache.h"
@@ -26,13 +26,6 @@ double millisecondsBetween(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double, std::milli>(to - from).count();
 }
 
-/// What the level cut depends on.
-struct CutKey {
-  Vec3 eye;
-  double maxErrorPx = 0, lodScale = 0, pixelsPerRadian = 0;
-  friend bool operator==(const CutKey&, const CutKey&) = default;
-};
-
 std::uint32_t rgba(std::array<std::uint8_t, 3> c, std::uint8_t alpha) {
   return c[0] | static_cast<std::uint32_t>(c[1]) << 8 | static_cast<std::uint32_t>(c[2]) << 16 |
          static_cast<std::uint32_t>(alpha) << 24;
@@ -43,25 +36,14 @@ std::uint32_t rgba(std::array<std::uint8_t, 3> c, std::uint8_t alpha) {
 struct Renderer::Impl {
   GlReport report;
   std::shared_ptr<const terrain::Database> database;
-  std::optional<CutKey> cutKey;
-  LevelCut cut;
-  double loweringScale = 1;
-  VisibleSet visible;
+  FrameCulling culling;
   FrameResult counters;
-
-  OcclusionConditions conditions;
-  bool depthMapCurrent = false;  ///< the last frame drew one
-  double nearM = 1;              ///< of the last depth map
 
   // The frame in progress.
   const FrameRequest* request = nullptr;
-  EyePose eye, cullEye;
-  std::string refusal;  ///< why nothing may be hidden from the eye
   FrameCost cost;
   Clock::time_point frameStart, cullDone, drawStart;
-  std::vector<std::uint32_t> testedSlots;
-  std::vector<TileDraw> occluders, drawn;
-  std::vector<std::uint8_t> flags;
+  std::vector<TileDraw> drawn;
   std::vector<std::uint32_t> tints;
   std::vector<LineVertex> lines;
 
@@ -87,83 +69,24 @@ struct Renderer::Impl {
             .lines = [this](unsigned) { gl->lineBuffer.draw(lines); }};
   }
 
-  void select();
-  std::optional<DepthView> prepareOcclusion();
   void drawOccluders();
   void removeHidden();
   void drawTerrain();
   void drawWire();
   void bindTileTextures(bool on);
+  void prepare(SceneView& view);
   FrameResult draw(const FrameRequest& r, unsigned fbo);
 };
-
-void Renderer::Impl::select() {
-  const TerrainIndex& index = database->index();
-  const FrameRequest& r = *request;
-  const ViewShape& v = r.view;
-  const CutKey key{cullEye.position, r.lod.screenSpaceError.value(),
-                   r.decision.lodScale * r.lod.scale.value(),
-                   std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom))};
-  if (cutKey != key) {
-    selectLevels(index, key.eye, key.maxErrorPx, key.lodScale, key.pixelsPerRadian, cut);
-    cutKey = key;
-    ++counters.cutsSelected;
-  }
-  selectVisible(index, cut, cullEye, v, r.method != CullingCase::none, visible);
-}
-
-std::optional<DepthView> Renderer::Impl::prepareOcclusion() {
-  counters.depthMap.reset();
-  counters.note.clear();
-  depthMapCurrent = false;
-  const auto& size = request->decision.depthMap;
-  if (request->method != CullingCase::proposed || !size || visible.tiles.empty()) return {};
-  counters.note = refusal;
-  if (!refusal.empty()) return {};
-  testedSlots.clear();
-  occluders.clear();
-  // Far tiles cost as much to draw as near ones and hide little: measured over Everest and Fuji, leaving out
-  // what is narrower than 48 texels costs a few percent of the hidden tiles and saves up to half of the pass.
-  const TerrainIndex& index = database->index();
-  const double texelsPerTangent = size->widthPx / (request->view.right - request->view.left);
-  const double leastTexels = std::min(48.0, 0.12 * size->widthPx);
-  const auto texelsAcross = [&](const Box& b) {
-    const Vec3 middle{0.5 * (double{b.minX} + b.maxX), 0.5 * (double{b.minY} + b.maxY),
-                      0.5 * (double{b.minZ} + b.maxZ)};
-    return (double{b.maxX} - b.minX) * texelsPerTangent / length(middle - cullEye.position);
-  };
-  for (const TileDraw& tile : visible.tiles) {
-    testedSlots.push_back(gl->tiles.slotOf(tile.node));
-    if (conditions.mayOcclude(tile.node) && texelsAcross(index.bounds[tile.node]) >= leastTexels)
-      occluders.push_back(tile);
-  }
-  if (occluders.empty()) {
-    counters.note = "no tile in view may hide another: too far, or at the terrain's edge";
-    return {};
-  }
-  gl->occlusion.prepare(size->widthPx, size->heightPx, testedSlots);
-  counters.depthMap = size;
-  ++counters.depthMapsDrawn;
-  depthMapCurrent = true;
-  nearM = request->view.nearM;
-  return DepthView{cullEye,
-                   size->widthPx,
-                   size->heightPx,
-                   OcclusionPass::kLevels,
-                   static_cast<int>(testedSlots.size()),
-                   loweringScale};
-}
 
 void Renderer::Impl::drawOccluders() {
   gl->occlusion.beginDepth();
   bindTileTextures(true);
-  gl->tiles.drawOccluders(occluders);
+  gl->tiles.drawOccluders(culling.occluders());
   bindTileTextures(false);
 }
 
 void Renderer::Impl::removeHidden() {
-  gl->occlusion.test(gl->tiles, flags);
-  removeOccluded(database->index(), flags, visible);
+  culling.removeHidden(gl->tiles, gl->occlusion);
   glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
   drawStart = Clock::now();
   cost.occlusion = millisecondsBetween(cullDone, drawStart);
@@ -179,7 +102,8 @@ void Renderer::Impl::bindTileTextures(bool on) {
 
 void Renderer::Impl::drawTerrain() {
   const Overlays& overlays = request->overlays;
-  drawn = overlays.colourByReason ? cut.tiles : visible.tiles;
+  const VisibleSet& visible = culling.visible();
+  drawn = overlays.colourByReason ? culling.cut().tiles : visible.tiles;
   if (overlays.colourByReason || overlays.colourByLevel) {
     tints.clear();
     for (const TileDraw& tile : drawn)
@@ -200,11 +124,9 @@ void Renderer::Impl::drawWire() {
   bindTileTextures(false);
 }
 
-FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
-  const auto start = Clock::now();
-  request = &r;
-  cost = {kNone, 0, kNone, 0, 0, kNone, 0};
-  SceneView view;
+/// What the frame is made of: eye, visible tiles, depth map.
+void Renderer::Impl::prepare(SceneView& view) {
+  const FrameRequest& r = *request;
   view.shape = r.view;
   view.sky = !r.overlays.showHoles;
   view.wireframe = r.overlays.wireframe;
@@ -212,32 +134,39 @@ FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
   lines.clear();
   drawn.clear();
   if (database) {
+    const auto start = Clock::now();
     const LocalFrame& frame = database->index().frame;
-    eye = {frame.fromGeodetic(r.eye), eyeAxes(frame, r.eye, r.attitude)};
+    view.eye = {frame.fromGeodetic(r.eye), eyeAxes(frame, r.eye, r.attitude)};
     view.up = frame.ecefToLocal() * eastNorthUp(r.eye.latitude, r.eye.longitude).row[2];
-    cullEye = r.frozenEye.value_or(eye);
-    select();
+    culling.select(r, r.frozenEye.value_or(view.eye), counters);
     cost.select = millisecondsBetween(start, Clock::now());
-    counters.tilesBuilt += gl->tiles.prepare(r.overlays.colourByReason ? cut.tiles : visible.tiles);
-    refusal = conditions.refusal(cut, cullEye, r.view);
-    view.depth = prepareOcclusion();
-    view.oneSided = refusal.empty() && !r.frozenEye;
+    counters.tilesBuilt +=
+        gl->tiles.prepare(r.overlays.colourByReason ? culling.cut().tiles : culling.visible().tiles);
+    view.depth = culling.prepareOcclusion(r, gl->tiles, gl->occlusion, counters);
+    view.oneSided = culling.eyeIsAboveGround() && !r.frozenEye;
+    if (r.overlays.tileBounds)
+      addBoxes(database->index(), culling.cut().tiles, culling.visible().reason, view.eye.position, lines);
   } else {
-    eye = {{}, eyeAxes(LocalFrame(r.eye), r.eye, r.attitude)};
-    visible = {};
-    depthMapCurrent = false;
+    view.eye = {{}, eyeAxes(LocalFrame(r.eye), r.eye, r.attitude)};
+    culling.clear();
+    counters.depthMap.reset();
   }
-  view.eye = eye;
+  if (r.frozenEye) addFrustum(*r.frozenEye, r.view, view.eye.position, lines);
+  view.lines = !lines.empty();
   constexpr double kEarthRadius = 6371e3;
   view.horizonDip = std::acos(std::min(1.0, kEarthRadius / (kEarthRadius + r.eye.height.value())));
+}
+
+FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
+  const auto start = Clock::now();
+  request = &r;
+  cost = {kNone, 0, kNone, 0, 0, kNone, 0};
+  SceneView view;
+  prepare(view);
 
   gl->timer.begin();
   gl->frame.resize(r.view.widthPx, r.view.heightPx);
   glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
-  if (database && r.overlays.tileBounds)
-    addBoxes(database->index(), cut.tiles, visible.reason, eye.position, lines);
-  if (r.frozenEye) addFrustum(*r.frozenEye, r.view, eye.position, lines);
-  view.lines = !lines.empty();
   frameStart = Clock::now();
   gl->graph.frame(view, gl->frame.id());
 
@@ -264,9 +193,9 @@ FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
   // A software rasteriser's GPU is this processor: its time is in `draw` already, and would count twice.
   cost.gpu = report.software ? std::numeric_limits<double>::quiet_NaN() : gl->timer.milliseconds();
   cost.total = millisecondsBetween(start, end);
-  counters.visible = visible;
+  counters.visible = culling.visible();
   counters.cost = cost;
-  counters.tilesInCut = database ? cut.tiles.size() : 0;
+  counters.tilesInCut = database ? culling.cut().tiles.size() : 0;
   return counters;
 }
 
@@ -289,9 +218,7 @@ void Renderer::release() {
 
 void Renderer::setTerrain(std::shared_ptr<const terrain::Database> database) {
   impl_->database = std::move(database);
-  impl_->cutKey.reset();
-  impl_->cut.tiles.clear();
-  impl_->conditions.setDatabase(impl_->database);
+  impl_->culling.setDatabase(impl_->database);
   if (impl_->gl) impl_->gl->tiles.setDatabase(impl_->database);
 }
 
@@ -301,27 +228,12 @@ FrameResult Renderer::draw(const FrameRequest& request, unsigned fbo) {
 }
 
 Renderer::Grey Renderer::readDepthMap() {
-  if (!impl_->gl || !impl_->depthMapCurrent) return {};
-  std::vector<float> depths;
-  const OcclusionPass& pass = impl_->gl->occlusion;
-  GLint before = 0;
-  glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &before);
-  pass.read(depths);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(before));
-  Grey grey{pass.width(), pass.height(), std::vector<std::uint8_t>(depths.size(), 255)};
-  // By the logarithm of the distance: the same step is the same ratio near and far.
-  constexpr double kFrom = Grey::kNearestM, kTo = Grey::kFurthestM;
-  for (std::size_t i = 0; i < depths.size(); ++i) {
-    if (!(depths[i] > 0)) continue;
-    const double distance = std::clamp(impl_->nearM / double{depths[i]}, kFrom, kTo);
-    grey.pixels[i] =
-        static_cast<std::uint8_t>(std::lround(254 * std::log(distance / kFrom) / std::log(kTo / kFrom)));
-  }
-  return grey;
+  if (!impl_->gl) return {};
+  return impl_->culling.readDepthMap(impl_->gl->occlusion);
 }
 
 void Renderer::spoilLowering(double scale) {
-  impl_->loweringScale = scale;
+  impl_->culling.spoilLowering(scale);
 }
 
 std::vector<std::uint8_t> Renderer::readPixels(int width, int height) {

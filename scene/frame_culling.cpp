@@ -1,0 +1,106 @@
+#include "trimtab/scene/frame_culling.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trimtab/scene/gl_api.h"
+#include "trimtab/scene/tile_cache.h"
+
+namespace trimtab::scene {
+
+void FrameCulling::setDatabase(std::shared_ptr<const terrain::Database> database) {
+  database_ = std::move(database);
+  cutKey_.reset();
+  cut_.tiles.clear();
+  conditions_.setDatabase(database_);
+}
+
+void FrameCulling::select(const FrameRequest& request, const EyePose& eye, FrameResult& counters) {
+  const TerrainIndex& index = database_->index();
+  const ViewShape& v = request.view;
+  eye_ = eye;
+  const CutKey key{eye.position, request.lod.screenSpaceError.value(),
+                   request.decision.lodScale * request.lod.scale.value(),
+                   std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom))};
+  if (cutKey_ != key) {
+    selectLevels(index, key.eye, key.maxErrorPx, key.lodScale, key.pixelsPerRadian, cut_);
+    cutKey_ = key;
+    ++counters.cutsSelected;
+  }
+  selectVisible(index, cut_, eye, v, request.method != CullingCase::none, visible_);
+}
+
+void FrameCulling::clear() {
+  visible_ = {};
+  depthMapCurrent_ = false;
+}
+
+std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& request, const TileCache& tiles,
+                                                        OcclusionPass& pass, FrameResult& counters) {
+  refusal_ = conditions_.refusal(cut_, eye_, request.view);
+  counters.depthMap.reset();
+  counters.note.clear();
+  depthMapCurrent_ = false;
+  const auto& size = request.decision.depthMap;
+  if (request.method != CullingCase::proposed || !size || visible_.tiles.empty()) return {};
+  counters.note = refusal_;
+  if (!refusal_.empty()) return {};
+  testedSlots_.clear();
+  occluders_.clear();
+  // Far tiles cost as much to draw as near ones and hide little: measured over Everest and Fuji, leaving out
+  // what is narrower than 48 texels costs a few percent of the hidden tiles and saves up to half of the pass.
+  const TerrainIndex& index = database_->index();
+  const double texelsPerTangent = size->widthPx / (request.view.right - request.view.left);
+  const double leastTexels = std::min(48.0, 0.12 * size->widthPx);
+  const auto texelsAcross = [&](const Box& b) {
+    const Vec3 middle{0.5 * (double{b.minX} + b.maxX), 0.5 * (double{b.minY} + b.maxY),
+                      0.5 * (double{b.minZ} + b.maxZ)};
+    return (double{b.maxX} - b.minX) * texelsPerTangent / length(middle - eye_.position);
+  };
+  for (const TileDraw& tile : visible_.tiles) {
+    testedSlots_.push_back(tiles.slotOf(tile.node));
+    if (conditions_.mayOcclude(tile.node) && texelsAcross(index.bounds[tile.node]) >= leastTexels)
+      occluders_.push_back(tile);
+  }
+  if (occluders_.empty()) {
+    counters.note = "no tile in view may hide another: too far, or at the terrain's edge";
+    return {};
+  }
+  pass.prepare(size->widthPx, size->heightPx, testedSlots_);
+  counters.depthMap = size;
+  ++counters.depthMapsDrawn;
+  depthMapCurrent_ = true;
+  nearM_ = request.view.nearM;
+  return DepthView{eye_,
+                   size->widthPx,
+                   size->heightPx,
+                   OcclusionPass::kLevels,
+                   static_cast<int>(testedSlots_.size()),
+                   loweringScale_};
+}
+
+void FrameCulling::removeHidden(const TileCache& tiles, OcclusionPass& pass) {
+  pass.test(tiles, flags_);
+  removeOccluded(database_->index(), flags_, visible_);
+}
+
+Renderer::Grey FrameCulling::readDepthMap(const OcclusionPass& pass) const {
+  if (!depthMapCurrent_) return {};
+  std::vector<float> depths;
+  GLint before = 0;
+  glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &before);
+  pass.read(depths);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(before));
+  Renderer::Grey grey{pass.width(), pass.height(), std::vector<std::uint8_t>(depths.size(), 255)};
+  // By the logarithm of the distance: the same step is the same ratio near and far.
+  constexpr double kFrom = Renderer::Grey::kNearestM, kTo = Renderer::Grey::kFurthestM;
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    if (!(depths[i] > 0)) continue;
+    const double distance = std::clamp(nearM_ / double{depths[i]}, kFrom, kTo);
+    grey.pixels[i] =
+        static_cast<std::uint8_t>(std::lround(254 * std::log(distance / kFrom) / std::log(kTo / kFrom)));
+  }
+  return grey;
+}
+
+}  // namespace trimtab::scene

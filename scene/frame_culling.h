@@ -1,0 +1,68 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trimtab/culling/select.h"
+#include "trimtab/scene/occlusion.h"
+#include "trimtab/scene/occlusion_conditions.h"
+#include "trimtab/scene/renderer.h"
+#include "trimtab/scene/scene_graph.h"
+#include "trimtab/terrain/database.h"
+
+namespace trimtab::scene {
+
+/// What a frame does to find the terrain's tiles that it draws: level cut, frustum, depth map. Keeps what can
+/// be kept from frame to frame; needs no context, except where OcclusionPass and TileCache are passed.
+class FrameCulling {
+ public:
+  void setDatabase(std::shared_ptr<const terrain::Database> database);
+
+  /// Cut and visible set for an eye; the cut only if it can have changed, which counts as `cutsSelected`.
+  void select(const FrameRequest& request, const EyePose& eye, FrameResult& counters);
+  /// No terrain in this frame.
+  void clear();
+  /// After the visible tiles have slots: whether there is a depth map in this frame, and its view. Else
+  /// `counters.note` may say why not.
+  std::optional<DepthView> prepareOcclusion(const FrameRequest& request, const TileCache& tiles,
+                                            OcclusionPass& pass, FrameResult& counters);
+  /// Tests the visible tiles against the depth map and takes out what it hides.
+  void removeHidden(const TileCache& tiles, OcclusionPass& pass);
+  /// Whether the eye is over the ground and above it, so that no underside can be seen; as of
+  /// prepareOcclusion.
+  bool eyeIsAboveGround() const { return refusal_.empty(); }
+
+  const LevelCut& cut() const { return cut_; }
+  const VisibleSet& visible() const { return visible_; }
+  /// What may hide others in this frame.
+  const std::vector<TileDraw>& occluders() const { return occluders_; }
+  void spoilLowering(double scale) { loweringScale_ = scale; }
+  /// The last frame's depth map, if it drew one.
+  Renderer::Grey readDepthMap(const OcclusionPass& pass) const;
+
+ private:
+  /// What the level cut depends on.
+  struct CutKey {
+    Vec3 eye;
+    double maxErrorPx = 0, lodScale = 0, pixelsPerRadian = 0;
+    friend bool operator==(const CutKey&, const CutKey&) = default;
+  };
+
+  std::shared_ptr<const terrain::Database> database_;
+  OcclusionConditions conditions_;
+  std::optional<CutKey> cutKey_;
+  LevelCut cut_;
+  VisibleSet visible_;
+  EyePose eye_;
+  std::string refusal_;  ///< why nothing may be hidden from the eye
+  std::vector<std::uint32_t> testedSlots_;
+  std::vector<TileDraw> occluders_;
+  std::vector<std::uint8_t> flags_;
+  double loweringScale_ = 1;
+  bool depthMapCurrent_ = false;  ///< the last frame drew one
+  double nearM_ = 1;              ///< of the last depth map
+};
+
+}  // namespace trimtab::scene
