@@ -1,16 +1,8 @@
-#include <algorithm>
-
+#include "trimtab/culling/box_distance.h"
 #include "trimtab/culling/select.h"
 
 namespace trimtab {
 namespace {
-
-double distanceSquared(const Box& box, Vec3 p) {
-  const double x = std::max({box.minX - p.x, 0.0, p.x - box.maxX});
-  const double y = std::max({box.minY - p.y, 0.0, p.y - box.maxY});
-  const double z = std::max({box.minZ - p.z, 0.0, p.z - box.maxZ});
-  return x * x + y * y + z * z;
-}
 
 bool isSplit(const LevelCut& cut, std::uint32_t node) {
   return node != TerrainIndex::kNone && cut.split[node] != 0;

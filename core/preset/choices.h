@@ -44,9 +44,57 @@ struct ChoicesOf<RenderSize> {
   static constexpr ChoiceOption options[] = {{"fit", "Fit the window"}, {"fixed", "Fixed"}};
 };
 template <>
+struct ChoicesOf<TerrainForm> {
+  static constexpr ChoiceOption options[] = {{"levels", "Tiled levels"}, {"static_trees", "Static trees"}};
+};
+template <>
+struct ChoicesOf<StaticDistanceRule> {
+  static constexpr ChoiceOption options[] = {{"picture", "Error in the picture"},
+                                             {"factor", "Multiple of the error"}};
+};
+template <>
+struct ChoicesOf<ErrorMeasure> {
+  static constexpr ChoiceOption options[] = {{"rms", "Root mean square"}, {"maximum", "Largest"}};
+};
+template <>
 struct ChoicesOf<HostProtocol> {
   static constexpr ChoiceOption options[] = {
       {"auto", "Recognise"}, {"native_fdm", "FlightGear native-fdm"}, {"cigi3", "CIGI 3"}};
+};
+template <>
+struct ChoicesOf<MotionControl> {
+  static constexpr ChoiceOption options[] = {{"off", "Off"},
+                                             {"lod_scale_and_blur", "LOD scale and blur"},
+                                             {"with_restoration", "With restoration"}};
+};
+template <>
+struct ChoicesOf<MotionReference> {
+  static constexpr ChoiceOption options[] = {{"line_of_sight", "Line of sight (aircraft and head)"},
+                                             {"head", "Head against aircraft"}};
+};
+template <>
+struct ChoicesOf<MotionDwell> {
+  static constexpr ChoiceOption options[] = {{"frames", "Frames"}, {"milliseconds", "Milliseconds"}};
+};
+template <>
+struct ChoicesOf<WeatherSource> {
+  static constexpr ChoiceOption options[] = {{"preset", "This preset"}, {"host", "The host"}};
+};
+template <>
+struct ChoicesOf<WeatherStep> {
+  static constexpr ChoiceOption options[] = {
+      {"clear", "Clear"},           {"rain_light", "Light rain"}, {"rain_medium", "Medium rain"},
+      {"rain_heavy", "Heavy rain"}, {"snow_light", "Light snow"}, {"snow_medium", "Medium snow"},
+      {"snow_heavy", "Heavy snow"}};
+};
+template <>
+struct ChoicesOf<VisibilitySource> {
+  static constexpr ChoiceOption options[] = {{"steps", "The weather step"}, {"typed", "Typed"}};
+};
+template <>
+struct ChoicesOf<RatioMode> {
+  static constexpr ChoiceOption options[] = {
+      {"off", "No cut"}, {"fixed", "Fixed ratio"}, {"adaptive", "By visibility (adaptive)"}};
 };
 
 }  // namespace trimtab::table

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "trimtab/preset/curve.h"
+#include "trimtab/preset/rule_list.h"
 #include "trimtab/units/quantity.h"
 
 /// Every number an engineer tunes. A field here is the only home of its default; its row in rows.cpp is the
@@ -20,13 +21,42 @@ enum class CullingCase { none, view_frustum, proposed };
 /// Where field of view and near plane come from.
 enum class ViewSource { preset, host };
 enum class RenderSize { fit, fixed };
+/// What stands for the terrain: its regular tiled levels, or the trees of document E where it has them.
+enum class TerrainForm { levels, static_trees };
+/// How a tree node's error becomes its minimum viewer distance.
+enum class StaticDistanceRule { picture, factor };
+enum class ErrorMeasure { rms, maximum };
 enum class HostProtocol { automatic, native_fdm, cigi3 };
+/// The columns of document C's results: before, with the mechanism, and with LOD scale restoration.
+enum class MotionControl { off, lod_scale_and_blur, with_restoration };
+/// Whose heading and pitch are watched: those of the view in the world, or of the head against the aircraft.
+enum class MotionReference { line_of_sight, head };
+/// How long a run of fast or slow frames has to be.
+enum class MotionDwell { frames, milliseconds };
+/// Who says what falls and how far one sees.
+enum class WeatherSource { preset, host };
+/// Document D's densities of rain and snow.
+enum class WeatherStep { clear, rain_light, rain_medium, rain_heavy, snow_light, snow_medium, snow_heavy };
+/// Whether visibility is the step's share of the clear-day distance or one typed number.
+enum class VisibilitySource { steps, typed };
+/// How the far plane is set (document D, Table 1's two columns): not at all, by one ratio for all weather, by
+/// Eq. (1).
+enum class RatioMode { off, fixed, adaptive };
 
 // Defaults that are lists. As constants, because g++ 12 takes a list inside a member's initialiser for
 // uninitialised.
 inline constexpr Curve<Feet> kAltitudeCurve{{4000, 1.0}, {5000, 0.6}, {6000, 0.3}, {7000, 0.1}, {8000, 0.0}};
 inline constexpr Curve<Degrees> kPitchCurve{{-30, 1.0}, {30, 0.0}};
 inline constexpr BandList kDepthMapBands{{0.1, 320, 240}, {0.5, 400, 300}, {1.0, 640, 480}, {1.5, 800, 600}};
+
+/// CIGI counts severities from 0, least severe, to 5: an enabled layer of severity 0 is not nothing.
+inline constexpr Curve<Ratio> kSeverityDensity{{0, 0.1}, {1, 0.25}, {3, 0.5}, {5, 1.0}};
+
+/// Four rules whose outputs are what the bands of the sum suggest for these corners.
+inline constexpr RuleList kRuleBase{{AltitudeCondition::low, PitchCondition::nose_down, 1, 2},
+                                    {AltitudeCondition::low, PitchCondition::nose_up, 1, 1},
+                                    {AltitudeCondition::high, PitchCondition::nose_down, 1, 0.5},
+                                    {AltitudeCondition::high, PitchCondition::nose_up, 1, 0}};
 
 struct AltitudeParameters {
   AltitudeReading reading = AltitudeReading::table;
@@ -48,13 +78,7 @@ struct SchemeParameters {
   Combination combination = Combination::sum;
   Membership hysteresis{0.05};
   BandList bands = kDepthMapBands;
-};
-
-/// The shipped rule base of Eq. (2): weight lambda and singleton output u (0..2) of four rules. "low" is the
-/// altitude membership, "high" its complement; "down" is the pitch membership, "up" its complement.
-struct RuleParameters {
-  Ratio lowDownWeight{1}, lowUpWeight{1}, highDownWeight{1}, highUpWeight{1};
-  Membership lowDownOutput{2.0}, lowUpOutput{1.0}, highDownOutput{0.5}, highUpOutput{0.0};
+  RuleList rules = kRuleBase;  ///< used by Combination::rules
 };
 
 struct CullingParameters {
@@ -64,6 +88,15 @@ struct CullingParameters {
 struct LodParameters {
   Pixels screenSpaceError{2};
   Ratio scale{1};  ///< 1 is full detail, larger is coarser
+};
+
+/// Trees of static levels of detail (document E).
+struct StaticLodParameters {
+  TerrainForm terrain = TerrainForm::levels;
+  ErrorMeasure error = ErrorMeasure::rms;
+  StaticDistanceRule rule = StaticDistanceRule::picture;
+  Pixels errorPx{1};             ///< used by `picture`
+  Ratio distancePerError{1000};  ///< metres of distance a metre of error; used by `factor`
 };
 
 struct ViewParameters {
@@ -76,10 +109,48 @@ struct ViewParameters {
   Pixels height{720};
 };
 
+struct WeatherParameters {
+  WeatherSource source = WeatherSource::preset;
+  WeatherStep step = WeatherStep::clear;
+  VisibilitySource visibilityFrom = VisibilitySource::steps;
+  Metres typedVisibility{10000};
+  Metres clearVisibility{40000};
+  bool haze = false;              ///< fog of the clear-day distance while nothing falls
+  Ratio contrastThreshold{0.02};  ///< contrast left at the visibility
+  RatioMode ratioMode = RatioMode::adaptive;
+  Ratio fixedRatio{5e-5};
+  Metres defaultNear{1};  ///< of Eq. (1)
+  Ratio tolerance{0.05};  ///< of calibration: gain and loss match within this share of a clear frame
+  Curve<Ratio> severityDensity = kSeverityDensity;
+};
+
+/// One density of rain or snow.
+struct WeatherStepParameters {
+  Ratio visibilityShare{1};  ///< of the clear-day distance
+  Ratio density{1};          ///< particle intensity, 0..1
+  Ratio farStretch{1};       ///< far plane over visibility; 1 cuts most, calibration finds it
+};
+
 struct HostParameters {
   HostProtocol protocol = HostProtocol::automatic;
   bool extrapolate = true;         ///< move the eye between packets; decisions never are
   Milliseconds silenceAfter{500};  ///< no packet for so long: the host is silent
+};
+
+/// Head motion (document C).
+struct MotionParameters {
+  MotionControl control = MotionControl::with_restoration;
+  MotionReference reference = MotionReference::line_of_sight;
+  Degrees leftFov{30}, rightFov{30};  ///< Eq. (1); their own, not the projection's
+  MotionDwell dwell = MotionDwell::frames;
+  Ratio blurFrames{10};    ///< BlurStack fires at so many
+  Ratio restoreFrames{5};  ///< LODRestoreStack fires above so many
+  Milliseconds blurDwell{100}, restoreDwell{50};
+  Ratio lodStep{2};
+  Ratio lodMaximum{4};
+  Milliseconds blurDuration{400};
+  Ratio blurStrength{0.8};
+  Milliseconds gap{250};
 };
 
 struct MeasureParameters {
@@ -90,10 +161,18 @@ struct TuningParameters {
   AltitudeParameters altitude;
   PitchParameters pitch;
   SchemeParameters scheme;
-  RuleParameters rules;
   CullingParameters culling;
   LodParameters lod;
+  StaticLodParameters staticLod;
   ViewParameters view;
+  WeatherParameters weather;
+  WeatherStepParameters rainLight{Ratio{0.5}, Ratio{0.25}};
+  WeatherStepParameters rainMedium{Ratio{0.25}, Ratio{0.5}};
+  WeatherStepParameters rainHeavy{Ratio{0.1}, Ratio{1}};
+  WeatherStepParameters snowLight{Ratio{0.25}, Ratio{0.25}};
+  WeatherStepParameters snowMedium{Ratio{0.1}, Ratio{0.5}};
+  WeatherStepParameters snowHeavy{Ratio{0.04}, Ratio{1}};
+  MotionParameters motion;
   HostParameters host;
   MeasureParameters measure;
 };

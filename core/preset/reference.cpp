@@ -19,6 +19,7 @@ std::string_view groupTitle(std::string_view group) {
   if (group == "fuzzy") return "Fuzzy choice of the culling scheme";
   if (group == "culling") return "Culling";
   if (group == "lod") return "Level of detail";
+  if (group == "static_lod") return "Static levels of detail";
   if (group == "view") return "View";
   if (group == "host") return "Host";
   if (group == "measure") return "Measurement";
@@ -73,32 +74,35 @@ std::string describe(const ParameterRow& row) {
                            numberText(BandList::kTop) + ", sizes " + rangeText(row.hard, row.unit));
       item("usual", "sizes " + rangeText(row.usual, row.unit));
       break;
+    case Kind::rules:
+      item("accepted",
+           "1 to " + std::to_string(RuleList::kCapacity) +
+               " rules `conditions*weight=output`, conditions `low` or `high`, `down` or `up`, joined "
+               "by `&`, or `any`; weights " +
+               rangeText(row.hard, row.unit) + ", outputs " + rangeText({0, BandList::kTop}, ""));
+      item("usual", "weights " + rangeText(row.usual, row.unit));
+      break;
   }
   item("takes effect with", std::string(effectText(row.effect)));
   if (!row.source.empty()) item("source", std::string(row.source));
   return text + "\n";
 }
 
-/// The rules of Eq. (2): which keys weigh them and say what they ask for.
+/// The rules of Eq. (2) that ship.
 std::string ruleBase() {
   std::string text =
       "## The rule base\n\nUsed when `fuzzy.combination` is `rules`. *Low* is the altitude membership, "
       "*high* its complement to 1; *nose "
-      "down* is the\npitch membership, *nose up* its complement. A rule fires with the smaller of its two, "
-      "and the total is the average of "
-      "the\noutputs, weighted by firing times weight. When nothing fires the total is 0.\n\n"
-      "| Rule | Weight | Output |\n|---|---|---|\n";
-  const TuningParameters defaults;
-  for (const char* const rule : {"low_down", "low_up", "high_down", "high_up"}) {
-    const std::string prefix = std::string("fuzzy.rules.") + rule;
-    std::string name = rule;
-    name.replace(name.find('_'), 1, " and nose ");
-    text += "| " + name;
-    for (const char* const column : {"_weight", "_output"}) {
-      const ParameterRow* const row = findRow(prefix + column);
-      text += " | `" + std::string(row->key) + "` (" + toText(*row, row->get(defaults)) + ")";
-    }
-    text += " |\n";
+      "down* is the\npitch membership, *nose up* its complement. A rule fires with the smaller of its "
+      "conditions, and the total is the average of "
+      "the\noutputs, weighted by firing times weight. When nothing fires the total is 0. What ships in "
+      "`fuzzy.rules`:\n\n"
+      "| Altitude | Pitch | Weight | Output |\n|---|---|---|---|\n";
+  for (const FuzzyRule& rule : TuningParameters{}.scheme.rules.span()) {
+    const std::string pitch(nameOf(rule.pitch));
+    text += "| " + std::string(nameOf(rule.altitude)) + " | " +
+            (rule.pitch == PitchCondition::any ? pitch : "nose " + pitch) + " | " + numberText(rule.weight) +
+            " | " + numberText(rule.output) + " |\n";
   }
   return text + "\n";
 }

@@ -2,15 +2,19 @@
 
 #include "trimtab/preset/fuzzy_rows.h"
 #include "trimtab/preset/host_rows.h"
+#include "trimtab/preset/motion_rows.h"
 #include "trimtab/preset/rules.h"
+#include "trimtab/preset/static_lod_rows.h"
 #include "trimtab/preset/view_rows.h"
+#include "trimtab/preset/weather_rows.h"
 
 namespace trimtab {
 
 namespace {
 
 // Groups of keys stay together, in the order people should read them.
-constexpr std::array kTable = table::joined(table::kFuzzyRows, table::kViewRows, table::kHostRows);
+constexpr std::array kTable =
+    table::joined(table::kFuzzyRows, table::kViewRows, table::kStaticLodRows, table::kMotionRows, table::kWeatherRows, table::kHostRows);
 
 static_assert(table::everyFieldHasOneRow(kTable), "a field of parameters.h has no row, or two");
 static_assert(table::keysAreOrderly(kTable), "a key is there twice, or is not beside the keys of its group");
@@ -32,8 +36,12 @@ static_assert(checkCurve(kDefaults.altitude.curve, hardRange("fuzzy.altitude.cur
               CurveFlaw::none);
 static_assert(checkCurve(kDefaults.pitch.curve, hardRange("fuzzy.pitch.curve_deg")).flaw == CurveFlaw::none);
 static_assert(checkBands(kDefaults.scheme.bands, hardRange("fuzzy.bands_px")).flaw == BandFlaw::none);
+static_assert(checkCurve(kDefaults.weather.severityDensity, hardRange("weather.severity_density")).flaw ==
+              CurveFlaw::none);
+static_assert(checkRules(kDefaults.scheme.rules, hardRange("fuzzy.rules")).flaw == RuleFlaw::none);
 static_assert(hysteresisLeavesBands(kDefaults) && hysteresisLeavesFrustum(kDefaults));
-static_assert(maximumCoversCurve(kDefaults) && someRuleCounts(kDefaults));
+static_assert(maximumCoversCurve(kDefaults) && someRuleCounts(kDefaults) &&
+              someFieldOfViewIsLeft(kDefaults));
 
 /// Indices of rows by rising key.
 constexpr auto kByKey = [] {

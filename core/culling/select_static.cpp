@@ -1,0 +1,122 @@
+#include "trimtab/culling/select_static.h"
+
+#include <algorithm>
+
+#include "trimtab/culling/box_distance.h"
+#include "trimtab/culling/frustum.h"
+
+namespace trimtab {
+namespace {
+
+void pushRoots(const StaticLodIndex& index, std::vector<std::uint32_t>& stack) {
+  stack.assign(index.roots.rbegin(), index.roots.rend());
+}
+
+bool isLeaf(const StaticLodIndex::Node& node) {
+  return node.children[0] == StaticLodIndex::kNone;
+}
+
+/// Walks the trees from the roots; `descend` says whether a node's children stand for it.
+template <class Descend>
+void walk(const StaticLodIndex& index, StaticCut& cut, const Descend& descend) {
+  cut.nodes.clear();
+  pushRoots(index, cut.stack);
+  while (!cut.stack.empty()) {
+    const std::uint32_t node = cut.stack.back();
+    cut.stack.pop_back();
+    const StaticLodIndex::Node& n = index.nodes[node];
+    if (isLeaf(n) || !descend(node)) {
+      cut.nodes.push_back(node);
+      continue;
+    }
+    cut.stack.push_back(n.children[1]);
+    cut.stack.push_back(n.children[0]);
+  }
+}
+
+void count(const StaticLodIndex& index, std::span<const std::uint32_t> vertices, std::uint32_t node,
+           VisibleSet& visible, bool add) {
+  const std::uint64_t triangles = index.nodes[node].triangles;
+  const std::uint64_t points = node < vertices.size() ? vertices[node] : 0;
+  visible.triangles = add ? visible.triangles + triangles : visible.triangles - triangles;
+  visible.vertices = add ? visible.vertices + points : visible.vertices - points;
+}
+
+}  // namespace
+
+double staticLodDistancePerError(const StaticLodParameters& parameters, double lodScale,
+                                 double pixelsPerRadian) {
+  const double perError = parameters.rule == StaticDistanceRule::picture
+                              ? pixelsPerRadian / parameters.errorPx.value()
+                              : parameters.distancePerError.value();
+  return perError / lodScale;
+}
+
+std::span<const float> staticLodError(const StaticLodIndex& index, ErrorMeasure measure) {
+  return measure == ErrorMeasure::rms ? index.rmsErrorM : index.maxErrorM;
+}
+
+void selectStatic(const StaticLodIndex& index, std::span<const float> error, double distancePerError,
+                  Vec3 eye, StaticCut& cut) {
+  const double square = distancePerError * distancePerError;
+  walk(index, cut, [&](std::uint32_t node) {
+    // Squares, so that an eye inside the box (distance 0) descends whenever there is any error at all; said
+    // so that an eye that is not a number does not.
+    const double e = double{error[node]};
+    return e * e * square > distanceSquared(index.bounds[node], eye);
+  });
+}
+
+void selectStaticDepth(const StaticLodIndex& index, int depth, StaticCut& cut) {
+  walk(index, cut, [&](std::uint32_t node) { return index.nodes[node].depth < depth; });
+}
+
+void selectStaticVisible(const StaticLodIndex& index, std::span<const std::uint32_t> vertices,
+                         const StaticCut& cut, const EyePose& eye, const ViewShape& view, bool test,
+                         VisibleSet& visible) {
+  visible.tiles.clear();
+  visible.reason.assign(index.size(), CullReason::other_level);
+  visible.outsideFrustum = visible.occluded = 0;
+  visible.triangles = visible.vertices = 0;
+  const Frustum frustum(eye, view);
+  for (const std::uint32_t node : cut.nodes) {
+    if (!test || frustum.mayShow(index.bounds[node])) {
+      visible.tiles.push_back({node, 0});
+      visible.reason[node] = CullReason::drawn;
+      count(index, vertices, node, visible, true);
+    } else {
+      visible.reason[node] = CullReason::outside_frustum;
+      ++visible.outsideFrustum;
+    }
+  }
+}
+
+void removeStaticOccluded(const StaticLodIndex& index, std::span<const std::uint32_t> vertices,
+                          std::span<const std::uint8_t> flags, VisibleSet& visible) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < visible.tiles.size(); ++i) {
+    const TileDraw tile = visible.tiles[i];
+    if (i >= flags.size() || flags[i] != 1) {
+      visible.tiles[kept++] = tile;
+      continue;
+    }
+    visible.reason[tile.node] = CullReason::occluded;
+    ++visible.occluded;
+    count(index, vertices, tile.node, visible, false);
+  }
+  visible.tiles.resize(kept);
+}
+
+StaticLodFrame staticLodFrame(const StaticLodIndex& index, const VisibleSet& visible) {
+  StaticLodFrame frame;
+  frame.drawn = true;
+  for (const TileDraw& tile : visible.tiles) {
+    const StaticLodIndex::Node& node = index.nodes[tile.node];
+    const std::size_t depth = std::min<std::size_t>(node.depth, StaticLodFrame::kDepths - 1);
+    frame.triangles[depth] += node.triangles;
+    ++frame.nodes[depth];
+  }
+  return frame;
+}
+
+}  // namespace trimtab

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "trimtab/preset/rows.h"
+
+/// Rows of the trees of static levels of detail.
+namespace trimtab::table {
+
+inline constexpr std::array kStaticLodRows{
+    row<&TuningParameters::staticLod, &StaticLodParameters::terrain>(
+        {.key = "static_lod.terrain",
+         .label = "Terrain is drawn from",
+         .help =
+             "Tiled levels, or the static trees of document E. Only scenery has trees; any other terrain is "
+             "drawn from its tiled levels.",
+         .source = "E"}),
+    row<&TuningParameters::staticLod, &StaticLodParameters::error>(
+        {.key = "static_lod.error",
+         .label = "Error of a node",
+         .help = "Which vertical error against the source sets a node's minimum viewer distance. The largest "
+                 "one keeps every ridge and draws more.",
+         .source = "E: root mean square error"}),
+    row<&TuningParameters::staticLod, &StaticLodParameters::rule>(
+        {.key = "static_lod.rule",
+         .label = "Minimum distance from",
+         .help =
+             "The distance at which the error has the allowed size in the picture, which follows field of "
+             "view and render size; or a fixed multiple of the error, the same for every display.",
+         .source = "E: minimum viewer distance"}),
+    row<&TuningParameters::staticLod, &StaticLodParameters::errorPx>(
+        {.key = "static_lod.error_px",
+         .label = "Allowed error",
+         .help = "A node is drawn where its error is at most so much in the picture; nearer, its children "
+                 "are. Smaller is finer and slower.",
+         .source = "E: minimum viewer distance",
+         .hard = {0.01, 256},
+         .usual = {0.1, 32},
+         .step = 0.1,
+         .decimals = 2,
+         .logarithmic = true}),
+    row<&TuningParameters::staticLod, &StaticLodParameters::distancePerError>(
+        {.key = "static_lod.distance_per_error",
+         .label = "Distance per error",
+         .help =
+             "Minimum viewer distance as a multiple of the error: metres of distance for each metre. Larger "
+             "is finer and slower. Used where the distance is a multiple of the error.",
+         .source = "E: minimum viewer distance",
+         .hard = {1, 1e6},
+         .usual = {10, 100000},
+         .step = 10,
+         .logarithmic = true})};
+
+}  // namespace trimtab::table
