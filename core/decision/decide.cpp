@@ -7,6 +7,8 @@
 #include "trimtab/fuzzy/bands.h"
 #include "trimtab/fuzzy/combination.h"
 #include "trimtab/fuzzy/membership.h"
+#include "trimtab/weather/weather.h"
+#include "trimtab/motion/head_motion.h"
 
 namespace trimtab {
 namespace {
@@ -38,11 +40,13 @@ std::string bandText(const BandList& bands, int band) {
 }
 
 /// The rules that fire, by how far: "low-down 0.3, high-down 0.7".
-std::string firingText(const std::array<double, 4>& firing) {
-  static constexpr const char* kNames[4] = {"low-down", "low-up", "high-down", "high-up"};
+std::string firingText(const RuleList& rules, const RuleFiring& firing) {
   std::string text;
-  for (std::size_t i = 0; i < firing.size(); ++i)
-    if (firing[i] > 0) text += formatted("%s%s %.3f", text.empty() ? "" : ", ", kNames[i], firing[i]);
+  for (std::size_t i = 0; i < firing.count; ++i) {
+    if (!(firing.mu[i] > 0)) continue;
+    const std::string name = i < rules.size ? conditionsText(rules.rule[i], "-") : "a rule that is no more";
+    text += formatted("%s%s %.3f", text.empty() ? "" : ", ", name.c_str(), firing.mu[i]);
+  }
   return text;
 }
 
@@ -63,30 +67,30 @@ std::string outcomeText(const FrameDecision& d) {
   return formatted("dynamic, depth map %d x %d", d.depthMap->widthPx, d.depthMap->heightPx);
 }
 
-}  // namespace
-
-FrameDecision decide(const FrameInput& input, const ValidatedParameters& parameters, DecisionMemory& memory) {
-  FrameDecision decision;
-  decision.lodScale = parameters->lod.scale.value();
+/// Documents A and B: which scheme, and how large a depth map.
+void decideScheme(const FrameInput& input, const ValidatedParameters& parameters, DecisionMemory& memory,
+                  FrameDecision& decision) {
+  decision.weather = decideWeather(input.state, *parameters);
 
   const bool aboveGround = parameters->altitude.reference == AltitudeReference::above_ground;
   if (aboveGround && !input.aboveGround) {
     decision.reason = SchemeReason::altitude_unknown;
-    return decision;
+    return;
   }
   const double altitude = toFeet(aboveGround ? *input.aboveGround : input.state.position.height);
   const double pitch = input.state.attitude.pitch.value();
   if (!std::isfinite(altitude) || !std::isfinite(pitch)) {
     decision.reason = SchemeReason::invalid_input;
-    return decision;
+    return;
   }
 
   decision.altitudeFt = altitude;
   decision.pitchDeg = pitch;
   decision.altitudeMembership = altitudeMembership(parameters->altitude, altitude);
   decision.pitchMembership = pitchMembership(parameters->pitch, pitch);
-  decision.ruleFiring = ruleFiring(decision.altitudeMembership, decision.pitchMembership);
-  const TotalMembership total = combine(parameters->scheme.combination, parameters->rules,
+  const RuleList& rules = parameters->scheme.rules;
+  decision.ruleFiring = ruleFiring(rules, decision.altitudeMembership, decision.pitchMembership);
+  const TotalMembership total = combine(parameters->scheme.combination, rules, decision.ruleFiring,
                                         decision.altitudeMembership, decision.pitchMembership);
   decision.totalMembership = total.total;
 
@@ -105,6 +109,15 @@ FrameDecision decide(const FrameInput& input, const ValidatedParameters& paramet
     decision.reason = SchemeReason::held_by_hysteresis;
   else
     decision.reason = choice.band >= 0 ? SchemeReason::in_band : SchemeReason::below_first_band;
+}
+
+}  // namespace
+
+FrameDecision decide(const FrameInput& input, const ValidatedParameters& parameters, DecisionMemory& memory) {
+  FrameDecision decision;
+  decideScheme(input, parameters, memory, decision);
+  decision.motion = decideMotion(input.state, parameters->motion, memory.motion);
+  decision.lodScale = parameters->lod.scale.value() * decision.motion.lodScale;
   return decision;
 }
 
@@ -121,7 +134,7 @@ std::string explain(const FrameDecision& d, const ValidatedParameters& parameter
                                  d.pitchMembership, combinationText(parameters->scheme.combination),
                                  d.totalMembership);
   if (parameters->scheme.combination == Combination::rules && d.reason != SchemeReason::no_rule_fires)
-    text += " (" + firingText(d.ruleFiring) + ")";
+    text += " (" + firingText(parameters->scheme.rules, d.ruleFiring) + ")";
   const std::string band = bandText(parameters->scheme.bands, d.band);
   switch (d.reason) {
     case SchemeReason::below_first_band:

@@ -4,6 +4,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "trimtab/frame/weather_decision.h"
+#include "trimtab/frame/motion_decision.h"
+#include "trimtab/frame/rule_firing.h"
 #include "trimtab/preset/parameters.h"
 #include "trimtab/units/geodesy.h"
 
@@ -18,6 +21,25 @@ struct HostView {
   friend bool operator==(const HostView&, const HostView&) = default;
 };
 
+/// Precipitation as a host orders it (CIGI Weather Control, layers 4 and 5, global scope). Present once the
+/// host has spoken of either layer; holds until it says otherwise.
+struct HostWeather {
+  static constexpr int kMostSevere = 5;
+
+  Precipitation precipitation = Precipitation::none;
+  int severity = 0;                  ///< 0..kMostSevere
+  std::optional<Metres> visibility;  ///< in that layer
+
+  friend bool operator==(const HostWeather&, const HostWeather&) = default;
+};
+
+/// Over the ground, by the local horizon.
+struct Velocity {
+  MetresPerSecond north, east, down;
+
+  friend bool operator==(const Velocity&, const Velocity&) = default;
+};
+
 /// What one packet (or one row of a flight) says of the aircraft.
 struct AircraftState {
   double time = 0;  ///< seconds on the host's clock; arrival time where the host sends none
@@ -27,8 +49,11 @@ struct AircraftState {
   Attitude attitude;
   std::optional<Metres> aboveGround;  ///< as the host says; without it the terrain is asked
   std::optional<Attitude> head;       ///< line of sight relative to the aircraft
-  std::optional<Metres> visibility;
+  std::optional<Metres> visibility;   ///< of the whole atmosphere
+  std::optional<HostWeather> weather;
   std::optional<HostView> view;
+  std::optional<Knots> airspeed;     ///< calibrated; CIGI has none
+  std::optional<Velocity> velocity;  ///< as the host says; without it successive positions tell
 
   friend bool operator==(const AircraftState&, const AircraftState&) = default;
 };
@@ -78,12 +103,14 @@ struct FrameDecision {
   double altitudeFt = 0;  ///< the altitude that was used, by reference
   double pitchDeg = 0;
   double altitudeMembership = 0, pitchMembership = 0, totalMembership = 0;
-  std::array<double, 4> ruleFiring{};  ///< mu of low-down, low-up, high-down, high-up
+  RuleFiring ruleFiring;
   Scheme scheme = Scheme::frustum;
   int band = -1;                         ///< index into the bands; -1: below all
   std::optional<DepthMapSize> depthMap;  ///< none: no occlusion test of any kind
   SchemeReason reason = SchemeReason::below_first_band;
-  double lodScale = 1;
+  double lodScale = 1;  ///< the preset's times head motion's; 1 is full detail, larger is coarser
+  MotionDecision motion;
+  WeatherDecision weather;
 
   friend bool operator==(const FrameDecision&, const FrameDecision&) = default;
 };
