@@ -20,7 +20,7 @@ void FrameCulling::select(const FrameRequest& request, const EyePose& eye, Frame
   const ViewShape& v = request.view;
   eye_ = eye;
   const CutKey key{eye.position, request.lod.screenSpaceError.value(),
-                   request.decision.lodScale * request.lod.scale.value(),
+                   request.decision.lodScale,
                    std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom))};
   if (cutKey_ != key) {
     selectLevels(index, key.eye, key.maxErrorPx, key.lodScale, key.pixelsPerRadian, cut_);

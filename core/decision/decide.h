@@ -8,17 +8,18 @@
 
 namespace trimtab {
 
-/// What one decision remembers for the next: hysteresis. A default one makes the first decision a plain
-/// look-up.
+/// What one decision remembers for the next: hysteresis, stacks. A default one makes the first decision a
+/// plain look-up.
 struct DecisionMemory {
   std::optional<int> band;  ///< of the last decision; -1 is *frustum*
+  MotionMemory motion{};
 
   friend bool operator==(const DecisionMemory&, const DecisionMemory&) = default;
 };
 
-/// Memberships, scheme and depth-map size for one packet state, with the reason of each. Pure but for
-/// `memory`; no allocation. Bit-exact on replay. Input that is not a number gives *frustum* and leaves the
-/// memory as it was.
+/// Memberships, scheme, depth-map size and what head motion asks for, for one packet state, with the reason
+/// of each. Pure but for `memory`; no allocation. Bit-exact on replay. Input that is not a number gives
+/// *frustum* and leaves the memory as it was.
 FrameDecision decide(const FrameInput& input, const ValidatedParameters& parameters, DecisionMemory& memory);
 
 /// The decision in words and numbers, for the log and the dock: one line.

@@ -114,7 +114,8 @@ std::string_view toText(SchemeReason reason) {
 std::string traceHeader() {
   std::string header;
   Flat none;
-  trace::forEachColumn(none, [&header](const char* name, Cell, const auto&) {
+  trace::forEachColumn(none, [&header](const char* name, Cell kind, const auto&) {
+    if (kind == Cell::former) return;
     if (!header.empty()) header += ',';
     header += name;
   });
@@ -125,6 +126,7 @@ void appendTraceRow(std::string& text, const TraceRow& row) {
   const Flat flat = trace::flatten(row);
   bool first = true;
   trace::forEachColumn(flat, [&](const char*, Cell kind, const auto& value) {
+    if (kind == Cell::former) return;
     if (!first) text += ',';
     first = false;
     if (!flat.hasFrame && kind == Cell::frame) return;

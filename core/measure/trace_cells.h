@@ -7,6 +7,7 @@
 #include <system_error>
 #include <type_traits>
 
+#include "trimtab/frame/rule_firing.h"
 #include "trimtab/units/quantity.h"
 
 /// One cell of a trace as text and back. Numbers are written in the shortest form that reads back to the same
@@ -34,6 +35,14 @@ void print(std::string& text, E name) {
   text += toText(name);
 }
 
+/// "0.5;0.25"
+inline void print(std::string& text, const RuleFiring& firing) {
+  for (std::size_t i = 0; i < firing.count; ++i) {
+    if (i > 0) text += ';';
+    print(text, firing.mu[i]);
+  }
+}
+
 /// What a cell may hold, for findings.
 struct Expected {
   std::string what;
@@ -58,6 +67,16 @@ bool parse(std::string_view cell, Quantity<U>& quantity, Expected& expected) {
   if (!parse(cell, number, expected)) return false;
   quantity = Quantity<U>{number};
   return true;
+}
+inline bool parse(std::string_view cell, RuleFiring& firing, Expected& expected) {
+  for (firing.count = 0; firing.count < RuleFiring{}.mu.size();) {
+    const std::size_t end = cell.find(';');
+    if (!parse(cell.substr(0, end), firing.mu[firing.count++], expected)) break;
+    if (end == std::string_view::npos) return true;
+    cell.remove_prefix(end + 1);
+  }
+  expected.what = "up to " + std::to_string(RuleList::kCapacity) + " numbers with ; between";
+  return false;
 }
 template <class E>
 requires std::is_enum_v<E>

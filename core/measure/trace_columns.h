@@ -1,16 +1,19 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <type_traits>
 
 #include "trimtab/measure/trace.h"
+#include "trimtab/motion/head_motion.h"
 
 /// The trace's columns: the one list that header, writer and reader share. A column that a later version adds
 /// is `Cell::optional`, so that traces without it stay readable: its field keeps its default.
 namespace trimtab::trace {
 
-/// Whether a cell may be empty; cells of the frame are all empty where no frame showed the decision.
-enum class Cell { required, optional, frame };
+/// Whether a cell may be empty; cells of the frame are all empty where no frame showed the decision. Columns
+/// that are `former` are read, but not written.
+enum class Cell { required, optional, frame, former };
 
 /// A row as a flat list of cells. Groups that may be absent as a whole have a flag that their first cell
 /// decides.
@@ -22,6 +25,7 @@ struct Flat {
   HostView view;
   DepthMapSize depthMap;
   std::optional<int> depthMapWidth, depthMapHeight;
+  std::array<std::optional<double>, 4> formerFiring;
   TraceFrame frame;
   bool hasFrame = false;
 };
@@ -30,6 +34,44 @@ template <class T>
 struct IsOptional : std::false_type {};
 template <class T>
 struct IsOptional<std::optional<T>> : std::true_type {};
+
+/// Head motion as it was before the decision.
+template <class Memory, class Visit>
+void forEachMotionMemory(Memory& m, const Visit& visit) {
+  visit("motion_known_before", Cell::optional, m.known);
+  visit("motion_time_before_s", Cell::optional, m.timeS);
+  visit("motion_heading_before_deg", Cell::optional, m.headingDeg);
+  visit("motion_pitch_before_deg", Cell::optional, m.pitchDeg);
+  visit("blur_stack_before", Cell::optional, m.blurStack.frames);
+  visit("blur_stack_before_ms", Cell::optional, m.blurStack.ms);
+  visit("blur_stack_before_deg", Cell::optional, m.blurStack.variationDeg);
+  visit("restore_stack_before", Cell::optional, m.restoreStack.frames);
+  visit("restore_stack_before_ms", Cell::optional, m.restoreStack.ms);
+  visit("restore_stack_before_deg", Cell::optional, m.restoreStack.variationDeg);
+  visit("motion_level_before", Cell::optional, m.level);
+  visit("blur_remaining_before_ms", Cell::optional, m.blurRemainingMs);
+}
+
+template <class Decision, class Visit>
+void forEachMotionColumn(Decision& m, const Visit& visit) {
+  visit("motion_reason", Cell::optional, m.reason);
+  visit("motion_fast", Cell::optional, m.fast);
+  visit("motion_rate_degps", Cell::optional, m.rateDegPerS);
+  visit("motion_threshold_degps", Cell::optional, m.thresholdDegPerS);
+  visit("blur_stack", Cell::optional, m.blurStack.frames);
+  visit("blur_stack_ms", Cell::optional, m.blurStack.ms);
+  visit("blur_stack_deg", Cell::optional, m.blurStack.variationDeg);
+  visit("blur_limit", Cell::optional, m.blurLimit);
+  visit("restore_stack", Cell::optional, m.restoreStack.frames);
+  visit("restore_stack_ms", Cell::optional, m.restoreStack.ms);
+  visit("restore_stack_deg", Cell::optional, m.restoreStack.variationDeg);
+  visit("restore_limit", Cell::optional, m.restoreLimit);
+  visit("motion_limits_in_ms", Cell::optional, m.limitsInMs);
+  visit("motion_level", Cell::optional, m.level);
+  visit("motion_lod_scale", Cell::optional, m.lodScale);
+  visit("blur_strength", Cell::optional, m.blur.strength);
+  visit("blur_remaining_ms", Cell::optional, m.blur.remainingMs);
+}
 
 /// Calls `visit(name, cell, value)` for each column in the file's order: the one list that header, writer
 /// and reader share.
@@ -57,6 +99,7 @@ void forEachColumn(F& f, const Visit& visit) {
   visit("view_bottom_deg", Cell::optional, f.view.bottom);
   visit("view_top_deg", Cell::optional, f.view.top);
   visit("band_before", Cell::optional, f.row.before.band);
+  forEachMotionMemory(f.row.before.motion, visit);
   auto& last = f.row.input.lastCost;
   visit("last_decide_ms", Cell::optional, last.decide);
   visit("last_select_ms", Cell::optional, last.select);
@@ -72,16 +115,19 @@ void forEachColumn(F& f, const Visit& visit) {
   visit("altitude_membership", Cell::required, d.altitudeMembership);
   visit("pitch_membership", Cell::required, d.pitchMembership);
   visit("total_membership", Cell::required, d.totalMembership);
-  visit("rule_low_down", Cell::required, d.ruleFiring[0]);
-  visit("rule_low_up", Cell::required, d.ruleFiring[1]);
-  visit("rule_high_down", Cell::required, d.ruleFiring[2]);
-  visit("rule_high_up", Cell::required, d.ruleFiring[3]);
+  visit("rule_firing", Cell::optional, d.ruleFiring);
+  // Columns of traces from before the rule base could be edited: it had these four.
+  visit("rule_low_down", Cell::former, f.formerFiring[0]);
+  visit("rule_low_up", Cell::former, f.formerFiring[1]);
+  visit("rule_high_down", Cell::former, f.formerFiring[2]);
+  visit("rule_high_up", Cell::former, f.formerFiring[3]);
   visit("scheme", Cell::required, d.scheme);
   visit("band", Cell::required, d.band);
   visit("depth_map_width_px", Cell::optional, f.depthMapWidth);
   visit("depth_map_height_px", Cell::optional, f.depthMapHeight);
   visit("reason", Cell::required, d.reason);
   visit("lod_scale", Cell::required, d.lodScale);
+  forEachMotionColumn(d.motion, visit);
 
   visit("triangles", Cell::frame, f.frame.counts.triangles);
   visit("vertices", Cell::frame, f.frame.counts.vertices);
@@ -130,6 +176,10 @@ inline TraceRow unflatten(Flat& f) {
   if (f.view != HostView{}) state.view = f.view;
   if (f.depthMapWidth && f.depthMapHeight)
     f.row.decision.depthMap = DepthMapSize{*f.depthMapWidth, *f.depthMapHeight};
+  RuleFiring& firing = f.row.decision.ruleFiring;
+  if (firing.count == 0)
+    for (const std::optional<double>& mu : f.formerFiring)
+      if (mu) firing.mu[firing.count++] = *mu;
   if (f.hasFrame) f.row.frame = f.frame;
   return f.row;
 }

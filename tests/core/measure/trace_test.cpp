@@ -30,6 +30,30 @@ bool sameBits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
+void anyMotion(std::mt19937_64& random, DecisionMemory& before, FrameDecision& decision) {
+  const auto stack = [&random](MotionStack& s) {
+    s = {static_cast<std::uint32_t>(random()), anyDouble(random), anyDouble(random)};
+  };
+  MotionMemory& memory = before.motion;
+  memory.known = random() % 2;
+  for (double* value : {&memory.timeS, &memory.headingDeg, &memory.pitchDeg, &memory.blurRemainingMs})
+    *value = anyDouble(random);
+  stack(memory.blurStack);
+  stack(memory.restoreStack);
+  memory.level = static_cast<std::uint32_t>(random());
+  MotionDecision& motion = decision.motion;
+  motion.reason = static_cast<MotionReason>(random() % 13);
+  motion.fast = random() % 2;
+  motion.limitsInMs = random() % 2;
+  for (double* value :
+       {&motion.rateDegPerS, &motion.thresholdDegPerS, &motion.blurLimit, &motion.restoreLimit,
+        &motion.lodScale, &motion.blur.strength, &motion.blur.remainingMs})
+    *value = anyDouble(random);
+  stack(motion.blurStack);
+  stack(motion.restoreStack);
+  motion.level = static_cast<std::uint32_t>(random());
+}
+
 TraceRow anyRow(std::mt19937_64& random) {
   const auto number = [&random] { return anyDouble(random); };
   const auto maybe = [&random, &number]<class T>(std::optional<T>& value) {
@@ -64,6 +88,7 @@ TraceRow anyRow(std::mt19937_64& random) {
     d.depthMap = DepthMapSize{static_cast<int>(random() % 4096), static_cast<int>(random() % 4096)};
   d.reason = static_cast<SchemeReason>(random() % 6);
   d.lodScale = number();
+  anyMotion(random, row.before, d);
   if (random() % 2) {
     row.frame = TraceFrame{{random(), random(), random(), random(), random()},
                            {number(), number(), number(), number(), number(), number(), number()}};
@@ -134,7 +159,7 @@ std::vector<TraceRow> recorded(const ValidatedParameters& parameters) {
   std::uniform_real_distribution<double> climb(-30, 30), nod(-2, 2);
   std::vector<TraceRow> rows;
   DecisionMemory memory{1};
-  double height = 1500, pitch = 0;
+  double height = 1500, pitch = 0, heading = 0;
   for (std::uint64_t i = 0; i < 5000; ++i) {
     height = std::clamp(height + climb(random), 0.0, 3500.0);
     pitch = std::clamp(pitch + nod(random), -40.0, 40.0);
@@ -142,6 +167,9 @@ std::vector<TraceRow> recorded(const ValidatedParameters& parameters) {
     row.input.state.packet = i;
     row.input.state.position.height = Metres{i % 97 == 0 ? kNan : height};
     row.input.state.attitude.pitch = Degrees{pitch};
+    row.input.state.time = 0.02 * static_cast<double>(i) - (i == 3000 ? 1 : 0);
+    heading += i / 40 % 3 ? 0.1 : 2.5;
+    row.input.state.head = Attitude{Degrees{heading}, Degrees{nod(random)}, Degrees{0}};
     if (i % 3) row.input.aboveGround = Metres{height / 2};
     row.before = memory;
     row.decision = decide(row.input, parameters, memory);
@@ -172,6 +200,48 @@ TEST(Trace, decidesAgainBitForBit) {
       ASSERT_EQ(decide(row.input, *parameters, memory), row.decision);
     }
   }
+}
+
+/// `text` without the columns whose names `drop` says yes to.
+std::string without(const std::string& text, bool (*drop)(std::string_view)) {
+  std::istringstream lines(text);
+  std::vector<bool> keep;
+  std::string line, left;
+  while (std::getline(lines, line)) {
+    const bool header = keep.empty();
+    std::istringstream cells(line);
+    std::string cell;
+    bool first = true;
+    for (std::size_t i = 0; std::getline(cells, cell, ','); ++i) {
+      if (header) keep.push_back(!drop(cell));
+      if (!keep[i]) continue;
+      left += (first ? "" : ",") + cell;
+      first = false;
+    }
+    left += '\n';
+  }
+  return left;
+}
+
+TEST(Trace, readsTracesOfBeforeHeadMotionWithItsDefaults) {
+  TraceRow row;
+  row.before.motion.level = 3;
+  row.decision.motion.reason = MotionReason::lowered;
+  row.decision.totalMembership = 1.25;
+  row.frame = TraceFrame{};  // so that no line ends in an empty cell
+  std::string text = traceHeader() + '\n';
+  appendTraceRow(text, row);
+  const Result<std::vector<TraceRow>> read = parseTrace(without(text,
+                                                                [](std::string_view name) {
+                                                                  return name.starts_with("motion_") ||
+                                                                         name.starts_with("blur_") ||
+                                                                         name.starts_with("restore_");
+                                                                }),
+                                                        "trace");
+  ASSERT_TRUE(read.ok()) << toString(read.findings());
+  EXPECT_EQ(read->at(0).decision.totalMembership, 1.25);
+  EXPECT_EQ(read->at(0).decision.motion, MotionDecision{});
+  EXPECT_EQ(read->at(0).before.motion, MotionMemory{});
 }
 
 TEST(Trace, findsTheRowsThatOtherParametersDecideOtherwise) {

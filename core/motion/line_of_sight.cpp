@@ -1,0 +1,33 @@
+#include "trimtab/motion/line_of_sight.h"
+
+#include <cmath>
+
+namespace trimtab {
+namespace {
+
+/// Body axes (x forward, y right, z down) to north, east, down.
+Mat3 bodyToWorld(const Attitude& a) {
+  const auto radians = [](Degrees d) { return d.in<Radians>(); };
+  const double ch = std::cos(radians(a.heading)), sh = std::sin(radians(a.heading));
+  const double cp = std::cos(radians(a.pitch)), sp = std::sin(radians(a.pitch));
+  const double cr = std::cos(radians(a.roll)), sr = std::sin(radians(a.roll));
+  return {{Vec3{ch * cp, ch * sp * sr - sh * cr, ch * sp * cr + sh * sr},
+           Vec3{sh * cp, sh * sp * sr + ch * cr, sh * sp * cr - ch * sr}, Vec3{-sp, cp * sr, cp * cr}}};
+}
+
+}  // namespace
+
+Attitude lineOfSight(const Attitude& aircraft, const std::optional<Attitude>& head) {
+  if (!head || *head == Attitude{}) return aircraft;
+  const Mat3 m = bodyToWorld(aircraft) * bodyToWorld(*head);
+  const auto degrees = [](double radians) { return Radians{radians}.as<Degrees>(); };
+  const double down = m.row[2].x;
+  // Straight up or down, heading and roll turn about one axis.
+  if (std::abs(down) > 1 - 1e-12)
+    return {wrapped360(degrees(std::atan2(-m.row[0].y, m.row[1].y))), Degrees{down < 0 ? 90.0 : -90.0},
+            Degrees{0}};
+  return {wrapped360(degrees(std::atan2(m.row[1].x, m.row[0].x))), degrees(-std::asin(down)),
+          degrees(std::atan2(m.row[2].y, m.row[2].z))};
+}
+
+}  // namespace trimtab
