@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,7 +15,7 @@
 namespace trimtab::terrain {
 
 /// One tile or airport. Triangles from single triangles, strips and fans alike, anticlockwise from above;
-/// those that repeat a vertex are dropped and counted.
+/// those that repeat a vertex, by its number or by its place, are dropped and counted.
 struct SceneryMesh {
   struct Triangle {
     std::array<std::uint32_t, 3> vertex{};
@@ -28,30 +29,40 @@ struct SceneryMesh {
   std::vector<Triangle> triangles;
   int version = 0;
   std::uint64_t trianglesInFile = 0, degenerate = 0;  ///< the file's include the degenerate
+  std::uint64_t turned = 0;                           ///< faced down in the file
 };
 
-/// Finding names byte offset, expected and found. A file that ends early or points past its arrays is
-/// refused.
-Result<SceneryMesh> readBtg(const std::filesystem::path& file);
-/// `bytes` as unzipped.
-Result<SceneryMesh> parseBtg(std::string_view bytes, const std::string& where);
+/// Told now and then; returning false cancels.
+using SceneryProgress = std::function<bool(double fraction, const std::string& what)>;
 
-/// All tiles below a folder: by its `.stg` lists, or every `.btg[.gz]` where there are none. A listed tile
-/// that is not there is a warning, a broken one an error that leaves the others.
+/// Zipped or not, as its first bytes say. Finding names byte offset (of the unzipped bytes), expected and
+/// found. A file that ends early, points past its arrays or has vertices off the earth is refused.
+Result<SceneryMesh> readBtg(const std::filesystem::path& file);
+/// `bytes` as unzipped; `where` is a file's path, and names the mesh.
+Result<SceneryMesh> parseBtg(std::string_view bytes, const std::string& where);
+/// What gzip packed: all members, checked by their sums. Refuses to grow beyond 256 MiB.
+Result<std::string> gunzip(std::string_view bytes, const std::string& where);
+
+/// Listed tiles first, then airports, each by path.
 struct Scenery {
   std::vector<SceneryMesh> tiles;
-  std::vector<std::string> missing;
+  std::vector<std::string> missing;  ///< listed, but not there
 };
-Result<Scenery> readScenery(const std::filesystem::path& folder);
+/// All tiles below a folder, of one `.stg` or of one `.btg[.gz]`. In a folder with `.stg` lists those say
+/// which; in one without, every `.btg[.gz]` counts. A listed tile that is not there is a warning, a broken
+/// one an error that leaves the others.
+Result<Scenery> readScenery(const std::filesystem::path& path, const SceneryProgress& progress = {});
+/// The files that readScenery reads, lists included.
+Result<std::vector<std::filesystem::path>> sceneryFiles(const std::filesystem::path& path);
 /// Whether a path holds scenery of this kind: a `.btg[.gz]`, `.stg`, or a folder with one somewhere below.
 bool isScenery(const std::filesystem::path& path);
 
-/// Number of the bucket that holds a place, and its borders: FlightGear's tiling, one eighth of a degree
-/// high.
+/// FlightGear's tiling: one eighth of a degree high, and as wide as keeps buckets about square.
 struct Bucket {
   long index = 0;
   Degrees west, south, east, north;
 };
+/// The bucket that holds a place, and the borders of one; index -1 where there is none.
 Bucket bucketAt(Degrees latitude, Degrees longitude);
 Bucket bucketOf(long index);
 
