@@ -119,6 +119,29 @@ void readAtmosphereControl(Packet& p, Session& session) {
   session.visibility = visibility > 0 ? std::optional(Metres{visibility}) : std::nullopt;
 }
 
+void readWeatherControl(Packet& p, Session& session, Message& message) {
+  const unsigned scope = p.u8(7) & 3U;
+  const std::uint8_t layer = p.u8(4);
+  if (scope != 0) {
+    ++message.regionalWeather;
+    return;
+  }
+  if (layer != kRainLayer && layer != kSnowLayer) {
+    ++message.otherLayers;
+    return;
+  }
+  Layer heard;
+  heard.enabled = p.bit(6, 0);
+  if (heard.enabled) {
+    heard.severity = (p.u8(7) >> 2U) & 7;
+    if (heard.severity > HostWeather::kMostSevere)
+      message.fault = PacketFault{p.start + 7, "severity", "0..5", std::to_string(heard.severity)};
+    const double visibility = p.number<float>(12, "layer visibility", 0, limits::kVisibility, "m");
+    if (visibility > 0) heard.visibility = Metres{visibility};
+  }
+  (layer == kRainLayer ? session.rain : session.snow) = heard;
+}
+
 /// The size a packet that we read must have; 0 for all others.
 std::size_t sizeOf(std::uint8_t id) {
   switch (id) {
@@ -126,6 +149,8 @@ std::size_t sizeOf(std::uint8_t id) {
       return kEntityControlSize;
     case kAtmosphereControl:
       return kAtmosphereControlSize;
+    case kWeatherControl:
+      return kWeatherControlSize;
     case kViewControl:
       return kViewControlSize;
     case kViewDefinition:
@@ -136,6 +161,15 @@ std::size_t sizeOf(std::uint8_t id) {
 }
 
 }  // namespace
+
+std::optional<HostWeather> Session::weather() const {
+  if (!rain && !snow) return std::nullopt;
+  const bool rains = rain && rain->enabled, snows = snow && snow->enabled;
+  if (snows && (!rains || snow->severity >= rain->severity))
+    return HostWeather{Precipitation::snow, snow->severity, snow->visibility};
+  if (rains) return HostWeather{Precipitation::rain, rain->severity, rain->visibility};
+  return HostWeather{};
+}
 
 std::optional<ByteOrder> byteOrder(std::span<const std::byte> bytes) {
   if (bytes.size() < 8) return std::nullopt;
@@ -168,6 +202,7 @@ Message parse(std::span<const std::byte> bytes, Session& session) {
       Packet packet(bytes, at, message.order);
       if (id == kEntityControl) readEntityControl(packet, session, message.fault);
       if (id == kAtmosphereControl) readAtmosphereControl(packet, session);
+      if (id == kWeatherControl) readWeatherControl(packet, session, message);
       if (id == kViewControl) readViewControl(packet, session);
       if (id == kViewDefinition) readViewDefinition(packet, session);
       if (!message.fault) message.fault = packet.read.fault();

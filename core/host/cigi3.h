@@ -16,18 +16,28 @@ enum PacketId : std::uint8_t {
   kIgControl = 1,
   kEntityControl = 2,
   kAtmosphereControl = 10,
+  kWeatherControl = 12,
   kViewControl = 16,
   kViewDefinition = 21,
   kStartOfFrame = 101
 };
 inline constexpr std::size_t kIgControlSize = 24, kOldIgControlSize = 16, kEntityControlSize = 48,
-                             kAtmosphereControlSize = 32, kViewControlSize = 32, kViewDefinitionSize = 32,
-                             kStartOfFrameSize = 24;
+                             kAtmosphereControlSize = 32, kWeatherControlSize = 56, kViewControlSize = 32,
+                             kViewDefinitionSize = 32, kStartOfFrameSize = 24;
 inline constexpr std::uint16_t kByteSwapMagic = 0x8000;
 /// A timestamp counts ticks of 10 microseconds (dissectors label them microseconds) and wraps after 11.9
 /// hours.
 inline constexpr double kTickS = 1e-5;
 inline constexpr std::uint16_t kOwnship = 0;
+/// Layers of Weather Control that are precipitation; the others are fog, clouds, sleet, hail, sand and dust.
+inline constexpr std::uint8_t kRainLayer = 4, kSnowLayer = 5;
+
+/// A layer of precipitation of global scope, as last heard.
+struct Layer {
+  bool enabled = false;
+  int severity = 0;
+  std::optional<Metres> visibility;
+};
 
 /// What the packets of a session add up to: a packet that is not sent again keeps its effect.
 struct Session {
@@ -36,8 +46,13 @@ struct Session {
   std::optional<Attitude> head;
   std::optional<std::uint16_t> headView;  ///< the view whose eyepoint is followed: the first one seen
   std::optional<Metres> visibility;
+  std::optional<Layer> rain, snow;
   std::optional<HostView> view;
   std::optional<std::uint16_t> definedView;
+
+  /// Of two enabled layers the more severe one falls, of equal ones the snow. None before either was heard
+  /// of.
+  std::optional<HostWeather> weather() const;
 };
 
 struct Message {
@@ -46,6 +61,8 @@ struct Message {
   std::optional<std::uint32_t> ticks;  ///< timestamp, where the host says that it is valid
   std::optional<PacketFault> fault;    ///< the message is refused
   std::optional<PacketFault> cutAt;    ///< packets from here on were dropped; those before count
+  int regionalWeather = 0;             ///< Weather Control of a region or an entity: passed over
+  int otherLayers = 0;                 ///< Weather Control of a layer that is not rain or snow: passed over
 };
 
 /// The byte order that the first packet's magic tells, when this looks like CIGI 3 at all.

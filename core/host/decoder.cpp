@@ -180,6 +180,8 @@ std::optional<AircraftState> HostDecoder::Link::acceptCigi(const Datagram& datag
     static_cast<void>(cigi3::parse(datagram.bytes, candidate));
   }
   session = candidate;
+  statistics.regionalWeather += static_cast<std::uint64_t>(message.regionalWeather);
+  statistics.otherLayers += static_cast<std::uint64_t>(message.otherLayers);
   hostOrder = message.order;
 
   const auto hostTime = message.ticks ? clock.advance(*message.ticks) : std::nullopt;
@@ -200,6 +202,7 @@ std::optional<AircraftState> HostDecoder::Link::acceptCigi(const Datagram& datag
   state.attitude = session.attitude;
   state.head = session.head;
   state.visibility = session.visibility;
+  state.weather = session.weather();
   state.view = session.view;
   return finish(state, gap, silence);
 }

@@ -43,7 +43,9 @@ struct HostStatistics {
   std::string firstBadReason;  ///< byte offset, expected, found
   std::uint64_t jumps =
       0;  ///< position changes too large for any aircraft, or of a kilometre across a silence
-  std::uint64_t silences = 0;  ///< gaps of more than two seconds between good datagrams
+  std::uint64_t regionalWeather = 0;  ///< CIGI Weather Control of a region or an entity: passed over
+  std::uint64_t otherLayers = 0;  ///< CIGI Weather Control of a layer that is not rain or snow: passed over
+  std::uint64_t silences = 0;     ///< gaps of more than two seconds between good datagrams
 };
 
 /// One datagram at a time, in order of arrival. Bad ones are counted, never thrown. One thread at a time.

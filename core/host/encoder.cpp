@@ -91,6 +91,17 @@ void putAtmosphereControl(Writer& w, Metres visibility) {
   w.putFloat(24, 1013.25);
 }
 
+/// One layer of global scope.
+void putWeatherControl(Writer& w, std::uint8_t layer, bool enabled, const HostWeather& weather) {
+  w.begin(cigi3::kWeatherControl, cigi3::kWeatherControlSize);
+  w.put(4, layer);
+  if (!enabled) return;
+  w.put(6, bits(1));
+  w.put(7, bits(static_cast<unsigned>(weather.severity) << 2U));
+  if (weather.visibility) w.putFloat(12, weather.visibility->value());
+  w.putFloat(20, 100);  // coverage
+}
+
 }  // namespace
 
 std::vector<std::byte> encodeCigiHost(const AircraftState& state, std::uint32_t frame,
@@ -108,6 +119,12 @@ std::vector<std::byte> encodeCigiHost(const AircraftState& state, std::uint32_t 
   if (state.head) putViewControl(w, *state.head);
   if (state.view) putViewDefinition(w, *state.view);
   if (state.visibility) putAtmosphereControl(w, *state.visibility);
+  if (state.weather) {
+    // Both, so that the one that fell before stops.
+    const Precipitation falls = state.weather->precipitation;
+    putWeatherControl(w, cigi3::kRainLayer, falls == Precipitation::rain, *state.weather);
+    putWeatherControl(w, cigi3::kSnowLayer, falls == Precipitation::snow, *state.weather);
+  }
   return w.take();
 }
 

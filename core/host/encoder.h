@@ -14,7 +14,8 @@ namespace trimtab {
 /// FlightGear native-fdm version 24, 408 bytes.
 std::vector<std::byte> encodeNativeFdm(const AircraftState& state);
 /// One CIGI 3.3 message: IG Control, Entity Control of the ownship, View Control where there is a head,
-/// View Definition where there is a view, Atmosphere Control where there is a visibility.
+/// View Definition where there is a view, Atmosphere Control where there is a visibility, Weather Control of
+/// the rain and the snow layer where there is a weather.
 std::vector<std::byte> encodeCigiHost(const AircraftState& state, std::uint32_t frame,
                                       std::uint32_t lastIgFrame, ByteOrder order = ByteOrder::big);
 /// CIGI 3.3 Start of Frame, 24 bytes.

@@ -26,6 +26,9 @@ enum Column : std::size_t {
   kHeadRoll,
   kAboveGround,
   kVisibility,
+  kPrecipitation,
+  kSeverity,
+  kLayerVisibility,
   kViewNear,
   kViewLeft,
   kViewRight,
@@ -57,6 +60,9 @@ constexpr std::array<ColumnRule, kColumns> kRules{{
     {"head_roll_deg", -360, 360, false},
     {"above_ground_m", -limits::kHighest, limits::kHighest, false},
     {"visibility_m", 0, limits::kVisibility, false},
+    {"precipitation", 0, 0, false},  // none, rain or snow
+    {"precipitation_severity", 0, HostWeather::kMostSevere, false},
+    {"precipitation_visibility_m", 0, limits::kVisibility, false},
     {"view_near_m", 1e-6, limits::kHighest, false},
     {"view_left_deg", -kHalf, kHalf, false},
     {"view_right_deg", -kHalf, kHalf, false},
@@ -112,6 +118,7 @@ class Parser {
   bool readHeader();
   void readRow(std::string_view line);
   std::optional<double> cell(Column column);
+  std::optional<HostWeather> weather();
   void refuse(std::string key, std::string expected, std::string found);
   std::string place() const { return where_ + ':' + std::to_string(line_); }
   bool has(Column column) const { return at_[column].has_value(); }
@@ -185,6 +192,27 @@ std::optional<double> Parser::cell(Column column) {
   return std::nullopt;
 }
 
+std::optional<HostWeather> Parser::weather() {
+  const auto severity = cell(kSeverity), visibility = cell(kLayerVisibility);
+  const std::string_view name = at_[kPrecipitation] ? cells_[*at_[kPrecipitation]] : std::string_view();
+  if (name.empty()) {
+    if (severity || visibility) refuse("precipitation", "none, rain or snow beside a severity", "nothing");
+    return std::nullopt;
+  }
+  for (const Precipitation kind : {Precipitation::none, Precipitation::rain, Precipitation::snow}) {
+    if (name != toText(kind)) continue;
+    HostWeather weather{kind, static_cast<int>(severity.value_or(0)), std::nullopt};
+    if (kind != Precipitation::none && !severity)
+      refuse("precipitation_severity", "a severity of 0..5 beside rain or snow", "nothing");
+    else if (severity && *severity != weather.severity)
+      refuse("precipitation_severity", "a whole number", numberText(*severity));
+    if (visibility) weather.visibility = Metres{*visibility};
+    return weather;
+  }
+  refuse("precipitation", "none, rain or snow", std::string(name.substr(0, 40)));
+  return std::nullopt;
+}
+
 void Parser::readRow(std::string_view line) {
   split(line, cells_);
   if (cells_.size() != columns_) {
@@ -219,6 +247,7 @@ void Parser::readRow(std::string_view line) {
     state.head = {Degrees{*headHeading}, Degrees{*headPitch}, Degrees{headRoll.value_or(0)}};
   optional(kAboveGround, state.aboveGround);
   optional(kVisibility, state.visibility);
+  state.weather = weather();
   HostView view;
   optional(kViewNear, view.nearDistance);
   optional(kViewLeft, view.left);
@@ -281,13 +310,14 @@ Result<Flight> parseFlightCsv(std::string_view text, const std::string& where, d
 }
 
 std::string flightCsv(const Flight& flight) {
-  bool packets = false, heads = false, grounds = false, visibilities = false, views = false;
+  bool packets = false, heads = false, grounds = false, visibilities = false, weathers = false, views = false;
   for (std::size_t i = 0; i < flight.states.size(); ++i) {
     const AircraftState& s = flight.states[i];
     packets |= s.packet != i;
     heads |= s.head.has_value();
     grounds |= s.aboveGround.has_value();
     visibilities |= s.visibility.has_value();
+    weathers |= s.weather.has_value();
     views |= s.view.has_value();
   }
   std::string text = "time_s,latitude_deg,longitude_deg,altitude_ft,pitch_deg,roll_deg,heading_deg,height_m";
@@ -295,6 +325,7 @@ std::string flightCsv(const Flight& flight) {
   if (heads) text += ",head_heading_deg,head_pitch_deg,head_roll_deg";
   if (grounds) text += ",above_ground_m";
   if (visibilities) text += ",visibility_m";
+  if (weathers) text += ",precipitation,precipitation_severity,precipitation_visibility_m";
   if (views) text += ",view_near_m,view_left_deg,view_right_deg,view_bottom_deg,view_top_deg";
   text += '\n';
   text.reserve(text.size() + flight.states.size() * 160);
@@ -315,6 +346,12 @@ std::string flightCsv(const Flight& flight) {
     }
     if (grounds) append(text, s.aboveGround);
     if (visibilities) append(text, s.visibility);
+    if (weathers) {
+      text += ',';
+      if (s.weather) text += toText(s.weather->precipitation);
+      append(text, s.weather ? std::optional(double(s.weather->severity)) : std::nullopt);
+      append(text, s.weather ? s.weather->visibility : std::nullopt);
+    }
     if (views) {
       const HostView view = s.view.value_or(HostView{});
       append(text, view.nearDistance);

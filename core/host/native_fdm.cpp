@@ -12,6 +12,28 @@ namespace {
 
 constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
 
+// Speeds are for symbols only: what is nonsense in them is not known, and the rest of the packet holds.
+// Feeders that know positions alone leave zeros, which a host at rest would send as well: nobody knows,
+// either.
+
+constexpr double kFastestKt = 10e3, kFastestFps = 16e3;
+
+std::optional<Knots> airspeedOf(const FieldReader& read) {
+  const auto knots = static_cast<double>(read.raw<float>(native_fdm::kAirspeed));
+  return knots > 0 && knots < kFastestKt ? std::optional(Knots{knots}) : std::nullopt;
+}
+
+std::optional<Velocity> velocityOf(const FieldReader& read) {
+  const auto part = [&read](std::size_t offset) {
+    const auto fps = static_cast<double>(read.raw<float>(offset));
+    return MetresPerSecond{std::abs(fps) < kFastestFps ? fps * unit::Foot::size : std::nan("")};
+  };
+  const Velocity v{part(native_fdm::kNorth), part(native_fdm::kEast), part(native_fdm::kDown)};
+  const double sum = v.north.value() + v.east.value() + v.down.value();
+  if (!std::isfinite(sum) || v == Velocity{}) return std::nullopt;
+  return v;
+}
+
 }  // namespace
 
 namespace native_fdm {
@@ -54,6 +76,9 @@ std::optional<PacketFault> parse(std::span<const std::byte> bytes, AircraftState
   // FlightGear sends agl 0 while its scene loads; zero means that nobody knows.
   state.aboveGround = aboveGround > 0 ? std::optional(Metres{aboveGround}) : std::nullopt;
   state.visibility = visibility > 0 ? std::optional(Metres{visibility}) : std::nullopt;
+  state.airspeed = airspeedOf(read);
+  state.velocity = velocityOf(read);
+  state.weather.reset();
   state.head.reset();
   state.view.reset();
   return std::nullopt;
@@ -79,6 +104,14 @@ std::vector<std::byte> encodeNativeFdm(const AircraftState& state) {
   putRadians(kPitch, state.attitude.pitch);
   putRadians(kHeading, state.attitude.heading);
   if (state.time >= 0 && state.time < 4294967296.0) put(kUnixTime, static_cast<std::uint32_t>(state.time));
+  put(kAirspeed, static_cast<float>(state.airspeed.value_or(Knots{0}).value()));
+  const Velocity velocity = state.velocity.value_or(Velocity{});
+  const auto putFeet = [&put](std::size_t offset, MetresPerSecond v) {
+    put(offset, static_cast<float>(v.value() / unit::Foot::size));
+  };
+  putFeet(kNorth, velocity.north);
+  putFeet(kEast, velocity.east);
+  putFeet(kDown, velocity.down);
   put(kVisibility, static_cast<float>(state.visibility.value_or(Metres{0}).value()));
   return bytes;
 }

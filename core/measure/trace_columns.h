@@ -23,6 +23,9 @@ struct Flat {
   Feet altitude;  ///< for people and other programs; `height` is the number that counts
   std::optional<double> headHeading, headPitch, headRoll;
   HostView view;
+  std::optional<Precipitation> precipitation;
+  std::optional<int> severity;
+  std::optional<Metres> layerVisibility;
   DepthMapSize depthMap;
   std::optional<int> depthMapWidth, depthMapHeight;
   std::array<std::optional<double>, 4> formerFiring;
@@ -73,6 +76,19 @@ void forEachMotionColumn(Decision& m, const Visit& visit) {
   visit("blur_remaining_ms", Cell::optional, m.blur.remainingMs);
 }
 
+template <class Decision, class Visit>
+void forEachWeatherColumn(Decision& w, const Visit& visit) {
+  visit("weather_precipitation", Cell::optional, w.precipitation);
+  visit("weather_density", Cell::optional, w.density);
+  visit("weather_fogged", Cell::optional, w.fogged);
+  visit("weather_visibility_m", Cell::optional, w.visibilityM);
+  visit("weather_extinction_per_m", Cell::optional, w.extinctionPerM);
+  visit("weather_near_far_ratio", Cell::optional, w.nearFarRatio);
+  visit("weather_far_m", Cell::optional, w.farM);
+  visit("weather_reason", Cell::optional, w.reason);
+  visit("weather_far_reason", Cell::optional, w.farReason);
+}
+
 /// Calls `visit(name, cell, value)` for each column in the file's order: the one list that header, writer
 /// and reader share.
 template <class F, class Visit>
@@ -93,6 +109,9 @@ void forEachColumn(F& f, const Visit& visit) {
   visit("above_ground_m", Cell::optional, f.row.input.aboveGround);
   visit("head_roll_deg", Cell::optional, f.headRoll);
   visit("visibility_m", Cell::optional, state.visibility);
+  visit("precipitation", Cell::optional, f.precipitation);
+  visit("precipitation_severity", Cell::optional, f.severity);
+  visit("precipitation_visibility_m", Cell::optional, f.layerVisibility);
   visit("view_near_m", Cell::optional, f.view.nearDistance);
   visit("view_left_deg", Cell::optional, f.view.left);
   visit("view_right_deg", Cell::optional, f.view.right);
@@ -128,6 +147,7 @@ void forEachColumn(F& f, const Visit& visit) {
   visit("reason", Cell::required, d.reason);
   visit("lod_scale", Cell::required, d.lodScale);
   forEachMotionColumn(d.motion, visit);
+  forEachWeatherColumn(d.weather, visit);
 
   visit("triangles", Cell::frame, f.frame.counts.triangles);
   visit("vertices", Cell::frame, f.frame.counts.vertices);
@@ -157,6 +177,11 @@ inline Flat flatten(const TraceRow& row) {
     f.headRoll = state.head->roll.value();
   }
   if (state.view) f.view = *state.view;
+  if (state.weather) {
+    f.precipitation = state.weather->precipitation;
+    f.severity = state.weather->severity;
+    f.layerVisibility = state.weather->visibility;
+  }
   if (row.decision.depthMap) {
     f.depthMapWidth = row.decision.depthMap->widthPx;
     f.depthMapHeight = row.decision.depthMap->heightPx;
@@ -174,6 +199,8 @@ inline TraceRow unflatten(Flat& f) {
     state.head = Attitude{Degrees{f.headHeading.value_or(0)}, Degrees{f.headPitch.value_or(0)},
                           Degrees{f.headRoll.value_or(0)}};
   if (f.view != HostView{}) state.view = f.view;
+  if (f.precipitation)
+    state.weather = HostWeather{*f.precipitation, f.severity.value_or(0), f.layerVisibility};
   if (f.depthMapWidth && f.depthMapHeight)
     f.row.decision.depthMap = DepthMapSize{*f.depthMapWidth, *f.depthMapHeight};
   RuleFiring& firing = f.row.decision.ruleFiring;
