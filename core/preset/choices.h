@@ -57,15 +57,24 @@ struct ChoicesOf<ErrorMeasure> {
   static constexpr ChoiceOption options[] = {{"rms", "Root mean square"}, {"maximum", "Largest"}};
 };
 template <>
+struct ChoicesOf<SymbologyFrame> {
+  static constexpr ChoiceOption options[] = {{"head", "The helmet"}, {"aircraft", "The aircraft"}};
+};
+template <>
+struct ChoicesOf<SymbolColour> {
+  static constexpr ChoiceOption options[] = {{"green", "Green"},   {"white", "White"},     {"amber", "Amber"},
+                                             {"cyan", "Cyan"},     {"magenta", "Magenta"}, {"red", "Red"},
+                                             {"yellow", "Yellow"}, {"black", "Black"}};
+};
+template <>
 struct ChoicesOf<HostProtocol> {
   static constexpr ChoiceOption options[] = {
       {"auto", "Recognise"}, {"native_fdm", "FlightGear native-fdm"}, {"cigi3", "CIGI 3"}};
 };
 template <>
 struct ChoicesOf<MotionControl> {
-  static constexpr ChoiceOption options[] = {{"off", "Off"},
-                                             {"lod_scale_and_blur", "LOD scale and blur"},
-                                             {"with_restoration", "With restoration"}};
+  static constexpr ChoiceOption options[] = {
+      {"off", "Off"}, {"lod_scale_and_blur", "LOD scale and blur"}, {"with_restoration", "With restoration"}};
 };
 template <>
 struct ChoicesOf<MotionReference> {

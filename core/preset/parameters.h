@@ -2,6 +2,7 @@
 
 #include "trimtab/preset/curve.h"
 #include "trimtab/preset/rule_list.h"
+#include "trimtab/preset/symbology_parameters.h"
 #include "trimtab/units/quantity.h"
 
 /// Every number an engineer tunes. A field here is the only home of its default; its row in rows.cpp is the
@@ -173,6 +174,14 @@ struct TuningParameters {
   WeatherStepParameters snowMedium{Ratio{0.1}, Ratio{0.5}};
   WeatherStepParameters snowHeavy{Ratio{0.04}, Ratio{1}};
   MotionParameters motion;
+  SymbologyParameters symbology;
+  SymbolElement symbolPitchLadder;
+  SymbolElement symbolAircraftReference;
+  SymbolElement symbolFlightPath;
+  SymbolElement symbolLineOfSight;
+  SymbolElement symbolHeadingTape{.y = Ratio{0.78}};
+  SymbolElement symbolAirspeed{.x = Ratio{-0.6}, .y = Ratio{0.1}};
+  SymbolElement symbolAltitude{.x = Ratio{0.6}, .y = Ratio{0.1}};
   HostParameters host;
   MeasureParameters measure;
 };

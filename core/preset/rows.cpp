@@ -5,6 +5,7 @@
 #include "trimtab/preset/motion_rows.h"
 #include "trimtab/preset/rules.h"
 #include "trimtab/preset/static_lod_rows.h"
+#include "trimtab/preset/symbology_rows.h"
 #include "trimtab/preset/view_rows.h"
 #include "trimtab/preset/weather_rows.h"
 
@@ -14,7 +15,8 @@ namespace {
 
 // Groups of keys stay together, in the order people should read them.
 constexpr std::array kTable =
-    table::joined(table::kFuzzyRows, table::kViewRows, table::kStaticLodRows, table::kMotionRows, table::kWeatherRows, table::kHostRows);
+    table::joined(table::kFuzzyRows, table::kViewRows, table::kStaticLodRows, table::kMotionRows,
+                  table::kWeatherRows, table::kSymbologyRows, table::kHostRows);
 
 static_assert(table::everyFieldHasOneRow(kTable), "a field of parameters.h has no row, or two");
 static_assert(table::keysAreOrderly(kTable), "a key is there twice, or is not beside the keys of its group");
@@ -40,13 +42,12 @@ static_assert(checkCurve(kDefaults.weather.severityDensity, hardRange("weather.s
               CurveFlaw::none);
 static_assert(checkRules(kDefaults.scheme.rules, hardRange("fuzzy.rules")).flaw == RuleFlaw::none);
 static_assert(hysteresisLeavesBands(kDefaults) && hysteresisLeavesFrustum(kDefaults));
-static_assert(maximumCoversCurve(kDefaults) && someRuleCounts(kDefaults) &&
-              someFieldOfViewIsLeft(kDefaults));
+static_assert(maximumCoversCurve(kDefaults) && someRuleCounts(kDefaults) && someFieldOfViewIsLeft(kDefaults));
 
 /// Indices of rows by rising key.
 constexpr auto kByKey = [] {
-  std::array<unsigned char, kRows.size()> order{};
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<unsigned char>(i);
+  std::array<unsigned short, kRows.size()> order{};
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<unsigned short>(i);
   std::sort(order.begin(), order.end(), [](auto a, auto b) { return kRows[a].key < kRows[b].key; });
   return order;
 }();
@@ -59,7 +60,7 @@ std::span<const ParameterRow> parameterRows() {
 
 const ParameterRow* findRow(std::string_view key) {
   const auto at = std::lower_bound(kByKey.begin(), kByKey.end(), key,
-                                   [](unsigned char i, std::string_view k) { return kRows[i].key < k; });
+                                   [](unsigned short i, std::string_view k) { return kRows[i].key < k; });
   return at != kByKey.end() && kRows[*at].key == key ? &kRows[*at] : nullptr;
 }
 
