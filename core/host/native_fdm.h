@@ -29,6 +29,10 @@ enum Offset : std::size_t {
   kRoll = 36,
   kPitch = 40,
   kHeading = 44,
+  kAirspeed = 68,  ///< calibrated, knots
+  kNorth = 76,     ///< velocities, feet a second
+  kEast = 80,
+  kDown = 84,
   kUnixTime = 356,
   kVisibility = 364
 };
