@@ -15,7 +15,7 @@ struct LineVertex {
 };
 
 /// Boxes of the tiles, as pairs of points.
-void addBoxes(const TerrainIndex& index, std::span<const TileDraw> tiles, std::span<const CullReason> reason,
+void addBoxes(std::span<const Box> bounds, std::span<const TileDraw> tiles, std::span<const CullReason> reason,
               Vec3 eye, std::vector<LineVertex>& lines);
 /// Edges of a view pyramid that stands at `frozen`, seen from `eye`.
 void addFrustum(const EyePose& frozen, const ViewShape& view, Vec3 eye, std::vector<LineVertex>& lines);

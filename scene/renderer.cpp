@@ -14,6 +14,8 @@
 #include "trimtab/scene/occlusion.h"
 #include "trimtab/scene/scene_graph.h"
 #include "trimtab/scene/shaders.h"
+#include "trimtab/scene/static_lod_culling.h"
+#include "trimtab/scene/static_lod_layer.h"
 #include "trimtab/scene/tile_cache.h"
 
 namespace trimtab::scene {
@@ -37,10 +39,12 @@ struct Renderer::Impl {
   GlReport report;
   std::shared_ptr<const terrain::Database> database;
   FrameCulling culling;
+  StaticLodCulling trees;
   FrameResult counters;
 
   // The frame in progress.
   const FrameRequest* request = nullptr;
+  ViewShape lastView;
   FrameCost cost;
   Clock::time_point frameStart, cullDone, drawStart;
   std::vector<TileDraw> drawn;
@@ -52,6 +56,7 @@ struct Renderer::Impl {
     explicit Gl(ScenePasses passes) : graph(std::move(passes)) {}
     FrameBuffer frame;
     TileCache tiles;
+    StaticLodLayer trees;
     OcclusionPass occlusion;
     LineBuffer lineBuffer;
     GpuTimer timer;
@@ -66,6 +71,10 @@ struct Renderer::Impl {
             .test = [this](unsigned) { removeHidden(); },
             .terrain = [this](unsigned) { drawTerrain(); },
             .wire = [this](unsigned) { drawWire(); },
+            .trees = [this](unsigned program) { drawTrees(program); },
+            .treeWire = [this](unsigned program) { drawTreeWire(program); },
+            .treePicture =
+                [this](unsigned program) { gl->trees.drawPicture(program, trees.visible().tiles); },
             .lines = [this](unsigned) { gl->lineBuffer.draw(lines); }};
   }
 
@@ -73,6 +82,9 @@ struct Renderer::Impl {
   void removeHidden();
   void drawTerrain();
   void drawWire();
+  void drawTrees(unsigned program);
+  void drawTreeWire(unsigned program);
+  void prepareTrees(SceneView& view);
   void bindTileTextures(bool on);
   void prepare(SceneView& view);
   FrameResult draw(const FrameRequest& r, unsigned fbo);
@@ -124,6 +136,41 @@ void Renderer::Impl::drawWire() {
   bindTileTextures(false);
 }
 
+void Renderer::Impl::drawTrees(unsigned program) {
+  const Overlays& overlays = request->overlays;
+  drawn = overlays.colourByReason ? trees.cut() : trees.visible().tiles;
+  if (!overlays.colourByReason && !overlays.colourByLevel) return gl->trees.draw(program, drawn);
+  tints.clear();
+  for (const TileDraw& node : drawn)
+    tints.push_back(overlays.colourByReason
+                        ? rgba(reasonColour(trees.visible().reason[node.node]), 150)
+                        : rgba(levelColour(trees.index().nodes[node.node].depth), 150));
+  gl->trees.drawTinted(program, drawn, tints);
+}
+
+void Renderer::Impl::drawTreeWire(unsigned program) {
+  glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+  gl->trees.draw(program, drawn);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+}
+
+/// The static trees' side of `prepare`.
+void Renderer::Impl::prepareTrees(SceneView& view) {
+  const FrameRequest& r = *request;
+  const auto start = Clock::now();
+  trees.select(r, r.frozenEye.value_or(view.eye), counters);
+  cost.select = millisecondsBetween(start, Clock::now());
+  counters.tilesBuilt +=
+      gl->trees.prepare(r.overlays.colourByReason ? trees.cut() : trees.visible().tiles);
+  culling.clear();
+  counters.depthMap.reset();
+  counters.note.clear();
+  if (r.method == CullingCase::proposed && r.decision.depthMap)
+    counters.note = "static trees are culled by the view frustum alone";
+  if (r.overlays.tileBounds)
+    addBoxes(trees.index().bounds, trees.cut(), trees.visible().reason, view.eye.position, lines);
+}
+
 /// What the frame is made of: eye, visible tiles, depth map.
 void Renderer::Impl::prepare(SceneView& view) {
   const FrameRequest& r = *request;
@@ -131,13 +178,27 @@ void Renderer::Impl::prepare(SceneView& view) {
   view.sky = !r.overlays.showHoles;
   view.wireframe = r.overlays.wireframe;
   view.tinted = r.overlays.colourByReason || r.overlays.colourByLevel;
+  const WeatherDecision& weather = r.decision.weather;
+  // What was culled is to be seen by its colour, however far it is.
+  if (!r.overlays.colourByReason) view.air = airOf(weather);
+  view.heightM = r.eye.height.value();
+  if (weather.precipitation != Precipitation::none && weather.density > 0) {
+    view.precipitation = {weather.precipitation, std::min(weather.density, 1.0), r.time, {}};
+    ++counters.precipitationPasses;
+  }
   lines.clear();
   drawn.clear();
   if (database) {
-    const auto start = Clock::now();
     const LocalFrame& frame = database->index().frame;
     view.eye = {frame.fromGeodetic(r.eye), eyeAxes(frame, r.eye, r.attitude)};
     view.up = frame.ecefToLocal() * eastNorthUp(r.eye.latitude, r.eye.longitude).row[2];
+    view.trees = trees.wanted(r);
+    view.treePicture = r.overlays.treePicture;
+  }
+  if (view.trees) {
+    prepareTrees(view);
+  } else if (database) {
+    const auto start = Clock::now();
     culling.select(r, r.frozenEye.value_or(view.eye), counters);
     cost.select = millisecondsBetween(start, Clock::now());
     counters.tilesBuilt +=
@@ -145,7 +206,7 @@ void Renderer::Impl::prepare(SceneView& view) {
     view.depth = culling.prepareOcclusion(r, gl->tiles, gl->occlusion, counters);
     view.oneSided = culling.eyeIsAboveGround() && !r.frozenEye;
     if (r.overlays.tileBounds)
-      addBoxes(database->index(), culling.cut().tiles, culling.visible().reason, view.eye.position, lines);
+      addBoxes(database->index().bounds, culling.cut().tiles, culling.visible().reason, view.eye.position, lines);
   } else {
     view.eye = {{}, eyeAxes(LocalFrame(r.eye), r.eye, r.attitude)};
     culling.clear();
@@ -160,6 +221,7 @@ void Renderer::Impl::prepare(SceneView& view) {
 FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
   const auto start = Clock::now();
   request = &r;
+  lastView = r.view;
   cost = {kNone, 0, kNone, 0, 0, kNone, 0};
   SceneView view;
   prepare(view);
@@ -193,9 +255,10 @@ FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
   // A software rasteriser's GPU is this processor: its time is in `draw` already, and would count twice.
   cost.gpu = report.software ? std::numeric_limits<double>::quiet_NaN() : gl->timer.milliseconds();
   cost.total = millisecondsBetween(start, end);
-  counters.visible = culling.visible();
+  counters.visible = view.trees ? trees.visible() : culling.visible();
+  counters.staticLod = view.trees ? trees.frame() : StaticLodFrame{};
   counters.cost = cost;
-  counters.tilesInCut = database ? culling.cut().tiles.size() : 0;
+  counters.tilesInCut = !database ? 0 : view.trees ? trees.cut().size() : culling.cut().tiles.size();
   return counters;
 }
 
@@ -208,6 +271,7 @@ GlReport Renderer::initialize() {
   if (impl_->report.usable) {
     impl_->gl = std::make_unique<Impl::Gl>(impl_->passes());
     impl_->gl->tiles.setDatabase(impl_->database);
+    impl_->gl->trees.setTerrain(impl_->database ? impl_->database->staticLod() : nullptr);
   }
   return impl_->report;
 }
@@ -219,12 +283,30 @@ void Renderer::release() {
 void Renderer::setTerrain(std::shared_ptr<const terrain::Database> database) {
   impl_->database = std::move(database);
   impl_->culling.setDatabase(impl_->database);
-  if (impl_->gl) impl_->gl->tiles.setDatabase(impl_->database);
+  const auto trees = impl_->database ? impl_->database->staticLod() : nullptr;
+  impl_->trees.setTerrain(trees);
+  if (!impl_->gl) return;
+  impl_->gl->tiles.setDatabase(impl_->database);
+  impl_->gl->trees.setTerrain(trees);
 }
 
 FrameResult Renderer::draw(const FrameRequest& request, unsigned fbo) {
   if (!impl_->gl || request.view.widthPx <= 0 || request.view.heightPx <= 0) return {};
   return impl_->draw(request, fbo);
+}
+
+std::vector<float> Renderer::readDistances() {
+  if (!impl_->gl) return {};
+  std::vector<float> distances = impl_->gl->frame.readDepths();
+  const ViewShape& v = impl_->lastView;
+  std::size_t i = 0;
+  for (int y = 0; y < v.heightPx; ++y)
+    for (int x = 0; x < v.widthPx; ++x, ++i) {
+      const double across = v.left + (v.right - v.left) * (x + 0.5) / v.widthPx;
+      const double up = v.bottom + (v.top - v.bottom) * (y + 0.5) / v.heightPx;
+      distances[i] = static_cast<float>(v.nearM / double{distances[i]} * std::sqrt(1 + across * across + up * up));
+    }
+  return distances;
 }
 
 Renderer::Grey Renderer::readDepthMap() {

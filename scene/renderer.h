@@ -9,6 +9,7 @@
 
 #include "trimtab/culling/select.h"
 #include "trimtab/frame/frame.h"
+#include "trimtab/frame/static_lod_frame.h"
 #include "trimtab/preset/parameters.h"
 #include "trimtab/terrain/database.h"
 
@@ -20,6 +21,9 @@ struct Overlays {
   bool wireframe = false, tileBounds = false, colourByLevel = false;
   bool colourByReason =
       false;               ///< draws what was culled too, so that it can be seen (with `frozenEye` above all)
+  /// One level of the static trees whatever the distance, 0 at the roots; -1: by distance.
+  int treeDepth = -1;
+  bool treePicture = false;  ///< document E's: faces light grey, edges red, locked edges black
   bool showHoles = false;  ///< no sky: magenta wherever no terrain is drawn
   friend bool operator==(const Overlays&, const Overlays&) = default;
 };
@@ -30,12 +34,14 @@ std::array<std::uint8_t, 3> levelColour(int level);
 
 /// Everything one picture depends on.
 struct FrameRequest {
+  double time = 0;  ///< seconds, the host's clock: what moves by itself is where it is at this time
   GeodeticPosition eye;
   Attitude attitude;  ///< of the view: aircraft, or aircraft and head
   ViewShape view;     ///< size of the picture
   FrameDecision decision;
   CullingCase method = CullingCase::proposed;
   LodParameters lod;
+  StaticLodParameters staticLod;
   Overlays overlays;
   /// Culling and levels stand still as of this view while the eye moves on; its frustum is drawn.
   std::optional<EyePose> frozenEye;
@@ -45,9 +51,11 @@ struct FrameResult {
   VisibleSet visible;
   FrameCost cost;  ///< milliseconds; gpu is NaN where there is no timer query yet
   std::size_t tilesInCut = 0;
+  StaticLodFrame staticLod;  ///< where `drawn`, the nodes of `visible` are the trees'
   std::optional<DepthMapSize> depthMap;  ///< drawn this frame
   std::string note;                      ///< why occlusion was not used although asked for; empty otherwise
   // Counters of work that was skipped or done, since the renderer was made.
+  std::uint64_t precipitationPasses = 0;
   std::uint64_t depthMapsDrawn = 0, cutsSelected = 0, tilesBuilt = 0;
 };
 
@@ -76,6 +84,9 @@ class Renderer {
   /// Draws into framebuffer `fbo` (0: the window's), whose size is at least the view's; leaves that
   /// framebuffer bound.
   FrameResult draw(const FrameRequest& request, unsigned fbo);
+
+  /// Metres from the eye to what the last picture shows, infinity where nothing was drawn; row 0 at the bottom.
+  std::vector<float> readDistances();
 
   /// The last depth map as 0..1 greys by distance (0 near), row 0 at the bottom; empty when the last frame
   /// had none.

@@ -14,7 +14,6 @@
 namespace trimtab::scene {
 namespace {
 
-constexpr std::array<float, 3> kHaze{0.74f, 0.80f, 0.86f};
 constexpr float kHazeDistance = 110e3f;
 /// Texels a side of the pyramid's level that a box is held against: more see more hidden, and cost more.
 constexpr int kTestedSpan = 8;
@@ -140,7 +139,8 @@ struct SceneGraph::Nodes {
   osg::ref_ptr<osgViewer::GraphicsWindowEmbedded> window = new osgViewer::GraphicsWindowEmbedded(0, 0, 1, 1);
   osg::ref_ptr<osg::Group> root = new osg::Group;
   osg::ref_ptr<osg::Camera> depthCamera = new osg::Camera;
-  osg::ref_ptr<Pass> terrain, wire, lines, sky;
+  osg::ref_ptr<Pass> terrain, wire, trees, treeWire, treePicture, lines, sky;
+  PrecipitationNode precipitation;
   bool begun = false;  ///< this frame's drawing
 
   explicit Nodes(ScenePasses& passes) {
@@ -158,11 +158,19 @@ struct SceneGraph::Nodes {
     terrain->getStateSet()->addUniform(new osg::Uniform("wire", false));
     wire = addPass(root, std::move(passes.wire), 2, kTerrainVertex, kTerrainFragment);
     wire->getStateSet()->addUniform(new osg::Uniform("wire", true));
+    const std::string treeVertex = forStaticTrees(kTerrainVertex);
+    trees = addPass(root, std::move(passes.trees), 1, treeVertex.c_str(), kTerrainFragment);
+    trees->getStateSet()->addUniform(new osg::Uniform("wire", false));
+    treeWire = addPass(root, std::move(passes.treeWire), 2, treeVertex.c_str(), kTerrainFragment);
+    treeWire->getStateSet()->addUniform(new osg::Uniform("wire", true));
+    treePicture = addPass(root, std::move(passes.treePicture), 1, kTreeFlatVertex, kLineFragment);
     lines = addPass(root, std::move(passes.lines), 3, kLineVertex, kLineFragment);
     sky = addPass(
         root, [](unsigned) { glDrawArrays(GL_TRIANGLES, 0, 3); }, 4, kScreenVertex, kSkyFragment);
     // Where nothing was drawn depth still is 0, infinitely far.
     sky->getStateSet()->setAttributeAndModes(new osg::Depth(osg::Depth::GEQUAL, 0, 1, false));
+
+    root->addChild(precipitation.node());
 
     osg::Camera* camera = viewer->getCamera();
     camera->setGraphicsContext(window);
@@ -254,7 +262,8 @@ struct SceneGraph::Nodes {
   void settleState() {
     osg::State* state = window->getState();
     for (const GLenum off : {GL_BLEND, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_CULL_FACE, GL_DEPTH_TEST,
-                             GL_LIGHTING, GL_ALPHA_TEST, GL_DEPTH_CLAMP, GL_FRAMEBUFFER_SRGB}) {
+                             GL_LIGHTING, GL_ALPHA_TEST, GL_DEPTH_CLAMP, GL_FRAMEBUFFER_SRGB,
+                             GL_VERTEX_PROGRAM_POINT_SIZE}) {
       glDisable(off);
       state->haveAppliedMode(off, false);
     }
@@ -266,6 +275,24 @@ struct SceneGraph::Nodes {
     state->setLastAppliedProgramObject(nullptr);
   }
 };
+
+/// Clear weather has shaders of its own, which know nothing of fog: nothing is paid for it, and no bit changes.
+void SceneGraph::setAir(const SceneView& view) {
+  osg::StateSet* state = nodes_->root->getOrCreateStateSet();
+  if (view.air.clear) {
+    state->removeDefine("IN_WEATHER");
+    return;
+  }
+  state->setDefine("IN_WEATHER");
+  Uniforms uniforms(state);
+  const Air& air = view.air;
+  uniforms.set("pictureSize", Type::FLOAT_VEC2,
+               osg::Vec2f(static_cast<float>(view.shape.widthPx), static_cast<float>(view.shape.heightPx)));
+  uniforms.set("fog", Type::FLOAT_VEC3, osg::Vec3f(air.colour[0], air.colour[1], air.colour[2]));
+  uniforms.set("air", Type::FLOAT_VEC3, osg::Vec3f(air.extinction, air.cutM, air.fadePerM));
+  uniforms.set("fogDepth", Type::FLOAT_VEC2,
+               osg::Vec2f(static_cast<float>(kFogTopM), static_cast<float>(std::max(view.heightM, 1.0))));
+}
 
 SceneGraph::SceneGraph(ScenePasses passes) : nodes_(std::make_unique<Nodes>(passes)) {}
 
@@ -287,11 +314,18 @@ void SceneGraph::frame(const SceneView& view, unsigned fbo) {
   uniforms.set("tinted", Type::BOOL, view.tinted);
   n.terrain->getStateSet()->setMode(GL_CULL_FACE,
                                     view.oneSided ? osg::StateAttribute::ON : osg::StateAttribute::OFF);
+  const auto show = [](Pass& pass, bool on) { pass.setNodeMask(on ? ~0u : 0u); };
+  show(*n.terrain, !view.trees);
+  show(*n.wire, view.wireframe && !view.trees);
+  show(*n.trees, view.trees && !view.treePicture);
+  show(*n.treeWire, view.wireframe && view.trees && !view.treePicture);
+  show(*n.treePicture, view.trees && view.treePicture);
   n.sky->setNodeMask(view.sky ? ~0u : 0u);
-  n.wire->setNodeMask(view.wireframe ? ~0u : 0u);
   n.lines->setNodeMask(view.lines ? ~0u : 0u);
   n.depthCamera->setNodeMask(view.depth ? ~0u : 0u);
   if (view.depth) n.setDepthView(*view.depth, view.shape);
+  setAir(view);
+  n.precipitation.set(view.precipitation, view);
 
   osg::Camera* camera = n.viewer->getCamera();
   camera->setViewport(0, 0, view.shape.widthPx, view.shape.heightPx);
@@ -302,6 +336,7 @@ void SceneGraph::frame(const SceneView& view, unsigned fbo) {
   n.settleState();
   n.begun = false;
   n.viewer->frame();
+  if (view.precipitation) n.settleState();  // its modes are nobody else's
 }
 
 }  // namespace trimtab::scene

@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "trimtab/culling/select.h"
+#include "trimtab/scene/weather_air.h"
+#include "trimtab/scene/weather_precipitation.h"
 
 namespace trimtab::scene {
 
@@ -19,6 +21,9 @@ struct ScenePasses {
   Call test;       ///< tiles against the depth map; afterwards the visible set stands
   Call terrain;    ///< the one multi-draw
   Call wire;       ///< the same again as lines
+  Call trees;      ///< static trees, instead of the tiled terrain
+  Call treeWire;
+  Call treePicture;  ///< document E's picture of them
   Call lines;      ///< overlay lines
 };
 
@@ -42,6 +47,10 @@ struct SceneView {
   /// pixels in 288 views, slivers at silhouettes.
   bool oneSided = false;
   bool sky = true, tinted = false, wireframe = false, lines = false;
+  bool trees = false, treePicture = false;  ///< what stands for the tiled terrain
+  Air air;
+  double heightM = 0;                         ///< of the eye above mean sea level
+  std::optional<PrecipitationView> precipitation;
 };
 
 /// The OSG side of the renderer: viewer, cameras, state and shaders. Drawing itself is in the passes.
@@ -57,6 +66,8 @@ class SceneGraph {
   void frame(const SceneView& view, unsigned fbo);
 
  private:
+  void setAir(const SceneView& view);
+
   struct Nodes;
   std::unique_ptr<Nodes> nodes_;
 };

@@ -1,5 +1,7 @@
 #include "trimtab/scene/shaders.h"
 
+#include "trimtab/scene/weather_air.h"
+
 namespace trimtab::scene {
 
 const char* const kTerrainVertex = R"(#version 430 compatibility
@@ -11,18 +13,31 @@ uniform vec3 sun;          // unit, towards it
 uniform float hazeDistance;
 uniform bool tinted;
 uniform bool wire;
+#ifdef STATIC_TREE
+uniform ivec3 treeOrigin;  // of the tile, units of 16 m
+uniform vec4 treeTint;
+#else
 uniform samplerBuffer tints;
+#endif
 out vec3 lit;
 out float clearness;       // what the air leaves of it
 out vec2 ground;           // metres east and north, modulo 8192 from tile to tile
 void main() {
+#ifdef STATIC_TREE
+  ivec4 slot = ivec4(treeOrigin, 0);
+#else
   int tile = gl_VertexID / 1089;
   ivec4 slot = texelFetch(slots, tile * 2);
+#endif
   vec3 p = relativePosition(vertexPosition, slot);
   float light = 0.30 + 0.12 * vertexNormal.z + 1.05 * max(dot(normalize(vertexNormal), sun), 0.0);
   lit = min(vertexColour.rgb * light * 1.15, vec3(1.0));
   if (tinted) {
+#ifdef STATIC_TREE
+    vec4 tint = treeTint;
+#else
     vec4 tint = texelFetch(tints, tile);
+#endif
     lit = mix(lit, tint.rgb * (0.25 + 0.75 * light), tint.a);
   }
   clearness = exp(-length(p) / hazeDistance);
@@ -39,6 +54,8 @@ void main() {
 // its cells are smaller than two pixels, so that nothing shimmers. The lattice repeats every 8,192 m, as
 // `ground` does.
 const char* const kTerrainFragment = R"(#version 430 compatibility
+#pragma import_defines(IN_WEATHER)
+)" TRIMTAB_AIR R"(
 in vec3 lit;
 in float clearness;
 in vec2 ground;
@@ -68,7 +85,7 @@ void main() {
   if (coarse > 0.0) detail += 0.11 * coarse * noise(ground * (1.0 / 128.0), 64);
   if (fine > 0.0) detail += 0.09 * fine * noise(ground * (1.0 / 32.0), 256);
   if (wire) detail = 0.0;
-  fragment = vec4(mix(haze, lit * (1.0 + detail), clearness), 1.0);
+  fragment = vec4(throughAir(mix(haze, lit * (1.0 + detail), clearness)), 1.0);
 }
 )";
 
@@ -84,6 +101,12 @@ void main() {
 )";
 
 const char* const kSkyFragment = R"(#version 430 compatibility
+#pragma import_defines(IN_WEATHER)
+#ifdef IN_WEATHER
+uniform vec3 fog;          // sRGB
+uniform vec3 air;          // extinction a metre first
+uniform vec2 fogDepth;     // metres up to where it is clear, metres down to the ground
+#endif
 in vec3 direction;
 uniform vec3 upInEye;
 uniform vec3 haze;
@@ -94,7 +117,13 @@ void main() {
   float elevation = dot(direction, upInEye) * inversesqrt(dot(direction, direction)) + dip;
   float above = max(elevation, 0.0) * 3.0;
   vec3 sky = mix(haze, vec3(0.20, 0.40, 0.72), above / (above + 0.6));
-  fragment = vec4(mix(haze * 0.94, sky, clamp(elevation * 200.0 + 0.5, 0.0, 1.0)), 1.0);
+  vec3 colour = mix(haze * 0.94, sky, clamp(elevation * 200.0 + 0.5, 0.0, 1.0));
+#ifdef IN_WEATHER
+  // Level, the way through fog has no end: the sky meets the ground in fog alone.
+  float metres = (elevation > 0.0 ? fogDepth.x : fogDepth.y) / max(abs(elevation), 1e-5);
+  colour = mix(fog, colour, exp(-air.x * metres));
+#endif
+  fragment = vec4(colour, 1.0);
 }
 )";
 
@@ -109,10 +138,31 @@ void main() {
 }
 )";
 
+// Document E's picture: one colour, no light, no air.
+const char* const kTreeFlatVertex = R"(#version 430 compatibility
+)" TRIMTAB_RELATIVE_POSITION R"(
+in vec3 vertexPosition;
+uniform ivec3 treeOrigin;
+uniform vec4 flatColour;
+uniform float depthScale;  // more than 1 is nearer, as depth is reversed
+out vec4 colour;
+void main() {
+  colour = flatColour;
+  gl_Position = gl_ModelViewProjectionMatrix * vec4(relativePosition(vertexPosition, ivec4(treeOrigin, 0)), 1.0);
+  gl_Position.z *= depthScale;
+}
+)";
+
 const char* const kLineFragment = R"(#version 430 compatibility
 in vec4 colour;
 out vec4 fragment;
 void main() { fragment = colour; }
 )";
+
+std::string forStaticTrees(const char* vertexShader) {
+  std::string text = vertexShader;
+  const std::size_t afterVersion = text.find('\n') + 1;
+  return text.insert(afterVersion, "#define STATIC_TREE 1\n");
+}
 
 }  // namespace trimtab::scene

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 // A vertex's place relative to the eye. The vertex is a multiple of 1/256 m and the tile's offset from eyeHi
 // one of 16 m, so their sum is the same number in every tile that shares the post: borders close to the bit
 // and nothing jitters, however far the origin is. `precise` forbids to sum in another order.
@@ -24,6 +26,10 @@ extern const char* const kScreenVertex;
 extern const char* const kSkyFragment;
 extern const char* const kLineVertex;
 extern const char* const kLineFragment;
+extern const char* const kTreeFlatVertex;
+
+/// A terrain vertex shader as the static trees use it: the tile's origin and tint are uniforms.
+std::string forStaticTrees(const char* vertexShader);
 
 extern const char* const kOccluderVertex;
 extern const char* const kOccluderFragment;

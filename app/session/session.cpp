@@ -210,6 +210,7 @@ std::optional<scene::FrameRequest> Session::request(double now, int windowWidthP
   request.decision = decision_;
   request.method = parameters_->culling.method;
   request.lod = parameters_->lod;
+  request.staticLod = parameters_->staticLod;
   inPicture_.insert(inPicture_.end(), waiting_.begin(), waiting_.end());
   waiting_.clear();
   requestedAt_ = now;

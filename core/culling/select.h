@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -22,8 +23,9 @@ struct EyePose {
 enum class CullReason : std::uint8_t {
   drawn,
   outside_frustum,
-  occluded,    ///< proven hidden by the depth map
-  other_level  ///< its ancestor or descendants stand for it
+  occluded,           ///< proven hidden by the depth map
+  beyond_visibility,  ///< in the frustum, but wholly beyond the weather's far distance
+  other_level         ///< its ancestor or descendants stand for it
 };
 
 /// One tile of the cut. `coarser` has bits W=1, E=2, S=4, N=8 where the neighbour is one level coarser and
@@ -52,14 +54,16 @@ void selectLevels(const TerrainIndex& index, Vec3 eye, double maxErrorPx, double
 struct VisibleSet {
   std::vector<TileDraw> tiles;                   ///< to draw
   std::vector<CullReason> reason;                ///< one a node of the index
-  std::size_t outsideFrustum = 0, occluded = 0;  ///< tiles of the cut, by reason
+  std::size_t outsideFrustum = 0, occluded = 0, beyondVisibility = 0;  ///< tiles of the cut, by reason
   std::uint64_t triangles = 0, vertices = 0;     ///< of the tiles drawn; degenerate triangles not counted
 };
 
 /// Tests every tile of the cut against the view frustum (near, left, right, bottom, top; the far plane is
-/// infinite). Never drops a tile that owns a pixel. `test` false draws the whole cut (culling case *none*).
+/// infinite), and what is in it against the sphere of radius `farM` around the eye. A sphere, where document D
+/// moves the far plane: so a head that turns does not move the cut, and fog is by the same distance. Never
+/// drops a tile that owns a pixel within `farM`. `test` false draws the whole cut (culling case *none*).
 void selectVisible(const TerrainIndex& index, const LevelCut& cut, const EyePose& eye, const ViewShape& view,
-                   bool test, VisibleSet& visible);
+                   bool test, VisibleSet& visible, double farM = std::numeric_limits<double>::infinity());
 
 /// Removes tiles by one flag a tile of `visible.tiles`, in order: 0 stays, 1 is proven hidden, 2 is proven
 /// outside the view (by finer boxes than the index has).

@@ -73,20 +73,24 @@ void selectStaticDepth(const StaticLodIndex& index, int depth, StaticCut& cut) {
 
 void selectStaticVisible(const StaticLodIndex& index, std::span<const std::uint32_t> vertices,
                          const StaticCut& cut, const EyePose& eye, const ViewShape& view, bool test,
-                         VisibleSet& visible) {
+                         VisibleSet& visible, double farM) {
   visible.tiles.clear();
   visible.reason.assign(index.size(), CullReason::other_level);
-  visible.outsideFrustum = visible.occluded = 0;
+  visible.outsideFrustum = visible.occluded = visible.beyondVisibility = 0;
   visible.triangles = visible.vertices = 0;
   const Frustum frustum(eye, view);
   for (const std::uint32_t node : cut.nodes) {
-    if (!test || frustum.mayShow(index.bounds[node])) {
+    const Box& box = index.bounds[node];
+    if (test && !frustum.mayShow(box)) {
+      visible.reason[node] = CullReason::outside_frustum;
+      ++visible.outsideFrustum;
+    } else if (test && isBeyond(box, eye.position, farM)) {
+      visible.reason[node] = CullReason::beyond_visibility;
+      ++visible.beyondVisibility;
+    } else {
       visible.tiles.push_back({node, 0});
       visible.reason[node] = CullReason::drawn;
       count(index, vertices, node, visible, true);
-    } else {
-      visible.reason[node] = CullReason::outside_frustum;
-      ++visible.outsideFrustum;
     }
   }
 }

@@ -1,5 +1,6 @@
 #include <bit>
 
+#include "trimtab/culling/box_distance.h"
 #include "trimtab/culling/frustum.h"
 #include "trimtab/culling/select.h"
 
@@ -17,21 +18,25 @@ void count(VisibleSet& visible, const TileDraw& tile, int sign) {
 }  // namespace
 
 void selectVisible(const TerrainIndex& index, const LevelCut& cut, const EyePose& eye, const ViewShape& view,
-                   bool test, VisibleSet& visible) {
+                   bool test, VisibleSet& visible, double farM) {
   visible.tiles.clear();
   visible.reason.assign(index.size(), CullReason::other_level);
-  visible.outsideFrustum = visible.occluded = 0;
+  visible.outsideFrustum = visible.occluded = visible.beyondVisibility = 0;
   visible.triangles = visible.vertices = 0;
 
   const Frustum frustum(eye, view);
   for (const TileDraw& tile : cut.tiles) {
-    if (!test || frustum.mayShow(index.bounds[tile.node])) {
+    const Box& box = index.bounds[tile.node];
+    if (test && !frustum.mayShow(box)) {
+      visible.reason[tile.node] = CullReason::outside_frustum;
+      ++visible.outsideFrustum;
+    } else if (test && isBeyond(box, eye.position, farM)) {
+      visible.reason[tile.node] = CullReason::beyond_visibility;
+      ++visible.beyondVisibility;
+    } else {
       visible.tiles.push_back(tile);
       visible.reason[tile.node] = CullReason::drawn;
       count(visible, tile, 1);
-    } else {
-      visible.reason[tile.node] = CullReason::outside_frustum;
-      ++visible.outsideFrustum;
     }
   }
 }
