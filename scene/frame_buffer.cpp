@@ -16,6 +16,16 @@ void FrameBuffer::release() {
   id_ = 0;
 }
 
+std::vector<float> FrameBuffer::readDepths() const {
+  std::vector<float> depths(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  GLint before = 0;
+  glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &before);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
+  glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(before));
+  return depths;
+}
+
 void FrameBuffer::resize(int width, int height) {
   if (id_ != 0 && width == width_ && height == height_) return;
   release();

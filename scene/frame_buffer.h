@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 namespace trimtab::scene {
 
 /// RGBA8 with 32-bit float depth, which reversed depth needs and windows do not have.
@@ -13,6 +15,8 @@ class FrameBuffer {
   /// Makes it that size if it is not.
   void resize(int width, int height);
   unsigned id() const { return id_; }
+  /// Reversed depths, row 0 at the bottom; 0 where nothing was drawn.
+  std::vector<float> readDepths() const;
   int width() const { return width_; }
   int height() const { return height_; }
 

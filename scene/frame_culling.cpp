@@ -27,7 +27,8 @@ void FrameCulling::select(const FrameRequest& request, const EyePose& eye, Frame
     cutKey_ = key;
     ++counters.cutsSelected;
   }
-  selectVisible(index, cut_, eye, v, request.method != CullingCase::none, visible_);
+  selectVisible(index, cut_, eye, v, request.method != CullingCase::none, visible_,
+                request.decision.weather.farM);
 }
 
 void FrameCulling::clear() {

@@ -10,6 +10,8 @@ std::array<std::uint8_t, 3> reasonColour(CullReason reason) {
       return {230, 159, 0};
     case CullReason::occluded:
       return {204, 121, 167};
+    case CullReason::beyond_visibility:
+      return {86, 180, 233};
     case CullReason::other_level:
       break;
   }

@@ -13,9 +13,6 @@
 #include "host_dock.h"
 #include "main_window.h"
 #include "trimtab/views/bands_editor.h"
-#include "trimtab/views/decision_panel.h"
-#include "trimtab/views/membership_editor.h"
-#include "trimtab/views/plots_panel.h"
 
 // From states to pictures and from pictures to docks.
 namespace trimtab::workbench {
@@ -33,7 +30,9 @@ QColor colourOf(const std::array<std::uint8_t, 3>& c) {
 QList<LegendEntry> reasonLegend() {
   return {{MainWindow::tr("drawn"), colourOf(scene::reasonColour(CullReason::drawn))},
           {MainWindow::tr("outside the frustum"), colourOf(scene::reasonColour(CullReason::outside_frustum))},
-          {MainWindow::tr("occluded"), colourOf(scene::reasonColour(CullReason::occluded))}};
+          {MainWindow::tr("occluded"), colourOf(scene::reasonColour(CullReason::occluded))},
+          {MainWindow::tr("beyond visibility"),
+           colourOf(scene::reasonColour(CullReason::beyond_visibility))}};
 }
 
 QList<LegendEntry> levelLegend(std::size_t levels) {
@@ -150,10 +149,7 @@ views::LiveFrame MainWindow::liveFrame() const {
 }
 
 void MainWindow::showInDocks(const views::LiveFrame& frame) {
-  memberships_->showFrame(frame);
-  bands_->showFrame(frame);
-  decision_->showFrame(frame);
-  plots_->showFrame(frame);
+  for (const auto& show : liveDocks_) show(frame);
 }
 
 void MainWindow::setFrozen(bool frozen) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -83,6 +84,54 @@ TEST(VisibleSet, dropsNothingForAnEyeThatIsNotANumber) {
   VisibleSet visible;
   selectVisible(index, cut, {{std::numeric_limits<double>::quiet_NaN(), 0, 0}, {}}, {}, true, visible);
   EXPECT_EQ(visible.tiles.size(), cut.tiles.size());
+}
+
+TEST(VisibleSet, dropsWhatLiesWhollyBeyondTheVisibilityAndNothingNearer) {
+  const TerrainIndex index = test::randomIndex(32, 11);
+  const LevelCut cut = wholeCut(index);
+  const EyePose eye{{16000, 14000, 900}, axesOf(30, -5, 0)};
+  VisibleSet whole, visible;
+  selectVisible(index, cut, eye, {}, true, whole);
+  EXPECT_EQ(whole.beyondVisibility, 0u);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (const double farM : {0.0, 1.0, 900.0, 4000.0, 9000.0, 15000.0, 1e9}) {
+    selectVisible(index, cut, eye, {}, true, visible, farM);
+    EXPECT_EQ(visible.outsideFrustum, whole.outsideFrustum) << "the frustum comes first";
+    EXPECT_EQ(visible.tiles.size() + visible.beyondVisibility, whole.tiles.size());
+    for (const TileDraw& tile : whole.tiles) {
+      const Box& b = index.bounds[tile.node];
+      // By the definition, from the box's points; the nearest of a fine grid is near enough to see a box kept.
+      double nearest = std::numeric_limits<double>::infinity();
+      for (int i = 0; i <= 20; ++i)
+        for (int j = 0; j <= 20; ++j) {
+          const Vec3 p{b.minX + (double{b.maxX} - b.minX) * i / 20, b.minY + (double{b.maxY} - b.minY) * j / 20,
+                       std::clamp(eye.position.z, double{b.minZ}, double{b.maxZ})};
+          nearest = std::min(nearest, length(p - eye.position));
+        }
+      if (visible.reason[tile.node] == CullReason::beyond_visibility)
+        ASSERT_GT(nearest, farM) << tile.node;
+      else
+        ASSERT_LE(nearest, farM + 0.1 * length(Vec3{double{b.maxX} - b.minX, double{b.maxY} - b.minY, 0}) + 1);
+    }
+  }
+}
+
+TEST(VisibleSet, cutsNothingAtAVisibilityThatIsNoNumberOrInfinite) {
+  const TerrainIndex index = test::randomIndex(16, 2);
+  const LevelCut cut = wholeCut(index);
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN(),
+                   kInfinity = std::numeric_limits<double>::infinity();
+  VisibleSet visible;
+  for (const double farM : {kNan, kInfinity}) {
+    selectVisible(index, cut, {{8000, 8000, 5000}, axesOf(0, -40, 0)}, {}, true, visible, farM);
+    EXPECT_EQ(visible.beyondVisibility, 0u) << farM;
+    EXPECT_GT(visible.tiles.size(), 0u);
+  }
+  selectVisible(index, cut, {{8000, 8000, 5000}, axesOf(0, -40, 0)}, {}, true, visible, 0);
+  EXPECT_TRUE(visible.tiles.empty()) << "nothing is seen at visibility 0";
+  selectVisible(index, cut, {{8000, 8000, 5000}, axesOf(0, -40, 0)}, {}, false, visible, 0);
+  EXPECT_EQ(visible.tiles.size(), cut.tiles.size()) << "culling case none";
 }
 
 TEST(VisibleSet, countsWhatItDrawsAndWhyItDoesNot) {
