@@ -17,6 +17,7 @@
 #include "trimtab/views/ask_csv_file.h"
 #include "trimtab/views/bar_list.h"
 #include "trimtab/views/decision_log.h"
+#include "trimtab/views/rule_edit.h"
 #include "trimtab/views/theme.h"
 
 namespace trimtab::views {
@@ -141,26 +142,24 @@ void DecisionPanel::refresh() {
       {{tr("Altitude"), d.altitudeMembership, 1, text(d.altitudeMembership), {}, 0},
        {tr("Pitch"), d.pitchMembership, 1, text(d.pitchMembership), {}, 2},
        {tr("Total"), d.totalMembership, BandList::kTop, text(d.totalMembership), edges, 1}});
-  const RuleParameters& r = p.rules;
   const bool quiet = p.scheme.combination != Combination::rules;
-  const auto rule = [&](const QString& name, std::size_t i, Ratio weight, Membership output) {
-    return BarList::Bar{
-        name,
-        d.ruleFiring[i],
-        1,
-        tr("%1 (weight %2, output %3)")
-            .arg(text(d.ruleFiring[i]), numberText(weight.value(), 2), numberText(output.value(), 2)),
-        {},
-        3,
-        quiet};
-  };
-  rules_->setBars({rule(tr("Low, nose down"), 0, r.lowDownWeight, r.lowDownOutput),
-                   rule(tr("Low, nose up"), 1, r.lowUpWeight, r.lowUpOutput),
-                   rule(tr("High, nose down"), 2, r.highDownWeight, r.highDownOutput),
-                   rule(tr("High, nose up"), 3, r.highUpWeight, r.highUpOutput)});
-  rules_->setToolTip(quiet ? tr("Firing of the four rules. The total does not come from them: the "
+  std::vector<BarList::Bar> bars;
+  for (std::size_t i = 0; i < p.scheme.rules.size; ++i) {
+    const FuzzyRule& rule = p.scheme.rules.rule[i];
+    const double mu = i < d.ruleFiring.count ? d.ruleFiring.mu[i] : 0;
+    bars.push_back({ruleLabel(rule),
+                    mu,
+                    1,
+                    tr("%1 (weight %2, output %3)")
+                        .arg(text(mu), numberText(rule.weight, 2), numberText(rule.output, 2)),
+                    {},
+                    3,
+                    quiet});
+  }
+  rules_->setBars(std::move(bars));
+  rules_->setToolTip(quiet ? tr("Firing of the rules. The total does not come from them: the "
                                 "combination is not the rule base.")
-                           : tr("Firing of the four rules. The total is their weighted output (Eq. 2)."));
+                           : tr("Firing of the rules. The total is their weighted output (Eq. 2)."));
   const int rows = log_->rowCount();
   count_->setText(log_->forgotten() > 0 ? tr("%1 shown, %2 older forgotten").arg(rows).arg(log_->forgotten())
                                         : QString::number(rows));

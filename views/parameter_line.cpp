@@ -31,6 +31,8 @@ QString valueText(const ParameterRow& row, const ParameterValue& value) {
       return QObject::tr("%1 points").arg(std::get<CurvePoints>(value).size);
     case Kind::bands:
       return QObject::tr("%1 bands").arg(std::get<BandList>(value).size);
+    case Kind::rules:
+      return QObject::tr("%1 rules").arg(std::get<RuleList>(value).size);
     case Kind::scalar:
       break;
   }
@@ -107,6 +109,7 @@ QWidget* ParameterLine::makeEditor() {
     }
     case Kind::curve:
     case Kind::bands:
+    case Kind::rules:
       break;
   }
   QLineEdit* line = new QLineEdit;

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "commands.h"
+#include "settings.h"
 #include "trimtab/decision/decide.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/measure/trace.h"
-#include "trimtab/preset/preset.h"
 
 namespace trimtab::cli {
 namespace {
@@ -33,45 +33,6 @@ struct Decided {
   std::vector<TraceRow> rows;
   std::optional<std::size_t> asRecorded;
 };
-
-Findings applySettings(const std::vector<std::string>& settings, TuningParameters& parameters) {
-  Findings findings;
-  for (const std::string& setting : settings) {
-    const std::size_t equals = setting.find('=');
-    const ParameterRow* row = findRow(std::string_view(setting).substr(0, equals));
-    if (equals == std::string::npos || !row) {
-      findings.push_back(
-          {Severity::error, "--set", "", "KEY=VALUE with a key of the parameter table", setting});
-      continue;
-    }
-    const Result<ParameterValue> value = parseValue(*row, std::string_view(setting).substr(equals + 1));
-    if (value)
-      row->set(parameters, *value);
-    else
-      for (Finding finding : value.findings()) {
-        finding.where = "--set";
-        findings.push_back(finding);
-      }
-  }
-  return findings;
-}
-
-std::optional<ValidatedParameters> parametersFor(const Options& options) {
-  const Result<Preset> preset = loadPreset(options.preset);
-  if (!preset) {
-    report(preset.findings());
-    return std::nullopt;
-  }
-  TuningParameters parameters = preset->parameters;
-  if (const Findings findings = applySettings(options.settings, parameters); !findings.empty()) {
-    report(findings);
-    return std::nullopt;
-  }
-  const Result<ValidatedParameters> valid = validate(parameters);
-  report(valid.findings());
-  if (!valid) return std::nullopt;
-  return *valid;
-}
 
 void decideRow(TraceRow& row, const ValidatedParameters& parameters, DecisionMemory& memory) {
   row.before = memory;
@@ -145,16 +106,16 @@ Result<Decided> decideFlight(const std::string& file, const ValidatedParameters&
 
 Json toJson(const TraceRow& row, const ValidatedParameters& parameters) {
   const FrameDecision& d = row.decision;
+  Json firing = Json::array();
+  for (std::size_t i = 0; i < d.ruleFiring.count; ++i)
+    firing.push_back(
+        {{"rule", conditionsText(parameters->scheme.rules.rule[i], "-")}, {"firing", d.ruleFiring.mu[i]}});
   return {{"altitude_ft", d.altitudeFt},
           {"pitch_deg", d.pitchDeg},
           {"altitude_membership", d.altitudeMembership},
           {"pitch_membership", d.pitchMembership},
           {"total_membership", d.totalMembership},
-          {"rule_firing",
-           {{"low_down", d.ruleFiring[0]},
-            {"low_up", d.ruleFiring[1]},
-            {"high_down", d.ruleFiring[2]},
-            {"high_up", d.ruleFiring[3]}}},
+          {"rule_firing", std::move(firing)},
           {"scheme", toText(d.scheme)},
           {"band", d.band},
           {"depth_map_px", d.depthMap ? Json{d.depthMap->widthPx, d.depthMap->heightPx} : Json(nullptr)},
@@ -219,7 +180,7 @@ void printText(const Options& options, const Decided& decided, const ValidatedPa
 }
 
 int run(const Options& options) {
-  const std::optional<ValidatedParameters> parameters = parametersFor(options);
+  const std::optional<ValidatedParameters> parameters = parametersFor(options.preset, options.settings);
   if (!parameters) return kRefused;
   const Result<Decided> decided =
       options.flight.empty() ? decideOne(options, *parameters) : decideFlight(options.flight, *parameters);

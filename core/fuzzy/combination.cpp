@@ -1,6 +1,7 @@
 #include "combination.h"
 
 #include <algorithm>
+#include <array>
 
 #include "trimtab/preset/curve.h"
 
@@ -22,30 +23,39 @@ double weightedOutput(std::span<const FiringRule> rules) {
   return weights > 0 ? std::clamp(outputs / weights, low, high) : 0;
 }
 
-std::array<double, 4> ruleFiring(double altitude, double pitch) {
-  return {std::min(altitude, pitch), std::min(altitude, 1 - pitch), std::min(1 - altitude, pitch),
-          std::min(1 - altitude, 1 - pitch)};
+RuleFiring ruleFiring(const RuleList& rules, double altitude, double pitch) {
+  // By condition: any, the membership, its complement.
+  const double altitudes[] = {1, altitude, 1 - altitude}, pitches[] = {1, pitch, 1 - pitch};
+  RuleFiring firing;
+  for (const FuzzyRule& rule : rules.span())
+    firing.mu[firing.count++] = std::min(altitudes[static_cast<std::size_t>(rule.altitude)],
+                                         pitches[static_cast<std::size_t>(rule.pitch)]);
+  return firing;
 }
 
-TotalMembership combine(Combination combination, const RuleParameters& rules, double altitude, double pitch) {
+TotalMembership combine(Combination combination, const RuleList& rules, const RuleFiring& firing,
+                        double altitude, double pitch) {
   switch (combination) {
     case Combination::sum:
       break;
     case Combination::twice_minimum:
       return {2 * std::min(altitude, pitch)};
     case Combination::rules: {
-      const std::array<double, 4> mu = ruleFiring(altitude, pitch);
-      const std::array<FiringRule, 4> base{
-          {{rules.lowDownWeight.value(), mu[0], rules.lowDownOutput.value()},
-           {rules.lowUpWeight.value(), mu[1], rules.lowUpOutput.value()},
-           {rules.highDownWeight.value(), mu[2], rules.highDownOutput.value()},
-           {rules.highUpWeight.value(), mu[3], rules.highUpOutput.value()}}};
-      const bool anyFires =
-          std::any_of(base.begin(), base.end(), [](const FiringRule& r) { return r.weight * r.firing > 0; });
-      return {std::clamp(weightedOutput(base), 0.0, BandList::kTop), anyFires};
+      std::array<FiringRule, RuleList::kCapacity> base;
+      bool anyFires = false;
+      for (std::size_t i = 0; i < rules.size; ++i) {
+        base[i] = {rules.rule[i].weight, firing.mu[i], rules.rule[i].output};
+        anyFires = anyFires || base[i].weight * base[i].firing > 0;
+      }
+      const std::span<const FiringRule> used(base.data(), rules.size);
+      return {std::clamp(weightedOutput(used), 0.0, BandList::kTop), anyFires};
     }
   }
   return {altitude + pitch};
+}
+
+TotalMembership combine(Combination combination, const RuleList& rules, double altitude, double pitch) {
+  return combine(combination, rules, ruleFiring(rules, altitude, pitch), altitude, pitch);
 }
 
 }  // namespace trimtab

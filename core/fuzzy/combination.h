@@ -1,8 +1,8 @@
 #pragma once
 
-#include <array>
 #include <span>
 
+#include "trimtab/frame/rule_firing.h"
 #include "trimtab/preset/parameters.h"
 
 namespace trimtab {
@@ -16,15 +16,18 @@ struct FiringRule {
 /// nothing fires. Never outside the outputs of the rules that fire.
 double weightedOutput(std::span<const FiringRule> rules);
 
-/// mu of the shipped rules low-down, low-up, high-down, high-up: the smaller of the two conditions.
-std::array<double, 4> ruleFiring(double altitudeMembership, double pitchMembership);
+/// mu of each rule: the smallest of its conditions' memberships; 1 for a rule without conditions.
+RuleFiring ruleFiring(const RuleList& rules, double altitudeMembership, double pitchMembership);
 
 struct TotalMembership {
   double total = 0;      ///< 0..BandList::kTop
   bool anyFires = true;  ///< false only for a rule base of which no rule fires
 };
 /// The two memberships, each 0..1, as one number on the scale of the bands.
-TotalMembership combine(Combination combination, const RuleParameters& rules, double altitudeMembership,
+TotalMembership combine(Combination combination, const RuleList& rules, double altitudeMembership,
                         double pitchMembership);
+/// The same, with what ruleFiring() gave for the same memberships.
+TotalMembership combine(Combination combination, const RuleList& rules, const RuleFiring& firing,
+                        double altitudeMembership, double pitchMembership);
 
 }  // namespace trimtab

@@ -107,7 +107,7 @@ class PropertyList {
 void addProperty(PropertyList& list, const ParameterRow& row, const ParameterValue& value) {
   const std::size_t dot = row.key.rfind('.');
   const std::string name(row.key.substr(dot + 1));
-  if (row.kind == Kind::curve || row.kind == Kind::bands)
+  if (row.kind == Kind::curve || row.kind == Kind::bands || row.kind == Kind::rules)
     list.enter(row.key);
   else
     list.enter(row.key.substr(0, dot));
@@ -128,6 +128,14 @@ void addProperty(PropertyList& list, const ParameterRow& row, const ParameterVal
                      {{"low", "double", numberText(b.low)},
                       {"width", "int", std::to_string(b.widthPx)},
                       {"height", "int", std::to_string(b.heightPx)}});
+      return;
+    case Kind::rules:
+      for (std::size_t n = 0; const FuzzyRule& r : std::get<RuleList>(value).span())
+        list.indexed("rule", n++,
+                     {{"altitude", "string", std::string(nameOf(r.altitude))},
+                      {"pitch", "string", std::string(nameOf(r.pitch))},
+                      {"weight", "double", numberText(r.weight)},
+                      {"output", "double", numberText(r.output)}});
       return;
   }
 }
@@ -167,8 +175,8 @@ std::string oneLine(std::string_view text) {
 
 std::string asIni(const TuningParameters& parameters, const std::string& name, const Provenance& provenance) {
   std::string text =
-      "; Curves are x:y points, bands low:WIDTHxHEIGHT; units are in the keys. In texts \\n, \\r, \\t and "
-      "\\\\ are escapes.\n"
+      "; Curves are x:y points, bands low:WIDTHxHEIGHT, rules conditions*weight=output; units are in the "
+      "keys. In texts \\n, \\r, \\t and \\\\ are escapes.\n"
       "[export]\nformat = trimtab-export\nversion = " +
       std::to_string(kPresetVersion) + "\nname = " + oneLine(name) + "\n\n[provenance]\n";
   for (const auto& [key, value] : fieldsOf(provenance))

@@ -129,89 +129,19 @@ inline constexpr std::array kFuzzyRows{
          .hard = {16, 8192},
          .usual = {64, 2048},
          .step = 16}),
-    row<&TuningParameters::rules, &RuleParameters::lowDownWeight>(
-        {.key = "fuzzy.rules.low_down_weight",
-         .label = "Weight, low and nose down",
-         .help = "Weight of the rule for low flight with the nose down; 0 leaves the rule out. Used by the "
-                 "rule base.",
+    row<&TuningParameters::scheme, &SchemeParameters::rules>(
+        {.key = "fuzzy.rules",
+         .label = "Rule base",
+         .help =
+             "Rules of Eq. 2: conditions, weight and output. Low is the altitude membership and high its "
+             "complement, nose down the pitch membership and nose up its complement. A rule fires with the "
+             "smaller of its conditions; the total is the average of the outputs, weighted by firing times "
+             "weight, and 0 where nothing fires. A weight of 0 leaves its rule out. Used by the combination "
+             "of that name.",
          .source = "A, B: Eq. 2",
          .hard = {0, 1000},
          .usual = {0, 10},
          .step = 0.1,
-         .decimals = 2,
-         .tier = Tier::advanced}),
-    row<&TuningParameters::rules, &RuleParameters::lowUpWeight>(
-        {.key = "fuzzy.rules.low_up_weight",
-         .label = "Weight, low and nose up",
-         .help = "Weight of the rule for low flight with the nose up; 0 leaves the rule out. Used by the "
-                 "rule base.",
-         .source = "A, B: Eq. 2",
-         .hard = {0, 1000},
-         .usual = {0, 10},
-         .step = 0.1,
-         .decimals = 2,
-         .tier = Tier::advanced}),
-    row<&TuningParameters::rules, &RuleParameters::highDownWeight>(
-        {.key = "fuzzy.rules.high_down_weight",
-         .label = "Weight, high and nose down",
-         .help = "Weight of the rule for high flight with the nose down; 0 leaves the rule out. Used by the "
-                 "rule base.",
-         .source = "A, B: Eq. 2",
-         .hard = {0, 1000},
-         .usual = {0, 10},
-         .step = 0.1,
-         .decimals = 2,
-         .tier = Tier::advanced}),
-    row<&TuningParameters::rules, &RuleParameters::highUpWeight>(
-        {.key = "fuzzy.rules.high_up_weight",
-         .label = "Weight, high and nose up",
-         .help = "Weight of the rule for high flight with the nose up; 0 leaves the rule out. Used by the "
-                 "rule base.",
-         .source = "A, B: Eq. 2",
-         .hard = {0, 1000},
-         .usual = {0, 10},
-         .step = 0.1,
-         .decimals = 2,
-         .tier = Tier::advanced}),
-    row<&TuningParameters::rules, &RuleParameters::lowDownOutput>(
-        {.key = "fuzzy.rules.low_down_output",
-         .label = "Output, low and nose down",
-         .help = "Total that the rule for low flight with the nose down asks for, on the bands' scale.",
-         .source = "A, B: Eq. 2",
-         .hard = {0, BandList::kTop},
-         .usual = {0, BandList::kTop},
-         .step = 0.05,
-         .decimals = 2,
-         .tier = Tier::advanced}),
-    row<&TuningParameters::rules, &RuleParameters::lowUpOutput>(
-        {.key = "fuzzy.rules.low_up_output",
-         .label = "Output, low and nose up",
-         .help = "Total that the rule for low flight with the nose up asks for, on the bands' scale.",
-         .source = "A, B: Eq. 2",
-         .hard = {0, BandList::kTop},
-         .usual = {0, BandList::kTop},
-         .step = 0.05,
-         .decimals = 2,
-         .tier = Tier::advanced}),
-    row<&TuningParameters::rules, &RuleParameters::highDownOutput>(
-        {.key = "fuzzy.rules.high_down_output",
-         .label = "Output, high and nose down",
-         .help = "Total that the rule for high flight with the nose down asks for, on the bands' scale.",
-         .source = "A, B: Eq. 2",
-         .hard = {0, BandList::kTop},
-         .usual = {0, BandList::kTop},
-         .step = 0.05,
-         .decimals = 2,
-         .tier = Tier::advanced}),
-    row<&TuningParameters::rules, &RuleParameters::highUpOutput>(
-        {.key = "fuzzy.rules.high_up_output",
-         .label = "Output, high and nose up",
-         .help = "Total that the rule for high flight with the nose up asks for, on the bands' scale.",
-         .source = "A, B: Eq. 2",
-         .hard = {0, BandList::kTop},
-         .usual = {0, BandList::kTop},
-         .step = 0.05,
-         .decimals = 2,
-         .tier = Tier::advanced})};
+         .decimals = 2})};
 
 }  // namespace trimtab::table

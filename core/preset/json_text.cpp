@@ -146,6 +146,62 @@ Result<ParameterValue> readBands(std::string_view value) {
   return ParameterValue{bands};
 }
 
+/// The condition of that name; none where `text` is no such string.
+template <class Condition>
+std::optional<Condition> readCondition(const std::array<std::string_view, 3>& names, std::string_view text) {
+  const auto name = readString(text);
+  const auto at = name ? std::find(names.begin(), names.end(), *name) : names.end();
+  if (at == names.end()) return std::nullopt;
+  return static_cast<Condition>(at - names.begin());
+}
+
+/// A condition that is left out is `any`, so that files stay readable when a version adds an input.
+std::optional<FuzzyRule> readRuleObject(std::string_view value) {
+  FuzzyRule rule;
+  std::vector<std::string> seen;
+  for (const Member& member : members(value, value)) {
+    if (std::find(seen.begin(), seen.end(), member.key) != seen.end()) return std::nullopt;
+    seen.push_back(member.key);
+    if (member.key == "altitude") {
+      const auto condition = readCondition<AltitudeCondition>(kAltitudeConditions, member.value);
+      if (!condition) return std::nullopt;
+      rule.altitude = *condition;
+    } else if (member.key == "pitch") {
+      const auto condition = readCondition<PitchCondition>(kPitchConditions, member.value);
+      if (!condition) return std::nullopt;
+      rule.pitch = *condition;
+    } else if (member.key == "weight" || member.key == "output") {
+      const auto number = readFinite(member.value);
+      if (!number) return std::nullopt;
+      (member.key == "weight" ? rule.weight : rule.output) = *number;
+    } else {
+      return std::nullopt;
+    }
+  }
+  const auto has = [&seen](const char* key) {
+    return std::find(seen.begin(), seen.end(), key) != seen.end();
+  };
+  if (!has("weight") || !has("output")) return std::nullopt;
+  return rule;
+}
+
+Result<ParameterValue> readRules(std::string_view value) {
+  const std::string expected =
+      "a rule {\"altitude\": \"low\", \"high\" or \"any\", \"pitch\": \"down\", "
+      "\"up\" or \"any\", \"weight\": number, \"output\": number}";
+  if (value.empty() || value.front() != '[') return unlike("a list of rules", value);
+  const auto parts = elements(value);
+  if (parts.size() > RuleList::kCapacity)
+    return unlike("at most " + std::to_string(RuleList::kCapacity) + " rules", std::to_string(parts.size()));
+  RuleList rules;
+  for (const std::string_view part : parts) {
+    const auto rule = isObject(part) ? readRuleObject(part) : std::nullopt;
+    if (!rule) return unlike(expected + " as rule " + std::to_string(rules.size + 1), part);
+    rules.rule[rules.size++] = *rule;
+  }
+  return ParameterValue{rules};
+}
+
 std::string choiceNames(const ParameterRow& row) {
   std::string names;
   for (const ChoiceOption& option : row.choices)
@@ -213,6 +269,9 @@ std::string valueText(const ParameterRow& row, const ParameterValue& value) {
   const auto append = [&text](const std::string& tuple) {
     text += (text.empty() ? "[" : ", [") + tuple + "]";
   };
+  const auto member = [](const char* key, std::string_view name) {
+    return std::string("\"") + key + "\": \"" + std::string(name) + "\", ";
+  };
   switch (row.kind) {
     case Kind::scalar:
     case Kind::flag:
@@ -226,6 +285,12 @@ std::string valueText(const ParameterRow& row, const ParameterValue& value) {
     case Kind::bands:
       for (const Band& b : std::get<BandList>(value).span())
         append(numberText(b.low) + ", " + std::to_string(b.widthPx) + ", " + std::to_string(b.heightPx));
+      break;
+    case Kind::rules:
+      for (const FuzzyRule& r : std::get<RuleList>(value).span())
+        text += (text.empty() ? "{" : ", {") + member("altitude", nameOf(r.altitude)) +
+                member("pitch", nameOf(r.pitch)) + "\"weight\": " + numberText(r.weight) +
+                ", \"output\": " + numberText(r.output) + "}";
       break;
   }
   return "[" + text + "]";
@@ -251,6 +316,8 @@ Result<ParameterValue> readValue(const ParameterRow& row, std::string_view value
       return readCurve(value);
     case Kind::bands:
       return readBands(value);
+    case Kind::rules:
+      return readRules(value);
   }
   return unlike("a value", value);
 }

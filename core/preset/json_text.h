@@ -31,7 +31,7 @@ std::optional<std::string> readString(std::string_view value);
 std::string stringText(std::string_view text);
 
 /// The value of a parameter as JSON text, on one line: number, true, "choice", [[x, y], ...], [[low, width,
-/// height], ...].
+/// height], ...], [{"altitude": "low", ...}, ...].
 std::string valueText(const ParameterRow& row, const ParameterValue& value);
 /// Its inverse, from text that passed checkSyntax. The finding has neither place nor key.
 Result<ParameterValue> readValue(const ParameterRow& row, std::string_view value);

@@ -1,5 +1,9 @@
 #include "trimtab/preset/migration.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "trimtab/preset/json_text.h"
 #include "trimtab/preset/number.h"
 
 namespace trimtab {
@@ -14,7 +18,7 @@ void rename(RawParameter& parameter, std::string_view key, Findings& notes) {
 
 /// Version 1 is the draft of the format: other names, and hysteresis in degrees of pitch, of which the
 /// published line makes 1/60 of membership each. It was never released; its kept file keeps this path in use.
-void fromVersion1(std::vector<RawParameter>& parameters, Findings& notes) {
+void fromVersion1(const TuningParameters&, std::vector<RawParameter>& parameters, Findings& notes) {
   for (RawParameter& p : parameters) {
     if (p.key == "culling.method") {
       rename(p, "culling.case", notes);
@@ -27,15 +31,73 @@ void fromVersion1(std::vector<RawParameter>& parameters, Findings& notes) {
   }
 }
 
+/// What a key of version 2 said: weight or output of the rule with these two conditions.
+struct FormerRule {
+  std::string_view prefix;
+  AltitudeCondition altitude;
+  PitchCondition pitch;
+};
+constexpr FormerRule kFormerRules[] = {
+    {"fuzzy.rules.low_down_", AltitudeCondition::low, PitchCondition::nose_down},
+    {"fuzzy.rules.low_up_", AltitudeCondition::low, PitchCondition::nose_up},
+    {"fuzzy.rules.high_down_", AltitudeCondition::high, PitchCondition::nose_down},
+    {"fuzzy.rules.high_up_", AltitudeCondition::high, PitchCondition::nose_up}};
+
+/// The rule with these conditions; added with what version 2 shipped where the base has lost it. Null where
+/// the list is full.
+FuzzyRule* ruleLike(const FormerRule& former, RuleList& rules) {
+  const auto is = [&former](const FuzzyRule& rule) {
+    return rule.altitude == former.altitude && rule.pitch == former.pitch;
+  };
+  const auto end = rules.rule.begin() + static_cast<std::ptrdiff_t>(rules.size);
+  if (const auto at = std::find_if(rules.rule.begin(), end, is); at != end) return &*at;
+  if (rules.size == RuleList::kCapacity) return nullptr;
+  return &(rules.rule[rules.size++] = *std::find_if(kRuleBase.rule.begin(), kRuleBase.rule.end(), is));
+}
+
+/// Version 2 had a fixed rule base: a key for the weight and one for the output of each of four rules. What a
+/// file leaves out, its base decides.
+void fromVersion2(const TuningParameters& base, std::vector<RawParameter>& parameters, Findings& notes) {
+  RuleList rules = base.scheme.rules;
+  std::vector<RawParameter> kept;
+  std::string where;
+  for (RawParameter& p : parameters) {
+    const auto former = std::find_if(std::begin(kFormerRules), std::end(kFormerRules),
+                                     [&p](const FormerRule& f) { return p.key.starts_with(f.prefix); });
+    const bool isFormer = former != std::end(kFormerRules);
+    const std::string_view last = isFormer ? std::string_view(p.key).substr(former->prefix.size()) : "";
+    if (last != "weight" && last != "output") {
+      kept.push_back(std::move(p));
+      continue;
+    }
+    const auto number = readNumber(p.value);
+    FuzzyRule* const rule = ruleLike(*former, rules);
+    if (!number || !std::isfinite(*number) || !rule) {
+      notes.push_back({Severity::error, p.where, p.key,
+                       rule ? "a number" : "room for its rule in the base's list",
+                       rule ? p.value.substr(0, 60) : std::to_string(rules.size) + " other rules"});
+      continue;
+    }
+    (last == "weight" ? rule->weight : rule->output) = *number;
+    if (where.empty()) where = p.where;
+    notes.push_back({Severity::note, p.where, p.key, "the key fuzzy.rules",
+                     "a part of it by a former name, taken as rule " + conditionsText(*rule, " and ")});
+  }
+  if (!where.empty()) kept.push_back({"fuzzy.rules", json::valueText(*findRow("fuzzy.rules"), rules), where});
+  parameters = std::move(kept);
+}
+
 /// migrations[i] brings version i + 1 to version i + 2.
-constexpr void (*kMigrations[])(std::vector<RawParameter>&, Findings&) = {fromVersion1};
+constexpr void (*kMigrations[])(const TuningParameters&, std::vector<RawParameter>&, Findings&) = {
+    fromVersion1, fromVersion2};
 static_assert(std::size(kMigrations) == kPresetVersion - 1, "each older version needs its migration");
 
 }  // namespace
 
-void migrate(int fromVersion, std::vector<RawParameter>& parameters, Findings& notes) {
+void migrate(int fromVersion, const TuningParameters& base, std::vector<RawParameter>& parameters,
+             Findings& notes) {
   for (int version = fromVersion; version < kPresetVersion; ++version)
-    kMigrations[version - 1](parameters, notes);
+    kMigrations[version - 1](base, parameters, notes);
 }
 
 }  // namespace trimtab

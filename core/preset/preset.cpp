@@ -175,7 +175,7 @@ class Reader {
     std::vector<RawParameter> raw;
     for (const json::Member& m : json::members(all->value, text_))
       raw.push_back({m.key, std::string(m.value), json::place(where_, text_, m.at)});
-    migrate(version, raw, findings_);
+    migrate(version, preset_.parameters, raw, findings_);
     for (const RawParameter& parameter : raw) readParameter(parameter);
     for (const ParameterRow& row : parameterRows())
       if (isExport_ && !places_.contains(std::string(row.key)))

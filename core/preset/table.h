@@ -16,17 +16,17 @@ struct Range {
   double low = 0, high = 0;
 };
 
-enum class Kind { scalar, flag, choice, curve, bands };
+enum class Kind { scalar, flag, choice, curve, bands, rules };
 enum class Tier { basic, advanced };
 /// What has to be done again when the parameter changes.
 enum class Effect { next_frame, resize, host };
 
-/// A row's value whatever its kind: scalar, flag, index into the row's choices, curve, bands.
+/// A row's value whatever its kind: scalar, flag, index into the row's choices, curve, bands, rules.
 struct ChoiceIndex {
   std::size_t index = 0;
   friend constexpr bool operator==(ChoiceIndex, ChoiceIndex) = default;
 };
-using ParameterValue = std::variant<double, bool, ChoiceIndex, CurvePoints, BandList>;
+using ParameterValue = std::variant<double, bool, ChoiceIndex, CurvePoints, BandList, RuleList>;
 
 struct ChoiceOption {
   std::string_view name;   ///< as files spell it
@@ -38,7 +38,7 @@ struct ParameterRow {
   std::string_view label;   ///< a few words, no unit
   std::string_view help;    ///< what it does and what to watch; never the default or the range
   std::string_view source;  ///< document and equation or table; empty where it is ours
-  Range hard;               ///< refused outside (a curve's x; a band's width and height)
+  Range hard;               ///< refused outside (a curve's x; a band's width and height; a rule's weight)
   Range usual;              ///< a slider's travel; a warning outside
   double step = 1;
   int decimals = 0;
@@ -59,7 +59,7 @@ std::span<const ParameterRow> parameterRows();
 const ParameterRow* findRow(std::string_view key);
 
 /// A value as text: C locale, shortest form that reads back bit for bit; a choice by its name; a curve as
-/// "4000:1 5000:0.6"; bands as "0.1:320x240 0.5:400x300".
+/// "4000:1 5000:0.6"; bands as "0.1:320x240 0.5:400x300"; rules as "low&down*1=2 high*0.5=0".
 std::string toText(const ParameterRow& row, const ParameterValue& value);
 /// The inverse; findings say what was expected. A scalar may carry a unit ("4000 ft"), which is converted to
 /// the row's when both measure the same thing. Refuses what is no finite number; ranges and rules are

@@ -57,7 +57,7 @@ TEST_F(WorkbenchFiles, badFilesDroppedAreSaidAndChangeNothing) {
   const std::vector<Case> cases = {
       {"cut.json", good.substr(0, 200), "cut.json"},
       {"damaged.json", damaged, "damaged.json"},
-      {"range.json", R"({"format": "trimtab-preset", "version": 2, "parameters": {"fuzzy.hysteresis": 99}})",
+      {"range.json", R"({"format": "trimtab-preset", "version": 3, "parameters": {"fuzzy.hysteresis": 99}})",
        "range.json"},
       {"words.tif", "not an image", "words.tif"},
       {"noise.hgt", std::string(77, '\x17'), "noise.hgt"},

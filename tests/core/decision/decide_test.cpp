@@ -191,7 +191,7 @@ TEST(Decide, holdsABandByHysteresisAndSaysSo) {
 TEST(Decide, saysThatNoRuleFires) {
   TuningParameters p = kDefaults;
   p.scheme.combination = Combination::rules;
-  p.rules.lowDownWeight = Ratio{0};
+  p.scheme.rules.rule[0].weight = 0;
   const FrameDecision d = first(flying(0, -40), valid(p));
   EXPECT_EQ(d.reason, SchemeReason::no_rule_fires);
   EXPECT_EQ(d.totalMembership, 0);

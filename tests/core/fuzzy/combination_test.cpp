@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
 namespace trimtab {
 namespace {
@@ -20,8 +22,8 @@ TEST(Combination, twiceTheMinimumNeedsBoth) {
 }
 
 TEST(Combination, rulesWeighTheOutputsByWhatFires) {
-  RuleParameters rules;
-  rules.lowUpWeight = Ratio{0.7};
+  RuleList rules = kRuleBase;
+  rules.rule[1].weight = 0.7;
   // By hand, altitude 0.7998, pitch 0.445: mu 0.445, 0.555, 0.2002, 0.2002; outputs 2, 1, 0.5, 0.
   const double above = 0.445 * 2 + 0.7 * 0.555 * 1 + 0.2002 * 0.5,
                below = 0.445 + 0.7 * 0.555 + 0.2002 + 0.2002;
@@ -29,16 +31,15 @@ TEST(Combination, rulesWeighTheOutputsByWhatFires) {
 }
 
 TEST(Combination, rulesYieldTheOutputOfTheOnlyOneThatFires) {
-  const RuleParameters rules;
-  EXPECT_EQ(combine(Combination::rules, rules, 1, 1).total, rules.lowDownOutput.value());
-  EXPECT_EQ(combine(Combination::rules, rules, 1, 0).total, rules.lowUpOutput.value());
-  EXPECT_EQ(combine(Combination::rules, rules, 0, 1).total, rules.highDownOutput.value());
-  EXPECT_EQ(combine(Combination::rules, rules, 0, 0).total, rules.highUpOutput.value());
+  const double altitudes[] = {1, 1, 0, 0}, pitches[] = {1, 0, 1, 0};
+  for (std::size_t i = 0; i < kRuleBase.size; ++i)
+    EXPECT_EQ(combine(Combination::rules, kRuleBase, altitudes[i], pitches[i]).total,
+              kRuleBase.rule[i].output);
 }
 
 TEST(Combination, aRuleBaseThatDoesNotFireYieldsZeroAndSaysSo) {
-  RuleParameters rules;
-  rules.lowDownWeight = Ratio{0};
+  RuleList rules = kRuleBase;
+  rules.rule[0].weight = 0;
   const TotalMembership total = combine(Combination::rules, rules, 1, 1);
   EXPECT_EQ(total.total, 0);
   EXPECT_FALSE(total.anyFires);
@@ -75,9 +76,39 @@ TEST(WeightedOutput, ignoresARuleWhoseWeightIsNotANumber) {
   EXPECT_EQ(weightedOutput(rules), 0.5);
 }
 
+TEST(Combination, anEmptyRuleBaseYieldsZeroAndSaysSo) {
+  const TotalMembership total = combine(Combination::rules, RuleList{}, 1, 1);
+  EXPECT_EQ(total.total, 0);
+  EXPECT_FALSE(total.anyFires);
+}
+
+TEST(Combination, sixteenRulesMayShareTheirConditions) {
+  RuleList rules;
+  for (std::size_t i = 0; i < RuleList::kCapacity; ++i)
+    rules.rule[rules.size++] = {AltitudeCondition::low, PitchCondition::any, 1.0 + static_cast<double>(i),
+                                0.125 * static_cast<double>(i)};
+  // By hand: sum of (1 + i) i / 8 over sum of 1 + i is (1360 / 8) / 136.
+  EXPECT_NEAR(combine(Combination::rules, rules, 0.3, 0.9).total, 1.25, 1e-15);
+}
+
+std::vector<double> firing(const RuleList& rules, double altitude, double pitch) {
+  const RuleFiring fired = ruleFiring(rules, altitude, pitch);
+  return {fired.span().begin(), fired.span().end()};
+}
+
 TEST(RuleFiring, isTheSmallerOfTwoConditions) {
-  EXPECT_EQ(ruleFiring(0.75, 0.5), (std::array<double, 4>{0.5, 0.5, 0.25, 0.25}));
-  EXPECT_EQ(ruleFiring(1, 0), (std::array<double, 4>{0, 1, 0, 0}));
+  EXPECT_EQ(firing(kRuleBase, 0.75, 0.5), (std::vector<double>{0.5, 0.5, 0.25, 0.25}));
+  EXPECT_EQ(firing(kRuleBase, 1, 0), (std::vector<double>{0, 1, 0, 0}));
+}
+
+TEST(RuleFiring, leavesOutAConditionThatIsAny) {
+  const RuleList rules{{AltitudeCondition::low, PitchCondition::any, 1, 0},
+                       {AltitudeCondition::high, PitchCondition::any, 1, 0},
+                       {AltitudeCondition::any, PitchCondition::nose_down, 1, 0},
+                       {AltitudeCondition::any, PitchCondition::nose_up, 1, 0},
+                       {AltitudeCondition::any, PitchCondition::any, 1, 0}};
+  EXPECT_EQ(firing(rules, 0.75, 0.125), (std::vector<double>{0.75, 0.25, 0.125, 0.875, 1}));
+  EXPECT_TRUE(firing(RuleList{}, 1, 1).empty());
 }
 
 }  // namespace

@@ -15,7 +15,6 @@ namespace {
 
 const AltitudeParameters kAltitude;
 const PitchParameters kPitch;
-const RuleParameters kRules;
 
 std::string exact(double value) {
   char text[40];
@@ -40,37 +39,46 @@ std::string output(const char* name, const char* defuzzifier, const std::string&
          defuzzifier + " TakagiSugeno\n  default: 0\n  lock-previous: false\n" + terms;
 }
 
+/// A condition that always holds.
+constexpr const char* kAny = "  term: any Rectangle -inf inf\n";
+
 std::string inputs(const AltitudeParameters& altitude, const PitchParameters& pitch) {
   return "Engine: trimtab\nInputVariable: altitude\n  enabled: true\n  range: -100000 100000\n  lock-range: "
          "false\n" +
-         discrete("low", altitude.curve, false) + discrete("high", altitude.curve, true) +
+         discrete("low", altitude.curve, false) + discrete("high", altitude.curve, true) + kAny +
          "InputVariable: pitch\n  enabled: true\n  range: -90 90\n  lock-range: false\n" +
-         discrete("down", pitch.curve, false) + discrete("up", pitch.curve, true);
+         discrete("down", pitch.curve, false) + discrete("up", pitch.curve, true) + kAny;
 }
 
-std::string equationOutput(const RuleParameters& r) {
-  return output("rules", "WeightedAverage",
-                constant("lowDown", r.lowDownOutput.value()) + constant("lowUp", r.lowUpOutput.value()) +
-                    constant("highDown", r.highDownOutput.value()) +
-                    constant("highUp", r.highUpOutput.value()));
+std::string outputTerm(std::size_t index) {
+  return "u" + std::to_string(index);
+}
+
+std::string equationOutput(const RuleList& rules) {
+  std::string terms;
+  for (std::size_t i = 0; i < rules.size; ++i) terms += constant(outputTerm(i).c_str(), rules.rule[i].output);
+  return output("rules", "WeightedAverage", terms);
 }
 
 constexpr const char* kRuleBlock =
     "RuleBlock: base\n  enabled: true\n  conjunction: Minimum\n  disjunction: none\n"
     "  implication: AlgebraicProduct\n  activation: General\n";
 
-std::string equationRules(const RuleParameters& r) {
-  const auto rule = [](const char* altitude, const char* pitch, const char* term, Ratio weight) {
-    return std::string("  rule: if altitude is ") + altitude + " and pitch is " + pitch + " then rules is " +
-           term + " with " + exact(weight.value()) + '\n';
-  };
-  return rule("low", "down", "lowDown", r.lowDownWeight) + rule("low", "up", "lowUp", r.lowUpWeight) +
-         rule("high", "down", "highDown", r.highDownWeight) + rule("high", "up", "highUp", r.highUpWeight);
+std::string equationRules(const RuleList& rules) {
+  static constexpr const char *altitudeTerms[] = {"any", "low", "high"},
+                              *pitchTerms[] = {"any", "down", "up"};
+  std::string text;
+  for (std::size_t i = 0; i < rules.size; ++i) {
+    const FuzzyRule& r = rules.rule[i];
+    text += std::string("  rule: if altitude is ") + altitudeTerms[static_cast<std::size_t>(r.altitude)] +
+            " and pitch is " + pitchTerms[static_cast<std::size_t>(r.pitch)] + " then rules is " +
+            outputTerm(i) + " with " + exact(r.weight) + '\n';
+  }
+  return text;
 }
 
 /// The same decision as ours, in the oracle's language: the sum by WeightedSum, Eq. (2) by WeightedAverage.
-std::string engine(const AltitudeParameters& altitude, const PitchParameters& pitch,
-                   const RuleParameters& rules) {
+std::string engine(const AltitudeParameters& altitude, const PitchParameters& pitch, const RuleList& rules) {
   return inputs(altitude, pitch) + output("altitudeMembership", "WeightedSum", constant("one", 1)) +
          output("pitchMembership", "WeightedSum", constant("one", 1)) +
          output("sum", "WeightedSum", constant("one", 1)) +
@@ -118,7 +126,7 @@ Grid gridFor(const AltitudeParameters& altitude, const PitchParameters& pitch, i
 }
 
 std::vector<FuzzyResult> byFuzzylite(const AltitudeParameters& altitude, const PitchParameters& pitch,
-                                     const RuleParameters& rules, const Grid& grid, std::string& error) {
+                                     const RuleList& rules, const Grid& grid, std::string& error) {
   const ScratchDir dir;
   std::istringstream out(evaluate(dir, engine(altitude, pitch, rules), grid, error));
   std::string line;
@@ -145,8 +153,8 @@ std::vector<FuzzyResult> byFuzzylite(const AltitudeParameters& altitude, const P
   return results;
 }
 
-FuzzyResult byUs(const AltitudeParameters& altitude, const PitchParameters& pitch,
-                 const RuleParameters& rules, double altitudeFt, double pitchDeg) {
+FuzzyResult byUs(const AltitudeParameters& altitude, const PitchParameters& pitch, const RuleList& rules,
+                 double altitudeFt, double pitchDeg) {
   const double mu = altitudeMembership(altitude, altitudeFt), nu = pitchMembership(pitch, pitchDeg);
   return {mu, nu, combine(Combination::sum, rules, mu, nu).total,
           combine(Combination::twice_minimum, rules, mu, nu).total,
@@ -157,8 +165,8 @@ std::optional<double> fuzzyliteNanoseconds(const Grid& grid, int runs) {
   const ScratchDir dir;
   std::string error;
   // Its benchmark reads the outputs that it expects from the same file.
-  evaluate(dir, inputs(kAltitude, kPitch) + equationOutput(kRules) + kRuleBlock + equationRules(kRules), grid,
-           error);
+  evaluate(dir, inputs(kAltitude, kPitch) + equationOutput(kRuleBase) + kRuleBlock + equationRules(kRuleBase),
+           grid, error);
   if (!error.empty()) return std::nullopt;
   const Ran ran =
       run("cd " + dir.path().string() + " && fuzzylite benchmark engine.fll out.fld " + std::to_string(runs));

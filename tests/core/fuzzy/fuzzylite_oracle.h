@@ -25,10 +25,10 @@ using FuzzyResult = std::array<double, 5>;
 /// By the oracle, altitude by altitude; fewer than the grid has where the program fails, and then `error` is
 /// set.
 std::vector<FuzzyResult> byFuzzylite(const AltitudeParameters& altitude, const PitchParameters& pitch,
-                                     const RuleParameters& rules, const Grid& grid, std::string& error);
+                                     const RuleList& rules, const Grid& grid, std::string& error);
 /// By us, in the same order.
-FuzzyResult byUs(const AltitudeParameters& altitude, const PitchParameters& pitch,
-                 const RuleParameters& rules, double altitudeFt, double pitchDeg);
+FuzzyResult byUs(const AltitudeParameters& altitude, const PitchParameters& pitch, const RuleList& rules,
+                 double altitudeFt, double pitchDeg);
 
 /// Nanoseconds that fuzzylite says it takes to evaluate the four rules of Eq. (2) once: its own benchmark
 /// over the grid, the least of `runs`.

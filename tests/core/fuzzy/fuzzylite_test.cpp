@@ -18,8 +18,8 @@ constexpr double kAgreement = 1e-9;
 const AltitudeParameters kAltitude;
 const PitchParameters kPitch;
 
-void expectAgreement(const AltitudeParameters& altitude, const PitchParameters& pitch,
-                     const RuleParameters& rules, const Grid& grid) {
+void expectAgreement(const AltitudeParameters& altitude, const PitchParameters& pitch, const RuleList& rules,
+                     const Grid& grid) {
   std::string error;
   const std::vector<FuzzyResult> theirs = test::byFuzzylite(altitude, pitch, rules, grid, error);
   ASSERT_EQ(error, "");
@@ -50,7 +50,7 @@ TEST(FuzzyArithmetic, agreesWithFuzzyliteOverTheDefaults) {
   NEEDS_FUZZYLITE();
   const Grid grid = test::gridFor(kAltitude, kPitch, 401, 251);
   ASSERT_GE(grid.size(), 100000u);
-  expectAgreement(kAltitude, kPitch, {}, grid);
+  expectAgreement(kAltitude, kPitch, kRuleBase, grid);
 }
 
 TEST(FuzzyArithmetic, agreesWithFuzzyliteOverEditedCurvesAndRules) {
@@ -66,11 +66,12 @@ TEST(FuzzyArithmetic, agreesWithFuzzyliteOverEditedCurvesAndRules) {
     pitch.curve.size = 0;
     for (int i = 0; i < 5; ++i)
       pitch.curve.point[pitch.curve.size++] = {-40.0 + 20 * i + 15 * unit(random), unit(random)};
-    RuleParameters rules;
-    rules.lowDownWeight = Ratio{unit(random)};
-    rules.highUpWeight = Ratio{3 * unit(random)};
-    rules.lowUpOutput = Membership{2 * unit(random)};
-    rules.highDownOutput = Membership{2 * unit(random)};
+    // Each pair of conditions, one of them twice.
+    RuleList rules;
+    for (int i = 0; i < 10; ++i)
+      rules.rule[rules.size++] = {static_cast<AltitudeCondition>(i % 9 / 3),
+                                  static_cast<PitchCondition>(i % 3), i == 4 ? 0 : 3 * unit(random),
+                                  2 * unit(random)};
     expectAgreement(altitude, pitch, rules, test::gridFor(altitude, pitch, 101, 71));
   }
 }

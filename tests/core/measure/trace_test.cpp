@@ -81,7 +81,8 @@ TraceRow anyRow(std::mt19937_64& random) {
   for (double* value :
        {&d.altitudeFt, &d.pitchDeg, &d.altitudeMembership, &d.pitchMembership, &d.totalMembership})
     *value = number();
-  for (double& firing : d.ruleFiring) firing = number();
+  d.ruleFiring.count = random() % (RuleList::kCapacity + 1);
+  for (std::size_t i = 0; i < d.ruleFiring.count; ++i) d.ruleFiring.mu[i] = number();
   d.scheme = random() % 2 ? Scheme::dynamic : Scheme::frustum;
   d.band = static_cast<int>(random() % 17) - 1;
   if (random() % 2)
@@ -221,6 +222,36 @@ std::string without(const std::string& text, bool (*drop)(std::string_view)) {
     left += '\n';
   }
   return left;
+}
+
+TEST(Trace, readsTheFourRulesOfOlderTraces) {
+  TraceRow row;
+  row.frame = TraceFrame{};  // so that no line ends in an empty cell
+  std::string text = traceHeader() + '\n';
+  appendTraceRow(text, row);
+  const std::string older = without(text, [](std::string_view name) { return name == "rule_firing"; });
+  const std::size_t line = older.find('\n');
+  const Result<std::vector<TraceRow>> read =
+      parseTrace("rule_low_down,rule_low_up,rule_high_down,rule_high_up," + older.substr(0, line + 1) +
+                     "0.5,0.25,1,0," + older.substr(line + 1),
+                 "t.csv");
+  ASSERT_TRUE(read.ok()) << toString(read.findings());
+  const RuleFiring& firing = read->front().decision.ruleFiring;
+  EXPECT_EQ(std::vector<double>(firing.span().begin(), firing.span().end()),
+            (std::vector<double>{0.5, 0.25, 1, 0}));
+}
+
+TEST(Trace, refusesMoreFiringsThanARuleBaseHolds) {
+  TraceRow row;
+  row.decision.ruleFiring.count = RuleList::kCapacity;
+  std::string text = traceHeader() + '\n';
+  appendTraceRow(text, row);
+  std::string all = "0";
+  for (std::size_t i = 1; i < RuleList::kCapacity; ++i) all += ";0";
+  ASSERT_TRUE(parseTrace(text, "t.csv").ok());
+  text.replace(text.find(all), all.size(), all + ";0");
+  EXPECT_EQ(toString(parseTrace(text, "t.csv").findings()),
+            "t.csv:2: rule_firing: expected up to 16 numbers with ; between, found \"" + all + ";0\"");
 }
 
 TEST(Trace, readsTracesOfBeforeHeadMotionWithItsDefaults) {

@@ -171,12 +171,12 @@ TEST(Validation, asksTheMaximumOnlyOfEquations) {
 
 TEST(Validation, needsOneRuleThatCounts) {
   const auto none = [](TuningParameters& p) {
-    p.rules.lowDownWeight = p.rules.lowUpWeight = p.rules.highDownWeight = p.rules.highUpWeight = Ratio{0};
+    for (FuzzyRule& rule : p.scheme.rules.rule) rule.weight = 0;
   };
   EXPECT_EQ(findingsAfter(none).size(), 1u);
   EXPECT_TRUE(findingsAfter([&](auto& p) {
                 none(p);
-                p.rules.highUpWeight = Ratio{0.001};
+                p.scheme.rules.rule[3].weight = 0.001;
               }).empty());
 }
 
