@@ -15,6 +15,7 @@ void addPreset(CLI::App& app, int& exitCode);
 void addDecide(CLI::App& app, int& exitCode);
 void addTerrain(CLI::App& app, int& exitCode);
 void addFeed(CLI::App& app, int& exitCode);
+void addExperiment(CLI::App& app, int& exitCode);
 
 /// Findings on standard error, one a line, with their severity.
 void report(const Findings& findings);

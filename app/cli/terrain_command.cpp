@@ -1,47 +1,15 @@
-#include <atomic>
-#include <chrono>
-#include <csignal>
 #include <iomanip>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "progress.h"
 #include "trimtab/terrain/database.h"
 
 namespace trimtab::cli {
 
 namespace {
-
-std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-/// SIGINT asks the work to stop instead of ending the program, so that nothing half-made is left.
-class Interruptible {
- public:
-  Interruptible() : before_(std::signal(SIGINT, [](int) { interrupted = true; })) { interrupted = false; }
-  ~Interruptible() { std::signal(SIGINT, before_); }
-  Interruptible(const Interruptible&) = delete;
-  Interruptible& operator=(const Interruptible&) = delete;
-
- private:
-  void (*before_)(int);
-};
-
-/// Progress as lines on standard error, at most a few a second.
-terrain::Progress progressLines() {
-  using Clock = std::chrono::steady_clock;
-  return
-      [last = Clock::time_point{}, said = std::string()](double fraction, const std::string& what) mutable {
-        const Clock::time_point now = Clock::now();
-        if (what != said || now - last > std::chrono::milliseconds(500)) {
-          last = now;
-          said = what;
-          std::cerr << std::setw(3) << static_cast<int>(fraction * 100) << " % " << what << '\n';
-        }
-        return !interrupted;
-      };
-}
 
 nlohmann::ordered_json toJson(const terrain::Database& database) {
   const terrain::TerrainInfo& i = database.info();

@@ -7,19 +7,15 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QScreen>
-#include <QScrollArea>
 #include <QSettings>
 #include <QStatusBar>
-#include <QUndoView>
 #include <QVBoxLayout>
 
+#include "experiments_dock.h"
 #include "flight_dock.h"
 #include "host_dock.h"
 #include "notice_bar.h"
 #include "trimtab/views/bands_editor.h"
-#include "trimtab/views/decision_panel.h"
-#include "trimtab/views/membership_editor.h"
-#include "trimtab/views/parameter_table.h"
 #include "trimtab/views/plots_panel.h"
 #include "trimtab/views/time_plot.h"
 
@@ -27,17 +23,8 @@ namespace trimtab::workbench {
 namespace {
 
 /// Raised when docks come or go, so that an old layout is not forced on new docks.
-constexpr int kLayoutVersion = 1;
+constexpr int kLayoutVersion = 2;
 const QString kSpanKey = QStringLiteral("plots/span_s");
-
-/// Editors stacked in one column would ask for more height than a small screen has.
-QScrollArea* scrollable(QWidget* content) {
-  auto* area = new QScrollArea;
-  area->setFrameShape(QFrame::NoFrame);
-  area->setWidgetResizable(true);
-  area->setWidget(content);
-  return area;
-}
 
 }  // namespace
 
@@ -81,70 +68,6 @@ MainWindow::~MainWindow() {
   stopTrace();
   qDeleteAll(findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly));
   delete takeCentralWidget();
-}
-
-QDockWidget* MainWindow::addDock(const QString& name, const QString& title, QWidget* content,
-                                 Qt::DockWidgetArea area) {
-  auto* dock = new QDockWidget(title, this);
-  dock->setObjectName(name);
-  dock->setWidget(area == Qt::RightDockWidgetArea ? scrollable(content) : content);
-  addDockWidget(area, dock);
-  return dock;
-}
-
-QDockWidget* MainWindow::dock(const QString& name) const {
-  return findChild<QDockWidget*>(name);
-}
-
-void MainWindow::makeDocks() {
-  memberships_ = new views::MembershipEditor(draft_);
-  bands_ = new views::BandsEditor(draft_);
-  decision_ = new views::DecisionPanel(draft_);
-  plots_ = new views::PlotsPanel(draft_);
-  parameters_ = new views::ParameterTable(draft_);
-  hostDock_ = new HostDock(feed_, draft_);
-  flightDock_ = new FlightDock(feed_);
-  messages_ = new MessagePanel;
-  auto* history = new QUndoView(&draft_.undoStack());
-  history->setEmptyLabel(tr("as opened"));
-  history->setAccessibleName(tr("History of edits"));
-
-  addDock(QStringLiteral("memberships"), tr("Memberships"), memberships_, Qt::RightDockWidgetArea);
-  addDock(QStringLiteral("depth_map"), tr("Depth map"), bands_, Qt::RightDockWidgetArea);
-  addDock(QStringLiteral("preset"), tr("Preset"), parameters_, Qt::RightDockWidgetArea);
-  addDock(QStringLiteral("history"), tr("History"), history, Qt::RightDockWidgetArea);
-  addDock(QStringLiteral("decision"), tr("Decision"), decision_, Qt::RightDockWidgetArea);
-  addDock(QStringLiteral("host"), tr("Host"), hostDock_, Qt::RightDockWidgetArea);
-  addDock(QStringLiteral("flight"), tr("Flight"), flightDock_, Qt::RightDockWidgetArea);
-  addDock(QStringLiteral("plots"), tr("Plots"), plots_, Qt::BottomDockWidgetArea);
-  addDock(QStringLiteral("messages"), tr("Messages"), messages_, Qt::BottomDockWidgetArea);
-  connect(dock(QStringLiteral("depth_map")), &QDockWidget::visibilityChanged, viewport_,
-          &Viewport::setDepthMapWanted);
-}
-
-/// Edits on the right, what they do below them, history of a run at the foot.
-void MainWindow::arrangeDocks() {
-  const auto at = [this](const char* name) { return dock(QLatin1String(name)); };
-  for (QDockWidget* each : findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
-    each->setFloating(false);
-    each->show();
-  }
-  setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
-  addDockWidget(Qt::RightDockWidgetArea, at("memberships"));
-  splitDockWidget(at("memberships"), at("decision"), Qt::Vertical);
-  tabifyDockWidget(at("memberships"), at("depth_map"));
-  tabifyDockWidget(at("depth_map"), at("preset"));
-  tabifyDockWidget(at("preset"), at("history"));
-  tabifyDockWidget(at("decision"), at("host"));
-  tabifyDockWidget(at("host"), at("flight"));
-  addDockWidget(Qt::BottomDockWidgetArea, at("plots"));
-  tabifyDockWidget(at("plots"), at("messages"));
-  at("memberships")->raise();
-  at("decision")->raise();
-  at("plots")->raise();
-  resizeDocks({at("memberships")}, {500}, Qt::Horizontal);
-  resizeDocks({at("memberships"), at("decision")}, {560, 400}, Qt::Vertical);
-  resizeDocks({at("plots")}, {290}, Qt::Vertical);
 }
 
 void MainWindow::resetLayout() {
@@ -218,6 +141,7 @@ void MainWindow::connectParts() {
   };
   connect(hostDock_, &HostDock::refused, this, refused);
   connect(flightDock_, &FlightDock::refused, this, refused);
+  connect(experiments_, &ExperimentsDock::refused, this, refused);
   connect(flightDock_, &FlightDock::openRequested, this, &MainWindow::askOpenFlight);
 
   const auto showJob = [this](bool on) {

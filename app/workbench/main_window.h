@@ -3,9 +3,11 @@
 
 #include <QElapsedTimer>
 #include <QMainWindow>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "document.h"
 #include "feed.h"
@@ -28,14 +30,13 @@ class QPushButton;
 
 namespace trimtab::views {
 class BandsEditor;
-class DecisionPanel;
-class MembershipEditor;
-class ParameterTable;
 class PlotsPanel;
 }  // namespace trimtab::views
 
 namespace trimtab::workbench {
 
+class ExperimentsDock;
+struct ExperimentInputs;
 class FlightDock;
 class HostDock;
 class NoticeBar;
@@ -75,6 +76,7 @@ class MainWindow : public QMainWindow {
   TerrainJob& terrainJob() { return terrainJob_; }
   HostDock& hostDock() { return *hostDock_; }
   FlightDock& flightDock() { return *flightDock_; }
+  ExperimentsDock& experiments() { return *experiments_; }
   NoticeBar& notices() { return *notices_; }
   bool hasTerrain() const { return terrain_ != nullptr; }
   QDockWidget* dock(const QString& name) const;
@@ -87,11 +89,20 @@ class MainWindow : public QMainWindow {
 
  private:
   // main_window.cpp: what it is made of
-  void makeDocks();
-  void arrangeDocks();
   void makeStatusBar();
   void connectParts();
-  QDockWidget* addDock(const QString& name, const QString& title, QWidget* content, Qt::DockWidgetArea area);
+  // window_docks.cpp
+  /// Order of the places a dock can stand at.
+  enum class DockPlace { edit, effect, foot };
+  struct Dock {
+    QDockWidget* widget;
+    DockPlace place;
+  };
+  /// A panel with `showFrame` is told every frame.
+  template <class Panel>
+  Panel* addDock(const char* name, const QString& title, DockPlace place, Panel* content);
+  void makeDocks();
+  void arrangeDocks();
   // window_menus.cpp
   void makeMenus();
   void makeFileMenu();
@@ -117,6 +128,7 @@ class MainWindow : public QMainWindow {
   void onChangedOnDisk(bool gone);
   void onTerrainOpened(std::shared_ptr<const terrain::Database> database);
   void drainTrace(bool all);
+  std::optional<ExperimentInputs> experimentInputs(const QString& folder);
   void updateTitle();
   // window_frame.cpp
   std::optional<Picture> picture(int widthPx, int heightPx);
@@ -139,13 +151,13 @@ class MainWindow : public QMainWindow {
 
   Viewport* viewport_ = nullptr;
   NoticeBar* notices_ = nullptr;
-  views::MembershipEditor* memberships_ = nullptr;
+  std::vector<Dock> docks_;
+  std::vector<std::function<void(const views::LiveFrame&)>> liveDocks_;
   views::BandsEditor* bands_ = nullptr;
-  views::DecisionPanel* decision_ = nullptr;
   views::PlotsPanel* plots_ = nullptr;
-  views::ParameterTable* parameters_ = nullptr;
   HostDock* hostDock_ = nullptr;
   FlightDock* flightDock_ = nullptr;
+  ExperimentsDock* experiments_ = nullptr;
   MessagePanel* messages_ = nullptr;
   QByteArray defaultLayout_;
 

@@ -13,6 +13,7 @@
 #include <QSettings>
 #include <QStatusBar>
 
+#include "experiments_dock.h"
 #include "export_dialog.h"
 #include "flight_dock.h"
 #include "main_window.h"
@@ -220,6 +221,23 @@ bool MainWindow::startTrace(const QString& file) {
   traceAction_->setChecked(true);
   messages_->note(tr("Recording the trace to %1").arg(QFileInfo(file).absoluteFilePath()));
   return true;
+}
+
+std::optional<ExperimentInputs> MainWindow::experimentInputs(const QString& folder) {
+  if (!terrain_) return std::nullopt;
+  ExperimentInputs inputs{QString::fromStdString(terrainJob_.source().string()), {}, folder + "/preset.json"};
+  const auto write = [this](const QString& file, const std::string& text) {
+    const auto written = writeAtomically(file.toStdString(), text);
+    if (!written) messages_->add(tr("The experiment's input cannot be written"), written.findings());
+    return written.ok();
+  };
+  const std::string name = document_.title().toStdString();
+  if (!write(inputs.preset, exportText(draft_.active(), name, {}, ExportFormat::json))) return std::nullopt;
+  if (const Flight& flight = feed_.playback().flight(); !flight.states.empty()) {
+    inputs.flight = folder + "/flight.csv";
+    if (!write(inputs.flight, flightCsv(flight))) return std::nullopt;
+  }
+  return inputs;
 }
 
 void MainWindow::drainTrace(bool all) {

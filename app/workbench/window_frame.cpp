@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "experiments_dock.h"
 #include "export_dialog.h"
 #include "flight_dock.h"
 #include "host_dock.h"

@@ -1,0 +1,51 @@
+#include "settings.h"
+
+#include "commands.h"
+#include "trimtab/preset/preset.h"
+
+namespace trimtab::cli {
+namespace {
+
+Findings applySettings(const std::vector<std::string>& settings, TuningParameters& parameters) {
+  Findings findings;
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    const ParameterRow* row = findRow(std::string_view(setting).substr(0, equals));
+    if (equals == std::string::npos || !row) {
+      findings.push_back(
+          {Severity::error, "--set", "", "KEY=VALUE with a key of the parameter table", setting});
+      continue;
+    }
+    const Result<ParameterValue> value = parseValue(*row, std::string_view(setting).substr(equals + 1));
+    if (value)
+      row->set(parameters, *value);
+    else
+      for (Finding finding : value.findings()) {
+        finding.where = "--set";
+        findings.push_back(finding);
+      }
+  }
+  return findings;
+}
+
+}  // namespace
+
+std::optional<ValidatedParameters> parametersFor(const std::string& name,
+                                                 const std::vector<std::string>& settings) {
+  const Result<Preset> preset = loadPreset(name);
+  if (!preset) {
+    report(preset.findings());
+    return std::nullopt;
+  }
+  TuningParameters parameters = preset->parameters;
+  if (const Findings findings = applySettings(settings, parameters); !findings.empty()) {
+    report(findings);
+    return std::nullopt;
+  }
+  const Result<ValidatedParameters> valid = validate(parameters);
+  report(valid.findings());
+  if (!valid) return std::nullopt;
+  return *valid;
+}
+
+}  // namespace trimtab::cli

@@ -1,0 +1,144 @@
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "trimtab/experiment/published.h"
+#include "trimtab/experiment/stage.h"
+#include "trimtab/session/session.h"
+
+namespace trimtab::experiment {
+namespace {
+
+constexpr std::array<double, 4> kAltitudesFt{2000, 4000, 6000, 8000};
+struct Case {
+  CullingCase method;
+  const char* name;
+};
+constexpr std::array<Case, 3> kCases{{{CullingCase::none, "none"},
+                                      {CullingCase::view_frustum, "view_frustum"},
+                                      {CullingCase::proposed, "proposed"}}};
+
+/// One case at one altitude over all views.
+struct Sums {
+  std::vector<double> ms, triangles, vertices;
+  double differing = 0;
+};
+
+/// What the decision sees is the named altitude; the eye stands so far above the ground.
+scene::FrameRequest requestAt(const Setup& setup, const ValidatedParameters& parameters, const Place& place,
+                              double altitudeFt) {
+  AircraftState state;
+  state.position = place.ground;
+  state.position.height = Feet{altitudeFt}.as<Metres>();
+  state.aboveGround = state.position.height;
+  state.attitude = place.attitude;
+  session::Session session(parameters);
+  session.look(state);
+  scene::FrameRequest request = *session.request(0, setup.widthPx, setup.heightPx);
+  request.eye.height = place.ground.height + Feet{altitudeFt}.as<Metres>();
+  return request;
+}
+
+Plot barsOf(const char* file, const char* title, const char* yLabel, const Table& table, const char* column) {
+  Plot plot{file, title, "altitude (ft)", yLabel, {}, {}};
+  for (const double altitude : kAltitudesFt) {
+    char text[16];
+    std::snprintf(text, sizeof text, "%.0f", altitude);
+    plot.categories.push_back(text);
+  }
+  for (const Case& c : kCases) {
+    Series series{c.name, {}, {}};
+    for (std::size_t row = 0; row < table.rows.size(); ++row)
+      if (table.text(row, "case") == c.name) series.y.push_back(table.number(row, column));
+    plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+/// Triangles of each case as a share of the plain case's, published and ours.
+Plot sharesOf(const Table& published, const Table& measured) {
+  Plot plot = barsOf("culling-triangles", "Triangles drawn, as a share of the unculled scene", "share",
+                     measured, "triangles");
+  plot.series.clear();
+  for (const auto& [table, whose] : {std::pair{&published, "published"}, std::pair{&measured, "measured"}})
+    for (std::size_t c = 1; c < kCases.size(); ++c) {
+      Series series{std::string(kCases[c].name) + ", " + whose, {}, {}};
+      std::vector<double> plain;
+      for (std::size_t row = 0; row < table->rows.size(); ++row) {
+        if (table->text(row, "case") == "none") plain.push_back(table->number(row, "triangles"));
+        if (table->text(row, "case") == kCases[c].name)
+          series.y.push_back(table->number(row, "triangles") / plain[series.y.size()]);
+      }
+      plot.series.push_back(std::move(series));
+    }
+  return plot;
+}
+
+}  // namespace
+
+Result<Report> runCulling(const Setup& setup) {
+  const Result<ValidatedParameters> parameters = validate(setup.parameters);
+  if (!parameters) return parameters.findings();
+  auto stage = Stage::open(setup);
+  if (!stage) return stage.findings();
+  const std::vector<Place> places = placesOf(setup, 20);
+  if (places.empty())
+    return Finding{
+        Severity::error, setup.terrainName, {}, "a flight over the terrain", "no place lies over it"};
+
+  std::array<std::array<Sums, kCases.size()>, kAltitudesFt.size()> sums;
+  double eyeFt = 0;
+  for (std::size_t a = 0; a < kAltitudesFt.size(); ++a)
+    for (std::size_t p = 0; p < places.size(); ++p) {
+      const double done = double(a * places.size() + p) / double(kAltitudesFt.size() * places.size());
+      char what[64];
+      std::snprintf(what, sizeof what, "%.0f ft, view %zu of %zu", kAltitudesFt[a], p + 1, places.size());
+      if (setup.progress && !setup.progress(done, what)) return cancelled();
+      scene::FrameRequest request = requestAt(setup, *parameters, places[p], kAltitudesFt[a]);
+      if (a == 0) eyeFt += request.eye.height.in<Feet>() - kAltitudesFt[a];
+      std::vector<std::uint8_t> unculled;
+      for (std::size_t c = 0; c < kCases.size(); ++c) {
+        request.method = kCases[c].method;
+        scene::FrameResult last;
+        Sums& s = sums[a][c];
+        s.ms.push_back((*stage)->medianMs(request, setup.repeats, last));
+        s.triangles.push_back(double(last.visible.triangles));
+        s.vertices.push_back(double(last.visible.vertices));
+        if (kCases[c].method == CullingCase::none)
+          unculled = (*stage)->pixels(request);
+        else
+          s.differing += double(differingPixels(unculled, (*stage)->pixels(request)));
+      }
+    }
+
+  Report report{"culling", "A, B: comparison of culling", (*stage)->machine(), publishedCulling(), {}, {},
+                {}};
+  report.measured.columns = {"altitude_ft",     "case",           "triangles",
+                             "vertices",        "frame_ms",       "fps",
+                             "triangles_ratio", "frame_ms_ratio", "differing_pixels"};
+  for (std::size_t c = 0; c < kCases.size(); ++c)
+    for (std::size_t a = 0; a < kAltitudesFt.size(); ++a) {
+      const Sums &s = sums[a][c], &plain = sums[a][0];
+      const double ms = quantileOf(s.ms, 0.5);
+      report.measured.rows.push_back({kAltitudesFt[a], kCases[c].name, std::round(meanOf(s.triangles)),
+                                      std::round(meanOf(s.vertices)), ms, 1000 / ms,
+                                      meanOf(s.triangles) / meanOf(plain.triangles),
+                                      ms / quantileOf(plain.ms, 0.5), s.differing});
+    }
+  char text[256];
+  std::snprintf(
+      text, sizeof text,
+      "%s, preset %s, %d x %d: %zu level views; the eye stands the named altitude above the highest ground "
+      "within 2 km, which lies at %.0f ft on average.",
+      setup.terrainName.c_str(), setup.presetName.c_str(), setup.widthPx, setup.heightPx, places.size(),
+      eyeFt / double(places.size()));
+  report.notes = {
+      text, "Milliseconds are of the whole frame, without a cap: the published rates stop at 60 a second.",
+      "The published counts are primitives and not triangles: compare the shares of the unculled case."};
+  report.plots = {
+      sharesOf(report.published, report.measured),
+      barsOf("culling-frame-ms", "Frame time, measured", "frame time (ms)", report.measured, "frame_ms")};
+  return report;
+}
+
+}  // namespace trimtab::experiment

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "trimtab/experiment/report.h"
+#include "trimtab/host/flight.h"
+#include "trimtab/preset/table.h"
+#include "trimtab/terrain/database.h"
+
+/// The published experiments over any terrain, flight and preset. Each needs no window; it makes a GL context
+/// of its own, current on the calling thread.
+namespace trimtab::experiment {
+
+struct Setup {
+  std::shared_ptr<const terrain::Database> terrain;
+  std::string terrainName;
+  std::optional<Flight> flight;  ///< places to look from; without one the experiment chooses them
+  TuningParameters parameters;
+  std::string presetName;
+  int widthPx = 1280, heightPx = 720;
+  int repeats = 3;  ///< frames a view whose median counts
+  /// Told now and then; returning false cancels.
+  std::function<bool(double fraction, const std::string& what)> progress;
+};
+
+/// Documents A and B: none, view frustum, proposed at 2,000 to 8,000 ft. That altitude feeds the decision;
+/// the eye stands so far above the highest ground within 2 km. Triangles and vertices are means over the
+/// views, milliseconds medians. Every picture is compared with the unculled one.
+Result<Report> runCulling(const Setup& setup);
+
+/// Document C: 180 degrees in one second at 200 frames a second, as it was, with LOD scale and blur, and with
+/// restoration.
+Result<Report> runHeadMotion(const Setup& setup);
+
+}  // namespace trimtab::experiment

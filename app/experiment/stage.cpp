@@ -1,0 +1,130 @@
+#include "trimtab/experiment/stage.h"
+
+#include <GL/gl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <thread>
+
+#include "trimtab/measure/statistics.h"
+
+namespace trimtab::experiment {
+namespace {
+
+std::string processorName() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name")) {
+      const std::size_t colon = line.find(": ");
+      if (colon != std::string::npos) return line.substr(colon + 2);
+    }
+  return "unknown processor";
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Stage>> Stage::open(const Setup& setup) {
+  auto offscreen = scene::Offscreen::create(setup.widthPx, setup.heightPx);
+  if (!offscreen) return offscreen.findings();
+  std::unique_ptr<Stage> stage(new Stage);
+  stage->offscreen_ = std::move(offscreen).value();
+  stage->offscreen_->makeCurrent();
+  stage->width_ = setup.widthPx;
+  stage->height_ = setup.heightPx;
+  stage->gl_ = stage->renderer_.initialize();
+  if (!stage->gl_.usable)
+    return Finding{Severity::error, "OpenGL", {}, "what the renderer needs", stage->gl_.missing};
+  stage->renderer_.setTerrain(setup.terrain);
+  return {std::move(stage)};
+}
+
+Stage::~Stage() {
+  renderer_.release();
+}
+
+scene::FrameResult Stage::draw(const scene::FrameRequest& request) {
+  if (request.view.widthPx != width_ || request.view.heightPx != height_) {
+    width_ = request.view.widthPx;
+    height_ = request.view.heightPx;
+    offscreen_->resize(width_, height_);
+  }
+  scene::FrameResult result = renderer_.draw(request, offscreen_->framebuffer());
+  // A picture is not there before the rasteriser says so.
+  glFinish();
+  return result;
+}
+
+double Stage::medianMs(const scene::FrameRequest& request, int repeats, scene::FrameResult& last) {
+  draw(request);
+  std::vector<double> ms;
+  for (int i = 0; i < std::max(repeats, 1); ++i) {
+    last = draw(request);
+    ms.push_back(last.cost.total);
+  }
+  return quantileOf(ms, 0.5);
+}
+
+std::vector<std::uint8_t> Stage::pixels(const scene::FrameRequest& request) {
+  draw(request);
+  return renderer_.readPixels(request.view.widthPx, request.view.heightPx);
+}
+
+std::string Stage::machine() const {
+  return processorName() + ", " + std::to_string(std::thread::hardware_concurrency()) + " cores; " +
+         gl_.renderer;
+}
+
+std::vector<Place> placesOf(const Setup& setup, std::size_t count) {
+  std::vector<Place> places;
+  const auto add = [&](Degrees latitude, Degrees longitude, const Attitude& attitude) {
+    const auto ground = setup.terrain->highestWithin(latitude, longitude, Metres{2000});
+    if (ground) places.push_back({{latitude, longitude, *ground}, attitude});
+  };
+  if (setup.flight && !setup.flight->states.empty()) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double part = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+      const AircraftState state =
+          stateAt(*setup.flight, setup.flight->beginS() + part * setup.flight->durationS());
+      add(state.position.latitude, state.position.longitude, {state.attitude.heading, {}, {}});
+    }
+    return places;
+  }
+  const terrain::TerrainInfo& info = setup.terrain->info();
+  const auto between = [](Degrees a, Degrees b, double part) {
+    return Degrees{a.value() + (b.value() - a.value()) * part};
+  };
+  constexpr double kAt[5][2] = {{0.5, 0.5}, {0.3, 0.3}, {0.3, 0.7}, {0.7, 0.3}, {0.7, 0.7}};
+  for (const auto& at : kAt)
+    for (const double heading : {0.0, 90.0, 180.0, 270.0})
+      if (places.size() < count)
+        add(between(info.southWest.latitude, info.northEast.latitude, at[0]),
+            between(info.southWest.longitude, info.northEast.longitude, at[1]), {Degrees{heading}, {}, {}});
+  return places;
+}
+
+std::size_t differingPixels(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+  std::size_t differing = 0;
+  for (std::size_t i = 0; i + 3 < a.size() && i + 3 < b.size(); i += 4)
+    differing += a[i] != b[i] || a[i + 1] != b[i + 1] || a[i + 2] != b[i + 2];
+  return a.size() == b.size() ? differing : std::max(a.size(), b.size()) / 4;
+}
+
+double meanOf(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += v;
+  return values.empty() ? std::numeric_limits<double>::quiet_NaN() : sum / static_cast<double>(values.size());
+}
+
+double quantileOf(std::vector<double> values, double fraction) {
+  SampleWindow window(std::max<std::size_t>(values.size(), 1));
+  for (const double v : values) window.add(v);
+  return window.quantile(fraction);
+}
+
+Finding cancelled() {
+  return {Severity::error, "experiment", {}, "to run to its end", "it was cancelled"};
+}
+
+}  // namespace trimtab::experiment

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "trimtab/experiment/experiment.h"
+#include "trimtab/scene/offscreen.h"
+#include "trimtab/scene/renderer.h"
+
+/// What all experiments stand on: a context, a renderer and places to look from.
+namespace trimtab::experiment {
+
+class Stage {
+ public:
+  static Result<std::unique_ptr<Stage>> open(const Setup& setup);
+  ~Stage();
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  scene::FrameResult draw(const scene::FrameRequest& request);
+  /// Median milliseconds of `repeats` frames after one that is not counted; `last` is the last frame's
+  /// result.
+  double medianMs(const scene::FrameRequest& request, int repeats, scene::FrameResult& last);
+  std::vector<std::uint8_t> pixels(const scene::FrameRequest& request);
+  /// Processor, cores and what draws, in one line.
+  std::string machine() const;
+
+ private:
+  Stage() = default;
+  std::unique_ptr<scene::Offscreen> offscreen_;
+  scene::Renderer renderer_;
+  scene::GlReport gl_;
+  int width_ = 0, height_ = 0;
+};
+
+/// A place and where the nose points; its height is the highest ground within 2 km.
+struct Place {
+  GeodeticPosition ground;
+  Attitude attitude;
+};
+
+/// Along the flight at even times, or without one five places of the terrain times four headings, level.
+std::vector<Place> placesOf(const Setup& setup, std::size_t count);
+
+/// The pixels of two pictures that differ in any channel.
+std::size_t differingPixels(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b);
+
+double meanOf(const std::vector<double>& values);
+/// Nearest rank; sorts.
+double quantileOf(std::vector<double> values, double fraction);
+
+/// The finding that says a person asked to stop.
+Finding cancelled();
+
+}  // namespace trimtab::experiment

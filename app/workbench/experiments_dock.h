@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QProcess>
+#include <QTemporaryDir>
+#include <QWidget>
+#include <functional>
+#include <optional>
+
+#include "trimtab/experiment/report.h"
+
+class QComboBox;
+class QLabel;
+class QLineEdit;
+class QPlainTextEdit;
+class QProgressBar;
+class QPushButton;
+class QSpinBox;
+class QTableWidget;
+
+namespace trimtab::views {
+class ReportPlot;
+}
+
+namespace trimtab::workbench {
+
+/// What an experiment is to run over, as files.
+struct ExperimentInputs {
+  QString terrain, flight, preset;  ///< the flight may be empty
+};
+
+/// Runs the published experiments over the terrain, flight and preset at hand, and shows their rows beside
+/// ours. They run as a program of their own: the picture here goes on, and cancelling is sure.
+class ExperimentsDock : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// Writes what is only in memory into the folder; none: no terrain is open.
+  using Source = std::function<std::optional<ExperimentInputs>(const QString& folder)>;
+
+  explicit ExperimentsDock(Source source, QWidget* parent = nullptr);
+  ~ExperimentsDock() override;
+
+  void run();
+  void cancel();
+  bool running() const { return process_.state() != QProcess::NotRunning; }
+  const std::optional<experiment::Report>& report() const { return report_; }
+
+ signals:
+  void finished(bool good);
+  void refused(const QString& what, const trimtab::Findings& findings);
+
+ private:
+  void onOutput();
+  void onFinished(int exitCode, QProcess::ExitStatus status);
+  void show(const experiment::Report& report);
+  void showPlot(int index);
+  void save();
+  void setRunning(bool running);
+
+  Source source_;
+  QProcess process_;
+  QTemporaryDir folder_;
+  QByteArray json_, errors_;
+  bool cancelled_ = false;
+  std::optional<experiment::Report> report_;
+
+  QComboBox *which_, *plots_;
+  QLineEdit* size_;
+  QSpinBox* repeats_;
+  QPushButton *run_, *save_;
+  QProgressBar* progress_;
+  QLabel *status_, *machine_;
+  QTableWidget *published_, *measured_;
+  views::ReportPlot* plot_;
+  QPlainTextEdit* notes_;
+};
+
+}  // namespace trimtab::workbench

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QDockWidget>
+#include <QScrollArea>
+#include <QUndoView>
+
+#include "experiments_dock.h"
+#include "flight_dock.h"
+#include "host_dock.h"
+#include "main_window.h"
+#include "trimtab/views/bands_editor.h"
+#include "trimtab/views/decision_panel.h"
+#include "trimtab/views/membership_editor.h"
+#include "trimtab/views/parameter_table.h"
+#include "trimtab/views/plots_panel.h"
+
+// Which docks there are and where they stand.
+namespace trimtab::workbench {
+namespace {
+
+/// Editors stacked in one column would ask for more height than a small screen has.
+QScrollArea* scrollable(QWidget* content) {
+  auto* area = new QScrollArea;
+  area->setFrameShape(QFrame::NoFrame);
+  area->setWidgetResizable(true);
+  area->setWidget(content);
+  return area;
+}
+
+}  // namespace
+
+/// What an engineer edits stands at the upper right, what it does below it, the history of a run at the foot.
+/// Docks of one place are tabs, the first one in front.
+template <class Panel>
+Panel* MainWindow::addDock(const char* name, const QString& title, DockPlace place, Panel* content) {
+  auto* dock = new QDockWidget(title, this);
+  dock->setObjectName(QLatin1String(name));
+  dock->setWidget(place == DockPlace::foot ? static_cast<QWidget*>(content) : scrollable(content));
+  addDockWidget(place == DockPlace::foot ? Qt::BottomDockWidgetArea : Qt::RightDockWidgetArea, dock);
+  docks_.push_back({dock, place});
+  if constexpr (requires(const views::LiveFrame& frame) { content->showFrame(frame); })
+    liveDocks_.push_back([content](const views::LiveFrame& frame) { content->showFrame(frame); });
+  return content;
+}
+
+void MainWindow::makeDocks() {
+  auto* history = new QUndoView(&draft_.undoStack());
+  history->setEmptyLabel(tr("as opened"));
+  history->setAccessibleName(tr("History of edits"));
+
+  using enum DockPlace;
+  addDock("memberships", tr("Memberships"), edit, new views::MembershipEditor(draft_));
+  bands_ = addDock("depth_map", tr("Depth map"), edit, new views::BandsEditor(draft_));
+  addDock("preset", tr("Preset"), edit, new views::ParameterTable(draft_));
+  addDock("history", tr("History"), edit, history);
+  addDock("decision", tr("Decision"), effect, new views::DecisionPanel(draft_));
+  hostDock_ = addDock("host", tr("Host"), effect, new HostDock(feed_, draft_));
+  flightDock_ = addDock("flight", tr("Flight"), effect, new FlightDock(feed_));
+  plots_ = addDock("plots", tr("Plots"), foot, new views::PlotsPanel(draft_));
+  messages_ = addDock("messages", tr("Messages"), foot, new MessagePanel);
+  experiments_ =
+      addDock("experiments", tr("Experiments"), foot,
+              new ExperimentsDock([this](const QString& folder) { return experimentInputs(folder); }));
+  connect(dock(QStringLiteral("depth_map")), &QDockWidget::visibilityChanged, viewport_,
+          &Viewport::setDepthMapWanted);
+}
+
+QDockWidget* MainWindow::dock(const QString& name) const {
+  return findChild<QDockWidget*>(name);
+}
+
+void MainWindow::arrangeDocks() {
+  setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+  std::array<QDockWidget*, 3> first{}, last{};
+  for (const Dock& each : docks_) {
+    each.widget->setFloating(false);
+    each.widget->show();
+    const auto place = static_cast<std::size_t>(each.place);
+    if (last[place] != nullptr) {
+      tabifyDockWidget(last[place], each.widget);
+    } else {
+      first[place] = each.widget;
+      if (each.place == DockPlace::effect && first[0] != nullptr)
+        splitDockWidget(first[0], each.widget, Qt::Vertical);
+      else
+        addDockWidget(each.place == DockPlace::foot ? Qt::BottomDockWidgetArea : Qt::RightDockWidgetArea,
+                      each.widget);
+    }
+    last[place] = each.widget;
+  }
+  for (QDockWidget* each : first) each->raise();
+  resizeDocks({first[0]}, {500}, Qt::Horizontal);
+  resizeDocks({first[0], first[1]}, {560, 400}, Qt::Vertical);
+  resizeDocks({first[2]}, {290}, Qt::Vertical);
+}
+
+}  // namespace trimtab::workbench
