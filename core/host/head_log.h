@@ -1,0 +1,56 @@
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trimtab/units/geodesy.h"
+#include "trimtab/units/result.h"
+
+/// The pilot's head over time: recorded, or a scripted sweep.
+namespace trimtab {
+
+/// Degrees; heading is unwound (it may pass 180 and 360), pitch within a quarter turn.
+struct HeadSample {
+  double timeS = 0, headingDeg = 0, pitchDeg = 0, rollDeg = 0;
+
+  friend bool operator==(const HeadSample&, const HeadSample&) = default;
+};
+
+struct HeadLog {
+  std::string name;
+  std::vector<HeadSample> samples;  ///< times rise from 0
+  bool repeats = false;             ///< begins again at its end; else the last sample is held
+  /// In a longer step between samples the one before is held: nothing says how the head moved.
+  double gapS = std::numeric_limits<double>::infinity();
+
+  double durationS() const { return samples.empty() ? 0 : samples.back().timeS; }
+};
+
+/// The gap that a recorded log is read with.
+inline constexpr double kHeadLogGapS = 0.25;
+
+/// Columns by name, separated by commas, semicolons or blanks: a time (time_s, timestamp, time_ms ..),
+/// heading (head_heading_deg, heading, yaw ..), pitch, and roll if there is one. A name says its unit by _deg
+/// or _rad, else the whole log is radians when no angle leaves a turn, degrees otherwise. Where names carry
+/// no unit and the column called pitch winds beyond a quarter turn while the one called yaw does not, the two
+/// are exchanged: MV360's logs are so. Rows out of order are sorted, of rows with one time the last counts;
+/// findings tell of all this and of gaps.
+Result<HeadLog> readHeadLog(const std::filesystem::path& file);
+Result<HeadLog> parseHeadLog(std::string_view text, const std::string& where);
+
+/// "sweep:DEG/S[/WAIT]" turns the head through so many degrees, half to either side of straight ahead, in so
+/// many seconds, waits (2 s), turns back, waits, and so on; the first wait comes first. "nod:DEG/S[/WAIT]"
+/// does it up and down. Units may be written: "sweep:180deg/1s/2s".
+Result<HeadLog> parseSweep(std::string_view text);
+bool isSweep(std::string_view text);
+/// What `--head` takes: a sweep, else a file.
+Result<HeadLog> openHead(const std::string& text);
+
+/// The head so many seconds into the log, between samples by interpolation; heading in -180..180. Time that
+/// is not a number counts as the beginning.
+Attitude headAt(const HeadLog& log, double timeS);
+
+}  // namespace trimtab
