@@ -23,7 +23,7 @@ ReportPlot::ReportPlot(QWidget* parent) : QWidget(parent), plot_(new QCustomPlot
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(plot_);
-  plot_->setMinimumHeight(220);
+  plot_->setMinimumHeight(100);
   plot_->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
   plot_->setAccessibleName(tr("Plot of the experiment"));
   auto* legend = new QCPLegend;

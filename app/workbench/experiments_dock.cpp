@@ -50,6 +50,7 @@ QTableWidget* makeTable(const QString& name, QWidget* parent) {
   table->verticalHeader()->hide();
   table->verticalHeader()->setDefaultSectionSize(20);
   table->setAccessibleName(name);
+  table->setMinimumHeight(48);
   return table;
 }
 
@@ -138,7 +139,7 @@ ExperimentsDock::ExperimentsDock(Source source, QWidget* parent)
     column->addWidget(table);
     return box;
   };
-  auto* tables = new QSplitter(Qt::Vertical, this);
+  auto* tables = new QSplitter(Qt::Horizontal, this);
   tables->addWidget(titled(tr("Published"), published_));
   tables->addWidget(titled(tr("Measured here"), measured_));
   auto* plotPage = new QWidget(this);

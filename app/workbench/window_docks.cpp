@@ -2,6 +2,8 @@
 #include <QDockWidget>
 #include <QScrollArea>
 #include <QUndoView>
+#include <algorithm>
+#include <utility>
 
 #include "experiments_dock.h"
 #include "flight_dock.h"
@@ -70,27 +72,36 @@ QDockWidget* MainWindow::dock(const QString& name) const {
 
 void MainWindow::arrangeDocks() {
   setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
-  std::array<QDockWidget*, 3> first{}, last{};
   for (const Dock& each : docks_) {
     each.widget->setFloating(false);
     each.widget->show();
-    const auto place = static_cast<std::size_t>(each.place);
-    if (last[place] != nullptr) {
-      tabifyDockWidget(last[place], each.widget);
-    } else {
-      first[place] = each.widget;
-      if (each.place == DockPlace::effect && first[0] != nullptr)
-        splitDockWidget(first[0], each.widget, Qt::Vertical);
-      else
-        addDockWidget(each.place == DockPlace::foot ? Qt::BottomDockWidgetArea : Qt::RightDockWidgetArea,
-                      each.widget);
-    }
-    last[place] = each.widget;
+    // A dock that stands in a group of tabs cannot be split from.
+    removeDockWidget(each.widget);
   }
-  for (QDockWidget* each : first) each->raise();
-  resizeDocks({first[0]}, {500}, Qt::Horizontal);
-  resizeDocks({first[0], first[1]}, {560, 400}, Qt::Vertical);
-  resizeDocks({first[2]}, {290}, Qt::Vertical);
+  const auto firstAt = [this](DockPlace place) {
+    return std::find_if(docks_.begin(), docks_.end(), [place](const Dock& d) { return d.place == place; })
+        ->widget;
+  };
+  QDockWidget *edit = firstAt(DockPlace::edit), *effect = firstAt(DockPlace::effect),
+              *foot = firstAt(DockPlace::foot);
+  addDockWidget(Qt::RightDockWidgetArea, edit);
+  splitDockWidget(edit, effect, Qt::Vertical);
+  addDockWidget(Qt::BottomDockWidgetArea, foot);
+  for (QDockWidget* before : {edit, effect, foot}) {
+    QDockWidget* last = before;
+    const DockPlace place = before == edit     ? DockPlace::edit
+                            : before == effect ? DockPlace::effect
+                                               : DockPlace::foot;
+    for (const Dock& each : docks_) {
+      if (each.place != place) continue;
+      if (each.widget != before) tabifyDockWidget(std::exchange(last, each.widget), each.widget);
+      each.widget->show();
+    }
+    before->raise();
+  }
+  resizeDocks({edit}, {500}, Qt::Horizontal);
+  resizeDocks({edit, effect}, {560, 400}, Qt::Vertical);
+  resizeDocks({foot}, {290}, Qt::Vertical);
 }
 
 }  // namespace trimtab::workbench
