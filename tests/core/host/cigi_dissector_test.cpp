@@ -8,14 +8,16 @@
 namespace trimtab::test {
 namespace {
 
-/// What tshark reads in each message of `datagrams`, field by field.
+/// What tshark reads in each message of `datagrams`, field by field; of a field that a message has twice the
+/// `occurrence`: f(irst) or l(ast).
 std::vector<std::map<std::string, double>> dissected(const std::vector<CapturedDatagram>& datagrams,
-                                                     const std::vector<std::string>& fields) {
+                                                     const std::vector<std::string>& fields,
+                                                     char occurrence = 'f') {
   ScratchDir dir;
   const auto written = writePcap(dir / "sent.pcap", datagrams);
   EXPECT_TRUE(written) << toString(written.findings());
-  std::string command =
-      "tshark -r '" + (dir / "sent.pcap").string() + "' -d udp.port==8004,cigi -T fields -E separator=,";
+  std::string command = "tshark -r '" + (dir / "sent.pcap").string() +
+                        "' -d udp.port==8004,cigi -T fields -E separator=, -E occurrence=" + occurrence;
   for (const std::string& field : fields) command += " -e " + field;
   const Ran ran = run(command);
   EXPECT_EQ(ran.exitCode, 0) << ran.err;
@@ -122,6 +124,43 @@ TEST_P(SentCigi, isReadByTheDissectorFieldByField) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     SCOPED_TRACE(i);
     expectFields(rows[i], expected[i]);
+  }
+}
+
+TEST_P(SentCigi, weatherIsReadByTheDissectorFieldByField) {
+  std::vector<CapturedDatagram> datagrams;
+  std::vector<std::map<std::string, double>> rain, snow;
+  for (int i = 0; i < 18; ++i) {
+    AircraftState s = aState();
+    s.weather = HostWeather{static_cast<Precipitation>(i % 3), i / 3, std::nullopt};
+    if (i % 2 == 0) s.weather->visibility = Metres{250.5 * (i + 1)};
+    datagrams.push_back({1e9 + i, "127.0.0.1:40000", "127.0.0.1:8004",
+                         encodeCigiHost(s, static_cast<std::uint32_t>(i), 0, GetParam())});
+    const auto layer = [&](double id, Precipitation kind) {
+      const bool falls = s.weather->precipitation == kind;
+      const double visibility = s.weather->visibility.value_or(Metres{0}).value();
+      return std::map<std::string, double>{{"cigi.weather_control.layer_id", id},
+                                           {"cigi.weather_control.entity_region_id", 0},
+                                           {"cigi.weather_control.scope", 0},
+                                           {"cigi.weather_control.weather_enable", falls},
+                                           {"cigi.weather_control.severity", falls ? i / 3 : 0},
+                                           {"cigi.weather_control.scud_enable", 0},
+                                           {"cigi.weather_control.random_winds_enable", 0},
+                                           {"cigi.weather_control.random_lightning_enable", 0},
+                                           {"cigi.weather_control.coverage", falls ? 100 : 0},
+                                           {"cigi.weather_control.visibility_range", falls ? visibility : 0}};
+    };
+    rain.push_back(layer(4, Precipitation::rain));
+    snow.push_back(layer(5, Precipitation::snow));
+  }
+  const auto first = dissected(datagrams, names(rain.front()), 'f');
+  const auto last = dissected(datagrams, names(snow.front()), 'l');
+  ASSERT_EQ(first.size(), rain.size());
+  ASSERT_EQ(last.size(), snow.size());
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    SCOPED_TRACE(i);
+    expectFields(first[i], rain[i]);
+    expectFields(last[i], snow[i]);
   }
 }
 

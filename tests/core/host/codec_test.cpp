@@ -66,6 +66,7 @@ TEST_P(Cigi, comesBackAsItWasSent) {
   EXPECT_EQ(got->head, sent.head);
   EXPECT_EQ(got->view, sent.view);
   EXPECT_EQ(got->visibility, sent.visibility);
+  EXPECT_EQ(got->weather, sent.weather);
   EXPECT_EQ(decoder.statistics().protocol, WireProtocol::cigi3);
   EXPECT_EQ(decoder.hostOrder(), GetParam());
   EXPECT_EQ(decoder.lastHostFrame(), 77U);
@@ -92,6 +93,7 @@ TEST(CigiSession, keepsWhatIsNotSentAgain) {
   ASSERT_TRUE(got);
   EXPECT_EQ(got->head, aFullState().head);
   EXPECT_EQ(got->visibility, aFullState().visibility);
+  EXPECT_EQ(got->weather, aFullState().weather);
   EXPECT_EQ(got->view, aFullState().view);
 }
 

@@ -40,6 +40,11 @@ constexpr BadFlight kBadFlights[] = {
     {"time-goes-back", ":4", "time_s: expected not before the row above, at 0.2, found 0.1"},
     {"time-empty", ":3", "time_s"},
     {"visibility-negative", ":2", "visibility_m"},
+    {"precipitation-unknown", ":2", "precipitation: expected none, rain or snow, found hail"},
+    {"precipitation-without-severity", ":2", "precipitation_severity: expected a severity of 0..5"},
+    {"severity-beyond-scale", ":2", "precipitation_severity: expected a number in 0..5, found 6"},
+    {"severity-not-whole", ":2", "precipitation_severity: expected a whole number, found 2.5"},
+    {"severity-without-precipitation", ":2", "precipitation: expected none, rain or snow beside a severity"},
     {"view-half-angle-too-wide", ":2", "view_left_deg"},
     {"packet-negative", ":2", "packet"},
     {"all-rows-before-ready", "", "at least one row"},
@@ -92,6 +97,10 @@ TEST(FlightCsv, readsBackBitForBit) {
       s.head = Attitude{Degrees{uniform(-180, 180)}, Degrees{uniform(-90, 90)}, Degrees{uniform(-9, 9)}};
     if (i % 3 == 0) s.aboveGround = Metres{uniform(-10, 9000)};
     if (i % 5 == 0) s.visibility = Metres{uniform(0, 1e5)};
+    if (i % 11 == 0) s.weather = HostWeather{};
+    if (i % 11 == 1)
+      s.weather =
+          HostWeather{i % 2 ? Precipitation::rain : Precipitation::snow, i % 6, Metres{uniform(0, 1e4)}};
     if (i % 7 == 0)
       s.view = HostView{Metres{uniform(0.1, 9)}, Degrees{-1.0 / 3}, std::nullopt, Degrees{-20},
                         Degrees{uniform(1, 89)}};

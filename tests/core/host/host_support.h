@@ -21,6 +21,7 @@ inline AircraftState aFullState() {
   AircraftState s = aState();
   s.head = Attitude{Degrees{-30.5}, Degrees{-12.25}, Degrees{2.5}};
   s.visibility = Metres{7500};
+  s.weather = HostWeather{Precipitation::snow, 3, Metres{1800}};
   s.view = HostView{Metres{2.5}, Degrees{-40}, Degrees{45}, Degrees{-25}, Degrees{30}};
   return s;
 }

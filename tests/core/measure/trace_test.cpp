@@ -54,6 +54,16 @@ void anyMotion(std::mt19937_64& random, DecisionMemory& before, FrameDecision& d
   motion.level = static_cast<std::uint32_t>(random());
 }
 
+void anyWeather(std::mt19937_64& random, WeatherDecision& weather) {
+  weather.precipitation = static_cast<Precipitation>(random() % 3);
+  weather.fogged = random() % 2;
+  for (double* value : {&weather.density, &weather.visibilityM, &weather.extinctionPerM,
+                        &weather.nearFarRatio, &weather.farM})
+    *value = random() % 4 ? anyDouble(random) : WeatherDecision::kUnlimited;
+  weather.reason = static_cast<WeatherReason>(random() % 8);
+  weather.farReason = static_cast<FarReason>(random() % 5);
+}
+
 TraceRow anyRow(std::mt19937_64& random) {
   const auto number = [&random] { return anyDouble(random); };
   const auto maybe = [&random, &number]<class T>(std::optional<T>& value) {
@@ -68,6 +78,10 @@ TraceRow anyRow(std::mt19937_64& random) {
   maybe(row.input.aboveGround);
   state.aboveGround = row.input.aboveGround;
   maybe(state.visibility);
+  if (random() % 2) {
+    state.weather = HostWeather{static_cast<Precipitation>(random() % 3), static_cast<int>(random() % 6), {}};
+    maybe(state.weather->visibility);
+  }
   if (random() % 2) state.head = Attitude{Degrees{number()}, Degrees{number()}, Degrees{number()}};
   if (random() % 2) {
     state.view = HostView{};
@@ -90,6 +104,7 @@ TraceRow anyRow(std::mt19937_64& random) {
   d.reason = static_cast<SchemeReason>(random() % 6);
   d.lodScale = number();
   anyMotion(random, row.before, d);
+  anyWeather(random, d.weather);
   if (random() % 2) {
     row.frame = TraceFrame{{random(), random(), random(), random(), random()},
                            {number(), number(), number(), number(), number(), number(), number()}};
