@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "trimtab/scene/blur_pass.h"
 #include "trimtab/scene/frame_buffer.h"
 #include "trimtab/scene/frame_culling.h"
 #include "trimtab/scene/gl_api.h"
@@ -16,7 +17,9 @@
 #include "trimtab/scene/shaders.h"
 #include "trimtab/scene/static_lod_culling.h"
 #include "trimtab/scene/static_lod_layer.h"
+#include "trimtab/scene/symbology_pass.h"
 #include "trimtab/scene/tile_cache.h"
+#include "trimtab/scene/weather_precipitation.h"
 
 namespace trimtab::scene {
 namespace {
@@ -59,6 +62,8 @@ struct Renderer::Impl {
     StaticLodLayer trees;
     OcclusionPass occlusion;
     LineBuffer lineBuffer;
+    BlurPass blur;
+    SymbologyPass symbology;
     GpuTimer timer;
     SceneGraph graph;
   };
@@ -87,6 +92,7 @@ struct Renderer::Impl {
   void prepareTrees(SceneView& view);
   void bindTileTextures(bool on);
   void prepare(SceneView& view);
+  void finishPicture();
   FrameResult draw(const FrameRequest& r, unsigned fbo);
 };
 
@@ -182,10 +188,6 @@ void Renderer::Impl::prepare(SceneView& view) {
   // What was culled is to be seen by its colour, however far it is.
   if (!r.overlays.colourByReason) view.air = airOf(weather);
   view.heightM = r.eye.height.value();
-  if (weather.precipitation != Precipitation::none && weather.density > 0) {
-    view.precipitation = {weather.precipitation, std::min(weather.density, 1.0), r.time, {}};
-    ++counters.precipitationPasses;
-  }
   lines.clear();
   drawn.clear();
   if (database) {
@@ -212,10 +214,27 @@ void Renderer::Impl::prepare(SceneView& view) {
     culling.clear();
     counters.depthMap.reset();
   }
+  view.precipitation = precipitationView(r, database ? database->index().frame : LocalFrame(r.eye));
+  counters.precipitationPasses += view.precipitation.has_value();
   if (r.frozenEye) addFrustum(*r.frozenEye, r.view, view.eye.position, lines);
   view.lines = !lines.empty();
   constexpr double kEarthRadius = 6371e3;
   view.horizonDip = std::acos(std::min(1.0, kEarthRadius / (kEarthRadius + r.eye.height.value())));
+}
+
+/// What is done to the picture once the scene is drawn; blur before the symbols, which stay sharp.
+void Renderer::Impl::finishPicture() {
+  const ViewShape& v = request->view;
+  if (const double strength = request->decision.motion.blur.strength; strength > 0) {
+    gl->blur.apply(gl->frame.id(), gl->frame.colourTexture(), v.widthPx, v.heightPx, strength, request->time);
+    ++counters.blurPasses;
+  } else {
+    gl->blur.rest();
+  }
+  if (request->symbology && request->symbology->setup.general.enabled) {
+    counters.symbologyRedraws += gl->symbology.draw(*request->symbology, v);
+    ++counters.symbologyDraws;
+  }
 }
 
 FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
@@ -231,6 +250,8 @@ FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
   glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
   frameStart = Clock::now();
   gl->graph.frame(view, gl->frame.id());
+  glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
+  finishPicture();
 
   glBindFramebuffer(GL_READ_FRAMEBUFFER, gl->frame.id());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, fbo);

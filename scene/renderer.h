@@ -11,6 +11,7 @@
 #include "trimtab/frame/frame.h"
 #include "trimtab/frame/static_lod_frame.h"
 #include "trimtab/preset/parameters.h"
+#include "trimtab/scene/symbology_geometry.h"
 #include "trimtab/terrain/database.h"
 
 /// Draws a frame. The same class behind the workbench's widget, the IG's window and the surfaceless context.
@@ -36,6 +37,7 @@ std::array<std::uint8_t, 3> levelColour(int level);
 struct FrameRequest {
   double time = 0;  ///< seconds, the host's clock: what moves by itself is where it is at this time
   GeodeticPosition eye;
+  std::optional<Velocity> velocity;  ///< of the eye: what falls streaks along it
   Attitude attitude;  ///< of the view: aircraft, or aircraft and head
   ViewShape view;     ///< size of the picture
   FrameDecision decision;
@@ -45,6 +47,8 @@ struct FrameRequest {
   Overlays overlays;
   /// Culling and levels stand still as of this view while the eye moves on; its frustum is drawn.
   std::optional<EyePose> frozenEye;
+  /// Over all of it, and never blurred; nothing of it is run where it is absent.
+  std::optional<SymbologyRequest> symbology;
 };
 
 struct FrameResult {
@@ -55,7 +59,7 @@ struct FrameResult {
   std::optional<DepthMapSize> depthMap;  ///< drawn this frame
   std::string note;                      ///< why occlusion was not used although asked for; empty otherwise
   // Counters of work that was skipped or done, since the renderer was made.
-  std::uint64_t precipitationPasses = 0;
+  std::uint64_t precipitationPasses = 0, blurPasses = 0, symbologyDraws = 0, symbologyRedraws = 0;
   std::uint64_t depthMapsDrawn = 0, cutsSelected = 0, tilesBuilt = 0;
 };
 

@@ -6,21 +6,20 @@
 
 #include <osg/BlendFunc>
 #include <osg/Depth>
+#include <osg/Notify>
 #include <osg/PointSprite>
 #include <osg/Program>
 #include <osg/Texture2D>
 #include <osgParticle/PrecipitationEffect>
 
 #include "trimtab/scene/gl_api.h"
+#include "trimtab/scene/renderer.h"
 #include "trimtab/scene/scene_graph.h"
 #include "trimtab/scene/weather_shaders.h"
 
 namespace trimtab::scene {
 namespace {
 
-/// The effect numbers cells from its position and shifts each cell's fall by i * 0.43 + j * 0.64 of a period:
-/// whole after 100 cells, so the eye's place may be taken modulo that many and nothing jumps.
-constexpr double kCellsUntilSame = 100;
 /// How long a drop draws its streak, seconds, and its greatest length, metres.
 constexpr double kExposureS = 1.0 / 30, kLongestStreakM = 1.5;
 
@@ -57,12 +56,34 @@ bool isFinite(Vec3 v) {
 
 }  // namespace
 
+std::optional<PrecipitationView> precipitationView(const FrameRequest& request, const LocalFrame& frame) {
+  const WeatherDecision& weather = request.decision.weather;
+  if (weather.precipitation == Precipitation::none || !(weather.density > 0)) return {};
+  PrecipitationView view{weather.precipitation, std::min(weather.density, 1.0), request.time, {}};
+  if (request.velocity) {
+    const Mat3 axes = eastNorthUp(request.eye.latitude, request.eye.longitude);
+    view.velocity = frame.ecefToLocal() * (axes.row[0] * request.velocity->east.value() +
+                                           axes.row[1] * request.velocity->north.value() -
+                                           axes.row[2] * request.velocity->down.value());
+  }
+  return view;
+}
+
+// The effect numbers cells from its position and shifts each one's fall by i * 0.43 + j * 0.64 of a period:
+// whole after 100 cells, so the eye's place may be taken modulo that many and nothing jumps.
+Vec3 latticeFromEye(Vec3 eye, Vec3 cell) {
+  return {-std::fmod(eye.x, kCellsUntilSame * cell.x), -std::fmod(eye.y, kCellsUntilSame * cell.y),
+          -std::fmod(eye.z, cell.z)};
+}
+
 struct PrecipitationNode::Impl {
   osg::ref_ptr<osgParticle::PrecipitationEffect> effect = new osgParticle::PrecipitationEffect;
   Precipitation kind = Precipitation::none;
   double density = 0;
 
   Impl() {
+    // It reports every drawable that it gives up.
+    if (osg::getNotifyLevel() == osg::NOTICE) osg::setNotifyLevel(osg::WARN);
     effect->setNodeMask(0);
     effect->setCullingActive(false);
     effect->getQuadStateSet()->setAttribute(dropProgram(kDropQuadVertex));
@@ -96,10 +117,9 @@ struct PrecipitationNode::Impl {
     effect->setUseFarLineSegments(kind == Precipitation::rain);
   }
 
+  /// Lighter than ground and than fog: the effect's greys are lost before one or the other.
   osg::Vec3 colour() const {
-    if (kind == Precipitation::snow) return {0.95f, 0.96f, 0.98f};
-    const osg::Vec4& c = effect->getParticleColor();
-    return {c.x(), c.y(), c.z()};
+    return kind == Precipitation::snow ? osg::Vec3{0.95f, 0.96f, 0.98f} : osg::Vec3{0.86f, 0.88f, 0.91f};
   }
 };
 
@@ -119,9 +139,7 @@ void PrecipitationNode::set(const std::optional<PrecipitationView>& falling, con
   const osg::Vec3 cell = effect.getCellSize();
   const double speed = std::abs(double{effect.getParticleSpeed()});
   const Vec3 eye = isFinite(view.eye.position) ? view.eye.position : Vec3{};
-  effect.setPosition({static_cast<float>(-std::fmod(eye.x, kCellsUntilSame * double{cell.x()})),
-                      static_cast<float>(-std::fmod(eye.y, kCellsUntilSame * double{cell.y()})),
-                      static_cast<float>(-std::fmod(eye.z, double{cell.z()}))});
+  effect.setPosition(toFloat(latticeFromEye(eye, {double{cell.x()}, double{cell.y()}, double{cell.z()}})));
 
   Vec3 back = (isFinite(falling->velocity) ? falling->velocity : Vec3{}) + Vec3{0, 0, speed};
   back = back * std::min(kExposureS, kLongestStreakM / std::max(length(back), 1e-3));
