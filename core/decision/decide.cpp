@@ -89,7 +89,7 @@ void decideScheme(const FrameInput& input, const ValidatedParameters& parameters
   decision.altitudeMembership = altitudeMembership(parameters->altitude, altitude);
   decision.pitchMembership = pitchMembership(parameters->pitch, pitch);
   const RuleList& rules = parameters->scheme.rules;
-  decision.ruleFiring = ruleFiring(rules, decision.altitudeMembership, decision.pitchMembership);
+  fireRules(rules, decision.altitudeMembership, decision.pitchMembership, decision.ruleFiring);
   const TotalMembership total = combine(parameters->scheme.combination, rules, decision.ruleFiring,
                                         decision.altitudeMembership, decision.pitchMembership);
   decision.totalMembership = total.total;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -8,17 +9,28 @@
 
 namespace trimtab {
 
-/// How far each rule of the preset's list fires (mu), in its order; whatever the combination.
+/// How far each rule of the preset's list fires (mu), in its order; whatever the combination. Places beyond
+/// `count` hold nothing and are neither set nor copied: every decision has one of these.
 struct RuleFiring {
-  std::array<double, RuleList::kCapacity> mu{};
+  std::array<double, RuleList::kCapacity> mu;
   std::size_t count = 0;
 
-  constexpr std::span<const double> span() const { return {mu.data(), count}; }
-  friend constexpr bool operator==(const RuleFiring& a, const RuleFiring& b) {
-    if (a.count != b.count) return false;
-    for (std::size_t i = 0; i < a.count; ++i)
-      if (a.mu[i] != b.mu[i]) return false;
-    return true;
+  RuleFiring() {}
+  RuleFiring(const RuleFiring& other) : count(other.count) { take(other); }
+  RuleFiring& operator=(const RuleFiring& other) {
+    count = other.count;
+    take(other);
+    return *this;
+  }
+  std::span<const double> span() const { return {mu.data(), count}; }
+  friend bool operator==(const RuleFiring& a, const RuleFiring& b) {
+    return std::equal(a.mu.begin(), a.mu.begin() + static_cast<std::ptrdiff_t>(a.count), b.mu.begin(),
+                      b.mu.begin() + static_cast<std::ptrdiff_t>(b.count));
+  }
+
+ private:
+  void take(const RuleFiring& other) {
+    for (std::size_t i = 0; i < count; ++i) mu[i] = other.mu[i];
   }
 };
 

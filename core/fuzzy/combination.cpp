@@ -1,36 +1,41 @@
 #include "combination.h"
 
 #include <algorithm>
-#include <array>
 
 #include "trimtab/preset/curve.h"
 
 namespace trimtab {
 
-double weightedOutput(std::span<const FiringRule> rules) {
-  double weights = 0, outputs = 0;
-  double low = 0, high = 0;
-  for (const FiringRule& rule : rules) {
-    const double weight = rule.weight * rule.firing;
-    if (!(weight > 0)) continue;
-    low = weights > 0 ? std::min(low, rule.output) : rule.output;
-    high = weights > 0 ? std::max(high, rule.output) : rule.output;
-    weights += weight;
-    outputs += weight * rule.output;
-  }
-  // The quotient of two rounded sums may leave the outputs' range by an ulp, or by far where the weights are
-  // denormal.
-  return weights > 0 ? std::clamp(outputs / weights, low, high) : 0;
+void fireRules(const RuleList& rules, double altitude, double pitch, RuleFiring& firing) {
+  // By condition: any, the membership, its complement.
+  const double altitudes[] = {1, altitude, 1 - altitude}, pitches[] = {1, pitch, 1 - pitch};
+  for (std::size_t i = 0; i < rules.size; ++i)
+    firing.mu[i] = std::min(altitudes[static_cast<std::size_t>(rules.rule[i].altitude)],
+                            pitches[static_cast<std::size_t>(rules.rule[i].pitch)]);
+  firing.count = rules.size;
 }
 
 RuleFiring ruleFiring(const RuleList& rules, double altitude, double pitch) {
-  // By condition: any, the membership, its complement.
-  const double altitudes[] = {1, altitude, 1 - altitude}, pitches[] = {1, pitch, 1 - pitch};
   RuleFiring firing;
-  for (const FuzzyRule& rule : rules.span())
-    firing.mu[firing.count++] = std::min(altitudes[static_cast<std::size_t>(rule.altitude)],
-                                         pitches[static_cast<std::size_t>(rule.pitch)]);
+  fireRules(rules, altitude, pitch, firing);
   return firing;
+}
+
+TotalMembership weightedOutput(const RuleList& rules, const RuleFiring& firing) {
+  double weights = 0, outputs = 0;
+  double low = BandList::kTop, high = 0;
+  for (std::size_t i = 0; i < rules.size; ++i) {
+    const double weight = rules.rule[i].weight * firing.mu[i], output = rules.rule[i].output;
+    if (!(weight > 0)) continue;
+    low = std::min(low, output);
+    high = std::max(high, output);
+    weights += weight;
+    outputs += weight * output;
+  }
+  if (!(weights > 0)) return {0, false};
+  // The quotient of two rounded sums may leave the outputs' range by an ulp, or by far where the weights are
+  // denormal.
+  return {std::clamp(outputs / weights, low, high), true};
 }
 
 TotalMembership combine(Combination combination, const RuleList& rules, const RuleFiring& firing,
@@ -40,16 +45,8 @@ TotalMembership combine(Combination combination, const RuleList& rules, const Ru
       break;
     case Combination::twice_minimum:
       return {2 * std::min(altitude, pitch)};
-    case Combination::rules: {
-      std::array<FiringRule, RuleList::kCapacity> base;
-      bool anyFires = false;
-      for (std::size_t i = 0; i < rules.size; ++i) {
-        base[i] = {rules.rule[i].weight, firing.mu[i], rules.rule[i].output};
-        anyFires = anyFires || base[i].weight * base[i].firing > 0;
-      }
-      const std::span<const FiringRule> used(base.data(), rules.size);
-      return {std::clamp(weightedOutput(used), 0.0, BandList::kTop), anyFires};
-    }
+    case Combination::rules:
+      return weightedOutput(rules, firing);
   }
   return {altitude + pitch};
 }

@@ -171,13 +171,13 @@ void exactness(Report& report, const std::vector<FrameInput>& inputs) {
   if (test::fuzzylitePresent()) {
     const test::Grid grid = test::gridFor(kAltitude, kPitch, 401, 251);
     std::string error;
-    const auto theirs = test::byFuzzylite(kAltitude, kPitch, {}, grid, error);
+    const auto theirs = test::byFuzzylite(kAltitude, kPitch, kRuleBase, grid, error);
     double worst = theirs.size() == grid.size() ? 0 : NAN;
     std::size_t point = 0;
     if (theirs.size() == grid.size())
       for (const double a : grid.altitude)
         for (const double p : grid.pitch) {
-          const test::FuzzyResult ours = test::byUs(kAltitude, kPitch, {}, a, p);
+          const test::FuzzyResult ours = test::byUs(kAltitude, kPitch, kRuleBase, a, p);
           for (std::size_t i = 0; i < ours.size(); ++i)
             worst = std::max(worst, std::abs(ours[i] - theirs[point][i]));
           ++point;

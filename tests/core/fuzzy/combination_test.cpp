@@ -47,33 +47,36 @@ TEST(Combination, aRuleBaseThatDoesNotFireYieldsZeroAndSaysSo) {
   EXPECT_TRUE(combine(Combination::sum, rules, 1, 1).anyFires);
 }
 
-TEST(WeightedOutput, isZeroForNoRules) {
-  EXPECT_EQ(weightedOutput({}), 0);
-}
-
 TEST(WeightedOutput, staysAmongTheOutputsWhateverTheWeights) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> unit(0, 1), exponent(-1074, 10);
   for (int round = 0; round < 100000; ++round) {
-    std::array<FiringRule, 4> rules;
-    for (FiringRule& rule : rules) rule = {std::exp2(exponent(random)), unit(random), 2 * unit(random)};
+    RuleList rules;
+    RuleFiring firing;
     double low = 2, high = 0;
-    for (const FiringRule& rule : rules) {
-      if (rule.weight * rule.firing <= 0) continue;
+    for (int i = 0; i < 4; ++i) {
+      const FuzzyRule rule{AltitudeCondition::any, PitchCondition::any, std::exp2(exponent(random)),
+                           2 * unit(random)};
+      rules.rule[rules.size++] = rule;
+      firing.mu[firing.count++] = unit(random);
+      if (rule.weight * firing.mu[firing.count - 1] <= 0) continue;
       low = std::min(low, rule.output);
       high = std::max(high, rule.output);
     }
-    const double u = weightedOutput(rules);
-    if (high < low)
-      ASSERT_EQ(u, 0);
+    const TotalMembership u = weightedOutput(rules, firing);
+    ASSERT_EQ(u.anyFires, high >= low);
+    if (!u.anyFires)
+      ASSERT_EQ(u.total, 0);
     else
-      ASSERT_TRUE(u >= low && u <= high) << u;
+      ASSERT_TRUE(u.total >= low && u.total <= high) << u.total;
   }
 }
 
 TEST(WeightedOutput, ignoresARuleWhoseWeightIsNotANumber) {
-  const std::array<FiringRule, 2> rules{{{std::numeric_limits<double>::quiet_NaN(), 1, 2}, {1, 1, 0.5}}};
-  EXPECT_EQ(weightedOutput(rules), 0.5);
+  const RuleList rules{
+      {AltitudeCondition::any, PitchCondition::any, std::numeric_limits<double>::quiet_NaN(), 2},
+      {AltitudeCondition::any, PitchCondition::any, 1, 0.5}};
+  EXPECT_EQ(weightedOutput(rules, ruleFiring(rules, 1, 1)).total, 0.5);
 }
 
 TEST(Combination, anEmptyRuleBaseYieldsZeroAndSaysSo) {

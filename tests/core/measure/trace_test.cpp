@@ -258,6 +258,7 @@ TEST(Trace, readsTheFourRulesOfOlderTraces) {
 
 TEST(Trace, refusesMoreFiringsThanARuleBaseHolds) {
   TraceRow row;
+  row.decision.ruleFiring.mu.fill(0);
   row.decision.ruleFiring.count = RuleList::kCapacity;
   std::string text = traceHeader() + '\n';
   appendTraceRow(text, row);
