@@ -15,6 +15,7 @@ class FrameBuffer {
   /// Makes it that size if it is not.
   void resize(int width, int height);
   unsigned id() const { return id_; }
+  unsigned colourTexture() const { return colour_; }
   /// Reversed depths, row 0 at the bottom; 0 where nothing was drawn.
   std::vector<float> readDepths() const;
   int width() const { return width_; }
