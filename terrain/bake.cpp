@@ -9,6 +9,8 @@
 
 #include "trimtab/terrain/database.h"
 #include "trimtab/terrain/import.h"
+#include "trimtab/terrain/scenery.h"
+#include "trimtab/terrain/scenery_import.h"
 #include "trimtab/terrain/store.h"
 #include "trimtab/terrain/tiled_database.h"
 
@@ -66,11 +68,6 @@ Finding refused(const fs::path& where, std::string expected, std::string found) 
   return {Severity::error, where.string(), "", std::move(expected), std::move(found)};
 }
 
-bool isDatabase(const fs::path& folder) {
-  std::error_code error;
-  return fs::is_regular_file(folder / kManifestName, error);
-}
-
 /// Only a database or an empty folder may be replaced.
 bool mayReplace(const fs::path& output) {
   std::error_code error;
@@ -86,10 +83,49 @@ std::string joinedNames(const std::vector<fs::path>& sources) {
 
 std::string nameOf(const fs::path& path) {
   const fs::path last = path.has_filename() ? path.filename() : path.parent_path().filename();
-  return last.stem().string();
+  return (last.extension() == ".gz" ? last.stem() : last).stem().string();
+}
+
+/// What the sources hold, by either import.
+struct Source {
+  HeightGrid grid;
+  std::uint64_t voidsFilled = 0;
+  std::optional<SceneryCounts> scenery;
+  std::vector<SceneryMesh> meshes;
+};
+
+/// An image over the colours of materials: those stay where it has nothing.
+void drape(std::vector<std::uint8_t> image, std::vector<std::uint8_t>& under) {
+  if (under.empty()) {
+    under = std::move(image);
+    return;
+  }
+  for (std::size_t i = 0; i + 3 < image.size(); i += 4)
+    if (image[i + 3] != 0) std::copy_n(&image[i], 4, &under[i]);
+}
+
+Result<Source> readSource(const BakeOptions& options, const Progress& progress) {
+  const auto scenery = std::count_if(options.sources.begin(), options.sources.end(), isScenery);
+  if (scenery == 0) {
+    auto imported = importElevation(options.sources, progress);
+    if (!imported) return imported.findings();
+    return {Source{std::move((*imported).grid), imported->voidsFilled, {}, {}}, imported.findings()};
+  }
+  if (scenery != static_cast<std::ptrdiff_t>(options.sources.size()))
+    return refused("bake", "elevation or scenery", "both");
+  auto imported = importScenery(options.sources, options.post, progress);
+  if (!imported) return imported.findings();
+  return {Source{std::move((*imported).grid), imported->voidsFilled, std::move((*imported).counts),
+                 std::move((*imported).meshes)},
+          imported.findings()};
 }
 
 }  // namespace
+
+bool isDatabase(const fs::path& folder) {
+  std::error_code error;
+  return fs::is_regular_file(folder / kManifestName, error);
+}
 
 Result<std::shared_ptr<const Database>> bake(const BakeOptions& options) {
   if (options.sources.empty()) return refused("bake", "at least one elevation file", "none");
@@ -104,7 +140,7 @@ Result<std::shared_ptr<const Database>> bake(const BakeOptions& options) {
     };
   };
 
-  auto imported = importElevation(options.sources, stage(0, 0.35));
+  auto imported = readSource(options, stage(0, 0.35));
   if (!imported) return imported.findings();
   Findings findings = imported.findings();
   HeightGrid& grid = (*imported).grid;
@@ -112,7 +148,7 @@ Result<std::shared_ptr<const Database>> bake(const BakeOptions& options) {
     auto image = readImagery(*options.imagery, grid.posts, stage(0.35, 0.5));
     findings.insert(findings.end(), image.findings().begin(), image.findings().end());
     if (!image) return findings;
-    grid.image = std::move(image).value();
+    drape(std::move(image).value(), grid.image);
   }
 
   TerrainIndex index = makeLevels(grid.posts);
@@ -132,6 +168,7 @@ Result<std::shared_ptr<const Database>> bake(const BakeOptions& options) {
   info.lowest = Metres{*lowest};
   info.highest = Metres{*highest};
   info.voidsFilled = imported->voidsFilled;
+  info.scenery = imported->scenery;
   Contents contents{info, std::move(grid), std::move(index), std::move(slopes)};
 
   const UnfinishedFolder unfinished(output);
@@ -147,12 +184,14 @@ Result<std::shared_ptr<const Database>> bake(const BakeOptions& options) {
 }
 
 Result<std::shared_ptr<const Database>> openOrBake(const fs::path& source, const fs::path& cacheFolder,
-                                                   const Progress& progress) {
+                                                   const Progress& progress, std::uint32_t trianglesPerNode) {
   if (isDatabase(source)) return Database::open(source);
   const std::vector<fs::path> sources{source};
-  const auto files = elevationFiles(sources);
+  const bool scenery = isScenery(source);
+  const auto files = scenery ? sceneryFiles(source) : elevationFiles(sources);
   if (!files) return files.findings();
   std::string key = "v" + std::to_string(kFormatVersion);
+  if (scenery) key += " n" + std::to_string(trianglesPerNode);
   for (const fs::path& file : *files) {
     std::error_code error;
     const fs::path whole = fs::weakly_canonical(file, error);
@@ -168,6 +207,7 @@ Result<std::shared_ptr<const Database>> openOrBake(const fs::path& source, const
   BakeOptions options;
   options.sources = sources;
   options.output = cached;
+  options.trianglesPerNode = trianglesPerNode;
   options.progress = progress;
   return bake(options);
 }

@@ -32,6 +32,13 @@ struct TileMesh {
   std::vector<TileVertex> vertices;  ///< kSide * kSide
 };
 
+/// What FlightGear scenery holds; triangles are those that are drawn, without the degenerate.
+struct SceneryCounts {
+  std::uint32_t tiles = 0, airports = 0;
+  std::uint64_t trianglesInFile = 0, degenerate = 0, triangles = 0;
+  std::vector<std::string> missing;  ///< listed, but not there
+};
+
 /// What a terrain is, for `terrain info` and the title bar.
 struct TerrainInfo {
   std::string name, source;
@@ -42,6 +49,7 @@ struct TerrainInfo {
   std::uint64_t voidsFilled = 0;
   std::uint64_t bytes = 0;
   bool hasImage = false;
+  std::optional<SceneryCounts> scenery;  ///< where that was the source
 };
 
 struct StaticLodTerrain;
@@ -64,17 +72,22 @@ class Database {
   virtual std::optional<Metres> highestWithin(Degrees latitude, Degrees longitude, Metres radius) const = 0;
 };
 
+/// Whether a folder is a database, by its name for the manifest alone.
+bool isDatabase(const std::filesystem::path& folder);
+
 /// Told now and then; returning false cancels. `fraction` is 0..1.
 using Progress = std::function<bool(double fraction, const std::string& what)>;
 
 struct BakeOptions {
-  std::vector<std::filesystem::path> sources;  ///< elevation files or folders of them
+  std::vector<std::filesystem::path> sources;  ///< elevation files or folders of them; or scenery
   std::optional<std::filesystem::path> imagery;
   std::uint32_t trianglesPerNode = 2000;  ///< of the static levels of detail, where the source is scenery
+  std::optional<Metres> post;  ///< distance of posts that scenery's triangles are put on; else by its size
   std::filesystem::path output;
   Progress progress;
 };
-/// Elevation to a database: written to a temporary folder beside `output` and renamed when complete.
+/// Elevation, or scenery with its trees of static levels of detail, to a database: written to a temporary
+/// folder beside `output` and renamed when complete.
 Result<std::shared_ptr<const Database>> bake(const BakeOptions& options);
 
 struct SampleOptions {
@@ -88,9 +101,10 @@ struct SampleOptions {
 Result<Done> writeSample(const std::filesystem::path& tif, const SampleOptions& options);
 
 /// Opens a database folder as it is; bakes anything else into the cache folder first (and finds it there next
-/// time: keyed by paths, sizes and times of the sources).
+/// time: keyed by paths, sizes and times of the sources, and for scenery by `trianglesPerNode`).
 Result<std::shared_ptr<const Database>> openOrBake(const std::filesystem::path& source,
                                                    const std::filesystem::path& cacheFolder,
-                                                   const Progress& progress);
+                                                   const Progress& progress,
+                                                   std::uint32_t trianglesPerNode = 2000);
 
 }  // namespace trimtab::terrain

@@ -14,8 +14,9 @@
 /// FlightGear scenery: tiles (`.btg`, `.btg.gz`, versions 7 and 10) and the lists that place them (`.stg`).
 namespace trimtab::terrain {
 
-/// One tile or airport. Triangles from single triangles, strips and fans alike, anticlockwise from above;
-/// those that repeat a vertex, by its number or by its place, are dropped and counted.
+/// One tile or airport. Triangles from single triangles, strips and fans alike, anticlockwise from above but
+/// for slivers that fold back in the file; those that repeat a vertex, by its number or by its place, are
+/// dropped and counted.
 struct SceneryMesh {
   struct Triangle {
     std::array<std::uint32_t, 3> vertex{};
@@ -29,7 +30,7 @@ struct SceneryMesh {
   std::vector<Triangle> triangles;
   int version = 0;
   std::uint64_t trianglesInFile = 0, degenerate = 0;  ///< the file's include the degenerate
-  std::uint64_t turned = 0;                           ///< faced down in the file
+  std::uint64_t facingDown = 0;                       ///< of the triangles: slivers that fold back
 };
 
 /// Told now and then; returning false cancels.

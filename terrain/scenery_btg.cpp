@@ -343,7 +343,9 @@ bool BtgReader::placeVertices() {
   return bad == 0;
 }
 
-/// Drops triangles two of whose vertices are one place under two numbers, and turns those that face down.
+/// Drops triangles two of whose vertices are one place under two numbers, and turns the whole mesh where most
+/// of it faces down. Single slivers that face down stay: turned, they would break the order of their
+/// neighbours' edges.
 void BtgReader::placeTriangles() {
   const std::vector<Vec3>& v = mesh_.vertices;
   std::vector<SceneryMesh::Triangle>& all = mesh_.triangles;
@@ -353,15 +355,24 @@ void BtgReader::placeTriangles() {
   });
   mesh_.degenerate += static_cast<std::uint64_t>(all.end() - kept);
   all.erase(kept, all.end());
-  for (SceneryMesh::Triangle& t : all) {
+  double up = 0, down = 0;
+  std::uint64_t facingUp = 0;
+  for (const SceneryMesh::Triangle& t : all) {
     const auto [a, b, c] = t.vertex;
     // Along the ellipsoid's normal, not the line to its centre.
-    const Vec3 up{v[a].x, v[a].y, v[a].z * 1.00673949674228};
-    if (dot(cross(v[b] - v[a], v[c] - v[a]), up) < 0) {
-      std::swap(t.vertex[1], t.vertex[2]);
-      ++mesh_.turned;
+    const Vec3 normal{v[a].x, v[a].y, v[a].z * 1.00673949674228};
+    const double area = dot(cross(v[b] - v[a], v[c] - v[a]), normal);
+    if (area < 0) {
+      down -= area;
+      ++mesh_.facingDown;
+    } else {
+      up += area;
+      ++facingUp;
     }
   }
+  if (down <= up) return;
+  for (SceneryMesh::Triangle& t : all) std::swap(t.vertex[1], t.vertex[2]);
+  mesh_.facingDown = facingUp;
 }
 
 Result<SceneryMesh> BtgReader::read() {

@@ -117,6 +117,19 @@ struct Reader {
   }
 };
 
+SceneryCounts sceneryOf(const Json& json, const Reader& read) {
+  SceneryCounts counts;
+  counts.tiles = static_cast<std::uint32_t>(read.number(json, "tiles", 0, 1e9));
+  counts.airports = static_cast<std::uint32_t>(read.number(json, "airports", 0, 1e9));
+  counts.trianglesInFile = static_cast<std::uint64_t>(read.number(json, "triangles_in_file", 0, 1e15));
+  counts.degenerate = static_cast<std::uint64_t>(read.number(json, "degenerate", 0, 1e15));
+  counts.triangles = static_cast<std::uint64_t>(read.number(json, "triangles", 0, 1e15));
+  if (json.is_object() && json.contains("missing") && json["missing"].is_array())
+    for (const Json& name : json["missing"])
+      if (name.is_string()) counts.missing.push_back(name.get<std::string>());
+  return counts;
+}
+
 }  // namespace
 
 std::uint64_t checksum(std::string_view bytes) {
@@ -183,6 +196,13 @@ Result<Done> writeContents(const fs::path& folder, const Contents& contents) {
   manifest["highest_m"] = contents.info.highest.value();
   manifest["voids_filled"] = contents.info.voidsFilled;
   manifest["image"] = !contents.grid.image.empty();
+  if (const auto& scenery = contents.info.scenery)
+    manifest["scenery"] = {{"tiles", scenery->tiles},
+                           {"airports", scenery->airports},
+                           {"triangles_in_file", scenery->trianglesInFile},
+                           {"degenerate", scenery->degenerate},
+                           {"triangles", scenery->triangles},
+                           {"missing", scenery->missing}};
   manifest["files"] = files;
   manifest["checksum"] = std::string(16, '0');
   std::string text = manifest.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
@@ -228,6 +248,7 @@ Result<Contents> readContents(const fs::path& folder) {
   info.highest = Metres{read.number(manifest, "highest_m", -20000, 20000)};
   info.voidsFilled = static_cast<std::uint64_t>(read.number(manifest, "voids_filled", 0, 1e15));
   info.hasImage = manifest.contains("image") && manifest["image"] == true;
+  if (manifest.contains("scenery")) info.scenery = sceneryOf(manifest["scenery"], read);
   if (posts.latitude(posts.rows - 1) > 90 + 1e-6)
     findings.push_back(
         wrong(file, "grid", "rows up to latitude 90", std::to_string(posts.latitude(posts.rows - 1))));

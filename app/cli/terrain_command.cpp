@@ -1,57 +1,12 @@
-#include <iomanip>
-#include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "progress.h"
+#include "terrain_info.h"
 #include "trimtab/terrain/database.h"
+#include "trimtab/terrain/scenery.h"
 
 namespace trimtab::cli {
-
-namespace {
-
-nlohmann::ordered_json toJson(const terrain::Database& database) {
-  const terrain::TerrainInfo& i = database.info();
-  const TerrainIndex& index = database.index();
-  nlohmann::ordered_json levels = nlohmann::ordered_json::array();
-  for (std::size_t l = 0; l < index.levels.size(); ++l) {
-    const TerrainIndex::Level& level = index.levels[l];
-    float error = 0;
-    for (std::uint32_t n = 0; n < level.columns * level.rows; ++n)
-      error = std::max(error, index.errorM[level.firstNode + n]);
-    levels.push_back({{"level", l}, {"columns", level.columns}, {"rows", level.rows}, {"error_m", error}});
-  }
-  return {{"name", i.name},
-          {"source", i.source},
-          {"south_deg", i.southWest.latitude.value()},
-          {"west_deg", i.southWest.longitude.value()},
-          {"north_deg", i.northEast.latitude.value()},
-          {"east_deg", i.northEast.longitude.value()},
-          {"columns", i.columns},
-          {"rows", i.rows},
-          {"post_longitude_deg", i.postLongitude.value()},
-          {"post_latitude_deg", i.postLatitude.value()},
-          {"lowest_m", i.lowest.value()},
-          {"highest_m", i.highest.value()},
-          {"voids_filled", i.voidsFilled},
-          {"image", i.hasImage},
-          {"bytes", i.bytes},
-          {"levels", levels}};
-}
-
-void print(const terrain::Database& database) {
-  const auto json = toJson(database);
-  for (const auto& [key, value] : json.items())
-    if (key != "levels")
-      std::cout << std::left << std::setw(20) << key
-                << (value.is_string() ? value.get<std::string>() : value.dump()) << '\n';
-  for (const auto& level : json["levels"])
-    std::cout << "level " << level["level"] << ": " << level["columns"] << " x " << level["rows"]
-              << " tiles, error " << level["error_m"].get<double>() << " m\n";
-}
-
-}  // namespace
 
 void addTerrain(CLI::App& app, int& exitCode) {
   CLI::App* group = app.add_subcommand("terrain", "Make, bake and look at terrain");
@@ -83,46 +38,62 @@ void addTerrain(CLI::App& app, int& exitCode) {
   struct BakeArguments {
     std::vector<std::string> sources;
     std::string output, imagery;
+    std::uint32_t leafTriangles = terrain::BakeOptions{}.trianglesPerNode;
+    double postM = 0;
   };
   auto bake = std::make_shared<BakeArguments>();
-  CLI::App* makeBake = group->add_subcommand("bake", "Make a database of elevation files or folders");
+  CLI::App* makeBake = group->add_subcommand("bake", "Make a database of elevation or scenery");
   makeBake
-      ->add_option("source", bake->sources,
-                   "DTED, .hgt, GeoTIFF and whatever else GDAL reads; or folders of them")
+      ->add_option(
+          "source", bake->sources,
+          "DTED, .hgt, GeoTIFF and whatever else GDAL reads, or folders of them; or FlightGear scenery: "
+          "folders, .stg, .btg and .btg.gz")
       ->required();
   makeBake->add_option("-o,--output", bake->output, "Folder of the database")->required();
   makeBake->add_option("--imagery", bake->imagery, "Georeferenced image to drape");
+  makeBake
+      ->add_option("--leaf-triangles", bake->leafTriangles,
+                   "Most triangles a leaf of the static levels of detail holds (scenery)")
+      ->capture_default_str()
+      ->check(CLI::Range(16, 1000000));
+  makeBake
+      ->add_option(
+          "--post-m", bake->postM,
+          "Distance of the posts that scenery is put on; by its size (30 to 60) where it is not given")
+      ->check(CLI::Range(1.0, 10000.0));
   makeBake->callback([bake, &exitCode] {
     const Interruptible guard;
     terrain::BakeOptions options;
     options.sources.assign(bake->sources.begin(), bake->sources.end());
     options.output = bake->output;
     if (!bake->imagery.empty()) options.imagery = bake->imagery;
+    options.trianglesPerNode = bake->leafTriangles;
+    if (bake->postM > 0) options.post = Metres{bake->postM};
     options.progress = progressLines();
     const auto done = terrain::bake(options);
     report(done.findings());
     exitCode = done ? kDone : kRefused;
-    if (done) print(**done);
+    if (done) printInfo(**done, false);
   });
 
   struct InfoArguments {
-    std::string database;
+    std::string terrain;
     bool json = false;
   };
   auto info = std::make_shared<InfoArguments>();
-  CLI::App* showInfo = group->add_subcommand("info", "What a database holds");
-  showInfo->add_option("database", info->database, "Folder of the database")->required();
+  CLI::App* showInfo = group->add_subcommand("info", "What a database or some scenery holds");
+  showInfo->add_option("terrain", info->terrain, "Folder of a database; or scenery, not baked")->required();
   showInfo->add_flag("--json", info->json, "One JSON document on standard output");
   showInfo->callback([info, &exitCode] {
-    const auto database = terrain::Database::open(info->database);
+    const std::filesystem::path path = info->terrain;
+    if (!terrain::isDatabase(path) && terrain::isScenery(path)) {
+      exitCode = printSceneryInfo(path, info->json);
+      return;
+    }
+    const auto database = terrain::Database::open(path);
     report(database.findings());
     exitCode = database ? kDone : kRefused;
-    if (!database) return;
-    if (info->json)
-      std::cout << toJson(**database).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
-                << '\n';
-    else
-      print(**database);
+    if (database) printInfo(**database, info->json);
   });
 }
 

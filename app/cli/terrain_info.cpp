@@ -1,0 +1,163 @@
+#include "terrain_info.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "trimtab/terrain/scenery.h"
+#include "trimtab/terrain/scenery_import.h"
+#include "trimtab/terrain/static_lod.h"
+
+namespace trimtab::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json toJson(const terrain::SceneryCounts& counts) {
+  return {{"tiles", counts.tiles},
+          {"airports", counts.airports},
+          {"triangles_in_file", counts.trianglesInFile},
+          {"degenerate", counts.degenerate},
+          {"triangles", counts.triangles},
+          {"missing", counts.missing}};
+}
+
+Json toJson(const terrain::StaticLodTerrain& trees) {
+  const terrain::StaticLodCounts& counts = trees.counts;
+  return {{"triangles_per_node", trees.trianglesPerNode},
+          {"trees", trees.index.roots.size()},
+          {"nodes", trees.index.size()},
+          {"levels", counts.levels},
+          {"source_triangles", counts.sourceTriangles},
+          {"faces_of_level", counts.facesOfLevel},
+          {"faces", counts.faces},
+          {"distinct_faces", counts.distinctFaces},
+          {"locked_minima", counts.lockedMinima},
+          {"bytes", counts.bytes}};
+}
+
+Json toJson(const terrain::Database& database) {
+  const terrain::TerrainInfo& i = database.info();
+  const TerrainIndex& index = database.index();
+  Json levels = Json::array();
+  for (std::size_t l = 0; l < index.levels.size(); ++l) {
+    const TerrainIndex::Level& level = index.levels[l];
+    float error = 0;
+    for (std::uint32_t n = 0; n < level.columns * level.rows; ++n)
+      error = std::max(error, index.errorM[level.firstNode + n]);
+    levels.push_back({{"level", l}, {"columns", level.columns}, {"rows", level.rows}, {"error_m", error}});
+  }
+  Json json = {{"name", i.name},
+               {"source", i.source},
+               {"south_deg", i.southWest.latitude.value()},
+               {"west_deg", i.southWest.longitude.value()},
+               {"north_deg", i.northEast.latitude.value()},
+               {"east_deg", i.northEast.longitude.value()},
+               {"columns", i.columns},
+               {"rows", i.rows},
+               {"post_longitude_deg", i.postLongitude.value()},
+               {"post_latitude_deg", i.postLatitude.value()},
+               {"lowest_m", i.lowest.value()},
+               {"highest_m", i.highest.value()},
+               {"voids_filled", i.voidsFilled},
+               {"image", i.hasImage},
+               {"bytes", i.bytes},
+               {"levels", levels}};
+  if (i.scenery) json["scenery"] = toJson(*i.scenery);
+  if (const auto trees = database.staticLod()) json["static_lod"] = toJson(*trees);
+  return json;
+}
+
+Json toJson(const terrain::SceneryMesh& mesh) {
+  double west = 0, east = 0, south = 0, north = 0, low = 0, high = 0;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const GeodeticPosition p = toGeodetic(mesh.vertices[v]);
+    const double latitude = p.latitude.value(), height = p.height.value();
+    // Longitudes beside the first vertex's, so that the date line does not widen the tile.
+    const double longitude =
+        v == 0 ? p.longitude.value() : west + wrapped180(p.longitude - Degrees{west}).value();
+    if (v == 0) west = east = longitude, south = north = latitude, low = high = height;
+    west = std::min(west, longitude), east = std::max(east, longitude);
+    south = std::min(south, latitude), north = std::max(north, latitude);
+    low = std::min(low, height), high = std::max(high, height);
+  }
+  return {{"name", mesh.name},
+          {"kind", mesh.airport ? "airport" : "tile"},
+          {"version", mesh.version},
+          {"triangles_in_file", mesh.trianglesInFile},
+          {"degenerate", mesh.degenerate},
+          {"triangles", mesh.triangles.size()},
+          {"vertices", mesh.vertices.size()},
+          {"west_deg", west},
+          {"south_deg", south},
+          {"east_deg", east},
+          {"north_deg", north},
+          {"lowest_m", low},
+          {"highest_m", high}};
+}
+
+std::string plain(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_array()) return value.dump();
+  std::string all;
+  for (const Json& item : value) all += (all.empty() ? "" : ", ") + plain(item);
+  return all.empty() ? "none" : all;
+}
+
+/// "key  value" a line; of an object inside, "key.inner".
+void printLines(const Json& json, const std::string& prefix = "") {
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_object())
+      printLines(value, prefix + key + ".");
+    else if (!value.is_array() || value.empty() || !value[0].is_object())
+      std::cout << std::left << std::setw(30) << prefix + key << plain(value) << '\n';
+  }
+}
+
+void printDocument(const Json& json) {
+  std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+}
+
+}  // namespace
+
+void printInfo(const terrain::Database& database, bool json) {
+  const Json all = toJson(database);
+  if (json) return printDocument(all);
+  printLines(all);
+  for (const auto& level : all["levels"])
+    std::cout << "level " << level["level"] << ": " << level["columns"] << " x " << level["rows"]
+              << " tiles, error " << level["error_m"].get<double>() << " m\n";
+}
+
+int printSceneryInfo(const std::filesystem::path& path, bool json) {
+  const auto scenery = terrain::readScenery(path);
+  report(scenery.findings());
+  if (!scenery) return kRefused;
+  std::map<std::string, std::uint64_t> materials;
+  Json meshes = Json::array();
+  for (const terrain::SceneryMesh& mesh : scenery->tiles) {
+    meshes.push_back(toJson(mesh));
+    for (const terrain::SceneryMesh::Triangle& t : mesh.triangles) ++materials[mesh.materials[t.material]];
+  }
+  const Json all = {{"source", path.string()},
+                    {"scenery", toJson(terrain::countsOf(*scenery))},
+                    {"materials", materials},
+                    {"files", meshes}};
+  if (json) {
+    printDocument(all);
+    return kDone;
+  }
+  printLines(all);
+  for (const auto& mesh : all["files"])
+    std::cout << mesh["kind"].get<std::string>() << ' ' << mesh["name"].get<std::string>() << ": version "
+              << mesh["version"] << ", " << mesh["triangles"] << " triangles (" << mesh["degenerate"]
+              << " degenerate dropped), " << mesh["lowest_m"].get<double>() << " to "
+              << mesh["highest_m"].get<double>() << " m\n";
+  return kDone;
+}
+
+}  // namespace trimtab::cli
