@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "trimtab/frame/frame.h"
+#include "trimtab/frame/static_lod_frame.h"
 
 namespace trimtab::views {
 
@@ -21,7 +22,10 @@ struct LiveFrame {
   std::uint64_t triangles = 0, vertices = 0;
   std::size_t tilesDrawn = 0, tilesInCut = 0, outsideFrustum = 0, occluded = 0;
   double fps = std::numeric_limits<double>::quiet_NaN();
-  std::optional<DepthMapSize> depthMap;  ///< that was drawn this frame
+  StaticLodFrame staticLod;
+  std::optional<DepthMapSize> depthMap;    ///< that was drawn this frame
+  std::optional<HostWeather> hostWeather;  ///< as the host, or the flight, says
+  std::optional<Metres> hostVisibility;
 };
 
 }  // namespace trimtab::views
