@@ -72,6 +72,12 @@ void addExperiment(CLI::App& app, int& exitCode) {
   for (const Named& named : {
            Named{"culling", "No culling, view frustum and proposed at 2,000 to 8,000 ft (documents A, B)",
                  &experiment::runCulling},
+           Named{"head-motion", "A sweep of 180 degrees in a second (document C)",
+                 &experiment::runHeadMotion},
+           Named{"weather", "Three vertex counts, four densities; fixed ratio and adaptive (document D)",
+                 &experiment::runWeather},
+           Named{"static-lod", "Faces by level of one tile of scenery (document E)",
+                 &experiment::runStaticLod},
        }) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = group->add_subcommand(named.name, named.what);

@@ -36,4 +36,11 @@ Result<Report> runCulling(const Setup& setup);
 /// restoration.
 Result<Report> runHeadMotion(const Setup& setup);
 
+/// Document D: three vertex counts in view, reached within 5 % by the screen-space error, times four
+/// densities of rain and of snow; the fixed ratio against the calibrated one.
+Result<Report> runWeather(const Setup& setup);
+
+/// Document E: the tile nearest to the published triangles, built with the published n. Needs scenery.
+Result<Report> runStaticLod(const Setup& setup);
+
 }  // namespace trimtab::experiment

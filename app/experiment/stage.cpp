@@ -68,7 +68,15 @@ double Stage::medianMs(const scene::FrameRequest& request, int repeats, scene::F
 
 std::vector<std::uint8_t> Stage::pixels(const scene::FrameRequest& request) {
   draw(request);
-  return renderer_.readPixels(request.view.widthPx, request.view.heightPx);
+  return shown();
+}
+
+scene::CutError Stage::cutError(const scene::FrameRequest& request) {
+  return scene::cutError(renderer_, request, offscreen_->framebuffer());
+}
+
+std::vector<std::uint8_t> Stage::shown() {
+  return renderer_.readPixels(width_, height_);
 }
 
 std::string Stage::machine() const {

@@ -8,6 +8,7 @@
 #include "trimtab/experiment/experiment.h"
 #include "trimtab/scene/offscreen.h"
 #include "trimtab/scene/renderer.h"
+#include "trimtab/scene/weather_cut_error.h"
 
 /// What all experiments stand on: a context, a renderer and places to look from.
 namespace trimtab::experiment {
@@ -24,6 +25,10 @@ class Stage {
   /// result.
   double medianMs(const scene::FrameRequest& request, int repeats, scene::FrameResult& last);
   std::vector<std::uint8_t> pixels(const scene::FrameRequest& request);
+  /// What the weather's far cut changes in the picture.
+  scene::CutError cutError(const scene::FrameRequest& request);
+  /// Of the last frame drawn, RGBA.
+  std::vector<std::uint8_t> shown();
   /// Processor, cores and what draws, in one line.
   std::string machine() const;
 
