@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "trimtab/host/motion.h"
+#include "trimtab/motion/line_of_sight.h"
 
 namespace trimtab::session {
 namespace {
@@ -28,16 +29,6 @@ bool samePose(const AircraftState& a, const AircraftState& b) {
   return a.position == b.position && a.attitude == b.attitude && a.head == b.head && a.view == b.view;
 }
 
-/// Body axes (x forward, y right, z down) to north, east, down.
-Mat3 bodyToWorld(const Attitude& a) {
-  const auto radians = [](Degrees d) { return d.in<Radians>(); };
-  const double ch = std::cos(radians(a.heading)), sh = std::sin(radians(a.heading));
-  const double cp = std::cos(radians(a.pitch)), sp = std::sin(radians(a.pitch));
-  const double cr = std::cos(radians(a.roll)), sr = std::sin(radians(a.roll));
-  return {{Vec3{ch * cp, ch * sp * sr - sh * cr, ch * sp * cr + sh * sr},
-           Vec3{sh * cp, sh * sp * sr + ch * cr, sh * sp * cr - ch * sr}, Vec3{-sp, cp * sr, cp * cr}}};
-}
-
 }  // namespace
 
 std::string_view toText(LinkState state) {
@@ -55,16 +46,7 @@ std::string_view toText(LinkState state) {
 }
 
 Attitude viewAttitude(const Attitude& aircraft, const std::optional<Attitude>& head) {
-  if (!head || *head == Attitude{}) return aircraft;
-  const Mat3 m = bodyToWorld(aircraft) * bodyToWorld(*head);
-  const auto degrees = [](double radians) { return Radians{radians}.as<Degrees>(); };
-  const double down = m.row[2].x;
-  // Straight up or down, heading and roll turn about one axis: roll is taken as zero.
-  if (std::abs(down) > 1 - 1e-12)
-    return {wrapped360(degrees(std::atan2(-m.row[0].y, m.row[1].y))), Degrees{down < 0 ? 90.0 : -90.0},
-            Degrees{0}};
-  return {wrapped360(degrees(std::atan2(m.row[1].x, m.row[0].x))), degrees(-std::asin(down)),
-          degrees(std::atan2(m.row[2].y, m.row[2].z))};
+  return lineOfSight(aircraft, head);
 }
 
 Session::Session(const ValidatedParameters& parameters) : parameters_(parameters) {}
@@ -86,14 +68,18 @@ void Session::setTerrain(std::shared_ptr<const terrain::Database> terrain) {
 void Session::receive(std::span<const link::ReceivedState> states) {
   for (const link::ReceivedState& received : states) {
     latency_.decoded.add((received.decodedTime - received.kernelTime) * 1e3);
-    follow(received);
-    decideNext(inputFor(received.state), received.kernelTime);
+    AircraftState state = received.state;
+    head_.apply(state, received.kernelTime);
+    follow(state, received.kernelTime);
+    decideNext(inputFor(state), received.kernelTime);
   }
 }
 
-void Session::fly(const AircraftState& state) {
+void Session::fly(const AircraftState& state, double now) {
   linked_ = false;
-  decideNext(inputFor(state), kNan);
+  AircraftState flown = state;
+  head_.apply(flown, now);
+  decideNext(inputFor(flown), kNan);
 }
 
 void Session::replay(const TraceRow& row) {
@@ -110,14 +96,19 @@ void Session::look(const AircraftState& state) {
   if (!looking_) lookMemory_ = {};
   looking_ = true;
   linked_ = false;
-  current_ = inputFor(state);
+  AircraftState seen = state;
+  head_.apply(seen, state.time);
+  current_ = inputFor(seen);
   decision_ = decide(*current_, parameters_, lookMemory_);
+  blurPicturedAt_.reset();
   dirty_ = true;
 }
 
 void Session::restart() {
   Session fresh(parameters_);
   fresh.terrain_ = std::move(terrain_);
+  fresh.head_ = std::move(head_);
+  fresh.head_.restart();
   fresh.keepRows_ = keepRows_;
   fresh.rows_ = std::move(rows_);
   fresh.completeRows_ = fresh.requestedRows_ = fresh.rows_.size();
@@ -139,9 +130,8 @@ FrameInput Session::inputFor(const AircraftState& state) const {
 }
 
 /// Link bookkeeping of one packet: clock, silence, jumps, velocity.
-void Session::follow(const link::ReceivedState& received) {
-  const double arrival = received.kernelTime;
-  const double offset = received.state.time - arrival;
+void Session::follow(const AircraftState& state, double arrival) {
+  const double offset = state.time - arrival;
   const bool first = packets_ == 0 || !linked_;
   if (first || !(std::abs(offset - clockOffset_) <= kClockStepS))
     clockOffset_ = offset;
@@ -149,14 +139,14 @@ void Session::follow(const link::ReceivedState& received) {
     clockOffset_ += (offset - clockOffset_) * kClockGain;
   if (!first && current_) {
     const double gap = std::max(arrival - lastArrival_, 0.0);
-    if (isJump(current_->state.position, received.state.position, gap, gap > kSilenceS)) {
+    if (isJump(current_->state.position, state.position, gap, gap > kSilenceS)) {
       ++jumps_;
       lastJump_ = arrival;
     }
   }
   linked_ = true;
   lastArrival_ = arrival;
-  extrapolator_.push(received.state);
+  extrapolator_.push(state);
 }
 
 void Session::decideNext(const FrameInput& input, double kernelTime) {
@@ -167,6 +157,7 @@ void Session::decideNext(const FrameInput& input, double kernelTime) {
   decision_ = decide(input, parameters_, memory_);
   decideMs_ += millisecondsSince(start);
   current_ = input;
+  blurPicturedAt_.reset();
   dirty_ = true;
   if (std::isfinite(kernelTime)) {
     if (waiting_.size() >= kMostWaiting)
@@ -188,16 +179,20 @@ double Session::packetAge(double now) const {
 }
 
 AircraftState Session::eyeState(double now) const {
-  if (!linked_ || !parameters_->host.extrapolate) return current_->state;
-  AircraftState eye = extrapolator_.at(now + clockOffset_, parameters_->host.silenceAfter.in<Seconds>());
-  eye.view = current_->state.view;
+  AircraftState eye = current_->state;
+  if (linked_ && parameters_->host.extrapolate) {
+    eye = extrapolator_.at(now + clockOffset_, parameters_->host.silenceAfter.in<Seconds>());
+    eye.view = current_->state.view;
+  }
+  head_.applyToEye(eye);
   return eye;
 }
 
 bool Session::needsPicture(double now) const {
   if (!current_) return false;
-  if (dirty_ || !drawnEye_) return true;
-  return linked_ && !samePose(eyeState(now), *drawnEye_);
+  if (dirty_ || blurDrawn_ || !drawnEye_) return true;
+  const bool moving = linked_ || head_.source() == HeadInput::Source::pointer;
+  return moving && !samePose(eyeState(now), *drawnEye_);
 }
 
 std::optional<scene::FrameRequest> Session::request(double now, int windowWidthPx, int windowHeightPx) {
@@ -208,6 +203,13 @@ std::optional<scene::FrameRequest> Session::request(double now, int windowWidthP
   request.attitude = viewAttitude(eye.attitude, eye.head);
   request.view = viewShape(parameters_->view, windowWidthPx, windowHeightPx, eye.view);
   request.decision = decision_;
+  MotionBlur& blur = request.decision.motion.blur;
+  if (blur.strength > 0) {
+    if (!blurPicturedAt_) blurPicturedAt_ = now;
+    blur.remainingMs -= std::max(now - *blurPicturedAt_, 0.0) * 1e3;
+    if (!(blur.remainingMs > 0)) blur = {};
+  }
+  blurDrawn_ = blur.strength > 0;
   request.method = parameters_->culling.method;
   request.lod = parameters_->lod;
   request.staticLod = parameters_->staticLod;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -14,6 +15,7 @@
 #include "trimtab/measure/trace.h"
 #include "trimtab/preset/table.h"
 #include "trimtab/scene/renderer.h"
+#include "trimtab/session/head_input.h"
 #include "trimtab/terrain/database.h"
 
 /// From packet states to pictures: what IG and workbench do alike, so that they decide alike. No GUI, no GL,
@@ -55,15 +57,22 @@ class Session {
 
   /// Packets, in order of arrival.
   void receive(std::span<const link::ReceivedState> states);
-  /// A row of a flight that is drawn row by row: no link, no extrapolation.
-  void fly(const AircraftState& state);
+  /// A row of a flight that is drawn row by row: no link, no extrapolation. `now` places it among the
+  /// pointer's events.
+  void fly(const AircraftState& state, double now = std::numeric_limits<double>::quiet_NaN());
   /// A row of a trace: decides from exactly the recorded input. The first one brings the memory it was
   /// decided with.
   void replay(const TraceRow& row);
-  /// A free camera's state: decided with a memory of its own; no packet, no trace row, no link.
+  /// A free camera's state, whose time is `now`: decided with a memory of its own; no packet, no trace row,
+  /// no link.
   void look(const AircraftState& state);
   /// Forgets states, memory, link and latencies: a new host, a new flight.
   void restart();
+
+  /// Whose head it is: applies to every state but those of a trace, which bring the head they were decided
+  /// with.
+  HeadInput& head() { return head_; }
+  const HeadInput& head() const { return head_; }
 
   // What there is now.
 
@@ -83,13 +92,15 @@ class Session {
 
   // Pictures.
 
-  /// Whether a picture drawn at `now` would differ from the last one asked for: a packet, an edit, or the eye
-  /// moves on between packets. False when the host is silent and nothing was edited.
+  /// Whether a picture drawn at `now` would differ from the last one asked for: a packet, an edit, the eye
+  /// moves on between packets, or a blur has not run out. False when the host is silent and nothing was
+  /// edited.
   bool needsPicture(double now) const;
   /// The state that the eye has at `now`: between packets it moves on along the recent velocity. Only with
   /// `hasState`.
   AircraftState eyeState(double now) const;
-  /// The picture of `now`. None before the first state. Packets decided until here count as shown by it.
+  /// The picture of `now`. None before the first state. Packets decided until here count as shown by it. A
+  /// blur's remaining time runs on from the first picture of its decision.
   std::optional<scene::FrameRequest> request(double now, int windowWidthPx, int windowHeightPx);
   /// The requested picture is finished: completes rows, latency and the cost that the next decision is given.
   /// `cost.decide` is filled in here. Returns the completed cost.
@@ -109,7 +120,7 @@ class Session {
   void decideNext(const FrameInput& input, double kernelTime);
   FrameInput inputFor(const AircraftState& state) const;
   std::optional<Metres> groundBelow(const AircraftState& state) const;
-  void follow(const link::ReceivedState& received);
+  void follow(const AircraftState& state, double arrival);
 
   ValidatedParameters parameters_;
   std::shared_ptr<const terrain::Database> terrain_;
@@ -121,6 +132,10 @@ class Session {
   double decideMs_ = 0;  ///< spent since the last picture
   bool looking_ = false;
   bool replayed_ = false;
+
+  HeadInput head_;
+  std::optional<double> blurPicturedAt_;  ///< of the first picture of the last decision
+  bool blurDrawn_ = false;
 
   Extrapolator extrapolator_;
   bool linked_ = false;     ///< states come from a live link: the eye may be extrapolated

@@ -18,8 +18,8 @@ struct DecisionMemory {
 };
 
 /// Memberships, scheme, depth-map size and what head motion asks for, for one packet state, with the reason
-/// of each. Pure but for `memory`; no allocation. Bit-exact on replay. Input that is not a number gives
-/// *frustum* and leaves the memory as it was.
+/// of each. Pure but for `memory`; no allocation. Bit-exact on replay. An altitude or pitch that is not a
+/// number gives *frustum*; each part that meets such input leaves its own memory as it was.
 FrameDecision decide(const FrameInput& input, const ValidatedParameters& parameters, DecisionMemory& memory);
 
 /// The decision in words and numbers, for the log and the dock: one line.

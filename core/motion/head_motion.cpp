@@ -24,7 +24,9 @@ Direction directionOf(const AircraftState& state, MotionReference reference) {
 
 /// The larger of heading and pitch change, degrees; heading the short way round.
 double changeBetween(const MotionMemory& before, const Direction& now) {
-  const double heading = wrapped180(Degrees{now.headingDeg} - Degrees{before.headingDeg}).value();
+  double heading = now.headingDeg - before.headingDeg;
+  // Nearly always it does not wrap, and the remainder takes longer than all else here.
+  if (!(std::abs(heading) <= 180)) heading = wrapped180(Degrees{heading}).value();
   return std::max(std::abs(heading), std::abs(now.pitchDeg - before.pitchDeg));
 }
 
