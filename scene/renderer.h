@@ -51,6 +51,12 @@ struct FrameRequest {
   std::optional<SymbologyRequest> symbology;
 };
 
+/// Whether a terrain that has static trees is drawn from them.
+inline bool asksForTrees(const FrameRequest& request) {
+  return request.staticLod.terrain == TerrainForm::static_trees || request.overlays.treeDepth >= 0 ||
+         request.overlays.treePicture;
+}
+
 struct FrameResult {
   VisibleSet visible;
   FrameCost cost;  ///< milliseconds; gpu is NaN where there is no timer query yet

@@ -42,8 +42,7 @@ const StaticLodIndex& StaticLodCulling::index() const {
 }
 
 bool StaticLodCulling::wanted(const FrameRequest& request) const {
-  return terrain_ && (request.staticLod.terrain == TerrainForm::static_trees ||
-                      request.overlays.treeDepth >= 0 || request.overlays.treePicture);
+  return terrain_ && asksForTrees(request);
 }
 
 void StaticLodCulling::select(const FrameRequest& request, const EyePose& eye, FrameResult& counters) {

@@ -31,6 +31,7 @@ class QPushButton;
 namespace trimtab::views {
 class BandsEditor;
 class PlotsPanel;
+class StaticLodPanel;
 }  // namespace trimtab::views
 
 namespace trimtab::workbench {
@@ -141,6 +142,8 @@ class MainWindow : public QMainWindow {
   void showInDocks(const views::LiveFrame& frame);
   QString hudText(const AircraftState& eye) const;
   void takeScreenshot();
+  // window_weather.cpp
+  void calibrateWeather();
 
   views::Draft draft_;
   Document document_{draft_};
@@ -155,6 +158,7 @@ class MainWindow : public QMainWindow {
   std::vector<std::function<void(const views::LiveFrame&)>> liveDocks_;
   views::BandsEditor* bands_ = nullptr;
   views::PlotsPanel* plots_ = nullptr;
+  views::StaticLodPanel* staticLod_ = nullptr;
   HostDock* hostDock_ = nullptr;
   FlightDock* flightDock_ = nullptr;
   ExperimentsDock* experiments_ = nullptr;

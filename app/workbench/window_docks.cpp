@@ -14,6 +14,8 @@
 #include "trimtab/views/membership_editor.h"
 #include "trimtab/views/parameter_table.h"
 #include "trimtab/views/plots_panel.h"
+#include "trimtab/views/weather_panel.h"
+#include "trimtab/views/static_lod_panel.h"
 
 // Which docks there are and where they stand.
 namespace trimtab::workbench {
@@ -52,6 +54,9 @@ void MainWindow::makeDocks() {
   using enum DockPlace;
   addDock("memberships", tr("Memberships"), edit, new views::MembershipEditor(draft_));
   bands_ = addDock("depth_map", tr("Depth map"), edit, new views::BandsEditor(draft_));
+  staticLod_ = addDock("static_lod", tr("Static LOD"), edit, new views::StaticLodPanel(draft_));
+  auto* weather = addDock("weather", tr("Weather"), edit, new views::WeatherPanel(draft_));
+  connect(weather, &views::WeatherPanel::calibrationAsked, this, &MainWindow::calibrateWeather);
   addDock("preset", tr("Preset"), edit, new views::ParameterTable(draft_));
   addDock("history", tr("History"), edit, history);
   addDock("decision", tr("Decision"), effect, new views::DecisionPanel(draft_));
@@ -62,6 +67,11 @@ void MainWindow::makeDocks() {
   experiments_ =
       addDock("experiments", tr("Experiments"), foot,
               new ExperimentsDock([this](const QString& folder) { return experimentInputs(folder); }));
+  connect(staticLod_, &views::StaticLodPanel::overlayChanged, this, [this](int depth, bool picture) {
+    overlays_.treeDepth = depth;
+    overlays_.treePicture = picture;
+    viewport_->invalidate();
+  });
   connect(dock(QStringLiteral("depth_map")), &QDockWidget::visibilityChanged, viewport_,
           &Viewport::setDepthMapWanted);
 }

@@ -18,6 +18,8 @@
 #include "flight_dock.h"
 #include "main_window.h"
 #include "notice_bar.h"
+#include "trimtab/terrain/static_lod.h"
+#include "trimtab/views/static_lod_panel.h"
 
 // Files: presets, terrain, flights, traces, and what happens to edits that are not saved.
 namespace trimtab::workbench {
@@ -104,6 +106,25 @@ void MainWindow::askOpenTerrain(bool folder) {
   if (!picked.isEmpty()) openTerrain(picked);
 }
 
+namespace {
+
+std::optional<views::StaticLodSummary> summaryOf(const terrain::StaticLodTerrain* trees) {
+  if (trees == nullptr) return std::nullopt;
+  const terrain::StaticLodCounts& c = trees->counts;
+  return views::StaticLodSummary{.trianglesPerNode = trees->trianglesPerNode,
+                                 .levels = c.levels,
+                                 .tiles = trees->tiles.size(),
+                                 .nodes = trees->index.size(),
+                                 .sourceTriangles = c.sourceTriangles,
+                                 .faces = c.faces,
+                                 .distinctFaces = c.distinctFaces,
+                                 .lockedMinima = c.lockedMinima,
+                                 .bytes = c.bytes,
+                                 .facesOfLevel = c.facesOfLevel};
+}
+
+}  // namespace
+
 void MainWindow::onTerrainOpened(std::shared_ptr<const terrain::Database> database) {
   terrain_ = std::move(database);
   frozenEye_.reset();
@@ -119,6 +140,7 @@ void MainWindow::onTerrainOpened(std::shared_ptr<const terrain::Database> databa
                       .arg(info.voidsFilled));
   feed_.session().setTerrain(terrain_);
   viewport_->setTerrain(terrain_);
+  staticLod_->setTrees(summaryOf(terrain_->staticLod().get()));
   placeCamera();
   feed_.look(viewport_->camera());
   updateTitle();

@@ -13,6 +13,7 @@
 #include "flight_dock.h"
 #include "host_dock.h"
 #include "main_window.h"
+#include "trimtab/terrain/static_lod.h"
 #include "trimtab/views/bands_editor.h"
 
 // From states to pictures and from pictures to docks.
@@ -29,11 +30,11 @@ QColor colourOf(const std::array<std::uint8_t, 3>& c) {
 }
 
 QList<LegendEntry> reasonLegend() {
-  return {{MainWindow::tr("drawn"), colourOf(scene::reasonColour(CullReason::drawn))},
-          {MainWindow::tr("outside the frustum"), colourOf(scene::reasonColour(CullReason::outside_frustum))},
-          {MainWindow::tr("occluded"), colourOf(scene::reasonColour(CullReason::occluded))},
-          {MainWindow::tr("beyond visibility"),
-           colourOf(scene::reasonColour(CullReason::beyond_visibility))}};
+  return {
+      {MainWindow::tr("drawn"), colourOf(scene::reasonColour(CullReason::drawn))},
+      {MainWindow::tr("outside the frustum"), colourOf(scene::reasonColour(CullReason::outside_frustum))},
+      {MainWindow::tr("occluded"), colourOf(scene::reasonColour(CullReason::occluded))},
+      {MainWindow::tr("beyond visibility"), colourOf(scene::reasonColour(CullReason::beyond_visibility))}};
 }
 
 QList<LegendEntry> levelLegend(std::size_t levels) {
@@ -41,6 +42,12 @@ QList<LegendEntry> levelLegend(std::size_t levels) {
   for (int level = 0; level < static_cast<int>(levels); ++level)
     entries.append({MainWindow::tr("level %1").arg(level), colourOf(scene::levelColour(level))});
   return entries;
+}
+
+QList<LegendEntry> pictureLegend() {
+  return {{MainWindow::tr("face"), QColor(214, 214, 214)},
+          {MainWindow::tr("edge"), QColor(217, 0, 0)},
+          {MainWindow::tr("locked edge"), QColor(0, 0, 0)}};
 }
 
 /// The largest size inside the widget whose pixels are square in the view: both fields of view are given, so
@@ -73,9 +80,15 @@ std::optional<Picture> MainWindow::picture(int widthPx, int heightPx) {
   picture.overlay.frozen = frozenEye_.has_value();
   picture.again = feed_.movesOnItsOwn(now);
   picture.hud = [this, eye = feed_.session().eyeState(now)] { return hudText(eye); };
-  if (overlays_.colourByReason) {
+  if (overlays_.treePicture && terrain_->staticLod()) {
+    picture.overlay.legendTitle = tr("Document E's picture");
+    picture.overlay.legend = pictureLegend();
+  } else if (overlays_.colourByReason) {
     picture.overlay.legendTitle = tr("Why a tile is drawn or not");
     picture.overlay.legend = reasonLegend();
+  } else if (overlays_.colourByLevel && terrain_->staticLod() && scene::asksForTrees(picture.request)) {
+    picture.overlay.legendTitle = tr("Depth in the static trees, 0 is the root");
+    picture.overlay.legend = levelLegend(terrain_->staticLod()->counts.levels);
   } else if (overlays_.colourByLevel) {
     picture.overlay.legendTitle = tr("Level of detail, 0 is finest");
     picture.overlay.legend = levelLegend(terrain_->index().levels.size());
@@ -135,6 +148,8 @@ views::LiveFrame MainWindow::liveFrame() const {
   frame.time = double(sinceStart_.nsecsElapsed()) * 1e-9;
   frame.packet = feed_.session().input().state.packet;
   frame.decision = feed_.session().decision();
+  frame.hostWeather = feed_.session().input().state.weather;
+  frame.hostVisibility = feed_.session().input().state.visibility;
   frame.cost = lastCost_;
   frame.fps = fps_;
   if (const auto& last = viewport_->lastResult()) {
@@ -145,6 +160,7 @@ views::LiveFrame MainWindow::liveFrame() const {
     frame.outsideFrustum = last->visible.outsideFrustum;
     frame.occluded = last->visible.occluded;
     frame.depthMap = last->depthMap;
+    frame.staticLod = last->staticLod;
   }
   return frame;
 }
