@@ -46,9 +46,15 @@ struct StaticLodCounts {
   std::uint64_t sourceTriangles = 0, faces = 0, distinctFaces = 0;  ///< faces of all nodes; same face once
   std::vector<std::uint64_t>
       facesOfLevel;  ///< by depth, root first; a leaf above the deepest level counts in all below
-  std::uint64_t lockedMinima = 0;  ///< nodes that could not reach n
-  std::uint64_t bytes = 0;
+  std::uint64_t lockedMinima = 0;    ///< nodes that could not reach n
+  std::uint64_t joinedVertices = 0;  ///< of tiles' borders, found again in a neighbour
+  std::uint64_t degenerate = 0;      ///< source triangles dropped: they repeat a vertex on the lattice
+  std::uint64_t repeated = 0;        ///< source triangles dropped: another one has the same corners
+  std::uint64_t folded = 0;          ///< source triangles kept that stand upright or face down
+  std::uint64_t bytes = 0;           ///< of all arrays
 };
+
+inline constexpr std::uint32_t kMostTrianglesPerNode = 1000000;
 
 struct StaticLodTerrain {
   std::uint32_t trianglesPerNode = 2000;  ///< n
@@ -60,16 +66,21 @@ struct StaticLodTerrain {
 };
 
 struct StaticLodOptions {
-  std::uint32_t trianglesPerNode = 2000;
+  std::uint32_t trianglesPerNode = 2000;  ///< 1 to kMostTrianglesPerNode
   /// As terrain::Progress: returning false cancels.
   std::function<bool(double fraction, const std::string& what)> progress;
 };
 
 /// Builds the trees of all tiles in `frame`; tiles in parallel. Vertices that neighbouring tiles share are
-/// joined first, so that borders stay closed between tiles too.
+/// joined first, so that borders stay closed between tiles too. The same input gives the same bytes on any
+/// number of cores. Refused: numbers that are not finite, places more than 1000 km from the frame's origin,
+/// tiles wider than 120 km, indices past their arrays; tiles without triangles are left out with a warning.
 Result<std::shared_ptr<const StaticLodTerrain>> buildStaticLod(std::span<const SceneryMesh> tiles,
                                                                const LocalFrame& frame,
                                                                const StaticLodOptions& options);
+
+/// Makes those of the counts that follow from the index and the arrays.
+void countStaticLod(StaticLodTerrain& terrain);
 
 /// One little-endian file with a checksum, written atomically; reading checks sizes before it allocates.
 Result<Done> writeStaticLod(const std::filesystem::path& file, const StaticLodTerrain& terrain);

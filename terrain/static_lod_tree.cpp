@@ -1,0 +1,209 @@
+#include "trimtab/terrain/static_lod_tree.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+
+#include "trimtab/terrain/static_lod_collapse.h"
+#include "trimtab/terrain/static_lod_surface.h"
+
+namespace trimtab::terrain {
+
+namespace {
+
+using Index = std::uint32_t;
+
+class Builder {
+ public:
+  Builder(const LatticeTile& tile, Index most) : tile_(tile), most_(most) {
+    Lattice low = tile.vertices[0], high = low;
+    for (const Lattice& p : tile.vertices) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    constexpr std::int32_t kOriginStep = 16 * 256;
+    const auto middle = [](std::int32_t a, std::int32_t b) {
+      return static_cast<std::int32_t>((std::int64_t{a} + b) / 2 / kOriginStep) * kOriginStep;
+    };
+    tree_.origin = {middle(low.x, high.x), middle(low.y, high.y), middle(low.z, high.z)};
+  }
+
+  LodTree build() {
+    SourceSurface surface = analyse(tile_, tree_.origin);
+    tree_.folded = surface.folded;
+    tree_.vertices = tile_.vertices;
+    tree_.normals = tile_.normals;
+    tree_.order.resize(tile_.triangles.size());
+    std::iota(tree_.order.begin(), tree_.order.end(), 0u);
+    split(0, static_cast<Index>(tree_.order.size()), 0);
+    findBorders(surface.fixed);
+    sourceQuadrics_ = std::move(surface.quadrics);
+    localOf_.assign(tree_.vertices.size(), LodTree::kNone);
+    kept_.resize(tree_.nodes.size());
+    for (Index i = static_cast<Index>(tree_.nodes.size()); i-- > 0;) {
+      if (tree_.nodes[i].children[0] == LodTree::kNone) {
+        fillLeaf(tree_.nodes[i]);
+      } else {
+        merge(tree_.nodes[i]);
+      }
+    }
+    tree_.distinctFaces = tile_.triangles.size() + newFaces_;
+    return std::move(tree_);
+  }
+
+ private:
+  /// A vertex's quadric as a subtree leaves it.
+  struct Kept {
+    Index vertex;
+    Quadric quadric;
+  };
+
+  std::array<std::int64_t, 2> centroid(Index triangle) const {
+    std::array<std::int64_t, 2> sum{};
+    for (const Index v : tile_.triangles[triangle])
+      sum[0] += tile_.vertices[v].x, sum[1] += tile_.vertices[v].y;
+    return sum;
+  }
+
+  Index split(Index first, Index last, std::uint8_t depth) {
+    const Index number = static_cast<Index>(tree_.nodes.size());
+    tree_.nodes.emplace_back();
+    tree_.nodes[number].first = first;
+    tree_.nodes[number].last = last;
+    tree_.nodes[number].depth = depth;
+    if (last - first <= most_) return number;
+
+    std::array<std::int64_t, 2> low, high;
+    low.fill(std::numeric_limits<std::int64_t>::max());
+    high.fill(std::numeric_limits<std::int64_t>::min());
+    for (Index i = first; i < last; ++i) {
+      const auto c = centroid(tree_.order[i]);
+      for (std::size_t k = 0; k < 2; ++k) low[k] = std::min(low[k], c[k]), high[k] = std::max(high[k], c[k]);
+    }
+    const std::size_t axis = high[0] - low[0] >= high[1] - low[1] ? 0 : 1;
+    const Index half = first + (last - first) / 2;
+    const auto at = [&](Index i) { return tree_.order.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(at(first), at(half), at(last), [&](Index a, Index b) {
+      const auto ca = centroid(a), cb = centroid(b);
+      if (ca[axis] != cb[axis]) return ca[axis] < cb[axis];
+      return ca[1 - axis] != cb[1 - axis] ? ca[1 - axis] < cb[1 - axis] : a < b;
+    });
+    const Index left = split(first, half, static_cast<std::uint8_t>(depth + 1));
+    const Index right = split(half, last, static_cast<std::uint8_t>(depth + 1));
+    tree_.nodes[number].children = {left, right};
+    return number;
+  }
+
+  /// A vertex is a border of every node below the deepest one that holds all its triangles.
+  void findBorders(const std::vector<std::uint8_t>& fixed) {
+    std::vector<Index> first(tree_.vertices.size(), LodTree::kNone), last(tree_.vertices.size(), 0);
+    for (Index i = 0; i < tree_.order.size(); ++i)
+      for (const Index v : tile_.triangles[tree_.order[i]]) {
+        first[v] = std::min(first[v], i);
+        last[v] = std::max(last[v], i);
+      }
+    tree_.freeFrom.assign(tree_.vertices.size(), LodTree::kFixed);
+    for (Index v = 0; v < tree_.vertices.size(); ++v) {
+      if (fixed[v]) continue;
+      Index node = 0;
+      while (tree_.nodes[node].children[0] != LodTree::kNone) {
+        const Index boundary = tree_.nodes[tree_.nodes[node].children[1]].first;
+        if (first[v] < boundary && last[v] >= boundary) break;
+        node = tree_.nodes[node].children[last[v] < boundary ? 0 : 1];
+      }
+      tree_.freeFrom[v] = static_cast<std::int8_t>(tree_.nodes[node].depth);
+    }
+  }
+
+  void fillLeaf(LodTree::Node& leaf) {
+    const Index number = static_cast<Index>(&leaf - tree_.nodes.data());
+    for (Index i = leaf.first; i < leaf.last; ++i) {
+      leaf.triangles.push_back(tile_.triangles[tree_.order[i]]);
+      leaf.material.push_back(tile_.material[tree_.order[i]]);
+    }
+    for (const auto& t : leaf.triangles)
+      for (const Index v : t)
+        if (localOf_[v] == LodTree::kNone) {
+          localOf_[v] = 0;
+          kept_[number].push_back({v, sourceQuadrics_[v]});
+        }
+    for (const Kept& k : kept_[number]) localOf_[k.vertex] = LodTree::kNone;
+  }
+
+  void merge(LodTree::Node& node) {
+    const Index number = static_cast<Index>(&node - tree_.nodes.data());
+    Patch patch;
+    patch.origin = tree_.origin;
+    for (const Index child : node.children) {
+      for (const Kept& k : kept_[child]) {
+        Index& local = localOf_[k.vertex];
+        if (local == LodTree::kNone) {
+          local = static_cast<Index>(patch.vertices.size());
+          patch.vertices.push_back({tree_.vertices[k.vertex], k.quadric, tree_.normals[k.vertex], k.vertex,
+                                    tree_.locked(k.vertex, node.depth), false});
+        } else {  // on the border of the two: both have counted the source once
+          patch.vertices[local].quadric += k.quadric - sourceQuadrics_[k.vertex];
+        }
+      }
+      for (const auto& t : tree_.nodes[child].triangles)
+        patch.triangles.push_back({localOf_[t[0]], localOf_[t[1]], localOf_[t[2]]});
+      node.material.insert(node.material.end(), tree_.nodes[child].material.begin(),
+                           tree_.nodes[child].material.end());
+      kept_[child] = {};
+    }
+    for (const Patch::Vertex& v : patch.vertices) localOf_[v.id] = LodTree::kNone;
+
+    const auto before = patch.triangles;
+    std::vector<std::uint8_t> alive;
+    node.lockedMinimum = !collapseEdges(patch, most_, alive);
+
+    std::vector<std::uint8_t> used(patch.vertices.size());
+    for (std::size_t t = 0; t < alive.size(); ++t)
+      if (alive[t])
+        for (const Index v : patch.triangles[t]) used[v] = 1;
+    for (Index i = 0; i < used.size(); ++i) {
+      if (!used[i]) continue;
+      Patch::Vertex& v = patch.vertices[i];
+      if (v.moved) {
+        v.id = static_cast<Index>(tree_.vertices.size());
+        tree_.vertices.push_back(v.at);
+        tree_.normals.push_back(v.normal);
+        tree_.freeFrom.push_back(static_cast<std::int8_t>(node.depth));
+        sourceQuadrics_.emplace_back();
+        localOf_.push_back(LodTree::kNone);
+      }
+      kept_[number].push_back({v.id, v.quadric});
+    }
+    std::size_t left = 0;
+    for (std::size_t t = 0; t < alive.size(); ++t) {
+      if (!alive[t]) continue;
+      const auto& corners = patch.triangles[t];
+      bool same = corners == before[t];
+      for (const Index v : corners) same = same && !patch.vertices[v].moved;
+      newFaces_ += !same;
+      node.triangles.push_back(
+          {patch.vertices[corners[0]].id, patch.vertices[corners[1]].id, patch.vertices[corners[2]].id});
+      node.material[left++] = node.material[t];
+    }
+    node.material.resize(left);
+  }
+
+  const LatticeTile& tile_;
+  Index most_;
+  LodTree tree_;
+  std::vector<Quadric> sourceQuadrics_;  ///< of the source's vertices; zero for new ones
+  std::vector<Index> localOf_;           ///< scratch, one a vertex
+  std::vector<std::vector<Kept>> kept_;  ///< one a node, until its parent is built
+  std::uint64_t newFaces_ = 0;
+};
+
+}  // namespace
+
+LodTree buildTree(const LatticeTile& tile, std::uint32_t trianglesPerNode) {
+  LodTree tree = Builder(tile, trianglesPerNode).build();
+  measureTree(tile, tree);
+  return tree;
+}
+
+}  // namespace trimtab::terrain

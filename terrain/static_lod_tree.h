@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "trimtab/terrain/static_lod_lattice.h"
+
+namespace trimtab::terrain {
+
+/// The tree of one tile with its meshes, while it is being built. Nodes in preorder: parents first.
+struct LodTree {
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  /// Depth of a vertex that every node of the tile leaves where it is.
+  static constexpr std::int8_t kFixed = -1;
+
+  struct Node {
+    std::array<std::uint32_t, 2> children{kNone, kNone};
+    std::uint32_t first = 0, last = 0;  ///< of the source triangles in `order`
+    std::uint8_t depth = 0;
+    bool lockedMinimum = false;
+    double rmsErrorM = 0, maxErrorM = 0, slopeMax = 0;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<std::uint16_t> material;
+  };
+
+  Lattice origin;  ///< whole multiples of 16 m
+  std::vector<Node> nodes;
+  std::vector<std::uint32_t> order;  ///< source triangles, leaf by leaf
+  std::vector<Lattice> vertices;     ///< the source's, then those that collapses made
+  std::vector<Vec3> normals;         ///< one a vertex, any length
+  /// One a vertex: depth of the shallowest node that it is a border of plus one, so that deeper nodes may not
+  /// move it; kFixed: no node may.
+  std::vector<std::int8_t> freeFrom;
+  std::uint64_t distinctFaces = 0, folded = 0;
+
+  /// Whether a node of that depth must leave the vertex.
+  bool locked(std::uint32_t vertex, std::uint8_t depth) const {
+    return freeFrom[vertex] == kFixed || freeFrom[vertex] < static_cast<int>(depth);
+  }
+};
+
+/// Splits by upright planes across the longer side, at the median of the triangles' middles, down to leaves
+/// of n/2 to n; merges and simplifies upwards; measures.
+LodTree buildTree(const LatticeTile& tile, std::uint32_t trianglesPerNode);
+
+/// Measures every node, children first: see StaticLodIndex::rmsErrorM.
+void measureTree(const LatticeTile& tile, LodTree& tree);
+
+}  // namespace trimtab::terrain
