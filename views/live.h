@@ -20,7 +20,7 @@ struct LiveFrame {
   FrameDecision decision;
   FrameCost cost;  ///< NaN: not run or not measured
   std::uint64_t triangles = 0, vertices = 0;
-  std::size_t tilesDrawn = 0, tilesInCut = 0, outsideFrustum = 0, occluded = 0;
+  std::size_t tilesDrawn = 0, tilesInCut = 0, outsideFrustum = 0, occluded = 0, beyondVisibility = 0;
   double fps = std::numeric_limits<double>::quiet_NaN();
   StaticLodFrame staticLod;
   std::optional<DepthMapSize> depthMap;    ///< that was drawn this frame

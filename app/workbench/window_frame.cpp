@@ -159,6 +159,7 @@ views::LiveFrame MainWindow::liveFrame() const {
     frame.tilesInCut = last->tilesInCut;
     frame.outsideFrustum = last->visible.outsideFrustum;
     frame.occluded = last->visible.occluded;
+    frame.beyondVisibility = last->visible.beyondVisibility;
     frame.depthMap = last->depthMap;
     frame.staticLod = last->staticLod;
   }

@@ -154,6 +154,7 @@ void forEachColumn(F& f, const Visit& visit) {
   visit("tiles_drawn", Cell::frame, f.frame.counts.tilesDrawn);
   visit("culled_frustum", Cell::frame, f.frame.counts.culledFrustum);
   visit("culled_occluded", Cell::frame, f.frame.counts.culledOccluded);
+  visit("culled_beyond_visibility", Cell::frame, f.frame.counts.culledBeyondVisibility);
   auto& cost = f.frame.cost;
   visit("decide_ms", Cell::frame, cost.decide);
   visit("select_ms", Cell::frame, cost.select);

@@ -106,7 +106,7 @@ TraceRow anyRow(std::mt19937_64& random) {
   anyMotion(random, row.before, d);
   anyWeather(random, d.weather);
   if (random() % 2) {
-    row.frame = TraceFrame{{random(), random(), random(), random(), random()},
+    row.frame = TraceFrame{{random(), random(), random(), random(), random(), random()},
                            {number(), number(), number(), number(), number(), number(), number()}};
     if (random() % 2) row.frame->cost.gpu = kNan;
   }
