@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "trimtab/host/motion.h"
 #include "trimtab/motion/line_of_sight.h"
@@ -93,11 +94,15 @@ void Session::replay(const TraceRow& row) {
 }
 
 void Session::look(const AircraftState& state) {
-  if (!looking_) lookMemory_ = {};
+  if (!looking_) lookMemory_ = {}, groundVelocity_.restart();
+  const bool stands = looking_ && state.position == current_->state.position;
   looking_ = true;
   linked_ = false;
   AircraftState seen = state;
   head_.apply(seen, state.time);
+  // A camera that stands is looked at once more, and then no more.
+  if (stands) seen.velocity = Velocity{};
+  groundVelocity_.push(seen);
   current_ = inputFor(seen);
   decision_ = decide(*current_, parameters_, lookMemory_);
   blurPicturedAt_.reset();
@@ -150,12 +155,14 @@ void Session::follow(const AircraftState& state, double arrival) {
 }
 
 void Session::decideNext(const FrameInput& input, double kernelTime) {
-  looking_ = false;
+  const bool looking = std::exchange(looking_, false);
   ++packets_;
   const DecisionMemory before = memory_;
   const auto start = std::chrono::steady_clock::now();
   decision_ = decide(input, parameters_, memory_);
   decideMs_ += millisecondsSince(start);
+  if (looking) groundVelocity_.restart();
+  groundVelocity_.push(input.state);
   current_ = input;
   blurPicturedAt_.reset();
   dirty_ = true;
@@ -195,11 +202,33 @@ bool Session::needsPicture(double now) const {
   return moving && !samePose(eyeState(now), *drawnEye_);
 }
 
+/// What the host does not send is derived from its positions, and labelled so.
+scene::SymbologyState Session::symbols(const AircraftState& eye) const {
+  scene::SymbologyState symbols;
+  symbols.aircraft = eye.attitude;
+  symbols.view = viewAttitude(eye.attitude, eye.head);
+  symbols.altitude = eye.position.height;
+  symbols.velocity = velocityOf(eye);
+  symbols.speed = eye.airspeed;
+  symbols.groundSpeed = !eye.airspeed;
+  if (!eye.airspeed && symbols.velocity)
+    symbols.speed =
+        MetresPerSecond{std::hypot(symbols.velocity->north.value(), symbols.velocity->east.value())}
+            .as<Knots>();
+  return symbols;
+}
+
+std::optional<Velocity> Session::velocityOf(const AircraftState& state) const {
+  return state.velocity ? state.velocity : groundVelocity_.velocity();
+}
+
 std::optional<scene::FrameRequest> Session::request(double now, int windowWidthPx, int windowHeightPx) {
   if (!current_) return std::nullopt;
   AircraftState eye = eyeState(now);
   scene::FrameRequest request;
+  request.time = eye.time;
   request.eye = eye.position;
+  request.velocity = velocityOf(eye);
   request.attitude = viewAttitude(eye.attitude, eye.head);
   request.view = viewShape(parameters_->view, windowWidthPx, windowHeightPx, eye.view);
   request.decision = decision_;
@@ -213,6 +242,8 @@ std::optional<scene::FrameRequest> Session::request(double now, int windowWidthP
   request.method = parameters_->culling.method;
   request.lod = parameters_->lod;
   request.staticLod = parameters_->staticLod;
+  if (parameters_->symbology.enabled)
+    request.symbology = scene::SymbologyRequest{symbols(eye), scene::symbologySetup(*parameters_)};
   inPicture_.insert(inPicture_.end(), waiting_.begin(), waiting_.end());
   waiting_.clear();
   requestedAt_ = now;
@@ -236,7 +267,8 @@ FrameCost Session::finished(const scene::FrameResult& result, double now) {
   if (requestedRows_ > completeRows_) {
     const VisibleSet& visible = result.visible;
     rows_[requestedRows_ - 1].frame = TraceFrame{
-        {visible.triangles, visible.vertices, visible.tiles.size(), visible.outsideFrustum, visible.occluded},
+        {visible.triangles, visible.vertices, visible.tiles.size(), visible.outsideFrustum, visible.occluded,
+         visible.beyondVisibility},
         lastCost_};
     completeRows_ = requestedRows_;
   }

@@ -10,6 +10,7 @@
 
 #include "trimtab/decision/decide.h"
 #include "trimtab/host/decoder.h"
+#include "trimtab/host/ground_velocity.h"
 #include "trimtab/link/link.h"
 #include "trimtab/measure/statistics.h"
 #include "trimtab/measure/trace.h"
@@ -121,6 +122,8 @@ class Session {
   FrameInput inputFor(const AircraftState& state) const;
   std::optional<Metres> groundBelow(const AircraftState& state) const;
   void follow(const AircraftState& state, double arrival);
+  scene::SymbologyState symbols(const AircraftState& eye) const;
+  std::optional<Velocity> velocityOf(const AircraftState& state) const;
 
   ValidatedParameters parameters_;
   std::shared_ptr<const terrain::Database> terrain_;
@@ -137,6 +140,7 @@ class Session {
   std::optional<double> blurPicturedAt_;  ///< of the first picture of the last decision
   bool blurDrawn_ = false;
 
+  GroundVelocity groundVelocity_;
   Extrapolator extrapolator_;
   bool linked_ = false;     ///< states come from a live link: the eye may be extrapolated
   double clockOffset_ = 0;  ///< host clock minus ours
