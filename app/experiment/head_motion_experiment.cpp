@@ -15,6 +15,8 @@ constexpr double kStepS = 1.0 / 200;
 constexpr int kStill = 60, kSweep = 200, kRest = 200, kFrames = kStill + kSweep + kRest;
 constexpr double kSweepDeg = 180;
 constexpr double kEyeFt = 2000;
+/// Frames between two questions whether to go on.
+constexpr int kAsked = 40;
 /// Pictures are compared at every so many frames of the sweep.
 constexpr int kCompared = 25;
 
@@ -38,20 +40,16 @@ double headingAt(int frame) {
   return kSweepDeg * std::clamp(double(frame - kStill) / kSweep, 0.0, 1.0);
 }
 
-GeodeticPosition eyeOf(const Setup& setup) {
-  const std::vector<Place> places = placesOf(setup, 1);
-  GeodeticPosition eye = places.empty() ? setup.terrain->info().southWest : places[0].ground;
-  eye.height = eye.height + Feet{kEyeFt}.as<Metres>();
-  return eye;
-}
-
-/// One pass through all frames; the first pass also counts and keeps pictures.
-void pass(Stage& stage, const Setup& setup, const ValidatedParameters& parameters, bool first, Run& run) {
+/// One pass through all frames; the first pass also counts and keeps pictures. False: it was cancelled, which
+/// `go` is asked now and then.
+bool pass(Stage& stage, const Setup& setup, const ValidatedParameters& parameters,
+          const GeodeticPosition& eye, bool first, Run& run, const auto& go) {
   session::Session session(parameters);
   session.setTerrain(setup.terrain);
   AircraftState state;
-  state.position = eyeOf(setup);
+  state.position = eye;
   for (int i = 0; i < kFrames; ++i) {
+    if (i % kAsked == 0 && !go(double(i) / kFrames)) return false;
     state.time = i * kStepS;
     state.packet = static_cast<std::uint64_t>(i);
     state.head = Attitude{Degrees{headingAt(i)}, {}, {}};
@@ -70,6 +68,7 @@ void pass(Stage& stage, const Setup& setup, const ValidatedParameters& parameter
     if (i >= kStill && i < kStill + kSweep && (i - kStill) % kCompared == 0)
       run.pictures.push_back(stage.shown());
   }
+  return true;
 }
 
 std::vector<double> medians(const Run& run) {
@@ -119,6 +118,10 @@ Result<Report> runHeadMotion(const Setup& setup) {
     if (!valid) return valid.findings();
     parameters.push_back(*valid);
   }
+  const std::vector<Place> places = placesOf(setup, 1);
+  if (places.empty()) return notOverTerrain(setup);
+  GeodeticPosition eye = places[0].ground;
+  eye.height = eye.height + Feet{kEyeFt}.as<Metres>();
   auto stage = Stage::open(setup);
   if (!stage) return stage.findings();
 
@@ -129,13 +132,15 @@ Result<Report> runHeadMotion(const Setup& setup) {
     for (std::size_t m = 0; m < kModes.size(); ++m) {
       char what[64];
       std::snprintf(what, sizeof what, "sweep %d of %d, %s", r + 1, passes, kModes[m].name);
-      const double done = (r + double(m) / kModes.size()) / passes;
-      if (setup.progress && !setup.progress(done, what)) return cancelled();
+      const auto go = [&](double part) {
+        return !setup.progress || setup.progress((r + (double(m) + part) / kModes.size()) / passes, what);
+      };
       if (r == 0 && m == 0) {
         Run warm;
-        pass(**stage, setup, parameters[m], false, warm);
+        if (!pass(**stage, setup, parameters[m], eye, false, warm, [&](double) { return go(0); }))
+          return cancelled();
       }
-      pass(**stage, setup, parameters[m], r == 0, runs[m]);
+      if (!pass(**stage, setup, parameters[m], eye, r == 0, runs[m], go)) return cancelled();
     }
 
   // What is compared is the same stretch of the sweep for all: after the dwell of the mode that has one.

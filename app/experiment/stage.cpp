@@ -131,6 +131,10 @@ double quantileOf(std::vector<double> values, double fraction) {
   return window.quantile(fraction);
 }
 
+Finding notOverTerrain(const Setup& setup) {
+  return {Severity::error, setup.terrainName, {}, "a flight over the terrain", "no place lies over it"};
+}
+
 Finding cancelled() {
   return {Severity::error, "experiment", {}, "to run to its end", "it was cancelled"};
 }

@@ -56,6 +56,8 @@ double meanOf(const std::vector<double>& values);
 /// Nearest rank; sorts.
 double quantileOf(std::vector<double> values, double fraction);
 
+/// The finding that says that no place of the flight lies over the terrain.
+Finding notOverTerrain(const Setup& setup);
 /// The finding that says a person asked to stop.
 Finding cancelled();
 

@@ -1,0 +1,53 @@
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support.h"
+
+namespace trimtab {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+test::Ran experimentBy(const std::string& arguments) {
+  return test::run(test::program("trimtab-cli").string() + " experiment " + arguments);
+}
+
+TEST(ExperimentCommand, printsOneDocumentAndWritesTablesAndPlots) {
+  const test::ScratchDir dir;
+  const std::string tif = (dir / "sample.tif").string(), database = (dir / "db").string();
+  ASSERT_EQ(
+      test::run(test::program("trimtab-cli").string() + " terrain sample --size-km 6 -o " + tif).exitCode, 0);
+  ASSERT_EQ(
+      test::run(test::program("trimtab-cli").string() + " terrain bake " + tif + " -o " + database).exitCode,
+      0);
+  const std::string out = (dir / "out").string();
+  const test::Ran ran =
+      experimentBy("culling --terrain " + database + " --size 64x48 --repeats 1 --json -o " + out +
+                   " --set fuzzy.combination=twice_minimum");
+  ASSERT_EQ(ran.exitCode, 0) << ran.err;
+  const json document = json::parse(ran.out);
+  EXPECT_EQ(document.at("published").size(), 12u);
+  EXPECT_EQ(document.at("measured").size(), 12u);
+  EXPECT_TRUE(document.at("machine").is_string());
+  for (const char* column : {"altitude_ft", "case", "triangles", "vertices", "frame_ms", "fps"})
+    EXPECT_TRUE(document.at("measured")[0].contains(column)) << column;
+  EXPECT_THAT(ran.err, HasSubstr(" % 8000 ft"));
+  for (const char* name : {"culling.json", "culling-published.csv", "culling-measured.csv",
+                           "culling-triangles.svg", "culling-frame-ms.svg"})
+    EXPECT_GT(test::readFile((dir / "out") / name).size(), 100u) << name;
+}
+
+TEST(ExperimentCommand, tellsAllThatIsWrongWithItsInput) {
+  const test::Ran ran =
+      experimentBy("weather --terrain /nowhere --size 10x --preset nope --flight /none.csv");
+  EXPECT_EQ(ran.exitCode, 1);
+  for (const char* said : {"--size", "nope", "/none.csv", "/nowhere"}) EXPECT_THAT(ran.err, HasSubstr(said));
+  EXPECT_EQ(ran.out, "");
+  EXPECT_EQ(experimentBy("culling").exitCode, 2) << "no terrain is wrong usage";
+  EXPECT_EQ(experimentBy("nothing --terrain x").exitCode, 2);
+}
+
+}  // namespace
+}  // namespace trimtab

@@ -1,0 +1,131 @@
+#include "trimtab/experiment/experiment.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "support.h"
+#include "trimtab/preset/preset.h"
+
+namespace trimtab::experiment {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A small piece of the sample terrain, baked once.
+class Experiment : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = std::make_unique<test::ScratchDir>();
+    terrain::SampleOptions sample;
+    sample.sizeKm = 12;
+    ASSERT_TRUE(terrain::writeSample(*folder_ / "sample.tif", sample));
+    terrain::BakeOptions bake;
+    bake.sources = {*folder_ / "sample.tif"};
+    bake.output = *folder_ / "db";
+    const auto baked = terrain::bake(bake);
+    ASSERT_TRUE(baked) << toString(baked.findings());
+    terrain_ = *baked;
+  }
+  static void TearDownTestSuite() {
+    terrain_.reset();
+    folder_.reset();
+  }
+
+  static experiment::Setup setup() {
+    experiment::Setup setup;
+    setup.terrain = terrain_;
+    setup.terrainName = "piece";
+    setup.presetName = "default";
+    setup.widthPx = 160;
+    setup.heightPx = 90;
+    setup.repeats = 1;
+    return setup;
+  }
+
+  static std::unique_ptr<test::ScratchDir> folder_;
+  static std::shared_ptr<const terrain::Database> terrain_;
+};
+std::unique_ptr<test::ScratchDir> Experiment::folder_;
+std::shared_ptr<const terrain::Database> Experiment::terrain_;
+
+TEST_F(Experiment, cullingDrawsEveryPictureAsWithoutItAndFewerTriangles) {
+  const auto report = runCulling(setup());
+  ASSERT_TRUE(report) << toString(report.findings());
+  const Table& rows = report->measured;
+  ASSERT_EQ(rows.rows.size(), 12u);
+  for (std::size_t row = 0; row < 12; ++row) {
+    EXPECT_EQ(rows.number(row, "differing_pixels"), 0) << row;
+    EXPECT_GT(rows.number(row, "frame_ms"), 0);
+    EXPECT_NEAR(rows.number(row, "fps") * rows.number(row, "frame_ms"), 1000, 1e-6);
+  }
+  for (std::size_t altitude = 0; altitude < 4; ++altitude) {
+    const double none = rows.number(altitude, "triangles"), frustum = rows.number(altitude + 4, "triangles"),
+                 proposed = rows.number(altitude + 8, "triangles");
+    EXPECT_LT(frustum, none);
+    EXPECT_LE(proposed, frustum);
+    EXPECT_NEAR(rows.number(altitude + 4, "triangles_ratio"), frustum / none, 1e-4) << "means are rounded";
+  }
+}
+
+TEST_F(Experiment, headMotionLowersTheLevelInTheSweepAndRestoresItOnlyWhenAsked) {
+  const auto report = runHeadMotion(setup());
+  ASSERT_TRUE(report) << toString(report.findings());
+  const Table& rows = report->measured;
+  const auto rowOf = [&](const char* quantity) {
+    for (std::size_t row = 0; row < rows.rows.size(); ++row)
+      if (rows.text(row, "quantity") == quantity) return row;
+    ADD_FAILURE() << quantity;
+    return std::size_t{0};
+  };
+  const std::size_t sweep = rowOf("vertices_in_sweep"), end = rowOf("lod_scale_end"),
+                    most = rowOf("lod_scale_max");
+  EXPECT_LT(rows.number(sweep, "lod_scale_and_blur"), rows.number(sweep, "before"));
+  EXPECT_EQ(rows.number(sweep, "with_restoration"), rows.number(sweep, "lod_scale_and_blur"));
+  EXPECT_EQ(rows.number(most, "before"), 1);
+  EXPECT_GT(rows.number(most, "with_restoration"), 1);
+  EXPECT_EQ(rows.number(end, "with_restoration"), 1);
+  EXPECT_GT(rows.number(end, "lod_scale_and_blur"), 1);
+  const std::size_t difference = rowOf("mean_difference_of_255");
+  EXPECT_EQ(rows.number(difference, "before"), 0);
+  EXPECT_GT(rows.number(difference, "with_restoration"), 0) << "the price is told";
+}
+
+TEST_F(Experiment, stopsWhereItIsTold) {
+  for (const auto& run : {&runCulling, &runHeadMotion, &runWeather}) {
+    int told = 0;
+    experiment::Setup asked = setup();
+    asked.progress = [&](double fraction, const std::string& what) {
+      EXPECT_GE(fraction, 0);
+      EXPECT_LE(fraction, 1);
+      EXPECT_FALSE(what.empty());
+      return ++told < 3;
+    };
+    const auto report = run(asked);
+    ASSERT_FALSE(report);
+    EXPECT_THAT(toString(report.findings()), HasSubstr("cancelled"));
+    EXPECT_EQ(told, 3);
+  }
+}
+
+TEST_F(Experiment, staticLodWantsScenery) {
+  const auto report = runStaticLod(setup());
+  ASSERT_FALSE(report);
+  EXPECT_THAT(toString(report.findings()), HasSubstr("baked from scenery"));
+}
+
+TEST_F(Experiment, aFlightThatIsNotOverTheTerrainIsToldSo) {
+  experiment::Setup asked = setup();
+  Flight flight;
+  flight.states.resize(2);
+  flight.states[1].time = 10;
+  asked.flight = flight;
+  for (const auto& run : {&runCulling, &runHeadMotion, &runWeather}) {
+    const auto report = run(asked);
+    ASSERT_FALSE(report);
+    EXPECT_THAT(toString(report.findings()), HasSubstr("no place lies over it"));
+  }
+}
+
+}  // namespace
+}  // namespace trimtab::experiment
