@@ -59,7 +59,7 @@ class EverySecond {
 };
 
 struct Options {
-  std::string flight, to, out, protocol = "cigi3", listenProtocol = "auto", reply, bind = "0.0.0.0";
+  std::string flight, head, to, out, protocol = "cigi3", listenProtocol = "auto", reply, bind = "0.0.0.0";
   double rateHz = 60, speed = 1, startS = 0;
   bool loop = false;
   int listen = 0;
@@ -84,6 +84,12 @@ int play(const Options& options) {
     return kRefused;
   }
   link::PlayOptions how;
+  if (!options.head.empty()) {
+    auto head = openHead(options.head);
+    report(head.findings());
+    if (!head) return kRefused;
+    how.head = std::move(*head);
+  }
   how.to = *to;
   how.protocol = options.protocol == "native-fdm" ? WireProtocol::native_fdm : WireProtocol::cigi3;
   how.rateHz = options.rateHz;
@@ -301,6 +307,8 @@ void addFeed(CLI::App& app, int& exitCode) {
 
   CLI::App* playing = feed->add_subcommand("play", "Send a flight as a host would");
   playing->add_option("flight", options->flight, "Flight CSV, decision trace or .pcap of a host")->required();
+  playing->add_option("--head", options->head,
+                      "Head log, or sweep:DEG/S[/WAIT] or nod:DEG/S[/WAIT], sent as View Control (cigi3)");
   playing->add_option("--to", options->to, "HOST:PORT")->required();
   playing->add_option("--protocol", options->protocol, "What to speak")
       ->required()

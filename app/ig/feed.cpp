@@ -124,6 +124,22 @@ Result<std::unique_ptr<Feed>> openFlight(const Options& options) {
 
 }  // namespace
 
+Result<session::HeadInput> openHeadInput(const Options& options) {
+  session::HeadInput head;
+  if (options.head.empty()) return head;
+  if (!options.listen && !options.realtime && isTraceFile(options.flight))
+    return Finding{Severity::error,
+                   "--head",
+                   {},
+                   "a flight, or a trace with --realtime",
+                   options.flight.string() + ", a trace that brings its heads"};
+  Result<HeadLog> log = openHead(options.head);
+  if (!log) return log.findings();
+  Findings notes = log.findings();
+  head.useLog(std::move(log).value());
+  return {std::move(head), std::move(notes)};
+}
+
 Result<std::unique_ptr<Feed>> openFeed(const Options& options, const Wake& wake) {
   if (!options.listen) return openFlight(options);
   link::ReceiverOptions receiver;

@@ -26,6 +26,9 @@ class Feed {
   virtual std::uint64_t dropped() const { return 0; }
 };
 
+/// The head that the options name; a host's where they name none. A trace brings the head that it was decided
+/// with: naming another is refused.
+Result<session::HeadInput> openHeadInput(const Options& options);
 /// Opens the flight or the port that the options name. Findings may come with the value.
 Result<std::unique_ptr<Feed>> openFeed(const Options& options, const Wake& wake);
 

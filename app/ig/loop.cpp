@@ -111,6 +111,7 @@ class Loop {
     const session::Latency& latency = run_.session.latency();
     summary_.packets = run_.session.packets();
     summary_.jumps = run_.session.jumps();
+    summary_.overBudget = run_.session.overBudget();
     summary_.medianFrameMs = frameMs_.median();
     summary_.p99FrameMs = frameMs_.quantile(0.99);
     summary_.decodedP50Ms = latency.decoded.median();

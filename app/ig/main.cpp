@@ -88,9 +88,11 @@ int runWith(const Options& options) {
   const Result<std::shared_ptr<const terrain::Database>> database =
       terrain::openOrBake(options.terrain, session::cacheFolder(), progressOnError(wake));
   Result<std::unique_ptr<Feed>> feed = openFeed(options, wake);
+  Result<session::HeadInput> head = openHeadInput(options);
   bool usable = accepted(preset);
   usable &= accepted(database);
   usable &= accepted(feed);
+  usable &= accepted(head);
   usable &= accepted(checkWatch(options));
   usable &= accepted(checkScreenshot(options));
   std::optional<TraceFile> trace;
@@ -113,6 +115,7 @@ int runWith(const Options& options) {
 
   session::Session session(preset->parameters);
   session.setTerrain(*database);
+  session.head() = std::move(head).value();
   session.keepRows(true);
   const Run run{options,
                 wake,

@@ -44,6 +44,9 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   auto* flight =
       app.add_option("--flight", options.flight, "flight (CSV, pcap) or decision trace: one frame a row");
   app.add_flag("--realtime", options.realtime, "play the flight on its own clock")->needs(flight);
+  app.add_option(
+      "--head", options.head,
+      "head log, or sweep:DEG/S[/WAIT] or nod:DEG/S[/WAIT], in place of the heads of host or flight");
   app.add_flag("--headless", options.headless, "draw without a window");
   app.add_option("--size", "size of the picture, WxH")->check([&options](const std::string& text) {
     return parseSize(text, options);

@@ -18,6 +18,7 @@ struct Options {
   std::string reply;  ///< HOST:PORT, empty for none
   HostProtocol protocol = HostProtocol::automatic;
   std::filesystem::path flight;
+  std::string head;  ///< a head log, or a sweep; empty: as the states say
   bool realtime = false;
   bool headless = false;
   int width = 1280, height = 720;

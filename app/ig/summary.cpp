@@ -35,9 +35,10 @@ std::string summaryLine(const Summary& s, const Feed& feed) {
   }
   if (std::isfinite(s.shownP99Ms))
     text += "; packet to finished picture p99 " + milliseconds(s.shownP99Ms) + " (" +
-            shortNumber(s.shownP99Ms / s.medianFrameMs) + " frames; overtaken packets too: " +
-            milliseconds(s.everyP99Ms) + ")";
-  return text + "; frame median " + milliseconds(s.medianFrameMs) + ", p99 " + milliseconds(s.p99FrameMs);
+            shortNumber(s.shownP99Ms / s.medianFrameMs) +
+            " frames; overtaken packets too: " + milliseconds(s.everyP99Ms) + ")";
+  return text + "; frame median " + milliseconds(s.medianFrameMs) + ", p99 " + milliseconds(s.p99FrameMs) +
+         ", " + std::to_string(s.overBudget) + " over budget";
 }
 
 std::string summaryJson(const Summary& s, const Feed& feed, const Options& options,
@@ -48,6 +49,7 @@ std::string summaryJson(const Summary& s, const Feed& feed, const Options& optio
   json["decision_changes"] = s.decisionChanges;
   json["jumps"] = s.jumps;
   json["depth_maps_drawn"] = s.depthMapsDrawn;
+  json["over_budget"] = s.overBudget;
   json["preset_reloads"] = s.presetReloads;
   json["presets_refused"] = s.presetsRefused;
   json["first_frame_unix_s"] =

@@ -11,6 +11,7 @@
 
 #include "trimtab/host/decoder.h"
 #include "trimtab/host/flight.h"
+#include "trimtab/host/head_log.h"
 #include "trimtab/units/result.h"
 
 /// UDP at the edge: the one receiver and the one sender that workbench, IG and CLI share. IPv4, no GUI, no
@@ -68,6 +69,8 @@ struct PlayOptions {
   double speed = 1;  ///< 0.001..1000
   bool loop = false;
   double startS = 0;  ///< seconds into the flight
+  /// In place of the flight's own heads, on the flight's clock; native-fdm carries none, and refuses it.
+  std::optional<HeadLog> head{};
 };
 /// Sends a flight over UDP on the flight's own clock, from its own thread.
 class FeedPlayer {

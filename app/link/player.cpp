@@ -30,6 +30,7 @@ class UdpPlayer final : public FeedPlayer {
         flight_(std::move(flight)),
         protocol_(options.protocol),
         rateHz_(options.rateHz),
+        head_(options.head),
         speed_(options.speed),
         loop_(options.loop),
         epoch_(now()) {
@@ -92,13 +93,15 @@ class UdpPlayer final : public FeedPlayer {
   void run();
   void runEvenly(std::unique_lock<std::mutex>& lock);
   void runByRows(std::unique_lock<std::mutex>& lock);
-  void send(AircraftState state, Clock::duration elapsed);
+  /// `state` is that of the flight at `flightS`.
+  void send(AircraftState state, double flightS, Clock::duration elapsed);
   bool idle() const { return finished_ || (paused_ && rateHz_ <= 0); }
 
   Descriptor socket_;
   const Flight flight_;
   const WireProtocol protocol_;
   const double rateHz_;
+  const std::optional<HeadLog> head_;
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
@@ -115,7 +118,8 @@ class UdpPlayer final : public FeedPlayer {
   std::thread thread_;
 };
 
-void UdpPlayer::send(AircraftState state, Clock::duration elapsed) {
+void UdpPlayer::send(AircraftState state, double flightS, Clock::duration elapsed) {
+  if (head_) state.head = headAt(*head_, flightS);
   // The host's clock runs on through pauses and loops, as a simulator's does.
   state.time = std::chrono::duration<double>(elapsed).count();
   if (protocol_ == WireProtocol::native_fdm) state.time += epoch_;
@@ -154,7 +158,7 @@ void UdpPlayer::runEvenly(std::unique_lock<std::mutex>& lock) {
       changed_.wait(lock, [this] { return stop_ || !finished_; });
       continue;
     }
-    send(stateAt(flight_, flight_.beginS() + position_), due);
+    send(stateAt(flight_, flight_.beginS() + position_), position_, due);
     if (paused_) continue;
     if (position_ >= flight_.durationS() && !loop_) {
       finished_ = true;
@@ -195,7 +199,7 @@ void UdpPlayer::runByRows(std::unique_lock<std::mutex>& lock) {
     const auto due = anchor + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
                                   std::min((rowS - anchorS) / speed_, kLongestGapS)));
     if (changed_.wait_until(lock, due, [&] { return stop_ || seen != edits_; })) continue;
-    send(flight_.states[row_], due - begin);
+    send(flight_.states[row_], rowS, due - begin);
     position_ = rowS;
     ++row_;
   }
@@ -213,6 +217,8 @@ Result<std::unique_ptr<FeedPlayer>> FeedPlayer::start(Flight flight, const PlayO
     refuse("rate", "0, or 0.001..10000 Hz", std::to_string(options.rateHz));
   if (!isSpeed(options.speed)) refuse("speed", "0.001..1000", std::to_string(options.speed));
   if (options.protocol == WireProtocol::none) refuse("protocol", "native-fdm or cigi3", "none");
+  if (options.head && options.protocol == WireProtocol::native_fdm)
+    refuse("head", "cigi3, whose View Control carries a head", "native-fdm, which has none");
   const auto address = resolve(options.to);
   if (!address) errors.insert(errors.end(), address.findings().begin(), address.findings().end());
   if (!errors.empty()) return errors;

@@ -51,7 +51,10 @@ std::vector<AircraftState> flightOver(const terrain::Database& database, double 
 
 void expectNoHole(const char* file) {
   const test::ScratchDir dir;
-  const auto baked = terrain::bake({{test::sharedDir() / file}, {}, dir / "terrain", {}});
+  terrain::BakeOptions options;
+  options.sources = {test::sharedDir() / file};
+  options.output = dir / "terrain";
+  const auto baked = terrain::bake(options);
   ASSERT_TRUE(baked) << toString(baked.findings());
   const auto offscreen = scene::Offscreen::create(kWidth, kHeight);
   ASSERT_TRUE(offscreen) << toString(offscreen.findings());

@@ -30,7 +30,10 @@ inline const std::filesystem::path& smallTerrain() {
   static const std::filesystem::path database = [] {
     const auto sample = terrain::writeSample(dir / "sample.tif", {3, 12, 60, {}});
     EXPECT_TRUE(sample) << toString(sample.findings());
-    const auto baked = terrain::bake({{dir / "sample.tif"}, {}, dir / "terrain", {}});
+    terrain::BakeOptions options;
+    options.sources = {dir / "sample.tif"};
+    options.output = dir / "terrain";
+    const auto baked = terrain::bake(options);
     EXPECT_TRUE(baked) << toString(baked.findings());
     return dir / "terrain";
   }();

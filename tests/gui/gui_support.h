@@ -25,7 +25,10 @@ inline const std::filesystem::path& sampleTerrain() {
   static const std::filesystem::path database = [] {
     const auto sample = terrain::writeSample(dir / "sample.tif", {1, 60, 120, {}});
     EXPECT_TRUE(sample) << toString(sample.findings());
-    const auto baked = terrain::bake({{dir / "sample.tif"}, {}, dir / "terrain", {}});
+    terrain::BakeOptions options;
+    options.sources = {dir / "sample.tif"};
+    options.output = dir / "terrain";
+    const auto baked = terrain::bake(options);
     EXPECT_TRUE(baked) << toString(baked.findings());
     return dir / "terrain";
   }();

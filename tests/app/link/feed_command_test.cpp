@@ -7,6 +7,7 @@
 
 #include "support.h"
 #include "trimtab/host/flight.h"
+#include "trimtab/host/head_log.h"
 #include "udp_socket.h"
 
 namespace trimtab::test {
@@ -94,6 +95,32 @@ TEST(FeedCommand, recordsWhatItPlaysAndTheRecordingPlaysAgain) {
     ASSERT_TRUE(second) << toString(second.findings());
     EXPECT_GE(second->states.size(), 50U);
   }
+}
+
+TEST(FeedCommand, sendsAHeadAsViewControl) {
+  ScratchDir dir;
+  const std::string port = freePort();
+  Background recorder(
+      {program("trimtab-cli").string(), "feed", "record", "--listen", port, "-o", (dir / "out.csv").string()},
+      dir / "err");
+  waitFor(dir / "err", "listening");
+  const std::string play = cli() + " feed play " + aFlight(dir) + " --to 127.0.0.1:" + port;
+  EXPECT_EQ(run(play + " --protocol cigi3 --rate-hz 50 --head sweep:180/1s/0.5s").exitCode, 0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  EXPECT_EQ(recorder.end(SIGINT), 0) << readFile(dir / "err");
+  const auto flight = readFlight(dir / "out.csv");
+  ASSERT_TRUE(flight) << toString(flight.findings());
+  const trimtab::HeadLog sweep = trimtab::parseSweep("sweep:180/1s/0.5s").value();
+  for (std::size_t i = 0; i < flight->states.size(); ++i) {
+    ASSERT_TRUE(flight->states[i].head);
+    EXPECT_NEAR(flight->states[i].head->heading.value(),
+                trimtab::headAt(sweep, double(i) * 0.02).heading.value(), 0.01);
+  }
+
+  const Ran fdm = run(play + " --protocol native-fdm --head sweep:180/1s");
+  EXPECT_EQ(fdm.exitCode, 1);
+  EXPECT_NE(fdm.err.find("View Control"), std::string::npos) << fdm.err;
+  EXPECT_EQ(run(play + " --protocol cigi3 --head absent.csv").exitCode, 1);
 }
 
 TEST(FeedCommand, showsALineASecond) {
