@@ -22,6 +22,7 @@ struct LiveFrame {
   std::uint64_t triangles = 0, vertices = 0;
   std::size_t tilesDrawn = 0, tilesInCut = 0, outsideFrustum = 0, occluded = 0, beyondVisibility = 0;
   double fps = std::numeric_limits<double>::quiet_NaN();
+  std::uint64_t blurPasses = 0, symbologyDraws = 0, symbologyRedraws = 0;  ///< since the context was made
   StaticLodFrame staticLod;
   std::optional<DepthMapSize> depthMap;    ///< that was drawn this frame
   std::optional<HostWeather> hostWeather;  ///< as the host, or the flight, says

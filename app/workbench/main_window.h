@@ -13,6 +13,7 @@
 #include "feed.h"
 #include "message_panel.h"
 #include "options.h"
+#include "symbology_editor.h"
 #include "terrain_job.h"
 #include "trimtab/measure/trace.h"
 #include "trimtab/preset/preset.h"
@@ -152,6 +153,7 @@ class MainWindow : public QMainWindow {
   std::shared_ptr<const terrain::Database> terrain_;
   QString terrainSource_;
 
+  SymbologyEditor symbologyEditor_{draft_};
   Viewport* viewport_ = nullptr;
   NoticeBar* notices_ = nullptr;
   std::vector<Dock> docks_;

@@ -15,6 +15,8 @@
 #include <cmath>
 #include <utility>
 
+#include "symbology_editor.h"
+
 namespace trimtab::workbench {
 namespace {
 
@@ -85,6 +87,7 @@ void Viewport::releaseGl() {
   if (renderer_ == nullptr) return;
   makeCurrent();
   fixedSize_.reset();
+  unseen_.reset();
   renderer_->release();
   renderer_.reset();
   doneCurrent();
@@ -132,8 +135,9 @@ void Viewport::paintGL() {
     sinceMove_.start();
     camera_.advance(step);
     emit cameraMoved();
-  } else {
+  } else if (sinceMove_.isValid()) {
     sinceMove_.invalidate();
+    emit cameraMoved();  // it stands now
   }
 
   const QSize pixels = size() * devicePixelRatioF();
@@ -142,6 +146,7 @@ void Viewport::paintGL() {
     picture = source_(pixels.width(), pixels.height());
   if (picture) {
     drawPicture(*picture, pixels.width(), pixels.height());
+    editSymbols(*picture, pixels);
     if (picture->hud) picture->overlay.hud = picture->hud();
   } else {
     QOpenGLFunctions& gl = *context()->functions();
@@ -195,6 +200,24 @@ void Viewport::drawPicture(const Picture& picture, int widthPx, int heightPx) {
   gl.glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
 }
 
+std::optional<Viewport::Measured> Viewport::measure(const scene::FrameRequest& request) {
+  if (renderer_ == nullptr || terrain_ == nullptr) return std::nullopt;
+  makeCurrent();
+  if (std::exchange(terrainChanged_, false)) renderer_->setTerrain(terrain_);
+  const QSize size(request.view.widthPx, request.view.heightPx);
+  if (unseen_ == nullptr || unseen_->size() != size) unseen_ = std::make_unique<QOpenGLFramebufferObject>(size);
+  QOpenGLFunctions& gl = *context()->functions();
+  gl.glFinish();
+  QElapsedTimer timer;
+  timer.start();
+  const scene::FrameResult result = renderer_->draw(request, unseen_->handle());
+  gl.glFinish();
+  const double ms = double(timer.nsecsElapsed()) * 1e-6;
+  gl.glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
+  doneCurrent();
+  return Measured{ms, result.tilesBuilt};
+}
+
 void Viewport::readDepthMap() {
   if (sinceDepthMap_.isValid() && sinceDepthMap_.elapsed() < kDepthMapGapMs) return;
   sinceDepthMap_.start();
@@ -217,9 +240,30 @@ void Viewport::paintOverlays() {
   QPainter painter(&device);
   painter.setFont(font());
   paintOverlay(painter, rect(), shownOverlay_);
+  if (editor_ != nullptr) editor_->paint(painter);
+}
+
+void Viewport::setSymbologyEditor(SymbologyEditor* editor) {
+  editor_ = editor;
+  connect(editor, &SymbologyEditor::changed, this, [this] {
+    setMouseTracking(editor_->active());
+    if (!editor_->active()) unsetCursor();
+    invalidate();
+  });
+}
+
+void Viewport::editSymbols(const Picture& picture, QSize pixels) {
+  if (editor_ == nullptr || !editor_->active()) return;
+  const ViewShape& view = picture.request.view;
+  const QRect at = letterbox({view.widthPx, view.heightPx}, pixels);
+  const double scale = 1 / devicePixelRatioF();
+  editor_->setPicture(picture.request.symbology, view,
+                      {at.left() * scale, (pixels.height() - at.top() - at.height()) * scale, at.width() * scale,
+                       at.height() * scale});
 }
 
 void Viewport::keyPressEvent(QKeyEvent* event) {
+  if (editor_ != nullptr && editor_->key(*event)) return;
   if (!cameraEnabled_ || event->modifiers() & (Qt::ControlModifier | Qt::AltModifier) ||
       !camera_.press(event->key()))
     return QOpenGLWidget::keyPressEvent(event);
@@ -237,10 +281,22 @@ void Viewport::focusOutEvent(QFocusEvent* event) {
 }
 
 void Viewport::mousePressEvent(QMouseEvent* event) {
+  if (editor_ != nullptr && event->button() == Qt::LeftButton && editor_->press(event->position())) {
+    setCursor(editor_->cursor(event->position()));
+    return;
+  }
   lastMouse_ = event->position();
 }
 
+void Viewport::mouseReleaseEvent(QMouseEvent* event) {
+  if (editor_ != nullptr && editor_->release()) setCursor(editor_->cursor(event->position()));
+}
+
 void Viewport::mouseMoveEvent(QMouseEvent* event) {
+  if (editor_ != nullptr && editor_->moveTo(event->position())) {
+    setCursor(editor_->cursor(event->position()));
+    return;
+  }
   if (!cameraEnabled_ || !(event->buttons() & Qt::LeftButton)) return;
   const QPointF moved = event->position() - lastMouse_;
   lastMouse_ = event->position();

@@ -16,6 +16,8 @@ class QOpenGLFramebufferObject;
 
 namespace trimtab::workbench {
 
+class SymbologyEditor;
+
 /// What the next picture is made of; asked for once in each paint.
 struct Picture {
   scene::FrameRequest request;
@@ -42,8 +44,16 @@ class Viewport : public QOpenGLWidget {
   /// Mouse and keys move the camera only while this is on.
   void setCameraEnabled(bool on);
   bool cameraEnabled() const { return cameraEnabled_; }
+  /// While it is active it has the mouse and the keys first.
+  void setSymbologyEditor(SymbologyEditor* editor);
   /// Shown instead of a picture, until there is one.
   void setNotice(const QString& text);
+  struct Measured {
+    double ms = 0;  ///< until the picture was finished
+    std::uint64_t tilesBuilt = 0;
+  };
+  /// Draws a picture that nobody sees. None without terrain or a context that can draw it.
+  std::optional<Measured> measure(const scene::FrameRequest& request);
   /// From now on `depthMapRead` tells each depth map that was drawn, at most ten a second.
   void setDepthMapWanted(bool wanted);
 
@@ -65,6 +75,7 @@ class Viewport : public QOpenGLWidget {
   void keyReleaseEvent(QKeyEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void focusOutEvent(QFocusEvent* event) override;
   void showEvent(QShowEvent* event) override;
@@ -74,18 +85,20 @@ class Viewport : public QOpenGLWidget {
   void drawPicture(const Picture& picture, int widthPx, int heightPx);
   void readDepthMap();
   void paintOverlays();
+  void editSymbols(const Picture& picture, QSize pixels);
   void report();
   void paintAgain();
 
   Source source_;
   OverlayContents shownOverlay_;
   std::unique_ptr<scene::Renderer> renderer_;
-  std::unique_ptr<QOpenGLFramebufferObject> fixedSize_;
+  std::unique_ptr<QOpenGLFramebufferObject> fixedSize_, unseen_;
   std::shared_ptr<const terrain::Database> terrain_;
   bool terrainChanged_ = false;
   scene::GlReport gl_;
   std::optional<scene::FrameResult> result_;
   FreeCamera camera_;
+  SymbologyEditor* editor_ = nullptr;
   bool cameraEnabled_ = true, dirty_ = false, again_ = false, depthMapWanted_ = false;
   QPointF lastMouse_;
   QString notice_;

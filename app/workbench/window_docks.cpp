@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QDockWidget>
+#include <QPushButton>
 #include <QScrollArea>
 #include <QUndoView>
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include "trimtab/views/plots_panel.h"
 #include "trimtab/views/weather_panel.h"
 #include "trimtab/views/static_lod_panel.h"
+#include "trimtab/views/symbology_panel.h"
 
 // Which docks there are and where they stand.
 namespace trimtab::workbench {
@@ -57,6 +59,18 @@ void MainWindow::makeDocks() {
   staticLod_ = addDock("static_lod", tr("Static LOD"), edit, new views::StaticLodPanel(draft_));
   auto* weather = addDock("weather", tr("Weather"), edit, new views::WeatherPanel(draft_));
   connect(weather, &views::WeatherPanel::calibrationAsked, this, &MainWindow::calibrateWeather);
+  auto* symbology = addDock("symbology", tr("Symbology"), edit, new views::SymbologyPanel(draft_));
+  viewport_->setSymbologyEditor(&symbologyEditor_);
+  connect(symbology, &views::SymbologyPanel::placingChanged, this, [this](bool on) {
+    symbologyEditor_.setActive(on);
+    if (on) viewport_->setFocus();
+  });
+  connect(symbology, &views::SymbologyPanel::selected, &symbologyEditor_, [this](int symbol) {
+    if (symbologyEditor_.active()) symbologyEditor_.select(symbol);
+  });
+  connect(&symbologyEditor_, &SymbologyEditor::selectionChanged, symbology, &views::SymbologyPanel::setSelected);
+  connect(&symbologyEditor_, &SymbologyEditor::ended, symbology,
+          [symbology] { symbology->placeButton().setChecked(false); });
   addDock("preset", tr("Preset"), edit, new views::ParameterTable(draft_));
   addDock("history", tr("History"), edit, history);
   addDock("decision", tr("Decision"), effect, new views::DecisionPanel(draft_));

@@ -161,6 +161,9 @@ views::LiveFrame MainWindow::liveFrame() const {
     frame.occluded = last->visible.occluded;
     frame.beyondVisibility = last->visible.beyondVisibility;
     frame.depthMap = last->depthMap;
+    frame.blurPasses = last->blurPasses;
+    frame.symbologyDraws = last->symbologyDraws;
+    frame.symbologyRedraws = last->symbologyRedraws;
     frame.staticLod = last->staticLod;
   }
   return frame;
