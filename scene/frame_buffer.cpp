@@ -11,8 +11,7 @@ FrameBuffer::~FrameBuffer() {
 void FrameBuffer::release() {
   if (id_ == 0) return;
   glDeleteFramebuffers(1, &id_);
-  glDeleteTextures(1, &colour_);
-  glDeleteRenderbuffers(1, &depth_);
+  for (const GLuint texture : {colour_, depth_}) glDeleteTextures(1, &texture);
   id_ = 0;
 }
 
@@ -32,19 +31,21 @@ void FrameBuffer::resize(int width, int height) {
   width_ = width;
   height_ = height;
   glGenFramebuffers(1, &id_);
-  glGenTextures(1, &colour_);
-  glBindTexture(GL_TEXTURE_2D, colour_);
-  glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA8, width, height);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  const auto makeTexture = [width, height](GLenum format) {
+    GLuint texture = 0;
+    glGenTextures(1, &texture);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexStorage2D(GL_TEXTURE_2D, 1, format, width, height);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return texture;
+  };
+  colour_ = makeTexture(GL_RGBA8);
+  depth_ = makeTexture(GL_DEPTH_COMPONENT32F);
   glBindTexture(GL_TEXTURE_2D, 0);
-  glGenRenderbuffers(1, &depth_);
-  glBindRenderbuffer(GL_RENDERBUFFER, depth_);
-  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, width, height);
-  glBindRenderbuffer(GL_RENDERBUFFER, 0);
   glBindFramebuffer(GL_FRAMEBUFFER, id_);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_, 0);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_, 0);
 }
 
 }  // namespace trimtab::scene

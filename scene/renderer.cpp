@@ -17,6 +17,7 @@
 #include "trimtab/scene/shaders.h"
 #include "trimtab/scene/static_lod_culling.h"
 #include "trimtab/scene/static_lod_layer.h"
+#include "trimtab/scene/static_lod_occlusion.h"
 #include "trimtab/scene/symbology_pass.h"
 #include "trimtab/scene/tile_cache.h"
 #include "trimtab/scene/weather_precipitation.h"
@@ -60,6 +61,7 @@ struct Renderer::Impl {
     FrameBuffer frame;
     TileCache tiles;
     StaticLodLayer trees;
+    StaticLodOcclusion treeOcclusion;
     OcclusionPass occlusion;
     LineBuffer lineBuffer;
     BlurPass blur;
@@ -88,6 +90,7 @@ struct Renderer::Impl {
   void drawTerrain();
   void drawWire();
   void drawTrees(unsigned program);
+  void drawNodes(unsigned program, std::span<const TileDraw> nodes);
   void drawTreeWire(unsigned program);
   void prepareTrees(SceneView& view);
   void bindTileTextures(bool on);
@@ -142,16 +145,39 @@ void Renderer::Impl::drawWire() {
   bindTileTextures(false);
 }
 
+/// The near nodes, then what they leave of the far ones.
 void Renderer::Impl::drawTrees(unsigned program) {
+  const bool byReason = request->overlays.colourByReason;
+  const std::vector<TileDraw>& visible = trees.visible().tiles;
+  const std::size_t near = trees.visibleNear();
+  if (counters.depthMap) {
+    drawNodes(program, std::span(visible).first(near));
+    const auto start = Clock::now();
+    const ViewShape& v = request->view;
+    gl->treeOcclusion.read(gl->frame.depthTexture(), v.widthPx, v.heightPx, counters.depthMap->widthPx,
+                           counters.depthMap->heightPx);
+    trees.removeHidden(gl->treeOcclusion.pyramid());
+    glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
+    glViewport(0, 0, v.widthPx, v.heightPx);
+    glUseProgram(program);
+    cost.occlusion = millisecondsBetween(start, Clock::now());
+    if (!byReason) drawNodes(program, std::span(visible).subspan(near));
+  } else if (!byReason) {
+    drawNodes(program, visible);
+  }
+  if (byReason) drawNodes(program, trees.cut());
+  drawn = byReason ? trees.cut() : visible;
+}
+
+void Renderer::Impl::drawNodes(unsigned program, std::span<const TileDraw> nodes) {
   const Overlays& overlays = request->overlays;
-  drawn = overlays.colourByReason ? trees.cut() : trees.visible().tiles;
-  if (!overlays.colourByReason && !overlays.colourByLevel) return gl->trees.draw(program, drawn);
+  if (!overlays.colourByReason && !overlays.colourByLevel) return gl->trees.draw(program, nodes);
   tints.clear();
-  for (const TileDraw& node : drawn)
+  for (const TileDraw& node : nodes)
     tints.push_back(overlays.colourByReason
                         ? rgba(reasonColour(trees.visible().reason[node.node]), 150)
                         : rgba(levelColour(trees.index().nodes[node.node].depth), 150));
-  gl->trees.drawTinted(program, drawn, tints);
+  gl->trees.drawTinted(program, nodes, tints);
 }
 
 void Renderer::Impl::drawTreeWire(unsigned program) {
@@ -169,10 +195,8 @@ void Renderer::Impl::prepareTrees(SceneView& view) {
   counters.tilesBuilt +=
       gl->trees.prepare(r.overlays.colourByReason ? trees.cut() : trees.visible().tiles);
   culling.clear();
-  counters.depthMap.reset();
-  counters.note.clear();
-  if (r.method == CullingCase::proposed && r.decision.depthMap)
-    counters.note = "static trees are culled by the view frustum alone";
+  counters.depthMap = trees.occlusion(r, counters);
+  counters.depthMapsDrawn += counters.depthMap.has_value();
   if (r.overlays.tileBounds)
     addBoxes(trees.index().bounds, trees.cut(), trees.visible().reason, view.eye.position, lines);
 }
@@ -273,6 +297,8 @@ FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
   const auto end = Clock::now();
   cost.cull = millisecondsBetween(frameStart, cullDone);
   cost.draw = millisecondsBetween(drawStart, end);
+  // The trees' depth map is read while they are drawn.
+  if (view.trees && counters.depthMap) cost.draw -= cost.occlusion;
   // A software rasteriser's GPU is this processor: its time is in `draw` already, and would count twice.
   cost.gpu = report.software ? std::numeric_limits<double>::quiet_NaN() : gl->timer.milliseconds();
   cost.total = millisecondsBetween(start, end);

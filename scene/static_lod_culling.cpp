@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "trimtab/culling/box_distance.h"
 #include "trimtab/terrain/static_lod.h"
 
 namespace trimtab::scene {
@@ -27,11 +28,16 @@ std::vector<std::uint32_t> vertexCounts(const terrain::StaticLodTerrain& terrain
   return counts;
 }
 
+/// One node in so many of the cut is near: drawn first, and what it covers is read.
+constexpr std::size_t kFarOneIn = 3;
+
 }  // namespace
 
 void StaticLodCulling::setTerrain(std::shared_ptr<const terrain::StaticLodTerrain> terrain) {
   terrain_ = std::move(terrain);
+  parts_.setTerrain(terrain_.get());
   cutKey_.reset();
+  visibleKey_.reset();
   cutTiles_.clear();
   visible_ = {};
   vertices_ = terrain_ ? vertexCounts(*terrain_) : std::vector<std::uint32_t>{};
@@ -56,17 +62,66 @@ void StaticLodCulling::select(const FrameRequest& request, const EyePose& eye, F
       selectStaticDepth(index(), key.depth, cut_);
     else
       selectStatic(index(), staticLodError(index(), key.error), key.distancePerError, key.eye, cut_);
+    orderByDistance(eye.position);
     cutTiles_.clear();
     for (const std::uint32_t node : cut_.nodes) cutTiles_.push_back({node, 0});
     cutKey_ = key;
     ++counters.cutsSelected;
   }
+  const VisibleKey wanted{
+      key, eye, v, request.method, request.decision.depthMap, request.decision.weather.farM};
+  // Frozen, what was hidden from there stays hidden: the picture is another eye's and cannot tell.
+  if (request.frozenEye && visibleKey_ == wanted) return;
+  visibleKey_ = wanted;
   selectStaticVisible(index(), vertices_, cut_, eye, v, request.method != CullingCase::none, visible_,
                       request.decision.weather.farM);
+  visibleNear_ = static_cast<std::size_t>(
+      std::count_if(cut_.nodes.begin(), cut_.nodes.begin() + static_cast<std::ptrdiff_t>(near_),
+                    [this](std::uint32_t node) { return visible_.reason[node] == CullReason::drawn; }));
 }
 
-void StaticLodCulling::removeHidden(std::span<const std::uint8_t> flags) {
-  removeStaticOccluded(index(), vertices_, flags, visible_);
+/// Puts the near part of the cut first, both parts in the trees' order.
+void StaticLodCulling::orderByDistance(Vec3 eye) {
+  near_ = cut_.nodes.size() / kFarOneIn;
+  if (near_ == 0) return;
+  distances_.clear();
+  for (const std::uint32_t node : cut_.nodes)
+    distances_.push_back(distanceSquared(index().bounds[node], eye));
+  const auto middle = distances_.begin() + static_cast<std::ptrdiff_t>(near_);
+  std::nth_element(distances_.begin(), middle, distances_.end());
+  const double limit = *middle;
+  far_.clear();
+  std::size_t kept = 0;
+  for (const std::uint32_t node : cut_.nodes)
+    if (distanceSquared(index().bounds[node], eye) < limit)
+      cut_.nodes[kept++] = node;
+    else
+      far_.push_back(node);
+  std::copy(far_.begin(), far_.end(), cut_.nodes.begin() + static_cast<std::ptrdiff_t>(kept));
+  near_ = kept;
+}
+
+std::optional<DepthMapSize> StaticLodCulling::occlusion(const FrameRequest& request,
+                                                        FrameResult& counters) const {
+  counters.note.clear();
+  const std::optional<DepthMapSize>& size = request.decision.depthMap;
+  if (request.method != CullingCase::proposed || !size || request.overlays.treePicture) return {};
+  if (request.frozenEye)
+    counters.note = "what is hidden stays as it was when culling was frozen";
+  else if (visibleNear_ == 0 || visibleNear_ == visible_.tiles.size())
+    counters.note = "the nodes in view are all near or all far: none is held against others";
+  return counters.note.empty() ? size : std::nullopt;
+}
+
+void StaticLodCulling::removeHidden(const DepthPyramid& covered) {
+  flags_.assign(visible_.tiles.size(), 0);
+  for (std::size_t i = visibleNear_; i < flags_.size(); ++i) {
+    const std::span<const Box> parts = parts_.of(visible_.tiles[i].node);
+    flags_[i] = std::all_of(parts.begin(), parts.end(), [&](const Box& part) {
+      return covered.isHidden(part, visibleKey_->eye, visibleKey_->view);
+    });
+  }
+  removeStaticOccluded(index(), vertices_, flags_, visible_);
 }
 
 }  // namespace trimtab::scene

@@ -4,8 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "trimtab/culling/depth_pyramid.h"
 #include "trimtab/culling/select_static.h"
 #include "trimtab/scene/renderer.h"
+#include "trimtab/scene/static_lod_parts.h"
 
 namespace trimtab::terrain {
 struct StaticLodTerrain;
@@ -24,15 +26,23 @@ class StaticLodCulling {
   bool wanted(const FrameRequest& request) const;
   /// Cut and visible set for an eye; the cut only if it can have changed, which counts as `cutsSelected`.
   void select(const FrameRequest& request, const EyePose& eye, FrameResult& counters);
-  /// Takes nodes out of the visible set: one flag a node of it, 1 is proven hidden.
-  void removeHidden(std::span<const std::uint8_t> flags);
+  /// Whether the far nodes are to be held against what the near ones cover, and by a map of which size; else
+  /// `counters.note` may say why not.
+  std::optional<DepthMapSize> occlusion(const FrameRequest& request, FrameResult& counters) const;
+  /// Takes the far nodes out that `covered` hides.
+  void removeHidden(const DepthPyramid& covered);
 
   const StaticLodIndex& index() const;
   const std::vector<TileDraw>& cut() const { return cutTiles_; }
+  /// The near nodes first, the far ones after them: in every culling case and view direction, because where
+  /// two triangles have the same depth, the first one shows.
   const VisibleSet& visible() const { return visible_; }
+  std::size_t visibleNear() const { return visibleNear_; }
   StaticLodFrame frame() const { return staticLodFrame(index(), visible_); }
 
  private:
+  void orderByDistance(Vec3 eye);
+
   /// What the cut depends on.
   struct CutKey {
     Vec3 eye;
@@ -47,7 +57,24 @@ class StaticLodCulling {
   std::optional<CutKey> cutKey_;
   StaticCut cut_;
   std::vector<TileDraw> cutTiles_;
+  std::size_t near_ = 0;  ///< of the cut
   VisibleSet visible_;
+  std::size_t visibleNear_ = 0;
+  /// What the visible set depends on, hidden nodes included.
+  struct VisibleKey {
+    CutKey cut;
+    EyePose eye;
+    ViewShape view;
+    CullingCase method = CullingCase::proposed;
+    std::optional<DepthMapSize> map;
+    double farM = 0;
+    friend bool operator==(const VisibleKey&, const VisibleKey&) = default;
+  };
+  std::optional<VisibleKey> visibleKey_;
+  StaticLodParts parts_;
+  std::vector<double> distances_;
+  std::vector<std::uint32_t> far_;
+  std::vector<std::uint8_t> flags_;
 };
 
 }  // namespace trimtab::scene

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "trimtab/culling/select.h"
+
+namespace trimtab {
+
+/// Distances at which everything in a part of the picture is covered, and what lies behind them.
+///
+/// The map has one depth a texel: near / view depth of the *farthest* of all pixels of the picture that the
+/// texel touches, 0 where a pixel is uncovered. So it needs nothing of the surface that covers: holes, steep
+/// walls and an eye at any place leave farther depths, or none. A box is hidden when each texel that its
+/// projection touches, and a pixel's width around, shows a depth nearer than the box's nearest point: each
+/// fragment of what lies in it would fail the depth test against what the pixel has already.
+class DepthPyramid {
+ public:
+  /// Row 0 at the bottom. `depths` has width x height entries.
+  void build(std::span<const float> depths, int width, int height);
+
+  /// False unless proven; false for a box that reaches the near plane. Margins cover float rounding in the
+  /// picture. `view` has the picture's size, which need not be a multiple of the map's.
+  bool isHidden(const Box& box, const EyePose& eye, const ViewShape& view) const;
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  /// As given to `build`.
+  std::span<const float> depths() const;
+
+ private:
+  struct Level {
+    std::size_t first = 0;
+    int width = 0, height = 0;
+  };
+  bool covers(int x0, int y0, int x1, int y1, float limit) const;
+
+  int width_ = 0, height_ = 0;
+  std::vector<Level> levels_;
+  std::vector<float> cells_;  ///< level after level, each a quarter of the one before
+};
+
+}  // namespace trimtab
