@@ -116,6 +116,21 @@ Findings Draft::setValue(std::string_view key, const ParameterValue& value, Merg
   return {};
 }
 
+Findings Draft::setValues(std::span<const KeyValue> values, const QString& undoText, MergeToken token) {
+  Changes changes;
+  bool any = false;
+  for (const KeyValue& each : values) {
+    const ParameterRow* row = findRow(each.key);
+    Q_ASSERT(row);
+    if (Findings refused = refusals(*row, each.value); !refused.empty()) return refused;
+    changes.push_back({row, row->get(preset_.parameters), each.value});
+    any = any || changes.back().before != each.value;
+  }
+  // What does not change now stays in the list: steps merge by their rows.
+  if (any) stack_.push(new Edit(*this, std::move(changes), undoText, token));
+  return {};
+}
+
 Findings Draft::setText(std::string_view key, std::string_view typed, MergeToken token) {
   const ParameterRow* row = findRow(key);
   Q_ASSERT(row);

@@ -46,6 +46,13 @@ class Draft : public QObject {
   /// the value a token started from takes the whole step away. A number that is not finite or outside its
   /// row's hard range is refused, with the reason; broken rules are accepted and found in `findings()`.
   Findings setValue(std::string_view key, const ParameterValue& value, MergeToken token = 0);
+  struct KeyValue {
+    std::string_view key;
+    ParameterValue value;
+  };
+  /// Several parameters as one undo step with a text of its own; with a token, later calls for the same keys in
+  /// the same order are part of it. Nothing is changed when one of them is refused.
+  Findings setValues(std::span<const KeyValue> values, const QString& undoText, MergeToken token = 0);
   /// As setValue, from typed text.
   Findings setText(std::string_view key, std::string_view text, MergeToken token = 0);
   void reset(std::string_view key);

@@ -104,6 +104,7 @@ class MainWindow : public QMainWindow {
   template <class Panel>
   Panel* addDock(const char* name, const QString& title, DockPlace place, Panel* content);
   void makeDocks();
+  void raiseEditorOf(const QString& key);
   void arrangeDocks();
   // window_menus.cpp
   void makeMenus();

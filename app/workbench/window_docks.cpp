@@ -12,12 +12,15 @@
 #include "main_window.h"
 #include "trimtab/views/bands_editor.h"
 #include "trimtab/views/decision_panel.h"
+#include "trimtab/views/keys.h"
 #include "trimtab/views/membership_editor.h"
 #include "trimtab/views/parameter_table.h"
 #include "trimtab/views/plots_panel.h"
-#include "trimtab/views/weather_panel.h"
+#include "trimtab/views/rules_panel.h"
 #include "trimtab/views/static_lod_panel.h"
+#include "trimtab/views/surface_plot.h"
 #include "trimtab/views/symbology_panel.h"
+#include "trimtab/views/weather_panel.h"
 
 // Which docks there are and where they stand.
 namespace trimtab::workbench {
@@ -56,6 +59,7 @@ void MainWindow::makeDocks() {
   using enum DockPlace;
   addDock("memberships", tr("Memberships"), edit, new views::MembershipEditor(draft_));
   bands_ = addDock("depth_map", tr("Depth map"), edit, new views::BandsEditor(draft_));
+  addDock("rules", tr("Rules"), edit, new views::RulesPanel(draft_));
   staticLod_ = addDock("static_lod", tr("Static LOD"), edit, new views::StaticLodPanel(draft_));
   auto* weather = addDock("weather", tr("Weather"), edit, new views::WeatherPanel(draft_));
   connect(weather, &views::WeatherPanel::calibrationAsked, this, &MainWindow::calibrateWeather);
@@ -68,12 +72,15 @@ void MainWindow::makeDocks() {
   connect(symbology, &views::SymbologyPanel::selected, &symbologyEditor_, [this](int symbol) {
     if (symbologyEditor_.active()) symbologyEditor_.select(symbol);
   });
-  connect(&symbologyEditor_, &SymbologyEditor::selectionChanged, symbology, &views::SymbologyPanel::setSelected);
+  connect(&symbologyEditor_, &SymbologyEditor::selectionChanged, symbology,
+          &views::SymbologyPanel::setSelected);
   connect(&symbologyEditor_, &SymbologyEditor::ended, symbology,
           [symbology] { symbology->placeButton().setChecked(false); });
-  addDock("preset", tr("Preset"), edit, new views::ParameterTable(draft_));
+  auto* parameters = addDock("preset", tr("Preset"), edit, new views::ParameterTable(draft_));
+  connect(parameters, &views::ParameterTable::editorAsked, this, &MainWindow::raiseEditorOf);
   addDock("history", tr("History"), edit, history);
   addDock("decision", tr("Decision"), effect, new views::DecisionPanel(draft_));
+  addDock("surface", tr("Surface"), effect, new views::SurfacePlot(draft_));
   hostDock_ = addDock("host", tr("Host"), effect, new HostDock(feed_, draft_));
   flightDock_ = addDock("flight", tr("Flight"), effect, new FlightDock(feed_));
   plots_ = addDock("plots", tr("Plots"), foot, new views::PlotsPanel(draft_));
@@ -88,6 +95,16 @@ void MainWindow::makeDocks() {
   });
   connect(dock(QStringLiteral("depth_map")), &QDockWidget::visibilityChanged, viewport_,
           &Viewport::setDepthMapWanted);
+}
+
+void MainWindow::raiseEditorOf(const QString& key) {
+  const std::string name = key.toStdString();
+  QDockWidget* const editor = dock(name == views::key::kRules   ? QStringLiteral("rules")
+                                   : name == views::key::kBands ? QStringLiteral("depth_map")
+                                                                : QStringLiteral("memberships"));
+  editor->show();
+  editor->raise();
+  editor->widget()->setFocus();
 }
 
 QDockWidget* MainWindow::dock(const QString& name) const {
