@@ -2,7 +2,6 @@
 #include "trimtab/views/bands_editor.h"
 
 #include <QBoxLayout>
-#include <QHeaderView>
 #include <QLabel>
 #include <QSplitter>
 #include <QTableView>
@@ -13,6 +12,7 @@
 #include "trimtab/views/choice_box.h"
 #include "trimtab/views/depth_map_inset.h"
 #include "trimtab/views/keys.h"
+#include "trimtab/views/list_table.h"
 #include "trimtab/views/number_box.h"
 #include "trimtab/views/theme.h"
 
@@ -40,36 +40,15 @@ BandsEditor::BandsEditor(Draft& draft, QWidget* parent)
   top->addWidget(hysteresis);
   top->addStretch(1);
 
-  table_->setModel(model_);
-  table_->setAccessibleName(tr("Depth-map bands"));
-  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-  table_->setSelectionMode(QAbstractItemView::SingleSelection);
-  table_->setTabKeyNavigation(false);
-  table_->verticalHeader()->hide();
-  table_->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
-  table_->horizontalHeader()->setMinimumSectionSize(fontMetrics().horizontalAdvance(tr("Height (px)")) + 10);
-  table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  table_->setMinimumWidth(4 * table_->horizontalHeader()->minimumSectionSize() + 20);
+  setUpListTable(*table_, model_, tr("Depth-map bands"), tr("Height (px)"));
   table_->setMinimumHeight(fontMetrics().height() * 7);
 
-  const auto button = [](const QString& text, const QString& tip) {
-    QToolButton* b = new QToolButton;
-    b->setText(text);
-    b->setToolTip(tip);
-    b->setAccessibleName(tip);
-    b->setFocusPolicy(Qt::StrongFocus);
-    return b;
-  };
-  QToolButton* add =
-      button(tr("Split"), tr("Split the selected band (Insert, or double click in the scale)"));
-  remove_ = button(tr("Remove"), tr("Remove the selected band (Delete)"));
+  ListButtons* buttons = new ListButtons;
+  QToolButton* const add =
+      buttons->add(tr("Split"), tr("Split the selected band (Insert, or double click in the scale)"));
+  remove_ = buttons->add(tr("Remove"), tr("Remove the selected band (Delete)"));
   connect(add, &QToolButton::clicked, scale_, &BandScale::addBandInSelected);
   connect(remove_, &QToolButton::clicked, scale_, &BandScale::removeSelected);
-  QHBoxLayout* buttons = new QHBoxLayout;
-  buttons->addWidget(add);
-  buttons->addWidget(remove_);
-  buttons->addStretch(1);
 
   QWidget* upper = new QWidget;
   QVBoxLayout* upperLayout = new QVBoxLayout(upper);
@@ -77,7 +56,7 @@ BandsEditor::BandsEditor(Draft& draft, QWidget* parent)
   upperLayout->addLayout(top);
   upperLayout->addWidget(scale_);
   upperLayout->addWidget(table_, 1);
-  upperLayout->addLayout(buttons);
+  upperLayout->addWidget(buttons);
   note_->setWordWrap(true);
   note_->hide();
   upperLayout->addWidget(note_);

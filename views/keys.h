@@ -14,6 +14,7 @@ inline constexpr std::string_view kPitchReading = "fuzzy.pitch.reading";
 inline constexpr std::string_view kBands = "fuzzy.bands_px";
 inline constexpr std::string_view kHysteresis = "fuzzy.hysteresis";
 inline constexpr std::string_view kCombination = "fuzzy.combination";
+inline constexpr std::string_view kRules = "fuzzy.rules";
 inline constexpr std::string_view kBudget = "measure.budget_ms";
 
 }  // namespace trimtab::views::key

@@ -2,7 +2,6 @@
 #include "trimtab/views/membership_editor.h"
 
 #include <QBoxLayout>
-#include <QHeaderView>
 #include <QLabel>
 #include <QSplitter>
 #include <QTableView>
@@ -12,6 +11,7 @@
 #include "trimtab/views/curve_plot.h"
 #include "trimtab/views/curve_points_model.h"
 #include "trimtab/views/keys.h"
+#include "trimtab/views/list_table.h"
 #include "trimtab/views/theme.h"
 
 namespace trimtab::views {
@@ -27,40 +27,19 @@ CurveEditor::CurveEditor(Draft& draft, const CurveSpec& spec, const QList<QWidge
   top->addStretch(0);
 
   CurvePointsModel* model = new CurvePointsModel(draft, spec, this);
-  table_->setModel(model);
-  table_->setAccessibleName(tr("%1 breakpoints").arg(spec.quantity));
-  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-  table_->setSelectionMode(QAbstractItemView::SingleSelection);
-  table_->setTabKeyNavigation(false);
-  table_->verticalHeader()->hide();
-  table_->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
-  table_->horizontalHeader()->setMinimumSectionSize(fontMetrics().horizontalAdvance(tr("Membership ")) + 8);
-  table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  table_->setMinimumWidth(2 * table_->horizontalHeader()->minimumSectionSize() + 24);
+  setUpListTable(*table_, model, tr("%1 breakpoints").arg(spec.quantity), tr("Membership "));
 
-  const auto button = [](const QString& text, const QString& tip) {
-    QToolButton* b = new QToolButton;
-    b->setText(text);
-    b->setToolTip(tip);
-    b->setAccessibleName(tip);
-    b->setFocusPolicy(Qt::StrongFocus);
-    return b;
-  };
-  add_ =
-      button(tr("Add"), tr("Add a breakpoint after the selected one (Insert, or double click in the plot)"));
-  remove_ = button(tr("Remove"), tr("Remove the selected breakpoint (Delete)"));
+  ListButtons* buttons = new ListButtons;
+  add_ = buttons->add(tr("Add"),
+                      tr("Add a breakpoint after the selected one (Insert, or double click in the plot)"));
+  remove_ = buttons->add(tr("Remove"), tr("Remove the selected breakpoint (Delete)"));
   connect(add_, &QToolButton::clicked, plot_, &CurvePlot::addPointBesideSelected);
   connect(remove_, &QToolButton::clicked, plot_, &CurvePlot::removeSelected);
-  QHBoxLayout* buttons = new QHBoxLayout;
-  buttons->addWidget(add_);
-  buttons->addWidget(remove_);
-  buttons->addStretch(1);
   QWidget* side = new QWidget;
   QVBoxLayout* sideLayout = new QVBoxLayout(side);
   sideLayout->setContentsMargins(0, 0, 0, 0);
   sideLayout->addWidget(table_, 1);
-  sideLayout->addLayout(buttons);
+  sideLayout->addWidget(buttons);
 
   QSplitter* split = new QSplitter(Qt::Horizontal);
   split->addWidget(plot_);

@@ -60,6 +60,19 @@ ParameterLine::ParameterLine(Draft& draft, const ParameterRow& row, QGridLayout&
     both->addWidget(editor_);
     both->addWidget(new ParameterSlider(draft, row.key), 1);
   }
+  if (row.kind == Kind::curve || row.kind == Kind::bands || row.kind == Kind::rules) {
+    field_ = new QWidget;
+    QHBoxLayout* both = new QHBoxLayout(field_);
+    both->setContentsMargins(0, 0, 0, 0);
+    both->addWidget(editor_, 1);
+    QToolButton* edit = new QToolButton;
+    edit->setText(tr("Edit…"));
+    edit->setAccessibleName(tr("Edit %1").arg(fromView(row.label)));
+    edit->setToolTip(tr("Show the editor of %1").arg(fromView(row.label)));
+    edit->setFocusPolicy(Qt::StrongFocus);
+    connect(edit, &QToolButton::clicked, this, [this] { emit editorAsked(fromView(row_.key)); });
+    both->addWidget(edit);
+  }
   const QString help = helpText(row);
   label_->setBuddy(editor_);
   label_->setWordWrap(true);

@@ -34,6 +34,9 @@ class ParameterLine : public QObject {
   void refresh();
   void clearRefusal() { refusal_.clear(); }
 
+ signals:
+  void editorAsked(const QString& key);  ///< of a curve, bands or rules
+
  private:
   QWidget* makeEditor();
   void refuse(const QString& why);
@@ -41,7 +44,7 @@ class ParameterLine : public QObject {
   Draft& draft_;
   const ParameterRow& row_;
   QLabel *label_, *default_, *problem_;
-  QWidget *editor_, *field_;  ///< the editor itself; what stands in the grid (editor and slider)
+  QWidget *editor_, *field_;  ///< the editor itself; what stands in the grid (editor and slider or button)
   QToolButton* reset_;
   QString refusal_;
   struct State {

@@ -116,7 +116,9 @@ void ParameterTable::makeLines(QGridLayout& grid) {
       grid.addWidget(header, gridRow++, 0, 1, 4, Qt::AlignLeft);
       groups_.push_back({name, header, {}});
     }
-    groups_.back().lines.push_back(new ParameterLine(draft_, row, grid, gridRow));
+    auto* const line = new ParameterLine(draft_, row, grid, gridRow);
+    connect(line, &ParameterLine::editorAsked, this, &ParameterTable::editorAsked);
+    groups_.back().lines.push_back(line);
     gridRow += 2;
   }
   nothing_->setAlignment(Qt::AlignCenter);

@@ -31,6 +31,9 @@ class ParameterTable : public QWidget {
   ParameterLine* line(std::string_view key) const;
   std::vector<std::string_view> visibleKeys() const;
 
+ signals:
+  void editorAsked(const QString& key);  ///< the editor that a curve, bands or rules have of their own
+
  protected:
   void resizeEvent(QResizeEvent* event) override;
 

@@ -20,6 +20,9 @@
 #include "trimtab/views/membership_editor.h"
 #include "trimtab/views/parameter_table.h"
 #include "trimtab/views/plots_panel.h"
+#include "trimtab/views/rules_editor.h"
+#include "trimtab/views/rules_panel.h"
+#include "trimtab/views/surface_plot.h"
 #include "trimtab/views/time_plot.h"
 
 // Draws every dock with live data into PNG files, for a person to look at: views_gallery DIR [dark].
@@ -166,6 +169,28 @@ int main(int argc, char** argv) {
   draft.setValue("lod.scale", 30.0);
   shoot(parameters, {520, 760}, dir.filePath(QStringLiteral("parameters.png")));
   shoot(parameters, {340, 560}, dir.filePath(QStringLiteral("narrow_parameters.png")));
+  draft.resetAll();
+
+  draft.setValue("fuzzy.combination", ChoiceIndex{2});
+  RulesPanel rules(draft);
+  SurfacePlot surface(draft);
+  for (int i = 0; i < 6000; ++i) {
+    const LiveFrame frame = flight.next(draft.active());
+    rules.showFrame(frame);
+    surface.showFrame(frame);
+  }
+  shoot(rules, {520, 480}, dir.filePath(QStringLiteral("rules.png")));
+  shoot(rules, {340, 420}, dir.filePath(QStringLiteral("narrow_rules.png")));
+  shoot(surface, {560, 420}, dir.filePath(QStringLiteral("surface_rules.png")));
+  for (std::size_t combination = 0; combination < 2; ++combination) {
+    draft.setValue("fuzzy.combination", ChoiceIndex{combination});
+    hover(surface, {200, 150});
+    shoot(surface, {560, 420},
+          dir.filePath(combination == 0 ? QStringLiteral("surface_sum.png")
+                                        : QStringLiteral("surface_twice_minimum.png")));
+  }
+  draft.setText("fuzzy.rules", "low&down*1=2 high*0.5=0 any*0.25=1.5 low&up*0=1");
+  shoot(rules, {520, 480}, dir.filePath(QStringLiteral("rules_not_used.png")));
   draft.resetAll();
 
   DecisionPanel decision(draft);
