@@ -31,7 +31,7 @@ const char* const kDropQuadVertex = R"(#version 430 compatibility
 void main() {
   vec3 p = dropInEye();
   float metres = length(p);
-  float half_ = max(radius, 0.6 * metres / pixelsPerMetre);
+  float half_ = max(radius, 0.8 * metres / pixelsPerMetre);
   float long_ = length(streak);
   vec3 axis = long_ > 1e-4 ? streak / long_ : vec3(0.0, 1.0, 0.0);
   vec3 side = cross(axis, p);
@@ -73,8 +73,8 @@ in float strength;
 uniform vec3 dropColour;   // sRGB
 out vec4 fragment;
 void main() {
-  vec2 inside = 1.0 - corner * corner;
-  fragment = vec4(dropColour, strength * inside.x * inside.y);
+  float square = dot(corner, corner);
+  fragment = vec4(dropColour, strength * max(0.0, 1.0 - square * square));
 }
 )";
 
