@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "feed.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "trimtab/motion/head_motion.h"
 
 namespace trimtab::workbench {
 namespace {
 
+constexpr double kLookPeriodS = 1.0 / 60;
+/// After a longer stop of the program, states go on from now.
+constexpr double kLongestBurstS = 0.25;
+
+/// Whether `b`, decided after `a`, changed nothing that a log of changes should hold.
 bool sameChoice(const FrameDecision& a, const FrameDecision& b) {
-  return a.scheme == b.scheme && a.band == b.band && a.depthMap == b.depthMap;
+  return a.scheme == b.scheme && a.band == b.band && a.depthMap == b.depthMap &&
+         !changesState(b.motion.reason);
 }
 
 }  // namespace
@@ -70,8 +79,9 @@ void Feed::playHere() {
   closeHost();
   if (source_ != Source::flight) session_.restart();
   setSource(Source::flight);
+  beginHeadLog();
   playback_.play(link::now());
-  session_.fly(playback_.current());
+  session_.fly(playback_.current(), link::now());
   noteDecision();
   emit flightChanged();
   emit statesArrived();
@@ -88,7 +98,8 @@ void Feed::seekHere(double position) {
   if (udp_) return udp_->seek(position);
   if (!playback_.loaded() || source_ == Source::host) return;
   setSource(Source::flight);
-  session_.fly(playback_.current());
+  beginHeadLog();
+  session_.fly(playback_.current(), link::now());
   noteDecision();
   emit statesArrived();
 }
@@ -119,12 +130,55 @@ void Feed::stopUdp() {
 
 void Feed::look(const FreeCamera& camera) {
   if (source_ != Source::camera) return;
-  AircraftState state;
-  state.time = link::now();
-  state.position = camera.position();
-  state.attitude = camera.attitude();
+  camera_.emplace();
+  camera_->position = camera.position();
+  camera_->attitude = camera.attitude();
+  const double now = link::now();
+  // Where the head moves, the camera's place is taken along with its next state.
+  if (!session_.hasState() || !session_.head().moves(now)) lookAt(now);
+  emit statesArrived();
+}
+
+void Feed::lookAt(double time) {
+  AircraftState state = *camera_;
+  state.time = lastLook_ = time;
   session_.look(state);
   noteDecision();
+}
+
+void Feed::lookOnGrid(double now) {
+  if (now - lastLook_ > kLongestBurstS) return lookAt(now);
+  while (lastLook_ + kLookPeriodS <= now) lookAt(lastLook_ + kLookPeriodS);
+}
+
+void Feed::useHead(Head source) {
+  session::HeadInput& head = session_.head();
+  if (source == Head::pointer)
+    head.usePointer();
+  else if (source == Head::none)
+    head.useNone();
+  else
+    head.useHost();
+  if (source_ == Source::camera && camera_) lookAt(link::now());
+  emit headChanged();
+  emit statesArrived();
+}
+
+void Feed::useHeadLog(HeadLog log) {
+  session_.head().useLog(std::move(log));
+  beginHeadLog();
+  emit headChanged();
+  emit statesArrived();
+}
+
+void Feed::beginHeadLog() {
+  session_.head().restart();
+  if (source_ == Source::flight) session_.head().begin(playback_.flight().beginS());
+}
+
+void Feed::point(double right, double up) {
+  if (session_.head().source() != Head::pointer) return;
+  session_.head().point(right, up, link::now());
   emit statesArrived();
 }
 
@@ -161,16 +215,21 @@ void Feed::advance(double now) {
   if (source_ == Source::flight && playback_.playing()) {
     flown_.clear();
     playback_.advance(now, flown_);
-    for (const AircraftState& state : flown_) {
-      session_.fly(state);
+    const double step = flown_.empty() ? 0 : (now - lastAdvance_) / static_cast<double>(flown_.size());
+    for (std::size_t i = 0; i < flown_.size(); ++i) {
+      session_.fly(flown_[i], lastAdvance_ + step * static_cast<double>(i + 1));
       noteDecision();
     }
     if (!playback_.playing()) emit flightChanged();
   }
+  if (source_ == Source::camera && camera_ && session_.head().moves(now)) lookOnGrid(now);
+  lastAdvance_ = now;
 }
 
 bool Feed::movesOnItsOwn(double now) const {
-  if (source_ == Source::flight) return playback_.playing();
+  if (source_ == Source::flight) return playback_.playing() || session_.needsPicture(now);
+  if (source_ == Source::camera)
+    return (camera_ && session_.head().moves(now)) || (session_.hasState() && session_.needsPicture(now));
   // A little ahead: directly after a picture of `now` nothing has moved yet.
   return source_ == Source::host && session_.linkState(now) != session::LinkState::silent &&
          session_.needsPicture(now + 0.02);
@@ -186,6 +245,7 @@ void Feed::noteDecision() {
 void Feed::setSource(Source source) {
   if (source_ == source) return;
   source_ = source;
+  session_.head().restart();
   emit sourceChanged();
 }
 

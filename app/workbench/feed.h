@@ -52,6 +52,14 @@ class Feed : public QObject {
   void stopUdp();
   link::FeedPlayer* udpPlayer() const { return udp_.get(); }
 
+  // The head of the one who looks, in place of a host's. A log begins with the flight, or with the next
+  // state. While a log or the pointer moves it under a free camera, states come 60 a second.
+  using Head = session::HeadInput::Source;
+  void useHead(Head source);
+  void useHeadLog(HeadLog log);
+  /// See HeadInput::point.
+  void point(double right, double up);
+
   /// The free camera moved. Without effect while a host or a flight moves the aircraft.
   void look(const FreeCamera& camera);
   /// Takes what has come since the last call and decides each state, in order.
@@ -62,16 +70,21 @@ class Feed : public QObject {
   void setPicturesDrawn(bool drawn) { picturesDrawn_ = drawn; }
 
  signals:
-  void statesArrived();    ///< a picture would differ
-  void decisionChanged();  ///< scheme, band or size is another than a state ago; the session has the new one
+  void statesArrived();  ///< a picture would differ
+  /// Scheme, band or size is another than a state ago, or head motion changed something; the session has it.
+  void decisionChanged();
   void sourceChanged();
   void linkChanged();  ///< opened, closed, first packet, silent, live again
   void jumped();
+  void headChanged();    ///< another source of the line of sight
   void flightChanged();  ///< another flight, or it started, stopped, ended
 
  private:
   void wake();
   void noteDecision();
+  void lookAt(double time);
+  void lookOnGrid(double now);
+  void beginHeadLog();
   void setSource(Source source);
 
   session::Session session_;
@@ -79,6 +92,8 @@ class Feed : public QObject {
   FlightPlayback playback_;
   std::vector<link::ReceivedState> received_;
   std::vector<AircraftState> flown_;
+  std::optional<AircraftState> camera_;  ///< where the free camera is
+  double lastLook_ = 0, lastAdvance_ = 0;
   std::optional<FrameDecision> lastDecision_;
   QTimer silence_;
   session::LinkState lastLink_ = session::LinkState::never;

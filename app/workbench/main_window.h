@@ -31,6 +31,7 @@ class QPushButton;
 
 namespace trimtab::views {
 class BandsEditor;
+class MotionPanel;
 class PlotsPanel;
 class StaticLodPanel;
 }  // namespace trimtab::views
@@ -62,6 +63,8 @@ class MainWindow : public QMainWindow {
   bool savePreset(const QString& file);
   void openTerrain(const QString& source);
   bool openFlight(const QString& file);
+  /// A head log, or a sweep as `--head` takes it.
+  bool openHead(const QString& fileOrSweep);
   /// By content's ending: preset, flight, else terrain.
   void openAny(const QString& path);
   bool exportPreset(const QString& file, ExportFormat format, const QString& author, const QString& comment);
@@ -133,6 +136,10 @@ class MainWindow : public QMainWindow {
   void drainTrace(bool all);
   std::optional<ExperimentInputs> experimentInputs(const QString& folder);
   void updateTitle();
+  // window_motion.cpp
+  void connectMotion();
+  void showHeadSource();
+  void askOpenHead();
   // window_frame.cpp
   std::optional<Picture> picture(int widthPx, int heightPx);
   void onPainted();
@@ -161,6 +168,7 @@ class MainWindow : public QMainWindow {
   std::vector<std::function<void(const views::LiveFrame&)>> liveDocks_;
   views::BandsEditor* bands_ = nullptr;
   views::PlotsPanel* plots_ = nullptr;
+  views::MotionPanel* motion_ = nullptr;
   views::StaticLodPanel* staticLod_ = nullptr;
   HostDock* hostDock_ = nullptr;
   FlightDock* flightDock_ = nullptr;

@@ -246,7 +246,7 @@ void Viewport::paintOverlays() {
 void Viewport::setSymbologyEditor(SymbologyEditor* editor) {
   editor_ = editor;
   connect(editor, &SymbologyEditor::changed, this, [this] {
-    setMouseTracking(editor_->active());
+    setMouseTracking(editor_->active() || pointerWanted_);
     if (!editor_->active()) unsetCursor();
     invalidate();
   });
@@ -280,6 +280,11 @@ void Viewport::focusOutEvent(QFocusEvent* event) {
   QOpenGLWidget::focusOutEvent(event);
 }
 
+void Viewport::setPointerWanted(bool wanted) {
+  pointerWanted_ = wanted;
+  setMouseTracking(wanted || (editor_ != nullptr && editor_->active()));
+}
+
 void Viewport::mousePressEvent(QMouseEvent* event) {
   if (editor_ != nullptr && event->button() == Qt::LeftButton && editor_->press(event->position())) {
     setCursor(editor_->cursor(event->position()));
@@ -296,6 +301,11 @@ void Viewport::mouseMoveEvent(QMouseEvent* event) {
   if (editor_ != nullptr && editor_->moveTo(event->position())) {
     setCursor(editor_->cursor(event->position()));
     return;
+  }
+  if (pointerWanted_) {
+    const double right = 2 * event->position().x() / std::max(1, width()) - 1;
+    const double up = 1 - 2 * event->position().y() / std::max(1, height());
+    emit pointed({right, up});
   }
   if (!cameraEnabled_ || !(event->buttons() & Qt::LeftButton)) return;
   const QPointF moved = event->position() - lastMouse_;

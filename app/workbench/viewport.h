@@ -46,6 +46,8 @@ class Viewport : public QOpenGLWidget {
   bool cameraEnabled() const { return cameraEnabled_; }
   /// While it is active it has the mouse and the keys first.
   void setSymbologyEditor(SymbologyEditor* editor);
+  /// From now on `pointed` tells where in the picture the pointer is, pressed or not.
+  void setPointerWanted(bool wanted);
   /// Shown instead of a picture, until there is one.
   void setNotice(const QString& text);
   struct Measured {
@@ -64,6 +66,7 @@ class Viewport : public QOpenGLWidget {
 
  signals:
   void cameraMoved();
+  void pointed(QPointF place);  ///< -1..1 to the right and up, of the picture's edges
   void painted();  ///< the picture is on the display; `lastResult` is new
   void depthMapRead(const QImage& grey);
   void glFailed(const QString& why);
@@ -99,7 +102,7 @@ class Viewport : public QOpenGLWidget {
   std::optional<scene::FrameResult> result_;
   FreeCamera camera_;
   SymbologyEditor* editor_ = nullptr;
-  bool cameraEnabled_ = true, dirty_ = false, again_ = false, depthMapWanted_ = false;
+  bool cameraEnabled_ = true, dirty_ = false, again_ = false, depthMapWanted_ = false, pointerWanted_ = false;
   QPointF lastMouse_;
   QString notice_;
   QElapsedTimer sinceMove_, sinceDepthMap_, sincePaint_;

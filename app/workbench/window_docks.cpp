@@ -14,6 +14,7 @@
 #include "trimtab/views/decision_panel.h"
 #include "trimtab/views/keys.h"
 #include "trimtab/views/membership_editor.h"
+#include "trimtab/views/motion_panel.h"
 #include "trimtab/views/parameter_table.h"
 #include "trimtab/views/plots_panel.h"
 #include "trimtab/views/rules_panel.h"
@@ -81,6 +82,8 @@ void MainWindow::makeDocks() {
   addDock("history", tr("History"), edit, history);
   addDock("decision", tr("Decision"), effect, new views::DecisionPanel(draft_));
   addDock("surface", tr("Surface"), effect, new views::SurfacePlot(draft_));
+  motion_ = addDock("motion", tr("Head motion"), effect, new views::MotionPanel(draft_));
+  connectMotion();
   hostDock_ = addDock("host", tr("Host"), effect, new HostDock(feed_, draft_));
   flightDock_ = addDock("flight", tr("Flight"), effect, new FlightDock(feed_));
   plots_ = addDock("plots", tr("Plots"), foot, new views::PlotsPanel(draft_));
