@@ -149,7 +149,7 @@ bool BtgReader::readProperty(Object& object) {
   const auto kind = take<std::uint8_t>("property type");
   const auto block = kind ? takeBlock("property length") : std::nullopt;
   if (!block) return false;
-  if (*kind == kMaterial && object.kind >= kPoints && object.kind <= kFans) {
+  if (*kind == kMaterial && object.kind >= kTriangles && object.kind <= kFans) {
     const auto material = materialOf(*block, start);
     if (!material) return false;
     object.material = *material;

@@ -8,6 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "trimtab/terrain/post_geometry.h"
+#include "trimtab/terrain/static_lod.h"
+
 namespace trimtab::terrain {
 
 namespace {
@@ -130,6 +133,22 @@ SceneryCounts sceneryOf(const Json& json, const Reader& read) {
   return counts;
 }
 
+/// The trees, if they are those of this manifest's terrain.
+std::shared_ptr<const StaticLodTerrain> readTrees(const fs::path& file, const Json& json,
+                                                  const PostGrid& posts, Findings& findings) {
+  const auto trees = readStaticLod(file);
+  findings.insert(findings.end(), trees.findings().begin(), trees.findings().end());
+  if (!trees) return {};
+  const Json found = (*trees)->trianglesPerNode;
+  const Json expected = json.is_object() ? json.value("triangles_per_node", Json()) : Json();
+  if (found != expected)
+    findings.push_back(
+        wrong(file, "triangles per node", expected.dump() + ", as the manifest says", found.dump()));
+  if (!((*trees)->index.frame.origin() == PostGeometry(posts).frame().origin()))
+    findings.push_back(wrong(file, "frame", "that of the heights", "another one"));
+  return *trees;
+}
+
 }  // namespace
 
 std::uint64_t checksum(std::string_view bytes) {
@@ -179,6 +198,12 @@ Result<Done> writeContents(const fs::path& folder, const Contents& contents) {
   put("nodes.f32", bytesOf(nodeFloats(contents.index)));
   put("slopes.u8", bytesOf(contents.slopes.cells));
   if (!contents.grid.image.empty()) put("image.rgba", bytesOf(contents.grid.image));
+  if (contents.staticLod) {
+    const auto written = writeStaticLod(folder / kStaticLodName, *contents.staticLod);
+    findings.insert(findings.end(), written.findings().begin(), written.findings().end());
+    std::error_code error;
+    files[kStaticLodName] = {{"bytes", fs::file_size(folder / kStaticLodName, error)}};
+  }
 
   const PostGrid& posts = contents.grid.posts;
   Json manifest;
@@ -203,6 +228,8 @@ Result<Done> writeContents(const fs::path& folder, const Contents& contents) {
                            {"degenerate", scenery->degenerate},
                            {"triangles", scenery->triangles},
                            {"missing", scenery->missing}};
+  if (contents.staticLod)
+    manifest["static_lod"] = {{"triangles_per_node", contents.staticLod->trianglesPerNode}};
   manifest["files"] = files;
   manifest["checksum"] = std::string(16, '0');
   std::string text = manifest.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
@@ -263,7 +290,7 @@ Result<Contents> readContents(const fs::path& folder) {
 
   TerrainIndex index = makeLevels(posts);
   CellSlopes slopes(index);
-  Contents contents{info, {posts, {}, 0, {}}, std::move(index), std::move(slopes)};
+  Contents contents{info, {posts, {}, 0, {}}, std::move(index), std::move(slopes), {}};
   std::uint64_t bytes = text->size();
   std::vector<float> nodes;
   readArray(folder, "heights.f32", files, posts.size(), contents.grid.heights, bytes, findings);
@@ -271,6 +298,10 @@ Result<Contents> readContents(const fs::path& folder) {
   readArray(folder, "slopes.u8", files, contents.slopes.cells.size(), contents.slopes.cells, bytes, findings);
   if (info.hasImage)
     readArray(folder, "image.rgba", files, posts.size() * 4, contents.grid.image, bytes, findings);
+  if (manifest.contains("static_lod")) {
+    contents.staticLod = readTrees(folder / kStaticLodName, manifest["static_lod"], posts, findings);
+    bytes += fs::file_size(folder / kStaticLodName, error);
+  }
   if (!findings.empty()) return findings;
   for (std::size_t i = 0; i < contents.index.size(); ++i) {
     const std::span<const float> n(&nodes[i * kNodeFloats], kNodeFloats);

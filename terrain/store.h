@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,11 +13,13 @@
 /// The files of a database folder: manifest.json names and checks the others, which are little-endian arrays.
 ///
 /// heights.f32 heights in metres, rows from south; nodes.f32 eight numbers a node (box, error, slope);
-/// slopes.u8 the cells of CellSlopes; image.rgba four bytes a post, where there is an image.
+/// slopes.u8 the cells of CellSlopes; image.rgba four bytes a post, where there is an image; static-lod.bin
+/// the trees of static levels of detail, where the source was scenery.
 namespace trimtab::terrain {
 
 inline constexpr int kFormatVersion = 1;
 inline constexpr const char* kManifestName = "manifest.json";
+inline constexpr const char* kStaticLodName = "static-lod.bin";
 
 /// All that a database holds, read into memory.
 struct Contents {
@@ -24,6 +27,7 @@ struct Contents {
   HeightGrid grid;
   TerrainIndex index;
   CellSlopes slopes;
+  std::shared_ptr<const StaticLodTerrain> staticLod;  ///< null where the source was no scenery
 };
 
 /// Four interleaved FNV-1a sums over 64-bit words, the last one filled up with zeros, then folded with the

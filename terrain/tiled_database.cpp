@@ -29,6 +29,7 @@ class TiledDatabase final : public Database {
   void buildTile(std::uint32_t node, TileMesh& mesh) const override;
   std::optional<Metres> heightAt(Degrees latitude, Degrees longitude) const override;
   std::optional<Metres> highestWithin(Degrees latitude, Degrees longitude, Metres radius) const override;
+  std::shared_ptr<const StaticLodTerrain> staticLod() const override { return contents_.staticLod; }
 
  private:
   double height(std::uint32_t row, std::uint32_t column) const {

@@ -114,7 +114,7 @@ void printLines(const Json& json, const std::string& prefix = "") {
     if (value.is_object())
       printLines(value, prefix + key + ".");
     else if (!value.is_array() || value.empty() || !value[0].is_object())
-      std::cout << std::left << std::setw(30) << prefix + key << plain(value) << '\n';
+      std::cout << std::left << std::setw(36) << prefix + key + " " << plain(value) << '\n';
   }
 }
 
