@@ -16,7 +16,7 @@ struct Shape {
   double thinnest;  ///< twice the area over the longest edge squared, from above
   double steepest;  ///< rise over run
 };
-constexpr Shape kGoodShape{0.02, 1.0}, kAnyShape{1e-4, 20.0};
+constexpr Shape kGoodShape{0.001, 3.0}, kAnyShape{1e-5, 50.0};
 
 class Collapser {
  public:

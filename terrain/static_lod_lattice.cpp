@@ -128,52 +128,55 @@ std::vector<std::uint8_t> openVertices(const LatticeTile& tile) {
   return open;
 }
 
-/// Places that open vertices of all tiles share, in a grid of cells of kJoinM.
+/// Places of open vertices of all tiles, in a grid of cells of kJoinM.
 class SharedPlaces {
  public:
   struct Place {
     Lattice at;
-    std::uint32_t lastTile = 0, tiles = 0;
+    std::uint32_t tiles = 0;
     Vec3 normal;
   };
 
-  /// The nearest place within kJoinM that this tile does not use yet, or a new one.
-  std::uint32_t placeFor(const Lattice& p, std::uint32_t tile) {
+  /// The nearest place within kJoinM; a new one where there is none.
+  const Place& near(const Lattice& p) {
     constexpr std::int64_t kReach = static_cast<std::int64_t>(kJoinM / Lattice::kStepM);
     std::int64_t nearest = kReach * kReach + 1;
     std::uint32_t found = kNone;
     const Lattice c = cell(p);
     for (std::int32_t dx = -1; dx <= 1; ++dx)
       for (std::int32_t dy = -1; dy <= 1; ++dy)
-        for (std::int32_t dz = -1; dz <= 1; ++dz) {
-          const auto at = cells_.find({c.x + dx, c.y + dy, c.z + dz});
-          if (at == cells_.end()) continue;
-          for (std::uint32_t i = at->second; i != kNone; i = next_[i]) {
-            if (places_[i].tiles > 0 && places_[i].lastTile == tile) continue;
+        for (std::int32_t dz = -1; dz <= 1; ++dz)
+          for (std::uint32_t i = firstIn({c.x + dx, c.y + dy, c.z + dz}); i != kNone; i = next_[i]) {
             const std::int64_t x = p.x - places_[i].at.x, y = p.y - places_[i].at.y,
                                z = p.z - places_[i].at.z;
             const std::int64_t squared = x * x + y * y + z * z;
             if (squared < nearest || (squared == nearest && i < found)) nearest = squared, found = i;
           }
-        }
     if (found == kNone) {
       found = static_cast<std::uint32_t>(places_.size());
-      places_.push_back({p, tile, 0, {}});
+      places_.push_back({p, 0, {}});
       const auto [at, isNew] = cells_.try_emplace(c, kNone);
       next_.push_back(at->second);
       at->second = found;
     }
-    places_[found].lastTile = tile;
-    ++places_[found].tiles;
-    return found;
+    return places_[found];
   }
-  Place& operator[](std::uint32_t i) { return places_[i]; }
+  /// The place exactly there; null where there is none.
+  Place* at(const Lattice& p) {
+    for (std::uint32_t i = firstIn(cell(p)); i != kNone; i = next_[i])
+      if (places_[i].at == p) return &places_[i];
+    return nullptr;
+  }
 
  private:
   static Lattice cell(const Lattice& p) {
     constexpr std::int32_t kCell = static_cast<std::int32_t>(kJoinM / Lattice::kStepM) + 1;
     const auto down = [](std::int32_t v) { return v >= 0 ? v / kCell : -((kCell - 1 - v) / kCell); };
     return {down(p.x), down(p.y), down(p.z)};
+  }
+  std::uint32_t firstIn(const Lattice& c) const {
+    const auto found = cells_.find(c);
+    return found == cells_.end() ? kNone : found->second;
   }
   std::vector<Place> places_;
   std::vector<std::uint32_t> next_;
@@ -206,7 +209,6 @@ Result<LatticeTiles> toLattice(std::span<const SceneryMesh> meshes, const LocalF
   LatticeTiles all;
   std::map<std::string, std::size_t> materials;
   SharedPlaces places;
-  std::vector<std::vector<std::uint32_t>> placeOf;  // one a tile and vertex; kNone inside
   for (const SceneryMesh& mesh : meshes) {
     LatticeTile tile;
     tile.name = mesh.name;
@@ -227,15 +229,10 @@ Result<LatticeTiles> toLattice(std::span<const SceneryMesh> meshes, const LocalF
       continue;
     }
     const std::vector<std::uint8_t> open = openVertices(tile);
-    const std::uint32_t number = static_cast<std::uint32_t>(all.tiles.size());
-    std::vector<std::uint32_t> place(tile.vertices.size(), kNone);
     for (std::size_t i = 0; i < open.size(); ++i)
-      if (open[i]) {
-        place[i] = places.placeFor(tile.vertices[i], number);
-        tile.vertices[i] = places[place[i]].at;
-      }
-    placeOf.push_back(std::move(place));
-    all.tiles.push_back(std::move(tile));
+      if (open[i]) tile.vertices[i] = places.near(tile.vertices[i]).at;
+    weld(tile, all);
+    if (!tile.triangles.empty()) all.tiles.push_back(std::move(tile));
   }
   if (all.tiles.empty()) {
     findings.push_back(
@@ -243,24 +240,21 @@ Result<LatticeTiles> toLattice(std::span<const SceneryMesh> meshes, const LocalF
     return findings;
   }
 
-  // Moved vertices may have closed a triangle; numbers stay, because no two vertices of a tile share a place.
-  for (std::size_t k = 0; k < all.tiles.size(); ++k) {
-    LatticeTile& tile = all.tiles[k];
+  for (LatticeTile& tile : all.tiles) {
     addNormals(tile);
     for (std::size_t i = 0; i < tile.vertices.size(); ++i)
-      if (placeOf[k][i] != kNone) {
-        SharedPlaces::Place& place = places[placeOf[k][i]];
-        place.normal = place.normal + tile.normals[i];
-        all.joined += place.tiles > 1;
+      if (SharedPlaces::Place* place = places.at(tile.vertices[i])) {
+        place->normal = place->normal + tile.normals[i];
+        ++place->tiles;
       }
   }
-  for (std::size_t k = 0; k < all.tiles.size(); ++k) {
-    LatticeTile& tile = all.tiles[k];
+  for (LatticeTile& tile : all.tiles) {
     tile.shared.assign(tile.vertices.size(), 0);
     for (std::size_t i = 0; i < tile.vertices.size(); ++i)
-      if (placeOf[k][i] != kNone && places[placeOf[k][i]].tiles > 1) {
+      if (const SharedPlaces::Place* place = places.at(tile.vertices[i]); place && place->tiles > 1) {
         tile.shared[i] = 1;
-        tile.normals[i] = places[placeOf[k][i]].normal;
+        tile.normals[i] = place->normal;
+        ++all.joined;
       }
   }
   return Result<LatticeTiles>(std::move(all), std::move(findings));

@@ -20,6 +20,6 @@ struct SourceSurface {
 /// Area-weighted planes of the triangles, a third to each corner, and, at edges between materials, an upright
 /// plane through the edge: a metre sideways there counts as `boundaryWeight` m^2 on a square of the edge's
 /// length.
-SourceSurface analyse(const LatticeTile& tile, const Lattice& origin, double boundaryWeight = 0.05);
+SourceSurface analyse(const LatticeTile& tile, const Lattice& origin, double boundaryWeight = 0.02);
 
 }  // namespace trimtab::terrain
