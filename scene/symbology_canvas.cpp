@@ -29,6 +29,13 @@ bool Canvas::project(Vec3 d, double& x, double& y) const {
   return true;
 }
 
+bool Canvas::isCentral(Vec3 direction, double reach) const {
+  double x = 0, y = 0;
+  if (!project(direction, x, y)) return false;
+  return std::hypot(x - moveX_ - 0.5 * view_.widthPx, y - moveY_ - 0.5 * view_.heightPx) <=
+         0.5 * reach * view_.heightPx;
+}
+
 void Canvas::line(const Sheet& sheet, double a0, double b0, double a1, double b1) {
   Vec3 from = sheet.at(a0, b0), to = sheet.at(a1, b1);
   if (-from.z < kBeforeEye && -to.z < kBeforeEye) return;

@@ -38,6 +38,8 @@ class Canvas {
   double tangentPerUnit() const { return 0.5 * (view_.top - view_.bottom); }
   /// Pixels of a direction; false behind the eye.
   bool project(Vec3 direction, double& x, double& y) const;
+  /// Whether a direction is that near to the picture's middle, moved as the symbol is; in half heights.
+  bool isCentral(Vec3 direction, double reach) const;
 
  private:
   void add(double x0, double y0, double x1, double y1);

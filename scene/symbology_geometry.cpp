@@ -14,6 +14,8 @@ constexpr double kDegree = std::numbers::pi / 180;
 /// Slower than this an aircraft flies nowhere: noise of positions would throw the marker about.
 constexpr double kSlowestMps = 1;
 constexpr double kText = 0.055, kSmallText = 0.042;  ///< heights, half pictures
+/// Bars farther from the picture's middle would lie under the tape: half pictures.
+constexpr double kLadderReach = 0.62;
 constexpr double kFurthest = 1e9;  ///< readouts beyond are not finite numbers that anyone means
 
 /// Axes of a view or body in a world of east, north and up: right, up, backward.
@@ -125,11 +127,12 @@ void Drawer::ladderBar(double elevationDeg, const Vec3& ahead, const Vec3& right
   const Sheet sheet{worldToView_ * (ahead * std::cos(e) + up * std::sin(e)), worldToView_ * (right * unit),
                     worldToView_ * ((up * std::cos(e) - ahead * std::sin(e)) * unit)};
   if (sheet.origin.z > 0.2) return;  // well behind the eye
-  constexpr double kInner = 0.16, kOuter = 0.42, kHorizon = 1.1, kHook = 0.035;
+  constexpr double kInner = 0.16, kOuter = 0.42, kHorizon = 0.85, kHook = 0.035;
   if (elevationDeg == 0) {
     for (const double side : {-1.0, 1.0}) canvas_.line(sheet, side * kInner, 0, side * kHorizon, 0);
     return;
   }
+  if (!canvas_.isCentral(sheet.origin, kLadderReach)) return;
   const double toHorizon = elevationDeg > 0 ? -kHook : kHook;
   std::array<char, 16> text{};
   std::snprintf(text.data(), text.size(), "%d", static_cast<int>(std::abs(elevationDeg)));
@@ -140,10 +143,10 @@ void Drawer::ladderBar(double elevationDeg, const Vec3& ahead, const Vec3& right
       constexpr int kDashes = 4;
       constexpr double kStep = (kOuter - kInner) / kDashes;
       for (int i = 0; i < kDashes; ++i)
-        canvas_.line(sheet, side * (kInner + i * kStep), 0, side * (kInner + (i + 0.6) * kStep), 0);
+        canvas_.line(sheet, side * (kInner + (i + 0.4) * kStep), 0, side * (kInner + (i + 1) * kStep), 0);
     }
     canvas_.line(sheet, side * kOuter, 0, side * kOuter, toHorizon);
-    canvas_.text(sheet, side * (kOuter + 0.06), toHorizon * 0.5, kSmallText, text.data());
+    canvas_.text(sheet, side * (kOuter + 0.075), toHorizon * 0.5, kSmallText, text.data());
   }
 }
 
