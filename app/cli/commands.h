@@ -12,6 +12,8 @@ namespace trimtab::cli {
 inline constexpr int kDone = 0, kRefused = 1, kUsage = 2;
 
 void addPreset(CLI::App& app, int& exitCode);
+/// Of `preset`.
+void addFuzzy(CLI::App& preset, int& exitCode);
 void addDecide(CLI::App& app, int& exitCode);
 void addTerrain(CLI::App& app, int& exitCode);
 void addFeed(CLI::App& app, int& exitCode);

@@ -176,7 +176,7 @@ int diff(const Options& options) {
 
 void addPreset(CLI::App& app, int& exitCode) {
   const auto options = std::make_shared<Options>();
-  CLI::App* const preset = app.add_subcommand("preset", "Check, export and compare presets");
+  CLI::App* const preset = app.add_subcommand("preset", "Check, export, compare and exchange presets");
   preset->require_subcommand(1);
 
   CLI::App* const checking = preset->add_subcommand(
@@ -206,6 +206,8 @@ void addPreset(CLI::App& app, int& exitCode) {
   comparing->add_option("right", options->right)->required();
   comparing->add_flag("--json", options->json, "One JSON document on standard output");
   comparing->callback([&exitCode, options] { exitCode = diff(*options); });
+
+  addFuzzy(*preset, exitCode);
 
   for (const auto& [name, what, text] :
        {std::tuple{"schema", "Print the JSON schema of preset files", &presetSchema},

@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "commands.h"
+#include "settings.h"
+#include "trimtab/fuzzy/rule_file.h"
+#include "trimtab/preset/file_io.h"
+#include "trimtab/preset/preset.h"
+
+namespace trimtab::cli {
+
+namespace {
+
+struct Options {
+  std::string preset = "default", file, output, format;
+  std::vector<std::string> settings;
+};
+
+/// By --format, else by the file's ending.
+std::optional<RuleFormat> formatOf(const Options& options, const std::string& file) {
+  if (!options.format.empty()) return options.format == "fis" ? RuleFormat::matlab : RuleFormat::fuzzylite;
+  const auto format = ruleFormatOf(file);
+  if (!format)
+    report({{Severity::error, file, "", "a name that ends in .fll or .fis, or --format", "another"}});
+  return format;
+}
+
+int writeOut(const std::string& output, const std::string& text) {
+  if (output == "-") {
+    std::cout << text << std::flush;
+    return std::cout ? kDone : kRefused;
+  }
+  const auto written = writeAtomically(output, text);
+  report(written.findings());
+  return written ? kDone : kRefused;
+}
+
+int exportRules(const Options& options) {
+  const auto format = formatOf(options, options.output);
+  if (!format) return kUsage;
+  const auto parameters = parametersFor(options.preset, options.settings);
+  if (!parameters) return kRefused;
+  const auto preset = loadPreset(options.preset);
+  const auto text = ruleFileText(**parameters, preset ? preset->name : std::string(), *format);
+  report(text.findings());
+  return text ? writeOut(options.output, *text) : kRefused;
+}
+
+int importRules(const Options& options) {
+  const auto format = formatOf(options, options.file);
+  if (!format) return kUsage;
+  const auto base = loadPreset(options.preset);
+  const auto text = readWhole(options.file);
+  report(base.findings());
+  report(text.findings());
+  if (!base || !text) return kRefused;
+  const auto read = readRuleFile(*text, options.file, *format, base->parameters);
+  report(read.findings());
+  if (!read) return kRefused;
+  Preset preset;
+  preset.name = std::filesystem::path(options.file).stem().string();
+  const auto shipped = shippedPresets();
+  const bool isShipped = std::find(shipped.begin(), shipped.end(), options.preset) != shipped.end();
+  preset.base = isShipped ? options.preset : std::filesystem::absolute(options.preset).string();
+  preset.parameters = *read;
+  const auto written = presetText(preset);
+  report(written.findings());
+  return written ? writeOut(options.output, *written) : kRefused;
+}
+
+}  // namespace
+
+void addFuzzy(CLI::App& preset, int& exitCode) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* const fuzzy = preset.add_subcommand(
+      "fuzzy", "Exchange rules and membership curves with fuzzy-logic tools (.fll, .fis)");
+  fuzzy->require_subcommand(1);
+  const auto formatOption = [options](CLI::App* command) {
+    command->add_option("--format", options->format, "fll or fis, where the file's ending does not say it")
+        ->check(CLI::IsMember({"fll", "fis"}));
+  };
+
+  CLI::App* const exporting =
+      fuzzy->add_subcommand("export", "Write them as FuzzyLite Language (.fll) or MATLAB FIS text (.fis)");
+  exporting->add_option("preset", options->preset, "Preset file or the name of a shipped preset")->required();
+  exporting->add_option("-o,--output", options->output, "File to write; - for standard output")->required();
+  exporting->add_option("--set", options->settings, "key=value, applied before; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  formatOption(exporting);
+  exporting->callback([&exitCode, options] { exitCode = exportRules(*options); });
+
+  CLI::App* const importing =
+      fuzzy->add_subcommand("import", "Make a preset of them; everything else from --base");
+  importing->add_option("file", options->file, "File to read: .fll or .fis")->required();
+  importing->add_option("--base", options->preset, "Preset file or the name of a shipped preset")
+      ->default_str("default");
+  importing->add_option("-o,--output", options->output, "Preset to write; - for standard output")->required();
+  formatOption(importing);
+  importing->callback([&exitCode, options] { exitCode = importRules(*options); });
+}
+
+}  // namespace trimtab::cli
