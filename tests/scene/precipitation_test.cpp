@@ -186,6 +186,29 @@ TEST_F(Falling, fallsWithoutTerrainToo) {
   EXPECT_GT(differing(picture(dry(r)), picture(r)), 10000u);
 }
 
+TEST_F(Falling, leavesNothingInTheContext) {
+  use(test::syntheticMountains());
+  const auto alive = [] {
+    std::array<std::size_t, 2> n{};
+    for (GLuint id = 1; id < 4000; ++id) {
+      n[0] += glIsProgram(id) == GL_TRUE;
+      n[1] += glIsBuffer(id) == GL_TRUE;
+    }
+    return n;
+  };
+  const auto drawAndRelease = [&] {
+    for (const Precipitation kind : kKinds) picture(falling(kind, 0.4));
+    const auto during = alive();
+    renderer.release();
+    const auto after = alive();
+    EXPECT_GT(during[0], after[0]);
+    EXPECT_TRUE(renderer.initialize().usable);
+    return after;
+  };
+  EXPECT_EQ(drawAndRelease(), (std::array<std::size_t, 2>{0, 0}));
+  EXPECT_EQ(drawAndRelease(), (std::array<std::size_t, 2>{0, 0}));
+}
+
 TEST(PrecipitationLattice, standsStillInTheWorld) {
   const Vec3 cell{4, 4, 5};
   std::mt19937 random(3);
