@@ -92,12 +92,16 @@ Renderer::Grey FrameCulling::readDepthMap(const OcclusionPass& pass) const {
   glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &before);
   pass.read(depths);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(before));
-  Renderer::Grey grey{pass.width(), pass.height(), std::vector<std::uint8_t>(depths.size(), 255)};
+  return greyOf(depths, pass.width(), pass.height(), nearM_);
+}
+
+Renderer::Grey greyOf(std::span<const float> depths, int width, int height, double nearM) {
+  Renderer::Grey grey{width, height, std::vector<std::uint8_t>(depths.size(), 255)};
   // By the logarithm of the distance: the same step is the same ratio near and far.
   constexpr double kFrom = Renderer::Grey::kNearestM, kTo = Renderer::Grey::kFurthestM;
   for (std::size_t i = 0; i < depths.size(); ++i) {
     if (!(depths[i] > 0)) continue;
-    const double distance = std::clamp(nearM_ / double{depths[i]}, kFrom, kTo);
+    const double distance = std::clamp(nearM / double{depths[i]}, kFrom, kTo);
     grey.pixels[i] =
         static_cast<std::uint8_t>(std::lround(254 * std::log(distance / kFrom) / std::log(kTo / kFrom)));
   }

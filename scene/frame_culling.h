@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@
 #include "trimtab/terrain/database.h"
 
 namespace trimtab::scene {
+
+/// Depths (near / distance, row 0 at the bottom) as the greys that people look at.
+Renderer::Grey greyOf(std::span<const float> depths, int width, int height, double nearM);
 
 /// What a frame does to find the terrain's tiles that it draws: level cut, frustum, depth map. Keeps what can
 /// be kept from frame to frame; needs no context, except where OcclusionPass and TileCache are passed.

@@ -152,14 +152,12 @@ void Renderer::Impl::drawTrees(unsigned program) {
   const std::size_t near = trees.visibleNear();
   if (counters.depthMap) {
     drawNodes(program, std::span(visible).first(near));
+    // Reading waits for the near nodes: a software rasteriser's time for them is not the map's.
+    if (report.software) glFinish();
     const auto start = Clock::now();
     const ViewShape& v = request->view;
-    gl->treeOcclusion.read(gl->frame.depthTexture(), v.widthPx, v.heightPx, counters.depthMap->widthPx,
-                           counters.depthMap->heightPx);
+    gl->treeOcclusion.read(v.widthPx, v.heightPx, counters.depthMap->widthPx, counters.depthMap->heightPx);
     trees.removeHidden(gl->treeOcclusion.pyramid());
-    glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
-    glViewport(0, 0, v.widthPx, v.heightPx);
-    glUseProgram(program);
     cost.occlusion = millisecondsBetween(start, Clock::now());
     if (!byReason) drawNodes(program, std::span(visible).subspan(near));
   } else if (!byReason) {
@@ -358,6 +356,11 @@ std::vector<float> Renderer::readDistances() {
 
 Renderer::Grey Renderer::readDepthMap() {
   if (!impl_->gl) return {};
+  if (impl_->counters.staticLod.drawn) {
+    if (!impl_->counters.depthMap) return {};
+    const DepthPyramid& map = impl_->gl->treeOcclusion.pyramid();
+    return greyOf(map.depths(), map.width(), map.height(), impl_->lastView.nearM);
+  }
   return impl_->culling.readDepthMap(impl_->gl->occlusion);
 }
 

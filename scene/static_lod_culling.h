@@ -42,6 +42,7 @@ class StaticLodCulling {
 
  private:
   void orderByDistance(Vec3 eye);
+  std::uint64_t farTriangles() const;
 
   /// What the cut depends on.
   struct CutKey {

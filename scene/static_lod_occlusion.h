@@ -13,22 +13,13 @@ namespace trimtab::scene {
 /// that it touches (depth_pyramid.h), so what lies behind it would fail the depth test in every one of them.
 class StaticLodOcclusion {
  public:
-  StaticLodOcclusion() = default;
-  ~StaticLodOcclusion();
-  StaticLodOcclusion(const StaticLodOcclusion&) = delete;
-  StaticLodOcclusion& operator=(const StaticLodOcclusion&) = delete;
-
-  /// Waits for what was drawn so far. Leaves framebuffer, viewport, program and texture unit to be restored.
-  void read(unsigned depthTexture, int pictureWidth, int pictureHeight, int width, int height);
+  /// Of the framebuffer that is bound for reading, as a map of width x height. Waits for what was drawn so
+  /// far.
+  void read(int pictureWidth, int pictureHeight, int width, int height);
   const DepthPyramid& pyramid() const { return pyramid_; }
 
  private:
-  void make();
-  void resize(int width, int height);
-
-  unsigned program_ = 0, frame_ = 0, map_ = 0, emptyArray_ = 0;
-  int storedWidth_ = 0, storedHeight_ = 0;
-  std::vector<float> depths_;
+  std::vector<float> picture_;
   DepthPyramid pyramid_;
 };
 

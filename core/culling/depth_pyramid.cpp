@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace trimtab {
 namespace {
@@ -11,7 +12,7 @@ constexpr int kSpan = 8;
 
 }  // namespace
 
-void DepthPyramid::build(std::span<const float> depths, int width, int height) {
+void DepthPyramid::resize(int width, int height) {
   width_ = width;
   height_ = height;
   levels_.clear();
@@ -22,7 +23,45 @@ void DepthPyramid::build(std::span<const float> depths, int width, int height) {
     if (w <= kSpan && h <= kSpan) break;
   }
   cells_.resize(cells);
+}
+
+void DepthPyramid::build(std::span<const float> depths, int width, int height) {
+  resize(width, height);
   std::copy(depths.begin(), depths.end(), cells_.begin());
+  reduce();
+}
+
+void DepthPyramid::buildFromPicture(std::span<const float> picture, int pictureWidth, int pictureHeight,
+                                    int width, int height) {
+  resize(width, height);
+  const auto from = [](int texel, int pixels, int texels) {
+    return static_cast<int>(std::int64_t{texel} * pixels / texels);
+  };
+  const auto to = [](int texel, int pixels, int texels) {
+    return std::min(static_cast<int>(((std::int64_t{texel} + 1) * pixels + texels - 1) / texels), pixels);
+  };
+  for (int y = 0; y < height; ++y) {
+    const auto rowOf = [&](int pixelRow) {
+      return picture.begin() + static_cast<std::ptrdiff_t>(pixelRow) * pictureWidth;
+    };
+    const int first = from(y, pictureHeight, height), last = to(y, pictureHeight, height);
+    row_.assign(rowOf(first), rowOf(first) + pictureWidth);
+    for (int pixelRow = first + 1; pixelRow < last; ++pixelRow) {
+      const float* in = &*rowOf(pixelRow);
+      for (std::size_t x = 0; x < row_.size(); ++x) row_[x] = in[x] < row_[x] ? in[x] : row_[x];
+    }
+    float* out = cells_.data() + static_cast<std::ptrdiff_t>(y) * width;
+    for (int x = 0; x < width; ++x) {
+      float farthest = row_[static_cast<std::size_t>(from(x, pictureWidth, width))];
+      for (int i = from(x, pictureWidth, width) + 1, end = to(x, pictureWidth, width); i < end; ++i)
+        farthest = std::min(farthest, row_[static_cast<std::size_t>(i)]);
+      out[x] = farthest;
+    }
+  }
+  reduce();
+}
+
+void DepthPyramid::reduce() {
   for (std::size_t i = 1; i < levels_.size(); ++i) {
     const Level &from = levels_[i - 1], &to = levels_[i];
     for (int y = 0; y < to.height; ++y) {

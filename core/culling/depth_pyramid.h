@@ -19,6 +19,9 @@ class DepthPyramid {
  public:
   /// Row 0 at the bottom. `depths` has width x height entries.
   void build(std::span<const float> depths, int width, int height);
+  /// The map of a picture of any size: the farthest pixel that each texel touches.
+  void buildFromPicture(std::span<const float> picture, int pictureWidth, int pictureHeight, int width,
+                        int height);
 
   /// False unless proven; false for a box that reaches the near plane. Margins cover float rounding in the
   /// picture. `view` has the picture's size, which need not be a multiple of the map's.
@@ -34,11 +37,14 @@ class DepthPyramid {
     std::size_t first = 0;
     int width = 0, height = 0;
   };
+  void resize(int width, int height);
+  void reduce();
   bool covers(int x0, int y0, int x1, int y1, float limit) const;
 
   int width_ = 0, height_ = 0;
   std::vector<Level> levels_;
   std::vector<float> cells_;  ///< level after level, each a quarter of the one before
+  std::vector<float> row_;
 };
 
 }  // namespace trimtab

@@ -37,19 +37,20 @@ class StaticTrees : public SceneTest {
   const StaticLodIndex& trees() const { return database->staticLod()->index; }
 
   /// Views from low and high, any attitude; each culling case must draw the picture of the case *none*.
-  void compareCases(int views, unsigned seed) {
+  void compareCases(int views, unsigned seed, double finestPx) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> place(0.15, 0.85), unit(0, 1);
     std::size_t outside = 0, hidden = 0;
     std::set<std::uint8_t> depths;
     for (int i = 0; i < views; ++i) {
-      const double above = 40 * std::pow(200.0, unit(random));
+      // Most of them low, where much is hidden.
+      const double above = 40 * std::pow(200.0, std::pow(unit(random), 2.5));
       const double pitch = i % 5 == 3 ? -70 + 30 * unit(random) : -20 + 25 * unit(random);
       const auto east = place(random), north = place(random);
       auto r = treeRequest(over(east, north, above), {Degrees{360 * unit(random)}, Degrees{pitch},
                                                       Degrees{i % 3 ? 0 : 360 * unit(random)}});
       if (i % 6 == 5) r.view.left = -0.2, r.view.right = 0.9, r.view.bottom = -0.6, r.view.top = 0.1;
-      r.staticLod.errorPx = Pixels{i % 2 ? 1.0 : 8.0};
+      r.staticLod.errorPx = Pixels{i % 4 ? finestPx : 16 * finestPx};
       r.decision.depthMap = DepthMapSize{i % 4 < 2 ? 320 : 800, i % 4 < 2 ? 240 : 600};
       scene::FrameResult result;
       r.method = CullingCase::none;
@@ -63,6 +64,7 @@ class StaticTrees : public SceneTest {
       hidden += result.visible.occluded;
     }
     EXPECT_GT(outside, static_cast<std::size_t>(views) * 20);
+    EXPECT_GT(hidden, static_cast<std::size_t>(views)) << "it hides hardly anything";
     EXPECT_GE(depths.size(), 4u) << "levels hardly changed";
     std::printf("%d views: %zu nodes outside the frustum, %zu hidden\n", views, outside, hidden);
   }
@@ -106,11 +108,26 @@ TEST_F(StaticTrees, drawTheSameTerrainAsTheTiledLevelsWhereBothAreExact) {
 
 TEST_F(StaticTrees, cullingNeverChangesAPixel) {
   use(treeMountains());
-  compareCases(24, 5);
+  compareCases(24, 5, 0.05);
 }
 
 TEST_F(StaticTrees, leaveNoHoleBetweenNodesAndTilesOfAnyLevels) {
   use(treeMountains());
+  lookForHoles();
+}
+
+TEST_F(StaticTrees, cullingNeverChangesAPixelOverKansai) {
+  TRIMTAB_NEEDS_SHARED("data/fg-kansai-e135n35");
+  use(bakeShared("fg-kansai-e135n35"));
+  ASSERT_TRUE(database);
+  ASSERT_TRUE(database->staticLod());
+  compareCases(48, 6, 0.05);
+}
+
+TEST_F(StaticTrees, leaveNoHoleInKansai) {
+  TRIMTAB_NEEDS_SHARED("data/fg-kansai-e135n35");
+  use(bakeShared("fg-kansai-e135n35"));
+  ASSERT_TRUE(database);
   lookForHoles();
 }
 

@@ -93,6 +93,28 @@ TEST_F(DepthPyramidTest, hidesWhatIsBehindAndKeepsWhatIsNot) {
   EXPECT_FALSE(pyramid.isHidden(boxAt(0, -1200, 0, 100), eye, view)) << "behind the eye";
 }
 
+TEST_F(DepthPyramidTest, takesTheFarthestPixelThatATexelTouches) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> unit(0.001f, 1);
+  for (const auto& [width, height] : {std::pair{64, 48}, std::pair{17, 99}, std::pair{300, 200}}) {
+    constexpr int kWide = 101, kHigh = 67;
+    std::vector<float> picture(std::size_t{kWide} * kHigh);
+    for (float& depth : picture) depth = unit(random);
+    pyramid.buildFromPicture(picture, kWide, kHigh, width, height);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        float farthest = 1;
+        for (int py = 0; py < kHigh; ++py)
+          for (int px = 0; px < kWide; ++px)
+            // Open intervals [p, p + 1) and [t, t + 1), in units of one over picture times map.
+            if (px * width < (x + 1) * kWide && (px + 1) * width > x * kWide &&
+                py * height < (y + 1) * kHigh && (py + 1) * height > y * kHigh)
+              farthest = std::min(farthest, picture[static_cast<std::size_t>(py * kWide + px)]);
+        ASSERT_EQ(pyramid.depths()[static_cast<std::size_t>(y * width + x)], farthest) << x << ", " << y;
+      }
+  }
+}
+
 TEST_F(DepthPyramidTest, seesThroughASingleHole) {
   depths[24 * 64 + 32] = 0;
   pyramid.build(depths, 64, 48);
