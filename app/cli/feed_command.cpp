@@ -160,6 +160,8 @@ std::string health(const HostStatistics& s) {
   append("restarts", s.restarts);
   append("silences", s.silences);
   append("jumps", s.jumps);
+  append("regional-weather", s.regionalWeather);
+  append("other-weather-layers", s.otherLayers);
   return line;
 }
 

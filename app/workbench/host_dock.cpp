@@ -117,6 +117,10 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
                     tr("From the kernel's time stamp to the finished picture that shows the packet"));
   counts_ = addRow(*form, tr("Packets"), {});
   jumps_ = addRow(*form, tr("Jumps"), tr("Position changes too large for any aircraft"));
+  weather_ =
+      addRow(*form, tr("Weather passed over"),
+             tr("Weather Control that is not drawn: of regions and entities, and of layers other than rain "
+                "and snow"));
   bad_ = addRow(*form, tr("Bad packets"), tr("Refused; the first one is shown below"));
   firstBad_->setReadOnly(true);
   firstBad_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
@@ -270,6 +274,9 @@ void HostDock::refresh() {
                        : kNone);
   counts_->setWordWrap(true);
   jumps_->setText(any ? number(std::max(session.jumps(), host.jumps)) : kNone);
+  weather_->setText(any ? tr("%1 of regions or entities, %2 of other layers")
+                              .arg(number(host.regionalWeather), number(host.otherLayers))
+                        : kNone);
   bad_->setText(any ? number(host.bad) : kNone);
   const QString dump = host.bad == 0
                            ? QString()

@@ -52,7 +52,8 @@ class HostDock : public QWidget {
   QComboBox* protocol_;
   QLineEdit* reply_;
   QPushButton* connect_;
-  QLabel *state_, *detected_, *rate_, *jitter_, *loss_, *age_, *decoded_, *picture_, *counts_, *jumps_, *bad_;
+  QLabel *state_, *detected_, *rate_, *jitter_, *loss_, *age_, *decoded_, *picture_, *counts_, *jumps_, *bad_,
+      *weather_;
   QPlainTextEdit* firstBad_;
   QTimer refresh_;  ///< runs only while a link is open and this can be seen
 };

@@ -1,5 +1,6 @@
 #include "host_support.h"
 #include "support.h"
+#include "trimtab/host/flight.h"
 
 namespace trimtab::test {
 namespace {
@@ -101,6 +102,30 @@ TEST_P(WeatherControl, isForgottenWhenTheHostCountsAnew) {
   const auto state = feed(decoder_, encodeCigiHost(s, 1, 0, GetParam()), 500);
   ASSERT_TRUE(state);
   EXPECT_FALSE(state->weather);
+}
+
+TEST(WeatherOfAFlight, comesBackFromARecordingOfItsPackets) {
+  // A flight whose weather changes, as `feed play` sends it and `feed record` keeps it.
+  const std::optional<HostWeather> course[] = {
+      std::nullopt, HostWeather{Precipitation::rain, 1, Metres{8000}},
+      HostWeather{Precipitation::rain, 4, std::nullopt}, HostWeather{Precipitation::snow, 5, Metres{600}},
+      HostWeather{}};
+  Flight flight;
+  std::vector<CapturedDatagram> datagrams;
+  for (std::uint32_t i = 0; i < 250; ++i) {
+    AircraftState s = withWeather(course[i / 50]);
+    s.time = 0.02 * i;
+    s.packet = i;
+    flight.states.push_back(s);
+    datagrams.push_back({1000 + s.time, "127.0.0.1:4000", "127.0.0.1:8004", encodeCigiHost(s, i, 0)});
+  }
+  const auto recorded = flightFromDatagrams(datagrams, "recording");
+  ASSERT_TRUE(recorded) << toString(recorded.findings());
+  const auto again = parseFlightCsv(flightCsv(*recorded), "recording.csv");
+  ASSERT_TRUE(again) << toString(again.findings());
+  ASSERT_EQ(again->states.size(), flight.states.size());
+  for (std::size_t i = 0; i < flight.states.size(); ++i)
+    EXPECT_EQ(again->states[i].weather, flight.states[i].weather) << i;
 }
 
 }  // namespace
