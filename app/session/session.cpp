@@ -257,6 +257,7 @@ FrameCost Session::finished(const scene::FrameResult& result, double now) {
   lastCost_ = result.cost;
   lastCost_.decide = decideMs_;
   lastCost_.total = result.cost.total + decideMs_;
+  overBudget_ += lastCost_.total > parameters_->measure.budget.value();
   decideMs_ = 0;
   if (!inPicture_.empty()) {
     latency_.shown.add((now - inPicture_.back()) * 1e3);

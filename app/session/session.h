@@ -106,6 +106,8 @@ class Session {
   /// The requested picture is finished: completes rows, latency and the cost that the next decision is given.
   /// `cost.decide` is filled in here. Returns the completed cost.
   FrameCost finished(const scene::FrameResult& result, double now);
+  /// Finished pictures whose work took longer than measure.budget_ms.
+  std::uint64_t overBudget() const { return overBudget_; }
   /// No picture is drawn of what has arrived (hidden window): rows and latencies do not wait for one.
   void noPicture();
 
@@ -133,6 +135,7 @@ class Session {
   FrameDecision decision_;
   FrameCost lastCost_;
   double decideMs_ = 0;  ///< spent since the last picture
+  std::uint64_t overBudget_ = 0;
   bool looking_ = false;
   bool replayed_ = false;
 
