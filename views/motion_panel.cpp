@@ -63,6 +63,7 @@ MotionPanel::MotionPanel(Draft& draft, QWidget* parent)
   reasons_->setMinimumHeight(fontMetrics().height() * 5);
 
   auto* top = new QHBoxLayout;
+  top->addWidget(new QLabel(tr("Line of sight")));
   top->addWidget(source_, 1);
   top->addWidget(sweep_, 1);
   top->addWidget(open_);
@@ -78,7 +79,6 @@ MotionPanel::MotionPanel(Draft& draft, QWidget* parent)
   grid->setColumnStretch(1, 1);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(6, 6, 6, 6);
-  layout->addWidget(new QLabel(tr("<b>Line of sight</b>")));
   layout->addLayout(top);
   layout->addWidget(name_);
   layout->addWidget(state_);

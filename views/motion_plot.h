@@ -22,7 +22,7 @@ class MotionPlot : public QCustomPlot {
   double largestRate() const;
 
   QSize sizeHint() const override { return {320, 190}; }
-  QSize minimumSizeHint() const override { return {220, 130}; }
+  QSize minimumSizeHint() const override { return {220, 120}; }
 
  protected:
   void changeEvent(QEvent* event) override;

@@ -28,13 +28,15 @@ Parsed parseOptions(const QStringList& arguments) {
                                    "DB");
   const QCommandLineOption listen("listen", "Listen for a host on this UDP port.", "PORT");
   const QCommandLineOption fly("fly", "Play this flight here.", "FLIGHT");
+  const QCommandLineOption head(
+      "head", "Line of sight: a head log, or sweep:DEG/S[/WAIT] or nod:DEG/S[/WAIT].", "LOG");
   const QCommandLineOption screenshot("screenshot", "Save a picture of the whole window and end.", "OUT.png");
   const QCommandLineOption after("after-s", "So many seconds after the first picture of the terrain.", "S",
                                  "0");
   const QCommandLineOption exportTo(
       "export", "Write an export (.json, .xml or .ini), with the screenshot if there is one.", "OUT");
   const QCommandLineOption size("size", "Size of the window.", "WxH");
-  parser.addOptions({help, version, preset, terrain, listen, fly, screenshot, after, exportTo, size});
+  parser.addOptions({help, version, preset, terrain, listen, fly, head, screenshot, after, exportTo, size});
 
   Parsed parsed;
   Options& options = parsed.options;
@@ -59,6 +61,7 @@ Parsed parseOptions(const QStringList& arguments) {
   options.preset = parser.value(preset);
   options.terrain = parser.value(terrain);
   options.flight = parser.value(fly);
+  options.head = parser.value(head);
   options.screenshot = parser.value(screenshot);
   options.exportFile = parser.value(exportTo);
   bool good = true;

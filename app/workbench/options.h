@@ -14,6 +14,7 @@ struct Options {
   QString preset;   ///< file or shipped name; empty: "default"
   QString terrain;  ///< file, folder or database; empty: the sample
   std::optional<std::uint16_t> listenPort;
+  QString head;        ///< a head log, or a sweep
   QString flight;      ///< played here from the first picture on
   QString screenshot;  ///< of the whole window; the program ends then
   QString exportFile;  ///< written when the screenshot is, else at once; format by its ending

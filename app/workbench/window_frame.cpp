@@ -248,6 +248,7 @@ void MainWindow::start(const Options& options) {
   else
     openTerrain(options.terrain);
   if (!options.flight.isEmpty() && openFlight(options.flight)) flightDock_->play();
+  if (!options.head.isEmpty()) openHead(options.head);
   if (options.listenPort) {
     hostDock_->setPort(*options.listenPort);
     hostDock_->connectHost();

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QComboBox>
+#include <QDockWidget>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QMouseEvent>
+#include <cmath>
+#include <cstdlib>
+
+#include "gui_support.h"
+#include "trimtab/motion/head_motion.h"
+#include "trimtab/views/bar_list.h"
+#include "trimtab/views/motion_panel.h"
+
+namespace trimtab::test {
+namespace {
+
+using views::MotionPanel;
+
+class Motion : public Bench {
+ protected:
+  MotionPanel& panel() { return *w().findChild<MotionPanel*>(); }
+  bool saw(const QString& text) {
+    for (int i = 0; i < panel().reasons().count(); ++i)
+      if (panel().reasons().item(i)->text().contains(text)) return true;
+    return false;
+  }
+  /// For eyes: kept where TRIMTAB_SHOTS names a folder.
+  void shoot(const char* name) {
+    const char* folder = std::getenv("TRIMTAB_SHOTS");
+    if (folder == nullptr) return;
+    w().grab().save(QStringLiteral("%1/%2.png").arg(QLatin1String(folder), QLatin1String(name)));
+    panel().grab().save(QStringLiteral("%1/%2-dock.png").arg(QLatin1String(folder), QLatin1String(name)));
+  }
+};
+
+TEST_F(Motion, aSweepUnderTheFreeCameraFillsStacksLowersAndRaises) {
+  w().dock(QStringLiteral("motion"))->raise();
+  panel().sweepEdit().setText(QStringLiteral("180deg/1s/0.5s"));
+  panel().sourceBox().setCurrentIndex(MotionPanel::sweep);
+  emit panel().sourceBox().activated(MotionPanel::sweep);
+  ASSERT_TRUE(waitFor([this] { return session().decision().motion.lodScale == 4; }));
+  EXPECT_TRUE(waitFor([this] { return panel().stateText().startsWith(QLatin1String("Fast")); }));
+  shoot("motion-sweep");
+  EXPECT_TRUE(waitFor([this] { return session().decision().motion.lodScale == 1; }));
+  EXPECT_TRUE(waitFor([this] { return saw(QStringLiteral("slow for more than 5 frames")); }));
+  EXPECT_TRUE(saw(QStringLiteral("fast for 10 frames (")));
+  EXPECT_TRUE(saw(QStringLiteral(" deg/s against 60.0): LOD scale lowered to 2, blur for 400 ms")));
+  shoot("motion-rest");
+
+  panel().sourceBox().setCurrentIndex(MotionPanel::none);
+  emit panel().sourceBox().activated(MotionPanel::none);
+  EXPECT_FALSE(session().input().state.head);
+  EXPECT_TRUE(settle()) << "at rest nothing is painted";
+}
+
+TEST_F(Motion, thePointerOverThePictureIsTheLineOfSight) {
+  emit panel().sourceAsked(MotionPanel::pointer);
+  EXPECT_EQ(panel().source(), MotionPanel::pointer);
+  workbench::Viewport& view = w().viewport();
+  // Not through the screen's own pointer, which a person may hold.
+  const auto moveTo = [&view](int x) {
+    const QPointF at(x, view.height() / 2);
+    QMouseEvent event(QEvent::MouseMove, at, view.mapToGlobal(at), Qt::NoButton, Qt::NoButton,
+                      Qt::NoModifier);
+    QCoreApplication::sendEvent(&view, &event);
+  };
+  EXPECT_TRUE(view.hasMouseTracking());
+  // From edge to edge in half a second, as fast as events come.
+  const double start = link::now();
+  for (double t = 0; t < 0.5; t = link::now() - start) {
+    moveTo(static_cast<int>(t / 0.5 * (view.width() - 1)));
+    QTest::qWait(10);
+  }
+  moveTo(view.width() - 1);
+  EXPECT_TRUE(waitFor([this] { return saw(QStringLiteral("LOD scale lowered")); }));
+  EXPECT_TRUE(waitFor([this] { return session().decision().motion.lodScale == 1; })) << "and is restored";
+  ASSERT_TRUE(session().input().state.head);
+  EXPECT_NEAR(session().input().state.head->heading.value(), 90, 1);
+  EXPECT_TRUE(settle()) << "the pointer rests: nothing is painted";
+}
+
+TEST_F(Motion, aLogBeginsWithTheFlight) {
+  ScratchDir dir;
+  std::string text = "time_s,head_heading_deg,head_pitch_deg\n";
+  for (int i = 0; i < 6000; ++i) text += std::to_string(i * 0.1) + "," + std::to_string(i * 0.5) + ",0\n";
+  writeFile(dir / "head.csv", text);
+  ASSERT_TRUE(w().openFlight(QString::fromStdString(sampleFlight())));
+  w().feed().seekHere(30);
+  ASSERT_TRUE(w().openHead(QString::fromStdString((dir / "head.csv").string())));
+  EXPECT_EQ(panel().source(), MotionPanel::log);
+  w().feed().playHere();
+  ASSERT_TRUE(waitFor([this] { return w().feed().playback().position() > 30.3; }));
+  w().feed().pauseHere();
+  const AircraftState& state = session().input().state;
+  EXPECT_NEAR(state.head->heading.value(),
+              std::remainder((state.time - w().feed().playback().flight().beginS()) * 5, 360), 1e-6);
+}
+
+TEST_F(Motion, aBadLogChangesNothingAndIsExplained) {
+  EXPECT_FALSE(w().openHead(QStringLiteral("sweep:fast")));
+  EXPECT_EQ(panel().source(), MotionPanel::host);
+  EXPECT_TRUE(w().messages().text().contains(QStringLiteral("sweep:DEGREES/SECONDS")));
+}
+
+}  // namespace
+}  // namespace trimtab::test
