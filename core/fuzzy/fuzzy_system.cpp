@@ -25,13 +25,18 @@ constexpr InputNames kInputs[] = {{"altitude", "low", "high"}, {"pitch", "down",
 
 // --- From parameters ---
 
+/// So near that a step between two points is meant; no number so small that other programs refuse it.
+double justBelow(double x) {
+  return x - std::max(1.0, std::abs(x)) * 4 * std::numeric_limits<double>::epsilon();
+}
+
 Term discrete(std::string_view name, const CurvePoints& curve, bool complement) {
   Term term{std::string(name), "Discrete", {}, ""};
   for (std::size_t i = 0; i < curve.size; ++i) {
     // At a step other programs take the first of two values, we the last: the first point moves by a bit.
     const CurvePoint p = curve.point[i];
     const bool steps = i + 1 < curve.size && curve.point[i + 1].x == p.x;
-    term.numbers.push_back(steps ? std::nextafter(p.x, -kInf) : p.x);
+    term.numbers.push_back(steps ? justBelow(p.x) : p.x);
     term.numbers.push_back(complement ? 1 - p.y : p.y);
   }
   return term;
@@ -63,8 +68,7 @@ std::optional<CurvePoints> pointsOf(const Term& term) {
     CurvePoints curve;
     for (std::size_t i = 0; i < n.size(); i += 2) curve.point[curve.size++] = {n[i], n[i + 1]};
     for (std::size_t i = 0; i + 1 < curve.size; ++i)
-      if (curve.point[i].x == std::nextafter(curve.point[i + 1].x, -kInf))
-        curve.point[i].x = curve.point[i + 1].x;
+      if (curve.point[i].x == justBelow(curve.point[i + 1].x)) curve.point[i].x = curve.point[i + 1].x;
     return curve;
   }
   if (term.shape == "Ramp" && n.size() == 2 && n[0] != n[1])

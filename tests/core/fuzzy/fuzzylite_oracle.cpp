@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <sstream>
 
@@ -39,15 +40,12 @@ std::string output(const char* name, const char* defuzzifier, const std::string&
          defuzzifier + " TakagiSugeno\n  default: 0\n  lock-previous: false\n" + terms;
 }
 
-/// A condition that always holds.
-constexpr const char* kAny = "  term: any Rectangle -inf inf\n";
-
 std::string inputs(const AltitudeParameters& altitude, const PitchParameters& pitch) {
   return "Engine: trimtab\nInputVariable: altitude\n  enabled: true\n  range: -100000 100000\n  lock-range: "
          "false\n" +
-         discrete("low", altitude.curve, false) + discrete("high", altitude.curve, true) + kAny +
+         discrete("low", altitude.curve, false) + discrete("high", altitude.curve, true) +
          "InputVariable: pitch\n  enabled: true\n  range: -90 90\n  lock-range: false\n" +
-         discrete("down", pitch.curve, false) + discrete("up", pitch.curve, true) + kAny;
+         discrete("down", pitch.curve, false) + discrete("up", pitch.curve, true);
 }
 
 std::string outputTerm(std::size_t index) {
@@ -100,11 +98,11 @@ std::string gridText(const Grid& grid) {
 
 /// Runs the engine over the grid; the oracle's file, its header first.
 std::string evaluate(const ScratchDir& dir, const std::string& engineText, const Grid& grid,
-                     std::string& error) {
-  writeFile(dir / "engine.fll", engineText);
+                     std::string& error, const std::string& format = "fll") {
+  writeFile(dir / ("engine." + format), engineText);
   writeFile(dir / "in.fld", gridText(grid));
-  const Ran ran = run("cd " + dir.path().string() +
-                      " && fuzzylite -i engine.fll -if fll -o out.fld -of fld -d in.fld -decimals 12");
+  const Ran ran = run("cd " + dir.path().string() + " && fuzzylite -i engine." + format + " -if " + format +
+                      " -o out.fld -of fld -d in.fld -decimals 12");
   if (ran.exitCode != 0)
     error = "fuzzylite ended with status " + std::to_string(ran.exitCode) + ": " + ran.err;
   return readFile(dir / "out.fld");
@@ -151,6 +149,27 @@ std::vector<FuzzyResult> byFuzzylite(const AltitudeParameters& altitude, const P
   }
   if (results.size() != grid.size() && error.empty()) error = "the oracle stopped early";
   return results;
+}
+
+std::vector<double> byFuzzylite(const std::string& engineText, const std::string& format, const Grid& grid,
+                                std::string& error) {
+  const ScratchDir dir;
+  std::istringstream out(evaluate(dir, engineText, grid, error, format));
+  std::string line;
+  std::getline(out, line);
+  std::vector<double> totals;
+  while (std::getline(out, line)) totals.push_back(std::strtod(line.c_str() + line.rfind(' ') + 1, nullptr));
+  if (totals.size() != grid.size() && error.empty()) error = "the oracle stopped early";
+  return totals;
+}
+
+std::string convertedByFuzzylite(const std::string& engineText, const std::string& from,
+                                 const std::string& to) {
+  const ScratchDir dir;
+  writeFile(dir / ("in." + from), engineText);
+  const Ran ran = run("cd " + dir.path().string() + " && fuzzylite -i in." + from + " -if " + from +
+                      " -o out." + to + " -of " + to + " -decimals 12");
+  return ran.exitCode == 0 ? readFile(dir / ("out." + to)) : std::string();
 }
 
 FuzzyResult byUs(const AltitudeParameters& altitude, const PitchParameters& pitch, const RuleList& rules,

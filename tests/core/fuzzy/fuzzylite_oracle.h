@@ -26,6 +26,13 @@ using FuzzyResult = std::array<double, 5>;
 /// set.
 std::vector<FuzzyResult> byFuzzylite(const AltitudeParameters& altitude, const PitchParameters& pitch,
                                      const RuleList& rules, const Grid& grid, std::string& error);
+/// The only output of an engine in the language that `format` names (fll, fis), altitude by altitude, by the
+/// oracle; fewer than the grid has where the program fails, and then `error` is set.
+std::vector<double> byFuzzylite(const std::string& engine, const std::string& format, const Grid& grid,
+                                std::string& error);
+/// What the oracle makes of an engine in another language; empty where it refuses.
+std::string convertedByFuzzylite(const std::string& engine, const std::string& from, const std::string& to);
+
 /// By us, in the same order.
 FuzzyResult byUs(const AltitudeParameters& altitude, const PitchParameters& pitch, const RuleList& rules,
                  double altitudeFt, double pitchDeg);
