@@ -261,9 +261,9 @@ struct SceneGraph::Nodes {
   /// together here.
   void settleState() {
     osg::State* state = window->getState();
-    for (const GLenum off : {GL_BLEND, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_CULL_FACE, GL_DEPTH_TEST,
-                             GL_LIGHTING, GL_ALPHA_TEST, GL_DEPTH_CLAMP, GL_FRAMEBUFFER_SRGB,
-                             GL_VERTEX_PROGRAM_POINT_SIZE}) {
+    for (const GLenum off :
+         {GL_BLEND, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_CULL_FACE, GL_DEPTH_TEST, GL_LIGHTING, GL_ALPHA_TEST,
+          GL_DEPTH_CLAMP, GL_FRAMEBUFFER_SRGB, GL_VERTEX_PROGRAM_POINT_SIZE}) {
       glDisable(off);
       state->haveAppliedMode(off, false);
     }
@@ -276,7 +276,8 @@ struct SceneGraph::Nodes {
   }
 };
 
-/// Clear weather has shaders of its own, which know nothing of fog: nothing is paid for it, and no bit changes.
+/// Clear weather has shaders of its own, which know nothing of fog: nothing is paid for it, and no bit
+/// changes.
 void SceneGraph::setAir(const SceneView& view) {
   osg::StateSet* state = nodes_->root->getOrCreateStateSet();
   if (view.air.clear) {

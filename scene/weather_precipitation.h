@@ -27,7 +27,8 @@ struct PrecipitationView {
 std::optional<PrecipitationView> precipitationView(const FrameRequest& request, const LocalFrame& frame);
 
 /// Where the corner of a cell stands as seen from the eye: cells stand still in the world. The effect gives
-/// each cell a pattern by its number, which repeats after kCellsUntilSame along x and y and each cell along z.
+/// each cell a pattern by its number, which repeats after kCellsUntilSame along x and y and each cell along
+/// z.
 Vec3 latticeFromEye(Vec3 eye, Vec3 cell);
 inline constexpr double kCellsUntilSame = 100;
 
