@@ -104,7 +104,9 @@ TEST_F(PlotsPanelTest, cursorsReadFramesAndTheirDifference) {
               {6, Trace::fps, 1, 0.01},
               {7, Trace::gpu_ms, 1, 1e-3},
               {8, Trace::draw_ms, 1, 1e-3},
-              {9, Trace::cull_ms, 1, 1e-3}};
+              {9, Trace::cull_ms, 1, 1e-3},
+              {10, Trace::head_rate_degps, 1, 0.1},
+              {11, Trace::lod_scale, 1, 1e-2}};
   for (const auto& [row, trace, scale, tolerance] : rows) {
     const double at = buffer.value(trace, a) * scale, bt = buffer.value(trace, b) * scale;
     const auto number = [&](int column) { return QLocale().toDouble(readout(row, column)); };

@@ -98,6 +98,8 @@ TEST(TraceBuffer, csvHoldsExactlyTheFramesOfTheRange) {
         frameAt(i * 0.1, i % 2 == 0 ? 0.1 + i : std::nan(""), static_cast<std::uint64_t>(1000 + i));
     frame.decision.totalMembership = 0.6;
     frame.triangles = 123456;
+    frame.decision.motion.rateDegPerS = 75.5;
+    frame.decision.lodScale = 2;
     buffer.append(frame);
   }
   std::istringstream lines(buffer.csv(2.05, 3.0));
@@ -106,13 +108,15 @@ TEST(TraceBuffer, csvHoldsExactlyTheFramesOfTheRange) {
   EXPECT_EQ(line,
             "time_s,packet,altitude_membership,pitch_membership,total_membership,triangles,frame_ms,fps,cull_"
             "ms,draw_ms,"
-            "gpu_ms,depth_map_width_px");
+            "gpu_ms,depth_map_width_px,head_rate_degps,lod_scale");
   int frame = 21;
   while (std::getline(lines, line)) {
     std::istringstream cells(line);
     std::vector<std::string> cell;
     for (std::string text; std::getline(cells, text, ',');) cell.push_back(text);
-    ASSERT_EQ(cell.size(), 12u);
+    ASSERT_EQ(cell.size(), 14u);
+    EXPECT_EQ(cell[12], "75.5");
+    EXPECT_EQ(cell[13], "2");
     EXPECT_EQ(std::stod(cell[0]), frame * 0.1);
     EXPECT_EQ(cell[1], std::to_string(1000 + frame));
     EXPECT_EQ(cell[4], "0.6");
