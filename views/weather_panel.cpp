@@ -165,15 +165,14 @@ WeatherPanel::WeatherPanel(Draft& draft, QWidget* parent)
 
   QVBoxLayout* layout = new QVBoxLayout(this);
   layout->setContentsMargins(6, 6, 6, 6);
-  layout->addWidget(now_);
+  QHBoxLayout* head = new QHBoxLayout;
+  head->addWidget(now_, 1);
+  head->addWidget(calibrate_);
+  layout->addLayout(head);
   layout->addWidget(reason_);
   layout->addLayout(values);
   layout->addWidget(content);
   layout->addWidget(steps_, 1);
-  QHBoxLayout* foot = new QHBoxLayout;
-  foot->addStretch(1);
-  foot->addWidget(calibrate_);
-  layout->addLayout(foot);
 
   connect(&draft_, &Draft::valueChanged, this, [this](const QString& key) {
     if (!key.startsWith(QStringLiteral("weather."))) return;

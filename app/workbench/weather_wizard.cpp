@@ -56,9 +56,12 @@ QString fps(double milliseconds) {
 QString outcomeText(const StepCalibration& c) {
   const std::string_view text = toText(c.outcome);
   QString said = QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
-  if (c.outcome == CalibrationOutcome::cut_not_enough)
+  if (c.outcome == CalibrationOutcome::cut_not_enough && c.density > 0)
     said = WeatherWizard::tr("Costs more than any cut can win (%1 of %2 ms): density %3 fits")
                .arg(ms(c.strongestGainMs()), ms(c.lossMs()), views::numberText(c.density, 3));
+  else if (c.outcome == CalibrationOutcome::cut_not_enough)
+    said = WeatherWizard::tr("Costs more than any cut can win (%1 of %2 ms): no particles fit")
+               .arg(ms(c.strongestGainMs()), ms(c.lossMs()));
   else if (c.outcome == CalibrationOutcome::fog_not_enough)
     said = WeatherWizard::tr("Costs more than any cut can win (%1 of %2 ms), even without particles")
                .arg(ms(c.strongestGainMs()), ms(c.lossMs()));
@@ -107,9 +110,10 @@ WeatherWizard::WeatherWizard(views::Draft& draft, WeatherStage stage, QWidget* p
   auto* framesLabel = new QLabel(tr("&Median of"), this);
   framesLabel->setBuddy(frames_);
 
-  table_->setHorizontalHeaderLabels({tr("Weather"), tr("Outcome"), tr("Loss (ms)"), tr("Loss (fps)"),
-                                     tr("Largest gain (ms)"), tr("Far plane (m)"), tr("Ratio"), tr("Density"),
-                                     tr("Matched (ms)"), tr("Clear, weather, matched (fps)")});
+  table_->setHorizontalHeaderLabels({tr("Weather"), tr("Outcome"), tr("Loss\n(ms)"), tr("Loss\n(fps)"),
+                                     tr("Largest\ngain (ms)"), tr("Far plane\n(m)"), tr("Ratio"),
+                                     tr("Density"), tr("Matched\n(ms)"),
+                                     tr("Clear, weather,\nmatched (fps)")});
   table_->setAccessibleName(tr("Losses and gains"));
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
@@ -142,7 +146,7 @@ WeatherWizard::WeatherWizard(views::Draft& draft, WeatherStage stage, QWidget* p
   column->addLayout(middle, 1);
   column->addWidget(progress_);
   column->addLayout(foot);
-  resize(1040, 520);
+  resize(1180, 560);
 
   run_->setDefault(true);
   write_->setAutoDefault(false);

@@ -5,6 +5,7 @@
 #include <QListWidget>
 #include <QPushButton>
 #include <QSpinBox>
+#include <QTabWidget>
 #include <QTableWidget>
 #include <QTimer>
 #include <cmath>
@@ -171,6 +172,8 @@ TEST_F(WeatherOnTheBench, theWizardMeasuresThePictureAtHand) {
       EXPECT_FALSE(c.trials.empty());
     }
     shoot(*wizard, "weather-wizard");
+    wizard->findChild<QTabWidget*>()->setCurrentIndex(1);
+    shoot(*wizard, "weather-wizard-plot");
     wizard->write();
     wizard->reject();
   });

@@ -187,6 +187,10 @@ std::vector<TraceRow> recorded(const ValidatedParameters& parameters) {
     heading += i / 40 % 3 ? 0.1 : 2.5;
     row.input.state.head = Attitude{Degrees{heading}, Degrees{nod(random)}, Degrees{0}};
     if (i % 3) row.input.aboveGround = Metres{height / 2};
+    if (i / 100 % 4 > 0)
+      row.input.state.weather =
+          HostWeather{static_cast<Precipitation>(i / 100 % 3), static_cast<int>(i / 7 % 6), {}};
+    if (i / 50 % 3 > 0) row.input.state.visibility = Metres{std::exp(0.0021 * static_cast<double>(i))};
     row.before = memory;
     row.decision = decide(row.input, parameters, memory);
     rows.push_back(row);
@@ -199,7 +203,10 @@ TEST(Trace, decidesAgainBitForBit) {
   aboveGround.altitude.reference = AltitudeReference::above_ground;
   TuningParameters rules = kDefaults;
   rules.scheme.combination = Combination::rules;
-  for (const TuningParameters& p : {kDefaults, aboveGround, rules}) {
+  TuningParameters weather = kDefaults;
+  weather.weather.source = WeatherSource::host;
+  weather.rainMedium.farStretch = Ratio{1.7};
+  for (const TuningParameters& p : {kDefaults, aboveGround, rules, weather}) {
     const Result<ValidatedParameters> parameters = validate(p);
     ASSERT_TRUE(parameters.ok());
     const std::vector<TraceRow> rows = recorded(*parameters);
