@@ -7,6 +7,7 @@
 #include <set>
 
 #include "trimtab/terrain/import.h"
+#include "trimtab/terrain/scenery_sea.h"
 #include "trimtab/terrain/voids.h"
 
 namespace trimtab::terrain {
@@ -188,7 +189,11 @@ Result<HeightGrid> rasterised(std::span<const SceneryMesh> meshes, const PostGri
                   c1 > c0 ? c1 - c0 : 0, std::uint8_t{1});
   }
   grid.outside = static_cast<std::uint64_t>(std::count(reached.begin(), reached.end(), 0));
-  return Result<HeightGrid>(std::move(grid));
+  Findings notes;
+  if (const std::uint64_t sea = fillOpenSea(grid, reached); sea > 0)
+    notes.push_back({Severity::note, "scenery", "outline", "tiles over the whole rectangle of the terrain",
+                     std::to_string(sea) + " posts beyond them, taken for open sea"});
+  return Result<HeightGrid>(std::move(grid), std::move(notes));
 }
 
 SceneryCounts countsOf(const Scenery& scenery) {
@@ -231,7 +236,8 @@ Result<ImportedScenery> importScenery(std::span<const std::filesystem::path> sou
     return findings;
   }
   auto grid = rasterised(all.tiles, *posts, stage(0.5, 1));
-  if (!grid) return grid.findings();
+  findings.insert(findings.end(), grid.findings().begin(), grid.findings().end());
+  if (!grid) return findings;
   imported.grid = std::move(grid).value();
   const std::uint64_t filled = fillVoids(imported.grid), outside = std::min(filled, imported.grid.outside);
   imported.voidsFilled = filled - outside;

@@ -17,7 +17,8 @@ Result<PostGrid> sceneryPosts(std::span<const SceneryMesh> meshes, std::optional
 
 /// The surface at each post, the highest where there are several, NaN where there is none; the material's
 /// colour as the post's image, alpha 0 where there is no surface. Heights to a centimetre: tiles hold theirs
-/// to some millimetres. `outside` counts posts in no mesh's rectangle.
+/// to some millimetres. What lies in no
+/// mesh's rectangle is open sea where its borders are, with a note; the rest of it counts as `outside`.
 Result<HeightGrid> rasterised(std::span<const SceneryMesh> meshes, const PostGrid& posts,
                               const Progress& progress);
 

@@ -37,6 +37,10 @@ Json toJson(const terrain::StaticLodTerrain& trees) {
           {"faces", counts.faces},
           {"distinct_faces", counts.distinctFaces},
           {"locked_minima", counts.lockedMinima},
+          {"joined_vertices", counts.joinedVertices},
+          {"degenerate", counts.degenerate},
+          {"repeated", counts.repeated},
+          {"folded", counts.folded},
           {"bytes", counts.bytes}};
 }
 

@@ -99,10 +99,13 @@ void MainWindow::openTerrain(const QString& source) {
 
 void MainWindow::askOpenTerrain(bool folder) {
   const QString picked =
-      folder ? QFileDialog::getExistingDirectory(this, tr("Open a folder of elevation files, or a database"))
-             : QFileDialog::getOpenFileName(
-                   this, tr("Open terrain"), {},
-                   tr("Elevation (*.tif *.tiff *.hgt *.dt0 *.dt1 *.dt2 *.img *.zip);;All files (*)"));
+      folder
+          ? QFileDialog::getExistingDirectory(
+                this, tr("Open a folder of elevation files or scenery, or a database"))
+          : QFileDialog::getOpenFileName(
+                this, tr("Open terrain"), {},
+                tr("Elevation and scenery (*.tif *.tiff *.hgt *.dt0 *.dt1 *.dt2 *.img *.zip *.btg *.btg.gz "
+                   "*.stg);;All files (*)"));
   if (!picked.isEmpty()) openTerrain(picked);
 }
 

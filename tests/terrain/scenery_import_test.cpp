@@ -4,6 +4,8 @@
 #include "scenery_tiles.h"
 #include "trimtab/terrain/database.h"
 #include "trimtab/terrain/scenery_import.h"
+#include "trimtab/terrain/static_lod.h"
+#include "trimtab/terrain/store.h"
 
 namespace trimtab {
 namespace {
@@ -125,6 +127,31 @@ TEST(Rasterised, leavesHolesVoidAndCountsWhatNoTileReaches) {
   EXPECT_EQ(grid->outside, outside);
 }
 
+/// The tile of a list that is not there: sea beside tiles at sea level, a void beside hills.
+TEST(Rasterised, takesForSeaWhatTilesAtSeaLevelSurround) {
+  for (const double level : {0.0, 100.0}) {
+    test::TileRecipe first, second;
+    first.heightM = second.heightM = [&](double longitude, double) {
+      return longitude > 7.2 && longitude < 7.5 ? level : 60.0;
+    };
+    second.west = 7.5;
+    second.south = 50.625;
+    second.heightM = [&](double, double) { return level; };
+    const std::vector<SceneryMesh> meshes{meshOf(first), meshOf(second)};
+    const auto posts = terrain::sceneryPosts(meshes, Metres{300});
+    const auto grid = terrain::rasterised(meshes, *posts, {});
+    ASSERT_TRUE(grid);
+    // South of the second tile: it touches the end of the first, at the level, and the second.
+    const auto column = static_cast<std::size_t>((7.6 - posts->west) / posts->stepLongitude);
+    const auto row = static_cast<std::size_t>((50.55 - posts->south) / posts->stepLatitude);
+    const std::size_t post = row * posts->columns + column;
+    EXPECT_EQ(level == 0, grid->heights[post] == 0);
+    EXPECT_EQ(level == 0, grid->image[post * 4 + 3] == 255);
+    EXPECT_EQ(grid.findings().size(), level == 0 ? 1U : 0U);
+    EXPECT_EQ(level > 0, grid->outside > posts->size() / 4);
+  }
+}
+
 TEST(Rasterised, crossesTheDateLine) {
   test::TileRecipe west, east;
   west.west = 179.75;
@@ -184,6 +211,39 @@ TEST_F(SceneryBake, keepsHeightsColoursAndCounts) {
     EXPECT_NEAR(height->value(), *bruteHeight(meshes, longitude, latitude), 8)
         << longitude << ' ' << latitude;
   }
+}
+
+TEST_F(SceneryBake, servesTheTreesItWrote) {
+  auto fine = options();
+  fine.trianglesPerNode = 40;
+  const auto baked = terrain::bake(fine);
+  ASSERT_TRUE(baked) << toString(baked.findings());
+  const auto database = terrain::Database::open(dir_ / "db");
+  ASSERT_TRUE(database) << toString(database.findings());
+  for (const auto& trees : {(*baked)->staticLod(), (*database)->staticLod()}) {
+    ASSERT_TRUE(trees);
+    EXPECT_EQ(trees->trianglesPerNode, 40U);
+    EXPECT_EQ(trees->counts.sourceTriangles, 128U);
+    EXPECT_GE(trees->counts.levels, 3U);
+    EXPECT_EQ(trees->index.frame.origin(), (*database)->index().frame.origin());
+  }
+  EXPECT_EQ((*baked)->info().bytes, (*database)->info().bytes);
+}
+
+TEST_F(SceneryBake, isRefusedWithoutItsTreesOrWithOthers) {
+  auto other = options();
+  ASSERT_TRUE(terrain::bake(other));
+  other.output = dir_ / "other";
+  other.trianglesPerNode = 50;
+  ASSERT_TRUE(terrain::bake(other));
+  const auto trees = dir_ / "db" / terrain::kStaticLodName;
+  std::filesystem::copy_file(dir_ / "other" / terrain::kStaticLodName, trees,
+                             std::filesystem::copy_options::overwrite_existing);
+  const auto foreign = terrain::Database::open(dir_ / "db");
+  ASSERT_FALSE(foreign);
+  EXPECT_EQ(foreign.findings()[0].key, "triangles per node");
+  std::filesystem::remove(trees);
+  EXPECT_FALSE(terrain::Database::open(dir_ / "db"));
 }
 
 TEST_F(SceneryBake, refusesElevationAndSceneryTogether) {

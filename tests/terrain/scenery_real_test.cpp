@@ -94,10 +94,17 @@ const Set kSets[] = {{"fg-kansai-e135n35", 25, 2, 0, 2.24, 0},
                      {"fg-debian-hawaii-bigisland", 69, 16, 0, 0.72, 300.0 / 720},
                      {"fg-cologne", 4, 2, 1, 0.61, 259.0 / 610}};
 
+/// Read once for all tests.
+const Result<terrain::Scenery>& sceneryOf(const char* folder) {
+  static std::map<std::string, Result<terrain::Scenery>> all;
+  if (const auto known = all.find(folder); known != all.end()) return known->second;
+  return all.emplace(folder, terrain::readScenery(data() / folder)).first->second;
+}
+
 TEST(RealScenery, hasTheTrianglesThatASecondReaderCounts) {
   for (const Set& set : kSets) {
     TRIMTAB_NEEDS_SHARED("data/" + std::string(set.folder));
-    const auto scenery = terrain::readScenery(data() / set.folder);
+    const auto& scenery = sceneryOf(set.folder);
     ASSERT_TRUE(scenery);
     const auto counts = terrain::countsOf(*scenery);
     EXPECT_EQ(counts.tiles, set.tiles) << set.folder;
@@ -145,7 +152,7 @@ TEST(RealScenery, tilesItsBucketsExactly) {
   std::size_t exact = 0;
   for (const Set& set : kSets) {
     TRIMTAB_NEEDS_SHARED("data/" + std::string(set.folder));
-    const auto scenery = terrain::readScenery(data() / set.folder);
+    const auto& scenery = sceneryOf(set.folder);
     ASSERT_TRUE(scenery);
     for (const SceneryMesh& mesh : scenery->tiles) {
       if (mesh.airport) continue;
@@ -237,7 +244,7 @@ TEST(RealScenery, hasNoMaterialWithoutAColour) {
   std::set<std::string> materials;
   for (const Set& set : kSets) {
     TRIMTAB_NEEDS_SHARED("data/" + std::string(set.folder));
-    const auto scenery = terrain::readScenery(data() / set.folder);
+    const auto& scenery = sceneryOf(set.folder);
     for (const SceneryMesh& mesh : scenery->tiles)
       materials.insert(mesh.materials.begin(), mesh.materials.end());
   }

@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "support.h"
+#include "scenery_tiles.h"
 
 namespace trimtab {
 namespace {
@@ -31,6 +31,54 @@ TEST_F(TerrainCommand, makesBakesAndDescribesASample) {
   EXPECT_NE(test::run(cli("info " + at("db"))).out.find("level 0"), std::string::npos);
 }
 
+TEST_F(TerrainCommand, bakesSceneryAndTellsOfItsTrees) {
+  std::filesystem::create_directory(dir_ / "scenery");
+  test::TileRecipe recipe;
+  recipe.cells = 16;
+  test::writeFile(dir_ / "scenery/3072816.btg.gz", test::gzipped(test::gridTile(recipe)));
+  test::writeFile(dir_ / "scenery/3072816.stg", "OBJECT_BASE 3072816.btg\nOBJECT LOST.btg\n");
+  const auto baked =
+      test::run(cli("bake " + at("scenery") + " -o " + at("db") + " --leaf-triangles 100 --post-m 200"));
+  ASSERT_EQ(baked.exitCode, 0) << baked.err;
+  EXPECT_NE(baked.err.find("LOST.btg"), std::string::npos);
+  const auto info = test::run(cli("info " + at("db") + " --json"));
+  ASSERT_EQ(info.exitCode, 0) << info.err;
+  const auto json = nlohmann::json::parse(info.out);
+  EXPECT_EQ(json["scenery"]["tiles"], 1);
+  EXPECT_EQ(json["scenery"]["triangles_in_file"], 512);
+  EXPECT_EQ(json["scenery"]["degenerate"], 0);
+  EXPECT_EQ(json["scenery"]["missing"], nlohmann::json::array({"LOST.btg"}));
+  EXPECT_EQ(json["static_lod"]["triangles_per_node"], 100);
+  EXPECT_EQ(json["static_lod"]["source_triangles"], 512);
+  EXPECT_EQ(json["static_lod"]["levels"], json["static_lod"]["faces_of_level"].size());
+  EXPECT_EQ(json["static_lod"]["faces_of_level"].back(), 512);
+  EXPECT_EQ(json["image"], true);
+  const std::string text = test::run(cli("info " + at("db"))).out;
+  for (const char* line :
+       {"scenery.missing", "LOST.btg", "static_lod.faces_of_level", "static_lod.locked_minima"})
+    EXPECT_NE(text.find(line), std::string::npos) << line;
+}
+
+TEST_F(TerrainCommand, tellsOfSceneryThatIsNotBaked) {
+  test::writeFile(dir_ / "EDNY.btg.gz", test::gzipped(test::gridTile({})));
+  for (const std::string& path : {at("EDNY.btg.gz"), dir_.path().string()}) {
+    const auto info = test::run(cli("info " + path + " --json"));
+    ASSERT_EQ(info.exitCode, 0) << info.err;
+    const auto json = nlohmann::json::parse(info.out);
+    EXPECT_EQ(json["scenery"]["airports"], 1);
+    EXPECT_EQ(json["materials"]["Lake"], 16);
+    EXPECT_EQ(json["files"][0]["name"], "EDNY");
+    EXPECT_NEAR(json["files"][0]["west_deg"].get<double>(), 7, 1e-6);
+    EXPECT_NE(test::run(cli("info " + path)).out.find("airport EDNY: version 7, 32 triangles"),
+              std::string::npos);
+  }
+  test::writeFile(dir_ / "EDNY.btg.gz", "no tile");
+  const auto broken = test::run(cli("info " + at("EDNY.btg.gz") + " --json"));
+  EXPECT_EQ(broken.exitCode, 1);
+  EXPECT_TRUE(broken.out.empty());
+  EXPECT_NE(broken.err.find("magic number"), std::string::npos);
+}
+
 TEST_F(TerrainCommand, exitsWithOneForBadDataAndTwoForBadUsage) {
   test::writeFile(dir_ / "noise.tif", "no raster");
   const auto noise = test::run(cli("bake " + at("noise.tif") + " -o " + at("db")));
@@ -40,8 +88,8 @@ TEST_F(TerrainCommand, exitsWithOneForBadDataAndTwoForBadUsage) {
   const auto info = test::run(cli("info " + at("nowhere") + " --json"));
   EXPECT_EQ(info.exitCode, 1);
   EXPECT_TRUE(info.out.empty());
-  for (const char* usage :
-       {"", "bake", "bake x.tif", "sample", "info", "sample -o x.tif --post-m nothing", "unknown"})
+  for (const char* usage : {"", "bake", "bake x.tif", "sample", "info", "sample -o x.tif --post-m nothing",
+                            "unknown", "bake x -o y --leaf-triangles 0", "bake x -o y --post-m 0"})
     EXPECT_EQ(test::run(cli(usage)).exitCode, 2) << usage;
 }
 
