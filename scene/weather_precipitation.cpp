@@ -21,7 +21,7 @@ namespace trimtab::scene {
 namespace {
 
 /// How long a drop draws its streak, seconds, and its greatest length, metres.
-constexpr double kExposureS = 1.0 / 30, kLongestStreakM = 1.5;
+constexpr double kExposureS = 1.0 / 30, kLongestStreakM = 0.8;
 
 osg::ref_ptr<osg::Program> dropProgram(const char* vertex) {
   osg::ref_ptr<osg::Program> program = new osg::Program;
