@@ -82,6 +82,7 @@ class MainWindow : public QMainWindow {
   HostDock& hostDock() { return *hostDock_; }
   FlightDock& flightDock() { return *flightDock_; }
   ExperimentsDock& experiments() { return *experiments_; }
+  SymbologyEditor& symbologyEditor() { return symbologyEditor_; }
   NoticeBar& notices() { return *notices_; }
   bool hasTerrain() const { return terrain_ != nullptr; }
   QDockWidget* dock(const QString& name) const;
