@@ -18,6 +18,7 @@
 #include "flight_dock.h"
 #include "host_dock.h"
 #include "main_window.h"
+#include "trimtab/views/rules_panel.h"
 
 // The commands: one list of actions feeds menus, toolbar, shortcuts and the help on keys.
 namespace trimtab::workbench {
@@ -84,6 +85,9 @@ void MainWindow::makeFileMenu() {
   file->addAction(tr("Save preset &as..."), QKeySequence(tr("Ctrl+Shift+S")), this, [this] { saveAs(); });
   QAction* exportAction = file->addAction(tr("&Export for an image generator..."), QKeySequence(tr("Ctrl+E")),
                                           this, &MainWindow::askExport);
+  auto* const rules = findChild<views::RulesPanel*>();
+  file->addAction(tr("&Import rules..."), rules, &views::RulesPanel::askAndImport);
+  file->addAction(tr("Export r&ules..."), rules, &views::RulesPanel::askAndExport);
   file->addSeparator();
   QAction* terrain = file->addAction(icon(QStyle::SP_DirOpenIcon), tr("Open &terrain..."),
                                      QKeySequence(tr("Ctrl+T")), this, [this] { askOpenTerrain(false); });

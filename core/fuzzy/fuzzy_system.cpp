@@ -61,7 +61,9 @@ CurvePoints roundedStep(const PitchParameters& p) {
 
 /// A term's straight lines; none where it has others.
 std::optional<CurvePoints> pointsOf(const Term& term) {
-  const std::vector<double>& n = term.numbers;
+  std::vector<double> n = term.numbers;
+  for (double& number : n)
+    number += 0.0;  // no negative zeros: a step beside one would not come back as it is
   if (std::any_of(n.begin(), n.end(), [](double v) { return !std::isfinite(v); })) return std::nullopt;
   if (term.shape == "Discrete") {
     if (n.size() < 4 || n.size() % 2 != 0 || n.size() / 2 > CurvePoints::kCapacity) return std::nullopt;
