@@ -9,6 +9,7 @@
 #include <QListWidget>
 #include <QPushButton>
 #include <QScrollBar>
+#include <algorithm>
 
 #include "trimtab/motion/head_motion.h"
 #include "trimtab/views/bar_list.h"
@@ -58,7 +59,9 @@ MotionPanel::MotionPanel(Draft& draft, QWidget* parent)
   state_->setFont(bold);
   bars_->setAccessibleName(tr("Stacks, LOD scale and blur"));
   reasons_->setAccessibleName(tr("Changes by head motion"));
-  reasons_->setUniformItemSizes(true);
+  reasons_->setWordWrap(true);
+  reasons_->setResizeMode(QListView::Adjust);
+  reasons_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   reasons_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   reasons_->setMinimumHeight(fontMetrics().height() * 5);
 
@@ -184,13 +187,13 @@ void MotionPanel::refresh() {
                   .quiet = m.restoreLimit <= 0});
   bars.push_back({.name = tr("LOD scale"),
                   .value = m.lodScale - 1,
-                  .top = 3,
+                  .top = std::max(3.0, m.lodScale - 1),
                   .text = tr("× %1, level %2").arg(numberText(m.lodScale, 2)).arg(m.level),
                   .ticks = {},
                   .colour = 1});
   bars.push_back({.name = tr("Blur"),
                   .value = m.blur.remainingMs,
-                  .top = 400,
+                  .top = std::max(400.0, m.blur.remainingMs),
                   .text = m.blur.strength > 0
                               ? tr("%1 ms left, strength %2")
                                     .arg(numberText(m.blur.remainingMs, 0), numberText(m.blur.strength, 2))

@@ -19,8 +19,7 @@ MotionPlot::MotionPlot(QWidget* parent) : QCustomPlot(parent) {
     axis->setSubTicks(false);
     axis->ticker()->setTickCount(4);
   }
-  xAxis->setNumberFormat(QStringLiteral("f"));
-  xAxis->setNumberPrecision(0);
+  xAxis->setNumberFormat(QStringLiteral("g"));
   blur_ = addGraph(xAxis, yAxis2);
   blur_->setName(tr("blur"));
   scale_ = addGraph(xAxis, yAxis2);

@@ -43,13 +43,18 @@ TimePlot::TimePlot(const TraceBuffer& buffer, QWidget* parent) : QCustomPlot(par
   addTrace(
       1, {Trace::triangles, tr("triangles"), QStringLiteral("k"), 3, S::ssTriangle, Qt::SolidLine, 1e-3, 1});
   addTrace(2, {Trace::frame_ms, tr("frame"), QStringLiteral("ms"), 0, S::ssCircle, Qt::SolidLine, 1, 2});
-  addTrace(2, {Trace::fps, tr("rate"), tr("fps, right"), 2, S::ssSquare, Qt::SolidLine, 1, 1}, true);
+  addTrace(2, {Trace::fps, tr("rate"), tr("fps, right"), 2, S::ssSquare, Qt::SolidLine, 1, 1},
+           QStringLiteral("fps"));
   // The tallest sum first: each next one is drawn over its foot.
   addTrace(
       3, {Trace::cull_draw_gpu_ms, tr("GPU"), QStringLiteral("ms"), 1, S::ssNone, Qt::SolidLine, 1, 2, true});
   addTrace(3,
            {Trace::cull_draw_ms, tr("draw"), QStringLiteral("ms"), 0, S::ssNone, Qt::SolidLine, 1, 2, true});
   addTrace(3, {Trace::cull_ms, tr("cull"), QStringLiteral("ms"), 2, S::ssNone, Qt::SolidLine, 1, 2, true});
+  addTrace(0, {Trace::head_rate_degps, tr("head"), tr("deg/s, right"), 5, S::ssNone, Qt::DotLine, 1, 1},
+           tr("deg/s"));
+  addTrace(1, {Trace::lod_scale, tr("LOD scale"), tr("right"), 1, S::ssNone, Qt::DashLine, 1, 2},
+           tr("LOD scale"));
   for (std::size_t i = 0; i < 2; ++i) {
     cursorText_[i] = new QCPItemText(this);
     cursorText_[i]->setLayer(QStringLiteral("cursors"));
@@ -138,15 +143,15 @@ void TimePlot::resizeEvent(QResizeEvent* event) {
   draw();
 }
 
-void TimePlot::addTrace(std::size_t lane, TraceGraph::Look look, bool right) {
+void TimePlot::addTrace(std::size_t lane, TraceGraph::Look look, const QString& right) {
   QCPAxisRect* rect = lanes_[lane].rect;
-  QCPAxis* value = rect->axis(right ? QCPAxis::atRight : QCPAxis::atLeft);
-  if (right) {
+  QCPAxis* value = rect->axis(right.isEmpty() ? QCPAxis::atLeft : QCPAxis::atRight);
+  if (!right.isEmpty()) {
     value->setVisible(true);
     value->setTickLabels(true);
     value->setSubTicks(false);
     value->ticker()->setTickCount(3);
-    value->setLabel(QStringLiteral("fps"));
+    value->setLabel(right);
   }
   setAutoAddPlottableToLegend(false);
   TraceGraph* graph = new TraceGraph(rect->axis(QCPAxis::atBottom), value, std::move(look));
@@ -229,15 +234,12 @@ void TimePlot::draw() {
   if (to < buffer_.end()) ++to;
   const std::size_t columns = static_cast<std::size_t>(std::max(100, lanes_.front().rect->width() / 2));
   const double markerStep = roundStep(range.size() / 5);
-  std::array<double, 4> top{};
-  double fps = 0;
+  std::array<double, 4> top{}, topRight{};
   for (TraceGraph* trace : traces_) {
     const double largest = trace->take(buffer_, from, to, columns, markerStep);
-    if (trace->look().trace == Trace::fps)
-      fps = largest;
-    else
-      for (std::size_t i = 0; i < lanes_.size(); ++i)
-        if (lanes_[i].rect == trace->keyAxis()->axisRect()) top[i] = std::max(top[i], largest);
+    auto& tops = trace->valueAxis()->axisType() == QCPAxis::atRight ? topRight : top;
+    for (std::size_t i = 0; i < lanes_.size(); ++i)
+      if (lanes_[i].rect == trace->keyAxis()->axisRect()) tops[i] = std::max(tops[i], largest);
   }
   for (std::size_t i = 0; i < lanes_.size(); ++i) {
     double high = lanes_[i].fixedTop;
@@ -247,10 +249,10 @@ void TimePlot::draw() {
       high = top[i] > 0 ? top[i] * 1.4 : 1;
     }
     lanes_[i].rect->axis(QCPAxis::atLeft)->setRange(0, high);
+    lanes_[i].rect->axis(QCPAxis::atRight)->setRange(0, topRight[i] > 0 ? topRight[i] * 1.4 : 100);
     // In a narrow dock the legend needs the room.
     if (lanes_[i].budgetText) lanes_[i].budgetText->setVisible(width() / columns_ > kRoomForBudgetTextPx);
   }
-  lanes_[2].rect->axis(QCPAxis::atRight)->setRange(0, fps > 0 ? fps * 1.4 : 100);
   for (Lane& lane : lanes_)
     lane.rect->axis(QCPAxis::atBottom)->setNumberPrecision(span_ < 2 ? 2 : span_ < 20 ? 1 : 0);
   placeCursors();

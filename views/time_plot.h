@@ -69,7 +69,8 @@ class TimePlot : public QCustomPlot {
   };
   void arrange();
   void makeLane(const QString& title, double fixedTop, bool budget);
-  void addTrace(std::size_t lane, TraceGraph::Look look, bool right = false);
+  /// With `right`, what its axis on the right is called.
+  void addTrace(std::size_t lane, TraceGraph::Look look, const QString& right = {});
   void colour();
   QCPAxis* timeAxis() const { return lanes_.front().rect->axis(QCPAxis::atBottom); }
   void draw();

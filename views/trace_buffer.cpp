@@ -38,6 +38,8 @@ std::string_view traceName(Trace trace) {
                                                                 "draw_ms",
                                                                 "gpu_ms",
                                                                 "depth_map_width_px",
+                                                                "head_rate_degps",
+                                                                "lod_scale",
                                                                 "cull_draw_ms",
                                                                 "cull_draw_gpu_ms"};
   return kNames[static_cast<std::size_t>(trace)];
@@ -86,6 +88,8 @@ void TraceBuffer::append(const LiveFrame& frame) {
                                  frame.cost.draw,
                                  frame.cost.gpu,
                                  frame.depthMap ? frame.depthMap->widthPx : 0.0,
+                                 d.motion.rateDegPerS,
+                                 d.lodScale,
                                  cullDraw,
                                  cullDraw + measuredOr0(frame.cost.gpu)};
   for (std::size_t i = 0; i < kTraces; ++i) {

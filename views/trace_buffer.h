@@ -24,6 +24,8 @@ enum class Trace : std::uint8_t {
   draw_ms,
   gpu_ms,
   depth_map_width_px,
+  head_rate_degps,
+  lod_scale,
   // Sums that the stacked plot draws; not in the CSV.
   cull_draw_ms,
   cull_draw_gpu_ms,
@@ -39,7 +41,7 @@ std::string_view traceName(Trace trace);  ///< as the CSV spells it
 class TraceBuffer {
  public:
   static constexpr std::size_t kBlock = 64;
-  /// Ten minutes at 400 frames a second, an hour at 66; 12 MB.
+  /// Ten minutes at 400 frames a second, an hour at 66; 14 MB.
   static constexpr std::size_t kCapacity = 240'000 / kBlock * kBlock;
 
   explicit TraceBuffer(std::size_t capacity = kCapacity);
