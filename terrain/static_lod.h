@@ -82,6 +82,26 @@ Result<std::shared_ptr<const StaticLodTerrain>> buildStaticLod(std::span<const S
 /// Makes those of the counts that follow from the index and the arrays.
 void countStaticLod(StaticLodTerrain& terrain);
 
+/// What document E's rule allows a tile: leaves of n/2 to n triangles, every node above at n.
+struct StaticLodLimits {
+  std::uint32_t levels = 0;                     ///< at least
+  std::uint64_t leastFaces = 0, mostFaces = 0;  ///< of all levels
+};
+StaticLodLimits staticLodLimits(std::uint64_t triangles, std::uint32_t trianglesPerNode);
+
+/// One tile in document E's words, beside what its rule allows.
+struct StaticLodReport {
+  std::string tile;
+  std::uint64_t triangles = 0, faces = 0;
+  std::uint32_t trianglesPerNode = 0, levels = 0, lockedMinima = 0;
+  std::vector<std::uint64_t> facesOfLevel;   ///< as StaticLodCounts
+  std::vector<double> rmsErrorM, maxErrorM;  ///< largest of the nodes of a level
+  StaticLodLimits limits;
+};
+StaticLodReport reportStaticLod(const StaticLodTerrain& terrain, std::size_t tile);
+/// The tile whose source triangles are nearest in number; the terrain has at least one tile.
+std::size_t tileNearest(const StaticLodTerrain& terrain, std::uint64_t triangles);
+
 /// One little-endian file with a checksum, written atomically; reading checks sizes before it allocates.
 Result<Done> writeStaticLod(const std::filesystem::path& file, const StaticLodTerrain& terrain);
 Result<std::shared_ptr<const StaticLodTerrain>> readStaticLod(const std::filesystem::path& file);

@@ -14,6 +14,27 @@ namespace {
 
 using Index = std::uint32_t;
 
+/// Faces that several nodes have count once.
+std::uint64_t distinctFaces(const LodTree& tree) {
+  struct Face {  // by place: a vertex may come to lie where one was before
+    std::array<Lattice, 3> corners;
+    std::uint16_t material;
+    auto operator<=>(const Face&) const = default;
+  };
+  std::vector<Face> faces;
+  for (const LodTree::Node& node : tree.nodes)
+    for (std::size_t t = 0; t < node.triangles.size(); ++t) {
+      const auto& corners = node.triangles[t];
+      Face face{{tree.vertices[corners[0]], tree.vertices[corners[1]], tree.vertices[corners[2]]},
+                node.material[t]};
+      std::rotate(face.corners.begin(), std::min_element(face.corners.begin(), face.corners.end()),
+                  face.corners.end());
+      faces.push_back(face);
+    }
+  std::sort(faces.begin(), faces.end());
+  return static_cast<std::uint64_t>(std::unique(faces.begin(), faces.end()) - faces.begin());
+}
+
 class Builder {
  public:
   Builder(const LatticeTile& tile, Index most) : tile_(tile), most_(most) {
@@ -48,7 +69,7 @@ class Builder {
         merge(tree_.nodes[i]);
       }
     }
-    tree_.distinctFaces = tile_.triangles.size() + newFaces_;
+    tree_.distinctFaces = distinctFaces(tree_);
     return std::move(tree_);
   }
 
@@ -154,7 +175,6 @@ class Builder {
     }
     for (const Patch::Vertex& v : patch.vertices) localOf_[v.id] = LodTree::kNone;
 
-    const auto before = patch.triangles;
     std::vector<std::uint8_t> alive;
     node.lockedMinimum = !collapseEdges(patch, most_, alive);
 
@@ -179,9 +199,6 @@ class Builder {
     for (std::size_t t = 0; t < alive.size(); ++t) {
       if (!alive[t]) continue;
       const auto& corners = patch.triangles[t];
-      bool same = corners == before[t];
-      for (const Index v : corners) same = same && !patch.vertices[v].moved;
-      newFaces_ += !same;
       node.triangles.push_back(
           {patch.vertices[corners[0]].id, patch.vertices[corners[1]].id, patch.vertices[corners[2]].id});
       node.material[left++] = node.material[t];
@@ -195,7 +212,6 @@ class Builder {
   std::vector<Quadric> sourceQuadrics_;  ///< of the source's vertices; zero for new ones
   std::vector<Index> localOf_;           ///< scratch, one a vertex
   std::vector<std::vector<Kept>> kept_;  ///< one a node, until its parent is built
-  std::uint64_t newFaces_ = 0;
 };
 
 }  // namespace
