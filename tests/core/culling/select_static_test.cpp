@@ -57,6 +57,10 @@ TEST_P(StaticCutOf, coversEveryLeafExactlyOnce) {
       selectStatic(index, i % 2 ? index.rmsErrorM : index.maxErrorM, 100 * (1 + i), randomEye(), cut);
     else
       selectStaticDepth(index, i - 30, cut);
+    for (const std::uint32_t node : i < 30 ? std::vector<std::uint32_t>{} : cut.nodes)
+      ASSERT_TRUE(
+          index.nodes[node].depth == i - 30 ||
+          (index.nodes[node].depth < i - 30 && index.nodes[node].children[0] == StaticLodIndex::kNone));
     std::vector<int> covered(index.size());
     for (const std::uint32_t node : cut.nodes) ++covered[node];
     // Children stand after their parents, so one pass hands every cover down.
@@ -213,6 +217,24 @@ TEST_F(StaticVisible, drawsTheWholeCutWithoutATestAndForAnEyeThatIsNotANumber) {
   eye.position.x = kNan;
   selectStaticVisible(index, vertices, cut, eye, {}, true, visible);
   EXPECT_EQ(visible.tiles.size(), cut.nodes.size());
+}
+
+TEST_F(StaticVisible, leavesOutWhatIsBeyondTheWeathersFarDistance) {
+  selectStaticVisible(index, vertices, cut, eye, {}, true, visible);
+  const std::size_t inView = visible.tiles.size();
+  constexpr double kFar = 6000;
+  selectStaticVisible(index, vertices, cut, eye, {}, true, visible, kFar);
+  EXPECT_GT(visible.beyondVisibility, 5u);
+  EXPECT_EQ(visible.tiles.size() + visible.beyondVisibility, inView);
+  for (const std::uint32_t node : cut.nodes) {
+    const Box& b = index.bounds[node];
+    const Vec3 nearest{std::clamp(eye.position.x, double{b.minX}, double{b.maxX}),
+                       std::clamp(eye.position.y, double{b.minY}, double{b.maxY}),
+                       std::clamp(eye.position.z, double{b.minZ}, double{b.maxZ})};
+    const double distance = length(nearest - eye.position);
+    ASSERT_FALSE(visible.reason[node] == CullReason::beyond_visibility && distance <= kFar);
+    ASSERT_FALSE(visible.reason[node] == CullReason::drawn && distance > kFar + 1);
+  }
 }
 
 TEST_F(StaticVisible, countsWhatIsDrawnAndWhyTheRestIsNot) {
