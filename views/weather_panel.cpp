@@ -123,6 +123,8 @@ WeatherPanel::WeatherPanel(Draft& draft, QWidget* parent)
   density_ = addValue(*values, tr("Density"), tr("Intensity of the particles, 0 to 1"));
   ratio_ = addValue(*values, tr("Near-far ratio"), tr("Default near over far plane (document D, Eq. 1)"));
   far_ = addValue(*values, tr("Far plane"), tr("Nothing farther from the eye is drawn"));
+  cut_ =
+      addValue(*values, tr("Cut away"), tr("Tiles that lie wholly beyond the far plane and are not drawn"));
   host_ = addValue(*values, tr("Host says"),
                    tr("Weather Control of rain and snow, and the visibility of the atmosphere"));
 
@@ -268,6 +270,9 @@ void WeatherPanel::refresh() {
   density_->setText(numberText(d.density, 3));
   ratio_->setText(std::isfinite(d.farM) ? ratioText(d.nearFarRatio) : tr("no cut"));
   far_->setText(distanceText(d.farM));
+  cut_->setText(
+      tr("%1 of %2 tiles")
+          .arg(numberText(double(frame_.beyondVisibility), 0), numberText(double(frame_.tilesInCut), 0)));
   host_->setText(hostText(frame_));
 }
 

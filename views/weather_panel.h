@@ -46,7 +46,8 @@ class WeatherPanel : public QWidget {
   LiveFrame frame_;
   bool any_ = false;
   QLabel *now_, *reason_;
-  QLabel *visibility_ = nullptr, *density_ = nullptr, *ratio_ = nullptr, *far_ = nullptr, *host_ = nullptr;
+  QLabel *visibility_ = nullptr, *density_ = nullptr, *ratio_ = nullptr, *far_ = nullptr, *cut_ = nullptr,
+         *host_ = nullptr;
   std::vector<ParameterLine*> lines_;
   QTableWidget* steps_;
   QPushButton* calibrate_;

@@ -23,7 +23,7 @@ namespace {
 /// A picture that still builds tiles is drawn again, but not for ever.
 constexpr int kMostWarmUp = 60;
 /// Decisions that a step is measured with at the most, for the progress bar.
-constexpr int kMostDecisions = 15;
+constexpr int kMostDecisions = 16;
 /// Space around the bars' labels.
 constexpr int kPlotHeight = 240;
 
@@ -65,7 +65,12 @@ QString outcomeText(const StepCalibration& c) {
   else if (c.outcome == CalibrationOutcome::fog_not_enough)
     said = WeatherWizard::tr("Costs more than any cut can win (%1 of %2 ms), even without particles")
                .arg(ms(c.strongestGainMs()), ms(c.lossMs()));
-  if (c.notMonotone) said += WeatherWizard::tr("; the times disagree with each other: measure more frames");
+  if (c.drifted)
+    said +=
+        WeatherWizard::tr("; clear air took %1 ms before and %2 ms after: the machine is busy, measure again")
+            .arg(ms(c.clearMs), ms(c.clearAfterMs));
+  else if (c.notMonotone)
+    said += WeatherWizard::tr("; the times disagree with each other: measure more frames");
   if (!said.isEmpty()) said[0] = said[0].toUpper();
   return said;
 }

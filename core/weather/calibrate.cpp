@@ -36,6 +36,7 @@ class Search {
   bool matches(double ms) const { return std::abs(ms - result_.clearMs) <= tolerance(); }
   double tolerance() const { return settings_.tolerance * result_.clearMs; }
   bool isMonotone() const;
+  void lookAgain();
   std::optional<StepCalibration> ended();
 
   TuningParameters parameters_;
@@ -144,6 +145,15 @@ bool Search::isMonotone() const {
   return true;
 }
 
+/// The clear frame once more: what is measured between two different ones cannot be trusted.
+void Search::lookAgain() {
+  if (stopped_ || result_.outcome == CalibrationOutcome::not_a_number) return;
+  const auto clear = clearFrame();
+  if (!clear) return;
+  result_.clearAfterMs = *clear;
+  result_.drifted = !matches(*clear);
+}
+
 std::optional<StepCalibration> Search::ended() {
   if (stopped_) return std::nullopt;
   result_.notMonotone = !isMonotone();
@@ -170,6 +180,7 @@ std::optional<StepCalibration> Search::run() {
     static_cast<void>(pushOut());
   else
     static_cast<void>(thinOut());
+  lookAgain();
   return ended();
 }
 

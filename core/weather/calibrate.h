@@ -55,6 +55,8 @@ struct StepCalibration {
   double nearFarRatio = 0;   ///< default near / farM
   double density = 0;        ///< what fits; the preset's unless the outcome says that the cut is not enough
   double presetDensity = 0;  ///< what was measured
+  double clearAfterMs = 0;   ///< clear weather again, after the step: another time tells of a busy machine
+  bool drifted = false;      ///< both clear times differ by more than the tolerance
   bool notMonotone = false;  ///< a farther cut was faster than a nearer one by more than the tolerance
   std::vector<CalibrationTrial> trials;
 

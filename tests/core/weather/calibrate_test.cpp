@@ -177,6 +177,19 @@ TEST(Calibration, takesTheNearestMatchWhereTilesComeAndGoAtOnce) {
   EXPECT_FALSE(c.notMonotone);
 }
 
+TEST(Calibration, saysWhenTheMachineBecameBusyMeanwhile) {
+  for (const double busier : {1.0, 1.5}) {
+    int calls = 0;
+    const MeasureFrame measure = [&](const WeatherDecision& d) {
+      return std::optional(Machine{}(d) * (++calls > 12 ? busier : 1));
+    };
+    const StepCalibration c = calibrated(WeatherStep::rain_heavy, measure, 0.05);
+    EXPECT_EQ(c.drifted, busier > 1);
+    EXPECT_DOUBLE_EQ(c.clearMs, 12);
+    EXPECT_DOUBLE_EQ(c.clearAfterMs, 12 * busier);
+  }
+}
+
 TEST(Calibration, endsWhenTheMeasuringStops) {
   for (int stopAfter = 0; stopAfter < 20; ++stopAfter) {
     int left = stopAfter;
