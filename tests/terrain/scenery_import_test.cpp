@@ -152,6 +152,20 @@ TEST(Rasterised, takesForSeaWhatTilesAtSeaLevelSurround) {
   }
 }
 
+TEST(Rasterised, isNoSeaForALittleWaterAtItsEdge) {
+  test::TileRecipe first, second;
+  first.cells = second.cells = 8;
+  first.heightM = [](double longitude, double) { return longitude > 7.2 ? 0.0 : 60.0; };
+  second.west = 7.5;
+  second.south = 50.625;
+  const std::vector<SceneryMesh> meshes{meshOf(first), meshOf(second)};
+  const auto posts = terrain::sceneryPosts(meshes, Metres{300});
+  const auto grid = terrain::rasterised(meshes, *posts, {});
+  ASSERT_TRUE(grid);
+  EXPECT_GT(grid->outside, posts->size() / 2);
+  EXPECT_TRUE(grid.findings().empty());
+}
+
 TEST(Rasterised, crossesTheDateLine) {
   test::TileRecipe west, east;
   west.west = 179.75;

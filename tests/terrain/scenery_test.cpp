@@ -135,6 +135,17 @@ TEST(Bucket, holdsThePlaceItIsFoundFor) {
     }
 }
 
+TEST(Bucket, isAsWideAsItsLatitudeAsks) {
+  const std::pair<double, double> table[] = {
+      {0.5, 0.125}, {21.9, 0.125}, {22.1, 0.25}, {61.9, 0.25}, {62.1, 0.5}, {75.9, 0.5}, {76.1, 1},
+      {82.9, 1},    {83.1, 2},     {85.9, 2},    {86.1, 4},    {88.9, 4},   {89.1, 12}};
+  for (const auto& [latitude, width] : table)
+    for (const double side : {1.0, -1.0}) {
+      const auto bucket = bucketAt(Degrees{side * latitude}, Degrees{-97.3});
+      EXPECT_EQ((bucket.east - bucket.west).value(), width) << side * latitude;
+    }
+}
+
 TEST(Bucket, isNoneForWhatIsNoPlace) {
   const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {nan, infinity, -infinity, 91.0})
