@@ -51,7 +51,7 @@ SymbologyPanel::SymbologyPanel(Draft& draft, QWidget* parent)
     : QWidget(parent),
       draft_(draft),
       enabled_(flagBox(draft, "symbology.enabled")),
-      place_(new QPushButton(tr("&Place in the view"))),
+      place_(new QPushButton(tr("&Place in view"))),
       counts_(new QLabel),
       table_(new QWidget),
       throttle_(this, [this] {
@@ -95,6 +95,8 @@ SymbologyPanel::SymbologyPanel(Draft& draft, QWidget* parent)
         show, new ChoiceBox(draft, keyOf(prefix, ".colour")), new NumberBox(draft, keyOf(prefix, ".x")),
         new NumberBox(draft, keyOf(prefix, ".y")), new NumberBox(draft, keyOf(prefix, ".size"))};
     for (int c = 0; c < 5; ++c) {
+      // Three decimals and their arrows: the row has to fit a dock.
+      if (c >= 2) editors[c]->setFixedWidth(fontMetrics().horizontalAdvance(QStringLiteral("-0.0000")) + 28);
       grid->addWidget(editors[c], i + 1, c);
       editors[c]->setProperty("symbol", i);
       editors[c]->installEventFilter(this);
