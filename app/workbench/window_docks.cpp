@@ -2,6 +2,7 @@
 #include <QDockWidget>
 #include <QPushButton>
 #include <QScrollArea>
+#include <QTabBar>
 #include <QUndoView>
 #include <algorithm>
 #include <utility>
@@ -79,7 +80,6 @@ void MainWindow::makeDocks() {
           [symbology] { symbology->placeButton().setChecked(false); });
   auto* parameters = addDock("preset", tr("Preset"), edit, new views::ParameterTable(draft_));
   connect(parameters, &views::ParameterTable::editorAsked, this, &MainWindow::raiseEditorOf);
-  addDock("history", tr("History"), edit, history);
   addDock("decision", tr("Decision"), effect, new views::DecisionPanel(draft_));
   addDock("surface", tr("Surface"), effect, new views::SurfacePlot(draft_));
   motion_ = addDock("motion", tr("Head motion"), effect, new views::MotionPanel(draft_));
@@ -88,6 +88,7 @@ void MainWindow::makeDocks() {
   flightDock_ = addDock("flight", tr("Flight"), effect, new FlightDock(feed_));
   plots_ = addDock("plots", tr("Plots"), foot, new views::PlotsPanel(draft_));
   messages_ = addDock("messages", tr("Messages"), foot, new MessagePanel);
+  addDock("history", tr("History"), foot, history);
   experiments_ =
       addDock("experiments", tr("Experiments"), foot,
               new ExperimentsDock([this](const QString& folder) { return experimentInputs(folder); }));
@@ -143,9 +144,14 @@ void MainWindow::arrangeDocks() {
     }
     before->raise();
   }
-  resizeDocks({edit}, {500}, Qt::Horizontal);
+  resizeDocks({edit}, {570}, Qt::Horizontal);
   resizeDocks({edit, effect}, {560, 400}, Qt::Vertical);
   resizeDocks({foot}, {290}, Qt::Vertical);
+  // Whole titles; where they do not fit there are arrows.
+  for (QTabBar* bar : findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly)) {
+    bar->setElideMode(Qt::ElideNone);
+    bar->setUsesScrollButtons(true);
+  }
 }
 
 }  // namespace trimtab::workbench
