@@ -1,6 +1,7 @@
 #include "trimtab/scene/static_lod_culling.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "trimtab/culling/box_distance.h"
 #include "trimtab/terrain/static_lod.h"
@@ -30,8 +31,8 @@ std::vector<std::uint32_t> vertexCounts(const terrain::StaticLodTerrain& terrain
 
 /// One node in so many of the cut is near: drawn first, and what it covers is read.
 constexpr std::size_t kNearOneIn = 3;
-/// Far triangles in view, below which reading the map costs more than hiding half of them saves: measured
-/// over Kansai on a software rasteriser.
+/// Triangles that may be hidden, below which reading the map costs more than hiding half of them saves:
+/// measured over Kansai on a software rasteriser.
 constexpr std::uint64_t kWorthHiding = 30'000;
 
 }  // namespace
@@ -104,10 +105,29 @@ void StaticLodCulling::orderByDistance(Vec3 eye) {
   near_ = kept;
 }
 
-std::uint64_t StaticLodCulling::farTriangles() const {
+/// Triangles of far nodes in view whose tops lie below the steepest line of sight to a near node's top: no
+/// others can be hidden. A guess at what a map may win, which is nothing once the eye is high.
+std::uint64_t StaticLodCulling::hideableTriangles(Vec3 eye) const {
+  double steepestNear = -1e300;
   std::uint64_t triangles = 0;
-  for (std::size_t i = visibleNear_; i < visible_.tiles.size(); ++i)
-    triangles += index().nodes[visible_.tiles[i].node].triangles;
+  for (std::size_t i = 0; i < visible_.tiles.size(); ++i) {
+    const std::uint32_t node = visible_.tiles[i].node;
+    const Box& b = index().bounds[node];
+    const double up = b.maxZ - eye.z;
+    const bool near = i < visibleNear_;
+    // Of a near node the end of its box that gives the steeper line, of a far one that which gives the
+    // flatter.
+    const double x = std::max(std::abs(b.minX - eye.x), std::abs(b.maxX - eye.x)),
+                 y = std::max(std::abs(b.minY - eye.y), std::abs(b.maxY - eye.y));
+    const double away = (up > 0) == near
+                            ? std::sqrt(distanceSquared({b.minX, b.minY, -1e9f, b.maxX, b.maxY, 1e9f}, eye))
+                            : std::hypot(x, y);
+    const double slope = up / std::max(away, 1.0);
+    if (near)
+      steepestNear = std::max(steepestNear, slope);
+    else if (slope < steepestNear)
+      triangles += index().nodes[node].triangles;
+  }
   return triangles;
 }
 
@@ -118,8 +138,8 @@ std::optional<DepthMapSize> StaticLodCulling::occlusion(const FrameRequest& requ
   if (request.method != CullingCase::proposed || !size || request.overlays.treePicture) return {};
   if (request.frozenEye)
     counters.note = "what is hidden stays as it was when culling was frozen";
-  else if (visibleNear_ == 0 || farTriangles() < kWorthHiding)
-    counters.note = "too little of the static trees lies far away for a depth map to be worth its cost";
+  else if (hideableTriangles(visibleKey_->eye.position) < kWorthHiding)
+    counters.note = "too little of the static trees can be hidden for a depth map to be worth its cost";
   return counters.note.empty() ? size : std::nullopt;
 }
 

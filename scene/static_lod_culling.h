@@ -42,7 +42,7 @@ class StaticLodCulling {
 
  private:
   void orderByDistance(Vec3 eye);
-  std::uint64_t farTriangles() const;
+  std::uint64_t hideableTriangles(Vec3 eye) const;
 
   /// What the cut depends on.
   struct CutKey {

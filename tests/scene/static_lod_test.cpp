@@ -87,7 +87,8 @@ class StaticTrees : public SceneTest {
 };
 
 TEST_F(StaticTrees, drawTheSameTerrainAsTheTiledLevelsWhereBothAreExact) {
-  use(treeMountains());
+  use(std::make_shared<const test::TreeTerrain>(std::make_shared<const test::SyntheticTerrain>(
+      4, 1.0 / 1200, GeodeticPosition{Degrees{36.4}, Degrees{128.1}, Metres{0}}, test::mountains)));
   for (const double heading : {0.0, 130.0, 260.0}) {
     auto r = treeRequest(over(0.5, 0.45, 250), {Degrees{heading}, Degrees{-6}, Degrees{heading / 20}});
     r.lod.screenSpaceError = Pixels{1e-6};
@@ -342,14 +343,51 @@ TEST_F(StaticTrees, workWithEveryOtherOverlay) {
   EXPECT_GT(changes(&scene::Overlays::colourByLevel), kAll / 4);
   EXPECT_GT(changes(&scene::Overlays::colourByReason), kAll / 4);
   EXPECT_EQ(differing(plain, picture(r)), 0u) << "an overlay stays behind";
+}
 
+TEST_F(StaticTrees, keepWhatWasHiddenWhileCullingIsFrozen) {
+  use(treeMountains());
+  auto r = treeRequest(over(0.3, 0.3, 60), {Degrees{40}, Degrees{-3}, Degrees{0}});
+  r.staticLod.errorPx = Pixels{0.05};
+  r.decision.depthMap = DepthMapSize{320, 240};
   const auto live = renderer.draw(r, offscreen->framebuffer());
+  ASSERT_GT(live.visible.occluded, 5u);
+  const auto grey = renderer.readDepthMap();
+  EXPECT_EQ(grey.width, 320);
+  EXPECT_LT(grey.pixels[160], 200) << "the bottom row is near ground";
+  EXPECT_EQ(grey.pixels[239 * 320 + 160], 255) << "the top row is sky";
   r.frozenEye = EyePose{database->index().frame.fromGeodetic(r.eye),
                         eyeAxes(database->index().frame, r.eye, r.attitude)};
-  r.eye = over(0.4, 0.4, 2000);
-  const auto frozen = renderer.draw(r, offscreen->framebuffer());
-  EXPECT_EQ(frozen.cutsSelected, live.cutsSelected);
-  EXPECT_EQ(frozen.visible.outsideFrustum, live.visible.outsideFrustum);
+  for (int i = 1; i < 4; ++i) {
+    r.eye = over(0.3 - 0.05 * i, 0.3, 2000);
+    const auto frozen = renderer.draw(r, offscreen->framebuffer());
+    EXPECT_EQ(frozen.cutsSelected, live.cutsSelected);
+    EXPECT_EQ(frozen.visible.reason, live.visible.reason);
+    EXPECT_EQ(frozen.depthMapsDrawn, live.depthMapsDrawn);
+    EXPECT_NE(frozen.note, "");
+    EXPECT_EQ(renderer.readDepthMap().width, 0) << "an old map must not pass for this frame's";
+  }
+}
+
+TEST_F(StaticTrees, readNoDepthMapWhereNoneIsAskedForOrWorthIt) {
+  use(treeMountains());
+  auto r = treeRequest(over(0.3, 0.3, 60), {Degrees{40}, Degrees{-3}, Degrees{0}});
+  r.staticLod.errorPx = Pixels{0.05};
+  auto result = renderer.draw(r, offscreen->framebuffer());
+  EXPECT_EQ(result.depthMapsDrawn, 0u) << "scheme frustum";
+  EXPECT_TRUE(std::isnan(result.cost.occlusion));
+  r.decision.depthMap = DepthMapSize{320, 240};
+  r.method = CullingCase::view_frustum;
+  EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).depthMapsDrawn, 0u);
+  r.method = CullingCase::proposed;
+  result = renderer.draw(r, offscreen->framebuffer());
+  EXPECT_EQ(result.depthMapsDrawn, 1u);
+  EXPECT_GT(result.cost.occlusion, 0);
+  r.eye = over(0.3, 0.3, 9000);
+  r.attitude.pitch = Degrees{-50};
+  result = renderer.draw(r, offscreen->framebuffer());
+  EXPECT_EQ(result.depthMapsDrawn, 1u) << "from so high nothing can be hidden";
+  EXPECT_NE(result.note, "");
 }
 
 }  // namespace
