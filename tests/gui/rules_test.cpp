@@ -55,6 +55,8 @@ TEST_F(Rules, anEditedRuleDecidesTheNextFrameAndTheViewerShowsIt) {
   EXPECT_TRUE(waitFor([this] { return std::abs(session().decision().totalMembership - 0.75) < 1e-12; }));
   EXPECT_TRUE(waitFor([this] { return panel().viewer().lines().last() == QStringLiteral("Total 0.750"); }));
   shoot("rules");
+  dock("surface").raise();
+  shoot("surface");
   w().draft().undoStack().undo();
   EXPECT_EQ(w().draft().parameters().scheme.rules.rule[3].output, 0);
 }
