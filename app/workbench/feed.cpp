@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLookPeriodS = 1.0 / 60;
 /// After a longer stop of the program, states go on from now.
-constexpr double kLongestBurstS = 0.25;
+constexpr double kLongestBurstS = 1;
 
 /// Whether `b`, decided after `a`, changed nothing that a log of changes should hold.
 bool sameChoice(const FrameDecision& a, const FrameDecision& b) {

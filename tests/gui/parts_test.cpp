@@ -100,9 +100,11 @@ TEST(FreeCamera, keepsItsSensesAtPolesDateLineAndStraightUp) {
 }
 
 TEST(WorkbenchOptions, readWhatTheCommandLineSays) {
-  const auto good = workbench::parseOptions(
-      {"trimtab", "--preset", "as-published", "--listen", "8010", "--after-s", "2.5", "--size", "800x600"});
+  const auto good =
+      workbench::parseOptions({"trimtab", "--preset", "as-published", "--listen", "8010", "--after-s", "2.5",
+                               "--size", "800x600", "--head", "sweep:180/1s"});
   ASSERT_FALSE(good.exitCode);
+  EXPECT_EQ(good.options.head, "sweep:180/1s");
   EXPECT_EQ(good.options.preset, "as-published");
   EXPECT_EQ(good.options.listenPort, 8010);
   EXPECT_EQ(good.options.afterS, 2.5);
