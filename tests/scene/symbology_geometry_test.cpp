@@ -10,6 +10,7 @@
 
 #include "trimtab/preset/table.h"
 #include "trimtab/scene/stroke_font.h"
+#include "trimtab/scene/symbology_canvas.h"
 
 namespace trimtab::scene {
 namespace {
@@ -346,6 +347,25 @@ TEST(Symbology, obeysPlaceAndSize) {
   auto ladder = only(requestOf(attitude(0, 0, 0)), Symbol::aircraft_reference);
   ladder.setup.element[static_cast<std::size_t>(Symbol::aircraft_reference)].x = Ratio{0.25};
   EXPECT_NEAR(drawn(ladder).strokes[0].x0, 640 + 160, 0.01);
+}
+
+TEST(SymbologyCanvas, keepsWhatIsBeforeTheEyeOfALineThatPassesIt) {
+  SymbologyDrawing d;
+  Canvas canvas(kView, 0, d);
+  canvas.begin(Symbol::pitch_ladder);
+  // From the picture's middle over the right edge to behind the eye.
+  const Sheet sheet{{0, 0, -1}, {1, 0, 1}, {0, 1, 0}};
+  for (const bool turned : {false, true}) {
+    d.strokes.clear();
+    canvas.line(sheet, turned ? 3 : 0, 0, turned ? 0 : 3, 0);
+    ASSERT_EQ(d.strokes.size(), 1u);
+    EXPECT_NEAR(std::min(d.strokes[0].x0, d.strokes[0].x1), 640, 0.01);
+    EXPECT_NEAR(std::max(d.strokes[0].x0, d.strokes[0].x1), 1280, 0.01);
+    EXPECT_NEAR(d.strokes[0].y0, 360, 0.01);
+  }
+  d.strokes.clear();
+  canvas.line(sheet, 2, 0, 3, 0);
+  EXPECT_TRUE(d.strokes.empty()) << "all of it behind";
 }
 
 TEST(StrokeFont, hasEveryCharacterThatSymbolsWrite) {
