@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "trimtab/terrain/scenery.h"
+#include "trimtab/terrain/scenery_triangles.h"
 
 namespace trimtab::terrain {
 
@@ -97,7 +98,6 @@ class BtgReader {
   void addTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint16_t material);
   std::optional<std::uint16_t> materialOf(std::string_view name, std::size_t offset);
   bool placeVertices();
-  void placeTriangles();
 
   std::string_view bytes_;
   std::string where_, object_;
@@ -343,38 +343,6 @@ bool BtgReader::placeVertices() {
   return bad == 0;
 }
 
-/// Drops triangles two of whose vertices are one place under two numbers, and turns the whole mesh where most
-/// of it faces down. Single slivers that face down stay: turned, they would break the order of their
-/// neighbours' edges.
-void BtgReader::placeTriangles() {
-  const std::vector<Vec3>& v = mesh_.vertices;
-  std::vector<SceneryMesh::Triangle>& all = mesh_.triangles;
-  const auto kept = std::remove_if(all.begin(), all.end(), [&](const SceneryMesh::Triangle& t) {
-    const auto [a, b, c] = t.vertex;
-    return v[a] == v[b] || v[b] == v[c] || v[c] == v[a];
-  });
-  mesh_.degenerate += static_cast<std::uint64_t>(all.end() - kept);
-  all.erase(kept, all.end());
-  double up = 0, down = 0;
-  std::uint64_t facingUp = 0;
-  for (const SceneryMesh::Triangle& t : all) {
-    const auto [a, b, c] = t.vertex;
-    // Along the ellipsoid's normal, not the line to its centre.
-    const Vec3 normal{v[a].x, v[a].y, v[a].z * 1.00673949674228};
-    const double area = dot(cross(v[b] - v[a], v[c] - v[a]), normal);
-    if (area < 0) {
-      down -= area;
-      ++mesh_.facingDown;
-    } else {
-      up += area;
-      ++facingUp;
-    }
-  }
-  if (down <= up) return;
-  for (SceneryMesh::Triangle& t : all) std::swap(t.vertex[1], t.vertex[2]);
-  mesh_.facingDown = facingUp;
-}
-
 Result<SceneryMesh> BtgReader::read() {
   std::string name = std::filesystem::path(where_).filename().string();
   for (const std::string_view ending : {".gz", ".btg"})
@@ -405,7 +373,7 @@ Result<SceneryMesh> BtgReader::read() {
   if (at_ < bytes_.size())
     warn(at_, "", "the end of the file", std::to_string(bytes_.size() - at_) + " bytes more");
   if (!placeVertices()) return findings_;
-  placeTriangles();
+  tidyTriangles(mesh_);
   return Result<SceneryMesh>(std::move(mesh_), std::move(findings_));
 }
 
