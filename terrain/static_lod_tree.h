@@ -44,7 +44,10 @@ struct LodTree {
 /// of n/2 to n; merges and simplifies upwards; measures.
 LodTree buildTree(const LatticeTile& tile, std::uint32_t trianglesPerNode);
 
-/// Measures every node, children first: see StaticLodIndex::rmsErrorM.
+/// Measures every node, children first. Samples are the vertices of the source triangles below the node,
+/// against the node's surface, and the node's own vertices against those triangles; each place once and all
+/// of one weight. Where the source covers ground twice the nearest sheet counts. A node's error is no less
+/// than its children's.
 void measureTree(const LatticeTile& tile, LodTree& tree);
 
 }  // namespace trimtab::terrain
