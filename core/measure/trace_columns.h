@@ -22,6 +22,7 @@ struct Flat {
   Metres height;
   Feet altitude;  ///< for people and other programs; `height` is the number that counts
   std::optional<double> headHeading, headPitch, headRoll;
+  std::optional<MetresPerSecond> north, east, down;
   HostView view;
   std::optional<Precipitation> precipitation;
   std::optional<int> severity;
@@ -109,6 +110,10 @@ void forEachColumn(F& f, const Visit& visit) {
   visit("above_ground_m", Cell::optional, f.row.input.aboveGround);
   visit("head_roll_deg", Cell::optional, f.headRoll);
   visit("visibility_m", Cell::optional, state.visibility);
+  visit("airspeed_kt", Cell::optional, state.airspeed);
+  visit("velocity_north_mps", Cell::optional, f.north);
+  visit("velocity_east_mps", Cell::optional, f.east);
+  visit("velocity_down_mps", Cell::optional, f.down);
   visit("precipitation", Cell::optional, f.precipitation);
   visit("precipitation_severity", Cell::optional, f.severity);
   visit("precipitation_visibility_m", Cell::optional, f.layerVisibility);
@@ -178,6 +183,11 @@ inline Flat flatten(const TraceRow& row) {
     f.headRoll = state.head->roll.value();
   }
   if (state.view) f.view = *state.view;
+  if (state.velocity) {
+    f.north = state.velocity->north;
+    f.east = state.velocity->east;
+    f.down = state.velocity->down;
+  }
   if (state.weather) {
     f.precipitation = state.weather->precipitation;
     f.severity = state.weather->severity;
@@ -200,6 +210,7 @@ inline TraceRow unflatten(Flat& f) {
     state.head = Attitude{Degrees{f.headHeading.value_or(0)}, Degrees{f.headPitch.value_or(0)},
                           Degrees{f.headRoll.value_or(0)}};
   if (f.view != HostView{}) state.view = f.view;
+  if (f.north && f.east && f.down) state.velocity = Velocity{*f.north, *f.east, *f.down};
   if (f.precipitation)
     state.weather = HostWeather{*f.precipitation, f.severity.value_or(0), f.layerVisibility};
   if (f.depthMapWidth && f.depthMapHeight)

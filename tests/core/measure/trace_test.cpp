@@ -78,6 +78,10 @@ TraceRow anyRow(std::mt19937_64& random) {
   maybe(row.input.aboveGround);
   state.aboveGround = row.input.aboveGround;
   maybe(state.visibility);
+  maybe(state.airspeed);
+  if (random() % 2)
+    state.velocity =
+        Velocity{MetresPerSecond{number()}, MetresPerSecond{number()}, MetresPerSecond{number()}};
   if (random() % 2) {
     state.weather = HostWeather{static_cast<Precipitation>(random() % 3), static_cast<int>(random() % 6), {}};
     maybe(state.weather->visibility);
