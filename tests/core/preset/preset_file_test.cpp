@@ -265,10 +265,10 @@ TEST(ShippedPresets, differWhereTheirNamesSay) {
     return result;
   };
   EXPECT_EQ(keys("default", "default"), std::vector<std::string>{});
-  EXPECT_EQ(keys("default", "as-published"),
-            (std::vector<std::string>{"fuzzy.pitch.reading linear rounded_step", "fuzzy.hysteresis 0.05 0",
-                                      "static_lod.terrain levels static_trees",
-                                      "symbology.enabled false true"}));
+  EXPECT_EQ(
+      keys("default", "as-published"),
+      (std::vector<std::string>{"fuzzy.pitch.reading linear rounded_step", "fuzzy.hysteresis 0.05 0",
+                                "static_lod.terrain levels static_trees", "symbology.enabled false true"}));
   EXPECT_EQ(keys("as-published", "as-printed"),
             std::vector<std::string>{"fuzzy.altitude.reading table equation_a"});
 }
