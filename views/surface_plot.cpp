@@ -107,7 +107,7 @@ void SurfacePlot::makePlottables() {
   scale_->setBarWidth(12);
   scale_->setRangeDrag(false);
   scale_->setRangeZoom(false);
-  scale_->axis()->setLabel(tr("Total membership and depth map"));
+  scale_->axis()->setLabel(tr("Total and depth map"));
   plotLayout()->addElement(0, 1, scale_);
   auto* margins = new QCPMarginGroup(this);
   axisRect()->setMarginGroup(QCP::msTop | QCP::msBottom, margins);

@@ -197,11 +197,12 @@ constexpr std::array kRules{
     Rule{"fuzzy.rules", "At least one of the rules' weights is above 0.", someRuleCounts,
          [](const TuningParameters&) { return std::string("at least one rule's weight above 0"); },
          [](const TuningParameters& p) { return "0 for all " + std::to_string(p.scheme.rules.size); }},
-    Rule{"motion.left_fov_deg",
-         "The fields of view to the left and right are not both 0, else every frame that moves would be fast.",
-         someFieldOfViewIsLeft,
-         [](const TuningParameters&) { return std::string("left or right field of view above 0 deg"); },
-         [](const TuningParameters&) { return std::string("0 deg for both"); }},
+    Rule{
+        "motion.left_fov_deg",
+        "The fields of view to the left and right are not both 0, else every frame that moves would be fast.",
+        someFieldOfViewIsLeft,
+        [](const TuningParameters&) { return std::string("left or right field of view above 0 deg"); },
+        [](const TuningParameters&) { return std::string("0 deg for both"); }},
 };
 
 }  // namespace
