@@ -12,6 +12,7 @@
 #include "trimtab/terrain/scenery.h"
 #include "trimtab/terrain/scenery_import.h"
 #include "trimtab/terrain/static_lod.h"
+#include "trimtab/terrain/static_lod_sea.h"
 #include "trimtab/terrain/store.h"
 #include "trimtab/terrain/tiled_database.h"
 
@@ -182,7 +183,7 @@ Result<std::shared_ptr<const Database>> bake(const BakeOptions& options) {
     auto built = buildStaticLod(imported->meshes, geometry.frame(), trees);
     findings.insert(findings.end(), built.findings().begin(), built.findings().end());
     if (!built) return findings;
-    contents.staticLod = *built;
+    contents.staticLod = withOpenSea(*built, imported->meshes, contents.grid);
     share = 1;
     (*imported).meshes.clear();
   }
