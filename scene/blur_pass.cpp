@@ -19,12 +19,14 @@ const char* const kFragment = R"(#version 430 compatibility
 layout(binding = 0) uniform sampler2D picture;
 layout(binding = 1) uniform sampler2D before;
 uniform float keep;
-out vec4 fragment;
+layout(location = 0) out vec4 sum;
+layout(location = 1) out vec4 shown;
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   vec4 now = texelFetch(picture, at, 0);
   // What was before the first picture is nothing, not even a number.
-  fragment = keep > 0.0 ? vec4(mix(now.rgb, texelFetch(before, at, 0).rgb, keep), now.a) : now;
+  sum = keep > 0.0 ? vec4(mix(now.rgb, texelFetch(before, at, 0).rgb, keep), now.a) : now;
+  shown = sum;
 }
 )";
 
@@ -48,6 +50,7 @@ void BlurPass::resize(int width, int height) {
   if (width_ > 0) {
     glDeleteFramebuffers(2, frame_.data());
     glDeleteTextures(2, texture_.data());
+    glDeleteTextures(1, &shown_);
   }
   width_ = width;
   height_ = height;
@@ -55,6 +58,10 @@ void BlurPass::resize(int width, int height) {
   if (width == 0) return;
   glGenTextures(2, texture_.data());
   glGenFramebuffers(2, frame_.data());
+  // Written along with the sum: converting one picture into the other afterwards took longer than the mix.
+  glGenTextures(1, &shown_);
+  glBindTexture(GL_TEXTURE_2D, shown_);
+  glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA8, width, height);
   for (std::size_t i = 0; i < 2; ++i) {
     glBindTexture(GL_TEXTURE_2D, texture_[i]);
     // 32 bits: at 450 pictures a second a long trail moves by less than half floats can tell apart, and would
@@ -64,6 +71,10 @@ void BlurPass::resize(int width, int height) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, frame_[i]);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_[i], 0);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, shown_, 0);
+    constexpr GLenum kBoth[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    glDrawBuffers(2, kBoth);
+    glReadBuffer(GL_COLOR_ATTACHMENT1);
   }
   glBindTexture(GL_TEXTURE_2D, 0);
 }

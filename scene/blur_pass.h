@@ -32,6 +32,7 @@ class BlurPass {
   unsigned program_ = 0, emptyArray_ = 0;
   int keepUniform_ = -1;
   std::array<unsigned, 2> texture_{}, frame_{};
+  unsigned shown_ = 0;  ///< 8 bits a colour
   int width_ = 0, height_ = 0;
   std::size_t newest_ = 0;  ///< the target that holds the accumulated picture
   double time_ = 0, keep_ = 0;
