@@ -72,17 +72,17 @@ struct Renderer::Impl {
   std::unique_ptr<Gl> gl;
 
   ScenePasses passes() {
-    return {.begin = [this](unsigned) { cullDone = drawStart = Clock::now(); },
-            .occluders = [this](unsigned) { drawOccluders(); },
-            .reduce = [this](unsigned program) { gl->occlusion.reduce(program); },
-            .test = [this](unsigned) { removeHidden(); },
-            .terrain = [this](unsigned) { drawTerrain(); },
-            .wire = [this](unsigned) { drawWire(); },
-            .trees = [this](unsigned program) { drawTrees(program); },
-            .treeWire = [this](unsigned program) { drawTreeWire(program); },
-            .treePicture =
-                [this](unsigned program) { gl->trees.drawPicture(program, trees.visible().tiles); },
-            .lines = [this](unsigned) { gl->lineBuffer.draw(lines); }};
+    return {
+        .begin = [this](unsigned) { cullDone = drawStart = Clock::now(); },
+        .occluders = [this](unsigned) { drawOccluders(); },
+        .reduce = [this](unsigned program) { gl->occlusion.reduce(program); },
+        .test = [this](unsigned) { removeHidden(); },
+        .terrain = [this](unsigned) { drawTerrain(); },
+        .wire = [this](unsigned) { drawWire(); },
+        .trees = [this](unsigned program) { drawTrees(program); },
+        .treeWire = [this](unsigned program) { drawTreeWire(program); },
+        .treePicture = [this](unsigned program) { gl->trees.drawPicture(program, trees.visible().tiles); },
+        .lines = [this](unsigned) { gl->lineBuffer.draw(lines); }};
   }
 
   void drawOccluders();
@@ -172,9 +172,8 @@ void Renderer::Impl::drawNodes(unsigned program, std::span<const TileDraw> nodes
   if (!overlays.colourByReason && !overlays.colourByLevel) return gl->trees.draw(program, nodes);
   tints.clear();
   for (const TileDraw& node : nodes)
-    tints.push_back(overlays.colourByReason
-                        ? rgba(reasonColour(trees.visible().reason[node.node]), 150)
-                        : rgba(levelColour(trees.index().nodes[node.node].depth), 150));
+    tints.push_back(overlays.colourByReason ? rgba(reasonColour(trees.visible().reason[node.node]), 150)
+                                            : rgba(levelColour(trees.index().nodes[node.node].depth), 150));
   gl->trees.drawTinted(program, nodes, tints);
 }
 
@@ -190,8 +189,7 @@ void Renderer::Impl::prepareTrees(SceneView& view) {
   const auto start = Clock::now();
   trees.select(r, r.frozenEye.value_or(view.eye), counters);
   cost.select = millisecondsBetween(start, Clock::now());
-  counters.tilesBuilt +=
-      gl->trees.prepare(r.overlays.colourByReason ? trees.cut() : trees.visible().tiles);
+  counters.tilesBuilt += gl->trees.prepare(r.overlays.colourByReason ? trees.cut() : trees.visible().tiles);
   culling.clear();
   counters.depthMap = trees.occlusion(r, counters);
   counters.depthMapsDrawn += counters.depthMap.has_value();
@@ -230,7 +228,8 @@ void Renderer::Impl::prepare(SceneView& view) {
     view.depth = culling.prepareOcclusion(r, gl->tiles, gl->occlusion, counters);
     view.oneSided = culling.eyeIsAboveGround() && !r.frozenEye;
     if (r.overlays.tileBounds)
-      addBoxes(database->index().bounds, culling.cut().tiles, culling.visible().reason, view.eye.position, lines);
+      addBoxes(database->index().bounds, culling.cut().tiles, culling.visible().reason, view.eye.position,
+               lines);
   } else {
     view.eye = {{}, eyeAxes(LocalFrame(r.eye), r.eye, r.attitude)};
     culling.clear();
@@ -349,7 +348,8 @@ std::vector<float> Renderer::readDistances() {
     for (int x = 0; x < v.widthPx; ++x, ++i) {
       const double across = v.left + (v.right - v.left) * (x + 0.5) / v.widthPx;
       const double up = v.bottom + (v.top - v.bottom) * (y + 0.5) / v.heightPx;
-      distances[i] = static_cast<float>(v.nearM / double{distances[i]} * std::sqrt(1 + across * across + up * up));
+      distances[i] =
+          static_cast<float>(v.nearM / double{distances[i]} * std::sqrt(1 + across * across + up * up));
     }
   return distances;
 }
