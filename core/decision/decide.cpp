@@ -7,8 +7,8 @@
 #include "trimtab/fuzzy/bands.h"
 #include "trimtab/fuzzy/combination.h"
 #include "trimtab/fuzzy/membership.h"
-#include "trimtab/weather/weather.h"
 #include "trimtab/motion/head_motion.h"
+#include "trimtab/weather/weather.h"
 
 namespace trimtab {
 namespace {
@@ -70,8 +70,6 @@ std::string outcomeText(const FrameDecision& d) {
 /// Documents A and B: which scheme, and how large a depth map.
 void decideScheme(const FrameInput& input, const ValidatedParameters& parameters, DecisionMemory& memory,
                   FrameDecision& decision) {
-  decision.weather = decideWeather(input.state, *parameters);
-
   const bool aboveGround = parameters->altitude.reference == AltitudeReference::above_ground;
   if (aboveGround && !input.aboveGround) {
     decision.reason = SchemeReason::altitude_unknown;
@@ -114,9 +112,13 @@ void decideScheme(const FrameInput& input, const ValidatedParameters& parameters
 }  // namespace
 
 FrameDecision decide(const FrameInput& input, const ValidatedParameters& parameters, DecisionMemory& memory) {
-  FrameDecision decision;
+  // Made in place: copying what was just written in smaller pieces takes the processor longer than deciding
+  // it.
+  FrameDecision decision{.ruleFiring = {},
+                         .depthMap = {},
+                         .motion = decideMotion(input.state, parameters->motion, memory.motion),
+                         .weather = decideWeather(input.state, *parameters)};
   decideScheme(input, parameters, memory, decision);
-  decision.motion = decideMotion(input.state, parameters->motion, memory.motion);
   decision.lodScale = parameters->lod.scale.value() * decision.motion.lodScale;
   return decision;
 }
