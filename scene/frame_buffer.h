@@ -16,7 +16,6 @@ class FrameBuffer {
   void resize(int width, int height);
   unsigned id() const { return id_; }
   unsigned colourTexture() const { return colour_; }
-  unsigned depthTexture() const { return depth_; }
   /// Reversed depths, row 0 at the bottom; 0 where nothing was drawn.
   std::vector<float> readDepths() const;
   int width() const { return width_; }
