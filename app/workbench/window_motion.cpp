@@ -26,8 +26,7 @@ void MainWindow::connectMotion() {
         feed_.useHead(Feed::Head::host);
     }
   });
-  connect(viewport_, &Viewport::pointed, this,
-          [this](QPointF place) { feed_.point(place.x(), place.y()); });
+  connect(viewport_, &Viewport::pointed, this, [this](QPointF place) { feed_.point(place.x(), place.y()); });
   connect(&feed_, &Feed::headChanged, this, &MainWindow::showHeadSource);
 }
 
