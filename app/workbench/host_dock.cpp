@@ -122,6 +122,7 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
              tr("Weather Control that is not drawn: of regions and entities, and of layers other than rain "
                 "and snow"));
   bad_ = addRow(*form, tr("Bad packets"), tr("Refused; the first one is shown below"));
+  for (QLabel* wide : {picture_, counts_}) wide->setWordWrap(true);
   firstBad_->setReadOnly(true);
   firstBad_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
   firstBad_->setLineWrapMode(QPlainTextEdit::NoWrap);
@@ -272,7 +273,6 @@ void HostDock::refresh() {
                              .arg(number(host.received), number(host.states), number(host.repeated),
                                   number(host.reordered), number(feed_.receiver()->dropped()))
                        : kNone);
-  counts_->setWordWrap(true);
   jumps_->setText(any ? number(std::max(session.jumps(), host.jumps)) : kNone);
   weather_->setText(any ? tr("%1 of regions or entities, %2 of other layers")
                               .arg(number(host.regionalWeather), number(host.otherLayers))
