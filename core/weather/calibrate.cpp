@@ -94,10 +94,10 @@ void Search::take(double farM, double density, double ms) {
 /// Step 4: the cut wins more than the weather costs. By halves of the logarithm, because what a far plane
 /// costs grows with its square near the eye and with nothing once it is beyond the terrain.
 bool Search::pushOut() {
-  double low = result_.visibilityM, high = settings_.farthestM;
+  double low = result_.visibilityM, high = std::max(settings_.farthestM, low);
   result_.outcome = CalibrationOutcome::not_settled;
   take(low, result_.presetDensity, result_.strongestMs);
-  for (int trial = 0; trial < settings_.mostTrials; ++trial) {
+  for (int trial = 0; trial < settings_.mostTrials && high > low; ++trial) {
     const double farM = std::sqrt(low * high);
     const std::optional<double> ms = frame(farM, result_.presetDensity);
     if (!ms) return false;
