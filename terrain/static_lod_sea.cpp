@@ -110,14 +110,7 @@ void append(StaticLodTerrain& trees, const Bucket& bucket, std::uint16_t materia
   index.maxErrorM.push_back(0);
   index.slopeMax.push_back(1);
   trees.ranges.push_back({0, triangles});
-  StaticLodCounts& counts = trees.counts;
-  counts.levels = std::max(counts.levels, 1u);
-  counts.facesOfLevel.resize(counts.levels);
-  for (std::uint64_t& faces : counts.facesOfLevel) faces += triangles;
-  for (std::uint64_t* sum : {&counts.sourceTriangles, &counts.faces, &counts.distinctFaces})
-    *sum += triangles;
-  counts.bytes +=
-      tile.vertices.size() * sizeof(StaticLodVertex) + tile.indices.size() * sizeof(std::uint32_t);
+  trees.counts.distinctFaces += triangles;
   trees.tiles.push_back(std::move(tile));
 }
 
@@ -133,6 +126,7 @@ std::shared_ptr<const StaticLodTerrain> withOpenSea(std::shared_ptr<const Static
   const auto material = static_cast<std::uint16_t>(ocean - whole->materials.begin());
   if (ocean == whole->materials.end()) whole->materials.push_back("Ocean");
   for (const Bucket& bucket : sea) append(*whole, bucket, material);
+  countStaticLod(*whole);
   return whole;
 }
 
