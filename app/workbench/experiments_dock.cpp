@@ -226,7 +226,8 @@ void ExperimentsDock::cancel() {
   if (!running()) return;
   cancelled_ = true;
   status_->setText(tr("Cancelling…"));
-  ::kill(static_cast<pid_t>(process_.processId()), SIGINT);
+  // 0 would be this program and all it started.
+  if (const auto id = static_cast<pid_t>(process_.processId()); id > 0) ::kill(id, SIGINT);
   QTimer::singleShot(kStopMs, &process_, [this] {
     if (cancelled_ && running()) process_.kill();
   });
