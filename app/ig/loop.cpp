@@ -55,7 +55,8 @@ class Loop {
     double seconds = run_.feed.dueIn(now);
     if (run_.watch) seconds = std::fmin(seconds, PresetWatch::kPeriodS);
     const session::LinkState link = run_.session.linkState(now);
-    const bool moving = link == session::LinkState::live || link == session::LinkState::jumped;
+    const bool moving =
+        link == session::LinkState::live || link == session::LinkState::jumped || run_.session.blurred();
     if (run_.surface.hasViewer() && moving) seconds = std::fmin(seconds, kViewerPeriodS);
     run_.wake.wait(seconds, run_.surface.eventFd());
   }

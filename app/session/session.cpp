@@ -46,10 +46,6 @@ std::string_view toText(LinkState state) {
   return "";
 }
 
-Attitude viewAttitude(const Attitude& aircraft, const std::optional<Attitude>& head) {
-  return lineOfSight(aircraft, head);
-}
-
 Session::Session(const ValidatedParameters& parameters) : parameters_(parameters) {}
 
 void Session::setParameters(const ValidatedParameters& parameters) {
@@ -206,7 +202,7 @@ bool Session::needsPicture(double now) const {
 scene::SymbologyState Session::symbols(const AircraftState& eye) const {
   scene::SymbologyState symbols;
   symbols.aircraft = eye.attitude;
-  symbols.view = viewAttitude(eye.attitude, eye.head);
+  symbols.view = lineOfSight(eye.attitude, eye.head);
   symbols.altitude = eye.position.height;
   symbols.velocity = velocityOf(eye);
   symbols.speed = eye.airspeed;
@@ -229,7 +225,7 @@ std::optional<scene::FrameRequest> Session::request(double now, int windowWidthP
   request.time = eye.time;
   request.eye = eye.position;
   request.velocity = velocityOf(eye);
-  request.attitude = viewAttitude(eye.attitude, eye.head);
+  request.attitude = lineOfSight(eye.attitude, eye.head);
   request.view = viewShape(parameters_->view, windowWidthPx, windowHeightPx, eye.view);
   request.decision = decision_;
   MotionBlur& blur = request.decision.motion.blur;

@@ -40,9 +40,6 @@ struct Latency {
   SampleWindow frame{4096};  ///< from the request of a picture that shows a packet to its end
 };
 
-/// The line of sight: the head's attitude, relative to the aircraft's axes, in the world.
-Attitude viewAttitude(const Attitude& aircraft, const std::optional<Attitude>& head);
-
 class Session {
  public:
   explicit Session(const ValidatedParameters& parameters);
@@ -97,6 +94,8 @@ class Session {
   /// moves on between packets, or a blur has not run out. False when the host is silent and nothing was
   /// edited.
   bool needsPicture(double now) const;
+  /// Whether the last picture asked for was blurred: one more is due, though nothing else moves.
+  bool blurred() const { return blurDrawn_; }
   /// The state that the eye has at `now`: between packets it moves on along the recent velocity. Only with
   /// `hasState`.
   AircraftState eyeState(double now) const;

@@ -66,5 +66,35 @@ TEST(LineOfSight, pointsWhereTurningAxisByAxisPoints) {
   }
 }
 
+/// Unit quaternions, as an independent way to turn a vector by heading, pitch and roll.
+struct Quaternion {
+  double w, x, y, z;
+  friend Quaternion operator*(Quaternion a, Quaternion b) {
+    return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+            a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+  }
+};
+Quaternion quaternionOf(const Attitude& a) {
+  const double h = a.heading.in<Radians>() / 2, p = a.pitch.in<Radians>() / 2, r = a.roll.in<Radians>() / 2;
+  return Quaternion{std::cos(h), 0, 0, std::sin(h)} * Quaternion{std::cos(p), 0, std::sin(p), 0} *
+         Quaternion{std::cos(r), std::sin(r), 0, 0};
+}
+
+TEST(LineOfSight, isTheHeadsTurnInsideTheAircraftsTurn) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> turn(-180, 180), nod(-90, 90);
+  for (int i = 0; i < 2000; ++i) {
+    Attitude aircraft{Degrees{turn(random)}, Degrees{nod(random)}, Degrees{turn(random)}};
+    Attitude head{Degrees{turn(random)}, Degrees{nod(random)}, Degrees{turn(random)}};
+    if (i % 5 == 0) aircraft = {aircraft.heading, Degrees{i % 2 ? 90.0 : -90.0}, Degrees{0}};
+    if (i % 10 == 0) head = {Degrees{0}, Degrees{0}, head.roll};
+    const Quaternion meant = quaternionOf(aircraft) * quaternionOf(head);
+    const Quaternion got = quaternionOf(lineOfSight(aircraft, head));
+    const double same = std::abs(meant.w * got.w + meant.x * got.x + meant.y * got.y + meant.z * got.z);
+    // Near the vertical, heading and roll come from a difference of 1e-8 or so.
+    EXPECT_NEAR(same, 1, 1e-11) << i;
+  }
+}
+
 }  // namespace
 }  // namespace trimtab
