@@ -160,7 +160,8 @@ class MainWindow : public QMainWindow {
   Feed feed_{draft_.active()};
   TerrainJob terrainJob_;
   std::shared_ptr<const terrain::Database> terrain_;
-  QString terrainSource_;
+  QString terrainSource_;  ///< what was asked for last; empty for the sample
+  QString openedTerrain_;  ///< where `terrain_` comes from
 
   SymbologyEditor symbologyEditor_{draft_};
   Viewport* viewport_ = nullptr;

@@ -130,6 +130,7 @@ std::optional<views::StaticLodSummary> summaryOf(const terrain::StaticLodTerrain
 
 void MainWindow::onTerrainOpened(std::shared_ptr<const terrain::Database> database) {
   terrain_ = std::move(database);
+  openedTerrain_ = QString::fromStdString(terrainJob_.source().string());
   frozenEye_.reset();
   freezeAction_->setChecked(false);
   if (!terrainSource_.isEmpty()) remember(QStringLiteral("terrain"), terrainSource_);
@@ -250,7 +251,7 @@ bool MainWindow::startTrace(const QString& file) {
 
 std::optional<ExperimentInputs> MainWindow::experimentInputs(const QString& folder) {
   if (!terrain_) return std::nullopt;
-  ExperimentInputs inputs{QString::fromStdString(terrainJob_.source().string()), {}, folder + "/preset.json"};
+  ExperimentInputs inputs{openedTerrain_, {}, folder + "/preset.json"};
   const auto write = [this](const QString& file, const std::string& text) {
     const auto written = writeAtomically(file.toStdString(), text);
     if (!written) messages_->add(tr("The experiment's input cannot be written"), written.findings());
