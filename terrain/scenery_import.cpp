@@ -228,6 +228,10 @@ Result<ImportedScenery> importScenery(std::span<const std::filesystem::path> sou
       if (names.insert(mesh.name).second) all.tiles.push_back(std::move(mesh));
     all.missing.insert(all.missing.end(), part->missing.begin(), part->missing.end());
   }
+  // Ground that a broken tile leaves out would look like sea or like a plain: better no database than that.
+  if (std::any_of(findings.begin(), findings.end(),
+                  [](const Finding& f) { return f.severity == Severity::error; }))
+    return findings;
   ImportedScenery imported;
   imported.counts = countsOf(all);
   const auto posts = sceneryPosts(all.tiles, distance);

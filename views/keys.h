@@ -17,4 +17,9 @@ inline constexpr std::string_view kCombination = "fuzzy.combination";
 inline constexpr std::string_view kRules = "fuzzy.rules";
 inline constexpr std::string_view kBudget = "measure.budget_ms";
 
+/// Whether a dock edits this row by more than its text.
+constexpr bool hasEditor(std::string_view key) {
+  return key == kAltitudeCurve || key == kPitchCurve || key == kBands || key == kRules;
+}
+
 }  // namespace trimtab::views::key

@@ -9,6 +9,7 @@
 #include <QToolButton>
 
 #include "trimtab/views/choice_box.h"
+#include "trimtab/views/keys.h"
 #include "trimtab/views/number_box.h"
 #include "trimtab/views/parameter_slider.h"
 #include "trimtab/views/theme.h"
@@ -60,7 +61,7 @@ ParameterLine::ParameterLine(Draft& draft, const ParameterRow& row, QGridLayout&
     both->addWidget(editor_);
     both->addWidget(new ParameterSlider(draft, row.key), 1);
   }
-  if (row.kind == Kind::curve || row.kind == Kind::bands || row.kind == Kind::rules) {
+  if (key::hasEditor(row.key)) {
     field_ = new QWidget;
     QHBoxLayout* both = new QHBoxLayout(field_);
     both->setContentsMargins(0, 0, 0, 0);

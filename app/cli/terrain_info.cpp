@@ -141,6 +141,9 @@ int printSceneryInfo(const std::filesystem::path& path, bool json) {
   const auto scenery = terrain::readScenery(path);
   report(scenery.findings());
   if (!scenery) return kRefused;
+  // What can be read is told all the same.
+  const bool whole = std::none_of(scenery.findings().begin(), scenery.findings().end(),
+                                  [](const Finding& f) { return f.severity == Severity::error; });
   std::map<std::string, std::uint64_t> materials;
   Json meshes = Json::array();
   for (const terrain::SceneryMesh& mesh : scenery->tiles) {
@@ -153,7 +156,7 @@ int printSceneryInfo(const std::filesystem::path& path, bool json) {
                     {"files", meshes}};
   if (json) {
     printDocument(all);
-    return kDone;
+    return whole ? kDone : kRefused;
   }
   printLines(all);
   for (const auto& mesh : all["files"])
@@ -161,7 +164,7 @@ int printSceneryInfo(const std::filesystem::path& path, bool json) {
               << mesh["version"] << ", " << mesh["triangles"] << " triangles (" << mesh["degenerate"]
               << " degenerate dropped), " << mesh["lowest_m"].get<double>() << " to "
               << mesh["highest_m"].get<double>() << " m\n";
-  return kDone;
+  return whole ? kDone : kRefused;
 }
 
 }  // namespace trimtab::cli

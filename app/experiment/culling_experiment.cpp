@@ -82,9 +82,7 @@ Result<Report> runCulling(const Setup& setup) {
   auto stage = Stage::open(setup);
   if (!stage) return stage.findings();
   const std::vector<Place> places = placesOf(setup, 20);
-  if (places.empty())
-    return Finding{
-        Severity::error, setup.terrainName, {}, "a flight over the terrain", "no place lies over it"};
+  if (places.empty()) return notOverTerrain(setup);
 
   std::array<std::array<Sums, kCases.size()>, kAltitudesFt.size()> sums;
   double eyeFt = 0;

@@ -46,7 +46,11 @@ class View {
     request_.decision.weather = {};
   }
 
-  void setError(double px) { request_.lod.screenSpaceError = Pixels{px}; }
+  /// Of tiled levels and of static trees, whichever is drawn.
+  void setError(double px) {
+    request_.lod.screenSpaceError = Pixels{px};
+    request_.staticLod.errorPx = Pixels{px};
+  }
   double vertices() {
     request_.decision.weather = {};
     return double(stage_.draw(request_).visible.vertices);
@@ -87,6 +91,12 @@ double errorFor(View& view, double vertices, double& reached) {
   return error;
 }
 
+/// From corner to corner of the terrain: a cut there cuts nothing.
+double farthest(const Setup& setup) {
+  const terrain::TerrainInfo& info = setup.terrain->info();
+  return length(toEcef(info.northEast) - toEcef(info.southWest));
+}
+
 WeatherDecision weatherOf(const TuningParameters& parameters, WeatherStep step, RatioMode mode) {
   TuningParameters changed = parameters;
   changed.weather.source = WeatherSource::preset;
@@ -124,9 +134,7 @@ Result<Report> runWeather(const Setup& setup) {
   auto stage = Stage::open(setup);
   if (!stage) return stage.findings();
   const std::vector<Place> places = placesOf(setup, 1);
-  if (places.empty())
-    return Finding{
-        Severity::error, setup.terrainName, {}, "a flight over the terrain", "no place lies over it"};
+  if (places.empty()) return notOverTerrain(setup);
 
   Report report{"weather", "D: frame rates with weather", (*stage)->machine(), publishedWeather(), {}, {},
                 {}};
@@ -176,6 +184,7 @@ Result<Report> runWeather(const Setup& setup) {
         settings.tolerance = plain.weather.tolerance.value();
         settings.repeats = 1;  // a view's measurement is a median already
         settings.mostTrials = kMostTrials;
+        settings.farthestM = farthest(setup);
         const auto found = calibrateStep(
             step, plain,
             [&](const WeatherDecision& weather) -> std::optional<double> {
@@ -197,7 +206,7 @@ Result<Report> runWeather(const Setup& setup) {
         const WeatherDecision weather = weatherOf(tuned, step, RatioMode::adaptive);
         const scene::CutError lost = view.cutError(weather);
         report.measured.rows.push_back({reached, fall.name, kDensities[d], 1000 / fixedMs, 1000 / ms,
-                                        found->uncutMs, ms, ms / clearMs, weather.farM / 1000,
+                                        found->uncutMs, ms, ms / found->clearMs, weather.farM / 1000,
                                         weather.visibilityM / 1000, found->density, double(lost.changed),
                                         double(lost.largest), std::string(toText(found->outcome))});
       }
@@ -212,7 +221,7 @@ Result<Report> runWeather(const Setup& setup) {
       plain.weather.fixedRatio.value(), plain.weather.tolerance.value() * 100);
   report.notes.insert(report.notes.begin(), text);
   report.notes.push_back(
-      "frame_ms_ratio is to the clear frame of the same view. Where the outcome says that the cut is not "
+      "frame_ms_ratio is to the clear frame measured just before. Where the outcome says that the cut is not "
       "enough, what "
       "falls costs more than the whole terrain: density_that_fits is what this machine can show.");
   report.notes.push_back(

@@ -99,7 +99,7 @@ TEST_F(LongFlight, holdsWithHeadMotionWeatherAndAllDocksOpen) {
   w().stopTrace();
   EXPECT_LE(slowestPaints, 1u) << "pictures drawn before a queued event was answered";
   EXPECT_EQ(errors, 0u) << "GL errors";
-  EXPECT_LT(last - third, 24 + 8 * seconds / 60) << "MiB more at the end than after a third";
+  EXPECT_LT(last - third, 32) << "MiB more at the end than after a third, however long the flight";
   std::cout << "resident after a third " << third << " MiB, at the end " << last << " MiB; " << paints()
             << " pictures, " << session().packets() << " packets" << std::endl;
 

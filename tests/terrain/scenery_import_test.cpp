@@ -244,6 +244,16 @@ TEST_F(SceneryBake, servesTheTreesItWrote) {
   EXPECT_EQ((*baked)->info().bytes, (*database)->info().bytes);
 }
 
+TEST_F(SceneryBake, refusesSceneryWithABrokenTile) {
+  test::writeFile(dir_ / "scenery/3072817.btg.gz", "\x1f\x8b broken");
+  for (const auto& entry : std::filesystem::directory_iterator(dir_ / "scenery"))
+    if (entry.path().extension() == ".stg") std::filesystem::remove(entry.path());
+  const auto baked = terrain::bake(options());
+  ASSERT_FALSE(baked) << "its ground would look like sea";
+  EXPECT_NE(toString(baked.findings()).find("3072817"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "db"));
+}
+
 TEST_F(SceneryBake, isRefusedWithoutItsTreesOrWithOthers) {
   auto other = options();
   ASSERT_TRUE(terrain::bake(other));
