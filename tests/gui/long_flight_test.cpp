@@ -73,6 +73,13 @@ TEST_F(LongFlight, holdsWithHeadMotionWeatherAndAllDocksOpen) {
   options.to = {"127.0.0.1", port};
   options.protocol = WireProtocol::cigi3;
   options.speed = std::max(1.0, flight.durationS() / seconds);
+  // A recorded head where there is one; else the flight's own sweeps.
+  if (const auto recorded = sharedDir() / "data/headmotion-mv360/user1_euler.txt";
+      std::filesystem::exists(recorded)) {
+    Result<HeadLog> log = readHeadLog(recorded);
+    ASSERT_TRUE(log) << toString(log.findings());
+    options.head = std::move(log).value();
+  }
   auto player = link::FeedPlayer::start(flight, options);
   ASSERT_TRUE(player) << toString(player.findings());
 
