@@ -74,7 +74,8 @@ void ReportPlot::addLines() {
 
 void ReportPlot::addBars() {
   auto names = QSharedPointer<QCPAxisTickerText>::create();
-  for (int i = 0; i < data_.categories.size(); ++i) names->addTick(i + 1, data_.categories[i]);
+  for (int i = 0; i < data_.categories.size(); ++i)
+    names->addTick(i + 1, QString(data_.categories[i]).replace(QLatin1Char(' '), QLatin1Char('\n')));
   plot_->xAxis->setTicker(names);
   auto* group = new QCPBarsGroup(plot_);
   double largest = 0;

@@ -9,7 +9,7 @@
 namespace trimtab::experiment {
 namespace {
 
-constexpr double kWidth = 720, kHeight = 400, kLeft = 74, kRight = 20, kTop = 74, kBottom = 56;
+constexpr double kWidth = 720, kHeight = 400, kLeft = 74, kRight = 20, kTop = 74, kBottom = 60;
 /// Okabe and Ito's colours, told apart by the colour-blind too.
 constexpr std::array<const char*, 6> kColours{"#0072b2", "#d55e00", "#009e73",
                                               "#cc79a7", "#e69f00", "#56b4e9"};
@@ -64,7 +64,7 @@ class Drawing {
         "font-size=\"13\">\n<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
         kWidth, kHeight);
     text(kWidth / 2, 20, "middle", plot_.title, "font-weight=\"bold\"");
-    text((kLeft + kWidth - kRight) / 2, kHeight - 12, "middle", plot_.xLabel);
+    text((kLeft + kWidth - kRight) / 2, kHeight - 8, "middle", plot_.xLabel);
     out_ += formatted("<text x=\"18\" y=\"%.1f\" text-anchor=\"middle\" transform=\"rotate(-90 18 %.1f)\">",
                       (kTop + kHeight - kBottom) / 2, (kTop + kHeight - kBottom) / 2) +
             escaped(plot_.yLabel) + "</text>\n";
@@ -100,7 +100,7 @@ class Drawing {
     }
     if (bars_) {
       for (std::size_t i = 0; i < plot_.categories.size(); ++i)
-        text(px(double(i) + 0.5), kHeight - kBottom + 18, "middle", plot_.categories[i]);
+        category(px(double(i) + 0.5), plot_.categories[i]);
     } else {
       for (double x = x_.low; x <= x_.high + x_.step / 2; x += x_.step) {
         line(px(x), kHeight - kBottom, px(x), kHeight - kBottom + 5, "#444444");
@@ -110,6 +110,13 @@ class Drawing {
     }
     line(kLeft, kHeight - kBottom, kWidth - kRight, kHeight - kBottom, "#444444");
     line(kLeft, kTop, kLeft, kHeight - kBottom, "#444444");
+  }
+
+  /// Two words stand on two lines: twelve categories have no room for both on one.
+  void category(double x, const std::string& words) {
+    const std::size_t space = words.find(' ');
+    text(x, kHeight - kBottom + 16, "middle", words.substr(0, space));
+    if (space != std::string::npos) text(x, kHeight - kBottom + 30, "middle", words.substr(space + 1));
   }
 
   void drawBars() {
