@@ -54,6 +54,7 @@ class Reader {
  public:
   explicit Reader(std::string_view bytes) : bytes_(bytes) {}
   bool failed() const { return failed_; }
+  void refuse() { failed_ = true; }
   bool atEnd() const { return at_ == bytes_.size(); }
 
   template <class T>
@@ -133,8 +134,9 @@ void read(Reader& in, StaticLodTerrain& terrain) {
   in.number(terrain.trianglesPerNode);
   double latitude = 0, longitude = 0, height = 0;
   for (double* v : {&latitude, &longitude, &height}) in.number(*v);
-  if (std::abs(latitude) <= 90 && std::abs(longitude) <= 180 && std::abs(height) <= 1e6)
-    index.frame = LocalFrame({Degrees{latitude}, Degrees{longitude}, Metres{height}});
+  if (!(std::abs(latitude) <= 90 && std::abs(longitude) <= 180 && std::abs(height) <= 1e6))
+    return in.refuse();
+  index.frame = LocalFrame({Degrees{latitude}, Degrees{longitude}, Metres{height}});
   for (std::uint64_t* v : {&terrain.counts.distinctFaces, &terrain.counts.joinedVertices,
                            &terrain.counts.degenerate, &terrain.counts.repeated, &terrain.counts.folded})
     in.number(*v);

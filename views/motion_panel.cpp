@@ -36,6 +36,7 @@ QString stackText(const MotionStack& stack, double limit, bool ms, bool more) {
 
 MotionPanel::MotionPanel(Draft& draft, QWidget* parent)
     : QWidget(parent),
+      draft_(draft),
       source_(new QComboBox),
       open_(new QPushButton(tr("Open &log…"))),
       name_(new QLabel),
@@ -193,7 +194,7 @@ void MotionPanel::refresh() {
                   .colour = 1});
   bars.push_back({.name = tr("Blur"),
                   .value = m.blur.remainingMs,
-                  .top = std::max(400.0, m.blur.remainingMs),
+                  .top = std::max(draft_.active()->motion.blurDuration.value(), m.blur.remainingMs),
                   .text = m.blur.strength > 0
                               ? tr("%1 ms left, strength %2")
                                     .arg(numberText(m.blur.remainingMs, 0), numberText(m.blur.strength, 2))

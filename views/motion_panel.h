@@ -52,6 +52,7 @@ class MotionPanel : public QWidget {
   void showWidgetsOf(Source source);
   void note(const LiveFrame& frame);
 
+  Draft& draft_;
   QComboBox* source_;
   QPushButton* open_;
   QLabel *name_, *state_;

@@ -146,7 +146,7 @@ void Viewport::paintGL() {
     picture = source_(pixels.width(), pixels.height());
   if (picture) {
     drawPicture(*picture, pixels.width(), pixels.height());
-    editSymbols(*picture, pixels);
+    placePicture(*picture, pixels);
     if (picture->hud) picture->overlay.hud = picture->hud();
   } else {
     QOpenGLFunctions& gl = *context()->functions();
@@ -205,7 +205,8 @@ std::optional<Viewport::Measured> Viewport::measure(const scene::FrameRequest& r
   makeCurrent();
   if (std::exchange(terrainChanged_, false)) renderer_->setTerrain(terrain_);
   const QSize size(request.view.widthPx, request.view.heightPx);
-  if (unseen_ == nullptr || unseen_->size() != size) unseen_ = std::make_unique<QOpenGLFramebufferObject>(size);
+  if (unseen_ == nullptr || unseen_->size() != size)
+    unseen_ = std::make_unique<QOpenGLFramebufferObject>(size);
   QOpenGLFunctions& gl = *context()->functions();
   gl.glFinish();
   QElapsedTimer timer;
@@ -252,14 +253,14 @@ void Viewport::setSymbologyEditor(SymbologyEditor* editor) {
   });
 }
 
-void Viewport::editSymbols(const Picture& picture, QSize pixels) {
-  if (editor_ == nullptr || !editor_->active()) return;
+void Viewport::placePicture(const Picture& picture, QSize pixels) {
   const ViewShape& view = picture.request.view;
   const QRect at = letterbox({view.widthPx, view.heightPx}, pixels);
   const double scale = 1 / devicePixelRatioF();
-  editor_->setPicture(picture.request.symbology, view,
-                      {at.left() * scale, (pixels.height() - at.top() - at.height()) * scale, at.width() * scale,
-                       at.height() * scale});
+  pictureAt_ = {at.left() * scale, (pixels.height() - at.top() - at.height()) * scale, at.width() * scale,
+                at.height() * scale};
+  if (editor_ != nullptr && editor_->active())
+    editor_->setPicture(picture.request.symbology, view, pictureAt_);
 }
 
 void Viewport::keyPressEvent(QKeyEvent* event) {
@@ -302,10 +303,9 @@ void Viewport::mouseMoveEvent(QMouseEvent* event) {
     setCursor(editor_->cursor(event->position()));
     return;
   }
-  if (pointerWanted_) {
-    const double right = 2 * event->position().x() / std::max(1, width()) - 1;
-    const double up = 1 - 2 * event->position().y() / std::max(1, height());
-    emit pointed({right, up});
+  if (pointerWanted_ && !pictureAt_.isEmpty()) {
+    const QPointF from = (event->position() - pictureAt_.center()) * 2;
+    emit pointed({from.x() / pictureAt_.width(), -from.y() / pictureAt_.height()});
   }
   if (!cameraEnabled_ || !(event->buttons() & Qt::LeftButton)) return;
   const QPointF moved = event->position() - lastMouse_;

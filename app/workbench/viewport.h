@@ -4,6 +4,7 @@
 #include <QElapsedTimer>
 #include <QImage>
 #include <QOpenGLWidget>
+#include <QRectF>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -88,7 +89,7 @@ class Viewport : public QOpenGLWidget {
   void drawPicture(const Picture& picture, int widthPx, int heightPx);
   void readDepthMap();
   void paintOverlays();
-  void editSymbols(const Picture& picture, QSize pixels);
+  void placePicture(const Picture& picture, QSize pixels);
   void report();
   void paintAgain();
 
@@ -102,6 +103,7 @@ class Viewport : public QOpenGLWidget {
   std::optional<scene::FrameResult> result_;
   FreeCamera camera_;
   SymbologyEditor* editor_ = nullptr;
+  QRectF pictureAt_;  ///< where the last picture lies in the widget
   bool cameraEnabled_ = true, dirty_ = false, again_ = false, depthMapWanted_ = false, pointerWanted_ = false;
   QPointF lastMouse_;
   QString notice_;
