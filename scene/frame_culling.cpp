@@ -77,7 +77,7 @@ std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& requ
                    size->heightPx,
                    OcclusionPass::kLevels,
                    static_cast<int>(testedSlots_.size()),
-                   loweringScale_};
+                   defects_.loweringScale};
 }
 
 void FrameCulling::removeHidden(const TileCache& tiles, OcclusionPass& pass) {

@@ -42,7 +42,7 @@ class FrameCulling {
   const VisibleSet& visible() const { return visible_; }
   /// What may hide others in this frame.
   const std::vector<TileDraw>& occluders() const { return occluders_; }
-  void spoilLowering(double scale) { loweringScale_ = scale; }
+  void plant(const Defects& defects) { defects_ = defects; }
   /// The last frame's depth map, if it drew one.
   Renderer::Grey readDepthMap(const OcclusionPass& pass) const;
 
@@ -64,7 +64,7 @@ class FrameCulling {
   std::vector<std::uint32_t> testedSlots_;
   std::vector<TileDraw> occluders_;
   std::vector<std::uint8_t> flags_;
-  double loweringScale_ = 1;
+  Defects defects_;
   bool depthMapCurrent_ = false;  ///< the last frame drew one
   double nearM_ = 1;              ///< of the last depth map
 };

@@ -364,8 +364,8 @@ Renderer::Grey Renderer::readDepthMap() {
   return impl_->culling.readDepthMap(impl_->gl->occlusion);
 }
 
-void Renderer::spoilLowering(double scale) {
-  impl_->culling.spoilLowering(scale);
+void Renderer::plant(const Defects& defects) {
+  impl_->culling.plant(defects);
 }
 
 std::vector<std::uint8_t> Renderer::readPixels(int width, int height) {

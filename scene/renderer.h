@@ -21,11 +21,11 @@ namespace trimtab::scene {
 struct Overlays {
   bool wireframe = false, tileBounds = false, colourByLevel = false;
   bool colourByReason =
-      false;               ///< draws what was culled too, so that it can be seen (with `frozenEye` above all)
+      false;  ///< draws what was culled too, so that it can be seen (with `frozenEye` above all)
   /// One level of the static trees whatever the distance, 0 at the roots; -1: by distance.
   int treeDepth = -1;
   bool treePicture = false;  ///< document E's: faces light grey, edges red, locked edges black
-  bool showHoles = false;  ///< no sky: magenta wherever no terrain is drawn
+  bool showHoles = false;    ///< no sky: magenta wherever no terrain is drawn
   friend bool operator==(const Overlays&, const Overlays&) = default;
 };
 
@@ -38,8 +38,8 @@ struct FrameRequest {
   double time = 0;  ///< seconds, the host's clock: what moves by itself is where it is at this time
   GeodeticPosition eye;
   std::optional<Velocity> velocity;  ///< of the eye: what falls streaks along it
-  Attitude attitude;  ///< of the view: aircraft, or aircraft and head
-  ViewShape view;     ///< size of the picture
+  Attitude attitude;                 ///< of the view: aircraft, or aircraft and head
+  ViewShape view;                    ///< size of the picture
   FrameDecision decision;
   CullingCase method = CullingCase::proposed;
   LodParameters lod;
@@ -49,6 +49,9 @@ struct FrameRequest {
   std::optional<EyePose> frozenEye;
   /// Over all of it, and never blurred; nothing of it is run where it is absent.
   std::optional<SymbologyRequest> symbology;
+  /// Waits after each pass, so that FrameCost tells blur, weather and symbology apart on a software
+  /// rasteriser too. Costs time: for measurements.
+  bool separateStages = false;
 };
 
 /// Whether a terrain that has static trees is drawn from them.
@@ -61,7 +64,7 @@ struct FrameResult {
   VisibleSet visible;
   FrameCost cost;  ///< milliseconds; gpu is NaN where there is no timer query yet
   std::size_t tilesInCut = 0;
-  StaticLodFrame staticLod;  ///< where `drawn`, the nodes of `visible` are the trees'
+  StaticLodFrame staticLod;              ///< where `drawn`, the nodes of `visible` are the trees'
   std::optional<DepthMapSize> depthMap;  ///< drawn this frame
   std::string note;                      ///< why occlusion was not used although asked for; empty otherwise
   // Counters of work that was skipped or done, since the renderer was made.
@@ -75,6 +78,15 @@ struct GlReport {
   bool software = false;
   bool usable = false;
   std::string missing;  ///< what is not there
+};
+
+/// Mistakes made on purpose, so that a measurement can be seen to find them.
+struct Defects {
+  double loweringScale = 1;  ///< of what the proof of occlusion.h asks for; less than 1 loses pixels
+  std::optional<std::uint32_t> culledNode;  ///< left out although it is visible
+  double statedErrorScale = 1;              ///< of the errors that levels state; less than 1 understates them
+  int depthMapShiftTexels = 0;              ///< the depth map is read so many texels to the side
+  friend bool operator==(const Defects&, const Defects&) = default;
 };
 
 class Renderer {
@@ -95,7 +107,8 @@ class Renderer {
   /// framebuffer bound.
   FrameResult draw(const FrameRequest& request, unsigned fbo);
 
-  /// Metres from the eye to what the last picture shows, infinity where nothing was drawn; row 0 at the bottom.
+  /// Metres from the eye to what the last picture shows, infinity where nothing was drawn; row 0 at the
+  /// bottom.
   std::vector<float> readDistances();
 
   /// The last depth map as 0..1 greys by distance (0 near), row 0 at the bottom; empty when the last frame
@@ -106,9 +119,12 @@ class Renderer {
     std::vector<std::uint8_t> pixels;
   };
   Grey readDepthMap();
-  /// For tests only: lowers occluders by so much of what the proof asks for. Less than 1 loses pixels, and a
-  /// test must be able to see that.
-  void spoilLowering(double scale);
+  /// For tests only, which must be able to see the picture break.
+  void plant(const Defects& defects);
+  /// For each pixel of the last picture the node of `FrameResult::visible` that it shows, kNoNode where it is
+  /// sky; row 0 at the bottom. Draws the visible set once more.
+  static constexpr std::uint32_t kNoNode = 0xffffffffu;
+  std::vector<std::uint32_t> readNodes();
   /// RGBA of what `draw` left, row 0 at the bottom.
   std::vector<std::uint8_t> readPixels(int width, int height);
 

@@ -2,11 +2,12 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
-#include "trimtab/frame/weather_decision.h"
 #include "trimtab/frame/motion_decision.h"
 #include "trimtab/frame/rule_firing.h"
+#include "trimtab/frame/weather_decision.h"
 #include "trimtab/preset/parameters.h"
 #include "trimtab/units/geodesy.h"
 
@@ -74,6 +75,11 @@ ViewShape viewShape(const ViewParameters& parameters, int windowWidthPx, int win
 /// A frame's stages, milliseconds on real clocks; NaN where a stage was not run or cannot be measured.
 struct FrameCost {
   double decide = 0, select = 0, occlusion = 0, cull = 0, draw = 0, gpu = 0, total = 0;
+  double page = kNotMeasured;  ///< making and uploading what the view needs and the GPU lacks
+  // Parts of `draw`. On a software rasteriser known only where the frame waits after each pass.
+  double blur = kNotMeasured, weather = kNotMeasured, symbology = kNotMeasured;
+
+  static constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct FrameInput {

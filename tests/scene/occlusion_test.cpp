@@ -108,10 +108,10 @@ TEST_F(Occlusion, leavesNoPixelOutOverTheSample) {
 // Without this, the tests above might pass because nothing can go wrong where they look.
 TEST_F(Occlusion, losesPixelsWhenOccludersAreNotLowered) {
   use(test::syntheticMountains());
-  renderer.spoilLowering(0);
+  renderer.plant({.loweringScale = 0});
   constexpr std::array<DepthMapSize, 2> kCoarse{{{16, 12}, {24, 18}}};
   EXPECT_GT(fly(24, 1, kCoarse).differing, 0u);
-  renderer.spoilLowering(1);
+  renderer.plant({});
   EXPECT_EQ(fly(24, 1, kCoarse).differing, 0u);
 }
 
