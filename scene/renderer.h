@@ -33,6 +33,17 @@ struct Overlays {
 std::array<std::uint8_t, 3> reasonColour(CullReason reason);
 std::array<std::uint8_t, 3> levelColour(int level);
 
+/// Work that a frame leaves out because its result is known. False does it all the same, which changes no
+/// pixel: for measurements of what leaving it out saves.
+struct Skips {
+  bool sameCut = true;      ///< levels are chosen again only when what they depend on has changed
+  bool tilesOnGpu = true;   ///< what was made and uploaded once is not made again
+  bool blurAtRest = true;   ///< no blur pass where its strength is 0
+  bool clearAir = true;     ///< no precipitation pass where nothing falls
+  bool sameSymbols = true;  ///< symbols are made again only when something in them has changed
+  friend bool operator==(const Skips&, const Skips&) = default;
+};
+
 /// Everything one picture depends on.
 struct FrameRequest {
   double time = 0;  ///< seconds, the host's clock: what moves by itself is where it is at this time
@@ -52,6 +63,7 @@ struct FrameRequest {
   /// Waits after each pass, so that FrameCost tells blur, weather and symbology apart on a software
   /// rasteriser too. Costs time: for measurements.
   bool separateStages = false;
+  Skips skips;
 };
 
 /// Whether a terrain that has static trees is drawn from them.
