@@ -1,0 +1,106 @@
+#include "trimtab/measure/paired_ratio.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace trimtab {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Exact: Pascal's triangle in whole numbers. Chance that the interval from the k-th smallest to the k-th
+/// largest of n values holds the median.
+double coverage(std::size_t n, std::size_t k) {
+  std::vector<double> row{1};
+  for (std::size_t i = 0; i < n; ++i) {
+    row.push_back(0);
+    for (std::size_t j = row.size() - 1; j > 0; --j) row[j] += row[j - 1];
+  }
+  double outside = 0;
+  for (std::size_t i = 0; i < k; ++i) outside += 2 * row[i];
+  return 1 - outside / std::exp2(static_cast<double>(n));
+}
+
+TEST(PairedRatio, cutsWhatTheBinomialTablesSay) {
+  // Ranks of a 95 % interval for the median, as binomial tables at p = 0.5 give them.
+  struct {
+    std::size_t n, rank;
+  } const table[] = {{5, 0}, {6, 1}, {8, 1}, {9, 2}, {10, 2}, {12, 3}, {15, 4}, {20, 6}, {25, 8}, {30, 10}};
+  for (const auto& row : table) EXPECT_EQ(medianIntervalCut(row.n), row.rank) << row.n;
+}
+
+TEST(PairedRatio, isSureByAtLeastNinetyFivePercentAndNotByOneRankMore) {
+  for (std::size_t n = 6; n <= 50; ++n) {
+    EXPECT_GE(coverage(n, medianIntervalCut(n)), 0.95) << n;
+    EXPECT_LT(coverage(n, medianIntervalCut(n) + 1), 0.95) << n;
+  }
+  // Far beyond where 2^-n is a number: the normal approximation's rank, n/2 - 0.98 sqrt(n), within one.
+  EXPECT_NEAR(static_cast<double>(medianIntervalCut(100000)), 50000 - 0.98 * std::sqrt(100000.0), 1.5);
+}
+
+TEST(PairedRatio, holdsTheTrueMedianAsOftenAsItSays) {
+  std::mt19937_64 random(11);
+  // Skewed, heavy-tailed noise as schedulers make it; its median is known.
+  std::lognormal_distribution<double> noise(0, 0.8);
+  constexpr double kTrue = 0.7;
+  for (const std::size_t n : {6u, 10u, 20u, 60u}) {
+    int held = 0;
+    constexpr int kRuns = 20000;
+    std::vector<double> a(n), b(n);
+    for (int run = 0; run < kRuns; ++run) {
+      for (std::size_t i = 0; i < n; ++i) {
+        a[i] = 1 + noise(random);
+        b[i] = a[i] * kTrue * noise(random);
+      }
+      const PairedRatio ratio = pairedRatio(a, b);
+      held += ratio.low <= kTrue && kTrue <= ratio.high;
+    }
+    const double expected = coverage(n, medianIntervalCut(n));
+    // Four standard deviations of the simulation.
+    const double tolerance = 4 * std::sqrt(expected * (1 - expected) / kRuns);
+    EXPECT_NEAR(static_cast<double>(held) / kRuns, expected, tolerance) << n;
+  }
+}
+
+TEST(PairedRatio, doesNotMindANoiseThatBothOfAPairShare) {
+  const std::vector<double> a{10, 200, 13, 900, 11, 50, 10}, b{5, 100, 6.5, 450, 5.5, 25, 5};
+  const PairedRatio ratio = pairedRatio(a, b);
+  EXPECT_EQ(ratio.median, 0.5);
+  EXPECT_EQ(ratio.low, 0.5);
+  EXPECT_EQ(ratio.high, 0.5);
+  EXPECT_EQ(ratio.pairs, 7u);
+}
+
+TEST(PairedRatio, isItsOwnReciprocalTheOtherWayRound) {
+  const std::vector<double> a{1, 1, 1, 1, 1, 1}, b{1, 2, 4, 8, 16, 32};
+  const PairedRatio there = pairedRatio(a, b), back = pairedRatio(b, a);
+  EXPECT_DOUBLE_EQ(there.median, std::sqrt(32.0));
+  EXPECT_DOUBLE_EQ(there.median * back.median, 1);
+  EXPECT_EQ(there.low, 1 / back.high);
+  EXPECT_EQ(there.high, 1 / back.low);
+}
+
+TEST(PairedRatio, countsOnlyPairsThatHaveARatio) {
+  const std::vector<double> a{1, 0, kNan, 1, -1, 1, kInfinity}, b{2, 2, 2, kNan, 2, -2, 2};
+  EXPECT_EQ(pairedRatio(a, b).pairs, 1u);
+  EXPECT_EQ(pairedRatio(a, b).median, 2);
+  const PairedRatio none = pairedRatio({}, b);
+  EXPECT_EQ(none.pairs, 0u);
+  EXPECT_TRUE(std::isnan(none.median) && std::isnan(none.low) && std::isnan(none.high));
+}
+
+TEST(PairedRatio, isSureOfNothingBelowSixPairs) {
+  const std::vector<double> a(5, 1.0), b(5, 2.0);
+  const PairedRatio ratio = pairedRatio(a, b);
+  EXPECT_EQ(ratio.median, 2);
+  EXPECT_EQ(ratio.low, 0);
+  EXPECT_EQ(ratio.high, kInfinity);
+}
+
+}  // namespace
+}  // namespace trimtab
