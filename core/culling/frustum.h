@@ -3,7 +3,9 @@
 #include <array>
 #include <cmath>
 
-#include "trimtab/culling/select.h"
+#include "trimtab/culling/eye_pose.h"
+#include "trimtab/frame/frame.h"
+#include "trimtab/frame/terrain_index.h"
 
 namespace trimtab {
 
@@ -16,6 +18,14 @@ class Frustum {
     planes_ = {side(right - forward * view.left), side(forward * view.right - right),
                side(up - forward * view.bottom), side(forward * view.top - up), Plane{forward, view.nearM}};
   }
+
+  /// Points with dot(normal, p - eye) >= offset are inside.
+  struct Plane {
+    Vec3 normal;
+    double offset = 0;
+  };
+  Vec3 eye() const { return eye_; }
+  const std::array<Plane, 5>& planes() const { return planes_; }
 
   /// False only when no point of the box can be in the picture.
   bool mayShow(const Box& b) const {
@@ -37,12 +47,6 @@ class Frustum {
   }
 
  private:
-  /// Points with dot(normal, p - eye) >= offset are inside.
-  struct Plane {
-    Vec3 normal;
-    double offset = 0;
-  };
-
   Vec3 eye_;
   std::array<Plane, 5> planes_;
 };

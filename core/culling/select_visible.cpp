@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <bit>
 
 #include "trimtab/culling/box_distance.h"
@@ -7,38 +8,59 @@
 namespace trimtab {
 namespace {
 
+constexpr int kCells = TerrainIndex::kTileCells;
+
 void count(VisibleSet& visible, const TileDraw& tile, int sign) {
   // Each border that uses the coarser posts leaves out 16 vertices and folds 16 triangles away.
   const int sides = std::popcount(tile.coarser);
-  constexpr int kCells = TerrainIndex::kTileCells;
   visible.triangles += static_cast<std::uint64_t>(sign * (2 * kCells * kCells - sides * kCells / 2));
   visible.vertices += static_cast<std::uint64_t>(sign * ((kCells + 1) * (kCells + 1) - sides * kCells / 2));
 }
 
 }  // namespace
 
+void gatherBoxes(const TerrainIndex& index, LevelCut& cut) {
+  cut.boxes.clear();
+  cut.boxes.resize(cut.tiles.size());
+  for (std::size_t i = 0; i < cut.tiles.size(); ++i) cut.boxes.set(i, index.bounds[cut.tiles[i].node]);
+}
+
 void selectVisible(const TerrainIndex& index, const LevelCut& cut, const EyePose& eye, const ViewShape& view,
-                   bool test, VisibleSet& visible, double farM) {
+                   bool test, VisibleSet& visible, double farM, std::span<const std::uint8_t> hidden) {
   visible.tiles.clear();
   visible.reason.assign(index.size(), CullReason::other_level);
   visible.outsideFrustum = visible.occluded = visible.beyondVisibility = 0;
-  visible.triangles = visible.vertices = 0;
 
   const Frustum frustum(eye, view);
-  for (const TileDraw& tile : cut.tiles) {
-    const Box& box = index.bounds[tile.node];
-    if (test && !frustum.mayShow(box)) {
-      visible.reason[tile.node] = CullReason::outside_frustum;
-      ++visible.outsideFrustum;
-    } else if (test && isBeyond(box, eye.position, farM)) {
-      visible.reason[tile.node] = CullReason::beyond_visibility;
-      ++visible.beyondVisibility;
-    } else {
-      visible.tiles.push_back(tile);
-      visible.reason[tile.node] = CullReason::drawn;
-      count(visible, tile, 1);
+  const BlockTest mayShow(cut.boxes, frustum);
+  const bool cutByDistance = test && farM < std::numeric_limits<double>::infinity();
+  std::size_t sides = 0;
+  for (std::size_t block = 0; block * BoxArrays::kBlock < cut.tiles.size(); ++block) {
+    const std::uint64_t shown = test ? mayShow(block) : ~std::uint64_t{0};
+    const std::size_t first = block * BoxArrays::kBlock,
+                      end = std::min(first + BoxArrays::kBlock, cut.tiles.size());
+    for (std::size_t i = first; i < end; ++i) {
+      const TileDraw tile = cut.tiles[i];
+      CullReason reason = CullReason::drawn;
+      if ((shown >> (i - first) & 1) == 0) {
+        reason = CullReason::outside_frustum;
+        ++visible.outsideFrustum;
+      } else if (cutByDistance && isBeyond(cut.boxes[i], eye.position, farM)) {
+        reason = CullReason::beyond_visibility;
+        ++visible.beyondVisibility;
+      } else if (!hidden.empty() && hidden[i] != 0) {
+        reason = CullReason::occluded;
+        ++visible.occluded;
+      } else {
+        visible.tiles.push_back(tile);
+        sides += static_cast<std::size_t>(std::popcount(tile.coarser));
+      }
+      visible.reason[tile.node] = reason;
     }
   }
+  const std::size_t tiles = visible.tiles.size();
+  visible.triangles = tiles * 2 * kCells * kCells - sides * kCells / 2;
+  visible.vertices = tiles * (kCells + 1) * (kCells + 1) - sides * kCells / 2;
 }
 
 void removeOccluded(const TerrainIndex&, std::span<const std::uint8_t> flags, VisibleSet& visible) {

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "trimtab/culling/frustum.h"
+
+namespace trimtab {
+
+/// Boxes as six arrays, so that one instruction tests many: what Frustum::mayShow tells, box by box, at the
+/// speed of reading them.
+class BoxArrays {
+ public:
+  void clear() { resize(0); }
+  /// New boxes are not set.
+  void resize(std::size_t count);
+  void set(std::size_t i, const Box& box);
+  Box operator[](std::size_t i) const {
+    return {side_[0][i], side_[1][i], side_[2][i], side_[3][i], side_[4][i], side_[5][i]};
+  }
+  std::size_t size() const { return size_; }
+  /// minX, minY, minZ, maxX, maxY, maxZ; as long as whole blocks of kBlock are.
+  const float* side(std::size_t i) const { return side_[i].data(); }
+  /// No coordinate is further from 0. Not a number or infinite where one is.
+  float reach() const { return reach_; }
+
+  static constexpr std::size_t kBlock = 64;
+
+ private:
+  std::array<std::vector<float>, 6> side_;
+  std::size_t size_ = 0;
+  float reach_ = 0;
+};
+
+enum class SimdLevel { portable, avx2, avx512 };
+/// The best that this processor has.
+SimdLevel simdLevel();
+
+/// Frustum::mayShow for a block of boxes at a time: the same set at every level, to the box.
+///
+/// Planes are evaluated in single precision first; only boxes so near a plane that rounding could decide are
+/// asked of `frustum`. A box with a coordinate that is infinite or not a number makes that all of them.
+class BlockTest {
+ public:
+  /// Keeps references to both.
+  BlockTest(const BoxArrays& boxes, const Frustum& frustum, SimdLevel level = simdLevel());
+  /// A bit a box of the block, set where the box may show; 0 past the last box.
+  std::uint64_t operator()(std::size_t block) const;
+  std::size_t blocks() const { return (boxes_.size() + BoxArrays::kBlock - 1) / BoxArrays::kBlock; }
+
+  /// A plane as one sees it from a box: the corner that is furthest inside, by the signs of the normal.
+  struct CornerPlane {
+    const float* corner[3];
+    float normal[3];
+    float out;   ///< the sum over the corner is less: certainly outside
+    float sure;  ///< greater: certainly not
+  };
+  using CornerPlanes = std::array<CornerPlane, 5>;
+  /// Of one block: bits of boxes that are certainly outside, and of those certainly inside of all planes.
+  struct Bits {
+    std::uint64_t out = 0, sure = 0;
+  };
+
+ private:
+  const BoxArrays& boxes_;
+  const Frustum& frustum_;
+  CornerPlanes planes_;
+  Bits (*test_)(const CornerPlanes&, std::size_t first);
+};
+
+}  // namespace trimtab

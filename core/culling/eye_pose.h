@@ -1,0 +1,15 @@
+#pragma once
+
+#include "trimtab/units/linear.h"
+
+namespace trimtab {
+
+/// Eye in the terrain's local frame.
+struct EyePose {
+  Vec3 position;  ///< metres, local frame
+  Mat3 axes;      ///< rows: right, up, backward (OpenGL eye axes) in the local frame
+
+  friend bool operator==(const EyePose&, const EyePose&) = default;
+};
+
+}  // namespace trimtab
