@@ -112,8 +112,9 @@ void BoxArrays::set(std::size_t i, const Box& box) {
   const std::array<float, 6> values{box.minX, box.minY, box.minZ, box.maxX, box.maxY, box.maxZ};
   for (std::size_t k = 0; k < values.size(); ++k) {
     side_[k][i] = values[k];
-    // Said so that what is not a number stays.
-    if (!(std::abs(values[k]) <= reach_)) reach_ = std::abs(values[k]);
+    const float away = std::abs(values[k]);
+    // What is not a number stays.
+    if (!std::isnan(reach_) && !(away <= reach_)) reach_ = away;
   }
 }
 

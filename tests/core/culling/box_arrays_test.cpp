@@ -78,9 +78,10 @@ TEST(BlockTest, agreesOnBoxesThatTouchAPlane) {
     for (const auto& plane : frustum.planes())
       for (int i = 0; i < 300; ++i) {
         // A point on the plane, then off it by no more than what rounding in floats may do.
-        Vec3 p = eye.position + Vec3{unit(random), unit(random), unit(random)} * 40000.0;
-        p = p -
-            plane.normal * (dot(plane.normal, p - eye.position) - plane.offset - 0.2 * (unit(random) - 0.5));
+        Vec3 p =
+            eye.position + Vec3{unit(random), unit(random), unit(random)} * (i % 2 == 0 ? 40000.0 : 40.0);
+        p = p - plane.normal * (dot(plane.normal, p - eye.position) - plane.offset -
+                                (i % 3 == 0 ? 0.2 : 0.02) * (unit(random) - 0.5));
         const float x = static_cast<float>(p.x), y = static_cast<float>(p.y), z = static_cast<float>(p.z);
         boxes.push_back({x, y, z, x, y, z});
         boxes.push_back({x - 500, y - 500, z - 50, x, y, z});
