@@ -31,6 +31,7 @@ export QT_LOGGING_RULES="${QT_LOGGING_RULES:-*.debug=false}"
 passed=0 failed=0 skipped=0
 reasons=$build/skipped.txt
 : >"$reasons"
+rm -f "$build/stress.txt"
 while read -r name kind; do
   [[ $name =~ $only ]] || continue
   log=$build/$name.log
@@ -60,6 +61,7 @@ if [ "$skipped" -gt 0 ]; then
   echo "$skipped skipped, because:"
   sort "$reasons" | uniq -c | sort -rn | head -40
 fi
+if [ -f "$build/stress.txt" ]; then echo "numerical stress ($build/stress.txt): $(tail -1 "$build/stress.txt")"; fi
 if [ "$skipped" -gt 0 ]; then
   echo "$passed passed, $failed failed, $skipped skipped"
 else
