@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "trimtab/plot/plot.h"
 #include "trimtab/units/result.h"
 
 /// What an experiment yields: the published rows beside ours.
@@ -23,18 +24,9 @@ struct Table {
   std::string text(std::size_t row, std::string_view column) const;
 };
 
-struct Series {
-  std::string name;
-  std::vector<double> x, y;  ///< NaN breaks the line
-};
-
-/// Lines or bars with units on the axes. Bars stand side by side at each category.
-struct Plot {
-  std::string file;  ///< name without ending
-  std::string title, xLabel, yLabel;
-  std::vector<std::string> categories;  ///< for bars: series' y by category; empty for lines
-  std::vector<Series> series;
-};
+using plot::Plot;
+using plot::Series;
+using plot::toSvg;
 
 struct Report {
   std::string name;     ///< "culling"
@@ -55,8 +47,5 @@ Result<Done> writeReport(const std::filesystem::path& folder, const Report& repo
 
 /// The numbers of a report's JSON, for whoever runs the command and shows its tables.
 Result<Report> parseReport(std::string_view json, const std::string& where);
-
-/// A standalone picture that reads on light and dark pages.
-std::string toSvg(const Plot& plot);
 
 }  // namespace trimtab::experiment

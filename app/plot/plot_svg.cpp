@@ -1,0 +1,197 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "drawing.h"
+
+namespace trimtab::plot {
+namespace {
+
+constexpr std::size_t kMarkedPoints = 24;  ///< so few points of a line are marked one by one
+
+double extent(const std::vector<double>& values, std::size_t i) {
+  return i < values.size() ? values[i] : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// x against y, or bars side by side.
+class PlainDrawing : public Drawing {
+ public:
+  PlainDrawing(const Plot& plot, double textPx) : Drawing(plot, textPx), bars_(!plot.categories.empty()) {
+    std::vector<double> xs, ys;
+    for (const Series& s : plot.series) {
+      for (const auto* list : {&s.x, &s.xLow, &s.xHigh}) xs.insert(xs.end(), list->begin(), list->end());
+      for (const auto* list : {&s.y, &s.yLow, &s.yHigh}) ys.insert(ys.end(), list->begin(), list->end());
+    }
+    bool points = !plot.series.empty();
+    for (const Series& s : plot.series) points = points && s.draw != Series::Draw::line;
+    for (const Guide& g : plot.guides) (g.axis == Guide::Axis::x ? xs : ys).push_back(g.at);
+    const int steps = plot.heightPx < 300 ? 4 : 5;
+    y_ = std::isfinite(plot.yFrom) && std::isfinite(plot.yTo) ? Axis::exactly(plot.yFrom, plot.yTo)
+                                                              : Axis::of(ys, plot.logY, true, steps);
+    x_ = bars_ ? Axis::categories(plot.categories.size())
+         : std::isfinite(plot.xFrom) && std::isfinite(plot.xTo)
+             ? Axis::exactly(plot.xFrom, plot.xTo)
+             : Axis::of(xs, plot.logX, points, plot.widthPx < 480 ? 4 : 5);
+  }
+
+  void draw() override {
+    layOut(y_);
+    grid();
+    if (bars_) return drawBars();
+    // Lines lie under the points of all series, labels over everything.
+    for (std::size_t s = 0; s < plot_.series.size(); ++s) drawLine(s);
+    for (std::size_t s = 0; s < plot_.series.size(); ++s) drawPoints(s);
+    drawLabels();
+  }
+
+ private:
+  double px(double x) const { return left_ + std::clamp(x_.at(x), 0.0, 1.0) * (right_ - left_); }
+  double py(double y) const { return bottom_ - std::clamp(y_.at(y), 0.0, 1.0) * (bottom_ - top_); }
+
+  void grid() {
+    for (const Tick& tick : y_.ticks()) {
+      svg_.line(left_, py(tick.value), right_, py(tick.value), "grid");
+      svg_.text(left_ - 6, py(tick.value) + svg_.textPx() * 0.32, "end", tick.text);
+    }
+    if (bars_)
+      for (std::size_t i = 0; i < plot_.categories.size(); ++i)
+        category(px(static_cast<double>(i) + 0.5), plot_.categories[i]);
+    else
+      tickX();
+    svg_.line(left_, bottom_, right_, bottom_, "axis");
+    svg_.line(left_, top_, left_, bottom_, "axis");
+    for (const Guide& guide : plot_.guides) {
+      constexpr const char* kDashed = "stroke-dasharray=\"8 4\" stroke-width=\"1.5\"";
+      if (guide.axis == Guide::Axis::x) {
+        svg_.line(px(guide.at), top_, px(guide.at), bottom_, "axis", kDashed);
+        svg_.text(px(guide.at) + 4, top_ + svg_.textPx(), "start", guide.label, {}, "halo");
+      } else {
+        svg_.line(left_, py(guide.at), right_, py(guide.at), "axis", kDashed);
+        svg_.text(right_, py(guide.at) - 4, "end", guide.label, {}, "halo");
+      }
+    }
+  }
+
+  void tickX() {
+    double free = -1e9;
+    for (const Tick& tick : x_.ticks()) {
+      const double x = px(tick.value), half = textWidthPx(tick.text, svg_.textPx()) / 2;
+      svg_.line(x, bottom_, x, bottom_ + 5, "axis");
+      if (plot_.logX || !plot_.guides.empty()) svg_.line(x, top_, x, bottom_, "grid");
+      if (x - half < free) continue;
+      svg_.text(x, bottom_ + 7 + svg_.textPx() * 0.85, "middle", tick.text);
+      free = x + half + 4;
+    }
+  }
+
+  /// Two words stand on two lines: twelve categories have no room for both on one.
+  void category(double x, const std::string& words) {
+    const std::size_t space = words.find(' ');
+    const double line = svg_.textPx() * 1.1;
+    svg_.text(x, bottom_ + 2 + line, "middle", words.substr(0, space));
+    if (space != std::string::npos) svg_.text(x, bottom_ + 2 + 2 * line, "middle", words.substr(space + 1));
+  }
+
+  void drawBars() {
+    const double slot = 0.8 / static_cast<double>(plot_.series.size());
+    for (std::size_t s = 0; s < plot_.series.size(); ++s)
+      for (std::size_t i = 0; i < plot_.series[s].y.size() && i < plot_.categories.size(); ++i) {
+        const double y = plot_.series[s].y[i];
+        if (!std::isfinite(y)) continue;
+        const double at = static_cast<double>(i) + 0.1 + slot * static_cast<double>(s);
+        const double from = px(at), to = px(at + slot);
+        svg_.bar(from, std::min(py(y), py(0)), to - from - 1, std::abs(py(0) - py(y)), look(s));
+      }
+  }
+
+  void drawLine(std::size_t s) {
+    const Series& series = plot_.series[s];
+    if (series.draw == Series::Draw::points) return;
+    std::string path;
+    bool pen = false;
+    for (std::size_t i = 0; i < series.x.size() && i < series.y.size(); ++i) {
+      if (!std::isfinite(series.x[i]) || !std::isfinite(series.y[i])) {
+        pen = false;
+        continue;
+      }
+      const std::string x = decimal(px(series.x[i]), 1), y = decimal(py(series.y[i]), 1);
+      if (pen && series.draw == Series::Draw::steps)
+        path += 'H' + x + 'V' + y;
+      else
+        path += (pen ? "L" : "M") + x + ' ' + y;
+      pen = true;
+    }
+    if (series.draw == Series::Draw::steps) {
+      svg_.raw("<path class=\"quiet\" d=\"" + path +
+               "\" fill=\"none\" stroke=\"#767676\" stroke-width=\"1.5\" stroke-dasharray=\"5 4\"/>\n");
+      return;
+    }
+    const bool thin = series.draw == Series::Draw::joined;
+    const std::string dash = series.x.size() <= kMarkedPoints && !thin ? "" : dashOf(look(s));
+    svg_.path(path, look(s), thin ? 1.2 : 2, dash.empty() ? "" : "stroke-dasharray=\"" + dash + '"');
+  }
+
+  void drawPoints(std::size_t s) {
+    const Series& series = plot_.series[s];
+    const bool line = series.draw == Series::Draw::line;
+    if (series.draw == Series::Draw::steps || (line && series.x.size() > kMarkedPoints)) return;
+    const double size = plot_.heightPx < 300 ? 4 : line ? 3.8 : 5;
+    for (std::size_t i = 0; i < series.x.size() && i < series.y.size(); ++i) {
+      if (!std::isfinite(series.x[i]) || !std::isfinite(series.y[i])) continue;
+      const double x = px(series.x[i]), y = py(series.y[i]);
+      whisker(s, extent(series.xLow, i), extent(series.xHigh, i), y, true);
+      whisker(s, extent(series.yLow, i), extent(series.yHigh, i), x, false);
+      svg_.marker(x, y, size, i < series.shapes.size() ? series.shapes[i] : look(s), look(s),
+                  i < series.hints.size() ? series.hints[i] : std::string());
+      taken_.push_back({x - size - 2, y - size - 2, 2 * size + 4, 2 * size + 4});
+      if (i < series.labels.size() && !series.labels[i].empty())
+        labels_.push_back({shortened(series.labels[i], (right_ - left_) * 0.42, labelPx()), x, y});
+    }
+  }
+
+  void whisker(std::size_t s, double low, double high, double across, bool alongX) {
+    if (!(high > low)) return;
+    const double from = alongX ? px(low) : py(high), to = alongX ? px(high) : py(low);
+    if (to - from < 1) return;
+    const std::string a = decimal(from, 1), b = decimal(to, 1), c = decimal(across, 1),
+                      end = decimal(across - 3, 1);
+    svg_.path(alongX ? 'M' + a + ' ' + c + 'H' + b + 'M' + a + ' ' + end + "v6M" + b + ' ' + end + "v6"
+                     : 'M' + c + ' ' + a + 'V' + b + 'M' + end + ' ' + a + "h6M" + end + ' ' + b + "h6",
+              look(s), 1.2, "opacity=\"0.6\"");
+    thin_.push_back(alongX ? Box{from, across - 2, to - from, 4} : Box{across - 2, from, 4, to - from});
+  }
+
+  double labelPx() const { return svg_.textPx() - 1; }
+
+  void drawLabels() {
+    for (const Guide& guide : plot_.guides)
+      if (guide.axis == Guide::Axis::y) {
+        thin_.push_back({left_, py(guide.at) - 2, right_ - left_, 4});
+        const double width = textWidthPx(guide.label, svg_.textPx());
+        taken_.push_back({right_ - width, py(guide.at) - svg_.textPx() - 4, width, svg_.textPx() + 4});
+      }
+    const std::string size = "font-size=\"" + decimal(labelPx(), 1) + '"';
+    for (const PlacedLabel& label : placeLabels(
+             labels_, taken_, thin_, {left_ + 2, top_, right_ - left_ - 2, bottom_ - top_ - 2}, labelPx())) {
+      if (label.text.empty()) continue;
+      const Box& box = label.box;
+      if (label.leader)
+        svg_.line(label.pointX, label.pointY, std::clamp(label.pointX, box.x, box.x + box.width),
+                  std::clamp(label.pointY, box.y, box.y + box.height), "quiet");
+      svg_.text(box.x + 1, box.y + box.height * 0.76, "start", label.text, size, "halo");
+    }
+  }
+
+  bool bars_;
+  Axis x_, y_;
+  std::vector<Box> taken_, thin_;
+  std::vector<Label> labels_;
+};
+
+}  // namespace
+
+std::unique_ptr<Drawing> makePlainDrawing(const Plot& plot, double textPx) {
+  return std::make_unique<PlainDrawing>(plot, textPx);
+}
+
+}  // namespace trimtab::plot
