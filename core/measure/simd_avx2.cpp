@@ -1,0 +1,2 @@
+#define TRIMTAB_KERNELS avx2
+#include "simd_all.h"

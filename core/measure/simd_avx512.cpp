@@ -1,0 +1,2 @@
+#define TRIMTAB_KERNELS avx512
+#include "simd_all.h"

@@ -1,0 +1,2 @@
+#define TRIMTAB_KERNELS portable
+#include "simd_all.h"
