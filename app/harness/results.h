@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "trimtab/frame/frame.h"
+#include "trimtab/measure/cost_stages.h"
 #include "trimtab/measure/frame_error.h"
 #include "trimtab/measure/paired_ratio.h"
 #include "trimtab/measure/trace.h"
@@ -30,6 +31,9 @@ struct MeasuredFrame {
   FrameCost cost;
   TraceCounts counts;
   FrameError error;
+  /// `cost.total` of each repeat in the order drawn: the n-th repeats of all units of a flight were drawn one
+  /// after the other.
+  std::vector<double> repeatsMs;
 };
 
 /// A worst frame of a unit, as files beside the results.
@@ -67,32 +71,49 @@ struct Results {
   std::string terrain, machine, version;
   int widthPx = 0, heightPx = 0;
   std::size_t repeats = 0;
+  double budgetMs = std::numeric_limits<double>::quiet_NaN();  ///< measure.budget_ms of the first preset
   std::vector<Unit> units;
   std::vector<Comparison> comparisons;
   std::vector<std::string> notes;  ///< conditions
 };
 
+/// One pair a frame, the median of the ratios of its repeats, so that what pairs share (the machine's mood)
+/// cancels out, and frames, not repeats, are what the interval counts.
+PairedRatio frameTimeRatio(const Unit& a, const Unit& b);
+/// Within each flight: every preset against the first one in the same case, every other case against
+/// view_frustum in the same preset.
+std::vector<Comparison> compareUnits(const std::vector<Unit>& units);
+
 /// A number of a frame by which frames are told apart: a column of the CSV, an axis of a plot.
 struct Quantity {
+  enum class Kind { cost, count, error };
+
   std::string_view key;    ///< "frame_ms", "flip"
   std::string_view label;  ///< "frame time"
   std::string_view unit;   ///< "ms"; empty for a pure number
-  enum class Kind { cost, count, error } kind = Kind::cost;
+  Kind kind = Kind::cost;
   double (*of)(const MeasuredFrame&) = nullptr;
+  void (*set)(MeasuredFrame&, double) = nullptr;
+  bool whole = false;  ///< a whole number that is never absent; others may be NaN
   bool largerIsWorse = true;
+  StageKind stage = StageKind::of_frame;  ///< of a cost: which of them sum to the frame (cost_stages.h)
 };
-/// All of them, in the order of the CSV. A mechanism that adds a stage, a count or an error adds a line here
-/// and nowhere else.
+/// All of them, in the order of the CSV: the frame, its stages as cost_stages.h lists them, counts, errors. A
+/// mechanism that adds a count or an error adds a line there and nowhere else.
 const std::vector<Quantity>& quantities();
 const Quantity* quantityOf(std::string_view key);
 
+/// NaN where no frame has the quantity. For one of which smaller is worse (PSNR, SSIM) the percentiles are
+/// taken from the other end: p95 is what 95 % of the frames reach, `worst` the smallest.
 struct Summary {
-  double median = 0, mean = 0, p95 = 0, p99 = 0, worst = 0;  ///< NaN where no frame has the quantity
+  double median = 0, mean = 0, p95 = 0, p99 = 0, worst = 0;
 };
 Summary summarise(const Unit& unit, const Quantity& quantity);
 
 /// The whole document; numbers read back bit for bit, NaN and infinity as strings.
 std::string toJson(const Results& results);
+/// Every offence with its place in the document; members and columns this version does not know are passed
+/// over.
 Result<Results> parseResults(std::string_view json, const std::string& where);
 /// One row a frame of all units.
 std::string toCsv(const Results& results);
