@@ -22,11 +22,13 @@ Attitude lineOfSight(const Attitude& aircraft, const std::optional<Attitude>& he
   const Mat3 m = bodyToWorld(aircraft) * bodyToWorld(*head);
   const auto degrees = [](double radians) { return Radians{radians}.as<Degrees>(); };
   const double down = m.row[2].x;
+  // From the level part as well: an arcsine alone loses half its digits near the vertical.
+  const double level = std::sqrt(m.row[0].x * m.row[0].x + m.row[1].x * m.row[1].x);
   // Straight up or down, heading and roll turn about one axis.
-  if (std::abs(down) > 1 - 1e-12)
+  if (level < 1e-9)
     return {wrapped360(degrees(std::atan2(-m.row[0].y, m.row[1].y))), Degrees{down < 0 ? 90.0 : -90.0},
             Degrees{0}};
-  return {wrapped360(degrees(std::atan2(m.row[1].x, m.row[0].x))), degrees(-std::asin(down)),
+  return {wrapped360(degrees(std::atan2(m.row[1].x, m.row[0].x))), degrees(std::atan2(-down, level)),
           degrees(std::atan2(m.row[2].y, m.row[2].z))};
 }
 

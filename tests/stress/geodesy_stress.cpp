@@ -211,11 +211,11 @@ TEST(AngleStress, attitudesBecomeAxes) {
 TEST(AngleStress, theLineOfSightIsTheHeadOnTheAircraft) {
   std::mt19937_64 random(15);
   std::uniform_real_distribution<double> unit(-1, 1);
-  const char* why = "asin of 1 - 1e-6 magnifies sixteen roundings 707 times";
-  Case usual("angles", "line of sight, a thousandth off the vertical", 16 * 708 * kU, "rad", why);
-  Case steep("angles", "line of sight near the vertical", 1.5e-6, "rad",
-             "within 1e-12 of the vertical, sqrt(2e-12) rad, it is taken as vertical; roundings there are "
-             "below 1e-8");
+  Case usual("angles", "line of sight, a thousandth off the vertical", 16 * 708 * kU, "rad",
+             "heading and roll are ratios to its level part: sixteen roundings of 1/707");
+  Case steep(
+      "angles", "line of sight near the vertical", 2e-9, "rad",
+      "within 1e-9 of the vertical it is taken as vertical; elsewhere sixteen roundings and as many of 1e-9");
   for (std::size_t i = 0; i < samples(60000); ++i) {
     Attitude aircraft = randomAttitude(random), head = randomAttitude(random);
     if (i % 3 == 0) {  // up to the vertical and past it
