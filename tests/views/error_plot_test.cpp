@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trimtab/views/error_plot.h"
+
+#include <cmath>
+
+#include "application.h"
+#include "error_run_sample.h"
+#include "trimtab/views/theme.h"
+
+namespace trimtab::views {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+class ErrorPlotTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    test::expose(plot_, {480, 320});
+    plot_.show(test::sampleRun());
+    settle();
+  }
+  void settle() { plot_.replot(QCustomPlot::rpImmediateRefresh); }
+  /// How many pixels around a point have the colour.
+  int coloured(QPointF at, const QColor& colour) {
+    const QImage image = plot_.grab().toImage();
+    int found = 0;
+    for (int dx = -4; dx <= 4; ++dx)
+      for (int dy = -4; dy <= 4; ++dy) {
+        const QPoint p = at.toPoint() + QPoint(dx, dy);
+        found += image.valid(p) && image.pixelColor(p) == colour;
+      }
+    return found;
+  }
+
+  ErrorPlot plot_;
+};
+
+TEST_F(ErrorPlotTest, placesEachPresetAndCaseAtItsMediansWithWhiskersByPercentile) {
+  ASSERT_EQ(plot_.points().size(), 3u);
+  const ErrorPlot::Point& fine = plot_.points()[1];
+  EXPECT_NEAR(fine.error, 0.02, 1e-12);
+  EXPECT_NEAR(fine.ms, 10, 1e-12);
+  EXPECT_NEAR(fine.msLow, 9.5, 1e-12);
+  EXPECT_NEAR(fine.msHigh, 10.5, 1e-12);
+  EXPECT_NEAR(fine.errorLow, 0.015, 1e-12);
+  EXPECT_NEAR(fine.errorHigh, 0.025, 1e-12);
+  for (const ErrorPlot::Point& p : plot_.points()) {
+    EXPECT_TRUE(plot_.axisRect()->rect().contains(plot_.pixelOf(p).toPoint()));
+    const int preset = p.series == 2 ? 1 : 0;
+    EXPECT_GT(coloured(plot_.pixelOf(p), presetColour(preset, plot_.palette())), 12) << p.series;
+  }
+}
+
+TEST_F(ErrorPlotTest, theFrontHoldsWhatNothingBeatsInBoth) {
+  EXPECT_FALSE(plot_.points()[0].onFront);  // as good as the next, and slower
+  EXPECT_TRUE(plot_.points()[1].onFront);
+  EXPECT_TRUE(plot_.points()[2].onFront);
+}
+
+TEST_F(ErrorPlotTest, anotherErrorMovesThePointsAndLowerLeftStaysBest) {
+  const QPointF before = plot_.pixelOf(plot_.points()[2]);
+  EXPECT_GT(before.x(), plot_.pixelOf(plot_.points()[1]).x());
+  plot_.showError(1);
+  settle();
+  ASSERT_EQ(plot_.points().size(), 3u);
+  EXPECT_EQ(plot_.points()[0].error, kEqualDb);  // equal pictures: infinite, and drawn all the same
+  EXPECT_EQ(plot_.points()[2].error, 30);
+  EXPECT_TRUE(plot_.xAxis->rangeReversed());
+  EXPECT_GT(plot_.pixelOf(plot_.points()[2]).x(), plot_.pixelOf(plot_.points()[1]).x());
+  EXPECT_NE(plot_.pixelOf(plot_.points()[2]), before);
+  EXPECT_TRUE(plot_.points()[0].onFront);
+  plot_.select(0);
+  EXPECT_TRUE(plot_.selectedText().contains("equal")) << plot_.selectedText().toStdString();
+}
+
+TEST_F(ErrorPlotTest, framesWithoutTheErrorAreLeftOutAndAUnitWithoutAnyHasNoPoint) {
+  ErrorRun run = test::sampleRun();
+  run.series[1].errors[0].fill(kNan);
+  for (int i = 0; i < 10; ++i) run.series[2].errors[0][i] = kNan;
+  plot_.show(run);
+  settle();
+  ASSERT_EQ(plot_.points().size(), 2u);
+  EXPECT_EQ(plot_.points()[0].series, 0);
+  EXPECT_EQ(plot_.points()[1].series, 2);
+  EXPECT_NEAR(plot_.points()[1].error, 0.085, 1e-12);
+}
+
+TEST_F(ErrorPlotTest, theLivePointMovesAndDrawsATail) {
+  plot_.showLive({8, {0.05, 40}});
+  settle();
+  const QPointF first = plot_.livePixel();
+  EXPECT_GT(coloured(first, liveColour(plot_.palette())), 20);
+  plot_.showLive({6, {0.06, 35}});
+  settle();
+  EXPECT_GT(plot_.livePixel().x(), first.x());
+  EXPECT_GT(plot_.livePixel().y(), first.y());
+  for (int i = 0; i < 60; ++i) plot_.showLive({6, {0.06, 35}});
+  EXPECT_EQ(plot_.tail().size(), ErrorPlot::kTail);
+  plot_.showLive({6, {kNan, kNan}});  // not measured: no point, and nothing breaks
+  settle();
+  EXPECT_FALSE(std::isfinite(plot_.livePixel().x()));
+  plot_.clearLive();
+  EXPECT_TRUE(plot_.tail().empty());
+}
+
+TEST_F(ErrorPlotTest, aLivePointOutsideWidensTheView) {
+  plot_.showLive({90, {0.9, 10}});
+  settle();
+  EXPECT_TRUE(plot_.axisRect()->rect().contains(plot_.livePixel().toPoint()));
+}
+
+TEST_F(ErrorPlotTest, keysChooseAPointAndTellItsNumbersWithUnits) {
+  plot_.showLive({8, {0.05, 40}});
+  plot_.setFocus();
+  for (int i = 0; i < 4; ++i) {
+    QTest::keyClick(&plot_, Qt::Key_Right);
+    EXPECT_EQ(plot_.selected(), i);
+  }
+  EXPECT_TRUE(plot_.selectedText().startsWith("live"));
+  QTest::keyClick(&plot_, Qt::Key_Right);
+  EXPECT_EQ(plot_.selected(), 0);
+  QTest::keyClick(&plot_, Qt::Key_Left);
+  EXPECT_EQ(plot_.selected(), 3);
+  plot_.select(2);
+  for (const char* part : {"coarse", "proposed", "11 frames", "FLIP: 0.08", "4 ms"})
+    EXPECT_TRUE(plot_.accessibleDescription().contains(part)) << part;
+  QTest::keyClick(&plot_, Qt::Key_L);
+  EXPECT_TRUE(plot_.logarithmic());
+  for (const ErrorPlot::Point& p : plot_.points())
+    EXPECT_TRUE(plot_.axisRect()->rect().contains(plot_.pixelOf(p).toPoint()));
+}
+
+TEST_F(ErrorPlotTest, thePointerOverAPointTellsItsNumbers) {
+  QTest::mouseMove(&plot_, plot_.pixelOf(plot_.points()[1]).toPoint());
+  EXPECT_EQ(plot_.selected(), 1);
+  QTest::mouseMove(&plot_, QPoint(2, 2));
+  EXPECT_EQ(plot_.selected(), -1);
+}
+
+TEST_F(ErrorPlotTest, theBudgetIsInSight) {
+  plot_.setBudget(33);
+  settle();
+  EXPECT_TRUE(plot_.yAxis->range().contains(33));
+}
+
+}  // namespace
+}  // namespace trimtab::views
