@@ -9,7 +9,7 @@
 namespace trimtab {
 
 /// One field of FrameCost.
-using Stage = double FrameCost::*;
+using CostField = double FrameCost::*;
 
 /// Where a stage's time is counted: stages of the frame sum to `total`, parts are counted in another stage as
 /// well, and what runs beside is counted nowhere else (a GPU works while the processor goes on).
@@ -19,7 +19,7 @@ struct CostStage {
   const char* name;        ///< as people read it
   const char* column;      ///< as traces spell it, of the frame
   const char* lastColumn;  ///< of the frame before, which the decision is given
-  Stage ms;
+  CostField ms;
   StageKind kind;
 };
 

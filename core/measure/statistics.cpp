@@ -51,24 +51,23 @@ double SampleWindow::quantile(double fraction) const {
   return *at;
 }
 
-FrameStatistics::FrameStatistics(std::size_t frames) : window_(kStages, SampleWindow(frames)) {}
+FrameStatistics::FrameStatistics(std::size_t frames) : window_(kCostStages.size(), SampleWindow(frames)) {}
 
 void FrameStatistics::add(const FrameCost& cost) {
-  window_[decide].add(cost.decide);
-  window_[select].add(cost.select);
-  window_[occlusion].add(cost.occlusion);
-  window_[cull].add(cost.cull);
-  window_[draw].add(cost.draw);
-  window_[gpu].add(cost.gpu);
-  window_[total].add(cost.total);
+  for (std::size_t i = 0; i < kCostStages.size(); ++i) window_[i].add(cost.*kCostStages[i].ms);
 }
 
 void FrameStatistics::clear() {
   for (SampleWindow& window : window_) window.clear();
 }
 
-Distribution FrameStatistics::of(Stage stage) const {
-  const SampleWindow& w = window_[stage];
+const SampleWindow& FrameStatistics::window(CostField stage) const {
+  std::size_t i = 0;
+  while (kCostStages[i].ms != stage) ++i;
+  return window_[i];
+}
+
+Distribution FrameStatistics::distribution(const SampleWindow& w) {
   return {w.median(), w.quantile(0.95), w.quantile(0.99), w.mean(), w.largest(), w.size()};
 }
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "trimtab/frame/frame.h"
+#include "trimtab/measure/cost_stages.h"
 
 namespace trimtab {
 
@@ -40,16 +40,16 @@ struct Distribution {
 /// Frame costs by stage over the last so many frames. No allocation after construction.
 class FrameStatistics {
  public:
-  enum Stage : std::size_t { decide, select, occlusion, cull, draw, gpu, total, kStages };
-
   explicit FrameStatistics(std::size_t frames = 600);
   void add(const FrameCost& cost);
   void clear();
-  Distribution of(Stage stage) const;
-  std::size_t frames() const { return window_[total].size(); }
+  Distribution of(CostField stage) const { return distribution(window(stage)); }
+  std::size_t frames() const { return window(&FrameCost::total).size(); }
 
  private:
-  std::vector<SampleWindow> window_;
+  const SampleWindow& window(CostField stage) const;
+  static Distribution distribution(const SampleWindow& samples);
+  std::vector<SampleWindow> window_;  ///< in the order of kCostStages
 };
 
 }  // namespace trimtab

@@ -4,6 +4,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "trimtab/measure/cost_stages.h"
 #include "trimtab/measure/trace.h"
 #include "trimtab/motion/head_motion.h"
 
@@ -125,13 +126,7 @@ void forEachColumn(F& f, const Visit& visit) {
   visit("band_before", Cell::optional, f.row.before.band);
   forEachMotionMemory(f.row.before.motion, visit);
   auto& last = f.row.input.lastCost;
-  visit("last_decide_ms", Cell::optional, last.decide);
-  visit("last_select_ms", Cell::optional, last.select);
-  visit("last_occlusion_ms", Cell::optional, last.occlusion);
-  visit("last_cull_ms", Cell::optional, last.cull);
-  visit("last_draw_ms", Cell::optional, last.draw);
-  visit("last_gpu_ms", Cell::optional, last.gpu);
-  visit("last_total_ms", Cell::optional, last.total);
+  for (const CostStage& stage : kCostStages) visit(stage.lastColumn, Cell::optional, last.*stage.ms);
 
   auto& d = f.row.decision;
   visit("decision_altitude_ft", Cell::required, d.altitudeFt);
@@ -161,13 +156,7 @@ void forEachColumn(F& f, const Visit& visit) {
   visit("culled_occluded", Cell::frame, f.frame.counts.culledOccluded);
   visit("culled_beyond_visibility", Cell::frame, f.frame.counts.culledBeyondVisibility);
   auto& cost = f.frame.cost;
-  visit("decide_ms", Cell::frame, cost.decide);
-  visit("select_ms", Cell::frame, cost.select);
-  visit("occlusion_ms", Cell::frame, cost.occlusion);
-  visit("cull_ms", Cell::frame, cost.cull);
-  visit("draw_ms", Cell::frame, cost.draw);
-  visit("gpu_ms", Cell::frame, cost.gpu);
-  visit("total_ms", Cell::frame, cost.total);
+  for (const CostStage& stage : kCostStages) visit(stage.column, Cell::frame, cost.*stage.ms);
 }
 
 inline Flat flatten(const TraceRow& row) {

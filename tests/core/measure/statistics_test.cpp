@@ -7,6 +7,8 @@
 #include <deque>
 #include <limits>
 #include <random>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace trimtab {
@@ -70,15 +72,32 @@ TEST(FrameStatistics, keepsStagesApartAndSkipsThoseNotRun) {
     cost.occlusion = i % 2 ? 5 : kNan;
     statistics.add(cost);
   }
-  const Distribution total = statistics.of(FrameStatistics::total);
+  const Distribution total = statistics.of(&FrameCost::total);
   EXPECT_EQ(total.median, 50);
   EXPECT_EQ(total.p95, 95);
   EXPECT_EQ(total.p99, 99);
   EXPECT_EQ(total.mean, 50.5);
   EXPECT_EQ(total.largest, 100);
-  EXPECT_EQ(statistics.of(FrameStatistics::gpu).samples, 0u);
-  EXPECT_EQ(statistics.of(FrameStatistics::occlusion).samples, 50u);
+  EXPECT_EQ(statistics.of(&FrameCost::gpu).samples, 0u);
+  EXPECT_EQ(statistics.of(&FrameCost::occlusion).samples, 50u);
   EXPECT_EQ(statistics.frames(), 100u);
+}
+
+TEST(CostStages, nameEachFieldOfACostOnce) {
+  // Whoever adds a field without its line here has a stage that no trace, plot or report shows.
+  EXPECT_EQ(kCostStages.size() * sizeof(double), sizeof(FrameCost));
+  std::set<std::string> names;
+  FrameCost cost;
+  double value = 0;
+  for (const CostStage& stage : kCostStages) {
+    names.insert({stage.name, stage.column, stage.lastColumn});
+    EXPECT_EQ(stage.column, std::string(stage.name) + "_ms");
+    EXPECT_EQ(stage.lastColumn, std::string("last_") + stage.column);
+    cost.*stage.ms = ++value;
+  }
+  EXPECT_EQ(names.size(), 3 * kCostStages.size());
+  value = 0;
+  for (const CostStage& stage : kCostStages) EXPECT_EQ(cost.*stage.ms, ++value) << stage.name;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "support.h"
+#include "trimtab/measure/cost_stages.h"
 
 namespace trimtab {
 namespace {
@@ -93,7 +94,7 @@ TraceRow anyRow(std::mt19937_64& random) {
     maybe(state.view->top);
     maybe(state.view->nearDistance);
   }
-  row.input.lastCost = {number(), number(), number(), number(), number(), number(), number()};
+  for (const CostStage& stage : kCostStages) row.input.lastCost.*stage.ms = number();
   if (random() % 2) row.before.band = static_cast<int>(random() % 17) - 1;
   FrameDecision& d = row.decision;
   for (double* value :
@@ -110,9 +111,8 @@ TraceRow anyRow(std::mt19937_64& random) {
   anyMotion(random, row.before, d);
   anyWeather(random, d.weather);
   if (random() % 2) {
-    row.frame = TraceFrame{{random(), random(), random(), random(), random(), random()},
-                           {number(), number(), number(), number(), number(), number(), number()}};
-    if (random() % 2) row.frame->cost.gpu = kNan;
+    row.frame = TraceFrame{{random(), random(), random(), random(), random(), random()}, {}};
+    for (const CostStage& stage : kCostStages) row.frame->cost.*stage.ms = random() % 8 ? number() : kNan;
   }
   return row;
 }
@@ -123,15 +123,15 @@ void expectSame(const TraceRow& a, const TraceRow& b) {
   EXPECT_TRUE(sameBits(s.position.height.value(), t.position.height.value()));
   EXPECT_TRUE(sameBits(s.attitude.pitch.value(), t.attitude.pitch.value()));
   EXPECT_EQ(a.input.aboveGround, b.input.aboveGround);
-  EXPECT_TRUE(sameBits(a.input.lastCost.total, b.input.lastCost.total));
-  EXPECT_TRUE(sameBits(a.input.lastCost.decide, b.input.lastCost.decide));
+  for (const CostStage& stage : kCostStages)
+    EXPECT_TRUE(sameBits(a.input.lastCost.*stage.ms, b.input.lastCost.*stage.ms)) << stage.name;
   EXPECT_EQ(a.before, b.before);
   EXPECT_EQ(a.decision, b.decision);
   ASSERT_EQ(a.frame.has_value(), b.frame.has_value());
   if (!a.frame) return;
   EXPECT_EQ(a.frame->counts, b.frame->counts);
-  EXPECT_TRUE(sameBits(a.frame->cost.total, b.frame->cost.total));
-  EXPECT_TRUE(sameBits(a.frame->cost.gpu, b.frame->cost.gpu));
+  for (const CostStage& stage : kCostStages)
+    EXPECT_TRUE(sameBits(a.frame->cost.*stage.ms, b.frame->cost.*stage.ms)) << stage.name;
 }
 
 TEST(Trace, readsBackEveryNumberBitForBit) {
@@ -300,6 +300,30 @@ TEST(Trace, readsTracesOfBeforeHeadMotionWithItsDefaults) {
   EXPECT_EQ(read->at(0).decision.totalMembership, 1.25);
   EXPECT_EQ(read->at(0).decision.motion, MotionDecision{});
   EXPECT_EQ(read->at(0).before.motion, MotionMemory{});
+}
+
+TEST(Trace, readsTracesOfBeforeTheStagesOfAFrame) {
+  TraceRow row;
+  row.frame = TraceFrame{};
+  for (const CostStage& stage : kCostStages) row.input.lastCost.*stage.ms = row.frame->cost.*stage.ms = 7;
+  std::string text = traceHeader() + '\n';
+  appendTraceRow(text, row);
+  const std::string older = without(text, [](std::string_view name) {
+    for (const std::string stage : {"page_ms", "blur_ms", "weather_ms", "symbology_ms"})
+      if (name == stage || name == "last_" + stage) return true;
+    return false;
+  });
+  ASSERT_LT(older.size(), text.size());
+  const Result<std::vector<TraceRow>> read = parseTrace(older, "trace");
+  ASSERT_TRUE(read.ok()) << toString(read.findings());
+  ASSERT_TRUE(read->at(0).frame);
+  for (const FrameCost* cost : {&read->at(0).input.lastCost, &read->at(0).frame->cost}) {
+    for (const double known :
+         {cost->decide, cost->select, cost->occlusion, cost->cull, cost->draw, cost->gpu, cost->total})
+      EXPECT_EQ(known, 7);
+    for (const double unknown : {cost->page, cost->blur, cost->weather, cost->symbology})
+      EXPECT_TRUE(std::isnan(unknown)) << "not 0, which would say that it cost nothing";
+  }
 }
 
 TEST(Trace, findsTheRowsThatOtherParametersDecideOtherwise) {
