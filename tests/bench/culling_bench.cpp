@@ -1,0 +1,195 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "core/culling/random_index.h"
+#include "culling_frames.h"
+#include "culling_peers.h"
+#include "row.h"
+#include "trimtab/culling/box_arrays.h"
+#include "trimtab/scene/offscreen.h"
+
+/// Group `culling`: what choosing what to draw costs, beside OpenSceneGraph's own ways and the memory's
+/// speed.
+
+namespace trimtab::bench {
+namespace {
+
+Mat3 axesOf(double headingDeg, double pitchDeg) {
+  const double h = headingDeg * std::numbers::pi / 180, p = pitchDeg * std::numbers::pi / 180;
+  const Vec3 forward{std::sin(h) * std::cos(p), std::cos(h) * std::cos(p), std::sin(p)};
+  const Vec3 right{std::cos(h), -std::sin(h), 0};
+  return {{right, cross(right, forward), -forward}};
+}
+
+std::vector<Box> randomBoxes(std::size_t count) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> place(0, 100e3f), up(0, 2000), side(100, 1000);
+  std::vector<Box> boxes(count);
+  for (Box& b : boxes) {
+    const float x = place(random), y = place(random), z = up(random);
+    b = {x, y, z, x + side(random), y + side(random), z + side(random)};
+  }
+  return boxes;
+}
+
+/// Reads the bytes and nothing else: what a test of each box can at best reach.
+__attribute__((noinline)) std::uint64_t readAll(const BoxArrays& boxes) {
+  std::uint64_t sum = 0;
+  for (std::size_t side = 0; side < 6; ++side) {
+    const auto* words = reinterpret_cast<const std::uint64_t*>(boxes.side(side));
+    const std::size_t count = boxes.size() / 2;
+    std::uint64_t parts[16] = {};
+    for (std::size_t i = 0; i + 16 <= count; i += 16)
+      for (std::size_t k = 0; k < 16; ++k) parts[k] += words[i + k];
+    for (const std::uint64_t part : parts) sum += part;
+  }
+  return sum;
+}
+
+std::size_t keptBy(const BlockTest& test) {
+  std::size_t kept = 0;
+  for (std::size_t block = 0; block < test.blocks(); ++block)
+    kept += static_cast<std::size_t>(std::popcount(test(block)));
+  return kept;
+}
+
+void frustumRows(Report& report, const std::string& name, std::size_t count) {
+  const EyePose eye{{50e3, 20e3, 1500}, axesOf(10, -8)};
+  const ViewShape view;
+  const std::vector<Box> boxes = randomBoxes(count);
+  BoxArrays arrays;
+  arrays.resize(count);
+  for (std::size_t i = 0; i < count; ++i) arrays.set(i, boxes[i]);
+  const Frustum frustum(eye, view);
+  const BlockTest test(arrays, frustum);
+  const int repeats = count > 1'000'000 ? 5 : 60;
+  const double ours = leastSeconds(repeats, [&] { keep(keptBy(test)); });
+  const double read = leastSeconds(repeats, [&] { keep(readAll(arrays)); });
+  OsgBoxTests osg(eye, view);
+  const std::span<const Box> some = std::span(boxes).first(std::min<std::size_t>(count, 1 << 20));
+  const double cullingSet = leastSeconds(3, [&] { keep(osg.cullingSet(some)); });
+  const double polytope = leastSeconds(3, [&] { keep(osg.polytope(some)); });
+  const auto rate = [](std::size_t n, double seconds) { return static_cast<double>(n) / seconds; };
+  const std::string what = "Frustum test of " + std::to_string(count) + " boxes, one core";
+  const Row row{.id = "culling.frustum_" + name, .what = what, .value = rate(count, ours), .unit = "boxes/s"};
+  Row against = row;
+  against.peer = "osg::CullingSet", against.peerFrom = "run",
+  against.peerValue = rate(some.size(), cullingSet);
+  report.add(ratioAtLeast(25, against));
+  against.id += "_polytope", against.peer = "osg::Polytope", against.peerValue = rate(some.size(), polytope);
+  report.add(ratioAtLeast(25, against));
+  // A set that fits into the cache is not read at the memory's speed.
+  if (count < 1'000'000) return;
+  against.id = row.id + "_limit", against.peer = "reading the same bytes",
+  against.peerValue = rate(count, read);
+  report.add(ratioAtLeast(0.9, against));
+}
+
+/// Whether all eight corners are outside of one plane, by plain doubles.
+bool isOutside(const Box& b, const EyePose& eye, const ViewShape& v) {
+  std::array<int, 5> outside{};
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 p{i & 1 ? b.maxX : b.minX, i & 2 ? b.maxY : b.minY, i & 4 ? b.maxZ : b.minZ};
+    const Vec3 e = eye.axes * (p - eye.position);
+    const double depth = -e.z;
+    outside[0] += e.x < v.left * depth;
+    outside[1] += e.x > v.right * depth;
+    outside[2] += e.y < v.bottom * depth;
+    outside[3] += e.y > v.top * depth;
+    outside[4] += depth < v.nearM;
+  }
+  return *std::max_element(outside.begin(), outside.end()) == 8;
+}
+
+void selectionRows(Report& report) {
+  const TerrainIndex index = test::randomIndex(256, 3);
+  LevelCut cut;
+  selectLevels(index, {128e3, 128e3, 500}, 1e-6, 1, 1100, cut);
+  OsgQuadtree osg(index);
+  VisibleSet visible;
+  struct View {
+    const char* id;
+    const char* what;
+    EyePose eye;
+  };
+  const std::array views{
+      View{"culling.selection_level", "a level view from the middle", {{128e3, 128e3, 1500}, axesOf(30, -3)}},
+      View{"culling.selection_all", "all of them in view", {{128e3, -400e3, 60e3}, axesOf(0, -6)}}};
+  for (const View& v : views) {
+    const ViewShape shape;
+    const double ours = leastSeconds(40, [&] { selectVisible(index, cut, v.eye, shape, true, visible); });
+    const double theirs = leastSeconds(8, [&] { keep(osg.cull(v.eye, shape)); });
+    std::vector<std::uint32_t> kept = osg.kept();
+    std::sort(kept.begin(), kept.end());
+    std::size_t extra = 0, unproven = 0;
+    for (const TileDraw& tile : visible.tiles)
+      extra += !std::binary_search(kept.begin(), kept.end(), tile.node) &&
+               !isOutside(index.bounds[tile.node], v.eye, shape);
+    for (const std::uint32_t node : kept)
+      unproven += visible.reason[node] != CullReason::drawn && !isOutside(index.bounds[node], v.eye, shape);
+    const std::string what = "selecting of " + std::to_string(cut.tiles.size()) + " nodes, " + v.what;
+    report.add(ratioAtMost(0.01, {.id = v.id,
+                                  .what = "Time of " + what,
+                                  .value = 1e3 * ours,
+                                  .unit = "ms",
+                                  .peer = "OSG's cull traversal",
+                                  .peerValue = 1e3 * theirs,
+                                  .peerFrom = "run"}));
+    report.add(valueAtMost(
+        0, {.id = std::string(v.id) + "_set",
+            .what = "Nodes that OSG draws and ours leaves out though not proven outside, or the other way "
+                    "round, of " +
+                    std::to_string(kept.size()) + " and " + std::to_string(visible.tiles.size()),
+            .value = static_cast<double>(extra + unproven),
+            .unit = "nodes"}));
+  }
+  // What is left when only the head turns: the same cut, another view.
+  const TerrainIndex small = test::randomIndex(128, 4);
+  selectLevels(small, {64e3, 64e3, 500}, 1e-6, 1, 1100, cut);
+  cut.tiles.resize(6400);
+  gatherBoxes(small, cut);
+  double heading = 0;
+  const double turned = leastSeconds(100, [&] {
+    heading += 3.3;
+    selectVisible(small, cut, {{64e3, 30e3, 1500}, axesOf(heading, -3)}, {}, true, visible);
+  });
+  report.add(valueAtMost(50, {.id = "culling.selection_turned",
+                              .what = "Selecting of 6,400 tiles after the head has turned",
+                              .value = 1e6 * turned,
+                              .unit = "us"}));
+}
+
+void submitRow(Report& report) {
+  auto created = scene::Offscreen::create(640, 360);
+  if (!created) return;
+  auto& context = *created.value();
+  context.makeCurrent();
+  const int frames = report.quick() ? 20 : 60;
+  const double ours = submitMilliseconds(4096, true, context.framebuffer(), frames);
+  const double theirs = submitMilliseconds(4096, false, context.framebuffer(), frames);
+  report.add(ratioAtMost(0.2, {.id = "culling.submit",
+                               .what = "Submitting 4,096 tiles of one triangle: one multi-draw",
+                               .value = ours,
+                               .unit = "ms",
+                               .peer = "one osg::Geometry a tile",
+                               .peerValue = theirs,
+                               .peerFrom = "run"}));
+}
+
+}  // namespace
+}  // namespace trimtab::bench
+
+int main(int argc, char** argv) {
+  using namespace trimtab::bench;
+  Report report(argc, argv);
+  frustumRows(report, "64k", 65'536);
+  frustumRows(report, "16m", report.quick() ? 4'000'000 : 16'000'000);
+  selectionRows(report);
+  submitRow(report);
+  frameRows(report);
+  return report.finish();
+}

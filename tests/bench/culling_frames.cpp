@@ -1,0 +1,122 @@
+#include "culling_frames.h"
+
+#include <random>
+#include <string>
+
+#include "scene/scene_test.h"
+#include "trimtab/measure/paired_ratio.h"
+
+namespace trimtab::bench {
+namespace {
+
+constexpr double kMetresAFoot = 0.3048;
+
+class Frames {
+ public:
+  explicit Frames(std::shared_ptr<const terrain::Database> database) : database_(std::move(database)) {
+    auto created = scene::Offscreen::create(1280, 720);
+    if (!created) return;
+    offscreen_ = std::move(created).value();
+    ready_ = renderer_.initialize().usable;
+    renderer_.setTerrain(database_);
+  }
+  ~Frames() {
+    if (offscreen_) renderer_.release();
+  }
+  bool ready() const { return ready_; }
+
+  /// Frame times of *proposed* over *view frustum* at `feet` above the ground, in pairs.
+  void row(Report& report, const std::string& terrain, double feet, double errorPx) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> place(0.25, 0.75), heading(0, 360);
+    std::vector<double> frustum, proposed;
+    std::size_t hidden = 0, inView = 0;
+    const int views = report.quick() ? 3 : 8, repeats = report.quick() ? 3 : 5;
+    for (int view = 0; view < views; ++view) {
+      scene::FrameRequest r;
+      r.eye = over(place(random), place(random), feet * kMetresAFoot);
+      r.attitude = {Degrees{heading(random)}, Degrees{-5}, Degrees{0}};
+      r.view.widthPx = 1280, r.view.heightPx = 720;
+      r.lod.screenSpaceError = Pixels{errorPx};
+      // The band of level flight below 4,000 ft, and above 8,000 ft.
+      r.decision.depthMap = feet < 4000 ? DepthMapSize{800, 600} : DepthMapSize{320, 240};
+      for (int i = -1; i < repeats; ++i) {
+        // A head that moves on: nothing is the same as in the frame before.
+        r.eye.height = r.eye.height + Metres{0.01};
+        r.method = CullingCase::view_frustum;
+        const double first = draw(r);
+        r.method = CullingCase::proposed;
+        const double second = draw(r);
+        if (i < 0) continue;
+        frustum.push_back(first);
+        proposed.push_back(second);
+        hidden += last_.visible.occluded;
+        inView += last_.visible.occluded + last_.visible.tiles.size();
+      }
+    }
+    const PairedRatio ratio = pairedRatio(frustum, proposed);
+    const std::string id = "culling.frame_" + terrain + "_" + std::to_string(static_cast<int>(feet)) + "ft" +
+                           (errorPx < 1 ? "_finest" : "");
+    char share[160];
+    std::snprintf(share, sizeof share, "; of %zu tiles in view %.0f %% left out; 95 %% interval %.3f to %.3f",
+                  inView / proposed.size(), 100.0 * static_cast<double>(hidden) / static_cast<double>(inView),
+                  ratio.low, ratio.high);
+    const Row row{.id = id,
+                  .what = "Frame of proposed, median of pairs, over " + terrain + share,
+                  .value = median(proposed),
+                  .unit = "ms",
+                  .peer = "view frustum",
+                  .peerValue = median(frustum),
+                  .peerFrom = "run",
+                  .ratio = ratio.median};
+    if (terrain == "mountains" && feet == 2000) return report.add(ratioAtMost(1.0 / 3, row));
+    Row bound = row;
+    bound.ratio = ratio.high;
+    report.add(ratioAtMost(1.02, bound));
+  }
+
+ private:
+  static double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+  }
+  double draw(const scene::FrameRequest& r) {
+    offscreen_->makeCurrent();
+    last_ = renderer_.draw(r, offscreen_->framebuffer());
+    return last_.cost.total;
+  }
+  GeodeticPosition over(double east, double north, double aboveM) const {
+    const auto& i = database_->info();
+    const Degrees latitude = i.southWest.latitude + (i.northEast.latitude - i.southWest.latitude) * north;
+    const Degrees longitude = i.southWest.longitude + (i.northEast.longitude - i.southWest.longitude) * east;
+    return {latitude, longitude,
+            database_->heightAt(latitude, longitude).value_or(Metres{0}) + Metres{aboveM}};
+  }
+
+  std::shared_ptr<const terrain::Database> database_;
+  std::unique_ptr<scene::Offscreen> offscreen_;
+  scene::Renderer renderer_;
+  scene::FrameResult last_;
+  bool ready_ = false;
+};
+
+void rowsOf(Report& report, const std::string& name, std::shared_ptr<const terrain::Database> database) {
+  Frames frames(std::move(database));
+  if (!frames.ready()) return;
+  for (const double feet : {300.0, 2000.0, 8000.0}) frames.row(report, name, feet, 2);
+  frames.row(report, name, 2000, 0.05);
+}
+
+}  // namespace
+
+void frameRows(Report& report) {
+  rowsOf(report, "mountains", test::syntheticMountains());
+  const test::ScratchDir dir;
+  terrain::SampleOptions options;
+  options.postM = report.quick() ? 180 : 90;
+  if (!terrain::writeSample(dir / "sample.tif", options)) return;
+  if (const auto baked = terrain::openOrBake(dir / "sample.tif", dir / "cache", {}))
+    rowsOf(report, "sample", baked.value());
+}
+
+}  // namespace trimtab::bench

@@ -1,0 +1,238 @@
+#include "culling_peers.h"
+
+// Before OSG, which includes GL without prototypes.
+#include "trimtab/scene/gl_api.h"
+
+#include <osg/Geometry>
+#include <osg/Group>
+#include <osgUtil/CullVisitor>
+#include <osgUtil/RenderStage>
+#include <osgUtil/StateGraph>
+#include <osgViewer/GraphicsWindow>
+#include <osgViewer/Viewer>
+
+#include <algorithm>
+#include <functional>
+
+namespace trimtab::bench {
+namespace {
+
+constexpr double kFar = 1e7;
+
+osg::Matrixd projectionOf(const ViewShape& v) {
+  const double n = v.nearM;
+  return osg::Matrixd::frustum(v.left * n, v.right * n, v.bottom * n, v.top * n, n, kFar);
+}
+
+osg::Matrixd viewOf(const EyePose& eye) {
+  osg::Matrixd m;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3& row = eye.axes.row[static_cast<std::size_t>(i)];
+    m(0, i) = row.x;
+    m(1, i) = row.y;
+    m(2, i) = row.z;
+  }
+  const Vec3 p = eye.position;
+  return osg::Matrixd::translate(-p.x, -p.y, -p.z) * m;
+}
+
+osg::BoundingBox boundOf(const Box& b) {
+  return {b.minX, b.minY, b.minZ, b.maxX, b.maxY, b.maxZ};
+}
+
+void setUp(osg::CullStack& stack, osg::Viewport* viewport, const EyePose& eye, const ViewShape& view) {
+  stack.setCullingMode(osg::CullSettings::VIEW_FRUSTUM_CULLING);
+  stack.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+  stack.pushViewport(viewport);
+  stack.pushProjectionMatrix(new osg::RefMatrix(projectionOf(view)));
+  stack.pushModelViewMatrix(new osg::RefMatrix(viewOf(eye)), osg::Transform::ABSOLUTE_RF);
+}
+
+void tearDown(osg::CullStack& stack) {
+  stack.popModelViewMatrix();
+  stack.popProjectionMatrix();
+  stack.popViewport();
+}
+
+/// A drawable that is nothing but its bound.
+class Leaf final : public osg::Drawable {
+ public:
+  Leaf() = default;
+  Leaf(const Leaf& other, const osg::CopyOp& op)
+      : osg::Drawable(other, op), box_(other.box_), node_(other.node_) {}
+  Leaf(const Box& box, std::uint32_t node) : box_(boundOf(box)), node_(node) {
+    setUseDisplayList(false);
+    setSupportsDisplayList(false);
+  }
+  META_Object(trimtab, Leaf);
+  osg::BoundingBox computeBoundingBox() const override { return box_; }
+  void drawImplementation(osg::RenderInfo&) const override {}
+  std::uint32_t node() const { return node_; }
+
+ private:
+  osg::BoundingBox box_;
+  std::uint32_t node_ = 0;
+};
+
+osg::ref_ptr<osg::Node> quadtree(const TerrainIndex& index, std::uint32_t node) {
+  if (index.level[node] == 0) return new Leaf(index.bounds[node], node);
+  osg::ref_ptr<osg::Group> group = new osg::Group;
+  for (const std::uint32_t child : index.children[node])
+    if (child != TerrainIndex::kNone) group->addChild(quadtree(index, child));
+  return group;
+}
+
+/// Draws all tiles by one call.
+class MultiDraw final : public osg::Drawable {
+ public:
+  MultiDraw() = default;
+  MultiDraw(const MultiDraw& other, const osg::CopyOp& op) : osg::Drawable(other, op) {}
+  explicit MultiDraw(const std::vector<osg::Vec3f>& vertices)
+      : counts_(vertices.size() / 3, 3), bases_(vertices.size() / 3), offsets_(vertices.size() / 3, nullptr) {
+    setUseDisplayList(false);
+    setSupportsDisplayList(false);
+    setCullingActive(false);
+    for (std::size_t i = 0; i < bases_.size(); ++i) bases_[i] = static_cast<int>(3 * i);
+    const std::uint16_t indices[3] = {0, 1, 2};
+    glGenVertexArrays(1, &array_);
+    glBindVertexArray(array_);
+    GLuint buffers[2];
+    glGenBuffers(2, buffers);
+    glBindBuffer(GL_ARRAY_BUFFER, buffers[0]);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof vertices[0]),
+                 vertices.data(), GL_STATIC_DRAW);
+    glEnableClientState(GL_VERTEX_ARRAY);
+    glVertexPointer(3, GL_FLOAT, 0, nullptr);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, sizeof indices, indices, GL_STATIC_DRAW);
+    glBindVertexArray(0);
+    glBindBuffer(GL_ARRAY_BUFFER, 0);
+  }
+  META_Object(trimtab, MultiDraw);
+  void drawImplementation(osg::RenderInfo&) const override {
+    glBindVertexArray(array_);
+    glMultiDrawElementsBaseVertex(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_SHORT, offsets_.data(),
+                                  static_cast<GLsizei>(counts_.size()), bases_.data());
+    glBindVertexArray(0);
+  }
+
+ private:
+  std::vector<int> counts_, bases_;
+  std::vector<const void*> offsets_;
+  GLuint array_ = 0;
+};
+
+}  // namespace
+
+struct OsgBoxTests::Impl {
+  osg::CullStack stack;
+  osg::ref_ptr<osg::Viewport> viewport = new osg::Viewport(0, 0, 1280, 720);
+  osg::Polytope polytope;
+};
+
+OsgBoxTests::OsgBoxTests(const EyePose& eye, const ViewShape& view) : impl_(std::make_unique<Impl>()) {
+  setUp(impl_->stack, impl_->viewport, eye, view);
+  impl_->polytope.setToUnitFrustum();
+  impl_->polytope.transformProvidingInverse(viewOf(eye) * projectionOf(view));
+}
+OsgBoxTests::~OsgBoxTests() {
+  tearDown(impl_->stack);
+}
+
+std::size_t OsgBoxTests::cullingSet(std::span<const Box> boxes) {
+  osg::CullingSet& set = impl_->stack.getCurrentCullingSet();
+  std::size_t kept = 0;
+  for (const Box& box : boxes) kept += !set.isCulled(boundOf(box));
+  return kept;
+}
+
+std::size_t OsgBoxTests::polytope(std::span<const Box> boxes) {
+  std::size_t kept = 0;
+  for (const Box& box : boxes) {
+    impl_->polytope.setupMask();
+    kept += impl_->polytope.contains(boundOf(box));
+  }
+  return kept;
+}
+
+struct OsgQuadtree::Impl {
+  osg::ref_ptr<osg::Group> root = new osg::Group;
+  osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+  osg::ref_ptr<osgUtil::StateGraph> graph = new osgUtil::StateGraph;
+  osg::ref_ptr<osgUtil::RenderStage> stage = new osgUtil::RenderStage;
+  osg::ref_ptr<osg::Viewport> viewport = new osg::Viewport(0, 0, 1280, 720);
+};
+
+OsgQuadtree::OsgQuadtree(const TerrainIndex& index) : impl_(std::make_unique<Impl>()) {
+  for (std::uint32_t node = 0; node < index.size(); ++node)
+    if (index.parent[node] == TerrainIndex::kNone) impl_->root->addChild(quadtree(index, node));
+  impl_->root->getBound();
+}
+OsgQuadtree::~OsgQuadtree() = default;
+
+std::size_t OsgQuadtree::cull(const EyePose& eye, const ViewShape& view) {
+  osgUtil::CullVisitor& visitor = *impl_->visitor;
+  visitor.reset();
+  impl_->graph->clean();
+  impl_->stage->reset();
+  visitor.setStateGraph(impl_->graph);
+  visitor.setRenderStage(impl_->stage);
+  setUp(visitor, impl_->viewport, eye, view);
+  impl_->root->accept(visitor);
+  tearDown(visitor);
+  return impl_->graph->_leaves.size();
+}
+
+std::vector<std::uint32_t> OsgQuadtree::kept() const {
+  std::vector<std::uint32_t> nodes;
+  for (const auto& leaf : impl_->graph->_leaves)
+    nodes.push_back(static_cast<const Leaf*>(leaf->getDrawable())->node());
+  return nodes;
+}
+
+double submitMilliseconds(int tiles, bool multiDraw, unsigned framebuffer, int frames) {
+  osgViewer::Viewer viewer;
+  viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
+  osg::ref_ptr<osgViewer::GraphicsWindowEmbedded> window =
+      new osgViewer::GraphicsWindowEmbedded(0, 0, 640, 360);
+  window->setDefaultFboId(framebuffer);
+  osg::Camera* camera = viewer.getCamera();
+  camera->setGraphicsContext(window);
+  camera->setViewport(0, 0, 640, 360);
+  camera->setProjectionMatrix(osg::Matrixd::ortho(-1, 1, -1, 1, -1, 1));
+  camera->setViewMatrix(osg::Matrixd::identity());
+  camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+  camera->setCullingMode(osg::CullSettings::NO_CULLING);
+  osg::ref_ptr<osg::Group> root = new osg::Group;
+  root->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+  std::vector<osg::Vec3f> all;
+  for (int i = 0; i < tiles; ++i) {
+    const float x = static_cast<float>(i % 64) / 32 - 1, y = static_cast<float>(i / 64 % 64) / 32 - 1;
+    const std::vector<osg::Vec3f> triangle{{x, y, 0}, {x + 0.02f, y, 0}, {x, y + 0.02f, 0}};
+    all.insert(all.end(), triangle.begin(), triangle.end());
+    if (multiDraw) continue;
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setUseDisplayList(false);
+    geometry->setUseVertexBufferObjects(true);
+    geometry->setVertexArray(new osg::Vec3Array(triangle.begin(), triangle.end()));
+    const GLushort indices[3] = {0, 1, 2};
+    geometry->addPrimitiveSet(new osg::DrawElementsUShort(GL_TRIANGLES, 3, indices));
+    root->addChild(geometry);
+  }
+  if (multiDraw) root->addChild(new MultiDraw(all));
+  viewer.setSceneData(root);
+  viewer.realize();
+  camera->getStats()->collectStats("rendering", true);
+  double least = 1e9;
+  for (int i = 0; i < frames + 3; ++i) {
+    viewer.frame();
+    glFinish();
+    double seconds = 0;
+    const unsigned number = viewer.getFrameStamp()->getFrameNumber();
+    if (i >= 3 && camera->getStats()->getAttribute(number, "Draw traversal time taken", seconds))
+      least = std::min(least, 1e3 * seconds);
+  }
+  return least;
+}
+
+}  // namespace trimtab::bench
