@@ -37,9 +37,14 @@ Columns difference(const std::uint8_t* a, const std::uint8_t* b, int pixels) {
   return {from, to};
 }
 
-/// FLIP of a strip of columns, from the top row down. Rows are converted to opponent colours when a window
-/// first needs them and kept in a ring; the filtered planes of a row are used at once and never leave the
-/// cache. Where the two pictures are equal within a filter's reach, nothing is computed: the error is 0.
+int blocksFor(int columns) {
+  return (columns + kFlipBlock - 1) / kFlipBlock;
+}
+
+/// FLIP of a strip of columns, a few rows at a time from the top. A row is converted to opponent colours and
+/// filtered along the row when a window first needs it, and the result kept in a ring, block by block, so
+/// that the vertical pass over a block reads what the nearest cache holds. Where the pictures are equal
+/// within the filters' reach, nothing is computed: the error is 0.
 class Strip {
  public:
   Strip(const Pictures& pictures, const FlipFilterBank& bank, int column, int columns)
@@ -48,32 +53,43 @@ class Strip {
         radius_(bank.radius()),
         column_(column),
         columns_(columns),
-        slots_(std::min(2 * radius_ + 1, pictures.height)),
-        pitch_(static_cast<std::size_t>(columns + 2 * radius_ + kSimdSlack)),
-        ring_(static_cast<std::size_t>(slots_) * kFlipPlanes * pitch_),
-        filtered_(kFlipFilteredPlanes * pitch_),
-        differs_(static_cast<std::size_t>(slots_)),
-        converted_(static_cast<std::size_t>(slots_)),
-        window_(static_cast<std::size_t>(2 * radius_ + 1)) {}
+        slots_(std::min(2 * radius_ + kRows, pictures.height)),
+        blockPitch_(static_cast<std::size_t>(slots_) * kFlipBlockRow),
+        lead_(blocksFor(radius_) * kFlipBlock),
+        pitch_(static_cast<std::size_t>(lead_ + blocksFor(columns) * kFlipBlock + radius_ + kSimdSlack)),
+        planes_(kFlipPlanes * pitch_),
+        filtered_(static_cast<std::size_t>(blocksFor(columns)) * blockPitch_),
+        rows_(static_cast<std::size_t>(slots_)),
+        rowOffset_(static_cast<std::size_t>(2 * radius_ + kRows)) {}
 
   /// Adds the errors of all rows; they are written to `map`, of the picture's width, unless it is null.
   double sum(float* map) {
     double total = 0;
-    for (int row = 0; row < std::min(radius_, pictures_.height); ++row) enter(row);
-    for (int row = 0; row < pictures_.height; ++row) {
-      if (row + radius_ < pictures_.height) enter(row + radius_);
+    int entered = 0;
+    for (int row = 0; row < pictures_.height; row += kRows) {
+      const int rows = std::min(kRows, pictures_.height - row);
+      while (entered < std::min(row + rows + radius_, pictures_.height)) enter(entered++);
       float* out = map ? map + at(row, column_) : nullptr;
-      const Columns seen = errorColumns(row);
-      if (out) {
-        std::fill(out, out + seen.from, 0.0f);
-        std::fill(out + seen.to, out + columns_, 0.0f);
-      }
-      if (!seen.empty()) total += rowSum(row, seen, out);
+      const Columns seen = errorColumns(row, rows);
+      if (out)
+        for (int i = 0; i < rows; ++i) {
+          float* line = out + at(i, 0);
+          std::fill(line, line + seen.from, 0.0f);
+          std::fill(line + seen.to, line + columns_, 0.0f);
+        }
+      if (!seen.empty()) total += rowsSum(row, rows, seen, out);
     }
     return total;
   }
 
  private:
+  static constexpr int kRows = 8;
+
+  struct Row {
+    Columns differs;   ///< of the strip, reaching beyond it by the radius
+    Columns filtered;  ///< blocks
+  };
+
   std::size_t at(int row, int column) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(pictures_.width) +
            static_cast<std::size_t>(column);
@@ -86,61 +102,81 @@ class Strip {
     const std::size_t start = 4 * at(row, from);
     Columns found = difference(pictures_.reference + start, pictures_.test + start, to - from);
     if (!found.empty()) found = {found.from + from - column_, found.to + from - column_};
-    differs_[slot(row)] = found;
-    converted_[slot(row)] = false;
+    rows_[slot(row)] = {found, {}};
   }
 
-  /// Columns of the strip that see a difference from this row.
-  Columns errorColumns(int row) const {
+  /// Columns of the strip where these rows' errors see a difference, from the beginning of a block.
+  Columns errorColumns(int row, int rows) const {
     Columns all;
-    for (int y = std::max(0, row - radius_); y <= std::min(pictures_.height - 1, row + radius_); ++y)
-      all.include(differs_[slot(y)]);
+    for (int y = std::max(0, row - radius_); y < std::min(pictures_.height, row + rows + radius_); ++y)
+      all.include(rows_[slot(y)].differs);
     if (all.empty()) return {0, 0};
-    return {std::clamp(all.from - radius_, 0, columns_), std::clamp(all.to + radius_, 0, columns_)};
+    const int from = std::clamp(all.from - radius_, 0, columns_);
+    return {from / kFlipBlock * kFlipBlock, std::clamp(all.to + radius_, 0, columns_)};
   }
 
-  double rowSum(int row, Columns seen, float* out) {
-    for (int k = -radius_; k <= radius_; ++k)
-      window_[static_cast<std::size_t>(k + radius_)] = planes(std::clamp(row + k, 0, pictures_.height - 1));
-    const ImageKernels& kernels = imageKernels();
-    kernels.flipVertical(window_.data() + radius_, pitch_, seen.from, seen.to + 2 * radius_, filters_,
-                         filtered_.data());
-    return kernels.flipError(filtered_.data(), pitch_, seen.from, seen.to, radius_, filters_, out);
-  }
-
-  /// A row's planes, which begin `radius_` columns before the strip; beyond the picture its border repeats.
-  const float* planes(int row) {
-    float* planes = ring_.data() + slot(row) * kFlipPlanes * pitch_;
-    if (converted_[slot(row)]) return planes;
-    converted_[slot(row)] = true;
-    const int from = std::max(0, column_ - radius_);
-    const int to = std::min(pictures_.width, column_ + columns_ + radius_);
-    const int before = from - (column_ - radius_), pixels = to - from;
-    imageKernels().flipConvert(pictures_.reference + 4 * at(row, from), pictures_.test + 4 * at(row, from),
-                               pixels, flipTable(), planes + before, pitch_);
-    for (std::size_t p = 0; p < kFlipPlanes; ++p) {
-      float* plane = planes + p * pitch_;
-      std::fill(plane, plane + before, plane[before]);
-      std::fill(plane + before + pixels, plane + pitch_, plane[before + pixels - 1]);
+  double rowsSum(int row, int rows, Columns seen, float* out) {
+    const Columns blocks{seen.from / kFlipBlock, blocksFor(seen.to)};
+    for (int k = -radius_; k < rows + radius_; ++k) {
+      const int y = std::clamp(row + k, 0, pictures_.height - 1);
+      filter(y, blocks);
+      rowOffset_[static_cast<std::size_t>(k + radius_)] = slot(y) * kFlipBlockRow;
     }
-    return planes;
+    return imageKernels().flipError(filtered_.data() + static_cast<std::size_t>(blocks.from) * blockPitch_,
+                                    blockPitch_, rowOffset_.data() + radius_, rows, seen.to - seen.from,
+                                    filters_, out ? out + seen.from : nullptr,
+                                    static_cast<std::size_t>(pictures_.width));
+  }
+
+  /// Sees to it that these blocks of a row are filtered.
+  void filter(int row, Columns blocks) {
+    Columns& done = rows_[slot(row)].filtered;
+    if (done.empty()) {
+      filterBlocks(row, blocks);
+      done = blocks;
+      return;
+    }
+    if (blocks.from < done.from) filterBlocks(row, {blocks.from, done.from});
+    if (blocks.to > done.to) filterBlocks(row, {done.to, blocks.to});
+    done.include(blocks);
+  }
+
+  void filterBlocks(int row, Columns blocks) {
+    const int first = column_ + blocks.from * kFlipBlock, pixels = (blocks.to - blocks.from) * kFlipBlock;
+    const int from = std::max(0, first - radius_);
+    const int to = std::min(pictures_.width, first + pixels + radius_);
+    const ImageKernels& kernels = imageKernels();
+    float* middle = planes_.data() + lead_;
+    kernels.flipConvert(pictures_.reference + 4 * at(row, from), pictures_.test + 4 * at(row, from),
+                        to - from, flipTable(), middle + (from - first), pitch_);
+    // Beyond the picture its border repeats.
+    for (std::size_t p = 0; p < kFlipPlanes; ++p) {
+      float* plane = middle + p * pitch_;
+      std::fill(plane - radius_, plane + (from - first), plane[from - first]);
+      std::fill(plane + (to - first), plane + pixels + radius_, plane[to - first - 1]);
+    }
+    kernels.flipHorizontal(
+        middle, pitch_, blocks.to - blocks.from, filters_,
+        filtered_.data() + static_cast<std::size_t>(blocks.from) * blockPitch_ + slot(row) * kFlipBlockRow,
+        blockPitch_);
   }
 
   Pictures pictures_;
   const FlipFilters& filters_;
   int radius_, column_, columns_, slots_;
+  std::size_t blockPitch_;
+  int lead_;
   std::size_t pitch_;
-  std::vector<float> ring_, filtered_;
-  std::vector<Columns> differs_;
-  std::vector<char> converted_;
-  std::vector<const float*> window_;
+  std::vector<float> planes_, filtered_;
+  std::vector<Row> rows_;
+  std::vector<std::size_t> rowOffset_;
 };
 
 }  // namespace
 
 double flip(std::span<const std::uint8_t> reference, std::span<const std::uint8_t> test, int width,
             int height, std::span<float> map, double pixelsPerDegree) {
-  constexpr int kStripColumns = 256;
+  constexpr int kStripColumns = 128;
   const bool filterExists = pixelsPerDegree >= FlipFilterBank::kLeastPixelsPerDegree &&
                             pixelsPerDegree <= FlipFilterBank::kMostPixelsPerDegree;
   if (!filterExists || !holdsPicture(reference, width, height, 4) || !holdsPicture(test, width, height, 4) ||

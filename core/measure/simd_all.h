@@ -15,7 +15,7 @@ constexpr ImageKernels kernels{
     .ssimRow = ssimRow,
     .ssimSum = ssimSum,
     .flipConvert = flipConvert,
-    .flipVertical = flipVertical,
+    .flipHorizontal = flipHorizontal,
     .flipError = flipError,
 };
 

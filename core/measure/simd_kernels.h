@@ -22,11 +22,15 @@ struct FlipFilters {
   float colourMaximum = 0;        ///< c_max
 };
 
+/// Columns that FLIP's filtered planes keep together.
+inline constexpr int kFlipBlock = 16;
 /// Planes of a row of pixels: the reference's three channels, then how far the test picture's lie from them.
 inline constexpr int kFlipPlanes = 6;
-/// Planes after the vertical pass: reference and difference of luminance, red-green, blue-yellow twice, and
-/// of gauss, edge and point.
+/// Planes after the horizontal pass, of the reference and then of the difference: luminance, red-green,
+/// blue-yellow twice, and gauss, edge and point of luminance.
 inline constexpr int kFlipFilteredPlanes = 14;
+/// One row of one block.
+inline constexpr std::size_t kFlipBlockRow = kFlipFilteredPlanes * kFlipBlock;
 /// By channel, byte, and then luminance, red-green, blue-yellow (the fourth is 0).
 using FlipTable = float[3][256][4];
 
@@ -49,12 +53,15 @@ struct ImageKernels {
 
   void (*flipConvert)(const std::uint8_t* reference, const std::uint8_t* test, int pixels,
                       const FlipTable& table, float* planes, std::size_t pitch);
-  /// Columns [from, to) of `filtered[p * pitch]` from planes of rows; `rows` points at the middle one.
-  void (*flipVertical)(const float* const* rows, std::size_t pitch, int from, int to,
-                       const FlipFilters& filters, float* filtered);
-  /// Errors of pixels [from, to), whose filtered columns are `shift` further; returns their sum.
-  double (*flipError)(const float* filtered, std::size_t pitch, int from, int to, int shift,
-                      const FlipFilters& filters, float* error);
+  /// Filters blocks [0, blocks) of a row whose first pixel is `planes[p * pitch]` into `filtered[block *
+  /// blockPitch]`.
+  void (*flipHorizontal)(const float* planes, std::size_t pitch, int blocks, const FlipFilters& filters,
+                         float* filtered, std::size_t blockPitch);
+  /// Errors of `columns` pixels of `rows` rows; returns their sum. Row y of the first block is
+  /// `filtered[rowOffset[y]]`, and y may be as far below 0 and beyond `rows` as the filters reach. `error`
+  /// may be null.
+  double (*flipError)(const float* filtered, std::size_t blockPitch, const std::size_t* rowOffset, int rows,
+                      int columns, const FlipFilters& filters, float* error, std::size_t errorPitch);
 };
 /// What the kernels may read and write beyond the last column, floats.
 inline constexpr int kSimdSlack = 32;
