@@ -12,40 +12,68 @@ void FrameCulling::setDatabase(std::shared_ptr<const terrain::Database> database
   database_ = std::move(database);
   cutKey_.reset();
   cut_.tiles.clear();
+  ++cutNumber_;
   conditions_.setDatabase(database_);
+  horizon_.setDatabase(database_);
 }
 
-void FrameCulling::select(const FrameRequest& request, const EyePose& eye, FrameResult& counters) {
+void FrameCulling::selectCut(const FrameRequest& request, const EyePose& eye, FrameResult& counters) {
   const TerrainIndex& index = database_->index();
   const ViewShape& v = request.view;
   eye_ = eye;
-  const CutKey key{eye.position, request.lod.screenSpaceError.value(),
+  const CutKey key{eye.position, request.lod.screenSpaceError.value() / defects_.statedErrorScale,
                    request.decision.lodScale,
                    std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom))};
-  if (cutKey_ != key) {
+  if (cutKey_ != key || !request.skips.sameCut) {
     selectLevels(index, key.eye, key.maxErrorPx, key.lodScale, key.pixelsPerRadian, cut_);
+    cutNumber_ += cutKey_ != key;
     cutKey_ = key;
     ++counters.cutsSelected;
   }
-  selectVisible(index, cut_, eye, v, request.method != CullingCase::none, visible_,
-                request.decision.weather.farM);
+  refusal_ = conditions_.refusal(cut_, eye_, v);
+}
+
+void FrameCulling::selectVisible(const FrameRequest& request) {
+  const TerrainIndex& index = database_->index();
+  trimtab::selectVisible(
+      index, cut_, eye_, request.view, request.method != CullingCase::none, visible_,
+      request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited, hidden_);
+  if (!defects_.culledNode) return;
+  flags_.clear();
+  for (const TileDraw& tile : visible_.tiles) flags_.push_back(tile.node == defects_.culledNode);
+  removeOccluded(index, flags_, visible_);
+}
+
+bool FrameCulling::findHidden(const FrameRequest& request, FrameResult& counters) {
+  hidden_ = {};
+  const auto& size = request.decision.depthMap;
+  counters.horizon = request.method == CullingCase::proposed &&
+                     request.occlusion == OcclusionMethod::horizon && size && refusal_.empty();
+  if (!counters.horizon) return false;
+  if (!request.skips.sameHorizon) horizon_.forget();
+  hidden_ = horizon_.hidden(cut_, cutNumber_, eye_.position,
+                            {HorizonCulling::columnsFor(size->widthPx), HorizonCulling::slackOf(request.view),
+                             defects_.loweringScale < 1},
+                            conditions_);
+  counters.horizonsBuilt = horizon_.built();
+  return true;
 }
 
 void FrameCulling::clear() {
   visible_ = {};
+  hidden_ = {};
   depthMapCurrent_ = false;
 }
 
 std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& request, const TileCache& tiles,
                                                         OcclusionPass& pass, FrameResult& counters) {
-  refusal_ = conditions_.refusal(cut_, eye_, request.view);
   counters.depthMap.reset();
   counters.note.clear();
   depthMapCurrent_ = false;
   const auto& size = request.decision.depthMap;
   if (request.method != CullingCase::proposed || !size || visible_.tiles.empty()) return {};
   counters.note = refusal_;
-  if (!refusal_.empty()) return {};
+  if (!refusal_.empty() || request.occlusion == OcclusionMethod::horizon) return {};
   testedSlots_.clear();
   occluders_.clear();
   // Far tiles cost as much to draw as near ones and hide little: measured over Everest and Fuji, leaving out
@@ -77,7 +105,8 @@ std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& requ
                    size->heightPx,
                    OcclusionPass::kLevels,
                    static_cast<int>(testedSlots_.size()),
-                   defects_.loweringScale};
+                   defects_.loweringScale,
+                   defects_.depthMapShiftTexels};
 }
 
 void FrameCulling::removeHidden(const TileCache& tiles, OcclusionPass& pass) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "trimtab/culling/select.h"
+#include "trimtab/scene/horizon_culling.h"
 #include "trimtab/scene/occlusion.h"
 #include "trimtab/scene/occlusion_conditions.h"
 #include "trimtab/scene/renderer.h"
@@ -18,14 +19,21 @@ namespace trimtab::scene {
 /// Depths (near / distance, row 0 at the bottom) as the greys that people look at.
 Renderer::Grey greyOf(std::span<const float> depths, int width, int height, double nearM);
 
-/// What a frame does to find the terrain's tiles that it draws: level cut, frustum, depth map. Keeps what can
-/// be kept from frame to frame; needs no context, except where OcclusionPass and TileCache are passed.
+/// What a frame does to find the terrain's tiles that it draws: level cut, frustum, and horizon or depth map.
+/// Keeps what can be kept from frame to frame; needs no context, except where OcclusionPass and TileCache are
+/// passed.
 class FrameCulling {
  public:
   void setDatabase(std::shared_ptr<const terrain::Database> database);
 
-  /// Cut and visible set for an eye; the cut only if it can have changed, which counts as `cutsSelected`.
-  void select(const FrameRequest& request, const EyePose& eye, FrameResult& counters);
+  // In this order, every frame.
+  /// The cut for an eye, only if it can have changed, which counts as `cutsSelected`.
+  void selectCut(const FrameRequest& request, const EyePose& eye, FrameResult& counters);
+  /// What the horizon hides, where that serves: false where it does not. Built only if it can have changed,
+  /// which counts as `horizonsBuilt`.
+  bool findHidden(const FrameRequest& request, FrameResult& counters);
+  /// What of the cut is in the view and not hidden.
+  void selectVisible(const FrameRequest& request);
   /// No terrain in this frame.
   void clear();
   /// After the visible tiles have slots: whether there is a depth map in this frame, and its view. Else
@@ -34,8 +42,7 @@ class FrameCulling {
                                             OcclusionPass& pass, FrameResult& counters);
   /// Tests the visible tiles against the depth map and takes out what it hides.
   void removeHidden(const TileCache& tiles, OcclusionPass& pass);
-  /// Whether the eye is over the ground and above it, so that no underside can be seen; as of
-  /// prepareOcclusion.
+  /// Whether the eye is over the ground and above it, so that no underside can be seen; as of `selectCut`.
   bool eyeIsAboveGround() const { return refusal_.empty(); }
 
   const LevelCut& cut() const { return cut_; }
@@ -56,7 +63,10 @@ class FrameCulling {
 
   std::shared_ptr<const terrain::Database> database_;
   OcclusionConditions conditions_;
+  HorizonCulling horizon_;
+  std::span<const std::uint8_t> hidden_;  ///< by the horizon, one a tile of the cut; or empty
   std::optional<CutKey> cutKey_;
+  std::uint64_t cutNumber_ = 0;  ///< another one for another cut
   LevelCut cut_;
   VisibleSet visible_;
   EyePose eye_;

@@ -36,6 +36,10 @@ struct ChoicesOf<CullingCase> {
       {"none", "No culling"}, {"view_frustum", "View frustum"}, {"proposed", "Proposed (adaptive)"}};
 };
 template <>
+struct ChoicesOf<OcclusionMethod> {
+  static constexpr ChoiceOption options[] = {{"depth_map", "Depth map"}, {"horizon", "Horizon"}};
+};
+template <>
 struct ChoicesOf<ViewSource> {
   static constexpr ChoiceOption options[] = {{"preset", "This preset"}, {"host", "The host"}};
 };

@@ -19,6 +19,8 @@ enum class PitchReading { linear, rounded_step };
 enum class Combination { sum, twice_minimum, rules };
 /// The papers' three culling cases.
 enum class CullingCase { none, view_frustum, proposed };
+/// What proves that something is hidden, where the scheme is dynamic.
+enum class OcclusionMethod { depth_map, horizon };
 /// Where field of view and near plane come from.
 enum class ViewSource { preset, host };
 enum class RenderSize { fit, fixed };
@@ -84,6 +86,7 @@ struct SchemeParameters {
 
 struct CullingParameters {
   CullingCase method = CullingCase::proposed;
+  OcclusionMethod occlusion = OcclusionMethod::depth_map;
 };
 
 struct LodParameters {

@@ -12,6 +12,13 @@ inline constexpr std::array kViewRows{
          .help = "Which of the published cases runs. All draw the same picture; they differ in what they "
                  "spend on it.",
          .source = "A, B: comparison of culling"}),
+    row<&TuningParameters::culling, &CullingParameters::occlusion>(
+        {.key = "culling.occlusion",
+         .label = "Hidden ground",
+         .help =
+             "What proves that tiles are hidden, where the scheme is dynamic: the published depth map of the "
+             "view, or the horizon around the eye's place, which a turning head leaves as it is. The band's "
+             "size is the resolution of either. Static trees have the depth map alone."}),
     row<&TuningParameters::lod, &LodParameters::screenSpaceError>(
         {.key = "lod.screen_space_error_px",
          .label = "Screen-space error",

@@ -1,0 +1,221 @@
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "scene_test.h"
+
+namespace trimtab {
+namespace {
+
+using test::SceneTest;
+
+constexpr std::array<DepthMapSize, 6> kSizes{
+    {{64, 48}, {320, 240}, {400, 300}, {640, 480}, {800, 600}, {33, 77}}};
+
+struct Tally {
+  int views = 0, served = 0;
+  std::size_t differing = 0, frustum = 0, proposed = 0, owning = 0;
+};
+
+class HorizonScene : public SceneTest {
+ protected:
+  void compare(scene::FrameRequest r, DepthMapSize size, Tally& tally) {
+    scene::FrameResult frustum, proposed;
+    r.decision.depthMap = size;
+    r.occlusion = OcclusionMethod::horizon;
+    r.method = CullingCase::none;
+    const auto whole = picture(r);
+    r.method = CullingCase::view_frustum;
+    const std::size_t frustumDiffers = differing(whole, picture(r, &frustum));
+    r.method = CullingCase::proposed;
+    const std::size_t proposedDiffers = differing(whole, picture(r, &proposed));
+    EXPECT_EQ(frustumDiffers, 0u) << "view " << tally.views;
+    EXPECT_EQ(proposed.visible.tiles.size() + proposed.visible.occluded, frustum.visible.tiles.size());
+    EXPECT_FALSE(proposed.depthMap.has_value());
+    ++tally.views;
+    tally.served += proposed.horizon;
+    tally.differing += proposedDiffers;
+    tally.frustum += frustum.visible.tiles.size();
+    tally.proposed += proposed.visible.tiles.size();
+  }
+
+  /// TRIMTAB_SOAK in the environment multiplies the views.
+  static int soak() {
+    const char* text = std::getenv("TRIMTAB_SOAK");
+    return text ? std::max(1, std::atoi(text)) : 1;
+  }
+
+  /// Flights along valleys and above, any attitude, every size.
+  Tally fly(int views, unsigned seed, std::span<const DepthMapSize> sizes = kSizes) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> place(0.15, 0.85), unit(0, 1);
+    Tally tally;
+    for (int i = 0; i < views * soak(); ++i) {
+      // 15 m to 9,000 m above the ground, most of them low, where much is hidden.
+      const double above = 15 * std::pow(600.0, std::pow(unit(random), 2.5));
+      const double pitch = i % 7 == 3 ? -75 + 30 * unit(random) : -20 + 25 * unit(random);
+      const double roll = i % 3 == 0 ? 360 * unit(random) : 0;
+      const auto east = place(random), north = place(random);
+      auto r =
+          request(over(east, north, above), {Degrees{360 * unit(random)}, Degrees{pitch}, Degrees{roll}});
+      if (i % 5 == 4) r.view.left = -0.2, r.view.right = 0.9, r.view.bottom = -0.6, r.view.top = 0.1;
+      if (i % 11 == 7) r.view.left = -0.02, r.view.right = 0.02, r.view.bottom = -0.01, r.view.top = 0.01;
+      r.lod.screenSpaceError = Pixels{i % 4 == 0 ? 6.0 : i % 4 == 1 ? 0.5 : 2.0};
+      compare(r, sizes[static_cast<std::size_t>(i) % sizes.size()], tally);
+    }
+    std::printf("%d views: %zu tiles by frustum, %zu proposed, the horizon served %d\n", tally.views,
+                tally.frustum, tally.proposed, tally.served);
+    return tally;
+  }
+};
+
+TEST_F(HorizonScene, leavesNoPixelOutOverSyntheticMountains) {
+  use(test::syntheticMountains());
+  const Tally tally = fly(36, 1);
+  EXPECT_EQ(tally.differing, 0u);
+  EXPECT_GT(tally.served, 30);
+  EXPECT_LT(tally.proposed * 10, tally.frustum * 9) << "it hides hardly anything";
+}
+
+TEST_F(HorizonScene, leavesNoPixelOutOverEverest) {
+  TRIMTAB_NEEDS_SHARED("data/dem-srtm3-everest");
+  use(bakeShared("dem-srtm3-everest"));
+  ASSERT_TRUE(database);
+  const Tally tally = fly(24, 2);
+  EXPECT_EQ(tally.differing, 0u);
+  EXPECT_LT(tally.proposed * 10, tally.frustum * 8);
+}
+
+TEST_F(HorizonScene, leavesNoPixelOutOverFuji) {
+  TRIMTAB_NEEDS_SHARED("data/dem-osgearth-fuji");
+  use(bakeShared("dem-osgearth-fuji"));
+  ASSERT_TRUE(database);
+  const Tally tally = fly(18, 3);
+  EXPECT_EQ(tally.differing, 0u);
+}
+
+TEST_F(HorizonScene, leavesNoPixelOutOverTheSample) {
+  const test::ScratchDir dir;
+  terrain::SampleOptions options;
+  options.postM = 90;
+  ASSERT_TRUE(terrain::writeSample(dir / "sample.tif", options));
+  auto baked = terrain::openOrBake(dir / "sample.tif", dir / "cache", {});
+  ASSERT_TRUE(baked) << toString(baked.findings());
+  use(baked.value());
+  const Tally tally = fly(18, 4);
+  EXPECT_EQ(tally.differing, 0u);
+}
+
+// Without this, the tests above might pass because nothing can go wrong where they look.
+TEST_F(HorizonScene, losesPixelsWhereLinesReachTooHigh) {
+  use(test::syntheticMountains());
+  constexpr std::array<DepthMapSize, 1> kCoarse{{{8, 6}}};
+  renderer.plant({.loweringScale = 0});
+  EXPECT_GT(fly(24, 1, kCoarse).differing, 0u);
+  renderer.plant({});
+  EXPECT_EQ(fly(24, 1, kCoarse).differing, 0u);
+}
+
+TEST_F(HorizonScene, isNotBuiltAgainWhileOnlyTheHeadTurns) {
+  use(test::syntheticMountains());
+  auto r = request(over(0.5, 0.5, 200), {});
+  r.decision.depthMap = DepthMapSize{320, 240};
+  r.occlusion = OcclusionMethod::horizon;
+  scene::FrameResult result;
+  for (int i = 0; i < 12; ++i) {
+    r.attitude = {Degrees{31.0 * i}, Degrees{-3.0 * i}, Degrees{7.0 * i}};
+    picture(r, &result);
+    EXPECT_TRUE(result.horizon);
+    EXPECT_EQ(result.horizonsBuilt, 1u);
+  }
+  EXPECT_EQ(result.depthMapsDrawn, 0u);
+  r.skips.sameHorizon = false;
+  const auto skipped = picture(r, &result);
+  EXPECT_EQ(result.horizonsBuilt, 2u);
+  r.skips.sameHorizon = true;
+  EXPECT_EQ(picture(r, &result), skipped);
+  EXPECT_EQ(result.horizonsBuilt, 2u);
+  r.eye.height = r.eye.height + Metres{1};
+  picture(r, &result);
+  EXPECT_EQ(result.horizonsBuilt, 3u);
+  r.decision.depthMap = DepthMapSize{800, 600};
+  picture(r, &result);
+  EXPECT_EQ(result.horizonsBuilt, 4u) << "the band sets its resolution";
+  r.decision.depthMap.reset();
+  picture(r, &result);
+  EXPECT_FALSE(result.horizon);
+  EXPECT_TRUE(std::isnan(result.cost.occlusion));
+  EXPECT_EQ(result.visible.occluded, 0u);
+}
+
+TEST_F(HorizonScene, hidesMoreAtTheSizeOfAHigherBand) {
+  use(test::syntheticMountains());
+  std::array<std::size_t, 3> occluded{};
+  constexpr std::array<int, 3> kWidths{16, 64, 800};
+  for (std::size_t k = 0; k < kWidths.size(); ++k)
+    for (int i = 0; i < 8; ++i) {
+      auto r = request(over(0.3 + 0.05 * i, 0.6 - 0.04 * i, 120), {Degrees{45.0 * i}, Degrees{-3}, {}});
+      r.lod.screenSpaceError = Pixels{0.25};
+      r.occlusion = OcclusionMethod::horizon;
+      r.decision.depthMap = DepthMapSize{kWidths[k], kWidths[k] * 3 / 4};
+      scene::FrameResult result;
+      picture(r, &result);
+      occluded[k] += result.visible.occluded;
+    }
+  EXPECT_LT(occluded[0], occluded[1]);
+  EXPECT_LT(occluded[1], occluded[2]);
+}
+
+TEST_F(HorizonScene, saysWhyItIsNotUsed) {
+  use(test::syntheticMountains());
+  const auto note = [this](const GeodeticPosition& eye) {
+    auto r = request(eye, {Degrees{270}, Degrees{-5}, Degrees{0}});
+    r.decision.depthMap = DepthMapSize{320, 240};
+    r.occlusion = OcclusionMethod::horizon;
+    const auto result = renderer.draw(r, offscreen->framebuffer());
+    EXPECT_EQ(result.horizon, result.note.empty());
+    EXPECT_TRUE(result.note.empty() || result.visible.occluded == 0);
+    return result.note;
+  };
+  EXPECT_EQ(note(over(0.5, 0.5, 300)), "");
+  EXPECT_EQ(note(over(0.5, 0.5, -30)), "the eye is under the ground");
+  EXPECT_EQ(note(over(0.5, 0.5, 0.2)), "the eye is too near the ground");
+  auto beside = over(0.5, 0.5, 3000);
+  beside.longitude = beside.longitude + Degrees{0.6};
+  EXPECT_EQ(note(beside), "the eye is not over the terrain");
+}
+
+TEST_F(HorizonScene, cullsNothingForDegenerateViews) {
+  use(test::syntheticMountains());
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  auto good = request(over(0.5, 0.5, 300), {Degrees{270}, Degrees{-5}, Degrees{0}});
+  std::vector<scene::FrameRequest> views;
+  const auto add = [&](auto&& change) {
+    views.push_back(good);
+    change(views.back());
+  };
+  add([&](auto& r) { r.attitude.heading = Degrees{nan}; });
+  add([&](auto& r) { r.attitude = {Degrees{nan}, Degrees{nan}, Degrees{nan}}; });
+  add([&](auto& r) { r.eye.height = Metres{nan}; });
+  add([&](auto& r) { r.eye.latitude = Degrees{90}; });
+  add([&](auto& r) { r.eye.latitude = Degrees{-90}, r.eye.height = Metres{-6e6}; });
+  add([&](auto& r) { r.eye.height = Metres{1e9}; });
+  add([&](auto& r) { r.view.left = r.view.right = 0; });
+  add([&](auto& r) { r.view.left = r.view.right = r.view.bottom = r.view.top = nan; });
+  add([&](auto& r) { r.view.nearM = nan; });
+  add([&](auto& r) { r.eye = over(0.5, 0.5, -40); });
+  add([&](auto& r) { r.eye = over(0.02, 0.98, 30); });
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    scene::FrameRequest r = views[i];
+    r.decision.depthMap = DepthMapSize{320, 240};
+    r.occlusion = OcclusionMethod::horizon;
+    r.method = CullingCase::view_frustum;
+    const auto whole = picture(r);
+    r.method = CullingCase::proposed;
+    EXPECT_EQ(differing(whole, picture(r)), 0u) << "view " << i;
+  }
+}
+
+}  // namespace
+}  // namespace trimtab
