@@ -6,15 +6,19 @@
 namespace trimtab {
 namespace {
 
-/// As JPEG's: 0.299 R + 0.587 G + 0.114 B in 16 bits of fraction, rounded.
+/// 0.299 R + 0.587 G + 0.114 B, rounded, halves up: exact.
 void lumaOf(const std::uint8_t* rgba, std::size_t pixels, std::uint8_t* luma) {
-  for (std::size_t i = 0; i < pixels; ++i)
-    luma[i] = static_cast<std::uint8_t>(
-        (19595u * rgba[4 * i] + 38470u * rgba[4 * i + 1] + 7471u * rgba[4 * i + 2] + 32768u) >> 16);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const std::uint32_t thousands =
+        299u * rgba[4 * i] + 587u * rgba[4 * i + 1] + 114u * rgba[4 * i + 2] + 500u;
+    luma[i] = static_cast<std::uint8_t>((thousands >> 3) * 134218u >> 24);  // thousands / 1000 below 256,000
+  }
 }
 
 // Sum and difference of the pictures instead of the pictures: where they are nearly equal, what is left of
-// 1 - SSIM is then all in the difference, and does not drown in the rounding of the sum.
+// 1 - SSIM is then all in the difference, and does not drown in the rounding of the sum. Weighted is how far
+// each pair of pixels lies from the middle one (w (l + r - 2 m), the middle's own weight is the rest of 1),
+// so that a flat window has a variance of exactly 0.
 void ssimRow(const std::uint8_t* a, const std::uint8_t* b, int columns, const SsimFilter& filter,
              float* planes, std::size_t pitch) {
   constexpr int kChunk = 256;
@@ -28,18 +32,17 @@ void ssimRow(const std::uint8_t* a, const std::uint8_t* b, int columns, const Ss
     }
     for (int i = count + 10; i < count + 10 + kLanes; ++i) sum[i] = difference[i] = 0;
     for (int x = 0; x < count; x += kLanes) {
-      Floats s = load(sum + x + 5), d = load(difference + x + 5);
-      Floats ss = s * s * filter.weights[0], dd = d * d * filter.weights[0];
-      s *= filter.weights[0];
-      d *= filter.weights[0];
+      const Floats sm = load(sum + x + 5), dm = load(difference + x + 5);
+      const Floats ssm = sm * sm, ddm = dm * dm;
+      Floats s = sm, d = dm, ss = ssm, dd = ddm;
       for (int k = 1; k <= 5; ++k) {
         const Floats w = all(filter.weights[k]);
         const Floats s1 = load(sum + x + 5 - k), s2 = load(sum + x + 5 + k);
         const Floats d1 = load(difference + x + 5 - k), d2 = load(difference + x + 5 + k);
-        s = fma(w, s1 + s2, s);
-        d = fma(w, d1 + d2, d);
-        ss = fma(w, fma(s1, s1, s2 * s2), ss);
-        dd = fma(w, fma(d1, d1, d2 * d2), dd);
+        s = fma(w, (s1 + s2) - (sm + sm), s);
+        d = fma(w, (d1 + d2) - (dm + dm), d);
+        ss = fma(w, fma(s1, s1, s2 * s2) - (ssm + ssm), ss);
+        dd = fma(w, fma(d1, d1, d2 * d2) - (ddm + ddm), dd);
       }
       float* to = planes + first + x;
       store(to, s);
@@ -57,9 +60,11 @@ double ssimSum(const float* const* rows, std::size_t pitch, int columns, const S
     Floats mean[kSsimPlanes];
     for (std::size_t p = 0; p < kSsimPlanes; ++p) {
       const std::size_t at = p * pitch + static_cast<std::size_t>(x);
-      mean[p] = load(rows[5] + at) * filter.weights[0];
+      const Floats middle = load(rows[5] + at);
+      mean[p] = middle;
       for (int k = 1; k <= 5; ++k)
-        mean[p] = fma(all(filter.weights[k]), load(rows[5 - k] + at) + load(rows[5 + k] + at), mean[p]);
+        mean[p] = fma(all(filter.weights[k]),
+                      (load(rows[5 - k] + at) + load(rows[5 + k] + at)) - (middle + middle), mean[p]);
     }
     const Floats sumVariance = larger(mean[2] - mean[0] * mean[0], Floats{});
     const Floats differenceVariance = larger(mean[3] - mean[1] * mean[1], Floats{});
