@@ -79,14 +79,18 @@ void BlurPass::resize(int width, int height) {
   glBindTexture(GL_TEXTURE_2D, 0);
 }
 
+double BlurPass::keptAfter(double strength, double step) {
+  if (!(step > 0 && step <= kLongestS)) return 0;
+  return std::pow(std::clamp(strength, 0.0, kStrongest), step * kReferenceHz);
+}
+
 void BlurPass::apply(unsigned fbo, unsigned texture, int width, int height, double strength, double time) {
   if (program_ == 0) return;
   resize(width, height);
   const double step = time - time_;
   const bool again = step == 0 && !fresh_;
   if (!again) {
-    const bool first = fresh_ || !(step > 0 && step <= kLongestS);
-    keep_ = first ? 0 : std::pow(std::clamp(strength, 0.0, kStrongest), step * kReferenceHz);
+    keep_ = fresh_ ? 0 : keptAfter(strength, step);
     newest_ = 1 - newest_;
   }
   time_ = time;

@@ -23,6 +23,9 @@ class BlurPass {
   /// first picture after a rest, after a step back or of more than a second, or of another size is left as it
   /// is; one of the same time takes the last one's place.
   void apply(unsigned fbo, unsigned texture, int width, int height, double strength, double time);
+  /// Share of the accumulated picture that is left in the one `step` seconds later; 0: that one is a first
+  /// picture.
+  static double keptAfter(double strength, double step);
   /// Nothing accumulates: the next picture is a first one.
   void rest() { fresh_ = true; }
 

@@ -14,6 +14,7 @@ class FrameBuffer {
 
   /// Makes it that size if it is not.
   void resize(int width, int height);
+  void release();
   unsigned id() const { return id_; }
   unsigned colourTexture() const { return colour_; }
   /// Reversed depths, row 0 at the bottom; 0 where nothing was drawn.
@@ -22,7 +23,6 @@ class FrameBuffer {
   int height() const { return height_; }
 
  private:
-  void release();
   unsigned id_ = 0, colour_ = 0, depth_ = 0;
   int width_ = 0, height_ = 0;
 };

@@ -2,31 +2,40 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 namespace trimtab::scene {
 
-/// GPU milliseconds of a frame from time stamps, read some frames later: it never waits.
+/// GPU milliseconds of a frame's spans from time stamps, read some frames later: it never waits. Spans may
+/// lie in one another. The context is current for all of its life.
 class GpuTimer {
  public:
-  GpuTimer();
+  explicit GpuTimer(std::size_t spans);
   ~GpuTimer();
   GpuTimer(const GpuTimer&) = delete;
   GpuTimer& operator=(const GpuTimer&) = delete;
 
-  void begin();
-  void end();
-  /// Of the newest frame whose stamps have arrived; NaN before the first.
-  double milliseconds() const { return milliseconds_; }
+  void beginFrame();
+  void begin(std::size_t span);
+  void end(std::size_t span);
+  void endFrame();
+  /// Of the newest frame whose stamps have arrived; NaN where it had no such span, and before the first.
+  double milliseconds(std::size_t span) const { return milliseconds_[span]; }
 
  private:
   void collect();
-  struct Frame {
+  struct Span {
     unsigned begin = 0, end = 0;
+    bool ended = false;
+  };
+  struct Frame {
+    std::vector<Span> spans;
+    unsigned last = 0;  ///< query; 0: nothing was stamped
     bool pending = false;
   };
   std::array<Frame, 4> frames_;
   std::size_t next_ = 0;
-  double milliseconds_;
+  std::vector<double> milliseconds_;
   bool open_ = false;
 };
 

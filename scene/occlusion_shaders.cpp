@@ -79,6 +79,7 @@ uniform int levels;
 uniform int span;               // texels a side that are looked at
 uniform vec2 pad;               // texels
 uniform int count;
+uniform float shift;            // 0; tests set more to see that the picture breaks
 out vec4 result;
 
 bool hidden(int slot, int part, out bool outside) {
@@ -105,6 +106,8 @@ bool hidden(int slot, int part, out bool outside) {
     outside = true;
     return true;
   }
+  low.x += shift;
+  high.x += shift;
   ivec2 from = ivec2(clamp(floor(low), vec2(0.0), vec2(mapSize - 1)));
   ivec2 to = ivec2(clamp(floor(high), vec2(0.0), vec2(mapSize - 1)));
   int level = 0;

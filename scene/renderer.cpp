@@ -1,20 +1,19 @@
 #include "trimtab/scene/renderer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <limits>
 
 #include "trimtab/scene/blur_pass.h"
 #include "trimtab/scene/frame_buffer.h"
 #include "trimtab/scene/frame_culling.h"
 #include "trimtab/scene/gl_api.h"
 #include "trimtab/scene/gl_report.h"
-#include "trimtab/scene/gpu_timer.h"
 #include "trimtab/scene/lines.h"
+#include "trimtab/scene/node_pass.h"
 #include "trimtab/scene/occlusion.h"
 #include "trimtab/scene/scene_graph.h"
 #include "trimtab/scene/shaders.h"
+#include "trimtab/scene/stage_clock.h"
 #include "trimtab/scene/static_lod_culling.h"
 #include "trimtab/scene/static_lod_layer.h"
 #include "trimtab/scene/static_lod_occlusion.h"
@@ -24,13 +23,6 @@
 
 namespace trimtab::scene {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-double millisecondsBetween(Clock::time_point from, Clock::time_point to) {
-  return std::chrono::duration<double, std::milli>(to - from).count();
-}
 
 std::uint32_t rgba(std::array<std::uint8_t, 3> c, std::uint8_t alpha) {
   return c[0] | static_cast<std::uint32_t>(c[1]) << 8 | static_cast<std::uint32_t>(c[2]) << 16 |
@@ -49,9 +41,9 @@ struct Renderer::Impl {
   // The frame in progress.
   const FrameRequest* request = nullptr;
   ViewShape lastView;
-  FrameCost cost;
-  Clock::time_point frameStart, cullDone, drawStart;
+  std::optional<SceneView> shown;  ///< the last picture's
   std::vector<TileDraw> drawn;
+  const std::vector<TileDraw>* numbered = nullptr;  ///< what the node pass draws
   std::vector<std::uint32_t> tints;
   std::vector<LineVertex> lines;
 
@@ -59,6 +51,7 @@ struct Renderer::Impl {
   struct Gl {
     explicit Gl(ScenePasses passes) : graph(std::move(passes)) {}
     FrameBuffer frame;
+    NodeTarget nodes;
     TileCache tiles;
     StaticLodLayer trees;
     StaticLodOcclusion treeOcclusion;
@@ -66,14 +59,14 @@ struct Renderer::Impl {
     LineBuffer lineBuffer;
     BlurPass blur;
     SymbologyPass symbology;
-    GpuTimer timer;
+    StageClock clock;
     SceneGraph graph;
   };
   std::unique_ptr<Gl> gl;
 
   ScenePasses passes() {
     return {
-        .begin = [this](unsigned) { cullDone = drawStart = Clock::now(); },
+        .begin = [this](unsigned) { gl->clock.lap(&FrameCost::cull); },
         .occluders = [this](unsigned) { drawOccluders(); },
         .reduce = [this](unsigned program) { gl->occlusion.reduce(program); },
         .test = [this](unsigned) { removeHidden(); },
@@ -82,12 +75,17 @@ struct Renderer::Impl {
         .trees = [this](unsigned program) { drawTrees(program); },
         .treeWire = [this](unsigned program) { drawTreeWire(program); },
         .treePicture = [this](unsigned program) { gl->trees.drawPicture(program, trees.visible().tiles); },
-        .lines = [this](unsigned) { gl->lineBuffer.draw(lines); }};
+        .nodes = [this](unsigned) { drawTiles(*numbered); },
+        .treeNodes = [this](unsigned program) { gl->trees.drawNumbered(program, *numbered); },
+        .lines = [this](unsigned) { gl->lineBuffer.draw(lines); },
+        .beforeWeather = [this](unsigned) { gl->clock.beginPart(&FrameCost::weather); },
+        .afterWeather = [this](unsigned) { gl->clock.endPart(&FrameCost::weather); }};
   }
 
   void drawOccluders();
   void removeHidden();
   void drawTerrain();
+  void drawTiles(const std::vector<TileDraw>& tiles);
   void drawWire();
   void drawTrees(unsigned program);
   void drawNodes(unsigned program, std::span<const TileDraw> nodes);
@@ -95,8 +93,11 @@ struct Renderer::Impl {
   void prepareTrees(SceneView& view);
   void bindTileTextures(bool on);
   void prepare(SceneView& view);
+  void paged(std::size_t built);
   void finishPicture();
   FrameResult draw(const FrameRequest& r, unsigned fbo);
+  static void leaveContext(unsigned fbo);
+  std::vector<std::uint32_t> readNodes(bool unculled);
 };
 
 void Renderer::Impl::drawOccluders() {
@@ -109,8 +110,7 @@ void Renderer::Impl::drawOccluders() {
 void Renderer::Impl::removeHidden() {
   culling.removeHidden(gl->tiles, gl->occlusion);
   glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
-  drawStart = Clock::now();
-  cost.occlusion = millisecondsBetween(cullDone, drawStart);
+  gl->clock.lap(&FrameCost::occlusion);
 }
 
 void Renderer::Impl::bindTileTextures(bool on) {
@@ -132,17 +132,19 @@ void Renderer::Impl::drawTerrain() {
                                               : rgba(levelColour(database->index().level[tile.node]), 150));
     gl->tiles.setTints(drawn, tints);
   }
+  drawTiles(drawn);
+}
+
+void Renderer::Impl::drawTiles(const std::vector<TileDraw>& tiles) {
   bindTileTextures(true);
-  gl->tiles.draw(drawn);
+  gl->tiles.draw(tiles);
   bindTileTextures(false);
 }
 
 void Renderer::Impl::drawWire() {
-  bindTileTextures(true);
   glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-  gl->tiles.draw(drawn);
+  drawTiles(drawn);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-  bindTileTextures(false);
 }
 
 /// The near nodes, then what they leave of the far ones.
@@ -154,11 +156,11 @@ void Renderer::Impl::drawTrees(unsigned program) {
     drawNodes(program, std::span(visible).first(near));
     // Reading waits for the near nodes: a software rasteriser's time for them is not the map's.
     if (report.software) glFinish();
-    const auto start = Clock::now();
+    gl->clock.lap(&FrameCost::draw);
     const ViewShape& v = request->view;
     gl->treeOcclusion.read(v.widthPx, v.heightPx, counters.depthMap->widthPx, counters.depthMap->heightPx);
     trees.removeHidden(gl->treeOcclusion.pyramid());
-    cost.occlusion = millisecondsBetween(start, Clock::now());
+    gl->clock.lap(&FrameCost::occlusion);
     if (!byReason) drawNodes(program, std::span(visible).subspan(near));
   } else if (!byReason) {
     drawNodes(program, visible);
@@ -186,15 +188,23 @@ void Renderer::Impl::drawTreeWire(unsigned program) {
 /// The static trees' side of `prepare`.
 void Renderer::Impl::prepareTrees(SceneView& view) {
   const FrameRequest& r = *request;
-  const auto start = Clock::now();
+  gl->clock.lap(&FrameCost::cull);
   trees.select(r, r.frozenEye.value_or(view.eye), counters);
-  cost.select = millisecondsBetween(start, Clock::now());
-  counters.tilesBuilt += gl->trees.prepare(r.overlays.colourByReason ? trees.cut() : trees.visible().tiles);
+  gl->clock.lap(&FrameCost::select);
+  paged(gl->trees.prepare(r.overlays.colourByReason ? trees.cut() : trees.visible().tiles,
+                          !r.skips.tilesOnGpu));
   culling.clear();
+  counters.horizon = false;
   counters.depthMap = trees.occlusion(r, counters);
   counters.depthMapsDrawn += counters.depthMap.has_value();
   if (r.overlays.tileBounds)
     addBoxes(trees.index().bounds, trees.cut(), trees.visible().reason, view.eye.position, lines);
+}
+
+/// Looking for what lacks a place, and finding that nothing does, is not paging.
+void Renderer::Impl::paged(std::size_t built) {
+  counters.tilesBuilt += built;
+  gl->clock.lap(built > 0 ? &FrameCost::page : &FrameCost::select);
 }
 
 /// What the frame is made of: eye, visible tiles, depth map.
@@ -220,12 +230,16 @@ void Renderer::Impl::prepare(SceneView& view) {
   if (view.trees) {
     prepareTrees(view);
   } else if (database) {
-    const auto start = Clock::now();
-    culling.select(r, r.frozenEye.value_or(view.eye), counters);
-    cost.select = millisecondsBetween(start, Clock::now());
-    counters.tilesBuilt +=
-        gl->tiles.prepare(r.overlays.colourByReason ? culling.cut().tiles : culling.visible().tiles);
+    gl->clock.lap(&FrameCost::cull);
+    culling.selectCut(r, r.frozenEye.value_or(view.eye), counters);
+    gl->clock.lap(&FrameCost::select);
+    if (culling.findHidden(r, counters)) gl->clock.lap(&FrameCost::occlusion);
+    culling.selectVisible(r);
+    gl->clock.lap(&FrameCost::select);
+    paged(gl->tiles.prepare(r.overlays.colourByReason ? culling.cut().tiles : culling.visible().tiles,
+                            !r.skips.tilesOnGpu));
     view.depth = culling.prepareOcclusion(r, gl->tiles, gl->occlusion, counters);
+    gl->clock.lap(view.depth ? &FrameCost::occlusion : &FrameCost::select);
     view.oneSided = culling.eyeIsAboveGround() && !r.frozenEye;
     if (r.overlays.tileBounds)
       addBoxes(database->index().bounds, culling.cut().tiles, culling.visible().reason, view.eye.position,
@@ -234,8 +248,11 @@ void Renderer::Impl::prepare(SceneView& view) {
     view.eye = {{}, eyeAxes(LocalFrame(r.eye), r.eye, r.attitude)};
     culling.clear();
     counters.depthMap.reset();
+    counters.horizon = false;
   }
   view.precipitation = precipitationView(r, database ? database->index().frame : LocalFrame(r.eye));
+  // What would fall where nothing does: no drop, but the effect is run.
+  if (!view.precipitation && !r.skips.clearAir) view.precipitation.emplace();
   counters.precipitationPasses += view.precipitation.has_value();
   if (r.frozenEye) addFrustum(*r.frozenEye, r.view, view.eye.position, lines);
   view.lines = !lines.empty();
@@ -246,30 +263,32 @@ void Renderer::Impl::prepare(SceneView& view) {
 /// What is done to the picture once the scene is drawn; blur before the symbols, which stay sharp.
 void Renderer::Impl::finishPicture() {
   const ViewShape& v = request->view;
-  if (const double strength = request->decision.motion.blur.strength; strength > 0) {
+  const double strength = request->decision.motion.blur.strength;
+  if (strength > 0 || !request->skips.blurAtRest) {
+    gl->clock.beginPart(&FrameCost::blur);
+    if (!(strength > 0)) gl->blur.rest();
     gl->blur.apply(gl->frame.id(), gl->frame.colourTexture(), v.widthPx, v.heightPx, strength, request->time);
+    gl->clock.endPart(&FrameCost::blur);
     ++counters.blurPasses;
-  } else {
-    gl->blur.rest();
   }
+  if (!(strength > 0)) gl->blur.rest();
   if (request->symbology && request->symbology->setup.general.enabled) {
-    counters.symbologyRedraws += gl->symbology.draw(*request->symbology, v);
+    gl->clock.beginPart(&FrameCost::symbology);
+    counters.symbologyRedraws += gl->symbology.draw(*request->symbology, v, !request->skips.sameSymbols);
+    gl->clock.endPart(&FrameCost::symbology);
     ++counters.symbologyDraws;
   }
 }
 
 FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
-  const auto start = Clock::now();
+  gl->clock.start(report.software, r.separateStages);
   request = &r;
   lastView = r.view;
-  cost = {kNone, 0, kNone, 0, 0, kNone, 0};
   SceneView view;
   prepare(view);
 
-  gl->timer.begin();
   gl->frame.resize(r.view.widthPx, r.view.heightPx);
   glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
-  frameStart = Clock::now();
   gl->graph.frame(view, gl->frame.id());
   glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
   finishPicture();
@@ -279,7 +298,18 @@ FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
   glDisable(GL_SCISSOR_TEST);
   glBlitFramebuffer(0, 0, r.view.widthPx, r.view.heightPx, 0, 0, r.view.widthPx, r.view.heightPx,
                     GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  // What others who share the context take for granted.
+  leaveContext(fbo);
+  shown = std::move(view);
+  counters.cost = gl->clock.finish();
+  const bool byTrees = shown->trees;
+  counters.visible = byTrees ? trees.visible() : culling.visible();
+  counters.staticLod = byTrees ? trees.frame() : StaticLodFrame{};
+  counters.tilesInCut = !database ? 0 : byTrees ? trees.cut().size() : culling.cut().tiles.size();
+  return counters;
+}
+
+/// What others who share the context take for granted.
+void Renderer::Impl::leaveContext(unsigned fbo) {
   glBindFramebuffer(GL_FRAMEBUFFER, fbo);
   glUseProgram(0);
   glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
@@ -287,23 +317,30 @@ FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
   glClearDepth(1);
-  gl->timer.end();
-  // A software rasteriser works on after the calls return; without waiting its cost would show up anywhere.
-  if (report.software) glFinish();
+}
 
-  const auto end = Clock::now();
-  cost.cull = millisecondsBetween(frameStart, cullDone);
-  cost.draw = millisecondsBetween(drawStart, end);
-  // The trees' depth map is read while they are drawn.
-  if (view.trees && counters.depthMap) cost.draw -= cost.occlusion;
-  // A software rasteriser's GPU is this processor: its time is in `draw` already, and would count twice.
-  cost.gpu = report.software ? std::numeric_limits<double>::quiet_NaN() : gl->timer.milliseconds();
-  cost.total = millisecondsBetween(start, end);
-  counters.visible = view.trees ? trees.visible() : culling.visible();
-  counters.staticLod = view.trees ? trees.frame() : StaticLodFrame{};
-  counters.cost = cost;
-  counters.tilesInCut = !database ? 0 : view.trees ? trees.cut().size() : culling.cut().tiles.size();
-  return counters;
+std::vector<std::uint32_t> Renderer::Impl::readNodes(bool unculled) {
+  SceneView view = *shown;
+  view.nodes = true;
+  view.depth.reset();
+  view.precipitation.reset();
+  view.sky = view.wireframe = view.lines = view.treePicture = false;
+  std::vector<TileDraw> whole;
+  numbered = unculled ? &whole : &drawn;
+  if (unculled && view.trees) {
+    nearView(trees.cut(), trees.index().bounds, view.eye, view.shape, whole);
+    counters.tilesBuilt += gl->trees.prepare(whole);
+  } else if (unculled && database) {
+    nearView(culling.cut().tiles, database->index().bounds, view.eye, view.shape, whole);
+    counters.tilesBuilt += gl->tiles.prepare(whole);
+  }
+  GLint before = 0;
+  glGetIntegerv(GL_FRAMEBUFFER_BINDING, &before);
+  gl->nodes.begin(view.shape.widthPx, view.shape.heightPx);
+  gl->graph.frame(view, gl->nodes.id());
+  std::vector<std::uint32_t> nodes = gl->nodes.read();
+  leaveContext(static_cast<GLuint>(before));
+  return nodes;
 }
 
 Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
@@ -321,10 +358,12 @@ GlReport Renderer::initialize() {
 }
 
 void Renderer::release() {
+  impl_->shown.reset();
   impl_->gl.reset();
 }
 
 void Renderer::setTerrain(std::shared_ptr<const terrain::Database> database) {
+  impl_->shown.reset();
   impl_->database = std::move(database);
   impl_->culling.setDatabase(impl_->database);
   const auto trees = impl_->database ? impl_->database->staticLod() : nullptr;
@@ -366,6 +405,12 @@ Renderer::Grey Renderer::readDepthMap() {
 
 void Renderer::plant(const Defects& defects) {
   impl_->culling.plant(defects);
+  impl_->trees.plant(defects);
+}
+
+std::vector<std::uint32_t> Renderer::readNodes(bool unculled) {
+  if (!impl_->gl || !impl_->shown) return {};
+  return impl_->readNodes(unculled);
 }
 
 std::vector<std::uint8_t> Renderer::readPixels(int width, int height) {

@@ -36,11 +36,13 @@ std::array<std::uint8_t, 3> levelColour(int level);
 /// Work that a frame leaves out because its result is known. False does it all the same, which changes no
 /// pixel: for measurements of what leaving it out saves.
 struct Skips {
-  bool sameCut = true;      ///< levels are chosen again only when what they depend on has changed
-  bool tilesOnGpu = true;   ///< what was made and uploaded once is not made again
-  bool blurAtRest = true;   ///< no blur pass where its strength is 0
-  bool clearAir = true;     ///< no precipitation pass where nothing falls
-  bool sameSymbols = true;  ///< symbols are made again only when something in them has changed
+  bool sameCut = true;           ///< levels are chosen again only when what they depend on has changed
+  bool beyondVisibility = true;  ///< what is farther than the weather's cut is not drawn
+  bool sameHorizon = true;       ///< built again only when the eye's place or the levels have changed
+  bool tilesOnGpu = true;        ///< what was made and uploaded once is not made again
+  bool blurAtRest = true;        ///< no blur pass where its strength is 0
+  bool clearAir = true;          ///< no precipitation pass where nothing falls
+  bool sameSymbols = true;       ///< symbols are made again only when something in them has changed
   friend bool operator==(const Skips&, const Skips&) = default;
 };
 
@@ -53,6 +55,7 @@ struct FrameRequest {
   ViewShape view;                    ///< size of the picture
   FrameDecision decision;
   CullingCase method = CullingCase::proposed;
+  OcclusionMethod occlusion = OcclusionMethod::depth_map;  ///< of the tiled levels; static trees have their own
   LodParameters lod;
   StaticLodParameters staticLod;
   Overlays overlays;
@@ -78,10 +81,11 @@ struct FrameResult {
   std::size_t tilesInCut = 0;
   StaticLodFrame staticLod;              ///< where `drawn`, the nodes of `visible` are the trees'
   std::optional<DepthMapSize> depthMap;  ///< drawn this frame
+  bool horizon = false;                  ///< the horizon served this frame
   std::string note;                      ///< why occlusion was not used although asked for; empty otherwise
   // Counters of work that was skipped or done, since the renderer was made.
   std::uint64_t precipitationPasses = 0, blurPasses = 0, symbologyDraws = 0, symbologyRedraws = 0;
-  std::uint64_t depthMapsDrawn = 0, cutsSelected = 0, tilesBuilt = 0;
+  std::uint64_t depthMapsDrawn = 0, horizonsBuilt = 0, cutsSelected = 0, tilesBuilt = 0;
 };
 
 /// GL text of the current context, and whether what the renderer needs is there.
@@ -133,10 +137,15 @@ class Renderer {
   Grey readDepthMap();
   /// For tests only, which must be able to see the picture break.
   void plant(const Defects& defects);
-  /// For each pixel of the last picture the node of `FrameResult::visible` that it shows, kNoNode where it is
-  /// sky; row 0 at the bottom. Draws the visible set once more.
+  /// For each pixel of the last picture the node that it shows, kNoNode where it is sky; row 0 at the bottom.
+  /// Draws what was drawn once more: the same vertices in the same order with the same depth test. What only
+  /// an overlay draws (lines, edges) is nobody's. Empty where nothing was drawn yet.
+  ///
+  /// `unculled`: which node it would show if nothing of the same levels had been left out, as in the picture
+  /// of CullingCase::none (but for what is far outside the view: nearView in node_pass.h); what the weather's
+  /// far cut takes away is still sky.
   static constexpr std::uint32_t kNoNode = 0xffffffffu;
-  std::vector<std::uint32_t> readNodes();
+  std::vector<std::uint32_t> readNodes(bool unculled = false);
   /// RGBA of what `draw` left, row 0 at the bottom.
   std::vector<std::uint8_t> readPixels(int width, int height);
 

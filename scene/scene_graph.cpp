@@ -74,6 +74,14 @@ Pass* addPass(osg::Group* group, ScenePasses::Call call, int order, const char* 
   return pass;
 }
 
+/// A call at a place in the frame; nothing is drawn by it.
+Pass* addMark(osg::Group* group, ScenePasses::Call call, int order) {
+  Pass* pass = new Pass(std::move(call));
+  pass->getOrCreateStateSet()->setRenderBinDetails(order, "RenderBin");
+  group->addChild(pass);
+  return pass;
+}
+
 osg::Matrixd rotationOf(const Mat3& axes) {
   osg::Matrixd m;
   for (int i = 0; i < 3; ++i) {
@@ -139,7 +147,8 @@ struct SceneGraph::Nodes {
   osg::ref_ptr<osgViewer::GraphicsWindowEmbedded> window = new osgViewer::GraphicsWindowEmbedded(0, 0, 1, 1);
   osg::ref_ptr<osg::Group> root = new osg::Group;
   osg::ref_ptr<osg::Camera> depthCamera = new osg::Camera;
-  osg::ref_ptr<Pass> terrain, wire, trees, treeWire, treePicture, lines, sky;
+  osg::ref_ptr<Pass> terrain, wire, trees, treeWire, treePicture, nodes, treeNodes, lines, sky;
+  osg::ref_ptr<Pass> beforeWeather, afterWeather;
   PrecipitationNode precipitation;
   bool begun = false;  ///< this frame's drawing
 
@@ -164,6 +173,8 @@ struct SceneGraph::Nodes {
     treeWire = addPass(root, std::move(passes.treeWire), 2, treeVertex.c_str(), kTerrainFragment);
     treeWire->getStateSet()->addUniform(new osg::Uniform("wire", true));
     treePicture = addPass(root, std::move(passes.treePicture), 1, kTreeFlatVertex, kLineFragment);
+    nodes = addPass(root, std::move(passes.nodes), 1, forNodes(kTerrainVertex).c_str(), kNodeFragment);
+    treeNodes = addPass(root, std::move(passes.treeNodes), 1, forNodes(treeVertex).c_str(), kNodeFragment);
     lines = addPass(root, std::move(passes.lines), 3, kLineVertex, kLineFragment);
     sky = addPass(
         root, [](unsigned) { glDrawArrays(GL_TRIANGLES, 0, 3); }, 4, kScreenVertex, kSkyFragment);
@@ -171,6 +182,8 @@ struct SceneGraph::Nodes {
     sky->getStateSet()->setAttributeAndModes(new osg::Depth(osg::Depth::GEQUAL, 0, 1, false));
 
     root->addChild(precipitation.node());
+    beforeWeather = addMark(root, std::move(passes.beforeWeather), PrecipitationNode::kFirstBin - 1);
+    afterWeather = addMark(root, std::move(passes.afterWeather), PrecipitationNode::kLastBin + 1);
 
     osg::Camera* camera = viewer->getCamera();
     camera->setGraphicsContext(window);
@@ -254,6 +267,7 @@ struct SceneGraph::Nodes {
     uniforms.set("pad", Type::FLOAT_VEC2,
                  osg::Vec2f(pad(depth.widthPx, shape.widthPx), pad(depth.heightPx, shape.heightPx)));
     uniforms.set("loweringScale", Type::FLOAT, static_cast<float>(depth.loweringScale));
+    uniforms.set("shift", Type::FLOAT, static_cast<float>(depth.shiftTexels));
   }
 
   /// Whoever shares the context (a widget's painter) has changed state behind OSG's back.
@@ -313,16 +327,21 @@ void SceneGraph::frame(const SceneView& view, unsigned fbo) {
   uniforms.set("tangents", Type::FLOAT_VEC4, tangentsOf(view.shape));
   uniforms.set("dip", Type::FLOAT, static_cast<float>(view.horizonDip));
   uniforms.set("tinted", Type::BOOL, view.tinted);
-  n.terrain->getStateSet()->setMode(GL_CULL_FACE,
-                                    view.oneSided ? osg::StateAttribute::ON : osg::StateAttribute::OFF);
+  for (Pass* pass : {n.terrain.get(), n.nodes.get()})
+    pass->getStateSet()->setMode(GL_CULL_FACE,
+                                 view.oneSided ? osg::StateAttribute::ON : osg::StateAttribute::OFF);
   const auto show = [](Pass& pass, bool on) { pass.setNodeMask(on ? ~0u : 0u); };
-  show(*n.terrain, !view.trees);
+  show(*n.terrain, !view.trees && !view.nodes);
   show(*n.wire, view.wireframe && !view.trees);
-  show(*n.trees, view.trees && !view.treePicture);
+  show(*n.trees, view.trees && !view.treePicture && !view.nodes);
+  show(*n.nodes, view.nodes && !view.trees);
+  show(*n.treeNodes, view.nodes && view.trees);
   show(*n.treeWire, view.wireframe && view.trees && !view.treePicture);
   show(*n.treePicture, view.trees && view.treePicture);
-  n.sky->setNodeMask(view.sky ? ~0u : 0u);
-  n.lines->setNodeMask(view.lines ? ~0u : 0u);
+  show(*n.sky, view.sky);
+  show(*n.lines, view.lines);
+  show(*n.beforeWeather, view.precipitation.has_value());
+  show(*n.afterWeather, view.precipitation.has_value());
   n.depthCamera->setNodeMask(view.depth ? ~0u : 0u);
   if (view.depth) n.setDepthView(*view.depth, view.shape);
   setAir(view);
@@ -332,10 +351,12 @@ void SceneGraph::frame(const SceneView& view, unsigned fbo) {
   camera->setViewport(0, 0, view.shape.widthPx, view.shape.heightPx);
   camera->setViewMatrix(rotationOf(view.eye.axes));
   camera->setProjectionMatrix(reversedProjection(view.shape));
+  // An integer framebuffer has no colour that a camera could clear.
+  camera->setClearMask(view.nodes ? GL_DEPTH_BUFFER_BIT : GL_DEPTH_BUFFER_BIT | GL_COLOR_BUFFER_BIT);
   camera->setClearColor(view.sky ? osg::Vec4(kHaze[0], kHaze[1], kHaze[2], 1) : osg::Vec4(1, 0, 1, 1));
   n.window->setDefaultFboId(fbo);
   n.settleState();
-  n.begun = false;
+  n.begun = view.nodes;
   n.viewer->frame();
   if (view.precipitation) n.settleState();  // its modes are nobody else's
 }

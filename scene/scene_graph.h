@@ -24,7 +24,10 @@ struct ScenePasses {
   Call trees;      ///< static trees, instead of the tiled terrain
   Call treeWire;
   Call treePicture;  ///< document E's picture of them
-  Call lines;      ///< overlay lines
+  Call nodes;        ///< the terrain again, for which node each pixel shows
+  Call treeNodes;
+  Call lines;                        ///< overlay lines
+  Call beforeWeather, afterWeather;  ///< around what falls, where something does
 };
 
 /// The depth map's side of a frame.
@@ -33,6 +36,7 @@ struct DepthView {
   int widthPx = 0, heightPx = 0;
   int levels = 0, tiles = 0;
   double loweringScale = 1;  ///< less than 1 is wrong: for the test that sees the picture break
+  int shiftTexels = 0;       ///< not 0 is wrong likewise: where the map is read
 };
 
 /// A frame's view as the graph's uniforms and matrices need it.
@@ -48,8 +52,11 @@ struct SceneView {
   bool oneSided = false;
   bool sky = true, tinted = false, wireframe = false, lines = false;
   bool trees = false, treePicture = false;  ///< what stands for the tiled terrain
+  /// The node pass instead of a picture: nothing but terrain, as numbers; the framebuffer's colour was
+  /// cleared by whoever made it.
+  bool nodes = false;
   Air air;
-  double heightM = 0;                         ///< of the eye above mean sea level
+  double heightM = 0;  ///< of the eye above mean sea level
   std::optional<PrecipitationView> precipitation;
 };
 

@@ -22,12 +22,27 @@ uniform samplerBuffer tints;
 out vec3 lit;
 out float clearness;       // what the air leaves of it
 out vec2 ground;           // metres east and north, modulo 8192 from tile to tile
+#ifdef NODE_IDS
+#ifdef STATIC_TREE
+uniform uint treeNode;
+#endif
+flat out uint owner;
+#endif
+// The node pass must cover the picture's pixels at the picture's depths, to the bit.
+invariant gl_Position;
 void main() {
 #ifdef STATIC_TREE
   ivec4 slot = ivec4(treeOrigin, 0);
 #else
   int tile = gl_VertexID / 1089;
   ivec4 slot = texelFetch(slots, tile * 2);
+#endif
+#ifdef NODE_IDS
+#ifdef STATIC_TREE
+  owner = treeNode;
+#else
+  owner = uint(slot.w);
+#endif
 #endif
   vec3 p = relativePosition(vertexPosition, slot);
   float light = 0.30 + 0.12 * vertexNormal.z + 1.05 * max(dot(normalize(vertexNormal), sun), 0.0);
@@ -86,6 +101,18 @@ void main() {
   if (fine > 0.0) detail += 0.09 * fine * noise(ground * (1.0 / 32.0), 256);
   if (wire) detail = 0.0;
   fragment = vec4(throughAir(mix(haze, lit * (1.0 + detail), clearness)), 1.0);
+}
+)";
+
+// What the weather's far cut takes away is no node's.
+const char* const kNodeFragment = R"(#version 430 compatibility
+#pragma import_defines(IN_WEATHER)
+)" TRIMTAB_AIR R"(
+flat in uint owner;
+out uint node;
+void main() {
+  throughAir(vec3(0.0));
+  node = owner;
 }
 )";
 
@@ -159,10 +186,21 @@ out vec4 fragment;
 void main() { fragment = colour; }
 )";
 
+namespace {
+
+std::string withDefine(std::string shader, const char* name) {
+  const std::size_t afterVersion = shader.find('\n') + 1;
+  return shader.insert(afterVersion, std::string("#define ") + name + " 1\n");
+}
+
+}  // namespace
+
 std::string forStaticTrees(const char* vertexShader) {
-  std::string text = vertexShader;
-  const std::size_t afterVersion = text.find('\n') + 1;
-  return text.insert(afterVersion, "#define STATIC_TREE 1\n");
+  return withDefine(vertexShader, "STATIC_TREE");
+}
+
+std::string forNodes(std::string vertexShader) {
+  return withDefine(std::move(vertexShader), "NODE_IDS");
 }
 
 }  // namespace trimtab::scene

@@ -30,6 +30,9 @@ extern const char* const kTreeFlatVertex;
 
 /// A terrain vertex shader as the static trees use it: the tile's origin and tint are uniforms.
 std::string forStaticTrees(const char* vertexShader);
+/// A terrain vertex shader that also tells kNodeFragment which node it draws.
+std::string forNodes(std::string vertexShader);
+extern const char* const kNodeFragment;
 
 extern const char* const kOccluderVertex;
 extern const char* const kOccluderFragment;

@@ -59,9 +59,10 @@ void StaticLodCulling::select(const FrameRequest& request, const EyePose& eye, F
   const ViewShape& v = request.view;
   const double pixelsPerRadian = std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom));
   const CutKey key{eye.position, request.staticLod.error,
-                   staticLodDistancePerError(request.staticLod, request.decision.lodScale, pixelsPerRadian),
+                   staticLodDistancePerError(request.staticLod, request.decision.lodScale, pixelsPerRadian) *
+                       defects_.statedErrorScale,
                    request.overlays.treeDepth};
-  if (cutKey_ != key) {
+  if (cutKey_ != key || !request.skips.sameCut) {
     if (key.depth >= 0)
       selectStaticDepth(index(), key.depth, cut_);
     else
@@ -77,8 +78,14 @@ void StaticLodCulling::select(const FrameRequest& request, const EyePose& eye, F
   // Frozen, what was hidden from there stays hidden: the picture is another eye's and cannot tell.
   if (request.frozenEye && visibleKey_ == wanted) return;
   visibleKey_ = wanted;
-  selectStaticVisible(index(), vertices_, cut_, eye, v, request.method != CullingCase::none, visible_,
-                      request.decision.weather.farM);
+  selectStaticVisible(
+      index(), vertices_, cut_, eye, v, request.method != CullingCase::none, visible_,
+      request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited);
+  if (defects_.culledNode) {
+    flags_.clear();
+    for (const TileDraw& node : visible_.tiles) flags_.push_back(node.node == defects_.culledNode);
+    removeStaticOccluded(index(), vertices_, flags_, visible_);
+  }
   visibleNear_ = static_cast<std::size_t>(
       std::count_if(cut_.nodes.begin(), cut_.nodes.begin() + static_cast<std::ptrdiff_t>(near_),
                     [this](std::uint32_t node) { return visible_.reason[node] == CullReason::drawn; }));

@@ -38,6 +38,7 @@ class StaticLodCulling {
   /// two triangles have the same depth, the first one shows.
   const VisibleSet& visible() const { return visible_; }
   std::size_t visibleNear() const { return visibleNear_; }
+  void plant(const Defects& defects) { defects_ = defects; }
   StaticLodFrame frame() const { return staticLodFrame(index(), visible_); }
 
  private:
@@ -76,6 +77,7 @@ class StaticLodCulling {
   std::vector<double> distances_;
   std::vector<std::uint32_t> far_;
   std::vector<std::uint8_t> flags_;
+  Defects defects_;
 };
 
 }  // namespace trimtab::scene

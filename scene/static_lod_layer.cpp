@@ -58,14 +58,17 @@ StaticLodLayer::~StaticLodLayer() {
 }
 
 void StaticLodLayer::clear() {
-  for (const Tile& tile : tiles_) {
-    for (const GLuint array : {tile.vertexArray, tile.edgeArray}) glDeleteVertexArrays(1, &array);
-    for (const GLuint buffer : {tile.vertexBuffer, tile.indexBuffer}) glDeleteBuffers(1, &buffer);
-  }
+  for (Tile& tile : tiles_) drop(tile);
   for (const Edges& edges : edges_) glDeleteBuffers(1, &edges.buffer);
   tiles_.clear();
   edges_.clear();
   bytes_ = 0;
+}
+
+void StaticLodLayer::drop(Tile& tile) {
+  for (const GLuint array : {tile.vertexArray, tile.edgeArray}) glDeleteVertexArrays(1, &array);
+  for (const GLuint buffer : {tile.vertexBuffer, tile.indexBuffer}) glDeleteBuffers(1, &buffer);
+  tile = {};
 }
 
 void StaticLodLayer::setTerrain(std::shared_ptr<const terrain::StaticLodTerrain> terrain) {
@@ -92,8 +95,10 @@ void StaticLodLayer::upload(std::uint32_t at) {
   bytes_ += source.vertices.size() * sizeof(StaticLodVertex) + source.indices.size() * sizeof(std::uint32_t);
 }
 
-std::size_t StaticLodLayer::prepare(std::span<const TileDraw> nodes) {
+std::size_t StaticLodLayer::prepare(std::span<const TileDraw> nodes, bool anew) {
   std::size_t uploaded = 0;
+  if (anew)
+    for (const TileDraw& node : nodes) drop(tiles_[terrain_->index.nodes[node.node].tile]);
   for (const TileDraw& node : nodes) {
     const std::uint32_t tile = terrain_->index.nodes[node.node].tile;
     if (tiles_[tile].vertexArray != 0) continue;
@@ -140,6 +145,14 @@ void StaticLodLayer::drawTinted(unsigned program, std::span<const TileDraw> node
     const std::uint32_t c = colours[i];
     const auto part = [c](unsigned shift) { return static_cast<float>(c >> shift & 255u) / 255.0f; };
     glUniform4f(tint, part(0), part(8), part(16), part(24));
+    draw(program, nodes.subspan(i, 1));
+  }
+}
+
+void StaticLodLayer::drawNumbered(unsigned program, std::span<const TileDraw> nodes) {
+  const GLint number = glGetUniformLocation(program, "treeNode");
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    glUniform1ui(number, nodes[i].node);
     draw(program, nodes.subspan(i, 1));
   }
 }

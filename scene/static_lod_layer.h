@@ -28,13 +28,16 @@ class StaticLodLayer {
 
   /// Forgets all meshes.
   void setTerrain(std::shared_ptr<const terrain::StaticLodTerrain> terrain);
-  /// Uploads the tiles that the nodes lie in, where that was not done yet. Returns how many were.
-  std::size_t prepare(std::span<const TileDraw> nodes);
+  /// Uploads the tiles that the nodes lie in, where that was not done yet, or all of them with `anew`.
+  /// Returns how many were.
+  std::size_t prepare(std::span<const TileDraw> nodes, bool anew = false);
 
   /// One multi-draw a tile. `program` is in use and reads attributes 0 position, 1 normal, 3 colour.
   void draw(unsigned program, std::span<const TileDraw> nodes);
   /// The same, node by node, each with its colour (RGBA8) as uniform `treeTint`.
   void drawTinted(unsigned program, std::span<const TileDraw> nodes, std::span<const std::uint32_t> colours);
+  /// The same, node by node, each with its number as uniform `treeNode`.
+  void drawNumbered(unsigned program, std::span<const TileDraw> nodes);
   /// Document E's picture: faces light grey, edges red, locked edges black.
   void drawPicture(unsigned program, std::span<const TileDraw> nodes);
 
@@ -52,6 +55,7 @@ class StaticLodLayer {
   };
 
   void clear();
+  void drop(Tile& tile);
   void upload(std::uint32_t tile);
   const Edges& edgesOf(std::uint32_t node);
   /// Calls `draw` with each run of nodes of one tile, its origin set.

@@ -105,10 +105,10 @@ void SymbologyPass::rebuild() {
   glBindBuffer(GL_ARRAY_BUFFER, 0);
 }
 
-bool SymbologyPass::draw(const SymbologyRequest& request, const ViewShape& view) {
+bool SymbologyPass::draw(const SymbologyRequest& request, const ViewShape& view, bool anew) {
   if (program_ == 0) return false;
   const SymbologyRequest now = quantised(request, view);
-  const bool changed = shown_ != now || view_ != view;
+  const bool changed = anew || shown_ != now || view_ != view;
   if (changed) {
     shown_ = now;
     view_ = view;

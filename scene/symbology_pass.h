@@ -16,8 +16,8 @@ class SymbologyPass {
   SymbologyPass(const SymbologyPass&) = delete;
   SymbologyPass& operator=(const SymbologyPass&) = delete;
 
-  /// Into the framebuffer that is bound. True when the triangles were made anew.
-  bool draw(const SymbologyRequest& request, const ViewShape& view);
+  /// Into the framebuffer that is bound. True when the triangles were made anew, which `anew` demands.
+  bool draw(const SymbologyRequest& request, const ViewShape& view, bool anew = false);
 
  private:
   struct Vertex {

@@ -156,21 +156,23 @@ void TileCache::fill(std::uint32_t slot, std::uint32_t node) {
   uploadPart(vertexBuffer_, slot, mesh_.vertices.data(), kSlotBytes);
   uploadPart(occluderBuffer_, slot, occluder_.vertices.data(), kOccluderBytes);
   uploadPart(partBuffer_, slot, occluder_.parts.data(), kPartBytes);
-  slotData_[slot] = {{mesh_.origin[0], mesh_.origin[1], mesh_.origin[2], 0}, occluder_.limits};
+  slotData_[slot] = {{mesh_.origin[0], mesh_.origin[1], mesh_.origin[2], static_cast<std::int32_t>(node)},
+                     occluder_.limits};
   uploadPart(slotBuffer_, slot, &slotData_[slot], sizeof(SlotData));
   slots_[slot].node = node;
   slotOfNode_[node] = slot;
 }
 
-std::size_t TileCache::prepare(std::span<const TileDraw> tiles) {
+std::size_t TileCache::prepare(std::span<const TileDraw> tiles, bool anew) {
   ++frame_;
   std::size_t built = 0;
   // First the tiles that are there, so that none of them is given up for another of the same frame.
   for (const TileDraw& tile : tiles)
     if (const std::uint32_t slot = slotOfNode_[tile.node]; slot != kNoSlot) slots_[slot].lastUse = frame_;
   for (const TileDraw& tile : tiles) {
-    if (slotOfNode_[tile.node] != kNoSlot) continue;
-    const std::uint32_t slot = takeSlot();
+    const std::uint32_t had = slotOfNode_[tile.node];
+    if (had != kNoSlot && !anew) continue;
+    const std::uint32_t slot = had != kNoSlot ? had : takeSlot();
     fill(slot, tile.node);
     slots_[slot].lastUse = frame_;
     ++built;

@@ -29,8 +29,9 @@ class TileCache {
 
   /// Forgets all tiles.
   void setDatabase(std::shared_ptr<const terrain::Database> database);
-  /// Makes sure that the tiles have slots, building those that lack one. Returns how many were built.
-  std::size_t prepare(std::span<const TileDraw> tiles);
+  /// Makes sure that the tiles have slots, building those that lack one, or all of them with `anew`. Returns
+  /// how many were built.
+  std::size_t prepare(std::span<const TileDraw> tiles, bool anew = false);
 
   /// One multi-draw of the tiles, in order; those without a slot are skipped. A program that reads attributes
   /// 0 position, 1 normal, 2 slope, 3 colour is in use.
@@ -38,8 +39,8 @@ class TileCache {
   /// One multi-draw of the tiles' occluder meshes: attribute 0 is OccluderVertex.
   void drawOccluders(std::span<const TileDraw> tiles);
 
-  /// RGBA32I, two texels a slot: the tile's origin in units of 16 m, and OccluderLimits as the bits of
-  /// floats.
+  /// RGBA32I, two texels a slot: the tile's origin in units of 16 m and its node, and OccluderLimits as the
+  /// bits of floats.
   unsigned slotTexture() const { return slotTexture_; }
   /// RGBA32F, 2 x kParts texels a slot: low and high corner of each part.
   unsigned partTexture() const { return partTexture_; }
@@ -56,7 +57,7 @@ class TileCache {
     std::uint64_t lastUse = 0;
   };
   struct SlotData {
-    std::int32_t origin[4];
+    std::int32_t origin[4];  ///< the fourth is the node
     OccluderLimits limits;
   };
 

@@ -37,6 +37,8 @@ inline constexpr double kCellsUntilSame = 100;
 /// still in the world, and the shaders are ours.
 class PrecipitationNode {
  public:
+  static constexpr int kFirstBin = 10, kLastBin = 12;  ///< render bins it draws in: points, lines, quads
+
   PrecipitationNode();
   ~PrecipitationNode();
   PrecipitationNode(const PrecipitationNode&) = delete;

@@ -1,0 +1,222 @@
+#include "trimtab/scene/error_meter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "trimtab/culling/select_static.h"
+#include "trimtab/measure/geometric_error.h"
+#include "trimtab/measure/image_error.h"
+#include "trimtab/scene/blur_pass.h"
+#include "trimtab/scene/frame_buffer.h"
+#include "trimtab/scene/gl_api.h"
+
+namespace trimtab::scene {
+namespace {
+
+/// So small that the finest level is chosen wherever levels differ at all.
+constexpr Pixels kFinest{1e-6};
+/// What is left of a picture at this weight is a quarter of a grey level.
+constexpr double kNoTrace = 1.0 / 1024;
+
+/// What both pictures leave out.
+FrameRequest withoutEngineer(const FrameRequest& request) {
+  FrameRequest r = request;
+  if (asksForTrees(request)) r.staticLod.terrain = TerrainForm::static_trees;
+  r.overlays = {};
+  r.overlays.treeDepth = request.overlays.treeDepth;
+  r.frozenEye.reset();
+  r.separateStages = false;
+  return r;
+}
+
+/// The first of `frames` that has a trace in the picture of frames[last].
+std::size_t firstTraceIn(std::span<const FrameRequest> frames, std::size_t last) {
+  double weight = 1;
+  std::size_t first = last;
+  while (first > 0) {
+    const double step = frames[first].time - frames[first - 1].time;
+    const double keep = BlurPass::keptAfter(frames[first].decision.motion.blur.strength, step);
+    // A frame of the same time takes the place of the one before.
+    if (step != 0) weight *= keep;
+    if (!(weight >= kNoTrace)) break;
+    --first;
+  }
+  return first;
+}
+
+/// Pixels that a node would own which was left out.
+std::uint64_t wronglyCulled(const std::vector<std::uint32_t>& unculled, const VisibleSet& visible) {
+  std::uint64_t pixels = 0;
+  for (const std::uint32_t node : unculled)
+    pixels += node < visible.reason.size() && visible.reason[node] != CullReason::drawn;
+  return pixels;
+}
+
+/// Of the nodes drawn, those that own no pixel.
+double hiddenShare(const std::vector<std::uint32_t>& nodes, const VisibleSet& visible) {
+  if (visible.tiles.empty()) return FrameError::kNotMeasured;
+  std::vector<std::uint8_t> owns(visible.reason.size());
+  for (const std::uint32_t node : nodes)
+    if (node < owns.size()) owns[node] = 1;
+  const auto hidden = std::count_if(visible.tiles.begin(), visible.tiles.end(),
+                                    [&](const TileDraw& tile) { return owns[tile.node] == 0; });
+  return static_cast<double>(hidden) / static_cast<double>(visible.tiles.size());
+}
+
+}  // namespace
+
+FrameRequest referenceOf(const FrameRequest& request) {
+  FrameRequest r = withoutEngineer(request);
+  r.method = CullingCase::view_frustum;
+  r.overlays.treeDepth = -1;
+  r.lod.screenSpaceError = kFinest;
+  r.staticLod.rule = StaticDistanceRule::picture;
+  r.staticLod.errorPx = kFinest;
+  r.decision.lodScale = 1;
+  r.decision.depthMap.reset();
+  r.decision.motion.blur = {};
+  r.decision.weather.farM = WeatherDecision::kUnlimited;
+  return r;
+}
+
+double geometricBoundPx(const FrameRequest& request) {
+  const ViewShape& v = request.view;
+  const double across = std::max(std::abs(v.left), std::abs(v.right)),
+               up = std::max(std::abs(v.bottom), std::abs(v.top));
+  double cutPx = request.lod.screenSpaceError.value() * request.decision.lodScale;
+  if (asksForTrees(request)) {
+    const StaticLodParameters& s = request.staticLod;
+    if (s.error != ErrorMeasure::maximum || request.overlays.treeDepth >= 0)
+      return std::numeric_limits<double>::infinity();
+    const double pixelsPerRadian = std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom));
+    cutPx = pixelsPerRadian / staticLodDistancePerError(s, request.decision.lodScale, pixelsPerRadian);
+  }
+  return cutPx * std::sqrt(1 + across * across + up * up) + 1.5;
+}
+
+double temporalPop(std::span<const std::uint8_t> referenceBefore, std::span<const std::uint8_t> reference,
+                   std::span<const std::uint8_t> oursBefore, std::span<const std::uint8_t> ours) {
+  const std::size_t bytes = ours.size();
+  if (bytes == 0 || bytes % 4 != 0 || referenceBefore.size() != bytes || reference.size() != bytes ||
+      oursBefore.size() != bytes)
+    return FrameError::kNotMeasured;
+  std::uint64_t sum = 0;
+  constexpr std::size_t kRun = 1 << 16;  // whose sum is a 32-bit integer: the loop is vector instructions
+  for (std::size_t from = 0; from < bytes; from += kRun) {
+    std::uint32_t ofRun = 0;
+    for (std::size_t i = from, end = std::min(from + kRun, bytes); i < end; ++i) {
+      const int change = ours[i] - oursBefore[i], shown = reference[i] - referenceBefore[i];
+      const int outside = std::max({change - std::max(shown, 0), std::min(shown, 0) - change, 0});
+      ofRun += i % 4 == 3 ? 0u : static_cast<std::uint32_t>(outside);
+    }
+    sum += ofRun;
+  }
+  return static_cast<double>(sum) / (static_cast<double>(bytes) / 4 * 3);
+}
+
+struct ErrorMeter::Impl {
+  Renderer renderer;
+  FrameBuffer target;
+  Defects defects;
+  bool usable = false;
+
+  FrameResult draw(const FrameRequest& r) { return renderer.draw(r, target.id()); }
+  std::vector<std::uint8_t> pixels(const ViewShape& view) {
+    return renderer.readPixels(view.widthPx, view.heightPx);
+  }
+};
+
+ErrorMeter::ErrorMeter() : impl_(std::make_unique<Impl>()) {}
+ErrorMeter::~ErrorMeter() = default;
+
+GlReport ErrorMeter::initialize() {
+  release();
+  const GlReport report = impl_->renderer.initialize();
+  impl_->usable = report.usable;
+  return report;
+}
+
+void ErrorMeter::release() {
+  impl_->renderer.release();
+  impl_->target.release();
+  impl_->usable = false;
+}
+
+void ErrorMeter::setTerrain(std::shared_ptr<const terrain::Database> database) {
+  impl_->renderer.setTerrain(std::move(database));
+}
+
+void ErrorMeter::plant(const Defects& defects) {
+  impl_->defects = defects;
+}
+
+FrameError ErrorMeter::measure(const FrameRequest& request, std::span<const FrameRequest> before,
+                               ErrorPictures* pictures) {
+  FrameError error;
+  const ViewShape& v = request.view;
+  if (!impl_->usable || v.widthPx <= 0 || v.heightPx <= 0) return error;
+  Impl& m = *impl_;
+  GLint drawn = 0, read = 0;
+  std::array<GLint, 4> viewport{};
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &drawn);
+  glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read);
+  glGetIntegerv(GL_VIEWPORT, viewport.data());
+  m.target.resize(v.widthPx, v.heightPx);
+
+  const bool pops =
+      !before.empty() && before.back().view.widthPx == v.widthPx && before.back().view.heightPx == v.heightPx;
+  std::vector<std::uint8_t> referenceBefore, oursBefore;
+  m.renderer.plant({});
+  if (pops) {
+    m.draw(referenceOf(before.back()));
+    referenceBefore = m.pixels(v);
+  }
+  FrameResult drawnReference = m.draw(referenceOf(request));
+  std::vector<std::uint8_t> reference = m.pixels(v);
+  std::vector<float> referenceDistances = m.renderer.readDistances();
+
+  // The reference has no blur, so what accumulates begins anew here, whatever was measured before.
+  m.renderer.plant(m.defects);
+  std::vector<FrameRequest> frames;
+  for (const FrameRequest& r : before) frames.push_back(withoutEngineer(r));
+  frames.push_back(withoutEngineer(request));
+  const std::size_t last = frames.size() - 1;
+  std::size_t first = firstTraceIn(frames, last);
+  if (pops) first = std::min(first, firstTraceIn(frames, last - 1));
+  for (std::size_t i = first; i < last; ++i) m.draw(frames[i]);
+  if (pops) oursBefore = m.pixels(v);
+  FrameResult result = m.draw(frames[last]);
+  std::vector<std::uint8_t> ours = m.pixels(v);
+  const std::vector<float> distances = m.renderer.readDistances();
+  error.hiddenDrawnShare = hiddenShare(m.renderer.readNodes(), result.visible);
+  error.wronglyCulledPixels = wronglyCulled(m.renderer.readNodes(true), result.visible);
+  m.renderer.plant({});
+
+  // What the far cut takes from the picture is told by its colours, in fog: depths count up to there.
+  const double farM = request.decision.weather.farM;
+  if (farM < WeatherDecision::kUnlimited)
+    for (float& distance : referenceDistances)
+      if (double{distance} > farM) distance = std::numeric_limits<float>::infinity();
+  const GeometricError geometric = geometricError(referenceDistances, distances, v);
+  error.geometricMaxPx = geometric.maxPx;
+  error.geometricMeanPx = geometric.meanPx;
+  error.psnrDb = psnrDb(reference, ours, v.widthPx, v.heightPx);
+  error.ssim = ssimOfLuma(reference, ours, v.widthPx, v.heightPx);
+  std::vector<float> map;
+  if (pictures) map.resize(reference.size() / 4);
+  error.flip = flip(reference, ours, v.widthPx, v.heightPx, map);
+  if (pops) error.pop = temporalPop(referenceBefore, reference, oursBefore, ours);
+  if (pictures)
+    *pictures = {v.widthPx,        v.heightPx,     std::move(reference),
+                 std::move(ours),  std::move(map), std::move(drawnReference),
+                 std::move(result)};
+
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(drawn));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read));
+  glViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
+  return error;
+}
+
+}  // namespace trimtab::scene
