@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "trimtab/units/result.h"
 
@@ -20,7 +21,15 @@ class Offscreen {
   virtual unsigned framebuffer() const = 0;
 };
 
-/// RGBA rows from the bottom (as GL reads them) to a PNG, written atomically.
+struct RgbaPicture {
+  int widthPx = 0, heightPx = 0;
+  std::vector<std::uint8_t> rgba;  ///< rows from the bottom
+};
+Result<RgbaPicture> readPng(const std::filesystem::path& file);
+
+/// RGBA rows from the bottom (as GL reads them) as the bytes of a PNG.
+Result<std::string> encodePng(std::span<const std::uint8_t> rgba, int width, int height);
+/// The same to a file, written atomically.
 Result<Done> writePng(const std::filesystem::path& file, std::span<const std::uint8_t> rgba, int width,
                       int height);
 
