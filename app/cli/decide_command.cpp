@@ -1,4 +1,3 @@
-#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -14,6 +13,7 @@
 #include "trimtab/decision/decide.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/measure/trace.h"
+#include "trimtab/preset/number.h"
 
 namespace trimtab::cli {
 namespace {
@@ -43,15 +43,19 @@ void decideRow(TraceRow& row, const ValidatedParameters& parameters, DecisionMem
 /// apart.
 Result<Decided> decideOne(const Options& options, const ValidatedParameters& parameters) {
   Findings findings;
-  const auto check = [&findings](const char* option, std::optional<double> value) {
-    if (value && !std::isfinite(*value))
-      findings.push_back({Severity::error, option, "", "a finite number", std::to_string(*value)});
+  // What a flight's row may say.
+  const auto check = [&findings](const char* option, std::optional<double> value, double low, double high,
+                                 const char* unit) {
+    if (!value || (*value >= low && *value <= high)) return;
+    findings.push_back({Severity::error, option, "", numberText(low) + ".." + numberText(high) + ' ' + unit,
+                        numberText(*value)});
   };
-  check("--altitude-ft", options.altitudeFt);
-  check("--pitch-deg", options.pitchDeg);
-  check("--roll-deg", options.rollDeg);
-  check("--heading-deg", options.headingDeg);
-  check("--above-ground-ft", options.aboveGroundFt);
+  constexpr double kLowestFt = -66000, kHighestFt = 3.3e6;
+  check("--altitude-ft", options.altitudeFt, kLowestFt, kHighestFt, "ft");
+  check("--pitch-deg", options.pitchDeg, -90, 90, "deg");
+  check("--roll-deg", options.rollDeg, -360, 360, "deg");
+  check("--heading-deg", options.headingDeg, -360, 360, "deg");
+  check("--above-ground-ft", options.aboveGroundFt, -kHighestFt, kHighestFt, "ft");
   if (!findings.empty()) return findings;
 
   TraceRow row;

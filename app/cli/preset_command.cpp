@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   std::vector<std::string> files, settings;
-  std::string left, right, output, format = "json";
+  std::string left, right, output, format;
   Provenance provenance;
   bool json = false;
 };
@@ -122,6 +122,20 @@ int writeOut(const std::string& output, const std::string& text) {
   return written ? kDone : kRefused;
 }
 
+/// By --format, else by the file's ending, else JSON; an ending that says something else is warned of.
+ExportFormat exportFormat(const Options& options) {
+  const std::string ending =
+      options.output == "-" ? "" : std::filesystem::path(options.output).extension().string();
+  const bool known = ending == ".json" || ending == ".xml" || ending == ".ini";
+  const std::string format = !options.format.empty() ? options.format : known ? ending.substr(1) : "json";
+  if (!ending.empty() && ending != '.' + format)
+    report({{Severity::warning, options.output, "",
+             "the ending ." + format +
+                 (options.format.empty() ? ", or .xml or .ini, or --format" : ", as --format says"),
+             ending + "; written as " + format}});
+  return format == "xml" ? ExportFormat::xml : format == "ini" ? ExportFormat::ini : ExportFormat::json;
+}
+
 int exportPreset(Options options) {
   auto preset = loadPreset(options.left);
   if (!preset) {
@@ -148,10 +162,7 @@ int exportPreset(Options options) {
   options.provenance.program = "trimtab-cli " TRIMTAB_VERSION;
   const std::string name =
       preset->name.empty() ? std::filesystem::path(options.left).stem().string() : preset->name;
-  const ExportFormat format = options.format == "xml"   ? ExportFormat::xml
-                              : options.format == "ini" ? ExportFormat::ini
-                                                        : ExportFormat::json;
-  return writeOut(options.output, exportText(*validated, name, options.provenance, format));
+  return writeOut(options.output, exportText(*validated, name, options.provenance, exportFormat(options)));
 }
 
 int diff(const Options& options) {
@@ -189,7 +200,9 @@ void addPreset(CLI::App& app, int& exitCode) {
   CLI::App* const exporting =
       preset->add_subcommand("export", "Write every parameter, with provenance and checksum");
   exporting->add_option("file", options->left, "Preset file or the name of a shipped preset")->required();
-  exporting->add_option("--format", options->format, "json, xml (FlightGear property list) or ini")
+  exporting
+      ->add_option("--format", options->format,
+                   "json, xml (FlightGear property list) or ini; by the file's ending where it is not given")
       ->check(CLI::IsMember({"json", "xml", "ini"}));
   exporting->add_option("-o,--output", options->output, "File to write; - for standard output")->required();
   exporting->add_option("--set", options->settings, "key=value, applied before the export; may be repeated")

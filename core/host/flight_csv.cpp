@@ -132,6 +132,8 @@ class Parser {
   Flight flight_;
   Findings findings_;
   std::size_t dropped_ = 0, firstDropped_ = 0, lastDropped_ = 0;
+  std::size_t lastLine_ = 0;
+  bool lastLineEnds_ = true;
 };
 
 void Parser::refuse(std::string key, std::string expected, std::string found) {
@@ -146,7 +148,10 @@ bool Parser::nextLine(std::string_view& line) {
     const std::size_t end = text_.find('\n');
     line = trimmed(text_.substr(0, end));
     text_.remove_prefix(end == std::string_view::npos ? text_.size() : end + 1);
-    if (!line.empty() && line.front() != '#') return true;
+    if (line.empty() || line.front() == '#') continue;
+    lastLine_ = line_;
+    lastLineEnds_ = end != std::string_view::npos;
+    return true;
   }
   return false;
 }
@@ -273,6 +278,11 @@ Result<Flight> Parser::parse() {
     findings_.push_back(
         {Severity::error, where_, "", "", std::to_string(errors_ - findings_.size()) + " more errors"});
   if (errors_ > 0) return std::move(findings_);
+  // A file cut inside its last number reads well, as another number.
+  if (!lastLineEnds_)
+    findings_.push_back({Severity::warning, where_ + ':' + std::to_string(lastLine_), "",
+                         "a line end after the last row",
+                         "none: the file may be cut short in its last number"});
   if (dropped_ > 0)
     findings_.push_back({Severity::note, where_, "altitude_ft", "",
                          std::to_string(dropped_) + " rows below -1000 ft (lines " +

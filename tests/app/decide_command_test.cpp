@@ -100,6 +100,22 @@ TEST(DecideCommand, refusesBadInputWithStatusOne) {
   }
 }
 
+TEST(DecideCommand, refusesWhatNoAircraftDoesNamingTheRange) {
+  const std::pair<std::string, std::string> refused[] = {
+      {"--altitude-ft 0 --pitch-deg 400", "--pitch-deg: expected -90..90 deg, found 400"},
+      {"--altitude-ft 0 --pitch-deg -90.001", "--pitch-deg: expected -90..90 deg, found -90.001"},
+      {"--altitude-ft 1e9 --pitch-deg 0", "--altitude-ft: expected -66000..3300000 ft"},
+      {"--altitude-ft 0 --pitch-deg 0 --roll-deg 361", "--roll-deg: expected -360..360 deg, found 361"},
+      {"--altitude-ft 0 --pitch-deg 0 --heading-deg=-361", "--heading-deg: expected -360..360 deg"},
+      {"--altitude-ft 0 --pitch-deg nan", "--pitch-deg: expected -90..90 deg, found nan"}};
+  for (const auto& [arguments, message] : refused) {
+    const Ran ran = decideBy(arguments);
+    EXPECT_EQ(ran.exitCode, 1) << arguments;
+    EXPECT_THAT(ran.err, HasSubstr("error: " + message));
+  }
+  EXPECT_EQ(decideBy("--altitude-ft 0 --pitch-deg 90 --roll-deg 360 --heading-deg 360").exitCode, 0);
+}
+
 TEST(DecideCommand, tellsWrongUsageWithStatusTwo) {
   for (const char* arguments :
        {"", "--altitude-ft 4000", "--pitch-deg 3", "--altitude-ft high --pitch-deg 3",

@@ -122,6 +122,23 @@ TEST(PresetCommand, exportsEachFormatWithAChecksumThatCheckVerifies) {
   }
 }
 
+TEST(PresetCommand, exportsByTheFilesEndingAndWarnsOfAnother) {
+  const test::ScratchDir dir;
+  const auto begins = [&dir](const std::string& name) { return test::readFile(dir / name).substr(0, 1); };
+  const auto exported = [&dir](const std::string& name, const std::string& options = "") {
+    const Ran ran = preset("export default " + options + " -o " + (dir / name).string());
+    EXPECT_EQ(ran.exitCode, 0) << ran.err;
+    return ran.err;
+  };
+  EXPECT_EQ(exported("a.json") + exported("a.xml") + exported("a.ini") + exported("a"), "");
+  EXPECT_EQ(begins("a.json") + begins("a.xml") + begins("a.ini") + begins("a"), "{<;{");
+  EXPECT_THAT(exported("a.foo"), HasSubstr("a.foo: expected the ending .json, or .xml or .ini, or --format, "
+                                           "found .foo; written as json"));
+  EXPECT_EQ(begins("a.foo"), "{");
+  EXPECT_THAT(exported("b.json", "--format xml"), HasSubstr("expected the ending .xml, as --format says"));
+  EXPECT_EQ(begins("b.json"), "<");
+}
+
 TEST(PresetCommand, leavesTheOldExportWhenItRefuses) {
   const test::ScratchDir dir;
   const std::string out = (dir / "e.json").string();

@@ -113,6 +113,25 @@ TEST(FlightCsv, readsBackBitForBit) {
   EXPECT_EQ(again->states, flight.states);
 }
 
+TEST(FlightCsv, warnsWhereItsLastLineHasNoEnd) {
+  const std::string whole =
+      "time_s,latitude_deg,longitude_deg,altitude_ft,pitch_deg,roll_deg,heading_deg\n"
+      "0,36,128,4000,1,2,90.25\n0.1,36,128,4010,1,2,90.25\n";
+  const auto noted = [](const Result<Flight>& flight) {
+    for (const Finding& f : flight.findings())
+      if (f.severity == Severity::warning && mentions({f}, "cut.csv:3: expected a line end")) return true;
+    return false;
+  };
+  EXPECT_FALSE(noted(parseFlightCsv(whole, "cut.csv")));
+  EXPECT_FALSE(noted(parseFlightCsv(whole + "# the end", "cut.csv")));
+  for (const std::size_t cut : {1, 2, 4}) {  // 90.25, 90.2 and 90 are numbers, all
+    const auto flight = parseFlightCsv(whole.substr(0, whole.size() - cut), "cut.csv");
+    ASSERT_TRUE(flight) << toString(flight.findings());
+    EXPECT_EQ(flight->states.size(), 2U);
+    EXPECT_TRUE(noted(flight)) << toString(flight.findings());
+  }
+}
+
 TEST(FlightCsv, readsFlightGearsNamesInAnyOrderAndOtherLineEnds) {
   const auto flight = parseFlightCsv(
       "\xef\xbb\xbf# a "
