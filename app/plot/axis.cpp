@@ -111,11 +111,17 @@ Axis Axis::of(const std::vector<double>& values, bool logarithmic, bool fromZero
                      : even(span.low, span.high, fromZero, steps);
 }
 
+void Axis::widen(double atLow, double atHigh) {
+  begin_ = atLow;
+  length_ = 1 - atLow - atHigh;
+}
+
 double Axis::at(double value) const {
-  if (!log_) return (value - low_) / (high_ - low_);
+  if (!log_) return begin_ + length_ * (value - low_) / (high_ - low_);
   const double band = zero_ ? kZeroBand : 0;
-  if (!(value > 0)) return zero_ ? band * 0.3 : 0;
-  return band + (1 - band) * std::log(value / low_) / std::log(high_ / low_);
+  const double place =
+      value > 0 ? band + (1 - band) * std::log(value / low_) / std::log(high_ / low_) : band * 0.3;
+  return begin_ + length_ * place;
 }
 
 }  // namespace trimtab::plot

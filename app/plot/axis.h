@@ -25,6 +25,9 @@ class Axis {
   /// Fit for `values`, of which not all need to be finite.
   static Axis of(const std::vector<double>& values, bool logarithmic, bool fromZero, int steps = 5);
 
+  /// Leaves a part of the length free at its ends, so that marks do not stand on the frame.
+  void widen(double atLow, double atHigh);
+
   double at(double value) const;
   const std::vector<Tick>& ticks() const { return ticks_; }
   double low() const { return low_; }
@@ -35,6 +38,7 @@ class Axis {
   void tickEvenly(double step);
 
   double low_ = 0, high_ = 1;
+  double begin_ = 0, length_ = 1;  ///< of the ticks' range, of the whole
   bool log_ = false, zero_ = false;
   std::vector<Tick> ticks_;
 };

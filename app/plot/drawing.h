@@ -11,6 +11,8 @@
 
 namespace trimtab::plot {
 
+constexpr std::size_t kMarkedPoints = 24;  ///< so few points of a line are marked one by one
+
 /// A plot being drawn: frame, title, axis names and legend are alike for all kinds.
 class Drawing {
  public:
@@ -29,7 +31,7 @@ class Drawing {
   double drawHead();
   void drawXLabel(double y);
   int look(std::size_t series) const {
-    return plot_.series[series].look >= 0 ? plot_.series[series].look : static_cast<int>(series);
+    return plot_.series[series].look == -1 ? static_cast<int>(series) : plot_.series[series].look;
   }
 
   const Plot& plot_;

@@ -14,9 +14,11 @@ std::vector<Key> keysOf(const Plot& plot) {
   std::vector<Key> keys;
   for (std::size_t s = 0; s < plot.series.size(); ++s) {
     const Series& series = plot.series[s];
-    const int look = series.look >= 0 ? series.look : static_cast<int>(s);
-    const bool marked = plot.categories.empty() || series.draw != Series::Draw::line;
-    if (series.draw != Series::Draw::steps) keys.push_back({series.name, look, marked ? look : -1});
+    const int look = series.look == -1 ? static_cast<int>(s) : series.look;
+    const bool lines = series.draw == Series::Draw::line;
+    const bool bars = lines && !plot.categories.empty(), marked = !lines || series.x.size() <= kMarkedPoints;
+    if (series.draw != Series::Draw::steps)
+      keys.push_back({series.name, look, bars ? -1 : std::max(look, 0), !bars && !marked});
   }
   return keys;
 }
@@ -126,7 +128,7 @@ std::string toSvg(const std::string& title, const std::vector<Key>& keys, const 
 
 std::string inlineMark(const Key& key) {
   Svg svg(16);
-  svg.key(1, 14, {"", key.colour, key.shape});
+  svg.key(0, 13.5, {"", key.colour, key.shape, key.line});
   return "<svg class=\"key\" width=\"16\" height=\"16\" viewBox=\"0 0 16 16\" aria-hidden=\"true\">" +
          svg.take() + "</svg>";
 }

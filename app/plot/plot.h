@@ -18,7 +18,9 @@ struct Series {
   std::vector<std::string> labels{};                     ///< beside the point; never over another
   std::vector<std::string> hints{};                      ///< shown while the pointer rests on the point
   std::vector<int> shapes{};                             ///< of each point, in place of the series' own
-  int look = -1;  ///< index of colour, shape and dash; below 0: the place among the series
+  int look = -1;  ///< index of colour, shape and dash; -1: the place among the series
+
+  static constexpr int kInk = -2;  ///< a look: the colour of text
 };
 
 /// A line across the plot that values are compared with, such as a budget.
@@ -32,6 +34,7 @@ struct Guide {
 struct Key {
   std::string name;
   int colour = -1, shape = -1;
+  bool line = false;  ///< a piece of the line, with the dash of `colour`
 };
 
 struct Plot {

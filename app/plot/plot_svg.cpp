@@ -7,8 +7,6 @@
 namespace trimtab::plot {
 namespace {
 
-constexpr std::size_t kMarkedPoints = 24;  ///< so few points of a line are marked one by one
-
 double extent(const std::vector<double>& values, std::size_t i) {
   return i < values.size() ? values[i] : std::numeric_limits<double>::quiet_NaN();
 }
@@ -32,6 +30,9 @@ class PlainDrawing : public Drawing {
          : std::isfinite(plot.xFrom) && std::isfinite(plot.xTo)
              ? Axis::exactly(plot.xFrom, plot.xTo)
              : Axis::of(xs, plot.logX, points, plot.widthPx < 480 ? 4 : 5);
+    if (!points || bars_) return;
+    x_.widen(0.03, 0.03);
+    y_.widen(0, 0.03);
   }
 
   void draw() override {

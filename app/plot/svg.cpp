@@ -71,6 +71,10 @@ std::string_view beginning(std::string_view utf8, std::size_t count) {
   return utf8.substr(0, at);
 }
 
+bool isBare(const Key& key) {
+  return key.colour < 0 && key.shape < 0 && !key.line;
+}
+
 constexpr double kCharacterWidth = 0.57;  ///< of the text's size, mean of sans-serif fonts
 
 }  // namespace
@@ -161,9 +165,9 @@ void Svg::line(double x1, double y1, double x2, double y2, const char* cls, std:
 void Svg::path(std::string_view d, int look, double width, std::string_view more) {
   if (d.empty()) return;
   const std::size_t colour = colourIndex(look);
-  out_ += "<path class=\"k" + std::to_string(colour) + "\" d=\"" + std::string(d) +
-          "\" fill=\"none\" stroke=\"" + kColours[colour].hex + "\" stroke-width=\"" + decimal(width, 1) +
-          '"';
+  out_ += "<path class=\"" + (look < 0 ? std::string("axis") : 'k' + std::to_string(colour)) + "\" d=\"" +
+          std::string(d) + "\" fill=\"none\" stroke=\"" + (look < 0 ? "#444444" : kColours[colour].hex) +
+          "\" stroke-width=\"" + decimal(width, 1) + '"';
   if (!more.empty()) out_ += ' ' + std::string(more);
   out_ += "/>\n";
 }
@@ -224,15 +228,18 @@ void Svg::marker(double x, double y, double size, int shape, int colour, std::st
 }
 
 double Svg::keyWidth(const Key& key) const {
-  return (key.colour < 0 && key.shape < 0 ? 14 : 36) + textWidthPx(key.name, textPx_);
+  return (isBare(key) ? 14 : 36) + textWidthPx(key.name, textPx_);
 }
 
 double Svg::key(double x, double y, const Key& key) {
-  if (key.shape >= 0)
+  if (key.line)
+    path("M" + point(x, y - textPx_ * 0.35) + "h16", key.colour, 2.2,
+         "stroke-dasharray=\"" + dashOf(key.colour) + '"');
+  else if (key.shape >= 0)
     marker(x + 7, y - textPx_ * 0.35, 5, key.shape, key.colour);
   else if (key.colour >= 0)
     bar(x, y - textPx_ * 0.75, 14, textPx_ * 0.75, key.colour);
-  text(x + (key.colour < 0 && key.shape < 0 ? 0 : 19), y, "start", key.name);
+  text(x + (isBare(key) ? 0 : 19), y, "start", key.name);
   return keyWidth(key);
 }
 

@@ -1,0 +1,256 @@
+#include <algorithm>
+#include <cmath>
+
+#include "html_sections.h"
+#include "html_text.h"
+
+namespace trimtab::harness {
+namespace {
+
+using Kind = Quantity::Kind;
+
+std::vector<const Quantity*> measuredOf(const ReportModel& model, Kind kind) {
+  std::vector<const Quantity*> list;
+  for (const Quantity& q : quantities())
+    if (q.kind == kind && model.measured(q)) list.push_back(&q);
+  return list;
+}
+
+/// "a, b and c".
+std::string enumeration(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+  return text;
+}
+
+std::string absentText(const ReportModel& model, Kind kind) {
+  std::vector<std::string> absent;
+  for (const Quantity& q : quantities())
+    if (q.kind == kind && !model.measured(q)) absent.emplace_back(q.label);
+  return absent.empty() ? std::string() : "Not run, or not measured here: " + enumeration(absent) + ".";
+}
+
+std::vector<HtmlColumn> nameColumns(const ReportModel& model) {
+  std::vector<HtmlColumn> columns;
+  if (model.flights.size() > 1) columns.push_back({"flight", "", "", false});
+  columns.push_back({"preset", "", "", false});
+  columns.push_back({"case", "", "", false});
+  return columns;
+}
+void nameCells(HtmlTable& table, const ReportModel& model, const UnitName& name) {
+  table.row();
+  if (model.flights.size() > 1) table.text(name.flight);
+  table.text(name.preset);
+  table.text(caseText(name.method));
+}
+
+/// Pixels that must not be: any other number than 0 is a defect.
+void defectCell(HtmlTable& table, const Unit& unit, const Quantity& quantity) {
+  double sum = 0;
+  std::size_t frames = 0;
+  for (const MeasuredFrame& frame : unit.frames)
+    if (const double value = quantity.of(frame); value > 0) sum += value, ++frames;
+  if (frames == 0) return table.number(0, "0", "none", "good");
+  table.number(sum, "\xe2\x9a\xa0 " + wholeText(sum),
+               "in " + std::to_string(frames) + " of " + std::to_string(unit.frames.size()) + " frames",
+               "bad");
+}
+
+std::string timeTable(const ReportModel& model) {
+  auto columns = nameColumns(model);
+  const Quantity& ms = *quantityOf("frame_ms");
+  for (const char* rank : {"median", "p95", "p99"})
+    columns.push_back({rank, "ms", "of the frame times of this row"});
+  const auto counts = measuredOf(model, Kind::count);
+  for (const Quantity* q : counts)
+    columns.push_back({std::string(q->label), "", "median of the frames; beneath, the largest"});
+  HtmlTable table("Frame time, and what a frame draws and leaves out (median; beneath, the largest)",
+                  columns);
+  for (const Unit& unit : model.results.units) {
+    nameCells(table, model, unit.name);
+    const Summary& time = model.summary(unit, ms);
+    for (const double value : {time.median, time.p95, time.p99}) table.number(value, roundedText(value));
+    for (const Quantity* q : counts) {
+      const auto values = finiteOf(unit, *q);
+      const double median = model.summary(unit, *q).median;
+      table.number(median, wholeText(median),
+                   values.empty() ? "" : wholeText(*std::max_element(values.begin(), values.end())));
+    }
+  }
+  return table.take();
+}
+
+std::string errorTable(const ReportModel& model) {
+  auto columns = nameColumns(model);
+  const auto errors = measuredOf(model, Kind::error);
+  for (const Quantity* q : errors)
+    columns.push_back({std::string(q->label), std::string(q->unit),
+                       q->whole ? "sum over all frames: anything but 0 is a defect"
+                                : std::string(q->largerIsWorse ? "smaller" : "larger") +
+                                      " is better; the mean of the frames, beneath the worst"});
+  HtmlTable table("What the pictures lost against their reference (mean; beneath, the worst frame)", columns);
+  for (const Unit& unit : model.results.units) {
+    nameCells(table, model, unit.name);
+    for (const Quantity* q : errors) {
+      if (q->whole) {
+        defectCell(table, unit, *q);
+        continue;
+      }
+      const double centre = model.centre(unit, *q);
+      table.number(centre, numberText(centre, *q), numberText(model.summary(unit, *q).worst, *q));
+    }
+  }
+  return table.take();
+}
+
+std::string readingOf(const PairedRatio& ratio) {
+  if (!std::isfinite(ratio.median)) return "not measured";
+  if (!std::isfinite(ratio.low) || !std::isfinite(ratio.high)) return "too few pairs to tell";
+  if (ratio.low <= 1 && ratio.high >= 1) return "no difference shown";
+  const double percent = std::abs(ratio.median - 1) * 100;
+  return roundedText(percent) + (ratio.median < 1 ? " % faster" : " % slower");
+}
+std::string intervalOf(const PairedRatio& ratio) {
+  return std::isnan(ratio.low) || std::isnan(ratio.high)
+             ? std::string()
+             : roundedText(ratio.low) + " to " + roundedText(ratio.high);
+}
+const char* classOf(const PairedRatio& ratio) {
+  return ratio.high < 1 ? "good" : ratio.low > 1 ? "slow" : "";
+}
+
+constexpr const char* kHowToRead =
+    "Both were drawn in turn, frame by frame, so that what disturbs the machine disturbs both. An interval "
+    "holds the true ratio with 95 % confidence: where it does not contain 1 the difference is real, where it "
+    "does the run shows none.";
+
+/// What the two have in common is named once.
+std::string comparisonText(const Comparison& c) {
+  if (c.a.preset == c.b.preset)
+    return caseText(c.b.method) + " over " + caseText(c.a.method) + '\n' + c.b.preset;
+  if (c.a.method == c.b.method) return c.b.preset + "\nover " + c.a.preset + ", " + caseText(c.b.method);
+  return unitText(c.b) + "\nover " + unitText(c.a);
+}
+
+/// Shape and colour say what the interval says.
+struct Verdict {
+  const char* name;
+  int look, shape;
+};
+constexpr Verdict kVerdicts[]{{"faster", 2, 4}, {"slower", 1, 2}, {"no difference shown", 0, 0}};
+
+std::string forest(const ReportModel& model, const std::string& flight) {
+  plot::Plot plot{"ratios", flight, "frame time, ratio (below 1: faster)", "", {}, {}};
+  plot.kind = plot::Plot::Kind::rows;
+  plot.logX = true;
+  plot.legend = false;
+  plot.widthPx = 980;
+  plot.guides = {{plot::Guide::Axis::x, 1, "equal"}};
+  for (const Verdict& verdict : kVerdicts) {
+    plot::Series series{verdict.name, {}, {}, plot::Series::Draw::points};
+    series.look = verdict.look;
+    for (const Comparison& c : model.results.comparisons) {
+      if (c.b.flight != flight) continue;
+      const PairedRatio& r = c.frameTime;
+      const int look = r.high < 1 ? 2 : r.low > 1 ? 1 : 0;
+      const double kNone = std::nan("");
+      const bool mine = look == verdict.look && r.median > 0;
+      series.y.push_back(mine ? r.median : kNone);
+      series.xLow.push_back(mine ? r.low > 0 ? r.low : -HUGE_VAL : kNone);
+      series.xHigh.push_back(mine ? r.high : kNone);
+      series.shapes.push_back(verdict.shape);
+      series.hints.push_back(unitText(c.b) + " over " + unitText(c.a) + ": " + roundedText(r.median) + " (" +
+                             intervalOf(r) + "), " + std::to_string(r.pairs) + " pairs");
+    }
+    plot.series.push_back(std::move(series));
+  }
+  for (const Comparison& c : model.results.comparisons)
+    if (c.b.flight == flight) plot.categories.push_back(comparisonText(c));
+  return plot.categories.empty() ? std::string() : "<figure>" + plot::toInlineSvg(plot) + "</figure>\n";
+}
+
+}  // namespace
+
+std::string summarySection(const ReportModel& model) {
+  if (model.results.units.empty())
+    return section("summary", "Summary", paragraph("Nothing was measured.", "none"));
+  std::string body = timeTable(model) + errorTable(model);
+  if (const std::string absent = absentText(model, Kind::error); !absent.empty())
+    body += paragraph(absent, "none");
+  return section("summary", "Summary", body);
+}
+
+std::string skipsSection(const ReportModel& model) {
+  auto columns = nameColumns(model);
+  columns.push_back({"skipped work", "", "", false});
+  columns.push_back({"frames", "skipped"});
+  columns.push_back({"saved", "ms a frame"});
+  columns.push_back({"without over with", "ratio"});
+  columns.push_back({"95 % interval", "", "", false});
+  columns.push_back({"pairs", ""});
+  HtmlTable table("Work that frames left out because its result was known, and what leaving it out saved",
+                  columns);
+  std::vector<std::string> never;
+  std::size_t measured = 0;
+  for (const Unit& unit : model.results.units)
+    for (const SkipSaving& skip : unit.skips) {
+      ++measured;
+      if (skip.skipped == 0) {
+        if (std::find(never.begin(), never.end(), skip.name) == never.end()) never.push_back(skip.name);
+        continue;
+      }
+      nameCells(table, model, unit.name);
+      table.text(skip.name);
+      table.number(static_cast<double>(skip.skipped), wholeText(static_cast<double>(skip.skipped)) + " of " +
+                                                          wholeText(static_cast<double>(skip.frames)));
+      table.number(skip.savedMs, roundedText(skip.savedMs));
+      const bool known = skip.ratio.pairs > 0;
+      table.number(known ? skip.ratio.median : std::nan(""), roundedText(skip.ratio.median), "",
+                   known && skip.ratio.low > 1 ? "good" : "");
+      table.text(known ? intervalOf(skip.ratio) : "");
+      table.number(static_cast<double>(skip.ratio.pairs), std::to_string(skip.ratio.pairs));
+    }
+  if (measured == 0) return section("skips", "Skips", paragraph("No skip was measured.", "none"));
+  std::string body;
+  if (!table.empty())
+    body = paragraph(
+               "Measured by switching each skip off, in pairs: a ratio above 1 is what the frame would cost "
+               "without it.") +
+           table.take();
+  if (!never.empty())
+    body += paragraph(
+        "Units that are not listed beside a skip never had it to make: " + enumeration(never) + ".", "none");
+  return section("skips", "Skips", body);
+}
+
+std::string comparisonSection(const ReportModel& model) {
+  if (model.results.comparisons.empty())
+    return section("ratios", "Paired comparisons",
+                   paragraph("Only one unit a flight: nothing to compare.", "none"));
+  std::vector<plot::Key> keys;
+  for (const Verdict& verdict : kVerdicts) keys.push_back({verdict.name, verdict.look, verdict.shape});
+  std::string body = paragraph(kHowToRead) + legend(keys);
+  for (const std::string& flight : model.flights) body += forest(model, flight);
+  std::vector<HtmlColumn> columns;
+  if (model.flights.size() > 1) columns.push_back({"flight", "", "", false});
+  for (const char* name : {"this", "over that"}) columns.push_back({name, "", "", false});
+  columns.push_back({"ratio", ""});
+  columns.push_back({"95 % interval", "", "", false});
+  columns.push_back({"pairs", ""});
+  columns.push_back({"so it is", "", "", false});
+  HtmlTable table("Frame time, this over that", columns);
+  for (const Comparison& c : model.results.comparisons) {
+    table.row();
+    if (model.flights.size() > 1) table.text(c.b.flight);
+    table.text(unitText(c.b));
+    table.text(unitText(c.a));
+    table.number(c.frameTime.median, roundedText(c.frameTime.median), "", classOf(c.frameTime));
+    table.text(intervalOf(c.frameTime));
+    table.number(static_cast<double>(c.frameTime.pairs), std::to_string(c.frameTime.pairs));
+    table.text(readingOf(c.frameTime));
+  }
+  return section("ratios", "Paired comparisons", body + table.take());
+}
+
+}  // namespace trimtab::harness

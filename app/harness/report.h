@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "trimtab/harness/results.h"
+
+namespace trimtab::harness {
+
+/// Frame time against error as a picture of its own: a panel for each flight and error.
+std::string paretoPlot(const Results& results);
+
+/// report.html and pareto.svg, each written atomically.
+Result<Done> writeReport(const Results& results, const std::filesystem::path& folder);
+
+}  // namespace trimtab::harness
