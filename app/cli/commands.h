@@ -17,6 +17,7 @@ void addFuzzy(CLI::App& preset, int& exitCode);
 void addDecide(CLI::App& app, int& exitCode);
 void addTerrain(CLI::App& app, int& exitCode);
 void addFeed(CLI::App& app, int& exitCode);
+void addBench(CLI::App& app, int& exitCode);
 void addExperiment(CLI::App& app, int& exitCode);
 
 /// Findings on standard error, one a line, with their severity.

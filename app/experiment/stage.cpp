@@ -7,6 +7,7 @@
 #include <fstream>
 #include <limits>
 #include <thread>
+#include <utility>
 
 #include "trimtab/measure/statistics.h"
 
@@ -54,6 +55,10 @@ scene::FrameResult Stage::draw(const scene::FrameRequest& request) {
   // A picture is not there before the rasteriser says so.
   glFinish();
   return result;
+}
+
+void Stage::setTerrain(std::shared_ptr<const terrain::Database> terrain) {
+  renderer_.setTerrain(std::move(terrain));
 }
 
 double Stage::medianMs(const scene::FrameRequest& request, int repeats, scene::FrameResult& last) {

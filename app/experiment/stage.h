@@ -21,6 +21,8 @@ class Stage {
   Stage& operator=(const Stage&) = delete;
 
   scene::FrameResult draw(const scene::FrameRequest& request);
+  /// Also forgets what was paged in.
+  void setTerrain(std::shared_ptr<const terrain::Database> terrain);
   /// Median milliseconds of `repeats` frames after one that is not counted; `last` is the last frame's
   /// result.
   double medianMs(const scene::FrameRequest& request, int repeats, scene::FrameResult& last);

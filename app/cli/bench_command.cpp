@@ -1,0 +1,171 @@
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "progress.h"
+#include "settings.h"
+#include "trimtab/harness/run.h"
+#include "trimtab/harness/text.h"
+#include "trimtab/host/flight.h"
+#include "trimtab/measure/trace.h"
+#include "trimtab/session/paths.h"
+
+namespace trimtab::cli {
+namespace {
+
+struct Arguments {
+  std::string terrain, output, cases = "none,view_frustum,proposed", size = "1280x720";
+  std::vector<std::string> flights, presets{"default"}, settings;
+  std::size_t frames = 60, repeats = 5;
+  bool json = false;
+};
+
+Finding refused(const char* option, const std::string& expected, const std::string& found) {
+  return {Severity::error, option, "", expected, found};
+}
+
+bool parseSize(const std::string& text, int& width, int& height) {
+  char after = 0;
+  return std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &after) == 2 && width >= 16 && height >= 16 &&
+         width <= 16384 && height <= 16384;
+}
+
+/// "none,proposed"
+bool parseCases(const std::string& text, std::vector<CullingCase>& cases) {
+  constexpr CullingCase kAll[] = {CullingCase::none, CullingCase::view_frustum, CullingCase::proposed};
+  cases.clear();
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(',', at), text.size());
+    const std::string name = text.substr(at, end - at);
+    bool known = false;
+    for (const CullingCase method : kAll)
+      if (harness::caseName(method) == name) {
+        cases.push_back(method);
+        known = true;
+      }
+    if (!known) return false;
+    at = end + 1;
+  }
+  return true;
+}
+
+/// The file's name without folder and ending, or all of it where that is taken.
+template <class Named>
+std::string nameOf(const std::string& text, const std::vector<Named>& others) {
+  const std::string stem = std::filesystem::path(text).stem().string();
+  for (const Named& other : others)
+    if (other.name == stem) return text;
+  return stem.empty() ? text : stem;
+}
+
+bool isTraceFile(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string header;
+  std::getline(in, header);
+  return isTrace(header);
+}
+
+bool readFlights(const Arguments& arguments, harness::Plan& plan) {
+  bool usable = true;
+  for (const std::string& file : arguments.flights) {
+    Result<Flight> flight = readFlight(file);
+    report(flight.findings());
+    if (!flight) {
+      usable = false;
+      continue;
+    }
+    harness::Plan::NamedFlight named{nameOf(file, plan.flights), std::move(flight).value(), {}};
+    if (isTraceFile(file)) {
+      Result<std::vector<TraceRow>> trace = readTrace(file);
+      report(trace.findings());
+      if (!trace) {
+        usable = false;
+        continue;
+      }
+      // The trace's own rows: what a reader of flights drops or mends is decided again as it was.
+      named.flight.states.clear();
+      for (const TraceRow& row : *trace) named.flight.states.push_back(row.input.state);
+      named.trace = std::move(trace).value();
+    }
+    plan.flights.push_back(std::move(named));
+  }
+  return usable;
+}
+
+bool readPresets(const Arguments& arguments, harness::Plan& plan) {
+  bool usable = true;
+  for (const std::string& preset : arguments.presets) {
+    const std::optional<ValidatedParameters> parameters = parametersFor(preset, arguments.settings);
+    if (parameters)
+      plan.presets.push_back({nameOf(preset, plan.presets), *parameters});
+    else
+      usable = false;
+  }
+  return usable;
+}
+
+int run(const Arguments& arguments) {
+  const Interruptible guard;
+  harness::Plan plan;
+  plan.version = TRIMTAB_VERSION;
+  plan.frames = arguments.frames;
+  plan.repeats = arguments.repeats;
+  plan.progress = progressLines();
+  Findings faults;
+  if (!parseSize(arguments.size, plan.widthPx, plan.heightPx))
+    faults.push_back(refused("--size", "WIDTHxHEIGHT, each 16 to 16384 px", arguments.size));
+  if (!parseCases(arguments.cases, plan.cases))
+    faults.push_back(
+        refused("--cases", "some of none, view_frustum, proposed with commas between", arguments.cases));
+  report(faults);
+  bool usable = readFlights(arguments, plan);
+  usable = readPresets(arguments, plan) && usable && faults.empty();
+  const auto terrain = terrain::openOrBake(arguments.terrain, session::cacheFolder(), plan.progress);
+  report(terrain.findings());
+  if (!terrain || !usable) return kRefused;
+  plan.terrain = *terrain;
+  plan.terrainName = plan.terrain->info().name;
+  const Result<harness::Results> results = harness::run(plan, arguments.output);
+  report(results.findings());
+  if (!results) return kRefused;
+  std::cout << (arguments.json ? harness::toJson(*results) : harness::toText(*results));
+  return std::cout.flush() ? kDone : kRefused;
+}
+
+}  // namespace
+
+void addBench(CLI::App& app, int& exitCode) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("bench", "Run time against error, over flights x presets x culling cases");
+  command->footer(
+      "The folder gets results.json, frames.csv, report.html and pictures of the worst frames. A run that "
+      "was stopped goes on where it was when the same command is given again.");
+  command->add_option("--terrain", arguments->terrain, "Database, or elevation to bake")->required();
+  command->add_option("--flight", arguments->flights, "Flights (CSV, trace or capture); one or more")
+      ->required();
+  command->add_option("--preset", arguments->presets, "Presets or exports; the first is compared against")
+      ->capture_default_str();
+  command->add_option("--cases", arguments->cases, "Culling cases, with commas between")
+      ->capture_default_str();
+  command->add_option("--set", arguments->settings, "KEY=VALUE on top of every preset; may be repeated");
+  command->add_option("--size", arguments->size, "Render size")->capture_default_str();
+  command->add_option("--frames", arguments->frames, "Frames of each flight, evenly spread")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--repeats", arguments->repeats, "Timed draws of each frame")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  command->add_flag("--json", arguments->json, "One JSON document on standard output");
+  command->add_option("-o,--output", arguments->output, "Folder for the results")->required();
+  command->callback([arguments, &exitCode] { exitCode = cli::run(*arguments); });
+}
+
+}  // namespace trimtab::cli

@@ -1,0 +1,91 @@
+#include "trimtab/harness/text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+namespace trimtab::harness {
+namespace {
+
+using Row = std::vector<std::string>;
+
+std::string fixed(double value, int decimals) {
+  if (std::isnan(value)) return "-";
+  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  return text;
+}
+
+/// Names to the left, numbers to the right.
+void append(std::string& text, const std::vector<Row>& rows, std::size_t names) {
+  std::vector<std::size_t> width;
+  for (const Row& row : rows)
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      if (c >= width.size()) width.push_back(0);
+      width[c] = std::max(width[c], row[c].size());
+    }
+  for (const Row& row : rows) {
+    std::string line;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const std::string blanks(width[c] - row[c].size(), ' ');
+      line += (c == 0 ? "" : "  ") + (c < names ? row[c] + blanks : blanks + row[c]);
+    }
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+  }
+}
+
+Row ratioRow(Row names, const PairedRatio& ratio) {
+  names.insert(names.end(), {fixed(ratio.median, 3), fixed(ratio.low, 3) + " to " + fixed(ratio.high, 3),
+                             std::to_string(ratio.pairs)});
+  return names;
+}
+
+}  // namespace
+
+std::string toText(const Results& results) {
+  std::string text = results.terrain + ", " + std::to_string(results.widthPx) + "x" +
+                     std::to_string(results.heightPx) + ", " + std::to_string(results.repeats) +
+                     " repeats; " + results.machine + "\n\n";
+  std::vector<Row> rows{{"flight", "preset", "case", "frames", "median ms", "p95 ms", "p99 ms", "triangles",
+                         "FLIP", "worst FLIP", "geometric px", "wrongly culled px"}};
+  for (const Unit& unit : results.units) {
+    const auto of = [&unit](const char* key) { return summarise(unit, *quantityOf(key)); };
+    const Summary ms = of("frame_ms"), flip = of("flip");
+    double wrong = 0;
+    for (const MeasuredFrame& frame : unit.frames)
+      wrong += static_cast<double>(frame.error.wronglyCulledPixels);
+    rows.push_back({unit.name.flight, unit.name.preset, unit.name.method, std::to_string(unit.frames.size()),
+                    fixed(ms.median, 2), fixed(ms.p95, 2), fixed(ms.p99, 2), fixed(of("triangles").mean, 0),
+                    fixed(flip.mean, 5), fixed(flip.worst, 5), fixed(of("geometric_max_px").worst, 2),
+                    fixed(wrong, 0)});
+  }
+  append(text, rows, 3);
+  text +=
+      "Triangles and FLIP are means, geometric px the largest of all frames, wrongly culled px their sum.\n";
+  if (!results.comparisons.empty()) {
+    rows = {{"flight", "this", "", "over that", "", "frame time", "95 %", "frames"}};
+    for (const Comparison& c : results.comparisons)
+      rows.push_back(ratioRow({c.b.flight, c.b.preset, c.b.method, c.a.preset, c.a.method}, c.frameTime));
+    text += '\n';
+    append(text, rows, 5);
+  }
+  rows = {{"flight", "preset", "case", "skip", "frames", "saved ms", "frame without", "95 %", "pairs"}};
+  for (const Unit& unit : results.units)
+    for (const SkipSaving& skip : unit.skips) {
+      if (skip.skipped == 0) continue;
+      rows.push_back(ratioRow(
+          {unit.name.flight, unit.name.preset, unit.name.method, skip.name,
+           std::to_string(skip.skipped) + " of " + std::to_string(skip.frames), fixed(skip.savedMs, 3)},
+          skip.ratio));
+    }
+  if (rows.size() > 1) {
+    text += '\n';
+    append(text, rows, 4);
+  }
+  for (const std::string& note : results.notes) text += "\n* " + note;
+  return text + '\n';
+}
+
+}  // namespace trimtab::harness

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "trimtab/harness/results.h"
+#include "trimtab/scene/error_meter.h"
+
+namespace trimtab::harness {
+
+/// A unit's worst frames, without pictures: largest FLIP, largest geometric error, longest frame; one that is
+/// the worst in several ways is there once. What no frame has an error of is left out.
+std::vector<WorstFrame> worstFrames(const Unit& unit, std::size_t most);
+
+/// The names of a worst frame's pictures. Letters, digits, '-' and '_' of the unit's name.
+void namePictures(WorstFrame& worst, const Unit& unit);
+/// Reference, ours and FLIP's map as PNG into `folder`.
+Result<Done> writePictures(const WorstFrame& worst, const scene::ErrorPictures& pictures,
+                           const std::filesystem::path& folder);
+
+}  // namespace trimtab::harness
