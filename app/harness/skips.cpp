@@ -1,0 +1,169 @@
+#include "trimtab/harness/skips.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "trimtab/experiment/stage.h"
+
+namespace trimtab::harness {
+namespace {
+
+using scene::FrameRequest;
+using scene::FrameResult;
+using Counter = std::uint64_t FrameResult::*;
+
+template <Counter counter>
+bool unchanged(const FrameResult& before, const FrameResult& after) {
+  return after.*counter == before.*counter;
+}
+
+FrameRequest itself(const FrameRequest& request) {
+  return request;
+}
+
+template <bool scene::Skips::*skip>
+FrameRequest without(const FrameRequest& request) {
+  FrameRequest changed = request;
+  changed.skips.*skip = false;
+  return changed;
+}
+
+FrameRequest inCase(const FrameRequest& request, CullingCase method) {
+  FrameRequest changed = request;
+  changed.method = method;
+  return changed;
+}
+
+/// The map that the smallest band of the default preset asks for: the least that a frame with one can pay.
+FrameRequest withDepthMap(const FrameRequest& request) {
+  FrameRequest changed = request;
+  const Band& band = kDepthMapBands.span().front();
+  changed.decision.depthMap = DepthMapSize{band.widthPx, band.heightPx};
+  return changed;
+}
+
+double millisecondsOf(const DrawFrame& draw, const FrameRequest& request) {
+  const auto start = std::chrono::steady_clock::now();
+  draw(request);
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// At most `most` of the values, evenly spread.
+std::vector<std::size_t> spread(const std::vector<std::size_t>& values, std::size_t most) {
+  if (values.size() <= most) return values;
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < most; ++i) chosen.push_back(values[i * values.size() / most]);
+  return chosen;
+}
+
+}  // namespace
+
+const std::vector<Skip>& skips() {
+  static const std::vector<Skip> kSkips{
+      {"tiles outside the frustum",
+       [](const FrameRequest& r, const FrameResult&, const FrameResult& after) {
+         return r.method != CullingCase::none && after.visible.outsideFrustum > 0;
+       },
+       [](const FrameRequest& r) { return inCase(r, CullingCase::none); },
+       [](const FrameRequest& r) { return inCase(r, CullingCase::view_frustum); }},
+      {"tiles hidden by the depth map",
+       [](const FrameRequest&, const FrameResult&, const FrameResult& after) {
+         return after.visible.occluded > 0;
+       },
+       [](const FrameRequest& r) { return inCase(r, CullingCase::view_frustum); }, itself},
+      {"tiles beyond visibility",
+       [](const FrameRequest&, const FrameResult&, const FrameResult& after) {
+         return after.visible.beyondVisibility > 0;
+       },
+       without<&scene::Skips::beyondVisibility>, itself},
+      {"depth map in scheme frustum",
+       [](const FrameRequest& r, const FrameResult&, const FrameResult& after) {
+         return r.method == CullingCase::proposed && !r.decision.depthMap && !after.visible.tiles.empty();
+       },
+       withDepthMap, itself},
+      {"levels chosen again for an eye that stands",
+       [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
+         return unchanged<&FrameResult::cutsSelected>(before, after) && after.tilesInCut > 0;
+       },
+       without<&scene::Skips::sameCut>, itself, true},
+      {"horizon built again for an eye that stands",
+       [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
+         return after.horizon && unchanged<&FrameResult::horizonsBuilt>(before, after);
+       },
+       without<&scene::Skips::sameHorizon>, itself, true},
+      {"tiles that the GPU holds already",
+       [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
+         return after.tilesBuilt - before.tilesBuilt < after.visible.tiles.size();
+       },
+       without<&scene::Skips::tilesOnGpu>, itself},
+      {"blur at rest",
+       [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
+         return unchanged<&FrameResult::blurPasses>(before, after);
+       },
+       without<&scene::Skips::blurAtRest>, itself},
+      {"precipitation in clear air",
+       [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
+         return unchanged<&FrameResult::precipitationPasses>(before, after);
+       },
+       without<&scene::Skips::clearAir>, itself},
+      {"symbols that have not changed",
+       [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
+         return unchanged<&FrameResult::symbologyRedraws>(before, after) &&
+                !unchanged<&FrameResult::symbologyDraws>(before, after);
+       },
+       without<&scene::Skips::sameSymbols>, itself, true},
+  };
+  return kSkips;
+}
+
+std::vector<SkipSaving> measureSkips(const DrawFrame& draw, std::span<const FrameRequest> frames,
+                                     std::size_t repeats, const std::function<bool()>& goOn) {
+  const auto stopped = [&goOn] { return goOn && !goOn(); };
+  std::vector<SkipSaving> savings(skips().size());
+  std::vector<std::vector<std::size_t>> left(skips().size());
+  for (std::size_t s = 0; s < savings.size(); ++s) savings[s].name = skips()[s].name;
+  if (frames.empty()) return savings;
+
+  FrameResult before = draw(frames[0]);
+  for (std::size_t i = 0; i < frames.size() && !stopped(); ++i) {
+    FrameResult after = draw(frames[i]);
+    for (std::size_t s = 0; s < savings.size(); ++s) {
+      // The first frame has none before it: it was drawn twice.
+      if (i == 0 && skips()[s].needsFrameBefore) continue;
+      ++savings[s].frames;
+      if (!skips()[s].left(frames[i], before, after)) continue;
+      ++savings[s].skipped;
+      left[s].push_back(i);
+    }
+    before = std::move(after);
+  }
+
+  for (std::size_t s = 0; s < savings.size(); ++s) {
+    const Skip& skip = skips()[s];
+    std::vector<double> with, without, saved;
+    for (const std::size_t i : spread(left[s], kMostMeasured)) {
+      const FrameRequest kept = skip.leftOut(frames[i]), done = skip.done(frames[i]);
+      const auto timed = [&](const FrameRequest& request) {
+        if (skip.needsFrameBefore) draw(frames[i - 1]);
+        return millisecondsOf(draw, request);
+      };
+      draw(done);  // makes the tiles that only it needs
+      for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
+        if (stopped()) return savings;
+        // Each goes first in turn, so that what warms up or drifts favours neither.
+        const bool doneFirst = repeat % 2 == 0;
+        const double first = timed(doneFirst ? done : kept), second = timed(doneFirst ? kept : done);
+        without.push_back(doneFirst ? first : second);
+        with.push_back(doneFirst ? second : first);
+        saved.push_back(without.back() - with.back());
+      }
+    }
+    if (saved.empty()) continue;
+    savings[s].savedMs = experiment::quantileOf(saved, 0.5);
+    savings[s].ratio = pairedRatio(with, without);
+  }
+  return savings;
+}
+
+}  // namespace trimtab::harness

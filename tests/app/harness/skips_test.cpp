@@ -1,0 +1,192 @@
+#include "trimtab/harness/skips.h"
+
+#include <cmath>
+#include <set>
+
+#include "scene_test.h"
+#include "synthetic_trees.h"
+#include "trimtab/preset/table.h"
+
+namespace trimtab {
+namespace {
+
+using harness::Skip;
+using harness::skips;
+using harness::SkipSaving;
+using scene::FrameRequest;
+using scene::FrameResult;
+
+class SkipsTest : public test::SceneTest {
+ protected:
+  harness::DrawFrame drawFrame() {
+    return [this](const FrameRequest& r) { return renderer.draw(r, offscreen->framebuffer()); };
+  }
+  /// A standing eye whose head turns, with symbols, at rest in clear air, in scheme frustum.
+  FrameRequest looking(double heading) const {
+    auto r = request(over(0.4, 0.4, 120), {Degrees{heading}, Degrees{-1}, Degrees{3}});
+    r.view.widthPx /= 2;
+    r.view.heightPx /= 2;
+    r.lod.screenSpaceError = Pixels{0.7};
+    r.time = heading;
+    TuningParameters p;
+    p.symbology.enabled = true;
+    const Attitude level{Degrees{30}, Degrees{-2}, Degrees{0}};
+    r.symbology =
+        scene::SymbologyRequest{{level, level, Metres{1234}, Knots{240}, true, {}}, scene::symbologySetup(p)};
+    return r;
+  }
+  static void foggy(FrameRequest& r) {
+    r.decision.weather.fogged = true;
+    r.decision.weather.visibilityM = 9000;
+    r.decision.weather.extinctionPerM = 3.912 / 9000;
+    r.decision.weather.farM = 9000;
+  }
+  const SkipSaving& saving(const std::vector<SkipSaving>& savings, std::string_view name) {
+    for (const SkipSaving& s : savings)
+      if (s.name == name) return s;
+    ADD_FAILURE() << name;
+    return savings.front();
+  }
+};
+
+TEST_F(SkipsTest, changeNoPixelWhetherTheirWorkIsDoneOrNot) {
+  struct Scene {
+    const char* name;
+    void (*set)(FrameRequest&);
+  };
+  const Scene kScenes[] = {
+      {"scheme frustum", [](FrameRequest&) {}},
+      {"depth map",
+       [](FrameRequest& r) {
+         r.decision.depthMap = DepthMapSize{400, 300};
+       }},
+      {"horizon",
+       [](FrameRequest& r) {
+         r.decision.depthMap = DepthMapSize{400, 300};
+         r.occlusion = OcclusionMethod::horizon;
+       }},
+      {"fog", foggy},
+      {"fog, depth map",
+       [](FrameRequest& r) {
+         foggy(r);
+         r.decision.depthMap = DepthMapSize{400, 300};
+       }},
+      {"trees", [](FrameRequest& r) { r.staticLod.terrain = TerrainForm::static_trees; }},
+      {"trees in fog",
+       [](FrameRequest& r) {
+         foggy(r);
+         r.staticLod.terrain = TerrainForm::static_trees;
+       }},
+  };
+  use(std::make_shared<const test::TreeTerrain>(test::syntheticMountains()));
+  std::set<std::string_view> met;
+  for (const Scene& scene : kScenes) {
+    std::vector<FrameRequest> frames{looking(20), looking(60)};
+    for (FrameRequest& r : frames) scene.set(r);
+    FrameResult before, after;
+    picture(frames[0], &before);
+    const auto plain = picture(frames[1], &after);
+    for (const Skip& skip : skips()) {
+      if (!skip.left(frames[1], before, after)) continue;
+      met.insert(skip.name);
+      FrameResult done;
+      EXPECT_EQ(differing(plain, picture(skip.done(frames[1]), &done)), 0u)
+          << skip.name << ", " << scene.name;
+      EXPECT_EQ(differing(plain, picture(skip.leftOut(frames[1]))), 0u) << skip.name << ", " << scene.name;
+      EXPECT_EQ(differing(plain, picture(frames[1])), 0u) << skip.name << " leaves something behind";
+    }
+  }
+  for (const Skip& skip : skips())
+    EXPECT_TRUE(met.count(skip.name)) << "no scene here leaves out: " << skip.name;
+}
+
+TEST_F(SkipsTest, areDoneWhereTheyAreSwitchedOff) {
+  use(test::syntheticMountains());
+  auto r = looking(20);
+  foggy(r);
+  FrameResult before, after;
+  const auto drawTwice = [&](bool scene::Skips::*skip) {
+    auto changed = r;
+    if (skip != nullptr) changed.skips.*skip = false;
+    picture(changed);
+    picture(changed, &before);
+    picture(changed, &after);
+  };
+  const auto work = [&] {
+    return std::array{after.cutsSelected - before.cutsSelected, after.tilesBuilt - before.tilesBuilt,
+                      after.blurPasses - before.blurPasses,
+                      after.precipitationPasses - before.precipitationPasses,
+                      after.symbologyRedraws - before.symbologyRedraws};
+  };
+  using Work = std::array<std::uint64_t, 5>;
+  drawTwice(nullptr);
+  EXPECT_EQ(work(), (Work{0, 0, 0, 0, 0}));
+  const std::size_t tiles = after.visible.tiles.size();
+  EXPECT_GT(after.visible.beyondVisibility, 0u);
+  drawTwice(&scene::Skips::sameCut);
+  EXPECT_EQ(work(), (Work{1, 0, 0, 0, 0}));
+  drawTwice(&scene::Skips::tilesOnGpu);
+  EXPECT_EQ(work(), (Work{0, tiles, 0, 0, 0}));
+  drawTwice(&scene::Skips::blurAtRest);
+  EXPECT_EQ(work(), (Work{0, 0, 1, 0, 0}));
+  drawTwice(&scene::Skips::clearAir);
+  EXPECT_EQ(work(), (Work{0, 0, 0, 1, 0}));
+  drawTwice(&scene::Skips::sameSymbols);
+  EXPECT_EQ(work(), (Work{0, 0, 0, 0, 1}));
+  drawTwice(&scene::Skips::beyondVisibility);
+  EXPECT_EQ(work(), (Work{0, 0, 0, 0, 0}));
+  EXPECT_EQ(after.visible.beyondVisibility, 0u);
+  EXPECT_GT(after.visible.tiles.size(), tiles);
+}
+
+TEST_F(SkipsTest, areCountedByFrameAndMeasured) {
+  use(test::syntheticMountains());
+  // Three looks around, then two places on; it rains in the last one, and it is blurred.
+  std::vector<FrameRequest> frames{looking(0), looking(10), looking(20), looking(20), looking(20)};
+  frames[3].eye = over(0.42, 0.4, 120);
+  frames[4].eye = over(0.44, 0.4, 120);
+  frames[4].decision.weather.precipitation = Precipitation::rain;
+  frames[4].decision.weather.density = 0.5;
+  frames[4].decision.motion.blur.strength = 0.5;
+  frames[2].decision.depthMap = DepthMapSize{400, 300};
+  const std::vector<SkipSaving> savings = harness::measureSkips(drawFrame(), frames, 2);
+  ASSERT_EQ(savings.size(), skips().size());
+  const struct {
+    const char* name;
+    std::uint64_t skipped, frames;
+  } kExpected[] = {{"levels chosen again for an eye that stands", 2, 4},
+                   {"blur at rest", 4, 5},
+                   {"precipitation in clear air", 4, 5},
+                   {"symbols that have not changed", 4, 4},
+                   {"depth map in scheme frustum", 4, 5},
+                   {"tiles outside the frustum", 5, 5},
+                   {"tiles that the GPU holds already", 5, 5},
+                   {"tiles beyond visibility", 0, 5},
+                   {"horizon built again for an eye that stands", 0, 4}};
+  for (const auto& [name, skipped, count] : kExpected) {
+    const SkipSaving& s = saving(savings, name);
+    EXPECT_EQ(s.skipped, skipped) << name;
+    EXPECT_EQ(s.frames, count) << name;
+    EXPECT_EQ(s.ratio.pairs, 2 * skipped) << name;
+    EXPECT_EQ(std::isnan(s.savedMs), skipped == 0) << name;
+  }
+  // Making all tiles again is more than the frame itself; whatever else runs on the machine, it shows.
+  const SkipSaving& tiles = saving(savings, "tiles that the GPU holds already");
+  EXPECT_GT(tiles.savedMs, 0);
+  EXPECT_GT(tiles.ratio.median, 1.2);
+  EXPECT_GT(saving(savings, "blur at rest").savedMs, 0);
+}
+
+TEST_F(SkipsTest, areLeftUnmeasuredWhenAskedToStop) {
+  use(test::syntheticMountains());
+  const std::vector<FrameRequest> frames{looking(0), looking(10)};
+  int asked = 0;
+  const auto savings = harness::measureSkips(drawFrame(), frames, 3, [&asked] { return ++asked <= 2; });
+  ASSERT_EQ(savings.size(), skips().size());
+  EXPECT_EQ(saving(savings, "blur at rest").skipped, 2u);
+  for (const SkipSaving& s : savings) EXPECT_TRUE(std::isnan(s.savedMs)) << s.name;
+  EXPECT_EQ(harness::measureSkips(drawFrame(), {}, 3).size(), skips().size());
+}
+
+}  // namespace
+}  // namespace trimtab
