@@ -22,14 +22,16 @@ Attitude lineOfSight(const Attitude& aircraft, const std::optional<Attitude>& he
   const Mat3 m = bodyToWorld(aircraft) * bodyToWorld(*head);
   const auto degrees = [](double radians) { return Radians{radians}.as<Degrees>(); };
   const double down = m.row[2].x;
-  // From the level part as well: an arcsine alone loses half its digits near the vertical.
+  // By the level part as well: an arcsine alone loses half its digits near the vertical. Roll against the
+  // level axis of that heading: there both are uncertain, what they make together is not.
   const double level = std::sqrt(m.row[0].x * m.row[0].x + m.row[1].x * m.row[1].x);
   // Straight up or down, heading and roll turn about one axis.
-  if (level < 1e-9)
+  if (level < 1e-12)
     return {wrapped360(degrees(std::atan2(-m.row[0].y, m.row[1].y))), Degrees{down < 0 ? 90.0 : -90.0},
             Degrees{0}};
   return {wrapped360(degrees(std::atan2(m.row[1].x, m.row[0].x))), degrees(std::atan2(-down, level)),
-          degrees(std::atan2(m.row[2].y, m.row[2].z))};
+          degrees(std::atan2(m.row[1].x * m.row[0].z - m.row[0].x * m.row[1].z,
+                             m.row[0].x * m.row[1].y - m.row[1].x * m.row[0].y))};
 }
 
 }  // namespace trimtab
