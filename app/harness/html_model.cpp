@@ -59,7 +59,8 @@ int ReportModel::caseLook(const std::string& method) const {
 
 std::vector<plot::Key> ReportModel::keys() const {
   std::vector<plot::Key> keys;
-  for (const std::string& preset : presets) keys.push_back({preset, presetLook(preset), -1});
+  for (const std::string& preset : presets)
+    keys.push_back({preset, presetLook(preset), -1, cases.size() > 1});
   for (const std::string& method : cases) keys.push_back({caseText(method), -1, caseLook(method)});
   return keys;
 }

@@ -23,7 +23,7 @@ class ReportModel {
   const Unit* unit(const std::string& flight, const std::string& preset, const std::string& method) const;
   int presetLook(const std::string& preset) const;
   int caseLook(const std::string& method) const;
-  /// Colours of presets and shapes of cases.
+  /// Colours (and dashes, where lines join cases) of presets and shapes of cases.
   std::vector<plot::Key> keys() const;
   const Summary& summary(const Unit& unit, const Quantity& quantity) const;
   /// Whether any frame of any unit has it.

@@ -58,6 +58,7 @@ img{display:block;width:100%;height:auto;background:var(--band)}
 article{border-bottom:1px solid var(--line);padding-bottom:.6rem}
 footer{margin-top:2.5rem;color:var(--quiet);font-size:.86rem}
 @media (max-width:820px){.central{grid-template-columns:minmax(0,1fr)}
+.central figure+figure{max-width:520px}
 .facts{grid-template-columns:1fr;gap:0}.facts dd{margin:0 0 .3rem}}
 @media screen and (prefers-color-scheme:dark){
 :root{color-scheme:dark;--ground:#14171b;--ink:#e6e9ed;--quiet:#a2abb6;--line:#353c45;--band:#1f242b;--good:#4fd1a5;

@@ -61,16 +61,43 @@ class PlainDrawing : public Drawing {
       tickX();
     svg_.line(left_, bottom_, right_, bottom_, "axis");
     svg_.line(left_, top_, left_, bottom_, "axis");
-    for (const Guide& guide : plot_.guides) {
-      constexpr const char* kDashed = "stroke-dasharray=\"8 4\" stroke-width=\"1.5\"";
-      if (guide.axis == Guide::Axis::x) {
-        svg_.line(px(guide.at), top_, px(guide.at), bottom_, "axis", kDashed);
-        svg_.text(px(guide.at) + 4, top_ + svg_.textPx(), "start", guide.label, {}, "halo");
-      } else {
-        svg_.line(left_, py(guide.at), right_, py(guide.at), "axis", kDashed);
-        svg_.text(right_, py(guide.at) - 4, "end", guide.label, {}, "halo");
-      }
+    for (const Guide& guide : plot_.guides) drawGuide(guide);
+  }
+
+  void drawGuide(const Guide& guide) {
+    constexpr const char* kDashed = "stroke-dasharray=\"8 4\" stroke-width=\"1.5\"";
+    const double width = textWidthPx(guide.label, svg_.textPx()), height = svg_.textPx();
+    if (guide.axis == Guide::Axis::x) {
+      svg_.line(px(guide.at), top_, px(guide.at), bottom_, "axis", kDashed);
+      svg_.text(px(guide.at) + 4, top_ + height, "start", guide.label, {}, "halo");
+      return;
     }
+    const double y = py(guide.at);
+    svg_.line(left_, y, right_, y, "axis", kDashed);
+    // At the end, over or under the line, where the fewest points are.
+    Box best{};
+    std::size_t fewest = std::numeric_limits<std::size_t>::max();
+    for (const double top : {y - height - 4, y + 3})
+      for (const double x : {right_ - width, left_ + 4}) {
+        const Box box{x, top, width, height};
+        const std::size_t hit = pointsIn({x - 20, top - 6, width + 40, height + 12});
+        if (top < top_ || top + height > bottom_ || hit >= fewest) continue;
+        fewest = hit;
+        best = box;
+      }
+    if (fewest == std::numeric_limits<std::size_t>::max()) return;
+    svg_.text(best.x, best.y + height * 0.8, "start", guide.label, {}, "halo");
+    taken_.push_back(best);
+    thin_.push_back({left_, y - 2, right_ - left_, 4});
+  }
+
+  std::size_t pointsIn(const Box& box) const {
+    std::size_t count = 0;
+    for (const Series& series : plot_.series)
+      for (std::size_t i = 0; i < series.x.size() && i < series.y.size(); ++i)
+        count += std::isfinite(series.x[i]) && std::isfinite(series.y[i]) &&
+                 box.overlaps({px(series.x[i]), py(series.y[i]), 1, 1});
+    return count;
   }
 
   void tickX() {
@@ -165,12 +192,6 @@ class PlainDrawing : public Drawing {
   double labelPx() const { return svg_.textPx() - 1; }
 
   void drawLabels() {
-    for (const Guide& guide : plot_.guides)
-      if (guide.axis == Guide::Axis::y) {
-        thin_.push_back({left_, py(guide.at) - 2, right_ - left_, 4});
-        const double width = textWidthPx(guide.label, svg_.textPx());
-        taken_.push_back({right_ - width, py(guide.at) - svg_.textPx() - 4, width, svg_.textPx() + 4});
-      }
     const std::string size = "font-size=\"" + decimal(labelPx(), 1) + '"';
     for (const PlacedLabel& label : placeLabels(
              labels_, taken_, thin_, {left_ + 2, top_, right_ - left_ - 2, bottom_ - top_ - 2}, labelPx())) {

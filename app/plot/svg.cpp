@@ -75,7 +75,13 @@ bool isBare(const Key& key) {
   return key.colour < 0 && key.shape < 0 && !key.line;
 }
 
-constexpr double kCharacterWidth = 0.57;  ///< of the text's size, mean of sans-serif fonts
+/// Of the text's size, about as wide as common sans-serif fonts draw it.
+double characterWidth(std::string_view character) {
+  const char c = character.size() == 1 ? character[0] : 'n';
+  if (std::string_view("ijl.,:;'|! ftrI()[]-").find(c) != std::string_view::npos) return 0.4;
+  if (std::string_view("mwMW@%").find(c) != std::string_view::npos) return 0.93;
+  return c >= 'A' && c <= 'Z' ? 0.7 : 0.61;
+}
 
 }  // namespace
 
@@ -126,16 +132,26 @@ std::string escaped(std::string_view text) {
 }
 
 double textWidthPx(std::string_view utf8, double sizePx) {
-  return kCharacterWidth * sizePx * static_cast<double>(countCharacters(utf8));
+  double width = 0;
+  for (std::size_t at = 0; at < utf8.size();) {
+    const std::size_t bytes = beginning(utf8.substr(at), 1).size();
+    width += characterWidth(utf8.substr(at, bytes));
+    at += bytes;
+  }
+  return width * sizePx;
 }
 
 std::string shortened(std::string_view utf8, double widthPx, double sizePx) {
+  if (textWidthPx(utf8, sizePx) <= widthPx) return std::string(utf8);
   const std::size_t all = countCharacters(utf8);
-  const std::size_t fits = static_cast<std::size_t>(std::max(widthPx / (kCharacterWidth * sizePx), 3.0));
-  if (all <= fits) return std::string(utf8);
-  const std::size_t tail = (fits - 1) / 3, head = fits - 1 - tail;
-  return std::string(beginning(utf8, head)) + "\xe2\x80\xa6" +
-         std::string(utf8.substr(beginning(utf8, all - tail).size()));
+  std::string text;
+  for (std::size_t kept = all - 1; kept > 1; --kept) {
+    const std::size_t tail = kept / 3;
+    text = std::string(beginning(utf8, kept - tail)) + "\xe2\x80\xa6" +
+           std::string(utf8.substr(beginning(utf8, all - tail).size()));
+    if (textWidthPx(text, sizePx) <= widthPx) break;
+  }
+  return text;
 }
 
 std::string dashOf(int look) {
