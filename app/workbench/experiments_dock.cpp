@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "experiments_dock.h"
 
-#include <signal.h>
-
 #include <QComboBox>
-#include <QCoreApplication>
 #include <QDir>
 #include <QFileDialog>
 #include <QHBoxLayout>
@@ -20,7 +17,6 @@
 #include <QSplitter>
 #include <QTabWidget>
 #include <QTableWidget>
-#include <QTimer>
 #include <QVBoxLayout>
 #include <cmath>
 
@@ -29,9 +25,6 @@
 
 namespace trimtab::workbench {
 namespace {
-
-/// A measured run is given up when it does not end this soon after it was asked to.
-constexpr int kStopMs = 3000;
 
 struct Named {
   const char *command, *label;
@@ -162,28 +155,12 @@ ExperimentsDock::ExperimentsDock(Source source, QWidget* parent)
   connect(run_, &QPushButton::clicked, this, [this] { running() ? cancel() : run(); });
   connect(save_, &QPushButton::clicked, this, &ExperimentsDock::save);
   connect(plots_, &QComboBox::currentIndexChanged, this, &ExperimentsDock::showPlot);
-  connect(&process_, &QProcess::readyReadStandardError, this, &ExperimentsDock::onOutput);
-  connect(&process_, &QProcess::readyReadStandardOutput, this,
-          [this] { json_ += process_.readAllStandardOutput(); });
-  connect(&process_, &QProcess::finished, this, &ExperimentsDock::onFinished);
-  connect(&process_, &QProcess::errorOccurred, this, [this](QProcess::ProcessError error) {
-    if (error != QProcess::FailedToStart) return;
-    setRunning(false);
-    emit refused(tr("The experiment cannot be started"), {{Severity::error,
-                                                           process_.program().toStdString(),
-                                                           {},
-                                                           "the program trimtab-cli beside this one",
-                                                           process_.errorString().toStdString()}});
-    emit finished(false);
+  connect(&child_, &ChildRun::progressed, this, [this](int percent, const QString& what) {
+    progress_->setValue(percent);
+    status_->setText(what);
   });
+  connect(&child_, &ChildRun::ended, this, &ExperimentsDock::onEnded);
   setRunning(false);
-}
-
-ExperimentsDock::~ExperimentsDock() {
-  process_.disconnect(this);
-  if (!running()) return;
-  process_.kill();
-  process_.waitForFinished(kStopMs);
 }
 
 void ExperimentsDock::setRunning(bool running) {
@@ -214,67 +191,41 @@ void ExperimentsDock::run() {
                         QStringLiteral("--repeats"),  QString::number(repeats_->value()),
                         QStringLiteral("--json")};
   if (!inputs->flight.isEmpty()) arguments << QStringLiteral("--flight") << inputs->flight;
-  json_.clear();
-  errors_.clear();
-  cancelled_ = false;
   setRunning(true);
   status_->setText(tr("Starting…"));
-  process_.start(QCoreApplication::applicationDirPath() + QStringLiteral("/trimtab-cli"), arguments);
+  child_.start(arguments);
 }
 
 void ExperimentsDock::cancel() {
   if (!running()) return;
-  cancelled_ = true;
   status_->setText(tr("Cancelling…"));
-  // 0 would be this program and all it started.
-  if (const auto id = static_cast<pid_t>(process_.processId()); id > 0) ::kill(id, SIGINT);
-  QTimer::singleShot(kStopMs, &process_, [this] {
-    if (cancelled_ && running()) process_.kill();
-  });
+  child_.cancel();
 }
 
-/// Progress lines are " 12 % what"; anything else is a finding.
-void ExperimentsDock::onOutput() {
-  static const QRegularExpression kProgress(QStringLiteral("^\\s*(\\d+) % (.*)$"));
-  errors_ += process_.readAllStandardError();
-  for (qsizetype end = errors_.indexOf('\n'), from = 0; end >= 0; end = errors_.indexOf('\n', from)) {
-    const QRegularExpressionMatch line =
-        kProgress.match(QString::fromUtf8(errors_.constData() + from, end - from));
-    if (line.hasMatch()) {
-      progress_->setValue(line.captured(1).toInt());
-      status_->setText(line.captured(2));
-      errors_.remove(from, end - from + 1);
-    } else {
-      from = end + 1;
-    }
-  }
-}
-
-void ExperimentsDock::onFinished(int exitCode, QProcess::ExitStatus status) {
-  onOutput();
-  json_ += process_.readAllStandardOutput();
+void ExperimentsDock::onEnded(const ChildRun::Ended& how) {
   setRunning(false);
   const QString name = which_->currentText();
-  if (cancelled_) {
+  if (how.cancelled) {
     status_->setText(tr("Cancelled; the results before stay."));
     emit finished(false);
     return;
   }
-  Result<experiment::Report> report =
-      experiment::parseReport(std::string_view(json_.constData(), std::size_t(json_.size())), "trimtab-cli");
-  if (status != QProcess::NormalExit || exitCode != 0 || !report) {
-    const QByteArray said = errors_.trimmed();
+  Findings findings = how.findings;
+  if (how.good) {
+    Result<experiment::Report> report = experiment::parseReport(
+        std::string_view(how.output.constData(), std::size_t(how.output.size())), "trimtab-cli");
+    findings = report.findings();
+    if (report) {
+      findings.clear();  // notes
+      report_ = std::move(report).value();
+    }
+  }
+  if (!findings.empty()) {
     status_->setText(tr("Failed; the results before stay."));
-    emit refused(tr("The experiment failed"),
-                 {{Severity::error,
-                   "trimtab-cli experiment",
-                   {},
-                   "to end well",
-                   said.isEmpty() ? "exit code " + std::to_string(exitCode) : said.toStdString()}});
+    emit refused(tr("The experiment failed"), findings);
     emit finished(false);
     return;
   }
-  report_ = std::move(report).value();
   status_->setText(tr("Done: %1").arg(name));
   show(*report_);
   emit finished(true);

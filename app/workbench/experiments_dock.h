@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QProcess>
 #include <QTemporaryDir>
 #include <QWidget>
 #include <functional>
 #include <optional>
 
+#include "child_run.h"
 #include "trimtab/experiment/report.h"
 
 class QComboBox;
@@ -39,11 +39,10 @@ class ExperimentsDock : public QWidget {
   using Source = std::function<std::optional<ExperimentInputs>(const QString& folder)>;
 
   explicit ExperimentsDock(Source source, QWidget* parent = nullptr);
-  ~ExperimentsDock() override;
 
   void run();
   void cancel();
-  bool running() const { return process_.state() != QProcess::NotRunning; }
+  bool running() const { return child_.running(); }
   const std::optional<experiment::Report>& report() const { return report_; }
 
  signals:
@@ -51,18 +50,15 @@ class ExperimentsDock : public QWidget {
   void refused(const QString& what, const trimtab::Findings& findings);
 
  private:
-  void onOutput();
-  void onFinished(int exitCode, QProcess::ExitStatus status);
+  void onEnded(const ChildRun::Ended& how);
   void show(const experiment::Report& report);
   void showPlot(int index);
   void save();
   void setRunning(bool running);
 
   Source source_;
-  QProcess process_;
+  ChildRun child_;
   QTemporaryDir folder_;
-  QByteArray json_, errors_;
-  bool cancelled_ = false;
   std::optional<experiment::Report> report_;
 
   QComboBox *which_, *plots_;

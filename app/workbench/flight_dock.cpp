@@ -90,10 +90,8 @@ FlightDock::FlightDock(Feed& feed, QWidget* parent)
   connect(&refresh_, &QTimer::timeout, this, &FlightDock::showPosition);
   connect(play_, &QPushButton::clicked, this, [this] { playing() ? pause() : play(); });
   connect(stop_, &QPushButton::clicked, this, &FlightDock::stop);
-  connect(scrub_, &QSlider::sliderMoved, this, [this](int step) {
-    feed_.seekHere(feed_.playback().duration() * step / kScrubSteps);
-    showPosition();
-  });
+  connect(scrub_, &QSlider::sliderMoved, this,
+          [this](int step) { seek(feed_.playback().duration() * step / kScrubSteps); });
   connect(speed_, &QDoubleSpinBox::valueChanged, this, [this](double speed) {
     feed_.playback().setSpeed(speed);
     if (feed_.udpPlayer() != nullptr) feed_.udpPlayer()->setSpeed(speed);
@@ -169,6 +167,11 @@ void FlightDock::stop() {
 bool FlightDock::playing() const {
   if (const link::FeedPlayer* udp = feed_.udpPlayer()) return !udpPaused_ && !udp->finished();
   return feed_.playback().playing();
+}
+
+void FlightDock::seek(double position) {
+  feed_.seekHere(position);
+  showPosition();
 }
 
 double FlightDock::position() const {

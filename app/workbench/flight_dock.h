@@ -27,6 +27,10 @@ class FlightDock : public QWidget {
   void pause();
   void stop();  ///< pauses and returns to the start
   bool playing() const;
+  /// Takes the flight to a place, seconds from its start, whether it plays or not.
+  void seek(double position);
+  /// Where it is; over UDP what was sent last.
+  double position() const;
 
  signals:
   void openRequested();
@@ -41,7 +45,6 @@ class FlightDock : public QWidget {
   bool overUdp() const;
   void showState();
   void showPosition();
-  double position() const;
 
   Feed& feed_;
   QLabel *name_, *time_, *where_;

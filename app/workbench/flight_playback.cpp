@@ -8,6 +8,8 @@ namespace trimtab::workbench {
 namespace {
 
 constexpr double kLongestStepS = 0.5;
+/// Of a step: a row of the flight that stands on the grid is on it, however its time was rounded.
+constexpr double kRounding = 1e-6;
 
 }  // namespace
 
@@ -40,7 +42,7 @@ AircraftState FlightPlayback::gridState(std::int64_t step) const {
 }
 
 AircraftState FlightPlayback::current() const {
-  return gridState(static_cast<std::int64_t>(std::floor(position_ * kRateHz)));
+  return gridState(static_cast<std::int64_t>(std::floor(position_ * kRateHz + kRounding)));
 }
 
 void FlightPlayback::advance(double now, std::vector<AircraftState>& states) {

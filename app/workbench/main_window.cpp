@@ -15,6 +15,7 @@
 #include "flight_dock.h"
 #include "host_dock.h"
 #include "notice_bar.h"
+#include "split_view.h"
 #include "trimtab/views/bands_editor.h"
 #include "trimtab/views/plots_panel.h"
 #include "trimtab/views/time_plot.h"
@@ -23,7 +24,7 @@ namespace trimtab::workbench {
 namespace {
 
 /// Raised when docks come or go, so that an old layout is not forced on new docks.
-constexpr int kLayoutVersion = 2;
+constexpr int kLayoutVersion = 3;
 const QString kSpanKey = QStringLiteral("plots/span_s");
 
 }  // namespace
@@ -66,6 +67,7 @@ MainWindow::~MainWindow() {
   disconnect(viewport_, nullptr, this, nullptr);
   viewport_->setSource({});
   stopTrace();
+  delete split_;
   qDeleteAll(findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly));
   delete takeCentralWidget();
 }

@@ -3,6 +3,7 @@
 
 #include <QElapsedTimer>
 #include <QMainWindow>
+#include <deque>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "document.h"
+#include "draw_thread.h"
 #include "feed.h"
 #include "message_panel.h"
 #include "options.h"
@@ -38,11 +40,13 @@ class StaticLodPanel;
 
 namespace trimtab::workbench {
 
+class ErrorDock;
 class ExperimentsDock;
 struct ExperimentInputs;
 class FlightDock;
 class HostDock;
 class NoticeBar;
+class SplitView;
 
 /// The workbench: viewport in the middle, docks around it, one draft, one feed.
 class MainWindow : public QMainWindow {
@@ -82,6 +86,10 @@ class MainWindow : public QMainWindow {
   HostDock& hostDock() { return *hostDock_; }
   FlightDock& flightDock() { return *flightDock_; }
   ExperimentsDock& experiments() { return *experiments_; }
+  ErrorDock& errors() { return *errors_; }
+  /// Null until it was asked for.
+  SplitView* splitView() const { return split_; }
+  void showSplitView();
   SymbologyEditor& symbologyEditor() { return symbologyEditor_; }
   NoticeBar& notices() { return *notices_; }
   bool hasTerrain() const { return terrain_ != nullptr; }
@@ -152,6 +160,14 @@ class MainWindow : public QMainWindow {
   void showInDocks(const views::LiveFrame& frame);
   QString hudText(const AircraftState& eye) const;
   void takeScreenshot();
+  // window_error.cpp
+  ErrorDock* makeErrorDock();
+  void connectErrors();
+  void raiseErrors();
+  void rememberShown();
+  void followErrors();
+  void followFlight();
+  void seekFlight(double timeS);
   // window_weather.cpp
   void calibrateWeather();
 
@@ -162,6 +178,7 @@ class MainWindow : public QMainWindow {
   std::shared_ptr<const terrain::Database> terrain_;
   QString terrainSource_;  ///< what was asked for last; empty for the sample
   QString openedTerrain_;  ///< where `terrain_` comes from
+  DrawThread measuring_;
 
   SymbologyEditor symbologyEditor_{draft_};
   Viewport* viewport_ = nullptr;
@@ -175,6 +192,8 @@ class MainWindow : public QMainWindow {
   HostDock* hostDock_ = nullptr;
   FlightDock* flightDock_ = nullptr;
   ExperimentsDock* experiments_ = nullptr;
+  ErrorDock* errors_ = nullptr;
+  SplitView* split_ = nullptr;
   MessagePanel* messages_ = nullptr;
   QByteArray defaultLayout_;
 
@@ -187,10 +206,12 @@ class MainWindow : public QMainWindow {
 
   scene::Overlays overlays_;
   std::optional<EyePose> frozenEye_;
-  std::optional<scene::FrameRequest> shown_;  ///< the last request
+  std::optional<scene::FrameRequest> shown_;     ///< the last request
+  std::deque<scene::FrameRequest> shownBefore_;  ///< while errors are measured; oldest first
   std::optional<TraceWriter> trace_;
   std::vector<TraceRow> traceRows_;
   std::uint64_t traceCount_ = 0;
+  QString traceFile_, recordedTrace_;  ///< being written; the last one that is whole
   FrameCost lastCost_;
   QElapsedTimer sincePicture_, sinceStart_;
   double fps_ = std::numeric_limits<double>::quiet_NaN();

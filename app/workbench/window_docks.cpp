@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "error_dock.h"
 #include "experiments_dock.h"
 #include "flight_dock.h"
 #include "host_dock.h"
@@ -92,6 +93,8 @@ void MainWindow::makeDocks() {
   experiments_ =
       addDock("experiments", tr("Experiments"), foot,
               new ExperimentsDock([this](const QString& folder) { return experimentInputs(folder); }));
+  errors_ = addDock("errors", tr("Run time against error"), foot, makeErrorDock());
+  connectErrors();
   connect(staticLod_, &views::StaticLodPanel::overlayChanged, this, [this](int depth, bool picture) {
     overlays_.treeDepth = depth;
     overlays_.treePicture = picture;

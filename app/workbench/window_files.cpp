@@ -13,11 +13,13 @@
 #include <QSettings>
 #include <QStatusBar>
 
+#include "error_dock.h"
 #include "experiments_dock.h"
 #include "export_dialog.h"
 #include "flight_dock.h"
 #include "main_window.h"
 #include "notice_bar.h"
+#include "split_view.h"
 #include "trimtab/terrain/static_lod.h"
 #include "trimtab/views/static_lod_panel.h"
 
@@ -144,6 +146,9 @@ void MainWindow::onTerrainOpened(std::shared_ptr<const terrain::Database> databa
                       .arg(info.voidsFilled));
   feed_.session().setTerrain(terrain_);
   viewport_->setTerrain(terrain_);
+  measuring_.setTerrain(terrain_);
+  errors_->restartLive();
+  if (split_ != nullptr) split_->setTerrain(terrain_);
   staticLod_->setTrees(summaryOf(terrain_->staticLod().get()));
   placeCamera();
   feed_.look(viewport_->camera());
@@ -174,7 +179,9 @@ void MainWindow::askOpenFlight() {
 void MainWindow::openAny(const QString& path) {
   const QFileInfo info(path);
   const QString ending = info.suffix().toLower();
-  if (info.isFile() && ending == QLatin1String("json")) {
+  if (info.isFile() && info.fileName() == QLatin1String("results.json")) {
+    if (errors_->openResults(path)) raiseErrors();
+  } else if (info.isFile() && ending == QLatin1String("json")) {
     if (mayLoseEdits()) openPreset(path);
   } else if (info.isFile() && (ending == QLatin1String("csv") || ending == QLatin1String("pcap"))) {
     openFlight(path);
@@ -242,6 +249,7 @@ bool MainWindow::startTrace(const QString& file) {
     return false;
   }
   trace_.emplace(std::move(writer).value());
+  traceFile_ = QFileInfo(file).absoluteFilePath();
   traceCount_ = 0;
   feed_.session().keepRows(true);
   traceAction_->setChecked(true);
@@ -281,10 +289,9 @@ void MainWindow::stopTrace() {
   const Result<Done> closed = trace_->close();
   trace_.reset();
   if (traceAction_ != nullptr) traceAction_->setChecked(false);
-  if (closed)
-    messages_->note(tr("Trace recorded: %L1 rows").arg(traceCount_));
-  else
-    messages_->add(tr("The trace is not complete"), closed.findings());
+  if (!closed) return messages_->add(tr("The trace is not complete"), closed.findings());
+  recordedTrace_ = traceFile_;
+  messages_->note(tr("Trace recorded: %L1 rows").arg(traceCount_));
 }
 
 void MainWindow::askTrace() {

@@ -74,6 +74,7 @@ std::optional<Picture> MainWindow::picture(int widthPx, int heightPx) {
   if (!request) return std::nullopt;
   request->overlays = overlays_;
   request->frozenEye = frozenEye_;
+  rememberShown();
   shown_ = request;
   Picture picture;
   picture.request = std::move(*request);
@@ -126,6 +127,7 @@ void MainWindow::onPainted() {
   lastCost_ = feed_.session().finished(*viewport_->lastResult(), link::now());
   drainTrace(false);
   showInDocks(liveFrame());
+  followErrors();
   if (options_.afterS >= 0 && !options_.screenshot.isEmpty() && !scheduledShot_) {
     scheduledShot_ = true;
     QTimer::singleShot(static_cast<int>(options_.afterS * 1000), this, &MainWindow::takeScreenshot);

@@ -15,6 +15,7 @@
 #include <QToolBar>
 #include <QVBoxLayout>
 
+#include "error_dock.h"
 #include "flight_dock.h"
 #include "host_dock.h"
 #include "main_window.h"
@@ -101,6 +102,10 @@ void MainWindow::makeFileMenu() {
   traceAction_ =
       file->addAction(tr("Record tra&ce..."), QKeySequence(tr("Ctrl+R")), this, &MainWindow::askTrace);
   traceAction_->setCheckable(true);
+  file->addAction(tr("Open measured resu&lts..."), this, [this] {
+    raiseErrors();
+    errors_->askOpenResults();
+  });
   file->addSeparator();
   file->addAction(tr("&Quit"), QKeySequence(tr("Ctrl+Q")), this, &QWidget::close);
 
@@ -200,6 +205,8 @@ void MainWindow::makeViewMenu() {
     placeCamera();
     feed_.look(viewport_->camera());
   });
+  view->addAction(tr("Compare &two presets..."), QKeySequence(tr("Ctrl+D")), this,
+                  &MainWindow::showSplitView);
   view->addSeparator();
   dockMenu_ = view->addMenu(tr("&Docks"));
   int number = 1;
@@ -221,6 +228,10 @@ void MainWindow::makeFlightMenu() {
   flight->addAction(tr("&Play or pause"), QKeySequence(Qt::Key_F5), this,
                     [this] { flightDock_->playing() ? flightDock_->pause() : flightDock_->play(); });
   flight->addAction(tr("&Back to the start"), QKeySequence(tr("Shift+F5")), flightDock_, &FlightDock::stop);
+  flight->addAction(tr("&Measure presets along it..."), QKeySequence(tr("Ctrl+M")), this, [this] {
+    raiseErrors();
+    errors_->askAndMeasure();
+  });
   flight->addSeparator();
   flight->addAction(tr("&Connect or disconnect the host"), QKeySequence(Qt::Key_F6), this, [this] {
     if (feed_.receiver() != nullptr)

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QDialog>
+#include <QStringList>
+#include <array>
+
+class QCheckBox;
+class QLabel;
+class QLineEdit;
+class QListWidget;
+class QPushButton;
+class QSpinBox;
+
+namespace trimtab::workbench {
+
+/// What `trimtab-cli bench` is to measure.
+struct BenchChoice {
+  static const QString kDraft;  ///< stands among the presets for the preset as it is being edited
+
+  QStringList presets;  ///< shipped names, files, or kDraft
+  QStringList cases{QStringLiteral("view_frustum"), QStringLiteral("proposed")};
+  QString size = QStringLiteral("1280x720");
+  int frames = 60, repeats = 5;
+  QString folder;  ///< of the results; one that was stopped half-way goes on
+};
+
+/// Asks for it.
+class BenchDialog : public QDialog {
+  Q_OBJECT
+
+ public:
+  explicit BenchDialog(const QString& folder, QWidget* parent = nullptr);
+  BenchChoice choice() const;
+
+ private:
+  void check();
+
+  QListWidget* presets_;
+  std::array<QCheckBox*, 3> cases_;
+  QLineEdit *size_, *folder_;
+  QSpinBox *frames_, *repeats_;
+  QLabel* amount_;
+  QPushButton* measure_;
+};
+
+}  // namespace trimtab::workbench

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QObject>
+#include <QProcess>
+#include <QStringList>
+
+#include "trimtab/units/result.h"
+
+namespace trimtab::workbench {
+
+/// Long work of `trimtab-cli` as a program of its own: the picture here goes on, and cancelling is sure.
+class ChildRun : public QObject {
+  Q_OBJECT
+
+ public:
+  struct Ended {
+    bool cancelled = false, good = false;
+    QByteArray output;  ///< its standard output
+    Findings findings;  ///< why it is not good; empty where it was cancelled
+  };
+
+  explicit ChildRun(QObject* parent = nullptr);
+  ~ChildRun() override;
+
+  /// Without effect while one runs.
+  void start(const QStringList& arguments);
+  void cancel();
+  bool running() const { return process_.state() != QProcess::NotRunning; }
+
+ signals:
+  void progressed(int percent, const QString& what);
+  void ended(const trimtab::workbench::ChildRun::Ended& how);
+
+ private:
+  void onErrors();
+  void onFinished(int exitCode, QProcess::ExitStatus status);
+
+  QProcess process_;
+  QByteArray output_, errors_;
+  bool cancelled_ = false;
+};
+
+}  // namespace trimtab::workbench

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QSignalSpy>
+#include <QTableWidget>
+#include <cmath>
+
+#include "gui_support.h"
+#include "trimtab/preset/preset.h"
+#include "trimtab/workbench/error_dock.h"
+#include "trimtab/workbench/flight_dock.h"
+#include "trimtab/workbench/split_view.h"
+
+namespace trimtab::test {
+namespace {
+
+using workbench::SplitView;
+
+class ErrorDock : public Bench {
+ protected:
+  workbench::ErrorDock& dock() { return w().errors(); }
+  void raise() {
+    w().dock("errors")->show();
+    w().dock("errors")->raise();
+    ASSERT_TRUE(waitFor([&] { return dock().isVisible(); }));
+  }
+  std::uint64_t measurements() { return dock().live().measurements(); }
+  bool measured(std::uint64_t more = 1) {
+    const std::uint64_t before = measurements();
+    return waitFor([&] { return measurements() >= before + more; }, 90000);
+  }
+  void look(double pitchDeg) {
+    workbench::FreeCamera& camera = w().viewport().camera();
+    Attitude attitude = camera.attitude();
+    attitude.pitch = Degrees{pitchDeg};
+    camera.place(camera.position(), attitude);
+    w().feed().look(camera);
+  }
+  bool compared(SplitView& view, std::uint64_t more = 1) {
+    const std::uint64_t before = view.comparisons();
+    return waitFor([&] { return view.comparisons() >= before + more; }, 120000);
+  }
+};
+
+/// A tiny benchmark by the program itself; made once.
+const QString& tinyResults() {
+  static const ScratchDir dir;
+  static const QString file = [] {
+    QProcess bench;
+    const QString folder = QString::fromStdString((dir / "bench").string());
+    bench.setProcessChannelMode(QProcess::MergedChannels);
+    bench.start(
+        QCoreApplication::applicationDirPath() + "/trimtab-cli",
+        {"bench", "--terrain", QString::fromStdString(sampleTerrain().string()), "--flight",
+         QString::fromStdString(sampleFlight()), "--preset", "default", "as-published", "--cases",
+         "view_frustum,proposed", "--size", "96x64", "--frames", "5", "--repeats", "2", "-o", folder});
+    EXPECT_TRUE(bench.waitForFinished(180000));
+    EXPECT_EQ(bench.exitCode(), 0) << bench.readAll().toStdString();
+    return folder + "/results.json";
+  }();
+  return file;
+}
+
+TEST_F(ErrorDock, theLivePointMovesWithThePictureAndSaysWhatItCosts) {
+  raise();
+  ASSERT_TRUE(waitFor([&] { return measurements() > 0; }, 90000)) << w().messages().text().toStdString();
+  ASSERT_FALSE(dock().plot().tail().empty());
+  const auto& first = *dock().lastMeasured();
+  EXPECT_TRUE(std::isfinite(first.error.flip));
+  EXPECT_GT(first.tookMs, 0);
+  EXPECT_TRUE(dock().liveText().contains("Measured in")) << dock().liveText().toStdString();
+  EXPECT_TRUE(dock().liveText().contains(" ms at "));
+  const QPointF before = dock().plot().livePixel();
+
+  ASSERT_TRUE(w().draft().setText("lod.screen_space_error_px", "32").empty());
+  ASSERT_TRUE(measured());
+  EXPECT_GT(dock().lastMeasured()->error.flip, 0);
+  EXPECT_NE(dock().plot().livePixel(), before);
+  EXPECT_GT(dock().plot().tail().size(), 1u);
+}
+
+TEST_F(ErrorDock, aPictureThatStandsIsMeasuredOnceAndAHiddenDockMeasuresNothing) {
+  raise();
+  ASSERT_TRUE(waitFor([&] { return measurements() > 0; }, 90000));
+  ASSERT_TRUE(settle());
+  QTest::qWait(2500);
+  const std::uint64_t standing = measurements();
+  w().viewport().invalidate();  // painted again, the same picture
+  QTest::qWait(2500);
+  EXPECT_EQ(measurements(), standing);
+
+  w().dock("plots")->raise();
+  ASSERT_TRUE(waitFor([&] { return !dock().isVisible(); }));
+  for (int i = 0; i < 10; ++i) {
+    look(-6 - i);
+    QTest::qWait(250);
+  }
+  EXPECT_EQ(measurements(), standing);
+  raise();
+  dock().liveSwitch().setChecked(false);
+  look(-3);
+  QTest::qWait(2000);
+  EXPECT_EQ(measurements(), standing);
+  EXPECT_TRUE(dock().plot().tail().empty());
+}
+
+TEST_F(ErrorDock, measuringLeavesThePictureAsItIs) {
+  ASSERT_TRUE(settle());
+  const QImage before = w().viewport().grabFramebuffer();
+  raise();
+  ASSERT_TRUE(measured(1));
+  ASSERT_TRUE(settle());
+  w().dock("plots")->raise();
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(w().viewport().grabFramebuffer(), before);
+}
+
+TEST_F(ErrorDock, showsMeasuredResultsAndTheCursorTakesTheViewToTheRow) {
+  ASSERT_FALSE(tinyResults().isEmpty());
+  ASSERT_TRUE(w().openFlight(QString::fromStdString(sampleFlight())));
+  raise();
+  dock().liveSwitch().setChecked(false);
+  ASSERT_TRUE(dock().openResults(tinyResults())) << w().messages().text().toStdString();
+  ASSERT_EQ(dock().plot().points().size(), 4u);
+  EXPECT_TRUE(dock().report().endsWith("report.html"));
+  const QPointF before = dock().plot().pixelOf(dock().plot().points()[0]);
+  dock().errorChoice().setCurrentIndex(dock().errorChoice().findData("ssim"));
+  EXPECT_NE(dock().plot().pixelOf(dock().plot().points()[0]), before);
+
+  const harness::Unit& unit = dock().results()->units.front();
+  ASSERT_EQ(unit.frames.size(), 5u);
+  const Flight& flight = w().feed().playback().flight();
+  dock().timeline().setFocus();
+  QTest::keyClick(&dock().timeline(), Qt::Key_Home);
+  for (std::size_t i = 1; i < 4; ++i) {
+    QTest::keyClick(&dock().timeline(), Qt::Key_Right);
+    const harness::MeasuredFrame& frame = unit.frames[i];
+    const AircraftState& row = flight.states[frame.row];
+    EXPECT_EQ(row.time, frame.timeS);
+    ASSERT_TRUE(settle());
+    const AircraftState& eye = session().input().state;
+    EXPECT_NEAR(eye.position.latitude.value(), row.position.latitude.value(), 1e-12);
+    EXPECT_NEAR(eye.position.longitude.value(), row.position.longitude.value(), 1e-12);
+    EXPECT_NEAR(eye.position.height.value(), row.position.height.value(), 1e-9);
+    EXPECT_EQ(w().feed().source(), workbench::Feed::Source::flight);
+  }
+  // The other way round: the cursor goes with the flight.
+  w().flightDock().seek(unit.frames[2].timeS - flight.states.front().time);
+  EXPECT_TRUE(
+      waitFor([&] { return std::abs(dock().timeline().cursorTime() - unit.frames[2].timeS) < 1e-9; }, 10000));
+}
+
+TEST_F(ErrorDock, measuresPresetsAndTheDraftAsAProgramOfItsOwn) {
+  ASSERT_TRUE(w().openFlight(QString::fromStdString(sampleFlight())));
+  raise();
+  dock().liveSwitch().setChecked(false);
+  ASSERT_TRUE(w().draft().setText("lod.screen_space_error_px", "48").empty());
+  const ScratchDir dir;
+  workbench::BenchChoice choice;
+  choice.presets = {"default", workbench::BenchChoice::kDraft};
+  choice.cases = QStringList{"proposed"};
+  choice.size = "96x64";
+  choice.frames = 3;
+  choice.repeats = 1;
+  choice.folder = QString::fromStdString((dir / "bench").string());
+  QSignalSpy ended(&dock(), &workbench::ErrorDock::finished);
+  dock().measure(choice);
+  EXPECT_TRUE(dock().running());
+  ASSERT_TRUE(waitFor([&] { return !ended.isEmpty(); }, 180000));
+  ASSERT_TRUE(ended.takeFirst().front().toBool()) << w().messages().text().toStdString();
+  ASSERT_EQ(dock().results()->units.size(), 2u);
+  EXPECT_EQ(dock().results()->units[1].name.preset, "draft");
+  EXPECT_LT(dock().results()->units[1].frames[1].counts.triangles,
+            dock().results()->units[0].frames[1].counts.triangles);
+
+  choice.folder += "2";
+  choice.frames = 600;
+  dock().measure(choice);
+  dock().cancel();
+  ASSERT_TRUE(waitFor([&] { return !ended.isEmpty(); }, 20000));
+  EXPECT_FALSE(ended.takeFirst().front().toBool());
+  EXPECT_EQ(dock().results()->units.size(), 2u) << "the results before stay";
+}
+
+TEST_F(ErrorDock, refusesResultsThatAreNone) {
+  const ScratchDir dir;
+  std::ofstream(dir / "results.json") << "{\"units\": 3}";
+  drop(dir / "results.json");
+  EXPECT_FALSE(dock().results());
+  EXPECT_TRUE(w().messages().text().contains("results cannot be opened"));
+  EXPECT_FALSE(dock().openResults("/nowhere/results.json"));
+}
+
+class SplitViewTest : public ErrorDock {
+ protected:
+  void SetUp() override {
+    ErrorDock::SetUp();
+    if (HasFatalFailure()) return;
+    w().showSplitView();
+    ASSERT_TRUE(waitFor([&] { return view().comparisons() > 0; }, 120000))
+        << w().messages().text().toStdString();
+  }
+  SplitView& view() { return *w().splitView(); }
+  /// Both sides' pictures are of the presets chosen last.
+  void choose(const QString& left, const QString& right) {
+    ASSERT_TRUE(view().choose(SplitView::left, left));
+    ASSERT_TRUE(view().choose(SplitView::right, right));
+    ASSERT_TRUE(compared(view(), 2));
+  }
+  QImage black() const {
+    QImage image = window->splitView()->heatMap().map();
+    image.fill(Qt::black);
+    return image;
+  }
+};
+
+TEST_F(SplitViewTest, equalPresetsHaveABlackMapAndOthersShowWhereTheyDiffer) {
+  const ScratchDir dir;
+  TuningParameters coarse = w().draft().parameters();
+  Preset preset;
+  preset.name = "coarse";
+  preset.parameters = coarse;
+  preset.parameters.lod.screenSpaceError = Pixels{64};
+  const Result<std::string> text = presetText(preset);
+  ASSERT_TRUE(text);
+  std::ofstream(dir / "coarse.json") << *text;
+  const QString file = QString::fromStdString((dir / "coarse.json").string());
+
+  choose(SplitView::kDraft, "default");
+  EXPECT_EQ(view().heatMap().largest(), 0);
+  EXPECT_EQ(view().heatMap().map(), black());
+  EXPECT_FALSE(view().heatMap().map().isNull());
+  EXPECT_EQ(view().pictures().picture(0), view().pictures().picture(1));
+
+  choose(SplitView::kDraft, file);
+  EXPECT_GT(view().heatMap().largest(), 0.05);
+  EXPECT_NE(view().heatMap().map(), black());
+  EXPECT_NE(view().pictures().picture(0), view().pictures().picture(1));
+  const auto number = [&](int row, int column) {
+    return QLocale().toDouble(view().numbers().item(row, column)->text());
+  };
+  EXPECT_GT(number(1, 0), number(0, 0)) << "FLIP against the reference";
+  EXPECT_LT(number(1, 5), number(0, 5)) << "triangles";
+  EXPECT_GT(number(0, 6), 0) << "ms";
+
+  choose(SplitView::kReference, SplitView::kReference);
+  EXPECT_EQ(view().heatMap().map(), black());
+}
+
+TEST_F(SplitViewTest, followsTheFrameAndRestsWhenHiddenOrNothingMoves) {
+  ASSERT_TRUE(settle());
+  QTest::qWait(3000);
+  const std::uint64_t standing = view().comparisons();
+  const QImage before = view().pictures().picture(0);
+  look(-20);
+  ASSERT_TRUE(compared(view()));
+  ASSERT_TRUE(waitFor([&] { return view().pictures().picture(0) != before; }, 60000));
+  EXPECT_GT(view().comparisons(), standing);
+  view().hide();
+  QTest::qWait(1500);
+  const std::uint64_t hidden = view().comparisons();
+  look(-10);
+  QTest::qWait(2000);
+  EXPECT_LE(view().comparisons(), hidden + 1);  // one may have been under way
+  const std::uint64_t later = view().comparisons();
+  look(-12);
+  QTest::qWait(1500);
+  EXPECT_EQ(view().comparisons(), later);
+}
+
+TEST_F(SplitViewTest, theDividerMovesByHandAndKeys) {
+  workbench::SplitPicture& pictures = view().pictures();
+  pictures.setFocus();
+  QTest::keyClick(&pictures, Qt::Key_Right);
+  EXPECT_NEAR(pictures.divider(), 0.51, 1e-9);
+  QTest::keyClick(&pictures, Qt::Key_Home);
+  EXPECT_EQ(pictures.divider(), 0);
+  const QPoint middle = pictures.rect().center();
+  QTest::mousePress(&pictures, Qt::LeftButton, Qt::NoModifier, middle);
+  QTest::mouseRelease(&pictures, Qt::LeftButton, Qt::NoModifier, middle);
+  EXPECT_NEAR(pictures.divider(), 0.5, 0.02);
+  EXPECT_FALSE(view().choose(SplitView::left, "/nowhere/preset.json"));
+  EXPECT_TRUE(w().messages().text().contains("cannot be compared"));
+}
+
+}  // namespace
+}  // namespace trimtab::test
