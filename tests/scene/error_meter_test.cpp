@@ -2,132 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <random>
 
-#include "scene_test.h"
-#include "synthetic_trees.h"
+#include "error_meter_fixture.h"
 #include "trimtab/scene/gl_api.h"
 
 namespace trimtab {
 namespace {
 
-using test::SceneTest;
-constexpr std::uint32_t kNoNode = scene::Renderer::kNoNode;
-
-class NodePass : public SceneTest {
+class ErrorMeter : public test::ErrorMeterTest {
  protected:
-  /// What each node owns must be exactly where the picture changes once the node is left out.
-  void compareWithLeavingOut(const scene::FrameRequest& r, std::size_t most) {
-    scene::FrameResult result;
-    picture(r, &result);
-    const auto distances = renderer.readDistances();
-    const auto nodes = renderer.readNodes();
-    ASSERT_EQ(nodes.size(), distances.size());
-    EXPECT_EQ(renderer.readDistances(), distances) << "the picture stays as it is";
-    std::map<std::uint32_t, std::size_t> owned;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      EXPECT_EQ(nodes[i] == kNoNode, std::isinf(distances[i]));
-      if (nodes[i] != kNoNode) ++owned[nodes[i]];
-    }
-    EXPECT_GT(owned.size(), 3u);
-    std::size_t tried = 0;
-    for (const TileDraw& tile : result.visible.tiles) {
-      if (tried++ == most) break;
-      renderer.plant({.culledNode = tile.node});
-      picture(r);
-      const auto without = renderer.readDistances();
-      std::size_t wrong = 0;
-      for (std::size_t i = 0; i < nodes.size(); ++i)
-        wrong += (without[i] != distances[i]) != (nodes[i] == tile.node);
-      EXPECT_EQ(wrong, 0u) << "node " << tile.node << " owns " << owned[tile.node];
-    }
-    renderer.plant({});
-  }
-};
-
-TEST_F(NodePass, givesEachPixelToTheTileWithoutWhichItChanges) {
-  use(test::syntheticMountains());
-  auto r = request(over(0.4, 0.5, 150), {Degrees{40}, Degrees{-6}, Degrees{17}});
-  for (const double error : {0.1, 4.0}) {
-    r.lod.screenSpaceError = Pixels{error};
-    compareWithLeavingOut(r, 24);
-  }
-  r.decision.weather = {.fogged = true, .visibilityM = 6000, .extinctionPerM = 6e-4, .farM = 6000};
-  compareWithLeavingOut(r, 12);
-}
-
-TEST_F(NodePass, givesEachPixelToTheNodeOfStaticTreesWithoutWhichItChanges) {
-  use(std::make_shared<const test::TreeTerrain>(test::syntheticMountains()));
-  auto r = request(over(0.4, 0.5, 150), {Degrees{40}, Degrees{-6}, Degrees{}});
-  r.staticLod.terrain = TerrainForm::static_trees;
-  r.staticLod.errorPx = Pixels{4};
-  r.method = CullingCase::view_frustum;
-  compareWithLeavingOut(r, 24);
-}
-
-TEST_F(NodePass, withoutCullingIsThePictureWithoutCulling) {
-  use(test::syntheticMountains());
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> place(0.15, 0.85), unit(0, 1);
-  for (int i = 0; i < 8; ++i) {
-    auto r = request(over(place(random), place(random), 60 + 1500 * unit(random)),
-                     {Degrees{360 * unit(random)}, Degrees{-50 * unit(random)}, Degrees{360 * unit(random)}});
-    r.decision.depthMap = DepthMapSize{320, 240};
-    picture(r);
-    const auto unculled = renderer.readNodes(true);
-    r.method = CullingCase::none;
-    picture(r);
-    EXPECT_EQ(unculled, renderer.readNodes()) << "view " << i;
-  }
-}
-
-TEST_F(NodePass, isEmptyBeforeThereIsAPicture) {
-  EXPECT_TRUE(renderer.readNodes().empty());
-  picture(request({Degrees{36}, Degrees{128}, Metres{100}}, {}));
-  for (const std::uint32_t node : renderer.readNodes(true)) ASSERT_EQ(node, kNoNode) << "no terrain";
-  use(test::syntheticMountains());
-  EXPECT_TRUE(renderer.readNodes().empty()) << "the last picture was of another terrain";
-}
-
-class ErrorMeter : public SceneTest {
- protected:
-  void SetUp() override {
-    SceneTest::SetUp();
-    if (offscreen) {
-      ASSERT_TRUE(meter.initialize().usable);
-    }
-  }
-  void TearDown() override {
-    if (offscreen) meter.release();
-    SceneTest::TearDown();
-  }
-  void measureOver(std::shared_ptr<const terrain::Database> terrain) {
-    use(terrain);
-    meter.setTerrain(std::move(terrain));
-  }
-
-  /// Low in the mountains, where much is hidden.
-  scene::FrameRequest lowRequest(double heading = 30) const {
-    auto r = request(over(0.45, 0.4, 130), {Degrees{heading}, Degrees{-5}, Degrees{}});
-    r.decision.depthMap = DepthMapSize{320, 240};
-    return r;
-  }
-  /// A view along a flight of views that look anywhere, most of them low.
-  scene::FrameRequest anyRequest(std::mt19937& random) const {
-    std::uniform_real_distribution<double> place(0.15, 0.85), unit(0, 1);
-    const double above = 60 * std::pow(80.0, std::pow(unit(random), 2.0)), east = place(random);
-    auto r = request(over(east, place(random), above),
-                     {Degrees{360 * unit(random)}, Degrees{-25 + 30 * unit(random)},
-                      Degrees{unit(random) < 0.3 ? 360 * unit(random) : 0}});
-    r.decision.depthMap = DepthMapSize{320, 240};
-    return r;
-  }
-  FrameError measure(const scene::FrameRequest& r, const scene::FrameRequest* before = nullptr,
-                     scene::ErrorPictures* pictures = nullptr) {
-    return meter.measure(r, before, pictures);
-  }
-
   /// Largest error of views at an error bound, as a share of what geometricBound allows.
   void staysWithinTheBound(double boundPx, double lodScale, TerrainForm form, int views) {
     std::mt19937 random(3);
@@ -147,8 +31,6 @@ class ErrorMeter : public SceneTest {
     std::printf("at %g px x %g: largest %.2f px, %.0f %% of the bound\n", boundPx, lodScale, largest,
                 100 * share);
   }
-
-  scene::ErrorMeter meter;
 };
 
 TEST_F(ErrorMeter, theReferencesPictureIsTheUnculledOne) {
@@ -255,6 +137,163 @@ TEST_F(ErrorMeter, aCoarserPictureIsFartherFromTheReference) {
     }
     last = error;
   }
+}
+
+TEST_F(ErrorMeter, showsTheBlurThatTheFramesBeforeLeave) {
+  measureOver(test::syntheticMountains());
+  std::vector<scene::FrameRequest> frames;
+  for (int i = 0; i < 6; ++i) {
+    auto r = lowRequest(30 + 2.0 * i);
+    r.time = 100 + i / 60.0;
+    r.decision.motion.blur.strength = i == 0 ? 0 : 0.6;
+    r.lod.screenSpaceError = Pixels{1e-6};
+    frames.push_back(r);
+  }
+  std::vector<std::uint8_t> live;
+  for (const auto& frame : frames) live = picture(frame);
+  const std::span<const scene::FrameRequest> all(frames);
+  scene::ErrorPictures pictures;
+  const FrameError error = meter.measure(all.back(), all.first(5), &pictures);
+  EXPECT_EQ(pictures.ours, live) << "what whoever flies it sees";
+  EXPECT_LT(error.psnrDb, 40);
+  EXPECT_GT(error.flip, 0);
+  EXPECT_EQ(error.geometricMaxPx, 0) << "a blur moves nothing";
+  EXPECT_EQ(error.wronglyCulledPixels, 0u);
+  // Older frames that have left no trace change nothing, and with none before there is none to see.
+  std::vector<scene::FrameRequest> older(40, frames[0]);
+  for (std::size_t i = 0; i < older.size(); ++i) older[i].time = 90 + static_cast<double>(i) / 60;
+  older.insert(older.end(), frames.begin(), frames.end() - 1);
+  EXPECT_EQ(meter.measure(all.back(), older, nullptr).flip, error.flip);
+  EXPECT_EQ(measure(all.back()).flip, 0);
+}
+
+TEST_F(ErrorMeter, tellsTheWeathersCutByColoursAndNotByDepths) {
+  measureOver(test::syntheticMountains());
+  auto r = lowRequest();
+  r.lod.screenSpaceError = Pixels{1e-6};
+  r.decision.weather = {.fogged = true, .visibilityM = 6000, .extinctionPerM = 2.5e-4, .farM = 6000};
+  scene::ErrorPictures pictures;
+  const FrameError error = measure(r, nullptr, &pictures);
+  EXPECT_GT(pictures.drawn.visible.beyondVisibility, 0u);
+  EXPECT_EQ(pictures.drawnReference.visible.beyondVisibility, 0u);
+  EXPECT_EQ(error.wronglyCulledPixels, 0u);
+  EXPECT_LT(error.geometricMaxPx, 0.5);
+  EXPECT_LT(error.psnrDb, 60);
+  EXPECT_GT(error.flip, 0);
+  r.decision.weather.farM = WeatherDecision::kUnlimited;
+  EXPECT_EQ(measure(r).flip, 0) << "the fog is the reference's too";
+}
+
+TEST_F(ErrorMeter, popIsChangeThatTheReferenceDoesNotShow) {
+  measureOver(test::syntheticMountains());
+  auto before = lowRequest(), r = before;
+  r.time = 1.0 / 60;
+  EXPECT_EQ(measure(r, &before).pop, 0) << "nothing changes";
+  r.decision.lodScale = 16;
+  const double pop = measure(r, &before).pop;
+  EXPECT_GT(pop, 0) << "levels change while the view stands still";
+  EXPECT_TRUE(std::isnan(measure(r).pop));
+  before.view.widthPx = 320;
+  EXPECT_TRUE(std::isnan(measure(r, &before).pop));
+}
+
+TEST(TemporalPop, isTheDistanceFromWhatTheReferenceExplains) {
+  const auto pixel = [](int value) {
+    const auto v = static_cast<std::uint8_t>(value);
+    return std::vector<std::uint8_t>{v, v, v, 255};
+  };
+  const auto pop = [&](int referenceBefore, int reference, int oursBefore, int ours) {
+    return scene::temporalPop(pixel(referenceBefore), pixel(reference), pixel(oursBefore), pixel(ours));
+  };
+  EXPECT_EQ(pop(100, 100, 90, 90), 0) << "an error that stands still does not pop";
+  EXPECT_EQ(pop(100, 130, 90, 120), 0) << "nor one that follows";
+  EXPECT_EQ(pop(100, 130, 90, 100), 0) << "nor one that lags";
+  EXPECT_EQ(pop(100, 130, 90, 125), 5);
+  EXPECT_EQ(pop(100, 130, 90, 80), 10) << "the other way";
+  EXPECT_EQ(pop(130, 100, 90, 50), 10);
+  EXPECT_EQ(pop(100, 100, 0, 255), 255);
+  auto oneChannel = pixel(100);
+  oneChannel[1] = 106;
+  EXPECT_EQ(scene::temporalPop(pixel(0), pixel(0), pixel(100), oneChannel), 2);
+  oneChannel[1] = 100;
+  oneChannel[3] = 0;
+  EXPECT_EQ(scene::temporalPop(pixel(0), pixel(0), pixel(100), oneChannel), 0) << "alpha is no colour";
+  EXPECT_TRUE(std::isnan(scene::temporalPop({}, {}, {}, {})));
+  const auto two = std::vector<std::uint8_t>(8);
+  EXPECT_TRUE(std::isnan(scene::temporalPop(two, pixel(0), two, two)));
+}
+
+/// Bit for bit, NaN included.
+bool same(const FrameError& a, const FrameError& b) {
+  const auto equal = [](double x, double y) { return std::isnan(x) ? std::isnan(y) : x == y; };
+  return a.wronglyCulledPixels == b.wronglyCulledPixels && equal(a.geometricMaxPx, b.geometricMaxPx) &&
+         equal(a.geometricMeanPx, b.geometricMeanPx) && equal(a.psnrDb, b.psnrDb) && equal(a.ssim, b.ssim) &&
+         equal(a.flip, b.flip) && equal(a.pop, b.pop) && equal(a.hiddenDrawnShare, b.hiddenDrawnShare);
+}
+
+TEST_F(ErrorMeter, repeatsExactlyInAnyOrder) {
+  const auto terrain = test::syntheticMountains();
+  measureOver(terrain);
+  std::mt19937 random(5);
+  std::vector<std::vector<scene::FrameRequest>> runs;  // each the frames before, then the frame
+  for (int i = 0; i < 4; ++i) {
+    auto r = anyRequest(random), before = r;
+    before.time = 50 + i;
+    r.time = before.time + 1.0 / 60;
+    before.attitude.heading = before.attitude.heading + Degrees{1.5};
+    if (i % 2) before.decision.motion.blur.strength = r.decision.motion.blur.strength = 0.5;
+    if (i % 3 == 2)
+      r.decision.weather = before.decision.weather = {.precipitation = Precipitation::rain,
+                                                      .density = 0.5,
+                                                      .fogged = true,
+                                                      .visibilityM = 9000,
+                                                      .extinctionPerM = 4e-4,
+                                                      .farM = 8000};
+    r.lod.screenSpaceError = Pixels{4.0 + i};
+    if (i == 3) r.view.widthPx = before.view.widthPx = 400;
+    runs.push_back({before, r});
+  }
+  const auto measureRun = [this](const std::vector<scene::FrameRequest>& run) {
+    return measure(run[1], run.data());
+  };
+  std::vector<FrameError> first;
+  for (const auto& run : runs) first.push_back(measureRun(run));
+  for (std::size_t i = runs.size(); i-- > 0;) EXPECT_TRUE(same(measureRun(runs[i]), first[i])) << i;
+  // Nothing cached, another context's objects, defects come and gone.
+  meter.plant({.loweringScale = 0, .culledNode = 3, .statedErrorScale = 0.1});
+  for (const auto& run : runs) measureRun(run);
+  meter.plant({});
+  meter.release();
+  ASSERT_TRUE(meter.initialize().usable);
+  for (std::size_t i = runs.size(); i-- > 0;) EXPECT_TRUE(same(measureRun(runs[i]), first[i])) << i;
+}
+
+TEST_F(ErrorMeter, leavesAnothersPictureAndBindingsAlone) {
+  measureOver(test::syntheticMountains());
+  const auto r = lowRequest();
+  const auto before = picture(r);
+  glBindFramebuffer(GL_FRAMEBUFFER, offscreen->framebuffer());
+  glViewport(1, 2, 30, 40);
+  auto overlaid = r;
+  overlaid.overlays.wireframe = overlaid.overlays.tileBounds = overlaid.overlays.colourByLevel = true;
+  overlaid.frozenEye = EyePose{};
+  EXPECT_TRUE(same(measure(overlaid), measure(r))) << "what is for the engineer is no error";
+  GLint bound = 0, viewport[4] = {};
+  glGetIntegerv(GL_FRAMEBUFFER_BINDING, &bound);
+  glGetIntegerv(GL_VIEWPORT, viewport);
+  EXPECT_EQ(static_cast<unsigned>(bound), offscreen->framebuffer());
+  EXPECT_EQ(viewport[2], 30);
+  EXPECT_EQ(renderer.readPixels(kWidth, kHeight), before);
+  EXPECT_EQ(picture(r), before);
+}
+
+TEST_F(ErrorMeter, measuresNothingWithoutAContextOrPixels) {
+  measureOver(test::syntheticMountains());
+  auto r = lowRequest();
+  r.view.heightPx = 0;
+  EXPECT_TRUE(same(measure(r), FrameError{}));
+  meter.release();
+  EXPECT_TRUE(same(measure(lowRequest()), FrameError{}));
 }
 
 }  // namespace
