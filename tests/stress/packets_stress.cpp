@@ -229,8 +229,9 @@ TEST(PacketStress, whatIsSentIsReceived) {
     places.require(got->position == s.position);
     angles.see(apart(got->attitude, asFloats(s.attitude)), [&] {
       const Attitude &g = got->attitude, &a = s.attitude;
-      return digits(a.heading.value()) + ' ' + digits(a.pitch.value()) + ' ' + digits(a.roll.value()) + " as " +
-             digits(g.heading.value()) + ' ' + digits(g.pitch.value()) + ' ' + digits(g.roll.value());
+      return digits(a.heading.value()) + ' ' + digits(a.pitch.value()) + ' ' + digits(a.roll.value()) +
+             " as " + digits(g.heading.value()) + ' ' + digits(g.pitch.value()) + ' ' +
+             digits(g.roll.value());
     });
     angles.see(apart(*got->head, asFloats(*s.head)));
     floats.see(std::abs(got->visibility->value() - asFloat(s.visibility->value())));
