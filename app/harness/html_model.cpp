@@ -105,6 +105,14 @@ std::string wholeText(double value) {
   return std::isfinite(value) ? grouped(plot::decimal(std::round(value), 0)) : roundedText(value);
 }
 
+std::string msText(double value) {
+  return value > 0 && value < 0.0005 ? "<0.001" : roundedText(value);
+}
+
+std::string ratioText(double value) {
+  return std::isfinite(value) ? plot::decimal(value, 3) : roundedText(value);
+}
+
 std::string numberText(double value, const Quantity& quantity) {
   if (quantity.whole || quantity.kind == Quantity::Kind::count) return wholeText(value);
   // Near 1 it is the distance from it that tells frames apart.

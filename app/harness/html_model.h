@@ -43,6 +43,9 @@ std::string unitText(const UnitName& name);
 std::string numberText(double value, const Quantity& quantity);
 std::string roundedText(double value);
 std::string wholeText(double value);
+/// What is too short to matter is told as such.
+std::string msText(double value);
+std::string ratioText(double value);
 /// "frame time (ms)".
 std::string axisText(const Quantity& quantity);
 std::vector<double> finiteOf(const Unit& unit, const Quantity& quantity);

@@ -85,7 +85,8 @@ std::vector<const Quantity*> paretoErrors(const ReportModel& model) {
 plot::Plot paretoOf(const ReportModel& model, const std::string& flight, const Quantity& error) {
   const Quantity& ms = *quantityOf(kFrameMs);
   const Points points = pointsOf(model, flight, error);
-  plot::Plot plot{"pareto", flight, "mean " + axisText(error), "frame time, median (ms)", {}, {}};
+  plot::Plot plot{"pareto", flight, axisText(error) + ", mean of the frames", "frame time, median (ms)",
+                  {},       {}};
   plot.logX = plot::spansDecades(points.error);
   plot.logY = plot::spansDecades(points.ms);
 

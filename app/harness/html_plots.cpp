@@ -94,10 +94,10 @@ std::string stageTable(const ReportModel& model) {
     for (const Quantity* q : stages) {
       const Summary& s = model.summary(unit, *q);
       const std::size_t ran = finiteOf(unit, *q).size();
-      std::string more = roundedText(s.p95) + " / " + roundedText(s.p99);
+      std::string more = msText(s.p95) + " / " + msText(s.p99);
       if (ran < unit.frames.size())
         more += "; in " + std::to_string(ran) + " of " + std::to_string(unit.frames.size());
-      table.number(s.median, roundedText(s.median), more);
+      table.number(s.median, msText(s.median), more);
     }
   }
   return table.take();
@@ -174,14 +174,22 @@ std::string alongFlight(const ReportModel& model, const std::string& flight) {
                (q.unit.empty() ? std::string() : ' ' + std::string(q.unit));
       continue;
     }
-    html += "<h4>" + plot::escaped(axisText(q)) +
-            (range.infinite ? "<small> (gaps: the picture equals its reference)</small>" : "") +
-            "</h4>\n<div class=\"small\">\n";
-    for (const std::string& preset : model.presets)
-      if (std::any_of(units.begin(), units.end(), [&](const Unit* u) { return u->name.preset == preset; }))
-        html += "<figure>" + plot::toInlineSvg(alongFlight(model, flight, preset, q, range)) + "</figure>\n";
-    html += "</div>\n";
+    const std::string gaps = range.infinite ? " (gaps: the picture equals its reference)" : "";
+    std::string panels;
+    for (const std::string& preset : model.presets) {
+      if (std::none_of(units.begin(), units.end(), [&](const Unit* u) { return u->name.preset == preset; }))
+        continue;
+      plot::Plot plot = alongFlight(model, flight, preset, q, range);
+      if (model.presets.size() == 1) plot.title = axisText(q) + gaps;
+      panels += "<figure>" + plot::toInlineSvg(plot) + "</figure>\n";
+    }
+    if (model.presets.size() == 1)
+      html += panels;
+    else
+      html += "<h4>" + plot::escaped(axisText(q)) + "<small>" + gaps +
+              "</small></h4>\n<div class=\"small\">\n" + panels + "</div>\n";
   }
+  if (model.presets.size() == 1 && !html.empty()) html = "<div class=\"small\">\n" + html + "</div>\n";
   if (!still.empty()) html += paragraph("The same in every frame: " + still + ".", "none");
   return html;
 }

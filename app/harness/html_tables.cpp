@@ -108,13 +108,14 @@ std::string readingOf(const PairedRatio& ratio) {
   if (!std::isfinite(ratio.median)) return "not measured";
   if (!std::isfinite(ratio.low) || !std::isfinite(ratio.high)) return "too few pairs to tell";
   if (ratio.low <= 1 && ratio.high >= 1) return "no difference shown";
+  if (ratio.median >= 1.995) return roundedText(ratio.median) + " times as long";
   const double percent = std::abs(ratio.median - 1) * 100;
   return roundedText(percent) + (ratio.median < 1 ? " % faster" : " % slower");
 }
 std::string intervalOf(const PairedRatio& ratio) {
   return std::isnan(ratio.low) || std::isnan(ratio.high)
              ? std::string()
-             : roundedText(ratio.low) + " to " + roundedText(ratio.high);
+             : ratioText(ratio.low) + " to " + ratioText(ratio.high);
 }
 const char* classOf(const PairedRatio& ratio) {
   return ratio.high < 1 ? "good" : ratio.low > 1 ? "slow" : "";
@@ -204,9 +205,9 @@ std::string skipsSection(const ReportModel& model) {
       table.text(skip.name);
       table.number(static_cast<double>(skip.skipped), wholeText(static_cast<double>(skip.skipped)) + " of " +
                                                           wholeText(static_cast<double>(skip.frames)));
-      table.number(skip.savedMs, roundedText(skip.savedMs));
+      table.number(skip.savedMs, msText(skip.savedMs));
       const bool known = skip.ratio.pairs > 0;
-      table.number(known ? skip.ratio.median : std::nan(""), roundedText(skip.ratio.median), "",
+      table.number(known ? skip.ratio.median : std::nan(""), ratioText(skip.ratio.median), "",
                    known && skip.ratio.low > 1 ? "good" : "");
       table.text(known ? intervalOf(skip.ratio) : "");
       table.number(static_cast<double>(skip.ratio.pairs), std::to_string(skip.ratio.pairs));
@@ -245,7 +246,7 @@ std::string comparisonSection(const ReportModel& model) {
     if (model.flights.size() > 1) table.text(c.b.flight);
     table.text(unitText(c.b));
     table.text(unitText(c.a));
-    table.number(c.frameTime.median, roundedText(c.frameTime.median), "", classOf(c.frameTime));
+    table.number(c.frameTime.median, ratioText(c.frameTime.median), "", classOf(c.frameTime));
     table.text(intervalOf(c.frameTime));
     table.number(static_cast<double>(c.frameTime.pairs), std::to_string(c.frameTime.pairs));
     table.text(readingOf(c.frameTime));

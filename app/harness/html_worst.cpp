@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "html_sections.h"
 #include "html_text.h"
@@ -63,10 +65,11 @@ class Pictures {
   Pictures(const std::filesystem::path& folder, const std::vector<std::string>& names) {
     for (const int width : kWidthsPx) {
       pictures_.clear();
+      seen_.clear();
       total_ = 0;
       widthPx_ = width;
       for (const std::string& name : names)
-        if (!pictures_.contains(name)) total_ += (pictures_[name] = load(folder, name, width)).png.size();
+        if (!pictures_.contains(name)) add(name, load(folder, name, width));
       if (total_ <= kRoomBytes) return;
     }
   }
@@ -86,7 +89,15 @@ class Pictures {
     return {*png, {}, small.widthPx, small.heightPx};
   }
 
+  /// Twins are shown once.
+  void add(const std::string& name, Embedded picture) {
+    if (seen_.insert(std::hash<std::string>{}(picture.png)).second)
+      total_ += (picture.png.size() + 2) / 3 * 4;
+    pictures_.emplace(name, std::move(picture));
+  }
+
   std::map<std::string, Embedded> pictures_;
+  std::set<std::size_t> seen_;
   std::size_t total_ = 0;
   int widthPx_ = 0;
 };
@@ -103,6 +114,17 @@ bool isWorse(const Shown& a, const Shown& b) {
   const auto key = [](const Shown& s) { return std::isnan(s.frame->error.flip) ? -1 : s.frame->error.flip; };
   if (key(a) != key(b)) return key(a) > key(b);
   return a.frame->cost.total > b.frame->cost.total;
+}
+
+/// A frame may be the worst in more than one way: "longest frame, largest FLIP".
+std::vector<std::string> partsOf(const std::string& why) {
+  std::vector<std::string> parts;
+  for (std::size_t at = 0; at <= why.size();) {
+    const std::size_t end = std::min(why.find(", ", at), why.size());
+    parts.push_back(why.substr(at, end - at));
+    at = end + 2;
+  }
+  return parts;
 }
 
 std::vector<Shown> shownOf(const ReportModel& model, const Pictures& pictures) {
@@ -122,8 +144,8 @@ std::vector<Shown> shownOf(const ReportModel& model, const Pictures& pictures) {
       Shown& shown = twin != all.end() ? *twin : all.emplace_back(Shown{&frame, &worst, {}, {}});
       if (std::find(shown.units.begin(), shown.units.end(), &unit) == shown.units.end())
         shown.units.push_back(&unit);
-      if (std::find(shown.why.begin(), shown.why.end(), worst.why) == shown.why.end())
-        shown.why.push_back(worst.why);
+      for (const std::string& why : partsOf(worst.why))
+        if (std::find(shown.why.begin(), shown.why.end(), why) == shown.why.end()) shown.why.push_back(why);
     }
   std::stable_sort(all.begin(), all.end(), isWorse);
   return all;

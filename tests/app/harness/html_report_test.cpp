@@ -310,7 +310,7 @@ TEST(ParetoPlot, hasAPointForEachUnitAndTheFrontOfThoseNoneBeats) {
   const Page page = pageOf(r, dir.path());
   const pugi::xml_node plot = page.section("pareto").select_node(".//figure/*").node();
   EXPECT_EQ(marksOf(plot), 6u);
-  EXPECT_THAT(allText(plot), HasSubstr("mean FLIP"));
+  EXPECT_THAT(allText(plot), HasSubstr("FLIP, mean of the frames"));
   EXPECT_THAT(allText(plot), HasSubstr("frame time, median (ms)"));
   EXPECT_THAT(allText(plot), HasSubstr("budget 16.7 ms"));
   const std::string text = allText(page.section("pareto"));
