@@ -1,0 +1,142 @@
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "bench_scene.h"
+#include "row.h"
+#include "trimtab/preset/table.h"
+#include "trimtab/weather/weather.h"
+#include "weather_peer.h"
+
+/// Group `weather`: what falls beside OpenSceneGraph's own effect, what fog costs, and the fixed ratio
+/// against the adaptive one.
+
+namespace trimtab::bench {
+namespace {
+
+void decisions(Report& report) {
+  std::mt19937 random(5);
+  std::vector<AircraftState> states(report.quick() ? 20'000 : 200'000);
+  for (AircraftState& s : states) {
+    s.weather = HostWeather{static_cast<Precipitation>(random() % 3), static_cast<int>(random() % 6), {}};
+    if (random() % 2) s.visibility = Metres{500.0 + static_cast<double>(random() % 40'000)};
+  }
+  TuningParameters p = *defaultParameters();
+  p.weather.source = WeatherSource::host;
+  const auto seconds = leastSeconds(report.quick() ? 5 : 15, [&] {
+    double sum = 0;
+    for (const AircraftState& s : states) sum += decideWeather(s, p).extinctionPerM;
+    keep(sum);
+  });
+  report.add(valueAtLeast(1e6, {.id = "weather.per_second",
+                                .what = "weather decisions a second, of any host's weather",
+                                .value = static_cast<double>(states.size()) / seconds,
+                                .unit = "1/s"}));
+}
+
+/// The picture with what falls less the picture without, ours and theirs in turn over a sky.
+void falling(Report& report) {
+  BenchScene ours(nullptr);
+  OsgPrecipitation theirs(BenchScene::kWidth, BenchScene::kHeight);
+  if (!ours.ready() || !theirs.ready()) return;
+  struct Case {
+    const char* name;
+    Precipitation kind;
+    double density;
+  };
+  for (const Case& c : {Case{"rain_light", Precipitation::rain, 0.25}, Case{"rain", Precipitation::rain, 0.5},
+                        Case{"rain_heavy", Precipitation::rain, 1.0}, Case{"snow", Precipitation::snow, 0.5},
+                        Case{"snow_heavy", Precipitation::snow, 1.0}}) {
+    auto dry = ours.request();
+    dry.attitude.pitch = Degrees{0};
+    double wet = 0;
+    const Pairs pairs = inTurn(
+        report.quick() ? 9 : 25,
+        [&](int i) {
+          auto r = dry;
+          r.time = 10 + i / 60.0;
+          const double without = ours.ms(r);
+          r.decision.weather.precipitation = c.kind;
+          r.decision.weather.density = c.density;
+          return ours.ms(r) - without;
+        },
+        [&](int i) {
+          const double without = theirs.ms(c.kind, 0, 10 + i / 60.0);
+          const double with = theirs.ms(c.kind, c.density, 10 + i / 60.0);
+          wet = theirs.wetShare();
+          return with - without;
+        });
+    Row row{std::string("weather.") + c.name,
+            "what " + std::string(c.name) + " adds to a frame, 1280 x 720, density " +
+                std::to_string(c.density).substr(0, 4),
+            pairs.medianA(),
+            "ms",
+            "osgParticle::PrecipitationEffect of the same density",
+            pairs.medianB(),
+            "run"};
+    row.ratio = wet > 1e-4 ? pairs.ratio() : NAN;
+    report.add(ratioAtMost(1, row));
+  }
+}
+
+WeatherDecision decided(WeatherStep step, RatioMode mode) {
+  TuningParameters p = *defaultParameters();
+  p.weather.step = step;
+  p.weather.ratioMode = mode;
+  return decideWeather({}, p);
+}
+
+void frames(Report& report, BenchScene& bench) {
+  const int pairs = report.quick() ? 9 : 31;
+  const auto frame = [&](const WeatherDecision& weather) {
+    return [&bench, weather](int i) {
+      auto r = bench.request();
+      r.time = 10 + i / 60.0;
+      r.eye.height = r.eye.height + Metres{0.01 * i};
+      r.decision.weather = weather;
+      return bench.ms(r);
+    };
+  };
+  WeatherDecision fog = decided(WeatherStep::rain_light, RatioMode::off);
+  fog.precipitation = Precipitation::none;
+  fog.density = 0;
+  const Pairs foggy = inTurn(pairs, frame(fog), frame({}));
+  report.add(ratioAtMost(1.1, {.id = "weather.fog",
+                               .what = "a frame in fog, nothing cut and nothing falling",
+                               .value = foggy.medianA(),
+                               .unit = "ms",
+                               .peer = "the same frame in clear air",
+                               .peerValue = foggy.medianB(),
+                               .peerFrom = "run",
+                               .ratio = foggy.ratio()}));
+  for (const auto& [name, step] : {std::pair{"rain_light", WeatherStep::rain_light},
+                                   {"rain_medium", WeatherStep::rain_medium},
+                                   {"rain_heavy", WeatherStep::rain_heavy}}) {
+    const Pairs modes =
+        inTurn(pairs, frame(decided(step, RatioMode::adaptive)), frame(decided(step, RatioMode::fixed)));
+    Row row{std::string("weather.adaptive_") + name,
+            std::string("a frame in ") + name + ", adaptive ratio as preset (not calibrated here)",
+            modes.medianA(),
+            "ms",
+            "the same frame, fixed ratio",
+            modes.medianB(),
+            "run",
+            modes.ratio()};
+    report.add(ratioAtMost(1, row));
+  }
+}
+
+}  // namespace
+}  // namespace trimtab::bench
+
+int main(int argc, char** argv) {
+  using namespace trimtab;
+  bench::Report report(argc, argv);
+  bench::decisions(report);
+  bench::falling(report);
+  const auto terrain = bench::sampleTerrain(40);
+  if (!terrain) return 1;
+  bench::BenchScene scene(terrain);
+  if (scene.ready()) bench::frames(report, scene);
+  return report.finish();
+}
