@@ -117,7 +117,7 @@ class Strip {
 
   double rowsSum(int row, int rows, Columns seen, float* out) {
     const Columns blocks{seen.from / kFlipBlock, blocksFor(seen.to)};
-    for (int k = -radius_; k < rows + radius_; ++k) {
+    for (int k = -radius_; k < rows + rows % 2 + radius_; ++k) {  // the kernel takes rows by twos
       const int y = std::clamp(row + k, 0, pictures_.height - 1);
       filter(y, blocks);
       rowOffset_[static_cast<std::size_t>(k + radius_)] = slot(y) * kFlipBlockRow;

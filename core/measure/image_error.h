@@ -28,7 +28,7 @@ inline constexpr double kFlipPixelsPerDegree = 67.0206432765;
 /// `reference` and `test`; mean over all pixels, 0..1. `map`, unless empty, gets each pixel's error and has
 /// width x height entries; of any other size, or where no filter can be made for that many pixels a degree
 /// (below 1, above 4,000, NaN), the result is NaN. Exactly 0 where the pictures are equal as far as the
-/// filters reach (10 pixels by default), at the cost of a comparison. Within 1e-6 of the definition in exact
+/// filters reach (10 pixels by default), at the cost of a comparison. Within 1e-5 of the definition in exact
 /// arithmetic, but where two features are equally strong by symmetry: the square root of the rounding of
 /// their difference is 1e-4 there.
 double flip(std::span<const std::uint8_t> reference, std::span<const std::uint8_t> test, int width,
