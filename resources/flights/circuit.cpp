@@ -5,30 +5,17 @@
 #include <cstdio>
 #include <numbers>
 
+#include "point_mass.h"
+
 namespace trimtab::flights {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180, kGravity = 9.81, kFoot = 0.3048;
-constexpr double kStep = 0.01;  ///< seconds, of the integration
+constexpr double kDegree = std::numbers::pi / 180, kFoot = 0.3048;
 constexpr double kCentreLatitude = 36.63, kCentreLongitude = 128.35;
-constexpr double kFieldM = 354 * kFoot + 2.5;  ///< the pilot's eye above a runway 354 ft high
+constexpr double kFieldM = 354 * kFoot + 2.5;                  ///< the pilot's eye above a runway 354 ft high
 constexpr double kRunwayHeading = 280, kRunwayStartM = -1200;  ///< along the runway from the centre
-constexpr double kLiftOffMps = 77, kRotateMps = 62;
-constexpr double kLiftOffAlpha = 8;  ///< angle of attack that carries the aircraft at kLiftOffMps, degrees
 
-double wrapped(double degrees) {
-  return std::remainder(degrees, 360.0);
-}
-
-/// Point mass: angles in degrees, the rest in metres and seconds.
-struct Aircraft {
-  double latitude = 0, longitude = 0, height = kFieldM;
-  double speed = 0, acceleration = 0;
-  double path = 0, pathRate = 0;
-  double bank = 0, bankRate = 0;
-  double track = kRunwayHeading;
-  bool airborne = false;
-
+struct Aircraft : PointMass {
   double east() const {
     return (longitude - kCentreLongitude) * 111320 * std::cos(kCentreLatitude * kDegree);
   }
@@ -41,60 +28,6 @@ struct Aircraft {
     return east() * std::cos(kRunwayHeading * kDegree) - north() * std::sin(kRunwayHeading * kDegree);
   }
 };
-
-struct Command {
-  double bank = 0, path = 0, speed = 0;
-};
-
-/// A second-order filter without overshoot, its rate limited.
-void follow(double command, double frequency, double lowestRate, double highestRate, double& value,
-            double& rate) {
-  rate += kStep * (frequency * frequency * (command - value) - 2 * frequency * rate);
-  rate = std::clamp(rate, lowestRate, highestRate);
-  value += kStep * rate;
-}
-
-void advance(Aircraft& a, const Command& c) {
-  a.acceleration += kStep * (std::clamp(0.15 * (c.speed - a.speed), -2.5, 3.0) - a.acceleration);
-  a.speed = std::max(0.0, a.speed + kStep * a.acceleration);
-  if (!a.airborne) {
-    a.airborne = a.speed >= kLiftOffMps;
-  } else {
-    follow(c.bank, 1.4, -30, 30, a.bank, a.bankRate);
-    // Between 0.2 and 2.2 g across the path.
-    const double perG = kGravity / a.speed / kDegree, level = std::cos(a.path * kDegree);
-    follow(c.path, 0.8, (0.2 - level) * perG, (2.2 - level) * perG, a.path, a.pathRate);
-    a.track += kStep * kGravity * std::tan(a.bank * kDegree) / (a.speed * level) / kDegree;
-  }
-  const double flat = 6378137.0 * (1 - 0.00669438), sine = std::sin(a.latitude * kDegree);
-  const double w = std::sqrt(1 - 0.00669438 * sine * sine);
-  const double forward = kStep * a.speed * std::cos(a.path * kDegree);
-  a.latitude += forward * std::cos(a.track * kDegree) / (flat / (w * w * w) + a.height) / kDegree;
-  a.longitude += forward * std::sin(a.track * kDegree) /
-                 ((6378137.0 / w + a.height) * std::cos(a.latitude * kDegree)) / kDegree;
-  a.height += kStep * a.speed * std::sin(a.path * kDegree);
-}
-
-/// The body's attitude: the velocity's direction, banked, and the nose raised by the angle of attack that the
-/// load factor needs.
-Attitude attitudeOf(const Aircraft& a) {
-  if (!a.airborne) {
-    const double x = std::clamp((a.speed - kRotateMps) / (kLiftOffMps - kRotateMps), 0.0, 1.0);
-    return {Degrees{wrapped(a.track)}, Degrees{kLiftOffAlpha * x * x * (3 - 2 * x)}, Degrees{0}};
-  }
-  const double path = a.path * kDegree, track = a.track * kDegree, bank = a.bank * kDegree;
-  const double load = (std::cos(path) + a.pathRate * kDegree * a.speed / kGravity) / std::cos(bank);
-  const double alpha = kLiftOffAlpha * load * kLiftOffMps * kLiftOffMps / (a.speed * a.speed) * kDegree;
-  const Vec3 along{std::cos(path) * std::sin(track), std::cos(path) * std::cos(track), std::sin(path)};
-  const Vec3 above{-std::sin(path) * std::sin(track), -std::sin(path) * std::cos(track), std::cos(path)};
-  const Vec3 right{std::cos(track), -std::sin(track), 0};
-  const Vec3 lift = above * std::cos(bank) + right * std::sin(bank);
-  const Vec3 wing = right * std::cos(bank) - above * std::sin(bank);
-  const Vec3 nose = along * std::cos(alpha) + lift * std::sin(alpha);
-  const Vec3 top = lift * std::cos(alpha) - along * std::sin(alpha);
-  return {Degrees{std::atan2(nose.x, nose.y) / kDegree}, Degrees{std::asin(nose.z) / kDegree},
-          Degrees{std::atan2(-wing.z, top.z) / kDegree}};
-}
 
 double bankTo(const Aircraft& a, double heading, double limit) {
   return std::clamp(1.3 * wrapped(heading - a.track), -limit, limit);
@@ -215,6 +148,8 @@ class Pilot {
 
 std::vector<CircuitRow> circuit() {
   Aircraft aircraft;
+  aircraft.height = kFieldM;
+  aircraft.track = kRunwayHeading;
   aircraft.latitude = kCentreLatitude + kRunwayStartM * std::cos(kRunwayHeading * kDegree) / 110960;
   aircraft.longitude = kCentreLongitude + kRunwayStartM * std::sin(kRunwayHeading * kDegree) /
                                               (111320 * std::cos(kCentreLatitude * kDegree));

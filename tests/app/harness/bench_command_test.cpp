@@ -1,0 +1,216 @@
+#include <gmock/gmock.h>
+
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <thread>
+
+#include "support.h"
+#include "trimtab/harness/results.h"
+
+namespace trimtab::harness {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+/// 6 km of terrain and a short flight over it, made once.
+class BenchCommand : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = new test::ScratchDir;
+    const std::string tif = (*shared_ / "sample.tif").string();
+    ASSERT_EQ(test::run(cli() + " terrain sample --size-km 6 -o " + tif).exitCode, 0);
+    ASSERT_EQ(test::run(cli() + " terrain bake " + tif + " -o " + database()).exitCode, 0);
+    std::string csv = "time_s,latitude_deg,longitude_deg,altitude_ft,pitch_deg,roll_deg,heading_deg\n";
+    for (int i = 0; i < 40; ++i)
+      csv += std::to_string(i * 0.5) + ',' + std::to_string(36.615 + i * 5e-4) + ",128.35," +
+             std::to_string(5000 + 100 * i) + ',' + std::to_string(-i * 0.3) + ",0," + std::to_string(i) +
+             '\n';
+    test::writeFile(flight(), csv);
+  }
+  static void TearDownTestSuite() { delete shared_; }
+
+  static std::string cli() { return test::program("trimtab-cli").string(); }
+  static std::string database() { return (*shared_ / "db").string(); }
+  static std::string flight() { return (*shared_ / "hop.csv").string(); }
+  static std::string command(const fs::path& out, const std::string& more = "") {
+    return cli() + " bench --terrain " + database() + " --flight " + flight() +
+           " --preset default as-published --size 96x64 --frames 6 --repeats 1 " + more + " -o " +
+           out.string();
+  }
+
+  static test::ScratchDir* shared_;
+};
+test::ScratchDir* BenchCommand::shared_ = nullptr;
+
+std::string withoutTimes(const Results& results) {
+  std::string text;
+  for (const Unit& unit : results.units)
+    for (const MeasuredFrame& frame : unit.frames) {
+      text += unit.name.preset + ' ' + unit.name.method + ' ' + std::to_string(frame.row);
+      for (const Quantity& quantity : quantities())
+        if (quantity.kind != Quantity::Kind::cost) {
+          const double value = quantity.of(frame);
+          text += ' ' + (std::isnan(value) ? "nan" : std::to_string(std::bit_cast<std::uint64_t>(value)));
+        }
+      text += '\n';
+    }
+  return text;
+}
+std::string withoutTimes(const fs::path& folder) {
+  const auto results = parseResults(test::readFile(folder / "results.json"), folder.string());
+  EXPECT_TRUE(results) << toString(results.findings());
+  return results ? withoutTimes(*results) : std::string();
+}
+
+std::map<std::string, fs::file_time_type> partsOf(const fs::path& folder) {
+  std::map<std::string, fs::file_time_type> parts;
+  std::error_code absent;
+  for (const auto& entry : fs::directory_iterator(folder / "parts", absent))
+    if (entry.path().extension() == ".json" && !entry.path().filename().string().starts_with("."))
+      parts[entry.path().filename().string()] = entry.last_write_time();
+  return parts;
+}
+
+TEST_F(BenchCommand, printsOneDocumentAndKeepsReportTableAndPictures) {
+  const test::ScratchDir dir;
+  const test::Ran ran = test::run(command(dir / "out", "--json"));
+  ASSERT_EQ(ran.exitCode, 0) << ran.err;
+  const auto results = parseResults(ran.out, "standard output");
+  ASSERT_TRUE(results) << toString(results.findings());
+  EXPECT_EQ(ran.out, test::readFile(dir / "out" / "results.json"));
+  EXPECT_EQ(results->units.size(), 6u);
+  EXPECT_EQ(results->units.front().name.flight, "hop");
+  EXPECT_EQ(results->units.back().name.preset, "as-published");
+  EXPECT_THAT(ran.err, HasSubstr("hop, frame 6 of 6, about"));
+  for (const char* name : {"frames.csv", "report.html", "plan.json"})
+    EXPECT_GT(test::readFile(dir / "out" / name).size(), 100u) << name;
+
+  // The same again, as text: only times may differ, and here not even they, for nothing is measured twice.
+  const test::Ran again = test::run(command(dir / "out"));
+  ASSERT_EQ(again.exitCode, 0) << again.err;
+  for (const char* said : {"median ms", "p95 ms", "wrongly culled px", "over that", "95 %", "as-published"})
+    EXPECT_THAT(again.out, HasSubstr(said));
+  const test::Ran elsewhere = test::run(command(dir / "other"));
+  ASSERT_EQ(elsewhere.exitCode, 0) << elsewhere.err;
+  EXPECT_EQ(withoutTimes(dir / "other"), withoutTimes(dir / "out"));
+}
+
+TEST_F(BenchCommand, goesOnWhereItWasKilled) {
+  const test::ScratchDir dir;
+  ASSERT_EQ(test::run(command(dir / "whole")).exitCode, 0);
+  // Killed, not asked, once the second frame is there.
+  const std::string parts = (dir / "out" / "parts").string();
+  const test::Ran killed = test::run(command(dir / "out") + " & pid=$!; n=0; while [ $(ls " + parts +
+                                     " 2>/dev/null | wc -l) -lt 2 ] && [ $n -lt 3000 ]; do sleep 0.01; " +
+                                     "n=$((n+1)); done; kill -KILL $pid; wait $pid");
+  EXPECT_EQ(killed.exitCode, 128 + 9) << killed.err;
+  const auto before = partsOf(dir / "out");
+  ASSERT_GE(before.size(), 2u);
+  ASSERT_LT(before.size(), 6u) << "it was done before it could be killed";
+  EXPECT_FALSE(fs::exists(dir / "out" / "results.json"));
+
+  const test::Ran ran = test::run(command(dir / "out"));
+  ASSERT_EQ(ran.exitCode, 0) << ran.err;
+  EXPECT_EQ(withoutTimes(dir / "out"), withoutTimes(dir / "whole"));
+  const auto after = partsOf(dir / "out");
+  for (const auto& [name, time] : before) EXPECT_EQ(after.at(name), time) << name << " was measured again";
+}
+
+TEST_F(BenchCommand, stopsWhenInterruptedAndKeepsWhatIsThere) {
+  const test::ScratchDir dir;
+  const std::string parts = (dir / "out" / "parts").string();
+  const test::Ran ran =
+      test::run("set -m; " + command(dir / "out") + " & pid=$!; n=0; while [ $(ls " + parts +
+                " 2>/dev/null | wc -l) -lt 1 ] && [ $n -lt 3000 ]; do sleep 0.01; " +
+                "n=$((n+1)); done; kill -INT $pid; wait $pid");
+  EXPECT_EQ(ran.exitCode, 1) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("it was cancelled"));
+  EXPECT_GE(partsOf(dir / "out").size(), 1u);
+  EXPECT_FALSE(fs::exists(dir / "out" / "results.json"));
+  for (const auto& entry : fs::recursive_directory_iterator(dir / "out"))
+    EXPECT_FALSE(entry.path().filename().string().starts_with(".")) << entry.path() << " is half a file";
+  EXPECT_EQ(test::run(command(dir / "out")).exitCode, 0);
+}
+
+/// A limit on the size of files stands in for a disk that fills up while the results are written.
+TEST_F(BenchCommand, saysWhatWouldNotFitAndKeepsWhatItHad) {
+  const test::ScratchDir dir;
+  const test::Ran ran = test::run("trap '' XFSZ; ulimit -f 16; " + command(dir / "out"));
+  EXPECT_EQ(ran.exitCode, 1);
+  EXPECT_THAT(ran.err, HasSubstr((dir / "out").string()));
+  EXPECT_THAT(ran.err, HasSubstr("room for "));
+  EXPECT_THAT(ran.err, HasSubstr("bytes are free"));
+  const auto before = partsOf(dir / "out");
+  EXPECT_EQ(before.size(), 6u);
+  for (const auto& entry : fs::recursive_directory_iterator(dir / "out"))
+    EXPECT_FALSE(entry.path().filename().string().starts_with(".")) << entry.path() << " is half a file";
+  ASSERT_EQ(test::run(command(dir / "out")).exitCode, 0) << "with room again it goes on";
+  const auto after = partsOf(dir / "out");
+  for (const auto& [name, time] : before) EXPECT_EQ(after.at(name), time) << name << " was measured again";
+}
+
+/// A disk of 64 KiB, where mounting is permitted.
+TEST_F(BenchCommand, saysThatTheDiskIsFull) {
+  const test::ScratchDir dir;
+  const std::string disk = (dir / "disk").string();
+  fs::create_directory(disk);
+  const std::string mount = "mount -t tmpfs -o size=64k tmpfs " + disk;
+  if (test::run("unshare -rm sh -c '" + mount + "'").exitCode != 0)
+    GTEST_SKIP() << "mounting is not permitted";
+  const test::Ran ran = test::run("unshare -rm sh -c '" + mount + " && " + command(fs::path(disk) / "out") +
+                                  "; code=$?; ls " + disk + "/out/parts; exit $code'");
+  EXPECT_EQ(ran.exitCode, 1);
+  EXPECT_THAT(ran.err, HasSubstr("No space left on device"));
+  EXPECT_THAT(ran.err, HasSubstr("room for "));
+  EXPECT_THAT(ran.out, HasSubstr(".json")) << "what was measured is kept";
+}
+
+TEST_F(BenchCommand, tellsAllThatIsWrongWithItsInput) {
+  const test::ScratchDir dir;
+  const std::string out = " -o " + (dir / "out").string();
+  const test::Ran ran = test::run(cli() + " bench --terrain /nowhere --flight /none.csv " + flight() +
+                                  " --preset default nope --cases none,all --size 10x" + out);
+  EXPECT_EQ(ran.exitCode, 1);
+  for (const char* said : {"/nowhere", "/none.csv", "nope", "--cases", "none,all", "--size", "10x"})
+    EXPECT_THAT(ran.err, HasSubstr(said));
+  EXPECT_EQ(ran.out, "");
+  EXPECT_FALSE(fs::exists(dir / "out"));
+
+  struct {
+    const char* arguments;
+    const char* said;
+  } const bad[] = {{"--cases ''", "--cases"},
+                   {"--cases none,none", "none twice"},
+                   {"--size 1000000x3", "1000000x3"},
+                   {"--set cull.nothing=3", "cull.nothing=3"},
+                   {"--preset default default", "default twice"}};
+  for (const auto& row : bad) {
+    const test::Ran refused = test::run(cli() + " bench --terrain " + database() + " --flight " + flight() +
+                                        " --frames 1 --repeats 1 " + row.arguments + out);
+    EXPECT_EQ(refused.exitCode, 1) << row.arguments;
+    EXPECT_THAT(refused.err, HasSubstr(row.said));
+  }
+  EXPECT_EQ(test::run(cli() + " bench --terrain " + database() + " --flight " + flight()).exitCode, 2);
+  EXPECT_EQ(test::run(command(dir / "out", "--repeats 0")).exitCode, 2);
+  EXPECT_EQ(test::run(command(dir / "out", "--frames -1")).exitCode, 2);
+
+  test::writeFile(dir / "elsewhere.csv",
+                  "time_s,latitude_deg,longitude_deg,altitude_ft,pitch_deg,roll_deg,heading_deg\n"
+                  "0,10,10,5000,0,0,0\n1,10,10.001,5000,0,0,0\n");
+  const test::Ran away = test::run(cli() + " bench --terrain " + database() + " --flight " +
+                                   (dir / "elsewhere.csv").string() + out);
+  EXPECT_EQ(away.exitCode, 1);
+  EXPECT_THAT(away.err, HasSubstr("a flight over the terrain"));
+  EXPECT_THAT(away.err, HasSubstr("elsewhere"));
+
+  test::writeFile(dir / "file", "");
+  EXPECT_EQ(test::run(command(dir / "file")).exitCode, 1);
+  EXPECT_THAT(test::run(command(dir / "file" / "below")).err, HasSubstr("a folder"));
+  EXPECT_THAT(test::run(command("/proc/trimtab")).err, HasSubstr("/proc/trimtab"));
+}
+
+}  // namespace
+}  // namespace trimtab::harness

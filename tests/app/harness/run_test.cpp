@@ -1,0 +1,281 @@
+#include "trimtab/harness/run.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "scene_test.h"
+#include "trimtab/harness/heat_colour.h"
+#include "trimtab/session/session.h"
+
+namespace trimtab::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// 12 km of mountains: a synthetic tile takes its time to make, and runs make many.
+std::shared_ptr<const test::SyntheticTerrain> hills() {
+  static const auto terrain = std::make_shared<const test::SyntheticTerrain>(
+      4, 1.0 / 1200, GeodeticPosition{Degrees{36.4}, Degrees{128.1}, Metres{0}}, test::mountains);
+  return terrain;
+}
+
+/// Through the mountains, low and then high, turning and nosing down.
+Flight mountainFlight() {
+  const auto terrain = hills();
+  Flight flight;
+  flight.name = "mountains";
+  for (int i = 0; i < 60; ++i) {
+    AircraftState state;
+    state.time = i * 0.5;
+    state.packet = static_cast<std::uint64_t>(i);
+    const Degrees latitude{36.42 + i * 1e-3}, longitude{128.12 + i * 8e-4};
+    const Metres ground = terrain->highestWithin(latitude, longitude, Metres{1}).value_or(Metres{0});
+    state.position = {latitude, longitude, ground + Metres{100 + i * 25.0}};
+    state.attitude = {Degrees{40 + i * 2.0}, Degrees{10 - i * 0.5}, Degrees{i * 0.5}};
+    flight.states.push_back(state);
+  }
+  return flight;
+}
+
+Plan smallPlan() {
+  Plan plan;
+  plan.terrain = hills();
+  plan.terrainName = "mountains";
+  plan.flights = {{"one", mountainFlight()}};
+  TuningParameters coarse = *defaultParameters();
+  coarse.lod.screenSpaceError = Pixels{16};
+  plan.presets = {{"default", defaultParameters()}, {"coarse", *validate(coarse)}};
+  plan.widthPx = 96;
+  plan.heightPx = 64;
+  plan.frames = 4;
+  plan.repeats = 2;
+  plan.worst = 1;
+  plan.skips = false;
+  plan.version = "test";
+  return plan;
+}
+
+/// Everything that must repeat: all but the times.
+std::string withoutTimes(const Results& results) {
+  std::string text;
+  for (const Unit& unit : results.units) {
+    text += unit.name.flight + ' ' + unit.name.preset + ' ' + unit.name.method + '\n';
+    for (const MeasuredFrame& frame : unit.frames) {
+      text += std::to_string(frame.row);
+      for (const Quantity& quantity : quantities())
+        if (quantity.kind != Quantity::Kind::cost) {
+          const double value = quantity.of(frame);
+          text += ' ' + std::string(quantity.key) + '=' +
+                  (std::isnan(value) ? "nan" : std::to_string(std::bit_cast<std::uint64_t>(value)));
+        }
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+const Unit& unitOf(const Results& results, const std::string& preset, const std::string& method) {
+  for (const Unit& unit : results.units)
+    if (unit.name.preset == preset && unit.name.method == method) return unit;
+  ADD_FAILURE() << preset << ' ' << method;
+  return results.units.front();
+}
+
+std::map<std::string, fs::file_time_type> partsOf(const fs::path& folder) {
+  std::map<std::string, fs::file_time_type> parts;
+  for (const auto& entry : fs::directory_iterator(folder / "parts"))
+    parts[entry.path().filename().string()] = entry.last_write_time();
+  return parts;
+}
+
+TEST(Run, measuresEveryPresetAndCaseOnTheSameRows) {
+  const test::ScratchDir dir;
+  Plan plan = smallPlan();
+  std::vector<double> told;
+  plan.progress = [&](double fraction, const std::string&) {
+    told.push_back(fraction);
+    return true;
+  };
+  const auto results = run(plan, dir / "out");
+  ASSERT_TRUE(results) << toString(results.findings());
+  ASSERT_EQ(results->units.size(), 6u);
+  for (const Unit& unit : results->units) {
+    EXPECT_EQ(unit.framesDecided, 60u);
+    ASSERT_EQ(unit.frames.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const MeasuredFrame& frame = unit.frames[i];
+      EXPECT_EQ(frame.row, (2 * i + 1) * 60 / 8) << "evenly spread";
+      EXPECT_EQ(frame.timeS, static_cast<double>(frame.row) * 0.5);
+      EXPECT_EQ(frame.repeatsMs.size(), 2u);
+      EXPECT_GT(frame.cost.total, 0);
+      EXPECT_GT(frame.cost.decide, 0);
+      EXPECT_GT(frame.counts.triangles, 0u);
+      EXPECT_EQ(frame.error.wronglyCulledPixels, 0u);
+      EXPECT_TRUE(std::isfinite(frame.error.pop)) << "the flight's row before is the frame before";
+    }
+    EXPECT_FALSE(unit.worst.empty());
+    for (const WorstFrame& worst : unit.worst)
+      for (const std::string& file : {worst.reference, worst.ours, worst.difference})
+        EXPECT_GT(test::readFile(dir / "out" / file).size(), 100u) << file;
+  }
+  // What is drawn where culling never changes a pixel, and what a coarser preset costs the picture.
+  const Unit &none = unitOf(*results, "default", "none"),
+             &frustum = unitOf(*results, "default", "view_frustum"),
+             &coarse = unitOf(*results, "coarse", "none");
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(none.frames[i].error.flip, frustum.frames[i].error.flip);
+    EXPECT_LT(frustum.frames[i].counts.triangles, none.frames[i].counts.triangles);
+    EXPECT_LT(coarse.frames[i].counts.triangles, none.frames[i].counts.triangles);
+  }
+  EXPECT_GT(summarise(coarse, *quantityOf("flip")).mean, summarise(none, *quantityOf("flip")).mean);
+  EXPECT_EQ(results->comparisons.size(), 3u + 4u);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_EQ(told.back(), 1);
+
+  const auto read = parseResults(test::readFile(dir / "out" / "results.json"), "results.json");
+  ASSERT_TRUE(read) << toString(read.findings());
+  EXPECT_EQ(toJson(*read), toJson(*results));
+  EXPECT_EQ(test::readFile(dir / "out" / "frames.csv"), toCsv(*results));
+}
+
+TEST(Run, givesTheSameErrorsAndCountsInAnotherFolderAndWithOtherRepeats) {
+  const test::ScratchDir dir;
+  Plan plan = smallPlan();
+  plan.frames = 2;
+  const auto once = run(plan, dir / "a");
+  plan.repeats = 3;
+  plan.skips = true;
+  const auto again = run(plan, dir / "b");
+  ASSERT_TRUE(once && again) << toString(once.findings()) << toString(again.findings());
+  EXPECT_EQ(withoutTimes(*once), withoutTimes(*again));
+  EXPECT_FALSE(again->units.front().skips.empty());
+}
+
+TEST(Run, goesOnWhereItWasCancelled) {
+  const test::ScratchDir dir;
+  const auto whole = run(smallPlan(), dir / "whole");
+  ASSERT_TRUE(whole) << toString(whole.findings());
+  Plan plan = smallPlan();
+  plan.progress = [](double fraction, const std::string&) { return fraction < 0.5; };
+  const auto cancelled = run(plan, dir / "out");
+  ASSERT_FALSE(cancelled);
+  EXPECT_NE(toString(cancelled.findings()).find("2 of 4 frames"), std::string::npos)
+      << toString(cancelled.findings());
+  const auto before = partsOf(dir / "out");
+  EXPECT_EQ(before.size(), 2u);
+  EXPECT_FALSE(fs::exists(dir / "out" / "results.json"));
+  plan.progress = {};
+  const auto rest = run(plan, dir / "out");
+  ASSERT_TRUE(rest) << toString(rest.findings());
+  EXPECT_EQ(withoutTimes(*rest), withoutTimes(*whole));
+  const auto after = partsOf(dir / "out");
+  EXPECT_EQ(after.size(), 4u);
+  for (const auto& [name, time] : before) EXPECT_EQ(after.at(name), time) << name << " was measured again";
+  // Once whole, nothing is measured again.
+  const auto once = run(plan, dir / "out");
+  ASSERT_TRUE(once);
+  EXPECT_EQ(partsOf(dir / "out"), after);
+  EXPECT_EQ(toJson(*once), toJson(*rest));
+}
+
+TEST(Run, measuresAgainAPartThatIsNotWhole) {
+  const test::ScratchDir dir;
+  const auto whole = run(smallPlan(), dir / "out");
+  ASSERT_TRUE(whole);
+  const std::string part = partsOf(dir / "out").begin()->first,
+                    text = test::readFile(dir / "out" / "parts" / part);
+  test::writeFile(dir / "out" / "parts" / part, text.substr(0, text.size() / 2));
+  const auto again = run(smallPlan(), dir / "out");
+  ASSERT_TRUE(again) << toString(again.findings());
+  EXPECT_EQ(withoutTimes(*again), withoutTimes(*whole));
+}
+
+TEST(Run, refusesTheFolderOfAnotherPlanAndSaysWhatDiffers) {
+  const test::ScratchDir dir;
+  Plan plan = smallPlan();
+  plan.frames = 1;
+  ASSERT_TRUE(run(plan, dir / "out"));
+  plan.widthPx = 128;
+  TuningParameters other = *plan.presets[1].parameters;
+  other.lod.screenSpaceError = Pixels{8};
+  plan.presets[1].parameters = *validate(other);
+  const auto refused = run(plan, dir / "out");
+  ASSERT_FALSE(refused);
+  std::set<std::string> keys;
+  for (const Finding& finding : refused.findings()) {
+    EXPECT_EQ(finding.where, (dir / "out" / "plan.json").string());
+    keys.insert(finding.key);
+  }
+  EXPECT_EQ(keys, (std::set<std::string>{"size", "presets"})) << toString(refused.findings());
+  EXPECT_NE(toString(refused.findings()).find("96x64"), std::string::npos);
+  EXPECT_NE(toString(refused.findings()).find("128x64"), std::string::npos);
+}
+
+TEST(Run, refusesWhatItCannotMeasure) {
+  const test::ScratchDir dir;
+  const auto said = [&dir](const Plan& plan) {
+    const auto results = run(plan, dir / "out");
+    return results ? std::string() : toString(results.findings());
+  };
+  Plan plan = smallPlan();
+  plan.flights[0].flight.states.resize(3);
+  for (AircraftState& state : plan.flights[0].flight.states) state.position.latitude = Degrees{10};
+  EXPECT_NE(said(plan).find("one: expected a flight over the terrain mountains, found none of its 3 rows"),
+            std::string::npos)
+      << said(plan);
+  plan = smallPlan();
+  plan.cases.clear();
+  plan.presets.clear();
+  EXPECT_NE(said(plan).find("cases"), std::string::npos);
+  EXPECT_NE(said(plan).find("presets"), std::string::npos);
+  plan = smallPlan();
+  plan.flights.push_back(plan.flights.front());
+  EXPECT_NE(said(plan).find("one twice"), std::string::npos) << said(plan);
+  // A folder with files of that name that no run of ours has left.
+  fs::create_directories(dir / "mine");
+  test::writeFile(dir / "mine" / "frames.csv", "precious");
+  EXPECT_FALSE(run(smallPlan(), dir / "mine"));
+  EXPECT_EQ(test::readFile(dir / "mine" / "frames.csv"), "precious");
+  test::writeFile(dir / "file", "");
+  EXPECT_FALSE(run(smallPlan(), dir / "file"));
+}
+
+TEST(Run, replaysATraceFromTheMemoryAndCostItRecorded) {
+  const test::ScratchDir dir;
+  Plan plan = smallPlan();
+  plan.presets.pop_back();
+  plan.cases = {CullingCase::proposed};
+  session::Session session(plan.presets[0].parameters);
+  session.setTerrain(plan.terrain);
+  session.keepRows(true);
+  for (const AircraftState& state : plan.flights[0].flight.states) session.fly(state, state.time);
+  const auto flown = run(plan, dir / "flown");
+  session.takeRows(plan.flights[0].trace, true);
+  ASSERT_EQ(plan.flights[0].trace.size(), 60u);
+  const auto replayed = run(plan, dir / "replayed");
+  ASSERT_TRUE(flown && replayed) << toString(replayed.findings());
+  EXPECT_EQ(withoutTimes(*flown), withoutTimes(*replayed));
+  plan.flights[0].trace.pop_back();
+  EXPECT_FALSE(run(plan, dir / "short"));
+}
+
+TEST(HeatColour, growsLighterAllTheWay) {
+  double before = -1;
+  for (int i = 0; i <= 400; ++i) {
+    const auto c = heatColour(i / 400.0);
+    const auto linear = [](int v) { return std::pow(v / 255.0, 2.2); };
+    const double luminance = 0.2126 * linear(c[0]) + 0.7152 * linear(c[1]) + 0.0722 * linear(c[2]);
+    // Channels are whole numbers.
+    EXPECT_GE(luminance, before - 0.002) << i;
+    before = luminance;
+  }
+  EXPECT_EQ(heatColour(std::nan("")), heatColour(0));
+  EXPECT_EQ(heatColour(7), heatColour(1));
+}
+
+}  // namespace
+}  // namespace trimtab::harness
