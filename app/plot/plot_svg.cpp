@@ -80,7 +80,7 @@ class PlainDrawing : public Drawing {
     for (const double top : {y - height - 4, y + 3})
       for (const double x : {right_ - width, left_ + 4}) {
         const Box box{x, top, width, height};
-        const std::size_t hit = pointsIn({x - 20, top - 6, width + 40, height + 12});
+        const std::size_t hit = coveredBy({x - 20, top - 6, width + 40, height + 12});
         if (top < top_ || top + height > bottom_ || hit >= fewest) continue;
         fewest = hit;
         best = box;
@@ -91,12 +91,19 @@ class PlainDrawing : public Drawing {
     thin_.push_back({left_, y - 2, right_ - left_, 4});
   }
 
-  std::size_t pointsIn(const Box& box) const {
+  /// What a box would cover: points count more than whiskers.
+  std::size_t coveredBy(const Box& box) const {
     std::size_t count = 0;
-    for (const Series& series : plot_.series)
-      for (std::size_t i = 0; i < series.x.size() && i < series.y.size(); ++i)
-        count += std::isfinite(series.x[i]) && std::isfinite(series.y[i]) &&
-                 box.overlaps({px(series.x[i]), py(series.y[i]), 1, 1});
+    for (const Series& s : plot_.series)
+      for (std::size_t i = 0; i < s.x.size() && i < s.y.size(); ++i) {
+        if (!std::isfinite(s.x[i]) || !std::isfinite(s.y[i])) continue;
+        const double x = px(s.x[i]), y = py(s.y[i]);
+        if (box.overlaps({x, y, 1, 1})) count += 3;
+        const double left = extent(s.xLow, i), right = extent(s.xHigh, i);
+        if (right > left && box.overlaps({px(left), y, px(right) - px(left), 1})) ++count;
+        const double low = extent(s.yLow, i), high = extent(s.yHigh, i);
+        if (high > low && box.overlaps({x, py(high), 1, py(low) - py(high)})) ++count;
+      }
     return count;
   }
 
@@ -185,7 +192,7 @@ class PlainDrawing : public Drawing {
                       end = decimal(across - 3, 1);
     svg_.path(alongX ? 'M' + a + ' ' + c + 'H' + b + 'M' + a + ' ' + end + "v6M" + b + ' ' + end + "v6"
                      : 'M' + c + ' ' + a + 'V' + b + 'M' + end + ' ' + a + "h6M" + end + ' ' + b + "h6",
-              look(s), 1.2, "opacity=\"0.6\"");
+              look(s), 1.2, "opacity=\"0.55\"");
     thin_.push_back(alongX ? Box{from, across - 2, to - from, 4} : Box{across - 2, from, 4, to - from});
   }
 

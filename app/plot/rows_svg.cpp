@@ -60,6 +60,7 @@ class RowsDrawing : public Drawing {
     grid();
     for (std::size_t i = 0; i < plot_.categories.size(); ++i)
       drawRow(i, top_ + row * (static_cast<double>(i) + 0.5), row);
+    drawGuides();
   }
 
  private:
@@ -76,6 +77,9 @@ class RowsDrawing : public Drawing {
     }
     svg_.line(left_, top_, left_, bottom_, "axis");
     svg_.line(left_, bottom_, right_, bottom_, "axis");
+  }
+
+  void drawGuides() {
     for (const Guide& guide : plot_.guides) {
       if (guide.axis != Guide::Axis::x) continue;
       svg_.line(px(guide.at), top_, px(guide.at), bottom_, "axis",
