@@ -56,6 +56,8 @@ bool FrameCulling::findHidden(const FrameRequest& request, FrameResult& counters
                              defects_.loweringScale < 1},
                             conditions_);
   counters.horizonsBuilt = horizon_.built();
+  view_ = request.view;
+  mapSize_ = *size;
   return true;
 }
 
@@ -115,6 +117,7 @@ void FrameCulling::removeHidden(const TileCache& tiles, OcclusionPass& pass) {
 }
 
 Renderer::Grey FrameCulling::readDepthMap(const OcclusionPass& pass) const {
+  if (!hidden_.empty()) return horizon_.picture(eye_, view_, mapSize_.widthPx, mapSize_.heightPx);
   if (!depthMapCurrent_) return {};
   std::vector<float> depths;
   GLint before = 0;

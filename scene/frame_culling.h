@@ -50,7 +50,7 @@ class FrameCulling {
   /// What may hide others in this frame.
   const std::vector<TileDraw>& occluders() const { return occluders_; }
   void plant(const Defects& defects) { defects_ = defects; }
-  /// The last frame's depth map, if it drew one.
+  /// The last frame's depth map, if it drew one; else a picture of its horizon, if that served.
   Renderer::Grey readDepthMap(const OcclusionPass& pass) const;
 
  private:
@@ -64,6 +64,8 @@ class FrameCulling {
   std::shared_ptr<const terrain::Database> database_;
   OcclusionConditions conditions_;
   HorizonCulling horizon_;
+  ViewShape view_;  ///< of the last frame that the horizon served, and the size that its band asked for
+  DepthMapSize mapSize_;
   std::span<const std::uint8_t> hidden_;  ///< by the horizon, one a tile of the cut; or empty
   std::optional<CutKey> cutKey_;
   std::uint64_t cutNumber_ = 0;  ///< another one for another cut

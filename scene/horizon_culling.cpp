@@ -68,6 +68,21 @@ double HorizonCulling::slackOf(const ViewShape& view) {
   return 0.02 * std::max((view.right - view.left) / view.widthPx, (view.top - view.bottom) / view.heightPx);
 }
 
+Renderer::Grey HorizonCulling::picture(const EyePose& eye, const ViewShape& view, int widthPx,
+                                       int heightPx) const {
+  constexpr std::uint8_t kCovered = 110, kOpen = 255;
+  Renderer::Grey grey{widthPx, heightPx, {}};
+  grey.pixels.reserve(static_cast<std::size_t>(widthPx) * static_cast<std::size_t>(heightPx));
+  const Mat3 toLocal = transposed(eye.axes);
+  for (int y = 0; y < heightPx; ++y)
+    for (int x = 0; x < widthPx; ++x) {
+      const double across = view.left + (view.right - view.left) * (x + 0.5) / widthPx,
+                   up = view.bottom + (view.top - view.bottom) * (y + 0.5) / heightPx;
+      grey.pixels.push_back(horizon_.blocks(toLocal * Vec3{across, up, -1}) ? kCovered : kOpen);
+    }
+  return grey;
+}
+
 const TileRelief* HorizonCulling::reliefOf(std::uint32_t node) {
   if (!relief_[node]) {
     relief_[node] = std::make_unique<TileRelief>();
@@ -95,9 +110,23 @@ std::span<const std::uint8_t> HorizonCulling::hidden(const LevelCut& cut, std::u
   const Key key{eye, cutNumber, settings.columns, settings.slack, settings.raised};
   if (key_ == key) return horizon_.hidden();
   if (kept_ > kKept + cut.tiles.size()) forgetOthers(cut);
+  const TerrainIndex& index = database_->index();
   tiles_.clear();
-  for (const TileDraw& tile : cut.tiles)
-    tiles_.push_back({reliefOf(tile.node), conditions.mayOcclude(tile.node) && upright_[tile.node] != 0});
+  inCut_.assign(index.size(), 0);
+  for (const TileDraw& tile : cut.tiles) {
+    inCut_[tile.node] = 1;
+    tiles_.push_back({reliefOf(tile.node), mayOcclude(tile.node, conditions)});
+  }
+  for (std::size_t i = 0; i < tiles_.size(); ++i) {
+    const auto& [west, east, south, north] = index.neighbours[cut.tiles[i].node];
+    const auto goesOn = [&](std::uint32_t node) -> const TileRelief* {
+      return node != TerrainIndex::kNone && inCut_[node] != 0 && mayOcclude(node, conditions)
+                 ? relief_[node].get()
+                 : nullptr;
+    };
+    tiles_[i].east = goesOn(east);
+    tiles_[i].north = goesOn(north);
+  }
   horizon_.build(eye, tiles_, settings);
   ++built_;
   key_ = key;

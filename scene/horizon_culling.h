@@ -9,6 +9,7 @@
 #include "trimtab/culling/horizon.h"
 #include "trimtab/culling/select.h"
 #include "trimtab/scene/occlusion_conditions.h"
+#include "trimtab/scene/renderer.h"
 #include "trimtab/terrain/database.h"
 
 namespace trimtab::scene {
@@ -26,6 +27,8 @@ class HorizonCulling {
                                        const OcclusionConditions& conditions);
   /// The next call builds again.
   void forget() { key_.reset(); }
+  /// The view as the last horizon sees it: what it covers grey, what stays open white. Row 0 at the bottom.
+  Renderer::Grey picture(const EyePose& eye, const ViewShape& view, int widthPx, int heightPx) const;
   const Horizon& horizon() const { return horizon_; }
   std::uint64_t built() const { return built_; }      ///< horizons, since the start
   std::uint64_t reliefs() const { return reliefs_; }  ///< tiles that were looked at for it
@@ -45,12 +48,16 @@ class HorizonCulling {
     friend bool operator==(const Key&, const Key&) = default;
   };
   const TileRelief* reliefOf(std::uint32_t node);
+  bool mayOcclude(std::uint32_t node, const OcclusionConditions& conditions) const {
+    return upright_[node] != 0 && conditions.mayOcclude(node);
+  }
   void forgetOthers(const LevelCut& cut);
 
   std::shared_ptr<const terrain::Database> database_;
   std::vector<std::uint8_t> upright_;                ///< one a node: no place there has two heights
   std::vector<std::unique_ptr<TileRelief>> relief_;  ///< one a node; null until it is needed
   std::size_t kept_ = 0;
+  std::vector<std::uint8_t> inCut_;  ///< one a node
   std::vector<HorizonTile> tiles_;
   Horizon horizon_;
   std::optional<Key> key_;

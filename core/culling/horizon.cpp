@@ -18,7 +18,6 @@ constexpr float kNearest = 64, kNearestShare = 0.05f;
 /// How far directions are off by single precision from there on: positions by 2^-22 of their distance and of
 /// the tile's size.
 constexpr double kRounding = 1.2e-5;
-constexpr int kMostPosts = 65;
 
 /// Rings of distance in plan, 128 to an octave from 1 m, by the bits of the number: what is in a lower ring
 /// is nearer.
@@ -75,7 +74,7 @@ float nearestInPlan(const Box& b, const std::array<float, 3>& o) {
   return std::sqrt(x * x + y * y);
 }
 
-std::array<float, 3> from(Vec3 eye, Vec3 origin) {
+std::array<float, 3> fromEye(Vec3 eye, Vec3 origin) {
   return {static_cast<float>(origin.x - eye.x), static_cast<float>(origin.y - eye.y),
           static_cast<float>(origin.z - eye.z)};
 }
@@ -98,7 +97,7 @@ void Horizon::build(Vec3 eye, std::span<const HorizonTile> tiles, const Settings
   firstOfRing_.assign(kRings + 1, 0);
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     if (tiles[i].relief)
-      ring_[i] = ringOf(nearestInPlan(tiles[i].relief->bounds, from(eye, tiles[i].relief->origin)));
+      ring_[i] = ringOf(nearestInPlan(tiles[i].relief->bounds, fromEye(eye, tiles[i].relief->origin)));
     ++firstOfRing_[ring_[i] + 1];
   }
   for (std::uint32_t ring = 0; ring < kRings; ++ring) firstOfRing_[ring + 1] += firstOfRing_[ring];
@@ -113,8 +112,8 @@ void Horizon::build(Vec3 eye, std::span<const HorizonTile> tiles, const Settings
     if (!relief) continue;
     for (; done < ring_[i]; ++done)
       for (std::uint32_t n = firstLine_[done]; n != kNone; n = lines_[n].next) {
-        const TileRelief& other = *tiles[lines_[n].tile].relief;
-        takeUp(other);
+        const HorizonTile& other = tiles[lines_[n].tile];
+        takeUp(*other.relief);
         addLine(other, lines_[n].line);
       }
     takeUp(*relief);
@@ -123,25 +122,46 @@ void Horizon::build(Vec3 eye, std::span<const HorizonTile> tiles, const Settings
       hidden_[i] = 1;
       ++hiddenCount_;
     } else if (tiles[i].mayOcclude) {
-      enqueueLines(i, *relief);
+      enqueueLines(i, tiles[i]);
     }
   }
 }
 
 void Horizon::takeUp(const TileRelief& relief) {
-  offset_ = from(eye_, relief.origin);
+  offset_ = fromEye(eye_, relief.origin);
   nearest_ = std::max(kNearest, kNearestShare * relief.reach);
 }
 
-void Horizon::enqueueLines(std::uint32_t tile, const TileRelief& relief) {
-  for (std::uint32_t line = 0; line < static_cast<std::uint32_t>(relief.lines); ++line) {
+/// Fills in the corners of a line, with those of the next tile where it goes on; how many there are.
+int Horizon::cornersOf(const HorizonTile& tile, std::uint32_t line) {
+  int count = 0;
+  const auto take = [&](const TileRelief& relief, int from, int to) {
+    const auto offset = fromEye(eye_, relief.origin);
     const std::size_t first = std::size_t{line} * static_cast<std::size_t>(relief.side);
-    const float *x = relief.lineX.data() + first, *y = relief.lineY.data() + first;
-    float furthest = 0;
-    for (int k = 0; k < relief.side; ++k) {
-      const float dx = x[k] + offset_[0], dy = y[k] + offset_[1];
-      furthest = std::max(furthest, dx * dx + dy * dy);
+    const float *x = relief.lineX.data() + first, *y = relief.lineY.data() + first,
+                *z = relief.lineZ.data() + first;
+    float *toX = x_.data() + count - from, *toY = y_.data() + count - from, *toZ = z_.data() + count - from;
+    for (int k = from; k < to; ++k) {
+      toX[k] = x[k] + offset[0];
+      toY[k] = y[k] + offset[1];
+      toZ[k] = z[k] + offset[2];
     }
+    count += to - from;
+  };
+  take(*tile.relief, 0, tile.relief->side);
+  // Rows and columns take turns.
+  const TileRelief* next = line % 2 == 0 ? tile.east : tile.north;
+  if (next && next->lines == tile.relief->lines && next->side == tile.relief->side)
+    take(*next, 1, std::min(1 + kGoOn, next->side));
+  return count;
+}
+
+void Horizon::enqueueLines(std::uint32_t tile, const HorizonTile& from) {
+  for (std::uint32_t line = 0; line < static_cast<std::uint32_t>(from.relief->lines); ++line) {
+    const int count = cornersOf(from, line);
+    float furthest = 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
+      furthest = std::max(furthest, x_[k] * x_[k] + y_[k] * y_[k]);
     // Nearer by more than the depth buffer's rounding.
     const std::uint32_t ring = ringOf(std::sqrt(furthest) * (1 + 2e-5f) + 0.02f);
     lines_.push_back({tile, line, firstLine_[ring]});
@@ -178,22 +198,20 @@ void Horizon::addRun(float* horizon, const float* u, const float* w, int count, 
   if (Raised && column > 0 && column <= columns_) horizon[column - 1] = std::max(horizon[column - 1], least);
 }
 
-void Horizon::addLine(const TileRelief& relief, std::uint32_t line) {
-  const int count = relief.side;
-  const std::size_t first = std::size_t{line} * static_cast<std::size_t>(count);
-  const float *x = relief.lineX.data() + first, *y = relief.lineY.data() + first,
-              *z = relief.lineZ.data() + first;
-  const float x0 = std::min(x[0], x[count - 1]) + offset_[0], x1 = std::max(x[0], x[count - 1]) + offset_[0];
-  const float y0 = std::min(y[0], y[count - 1]) + offset_[1], y1 = std::max(y[0], y[count - 1]) + offset_[1];
+void Horizon::addLine(const HorizonTile& tile, std::uint32_t line) {
+  const int count = cornersOf(tile, line);
+  const auto [x0, x1] = std::minmax(x_[0], x_[static_cast<std::size_t>(count - 1)]);
+  const auto [y0, y1] = std::minmax(y_[0], y_[static_cast<std::size_t>(count - 1)]);
   for (int side = 0; side < kSides; ++side) {
     if (!meets(turned(side, x0, x1, y0, y1))) continue;
-    float u[kMostPosts], w[kMostPosts], forward[kMostPosts];
+    float u[kMostPosts + kGoOn], w[kMostPosts + kGoOn], forward[kMostPosts + kGoOn];
     for (int k = 0; k < count; ++k) {
-      const Turned p = turned(side, x[k] + offset_[0], y[k] + offset_[1]);
+      const auto i = static_cast<std::size_t>(k);
+      const Turned p = turned(side, x_[i], y_[i]);
       forward[k] = p.f;
       const float inverse = 1 / p.f;
       u[k] = (p.l * inverse + 1) * perT_;
-      w[k] = (z[k] + offset_[2]) * inverse;
+      w[k] = z_[i] * inverse;
     }
     float* horizon = profile_.data() + side * columns_;
     const auto usable = [&](int k) { return forward[k] > nearest_; };
@@ -230,6 +248,17 @@ bool Horizon::covers(int side, float t0, float t1, float w) const {
   for (int column = from; column <= to; ++column)
     if (!(horizon[column] > limit)) return false;
   return true;
+}
+
+bool Horizon::blocks(Vec3 direction) const {
+  for (int side = 0; side < kSides; ++side) {
+    const Turned d = turned(side, static_cast<float>(direction.x), static_cast<float>(direction.y));
+    if (!(d.f > 0 && std::abs(d.l) <= d.f)) continue;
+    const int column = std::min(static_cast<int>((d.l / d.f + 1) * perT_), columns_ - 1);
+    return profile_[static_cast<std::size_t>(side * columns_ + column)] >
+           static_cast<float>(direction.z) / d.f;
+  }
+  return false;
 }
 
 bool Horizon::isBoxHidden(const Box& box) const {

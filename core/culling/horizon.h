@@ -38,6 +38,9 @@ namespace trimtab {
 struct HorizonTile {
   const TileRelief* relief = nullptr;  ///< null: never hidden, hides nothing
   bool mayOcclude = false;
+  /// Neighbours whose lines go on where this tile's end, or null: drawn at the same level, and may occlude. A
+  /// column that a border lies in is not lost then.
+  const TileRelief *east = nullptr, *north = nullptr;
 };
 
 class Horizon {
@@ -61,6 +64,8 @@ class Horizon {
   /// All of the horizon, from +x by +y, -x and -y: the w of each column; very low where there is none.
   std::span<const float> profile() const { return profile_; }
   int columns() const { return columns_; }
+  /// Whether a ray of this direction ends at the ground, as far as the whole of the horizon proves.
+  bool blocks(Vec3 direction) const;
 
  private:
   struct Line {
@@ -72,8 +77,9 @@ class Horizon {
   bool isBoxHidden(const Box& box) const;
   bool isPartHidden(const TileRelief& relief, int part) const;
   bool covers(int side, float t0, float t1, float w) const;
-  void enqueueLines(std::uint32_t tile, const TileRelief& relief);
-  void addLine(const TileRelief& relief, std::uint32_t line);
+  int cornersOf(const HorizonTile& tile, std::uint32_t line);
+  void enqueueLines(std::uint32_t tile, const HorizonTile& from);
+  void addLine(const HorizonTile& tile, std::uint32_t line);
   template <bool Raised>
   void addRun(float* horizon, const float* u, const float* w, int count, int step) const;
 
@@ -82,6 +88,10 @@ class Horizon {
   float perT_ = 0;  ///< columns a unit of t
   float slack_ = 0;
   bool raised_ = false;
+  static constexpr int kMostPosts = 65,
+                       kGoOn = 2;  ///< of a tile's side; how far a line goes into the next tile
+  /// The line in hand, from the eye.
+  std::array<float, kMostPosts + kGoOn> x_, y_, z_;
   // Of the tile in hand: its origin from the eye, and the least distance at which it counts.
   std::array<float, 3> offset_{};
   float nearest_ = 0;

@@ -86,7 +86,7 @@ struct SchemeParameters {
 
 struct CullingParameters {
   CullingCase method = CullingCase::proposed;
-  OcclusionMethod occlusion = OcclusionMethod::depth_map;
+  OcclusionMethod occlusion = OcclusionMethod::horizon;
 };
 
 struct LodParameters {

@@ -1,0 +1,273 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "trimtab/culling/horizon.h"
+
+namespace trimtab {
+namespace {
+
+/// A height field of square tiles, with a brute-force answer to whether a ray ends at it.
+class Ground {
+ public:
+  Ground(int tiles, int cells, double stepM, unsigned seed)
+      : cells_(cells), posts_(tiles * cells + 1), step_(stepM) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    std::array<double, 12> phase{};
+    for (double& p : phase) p = 6.28 * unit(random);
+    for (int y = 0; y < posts_; ++y)
+      for (int x = 0; x < posts_; ++x) {
+        double h = 0, size = 300;
+        for (std::size_t octave = 0; octave < 4; ++octave, size *= 0.45) {
+          const double f = 0.045 * std::pow(2.1, double(octave));
+          h += size *
+               (1 - std::abs(std::sin(f * x + phase[3 * octave] + std::sin(f * y + phase[3 * octave + 1])))) *
+               (1 - std::abs(std::sin(f * y + phase[3 * octave + 2])));
+        }
+        h += 15 * unit(random);
+        // As the earth falls away.
+        const double dx = (x - posts_ / 2) * step_, dy = (y - posts_ / 2) * step_;
+        heights_.push_back(static_cast<float>(h - (dx * dx + dy * dy) / 12.7e6));
+      }
+    for (int row = 0; row < tiles; ++row)
+      for (int column = 0; column < tiles; ++column)
+        reliefs_.push_back(reliefOf(column * cells, row * cells));
+  }
+
+  std::vector<HorizonTile> tiles() const {
+    std::vector<HorizonTile> tiles;
+    for (const TileRelief& relief : reliefs_) tiles.push_back({&relief, true});
+    const std::size_t wide = static_cast<std::size_t>((posts_ - 1) / cells_);
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+      if (i % wide + 1 < wide) tiles[i].east = &reliefs_[i + 1];
+      if (i + wide < tiles.size()) tiles[i].north = &reliefs_[i + wide];
+    }
+    return tiles;
+  }
+  const std::vector<TileRelief>& reliefs() const { return reliefs_; }
+  double sideM() const { return (posts_ - 1) * step_; }
+
+  /// z of the surface; diagonals alternate as the terrain's do.
+  double heightAt(double x, double y) const {
+    const double u = std::clamp(x / step_, 0.0, posts_ - 1.0), v = std::clamp(y / step_, 0.0, posts_ - 1.0);
+    const int i = std::min(static_cast<int>(u), posts_ - 2), j = std::min(static_cast<int>(v), posts_ - 2);
+    const double a = u - i, b = v - j;
+    const double sw = post(i, j), se = post(i + 1, j), nw = post(i, j + 1), ne = post(i + 1, j + 1);
+    if ((i + j) % 2 == 0)
+      return a > b ? sw + a * (se - sw) + b * (ne - se) : sw + b * (nw - sw) + a * (ne - nw);
+    return a + b < 1 ? sw + a * (se - sw) + b * (nw - sw) : ne + (1 - a) * (nw - ne) + (1 - b) * (se - ne);
+  }
+
+  /// Whether the ground is over the segment from `eye` to `p` anywhere before its end: exact, since the
+  /// height over a straight way is linear from one grid line or diagonal to the next.
+  bool isCovered(Vec3 eye, Vec3 p) const {
+    const Vec3 d = p - eye;
+    const auto over = [&](double s) {
+      return s > 0 && s < 1 - 1e-9 && heightAt(eye.x + s * d.x, eye.y + s * d.y) > eye.z + s * d.z;
+    };
+    const auto along = [&](double from, double by) {
+      if (by == 0) return false;
+      const double a = from / step_, b = (from + by) / step_;
+      for (double k = std::ceil(std::min(a, b)); k <= std::max(a, b); ++k)
+        if (over((k * step_ - from) / by)) return true;
+      return false;
+    };
+    return along(eye.x, d.x) || along(eye.y, d.y) || along(eye.x + eye.y, d.x + d.y) ||
+           along(eye.x - eye.y, d.x - d.y);
+  }
+
+ private:
+  double post(int x, int y) const {
+    return double{heights_[static_cast<std::size_t>(y) * static_cast<std::size_t>(posts_) +
+                           static_cast<std::size_t>(x)]};
+  }
+  TileRelief reliefOf(int column, int row) const {
+    TileRelief relief;
+    relief.side = cells_ + 1;
+    relief.origin = {(column + cells_ / 2) * step_, (row + cells_ / 2) * step_, 100};
+    for (int y = 0; y <= cells_; ++y)
+      for (int x = 0; x <= cells_; ++x) {
+        relief.x.push_back(static_cast<float>((column + x) * step_ - relief.origin.x));
+        relief.y.push_back(static_cast<float>((row + y) * step_ - relief.origin.y));
+        relief.z.push_back(static_cast<float>(post(column + x, row + y) - relief.origin.z));
+      }
+    relief.finish(4);
+    return relief;
+  }
+
+  int cells_, posts_;
+  double step_;
+  std::vector<float> heights_;
+  std::vector<TileRelief> reliefs_;
+};
+
+struct Tally {
+  std::size_t hidden = 0, tiles = 0, wrong = 0, asked = 0;
+};
+
+/// Points of tiles that are said to be hidden, asked of the ground itself.
+Tally fly(const Ground& ground, int eyes, const Horizon::Settings& settings, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const std::vector<HorizonTile> tiles = ground.tiles();
+  Horizon horizon;
+  Tally tally;
+  for (int i = 0; i < eyes; ++i) {
+    Vec3 eye{ground.sideM() * (0.1 + 0.8 * unit(random)), ground.sideM() * (0.1 + 0.8 * unit(random)), 0};
+    eye.z = ground.heightAt(eye.x, eye.y) + 5 * std::pow(300.0, unit(random) * unit(random));
+    horizon.build(eye, tiles, settings);
+    EXPECT_EQ(horizon.hidden().size(), tiles.size());
+    std::size_t hidden = 0;
+    for (std::size_t t = 0; t < tiles.size(); ++t) {
+      if (horizon.hidden()[t] == 0) continue;
+      ++hidden;
+      const TileRelief& r = *tiles[t].relief;
+      for (int k = 0; k < 40; ++k) {
+        Vec3 p;
+        if (k < 20) {
+          const auto post = static_cast<std::size_t>(unit(random) * double(r.x.size()));
+          p = r.origin + Vec3{r.x[post], r.y[post], r.z[post]};
+        } else {
+          const double x = r.origin.x + double{r.bounds.minX} +
+                           unit(random) * (double{r.bounds.maxX} - r.bounds.minX),
+                       y = r.origin.y + double{r.bounds.minY} +
+                           unit(random) * (double{r.bounds.maxY} - r.bounds.minY);
+          p = {x, y, ground.heightAt(x, y)};
+        }
+        ++tally.asked;
+        tally.wrong += !ground.isCovered(eye, p);
+      }
+    }
+    EXPECT_EQ(hidden, horizon.hiddenCount());
+    tally.hidden += hidden;
+    tally.tiles += tiles.size();
+  }
+  return tally;
+}
+
+TEST(Horizon, hidesOnlyWhatTheGroundItselfHides) {
+  for (const int columns : {16, 128, 1024}) {
+    const Ground ground(10, 16, 60, 1 + static_cast<unsigned>(columns));
+    const Tally tally = fly(ground, 60, {.columns = columns}, 3);
+    EXPECT_EQ(tally.wrong, 0u) << columns;
+    EXPECT_GT(tally.asked, 1000u) << columns;
+    std::printf("%d columns a quarter: %zu of %zu tiles hidden\n", columns, tally.hidden, tally.tiles);
+  }
+}
+
+// Without this, the test above might pass because nothing can go wrong where it looks.
+TEST(Horizon, isSeenToFailWhereLinesReachTooHigh) {
+  const Ground ground(10, 16, 60, 2);
+  EXPECT_GT(fly(ground, 60, {.columns = 16, .raised = true}, 3).wrong, 0u);
+}
+
+TEST(Horizon, hidesMoreWithMoreColumns) {
+  const Ground ground(12, 16, 60, 5);
+  std::size_t last = 0;
+  for (const int columns : {16, 64, 512, 4096}) {
+    const std::size_t hidden = fly(ground, 20, {.columns = columns}, 7).hidden;
+    EXPECT_GT(hidden, last);
+    last = hidden;
+  }
+}
+
+TEST(Horizon, hidesNothingByTilesThatMayNot) {
+  const Ground ground(10, 16, 60, 2);
+  std::vector<HorizonTile> tiles = ground.tiles();
+  for (HorizonTile& tile : tiles) tile.mayOcclude = false;
+  Horizon horizon;
+  horizon.build({4000, 4000, 200}, tiles, {});
+  EXPECT_EQ(horizon.hiddenCount(), 0u);
+}
+
+TEST(Horizon, hidesNothingForAnEyeThatIsNowhere) {
+  const Ground ground(10, 16, 60, 2);
+  const std::vector<HorizonTile> tiles = ground.tiles();
+  Horizon horizon;
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1e300})
+    for (const Vec3 eye : {Vec3{bad, 4000, 200}, Vec3{4000, 4000, bad}, Vec3{bad, bad, bad}}) {
+      horizon.build(eye, tiles, {});
+      // An eye far below sees the ground's underside, which hides all the same; the caller refuses it.
+      if (eye.z == -1e300 && eye.x == 4000) continue;
+      EXPECT_EQ(horizon.hiddenCount(), 0u) << eye.x << ' ' << eye.z;
+    }
+  horizon.build({4000, 4000, 200}, tiles,
+                {.columns = 1024, .slack = std::numeric_limits<double>::quiet_NaN()});
+  EXPECT_EQ(horizon.hiddenCount(), 0u);
+  horizon.build({4000, 4000, 200}, {}, {});
+  EXPECT_TRUE(horizon.hidden().empty());
+}
+
+TEST(Horizon, leavesTilesThatItDoesNotKnowOrThatAreNoSurface) {
+  const Ground ground(10, 16, 60, 2);
+  Horizon horizon;
+  const Vec3 eye{4800, 4800, ground.heightAt(4800, 4800) + 10};
+  std::vector<HorizonTile> tiles = ground.tiles();
+  horizon.build(eye, tiles, {});
+  const std::vector<std::uint8_t> before = horizon.hidden();
+  std::vector<TileRelief> broken(ground.reliefs());
+  std::size_t changed = 0;
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    if (before[t] == 0) continue;
+    TileRelief& relief = broken[t];
+    switch (changed++ % 4) {
+      case 0:
+        tiles[t].relief = nullptr;
+        continue;
+      case 1:
+        relief.z[7] = std::numeric_limits<float>::quiet_NaN();
+        break;
+      case 2:
+        relief.x[0] = std::numeric_limits<float>::infinity();
+        break;
+      default:
+        relief.side = 0;
+        relief.x.clear();
+        relief.y.clear();
+        relief.z.clear();
+    }
+    relief.finish(4);
+    tiles[t].relief = &relief;
+  }
+  ASSERT_GT(changed, 8u);
+  horizon.build(eye, tiles, {});
+  EXPECT_EQ(horizon.hiddenCount(), 0u) << "all that was hidden is now not known";
+}
+
+// A tile of one cell has no line inside, so it hides nothing; it can be hidden.
+TEST(Horizon, hidesTilesOfTwoTriangles) {
+  const Ground ground(10, 16, 60, 2);
+  std::vector<HorizonTile> tiles = ground.tiles();
+  const Vec3 eye{4800, 4800, ground.heightAt(4800, 4800) + 10};
+  Horizon horizon;
+  horizon.build(eye, tiles, {});
+  std::vector<TileRelief> small;
+  for (std::size_t t = 0; t < tiles.size(); ++t)
+    if (horizon.hidden()[t] != 0) {
+      const TileRelief& r = *tiles[t].relief;
+      TileRelief cell;
+      cell.side = 2;
+      cell.origin = r.origin;
+      for (const std::size_t post : {0u, 1u, 17u, 18u}) {
+        cell.x.push_back(r.x[post]);
+        cell.y.push_back(r.y[post]);
+        cell.z.push_back(r.z[post]);
+      }
+      cell.finish(4);
+      EXPECT_EQ(cell.lines, 0);
+      small.push_back(cell);
+    }
+  ASSERT_FALSE(small.empty());
+  for (const TileRelief& cell : small) tiles.push_back({&cell, true});
+  horizon.build(eye, tiles, {});
+  EXPECT_GT(std::count(horizon.hidden().end() - static_cast<std::ptrdiff_t>(small.size()),
+                       horizon.hidden().end(), 1),
+            static_cast<std::ptrdiff_t>(small.size() / 2));
+}
+
+}  // namespace
+}  // namespace trimtab
