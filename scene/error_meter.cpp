@@ -65,6 +65,14 @@ double hiddenShare(const std::vector<std::uint32_t>& nodes, const VisibleSet& vi
   return static_cast<double>(hidden) / static_cast<double>(visible.tiles.size());
 }
 
+/// What the far cut takes from a picture is told by its colours, in fog: depths count up to there.
+std::vector<float> upTo(double farM, std::vector<float> distances) {
+  if (farM < WeatherDecision::kUnlimited)
+    for (float& distance : distances)
+      if (double{distance} > farM) distance = std::numeric_limits<float>::infinity();
+  return distances;
+}
+
 }  // namespace
 
 FrameRequest referenceOf(const FrameRequest& request) {
@@ -72,6 +80,7 @@ FrameRequest referenceOf(const FrameRequest& request) {
   r.method = CullingCase::view_frustum;
   r.overlays.treeDepth = -1;
   r.lod.screenSpaceError = kFinest;
+  r.staticLod.error = ErrorMeasure::maximum;
   r.staticLod.rule = StaticDistanceRule::picture;
   r.staticLod.errorPx = kFinest;
   r.decision.lodScale = 1;
@@ -116,17 +125,83 @@ double temporalPop(std::span<const std::uint8_t> referenceBefore, std::span<cons
   return static_cast<double>(sum) / (static_cast<double>(bytes) / 4 * 3);
 }
 
+namespace {
+
+/// All that the picture of a reference depends on.
+struct ReferenceKey {
+  GeodeticPosition eye;
+  Attitude attitude;
+  ViewShape view;
+  WeatherDecision weather;
+  double time = 0;                   ///< only where something falls
+  std::optional<Velocity> velocity;  ///< likewise
+  std::optional<SymbologyRequest> symbology;
+  bool trees = false;
+  friend bool operator==(const ReferenceKey&, const ReferenceKey&) = default;
+};
+
+ReferenceKey keyOf(const FrameRequest& r) {
+  const WeatherDecision& w = r.decision.weather;
+  ReferenceKey key{r.eye, r.attitude, r.view, {}, 0, {}, r.symbology, asksForTrees(r)};
+  if (w.fogged) {
+    key.weather.fogged = true;
+    key.weather.extinctionPerM = w.extinctionPerM;
+  }
+  if (w.density > 0 && w.precipitation != Precipitation::none) {
+    key.weather.precipitation = w.precipitation;
+    key.weather.density = w.density;
+    key.time = r.time;
+    key.velocity = r.velocity;
+  }
+  return key;
+}
+
+/// Enough for a frame and the one before it in two kinds of weather.
+constexpr std::size_t kKeptReferences = 4;
+
+}  // namespace
+
 struct ErrorMeter::Impl {
+  struct Reference {
+    ReferenceKey key;
+    std::vector<std::uint8_t> pixels;
+    std::vector<float> distances;
+    FrameResult drawn;
+    std::uint64_t lastUse = 0;
+  };
+
   Renderer renderer;
   FrameBuffer target;
   Defects defects;
   bool usable = false;
+  std::vector<std::unique_ptr<Reference>> references;
+  std::uint64_t uses = 0;
 
   FrameResult draw(const FrameRequest& r) { return renderer.draw(r, target.id()); }
   std::vector<std::uint8_t> pixels(const ViewShape& view) {
     return renderer.readPixels(view.widthPx, view.heightPx);
   }
+  const Reference& reference(const FrameRequest& request);
 };
+
+/// Presets and cases are measured on one frame in turn, and it costs more than all else: the last few are
+/// kept. Stands until as many others were asked for.
+const ErrorMeter::Impl::Reference& ErrorMeter::Impl::reference(const FrameRequest& request) {
+  const ReferenceKey key = keyOf(request);
+  const auto found =
+      std::find_if(references.begin(), references.end(), [&](const auto& r) { return r->key == key; });
+  if (found != references.end()) {
+    (*found)->lastUse = ++uses;
+    return **found;
+  }
+  if (references.size() >= kKeptReferences)
+    references.erase(std::min_element(references.begin(), references.end(),
+                                      [](const auto& a, const auto& b) { return a->lastUse < b->lastUse; }));
+  FrameResult drawn = draw(referenceOf(request));
+  references.push_back(std::make_unique<Reference>(
+      Reference{key, pixels(request.view), renderer.readDistances(), std::move(drawn), ++uses}));
+  return *references.back();
+}
 
 ErrorMeter::ErrorMeter() : impl_(std::make_unique<Impl>()) {}
 ErrorMeter::~ErrorMeter() = default;
@@ -141,10 +216,12 @@ GlReport ErrorMeter::initialize() {
 void ErrorMeter::release() {
   impl_->renderer.release();
   impl_->target.release();
+  impl_->references.clear();
   impl_->usable = false;
 }
 
 void ErrorMeter::setTerrain(std::shared_ptr<const terrain::Database> database) {
+  impl_->references.clear();
   impl_->renderer.setTerrain(std::move(database));
 }
 
@@ -167,18 +244,12 @@ FrameError ErrorMeter::measure(const FrameRequest& request, std::span<const Fram
 
   const bool pops =
       !before.empty() && before.back().view.widthPx == v.widthPx && before.back().view.heightPx == v.heightPx;
-  std::vector<std::uint8_t> referenceBefore, oursBefore;
   m.renderer.plant({});
-  if (pops) {
-    m.draw(referenceOf(before.back()));
-    referenceBefore = m.pixels(v);
-  }
-  FrameResult drawnReference = m.draw(referenceOf(request));
-  std::vector<std::uint8_t> reference = m.pixels(v);
-  std::vector<float> referenceDistances = m.renderer.readDistances();
+  const Impl::Reference* referenceBefore = pops ? &m.reference(before.back()) : nullptr;
+  const Impl::Reference& reference = m.reference(request);
 
-  // The reference has no blur, so what accumulates begins anew here, whatever was measured before.
   m.renderer.plant(m.defects);
+  m.renderer.forgetPictures();
   std::vector<FrameRequest> frames;
   for (const FrameRequest& r : before) frames.push_back(withoutEngineer(r));
   frames.push_back(withoutEngineer(request));
@@ -186,6 +257,7 @@ FrameError ErrorMeter::measure(const FrameRequest& request, std::span<const Fram
   std::size_t first = firstTraceIn(frames, last);
   if (pops) first = std::min(first, firstTraceIn(frames, last - 1));
   for (std::size_t i = first; i < last; ++i) m.draw(frames[i]);
+  std::vector<std::uint8_t> oursBefore;
   if (pops) oursBefore = m.pixels(v);
   FrameResult result = m.draw(frames[last]);
   std::vector<std::uint8_t> ours = m.pixels(v);
@@ -193,29 +265,23 @@ FrameError ErrorMeter::measure(const FrameRequest& request, std::span<const Fram
   error.hiddenDrawnShare = hiddenShare(m.renderer.readNodes(), result.visible);
   error.wronglyCulledPixels = wronglyCulled(m.renderer.readNodes(true), result.visible);
   m.renderer.plant({});
-
-  // What the far cut takes from the picture is told by its colours, in fog: depths count up to there.
-  const double farM = request.decision.weather.farM;
-  if (farM < WeatherDecision::kUnlimited)
-    for (float& distance : referenceDistances)
-      if (double{distance} > farM) distance = std::numeric_limits<float>::infinity();
-  const GeometricError geometric = geometricError(referenceDistances, distances, v);
-  error.geometricMaxPx = geometric.maxPx;
-  error.geometricMeanPx = geometric.meanPx;
-  error.psnrDb = psnrDb(reference, ours, v.widthPx, v.heightPx);
-  error.ssim = ssimOfLuma(reference, ours, v.widthPx, v.heightPx);
-  std::vector<float> map;
-  if (pictures) map.resize(reference.size() / 4);
-  error.flip = flip(reference, ours, v.widthPx, v.heightPx, map);
-  if (pops) error.pop = temporalPop(referenceBefore, reference, oursBefore, ours);
-  if (pictures)
-    *pictures = {v.widthPx,        v.heightPx,     std::move(reference),
-                 std::move(ours),  std::move(map), std::move(drawnReference),
-                 std::move(result)};
-
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(drawn));
   glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read));
   glViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
+
+  const GeometricError geometric =
+      geometricError(upTo(request.decision.weather.farM, reference.distances), distances, v);
+  error.geometricMaxPx = geometric.maxPx;
+  error.geometricMeanPx = geometric.meanPx;
+  error.psnrDb = psnrDb(reference.pixels, ours, v.widthPx, v.heightPx);
+  error.ssim = ssimOfLuma(reference.pixels, ours, v.widthPx, v.heightPx);
+  std::vector<float> map;
+  if (pictures) map.resize(ours.size() / 4);
+  error.flip = flip(reference.pixels, ours, v.widthPx, v.heightPx, map);
+  if (pops) error.pop = temporalPop(referenceBefore->pixels, reference.pixels, oursBefore, ours);
+  if (pictures)
+    *pictures = {v.widthPx,      v.heightPx,      reference.pixels, std::move(ours),
+                 std::move(map), reference.drawn, std::move(result)};
   return error;
 }
 

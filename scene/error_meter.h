@@ -48,8 +48,9 @@ class ErrorMeter {
   /// a grey level are drawn, so more than enough may be passed.
   ///
   /// Draws reference and picture, each of the frame before too where pop is measured, and the nodes of the
-  /// picture with and without culling. `pictures`, where not null, gets what was compared. A request
-  /// without pixels, or no context, gives a default FrameError.
+  /// picture with and without culling. The last few references are kept: measure the presets and cases of one
+  /// frame in turn, or frames in order. `pictures`, where not null, gets what was compared. A request without
+  /// pixels, or no context, gives a default FrameError.
   FrameError measure(const FrameRequest& request, std::span<const FrameRequest> before,
                      ErrorPictures* pictures);
   FrameError measure(const FrameRequest& request, const FrameRequest* before, ErrorPictures* pictures) {

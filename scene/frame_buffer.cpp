@@ -1,5 +1,7 @@
 #include "trimtab/scene/frame_buffer.h"
 
+#include <cmath>
+
 #include "trimtab/scene/gl_api.h"
 
 namespace trimtab::scene {
@@ -15,14 +17,51 @@ void FrameBuffer::release() {
   id_ = 0;
 }
 
-std::vector<float> FrameBuffer::readDepths() const {
-  std::vector<float> depths(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  GLint before = 0;
-  glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &before);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
-  glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(before));
-  return depths;
+namespace {
+
+/// Binds a framebuffer for reading and puts back what was bound.
+class Reading {
+ public:
+  explicit Reading(GLuint frame) {
+    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &before_);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, frame);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  }
+  ~Reading() {
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(before_));
+  }
+  Reading(const Reading&) = delete;
+  Reading& operator=(const Reading&) = delete;
+
+ private:
+  GLint before_ = 0;
+};
+
+}  // namespace
+
+std::vector<float> FrameBuffer::readDistances(const ViewShape& v) const {
+  std::vector<float> distances(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  {
+    const Reading reading(id_);
+    glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, distances.data());
+  }
+  std::size_t i = 0;
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x, ++i) {
+      const double across = v.left + (v.right - v.left) * (x + 0.5) / v.widthPx;
+      const double up = v.bottom + (v.top - v.bottom) * (y + 0.5) / v.heightPx;
+      distances[i] =
+          static_cast<float>(v.nearM / double{distances[i]} * std::sqrt(1 + across * across + up * up));
+    }
+  return distances;
+}
+
+std::vector<std::uint8_t> FrameBuffer::readPixels(int width, int height) const {
+  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
+  const Reading reading(id_);
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+  return pixels;
 }
 
 void FrameBuffer::resize(int width, int height) {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
+
+#include "trimtab/frame/frame.h"
 
 namespace trimtab::scene {
 
@@ -17,8 +20,10 @@ class FrameBuffer {
   void release();
   unsigned id() const { return id_; }
   unsigned colourTexture() const { return colour_; }
-  /// Reversed depths, row 0 at the bottom; 0 where nothing was drawn.
-  std::vector<float> readDepths() const;
+  /// Metres from the eye of a view that fills it, row 0 at the bottom; infinity where nothing was drawn.
+  std::vector<float> readDistances(const ViewShape& view) const;
+  /// RGBA of the lower left corner, row 0 at the bottom.
+  std::vector<std::uint8_t> readPixels(int width, int height) const;
   int width() const { return width_; }
   int height() const { return height_; }
 

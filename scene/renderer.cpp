@@ -380,17 +380,7 @@ FrameResult Renderer::draw(const FrameRequest& request, unsigned fbo) {
 
 std::vector<float> Renderer::readDistances() {
   if (!impl_->gl) return {};
-  std::vector<float> distances = impl_->gl->frame.readDepths();
-  const ViewShape& v = impl_->lastView;
-  std::size_t i = 0;
-  for (int y = 0; y < v.heightPx; ++y)
-    for (int x = 0; x < v.widthPx; ++x, ++i) {
-      const double across = v.left + (v.right - v.left) * (x + 0.5) / v.widthPx;
-      const double up = v.bottom + (v.top - v.bottom) * (y + 0.5) / v.heightPx;
-      distances[i] =
-          static_cast<float>(v.nearM / double{distances[i]} * std::sqrt(1 + across * across + up * up));
-    }
-  return distances;
+  return impl_->gl->frame.readDistances(impl_->lastView);
 }
 
 Renderer::Grey Renderer::readDepthMap() {
@@ -414,16 +404,12 @@ std::vector<std::uint32_t> Renderer::readNodes(bool unculled) {
 }
 
 std::vector<std::uint8_t> Renderer::readPixels(int width, int height) {
-  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
-  if (!impl_->gl) return pixels;
-  GLint before = 0;
-  glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &before);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, impl_->gl->frame.id());
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
-  glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(before));
-  return pixels;
+  if (impl_->gl) return impl_->gl->frame.readPixels(width, height);
+  return std::vector<std::uint8_t>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
+}
+
+void Renderer::forgetPictures() {
+  if (impl_->gl) impl_->gl->blur.rest();
 }
 
 }  // namespace trimtab::scene

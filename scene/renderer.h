@@ -55,7 +55,8 @@ struct FrameRequest {
   ViewShape view;                    ///< size of the picture
   FrameDecision decision;
   CullingCase method = CullingCase::proposed;
-  OcclusionMethod occlusion = OcclusionMethod::depth_map;  ///< of the tiled levels; static trees have their own
+  OcclusionMethod occlusion =
+      OcclusionMethod::depth_map;  ///< of the tiled levels; static trees have their own
   LodParameters lod;
   StaticLodParameters staticLod;
   Overlays overlays;
@@ -135,6 +136,8 @@ class Renderer {
     std::vector<std::uint8_t> pixels;
   };
   Grey readDepthMap();
+  /// A blur accumulates from the next picture on, as if it were the first.
+  void forgetPictures();
   /// For tests only, which must be able to see the picture break.
   void plant(const Defects& defects);
   /// For each pixel of the last picture the node that it shows, kNoNode where it is sky; row 0 at the bottom.
