@@ -149,10 +149,8 @@ std::string paretoSection(const ReportModel& model) {
             "Lower left is best. A point is a preset in one case over a whole flight: the median frame time "
             "at the mean error. Whiskers run from the 5th to the 95th percentile of its frames. The dashed "
             "line joins what no other point beats in both. Lines join the cases of one preset. Each preset "
-            "is held "
-            "against its own reference: the same view in the same air at the finest levels of the terrain "
-            "that it "
-            "draws, tiles or static trees, without culling and blur.") +
+            "is held against its own reference: the same view in the same air at the finest levels of the "
+            "terrain that it draws, tiles or static trees, without culling and blur.") +
         legend(model.keys());
   if (!body.empty() && !errors.empty())
     for (const std::string& flight : model.flights) {

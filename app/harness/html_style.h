@@ -74,7 +74,9 @@ svg .f0{fill:#4a9be0}svg .f1{fill:#f07f32}svg .f2{fill:#22bd90}svg .f3{fill:#e09
 svg .f5{fill:#9ad6fa}
 svg .k0{stroke:#4a9be0}svg .k1{stroke:#f07f32}svg .k2{stroke:#22bd90}svg .k3{stroke:#e09cc2}svg .k4{stroke:#f2b634}
 svg .k5{stroke:#9ad6fa}}
-@media print{body{max-width:none;padding:0;font-size:9.5pt}nav,.sortable::after{display:none}
+@media print{.central{grid-template-columns:minmax(0,19fr) minmax(0,11fr)}
+.central figure+figure{max-width:none}.facts{grid-template-columns:max-content 1fr;gap:.15rem 1rem}
+body{max-width:none;padding:0;font-size:9.5pt}nav,.sortable::after{display:none}
 table{font-size:6.8pt}th,td{padding:.1rem .25rem}.scroll{overflow:visible}thead{display:table-header-group}
 tr,figure,article{break-inside:avoid}h2,h3,h4{break-after:avoid}
 .bad,.alarm{-webkit-print-color-adjust:exact;print-color-adjust:exact;outline:2px solid #000}

@@ -162,7 +162,7 @@ class PlainDrawing : public Drawing {
       return;
     }
     const bool thin = series.draw == Series::Draw::joined;
-    const std::string dash = series.x.size() <= kMarkedPoints && !thin ? "" : dashOf(look(s));
+    const std::string dash = dashOf(look(s));
     svg_.path(path, look(s), thin ? 1.2 : 2, dash.empty() ? "" : "stroke-dasharray=\"" + dash + '"');
   }
 
