@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <new>
 #include <vector>
 
 #include "flip_filters.h"
@@ -37,6 +38,17 @@ Columns difference(const std::uint8_t* a, const std::uint8_t* b, int pixels) {
   return {from, to};
 }
 
+/// Memory from the beginning of a cache line, so that whole vectors lie in one.
+template <class T>
+struct CacheLines {
+  using value_type = T;
+  static constexpr std::align_val_t kLine{64};
+  T* allocate(std::size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), kLine)); }
+  void deallocate(T* memory, std::size_t) { ::operator delete(memory, kLine); }
+  friend bool operator==(CacheLines, CacheLines) { return true; }
+};
+using Floats = std::vector<float, CacheLines<float>>;
+
 int blocksFor(int columns) {
   return (columns + kFlipBlock - 1) / kFlipBlock;
 }
@@ -56,7 +68,7 @@ class Strip {
         slots_(std::min(2 * radius_ + kRows, pictures.height)),
         blockPitch_(static_cast<std::size_t>(slots_) * kFlipBlockRow),
         lead_(blocksFor(radius_) * kFlipBlock),
-        pitch_(static_cast<std::size_t>(lead_ + blocksFor(columns) * kFlipBlock + radius_ + kSimdSlack)),
+        pitch_(static_cast<std::size_t>(lead_ + blocksFor(columns + radius_ + kSimdSlack) * kFlipBlock)),
         planes_(kFlipPlanes * pitch_),
         filtered_(static_cast<std::size_t>(blocksFor(columns)) * blockPitch_),
         rows_(static_cast<std::size_t>(slots_)),
@@ -167,7 +179,7 @@ class Strip {
   std::size_t blockPitch_;
   int lead_;
   std::size_t pitch_;
-  std::vector<float> planes_, filtered_;
+  Floats planes_, filtered_;
   std::vector<Row> rows_;
   std::vector<std::size_t> rowOffset_;
 };
