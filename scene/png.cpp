@@ -1,10 +1,11 @@
 #include <osg/Image>
 #include <osgDB/Registry>
-#include <sstream>
-#include <system_error>
 
+#include <algorithm>
 #include <fstream>
+#include <sstream>
 
+#include "trimtab/preset/preset.h"
 #include "trimtab/scene/offscreen.h"
 
 namespace trimtab::scene {
@@ -58,31 +59,9 @@ Result<RgbaPicture> readPng(const std::filesystem::path& file) {
 
 Result<Done> writePng(const std::filesystem::path& file, std::span<const std::uint8_t> rgba, int width,
                       int height) {
-  const auto refuse = [&file](const char* expected, const std::string& found) {
-    return refusal(file.string(), expected, found);
-  };
   const Result<std::string> bytes = encodePng(rgba, width, height);
-  if (!bytes) return refuse(bytes.findings()[0].expected.c_str(), bytes.findings()[0].found);
-
-  std::filesystem::path temporary = file;
-  temporary += ".part";
-  std::error_code error;
-  {
-    std::ofstream out(temporary, std::ios::binary);
-    out.write(bytes->data(), static_cast<std::streamsize>(bytes->size()));
-    out.close();
-    if (!out) {
-      std::filesystem::remove(temporary, error);
-      return refuse("a place that can be written", "writing failed");
-    }
-  }
-  std::filesystem::rename(temporary, file, error);
-  if (error) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    return refuse("a place that can be written", error.message());
-  }
-  return Done{};
+  if (!bytes) return refusal(file.string(), bytes.findings()[0].expected.c_str(), bytes.findings()[0].found);
+  return writeAtomically(file, *bytes);
 }
 
 }  // namespace trimtab::scene
