@@ -8,7 +8,10 @@ namespace {
 
 constexpr double kEarthRadius = 6.35e6;
 /// Posts from one line that may hide others to the next.
-constexpr int kLineStep = 4;
+constexpr int kLineStep = 8;
+/// A horizon that hides less than one tile in so many is not built again until the eye is this far away.
+constexpr std::size_t kLeastShare = 50;
+constexpr double kBelievedM = 50;
 /// Tiles (25 KB each) that are kept beyond those of the cut.
 constexpr std::size_t kKept = 4096;
 
@@ -60,7 +63,7 @@ void HorizonCulling::setDatabase(std::shared_ptr<const terrain::Database> databa
 }
 
 int HorizonCulling::columnsFor(int depthMapWidthPx) {
-  return std::clamp(2 * depthMapWidthPx, Horizon::kLeastColumns, Horizon::kMostColumns);
+  return std::clamp(depthMapWidthPx, Horizon::kLeastColumns, Horizon::kMostColumns);
 }
 
 double HorizonCulling::slackOf(const ViewShape& view) {
@@ -109,6 +112,10 @@ std::span<const std::uint8_t> HorizonCulling::hidden(const LevelCut& cut, std::u
                                                      const OcclusionConditions& conditions) {
   const Key key{eye, cutNumber, settings.columns, settings.slack, settings.raised};
   if (key_ == key) return horizon_.hidden();
+  // Where next to nothing is hidden there is nothing to gain a little further on.
+  if (key_ && key_->columns == key.columns && horizon_.hiddenCount() * kLeastShare < tiles_.size() &&
+      length(eye - key_->eye) < kBelievedM)
+    return {};
   if (kept_ > kKept + cut.tiles.size()) forgetOthers(cut);
   const TerrainIndex& index = database_->index();
   tiles_.clear();

@@ -21,7 +21,8 @@ class HorizonCulling {
   void setDatabase(std::shared_ptr<const terrain::Database> database);
 
   /// Which tiles of the cut are proven hidden, in its order, whatever the view's direction. `cutNumber` is
-  /// another one for another cut. The eye must be one that `conditions` do not refuse.
+  /// another one for another cut. The eye must be one that `conditions` do not refuse. Empty where nothing
+  /// is: also while the eye has moved little since next to nothing was.
   std::span<const std::uint8_t> hidden(const LevelCut& cut, std::uint64_t cutNumber, Vec3 eye,
                                        const Horizon::Settings& settings,
                                        const OcclusionConditions& conditions);

@@ -33,17 +33,10 @@ std::uint32_t ringOf(float distance) {
 struct Turned {
   float f, l;
 };
+constexpr std::array<std::array<float, 2>, 4> kForward{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
 Turned turned(int side, float x, float y) {
-  switch (side) {
-    case 0:
-      return {x, y};
-    case 1:
-      return {y, -x};
-    case 2:
-      return {-x, -y};
-    default:
-      return {-y, x};
-  }
+  const auto [a, b] = kForward[static_cast<std::size_t>(side)];
+  return {a * x + b * y, a * y - b * x};
 }
 
 /// The same of a box in plan.
@@ -314,9 +307,19 @@ bool Horizon::isPartHidden(const TileRelief& relief, int part) const {
   return true;
 }
 
+/// Whether a post stands out of the horizon: then its block would, and nothing else has to be looked at.
+bool Horizon::showsPeak(const TileRelief& relief) const {
+  for (const std::uint32_t post : relief.peaks)
+    if (!blocks({double{relief.x[post] + offset_[0]}, double{relief.y[post] + offset_[1]},
+                 double{relief.z[post] + offset_[2]}}))
+      return true;
+  return false;
+}
+
 bool Horizon::isHidden(const TileRelief& relief) const {
   if (relief.parts.empty() || relief.side > kMostPosts) return false;
   if (isBoxHidden(relief.bounds)) return true;
+  if (showsPeak(relief)) return false;
   for (int part = 0; part < static_cast<int>(relief.parts.size()); ++part)
     if (!isBoxHidden(relief.parts[static_cast<std::size_t>(part)]) && !isPartHidden(relief, part))
       return false;

@@ -74,6 +74,7 @@ class Horizon {
 
   void takeUp(const TileRelief& relief);
   bool isHidden(const TileRelief& relief) const;
+  bool showsPeak(const TileRelief& relief) const;
   bool isBoxHidden(const Box& box) const;
   bool isPartHidden(const TileRelief& relief, int part) const;
   bool covers(int side, float t0, float t1, float w) const;

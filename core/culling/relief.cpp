@@ -15,6 +15,7 @@ void TileRelief::finish(int step) {
   lineY.clear();
   lineZ.clear();
   parts.clear();
+  peaks.clear();
   bounds = {};
   reach = 0;
   for (const auto* values : {&x, &y, &z})
@@ -47,8 +48,14 @@ void TileRelief::finish(int step) {
   };
   bounds = boxOf(0, 0, side - 1);
   for (int row = 0; row < side - 1; row += kPartCells)
-    for (int column = 0; column < side - 1; column += kPartCells)
+    for (int column = 0; column < side - 1; column += kPartCells) {
       parts.push_back(boxOf(column, row, kPartCells));
+      std::size_t peak = at(column, row);
+      for (int r = row; r <= std::min(row + kPartCells, side - 1); ++r)
+        for (int c = column; c <= std::min(column + kPartCells, side - 1); ++c)
+          if (z[at(c, r)] > z[peak]) peak = at(c, r);
+      peaks.push_back(static_cast<std::uint32_t>(peak));
+    }
 }
 
 }  // namespace trimtab

@@ -22,8 +22,9 @@ struct TileRelief {
   int lines = 0;                           ///< rows and columns of posts that may hide what is behind them
   std::vector<float> lineX, lineY, lineZ;  ///< lines * side
   Box bounds;
-  float reach = 0;         ///< no coordinate is further from 0
-  std::vector<Box> parts;  ///< partsPerSide() squared, rows from south
+  float reach = 0;                   ///< no coordinate is further from 0
+  std::vector<Box> parts;            ///< partsPerSide() squared, rows from south
+  std::vector<std::uint32_t> peaks;  ///< the highest post of each part
 
   int partsPerSide() const { return (side - 1 + kPartCells - 1) / kPartCells; }
   /// Completes lines and boxes from side, x, y and z. `step`: from one line to the next, posts, even. A
