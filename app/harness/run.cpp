@@ -255,11 +255,11 @@ Findings Run::measureFlight(std::size_t flight, Results& results) {
       part = measureFrame(runners, i);
       if (cancelled_) return {stopped()};
       if (const auto written = store_.writeFrame(flight, rows[i], *part); !written) return written.findings();
-      ++measured_;
     }
     for (std::size_t u = 0; u < units.size(); ++u)
       units[u].frames.push_back(std::move((*part)[u].frames.front()));
-    ++done_;
+    ++framesDone_;
+    finished(drawsOfFrame(), !whole);
     if (!goOn()) return {stopped()};
   }
   if (Findings failed = keepWorst(runners, units); !failed.empty()) return failed;
