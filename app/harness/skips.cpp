@@ -122,7 +122,10 @@ std::vector<SkipSaving> measureSkips(const DrawFrame& draw, std::span<const Fram
   const auto stopped = [&goOn] { return goOn && !goOn(); };
   std::vector<SkipSaving> savings(skips().size());
   std::vector<std::vector<std::size_t>> left(skips().size());
-  for (std::size_t s = 0; s < savings.size(); ++s) savings[s].name = skips()[s].name;
+  for (std::size_t s = 0; s < savings.size(); ++s) {
+    savings[s].name = skips()[s].name;
+    savings[s].ratio = pairedRatio({}, {});
+  }
   if (frames.empty()) return savings;
 
   FrameResult before = draw(frames[0]);

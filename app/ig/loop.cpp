@@ -11,10 +11,12 @@ namespace {
 
 /// Between packets a viewer sees the eye move on at this rate.
 constexpr double kViewerPeriodS = 1.0 / 60;
+/// The newest frames, whose cost the summary tells.
+constexpr std::size_t kFramesKept = 8192;
 
 class Loop {
  public:
-  explicit Loop(const Run& run) : run_(run), frameMs_(8192) {}
+  explicit Loop(const Run& run) : run_(run), frameMs_(kFramesKept), stages_(kFramesKept) {}
 
   Summary run() {
     if (run_.options.listen) begin();
@@ -87,7 +89,7 @@ class Loop {
     const scene::FrameResult result = run_.renderer.draw(*request, run_.surface.framebuffer());
     run_.surface.present();
     const double end = link::now();
-    run_.session.finished(result, end);
+    stages_.add(run_.session.finished(result, end));
     const double ms = (end - start) * 1e3;
     frameMs_.add(ms);
     lastFrame_ = end;
@@ -115,6 +117,7 @@ class Loop {
     summary_.overBudget = run_.session.overBudget();
     summary_.medianFrameMs = frameMs_.median();
     summary_.p99FrameMs = frameMs_.quantile(0.99);
+    for (std::size_t i = 0; i < kCostStages.size(); ++i) summary_.stages[i] = stages_.of(kCostStages[i].ms);
     summary_.decodedP50Ms = latency.decoded.median();
     summary_.decodedP99Ms = latency.decoded.quantile(0.99);
     summary_.shownP50Ms = latency.shown.median();
@@ -126,6 +129,7 @@ class Loop {
   const Run& run_;
   Summary summary_;
   SampleWindow frameMs_;
+  FrameStatistics stages_;
   std::optional<int> lastBand_;
   std::vector<TraceRow> rows_;
   double lastFrame_ = 0, lastWatch_ = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "preset_watch.h"
 #include "surface.h"
 #include "trace_file.h"
+#include "trimtab/measure/statistics.h"
 
 namespace trimtab::ig {
 
@@ -30,6 +32,7 @@ struct Summary {
   std::uint64_t depthMapsDrawn = 0, overBudget = 0;
   double firstFrameTime = 0;  ///< link::now() when the first picture was finished; 0: none
   double medianFrameMs = 0, p99FrameMs = 0;
+  std::array<Distribution, kCostStages.size()> stages;  ///< milliseconds, in the order of kCostStages
   std::optional<scene::FrameRequest> lastRequest;
   /// session::Latency's; NaN where nothing was measured.
   double decodedP50Ms = 0, decodedP99Ms = 0, shownP50Ms = 0, shownP99Ms = 0, everyP99Ms = 0;

@@ -56,6 +56,13 @@ std::string summaryJson(const Summary& s, const Feed& feed, const Options& optio
       s.firstFrameTime > 0 ? nlohmann::ordered_json(s.firstFrameTime) : nlohmann::ordered_json();
   json["frame_median_ms"] = number(s.medianFrameMs);
   json["frame_p99_ms"] = number(s.p99FrameMs);
+  for (std::size_t i = 0; i < kCostStages.size(); ++i) {
+    const Distribution& stage = s.stages[i];
+    json["stages_ms"][kCostStages[i].name] = {{"median", number(stage.median)},
+                                              {"p95", number(stage.p95)},
+                                              {"p99", number(stage.p99)},
+                                              {"frames", stage.samples}};
+  }
   json["decoded_p50_ms"] = number(s.decodedP50Ms);
   json["decoded_p99_ms"] = number(s.decodedP99Ms);
   json["picture_p50_ms"] = number(s.shownP50Ms);

@@ -1,6 +1,7 @@
 #include <sstream>
 
 #include "ig_support.h"
+#include "trimtab/measure/cost_stages.h"
 
 namespace trimtab {
 namespace {
@@ -96,8 +97,21 @@ TEST_F(IgFlight, drawsOneFrameAndWritesOneRowForEachRowOfTheFlight) {
     EXPECT_EQ(rows[i].decision, decisions[i]) << i;
     ASSERT_TRUE(rows[i].frame) << i;
     withTerrain += rows[i].frame->counts.triangles > 0;
-    EXPECT_GT(rows[i].frame->cost.total, 0) << i;
+    const FrameCost& cost = rows[i].frame->cost;
+    EXPECT_GT(cost.total, 0) << i;
+    double sum = 0;
+    for (const CostStage& stage : kCostStages)
+      if (stage.kind == StageKind::of_frame && std::isfinite(cost.*stage.ms)) sum += cost.*stage.ms;
+    EXPECT_NEAR(sum, cost.total, 1e-9 * cost.total) << "the decision is a stage too, row " << i;
   }
+  const nlohmann::json& stages = summary["stages_ms"];
+  for (const CostStage& stage : kCostStages) EXPECT_TRUE(stages.contains(stage.name)) << stage.name;
+  EXPECT_EQ(stages["total"]["frames"], 120);
+  EXPECT_GT(stages["draw"]["median"], 0);
+  EXPECT_GT(stages["page"]["frames"], 0) << "the first frames make tiles";
+  EXPECT_LT(stages["page"]["frames"], 120);
+  EXPECT_EQ(stages["blur"]["frames"], 0);
+  EXPECT_TRUE(stages["blur"]["median"].is_null()) << "was not run";
   EXPECT_GT(withTerrain, rows.size() / 3)
       << "the flight looks away from its few kilometres of terrain at times";
   EXPECT_FALSE(std::filesystem::exists(dir_ / "trace.csv.part"));

@@ -60,8 +60,8 @@ void decisions(Report& report) {
           "the same decisions without head motion",
           count / without,
           "run"};
-  if (lowered == 0) row.ratio = NAN;
-  report.add(ratioAtLeast(0.5, row));
+  if (lowered == 0) row.value = NAN;  // nothing of it was run
+  report.add(valueAtLeast(1e6, row));
 }
 
 void sweep(Report& report, const std::shared_ptr<const terrain::Database>& terrain) {
@@ -81,16 +81,15 @@ void sweep(Report& report, const std::shared_ptr<const terrain::Database>& terra
       if (table.text(row, "quantity") == quantity) return table.number(row, column);
     return static_cast<double>(NAN);
   };
-  for (const char* mode : {"lod_scale_and_blur", "with_restoration"}) {
-    report.add(ratioAtMost(1 / 1.7, {.id = std::string("motion.slowest_") + mode,
-                                     .what = std::string("slowest frame of document C's sweep, ") + mode +
-                                             " (published: 100 to 170 frames a second, 1.7 times)",
-                                     .value = 1000 / cell("fps_min", mode),
-                                     .unit = "ms",
-                                     .peer = "the same sweep without the mechanism",
-                                     .peerValue = 1000 / cell("fps_min", "before"),
-                                     .peerFrom = "run"}));
-  }
+  // Document C publishes rates of the first alone: 100 a second before, 170 with it.
+  for (const auto& [mode, goal] : {std::pair{"lod_scale_and_blur", 100.0 / 170}, {"with_restoration", 1.0}})
+    report.add(ratioAtMost(goal, {.id = std::string("motion.slowest_") + mode,
+                                  .what = std::string("slowest frame of document C's sweep, ") + mode,
+                                  .value = 1000 / cell("fps_min", mode),
+                                  .unit = "ms",
+                                  .peer = "the same sweep without the mechanism",
+                                  .peerValue = 1000 / cell("fps_min", "before"),
+                                  .peerFrom = "run"}));
   report.add(
       ratioAtMost(31.0 / 44, {.id = "motion.vertices",
                               .what = "vertices in view, mean to the end of the rest (published: 44,000 "

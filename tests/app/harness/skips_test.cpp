@@ -169,6 +169,7 @@ TEST_F(SkipsTest, areCountedByFrameAndMeasured) {
     EXPECT_EQ(s.frames, count) << name;
     EXPECT_EQ(s.ratio.pairs, 2 * skipped) << name;
     EXPECT_EQ(std::isnan(s.savedMs), skipped == 0) << name;
+    EXPECT_EQ(std::isnan(s.ratio.median), skipped == 0) << name;
   }
   // Making all tiles again is more than the frame itself; whatever else runs on the machine, it shows.
   const SkipSaving& tiles = saving(savings, "tiles that the GPU holds already");
