@@ -7,6 +7,7 @@
 
 #include "core/culling/random_index.h"
 #include "culling_frames.h"
+#include "culling_horizon.h"
 #include "culling_peers.h"
 #include "row.h"
 #include "trimtab/culling/box_arrays.h"
@@ -189,6 +190,7 @@ int main(int argc, char** argv) {
   frustumRows(report, "64k", 65'536);
   frustumRows(report, "16m", report.quick() ? 4'000'000 : 16'000'000);
   selectionRows(report);
+  horizonRows(report);
   submitRow(report);
   frameRows(report);
   return report.finish();
