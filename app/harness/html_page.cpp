@@ -46,7 +46,7 @@ std::string defects(const ReportModel& model) {
       }
       if (bad > before) units.push_back(unitText(unit.name));
     }
-    const std::string of = std::to_string(frames) + (frames == 1 ? " frame" : " frames");
+    const std::string of = counted(frames, "frame");
     html += bad == 0 ? paragraph("No " + std::string(q.label) + " in " + of + ".", "fine")
                      : paragraph("\xe2\x9a\xa0 " + std::string(q.label) + ": " + wholeText(sum) + " in " +
                                      std::to_string(bad) + " of " + of + " (" + join(units) +
@@ -74,8 +74,9 @@ std::string headSection(const ReportModel& model) {
   std::size_t frames = 0;
   for (const Unit& unit : r.units) frames += unit.frames.size();
   fact("pictures", std::to_string(r.widthPx) + " x " + std::to_string(r.heightPx) + " px, " +
-                       std::to_string(frames) + " frames, each drawn " + std::to_string(r.repeats) +
-                       " times for its cost");
+                       counted(frames, "frame") + " of " + counted(r.units.size(), "unit") +
+                       " (a flight, a preset, a case), each drawn " + counted(r.repeats, "time") +
+                       " for its cost");
   if (std::isfinite(r.budgetMs)) fact("budget", roundedText(r.budgetMs) + " ms a frame");
   fact("machine", r.machine);
   fact("Trimtab", r.version);

@@ -169,7 +169,8 @@ std::string paretoSection(const ReportModel& model) {
 std::string paretoPlot(const Results& results) {
   const ReportModel model(results);
   auto errors = paretoErrors(model);
-  if (errors.size() > 2) errors.resize(2);
+  const std::size_t kept = model.flights.size() > 2 ? 1 : 2;
+  if (errors.size() > kept) errors.resize(kept);
   std::vector<plot::Plot> plots;
   for (const std::string& flight : model.flights)
     for (const Quantity* error : errors) {
@@ -179,7 +180,7 @@ std::string paretoPlot(const Results& results) {
     }
   return plot::toSvg(
       "Frame time against error" + (results.terrain.empty() ? std::string() : ", " + results.terrain),
-      model.keys(), plots, std::max<std::size_t>(errors.size(), 1));
+      model.keys(), plots, 2);
 }
 
 }  // namespace trimtab::harness

@@ -83,6 +83,10 @@ std::string base64(std::string_view bytes) {
   return out;
 }
 
+std::string counted(std::size_t count, std::string_view what) {
+  return std::to_string(count) + ' ' + std::string(what) + (count == 1 ? "" : "s");
+}
+
 std::string sizeText(std::size_t bytes) {
   const double size = static_cast<double>(bytes);
   return size < 1e6 ? plot::decimal(std::ceil(size / 1e3), 0) + " kB" : plot::decimal(size / 1e6, 1) + " MB";

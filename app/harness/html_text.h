@@ -33,6 +33,8 @@ class HtmlTable {
 std::string paragraph(std::string_view text, const char* cls = "");
 std::string section(const char* id, std::string_view title, std::string_view body);
 std::string base64(std::string_view bytes);
+/// "1 frame", "2 frames".
+std::string counted(std::size_t count, std::string_view what);
 /// "1.2 MB".
 std::string sizeText(std::size_t bytes);
 

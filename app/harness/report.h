@@ -7,7 +7,7 @@
 
 namespace trimtab::harness {
 
-/// Frame time against error as a picture of its own: a panel for each flight and error.
+/// Frame time against error as a picture of its own: two errors for one flight or two, FLIP alone for more.
 std::string paretoPlot(const Results& results);
 
 /// report.html and pareto.svg, each written atomically.

@@ -325,6 +325,8 @@ TEST(ParetoPlot, hasAPointForEachUnitAndTheFrontOfThoseNoneBeats) {
   ASSERT_TRUE(svg.load_string(test::readFile(dir / "pareto.svg").c_str()));
   EXPECT_STREQ(svg.first_child().attribute("xmlns").value(), "http://www.w3.org/2000/svg");
   EXPECT_EQ(svg.select_nodes("//g").size(), 2u) << "one flight, two errors";
+  ASSERT_TRUE(svg.load_string(paretoPlot(results({2, 5, {"a", "b", "c"}})).c_str()));
+  EXPECT_EQ(svg.select_nodes("//g").size(), 3u) << "three flights, FLIP alone";
 }
 
 TEST(ParetoPlot, aFolderThatIsNotThereIsAFinding) {
