@@ -46,6 +46,20 @@ TEST_F(PlantedDefects, findsATileThatIsLeftOut) {
   EXPECT_EQ(measure(r).wronglyCulledPixels, 0u);
 }
 
+TEST_F(PlantedDefects, areNotTheReferences) {
+  measureOver(test::syntheticMountains());
+  auto r = lowRequest();
+  r.lod.screenSpaceError = Pixels{1e-6};
+  const auto reference = picture(scene::referenceOf(r));
+  const std::uint32_t node = renderer.readNodes()[100 * kWidth + 320];
+  ASSERT_NE(node, kNoNode);
+  meter.plant({.culledNode = node});
+  scene::ErrorPictures pictures;
+  EXPECT_GT(measure(r, nullptr, &pictures).wronglyCulledPixels, 0u);
+  EXPECT_EQ(pictures.reference, reference);
+  EXPECT_NE(pictures.ours, reference);
+}
+
 TEST_F(PlantedDefects, findsANodeOfStaticTreesThatIsLeftOut) {
   measureOver(std::make_shared<const test::TreeTerrain>(test::syntheticMountains()));
   auto r = lowRequest();
