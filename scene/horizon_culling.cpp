@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kEarthRadius = 6.35e6;
 /// Posts from one line that may hide others to the next.
-constexpr int kLineStep = 8;
+constexpr int kLineStep = 4;
 /// A horizon that hides less than one tile in so many is not built again until the eye is this far away.
 constexpr std::size_t kLeastShare = 50;
 constexpr double kBelievedM = 50;
@@ -63,7 +63,7 @@ void HorizonCulling::setDatabase(std::shared_ptr<const terrain::Database> databa
 }
 
 int HorizonCulling::columnsFor(int depthMapWidthPx) {
-  return std::clamp(depthMapWidthPx, Horizon::kLeastColumns, Horizon::kMostColumns);
+  return std::clamp(2 * depthMapWidthPx, Horizon::kLeastColumns, Horizon::kMostColumns);
 }
 
 double HorizonCulling::slackOf(const ViewShape& view) {
