@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMarkerPx = 10, kLiveMarkerPx = 15;
 constexpr double kRoom = 0.08;
-constexpr int kLegendEntryPx = 105;
+constexpr int kLegendEntryPx = 92;
 constexpr int kRoomForHintPx = 170;
 
 QCPScatterStyle::ScatterShape shapeOf(const QString& method) {
@@ -75,6 +75,9 @@ ErrorPlot::ErrorPlot(QWidget* parent) : QCustomPlot(parent) {
   above->setFillOrder(QCPLegend::foColumnsFirst);
   above->setMargins(QMargins(4, 2, 4, 0));
   above->setRowSpacing(0);
+  above->setColumnSpacing(6);
+  above->setIconSize(20, 12);
+  above->setMaximumSize(QSize(QWIDGETSIZE_MAX - 1, QWIDGETSIZE_MAX - 1));  // empty, it would bound the column
   legend = above;
   setAutoAddPlottableToLegend(false);
 
@@ -332,7 +335,7 @@ void ErrorPlot::redraw() {
   hint_->setFont(font());
   const QFontMetrics metrics(font());
   xAxis->ticker()->setTickCount(
-      std::clamp(width() / metrics.horizontalAdvance(QStringLiteral("-0.0000  ")), 2, 7));
+      std::clamp(axisRect()->width() / metrics.horizontalAdvance(QStringLiteral("0.00000   ")), 2, 7));
   if (!logarithmic()) yAxis->ticker()->setTickCount(std::clamp(height() / (3 * metrics.height()), 2, 6));
   placeText();
   replot(QCustomPlot::rpQueuedReplot);

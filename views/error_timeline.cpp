@@ -13,7 +13,7 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kHeadRoom = 1.15;
 constexpr double kWorstPx = 9;
-constexpr int kLegendEntryPx = 105;
+constexpr int kLegendEntryPx = 92;
 
 QString timeText(double seconds) {
   return QStringLiteral("%1 s").arg(numberText(seconds, 2));
@@ -34,6 +34,9 @@ ErrorTimeline::ErrorTimeline(QWidget* parent) : QCustomPlot(parent), cursor_(kNa
   above->setFillOrder(QCPLegend::foColumnsFirst);
   above->setMargins(QMargins(4, 2, 4, 0));
   above->setRowSpacing(0);
+  above->setColumnSpacing(6);
+  above->setIconSize(20, 12);
+  above->setMaximumSize(QSize(QWIDGETSIZE_MAX - 1, QWIDGETSIZE_MAX - 1));  // empty, it would bound the column
   legend = above;
   for (const char* name : {"cursor", "numbers"}) {
     addLayer(QString::fromLatin1(name), nullptr, QCustomPlot::limAbove);

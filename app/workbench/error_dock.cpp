@@ -139,13 +139,14 @@ ErrorDock::ErrorDock(views::Draft& draft, DrawThread& thread, LiveMeter::Source 
   connect(flights_, &QComboBox::currentTextChanged, this, [this](const QString& flight) {
     plot_->showFlight(flight);
     timeline_->showFlight(flight);
+    flights_->setToolTip(tr("Which measured flight is drawn: %1").arg(flight));
   });
   connect(cases_, &QComboBox::currentIndexChanged, this,
           [this] { timeline_->showMethod(cases_->currentData().toString()); });
   connect(logarithmic_, &QCheckBox::toggled, plot_, &views::ErrorPlot::setLogarithmic);
   connect(plot_, &views::ErrorPlot::logarithmicChanged, logarithmic_, &QCheckBox::setChecked);
   connect(liveOn_, &QCheckBox::toggled, this, [this](bool on) {
-    live_.setOn(on && isVisible());
+    live_.setOn(on && seen_);
     if (!on) plot_->clearLive();
     if (!on) lastMeasured_.reset();
     liveLabel_->setText(liveText());
@@ -210,14 +211,9 @@ void ErrorDock::arrange() {
   all->addWidget(plots, 1);
 }
 
-void ErrorDock::showEvent(QShowEvent* event) {
-  QWidget::showEvent(event);
-  live_.setOn(liveOn_->isChecked());
-}
-
-void ErrorDock::hideEvent(QHideEvent* event) {
-  live_.setOn(false);
-  QWidget::hideEvent(event);
+void ErrorDock::setSeen(bool seen) {
+  seen_ = seen;
+  live_.setOn(seen && liveOn_->isChecked());
 }
 
 void ErrorDock::painted(double time, double frameMs) {
@@ -231,7 +227,7 @@ void ErrorDock::restartLive() {
 }
 
 void ErrorDock::followFlight(double timeS) {
-  if (isVisible()) timeline_->follow(timeS);
+  if (seen_) timeline_->follow(timeS);
 }
 
 void ErrorDock::showBudget() {

@@ -38,6 +38,8 @@ class ErrorDock : public QWidget {
   ErrorDock(views::Draft& draft, DrawThread& thread, LiveMeter::Source live, Source source,
             QWidget* parent = nullptr);
 
+  /// Whether a person can see it. Qt calls a dock behind other tabs visible.
+  void setSeen(bool seen);
   /// The viewport painted a picture; `time` in seconds.
   void painted(double time, double frameMs);
   /// Another terrain: what was live is no longer comparable.
@@ -70,10 +72,6 @@ class ErrorDock : public QWidget {
   void sought(double timeS);  ///< the person moved the cursor of the flight
   void comparisonAsked();
 
- protected:
-  void showEvent(QShowEvent* event) override;
-  void hideEvent(QHideEvent* event) override;
-
  private:
   void arrange();
   void setRunning(bool running);
@@ -91,6 +89,7 @@ class ErrorDock : public QWidget {
   QString measuring_;
   std::optional<harness::Results> results_;
   std::optional<LiveMeter::Measured> lastMeasured_;
+  bool seen_ = false;
 
   QComboBox *errors_, *flights_, *cases_;
   QCheckBox *logarithmic_, *liveOn_;

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QColor>
 #include <QImage>
 #include <QWidget>
 #include <span>
 
 namespace trimtab::workbench {
 
-/// Colours of an error of 0..1, from black over blue and orange to pale yellow: the lightness rises all the
-/// way, so that the colour-blind and a grey print read it too. Small errors are what there is to see, so that
-/// the place in the scale is the error's square root.
-QColor heatColour(double error);
-/// Row 0 of the errors is the lowest.
+/// In the colours of the report's pictures. Row 0 of the errors is the lowest.
 QImage heatImage(std::span<const float> errors, int width, int height);
 
 /// A map of errors with its legend.

@@ -48,6 +48,8 @@ class SplitView : public QWidget {
   bool choose(Side side, const QString& name);
   static const QString kDraft, kReference;
 
+  /// What is shown is of the frame and the presets at hand.
+  bool upToDate() const { return !changed_ && !busy_; }
   std::uint64_t comparisons() const { return comparisons_; }
   const HeatMap& heatMap() const { return *heat_; }
   SplitPicture& pictures() { return *pictures_; }

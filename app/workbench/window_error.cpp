@@ -64,6 +64,10 @@ void MainWindow::connectErrors() {
   connect(errors_, &ErrorDock::refused, this, refused);
   connect(errors_, &ErrorDock::sought, this, &MainWindow::seekFlight);
   connect(errors_, &ErrorDock::comparisonAsked, this, &MainWindow::showSplitView);
+  connect(dock(QStringLiteral("errors")), &QDockWidget::visibilityChanged, errors_, [this](bool seen) {
+    errors_->setSeen(seen);
+    followFlight();
+  });
   connect(&measuring_, &DrawThread::failed, this, [this, refused](const Findings& findings) {
     refused(tr("Errors cannot be measured live"), findings);
     errors_->liveSwitch().setChecked(false);

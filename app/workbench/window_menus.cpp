@@ -289,7 +289,11 @@ void MainWindow::showKeys() {
       "| Keys | What they do |\n|---|---|\n"
       "| drag with the left button | look around |\n| wheel | faster, slower |\n"
       "| W, S | ahead, back |\n| A, D | left, right |\n| E or Page Up, Q or Page Down | up, down |\n"
-      "| arrow keys | turn and tilt |\n\n## Commands\n\n| Keys | What they do |\n|---|---|\n");
+      "| arrow keys | turn and tilt |\n\n"
+      "## Run time against error\n\n| Keys | What they do |\n|---|---|\n"
+      "| left, right | in the plot the point before or after; along the flight the frame, with Shift ten |\n"
+      "| L, F | frame time by the logarithm; fit the view |\n| W, Shift+W | next and last worst frame |\n"
+      "| plus, minus | zoom |\n\n## Commands\n\n| Keys | What they do |\n|---|---|\n");
   for (QMenu* menu : menuBar()->findChildren<QMenu*>()) {
     for (const QAction* action : menu->actions()) {
       if (action->shortcut().isEmpty()) continue;

@@ -23,7 +23,7 @@ class ErrorDock : public Bench {
   void raise() {
     w().dock("errors")->show();
     w().dock("errors")->raise();
-    ASSERT_TRUE(waitFor([&] { return dock().isVisible(); }));
+    ASSERT_TRUE(waitFor([&] { return !dock().liveSwitch().isChecked() || dock().live().isOn(); }));
   }
   std::uint64_t measurements() { return dock().live().measurements(); }
   bool measured(std::uint64_t more = 1) {
@@ -91,7 +91,7 @@ TEST_F(ErrorDock, aPictureThatStandsIsMeasuredOnceAndAHiddenDockMeasuresNothing)
   EXPECT_EQ(measurements(), standing);
 
   w().dock("plots")->raise();
-  ASSERT_TRUE(waitFor([&] { return !dock().isVisible(); }));
+  ASSERT_TRUE(waitFor([&] { return !dock().live().isOn(); }));
   for (int i = 0; i < 10; ++i) {
     look(-6 - i);
     QTest::qWait(250);
@@ -107,13 +107,18 @@ TEST_F(ErrorDock, aPictureThatStandsIsMeasuredOnceAndAHiddenDockMeasuresNothing)
 
 TEST_F(ErrorDock, measuringLeavesThePictureAsItIs) {
   ASSERT_TRUE(settle());
-  const QImage before = w().viewport().grabFramebuffer();
+  // Above the line of text, which tells milliseconds.
+  const auto picture = [&] {
+    const QImage image = w().viewport().grabFramebuffer();
+    return image.copy(0, 0, image.width(), image.height() * 3 / 4);
+  };
+  const QImage before = picture();
   raise();
   ASSERT_TRUE(measured(1));
   ASSERT_TRUE(settle());
   w().dock("plots")->raise();
   ASSERT_TRUE(settle());
-  EXPECT_EQ(w().viewport().grabFramebuffer(), before);
+  EXPECT_TRUE(picture() == before);
 }
 
 TEST_F(ErrorDock, showsMeasuredResultsAndTheCursorTakesTheViewToTheRow) {
@@ -206,7 +211,7 @@ class SplitViewTest : public ErrorDock {
   void choose(const QString& left, const QString& right) {
     ASSERT_TRUE(view().choose(SplitView::left, left));
     ASSERT_TRUE(view().choose(SplitView::right, right));
-    ASSERT_TRUE(compared(view(), 2));
+    ASSERT_TRUE(waitFor([&] { return view().upToDate(); }, 120000));
   }
   QImage black() const {
     QImage image = window->splitView()->heatMap().map();
