@@ -157,10 +157,11 @@ void PlotsPanel::clear() {
 }
 
 double PlotsPanel::valueAt(const TraceGraph& trace, std::uint64_t frame) const {
-  // The stacked lane draws sums; a person reads the stage itself.
   Trace which = trace.look().trace;
-  if (which == Trace::cull_draw_ms) which = Trace::draw_ms;
-  if (which == Trace::cull_draw_gpu_ms) which = Trace::gpu_ms;
+  // The stacked lane draws upper edges; a person reads the stage itself.
+  if (trace.look().filled)
+    for (const StackedStage& stacked : kStack)
+      if (stacked.top == trace.look().trace) which = stacked.stage;
   return static_cast<double>(buffer_.value(which, frame)) * trace.look().scale;
 }
 
@@ -182,8 +183,11 @@ void PlotsPanel::fillReadout() {
   const std::uint64_t a = buffer_.nearest(plot_->cursor(0)), b = buffer_.nearest(plot_->cursor(1));
   line(0, tr("time (s)"), buffer_.time(a), buffer_.time(b), 3);
   int row = 1;
-  for (const TraceGraph* trace : plot_->traces())
-    line(row++, trace->name(), valueAt(*trace, a), valueAt(*trace, b), trace->look().decimals + 1);
+  for (const TraceGraph* trace : plot_->traces()) {
+    const double at = valueAt(*trace, a), bt = valueAt(*trace, b);
+    readout_->setRowHidden(row, trace->look().rare && std::isnan(at) && std::isnan(bt));
+    line(row++, trace->look().fullName(), at, bt, trace->look().decimals + 1);
+  }
 }
 
 void PlotsPanel::showTracked(double time) {

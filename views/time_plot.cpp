@@ -11,6 +11,7 @@ namespace trimtab::views {
 namespace {
 constexpr int kLowPx = 330, kWidePx = 560;
 constexpr int kRoomForBudgetTextPx = 420;
+constexpr std::size_t kStageLane = 3;
 constexpr double kShortestSpanS = 0.05, kLongestSpanS = 3600 * 4;
 }  // namespace
 
@@ -45,12 +46,21 @@ TimePlot::TimePlot(const TraceBuffer& buffer, QWidget* parent) : QCustomPlot(par
   addTrace(2, {Trace::frame_ms, tr("frame"), QStringLiteral("ms"), 0, S::ssCircle, Qt::SolidLine, 1, 2});
   addTrace(2, {Trace::fps, tr("rate"), tr("fps, right"), 2, S::ssSquare, Qt::SolidLine, 1, 1},
            QStringLiteral("fps"));
-  // The tallest sum first: each next one is drawn over its foot.
-  addTrace(
-      3, {Trace::cull_draw_gpu_ms, tr("GPU"), QStringLiteral("ms"), 1, S::ssNone, Qt::SolidLine, 1, 2, true});
-  addTrace(3,
-           {Trace::cull_draw_ms, tr("draw"), QStringLiteral("ms"), 0, S::ssNone, Qt::SolidLine, 1, 2, true});
-  addTrace(3, {Trace::cull_ms, tr("cull"), QStringLiteral("ms"), 2, S::ssNone, Qt::SolidLine, 1, 2, true});
+  // The highest edge first: each next one is drawn over its foot.
+  const QString stageNames[]{tr("select"), tr("page"), tr("occlusion"), tr("cull"), tr("draw")};
+  constexpr int kStageColours[]{3, 6, 1, 2, 0};
+  for (std::size_t i = kStack.size(); i-- > 0;)
+    addTrace(kStageLane, {kStack[i].top, stageNames[i], QStringLiteral("ms"), kStageColours[i], S::ssNone,
+                          Qt::SolidLine, 1, 2, true});
+  // What runs beside the stages, and parts of one of them.
+  const auto addLine = [this](Trace trace, const QString& name, int colour, S::ScatterShape shape,
+                              Qt::PenStyle pen) {
+    addTrace(kStageLane, {trace, name, QStringLiteral("ms"), colour, shape, pen, 1, 2, false, true});
+  };
+  addLine(Trace::gpu_ms, tr("GPU"), 5, S::ssCircle, Qt::SolidLine);
+  addLine(Trace::blur_ms, tr("blur"), 4, S::ssSquare, Qt::DashLine);
+  addLine(Trace::weather_ms, tr("weather"), 6, S::ssTriangle, Qt::DotLine);
+  addLine(Trace::symbology_ms, tr("symbols"), 2, S::ssDiamond, Qt::DashDotLine);
   addTrace(0, {Trace::head_rate_degps, tr("head"), tr("deg/s, right"), 5, S::ssNone, Qt::DotLine, 1, 1},
            tr("deg/s"));
   addTrace(1, {Trace::lod_scale, tr("LOD scale"), tr("right"), 1, S::ssNone, Qt::DashLine, 1, 2},
@@ -155,7 +165,9 @@ void TimePlot::addTrace(std::size_t lane, TraceGraph::Look look, const QString& 
   }
   setAutoAddPlottableToLegend(false);
   TraceGraph* graph = new TraceGraph(rect->axis(QCPAxis::atBottom), value, std::move(look));
-  graph->addToLegend(lanes_[lane].legend);
+  // The stages' lane says their unit, and its legend has many entries.
+  if (lane == kStageLane) graph->setName(graph->look().name);
+  if (!graph->look().rare) graph->addToLegend(lanes_[lane].legend);
   traces_.push_back(graph);
 }
 
@@ -239,7 +251,11 @@ void TimePlot::draw() {
     const double largest = trace->take(buffer_, from, to, columns, markerStep);
     auto& tops = trace->valueAxis()->axisType() == QCPAxis::atRight ? topRight : top;
     for (std::size_t i = 0; i < lanes_.size(); ++i)
-      if (lanes_[i].rect == trace->keyAxis()->axisRect()) tops[i] = std::max(tops[i], largest);
+      if (lanes_[i].rect == trace->keyAxis()->axisRect()) {
+        tops[i] = std::max(tops[i], largest);
+        if (largest > 0 && !lanes_[i].legend->hasItemWithPlottable(trace))
+          trace->addToLegend(lanes_[i].legend);
+      }
   }
   for (std::size_t i = 0; i < lanes_.size(); ++i) {
     double high = lanes_[i].fixedTop;
@@ -250,8 +266,9 @@ void TimePlot::draw() {
     }
     lanes_[i].rect->axis(QCPAxis::atLeft)->setRange(0, high);
     lanes_[i].rect->axis(QCPAxis::atRight)->setRange(0, topRight[i] > 0 ? topRight[i] * 1.4 : 100);
-    // In a narrow dock the legend needs the room.
-    if (lanes_[i].budgetText) lanes_[i].budgetText->setVisible(width() / columns_ > kRoomForBudgetTextPx);
+    // In a narrow dock the legend needs the room, and so does that of the stages in any.
+    if (lanes_[i].budgetText)
+      lanes_[i].budgetText->setVisible(i != kStageLane && width() / columns_ > kRoomForBudgetTextPx);
   }
   for (Lane& lane : lanes_)
     lane.rect->axis(QCPAxis::atBottom)->setNumberPrecision(span_ < 2 ? 2 : span_ < 20 ? 1 : 0);

@@ -40,8 +40,16 @@ std::string_view traceName(Trace trace) {
                                                                 "depth_map_width_px",
                                                                 "head_rate_degps",
                                                                 "lod_scale",
-                                                                "cull_draw_ms",
-                                                                "cull_draw_gpu_ms"};
+                                                                "select_ms",
+                                                                "page_ms",
+                                                                "occlusion_ms",
+                                                                "blur_ms",
+                                                                "weather_ms",
+                                                                "symbology_ms",
+                                                                "select_top_ms",
+                                                                "page_top_ms",
+                                                                "occlusion_top_ms",
+                                                                "cull_top_ms"};
   return kNames[static_cast<std::size_t>(trace)];
 }
 
@@ -76,22 +84,33 @@ void TraceBuffer::append(const LiveFrame& frame) {
   times_[at] = now;
   packets_[at] = frame.packet;
   const FrameDecision& d = frame.decision;
+  const FrameCost& cost = frame.cost;
   const auto measuredOr0 = [](double ms) { return std::isfinite(ms) ? ms : 0.0; };
-  const double cullDraw = measuredOr0(frame.cost.cull) + measuredOr0(frame.cost.draw);
+  const double selectTop = measuredOr0(cost.decide) + measuredOr0(cost.select);
+  const double pageTop = selectTop + measuredOr0(cost.page);
+  const double occlusionTop = pageTop + measuredOr0(cost.occlusion);
   const double measured[kTraces]{d.altitudeMembership,
                                  d.pitchMembership,
                                  d.totalMembership,
                                  static_cast<double>(frame.triangles),
-                                 frame.cost.total,
+                                 cost.total,
                                  frame.fps,
-                                 frame.cost.cull,
-                                 frame.cost.draw,
-                                 frame.cost.gpu,
+                                 cost.cull,
+                                 cost.draw,
+                                 cost.gpu,
                                  frame.depthMap ? frame.depthMap->widthPx : 0.0,
                                  d.motion.rateDegPerS,
                                  d.lodScale,
-                                 cullDraw,
-                                 cullDraw + measuredOr0(frame.cost.gpu)};
+                                 cost.select,
+                                 cost.page,
+                                 cost.occlusion,
+                                 cost.blur,
+                                 cost.weather,
+                                 cost.symbology,
+                                 selectTop,
+                                 pageTop,
+                                 occlusionTop,
+                                 occlusionTop + measuredOr0(cost.cull)};
   for (std::size_t i = 0; i < kTraces; ++i) {
     const float value = static_cast<float>(measured[i]);
     values_[i][at] = value;

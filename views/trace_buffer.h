@@ -26,14 +26,32 @@ enum class Trace : std::uint8_t {
   depth_map_width_px,
   head_rate_degps,
   lod_scale,
-  // Sums that the stacked plot draws; not in the CSV.
-  cull_draw_ms,
-  cull_draw_gpu_ms,
+  select_ms,
+  page_ms,
+  occlusion_ms,
+  blur_ms,
+  weather_ms,
+  symbology_ms,
+  // Upper edges in the stack of stages; not in the CSV.
+  select_top_ms,
+  page_top_ms,
+  occlusion_top_ms,
+  cull_top_ms,
   count_
 };
 inline constexpr std::size_t kTraces = static_cast<std::size_t>(Trace::count_);
-inline constexpr std::size_t kCsvTraces = static_cast<std::size_t>(Trace::cull_draw_ms);
+inline constexpr std::size_t kCsvTraces = static_cast<std::size_t>(Trace::select_top_ms);
 std::string_view traceName(Trace trace);  ///< as the CSV spells it
+
+/// The stages that sum to a frame, from the foot of the stack up; the lowest edge also holds the decision.
+struct StackedStage {
+  Trace stage, top;
+};
+inline constexpr std::array<StackedStage, 5> kStack{{{Trace::select_ms, Trace::select_top_ms},
+                                                     {Trace::page_ms, Trace::page_top_ms},
+                                                     {Trace::occlusion_ms, Trace::occlusion_top_ms},
+                                                     {Trace::cull_ms, Trace::cull_top_ms},
+                                                     {Trace::draw_ms, Trace::frame_ms}}};
 
 /// The last frames in flat rings that never allocate after construction, with the extremes of each block
 /// kept, so that a long stretch is drawn at the cost of the columns on the screen. Frames have absolute
@@ -41,7 +59,7 @@ std::string_view traceName(Trace trace);  ///< as the CSV spells it
 class TraceBuffer {
  public:
   static constexpr std::size_t kBlock = 64;
-  /// Ten minutes at 400 frames a second, an hour at 66; 14 MB.
+  /// Ten minutes at 400 frames a second, an hour at 66; 25 MB.
   static constexpr std::size_t kCapacity = 240'000 / kBlock * kBlock;
 
   explicit TraceBuffer(std::size_t capacity = kCapacity);

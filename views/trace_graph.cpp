@@ -13,7 +13,7 @@ constexpr double kGapS = 1;
 
 TraceGraph::TraceGraph(QCPAxis* timeAxis, QCPAxis* valueAxis, Look look)
     : QCPGraph(timeAxis, valueAxis), look_(std::move(look)) {
-  setName(look_.unit.isEmpty() ? look_.name : QStringLiteral("%1 (%2)").arg(look_.name, look_.unit));
+  setName(look_.fullName());
   setAdaptiveSampling(false);  // columns() has done it
   setSelectable(QCP::stNone);
   setAntialiased(false);  // a third of the time, and hardly to be seen on steep traces

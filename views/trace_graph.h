@@ -22,6 +22,9 @@ class TraceGraph : public QCPGraph {
     double scale = 1;
     int decimals = 2;
     bool filled = false;
+    bool rare = false;  ///< in the legend only once it was measured
+
+    QString fullName() const { return unit.isEmpty() ? name : QStringLiteral("%1 (%2)").arg(name, unit); }
   };
 
   TraceGraph(QCPAxis* timeAxis, QCPAxis* valueAxis, Look look);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "trimtab/decision/decide.h"
+#include "trimtab/measure/cost_stages.h"
 #include "trimtab/views/live.h"
 
 namespace trimtab::test {
@@ -33,10 +34,14 @@ class LiveFlight {
     f.cost = {.decide = 0.01,
               .select = 0.3,
               .occlusion = size > 0 ? 0.4 + size : std::nan(""),
-              .cull = 1.4 + 0.6 * size + 0.15 * ripple,
+              .cull = 1.1 + 0.15 * ripple,
               .draw = 4.5 + 0.5 * ripple,
-              .gpu = 6.5 - 2.2 * size + 0.9 * ripple};
-    f.cost.total = f.cost.cull + f.cost.draw + f.cost.gpu;
+              .gpu = 6.5 - 2.2 * size + 0.9 * ripple,
+              .page = frame_ % 40 < 3 ? 0.8 : std::nan("")};
+    if (frame_ % 1200 < 300) f.cost.blur = 0.9 + 0.1 * ripple;
+    for (const CostStage& stage : kCostStages)
+      if (stage.kind == StageKind::of_frame && std::isfinite(f.cost.*stage.ms))
+        f.cost.total += f.cost.*stage.ms;
     f.fps = 1000 / f.cost.total;
     f.triangles = static_cast<std::uint64_t>(900e3 - 350e3 * size + 30e3 * ripple);
     f.vertices = f.triangles / 2;

@@ -102,11 +102,12 @@ TEST_F(PlotsPanelTest, cursorsReadFramesAndTheirDifference) {
               {4, Trace::triangles, 1e-3, 0.01},
               {5, Trace::frame_ms, 1, 1e-3},
               {6, Trace::fps, 1, 0.01},
-              {7, Trace::gpu_ms, 1, 1e-3},
-              {8, Trace::draw_ms, 1, 1e-3},
-              {9, Trace::cull_ms, 1, 1e-3},
-              {10, Trace::head_rate_degps, 1, 0.1},
-              {11, Trace::lod_scale, 1, 1e-2}};
+              {7, Trace::draw_ms, 1, 1e-3},
+              {8, Trace::cull_ms, 1, 1e-3},
+              {11, Trace::select_ms, 1, 1e-3},
+              {12, Trace::gpu_ms, 1, 1e-3},
+              {16, Trace::head_rate_degps, 1, 0.1},
+              {17, Trace::lod_scale, 1, 1e-2}};
   for (const auto& [row, trace, scale, tolerance] : rows) {
     const double at = buffer.value(trace, a) * scale, bt = buffer.value(trace, b) * scale;
     const auto number = [&](int column) { return QLocale().toDouble(readout(row, column)); };

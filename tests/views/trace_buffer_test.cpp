@@ -7,6 +7,8 @@
 #include <random>
 #include <sstream>
 
+#include "trimtab/measure/cost_stages.h"
+
 namespace trimtab::views {
 namespace {
 
@@ -98,6 +100,7 @@ TEST(TraceBuffer, csvHoldsExactlyTheFramesOfTheRange) {
         frameAt(i * 0.1, i % 2 == 0 ? 0.1 + i : std::nan(""), static_cast<std::uint64_t>(1000 + i));
     frame.decision.totalMembership = 0.6;
     frame.triangles = 123456;
+    frame.cost.symbology = 0.25;
     frame.decision.motion.rateDegPerS = 75.5;
     frame.decision.lodScale = 2;
     buffer.append(frame);
@@ -108,13 +111,16 @@ TEST(TraceBuffer, csvHoldsExactlyTheFramesOfTheRange) {
   EXPECT_EQ(line,
             "time_s,packet,altitude_membership,pitch_membership,total_membership,triangles,frame_ms,fps,cull_"
             "ms,draw_ms,"
-            "gpu_ms,depth_map_width_px,head_rate_degps,lod_scale");
+            "gpu_ms,depth_map_width_px,head_rate_degps,lod_scale,select_ms,page_ms,occlusion_ms,blur_ms,"
+            "weather_ms,symbology_ms");
   int frame = 21;
   while (std::getline(lines, line)) {
     std::istringstream cells(line);
     std::vector<std::string> cell;
     for (std::string text; std::getline(cells, text, ',');) cell.push_back(text);
-    ASSERT_EQ(cell.size(), 14u);
+    ASSERT_EQ(cell.size(), 20u);
+    EXPECT_EQ(cell[15], "") << "no page was made";
+    EXPECT_EQ(cell[19], "0.25");
     EXPECT_EQ(cell[12], "75.5");
     EXPECT_EQ(cell[13], "2");
     EXPECT_EQ(std::stod(cell[0]), frame * 0.1);
@@ -125,6 +131,38 @@ TEST(TraceBuffer, csvHoldsExactlyTheFramesOfTheRange) {
     ++frame;
   }
   EXPECT_EQ(frame, 31) << "30 * 0.1 is 3.0, and the range is closed";
+}
+
+TEST(TraceBuffer, stacksTheStagesUpToTheWholeFrame) {
+  TraceBuffer buffer;
+  LiveFrame frame;
+  for (const CostStage& stage : kCostStages) frame.cost.*stage.ms = FrameCost::kNotMeasured;
+  const CostField kUp[] = {&FrameCost::select, &FrameCost::page, &FrameCost::occlusion, &FrameCost::cull,
+                           &FrameCost::draw};
+  for (int without = -1; without < 5; ++without) {
+    frame.time += 0.01;
+    double sum = frame.cost.decide = 0.5;
+    for (int i = 0; i < 5; ++i) {
+      frame.cost.*kUp[i] = i == without ? FrameCost::kNotMeasured : 1 << i;
+      if (i != without) sum += 1 << i;
+    }
+    frame.cost.total = sum;
+    frame.cost.gpu = 100;  // beside them
+    frame.cost.blur = 7;   // a part of draw
+    buffer.append(frame);
+    double edge = 0.5;
+    for (std::size_t i = 0; i < kStack.size(); ++i) {
+      const bool run = static_cast<int>(i) != without;
+      if (run) edge += 1 << i;
+      EXPECT_EQ(buffer.value(kStack[i].top, buffer.end() - 1), static_cast<float>(edge))
+          << i << ' ' << without;
+      const float stage = buffer.value(kStack[i].stage, buffer.end() - 1);
+      EXPECT_EQ(std::isnan(stage), !run) << traceName(kStack[i].stage);
+      if (run) {
+        EXPECT_EQ(stage, static_cast<float>(1 << i));
+      }
+    }
+  }
 }
 
 }  // namespace
