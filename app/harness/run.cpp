@@ -282,8 +282,15 @@ Result<Results> Run::all() {
       "Time is stepped from the flight's rows, pages are waited for and no measured cost reaches a decision: "
       "errors and counts repeat exactly.",
       "Frame times are medians of " + std::to_string(plan_.repeats) +
-          " draws of a frame whose pages are there; all presets and cases take turns frame by frame. Page is "
+          (plan_.repeats == 1 ? " draw" : " draws") +
+          " of a frame whose pages are there; all presets and cases take turns frame by frame. Page is "
           "what the step from the row before would add."};
+  const TerrainForm form = plan_.presets.front().parameters->staticLod.terrain;
+  for (const auto& preset : plan_.presets)
+    if (preset.parameters->staticLod.terrain != form && plan_.terrain->staticLod())
+      results.notes.push_back(preset.name + " draws another form of the terrain than " +
+                              plan_.presets.front().name +
+                              ": each is held against the finest levels of its own.");
   Findings failed;
   for (const auto& flight : plan_.flights) {
     rows_.push_back(sampledRows(flight.flight, *plan_.terrain, plan_.frames));

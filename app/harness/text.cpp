@@ -42,12 +42,41 @@ Row ratioRow(Row names, const PairedRatio& ratio) {
   return names;
 }
 
+/// A line a skip, over all units; the document has each unit's.
+void appendSkips(std::string& text, const std::vector<Unit>& units) {
+  struct Total {
+    std::string name;
+    std::uint64_t skipped = 0, frames = 0;
+    std::vector<double> savedMs;
+  };
+  std::vector<Total> totals;
+  for (const Unit& unit : units)
+    for (const SkipSaving& skip : unit.skips) {
+      auto at = std::find_if(totals.begin(), totals.end(),
+                             [&skip](const Total& total) { return total.name == skip.name; });
+      if (at == totals.end()) at = totals.insert(at, {skip.name, 0, 0, {}});
+      at->skipped += skip.skipped;
+      at->frames += skip.frames;
+      if (std::isfinite(skip.savedMs)) at->savedMs.push_back(skip.savedMs);
+    }
+  std::vector<Row> rows{{"skipped work", "frames", "saved ms (median of units)"}};
+  for (Total& total : totals) {
+    if (total.skipped == 0) continue;
+    std::sort(total.savedMs.begin(), total.savedMs.end());
+    rows.push_back({total.name, std::to_string(total.skipped) + " of " + std::to_string(total.frames),
+                    total.savedMs.empty() ? "-" : fixed(total.savedMs[(total.savedMs.size() - 1) / 2], 3)});
+  }
+  if (rows.size() == 1) return;
+  text += '\n';
+  append(text, rows, 1);
+}
+
 }  // namespace
 
 std::string toText(const Results& results) {
   std::string text = results.terrain + ", " + std::to_string(results.widthPx) + "x" +
                      std::to_string(results.heightPx) + ", " + std::to_string(results.repeats) +
-                     " repeats; " + results.machine + "\n\n";
+                     (results.repeats == 1 ? " draw" : " draws") + " a frame; " + results.machine + "\n\n";
   std::vector<Row> rows{{"flight", "preset", "case", "frames", "median ms", "p95 ms", "p99 ms", "triangles",
                          "FLIP", "worst FLIP", "geometric px", "wrongly culled px"}};
   for (const Unit& unit : results.units) {
@@ -71,19 +100,7 @@ std::string toText(const Results& results) {
     text += '\n';
     append(text, rows, 5);
   }
-  rows = {{"flight", "preset", "case", "skip", "frames", "saved ms", "frame without", "95 %", "pairs"}};
-  for (const Unit& unit : results.units)
-    for (const SkipSaving& skip : unit.skips) {
-      if (skip.skipped == 0) continue;
-      rows.push_back(ratioRow(
-          {unit.name.flight, unit.name.preset, unit.name.method, skip.name,
-           std::to_string(skip.skipped) + " of " + std::to_string(skip.frames), fixed(skip.savedMs, 3)},
-          skip.ratio));
-    }
-  if (rows.size() > 1) {
-    text += '\n';
-    append(text, rows, 4);
-  }
+  appendSkips(text, results.units);
   for (const std::string& note : results.notes) text += "\n* " + note;
   return text + '\n';
 }

@@ -6,7 +6,7 @@
 
 namespace trimtab::harness {
 
-/// For a terminal: a line a unit, then the ratios with their intervals, then what skips saved.
+/// For a terminal: a line a unit, the ratios with their intervals, a line a skip.
 std::string toText(const Results& results);
 
 }  // namespace trimtab::harness
