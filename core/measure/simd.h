@@ -249,7 +249,7 @@ TRIMTAB_INLINE TwinInts toInts(Twin x) {
   return {toInts(x.a), toInts(x.b)};
 }
 
-/// x^(1/3) for x in [1e-30, 1e30], to 4e-7 of it.
+/// x^(1/3) for x in [1e-30, 1e30], to 5e-7 of it.
 TRIMTAB_INLINE Twin cubeRoot(Twin x) {
   // x^(-1/3) from a third of the exponent, so that h, the residue of its cube, is within 0.103; then
   // (1 - h)^(-1/3) as the polynomial of degree 4 that interpolates it at Chebyshev's points (to 1e-7).
@@ -263,7 +263,7 @@ TRIMTAB_INLINE Twin cubeRoot(Twin x) {
   return x * (root * root);
 }
 
-/// log2 of a normal number above 0, to 3e-7.
+/// log2 of a normal number above 0, to 3e-7 and the rounding of the result.
 TRIMTAB_INLINE Twin log2Of(Twin x) {
   const TwinInts bits = bitsOf(x);
   const TwinInts exponent = (bits - 0x3f3504f3) >> 23;  // the mantissa in [sqrt(1/2), sqrt(2))
