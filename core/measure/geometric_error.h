@@ -19,6 +19,7 @@ struct GeometricError {
 /// silhouette, where the line is the edge of a shadow, and without end where sky is beside ground. Points
 /// alone would not do: where ground is seen at a grazing angle, they lie hundreds of pixels' spans behind
 /// each other, and a shift of half a pixel would count as those.
+/// Nothing lies between the lines of a cell: that adds at most half a pixel aside, sqrt(e^2 + 1/4) for e.
 ///
 /// A pixel's error is the distance in space from its point to the nearest line of the other picture that lies
 /// within `windowPx` pixels, in pixels' spans at the pixel's depth: a displacement across the view counts as
