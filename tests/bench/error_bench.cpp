@@ -1,3 +1,5 @@
+#include <time.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -58,6 +60,26 @@ __attribute__((target_clones("avx512f", "avx2", "default"))) std::uint64_t sumOf
   return sum;
 }
 
+double processorSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+}
+/// The least of so many runs, after one that is not counted. One thread computes and nothing waits: the
+/// processor's time is what one core takes, whoever else uses it meanwhile.
+template <class Work>
+double leastProcessorSeconds(int repeats, const Work& work) {
+  work();
+  double least = 0;
+  for (int i = 0; i < repeats; ++i) {
+    const double start = processorSeconds();
+    work();
+    const double took = processorSeconds() - start;
+    if (i == 0 || took < least) least = took;
+  }
+  return least;
+}
+
 struct Speed {
   double seconds = 0, peerSeconds = 0;
 };
@@ -66,7 +88,7 @@ template <class Ours, class Theirs>
 Speed inTurns(int repeats, const Ours& ours, const Theirs& theirs) {
   Speed least;
   for (int i = 0; i < repeats; ++i) {
-    const double a = leastSeconds(1, ours), b = leastSeconds(1, theirs);
+    const double a = leastProcessorSeconds(1, ours), b = leastProcessorSeconds(1, theirs);
     least.seconds = i == 0 ? a : std::min(least.seconds, a);
     least.peerSeconds = i == 0 ? b : std::min(least.peerSeconds, b);
   }
@@ -82,8 +104,8 @@ std::vector<std::uint8_t> greenOf(const Picture& p) {
 void flipRows(Report& report, const Picture& reference, int repeats) {
   const auto rate = [&](const Picture& other) {
     std::vector<float> map(static_cast<std::size_t>(kWidth) * kHeight);
-    return kMegapixels /
-           leastSeconds(repeats, [&] { keep(flip(reference.rgba, other.rgba, kWidth, kHeight, map)); });
+    return kMegapixels / leastProcessorSeconds(
+                             repeats, [&] { keep(flip(reference.rgba, other.rgba, kWidth, kHeight, map)); });
   };
   const Picture different = allDifferent(reference), similar = mostlyEqual(reference);
   const std::string what = "FLIP of 1280x720 with its map, one core, ";
@@ -125,7 +147,7 @@ void speedRows(Report& report) {
   report.add(ratioAtLeast(
       1, {.id = "error.ssim_speed",
           .what = "SSIM of one channel of 1280x720, one core",
-          .value = kMegapixels / leastSeconds(repeats, [&] { keep(ssim(a, b, kWidth, kHeight)); }),
+          .value = kMegapixels / leastProcessorSeconds(repeats, [&] { keep(ssim(a, b, kWidth, kHeight)); }),
           .unit = "Mpixel/s",
           .peer = "rmgr's SSIM library",
           .peerValue = 134,
@@ -145,7 +167,7 @@ void speedRows(Report& report) {
                                 .peerValue = kMegapixels / psnr.peerSeconds,
                                 .peerFrom = "run"}));
 
-  const double all = leastSeconds(repeats, [&] {
+  const double all = leastProcessorSeconds(repeats, [&] {
     keep(flip(reference.rgba, different.rgba, kWidth, kHeight));
     keep(ssimOfLuma(reference.rgba, different.rgba, kWidth, kHeight));
     keep(psnrDb(reference.rgba, different.rgba, kWidth, kHeight));
