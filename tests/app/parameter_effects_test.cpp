@@ -100,7 +100,9 @@ class ParameterEffects : public test::SceneTest {
         seen["picture " + std::to_string(i)] = digest(picture(request, &result));
         seen["counts " + std::to_string(i)] =
             std::to_string(result.visible.triangles) + ' ' +
-            (result.depthMap ? std::to_string(result.depthMap->widthPx) : "-");
+            (result.horizon    ? "horizon"
+             : result.depthMap ? std::to_string(result.depthMap->widthPx)
+                               : "-");
         result.cost = {0, 1, 1, 1, 20, 0, 23};  // the clock is no effect
         session.finished(result, state.time);
       }
