@@ -88,7 +88,7 @@ Result<Decided> decideTrace(const std::string& file, const ValidatedParameters& 
     decideRow(row, parameters, memory);
     if (row.decision == recorded) ++*decided.asRecorded;
   }
-  return decided;
+  return Result<Decided>(std::move(decided), trace.findings());
 }
 
 Result<Decided> decideFlight(const std::string& file, const ValidatedParameters& parameters) {

@@ -173,15 +173,18 @@ bool isTrace(std::string_view text) {
 
 Result<std::vector<TraceRow>> parseTrace(std::string_view text, const std::string& where) {
   Findings findings;
+  const bool ends = text.empty() || text.back() == '\n';
   const std::string_view header = takeLine(text);
   const std::vector<std::size_t> places = placesOf(header, where, findings);
   if (!findings.empty()) return findings;
   const std::size_t columns = cellsOf(header).size();
 
   std::vector<TraceRow> rows;
+  std::size_t lastLine = 1;
   for (std::size_t line = 2; !text.empty(); ++line) {
     const std::string_view content = takeLine(text);
     if (content.empty()) continue;
+    lastLine = line;
     const std::vector<std::string_view> cells = cellsOf(content);
     const std::string place = where + ':' + std::to_string(line);
     if (cells.size() != columns) {
@@ -195,7 +198,11 @@ Result<std::vector<TraceRow>> parseTrace(std::string_view text, const std::strin
     rows.push_back(trace::unflatten(flat));
   }
   if (!findings.empty()) return findings;
-  return rows;
+  if (!ends)
+    findings.push_back({Severity::warning, where + ':' + std::to_string(lastLine), "",
+                        "a line end after the last row",
+                        "none: the file may be cut short in its last number"});
+  return {std::move(rows), std::move(findings)};
 }
 
 Result<std::vector<TraceRow>> readTrace(const std::filesystem::path& file) {

@@ -387,6 +387,21 @@ TEST(Trace, refusesAFileWithoutItsColumnsAndNamesThem) {
   EXPECT_FALSE(parseTrace("", "t.csv").ok());
 }
 
+TEST(Trace, warnsWhereItsLastLineHasNoEnd) {
+  std::string text = traceHeader() + '\n';
+  appendTraceRow(text, TraceRow{});
+  const Result<std::vector<TraceRow>> whole = parseTrace(text, "t.csv");
+  ASSERT_TRUE(whole.ok()) << toString(whole.findings());
+  EXPECT_TRUE(whole.findings().empty());
+  text.pop_back();
+  const Result<std::vector<TraceRow>> cut = parseTrace(text, "t.csv");
+  ASSERT_TRUE(cut.ok()) << toString(cut.findings());
+  EXPECT_EQ(cut->size(), 1u);
+  EXPECT_EQ(toString(cut.findings()),
+            "t.csv:2: expected a line end after the last row, found none: the file may be cut short in its "
+            "last number");
+}
+
 TEST(Trace, survivesAnyBytes) {
   std::mt19937_64 random(6);
   TraceRow row;
