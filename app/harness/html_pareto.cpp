@@ -147,7 +147,8 @@ std::string paretoSection(const ReportModel& model) {
     body =
         paragraph(
             "Lower left is best. A point is a preset in one case over a whole flight: the median frame time "
-            "at the mean error. Whiskers run from the 5th to the 95th percentile of its frames. The dashed "
+            "at the mean error. Whiskers run from the 5th to the 95th percentile of its frames; one without "
+            "an end runs beyond the plot. The dashed "
             "line joins what no other point beats in both. Lines join the cases of one preset. Each preset "
             "is held against its own reference: the same view in the same air at the finest levels of the "
             "terrain that it draws, tiles or static trees, without culling and blur.") +

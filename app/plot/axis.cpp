@@ -119,8 +119,9 @@ void Axis::widen(double atLow, double atHigh) {
 double Axis::at(double value) const {
   if (!log_) return begin_ + length_ * (value - low_) / (high_ - low_);
   const double band = zero_ ? kZeroBand : 0;
-  const double place =
-      value > 0 ? band + (1 - band) * std::log(value / low_) / std::log(high_ / low_) : band * 0.3;
+  const double place = value > 0 ? band + (1 - band) * std::log(value / low_) / std::log(high_ / low_)
+                       : zero_   ? band * 0.3
+                                 : -1;
   return begin_ + length_ * place;
 }
 

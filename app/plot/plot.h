@@ -8,7 +8,8 @@
 namespace trimtab::plot {
 
 /// What a plot draws in one colour, shape and dash. The lists of a point's properties are empty or as long
-/// as its coordinates. NaN breaks a line and is no point; a whisker that is not finite ends at the axis.
+/// as its coordinates. NaN breaks a line and is no point; a whisker far beyond all points runs out of
+/// the plot.
 struct Series {
   std::string name;
   std::vector<double> x, y;

@@ -11,15 +11,36 @@ double extent(const std::vector<double>& values, std::size_t i) {
   return i < values.size() ? values[i] : std::numeric_limits<double>::quiet_NaN();
 }
 
+/// Whiskers widen an axis, but one far value must not crowd the points: what reaches farther runs out of the
+/// plot.
+void addWhiskers(std::vector<double>& values, const Plot& plot, bool logarithmic,
+                 std::vector<double> Series::*lows, std::vector<double> Series::*highs) {
+  constexpr double kFarthest = 1.5;
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0;
+  for (const double v : values) {
+    if (!std::isfinite(v)) continue;
+    if (v > 0) smallest = std::min(smallest, v);
+    largest = std::max(largest, v);
+  }
+  for (const Series& s : plot.series) {
+    for (const double high : s.*highs)
+      if (std::isfinite(high)) values.push_back(std::min(high, largest * kFarthest));
+    for (const double low : s.*lows)
+      if (std::isfinite(low)) values.push_back(logarithmic ? std::max(low, smallest / kFarthest) : low);
+  }
+}
+
 /// x against y, or bars side by side.
 class PlainDrawing : public Drawing {
  public:
   PlainDrawing(const Plot& plot, double textPx) : Drawing(plot, textPx), bars_(!plot.categories.empty()) {
     std::vector<double> xs, ys;
     for (const Series& s : plot.series) {
-      for (const auto* list : {&s.x, &s.xLow, &s.xHigh}) xs.insert(xs.end(), list->begin(), list->end());
-      for (const auto* list : {&s.y, &s.yLow, &s.yHigh}) ys.insert(ys.end(), list->begin(), list->end());
+      xs.insert(xs.end(), s.x.begin(), s.x.end());
+      ys.insert(ys.end(), s.y.begin(), s.y.end());
     }
+    addWhiskers(xs, plot, plot.logX, &Series::xLow, &Series::xHigh);
+    addWhiskers(ys, plot, plot.logY, &Series::yLow, &Series::yHigh);
     bool points = !plot.series.empty();
     for (const Series& s : plot.series) points = points && s.draw != Series::Draw::line;
     for (const Guide& g : plot.guides) (g.axis == Guide::Axis::x ? xs : ys).push_back(g.at);
@@ -190,9 +211,14 @@ class PlainDrawing : public Drawing {
     if (to - from < 1) return;
     const std::string a = decimal(from, 1), b = decimal(to, 1), c = decimal(across, 1),
                       end = decimal(across - 3, 1);
-    svg_.path(alongX ? 'M' + a + ' ' + c + 'H' + b + 'M' + a + ' ' + end + "v6M" + b + ' ' + end + "v6"
-                     : 'M' + c + ' ' + a + 'V' + b + 'M' + end + ' ' + a + "h6M" + end + ' ' + b + "h6",
-              look(s), 1.2, "opacity=\"0.55\"");
+    // No end where the whisker runs out of the plot.
+    const Axis& axis = alongX ? x_ : y_;
+    const auto ends = [&](double value) { return axis.at(value) >= 0 && axis.at(value) <= 1; };
+    const std::string stroke = alongX ? "v6" : "h6";
+    std::string path = alongX ? 'M' + a + ' ' + c + 'H' + b : 'M' + c + ' ' + a + 'V' + b;
+    if (ends(alongX ? low : high)) path += 'M' + (alongX ? a + ' ' + end : end + ' ' + a) + stroke;
+    if (ends(alongX ? high : low)) path += 'M' + (alongX ? b + ' ' + end : end + ' ' + b) + stroke;
+    svg_.path(path, look(s), 1.2, "opacity=\"0.55\"");
     thin_.push_back(alongX ? Box{from, across - 2, to - from, 4} : Box{across - 2, from, 4, to - from});
   }
 

@@ -106,6 +106,24 @@ TEST(Scatter, whatIsNoNumberIsNoPointAndWhiskersMayBeAbsent) {
   EXPECT_THAT(svg, Not(HasSubstr("inf")));
 }
 
+TEST(Scatter, oneFarWhiskerDoesNotCrowdThePoints) {
+  Plot plot{"f", "t", "x", "y", {}, {{"s", {1, 2}, {10, 12}, Series::Draw::points}}};
+  plot.legend = false;
+  plot.series[0].yLow = {9, 9};
+  plot.series[0].yHigh = {11, 5000};
+  const auto document = parsed(toSvg(plot));
+  double largest = 0;
+  for (const auto& node : document.select_nodes("//text[@text-anchor='end']"))
+    largest = std::max(largest, node.node().text().as_double());
+  EXPECT_EQ(largest, 20);
+  std::vector<std::string> whiskers;
+  for (const auto& node : document.select_nodes("//path[@class='k0']"))
+    whiskers.push_back(node.node().attribute("d").value());
+  ASSERT_EQ(whiskers.size(), 2u);
+  EXPECT_EQ(std::count(whiskers[0].begin(), whiskers[0].end(), 'h'), 2) << "both ends";
+  EXPECT_EQ(std::count(whiskers[1].begin(), whiskers[1].end(), 'h'), 1) << "it runs out of the plot";
+}
+
 TEST(Rows, barsOfARowStandEndToEndAndInProportion) {
   Plot plot{"f", "t",        "ms",
             "",  {"a", "b"}, {{"one", {}, {1, 2}}, {"two", {}, {3, kNan}}, {"three", {}, {4, 5}}}};
