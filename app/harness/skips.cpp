@@ -67,7 +67,7 @@ const std::vector<Skip>& skips() {
        },
        [](const FrameRequest& r) { return inCase(r, CullingCase::none); },
        [](const FrameRequest& r) { return inCase(r, CullingCase::view_frustum); }},
-      {"tiles hidden by the depth map",
+      {"tiles that others hide",
        [](const FrameRequest&, const FrameResult&, const FrameResult& after) {
          return after.visible.occluded > 0;
        },
@@ -77,7 +77,7 @@ const std::vector<Skip>& skips() {
          return after.visible.beyondVisibility > 0;
        },
        without<&scene::Skips::beyondVisibility>, itself},
-      {"depth map in scheme frustum",
+      {"occlusion test in scheme frustum",
        [](const FrameRequest& r, const FrameResult&, const FrameResult& after) {
          return r.method == CullingCase::proposed && !r.decision.depthMap && !after.visible.tiles.empty();
        },
