@@ -55,6 +55,12 @@ TraceCounts countsOf(const VisibleSet& visible) {
           visible.outsideFrustum, visible.occluded, visible.beyondVisibility};
 }
 
+/// A frame that is drawn again finds what was made for the eye's place; one of a flight never does.
+scene::FrameRequest flying(scene::FrameRequest request) {
+  request.skips.sameCut = request.skips.sameHorizon = request.skips.sameSymbols = false;
+  return request;
+}
+
 std::string aboutText(double seconds) {
   char text[48];
   if (seconds < 90)
@@ -156,12 +162,14 @@ std::vector<Unit> Run::measureFrame(const std::vector<Runner>& runners, std::siz
   }
   const std::size_t n = runners.size();
   std::vector<std::vector<FrameCost>> costs(n), parts(n);
-  for (std::size_t u = 0; u < n; ++u) stage_.draw(runners[u].frames[index].request);
+  std::vector<scene::FrameRequest> requests;
+  for (const Runner& runner : runners) requests.push_back(flying(runner.frames[index].request));
+  for (const scene::FrameRequest& request : requests) stage_.draw(request);
   for (std::size_t repeat = 0; repeat < plan_.repeats; ++repeat)
     for (std::size_t i = 0; i < n; ++i) {
       // Nobody is always first.
       const std::size_t u = (i + repeat) % n;
-      costs[u].push_back(stage_.draw(runners[u].frames[index].request).cost);
+      costs[u].push_back(stage_.draw(requests[u]).cost);
     }
   for (std::size_t u = 0; u < n; ++u) {
     const DecidedFrame& frame = runners[u].frames[index];
@@ -174,7 +182,7 @@ std::vector<Unit> Run::measureFrame(const std::vector<Runner>& runners, std::siz
     }
     measured.cost = medians(costs[u]);
     measured.cost.page = page;
-    scene::FrameRequest apart = frame.request;
+    scene::FrameRequest& apart = requests[u];
     apart.separateStages = true;
     for (std::size_t i = 0; i < std::min(plan_.repeats, kPartDraws); ++i)
       parts[u].push_back(stage_.draw(apart).cost);
@@ -283,7 +291,8 @@ Result<Results> Run::all() {
       "errors and counts repeat exactly.",
       "Frame times are medians of " + std::to_string(plan_.repeats) +
           (plan_.repeats == 1 ? " draw" : " draws") +
-          " of a frame whose pages are there; all presets and cases take turns frame by frame. Page is "
+          " of a frame whose pages are there but whose levels, horizon and symbols are made anew, as in "
+          "flight; all presets and cases take turns frame by frame. Page is "
           "what the step from the row before would add."};
   const TerrainForm form = plan_.presets.front().parameters->staticLod.terrain;
   for (const auto& preset : plan_.presets)
