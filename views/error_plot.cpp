@@ -11,9 +11,9 @@
 namespace trimtab::views {
 namespace {
 
+constexpr int kUnboundedPx = 100000;
 constexpr double kMarkerPx = 10, kLiveMarkerPx = 15;
 constexpr double kRoom = 0.08;
-constexpr int kLegendEntryPx = 92;
 constexpr int kRoomForHintPx = 170;
 
 QCPScatterStyle::ScatterShape shapeOf(const QString& method) {
@@ -77,7 +77,8 @@ ErrorPlot::ErrorPlot(QWidget* parent) : QCustomPlot(parent) {
   above->setRowSpacing(0);
   above->setColumnSpacing(6);
   above->setIconSize(20, 12);
-  above->setMaximumSize(QSize(QWIDGETSIZE_MAX - 1, QWIDGETSIZE_MAX - 1));  // empty, it would bound the column
+  // Empty, it would bound the column.
+  above->setMaximumSize(kUnboundedPx, kUnboundedPx);
   legend = above;
   setAutoAddPlottableToLegend(false);
 
@@ -258,7 +259,7 @@ void ErrorPlot::makeLegend() {
     add(tr("live"), {QCPScatterStyle::ssDiamond, QPen(base, 1), QBrush(liveColour(palette())), kMarkerPx},
         Qt::NoPen);
   legend->setVisible(legend->itemCount() > 0);
-  legend->setWrap(std::max(2, width() / kLegendEntryPx));
+  wrapLegend(*this);
 }
 
 void ErrorPlot::fit() {

@@ -10,10 +10,10 @@
 namespace trimtab::views {
 namespace {
 
+constexpr int kUnboundedPx = 100000;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kHeadRoom = 1.15;
 constexpr double kWorstPx = 9;
-constexpr int kLegendEntryPx = 92;
 
 QString timeText(double seconds) {
   return QStringLiteral("%1 s").arg(numberText(seconds, 2));
@@ -36,7 +36,8 @@ ErrorTimeline::ErrorTimeline(QWidget* parent) : QCustomPlot(parent), cursor_(kNa
   above->setRowSpacing(0);
   above->setColumnSpacing(6);
   above->setIconSize(20, 12);
-  above->setMaximumSize(QSize(QWIDGETSIZE_MAX - 1, QWIDGETSIZE_MAX - 1));  // empty, it would bound the column
+  // Empty, it would bound the column.
+  above->setMaximumSize(kUnboundedPx, kUnboundedPx);
   legend = above;
   for (const char* name : {"cursor", "numbers"}) {
     addLayer(QString::fromLatin1(name), nullptr, QCustomPlot::limAbove);
@@ -208,7 +209,7 @@ void ErrorTimeline::redraw() {
   drawLines();
   drawWorst();
   legend->setVisible(legend->itemCount() > 0);
-  legend->setWrap(std::max(2, width() / kLegendEntryPx));
+  wrapLegend(*this);
   applyTheme(*this);
   legend->setBorderPen(Qt::NoPen);
   legend->setBrush(Qt::NoBrush);
