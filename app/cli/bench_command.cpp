@@ -31,12 +31,6 @@ Finding refused(const char* option, const std::string& expected, const std::stri
   return {Severity::error, option, "", expected, found};
 }
 
-bool parseSize(const std::string& text, int& width, int& height) {
-  char after = 0;
-  return std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &after) == 2 && width >= 16 && height >= 16 &&
-         width <= 16384 && height <= 16384;
-}
-
 /// "none,proposed"
 bool parseCases(const std::string& text, std::vector<CullingCase>& cases) {
   constexpr CullingCase kAll[] = {CullingCase::none, CullingCase::view_frustum, CullingCase::proposed};

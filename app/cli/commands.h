@@ -18,6 +18,7 @@ void addDecide(CLI::App& app, int& exitCode);
 void addTerrain(CLI::App& app, int& exitCode);
 void addFeed(CLI::App& app, int& exitCode);
 void addBench(CLI::App& app, int& exitCode);
+void addResults(CLI::App& app, int& exitCode);
 void addExperiment(CLI::App& app, int& exitCode);
 
 /// Findings on standard error, one a line, with their severity.

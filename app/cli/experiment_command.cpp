@@ -22,12 +22,6 @@ struct Arguments {
 
 using Run = Result<experiment::Report> (*)(const experiment::Setup&);
 
-bool parseSize(const std::string& text, int& width, int& height) {
-  char after = 0;
-  return std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &after) == 2 && width >= 16 && height >= 16 &&
-         width <= 16384 && height <= 16384;
-}
-
 int run(const Arguments& arguments, Run experiment) {
   const Interruptible guard;
   experiment::Setup setup;

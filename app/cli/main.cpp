@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   trimtab::cli::addTerrain(app, exitCode);
   trimtab::cli::addFeed(app, exitCode);
   trimtab::cli::addBench(app, exitCode);
+  trimtab::cli::addResults(app, exitCode);
   trimtab::cli::addExperiment(app, exitCode);
   try {
     app.parse(argc, argv);

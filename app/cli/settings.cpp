@@ -1,5 +1,7 @@
 #include "settings.h"
 
+#include <cstdio>
+
 #include "commands.h"
 #include "trimtab/preset/preset.h"
 
@@ -29,6 +31,12 @@ Findings applySettings(const std::vector<std::string>& settings, TuningParameter
 }
 
 }  // namespace
+
+bool parseSize(const std::string& text, int& width, int& height) {
+  char after = 0;
+  return std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &after) == 2 && width >= 16 && height >= 16 &&
+         width <= 16384 && height <= 16384;
+}
 
 std::optional<ValidatedParameters> parametersFor(const std::string& name,
                                                  const std::vector<std::string>& settings) {

@@ -12,4 +12,7 @@ namespace trimtab::cli {
 std::optional<ValidatedParameters> parametersFor(const std::string& preset,
                                                  const std::vector<std::string>& settings);
 
+/// "1280x720"; each 16 to 16384 pixels.
+bool parseSize(const std::string& text, int& width, int& height);
+
 }  // namespace trimtab::cli

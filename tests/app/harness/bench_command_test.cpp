@@ -168,6 +168,30 @@ TEST_F(BenchCommand, saysThatTheDiskIsFull) {
   EXPECT_THAT(ran.out, HasSubstr(".json")) << "what was measured is kept";
 }
 
+TEST_F(BenchCommand, putsSeveralRunsIntoOneTableAndOnePlot) {
+  const test::ScratchDir dir;
+  ASSERT_EQ(test::run(command(dir / "a")).exitCode, 0);
+  ASSERT_EQ(test::run(command(dir / "b")).exitCode, 0);
+  const std::string results = cli() + " results " + (dir / "a").string() + ' ' + (dir / "b").string();
+  const test::Ran ran = test::run(results + " --json -o " + (dir / "both.svg").string());
+  ASSERT_EQ(ran.exitCode, 0) << ran.err;
+  const auto both = parseResults(ran.out, "standard output");
+  ASSERT_TRUE(both) << toString(both.findings());
+  const auto one = parseResults(test::readFile(dir / "a" / "results.json"), "a");
+  ASSERT_TRUE(one);
+  ASSERT_EQ(both->units.size(), 2 * one->units.size());
+  EXPECT_EQ(both->units.front().name.flight, "hop, " + one->terrain);
+  EXPECT_THAT(test::readFile(dir / "both.svg"), HasSubstr("as-published"));
+
+  ASSERT_EQ(test::run(cli() + " bench --terrain " + database() + " --flight " + flight() +
+                      " --size 64x48 --frames 1 --repeats 1 -o " + (dir / "small").string())
+                .exitCode,
+            0);
+  const test::Ran unlike = test::run(results + ' ' + (dir / "small").string() + ' ' + (dir / "no").string());
+  EXPECT_EQ(unlike.exitCode, 1);
+  for (const char* said : {"96x64", "64x48", "no such file"}) EXPECT_THAT(unlike.err, HasSubstr(said));
+}
+
 TEST_F(BenchCommand, tellsAllThatIsWrongWithItsInput) {
   const test::ScratchDir dir;
   const std::string out = " -o " + (dir / "out").string();

@@ -1,0 +1,105 @@
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "trimtab/harness/report.h"
+#include "trimtab/harness/text.h"
+#include "trimtab/preset/preset.h"
+
+namespace trimtab::cli {
+namespace {
+
+struct Arguments {
+  std::vector<std::string> folders;
+  std::string output;
+  bool json = false;
+};
+
+Result<harness::Results> readResults(const std::filesystem::path& folder) {
+  const std::filesystem::path file = std::filesystem::is_directory(folder) ? folder / "results.json" : folder;
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return Finding{Severity::error, file.string(), {}, "the results of a bench run", "no such file"};
+  return harness::parseResults(std::string(std::istreambuf_iterator<char>(in), {}), file.string());
+}
+
+/// Units of all runs side by side. Flights are told apart by their terrain too.
+void append(const harness::Results& run, harness::Results& all) {
+  const auto named = [&run](harness::UnitName name) {
+    name.flight += ", " + run.terrain;
+    return name;
+  };
+  for (harness::Unit unit : run.units) {
+    unit.name = named(unit.name);
+    all.units.push_back(std::move(unit));
+  }
+  for (harness::Comparison comparison : run.comparisons) {
+    comparison.a = named(comparison.a);
+    comparison.b = named(comparison.b);
+    all.comparisons.push_back(std::move(comparison));
+  }
+  all.terrain += (all.terrain.empty() ? "" : "; ") + run.terrain;
+}
+
+/// What must be equal for figures to stand in one table.
+Findings mismatch(const harness::Results& first, const harness::Results& run, const std::string& folder) {
+  Findings findings;
+  const auto compare = [&](const char* key, const std::string& expected, const std::string& found) {
+    if (expected != found) findings.push_back({Severity::error, folder, key, expected, found});
+  };
+  const auto size = [](const harness::Results& r) {
+    return std::to_string(r.widthPx) + "x" + std::to_string(r.heightPx);
+  };
+  compare("machine", first.machine, run.machine);
+  compare("version", first.version, run.version);
+  compare("size", size(first), size(run));
+  compare("repeats", std::to_string(first.repeats), std::to_string(run.repeats));
+  return findings;
+}
+
+int run(const Arguments& arguments) {
+  std::optional<harness::Results> all;
+  Findings findings;
+  for (const std::string& folder : arguments.folders) {
+    const auto one = readResults(folder);
+    if (!one) {
+      findings.insert(findings.end(), one.findings().begin(), one.findings().end());
+      continue;
+    }
+    if (!all) {
+      all = *one;
+      all->terrain.clear();
+      all->units.clear();
+      all->comparisons.clear();
+    }
+    const Findings unlike = mismatch(*all, *one, folder);
+    findings.insert(findings.end(), unlike.begin(), unlike.end());
+    append(*one, *all);
+  }
+  report(findings);
+  if (!findings.empty()) return kRefused;
+  if (!arguments.output.empty()) {
+    const auto written = writeAtomically(arguments.output, harness::paretoPlot(*all));
+    report(written.findings());
+    if (!written) return kRefused;
+  }
+  std::cout << (arguments.json ? harness::toJson(*all) : harness::toText(*all));
+  return std::cout.flush() ? kDone : kRefused;
+}
+
+}  // namespace
+
+void addResults(CLI::App& app, int& exitCode) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "results", "Several runs of bench, of one machine and size, as one table and one plot");
+  command->add_option("folders", arguments->folders, "Folders of bench, or their results.json")->required();
+  command->add_option("-o,--output", arguments->output, "SVG of frame time against error");
+  command->add_flag("--json", arguments->json, "One JSON document on standard output");
+  command->callback([arguments, &exitCode] { exitCode = cli::run(*arguments); });
+}
+
+}  // namespace trimtab::cli
