@@ -96,6 +96,7 @@ class Loop {
     if (summary_.frames++ == 0) summary_.firstFrameTime = end;
     summary_.lastRequest = request;
     summary_.depthMapsDrawn = result.depthMapsDrawn;
+    summary_.horizonsBuilt = result.horizonsBuilt;
     writeRows(false);
   }
 

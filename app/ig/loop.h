@@ -29,7 +29,7 @@ struct Run {
 struct Summary {
   std::uint64_t frames = 0, packets = 0, decisionChanges = 0, jumps = 0, presetReloads = 0,
                 presetsRefused = 0;
-  std::uint64_t depthMapsDrawn = 0, overBudget = 0;
+  std::uint64_t depthMapsDrawn = 0, horizonsBuilt = 0, overBudget = 0;
   double firstFrameTime = 0;  ///< link::now() when the first picture was finished; 0: none
   double medianFrameMs = 0, p99FrameMs = 0;
   std::array<Distribution, kCostStages.size()> stages;  ///< milliseconds, in the order of kCostStages

@@ -49,6 +49,7 @@ std::string summaryJson(const Summary& s, const Feed& feed, const Options& optio
   json["decision_changes"] = s.decisionChanges;
   json["jumps"] = s.jumps;
   json["depth_maps_drawn"] = s.depthMapsDrawn;
+  json["horizons_built"] = s.horizonsBuilt;
   json["over_budget"] = s.overBudget;
   json["preset_reloads"] = s.presetReloads;
   json["presets_refused"] = s.presetsRefused;

@@ -86,7 +86,8 @@ TEST_F(IgFlight, drawsOneFrameAndWritesOneRowForEachRowOfTheFlight) {
   EXPECT_EQ(summary["frames"], 120) << ig.out();
   EXPECT_EQ(summary["packets"], 120);
   EXPECT_GT(summary["decision_changes"], 3);
-  EXPECT_GT(summary["depth_maps_drawn"], 0);
+  EXPECT_GT(summary["horizons_built"], 0);
+  EXPECT_EQ(summary["depth_maps_drawn"], 0) << "the horizon needs none";
 
   const std::vector<TraceRow> rows = rowsOf(dir_ / "trace.csv");
   ASSERT_EQ(rows.size(), flight.states.size());
@@ -115,6 +116,15 @@ TEST_F(IgFlight, drawsOneFrameAndWritesOneRowForEachRowOfTheFlight) {
   EXPECT_GT(withTerrain, rows.size() / 3)
       << "the flight looks away from its few kilometres of terrain at times";
   EXPECT_FALSE(std::filesystem::exists(dir_ / "trace.csv.part"));
+}
+
+TEST_F(IgFlight, drawsDepthMapsAndNoHorizonWhereThePresetSaysSo) {
+  write(test::edited([](TuningParameters& p) { p.culling.occlusion = OcclusionMethod::depth_map; }),
+        test::weavingFlight(120));
+  IgProcess ig = fly(dir_ / "flight.csv", dir_ / "trace.csv");
+  ASSERT_EQ(ig.end(), 0) << ig.err();
+  EXPECT_GT(ig.summary()["depth_maps_drawn"], 0);
+  EXPECT_EQ(ig.summary()["horizons_built"], 0);
 }
 
 TEST_F(IgFlight, replaysItsOwnTraceToTheBit) {
