@@ -76,7 +76,7 @@ ErrorPlot::ErrorPlot(QWidget* parent) : QCustomPlot(parent) {
   above->setMargins(QMargins(4, 2, 4, 0));
   above->setRowSpacing(0);
   above->setColumnSpacing(6);
-  above->setIconSize(20, 12);
+  above->setIconSize(16, 12);
   // Empty, it would bound the column.
   above->setMaximumSize(kUnboundedPx, kUnboundedPx);
   legend = above;

@@ -70,7 +70,7 @@ void wrapLegend(QCustomPlot& plot) {
       widest = std::max(widest, metrics.horizontalAdvance(item->plottable()->name()));
   const int entry = widest + plot.legend->iconSize().width() + plot.legend->iconTextPadding() +
                     plot.legend->columnSpacing() + kLegendEntryMarginPx;
-  plot.legend->setWrap(std::max(1, plot.width() / entry));
+  plot.legend->setWrap(std::max(plot.legend->itemCount() > 3 ? 2 : 1, plot.width() / entry));
 }
 
 QString methodText(const QString& method) {

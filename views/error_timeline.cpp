@@ -14,6 +14,7 @@ constexpr int kUnboundedPx = 100000;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kHeadRoom = 1.15;
 constexpr double kWorstPx = 9;
+constexpr std::array kPens{Qt::SolidLine, Qt::DashLine, Qt::DashDotLine, Qt::DotLine};
 
 QString timeText(double seconds) {
   return QStringLiteral("%1 s").arg(numberText(seconds, 2));
@@ -35,7 +36,7 @@ ErrorTimeline::ErrorTimeline(QWidget* parent) : QCustomPlot(parent), cursor_(kNa
   above->setMargins(QMargins(4, 2, 4, 0));
   above->setRowSpacing(0);
   above->setColumnSpacing(6);
-  above->setIconSize(20, 12);
+  above->setIconSize(16, 12);
   // Empty, it would bound the column.
   above->setMaximumSize(kUnboundedPx, kUnboundedPx);
   legend = above;
@@ -145,10 +146,7 @@ void ErrorTimeline::drawLines() {
       }
       QCPGraph* graph = addGraph(time(lane), value(lane));
       graph->setData(s.timeS, y);
-      graph->setPen(QPen(presetColour(preset, palette()), 1.5,
-                         preset % 3 == 0   ? Qt::SolidLine
-                         : preset % 3 == 1 ? Qt::DashLine
-                                           : Qt::DashDotLine));
+      graph->setPen(QPen(presetColour(preset, palette()), 1.5, kPens[std::size_t(preset) % kPens.size()]));
       graph->setName(s.preset);
       if (lane == 0) graph->addToLegend();
     }

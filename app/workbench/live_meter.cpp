@@ -15,7 +15,7 @@ namespace {
 constexpr int kFirstMs = 100, kPeriodMs = 1000, kRetryMs = 200;
 /// Measuring takes at most one part in so many of the time.
 constexpr int kMostOfTime = 4;
-constexpr double kLongestMs = 400, kQuickMs = 60;
+constexpr double kLongestMs = 400, kQuickMs = 100;
 constexpr int kSmallest = 4;
 constexpr double kWindowS = 1;
 
