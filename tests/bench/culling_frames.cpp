@@ -3,6 +3,8 @@
 #include <random>
 #include <string>
 
+#include "culling_lod.h"
+#include "culling_queries.h"
 #include "scene/scene_test.h"
 #include "trimtab/measure/paired_ratio.h"
 
@@ -34,7 +36,8 @@ class Frames {
     const int views = report.quick() ? 3 : 8, repeats = report.quick() ? 3 : 5;
     for (int view = 0; view < views; ++view) {
       scene::FrameRequest r;
-      r.eye = over(place(random), place(random), feet * kMetresAFoot);
+      const double east = place(random), north = place(random);
+      r.eye = placeOver(*database_, east, north, feet * kMetresAFoot);
       r.attitude = {Degrees{heading(random)}, Degrees{-5}, Degrees{0}};
       r.view.widthPx = 1280, r.view.heightPx = 720;
       r.occlusion = method;
@@ -91,13 +94,6 @@ class Frames {
     last_ = renderer_.draw(r, offscreen_->framebuffer());
     return last_.cost.total;
   }
-  GeodeticPosition over(double east, double north, double aboveM) const {
-    const auto& i = database_->info();
-    const Degrees latitude = i.southWest.latitude + (i.northEast.latitude - i.southWest.latitude) * north;
-    const Degrees longitude = i.southWest.longitude + (i.northEast.longitude - i.southWest.longitude) * east;
-    return {latitude, longitude,
-            database_->heightAt(latitude, longitude).value_or(Metres{0}) + Metres{aboveM}};
-  }
 
   std::shared_ptr<const terrain::Database> database_;
   std::unique_ptr<scene::Offscreen> offscreen_;
@@ -116,15 +112,32 @@ void rowsOf(Report& report, const std::string& name, std::shared_ptr<const terra
     frames.row(report, name, feet, 2, OcclusionMethod::depth_map);
 }
 
+void peerRowsOf(Report& report, const std::string& name,
+                const std::shared_ptr<const terrain::Database>& database) {
+  queryRows(report, name, database);
+  lodRows(report, name, database);
+}
+
 }  // namespace
 
+GeodeticPosition placeOver(const terrain::Database& database, double east, double north, double aboveM) {
+  const auto& i = database.info();
+  const Degrees latitude = i.southWest.latitude + (i.northEast.latitude - i.southWest.latitude) * north;
+  const Degrees longitude = i.southWest.longitude + (i.northEast.longitude - i.southWest.longitude) * east;
+  return {latitude, longitude, database.heightAt(latitude, longitude).value_or(Metres{0}) + Metres{aboveM}};
+}
+
 void frameRows(Report& report) {
-  rowsOf(report, "mountains", test::syntheticMountains());
+  const auto mountains = test::syntheticMountains();
+  rowsOf(report, "mountains", mountains);
+  peerRowsOf(report, "mountains", mountains);
   const test::ScratchDir dir;
   const auto everest = test::sharedDir() / "data/dem-srtm3-everest";
   if (std::filesystem::exists(everest))
-    if (const auto baked = terrain::openOrBake(everest, dir / "cache", {}))
+    if (const auto baked = terrain::openOrBake(everest, dir / "cache", {})) {
       rowsOf(report, "everest", baked.value());
+      peerRowsOf(report, "everest", baked.value());
+    }
   terrain::SampleOptions options;
   options.postM = report.quick() ? 180 : 90;
   if (!terrain::writeSample(dir / "sample.tif", options)) return;

@@ -14,37 +14,18 @@
 #include <algorithm>
 #include <functional>
 
+#include "osg_view.h"
+
 namespace trimtab::bench {
 namespace {
 
 constexpr double kFar = 1e7;
 
-osg::Matrixd projectionOf(const ViewShape& v) {
-  const double n = v.nearM;
-  return osg::Matrixd::frustum(v.left * n, v.right * n, v.bottom * n, v.top * n, n, kFar);
-}
-
-osg::Matrixd viewOf(const EyePose& eye) {
-  osg::Matrixd m;
-  for (int i = 0; i < 3; ++i) {
-    const Vec3& row = eye.axes.row[static_cast<std::size_t>(i)];
-    m(0, i) = row.x;
-    m(1, i) = row.y;
-    m(2, i) = row.z;
-  }
-  const Vec3 p = eye.position;
-  return osg::Matrixd::translate(-p.x, -p.y, -p.z) * m;
-}
-
-osg::BoundingBox boundOf(const Box& b) {
-  return {b.minX, b.minY, b.minZ, b.maxX, b.maxY, b.maxZ};
-}
-
 void setUp(osg::CullStack& stack, osg::Viewport* viewport, const EyePose& eye, const ViewShape& view) {
   stack.setCullingMode(osg::CullSettings::VIEW_FRUSTUM_CULLING);
   stack.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
   stack.pushViewport(viewport);
-  stack.pushProjectionMatrix(new osg::RefMatrix(projectionOf(view)));
+  stack.pushProjectionMatrix(new osg::RefMatrix(projectionOf(view, kFar)));
   stack.pushModelViewMatrix(new osg::RefMatrix(viewOf(eye)), osg::Transform::ABSOLUTE_RF);
 }
 
@@ -133,7 +114,7 @@ struct OsgBoxTests::Impl {
 OsgBoxTests::OsgBoxTests(const EyePose& eye, const ViewShape& view) : impl_(std::make_unique<Impl>()) {
   setUp(impl_->stack, impl_->viewport, eye, view);
   impl_->polytope.setToUnitFrustum();
-  impl_->polytope.transformProvidingInverse(viewOf(eye) * projectionOf(view));
+  impl_->polytope.transformProvidingInverse(viewOf(eye) * projectionOf(view, kFar));
 }
 OsgBoxTests::~OsgBoxTests() {
   tearDown(impl_->stack);

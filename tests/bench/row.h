@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -48,6 +50,11 @@ class Report {
 template <class Work>
 double leastSeconds(int repeats, const Work& work);
 
+/// The same for several works in turn, so that all have the machine as it is: the least of `turns`. Each work
+/// is a pair of its repeats a turn and itself.
+template <class... Works>
+std::array<double, sizeof...(Works)> leastInTurn(int turns, const Works&... works);
+
 /// Keeps the compiler from leaving out what makes `value`.
 template <class T>
 inline void keep(const T& value) {
@@ -65,6 +72,17 @@ double leastSeconds(int repeats, const Work& work) {
     work();
     const double took = monotonicSeconds() - start;
     if (i == 0 || took < least) least = took;
+  }
+  return least;
+}
+
+template <class... Works>
+std::array<double, sizeof...(Works)> leastInTurn(int turns, const Works&... works) {
+  std::array<double, sizeof...(Works)> least{};
+  for (int turn = 0; turn < turns; ++turn) {
+    const std::array<double, sizeof...(Works)> now{leastSeconds(works.first, works.second)...};
+    for (std::size_t i = 0; i < now.size(); ++i)
+      least[i] = turn == 0 || now[i] < least[i] ? now[i] : least[i];
   }
   return least;
 }
