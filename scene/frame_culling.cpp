@@ -12,7 +12,8 @@ void FrameCulling::setDatabase(std::shared_ptr<const terrain::Database> database
   database_ = std::move(database);
   cutKey_.reset();
   cut_.tiles.clear();
-  ++cutNumber_;
+  ++cutNumber_.cut;
+  horizonServed_ = false;
   conditions_.setDatabase(database_);
   horizon_.setDatabase(database_);
 }
@@ -26,7 +27,9 @@ void FrameCulling::selectCut(const FrameRequest& request, const EyePose& eye, Fr
                    std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom))};
   if (cutKey_ != key || !request.skips.sameCut) {
     selectLevels(index, key.eye, key.maxErrorPx, key.lodScale, key.pixelsPerRadian, cut_);
-    cutNumber_ += cutKey_ != key;
+    cutNumber_.cut += cutKey_ != key;
+    if (cutKey_) cutKey_->eye = key.eye;
+    cutNumber_.rule += cutKey_ != key;
     cutKey_ = key;
     ++counters.cutsSelected;
   }
@@ -49,13 +52,15 @@ bool FrameCulling::findHidden(const FrameRequest& request, FrameResult& counters
   const auto& size = request.decision.depthMap;
   counters.horizon = request.method == CullingCase::proposed &&
                      request.occlusion == OcclusionMethod::horizon && size && refusal_.empty();
+  horizonServed_ = counters.horizon;
   if (!counters.horizon) return false;
-  if (!request.skips.sameHorizon) horizon_.forget();
-  hidden_ = horizon_.hidden(cut_, cutNumber_, eye_.position,
-                            {HorizonCulling::columnsFor(size->widthPx), HorizonCulling::slackOf(request.view),
-                             defects_.loweringScale < 1},
-                            conditions_);
+  hidden_ =
+      horizon_.hidden(cut_, cutNumber_, eye_.position,
+                      {HorizonCulling::columnsFor(size->widthPx),
+                       HorizonCulling::slackOf(request.view, subpixelBits_), defects_.loweringScale < 1},
+                      conditions_, request.skips);
   counters.horizonsBuilt = horizon_.built();
+  counters.horizonsLeftOut = horizon_.leftOut();
   view_ = request.view;
   mapSize_ = *size;
   return true;
@@ -64,7 +69,7 @@ bool FrameCulling::findHidden(const FrameRequest& request, FrameResult& counters
 void FrameCulling::clear() {
   visible_ = {};
   hidden_ = {};
-  depthMapCurrent_ = false;
+  horizonServed_ = depthMapCurrent_ = false;
 }
 
 std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& request, const TileCache& tiles,
@@ -117,7 +122,7 @@ void FrameCulling::removeHidden(const TileCache& tiles, OcclusionPass& pass) {
 }
 
 Renderer::Grey FrameCulling::readDepthMap(const OcclusionPass& pass) const {
-  if (!hidden_.empty()) return horizon_.picture(eye_, view_, mapSize_.widthPx, mapSize_.heightPx);
+  if (horizonServed_) return horizon_.picture(eye_, view_, mapSize_.widthPx, mapSize_.heightPx);
   if (!depthMapCurrent_) return {};
   std::vector<float> depths;
   GLint before = 0;

@@ -25,12 +25,14 @@ Renderer::Grey greyOf(std::span<const float> depths, int width, int height, doub
 class FrameCulling {
  public:
   void setDatabase(std::shared_ptr<const terrain::Database> database);
+  /// Of the context's rasteriser.
+  void setSubpixelBits(int bits) { subpixelBits_ = bits; }
 
   // In this order, every frame.
   /// The cut for an eye, only if it can have changed, which counts as `cutsSelected`.
   void selectCut(const FrameRequest& request, const EyePose& eye, FrameResult& counters);
   /// What the horizon hides, where that serves: false where it does not. Built only if it can have changed,
-  /// which counts as `horizonsBuilt`.
+  /// which counts as `horizonsBuilt`, and not while it is believed to hide nothing: `horizonsLeftOut`.
   bool findHidden(const FrameRequest& request, FrameResult& counters);
   /// What of the cut is in the view and not hidden.
   void selectVisible(const FrameRequest& request);
@@ -50,7 +52,7 @@ class FrameCulling {
   /// What may hide others in this frame.
   const std::vector<TileDraw>& occluders() const { return occluders_; }
   void plant(const Defects& defects) { defects_ = defects; }
-  /// The last frame's depth map, if it drew one; else a picture of its horizon, if that served.
+  /// The last frame's depth map, if it drew one; else a picture of the last horizon, if that served.
   Renderer::Grey readDepthMap(const OcclusionPass& pass) const;
 
  private:
@@ -64,11 +66,12 @@ class FrameCulling {
   std::shared_ptr<const terrain::Database> database_;
   OcclusionConditions conditions_;
   HorizonCulling horizon_;
+  int subpixelBits_ = 4;
   ViewShape view_;  ///< of the last frame that the horizon served, and the size that its band asked for
   DepthMapSize mapSize_;
   std::span<const std::uint8_t> hidden_;  ///< by the horizon, one a tile of the cut; or empty
   std::optional<CutKey> cutKey_;
-  std::uint64_t cutNumber_ = 0;  ///< another one for another cut
+  HorizonCulling::CutNumber cutNumber_;
   LevelCut cut_;
   VisibleSet visible_;
   EyePose eye_;
@@ -78,6 +81,7 @@ class FrameCulling {
   std::vector<std::uint8_t> flags_;
   Defects defects_;
   bool depthMapCurrent_ = false;  ///< the last frame drew one
+  bool horizonServed_ = false;    ///< the last frame, if only by what was known nearby
   double nearM_ = 1;              ///< of the last depth map
 };
 

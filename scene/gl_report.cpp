@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 
 #include "trimtab/scene/gl_api.h"
@@ -36,6 +37,13 @@ GlReport reportContext() {
   }
   report.usable = report.missing.empty();
   return report;
+}
+
+int subpixelBitsOfContext() {
+  constexpr GLint kLeast = 4;
+  GLint bits = 0;
+  glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
+  return std::max(kLeast, bits);
 }
 
 }  // namespace trimtab::scene

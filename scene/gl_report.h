@@ -6,5 +6,7 @@ namespace trimtab::scene {
 
 /// Of the context that is current.
 GlReport reportContext();
+/// Bits of a pixel that its rasteriser keeps of a vertex's place; GL's least where it does not say.
+int subpixelBitsOfContext();
 
 }  // namespace trimtab::scene

@@ -66,9 +66,10 @@ int HorizonCulling::columnsFor(int depthMapWidthPx) {
   return std::clamp(2 * depthMapWidthPx, Horizon::kLeastColumns, Horizon::kMostColumns);
 }
 
-double HorizonCulling::slackOf(const ViewShape& view) {
-  // Vertices snap to a 256th of a pixel.
-  return 0.02 * std::max((view.right - view.left) / view.widthPx, (view.top - view.bottom) / view.heightPx);
+double HorizonCulling::slackOf(const ViewShape& view, int subpixelBits) {
+  // Five steps of a pixel that has 256 of them, which leaves room for rounding; in coarser ones as many.
+  const double pixels = 0.02 * std::max(1.0, std::ldexp(1.0, 8 - subpixelBits));
+  return pixels * std::max((view.right - view.left) / view.widthPx, (view.top - view.bottom) / view.heightPx);
 }
 
 Renderer::Grey HorizonCulling::picture(const EyePose& eye, const ViewShape& view, int widthPx,
@@ -107,15 +108,24 @@ void HorizonCulling::forgetOthers(const LevelCut& cut) {
     }
 }
 
-std::span<const std::uint8_t> HorizonCulling::hidden(const LevelCut& cut, std::uint64_t cutNumber, Vec3 eye,
+/// Where next to nothing is hidden there is nothing to gain a little further on.
+bool HorizonCulling::hidLittleNear(const Key& key) const {
+  return key_ && key_->cut.rule == key.cut.rule && key_->columns == key.columns &&
+         key_->raised == key.raised && horizon_.hiddenCount() * kLeastShare < tiles_.size() &&
+         length(key.eye - key_->eye) < kBelievedM;
+}
+
+std::span<const std::uint8_t> HorizonCulling::hidden(const LevelCut& cut, const CutNumber& number, Vec3 eye,
                                                      const Horizon::Settings& settings,
-                                                     const OcclusionConditions& conditions) {
-  const Key key{eye, cutNumber, settings.columns, settings.slack, settings.raised};
-  if (key_ == key) return horizon_.hidden();
-  // Where next to nothing is hidden there is nothing to gain a little further on.
-  if (key_ && key_->columns == key.columns && horizon_.hiddenCount() * kLeastShare < tiles_.size() &&
-      length(eye - key_->eye) < kBelievedM)
+                                                     const OcclusionConditions& conditions,
+                                                     const Skips& skips) {
+  const Key key{eye, number, settings.columns, settings.slack, settings.raised};
+  if (key_ == key) {
+    if (skips.sameHorizon) return horizon_.hidden();
+  } else if (skips.littleHidden && hidLittleNear(key)) {
+    ++leftOut_;
     return {};
+  }
   if (kept_ > kKept + cut.tiles.size()) forgetOthers(cut);
   const TerrainIndex& index = database_->index();
   tiles_.clear();

@@ -351,6 +351,7 @@ GlReport Renderer::initialize() {
   impl_->report = reportContext();
   if (impl_->report.usable) {
     impl_->gl = std::make_unique<Impl::Gl>(impl_->passes());
+    impl_->culling.setSubpixelBits(subpixelBitsOfContext());
     impl_->gl->tiles.setDatabase(impl_->database);
     impl_->gl->trees.setTerrain(impl_->database ? impl_->database->staticLod() : nullptr);
   }

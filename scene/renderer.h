@@ -39,6 +39,7 @@ struct Skips {
   bool sameCut = true;           ///< levels are chosen again only when what they depend on has changed
   bool beyondVisibility = true;  ///< what is farther than the weather's cut is not drawn
   bool sameHorizon = true;       ///< built again only when the eye's place or the levels have changed
+  bool littleHidden = true;      ///< not built again within 50 m of where it hid next to nothing
   bool tilesOnGpu = true;        ///< what was made and uploaded once is not made again
   bool blurAtRest = true;        ///< no blur pass where its strength is 0
   bool clearAir = true;          ///< no precipitation pass where nothing falls
@@ -87,6 +88,7 @@ struct FrameResult {
   // Counters of work that was skipped or done, since the renderer was made.
   std::uint64_t precipitationPasses = 0, blurPasses = 0, symbologyDraws = 0, symbologyRedraws = 0;
   std::uint64_t depthMapsDrawn = 0, horizonsBuilt = 0, cutsSelected = 0, tilesBuilt = 0;
+  std::uint64_t horizonsLeftOut = 0;  ///< because it hid next to nothing a little way off: nothing is hidden
 };
 
 /// GL text of the current context, and whether what the renderer needs is there.

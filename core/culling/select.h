@@ -17,7 +17,7 @@ namespace trimtab {
 enum class CullReason : std::uint8_t {
   drawn,
   outside_frustum,
-  occluded,           ///< proven hidden by the depth map
+  occluded,           ///< proven hidden by the horizon or the depth map
   beyond_visibility,  ///< in the frustum, but wholly beyond the weather's far distance
   other_level         ///< its ancestor or descendants stand for it
 };

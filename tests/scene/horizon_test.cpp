@@ -4,6 +4,7 @@
 #include <random>
 
 #include "scene_test.h"
+#include "trimtab/scene/horizon_culling.h"
 
 namespace trimtab {
 namespace {
@@ -147,6 +148,59 @@ TEST_F(HorizonScene, isNotBuiltAgainWhileOnlyTheHeadTurns) {
   EXPECT_FALSE(result.horizon);
   EXPECT_TRUE(std::isnan(result.cost.occlusion));
   EXPECT_EQ(result.visible.occluded, 0u);
+}
+
+TEST_F(HorizonScene, isNotBuiltAgainNearWhereItHidNextToNothing) {
+  use(test::syntheticMountains());
+  auto r = request(over(0.5, 0.5, 3000), {Degrees{40}, Degrees{-15}, {}});
+  r.decision.depthMap = DepthMapSize{320, 240};
+  r.occlusion = OcclusionMethod::horizon;
+  scene::FrameResult result;
+  const auto draw = [&](std::uint64_t built, std::uint64_t leftOut, const char* what) {
+    const auto drawn = picture(r, &result);
+    EXPECT_TRUE(result.horizon) << what;
+    EXPECT_EQ(result.horizonsBuilt, built) << what;
+    EXPECT_EQ(result.horizonsLeftOut, leftOut) << what;
+    // Served, if only by what is known from nearby: its picture stays, so that an inset does not flicker.
+    EXPECT_EQ(renderer.readDepthMap().pixels.size(), 320u * 240u) << what;
+    auto whole = r;
+    whole.method = CullingCase::none;
+    EXPECT_EQ(differing(drawn, picture(whole)), 0u) << what;
+    EXPECT_TRUE(renderer.readDepthMap().pixels.empty()) << what;
+  };
+  const Metres start = r.eye.height;
+  draw(1, 0, "at first");
+  ASSERT_LT(result.visible.occluded * 50, result.visible.tiles.size()) << "no place for this test";
+  draw(1, 0, "the same place");
+  r.eye.height = start + Metres{20};
+  draw(1, 1, "20 m on");
+  EXPECT_EQ(result.visible.occluded, 0u);
+  r.skips.sameHorizon = false;
+  draw(1, 2, "another skip");
+  r.skips.sameHorizon = true;
+  r.eye.height = start + Metres{49};
+  draw(1, 3, "49 m on");
+  r.eye.height = start + Metres{51};
+  draw(2, 3, "51 m on");
+  r.eye.height = start + Metres{70};
+  draw(2, 4, "19 m from there");
+  r.lod.screenSpaceError = Pixels{3.5};
+  draw(3, 4, "other levels");
+  r.skips.littleHidden = false;
+  r.eye.height = start + Metres{75};
+  draw(4, 4, "5 m on, switched off");
+  draw(4, 4, "the same place, switched off");
+}
+
+TEST(HorizonSlack, followsTheRasterisersSteps) {
+  ViewShape view;
+  view.left = -1, view.right = 1, view.bottom = -0.5, view.top = 0.5;
+  view.widthPx = 1000, view.heightPx = 1000;
+  const double pixel = 2.0 / 1000;
+  for (const int bits : {4, 6, 8, 12})
+    EXPECT_GE(scene::HorizonCulling::slackOf(view, bits), 2 * pixel / std::ldexp(1.0, bits)) << bits;
+  EXPECT_DOUBLE_EQ(scene::HorizonCulling::slackOf(view, 4), 16 * scene::HorizonCulling::slackOf(view, 8));
+  EXPECT_LT(scene::HorizonCulling::slackOf(view, 8), 0.05 * pixel);
 }
 
 TEST_F(HorizonScene, hidesMoreAtTheSizeOfAHigherBand) {
