@@ -89,9 +89,15 @@ const std::vector<Skip>& skips() {
        without<&scene::Skips::sameCut>, itself, true},
       {"horizon built again for an eye that stands",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
-         return after.horizon && unchanged<&FrameResult::horizonsBuilt>(before, after);
+         return after.horizon && unchanged<&FrameResult::horizonsBuilt>(before, after) &&
+                unchanged<&FrameResult::horizonsLeftOut>(before, after);
        },
        without<&scene::Skips::sameHorizon>, itself, true},
+      {"horizon where it hid next to nothing",
+       [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
+         return after.horizon && !unchanged<&FrameResult::horizonsLeftOut>(before, after);
+       },
+       without<&scene::Skips::littleHidden>, itself, true},
       {"tiles that the GPU holds already",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
          return after.tilesBuilt - before.tilesBuilt < after.visible.tiles.size();

@@ -53,6 +53,7 @@ TEST_F(SkipsTest, changeNoPixelWhetherTheirWorkIsDoneOrNot) {
   struct Scene {
     const char* name;
     void (*set)(FrameRequest&);
+    double climbM = 0;  ///< from the first frame to the second
   };
   const Scene kScenes[] = {
       {"scheme frustum", [](FrameRequest&) {}},
@@ -65,6 +66,13 @@ TEST_F(SkipsTest, changeNoPixelWhetherTheirWorkIsDoneOrNot) {
          r.decision.depthMap = DepthMapSize{400, 300};
          r.occlusion = OcclusionMethod::horizon;
        }},
+      {"climb high above, horizon",
+       [](FrameRequest& r) {
+         r.eye.height = r.eye.height + Metres{3000};
+         r.decision.depthMap = DepthMapSize{400, 300};
+         r.occlusion = OcclusionMethod::horizon;
+       },
+       20},
       {"fog", foggy},
       {"fog, depth map",
        [](FrameRequest& r) {
@@ -90,6 +98,7 @@ TEST_F(SkipsTest, changeNoPixelWhetherTheirWorkIsDoneOrNot) {
   for (const Scene& scene : kScenes) {
     std::vector<FrameRequest> frames{looking(heading - 20), looking(heading)};
     for (FrameRequest& r : frames) scene.set(r);
+    frames[1].eye.height = frames[1].eye.height + Metres{scene.climbM};
     FrameResult before, after;
     picture(frames[0], &before);
     const auto plain = picture(frames[1], &after);
@@ -169,7 +178,8 @@ TEST_F(SkipsTest, areCountedByFrameAndMeasured) {
                    {"tiles outside the frustum", 5, 5},
                    {"tiles that the GPU holds already", 5, 5},
                    {"tiles beyond visibility", 0, 5},
-                   {"horizon built again for an eye that stands", 0, 4}};
+                   {"horizon built again for an eye that stands", 0, 4},
+                   {"horizon where it hid next to nothing", 0, 4}};
   for (const auto& [name, skipped, count] : kExpected) {
     const SkipSaving& s = saving(savings, name);
     EXPECT_EQ(s.skipped, skipped) << name;
