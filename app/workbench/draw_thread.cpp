@@ -75,7 +75,7 @@ void DrawThread::run(std::function<void(scene::ErrorMeter&)> work, QObject* rece
     if (!inside_->tried)
       if (Findings findings = inside_->open(); !findings.empty())
         QMetaObject::invokeMethod(this, [this, findings] {
-          usable_ = false;
+          missing_ = findings;
           emit failed(findings);
         });
     if (inside_->meter == nullptr) return;

@@ -28,7 +28,9 @@ class DrawThread : public QObject {
   /// `work` runs there, in turn; then `done` here, unless `receiver` is gone by then. Neither is called where
   /// no context can be made.
   void run(std::function<void(scene::ErrorMeter&)> work, QObject* receiver, std::function<void()> done);
-  bool usable() const { return usable_; }
+  bool usable() const { return missing_.empty(); }
+  /// Why no context can be made; empty while none was needed or it was made.
+  const Findings& missing() const { return missing_; }
 
  signals:
   /// No context can be made, told once.
@@ -40,7 +42,7 @@ class DrawThread : public QObject {
   QThread thread_;
   QObject* worker_;
   std::unique_ptr<Inside> inside_;  ///< of the thread's alone while it runs
-  bool usable_ = true;
+  Findings missing_;
 };
 
 }  // namespace trimtab::workbench

@@ -140,6 +140,7 @@ ErrorDock::ErrorDock(views::Draft& draft, DrawThread& thread, LiveMeter::Source 
     plot_->showFlight(flight);
     timeline_->showFlight(flight);
     flights_->setToolTip(tr("Which measured flight is drawn: %1").arg(flight));
+    emit flightShown();
   });
   connect(cases_, &QComboBox::currentIndexChanged, this,
           [this] { timeline_->showMethod(cases_->currentData().toString()); });
@@ -147,8 +148,7 @@ ErrorDock::ErrorDock(views::Draft& draft, DrawThread& thread, LiveMeter::Source 
   connect(plot_, &views::ErrorPlot::logarithmicChanged, logarithmic_, &QCheckBox::setChecked);
   connect(liveOn_, &QCheckBox::toggled, this, [this](bool on) {
     live_.setOn(on && seen_);
-    if (!on) plot_->clearLive();
-    if (!on) lastMeasured_.reset();
+    if (!on) restartLive();
     liveLabel_->setText(liveText());
   });
   connect(measure_, &QPushButton::clicked, this, [this] { running() ? cancel() : askAndMeasure(); });
@@ -214,6 +214,10 @@ void ErrorDock::arrange() {
 void ErrorDock::setSeen(bool seen) {
   seen_ = seen;
   live_.setOn(seen && liveOn_->isChecked());
+}
+
+QString ErrorDock::flight() const {
+  return flights_->currentText();
 }
 
 void ErrorDock::painted(double time, double frameMs) {

@@ -42,7 +42,7 @@ class ErrorDock : public QWidget {
   void setSeen(bool seen);
   /// The viewport painted a picture; `time` in seconds.
   void painted(double time, double frameMs);
-  /// Another terrain: what was live is no longer comparable.
+  /// What was live is no longer comparable: another terrain, or a pause.
   void restartLive();
   /// Where the flight stands on its own clock, s; NaN: none flies.
   void followFlight(double timeS);
@@ -54,6 +54,8 @@ class ErrorDock : public QWidget {
   void askOpenResults();
   bool openResults(const QString& file);
   const std::optional<harness::Results>& results() const { return results_; }
+  /// The measured flight that is drawn; empty: none.
+  QString flight() const;
   /// Beside the results; empty: none.
   QString report() const;
   void openReport();
@@ -70,6 +72,7 @@ class ErrorDock : public QWidget {
   void finished(bool good);
   void refused(const QString& what, const trimtab::Findings& findings);
   void sought(double timeS);  ///< the person moved the cursor of the flight
+  void flightShown();         ///< another measured flight is drawn, or the same of other results
   void comparisonAsked();
 
  private:

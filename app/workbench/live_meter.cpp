@@ -64,6 +64,7 @@ void LiveMeter::painted(double time, double frameMs) {
 }
 
 void LiveMeter::forget() {
+  ++generation_;
   last_.reset();
   changed_ = true;
   wake();
@@ -86,8 +87,10 @@ void LiveMeter::measure() {
   struct Work {
     Frame frame;
     Measured measured;
+    std::uint64_t generation = 0;
   };
   const auto work = std::make_shared<Work>();
+  work->generation = generation_;
   work->measured.smaller = shrink_ > 1;
   work->frame.request = pilotsPicture(frame->request, shrink_);
   for (const scene::FrameRequest& before : frame->before)
@@ -112,7 +115,12 @@ void LiveMeter::measure() {
         if (result.tookMs > kLongestMs) shrink_ = std::min(shrink_ * 2, kSmallest);
         if (result.tookMs < kQuickMs) shrink_ = std::max(shrink_ / 2, 1);
         result.frameMs = medianMs();
-        if (on_) emit measured(result);
+        const bool wanted = on_ && work->generation == generation_;
+        // Nobody saw it: the same picture is not measured already.
+        if (wanted)
+          emit measured(result);
+        else
+          last_.reset();
         gapMs_ = std::max(kPeriodMs, int(result.tookMs) * kMostOfTime);
         wake();
       });

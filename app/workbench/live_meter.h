@@ -38,8 +38,9 @@ class LiveMeter : public QObject {
   bool isOn() const { return on_; }
   /// A picture was painted; `time` in seconds.
   void painted(double time, double frameMs);
-  /// Another preset or terrain: the same view is another picture.
+  /// Another preset or terrain: the same view is another picture, and what is under way is of the old one.
   void forget();
+  bool busy() const { return busy_; }
   std::uint64_t measurements() const { return measurements_; }
 
  signals:
@@ -59,7 +60,7 @@ class LiveMeter : public QObject {
   QElapsedTimer sinceLast_;
   int gapMs_ = 0;  ///< from one measurement's begin to the next one's
   bool on_ = false, changed_ = false, busy_ = false;
-  std::uint64_t measurements_ = 0;
+  std::uint64_t measurements_ = 0, generation_ = 0;  ///< results of an earlier generation are dropped
 };
 
 /// The request without what is drawn for the engineer, at a size `shrink` times smaller: the picture that the

@@ -3,8 +3,6 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QFileDialog>
-#include <QFileInfo>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
@@ -17,7 +15,6 @@
 
 #include "live_meter.h"
 #include "trimtab/measure/image_error.h"
-#include "trimtab/preset/preset.h"
 #include "trimtab/views/error_run.h"
 #include "trimtab/views/theme.h"
 
@@ -29,7 +26,6 @@ constexpr int kMostOfTime = 2;
 constexpr double kLongestMs = 1500, kQuickMs = 250;
 constexpr int kSmallest = 4;
 constexpr std::size_t kRemembered = 16;
-const QString kOpenFile = QStringLiteral("open…");
 
 enum Column {
   flipColumn,
@@ -59,6 +55,7 @@ const QString SplitView::kDraft = QStringLiteral("draft"),
 struct SplitView::Work {
   struct One {
     std::vector<scene::FrameRequest> requests;  ///< the last one is measured
+    QString label;
     bool reference = false;
     FrameError error;
     scene::ErrorPictures pictures;
@@ -68,6 +65,7 @@ struct SplitView::Work {
     const std::vector<std::uint8_t>& shown() const { return reference ? pictures.reference : pictures.ours; }
   };
   std::array<One, 2> sides;
+  std::uint64_t generation = 0;
   int widthPx = 0, heightPx = 0;
   std::vector<float> map;
   double flip = 0, largest = 0, ssim = 0, psnr = 0, tookMs = 0;
@@ -133,75 +131,13 @@ SplitView::SplitView(DrawThread& thread, views::Draft& draft, Source source, QWi
     for (const Side side : {left, right})
       if (sides_[side].name == kDraft) choose(side, kDraft);
   });
+  connect(&thread_, &DrawThread::failed, this, &SplitView::sayMissing);
   timer_.setSingleShot(true);
   connect(&timer_, &QTimer::timeout, this, &SplitView::compare);
   choose(left, kDraft);
   choose(right, kReference);
   status_->setText(tr("Open a terrain to compare presets over it."));
-}
-
-QComboBox* SplitView::makeChoice(Side side, const QString& name) {
-  auto* box = new QComboBox(this);
-  box->addItem(tr("the draft"), kDraft);
-  for (const std::string_view shipped : shippedPresets()) {
-    const QString text = QString::fromUtf8(shipped.data(), qsizetype(shipped.size()));
-    box->addItem(text, text);
-  }
-  box->addItem(tr("reference"), kReference);
-  box->addItem(tr("Open a preset..."), kOpenFile);
-  box->setCurrentIndex(box->findData(name));
-  box->setAccessibleName(side == left ? tr("Preset on the left") : tr("Preset on the right"));
-  box->setItemData(box->findData(kReference), tr("No culling, finest levels, no blur, no early far plane"),
-                   Qt::ToolTipRole);
-  connect(box, &QComboBox::activated, this, [this, side, box] {
-    const QString chosen = box->currentData().toString();
-    if (chosen == kOpenFile)
-      askFile(side);
-    else
-      choose(side, chosen);
-  });
-  return box;
-}
-
-void SplitView::askFile(Side side) {
-  const QString file = QFileDialog::getOpenFileName(this, tr("Open preset"), {}, tr("Presets (*.json)"));
-  if (file.isEmpty() || !choose(side, file))
-    choices_[side]->setCurrentIndex(choices_[side]->findData(sides_[side].name));
-}
-
-void SplitView::addFileChoice(const QString& file) {
-  for (QComboBox* box : choices_)
-    if (box->findData(file) < 0) box->insertItem(box->count() - 1, QFileInfo(file).completeBaseName(), file);
-}
-
-bool SplitView::choose(Side side, const QString& name) {
-  Chosen& chosen = sides_[side];
-  std::optional<ValidatedParameters> parameters;
-  if (name == kDraft) {
-    parameters = draft_.active();
-  } else if (name != kReference) {
-    const Result<Preset> preset = loadPreset(name.toStdString());
-    Findings findings = preset.findings();
-    if (preset) {
-      Result<ValidatedParameters> valid = validate(preset->parameters);
-      findings = valid.findings();
-      if (valid) parameters = std::move(valid).value();
-    }
-    if (!parameters) {
-      emit refused(tr("The preset cannot be compared: %1").arg(name), findings);
-      return false;
-    }
-    if (choices_[side]->findData(name) < 0) addFileChoice(name);
-  }
-  chosen.name = name;
-  chosen.parameters = parameters;
-  choices_[side]->setCurrentIndex(choices_[side]->findData(name));
-  chosen.label = choices_[side]->currentText();
-  pictures_->setNames(sides_[left].label, sides_[right].label);
-  // Both begin anew, so that equal presets have equal memories.
-  restart(left);
-  restart(right);
-  return true;
+  if (!thread_.usable()) sayMissing(thread_.missing());
 }
 
 void SplitView::restart(Side side) {
@@ -219,6 +155,7 @@ void SplitView::restart(Side side) {
 
 void SplitView::setTerrain(std::shared_ptr<const terrain::Database> terrain) {
   terrain_ = std::move(terrain);
+  ++generation_;
   restart(left);
   restart(right);
 }
@@ -285,9 +222,11 @@ void SplitView::compare() {
   if (!last_) return;
   changed_ = false;
   const auto work = std::make_shared<Work>();
+  work->generation = generation_;
   for (const Side side : {left, right}) {
     Work::One& one = work->sides[side];
     const Chosen& chosen = sides_[side];
+    one.label = chosen.label;
     one.reference = !chosen.parameters;
     // A reference has the air of the preset it is held against.
     const Chosen& decides = one.reference ? sides_[side == left ? right : left] : chosen;
@@ -323,20 +262,30 @@ void SplitView::compare() {
       this,
       [this, work] {
         busy_ = false;
-        ++comparisons_;
         if (work->tookMs > kLongestMs) shrink_ = std::min(shrink_ * 2, kSmallest);
         if (work->tookMs < kQuickMs) shrink_ = std::max(shrink_ / 2, 1);
-        showWork(*work);
-        emit compared();
+        if (work->generation == generation_) {
+          ++comparisons_;
+          showWork(*work);
+          emit compared();
+        }
         gapMs_ = std::max(kPeriodMs, int(work->tookMs) * kMostOfTime);
         wake();
       });
+}
+
+/// What was asked of the thread never comes back.
+void SplitView::sayMissing(const Findings& missing) {
+  busy_ = changed_ = false;
+  status_->setText(
+      tr("Presets cannot be compared on this machine: %1").arg(QString::fromStdString(toString(missing))));
 }
 
 void SplitView::showWork(const Work& work) {
   const auto image = [&](Side side) {
     return imageOf(work.sides[side].shown(), work.widthPx, work.heightPx);
   };
+  pictures_->setNames(work.sides[left].label, work.sides[right].label);
   pictures_->show(image(left), image(right));
   heat_->show(heatImage(work.map, work.widthPx, work.heightPx), work.flip, work.largest);
   fill(work);
@@ -360,7 +309,7 @@ void SplitView::fill(const Work& work) {
   QStringList names;
   for (const Side side : {left, right}) {
     const Work::One& one = work.sides[side];
-    names << (side == left ? tr("Left: %1") : tr("Right: %1")).arg(sides_[side].label);
+    names << (side == left ? tr("Left: %1") : tr("Right: %1")).arg(one.label);
     const FrameError equal{0, 0, 0, INFINITY, 1, 0, 0, 0};
     const FrameError& error = one.reference ? equal : one.error;
     errors(side, error.flip, error.ssim, error.psnrDb);

@@ -50,6 +50,8 @@ class SplitView : public QWidget {
 
   /// What is shown is of the frame and the presets at hand.
   bool upToDate() const { return !changed_ && !busy_; }
+  bool busy() const { return busy_; }
+  const QLabel& status() const { return *status_; }
   std::uint64_t comparisons() const { return comparisons_; }
   const HeatMap& heatMap() const { return *heat_; }
   SplitPicture& pictures() { return *pictures_; }
@@ -80,6 +82,7 @@ class SplitView : public QWidget {
   void wake();
   void compare();
   scene::FrameRequest requestOf(session::Session& side) const;
+  void sayMissing(const Findings& missing);
   void showWork(const Work& work);
   void fill(const Work& work);
 
@@ -94,7 +97,7 @@ class SplitView : public QWidget {
   int gapMs_ = 0;  ///< from one comparison's begin to the next one's
   int shrink_ = 1;
   bool changed_ = false, busy_ = false;
-  std::uint64_t comparisons_ = 0;
+  std::uint64_t comparisons_ = 0, generation_ = 0;  ///< results of an earlier generation are dropped
 
   std::array<QComboBox*, 2> choices_;
   QComboBox* form_;
