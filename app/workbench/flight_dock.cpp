@@ -114,7 +114,13 @@ bool FlightDock::overUdp() const {
   return via_->currentIndex() != here;
 }
 
+QString FlightDock::file() const {
+  if (file_.isEmpty() || QFileInfo(file_).lastModified() != fileOf_) return {};
+  return file_;
+}
+
 Findings FlightDock::open(const QString& file) {
+  const QDateTime written = QFileInfo(file).lastModified();
   Result<Flight> flight = readFlight(file.toStdString());
   if (!flight) return flight.findings();
   Findings notes = flight.findings();
@@ -126,6 +132,8 @@ Findings FlightDock::open(const QString& file) {
   Flight& loaded = flight.value();
   if (loaded.name.empty()) loaded.name = QFileInfo(file).fileName().toStdString();
   feed_.loadFlight(std::move(loaded));
+  file_ = file;
+  fileOf_ = written;
   name_->setToolTip(file);
   return notes;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QDateTime>
 #include <QTimer>
 #include <QWidget>
 
@@ -23,6 +24,8 @@ class FlightDock : public QWidget {
   explicit FlightDock(Feed& feed, QWidget* parent = nullptr);
 
   Findings open(const QString& file);
+  /// Where the open flight was read from; empty: nowhere, or the file is no longer the one that was read.
+  QString file() const;
   void play();
   void pause();
   void stop();  ///< pauses and returns to the start
@@ -53,6 +56,8 @@ class FlightDock : public QWidget {
   QDoubleSpinBox* speed_;
   QCheckBox* loop_;
   QComboBox* via_;
+  QString file_;
+  QDateTime fileOf_;  ///< when it was written last, as it was read
   bool udpPaused_ = false;
   QTimer refresh_;  ///< runs only while a flight plays and this can be seen
 };

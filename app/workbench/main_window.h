@@ -167,6 +167,7 @@ class MainWindow : public QMainWindow {
   void rememberShown();
   void followErrors();
   void followFlight();
+  QString whyNotMeasured();
   void seekFlight(double timeS);
   // window_weather.cpp
   void calibrateWeather();
@@ -211,6 +212,7 @@ class MainWindow : public QMainWindow {
   std::optional<TraceWriter> trace_;
   std::vector<TraceRow> traceRows_;
   std::uint64_t traceCount_ = 0;
+  QString saidOfFlight_;               ///< why the results' times mean nothing in the open flight
   QString traceFile_, recordedTrace_;  ///< being written; the last one that is whole
   FrameCost lastCost_;
   QElapsedTimer sincePicture_, sinceStart_;

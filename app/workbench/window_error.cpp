@@ -3,6 +3,7 @@
 #include <QFile>
 #include <QFileInfo>
 #include <QRegularExpression>
+#include <QStatusBar>
 #include <limits>
 
 #include "error_dock.h"
@@ -17,16 +18,38 @@ namespace {
 
 /// A blur of longer than so many pictures mixes nothing more that shows.
 constexpr std::size_t kRemembered = 16;
+constexpr int kSayMs = 8000;
+constexpr double kSameTimeS = 1e-6;
+
+QString plainName(QString name) {
+  return name.replace(QRegularExpression(QStringLiteral("[^A-Za-z0-9._-]+")), QStringLiteral("-"));
+}
 
 /// Whose stem names it in the results.
 QString renamed(const QString& file, const QString& stem) {
-  QString plain = stem;
-  plain.replace(QRegularExpression(QStringLiteral("[^A-Za-z0-9._-]+")), QStringLiteral("-"));
   const QFileInfo info(file);
-  const QString to = QStringLiteral("%1/%2.%3").arg(info.path(), plain, info.suffix());
+  const QString to = QStringLiteral("%1/%2.%3").arg(info.path(), plainName(stem), info.suffix());
   if (to == file) return file;
   QFile::remove(to);
   return QFile::rename(file, to) ? to : file;
+}
+
+QString stemOf(const Flight& flight) {
+  return QFileInfo(QString::fromStdString(flight.name)).completeBaseName();
+}
+
+/// Whether the frames measured along `name` are places of this flight, as far as names and times can tell.
+bool wasMeasured(const Flight& flight, const QString& name, const harness::Results& results) {
+  // Of two files of one name the second is named by its path.
+  const QString stem = name.contains(QLatin1Char('/')) ? QFileInfo(name).completeBaseName() : name;
+  if (stem != stemOf(flight) && stem != plainName(stemOf(flight))) return false;
+  const double begin = flight.beginS(), end = begin + flight.durationS();
+  for (const harness::Unit& unit : results.units) {
+    if (QString::fromStdString(unit.name.flight) != name) continue;
+    for (const harness::MeasuredFrame& frame : unit.frames)
+      if (frame.timeS < begin - kSameTimeS || frame.timeS > end + kSameTimeS) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -48,10 +71,10 @@ ErrorDock* MainWindow::makeErrorDock() {
     }
     const std::optional<ExperimentInputs> files = experimentInputs(folder);
     if (!files) return std::nullopt;
-    const QString flight =
-        QFileInfo(QString::fromStdString(feed_.playback().flight().name)).completeBaseName();
+    const QString flight = stemOf(feed_.playback().flight());
+    const bool ours = files->flight.startsWith(folder + QLatin1Char('/'));
     return ErrorDock::Inputs{files->terrain,
-                             flight.isEmpty() ? files->flight : renamed(files->flight, flight),
+                             ours && !flight.isEmpty() ? renamed(files->flight, flight) : files->flight,
                              renamed(files->preset, BenchChoice::kDraft)};
   };
   return new ErrorDock(draft_, measuring_, live, inputs);
@@ -63,6 +86,7 @@ void MainWindow::connectErrors() {
   };
   connect(errors_, &ErrorDock::refused, this, refused);
   connect(errors_, &ErrorDock::sought, this, &MainWindow::seekFlight);
+  connect(errors_, &ErrorDock::flightShown, this, &MainWindow::followFlight);
   connect(errors_, &ErrorDock::comparisonAsked, this, &MainWindow::showSplitView);
   connect(dock(QStringLiteral("errors")), &QDockWidget::visibilityChanged, errors_, [this](bool seen) {
     errors_->setSeen(seen);
@@ -98,15 +122,35 @@ void MainWindow::followErrors() {
 
 void MainWindow::followFlight() {
   const FlightPlayback& playback = feed_.playback();
-  const bool flies = playback.loaded() && feed_.source() != Feed::Source::camera;
+  const bool flies =
+      playback.loaded() && feed_.source() != Feed::Source::camera && whyNotMeasured().isEmpty();
   errors_->followFlight(flies ? playback.flight().states.front().time + flightDock_->position()
                               : std::numeric_limits<double>::quiet_NaN());
 }
 
+/// Why the times of the results are not the open flight's; empty: they are.
+QString MainWindow::whyNotMeasured() {
+  const FlightPlayback& playback = feed_.playback();
+  if (!errors_->results()) return {};
+  const QString measured = errors_->flight();
+  if (!playback.loaded()) return tr("Open the flight %1 to see the frames that were measured").arg(measured);
+  if (wasMeasured(playback.flight(), measured, *errors_->results())) return {};
+  return tr("The results are of the flight %1, and %2 is open, which is another: open the one that was "
+            "measured to see its frames")
+      .arg(measured, QString::fromStdString(playback.flight().name));
+}
+
 void MainWindow::seekFlight(double timeS) {
   const FlightPlayback& playback = feed_.playback();
-  if (!playback.loaded())
-    return messages_->note(tr("Open the flight that was measured, and its frames can be seen"));
+  if (const QString why = whyNotMeasured(); !why.isEmpty()) {
+    statusBar()->showMessage(why, kSayMs);
+    // A hand on the cursor seeks many times a second.
+    if (why != saidOfFlight_) messages_->note(why);
+    saidOfFlight_ = why;
+    return;
+  }
+  saidOfFlight_.clear();
+  if (!playback.loaded()) return;
   flightDock_->seek(timeS - playback.flight().states.front().time);
 }
 

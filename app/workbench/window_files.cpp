@@ -268,6 +268,9 @@ std::optional<ExperimentInputs> MainWindow::experimentInputs(const QString& fold
   const std::string name = document_.title().toStdString();
   if (!write(inputs.preset, exportText(draft_.active(), name, {}, ExportFormat::json))) return std::nullopt;
   if (const Flight& flight = feed_.playback().flight(); !flight.states.empty()) {
+    // The file holds more than the states: a trace its cost, a capture what the CSV has no columns for.
+    inputs.flight = flightDock_->file();
+    if (!inputs.flight.isEmpty()) return inputs;
     inputs.flight = folder + "/flight.csv";
     if (!write(inputs.flight, flightCsv(flight))) return std::nullopt;
   }

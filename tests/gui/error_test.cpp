@@ -2,6 +2,7 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDockWidget>
+#include <QLabel>
 #include <QSignalSpy>
 #include <QTableWidget>
 #include <cmath>
@@ -105,6 +106,36 @@ TEST_F(ErrorDock, aPictureThatStandsIsMeasuredOnceAndAHiddenDockMeasuresNothing)
   EXPECT_TRUE(dock().plot().tail().empty());
 }
 
+TEST_F(ErrorDock, whatNobodySawOfAStandingPictureIsMeasuredAgain) {
+  raise();
+  ASSERT_TRUE(waitFor([&] { return measurements() > 0; }, 90000));
+  ASSERT_TRUE(settle());
+  ASSERT_TRUE(waitFor([&] { return !dock().live().busy(); }));
+  const auto under = [&] { return waitFor([&] { return dock().live().busy(); }, 20000); };
+  const auto over = [&] { return waitFor([&] { return !dock().live().busy(); }, 90000); };
+  dock().liveSwitch().setChecked(false);
+  EXPECT_TRUE(dock().plot().tail().empty());
+  dock().liveSwitch().setChecked(true);
+  EXPECT_TRUE(waitFor([&] { return !dock().plot().tail().empty(); }, 20000)) << "switched off and on";
+  ASSERT_TRUE(over());
+
+  dock().restartLive();
+  ASSERT_TRUE(under());
+  w().dock("plots")->raise();
+  ASSERT_TRUE(over());
+  EXPECT_TRUE(dock().plot().tail().empty());
+  raise();
+  EXPECT_TRUE(waitFor([&] { return !dock().plot().tail().empty(); }, 20000)) << "hidden meanwhile";
+  ASSERT_TRUE(over());
+
+  dock().restartLive();
+  ASSERT_TRUE(under());
+  dock().restartLive();
+  ASSERT_TRUE(over());
+  EXPECT_TRUE(dock().plot().tail().empty()) << "of the picture before";
+  EXPECT_TRUE(waitFor([&] { return !dock().plot().tail().empty(); }, 20000));
+}
+
 TEST_F(ErrorDock, measuringLeavesThePictureAsItIs) {
   ASSERT_TRUE(settle());
   // Above the line of text, which tells milliseconds.
@@ -154,6 +185,54 @@ TEST_F(ErrorDock, showsMeasuredResultsAndTheCursorTakesTheViewToTheRow) {
   w().flightDock().seek(unit.frames[2].timeS - flight.states.front().time);
   EXPECT_TRUE(
       waitFor([&] { return std::abs(dock().timeline().cursorTime() - unit.frames[2].timeS) < 1e-9; }, 10000));
+}
+
+TEST_F(ErrorDock, resultsOfAnotherFlightLeaveTheOpenOneWhereItIs) {
+  ASSERT_TRUE(
+      w().openFlight(QString::fromStdString((sourceDir() / "resources/flights/kansai-valley.csv").string())));
+  raise();
+  dock().liveSwitch().setChecked(false);
+  ASSERT_TRUE(dock().openResults(tinyResults()));
+  w().flightDock().seek(2);
+  dock().timeline().setFocus();
+  for (const int key : {Qt::Key_Home, Qt::Key_Right, Qt::Key_Right})
+    QTest::keyClick(&dock().timeline(), Qt::Key(key));
+  EXPECT_EQ(w().flightDock().position(), 2);
+  const QString said = w().messages().text();
+  EXPECT_EQ(said.count("kansai-valley.csv is open, which is another"), 1) << said.toStdString();
+  EXPECT_TRUE(said.contains("yecheon-circuit"));
+}
+
+TEST_F(ErrorDock, aRecordedTraceIsMeasuredWithTheCostThatItRecorded) {
+  ASSERT_TRUE(w().openFlight(QString::fromStdString(sampleFlight())));
+  const ScratchDir dir;
+  const QString trace = QString::fromStdString((dir / "own trace.csv").string());
+  ASSERT_TRUE(w().startTrace(trace));
+  w().flightDock().play();
+  QTest::qWait(1500);
+  w().flightDock().pause();
+  w().stopTrace();
+  ASSERT_TRUE(w().openFlight(trace)) << w().messages().text().toStdString();
+  raise();
+  dock().liveSwitch().setChecked(false);
+  workbench::BenchChoice choice;
+  choice.presets = QStringList{"default"};
+  choice.cases = QStringList{"proposed"};
+  choice.size = "96x64";
+  choice.frames = 3;
+  choice.repeats = 1;
+  choice.folder = QString::fromStdString((dir / "bench").string());
+  QSignalSpy ended(&dock(), &workbench::ErrorDock::finished);
+  dock().measure(choice);
+  ASSERT_TRUE(waitFor([&] { return !ended.isEmpty(); }, 180000));
+  ASSERT_TRUE(ended.takeFirst().front().toBool()) << w().messages().text().toStdString();
+  const std::vector<std::string>& notes = dock().results()->notes;
+  EXPECT_NE(std::find(notes.begin(), notes.end(), "own trace is a trace: its recorded cost is replayed."),
+            notes.end());
+  EXPECT_TRUE(QFileInfo::exists(trace));
+  QTest::keyClick(&dock().timeline(), Qt::Key_Home);
+  QTest::keyClick(&dock().timeline(), Qt::Key_Right);
+  EXPECT_FALSE(w().messages().text().contains("which is another"));
 }
 
 TEST_F(ErrorDock, measuresPresetsAndTheDraftAsAProgramOfItsOwn) {
@@ -272,6 +351,32 @@ TEST_F(SplitViewTest, followsTheFrameAndRestsWhenHiddenOrNothingMoves) {
   look(-12);
   QTest::qWait(1500);
   EXPECT_EQ(view().comparisons(), later);
+}
+
+TEST_F(SplitViewTest, whatWasMeasuredOfAnOldChoiceIsNotShownAsTheNew) {
+  ASSERT_TRUE(settle());
+  choose("default", SplitView::kReference);
+  ASSERT_TRUE(view().choose(SplitView::left, "as-printed"));
+  ASSERT_TRUE(waitFor([&] { return view().busy(); }, 20000));
+  ASSERT_TRUE(view().choose(SplitView::left, "as-published"));
+  EXPECT_EQ(view().numbers().verticalHeaderItem(0)->text(), "Left: default") << "that is still what is shown";
+  std::optional<bool> whole;
+  QObject::connect(&view(), &SplitView::compared, &view(), [&] {
+    if (!whole) whole = view().upToDate();
+  });
+  ASSERT_TRUE(waitFor([&] { return whole.has_value(); }, 120000));
+  EXPECT_TRUE(*whole);
+  EXPECT_EQ(view().numbers().verticalHeaderItem(0)->text(), "Left: as-published");
+}
+
+TEST_F(ErrorDock, theSplitViewSaysWhatIsMissingWhereNothingCanBeDrawn) {
+  workbench::DrawThread thread;
+  SplitView view(thread, w().draft(), [] { return std::nullopt; });
+  EXPECT_TRUE(view.status().text().contains("Open a terrain"));
+  emit thread.failed({{Severity::error, "EGL", "", "a surfaceless or device display", "none"}});
+  EXPECT_TRUE(view.status().text().contains("surfaceless or device display"))
+      << view.status().text().toStdString();
+  EXPECT_FALSE(view.busy());
 }
 
 TEST_F(SplitViewTest, theDividerMovesByHandAndKeys) {
