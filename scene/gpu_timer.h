@@ -21,9 +21,10 @@ class GpuTimer {
   void endFrame();
   /// Of the newest frame whose stamps have arrived; NaN where it had no such span, and before the first.
   double milliseconds(std::size_t span) const { return milliseconds_[span]; }
+  /// Takes up what has arrived; each frame does so as it begins.
+  void collect();
 
  private:
-  void collect();
   struct Span {
     unsigned begin = 0, end = 0;
     bool ended = false;

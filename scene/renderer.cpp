@@ -281,7 +281,7 @@ void Renderer::Impl::finishPicture() {
 }
 
 FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
-  gl->clock.start(report.software, r.separateStages);
+  gl->clock.start(report.software, r.separateStages, r.waitForPicture);
   request = &r;
   lastView = r.view;
   SceneView view;

@@ -68,6 +68,9 @@ struct FrameRequest {
   /// Waits after each pass, so that FrameCost tells blur, weather and symbology apart on a software
   /// rasteriser too. Costs time: for measurements.
   bool separateStages = false;
+  /// The total of FrameCost holds the GPU's work too, and `gpu` and the parts are of this very frame: waits
+  /// for the picture. For measurements; a software rasteriser is always waited for.
+  bool waitForPicture = false;
   Skips skips;
 };
 

@@ -20,9 +20,10 @@ std::size_t spanOf(CostField stage) {
 
 StageClock::StageClock() : timer_(kCostStages.size() + 1) {}
 
-void StageClock::start(bool software, bool separate) {
+void StageClock::start(bool software, bool separate, bool wait) {
   software_ = software;
   separate_ = software && separate;
+  wait_ = wait;
   for (const CostStage& stage : kCostStages) cost_.*stage.ms = FrameCost::kNotMeasured;
   start_ = last_ = Clock::now();
   if (!gpu()) return;
@@ -64,6 +65,12 @@ FrameCost StageClock::finish() {
   if (gpu()) {
     timer_.end(kWholeFrame);
     timer_.endFrame();
+    lap(&FrameCost::draw);
+    if (wait_) {
+      glFinish();
+      timer_.collect();
+      last_ = Clock::now();
+    }
     cost_.gpu = timer_.milliseconds(kWholeFrame);
     for (const CostStage& stage : kCostStages)
       if (stage.kind == StageKind::part) cost_.*stage.ms = timer_.milliseconds(spanOf(stage.ms));
@@ -71,8 +78,8 @@ FrameCost StageClock::finish() {
     // A software rasteriser works on after the calls return; without waiting its cost would show up anywhere.
     // It has no `gpu`: that time is in `draw` already, and would count twice.
     glFinish();
+    lap(&FrameCost::draw);
   }
-  lap(&FrameCost::draw);
   cost_.total = std::chrono::duration<double, std::milli>(last_ - start_).count();
   return cost_;
 }

@@ -8,15 +8,16 @@
 namespace trimtab::scene {
 
 /// Where a frame's time goes. Whatever passes between two calls belongs to one stage, so that the stages sum
-/// to the total; a stage that no call names was not run and stays NaN. The context is current for all of its
-/// life.
+/// to the total (but for the wait that a measurement asks of a GPU); a stage that no call names was not run
+/// and stays NaN. The context is current for all of its life.
 class StageClock {
  public:
   StageClock();
 
   /// `software`: the GPU is this processor, whose work shows up in the stage that waits for it.
   /// `separate`: it is waited for at both ends of each part.
-  void start(bool software, bool separate);
+  /// `wait`: the total ends with the GPU's work, and the GPU's figures are this frame's.
+  void start(bool software, bool separate, bool wait);
   /// What passed since the last call belongs to `stage`, of the frame.
   void lap(CostField stage);
   /// What passed so far belongs to `draw`; what passes up to `endPart` to `draw` and to that part of it.
@@ -34,7 +35,7 @@ class StageClock {
   FrameCost cost_;
   GpuTimer timer_;
   Clock::time_point start_, last_;
-  bool software_ = false, separate_ = false;
+  bool software_ = false, separate_ = false, wait_ = false;
 };
 
 }  // namespace trimtab::scene

@@ -48,6 +48,7 @@ struct TerrainInfo {
   Metres lowest, highest;
   std::uint64_t voidsFilled = 0;
   std::uint64_t bytes = 0;
+  std::string checksum;  ///< of the database, over what it was made from and every file; hexadecimal
   bool hasImage = false;
   std::optional<SceneryCounts> scenery;  ///< where that was the source
 };

@@ -271,6 +271,7 @@ Result<Contents> readContents(const fs::path& folder) {
   TerrainInfo info;
   info.name = read.text(manifest, "name");
   info.source = read.text(manifest, "source");
+  info.checksum = text->substr(place, 16);
   info.lowest = Metres{read.number(manifest, "lowest_m", -20000, 20000)};
   info.highest = Metres{read.number(manifest, "highest_m", -20000, 20000)};
   info.voidsFilled = static_cast<std::uint64_t>(read.number(manifest, "voids_filled", 0, 1e15));

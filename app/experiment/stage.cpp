@@ -1,7 +1,5 @@
 #include "trimtab/experiment/stage.h"
 
-#include <GL/gl.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -51,10 +49,9 @@ scene::FrameResult Stage::draw(const scene::FrameRequest& request) {
     height_ = request.view.heightPx;
     offscreen_->resize(width_, height_);
   }
-  scene::FrameResult result = renderer_.draw(request, offscreen_->framebuffer());
-  // A picture is not there before the rasteriser says so.
-  glFinish();
-  return result;
+  scene::FrameRequest measured = request;
+  measured.waitForPicture = true;
+  return renderer_.draw(measured, offscreen_->framebuffer());
 }
 
 void Stage::setTerrain(std::shared_ptr<const terrain::Database> terrain) {

@@ -204,9 +204,9 @@ std::string stagesSection(const ReportModel& model) {
     if (q.kind == Kind::cost && !model.measured(q))
       absent += (absent.empty() ? "" : ", ") + std::string(q.label);
   std::string body = paragraph(
-      "Stages that sum to the frame are stacked; the diamond is the median frame time, which need not be the "
-      "sum "
-      "of medians. In the bars a frame that leaves a stage out counts as 0; in the table it does not count.");
+      "Stages are stacked; the diamond is the median frame time, which need not be the sum of medians. Page "
+      "is what the step from the frame before adds: it is measured apart and not in the frame time. In the "
+      "bars a frame that leaves a stage out counts as 0; in the table it does not count.");
   for (const std::string& flight : model.flights) body += stageBars(model, flight);
   body += stageTable(model);
   if (!absent.empty())

@@ -55,9 +55,9 @@ TraceCounts countsOf(const VisibleSet& visible) {
           visible.outsideFrustum, visible.occluded, visible.beyondVisibility};
 }
 
-/// A frame that is drawn again finds what was made for the eye's place; one of a flight never does.
-scene::FrameRequest flying(scene::FrameRequest request) {
-  request.skips.sameCut = request.skips.sameHorizon = request.skips.sameSymbols = false;
+/// What is drawn must not depend on what was drawn before, nor on where a run was taken up again.
+scene::FrameRequest alone(scene::FrameRequest request) {
+  request.skips.littleHidden = false;
   return request;
 }
 
@@ -80,14 +80,14 @@ class Run {
  private:
   Findings measureFlight(std::size_t flight, Results& results);
   std::vector<Unit> measureFrame(const std::vector<Runner>& runners, std::size_t index);
-  Findings keepWorst(const std::vector<Runner>& runners, std::vector<Unit>& units);
+  Findings keepWorst(const std::vector<Runner>& runners, std::size_t unitsBefore, std::vector<Unit>& units);
   Findings measureSkipsOf(std::size_t flight, const std::vector<Runner>& runners, std::vector<Unit>& units);
   std::vector<Runner> runnersOf(const Plan::NamedFlight& flight, const std::vector<std::size_t>& rows);
   bool goOn();
   void finished(std::size_t draws, bool byThisRun);
   Finding stopped() const;
   std::size_t units() const { return plan_.presets.size() * plan_.cases.size(); }
-  std::size_t drawsOfFrame() const { return units() * (kErrorDraws + plan_.repeats); }
+  std::size_t drawsOfFrame() const { return units() * (kErrorDraws + 2 * plan_.repeats); }
   std::size_t drawsOfSkips() const { return plan_.skips ? kSkipDraws * plan_.repeats : 0; }
 
   const Plan& plan_;
@@ -152,7 +152,7 @@ std::vector<Unit> Run::measureFrame(const std::vector<Runner>& runners, std::siz
     // What the step from the row before pages in, with nothing there but that row's.
     stage_.setTerrain(plan_.terrain);
     if (!frame.before.empty()) stage_.draw(frame.before.back());
-    const scene::FrameResult first = stage_.draw(frame.request);
+    const scene::FrameResult first = stage_.draw(alone(frame.request));
     measured.counts = countsOf(first.visible);
     measured.cost.page = first.cost.page;
     Unit unit;
@@ -162,14 +162,20 @@ std::vector<Unit> Run::measureFrame(const std::vector<Runner>& runners, std::siz
   }
   const std::size_t n = runners.size();
   std::vector<std::vector<FrameCost>> costs(n), parts(n);
-  std::vector<scene::FrameRequest> requests;
-  for (const Runner& runner : runners) requests.push_back(flying(runner.frames[index].request));
-  for (const scene::FrameRequest& request : requests) stage_.draw(request);
+  // A frame that is drawn again finds what was made for the eye's place; after the one before it, it does
+  // the work that a flight asks of it.
+  const auto inFlight = [this](const DecidedFrame& frame, bool separateStages) {
+    if (!frame.before.empty()) stage_.draw(frame.before.back());
+    scene::FrameRequest request = frame.request;
+    request.separateStages = separateStages;
+    return stage_.draw(request).cost;
+  };
+  for (const Runner& runner : runners) inFlight(runner.frames[index], false);
   for (std::size_t repeat = 0; repeat < plan_.repeats; ++repeat)
     for (std::size_t i = 0; i < n; ++i) {
       // Nobody is always first.
       const std::size_t u = (i + repeat) % n;
-      costs[u].push_back(stage_.draw(requests[u]).cost);
+      costs[u].push_back(inFlight(runners[u].frames[index], false));
     }
   for (std::size_t u = 0; u < n; ++u) {
     const DecidedFrame& frame = runners[u].frames[index];
@@ -182,10 +188,8 @@ std::vector<Unit> Run::measureFrame(const std::vector<Runner>& runners, std::siz
     }
     measured.cost = medians(costs[u]);
     measured.cost.page = page;
-    scene::FrameRequest& apart = requests[u];
-    apart.separateStages = true;
     for (std::size_t i = 0; i < std::min(plan_.repeats, kPartDraws); ++i)
-      parts[u].push_back(stage_.draw(apart).cost);
+      parts[u].push_back(inFlight(frame, true));
     const FrameCost ofParts = medians(parts[u]);
     for (const CostStage& stage : kCostStages)
       if (stage.kind == StageKind::part && std::isnan(measured.cost.*stage.ms))
@@ -194,9 +198,10 @@ std::vector<Unit> Run::measureFrame(const std::vector<Runner>& runners, std::siz
   return units;
 }
 
-Findings Run::keepWorst(const std::vector<Runner>& runners, std::vector<Unit>& units) {
+Findings Run::keepWorst(const std::vector<Runner>& runners, std::size_t unitsBefore,
+                        std::vector<Unit>& units) {
   for (std::size_t u = 0; u < units.size(); ++u) {
-    units[u].worst = worstFrames(units[u], plan_.worst);
+    units[u].worst = worstFrames(units[u], unitsBefore + u + 1, plan_.worst);
     for (const WorstFrame& worst : units[u].worst) {
       doing_ = "pictures of " + units[u].name.flight + ", " + units[u].name.preset;
       if (!goOn()) return {stopped()};
@@ -270,7 +275,7 @@ Findings Run::measureFlight(std::size_t flight, Results& results) {
     finished(drawsOfFrame(), !whole);
     if (!goOn()) return {stopped()};
   }
-  if (Findings failed = keepWorst(runners, units); !failed.empty()) return failed;
+  if (Findings failed = keepWorst(runners, results.units.size(), units); !failed.empty()) return failed;
   if (plan_.skips)
     if (Findings failed = measureSkipsOf(flight, runners, units); !failed.empty()) return failed;
   for (Unit& unit : units) results.units.push_back(std::move(unit));
@@ -291,9 +296,8 @@ Result<Results> Run::all() {
       "errors and counts repeat exactly.",
       "Frame times are medians of " + std::to_string(plan_.repeats) +
           (plan_.repeats == 1 ? " draw" : " draws") +
-          " of a frame whose pages are there but whose levels, horizon and symbols are made anew, as in "
-          "flight; all presets and cases take turns frame by frame. Page is "
-          "what the step from the row before would add."};
+          " of a frame after the row before it, with its pages there; all presets and cases take turns "
+          "frame by frame. Page is what the step from the row before would add."};
   const TerrainForm form = plan_.presets.front().parameters->staticLod.terrain;
   for (const auto& preset : plan_.presets)
     if (preset.parameters->staticLod.terrain != form && plan_.terrain->staticLod())

@@ -26,6 +26,14 @@ std::string digest(std::string_view bytes) {
 
 std::string flightDigest(const Plan::NamedFlight& flight) {
   std::string text = flightCsv(flight.flight);
+  // What a flight's file has no columns for.
+  for (const AircraftState& state : flight.flight.states) {
+    if (state.airspeed) text += numberText(state.airspeed->value()) + ' ';
+    if (state.velocity)
+      for (const MetresPerSecond v : {state.velocity->north, state.velocity->east, state.velocity->down})
+        text += numberText(v.value()) + ' ';
+    text += '\n';
+  }
   for (const TraceRow& row : flight.trace) appendTraceRow(text, row);
   return digest(text);
 }
@@ -46,8 +54,7 @@ Json identity(const Plan& plan, const std::string& machine) {
       {"machine", machine},
       {"terrain", plan.terrainName + ", " + std::to_string(info.columns) + " x " + std::to_string(info.rows) +
                       " posts from " + numberText(info.southWest.latitude.value()) + ", " +
-                      numberText(info.southWest.longitude.value()) + ", " + std::to_string(info.bytes) +
-                      " bytes"}};
+                      numberText(info.southWest.longitude.value()) + ", checksum " + info.checksum}};
   std::string flights, presets, cases;
   const auto append = [](std::string& list, const std::string& text) {
     list += (list.empty() ? "" : ", ") + text;

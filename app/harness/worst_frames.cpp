@@ -20,7 +20,7 @@ std::string plain(const std::string& name) {
 
 }  // namespace
 
-std::vector<WorstFrame> worstFrames(const Unit& unit, std::size_t most) {
+std::vector<WorstFrame> worstFrames(const Unit& unit, std::size_t number, std::size_t most) {
   std::vector<WorstFrame> worst;
   for (const auto& [key, why] :
        {std::pair{"flip", "largest FLIP"}, std::pair{"geometric_max_px", "largest geometric error"},
@@ -41,13 +41,15 @@ std::vector<WorstFrame> worstFrames(const Unit& unit, std::size_t most) {
     else if (worst.size() < most)
       worst.push_back({at, why, {}, {}, {}});
   }
-  for (WorstFrame& w : worst) namePictures(w, unit);
+  for (WorstFrame& w : worst) namePictures(w, unit, number);
   return worst;
 }
 
-void namePictures(WorstFrame& worst, const Unit& unit) {
-  const std::string name = plain(unit.name.flight) + '-' + plain(unit.name.preset) + '-' +
-                           plain(unit.name.method) + '-' + std::to_string(unit.frames[worst.frame].row);
+void namePictures(WorstFrame& worst, const Unit& unit, std::size_t number) {
+  // Names that differ in their punctuation alone are told apart by the number.
+  const std::string name = std::to_string(number) + '-' + plain(unit.name.flight) + '-' +
+                           plain(unit.name.preset) + '-' + plain(unit.name.method) + '-' +
+                           std::to_string(unit.frames[worst.frame].row);
   worst.reference = name + "-reference.png";
   worst.ours = name + "-ours.png";
   worst.difference = name + "-difference.png";
