@@ -268,6 +268,32 @@ TEST_F(ErrorMeter, repeatsExactlyInAnyOrder) {
   for (std::size_t i = runs.size(); i-- > 0;) EXPECT_TRUE(same(measureRun(runs[i]), first[i])) << i;
 }
 
+// Near where it hid next to nothing a horizon is not built: what was measured before must not decide what is
+// drawn.
+TEST_F(ErrorMeter, repeatsExactlyWhereAHorizonHidesLittle) {
+  measureOver(test::syntheticMountains());
+  std::vector<scene::FrameRequest> requests;
+  for (int i = 0; i < 10; ++i) {
+    auto r = request(over(0.45, 0.4, 2100 - 40.0 * i), {Degrees{30}, Degrees{-5}, {}});
+    r.view.widthPx = 160, r.view.heightPx = 80;
+    r.view.left = -2, r.view.right = 2, r.view.bottom = -1, r.view.top = 1;
+    r.decision.depthMap = DepthMapSize{320, 240};
+    r.occlusion = OcclusionMethod::horizon;
+    r.lod.screenSpaceError = Pixels{0.02};
+    requests.push_back(r);
+  }
+  std::vector<std::size_t> down, up;
+  for (const auto& r : requests) down.push_back(renderer.draw(r, offscreen->framebuffer()).visible.occluded);
+  for (auto r = requests.rbegin(); r != requests.rend(); ++r)
+    up.push_back(renderer.draw(*r, offscreen->framebuffer()).visible.occluded);
+  std::reverse(up.begin(), up.end());
+  ASSERT_NE(down, up) << "nothing is left out here because of another picture";
+  std::vector<FrameError> first;
+  for (const auto& r : requests) first.push_back(measure(r));
+  for (std::size_t i = requests.size(); i-- > 0;) EXPECT_TRUE(same(measure(requests[i]), first[i])) << i;
+  for (std::size_t i = 1; i < requests.size(); i += 3) EXPECT_TRUE(same(measure(requests[i]), first[i])) << i;
+}
+
 TEST_F(ErrorMeter, leavesAnothersPictureAndBindingsAlone) {
   measureOver(test::syntheticMountains());
   const auto r = lowRequest();
