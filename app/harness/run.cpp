@@ -224,6 +224,7 @@ Findings Run::measureSkipsOf(std::size_t flight, const std::vector<Runner>& runn
   } else {
     held.emplace();
     const auto draw = [this](const scene::FrameRequest& request) { return stage_.draw(request); };
+    stage_.setTerrain(plan_.terrain);
     for (const Runner& runner : runners) {
       doing_ = "what skips save, " + runner.name.preset + ", " + runner.name.method;
       if (!goOn()) return {stopped()};
@@ -231,12 +232,13 @@ Findings Run::measureSkipsOf(std::size_t flight, const std::vector<Runner>& runn
       const std::size_t count = std::min(kSkipFrames, runner.frames.size());
       for (std::size_t k = 0; k < count; ++k) {
         const DecidedFrame& frame = runner.frames[(2 * k + 1) * runner.frames.size() / (2 * count)];
-        if (!frame.before.empty()) frames.push_back(frame.before.back());
+        frames.push_back(frame.before.empty() ? frame.request : frame.before.back());
         frames.push_back(frame.request);
       }
       Unit unit;
       unit.name = runner.name;
-      unit.skips = measureSkips(draw, frames, plan_.repeats, [this] { return goOn(); });
+      unit.skips = measureSkips(
+          draw, frames, plan_.repeats, [this] { return goOn(); }, true);
       held->push_back(std::move(unit));
       finished(drawsOfSkips(), true);
     }

@@ -33,8 +33,10 @@ const std::vector<Skip>& skips();
 /// For each skip: how many of `frames`, drawn in order, left the work out, and what that saved, measured on
 /// at most `kMostMeasured` of them, `repeats` times each, the frame without the skip and the frame with it
 /// taking turns. `goOn` is asked between frames; once it says no, what is not measured yet stays NaN.
+/// `pairs`: each two frames are one to measure and, first, the one before it.
 std::vector<SkipSaving> measureSkips(const DrawFrame& draw, std::span<const scene::FrameRequest> frames,
-                                     std::size_t repeats, const std::function<bool()>& goOn = {});
+                                     std::size_t repeats, const std::function<bool()>& goOn = {},
+                                     bool pairs = false);
 inline constexpr std::size_t kMostMeasured = 6;
 
 }  // namespace trimtab::harness
