@@ -106,7 +106,8 @@ TEST_F(LongFlight, holdsWithHeadMotionWeatherAndAllDocksOpen) {
   w().stopTrace();
   EXPECT_LE(slowestPaints, 1u) << "pictures drawn before a queued event was answered";
   EXPECT_EQ(errors, 0u) << "GL errors";
-  EXPECT_LT(last - third, 32) << "MiB more at the end than after a third, however long the flight";
+  // Measuring errors keeps the finest tiles that its references have shown, as far as the terrain goes.
+  EXPECT_LT(last - third, 64) << "MiB more at the end than after a third, however long the flight";
   std::cout << "resident after a third " << third << " MiB, at the end " << last << " MiB; " << paints()
             << " pictures, " << session().packets() << " packets" << std::endl;
 
