@@ -3,72 +3,15 @@
 #include <limits>
 #include <random>
 
-#include "scene_test.h"
+#include "culling_flight.h"
 #include "trimtab/scene/horizon_culling.h"
 
 namespace trimtab {
 namespace {
 
-using test::SceneTest;
-
-constexpr std::array<DepthMapSize, 6> kSizes{
-    {{64, 48}, {320, 240}, {400, 300}, {640, 480}, {800, 600}, {33, 77}}};
-
-struct Tally {
-  int views = 0, served = 0;
-  std::size_t differing = 0, frustum = 0, proposed = 0, owning = 0;
-};
-
-class HorizonScene : public SceneTest {
+class HorizonScene : public test::CullingFlight {
  protected:
-  void compare(scene::FrameRequest r, DepthMapSize size, Tally& tally) {
-    scene::FrameResult frustum, proposed;
-    r.decision.depthMap = size;
-    r.occlusion = OcclusionMethod::horizon;
-    r.method = CullingCase::none;
-    const auto whole = picture(r);
-    r.method = CullingCase::view_frustum;
-    const std::size_t frustumDiffers = differing(whole, picture(r, &frustum));
-    r.method = CullingCase::proposed;
-    const std::size_t proposedDiffers = differing(whole, picture(r, &proposed));
-    EXPECT_EQ(frustumDiffers, 0u) << "view " << tally.views;
-    EXPECT_EQ(proposed.visible.tiles.size() + proposed.visible.occluded, frustum.visible.tiles.size());
-    EXPECT_FALSE(proposed.depthMap.has_value());
-    ++tally.views;
-    tally.served += proposed.horizon;
-    tally.differing += proposedDiffers;
-    tally.frustum += frustum.visible.tiles.size();
-    tally.proposed += proposed.visible.tiles.size();
-  }
-
-  /// TRIMTAB_SOAK in the environment multiplies the views.
-  static int soak() {
-    const char* text = std::getenv("TRIMTAB_SOAK");
-    return text ? std::max(1, std::atoi(text)) : 1;
-  }
-
-  /// Flights along valleys and above, any attitude, every size.
-  Tally fly(int views, unsigned seed, std::span<const DepthMapSize> sizes = kSizes) {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<double> place(0.15, 0.85), unit(0, 1);
-    Tally tally;
-    for (int i = 0; i < views * soak(); ++i) {
-      // 15 m to 9,000 m above the ground, most of them low, where much is hidden.
-      const double above = 15 * std::pow(600.0, std::pow(unit(random), 2.5));
-      const double pitch = i % 7 == 3 ? -75 + 30 * unit(random) : -20 + 25 * unit(random);
-      const double roll = i % 3 == 0 ? 360 * unit(random) : 0;
-      const auto east = place(random), north = place(random);
-      auto r =
-          request(over(east, north, above), {Degrees{360 * unit(random)}, Degrees{pitch}, Degrees{roll}});
-      if (i % 5 == 4) r.view.left = -0.2, r.view.right = 0.9, r.view.bottom = -0.6, r.view.top = 0.1;
-      if (i % 11 == 7) r.view.left = -0.02, r.view.right = 0.02, r.view.bottom = -0.01, r.view.top = 0.01;
-      r.lod.screenSpaceError = Pixels{i % 4 == 0 ? 6.0 : i % 4 == 1 ? 0.5 : 2.0};
-      compare(r, sizes[static_cast<std::size_t>(i) % sizes.size()], tally);
-    }
-    std::printf("%d views: %zu tiles by frustum, %zu proposed, the horizon served %d\n", tally.views,
-                tally.frustum, tally.proposed, tally.served);
-    return tally;
-  }
+  HorizonScene() : CullingFlight(OcclusionMethod::horizon, 15) {}
 };
 
 TEST_F(HorizonScene, leavesNoPixelOutOverSyntheticMountains) {

@@ -1,76 +1,20 @@
 #include <random>
 
-#include "scene_test.h"
+#include "culling_flight.h"
 
 namespace trimtab {
 namespace {
 
-using test::SceneTest;
-
-constexpr std::array<DepthMapSize, 6> kSizes{
-    {{64, 48}, {320, 240}, {400, 300}, {640, 480}, {800, 600}, {33, 77}}};
-
-struct Tally {
-  int views = 0, viewsOverFifth = 0, maps = 0;
-  std::size_t differing = 0, frustum = 0, proposed = 0;
-};
-
-class Occlusion : public SceneTest {
+class Occlusion : public test::CullingFlight {
  protected:
-  /// The three culling cases of one view: pictures must be equal, and the case *proposed* draws no more.
-  void compare(scene::FrameRequest r, DepthMapSize size, Tally& tally) {
-    scene::FrameResult frustum, proposed;
-    r.decision.depthMap = size;
-    r.method = CullingCase::none;
-    const auto whole = picture(r);
-    r.method = CullingCase::view_frustum;
-    const std::size_t frustumDiffers = differing(whole, picture(r, &frustum));
-    r.method = CullingCase::proposed;
-    const std::size_t proposedDiffers = differing(whole, picture(r, &proposed));
-    EXPECT_EQ(frustumDiffers, 0u) << "view " << tally.views;
-    EXPECT_LE(proposed.visible.tiles.size(), frustum.visible.tiles.size());
-    ++tally.views;
-    tally.maps += proposed.depthMap.has_value();
-    tally.differing += proposedDiffers;
-    tally.frustum += frustum.visible.tiles.size();
-    tally.proposed += proposed.visible.tiles.size();
-    tally.viewsOverFifth += proposed.visible.occluded * 5 > frustum.visible.tiles.size();
-  }
-
-  /// TRIMTAB_SOAK in the environment multiplies the views.
-  static int soak() {
-    const char* text = std::getenv("TRIMTAB_SOAK");
-    return text ? std::max(1, std::atoi(text)) : 1;
-  }
-
-  /// Flights along valleys and above, any attitude, every size.
-  Tally fly(int views, unsigned seed, std::span<const DepthMapSize> sizes = kSizes) {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<double> place(0.15, 0.85), unit(0, 1);
-    Tally tally;
-    for (int i = 0; i < views * soak(); ++i) {
-      // 60 m to 9,000 m above the ground, most of them low, where much is hidden.
-      const double above = 60 * std::pow(150.0, std::pow(unit(random), 2.5));
-      const double pitch = i % 7 == 3 ? -75 + 30 * unit(random) : -20 + 25 * unit(random);
-      const double roll = i % 3 == 0 ? 360 * unit(random) : 0;
-      const auto east = place(random), north = place(random);
-      auto r =
-          request(over(east, north, above), {Degrees{360 * unit(random)}, Degrees{pitch}, Degrees{roll}});
-      if (i % 5 == 4) r.view.left = -0.2, r.view.right = 0.9, r.view.bottom = -0.6, r.view.top = 0.1;
-      r.lod.screenSpaceError = Pixels{i % 4 == 0 ? 6.0 : 2.0};
-      compare(r, sizes[static_cast<std::size_t>(i) % sizes.size()], tally);
-    }
-    std::printf("%d views: %zu tiles by frustum, %zu proposed, %d views leave out over a fifth\n",
-                tally.views, tally.frustum, tally.proposed, tally.viewsOverFifth);
-    return tally;
-  }
+  Occlusion() : CullingFlight(OcclusionMethod::depth_map, 60) {}
 };
 
 TEST_F(Occlusion, leavesNoPixelOutOverSyntheticMountains) {
   use(test::syntheticMountains());
   const Tally tally = fly(36, 1);
   EXPECT_EQ(tally.differing, 0u);
-  EXPECT_GT(tally.maps, 30);
+  EXPECT_GT(tally.served, 30);
   EXPECT_GT(tally.viewsOverFifth, 8) << "it hides hardly anything";
 }
 
