@@ -60,6 +60,7 @@ struct FrameRequest {
       OcclusionMethod::depth_map;  ///< of the tiled levels; static trees have their own
   LodParameters lod;
   StaticLodParameters staticLod;
+  TerrainParameters terrain;
   Overlays overlays;
   /// Culling and levels stand still as of this view while the eye moves on; its frustum is drawn.
   std::optional<EyePose> frozenEye;
@@ -71,6 +72,9 @@ struct FrameRequest {
   /// The total of FrameCost holds the GPU's work too, and `gpu` and the parts are of this very frame: waits
   /// for the picture. For measurements; a software rasteriser is always waited for.
   bool waitForPicture = false;
+  /// What this view asks of the disk is waited for, so that the picture depends on the request alone. For
+  /// measurements and comparisons; else no frame waits, and what is not there yet is drawn coarser.
+  bool waitForPages = false;
   Skips skips;
 };
 
@@ -80,10 +84,21 @@ inline bool asksForTrees(const FrameRequest& request) {
          request.overlays.treePicture;
 }
 
+/// What paging did, where patches were drawn. Counters since the terrain was set.
+struct PagingFrame {
+  std::size_t waiting = 0;   ///< pages that this view lacks
+  std::size_t heldBack = 0;  ///< diamonds drawn coarser than asked for, for want of them
+  std::uint64_t pagesRead = 0, pagesDropped = 0, bytesRead = 0;
+  std::uint64_t bytes = 0, budgetBytes = 0;  ///< held now, and allowed
+  double longestReadMs = 0;
+};
+
 struct FrameResult {
   VisibleSet visible;
   FrameCost cost;  ///< milliseconds; gpu is NaN where there is no timer query yet
   std::size_t tilesInCut = 0;
+  bool patches = false;  ///< the nodes of `visible` are patches
+  PagingFrame paging;
   StaticLodFrame staticLod;              ///< where `drawn`, the nodes of `visible` are the trees'
   std::optional<DepthMapSize> depthMap;  ///< drawn this frame
   bool horizon = false;                  ///< the horizon served this frame

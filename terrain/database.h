@@ -54,6 +54,8 @@ struct TerrainInfo {
 };
 
 struct StaticLodTerrain;
+class GroundPyramid;
+class PatchTerrain;
 
 class Database {
  public:
@@ -69,6 +71,10 @@ class Database {
   virtual std::optional<Metres> heightAt(Degrees latitude, Degrees longitude) const = 0;
   /// The trees of static levels of detail, in the index's frame; null where the source was no scenery.
   virtual std::shared_ptr<const StaticLodTerrain> staticLod() const { return nullptr; }
+  /// The error-bounded levels, in the index's frame; null in a database of an older version.
+  virtual std::shared_ptr<const PatchTerrain> patches() const { return nullptr; }
+  /// Colours and normals of the ground; null in a database of an older version.
+  virtual std::shared_ptr<const GroundPyramid> ground() const { return nullptr; }
   /// Highest post within a distance, or none when no post is that near.
   virtual std::optional<Metres> highestWithin(Degrees latitude, Degrees longitude, Metres radius) const = 0;
 };

@@ -239,6 +239,7 @@ std::optional<scene::FrameRequest> Session::request(double now, int windowWidthP
   request.occlusion = parameters_->culling.occlusion;
   request.lod = parameters_->lod;
   request.staticLod = parameters_->staticLod;
+  request.terrain = parameters_->terrain;
   if (parameters_->symbology.enabled)
     request.symbology = scene::SymbologyRequest{symbols(eye), scene::symbologySetup(*parameters_)};
   inPicture_.insert(inPicture_.end(), waiting_.begin(), waiting_.end());

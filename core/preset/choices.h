@@ -49,7 +49,8 @@ struct ChoicesOf<RenderSize> {
 };
 template <>
 struct ChoicesOf<TerrainForm> {
-  static constexpr ChoiceOption options[] = {{"levels", "Tiled levels"}, {"static_trees", "Static trees"}};
+  static constexpr ChoiceOption options[] = {
+      {"levels", "Tiled levels"}, {"patches", "Error-bounded patches"}, {"static_trees", "Static trees"}};
 };
 template <>
 struct ChoicesOf<StaticDistanceRule> {

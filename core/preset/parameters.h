@@ -24,8 +24,9 @@ enum class OcclusionMethod { depth_map, horizon };
 /// Where field of view and near plane come from.
 enum class ViewSource { preset, host };
 enum class RenderSize { fit, fixed };
-/// What stands for the terrain: its regular tiled levels, or the trees of document E where it has them.
-enum class TerrainForm { levels, static_trees };
+/// What stands for the terrain: its regular tiled levels, its error-bounded patches, or the trees of document
+/// E where it has them.
+enum class TerrainForm { levels, patches, static_trees };
 /// How a tree node's error becomes its minimum viewer distance.
 enum class StaticDistanceRule { picture, factor };
 enum class ErrorMeasure { rms, maximum };
@@ -92,6 +93,11 @@ struct CullingParameters {
 struct LodParameters {
   Pixels screenSpaceError{2};
   Ratio scale{1};  ///< 1 is full detail, larger is coarser
+};
+
+/// The terrain that is read while it is flown over.
+struct TerrainParameters {
+  Megabytes cache{512};
 };
 
 /// Trees of static levels of detail (document E).
@@ -167,6 +173,7 @@ struct TuningParameters {
   SchemeParameters scheme;
   CullingParameters culling;
   LodParameters lod;
+  TerrainParameters terrain;
   StaticLodParameters staticLod;
   ViewParameters view;
   WeatherParameters weather;

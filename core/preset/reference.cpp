@@ -19,6 +19,7 @@ std::string_view groupTitle(std::string_view group) {
   if (group == "fuzzy") return "Fuzzy choice of the culling scheme";
   if (group == "culling") return "Culling";
   if (group == "lod") return "Level of detail";
+  if (group == "terrain") return "Terrain";
   if (group == "static_lod") return "Static levels of detail";
   if (group == "view") return "View";
   if (group == "host") return "Host";

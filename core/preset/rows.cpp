@@ -6,6 +6,7 @@
 #include "trimtab/preset/rules.h"
 #include "trimtab/preset/static_lod_rows.h"
 #include "trimtab/preset/symbology_rows.h"
+#include "trimtab/preset/terrain_rows.h"
 #include "trimtab/preset/view_rows.h"
 #include "trimtab/preset/weather_rows.h"
 
@@ -15,8 +16,8 @@ namespace {
 
 // Groups of keys stay together, in the order people should read them.
 constexpr std::array kTable =
-    table::joined(table::kFuzzyRows, table::kViewRows, table::kStaticLodRows, table::kMotionRows,
-                  table::kWeatherRows, table::kSymbologyRows, table::kHostRows);
+    table::joined(table::kFuzzyRows, table::kViewRows, table::kTerrainRows, table::kStaticLodRows,
+                  table::kMotionRows, table::kWeatherRows, table::kSymbologyRows, table::kHostRows);
 
 static_assert(table::everyFieldHasOneRow(kTable), "a field of parameters.h has no row, or two");
 static_assert(table::keysAreOrderly(kTable), "a key is there twice, or is not beside the keys of its group");

@@ -117,9 +117,10 @@ void setField(TuningParameters& parameters, const ParameterValue& value) {
 }
 
 constexpr bool endsInSomeUnit(std::string_view key) {
-  for (std::string_view suffix : {unit::Metre::suffix, unit::Foot::suffix, unit::Degree::suffix,
-                                  unit::Radian::suffix, unit::Second::suffix, unit::Millisecond::suffix,
-                                  unit::MetrePerSecond::suffix, unit::Knot::suffix, unit::Pixel::suffix})
+  for (std::string_view suffix :
+       {unit::Metre::suffix, unit::Foot::suffix, unit::Degree::suffix, unit::Radian::suffix,
+        unit::Second::suffix, unit::Millisecond::suffix, unit::MetrePerSecond::suffix, unit::Knot::suffix,
+        unit::Pixel::suffix, unit::Megabyte::suffix})
     if (key.ends_with(suffix)) return true;
   return false;
 }

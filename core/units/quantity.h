@@ -14,6 +14,7 @@ struct Angle {};
 struct Time {};
 struct Speed {};
 struct Screen {};
+struct Storage {};
 struct Dimensionless {};
 
 /// A unit has a dimension, its size in the dimension's base unit, a symbol for people and a suffix for
@@ -62,6 +63,12 @@ struct Pixel {
   using Dimension = Screen;
   static constexpr double size = 1.0;
   static constexpr std::string_view symbol = "px", suffix = "_px";
+};
+/// A million bytes.
+struct Megabyte {
+  using Dimension = Storage;
+  static constexpr double size = 1e6;
+  static constexpr std::string_view symbol = "MB", suffix = "_mb";
 };
 struct Ratio {
   using Dimension = Dimensionless;
@@ -124,6 +131,7 @@ using Milliseconds = Quantity<unit::Millisecond>;
 using MetresPerSecond = Quantity<unit::MetrePerSecond>;
 using Knots = Quantity<unit::Knot>;
 using Pixels = Quantity<unit::Pixel>;
+using Megabytes = Quantity<unit::Megabyte>;
 using Ratio = Quantity<unit::Ratio>;
 using Membership = Quantity<unit::Degree01>;
 

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "trimtab/terrain/database.h"
+#include "trimtab/terrain/height_window.h"
+#include "trimtab/terrain/patch_terrain.h"
+#include "trimtab/terrain/post_geometry.h"
+
+/// Builds error-bounded levels (core/frame/patch_index.h says what they are and why they close), a page at a
+/// time, from the posts alone: pages can be built in any order, by many threads or machines.
+namespace trimtab::terrain {
+
+/// Patches, diamonds, pages and their links for a grid of posts; bounds, errors and triangle counts are sized
+/// and not filled.
+PatchIndex makePatchIndex(const PostGrid& posts, const PostGeometry& geometry);
+
+/// Of every depth, metres; falls by the square root of two a depth to `leafM` at the deepest.
+std::vector<double> patchTolerances(const PatchIndex& index, double leafM);
+/// A thirtieth of the distance of posts: where rough land takes a fifth of its posts.
+double defaultLeafToleranceM(const PostGrid& posts);
+
+/// A page and what was measured of its own patches; errors and bounds of descendants are not in them yet.
+struct BuiltPage {
+  PatchPage meshes;
+  std::vector<PatchFacts> facts;
+  std::vector<Box> bounds;
+  std::vector<std::array<float, PatchIndex::kVariants>> errorM;
+};
+/// Memory: a few times the posts of a page at no more than kMostPostsASide a side (coarser pages are meshed
+/// on every so-manyth post, and measured on all of them, strip by strip).
+inline constexpr std::uint32_t kMostPostsASide = 4 * PatchIndex::kLeafCells * PatchIndex::kPageSquares + 1;
+BuiltPage buildPage(const PatchIndex& index, std::uint32_t page, const HeightSource& heights,
+                    const PostGeometry& geometry, const std::vector<double>& tolerances);
+
+/// Fills bounds, errors and triangles of the index, so that they are monotone up the tree; `facts` one a
+/// patch, `own*` as built, page by page.
+void finishPatchIndex(PatchIndex& index, const std::vector<Box>& ownBounds,
+                      const std::vector<std::array<float, PatchIndex::kVariants>>& ownErrorM,
+                      const std::vector<std::array<std::uint16_t, PatchIndex::kVariants>>& triangles);
+
+/// All of it in memory, on all cores; null: cancelled.
+std::shared_ptr<const PatchTerrain> buildPatches(const HeightSource& heights, double leafToleranceM,
+                                                 const std::function<bool(double)>& carryOn = {});
+
+}  // namespace trimtab::terrain
