@@ -10,6 +10,7 @@
 #include "trimtab/culling/select.h"
 #include "trimtab/frame/frame.h"
 #include "trimtab/frame/static_lod_frame.h"
+#include "trimtab/frame/terrain_frame.h"
 #include "trimtab/preset/parameters.h"
 #include "trimtab/scene/symbology_geometry.h"
 #include "trimtab/terrain/database.h"
@@ -83,15 +84,6 @@ inline bool asksForTrees(const FrameRequest& request) {
   return request.staticLod.terrain == TerrainForm::static_trees || request.overlays.treeDepth >= 0 ||
          request.overlays.treePicture;
 }
-
-/// What paging did, where patches were drawn. Counters since the terrain was set.
-struct PagingFrame {
-  std::size_t waiting = 0;   ///< pages that this view lacks
-  std::size_t heldBack = 0;  ///< diamonds drawn coarser than asked for, for want of them
-  std::uint64_t pagesRead = 0, pagesDropped = 0, bytesRead = 0;
-  std::uint64_t bytes = 0, budgetBytes = 0;  ///< held now, and allowed
-  double longestReadMs = 0;
-};
 
 struct FrameResult {
   VisibleSet visible;
