@@ -38,7 +38,8 @@ struct PatchFacts {
   std::array<float, PatchIndex::kVariants> bilinearErrorM{};  ///< largest, over the source's bilinear surface
   float lowestM = 0, highestM = 0;                            ///< of the source posts under it, heights
   std::uint32_t bytes = 0;                                    ///< in its page
-  std::uint32_t posts = 0, voids = 0;                         ///< under it; of them filled
+  std::uint32_t vertices = 0;          ///< of its mesh: with its triangles, bytes in memory
+  std::uint32_t posts = 0, voids = 0;  ///< under it; of them filled
 };
 
 /// A page, decoded.
