@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "trimtab/scene/gl_api.h"
+#include "trimtab/scene/gl_buffer.h"
 
 namespace trimtab::scene {
 namespace {
@@ -43,40 +44,6 @@ GLuint makeArray(const std::vector<std::uint16_t>& indices, GLuint& indexBuffer)
                indices.data(), GL_STATIC_DRAW);
   glBindVertexArray(0);
   return array;
-}
-
-void growBuffer(GLuint& buffer, std::size_t before, std::size_t after) {
-  GLuint larger = 0;
-  glGenBuffers(1, &larger);
-  glBindBuffer(GL_COPY_WRITE_BUFFER, larger);
-  glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(after), nullptr, GL_STATIC_DRAW);
-  if (buffer != 0) {
-    glBindBuffer(GL_COPY_READ_BUFFER, buffer);
-    glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0, static_cast<GLsizeiptr>(before));
-    glBindBuffer(GL_COPY_READ_BUFFER, 0);
-    glDeleteBuffers(1, &buffer);
-  }
-  glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
-  buffer = larger;
-}
-
-void upload(GLuint buffer, const void* data, std::size_t bytes) {
-  glBindBuffer(GL_COPY_WRITE_BUFFER, buffer);
-  glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_DYNAMIC_DRAW);
-  glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
-}
-
-void uploadPart(GLuint buffer, std::size_t slot, const void* data, std::size_t bytes) {
-  glBindBuffer(GL_COPY_WRITE_BUFFER, buffer);
-  glBufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(slot * bytes), static_cast<GLsizeiptr>(bytes),
-                  data);
-  glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
-}
-
-void attach(GLuint texture, GLenum format, GLuint buffer) {
-  glBindTexture(GL_TEXTURE_BUFFER, texture);
-  glTexBuffer(GL_TEXTURE_BUFFER, format, buffer);
-  glBindTexture(GL_TEXTURE_BUFFER, 0);
 }
 
 }  // namespace
@@ -129,11 +96,11 @@ void TileCache::grow() {
   slots_.resize(after);
   slotData_.resize(after);
   tints_.resize(after);
-  upload(slotBuffer_, slotData_.data(), after * sizeof(SlotData));
-  upload(tintBuffer_, tints_.data(), after * sizeof(std::uint32_t));
-  attach(slotTexture_, GL_RGBA32I, slotBuffer_);
-  attach(tintTexture_, GL_RGBA8, tintBuffer_);
-  attach(partTexture_, GL_RGBA32F, partBuffer_);
+  uploadBuffer(slotBuffer_, slotData_.data(), after * sizeof(SlotData));
+  uploadBuffer(tintBuffer_, tints_.data(), after * sizeof(std::uint32_t));
+  attachBuffer(slotTexture_, GL_RGBA32I, slotBuffer_);
+  attachBuffer(tintTexture_, GL_RGBA8, tintBuffer_);
+  attachBuffer(partTexture_, GL_RGBA32F, partBuffer_);
 }
 
 std::uint32_t TileCache::takeSlot() {
@@ -153,12 +120,12 @@ std::uint32_t TileCache::takeSlot() {
 void TileCache::fill(std::uint32_t slot, std::uint32_t node) {
   database_->buildTile(node, mesh_);
   makeOccluder(mesh_, database_->index().slopeMax[node], occluder_);
-  uploadPart(vertexBuffer_, slot, mesh_.vertices.data(), kSlotBytes);
-  uploadPart(occluderBuffer_, slot, occluder_.vertices.data(), kOccluderBytes);
-  uploadPart(partBuffer_, slot, occluder_.parts.data(), kPartBytes);
+  uploadPart(vertexBuffer_, slot * kSlotBytes, mesh_.vertices.data(), kSlotBytes);
+  uploadPart(occluderBuffer_, slot * kOccluderBytes, occluder_.vertices.data(), kOccluderBytes);
+  uploadPart(partBuffer_, slot * kPartBytes, occluder_.parts.data(), kPartBytes);
   slotData_[slot] = {{mesh_.origin[0], mesh_.origin[1], mesh_.origin[2], static_cast<std::int32_t>(node)},
                      occluder_.limits};
-  uploadPart(slotBuffer_, slot, &slotData_[slot], sizeof(SlotData));
+  uploadPart(slotBuffer_, slot * sizeof(SlotData), &slotData_[slot], sizeof(SlotData));
   slots_[slot].node = node;
   slotOfNode_[node] = slot;
 }
@@ -183,7 +150,7 @@ std::size_t TileCache::prepare(std::span<const TileDraw> tiles, bool anew) {
 void TileCache::setTints(std::span<const TileDraw> tiles, std::span<const std::uint32_t> colours) {
   for (std::size_t i = 0; i < tiles.size(); ++i)
     if (const std::uint32_t slot = slotOfNode_[tiles[i].node]; slot != kNoSlot) tints_[slot] = colours[i];
-  upload(tintBuffer_, tints_.data(), tints_.size() * sizeof(std::uint32_t));
+  uploadBuffer(tintBuffer_, tints_.data(), tints_.size() * sizeof(std::uint32_t));
 }
 
 void TileCache::draw(std::span<const TileDraw> tiles) {

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstddef>
+
+/// Buffers of the current context; each call leaves nothing bound but what it says.
+namespace trimtab::scene {
+
+/// A buffer of `after` bytes in place of `buffer` (0: none yet), whose first `before` bytes it keeps.
+void growBuffer(unsigned& buffer, std::size_t before, std::size_t after);
+/// All of it, anew.
+void uploadBuffer(unsigned buffer, const void* data, std::size_t bytes);
+void uploadPart(unsigned buffer, std::size_t offset, const void* data, std::size_t bytes);
+/// Makes `buffer` what a buffer texture reads.
+void attachBuffer(unsigned texture, unsigned format, unsigned buffer);
+
+}  // namespace trimtab::scene
