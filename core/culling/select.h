@@ -46,8 +46,8 @@ struct LevelCut {
 void selectLevels(const TerrainIndex& index, Vec3 eye, double maxErrorPx, double lodScale,
                   double pixelsPerRadian, LevelCut& cut);
 
-/// Fills `cut.boxes`, which selectVisible reads; selectLevels does it.
-void gatherBoxes(const TerrainIndex& index, LevelCut& cut);
+/// Fills `cut.boxes`, which selectVisible reads; selectLevels does it. `bounds`: the index's.
+void gatherBoxes(std::span<const Box> bounds, LevelCut& cut);
 
 struct VisibleSet {
   std::vector<TileDraw> tiles;                                         ///< to draw

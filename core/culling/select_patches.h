@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -10,31 +11,40 @@
 /// Which patches a frame draws, and which pages it would draw from if they were there.
 namespace trimtab {
 
-/// A page that is wanted; more urgent the larger its error is in the picture.
+/// A page that a view has a use for.
 struct PageWant {
   std::uint32_t page = 0;
-  float errorPx = 0;  ///< of what is drawn in its stead; 0: drawn or nearly so, keep it
+  /// The largest error, in pixels, of what is drawn in its stead while it is not there; infinite at the roots
+  /// and around the eye. No page has more than those it stands on.
+  float errorPx = 0;
 };
 
 struct PatchCut {
   LevelCut cut;  ///< tiles: node is a patch, `coarser` its variant; order is a function of the index only
-  std::vector<PageWant>
-      wants;  ///< every page of the cut, and what was not split for want of pages; no page twice
-  std::size_t heldBack = 0;  ///< diamonds that should be halved and are not, for want of a page
+  /// Every page of the cut as it would be with all pages there, and those above them; each once.
+  std::vector<PageWant> wants;
+  std::size_t heldBack = 0;  ///< diamonds of the cut that should be halved and are not, for want of a page
 
   // What selectPatches works with, kept so that a frame allocates nothing.
-  std::vector<std::uint8_t> split;       ///< one a diamond
-  std::vector<std::uint32_t> splitList;  ///< those that are, to be cleared
+  std::vector<float> need;               ///< one a diamond: error over distance, squared; 0: stays whole
+  std::vector<std::uint8_t> lack;        ///< one a diamond that is to be halved: what keeps it from it
+  std::vector<std::uint32_t> splitList;  ///< diamonds that are to be halved: the entries to be cleared
   std::vector<std::uint32_t> stack, wantOf;
 };
 
 /// Patches whose error at `eye` is at most maxErrorPx x lodScale in the picture where the data and the pages
 /// allow; of each the coarsest variant that is. `resident`: one a page, not 0 where it may be drawn; empty:
-/// all. The pages of the roots must be. Independent of view direction and of culling.
+/// all. The pages of the roots must be. Independent of view direction and of culling. Costs what the cut
+/// does, whatever the size of the index.
+///
+/// To be halved are the diamonds with a patch that is not good enough at its finest, and those that these
+/// stand on; halved are those of them whose children are resident, and which stand on such only. So a page
+/// more never makes any part of the picture coarser.
 void selectPatches(const PatchIndex& index, std::span<const std::uint8_t> resident, Vec3 eye,
                    double maxErrorPx, double lodScale, double pixelsPerRadian, PatchCut& cut);
 
-/// As selectVisible: `visible.reason` is one a patch; `hidden` one a patch of the cut, or empty.
+/// As selectVisible: `visible.reason` is one a patch; `hidden` one a patch of the cut, or empty. Vertices are
+/// not counted: the index does not know them.
 void selectVisiblePatches(const PatchIndex& index, const LevelCut& cut, const EyePose& eye,
                           const ViewShape& view, bool test, VisibleSet& visible,
                           double farM = std::numeric_limits<double>::infinity(),

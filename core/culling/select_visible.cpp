@@ -4,6 +4,7 @@
 #include "trimtab/culling/box_distance.h"
 #include "trimtab/culling/frustum.h"
 #include "trimtab/culling/select.h"
+#include "trimtab/culling/visible_walk.h"
 
 namespace trimtab {
 namespace {
@@ -19,22 +20,21 @@ void count(VisibleSet& visible, const TileDraw& tile, int sign) {
 
 }  // namespace
 
-void gatherBoxes(const TerrainIndex& index, LevelCut& cut) {
+void gatherBoxes(std::span<const Box> bounds, LevelCut& cut) {
   cut.boxes.clear();
   cut.boxes.resize(cut.tiles.size());
-  for (std::size_t i = 0; i < cut.tiles.size(); ++i) cut.boxes.set(i, index.bounds[cut.tiles[i].node]);
+  for (std::size_t i = 0; i < cut.tiles.size(); ++i) cut.boxes.set(i, bounds[cut.tiles[i].node]);
 }
 
-void selectVisible(const TerrainIndex& index, const LevelCut& cut, const EyePose& eye, const ViewShape& view,
-                   bool test, VisibleSet& visible, double farM, std::span<const std::uint8_t> hidden) {
+void walkCut(std::size_t nodes, const LevelCut& cut, const EyePose& eye, const ViewShape& view, bool test,
+             double farM, std::span<const std::uint8_t> hidden, VisibleSet& visible) {
   visible.tiles.clear();
-  visible.reason.assign(index.size(), CullReason::other_level);
+  visible.reason.assign(nodes, CullReason::other_level);
   visible.outsideFrustum = visible.occluded = visible.beyondVisibility = 0;
 
   const Frustum frustum(eye, view);
   const BlockTest mayShow(cut.boxes, frustum);
   const bool cutByDistance = test && farM < std::numeric_limits<double>::infinity();
-  std::size_t sides = 0;
   for (std::size_t block = 0; block * BoxArrays::kBlock < cut.tiles.size(); ++block) {
     const std::uint64_t shown = test ? mayShow(block) : ~std::uint64_t{0};
     const std::size_t first = block * BoxArrays::kBlock,
@@ -53,11 +53,17 @@ void selectVisible(const TerrainIndex& index, const LevelCut& cut, const EyePose
         ++visible.occluded;
       } else {
         visible.tiles.push_back(tile);
-        sides += static_cast<std::size_t>(std::popcount(tile.coarser));
       }
       visible.reason[tile.node] = reason;
     }
   }
+}
+
+void selectVisible(const TerrainIndex& index, const LevelCut& cut, const EyePose& eye, const ViewShape& view,
+                   bool test, VisibleSet& visible, double farM, std::span<const std::uint8_t> hidden) {
+  walkCut(index.size(), cut, eye, view, test, farM, hidden, visible);
+  std::size_t sides = 0;
+  for (const TileDraw& tile : visible.tiles) sides += static_cast<std::size_t>(std::popcount(tile.coarser));
   const std::size_t tiles = visible.tiles.size();
   visible.triangles = tiles * 2 * kCells * kCells - sides * kCells / 2;
   visible.vertices = tiles * (kCells + 1) * (kCells + 1) - sides * kCells / 2;

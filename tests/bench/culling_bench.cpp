@@ -189,7 +189,7 @@ void selectionRows(Report& report) {
   const TerrainIndex small = test::randomIndex(128, 4);
   selectLevels(small, {64e3, 64e3, 500}, 1e-6, 1, 1100, cut);
   cut.tiles.resize(6400);
-  gatherBoxes(small, cut);
+  gatherBoxes(small.bounds, cut);
   double heading = 0;
   const double turned = leastSeconds(100, [&] {
     heading += 3.3;

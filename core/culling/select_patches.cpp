@@ -1,0 +1,191 @@
+#include "trimtab/culling/select_patches.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trimtab/culling/box_distance.h"
+#include "trimtab/culling/visible_walk.h"
+
+namespace trimtab {
+namespace {
+
+constexpr std::uint32_t kNone = PatchIndex::kNone;
+
+/// What is known of a diamond that is to be halved.
+enum Lack : std::uint8_t {
+  kOwn = 1,    ///< a page of its children is not there
+  kAny = 2,    ///< or of one that it stands on
+  kKnown = 4,  ///< kAny has been found out
+  kCounted = 8
+};
+
+class Selection {
+ public:
+  Selection(const PatchIndex& index, std::span<const std::uint8_t> resident, Vec3 eye,
+            double errorOverDistance, PatchCut& cut)
+      : index_(index),
+        resident_(resident),
+        eye_(eye),
+        limit_(errorOverDistance * errorOverDistance),
+        cut_(cut) {}
+
+  void run(double pixelsPerRadian) {
+    begin();
+    forEachRoot([&](std::uint32_t patch) { cut_.stack.push_back(patch); });
+    while (!cut_.stack.empty()) {
+      const std::uint32_t patch = cut_.stack.back();
+      cut_.stack.pop_back();
+      ask(patch);
+    }
+    forEachRoot([&](std::uint32_t patch) {
+      wantPage(index_.page[patch], std::numeric_limits<float>::infinity());
+      gather(patch);
+    });
+    for (const std::uint32_t diamond : cut_.splitList)
+      forEachChild(diamond, [&](std::uint32_t child) { wantPage(index_.page[child], cut_.need[diamond]); });
+    for (PageWant& want : cut_.wants)
+      want.errorPx = static_cast<float>(std::sqrt(want.errorPx) * pixelsPerRadian);
+  }
+
+ private:
+  void begin() {
+    cut_.cut.tiles.clear();
+    cut_.heldBack = 0;
+    // Of another terrain, of which nothing can be told from a list.
+    if (cut_.need.size() != index_.diamonds.size() || cut_.wantOf.size() != index_.pages.size()) {
+      cut_.need.assign(index_.diamonds.size(), 0);
+      cut_.lack.assign(index_.diamonds.size(), 0);
+      cut_.wantOf.assign(index_.pages.size(), 0);
+    } else {
+      for (const std::uint32_t diamond : cut_.splitList) cut_.need[diamond] = 0, cut_.lack[diamond] = 0;
+      for (const PageWant& want : cut_.wants) cut_.wantOf[want.page] = 0;
+    }
+    cut_.splitList.clear();
+    cut_.wants.clear();
+    cut_.stack.clear();
+  }
+
+  /// Roots lie in the first pages; there are as many as squares are needed to cover the posts.
+  template <class Visit>
+  void forEachRoot(const Visit& visit) {
+    for (const PatchIndex::Page& page : index_.pages) {
+      if (page.pair != 0) break;
+      for (std::uint32_t patch = page.firstPatch; patch < page.firstPatch + page.patches; ++patch)
+        if (index_.parent[patch] == kNone) visit(patch);
+    }
+  }
+
+  /// Squares of both sides, so that an eye inside the box (distance 0) asks for more whenever there is any
+  /// error at all, and an eye that is not a number never does.
+  bool tooCoarse(float error, double distance2) const {
+    return double{error} * double{error} > limit_ * distance2;
+  }
+
+  void ask(std::uint32_t patch) {
+    const double distance2 = distanceSquared(index_.bounds[patch], eye_);
+    const float error = index_.errorM[patch][0];
+    if (!tooCoarse(error, distance2)) return;
+    halve(index_.diamond[patch], std::max(static_cast<float>(double{error} * double{error} / distance2),
+                                          std::numeric_limits<float>::min()));
+  }
+
+  /// What a diamond stands on is needed as much as it is itself: so pages come in an order that they can be
+  /// used in.
+  void halve(std::uint32_t diamond, float need) {
+    if (diamond == kNone || cut_.need[diamond] >= need) return;
+    if (cut_.need[diamond] == 0) {
+      const std::size_t before = cut_.stack.size();
+      forEachChild(diamond, [&](std::uint32_t child) {
+        cut_.stack.push_back(child);
+        if (!isResident(index_.page[child])) cut_.lack[diamond] = kOwn;
+      });
+      if (cut_.stack.size() == before) return;
+      cut_.splitList.push_back(diamond);
+    }
+    cut_.need[diamond] = need;
+    for (const std::uint32_t parent : index_.diamonds[diamond].parents) halve(parent, need);
+  }
+
+  template <class Visit>
+  void forEachChild(std::uint32_t diamond, const Visit& visit) const {
+    for (const std::uint32_t patch : index_.diamonds[diamond].patches) {
+      if (patch == kNone) continue;
+      for (const std::uint32_t child : index_.children[patch])
+        if (child != kNone) visit(child);
+    }
+  }
+
+  bool isResident(std::uint32_t page) const { return resident_.empty() || resident_[page] != 0; }
+
+  bool isHeldBack(std::uint32_t diamond) {
+    std::uint8_t& lack = cut_.lack[diamond];
+    if (lack & kKnown) return lack & kAny;
+    bool any = lack & kOwn;
+    for (const std::uint32_t parent : index_.diamonds[diamond].parents)
+      any = any || (parent != kNone && isHeldBack(parent));
+    lack = static_cast<std::uint8_t>(lack | kKnown | (any ? kAny : 0));
+    return any;
+  }
+
+  void wantPage(std::uint32_t page, float need) {
+    std::uint32_t& place = cut_.wantOf[page];
+    if (place == 0) {
+      cut_.wants.push_back({page, need});
+      place = static_cast<std::uint32_t>(cut_.wants.size());
+    } else {
+      float& error = cut_.wants[place - 1].errorPx;
+      error = std::max(error, need);
+    }
+  }
+
+  /// The part of the cut below a root, depth first, so that the order of any two patches is the index's.
+  void gather(std::uint32_t root) {
+    for (cut_.stack.push_back(root); !cut_.stack.empty();) {
+      const std::uint32_t patch = cut_.stack.back();
+      cut_.stack.pop_back();
+      const std::uint32_t diamond = index_.diamond[patch];
+      if (cut_.need[diamond] > 0) {
+        if (!isHeldBack(diamond)) {
+          for (std::size_t i = 2; i-- > 0;)
+            if (index_.children[patch][i] != kNone) cut_.stack.push_back(index_.children[patch][i]);
+          continue;
+        }
+        if (!(cut_.lack[diamond] & kCounted)) ++cut_.heldBack;
+        cut_.lack[diamond] |= kCounted;
+      }
+      cut_.cut.tiles.push_back({patch, variantOf(patch)});
+    }
+  }
+
+  std::uint8_t variantOf(std::uint32_t patch) const {
+    const double distance2 = distanceSquared(index_.bounds[patch], eye_);
+    int variant = PatchIndex::kVariants - 1;
+    while (variant > 0 && tooCoarse(index_.errorM[patch][static_cast<std::size_t>(variant)], distance2))
+      --variant;
+    return static_cast<std::uint8_t>(variant);
+  }
+
+  const PatchIndex& index_;
+  std::span<const std::uint8_t> resident_;
+  Vec3 eye_;
+  double limit_;
+  PatchCut& cut_;
+};
+
+}  // namespace
+
+void selectPatches(const PatchIndex& index, std::span<const std::uint8_t> resident, Vec3 eye,
+                   double maxErrorPx, double lodScale, double pixelsPerRadian, PatchCut& cut) {
+  Selection(index, resident, eye, maxErrorPx * lodScale / pixelsPerRadian, cut).run(pixelsPerRadian);
+  gatherBoxes(index.bounds, cut.cut);
+}
+
+void selectVisiblePatches(const PatchIndex& index, const LevelCut& cut, const EyePose& eye,
+                          const ViewShape& view, bool test, VisibleSet& visible, double farM,
+                          std::span<const std::uint8_t> hidden) {
+  walkCut(index.size(), cut, eye, view, test, farM, hidden, visible);
+  visible.triangles = visible.vertices = 0;
+  for (const TileDraw& tile : visible.tiles) visible.triangles += index.triangles[tile.node][tile.coarser];
+}
+
+}  // namespace trimtab

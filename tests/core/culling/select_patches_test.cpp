@@ -1,0 +1,344 @@
+#include "trimtab/culling/select_patches.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "random_patches.h"
+
+namespace trimtab {
+namespace {
+
+constexpr std::uint32_t kNone = PatchIndex::kNone;
+constexpr double kPixelsPerRadian = 1100;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double distance(const Box& b, Vec3 eye) {
+  const Vec3 nearest{std::clamp(eye.x, double{b.minX}, double{b.maxX}),
+                     std::clamp(eye.y, double{b.minY}, double{b.maxY}),
+                     std::clamp(eye.z, double{b.minZ}, double{b.maxZ})};
+  return length(eye - nearest);
+}
+
+bool hasChildren(const PatchIndex& index, std::size_t diamond) {
+  for (const std::uint32_t patch : index.diamonds[diamond].patches)
+    if (patch != kNone && index.children[patch] != std::array{kNone, kNone}) return true;
+  return false;
+}
+
+/// What selectPatches promises, found the slow way: sets that grow or shrink until nothing changes any more.
+struct Fixpoint {
+  std::vector<char> wanted, split;  ///< one a diamond
+  std::vector<std::uint32_t> drawn;
+  std::set<std::uint32_t> pages;  ///< of the cut with all pages there, and above
+  std::size_t heldBack = 0;
+
+  Fixpoint(const PatchIndex& index, const std::vector<std::uint8_t>& resident, Vec3 eye, double tolerance)
+      : wanted(index.diamonds.size()), split(index.diamonds.size()) {
+    const auto inCut = [&](const std::vector<char>& set, std::uint32_t patch) {
+      return index.parent[patch] == kNone || set[index.diamond[index.parent[patch]]];
+    };
+    // The smallest set that leaves nobody unsatisfied and is closed towards the roots.
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t d = 0; d < wanted.size(); ++d) {
+        if (wanted[d] || !hasChildren(index, d)) continue;
+        bool wants = false;
+        for (const std::uint32_t patch : index.diamonds[d].patches) {
+          if (patch == kNone || !inCut(wanted, patch)) continue;
+          wants |= double{index.errorM[patch][0]} > tolerance * distance(index.bounds[patch], eye);
+          for (const std::uint32_t child : index.children[patch])
+            if (child != kNone) wants |= wanted[index.diamond[child]] != 0;
+        }
+        if (wants) wanted[d] = changed = true;
+      }
+      for (std::size_t d = 0; d < wanted.size(); ++d)
+        if (wanted[d])
+          for (const std::uint32_t parent : index.diamonds[d].parents)
+            if (parent != kNone && !wanted[parent]) wanted[parent] = changed = true;
+    }
+    // The largest part of it that has its pages and is closed.
+    split = wanted;
+    for (std::size_t d = 0; d < split.size(); ++d)
+      for (const std::uint32_t patch : index.diamonds[d].patches)
+        if (patch != kNone && wanted[d])
+          for (const std::uint32_t child : index.children[patch])
+            if (child != kNone) {
+              pages.insert(index.page[child]);
+              if (!resident.empty() && !resident[index.page[child]]) split[d] = 0;
+            }
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t d = 0; d < split.size(); ++d)
+        for (const std::uint32_t parent : index.diamonds[d].parents)
+          if (split[d] && parent != kNone && !split[parent]) split[d] = 0, changed = true;
+    }
+    std::set<std::uint32_t> held;
+    for (std::uint32_t patch = 0; patch < index.size(); ++patch) {
+      if (index.parent[patch] == kNone) pages.insert(index.page[patch]);
+      const std::uint32_t d = index.diamond[patch];
+      if (!inCut(split, patch) || split[d]) continue;
+      drawn.push_back(patch);
+      if (wanted[d]) held.insert(d);
+    }
+    heldBack = held.size();
+  }
+};
+
+struct Shape {
+  std::uint32_t columns, rows, rootCells, leafCells;
+};
+// Whole squares; cut off along both sides; a strip of squares; a sliver of one post.
+constexpr Shape kShapes[] = {
+    {257, 257, 256, 16}, {390, 211, 512, 16}, {900, 120, 128, 8}, {258, 130, 128, 8}};
+
+class PatchCutOf : public testing::TestWithParam<std::tuple<int, unsigned>> {
+ protected:
+  static PatchIndex make() {
+    const Shape& s = kShapes[std::get<0>(GetParam())];
+    return test::randomPatches(s.columns, s.rows, s.rootCells, s.leafCells, std::get<1>(GetParam()));
+  }
+  Vec3 randomEye() {
+    std::uniform_real_distribution<double> chance(0, 1);
+    const double over = chance(random) < 0.2 ? 3 : 1;
+    return {(over * (chance(random) - 0.5) + 0.5) * index.columns * 10,
+            (over * (chance(random) - 0.5) + 0.5) * index.rows * 10, 2500 * chance(random)};
+  }
+  std::vector<std::uint8_t> randomPages(double share) {
+    std::uniform_real_distribution<double> chance(0, 1);
+    std::vector<std::uint8_t> resident(index.pages.size());
+    for (std::size_t i = 0; i < resident.size(); ++i)
+      resident[i] = index.pages[i].pair == 0 || chance(random) < share;
+    return resident;
+  }
+  std::vector<std::uint32_t> drawn() const {
+    std::vector<std::uint32_t> nodes;
+    for (const TileDraw& tile : cut.cut.tiles) nodes.push_back(tile.node);
+    std::sort(nodes.begin(), nodes.end());
+    return nodes;
+  }
+
+  PatchIndex index = make();
+  std::mt19937 random{std::get<1>(GetParam()) * 7919 + 1};
+  PatchCut cut;
+};
+
+TEST_P(PatchCutOf, isTheSmallestThatSatisfiesEveryoneWithThePagesThatAreThere) {
+  std::set<std::size_t> sizes;
+  std::size_t heldBack = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Vec3 eye = randomEye();
+    const double px = 1 * std::pow(1.12, i % 30), scale = i % 7 == 0 ? 4 : 1;
+    const auto resident = i % 3 == 0 ? std::vector<std::uint8_t>{} : randomPages(i % 3 == 1 ? 0.9 : 0.5);
+    selectPatches(index, resident, eye, px, scale, kPixelsPerRadian, cut);
+    const Fixpoint expected(index, resident, eye, px * scale / kPixelsPerRadian);
+    ASSERT_EQ(drawn(), expected.drawn);
+    ASSERT_EQ(cut.heldBack, expected.heldBack);
+    std::set<std::uint32_t> pages;
+    for (const PageWant& want : cut.wants) ASSERT_TRUE(pages.insert(want.page).second) << "a page twice";
+    ASSERT_EQ(pages, expected.pages);
+    sizes.insert(cut.cut.tiles.size());
+    heldBack += cut.heldBack;
+  }
+  EXPECT_GT(sizes.size(), 12u) << "the cuts hardly differed";
+  EXPECT_GT(heldBack, 50u) << "pages were hardly missed";
+}
+
+TEST_P(PatchCutOf, coversEverythingOnceAndNeighboursShareWholeSides) {
+  for (int i = 0; i < 30; ++i) {
+    const auto resident = randomPages(0.7);
+    selectPatches(index, resident, randomEye(), 4, 1, kPixelsPerRadian, cut);
+    std::vector<int> covered(index.size());
+    for (const TileDraw& tile : cut.cut.tiles) {
+      ++covered[tile.node];
+      ASSERT_TRUE(resident[index.page[tile.node]]);
+    }
+    // Halved diamonds are those with a half whose children are covered from below.
+    std::vector<char> below(index.size());
+    for (std::size_t p = index.size(); p-- > 0;)
+      for (const std::uint32_t child : index.children[p])
+        if (child != kNone) below[p] |= covered[child] || below[child];
+    for (std::size_t p = 0; p < index.size(); ++p) {
+      const PatchIndex::Diamond& d = index.diamonds[index.diamond[p]];
+      ASSERT_FALSE(below[p] && covered[p]) << "twice";
+      for (const std::uint32_t half : d.patches)
+        ASSERT_TRUE(half == kNone || below[half] == below[p]) << "halved by itself";
+      if (below[p] || covered[p]) continue;
+      bool above = false;
+      for (std::uint32_t a = index.parent[p]; a != kNone; a = index.parent[a]) above |= covered[a] != 0;
+      ASSERT_TRUE(above) << "a hole";
+    }
+  }
+}
+
+TEST_P(PatchCutOf, keepsThePromisedErrorAndTheCoarsestVariantThatDoes) {
+  std::set<int> variants;
+  for (int i = 0; i < 40; ++i) {
+    const Vec3 eye = randomEye();
+    const double tolerance = 3.0 / kPixelsPerRadian;
+    selectPatches(index, {}, eye, 3, 1, kPixelsPerRadian, cut);
+    EXPECT_EQ(cut.heldBack, 0u);
+    for (const TileDraw& tile : cut.cut.tiles) {
+      const auto& error = index.errorM[tile.node];
+      const double most = tolerance * distance(index.bounds[tile.node], eye) * (1 + 1e-12);
+      variants.insert(tile.coarser);
+      ASSERT_LT(tile.coarser, PatchIndex::kVariants);
+      if (index.children[tile.node] != std::array{kNone, kNone} || tile.coarser > 0) {
+        ASSERT_LE(error[tile.coarser], most);
+      }
+      if (tile.coarser + 1 < PatchIndex::kVariants) {
+        ASSERT_GT(error[tile.coarser + 1u], most * (1 - 1e-11)) << "a coarser one would do";
+      }
+    }
+  }
+  EXPECT_EQ(variants.size(), 4u);
+}
+
+TEST_P(PatchCutOf, saysWhatThePictureLacksInPixelsCoarsePagesFirst) {
+  const auto resident = randomPages(0.5);
+  for (int i = 0; i < 20; ++i) {
+    const Vec3 eye = randomEye();
+    selectPatches(index, resident, eye, 2, 1, kPixelsPerRadian, cut);
+    std::vector<float> error(index.pages.size(), -1);
+    for (const PageWant& want : cut.wants) error[want.page] = want.errorPx;
+    const Fixpoint expected(index, resident, eye, 2 / kPixelsPerRadian);
+    for (std::size_t d = 0; d < index.diamonds.size(); ++d) {
+      if (!expected.wanted[d]) continue;
+      for (const std::uint32_t patch : index.diamonds[d].patches) {
+        if (patch == kNone) continue;
+        const double e = double{index.errorM[patch][0]} / distance(index.bounds[patch], eye);
+        for (const std::uint32_t child : index.children[patch]) {
+          if (child == kNone) continue;
+          ASSERT_LE(error[index.page[child]], error[index.page[patch]]);
+          if (e * kPixelsPerRadian > 2) {
+            ASSERT_GE(error[index.page[child]], e * kPixelsPerRadian * (1 - 1e-6));
+          }
+        }
+      }
+    }
+    for (const PageWant& want : cut.wants) ASSERT_GT(want.errorPx, 2 * (1 - 1e-6));
+  }
+}
+
+TEST_P(PatchCutOf, doesNotDependOnWhatWasChosenBeforeOrOnWhichTerrain) {
+  const PatchIndex other = test::randomPatches(130, 130, 128, 8, 5);
+  std::vector<std::uint32_t> order(index.size());
+  for (int i = 0; i < 30; ++i) {
+    const Vec3 eye = randomEye();
+    const auto resident = randomPages(0.8);
+    if (i % 5 == 0) selectPatches(other, {}, eye, 1, 1, kPixelsPerRadian, cut);
+    selectPatches(index, resident, eye, 3, 1, kPixelsPerRadian, cut);
+    PatchCut fresh;
+    selectPatches(index, resident, eye, 3, 1, kPixelsPerRadian, fresh);
+    ASSERT_EQ(cut.cut.tiles.size(), fresh.cut.tiles.size());
+    ASSERT_EQ(cut.heldBack, fresh.heldBack);
+    ASSERT_EQ(cut.wants.size(), fresh.wants.size());
+    for (std::size_t k = 0; k < fresh.cut.tiles.size(); ++k) {
+      ASSERT_EQ(cut.cut.tiles[k].node, fresh.cut.tiles[k].node);
+      ASSERT_EQ(cut.cut.tiles[k].coarser, fresh.cut.tiles[k].coarser);
+    }
+    for (std::size_t k = 0; k < fresh.wants.size(); ++k) {
+      ASSERT_EQ(cut.wants[k].page, fresh.wants[k].page);
+      ASSERT_EQ(cut.wants[k].errorPx, fresh.wants[k].errorPx);
+    }
+  }
+}
+
+TEST_P(PatchCutOf, isDrawnInAnOrderThatIsTheIndexsOwn) {
+  // Any two patches stand in the same order in all cuts: so no order is ever met the other way round.
+  std::set<std::pair<std::uint32_t, std::uint32_t>> before;
+  for (int i = 0; i < 10; ++i) {
+    selectPatches(index, {}, randomEye(), 10, 1, kPixelsPerRadian, cut);
+    for (std::size_t a = 0; a < cut.cut.tiles.size(); ++a)
+      for (std::size_t b = a + 1; b < std::min(a + 20, cut.cut.tiles.size()); ++b) {
+        const auto pair = std::pair(cut.cut.tiles[a].node, cut.cut.tiles[b].node);
+        ASSERT_FALSE(before.count({pair.second, pair.first}));
+        before.insert(pair);
+      }
+  }
+}
+
+TEST_P(PatchCutOf, neverGetsCoarserAnywhereByAPageMore) {
+  for (int i = 0; i < 20; ++i) {
+    const Vec3 eye = randomEye();
+    auto resident = randomPages(0.5);
+    selectPatches(index, resident, eye, 2, 1, kPixelsPerRadian, cut);
+    std::vector<char> covered(index.size());
+    for (const TileDraw& tile : cut.cut.tiles) covered[tile.node] = 1;
+    for (std::size_t p = 0; p < index.size(); ++p)
+      if (index.parent[p] != kNone && covered[index.parent[p]]) covered[p] = 1;
+    for (int more = 0; more < 5; ++more) resident[random() % resident.size()] = 1;
+    selectPatches(index, resident, eye, 2, 1, kPixelsPerRadian, cut);
+    for (const TileDraw& tile : cut.cut.tiles) ASSERT_TRUE(covered[tile.node]);
+  }
+}
+
+TEST_P(PatchCutOf, isTheRootsForAnEyeThatIsNotANumberOrNotAnywhere) {
+  std::size_t roots = 0;
+  for (const std::uint32_t parent : index.parent) roots += parent == kNone;
+  for (const double bad : {kNan, kInfinity, -kInfinity, 1e300})
+    for (const Vec3 eye : {Vec3{bad, 0, 0}, Vec3{0, bad, 0}, Vec3{0, 0, bad}, Vec3{bad, bad, bad}})
+      for (const double px : {2.0, 0.0}) {
+        selectPatches(index, {}, eye, px, 1, kPixelsPerRadian, cut);
+        ASSERT_EQ(cut.cut.tiles.size(), roots);
+      }
+  for (const double px : {kNan, kInfinity}) {
+    selectPatches(index, {}, {1000, 1000, 3000}, px, 1, kPixelsPerRadian, cut);
+    EXPECT_EQ(cut.cut.tiles.size(), roots);
+    EXPECT_EQ(cut.cut.tiles[0].coarser, PatchIndex::kVariants - 1);
+  }
+}
+
+TEST_P(PatchCutOf, isWholeWithoutATolerance) {
+  selectPatches(index, {}, {1000, 1000, 30000}, 0, 1, kPixelsPerRadian, cut);
+  const Fixpoint expected(index, {}, {1000, 1000, 30000}, 0);
+  EXPECT_EQ(drawn(), expected.drawn);
+  EXPECT_GT(drawn().size(), index.size() / 3);
+}
+
+TEST_P(PatchCutOf, halvesAroundAnEyeThatIsInside) {
+  for (std::uint32_t leaf = static_cast<std::uint32_t>(index.size()) - 1; leaf > index.size() - 20; --leaf) {
+    if (!(index.errorM[leaf][0] > 0) || index.children[leaf] != std::array{kNone, kNone}) continue;
+    const Box& b = index.bounds[leaf];
+    selectPatches(index, {}, {0.5 * (b.minX + b.maxX), 0.5 * (b.minY + b.maxY), 0.5 * (b.minZ + b.maxZ)}, 1e9,
+                  1, kPixelsPerRadian, cut);
+    const auto nodes = drawn();
+    EXPECT_TRUE(std::binary_search(nodes.begin(), nodes.end(), leaf));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, PatchCutOf,
+                         testing::Combine(testing::Range(0, 4), testing::Values(1u, 2u, 3u)));
+
+TEST(PatchCut, isEmptyWithoutPatches) {
+  PatchCut cut;
+  selectPatches({}, {}, {}, 1, 1, kPixelsPerRadian, cut);
+  EXPECT_TRUE(cut.cut.tiles.empty());
+  EXPECT_TRUE(cut.wants.empty());
+}
+
+TEST(PatchVisible, countsTheTrianglesOfTheVariantsThatAreDrawn) {
+  const PatchIndex index = test::randomPatches(900, 700, 512, 16, 3);
+  PatchCut cut;
+  EyePose eye{{3000, 3000, 1500}, {}};
+  selectPatches(index, {}, eye.position, 4, 1, kPixelsPerRadian, cut);
+  VisibleSet visible;
+  std::vector<std::uint8_t> hidden(cut.cut.tiles.size());
+  for (std::size_t i = 0; i < hidden.size(); i += 5) hidden[i] = 1;
+  selectVisiblePatches(index, cut.cut, eye, {}, true, visible, 1e9, hidden);
+  EXPECT_GT(visible.tiles.size(), 3u);
+  EXPECT_GT(visible.occluded, 0u);
+  EXPECT_EQ(visible.reason.size(), index.size());
+  EXPECT_EQ(visible.tiles.size() + visible.occluded + visible.outsideFrustum, cut.cut.tiles.size());
+  std::uint64_t triangles = 0;
+  for (const TileDraw& tile : visible.tiles) triangles += index.triangles[tile.node][tile.coarser];
+  EXPECT_EQ(visible.triangles, triangles);
+  selectVisiblePatches(index, cut.cut, eye, {}, false, visible);
+  EXPECT_EQ(visible.tiles.size(), cut.cut.tiles.size());
+}
+
+}  // namespace
+}  // namespace trimtab
