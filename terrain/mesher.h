@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -51,6 +53,8 @@ class PolygonMesher {
   };
   PolygonMesher();
   ~PolygonMesher();
+  PolygonMesher(PolygonMesher&&) noexcept;
+  PolygonMesher& operator=(PolygonMesher&&) noexcept;
 
   /// Begins anew. `border`: anticlockwise, every vertex of the polylines all round; neighbours in it may lie
   /// on one line, but the polygon has an area. Points within the field.
@@ -67,7 +71,7 @@ class PolygonMesher {
 
  private:
   struct Impl;
-  Impl* impl_;
+  std::unique_ptr<Impl> impl_;
 };
 
 /// A side of a polygon from one post to another, both kept, along a row, a column or a diagonal: the posts

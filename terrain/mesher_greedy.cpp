@@ -1,0 +1,189 @@
+#include "trimtab/terrain/mesher_greedy.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include "trimtab/terrain/mesher_scan.h"
+
+namespace trimtab::terrain {
+
+namespace {
+
+struct Facet {
+  const Triangulation::Vertex* corner[3];
+  bool border[3];
+  double scale;
+};
+
+Facet facetOf(const Triangulation& mesh, std::int32_t t) {
+  const Triangulation::Triangle& one = mesh.triangles[static_cast<std::size_t>(t)];
+  Facet out{};
+  for (int i = 0; i < 3; ++i) {
+    out.corner[i] = &mesh.vertices[one.corner[i]];
+    out.border[i] = one.twin[i] < 0;
+    out.scale = std::max(out.scale, std::fabs(static_cast<double>(out.corner[i]->z)));
+  }
+  return out;
+}
+
+}  // namespace
+
+void GreedyMesh::begin(const HeightField& field, std::span<const Point> border) {
+  assert(border.size() >= 3);
+  originX_ = originY_ = ~0u;
+  for (const Point& p : border) {
+    assert(p.column < field.columns && p.row < field.rows);
+    originX_ = std::min(originX_, p.column);
+    originY_ = std::min(originY_, p.row);
+  }
+  z_ = field.z + originY_ * field.stride + originX_;
+  stride_ = field.stride;
+  points_.assign(border.begin(), border.end());
+  mesh_.vertices.clear();
+  for (const Point& p : border)
+    mesh_.vertices.push_back({static_cast<std::int32_t>(p.column - originX_),
+                              static_cast<std::int32_t>(p.row - originY_), field.at(p.column, p.row)});
+  mesh_.fillPolygon();
+  stale_ = true;
+}
+
+std::uint32_t GreedyMesh::addBorder(std::uint32_t from, Point at) {
+  const auto v = static_cast<std::uint32_t>(points_.size());
+  const auto x = static_cast<std::int32_t>(at.column - originX_),
+             y = static_cast<std::int32_t>(at.row - originY_);
+  points_.push_back(at);
+  mesh_.vertices.push_back({x, y, row(y)[x]});
+  mesh_.splitBorder(from, v);
+  stale_ = true;
+  return v;
+}
+
+void GreedyMesh::scan(std::int32_t t) {
+  const Facet facet = facetOf(mesh_, t);
+  double worst = 0;
+  std::int32_t worstX = 0, worstY = 0;
+  forEachRow(facet.corner, facet.border, [&](const FacetRow& r) {
+    const float* const z = row(r.y);
+    double at = r.z;
+    for (std::int32_t x = r.first; x <= r.last; ++x) {
+      const double off = std::fabs(static_cast<double>(z[x]) - at);
+      if (off > worst) {
+        worst = off;
+        worstX = x;
+        worstY = r.y;
+      }
+      at += r.slope;
+    }
+  });
+  worst = roundedError(worst, std::max(facet.scale, worst));
+  Triangulation::Triangle& one = mesh_.triangles[static_cast<std::size_t>(t)];
+  one.postX = worstX;
+  one.postY = worstY;
+  error_[static_cast<std::size_t>(t)] = worst;
+  if (worst > tolerance_) queue_.put(t, worst);
+}
+
+void GreedyMesh::scanAbout(std::int32_t first) {
+  std::int32_t t = first;
+  do {
+    queue_.remove(t);
+    scan(t);
+    t = mesh_.triangles[static_cast<std::size_t>(t)].twin[1] >> 2;
+  } while (t != first);
+}
+
+void GreedyMesh::refine(double tolerance, std::size_t mostVertices) {
+  tolerance_ = std::max(tolerance, 0.0);
+  queue_.begin(std::max(tolerance_, 0x1p-40));
+  const auto count = static_cast<std::int32_t>(mesh_.triangles.size());
+  error_.resize(static_cast<std::size_t>(count));
+  for (std::int32_t t = 0; t < count; ++t) {
+    const double error = error_[static_cast<std::size_t>(t)];
+    if (stale_)
+      scan(t);
+    else if (error > tolerance_)
+      queue_.put(t, error);
+  }
+  stale_ = false;
+  for (std::int32_t t; points_.size() < mostVertices && (t = queue_.top()) >= 0;) {
+    const Triangulation::Triangle& one = mesh_.triangles[static_cast<std::size_t>(t)];
+    const std::int32_t x = one.postX, y = one.postY;
+    const auto v = static_cast<std::uint32_t>(points_.size());
+    points_.push_back({static_cast<std::uint32_t>(x) + originX_, static_cast<std::uint32_t>(y) + originY_});
+    mesh_.vertices.push_back({x, y, row(y)[x]});
+    const std::int32_t about = mesh_.insert(t, v);
+    error_.resize(mesh_.triangles.size());
+    scanAbout(about);
+  }
+}
+
+template <class Visit>
+void GreedyMesh::eachBorderPost(const Visit& visit) const {
+  for (std::size_t v = 0; v < mesh_.borderEdge.size(); ++v) {
+    const std::int32_t h = mesh_.borderEdge[v];
+    if (h < 0) continue;
+    const Triangulation::Triangle& one = mesh_.triangles[static_cast<std::size_t>(h >> 2)];
+    const Triangulation::Vertex& a = mesh_.vertices[v];
+    const Triangulation::Vertex& b = mesh_.vertices[one.corner[Triangulation::next(h & 3)]];
+    const std::int32_t steps = std::gcd(b.x - a.x, b.y - a.y);
+    const double rise = static_cast<double>(b.z) - a.z;
+    const double scale = std::max(std::fabs(static_cast<double>(a.z)), std::fabs(static_cast<double>(b.z)));
+    for (std::int32_t i = 1; i < steps; ++i) {
+      const std::int32_t x = a.x + (b.x - a.x) / steps * i, y = a.y + (b.y - a.y) / steps * i;
+      const double off = std::fabs(row(y)[x] - (a.z + rise * i / steps));
+      visit(roundedError(off, std::max(scale, off)));
+    }
+  }
+}
+
+double GreedyMesh::maxErrorM() const {
+  double worst = 0;
+  eachBorderPost([&](double off) { worst = std::max(worst, off); });
+  if (!stale_) {
+    for (const double error : error_) worst = std::max(worst, error);
+    return worst;
+  }
+  GreedyMesh copy(*this);
+  copy.refine(HUGE_VAL, 0);
+  return std::max(worst, copy.maxErrorM());
+}
+
+double GreedyMesh::rmsErrorM() const {
+  double sum = 0;
+  eachBorderPost([&](double off) { sum += off * off; });
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh_.triangles.size()); ++t) {
+    const Facet facet = facetOf(mesh_, t);
+    double here = 0;
+    forEachRow(facet.corner, facet.border, [&](const FacetRow& r) {
+      const float* const z = row(r.y);
+      double at = r.z;
+      for (std::int32_t x = r.first; x <= r.last; ++x) {
+        const double off = std::fabs(z[x] - at);
+        const double rounded = roundedError(off, std::max(facet.scale, off));
+        here += rounded * rounded;
+        at += r.slope;
+      }
+    });
+    sum += here;
+  }
+  return std::sqrt(sum / static_cast<double>(posts()));
+}
+
+std::uint64_t GreedyMesh::posts() const {
+  // Pick: twice the area = 2 inside + border - 2.
+  std::int64_t area = 0, border = 0;
+  for (std::size_t v = 0; v < mesh_.borderEdge.size(); ++v) {
+    const std::int32_t h = mesh_.borderEdge[v];
+    if (h < 0) continue;
+    const Triangulation::Triangle& one = mesh_.triangles[static_cast<std::size_t>(h >> 2)];
+    const Triangulation::Vertex& a = mesh_.vertices[v];
+    const Triangulation::Vertex& b = mesh_.vertices[one.corner[Triangulation::next(h & 3)]];
+    area += std::int64_t{a.x} * b.y - std::int64_t{b.x} * a.y;
+    border += std::gcd(b.x - a.x, b.y - a.y);
+  }
+  return static_cast<std::uint64_t>((area + border + 2) / 2);
+}
+
+}  // namespace trimtab::terrain

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "trimtab/terrain/mesher.h"
+#include "trimtab/terrain/mesher_queue.h"
+#include "trimtab/terrain/mesher_triangulation.h"
+
+namespace trimtab::terrain {
+
+/// What PolygonMesher does, open for what builds whole fields from it. Places are counted from `origin`.
+class GreedyMesh {
+ public:
+  using Point = PolygonMesher::Point;
+
+  void begin(const HeightField& field, std::span<const Point> border);
+  /// One more vertex of the border, on its edge that leaves `from`; before further refinement.
+  std::uint32_t addBorder(std::uint32_t from, Point at);
+  void refine(double tolerance, std::size_t mostVertices);
+
+  const Triangulation& mesh() const { return mesh_; }
+  Triangulation& mesh() { return mesh_; }
+  Point origin() const { return {originX_, originY_}; }
+  const std::vector<Point>& points() const { return points_; }
+  double maxErrorM() const;
+  double rmsErrorM() const;
+  std::uint64_t posts() const;
+
+ private:
+  struct Worst {
+    double error;
+    std::int32_t x, y;
+  };
+  void scan(std::int32_t t);
+  void scanAbout(std::int32_t t);
+  const float* row(std::int32_t y) const { return z_ + static_cast<std::size_t>(y) * stride_; }
+  template <class Visit>
+  void eachBorderPost(const Visit& visit) const;
+
+  Triangulation mesh_;
+  ErrorQueue queue_;
+  std::vector<double> error_;  ///< one a triangle, largest at its posts
+  std::vector<Point> points_;
+  const float* z_ = nullptr;  ///< of the origin
+  std::size_t stride_ = 0;
+  std::uint32_t originX_ = 0, originY_ = 0;
+  double tolerance_ = 0;
+  bool stale_ = false;  ///< errors are not those of the triangles
+};
+
+/// Difference of a post from a facet: what is below rounding is none, so that planes are flat.
+inline double roundedError(double difference, double scale) {
+  return difference <= scale * 0x1p-38 ? 0.0 : difference;
+}
+
+}  // namespace trimtab::terrain

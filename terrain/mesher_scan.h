@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "trimtab/terrain/mesher_triangulation.h"
+
+namespace trimtab::terrain {
+
+/// Heights of a triangle along the rows of posts in it.
+struct FacetRow {
+  std::int32_t y, first, last;  ///< posts of the row, both ends included
+  double z, slope;              ///< height at the first, and its growth from post to post
+};
+
+/// Visits the posts of a triangle row by row. Each post of a mesh belongs to one triangle: an edge belongs to
+/// the triangle on its right or above it. Posts that are corners, and posts on edges that `isBorder`, are
+/// left out. `row` gets a FacetRow.
+///
+/// Ends of rows are found in floating point and are exact: a crossing that is no integer is 1 / (rows of the
+/// triangle) away from one, 2^-15 at least, and the error is below 2^-30.
+template <class Row>
+inline void forEachRow(const Triangulation::Vertex* const corner[3], const bool isBorder[3], const Row& row) {
+  using Vertex = Triangulation::Vertex;
+  struct Corner {
+    const Vertex* v;
+    int i;
+  };
+  Corner a{corner[0], 0}, b{corner[1], 1}, c{corner[2], 2};
+  // By row, and of two in one row the right one first: then the middle one is left of the long edge where
+  // the two lie at the bottom.
+  const auto above = [](const Corner& p, const Corner& q) {
+    return p.v->y > q.v->y || (p.v->y == q.v->y && p.v->x < q.v->x);
+  };
+  if (above(a, b)) std::swap(a, b);
+  if (above(b, c)) std::swap(b, c);
+  if (above(a, b)) std::swap(a, b);
+  const std::int64_t area = Triangulation::turn(*a.v, *b.v, c.v->x, c.v->y);
+  if (area == 1 || area == -1) return;  // no post but its corners
+
+  // Edge i of the triangle leads from corner i to the next.
+  const auto borderOf = [&](const Corner& p, const Corner& q) {
+    return isBorder[Triangulation::next(p.i) == q.i ? p.i : q.i];
+  };
+  const bool middleLeft = area < 0;
+  const double det = static_cast<double>(area);
+  const double za = a.v->z, bz = b.v->z - za, cz = c.v->z - za;
+  const double bx = b.v->x - a.v->x, by = b.v->y - a.v->y, cx = c.v->x - a.v->x, cy = c.v->y - a.v->y;
+  const double slopeX = (bz * cy - cz * by) / det, slopeY = (bx * cz - cx * bz) / det;
+  // Along slivers the slopes are huge and cancel; there heights come from areas, which are exact.
+  const double wide = std::fmax(std::fabs(bx), std::fmax(std::fabs(cx), std::fabs(cx - bx)));
+  const bool sliver = wide * cy > 1024.0 * std::fabs(det);
+
+  constexpr double kIn = 1.0 - 0x1p-18, kOut = 1.0 + 0x1p-18;
+  const double longStep = cx / cy;
+  double longX = a.v->x;
+  std::int32_t y = a.v->y;
+  for (int half = 0; half < 2; ++half) {
+    const Corner& from = half == 0 ? a : b;
+    const Corner& to = half == 0 ? b : c;
+    const std::int32_t end = to.v->y;
+    if (y == end) continue;
+    const double shortStep = static_cast<double>(to.v->x - from.v->x) / (to.v->y - from.v->y);
+    double shortX = from.v->x;
+    const bool leftBorder = middleLeft ? borderOf(from, to) : borderOf(a, c);
+    const double left = leftBorder ? kOut : kIn;
+    bool bottom = half == 1 && a.v->y == b.v->y && borderOf(a, b);
+    bool atMiddle = half == 1 && middleLeft;
+    for (; y < end; ++y) {
+      std::int32_t first = static_cast<std::int32_t>((middleLeft ? shortX : longX) + left);
+      const std::int32_t last = static_cast<std::int32_t>((middleLeft ? longX : shortX) + kIn) - 1;
+      if (atMiddle) first = b.v->x + 1;
+      if (first <= last && !bottom) {
+        double z;
+        if (sliver) {
+          const double wb = static_cast<double>(-Triangulation::turn(*a.v, *c.v, first, y));
+          const double wc = static_cast<double>(Triangulation::turn(*a.v, *b.v, first, y));
+          z = za + (wb * bz + wc * cz) / det;
+        } else {
+          z = za + slopeY * (y - a.v->y) + slopeX * (first - a.v->x);
+        }
+        row(FacetRow{y, first, last, z, slopeX});
+      }
+      atMiddle = false;
+      bottom = false;
+      longX += longStep;
+      shortX += shortStep;
+    }
+  }
+}
+
+}  // namespace trimtab::terrain
