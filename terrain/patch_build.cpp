@@ -1,0 +1,57 @@
+#include "trimtab/terrain/patch_build.h"
+
+#include <algorithm>
+
+#include "trimtab/terrain/parallel.h"
+
+namespace trimtab::terrain {
+
+namespace {
+
+class PatchesInMemory final : public PatchTerrain {
+ public:
+  PatchIndex index_;
+  std::vector<PatchFacts> facts_;
+  std::vector<PatchPage> pages_;
+
+  const PatchIndex& index() const override { return index_; }
+  const std::vector<PatchFacts>& facts() const override { return facts_; }
+  Result<PatchPage> readPage(std::uint32_t page) const override { return pages_[page]; }
+  std::uint64_t pageBytes(std::uint32_t page) const override { return pages_[page].bytes(); }
+};
+
+}  // namespace
+
+std::shared_ptr<const PatchTerrain> buildPatches(const HeightSource& heights, double leafToleranceM,
+                                                 const std::function<bool(double)>& carryOn) {
+  const PostGeometry geometry(heights.posts());
+  auto terrain = std::make_shared<PatchesInMemory>();
+  terrain->index_ = makePatchIndex(heights.posts(), geometry);
+  PatchIndex& index = terrain->index_;
+  const std::vector<double> tolerances = patchTolerances(index, leafToleranceM);
+  const auto pageCount = static_cast<std::uint32_t>(index.pages.size());
+  std::vector<Box> bounds(index.size());
+  std::vector<std::array<float, PatchIndex::kVariants>> errorM(index.size());
+  std::vector<std::array<std::uint16_t, PatchIndex::kVariants>> triangles(index.size());
+  terrain->facts_.resize(index.size());
+  terrain->pages_.resize(pageCount);
+  const auto work = [&](std::uint32_t page) {
+    BuiltPage built = buildPage(index, page, heights, geometry, tolerances);
+    const auto first = static_cast<std::ptrdiff_t>(index.pages[page].firstPatch);
+    std::copy(built.bounds.begin(), built.bounds.end(), bounds.begin() + first);
+    std::copy(built.errorM.begin(), built.errorM.end(), errorM.begin() + first);
+    std::copy(built.facts.begin(), built.facts.end(), terrain->facts_.begin() + first);
+    auto out = triangles.begin() + first;
+    for (const PatchMesh& mesh : built.meshes.patches) {
+      for (std::size_t v = 0; v < PatchIndex::kVariants; ++v)
+        (*out)[v] = static_cast<std::uint16_t>((mesh.firstIndex[v + 1] - mesh.firstIndex[v]) / 3);
+      ++out;
+    }
+    terrain->pages_[page] = std::move(built.meshes);
+  };
+  if (!forEachParallel(pageCount, work, carryOn)) return nullptr;
+  finishPatchIndex(index, bounds, errorM, triangles);
+  return terrain;
+}
+
+}  // namespace trimtab::terrain
