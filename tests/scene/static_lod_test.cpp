@@ -281,7 +281,7 @@ std::pair<int, int> projected(const scene::FrameRequest& r, const LocalFrame& fr
 
 TEST_F(StaticTrees, showDocumentEsPictureInGreyRedAndBlack) {
   use(treeMountains());
-  const test::SyntheticTerrain& ground = treeMountains()->ground();
+  const test::SyntheticTerrain& ground = treeMountains()->surface();
   // Over the common corner of four tiles.
   const LocalFrame& frame = database->index().frame;
   GeodeticPosition eye = frame.toGeodetic(ground.post(256, 256));

@@ -37,7 +37,7 @@ class TreeTerrain final : public terrain::Database {
     return ground_->highestWithin(latitude, longitude, radius);
   }
   std::shared_ptr<const terrain::StaticLodTerrain> staticLod() const override { return trees_; }
-  const SyntheticTerrain& ground() const { return *ground_; }
+  const SyntheticTerrain& surface() const { return *ground_; }
 
  private:
   static constexpr int kCells = TerrainIndex::kTileCells;
