@@ -8,6 +8,7 @@
 
 #include "trimtab/frame/frame.h"
 #include "trimtab/frame/static_lod_frame.h"
+#include "trimtab/frame/terrain_frame.h"
 
 namespace trimtab::views {
 
@@ -24,6 +25,9 @@ struct LiveFrame {
   double fps = std::numeric_limits<double>::quiet_NaN();
   std::uint64_t blurPasses = 0, symbologyDraws = 0, symbologyRedraws = 0;  ///< since the context was made
   StaticLodFrame staticLod;
+  bool patches = false;  ///< were drawn: `levels` is by their depth
+  LevelsFrame levels;
+  PagingFrame paging;
   std::optional<DepthMapSize> depthMap;    ///< that was drawn this frame
   std::optional<HostWeather> hostWeather;  ///< as the host, or the flight, says
   std::optional<Metres> hostVisibility;

@@ -36,6 +36,7 @@ class BandsEditor;
 class MotionPanel;
 class PlotsPanel;
 class StaticLodPanel;
+class TerrainPanel;
 }  // namespace trimtab::views
 
 namespace trimtab::workbench {
@@ -169,6 +170,12 @@ class MainWindow : public QMainWindow {
   void followFlight();
   QString whyNotMeasured();
   void seekFlight(double timeS);
+  // window_terrain.cpp
+  views::TerrainPanel* makeTerrainPanel();
+  void showTerrain();
+  /// With files and folders to begin with.
+  void askBake(const QStringList& sources = {});
+  LevelsFrame levelsDrawn(const scene::FrameResult& result) const;
   // window_weather.cpp
   void calibrateWeather();
 
@@ -190,6 +197,7 @@ class MainWindow : public QMainWindow {
   views::PlotsPanel* plots_ = nullptr;
   views::MotionPanel* motion_ = nullptr;
   views::StaticLodPanel* staticLod_ = nullptr;
+  views::TerrainPanel* terrainPanel_ = nullptr;
   HostDock* hostDock_ = nullptr;
   FlightDock* flightDock_ = nullptr;
   ExperimentsDock* experiments_ = nullptr;
@@ -198,6 +206,7 @@ class MainWindow : public QMainWindow {
   MessagePanel* messages_ = nullptr;
   QByteArray defaultLayout_;
 
+  QList<QAction*> terrainActions_, overlayActions_;  ///< that the Terrain dock has as buttons too
   QMenu *recentMenu_ = nullptr, *dockMenu_ = nullptr;
   QAction *freezeAction_ = nullptr, *traceAction_ = nullptr;
   QActionGroup* caseActions_ = nullptr;

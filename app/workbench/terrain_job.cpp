@@ -54,6 +54,15 @@ void TerrainJob::openSample() {
         });
 }
 
+void TerrainJob::bake(terrain::BakeOptions options) {
+  const std::filesystem::path output = options.output;
+  start(output, tr("Baking %1").arg(QString::fromStdString(output.filename().string())),
+        [options = std::move(options)](const terrain::Progress& progress) mutable {
+          options.progress = progress;
+          return terrain::bake(options);
+        });
+}
+
 void TerrainJob::start(const std::filesystem::path& source, const QString& what, Work work) {
   stop();
   source_ = source;

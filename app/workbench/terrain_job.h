@@ -24,6 +24,8 @@ class TerrainJob : public QObject {
   void open(const std::filesystem::path& source);
   /// The embedded default terrain, made and baked once for a user.
   void openSample();
+  /// Makes a database and opens it; the same options again go on with one that was stopped.
+  void bake(terrain::BakeOptions options);
   void cancel();
   bool running() const { return running_; }
   const std::filesystem::path& source() const { return source_; }

@@ -23,6 +23,7 @@
 #include "trimtab/views/static_lod_panel.h"
 #include "trimtab/views/surface_plot.h"
 #include "trimtab/views/symbology_panel.h"
+#include "trimtab/views/terrain_panel.h"
 #include "trimtab/views/weather_panel.h"
 
 // Which docks there are and where they stand.
@@ -63,6 +64,7 @@ void MainWindow::makeDocks() {
   addDock("memberships", tr("Memberships"), edit, new views::MembershipEditor(draft_));
   bands_ = addDock("depth_map", tr("Depth map"), edit, new views::BandsEditor(draft_));
   addDock("rules", tr("Rules"), edit, new views::RulesPanel(draft_));
+  terrainPanel_ = addDock("terrain", tr("Terrain"), edit, makeTerrainPanel());
   staticLod_ = addDock("static_lod", tr("Static LOD"), edit, new views::StaticLodPanel(draft_));
   auto* weather = addDock("weather", tr("Weather"), edit, new views::WeatherPanel(draft_));
   connect(weather, &views::WeatherPanel::calibrationAsked, this, &MainWindow::calibrateWeather);

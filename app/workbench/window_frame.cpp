@@ -13,6 +13,7 @@
 #include "flight_dock.h"
 #include "host_dock.h"
 #include "main_window.h"
+#include "trimtab/terrain/patch_terrain.h"
 #include "trimtab/terrain/static_lod.h"
 #include "trimtab/views/bands_editor.h"
 
@@ -90,6 +91,11 @@ std::optional<Picture> MainWindow::picture(int widthPx, int heightPx) {
   } else if (overlays_.colourByLevel && terrain_->staticLod() && scene::asksForTrees(picture.request)) {
     picture.overlay.legendTitle = tr("Depth in the static trees, 0 is the root");
     picture.overlay.legend = levelLegend(terrain_->staticLod()->counts.levels);
+  } else if (overlays_.colourByLevel && viewport_->lastResult() && viewport_->lastResult()->patches) {
+    picture.overlay.legendTitle = tr("Depth of the patches, 0 is the coarsest");
+    // The deepest stand last.
+    const auto& depth = terrain_->patches()->index().depth;
+    picture.overlay.legend = levelLegend(depth.empty() ? 0 : depth.back() + std::size_t{1});
   } else if (overlays_.colourByLevel) {
     picture.overlay.legendTitle = tr("Level of detail, 0 is finest");
     picture.overlay.legend = levelLegend(terrain_->index().levels.size());
@@ -167,6 +173,9 @@ views::LiveFrame MainWindow::liveFrame() const {
     frame.symbologyDraws = last->symbologyDraws;
     frame.symbologyRedraws = last->symbologyRedraws;
     frame.staticLod = last->staticLod;
+    frame.patches = last->patches;
+    frame.levels = levelsDrawn(*last);
+    frame.paging = last->paging;
   }
   return frame;
 }

@@ -20,6 +20,7 @@
 #include "host_dock.h"
 #include "main_window.h"
 #include "trimtab/views/rules_panel.h"
+#include "trimtab/views/terrain_panel.h"
 
 // The commands: one list of actions feeds menus, toolbar, shortcuts and the help on keys.
 namespace trimtab::workbench {
@@ -57,6 +58,7 @@ void MainWindow::makeMenus() {
   makeViewMenu();
   makeFlightMenu();
   makeHelpMenu();
+  terrainPanel_->setActions(terrainActions_, overlayActions_);
 }
 
 void MainWindow::makeFileMenu() {
@@ -92,8 +94,11 @@ void MainWindow::makeFileMenu() {
   file->addSeparator();
   QAction* terrain = file->addAction(icon(QStyle::SP_DirOpenIcon), tr("Open &terrain..."),
                                      QKeySequence(tr("Ctrl+T")), this, [this] { askOpenTerrain(false); });
-  file->addAction(tr("Open terrain &folder or database..."), QKeySequence(tr("Ctrl+Shift+T")), this,
-                  [this] { askOpenTerrain(true); });
+  QAction* folder = file->addAction(tr("Open terrain &folder or database..."),
+                                    QKeySequence(tr("Ctrl+Shift+T")), this, [this] { askOpenTerrain(true); });
+  QAction* bake = file->addAction(tr("&Bake a terrain database..."), QKeySequence(tr("Ctrl+B")), this,
+                                  [this] { askBake(); });
+  bake->setToolTip(tr("Elevation, scenery and imagery to one folder that opens at once"));
   file->addAction(tr("Open sa&mple terrain"), this, [this] {
     terrainSource_.clear();
     terrainJob_.openSample();
@@ -114,6 +119,9 @@ void MainWindow::makeFileMenu() {
   exportAction->setIconText(tr("Export"));
   exportAction->setIcon(icon(QStyle::SP_ArrowUp));
   terrain->setIconText(tr("Open terrain"));
+  folder->setIconText(tr("Open folder"));
+  bake->setIconText(tr("Bake..."));
+  terrainActions_ = {terrain, folder, bake};
   bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   bar->addActions({open, saveAction, exportAction, terrain});
 }
@@ -220,6 +228,7 @@ void MainWindow::makeViewMenu() {
   }
   view->addAction(tr("Reset la&yout"), this, &MainWindow::resetLayout);
   bar->addActions({wireframe, bounds, byReason, byLevel, freezeAction_});
+  overlayActions_ = {byLevel, wireframe, bounds};
 }
 
 void MainWindow::makeFlightMenu() {
