@@ -16,6 +16,7 @@ struct HeightField {
   const float* z = nullptr;
   std::uint32_t columns = 0, rows = 0;
   std::size_t stride = 0;  ///< posts from a row to the next
+  std::uint32_t step = 1;  ///< of the places of meshes: post (column, row) lies at step times that
   float at(std::uint32_t column, std::uint32_t row) const { return z[row * stride + column]; }
 };
 
@@ -57,8 +58,9 @@ class PolygonMesher {
   PolygonMesher& operator=(PolygonMesher&&) noexcept;
 
   /// Begins anew. `border`: anticlockwise, every vertex of the polylines all round; neighbours in it may lie
-  /// on one line, but the polygon has an area. Points within the field.
-  void begin(const HeightField& field, std::span<const Point> border);
+  /// on one line, but the polygon has an area. Points within the field. `borderZ`: their heights, where they
+  /// need not be those of posts; only then a border vertex may lie between posts.
+  void begin(const HeightField& field, std::span<const Point> border, std::span<const float> borderZ = {});
   /// Inserts posts until none inside is further off than `tolerance`, or `mostVertices` are there. What was
   /// inserted before stays: vertices of a coarser mesh are the first of a finer one.
   void refine(double tolerance, std::size_t mostVertices);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -100,6 +101,7 @@ void eachEdge(std::span<const std::uint32_t> indices, std::size_t vertices, cons
 
 double bilinearError(const HeightField& field, std::span<const PolygonMesher::Point> vertices,
                      std::span<const float> z, std::span<const std::uint32_t> indices) {
+  assert(field.step == 1);
   double worst = 0;
   EdgeWalk walk(field);
   eachEdge(indices, vertices.size(), [&](std::uint32_t a, std::uint32_t b) {
@@ -116,7 +118,7 @@ double bilinearError(const HeightField& field, std::span<const PolygonMesher::Po
       corner[k] = &at[k];
     }
     if (Triangulation::turn(at[0], at[1], at[2].x, at[2].y) == 0) continue;
-    forEachRow(corner, kBorder, [&](const FacetRow& r) {
+    forEachRow(corner, kBorder, 1, [&](const FacetRow& r) {
       const float* const posts = field.z + static_cast<std::size_t>(r.y) * field.stride;
       double facet = r.z;
       for (std::int32_t x = r.first; x <= r.last; ++x) {

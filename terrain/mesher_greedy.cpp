@@ -30,21 +30,28 @@ Facet facetOf(const Triangulation& mesh, std::int32_t t) {
 
 }  // namespace
 
-void GreedyMesh::begin(const HeightField& field, std::span<const Point> border) {
-  assert(border.size() >= 3);
+void GreedyMesh::begin(const HeightField& field, std::span<const Point> border,
+                       std::span<const float> borderZ) {
+  assert(border.size() >= 3 && (borderZ.empty() || borderZ.size() == border.size()));
   originX_ = originY_ = ~0u;
   for (const Point& p : border) {
-    assert(p.column < field.columns && p.row < field.rows);
+    assert(p.column / field.step < field.columns && p.row / field.step < field.rows);
     originX_ = std::min(originX_, p.column);
     originY_ = std::min(originY_, p.row);
   }
-  z_ = field.z + originY_ * field.stride + originX_;
+  originX_ -= originX_ % field.step;
+  originY_ -= originY_ % field.step;
+  step_ = static_cast<std::int32_t>(field.step);
+  z_ = field.z + originY_ / field.step * field.stride + originX_ / field.step;
   stride_ = field.stride;
   points_.assign(border.begin(), border.end());
   mesh_.vertices.clear();
-  for (const Point& p : border)
-    mesh_.vertices.push_back({static_cast<std::int32_t>(p.column - originX_),
-                              static_cast<std::int32_t>(p.row - originY_), field.at(p.column, p.row)});
+  for (std::size_t i = 0; i < border.size(); ++i) {
+    const Point& p = border[i];
+    mesh_.vertices.push_back(
+        {static_cast<std::int32_t>(p.column - originX_), static_cast<std::int32_t>(p.row - originY_),
+         borderZ.empty() ? field.at(p.column / field.step, p.row / field.step) : borderZ[i]});
+  }
   mesh_.fillPolygon();
   stale_ = true;
 }
@@ -54,7 +61,7 @@ std::uint32_t GreedyMesh::addBorder(std::uint32_t from, Point at) {
   const auto x = static_cast<std::int32_t>(at.column - originX_),
              y = static_cast<std::int32_t>(at.row - originY_);
   points_.push_back(at);
-  mesh_.vertices.push_back({x, y, row(y)[x]});
+  mesh_.vertices.push_back({x, y, row(y / step_)[x / step_]});
   mesh_.splitBorder(from, v);
   stale_ = true;
   return v;
@@ -64,7 +71,7 @@ void GreedyMesh::scan(std::int32_t t) {
   const Facet facet = facetOf(mesh_, t);
   double worst = 0;
   std::int32_t worstX = 0, worstY = 0;
-  forEachRow(facet.corner, facet.border, [&](const FacetRow& r) {
+  forEachRow(facet.corner, facet.border, step_, [&](const FacetRow& r) {
     const float* const z = row(r.y);
     double at = r.z;
     for (std::int32_t x = r.first; x <= r.last; ++x) {
@@ -109,10 +116,11 @@ void GreedyMesh::refine(double tolerance, std::size_t mostVertices) {
   stale_ = false;
   for (std::int32_t t; points_.size() < mostVertices && (t = queue_.top()) >= 0;) {
     const Triangulation::Triangle& one = mesh_.triangles[static_cast<std::size_t>(t)];
-    const std::int32_t x = one.postX, y = one.postY;
+    const std::int32_t x = one.postX * step_, y = one.postY * step_;
+    const float z = row(one.postY)[one.postX];
     const auto v = static_cast<std::uint32_t>(points_.size());
     points_.push_back({static_cast<std::uint32_t>(x) + originX_, static_cast<std::uint32_t>(y) + originY_});
-    mesh_.vertices.push_back({x, y, row(y)[x]});
+    mesh_.vertices.push_back({x, y, z});
     const std::int32_t about = mesh_.insert(t, v);
     error_.resize(mesh_.triangles.size());
     scanAbout(about);
@@ -132,7 +140,8 @@ void GreedyMesh::eachBorderPost(const Visit& visit) const {
     const double scale = std::max(std::fabs(static_cast<double>(a.z)), std::fabs(static_cast<double>(b.z)));
     for (std::int32_t i = 1; i < steps; ++i) {
       const std::int32_t x = a.x + (b.x - a.x) / steps * i, y = a.y + (b.y - a.y) / steps * i;
-      const double off = std::fabs(row(y)[x] - (a.z + rise * i / steps));
+      if (x % step_ != 0 || y % step_ != 0) continue;
+      const double off = std::fabs(row(y / step_)[x / step_] - (a.z + rise * i / steps));
       visit(roundedError(off, std::max(scale, off)));
     }
   }
@@ -150,28 +159,39 @@ double GreedyMesh::maxErrorM() const {
   return std::max(worst, copy.maxErrorM());
 }
 
-double GreedyMesh::rmsErrorM() const {
-  double sum = 0;
-  eachBorderPost([&](double off) { sum += off * off; });
+template <class Visit>
+void GreedyMesh::eachInnerPost(const Visit& visit) const {
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh_.triangles.size()); ++t) {
     const Facet facet = facetOf(mesh_, t);
-    double here = 0;
-    forEachRow(facet.corner, facet.border, [&](const FacetRow& r) {
+    forEachRow(facet.corner, facet.border, step_, [&](const FacetRow& r) {
       const float* const z = row(r.y);
       double at = r.z;
       for (std::int32_t x = r.first; x <= r.last; ++x) {
         const double off = std::fabs(z[x] - at);
-        const double rounded = roundedError(off, std::max(facet.scale, off));
-        here += rounded * rounded;
+        visit(roundedError(off, std::max(facet.scale, off)));
         at += r.slope;
       }
     });
-    sum += here;
   }
-  return std::sqrt(sum / static_cast<double>(posts()));
+}
+
+double GreedyMesh::rmsErrorM() const {
+  double sum = 0;
+  const auto add = [&](double off) { sum += off * off; };
+  eachBorderPost(add);
+  eachInnerPost(add);
+  return std::sqrt(sum / static_cast<double>(std::max<std::uint64_t>(posts(), 1)));
 }
 
 std::uint64_t GreedyMesh::posts() const {
+  if (step_ != 1) {
+    std::uint64_t count = 0;
+    const auto add = [&](double) { ++count; };
+    eachBorderPost(add);
+    eachInnerPost(add);
+    for (const Triangulation::Vertex& v : mesh_.vertices) count += v.x % step_ == 0 && v.y % step_ == 0;
+    return count;
+  }
   // Pick: twice the area = 2 inside + border - 2.
   std::int64_t area = 0, border = 0;
   for (std::size_t v = 0; v < mesh_.borderEdge.size(); ++v) {

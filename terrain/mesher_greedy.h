@@ -15,7 +15,7 @@ class GreedyMesh {
  public:
   using Point = PolygonMesher::Point;
 
-  void begin(const HeightField& field, std::span<const Point> border);
+  void begin(const HeightField& field, std::span<const Point> border, std::span<const float> borderZ = {});
   /// One more vertex of the border, on its edge that leaves `from`; before further refinement.
   std::uint32_t addBorder(std::uint32_t from, Point at);
   void refine(double tolerance, std::size_t mostVertices);
@@ -35,9 +35,12 @@ class GreedyMesh {
   };
   void scan(std::int32_t t);
   void scanAbout(std::int32_t t);
+  /// Posts of the field, from the origin.
   const float* row(std::int32_t y) const { return z_ + static_cast<std::size_t>(y) * stride_; }
   template <class Visit>
   void eachBorderPost(const Visit& visit) const;
+  template <class Visit>
+  void eachInnerPost(const Visit& visit) const;
 
   Triangulation mesh_;
   ErrorQueue queue_;
@@ -46,6 +49,7 @@ class GreedyMesh {
   const float* z_ = nullptr;  ///< of the origin
   std::size_t stride_ = 0;
   std::uint32_t originX_ = 0, originY_ = 0;
+  std::int32_t step_ = 1;
   double tolerance_ = 0;
   bool stale_ = false;  ///< errors are not those of the triangles
 };

@@ -9,8 +9,9 @@ PolygonMesher::~PolygonMesher() = default;
 PolygonMesher::PolygonMesher(PolygonMesher&&) noexcept = default;
 PolygonMesher& PolygonMesher::operator=(PolygonMesher&&) noexcept = default;
 
-void PolygonMesher::begin(const HeightField& field, std::span<const Point> border) {
-  impl_->begin(field, border);
+void PolygonMesher::begin(const HeightField& field, std::span<const Point> border,
+                          std::span<const float> borderZ) {
+  impl_->begin(field, border, borderZ);
 }
 void PolygonMesher::refine(double tolerance, std::size_t mostVertices) {
   impl_->refine(tolerance, mostVertices);

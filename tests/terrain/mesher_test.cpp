@@ -114,6 +114,37 @@ TEST(PolygonMesher, keepsAnyConvexBorder) {
   }
 }
 
+TEST(PolygonMesher, takesPostsFurtherApartThanBorderVertices) {
+  // Every third post of a field, and border vertices at all of its places.
+  std::mt19937 random(21);
+  for (int round = 0; round < 100; ++round) {
+    const Field field = test::fractal(64, 55, static_cast<std::uint32_t>(round));
+    HeightField thin = field.view();
+    thin.step = 3;
+    thin.columns = 22;
+    thin.rows = 19;
+    std::vector<float> posts;
+    for (std::uint32_t y = 0; y < 55; y += 3)
+      for (std::uint32_t x = 0; x < 64; x += 3) posts.push_back(field.view().at(x, y));
+    thin.z = posts.data();
+    thin.stride = 22;
+    const auto border = randomPolygon(64, 55, random);
+    std::vector<float> borderZ;
+    for (const Point& p : border) borderZ.push_back(field.view().at(p.column, p.row));
+    PolygonMesher mesher;
+    mesher.begin(thin, border, borderZ);
+    mesher.refine(20, kAny);
+    std::vector<std::uint32_t> indices;
+    mesher.triangles(indices);
+    std::vector<float> z = borderZ;
+    for (std::size_t i = border.size(); i < mesher.vertices().size(); ++i)
+      z.push_back(field.view().at(mesher.vertices()[i].column, mesher.vertices()[i].row));
+    SCOPED_TRACE(round);
+    expectStated(checkMesh(field.view(), border, mesher.vertices(), z, indices, 3), mesher, 1000);
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
 TEST(PolygonMesher, coarserMeshesAreTheFirstVerticesOfFinerOnes) {
   const Field field = test::fractal(65, 65, 3);
   const std::vector<Point> border = outline(field.view(), {{0, 0}, {64, 0}, {0, 64}}, 30);
