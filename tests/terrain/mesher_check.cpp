@@ -132,7 +132,7 @@ MeshFacts checkMesh(const terrain::HeightField& field, const std::vector<Point>&
     sum += off[at] * off[at];
     facts.maxM = std::max(facts.maxM, off[at]);
   }
-  facts.rmsM = std::sqrt(sum / static_cast<double>(facts.posts));
+  facts.rmsM = std::sqrt(sum / static_cast<double>(std::max<std::uint64_t>(facts.posts, 1)));
   return facts;
 }
 
