@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "trimtab/terrain/database.h"
+#include "trimtab/terrain/ground.h"
+#include "trimtab/terrain/height_window.h"
+#include "trimtab/terrain/post_geometry.h"
+
+/// Builds the ground's pyramid, block by block: memory follows the number of cores, not the size of the land.
+namespace trimtab::terrain {
+
+struct GroundTriangle;
+
+/// What the ground's look is made from. Where no image has a colour the triangles' materials give it, and
+/// where there are none of those the land cover that height, slope and latitude suggest.
+struct GroundSources {
+  const HeightSource* heights = nullptr;
+  const PostGeometry* geometry = nullptr;
+  /// Any raster that GDAL reads with bytes of red, green and blue, of grey, or of a palette, in any CRS; the
+  /// first that has something at a place gives its colour.
+  std::vector<std::filesystem::path> images;
+  std::span<const GroundTriangle> triangles;
+  /// A power of two, 1/64 to 64. Without: as fine as the finest image, from 1 to `mostTexelsPerPost`; 2 for
+  /// triangles.
+  std::optional<double> texelsPerPost;
+  double mostTexelsPerPost = 8;
+};
+
+/// Into a page file that openGround opens. The bytes depend on the sources alone.
+Result<Done> buildGround(const GroundSources& sources, const std::filesystem::path& file,
+                         const Progress& progress);
+
+/// The i-th of so many shares, for several processes or machines; joined, the same bytes as buildGround's.
+Result<Done> buildGroundPart(const GroundSources& sources, std::uint32_t part, std::uint32_t parts,
+                             const std::filesystem::path& file, const Progress& progress);
+Result<Done> joinGround(std::span<const std::filesystem::path> parts, const std::filesystem::path& file,
+                        const Progress& progress);
+
+/// All of it in memory.
+Result<std::shared_ptr<const GroundPyramid>> buildGroundInMemory(const GroundSources& sources,
+                                                                 const Progress& progress = {});
+
+}  // namespace trimtab::terrain
