@@ -89,8 +89,8 @@ void Horizon::build(Vec3 eye, std::span<const HorizonTile> tiles, const Settings
   ring_.assign(tiles.size(), 0);
   firstOfRing_.assign(kRings + 1, 0);
   for (std::size_t i = 0; i < tiles.size(); ++i) {
-    if (tiles[i].relief)
-      ring_[i] = ringOf(nearestInPlan(tiles[i].relief->bounds, fromEye(eye, tiles[i].relief->origin)));
+    if (const Relief* surface = tiles[i].surface())
+      ring_[i] = ringOf(nearestInPlan(surface->bounds, fromEye(eye, surface->origin)));
     ++firstOfRing_[ring_[i] + 1];
   }
   for (std::uint32_t ring = 0; ring < kRings; ++ring) firstOfRing_[ring + 1] += firstOfRing_[ring];
@@ -101,56 +101,68 @@ void Horizon::build(Vec3 eye, std::span<const HorizonTile> tiles, const Settings
   firstLine_.assign(kRings, kNone);
   std::uint32_t done = 0;  // rings whose lines are in the horizon
   for (const std::uint32_t i : order_) {
-    const TileRelief* relief = tiles[i].relief;
-    if (!relief) continue;
+    const HorizonTile& tile = tiles[i];
+    if (!tile.surface()) continue;
     for (; done < ring_[i]; ++done)
       for (std::uint32_t n = firstLine_[done]; n != kNone; n = lines_[n].next) {
         const HorizonTile& other = tiles[lines_[n].tile];
-        takeUp(*other.relief);
+        takeUp(*other.surface());
         addLine(other, lines_[n].line);
       }
-    takeUp(*relief);
-    if (isHidden(*relief)) {
+    takeUp(*tile.surface());
+    if (tile.relief ? isHidden(*tile.relief) : isHidden(*tile.mesh)) {
       // Nor can its lines stand out of what hides it.
       hidden_[i] = 1;
       ++hiddenCount_;
-    } else if (tiles[i].mayOcclude) {
-      enqueueLines(i, tiles[i]);
+    } else if (tile.mayOcclude) {
+      enqueueLines(i, tile);
     }
   }
 }
 
-void Horizon::takeUp(const TileRelief& relief) {
+void Horizon::takeUp(const Relief& relief) {
   offset_ = fromEye(eye_, relief.origin);
   nearest_ = std::max(kNearest, kNearestShare * relief.reach);
 }
 
+void Horizon::take(const Relief& relief, const float* x, const float* y, const float* z, int count, int to) {
+  const auto offset = fromEye(eye_, relief.origin);
+  float *toX = x_.data() + to, *toY = y_.data() + to, *toZ = z_.data() + to;
+  for (int k = 0; k < count; ++k) {
+    toX[k] = x[k] + offset[0];
+    toY[k] = y[k] + offset[1];
+    toZ[k] = z[k] + offset[2];
+  }
+}
+
 /// Fills in the corners of a line, with those of the next tile where it goes on; how many there are.
 int Horizon::cornersOf(const HorizonTile& tile, std::uint32_t line) {
-  int count = 0;
-  const auto take = [&](const TileRelief& relief, int from, int to) {
-    const auto offset = fromEye(eye_, relief.origin);
-    const std::size_t first = std::size_t{line} * static_cast<std::size_t>(relief.side);
-    const float *x = relief.lineX.data() + first, *y = relief.lineY.data() + first,
-                *z = relief.lineZ.data() + first;
-    float *toX = x_.data() + count - from, *toY = y_.data() + count - from, *toZ = z_.data() + count - from;
-    for (int k = from; k < to; ++k) {
-      toX[k] = x[k] + offset[0];
-      toY[k] = y[k] + offset[1];
-      toZ[k] = z[k] + offset[2];
-    }
-    count += to - from;
+  if (!tile.relief) {
+    const MeshRelief& mesh = *tile.mesh;
+    const std::uint32_t first = mesh.lineFirst[line];
+    const int count = std::min(static_cast<int>(mesh.lineFirst[line + 1] - first), kMostCorners);
+    take(mesh, mesh.lineX.data() + first, mesh.lineY.data() + first, mesh.lineZ.data() + first, count, 0);
+    return count;
+  }
+  const auto takeFrom = [&](const TileRelief& relief, int from, int count, int to) {
+    const std::size_t first =
+        std::size_t{line} * static_cast<std::size_t>(relief.side) + static_cast<std::size_t>(from);
+    take(relief, relief.lineX.data() + first, relief.lineY.data() + first, relief.lineZ.data() + first, count,
+         to);
+    return count;
   };
-  take(*tile.relief, 0, tile.relief->side);
+  const int side = tile.relief->side;
+  takeFrom(*tile.relief, 0, side, 0);
   // Rows and columns take turns.
   const TileRelief* next = line % 2 == 0 ? tile.east : tile.north;
-  if (next && next->lines == tile.relief->lines && next->side == tile.relief->side)
-    take(*next, 1, std::min(1 + kGoOn, next->side));
-  return count;
+  if (!next || next->lines != tile.relief->lines || next->side != side) return side;
+  return side + takeFrom(*next, 1, std::min(kGoOn, side - 1), side);
 }
 
 void Horizon::enqueueLines(std::uint32_t tile, const HorizonTile& from) {
-  for (std::uint32_t line = 0; line < static_cast<std::uint32_t>(from.relief->lines); ++line) {
+  const std::uint32_t lines = from.relief ? static_cast<std::uint32_t>(from.relief->lines)
+                                          : static_cast<std::uint32_t>(from.mesh->lines());
+  for (std::uint32_t line = 0; line < lines; ++line) {
     const int count = cornersOf(from, line);
     float furthest = 0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
@@ -197,7 +209,7 @@ void Horizon::addLine(const HorizonTile& tile, std::uint32_t line) {
   const auto [y0, y1] = std::minmax(y_[0], y_[static_cast<std::size_t>(count - 1)]);
   for (int side = 0; side < kSides; ++side) {
     if (!meets(turned(side, x0, x1, y0, y1))) continue;
-    float u[kMostPosts + kGoOn], w[kMostPosts + kGoOn], forward[kMostPosts + kGoOn];
+    float u[kMostCorners], w[kMostCorners], forward[kMostCorners];
     for (int k = 0; k < count; ++k) {
       const auto i = static_cast<std::size_t>(k);
       const Turned p = turned(side, x_[i], y_[i]);
@@ -323,6 +335,45 @@ bool Horizon::isHidden(const TileRelief& relief) const {
   for (int part = 0; part < static_cast<int>(relief.parts.size()); ++part)
     if (!isBoxHidden(relief.parts[static_cast<std::size_t>(part)]) && !isPartHidden(relief, part))
       return false;
+  return true;
+}
+
+bool Horizon::isPartHidden(const MeshRelief& relief, const MeshRelief::Part& part) const {
+  for (int side = 0; side < kSides; ++side) {
+    const TurnedBox box = turned(side, part.box.minX + offset_[0], part.box.maxX + offset_[0],
+                                 part.box.minY + offset_[1], part.box.maxY + offset_[1]);
+    if (!meets(box)) continue;
+    if (!(box.f0 > nearest_)) return false;
+    float t[3 * MeshRelief::kPartTriangles], w[3 * MeshRelief::kPartTriangles];
+    for (std::size_t i = 0; i < part.vertices; ++i) {
+      const std::size_t k = part.firstVertex + i;
+      const Turned p = turned(side, relief.x[k] + offset_[0], relief.y[k] + offset_[1]);
+      const float inverse = 1 / p.f;
+      t[i] = p.l * inverse;
+      w[i] = (relief.z[k] + offset_[2]) * inverse;
+    }
+    const std::uint8_t* corner = relief.corners.data() + part.firstCorner;
+    for (std::size_t i = 0; i < part.triangles; ++i, corner += 3) {
+      const auto [a, b, c] = std::array{corner[0], corner[1], corner[2]};
+      if (!covers(side, std::min({t[a], t[b], t[c]}), std::max({t[a], t[b], t[c]}),
+                  std::max({w[a], w[b], w[c]})))
+        return false;
+    }
+  }
+  return true;
+}
+
+bool Horizon::isHidden(const MeshRelief& relief) const {
+  if (relief.parts.empty()) return false;
+  if (isBoxHidden(relief.bounds)) return true;
+  for (const MeshRelief::Part& part : relief.parts) {
+    const std::size_t peak = part.firstVertex + part.peak;
+    if (!blocks({double{relief.x[peak] + offset_[0]}, double{relief.y[peak] + offset_[1]},
+                 double{relief.z[peak] + offset_[2]}}))
+      return false;
+  }
+  for (const MeshRelief::Part& part : relief.parts)
+    if (!isBoxHidden(part.box) && !isPartHidden(relief, part)) return false;
   return true;
 }
 

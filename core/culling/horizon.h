@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "trimtab/culling/mesh_relief.h"
 #include "trimtab/culling/relief.h"
 
 namespace trimtab {
@@ -36,11 +37,14 @@ namespace trimtab {
 /// parts are tested with twice that all around. Lines of a tile beyond the data's border, or so steep that
 /// one place may have two heights, must not be used: HorizonTile::mayOcclude.
 struct HorizonTile {
-  const TileRelief* relief = nullptr;  ///< null: never hidden, hides nothing
+  const TileRelief* relief = nullptr;  ///< a regular tile; without it and `mesh` never hidden, hides nothing
   bool mayOcclude = false;
   /// Neighbours whose lines go on where this tile's end, or null: drawn at the same level, and may occlude. A
   /// column that a border lies in is not lost then.
   const TileRelief *east = nullptr, *north = nullptr;
+  const MeshRelief* mesh = nullptr;  ///< instead of `relief`: any triangles
+
+  const Relief* surface() const { return relief ? static_cast<const Relief*>(relief) : mesh; }
 };
 
 class Horizon {
@@ -72,13 +76,16 @@ class Horizon {
     std::uint32_t tile, line, next;
   };
 
-  void takeUp(const TileRelief& relief);
+  void takeUp(const Relief& relief);
   bool isHidden(const TileRelief& relief) const;
+  bool isHidden(const MeshRelief& relief) const;
   bool showsPeak(const TileRelief& relief) const;
   bool isBoxHidden(const Box& box) const;
   bool isPartHidden(const TileRelief& relief, int part) const;
+  bool isPartHidden(const MeshRelief& relief, const MeshRelief::Part& part) const;
   bool covers(int side, float t0, float t1, float w) const;
   int cornersOf(const HorizonTile& tile, std::uint32_t line);
+  void take(const Relief& relief, const float* x, const float* y, const float* z, int count, int to);
   void enqueueLines(std::uint32_t tile, const HorizonTile& from);
   void addLine(const HorizonTile& tile, std::uint32_t line);
   template <bool Raised>
@@ -91,8 +98,11 @@ class Horizon {
   bool raised_ = false;
   static constexpr int kMostPosts = 65,
                        kGoOn = 2;  ///< of a tile's side; how far a line goes into the next tile
+  /// Corners of a line; of a longer one what comes first.
+  static constexpr int kMostCorners = 192;
+  static_assert(kMostCorners >= kMostPosts + kGoOn);
   /// The line in hand, from the eye.
-  std::array<float, kMostPosts + kGoOn> x_, y_, z_;
+  std::array<float, kMostCorners> x_, y_, z_;
   // Of the tile in hand: its origin from the eye, and the least distance at which it counts.
   std::array<float, 3> offset_{};
   float nearest_ = 0;

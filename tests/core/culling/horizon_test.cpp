@@ -48,6 +48,15 @@ class Ground {
     return tiles;
   }
   const std::vector<TileRelief>& reliefs() const { return reliefs_; }
+  /// The same surface as meshes of any triangles, in the order of tiles().
+  std::vector<MeshRelief> meshes(int step) const {
+    std::vector<MeshRelief> meshes;
+    const int tiles = (posts_ - 1) / cells_;
+    for (int row = 0; row < tiles; ++row)
+      for (int column = 0; column < tiles; ++column)
+        meshes.push_back(meshOf(column * cells_, row * cells_, step));
+    return meshes;
+  }
   double sideM() const { return (posts_ - 1) * step_; }
 
   /// z of the surface; diagonals alternate as the terrain's do.
@@ -84,6 +93,29 @@ class Ground {
     return double{heights_[static_cast<std::size_t>(y) * static_cast<std::size_t>(posts_) +
                            static_cast<std::size_t>(x)]};
   }
+  MeshRelief meshOf(int column, int row, int step) const {
+    const Vec3 origin{(column + cells_ / 3) * step_, (row + cells_ / 2) * step_, 50};
+    std::vector<ReliefVertex> vertices;
+    std::vector<std::uint16_t> indices;
+    for (int y = 0; y <= cells_; ++y)
+      for (int x = 0; x <= cells_; ++x)
+        vertices.push_back({static_cast<float>((column + x) * step_ - origin.x),
+                            static_cast<float>((row + y) * step_ - origin.y),
+                            static_cast<float>(post(column + x, row + y) - origin.z),
+                            static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)});
+    const auto at = [this](int x, int y) { return static_cast<std::uint16_t>(y * (cells_ + 1) + x); };
+    for (int y = 0; y < cells_; ++y)
+      for (int x = 0; x < cells_; ++x) {
+        const auto sw = at(x, y), se = at(x + 1, y), nw = at(x, y + 1), ne = at(x + 1, y + 1);
+        if ((column + x + row + y) % 2 == 0)
+          indices.insert(indices.end(), {sw, se, ne, sw, ne, nw});
+        else
+          indices.insert(indices.end(), {sw, se, nw, se, ne, nw});
+      }
+    MeshRelief relief;
+    makeMeshRelief(vertices, indices, origin, step, relief);
+    return relief;
+  }
   TileRelief reliefOf(int column, int row) const {
     TileRelief relief;
     relief.side = cells_ + 1;
@@ -108,11 +140,11 @@ struct Tally {
   std::size_t hidden = 0, tiles = 0, wrong = 0, asked = 0;
 };
 
-/// Points of tiles that are said to be hidden, asked of the ground itself.
-Tally fly(const Ground& ground, int eyes, const Horizon::Settings& settings, unsigned seed) {
+/// Points of tiles that are said to be hidden, asked of the ground itself; tiles in the ground's order.
+Tally fly(const Ground& ground, const std::vector<HorizonTile>& tiles, int eyes,
+          const Horizon::Settings& settings, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
-  const std::vector<HorizonTile> tiles = ground.tiles();
   Horizon horizon;
   Tally tally;
   for (int i = 0; i < eyes; ++i) {
@@ -124,7 +156,7 @@ Tally fly(const Ground& ground, int eyes, const Horizon::Settings& settings, uns
     for (std::size_t t = 0; t < tiles.size(); ++t) {
       if (horizon.hidden()[t] == 0) continue;
       ++hidden;
-      const TileRelief& r = *tiles[t].relief;
+      const TileRelief& r = ground.reliefs()[t];
       for (int k = 0; k < 40; ++k) {
         Vec3 p;
         if (k < 20) {
@@ -146,6 +178,16 @@ Tally fly(const Ground& ground, int eyes, const Horizon::Settings& settings, uns
     tally.tiles += tiles.size();
   }
   return tally;
+}
+
+Tally fly(const Ground& ground, int eyes, const Horizon::Settings& settings, unsigned seed) {
+  return fly(ground, ground.tiles(), eyes, settings, seed);
+}
+
+std::vector<HorizonTile> tilesOf(const std::vector<MeshRelief>& meshes) {
+  std::vector<HorizonTile> tiles;
+  for (const MeshRelief& mesh : meshes) tiles.push_back({.mayOcclude = mesh.upright, .mesh = &mesh});
+  return tiles;
 }
 
 TEST(Horizon, hidesOnlyWhatTheGroundItselfHides) {
@@ -236,6 +278,88 @@ TEST(Horizon, leavesTilesThatItDoesNotKnowOrThatAreNoSurface) {
   ASSERT_GT(changed, 8u);
   horizon.build(eye, tiles, {});
   EXPECT_EQ(horizon.hiddenCount(), 0u) << "all that was hidden is now not known";
+}
+
+TEST(Horizon, hidesByMeshesOnlyWhatTheGroundItselfHides) {
+  for (const int step : {2, 3, 4}) {
+    const Ground ground(10, 16, 60, 20 + static_cast<unsigned>(step));
+    const std::vector<MeshRelief> meshes = ground.meshes(step);
+    const Tally tally = fly(ground, tilesOf(meshes), 60, {.columns = 1024}, 3);
+    const Tally regular = fly(ground, 60, {.columns = 1024}, 3);
+    EXPECT_EQ(tally.wrong, 0u) << step;
+    EXPECT_GT(tally.hidden, regular.hidden * 8 / 10) << step;
+    std::printf("lines every %d posts: %zu of %zu meshes hidden, %zu of the same as tiles\n", step,
+                tally.hidden, tally.tiles, regular.hidden);
+  }
+}
+
+TEST(Horizon, isSeenToFailWhereLinesOfMeshesReachTooHigh) {
+  const Ground ground(10, 16, 60, 2);
+  const std::vector<MeshRelief> meshes = ground.meshes(4);
+  EXPECT_GT(fly(ground, tilesOf(meshes), 60, {.columns = 16, .raised = true}, 3).wrong, 0u);
+}
+
+TEST(MeshRelief, hasLinesThatLieOnTheSurfaceFromBorderToBorder) {
+  const Ground ground(3, 16, 60, 4);
+  for (const MeshRelief& mesh : ground.meshes(5)) {
+    ASSERT_GE(mesh.lines(), 6u);
+    EXPECT_TRUE(mesh.upright);
+    for (std::size_t line = 0; line < mesh.lines(); ++line) {
+      const std::size_t first = mesh.lineFirst[line], end = mesh.lineFirst[line + 1];
+      EXPECT_NEAR(
+          std::hypot(mesh.lineX[end - 1] - mesh.lineX[first], mesh.lineY[end - 1] - mesh.lineY[first]),
+          16 * 60, 1e-2);
+      // Between two corners it is straight, and so is the surface.
+      for (std::size_t i = first; i + 1 < end; ++i)
+        for (const double s : {0.0, 0.3, 0.5, 0.8}) {
+          const auto at = [&](const std::vector<float>& v) { return v[i] + s * (double{v[i + 1]} - v[i]); };
+          const Vec3 p = mesh.origin + Vec3{at(mesh.lineX), at(mesh.lineY), at(mesh.lineZ)};
+          EXPECT_NEAR(ground.heightAt(p.x, p.y), p.z, 1e-3);
+        }
+    }
+  }
+}
+
+TEST(MeshRelief, keepsEveryTriangleOnce) {
+  const Ground ground(2, 16, 60, 4);
+  for (const MeshRelief& mesh : ground.meshes(4)) {
+    std::size_t triangles = 0;
+    double area = 0;
+    for (const MeshRelief::Part& part : mesh.parts) {
+      triangles += part.triangles;
+      for (std::size_t i = 0; i < part.triangles; ++i) {
+        const std::uint8_t* c = &mesh.corners[part.firstCorner + 3 * i];
+        const auto x = [&](int k) { return double{mesh.x[part.firstVertex + c[k]]}; };
+        const auto y = [&](int k) { return double{mesh.y[part.firstVertex + c[k]]}; };
+        area += 0.5 * ((x(1) - x(0)) * (y(2) - y(0)) - (x(2) - x(0)) * (y(1) - y(0)));
+      }
+    }
+    EXPECT_EQ(triangles, 2u * 16 * 16);
+    EXPECT_NEAR(area, 960.0 * 960, 1);
+  }
+}
+
+TEST(MeshRelief, isNoSurfaceWhereItStandsUprightOrIsNoNumber) {
+  const std::vector<std::uint16_t> one{0, 1, 2};
+  MeshRelief relief;
+  makeMeshRelief(std::vector<ReliefVertex>{{0, 0, 0, 0, 0}, {10, 0, 5, 1, 0}, {0, 10, 0, 0, 1}}, one, {}, 1,
+                 relief);
+  EXPECT_TRUE(relief.upright);
+  EXPECT_NEAR(relief.steepest, 0.5, 1e-6);
+  makeMeshRelief(std::vector<ReliefVertex>{{0, 0, 0, 0, 0}, {0, 0, 10, 1, 0}, {0, 10, 0, 0, 1}}, one, {}, 1,
+                 relief);
+  EXPECT_FALSE(relief.upright);
+  EXPECT_EQ(relief.lines(), 0u);
+  makeMeshRelief(std::vector<ReliefVertex>{{0, 0, 0, 0, 0}, {0, 10, 0, 1, 0}, {10, 0, 0, 0, 1}}, one, {}, 1,
+                 relief);
+  EXPECT_FALSE(relief.upright) << "it faces down";
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  makeMeshRelief(std::vector<ReliefVertex>{{0, 0, nan, 0, 0}, {10, 0, 0, 1, 0}, {0, 10, 0, 0, 1}}, one, {}, 1,
+                 relief);
+  EXPECT_FALSE(relief.upright);
+  EXPECT_TRUE(relief.parts.empty());
+  makeMeshRelief({}, {}, {}, 1, relief);
+  EXPECT_TRUE(relief.parts.empty());
 }
 
 // A tile of one cell has no line inside, so it hides nothing; it can be hidden.

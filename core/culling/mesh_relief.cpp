@@ -1,0 +1,178 @@
+#include "trimtab/culling/mesh_relief.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace trimtab {
+namespace {
+
+using Triangle = std::array<std::uint16_t, 3>;
+
+/// Bits of both, taking turns: what is near in both is near in the result.
+std::uint32_t interleaved(std::uint32_t a, std::uint32_t b) {
+  const auto spread = [](std::uint32_t v) {
+    v = (v | v << 8) & 0x00ff00ffu;
+    v = (v | v << 4) & 0x0f0f0f0fu;
+    v = (v | v << 2) & 0x33333333u;
+    return (v | v << 1) & 0x55555555u;
+  };
+  return spread(a & 0xffffu) | spread(b & 0xffffu) << 1;
+}
+
+void extend(Box& b, float x, float y, float z) {
+  b = {std::min(b.minX, x), std::min(b.minY, y), std::min(b.minZ, z),
+       std::max(b.maxX, x), std::max(b.maxY, y), std::max(b.maxZ, z)};
+}
+
+constexpr Box nothing() {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  return {kMost, kMost, kMost, -kMost, -kMost, -kMost};
+}
+
+/// Slope and orientation, in doubles of the floats that are drawn.
+void judge(const ReliefVertex& a, const ReliefVertex& b, const ReliefVertex& c, MeshRelief& relief) {
+  const double ux = double{b.x} - a.x, uy = double{b.y} - a.y, uz = double{b.z} - a.z;
+  const double vx = double{c.x} - a.x, vy = double{c.y} - a.y, vz = double{c.z} - a.z;
+  const double up = ux * vy - uy * vx;
+  const double flat = std::hypot(uy * vz - uz * vy, uz * vx - ux * vz);
+  // Steeper than this a rounding step might turn it over.
+  if (!(up > 0 && flat < 1000 * up)) relief.upright = false;
+  relief.steepest = std::max(relief.steepest, static_cast<float>(up > 0 ? flat / up : 1e6));
+}
+
+void addParts(std::span<const ReliefVertex> vertices, std::vector<Triangle>& triangles, MeshRelief& relief) {
+  std::uint16_t firstColumn = 0xffff, firstRow = 0xffff;
+  for (const ReliefVertex& v : vertices) {
+    firstColumn = std::min(firstColumn, v.column);
+    firstRow = std::min(firstRow, v.row);
+  }
+  const auto place = [&](const Triangle& t) {
+    std::uint32_t column = 0, row = 0;
+    for (const std::uint16_t i : t) {
+      column += static_cast<std::uint32_t>(vertices[i].column - firstColumn);
+      row += static_cast<std::uint32_t>(vertices[i].row - firstRow);
+    }
+    return interleaved(column / 3, row / 3);
+  };
+  std::sort(triangles.begin(), triangles.end(), [&](const Triangle& a, const Triangle& b) {
+    return std::pair(place(a), a) < std::pair(place(b), b);
+  });
+
+  std::vector<std::uint16_t> used;
+  for (std::size_t first = 0; first < triangles.size(); first += MeshRelief::kPartTriangles) {
+    const std::size_t end = std::min(first + MeshRelief::kPartTriangles, triangles.size());
+    MeshRelief::Part part{.box = nothing(),
+                          .firstVertex = static_cast<std::uint32_t>(relief.x.size()),
+                          .firstCorner = static_cast<std::uint32_t>(relief.corners.size()),
+                          .triangles = static_cast<std::uint8_t>(end - first)};
+    used.clear();
+    for (std::size_t i = first; i < end; ++i)
+      used.insert(used.end(), triangles[i].begin(), triangles[i].end());
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    part.vertices = static_cast<std::uint8_t>(used.size());
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      const ReliefVertex& v = vertices[used[i]];
+      relief.x.push_back(v.x);
+      relief.y.push_back(v.y);
+      relief.z.push_back(v.z);
+      extend(part.box, v.x, v.y, v.z);
+      if (v.z > vertices[used[part.peak]].z) part.peak = static_cast<std::uint8_t>(i);
+    }
+    for (std::size_t i = first; i < end; ++i)
+      for (const std::uint16_t corner : triangles[i])
+        relief.corners.push_back(
+            static_cast<std::uint8_t>(std::lower_bound(used.begin(), used.end(), corner) - used.begin()));
+    relief.parts.push_back(part);
+  }
+}
+
+/// Where an edge meets a line of posts.
+struct Crossing {
+  std::uint32_t line;
+  double along;  ///< columns along a row, rows along a column
+  float x, y, z;
+};
+
+/// Crossings of all edges with the rows (or columns) that `step` divides. An edge counts from its lower end
+/// on and without its upper one: a line through a vertex gets it from the edges above.
+template <bool Rows>
+void cross(std::span<const ReliefVertex> vertices, std::span<const Triangle> triangles, int step,
+           std::vector<Crossing>& crossings) {
+  const auto across = [](const ReliefVertex& v) { return static_cast<int>(Rows ? v.row : v.column); };
+  const auto along = [](const ReliefVertex& v) { return static_cast<double>(Rows ? v.column : v.row); };
+  for (const Triangle& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const ReliefVertex *a = &vertices[t[k]], *b = &vertices[t[(k + 1) % 3]];
+      // From the same end in both triangles of an edge: then both give the same bits.
+      if (across(*a) > across(*b)) std::swap(a, b);
+      const int low = across(*a), high = across(*b);
+      for (int line = (low + step - 1) / step * step; line < high; line += step) {
+        const double s = static_cast<double>(line - low) / (high - low);
+        const auto between = [s](double from, double to) { return from + s * (to - from); };
+        crossings.push_back({static_cast<std::uint32_t>(line), between(along(*a), along(*b)),
+                             static_cast<float>(between(a->x, b->x)), static_cast<float>(between(a->y, b->y)),
+                             static_cast<float>(between(a->z, b->z))});
+      }
+    }
+}
+
+/// Between two crossings that follow each other no edge is crossed: both are on one triangle. The mesh's
+/// outline is convex, so that a line meets it in one piece.
+template <bool Rows>
+void addLines(std::span<const ReliefVertex> vertices, std::span<const Triangle> triangles, int step,
+              MeshRelief& relief) {
+  std::vector<Crossing> crossings;
+  cross<Rows>(vertices, triangles, step, crossings);
+  const auto place = [](const Crossing& c) { return std::pair(c.line, c.along); };
+  std::sort(crossings.begin(), crossings.end(),
+            [&](const Crossing& a, const Crossing& b) { return place(a) < place(b); });
+  crossings.erase(std::unique(crossings.begin(), crossings.end(),
+                              [&](const Crossing& a, const Crossing& b) { return place(a) == place(b); }),
+                  crossings.end());
+  for (std::size_t first = 0, end = 0; first < crossings.size(); first = end) {
+    while (end < crossings.size() && crossings[end].line == crossings[first].line) ++end;
+    if (end - first < 2) continue;
+    for (std::size_t i = first; i < end; ++i) {
+      relief.lineX.push_back(crossings[i].x);
+      relief.lineY.push_back(crossings[i].y);
+      relief.lineZ.push_back(crossings[i].z);
+    }
+    relief.lineFirst.push_back(static_cast<std::uint32_t>(relief.lineX.size()));
+  }
+}
+
+}  // namespace
+
+void makeMeshRelief(std::span<const ReliefVertex> vertices, std::span<const std::uint16_t> indices,
+                    Vec3 origin, int step, MeshRelief& relief) {
+  relief = {};
+  relief.origin = origin;
+  relief.bounds = nothing();
+  if (indices.size() < 3) return;
+  std::vector<Triangle> triangles;
+  triangles.reserve(indices.size() / 3);
+  relief.upright = true;
+  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+    triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
+    judge(vertices[indices[i]], vertices[indices[i + 1]], vertices[indices[i + 2]], relief);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const ReliefVertex& v = vertices[indices[i + k]];
+      if (!(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z))) {
+        relief.upright = false;
+        return;
+      }
+      extend(relief.bounds, v.x, v.y, v.z);
+      relief.reach = std::max({relief.reach, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    }
+  }
+  addParts(vertices, triangles, relief);
+  if (!relief.upright) return;
+  addLines<true>(vertices, triangles, step, relief);
+  addLines<false>(vertices, triangles, step, relief);
+}
+
+}  // namespace trimtab
