@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,19 +14,38 @@
 namespace trimtab::terrain {
 
 /// Elevation of any number of files as one grid of posts, read a band at a time: memory does not follow the
-/// size of the data.
+/// size of the data, and what is read does not depend on the bands.
+///
+/// A post that lies on a file's own is that file's height to the bit; between a file's posts the height is
+/// cubic. Of files that have a height at a post the finest leads, and of equals the first; towards a border
+/// where another file goes on, or a void that it fills, the leading file gives way over 32 posts, so that
+/// there is no step.
 class ElevationSource {
  public:
   virtual ~ElevationSource() = default;
   virtual const PostGrid& posts() const = 0;
-  /// Rows [first, first + rows) of the merged grid, NaN where no file has a height. One thread at a time.
-  virtual Result<Done> readRows(std::uint32_t first, std::uint32_t rows, std::span<float> heights) = 0;
+  /// Rows [first, first + rows) of the merged grid, NaN where no file has a height. `beyond`, where wanted:
+  /// 1 where no file reaches (about a raster that stands askew), 0 at voids. One thread at a time; rows in
+  /// order are read once.
+  virtual Result<Done> readRows(std::uint32_t first, std::uint32_t rows, std::span<float> heights,
+                                std::span<std::uint8_t> beyond = {}) = 0;
   /// Names of the files, in order of their say.
   virtual std::vector<std::string> names() const = 0;
+  /// Of the rows read so far, the posts that each of them gave, or gave most of.
+  virtual std::vector<std::uint64_t> given() const = 0;
 };
 
-/// Opens what importElevation reads, and says of every file that it cannot use why. Findings carry notes
-/// about what was assumed.
-Result<std::unique_ptr<ElevationSource>> openElevation(std::span<const std::filesystem::path> sources);
+struct ElevationOptions {
+  /// Distance of posts, degrees of latitude; else that of the finest file. A file that is finer is averaged.
+  std::optional<double> stepLatitude;
+  Progress progress;
+};
+
+/// Opens what importElevation reads, and says of every file that it cannot use why. Each file is read through
+/// once, for its voids and for damage. Findings carry notes about what was assumed.
+///
+/// The grid is that of the finest file that is geographic already, unless another file is finer by a tenth.
+Result<std::unique_ptr<ElevationSource>> openElevation(std::span<const std::filesystem::path> sources,
+                                                       const ElevationOptions& options = {});
 
 }  // namespace trimtab::terrain

@@ -6,13 +6,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "trimtab/terrain/elevation_values.h"
+
 namespace trimtab::terrain {
 
 namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kMostPosts = 4e8;
+constexpr double kMostPosts = 4e9;
 
 OGRSpatialReference wgs84() {
   OGRSpatialReference crs;
@@ -62,6 +64,39 @@ std::optional<PostGrid> geographicPosts(const PlacedRaster& raster) {
   return posts;
 }
 
+namespace {
+
+/// On the sphere, in a way that is good near the poles too.
+double degreesApart(const std::array<double, 2>& a, const std::array<double, 2>& b) {
+  constexpr double kDegree = std::numbers::pi / 180;
+  const double north = std::sin((b[1] - a[1]) * kDegree / 2), east = std::sin((b[0] - a[0]) * kDegree / 2);
+  const double chord = north * north + std::cos(a[1] * kDegree) * std::cos(b[1] * kDegree) * east * east;
+  return 2 * std::asin(std::sqrt(std::min(1.0, chord))) / kDegree;
+}
+
+/// 1: the north pole lies in the raster, -1: the south pole.
+int poleIn(const PlacedRaster& raster) {
+  std::array<double, 6> forward = raster.transform, inverse{};
+  const OGRSpatialReference from = wgs84();
+  const std::unique_ptr<OGRCoordinateTransformation> transform(
+      OGRCreateCoordinateTransformation(&from, &raster.crs));
+  if (!transform || raster.crs.IsGeographic() || !GDALInvGeoTransform(forward.data(), inverse.data()))
+    return 0;
+  for (const int pole : {1, -1}) {
+    // Only where the pole is a point, and not the edge of a cylinder.
+    std::array<double, 2> x{0, 90}, y{90.0 * pole, 90.0 * pole};
+    if (!transform->Transform(2, x.data(), y.data()) || std::hypot(x[1] - x[0], y[1] - y[0]) > 1) continue;
+    const double column = inverse[0] + inverse[1] * x[0] + inverse[2] * y[0],
+                 row = inverse[3] + inverse[4] * x[0] + inverse[5] * y[0];
+    if (column > 0 && row > 0 && column < raster.data->GetRasterXSize() &&
+        row < raster.data->GetRasterYSize())
+      return pole;
+  }
+  return 0;
+}
+
+}  // namespace
+
 std::optional<PostGrid> fittingPosts(const PlacedRaster& raster) {
   const auto& g = raster.transform;
   const OGRSpatialReference& crs = raster.crs;
@@ -78,14 +113,12 @@ std::optional<PostGrid> fittingPosts(const PlacedRaster& raster) {
     if (!reference) reference = x;
     return std::array<double, 2>{*reference + std::remainder(x - *reference, 360.0), y};
   };
+  const int pole = poleIn(raster);
   const auto middle = place(columns / 2, rows / 2), right = place(columns / 2 + 1, rows / 2),
              below = place(columns / 2, rows / 2 + 1);
   if (!middle || !right || !below) return {};
-  const double cosine = std::cos((*middle)[1] * std::numbers::pi / 180);
-  const auto apart = [&](const std::array<double, 2>& a) {
-    return std::hypot((a[0] - (*middle)[0]) * cosine, a[1] - (*middle)[1]);
-  };
-  const double step = std::sqrt(apart(*right) * apart(*below));
+  const double step = std::sqrt(degreesApart(*middle, *right) * degreesApart(*middle, *below));
+  if (!(step > 0)) return {};
 
   constexpr double kFar = 1e9;
   double west = kFar, east = -kFar, south = kFar, north = -kFar;
@@ -100,7 +133,18 @@ std::optional<PostGrid> fittingPosts(const PlacedRaster& raster) {
   }
   PostGrid posts;
   posts.stepLatitude = step;
-  posts.stepLongitude = step / std::max(cosine, 1e-3);
+  if (pole != 0) {
+    // All the way round, at the spacing of its farthest corner; a row stands on the pole itself.
+    const double reach = pole > 0 ? 90 - south : 90 + north;
+    const double around = std::max(8.0, std::ceil(360 * std::sin(reach * std::numbers::pi / 180) / step));
+    posts.stepLongitude = 360 / around;
+    west = -180, east = 180;
+    const double up = std::floor(reach / step + 1e-6);
+    (pole > 0 ? south : north) = pole * (90 - up * step);
+    (pole > 0 ? north : south) = pole * 90.0;
+  } else {
+    posts.stepLongitude = step / std::max(std::cos((*middle)[1] * std::numbers::pi / 180), 1e-3);
+  }
   posts.west = west;
   posts.south = south;
   const double across = std::ceil((east - west) / posts.stepLongitude - 1e-6) + 1,
@@ -109,28 +153,6 @@ std::optional<PostGrid> fittingPosts(const PlacedRaster& raster) {
   posts.columns = static_cast<std::uint32_t>(across);
   posts.rows = static_cast<std::uint32_t>(up);
   return posts;
-}
-
-std::uint64_t countOutside(const PlacedRaster& raster, const HeightGrid& grid) {
-  const OGRSpatialReference from = wgs84();
-  std::unique_ptr<OGRCoordinateTransformation> transform(
-      OGRCreateCoordinateTransformation(&from, &raster.crs));
-  std::array<double, 6> inverse{};
-  std::array<double, 6> forward = raster.transform;
-  if (!transform || !GDALInvGeoTransform(forward.data(), inverse.data())) return 0;
-  std::uint64_t outside = 0;
-  for (std::size_t i = 0; i < grid.heights.size(); ++i) {
-    if (!std::isnan(grid.heights[i])) continue;
-    double x = grid.posts.longitude(static_cast<double>(i % grid.posts.columns));
-    double y = grid.posts.latitude(static_cast<double>(i / grid.posts.columns));
-    const bool placed = transform->Transform(1, &x, &y);
-    const double column = inverse[0] + inverse[1] * x + inverse[2] * y;
-    const double row = inverse[3] + inverse[4] * x + inverse[5] * y;
-    const bool inside = placed && column >= 0 && row >= 0 && column <= raster.data->GetRasterXSize() &&
-                        row <= raster.data->GetRasterYSize();
-    if (!inside) ++outside;
-  }
-  return outside;
 }
 
 Dataset warped(GDALDataset& data, const OGRSpatialReference& crs, const PostGrid& posts,
@@ -175,7 +197,7 @@ Dataset warped(GDALDataset& data, const OGRSpatialReference& crs, const PostGrid
   return owned(GDALDataset::FromHandle(result));
 }
 
-Result<PlacedRaster> openRaster(const fs::path& file, GdalErrors& errors) {
+Result<PlacedRaster> openRaster(const fs::path& file, GdalErrors& errors, RasterKind kind) {
   // A DTED profile carries a sum that GDAL leaves unread unless it is asked to.
   CPLSetThreadLocalConfigOption("DTED_VERIFY_CHECKSUM", "YES");
   Findings notes;
@@ -189,6 +211,9 @@ Result<PlacedRaster> openRaster(const fs::path& file, GdalErrors& errors) {
                  errors.last("GDAL gives no reason"));
   if (opened.data->GetRasterCount() < 1)
     return about(Severity::error, file, "", "a raster with a band", "none");
+  if (kind == RasterKind::heights && looksLikeImage(*opened.data))
+    return about(Severity::error, file, "band 1", "heights",
+                 "an image of " + std::to_string(opened.data->GetRasterCount()) + " bands of bytes");
   errors.moveTo(notes, file.string(), Severity::warning);
   if (opened.data->GetGeoTransform(opened.transform.data()) != CE_None)
     return about(Severity::error, file, "georeference", "where the raster is on earth", "none");
@@ -197,6 +222,9 @@ Result<PlacedRaster> openRaster(const fs::path& file, GdalErrors& errors) {
       return about(Severity::error, file, "georeference", "finite numbers", "not a number");
   if (const OGRSpatialReference* crs = opened.data->GetSpatialRef(); crs != nullptr && !crs->IsLocal()) {
     opened.crs = *crs;
+    // What heights are above is another matter than where they are.
+    if (opened.crs.IsCompound()) opened.crs.StripVertical();
+    if (opened.crs.GetAxesCount() == 3) opened.crs.DemoteTo2D(nullptr);
     opened.crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   } else {
     const auto& g = opened.transform;

@@ -22,11 +22,14 @@ Dataset owned(GDALDataset* dataset);
 struct PlacedRaster {
   Dataset data;
   std::array<double, 6> transform{};  ///< GDAL's: pixel corners to the CRS
-  OGRSpatialReference crs;            ///< axes as easting, northing or longitude, latitude
+  OGRSpatialReference crs;            ///< horizontal; axes as easting, northing or longitude, latitude
 };
 
+/// What a raster is opened for: pictures are refused as heights.
+enum class RasterKind { any, heights };
 /// Opens a raster and finds out where it is; without a CRS, degrees are taken as WGS84, with a note.
-Result<PlacedRaster> openRaster(const std::filesystem::path& file, GdalErrors& errors);
+Result<PlacedRaster> openRaster(const std::filesystem::path& file, GdalErrors& errors,
+                                RasterKind kind = RasterKind::any);
 
 /// The posts of a raster that is already geographic, upright and within some 2 m of WGS84; none when it must
 /// be warped.
@@ -34,9 +37,6 @@ std::optional<PostGrid> geographicPosts(const PlacedRaster& raster);
 /// Posts of the raster's own spacing inside its outline, or around it where it stands too far askew; none
 /// where PROJ cannot place it.
 std::optional<PostGrid> fittingPosts(const PlacedRaster& raster);
-
-/// Voids of a grid that are there because the raster ends, not because it has one.
-std::uint64_t countOutside(const PlacedRaster& raster, const HeightGrid& grid);
 
 /// The raster on a grid of posts, in memory; `more` are options of gdalwarp. Null where GDAL refuses.
 Dataset warped(GDALDataset& data, const OGRSpatialReference& crs, const PostGrid& posts,

@@ -16,17 +16,12 @@ struct Imported {
 /// Files as they are given, folders as the rasters inside them (images left out), sorted.
 Result<std::vector<std::filesystem::path>> elevationFiles(std::span<const std::filesystem::path> sources);
 
-/// Reads elevation of any format, CRS and vertical unit that GDAL knows to heights in metres on one WGS84
-/// grid. Several files make one grid at the finest spacing; of those that have a height at a post the finest
-/// gives it, and of equals the first. Voids are filled. Findings carry notes about what was assumed, and
+/// What openElevation reads, in memory, with voids filled. Findings carry notes about what was assumed, and
 /// GDAL's own words.
 Result<Imported> importElevation(std::span<const std::filesystem::path> sources, const Progress& progress);
 
 /// One file, with its voids as NaN.
 Result<HeightGrid> readElevation(const std::filesystem::path& file, const Progress& progress);
-
-/// Puts the parts on one grid.
-Result<HeightGrid> mosaic(std::vector<HeightGrid> parts, const Progress& progress);
 
 /// RGBA at each post from a georeferenced raster; alpha 0 where it has nothing.
 Result<std::vector<std::uint8_t>> readImagery(const std::filesystem::path& file, const PostGrid& posts,

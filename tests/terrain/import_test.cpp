@@ -55,6 +55,7 @@ struct Known {
   const char* file;
   std::uint64_t voids;
   float low, high;
+  float between = 0;  ///< what a surface through posts that were moved may differ
 };
 class ImportRealData : public ::testing::TestWithParam<Known> {};
 
@@ -66,8 +67,8 @@ TEST_P(ImportRealData, countsVoidsAndKeepsExtremes) {
   ASSERT_TRUE(imported) << toString(imported.findings());
   EXPECT_EQ(imported->voidsFilled, known.voids);
   const auto [low, high] = extent(imported->grid);
-  EXPECT_EQ(low, known.low);
-  EXPECT_EQ(high, known.high);
+  EXPECT_NEAR(low, known.low, known.between);
+  EXPECT_NEAR(high, known.high, known.between);
 }
 INSTANTIATE_TEST_SUITE_P(
     Files, ImportRealData,
@@ -78,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Known{"dem-dted-derived/n35_e138_negatives_voids.dt1", 2437, -16, 3742},
                       Known{"dem-dted-derived/n27_e086_from_srtm3.dt0", 0, 197, 8520},
                       Known{"dem-image-craterlake/craterlake-elev-16bit-30m.tif", 39489, 1289, 1880},
-                      Known{"dem-30m-bigtujunga/bigtujunga.tif", 0, 315, 2295}));
+                      Known{"dem-30m-bigtujunga/bigtujunga.tif", 0, 315, 2295, 4}));
 
 TEST(ImportElevation, readsDtedLikeTheFileItWasMadeFrom) {
   TRIMTAB_NEEDS_SHARED("data/dem-dted-derived");

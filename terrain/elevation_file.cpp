@@ -1,0 +1,387 @@
+#include "trimtab/terrain/elevation_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "trimtab/terrain/elevation_sample.h"
+#include "trimtab/terrain/import.h"
+
+namespace trimtab::terrain {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
+constexpr double kMostPosts = 4e9;
+/// Of a raster that are in memory at a time, more only where a row of them is longer.
+constexpr std::int64_t kWindow = std::int64_t{1} << 21;
+constexpr double kMostBlockBytes = 512e6;
+/// Posts that coincide within a thousandth are the same.
+constexpr double kSame = 1e-3;
+/// Finer files than this many posts to a step are averaged.
+constexpr double kFiner = 1.5;
+
+OGRSpatialReference degreesOfWgs84() {
+  OGRSpatialReference crs;
+  crs.importFromEPSG(4326);
+  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return crs;
+}
+
+double snapped(double x) {
+  const double whole = std::round(x);
+  return std::abs(x - whole) < kSame ? whole : x;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<ElevationFile>> ElevationFile::open(const fs::path& path, const Progress& progress) {
+  useGdal();
+  GdalErrors errors;
+  auto opened = openRaster(path, errors, RasterKind::heights);
+  if (!opened) return opened.findings();
+  Findings notes = opened.findings();
+  std::unique_ptr<ElevationFile> file(new ElevationFile(std::move(opened).value()));
+  PlacedRaster& raster = file->raster_;
+  GDALRasterBand& band = *raster.data->GetRasterBand(1);
+  file->name_ = path.string();
+  file->across_ = raster.data->GetRasterXSize();
+  file->down_ = raster.data->GetRasterYSize();
+  const double posts = static_cast<double>(file->across_) * static_cast<double>(file->down_);
+  if (posts > kMostPosts || file->across_ < 2 || file->down_ < 2)
+    return about(Severity::error, path, "size", "2 x 2 to 4 thousand million posts",
+                 std::to_string(file->across_) + " x " + std::to_string(file->down_));
+  int blockColumns = 0, blockRows = 0;
+  band.GetBlockSize(&blockColumns, &blockRows);
+  if (static_cast<double>(blockColumns) * blockRows * GDALGetDataTypeSizeBytes(band.GetRasterDataType()) >
+      kMostBlockBytes)
+    return about(Severity::error, path, "blocks", "blocks of at most 512 MB, as it is read block by block",
+                 std::to_string(blockColumns) + " x " + std::to_string(blockRows) + " posts in one");
+
+  const auto direct = geographicPosts(raster);
+  file->direct_ = direct.has_value();
+  file->flipped_ = direct && raster.transform[5] < 0;
+  const auto own = direct ? direct : fittingPosts(raster);
+  if (!own)
+    return about(Severity::error, path, "coordinate reference system", "one that PROJ can turn to WGS84",
+                 errors.last("a raster that does not fit on the earth"));
+  file->own_ = *own;
+  if (own->south < -90.001 || own->latitude(own->rows - 1) > 90.001)
+    return about(Severity::error, path, "latitude", "-90 to 90",
+                 std::to_string(own->south) + " to " + std::to_string(own->latitude(own->rows - 1)));
+  file->vertical_ = verticalOf(raster);
+  if (file->vertical_.note)
+    notes.push_back(about(Severity::note, path, "vertical datum", file->vertical_.note->first,
+                          file->vertical_.note->second));
+  file->values_ = valuesOf(band, file->vertical_.unit);
+  if (file->values_.scale != 1)
+    notes.push_back(about(Severity::note, path, "unit", "metres",
+                          "a scale of " + std::to_string(file->values_.scale) + " m, applied"));
+  const int flags = band.GetMaskFlags();
+  file->masked_ = (flags & (GMF_ALL_VALID | GMF_NODATA)) == 0;
+  if (auto looked = file->lookThrough(progress, errors, notes); !looked) {
+    notes.insert(notes.end(), looked.findings().begin(), looked.findings().end());
+    return notes;
+  }
+  errors.moveTo(notes, path.string(), Severity::warning);
+  file->close();
+  return Result<std::unique_ptr<ElevationFile>>(std::move(file), std::move(notes));
+}
+
+Result<Done> ElevationFile::lookThrough(const Progress& progress, GdalErrors& errors, Findings& notes) {
+  GDALRasterBand& band = *raster_.data->GetRasterBand(1);
+  int blockColumns = 1, blockRows = 1;
+  band.GetBlockSize(&blockColumns, &blockRows);
+  // Whole blocks, as many as fit.
+  const auto most = [](std::int64_t block, std::int64_t room, std::int64_t all) {
+    return std::min(all, std::max<std::int64_t>(1, room / block) * block);
+  };
+  const std::int64_t rows =
+      most(blockRows, std::max<std::int64_t>(1, std::min<std::int64_t>(kWindow / across_, 512)), down_);
+  const std::int64_t columns = most(blockColumns, std::max<std::int64_t>(1, kWindow / rows), across_);
+  Census census;
+  const std::string what = "reading " + fs::path(name_).filename().string();
+  flipped_ = false;
+  for (std::int64_t r = 0; r < down_; r += rows)
+    for (std::int64_t c = 0; c < across_; c += columns) {
+      if (progress && !progress(static_cast<double>(r) / static_cast<double>(down_), what))
+        return cancelled(name_);
+      if (auto read = readWindow(c, r, std::min(columns, across_ - c), std::min(rows, down_ - r)); !read)
+        return read.findings();
+      census.add(window_, values_);
+    }
+  flipped_ = direct_ && raster_.transform[5] < 0;
+  (void)errors;
+  values_.deepIsVoid = census.untagged > 0;
+  std::uint64_t untagged = census.untagged + census.impossible;
+  if (values_.deepIsVoid) untagged += census.deep;
+  heights_ = census.posts - census.voids - untagged;
+  if (untagged > 0)
+    notes.push_back(about(Severity::note, name_, "no-data", "a tag for the value that means none",
+                          std::to_string(untagged) + " posts with impossible heights, taken as voids"));
+  if (heights_ == 0) notes.push_back(about(Severity::warning, name_, "", "heights", "voids alone"));
+  return Done{};
+}
+
+Result<Done> ElevationFile::reopen() {
+  if (isOpen()) return Done{};
+  const GdalErrors quiet;
+  raster_.data = owned(GDALDataset::FromHandle(
+      GDALOpenEx(name_.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr)));
+  if (!raster_.data || raster_.data->GetRasterXSize() != across_ || raster_.data->GetRasterYSize() != down_)
+    return about(Severity::error, name_, "", "the file as it was a moment ago", "another one, or none");
+  return Done{};
+}
+
+bool ElevationFile::placeOn(const PostGrid& grid) {
+  grid_ = grid;
+  // Half a post beyond its own, so that neighbours meet.
+  const auto span = [](double from, double to, std::uint32_t count) {
+    const double first = std::max(0.0, std::ceil(from)), last = std::min(count - 1.0, std::floor(to));
+    return last < first
+               ? std::pair<std::uint32_t, std::uint32_t>{0, 0}
+               : std::pair{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last - first) + 1};
+  };
+  const double marginX = own_.stepLongitude * (direct_ ? 1 : 2),
+               marginY = own_.stepLatitude * (direct_ ? 1 : 2);
+  std::tie(column_, columns_) =
+      span((own_.west - marginX - grid.west) / grid.stepLongitude,
+           (own_.longitude(own_.columns - 1) + marginX - grid.west) / grid.stepLongitude, grid.columns);
+  std::tie(row_, rows_) =
+      span((own_.south - marginY - grid.south) / grid.stepLatitude,
+           (own_.latitude(own_.rows - 1) + marginY - grid.south) / grid.stepLatitude, grid.rows);
+  if (columns_ == 0 || rows_ == 0) return false;
+  if (direct_) {
+    footprintX_ = grid.stepLongitude / own_.stepLongitude;
+    footprintY_ = grid.stepLatitude / own_.stepLatitude;
+    stride_ = vertical_.toFile ? 16 : 1;
+    return true;
+  }
+  const OGRSpatialReference from = degreesOfWgs84();
+  toFile_.reset(OGRCreateCoordinateTransformation(&from, &raster_.crs));
+  if (!toFile_ || !GDALInvGeoTransform(raster_.transform.data(), inverse_.data())) return false;
+  const std::uint32_t c = column_ + columns_ / 2, r = row_ + rows_ / 2;
+  const auto here = exact(r, c, 2, 1), up = exact(r + 1, c, 1, 1);
+  footprintX_ = std::max(std::abs(here[1].x - here[0].x), std::abs(up[0].x - here[0].x));
+  footprintY_ = std::max(std::abs(here[1].y - here[0].y), std::abs(up[0].y - here[0].y));
+  stride_ = lattice();
+  return true;
+}
+
+std::vector<ElevationFile::Place> ElevationFile::exact(std::uint32_t row, std::uint32_t firstColumn,
+                                                       std::uint32_t count, std::uint32_t stride) const {
+  std::vector<Place> places(count);
+  std::vector<double> x(count), y(count), z(count);
+  const double latitude = grid_.latitude(row);
+  const auto fill = [&] {
+    for (std::uint32_t i = 0; i < count; ++i)
+      x[i] = std::remainder(grid_.longitude(firstColumn + static_cast<double>(i) * stride), 360.0),
+      y[i] = latitude, z[i] = 0;
+  };
+  const std::unique_ptr<int[]> good(new int[count]);
+  if (direct_) {
+    for (std::uint32_t i = 0; i < count; ++i)
+      places[i] = {snapped((grid_.longitude(firstColumn + static_cast<double>(i) * stride) - own_.west) /
+                           own_.stepLongitude),
+                   snapped((latitude - own_.south) / own_.stepLatitude), 0};
+  } else {
+    fill();
+    toFile_->Transform(static_cast<int>(count), x.data(), y.data(), nullptr, good.get());
+    const double middle = raster_.transform[0] + raster_.transform[1] * static_cast<double>(across_) / 2;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (!good[i] || !std::isfinite(x[i]) || !std::isfinite(y[i])) {
+        places[i].x = places[i].y = std::nan("");
+        continue;
+      }
+      if (raster_.crs.IsGeographic()) x[i] = middle + std::remainder(x[i] - middle, 360.0);
+      places[i].x = inverse_[0] + inverse_[1] * x[i] + inverse_[2] * y[i] - 0.5;
+      places[i].y = inverse_[3] + inverse_[4] * x[i] + inverse_[5] * y[i] - 0.5;
+    }
+  }
+  if (vertical_.toFile) {
+    fill();
+    vertical_.toFile->Transform(static_cast<int>(count), x.data(), y.data(), z.data(), good.get());
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (good[i] && std::isfinite(z[i])) places[i].lift = -z[i] * vertical_.unit;
+  }
+  return places;
+}
+
+/// The widest stride of exact places whose bilinear reading is good to 1/500 of the raster's posts wherever
+/// it is tried.
+std::uint32_t ElevationFile::lattice() const {
+  constexpr std::uint32_t kTries = 12;
+  const auto reachesPole = [&](std::uint32_t stride) {
+    const double up = grid_.latitude(row_ + rows_ + stride),
+                 below = grid_.latitude(static_cast<double>(row_) - stride);
+    return up >= 90 || below <= -90;
+  };
+  for (std::uint32_t stride = 16; stride > 1; stride /= 2) {
+    if (reachesPole(stride)) continue;
+    bool good = true;
+    for (std::uint32_t j = 0; j <= kTries && good; ++j)
+      for (std::uint32_t i = 0; i <= kTries && good; ++i) {
+        const std::uint32_t row = (row_ + (rows_ - 1) * j / kTries) / stride * stride,
+                            column = (column_ + (columns_ - 1) * i / kTries) / stride * stride;
+        const auto low = exact(row, column, 2, stride), high = exact(row + stride, column, 2, stride),
+                   middle = exact(row + stride / 2, column + stride / 2, 1, 1);
+        const double x = (low[0].x + low[1].x + high[0].x + high[1].x) / 4,
+                     y = (low[0].y + low[1].y + high[0].y + high[1].y) / 4;
+        good = std::abs(x - middle[0].x) < 0.002 && std::abs(y - middle[0].y) < 0.002;
+      }
+    if (good) return stride;
+  }
+  return 1;
+}
+
+void ElevationFile::findPlaces(const Rectangle& posts) {
+  places_.resize(std::size_t{posts.rows} * posts.columns);
+  if (stride_ == 1) {
+    for (std::uint32_t r = 0; r < posts.rows; ++r) {
+      const auto row = exact(posts.row + r, posts.column, posts.columns, 1);
+      std::copy(row.begin(), row.end(),
+                places_.begin() + static_cast<std::ptrdiff_t>(std::size_t{r} * posts.columns));
+    }
+    return;
+  }
+  const std::uint32_t firstColumn = posts.column / stride_ * stride_,
+                      count = (posts.column + posts.columns - 1) / stride_ - posts.column / stride_ + 2;
+  std::vector<Place> low, high;
+  std::uint32_t lowRow = std::numeric_limits<std::uint32_t>::max();
+  for (std::uint32_t r = 0; r < posts.rows; ++r) {
+    const std::uint32_t row = posts.row + r, from = row / stride_ * stride_;
+    if (from != lowRow) {
+      low = from == lowRow + stride_ && !high.empty() ? std::move(high)
+                                                      : exact(from, firstColumn, count, stride_);
+      high = exact(from + stride_, firstColumn, count, stride_);
+      lowRow = from;
+    }
+    const double v = static_cast<double>(row - from) / stride_;
+    for (std::uint32_t c = 0; c < posts.columns; ++c) {
+      const std::uint32_t column = posts.column + c, k = (column - firstColumn) / stride_;
+      const double u = static_cast<double>(column % stride_) / stride_;
+      const auto between = [&](double Place::*member) {
+        return (low[k].*member * (1 - u) + low[k + 1].*member * u) * (1 - v) +
+               (high[k].*member * (1 - u) + high[k + 1].*member * u) * v;
+      };
+      Place& place = places_[std::size_t{r} * posts.columns + c];
+      place.lift = between(&Place::lift);
+      if (direct_) {
+        place.x = snapped((grid_.longitude(column) - own_.west) / own_.stepLongitude);
+        place.y = snapped((grid_.latitude(row) - own_.south) / own_.stepLatitude);
+      } else {
+        place.x = between(&Place::x);
+        place.y = between(&Place::y);
+      }
+    }
+  }
+}
+
+Result<Done> ElevationFile::readWindow(std::int64_t column, std::int64_t row, std::int64_t columns,
+                                       std::int64_t rows) {
+  const GdalErrors errors;
+  GDALRasterBand& band = *raster_.data->GetRasterBand(1);
+  window_.resize(static_cast<std::size_t>(columns * rows));
+  // Rows that come from the north are put by a line spacing that runs backwards.
+  const std::int64_t first = flipped_ ? down_ - row - rows : row;
+  const GSpacing line = static_cast<GSpacing>(sizeof(float)) * columns * (flipped_ ? -1 : 1);
+  float* start = window_.data() + (flipped_ ? (rows - 1) * columns : 0);
+  const int x = static_cast<int>(column), y = static_cast<int>(first), w = static_cast<int>(columns),
+            h = static_cast<int>(rows);
+  if (band.RasterIO(GF_Read, x, y, w, h, start, w, h, GDT_Float32, sizeof(float), line, nullptr) != CE_None)
+    return about(Severity::error, name_, "row " + std::to_string(y),
+                 "heights of " + std::to_string(h) + " rows", errors.last("GDAL gives no reason"));
+  if (!masked_) return Done{};
+  mask_.resize(window_.size());
+  std::uint8_t* last = mask_.data() + (flipped_ ? (rows - 1) * columns : 0);
+  if (band.GetMaskBand()->RasterIO(GF_Read, x, y, w, h, last, w, h, GDT_Byte, 1,
+                                   static_cast<GSpacing>(flipped_ ? -columns : columns), nullptr) != CE_None)
+    return about(Severity::error, name_, "mask, row " + std::to_string(y), "a mask that can be read",
+                 errors.last("GDAL gives no reason"));
+  for (std::size_t i = 0; i < window_.size(); ++i)
+    if (mask_[i] == 0) window_[i] = kVoid;
+  return Done{};
+}
+
+Result<Done> ElevationFile::read(std::uint32_t firstRow, std::uint32_t rows, std::span<float> heights,
+                                 std::span<std::uint8_t> reached, std::vector<Continued>& continued) {
+  std::fill(heights.begin(), heights.end(), kVoid);
+  continued.clear();
+  const std::uint32_t from = std::max(firstRow, row_), to = std::min(firstRow + rows, row_ + rows_);
+  if (from >= to) return Done{};
+  if (auto opened = reopen(); !opened) return opened;
+  const std::uint32_t tile = direct_ ? 4096 : 256;
+  for (std::uint32_t c = 0; c < columns_; c += tile)
+    if (auto read = readTile({from, to - from, column_ + c, std::min(tile, columns_ - c)}, firstRow, heights,
+                             reached, continued);
+        !read)
+      return read;
+  return Done{};
+}
+
+Result<Done> ElevationFile::readTile(const Rectangle& posts, std::uint32_t firstRow, std::span<float> heights,
+                                     std::span<std::uint8_t> reached, std::vector<Continued>& continued) {
+  findPlaces(posts);
+  const auto nearby = [&](const Place& p) {
+    return p.x > -1 && p.y > -1 && p.x < static_cast<double>(across_) && p.y < static_cast<double>(down_);
+  };
+  double west = 1e18, east = -1e18, low = 1e18, high = -1e18;
+  for (const Place& p : places_)
+    if (nearby(p))
+      west = std::min(west, p.x), east = std::max(east, p.x), low = std::min(low, p.y),
+      high = std::max(high, p.y);
+  if (west > east) return Done{};
+  const bool averages = footprintX_ > kFiner || footprintY_ > kFiner;
+  const double marginX = averages ? footprintX_ : 0, marginY = averages ? footprintY_ : 0;
+  const auto bounds = [](double from, double to, std::int64_t count) {
+    const auto first =
+                   std::clamp(static_cast<std::int64_t>(std::floor(from)) - 2, std::int64_t{0}, count - 1),
+               last = std::clamp(static_cast<std::int64_t>(std::floor(to)) + 3, std::int64_t{0}, count - 1);
+    return std::pair{first, last - first + 1};
+  };
+  const auto [column, columns] = bounds(west - marginX, east + marginX, across_);
+  const auto [row, rows] = bounds(low - marginY, high + marginY, down_);
+  if (columns * rows > kWindow && (posts.columns > 1 || posts.rows > 1)) {
+    // Too much of the raster at once: in halves.
+    Rectangle one = posts, two = posts;
+    if (posts.columns >= posts.rows) {
+      one.columns = posts.columns / 2;
+      two.column += one.columns, two.columns -= one.columns;
+    } else {
+      one.rows = posts.rows / 2;
+      two.row += one.rows, two.rows -= one.rows;
+    }
+    if (auto read = readTile(one, firstRow, heights, reached, continued); !read) return read;
+    return readTile(two, firstRow, heights, reached, continued);
+  }
+  if (auto read = readWindow(column, row, columns, rows); !read) return read;
+  toMetres(window_, values_);
+
+  const RasterWindow window{column, row, columns, rows, window_};
+  const double lastX = static_cast<double>(across_ - 1), lastY = static_cast<double>(down_ - 1);
+  for (std::uint32_t r = 0; r < posts.rows; ++r)
+    for (std::uint32_t c = 0; c < posts.columns; ++c) {
+      const Place& p = places_[std::size_t{r} * posts.columns + c];
+      if (!nearby(p)) continue;
+      float height = averages ? meanAbout(window, p.x, p.y, footprintX_, footprintY_)
+                              : heightBetween(window, across_, down_, p.x, p.y);
+      if (vertical_.toFile) height = static_cast<float>(height + p.lift);
+      const std::size_t line = posts.row + r - firstRow;
+      const auto place = static_cast<std::uint32_t>(line * grid_.columns + posts.column + c);
+      const double outX = std::max({0.0, -p.x, p.x - lastX}), outY = std::max({0.0, -p.y, p.y - lastY});
+      if (outX == 0 && outY == 0) {
+        reached[place] = 1;
+        heights[line * columns_ + posts.column + c - column_] = height;
+        continue;
+      }
+      const bool inside = outX <= 0.5 + 1e-9 && outY <= 0.5 + 1e-9;
+      if (inside) reached[place] = 1;
+      if (!std::isnan(height))
+        continued.push_back({place, height, static_cast<float>((1 - outX) * (1 - outY)), inside});
+    }
+  return Done{};
+}
+
+}  // namespace trimtab::terrain

@@ -1,0 +1,98 @@
+#include "trimtab/terrain/elevation_sample.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace trimtab::terrain {
+
+namespace {
+
+constexpr double kVoid = std::numeric_limits<double>::quiet_NaN();
+
+/// The post before, and what four posts weigh from the one before that.
+struct Axis {
+  std::int64_t post = 0;
+  std::array<double, 4> weight{};
+};
+
+Axis axisAt(double x, std::int64_t count) {
+  Axis axis;
+  axis.post = std::clamp(static_cast<std::int64_t>(std::floor(x)), std::int64_t{0}, count - 2);
+  const double t = x - static_cast<double>(axis.post);
+  if (t < 0 || t > 1)
+    axis.weight = {0, 1 - t, t, 0};
+  else
+    axis.weight = {((-0.5 * t + 1) * t - 0.5) * t, (1.5 * t - 2.5) * t * t + 1,
+                   ((-1.5 * t + 2) * t + 0.5) * t, (0.5 * t - 0.5) * t * t};
+  return axis;
+}
+
+/// Four values by their weights; the outer two, where they are missing, from the inner two.
+double mixed(const std::array<double, 4>& v, const std::array<double, 4>& weight) {
+  double sum = 0;
+  for (const std::size_t k : {1u, 2u})
+    if (weight[k] != 0) sum += weight[k] * v[k];
+  if (weight[0] != 0) sum += weight[0] * (std::isnan(v[0]) ? 2 * v[1] - v[2] : v[0]);
+  if (weight[3] != 0) sum += weight[3] * (std::isnan(v[3]) ? 2 * v[2] - v[1] : v[3]);
+  return sum;
+}
+
+}  // namespace
+
+float heightBetween(const RasterWindow& window, std::int64_t across, std::int64_t down, double x, double y) {
+  const Axis column = axisAt(x, across), row = axisAt(y, down);
+  const auto at = [&](std::int64_t r, std::int64_t c) -> double {
+    const std::int64_t i = r - window.row, j = c - window.column;
+    if (i < 0 || j < 0 || i >= window.rows || j >= window.columns) return kVoid;
+    return static_cast<double>(window.heights[static_cast<std::size_t>(i * window.columns + j)]);
+  };
+  std::optional<double> level;
+  bool isLevel = true;
+  for (const int j : {0, 1})
+    for (const int i : {0, 1}) {
+      if (row.weight[static_cast<std::size_t>(j + 1)] == 0 ||
+          column.weight[static_cast<std::size_t>(i + 1)] == 0)
+        continue;
+      const double h = at(row.post + j, column.post + i);
+      if (std::isnan(h)) return std::numeric_limits<float>::quiet_NaN();
+      if (level && h != *level) isLevel = false;
+      level = h;
+    }
+  if (level && isLevel) return static_cast<float>(*level);
+  std::array<double, 4> rows{};
+  for (std::size_t j = 0; j < 4; ++j) {
+    if (row.weight[j] == 0) continue;
+    std::array<double, 4> values{};
+    for (std::size_t i = 0; i < 4; ++i)
+      if (column.weight[i] != 0)
+        values[i] =
+            at(row.post + static_cast<std::int64_t>(j) - 1, column.post + static_cast<std::int64_t>(i) - 1);
+    rows[j] = mixed(values, column.weight);
+  }
+  return static_cast<float>(mixed(rows, row.weight));
+}
+
+float meanAbout(const RasterWindow& window, double x, double y, double width, double height) {
+  const auto range = [](double middle, double size, std::int64_t first, std::int64_t count) {
+    const auto from = static_cast<std::int64_t>(std::ceil(middle - size / 2)) - first,
+               to = static_cast<std::int64_t>(std::floor(middle + size / 2)) - first;
+    return std::pair{std::max<std::int64_t>(from, 0), std::min(to, count - 1)};
+  };
+  const auto [left, right] = range(x, width, window.column, window.columns);
+  const auto [low, high] = range(y, height, window.row, window.rows);
+  double sum = 0;
+  std::int64_t count = 0, all = 0;
+  for (std::int64_t r = low; r <= high; ++r)
+    for (std::int64_t c = left; c <= right; ++c) {
+      const float h = window.heights[static_cast<std::size_t>(r * window.columns + c)];
+      ++all;
+      if (!std::isnan(h)) sum += static_cast<double>(h), ++count;
+    }
+  if (2 * count <= all || count == 0) return std::numeric_limits<float>::quiet_NaN();
+  return static_cast<float>(sum / static_cast<double>(count));
+}
+
+}  // namespace trimtab::terrain

@@ -1,0 +1,268 @@
+#include "trimtab/terrain/elevation_source.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <list>
+#include <numeric>
+
+#include "trimtab/terrain/elevation_file.h"
+#include "trimtab/terrain/elevation_merge.h"
+#include "trimtab/terrain/import.h"
+
+namespace trimtab::terrain {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using Files = std::vector<std::unique_ptr<ElevationFile>>;
+
+constexpr double kMostPosts = 4e9;
+/// More files than systems let a program have open are opened again when they are needed.
+constexpr std::size_t kMostOpen = 128;
+/// Read out of order, a chunk needs its neighbours; three would do for rows in order.
+constexpr std::size_t kChunksHeld = 4;
+
+/// Steps within 1 % are alike.
+long fineness(const ElevationFile& file) {
+  return std::lround(100 * std::log(file.posts().stepLatitude));
+}
+
+/// All files on one side of the earth: what is west of the widest gap between them goes on after it.
+void turnTogether(Files& files) {
+  const double first = files.front()->posts().west;
+  std::vector<std::pair<double, double>> spans;
+  for (const auto& file : files) {
+    const double west = std::remainder(file->posts().west - first, 360.0);
+    spans.emplace_back(west < 0 ? west + 360 : west,
+                       (file->posts().columns - 1) * file->posts().stepLongitude);
+  }
+  std::vector<std::pair<double, double>> sorted = spans;
+  std::sort(sorted.begin(), sorted.end());
+  double reached = sorted.front().first, gap = -1, start = 0;
+  for (const auto& [west, width] : sorted) {
+    if (west - reached > gap && west > reached) gap = west - reached, start = west;
+    reached = std::max(reached, west + width);
+  }
+  if (sorted.front().first + 360 - reached >= gap) start = sorted.front().first;
+  // The first file stays where it says that it is.
+  const double turned = spans.front().first < start ? 360 : 0;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const double west = spans[i].first + (spans[i].first < start ? 360 : 0) - turned;
+    files[i]->turn(360 * std::round((first + west - files[i]->posts().west) / 360));
+  }
+}
+
+/// A step and a place for one axis of the grid.
+struct Lattice {
+  double step = 0, from = 0;
+};
+
+/// Of the finest file; of a geographic one where that is about as fine, so that its posts stay as they are.
+template <class Step, class From>
+Lattice latticeOf(const Files& files, Step step, From from) {
+  const ElevationFile* finest = nullptr;
+  const ElevationFile* direct = nullptr;
+  for (const auto& file : files) {
+    if (finest == nullptr || step(file->posts()) < step(finest->posts()) * (1 - 1e-9)) finest = file.get();
+    if (file->isDirect() && (direct == nullptr || step(file->posts()) < step(direct->posts()) * (1 - 1e-9)))
+      direct = file.get();
+  }
+  if (direct != nullptr && step(direct->posts()) <= 1.1 * step(finest->posts())) finest = direct;
+  return {step(finest->posts()), from(finest->posts())};
+}
+
+/// From the first post of the lattice that is not before `low` to the last not beyond `high`.
+std::pair<double, double> fit(Lattice& lattice, double low, double high) {
+  const double first = std::ceil((low - lattice.from) / lattice.step - 1e-3);
+  lattice.from += first * lattice.step;
+  return {lattice.from, std::floor((high - lattice.from) / lattice.step + 1e-3) + 1};
+}
+
+Result<PostGrid> gridOf(const Files& files, const ElevationOptions& options) {
+  if (files.size() == 1 && !options.stepLatitude) return files.front()->posts();
+  Lattice across = latticeOf(
+      files, [](const PostGrid& p) { return p.stepLongitude; }, [](const PostGrid& p) { return p.west; });
+  Lattice up = latticeOf(
+      files, [](const PostGrid& p) { return p.stepLatitude; }, [](const PostGrid& p) { return p.south; });
+  if (options.stepLatitude) {
+    across.step *= *options.stepLatitude / up.step;
+    up.step = *options.stepLatitude;
+  }
+  double west = 1e9, east = -1e9, south = 1e9, north = -1e9;
+  for (const auto& file : files) {
+    const PostGrid& p = file->posts();
+    west = std::min(west, p.west), east = std::max(east, p.longitude(p.columns - 1));
+    south = std::min(south, p.south), north = std::max(north, p.latitude(p.rows - 1));
+  }
+  PostGrid grid;
+  const auto [left, columns] = fit(across, west, east);
+  const auto [low, rows] = fit(up, south, north);
+  if (!(columns * rows <= kMostPosts) || columns < 2 || rows < 2)
+    return Finding{Severity::error, "all files together", "size",
+                   "2 x 2 to 4 thousand million posts at the finest spacing, or a coarser one asked for",
+                   std::to_string(static_cast<std::int64_t>(columns)) + " x " +
+                       std::to_string(static_cast<std::int64_t>(rows))};
+  grid.west = left;
+  grid.south = low;
+  grid.stepLongitude = across.step;
+  grid.stepLatitude = up.step;
+  grid.columns = static_cast<std::uint32_t>(columns);
+  grid.rows = static_cast<std::uint32_t>(rows);
+  return grid;
+}
+
+class MergedElevation final : public ElevationSource {
+ public:
+  MergedElevation(Files files, const PostGrid& grid)
+      : files_(std::move(files)),
+        grid_(grid),
+        given_(files_.size(), 0),
+        counted_((grid.rows + kChunkRows - 1) / kChunkRows, false) {
+    for (auto& file : files_) near_.push_back(file->placeOn(grid_));
+  }
+
+  const PostGrid& posts() const override { return grid_; }
+  std::vector<std::uint64_t> given() const override { return given_; }
+  std::vector<std::string> names() const override {
+    std::vector<std::string> names;
+    for (const auto& file : files_) names.push_back(file->name());
+    return names;
+  }
+
+  Result<Done> readRows(std::uint32_t first, std::uint32_t rows, std::span<float> heights,
+                        std::span<std::uint8_t> beyond) override {
+    const std::size_t across = grid_.columns;
+    for (std::uint32_t row = first; row < first + rows;) {
+      const std::uint32_t index = row / kChunkRows, from = row % kChunkRows,
+                          count = std::min(kChunkRows - from, first + rows - row);
+      if (auto merged = merge(index); !merged) return merged;
+      const auto at = static_cast<std::ptrdiff_t>(std::size_t{row - first} * across);
+      const auto n = static_cast<std::ptrdiff_t>(std::size_t{count} * across),
+                 in = static_cast<std::ptrdiff_t>(std::size_t{from} * across);
+      std::copy_n(merged_.begin() + in, n, heights.begin() + at);
+      if (!beyond.empty())
+        std::transform(reached_.begin() + in, reached_.begin() + in + n, beyond.begin() + at,
+                       [](std::uint8_t reached) { return reached == 0 ? std::uint8_t{1} : std::uint8_t{0}; });
+      row += count;
+    }
+    return Done{};
+  }
+
+ private:
+  struct Held {
+    std::uint32_t index;
+    ElevationChunk chunk;
+  };
+
+  /// Chunk `index` as it will be given out.
+  Result<Done> merge(std::uint32_t index) {
+    if (index == at_) return Done{};
+    const auto chunks = static_cast<std::uint32_t>(counted_.size());
+    for (const std::uint32_t k : {index, index - 1, index + 1}) {
+      if (k >= chunks) continue;
+      if (auto read = hold(k); !read) return read;
+    }
+    merged_.resize(std::size_t{kChunkRows} * grid_.columns);
+    std::vector<std::uint64_t> given(files_.size(), 0);
+    const ElevationChunk& chunk = *find(index);
+    mergeChunk(index > 0 ? find(index - 1) : nullptr, chunk, find(index + 1), merged_, given);
+    reached_ = chunk.reached;
+    at_ = index;
+    if (!counted_[index])
+      for (std::size_t i = 0; i < given.size(); ++i) given_[i] += given[i];
+    counted_[index] = true;
+    return Done{};
+  }
+
+  const ElevationChunk* find(std::uint32_t index) {
+    for (const Held& held : held_)
+      if (held.index == index) return &held.chunk;
+    return nullptr;
+  }
+
+  Result<Done> hold(std::uint32_t index) {
+    for (auto held = held_.begin(); held != held_.end(); ++held)
+      if (held->index == index) {
+        held_.splice(held_.begin(), held_, held);
+        return Done{};
+      }
+    Held held{index, {}};
+    ElevationChunk& chunk = held.chunk;
+    chunk.columns = grid_.columns;
+    chunk.reached.assign(std::size_t{kChunkRows} * grid_.columns, 0);
+    const std::uint32_t first = index * kChunkRows, rows = std::min(kChunkRows, grid_.rows - first);
+    for (std::size_t i = 0; i < files_.size(); ++i) {
+      ElevationFile& file = *files_[i];
+      if (!near_[i] || !file.reaches(first, rows)) continue;
+      chunk.layers.push_back({i, file.firstColumn(), file.columns(), {}, {}});
+      ElevationLayer& layer = chunk.layers.back();
+      layer.heights.resize(std::size_t{kChunkRows} * layer.columns);
+      if (auto read = file.read(first, rows, layer.heights, chunk.reached, layer.continued); !read)
+        return read;
+      keepOpen(i);
+    }
+    chunk.count();
+    if (held_.size() >= kChunksHeld) held_.pop_back();
+    held_.push_front(std::move(held));
+    return Done{};
+  }
+
+  /// The last that were read.
+  void keepOpen(std::size_t file) {
+    open_.remove(file);
+    open_.push_front(file);
+    if (open_.size() <= kMostOpen) return;
+    files_[open_.back()]->close();
+    open_.pop_back();
+  }
+
+  Files files_;
+  PostGrid grid_;
+  std::vector<bool> near_;
+  std::vector<std::uint64_t> given_;
+  std::vector<bool> counted_;  ///< a chunk's part of `given_`
+  std::list<Held> held_;
+  std::list<std::size_t> open_;
+  std::vector<float> merged_;
+  std::vector<std::uint8_t> reached_;
+  std::uint32_t at_ = std::numeric_limits<std::uint32_t>::max();
+};
+
+}  // namespace
+
+Result<std::unique_ptr<ElevationSource>> openElevation(std::span<const fs::path> sources,
+                                                       const ElevationOptions& options) {
+  const auto paths = elevationFiles(sources);
+  if (!paths) return paths.findings();
+  Findings findings;
+  Files files;
+  bool failed = false;
+  for (std::size_t i = 0; i < paths->size(); ++i) {
+    bool stopped = false;
+    const auto share = [&](double fraction, const std::string& what) {
+      stopped =
+          options.progress &&
+          !options.progress((static_cast<double>(i) + fraction) / static_cast<double>(paths->size()), what);
+      return !stopped;
+    };
+    auto file = ElevationFile::open((*paths)[i], share);
+    findings.insert(findings.end(), file.findings().begin(), file.findings().end());
+    if (stopped) return findings;
+    if (file)
+      files.push_back(std::move(file).value());
+    else
+      failed = true;
+  }
+  if (failed || files.empty()) return findings;
+  turnTogether(files);
+  std::stable_sort(files.begin(), files.end(),
+                   [](const auto& a, const auto& b) { return fineness(*a) < fineness(*b); });
+  const auto grid = gridOf(files, options);
+  if (!grid) return grid.findings();
+  return Result<std::unique_ptr<ElevationSource>>(std::make_unique<MergedElevation>(std::move(files), *grid),
+                                                  std::move(findings));
+}
+
+}  // namespace trimtab::terrain

@@ -1,0 +1,139 @@
+#include "trimtab/terrain/elevation_values.h"
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <map>
+
+namespace trimtab::terrain {
+
+namespace {
+
+constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
+
+/// Metres a unit of the band.
+std::optional<double> verticalUnit(const std::string& name) {
+  static const std::map<std::string, double> kUnits = {{"ft", 0.3048},
+                                                       {"foot", 0.3048},
+                                                       {"feet", 0.3048},
+                                                       {"international foot", 0.3048},
+                                                       {"us survey foot", 1200.0 / 3937},
+                                                       {"ftus", 1200.0 / 3937},
+                                                       {"us-ft", 1200.0 / 3937},
+                                                       {"sfoot", 1200.0 / 3937},
+                                                       {"foot_us", 1200.0 / 3937},
+                                                       {"cm", 0.01},
+                                                       {"centimetre", 0.01},
+                                                       {"centimeter", 0.01},
+                                                       {"dm", 0.1},
+                                                       {"km", 1000},
+                                                       {"yd", 0.9144},
+                                                       {"fathom", 1.8288}};
+  if (name.empty()) return {};
+  std::string lower;
+  for (const char c : name) lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const auto unit = kUnits.find(lower);
+  return unit == kUnits.end() ? 1.0 : unit->second;
+}
+
+/// Values that mean a void in whatever file they stand.
+bool meansVoid(float v) {
+  return v == -32767 || v == -32768 || v == -9999 || v == 32767 || !(v > -15000 && v < 40000);
+}
+bool isPossible(float metres) {
+  return metres >= -11500 && metres <= 9500;
+}
+float noDataOf(const Values& values) {
+  return values.noData ? static_cast<float>(*values.noData) : kVoid;
+}
+
+}  // namespace
+
+bool looksLikeImage(GDALDataset& data) {
+  GDALRasterBand* band = data.GetRasterCount() > 0 ? data.GetRasterBand(1) : nullptr;
+  return band == nullptr || (data.GetRasterCount() >= 3 && band->GetRasterDataType() == GDT_Byte) ||
+         band->GetColorTable() != nullptr;
+}
+
+Values valuesOf(GDALRasterBand& band, double crsUnit) {
+  Values values;
+  int has = 0;
+  const double noData = band.GetNoDataValue(&has);
+  if (has) values.noData = noData;
+  const double unit = verticalUnit(band.GetUnitType()).value_or(crsUnit);
+  const double scale = band.GetScale(&has);
+  values.scale = unit * (has ? scale : 1.0);
+  const double offset = band.GetOffset(&has);
+  values.offset = unit * (has ? offset : 0.0);
+  return values;
+}
+
+void Census::add(std::span<const float> raw, const Values& values) {
+  const float noData = noDataOf(values);
+  posts += raw.size();
+  for (const float v : raw) {
+    if (v == noData || std::isnan(v))
+      ++voids;
+    else if (meansVoid(v))
+      ++untagged;
+    else if (v < -500)
+      ++deep;
+    else if (!isPossible(static_cast<float>(v * values.scale + values.offset)))
+      ++impossible;
+  }
+}
+
+void toMetres(std::span<float> raw, const Values& values) {
+  const float noData = noDataOf(values);
+  for (float& v : raw) {
+    if (v == noData || meansVoid(v) || (values.deepIsVoid && v < -500)) {
+      v = kVoid;
+      continue;
+    }
+    v = static_cast<float>(v * values.scale + values.offset);
+    if (!isPossible(v)) v = kVoid;
+  }
+}
+
+Vertical verticalOf(const PlacedRaster& raster) {
+  Vertical vertical;
+  const OGRSpatialReference* named = raster.data->GetSpatialRef();
+  if (named == nullptr || named->IsLocal() || !(named->IsCompound() || named->GetAxesCount() == 3))
+    return vertical;
+  OGRSpatialReference file = *named, geoid;
+  file.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const char* name = file.IsCompound() ? file.GetAttrValue("COMPD_CS|VERT_CS") : nullptr;
+  const std::string datum = name ? name : "the ellipsoid";
+  if (file.IsCompound()) vertical.unit = file.GetTargetLinearUnits("COMPD_CS|VERT_CS", nullptr);
+  if (!(vertical.unit > 0)) vertical.unit = 1;
+  if (geoid.SetFromUserInput("EPSG:4326+5773") != OGRERR_NONE) return vertical;
+  geoid.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const std::string expected = "heights above the EGM96 geoid, or a datum that PROJ has a grid for";
+  vertical.note = {expected, datum + ": PROJ cannot take it there, heights kept as they are"};
+  // Ballpark steps would leave heights as they are and call that a conversion.
+  OGRCoordinateTransformationOptions options;
+  options.SetBallparkAllowed(false);
+  std::shared_ptr<OGRCoordinateTransformation> toFile(
+      OGRCreateCoordinateTransformation(&geoid, &file, options));
+  if (!toFile) return vertical;
+  // The raster's middle, by way of its horizontal CRS.
+  OGRSpatialReference degrees;
+  degrees.importFromEPSG(4326);
+  degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  std::unique_ptr<OGRCoordinateTransformation> place(
+      OGRCreateCoordinateTransformation(&raster.crs, &degrees));
+  const auto& g = raster.transform;
+  const double across = raster.data->GetRasterXSize() / 2.0, down = raster.data->GetRasterYSize() / 2.0;
+  double x = g[0] + g[1] * across + g[2] * down, y = g[3] + g[4] * across + g[5] * down, z = 0;
+  if (!place || !place->Transform(1, &x, &y)) return vertical;
+  if (!toFile->Transform(1, &x, &y, &z) || !std::isfinite(z)) return vertical;
+  vertical.note.reset();
+  if (std::abs(z * vertical.unit) < 1e-3) return vertical;
+  vertical.note = {
+      "heights above the EGM96 geoid",
+      datum + ": taken there by PROJ, by " + std::to_string(-z * vertical.unit) + " m in the middle"};
+  vertical.toFile = std::move(toFile);
+  return vertical;
+}
+
+}  // namespace trimtab::terrain
