@@ -266,6 +266,11 @@ unsigned PatchLayer::tintTexture() const {
   return impl_->tintTexture;
 }
 
+std::size_t PatchLayer::bytesOf(std::size_t vertices, std::size_t indices) {
+  return std::size_t{inBlocks(vertices, kBlock)} * (kBlock * kVertexBytes + sizeof(SlotData)) +
+         std::size_t{inBlocks(indices, kIndexBlock)} * kIndexBlock * kIndexBytes;
+}
+
 std::size_t PatchLayer::bytes() const {
   return std::size_t{impl_->blocks.used()} * (kBlock * kVertexBytes + sizeof(SlotData)) +
          std::size_t{impl_->indexBlocks.used()} * kIndexBlock * kIndexBytes;

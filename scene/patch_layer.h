@@ -39,6 +39,8 @@ class PatchLayer {
   void setTints(std::span<const TileDraw> patches, std::span<const std::uint32_t> colours);
   unsigned tintTexture() const;
 
+  /// What a patch takes.
+  static std::size_t bytesOf(std::size_t vertices, std::size_t indices);
   std::size_t bytes() const;          ///< of the pages that are there
   std::size_t reservedBytes() const;  ///< of the buffers
 

@@ -1,0 +1,291 @@
+#include "trimtab/scene/patch_culling.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "trimtab/scene/page_budget.h"
+#include "trimtab/scene/patch_layer.h"
+
+namespace trimtab::scene {
+namespace {
+
+/// What a frame may spend on taking pages in; one page is always taken.
+constexpr std::chrono::microseconds kShare{2000};
+/// How far ahead the eye is looked for: several times what reading the pages of the way there takes.
+constexpr double kAheadS = 5;
+/// What is needed then is so much less urgent than what is needed now.
+constexpr float kAheadUrgency = 0.25f, kMostAheadPx = 1e6f;
+/// Needs of then are found again when the eye of then has moved by so much of the way.
+constexpr double kAheadStep = 0.08;
+
+/// What the cut depends on.
+struct CutKey {
+  Vec3 eye;
+  double maxErrorPx = 0, lodScale = 0, pixelsPerRadian = 0;
+  std::uint64_t budget = 0, heldNumber = 0;
+  friend bool operator==(const CutKey&, const CutKey&) = default;
+};
+
+/// On the GPU and, for who asks what hides what, as it was read.
+std::vector<std::uint64_t> bytesByPage(const terrain::PatchTerrain& terrain) {
+  const PatchIndex& index = terrain.index();
+  std::vector<std::uint64_t> bytes(index.pages.size());
+  for (std::size_t patch = 0; patch < index.size(); ++patch) {
+    std::size_t indices = 0;
+    for (const std::uint16_t triangles : index.triangles[patch]) indices += 3u * triangles;
+    const std::size_t vertices = terrain.facts()[patch].vertices;
+    bytes[index.page[patch]] += PatchLayer::bytesOf(vertices, indices) +
+                                vertices * sizeof(terrain::PatchVertex) + indices * sizeof(std::uint16_t);
+  }
+  return bytes;
+}
+
+std::uint32_t rootPagesOf(const PatchIndex& index) {
+  std::uint32_t count = 0;
+  while (count < index.pages.size() && index.pages[count].pair == 0) ++count;
+  return count;
+}
+
+}  // namespace
+
+struct PatchCulling::Impl {
+  std::shared_ptr<const terrain::PatchTerrain> terrain;
+  std::unique_ptr<terrain::Pager> pager;
+  PageBudget pages;
+  std::vector<std::shared_ptr<const terrain::PatchPage>> meshes;  ///< of the pages that are held
+  std::vector<std::uint32_t> roots;
+  std::uint64_t heldNumber = 0, dropped = 0;  ///< changes of what is held; pages given up
+  std::optional<CutKey> key;
+  PatchCut later;  ///< where the eye will be
+  std::optional<Vec3> laterEye;
+  std::vector<PageWant> laterWants, lacking;
+  std::vector<std::uint32_t> mustHave;
+  std::vector<std::uint8_t> hidden;
+  std::size_t waiting = 0;
+  Defects defects;
+
+  void drop(std::uint32_t page, PatchLayer& layer);
+  void makeRoom(std::uint64_t coming, PatchLayer& layer);
+  void letGo(std::uint32_t page);
+  void takeIn(std::shared_ptr<const terrain::PatchPage> page, PatchLayer& layer);
+  void takeArrivals(PatchLayer& layer);
+  void takeAll(std::span<const std::uint32_t> wanted, PatchLayer& layer);
+  void followLayer(PatchLayer& layer);
+  std::optional<Vec3> eyeAhead(const FrameRequest& request, Vec3 eye) const;
+  bool lookAhead(const FrameRequest& request, const CutKey& wanted);
+  void choose(const FrameRequest& request, const EyePose& eye, PatchCut& cut, FrameResult& counters);
+  void ask();
+};
+
+PatchCulling::PatchCulling() : impl_(std::make_unique<Impl>()) {}
+PatchCulling::~PatchCulling() = default;
+
+void PatchCulling::setTerrain(std::shared_ptr<const terrain::PatchTerrain> terrain) {
+  const Defects defects = impl_->defects;
+  impl_ = std::make_unique<Impl>();
+  impl_->defects = defects;
+  cut_ = {};
+  visible_ = {};
+  if (!terrain) return;
+  Impl& m = *impl_;
+  m.terrain = std::move(terrain);
+  const std::uint32_t roots = rootPagesOf(m.terrain->index());
+  m.pages.reset(bytesByPage(*m.terrain), roots);
+  m.meshes.resize(m.terrain->index().pages.size());
+  m.pager = terrain::Pager::start(m.terrain);
+  for (std::uint32_t page = 0; page < roots; ++page) {
+    m.roots.push_back(page);
+    m.lacking.push_back({page, std::numeric_limits<float>::infinity()});
+  }
+  m.pager->want(m.lacking);
+}
+
+void PatchCulling::plant(const Defects& defects) {
+  impl_->defects = defects;
+  impl_->key.reset();
+}
+
+void PatchCulling::Impl::drop(std::uint32_t page, PatchLayer& layer) {
+  layer.drop(page);
+  letGo(page);
+  ++dropped;
+}
+
+void PatchCulling::Impl::letGo(std::uint32_t page) {
+  pages.drop(page);
+  meshes[page].reset();
+  ++heldNumber;
+}
+
+void PatchCulling::Impl::makeRoom(std::uint64_t coming, PatchLayer& layer) {
+  while (const auto page = pages.toDrop(coming)) drop(*page, layer);
+}
+
+void PatchCulling::Impl::takeIn(std::shared_ptr<const terrain::PatchPage> page, PatchLayer& layer) {
+  const std::uint32_t number = page->page;
+  if (pages.holds(number)) return;
+  makeRoom(pages.bytesOf(number), layer);
+  layer.add(*page);
+  pages.hold(number);
+  meshes[number] = std::move(page);
+  ++heldNumber;
+}
+
+void PatchCulling::Impl::takeArrivals(PatchLayer& layer) {
+  const auto end = std::chrono::steady_clock::now() + kShare;
+  do {
+    const auto arrived = pager->takeArrived(1);
+    if (arrived.empty()) return;
+    for (const auto& page : arrived) takeIn(page, layer);
+  } while (std::chrono::steady_clock::now() < end);
+}
+
+void PatchCulling::Impl::takeAll(std::span<const std::uint32_t> wanted, PatchLayer& layer) {
+  pager->waitFor(wanted);
+  for (const auto& page : pager->takeArrived(std::numeric_limits<std::size_t>::max())) takeIn(page, layer);
+}
+
+/// A layer of a new context has nothing.
+void PatchCulling::Impl::followLayer(PatchLayer& layer) {
+  if (!pages.held().empty() && !layer.has(pages.held().front()))
+    while (!pages.held().empty()) letGo(pages.held().front());
+  mustHave.clear();
+  for (const std::uint32_t page : roots)
+    if (!pages.holds(page) && !pager->hasFailed(page)) mustHave.push_back(page);
+  if (!mustHave.empty()) takeAll(mustHave, layer);
+}
+
+std::optional<Vec3> PatchCulling::Impl::eyeAhead(const FrameRequest& request, Vec3 eye) const {
+  // What must not depend on time does not look ahead.
+  if (!request.velocity || request.frozenEye || request.waitForPages) return {};
+  const Velocity& v = *request.velocity;
+  const Mat3 axes = eastNorthUp(request.eye.latitude, request.eye.longitude);
+  const Vec3 velocity =
+      axes.row[0] * v.east.value() + axes.row[1] * v.north.value() - axes.row[2] * v.down.value();
+  const Vec3 way = terrain->index().frame.ecefToLocal() * velocity * kAheadS;
+  if (!(length(way) > 1)) return {};
+  return eye + way;
+}
+
+/// Says whether what is needed later may have changed.
+bool PatchCulling::Impl::lookAhead(const FrameRequest& request, const CutKey& wanted) {
+  const std::optional<Vec3> ahead = eyeAhead(request, wanted.eye);
+  if (!ahead) {
+    const bool had = laterEye.has_value();
+    laterEye.reset();
+    laterWants.clear();
+    return had;
+  }
+  const bool samePicture = key && key->maxErrorPx == wanted.maxErrorPx && key->lodScale == wanted.lodScale &&
+                           key->pixelsPerRadian == wanted.pixelsPerRadian;
+  if (laterEye && samePicture && length(*ahead - *laterEye) <= kAheadStep * length(*ahead - wanted.eye))
+    return false;
+  laterEye = ahead;
+  selectPatches(terrain->index(), {}, *ahead, wanted.maxErrorPx, wanted.lodScale, wanted.pixelsPerRadian,
+                later);
+  laterWants.clear();
+  for (const PageWant& want : later.wants)
+    laterWants.push_back({want.page, kAheadUrgency * std::min(want.errorPx, kMostAheadPx)});
+  return true;
+}
+
+void PatchCulling::Impl::choose(const FrameRequest& request, const EyePose& eye, PatchCut& cut,
+                                FrameResult& counters) {
+  const ViewShape& v = request.view;
+  const double megabytes = request.terrain.cache.value();
+  const CutKey wanted{eye.position,
+                      request.lod.screenSpaceError.value() / defects.statedErrorScale,
+                      request.decision.lodScale,
+                      std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom)),
+                      static_cast<std::uint64_t>(std::max(megabytes, 0.0) * 1e6),
+                      heldNumber};
+  const bool later_ = lookAhead(request, wanted);
+  if (key == wanted && request.skips.sameCut && !later_) return;
+  const auto select = [&](std::span<const std::uint8_t> drawable) {
+    selectPatches(terrain->index(), drawable, wanted.eye, wanted.maxErrorPx, wanted.lodScale,
+                  wanted.pixelsPerRadian, cut);
+  };
+  select(pages.drawable());
+  const bool wasShort = pages.isShort();
+  pages.aim(cut.wants, laterWants, wanted.budget);
+  // What may be drawn follows from what is wanted, and what is wanted from the eye alone.
+  if (wasShort || pages.isShort()) select(pages.drawable());
+  ask();
+  key = wanted;
+  ++counters.cutsSelected;
+}
+
+void PatchCulling::Impl::ask() {
+  const bool asked = !lacking.empty();
+  lacking.clear();
+  for (const PageWant& want : pages.aims())
+    if (!pages.holds(want.page)) lacking.push_back(want);
+  if (asked || !lacking.empty()) pager->want(lacking);
+}
+
+void PatchCulling::page(const FrameRequest& request, const EyePose& eye, PatchLayer& layer,
+                        FrameResult& counters) {
+  Impl& m = *impl_;
+  counters.paging = {};
+  if (!m.terrain) return;
+  m.followLayer(layer);
+  m.takeArrivals(layer);
+  m.choose(request, eye, cut_, counters);
+  if (request.waitForPages) {
+    m.mustHave.clear();
+    for (const PageWant& want : m.lacking) m.mustHave.push_back(want.page);
+    if (!m.mustHave.empty()) {
+      m.takeAll(m.mustHave, layer);
+      m.choose(request, eye, cut_, counters);
+    }
+  }
+  m.makeRoom(0, layer);
+
+  const terrain::Pager::Counters read = m.pager->counters();
+  PagingFrame& paging = counters.paging;
+  paging.waiting = read.waiting;
+  paging.heldBack = cut_.heldBack;
+  paging.pagesRead = read.pagesRead;
+  paging.bytesRead = read.bytesRead;
+  paging.failed = read.failed;
+  paging.longestReadMs = read.longestReadMs;
+  paging.pagesDropped = m.dropped;
+  paging.bytes = m.pages.bytes();
+  paging.budgetBytes = m.key ? m.key->budget : 0;
+}
+
+void PatchCulling::selectVisible(const FrameRequest& request, const EyePose& eye,
+                                 std::span<const std::uint8_t> hidden) {
+  Impl& m = *impl_;
+  if (!m.terrain) return;
+  if (m.defects.culledNode) {
+    m.hidden.assign(cut_.cut.tiles.size(), 0);
+    for (std::size_t i = 0; i < m.hidden.size(); ++i)
+      m.hidden[i] = cut_.cut.tiles[i].node == *m.defects.culledNode || (!hidden.empty() && hidden[i] != 0);
+    hidden = m.hidden;
+  }
+  selectVisiblePatches(
+      index(), cut_.cut, eye, request.view, request.method != CullingCase::none, visible_,
+      request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited, hidden);
+  for (const TileDraw& tile : visible_.tiles) visible_.vertices += m.terrain->facts()[tile.node].vertices;
+}
+
+const terrain::PatchMesh* PatchCulling::meshOf(std::uint32_t patch) const {
+  const PatchIndex& i = index();
+  const auto& page = impl_->meshes[i.page[patch]];
+  return page ? &page->patches[patch - i.pages[i.page[patch]].firstPatch] : nullptr;
+}
+
+const PatchIndex& PatchCulling::index() const {
+  static const PatchIndex none;
+  return impl_->terrain ? impl_->terrain->index() : none;
+}
+
+Findings PatchCulling::failures() const {
+  return impl_->pager ? impl_->pager->failures() : Findings{};
+}
+
+}  // namespace trimtab::scene
