@@ -4,9 +4,17 @@
 #include <memory>
 
 #include "trimtab/terrain/ground.h"
-#include "trimtab/units/linear.h"
 
 namespace trimtab::scene {
+
+/// GLSL of a fragment shader, to be pasted behind its #version: `vec4 groundAt(vec2 post)`, the ground's
+/// sRGB and the light on it (scene/sun.h) where a fragment stands; `post` counts columns and rows from the
+/// whole post that the eye is over (GroundTexture::eyeColumn, eyeRow), so that it is exact near the eye. To
+/// be called only where `groundThere`, and in uniform control flow: it takes derivatives. `float
+/// groundDetail(vec2 metres)`: noise that stands on the ground, to multiply near land with.
+extern const char* const kGroundColour;
+/// Texture units of it.
+constexpr int kGroundUnit = 8, kGroundNoiseUnit = 9;
 
 /// The ground's colours and light about the eye on the GPU: one layer of kSide x kSide texels a level, each
 /// centred at the eye and filled as it moves on (a clip map); a level that is not filled yet is shown by the
@@ -16,6 +24,7 @@ namespace trimtab::scene {
 class GroundTexture {
  public:
   static constexpr int kSide = 1024;
+  static constexpr int kLevels = 16;  ///< as many as there may be
 
   GroundTexture();
   ~GroundTexture();
@@ -23,15 +32,24 @@ class GroundTexture {
   GroundTexture& operator=(const GroundTexture&) = delete;
 
   void setGround(std::shared_ptr<const terrain::GroundPyramid> ground);
+  /// Voids that were filled stand out. Changing it reads everything anew.
+  void showVoids(bool show);
   /// The eye is over post (column, row); `wait`: all that is missing is read now, for pictures that must not
   /// depend on time. Otherwise tiles are read by a thread and at most `mostBytes` uploaded.
   void update(double column, double row, bool wait, std::size_t mostBytes);
-  /// Binds the texture and sets the uniforms of the program in use; kGroundColour in shaders.h reads them.
+  /// What `groundAt` counts posts from.
+  std::int32_t eyeColumn() const;
+  std::int32_t eyeRow() const;
+  /// Binds the textures and sets the uniforms of the program in use.
   void bind(unsigned program) const;
   void unbind() const;
 
-  std::size_t bytes() const;
+  std::size_t bytes() const;  ///< of textures and of tiles kept
   std::uint64_t tilesRead() const;
+  std::uint64_t bytesUploaded() const;
+  bool complete() const;  ///< nothing is missing about the eye
+  /// Tiles that could not be read.
+  Findings failures() const;
 
  private:
   struct Impl;
