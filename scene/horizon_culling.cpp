@@ -9,9 +9,6 @@ namespace {
 constexpr double kEarthRadius = 6.35e6;
 /// Posts from one line that may hide others to the next.
 constexpr int kLineStep = 4;
-/// A horizon that hides less than one tile in so many is not built again until the eye is this far away.
-constexpr std::size_t kLeastShare = 50;
-constexpr double kBelievedM = 50;
 /// Tiles (25 KB each) that are kept beyond those of the cut.
 constexpr std::size_t kKept = 4096;
 
@@ -34,7 +31,7 @@ void makeRelief(const terrain::TileMesh& mesh, TileRelief& relief) {
 
 void HorizonCulling::setDatabase(std::shared_ptr<const terrain::Database> database) {
   database_ = std::move(database);
-  key_.reset();
+  memory_.clear();
   relief_.clear();
   upright_.clear();
   kept_ = 0;
@@ -62,31 +59,6 @@ void HorizonCulling::setDatabase(std::shared_ptr<const terrain::Database> databa
   }
 }
 
-int HorizonCulling::columnsFor(int depthMapWidthPx) {
-  return std::clamp(2 * depthMapWidthPx, Horizon::kLeastColumns, Horizon::kMostColumns);
-}
-
-double HorizonCulling::slackOf(const ViewShape& view, int subpixelBits) {
-  // Five steps of a pixel that has 256 of them, which leaves room for rounding; in coarser ones as many.
-  const double pixels = 0.02 * std::max(1.0, std::ldexp(1.0, 8 - subpixelBits));
-  return pixels * std::max((view.right - view.left) / view.widthPx, (view.top - view.bottom) / view.heightPx);
-}
-
-Renderer::Grey HorizonCulling::picture(const EyePose& eye, const ViewShape& view, int widthPx,
-                                       int heightPx) const {
-  constexpr std::uint8_t kCovered = 110, kOpen = 255;
-  Renderer::Grey grey{widthPx, heightPx, {}};
-  grey.pixels.reserve(static_cast<std::size_t>(widthPx) * static_cast<std::size_t>(heightPx));
-  const Mat3 toLocal = transposed(eye.axes);
-  for (int y = 0; y < heightPx; ++y)
-    for (int x = 0; x < widthPx; ++x) {
-      const double across = view.left + (view.right - view.left) * (x + 0.5) / widthPx,
-                   up = view.bottom + (view.top - view.bottom) * (y + 0.5) / heightPx;
-      grey.pixels.push_back(horizon_.blocks(toLocal * Vec3{across, up, -1}) ? kCovered : kOpen);
-    }
-  return grey;
-}
-
 const TileRelief* HorizonCulling::reliefOf(std::uint32_t node) {
   if (!relief_[node]) {
     relief_[node] = std::make_unique<TileRelief>();
@@ -108,46 +80,33 @@ void HorizonCulling::forgetOthers(const LevelCut& cut) {
     }
 }
 
-/// Where next to nothing is hidden there is nothing to gain a little further on.
-bool HorizonCulling::hidLittleNear(const Key& key) const {
-  return key_ && key_->cut.rule == key.cut.rule && key_->columns == key.columns &&
-         key_->raised == key.raised && horizon_.hiddenCount() * kLeastShare < tiles_.size() &&
-         length(key.eye - key_->eye) < kBelievedM;
-}
-
-std::span<const std::uint8_t> HorizonCulling::hidden(const LevelCut& cut, const CutNumber& number, Vec3 eye,
-                                                     const Horizon::Settings& settings,
-                                                     const OcclusionConditions& conditions,
-                                                     const Skips& skips) {
-  const Key key{eye, number, settings.columns, settings.slack, settings.raised};
-  if (key_ == key) {
-    if (skips.sameHorizon) return horizon_.hidden();
-  } else if (skips.littleHidden && hidLittleNear(key)) {
-    ++leftOut_;
-    return {};
-  }
+void HorizonCulling::fill(const LevelCut& cut, const OcclusionConditions& conditions,
+                          std::vector<HorizonTile>& tiles) {
   if (kept_ > kKept + cut.tiles.size()) forgetOthers(cut);
   const TerrainIndex& index = database_->index();
-  tiles_.clear();
   inCut_.assign(index.size(), 0);
   for (const TileDraw& tile : cut.tiles) {
     inCut_[tile.node] = 1;
-    tiles_.push_back({reliefOf(tile.node), mayOcclude(tile.node, conditions)});
+    tiles.push_back({.relief = reliefOf(tile.node), .mayOcclude = mayOcclude(tile.node, conditions)});
   }
-  for (std::size_t i = 0; i < tiles_.size(); ++i) {
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
     const auto& [west, east, south, north] = index.neighbours[cut.tiles[i].node];
     const auto goesOn = [&](std::uint32_t node) -> const TileRelief* {
       return node != TerrainIndex::kNone && inCut_[node] != 0 && mayOcclude(node, conditions)
                  ? relief_[node].get()
                  : nullptr;
     };
-    tiles_[i].east = goesOn(east);
-    tiles_[i].north = goesOn(north);
+    tiles[i].east = goesOn(east);
+    tiles[i].north = goesOn(north);
   }
-  horizon_.build(eye, tiles_, settings);
-  ++built_;
-  key_ = key;
-  return horizon_.hidden();
+}
+
+std::span<const std::uint8_t> HorizonCulling::hidden(const LevelCut& cut, const CutNumber& number, Vec3 eye,
+                                                     const Horizon::Settings& settings,
+                                                     const OcclusionConditions& conditions,
+                                                     const Skips& skips) {
+  return memory_.hidden(eye, number, settings, skips,
+                        [&](std::vector<HorizonTile>& tiles) { fill(cut, conditions, tiles); });
 }
 
 }  // namespace trimtab::scene

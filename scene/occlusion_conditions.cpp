@@ -2,26 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace trimtab::scene {
 namespace {
-
-constexpr double kEarthRadius = 6.37e6;
-constexpr double kRadians = std::numbers::pi / 180;
-
-/// The data's extent seen from a place.
-struct Extent {
-  double south, west, north, east;  ///< degrees
-  double metresNorth, metresEast;   ///< of a degree, the smaller ones in the extent
-};
-
-Extent extentOf(const terrain::TerrainInfo& info) {
-  const double south = info.southWest.latitude.value(), north = info.northEast.latitude.value();
-  const double furthest = std::max(std::abs(south), std::abs(north));
-  return {south,  info.southWest.longitude.value(),      north, info.northEast.longitude.value(),
-          110500, 111300 * std::cos(furthest * kRadians)};
-}
 
 /// Height of the mesh's triangle over (x, y), metres from the tile's origin; none beside the tile.
 std::optional<double> heightOver(const terrain::TileMesh& mesh, std::span<const std::uint16_t> indices,
@@ -51,22 +34,17 @@ void OcclusionConditions::setDatabase(std::shared_ptr<const terrain::Database> d
   mayOcclude_.clear();
   if (!database_) return;
   const terrain::TerrainInfo& info = database_->info();
-  const Extent extent = extentOf(info);
-  // A parallel of latitude bends by d^2 tan(latitude) / 8R over a distance d; a meridian not at all.
-  const double furthest = std::max(std::abs(extent.south), std::abs(extent.north));
-  const double across = (extent.east - extent.west) * 111300;
-  sagM_ = furthest < 85 ? 1.1 * across * across * std::tan(furthest * kRadians) / (8 * kEarthRadius) : 1e9;
-
+  extent_ = DataExtent(info);
   const TerrainIndex& index = database_->index();
   mayOcclude_.assign(index.size(), 0);
   for (std::size_t level = 0; level < index.levels.size(); ++level) {
     const TerrainIndex::Level& l = index.levels[level];
     const double tileM = TerrainIndex::kTileCells * std::ldexp(1.0, static_cast<int>(level)) *
-                         std::min(info.postLatitude.value() * extent.metresNorth,
-                                  info.postLongitude.value() * extent.metresEast);
+                         std::min(info.postLatitude.value() * extent_.metresPerDegreeNorth(),
+                                  info.postLongitude.value() * extent_.metresPerDegreeEast());
     // Half a tile is how far from its own place an occluder's texel may look (OccluderLimits::farReach). One
     // more tile to the east and north, where the last one may be empty but for a column of posts.
-    const double border = std::ceil(sagM_ / tileM + 0.5);
+    const double border = std::ceil(extent_.sagM() / tileM + 0.5);
     for (std::uint32_t row = 0; row < l.rows; ++row)
       for (std::uint32_t column = 0; column < l.columns; ++column) {
         const auto inside = [border](std::uint32_t i, std::uint32_t n) {
@@ -103,32 +81,12 @@ std::optional<OcclusionConditions::Ground> OcclusionConditions::groundUnder(cons
 }
 
 std::string OcclusionConditions::refusal(const LevelCut& cut, const EyePose& eye, const ViewShape& view) {
-  const terrain::TerrainInfo& info = database_->info();
   const TerrainIndex& index = database_->index();
-  const GeodeticPosition place = index.frame.toGeodetic(eye.position);
-  const Extent extent = extentOf(info);
-  const double latitude = place.latitude.value(), longitude = place.longitude.value();
-  const double inside = std::min(
-      {(latitude - extent.south) * extent.metresNorth, (extent.north - latitude) * extent.metresNorth,
-       (longitude - extent.west) * extent.metresEast, (extent.east - longitude) * extent.metresEast});
-  if (!(inside > 0)) return "the eye is not over the terrain";
-  // The frame's z leans away from the vertical far from its origin: the place under the eye, by z, is
-  // elsewhere.
-  const double lean = std::hypot(eye.position.x, eye.position.y) / kEarthRadius;
-  if (!(inside > sagM_ + std::abs(place.height.value()) * lean))
-    return "the eye is too near the terrain's edge";
-
+  if (const char* why = extent_.refusal(index.frame, eye.position); *why != 0) return why;
   const std::optional<Ground> ground = groundUnder(cut, eye.position);
   if (!ground) return "no tile is under the eye";
-  // The near plane must not reach the ground anywhere: its corners are this far from the eye.
-  const double across = std::max(std::abs(view.left), std::abs(view.right)),
-               upward = std::max(std::abs(view.bottom), std::abs(view.top));
-  const double nearest = view.nearM * std::sqrt(1 + across * across + upward * upward);
-  const double slope = 1.5 * index.slopeMax[ground->node] + lean + 0.1;
-  const double above = eye.position.z - ground->height;
-  if (!(above > 0)) return "the eye is under the ground";
-  if (!(above > nearest * std::sqrt(1 + slope * slope))) return "the eye is too near the ground";
-  return {};
+  const double slope = 1.5 * index.slopeMax[ground->node] + leanOf(eye.position) + 0.1;
+  return nearPlaneRefusal(eye.position.z - ground->height, nearestOf(view), slope);
 }
 
 }  // namespace trimtab::scene

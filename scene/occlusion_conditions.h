@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "trimtab/culling/select.h"
+#include "trimtab/scene/data_extent.h"
 #include "trimtab/scene/tile_indices.h"
 #include "trimtab/terrain/database.h"
 
@@ -34,7 +35,7 @@ class OcclusionConditions {
   TileIndices indices_ = makeTileIndices();
   terrain::TileMesh mesh_;
   std::uint32_t meshNode_ = TerrainIndex::kNone;
-  double sagM_ = 0;  ///< how far a straight line between two places inside can bulge over the border
+  DataExtent extent_;
 };
 
 }  // namespace trimtab::scene

@@ -1,0 +1,57 @@
+#include "trimtab/scene/data_extent.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace trimtab::scene {
+namespace {
+
+constexpr double kEarthRadius = 6.37e6;
+constexpr double kRadians = std::numbers::pi / 180;
+
+}  // namespace
+
+DataExtent::DataExtent(const terrain::TerrainInfo& info)
+    : south_(info.southWest.latitude.value()),
+      west_(info.southWest.longitude.value()),
+      north_(info.northEast.latitude.value()),
+      east_(info.northEast.longitude.value()),
+      metresNorth_(110500) {
+  const double furthest = std::max(std::abs(south_), std::abs(north_));
+  metresEast_ = 111300 * std::cos(furthest * kRadians);
+  // A parallel of latitude bends by d^2 tan(latitude) / 8R over a distance d; a meridian not at all.
+  const double across = (east_ - west_) * 111300;
+  sagM_ = furthest < 85 ? 1.1 * across * across * std::tan(furthest * kRadians) / (8 * kEarthRadius) : 1e9;
+}
+
+const char* DataExtent::refusal(const LocalFrame& frame, Vec3 eye) const {
+  const GeodeticPosition place = frame.toGeodetic(eye);
+  const double latitude = place.latitude.value(), longitude = place.longitude.value();
+  const double inside = std::min({(latitude - south_) * metresNorth_, (north_ - latitude) * metresNorth_,
+                                  (longitude - west_) * metresEast_, (east_ - longitude) * metresEast_});
+  if (!(inside > 0)) return "the eye is not over the terrain";
+  // The frame's z leans away from the vertical far from its origin: the place under the eye, by z, is
+  // elsewhere.
+  if (!(inside > sagM_ + std::abs(place.height.value()) * leanOf(eye)))
+    return "the eye is too near the terrain's edge";
+  return "";
+}
+
+double leanOf(Vec3 place) {
+  return std::hypot(place.x, place.y) / kEarthRadius;
+}
+
+const char* nearPlaneRefusal(double aboveM, double nearestM, double slope) {
+  if (!(aboveM > 0)) return "the eye is under the ground";
+  if (!(aboveM > nearestM * std::sqrt(1 + slope * slope))) return "the eye is too near the ground";
+  return "";
+}
+
+double nearestOf(const ViewShape& view) {
+  const double across = std::max(std::abs(view.left), std::abs(view.right)),
+               upward = std::max(std::abs(view.bottom), std::abs(view.top));
+  return view.nearM * std::sqrt(1 + across * across + upward * upward);
+}
+
+}  // namespace trimtab::scene

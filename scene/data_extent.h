@@ -1,0 +1,37 @@
+#pragma once
+
+#include "trimtab/frame/frame.h"
+#include "trimtab/terrain/database.h"
+
+namespace trimtab::scene {
+
+/// The outline of a terrain's data seen from a place, and where an eye has to be for the proofs of
+/// occlusion.h and horizon.h: everything that hides something must be ground that is drawn.
+class DataExtent {
+ public:
+  DataExtent() = default;
+  explicit DataExtent(const terrain::TerrainInfo& info);
+
+  /// How far a straight line between two places inside can bulge over the border, metres.
+  double sagM() const { return sagM_; }
+  double metresPerDegreeNorth() const { return metresNorth_; }
+  double metresPerDegreeEast() const { return metresEast_; }  ///< where it is least
+  /// Why nothing may be hidden from an eye at this place; empty when it may.
+  const char* refusal(const LocalFrame& frame, Vec3 eye) const;
+
+ private:
+  double south_ = 0, west_ = 0, north_ = 0, east_ = 0;  ///< degrees
+  double metresNorth_ = 0, metresEast_ = 0;
+  double sagM_ = 0;
+};
+
+/// Lean of the frame's z from the vertical at a place, radians.
+double leanOf(Vec3 place);
+
+/// The near plane must not reach the ground anywhere: its corners are `nearestM` from the eye, which is
+/// `aboveM` over ground of at most this slope. Empty when it does not.
+const char* nearPlaneRefusal(double aboveM, double nearestM, double slope);
+/// Distance of the near plane's corners.
+double nearestOf(const ViewShape& view);
+
+}  // namespace trimtab::scene

@@ -1,0 +1,65 @@
+#include "trimtab/scene/horizon_memory.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trimtab::scene {
+namespace {
+
+/// A horizon that hides less than one tile in so many is not built again until the eye is this far away.
+constexpr std::size_t kLeastShare = 50;
+constexpr double kBelievedM = 50;
+
+}  // namespace
+
+int HorizonMemory::columnsFor(int depthMapWidthPx) {
+  return std::clamp(2 * depthMapWidthPx, Horizon::kLeastColumns, Horizon::kMostColumns);
+}
+
+double HorizonMemory::slackOf(const ViewShape& view, int subpixelBits) {
+  // Five steps of a pixel that has 256 of them, which leaves room for rounding; in coarser ones as many.
+  const double pixels = 0.02 * std::max(1.0, std::ldexp(1.0, 8 - subpixelBits));
+  return pixels * std::max((view.right - view.left) / view.widthPx, (view.top - view.bottom) / view.heightPx);
+}
+
+Renderer::Grey HorizonMemory::picture(const EyePose& eye, const ViewShape& view, int widthPx,
+                                      int heightPx) const {
+  constexpr std::uint8_t kCovered = 110, kOpen = 255;
+  Renderer::Grey grey{widthPx, heightPx, {}};
+  grey.pixels.reserve(static_cast<std::size_t>(widthPx) * static_cast<std::size_t>(heightPx));
+  const Mat3 toLocal = transposed(eye.axes);
+  for (int y = 0; y < heightPx; ++y)
+    for (int x = 0; x < widthPx; ++x) {
+      const double across = view.left + (view.right - view.left) * (x + 0.5) / widthPx,
+                   up = view.bottom + (view.top - view.bottom) * (y + 0.5) / heightPx;
+      grey.pixels.push_back(horizon_.blocks(toLocal * Vec3{across, up, -1}) ? kCovered : kOpen);
+    }
+  return grey;
+}
+
+/// Where next to nothing is hidden there is nothing to gain a little further on.
+bool HorizonMemory::hidLittleNear(const Key& key) const {
+  return key_ && key_->cut.rule == key.cut.rule && key_->columns == key.columns &&
+         key_->raised == key.raised && horizon_.hiddenCount() * kLeastShare < tiles_.size() &&
+         length(key.eye - key_->eye) < kBelievedM;
+}
+
+std::span<const std::uint8_t> HorizonMemory::hidden(
+    Vec3 eye, const CutNumber& number, const Horizon::Settings& settings, const Skips& skips,
+    const std::function<void(std::vector<HorizonTile>&)>& fill) {
+  const Key key{eye, number, settings.columns, settings.slack, settings.raised};
+  if (key_ == key) {
+    if (skips.sameHorizon) return horizon_.hidden();
+  } else if (skips.littleHidden && hidLittleNear(key)) {
+    ++leftOut_;
+    return {};
+  }
+  tiles_.clear();
+  fill(tiles_);
+  horizon_.build(eye, tiles_, settings);
+  ++built_;
+  key_ = key;
+  return horizon_.hidden();
+}
+
+}  // namespace trimtab::scene

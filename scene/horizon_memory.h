@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "trimtab/culling/horizon.h"
+#include "trimtab/scene/renderer.h"
+
+namespace trimtab::scene {
+
+/// A horizon, kept while what it depends on stays as it is.
+class HorizonMemory {
+ public:
+  struct CutNumber {
+    std::uint64_t cut = 0;   ///< another one for another cut
+    std::uint64_t rule = 0;  ///< another one where not only the eye differs that it was made for
+    friend bool operator==(const CutNumber&, const CutNumber&) = default;
+  };
+  /// Forgets it.
+  void clear() { key_.reset(); }
+  /// Which tiles are proven hidden from an eye, in the order in which `fill` gives them; it is called when
+  /// the horizon must be built. Empty where nothing is: also, where `skips.littleHidden`, while the eye has
+  /// moved little since next to nothing was, by the same rule for the levels.
+  std::span<const std::uint8_t> hidden(Vec3 eye, const CutNumber& number, const Horizon::Settings& settings,
+                                       const Skips& skips,
+                                       const std::function<void(std::vector<HorizonTile>&)>& fill);
+  /// The view as the last horizon sees it: what it covers grey, what stays open white. Row 0 at the bottom.
+  Renderer::Grey picture(const EyePose& eye, const ViewShape& view, int widthPx, int heightPx) const;
+
+  const Horizon& horizon() const { return horizon_; }
+  std::uint64_t built() const { return built_; }  ///< horizons, since the start
+  /// Calls since the start that skips.littleHidden spared.
+  std::uint64_t leftOut() const { return leftOut_; }
+
+  /// Columns of a quarter of the circle for a depth map of this width.
+  static int columnsFor(int depthMapWidthPx);
+  /// How far rasterising may shift a direction, radians, where vertices keep so many bits of a pixel.
+  static double slackOf(const ViewShape& view, int subpixelBits);
+
+ private:
+  struct Key {
+    Vec3 eye;
+    CutNumber cut;
+    int columns = 0;
+    double slack = 0;
+    bool raised = false;
+    friend bool operator==(const Key&, const Key&) = default;
+  };
+  bool hidLittleNear(const Key& key) const;
+
+  std::vector<HorizonTile> tiles_;
+  Horizon horizon_;
+  std::optional<Key> key_;
+  std::uint64_t built_ = 0, leftOut_ = 0;
+};
+
+}  // namespace trimtab::scene
