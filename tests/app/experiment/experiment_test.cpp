@@ -53,17 +53,20 @@ TEST_F(Experiment, cullingDrawsEveryPictureAsWithoutItAndFewerTriangles) {
   const auto report = runCulling(setup());
   ASSERT_TRUE(report) << toString(report.findings());
   const Table& rows = report->measured;
-  ASSERT_EQ(rows.rows.size(), 12u);
-  for (std::size_t row = 0; row < 12; ++row) {
+  ASSERT_EQ(rows.rows.size(), 16u);
+  for (std::size_t row = 0; row < 16; ++row) {
     EXPECT_EQ(rows.number(row, "differing_pixels"), 0) << row;
     EXPECT_GT(rows.number(row, "frame_ms"), 0);
     EXPECT_NEAR(rows.number(row, "fps") * rows.number(row, "frame_ms"), 1000, 1e-6);
   }
   for (std::size_t altitude = 0; altitude < 4; ++altitude) {
     const double none = rows.number(altitude, "triangles"), frustum = rows.number(altitude + 4, "triangles"),
-                 proposed = rows.number(altitude + 8, "triangles");
+                 proposed = rows.number(altitude + 8, "triangles"),
+                 ours = rows.number(altitude + 12, "triangles");
+    EXPECT_EQ(rows.text(altitude + 12, "case"), "ours");
     EXPECT_LT(frustum, none);
     EXPECT_LE(proposed, frustum);
+    EXPECT_LE(ours, frustum);
     EXPECT_NEAR(rows.number(altitude + 4, "triangles_ratio"), frustum / none, 1e-4) << "means are rounded";
   }
 }
