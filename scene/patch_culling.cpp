@@ -59,6 +59,7 @@ struct PatchCulling::Impl {
   std::vector<std::uint32_t> roots;
   std::uint64_t heldNumber = 0, dropped = 0;  ///< changes of what is held; pages given up
   std::optional<CutKey> key;
+  HorizonMemory::CutNumber number;
   PatchCut later;  ///< where the eye will be
   std::optional<Vec3> laterEye;
   std::vector<PageWant> laterWants, lacking;
@@ -77,6 +78,7 @@ struct PatchCulling::Impl {
   std::optional<Vec3> eyeAhead(const FrameRequest& request, Vec3 eye) const;
   bool lookAhead(const FrameRequest& request, const CutKey& wanted);
   void choose(const FrameRequest& request, const EyePose& eye, PatchCut& cut, FrameResult& counters);
+  void select(const CutKey& wanted, PatchCut& cut);
   void ask();
 };
 
@@ -125,12 +127,12 @@ void PatchCulling::Impl::makeRoom(std::uint64_t coming, PatchLayer& layer) {
 }
 
 void PatchCulling::Impl::takeIn(std::shared_ptr<const terrain::PatchPage> page, PatchLayer& layer) {
-  const std::uint32_t number = page->page;
-  if (pages.holds(number)) return;
-  makeRoom(pages.bytesOf(number), layer);
+  const std::uint32_t at = page->page;
+  if (pages.holds(at)) return;
+  makeRoom(pages.bytesOf(at), layer);
   layer.add(*page);
-  pages.hold(number);
-  meshes[number] = std::move(page);
+  pages.hold(at);
+  meshes[at] = std::move(page);
   ++heldNumber;
 }
 
@@ -202,20 +204,27 @@ void PatchCulling::Impl::choose(const FrameRequest& request, const EyePose& eye,
                       std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom)),
                       static_cast<std::uint64_t>(std::max(megabytes, 0.0) * 1e6),
                       heldNumber};
-  const bool later_ = lookAhead(request, wanted);
-  if (key == wanted && request.skips.sameCut && !later_) return;
-  const auto select = [&](std::span<const std::uint8_t> drawable) {
-    selectPatches(terrain->index(), drawable, wanted.eye, wanted.maxErrorPx, wanted.lodScale,
-                  wanted.pixelsPerRadian, cut);
-  };
-  select(pages.drawable());
-  const bool wasShort = pages.isShort();
-  pages.aim(cut.wants, laterWants, wanted.budget);
-  // What may be drawn follows from what is wanted, and what is wanted from the eye alone.
-  if (wasShort || pages.isShort()) select(pages.drawable());
-  ask();
+  const bool newCut = key != wanted, newAim = lookAhead(request, wanted);
+  if (newCut || !request.skips.sameCut) {
+    select(wanted, cut);
+    ++counters.cutsSelected;
+  }
+  if (newCut || newAim) {
+    const bool wasShort = pages.isShort();
+    pages.aim(cut.wants, laterWants, wanted.budget);
+    // What may be drawn follows from what is wanted, and what is wanted from the eye alone.
+    if (wasShort || pages.isShort()) select(wanted, cut);
+    ask();
+  }
+  number.cut += newCut;
+  if (key) key->eye = wanted.eye;
+  number.rule += key != wanted;
   key = wanted;
-  ++counters.cutsSelected;
+}
+
+void PatchCulling::Impl::select(const CutKey& wanted, PatchCut& cut) {
+  selectPatches(terrain->index(), pages.drawable(), wanted.eye, wanted.maxErrorPx, wanted.lodScale,
+                wanted.pixelsPerRadian, cut);
 }
 
 void PatchCulling::Impl::ask() {
@@ -282,6 +291,10 @@ const terrain::PatchMesh* PatchCulling::meshOf(std::uint32_t patch) const {
 const PatchIndex& PatchCulling::index() const {
   static const PatchIndex none;
   return impl_->terrain ? impl_->terrain->index() : none;
+}
+
+const HorizonMemory::CutNumber& PatchCulling::cutNumber() const {
+  return impl_->number;
 }
 
 Findings PatchCulling::failures() const {

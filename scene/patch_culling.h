@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "trimtab/culling/select_patches.h"
+#include "trimtab/scene/horizon_memory.h"
 #include "trimtab/scene/renderer.h"
 #include "trimtab/terrain/pager.h"
 
@@ -36,6 +37,7 @@ class PatchCulling {
 
   const PatchIndex& index() const;
   const LevelCut& cut() const { return cut_.cut; }
+  const HorizonMemory::CutNumber& cutNumber() const;
   const VisibleSet& visible() const { return visible_; }
   /// Null where its page is not there; good until the next `page`.
   const terrain::PatchMesh* meshOf(std::uint32_t patch) const;

@@ -64,6 +64,7 @@ class ThreadedPager final : public Pager {
         if (count > 0 && bytes + a.bytes > mostBytes) break;
         bytes += a.bytes;
         forget(a);
+        pages_[a.page->page].wanted = 0;
         taken.push_back(std::move(a.page));
       }
       arrived_.erase(arrived_.begin(), arrived_.begin() + static_cast<std::ptrdiff_t>(count));
@@ -89,8 +90,8 @@ class ThreadedPager final : public Pager {
     const std::lock_guard lock(mutex_);
     Counters counters = counters_;
     for (const PageWant& want : wanted_) {
-      const State state = pages_[want.page].state;
-      counters.waiting += state == State::idle || state == State::reading;
+      const Page& page = pages_[want.page];
+      counters.waiting += page.wanted == wantNumber_ && page.state != State::failed;
     }
     return counters;
   }
@@ -109,7 +110,7 @@ class ThreadedPager final : public Pager {
   enum class State : std::uint8_t { idle, reading, arrived, failed };
   struct Page {
     State state = State::idle;
-    std::uint32_t wanted = 0;  ///< number of the last call of `want` that named it
+    std::uint32_t wanted = 0;  ///< number of the last call of `want` that named it; 0 once it was taken
   };
   struct Arrived {
     std::shared_ptr<const PatchPage> page;
@@ -129,10 +130,9 @@ class ThreadedPager final : public Pager {
   std::optional<std::uint32_t> nextPage() {
     if (const auto page = nextUrgent()) return page;
     if (aheadBytes_ >= kMostAhead) return {};
-    // What is taken becomes idle again, but who takes a page does not want it in the same breath.
     while (next_ < wanted_.size()) {
       const std::uint32_t page = wanted_[next_++].page;
-      if (pages_[page].state == State::idle) return page;
+      if (pages_[page].state == State::idle && pages_[page].wanted == wantNumber_) return page;
     }
     return {};
   }

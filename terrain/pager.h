@@ -27,7 +27,7 @@ class Pager {
 
   struct Counters {
     std::uint64_t pagesRead = 0, bytesRead = 0, failed = 0;
-    std::size_t waiting = 0;
+    std::size_t waiting = 0;  ///< wanted, not taken yet, and not failed
     double longestReadMs = 0;
   };
   virtual Counters counters() const = 0;
