@@ -1,70 +1,29 @@
-#include <fcntl.h>
-#include <stdio.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <atomic>
-#include <cerrno>
-#include <cstring>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
 
+#include "trimtab/terrain/bake_heights.h"
+#include "trimtab/terrain/bake_patches.h"
+#include "trimtab/terrain/bake_work.h"
 #include "trimtab/terrain/database.h"
+#include "trimtab/terrain/elevation_source.h"
+#include "trimtab/terrain/ground_build.h"
 #include "trimtab/terrain/import.h"
+#include "trimtab/terrain/patch_build.h"
 #include "trimtab/terrain/scenery.h"
 #include "trimtab/terrain/scenery_import.h"
+#include "trimtab/terrain/scenery_lines.h"
 #include "trimtab/terrain/static_lod.h"
 #include "trimtab/terrain/static_lod_sea.h"
 #include "trimtab/terrain/store.h"
-#include "trimtab/terrain/tiled_database.h"
 
 namespace trimtab::terrain {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder beside the output that is gone again unless it takes the output's place.
-class UnfinishedFolder {
- public:
-  explicit UnfinishedFolder(const fs::path& output) : output_(output) {
-    static std::atomic<unsigned> count{0};
-    path_ = output.parent_path() / ("." + output.filename().string() + ".part-" + std::to_string(::getpid()) +
-                                    "-" + std::to_string(count++));
-  }
-  ~UnfinishedFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  UnfinishedFolder(const UnfinishedFolder&) = delete;
-  UnfinishedFolder& operator=(const UnfinishedFolder&) = delete;
-
-  const fs::path& path() const { return path_; }
-
-  std::error_code create() const {
-    std::error_code error;
-    if (!path_.parent_path().empty()) fs::create_directories(path_.parent_path(), error);
-    fs::remove_all(path_, error);
-    fs::create_directory(path_, error);
-    return error;
-  }
-  /// The old database, where there is one, changes places with the new one and goes with this folder.
-  std::error_code finish() const {
-    std::error_code error;
-    if (!fs::exists(output_, error)) {
-      fs::rename(path_, output_, error);
-      return error;
-    }
-    if (::renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, output_.c_str(), RENAME_EXCHANGE) == 0) return {};
-    const fs::path old = path_.string() + ".old";
-    fs::rename(output_, old, error);
-    if (!error) fs::rename(path_, output_, error);
-    std::error_code ignored;
-    fs::remove_all(old, ignored);
-    return error;
-  }
-
- private:
-  fs::path output_, path_;
-};
+using Json = nlohmann::ordered_json;
 
 Finding refused(const fs::path& where, std::string expected, std::string found) {
   return {Severity::error, where.string(), "", std::move(expected), std::move(found)};
@@ -90,7 +49,8 @@ std::string nameOf(const fs::path& path) {
 
 /// What the sources hold, by either import.
 struct Source {
-  HeightGrid grid;
+  std::unique_ptr<ElevationSource> elevation;
+  HeightGrid grid;  ///< of scenery; else only as large as need be
   std::uint64_t voidsFilled = 0;
   std::optional<SceneryCounts> scenery;
   std::vector<SceneryMesh> meshes;
@@ -106,21 +66,330 @@ void drape(std::vector<std::uint8_t> image, std::vector<std::uint8_t>& under) {
     if (image[i + 3] != 0) std::copy_n(&image[i], 4, &under[i]);
 }
 
-Result<Source> readSource(const BakeOptions& options, const Progress& progress) {
+Result<std::unique_ptr<Source>> readSource(const BakeOptions& options, const Progress& progress) {
+  auto source = std::make_unique<Source>();
   const auto scenery = std::count_if(options.sources.begin(), options.sources.end(), isScenery);
   if (scenery == 0) {
-    auto imported = importElevation(options.sources, progress);
-    if (!imported) return imported.findings();
-    return {Source{std::move((*imported).grid), imported->voidsFilled, {}, {}}, imported.findings()};
+    ElevationOptions elevation;
+    elevation.progress = progress;
+    auto opened = openElevation(options.sources, elevation);
+    if (!opened) return opened.findings();
+    const Findings findings = opened.findings();
+    source->elevation = std::move(opened).value();
+    return Result<std::unique_ptr<Source>>(std::move(source), findings);
   }
   if (scenery != static_cast<std::ptrdiff_t>(options.sources.size()))
     return refused("bake", "elevation or scenery", "both");
   auto imported = importScenery(options.sources, options.post, progress);
   if (!imported) return imported.findings();
-  return {Source{std::move((*imported).grid), imported->voidsFilled, std::move((*imported).counts),
-                 std::move((*imported).meshes)},
-          imported.findings()};
+  source->grid = std::move((*imported).grid);
+  source->voidsFilled = imported->voidsFilled;
+  source->scenery = std::move((*imported).counts);
+  source->meshes = std::move((*imported).meshes);
+  source->elevation = sourceOf(source->grid);
+  return Result<std::unique_ptr<Source>>(std::move(source), imported.findings());
 }
+
+Result<std::vector<fs::path>> sourceFiles(const std::vector<fs::path>& sources) {
+  std::vector<fs::path> all;
+  Findings findings;
+  for (const fs::path& source : sources) {
+    const auto files = isScenery(source) ? sceneryFiles(source) : elevationFiles(std::span(&source, 1));
+    findings.insert(findings.end(), files.findings().begin(), files.findings().end());
+    if (files) all.insert(all.end(), files->begin(), files->end());
+  }
+  if (std::any_of(findings.begin(), findings.end(),
+                  [](const Finding& f) { return f.severity == Severity::error; }))
+    return findings;
+  return all;
+}
+
+/// A file as it is now: another size or time makes another recipe.
+std::string stampOf(const fs::path& file) {
+  std::error_code error;
+  const fs::path whole = fs::weakly_canonical(file, error);
+  return whole.string() + ' ' + std::to_string(fs::file_size(file, error)) + ' ' +
+         std::to_string(fs::last_write_time(file, error).time_since_epoch().count());
+}
+
+/// What a database is made from: of the options, those that change a byte of it.
+Json recipeOf(const BakeOptions& options, const std::vector<fs::path>& files) {
+  Json recipe = {{"files", Json::array()}};
+  for (const fs::path& file : files) {
+    std::error_code error;
+    recipe["files"].push_back({{"name", file.filename().string()}, {"bytes", fs::file_size(file, error)}});
+  }
+  if (options.imagery) recipe["imagery"] = options.imagery->filename().string();
+  recipe["max_error_m"] = options.maxError ? Json(options.maxError->value()) : Json();
+  recipe["post_m"] = options.post ? Json(options.post->value()) : Json();
+  recipe["triangles_per_node"] = options.trianglesPerNode;
+  return recipe;
+}
+
+std::string dump(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+/// Bakes from the options to one of three ends: a database, a part of the work, a database of parts.
+class Job {
+ public:
+  explicit Job(const BakeOptions& options)
+      : options_(options),
+        output_(options.output.has_filename() ? options.output : options.output.parent_path()),
+        memory_(static_cast<std::size_t>(std::max(64.0, options.memory.value()) * 1e6)) {}
+
+  Result<std::shared_ptr<const Database>> whole(bool join) {
+    if (auto begun = begin(false); !begun) return begun.findings();
+    if (join) {
+      if (auto there = allThere(); !there) return there.findings();
+    } else {
+      if (auto made = makePart(0, 1); !made) return made.findings();
+    }
+    if (auto made = finish(join); !made) return made.findings();
+    auto database = Database::open(output_);
+    if (!database) return database;
+    return Result<std::shared_ptr<const Database>>(*database, findings_);
+  }
+
+  Result<Done> part(std::uint32_t part, std::uint32_t parts) {
+    if (part < 1 || part > parts)
+      return refused("bake", "a part from 1 to " + std::to_string(parts), std::to_string(part));
+    if (auto begun = begin(true); !begun) return begun.findings();
+    if (auto made = makePart(part - 1, parts); !made) return made.findings();
+    return Result<Done>(Done{}, findings_);
+  }
+
+ private:
+  /// Scenery's trees take three quarters of the time, where there are any.
+  Progress stage(double from, double to) const {
+    return [this, from, to](double fraction, const std::string& what) {
+      return !options_.progress ||
+             options_.progress(from + (to - from) * std::clamp(fraction, 0.0, 1.0), what);
+    };
+  }
+  void keep(const Findings& findings) { findings_.insert(findings_.end(), findings.begin(), findings.end()); }
+
+  /// Everything up to the heights in their file.
+  Result<Done> begin(bool shared) {
+    if (options_.sources.empty()) return refused("bake", "at least one elevation file", "none");
+    if (output_.empty()) return refused("bake", "an output folder", "none");
+    if (!mayReplace(output_))
+      return refused(output_, "a new folder, an empty one or a terrain database",
+                     "something else, left as it is");
+    const auto files = sourceFiles(options_.sources);
+    if (!files) return files.findings();
+    recipe_ = recipeOf(options_, *files);
+    Json stamped = recipe_;
+    stamped["format"] = kFormatVersion;
+    stamped["stamps"] = Json::array();
+    for (const fs::path& file : *files) stamped["stamps"].push_back(stampOf(file));
+    if (options_.imagery) stamped["stamps"].push_back(stampOf(*options_.imagery));
+    auto work = WorkFolder::open(output_, dump(stamped), shared);
+    if (!work) return work.findings();
+    work_ = std::move(work).value();
+    if (work_->resumed() && !work_->journal().empty())
+      findings_.push_back({Severity::note, output_.string(), "", "", "goes on from an interrupted bake"});
+
+    scenery_ = std::any_of(options_.sources.begin(), options_.sources.end(), isScenery);
+    auto source = readSource(options_, stage(0, scenery_ ? 0.1 : 0.2));
+    if (!source) return source.findings();
+    keep(source.findings());
+    source_ = std::move(source).value();
+    // One process makes the heights; other parts wait for them.
+    std::unique_ptr<FileLock> turn;
+    while (!(turn = FileLock::tryLock(work_->path() / "heights.lock", false))) {
+      if (!stage(0.1, 0.2)(0, "waiting for the part that reads the heights")) return cancelled("waiting");
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    auto heights =
+        bakeHeights(*work_, *source_->elevation, memory_, stage(scenery_ ? 0.1 : 0.2, scenery_ ? 0.15 : 0.3));
+    if (!heights) return heights.findings();
+    heights_ = *heights;
+    if (heights_.outside > 0)
+      findings_.push_back({Severity::note, files->front().string(), "outline",
+                           "elevation over the whole rectangle of the terrain",
+                           std::to_string(heights_.outside) + " posts beyond it, continued from its edge"});
+    if (!scenery_) source_->grid = {};
+    auto opened = FileHeights::open(*work_, heights_);
+    if (!opened) return opened.findings();
+    file_ = std::move(opened).value();
+    geometry_ = std::make_unique<PostGeometry>(heights_.posts);
+    const double leafM =
+        options_.maxError ? options_.maxError->value() : defaultLeafToleranceM(heights_.posts);
+    patches_ = std::make_unique<PatchBake>(*work_, heights_.posts, *geometry_, leafM);
+    return Done{};
+  }
+
+  fs::path groundPart(std::uint32_t part, std::uint32_t parts) const {
+    return work_->pieces() /
+           ("ground-" + std::to_string(part + 1) + "-of-" + std::to_string(parts) + ".pages");
+  }
+
+  Result<Done> makePart(std::uint32_t part, std::uint32_t parts) {
+    if (auto made =
+            patches_->make(*file_, part, parts, memory_, stage(scenery_ ? 0.15 : 0.3, scenery_ ? 0.2 : 0.7));
+        !made)
+      return made;
+    if (file_->failed()) return refused(work_->database() / kHeightsName, "rows that can be read", "others");
+    if (const fs::path file = groundPart(part, parts); !PageFile::open(file)) {
+      GroundSources sources;
+      sources.heights = file_.get();
+      sources.geometry = geometry_.get();
+      if (options_.imagery) sources.images = {*options_.imagery};
+      const auto triangles =
+          groundTriangles(source_->meshes, heights_.posts.longitude((heights_.posts.columns - 1) / 2.0));
+      sources.triangles = triangles;
+      const Progress progress = stage(scenery_ ? 0.2 : 0.7, scenery_ ? 0.25 : 0.9);
+      if (auto made = buildGroundPart(sources, part, parts, file, progress); !made) return made;
+    }
+    return Done{};
+  }
+
+  /// How many shares the ground was made in: all of one number must be there.
+  std::uint32_t groundParts() const {
+    for (std::uint32_t parts = 1; parts <= 4096; ++parts) {
+      std::uint32_t there = 0;
+      std::error_code error;
+      while (there < parts && fs::exists(groundPart(there, parts), error)) ++there;
+      if (there == parts) return parts;
+    }
+    return 0;
+  }
+
+  Result<Done> allThere() {
+    const auto there = patches_->finished();
+    const auto missing = std::count(there.begin(), there.end(), std::uint8_t{0});
+    if (missing > 0)
+      return refused(work_->path(), "all " + std::to_string(there.size()) + " pieces of the parts",
+                     std::to_string(missing) + " missing: let every part end, then join");
+    if (groundParts() == 0)
+      return refused(work_->path(), "the ground of all parts of one number of parts", "not all of them");
+    return Done{};
+  }
+
+  /// Nodes, slopes and colours of tiles, where the grid has them.
+  Result<Done> makeTiles() {
+    const PostGrid& posts = heights_.posts;
+    if (posts.size() > kMostTiledPosts) return Done{};
+    const auto mapped = MappedFile::open(work_->database() / kHeightsName);
+    if (!mapped) return mapped.findings();
+    TerrainIndex index = makeLevels(posts);
+    CellSlopes slopes(index);
+    const Progress measuring = stage(0.9, 0.96);
+    const std::span heights(reinterpret_cast<const float*>((*mapped)->bytes().data()), posts.size());
+    if (!measureLevels(posts, heights, *geometry_, index, slopes,
+                       [&](double f) { return measuring(f, "measuring levels"); }))
+      return cancelled("measuring levels");
+    if (auto done = put(kNodesName, nodeNumbers(index)); !done) return done;
+    if (auto done = put(kSlopesName, slopes.cells); !done) return done;
+    std::vector<std::uint8_t> image = std::move(source_->grid.image);
+    if (options_.imagery) {
+      auto read = readImagery(*options_.imagery, posts, stage(0.96, 0.98));
+      if (!read) return read.findings();
+      keep(read.findings());
+      drape(std::move(read).value(), image);
+    }
+    if (image.empty()) return Done{};
+    hasImage_ = true;
+    CheckedRows::Sums rows(std::size_t{posts.columns} * 4);
+    rows.add(std::as_bytes(std::span(image)));
+    const auto file =
+        writeFile(work_->database(), kImageName, {reinterpret_cast<const char*>(image.data()), image.size()});
+    if (!file) return file.findings();
+    if (auto done = put(kImageSumsName, rows.finish()); !done) return done;
+    files_.push_back({kImageName, image.size(), files_.back().sum});
+    return Done{};
+  }
+
+  template <class T>
+  Result<Done> put(const char* name, const std::vector<T>& values) {
+    const auto file = writeFile(work_->database(), name,
+                                {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+    if (!file) return file.findings();
+    files_.push_back(*file);
+    return Done{};
+  }
+  Result<Done> putPages(const char* name) {
+    const auto pages = PageFile::open(work_->database() / name);
+    if (!pages) return pages.findings();
+    files_.push_back({name, (*pages)->bytes(), (*pages)->checksum()});
+    return Done{};
+  }
+
+  Result<Done> makeTrees() {
+    if (source_->meshes.empty()) return Done{};
+    StaticLodOptions trees;
+    trees.trianglesPerNode = options_.trianglesPerNode;
+    trees.progress = stage(0.25, 0.9);
+    auto built = buildStaticLod(source_->meshes, geometry_->frame(), trees);
+    if (!built) return built.findings();
+    keep(built.findings());
+    const auto withSea = withOpenSea(*built, source_->meshes, source_->grid);
+    trianglesPerNode_ = withSea->trianglesPerNode;
+    const fs::path file = work_->database() / kStaticLodName;
+    if (auto written = writeStaticLod(file, *withSea); !written) return written.findings();
+    std::error_code error;
+    files_.push_back({kStaticLodName, fs::file_size(file, error), {}});
+    return Done{};
+  }
+
+  Result<Done> finish(bool join) {
+    std::error_code error;
+    // What an interrupted end left.
+    for (const auto& entry : fs::directory_iterator(work_->database(), error)) {
+      const std::string name = entry.path().filename().string();
+      if (name != kHeightsName && name != kHeightSumsName) fs::remove_all(entry.path(), error);
+    }
+    if (auto done = patches_->join(work_->database() / kPatchesName, stage(0.9, 0.9)); !done) return done;
+    std::vector<fs::path> grounds;
+    const std::uint32_t parts = join ? groundParts() : 1;
+    for (std::uint32_t part = 0; part < parts; ++part) grounds.push_back(groundPart(part, parts));
+    if (auto done = joinGround(grounds, work_->database() / kGroundName, stage(0.9, 0.9)); !done) return done;
+    for (const char* name : {kPatchesName, kGroundName})
+      if (auto done = putPages(name); !done) return done;
+    const std::uint64_t bytes = std::uint64_t{heights_.posts.size()} * sizeof(float);
+    files_.push_back({kHeightsName, bytes, heights_.sum});
+    const auto sums = fs::file_size(work_->database() / kHeightSumsName, error);
+    files_.push_back({kHeightSumsName, sums, heights_.sum});
+    if (auto done = makeTrees(); !done) return done;
+    if (auto done = makeTiles(); !done) return done;
+
+    TerrainInfo info;
+    info.name = nameOf(options_.sources.front());
+    if (options_.sources.size() > 1)
+      info.name += " and " + std::to_string(options_.sources.size() - 1) + " more";
+    info.source = joinedNames(options_.sources);
+    if (options_.imagery) info.source += ", " + options_.imagery->string();
+    info.lowest = Metres{heights_.lowest};
+    info.highest = Metres{heights_.highest};
+    info.voidsFilled = heights_.voids + source_->voidsFilled;
+    info.scenery = source_->scenery;
+    info.hasImage = hasImage_ || options_.imagery;
+    std::sort(files_.begin(), files_.end(),
+              [](const FileEntry& a, const FileEntry& b) { return a.name < b.name; });
+    if (auto written =
+            writeManifest(work_->database(), info, heights_.posts, files_, trianglesPerNode_, recipe_.dump());
+        !written)
+      return written;
+    if (!stage(0.99, 1)(1, "writing")) return cancelled(output_.string());
+    return work_->finish(output_);
+  }
+
+  const BakeOptions& options_;
+  fs::path output_;
+  std::size_t memory_;
+  Findings findings_;
+  Json recipe_;
+  std::unique_ptr<WorkFolder> work_;
+  bool scenery_ = false, hasImage_ = false;
+  std::unique_ptr<Source> source_;
+  BakedHeights heights_;
+  std::unique_ptr<FileHeights> file_;
+  std::unique_ptr<PostGeometry> geometry_;
+  std::unique_ptr<PatchBake> patches_;
+  std::vector<FileEntry> files_;
+  std::optional<std::uint32_t> trianglesPerNode_;
+};
 
 }  // namespace
 
@@ -130,74 +399,13 @@ bool isDatabase(const fs::path& folder) {
 }
 
 Result<std::shared_ptr<const Database>> bake(const BakeOptions& options) {
-  if (options.sources.empty()) return refused("bake", "at least one elevation file", "none");
-  const fs::path output = options.output.has_filename() ? options.output : options.output.parent_path();
-  if (output.empty()) return refused("bake", "an output folder", "none");
-  if (!mayReplace(output))
-    return refused(output, "a new folder, an empty one or a terrain database",
-                   "something else, left as it is");
-  // What is not scenery is done at 1; its trees take three quarters of the time.
-  double share = std::any_of(options.sources.begin(), options.sources.end(), isScenery) ? 0.25 : 1;
-  const auto stage = [&](double from, double to) -> Progress {
-    return [&options, from = from * share, to = to * share](double fraction, const std::string& what) {
-      return !options.progress || options.progress(from + (to - from) * fraction, what);
-    };
-  };
-
-  auto imported = readSource(options, stage(0, 0.35));
-  if (!imported) return imported.findings();
-  Findings findings = imported.findings();
-  HeightGrid& grid = (*imported).grid;
-  if (options.imagery) {
-    auto image = readImagery(*options.imagery, grid.posts, stage(0.35, 0.5));
-    findings.insert(findings.end(), image.findings().begin(), image.findings().end());
-    if (!image) return findings;
-    drape(std::move(image).value(), grid.image);
-  }
-
-  TerrainIndex index = makeLevels(grid.posts);
-  CellSlopes slopes(index);
-  const PostGeometry geometry(grid.posts);
-  const Progress measuring = stage(0.5, 0.9);
-  if (!measureLevels(grid.posts, grid.heights, geometry, index, slopes,
-                     [&](double f) { return measuring(f, "measuring levels"); }))
-    return cancelled("measuring levels");
-
-  const auto [lowest, highest] = std::minmax_element(grid.heights.begin(), grid.heights.end());
-  TerrainInfo info;
-  info.name = nameOf(options.sources.front());
-  if (options.sources.size() > 1) info.name += " and " + std::to_string(options.sources.size() - 1) + " more";
-  info.source = joinedNames(options.sources);
-  if (options.imagery) info.source += ", " + options.imagery->string();
-  info.lowest = Metres{*lowest};
-  info.highest = Metres{*highest};
-  info.voidsFilled = imported->voidsFilled;
-  info.scenery = imported->scenery;
-  Contents contents{info, std::move(grid), std::move(index), std::move(slopes), {}};
-  if (!imported->meshes.empty()) {
-    StaticLodOptions trees;
-    trees.trianglesPerNode = options.trianglesPerNode;
-    trees.progress = [&](double fraction, const std::string& what) {
-      return !options.progress || options.progress(0.225 + 0.75 * fraction, what);
-    };
-    auto built = buildStaticLod(imported->meshes, geometry.frame(), trees);
-    findings.insert(findings.end(), built.findings().begin(), built.findings().end());
-    if (!built) return findings;
-    contents.staticLod = withOpenSea(*built, imported->meshes, contents.grid);
-    share = 1;
-    (*imported).meshes.clear();
-  }
-
-  const UnfinishedFolder unfinished(output);
-  if (const auto error = unfinished.create())
-    return refused(unfinished.path(), "a folder that can be written", error.message());
-  if (auto written = writeContents(unfinished.path(), contents); !written) return written.findings();
-  if (!stage(0.9, 1)(1, "writing")) return cancelled(output.string());
-  std::error_code error;
-  for (const auto& file : fs::directory_iterator(unfinished.path(), error))
-    contents.info.bytes += fs::file_size(file, error);
-  if ((error = unfinished.finish())) return refused(output, "a place to put the database", error.message());
-  return Result<std::shared_ptr<const Database>>(makeDatabase(std::move(contents)), std::move(findings));
+  return Job(options).whole(false);
+}
+Result<std::shared_ptr<const Database>> bakeJoin(const BakeOptions& options) {
+  return Job(options).whole(true);
+}
+Result<Done> bakePart(const BakeOptions& options, std::uint32_t part, std::uint32_t parts) {
+  return Job(options).part(part, parts);
 }
 
 Result<std::shared_ptr<const Database>> openOrBake(const fs::path& source, const fs::path& cacheFolder,

@@ -60,7 +60,8 @@ class PatchTerrain;
 class Database {
  public:
   virtual ~Database() = default;
-  /// Opens and checks a folder. Findings name file, place, expected and found; nothing half-open is returned.
+  /// Opens a folder; nothing is read in proportion to the posts. Findings name file, place, expected and found;
+  /// nothing half-open is returned.
   static Result<std::shared_ptr<const Database>> open(const std::filesystem::path& folder);
 
   virtual const TerrainInfo& info() const = 0;
@@ -77,6 +78,11 @@ class Database {
   virtual std::shared_ptr<const GroundPyramid> ground() const { return nullptr; }
   /// Highest post within a distance, or none when no post is that near.
   virtual std::optional<Metres> highestWithin(Degrees latitude, Degrees longitude, Metres radius) const = 0;
+  /// Large files are checked where they are first touched: what was found to be damaged. There, no height is
+  /// told and the lowest is drawn.
+  virtual Findings damage() const { return {}; }
+  /// Reads all of it, and what is wrong with it.
+  virtual Findings checkAll() const { return {}; }
 };
 
 /// Whether a folder is a database, by its name for the manifest alone.
@@ -96,9 +102,16 @@ struct BakeOptions {
   std::filesystem::path output;
   Progress progress;
 };
-/// Elevation, or scenery with its trees of static levels of detail, to a database: written to a temporary
-/// folder beside `output` and renamed when complete.
+/// Elevation, or scenery with its trees of static levels of detail, to a database: written to a folder beside
+/// `output` (".NAME.work") that takes its name when complete. Interrupted, that folder stays, and the same
+/// options go on from it to the same bytes; other sources or options begin anew. One at a time: findings say
+/// so.
 Result<std::shared_ptr<const Database>> bake(const BakeOptions& options);
+/// One of `parts` shares of the same work (part from 1), for several processes, or machines that share the
+/// output's folder: they may work at once. Memory, progress and number of parts may differ.
+Result<Done> bakePart(const BakeOptions& options, std::uint32_t part, std::uint32_t parts);
+/// Makes the database of what the parts made, if it is all there.
+Result<std::shared_ptr<const Database>> bakeJoin(const BakeOptions& options);
 
 struct SampleOptions {
   std::uint32_t seed = 1;

@@ -19,8 +19,7 @@ constexpr double kRadian = std::numbers::pi / 180;
 
 class TiledDatabase final : public Database {
  public:
-  explicit TiledDatabase(Contents contents)
-      : contents_(std::move(contents)), geometry_(contents_.grid.posts) {
+  explicit TiledDatabase(Contents contents) : contents_(std::move(contents)), geometry_(contents_.posts) {
     contents_.index.frame = geometry_.frame();
   }
 
@@ -30,10 +29,16 @@ class TiledDatabase final : public Database {
   std::optional<Metres> heightAt(Degrees latitude, Degrees longitude) const override;
   std::optional<Metres> highestWithin(Degrees latitude, Degrees longitude, Metres radius) const override;
   std::shared_ptr<const StaticLodTerrain> staticLod() const override { return contents_.staticLod; }
+  std::shared_ptr<const PatchTerrain> patches() const override { return contents_.patches; }
+  std::shared_ptr<const GroundPyramid> ground() const override { return contents_.ground; }
+  Findings damage() const override;
+  Findings checkAll() const override;
 
  private:
+  /// The lowest of all where the file is damaged.
   double height(std::uint32_t row, std::uint32_t column) const {
-    return contents_.grid.heights[std::size_t{row} * contents_.grid.posts.columns + column];
+    const auto* heights = reinterpret_cast<const float*>(contents_.heights->row(row));
+    return heights ? double{heights[column]} : contents_.info.lowest.value();
   }
   /// Rise towards east and north a metre at a post, from the eight posts around it.
   std::array<double, 2> gradient(std::uint32_t row, std::uint32_t column) const;
@@ -46,7 +51,7 @@ class TiledDatabase final : public Database {
 };
 
 std::array<double, 2> TiledDatabase::gradient(std::uint32_t row, std::uint32_t column) const {
-  const PostGrid& posts = contents_.grid.posts;
+  const PostGrid& posts = contents_.posts;
   const std::uint32_t s = row == 0 ? 0 : row - 1, n = std::min(row + 1, posts.rows - 1);
   const std::uint32_t w = column == 0 ? 0 : column - 1, e = std::min(column + 1, posts.columns - 1);
   const double eastward =
@@ -99,8 +104,7 @@ void TiledDatabase::vertexSlopes(const TilePosts& tile,
 }
 
 void TiledDatabase::buildTile(std::uint32_t node, TileMesh& mesh) const {
-  const PostGrid& posts = contents_.grid.posts;
-  const std::vector<std::uint8_t>& image = contents_.grid.image;
+  const PostGrid& posts = contents_.posts;
   const TilePosts tile(contents_.index, posts, node);
   const Box& box = contents_.index.bounds[node];
   const auto middle = [](float low, float high) {
@@ -138,9 +142,11 @@ void TiledDatabase::buildTile(std::uint32_t node, TileMesh& mesh) const {
       v.normal[1] = byte(n.y);
       v.normal[2] = byte(n.z);
       v.slope = slopes[at];
-      const std::size_t post = (std::size_t{row} * posts.columns + column) * 4;
-      if (!image.empty() && image[post + 3] != 0) {
-        std::copy_n(&image[post], 3, v.colour);
+      const std::byte* colours = contents_.image ? contents_.image->row(row) : nullptr;
+      const auto* image =
+          colours ? reinterpret_cast<const std::uint8_t*>(colours + std::size_t{column} * 4) : nullptr;
+      if (image && image[3] != 0) {
+        std::copy_n(image, 3, v.colour);
       } else {
         const auto colour = landCover(h, std::sqrt(east * east + north * north), latitude, row, column);
         std::copy_n(colour.data(), 3, v.colour);
@@ -151,14 +157,14 @@ void TiledDatabase::buildTile(std::uint32_t node, TileMesh& mesh) const {
 }
 
 double TiledDatabase::columnOf(double longitudeDeg) const {
-  const PostGrid& posts = contents_.grid.posts;
+  const PostGrid& posts = contents_.posts;
   const double middle = posts.longitude((posts.columns - 1) / 2.0);
   const double near = middle + wrapped180(Degrees{longitudeDeg - middle}).value();
   return (near - posts.west) / posts.stepLongitude;
 }
 
 std::optional<Metres> TiledDatabase::heightAt(Degrees latitude, Degrees longitude) const {
-  const PostGrid& posts = contents_.grid.posts;
+  const PostGrid& posts = contents_.posts;
   // Rounding must not put a point on the border outside.
   constexpr double kSlack = 1e-6;
   double column = columnOf(longitude.value()), row = (latitude.value() - posts.south) / posts.stepLatitude;
@@ -169,6 +175,7 @@ std::optional<Metres> TiledDatabase::heightAt(Degrees latitude, Degrees longitud
   row = std::clamp(row, 0.0, posts.rows - 1.0);
   const auto c = std::min(static_cast<std::uint32_t>(column), posts.columns - 2);
   const auto r = std::min(static_cast<std::uint32_t>(row), posts.rows - 2);
+  if (!contents_.heights->row(r) || !contents_.heights->row(r + 1)) return {};
   const double u = column - c, v = row - r;
   const double south = height(r, c) * (1 - u) + height(r, c + 1) * u;
   const double north = height(r + 1, c) * (1 - u) + height(r + 1, c + 1) * u;
@@ -176,7 +183,7 @@ std::optional<Metres> TiledDatabase::heightAt(Degrees latitude, Degrees longitud
 }
 
 std::optional<Metres> TiledDatabase::highestWithin(Degrees latitude, Degrees longitude, Metres radius) const {
-  const PostGrid& posts = contents_.grid.posts;
+  const PostGrid& posts = contents_.posts;
   const double r = radius.value();
   if (!(r >= 0) || !(std::abs(latitude.value()) <= 90) || !std::isfinite(longitude.value())) return {};
   // The smallest radius of curvature gives the largest angle; the chord is compared, so poles and date line
@@ -206,19 +213,42 @@ std::optional<Metres> TiledDatabase::highestWithin(Degrees latitude, Degrees lon
     }
   }
   std::optional<Metres> highest;
-  for (std::uint32_t j = r0; j <= r1; ++j)
+  for (std::uint32_t j = r0; j <= r1; ++j) {
+    // No height is better than one that misses a hill.
+    if (!contents_.heights->row(j)) return {};
     for (auto i = static_cast<std::uint32_t>(c0); i <= static_cast<std::uint32_t>(c1); ++i) {
       if (highest && height(j, i) <= highest->value()) continue;
       const Vec3 d = geometry_.onEllipsoid(j, i) - centre;
       if (dot(d, d) <= chord * chord) highest = Metres{height(j, i)};
     }
+  }
   return highest;
+}
+
+Findings TiledDatabase::damage() const {
+  Findings findings = contents_.heights->damage();
+  if (contents_.image) {
+    const Findings more = contents_.image->damage();
+    findings.insert(findings.end(), more.begin(), more.end());
+  }
+  return findings;
+}
+
+Findings TiledDatabase::checkAll() const {
+  contents_.heights->checkAll();
+  if (contents_.image) contents_.image->checkAll();
+  Findings findings = damage();
+  for (const auto& pages : contents_.pageFiles) {
+    const auto checked = pages->checkAll();
+    findings.insert(findings.end(), checked.findings().begin(), checked.findings().end());
+  }
+  return findings;
 }
 
 }  // namespace
 
 std::shared_ptr<const Database> makeDatabase(Contents contents) {
-  const PostGrid& posts = contents.grid.posts;
+  const PostGrid& posts = contents.posts;
   TerrainInfo& info = contents.info;
   info.columns = posts.columns;
   info.rows = posts.rows;
@@ -227,7 +257,6 @@ std::shared_ptr<const Database> makeDatabase(Contents contents) {
   info.southWest = {Degrees{posts.south}, wrapped180(Degrees{posts.west}), info.lowest};
   info.northEast = {Degrees{posts.latitude(posts.rows - 1)},
                     wrapped180(Degrees{posts.longitude(posts.columns - 1)}), info.highest};
-  info.hasImage = !contents.grid.image.empty();
   return std::make_shared<TiledDatabase>(std::move(contents));
 }
 

@@ -1,0 +1,159 @@
+#include "trimtab/terrain/bake_work.h"
+
+#include <fcntl.h>
+#include <stdio.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "trimtab/terrain/store.h"
+
+namespace trimtab::terrain {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Finding wrong(const fs::path& where, std::string expected, std::string found) {
+  return {Severity::error, where.string(), "", std::move(expected), std::move(found)};
+}
+
+std::string textOf(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return in ? text.str() : std::string();
+}
+
+/// All but the lock.
+std::error_code empty(const fs::path& folder) {
+  std::error_code error;
+  // What says that the rest is good goes first.
+  fs::remove(folder / "recipe.json", error);
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.path().filename() != "lock") fs::remove_all(entry.path(), error);
+  return error;
+}
+
+}  // namespace
+
+std::unique_ptr<FileLock> FileLock::tryLock(const fs::path& file, bool shared) {
+  const int handle = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (handle < 0) return {};
+  struct stat held {
+  }, there{};
+  // Whoever had it before may have removed the folder with it.
+  if (::flock(handle, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0 || ::fstat(handle, &held) != 0 ||
+      ::stat(file.c_str(), &there) != 0 || held.st_ino != there.st_ino || held.st_dev != there.st_dev) {
+    ::close(handle);
+    return {};
+  }
+  return std::unique_ptr<FileLock>(new FileLock(handle));
+}
+
+FileLock::~FileLock() {
+  ::close(handle_);
+}
+
+Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, const std::string& recipe,
+                                                     bool shared) {
+  const fs::path path = output.parent_path() / ("." + output.filename().string() + ".work");
+  const fs::path lockFile = path / "lock";
+  // Parts that begin at once take turns to look at the folder.
+  for (int turn = 0; turn < 100; ++turn) {
+    std::error_code error;
+    fs::create_directories(path, error);
+    if (error) return wrong(path, "a folder that can be written", error.message());
+    auto lock = FileLock::tryLock(lockFile, false);
+    if (!lock && errno != EWOULDBLOCK && !fs::exists(lockFile, error) && fs::exists(path, error))
+      return wrong(lockFile, "a file that can be written", std::strerror(errno));
+    if (lock) {
+      const bool same = textOf(path / "recipe.json") == recipe;
+      if (!same) {
+        error = empty(path);
+        if (error) return wrong(path, "a folder that can be emptied", error.message());
+        std::ofstream out(path / "recipe.new", std::ios::binary);
+        out << recipe;
+        out.close();
+        if (!out) return wrong(path / "recipe.new", "room to write it", std::strerror(errno));
+        fs::rename(path / "recipe.new", path / "recipe.json", error);
+      }
+      for (const char* folder : {"database", "pieces"})
+        if (!error) fs::create_directories(path / folder, error);
+      if (error) return wrong(path, "a folder that can be written", error.message());
+      if (!shared) return std::unique_ptr<WorkFolder>(new WorkFolder(path, std::move(lock), same));
+      lock.reset();
+    }
+    if (shared) {
+      lock = FileLock::tryLock(lockFile, true);
+      if (lock && textOf(path / "recipe.json") == recipe)
+        return std::unique_ptr<WorkFolder>(new WorkFolder(path, std::move(lock), true));
+      if (lock) return wrong(path, "no bake of other sources or options at work on the same output", "one");
+    } else if (turn >= 5) {
+      break;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return wrong(path, "no other bake at work on the same output", "one: let it end, or stop it");
+}
+
+WorkFolder::~WorkFolder() {
+  std::error_code ignored;
+  if (!lock_ || !journal().empty()) return;
+  // Others may be at work on their parts.
+  lock_.reset();
+  const auto alone = FileLock::tryLock(path_ / "lock", false);
+  if (alone && journal().empty()) fs::remove_all(path_, ignored);
+}
+
+std::vector<std::string> WorkFolder::journal() const {
+  std::vector<std::string> lines;
+  std::ifstream in(path_ / "journal");
+  for (std::string line; std::getline(in, line);) {
+    // A line that a full disk cut off may have another one behind it.
+    if (line.size() > 17 &&
+        line.substr(line.size() - 16) == hexadecimal(checksum(line.substr(0, line.size() - 17))))
+      lines.push_back(line.substr(0, line.size() - 17));
+  }
+  return lines;
+}
+
+Result<Done> WorkFolder::note(const std::string& line) const {
+  const fs::path file = path_ / "journal";
+  const std::string text = "\n" + line + " " + hexadecimal(checksum(line)) + "\n";
+  const int handle = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  const bool done =
+      handle >= 0 && ::write(handle, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  const int error = errno;
+  if (handle >= 0) ::close(handle);
+  if (!done) return wrong(file, "room to write a line", std::strerror(error));
+  return Done{};
+}
+
+Result<Done> WorkFolder::finish(const fs::path& output) {
+  std::error_code error;
+  // Killed after this, the next bake begins anew; it must not take the old database for its own.
+  fs::remove(path_ / "recipe.json", error);
+  const fs::path made = database();
+  if (!fs::exists(output, error)) {
+    fs::rename(made, output, error);
+  } else if (::renameat2(AT_FDCWD, made.c_str(), AT_FDCWD, output.c_str(), RENAME_EXCHANGE) != 0) {
+    const fs::path old = path_ / "old";
+    fs::rename(output, old, error);
+    if (!error) fs::rename(made, output, error);
+  }
+  if (error) return wrong(output, "a place to put the database", error.message());
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+  lock_.reset();
+  return Done{};
+}
+
+}  // namespace trimtab::terrain

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "trimtab/units/result.h"
+
+namespace trimtab::terrain {
+
+/// A lock on a file that ends with the process; null where another process has it.
+class FileLock {
+ public:
+  static std::unique_ptr<FileLock> tryLock(const std::filesystem::path& file, bool shared);
+  ~FileLock();
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+ private:
+  explicit FileLock(int handle) : handle_(handle) {}
+  int handle_;
+};
+
+/// Where an unfinished bake keeps what it has: ".NAME.work" beside the output.
+///
+///   recipe.json       what is baked; another recipe empties the folder
+///   journal           a checked line a finished step
+///   voids.bits        posts that were filled, a bit each, where there are any
+///   pieces/N.pages    finished pages of patches
+///   database/         what becomes the output; heights.f32 is made in place
+class WorkFolder {
+ public:
+  /// Alone, or beside others that work on parts of the same.
+  static Result<std::unique_ptr<WorkFolder>> open(const std::filesystem::path& output,
+                                                  const std::string& recipe, bool shared);
+  /// Goes where nothing is done yet.
+  ~WorkFolder();
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path database() const { return path_ / "database"; }
+  std::filesystem::path pieces() const { return path_ / "pieces"; }
+  bool resumed() const { return resumed_; }
+
+  /// The journal's lines, as far as they are whole.
+  std::vector<std::string> journal() const;
+  Result<Done> note(const std::string& line) const;
+
+  /// database/ takes the output's place, and the rest goes. What was there before, a database or an empty
+  /// folder, goes too.
+  Result<Done> finish(const std::filesystem::path& output);
+
+ private:
+  WorkFolder(std::filesystem::path path, std::unique_ptr<FileLock> lock, bool resumed)
+      : path_(std::move(path)), lock_(std::move(lock)), resumed_(resumed) {}
+  std::filesystem::path path_;
+  std::unique_ptr<FileLock> lock_;
+  bool resumed_ = false;
+};
+
+}  // namespace trimtab::terrain

@@ -1,0 +1,307 @@
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "trimtab/terrain/patch_store.h"
+
+namespace trimtab::terrain {
+
+namespace {
+
+constexpr std::uint32_t kBlobMagic = 0x31505454;  // TTP1
+constexpr double kSteps = static_cast<double>(PostGeometry::kStepsPerMetre);
+constexpr std::int32_t kOriginSteps = 16 * static_cast<std::int32_t>(PostGeometry::kStepsPerMetre);
+constexpr std::size_t kMostVertices = 1u << 16;  ///< of a patch: indices have 16 bits
+
+struct BlobHeader {
+  std::uint32_t magic = kBlobMagic, page = 0, patches = 0, vertices = 0, indices = 0;
+  std::uint32_t patchBytes = 0, vertexBytes = 0, indexBytes = 0, exceptions = 0;
+  std::uint32_t postShift = 0;  ///< of columns and rows
+};
+static_assert(sizeof(BlobHeader) == 40);
+
+struct PackedPatch {
+  std::int32_t origin[3];
+  std::uint32_t firstColumn, firstRow, vertices;
+  std::uint32_t triangles[PatchIndex::kVariants];
+};
+static_assert(sizeof(PackedPatch) == 40);
+
+struct PackedVertex {
+  std::uint16_t column = 0, row = 0;  ///< from the patch's square, shifted
+  std::int32_t height = 0;            ///< steps of the lattice along the normal of the ellipsoid
+  std::int8_t normalX = 0, normalY = 0;
+  std::int8_t normalZ = 0;  ///< less what x and y leave
+  std::uint8_t unused = 0;
+};
+static_assert(sizeof(PackedVertex) == 12);
+
+/// A vertex whose place is not that of its post at a whole number of steps: by how much it is off.
+struct Exception {
+  std::uint32_t vertex = 0;
+  std::int32_t by[3] = {};
+};
+
+using Place = std::array<std::int64_t, 3>;
+
+Place placeOf(const PostGeometry& geometry, std::uint32_t row, std::uint32_t column, std::int32_t height) {
+  const PostGeometry::Lattice at = geometry.lattice(row, column, height / kSteps);
+  return {at.x, at.y, at.z};
+}
+Place placeOf(const PatchMesh& mesh, const PatchVertex& v) {
+  return {mesh.origin[0] * std::int64_t{kOriginSteps} + std::llround(static_cast<double>(v.x) * kSteps),
+          mesh.origin[1] * std::int64_t{kOriginSteps} + std::llround(static_cast<double>(v.y) * kSteps),
+          mesh.origin[2] * std::int64_t{kOriginSteps} + std::llround(static_cast<double>(v.z) * kSteps)};
+}
+int steepness(std::int8_t x, std::int8_t y) {
+  return static_cast<int>(std::lround(std::sqrt(std::max(0, 127 * 127 - x * x - y * y))));
+}
+
+/// The height whose place is the vertex's, or comes nearest.
+std::int32_t heightOf(const PostGeometry& geometry, std::uint32_t row, std::uint32_t column,
+                      const Place& place) {
+  const PostGeometry::Lattice ground = geometry.lattice(row, column, 0);
+  const Vec3 up = geometry.normal(row, column, 0, 0);
+  const double along = static_cast<double>(place[0] - ground.x) * up.x +
+                       static_cast<double>(place[1] - ground.y) * up.y +
+                       static_cast<double>(place[2] - ground.z) * up.z;
+  const auto guess = static_cast<std::int32_t>(std::lround(along));
+  std::int32_t best = guess;
+  std::int64_t least = -1;
+  for (const std::int32_t height : {guess, guess - 1, guess + 1}) {
+    const Place there = placeOf(geometry, row, column, height);
+    std::int64_t off = 0;
+    for (std::size_t k = 0; k < 3; ++k) off += std::abs(there[k] - place[k]);
+    if (least < 0 || off < least) least = off, best = height;
+    if (least == 0) break;
+  }
+  return best;
+}
+
+template <class T>
+void append(std::vector<std::byte>& bytes, const T* data, std::size_t count) {
+  const auto* from = reinterpret_cast<const std::byte*>(data);
+  bytes.insert(bytes.end(), from, from + count * sizeof(T));
+}
+
+template <class T>
+std::uint32_t appendPacked(std::vector<std::byte>& bytes, const std::vector<T>& values) {
+  if (values.empty()) return 0;
+  std::vector<unsigned char> packed(meshopt_encodeVertexBufferBound(values.size(), sizeof(T)));
+  packed.resize(
+      meshopt_encodeVertexBuffer(packed.data(), packed.size(), values.data(), values.size(), sizeof(T)));
+  append(bytes, packed.data(), packed.size());
+  return static_cast<std::uint32_t>(packed.size());
+}
+
+template <class T>
+bool unpack(std::vector<T>& values, const std::byte* bytes, std::size_t size) {
+  return values.empty() ||
+         meshopt_decodeVertexBuffer(values.data(), values.size(), sizeof(T),
+                                    reinterpret_cast<const unsigned char*>(bytes), size) == 0;
+}
+
+/// Triangles variant by variant in an order that packs well, and where each vertex goes to: by first use.
+void reorder(const PatchMesh& mesh, std::vector<std::uint32_t>& indices, std::vector<std::uint32_t>& goesTo) {
+  const std::size_t count = mesh.vertices.size();
+  indices.assign(mesh.indices.begin(), mesh.indices.end());
+  std::vector<std::uint32_t> ordered(indices.size());
+  for (std::size_t v = 0; v < PatchIndex::kVariants; ++v) {
+    const std::size_t first = mesh.firstIndex[v], size = mesh.firstIndex[v + 1] - first;
+    if (size > 0) meshopt_optimizeVertexCacheStrip(&ordered[first], &indices[first], size, count);
+  }
+  goesTo.assign(count, PatchIndex::kNone);
+  std::uint32_t next = 0;
+  for (std::uint32_t& index : ordered) {
+    if (goesTo[index] == PatchIndex::kNone) goesTo[index] = next++;
+    index = goesTo[index];
+  }
+  for (std::uint32_t& to : goesTo)
+    if (to == PatchIndex::kNone) to = next++;
+  indices = std::move(ordered);
+}
+
+}  // namespace
+
+std::vector<std::byte> encodePage(const PatchPage& page, const PostGeometry& geometry) {
+  // Bytes must not depend on what the library's next version likes best.
+  static const bool versioned = (meshopt_encodeIndexVersion(1), meshopt_encodeVertexVersion(0), true);
+  static_cast<void>(versioned);
+  BlobHeader header;
+  header.page = page.page;
+  header.patches = static_cast<std::uint32_t>(page.patches.size());
+  std::uint32_t places = 1u << 15;
+  for (const PatchMesh& mesh : page.patches)
+    for (const PatchVertex& v : mesh.vertices) places |= v.column | std::uint32_t{v.row};
+  header.postShift = static_cast<std::uint32_t>(std::countr_zero(places));
+
+  std::vector<PackedPatch> patches;
+  std::vector<PackedVertex> vertices;
+  std::vector<std::uint32_t> indices, own, goesTo;
+  std::vector<Exception> exceptions;
+  for (const PatchMesh& mesh : page.patches) {
+    PackedPatch patch{{mesh.origin[0], mesh.origin[1], mesh.origin[2]},
+                      mesh.firstColumn,
+                      mesh.firstRow,
+                      static_cast<std::uint32_t>(mesh.vertices.size()),
+                      {}};
+    for (std::size_t v = 0; v < PatchIndex::kVariants; ++v)
+      patch.triangles[v] = (mesh.firstIndex[v + 1] - mesh.firstIndex[v]) / 3;
+    patches.push_back(patch);
+    reorder(mesh, own, goesTo);
+    const std::size_t first = vertices.size();
+    vertices.resize(first + mesh.vertices.size());
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+      const PatchVertex& v = mesh.vertices[i];
+      const std::size_t to = first + goesTo[i];
+      const Place place = placeOf(mesh, v);
+      const std::uint32_t row = mesh.firstRow + v.row, column = mesh.firstColumn + v.column;
+      const std::int32_t height = heightOf(geometry, row, column, place);
+      vertices[to] = {static_cast<std::uint16_t>(v.column >> header.postShift),
+                      static_cast<std::uint16_t>(v.row >> header.postShift),
+                      height,
+                      v.normal[0],
+                      v.normal[1],
+                      static_cast<std::int8_t>(v.normal[2] - steepness(v.normal[0], v.normal[1])),
+                      0};
+      const Place there = placeOf(geometry, row, column, height);
+      if (there == place) continue;
+      Exception exception{static_cast<std::uint32_t>(to), {}};
+      for (std::size_t k = 0; k < 3; ++k) exception.by[k] = static_cast<std::int32_t>(place[k] - there[k]);
+      exceptions.push_back(exception);
+    }
+    for (const std::uint32_t index : own) indices.push_back(static_cast<std::uint32_t>(first) + index);
+  }
+  std::sort(exceptions.begin(), exceptions.end(),
+            [](const Exception& a, const Exception& b) { return a.vertex < b.vertex; });
+  header.vertices = static_cast<std::uint32_t>(vertices.size());
+  header.indices = static_cast<std::uint32_t>(indices.size());
+  header.exceptions = static_cast<std::uint32_t>(exceptions.size());
+  std::vector<std::byte> bytes(sizeof header);
+  header.patchBytes = appendPacked(bytes, patches);
+  header.vertexBytes = appendPacked(bytes, vertices);
+  if (!indices.empty()) {
+    std::vector<unsigned char> packed(meshopt_encodeIndexBufferBound(indices.size(), vertices.size()));
+    packed.resize(meshopt_encodeIndexBuffer(packed.data(), packed.size(), indices.data(), indices.size()));
+    append(bytes, packed.data(), packed.size());
+    header.indexBytes = static_cast<std::uint32_t>(packed.size());
+  }
+  append(bytes, exceptions.data(), exceptions.size());
+  std::memcpy(bytes.data(), &header, sizeof header);
+  return bytes;
+}
+
+Result<PatchPage> decodePage(std::span<const std::byte> bytes, const PatchIndex& index, std::uint32_t page,
+                             const PostGeometry& geometry, const std::string& where) {
+  const auto wrong = [&](const std::string& key, const std::string& expected, const std::string& found) {
+    return Finding{Severity::error, where, "page " + std::to_string(page) + ": " + key, expected, found};
+  };
+  const auto number = [](auto value) { return std::to_string(value); };
+  BlobHeader header;
+  if (bytes.size() < sizeof header)
+    return wrong("size", number(sizeof header) + " bytes", number(bytes.size()) + " bytes");
+  std::memcpy(&header, bytes.data(), sizeof header);
+  if (header.magic != kBlobMagic) return wrong("header", "a page of patches", "something else");
+  if (header.page != page) return wrong("number", number(page), number(header.page));
+  const PatchIndex::Page& expected = index.pages[page];
+  if (header.patches != expected.patches)
+    return wrong("patches", number(expected.patches), number(header.patches));
+  const std::uint64_t size = std::uint64_t{sizeof header} + header.patchBytes + header.vertexBytes +
+                             header.indexBytes + std::uint64_t{header.exceptions} * sizeof(Exception);
+  if (size != bytes.size()) return wrong("size", number(size) + " bytes", number(bytes.size()) + " bytes");
+  // Before anything is allocated by what it claims: sixteen packed vertices take three bytes or more, a
+  // triangle one.
+  if (header.postShift > 15 || header.vertices / 8 > header.vertexBytes || header.indices % 3 != 0 ||
+      header.indices / 3 > header.indexBytes)
+    return wrong("counts", "no more vertices and triangles than its bytes can hold",
+                 number(header.vertices) + " and " + number(header.indices / 3));
+  std::vector<PackedPatch> patches(header.patches);
+  std::vector<PackedVertex> vertices(header.vertices);
+  std::vector<std::uint32_t> indices(header.indices);
+  std::vector<Exception> exceptions(header.exceptions);
+  const std::byte* from = bytes.data() + sizeof header;
+  if (!unpack(patches, from, header.patchBytes)) return wrong("patches", "packed patches", "something else");
+  from += header.patchBytes;
+  if (!unpack(vertices, from, header.vertexBytes))
+    return wrong("vertices", "packed vertices", "something else");
+  from += header.vertexBytes;
+  if (!indices.empty() &&
+      meshopt_decodeIndexBuffer(indices.data(), indices.size(), reinterpret_cast<const unsigned char*>(from),
+                                header.indexBytes) != 0)
+    return wrong("triangles", "packed triangles", "something else");
+  from += header.indexBytes;
+  if (!exceptions.empty()) std::memcpy(exceptions.data(), from, exceptions.size() * sizeof(Exception));
+
+  PatchPage out;
+  out.page = page;
+  out.patches.resize(patches.size());
+  std::uint64_t firstVertex = 0, firstIndex = 0;
+  auto exception = exceptions.begin();
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    const PackedPatch& patch = patches[p];
+    const std::size_t own = expected.firstPatch + p;
+    PatchMesh& mesh = out.patches[p];
+    std::copy_n(patch.origin, 3, mesh.origin);
+    mesh.firstColumn = patch.firstColumn;
+    mesh.firstRow = patch.firstRow;
+    std::uint64_t ends = firstIndex;
+    for (std::size_t v = 0; v < PatchIndex::kVariants; ++v) {
+      if (patch.triangles[v] != index.triangles[own][v])
+        return wrong("triangles of patch " + number(own), number(index.triangles[own][v]),
+                     number(patch.triangles[v]));
+      ends += std::uint64_t{patch.triangles[v]} * 3;
+      mesh.firstIndex[v + 1] = static_cast<std::uint32_t>(ends - firstIndex);
+    }
+    if (patch.vertices > kMostVertices || firstVertex + patch.vertices > vertices.size() ||
+        ends > indices.size())
+      return wrong("patch " + number(own), "vertices and triangles that are there",
+                   number(patch.vertices) + " and " + number((ends - firstIndex) / 3));
+    mesh.vertices.resize(patch.vertices);
+    for (std::uint32_t i = 0; i < patch.vertices; ++i) {
+      const PackedVertex& packed = vertices[firstVertex + i];
+      const std::uint32_t c = std::uint32_t{packed.column} << header.postShift,
+                          r = std::uint32_t{packed.row} << header.postShift;
+      const std::uint64_t column = std::uint64_t{patch.firstColumn} + c,
+                          row = std::uint64_t{patch.firstRow} + r;
+      if (c > 0xffff || r > 0xffff || column >= index.columns || row >= index.rows)
+        return wrong("vertex " + number(i) + " of patch " + number(own), "a post of the grid",
+                     number(column) + ", " + number(row));
+      Place place = placeOf(geometry, static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(column),
+                            packed.height);
+      for (; exception != exceptions.end() && exception->vertex <= firstVertex + i; ++exception)
+        if (exception->vertex == firstVertex + i)
+          for (std::size_t k = 0; k < 3; ++k) place[k] += exception->by[k];
+      const auto local = [&](std::size_t k) {
+        return static_cast<float>(
+            static_cast<double>(place[k] - mesh.origin[k] * std::int64_t{kOriginSteps}) / kSteps);
+      };
+      const int z = packed.normalZ + steepness(packed.normalX, packed.normalY);
+      mesh.vertices[i] = {
+          local(0),
+          local(1),
+          local(2),
+          {packed.normalX, packed.normalY, static_cast<std::int8_t>(std::clamp(z, -127, 127))},
+          0,
+          static_cast<std::uint16_t>(c),
+          static_cast<std::uint16_t>(r)};
+    }
+    mesh.indices.resize(ends - firstIndex);
+    for (std::uint64_t i = firstIndex; i < ends; ++i) {
+      if (indices[i] < firstVertex || indices[i] - firstVertex >= patch.vertices)
+        return wrong("triangles of patch " + number(own), "vertices of the patch", number(indices[i]));
+      mesh.indices[i - firstIndex] = static_cast<std::uint16_t>(indices[i] - firstVertex);
+    }
+    firstVertex += patch.vertices;
+    firstIndex = ends;
+  }
+  if (firstVertex != vertices.size() || firstIndex != indices.size())
+    return wrong("counts", number(firstVertex) + " vertices, " + number(firstIndex / 3) + " triangles",
+                 number(vertices.size()) + " and " + number(indices.size() / 3));
+  return out;
+}
+
+}  // namespace trimtab::terrain

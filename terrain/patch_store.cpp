@@ -1,0 +1,128 @@
+#include "trimtab/terrain/patch_store.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "trimtab/terrain/patch_build.h"
+
+namespace trimtab::terrain {
+
+namespace {
+
+constexpr std::uint64_t kIndexKey = std::uint64_t{1} << 32, kFactsKey = kIndexKey + 1;
+
+/// What a file of patches was made for.
+struct GridHeader {
+  std::uint64_t version = 1;
+  PostGrid posts;
+  std::uint32_t patches = 0, pages = 0;
+};
+struct Measured {
+  Box bounds;
+  std::array<float, PatchIndex::kVariants> errorM;
+  std::array<std::uint16_t, PatchIndex::kVariants> triangles;
+};
+static_assert(sizeof(GridHeader) == 56 && sizeof(Measured) == 48 && sizeof(PatchFacts) == 56);
+
+bool isSound(const Measured& m) {
+  const Box& b = m.bounds;
+  if (!(b.minX <= b.maxX && b.minY <= b.maxY && b.minZ <= b.maxZ)) return false;
+  for (const float f : {b.minX, b.minY, b.minZ, b.maxX, b.maxY, b.maxZ})
+    if (!std::isfinite(f)) return false;
+  for (const float e : m.errorM)
+    if (!(e >= 0) || !std::isfinite(e)) return false;
+  return true;
+}
+
+class StoredPatches final : public PatchTerrain {
+ public:
+  StoredPatches(std::shared_ptr<const PageFile> pages, std::filesystem::path file, const PostGrid& posts)
+      : pages_(std::move(pages)), file_(std::move(file)), geometry_(posts) {}
+
+  const PatchIndex& index() const override { return index_; }
+  const std::vector<PatchFacts>& facts() const override { return facts_; }
+  std::uint64_t pageBytes(std::uint32_t page) const override { return pages_->bytesOf(page); }
+  Result<PatchPage> readPage(std::uint32_t page) const override {
+    if (page >= index_.pages.size())
+      return wrong("page " + std::to_string(page), "less than " + std::to_string(index_.pages.size()),
+                   std::to_string(page));
+    const auto blob = pages_->read(page);
+    if (!blob) return blob.findings();
+    return decodePage(*blob, index_, page, geometry_, file_.string());
+  }
+
+  Finding wrong(const std::string& key, const std::string& expected, const std::string& found) const {
+    return {Severity::error, file_.string(), key, expected, found};
+  }
+  Result<Done> load(const PostGrid& posts) {
+    const auto measured = pages_->read(kIndexKey);
+    if (!measured) return measured.findings();
+    GridHeader header;
+    if (measured->size() < sizeof header) return wrong("index", "a header", "less");
+    std::memcpy(&header, measured->data(), sizeof header);
+    if (header.version != 1) return wrong("index", "version 1", std::to_string(header.version));
+    if (!(header.posts == posts)) return wrong("index", "the grid of the manifest", "another one");
+    index_ = makePatchIndex(posts, geometry_);
+    const std::size_t count = index_.size();
+    if (header.patches != count || header.pages != index_.pages.size() ||
+        measured->size() != sizeof header + count * sizeof(Measured))
+      return wrong("index",
+                   std::to_string(count) + " patches in " + std::to_string(index_.pages.size()) + " pages",
+                   std::to_string(header.patches) + " in " + std::to_string(header.pages) + ", " +
+                       std::to_string(measured->size()) + " bytes");
+    for (std::size_t i = 0; i < count; ++i) {
+      Measured m;
+      std::memcpy(&m, measured->data() + sizeof header + i * sizeof m, sizeof m);
+      if (!isSound(m)) return wrong("patch " + std::to_string(i), "bounds and errors", "no such numbers");
+      index_.bounds[i] = m.bounds;
+      index_.errorM[i] = m.errorM;
+      index_.triangles[i] = m.triangles;
+    }
+    const auto facts = pages_->read(kFactsKey);
+    if (!facts) return facts.findings();
+    if (facts->size() != count * sizeof(PatchFacts))
+      return wrong("facts", std::to_string(count * sizeof(PatchFacts)) + " bytes",
+                   std::to_string(facts->size()) + " bytes");
+    facts_.resize(count);
+    std::memcpy(facts_.data(), facts->data(), facts->size());
+    for (std::uint32_t page = 0; page < index_.pages.size(); ++page)
+      if (!pages_->has(page)) return wrong("page " + std::to_string(page), "one in the table", "nothing");
+    return Done{};
+  }
+
+ private:
+  std::shared_ptr<const PageFile> pages_;
+  std::filesystem::path file_;
+  PostGeometry geometry_;
+  PatchIndex index_;
+  std::vector<PatchFacts> facts_;
+};
+
+}  // namespace
+
+Result<Done> finishPatchFile(PageFileWriter& writer, const PostGrid& posts, const PatchIndex& index,
+                             const std::vector<PatchFacts>& facts) {
+  GridHeader header;
+  header.posts = posts;
+  header.patches = static_cast<std::uint32_t>(index.size());
+  header.pages = static_cast<std::uint32_t>(index.pages.size());
+  std::vector<std::byte> measured(sizeof header + index.size() * sizeof(Measured));
+  std::memcpy(measured.data(), &header, sizeof header);
+  for (std::size_t i = 0; i < index.size(); ++i) {
+    const Measured m{index.bounds[i], index.errorM[i], index.triangles[i]};
+    std::memcpy(measured.data() + sizeof header + i * sizeof m, &m, sizeof m);
+  }
+  if (auto done = writer.add(kIndexKey, measured); !done) return done;
+  if (auto done = writer.add(kFactsKey, std::as_bytes(std::span(facts))); !done) return done;
+  return writer.finish();
+}
+
+Result<std::shared_ptr<const PatchTerrain>> openPatches(std::shared_ptr<const PageFile> pages,
+                                                        const std::filesystem::path& file,
+                                                        const PostGrid& posts) {
+  const auto opened = std::make_shared<StoredPatches>(std::move(pages), file, posts);
+  if (const auto loaded = opened->load(posts); !loaded) return loaded.findings();
+  return std::shared_ptr<const PatchTerrain>(opened);
+}
+
+}  // namespace trimtab::terrain
