@@ -19,7 +19,7 @@ PatchIndex makePatchIndex(const PostGrid& posts, const PostGeometry& geometry);
 
 /// Of every depth, metres; falls by the square root of two a depth to `leafM` at the deepest.
 std::vector<double> patchTolerances(const PatchIndex& index, double leafM);
-/// A thirtieth of the distance of posts: where rough land takes a fifth of its posts.
+/// A tenth of the distance of posts: the Himalaya at 3 seconds take two fifths of their posts, hills less.
 double defaultLeafToleranceM(const PostGrid& posts);
 
 /// A page and what was measured of its own patches; errors and bounds of descendants are not in them yet.

@@ -73,24 +73,39 @@ std::array<Corner, 3> corners(const PatchIndex& index, const PatchPlace& place) 
   }
 }
 
-/// Root squares are as large as floats in 1/256 m reach from their middle, whichever way they are turned in
-/// the frame.
+/// Whether floats in 1/256 m reach all of a square from its middle, whichever way it is turned in the frame.
+bool reaches(const PostGrid& posts, const PostGeometry& geometry, std::uint32_t column, std::uint32_t row,
+             std::uint32_t cells) {
+  constexpr std::uint32_t kSamples = 4;  // a side: the ground between bends by metres
+  constexpr double kMarginM = 500;       // for that bend, and for where the origin is rounded to
+  constexpr double kHeights[] = {-11000, 9000};
+  constexpr std::int64_t kFar = std::numeric_limits<std::int64_t>::max();
+  PostGeometry::Lattice low{kFar, kFar, kFar}, high{-kFar, -kFar, -kFar};
+  for (std::uint32_t j = 0; j <= kSamples; ++j)
+    for (std::uint32_t i = 0; i <= kSamples; ++i)
+      for (const double height : kHeights) {
+        const PostGeometry::Lattice p =
+            geometry.lattice(std::min(row + cells / kSamples * j, posts.rows - 1),
+                             std::min(column + cells / kSamples * i, posts.columns - 1), height);
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+      }
+  const std::int64_t widest = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  return static_cast<double>(widest) / 2 / PostGeometry::kStepsPerMetre + kMarginM <= PostGeometry::kReachM;
+}
+
+/// Root squares are as large as floats reach.
 std::uint32_t largestRoot(const PostGrid& posts, const PostGeometry& geometry) {
-  constexpr double kBendAndHeightM = 12000;  // of peaks and trenches, and of the earth under the widest root
   const std::uint32_t most = std::max(posts.columns, posts.rows) - 1;
   std::uint32_t cells = PatchIndex::kLeafCells;
   while (cells < most && cells < kLargestRoot) cells *= 2;
-  double columnM = 0, rowM = 0;
-  for (std::uint32_t r = 0; r < posts.rows; ++r) {
-    columnM = std::max(columnM, geometry.columnM(r));
-    rowM = std::max(rowM, geometry.rowM(r));
-  }
-  const auto reach = [&](std::uint32_t side) {
-    return std::hypot(std::min(side, posts.columns - 1) * columnM, std::min(side, posts.rows - 1) * rowM) /
-               2 +
-           kBendAndHeightM;
+  const auto allReach = [&] {
+    for (std::uint32_t row = 0; row + 1 < posts.rows; row += cells)
+      for (std::uint32_t column = 0; column + 1 < posts.columns; column += cells)
+        if (!reaches(posts, geometry, column, row, cells)) return false;
+    return true;
   };
-  while (cells > PatchIndex::kLeafCells && reach(cells) > PostGeometry::kReachM) cells /= 2;
+  while (cells > PatchIndex::kLeafCells && !allReach()) cells /= 2;
   return cells;
 }
 
@@ -272,7 +287,7 @@ std::vector<double> patchTolerances(const PatchIndex& index, double leafM) {
 
 double defaultLeafToleranceM(const PostGrid& posts) {
   constexpr double kDegreeM = 111320;
-  return posts.stepLatitude * kDegreeM / 30;
+  return posts.stepLatitude * kDegreeM / 10;
 }
 
 void finishPatchIndex(PatchIndex& index, const std::vector<Box>& ownBounds,

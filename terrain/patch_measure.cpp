@@ -1,137 +1,409 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "trimtab/terrain/patch_page.h"
+#include "trimtab/terrain/patch_scan.h"
 
 namespace trimtab::terrain {
 
 namespace {
 
 constexpr std::int64_t kStepsPerOrigin = 16 * PostGeometry::kStepsPerMetre;
+constexpr std::size_t kVariants = PatchIndex::kVariants;
+constexpr double kRadian = std::numbers::pi / 180;
+/// No post is further from the earth's middle, and no radius of curvature is longer.
+constexpr double kFarthestM = 6.42e6;
+/// Columns meet at a pole. Nothing that close to it is drawn apart.
+constexpr double kShortestM = 0.01;
+constexpr std::size_t kStripPosts = std::size_t{1} << 20;
 
-struct Sums {
-  double worst = 0, squares = 0;
-  std::uint64_t posts = 0;
+/// What turns distances along the page's plane's normal into distances along the vertical.
+///
+/// Let a triangle have posts P_i, a post S in it, over columns and rows, the weights w_i, and let D be S less
+/// the sum of w_i P_i. Along the vertical of S the triangle's plane is off by t = D.N / up.N: with heights h,
+/// (h_S - sum w_i h_i) + D'_up - slope x D'_h, where D' is D without the difference of heights: the bend of
+/// rows and columns. The page's plane, whose normal leans by at most `lean`, shows (t + slope x D'_h)
+/// cos(lean)
+/// + D'_h sin(lean). So |t| <= shown / cos(lean) + (slope + tan(lean)) |D'_h|. The mean of the squares of the
+/// corners' distances is at most a quarter of the extent's square, so the second derivatives of a place by
+/// longitude and latitude, along the ground, bound D'_h; corners of different height add their verticals'
+/// angles. Where the vertical of S meets the triangle beside, that one's slope counts.
+class VerticalBound {
+ public:
+  VerticalBound(const PostGrid& posts, const PostGeometry& geometry, const PostWindow& window)
+      : posts_(posts), geometry_(geometry) {
+    for (const std::uint32_t r : {window.row, window.row + window.rows - 1}) {
+      const double latitude = posts.latitude(r) * kRadian;
+      sine_ = std::max(sine_, std::abs(std::sin(latitude)));
+      cosine_ = std::max(cosine_, std::cos(latitude));
+    }
+    if (posts.latitude(window.row) < 0 && posts.latitude(window.row + window.rows - 1) > 0) cosine_ = 1;
+    const double wide = window.columns * posts.stepLongitude * kRadian * cosine_,
+                 high = window.rows * posts.stepLatitude * kRadian;
+    lean_ = std::min(1.5, 0.51 * std::hypot(wide, high) + 1e-6);
+  }
+  double cosLean() const { return std::cos(lean_); }
+
+  double slope(const ScanTriangle& triangle) const {
+    const auto first = static_cast<std::uint32_t>(triangle.firstRow()),
+               last = static_cast<std::uint32_t>(triangle.lastRow());
+    const double columnM = std::max(kShortestM, std::min(geometry_.columnM(first), geometry_.columnM(last)));
+    const double rowM = std::min(geometry_.rowM(first), geometry_.rowM(last));
+    return (std::hypot(triangle.byColumn() / columnM, triangle.byRow() / rowM) + std::tan(lean_)) * 1.02;
+  }
+  /// What the bend adds to a triangle of so many columns and rows.
+  double bend(double columns, double rows, double rise, double slope) const {
+    const double lon = columns * posts_.stepLongitude * kRadian, lat = rows * posts_.stepLatitude * kRadian;
+    const double angle = std::hypot(lon * cosine_, lat);
+    const double sideways =
+        kFarthestM / 8 *
+            (cosine_ * (sine_ + angle) * lon * lon + 2 * sine_ * lon * lat + (0.011 + angle) * lat * lat) +
+        rise * angle / 2;
+    return sideways * (slope + std::tan(lean_));
+  }
+  /// Of a patch: no surface over it is further from a post of it than its heights are apart.
+  double most(double columns, double rows, double rise) const {
+    const double lon = columns * posts_.stepLongitude * kRadian, lat = rows * posts_.stepLatitude * kRadian;
+    return rise + kFarthestM / 8 * (cosine_ * lon * lon + 2 * sine_ * lon * lat + lat * lat);
+  }
+
+ private:
+  const PostGrid& posts_;
+  const PostGeometry& geometry_;
+  double sine_ = 0, cosine_ = 0, lean_ = 0;
 };
 
-}  // namespace
+struct VariantMeasure {
+  std::vector<float> slopes;  ///< one a vertex: of the steepest triangle about it
+  double worst = 0, bilinear = 0, squares = 0;
+  std::uint64_t posts = 0;
+  double rounding = 0;
+};
 
-void measurePage(const PatchIndex& index, const PatchIndex::Page& page, const HeightSource& heights,
-                 const PostGeometry& geometry, std::span<const PatchDraft> drafts, BuiltPage& built) {
-  const PostWindow window = pageWindow(index, page);
-  std::vector<float> z(window.size());
-  heights.read(window, 1, z);
-  const auto heightAt = [&](PatchPoint p) {
-    return z[std::size_t{p.row - window.row} * window.columns + (p.column - window.column)];
-  };
-  const double sag = 0.1;
-  for (const PatchDraft& draft : drafts) {
+struct PatchMeasure {
+  std::array<VariantMeasure, kVariants> variants;
+  std::uint32_t firstRow = 0, lastRow = 0, firstColumn = 0, lastColumn = 0;
+  float lowest = std::numeric_limits<float>::max(), highest = -std::numeric_limits<float>::max();
+  std::uint32_t posts = 0, voids = 0;
+};
+
+class PageMeasure {
+ public:
+  PageMeasure(const PatchIndex& index, const PatchIndex::Page& page, const HeightSource& heights,
+              const PostGeometry& geometry, std::span<const PatchDraft> drafts, BuiltPage& built)
+      : index_(index),
+        page_(page),
+        heights_(heights),
+        geometry_(geometry),
+        drafts_(drafts),
+        built_(built),
+        window_(pageWindow(index, page)),
+        plane_(pagePlane(geometry, window_)),
+        bound_(heights.posts(), geometry, window_),
+        patches_(drafts.size()) {}
+
+  void run() {
+    for (std::size_t i = 0; i < drafts_.size(); ++i) begin(drafts_[i], patches_[i]);
+    const auto rows =
+        static_cast<std::uint32_t>(std::max<std::size_t>(2, kStripPosts / (window_.columns + 2)));
+    const std::uint32_t end = window_.row + window_.rows;
+    for (std::uint32_t row = window_.row; row < end; row += rows) {
+      read(row, std::min(row + rows, end));
+      for (std::size_t i = 0; i < drafts_.size(); ++i) measure(drafts_[i], patches_[i], i);
+    }
+    for (std::size_t i = 0; i < drafts_.size(); ++i) finish(drafts_[i], patches_[i], i);
+  }
+
+ private:
+  static ScanTriangle triangleOf(const PatchDraft& draft, const std::uint32_t* corner) {
+    const auto vertex = [&](std::uint32_t v) {
+      return ScanVertex{static_cast<std::int32_t>(draft.vertices[v].column),
+                        static_cast<std::int32_t>(draft.vertices[v].row), draft.z[v]};
+    };
+    return {vertex(corner[0]), vertex(corner[1]), vertex(corner[2])};
+  }
+
+  void begin(const PatchDraft& draft, PatchMeasure& patch) {
+    patch.firstRow = patch.firstColumn = std::numeric_limits<std::uint32_t>::max();
+    for (const PatchEdge& e : draft.edges) {
+      patch.firstRow = std::min(patch.firstRow, e.from.row);
+      patch.lastRow = std::max(patch.lastRow, e.from.row);
+      patch.firstColumn = std::min(patch.firstColumn, e.from.column);
+      patch.lastColumn = std::max(patch.lastColumn, e.from.column);
+    }
+    for (std::size_t v = 0; v < kVariants; ++v) {
+      VariantMeasure& variant = patch.variants[v];
+      variant.slopes.assign(draft.vertices.size(), 0.0f);
+      const auto& triangles = draft.triangles[v];
+      double steepest = 0;
+      for (std::size_t t = 0; t < triangles.size(); t += 3) {
+        const double slope = bound_.slope(triangleOf(draft, &triangles[t]));
+        steepest = std::max(steepest, slope);
+        for (std::size_t k = 0; k < 3; ++k) {
+          float& at = variant.slopes[triangles[t + k]];
+          at = std::max(at, static_cast<float>(slope));
+        }
+      }
+      // Vertices are moved to the lattice; the rest is for heights as floats.
+      variant.rounding = roundingM() * std::hypot(1, steepest) + 0.002;
+    }
+    addMesh(draft);
+  }
+
+  double roundingM() const { return geometry_.roundingM() + std::ldexp(0.5 / 256, latticeShift()); }
+  int latticeShift() const { return 0; }
+
+  void addMesh(const PatchDraft& draft) {
     PatchMesh mesh;
-    PatchFacts facts;
-    std::array<float, PatchIndex::kVariants> errors{};
-    const std::uint32_t side = index.squareCells(page.pair);
+    const std::uint32_t side = index_.squareCells(page_.pair);
     mesh.firstColumn = draft.place.column * side;
     mesh.firstRow = draft.place.row * side;
-    std::vector<PostGeometry::Lattice> places;
     constexpr std::int64_t kFar = std::numeric_limits<std::int64_t>::max();
     PostGeometry::Lattice low{kFar, kFar, kFar}, high{-kFar, -kFar, -kFar};
-    for (const PatchPoint& p : draft.vertices) {
-      const PostGeometry::Lattice at = geometry.lattice(p.row, p.column, heightAt(p));
+    std::vector<PostGeometry::Lattice> places;
+    for (std::size_t i = 0; i < draft.vertices.size(); ++i) {
+      const PatchPoint& p = draft.vertices[i];
+      const PostGeometry::Lattice at = geometry_.lattice(p.row, p.column, draft.heights[i]);
       low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
       high = {std::max(high.x, at.x), std::max(high.y, at.y), std::max(high.z, at.z)};
       places.push_back(at);
     }
-    const auto origin = [](std::int64_t a, std::int64_t b) {
+    const auto middle = [](std::int64_t a, std::int64_t b) {
       return static_cast<std::int32_t>(
           std::llround(static_cast<double>(a + b) / 2 / static_cast<double>(kStepsPerOrigin)));
     };
-    mesh.origin[0] = origin(low.x, high.x);
-    mesh.origin[1] = origin(low.y, high.y);
-    mesh.origin[2] = origin(low.z, high.z);
+    mesh.origin[0] = middle(low.x, high.x);
+    mesh.origin[1] = middle(low.y, high.y);
+    mesh.origin[2] = middle(low.z, high.z);
     for (std::size_t i = 0; i < places.size(); ++i) {
-      const auto metres = [](std::int64_t steps, std::int32_t from) {
-        return static_cast<float>(steps - from * kStepsPerOrigin) /
+      const auto metres = [](std::int64_t steps, std::int32_t origin) {
+        return static_cast<float>(steps - origin * kStepsPerOrigin) /
                static_cast<float>(PostGeometry::kStepsPerMetre);
       };
       PatchVertex v{};
       v.x = metres(places[i].x, mesh.origin[0]);
       v.y = metres(places[i].y, mesh.origin[1]);
       v.z = metres(places[i].z, mesh.origin[2]);
+      v.column = static_cast<std::uint16_t>(draft.vertices[i].column - mesh.firstColumn);
+      v.row = static_cast<std::uint16_t>(draft.vertices[i].row - mesh.firstRow);
+      mesh.vertices.push_back(v);
+    }
+    for (std::size_t v = 0; v < kVariants; ++v) {
+      mesh.firstIndex[v] = static_cast<std::uint32_t>(mesh.indices.size());
+      for (const std::uint32_t i : draft.triangles[v]) mesh.indices.push_back(static_cast<std::uint16_t>(i));
+    }
+    mesh.firstIndex[kVariants] = static_cast<std::uint32_t>(mesh.indices.size());
+    // The next floats outwards: a float need not hold a place that far from the frame's origin.
+    const auto metres = [](std::int64_t steps) {
+      return static_cast<float>(static_cast<double>(steps) / PostGeometry::kStepsPerMetre);
+    };
+    constexpr float kMost = std::numeric_limits<float>::max();
+    const auto below = [&](std::int64_t steps) { return std::nextafter(metres(steps), -kMost); };
+    const auto above = [&](std::int64_t steps) { return std::nextafter(metres(steps), kMost); };
+    built_.bounds.push_back(
+        {below(low.x), below(low.y), below(low.z), above(high.x), above(high.y), above(high.z)});
+    built_.meshes.patches.push_back(std::move(mesh));
+  }
+
+  /// Rows of the strip, with those before and after where there are some.
+  void read(std::uint32_t row, std::uint32_t end) {
+    row_ = row;
+    end_ = end;
+    const PostGrid& posts = heights_.posts();
+    block_.column = window_.column - (window_.column > 0 ? 1 : 0);
+    block_.columns = std::min(posts.columns, window_.column + window_.columns + 1) - block_.column;
+    block_.row = row - (row > 0 ? 1 : 0);
+    block_.rows = std::min(posts.rows, end + 1) - block_.row;
+    raw_.resize(block_.size());
+    z_.resize(block_.size());
+    voids_.resize(block_.size());
+    heights_.read(block_, 1, raw_);
+    heights_.readVoids(block_, 1, voids_);
+    for (std::uint32_t r = 0; r < block_.rows; ++r)
+      plane_.row(block_.column, block_.row + r, 1,
+                 std::span<const float>(raw_).subspan(std::size_t{r} * block_.columns, block_.columns),
+                 &z_[std::size_t{r} * block_.columns]);
+  }
+
+  std::size_t at(std::uint32_t column, std::uint32_t row) const {
+    return std::size_t{row - block_.row} * block_.columns + (column - block_.column);
+  }
+
+  void measure(const PatchDraft& draft, PatchMeasure& patch, std::size_t i) {
+    if (patch.firstRow >= end_ || patch.lastRow < row_) return;
+    posts(draft, patch);
+    normals(draft, built_.meshes.patches[i]);
+    for (std::size_t v = 0; v < kVariants; ++v) errors(draft, draft.triangles[v], patch.variants[v]);
+  }
+
+  /// Columns of a patch's posts in a row, both ends included.
+  static std::pair<std::uint32_t, std::uint32_t> columnsOf(const PatchDraft& draft, std::uint32_t row) {
+    std::uint32_t from = std::numeric_limits<std::uint32_t>::max(), to = 0;
+    for (const PatchEdge& e : draft.edges) {
+      const auto [low, high] = std::minmax(e.from.row, e.to.row);
+      if (row < low || row > high) continue;
+      std::uint32_t a = e.from.column, b = e.to.column;
+      if (low != high) {
+        const std::uint32_t along = row > e.from.row ? row - e.from.row : e.from.row - row;
+        a = b = a == b ? a : a < b ? a + along : a - along;
+      }
+      from = std::min({from, a, b});
+      to = std::max({to, a, b});
+    }
+    return {from, to};
+  }
+
+  /// Heights under a patch, and how many: posts on its left and lower edges are its own, and those where the
+  /// posts end.
+  void posts(const PatchDraft& draft, PatchMeasure& patch) {
+    for (std::uint32_t r = std::max(row_, patch.firstRow); r <= std::min(end_ - 1, patch.lastRow); ++r) {
+      const auto [from, to] = columnsOf(draft, r);
+      const float* const z = &raw_[at(from, r)];
+      const auto [lowest, highest] = std::minmax_element(z, z + (to - from + 1));
+      patch.lowest = std::min(patch.lowest, *lowest);
+      patch.highest = std::max(patch.highest, *highest);
+      const bool top = r + 1 == index_.rows;
+      if (r == patch.lastRow && !top) continue;
+      std::uint32_t stop = to;
+      if (to + 1 == index_.columns && columnsOf(draft, top ? r - 1 : r + 1).second == to) ++stop;
+      for (std::uint32_t c = from; c < stop; ++c) patch.voids += voids_[at(c, r)];
+      patch.posts += stop - from;
+    }
+  }
+
+  /// Of the finest surface: the same for a post in whatever patch.
+  void normals(const PatchDraft& draft, PatchMesh& mesh) {
+    for (std::size_t i = 0; i < draft.vertices.size(); ++i) {
       const PatchPoint p = draft.vertices[i];
-      v.column = static_cast<std::uint16_t>(p.column - mesh.firstColumn);
-      v.row = static_cast<std::uint16_t>(p.row - mesh.firstRow);
-      const auto slope = [&](PatchPoint a, PatchPoint b, double metresApart) {
-        return metresApart > 0 ? (heightAt(b) - heightAt(a)) / metresApart : 0.0;
-      };
-      PatchPoint w = p, e = p, s = p, n = p;
-      if (p.column > window.column) --w.column;
-      if (p.column + 1 < window.column + window.columns) ++e.column;
-      if (p.row > window.row) --s.row;
-      if (p.row + 1 < window.row + window.rows) ++n.row;
-      const Vec3 normal =
-          geometry.normal(p.row, p.column, slope(w, e, geometry.columnM(p.row) * (e.column - w.column)),
-                          slope(s, n, geometry.rowM(p.row) * (n.row - s.row)));
+      if (p.row < row_ || p.row >= end_) continue;
+      const std::uint32_t west = p.column - (p.column > 0 ? 1 : 0),
+                          east = std::min(p.column + 1, index_.columns - 1),
+                          south = p.row - (p.row > 0 ? 1 : 0), north = std::min(p.row + 1, index_.rows - 1);
+      const double x = (raw_[at(east, p.row)] - raw_[at(west, p.row)]) /
+                       std::max(kShortestM, (east - west) * geometry_.columnM(p.row));
+      const double y =
+          (raw_[at(p.column, north)] - raw_[at(p.column, south)]) / ((north - south) * geometry_.rowM(p.row));
+      const Vec3 normal = geometry_.normal(p.row, p.column, x, y);
+      PatchVertex& v = mesh.vertices[i];
       v.normal[0] = static_cast<std::int8_t>(std::lround(normal.x * 127));
       v.normal[1] = static_cast<std::int8_t>(std::lround(normal.y * 127));
       v.normal[2] = static_cast<std::int8_t>(std::lround(normal.z * 127));
-      mesh.vertices.push_back(v);
     }
-    float lowest = std::numeric_limits<float>::max(), highest = -lowest;
-    for (std::size_t variant = 0; variant < PatchIndex::kVariants; ++variant) {
-      const auto& triangles = draft.triangles[variant];
-      mesh.firstIndex[variant] = static_cast<std::uint32_t>(mesh.indices.size());
-      mesh.indices.insert(mesh.indices.end(), triangles.begin(), triangles.end());
-      Sums sums;
-      for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
-        const PatchPoint a = draft.vertices[triangles[t]], b = draft.vertices[triangles[t + 1]],
-                         c = draft.vertices[triangles[t + 2]];
-        const auto signedArea = [](PatchPoint p, PatchPoint q, double x, double y) {
-          return (double{1} * q.column - p.column) * (y - p.row) -
-                 (double{1} * q.row - p.row) * (x - p.column);
-        };
-        const double area = signedArea(a, b, c.column, c.row);
-        const auto [r0, r1] = std::minmax({a.row, b.row, c.row});
-        const auto [c0, c1] = std::minmax({a.column, b.column, c.column});
-        for (std::uint32_t r = r0; r <= r1; ++r)
-          for (std::uint32_t k = c0; k <= c1; ++k) {
-            const double u = signedArea(b, c, k, r), v = signedArea(c, a, k, r), w = signedArea(a, b, k, r);
-            if (u < 0 || v < 0 || w < 0) continue;
-            const float h = heightAt({k, r});
-            const double error = std::abs((u * heightAt(a) + v * heightAt(b) + w * heightAt(c)) / area - h);
-            sums.worst = std::max(sums.worst, error);
-            sums.squares += error * error;
-            ++sums.posts;
-            lowest = std::min(lowest, h);
-            highest = std::max(highest, h);
-          }
-      }
-      errors[variant] = static_cast<float>(sums.worst + sag);
-      facts.rmsErrorM[variant] =
-          static_cast<float>(std::sqrt(sums.squares / static_cast<double>(sums.posts)));
-      facts.bilinearErrorM[variant] = errors[variant];
-      facts.posts = static_cast<std::uint32_t>(sums.posts);
-    }
-    mesh.firstIndex[PatchIndex::kVariants] = static_cast<std::uint32_t>(mesh.indices.size());
-    facts.lowestM = lowest;
-    facts.highestM = highest;
-    facts.vertices = static_cast<std::uint32_t>(mesh.vertices.size());
-    facts.bytes =
-        static_cast<std::uint32_t>(mesh.vertices.size() * sizeof(PatchVertex) + mesh.indices.size() * 2);
-    const auto below = [](std::int64_t steps) {
-      return std::nextafter(static_cast<float>(static_cast<double>(steps) / PostGeometry::kStepsPerMetre),
-                            -std::numeric_limits<float>::max());
-    };
-    const auto above = [](std::int64_t steps) {
-      return std::nextafter(static_cast<float>(static_cast<double>(steps) / PostGeometry::kStepsPerMetre),
-                            std::numeric_limits<float>::max());
-    };
-    built.bounds.push_back(
-        {below(low.x), below(low.y), below(low.z), above(high.x), above(high.y), above(high.z)});
-    built.errorM.push_back(errors);
-    built.facts.push_back(facts);
-    built.meshes.patches.push_back(std::move(mesh));
   }
+
+  void errors(const PatchDraft& draft, const std::vector<std::uint32_t>& triangles, VariantMeasure& variant) {
+    const PostStrip strip{z_.data(), block_.columns, static_cast<std::int32_t>(block_.column),
+                          static_cast<std::int32_t>(block_.row)};
+    const auto first = static_cast<std::int32_t>(row_), end = static_cast<std::int32_t>(end_);
+    const auto last = static_cast<std::int32_t>(block_.row + block_.rows) - 1;
+    const double cosLean = bound_.cosLean();
+    beside_.clear();
+    for (std::size_t t = 0; t < triangles.size(); t += 3) {
+      const auto [low, high] =
+          std::minmax({draft.vertices[triangles[t]].row, draft.vertices[triangles[t + 1]].row,
+                       draft.vertices[triangles[t + 2]].row});
+      if (high < row_ || low >= end_) continue;
+      const ScanTriangle triangle = triangleOf(draft, &triangles[t]);
+      ScanResult result;
+      triangle.scan(strip, std::max(triangle.firstRow(), first), std::min({triangle.lastRow(), end, last}),
+                    end, result);
+      const double bend = bendOf(draft, &triangles[t], variant);
+      variant.squares += result.squares;
+      variant.posts += result.posts;
+      const bool onlyCorners = triangle.area2() == 1;
+      variant.worst = std::max(variant.worst, onlyCorners ? 0.0 : result.worst / cosLean + bend);
+      beside_.push_back({result.beside / cosLean + bend, bend, t});
+    }
+    // Few triangles can hold the largest difference from the bilinear surface: only those are looked at.
+    variant.bilinear = std::max(variant.bilinear, variant.worst);
+    const auto refine = [&](const Beside& b) {
+      if (b.most <= variant.bilinear) return;
+      const double edges =
+          triangleOf(draft, &triangles[b.triangle]).bilinear(strip, first, std::min(end, last));
+      variant.bilinear = std::max(variant.bilinear, edges / cosLean + b.bend);
+    };
+    if (beside_.empty()) return;
+    refine(*std::max_element(beside_.begin(), beside_.end(),
+                             [](const Beside& a, const Beside& b) { return a.most < b.most; }));
+    for (const Beside& b : beside_) refine(b);
+  }
+
+  double bendOf(const PatchDraft& draft, const std::uint32_t* corner, const VariantMeasure& variant) const {
+    const PatchPoint &a = draft.vertices[corner[0]], &b = draft.vertices[corner[1]],
+                     &c = draft.vertices[corner[2]];
+    const auto extent = [](auto p, auto q, auto r) {
+      return static_cast<double>(std::max({p, q, r})) - static_cast<double>(std::min({p, q, r}));
+    };
+    const double slope =
+        std::max({variant.slopes[corner[0]], variant.slopes[corner[1]], variant.slopes[corner[2]]});
+    return bound_.bend(extent(a.column, b.column, c.column), extent(a.row, b.row, c.row),
+                       extent(draft.heights[corner[0]], draft.heights[corner[1]], draft.heights[corner[2]]),
+                       slope);
+  }
+
+  void finish(const PatchDraft& draft, PatchMeasure& patch, std::size_t i) {
+    static_cast<void>(draft);
+    const PatchMesh& mesh = built_.meshes.patches[i];
+    const auto up = [](double x) {
+      return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::max());
+    };
+    PatchFacts facts;
+    std::array<float, kVariants> errorM{};
+    const double rise = static_cast<double>(patch.highest) - patch.lowest;
+    const double most =
+        bound_.most(patch.lastColumn - patch.firstColumn, patch.lastRow - patch.firstRow, rise);
+    for (std::size_t v = 0; v < kVariants; ++v) {
+      const VariantMeasure& variant = patch.variants[v];
+      const double worst = std::min(variant.worst, most) + variant.rounding;
+      errorM[v] = up(worst);
+      facts.bilinearErrorM[v] = up(std::max(worst, std::min(variant.bilinear, most) + variant.rounding));
+      facts.rmsErrorM[v] =
+          variant.posts == 0
+              ? errorM[v]
+              : static_cast<float>(std::sqrt(variant.squares / static_cast<double>(variant.posts)));
+    }
+    facts.lowestM = patch.lowest;
+    facts.highestM = patch.highest;
+    facts.posts = patch.posts;
+    facts.voids = patch.voids;
+    facts.vertices = static_cast<std::uint32_t>(mesh.vertices.size());
+    facts.bytes = static_cast<std::uint32_t>(mesh.vertices.size() * sizeof(PatchVertex) +
+                                             mesh.indices.size() * sizeof(std::uint16_t));
+    built_.errorM.push_back(errorM);
+    built_.facts.push_back(facts);
+  }
+
+  struct Beside {
+    double most, bend;
+    std::size_t triangle;
+  };
+
+  const PatchIndex& index_;
+  const PatchIndex::Page& page_;
+  const HeightSource& heights_;
+  const PostGeometry& geometry_;
+  std::span<const PatchDraft> drafts_;
+  BuiltPage& built_;
+  PostWindow window_;
+  PostPlane plane_;
+  VerticalBound bound_;
+  std::vector<PatchMeasure> patches_;
+
+  // The strip.
+  std::uint32_t row_ = 0, end_ = 0;
+  PostWindow block_;
+  std::vector<float> raw_, z_;
+  std::vector<std::uint8_t> voids_;
+  std::vector<Beside> beside_;
+};
+
+}  // namespace
+
+void measurePage(const PatchIndex& index, const PatchIndex::Page& page, const HeightSource& heights,
+                 const PostGeometry& geometry, std::span<const PatchDraft> drafts, BuiltPage& built) {
+  PageMeasure(index, page, heights, geometry, drafts, built).run();
 }
 
 }  // namespace trimtab::terrain

@@ -1,75 +1,48 @@
 #include "trimtab/terrain/patch_page.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace trimtab::terrain {
 
 namespace {
 
-/// Whether no vertex of a polygon lies in the closed triangle of three of them.
-bool isEar(const std::vector<PatchPoint>& polygon, std::size_t i) {
-  const std::size_t n = polygon.size(), before = (i + n - 1) % n, after = (i + 1) % n;
-  const auto side = [](PatchPoint a, PatchPoint b, PatchPoint p) {
-    return (std::int64_t{b.column} - a.column) * (std::int64_t{p.row} - a.row) -
-           (std::int64_t{b.row} - a.row) * (std::int64_t{p.column} - a.column);
-  };
-  const PatchPoint a = polygon[before], b = polygon[i], c = polygon[after];
-  if (side(a, b, c) <= 0) return false;
-  for (std::size_t k = 0; k < n; ++k) {
-    if (k == before || k == i || k == after) continue;
-    if (side(a, b, polygon[k]) >= 0 && side(b, c, polygon[k]) >= 0 && side(c, a, polygon[k]) >= 0)
-      return false;
-  }
-  return true;
-}
+/// No patch has more vertices than the larger of the smallest has posts: so that with no tolerance at all
+/// those have every post, and no rough land makes an index too long.
+constexpr std::size_t kMostVertices =
+    std::size_t{PatchIndex::kLeafCells + 1} * (PatchIndex::kLeafCells + 2) / 2;
 
-PatchDraft drafted(const PatchIndex& index, const PatchPlace& place) {
-  PatchDraft draft{place, patchEdges(index, place), {}, {}};
+PatchDraft drafted(PageField& page, const PatchIndex& index, const PatchPlace& place,
+                   const std::vector<double>& tolerances, PolygonMesher& mesher) {
+  PatchDraft draft;
+  draft.place = place;
+  draft.edges = patchEdges(index, place);
+  const int depth = place.depth();
+  const PostWindow& window = page.window();
+  std::vector<PatchPoint> border;
+  std::vector<float> borderZ;
+  const auto addHeight = [&](PatchPoint p) {
+    draft.vertices.push_back(p);
+    draft.heights.push_back(page.height(p));
+    draft.z.push_back(static_cast<float>(page.plane().at(p.column, p.row, draft.heights.back())));
+  };
   for (const PatchEdge& edge : draft.edges) {
-    const std::int64_t dc = std::int64_t{edge.to.column} - edge.from.column,
-                       dr = std::int64_t{edge.to.row} - edge.from.row;
-    const std::int64_t length = std::max(std::abs(dc), std::abs(dr));
-    const std::int64_t step = std::max<std::int64_t>(1, index.squareCells(place.pair) / 16);
-    // From the lesser end, so that both patches at it find the same posts.
-    const bool forward =
-        edge.from.row != edge.to.row ? edge.from.row < edge.to.row : edge.from.column < edge.to.column;
-    for (std::int64_t at = 0; at < length; at += 1) {
-      const std::int64_t fromLesser = forward ? at : length - at;
-      if (at == 0 || fromLesser % step == 0)
-        draft.vertices.push_back({static_cast<std::uint32_t>(edge.from.column + dc / length * at),
-                                  static_cast<std::uint32_t>(edge.from.row + dr / length * at)});
-    }
+    const std::vector<PatchPoint> line = page.side(edge, depth);
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) addHeight(line[i]);
   }
-  std::vector<std::uint32_t> left(draft.vertices.size());
-  for (std::uint32_t i = 0; i < left.size(); ++i) left[i] = i;
-  std::vector<PatchPoint> polygon = draft.vertices;
-  std::vector<std::uint32_t> triangles;
-  while (polygon.size() >= 3) {
-    std::size_t ear = 0;
-    while (!isEar(polygon, ear)) ++ear;
-    const std::size_t n = polygon.size();
-    triangles.insert(triangles.end(), {left[(ear + n - 1) % n], left[ear], left[(ear + 1) % n]});
-    polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(ear));
-    left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));
+  for (const PatchPoint& p : draft.vertices) border.push_back({p.column - window.column, p.row - window.row});
+  mesher.begin(page.field(), border, draft.z);
+  for (int variant = PatchIndex::kVariants - 1; variant >= 0; --variant) {
+    mesher.refine(tolerances[static_cast<std::size_t>(depth)] * std::exp2(variant / 2.0), kMostVertices);
+    mesher.triangles(draft.triangles[static_cast<std::size_t>(variant)]);
   }
-  draft.triangles.fill(triangles);
+  for (std::size_t i = border.size(); i < mesher.vertices().size(); ++i) {
+    const PatchPoint& p = mesher.vertices()[i];
+    addHeight({p.column + window.column, p.row + window.row});
+  }
   return draft;
 }
 
 }  // namespace
-
-std::uint32_t meshStride(const PatchIndex& index, int pair) {
-  return std::max(1u, index.squareCells(pair) * PatchIndex::kPageSquares / (kMostPostsASide - 1));
-}
-
-PostWindow pageWindow(const PatchIndex& index, const PatchIndex::Page& page) {
-  const std::uint32_t side = index.squareCells(page.pair) * PatchIndex::kPageSquares;
-  const std::uint32_t column = page.column * side, row = page.row * side;
-  return {column, row, std::min(side, index.columns - 1 - column) + 1,
-          std::min(side, index.rows - 1 - row) + 1};
-}
 
 std::size_t PatchPage::bytes() const {
   std::size_t sum = 0;
@@ -80,12 +53,16 @@ std::size_t PatchPage::bytes() const {
 
 BuiltPage buildPage(const PatchIndex& index, std::uint32_t page, const HeightSource& heights,
                     const PostGeometry& geometry, const std::vector<double>& tolerances) {
-  static_cast<void>(tolerances);
+  const PatchIndex::Page& at = index.pages[page];
   BuiltPage built;
   built.meshes.page = page;
-  const PatchIndex::Page& at = index.pages[page];
   std::vector<PatchDraft> drafts;
-  for (const PatchPlace& place : placesOfPage(index, at)) drafts.push_back(drafted(index, place));
+  {
+    PageField field(index, at, heights, geometry, tolerances);
+    PolygonMesher mesher;
+    for (const PatchPlace& place : placesOfPage(index, at))
+      drafts.push_back(drafted(field, index, place, tolerances, mesher));
+  }
   measurePage(index, at, heights, geometry, drafts, built);
   return built;
 }

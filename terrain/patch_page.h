@@ -1,28 +1,69 @@
 #pragma once
 
+#include <array>
+#include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "trimtab/terrain/patch_build.h"
 #include "trimtab/terrain/patch_shape.h"
+#include "trimtab/terrain/post_plane.h"
 
 /// What building a page works with.
 namespace trimtab::terrain {
 
-/// Vertices and triangles of one patch before its positions are known; variants from the finest.
+/// Vertices and triangles of one patch before its positions are known.
 struct PatchDraft {
   PatchPlace place;
   std::vector<PatchEdge> edges;
-  std::vector<PatchPoint> vertices;                                         ///< whole posts of the data
-  std::array<std::vector<std::uint32_t>, PatchIndex::kVariants> triangles;  ///< three a triangle
+  std::vector<PatchPoint> vertices;  ///< the border's first
+  std::vector<float> heights;        ///< one a vertex
+  std::vector<float> z;              ///< above the page's plane
+  std::array<std::vector<std::uint32_t>, PatchIndex::kVariants>
+      triangles;  ///< from the finest; three a triangle
 };
 
 /// Posts from one to the next at which pages of a pair are meshed.
 std::uint32_t meshStride(const PatchIndex& index, int pair);
 /// The posts that a page's patches cover.
 PostWindow pageWindow(const PatchIndex& index, const PatchIndex::Page& page);
+/// Touches the ellipsoid in the middle of a page.
+PostPlane pagePlane(const PostGeometry& geometry, const PostWindow& window);
 
-/// Measures errors, facts and normals of a page's patches on all posts, strip by strip.
+/// The posts that a page is meshed on, and its patches' sides.
+class PageField {
+ public:
+  PageField(const PatchIndex& index, const PatchIndex::Page& page, const HeightSource& heights,
+            const PostGeometry& geometry, const std::vector<double>& tolerances);
+
+  const PostWindow& window() const { return window_; }
+  std::uint32_t stride() const { return stride_; }
+  /// Above the page's plane, by places relative to the window.
+  HeightField field() const { return {z_.data(), columns_, rows_, columns_, stride_}; }
+  const PostPlane& plane() const { return plane_; }
+  float height(PatchPoint p) const;
+
+  /// The polyline of an edge, both ends in it: a function of the posts along it and of its tolerance only, so
+  /// that both patches at it, in whatever page, draw the same.
+  std::vector<PatchPoint> side(const PatchEdge& edge, int depth);
+
+ private:
+  std::vector<PatchPoint> simplified(PatchPoint from, PatchPoint to, std::uint32_t step, double tolerance);
+
+  const PatchIndex& index_;
+  const HeightSource& heights_;
+  const PostGeometry& geometry_;
+  const std::vector<double>& tolerances_;
+  PostWindow window_;
+  std::uint32_t stride_, columns_, rows_;
+  PostPlane plane_;
+  std::vector<float> raw_, z_;
+  std::map<std::array<std::uint32_t, 4>, std::vector<PatchPoint>> sides_;  ///< from the lesser end
+  std::vector<float> strip_;
+};
+
+/// Measures errors, facts and normals of a page's patches on all posts, strip by strip, and fills `built`.
 void measurePage(const PatchIndex& index, const PatchIndex::Page& page, const HeightSource& heights,
                  const PostGeometry& geometry, std::span<const PatchDraft> drafts, BuiltPage& built);
 

@@ -41,6 +41,7 @@ class PostGeometry {
   double roundingM() const;
 
  private:
+  friend class PostPlane;
   struct Row {
     double sine, cosine;
     double normalRadius;    ///< N: along the normal to the polar axis
