@@ -123,6 +123,7 @@ Json recipeOf(const BakeOptions& options, const std::vector<fs::path>& files) {
   recipe["max_error_m"] = options.maxError ? Json(options.maxError->value()) : Json();
   recipe["post_m"] = options.post ? Json(options.post->value()) : Json();
   recipe["triangles_per_node"] = options.trianglesPerNode;
+  if (options.keepLines) recipe["keep_lines"] = true;
   return recipe;
 }
 
@@ -320,6 +321,7 @@ class Job {
     if (source_->meshes.empty()) return Done{};
     StaticLodOptions trees;
     trees.trianglesPerNode = options_.trianglesPerNode;
+    trees.keepLines = options_.keepLines;
     trees.progress = stage(0.25, 0.9);
     auto built = buildStaticLod(source_->meshes, geometry_->frame(), trees);
     if (!built) return built.findings();

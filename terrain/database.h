@@ -95,6 +95,7 @@ struct BakeOptions {
   std::vector<std::filesystem::path> sources;  ///< elevation files or folders of them; or scenery
   std::optional<std::filesystem::path> imagery;
   std::uint32_t trianglesPerNode = 2000;  ///< of the static levels of detail, where the source is scenery
+  bool keepLines = false;  ///< roads, streams and shorelines stay in them while a pixel shows them
   std::optional<Metres> post;  ///< distance of posts that scenery's triangles are put on; else by its size
   /// Vertical error of the finest patches at the posts; else defaultLeafToleranceM (patch_build.h). 0: exact.
   std::optional<Metres> maxError;

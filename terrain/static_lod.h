@@ -69,6 +69,10 @@ struct StaticLodOptions {
   std::uint32_t trianglesPerNode = 2000;  ///< 1 to kMostTrianglesPerNode
   /// As terrain::Progress: returning false cancels.
   std::function<bool(double fraction, const std::string& what)> progress;
+  /// Roads, railways, streams and shorelines stay in a node as long as a pixel is no wider than they are
+  /// where the node may first be drawn: at an RMS error of one pixel. Document E, as published, loses them at
+  /// the first step. Nodes may then hold more than n triangles; they state an error no less than that pixel.
+  bool keepLines = false;
 };
 
 /// Builds the trees of all tiles in `frame`; tiles in parallel. Vertices that neighbouring tiles share are

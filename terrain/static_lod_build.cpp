@@ -6,6 +6,7 @@
 #include "trimtab/terrain/parallel.h"
 #include "trimtab/terrain/static_lod.h"
 #include "trimtab/terrain/static_lod_lattice.h"
+#include "trimtab/terrain/static_lod_lines.h"
 #include "trimtab/terrain/static_lod_tree.h"
 
 namespace trimtab::terrain {
@@ -110,12 +111,14 @@ BuiltTile finished(const std::string& name, const LodTree& tree,
     out.rmsErrorM.push_back(upwards(node.rmsErrorM));
     out.maxErrorM.push_back(upwards(node.maxErrorM));
     out.slopeMax.push_back(upwards(node.slopeMax));
+    const bool leaf = node.children[0] == LodTree::kNone;
     for (std::size_t t = 0; t < node.triangles.size(); ++t) {
       const std::uint16_t material = node.material[t];
       std::array<bool, 3> locked{};
       for (std::size_t k = 0; k < 3; ++k) {
         out.tile.indices.push_back(table.number(node.triangles[t][k], material));
-        locked[k] = tree.locked(node.triangles[t][k], node.depth);
+        locked[k] = tree.locked(node.triangles[t][k], node.depth) ||
+                    (!leaf && tree.onLine(node.triangles[t][k], node.lineWidthM));
       }
       std::uint8_t bits = 0;
       for (unsigned k = 0; k < 3; ++k)
@@ -216,7 +219,10 @@ Result<std::shared_ptr<const StaticLodTerrain>> buildStaticLod(std::span<const S
   const auto work = [&](std::uint32_t i) {
     LatticeTile& tile = tiles[bySize[i]];
     done += tile.triangles.size();
-    built[bySize[i]] = finished(tile.name, buildTree(tile, options.trianglesPerNode), colours);
+    std::vector<float> lines;
+    if (options.keepLines) lines = lineWidths(tile, terrain->materials);
+    built[bySize[i]] =
+        finished(tile.name, buildTree(tile, options.trianglesPerNode, std::move(lines)), colours);
     tile = {};
   };
   const auto carryOn = [&](double) {

@@ -108,4 +108,15 @@ std::optional<double> VerticalDistance::metres(const Lattice& p, std::uint32_t f
   return nearest;
 }
 
+std::optional<std::uint32_t> VerticalDistance::at(const Lattice& p) const {
+  const std::int64_t x = std::int64_t{p.x} - minX_, y = std::int64_t{p.y} - minY_;
+  if (x < 0 || y < 0 || x / cell_ >= columns_ || y / cell_ >= rows_) return std::nullopt;
+  const std::size_t cell = static_cast<std::size_t>(y / cell_ * columns_ + x / cell_);
+  for (std::uint32_t i = firstOfCell_[cell]; i < firstOfCell_[cell + 1]; ++i) {
+    const auto& corners = triangles_[inCell_[i]];
+    if (distance(vertices_[corners[0]], vertices_[corners[1]], vertices_[corners[2]], p)) return inCell_[i];
+  }
+  return std::nullopt;
+}
+
 }  // namespace trimtab::terrain

@@ -20,6 +20,8 @@ class VerticalDistance {
   /// Smallest vertical distance to those of the triangles [first, last) that lie above or below `p`, their
   /// borders included (exactly); none where there is none.
   std::optional<double> metres(const Lattice& p, std::uint32_t first, std::uint32_t last) const;
+  /// A triangle above or below `p`, the first where there are several; none where there is none.
+  std::optional<std::uint32_t> at(const Lattice& p) const;
 
  private:
   template <class Visit>

@@ -1,9 +1,11 @@
 #include "trimtab/terrain/static_lod_tree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "trimtab/terrain/static_lod_collapse.h"
 #include "trimtab/terrain/static_lod_surface.h"
@@ -37,7 +39,8 @@ std::uint64_t distinctFaces(const LodTree& tree) {
 
 class Builder {
  public:
-  Builder(const LatticeTile& tile, Index most) : tile_(tile), most_(most) {
+  Builder(const LatticeTile& tile, Index most, std::vector<float> lineWidthM) : tile_(tile), most_(most) {
+    tree_.lineWidthM = std::move(lineWidthM);
     Lattice low = tile.vertices[0], high = low;
     for (const Lattice& p : tile.vertices) {
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
@@ -66,7 +69,11 @@ class Builder {
       if (tree_.nodes[i].children[0] == LodTree::kNone) {
         fillLeaf(tree_.nodes[i]);
       } else {
-        merge(tree_.nodes[i]);
+        Patch patch = childrenOf(tree_.nodes[i]);
+        if (tree_.lineWidthM.empty())
+          simplify(tree_.nodes[i], patch, most_);
+        else
+          simplifyAroundLines(tree_.nodes[i], patch);
       }
     }
     tree_.distinctFaces = distinctFaces(tree_);
@@ -152,8 +159,7 @@ class Builder {
     for (const Kept& k : kept_[number]) localOf_[k.vertex] = LodTree::kNone;
   }
 
-  void merge(LodTree::Node& node) {
-    const Index number = static_cast<Index>(&node - tree_.nodes.data());
+  Patch childrenOf(LodTree::Node& node) {
     Patch patch;
     patch.origin = tree_.origin;
     for (const Index child : node.children) {
@@ -174,9 +180,58 @@ class Builder {
       kept_[child] = {};
     }
     for (const Patch::Vertex& v : patch.vertices) localOf_[v.id] = LodTree::kNone;
+    return patch;
+  }
 
+  /// The pixel at the distance where the node may first be drawn is as wide as its RMS error, which depends
+  /// on the lines that it keeps: looks for the least pixel whose lines, kept, leave no greater error than it.
+  void simplifyAroundLines(LodTree::Node& node, const Patch& children) {
+    constexpr int kHalvings = 5;
+    const std::size_t vertices = tree_.vertices.size();
+    const std::vector<std::uint16_t> material = node.material;
+    double low = 0;
+    for (const Index child : node.children) low = std::max(low, tree_.nodes[child].lineWidthM);
+    double high = simplifyKeeping(node, children, low), at = low;
+    if (high > low) {
+      const auto again = [&](double pixelM) {
+        node.triangles.clear();
+        node.material = material;
+        kept_[static_cast<std::size_t>(&node - tree_.nodes.data())].clear();
+        tree_.vertices.resize(vertices);
+        tree_.normals.resize(vertices);
+        tree_.freeFrom.resize(vertices);
+        sourceQuadrics_.resize(vertices);
+        localOf_.resize(vertices);
+        at = pixelM;
+        return simplifyKeeping(node, children, pixelM);
+      };
+      for (int i = 0; i < kHalvings && high > 1.1 * low; ++i) {
+        const double middle = std::sqrt(std::max(low, high / 64) * high);
+        (again(middle) <= middle ? high : low) = middle;
+      }
+      if (at != high) again(high);
+    }
+    node.lineWidthM = at;
+  }
+
+  /// Its RMS error, metres.
+  double simplifyKeeping(LodTree::Node& node, const Patch& children, double pixelM) {
+    if (!measure_) measure_.emplace(tile_, tree_);
+    Patch patch = children;
+    // What lies between lines cannot go: the rest may have its n, or it would pay for them.
+    std::size_t lines = 0;
+    for (const auto& t : patch.triangles)
+      lines += std::all_of(t.begin(), t.end(),
+                           [&](Index v) { return tree_.onLine(patch.vertices[v].id, pixelM); });
+    for (Patch::Vertex& v : patch.vertices) v.locked = v.locked || tree_.onLine(v.id, pixelM);
+    simplify(node, patch, most_ + lines);
+    return measure_->of(node).rmsM;
+  }
+
+  void simplify(LodTree::Node& node, Patch& patch, std::size_t most) {
+    const Index number = static_cast<Index>(&node - tree_.nodes.data());
     std::vector<std::uint8_t> alive;
-    node.lockedMinimum = !collapseEdges(patch, most_, alive);
+    node.lockedMinimum = !collapseEdges(patch, most, alive);
 
     std::vector<std::uint8_t> used(patch.vertices.size());
     for (std::size_t t = 0; t < alive.size(); ++t)
@@ -204,11 +259,13 @@ class Builder {
       node.material[left++] = node.material[t];
     }
     node.material.resize(left);
+    node.lockedMinimum = node.lockedMinimum || left > std::size_t{most_} + 1;
   }
 
   const LatticeTile& tile_;
   Index most_;
   LodTree tree_;
+  std::optional<NodeMeasure> measure_;
   std::vector<Quadric> sourceQuadrics_;  ///< of the source's vertices; zero for new ones
   std::vector<Index> localOf_;           ///< scratch, one a vertex
   std::vector<std::vector<Kept>> kept_;  ///< one a node, until its parent is built
@@ -216,8 +273,8 @@ class Builder {
 
 }  // namespace
 
-LodTree buildTree(const LatticeTile& tile, std::uint32_t trianglesPerNode) {
-  LodTree tree = Builder(tile, trianglesPerNode).build();
+LodTree buildTree(const LatticeTile& tile, std::uint32_t trianglesPerNode, std::vector<float> lineWidthM) {
+  LodTree tree = Builder(tile, trianglesPerNode, std::move(lineWidthM)).build();
   measureTree(tile, tree);
   return tree;
 }

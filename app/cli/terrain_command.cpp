@@ -39,6 +39,7 @@ void addTerrain(CLI::App& app, int& exitCode) {
     std::vector<std::string> sources;
     std::string output, imagery;
     std::uint32_t leafTriangles = terrain::BakeOptions{}.trianglesPerNode;
+    bool keepLines = false;
     double postM = 0;
   };
   auto bake = std::make_shared<BakeArguments>();
@@ -56,6 +57,9 @@ void addTerrain(CLI::App& app, int& exitCode) {
                    "Most triangles a leaf of the static levels of detail holds (scenery)")
       ->capture_default_str()
       ->check(CLI::Range(16, 1000000));
+  makeBake->add_flag("--keep-lines", bake->keepLines,
+                     "Keep roads, railways, streams and shorelines in the static levels of detail while a "
+                     "pixel shows them (scenery)");
   makeBake
       ->add_option(
           "--post-m", bake->postM,
@@ -68,6 +72,7 @@ void addTerrain(CLI::App& app, int& exitCode) {
     options.output = bake->output;
     if (!bake->imagery.empty()) options.imagery = bake->imagery;
     options.trianglesPerNode = bake->leafTriangles;
+    options.keepLines = bake->keepLines;
     if (bake->postM > 0) options.post = Metres{bake->postM};
     options.progress = progressLines();
     const auto done = terrain::bake(options);

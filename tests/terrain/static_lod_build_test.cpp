@@ -304,19 +304,22 @@ TEST(StaticLodBuild, refusesWhatCannotBePlacedAndNamesIt) {
 
 TEST(StaticLodBuild, stopsWhenTold) {
   const std::vector<SceneryMesh> tiles{tin("A", {}), tin("B", {.x0 = 1200})};
+  StaticLodOptions options;
+  options.trianglesPerNode = 100;
   double last = -1;
-  EXPECT_TRUE(buildStaticLod(tiles, test::testFrame(), {100, [&](double share, const std::string&) {
-                                                          EXPECT_GE(share, last);
-                                                          EXPECT_LE(share, 1);
-                                                          last = share;
-                                                          return true;
-                                                        }}));
-  const auto stopped = buildStaticLod(tiles, test::testFrame(),
-                                      {100, [](double share, const std::string&) { return share == 0; }});
+  options.progress = [&](double share, const std::string&) {
+    EXPECT_GE(share, last);
+    EXPECT_LE(share, 1);
+    last = share;
+    return true;
+  };
+  EXPECT_TRUE(buildStaticLod(tiles, test::testFrame(), options));
+  options.progress = [](double share, const std::string&) { return share == 0; };
+  const auto stopped = buildStaticLod(tiles, test::testFrame(), options);
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.findings()[0].severity, Severity::note);
-  EXPECT_FALSE(
-      buildStaticLod(tiles, test::testFrame(), {100, [](double, const std::string&) { return false; }}));
+  options.progress = [](double, const std::string&) { return false; };
+  EXPECT_FALSE(buildStaticLod(tiles, test::testFrame(), options));
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ inline terrain::SceneryMesh tin(const std::string& name, const TinOptions& o,
 
 inline Result<std::shared_ptr<const terrain::StaticLodTerrain>> built(
     const std::vector<terrain::SceneryMesh>& tiles, std::uint32_t n) {
-  return terrain::buildStaticLod(tiles, testFrame(), {n, {}});
+  return terrain::buildStaticLod(tiles, testFrame(), {n, {}, false});
 }
 
 }  // namespace trimtab::test
