@@ -43,7 +43,11 @@ void GdalErrors::moveTo(Findings& findings, const std::string& where, Severity w
 
 void useGdal() {
   static std::once_flag once;
-  std::call_once(once, [] { GDALAllRegister(); });
+  std::call_once(once, [] {
+    GDALAllRegister();
+    // Its own choice is a share of the machine's memory.
+    if (CPLGetConfigOption("GDAL_CACHEMAX", nullptr) == nullptr) GDALSetCacheMax64(GIntBig{128} << 20);
+  });
 }
 
 }  // namespace trimtab::terrain

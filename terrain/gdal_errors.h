@@ -28,7 +28,7 @@ class GdalErrors {
   friend struct GdalErrorsAccess;
 };
 
-/// Registers GDAL's drivers, once.
+/// Registers GDAL's drivers, once, and bounds its cache.
 void useGdal();
 
 }  // namespace trimtab::terrain

@@ -1,0 +1,361 @@
+#include "trimtab/terrain/elevation_source.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "elevation_truth.h"
+
+namespace trimtab::terrain {
+namespace {
+
+namespace fs = std::filesystem;
+using test::TrueRaster;
+
+/// About 12 E, 47.5 N, where UTM zones 32 and 33 meet: 11.9 to 12.1 E, 47.4 to 47.6 N.
+TrueRaster degrees(double west, double north, double step, int columns, int rows) {
+  return {"EPSG:4326", test::geographic, west, north, step, columns, rows};
+}
+TrueRaster inUtm(int zone, double latitude, double longitude, double step, int columns, int rows,
+                 bool northern = true) {
+  int found;
+  bool isNorth;
+  double x, y;
+  GeographicLib::UTMUPS::Forward(latitude, longitude, found, isNorth, x, y, zone);
+  if (isNorth != northern) y += northern ? -1e7 : 1e7;
+  const std::string code = std::to_string(zone);
+  return {"EPSG:32" + std::string(northern ? "6" : "7") + (zone < 10 ? "0" : "") + code,
+          test::utm(zone, northern),
+          std::floor(x),
+          std::floor(y),
+          step,
+          columns,
+          rows};
+}
+TrueRaster inLambert(double step, int columns, int rows) {
+  // 11.88 E, 47.6 N.
+  return {"EPSG:3034", test::lambertEurope, 4137000, 2329000, step, columns, rows};
+}
+
+class Elevation : public ::testing::Test {
+ protected:
+  std::unique_ptr<ElevationSource> open(const std::vector<TrueRaster>& rasters,
+                                        ElevationOptions options = {}) {
+    std::vector<fs::path> files;
+    for (const TrueRaster& raster : rasters)
+      files.push_back(test::write(dir_ / (std::to_string(count_++) + ".tif"), raster));
+    auto source = openElevation(files, options);
+    EXPECT_TRUE(source) << toString(source.findings());
+    if (!source) return nullptr;
+    notes_ = toString(source.findings());
+    return std::move(source).value();
+  }
+  /// Largest difference from the truth, and how many posts have a height.
+  static std::pair<double, std::size_t> error(const PostGrid& posts, const std::vector<float>& heights) {
+    double worst = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+      if (std::isnan(heights[i])) continue;
+      ++count;
+      const double truth = test::trueHeight(posts.latitude(static_cast<double>(i / posts.columns)),
+                                            posts.longitude(static_cast<double>(i % posts.columns)));
+      worst = std::max(worst, std::abs(static_cast<double>(heights[i]) - truth));
+    }
+    return {worst, count};
+  }
+  test::ScratchDir dir_;
+  int count_ = 0;
+  std::string notes_;
+};
+
+struct Mixture {
+  const char* name;
+  std::vector<TrueRaster> rasters;
+  double coarsestM;
+};
+
+TEST_F(Elevation, ofMixedSourcesIsTheGroundItself) {
+  auto feet = inUtm(32, 47.59, 11.92, 40, 160, 400);
+  feet.unit = 0.3048;
+  auto old = degrees(11.95, 47.58, 0.0005, 300, 250);
+  old.crs = test::kEd50, old.toDegrees = test::ed50;
+  const Mixture mixtures[] = {
+      {"two zones", {inUtm(32, 47.59, 11.9, 40, 220, 400), inUtm(33, 47.59, 12.02, 40, 200, 400)}, 40},
+      {"degrees and metres",
+       {degrees(11.9, 47.6, 0.0005, 200, 400), inUtm(33, 47.59, 11.97, 40, 220, 400)},
+       56},
+      {"half a post aside",
+       {degrees(11.9, 47.6, 0.0005, 220, 400), degrees(12.00025, 47.60025, 0.0005, 200, 400)},
+       56},
+      {"half the resolution",
+       {degrees(11.9, 47.6, 0.0005, 220, 400), degrees(11.98, 47.6, 0.001, 120, 200)},
+       112},
+      {"a cone", {inLambert(50, 200, 420), degrees(12.0, 47.6, 0.0005, 200, 400)}, 56},
+      {"another datum", {old, degrees(11.9, 47.6, 0.0005, 220, 400)}, 56},
+      {"feet", {feet, inUtm(33, 47.59, 12, 40, 160, 400)}, 40},
+      {"all of them",
+       {degrees(11.9, 47.6, 0.0005, 100, 400), inUtm(32, 47.59, 11.93, 40, 220, 400), feet, old,
+        inUtm(33, 47.59, 12.02, 40, 200, 400), inLambert(50, 200, 420), degrees(11.9, 47.6, 0.001, 200, 200)},
+       112},
+  };
+  for (const Mixture& mixture : mixtures) {
+    const auto source = open(mixture.rasters);
+    ASSERT_TRUE(source) << mixture.name;
+    const auto [worst, count] = error(source->posts(), test::readBands(*source, 64));
+    EXPECT_LT(worst, test::bilinearLimit(mixture.coarsestM)) << mixture.name;
+    EXPECT_GT(count, source->posts().size() / 2) << mixture.name;
+    std::printf("%-22s %9zu posts, worst %.3f m; bilinear might be %.3f m\n", mixture.name, count, worst,
+                test::bilinearLimit(mixture.coarsestM));
+  }
+}
+
+TEST_F(Elevation, knowsAnOldDatum) {
+  auto old = degrees(-105.1, 40.1, 0.0005, 400, 400);
+  old.crs = "EPSG:4267";  // NAD27: some 50 m aside there
+  const auto source = open({old});
+  ASSERT_TRUE(source);
+  const auto heights = test::readBands(*source, 64);
+  // The raster was written as if it were WGS84: so the ground must be found some 50 m to the east of itself.
+  const auto misfit = [&](double eastM, double northM) {
+    double sum = 0;
+    const PostGrid& p = source->posts();
+    for (std::size_t i = 0; i < heights.size(); i += 7)
+      if (!std::isnan(heights[i]))
+        sum += std::pow(static_cast<double>(heights[i]) -
+                            test::trueHeight(p.latitude(static_cast<double>(i / p.columns)) - northM / 111000,
+                                             p.longitude(static_cast<double>(i % p.columns)) - eastM / 85200),
+                        2);
+    return sum;
+  };
+  EXPECT_LT(misfit(-48, 0), 0.2 * misfit(0, 0));
+}
+
+TEST_F(Elevation, isKnownAcrossTheDateLine) {
+  auto east = inUtm(1, -17.01, -180, 40, 400, 300, false);
+  const auto source = open({degrees(179.8, -17, 0.0005, 401, 300), east});
+  ASSERT_TRUE(source);
+  const auto heights = test::readBands(*source, 32);
+  const auto [worst, count] = error(source->posts(), heights);
+  EXPECT_LT(worst, test::bilinearLimit(56));
+  EXPECT_GT(count, 600u * 250);
+  EXPECT_LT(source->posts().columns * source->posts().stepLongitude, 0.5);
+  // Zone 60 by itself, on both sides of the line.
+  const auto alone = open({inUtm(60, 12, 179.9, 40, 600, 200)});
+  ASSERT_TRUE(alone);
+  const auto [worstAlone, countAlone] = error(alone->posts(), test::readBands(*alone, 32));
+  EXPECT_LT(worstAlone, test::bilinearLimit(40));
+  EXPECT_GT(countAlone, 100000u);
+}
+
+TEST_F(Elevation, isKnownAtThePole) {
+  const auto source = open({degrees(20, 89.95, 0.0005, 400, 200)});
+  ASSERT_TRUE(source);
+  EXPECT_LT(error(source->posts(), test::readBands(*source, 32)).first, 0.01);
+  // Universal polar stereographic, with the pole 1 km from its edge.
+  TrueRaster cap{"EPSG:32661", test::utm(0), 1990000, 2015000, 50, 500, 500};
+  const auto pole = open({cap});
+  ASSERT_TRUE(pole);
+  EXPECT_EQ(pole->posts().latitude(pole->posts().rows - 1), 90);
+  EXPECT_NEAR(pole->posts().columns * pole->posts().stepLongitude, 360, 1);
+  const auto heights = test::readBands(*pole, 32);
+  const auto [worst, count] = error(pole->posts(), heights);
+  EXPECT_LT(worst, test::bilinearLimit(50));
+  EXPECT_GT(count, 250000u);
+  for (std::size_t i = heights.size() - pole->posts().columns; i < heights.size(); ++i)
+    ASSERT_NEAR(heights[i], test::trueHeight(90, 0), 0.5);
+  // In two parts, one of them without the pole.
+  TrueRaster left = cap, right = cap;
+  left.columns = 300, right.columns = 200, right.west += 300 * 50;
+  const auto both = open({left, right});
+  ASSERT_TRUE(both);
+  const auto [worstOfTwo, countOfTwo] = error(both->posts(), test::readBands(*both, 32));
+  EXPECT_LT(worstOfTwo, test::bilinearLimit(50));
+  EXPECT_GT(countOfTwo, 250000u);
+}
+
+TEST_F(Elevation, isKnownInTheSouthAndFromTheSouth) {
+  auto turned = degrees(-70.5, -33, 0.0005, 300, 300);
+  turned.southUp = true;
+  const auto source = open({turned, inUtm(19, -33.02, -70.4, 40, 300, 300, false)});
+  ASSERT_TRUE(source);
+  const auto [worst, count] = error(source->posts(), test::readBands(*source, 32));
+  EXPECT_LT(worst, test::bilinearLimit(56));
+  EXPECT_GT(count, 90000u);
+}
+
+TEST_F(Elevation, isTakenToTheBitFromTheFinestFileItself) {
+  const auto fine = degrees(12.0, 47.55, 0.0005, 150, 120);
+  const auto alone = open({fine}), joined = open({degrees(11.9003, 47.6002, 0.001, 200, 200), fine,
+                                                  inUtm(32, 47.6, 11.9, 60, 200, 300)});
+  ASSERT_TRUE(alone && joined);
+  const auto one = test::readBands(*alone, 64), all = test::readBands(*joined, 64);
+  const PostGrid &a = alone->posts(), &b = joined->posts();
+  const auto column = static_cast<std::uint32_t>(std::lround((a.west - b.west) / b.stepLongitude)),
+             row = static_cast<std::uint32_t>(std::lround((a.south - b.south) / b.stepLatitude));
+  // Where it does not give way to what goes on beyond it.
+  for (std::uint32_t r = 33; r < a.rows - 33; ++r)
+    for (std::uint32_t c = 33; c < a.columns - 33; ++c)
+      ASSERT_EQ(all[std::size_t{row + r} * b.columns + column + c], one[std::size_t{r} * a.columns + c]);
+}
+
+/// Largest second difference of what is not the terrain's own, along rows and columns.
+double roughness(const PostGrid& posts, const std::vector<float>& heights) {
+  std::vector<double> rest(heights.size());
+  for (std::size_t i = 0; i < heights.size(); ++i)
+    rest[i] = static_cast<double>(heights[i]) -
+              test::trueHeight(posts.latitude(static_cast<double>(i / posts.columns)),
+                               posts.longitude(static_cast<double>(i % posts.columns)));
+  double worst = 0;
+  for (std::uint32_t r = 1; r + 1 < posts.rows; ++r)
+    for (std::uint32_t c = 1; c + 1 < posts.columns; ++c) {
+      const std::size_t i = std::size_t{r} * posts.columns + c, up = posts.columns;
+      for (const double d :
+           {rest[i - 1] - 2 * rest[i] + rest[i + 1], rest[i - up] - 2 * rest[i] + rest[i + up]})
+        if (!std::isnan(d)) worst = std::max(worst, std::abs(d));
+    }
+  return worst;
+}
+
+TEST_F(Elevation, hasNoStepWhereFilesDisagree) {
+  // Ten metres apart, as different datums or years would be.
+  const auto lifted = [](TrueRaster raster) {
+    raster.lift = 10;
+    return raster;
+  };
+  auto holed = degrees(11.9, 47.6, 0.0005, 400, 400);
+  holed.isVoid = [](double latitude, double longitude) {
+    return std::hypot(latitude - 47.5, longitude - 12.0) < 0.02;
+  };
+  struct Seam {
+    const char* name;
+    std::vector<TrueRaster> rasters;
+    /// Of the second difference, metres, of a step of ten: where two borders meet at a corner, distances from
+    /// them meet in a kink.
+    double limit;
+  };
+  const Seam seams[] = {
+      {"wide overlap",
+       {degrees(11.9, 47.6, 0.0005, 250, 400), lifted(degrees(11.98, 47.6, 0.0005, 240, 400))},
+       0.1},
+      {"a band of 20 posts",
+       {degrees(11.9, 47.6, 0.0005, 210, 400), lifted(degrees(11.995, 47.6, 0.0005, 210, 400))},
+       0.2},
+      {"an island",
+       {lifted(degrees(11.95, 47.55, 0.0005, 200, 200)), degrees(11.9, 47.6, 0.001, 200, 200)},
+       0.5},
+      {"an island in metres",
+       {lifted(degrees(11.95, 47.55, 0.0005, 200, 200)), inUtm(32, 47.6, 11.9, 60, 250, 370)},
+       0.5},
+      {"a void", {holed, lifted(degrees(11.9, 47.6, 0.0005, 400, 400))}, 0.2},
+  };
+  for (const Seam& seam : seams) {
+    const auto source = open(seam.rasters);
+    ASSERT_TRUE(source);
+    const auto heights = test::readBands(*source, 64);
+    std::vector<TrueRaster> level = seam.rasters;
+    for (TrueRaster& raster : level) raster.lift = 0;
+    const auto flat = open(level);
+    const double own = roughness(flat->posts(), test::readBands(*flat, 64)),
+                 found = roughness(source->posts(), heights);
+    EXPECT_LT(found, own + seam.limit) << seam.name;
+    std::printf("%-22s second differences %.3f m, without disagreement %.3f m\n", seam.name, found, own);
+  }
+}
+
+TEST_F(Elevation, closesTheGapBetweenTilesThatStandSideBySide) {
+  // Pixels side by side: a post may lie between the last of one and the first of the other.
+  const auto whole = inUtm(32, 47.59, 11.9, 40, 300, 300);
+  auto left = whole, right = whole, low = whole;
+  left.columns = 150, left.rows = 150;
+  right.columns = 150, right.west += 150 * 40, right.rows = 150;
+  low.rows = 150, low.north -= 150 * 40;
+  const auto joined = open({left, right, low});
+  ASSERT_TRUE(joined);
+  std::vector<std::uint8_t> beyond;
+  const auto heights = test::readBands(*joined, 64, &beyond);
+  const PostGrid& posts = joined->posts();
+  std::size_t voids = 0;
+  for (std::size_t i = 0; i < heights.size(); ++i)
+    if (std::isnan(heights[i]) && beyond[i] == 0) ++voids;
+  EXPECT_EQ(voids, 0u);
+  const auto [worst, count] = error(posts, heights);
+  EXPECT_LT(worst, test::bilinearLimit(40));
+  EXPECT_GT(count, 80000u);
+}
+
+TEST_F(Elevation, doesNotDependOnBands) {
+  auto holed = degrees(11.95, 47.58, 0.0005, 200, 250);
+  holed.isVoid = [](double latitude, double longitude) {
+    return std::sin(latitude * 900) * std::sin(longitude * 1100) > 0.6;
+  };
+  auto old = degrees(11.92, 47.55, 0.0007, 150, 150);
+  old.crs = test::kEd50, old.toDegrees = test::ed50, old.lift = 4;
+  const std::vector<TrueRaster> rasters = {holed, inUtm(32, 47.59, 11.93, 40, 220, 330), old,
+                                           inUtm(33, 47.59, 12.02, 47, 150, 300), inLambert(50, 200, 300)};
+  const auto reference = test::readBands(*open(rasters), 1u << 20);
+  const auto same = [&](const std::vector<float>& heights) {
+    return heights.size() == reference.size() &&
+           std::memcmp(heights.data(), reference.data(), reference.size() * sizeof(float)) == 0;
+  };
+  for (const std::uint32_t band : {1u, 7u, 64u})
+    EXPECT_TRUE(same(test::readBands(*open(rasters), band))) << band;
+  // In no order at all.
+  const auto source = open(rasters);
+  const PostGrid& posts = source->posts();
+  std::vector<float> heights(posts.columns);
+  std::mt19937 random(7);
+  for (int k = 0; k < 60; ++k) {
+    const auto row = static_cast<std::uint32_t>(random() % posts.rows);
+    ASSERT_TRUE(source->readRows(row, 1, heights));
+    ASSERT_EQ(std::memcmp(heights.data(), reference.data() + std::size_t{row} * posts.columns,
+                          posts.columns * sizeof(float)),
+              0);
+  }
+  // Every post is somebody's, once, however often it is read.
+  for (const std::uint32_t band : {64u, 7u}) test::readBands(*source, band);
+  std::uint64_t given = 0;
+  for (const std::uint64_t posts_ : source->given()) given += posts_;
+  EXPECT_EQ(given, static_cast<std::uint64_t>(std::count_if(reference.begin(), reference.end(),
+                                                            [](float h) { return !std::isnan(h); })));
+}
+
+TEST_F(Elevation, takesVerticalDatumsToTheGeoidWherePROJCan) {
+  auto ellipsoid = degrees(11.9, 47.6, 0.0005, 100, 100);
+  ellipsoid.crs = "EPSG:4979";
+  const auto source = open({ellipsoid});
+  ASSERT_TRUE(source);
+  EXPECT_NE(notes_.find("vertical datum"), std::string::npos) << notes_;
+  const auto heights = test::readBands(*source, 32);
+  const PostGrid& p = source->posts();
+  // EGM96 stands 46 to 48 m above the ellipsoid there.
+  for (std::size_t i = 0; i < heights.size(); i += 31) {
+    const double lift = test::trueHeight(p.latitude(static_cast<double>(i / p.columns)),
+                                         p.longitude(static_cast<double>(i % p.columns))) -
+                        static_cast<double>(heights[i]);
+    ASSERT_GT(lift, 45);
+    ASSERT_LT(lift, 49);
+  }
+  ellipsoid.crs = "EPSG:4326+3855";  // EGM2008, whose grid is not there
+  ASSERT_TRUE(open({ellipsoid}));
+  EXPECT_NE(notes_.find("kept as they are"), std::string::npos) << notes_;
+  ellipsoid.crs = "EPSG:4326+5773";
+  ASSERT_TRUE(open({ellipsoid}));
+  EXPECT_EQ(notes_.find("vertical datum"), std::string::npos) << notes_;
+}
+
+TEST_F(Elevation, isAveragedToACoarserSpacingWhenAskedFor) {
+  ElevationOptions options;
+  options.stepLatitude = 0.002;
+  const auto source =
+      open({degrees(11.9, 47.6, 0.0005, 400, 400), inUtm(33, 47.59, 12.02, 40, 200, 400)}, options);
+  ASSERT_TRUE(source);
+  EXPECT_EQ(source->posts().stepLatitude, 0.002);
+  EXPECT_NEAR(source->posts().columns * source->posts().stepLongitude, 0.22, 0.03);
+  const auto [worst, count] = error(source->posts(), test::readBands(*source, 32));
+  EXPECT_LT(worst, 3 * test::bilinearLimit(220));
+  EXPECT_GT(count, 6000u);
+}
+
+}  // namespace
+}  // namespace trimtab::terrain
