@@ -54,22 +54,17 @@ bool FrameCulling::findHidden(const FrameRequest& request, FrameResult& counters
                      request.occlusion == OcclusionMethod::horizon && size && refusal_.empty();
   horizonServed_ = counters.horizon;
   if (!counters.horizon) return false;
+  const std::uint64_t built = horizon_.built(), leftOut = horizon_.leftOut();
   hidden_ =
       horizon_.hidden(cut_, cutNumber_, eye_.position,
                       {HorizonCulling::columnsFor(size->widthPx),
                        HorizonCulling::slackOf(request.view, subpixelBits_), defects_.loweringScale < 1},
                       conditions_, request.skips);
-  counters.horizonsBuilt = horizon_.built();
-  counters.horizonsLeftOut = horizon_.leftOut();
+  counters.horizonsBuilt += horizon_.built() - built;
+  counters.horizonsLeftOut += horizon_.leftOut() - leftOut;
   view_ = request.view;
   mapSize_ = *size;
   return true;
-}
-
-void FrameCulling::clear() {
-  visible_ = {};
-  hidden_ = {};
-  horizonServed_ = depthMapCurrent_ = false;
 }
 
 std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& request, const TileCache& tiles,

@@ -36,8 +36,6 @@ class FrameCulling {
   bool findHidden(const FrameRequest& request, FrameResult& counters);
   /// What of the cut is in the view and not hidden.
   void selectVisible(const FrameRequest& request);
-  /// No terrain in this frame.
-  void clear();
   /// After the visible tiles have slots: whether there is a depth map in this frame, and its view. Else
   /// `counters.note` may say why not.
   std::optional<DepthView> prepareOcclusion(const FrameRequest& request, const TileCache& tiles,

@@ -8,8 +8,11 @@
 #include <osgViewer/GraphicsWindow>
 #include <osgViewer/Viewer>
 
+#include <array>
+
 #include "trimtab/scene/gl_api.h"
 #include "trimtab/scene/shaders.h"
+#include "trimtab/scene/sun.h"
 
 namespace trimtab::scene {
 namespace {
@@ -60,6 +63,7 @@ osg::ref_ptr<osg::Program> makeProgram(const char* vertex, const char* fragment)
   program->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragment));
   program->addBindAttribLocation("vertexPosition", 0);
   program->addBindAttribLocation("vertexNormal", 1);
+  program->addBindAttribLocation("vertexPost", 2);
   program->addBindAttribLocation("vertexColour", 3);
   return program;
 }
@@ -113,6 +117,8 @@ osg::Vec4f tangentsOf(const ViewShape& v) {
           static_cast<float>(v.top)};
 }
 
+constexpr std::array kForms{TerrainForm::levels, TerrainForm::patches, TerrainForm::static_trees};
+
 using Type = osg::Uniform::Type;
 
 /// Uniforms by name, made on first use.
@@ -147,7 +153,11 @@ struct SceneGraph::Nodes {
   osg::ref_ptr<osgViewer::GraphicsWindowEmbedded> window = new osgViewer::GraphicsWindowEmbedded(0, 0, 1, 1);
   osg::ref_ptr<osg::Group> root = new osg::Group;
   osg::ref_ptr<osg::Camera> depthCamera = new osg::Camera;
-  osg::ref_ptr<Pass> terrain, wire, trees, treeWire, treePicture, nodes, treeNodes, lines, sky;
+  struct FormPasses {
+    osg::ref_ptr<Pass> surface, wire, numbers;
+  };
+  std::array<FormPasses, kForms.size()> forms;
+  osg::ref_ptr<Pass> treePicture, lines, sky;
   osg::ref_ptr<Pass> beforeWeather, afterWeather;
   PrecipitationNode precipitation;
   bool begun = false;  ///< this frame's drawing
@@ -163,18 +173,16 @@ struct SceneGraph::Nodes {
     });
     depthCamera->setInitialDrawCallback(begin);
     viewer->getCamera()->setInitialDrawCallback(begin);
-    terrain = addPass(root, std::move(passes.terrain), 1, kTerrainVertex, kTerrainFragment);
-    terrain->getStateSet()->addUniform(new osg::Uniform("wire", false));
-    wire = addPass(root, std::move(passes.wire), 2, kTerrainVertex, kTerrainFragment);
-    wire->getStateSet()->addUniform(new osg::Uniform("wire", true));
-    const std::string treeVertex = forStaticTrees(kTerrainVertex);
-    trees = addPass(root, std::move(passes.trees), 1, treeVertex.c_str(), kTerrainFragment);
-    trees->getStateSet()->addUniform(new osg::Uniform("wire", false));
-    treeWire = addPass(root, std::move(passes.treeWire), 2, treeVertex.c_str(), kTerrainFragment);
-    treeWire->getStateSet()->addUniform(new osg::Uniform("wire", true));
+    for (const TerrainForm form : kForms) {
+      FormPasses& of = forms[static_cast<std::size_t>(form)];
+      const TerrainShaders shaders = terrainShaders(form);
+      of.surface = addPass(root, passes.surface, 1, shaders.vertex.c_str(), shaders.fragment.c_str());
+      of.surface->getStateSet()->addUniform(new osg::Uniform("wire", false));
+      of.wire = addPass(root, passes.wire, 2, shaders.vertex.c_str(), shaders.fragment.c_str());
+      of.wire->getStateSet()->addUniform(new osg::Uniform("wire", true));
+      of.numbers = addPass(root, passes.numbers, 1, forNodes(shaders.vertex).c_str(), kNodeFragment);
+    }
     treePicture = addPass(root, std::move(passes.treePicture), 1, kTreeFlatVertex, kLineFragment);
-    nodes = addPass(root, std::move(passes.nodes), 1, forNodes(kTerrainVertex).c_str(), kNodeFragment);
-    treeNodes = addPass(root, std::move(passes.treeNodes), 1, forNodes(treeVertex).c_str(), kNodeFragment);
     lines = addPass(root, std::move(passes.lines), 3, kLineVertex, kLineFragment);
     sky = addPass(
         root, [](unsigned) { glDrawArrays(GL_TRIANGLES, 0, 3); }, 4, kScreenVertex, kSkyFragment);
@@ -207,7 +215,7 @@ struct SceneGraph::Nodes {
     for (const GLenum off : {GL_LIGHTING, GL_BLEND, GL_CULL_FACE, GL_ALPHA_TEST})
       state->setMode(off, osg::StateAttribute::OFF);
     Uniforms uniforms(state);
-    uniforms.set("sun", Type::FLOAT_VEC3, toFloat(normalized({0.55, -0.60, 0.58})));
+    uniforms.set("sun", Type::FLOAT_VEC3, toFloat(normalized(kTowardsSun)));
     uniforms.set("haze", Type::FLOAT_VEC3, osg::Vec3f(kHaze[0], kHaze[1], kHaze[2]));
     uniforms.set("hazeDistance", Type::FLOAT, kHazeDistance);
     uniforms.set("slots", Type::INT, kSlotUnit);
@@ -327,17 +335,18 @@ void SceneGraph::frame(const SceneView& view, unsigned fbo) {
   uniforms.set("tangents", Type::FLOAT_VEC4, tangentsOf(view.shape));
   uniforms.set("dip", Type::FLOAT, static_cast<float>(view.horizonDip));
   uniforms.set("tinted", Type::BOOL, view.tinted);
-  for (Pass* pass : {n.terrain.get(), n.nodes.get()})
-    pass->getStateSet()->setMode(GL_CULL_FACE,
-                                 view.oneSided ? osg::StateAttribute::ON : osg::StateAttribute::OFF);
   const auto show = [](Pass& pass, bool on) { pass.setNodeMask(on ? ~0u : 0u); };
-  show(*n.terrain, !view.trees && !view.nodes);
-  show(*n.wire, view.wireframe && !view.trees);
-  show(*n.trees, view.trees && !view.treePicture && !view.nodes);
-  show(*n.nodes, view.nodes && !view.trees);
-  show(*n.treeNodes, view.nodes && view.trees);
-  show(*n.treeWire, view.wireframe && view.trees && !view.treePicture);
-  show(*n.treePicture, view.trees && view.treePicture);
+  for (const TerrainForm form : kForms) {
+    const Nodes::FormPasses& of = n.forms[static_cast<std::size_t>(form)];
+    const bool drawn = view.form == form && !view.treePicture;
+    show(*of.surface, drawn && !view.nodes);
+    show(*of.wire, drawn && view.wireframe);
+    show(*of.numbers, drawn && view.nodes);
+    for (Pass* pass : {of.surface.get(), of.numbers.get()})
+      pass->getStateSet()->setMode(GL_CULL_FACE,
+                                   view.oneSided ? osg::StateAttribute::ON : osg::StateAttribute::OFF);
+  }
+  show(*n.treePicture, view.treePicture);
   show(*n.sky, view.sky);
   show(*n.lines, view.lines);
   show(*n.beforeWeather, view.precipitation.has_value());

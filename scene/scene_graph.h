@@ -19,13 +19,11 @@ struct ScenePasses {
   Call occluders;  ///< into the depth map
   Call reduce;     ///< the depth map's pyramid
   Call test;       ///< tiles against the depth map; afterwards the visible set stands
-  Call terrain;    ///< the one multi-draw
-  Call wire;       ///< the same again as lines
-  Call trees;      ///< static trees, instead of the tiled terrain
-  Call treeWire;
-  Call treePicture;  ///< document E's picture of them
-  Call nodes;        ///< the terrain again, for which node each pixel shows
-  Call treeNodes;
+  // Of the form that the view names, with its shaders.
+  Call surface;
+  Call wire;                         ///< the same again as lines
+  Call numbers;                      ///< the same again, for which node each pixel shows
+  Call treePicture;                  ///< document E's picture of static trees
   Call lines;                        ///< overlay lines
   Call beforeWeather, afterWeather;  ///< around what falls, where something does
 };
@@ -51,7 +49,8 @@ struct SceneView {
   /// pixels in 288 views, slivers at silhouettes.
   bool oneSided = false;
   bool sky = true, tinted = false, wireframe = false, lines = false;
-  bool trees = false, treePicture = false;  ///< what stands for the tiled terrain
+  std::optional<TerrainForm> form;  ///< of the terrain that is drawn; none: no terrain
+  bool treePicture = false;         ///< instead of the trees' surface
   /// The node pass instead of a picture: nothing but terrain, as numbers; the framebuffer's colour was
   /// cleared by whoever made it.
   bool nodes = false;

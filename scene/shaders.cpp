@@ -1,8 +1,11 @@
 #include "trimtab/scene/shaders.h"
 
+#include "trimtab/scene/patch_shaders.h"
 #include "trimtab/scene/weather_air.h"
 
 namespace trimtab::scene {
+
+namespace {
 
 const char* const kTerrainVertex = R"(#version 430 compatibility
 )" TRIMTAB_RELATIVE_POSITION R"(
@@ -104,6 +107,8 @@ void main() {
 }
 )";
 
+}  // namespace
+
 // What the weather's far cut takes away is no node's.
 const char* const kNodeFragment = R"(#version 430 compatibility
 #pragma import_defines(IN_WEATHER)
@@ -195,8 +200,10 @@ std::string withDefine(std::string shader, const char* name) {
 
 }  // namespace
 
-std::string forStaticTrees(const char* vertexShader) {
-  return withDefine(vertexShader, "STATIC_TREE");
+TerrainShaders terrainShaders(TerrainForm form) {
+  if (form == TerrainForm::patches) return patchShaders();
+  return {form == TerrainForm::static_trees ? withDefine(kTerrainVertex, "STATIC_TREE") : kTerrainVertex,
+          kTerrainFragment};
 }
 
 std::string forNodes(std::string vertexShader) {

@@ -51,10 +51,6 @@ const StaticLodIndex& StaticLodCulling::index() const {
   return terrain_->index;
 }
 
-bool StaticLodCulling::wanted(const FrameRequest& request) const {
-  return terrain_ && asksForTrees(request);
-}
-
 void StaticLodCulling::select(const FrameRequest& request, const EyePose& eye, FrameResult& counters) {
   const ViewShape& v = request.view;
   const double pixelsPerRadian = std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom));

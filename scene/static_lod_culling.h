@@ -21,9 +21,6 @@ class StaticLodCulling {
  public:
   void setTerrain(std::shared_ptr<const terrain::StaticLodTerrain> terrain);
 
-  /// Whether trees stand for the terrain in this frame: there are some, and the parameters or an overlay ask
-  /// for them.
-  bool wanted(const FrameRequest& request) const;
   /// Cut and visible set for an eye; the cut only if it can have changed, which counts as `cutsSelected`.
   void select(const FrameRequest& request, const EyePose& eye, FrameResult& counters);
   /// Whether the far nodes are to be held against what the near ones cover, and by a map of which size; else

@@ -133,10 +133,11 @@ struct QueryPeers::Impl {
     state->addUniform(new osg::Uniform("slots", scene::kSlotUnit));
     state->addUniform(new osg::Uniform("tints", scene::kTintUnit));
     // OSG culls in the terrain's frame, the vertices are relative to the eye.
+    const scene::TerrainShaders shaders = scene::terrainShaders(TerrainForm::levels);
     const std::string vertex =
-        replaced(replaced(scene::kTerrainVertex, "gl_ModelViewProjectionMatrix *", "relativeView *"),
+        replaced(replaced(shaders.vertex, "gl_ModelViewProjectionMatrix *", "relativeView *"),
                  "in vec3 vertexPosition;", "uniform mat4 relativeView;\nin vec3 vertexPosition;");
-    terrain->setAttributeAndModes(makeProgram(vertex, scene::kTerrainFragment));
+    terrain->setAttributeAndModes(makeProgram(vertex, shaders.fragment));
     terrain->setMode(GL_CULL_FACE, osg::StateAttribute::ON);
     queries = new Call({}, [this](osg::State& s) { drawByQueries(s); });
     queries->setStateSet(terrain);

@@ -1,0 +1,78 @@
+#include "trimtab/scene/terrain_drawer.h"
+
+#include "trimtab/scene/gl_api.h"
+#include "trimtab/scene/node_pass.h"
+#include "trimtab/scene/shaders.h"
+
+namespace trimtab::scene {
+namespace {
+
+/// As strong as an overlay's colours are over the land's.
+std::uint32_t tint(std::array<std::uint8_t, 3> c) {
+  return c[0] | static_cast<std::uint32_t>(c[1]) << 8 | static_cast<std::uint32_t>(c[2]) << 16 | 150u << 24;
+}
+
+}  // namespace
+
+void BoundSlots::bind(unsigned slots, unsigned tints) {
+  glActiveTexture(GL_TEXTURE0 + kSlotUnit);
+  glBindTexture(GL_TEXTURE_BUFFER, slots);
+  glActiveTexture(GL_TEXTURE0 + kTintUnit);
+  glBindTexture(GL_TEXTURE_BUFFER, tints);
+  glActiveTexture(GL_TEXTURE0);
+}
+
+void TerrainDrawer::begin(FrameInProgress& frame) {
+  frame_ = &frame;
+  drawn_.clear();
+  frame.clock.lap(&FrameCost::cull);
+}
+
+const std::vector<TileDraw>& TerrainDrawer::shown() const {
+  return frame_->request.overlays.colourByReason ? cut() : visible().tiles;
+}
+
+void TerrainDrawer::uploadShown() {
+  const std::size_t built = upload(shown(), !frame_->request.skips.tilesOnGpu);
+  frame_->counters.tilesBuilt += built;
+  frame_->clock.lap(built > 0 ? &FrameCost::page : &FrameCost::select);
+}
+
+void TerrainDrawer::addBounds() {
+  if (frame_->request.overlays.tileBounds)
+    addBoxes(bounds(), cut(), visible().reason, frame_->view.eye.position, frame_->lines);
+}
+
+void TerrainDrawer::draw(unsigned program) {
+  drawn_ = shown();
+  arrange(drawn_, frame_->view.eye.position);
+  drawSurface(program, drawn_);
+}
+
+void TerrainDrawer::drawSurface(unsigned program, std::span<const TileDraw> nodes) {
+  const Overlays& overlays = frame_->request.overlays;
+  if (!overlays.colourByReason && !overlays.colourByLevel) return drawNodes(program, nodes);
+  tints_.clear();
+  for (const TileDraw& node : nodes)
+    tints_.push_back(tint(overlays.colourByReason ? reasonColour(visible().reason[node.node])
+                                                  : levelColour(levelOf(node))));
+  drawTinted(program, nodes, tints_);
+}
+
+void TerrainDrawer::drawWire(unsigned program) {
+  glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+  drawNodes(program, drawn_);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+}
+
+std::size_t TerrainDrawer::prepareNumbers(const SceneView& view, bool unculled) {
+  if (!unculled) {
+    numbered_ = drawn_;
+    return 0;
+  }
+  nearView(cut(), bounds(), view.eye, view.shape, numbered_);
+  arrange(numbered_, view.eye.position);
+  return upload(numbered_, false);
+}
+
+}  // namespace trimtab::scene

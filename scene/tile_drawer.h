@@ -1,0 +1,48 @@
+#pragma once
+
+#include "trimtab/scene/frame_culling.h"
+#include "trimtab/scene/occlusion.h"
+#include "trimtab/scene/terrain_drawer.h"
+#include "trimtab/scene/tile_cache.h"
+
+namespace trimtab::scene {
+
+/// The terrain as levels of square tiles, with the horizon or a depth map of their own.
+class TileDrawer final : public TerrainDrawer {
+ public:
+  void setTerrain(std::shared_ptr<const terrain::Database> database) override;
+  bool has() const override { return database_ && database_->index().size() > 0; }
+  void initialize() override;
+  void release() override { gl_.reset(); }
+  void plant(const Defects& defects) override { culling_.plant(defects); }
+
+  void prepare(FrameInProgress& frame) override;
+  // The depth map's passes, where `prepare` set a depth view.
+  void drawOccluders();
+  void reduce(unsigned program) { gl_->occlusion.reduce(program); }
+  void removeHidden() { culling_.removeHidden(gl_->tiles, gl_->occlusion); }
+
+  const std::vector<TileDraw>& cut() const override { return culling_.cut().tiles; }
+  const VisibleSet& visible() const override { return culling_.visible(); }
+  Renderer::Grey readDepthMap() const override { return culling_.readDepthMap(gl_->occlusion); }
+
+ private:
+  const std::vector<Box>& bounds() const override { return database_->index().bounds; }
+  int levelOf(TileDraw node) const override { return database_->index().level[node.node]; }
+  std::size_t upload(std::span<const TileDraw> nodes, bool anew) override {
+    return gl_->tiles.prepare(nodes, anew);
+  }
+  void drawNodes(unsigned program, std::span<const TileDraw> nodes) override;
+  void drawTinted(unsigned program, std::span<const TileDraw> nodes,
+                  std::span<const std::uint32_t> colours) override;
+
+  struct Gl {
+    TileCache tiles;
+    OcclusionPass occlusion;
+  };
+  std::shared_ptr<const terrain::Database> database_;
+  FrameCulling culling_;
+  std::unique_ptr<Gl> gl_;
+};
+
+}  // namespace trimtab::scene

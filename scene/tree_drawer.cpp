@@ -1,0 +1,61 @@
+#include "trimtab/scene/tree_drawer.h"
+
+#include "trimtab/scene/frame_culling.h"
+#include "trimtab/scene/gl_api.h"
+#include "trimtab/terrain/static_lod.h"
+
+namespace trimtab::scene {
+
+void TreeDrawer::setTerrain(std::shared_ptr<const terrain::Database> database) {
+  terrain_ = database ? database->staticLod() : nullptr;
+  culling_.setTerrain(terrain_);
+  if (gl_) gl_->layer.setTerrain(terrain_);
+}
+
+void TreeDrawer::initialize() {
+  gl_ = std::make_unique<Gl>();
+  gl_->layer.setTerrain(terrain_);
+}
+
+void TreeDrawer::prepare(FrameInProgress& frame) {
+  begin(frame);
+  const FrameRequest& r = frame.request;
+  culling_.select(r, r.frozenEye.value_or(frame.view.eye), frame.counters);
+  frame.clock.lap(&FrameCost::select);
+  uploadShown();
+  frame.counters.depthMap = culling_.occlusion(r, frame.counters);
+  mapDrawn_ = frame.counters.depthMap.has_value();
+  frame.counters.depthMapsDrawn += mapDrawn_;
+  nearM_ = r.view.nearM;
+  frame.view.treePicture = r.overlays.treePicture;
+  addBounds();
+}
+
+void TreeDrawer::draw(unsigned program) {
+  if (mapDrawn_) {
+    const bool byReason = frame_->request.overlays.colourByReason;
+    const std::vector<TileDraw>& visible = culling_.visible().tiles;
+    const std::size_t near = culling_.visibleNear();
+    drawSurface(program, std::span(visible).first(near));
+    // Reading waits for the near nodes: a software rasteriser's time for them is not the map's.
+    if (frame_->software) glFinish();
+    frame_->clock.lap(&FrameCost::draw);
+    const ViewShape& v = frame_->request.view;
+    const DepthMapSize& size = *frame_->counters.depthMap;
+    gl_->occlusion.read(v.widthPx, v.heightPx, size.widthPx, size.heightPx);
+    culling_.removeHidden(gl_->occlusion.pyramid());
+    frame_->clock.lap(&FrameCost::occlusion);
+    drawSurface(program, byReason ? std::span(cut()) : std::span(visible).subspan(near));
+    drawn_ = shown();
+  } else {
+    TerrainDrawer::draw(program);
+  }
+}
+
+Renderer::Grey TreeDrawer::readDepthMap() const {
+  if (!mapDrawn_) return {};
+  const DepthPyramid& map = gl_->occlusion.pyramid();
+  return greyOf(map.depths(), map.width(), map.height(), nearM_);
+}
+
+}  // namespace trimtab::scene

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "trimtab/scene/static_lod_culling.h"
+#include "trimtab/scene/static_lod_layer.h"
+#include "trimtab/scene/static_lod_occlusion.h"
+#include "trimtab/scene/terrain_drawer.h"
+
+namespace trimtab::scene {
+
+/// The terrain as trees of static levels of detail.
+class TreeDrawer final : public TerrainDrawer {
+ public:
+  void setTerrain(std::shared_ptr<const terrain::Database> database) override;
+  bool has() const override { return terrain_ != nullptr; }
+  void initialize() override;
+  void release() override { gl_.reset(); }
+  void plant(const Defects& defects) override { culling_.plant(defects); }
+
+  void prepare(FrameInProgress& frame) override;
+  /// With a depth map the near nodes, then what they leave of the far ones.
+  void draw(unsigned program) override;
+  /// Document E's picture instead.
+  void drawPicture(unsigned program) { gl_->layer.drawPicture(program, visible().tiles); }
+  void drawNumbered(unsigned program) override { gl_->layer.drawNumbered(program, numbered_); }
+
+  const std::vector<TileDraw>& cut() const override { return culling_.cut(); }
+  const VisibleSet& visible() const override { return culling_.visible(); }
+  StaticLodFrame frame() const { return culling_.frame(); }
+  Renderer::Grey readDepthMap() const override;
+
+ private:
+  const std::vector<Box>& bounds() const override { return culling_.index().bounds; }
+  int levelOf(TileDraw node) const override { return culling_.index().nodes[node.node].depth; }
+  std::size_t upload(std::span<const TileDraw> nodes, bool anew) override {
+    return gl_->layer.prepare(nodes, anew);
+  }
+  void drawNodes(unsigned program, std::span<const TileDraw> nodes) override {
+    gl_->layer.draw(program, nodes);
+  }
+  void drawTinted(unsigned program, std::span<const TileDraw> nodes,
+                  std::span<const std::uint32_t> colours) override {
+    gl_->layer.drawTinted(program, nodes, colours);
+  }
+
+  struct Gl {
+    StaticLodLayer layer;
+    StaticLodOcclusion occlusion;
+  };
+  std::shared_ptr<const terrain::StaticLodTerrain> terrain_;
+  StaticLodCulling culling_;
+  std::unique_ptr<Gl> gl_;
+  bool mapDrawn_ = false;  ///< in the last frame
+  double nearM_ = 1;
+};
+
+}  // namespace trimtab::scene
