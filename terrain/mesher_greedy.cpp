@@ -53,7 +53,8 @@ void GreedyMesh::begin(const HeightField& field, std::span<const Point> border,
          borderZ.empty() ? field.at(p.column / field.step, p.row / field.step) : borderZ[i]});
   }
   mesh_.fillPolygon();
-  stale_ = true;
+  error_.assign(mesh_.triangles.size(), kUnknown);
+  unknown_ = true;
 }
 
 std::uint32_t GreedyMesh::addBorder(std::uint32_t from, Point at) {
@@ -63,7 +64,14 @@ std::uint32_t GreedyMesh::addBorder(std::uint32_t from, Point at) {
   points_.push_back(at);
   mesh_.vertices.push_back({x, y, row(y / step_)[x / step_]});
   mesh_.splitBorder(from, v);
-  stale_ = true;
+  error_.resize(mesh_.triangles.size());
+  // All that changed is about v, from one side of it on the border to the other.
+  std::int32_t h = 4 * (mesh_.borderEdge[v] >> 2) + 2;
+  while (h >= 0) {
+    error_[static_cast<std::size_t>(h >> 2)] = kUnknown;
+    h = mesh_.triangles[static_cast<std::size_t>(h >> 2)].twin[1];
+  }
+  unknown_ = true;
   return v;
 }
 
@@ -105,15 +113,14 @@ void GreedyMesh::refine(double tolerance, std::size_t mostVertices) {
   tolerance_ = std::max(tolerance, 0.0);
   queue_.begin(std::max(tolerance_, 0x1p-40));
   const auto count = static_cast<std::int32_t>(mesh_.triangles.size());
-  error_.resize(static_cast<std::size_t>(count));
   for (std::int32_t t = 0; t < count; ++t) {
     const double error = error_[static_cast<std::size_t>(t)];
-    if (stale_)
+    if (error < 0)
       scan(t);
     else if (error > tolerance_)
       queue_.put(t, error);
   }
-  stale_ = false;
+  unknown_ = false;
   for (std::int32_t t; points_.size() < mostVertices && (t = queue_.top()) >= 0;) {
     const Triangulation::Triangle& one = mesh_.triangles[static_cast<std::size_t>(t)];
     const std::int32_t x = one.postX * step_, y = one.postY * step_;
@@ -150,7 +157,7 @@ void GreedyMesh::eachBorderPost(const Visit& visit) const {
 double GreedyMesh::maxErrorM() const {
   double worst = 0;
   eachBorderPost([&](double off) { worst = std::max(worst, off); });
-  if (!stale_) {
+  if (!unknown_) {
     for (const double error : error_) worst = std::max(worst, error);
     return worst;
   }

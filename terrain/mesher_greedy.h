@@ -22,6 +22,8 @@ class GreedyMesh {
 
   const Triangulation& mesh() const { return mesh_; }
   Triangulation& mesh() { return mesh_; }
+  /// One a triangle, largest at its posts; of the last refinement.
+  std::span<const double> errors() const { return error_; }
   Point origin() const { return {originX_, originY_}; }
   const std::vector<Point>& points() const { return points_; }
   double maxErrorM() const;
@@ -29,10 +31,7 @@ class GreedyMesh {
   std::uint64_t posts() const;
 
  private:
-  struct Worst {
-    double error;
-    std::int32_t x, y;
-  };
+  static constexpr double kUnknown = -1;
   void scan(std::int32_t t);
   void scanAbout(std::int32_t t);
   /// Posts of the field, from the origin.
@@ -51,7 +50,7 @@ class GreedyMesh {
   std::uint32_t originX_ = 0, originY_ = 0;
   std::int32_t step_ = 1;
   double tolerance_ = 0;
-  bool stale_ = false;  ///< errors are not those of the triangles
+  bool unknown_ = false;  ///< some errors are kUnknown
 };
 
 /// Difference of a post from a facet: what is below rounding is none, so that planes are flat.

@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <cmath>
+
+#include "trimtab/terrain/mesher_fit.h"
+#include "trimtab/terrain/mesher_tiles.h"
+
+namespace trimtab::terrain {
+
+namespace {
+
+/// The tolerance that the budget allows, then what is left of it where tiles are furthest off.
+void spend(MeshTiles& tiles, const HeightField& field, double least, std::size_t budget) {
+  float low = field.at(0, 0), high = low;
+  for (std::uint32_t y = 0; y < field.rows; ++y) {
+    const auto [a, b] =
+        std::minmax_element(field.z + y * field.stride, field.z + y * field.stride + field.columns);
+    low = std::min(low, *a);
+    high = std::max(high, *b);
+  }
+  const auto wanted = static_cast<double>(budget);
+  double tolerance = std::max(least, (static_cast<double>(high) - low) / 8), fits = HUGE_VAL, tooMany = 0;
+  double power = 1.5;  // triangles grow as this power of 1 / tolerance, to begin with
+  double lastCount = 0, lastTolerance = 0;
+  bool fresh = true;
+  for (int step = 0; step < 100; ++step) {
+    tiles.refine(tolerance);
+    const auto count = static_cast<double>(tiles.triangles());
+    if (count > wanted) {
+      // Too far, and nothing is ever taken out: again from the start, to where it was fewer.
+      tiles.restart();
+      fresh = false;
+      tooMany = tolerance;
+      tolerance = fits == HUGE_VAL ? tolerance * 3 : 0.3 * tolerance + 0.7 * fits;
+      if (fits - tooMany < 1e-3 * fits) {
+        // Many posts are off by the same: some of them are taken.
+        tiles.refine(fits);
+        tiles.add(budget, fits);
+        return;
+      }
+      continue;
+    }
+    fits = tolerance;
+    if (tolerance <= least || count >= 0.99 * wanted) return;
+    if (lastCount > 0 && count > lastCount * 1.01)
+      power = std::clamp(std::log(count / lastCount) / std::log(lastTolerance / tolerance), 0.8, 4.0);
+    lastCount = count;
+    lastTolerance = tolerance;
+    // Part of the way first: the power is a guess that gets better.
+    const double share = count / wanted;
+    const double aim = share < 0.2 ? 3 * share : share < 0.6 ? 0.8 : share < 0.9 ? 0.965 : 0.996;
+    tolerance = std::max(tolerance * std::clamp(std::pow(share / aim, 1 / power), 0.4, 0.9995), least);
+    if (!fresh) tolerance = std::max(tolerance, 0.5 * (fits + tooMany));
+  }
+}
+
+}  // namespace
+
+FieldMesh meshField(const HeightField& field, const MeshOptions& options) {
+  FieldMesh out;
+  if (field.columns < 2 || field.rows < 2) return out;
+  const unsigned threads = std::max(options.threads, 1u);
+  MeshTiles tiles(field, options.mostTriangles, threads);
+  if (options.mostTriangles == 0)
+    tiles.refine(options.maxErrorM);
+  else
+    spend(tiles, field, options.maxErrorM, options.mostTriangles);
+  Triangulation mesh = options.fitHeights
+                           ? fitTiles(tiles, field, std::max(options.maxErrorM, tiles.maxErrorM()), threads)
+                           : tiles.join();
+
+  out.vertices.reserve(mesh.vertices.size());
+  for (const Triangulation::Vertex& v : mesh.vertices)
+    out.vertices.push_back({static_cast<std::uint32_t>(v.x), static_cast<std::uint32_t>(v.y), v.z});
+  out.indices.reserve(mesh.triangles.size() * 3);
+  for (const Triangulation::Triangle& t : mesh.triangles)
+    out.indices.insert(out.indices.end(), t.corner, t.corner + 3);
+  const PostErrors errors = postErrors(mesh, field, threads);
+  out.maxErrorM = errors.max;
+  out.rmsErrorM = errors.rms;
+  return out;
+}
+
+}  // namespace trimtab::terrain

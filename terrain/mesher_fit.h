@@ -1,0 +1,46 @@
+#pragma once
+
+#include "trimtab/terrain/mesher_tiles.h"
+#include "trimtab/terrain/mesher_triangulation.h"
+
+namespace trimtab::terrain {
+
+struct PostErrors {
+  double max = 0, rms = 0;
+};
+/// Of a mesh that covers a field of step 1, in places of the field, at every post.
+PostErrors postErrors(const Triangulation& mesh, const HeightField& field, unsigned threads);
+
+/// Flips edges and moves heights of vertices where that makes the sum of squared errors smaller, and no post
+/// worse than `bound` (where one is already, no worse than the worst about it). Vertices of the field's own
+/// border stay.
+Triangulation fitTiles(MeshTiles& tiles, const HeightField& field, double bound, unsigned threads);
+
+/// The same for a mesh, on one thread: `z` points at place (0, 0) of the mesh.
+class MeshFit {
+ public:
+  MeshFit(Triangulation& mesh, const float* z, std::size_t stride) : mesh_(mesh), z_(z), stride_(stride) {}
+  /// `sweeps` of flips, then heights. Vertices on the border are not moved.
+  void run(double bound, int sweeps);
+
+ private:
+  struct Sum {
+    double squares = 0, worst = 0;
+  };
+  Sum sumOf(const Triangulation::Vertex& a, const Triangulation::Vertex& b, const Triangulation::Vertex& c,
+            const bool border[3]) const;
+  Sum sumOf(std::int32_t t) const;
+  void flipEdges(double bound);
+  bool tryFlip(std::int32_t t, int i, double bound);
+  void moveHeights(double bound);
+  void moveHeight(std::uint32_t v, double bound);
+
+  Triangulation& mesh_;
+  const float* z_;
+  std::size_t stride_;
+  std::vector<Sum> sums_;                      ///< one a triangle
+  std::vector<std::uint8_t> changed_, moved_;  ///< since edges were last tried; one a triangle, one a vertex
+  std::vector<std::int32_t> starts_;           ///< a half-edge that leaves a vertex; -1: on the border
+};
+
+}  // namespace trimtab::terrain

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "trimtab/terrain/mesher_greedy.h"
+
+namespace trimtab::terrain {
+
+/// Calls `work(i)` for 0 <= i < count on so many threads, this one among them.
+void onThreads(unsigned threads, std::uint32_t count, const std::function<void(std::uint32_t)>& work);
+
+/// A field in tiles of about 100 posts, each its own greedy mesh; sides are simplified once for both tiles at
+/// them. Caches hold a tile, and tiles need no word of each other: so it is faster even on one core.
+class MeshTiles {
+ public:
+  MeshTiles(const HeightField& field, std::size_t mostTriangles, unsigned threads);
+
+  /// Refines to `tolerance`, which never rises; falling tolerances give finer meshes.
+  void refine(double tolerance);
+  /// Adds triangles where tiles are furthest off, up to `most` in all; sides stay as they are. No post gets
+  /// further off than `bound`, which holds before.
+  void add(std::size_t most, double bound);
+  void restart() { begun_ = false; }
+
+  std::int32_t width() const { return static_cast<std::int32_t>((field_.columns - 1) / across_); }
+  std::int32_t height() const { return static_cast<std::int32_t>((field_.rows - 1) / up_); }
+  std::size_t triangles() const;
+  double maxErrorM() const;
+  /// Calls `work` for each tile, in parallel; what it does to the mesh ends refinement.
+  void eachTile(const std::function<void(GreedyMesh&)>& work);
+  /// All tiles as one mesh, in places of the field.
+  Triangulation join() const;
+
+ private:
+  /// Posts of a side between its ends: those whose key is above a tolerance keep all others within it.
+  struct Side {
+    PolygonMesher::Point from, to;
+    std::vector<double> key;  ///< one a post from `from` to `to`
+  };
+  struct Tile {
+    GreedyMesh mesh;
+    std::uint32_t sides[4];               ///< south, east, north, west
+    std::vector<std::int32_t> vertex[4];  ///< of each post of a side, in the side's order; -1: none
+  };
+  void begin(Tile& tile);
+  std::uint32_t horizontal(std::uint32_t i, std::uint32_t j) const { return j * across_ + i; }
+  std::uint32_t vertical(std::uint32_t i, std::uint32_t j) const {
+    return across_ * (up_ + 1) + j * (across_ + 1) + i;
+  }
+
+  HeightField field_;
+  unsigned threads_;
+  std::uint32_t across_ = 1, up_ = 1;
+  std::vector<std::uint32_t> columns_, rows_;  ///< of the lines between tiles
+  std::vector<Side> sides_;
+  std::vector<Tile> tiles_;
+  double tolerance_ = 0;
+  bool begun_ = false;
+};
+
+}  // namespace trimtab::terrain
