@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "paging_bench.h"
 #include "row.h"
 #include "support.h"
 #include "terrain/static_lod_support.h"
@@ -121,5 +122,6 @@ int main(int argc, char** argv) {
   if (!report.quick() && std::filesystem::exists(tile))
     if (const auto mesh = terrain::readBtg(tile))
       bench::compare(report, "terrain.simplify_scenery", "tile 5168985", *mesh);
+  bench::pagingRows(report);
   return report.finish();
 }
