@@ -1,8 +1,12 @@
+#include <cstdio>
+#include <iostream>
 #include <memory>
+#include <optional>
 
 #include "commands.h"
 #include "progress.h"
 #include "terrain_info.h"
+#include "trimtab/terrain/country.h"
 #include "trimtab/terrain/database.h"
 #include "trimtab/terrain/scenery.h"
 
@@ -35,12 +39,42 @@ void addTerrain(CLI::App& app, int& exitCode) {
     exitCode = done ? kDone : kRefused;
   });
 
+  struct CountryArguments {
+    std::string output;
+    terrain::CountryOptions options;
+  };
+  auto country = std::make_shared<CountryArguments>();
+  CLI::App* makeCountry = group->add_subcommand(
+      "country", "Write rough land of a country's size as a GeoTIFF, to try large terrain with");
+  makeCountry->add_option("-o,--output", country->output, "GeoTIFF to write")->required();
+  makeCountry->add_option("--seed", country->options.seed, "The same seed gives the same land")
+      ->capture_default_str();
+  makeCountry->add_option("--columns", country->options.columns, "Posts from west to east")
+      ->capture_default_str()
+      ->check(CLI::Range(33, 65536));
+  makeCountry->add_option("--rows", country->options.rows, "Posts from south to north")
+      ->capture_default_str()
+      ->check(CLI::Range(33, 65536));
+  makeCountry->add_option("--post-m", country->options.postM, "Distance of posts")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 2000.0));
+  makeCountry->callback([country, &exitCode] {
+    const Interruptible guard;
+    country->options.progress = progressLines();
+    const auto done = terrain::writeCountry(country->output, country->options);
+    report(done.findings());
+    exitCode = done ? kDone : kRefused;
+  });
+
   struct BakeArguments {
     std::vector<std::string> sources;
     std::string output, imagery;
     std::uint32_t leafTriangles = terrain::BakeOptions{}.trianglesPerNode;
     bool keepLines = false;
-    double postM = 0;
+    double postM = 0, memoryMb = terrain::BakeOptions{}.memory.value();
+    std::optional<double> maxErrorM;
+    std::string part;
+    bool join = false;
   };
   auto bake = std::make_shared<BakeArguments>();
   CLI::App* makeBake = group->add_subcommand("bake", "Make a database of elevation or scenery");
@@ -65,6 +99,18 @@ void addTerrain(CLI::App& app, int& exitCode) {
           "--post-m", bake->postM,
           "Distance of the posts that scenery is put on; by its size (30 to 60) where it is not given")
       ->check(CLI::Range(1.0, 10000.0));
+  makeBake
+      ->add_option("--max-error-m", bake->maxErrorM,
+                   "Vertical error of the finest patches at the posts, metres; 0: every post counts")
+      ->check(CLI::Range(0.0, 1000.0));
+  makeBake->add_option("--memory-mb", bake->memoryMb, "Most memory that baking may use")
+      ->capture_default_str()
+      ->check(CLI::Range(64.0, 1048576.0));
+  CLI::Option* part = makeBake->add_option("--part", bake->part,
+                                           "I/N: the I-th of N shares of the work, kept beside the output; "
+                                           "for several processes, or machines that "
+                                           "share its folder");
+  makeBake->add_flag("--join", bake->join, "Make the database of what all parts made")->excludes(part);
   makeBake->callback([bake, &exitCode] {
     const Interruptible guard;
     terrain::BakeOptions options;
@@ -74,8 +120,21 @@ void addTerrain(CLI::App& app, int& exitCode) {
     options.trianglesPerNode = bake->leafTriangles;
     options.keepLines = bake->keepLines;
     if (bake->postM > 0) options.post = Metres{bake->postM};
+    if (bake->maxErrorM) options.maxError = Metres{*bake->maxErrorM};
+    options.memory = Megabytes{bake->memoryMb};
     options.progress = progressLines();
-    const auto done = terrain::bake(options);
+    if (!bake->part.empty()) {
+      unsigned number = 0, parts = 0;
+      int read = 0;
+      if (std::sscanf(bake->part.c_str(), "%4u/%4u%n", &number, &parts, &read) != 2 ||
+          bake->part[static_cast<std::size_t>(read)] != 0 || number < 1 || number > parts)
+        throw CLI::ValidationError("--part", "I/N with 1 <= I <= N, not " + bake->part);
+      const auto done = terrain::bakePart(options, number, parts);
+      report(done.findings());
+      exitCode = done ? kDone : kRefused;
+      return;
+    }
+    const auto done = bake->join ? terrain::bakeJoin(options) : terrain::bake(options);
     report(done.findings());
     exitCode = done ? kDone : kRefused;
     if (done) printInfo(**done, false);
@@ -83,12 +142,13 @@ void addTerrain(CLI::App& app, int& exitCode) {
 
   struct InfoArguments {
     std::string terrain;
-    bool json = false;
+    bool json = false, check = false;
   };
   auto info = std::make_shared<InfoArguments>();
   CLI::App* showInfo = group->add_subcommand("info", "What a database or some scenery holds");
   showInfo->add_option("terrain", info->terrain, "Folder of a database; or scenery, not baked")->required();
   showInfo->add_flag("--json", info->json, "One JSON document on standard output");
+  showInfo->add_flag("--check", info->check, "Read all of a database and compare every checksum");
   showInfo->callback([info, &exitCode] {
     const std::filesystem::path path = info->terrain;
     if (!terrain::isDatabase(path) && terrain::isScenery(path)) {
@@ -98,7 +158,13 @@ void addTerrain(CLI::App& app, int& exitCode) {
     const auto database = terrain::Database::open(path);
     report(database.findings());
     exitCode = database ? kDone : kRefused;
-    if (database) printInfo(**database, info->json);
+    if (!database) return;
+    printInfo(**database, info->json);
+    if (!info->check) return;
+    const Findings damage = (*database)->checkAll();
+    report(damage);
+    if (!damage.empty()) exitCode = kRefused;
+    if (damage.empty() && !info->json) std::cout << "every checksum holds\n";
   });
 }
 

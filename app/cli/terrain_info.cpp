@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "trimtab/terrain/level_report.h"
 #include "trimtab/terrain/scenery.h"
 #include "trimtab/terrain/scenery_import.h"
 #include "trimtab/terrain/static_lod.h"
@@ -44,6 +45,19 @@ Json toJson(const terrain::StaticLodTerrain& trees) {
           {"bytes", counts.bytes}};
 }
 
+Json patchLevels(const terrain::PatchTerrain& patches) {
+  Json depths = Json::array();
+  for (const terrain::LevelReport& level : terrain::levelsOf(patches))
+    depths.push_back({{"depth", depths.size()},
+                      {"patches", level.nodes},
+                      {"triangles", level.triangles},
+                      {"bytes", level.bytes},
+                      {"error_m", level.maxErrorM},
+                      {"rms_error_m", level.rmsErrorM},
+                      {"bilinear_error_m", level.bilinearErrorM}});
+  return depths;
+}
+
 Json toJson(const terrain::Database& database) {
   const terrain::TerrainInfo& i = database.info();
   const TerrainIndex& index = database.index();
@@ -70,7 +84,9 @@ Json toJson(const terrain::Database& database) {
                {"voids_filled", i.voidsFilled},
                {"image", i.hasImage},
                {"bytes", i.bytes},
+               {"bytes_a_post", static_cast<double>(i.bytes) / (static_cast<double>(i.columns) * i.rows)},
                {"levels", levels}};
+  if (const auto patches = database.patches()) json["patches"] = patchLevels(*patches);
   if (i.scenery) json["scenery"] = toJson(*i.scenery);
   if (const auto trees = database.staticLod()) json["static_lod"] = toJson(*trees);
   return json;
@@ -135,6 +151,16 @@ void printInfo(const terrain::Database& database, bool json) {
   for (const auto& level : all["levels"])
     std::cout << "level " << level["level"] << ": " << level["columns"] << " x " << level["rows"]
               << " tiles, error " << level["error_m"].get<double>() << " m\n";
+  if (!all.contains("patches")) return;
+  std::cout << "depth   patches   triangles        bytes   error m     rms m  between posts m\n";
+  for (const auto& depth : all["patches"])
+    std::cout << std::right << std::fixed << std::setw(5) << depth["depth"].get<int>() << std::setw(10)
+              << depth["patches"].get<std::uint64_t>() << std::setw(12)
+              << depth["triangles"].get<std::uint64_t>() << std::setw(13)
+              << depth["bytes"].get<std::uint64_t>() << std::setprecision(2) << std::setw(10)
+              << depth["error_m"].get<double>() << std::setw(10) << depth["rms_error_m"].get<double>()
+              << std::setw(17) << depth["bilinear_error_m"].get<double>() << '\n';
+  std::cout << std::defaultfloat << std::left;
 }
 
 int printSceneryInfo(const std::filesystem::path& path, bool json) {

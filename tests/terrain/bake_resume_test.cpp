@@ -1,0 +1,287 @@
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <map>
+#include <random>
+#include <thread>
+
+#include "rasters.h"
+#include "trimtab/terrain/ground.h"
+#include "trimtab/terrain/patch_terrain.h"
+
+/// Bakes that are killed, run out of room, meet each other or share the work: the database is the same to the
+/// byte.
+namespace trimtab::terrain {
+namespace {
+
+namespace fs = std::filesystem;
+using Files = std::map<std::string, std::string>;
+
+Files filesIn(const fs::path& folder) {
+  Files all;
+  for (const std::string& name : test::namesIn(folder)) all[name] = test::readFile(folder / name);
+  return all;
+}
+
+class ResumedBake : public ::testing::Test {
+ protected:
+  ResumedBake() {
+    test::RasterRecipe recipe;
+    recipe.columns = 420;
+    recipe.rows = 330;
+    recipe.noData = -999;
+    recipe.value = [](int c, int r, int) {
+      const bool hole = (c - 200) * (c - 200) + (r - 120) * (r - 120) < 900 || (c > 390 && r > 300);
+      return hole ? -999.0 : test::roughGround(c, r);
+    };
+    options_.sources = {test::writeRaster(dir_ / "ground.tif", recipe)};
+    options_.maxError = Metres{20};
+    options_.output = dir_ / "whole";
+    const auto made = bake(options_);
+    EXPECT_TRUE(made) << toString(made.findings());
+    if (made) {
+      EXPECT_GT((*made)->info().voidsFilled, 2500u);
+    }
+    whole_ = filesIn(dir_ / "whole");
+    options_.output = dir_ / "db";
+  }
+
+  /// In a process of its own.
+  template <class Work>
+  static pid_t start(const Work& work) {
+    const pid_t child = ::fork();
+    if (child == 0) ::_exit(work());
+    return child;
+  }
+  static int ended(pid_t child) {
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+  void expectWhole(const fs::path& folder) const {
+    const Files made = filesIn(folder);
+    ASSERT_EQ(made.size(), whole_.size());
+    for (const auto& [name, bytes] : whole_)
+      EXPECT_TRUE(made.count(name) && made.at(name) == bytes) << name << " is another";
+  }
+
+  test::ScratchDir dir_;
+  BakeOptions options_;
+  Files whole_;
+};
+
+TEST_F(ResumedBake, isTheSameWhereverItIsKilled) {
+  int killed = 0;
+  // At every step that tells of itself, one after the other, each going on from the last.
+  for (int step = 0; step < 400; ++step) {
+    const int status = ended(start([&] {
+      int told = 0;
+      options_.progress = [&](double, const std::string&) {
+        if (told++ >= step) ::kill(::getpid(), SIGKILL);
+        return true;
+      };
+      return bake(options_) ? 0 : 1;
+    }));
+    if (status == 0) break;
+    ASSERT_EQ(status, -SIGKILL);
+    ++killed;
+  }
+  EXPECT_GT(killed, 5);
+  if (!fs::exists(dir_ / "db")) {
+    ASSERT_TRUE(bake(options_));
+  }
+  expectWhole(dir_ / "db");
+  EXPECT_FALSE(fs::exists(dir_ / ".db.work"));
+}
+
+TEST_F(ResumedBake, isTheSameKilledAtRandomMoments) {
+  std::mt19937 random(11);
+  const auto began = std::chrono::steady_clock::now();
+  ASSERT_TRUE(bake(options_));
+  const auto took =
+      std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - began);
+  int killed = 0;
+  for (int round = 0; round < 3; ++round) {
+    // The last bake's database is replaced: it stays whole until then.
+    for (int k = 0; k < 5; ++k) {
+      const pid_t child = start([&] { return bake(options_) ? 0 : 1; });
+      std::this_thread::sleep_for(std::chrono::microseconds(random() % static_cast<unsigned>(took.count())));
+      ::kill(child, SIGKILL);
+      killed += ended(child) == -SIGKILL;
+      ASSERT_NO_FATAL_FAILURE(expectWhole(dir_ / "db"));
+    }
+    ASSERT_TRUE(bake(options_));
+    expectWhole(dir_ / "db");
+    EXPECT_FALSE(fs::exists(dir_ / ".db.work"));
+  }
+  EXPECT_GT(killed, 3);
+}
+
+TEST_F(ResumedBake, makesDamagedPiecesAgain) {
+  options_.progress = [](double fraction, const std::string&) { return fraction < 0.9; };
+  ASSERT_FALSE(bake(options_));
+  options_.progress = nullptr;
+  const fs::path work = dir_ / ".db.work";
+  int damaged = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(work)) {
+    if (!entry.is_regular_file() || entry.file_size() < 100 || entry.path().filename() == "recipe.json")
+      continue;
+    std::string bytes = test::readFile(entry.path());
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
+    test::writeFile(entry.path(), bytes);
+    ++damaged;
+  }
+  EXPECT_GT(damaged, 2);
+  // A piece whose damage shows only when it is joined is removed, and made the next time.
+  Result<std::shared_ptr<const Database>> made = bake(options_);
+  for (int k = 0; k < 20 && !made; ++k) {
+    EXPECT_NE(toString(made.findings()).find("bake again"), std::string::npos) << toString(made.findings());
+    made = bake(options_);
+  }
+  ASSERT_TRUE(made) << toString(made.findings());
+  expectWhole(dir_ / "db");
+}
+
+TEST_F(ResumedBake, beginsAnewWithOtherOptionsOrSources) {
+  options_.progress = [](double fraction, const std::string&) { return fraction < 0.9; };
+  options_.maxError = Metres{5};
+  ASSERT_FALSE(bake(options_));
+  options_.progress = nullptr;
+  options_.maxError = Metres{20};
+  ASSERT_TRUE(bake(options_));
+  expectWhole(dir_ / "db");
+}
+
+TEST_F(ResumedBake, inPartsIsTheSame) {
+  const auto early = bakeJoin(options_);
+  ASSERT_FALSE(early);
+  EXPECT_NE(toString(early.findings()).find("missing"), std::string::npos) << toString(early.findings());
+  std::vector<pid_t> children;
+  for (std::uint32_t part = 1; part <= 3; ++part)
+    children.push_back(start([&, part] {
+      options_.memory = Megabytes{64.0 * part};
+      const auto made = bakePart(options_, part, 3);
+      if (!made) std::fprintf(stderr, "%s\n", toString(made.findings()).c_str());
+      return made ? 0 : 1;
+    }));
+  for (const pid_t child : children) EXPECT_EQ(ended(child), 0);
+  EXPECT_FALSE(fs::exists(dir_ / "db"));
+  const auto joined = bakeJoin(options_);
+  ASSERT_TRUE(joined) << toString(joined.findings());
+  expectWhole(dir_ / "db");
+  EXPECT_FALSE(bakePart(options_, 0, 3));
+  EXPECT_FALSE(bakePart(options_, 4, 3));
+}
+
+TEST_F(ResumedBake, doesNotJoinWhenAPartIsAbsent) {
+  ASSERT_TRUE(bakePart(options_, 1, 2));
+  const auto joined = bakeJoin(options_);
+  ASSERT_FALSE(joined);
+  EXPECT_NE(toString(joined.findings()).find("missing"), std::string::npos) << toString(joined.findings());
+  // What is there serves a whole bake.
+  ASSERT_TRUE(bake(options_));
+  expectWhole(dir_ / "db");
+}
+
+TEST_F(ResumedBake, doesNotMeetAnotherOfTheSameOutput) {
+  int ready[2], go[2];
+  ASSERT_EQ(::pipe(ready), 0);
+  ASSERT_EQ(::pipe(go), 0);
+  const pid_t child = start([&] {
+    bool waited = false;
+    options_.progress = [&](double fraction, const std::string&) {
+      char c = 0;
+      if (!waited && fraction > 0.25) {
+        waited = true;
+        if (::write(ready[1], "r", 1) != 1 || ::read(go[0], &c, 1) != 1) return false;
+      }
+      return true;
+    };
+    return bake(options_) ? 0 : 1;
+  });
+  char c = 0;
+  ASSERT_EQ(::read(ready[0], &c, 1), 1);
+  const auto second = bake(options_);
+  ASSERT_FALSE(second);
+  EXPECT_NE(toString(second.findings()).find("other bake"), std::string::npos) << toString(second.findings());
+  ASSERT_EQ(::write(go[1], "g", 1), 1);
+  EXPECT_EQ(ended(child), 0);
+  expectWhole(dir_ / "db");
+}
+
+/// A name space of its own for mounts, as root or as root of a name space of users.
+bool mayMount() {
+  if (::unshare(CLONE_NEWNS) == 0) return true;
+  const std::string uid = std::to_string(::getuid()), gid = std::to_string(::getgid());
+  if (::unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return false;
+  test::writeFile("/proc/self/setgroups", "deny");
+  test::writeFile("/proc/self/uid_map", "0 " + uid + " 1");
+  test::writeFile("/proc/self/gid_map", "0 " + gid + " 1");
+  return ::getuid() == 0;
+}
+
+/// A real file system without room.
+TEST_F(ResumedBake, goesOnWhenThereIsRoomAgain) {
+  const fs::path disk = dir_ / "disk";
+  fs::create_directory(disk);
+  std::size_t size = 0;
+  for (const auto& [name, bytes] : whole_) size += bytes.size();
+  const int status = ended(start([&] {
+    if (!mayMount()) return 100;
+    // What is mounted here stays here.
+    ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr);
+    if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=64k") != 0) return 100;
+    options_.output = disk / "db";
+    int refused = 0;
+    for (std::size_t room = 96 * 1024; room < 4 * size; room += size / 7) {
+      ::mount("tmpfs", disk.c_str(), "tmpfs", MS_REMOUNT, ("size=" + std::to_string(room)).c_str());
+      const auto made = bake(options_);
+      if (made) break;
+      if (toString(made.findings()).find("room") == std::string::npos &&
+          toString(made.findings()).find("No space") == std::string::npos) {
+        std::fprintf(stderr, "%s\n", toString(made.findings()).c_str());
+        return 1;
+      }
+      if (fs::exists(disk / "db")) return 2;
+      ++refused;
+    }
+    if (refused < 3 || !fs::exists(disk / "db")) return 3;
+    return filesIn(disk / "db") == whole_ ? 0 : 4;
+  }));
+  if (status == 100) GTEST_SKIP() << "needs leave to mount";
+  EXPECT_EQ(status, 0);
+}
+
+TEST_F(ResumedBake, isReadByTwoProcessesAtOnce) {
+  const fs::path folder = dir_ / "whole";
+  const auto readAll = [&] {
+    const auto database = Database::open(folder);
+    if (!database || !(*database)->checkAll().empty()) return 1;
+    const auto patches = (*database)->patches();
+    for (int turn = 0; turn < 5; ++turn)
+      for (std::uint32_t page = 0; page < patches->index().pages.size(); ++page)
+        if (!patches->readPage(page)) return 2;
+    return 0;
+  };
+  const pid_t child = start(readAll);
+  EXPECT_EQ(readAll(), 0);
+  EXPECT_EQ(ended(child), 0);
+}
+
+/// Whoever has it open keeps it when it is baked again.
+TEST_F(ResumedBake, leavesWhatIsOpenAsItWas) {
+  options_.output = dir_ / "whole";
+  const auto open = Database::open(dir_ / "whole");
+  ASSERT_TRUE(open);
+  options_.maxError = Metres{60};
+  ASSERT_TRUE(bake(options_));
+  EXPECT_TRUE((*open)->checkAll().empty());
+  EXPECT_NE(filesIn(dir_ / "whole").at("patches.pages"), whole_.at("patches.pages"));
+}
+
+}  // namespace
+}  // namespace trimtab::terrain

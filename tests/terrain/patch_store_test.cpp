@@ -1,0 +1,188 @@
+#include "trimtab/terrain/patch_store.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "support.h"
+#include "terrain/rasters.h"
+#include "trimtab/terrain/patch_build.h"
+
+namespace trimtab::terrain {
+namespace {
+
+HeightGrid groundOf(std::uint32_t columns, std::uint32_t rows, double step, bool whole) {
+  HeightGrid grid{{10, 50, step, step, columns, rows}, {}, 0, {}};
+  for (std::uint32_t r = 0; r < rows; ++r)
+    for (std::uint32_t c = 0; c < columns; ++c) {
+      const auto h = static_cast<float>(test::roughGround(static_cast<int>(c), static_cast<int>(r)));
+      grid.heights.push_back(whole ? std::round(h) : h);
+    }
+  return grid;
+}
+
+using Corner = std::array<float, 8>;
+Corner cornerOf(const PatchVertex& v) {
+  return {v.x,         v.y, v.z, v.normal[0] * 1.0f, v.normal[1] * 1.0f, v.normal[2] * 1.0f, v.column * 1.0f,
+          v.row * 1.0f};
+}
+/// Triangles of a variant by what their corners are, the first the least: in any order, wherever they begin.
+std::multiset<std::array<Corner, 3>> trianglesOf(const PatchMesh& mesh, std::size_t variant) {
+  std::multiset<std::array<Corner, 3>> all;
+  for (std::uint32_t i = mesh.firstIndex[variant]; i < mesh.firstIndex[variant + 1]; i += 3) {
+    std::array<Corner, 3> t{cornerOf(mesh.vertices[mesh.indices[i]]),
+                            cornerOf(mesh.vertices[mesh.indices[i + 1]]),
+                            cornerOf(mesh.vertices[mesh.indices[i + 2]])};
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    all.insert(t);
+  }
+  return all;
+}
+
+void expectSame(const PatchMesh& a, const PatchMesh& b) {
+  EXPECT_TRUE(std::equal(a.origin, a.origin + 3, b.origin));
+  EXPECT_EQ(a.firstColumn, b.firstColumn);
+  EXPECT_EQ(a.firstRow, b.firstRow);
+  EXPECT_EQ(a.firstIndex, b.firstIndex);
+  ASSERT_EQ(a.vertices.size(), b.vertices.size());
+  for (std::size_t v = 0; v < PatchIndex::kVariants; ++v) EXPECT_EQ(trianglesOf(a, v), trianglesOf(b, v));
+}
+
+TEST(PatchStore, givesEveryTriangleBackToTheBit) {
+  struct Case {
+    double step;
+    bool whole;
+  };
+  for (const Case& c : {Case{0.0003, false}, Case{0.0003, true}, Case{0.02, false}}) {
+    const HeightGrid grid = groundOf(300, 200, c.step, c.whole);
+    const GridHeights heights(grid);
+    const PostGeometry geometry(grid.posts);
+    const auto built = buildPatches(heights, 1.0);
+    ASSERT_TRUE(built);
+    const PatchIndex& index = built->index();
+    for (std::uint32_t page = 0; page < index.pages.size(); ++page) {
+      const PatchPage whole = *built->readPage(page);
+      const auto bytes = encodePage(whole, geometry);
+      const auto again = decodePage(bytes, index, page, geometry, "bytes");
+      ASSERT_TRUE(again) << toString(again.findings());
+      ASSERT_EQ(again->patches.size(), whole.patches.size());
+      for (std::size_t p = 0; p < whole.patches.size(); ++p) expectSame(whole.patches[p], again->patches[p]);
+    }
+  }
+}
+
+/// Places that no whole number of height steps gives, and normals of no length.
+TEST(PatchStore, keepsWhatItCannotPredict) {
+  const HeightGrid grid = groundOf(300, 200, 0.0003, false);
+  const GridHeights heights(grid);
+  const PostGeometry geometry(grid.posts);
+  const auto built = buildPatches(heights, 1.0);
+  ASSERT_TRUE(built);
+  PatchPage page = *built->readPage(0);
+  std::mt19937 random(4);
+  for (PatchMesh& mesh : page.patches)
+    for (PatchVertex& v : mesh.vertices) {
+      v.x += static_cast<float>(static_cast<int>(random() % 9) - 4) / 256;
+      v.y += static_cast<float>(static_cast<int>(random() % 9) - 4) / 256;
+      for (std::int8_t& n : v.normal) n = static_cast<std::int8_t>(static_cast<int>(random() % 255) - 127);
+      v.normal[2] = static_cast<std::int8_t>(std::abs(v.normal[2]));
+    }
+  const auto again = decodePage(encodePage(page, geometry), built->index(), 0, geometry, "bytes");
+  ASSERT_TRUE(again) << toString(again.findings());
+  for (std::size_t p = 0; p < page.patches.size(); ++p) expectSame(page.patches[p], again->patches[p]);
+}
+
+TEST(PatchStore, refusesAnotherPageGridOrCount) {
+  const HeightGrid grid = groundOf(300, 600, 0.0003, false);
+  const GridHeights heights(grid);
+  const PostGeometry geometry(grid.posts);
+  const auto built = buildPatches(heights, 1.0);
+  ASSERT_TRUE(built && built->index().pages.size() > 1);
+  const auto bytes = encodePage(*built->readPage(0), geometry);
+  EXPECT_FALSE(decodePage(bytes, built->index(), 1, geometry, "bytes"));
+  PatchIndex other = built->index();
+  other.columns = 20;
+  EXPECT_FALSE(decodePage(bytes, other, 0, geometry, "bytes"));
+  other = built->index();
+  ++other.triangles[0][1];
+  const auto refused = decodePage(bytes, other, 0, geometry, "bytes");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.findings().front().where, "bytes");
+  EXPECT_NE(refused.findings().front().key.find("page 0"), std::string::npos);
+  for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / 97)
+    EXPECT_FALSE(decodePage(std::span(bytes).first(size), built->index(), 0, geometry, "bytes")) << size;
+}
+
+/// Damage that a checksum would have caught, had it not been made with it.
+TEST(PatchStore, neverPointsBeyondItsOwnArrays) {
+  const HeightGrid grid = groundOf(130, 90, 0.0003, false);
+  const GridHeights heights(grid);
+  const PostGeometry geometry(grid.posts);
+  const auto built = buildPatches(heights, 2.0);
+  ASSERT_TRUE(built);
+  const auto bytes = encodePage(*built->readPage(0), geometry);
+  std::mt19937 random(7);
+  int read = 0;
+  for (int k = 0; k < 5000; ++k) {
+    auto damaged = bytes;
+    for (auto edits = 1 + random() % 3; edits > 0; --edits) {
+      // Counts and packed streams alike.
+      const std::size_t at = random() % 3 == 0 ? random() % 40 : random() % damaged.size();
+      damaged[at] = static_cast<std::byte>(random());
+    }
+    if (random() % 8 == 0) damaged.resize(random() % damaged.size());
+    const auto page = decodePage(damaged, built->index(), 0, geometry, "bytes");
+    ASSERT_EQ(page.ok(), page.findings().empty());
+    if (!page) continue;
+    ++read;
+    for (const PatchMesh& mesh : page->patches) {
+      for (const std::uint16_t index : mesh.indices) ASSERT_LT(index, mesh.vertices.size());
+      for (const PatchVertex& v : mesh.vertices) {
+        ASSERT_TRUE(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z));
+        ASSERT_LT(mesh.firstColumn + v.column, grid.posts.columns);
+        ASSERT_LT(mesh.firstRow + v.row, grid.posts.rows);
+      }
+      ASSERT_EQ(mesh.firstIndex.back(), mesh.indices.size());
+    }
+  }
+  EXPECT_GT(read, 0);
+}
+
+TEST(PatchStore, opensWhatItWroteAndNothingElse) {
+  const HeightGrid grid = groundOf(300, 200, 0.0003, false);
+  const GridHeights heights(grid);
+  const PostGeometry geometry(grid.posts);
+  const auto built = buildPatches(heights, 1.0);
+  ASSERT_TRUE(built);
+  test::ScratchDir dir;
+  const auto file = dir / "patches.pages";
+  {
+    auto writer = PageFileWriter::create(file);
+    ASSERT_TRUE(writer);
+    for (std::uint32_t page = 0; page < built->index().pages.size(); ++page)
+      ASSERT_TRUE((*writer)->add(page, encodePage(*built->readPage(page), geometry)));
+    ASSERT_TRUE(finishPatchFile(**writer, grid.posts, built->index(), built->facts()));
+  }
+  const auto pages = PageFile::open(file);
+  ASSERT_TRUE(pages);
+  const auto opened = openPatches(*pages, file, grid.posts);
+  ASSERT_TRUE(opened) << toString(opened.findings());
+  const PatchIndex& index = (*opened)->index();
+  EXPECT_EQ(index.errorM, built->index().errorM);
+  EXPECT_EQ(index.triangles, built->index().triangles);
+  EXPECT_EQ((*opened)->facts().size(), index.size());
+  EXPECT_FALSE((*opened)->readPage(static_cast<std::uint32_t>(index.pages.size())));
+  for (std::uint32_t page = 0; page < index.pages.size(); ++page) {
+    ASSERT_TRUE((*opened)->readPage(page));
+    EXPECT_GT((*opened)->pageBytes(page), 0u);
+  }
+  PostGrid other = grid.posts;
+  other.south += 1e-9;
+  const auto refused = openPatches(*pages, file, other);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.findings().front().where, file.string());
+}
+
+}  // namespace
+}  // namespace trimtab::terrain
