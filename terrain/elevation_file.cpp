@@ -15,6 +15,7 @@ namespace {
 
 constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
 constexpr double kMostPosts = 4e9;
+constexpr std::int64_t kLongestSide = 500'000;
 /// Of a raster that are in memory at a time, more only where a row of them is longer.
 constexpr std::int64_t kWindow = std::int64_t{1} << 21;
 constexpr double kMostBlockBytes = 512e6;
@@ -50,8 +51,10 @@ Result<std::unique_ptr<ElevationFile>> ElevationFile::open(const fs::path& path,
   file->across_ = raster.data->GetRasterXSize();
   file->down_ = raster.data->GetRasterYSize();
   const double posts = static_cast<double>(file->across_) * static_cast<double>(file->down_);
-  if (posts > kMostPosts || file->across_ < 2 || file->down_ < 2)
-    return about(Severity::error, path, "size", "2 x 2 to 4 thousand million posts",
+  if (posts > kMostPosts || std::max(file->across_, file->down_) > kLongestSide || file->across_ < 2 ||
+      file->down_ < 2)
+    return about(Severity::error, path, "size",
+                 "2 x 2 to 4 thousand million posts, at most half a million a side",
                  std::to_string(file->across_) + " x " + std::to_string(file->down_));
   int blockColumns = 0, blockRows = 0;
   band.GetBlockSize(&blockColumns, &blockRows);
@@ -108,8 +111,16 @@ Result<Done> ElevationFile::lookThrough(const Progress& progress, GdalErrors& er
     for (std::int64_t c = 0; c < across_; c += columns) {
       if (progress && !progress(static_cast<double>(r) / static_cast<double>(down_), what))
         return cancelled(name_);
-      if (auto read = readWindow(c, r, std::min(columns, across_ - c), std::min(rows, down_ - r)); !read)
-        return read.findings();
+      const std::int64_t w = std::min(columns, across_ - c), h = std::min(rows, down_ - r);
+      // What a sparse file leaves out need not be looked at.
+      const int there =
+          band.GetDataCoverageStatus(static_cast<int>(c), static_cast<int>(r), static_cast<int>(w),
+                                     static_cast<int>(h), GDAL_DATA_COVERAGE_STATUS_DATA, nullptr);
+      if (there == GDAL_DATA_COVERAGE_STATUS_EMPTY) {
+        census.leaveOut(static_cast<std::uint64_t>(w * h), values_);
+        continue;
+      }
+      if (auto read = readWindow(c, r, w, h); !read) return read.findings();
       census.add(window_, values_);
     }
   flipped_ = direct_ && raster_.transform[5] < 0;

@@ -1,5 +1,7 @@
 #include "trimtab/terrain/elevation_source.h"
 
+#include <cpl_string.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,7 +20,7 @@ namespace fs = std::filesystem;
 
 using Files = std::vector<std::unique_ptr<ElevationFile>>;
 
-constexpr double kMostPosts = 4e9;
+constexpr double kMostPosts = 4e9, kLongestSide = 500'000;
 /// More files than systems let a program have open are opened again when they are needed.
 constexpr std::size_t kMostOpen = 128;
 /// Read out of order, a chunk needs its neighbours; three would do for rows in order.
@@ -99,11 +101,10 @@ Result<PostGrid> gridOf(const Files& files, const ElevationOptions& options) {
   PostGrid grid;
   const auto [left, columns] = fit(across, west, east);
   const auto [low, rows] = fit(up, south, north);
-  if (!(columns * rows <= kMostPosts) || columns < 2 || rows < 2)
+  if (!(columns * rows <= kMostPosts) || std::max(columns, rows) > kLongestSide || columns < 2 || rows < 2)
     return Finding{Severity::error, "all files together", "size",
-                   "2 x 2 to 4 thousand million posts at the finest spacing, or a coarser one asked for",
-                   std::to_string(static_cast<std::int64_t>(columns)) + " x " +
-                       std::to_string(static_cast<std::int64_t>(rows))};
+                   "2 x 2 to 4 thousand million posts at the finest spacing, at most half a million a side",
+                   CPLSPrintf("%.0f x %.0f", columns, rows)};
   grid.west = left;
   grid.south = low;
   grid.stepLongitude = across.step;

@@ -32,6 +32,10 @@ struct Census {
   std::uint64_t deep = 0;              ///< under 500 m below the sea
   std::uint64_t impossible = 0;        ///< once in metres
   void add(std::span<const float> raw, const Values& values);
+  /// Posts of a block that is not in the file: it reads as the no-data value, or as 0.
+  void leaveOut(std::uint64_t count, const Values& values) {
+    posts += count, voids += values.noData ? count : 0;
+  }
 };
 
 /// Numbers to metres, voids to NaN.
