@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <map>
+#include <random>
 #include <set>
 
+#include "patched_terrain.h"
 #include "scene_test.h"
 #include "synthetic_trees.h"
 #include "trimtab/host/encoder.h"
@@ -96,19 +98,37 @@ class ParameterEffects : public test::SceneTest {
         const Metres ground = *database->heightAt(request.eye.latitude, request.eye.longitude);
         request.eye.height = i == 29 ? ground + Metres{20} : highest + Metres{200};
         request.attitude.pitch = Degrees{-8};
+        request.waitForPages = true;
         scene::FrameResult result;
         seen["picture " + std::to_string(i)] = digest(picture(request, &result));
-        seen["counts " + std::to_string(i)] =
-            std::to_string(result.visible.triangles) + ' ' +
-            (result.horizon    ? "horizon"
-             : result.depthMap ? std::to_string(result.depthMap->widthPx)
-                               : "-");
+        seen["counts " + std::to_string(i)] = std::to_string(result.visible.triangles) + ' ' +
+                                              (result.horizon    ? "horizon"
+                                               : result.depthMap ? std::to_string(result.depthMap->widthPx)
+                                                                 : "-") +
+                                              ' ' + std::to_string(result.paging.heldBack);
         result.cost = {0, 1, 1, 1, 20, 0, 23};  // the clock is no effect
         session.finished(result, state.time);
       }
       ++i;
     }
     seen["over budget"] = std::to_string(session.overBudget());
+    return seen;
+  }
+
+  /// The same over patches that take some 40 MB: ground so rough that every post counts.
+  Observed flyOverPatches(const ValidatedParameters& parameters) {
+    static const auto rough = [] {
+      std::mt19937 random(5);
+      std::uniform_real_distribution<float> height(0, 800);
+      terrain::HeightGrid grid;
+      grid.posts = {128.1, 36.4, 1.0 / 1200, 1.0 / 1200, 385, 385};
+      for (std::size_t i = 0; i < grid.posts.size(); ++i) grid.heights.push_back(height(random));
+      return std::make_shared<const test::PatchedTerrain>(std::move(grid), nullptr, false);
+    }();
+    const auto before = database;
+    use(rough);
+    const Observed seen = fly(parameters);
+    use(before);
     return seen;
   }
 
@@ -215,6 +235,9 @@ TEST_F(ParameterEffects, everyParameterChangesADecisionAPictureOrACount) {
       {"motion.", {{"motion.dwell", "milliseconds"}, {"motion.blur_dwell_ms", "50"}}},
       {"static_lod.", {{"static_lod.terrain", "static_trees"}}},
       {"static_lod.", {{"static_lod.terrain", "static_trees"}, {"static_lod.rule", "factor"}}},
+      {"terrain.",
+       {{"static_lod.terrain", "patches"}, {"terrain.cache_mb", "16"}, {"lod.screen_space_error_px", "0.25"}},
+       &ParameterEffects::flyOverPatches},
       {"symbology. symbol", {{"symbology.enabled", "true"}}},
       {"weather.haze weather.clear weather.contrast weather.ratio weather.default",
        {{"weather.haze", "true"}, {"weather.clear_visibility_m", "5000"}}},

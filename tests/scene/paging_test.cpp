@@ -4,6 +4,8 @@
 #include <map>
 
 #include "../terrain/slow_patches.h"
+#include "patched_terrain.h"
+#include "scene_test.h"
 #include "trimtab/scene/offscreen.h"
 #include "trimtab/scene/page_budget.h"
 #include "trimtab/scene/patch_culling.h"
@@ -265,6 +267,62 @@ TEST_F(Paging, showsTheMeshesOfWhatIsThere) {
     }
   }
   EXPECT_GT(absent, 0u);
+}
+
+/// The same through the renderer, to the pixel.
+class PagedPicture : public test::SceneTest {
+ protected:
+  void SetUp() override {
+    SceneTest::SetUp();
+    if (!offscreen) return;
+    slow = std::make_shared<test::SlowPatches>(test::patchedMountains(false)->patches());
+    auto terrain = std::make_shared<test::PatchedTerrain>(*test::patchedMountains(false));
+    terrain->replace(slow);
+    use(terrain);
+  }
+  std::shared_ptr<test::SlowPatches> slow;
+};
+
+TEST_F(PagedPicture, endsAtWhatAFrameThatWaitsShows) {
+  FrameRequest r = request(over(0.3, 0.4, 700), {Degrees{50}, Degrees{-12}, Degrees{0}});
+  r.lod.screenSpaceError = Pixels{1};
+  slow->setDelay(10ms);
+  std::size_t differed = 0;
+  for (int i = 0; i < 3; ++i) {
+    r.eye = over(0.3 + 0.2 * i, 0.4 + 0.1 * i, 700);
+    use(database);
+    r.waitForPages = false;
+    FrameResult result;
+    const auto first = picture(r, &result);
+    const auto start = Clock::now();
+    do {
+      picture(r, &result);
+    } while ((result.paging.waiting > 0 || millisecondsSince(start) < 400) &&
+             millisecondsSince(start) < 20e3);
+    const auto background = picture(r);
+    use(database);
+    r.waitForPages = true;
+    const auto whole = picture(r, &result);
+    EXPECT_EQ(result.paging.heldBack, 0u);
+    EXPECT_EQ(differing(background, whole), 0u);
+    differed += differing(first, whole);
+  }
+  EXPECT_GT(differed, 1000u) << "there was nothing to wait for";
+}
+
+TEST_F(PagedPicture, isWholeFromTheFirstFrameOn) {
+  slow->setDelay(40ms);
+  FrameRequest r = request(over(0.5, 0.5, 900), {Degrees{50}, Degrees{-70}, Degrees{0}});
+  r.overlays.showHoles = true;
+  for (int i = 0; i < 12; ++i) {
+    r.eye = over(0.3 + 0.03 * i, 0.5, 900);
+    FrameResult result;
+    const auto pixels = picture(r, &result);
+    std::size_t holes = 0;
+    for (std::size_t p = 0; p < pixels.size(); p += 4)
+      holes += pixels[p] == 255 && pixels[p + 1] == 0 && pixels[p + 2] == 255;
+    EXPECT_EQ(holes, 0u) << i << ", " << result.paging.waiting << " pages on their way";
+  }
 }
 
 TEST(PageBudget, holdsWhatLeavesTheLeastErrorAndTheRootsWhateverTheyCost) {
