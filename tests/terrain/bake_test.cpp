@@ -6,6 +6,8 @@
 #include <thread>
 
 #include "rasters.h"
+#include "trimtab/terrain/ground.h"
+#include "trimtab/terrain/patch_terrain.h"
 
 /// What is left on disk, and what a damaged database says.
 namespace trimtab::terrain {
