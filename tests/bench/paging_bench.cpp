@@ -9,6 +9,7 @@
 
 #include "bench_scene.h"
 #include "trimtab/culling/select_patches.h"
+#include "trimtab/terrain/country.h"
 #include "trimtab/terrain/patch_terrain.h"
 
 namespace trimtab::bench {
@@ -59,18 +60,27 @@ struct Flown {
   double mostBytes = 0;
 };
 
-/// A database of its own, so that its files can be made cold. TRIMTAB_COUNTRY names another.
+/// A country, or the 64th part of one; baked once. TRIMTAB_COUNTRY names another database.
 std::filesystem::path baked(bool quick) {
   if (const char* country = std::getenv("TRIMTAB_COUNTRY")) return country;
-  const int km = quick ? 20 : 100;
+  const std::uint32_t share = quick ? 8 : 1;
   const auto folder = std::filesystem::temp_directory_path() / "trimtab-bench";
-  const auto database = folder / ("paging-" + std::to_string(km) + "km");
+  const auto database = folder / ("country-1-" + std::to_string(share));
   if (terrain::isDatabase(database) && terrain::Database::open(database)) return database;
-  if (!sampleTerrain(km)) return {};
+  std::filesystem::create_directories(folder);
+  const auto tif = folder / ("country-1-" + std::to_string(share) + ".tif");
+  terrain::CountryOptions country;
+  country.columns /= share;
+  country.rows /= share;
+  if (const auto written = terrain::writeCountry(tif, country); !written) {
+    std::cerr << toString(written.findings());
+    return {};
+  }
   terrain::BakeOptions options;
-  options.sources = {folder / ("sample-" + std::to_string(km) + "km.tif")};
+  options.sources = {tif};
   options.output = database;
   const auto made = terrain::bake(options);
+  std::filesystem::remove(tif);
   if (!made) std::cerr << toString(made.findings());
   return made ? database : std::filesystem::path{};
 }
