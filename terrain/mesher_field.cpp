@@ -8,49 +8,60 @@ namespace trimtab::terrain {
 
 namespace {
 
-/// The tolerance that the budget allows, then what is left of it where tiles are furthest off.
-void spend(MeshTiles& tiles, const HeightField& field, double least, std::size_t budget) {
-  float low = field.at(0, 0), high = low;
-  for (std::uint32_t y = 0; y < field.rows; ++y) {
-    const auto [a, b] =
-        std::minmax_element(field.z + y * field.stride, field.z + y * field.stride + field.columns);
-    low = std::min(low, *a);
-    high = std::max(high, *b);
-  }
-  const auto wanted = static_cast<double>(budget);
-  double tolerance = std::max(least, (static_cast<double>(high) - low) / 8), fits = HUGE_VAL, tooMany = 0;
+/// Refines until there are at least `enough` of `budget` triangles, never more than all of it, or the
+/// tolerance is down to `least`. The tolerance that it ended at.
+double spend(MeshTiles& tiles, double tolerance, double least, double budget, double enough, bool sample) {
+  double fits = HUGE_VAL, tooMany = 0, lastCount = 0, lastTolerance = 0;
   double power = 1.5;  // triangles grow as this power of 1 / tolerance, to begin with
-  double lastCount = 0, lastTolerance = 0;
-  bool fresh = true;
   for (int step = 0; step < 100; ++step) {
     tiles.refine(tolerance);
     const auto count = static_cast<double>(tiles.triangles());
-    if (count > wanted) {
+    if (count > budget) {
       // Too far, and nothing is ever taken out: again from the start, to where it was fewer.
-      tiles.restart();
-      fresh = false;
+      const double over = tolerance * std::pow(count / budget, 1 / power);
+      if (sample && fits < HUGE_VAL) return std::min(over, fits);
+      tiles.restart(sample);
       tooMany = tolerance;
-      tolerance = fits == HUGE_VAL ? tolerance * 3 : 0.3 * tolerance + 0.7 * fits;
+      tolerance = fits == HUGE_VAL ? 1.02 * over : std::min(1.005 * over, 0.5 * (tolerance + fits));
       if (fits - tooMany < 1e-3 * fits) {
         // Many posts are off by the same: some of them are taken.
         tiles.refine(fits);
-        tiles.add(budget, fits);
-        return;
+        tiles.add(static_cast<std::size_t>(budget), fits);
+        return fits;
       }
       continue;
     }
     fits = tolerance;
-    if (tolerance <= least || count >= 0.99 * wanted) return;
+    if (tolerance <= least || count >= enough * budget) return tolerance;
     if (lastCount > 0 && count > lastCount * 1.01)
       power = std::clamp(std::log(count / lastCount) / std::log(lastTolerance / tolerance), 0.8, 4.0);
     lastCount = count;
     lastTolerance = tolerance;
     // Part of the way first: the power is a guess that gets better.
-    const double share = count / wanted;
-    const double aim = share < 0.2 ? 3 * share : share < 0.6 ? 0.8 : share < 0.9 ? 0.965 : 0.996;
-    tolerance = std::max(tolerance * std::clamp(std::pow(share / aim, 1 / power), 0.4, 0.9995), least);
-    if (!fresh) tolerance = std::max(tolerance, 0.5 * (fits + tooMany));
+    const double share = count / budget;
+    const double aim = share < 0.2 ? 3 * share : share < 0.6 ? 0.8 : share < 0.9 ? 0.965 : 0.997;
+    tolerance *= std::clamp(std::pow(share / aim, 1 / power), 0.4, 0.9995);
+    tolerance = std::max({tolerance, least, tooMany == 0 ? 0 : 0.5 * (fits + tooMany)});
   }
+  return fits;
+}
+
+void spend(MeshTiles& tiles, const HeightField& field, double least, std::size_t budget) {
+  float low = field.at(0, 0), high = low;
+  for (std::uint32_t y = 0; y < field.rows; ++y) {
+    const float* const row = field.z + y * field.stride;
+    const auto [a, b] = std::minmax_element(row, row + field.columns);
+    low = std::min(low, *a);
+    high = std::max(high, *b);
+  }
+  const auto wanted = static_cast<double>(budget);
+  double tolerance = std::max(least, (static_cast<double>(high) - low) / 8);
+  // Tiles that are refined in many steps have a few triangles more than those that go straight to where they
+  // end: so the steps are taken by some of them.
+  tiles.restart(true);
+  if (tiles.taken() < 1) tolerance = spend(tiles, tolerance, least, wanted * tiles.taken(), 0.9, true);
+  tiles.restart(false);
+  spend(tiles, tolerance, least, wanted, 0.992, false);
 }
 
 }  // namespace
@@ -60,6 +71,7 @@ FieldMesh meshField(const HeightField& field, const MeshOptions& options) {
   if (field.columns < 2 || field.rows < 2) return out;
   const unsigned threads = std::max(options.threads, 1u);
   MeshTiles tiles(field, options.mostTriangles, threads);
+  tiles.restart(false);
   if (options.mostTriangles == 0)
     tiles.refine(options.maxErrorM);
   else

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numeric>
 
 #include "trimtab/terrain/mesher_regroup.h"
@@ -14,6 +13,9 @@ namespace {
 
 using Vertex = Triangulation::Vertex;
 using Triangle = Triangulation::Triangle;
+
+/// Posts are brought within this share of the bound where that can be done.
+constexpr double kMend = 0.95;
 
 double post(const float* z, std::size_t stride, const Vertex& v) {
   return z[static_cast<std::size_t>(v.y) * stride + static_cast<std::size_t>(v.x)];
@@ -102,66 +104,146 @@ void MeshFit::flipEdges(double bound) {
   }
 }
 
-void MeshFit::moveHeight(std::uint32_t v, double bound) {
-  // Residuals r at the posts about v change by -w d where v rises by d; w is its share, 1 at v itself.
-  struct About {
-    double r, w;
-  };
-  static thread_local std::vector<About> about;
-  about.clear();
-  Vertex& at = mesh_.vertices[v];
-  const double rv = post(z_, stride_, at) - at.z;
-  about.push_back({rv, 1});
-  double wr = rv, ww = 1, worst = std::fabs(rv);
-  const std::int32_t start = starts_[v];
+bool MeshFit::gather(std::int32_t start, const Vertex& at, Star& star) {
+  star = {};
+  about_.clear();
   std::int32_t h = start;
   do {
     const Triangle& one = mesh_.triangles[static_cast<std::size_t>(h >> 2)];
     const int i = h & 3;
     const Vertex &b = mesh_.vertices[one.corner[Triangulation::next(i)]],
                  &c = mesh_.vertices[one.corner[Triangulation::before(i)]];
-    const double area = static_cast<double>(Triangulation::turn(at, b, c.x, c.y));
+    const std::int64_t twice = Triangulation::turn(at, b, c.x, c.y);
+    if (twice <= 0) return false;
+    star.area += twice;
+    const double area = static_cast<double>(twice);
     const bool border[3] = {false, one.twin[Triangulation::next(i)] < 0, false};
     const Vertex* const corner[3] = {&at, &b, &c};
     const double slopeW = -static_cast<double>(c.y - b.y) / area;
+    double wr = 0, ww = 0;
     forEachRow(corner, border, 1, [&](const FacetRow& row) {
       const float* const z = z_ + static_cast<std::size_t>(row.y) * stride_;
       double w = static_cast<double>(Triangulation::turn(b, c, row.first, row.y)) / area, facet = row.z;
       for (std::int32_t x = row.first; x <= row.last; ++x) {
         const double r = z[x] - facet;
-        about.push_back({r, w});
+        about_.push_back({r, w});
         wr += w * r;
         ww += w * w;
-        worst = std::max(worst, std::fabs(r));
+        star.rr += r * r;
+        star.worst = std::max(star.worst, std::fabs(r));
         w += slopeW;
         facet += row.slope;
       }
     });
+    star.wr += wr;
+    star.ww += ww;
+    // Moving the vertex by (dx, dy, dz) changes a residual by -w (dz - gx dx - gy dy).
+    const double zb = static_cast<double>(b.z) - at.z, zc = static_cast<double>(c.z) - at.z;
+    const double gx = (zb * (c.y - at.y) - zc * (b.y - at.y)) / area;
+    const double gy = ((b.x - at.x) * zc - (c.x - at.x) * zb) / area;
+    star.xz -= ww * gx;
+    star.yz -= ww * gy;
+    star.xx += ww * gx * gx;
+    star.xy += ww * gx * gy;
+    star.yy += ww * gy * gy;
+    star.rx -= wr * gx;
+    star.ry -= wr * gy;
     h = one.twin[Triangulation::before(i)];
   } while (h != start);
+  const double rv = post(z_, stride_, at) - at.z;
+  about_.push_back({rv, 1});
+  star.wr += rv;
+  star.ww += 1;
+  star.rr += rv * rv;
+  star.worst = std::max(star.worst, std::fabs(rv));
+  return true;
+}
 
-  const double best = wr / ww, limit = std::max(bound, worst);
-  if (std::fabs(best) < 0.003 * bound) return;
+bool MeshFit::bestHeight(const Star& star, float was, double limit, float& z, double& squares) const {
   double low = -HUGE_VAL, high = HUGE_VAL;
-  for (const About& p : about) {
-    if (p.w < 1e-9) continue;
+  for (const About& p : about_) {
+    if (p.w < 1e-9) {
+      if (std::fabs(p.r) > limit) return false;
+      continue;
+    }
     low = std::max(low, (p.r - limit) / p.w);
     high = std::min(high, (p.r + limit) / p.w);
   }
-  float z = static_cast<float>(at.z + std::clamp(best, low, high));
-  // Rounding to the file's precision must not break the bound.
-  const double d = static_cast<double>(z) - at.z;
+  if (low > high) return false;
+  z = static_cast<float>(was + std::clamp(star.wr / star.ww, low, high));
+  // Rounding to the precision of heights must not break the bound.
+  double d = static_cast<double>(z) - was;
   if (d < low) z = std::nextafter(z, HUGE_VALF);
   if (d > high) z = std::nextafter(z, -HUGE_VALF);
-  const double rounded = static_cast<double>(z) - at.z;
-  if (z == at.z || rounded < low || rounded > high || rounded * (rounded * ww - 2 * wr) >= 0) return;
-  at.z = z;
+  d = static_cast<double>(z) - was;
+  if (d < low || d > high) {
+    if (low > 0 || high < 0) return false;
+    z = was;
+    d = 0;
+  }
+  squares = star.rr + d * (d * star.ww - 2 * star.wr);
+  return true;
+}
+
+void MeshFit::moveVertex(std::uint32_t v, double bound) {
+  Vertex& at = mesh_.vertices[v];
+  Star star;
+  gather(starts_[v], at, star);
+  if (star.rr < 1e-3 * bound * bound) return;
+  // Where a post is too far off already, any place that mends it is better; else none that makes it worse.
+  const bool broken = star.worst > bound;
+  double limit = bound, least = star.rr;
+  Vertex best = at;
+  float z;
+  double squares;
+  bool better = bestHeight(star, at.z, bound, z, squares);
+  if (!better && broken) {
+    limit = star.worst;
+    better = bestHeight(star, at.z, limit, z, squares);
+  }
+  const bool mended = better && broken && limit == bound;
+  if (better && (squares < least * (1 - 1e-4) || mended)) {
+    least = squares;
+    best.z = z;
+  } else {
+    better = false;
+  }
+
+  // Newton's step with the height eliminated.
+  const double xx = star.xx - star.xz * star.xz / star.ww, yy = star.yy - star.yz * star.yz / star.ww,
+               xy = star.xy - star.xz * star.yz / star.ww;
+  const double rx = star.rx - star.xz * star.wr / star.ww, ry = star.ry - star.yz * star.wr / star.ww;
+  const double damped = 1e-2 * (xx + yy) + 1e-300;
+  const double det = (xx + damped) * (yy + damped) - xy * xy;
+  const double dx = (rx * (yy + damped) - ry * xy) / det, dy = (ry * (xx + damped) - rx * xy) / det;
+  if (dx * rx + dy * ry > 0.02 * star.rr) {
+    const double most = std::max(1.0, 0.3 * std::sqrt(static_cast<double>(star.area) / 6));
+    const double longest = std::max(std::fabs(dx), std::fabs(dy));
+    const double part = longest > most ? most / longest : 1.0;
+    Vertex there = at;
+    there.x += static_cast<std::int32_t>(std::lround(dx * part));
+    there.y += static_cast<std::int32_t>(std::lround(dy * part));
+    if (there.x != at.x || there.y != at.y) {
+      there.z = static_cast<float>(post(z_, stride_, there));
+      Star moved;
+      float zThere;
+      if (gather(starts_[v], there, moved)) {
+        if (bestHeight(moved, there.z, limit, zThere, squares) && squares < least * (1 - 1e-4)) {
+          best = there;
+          best.z = zThere;
+          better = true;
+        }
+      }
+    }
+  }
+  if (!better) return;
+  at = best;
   moved_[v] = 1;
 }
 
-void MeshFit::moveHeights(double bound) {
+void MeshFit::moveVertices(double bound) {
   for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v)
-    if (starts_[v] >= 0) moveHeight(v, bound);
+    if (starts_[v] >= 0) moveVertex(v, bound);
 }
 
 void MeshFit::run(double bound, int sweeps) {
@@ -178,7 +260,7 @@ void MeshFit::run(double bound, int sweeps) {
     for (const Triangle& one : mesh_.triangles)
       for (int i = 0; i < 3; ++i)
         if (one.twin[i] < 0) starts_[one.corner[i]] = starts_[one.corner[Triangulation::next(i)]] = -1;
-    moveHeights(bound);
+    moveVertices(bound);
     if (sweep + 1 == sweeps) break;
     for (std::int32_t t = 0; t < count; ++t) {
       const Triangle& one = mesh_.triangles[static_cast<std::size_t>(t)];
@@ -193,13 +275,13 @@ void MeshFit::run(double bound, int sweeps) {
 Triangulation fitTiles(MeshTiles& tiles, const HeightField& field, double bound, unsigned threads) {
   tiles.eachTile([&](GreedyMesh& tile) {
     const PolygonMesher::Point origin = tile.origin();
-    MeshFit(tile.mesh(), field.z + origin.row * field.stride + origin.column, field.stride).run(bound, 1);
+    MeshFit(tile.mesh(), field.z + origin.row * field.stride + origin.column, field.stride)
+        .run(kMend * bound, 1);
   });
   // Again with other borders: what lay on the sides of tiles is free now.
   Triangulation mesh = tiles.join();
-  eachPart(mesh, tiles.width(), tiles.height(), threads, [&](Triangulation& part) {
-    MeshFit(part, field.z, field.stride).run(bound, getenv("SW") ? atoi(getenv("SW")) : 1);
-  });
+  eachPart(mesh, tiles.width(), tiles.height(), threads,
+           [&](Triangulation& part) { MeshFit(part, field.z, field.stride).run(kMend * bound, 1); });
   return mesh;
 }
 

@@ -32,15 +32,29 @@ class MeshFit {
   Sum sumOf(std::int32_t t) const;
   void flipEdges(double bound);
   bool tryFlip(std::int32_t t, int i, double bound);
-  void moveHeights(double bound);
-  void moveHeight(std::uint32_t v, double bound);
+  void moveVertices(double bound);
+  void moveVertex(std::uint32_t v, double bound);
+
+  /// Residuals r at the posts about a vertex change by -w d where it rises by d; w is its share.
+  struct About {
+    double r, w;
+  };
+  /// Sums over them, and of what moving the vertex sideways does to them.
+  struct Star {
+    double rr = 0, wr = 0, ww = 0, worst = 0;
+    double xx = 0, xy = 0, yy = 0, xz = 0, yz = 0, rx = 0, ry = 0;
+    std::int64_t area = 0;
+  };
+  bool gather(std::int32_t start, const Triangulation::Vertex& at, Star& star);
+  bool bestHeight(const Star& star, float was, double limit, float& z, double& squares) const;
 
   Triangulation& mesh_;
   const float* z_;
   std::size_t stride_;
   std::vector<Sum> sums_;                      ///< one a triangle
   std::vector<std::uint8_t> changed_, moved_;  ///< since edges were last tried; one a triangle, one a vertex
-  std::vector<std::int32_t> starts_;           ///< a half-edge that leaves a vertex; -1: on the border
+  std::vector<About> about_;
+  std::vector<std::int32_t> starts_;  ///< a half-edge that leaves a vertex; -1: on the border
 };
 
 }  // namespace trimtab::terrain

@@ -96,8 +96,7 @@ void eachPart(Triangulation& mesh, std::int32_t width, std::int32_t height, unsi
     for (std::size_t cut = 0; cut < cuts[p].size(); ++cut) cuts[p][cut].now = toGlobal(local.borderEdge[cut]);
     // Those on the border are others' too, and did not change.
     for (std::size_t v = 0; v < vertices.size(); ++v) {
-      float& z = mesh.vertices[vertices[v]].z;
-      if (local.vertices[v].z != z) z = local.vertices[v].z;
+      if (!(local.vertices[v] == mesh.vertices[vertices[v]])) mesh.vertices[vertices[v]] = local.vertices[v];
       vertexOf[vertices[v]] = -1;
     }
   });

@@ -11,6 +11,8 @@ namespace trimtab::terrain {
 namespace {
 
 constexpr std::uint32_t kTilePosts = 100;
+/// Sides keep their posts closer than tiles do: what they are off cannot be mended later, and they are few.
+constexpr double kSideShare = 0.9;
 constexpr std::size_t kAnyVertices = std::numeric_limits<std::size_t>::max();
 
 /// Keys of a side as simplifySide would keep its posts: what is kept at a tolerance is what has a greater
@@ -111,7 +113,7 @@ void MeshTiles::begin(Tile& tile) {
     for (std::int32_t i = 0; i < last; ++i) {
       // South and east run as the side does, north and west against it; the far end is the next side's.
       const std::int32_t k = s < 2 ? i : last - i;
-      if (i != 0 && !(side.key[static_cast<std::size_t>(k)] > tolerance_)) continue;
+      if (i != 0 && !(side.key[static_cast<std::size_t>(k)] > kSideShare * tolerance_)) continue;
       const auto along = static_cast<std::uint32_t>(k);
       border.push_back(s % 2 == 0 ? PolygonMesher::Point{side.from.column + along, side.from.row}
                                   : PolygonMesher::Point{side.from.column, side.from.row + along});
@@ -131,6 +133,7 @@ void MeshTiles::refine(double tolerance) {
   tolerance_ = tolerance;
   onThreads(threads_, static_cast<std::uint32_t>(tiles_.size()), [&](std::uint32_t index) {
     Tile& tile = tiles_[index];
+    if (!tile.taken) return;
     if (!begun_) {
       begin(tile);
     } else {
@@ -138,7 +141,7 @@ void MeshTiles::refine(double tolerance) {
         const Side& side = sides_[tile.sides[s]];
         std::vector<std::int32_t>& vertex = tile.vertex[s];
         for (std::size_t k = 1; k + 1 < side.key.size(); ++k) {
-          if (!(side.key[k] > tolerance) || side.key[k] > before) continue;
+          if (!(side.key[k] > kSideShare * tolerance) || side.key[k] > kSideShare * before) continue;
           std::size_t from = k;
           do from = s < 2 ? from - 1 : from + 1;
           while (vertex[from] < 0);
@@ -187,9 +190,20 @@ void MeshTiles::add(std::size_t most, double bound) {
   }
 }
 
+void MeshTiles::restart(bool sample) {
+  begun_ = false;
+  taken_ = 0;
+  for (std::size_t index = 0; index < tiles_.size(); ++index) {
+    Tile& tile = tiles_[index];
+    tile.taken = !sample || tiles_.size() < 32 || (index % across_ + 2 * (index / across_)) % 4 == 0;
+    taken_ += tile.taken;
+  }
+}
+
 std::size_t MeshTiles::triangles() const {
   std::size_t count = 0;
-  for (const Tile& tile : tiles_) count += tile.mesh.mesh().triangles.size();
+  for (const Tile& tile : tiles_)
+    if (tile.taken) count += tile.mesh.mesh().triangles.size();
   return count;
 }
 

@@ -22,7 +22,9 @@ class MeshTiles {
   /// Adds triangles where tiles are furthest off, up to `most` in all; sides stay as they are. No post gets
   /// further off than `bound`, which holds before.
   void add(std::size_t most, double bound);
-  void restart() { begun_ = false; }
+  /// Begins anew; `sample`: with a quarter of the tiles, to learn what a tolerance costs.
+  void restart(bool sample);
+  double taken() const { return static_cast<double>(taken_) / static_cast<double>(tiles_.size()); }
 
   std::int32_t width() const { return static_cast<std::int32_t>((field_.columns - 1) / across_); }
   std::int32_t height() const { return static_cast<std::int32_t>((field_.rows - 1) / up_); }
@@ -41,6 +43,7 @@ class MeshTiles {
   };
   struct Tile {
     GreedyMesh mesh;
+    bool taken = true;
     std::uint32_t sides[4];               ///< south, east, north, west
     std::vector<std::int32_t> vertex[4];  ///< of each post of a side, in the side's order; -1: none
   };
@@ -57,6 +60,7 @@ class MeshTiles {
   std::vector<Side> sides_;
   std::vector<Tile> tiles_;
   double tolerance_ = 0;
+  std::size_t taken_ = 0;  ///< tiles that are meshed now
   bool begun_ = false;
 };
 

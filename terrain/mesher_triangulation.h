@@ -14,6 +14,7 @@ struct Triangulation {
   struct Vertex {
     std::int32_t x, y;
     float z;
+    friend bool operator==(const Vertex&, const Vertex&) = default;
   };
   struct Triangle {
     std::uint32_t corner[3];

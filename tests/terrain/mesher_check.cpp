@@ -16,6 +16,10 @@ double lattice(std::uint32_t x, std::uint32_t y, std::uint32_t seed) {
   return static_cast<double>(h ^ (h >> 15)) / 4294967296.0 - 0.5;
 }
 
+double smooth(double t) {
+  return t * t * t * (10 + t * (6 * t - 15));
+}
+
 std::int64_t turn(const Point& a, const Point& b, std::int64_t x, std::int64_t y) {
   return (std::int64_t{b.column} - a.column) * (y - a.row) - (std::int64_t{b.row} - a.row) * (x - a.column);
 }
@@ -38,7 +42,8 @@ Field fractal(std::uint32_t columns, std::uint32_t rows, std::uint32_t seed, dou
     double sum = 0, amplitude = relief;
     for (std::uint32_t cell = 256; cell >= 1; cell /= 2, amplitude *= 0.6) {
       const auto x = static_cast<std::uint32_t>(column), y = static_cast<std::uint32_t>(row);
-      const double u = static_cast<double>(x % cell) / cell, v = static_cast<double>(y % cell) / cell;
+      const double u = smooth(static_cast<double>(x % cell) / cell),
+                   v = smooth(static_cast<double>(y % cell) / cell);
       const std::uint32_t i = x / cell, j = y / cell, s = seed + cell * 977;
       const double low = lattice(i, j, s) * (1 - u) + lattice(i + 1, j, s) * u;
       const double high = lattice(i, j + 1, s) * (1 - u) + lattice(i + 1, j + 1, s) * u;
