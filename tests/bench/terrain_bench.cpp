@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "paging_bench.h"
+#include "bake_bench.h"
 #include "row.h"
 #include "support.h"
 #include "terrain/static_lod_support.h"
@@ -115,6 +116,8 @@ void compare(Report& report, const std::string& id, const std::string& what, con
 int main(int argc, char** argv) {
   using namespace trimtab;
   bench::Report report(argc, argv);
+  // First: its processes start as small as this one is now.
+  bench::bakingRows(report);
   const std::uint32_t side = report.quick() ? 100 : 230;
   bench::compare(report, "terrain.simplify_hills", "jittered hills",
                  test::tin("hills", {.columns = side, .rows = side}));
