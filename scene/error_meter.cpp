@@ -17,6 +17,9 @@ namespace {
 
 /// So small that the finest level is chosen wherever levels differ at all.
 constexpr Pixels kFinest{1e-6};
+/// For patches: finest wherever a picture could tell, and not a whole country's.
+constexpr Pixels kFinestPatches{0.125};
+constexpr Megabytes kReferenceCache{8192};
 /// What is left of a picture at this weight is a quarter of a grey level.
 constexpr double kNoTrace = 1.0 / 1024;
 
@@ -28,6 +31,7 @@ FrameRequest withoutEngineer(const FrameRequest& request) {
   r.overlays.treeDepth = request.overlays.treeDepth;
   r.frozenEye.reset();
   r.separateStages = false;
+  r.waitForPages = true;
   // It depends on what was drawn before, and so would the share of nodes drawn in vain.
   r.skips.littleHidden = false;
   return r;
@@ -81,7 +85,8 @@ FrameRequest referenceOf(const FrameRequest& request) {
   FrameRequest r = withoutEngineer(request);
   r.method = CullingCase::view_frustum;
   r.overlays.treeDepth = -1;
-  r.lod.screenSpaceError = kFinest;
+  r.lod.screenSpaceError = r.staticLod.terrain == TerrainForm::patches ? kFinestPatches : kFinest;
+  r.terrain.cache = std::max(r.terrain.cache, kReferenceCache);
   r.staticLod.error = ErrorMeasure::maximum;
   r.staticLod.rule = StaticDistanceRule::picture;
   r.staticLod.errorPx = kFinest;
@@ -96,6 +101,8 @@ double geometricBoundPx(const FrameRequest& request) {
   const ViewShape& v = request.view;
   const double across = std::max(std::abs(v.left), std::abs(v.right)),
                up = std::max(std::abs(v.bottom), std::abs(v.top));
+  if (request.staticLod.terrain == TerrainForm::patches && !asksForTrees(request))
+    return std::numeric_limits<double>::infinity();
   double cutPx = request.lod.screenSpaceError.value() * request.decision.lodScale;
   if (asksForTrees(request)) {
     const StaticLodParameters& s = request.staticLod;
@@ -138,13 +145,15 @@ struct ReferenceKey {
   double time = 0;                   ///< only where something falls
   std::optional<Velocity> velocity;  ///< likewise
   std::optional<SymbologyRequest> symbology;
-  bool trees = false;
+  TerrainForm form = TerrainForm::levels;
   friend bool operator==(const ReferenceKey&, const ReferenceKey&) = default;
 };
 
 ReferenceKey keyOf(const FrameRequest& r) {
   const WeatherDecision& w = r.decision.weather;
-  ReferenceKey key{r.eye, r.attitude, r.view, {}, 0, {}, r.symbology, asksForTrees(r)};
+  ReferenceKey key{
+      r.eye, r.attitude, r.view,      {},
+      0,     {},         r.symbology, asksForTrees(r) ? TerrainForm::static_trees : r.staticLod.terrain};
   if (w.fogged) {
     key.weather.fogged = true;
     key.weather.extinctionPerM = w.extinctionPerM;
@@ -172,6 +181,7 @@ struct ErrorMeter::Impl {
     std::uint64_t lastUse = 0;
   };
 
+  std::shared_ptr<const terrain::Database> database;
   Renderer renderer;
   FrameBuffer target;
   Defects defects;
@@ -184,11 +194,17 @@ struct ErrorMeter::Impl {
     return renderer.readPixels(view.widthPx, view.heightPx);
   }
   const Reference& reference(const FrameRequest& request);
+  /// Asking for the form that it is drawn in.
+  FrameRequest asDrawn(FrameRequest request) const {
+    if (const auto form = formDrawn(request, database.get())) request.staticLod.terrain = *form;
+    return request;
+  }
 };
 
 /// Presets and cases are measured on one frame in turn, and it costs more than all else: the last few are
 /// kept. Stands until as many others were asked for.
-const ErrorMeter::Impl::Reference& ErrorMeter::Impl::reference(const FrameRequest& request) {
+const ErrorMeter::Impl::Reference& ErrorMeter::Impl::reference(const FrameRequest& asked) {
+  const FrameRequest request = asDrawn(asked);
   const ReferenceKey key = keyOf(request);
   const auto found =
       std::find_if(references.begin(), references.end(), [&](const auto& r) { return r->key == key; });
@@ -224,6 +240,7 @@ void ErrorMeter::release() {
 
 void ErrorMeter::setTerrain(std::shared_ptr<const terrain::Database> database) {
   impl_->references.clear();
+  impl_->database = database;
   impl_->renderer.setTerrain(std::move(database));
 }
 
@@ -253,8 +270,8 @@ FrameError ErrorMeter::measure(const FrameRequest& request, std::span<const Fram
   m.renderer.plant(m.defects);
   m.renderer.forgetPictures();
   std::vector<FrameRequest> frames;
-  for (const FrameRequest& r : before) frames.push_back(withoutEngineer(r));
-  frames.push_back(withoutEngineer(request));
+  for (const FrameRequest& r : before) frames.push_back(m.asDrawn(withoutEngineer(r)));
+  frames.push_back(m.asDrawn(withoutEngineer(request)));
   const std::size_t last = frames.size() - 1;
   std::size_t first = firstTraceIn(frames, last);
   if (pops) first = std::min(first, firstTraceIn(frames, last - 1));

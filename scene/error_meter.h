@@ -13,7 +13,8 @@ namespace trimtab::scene {
 
 /// The picture that a request is held against: no culling (view frustum, which a test proves equal), finest
 /// levels, no blur, no early far plane; the same eye, air, precipitation, symbols and time. What is for the
-/// engineer is not in it: no overlays, no frozen eye; static trees only where the request draws them.
+/// engineer is not in it: no overlays, no frozen eye; static trees only where the request draws them. Of
+/// patches: an eighth of a pixel, which is as fine as a picture can tell; all pages are waited for.
 FrameRequest referenceOf(const FrameRequest& request);
 
 /// Both pictures of a measurement, RGBA, row 0 at the bottom.

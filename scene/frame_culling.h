@@ -50,6 +50,8 @@ class FrameCulling {
   /// What may hide others in this frame.
   const std::vector<TileDraw>& occluders() const { return occluders_; }
   void plant(const Defects& defects) { defects_ = defects; }
+  /// That served in the last frame, or null.
+  const Horizon* horizon() const { return horizonServed_ ? &horizon_.horizon() : nullptr; }
   /// The last frame's depth map, if it drew one; else a picture of the last horizon, if that served.
   Renderer::Grey readDepthMap(const OcclusionPass& pass) const;
 

@@ -31,6 +31,7 @@ class HorizonCulling {
   Renderer::Grey picture(const EyePose& eye, const ViewShape& view, int widthPx, int heightPx) const {
     return memory_.picture(eye, view, widthPx, heightPx);
   }
+  const Horizon& horizon() const { return memory_.horizon(); }
   std::uint64_t built() const { return memory_.built(); }
   std::uint64_t leftOut() const { return memory_.leftOut(); }
   std::uint64_t reliefs() const { return reliefs_; }  ///< tiles that were looked at for it

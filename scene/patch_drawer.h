@@ -12,7 +12,6 @@ namespace trimtab::scene {
 class PatchDrawer final : public TerrainDrawer {
  public:
   void setTerrain(std::shared_ptr<const terrain::Database> database) override;
-  bool has() const override { return terrain_ != nullptr; }
   void initialize() override;
   void release() override { gl_.reset(); }
   void plant(const Defects& defects) override;
@@ -23,6 +22,7 @@ class PatchDrawer final : public TerrainDrawer {
   const VisibleSet& visible() const override { return culling_.visible(); }
   /// A picture of the last horizon, if one served.
   Renderer::Grey readDepthMap() const override;
+  const Horizon* horizon() const override { return horizonView_ ? &horizon_.memory().horizon() : nullptr; }
 
  private:
   const std::vector<Box>& bounds() const override { return terrain_->index().bounds; }

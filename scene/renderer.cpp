@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "trimtab/scene/blur_pass.h"
 #include "trimtab/scene/frame_buffer.h"
@@ -18,6 +20,15 @@
 #include "trimtab/scene/weather_precipitation.h"
 
 namespace trimtab::scene {
+
+std::optional<TerrainForm> formDrawn(const FrameRequest& request, const terrain::Database* database) {
+  if (!database) return {};
+  if (asksForTrees(request) && database->staticLod()) return TerrainForm::static_trees;
+  const bool tiles = database->index().size() > 0, patches = database->patches() != nullptr;
+  if (patches && (request.staticLod.terrain == TerrainForm::patches || !tiles)) return TerrainForm::patches;
+  if (tiles) return TerrainForm::levels;
+  return {};
+}
 
 struct Renderer::Impl {
   GlReport report;
@@ -60,7 +71,6 @@ struct Renderer::Impl {
   }
 
   std::array<TerrainDrawer*, 3> forms() { return {&tiles, &patches, &trees}; }
-  std::optional<TerrainForm> formOf(const FrameRequest& r) const;
   TerrainDrawer* drawerOf(TerrainForm form);
   void removeHidden();
   void prepare(const FrameRequest& r, FrameInProgress& frame);
@@ -69,15 +79,6 @@ struct Renderer::Impl {
   static void leaveContext(unsigned fbo);
   std::vector<std::uint32_t> readNodes(bool unculled);
 };
-
-/// What the request asks for where the terrain has it; else what there is.
-std::optional<TerrainForm> Renderer::Impl::formOf(const FrameRequest& r) const {
-  if (trees.has() && asksForTrees(r)) return TerrainForm::static_trees;
-  if (patches.has() && (r.staticLod.terrain == TerrainForm::patches || !tiles.has()))
-    return TerrainForm::patches;
-  if (tiles.has()) return TerrainForm::levels;
-  return {};
-}
 
 TerrainDrawer* Renderer::Impl::drawerOf(TerrainForm form) {
   return forms()[static_cast<std::size_t>(form)];
@@ -105,7 +106,7 @@ void Renderer::Impl::prepare(const FrameRequest& r, FrameInProgress& frame) {
   counters.horizon = false;
   counters.note.clear();
   counters.patches = false;
-  view.form = formOf(r);
+  view.form = formDrawn(r, database.get());
   terrain = view.form ? drawerOf(*view.form) : nullptr;
   const LocalFrame local = database ? database->index().frame : LocalFrame(r.eye);
   if (database) {
@@ -239,6 +240,21 @@ std::vector<float> Renderer::readDistances() {
 Renderer::Grey Renderer::readDepthMap() {
   if (!impl_->gl || !impl_->terrain) return {};
   return impl_->terrain->readDepthMap();
+}
+
+std::vector<float> Renderer::readHorizon(int samples) {
+  const Horizon* horizon = impl_->gl && impl_->terrain ? impl_->terrain->horizon() : nullptr;
+  if (!horizon || samples <= 0) return {};
+  std::vector<float> elevations;
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  for (int i = 0; i < samples; ++i) {
+    // Clockwise from south.
+    const double turned = 2 * std::numbers::pi * (i + 0.5) / samples;
+    const auto elevation = horizon->elevation(-std::sin(turned), -std::cos(turned));
+    elevations.push_back(elevation ? static_cast<float>(*elevation * kDegrees)
+                                   : std::numeric_limits<float>::quiet_NaN());
+  }
+  return elevations;
 }
 
 void Renderer::plant(const Defects& defects) {

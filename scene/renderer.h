@@ -84,6 +84,9 @@ inline bool asksForTrees(const FrameRequest& request) {
   return request.staticLod.terrain == TerrainForm::static_trees || request.overlays.treeDepth >= 0 ||
          request.overlays.treePicture;
 }
+/// In which form a terrain is drawn: that which is asked for where it has it, else what there is. None where
+/// there is nothing.
+std::optional<TerrainForm> formDrawn(const FrameRequest& request, const terrain::Database* database);
 
 struct FrameResult {
   VisibleSet visible;
@@ -148,6 +151,9 @@ class Renderer {
     std::vector<std::uint8_t> pixels;
   };
   Grey readDepthMap();
+  /// The horizon that served in the last picture: elevation in degrees, evenly round from south by west, north
+  /// and east of the terrain's frame; NaN where nothing bounds the sky. Empty where none served.
+  std::vector<float> readHorizon(int samples);
   /// A blur accumulates from the next picture on, as if it were the first.
   void forgetPictures();
   /// For tests only, which must be able to see the picture break.

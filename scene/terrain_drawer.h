@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "trimtab/culling/horizon.h"
 #include "trimtab/scene/lines.h"
 #include "trimtab/scene/renderer.h"
 #include "trimtab/scene/scene_graph.h"
@@ -42,8 +43,6 @@ class TerrainDrawer {
 
   /// Null: none. The context is current if there is one.
   virtual void setTerrain(std::shared_ptr<const terrain::Database> database) = 0;
-  /// Whether the terrain has this form.
-  virtual bool has() const = 0;
   virtual void initialize() = 0;
   virtual void release() = 0;
   virtual void plant(const Defects& defects) = 0;
@@ -64,6 +63,8 @@ class TerrainDrawer {
   virtual const std::vector<TileDraw>& cut() const = 0;
   virtual const VisibleSet& visible() const = 0;
   virtual Renderer::Grey readDepthMap() const { return {}; }
+  /// That served in the last frame, or null.
+  virtual const Horizon* horizon() const { return nullptr; }
 
  protected:
   virtual const std::vector<Box>& bounds() const = 0;

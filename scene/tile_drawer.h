@@ -11,7 +11,6 @@ namespace trimtab::scene {
 class TileDrawer final : public TerrainDrawer {
  public:
   void setTerrain(std::shared_ptr<const terrain::Database> database) override;
-  bool has() const override { return database_ && database_->index().size() > 0; }
   void initialize() override;
   void release() override { gl_.reset(); }
   void plant(const Defects& defects) override { culling_.plant(defects); }
@@ -24,6 +23,7 @@ class TileDrawer final : public TerrainDrawer {
 
   const std::vector<TileDraw>& cut() const override { return culling_.cut().tiles; }
   const VisibleSet& visible() const override { return culling_.visible(); }
+  const Horizon* horizon() const override { return culling_.horizon(); }
   Renderer::Grey readDepthMap() const override { return culling_.readDepthMap(gl_->occlusion); }
 
  private:

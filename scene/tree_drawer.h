@@ -11,7 +11,6 @@ namespace trimtab::scene {
 class TreeDrawer final : public TerrainDrawer {
  public:
   void setTerrain(std::shared_ptr<const terrain::Database> database) override;
-  bool has() const override { return terrain_ != nullptr; }
   void initialize() override;
   void release() override { gl_.reset(); }
   void plant(const Defects& defects) override { culling_.plant(defects); }

@@ -51,6 +51,7 @@ scene::FrameResult Stage::draw(const scene::FrameRequest& request) {
   }
   scene::FrameRequest measured = request;
   measured.waitForPicture = true;
+  measured.waitForPages = true;
   return renderer_.draw(measured, offscreen_->framebuffer());
 }
 

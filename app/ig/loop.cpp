@@ -82,9 +82,11 @@ class Loop {
   }
 
   void drawFrame(double start) {
-    const std::optional<scene::FrameRequest> request =
+    std::optional<scene::FrameRequest> request =
         run_.session.request(start, run_.options.headless ? run_.options.width : run_.surface.width(),
                              run_.options.headless ? run_.options.height : run_.surface.height());
+    // With nobody to wait for a frame, its picture depends on the flight alone.
+    request->waitForPages = run_.options.headless && !run_.options.realtime && !run_.options.listen;
     run_.surface.fit(request->view.widthPx, request->view.heightPx);
     const scene::FrameResult result = run_.renderer.draw(*request, run_.surface.framebuffer());
     run_.surface.present();
@@ -166,8 +168,10 @@ Summary drawFrames(const Run& run) {
 Result<Done> takeScreenshot(const Run& run, const Summary& summary, const std::filesystem::path& file) {
   if (!summary.lastRequest)
     return Finding{Severity::error, file.string(), {}, "a picture to write", "no frame was drawn"};
-  const ViewShape& view = summary.lastRequest->view;
-  run.renderer.draw(*summary.lastRequest, run.surface.framebuffer());
+  scene::FrameRequest request = *summary.lastRequest;
+  request.waitForPages = true;
+  const ViewShape& view = request.view;
+  run.renderer.draw(request, run.surface.framebuffer());
   return scene::writePng(file, run.renderer.readPixels(view.widthPx, view.heightPx), view.widthPx,
                          view.heightPx);
 }
