@@ -29,18 +29,30 @@ struct CutKey {
   friend bool operator==(const CutKey&, const CutKey&) = default;
 };
 
-/// On the GPU and, for who asks what hides what, as it was read.
-std::vector<std::uint64_t> bytesByPage(const terrain::PatchTerrain& terrain) {
+struct Bytes {
+  std::vector<std::uint64_t> ofPage;  ///< on the GPU and, for who asks what hides what, as it was read
+  std::uint64_t all = 0, vertices = 0, indices = 0;
+};
+Bytes bytesOf(const terrain::PatchTerrain& terrain) {
   const PatchIndex& index = terrain.index();
-  std::vector<std::uint64_t> bytes(index.pages.size());
+  Bytes bytes;
+  bytes.ofPage.resize(index.pages.size());
   for (std::size_t patch = 0; patch < index.size(); ++patch) {
     std::size_t indices = 0;
     for (const std::uint16_t triangles : index.triangles[patch]) indices += 3u * triangles;
     const std::size_t vertices = terrain.facts()[patch].vertices;
-    bytes[index.page[patch]] += PatchLayer::bytesOf(vertices, indices) +
-                                vertices * sizeof(terrain::PatchVertex) + indices * sizeof(std::uint16_t);
+    const std::uint64_t onGpu = PatchLayer::bytesOf(vertices, indices),
+                        asRead = vertices * sizeof(terrain::PatchVertex) + indices * sizeof(std::uint16_t);
+    bytes.ofPage[index.page[patch]] += onGpu + asRead;
+    bytes.all += onGpu + asRead;
+    bytes.vertices += PatchLayer::bytesOf(vertices, 0);
+    bytes.indices += PatchLayer::bytesOf(0, indices);
   }
   return bytes;
+}
+
+std::uint64_t budgetOf(const FrameRequest& request) {
+  return static_cast<std::uint64_t>(std::max(request.terrain.cache.value(), 0.0) * 1e6);
 }
 
 std::uint32_t rootPagesOf(const PatchIndex& index) {
@@ -54,7 +66,9 @@ std::uint32_t rootPagesOf(const PatchIndex& index) {
 struct PatchCulling::Impl {
   std::shared_ptr<const terrain::PatchTerrain> terrain;
   std::unique_ptr<terrain::Pager> pager;
+  Bytes bytes;
   PageBudget pages;
+  std::uint64_t reservedFor = 0;                                  ///< budget that the layer has room for
   std::vector<std::shared_ptr<const terrain::PatchPage>> meshes;  ///< of the pages that are held
   std::vector<std::uint32_t> roots;
   std::uint64_t heldNumber = 0, dropped = 0;  ///< changes of what is held; pages given up
@@ -74,6 +88,7 @@ struct PatchCulling::Impl {
   void takeIn(std::shared_ptr<const terrain::PatchPage> page, PatchLayer& layer);
   void takeArrivals(PatchLayer& layer);
   void takeAll(std::span<const std::uint32_t> wanted, PatchLayer& layer);
+  void reserve(const FrameRequest& request, PatchLayer& layer);
   void followLayer(PatchLayer& layer);
   std::optional<Vec3> eyeAhead(const FrameRequest& request, Vec3 eye) const;
   bool lookAhead(const FrameRequest& request, const CutKey& wanted);
@@ -95,7 +110,8 @@ void PatchCulling::setTerrain(std::shared_ptr<const terrain::PatchTerrain> terra
   Impl& m = *impl_;
   m.terrain = std::move(terrain);
   const std::uint32_t roots = rootPagesOf(m.terrain->index());
-  m.pages.reset(bytesByPage(*m.terrain), roots);
+  m.bytes = bytesOf(*m.terrain);
+  m.pages.reset(m.bytes.ofPage, roots);
   m.meshes.resize(m.terrain->index().pages.size());
   m.pager = terrain::Pager::start(m.terrain);
   for (std::uint32_t page = 0; page < roots; ++page) {
@@ -150,10 +166,22 @@ void PatchCulling::Impl::takeAll(std::span<const std::uint32_t> wanted, PatchLay
   for (const auto& page : pager->takeArrived(std::numeric_limits<std::size_t>::max())) takeIn(page, layer);
 }
 
+/// What the budget may hold of this terrain, at once: growing later would make a frame late.
+void PatchCulling::Impl::reserve(const FrameRequest& request, PatchLayer& layer) {
+  const std::uint64_t budget = budgetOf(request);
+  if (budget <= reservedFor || bytes.all == 0) return;
+  reservedFor = budget;
+  const double share = std::min(1.0, static_cast<double>(budget) / static_cast<double>(bytes.all));
+  layer.reserve(static_cast<std::size_t>(share * static_cast<double>(bytes.vertices)),
+                static_cast<std::size_t>(share * static_cast<double>(bytes.indices)));
+}
+
 /// A layer of a new context has nothing.
 void PatchCulling::Impl::followLayer(PatchLayer& layer) {
-  if (!pages.held().empty() && !layer.has(pages.held().front()))
+  if (!pages.held().empty() && !layer.has(pages.held().front())) {
     while (!pages.held().empty()) letGo(pages.held().front());
+    reservedFor = 0;
+  }
   mustHave.clear();
   for (const std::uint32_t page : roots)
     if (!pages.holds(page) && !pager->hasFailed(page)) mustHave.push_back(page);
@@ -197,12 +225,11 @@ bool PatchCulling::Impl::lookAhead(const FrameRequest& request, const CutKey& wa
 void PatchCulling::Impl::choose(const FrameRequest& request, const EyePose& eye, PatchCut& cut,
                                 FrameResult& counters) {
   const ViewShape& v = request.view;
-  const double megabytes = request.terrain.cache.value();
   const CutKey wanted{eye.position,
                       request.lod.screenSpaceError.value() / defects.statedErrorScale,
                       request.decision.lodScale,
                       std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom)),
-                      static_cast<std::uint64_t>(std::max(megabytes, 0.0) * 1e6),
+                      budgetOf(request),
                       heldNumber};
   const bool newCut = key != wanted, newAim = lookAhead(request, wanted);
   if (newCut || !request.skips.sameCut) {
@@ -241,6 +268,7 @@ void PatchCulling::page(const FrameRequest& request, const EyePose& eye, PatchLa
   counters.paging = {};
   if (!m.terrain) return;
   m.followLayer(layer);
+  m.reserve(request, layer);
   m.takeArrivals(layer);
   m.choose(request, eye, cut_, counters);
   if (request.waitForPages) {

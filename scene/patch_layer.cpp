@@ -204,6 +204,13 @@ bool PatchLayer::has(std::uint32_t page) const {
   return !impl_->pages[page].empty();
 }
 
+void PatchLayer::reserve(std::size_t vertexBytes, std::size_t indexBytes) {
+  const std::uint32_t blocks = inBlocks(vertexBytes / kVertexBytes, kBlock),
+                      indexBlocks = inBlocks(indexBytes / kIndexBytes, kIndexBlock);
+  if (blocks > impl_->blocks.size()) impl_->growVertices(blocks - impl_->blocks.size());
+  if (indexBlocks > impl_->indexBlocks.size()) impl_->growIndices(indexBlocks - impl_->indexBlocks.size());
+}
+
 void PatchLayer::add(const terrain::PatchPage& page) {
   Impl& m = *impl_;
   if (has(page.page)) return;

@@ -24,6 +24,9 @@ class PatchLayer {
 
   /// Forgets all pages; null: none.
   void setTerrain(const PatchIndex* index);
+  /// Room for pages with so many bytes of vertices and of indices, so that adding them moves nothing that is
+  /// there: what is moved makes a frame late.
+  void reserve(std::size_t vertexBytes, std::size_t indexBytes);
   void add(const terrain::PatchPage& page);
   void drop(std::uint32_t page);
   bool has(std::uint32_t page) const;
