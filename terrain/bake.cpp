@@ -14,6 +14,7 @@
 #include "trimtab/terrain/scenery.h"
 #include "trimtab/terrain/scenery_import.h"
 #include "trimtab/terrain/scenery_lines.h"
+#include "trimtab/terrain/scenery_merge.h"
 #include "trimtab/terrain/static_lod.h"
 #include "trimtab/terrain/static_lod_sea.h"
 #include "trimtab/terrain/store.h"
@@ -78,9 +79,12 @@ Result<std::unique_ptr<Source>> readSource(const BakeOptions& options, const Pro
     source->elevation = std::move(opened).value();
     return Result<std::unique_ptr<Source>>(std::move(source), findings);
   }
-  if (scenery != static_cast<std::ptrdiff_t>(options.sources.size()))
-    return refused("bake", "elevation or scenery", "both");
-  auto imported = importScenery(options.sources, options.post, progress);
+  std::vector<fs::path> sources = options.sources;
+  const auto elevation = std::stable_partition(sources.begin(), sources.end(), isScenery);
+  auto imported =
+      elevation == sources.end()
+          ? importScenery(sources, options.post, progress)
+          : importMerged({sources.begin(), elevation}, {elevation, sources.end()}, options.post, progress);
   if (!imported) return imported.findings();
   source->grid = std::move((*imported).grid);
   source->voidsFilled = imported->voidsFilled;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "trimtab/terrain/import.h"
+#include "trimtab/terrain/scenery_blend.h"
 #include "trimtab/terrain/scenery_sea.h"
 #include "trimtab/terrain/voids.h"
 
@@ -127,12 +128,17 @@ Result<PostGrid> sceneryPosts(std::span<const SceneryMesh> meshes, std::optional
   for (const SceneryMesh& mesh : meshes) whole.add(extentOf(mesh, geodetic(mesh, reference)));
   const Finding nothing{Severity::error, "scenery", "", "triangles that cover ground", "none"};
   if (whole.empty()) return nothing;
-  const double west = snapped(whole.west), south = snapped(whole.south), east = snapped(whole.east),
-               north = snapped(whole.north);
+  return postsOver(snapped(whole.west), snapped(whole.south), snapped(whole.east), snapped(whole.north),
+                   distance);
+}
+
+Result<PostGrid> postsOver(double west, double south, double east, double north,
+                           std::optional<Metres> distance) {
   const double narrow = std::min(std::abs(south), std::abs(north)) * std::numbers::pi / 180;
   const double wideM = (east - west) * kDegreeM * (south * north <= 0 ? 1 : std::cos(narrow)),
                highM = (north - south) * kDegreeM;
-  if (!(wideM > 0 && highM > 0)) return nothing;
+  if (!(wideM > 0 && highM > 0))
+    return Finding{Severity::error, "scenery", "", "triangles that cover ground", "none"};
   double step = kFinestM;
   if (distance)
     step = distance->value();
@@ -155,7 +161,7 @@ Result<PostGrid> sceneryPosts(std::span<const SceneryMesh> meshes, std::optional
 }
 
 Result<HeightGrid> rasterised(std::span<const SceneryMesh> meshes, const PostGrid& posts,
-                              const Progress& progress) {
+                              const Progress& progress, const HeightGrid* elevation) {
   HeightGrid grid{posts, std::vector<float>(posts.size(), std::numeric_limits<float>::quiet_NaN()), 0,
                   std::vector<std::uint8_t>(posts.size() * 4, 0)};
   std::vector<std::uint8_t> reached(posts.size(), 0);
@@ -188,6 +194,7 @@ Result<HeightGrid> rasterised(std::span<const SceneryMesh> meshes, const PostGri
       std::fill_n(reached.begin() + static_cast<std::ptrdiff_t>(std::size_t{r} * posts.columns + c0),
                   c1 > c0 ? c1 - c0 : 0, std::uint8_t{1});
   }
+  if (elevation != nullptr) blendElevation(grid, *elevation, reached);
   grid.outside = static_cast<std::uint64_t>(std::count(reached.begin(), reached.end(), 0));
   Findings notes;
   if (const std::uint64_t sea = fillOpenSea(grid, reached); sea > 0)
@@ -208,20 +215,15 @@ SceneryCounts countsOf(const Scenery& scenery) {
   return counts;
 }
 
-Result<ImportedScenery> importScenery(std::span<const std::filesystem::path> sources,
-                                      std::optional<Metres> distance, const Progress& progress) {
-  const auto stage = [&](double from, double to) -> Progress {
-    return [&progress, from, to](double fraction, const std::string& what) {
-      return !progress || progress(from + (to - from) * fraction, what);
-    };
-  };
+Result<Scenery> readSceneries(std::span<const std::filesystem::path> sources, const Progress& progress) {
   Scenery all;
   Findings findings;
   std::set<std::string> names;
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    const double share = 0.5 / static_cast<double>(sources.size());
-    auto part =
-        readScenery(sources[i], stage(share * static_cast<double>(i), share * static_cast<double>(i + 1)));
+    auto part = readScenery(sources[i], [&](double fraction, const std::string& what) {
+      return !progress ||
+             progress((static_cast<double>(i) + fraction) / static_cast<double>(sources.size()), what);
+    });
     findings.insert(findings.end(), part.findings().begin(), part.findings().end());
     if (!part) return findings;
     for (SceneryMesh& mesh : (*part).tiles)
@@ -232,6 +234,20 @@ Result<ImportedScenery> importScenery(std::span<const std::filesystem::path> sou
   if (std::any_of(findings.begin(), findings.end(),
                   [](const Finding& f) { return f.severity == Severity::error; }))
     return findings;
+  return Result<Scenery>(std::move(all), std::move(findings));
+}
+
+Result<ImportedScenery> importScenery(std::span<const std::filesystem::path> sources,
+                                      std::optional<Metres> distance, const Progress& progress) {
+  const auto stage = [&](double from, double to) -> Progress {
+    return [&progress, from, to](double fraction, const std::string& what) {
+      return !progress || progress(from + (to - from) * fraction, what);
+    };
+  };
+  auto read = readSceneries(sources, stage(0, 0.5));
+  if (!read) return read.findings();
+  Findings findings = read.findings();
+  Scenery& all = *read;
   ImportedScenery imported;
   imported.counts = countsOf(all);
   const auto posts = sceneryPosts(all.tiles, distance);

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <random>
 
+#include "rasters.h"
 #include "scenery_tiles.h"
 #include "trimtab/terrain/database.h"
 #include "trimtab/terrain/scenery_import.h"
@@ -270,13 +271,30 @@ TEST_F(SceneryBake, isRefusedWithoutItsTreesOrWithOthers) {
   EXPECT_FALSE(terrain::Database::open(dir_ / "db"));
 }
 
-TEST_F(SceneryBake, refusesElevationAndSceneryTogether) {
+TEST_F(SceneryBake, takesElevationBesideScenery) {
   auto both = options();
-  test::writeFile(dir_ / "n50.hgt", "heights");
-  both.sources.push_back(dir_ / "n50.hgt");
+  const auto alone = terrain::bake(both);
+  ASSERT_TRUE(alone) << toString(alone.findings());
+  both.output = dir_ / "both";
+  test::RasterRecipe around;
+  around.columns = 500, around.rows = 300;
+  around.west = 6.8, around.north = 50.8;
+  both.sources.push_back(test::writeRaster(dir_ / "around.tif", around));
   const auto done = terrain::bake(both);
-  ASSERT_FALSE(done);
-  EXPECT_EQ(done.findings()[0].found, "both");
+  ASSERT_TRUE(done) << toString(done.findings());
+  EXPECT_GT((*done)->info().columns, (*alone)->info().columns);
+  EXPECT_EQ((*done)->info().scenery->tiles, (*alone)->info().scenery->tiles);
+  ASSERT_TRUE((*done)->staticLod());
+  EXPECT_GT((*done)->staticLod()->tiles.size(), (*alone)->staticLod()->tiles.size() + 4);
+  EXPECT_NEAR((*done)->heightAt(Degrees{50.78}, Degrees{6.85})->value(), 100, 0.01);
+  EXPECT_TRUE(terrain::Database::open(dir_ / "both"));
+  // What cannot be read is named, beside scenery too.
+  both.output = dir_ / "bad";
+  both.sources.back() = dir_ / "n50.hgt";
+  test::writeFile(dir_ / "n50.hgt", "heights");
+  const auto bad = terrain::bake(both);
+  ASSERT_FALSE(bad);
+  EXPECT_NE(bad.findings()[0].where.find("n50.hgt"), std::string::npos);
 }
 
 TEST_F(SceneryBake, leavesNothingBehindWhenCancelledAtAnyStep) {
