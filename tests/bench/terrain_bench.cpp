@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "mesher_bench.h"
 #include "paging_bench.h"
 #include "bake_bench.h"
 #include "row.h"
@@ -125,6 +126,7 @@ int main(int argc, char** argv) {
   if (!report.quick() && std::filesystem::exists(tile))
     if (const auto mesh = terrain::readBtg(tile))
       bench::compare(report, "terrain.simplify_scenery", "tile 5168985", *mesh);
+  bench::mesherRows(report);
   bench::pagingRows(report);
   return report.finish();
 }

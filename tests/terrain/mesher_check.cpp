@@ -37,10 +37,10 @@ Field::Field(std::uint32_t c, std::uint32_t r, const std::function<double(int, i
       z[std::size_t{y} * c + x] = static_cast<float>(height(static_cast<int>(x), static_cast<int>(y)));
 }
 
-Field fractal(std::uint32_t columns, std::uint32_t rows, std::uint32_t seed, double relief) {
+Field fractal(std::uint32_t columns, std::uint32_t rows, std::uint32_t seed, double relief, double gain) {
   return Field(columns, rows, [&](int column, int row) {
     double sum = 0, amplitude = relief;
-    for (std::uint32_t cell = 256; cell >= 1; cell /= 2, amplitude *= 0.6) {
+    for (std::uint32_t cell = 256; cell >= 1; cell /= 2, amplitude *= gain) {
       const auto x = static_cast<std::uint32_t>(column), y = static_cast<std::uint32_t>(row);
       const double u = smooth(static_cast<double>(x % cell) / cell),
                    v = smooth(static_cast<double>(y % cell) / cell);

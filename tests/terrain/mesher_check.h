@@ -20,8 +20,9 @@ struct Field {
   terrain::HeightField view() const { return {z.data(), columns, rows, columns}; }
 };
 
-/// Rough ground with roughness at every scale, made of lattice noise.
-Field fractal(std::uint32_t columns, std::uint32_t rows, std::uint32_t seed, double relief = 1000);
+/// Rough ground with roughness at every scale, made of lattice noise: `gain` from a scale to its half.
+Field fractal(std::uint32_t columns, std::uint32_t rows, std::uint32_t seed, double relief = 1000,
+              double gain = 0.6);
 
 struct MeshFacts {
   std::string wrong;  ///< the first promise that is broken

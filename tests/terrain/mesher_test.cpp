@@ -8,6 +8,7 @@
 #include <random>
 
 #include "mesher_check.h"
+#include "trimtab/terrain/mesher_triangulation.h"
 
 namespace trimtab {
 namespace {
@@ -249,6 +250,17 @@ TEST(PolygonMesher, neverWrapsInAFieldOf32768Posts) {
       wanted += std::int64_t{a.column} * b.row - std::int64_t{b.column} * a.row;
     }
     EXPECT_EQ(area, wanted);
+  }
+}
+
+TEST(Triangulation, circleTestsDoNotWrap) {
+  using Vertex = terrain::Triangulation::Vertex;
+  for (const std::int32_t s : {3, 1 << 14, 32767, 1 << 20, 1 << 28}) {
+    const Vertex a{0, 0, 0}, b{s, 0, 0}, c{s, s, 0};
+    EXPECT_FALSE(terrain::Triangulation::inCircle(a, b, c, {0, s, 0}));
+    EXPECT_TRUE(terrain::Triangulation::inCircle(a, b, c, {1, s, 0}));
+    EXPECT_FALSE(terrain::Triangulation::inCircle(a, b, c, {-1, s, 0}));
+    EXPECT_TRUE(terrain::Triangulation::inCircle(a, b, c, {1, 1, 0}));
   }
 }
 
