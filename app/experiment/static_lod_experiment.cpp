@@ -1,14 +1,36 @@
+#include <algorithm>
 #include <cstdio>
 
+#include "trimtab/experiment/builders.h"
 #include "trimtab/experiment/experiment.h"
 #include "trimtab/experiment/published.h"
 #include "trimtab/terrain/static_lod.h"
+#include "trimtab/terrain/static_lod_level.h"
 
 namespace trimtab::experiment {
 namespace {
 
 constexpr std::uint64_t kPublishedTriangles = 30987;
 constexpr std::uint32_t kPublishedN = 2000;
+
+/// The same tile with its lines kept, whichever way the database has it, and without.
+struct Lines {
+  std::vector<terrain::LineShare> published, kept;
+  std::vector<std::uint64_t> keptFaces;  ///< by level
+};
+Result<Lines> linesOf(const terrain::StaticLodTerrain& trees, std::size_t tile, const Setup& setup) {
+  const std::vector<terrain::SceneryMesh> source{terrain::sourceOf(trees, tile)};
+  terrain::StaticLodOptions options;
+  options.trianglesPerNode = trees.trianglesPerNode;
+  options.progress = setup.progress;
+  const auto published = terrain::buildStaticLod(source, trees.index.frame, options);
+  if (!published) return published.findings();
+  options.keepLines = true;
+  const auto kept = terrain::buildStaticLod(source, trees.index.frame, options);
+  if (!kept) return kept.findings();
+  return Lines{terrain::lineShares(**published, 0), terrain::lineShares(**kept, 0),
+               terrain::reportStaticLod(**kept, 0).facesOfLevel};
+}
 
 }  // namespace
 
@@ -20,8 +42,8 @@ Result<Report> runStaticLod(const Setup& setup) {
                    {},
                    "a database baked from scenery (.btg, .stg)",
                    "a terrain without static levels of detail"};
-  const terrain::StaticLodReport tile =
-      terrain::reportStaticLod(*trees, terrain::tileNearest(*trees, kPublishedTriangles));
+  const std::size_t nearest = terrain::tileNearest(*trees, kPublishedTriangles);
+  const terrain::StaticLodReport tile = terrain::reportStaticLod(*trees, nearest);
   const auto number = [](auto count) { return static_cast<double>(count); };
 
   Report report{"static-lod",
@@ -31,11 +53,11 @@ Result<Report> runStaticLod(const Setup& setup) {
                 {},
                 {},
                 {}};
-  report.measured.columns = {"quantity",       "value",       "permitted_least",
-                             "permitted_most", "rms_error_m", "max_error_m"};
+  report.measured.columns = {"quantity",    "value", "permitted_least", "permitted_most", "rms_error_m",
+                             "max_error_m", "bytes", "lines_share",     "shores_share"};
   const auto row = [&](std::string quantity, double value, Cell least = {}, Cell most = {}, Cell rms = {},
-                       Cell max = {}) {
-    report.measured.rows.push_back({std::move(quantity), value, least, most, rms, max});
+                       Cell max = {}, Cell bytes = {}, Cell lines = {}, Cell shores = {}) {
+    report.measured.rows.push_back({std::move(quantity), value, least, most, rms, max, bytes, lines, shores});
   };
   row("triangles_original", number(tile.triangles));
   row("n", number(tile.trianglesPerNode));
@@ -46,6 +68,35 @@ Result<Report> runStaticLod(const Setup& setup) {
   for (std::size_t level = 0; level < tile.facesOfLevel.size(); ++level)
     row("faces_level_" + std::to_string(level), number(tile.facesOfLevel[level]), {}, {},
         tile.rmsErrorM[level], tile.maxErrorM[level]);
+
+  const auto lines = linesOf(*trees, nearest, setup);
+  if (!lines) return lines.findings();
+  const std::vector<BuilderLevel> levels = treeLevels(*trees, nearest);
+  const std::vector<BuilderLevel> patches = patchLevels(*setup.terrain, *trees, nearest);
+  const auto surface = [&](const std::string& quantity, const SurfaceError& e) {
+    row(quantity, number(e.triangles), {}, {}, e.rmsM, e.maxM, number(e.bytes));
+  };
+  for (const BuilderLevel& level : levels) {
+    const std::string name = "_level_" + std::to_string(level.level);
+    surface("tree" + name, level.error);
+    if (const auto* same = ofNoMoreTriangles(patches, level.error.triangles))
+      surface("patches_no_more_triangles" + name, same->error);
+    if (const auto* same = ofNoGreaterRms(patches, level.error.rmsM); same && level.error.rmsM > 0)
+      surface("patches_no_greater_rms" + name, same->error);
+  }
+  if (!patches.empty()) {
+    const SurfaceError posts = postsError(*setup.terrain, *trees, nearest);
+    row("posts_alone", number(setup.terrain->info().columns) * setup.terrain->info().rows, {}, {}, posts.rmsM,
+        posts.maxM);
+  }
+  for (std::size_t level = 0; level < lines->kept.size() && level < lines->published.size(); ++level) {
+    const auto share = [&](const char* quantity, const terrain::LineShare& s, double faces) {
+      row(quantity + std::to_string(level), faces, {}, {}, {}, {}, {}, s.ofLines(), s.ofShores());
+    };
+    if (level < levels.size())
+      share("lines_as_published_level_", lines->published[level], number(levels[level].error.triangles));
+    share("lines_kept_level_", lines->kept[level], number(lines->keptFaces[level]));
+  }
 
   char text[320];
   std::snprintf(text, sizeof text,
@@ -71,7 +122,26 @@ Result<Report> runStaticLod(const Setup& setup) {
     plot.categories.push_back(std::to_string(level));
     plot.series[0].y.push_back(number(tile.facesOfLevel[level]));
   }
-  report.plots = {plot};
+  Plot errors{
+      "static-lod-errors", "Error against the source triangles", "triangles", "RMS error (m)", {}, {}};
+  errors.logX = errors.logY = true;
+  const auto line = [&](const char* name, const std::vector<BuilderLevel>& of) {
+    Series series{name, {}, {}, Series::Draw::joined};
+    std::vector<std::pair<double, double>> points;
+    for (const BuilderLevel& level : of)
+      if (level.error.rmsM > 0) points.push_back({number(level.error.triangles), level.error.rmsM});
+    std::sort(points.begin(), points.end());
+    for (const auto& [x, y] : points) series.x.push_back(x), series.y.push_back(y);
+    errors.series.push_back(std::move(series));
+  };
+  line("document E's tree", levels);
+  if (!patches.empty()) line("patches, all depths and variants", patches);
+  report.plots = {plot, errors};
+  report.notes.push_back(
+      "Errors of both builders are vertical distances to the tile's source triangles, both ways: the "
+      "source's vertices from the surface and the surface's from the source.");
+  if (patches.empty())
+    report.notes.push_back("The database has no patches: bake it again to compare both builders.");
   return report;
 }
 
