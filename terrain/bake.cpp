@@ -1,20 +1,17 @@
 #include <algorithm>
 #include <chrono>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "trimtab/terrain/bake_heights.h"
 #include "trimtab/terrain/bake_patches.h"
+#include "trimtab/terrain/bake_source.h"
 #include "trimtab/terrain/bake_work.h"
 #include "trimtab/terrain/database.h"
-#include "trimtab/terrain/elevation_source.h"
 #include "trimtab/terrain/ground_build.h"
 #include "trimtab/terrain/import.h"
 #include "trimtab/terrain/patch_build.h"
 #include "trimtab/terrain/scenery.h"
-#include "trimtab/terrain/scenery_import.h"
 #include "trimtab/terrain/scenery_lines.h"
-#include "trimtab/terrain/scenery_merge.h"
 #include "trimtab/terrain/static_lod.h"
 #include "trimtab/terrain/static_lod_sea.h"
 #include "trimtab/terrain/store.h"
@@ -24,7 +21,6 @@ namespace trimtab::terrain {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 Finding refused(const fs::path& where, std::string expected, std::string found) {
   return {Severity::error, where.string(), "", std::move(expected), std::move(found)};
@@ -37,26 +33,6 @@ bool mayReplace(const fs::path& output) {
          (fs::is_directory(output, error) && fs::is_empty(output, error));
 }
 
-std::string joinedNames(const std::vector<fs::path>& sources) {
-  std::string all;
-  for (const fs::path& source : sources) all += (all.empty() ? "" : ", ") + source.string();
-  return all;
-}
-
-std::string nameOf(const fs::path& path) {
-  const fs::path last = path.has_filename() ? path.filename() : path.parent_path().filename();
-  return (last.extension() == ".gz" ? last.stem() : last).stem().string();
-}
-
-/// What the sources hold, by either import.
-struct Source {
-  std::unique_ptr<ElevationSource> elevation;
-  HeightGrid grid;  ///< of scenery; else only as large as need be
-  std::uint64_t voidsFilled = 0;
-  std::optional<SceneryCounts> scenery;
-  std::vector<SceneryMesh> meshes;
-};
-
 /// An image over the colours of materials: those stay where it has nothing.
 void drape(std::vector<std::uint8_t> image, std::vector<std::uint8_t>& under) {
   if (under.empty()) {
@@ -65,74 +41,6 @@ void drape(std::vector<std::uint8_t> image, std::vector<std::uint8_t>& under) {
   }
   for (std::size_t i = 0; i + 3 < image.size(); i += 4)
     if (image[i + 3] != 0) std::copy_n(&image[i], 4, &under[i]);
-}
-
-Result<std::unique_ptr<Source>> readSource(const BakeOptions& options, const Progress& progress) {
-  auto source = std::make_unique<Source>();
-  const auto scenery = std::count_if(options.sources.begin(), options.sources.end(), isScenery);
-  if (scenery == 0) {
-    ElevationOptions elevation;
-    elevation.progress = progress;
-    auto opened = openElevation(options.sources, elevation);
-    if (!opened) return opened.findings();
-    const Findings findings = opened.findings();
-    source->elevation = std::move(opened).value();
-    return Result<std::unique_ptr<Source>>(std::move(source), findings);
-  }
-  std::vector<fs::path> sources = options.sources;
-  const auto elevation = std::stable_partition(sources.begin(), sources.end(), isScenery);
-  auto imported =
-      elevation == sources.end()
-          ? importScenery(sources, options.post, progress)
-          : importMerged({sources.begin(), elevation}, {elevation, sources.end()}, options.post, progress);
-  if (!imported) return imported.findings();
-  source->grid = std::move((*imported).grid);
-  source->voidsFilled = imported->voidsFilled;
-  source->scenery = std::move((*imported).counts);
-  source->meshes = std::move((*imported).meshes);
-  source->elevation = sourceOf(source->grid);
-  return Result<std::unique_ptr<Source>>(std::move(source), imported.findings());
-}
-
-Result<std::vector<fs::path>> sourceFiles(const std::vector<fs::path>& sources) {
-  std::vector<fs::path> all;
-  Findings findings;
-  for (const fs::path& source : sources) {
-    const auto files = isScenery(source) ? sceneryFiles(source) : elevationFiles(std::span(&source, 1));
-    findings.insert(findings.end(), files.findings().begin(), files.findings().end());
-    if (files) all.insert(all.end(), files->begin(), files->end());
-  }
-  if (std::any_of(findings.begin(), findings.end(),
-                  [](const Finding& f) { return f.severity == Severity::error; }))
-    return findings;
-  return all;
-}
-
-/// A file as it is now: another size or time makes another recipe.
-std::string stampOf(const fs::path& file) {
-  std::error_code error;
-  const fs::path whole = fs::weakly_canonical(file, error);
-  return whole.string() + ' ' + std::to_string(fs::file_size(file, error)) + ' ' +
-         std::to_string(fs::last_write_time(file, error).time_since_epoch().count());
-}
-
-/// What a database is made from: of the options, those that change a byte of it.
-Json recipeOf(const BakeOptions& options, const std::vector<fs::path>& files) {
-  Json recipe = {{"files", Json::array()}};
-  for (const fs::path& file : files) {
-    std::error_code error;
-    recipe["files"].push_back({{"name", file.filename().string()}, {"bytes", fs::file_size(file, error)}});
-  }
-  if (options.imagery) recipe["imagery"] = options.imagery->filename().string();
-  recipe["max_error_m"] = options.maxError ? Json(options.maxError->value()) : Json();
-  recipe["post_m"] = options.post ? Json(options.post->value()) : Json();
-  recipe["triangles_per_node"] = options.trianglesPerNode;
-  if (options.keepLines) recipe["keep_lines"] = true;
-  return recipe;
-}
-
-std::string dump(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 /// Bakes from the options to one of three ends: a database, a part of the work, a database of parts.
@@ -184,12 +92,7 @@ class Job {
     const auto files = sourceFiles(options_.sources);
     if (!files) return files.findings();
     recipe_ = recipeOf(options_, *files);
-    Json stamped = recipe_;
-    stamped["format"] = kFormatVersion;
-    stamped["stamps"] = Json::array();
-    for (const fs::path& file : *files) stamped["stamps"].push_back(stampOf(file));
-    if (options_.imagery) stamped["stamps"].push_back(stampOf(*options_.imagery));
-    auto work = WorkFolder::open(output_, dump(stamped), shared);
+    auto work = WorkFolder::open(output_, stampedRecipe(options_, *files), shared);
     if (!work) return work.findings();
     work_ = std::move(work).value();
     if (work_->resumed() && !work_->journal().empty())
@@ -374,7 +277,7 @@ class Job {
     std::sort(files_.begin(), files_.end(),
               [](const FileEntry& a, const FileEntry& b) { return a.name < b.name; });
     if (auto written =
-            writeManifest(work_->database(), info, heights_.posts, files_, trianglesPerNode_, recipe_.dump());
+            writeManifest(work_->database(), info, heights_.posts, files_, trianglesPerNode_, recipe_);
         !written)
       return written;
     if (!stage(0.99, 1)(1, "writing")) return cancelled(output_.string());
@@ -384,11 +287,12 @@ class Job {
   const BakeOptions& options_;
   fs::path output_;
   std::size_t memory_;
+  RasterCacheLimit cache_{memory_ / 8};
   Findings findings_;
-  Json recipe_;
+  std::string recipe_;
   std::unique_ptr<WorkFolder> work_;
   bool scenery_ = false, hasImage_ = false;
-  std::unique_ptr<Source> source_;
+  std::unique_ptr<BakeSource> source_;
   BakedHeights heights_;
   std::unique_ptr<FileHeights> file_;
   std::unique_ptr<PostGeometry> geometry_;
@@ -423,12 +327,7 @@ Result<std::shared_ptr<const Database>> openOrBake(const fs::path& source, const
   if (!files) return files.findings();
   std::string key = "v" + std::to_string(kFormatVersion);
   if (scenery) key += " n" + std::to_string(trianglesPerNode);
-  for (const fs::path& file : *files) {
-    std::error_code error;
-    const fs::path whole = fs::weakly_canonical(file, error);
-    key += '\n' + whole.string() + ' ' + std::to_string(fs::file_size(file, error)) + ' ' +
-           std::to_string(fs::last_write_time(file, error).time_since_epoch().count());
-  }
+  for (const fs::path& file : *files) key += '\n' + stampOf(file);
   const std::string name = nameOf(source);
   const fs::path cached = cacheFolder / (name + "-" + hexadecimal(checksum(key)));
   if (isDatabase(cached)) {

@@ -31,6 +31,38 @@ TEST_F(TerrainCommand, makesBakesAndDescribesASample) {
   EXPECT_NE(test::run(cli("info " + at("db"))).out.find("level 0"), std::string::npos);
 }
 
+TEST_F(TerrainCommand, bakesACountryInPartsAndChecksIt) {
+  const auto made = test::run(cli("country -o " + at("c.tif") + " --columns 300 --rows 200"));
+  ASSERT_EQ(made.exitCode, 0) << made.err;
+  const std::string bake = "bake " + at("c.tif") + " -o " + at("db") + " --max-error-m 20 --memory-mb 128";
+  ASSERT_EQ(test::run(cli(bake + " --part 2/2")).exitCode, 0);
+  const auto early = test::run(cli(bake + " --join"));
+  EXPECT_EQ(early.exitCode, 1);
+  EXPECT_NE(early.err.find("missing"), std::string::npos) << early.err;
+  ASSERT_EQ(test::run(cli(bake + " --part 1/2")).exitCode, 0);
+  const auto joined = test::run(cli(bake + " --join"));
+  ASSERT_EQ(joined.exitCode, 0) << joined.err;
+  for (const char* part : {"3/2", "0/2", "a", "1/2x"})
+    EXPECT_EQ(test::run(cli(bake + " --part " + part)).exitCode, 2) << part;
+  const auto info = test::run(cli("info " + at("db") + " --json"));
+  const auto json = nlohmann::json::parse(info.out);
+  ASSERT_FALSE(json["patches"].empty());
+  for (std::size_t depth = 1; depth < json["patches"].size(); ++depth)
+    EXPECT_LE(json["patches"][depth]["error_m"], json["patches"][depth - 1]["error_m"]);
+  EXPECT_NEAR(json["bytes_a_post"].get<double>(), json["bytes"].get<double>() / (300 * 200), 1e-9);
+  const auto checked = test::run(cli("info " + at("db") + " --check"));
+  EXPECT_EQ(checked.exitCode, 0) << checked.err;
+  EXPECT_NE(checked.out.find("depth"), std::string::npos);
+  EXPECT_NE(checked.out.find("every checksum holds"), std::string::npos);
+  std::string heights = test::readFile(dir_ / "db/heights.f32");
+  heights[1000] = static_cast<char>(heights[1000] ^ 1);
+  test::writeFile(dir_ / "db/heights.f32", heights);
+  EXPECT_EQ(test::run(cli("info " + at("db"))).exitCode, 0);
+  const auto damaged = test::run(cli("info " + at("db") + " --check"));
+  EXPECT_EQ(damaged.exitCode, 1);
+  EXPECT_NE(damaged.err.find("heights.f32: rows 0 to"), std::string::npos) << damaged.err;
+}
+
 TEST_F(TerrainCommand, bakesSceneryAndTellsOfItsTrees) {
   std::filesystem::create_directory(dir_ / "scenery");
   test::TileRecipe recipe;

@@ -1,0 +1,121 @@
+#include "trimtab/terrain/bake_source.h"
+
+#include <gdal.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "trimtab/terrain/bake_heights.h"
+#include "trimtab/terrain/import.h"
+#include "trimtab/terrain/scenery_import.h"
+#include "trimtab/terrain/scenery_merge.h"
+#include "trimtab/terrain/store.h"
+
+namespace trimtab::terrain {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Json recipeJson(const BakeOptions& options, const std::vector<fs::path>& files) {
+  Json recipe = {{"files", Json::array()}};
+  for (const fs::path& file : files) {
+    std::error_code error;
+    recipe["files"].push_back({{"name", file.filename().string()}, {"bytes", fs::file_size(file, error)}});
+  }
+  if (options.imagery) recipe["imagery"] = options.imagery->filename().string();
+  recipe["max_error_m"] = options.maxError ? Json(options.maxError->value()) : Json();
+  recipe["post_m"] = options.post ? Json(options.post->value()) : Json();
+  recipe["triangles_per_node"] = options.trianglesPerNode;
+  if (options.keepLines) recipe["keep_lines"] = true;
+  return recipe;
+}
+
+std::string dump(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string joinedNames(const std::vector<fs::path>& sources) {
+  std::string all;
+  for (const fs::path& source : sources) all += (all.empty() ? "" : ", ") + source.string();
+  return all;
+}
+
+std::string nameOf(const fs::path& path) {
+  const fs::path last = path.has_filename() ? path.filename() : path.parent_path().filename();
+  return (last.extension() == ".gz" ? last.stem() : last).stem().string();
+}
+
+Result<std::unique_ptr<BakeSource>> readSource(const BakeOptions& options, const Progress& progress) {
+  auto source = std::make_unique<BakeSource>();
+  const auto scenery = std::count_if(options.sources.begin(), options.sources.end(), isScenery);
+  if (scenery == 0) {
+    ElevationOptions elevation;
+    elevation.progress = progress;
+    auto opened = openElevation(options.sources, elevation);
+    if (!opened) return opened.findings();
+    const Findings findings = opened.findings();
+    source->elevation = std::move(opened).value();
+    return Result<std::unique_ptr<BakeSource>>(std::move(source), findings);
+  }
+  std::vector<fs::path> sources = options.sources;
+  const auto elevation = std::stable_partition(sources.begin(), sources.end(), isScenery);
+  auto imported =
+      elevation == sources.end()
+          ? importScenery(sources, options.post, progress)
+          : importMerged({sources.begin(), elevation}, {elevation, sources.end()}, options.post, progress);
+  if (!imported) return imported.findings();
+  source->grid = std::move((*imported).grid);
+  source->voidsFilled = imported->voidsFilled;
+  source->scenery = std::move((*imported).counts);
+  source->meshes = std::move((*imported).meshes);
+  source->elevation = sourceOf(source->grid);
+  return Result<std::unique_ptr<BakeSource>>(std::move(source), imported.findings());
+}
+
+Result<std::vector<fs::path>> sourceFiles(const std::vector<fs::path>& sources) {
+  std::vector<fs::path> all;
+  Findings findings;
+  for (const fs::path& source : sources) {
+    const auto files = isScenery(source) ? sceneryFiles(source) : elevationFiles(std::span(&source, 1));
+    findings.insert(findings.end(), files.findings().begin(), files.findings().end());
+    if (files) all.insert(all.end(), files->begin(), files->end());
+  }
+  if (std::any_of(findings.begin(), findings.end(),
+                  [](const Finding& f) { return f.severity == Severity::error; }))
+    return findings;
+  return all;
+}
+
+std::string stampOf(const fs::path& file) {
+  std::error_code error;
+  const fs::path whole = fs::weakly_canonical(file, error);
+  return whole.string() + ' ' + std::to_string(fs::file_size(file, error)) + ' ' +
+         std::to_string(fs::last_write_time(file, error).time_since_epoch().count());
+}
+
+std::string recipeOf(const BakeOptions& options, const std::vector<fs::path>& files) {
+  return dump(recipeJson(options, files));
+}
+
+std::string stampedRecipe(const BakeOptions& options, const std::vector<fs::path>& files) {
+  Json recipe = recipeJson(options, files);
+  recipe["format"] = kFormatVersion;
+  recipe["stamps"] = Json::array();
+  for (const fs::path& file : files) recipe["stamps"].push_back(stampOf(file));
+  if (options.imagery) recipe["stamps"].push_back(stampOf(*options.imagery));
+  return dump(recipe);
+}
+
+RasterCacheLimit::RasterCacheLimit(std::size_t bytes) : before_(GDALGetCacheMax64()) {
+  GDALSetCacheMax64(std::min(before_, static_cast<std::int64_t>(bytes)));
+}
+
+RasterCacheLimit::~RasterCacheLimit() {
+  GDALSetCacheMax64(before_);
+}
+
+}  // namespace trimtab::terrain

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trimtab/terrain/database.h"
+#include "trimtab/terrain/elevation_source.h"
+#include "trimtab/terrain/scenery.h"
+
+namespace trimtab::terrain {
+
+/// What the sources hold, by either import.
+struct BakeSource {
+  std::unique_ptr<ElevationSource> elevation;
+  HeightGrid grid;  ///< of scenery; else only as large as need be
+  std::uint64_t voidsFilled = 0;
+  std::optional<SceneryCounts> scenery;
+  std::vector<SceneryMesh> meshes;
+};
+
+Result<std::unique_ptr<BakeSource>> readSource(const BakeOptions& options, const Progress& progress);
+
+/// Every file of the sources.
+Result<std::vector<std::filesystem::path>> sourceFiles(const std::vector<std::filesystem::path>& sources);
+
+/// What a database is made from, a JSON object: of the options, those that change a byte of it.
+std::string recipeOf(const BakeOptions& options, const std::vector<std::filesystem::path>& files);
+/// The same with places and times: another one begins a bake anew.
+std::string stampedRecipe(const BakeOptions& options, const std::vector<std::filesystem::path>& files);
+/// Place, size and time.
+std::string stampOf(const std::filesystem::path& file);
+
+std::string joinedNames(const std::vector<std::filesystem::path>& sources);
+std::string nameOf(const std::filesystem::path& path);
+
+/// GDAL keeps no more than so much of the rasters that it reads, bytes, while this lives: its own limit is a
+/// share of the machine's memory.
+class RasterCacheLimit {
+ public:
+  explicit RasterCacheLimit(std::size_t bytes);
+  ~RasterCacheLimit();
+  RasterCacheLimit(const RasterCacheLimit&) = delete;
+  RasterCacheLimit& operator=(const RasterCacheLimit&) = delete;
+
+ private:
+  std::int64_t before_;
+};
+
+}  // namespace trimtab::terrain
