@@ -31,7 +31,7 @@ struct BuiltPage {
 };
 /// Memory: a few times the posts of a page at no more than kMostPostsASide a side (coarser pages are meshed
 /// on every so-manyth post, and measured on all of them, strip by strip).
-inline constexpr std::uint32_t kMostPostsASide = 4 * PatchIndex::kLeafCells * PatchIndex::kPageSquares + 1;
+inline constexpr std::uint32_t kMostPostsASide = 1025;
 BuiltPage buildPage(const PatchIndex& index, std::uint32_t page, const HeightSource& heights,
                     const PostGeometry& geometry, const std::vector<double>& tolerances);
 

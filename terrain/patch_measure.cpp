@@ -42,26 +42,29 @@ class VerticalBound {
     if (posts.latitude(window.row) < 0 && posts.latitude(window.row + window.rows - 1) > 0) cosine_ = 1;
     const double wide = window.columns * posts.stepLongitude * kRadian * cosine_,
                  high = window.rows * posts.stepLatitude * kRadian;
-    lean_ = std::min(1.5, 0.51 * std::hypot(wide, high) + 1e-6);
+    const double lean = std::min(1.5, 0.51 * std::hypot(wide, high) + 1e-6);
+    cosLean_ = std::cos(lean);
+    tanLean_ = std::tan(lean);
   }
-  double cosLean() const { return std::cos(lean_); }
+  double cosLean() const { return cosLean_; }
 
   double slope(const ScanTriangle& triangle) const {
     const auto first = static_cast<std::uint32_t>(triangle.firstRow()),
                last = static_cast<std::uint32_t>(triangle.lastRow());
     const double columnM = std::max(kShortestM, std::min(geometry_.columnM(first), geometry_.columnM(last)));
     const double rowM = std::min(geometry_.rowM(first), geometry_.rowM(last));
-    return (std::hypot(triangle.byColumn() / columnM, triangle.byRow() / rowM) + std::tan(lean_)) * 1.02;
+    const double x = triangle.byColumn() / columnM, y = triangle.byRow() / rowM;
+    return (std::sqrt(x * x + y * y) + tanLean_) * 1.02;
   }
   /// What the bend adds to a triangle of so many columns and rows.
   double bend(double columns, double rows, double rise, double slope) const {
     const double lon = columns * posts_.stepLongitude * kRadian, lat = rows * posts_.stepLatitude * kRadian;
-    const double angle = std::hypot(lon * cosine_, lat);
+    const double angle = std::sqrt(lon * cosine_ * (lon * cosine_) + lat * lat);
     const double sideways =
         kFarthestM / 8 *
             (cosine_ * (sine_ + angle) * lon * lon + 2 * sine_ * lon * lat + (0.011 + angle) * lat * lat) +
         rise * angle / 2;
-    return sideways * (slope + std::tan(lean_));
+    return sideways * (slope + tanLean_);
   }
   /// Of a patch: no surface over it is further from a post of it than its heights are apart.
   double most(double columns, double rows, double rise) const {
@@ -72,14 +75,13 @@ class VerticalBound {
  private:
   const PostGrid& posts_;
   const PostGeometry& geometry_;
-  double sine_ = 0, cosine_ = 0, lean_ = 0;
+  double sine_ = 0, cosine_ = 0, cosLean_ = 0, tanLean_ = 0;
 };
 
 struct VariantMeasure {
-  std::vector<float> slopes;  ///< one a vertex: of the steepest triangle about it
   double worst = 0, bilinear = 0, squares = 0;
   std::uint64_t posts = 0;
-  double rounding = 0;
+  double bend = 0, rounding = 0;
 };
 
 struct PatchMeasure {
@@ -100,6 +102,7 @@ class PageMeasure {
         drafts_(drafts),
         built_(built),
         window_(pageWindow(index, page)),
+        stride_(meshStride(index, page.pair)),
         plane_(pagePlane(geometry, window_)),
         bound_(heights.posts(), geometry, window_),
         patches_(drafts.size()) {}
@@ -117,14 +120,6 @@ class PageMeasure {
   }
 
  private:
-  static ScanTriangle triangleOf(const PatchDraft& draft, const std::uint32_t* corner) {
-    const auto vertex = [&](std::uint32_t v) {
-      return ScanVertex{static_cast<std::int32_t>(draft.vertices[v].column),
-                        static_cast<std::int32_t>(draft.vertices[v].row), draft.z[v]};
-    };
-    return {vertex(corner[0]), vertex(corner[1]), vertex(corner[2])};
-  }
-
   void begin(const PatchDraft& draft, PatchMeasure& patch) {
     patch.firstRow = patch.firstColumn = std::numeric_limits<std::uint32_t>::max();
     for (const PatchEdge& e : draft.edges) {
@@ -133,23 +128,45 @@ class PageMeasure {
       patch.firstColumn = std::min(patch.firstColumn, e.from.column);
       patch.lastColumn = std::max(patch.lastColumn, e.from.column);
     }
-    for (std::size_t v = 0; v < kVariants; ++v) {
-      VariantMeasure& variant = patch.variants[v];
-      variant.slopes.assign(draft.vertices.size(), 0.0f);
-      const auto& triangles = draft.triangles[v];
-      double steepest = 0;
-      for (std::size_t t = 0; t < triangles.size(); t += 3) {
-        const double slope = bound_.slope(triangleOf(draft, &triangles[t]));
-        steepest = std::max(steepest, slope);
-        for (std::size_t k = 0; k < 3; ++k) {
-          float& at = variant.slopes[triangles[t + k]];
-          at = std::max(at, static_cast<float>(slope));
-        }
-      }
-      // Vertices are moved to the lattice; the rest is for heights as floats.
-      variant.rounding = roundingM() * std::hypot(1, steepest) + 0.002;
-    }
+    for (std::size_t v = 0; v < kVariants; ++v) bends(draft, draft.variants[v].triangles, patch.variants[v]);
     addMesh(draft);
+  }
+
+  static ScanVertex vertexOf(const PatchDraft& draft, std::uint32_t v) {
+    return {static_cast<std::int32_t>(draft.vertices[v].column),
+            static_cast<std::int32_t>(draft.vertices[v].row), draft.z[v]};
+  }
+
+  /// What is not seen in heights above the plane.
+  void bends(const PatchDraft& draft, const std::vector<std::uint32_t>& triangles, VariantMeasure& variant) {
+    slopes_.assign(draft.vertices.size(), 0.0f);
+    double steepest = 0;
+    for (std::size_t t = 0; t < triangles.size(); t += 3) {
+      const ScanTriangle triangle(vertexOf(draft, triangles[t]), vertexOf(draft, triangles[t + 1]),
+                                  vertexOf(draft, triangles[t + 2]));
+      const double slope = bound_.slope(triangle);
+      steepest = std::max(steepest, slope);
+      for (std::size_t k = 0; k < 3; ++k) {
+        double& at = slopes_[triangles[t + k]];
+        at = std::max(at, slope);
+      }
+    }
+    for (std::size_t t = 0; t < triangles.size(); t += 3) {
+      const std::uint32_t a = triangles[t], b = triangles[t + 1], c = triangles[t + 2];
+      const auto extent = [](auto p, auto q, auto r) {
+        const auto [low, high] = std::minmax({p, q, r});
+        return static_cast<double>(high - low);
+      };
+      const double columns =
+                       extent(draft.vertices[a].column, draft.vertices[b].column, draft.vertices[c].column),
+                   rows = extent(draft.vertices[a].row, draft.vertices[b].row, draft.vertices[c].row);
+      variant.bend =
+          std::max(variant.bend,
+                   bound_.bend(columns, rows, extent(draft.heights[a], draft.heights[b], draft.heights[c]),
+                               std::max({slopes_[a], slopes_[b], slopes_[c]})));
+    }
+    // Vertices are moved to the lattice; the rest is for heights as floats.
+    variant.rounding = roundingM() * std::sqrt(1 + steepest * steepest) + 0.002;
   }
 
   double roundingM() const { return geometry_.roundingM() + std::ldexp(0.5 / 256, latticeShift()); }
@@ -192,7 +209,8 @@ class PageMeasure {
     }
     for (std::size_t v = 0; v < kVariants; ++v) {
       mesh.firstIndex[v] = static_cast<std::uint32_t>(mesh.indices.size());
-      for (const std::uint32_t i : draft.triangles[v]) mesh.indices.push_back(static_cast<std::uint16_t>(i));
+      for (const std::uint32_t i : draft.variants[v].triangles)
+        mesh.indices.push_back(static_cast<std::uint16_t>(i));
     }
     mesh.firstIndex[kVariants] = static_cast<std::uint32_t>(mesh.indices.size());
     // The next floats outwards: a float need not hold a place that far from the frame's origin.
@@ -235,7 +253,7 @@ class PageMeasure {
     if (patch.firstRow >= end_ || patch.lastRow < row_) return;
     posts(draft, patch);
     normals(draft, built_.meshes.patches[i]);
-    for (std::size_t v = 0; v < kVariants; ++v) errors(draft, draft.triangles[v], patch.variants[v]);
+    for (std::size_t v = 0; v < kVariants; ++v) errors(draft, draft.variants[v].triangles, patch.variants[v]);
   }
 
   /// Columns of a patch's posts in a row, both ends included.
@@ -297,54 +315,34 @@ class PageMeasure {
     const PostStrip strip{z_.data(), block_.columns, static_cast<std::int32_t>(block_.column),
                           static_cast<std::int32_t>(block_.row)};
     const auto first = static_cast<std::int32_t>(row_), end = static_cast<std::int32_t>(end_);
-    const auto last = static_cast<std::int32_t>(block_.row + block_.rows) - 1;
+    const auto last = std::min(end, static_cast<std::int32_t>(block_.row + block_.rows) - 1);
+    const auto borders = static_cast<std::uint32_t>(draft.border);
     const double cosLean = bound_.cosLean();
-    beside_.clear();
     for (std::size_t t = 0; t < triangles.size(); t += 3) {
-      const auto [low, high] =
-          std::minmax({draft.vertices[triangles[t]].row, draft.vertices[triangles[t + 1]].row,
-                       draft.vertices[triangles[t + 2]].row});
-      if (high < row_ || low >= end_) continue;
-      const ScanTriangle triangle = triangleOf(draft, &triangles[t]);
-      ScanResult result;
-      triangle.scan(strip, std::max(triangle.firstRow(), first), std::min({triangle.lastRow(), end, last}),
-                    end, result);
-      const double bend = bendOf(draft, &triangles[t], variant);
-      variant.squares += result.squares;
-      variant.posts += result.posts;
-      const bool onlyCorners = triangle.area2() == 1;
-      variant.worst = std::max(variant.worst, onlyCorners ? 0.0 : result.worst / cosLean + bend);
-      beside_.push_back({result.beside / cosLean + bend, bend, t});
+      const std::array<ScanVertex, 3> corners{vertexOf(draft, triangles[t]),
+                                              vertexOf(draft, triangles[t + 1]),
+                                              vertexOf(draft, triangles[t + 2])};
+      const auto [low, high] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
+      if (high < first || low >= end) continue;
+      if (stride_ != 1) {
+        ScanResult result;
+        const ScanTriangle triangle(corners[0], corners[1], corners[2]);
+        triangle.scan(strip, std::max(low, first), std::min(high, last), end, result);
+        variant.squares += result.squares;
+        variant.posts += result.posts;
+        variant.worst = std::max(variant.worst, result.worst / cosLean);
+      }
+      // Each edge once: the triangle on its other side has it the other way round.
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t from = triangles[t + k], to = triangles[k == 2 ? t : t + k + 1];
+        if (from < to || (to == 0 && from + 1 == borders))
+          variant.bilinear =
+              edgeError(corners[k], corners[k == 2 ? 0 : k + 1], strip, first, last, variant.bilinear);
+      }
     }
-    // Few triangles can hold the largest difference from the bilinear surface: only those are looked at.
-    variant.bilinear = std::max(variant.bilinear, variant.worst);
-    const auto refine = [&](const Beside& b) {
-      if (b.most <= variant.bilinear) return;
-      const double edges =
-          triangleOf(draft, &triangles[b.triangle]).bilinear(strip, first, std::min(end, last));
-      variant.bilinear = std::max(variant.bilinear, edges / cosLean + b.bend);
-    };
-    if (beside_.empty()) return;
-    refine(*std::max_element(beside_.begin(), beside_.end(),
-                             [](const Beside& a, const Beside& b) { return a.most < b.most; }));
-    for (const Beside& b : beside_) refine(b);
-  }
-
-  double bendOf(const PatchDraft& draft, const std::uint32_t* corner, const VariantMeasure& variant) const {
-    const PatchPoint &a = draft.vertices[corner[0]], &b = draft.vertices[corner[1]],
-                     &c = draft.vertices[corner[2]];
-    const auto extent = [](auto p, auto q, auto r) {
-      return static_cast<double>(std::max({p, q, r})) - static_cast<double>(std::min({p, q, r}));
-    };
-    const double slope =
-        std::max({variant.slopes[corner[0]], variant.slopes[corner[1]], variant.slopes[corner[2]]});
-    return bound_.bend(extent(a.column, b.column, c.column), extent(a.row, b.row, c.row),
-                       extent(draft.heights[corner[0]], draft.heights[corner[1]], draft.heights[corner[2]]),
-                       slope);
   }
 
   void finish(const PatchDraft& draft, PatchMeasure& patch, std::size_t i) {
-    static_cast<void>(draft);
     const PatchMesh& mesh = built_.meshes.patches[i];
     const auto up = [](double x) {
       return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::max());
@@ -356,13 +354,17 @@ class PageMeasure {
         bound_.most(patch.lastColumn - patch.firstColumn, patch.lastRow - patch.firstRow, rise);
     for (std::size_t v = 0; v < kVariants; ++v) {
       const VariantMeasure& variant = patch.variants[v];
-      const double worst = std::min(variant.worst, most) + variant.rounding;
+      const bool measured = stride_ != 1;
+      const double shown = measured ? variant.worst : draft.variants[v].worst;
+      const double worst = std::min(shown / bound_.cosLean() + variant.bend, most) + variant.rounding,
+                   between =
+                       std::min(variant.bilinear / bound_.cosLean() + variant.bend, most) + variant.rounding;
       errorM[v] = up(worst);
-      facts.bilinearErrorM[v] = up(std::max(worst, std::min(variant.bilinear, most) + variant.rounding));
-      facts.rmsErrorM[v] =
-          variant.posts == 0
-              ? errorM[v]
-              : static_cast<float>(std::sqrt(variant.squares / static_cast<double>(variant.posts)));
+      facts.bilinearErrorM[v] = up(std::max(worst, between));
+      facts.rmsErrorM[v] = static_cast<float>(
+          !measured
+              ? draft.variants[v].rms
+              : std::sqrt(variant.squares / static_cast<double>(std::max<std::uint64_t>(1, variant.posts))));
     }
     facts.lowestM = patch.lowest;
     facts.highestM = patch.highest;
@@ -375,11 +377,6 @@ class PageMeasure {
     built_.facts.push_back(facts);
   }
 
-  struct Beside {
-    double most, bend;
-    std::size_t triangle;
-  };
-
   const PatchIndex& index_;
   const PatchIndex::Page& page_;
   const HeightSource& heights_;
@@ -387,16 +384,18 @@ class PageMeasure {
   std::span<const PatchDraft> drafts_;
   BuiltPage& built_;
   PostWindow window_;
+  std::uint32_t stride_;
   PostPlane plane_;
   VerticalBound bound_;
   std::vector<PatchMeasure> patches_;
+
+  std::vector<double> slopes_;  ///< one a vertex: of the steepest triangle about it
 
   // The strip.
   std::uint32_t row_ = 0, end_ = 0;
   PostWindow block_;
   std::vector<float> raw_, z_;
   std::vector<std::uint8_t> voids_;
-  std::vector<Beside> beside_;
 };
 
 }  // namespace

@@ -6,10 +6,13 @@ namespace trimtab::terrain {
 
 namespace {
 
-/// No patch has more vertices than the larger of the smallest has posts: so that with no tolerance at all
-/// those have every post, and no rough land makes an index too long.
-constexpr std::size_t kMostVertices =
-    std::size_t{PatchIndex::kLeafCells + 1} * (PatchIndex::kLeafCells + 2) / 2;
+/// As many as the half of a square of 64 cells has posts: no rough land makes a patch's indices too long, and
+/// with no tolerance at all the smallest patches still get every post.
+constexpr std::size_t kMostVertices = 65 * 66 / 2;
+static_assert(kMostVertices >= (PatchIndex::kLeafCells + 1) * (PatchIndex::kLeafCells + 2) / 2);
+/// Variants are a quarter of an octave apart: four of them span the octave and a half between what a patch is
+/// split at and what its neighbours force on it.
+constexpr double kVariantOctaves = 0.25;
 
 PatchDraft drafted(PageField& page, const PatchIndex& index, const PatchPlace& place,
                    const std::vector<double>& tolerances, PolygonMesher& mesher) {
@@ -19,7 +22,6 @@ PatchDraft drafted(PageField& page, const PatchIndex& index, const PatchPlace& p
   const int depth = place.depth();
   const PostWindow& window = page.window();
   std::vector<PatchPoint> border;
-  std::vector<float> borderZ;
   const auto addHeight = [&](PatchPoint p) {
     draft.vertices.push_back(p);
     draft.heights.push_back(page.height(p));
@@ -30,10 +32,16 @@ PatchDraft drafted(PageField& page, const PatchIndex& index, const PatchPlace& p
     for (std::size_t i = 0; i + 1 < line.size(); ++i) addHeight(line[i]);
   }
   for (const PatchPoint& p : draft.vertices) border.push_back({p.column - window.column, p.row - window.row});
+  draft.border = border.size();
   mesher.begin(page.field(), border, draft.z);
   for (int variant = PatchIndex::kVariants - 1; variant >= 0; --variant) {
-    mesher.refine(tolerances[static_cast<std::size_t>(depth)] * std::exp2(variant / 2.0), kMostVertices);
-    mesher.triangles(draft.triangles[static_cast<std::size_t>(variant)]);
+    mesher.refine(tolerances[static_cast<std::size_t>(depth)] * std::exp2(variant * kVariantOctaves),
+                  kMostVertices);
+    PatchDraft::Variant& of = draft.variants[static_cast<std::size_t>(variant)];
+    mesher.triangles(of.triangles);
+    if (page.stride() != 1) continue;
+    of.worst = mesher.maxErrorM();
+    of.rms = mesher.rmsErrorM();
   }
   for (std::size_t i = border.size(); i < mesher.vertices().size(); ++i) {
     const PatchPoint& p = mesher.vertices()[i];

@@ -18,10 +18,14 @@ struct PatchDraft {
   PatchPlace place;
   std::vector<PatchEdge> edges;
   std::vector<PatchPoint> vertices;  ///< the border's first
+  std::size_t border = 0;            ///< of them
   std::vector<float> heights;        ///< one a vertex
   std::vector<float> z;              ///< above the page's plane
-  std::array<std::vector<std::uint32_t>, PatchIndex::kVariants>
-      triangles;  ///< from the finest; three a triangle
+  struct Variant {
+    std::vector<std::uint32_t> triangles;  ///< three a triangle
+    double worst = 0, rms = 0;             ///< above the plane, at the posts that it was meshed on
+  };
+  std::array<Variant, PatchIndex::kVariants> variants;  ///< from the finest
 };
 
 /// Posts from one to the next at which pages of a pair are meshed.
@@ -59,7 +63,8 @@ class PageField {
   std::uint32_t stride_, columns_, rows_;
   PostPlane plane_;
   std::vector<float> raw_, z_;
-  std::map<std::array<std::uint32_t, 4>, std::vector<PatchPoint>> sides_;  ///< from the lesser end
+  /// By depth and ends, the lesser first: cut off, sides of two depths can have the same ends.
+  std::map<std::array<std::uint32_t, 5>, std::vector<PatchPoint>> sides_;
   std::vector<float> strip_;
 };
 

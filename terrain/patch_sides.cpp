@@ -99,17 +99,23 @@ std::vector<PatchPoint> PageField::simplified(PatchPoint from, PatchPoint to, st
 std::vector<PatchPoint> PageField::side(const PatchEdge& edge, int depth) {
   const bool turned = lesser(edge.to, edge.from);
   const PatchPoint from = turned ? edge.to : edge.from, to = turned ? edge.from : edge.to;
-  auto& line = sides_[{from.column, from.row, to.column, to.row}];
-  if (line.empty()) {
-    const int side = edge.side == PatchEdge::kDataEdge ? depth : edge.side;
-    // A diagonal is a leg in the page of larger squares, and meshed at that page's posts.
-    const int pair = edge.side != PatchEdge::kDataEdge && side % 2 == 0 && side > 0 ? side / 2 - 1 : side / 2;
-    const std::uint32_t step = meshStride(index_, std::min(pair, pairs(index_) - 1));
+  const auto make = [&](int side, int pair) {
     const auto last = tolerances_.size() - 1;
-    line = simplified(from, to, step, tolerances_[std::min(static_cast<std::size_t>(side), last)]);
+    return simplified(from, to, meshStride(index_, pair),
+                      tolerances_[std::min(static_cast<std::size_t>(side), last)]);
+  };
+  std::vector<PatchPoint> line;
+  if (edge.side == PatchEdge::kDataEdge) {
+    line = make(depth, depth / 2);
+  } else {
+    auto& known = sides_[{static_cast<std::uint32_t>(edge.side), from.column, from.row, to.column, to.row}];
+    // A diagonal is a leg in the page of larger squares, and simplified at that page's posts.
+    const int side = edge.side;
+    if (known.empty()) known = make(side, side % 2 == 0 && side > 0 ? side / 2 - 1 : side / 2);
+    line = known;
   }
-  if (!turned) return line;
-  return {line.rbegin(), line.rend()};
+  if (turned) std::reverse(line.begin(), line.end());
+  return line;
 }
 
 }  // namespace trimtab::terrain

@@ -1,0 +1,51 @@
+#include "trimtab/terrain/patch_scan.h"
+
+namespace trimtab::terrain {
+
+double edgeError(ScanVertex a, ScanVertex b, const PostStrip& strip, std::int32_t first, std::int32_t last,
+                 double worst) {
+  if (a.y == b.y || a.x == b.x) return worst;
+  if (b.y < a.y) std::swap(a, b);
+  const std::int32_t low = std::max(a.y, first), high = std::min(b.y, last);
+  const std::int32_t sign = a.x < b.x ? 1 : -1;
+  if (b.y - a.y == 1 && b.x - a.x == sign) {
+    if (low >= high) return worst;
+    const float* const z = strip.row(a.y);
+    const float* const up = strip.row(b.y);
+    return std::max(worst, std::fabs(static_cast<double>(z[a.x]) + up[b.x] - z[b.x] - up[a.x]) / 4);
+  }
+  // Columns are crossed at whole numbers of `next` from a, rows between.
+  const double dx = sign * (b.x - a.x), dy = b.y - a.y, slope = (b.z - a.z) / dy;
+  const double perRow = dx / dy, perColumn = dy / dx;
+  for (std::int32_t y = low; y < high; ++y) {
+    const float* const south = strip.row(y);
+    const float* const north = south + strip.stride;
+    const double start = (y - a.y) * perRow, end = (y + 1 - a.y) * perRow;  // columns from a
+    auto column = static_cast<std::int32_t>(start + 1e-7);
+    double u = std::max(0.0, start - column), v = 0;
+    for (bool more = true; more; ++column, u = 0) {
+      more = column + 1 < end - 1e-7;
+      const double u1 = more ? 1.0 : end - column;
+      const double v1 = more ? (column + 1) * perColumn - (y - a.y) : 1.0;
+      // The cell, from the column that is nearer to a.
+      const std::int32_t near = a.x + sign * column, far = near + sign;
+      const double z0 = south[near], rise = south[far] - z0, climb = north[near] - z0,
+                   twist = (static_cast<double>(north[far]) - south[far]) - climb;
+      const auto off = [&](double s, double t) {
+        return z0 + s * rise + t * (climb + s * twist) - (a.z + slope * ((y - a.y) + t));
+      };
+      const double e0 = off(u, v), e1 = off(u1, v1);
+      const double bend = twist * (u1 - u) * (v1 - v);
+      worst = std::max({worst, std::fabs(e0), std::fabs(e1)});
+      if (std::max(std::fabs(e0), std::fabs(e1)) + std::fabs(bend) / 4 > worst) {
+        const double turn = (bend - (e1 - e0)) / (2 * bend);
+        if (turn > 0 && turn < 1)
+          worst = std::max(worst, std::fabs(e0 + turn * ((e1 - e0 - bend) + turn * bend)));
+      }
+      v = v1;
+    }
+  }
+  return worst;
+}
+
+}  // namespace trimtab::terrain
