@@ -113,6 +113,7 @@ class Job {
         bakeHeights(*work_, *source_->elevation, memory_, stage(scenery_ ? 0.1 : 0.2, scenery_ ? 0.15 : 0.3));
     if (!heights) return heights.findings();
     heights_ = *heights;
+    keep(sharesOf(*source_->elevation));
     if (heights_.outside > 0)
       findings_.push_back({Severity::note, files->front().string(), "outline",
                            "elevation over the whole rectangle of the terrain",

@@ -15,6 +15,9 @@ namespace trimtab::terrain {
 
 namespace {
 
+/// Of latitude, on the sphere of equal volume.
+constexpr double kMetresADegree = 111195;
+
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
@@ -55,6 +58,7 @@ Result<std::unique_ptr<BakeSource>> readSource(const BakeOptions& options, const
   if (scenery == 0) {
     ElevationOptions elevation;
     elevation.progress = progress;
+    if (options.post) elevation.stepLatitude = options.post->value() / kMetresADegree;
     auto opened = openElevation(options.sources, elevation);
     if (!opened) return opened.findings();
     const Findings findings = opened.findings();

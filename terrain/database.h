@@ -96,7 +96,7 @@ struct BakeOptions {
   std::optional<std::filesystem::path> imagery;
   std::uint32_t trianglesPerNode = 2000;  ///< of the static levels of detail, where the source is scenery
   bool keepLines = false;  ///< roads, streams and shorelines stay in them while a pixel shows them
-  std::optional<Metres> post;  ///< distance of posts that scenery's triangles are put on; else by its size
+  std::optional<Metres> post;  ///< distance of posts; else by the scenery's size, or the finest file's
   /// Vertical error of the finest patches at the posts; else defaultLeafToleranceM (patch_build.h). 0: exact.
   std::optional<Metres> maxError;
   Megabytes memory{1024};  ///< most that baking may use

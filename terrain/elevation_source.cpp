@@ -266,4 +266,24 @@ Result<std::unique_ptr<ElevationSource>> openElevation(std::span<const fs::path>
                                                   std::move(findings));
 }
 
+Findings sharesOf(const ElevationSource& source) {
+  constexpr std::size_t kMostTold = 24;
+  const std::vector<std::string> names = source.names();
+  const std::vector<std::uint64_t> given = source.given();
+  std::uint64_t all = 0;
+  for (const std::uint64_t posts : given) all += posts;
+  Findings findings;
+  if (all == 0 || names.size() < 2 || given.size() != names.size()) return findings;
+  for (std::size_t i = 0; i < std::min(names.size(), kMostTold); ++i)
+    findings.push_back({Severity::note, names[i], "share", "a part of the posts",
+                        given[i] == 0
+                            ? "none: others have the ground there"
+                            : CPLSPrintf("%.1f %% of the heights",
+                                         100.0 * static_cast<double>(given[i]) / static_cast<double>(all))});
+  if (names.size() > kMostTold)
+    findings.push_back(
+        {Severity::note, "elevation", "share", "", std::to_string(names.size() - kMostTold) + " files more"});
+  return findings;
+}
+
 }  // namespace trimtab::terrain

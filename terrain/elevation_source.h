@@ -48,4 +48,7 @@ struct ElevationOptions {
 Result<std::unique_ptr<ElevationSource>> openElevation(std::span<const std::filesystem::path> sources,
                                                        const ElevationOptions& options = {});
 
+/// What each of several files gave to the rows read so far, as notes; nothing of one file alone.
+Findings sharesOf(const ElevationSource& source);
+
 }  // namespace trimtab::terrain

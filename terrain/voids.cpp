@@ -190,8 +190,22 @@ class Filling {
         if (std::isnan(in.heights[c])) in.voids.push_back(c);
       fromCoarse(n, in);
     }
-    for (std::uint32_t s = 1; coarse_ != nullptr && s <= kSweeps && s <= n; ++s)
-      if (n - s < rows_) relax(n - s);
+    if (coarse_ == nullptr) return;
+    // The rows' chains of sums are independent but for a column's lag: taken a few columns at a time, one
+    // after the other, they overlap in the processor. Twice as fast where voids are wide.
+    std::array<Sweep, kSweeps> sweeps;
+    std::size_t count = 0, voids = 0;
+    for (std::uint32_t s = 1; s <= kSweeps && s <= n; ++s)
+      if (n - s < rows_ && !slot(n - s).voids.empty()) {
+        sweeps[count] = sweepOf(n - s);
+        voids += sweeps[count++].voids.size();
+      }
+    const std::uint32_t stride = voids < columns_ ? columns_ : 4;
+    for (std::uint32_t column = 0; voids > 0; column += std::min(stride, columns_ - column)) {
+      const std::uint32_t end = column + std::min(stride, columns_ - column);
+      for (std::size_t k = 0; k < count; ++k) relax(sweeps[k], end);
+      if (end == columns_) break;
+    }
   }
 
   void fromCoarse(std::uint32_t row, Slot& in) {
@@ -215,16 +229,33 @@ class Filling {
     }
   }
 
-  void relax(std::uint32_t row) {
-    Slot& here = slot(row);
-    for (const std::uint32_t c : here.voids) {
+  struct Sweep {
+    std::span<const std::uint32_t> voids;
+    float* here = nullptr;
+    const float* below = nullptr;  ///< null at the first row
+    const float* above = nullptr;  ///< null at the last
+    std::size_t next = 0;
+  };
+  Sweep sweepOf(std::uint32_t row) {
+    return {slot(row).voids, slot(row).heights.data(), row > 0 ? slot(row - 1).heights.data() : nullptr,
+            row + 1 < rows_ ? slot(row + 1).heights.data() : nullptr, 0};
+  }
+  /// Voids to the mean of their neighbours, up to a column.
+  void relax(Sweep& sweep, std::uint32_t end) const {
+    float* const here = sweep.here;
+    for (; sweep.next < sweep.voids.size() && sweep.voids[sweep.next] < end; ++sweep.next) {
+      const std::uint32_t c = sweep.voids[sweep.next];
+      if (sweep.below != nullptr && sweep.above != nullptr && c > 0 && c + 1 < columns_) {
+        here[c] = (sweep.below[c] + sweep.above[c] + here[c - 1] + here[c + 1]) * 0.25f;
+        continue;
+      }
       float sum = 0, count = 0;
       const auto add = [&](float h) { sum += h, count += 1; };
-      if (row > 0) add(slot(row - 1).heights[c]);
-      if (row + 1 < rows_) add(slot(row + 1).heights[c]);
-      if (c > 0) add(here.heights[c - 1]);
-      if (c + 1 < columns_) add(here.heights[c + 1]);
-      if (count > 0) here.heights[c] = sum / count;
+      if (sweep.below != nullptr) add(sweep.below[c]);
+      if (sweep.above != nullptr) add(sweep.above[c]);
+      if (c > 0) add(here[c - 1]);
+      if (c + 1 < columns_) add(here[c + 1]);
+      if (count > 0) here[c] = sum / count;
     }
   }
 

@@ -88,6 +88,16 @@ TEST_F(Mosaic, believesTheFinerOfTwoFiles) {
   }
 }
 
+TEST_F(Mosaic, saysWhatEachFileGave) {
+  auto under = part(20, 20, 20, 20);
+  const auto joined = join({part(0, 0, 75, 80), part(75, 0, 25, 80), under});
+  ASSERT_TRUE(joined);
+  const std::string notes = toString(joined.findings());
+  EXPECT_NE(notes.find("75.0 % of the heights"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("25.0 % of the heights"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("none: others have the ground there"), std::string::npos) << notes;
+}
+
 TEST_F(Mosaic, joinsAcrossTheDateLine) {
   auto west = part(0, 0, 40, 40), east = part(0, 0, 40, 40);
   west.west = 179.96;
