@@ -2,47 +2,62 @@
 
 namespace trimtab::scene {
 
-// Layers are tori: texel (c, r) of a level is at (c, r) modulo the side, so a layer's address of the eye's
-// post is a fraction of a whole number by a power of two, which floats hold exactly, and the rest is small.
+// Layers are tori: texel (c, r) of a level is at (c, r) modulo the side, so all levels have one origin.
 //
-// `groundReach`: how far about the eye each level is there, as slope and offset of a ramp that is 0 up to
-// most of that distance and 1 from it on. Their sum is the finest level to be had, and rises smoothly where
-// one ends.
+// The level is what the footprint asks for, or what there is: level l reaches groundReach^-1 2^l texels of
+// level 0 about the eye, and hands over to the next in the last 15 % of that. Both are told with the
+// logarithm that the bits of a float are, which is wrong by less than a tenth. A software rasteriser pays for
+// every instruction: with a reach of its own for every level this cost twice as much.
+//
+// The noise hashes, as a texture of it with its levels costs more than twice as much there. Each octave fades
+// out before its cells are smaller than two pixels, so that nothing shimmers; the lattice repeats every
+// 8,192 m.
 const char* const kGroundColour = R"(
 uniform sampler2DArray groundTexels;
-uniform sampler2D groundNoise;
 uniform bool groundThere;
 uniform vec2 groundOrigin;       // texel of the eye's post
-uniform float groundTexelsPerPost, groundShift, groundLast;
-uniform vec4 groundSlope[4], groundOffset[4];
+uniform float groundTexelsPerPost, groundShift;
+uniform float groundReach, groundFinest, groundWhole, groundLast;
 
-vec4 groundLayer(vec2 texel, float level) {
-  float scale = uintBitsToFloat(uint(127 - 10 - int(level)) << 23);  // 2^-level / 1024
-  return texture(groundTexels, vec3(texel * scale + fract(groundOrigin * scale), level));
-}
+float roughLog2(float x) { return float(floatBitsToInt(x)) * (1.0 / 8388608.0) - 127.0; }
 
 vec4 groundAt(vec2 post) {
   vec2 texel = post * groundTexelsPerPost + groundShift;
-  vec2 x = dFdx(texel), y = dFdy(texel);
-  float xx = dot(x, x), yy = dot(y, y), longest = max(xx, yy);
-  // Where ground is seen along, its footprint is long and narrow: between the two, so that neither blurs or
-  // shimmers much.
-  float area = x.x * y.y - x.y * y.x;
-  float wanted = 0.5 * log2(max(max(abs(area), longest * (1.0 / 16.0)), 1.0));
+  vec2 across = dFdx(texel), up = dFdy(texel);
+  // Where ground is seen along, its footprint is long and narrow: between the two, so that it neither blurs
+  // nor shimmers much.
+  float area = abs(across.x * up.y - across.y * up.x);
+  float wanted = 0.5 * roughLog2(max(area, max(dot(across, across), dot(up, up)) * (1.0 / 16.0)));
   vec2 off = abs(texel);
-  float away = max(off.x, off.y);
-  vec4 there = clamp(groundSlope[0] * away + groundOffset[0], 0.0, 1.0);
-  there += clamp(groundSlope[1] * away + groundOffset[1], 0.0, 1.0);
-  there += clamp(groundSlope[2] * away + groundOffset[2], 0.0, 1.0);
-  there += clamp(groundSlope[3] * away + groundOffset[3], 0.0, 1.0);
-  float level = min(max(wanted, dot(there, vec4(1.0))), groundLast);
+  float away = roughLog2(max(off.x, off.y) * groundReach);
+  float ended = floor(away);
+  float there = ended + 1.0 + max((away - ended - 0.7) * (1.0 / 0.3), 0.0);
+  float level = clamp(max(wanted, min(there, groundWhole)), groundFinest, groundLast);
   float fine = floor(level);
-  vec4 ground = mix(groundLayer(texel, fine), groundLayer(texel, min(fine + 1.0, groundLast)), level - fine);
+  vec2 place = (texel + groundOrigin) * intBitsToFloat((127 - 10 - int(fine)) << 23);  // by 2^-fine / 1024
+  vec4 ground = mix(texture(groundTexels, vec3(place, fine)), texture(groundTexels, vec3(place * 0.5, fine + 1.0)), level - fine);
   return ground * vec4(1.0, 1.0, 1.0, 1.5);
 }
 
+float groundRandom(ivec2 cell) {
+  uint h = uint(cell.x) * 374761393u + uint(cell.y) * 668265263u;
+  h = (h ^ (h >> 13)) * 1274126177u;
+  return float((h ^ (h >> 16)) & 65535u) * (2.0 / 65535.0) - 1.0;
+}
+
+float groundNoise(vec2 p, int period) {
+  vec2 whole = floor(p);
+  vec2 t = p - whole;
+  t = t * t * (3.0 - 2.0 * t);
+  ivec2 low = ivec2(whole) & (period - 1), high = (ivec2(whole) + 1) & (period - 1);
+  return mix(mix(groundRandom(low), groundRandom(ivec2(high.x, low.y)), t.x), mix(groundRandom(ivec2(low.x, high.y)), groundRandom(high), t.x), t.y);
+}
+
 float groundDetail(vec2 metres) {
-  return texture(groundNoise, metres * (1.0 / 8192.0)).r * 0.5 - 0.25;
+  vec2 footprint = fwidth(metres);
+  float widest = max(footprint.x, footprint.y);
+  float coarse = clamp(1.5 - widest * (3.0 / 128.0), 0.0, 1.0), fine = clamp(1.5 - widest * (3.0 / 32.0), 0.0, 1.0);
+  return 0.11 * coarse * groundNoise(metres * (1.0 / 128.0), 64) + 0.09 * fine * groundNoise(metres * (1.0 / 32.0), 256);
 }
 )";
 

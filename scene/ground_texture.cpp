@@ -20,9 +20,8 @@ constexpr int kTile = static_cast<int>(terrain::GroundShape::kTile);
 constexpr int kBlock = 64;
 constexpr int kBlocks = GroundTexture::kSide / kBlock;
 constexpr std::size_t kBlockBytes = std::size_t{kBlock} * kBlock * 4;
-/// Part of a level's reach in which the next coarser one takes its place.
-constexpr double kBlend = 0.15;
-constexpr int kNoiseSide = 1024;
+/// A level that is there for fewer texels than this about the eye is not used yet.
+constexpr double kLeastReach = 256;
 
 struct BlockPlace {
   int column = 0, row = 0;
@@ -62,46 +61,6 @@ struct Level {
   }
 };
 
-float random(std::uint32_t column, std::uint32_t row) {
-  std::uint32_t h = column * 374761393u + row * 668265263u;
-  h = (h ^ (h >> 13)) * 1274126177u;
-  return static_cast<float>((h ^ (h >> 16)) & 65535u) * (2.0f / 65535.0f) - 1.0f;
-}
-
-/// Smooth between the corners of `cells` x `cells` over the whole side.
-float noise(int x, int y, int cells) {
-  const float scale = static_cast<float>(cells) / kNoiseSide;
-  const float px = (static_cast<float>(x) + 0.5f) * scale, py = (static_cast<float>(y) + 0.5f) * scale;
-  const auto c = static_cast<std::uint32_t>(px), r = static_cast<std::uint32_t>(py);
-  float u = px - static_cast<float>(c), v = py - static_cast<float>(r);
-  u = u * u * (3 - 2 * u), v = v * v * (3 - 2 * v);
-  const auto wrap = [&](std::uint32_t i) { return i & static_cast<std::uint32_t>(cells - 1); };
-  const float south = random(c, r) * (1 - u) + random(wrap(c + 1), r) * u;
-  const float north = random(c, wrap(r + 1)) * (1 - u) + random(wrap(c + 1), wrap(r + 1)) * u;
-  return south * (1 - v) + north * v;
-}
-
-/// The two octaves of kTerrainFragment, 8 m a texel: a texture costs a software rasteriser a third of what
-/// hashing does, and its levels fade it out by themselves.
-GLuint makeNoise() {
-  std::vector<std::uint8_t> pixels(std::size_t{kNoiseSide} * kNoiseSide);
-  for (int y = 0; y < kNoiseSide; ++y)
-    for (int x = 0; x < kNoiseSide; ++x) {
-      const float detail = 0.11f * noise(x, y, 64) + 0.09f * noise(x, y, 256);
-      pixels[static_cast<std::size_t>(y * kNoiseSide + x)] =
-          static_cast<std::uint8_t>(std::lround(255 * (detail + 0.25f) * 2));
-    }
-  GLuint texture = 0;
-  glGenTextures(1, &texture);
-  glBindTexture(GL_TEXTURE_2D, texture);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, kNoiseSide, kNoiseSide, 0, GL_RED, GL_UNSIGNED_BYTE, pixels.data());
-  glGenerateMipmap(GL_TEXTURE_2D);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glBindTexture(GL_TEXTURE_2D, 0);
-  return texture;
-}
-
 }  // namespace
 
 struct GroundTexture::Impl {
@@ -111,9 +70,10 @@ struct GroundTexture::Impl {
   bool voids = false, complete = false;
   std::int32_t eyeColumn = 0, eyeRow = 0;
   double originColumn = 0, originRow = 0;  ///< the eye's post in texels of level 0
-  GLuint texture = 0, noise = 0;
+  GLuint texture = 0;
   std::uint64_t uploaded = 0;
-  std::array<float, 16> slope{}, offset{};
+  double reach = 0;  ///< of every level used, in its own texels; infinite: all of it is there
+  std::size_t finest = 0, whole = 0;  ///< level used at the eye; level from which on all is there
 
   const terrain::GroundShape::Level& sizeOf(std::size_t l) const { return ground->shape().levels[l]; }
 
@@ -172,9 +132,9 @@ struct GroundTexture::Impl {
     const double x = originColumn * scale, y = originRow * scale;
     const Span across(x, sizeOf(l).columns), up(y, sizeOf(l).rows);
     missing.clear();
-    double reach = std::numeric_limits<double>::infinity();
+    double least = std::numeric_limits<double>::infinity();
     const auto limit = [&](bool opens, double distance) {
-      if (opens) reach = std::min(reach, std::max(distance, 0.0));
+      if (opens) least = std::min(least, std::max(distance, 0.0));
     };
     limit(across.opensLow, x - across.first * kBlock);
     limit(across.opensHigh, across.end * kBlock - x);
@@ -196,7 +156,7 @@ struct GroundTexture::Impl {
                std::tie(b.distance, b.block.row, b.block.column);
       });
     }
-    level.reach = reach / scale;
+    level.reach = least / scale;
   }
 
   void settle(std::size_t l, std::size_t done) {
@@ -246,23 +206,20 @@ struct GroundTexture::Impl {
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
     glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
     tiles->want(std::move(wanted));
-    ramps();
+    allow();
   }
 
-  void ramps() {
-    slope.fill(0);
-    offset.fill(0);
-    double reach = std::numeric_limits<double>::infinity();
+  /// What the shader may use: a level, and with it all coarser ones.
+  void allow() {
+    reach = std::numeric_limits<double>::infinity();
+    finest = whole = levels.size() - 1;
     for (std::size_t l = levels.size(); l-- > 0;) {
-      // Between texels needs the ones beside; and where a level is used the next coarser one is too.
-      reach = std::min(reach, levels[l].reach - std::ldexp(1.5, static_cast<int>(l)));
-      if (std::isinf(reach)) continue;
-      if (reach <= 0) {
-        offset[l] = 1;
-      } else {
-        slope[l] = static_cast<float>(1 / (kBlend * reach));
-        offset[l] = static_cast<float>(-(1 - kBlend) / kBlend);
-      }
+      // Between texels needs the ones beside.
+      const double own = std::ldexp(levels[l].reach, -static_cast<int>(l)) - 1.5;
+      if (own < kLeastReach && l + 1 < levels.size()) break;
+      if (std::isinf(own) && std::isinf(reach)) whole = l;
+      reach = std::min(reach, own);
+      finest = l;
     }
   }
 };
@@ -270,8 +227,7 @@ struct GroundTexture::Impl {
 GroundTexture::GroundTexture() : impl_(std::make_unique<Impl>()) {}
 
 GroundTexture::~GroundTexture() {
-  for (const GLuint texture : {impl_->texture, impl_->noise})
-    if (texture != 0) glDeleteTextures(1, &texture);
+  if (impl_->texture != 0) glDeleteTextures(1, &impl_->texture);
 }
 
 void GroundTexture::setGround(std::shared_ptr<const terrain::GroundPyramid> ground) {
@@ -285,7 +241,6 @@ void GroundTexture::setGround(std::shared_ptr<const terrain::GroundPyramid> grou
   }
   my.restart();
   if (wanted == 0) return;
-  if (my.noise == 0) my.noise = makeNoise();
   if (my.texture != 0) return;
   glGenTextures(1, &my.texture);
   glBindTexture(GL_TEXTURE_2D_ARRAY, my.texture);
@@ -329,27 +284,23 @@ void GroundTexture::bind(unsigned program) const {
   const auto uniform = [&](const char* name) { return glGetUniformLocation(program, name); };
   glUniform1i(uniform("groundThere"), my.tiles ? 1 : 0);
   glUniform1i(uniform("groundTexels"), kGroundUnit);
-  glUniform1i(uniform("groundNoise"), kGroundNoiseUnit);
   if (!my.tiles) return;
   const double texels = my.ground->shape().texelsPerPost;
   glUniform2f(uniform("groundOrigin"), static_cast<float>(my.originColumn), static_cast<float>(my.originRow));
   glUniform1f(uniform("groundTexelsPerPost"), static_cast<float>(texels));
   glUniform1f(uniform("groundShift"), static_cast<float>(my.ground->shape().texelOf(0)));
   glUniform1f(uniform("groundLast"), static_cast<float>(my.levels.size() - 1));
-  glUniform4fv(uniform("groundSlope"), 4, my.slope.data());
-  glUniform4fv(uniform("groundOffset"), 4, my.offset.data());
+  glUniform1f(uniform("groundReach"), static_cast<float>(1 / std::max(my.reach, 1e-3)));
+  glUniform1f(uniform("groundFinest"), static_cast<float>(my.finest));
+  glUniform1f(uniform("groundWhole"), static_cast<float>(my.whole));
   glActiveTexture(GL_TEXTURE0 + kGroundUnit);
   glBindTexture(GL_TEXTURE_2D_ARRAY, my.texture);
-  glActiveTexture(GL_TEXTURE0 + kGroundNoiseUnit);
-  glBindTexture(GL_TEXTURE_2D, my.noise);
   glActiveTexture(GL_TEXTURE0);
 }
 
 void GroundTexture::unbind() const {
   glActiveTexture(GL_TEXTURE0 + kGroundUnit);
   glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
-  glActiveTexture(GL_TEXTURE0 + kGroundNoiseUnit);
-  glBindTexture(GL_TEXTURE_2D, 0);
   glActiveTexture(GL_TEXTURE0);
 }
 

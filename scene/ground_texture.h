@@ -13,8 +13,8 @@ namespace trimtab::scene {
 /// be called only where `groundThere`, and in uniform control flow: it takes derivatives. `float
 /// groundDetail(vec2 metres)`: noise that stands on the ground, to multiply near land with.
 extern const char* const kGroundColour;
-/// Texture units of it.
-constexpr int kGroundUnit = 8, kGroundNoiseUnit = 9;
+/// Its texture unit.
+constexpr int kGroundUnit = 8;
 
 /// The ground's colours and light about the eye on the GPU: one layer of kSide x kSide texels a level, each
 /// centred at the eye and filled as it moves on (a clip map); a level that is not filled yet is shown by the
