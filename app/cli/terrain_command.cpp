@@ -95,9 +95,9 @@ void addTerrain(CLI::App& app, int& exitCode) {
                      "Keep roads, railways, streams and shorelines in the static levels of detail while a "
                      "pixel shows them (scenery)");
   makeBake
-      ->add_option(
-          "--post-m", bake->postM,
-          "Distance of the posts that scenery is put on; by its size (30 to 60) where it is not given")
+      ->add_option("--post-m", bake->postM,
+                   "Distance of posts. Without it scenery takes 30 to 60 by its size, elevation that of the "
+                   "finest file")
       ->check(CLI::Range(1.0, 10000.0));
   makeBake
       ->add_option("--max-error-m", bake->maxErrorM,
