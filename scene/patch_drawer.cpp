@@ -95,6 +95,7 @@ void PatchDrawer::updateGround() {
   const double east = wrapped180(eye.longitude - info.southWest.longitude).value(),
                north = (eye.latitude - info.southWest.latitude).value();
   const std::uint64_t before = gl_->ground.bytesUploaded();
+  gl_->ground.showVoids(frame_->request.overlays.voids);
   gl_->ground.update(east / info.postLongitude.value(), north / info.postLatitude.value(),
                      frame_->request.waitForPages, kGroundBytesAFrame);
   frame_->clock.lap(before != gl_->ground.bytesUploaded() ? &FrameCost::page : &FrameCost::select);
