@@ -1,5 +1,9 @@
+#include <sys/resource.h>
+
 #include <cstdlib>
+#include <cstring>
 #include <map>
+#include <random>
 
 #include "scenery_tiles.h"
 
@@ -64,6 +68,56 @@ TEST(SceneryDamage, leavesNoByteOfASyntheticZipUntried) {
   // What is not under the sum is the header's time, system and flags.
   EXPECT_LT(tally.read, 60U);
   EXPECT_GT(tally.refused, packed.size() * 5);
+}
+
+/// Every four bytes in turn as the largest numbers there are: the reader asks for no memory by them.
+TEST(SceneryDamage, takesNoMemoryForACountThatLies) {
+  const auto peakKiB = [] {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+  };
+  for (const int version : {7, 10}) {
+    test::TileRecipe recipe;
+    recipe.version = version;
+    const std::string good = test::gridTile(recipe);
+    Tally before;
+    feed(good, false, before);
+    const long peak = peakKiB();
+    Tally tally;
+    for (std::size_t i = 0; i + 4 <= good.size(); ++i)
+      for (const std::uint32_t lie : {0xffffffffu, 0x7fffffffu, 0x10000000u, 0x00ffffffu}) {
+        std::string changed = good;
+        std::memcpy(&changed[i], &lie, 4);
+        feed(changed, false, tally);
+      }
+    EXPECT_GT(tally.refused, good.size());
+    EXPECT_LT(peakKiB() - peak, 16 * 1024) << "version " << version;
+  }
+}
+
+/// A real tile cut and flipped at places all over it, the heaviest with them.
+TEST(SceneryDamage, leavesLargeTilesHarmless) {
+  for (const char* name : {"data/fg-cologne/3056410.btg",
+                           "data/fg-debian-iceland-reykjanes/Terrain/w030n60/w022n64/2598528.btg.gz"}) {
+    TRIMTAB_NEEDS_SHARED(name);
+    const std::string packed = test::readFile(test::sharedDir() / name);
+    const auto plain =
+        std::string(name).ends_with(".gz") ? terrain::gunzip(packed, name) : Result<std::string>(packed);
+    ASSERT_TRUE(plain);
+    Tally tally;
+    std::mt19937 random(11);
+    for (int i = 0; i < 20; ++i) {
+      std::string changed = *plain;
+      for (int k = 0; k < 4; ++k) {
+        char& byte = changed[random() % changed.size()];
+        byte = static_cast<char>(byte ^ (1 << random() % 8));
+      }
+      feed(changed, false, tally);
+      feed(plain->substr(0, random() % plain->size()), false, tally);
+    }
+    EXPECT_GE(tally.refused, 20U) << name;
+  }
 }
 
 /// What the fuzzer starts from. TRIMTAB_WRITE_CORPUS=1 writes the files anew.

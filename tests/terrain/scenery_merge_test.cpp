@@ -48,6 +48,7 @@ Seams seamsOf(const std::vector<SceneryMesh>& meshes, const std::set<std::string
   const LocalFrame frame(middle);
   const auto lattice = terrain::toLattice(meshes, frame);
   EXPECT_TRUE(lattice) << toString(lattice.findings());
+  Seams seams;
   struct Edge {
     Lattice a, b;
     int way;
