@@ -98,6 +98,7 @@ void PatchDrawer::updateGround() {
   gl_->ground.showVoids(frame_->request.overlays.voids);
   gl_->ground.update(east / info.postLongitude.value(), north / info.postLatitude.value(),
                      frame_->request.waitForPages, kGroundBytesAFrame);
+  frame_->counters.paging.settled = frame_->counters.paging.waiting == 0 && gl_->ground.complete();
   frame_->clock.lap(before != gl_->ground.bytesUploaded() ? &FrameCost::page : &FrameCost::select);
 }
 

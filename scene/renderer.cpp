@@ -106,6 +106,7 @@ void Renderer::Impl::prepare(const FrameRequest& r, FrameInProgress& frame) {
   counters.horizon = false;
   counters.note.clear();
   counters.patches = false;
+  counters.paging.settled = true;
   view.form = formDrawn(r, database.get());
   terrain = view.form ? drawerOf(*view.form) : nullptr;
   const LocalFrame local = database ? database->index().frame : LocalFrame(r.eye);

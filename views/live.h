@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "trimtab/frame/frame.h"
 #include "trimtab/frame/static_lod_frame.h"
@@ -28,7 +29,10 @@ struct LiveFrame {
   bool patches = false;  ///< were drawn: `levels` is by their depth
   LevelsFrame levels;
   PagingFrame paging;
-  std::optional<DepthMapSize> depthMap;    ///< that was drawn this frame
+  std::optional<DepthMapSize> depthMap;  ///< that was drawn this frame
+  bool horizon = false;                  ///< served this frame
+  std::string cullingNote;               ///< why nothing served although it was asked for; empty otherwise
+  std::uint64_t cutsSelected = 0, horizonsBuilt = 0, horizonsLeftOut = 0, depthMapsDrawn = 0;  ///< so far
   std::optional<HostWeather> hostWeather;  ///< as the host, or the flight, says
   std::optional<Metres> hostVisibility;
 };

@@ -98,15 +98,6 @@ void MainWindow::connectParts() {
   viewport_->setSource([this](int widthPx, int heightPx) { return picture(widthPx, heightPx); });
   connect(viewport_, &Viewport::painted, this, &MainWindow::onPainted);
   connect(viewport_, &Viewport::cameraMoved, this, [this] { feed_.look(viewport_->camera()); });
-  connect(viewport_, &Viewport::depthMapRead, this, [this](const QImage& grey) {
-    if (grey.isNull()) return bands_->clearDepthMap();
-    using Grey = scene::Renderer::Grey;
-    bands_->showDepthMap(grey, tr("%1 × %2 px; black %3 m, white %4 km")
-                                   .arg(grey.width())
-                                   .arg(grey.height())
-                                   .arg(Grey::kNearestM)
-                                   .arg(Grey::kFurthestM / 1000));
-  });
   connect(viewport_, &Viewport::glFailed, this, [this](const QString& why) {
     messages_->add(tr("The terrain cannot be drawn"),
                    {{Severity::error, "OpenGL", "", "what the renderer needs", why.toStdString()}});

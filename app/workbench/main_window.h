@@ -33,6 +33,7 @@ class QPushButton;
 
 namespace trimtab::views {
 class BandsEditor;
+class CullingPanel;
 class MotionPanel;
 class PlotsPanel;
 class StaticLodPanel;
@@ -176,6 +177,11 @@ class MainWindow : public QMainWindow {
   /// With files and folders to begin with.
   void askBake(const QStringList& sources = {});
   LevelsFrame levelsDrawn(const scene::FrameResult& result) const;
+  // window_culling.cpp
+  views::CullingPanel* makeCullingPanel();
+  void connectCulling();
+  void showDepthMap(const QImage& grey);
+  void showPicked(std::uint32_t node);
   // window_weather.cpp
   void calibrateWeather();
 
@@ -194,6 +200,7 @@ class MainWindow : public QMainWindow {
   std::vector<Dock> docks_;
   std::vector<std::function<void(const views::LiveFrame&)>> liveDocks_;
   views::BandsEditor* bands_ = nullptr;
+  views::CullingPanel* culling_ = nullptr;
   views::PlotsPanel* plots_ = nullptr;
   views::MotionPanel* motion_ = nullptr;
   views::StaticLodPanel* staticLod_ = nullptr;
@@ -206,7 +213,7 @@ class MainWindow : public QMainWindow {
   MessagePanel* messages_ = nullptr;
   QByteArray defaultLayout_;
 
-  QList<QAction*> terrainActions_, overlayActions_;  ///< that the Terrain dock has as buttons too
+  QList<QAction*> terrainActions_, overlayActions_, cullingActions_;  ///< that docks have as buttons too
   QMenu *recentMenu_ = nullptr, *dockMenu_ = nullptr;
   QAction *freezeAction_ = nullptr, *traceAction_ = nullptr;
   QActionGroup* caseActions_ = nullptr;

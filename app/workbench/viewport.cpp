@@ -120,9 +120,34 @@ void Viewport::setNotice(const QString& text) {
   invalidate();
 }
 
-void Viewport::setDepthMapWanted(bool wanted) {
-  if (wanted && !depthMapWanted_) invalidate();
-  depthMapWanted_ = wanted;
+void Viewport::setDepthMapWanted(const QObject* who, bool wanted) {
+  if (!wanted)
+    depthMapWanted_.erase(who);
+  else if (depthMapWanted_.insert(who).second)
+    invalidate();
+}
+
+void Viewport::setPicking(bool on) {
+  picking_ = on;
+  pickAt_.reset();
+  if (on)
+    setCursor(Qt::CrossCursor);
+  else
+    unsetCursor();
+}
+
+/// Of the picture that was just drawn, which lies in the middle of the widget.
+void Viewport::readPicked(QSize picture) {
+  const QRect at = letterbox(picture, size() * devicePixelRatioF());
+  const QPointF place = *std::exchange(pickAt_, std::nullopt) * devicePixelRatioF();
+  const double across = (place.x() - at.left()) / at.width(),
+               up = (height() * devicePixelRatioF() - place.y() - at.top()) / at.height();
+  if (!(across >= 0 && across < 1 && up >= 0 && up < 1)) return;
+  const std::vector<std::uint32_t> nodes = renderer_->readNodes();
+  const std::size_t pixel =
+      static_cast<std::size_t>(up * picture.height()) * static_cast<std::size_t>(picture.width()) +
+      static_cast<std::size_t>(across * picture.width());
+  emit nodePicked(pixel < nodes.size() ? nodes[pixel] : scene::Renderer::kNoNode);
 }
 
 void Viewport::paintGL() {
@@ -182,12 +207,12 @@ void Viewport::drawPicture(const Picture& picture, int widthPx, int heightPx) {
   if (wanted == have) {
     fixedSize_.reset();
     result_ = renderer_->draw(picture.request, defaultFramebufferObject());
-    if (depthMapWanted_) readDepthMap();
+    readDepthMap();
   } else {
     if (fixedSize_ == nullptr || fixedSize_->size() != wanted)
       fixedSize_ = std::make_unique<QOpenGLFramebufferObject>(wanted);
     result_ = renderer_->draw(picture.request, fixedSize_->handle());
-    if (depthMapWanted_) readDepthMap();
+    readDepthMap();
     gl.glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
     gl.glDisable(GL_SCISSOR_TEST);
     gl.glClearColor(0, 0, 0, 1);
@@ -197,6 +222,7 @@ void Viewport::drawPicture(const Picture& picture, int widthPx, int heightPx) {
     gl.glBlitFramebuffer(0, 0, wanted.width(), wanted.height(), to.left(), to.top(), to.left() + to.width(),
                          to.top() + to.height(), GL_COLOR_BUFFER_BIT, GL_LINEAR);
   }
+  if (pickAt_) readPicked(wanted);
   gl.glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
 }
 
@@ -220,8 +246,11 @@ std::optional<Viewport::Measured> Viewport::measure(const scene::FrameRequest& r
 }
 
 void Viewport::readDepthMap() {
+  if (depthMapWanted_.empty()) return;
   if (sinceDepthMap_.isValid() && sinceDepthMap_.elapsed() < kDepthMapGapMs) return;
   sinceDepthMap_.start();
+  constexpr int kBearings = 720;
+  emit horizonRead(renderer_->readHorizon(kBearings));
   const scene::Renderer::Grey grey = renderer_->readDepthMap();
   if (grey.width <= 0 || grey.height <= 0) {
     emit depthMapRead({});
@@ -291,6 +320,10 @@ void Viewport::mousePressEvent(QMouseEvent* event) {
     setCursor(editor_->cursor(event->position()));
     return;
   }
+  if (picking_ && event->button() == Qt::LeftButton) {
+    pickAt_ = event->position();
+    return invalidate();
+  }
   lastMouse_ = event->position();
 }
 
@@ -307,7 +340,7 @@ void Viewport::mouseMoveEvent(QMouseEvent* event) {
     const QPointF from = (event->position() - pictureAt_.center()) * 2;
     emit pointed({from.x() / pictureAt_.width(), -from.y() / pictureAt_.height()});
   }
-  if (!cameraEnabled_ || !(event->buttons() & Qt::LeftButton)) return;
+  if (!cameraEnabled_ || picking_ || !(event->buttons() & Qt::LeftButton)) return;
   const QPointF moved = event->position() - lastMouse_;
   lastMouse_ = event->position();
   // The picture follows the hand: one height of the widget turns by some 36 degrees, the shipped field of

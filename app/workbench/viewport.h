@@ -8,6 +8,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
+#include <vector>
 
 #include "free_camera.h"
 #include "overlay.h"
@@ -57,8 +59,11 @@ class Viewport : public QOpenGLWidget {
   };
   /// Draws a picture that nobody sees. None without terrain or a context that can draw it.
   std::optional<Measured> measure(const scene::FrameRequest& request);
-  /// From now on `depthMapRead` tells each depth map that was drawn, at most ten a second.
-  void setDepthMapWanted(bool wanted);
+  /// From now on `depthMapRead` tells each depth map that was drawn, and `horizonRead` each horizon that
+  /// served, at most ten a second. `who` may stop wanting it without another's map.
+  void setDepthMapWanted(const QObject* who, bool wanted);
+  /// Until a node is picked, or it is called off: a click tells `nodePicked`.
+  void setPicking(bool on);
 
   const OverlayContents& overlayContents() const { return shownOverlay_; }
   const scene::GlReport& gl() const { return gl_; }
@@ -68,8 +73,11 @@ class Viewport : public QOpenGLWidget {
  signals:
   void cameraMoved();
   void pointed(QPointF place);  ///< -1..1 to the right and up, of the picture's edges
-  void painted();  ///< the picture is on the display; `lastResult` is new
+  void painted();               ///< the picture is on the display; `lastResult` is new
   void depthMapRead(const QImage& grey);
+  /// Empty where none served.
+  void horizonRead(const std::vector<float>& elevationDeg);
+  void nodePicked(std::uint32_t node);  ///< scene::Renderer::kNoNode: the sky
   void glFailed(const QString& why);
 
  protected:
@@ -88,6 +96,7 @@ class Viewport : public QOpenGLWidget {
   void releaseGl();
   void drawPicture(const Picture& picture, int widthPx, int heightPx);
   void readDepthMap();
+  void readPicked(QSize picture);
   void paintOverlays();
   void placePicture(const Picture& picture, QSize pixels);
   void report();
@@ -104,7 +113,9 @@ class Viewport : public QOpenGLWidget {
   FreeCamera camera_;
   SymbologyEditor* editor_ = nullptr;
   QRectF pictureAt_;  ///< where the last picture lies in the widget
-  bool cameraEnabled_ = true, dirty_ = false, again_ = false, depthMapWanted_ = false, pointerWanted_ = false;
+  bool cameraEnabled_ = true, dirty_ = false, again_ = false, pointerWanted_ = false, picking_ = false;
+  std::set<const QObject*> depthMapWanted_;
+  std::optional<QPointF> pickAt_;  ///< in the widget, where the next picture tells
   QPointF lastMouse_;
   QString notice_;
   QElapsedTimer sinceMove_, sinceDepthMap_, sincePaint_;

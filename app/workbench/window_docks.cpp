@@ -13,6 +13,7 @@
 #include "host_dock.h"
 #include "main_window.h"
 #include "trimtab/views/bands_editor.h"
+#include "trimtab/views/culling_panel.h"
 #include "trimtab/views/decision_panel.h"
 #include "trimtab/views/keys.h"
 #include "trimtab/views/membership_editor.h"
@@ -63,6 +64,7 @@ void MainWindow::makeDocks() {
   using enum DockPlace;
   addDock("memberships", tr("Memberships"), edit, new views::MembershipEditor(draft_));
   bands_ = addDock("depth_map", tr("Depth map"), edit, new views::BandsEditor(draft_));
+  culling_ = addDock("culling", tr("Culling"), edit, makeCullingPanel());
   addDock("rules", tr("Rules"), edit, new views::RulesPanel(draft_));
   terrainPanel_ = addDock("terrain", tr("Terrain"), edit, makeTerrainPanel());
   staticLod_ = addDock("static_lod", tr("Static LOD"), edit, new views::StaticLodPanel(draft_));
@@ -102,8 +104,7 @@ void MainWindow::makeDocks() {
     overlays_.treePicture = picture;
     viewport_->invalidate();
   });
-  connect(dock(QStringLiteral("depth_map")), &QDockWidget::visibilityChanged, viewport_,
-          &Viewport::setDepthMapWanted);
+  connectCulling();
 }
 
 void MainWindow::raiseEditorOf(const QString& key) {

@@ -134,6 +134,10 @@ void MainWindow::onPainted() {
   drainTrace(false);
   showInDocks(liveFrame());
   followErrors();
+  // What was drawn coarser for want of a page is drawn again when it may be there.
+  constexpr int kPageWaitMs = 15;
+  if (!viewport_->lastResult()->paging.settled)
+    QTimer::singleShot(kPageWaitMs, viewport_, &Viewport::invalidate);
   if (options_.afterS >= 0 && !options_.screenshot.isEmpty() && !scheduledShot_) {
     scheduledShot_ = true;
     QTimer::singleShot(static_cast<int>(options_.afterS * 1000), this, &MainWindow::takeScreenshot);
@@ -173,6 +177,12 @@ views::LiveFrame MainWindow::liveFrame() const {
     frame.symbologyDraws = last->symbologyDraws;
     frame.symbologyRedraws = last->symbologyRedraws;
     frame.staticLod = last->staticLod;
+    frame.horizon = last->horizon;
+    frame.cullingNote = last->note;
+    frame.cutsSelected = last->cutsSelected;
+    frame.horizonsBuilt = last->horizonsBuilt;
+    frame.horizonsLeftOut = last->horizonsLeftOut;
+    frame.depthMapsDrawn = last->depthMapsDrawn;
     frame.patches = last->patches;
     frame.levels = levelsDrawn(*last);
     frame.paging = last->paging;

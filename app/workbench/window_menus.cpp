@@ -19,6 +19,7 @@
 #include "flight_dock.h"
 #include "host_dock.h"
 #include "main_window.h"
+#include "trimtab/views/culling_panel.h"
 #include "trimtab/views/rules_panel.h"
 #include "trimtab/views/terrain_panel.h"
 
@@ -59,6 +60,7 @@ void MainWindow::makeMenus() {
   makeFlightMenu();
   makeHelpMenu();
   terrainPanel_->setActions(terrainActions_, overlayActions_);
+  culling_->setActions(cullingActions_);
 }
 
 void MainWindow::makeFileMenu() {
@@ -172,6 +174,8 @@ void MainWindow::makeViewMenu() {
   QAction* bounds = overlay(tr("Tile &bounds"), tr("Ctrl+2"), &scene::Overlays::tileBounds);
   QAction* byReason = overlay(tr("Colour by &reason"), tr("Ctrl+3"), &scene::Overlays::colourByReason);
   QAction* byLevel = overlay(tr("Colour by &level"), tr("Ctrl+4"), &scene::Overlays::colourByLevel);
+  QAction* voids = overlay(tr("Filled &voids"), tr("Ctrl+5"), &scene::Overlays::voids);
+  voids->setToolTip(tr("Posts that the sources leave open stand out; seen where patches are drawn"));
   // A tile has one colour.
   connect(byReason, &QAction::toggled, byLevel, [byLevel](bool on) {
     if (on) byLevel->setChecked(false);
@@ -228,7 +232,8 @@ void MainWindow::makeViewMenu() {
   }
   view->addAction(tr("Reset la&yout"), this, &MainWindow::resetLayout);
   bar->addActions({wireframe, bounds, byReason, byLevel, freezeAction_});
-  overlayActions_ = {byLevel, wireframe, bounds};
+  overlayActions_ = {byLevel, wireframe, bounds, voids};
+  cullingActions_ = {byReason, bounds, freezeAction_};
 }
 
 void MainWindow::makeFlightMenu() {

@@ -255,6 +255,19 @@ bool Horizon::covers(int side, float t0, float t1, float w) const {
   return true;
 }
 
+std::optional<double> Horizon::elevation(double x, double y) const {
+  for (int side = 0; side < kSides && !profile_.empty(); ++side) {
+    const Turned d = turned(side, static_cast<float>(x), static_cast<float>(y));
+    if (!(d.f > 0 && std::abs(d.l) <= d.f)) continue;
+    const float t = d.l / d.f;
+    const int column = std::clamp(static_cast<int>((t + 1) * perT_), 0, columns_ - 1);
+    const float w = profile_[static_cast<std::size_t>(side * columns_ + column)];
+    if (w == kNowhere) return {};
+    return std::atan2(double{w}, std::sqrt(1 + double{t} * t));
+  }
+  return {};
+}
+
 bool Horizon::blocks(Vec3 direction) const {
   for (int side = 0; side < kSides; ++side) {
     const Turned d = turned(side, static_cast<float>(direction.x), static_cast<float>(direction.y));

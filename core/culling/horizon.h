@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -68,6 +69,9 @@ class Horizon {
   /// All of the horizon, from +x by +y, -x and -y: the w of each column; very low where there is none.
   std::span<const float> profile() const { return profile_; }
   int columns() const { return columns_; }
+  /// Elevation in radians in a direction of the plan, as far as the whole of the horizon proves; none where
+  /// nothing bounds the sky.
+  std::optional<double> elevation(double x, double y) const;
   /// Whether a ray of this direction ends at the ground, as far as the whole of the horizon proves.
   bool blocks(Vec3 direction) const;
 

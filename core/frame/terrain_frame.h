@@ -22,6 +22,7 @@ struct PagingFrame {
   std::uint64_t failed = 0;                  ///< pages that could not be read: drawn coarser for good
   std::uint64_t bytes = 0, budgetBytes = 0;  ///< held now, and allowed
   double longestReadMs = 0;
+  bool settled = true;  ///< the same view drawn again would show nothing more
 };
 
 }  // namespace trimtab

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trimtab/views/culling_panel.h"
+
+#include <QAction>
+#include <QBoxLayout>
+#include <QGridLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QToolButton>
+#include <cmath>
+
+#include "trimtab/views/bar_list.h"
+#include "trimtab/views/depth_map_inset.h"
+#include "trimtab/views/horizon_inset.h"
+#include "trimtab/views/parameter_line.h"
+#include "trimtab/views/theme.h"
+
+namespace trimtab::views {
+namespace {
+
+constexpr const char* kKeys[] = {"culling.case", "culling.occlusion"};
+
+QString count(std::uint64_t n) {
+  return numberText(static_cast<double>(n), 0);
+}
+
+QString metres(double m) {
+  return m < 10000 ? CullingPanel::tr("%1 m").arg(numberText(m, m < 10 ? 2 : 0))
+                   : CullingPanel::tr("%1 km").arg(numberText(m / 1000, 1));
+}
+
+QString textOf(const PickedNode& node) {
+  const auto row = [](const QString& name, const QString& value) {
+    return QStringLiteral("<tr><td>%1&nbsp;&nbsp;</td><td>%2</td></tr>").arg(name, value);
+  };
+  QString text = QStringLiteral("<table>");
+  text += row(
+      CullingPanel::tr("Node"),
+      CullingPanel::tr("%1 %2, level %3").arg(node.form, count(node.number), QString::number(node.level)));
+  text += row(CullingPanel::tr("Reason"), node.reason);
+  text += row(CullingPanel::tr("Triangles"), count(node.triangles));
+  text += row(CullingPanel::tr("Distance"), metres(node.distanceM));
+  text += row(CullingPanel::tr("In the picture"),
+              CullingPanel::tr("%1 × %2 px").arg(numberText(node.widthPx, 0), numberText(node.heightPx, 0)));
+  text +=
+      row(CullingPanel::tr("Stated error"),
+          CullingPanel::tr("%1, %2 px seen from here").arg(metres(node.errorM), numberText(node.errorPx, 2)));
+  return text + QStringLiteral("</table>");
+}
+
+}  // namespace
+
+CullingPanel::CullingPanel(Draft& draft, QWidget* parent)
+    : QWidget(parent),
+      served_(new QLabel),
+      work_(new QLabel),
+      picked_(new QLabel),
+      reasons_(new BarList),
+      map_(new DepthMapInset),
+      horizon_(new HorizonInset),
+      overlayRow_(new QHBoxLayout),
+      pick_(new QPushButton(tr("&Pick a node"))),
+      throttle_(this, [this] { refresh(); }) {
+  for (QLabel* label : {served_, work_, picked_}) label->setWordWrap(true);
+  picked_->setTextFormat(Qt::RichText);
+  picked_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  reasons_->setAccessibleName(tr("Nodes of the cut, by why they are drawn or not"));
+  pick_->setCheckable(true);
+  pick_->setToolTip(tr("Click into the picture, and read what stands there"));
+  work_->setToolTip(tr("Since the terrain was opened. Work whose result is known is left out."));
+  connect(pick_, &QPushButton::toggled, this, &CullingPanel::pickingChanged);
+  map_->setReason(tr("The depth map, or the picture as the horizon covers it, shows here while it works."));
+
+  auto* grid = new QGridLayout;
+  int row = 0;
+  for (const char* key : kKeys) {
+    auto* line = new ParameterLine(draft, *findRow(key), *grid, row);
+    line->setParent(this);
+    line->setCompact(true);
+    lines_.push_back(line);
+    row += 2;
+  }
+  grid->setColumnStretch(1, 1);
+  connect(&draft, &Draft::findingsChanged, this, [this] {
+    for (ParameterLine* line : lines_) line->refresh();
+  });
+  connect(&draft, &Draft::valueChanged, this, [this](const QString& key) {
+    for (ParameterLine* line : lines_)
+      if (key.toStdString() == line->row().key) line->refresh();
+  });
+
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(6, 6, 6, 6);
+  layout->addLayout(grid);
+  layout->addLayout(overlayRow_);
+  layout->addWidget(new QLabel(tr("<b>Nodes of the cut, by reason</b>")));
+  layout->addWidget(reasons_);
+  layout->addWidget(served_);
+  layout->addWidget(horizon_, 2);
+  layout->addWidget(map_, 3);
+  layout->addWidget(work_);
+  auto* pickRow = new QHBoxLayout;
+  pickRow->addWidget(pick_);
+  pickRow->addStretch(1);
+  layout->addLayout(pickRow);
+  layout->addWidget(picked_);
+  showPicked(std::nullopt);
+  refresh();
+}
+
+void CullingPanel::setActions(const QList<QAction*>& overlays) {
+  for (QAction* action : overlays) {
+    auto* button = new QToolButton(this);
+    button->setDefaultAction(action);
+    button->setToolButtonStyle(Qt::ToolButtonTextOnly);
+    button->setFocusPolicy(Qt::StrongFocus);
+    overlayRow_->addWidget(button);
+  }
+  overlayRow_->addStretch(1);
+}
+
+void CullingPanel::showFrame(const LiveFrame& frame) {
+  frame_ = frame;
+  throttle_.request();
+}
+
+void CullingPanel::showMap(const QImage& image, const QString& caption) {
+  if (image.isNull())
+    map_->setReason(caption);
+  else
+    map_->setPicture(image, caption);
+}
+
+void CullingPanel::showHorizon(std::vector<float> elevationDeg, double headingDeg, double fovDeg) {
+  if (elevationDeg.empty())
+    horizon_->setReason(frame_.depthMap ? tr("The depth map serves, not the horizon.")
+                                        : tr("No horizon: nothing asks for one in this frame."));
+  else
+    horizon_->setProfile(std::move(elevationDeg), headingDeg, fovDeg);
+}
+
+void CullingPanel::showPicked(std::optional<PickedNode> node) {
+  picked_->setText(node ? textOf(*node)
+                        : tr("Nothing is picked. The sky is no node; the picture must show terrain there."));
+}
+
+bool CullingPanel::picking() const {
+  return pick_->isChecked();
+}
+
+void CullingPanel::endPicking() {
+  pick_->setChecked(false);
+}
+
+QString CullingPanel::served() const {
+  const QString note = QString::fromStdString(frame_.cullingNote);
+  if (frame_.horizon) return tr("The <b>horizon</b> serves: what the ground about the eye hides, all round.");
+  if (frame_.depthMap)
+    return tr("The <b>depth map</b> serves, %1 × %2 px.")
+        .arg(frame_.depthMap->widthPx)
+        .arg(frame_.depthMap->heightPx);
+  if (!note.isEmpty()) return tr("Nothing is looked for behind the ground: %1.").arg(note);
+  if (!frame_.decision.depthMap) return tr("The decision is plain view-frustum culling in this frame.");
+  return tr("Nothing is looked for behind the ground in this case.");
+}
+
+void CullingPanel::refresh() {
+  served_->setText(served());
+  const LiveFrame& f = frame_;
+  const double all = std::max<double>(1, static_cast<double>(f.tilesInCut));
+  const auto bar = [&](const QString& name, std::size_t nodes, const QString& more, int colour) {
+    return BarList::Bar{name,   static_cast<double>(nodes), all, count(nodes) + more, {},
+                        colour, f.tilesInCut == 0};
+  };
+  reasons_->setBars({bar(tr("drawn"), f.tilesDrawn, tr(" (%1 triangles)").arg(count(f.triangles)), 2),
+                     bar(tr("outside the frustum"), f.outsideFrustum, {}, 0),
+                     bar(tr("hidden"), f.occluded, {}, 5),
+                     bar(tr("beyond visibility"), f.beyondVisibility, {}, 3)});
+  work_->setText(tr("Cuts chosen %1, horizons built %2 and left out %3, depth maps %4.")
+                     .arg(count(f.cutsSelected), count(f.horizonsBuilt), count(f.horizonsLeftOut),
+                          count(f.depthMapsDrawn)));
+}
+
+}  // namespace trimtab::views
