@@ -58,6 +58,11 @@ class BenchScene {
   BenchScene(const BenchScene&) = delete;
   BenchScene& operator=(const BenchScene&) = delete;
   bool ready() const { return ready_; }
+  void use(std::shared_ptr<const terrain::Database> database) {
+    database_ = std::move(database);
+    offscreen_->makeCurrent();
+    renderer_.setTerrain(database_);
+  }
 
   /// Level, 2,000 ft above the ground in the middle.
   scene::FrameRequest request() const {
