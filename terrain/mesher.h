@@ -36,8 +36,8 @@ struct FieldMesh {
 
 struct MeshOptions {
   double maxErrorM = 0;           ///< insertion ends where no post is further off; 0: every post counts
-  std::size_t mostTriangles = 0;  ///< or at so many, with the least error; 0: no limit
-  bool fitHeights = true;         ///< flips edges and moves heights for a smaller RMS; the bound is kept
+  std::size_t mostTriangles = 0;  ///< or at so many, two at the least; 0: no limit
+  bool fitHeights = true;         ///< flips edges and moves vertices for a smaller RMS; the bound is kept
   unsigned threads = 1;
 };
 

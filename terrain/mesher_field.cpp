@@ -10,9 +10,9 @@ namespace {
 
 /// Refines until there are at least `enough` of `budget` triangles, never more than all of it, or the
 /// tolerance is down to `least`. The tolerance that it ended at.
-double spend(MeshTiles& tiles, double tolerance, double least, double budget, double enough, bool sample) {
+double spend(MeshTiles& tiles, double tolerance, double least, double budget, double enough, bool sample,
+             double& power) {
   double fits = HUGE_VAL, tooMany = 0, lastCount = 0, lastTolerance = 0;
-  double power = 1.5;  // triangles grow as this power of 1 / tolerance, to begin with
   for (int step = 0; step < 100; ++step) {
     tiles.refine(tolerance);
     const auto count = static_cast<double>(tiles.triangles());
@@ -25,7 +25,11 @@ double spend(MeshTiles& tiles, double tolerance, double least, double budget, do
       tolerance = fits == HUGE_VAL ? 1.02 * over : std::min(1.005 * over, 0.5 * (tolerance + fits));
       if (fits - tooMany < 1e-3 * fits) {
         // Many posts are off by the same: some of them are taken.
-        tiles.refine(fits);
+        // One step makes a little more or less of a tolerance than many did.
+        for (tiles.refine(fits); static_cast<double>(tiles.triangles()) > budget; tiles.refine(fits)) {
+          fits *= 1.005;
+          tiles.restart(sample);
+        }
         tiles.add(static_cast<std::size_t>(budget), fits);
         return fits;
       }
@@ -39,10 +43,15 @@ double spend(MeshTiles& tiles, double tolerance, double least, double budget, do
     lastTolerance = tolerance;
     // Part of the way first: the power is a guess that gets better.
     const double share = count / budget;
-    const double aim = share < 0.2 ? 3 * share : share < 0.6 ? 0.8 : share < 0.9 ? 0.965 : 0.997;
+    const double aim = share < 0.2     ? 3 * share
+                       : share < 0.6   ? 0.8
+                       : share < 0.9   ? 0.965
+                       : share < 0.985 ? 0.993
+                                       : 0.9985;
     tolerance *= std::clamp(std::pow(share / aim, 1 / power), 0.4, 0.9995);
     tolerance = std::max({tolerance, least, tooMany == 0 ? 0 : 0.5 * (fits + tooMany)});
   }
+  tiles.refine(fits);
   return fits;
 }
 
@@ -55,13 +64,13 @@ void spend(MeshTiles& tiles, const HeightField& field, double least, std::size_t
     high = std::max(high, *b);
   }
   const auto wanted = static_cast<double>(budget);
-  double tolerance = std::max(least, (static_cast<double>(high) - low) / 8);
+  double tolerance = std::max(least, (static_cast<double>(high) - low) / 8), power = 1.5;
   // Tiles that are refined in many steps have a few triangles more than those that go straight to where they
   // end: so the steps are taken by some of them.
   tiles.restart(true);
-  if (tiles.taken() < 1) tolerance = spend(tiles, tolerance, least, wanted * tiles.taken(), 0.9, true);
+  if (tiles.taken() < 1) tolerance = spend(tiles, tolerance, least, wanted * tiles.taken(), 0.9, true, power);
   tiles.restart(false);
-  spend(tiles, tolerance, least, wanted, 0.992, false);
+  spend(tiles, tolerance, least, wanted, 0.997, false, power);
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ void MeshFit::flipEdges(double bound) {
 
 bool MeshFit::gather(std::int32_t start, const Vertex& at, Star& star) {
   star = {};
-  about_.clear();
+  std::size_t count = 0;
   std::int32_t h = start;
   do {
     const Triangle& one = mesh_.triangles[static_cast<std::size_t>(h >> 2)];
@@ -124,9 +124,13 @@ bool MeshFit::gather(std::int32_t start, const Vertex& at, Star& star) {
     forEachRow(corner, border, 1, [&](const FacetRow& row) {
       const float* const z = z_ + static_cast<std::size_t>(row.y) * stride_;
       double w = static_cast<double>(Triangulation::turn(b, c, row.first, row.y)) / area, facet = row.z;
+      const std::size_t had = count;
+      count += static_cast<std::size_t>(row.last - row.first + 1);
+      if (about_.size() < count) about_.resize(2 * count);
+      About* about = &about_[had];
       for (std::int32_t x = row.first; x <= row.last; ++x) {
         const double r = z[x] - facet;
-        about_.push_back({r, w});
+        *about++ = {r, w};
         wr += w * r;
         ww += w * w;
         star.rr += r * r;
@@ -151,7 +155,9 @@ bool MeshFit::gather(std::int32_t start, const Vertex& at, Star& star) {
     h = one.twin[Triangulation::before(i)];
   } while (h != start);
   const double rv = post(z_, stride_, at) - at.z;
-  about_.push_back({rv, 1});
+  if (about_.size() <= count) about_.resize(2 * count + 1);
+  about_[count] = {rv, 1};
+  star.posts = count + 1;
   star.wr += rv;
   star.ww += 1;
   star.rr += rv * rv;
@@ -161,13 +167,15 @@ bool MeshFit::gather(std::int32_t start, const Vertex& at, Star& star) {
 
 bool MeshFit::bestHeight(const Star& star, float was, double limit, float& z, double& squares) const {
   double low = -HUGE_VAL, high = HUGE_VAL;
-  for (const About& p : about_) {
+  for (std::size_t i = 0; i < star.posts; ++i) {
+    const About& p = about_[i];
     if (p.w < 1e-9) {
       if (std::fabs(p.r) > limit) return false;
       continue;
     }
-    low = std::max(low, (p.r - limit) / p.w);
-    high = std::min(high, (p.r + limit) / p.w);
+    const double inverse = 1 / p.w;
+    low = std::max(low, (p.r - limit) * inverse);
+    high = std::min(high, (p.r + limit) * inverse);
   }
   if (low > high) return false;
   z = static_cast<float>(was + std::clamp(star.wr / star.ww, low, high));

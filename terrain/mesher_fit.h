@@ -44,6 +44,7 @@ class MeshFit {
     double rr = 0, wr = 0, ww = 0, worst = 0;
     double xx = 0, xy = 0, yy = 0, xz = 0, yz = 0, rx = 0, ry = 0;
     std::int64_t area = 0;
+    std::size_t posts = 0;
   };
   bool gather(std::int32_t start, const Triangulation::Vertex& at, Star& star);
   bool bestHeight(const Star& star, float was, double limit, float& z, double& squares) const;

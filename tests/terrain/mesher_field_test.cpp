@@ -76,7 +76,16 @@ TEST(MeshField, spendsABudgetAndNoMore) {
     SCOPED_TRACE(most);
     expectTrue(field, mesh);
     EXPECT_LE(mesh.triangles(), most);
-    EXPECT_GE(static_cast<double>(mesh.triangles()), 0.99 * static_cast<double>(most) - 2);
+    EXPECT_GE(static_cast<double>(mesh.triangles()), 0.985 * static_cast<double>(most));
+  }
+}
+
+TEST(MeshField, hasTwoTrianglesAtTheLeast) {
+  const Field field = test::fractal(250, 250, 8);
+  for (const std::size_t most : {1u, 2u, 3u, 9u}) {
+    const FieldMesh mesh = meshField(field.view(), {.mostTriangles = most});
+    expectTrue(field, mesh);
+    EXPECT_LE(mesh.triangles(), std::max<std::size_t>(most, 2));
   }
 }
 
