@@ -11,6 +11,7 @@ namespace trimtab::terrain {
 namespace {
 
 constexpr std::uint32_t kNone = PatchIndex::kNone;
+static_assert(PatchIndex::kLeafCells <= TerrainIndex::kTileCells);
 constexpr std::uint32_t kLargestRoot = 1u << 15;  ///< columns of vertices are counted in 16 bits
 
 struct Corner {
@@ -94,7 +95,8 @@ bool reaches(const PostGrid& posts, const PostGeometry& geometry, std::uint32_t 
   return static_cast<double>(widest) / 2 / PostGeometry::kStepsPerMetre + kMarginM <= PostGeometry::kReachM;
 }
 
-/// Root squares are as large as floats reach.
+/// Root squares are as large as floats reach. Posts of the smallest squares are rounded by PostGeometry so
+/// that they always do: its finest tiles are no smaller.
 std::uint32_t largestRoot(const PostGrid& posts, const PostGeometry& geometry) {
   const std::uint32_t most = std::max(posts.columns, posts.rows) - 1;
   std::uint32_t cells = PatchIndex::kLeafCells;

@@ -166,11 +166,8 @@ class PageMeasure {
                                std::max({slopes_[a], slopes_[b], slopes_[c]})));
     }
     // Vertices are moved to the lattice; the rest is for heights as floats.
-    variant.rounding = roundingM() * std::sqrt(1 + steepest * steepest) + 0.002;
+    variant.rounding = geometry_.roundingM() * std::sqrt(1 + steepest * steepest) + 0.002;
   }
-
-  double roundingM() const { return geometry_.roundingM() + std::ldexp(0.5 / 256, latticeShift()); }
-  int latticeShift() const { return 0; }
 
   void addMesh(const PatchDraft& draft) {
     PatchMesh mesh;

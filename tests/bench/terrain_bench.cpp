@@ -6,6 +6,7 @@
 
 #include "mesher_bench.h"
 #include "paging_bench.h"
+#include "patch_bench.h"
 #include "bake_bench.h"
 #include "row.h"
 #include "support.h"
@@ -127,6 +128,7 @@ int main(int argc, char** argv) {
     if (const auto mesh = terrain::readBtg(tile))
       bench::compare(report, "terrain.simplify_scenery", "tile 5168985", *mesh);
   bench::mesherRows(report);
+  bench::patchRows(report);
   bench::pagingRows(report);
   return report.finish();
 }

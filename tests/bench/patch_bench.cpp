@@ -1,0 +1,120 @@
+#include "patch_bench.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "patch_peer.h"
+#include "terrain/patch_support.h"
+#include "trimtab/culling/select_patches.h"
+#include "trimtab/terrain/post_plane.h"
+
+namespace trimtab::bench {
+namespace {
+
+using namespace terrain;
+
+void rows(Report& report, const std::string& id, const std::string& what, const HeightGrid& grid) {
+  const PostGrid& posts = grid.posts;
+  const GridHeights heights(grid);
+  const PostGeometry geometry(posts);
+  const double leafM = defaultLeafToleranceM(posts);
+  std::shared_ptr<const PatchTerrain> terrain;
+  const double seconds =
+      leastSeconds(report.quick() ? 1 : 3, [&] { terrain = buildPatches(heights, leafM); });
+  const PatchIndex& index = terrain->index();
+  report.add(
+      {.id = id + "_seconds", .what = "Building all levels of " + what, .value = seconds, .unit = "s"});
+  double bytes = 0;
+  for (std::uint32_t page = 0; page < index.pages.size(); ++page)
+    bytes += static_cast<double>(terrain->pageBytes(page));
+  report.add({.id = id + "_bytes",
+              .what = "Vertices and indices of all levels of " + what,
+              .value = bytes / static_cast<double>(posts.size()),
+              .unit = "bytes/post"});
+
+  std::vector<float> z(posts.size()), allowed(posts.size());
+  PostPlane plane(geometry, posts.columns / 2, posts.rows / 2);
+  for (std::uint32_t r = 0; r < posts.rows; ++r)
+    plane.row(0, r, 1, std::span(grid.heights).subspan(std::size_t{r} * posts.columns, posts.columns),
+              &z[std::size_t{r} * posts.columns]);
+  const HeightField field{z.data(), posts.columns, posts.rows, posts.columns};
+  const auto place = [&](std::uint32_t c, std::uint32_t r, double above) {
+    const auto p = geometry.lattice(r, c, grid.heights[std::size_t{r} * posts.columns + c] + above);
+    return Vec3{static_cast<double>(p.x) / 256, static_cast<double>(p.y) / 256,
+                static_cast<double>(p.z) / 256};
+  };
+
+  // 1280 x 720 with 60 degrees across.
+  const double pixelsPerRadian = 640 / std::tan(std::numbers::pi / 6);
+  struct Eye {
+    double column, row, aboveM;
+  };
+  double ours = 0, theirs = 0, patches = 0, worst = 0;
+  std::vector<Eye> eyes{
+      {0.5, 0.5, 600}, {0.5, 0.5, 3000}, {0.2, 0.3, 1500}, {0.8, 0.6, 6000}, {0.05, 0.05, 2000}};
+  if (report.quick()) eyes.resize(1);
+  for (const Eye& eye : eyes) {
+    const Vec3 at = place(static_cast<std::uint32_t>(eye.column * posts.columns),
+                          static_cast<std::uint32_t>(eye.row * posts.rows), eye.aboveM);
+    PatchCut cut;
+    selectPatches(index, {}, at, 1, 1, pixelsPerRadian, cut);
+    double triangles = 0;
+    for (const TileDraw& tile : cut.cut.tiles) triangles += index.triangles[tile.node][tile.coarser];
+    for (std::uint32_t r = 0; r < posts.rows; ++r)
+      for (std::uint32_t c = 0; c < posts.columns; ++c)
+        allowed[std::size_t{r} * posts.columns + c] =
+            static_cast<float>(std::max(leafM, length(place(c, r, 0) - at) / pixelsPerRadian));
+    const auto free = static_cast<double>(unconstrainedTriangles(field, allowed));
+    ours += triangles;
+    theirs += free;
+    patches += static_cast<double>(cut.cut.tiles.size());
+    worst = std::max(worst, triangles / free);
+  }
+  report.add(ratioAtMost(
+      1.25, {.id = id + "_view",
+             .what = "Triangles of views of " + what + ", 1 px at 1280 x 720, in " +
+                     std::to_string(static_cast<int>(patches / static_cast<double>(eyes.size()))) +
+                     " patches a view; worst view " + std::to_string(worst).substr(0, 4),
+             .value = ours,
+             .unit = "triangles",
+             .peer = "unconstrained greedy mesh",
+             .peerValue = theirs,
+             .peerFrom = "run"}));
+
+  // A single level has the error of its worst patch: what the peer is allowed.
+  double worstLevel = 0;
+  std::size_t levelOurs = 0, levelTheirs = 0;
+  const int depths = *std::max_element(index.depth.begin(), index.depth.end()) + 1;
+  for (int depth = depths - (report.quick() ? 1 : 6); depth < depths; ++depth) {
+    std::size_t triangles = 0;
+    for (std::uint32_t p = 0; p < index.size(); ++p)
+      if (index.depth[p] == depth) triangles += index.triangles[p][0];
+    std::fill(allowed.begin(), allowed.end(),
+              static_cast<float>(patchTolerances(index, leafM)[static_cast<std::size_t>(depth)]));
+    const std::size_t free = unconstrainedTriangles(field, allowed);
+    const double ratio = static_cast<double>(triangles) / static_cast<double>(free);
+    if (ratio > worstLevel) worstLevel = ratio, levelOurs = triangles, levelTheirs = free;
+  }
+  report.add(ratioAtMost(1.05, {.id = id + "_level",
+                                .what = "Triangles of the worst of six single levels of " + what,
+                                .value = static_cast<double>(levelOurs),
+                                .unit = "triangles",
+                                .peer = "unconstrained greedy mesh",
+                                .peerValue = static_cast<double>(levelTheirs),
+                                .peerFrom = "run"}));
+}
+
+}  // namespace
+
+void patchRows(Report& report) {
+  const std::uint32_t side = report.quick() ? 257 : 1201;
+  rows(report, "terrain.patches_fractal", "fractal ground",
+       test::fractal({10, 45, 1.0 / 1200, 1.0 / 1200, side, side}, 7));
+  if (report.quick() || !std::filesystem::exists(test::sharedDir() / "data/dem-srtm3-everest/N27E086.hgt"))
+    return;
+  rows(report, "terrain.patches_everest", "the Everest cell",
+       test::imported("data/dem-srtm3-everest/N27E086.hgt"));
+}
+
+}  // namespace trimtab::bench
