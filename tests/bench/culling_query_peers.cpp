@@ -137,7 +137,7 @@ struct QueryPeers::Impl {
     const std::string vertex =
         replaced(replaced(shaders.vertex, "gl_ModelViewProjectionMatrix *", "relativeView *"),
                  "in vec3 vertexPosition;", "uniform mat4 relativeView;\nin vec3 vertexPosition;");
-    terrain->setAttributeAndModes(makeProgram(vertex, shaders.fragment));
+    terrain->setAttributeAndModes(makeProgram(vertex, shaders.fragment.c_str()));
     terrain->setMode(GL_CULL_FACE, osg::StateAttribute::ON);
     queries = new Call({}, [this](osg::State& s) { drawByQueries(s); });
     queries->setStateSet(terrain);
