@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "trimtab/terrain/checked_rows.h"
+#include "trimtab/terrain/file_at.h"
 #include "trimtab/terrain/import.h"
 #include "trimtab/terrain/store.h"
 #include "trimtab/terrain/voids.h"
@@ -23,31 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kVoidsName = "voids.bits";
-
 Finding wrong(const fs::path& where, std::string expected, int error) {
   return {Severity::error, where.string(), "", std::move(expected), std::strerror(error)};
-}
-
-bool readAt(int file, std::uint64_t at, void* data, std::size_t size) {
-  char* to = static_cast<char*>(data);
-  while (size > 0) {
-    const ssize_t got = ::pread(file, to, size, static_cast<off_t>(at));
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return false;
-    to += got, at += static_cast<std::uint64_t>(got), size -= static_cast<std::size_t>(got);
-  }
-  return true;
-}
-bool writeAt(int file, std::uint64_t at, const void* data, std::size_t size) {
-  const char* from = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t put = ::pwrite(file, from, size, static_cast<off_t>(at));
-    if (put < 0 && errno == EINTR) continue;
-    if (put <= 0) return false;
-    from += put, at += static_cast<std::uint64_t>(put), size -= static_cast<std::size_t>(put);
-  }
-  return true;
 }
 
 /// A file of rows of equal size, for reading and writing.
@@ -351,66 +329,6 @@ Result<BakedHeights> bakeHeights(const WorkFolder& work, ElevationSource& source
 
 std::unique_ptr<ElevationSource> sourceOf(const HeightGrid& grid) {
   return std::make_unique<GridSource>(grid);
-}
-
-Result<std::unique_ptr<FileHeights>> FileHeights::open(const WorkFolder& work, const BakedHeights& heights) {
-  const fs::path file = work.database() / kHeightsName, bits = work.path() / kVoidsName;
-  const int handle = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (handle < 0) return wrong(file, "a readable file", errno);
-  int voids = -1;
-  if (heights.voids + heights.outside > 0) {
-    voids = ::open(bits.c_str(), O_RDONLY | O_CLOEXEC);
-    if (voids < 0) {
-      ::close(handle);
-      return wrong(bits, "a readable file", errno);
-    }
-  }
-  return std::unique_ptr<FileHeights>(new FileHeights(heights.posts, handle, voids));
-}
-
-FileHeights::~FileHeights() {
-  ::close(file_);
-  if (voids_ >= 0) ::close(voids_);
-}
-
-void FileHeights::read(const PostWindow& window, std::uint32_t stride, std::span<float> heights) const {
-  thread_local std::vector<float> row;
-  float* out = heights.data();
-  const std::uint32_t across = strided(window.columns, stride);
-  for (std::uint32_t r = 0; r < window.rows; r += stride, out += across) {
-    const std::uint64_t at = (std::uint64_t{window.row + r} * posts_.columns + window.column) * sizeof(float);
-    if (stride > 1) row.resize(window.columns);
-    float* to = stride > 1 ? row.data() : out;
-    if (!readAt(file_, at, to, window.columns * sizeof(float))) {
-      failed_ = true;
-      std::fill_n(to, window.columns, 0.0f);
-    }
-    if (stride > 1)
-      for (std::uint32_t c = 0; c < across; ++c) out[c] = row[std::size_t{c} * stride];
-  }
-}
-
-void FileHeights::readVoids(const PostWindow& window, std::uint32_t stride,
-                            std::span<std::uint8_t> voids) const {
-  if (voids_ < 0) {
-    std::fill(voids.begin(), voids.end(), std::uint8_t{0});
-    return;
-  }
-  thread_local std::vector<std::uint8_t> row;
-  const std::size_t rowBytes = (posts_.columns + 7) / 8;
-  const std::size_t from = window.column / 8, to = (std::size_t{window.column} + window.columns + 7) / 8;
-  row.resize(to - from);
-  std::uint8_t* out = voids.data();
-  for (std::uint32_t r = 0; r < window.rows; r += stride) {
-    if (!readAt(voids_, (window.row + r) * std::uint64_t{rowBytes} + from, row.data(), row.size())) {
-      failed_ = true;
-      std::fill(row.begin(), row.end(), std::uint8_t{0});
-    }
-    for (std::uint32_t c = 0; c < window.columns; c += stride) {
-      const std::size_t bit = window.column + c - from * 8;
-      *out++ = row[bit / 8] >> (bit % 8) & 1;
-    }
-  }
 }
 
 }  // namespace trimtab::terrain

@@ -13,6 +13,9 @@
 
 namespace trimtab::terrain {
 
+/// Of the work folder, a bit a post.
+inline constexpr const char* kVoidsName = "voids.bits";
+
 /// What is known of the heights of a bake once they are in their file.
 struct BakedHeights {
   PostGrid posts;

@@ -10,6 +10,7 @@
 #include "trimtab/terrain/ground_image.h"
 #include "trimtab/terrain/ground_paint.h"
 #include "trimtab/terrain/ground_texels.h"
+#include "trimtab/terrain/ground_tree.h"
 #include "trimtab/terrain/import.h"
 #include "trimtab/terrain/page_file.h"
 #include "trimtab/terrain/parallel.h"
@@ -19,45 +20,17 @@ namespace trimtab::terrain {
 namespace {
 
 namespace fs = std::filesystem;
+using Place = GroundPlace;
 
 constexpr std::uint32_t kTile = GroundShape::kTile;
 /// Colours are read for this level's tiles at a time, and threads take no less.
 constexpr std::uint32_t kBlockLevel = 2;
-
-struct Place {
-  std::uint32_t level = 0, column = 0, row = 0;
-};
-/// The tiles under one, from the south-west; those past the border are left out.
-std::vector<Place> below(const std::vector<GroundShape::Level>& levels, const Place& place) {
-  std::vector<Place> all;
-  const GroundShape::Level& level = levels[place.level - 1];
-  for (const std::uint32_t r : {2 * place.row, 2 * place.row + 1})
-    for (const std::uint32_t c : {2 * place.column, 2 * place.column + 1})
-      if (c < level.tileColumns() && r < level.tileRows()) all.push_back({place.level - 1, c, r});
-  return all;
-}
 
 using AddBlob = std::function<Result<Done>(std::uint64_t key, std::span<const std::byte> blob)>;
 struct Blob {
   std::uint64_t key;
   std::vector<std::byte> bytes;
 };
-using ReadTile = std::function<Result<GroundTile>(const Place&)>;
-
-Result<GroundTile> halvedFrom(const std::vector<GroundShape::Level>& levels, const Place& place,
-                              const ReadTile& read) {
-  std::array<GroundTile, 4> tiles;
-  std::array<const GroundTile*, 4> pointers{};
-  for (const Place& child : below(levels, place)) {
-    auto tile = read(child);
-    if (!tile) return tile.findings();
-    const std::size_t at = (child.row % 2) * 2 + child.column % 2;
-    tiles[at] = std::move(tile).value();
-    pointers[at] = &tiles[at];
-  }
-  return halvedGround(pointers, sizeOfGroundTile(levels[place.level], place.column, place.row));
-}
-
 /// What makes the tiles of a block, by many threads at once. Tiles are counted in levels of at least a texel
 /// a post; those that are finer than wanted (`skipped` of them) are made and not kept.
 class Blocks {
@@ -167,7 +140,7 @@ class Blocks {
       blocks.push_back(place);
       return;
     }
-    for (const Place& child : below(levels_, place)) gather(child, blocks);
+    for (const Place& child : tilesBelow(levels_, place)) gather(child, blocks);
   }
 
   /// RGBA of a block's texels of level 0, and which of them images gave.
@@ -286,7 +259,7 @@ class Top {
     const Place parent{place.level + 1, place.column / 2, place.row / 2};
     auto& waiting = waiting_[groundKey(parent.level, parent.column, parent.row)];
     waiting[groundKey(place.level, place.column, place.row)] = std::move(tile);
-    if (waiting.size() < below(levels, parent).size()) return Done{};
+    if (waiting.size() < tilesBelow(levels, parent).size()) return Done{};
     auto made = halvedFrom(levels, parent, [&](const Place& child) -> Result<GroundTile> {
       return std::move(waiting.at(groundKey(child.level, child.column, child.row)));
     });
@@ -391,65 +364,6 @@ Result<Done> buildGround(const GroundSources& sources, const fs::path& file, con
 Result<Done> buildGroundPart(const GroundSources& sources, std::uint32_t part, std::uint32_t parts,
                              const fs::path& file, const Progress& progress) {
   return buildShare(sources, part, parts, file, progress);
-}
-
-Result<Done> joinGround(std::span<const fs::path> parts, const fs::path& file, const Progress& progress) {
-  const auto refused = [](const fs::path& where, std::string expected, std::string found) {
-    return Finding{Severity::error, where.string(), "ground", std::move(expected), std::move(found)};
-  };
-  if (parts.empty()) return refused(file, "parts to join", "none");
-  std::vector<std::shared_ptr<const PageFile>> files;
-  std::optional<GroundShape> shape;
-  for (const fs::path& part : parts) {
-    auto opened = PageFile::open(part);
-    if (!opened) return opened.findings();
-    const auto blob = (*opened)->read(kGroundShapeKey);
-    if (!blob) return blob.findings();
-    auto own = unpackGroundShape(*blob);
-    if (!own) return own.findings();
-    if (!shape) shape = *own;
-    if (*own != *shape || shape->levels.empty())
-      return refused(part, "a part of the same ground as " + parts[0].string(), "another");
-    files.push_back(std::move(opened).value());
-  }
-  auto writer = PageFileWriter::create(file);
-  if (!writer) return writer.findings();
-  if (auto done = (*writer)->add(kGroundShapeKey, packGroundShape(*shape)); !done) return done;
-  double tiles = 0, written = 0;
-  for (const GroundShape::Level& level : shape->levels)
-    tiles += double{1} * level.tileColumns() * level.tileRows();
-  // Children before their parents, as they are built.
-  const std::function<Result<GroundTile>(const Place&, bool)> join = [&](const Place& place,
-                                                                         bool wanted) -> Result<GroundTile> {
-    const std::uint64_t key = groundKey(place.level, place.column, place.row);
-    if (progress && !progress(std::min(written++ / tiles, 1.0), "joining the ground's colours"))
-      return cancelled("joining the ground's colours");
-    const auto part = std::find_if(files.begin(), files.end(), [&](const auto& f) { return f->has(key); });
-    if (part == files.end() && place.level == 0)
-      return refused(file, "all parts of the ground",
-                     "none with tile " + std::to_string(place.column) + ", " + std::to_string(place.row));
-    auto tile = Result<GroundTile>(GroundTile{});
-    std::vector<std::byte> blob;
-    if (part == files.end()) {
-      tile = halvedFrom(shape->levels, place, [&](const Place& child) { return join(child, true); });
-      if (!tile) return tile;
-      blob = packGroundTile(*tile);
-    } else {
-      if (place.level > 0)
-        for (const Place& child : below(shape->levels, place))
-          if (auto joined = join(child, false); !joined) return joined;
-      const auto bytes = (*part)->read(key);
-      if (!bytes) return bytes.findings();
-      blob.assign(bytes->begin(), bytes->end());
-      if (wanted) tile = unpackGroundTile(blob);
-      if (!tile) return tile;
-    }
-    if (auto done = (*writer)->add(key, blob); !done) return done.findings();
-    return tile;
-  };
-  const Place root{static_cast<std::uint32_t>(shape->levels.size()) - 1, 0, 0};
-  if (auto done = join(root, false); !done) return done.findings();
-  return (*writer)->finish();
 }
 
 Result<std::shared_ptr<const GroundPyramid>> buildGroundInMemory(const GroundSources& sources,

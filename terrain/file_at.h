@@ -1,0 +1,33 @@
+#pragma once
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstddef>
+#include <cstdint>
+
+namespace trimtab::terrain {
+
+/// All of it, or false with errno set, or 0 at the file's end.
+inline bool readAt(int file, std::uint64_t at, void* data, std::size_t size) {
+  char* to = static_cast<char*>(data);
+  while (size > 0) {
+    const ssize_t got = ::pread(file, to, size, static_cast<off_t>(at));
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    to += got, at += static_cast<std::uint64_t>(got), size -= static_cast<std::size_t>(got);
+  }
+  return true;
+}
+inline bool writeAt(int file, std::uint64_t at, const void* data, std::size_t size) {
+  const char* from = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t put = ::pwrite(file, from, size, static_cast<off_t>(at));
+    if (put < 0 && errno == EINTR) continue;
+    if (put <= 0) return false;
+    from += put, at += static_cast<std::uint64_t>(put), size -= static_cast<std::size_t>(put);
+  }
+  return true;
+}
+
+}  // namespace trimtab::terrain
