@@ -258,6 +258,10 @@ std::vector<float> Renderer::readHorizon(int samples) {
   return elevations;
 }
 
+Findings Renderer::pageFailures() const {
+  return impl_->patches.failures();
+}
+
 void Renderer::plant(const Defects& defects) {
   for (TerrainDrawer* form : impl_->forms()) form->plant(defects);
 }

@@ -228,6 +228,7 @@ class MainWindow : public QMainWindow {
   std::optional<TraceWriter> trace_;
   std::vector<TraceRow> traceRows_;
   std::uint64_t traceCount_ = 0;
+  std::uint64_t pagesFailed_ = 0;  ///< of the terrain, that the Messages dock has told of
   QString saidOfFlight_;               ///< why the results' times mean nothing in the open flight
   QString traceFile_, recordedTrace_;  ///< being written; the last one that is whole
   FrameCost lastCost_;

@@ -69,6 +69,8 @@ class Viewport : public QOpenGLWidget {
   const scene::GlReport& gl() const { return gl_; }
   std::uint64_t paints() const { return paints_; }
   const std::optional<scene::FrameResult>& lastResult() const { return result_; }
+  /// Pages of the terrain that could not be read.
+  Findings pageFailures() const { return renderer_ ? renderer_->pageFailures() : Findings{}; }
 
  signals:
   void cameraMoved();

@@ -134,6 +134,12 @@ void MainWindow::onPainted() {
   drainTrace(false);
   showInDocks(liveFrame());
   followErrors();
+  if (const std::uint64_t failed = viewport_->lastResult()->paging.failed; failed != pagesFailed_) {
+    if (failed > pagesFailed_)
+      messages_->add(tr("The terrain stays coarser where its pages cannot be read"),
+                     viewport_->pageFailures());
+    pagesFailed_ = failed;
+  }
   // What was drawn coarser for want of a page is drawn again when it may be there.
   constexpr int kPageWaitMs = 15;
   if (!viewport_->lastResult()->paging.settled)
