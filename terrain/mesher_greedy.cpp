@@ -54,6 +54,7 @@ void GreedyMesh::begin(const HeightField& field, std::span<const Point> border,
   }
   mesh_.fillPolygon();
   error_.assign(mesh_.triangles.size(), kUnknown);
+  squares_.assign(mesh_.triangles.size(), 0);
   unknown_ = true;
 }
 
@@ -65,6 +66,7 @@ std::uint32_t GreedyMesh::addBorder(std::uint32_t from, Point at) {
   mesh_.vertices.push_back({x, y, row(y / step_)[x / step_]});
   mesh_.splitBorder(from, v);
   error_.resize(mesh_.triangles.size());
+  squares_.resize(mesh_.triangles.size());
   // All that changed is about v, from one side of it on the border to the other.
   std::int32_t h = 4 * (mesh_.borderEdge[v] >> 2) + 2;
   while (h >= 0) {
@@ -77,7 +79,7 @@ std::uint32_t GreedyMesh::addBorder(std::uint32_t from, Point at) {
 
 void GreedyMesh::scan(std::int32_t t) {
   const Facet facet = facetOf(mesh_, t);
-  double worst = 0;
+  double worst = 0, squares = 0;
   std::int32_t worstX = 0, worstY = 0;
   forEachRow(facet.corner, facet.border, step_, [&](const FacetRow& r) {
     const float* const z = row(r.y);
@@ -89,6 +91,7 @@ void GreedyMesh::scan(std::int32_t t) {
         worstX = x;
         worstY = r.y;
       }
+      squares += off * off;
       at += r.slope;
     }
   });
@@ -97,6 +100,7 @@ void GreedyMesh::scan(std::int32_t t) {
   one.postX = worstX;
   one.postY = worstY;
   error_[static_cast<std::size_t>(t)] = worst;
+  squares_[static_cast<std::size_t>(t)] = worst == 0 ? 0 : squares;
   if (worst > tolerance_) queue_.put(t, worst);
 }
 
@@ -130,6 +134,7 @@ void GreedyMesh::refine(double tolerance, std::size_t mostVertices) {
     mesh_.vertices.push_back({x, y, z});
     const std::int32_t about = mesh_.insert(t, v);
     error_.resize(mesh_.triangles.size());
+    squares_.resize(mesh_.triangles.size());
     scanAbout(about);
   }
 }
@@ -183,10 +188,14 @@ void GreedyMesh::eachInnerPost(const Visit& visit) const {
 }
 
 double GreedyMesh::rmsErrorM() const {
+  if (unknown_) {
+    GreedyMesh copy(*this);
+    copy.refine(HUGE_VAL, 0);
+    return copy.rmsErrorM();
+  }
   double sum = 0;
-  const auto add = [&](double off) { sum += off * off; };
-  eachBorderPost(add);
-  eachInnerPost(add);
+  eachBorderPost([&](double off) { sum += off * off; });
+  for (const double squares : squares_) sum += squares;
   return std::sqrt(sum / static_cast<double>(std::max<std::uint64_t>(posts(), 1)));
 }
 

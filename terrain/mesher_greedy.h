@@ -43,7 +43,8 @@ class GreedyMesh {
 
   Triangulation mesh_;
   ErrorQueue queue_;
-  std::vector<double> error_;  ///< one a triangle, largest at its posts
+  std::vector<double> error_;    ///< one a triangle, largest at its posts
+  std::vector<double> squares_;  ///< their sum, one a triangle
   std::vector<Point> points_;
   const float* z_ = nullptr;  ///< of the origin
   std::size_t stride_ = 0;

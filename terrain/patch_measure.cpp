@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "trimtab/terrain/patch_bend.h"
 #include "trimtab/terrain/patch_page.h"
 #include "trimtab/terrain/patch_scan.h"
 
@@ -12,76 +12,12 @@ namespace {
 
 constexpr std::int64_t kStepsPerOrigin = 16 * PostGeometry::kStepsPerMetre;
 constexpr std::size_t kVariants = PatchIndex::kVariants;
-constexpr double kRadian = std::numbers::pi / 180;
-/// No post is further from the earth's middle, and no radius of curvature is longer.
-constexpr double kFarthestM = 6.42e6;
-/// Columns meet at a pole. Nothing that close to it is drawn apart.
-constexpr double kShortestM = 0.01;
 constexpr std::size_t kStripPosts = std::size_t{1} << 20;
-
-/// What turns distances along the page's plane's normal into distances along the vertical.
-///
-/// Let a triangle have posts P_i, a post S in it, over columns and rows, the weights w_i, and let D be S less
-/// the sum of w_i P_i. Along the vertical of S the triangle's plane is off by t = D.N / up.N: with heights h,
-/// (h_S - sum w_i h_i) + D'_up - slope x D'_h, where D' is D without the difference of heights: the bend of
-/// rows and columns. The page's plane, whose normal leans by at most `lean`, shows (t + slope x D'_h)
-/// cos(lean)
-/// + D'_h sin(lean). So |t| <= shown / cos(lean) + (slope + tan(lean)) |D'_h|. The mean of the squares of the
-/// corners' distances is at most a quarter of the extent's square, so the second derivatives of a place by
-/// longitude and latitude, along the ground, bound D'_h; corners of different height add their verticals'
-/// angles. Where the vertical of S meets the triangle beside, that one's slope counts.
-class VerticalBound {
- public:
-  VerticalBound(const PostGrid& posts, const PostGeometry& geometry, const PostWindow& window)
-      : posts_(posts), geometry_(geometry) {
-    for (const std::uint32_t r : {window.row, window.row + window.rows - 1}) {
-      const double latitude = posts.latitude(r) * kRadian;
-      sine_ = std::max(sine_, std::abs(std::sin(latitude)));
-      cosine_ = std::max(cosine_, std::cos(latitude));
-    }
-    if (posts.latitude(window.row) < 0 && posts.latitude(window.row + window.rows - 1) > 0) cosine_ = 1;
-    const double wide = window.columns * posts.stepLongitude * kRadian * cosine_,
-                 high = window.rows * posts.stepLatitude * kRadian;
-    const double lean = std::min(1.5, 0.51 * std::hypot(wide, high) + 1e-6);
-    cosLean_ = std::cos(lean);
-    tanLean_ = std::tan(lean);
-  }
-  double cosLean() const { return cosLean_; }
-
-  double slope(const ScanTriangle& triangle) const {
-    const auto first = static_cast<std::uint32_t>(triangle.firstRow()),
-               last = static_cast<std::uint32_t>(triangle.lastRow());
-    const double columnM = std::max(kShortestM, std::min(geometry_.columnM(first), geometry_.columnM(last)));
-    const double rowM = std::min(geometry_.rowM(first), geometry_.rowM(last));
-    const double x = triangle.byColumn() / columnM, y = triangle.byRow() / rowM;
-    return (std::sqrt(x * x + y * y) + tanLean_) * 1.02;
-  }
-  /// What the bend adds to a triangle of so many columns and rows.
-  double bend(double columns, double rows, double rise, double slope) const {
-    const double lon = columns * posts_.stepLongitude * kRadian, lat = rows * posts_.stepLatitude * kRadian;
-    const double angle = std::sqrt(lon * cosine_ * (lon * cosine_) + lat * lat);
-    const double sideways =
-        kFarthestM / 8 *
-            (cosine_ * (sine_ + angle) * lon * lon + 2 * sine_ * lon * lat + (0.011 + angle) * lat * lat) +
-        rise * angle / 2;
-    return sideways * (slope + tanLean_);
-  }
-  /// Of a patch: no surface over it is further from a post of it than its heights are apart.
-  double most(double columns, double rows, double rise) const {
-    const double lon = columns * posts_.stepLongitude * kRadian, lat = rows * posts_.stepLatitude * kRadian;
-    return rise + kFarthestM / 8 * (cosine_ * lon * lon + 2 * sine_ * lon * lat + lat * lat);
-  }
-
- private:
-  const PostGrid& posts_;
-  const PostGeometry& geometry_;
-  double sine_ = 0, cosine_ = 0, cosLean_ = 0, tanLean_ = 0;
-};
 
 struct VariantMeasure {
   double worst = 0, bilinear = 0, squares = 0;
   std::uint64_t posts = 0;
-  double bend = 0, rounding = 0;
+  double bend = 0;
 };
 
 struct PatchMeasure {
@@ -89,6 +25,7 @@ struct PatchMeasure {
   std::uint32_t firstRow = 0, lastRow = 0, firstColumn = 0, lastColumn = 0;
   float lowest = std::numeric_limits<float>::max(), highest = -std::numeric_limits<float>::max();
   std::uint32_t posts = 0, voids = 0;
+  double rounding = 0;
 };
 
 class PageMeasure {
@@ -128,45 +65,47 @@ class PageMeasure {
       patch.firstColumn = std::min(patch.firstColumn, e.from.column);
       patch.lastColumn = std::max(patch.lastColumn, e.from.column);
     }
-    for (std::size_t v = 0; v < kVariants; ++v) bends(draft, draft.variants[v].triangles, patch.variants[v]);
+    bends(draft, patch);
     addMesh(draft);
   }
 
-  static ScanVertex vertexOf(const PatchDraft& draft, std::uint32_t v) {
-    return {static_cast<std::int32_t>(draft.vertices[v].column),
-            static_cast<std::int32_t>(draft.vertices[v].row), draft.z[v]};
+  /// Calls `work(t, corners)` for the triangles of a variant that the next finer one does not have: most stay
+  /// where they were. So everything that is a maximum is taken from the finest variant on, and never falls.
+  template <class Work>
+  static void eachNew(const PatchDraft& draft, std::size_t v, const Work& work) {
+    const std::vector<std::uint32_t>& triangles = draft.variants[v].triangles;
+    const std::uint32_t* const finer = v == 0 ? nullptr : draft.variants[v - 1].triangles.data();
+    for (std::size_t t = 0; t < triangles.size(); t += 3) {
+      const std::uint32_t* const c = &triangles[t];
+      if (finer != nullptr && c[0] == finer[t] && c[1] == finer[t + 1] && c[2] == finer[t + 2]) continue;
+      work(t / 3, c);
+    }
   }
 
-  /// What is not seen in heights above the plane.
-  void bends(const PatchDraft& draft, const std::vector<std::uint32_t>& triangles, VariantMeasure& variant) {
-    slopes_.assign(draft.vertices.size(), 0.0f);
-    double steepest = 0;
-    for (std::size_t t = 0; t < triangles.size(); t += 3) {
-      const ScanTriangle triangle(vertexOf(draft, triangles[t]), vertexOf(draft, triangles[t + 1]),
-                                  vertexOf(draft, triangles[t + 2]));
-      const double slope = bound_.slope(triangle);
-      steepest = std::max(steepest, slope);
-      for (std::size_t k = 0; k < 3; ++k) {
-        double& at = slopes_[triangles[t + k]];
-        at = std::max(at, slope);
-      }
-    }
-    for (std::size_t t = 0; t < triangles.size(); t += 3) {
-      const std::uint32_t a = triangles[t], b = triangles[t + 1], c = triangles[t + 2];
-      const auto extent = [](auto p, auto q, auto r) {
-        const auto [low, high] = std::minmax({p, q, r});
-        return static_cast<double>(high - low);
-      };
-      const double columns =
-                       extent(draft.vertices[a].column, draft.vertices[b].column, draft.vertices[c].column),
-                   rows = extent(draft.vertices[a].row, draft.vertices[b].row, draft.vertices[c].row);
-      variant.bend =
-          std::max(variant.bend,
-                   bound_.bend(columns, rows, extent(draft.heights[a], draft.heights[b], draft.heights[c]),
-                               std::max({slopes_[a], slopes_[b], slopes_[c]})));
+  /// What is not seen in heights above the plane. A vertex's slope is that of the steepest triangle about it
+  /// in any variant.
+  void bends(const PatchDraft& draft, PatchMeasure& patch) {
+    slopes_.assign(draft.vertices.size(), 0.0);
+    for (std::size_t v = 0; v < kVariants; ++v)
+      eachNew(draft, v, [&](std::size_t, const std::uint32_t* c) {
+        const double steep = bound_.steepness(draft, c);
+        for (std::size_t k = 0; k < 3; ++k) slopes_[c[k]] = std::max(slopes_[c[k]], steep);
+      });
+    const double steepest = *std::max_element(slopes_.begin(), slopes_.end());
+    const double mostLean = bound_.leaning(steepest);
+    double worst = 0;
+    for (std::size_t v = 0; v < kVariants; ++v) {
+      eachNew(draft, v, [&](std::size_t, const std::uint32_t* c) {
+        const VerticalBound::Extent extent = bound_.extent(draft, c);
+        if (bound_.atMostSideways(extent) * mostLean <= worst) return;
+        const double about = std::max({slopes_[c[0]], slopes_[c[1]], slopes_[c[2]]});
+        worst = std::max(worst, bound_.sideways(extent) * bound_.leaning(about));
+      });
+      patch.variants[v].bend = worst;
     }
     // Vertices are moved to the lattice; the rest is for heights as floats.
-    variant.rounding = geometry_.roundingM() * std::sqrt(1 + steepest * steepest) + 0.002;
+    const double slope = bound_.slope(steepest);
+    patch.rounding = geometry_.roundingM() * std::sqrt(1 + slope * slope) + 0.002;
   }
 
   void addMesh(const PatchDraft& draft) {
@@ -250,7 +189,7 @@ class PageMeasure {
     if (patch.firstRow >= end_ || patch.lastRow < row_) return;
     posts(draft, patch);
     normals(draft, built_.meshes.patches[i]);
-    for (std::size_t v = 0; v < kVariants; ++v) errors(draft, draft.variants[v].triangles, patch.variants[v]);
+    errors(draft, patch);
   }
 
   /// Columns of a patch's posts in a row, both ends included.
@@ -297,7 +236,7 @@ class PageMeasure {
                           east = std::min(p.column + 1, index_.columns - 1),
                           south = p.row - (p.row > 0 ? 1 : 0), north = std::min(p.row + 1, index_.rows - 1);
       const double x = (raw_[at(east, p.row)] - raw_[at(west, p.row)]) /
-                       std::max(kShortestM, (east - west) * geometry_.columnM(p.row));
+                       std::max(VerticalBound::kShortestM, (east - west) * geometry_.columnM(p.row));
       const double y =
           (raw_[at(p.column, north)] - raw_[at(p.column, south)]) / ((north - south) * geometry_.rowM(p.row));
       const Vec3 normal = geometry_.normal(p.row, p.column, x, y);
@@ -308,33 +247,41 @@ class PageMeasure {
     }
   }
 
-  void errors(const PatchDraft& draft, const std::vector<std::uint32_t>& triangles, VariantMeasure& variant) {
+  void errors(const PatchDraft& draft, PatchMeasure& patch) {
     const PostStrip strip{z_.data(), block_.columns, static_cast<std::int32_t>(block_.column),
                           static_cast<std::int32_t>(block_.row)};
     const auto first = static_cast<std::int32_t>(row_), end = static_cast<std::int32_t>(end_);
     const auto last = std::min(end, static_cast<std::int32_t>(block_.row + block_.rows) - 1);
     const auto borders = static_cast<std::uint32_t>(draft.border);
-    const double cosLean = bound_.cosLean();
-    for (std::size_t t = 0; t < triangles.size(); t += 3) {
-      const std::array<ScanVertex, 3> corners{vertexOf(draft, triangles[t]),
-                                              vertexOf(draft, triangles[t + 1]),
-                                              vertexOf(draft, triangles[t + 2])};
-      const auto [low, high] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
-      if (high < first || low >= end) continue;
-      if (stride_ != 1) {
-        ScanResult result;
-        const ScanTriangle triangle(corners[0], corners[1], corners[2]);
-        triangle.scan(strip, std::max(low, first), std::min(high, last), end, result);
-        variant.squares += result.squares;
-        variant.posts += result.posts;
-        variant.worst = std::max(variant.worst, result.worst / cosLean);
-      }
-      // Each edge once: the triangle on its other side has it the other way round.
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t from = triangles[t + k], to = triangles[k == 2 ? t : t + k + 1];
-        if (from < to || (to == 0 && from + 1 == borders))
-          variant.bilinear =
-              edgeError(corners[k], corners[k == 2 ? 0 : k + 1], strip, first, last, variant.bilinear);
+    corners_.clear();
+    for (std::size_t i = 0; i < draft.vertices.size(); ++i)
+      corners_.push_back({static_cast<std::int32_t>(draft.vertices[i].column),
+                          static_cast<std::int32_t>(draft.vertices[i].row), draft.z[i]});
+    if (stride_ != 1) scanned_.assign(draft.variants[0].triangles.size() / 3, {});
+    double worst = 0, bilinear = 0;
+    for (std::size_t v = 0; v < kVariants; ++v) {
+      eachNew(draft, v, [&](std::size_t t, const std::uint32_t* c) {
+        // Each edge once: the triangle on its other side has it the other way round, and is new as well.
+        for (std::size_t k = 0; k < 3; ++k) {
+          const std::uint32_t from = c[k], to = c[k == 2 ? 0 : k + 1];
+          if (from < to || (to == 0 && from + 1 == borders))
+            bilinear = edgeError(corners_[from], corners_[to], strip, first, last, bilinear);
+        }
+        if (stride_ == 1) return;
+        scanned_[t] = {};
+        const ScanTriangle triangle(corners_[c[0]], corners_[c[1]], corners_[c[2]]);
+        const std::int32_t low = std::max(triangle.firstRow(), first),
+                           high = std::min(triangle.lastRow(), last);
+        if (low < end) triangle.scan(strip, low, high, end, scanned_[t]);
+        worst = std::max(worst, scanned_[t].worst);
+      });
+      VariantMeasure& variant = patch.variants[v];
+      variant.worst = std::max(variant.worst, worst);
+      variant.bilinear = std::max(variant.bilinear, bilinear);
+      if (stride_ == 1) continue;
+      for (std::size_t t = 0; t < draft.variants[v].triangles.size() / 3; ++t) {
+        variant.squares += scanned_[t].squares;
+        variant.posts += scanned_[t].posts;
       }
     }
   }
@@ -353,9 +300,9 @@ class PageMeasure {
       const VariantMeasure& variant = patch.variants[v];
       const bool measured = stride_ != 1;
       const double shown = measured ? variant.worst : draft.variants[v].worst;
-      const double worst = std::min(shown / bound_.cosLean() + variant.bend, most) + variant.rounding,
+      const double worst = std::min(shown / bound_.cosLean() + variant.bend, most) + patch.rounding,
                    between =
-                       std::min(variant.bilinear / bound_.cosLean() + variant.bend, most) + variant.rounding;
+                       std::min(variant.bilinear / bound_.cosLean() + variant.bend, most) + patch.rounding;
       errorM[v] = up(worst);
       facts.bilinearErrorM[v] = up(std::max(worst, between));
       facts.rmsErrorM[v] = static_cast<float>(
@@ -386,7 +333,9 @@ class PageMeasure {
   VerticalBound bound_;
   std::vector<PatchMeasure> patches_;
 
-  std::vector<double> slopes_;  ///< one a vertex: of the steepest triangle about it
+  std::vector<double> slopes_;  ///< one a vertex: steepness of the steepest triangle about it
+  std::vector<ScanVertex> corners_;
+  std::vector<ScanResult> scanned_;  ///< one a triangle
 
   // The strip.
   std::uint32_t row_ = 0, end_ = 0;
