@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <fstream>
+#include <string_view>
 #include <thread>
 
 #include "trimtab/terrain/bake_heights.h"
@@ -26,11 +29,35 @@ Finding refused(const fs::path& where, std::string expected, std::string found) 
   return {Severity::error, where.string(), "", std::move(expected), std::move(found)};
 }
 
+/// A database of ours, by the beginning of its manifest (a damaged one may be baked again), and nothing
+/// beside it that a database does not hold.
+bool holdsNothingElse(const fs::path& folder) {
+  constexpr std::array<std::string_view, 10> kNames = {
+      kManifestName, kHeightsName, kHeightSumsName, kImageName,  kImageSumsName,
+      kNodesName,    kSlopesName,  kPatchesName,    kGroundName, kStaticLodName};
+  constexpr std::string_view kBegins = "{\n  \"format\": \"trimtab-terrain\"";
+  std::string begins(kBegins.size(), 0);
+  std::ifstream(folder / kManifestName, std::ios::binary)
+      .read(begins.data(), static_cast<std::streamsize>(begins.size()));
+  if (begins != kBegins) return false;
+  std::error_code error;
+  for (auto entry = fs::directory_iterator(folder, error); !error && entry != fs::directory_iterator();
+       entry.increment(error)) {
+    std::error_code unseen;
+    if (!fs::is_regular_file(entry->symlink_status(unseen)) ||
+        std::find(kNames.begin(), kNames.end(), entry->path().filename().string()) == kNames.end())
+      return false;
+  }
+  return !error;
+}
+
 /// Only a database or an empty folder may be replaced.
 bool mayReplace(const fs::path& output) {
   std::error_code error;
-  return !fs::exists(output, error) || isDatabase(output) ||
-         (fs::is_directory(output, error) && fs::is_empty(output, error));
+  const fs::file_status there = fs::symlink_status(output, error);
+  if (there.type() == fs::file_type::not_found) return true;
+  return fs::is_directory(output, error) && (fs::is_empty(output, error) || holdsNothingElse(output)) &&
+         !error;
 }
 
 /// An image over the colours of materials: those stay where it has nothing.
@@ -82,13 +109,17 @@ class Job {
   }
   void keep(const Findings& findings) { findings_.insert(findings_.end(), findings.begin(), findings.end()); }
 
+  Result<Done> mayTakePlace() const {
+    if (mayReplace(output_)) return Done{};
+    return refused(output_, "a new folder, an empty one or a terrain database with nothing beside it",
+                   "something else, left as it is");
+  }
+
   /// Everything up to the heights in their file.
   Result<Done> begin(bool shared) {
     if (options_.sources.empty()) return refused("bake", "at least one elevation file", "none");
     if (output_.empty()) return refused("bake", "an output folder", "none");
-    if (!mayReplace(output_))
-      return refused(output_, "a new folder, an empty one or a terrain database",
-                     "something else, left as it is");
+    if (auto may = mayTakePlace(); !may) return may;
     const auto files = sourceFiles(options_.sources);
     if (!files) return files.findings();
     recipe_ = recipeOf(options_, *files);
@@ -282,6 +313,8 @@ class Job {
         !written)
       return written;
     if (!stage(0.99, 1)(1, "writing")) return cancelled(output_.string());
+    // Whoever put something there meanwhile keeps it.
+    if (auto may = mayTakePlace(); !may) return may;
     return work_->finish(output_);
   }
 

@@ -116,6 +116,26 @@ TEST_F(Bake, keepsTheOldDatabaseWhenTheNewOneFails) {
   EXPECT_TRUE(Database::open(dir_ / "db"));
 }
 
+TEST_F(Bake, replacesADatabaseOfVersionOne) {
+  fs::copy(test::sourceDir() / "tests/data/terrain/version-1", dir_ / "db");
+  ASSERT_TRUE(bake(options_));
+  EXPECT_TRUE(fs::exists(dir_ / "db/patches.pages"));
+}
+
+TEST_F(Bake, leavesWhatSomebodyPutThereMeanwhile) {
+  ASSERT_TRUE(bake(options_));
+  options_.progress = [&](double, const std::string& what) {
+    if (what == "writing") test::writeFile(dir_ / "db/letter.txt", "dear");
+    return true;
+  };
+  EXPECT_FALSE(bake(options_));
+  EXPECT_EQ(test::readFile(dir_ / "db/letter.txt"), "dear");
+  EXPECT_TRUE(Database::open(dir_ / "db"));
+  fs::remove(dir_ / "db/letter.txt");
+  options_.progress = nullptr;
+  EXPECT_TRUE(bake(options_));
+}
+
 TEST_F(Bake, replacesADatabaseButNothingElse) {
   ASSERT_TRUE(bake(options_));
   ASSERT_TRUE(bake(options_));
@@ -124,6 +144,19 @@ TEST_F(Bake, replacesADatabaseButNothingElse) {
   options_.output = dir_ / "mine";
   ASSERT_FALSE(bake(options_));
   EXPECT_EQ(test::readFile(dir_ / "mine/letter.txt"), "dear");
+  // A manifest of something else, or a file that no database holds, beside one of ours.
+  for (const char* other : {"{\n  \"format\": \"web-app\"\n}", "{}", ""}) {
+    test::writeFile(dir_ / "mine/manifest.json", other);
+    EXPECT_FALSE(bake(options_)) << other;
+    EXPECT_EQ(test::readFile(dir_ / "mine/manifest.json"), other);
+  }
+  fs::copy(dir_ / "db/manifest.json", dir_ / "mine/manifest.json", fs::copy_options::overwrite_existing);
+  EXPECT_FALSE(bake(options_));
+  EXPECT_EQ(test::readFile(dir_ / "mine/letter.txt"), "dear");
+  fs::remove(dir_ / "mine/letter.txt");
+  fs::create_directory(dir_ / "mine/heights.f32");
+  EXPECT_FALSE(bake(options_));
+  EXPECT_EQ(test::namesIn(dir_ / "mine"), (std::vector<std::string>{"heights.f32", "manifest.json"}));
   options_.output = source_;
   ASSERT_FALSE(bake(options_));
   EXPECT_TRUE(fs::is_regular_file(source_));
