@@ -87,8 +87,8 @@ QVariant TerrainLevelsModel::headerData(int section, Qt::Orientation orientation
       {QT_TR_NOOP("Max (m)"),
        QT_TR_NOOP("Largest vertical distance from the source at its posts: guaranteed, and never less than a "
                   "finer level's")},
-      {QT_TR_NOOP("RMS (m)"), QT_TR_NOOP("Root mean square of the vertical distance at the posts, of the "
-                                         "node where it is largest")},
+      {QT_TR_NOOP("RMS (m)"), QT_TR_NOOP("Root mean square of the vertical distance, over all posts of "
+                                         "the level")},
       {QT_TR_NOOP("Surface (m)"),
        QT_TR_NOOP("Largest vertical distance from the bilinear surface between the posts, measured")},
       {QT_TR_NOOP("MB"), QT_TR_NOOP("On disk; – where meshes are made when they are drawn")},

@@ -200,7 +200,14 @@ void TerrainPanel::refresh() {
       tr("In memory %1 of %2; read %3 pages, %4; longest read %5 ms.")
           .arg(megabytes(p.bytes), megabytes(p.budgetBytes), numberText(static_cast<double>(p.pagesRead), 0),
                megabytes(p.bytesRead), numberText(p.longestReadMs, 1));
-  if (p.heldBack > 0)
+  if (p.failed > 0)
+    text += QLatin1Char(' ') +
+            tr("%1 pages cannot be read: see Messages.").arg(numberText(static_cast<double>(p.failed), 0));
+  if (p.heldBack > 0 && p.waiting == 0)
+    text += QLatin1Char(' ') + tr("%1 pairs of patches are drawn coarser than asked for: the memory allowed "
+                                  "holds no more.")
+                                   .arg(numberText(static_cast<double>(p.heldBack), 0));
+  else if (p.heldBack > 0)
     text += QLatin1Char(' ') + tr("%1 pairs of patches are drawn coarser than asked for until %2 more pages "
                                   "are there.")
                                    .arg(numberText(static_cast<double>(p.heldBack), 0),

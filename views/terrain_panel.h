@@ -26,7 +26,7 @@ class TerrainLevelsModel;
 struct TerrainLevel {
   std::uint64_t nodes = 0, triangles = 0;  ///< of all nodes, each by its finest mesh
   std::uint64_t bytes = 0;                 ///< on disk; 0: made when it is drawn
-  double maxErrorM = 0, rmsErrorM = 0;     ///< at the posts; largest of its nodes. NaN: not measured
+  double maxErrorM = 0, rmsErrorM = 0;     ///< at the posts: the largest, and over all. NaN: not measured
   double surfaceErrorM = 0;                ///< largest over the surface between the posts; NaN likewise
 };
 

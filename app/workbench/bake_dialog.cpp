@@ -92,7 +92,7 @@ BakeDialog::BakeDialog(QWidget* parent)
   error_->setToolTip(tr("Largest vertical distance from the posts; 0 keeps every post"));
   error_->setAccessibleName(tr("Error of the finest patches"));
   error_->setEnabled(false);
-  ownError_->setToolTip(tr("Otherwise a thirtieth of the distance of posts"));
+  ownError_->setToolTip(tr("Otherwise a tenth of the distance of posts"));
   connect(ownError_, &QCheckBox::toggled, error_, &QWidget::setEnabled);
   memory_->setRange(128, 1 << 20);
   memory_->setSingleStep(128);

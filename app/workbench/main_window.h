@@ -228,7 +228,9 @@ class MainWindow : public QMainWindow {
   std::optional<TraceWriter> trace_;
   std::vector<TraceRow> traceRows_;
   std::uint64_t traceCount_ = 0;
-  std::uint64_t pagesFailed_ = 0;  ///< of the terrain, that the Messages dock has told of
+  // Of the terrain, what the Messages dock has told of.
+  std::uint64_t pagesFailed_ = 0;
+  std::size_t damageTold_ = 0;
   QString saidOfFlight_;               ///< why the results' times mean nothing in the open flight
   QString traceFile_, recordedTrace_;  ///< being written; the last one that is whole
   FrameCost lastCost_;

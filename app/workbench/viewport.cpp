@@ -96,6 +96,8 @@ void Viewport::releaseGl() {
 void Viewport::setTerrain(std::shared_ptr<const terrain::Database> database) {
   terrain_ = std::move(database);
   terrainChanged_ = true;
+  // Its nodes are the old terrain's.
+  result_.reset();
   invalidate();
 }
 

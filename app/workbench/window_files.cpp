@@ -150,6 +150,7 @@ void MainWindow::onTerrainOpened(std::shared_ptr<const terrain::Database> databa
   errors_->restartLive();
   if (split_ != nullptr) split_->setTerrain(terrain_);
   staticLod_->setTrees(summaryOf(terrain_->staticLod().get()));
+  pagesFailed_ = damageTold_ = 0;
   showTerrain();
   placeCamera();
   feed_.look(viewport_->camera());

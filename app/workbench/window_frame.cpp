@@ -13,6 +13,7 @@
 #include "flight_dock.h"
 #include "host_dock.h"
 #include "main_window.h"
+#include "trimtab/scene/data_extent.h"
 #include "trimtab/terrain/patch_terrain.h"
 #include "trimtab/terrain/static_lod.h"
 #include "trimtab/views/bands_editor.h"
@@ -140,6 +141,11 @@ void MainWindow::onPainted() {
                      viewport_->pageFailures());
     pagesFailed_ = failed;
   }
+  if (const Findings damage = terrain_ ? terrain_->damage() : Findings{}; damage.size() != damageTold_) {
+    messages_->add(tr("The terrain's heights are damaged; where they are, its lowest ground is drawn"),
+                   damage);
+    damageTold_ = damage.size();
+  }
   // What was drawn coarser for want of a page is drawn again when it may be there.
   constexpr int kPageWaitMs = 15;
   if (!viewport_->lastResult()->paging.settled)
@@ -216,7 +222,7 @@ void MainWindow::placeCamera() {
   const double south = info.southWest.latitude.value(), north = info.northEast.latitude.value();
   GeodeticPosition at;
   at.latitude = Degrees{south + (north - south) * 0.3};
-  at.longitude = Degrees{(info.southWest.longitude.value() + info.northEast.longitude.value()) / 2};
+  at.longitude = wrapped180(info.southWest.longitude + scene::widthOf(info) / 2);
   const std::optional<Metres> ground = terrain_->highestWithin(at.latitude, at.longitude, Metres{4000});
   at.height = (ground ? *ground : info.highest) + Feet{1500}.as<Metres>();
   viewport_->camera().place(at, {Degrees{0}, Degrees{-6}, Degrees{0}});

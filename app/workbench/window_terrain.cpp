@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <QFileInfo>
 #include <algorithm>
-#include <cmath>
 
 #include "bake_dialog.h"
 #include "main_window.h"
@@ -63,7 +63,7 @@ void MainWindow::askBake(const QStringList& sources) {
   dialog.addSources(sources);
   if (dialog.exec() != QDialog::Accepted) return;
   terrain::BakeOptions options = dialog.options();
-  terrainSource_ = QString::fromStdString(options.output.string());
+  terrainSource_ = QFileInfo(QString::fromStdString(options.output.string())).absoluteFilePath();
   terrainJob_.bake(std::move(options));
 }
 
@@ -73,8 +73,10 @@ LevelsFrame MainWindow::levelsDrawn(const scene::FrameResult& result) const {
   const auto patches = terrain_->patches();
   if (result.patches && !patches) return levels;
   const TerrainIndex& tiles = terrain_->index();
+  const std::size_t known = result.patches ? patches->index().size() : tiles.size();
   constexpr std::uint64_t kTrianglesPerTile = 2 * TerrainIndex::kTileCells * TerrainIndex::kTileCells;
   for (const TileDraw& drawn : result.visible.tiles) {
+    if (drawn.node >= known) continue;
     const std::size_t level =
         std::min<std::size_t>(result.patches ? patches->index().depth[drawn.node] : tiles.level[drawn.node],
                               LevelsFrame::kLevels - 1);

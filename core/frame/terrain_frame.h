@@ -16,7 +16,7 @@ struct LevelsFrame {
 
 /// Counters since the terrain was set.
 struct PagingFrame {
-  std::size_t waiting = 0;   ///< pages that this view lacks
+  std::size_t waiting = 0;   ///< pages on their way, those for what lies ahead included
   std::size_t heldBack = 0;  ///< diamonds drawn coarser than asked for, for want of them
   std::uint64_t pagesRead = 0, pagesDropped = 0, bytesRead = 0;
   std::uint64_t failed = 0;                  ///< pages that could not be read: drawn coarser for good

@@ -108,7 +108,12 @@ TEST_F(TerrainPanelTest, saysWhatPagingLacks) {
   show(frame);
   for (const char* text : {"30 MB of 512 MB", "40 pages", "12 pairs", "7 more pages"})
     EXPECT_TRUE(says(QString::fromUtf8(text))) << text;
-  frame.paging.heldBack = frame.paging.waiting = 0;
+  frame.paging.waiting = 0;
+  frame.paging.failed = 3;
+  show(frame);
+  EXPECT_TRUE(says(QStringLiteral("holds no more")));
+  EXPECT_TRUE(says(QStringLiteral("3 pages cannot be read")));
+  frame.paging.heldBack = frame.paging.failed = 0;
   show(frame);
   EXPECT_FALSE(says(QStringLiteral("coarser than asked")));
 }
