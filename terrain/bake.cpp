@@ -79,7 +79,8 @@ class Job {
         memory_(static_cast<std::size_t>(std::max(64.0, options.memory.value()) * 1e6)) {}
 
   Result<std::shared_ptr<const Database>> whole(bool join) {
-    if (auto begun = begin(false); !begun) return begun.findings();
+    if (auto begun = begin(join ? WorkFolder::Use::join : WorkFolder::Use::alone); !begun)
+      return begun.findings();
     if (join) {
       if (auto there = allThere(); !there) return there.findings();
     } else {
@@ -94,7 +95,7 @@ class Job {
   Result<Done> part(std::uint32_t part, std::uint32_t parts) {
     if (part < 1 || part > parts)
       return refused("bake", "a part from 1 to " + std::to_string(parts), std::to_string(part));
-    if (auto begun = begin(true); !begun) return begun.findings();
+    if (auto begun = begin(WorkFolder::Use::part); !begun) return begun.findings();
     if (auto made = makePart(part - 1, parts); !made) return made.findings();
     return Result<Done>(Done{}, findings_);
   }
@@ -116,14 +117,14 @@ class Job {
   }
 
   /// Everything up to the heights in their file.
-  Result<Done> begin(bool shared) {
+  Result<Done> begin(WorkFolder::Use use) {
     if (options_.sources.empty()) return refused("bake", "at least one elevation file", "none");
     if (output_.empty()) return refused("bake", "an output folder", "none");
     if (auto may = mayTakePlace(); !may) return may;
     const auto files = sourceFiles(options_.sources);
     if (!files) return files.findings();
     recipe_ = recipeOf(options_, *files);
-    auto work = WorkFolder::open(output_, stampedRecipe(options_, *files), shared);
+    auto work = WorkFolder::open(output_, stampedRecipe(options_, *files), use);
     if (!work) return work.findings();
     work_ = std::move(work).value();
     if (work_->resumed() && !work_->journal().empty())

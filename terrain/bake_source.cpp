@@ -108,6 +108,7 @@ std::string recipeOf(const BakeOptions& options, const std::vector<fs::path>& fi
 std::string stampedRecipe(const BakeOptions& options, const std::vector<fs::path>& files) {
   Json recipe = recipeJson(options, files);
   recipe["format"] = kFormatVersion;
+  recipe["builder"] = kBuilderVersion;
   recipe["stamps"] = Json::array();
   for (const fs::path& file : files) recipe["stamps"].push_back(stampOf(file));
   if (options.imagery) recipe["stamps"].push_back(stampOf(*options.imagery));

@@ -32,6 +32,15 @@ std::string textOf(const fs::path& file) {
   return in ? text.str() : std::string();
 }
 
+/// A rename must be able to put the database there: an empty mount point looks like an empty folder.
+bool onFileSystemOfParent(const fs::path& output) {
+  const fs::path parent = output.has_parent_path() ? output.parent_path() : fs::path(".");
+  struct stat there {
+  }, beside{};
+  return ::lstat(output.c_str(), &there) != 0 || ::stat(parent.c_str(), &beside) != 0 ||
+         there.st_dev == beside.st_dev;
+}
+
 /// All but the lock.
 std::error_code empty(const fs::path& folder) {
   std::error_code error;
@@ -63,7 +72,11 @@ FileLock::~FileLock() {
 }
 
 Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, const std::string& recipe,
-                                                     bool shared) {
+                                                     Use use) {
+  if (!onFileSystemOfParent(output))
+    return wrong(output, "a folder on the file system of the one that holds it",
+                 "a mount point: name a folder in it");
+  const bool shared = use == Use::part;
   const fs::path path = output.parent_path() / ("." + output.filename().string() + ".work");
   const fs::path lockFile = path / "lock";
   // Parts that begin at once take turns to look at the folder.
@@ -76,7 +89,14 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, con
       return wrong(lockFile, "a file that can be written", std::strerror(errno));
     if (lock) {
       const bool same = textOf(path / "recipe.json") == recipe;
+      if (!same && use == Use::join && fs::exists(path / "recipe.json", error))
+        return wrong(path, "parts of the same sources, options and version of this program",
+                     "those of others, left as they are");
       if (!same) {
+        // Killed between its last two steps, a bake left the old database here.
+        if (fs::exists(path / "old", error) && !fs::exists(output, error))
+          fs::rename(path / "old", output, error);
+        if (error) return wrong(path / "old", "a database that can go back to its place", error.message());
         error = empty(path);
         if (error) return wrong(path, "a folder that can be emptied", error.message());
         std::ofstream out(path / "recipe.new", std::ios::binary);
@@ -138,19 +158,28 @@ Result<Done> WorkFolder::note(const std::string& line) const {
 }
 
 Result<Done> WorkFolder::finish(const fs::path& output) {
-  std::error_code error;
+  std::error_code error, ignored;
+  const fs::path recipe = path_ / "recipe.json", spent = path_ / "recipe.spent";
   // Killed after this, the next bake begins anew; it must not take the old database for its own.
-  fs::remove(path_ / "recipe.json", error);
-  const fs::path made = database();
-  if (!fs::exists(output, error)) {
+  fs::rename(recipe, spent, error);
+  if (error) return wrong(recipe, "a file that can be renamed", error.message());
+  const fs::path made = database(), old = path_ / "old";
+  std::string also;
+  if (fs::symlink_status(output, ignored).type() == fs::file_type::not_found) {
     fs::rename(made, output, error);
   } else if (::renameat2(AT_FDCWD, made.c_str(), AT_FDCWD, output.c_str(), RENAME_EXCHANGE) != 0) {
-    const fs::path old = path_ / "old";
     fs::rename(output, old, error);
-    if (!error) fs::rename(made, output, error);
+    if (!error) {
+      fs::rename(made, output, error);
+      std::error_code back;
+      if (error) fs::rename(old, output, back);
+      if (back) also = "; what was there is in " + old.string();
+    }
   }
-  if (error) return wrong(output, "a place to put the database", error.message());
-  std::error_code ignored;
+  if (error) {
+    fs::rename(spent, recipe, ignored);
+    return wrong(output, "a place to put the database", error.message() + also);
+  }
   fs::remove_all(path_, ignored);
   lock_.reset();
   return Done{};

@@ -31,9 +31,11 @@ class FileLock {
 ///   database/         what becomes the output; heights.f32 is made in place
 class WorkFolder {
  public:
-  /// Alone, or beside others that work on parts of the same.
+  /// Alone, alone to put together what is there, or beside others that work on parts of the same.
+  enum class Use { alone, join, part };
+  /// Work of another recipe goes, but not when it is to be joined. Refuses an output that is a mount point.
   static Result<std::unique_ptr<WorkFolder>> open(const std::filesystem::path& output,
-                                                  const std::string& recipe, bool shared);
+                                                  const std::string& recipe, Use use);
   /// Goes where nothing is done yet.
   ~WorkFolder();
   WorkFolder(const WorkFolder&) = delete;
@@ -49,7 +51,7 @@ class WorkFolder {
   Result<Done> note(const std::string& line) const;
 
   /// database/ takes the output's place, and the rest goes. What was there before, a database or an empty
-  /// folder, goes too.
+  /// folder, goes too. Where that fails both are as they were, and the next bake goes on from here.
   Result<Done> finish(const std::filesystem::path& output);
 
  private:

@@ -256,6 +256,82 @@ TEST_F(ResumedBake, goesOnWhenThereIsRoomAgain) {
   EXPECT_EQ(status, 0);
 }
 
+/// Who has it mounted cannot rename it: every way for the last step to fail, and nothing is lost.
+TEST_F(ResumedBake, goesOnWhenItsLastStepFailed) {
+  const fs::path work = dir_ / ".db.work";
+  const Files before = filesIn(dir_ / "whole");
+  const int status = ended(start([&] {
+    if (!mayMount()) return 100;
+    ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr);
+    fs::copy(dir_ / "whole", dir_ / "db");
+    options_.maxError = Metres{60};
+    // The output that cannot go, then the new one that cannot come once the old is gone.
+    for (const fs::path& held : {dir_ / "db", work / "database"}) {
+      options_.progress = [&](double, const std::string& what) {
+        if (what == "writing") ::mount(held.c_str(), held.c_str(), nullptr, MS_BIND, nullptr);
+        return true;
+      };
+      const auto made = bake(options_);
+      if (::umount(held.c_str()) != 0) return 100;
+      if (made) return 1;
+      if (filesIn(dir_ / "db") != before) return 2;
+      if (!fs::exists(work / "recipe.json") || fs::exists(work / "old")) return 3;
+    }
+    options_.progress = nullptr;
+    const auto made = bake(options_);
+    if (!made || toString(made.findings()).find("goes on") == std::string::npos) return 4;
+    return filesIn(dir_ / "db") == before || fs::exists(work) ? 5 : 0;
+  }));
+  if (status == 100) GTEST_SKIP() << "needs leave to mount";
+  EXPECT_EQ(status, 0);
+}
+
+TEST_F(ResumedBake, refusesAMountPointBeforeItBegins) {
+  const fs::path disk = dir_ / "disk";
+  fs::create_directory(disk);
+  const int status = ended(start([&] {
+    if (!mayMount()) return 100;
+    ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr);
+    if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=64m") != 0) return 100;
+    options_.output = disk;
+    const auto made = bake(options_);
+    if (made || fs::exists(dir_ / ".disk.work")) return 1;
+    return toString(made.findings()).find("mount point") == std::string::npos ? 2 : 0;
+  }));
+  if (status == 100) GTEST_SKIP() << "needs leave to mount";
+  EXPECT_EQ(status, 0);
+}
+
+/// Killed when the old database was aside and the new one not yet there.
+TEST_F(ResumedBake, putsTheOldDatabaseBack) {
+  const Files before = filesIn(dir_ / "whole");
+  fs::create_directory(dir_ / ".db.work");
+  fs::copy(dir_ / "whole", dir_ / ".db.work/old");
+  options_.progress = [](double fraction, const std::string&) { return fraction < 0.5; };
+  EXPECT_FALSE(bake(options_));
+  EXPECT_EQ(filesIn(dir_ / "db"), before);
+}
+
+TEST_F(ResumedBake, doesNotMixWhatOtherVersionsMade) {
+  ASSERT_TRUE(bakePart(options_, 1, 1));
+  const fs::path recipe = dir_ / ".db.work/recipe.json", piece = dir_ / ".db.work/pieces/0.pages";
+  std::string text = test::readFile(recipe);
+  const std::string key = "\"builder\": ";
+  ASSERT_NE(text.find(key), std::string::npos);
+  text.insert(text.find(key) + key.size(), "9");
+  test::writeFile(recipe, text);
+  const auto joined = bakeJoin(options_);
+  ASSERT_FALSE(joined);
+  EXPECT_NE(toString(joined.findings()).find("version of this program"), std::string::npos)
+      << toString(joined.findings());
+  EXPECT_TRUE(fs::exists(piece));
+  test::writeFile(piece, "of another");
+  const auto made = bake(options_);
+  ASSERT_TRUE(made) << toString(made.findings());
+  EXPECT_EQ(toString(made.findings()).find("goes on"), std::string::npos);
+  expectWhole(dir_ / "db");
+}
+
 TEST_F(ResumedBake, isReadByTwoProcessesAtOnce) {
   const fs::path folder = dir_ / "whole";
   const auto readAll = [&] {
