@@ -14,28 +14,33 @@ constexpr double kRadians = std::numbers::pi / 180;
 
 DataExtent::DataExtent(const terrain::TerrainInfo& info)
     : south_(info.southWest.latitude.value()),
-      west_(info.southWest.longitude.value()),
       north_(info.northEast.latitude.value()),
-      east_(info.northEast.longitude.value()),
+      middle_(info.southWest.longitude.value() + widthOf(info).value() / 2),
+      width_(widthOf(info).value()),
       metresNorth_(110500) {
   const double furthest = std::max(std::abs(south_), std::abs(north_));
   metresEast_ = 111300 * std::cos(furthest * kRadians);
   // A parallel of latitude bends by d^2 tan(latitude) / 8R over a distance d; a meridian not at all.
-  const double across = (east_ - west_) * 111300;
+  const double across = width_ * 111300;
   sagM_ = furthest < 85 ? 1.1 * across * across * std::tan(furthest * kRadians) / (8 * kEarthRadius) : 1e9;
 }
 
 const char* DataExtent::refusal(const LocalFrame& frame, Vec3 eye) const {
   const GeodeticPosition place = frame.toGeodetic(eye);
-  const double latitude = place.latitude.value(), longitude = place.longitude.value();
+  const double latitude = place.latitude.value(),
+               away = std::abs(wrapped180(place.longitude - Degrees{middle_}).value());
   const double inside = std::min({(latitude - south_) * metresNorth_, (north_ - latitude) * metresNorth_,
-                                  (longitude - west_) * metresEast_, (east_ - longitude) * metresEast_});
+                                  (width_ / 2 - away) * metresEast_});
   if (!(inside > 0)) return "the eye is not over the terrain";
   // The frame's z leans away from the vertical far from its origin: the place under the eye, by z, is
   // elsewhere.
   if (!(inside > sagM_ + std::abs(place.height.value()) * leanOf(eye)))
     return "the eye is too near the terrain's edge";
   return "";
+}
+
+Degrees widthOf(const terrain::TerrainInfo& info) {
+  return info.postLongitude * (info.columns > 1 ? info.columns - 1.0 : 0.0);
 }
 
 double leanOf(Vec3 place) {

@@ -20,10 +20,14 @@ class DataExtent {
   const char* refusal(const LocalFrame& frame, Vec3 eye) const;
 
  private:
-  double south_ = 0, west_ = 0, north_ = 0, east_ = 0;  ///< degrees
+  double south_ = 0, north_ = 0, middle_ = 0, width_ = 0;  ///< degrees, the last two of longitude
   double metresNorth_ = 0, metresEast_ = 0;
   double sagM_ = 0;
 };
+
+/// From the western border eastward to the other one: longitudes of borders are wrapped, and the date line may
+/// lie between them.
+Degrees widthOf(const terrain::TerrainInfo& info);
 
 /// Lean of the frame's z from the vertical at a place, radians.
 double leanOf(Vec3 place);

@@ -4,6 +4,7 @@
 
 #include "support.h"
 #include "synthetic_terrain.h"
+#include "trimtab/scene/data_extent.h"
 #include "trimtab/scene/offscreen.h"
 #include "trimtab/scene/renderer.h"
 
@@ -53,7 +54,7 @@ class SceneTest : public testing::Test {
   GeodeticPosition over(double east, double north, double aboveM) const {
     const auto& i = database->info();
     const Degrees latitude = i.southWest.latitude + (i.northEast.latitude - i.southWest.latitude) * north;
-    const Degrees longitude = i.southWest.longitude + (i.northEast.longitude - i.southWest.longitude) * east;
+    const Degrees longitude = wrapped180(i.southWest.longitude + scene::widthOf(i) * east);
     return {latitude, longitude,
             database->heightAt(latitude, longitude).value_or(Metres{0}) + Metres{aboveM}};
   }
