@@ -316,6 +316,9 @@ std::uint64_t GroundTexture::bytesUploaded() const {
 bool GroundTexture::complete() const {
   return impl_->complete;
 }
+std::size_t GroundTexture::failed() const {
+  return impl_->tiles ? impl_->tiles->failed() : 0;
+}
 Findings GroundTexture::failures() const {
   return impl_->tiles ? impl_->tiles->failures() : Findings{};
 }

@@ -47,8 +47,9 @@ class GroundTexture {
   std::size_t bytes() const;  ///< of textures and of tiles kept
   std::uint64_t tilesRead() const;
   std::uint64_t bytesUploaded() const;
-  bool complete() const;  ///< nothing is missing about the eye
-  /// Tiles that could not be read.
+  bool complete() const;  ///< nothing that can be read is missing about the eye
+  /// Tiles that could not be read; the next coarser level is shown there.
+  std::size_t failed() const;
   Findings failures() const;
 
  private:

@@ -11,6 +11,8 @@ namespace trimtab::scene {
 namespace {
 
 constexpr std::size_t kMostFailures = 20;
+/// Where not even the coarsest level can be read.
+constexpr std::uint32_t kNothingKnown = 0xaa808080u;
 /// Tiles that the thread may be ahead of the picture.
 constexpr std::size_t kMostUntaken = GroundTiles::kKept / 2;
 
@@ -62,12 +64,50 @@ GroundTiles::~GroundTiles() {
 }
 
 std::shared_ptr<const GroundPixels> GroundTiles::load(const Tile& tile) {
+  {
+    std::unique_lock lock(mutex_);
+    if (failed_.contains(tile.key())) {
+      lock.unlock();
+      return fromCoarser(tile);
+    }
+  }
   const auto texels = ground_->readTile(tile.level, tile.column, tile.row);
   if (texels) return std::make_shared<const GroundPixels>(litGround(*texels, showVoids_));
-  const std::lock_guard lock(mutex_);
-  for (const Finding& finding : texels.findings())
-    if (failures_.size() < kMostFailures) failures_.push_back(finding);
-  return nullptr;
+  {
+    const std::lock_guard lock(mutex_);
+    // Two may have tried it at once.
+    if (failed_.insert(tile.key()).second)
+      for (const Finding& finding : texels.findings())
+        if (failures_.size() < kMostFailures) failures_.push_back(finding);
+  }
+  return fromCoarser(tile);
+}
+
+/// What the next level has of a tile, between its texels; grey where there is no such level.
+std::shared_ptr<const GroundPixels> GroundTiles::fromCoarser(const Tile& tile) {
+  constexpr int kSide = static_cast<int>(terrain::GroundShape::kTile);
+  GroundPixels pixels(std::size_t{kSide} * kSide, kNothingKnown);
+  if (tile.level + 1 >= ground_->shape().levels.size()) return std::make_shared<const GroundPixels>(pixels);
+  const auto coarser = readNow({tile.level + 1, tile.column / 2, tile.row / 2});
+  const int left = static_cast<int>(tile.column % 2) * kSide, low = static_cast<int>(tile.row % 2) * kSide;
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      // Three quarters of the texel that it is in, and a quarter of the one that it is nearer to.
+      const int c = left + x, r = low + y;
+      const int ownC = c / 2, ownR = r / 2, nextC = std::clamp(ownC + (c % 2) * 2 - 1, 0, kSide - 1),
+                nextR = std::clamp(ownR + (r % 2) * 2 - 1, 0, kSide - 1);
+      const auto at = [&](int column, int row) {
+        return (*coarser)[static_cast<std::size_t>(row * kSide + column)];
+      };
+      std::uint32_t mixed = 0;
+      for (int shift = 0; shift < 32; shift += 8) {
+        const auto of = [&](int column, int row) { return at(column, row) >> shift & 255u; };
+        mixed |= (9 * of(ownC, ownR) + 3 * of(nextC, ownR) + 3 * of(ownC, nextR) + of(nextC, nextR) + 8) / 16
+                 << shift;
+      }
+      pixels[static_cast<std::size_t>(y * kSide + x)] = mixed;
+    }
+  return std::make_shared<const GroundPixels>(std::move(pixels));
 }
 
 void GroundTiles::keep(std::uint64_t key, std::shared_ptr<const GroundPixels> pixels, bool taken) {
@@ -149,6 +189,11 @@ std::size_t GroundTiles::bytes() const {
   for (const auto& [key, entry] : entries_)
     if (entry.pixels) sum += entry.pixels->size() * sizeof(std::uint32_t);
   return sum;
+}
+
+std::size_t GroundTiles::failed() const {
+  const std::lock_guard lock(mutex_);
+  return failed_.size();
 }
 
 Findings GroundTiles::failures() const {

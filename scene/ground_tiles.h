@@ -38,26 +38,28 @@ class GroundTiles {
     std::uint32_t level = 0, column = 0, row = 0;
     std::uint64_t key() const { return terrain::groundKey(level, column, row); }
   };
-  /// Null while it is not there.
+  /// Null while it is not there. One that cannot be read is there as the level above shows it.
   std::shared_ptr<const GroundPixels> find(const Tile& tile);
-  /// Reads it now, where it is not there. Null: it cannot be read.
+  /// Reads it now, where it is not there.
   std::shared_ptr<const GroundPixels> readNow(const Tile& tile);
   /// What the thread is to read, the most urgent first, in place of what it was to.
   void want(std::vector<Tile> tiles);
 
   std::uint64_t read() const;
   std::size_t bytes() const;
-  /// The first failures; a tile that failed is not tried again.
+  std::size_t failed() const;  ///< tiles; none is tried again
+  /// The first failures.
   Findings failures() const;
 
  private:
   struct Entry {
-    std::shared_ptr<const GroundPixels> pixels;  ///< null: it cannot be read
+    std::shared_ptr<const GroundPixels> pixels;
     std::list<std::uint64_t>::iterator use;
     bool taken = false;
   };
 
   std::shared_ptr<const GroundPixels> load(const Tile& tile);
+  std::shared_ptr<const GroundPixels> fromCoarser(const Tile& tile);
   void keep(std::uint64_t key, std::shared_ptr<const GroundPixels> pixels, bool taken);
   void run();
 
@@ -71,6 +73,7 @@ class GroundTiles {
   std::list<std::uint64_t> uses_;  ///< last used first
   std::size_t untaken_ = 0;
   std::uint64_t read_ = 0;
+  std::unordered_set<std::uint64_t> failed_;
   Findings failures_;
   bool stop_ = false;
   std::thread thread_;

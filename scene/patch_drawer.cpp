@@ -98,8 +98,16 @@ void PatchDrawer::updateGround() {
   gl_->ground.showVoids(frame_->request.overlays.voids);
   gl_->ground.update(east / info.postLongitude.value(), north / info.postLatitude.value(),
                      frame_->request.waitForPages, kGroundBytesAFrame);
+  frame_->counters.paging.failed += gl_->ground.failed();
   frame_->counters.paging.settled = frame_->counters.paging.waiting == 0 && gl_->ground.complete();
   frame_->clock.lap(before != gl_->ground.bytesUploaded() ? &FrameCost::page : &FrameCost::select);
+}
+
+Findings PatchDrawer::failures() const {
+  Findings all = culling_.failures();
+  if (gl_)
+    for (Finding& finding : gl_->ground.failures()) all.push_back(std::move(finding));
+  return all;
 }
 
 /// Near ones first, as they hide others; equal ones by number.

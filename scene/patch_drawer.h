@@ -22,7 +22,8 @@ class PatchDrawer final : public TerrainDrawer {
   const VisibleSet& visible() const override { return culling_.visible(); }
   /// A picture of the last horizon, if one served.
   Renderer::Grey readDepthMap() const override;
-  Findings failures() const { return culling_.failures(); }
+  /// Pages of meshes and tiles of the ground.
+  Findings failures() const;
   const Horizon* horizon() const override { return horizonView_ ? &horizon_.memory().horizon() : nullptr; }
 
  private:

@@ -155,7 +155,8 @@ class Renderer {
   /// The horizon that served in the last picture: elevation in degrees, evenly round from south by west, north
   /// and east of the terrain's frame; NaN where nothing bounds the sky. Empty where none served.
   std::vector<float> readHorizon(int samples);
-  /// Pages of the terrain that could not be read (PagingFrame::failed counts them); it stays coarser there.
+  /// Pages of the terrain and tiles of its ground that could not be read (PagingFrame::failed counts them); it
+  /// stays coarser there.
   Findings pageFailures() const;
   /// A blur accumulates from the next picture on, as if it were the first.
   void forgetPictures();

@@ -31,6 +31,7 @@ class Formula final : public GroundPyramid {
   const GroundShape& shape() const override { return shape_; }
   Result<GroundTile> readTile(std::uint32_t level, std::uint32_t column, std::uint32_t row) const override {
     while (held) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (level == brokenLevel) ++failed;
     if (level == brokenLevel) return Finding{Severity::error, "ground", "tile", "texels", "none"};
     constexpr std::int64_t kSide = GroundShape::kTile;
     GroundTile tile(std::size_t{kSide * kSide});
@@ -74,7 +75,7 @@ class Formula final : public GroundPyramid {
     }();
     return table[static_cast<std::size_t>(sum)];
   }
-  mutable std::atomic<int> read{0};
+  mutable std::atomic<int> read{0}, failed{0};
   std::atomic<bool> held{false};
   std::uint32_t brokenLevel = 99;
 
@@ -187,7 +188,7 @@ double sampled(const Formula& ground, std::uint32_t level, double column, double
 std::pair<double, double> expectSampled(const Formula& ground, const View& view,
                                         const std::vector<std::uint8_t>& colour,
                                         const std::vector<std::uint8_t>& light, int width, int height,
-                                        std::uint32_t least) {
+                                        std::uint32_t least, double tolerance = 2) {
   double finest = 99, coarsest = 0;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
@@ -208,7 +209,7 @@ std::pair<double, double> expectSampled(const Formula& ground, const View& view,
           high = std::max(high, a + (b - a) * (at - fine));
         }
         const double found = k == 3 ? light[static_cast<std::size_t>(y * width + x) * 4] : pixel[k];
-        if (found < low - 2 || found > high + 2) {
+        if (found < low - tolerance || found > high + tolerance) {
           ADD_FAILURE() << "pixel " << x << ", " << y << " channel " << k << " level " << level << ": "
                         << found << " for " << low << " to " << high;
           return {finest, coarsest};
@@ -325,10 +326,48 @@ TEST_F(GroundOnGpu, whatCannotBeReadStaysCoarser) {
   view.acrossColumn = view.upRow = 0.5;
   view.column = 2450, view.row = 2450;
   const auto [finest, coarsest] =
-      expectSampled(*ground, view, draw(view), draw(view, true), kWidth, kHeight, 1);
+      expectSampled(*ground, view, draw(view), draw(view, true), kWidth, kHeight, 1, 10);
   EXPECT_EQ(finest, 1);
   EXPECT_EQ(coarsest, 1);
   EXPECT_FALSE(texture_->failures().empty());
+}
+
+TEST_F(GroundOnGpu, whatCannotBeReadIsTriedOnceAndHoldsNothingUp) {
+  for (const bool waits : {true, false}) {
+    const auto ground = std::make_shared<Formula>(5000, 5000);
+    ground->brokenLevel = 1;
+    texture_->setGround(ground);
+    for (int frame = 0; frame < 5000 && !(frame > 0 && texture_->complete()); ++frame) {
+      texture_->update(2500, 2500, waits, 4 << 20);
+      if (!waits) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_TRUE(texture_->complete());
+    const int tried = ground->failed;
+    EXPECT_EQ(static_cast<std::size_t>(tried), texture_->failed());
+    EXPECT_GT(tried, 3);
+    // Far away and back: what was kept of it is not any more.
+    for (const double column : {0.0, 4900.0, 2500.0})
+      for (const double row : {0.0, 4900.0, 2500.0}) texture_->update(column, row, true, 0);
+    EXPECT_TRUE(texture_->complete());
+    EXPECT_EQ(static_cast<std::size_t>(ground->failed), texture_->failed());
+    View view;
+    view.acrossColumn = view.upRow = 0.5;
+    view.column = 2450, view.row = 2450;
+    EXPECT_EQ(expectSampled(*ground, view, draw(view), draw(view, true), kWidth, kHeight, 0).second, 0)
+        << "the finer level is there";
+  }
+}
+
+TEST_F(GroundOnGpu, isGreyWhereNothingCanBeRead) {
+  const auto ground = std::make_shared<Formula>(200, 200);
+  ground->brokenLevel = 0;
+  texture_->setGround(ground);
+  texture_->update(100, 100, true, 0);
+  EXPECT_TRUE(texture_->complete());
+  View view;
+  view.column = view.row = 20;
+  const auto pixels = draw(view);
+  for (std::size_t i = 0; i < pixels.size(); i += 4) ASSERT_EQ(pixels[i], 128);
 }
 
 TEST_F(GroundOnGpu, neverWaitsNorUploadsMoreThanAllowed) {
