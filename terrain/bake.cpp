@@ -29,6 +29,16 @@ Finding refused(const fs::path& where, std::string expected, std::string found) 
   return {Severity::error, where.string(), "", std::move(expected), std::move(found)};
 }
 
+/// What is thrown for want of memory or threads, as a finding: what is done by then stays done.
+template <class Work>
+auto orFinding(const fs::path& where, const Work& work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (const std::exception& thrown) {
+    return refused(where, "memory and threads enough to bake", thrown.what());
+  }
+}
+
 /// A database of ours, by the beginning of its manifest (a damaged one may be baked again), and nothing
 /// beside it that a database does not hold.
 bool holdsNothingElse(const fs::path& folder) {
@@ -93,6 +103,8 @@ class Job {
   }
 
   Result<Done> part(std::uint32_t part, std::uint32_t parts) {
+    if (parts > kMostBakeParts)
+      return refused("bake", "at most " + std::to_string(kMostBakeParts) + " parts", std::to_string(parts));
     if (part < 1 || part > parts)
       return refused("bake", "a part from 1 to " + std::to_string(parts), std::to_string(part));
     if (auto begun = begin(WorkFolder::Use::part); !begun) return begun.findings();
@@ -188,7 +200,7 @@ class Job {
 
   /// How many shares the ground was made in: all of one number must be there.
   std::uint32_t groundParts() const {
-    for (std::uint32_t parts = 1; parts <= 4096; ++parts) {
+    for (std::uint32_t parts = 1; parts <= kMostBakeParts; ++parts) {
       std::uint32_t there = 0;
       std::error_code error;
       while (there < parts && fs::exists(groundPart(there, parts), error)) ++there;
@@ -212,6 +224,14 @@ class Job {
   Result<Done> makeTiles() {
     const PostGrid& posts = heights_.posts;
     if (posts.size() > kMostTiledPosts) return Done{};
+    // Slopes of all levels, and colours.
+    const std::size_t bytes = posts.size() * 4 / 3 + (options_.imagery ? posts.size() * 4 : 0);
+    if (bytes > memory_) {
+      findings_.push_back({Severity::note, output_.string(), "tiles",
+                           std::to_string(bytes / 1000000 + 1) + " MB of memory for them",
+                           std::to_string(memory_ / 1000000) + " MB: left out, patches are drawn"});
+      return Done{};
+    }
     const auto mapped = MappedFile::open(work_->database() / kHeightsName);
     if (!mapped) return mapped.findings();
     TerrainIndex index = makeLevels(posts);
@@ -344,13 +364,13 @@ bool isDatabase(const fs::path& folder) {
 }
 
 Result<std::shared_ptr<const Database>> bake(const BakeOptions& options) {
-  return Job(options).whole(false);
+  return orFinding(options.output, [&] { return Job(options).whole(false); });
 }
 Result<std::shared_ptr<const Database>> bakeJoin(const BakeOptions& options) {
-  return Job(options).whole(true);
+  return orFinding(options.output, [&] { return Job(options).whole(true); });
 }
 Result<Done> bakePart(const BakeOptions& options, std::uint32_t part, std::uint32_t parts) {
-  return Job(options).part(part, parts);
+  return orFinding(options.output, [&] { return Job(options).part(part, parts); });
 }
 
 Result<std::shared_ptr<const Database>> openOrBake(const fs::path& source, const fs::path& cacheFolder,

@@ -25,7 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 
 Finding wrong(const fs::path& where, std::string expected, int error) {
-  return {Severity::error, where.string(), "", std::move(expected), std::strerror(error)};
+  return {Severity::error, where.string(), "", std::move(expected),
+          error != 0 ? std::strerror(error) : "the file's end"};
 }
 
 /// A file of rows of equal size, for reading and writing.
@@ -122,12 +123,17 @@ class HeightsBake {
       noted_ = true;
       if (word == "posts") {
         next_ = 0;
-        baked_.voids = baked_.outside = 0;
+        bands_.clear();
         filling_ = filled_ = done_ = false;
       } else if (word == "band") {
         std::uint32_t first = 0, rows = 0;
         std::uint64_t voids = 0, outside = 0;
         words >> first >> rows >> sum >> voids >> outside;
+        // Read again from here on, perhaps in bands of another size.
+        while (!bands_.empty() && bands_.back().first >= first) {
+          next_ = bands_.back().first;
+          bands_.pop_back();
+        }
         if (first != next_) continue;
         bands_.push_back({first, rows, voids, outside, sum});
         next_ = first + rows;

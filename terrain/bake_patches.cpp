@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <cstring>
 #include <mutex>
+#include <system_error>
 #include <thread>
 
 #include "trimtab/terrain/import.h"
@@ -131,7 +132,13 @@ Result<Done> PatchBake::make(const HeightSource& heights, std::uint32_t part, st
     while (!stop && findings.empty() && next < missing.size()) {
       const std::uint32_t piece = missing[next++];
       lock.unlock();
-      const auto made = makePiece(heights, piece);
+      const auto made = [&]() -> Result<Done> {
+        try {
+          return makePiece(heights, piece);
+        } catch (const std::exception& thrown) {
+          return wrong(pieceFile(piece), "room in memory for " + what, thrown.what());
+        }
+      }();
       lock.lock();
       findings.insert(findings.end(), made.findings().begin(), made.findings().end());
       doneWork += pieceWork(piece);
@@ -139,11 +146,24 @@ Result<Done> PatchBake::make(const HeightSource& heights, std::uint32_t part, st
     --working;
     ended.notify_one();
   };
-  const std::size_t threads =
-      std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, memory / kBytesAPage + 1);
+  const std::size_t threads = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1,
+                                                      std::max<std::size_t>(1, memory / kBytesAPage));
   std::vector<std::thread> workers;
-  working = threads;
-  for (std::size_t t = 0; t < threads; ++t) workers.emplace_back(build);
+  workers.reserve(threads);
+  try {
+    while (workers.size() < threads) {
+      {
+        const std::lock_guard lock(mutex);
+        ++working;
+      }
+      workers.emplace_back(build);
+    }
+  } catch (const std::system_error& thrown) {
+    // Fewer threads do it too.
+    const std::lock_guard lock(mutex);
+    --working;
+    if (workers.empty()) findings.push_back(wrong(work_.pieces(), "a thread for " + what, thrown.what()));
+  }
   {
     std::unique_lock lock(mutex);
     while (working > 0) {

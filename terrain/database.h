@@ -60,8 +60,8 @@ class PatchTerrain;
 class Database {
  public:
   virtual ~Database() = default;
-  /// Opens a folder; nothing is read in proportion to the posts. Findings name file, place, expected and found;
-  /// nothing half-open is returned.
+  /// Opens a folder; nothing is read in proportion to the posts. Findings name file, place, expected and
+  /// found; nothing half-open is returned.
   static Result<std::shared_ptr<const Database>> open(const std::filesystem::path& folder);
 
   virtual const TerrainInfo& info() const = 0;
@@ -95,11 +95,13 @@ struct BakeOptions {
   std::vector<std::filesystem::path> sources;  ///< elevation files or folders of them; or scenery
   std::optional<std::filesystem::path> imagery;
   std::uint32_t trianglesPerNode = 2000;  ///< of the static levels of detail, where the source is scenery
-  bool keepLines = false;  ///< roads, streams and shorelines stay in them while a pixel shows them
+  bool keepLines = false;      ///< roads, streams and shorelines stay in them while a pixel shows them
   std::optional<Metres> post;  ///< distance of posts; else by the scenery's size, or the finest file's
   /// Vertical error of the finest patches at the posts; else defaultLeafToleranceM (patch_build.h). 0: exact.
   std::optional<Metres> maxError;
-  Megabytes memory{1024};  ///< most that baking may use
+  /// Most that baking may use. Scenery is read whole, whatever it takes; a database whose tiles would take
+  /// more is made without them, and drawn from patches.
+  Megabytes memory{1024};
   std::filesystem::path output;
   Progress progress;
 };
@@ -108,8 +110,10 @@ struct BakeOptions {
 /// options go on from it to the same bytes; other sources or options begin anew. One at a time: findings say
 /// so.
 Result<std::shared_ptr<const Database>> bake(const BakeOptions& options);
-/// One of `parts` shares of the same work (part from 1), for several processes, or machines that share the
-/// output's folder: they may work at once. Memory, progress and number of parts may differ.
+inline constexpr std::uint32_t kMostBakeParts = 4096;
+/// One of `parts` shares of the same work (part from 1; at most kMostBakeParts), for several processes, or
+/// machines that share the output's folder: they may work at once. Memory, progress and number of parts may
+/// differ.
 Result<Done> bakePart(const BakeOptions& options, std::uint32_t part, std::uint32_t parts);
 /// Makes the database of what the parts made, if it is all there.
 Result<std::shared_ptr<const Database>> bakeJoin(const BakeOptions& options);

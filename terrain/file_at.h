@@ -8,12 +8,13 @@
 
 namespace trimtab::terrain {
 
-/// All of it, or false with errno set, or 0 at the file's end.
+/// All of it, or false with errno set: to 0 at the file's end.
 inline bool readAt(int file, std::uint64_t at, void* data, std::size_t size) {
   char* to = static_cast<char*>(data);
   while (size > 0) {
     const ssize_t got = ::pread(file, to, size, static_cast<off_t>(at));
     if (got < 0 && errno == EINTR) continue;
+    if (got == 0) errno = 0;
     if (got <= 0) return false;
     to += got, at += static_cast<std::uint64_t>(got), size -= static_cast<std::size_t>(got);
   }

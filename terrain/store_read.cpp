@@ -240,7 +240,9 @@ Result<Contents> readContents(const fs::path& folder) {
                  });
   // Before anything else is allocated by what the manifest claims.
   if (!contents.heights) return files.findings;
-  if (old || posts.size() <= kMostTiledPosts) {
+  // A bake that was given too little memory for them left the tiles out.
+  if (old ||
+      (posts.size() <= kMostTiledPosts && files.entries.is_object() && files.entries.contains(kNodesName))) {
     readNodes(files, contents);
     if (info.hasImage)
       contents.image = files.rows(kImageName, old ? nullptr : kImageSumsName, std::size_t{posts.columns} * 4,

@@ -103,7 +103,9 @@ void addTerrain(CLI::App& app, int& exitCode) {
       ->add_option("--max-error-m", bake->maxErrorM,
                    "Vertical error of the finest patches at the posts, metres; 0: every post counts")
       ->check(CLI::Range(0.0, 1000.0));
-  makeBake->add_option("--memory-mb", bake->memoryMb, "Most memory that baking may use")
+  makeBake
+      ->add_option("--memory-mb", bake->memoryMb,
+                   "Most memory that baking may use; scenery is read whole, whatever it takes")
       ->capture_default_str()
       ->check(CLI::Range(64.0, 1048576.0));
   CLI::Option* part = makeBake->add_option("--part", bake->part,
@@ -126,9 +128,12 @@ void addTerrain(CLI::App& app, int& exitCode) {
     if (!bake->part.empty()) {
       unsigned number = 0, parts = 0;
       int read = 0;
-      if (std::sscanf(bake->part.c_str(), "%4u/%4u%n", &number, &parts, &read) != 2 ||
+      if (std::sscanf(bake->part.c_str(), "%9u/%9u%n", &number, &parts, &read) != 2 ||
           bake->part[static_cast<std::size_t>(read)] != 0 || number < 1 || number > parts)
         throw CLI::ValidationError("--part", "I/N with 1 <= I <= N, not " + bake->part);
+      if (parts > terrain::kMostBakeParts)
+        throw CLI::ValidationError("--part", "I/N with N at most " + std::to_string(terrain::kMostBakeParts) +
+                                                 ", not " + bake->part);
       const auto done = terrain::bakePart(options, number, parts);
       report(done.findings());
       exitCode = done ? kDone : kRefused;

@@ -44,6 +44,9 @@ TEST_F(TerrainCommand, bakesACountryInPartsAndChecksIt) {
   ASSERT_EQ(joined.exitCode, 0) << joined.err;
   for (const char* part : {"3/2", "0/2", "a", "1/2x"})
     EXPECT_EQ(test::run(cli(bake + " --part " + part)).exitCode, 2) << part;
+  const auto many = test::run(cli(bake + " --part 1/4097"));
+  EXPECT_EQ(many.exitCode, 2);
+  EXPECT_NE(many.err.find("4096"), std::string::npos) << many.err;
   const auto info = test::run(cli("info " + at("db") + " --json"));
   const auto json = nlohmann::json::parse(info.out);
   ASSERT_FALSE(json["patches"].empty());

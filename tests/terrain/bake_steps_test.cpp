@@ -1,0 +1,150 @@
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <fstream>
+#include <limits>
+#include <new>
+
+#include "rasters.h"
+#include "trimtab/terrain/bake_heights.h"
+#include "trimtab/terrain/bake_work.h"
+#include "trimtab/terrain/file_at.h"
+#include "trimtab/terrain/manifest_checksum.h"
+#include "trimtab/terrain/parallel.h"
+#include "trimtab/terrain/patch_terrain.h"
+
+/// Steps of a bake by themselves.
+namespace trimtab::terrain {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Parallel, throwsWhatItsWorkThrew) {
+  for (const std::uint32_t bad : {0u, 7u, 99u}) {
+    std::atomic<int> ended{0};
+    const auto work = [&](std::uint32_t i) {
+      if (i >= bad) throw std::bad_alloc();
+      ++ended;
+    };
+    EXPECT_THROW(forEachParallel(100, work, {}), std::bad_alloc);
+    EXPECT_LE(ended, static_cast<int>(bad));
+  }
+  EXPECT_THROW(forEachParallel(
+                   9, [](std::uint32_t) {}, [](double) -> bool { throw std::bad_alloc(); }),
+               std::bad_alloc);
+}
+
+TEST(ReadAt, leavesNoOldErrorAtTheFilesEnd) {
+  const test::ScratchDir dir;
+  test::writeFile(dir / "short", "four");
+  const int file = ::open((dir / "short").c_str(), O_RDONLY);
+  char data[8];
+  errno = EIO;
+  EXPECT_FALSE(readAt(file, 0, data, sizeof data));
+  EXPECT_EQ(errno, 0);
+  ::close(file);
+}
+
+/// Bands that were damaged are read again, in bands of another size.
+TEST(HeightsBake, countsItsVoidsWhenBandsOfAnotherSizeWereReadAgain) {
+  const test::ScratchDir dir;
+  HeightGrid grid;
+  grid.posts = {10, 50, 0.001, 0.001, 40, 30};
+  for (std::uint32_t i = 0; i < grid.posts.size(); ++i)
+    grid.heights.push_back(i % 40 == 3 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(i));
+  const std::size_t row = 40 * sizeof(float);
+  const auto work = WorkFolder::open(dir / "db", "{}", WorkFolder::Use::alone);
+  ASSERT_TRUE(work) << toString(work.findings());
+  const auto source = sourceOf(grid);
+  int told = 0;
+  EXPECT_FALSE(
+      bakeHeights(**work, *source, row * 16 * 7, [&](double, const std::string&) { return ++told <= 3; }));
+  ASSERT_EQ((*work)->journal().size(), 4u);
+  {
+    std::fstream file((*work)->database() / "heights.f32", std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(static_cast<std::streamoff>(2 * row));
+    file.write("damaged", 7);
+  }
+  for (int turn = 0; turn < 2; ++turn) {
+    const auto made = bakeHeights(**work, *source, row * 16 * 4, {});
+    ASSERT_TRUE(made) << toString(made.findings());
+    EXPECT_EQ(made->voids, 30u) << turn;
+  }
+}
+
+class SmallBake : public ::testing::Test {
+ protected:
+  SmallBake() {
+    test::RasterRecipe recipe;
+    recipe.columns = 300;
+    recipe.rows = 300;
+    recipe.value = [](int c, int r, int) { return test::roughGround(c, r); };
+    options_.sources = {test::writeRaster(dir_ / "ground.tif", recipe)};
+    options_.output = dir_ / "db";
+  }
+  test::ScratchDir dir_;
+  BakeOptions options_;
+};
+
+TEST_F(SmallBake, opensWhereItsTilesWereLeftOut) {
+  ASSERT_TRUE(bake(options_));
+  const fs::path manifest = dir_ / "db/manifest.json";
+  std::string text = test::readFile(manifest);
+  for (const std::string name : {"nodes.f32", "slopes.u8"}) {
+    const std::size_t at = text.find('"' + name + '"'), end = text.find('}', at);
+    ASSERT_NE(at, std::string::npos);
+    // With the comma before it, if it is the last.
+    const std::size_t from = text[end + 1] == ',' ? at : text.rfind(',', at);
+    text.erase(from, (text[end + 1] == ',' ? end + 2 : end + 1) - from);
+    fs::remove(dir_ / "db" / name);
+  }
+  const std::size_t place = manifestChecksumPlace(text);
+  text.replace(place, 16, manifestChecksum(text, place));
+  test::writeFile(manifest, text);
+  const auto opened = Database::open(dir_ / "db");
+  ASSERT_TRUE(opened) << toString(opened.findings());
+  EXPECT_EQ((*opened)->index().size(), 0u);
+  ASSERT_TRUE((*opened)->patches());
+  EXPECT_TRUE((*opened)->checkAll().empty());
+  const TerrainInfo& info = (*opened)->info();
+  EXPECT_TRUE((*opened)->heightAt(info.southWest.latitude, info.southWest.longitude));
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+/// A process may be refused memory at any moment.
+TEST_F(SmallBake, saysSoWhereThereIsNoMemory) {
+  int refused = 0;
+  for (const std::size_t megabytes : {0, 1, 9, 10, 12, 20}) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      options_.progress = [&, limited = false](double, const std::string& what) mutable {
+        if (limited || what != "building patches") return true;
+        limited = true;
+        std::size_t pages = 0;
+        std::ifstream("/proc/self/statm") >> pages;
+        const rlim_t most = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + (megabytes << 20);
+        const rlimit limit{most, most};
+        ::setrlimit(RLIMIT_AS, &limit);
+        return true;
+      };
+      const auto made = bake(options_);
+      const std::string said = toString(made.findings());
+      ::_exit(made ? 0 : said.find("memory") != said.npos || said.find("thread") != said.npos ? 1 : 2);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status)) << "signal " << WTERMSIG(status) << " with " << megabytes << " MB";
+    EXPECT_LE(WEXITSTATUS(status), 1) << megabytes;
+    refused += WEXITSTATUS(status) == 1;
+  }
+  EXPECT_GT(refused, 0);
+  // What was done by then serves.
+  ASSERT_TRUE(bake(options_));
+}
+#endif
+
+}  // namespace
+}  // namespace trimtab::terrain
