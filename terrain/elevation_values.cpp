@@ -36,9 +36,18 @@ std::optional<double> verticalUnit(const std::string& name) {
   return unit == kUnits.end() ? 1.0 : unit->second;
 }
 
-/// Values that mean a void in whatever file they stand.
-bool meansVoid(float v) {
-  return v == -32767 || v == -32768 || v == -9999 || v == 32767 || !(v > -15000 && v < 40000);
+/// A number as it stands in the file that means a void, or its metres, which are no height anywhere and so
+/// stand for one.
+bool meansVoid(float raw, float metres) {
+  return raw == -32767 || raw == -32768 || raw == -9999 || raw == 32767 ||
+         !(metres > -15000 && metres < 40000);
+}
+float metresOf(float raw, const Values& values) {
+  return static_cast<float>(raw * values.scale + values.offset);
+}
+/// Deeper than any shore.
+bool isDeep(float metres) {
+  return metres < -500;
 }
 bool isPossible(float metres) {
   return metres >= -11500 && metres <= 9500;
@@ -72,13 +81,14 @@ void Census::add(std::span<const float> raw, const Values& values) {
   const float noData = noDataOf(values);
   posts += raw.size();
   for (const float v : raw) {
+    const float metres = metresOf(v, values);
     if (v == noData || std::isnan(v))
       ++voids;
-    else if (meansVoid(v))
+    else if (meansVoid(v, metres))
       ++untagged;
-    else if (v < -500)
+    else if (isDeep(metres))
       ++deep;
-    else if (!isPossible(static_cast<float>(v * values.scale + values.offset)))
+    else if (!isPossible(metres))
       ++impossible;
   }
 }
@@ -86,12 +96,9 @@ void Census::add(std::span<const float> raw, const Values& values) {
 void toMetres(std::span<float> raw, const Values& values) {
   const float noData = noDataOf(values);
   for (float& v : raw) {
-    if (v == noData || meansVoid(v) || (values.deepIsVoid && v < -500)) {
-      v = kVoid;
-      continue;
-    }
-    v = static_cast<float>(v * values.scale + values.offset);
-    if (!isPossible(v)) v = kVoid;
+    const float metres = metresOf(v, values);
+    const bool isVoid = v == noData || meansVoid(v, metres) || (values.deepIsVoid && isDeep(metres));
+    v = isVoid || !isPossible(metres) ? kVoid : metres;
   }
 }
 

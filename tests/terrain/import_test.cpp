@@ -211,6 +211,24 @@ TEST_F(ImportMadeData, keepsNegativeHeightsAndSeaFloors) {
   EXPECT_EQ(extent(imported->grid).first, -3840);
 }
 
+TEST_F(ImportMadeData, takesWhatIsNoHeightByItsMetresNotByTheNumberInTheFile) {
+  // Mountains to 8,000 m and a sea floor, in steps of a tenth and of a hundredth of a metre.
+  for (const double scale : {0.1, 0.01})
+    for (const double sentinel : {-9999.0, -32768.0, 1e30}) {
+      test::RasterRecipe recipe;
+      recipe.scale = scale;
+      recipe.value = [&](int c, int r, int) {
+        return c == 5 && r == 6 ? sentinel : std::round((125.0 * c - (r == 9 ? 10.0 : 0.0)) / scale);
+      };
+      const auto imported = import(recipe);
+      ASSERT_TRUE(imported);
+      EXPECT_EQ(imported->voidsFilled, 1u) << scale << ", " << sentinel;
+      EXPECT_NEAR(extent(imported->grid).second, 8000, 1e-3);
+      EXPECT_NEAR(at(imported->grid, 3, 64), 8000, 1e-3);
+      EXPECT_NEAR(at(imported->grid, 9, 0), -10, 1e-3);
+    }
+}
+
 TEST_F(ImportMadeData, catchesVoidsThatNoTagNames) {
   for (const double sentinel :
        {-32767.0, -32768.0, -9999.0, -3.4e38, 1e30, std::numeric_limits<double>::quiet_NaN(),

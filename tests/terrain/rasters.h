@@ -26,6 +26,7 @@ struct RasterRecipe {
   GDALDataType type = GDT_Float32;
   std::optional<double> noData;
   std::string unit;
+  std::optional<double> scale;
   bool point = false, southUp = false, placed = true;
   int bands = 1;
   /// Value at (column, row, band), rows from the north.
@@ -52,6 +53,7 @@ inline std::filesystem::path writeRaster(const std::filesystem::path& file, cons
   for (int b = 1; b <= recipe.bands; ++b) {
     GDALRasterBand* band = data->GetRasterBand(b);
     if (recipe.noData) band->SetNoDataValue(*recipe.noData);
+    if (recipe.scale) band->SetScale(*recipe.scale);
     if (!recipe.unit.empty()) band->SetUnitType(recipe.unit.c_str());
     std::vector<double> line(static_cast<std::size_t>(recipe.columns));
     for (int r = 0; r < recipe.rows; ++r) {
