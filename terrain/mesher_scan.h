@@ -1,8 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 
 #include "trimtab/terrain/mesher_triangulation.h"
 
@@ -28,15 +28,19 @@ inline void forEachRow(const Triangulation::Vertex* const corner[3], const bool 
     const Vertex* v;
     int i;
   };
-  Corner a{corner[0], 0}, b{corner[1], 1}, c{corner[2], 2};
   // By row, and of two in one row the right one first: then the middle one is left of the long edge where
-  // the two lie at the bottom.
-  const auto above = [](const Corner& p, const Corner& q) {
-    return p.v->y > q.v->y || (p.v->y == q.v->y && p.v->x < q.v->x);
+  // the two lie at the bottom. As numbers, so that no branch has to be guessed.
+  const auto key = [&](int i) {
+    return (std::int64_t{corner[i]->y} << 34) + ((std::int64_t{1} << 31) - corner[i]->x) * 4 + i;
   };
-  if (above(a, b)) std::swap(a, b);
-  if (above(b, c)) std::swap(b, c);
-  if (above(a, b)) std::swap(a, b);
+  const std::int64_t k0 = key(0), k1 = key(1), k2 = key(2);
+  const std::int64_t low01 = std::min(k0, k1), high01 = std::max(k0, k1);
+  const auto cornerOf = [&](std::int64_t k) {
+    const int i = static_cast<int>(k & 3);
+    return Corner{corner[i], i};
+  };
+  const Corner a = cornerOf(std::min(low01, k2)), b = cornerOf(std::max(low01, std::min(high01, k2))),
+               c = cornerOf(std::max(high01, k2));
   const std::int64_t area = Triangulation::turn(*a.v, *b.v, c.v->x, c.v->y);
   if (area == 1 || area == -1) return;  // no post but its corners
 

@@ -15,10 +15,11 @@ namespace trimtab::terrain {
 /// the sum of w_i P_i. Along the vertical of S the triangle's plane is off by t = D.N / up.N: with heights h,
 /// (h_S - sum w_i h_i) + D'_up - slope x D'_h, where D' is D without the difference of heights: the bend of
 /// rows and columns. The page's plane, whose normal leans by at most `lean`, shows
-/// (t + slope x D'_h) cos(lean) + D'_h sin(lean). So |t| <= shown / cos(lean) + (slope + tan(lean)) |D'_h|. The mean of the squares of the
-/// corners' distances is at most a quarter of the extent's square, so the second derivatives of a place by
-/// longitude and latitude, along the ground, bound D'_h; corners of different height add their verticals'
-/// angles. Where the vertical of S meets the triangle beside, that one's slope counts.
+/// (t + slope x D'_h) cos(lean) + D'_h sin(lean). So |t| <= shown / cos(lean) + (slope + tan(lean)) |D'_h|.
+/// The mean of the squares of the corners' distances is at most a quarter of the extent's square, so the
+/// second derivatives of a place by longitude and latitude, along the ground, bound D'_h; corners of
+/// different height add their verticals' angles. Where the vertical of S meets the triangle beside, that
+/// one's slope counts.
 class VerticalBound {
  public:
   /// Columns meet at a pole. Nothing that close to it is drawn apart.

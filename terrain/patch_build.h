@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -30,10 +31,12 @@ struct BuiltPage {
   std::vector<std::array<float, PatchIndex::kVariants>> errorM;
 };
 /// Memory: a few times the posts of a page at no more than kMostPostsASide a side (coarser pages are meshed
-/// on every so-manyth post, and measured on all of them, strip by strip).
+/// on every so-manyth post, and measured on all of them, strip by strip). `carryOn` is asked between patches
+/// and between strips; when it says no, what comes back has no patches.
 inline constexpr std::uint32_t kMostPostsASide = 1025;
 BuiltPage buildPage(const PatchIndex& index, std::uint32_t page, const HeightSource& heights,
-                    const PostGeometry& geometry, const std::vector<double>& tolerances);
+                    const PostGeometry& geometry, const std::vector<double>& tolerances,
+                    const std::function<bool()>& carryOn = {});
 
 /// Fills bounds, errors and triangles of the index, so that they are monotone up the tree; `facts` one a
 /// patch, `own*` as built, page by page.

@@ -44,16 +44,20 @@ class PageMeasure {
         bound_(heights.posts(), geometry, window_),
         patches_(drafts.size()) {}
 
-  void run() {
+  bool run(const std::function<bool()>& carryOn) {
     for (std::size_t i = 0; i < drafts_.size(); ++i) begin(drafts_[i], patches_[i]);
     const auto rows =
         static_cast<std::uint32_t>(std::max<std::size_t>(2, kStripPosts / (window_.columns + 2)));
     const std::uint32_t end = window_.row + window_.rows;
     for (std::uint32_t row = window_.row; row < end; row += rows) {
       read(row, std::min(row + rows, end));
-      for (std::size_t i = 0; i < drafts_.size(); ++i) measure(drafts_[i], patches_[i], i);
+      for (std::size_t i = 0; i < drafts_.size(); ++i) {
+        if (carryOn && !carryOn()) return false;
+        measure(drafts_[i], patches_[i], i);
+      }
     }
     for (std::size_t i = 0; i < drafts_.size(); ++i) finish(drafts_[i], patches_[i], i);
+    return true;
   }
 
  private:
@@ -116,6 +120,7 @@ class PageMeasure {
     constexpr std::int64_t kFar = std::numeric_limits<std::int64_t>::max();
     PostGeometry::Lattice low{kFar, kFar, kFar}, high{-kFar, -kFar, -kFar};
     std::vector<PostGeometry::Lattice> places;
+    places.reserve(draft.vertices.size());
     for (std::size_t i = 0; i < draft.vertices.size(); ++i) {
       const PatchPoint& p = draft.vertices[i];
       const PostGeometry::Lattice at = geometry_.lattice(p.row, p.column, draft.heights[i]);
@@ -130,6 +135,7 @@ class PageMeasure {
     mesh.origin[0] = middle(low.x, high.x);
     mesh.origin[1] = middle(low.y, high.y);
     mesh.origin[2] = middle(low.z, high.z);
+    mesh.vertices.reserve(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
       const auto metres = [](std::int64_t steps, std::int32_t origin) {
         return static_cast<float>(steps - origin * kStepsPerOrigin) /
@@ -145,8 +151,11 @@ class PageMeasure {
     }
     for (std::size_t v = 0; v < kVariants; ++v) {
       mesh.firstIndex[v] = static_cast<std::uint32_t>(mesh.indices.size());
-      for (const std::uint32_t i : draft.variants[v].triangles)
-        mesh.indices.push_back(static_cast<std::uint16_t>(i));
+      const std::vector<std::uint32_t>& triangles = draft.variants[v].triangles;
+      const std::size_t before = mesh.indices.size();
+      mesh.indices.resize(before + triangles.size());
+      for (std::size_t i = 0; i < triangles.size(); ++i)
+        mesh.indices[before + i] = static_cast<std::uint16_t>(triangles[i]);
     }
     mesh.firstIndex[kVariants] = static_cast<std::uint32_t>(mesh.indices.size());
     // The next floats outwards: a float need not hold a place that far from the frame's origin.
@@ -215,9 +224,17 @@ class PageMeasure {
     for (std::uint32_t r = std::max(row_, patch.firstRow); r <= std::min(end_ - 1, patch.lastRow); ++r) {
       const auto [from, to] = columnsOf(draft, r);
       const float* const z = &raw_[at(from, r)];
-      const auto [lowest, highest] = std::minmax_element(z, z + (to - from + 1));
-      patch.lowest = std::min(patch.lowest, *lowest);
-      patch.highest = std::max(patch.highest, *highest);
+      // Four at a time: each waits for nothing but the fourth before it.
+      std::array<float, 4> lowest, highest;
+      lowest.fill(patch.lowest), highest.fill(patch.highest);
+      for (std::uint32_t c = 0; c <= to - from; c += 4)
+        for (std::uint32_t k = 0; k < 4; ++k) {
+          const float height = z[std::min(c + k, to - from)];
+          lowest[k] = std::min(lowest[k], height);
+          highest[k] = std::max(highest[k], height);
+        }
+      patch.lowest = *std::min_element(lowest.begin(), lowest.end());
+      patch.highest = *std::max_element(highest.begin(), highest.end());
       const bool top = r + 1 == index_.rows;
       if (r == patch.lastRow && !top) continue;
       std::uint32_t stop = to;
@@ -346,9 +363,10 @@ class PageMeasure {
 
 }  // namespace
 
-void measurePage(const PatchIndex& index, const PatchIndex::Page& page, const HeightSource& heights,
-                 const PostGeometry& geometry, std::span<const PatchDraft> drafts, BuiltPage& built) {
-  PageMeasure(index, page, heights, geometry, drafts, built).run();
+bool measurePage(const PatchIndex& index, const PatchIndex::Page& page, const HeightSource& heights,
+                 const PostGeometry& geometry, std::span<const PatchDraft> drafts,
+                 const std::function<bool()>& carryOn, BuiltPage& built) {
+  return PageMeasure(index, page, heights, geometry, drafts, built).run(carryOn);
 }
 
 }  // namespace trimtab::terrain

@@ -60,7 +60,8 @@ std::size_t PatchPage::bytes() const {
 }
 
 BuiltPage buildPage(const PatchIndex& index, std::uint32_t page, const HeightSource& heights,
-                    const PostGeometry& geometry, const std::vector<double>& tolerances) {
+                    const PostGeometry& geometry, const std::vector<double>& tolerances,
+                    const std::function<bool()>& carryOn) {
   const PatchIndex::Page& at = index.pages[page];
   BuiltPage built;
   built.meshes.page = page;
@@ -68,10 +69,15 @@ BuiltPage buildPage(const PatchIndex& index, std::uint32_t page, const HeightSou
   {
     PageField field(index, at, heights, geometry, tolerances);
     PolygonMesher mesher;
-    for (const PatchPlace& place : placesOfPage(index, at))
+    for (const PatchPlace& place : placesOfPage(index, at)) {
+      if (carryOn && !carryOn()) return built;
       drafts.push_back(drafted(field, index, place, tolerances, mesher));
+    }
   }
-  measurePage(index, at, heights, geometry, drafts, built);
+  if (!measurePage(index, at, heights, geometry, drafts, carryOn, built)) {
+    built = {};
+    built.meshes.page = page;
+  }
   return built;
 }
 

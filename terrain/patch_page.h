@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <span>
 #include <utility>
@@ -69,7 +70,9 @@ class PageField {
 };
 
 /// Measures errors, facts and normals of a page's patches on all posts, strip by strip, and fills `built`.
-void measurePage(const PatchIndex& index, const PatchIndex::Page& page, const HeightSource& heights,
-                 const PostGeometry& geometry, std::span<const PatchDraft> drafts, BuiltPage& built);
+/// False where `carryOn` said no: what is in `built` then is of no use.
+bool measurePage(const PatchIndex& index, const PatchIndex::Page& page, const HeightSource& heights,
+                 const PostGeometry& geometry, std::span<const PatchDraft> drafts,
+                 const std::function<bool()>& carryOn, BuiltPage& built);
 
 }  // namespace trimtab::terrain

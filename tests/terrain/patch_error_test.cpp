@@ -185,5 +185,27 @@ TEST(PatchPages, areTheSameInAnyOrder) {
   }
 }
 
+TEST(PatchPages, stopBeingMadeWheneverTheyAreToldTo) {
+  const HeightGrid grid = test::fractal({10, 45, 0.001, 0.001, 300, 200}, 6);
+  const GridHeights heights(grid);
+  const PostGeometry geometry(grid.posts);
+  const PatchIndex index = makePatchIndex(grid.posts, geometry);
+  const auto tolerances = patchTolerances(index, defaultLeafToleranceM(grid.posts));
+  const std::size_t patches = buildPage(index, 0, heights, geometry, tolerances).meshes.patches.size();
+  std::size_t asked = 0;
+  const BuiltPage whole = buildPage(index, 0, heights, geometry, tolerances, [&] {
+    ++asked;
+    return true;
+  });
+  EXPECT_EQ(whole.meshes.patches.size(), patches);
+  EXPECT_GE(asked, 2 * patches);
+  for (std::size_t last = 0; last < asked; last += 1 + asked / 5) {
+    std::size_t left = last;
+    const BuiltPage stopped = buildPage(index, 0, heights, geometry, tolerances, [&] { return left-- > 0; });
+    EXPECT_TRUE(stopped.meshes.patches.empty());
+    EXPECT_TRUE(stopped.facts.empty());
+  }
+}
+
 }  // namespace
 }  // namespace trimtab::terrain
