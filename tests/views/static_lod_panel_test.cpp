@@ -130,7 +130,7 @@ TEST_F(StaticLodPanelTest, takesTheOverlayBackWithTheTrees) {
 TEST_F(StaticLodPanelTest, editsThePreset) {
   const auto boxes = panel_.findChildren<ChoiceBox*>();
   ASSERT_FALSE(boxes.isEmpty());
-  boxes.front()->setCurrentIndex(1);
+  boxes.front()->setCurrentIndex(static_cast<int>(TerrainForm::static_trees));
   EXPECT_EQ(draft_.active()->staticLod.terrain, TerrainForm::static_trees);
   draft_.undoStack().undo();
   EXPECT_EQ(draft_.active()->staticLod.terrain, TerrainForm::levels);
