@@ -1,6 +1,7 @@
 #include "trimtab/terrain/bake_patches.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstring>
@@ -78,12 +79,14 @@ std::vector<std::uint8_t> PatchBake::finished() const {
   return all;
 }
 
-Result<Done> PatchBake::makePiece(const HeightSource& heights, std::uint32_t piece) const {
+Result<Done> PatchBake::makePiece(const HeightSource& heights, std::uint32_t piece,
+                                  const std::function<bool()>& carryOn) const {
   auto writer = PageFileWriter::create(pieceFile(piece));
   if (!writer) return writer.findings();
   std::vector<Measured> all;
   for (std::uint32_t page = firstPage_[piece]; page < firstPage_[piece + 1]; ++page) {
-    const BuiltPage built = buildPage(index_, page, heights, geometry_, tolerances_);
+    const BuiltPage built = buildPage(index_, page, heights, geometry_, tolerances_, carryOn);
+    if (!carryOn()) return cancelled("building patches");
     const std::vector<std::byte> blob = encodePage(built.meshes, geometry_);
     std::uint64_t vertices = 0;
     for (const PatchMesh& mesh : built.meshes.patches) vertices += mesh.vertices.size() + 1;
@@ -126,7 +129,7 @@ Result<Done> PatchBake::make(const HeightSource& heights, std::uint32_t part, st
   Findings findings;
   std::size_t next = 0, working = 0;
   std::uint64_t doneWork = 0;
-  bool stop = false;
+  std::atomic<bool> stop{false};
   const auto build = [&] {
     std::unique_lock lock(mutex);
     while (!stop && findings.empty() && next < missing.size()) {
@@ -134,7 +137,7 @@ Result<Done> PatchBake::make(const HeightSource& heights, std::uint32_t part, st
       lock.unlock();
       const auto made = [&]() -> Result<Done> {
         try {
-          return makePiece(heights, piece);
+          return makePiece(heights, piece, [&] { return !stop; });
         } catch (const std::exception& thrown) {
           return wrong(pieceFile(piece), "room in memory for " + what, thrown.what());
         }
@@ -176,8 +179,8 @@ Result<Done> PatchBake::make(const HeightSource& heights, std::uint32_t part, st
     }
   }
   for (std::thread& worker : workers) worker.join();
-  if (!findings.empty()) return findings;
   if (stop) return cancelled(what);
+  if (!findings.empty()) return findings;
   return Done{};
 }
 

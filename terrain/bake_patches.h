@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "trimtab/terrain/bake_work.h"
@@ -30,7 +31,8 @@ class PatchBake {
 
  private:
   std::filesystem::path pieceFile(std::uint32_t piece) const;
-  Result<Done> makePiece(const HeightSource& heights, std::uint32_t piece) const;
+  Result<Done> makePiece(const HeightSource& heights, std::uint32_t piece,
+                         const std::function<bool()>& carryOn) const;
 
   const WorkFolder& work_;
   const PostGrid& posts_;
