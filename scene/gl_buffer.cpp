@@ -4,11 +4,19 @@
 
 namespace trimtab::scene {
 
-void growBuffer(unsigned& buffer, std::size_t before, std::size_t after) {
+bool growBuffer(unsigned& buffer, std::size_t before, std::size_t after) {
+  // Errors of before are not this one's; a lost context has no end of them.
+  for (int i = 0; i < 8 && glGetError() != GL_NO_ERROR; ++i) {
+  }
   GLuint larger = 0;
   glGenBuffers(1, &larger);
   glBindBuffer(GL_COPY_WRITE_BUFFER, larger);
   glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(after), nullptr, GL_STATIC_DRAW);
+  if (glGetError() != GL_NO_ERROR) {
+    glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
+    glDeleteBuffers(1, &larger);
+    return false;
+  }
   if (buffer != 0) {
     glBindBuffer(GL_COPY_READ_BUFFER, buffer);
     glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0, static_cast<GLsizeiptr>(before));
@@ -17,6 +25,7 @@ void growBuffer(unsigned& buffer, std::size_t before, std::size_t after) {
   }
   glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
   buffer = larger;
+  return true;
 }
 
 void uploadBuffer(unsigned buffer, const void* data, std::size_t bytes) {

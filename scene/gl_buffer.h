@@ -6,7 +6,8 @@
 namespace trimtab::scene {
 
 /// A buffer of `after` bytes in place of `buffer` (0: none yet), whose first `before` bytes it keeps.
-void growBuffer(unsigned& buffer, std::size_t before, std::size_t after);
+/// False where there is no memory for it: `buffer` is as it was.
+bool growBuffer(unsigned& buffer, std::size_t before, std::size_t after);
 /// All of it, anew.
 void uploadBuffer(unsigned buffer, const void* data, std::size_t bytes);
 void uploadPart(unsigned buffer, std::size_t offset, const void* data, std::size_t bytes);

@@ -14,6 +14,8 @@ namespace {
 
 /// What a frame may spend on taking pages in; one page is always taken.
 constexpr std::chrono::microseconds kShare{2000};
+/// What is reserved on the GPU before it is needed.
+constexpr double kMostReserved = 256e6;
 /// How far ahead the eye is looked for: several times what reading the pages of the way there takes.
 constexpr double kAheadS = 5;
 /// What is needed then is so much less urgent than what is needed now.
@@ -68,7 +70,9 @@ struct PatchCulling::Impl {
   std::unique_ptr<terrain::Pager> pager;
   Bytes bytes;
   PageBudget pages;
-  std::uint64_t reservedFor = 0;                                  ///< budget that the layer has room for
+  std::uint64_t reservedFor = 0;           ///< largest budget that the layer has made room for
+  std::uint64_t refusedFor = 0;            ///< budget in which the GPU had no memory for a page
+  std::uint64_t most = ~std::uint64_t{0};  ///< what it has memory for instead
   std::vector<std::shared_ptr<const terrain::PatchPage>> meshes;  ///< of the pages that are held
   std::vector<std::uint32_t> roots;
   std::uint64_t heldNumber = 0, dropped = 0;  ///< changes of what is held; pages given up
@@ -89,6 +93,7 @@ struct PatchCulling::Impl {
   void takeArrivals(PatchLayer& layer);
   void takeAll(std::span<const std::uint32_t> wanted, PatchLayer& layer);
   void reserve(const FrameRequest& request, PatchLayer& layer);
+  void giveBack(const FrameRequest& request, PatchLayer& layer);
   void followLayer(PatchLayer& layer);
   std::optional<Vec3> eyeAhead(const FrameRequest& request, Vec3 eye) const;
   bool lookAhead(const FrameRequest& request, const CutKey& wanted);
@@ -146,7 +151,11 @@ void PatchCulling::Impl::takeIn(std::shared_ptr<const terrain::PatchPage> page, 
   const std::uint32_t at = page->page;
   if (pages.holds(at)) return;
   makeRoom(pages.bytesOf(at), layer);
-  layer.add(*page);
+  if (!layer.add(*page)) {
+    // A little less than what is there, as places of other sizes will be asked for.
+    most = std::min(most, pages.bytes()) / 16 * 15;
+    return;
+  }
   pages.hold(at);
   meshes[at] = std::move(page);
   ++heldNumber;
@@ -166,21 +175,38 @@ void PatchCulling::Impl::takeAll(std::span<const std::uint32_t> wanted, PatchLay
   for (const auto& page : pager->takeArrived(std::numeric_limits<std::size_t>::max())) takeIn(page, layer);
 }
 
-/// What the budget may hold of this terrain, at once: growing later would make a frame late.
+/// What the budget may hold of this terrain, at once, unless that is very much: growing later makes a frame
+/// late.
 void PatchCulling::Impl::reserve(const FrameRequest& request, PatchLayer& layer) {
   const std::uint64_t budget = budgetOf(request);
+  // Another budget is another try.
+  if (budget != refusedFor) most = ~std::uint64_t{0};
+  refusedFor = budget;
   if (budget <= reservedFor || bytes.all == 0) return;
   reservedFor = budget;
-  const double share = std::min(1.0, static_cast<double>(budget) / static_cast<double>(bytes.all));
+  const double onGpu = static_cast<double>(bytes.vertices + bytes.indices);
+  const double share =
+      std::min({1.0, static_cast<double>(budget) / static_cast<double>(bytes.all), kMostReserved / onGpu});
   layer.reserve(static_cast<std::size_t>(share * static_cast<double>(bytes.vertices)),
                 static_cast<std::size_t>(share * static_cast<double>(bytes.indices)));
+}
+
+/// Where the budget has shrunk a lot, the room of before is somebody else's to use.
+void PatchCulling::Impl::giveBack(const FrameRequest& request, PatchLayer& layer) {
+  const std::uint64_t budget = budgetOf(request);
+  if (budget >= reservedFor / 2) return;
+  reservedFor = budget;
+  layer.setTerrain(&terrain->index());
+  const std::vector<std::uint32_t> held(pages.held().begin(), pages.held().end());
+  for (const std::uint32_t page : held)
+    if (!layer.add(*meshes[page])) letGo(page);
 }
 
 /// A layer of a new context has nothing.
 void PatchCulling::Impl::followLayer(PatchLayer& layer) {
   if (!pages.held().empty() && !layer.has(pages.held().front())) {
     while (!pages.held().empty()) letGo(pages.held().front());
-    reservedFor = 0;
+    reservedFor = refusedFor = 0;
   }
   mustHave.clear();
   for (const std::uint32_t page : roots)
@@ -229,7 +255,7 @@ void PatchCulling::Impl::choose(const FrameRequest& request, const EyePose& eye,
                       request.lod.screenSpaceError.value() / defects.statedErrorScale,
                       request.decision.lodScale,
                       std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom)),
-                      budgetOf(request),
+                      std::min(budgetOf(request), most),
                       heldNumber};
   const bool newCut = key != wanted, newAim = lookAhead(request, wanted);
   if (newCut || !request.skips.sameCut) {
@@ -280,6 +306,7 @@ void PatchCulling::page(const FrameRequest& request, const EyePose& eye, PatchLa
     }
   }
   m.makeRoom(0, layer);
+  m.giveBack(request, layer);
 
   const terrain::Pager::Counters read = m.pager->counters();
   PagingFrame& paging = counters.paging;

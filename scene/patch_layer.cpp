@@ -94,10 +94,11 @@ struct PatchLayer::Impl {
   Impl();
   ~Impl();
   void clear();
-  void growVertices(std::uint32_t least);
-  void growIndices(std::uint32_t least);
+  /// To so many blocks; false: there is no memory for them, and nothing has changed.
+  bool growVertices(std::uint32_t after);
+  bool growIndices(std::uint32_t after);
   const Place* placeOf(std::uint32_t patch) const;
-  void put(const terrain::PatchMesh& mesh, std::uint32_t patch, Place& place);
+  bool put(const terrain::PatchMesh& mesh, std::uint32_t patch, Place& place);
 };
 
 PatchLayer::Impl::Impl() {
@@ -125,28 +126,31 @@ void PatchLayer::Impl::clear() {
   tints.clear();
 }
 
-void PatchLayer::Impl::growVertices(std::uint32_t least) {
-  const std::uint32_t before = blocks.size();
-  const std::uint32_t after = std::max({kFirstBlocks, before + least, before + before / 2});
-  growBuffer(vertexBuffer, before * kBlock * kVertexBytes, after * kBlock * kVertexBytes);
-  growBuffer(slotBuffer, before * sizeof(SlotData), after * sizeof(SlotData));
-  attachBuffer(slotTexture, GL_RGBA32I, slotBuffer);
+bool PatchLayer::Impl::growVertices(std::uint32_t after) {
+  const std::size_t before = blocks.size();
+  if (!growBuffer(vertexBuffer, before * kBlock * kVertexBytes, std::size_t{after} * kBlock * kVertexBytes))
+    return false;
   glBindVertexArray(vertexArray);
   glBindBuffer(GL_ARRAY_BUFFER, vertexBuffer);
   defineAttributes();
   glBindVertexArray(0);
   glBindBuffer(GL_ARRAY_BUFFER, 0);
+  if (!growBuffer(slotBuffer, before * sizeof(SlotData), after * sizeof(SlotData))) return false;
+  attachBuffer(slotTexture, GL_RGBA32I, slotBuffer);
   blocks.growTo(after);
+  return true;
 }
 
-void PatchLayer::Impl::growIndices(std::uint32_t least) {
-  const std::uint32_t before = indexBlocks.size();
-  const std::uint32_t after = std::max({kFirstIndexBlocks, before + least, before + before / 2});
-  growBuffer(indexBuffer, before * kIndexBlock * kIndexBytes, after * kIndexBlock * kIndexBytes);
+bool PatchLayer::Impl::growIndices(std::uint32_t after) {
+  const std::size_t before = indexBlocks.size();
+  if (!growBuffer(indexBuffer, before * kIndexBlock * kIndexBytes,
+                  std::size_t{after} * kIndexBlock * kIndexBytes))
+    return false;
   glBindVertexArray(vertexArray);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indexBuffer);
   glBindVertexArray(0);
   indexBlocks.growTo(after);
+  return true;
 }
 
 const Place* PatchLayer::Impl::placeOf(std::uint32_t patch) const {
@@ -154,27 +158,38 @@ const Place* PatchLayer::Impl::placeOf(std::uint32_t patch) const {
   return pages[page].empty() ? nullptr : &pages[page][patch - index->pages[page].firstPatch];
 }
 
-void PatchLayer::Impl::put(const terrain::PatchMesh& mesh, std::uint32_t patch, Place& place) {
+bool PatchLayer::Impl::put(const terrain::PatchMesh& mesh, std::uint32_t patch, Place& place) {
   place.firstIndex = mesh.firstIndex;
   place.blocks = inBlocks(mesh.vertices.size(), kBlock);
   place.indexBlocks = inBlocks(mesh.indices.size(), kIndexBlock);
   if (place.blocks == 0 || place.indexBlocks == 0) {
     place = {};
-    return;
+    return true;
   }
   // What waits to be sent belongs into the buffer that growing would replace.
   auto block = blocks.take(place.blocks);
   if (!block) {
     vertexStage.send();
     slotStage.send();
-    growVertices(place.blocks);
-    block = blocks.take(place.blocks);
+    const std::uint32_t size = blocks.size(), least = std::max(kFirstBlocks, size + place.blocks);
+    if (growVertices(std::max(least, size * 2)) || growVertices(least)) block = blocks.take(place.blocks);
+  }
+  if (!block) {
+    place = {};
+    return false;
   }
   auto indexBlock = indexBlocks.take(place.indexBlocks);
   if (!indexBlock) {
     indexStage.send();
-    growIndices(place.indexBlocks);
-    indexBlock = indexBlocks.take(place.indexBlocks);
+    const std::uint32_t size = indexBlocks.size(),
+                        least = std::max(kFirstIndexBlocks, size + place.indexBlocks);
+    if (growIndices(std::max(least, size * 2)) || growIndices(least))
+      indexBlock = indexBlocks.take(place.indexBlocks);
+  }
+  if (!indexBlock) {
+    blocks.give(*block, place.blocks);
+    place = {};
+    return false;
   }
   place.block = *block;
   place.indexBlock = *indexBlock;
@@ -189,6 +204,7 @@ void PatchLayer::Impl::put(const terrain::PatchMesh& mesh, std::uint32_t patch, 
                       {}};
   slotStage.begin(place.block, 1, slotBuffer);
   for (std::uint32_t i = 0; i < place.blocks; ++i) slotStage.append(std::span(&slot, 1));
+  return true;
 }
 
 PatchLayer::PatchLayer() : impl_(std::make_unique<Impl>()) {}
@@ -207,20 +223,24 @@ bool PatchLayer::has(std::uint32_t page) const {
 void PatchLayer::reserve(std::size_t vertexBytes, std::size_t indexBytes) {
   const std::uint32_t blocks = inBlocks(vertexBytes / kVertexBytes, kBlock),
                       indexBlocks = inBlocks(indexBytes / kIndexBytes, kIndexBlock);
-  if (blocks > impl_->blocks.size()) impl_->growVertices(blocks - impl_->blocks.size());
-  if (indexBlocks > impl_->indexBlocks.size()) impl_->growIndices(indexBlocks - impl_->indexBlocks.size());
+  if (blocks > impl_->blocks.size()) impl_->growVertices(std::max(kFirstBlocks, blocks));
+  if (indexBlocks > impl_->indexBlocks.size()) impl_->growIndices(std::max(kFirstIndexBlocks, indexBlocks));
 }
 
-void PatchLayer::add(const terrain::PatchPage& page) {
+bool PatchLayer::add(const terrain::PatchPage& page) {
   Impl& m = *impl_;
-  if (has(page.page)) return;
+  if (has(page.page)) return true;
   std::vector<Place>& places = m.pages[page.page];
   places.resize(page.patches.size());
-  for (std::size_t i = 0; i < places.size(); ++i)
-    m.put(page.patches[i], m.index->pages[page.page].firstPatch + static_cast<std::uint32_t>(i), places[i]);
+  bool whole = true;
+  for (std::size_t i = 0; i < places.size() && whole; ++i)
+    whole = m.put(page.patches[i], m.index->pages[page.page].firstPatch + static_cast<std::uint32_t>(i),
+                  places[i]);
   m.vertexStage.send();
   m.indexStage.send();
   m.slotStage.send();
+  if (!whole) drop(page.page);
+  return whole;
 }
 
 void PatchLayer::drop(std::uint32_t page) {

@@ -25,9 +25,11 @@ class PatchLayer {
   /// Forgets all pages; null: none.
   void setTerrain(const PatchIndex* index);
   /// Room for pages with so many bytes of vertices and of indices, so that adding them moves nothing that is
-  /// there: what is moved makes a frame late.
+  /// there: what is moved makes a frame late. Where there is no memory for that,
+  /// there is the room that there was.
   void reserve(std::size_t vertexBytes, std::size_t indexBytes);
-  void add(const terrain::PatchPage& page);
+  /// False where there is no memory for it: it is not there, and what was still is.
+  bool add(const terrain::PatchPage& page);
   void drop(std::uint32_t page);
   bool has(std::uint32_t page) const;
 

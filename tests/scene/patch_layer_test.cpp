@@ -160,6 +160,19 @@ TEST_F(PatchLayer, drawsThePagesThatAreThereWhateverCameAndWent) {
   EXPECT_EQ(layer.reservedBytes(), 0u);
 }
 
+TEST_F(PatchLayer, keepsWhatItHasWhereThereIsNoMemoryForMore) {
+  scene::PatchLayer layer;
+  layer.setTerrain(&terrain_->index());
+  ASSERT_TRUE(layer.add(terrain_->readPage(0).value()));
+  const auto before = drawn(layer, ofPage(0, 0));
+  const std::size_t room = layer.reservedBytes();
+  layer.reserve(std::size_t{1} << 37, std::size_t{1} << 36);
+  EXPECT_EQ(layer.reservedBytes(), room);
+  EXPECT_EQ(drawn(layer, ofPage(0, 0)), before);
+  ASSERT_TRUE(layer.add(terrain_->readPage(1).value()));
+  EXPECT_EQ(drawn(layer, ofPage(0, 0)), before);
+}
+
 TEST_F(PatchLayer, tintsFollowThePatch) {
   const PatchIndex& index = terrain_->index();
   scene::PatchLayer layer;
