@@ -28,7 +28,7 @@ TEST(ExperimentCommand, printsOneDocumentAndWritesTablesAndPlots) {
                    " --set fuzzy.combination=twice_minimum");
   ASSERT_EQ(ran.exitCode, 0) << ran.err;
   const json document = json::parse(ran.out);
-  EXPECT_EQ(document.at("published").size(), 16u);
+  EXPECT_EQ(document.at("published").size(), 12u);
   EXPECT_EQ(document.at("measured").size(), 16u);
   EXPECT_TRUE(document.at("machine").is_string());
   for (const char* column : {"altitude_ft", "case", "triangles", "vertices", "frame_ms", "fps"})
