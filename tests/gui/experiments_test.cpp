@@ -40,11 +40,11 @@ TEST_F(ExperimentsDock, showsThePublishedRowsBesideOurs) {
   choose("culling");
   ASSERT_TRUE(runToEnd()) << w().messages().text().toStdString();
   ASSERT_TRUE(dock().report());
-  EXPECT_EQ(dock().report()->measured.rows.size(), 12u);
+  EXPECT_EQ(dock().report()->measured.rows.size(), 16u);
   const QList<QTableWidget*> tables = dock().findChildren<QTableWidget*>();
   ASSERT_EQ(tables.size(), 2);
   for (const QTableWidget* table : tables) {
-    EXPECT_EQ(table->rowCount(), 12);
+    EXPECT_EQ(table->rowCount(), 16);
     EXPECT_EQ(table->horizontalHeaderItem(0)->text(), "altitude ft");
     EXPECT_FALSE(table->item(11, 2)->text().isEmpty());
   }

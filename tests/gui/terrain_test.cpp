@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QAction>
+#include <QDialogButtonBox>
+#include <QDockWidget>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QTableView>
+#include <QTimer>
+#include <QToolButton>
+
+#include "gui_support.h"
+#include "trimtab/views/terrain_panel.h"
+#include "trimtab/workbench/bake_dialog.h"
+
+namespace trimtab::test {
+namespace {
+
+class TerrainDock : public Bench {
+ protected:
+  void SetUp() override {
+    Bench::SetUp();
+    w().dock(QStringLiteral("terrain"))->raise();
+  }
+  views::TerrainPanel& panel() {
+    return *w().dock(QStringLiteral("terrain"))->findChild<views::TerrainPanel*>();
+  }
+  bool says(const QString& text) {
+    for (const QLabel* label : panel().findChildren<QLabel*>())
+      if (label->text().contains(text)) return true;
+    return false;
+  }
+  QToolButton* button(const QString& text) {
+    for (QToolButton* each : panel().findChildren<QToolButton*>())
+      if (each->defaultAction() != nullptr && each->defaultAction()->iconText().contains(text)) return each;
+    return nullptr;
+  }
+  const scene::FrameResult& last() { return *w().viewport().lastResult(); }
+  int drawnRows() {
+    const QAbstractItemModel& model = *panel().findChild<QTableView*>()->model();
+    int rows = 0;
+    for (int row = 0; row < model.rowCount(); ++row)
+      rows += model.index(row, 7).data().toString() != QStringLiteral("–");
+    return rows;
+  }
+  static QPushButton* accepting(QDialog& dialog) {
+    for (QPushButton* each : dialog.findChildren<QPushButton*>())
+      if (each->text().contains(QStringLiteral("Bake"))) return each;
+    return nullptr;
+  }
+
+  ScratchDir dir_;
+};
+
+TEST_F(TerrainDock, showsTheLevelsThatThePictureIsMadeOf) {
+  ASSERT_TRUE(waitFor([this] { return drawnRows() > 0; }));
+  EXPECT_TRUE(says(QStringLiteral("posts")));
+  const int rows = drawnRows();
+  // Coarser: fewer levels are drawn, and the button of the dock is the menu's.
+  ASSERT_TRUE(w().draft().setText("lod.screen_space_error_px", "200").empty());
+  ASSERT_TRUE(waitFor([&] { return drawnRows() > 0 && drawnRows() < rows; })) << drawnRows();
+  QToolButton* wire = button(QStringLiteral("Wireframe"));
+  ASSERT_NE(wire, nullptr);
+  const std::uint64_t before = paints();
+  wire->click();
+  EXPECT_TRUE(wire->isChecked());
+  EXPECT_TRUE(waitFor([&] { return paints() > before; }));
+}
+
+TEST_F(TerrainDock, drawsPatchesWhereThePresetSaysSo) {
+  ASSERT_TRUE(w().draft().setText("static_lod.terrain", "patches").empty());
+  ASSERT_TRUE(waitFor([this] { return last().patches; }));
+  ASSERT_TRUE(waitFor([this] { return says(QStringLiteral("<b>Patches</b>")) && drawnRows() > 0; }));
+  EXPECT_TRUE(waitFor([this] { return last().paging.heldBack == 0; }))
+      << "all that it wants is there in time";
+  EXPECT_TRUE(says(QStringLiteral("512 MB")));
+}
+
+TEST_F(TerrainDock, bakesWhatIsAskedForAndOpensIt) {
+  ASSERT_TRUE(terrain::writeSample(dir_ / "small.tif", {7, 20, 100, {}}));
+  bool refusedWithout = false, acceptedWith = false;
+  QTimer::singleShot(0, &w(), [&] {
+    auto* dialog = w().findChild<workbench::BakeDialog*>();
+    if (dialog == nullptr) return;
+    refusedWithout = !accepting(*dialog)->isEnabled();
+    dialog->addSources({QString::fromStdString((dir_ / "small.tif").string())});
+    for (QLineEdit* line : dialog->findChildren<QLineEdit*>())
+      if (line->text().endsWith(QStringLiteral("small-terrain")))
+        line->setText(QString::fromStdString((dir_ / "mine").string()));
+    acceptedWith = accepting(*dialog)->isEnabled();
+    accepting(*dialog)->click();
+  });
+  button(QStringLiteral("Bake"))->click();
+  EXPECT_TRUE(refusedWithout);
+  ASSERT_TRUE(acceptedWith);
+  ASSERT_TRUE(waitFor([this] { return says(QStringLiteral("<b>small</b>")); }))
+      << w().messages().text().toStdString();
+  EXPECT_TRUE(terrain::isDatabase(dir_ / "mine"));
+  EXPECT_FALSE(panel().findChild<QProgressBar*>()->isVisible());
+}
+
+TEST_F(TerrainDock, keepsTheTerrainWhenABakeIsCancelledOrRefused) {
+  ASSERT_TRUE(terrain::writeSample(dir_ / "large.tif", {7, 150, 60, {}}));
+  terrain::BakeOptions options;
+  options.sources = {dir_ / "large.tif"};
+  options.output = dir_ / "never";
+  const std::uint64_t before = paints();
+  w().terrainJob().bake(options);
+  ASSERT_TRUE(waitFor([this] { return panel().findChild<QProgressBar*>()->isVisible(); }));
+  for (QPushButton* each : panel().findChildren<QPushButton*>())
+    if (each->text().contains(QStringLiteral("Cancel"))) each->click();
+  EXPECT_TRUE(waitFor([this] { return !w().terrainJob().running(); }));
+  EXPECT_FALSE(terrain::isDatabase(dir_ / "never"));
+  writeFile(dir_ / "text.tif", "no raster");
+  options.sources = {dir_ / "text.tif"};
+  w().terrainJob().bake(options);
+  ASSERT_TRUE(waitFor([this] { return w().messages().text().contains(QStringLiteral("text.tif")); }));
+  EXPECT_TRUE(w().hasTerrain());
+  w().viewport().invalidate();
+  EXPECT_TRUE(waitFor([&] { return paints() > before; }));
+}
+
+}  // namespace
+}  // namespace trimtab::test
