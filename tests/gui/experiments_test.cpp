@@ -44,7 +44,7 @@ TEST_F(ExperimentsDock, showsThePublishedRowsBesideOurs) {
   const QList<QTableWidget*> tables = dock().findChildren<QTableWidget*>();
   ASSERT_EQ(tables.size(), 2);
   for (const QTableWidget* table : tables) {
-    EXPECT_EQ(table->rowCount(), 16);
+    EXPECT_EQ(table->rowCount(), table == tables.first() ? 12 : 16) << "published, then measured";
     EXPECT_EQ(table->horizontalHeaderItem(0)->text(), "altitude ft");
     EXPECT_FALSE(table->item(11, 2)->text().isEmpty());
   }
