@@ -90,7 +90,8 @@ TerrainPanel::TerrainPanel(Draft& draft, QWidget* parent)
   table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 6);
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setStretchLastSection(true);
-  table_->setMinimumHeight(12 * (table_->fontMetrics().height() + 6));
+  // As high as its rows: the dock scrolls, and no bar of its own covers the last column.
+  table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
 
   auto* grid = new QGridLayout;
   int row = 0;
@@ -126,8 +127,9 @@ TerrainPanel::TerrainPanel(Draft& draft, QWidget* parent)
   layout->addLayout(grid);
   layout->addLayout(overlayRow_);
   layout->addWidget(drawn_);
-  layout->addWidget(table_, 1);
+  layout->addWidget(table_);
   layout->addWidget(paging_);
+  layout->addStretch(1);
   endJob();
   setTerrain(std::nullopt);
 }
@@ -182,6 +184,7 @@ void TerrainPanel::refresh() {
   const std::vector<TerrainLevel>& levels = patches ? terrain_->patches : terrain_->tiles;
   if (shownPatches_ != patches) {
     levels_->setLevels(levels, !patches);
+    table_->setFixedHeight(static_cast<int>(levels.size() + 1) * (table_->fontMetrics().height() + 6) + 12);
     // Of tiles neither is known.
     for (const int column :
          {TerrainLevelsModel::kRmsError, TerrainLevelsModel::kSurfaceError, TerrainLevelsModel::kSize})
