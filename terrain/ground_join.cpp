@@ -82,6 +82,8 @@ Result<Done> joinGround(std::span<const std::filesystem::path> parts, const fs::
       const auto bytes = (*part)->read(key);
       if (!bytes) return bytes.findings();
       blob.assign(bytes->begin(), bytes->end());
+      // Else all of the ground would be in memory at the end.
+      (*part)->forget(key);
       if (wanted) tile = unpackGroundTile(blob);
       if (!tile) return tile;
     }

@@ -47,4 +47,11 @@ void MappedFile::fetch(std::size_t at, std::size_t size) const {
   ::madvise(const_cast<std::byte*>(bytes_.data()) + from, at + size - from, MADV_WILLNEED);
 }
 
+void MappedFile::forget(std::size_t at, std::size_t size) const {
+  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  const std::size_t first = (at + page - 1) / page * page, end = (at + size) / page * page;
+  if (end <= first || end > bytes_.size()) return;
+  ::madvise(const_cast<std::byte*>(bytes_.data()) + first, end - first, MADV_DONTNEED);
+}
+
 }  // namespace trimtab::terrain

@@ -22,6 +22,8 @@ class MappedFile {
   std::span<const std::byte> bytes() const { return bytes_; }
   /// Asks the system to begin reading these bytes.
   void fetch(std::size_t at, std::size_t size) const;
+  /// These bytes need not be in memory any longer; they are read again where they are touched again.
+  void forget(std::size_t at, std::size_t size) const;
 
  private:
   explicit MappedFile(std::filesystem::path file) : file_(std::move(file)) {}

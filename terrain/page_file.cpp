@@ -73,6 +73,9 @@ class MappedPages final : public PageFile {
                    "checksum " + hexadecimal(entry->sum), hexadecimal(sum));
     return blob;
   }
+  void forget(std::uint64_t key) const override {
+    if (const Entry* entry = find(key)) mapped_->forget(entry->at, entry->bytes);
+  }
   Result<Done> checkAll() const override {
     Findings findings;
     for (const Entry& entry : entries_) {

@@ -29,6 +29,8 @@ class PageFile {
   virtual std::uint64_t bytesOf(std::uint64_t key) const = 0;  ///< 0 where it is not there
   /// The blob, its checksum compared; valid while the file is. Waits for the disk. Thread-safe.
   virtual Result<std::span<const std::byte>> read(std::uint64_t key) const = 0;
+  /// A blob that was read need not stay in memory; what `read` gave is still good.
+  virtual void forget(std::uint64_t key) const = 0;
   /// Every blob's checksum.
   virtual Result<Done> checkAll() const = 0;
 };
