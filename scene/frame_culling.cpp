@@ -51,8 +51,9 @@ bool FrameCulling::findHidden(const FrameRequest& request, FrameResult& counters
   hidden_ = {};
   const auto& size = request.decision.depthMap;
   counters.horizon = request.method == CullingCase::proposed &&
-                     request.occlusion == OcclusionMethod::horizon && size && refusal_.empty();
+                     request.occlusion != OcclusionMethod::depth_map && size && refusal_.empty();
   horizonServed_ = counters.horizon;
+  if (horizonServed_) counters.occlusion = OcclusionMethod::horizon;
   if (!counters.horizon) return false;
   const std::uint64_t built = horizon_.built(), leftOut = horizon_.leftOut();
   hidden_ =
@@ -75,7 +76,7 @@ std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& requ
   const auto& size = request.decision.depthMap;
   if (request.method != CullingCase::proposed || !size || visible_.tiles.empty()) return {};
   counters.note = refusal_;
-  if (!refusal_.empty() || request.occlusion == OcclusionMethod::horizon) return {};
+  if (!refusal_.empty() || request.occlusion != OcclusionMethod::depth_map) return {};
   testedSlots_.clear();
   occluders_.clear();
   // Far tiles cost as much to draw as near ones and hide little: measured over Everest and Fuji, leaving out
@@ -99,6 +100,7 @@ std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& requ
   }
   pass.prepare(size->widthPx, size->heightPx, testedSlots_);
   counters.depthMap = size;
+  counters.occlusion = OcclusionMethod::depth_map;
   ++counters.depthMapsDrawn;
   depthMapCurrent_ = true;
   nearM_ = request.view.nearM;

@@ -73,6 +73,7 @@ std::span<const std::uint8_t> PatchDrawer::findHidden(FrameInProgress& frame, co
                        HorizonMemory::slackOf(r.view, subpixelBits_), defects_.loweringScale < 1},
                       r.skips);
   counters.horizon = true;
+  counters.occlusion = OcclusionMethod::horizon;
   counters.horizonsBuilt += horizon_.memory().built() - built;
   counters.horizonsLeftOut += horizon_.memory().leftOut() - leftOut;
   return hidden;

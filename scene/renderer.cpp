@@ -104,6 +104,7 @@ void Renderer::Impl::prepare(const FrameRequest& r, FrameInProgress& frame) {
   lines.clear();
   counters.depthMap.reset();
   counters.horizon = false;
+  counters.occlusion.reset();
   counters.note.clear();
   counters.patches = false;
   counters.paging.settled = true;

@@ -41,7 +41,9 @@ struct Skips {
   bool sameCut = true;           ///< levels are chosen again only when what they depend on has changed
   bool beyondVisibility = true;  ///< what is farther than the weather's cut is not drawn
   bool sameHorizon = true;       ///< built again only when the eye's place or the levels have changed
-  bool littleHidden = true;      ///< not built again within 50 m of where it hid next to nothing
+  bool littleHidden = true;      ///< no occlusion work near where it hid next to nothing
+  bool schemeFrustum = true;     ///< no occlusion work where the decision has no depth map's size
+  bool sameVisible = true;       ///< the visible set is chosen again only when something in it can change
   bool tilesOnGpu = true;        ///< what was made and uploaded once is not made again
   bool blurAtRest = true;        ///< no blur pass where its strength is 0
   bool clearAir = true;          ///< no precipitation pass where nothing falls
@@ -59,7 +61,7 @@ struct FrameRequest {
   FrameDecision decision;
   CullingCase method = CullingCase::proposed;
   OcclusionMethod occlusion =
-      OcclusionMethod::depth_map;  ///< of the tiled levels; static trees have their own
+      OcclusionMethod::depth_map;  ///< of levels and patches; static trees have their own
   LodParameters lod;
   StaticLodParameters staticLod;
   TerrainParameters terrain;
@@ -77,6 +79,9 @@ struct FrameRequest {
   /// What this view asks of the disk is waited for, so that the picture depends on the request alone. For
   /// measurements and comparisons; else no frame waits, and what is not there yet is drawn coarser.
   bool waitForPages = false;
+  /// What is counted depends on the requests alone, and on no clock: OcclusionMethod::automatic is the
+  /// horizon.
+  bool reproducible = false;
   Skips skips;
 };
 
@@ -98,11 +103,17 @@ struct FrameResult {
   StaticLodFrame staticLod;              ///< where `drawn`, the nodes of `visible` are the trees'
   std::optional<DepthMapSize> depthMap;  ///< drawn this frame
   bool horizon = false;                  ///< the horizon served this frame
-  std::string note;                      ///< why occlusion was not used although asked for; empty otherwise
+  /// What looked for hidden ground this frame; none: nothing did. Never `automatic`.
+  std::optional<OcclusionMethod> occlusion;
+  std::string note;  ///< why occlusion was not used as asked for, and what served instead; empty otherwise
   // Counters of work that was skipped or done, since the renderer was made.
   std::uint64_t precipitationPasses = 0, blurPasses = 0, symbologyDraws = 0, symbologyRedraws = 0;
   std::uint64_t depthMapsDrawn = 0, horizonsBuilt = 0, cutsSelected = 0, tilesBuilt = 0;
   std::uint64_t horizonsLeftOut = 0;  ///< because it hid next to nothing a little way off: nothing is hidden
+  std::uint64_t horizonsMoved = 0;    ///< taken along with the eye instead of being built
+  std::uint64_t mapsDrawnByCpu = 0, mapsReadBack = 0;
+  std::uint64_t occlusionsLeftOut = 0;  ///< because no method was worth its cost
+  std::uint64_t visibleSelected = 0;    ///< visible sets that were chosen anew
 };
 
 /// GL text of the current context, and whether what the renderer needs is there.
@@ -152,11 +163,11 @@ class Renderer {
     std::vector<std::uint8_t> pixels;
   };
   Grey readDepthMap();
-  /// The horizon that served in the last picture: elevation in degrees, evenly round from south by west, north
-  /// and east of the terrain's frame; NaN where nothing bounds the sky. Empty where none served.
+  /// The horizon that served in the last picture: elevation in degrees, evenly round from south by west,
+  /// north and east of the terrain's frame; NaN where nothing bounds the sky. Empty where none served.
   std::vector<float> readHorizon(int samples);
-  /// Pages of the terrain and tiles of its ground that could not be read (PagingFrame::failed counts them); it
-  /// stays coarser there.
+  /// Pages of the terrain and tiles of its ground that could not be read (PagingFrame::failed counts them);
+  /// it stays coarser there.
   Findings pageFailures() const;
   /// A blur accumulates from the next picture on, as if it were the first.
   void forgetPictures();

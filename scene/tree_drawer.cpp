@@ -26,6 +26,7 @@ void TreeDrawer::prepare(FrameInProgress& frame) {
   frame.counters.depthMap = culling_.occlusion(r, frame.counters);
   mapDrawn_ = frame.counters.depthMap.has_value();
   frame.counters.depthMapsDrawn += mapDrawn_;
+  if (mapDrawn_) frame.counters.occlusion = OcclusionMethod::read_back;
   nearM_ = r.view.nearM;
   frame.view.treePicture = r.overlays.treePicture;
   addBounds();

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "trimtab/measure/statistics.h"
+#include "trimtab/scene/data_extent.h"
 
 namespace trimtab::experiment {
 namespace {
@@ -52,6 +53,7 @@ scene::FrameResult Stage::draw(const scene::FrameRequest& request) {
   scene::FrameRequest measured = request;
   measured.waitForPicture = true;
   measured.waitForPages = true;
+  measured.reproducible = true;
   return renderer_.draw(measured, offscreen_->framebuffer());
 }
 
@@ -103,15 +105,13 @@ std::vector<Place> placesOf(const Setup& setup, std::size_t count) {
     return places;
   }
   const terrain::TerrainInfo& info = setup.terrain->info();
-  const auto between = [](Degrees a, Degrees b, double part) {
-    return Degrees{a.value() + (b.value() - a.value()) * part};
-  };
   constexpr double kAt[5][2] = {{0.5, 0.5}, {0.3, 0.3}, {0.3, 0.7}, {0.7, 0.3}, {0.7, 0.7}};
   for (const auto& at : kAt)
     for (const double heading : {0.0, 90.0, 180.0, 270.0})
-      if (places.size() < count)
-        add(between(info.southWest.latitude, info.northEast.latitude, at[0]),
-            between(info.southWest.longitude, info.northEast.longitude, at[1]), {Degrees{heading}, {}, {}});
+      if (places.size() < count) {
+        const GeodeticPosition place = scene::placeIn(info, at[1], at[0]);
+        add(place.latitude, place.longitude, {Degrees{heading}, {}, {}});
+      }
   return places;
 }
 

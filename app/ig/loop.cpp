@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "trimtab/scene/data_extent.h"
 #include "trimtab/scene/offscreen.h"
 #include "trimtab/units/labelled.h"
 
@@ -86,7 +87,8 @@ class Loop {
         run_.session.request(start, run_.options.headless ? run_.options.width : run_.surface.width(),
                              run_.options.headless ? run_.options.height : run_.surface.height());
     // With nobody to wait for a frame, its picture depends on the flight alone.
-    request->waitForPages = run_.options.headless && !run_.options.realtime && !run_.options.listen;
+    request->waitForPages = request->reproducible =
+        run_.options.headless && !run_.options.realtime && !run_.options.listen;
     run_.surface.fit(request->view.widthPx, request->view.heightPx);
     const scene::FrameResult result = run_.renderer.draw(*request, run_.surface.framebuffer());
     run_.surface.present();
@@ -144,9 +146,8 @@ void warmUp(const Run& run, const terrain::Database& database) {
   const terrain::TerrainInfo& info = database.info();
   session::Session session(run.session.parameters());
   AircraftState state;
-  state.position = {(info.southWest.latitude + info.northEast.latitude) / 2,
-                    (info.southWest.longitude + info.northEast.longitude) / 2,
-                    info.highest + Feet{1000}.as<Metres>()};
+  state.position = scene::placeIn(info, 0.5, 0.5);
+  state.position.height = info.highest + Feet{1000}.as<Metres>();
   session.look(state);
   scene::FrameRequest request = *session.request(0, run.options.width, run.options.height);
   run.surface.fit(request.view.widthPx, request.view.heightPx);

@@ -16,9 +16,16 @@ inline constexpr std::array kViewRows{
         {.key = "culling.occlusion",
          .label = "Hidden ground",
          .help =
-             "What proves that tiles are hidden, where the scheme is dynamic: the published depth map of the "
-             "view, or the horizon around the eye's place, which a turning head leaves as it is. The band's "
-             "size is the resolution of either. Static trees have the depth map alone."}),
+             "What proves that ground is hidden, where the scheme is dynamic. Automatic: whichever costs the "
+             "frame least as measured on this machine, or none where it would not pay. Published depth map: "
+             "drawn and tested on the GPU. Read back: the same map, tested by the processor; on a GPU a "
+             "frame "
+             "or more later. By the processor: drawn and tested without GL. Horizon: around the eye's place, "
+             "so that a turning head leaves it as it is. Horizon, then depth map: the map for what the "
+             "horizon leaves. All draw the same picture. The band's size is the resolution of each. What "
+             "cannot serve is replaced by the next, and the dock Culling says so. Static trees have the "
+             "depth "
+             "map alone."}),
     row<&TuningParameters::lod, &LodParameters::screenSpaceError>(
         {.key = "lod.screen_space_error_px",
          .label = "Screen-space error",

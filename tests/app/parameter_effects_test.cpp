@@ -98,7 +98,7 @@ class ParameterEffects : public test::SceneTest {
         const Metres ground = *database->heightAt(request.eye.latitude, request.eye.longitude);
         request.eye.height = i == 29 ? ground + Metres{20} : highest + Metres{200};
         request.attitude.pitch = Degrees{-8};
-        request.waitForPages = true;
+        request.waitForPages = request.reproducible = true;
         scene::FrameResult result;
         seen["picture " + std::to_string(i)] = digest(picture(request, &result));
         seen["counts " + std::to_string(i)] = std::to_string(result.visible.triangles) + ' ' +

@@ -268,7 +268,7 @@ TEST(ShippedPresets, differWhereTheirNamesSay) {
   EXPECT_EQ(
       keys("default", "as-published"),
       (std::vector<std::string>{"fuzzy.pitch.reading linear rounded_step", "fuzzy.hysteresis 0.05 0",
-                                "culling.occlusion horizon depth_map",
+                                "culling.occlusion auto depth_map",
                                 "static_lod.terrain levels static_trees", "symbology.enabled false true"}));
   EXPECT_EQ(keys("as-published", "as-printed"),
             std::vector<std::string>{"fuzzy.altitude.reading table equation_a"});
