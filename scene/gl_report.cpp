@@ -3,8 +3,17 @@
 
 #include "trimtab/scene/gl_api.h"
 #include "trimtab/scene/gl_report.h"
+#include "trimtab/scene/multi_draw.h"
 
 namespace trimtab::scene {
+
+bool contextIsSoftware() {
+  const auto* bytes = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string renderer(bytes ? bytes : "");
+  for (const char* software : {"llvmpipe", "softpipe", "swrast", "SWR", "Software"})
+    if (renderer.find(software) != std::string::npos) return true;
+  return false;
+}
 
 GlReport reportContext() {
   GlReport report;
@@ -19,8 +28,7 @@ GlReport reportContext() {
   }
   report.vendor = text(GL_VENDOR);
   report.renderer = text(GL_RENDERER);
-  for (const char* software : {"llvmpipe", "softpipe", "swrast", "SWR", "Software"})
-    if (report.renderer.find(software) != std::string::npos) report.software = true;
+  report.software = contextIsSoftware();
 
   const auto lacks = [&report](const char* what) {
     report.missing += (report.missing.empty() ? "" : "; ") + std::string(what);
@@ -36,6 +44,7 @@ GlReport reportContext() {
   while (glGetError() != GL_NO_ERROR) {
   }
   report.usable = report.missing.empty();
+  if (report.usable) report.drawing = drawChoiceOfContext().reason;
   return report;
 }
 

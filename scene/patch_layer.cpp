@@ -6,6 +6,7 @@
 
 #include "trimtab/scene/gl_api.h"
 #include "trimtab/scene/gl_buffer.h"
+#include "trimtab/scene/multi_draw.h"
 #include "trimtab/scene/range_allocator.h"
 
 namespace trimtab::scene {
@@ -86,8 +87,8 @@ struct PatchLayer::Impl {
   Staged<std::uint16_t> indexStage;
   Staged<SlotData> slotStage;
   std::vector<std::uint32_t> tints;
-  std::vector<int> counts, baseVertices;
-  std::vector<const void*> offsets;
+  MultiDraw surface;
+  std::uint64_t placesNumber = 1;  ///< changes whenever a page comes or goes
   unsigned vertexArray = 0, vertexBuffer = 0, indexBuffer = 0;
   unsigned slotBuffer = 0, slotTexture = 0, tintBuffer = 0, tintTexture = 0;
 
@@ -124,6 +125,7 @@ void PatchLayer::Impl::clear() {
   indexBlocks.clear();
   pages.clear();
   tints.clear();
+  ++placesNumber;
 }
 
 bool PatchLayer::Impl::growVertices(std::uint32_t after) {
@@ -230,6 +232,7 @@ void PatchLayer::reserve(std::size_t vertexBytes, std::size_t indexBytes) {
 bool PatchLayer::add(const terrain::PatchPage& page) {
   Impl& m = *impl_;
   if (has(page.page)) return true;
+  ++m.placesNumber;
   std::vector<Place>& places = m.pages[page.page];
   places.resize(page.patches.size());
   bool whole = true;
@@ -244,6 +247,7 @@ bool PatchLayer::add(const terrain::PatchPage& page) {
 }
 
 void PatchLayer::drop(std::uint32_t page) {
+  ++impl_->placesNumber;
   for (const Place& place : impl_->pages[page]) {
     if (place.blocks == 0) continue;
     impl_->blocks.give(place.block, place.blocks);
@@ -254,25 +258,15 @@ void PatchLayer::drop(std::uint32_t page) {
 
 void PatchLayer::draw(std::span<const TileDraw> patches) {
   Impl& m = *impl_;
-  m.counts.clear();
-  m.offsets.clear();
-  m.baseVertices.clear();
-  for (const TileDraw& patch : patches) {
-    const Place* place = m.placeOf(patch.node);
-    if (!place || place->blocks == 0) continue;
-    const std::uint32_t first = place->firstIndex[patch.coarser];
-    const std::uint32_t count = place->firstIndex[patch.coarser + 1u] - first;
-    if (count == 0) continue;
-    m.counts.push_back(static_cast<int>(count));
-    m.offsets.push_back(
-        reinterpret_cast<const void*>((std::size_t{place->indexBlock} * kIndexBlock + first) * kIndexBytes));
-    m.baseVertices.push_back(static_cast<int>(place->block * kBlock));
-  }
-  if (m.counts.empty()) return;
-  glBindVertexArray(m.vertexArray);
-  glMultiDrawElementsBaseVertex(GL_TRIANGLES, m.counts.data(), GL_UNSIGNED_SHORT, m.offsets.data(),
-                                static_cast<int>(m.counts.size()), m.baseVertices.data());
-  glBindVertexArray(0);
+  if (m.surface.begin(patches, m.placesNumber))
+    for (const TileDraw& patch : patches) {
+      const Place* place = m.placeOf(patch.node);
+      if (!place || place->blocks == 0) continue;
+      const std::uint32_t first = place->firstIndex[patch.coarser];
+      const std::uint32_t count = place->firstIndex[patch.coarser + 1u] - first;
+      if (count > 0) m.surface.add(place->indexBlock * kIndexBlock + first, count, place->block * kBlock);
+    }
+  m.surface.draw(m.vertexArray, GL_UNSIGNED_SHORT);
 }
 
 void PatchLayer::setTints(std::span<const TileDraw> patches, std::span<const std::uint32_t> colours) {

@@ -122,6 +122,7 @@ struct GlReport {
   bool software = false;
   bool usable = false;
   std::string missing;  ///< what is not there
+  std::string drawing;  ///< how the terrain's draws reach GL, and why so (DrawChoice in multi_draw.h)
 };
 
 /// Mistakes made on purpose, so that a measurement can be seen to find them.

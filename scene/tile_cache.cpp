@@ -50,7 +50,7 @@ GLuint makeArray(const std::vector<std::uint16_t>& indices, GLuint& indexBuffer)
 
 TileCache::TileCache() : indices_(makeTileIndices()) {
   const auto occluder = makeOccluderIndices();
-  occluderIndices_ = static_cast<int>(occluder.size());
+  occluderIndices_ = static_cast<std::uint32_t>(occluder.size());
   vertexArray_ = makeArray(indices_.indices, indexBuffer_);
   occluderArray_ = makeArray(occluder, occluderIndexBuffer_);
   for (GLuint* buffer : {&slotBuffer_, &tintBuffer_}) glGenBuffers(1, buffer);
@@ -71,6 +71,7 @@ void TileCache::setDatabase(std::shared_ptr<const terrain::Database> database) {
   slotOfNode_.assign(database_ ? database_->index().size() : 0, kNoSlot);
   for (Slot& slot : slots_) slot = {};
   used_ = 0;
+  ++places_;
 }
 
 std::size_t TileCache::bytes() const {
@@ -128,6 +129,7 @@ void TileCache::fill(std::uint32_t slot, std::uint32_t node) {
   uploadPart(slotBuffer_, slot * sizeof(SlotData), &slotData_[slot], sizeof(SlotData));
   slots_[slot].node = node;
   slotOfNode_[node] = slot;
+  ++places_;
 }
 
 std::size_t TileCache::prepare(std::span<const TileDraw> tiles, bool anew) {
@@ -154,38 +156,21 @@ void TileCache::setTints(std::span<const TileDraw> tiles, std::span<const std::u
 }
 
 void TileCache::draw(std::span<const TileDraw> tiles) {
-  counts_.resize(tiles.size());
-  offsets_.resize(tiles.size());
-  baseVertices_.resize(tiles.size());
-  std::size_t count = 0;
-  for (const TileDraw& tile : tiles) {
-    const std::uint32_t slot = slotOfNode_[tile.node];
-    if (slot == kNoSlot) continue;
-    const TileIndices::Range range = indices_.variant[tile.coarser];
-    counts_[count] = static_cast<int>(range.count);
-    offsets_[count] = reinterpret_cast<const void*>(range.first * sizeof(std::uint16_t));
-    baseVertices_[count++] = static_cast<int>(slot) * kVerticesPerTile;
-  }
-  multiDraw(vertexArray_, count);
+  if (surface_.begin(tiles, places_))
+    for (const TileDraw& tile : tiles)
+      if (const std::uint32_t slot = slotOfNode_[tile.node]; slot != kNoSlot) {
+        const TileIndices::Range range = indices_.variant[tile.coarser];
+        surface_.add(range.first, range.count, slot * kVerticesPerTile);
+      }
+  surface_.draw(vertexArray_, GL_UNSIGNED_SHORT);
 }
 
 void TileCache::drawOccluders(std::span<const TileDraw> tiles) {
-  counts_.assign(tiles.size(), occluderIndices_);
-  offsets_.assign(tiles.size(), nullptr);
-  baseVertices_.resize(tiles.size());
-  std::size_t count = 0;
-  for (const TileDraw& tile : tiles)
-    if (const std::uint32_t slot = slotOfNode_[tile.node]; slot != kNoSlot)
-      baseVertices_[count++] = static_cast<int>(slot) * kOccluderVertices;
-  multiDraw(occluderArray_, count);
-}
-
-void TileCache::multiDraw(unsigned vertexArray, std::size_t count) {
-  if (count == 0) return;
-  glBindVertexArray(vertexArray);
-  glMultiDrawElementsBaseVertex(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_SHORT, offsets_.data(),
-                                static_cast<int>(count), baseVertices_.data());
-  glBindVertexArray(0);
+  if (occluders_.begin(tiles, places_))
+    for (const TileDraw& tile : tiles)
+      if (const std::uint32_t slot = slotOfNode_[tile.node]; slot != kNoSlot)
+        occluders_.add(0, occluderIndices_, slot * kOccluderVertices);
+  occluders_.draw(occluderArray_, GL_UNSIGNED_SHORT);
 }
 
 }  // namespace trimtab::scene

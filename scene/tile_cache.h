@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "trimtab/culling/select.h"
+#include "trimtab/scene/multi_draw.h"
 #include "trimtab/scene/occluder.h"
 #include "trimtab/scene/tile_indices.h"
 #include "trimtab/terrain/database.h"
@@ -64,7 +65,6 @@ class TileCache {
   std::uint32_t takeSlot();
   void grow();
   void fill(std::uint32_t slot, std::uint32_t node);
-  void multiDraw(unsigned vertexArray, std::size_t count);
 
   std::shared_ptr<const terrain::Database> database_;
   TileIndices indices_;
@@ -72,15 +72,15 @@ class TileCache {
   std::vector<SlotData> slotData_;
   std::vector<std::uint32_t> slotOfNode_;
   std::vector<std::uint32_t> tints_;
-  std::vector<int> counts_, baseVertices_;
-  std::vector<const void*> offsets_;
+  MultiDraw surface_, occluders_;
+  std::uint64_t places_ = 1;  ///< changes whenever a tile comes to a slot or leaves it
   terrain::TileMesh mesh_;
   TileOccluder occluder_;
   std::uint64_t frame_ = 0;
   std::uint32_t used_ = 0;
   unsigned vertexArray_ = 0, vertexBuffer_ = 0, indexBuffer_ = 0;
   unsigned occluderArray_ = 0, occluderBuffer_ = 0, occluderIndexBuffer_ = 0;
-  int occluderIndices_ = 0;
+  std::uint32_t occluderIndices_ = 0;
   unsigned slotBuffer_ = 0, slotTexture_ = 0, tintBuffer_ = 0, tintTexture_ = 0, partBuffer_ = 0,
            partTexture_ = 0;
 };

@@ -80,8 +80,11 @@ std::string summaryJson(const Summary& s, const Feed& feed, const Options& optio
   }
   json["preset"] = options.preset;
   json["terrain"] = options.terrain.string();
-  json["gl"] = {
-      {"vendor", gl.vendor}, {"renderer", gl.renderer}, {"version", gl.version}, {"software", gl.software}};
+  json["gl"] = {{"vendor", gl.vendor},
+                {"renderer", gl.renderer},
+                {"version", gl.version},
+                {"software", gl.software},
+                {"drawing", gl.drawing}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

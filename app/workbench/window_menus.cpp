@@ -331,10 +331,11 @@ void MainWindow::showAbout() {
          "you watch "
          "what each setting does.</p><p>The workbench is free software under the GNU General Public License, "
          "version 3 or "
-         "later; the library that image generators link is under the MIT licence.</p><p>OpenGL: %2, %3%4</p>")
+         "later; the library that image generators link is under the MIT licence.</p><p>OpenGL: %2, %3%4</p>"
+         "<p>Terrain: %5</p>")
           .arg(QStringLiteral(TRIMTAB_VERSION), QString::fromStdString(gl.renderer).toHtmlEscaped(),
                QString::fromStdString(gl.version).toHtmlEscaped(),
-               gl.software ? tr(" (software)") : QString()));
+               gl.software ? tr(" (software)") : QString(), QString::fromStdString(gl.drawing).toHtmlEscaped()));
 }
 
 }  // namespace trimtab::workbench
