@@ -1,0 +1,248 @@
+#include "trimtab/culling/occlusion_choice.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace trimtab {
+namespace {
+
+using Method = OcclusionChoice::Method;
+
+constexpr OcclusionMethod kMethods[] = {OcclusionMethod::horizon, OcclusionMethod::horizon_and_map,
+                                        OcclusionMethod::cpu_map};
+
+/// What a machine takes for a frame, made up.
+struct Machine {
+  double fixedMs = 6, msPerTriangle = 6e-5;
+  struct Way {
+    double costMs = 0, firstMs = 0, share = 0;
+  };
+  std::vector<Way> ways;  ///< of kMethods
+
+  OcclusionChoice::Outcome frame(Method method, bool first, double triangles) const {
+    OcclusionChoice::Outcome o;
+    Way way;
+    for (std::size_t i = 0; i < std::size(kMethods); ++i)
+      if (method == kMethods[i]) way = ways[i];
+    o.hidden = static_cast<std::uint64_t>(way.share * triangles);
+    o.drawn = static_cast<std::uint64_t>(triangles) - o.hidden;
+    o.occlusionMs = first ? way.firstMs : way.costMs;
+    o.drawMs = fixedMs + msPerTriangle * static_cast<double>(o.drawn);
+    o.totalMs = o.drawMs + o.occlusionMs + 0.3;
+    return o;
+  }
+};
+
+struct Flight {
+  int frames = 4000;
+  double triangles = 180e3;
+  double stepM = 5, turn = 0.01;  ///< a frame
+  double noise = 0;               ///< of each time, share
+  std::function<Machine(int)> machine;
+  std::uint64_t (*rule)(int) = [](int) -> std::uint64_t { return 0; };
+};
+
+struct Total {
+  double ms = 0, bestFixedMs = 1e300, noneMs = 0;
+  std::uint64_t trials = 0;
+  std::vector<Method> methods;
+};
+
+/// Flies with the choice, and with each fixed choice.
+Total fly(const Flight& flight) {
+  Total total;
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal(0, 1);
+  OcclusionChoice choice;
+  Method before;
+  bool any = false;
+  double clock = 0;
+  for (int i = 0; i < flight.frames; ++i) {
+    const Machine machine = flight.machine(i);
+    const Method method = choice.choose({clock,
+                                         {flight.stepM * i, 0, 0},
+                                         {std::cos(flight.turn * i), std::sin(flight.turn * i), 0},
+                                         flight.rule(i),
+                                         kMethods});
+    const auto truth = machine.frame(method, !any || method != before, flight.triangles);
+    any = true;
+    before = method;
+    auto seen = truth;
+    const double late = std::exp(flight.noise * normal(random));
+    seen.drawMs *= late;
+    seen.occlusionMs *= std::exp(flight.noise * normal(random));
+    seen.totalMs = seen.drawMs + seen.occlusionMs + 0.3;
+    choice.learn(seen);
+    total.ms += truth.totalMs;
+    clock += truth.totalMs;
+    total.methods.push_back(method);
+  }
+  total.trials = choice.trials();
+  for (std::size_t fixed = 0; fixed <= std::size(kMethods); ++fixed) {
+    double ms = 0;
+    for (int i = 0; i < flight.frames; ++i)
+      ms += flight.machine(i)
+                .frame(fixed == 0 ? Method{} : kMethods[fixed - 1], i == 0, flight.triangles)
+                .totalMs;
+    total.bestFixedMs = std::min(total.bestFixedMs, ms);
+    if (fixed == 0) total.noneMs = ms;
+  }
+  return total;
+}
+
+/// How often one serves in the second half.
+double shareOf(const Total& total, Method method) {
+  const auto middle = total.methods.begin() + static_cast<std::ptrdiff_t>(total.methods.size() / 2);
+  return static_cast<double>(std::count(middle, total.methods.end(), method)) /
+         static_cast<double>(total.methods.end() - middle);
+}
+
+Flight still(Machine machine) {
+  Flight flight;
+  flight.machine = [machine](int) { return machine; };
+  return flight;
+}
+
+constexpr double kSlack = 0.02;
+
+TEST(OcclusionChoice, findsTheFastestOfMethodsThatCostTheSame) {
+  const Machine mountains{6, 6e-5, {{0.3, 2, 0.8}, {2, 3, 0.9}, {1.5, 1.5, 0.7}}};
+  const Total total = fly(still(mountains));
+  EXPECT_GT(shareOf(total, OcclusionMethod::horizon), 0.9);
+  EXPECT_LE(total.ms, total.bestFixedMs * (1 + kSlack));
+  EXPECT_LT(total.ms, 0.5 * total.noneMs + 0.5 * total.bestFixedMs);
+}
+
+TEST(OcclusionChoice, takesNoneWhereNonePays) {
+  for (const double share : {0.0, 0.005, 0.02}) {
+    const Machine plain{10, 4e-5, {{1, 3, share}, {2, 4, share}, {2, 2, share}}};
+    const Total total = fly(still(plain));
+    EXPECT_GT(shareOf(total, {}), 0.8) << share;
+    EXPECT_LE(total.ms, total.noneMs * (1 + kSlack)) << share;
+  }
+}
+
+TEST(OcclusionChoice, isNotMisledByATimeToDrawThatIsNotOfTriangles) {
+  // Nearly all of it is of pixels: what is hidden saves little, however much it is.
+  const Machine pixels{15, 1e-6, {{2, 3, 0.9}, {2, 3, 0.9}, {2, 3, 0.9}}};
+  const Total total = fly(still(pixels));
+  EXPECT_GT(shareOf(total, {}), 0.9);
+  EXPECT_LE(total.ms, total.noneMs * (1 + kSlack));
+}
+
+TEST(OcclusionChoice, followsAChangeOfWhatPays) {
+  Flight flight;
+  flight.machine = [](int i) {
+    const double share = i % 2000 < 1000 ? 0 : 0.8;  // plain, mountains, plain, mountains
+    return Machine{6, 6e-5, {{1, 2, share}, {2, 3, share}, {2, 2, share}}};
+  };
+  const Total total = fly(flight);
+  EXPECT_LE(total.ms, total.bestFixedMs * (1 + kSlack));
+  double ideal = 0;
+  for (int i = 0; i < flight.frames; ++i) {
+    const Machine m = flight.machine(i);
+    ideal += std::min(m.frame({}, false, flight.triangles).totalMs,
+                      m.frame(OcclusionMethod::horizon, false, flight.triangles).totalMs);
+  }
+  EXPECT_LE(total.ms, 1.06 * ideal) << "each change costs some frames";
+}
+
+/// Random machines whose costs wander.
+TEST(OcclusionChoice, isNeverMuchSlowerThanTheBestFixedChoice) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int series = 0; series < 60; ++series) {
+    Machine base{2 + 15 * unit(random), 1e-6 + 8e-5 * unit(random), {}};
+    for (std::size_t i = 0; i < std::size(kMethods); ++i) {
+      const double cost = 0.05 + 3 * unit(random) * unit(random);
+      base.ways.push_back({cost, cost * (1 + 3 * unit(random)), unit(random)});
+    }
+    const double waves = 4 * unit(random), swing = unit(random), phase = 6.28 * unit(random);
+    Flight flight;
+    flight.noise = series % 3 == 0 ? 0 : 0.05;
+    flight.turn = 0.05 * unit(random);
+    flight.machine = [=](int i) {
+      Machine m = base;
+      for (auto& way : m.ways)
+        way.share *= 1 - swing * (0.5 + 0.5 * std::sin(phase + 6.28 * waves * i / 4000));
+      return m;
+    };
+    const Total total = fly(flight);
+    EXPECT_LE(total.ms, total.bestFixedMs * (1 + kSlack)) << series;
+    EXPECT_LE(total.ms, total.noneMs * (1 + kSlack)) << series;
+  }
+}
+
+TEST(OcclusionChoice, losesABoundedShareToTryingWhateverChanges) {
+  // Everything changes in every frame, and trying is dear.
+  Flight flight = still({6, 6e-5, {{5, 20, 0.1}, {8, 30, 0.1}, {9, 9, 0.1}}});
+  flight.stepM = 1000;
+  flight.turn = 1;
+  flight.rule = [](int i) { return static_cast<std::uint64_t>(i); };
+  const Total total = fly(flight);
+  EXPECT_LE(total.ms, total.noneMs * (1 + kSlack));
+  EXPECT_GT(total.trials, 3u);
+}
+
+TEST(OcclusionChoice, triesAgainAfterABoundedTimeWayOrTurn) {
+  const Machine plain{10, 4e-5, {{0.5, 1, 0}, {0.5, 1, 0}, {0.5, 1, 0}}};
+  const auto trials = [&](double stepM, double turn) {
+    Flight flight = still(plain);
+    flight.frames = 400;  // some seven seconds
+    flight.stepM = stepM;
+    flight.turn = turn;
+    return fly(flight).trials;
+  };
+  const auto resting = trials(0, 0);
+  EXPECT_GE(resting, 3u) << "by time alone";
+  EXPECT_GT(trials(20, 0), resting);
+  EXPECT_GT(trials(0, 0.1), resting);
+}
+
+TEST(OcclusionChoice, choosesAmongWhatCanServe) {
+  OcclusionChoice choice;
+  const OcclusionMethod one[] = {OcclusionMethod::cpu_map};
+  for (int i = 0; i < 500; ++i) {
+    const Method method = choice.choose({i * 16.0, {i * 100.0, 0, 0}, {1, 0, 0}, 0, one});
+    EXPECT_TRUE(!method || method == OcclusionMethod::cpu_map) << i;
+    const Machine good{6, 6e-5, {{}, {}, {0.2, 0.2, 0.9}}};
+    choice.learn(good.frame(method, false, 1e5));
+  }
+  EXPECT_EQ(choice.choose({9000, {}, {1, 0, 0}, 0, one}), OcclusionMethod::cpu_map);
+  EXPECT_EQ(choice.choose({9001, {}, {1, 0, 0}, 0, {}}), Method{}) << "it cannot serve here";
+  EXPECT_GT(choice.worthMs(OcclusionMethod::cpu_map), 0);
+  EXPECT_EQ(choice.worthMs({}), 0);
+}
+
+TEST(OcclusionChoice, learnsNothingFromWhatIsNotANumber) {
+  OcclusionChoice choice;
+  for (int i = 0; i < 50; ++i) {
+    choice.choose({i * 16.0, {i * 100.0, 0, 0}, {0, 0, 0}, 0, kMethods});
+    OcclusionChoice::Outcome o;
+    o.occlusionMs = i % 3 == 0 ? std::numeric_limits<double>::quiet_NaN() : 1;
+    o.drawMs = i % 3 == 1 ? std::numeric_limits<double>::infinity() : 10;
+    o.totalMs = i % 3 == 2 ? std::numeric_limits<double>::quiet_NaN() : 11;
+    o.drawn = 1000;
+    choice.learn(o);
+  }
+  EXPECT_EQ(choice.msPerTriangle(), 0);
+  choice.learn({0, 0, 0, 0, 0});
+  EXPECT_TRUE(std::isfinite(choice.msPerTriangle()));
+}
+
+TEST(OcclusionChoice, isAFunctionOfWhatItWasTold) {
+  const auto once = [] {
+    Flight flight = still({6, 6e-5, {{0.3, 2, 0.5}, {0.8, 3, 0.6}, {1.5, 1.5, 0.7}}});
+    flight.noise = 0.1;
+    return fly(flight).methods;
+  };
+  EXPECT_EQ(once(), once());
+}
+
+}  // namespace
+}  // namespace trimtab
