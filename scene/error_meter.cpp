@@ -11,6 +11,7 @@
 #include "trimtab/scene/blur_pass.h"
 #include "trimtab/scene/frame_buffer.h"
 #include "trimtab/scene/gl_api.h"
+#include "trimtab/scene/node_pass.h"
 
 namespace trimtab::scene {
 namespace {
@@ -55,15 +56,21 @@ std::size_t firstTraceIn(std::span<const FrameRequest> frames, std::size_t last)
 /// Pixels that a node would own which was left out.
 std::uint64_t wronglyCulled(const std::vector<std::uint32_t>& unculled, const VisibleSet& visible) {
   std::uint64_t pixels = 0;
+  std::uint32_t last = 0;
   for (const std::uint32_t node : unculled)
-    pixels += node < visible.reason.size() && visible.reason[node] != CullReason::drawn;
+    if (node != NodeTarget::kNone) last = std::max(last, node);
+  const std::vector<CullReason> reason = visible.reasons(last + std::size_t{1});
+  for (const std::uint32_t node : unculled)
+    pixels += node != NodeTarget::kNone && reason[node] != CullReason::drawn;
   return pixels;
 }
 
 /// Of the nodes drawn, those that own no pixel.
 double hiddenShare(const std::vector<std::uint32_t>& nodes, const VisibleSet& visible) {
   if (visible.tiles.empty()) return FrameError::kNotMeasured;
-  std::vector<std::uint8_t> owns(visible.reason.size());
+  std::uint32_t last = 0;
+  for (const TileDraw& tile : visible.tiles) last = std::max(last, tile.node);
+  std::vector<std::uint8_t> owns(last + std::size_t{1});
   for (const std::uint32_t node : nodes)
     if (node < owns.size()) owns[node] = 1;
   const auto hidden = std::count_if(visible.tiles.begin(), visible.tiles.end(),

@@ -20,9 +20,9 @@ LineVertex vertex(Vec3 p, Vec3 eye, std::array<std::uint8_t, 3> colour) {
 
 void addBoxes(std::span<const Box> bounds, std::span<const TileDraw> tiles, std::span<const CullReason> reason,
               Vec3 eye, std::vector<LineVertex>& lines) {
-  for (const TileDraw& tile : tiles) {
-    const Box& b = bounds[tile.node];
-    const auto colour = reasonColour(reason[tile.node]);
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const Box& b = bounds[tiles[i].node];
+    const auto colour = reasonColour(reason[i]);
     const auto corner = [&](unsigned bits) {
       return vertex({bits & 1u ? b.maxX : b.minX, bits & 2u ? b.maxY : b.minY, bits & 4u ? b.maxZ : b.minZ},
                     eye, colour);

@@ -14,7 +14,7 @@ struct LineVertex {
   std::array<std::uint8_t, 4> colour;
 };
 
-/// Boxes of the tiles, as pairs of points.
+/// Boxes of the tiles, as pairs of points; a reason a tile.
 void addBoxes(std::span<const Box> bounds, std::span<const TileDraw> tiles, std::span<const CullReason> reason,
               Vec3 eye, std::vector<LineVertex>& lines);
 /// Edges of a view pyramid that stands at `frozen`, seen from `eye`.

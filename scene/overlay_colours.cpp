@@ -12,6 +12,8 @@ std::array<std::uint8_t, 3> reasonColour(CullReason reason) {
       return {204, 121, 167};
     case CullReason::beyond_visibility:
       return {86, 180, 233};
+    case CullReason::back_facing:
+      return {0, 114, 178};
     case CullReason::other_level:
       break;
   }

@@ -83,8 +83,8 @@ void StaticLodCulling::select(const FrameRequest& request, const EyePose& eye, F
     removeStaticOccluded(index(), vertices_, flags_, visible_);
   }
   visibleNear_ = static_cast<std::size_t>(
-      std::count_if(cut_.nodes.begin(), cut_.nodes.begin() + static_cast<std::ptrdiff_t>(near_),
-                    [this](std::uint32_t node) { return visible_.reason[node] == CullReason::drawn; }));
+      std::count(visible_.reason.begin(), visible_.reason.begin() + static_cast<std::ptrdiff_t>(near_),
+                 CullReason::drawn));
 }
 
 /// Puts the near part of the cut first, both parts in the trees' order.

@@ -53,8 +53,10 @@ void TerrainDrawer::drawSurface(unsigned program, std::span<const TileDraw> node
   const Overlays& overlays = frame_->request.overlays;
   if (!overlays.colourByReason && !overlays.colourByLevel) return drawNodes(program, nodes);
   tints_.clear();
+  const std::vector<CullReason> reason =
+      overlays.colourByReason ? visible().reasons(bounds().size()) : std::vector<CullReason>{};
   for (const TileDraw& node : nodes)
-    tints_.push_back(tint(overlays.colourByReason ? reasonColour(visible().reason[node.node])
+    tints_.push_back(tint(overlays.colourByReason ? reasonColour(reason[node.node])
                                                   : levelColour(levelOf(node))));
   drawTinted(program, nodes, tints_);
 }

@@ -25,6 +25,8 @@ QString reasonText(CullReason reason) {
       return MainWindow::tr("hidden by the ground before it");
     case CullReason::beyond_visibility:
       return MainWindow::tr("beyond visibility");
+    case CullReason::back_facing:
+      return MainWindow::tr("all of it faces away");
     default:
       return MainWindow::tr("another level stands for it");
   }
@@ -139,7 +141,7 @@ void MainWindow::showPicked(std::uint32_t node) {
   const QSizeF span = spanOf(box, eye, view);
   picked.widthPx = span.width();
   picked.heightPx = span.height();
-  picked.reason = node < last->visible.reason.size() ? reasonText(last->visible.reason[node]) : QString();
+  picked.reason = reasonText(last->visible.reasonOf(node));
   culling_->showPicked(picked);
 }
 

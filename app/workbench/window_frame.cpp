@@ -36,7 +36,8 @@ QList<LegendEntry> reasonLegend() {
       {MainWindow::tr("drawn"), colourOf(scene::reasonColour(CullReason::drawn))},
       {MainWindow::tr("outside the frustum"), colourOf(scene::reasonColour(CullReason::outside_frustum))},
       {MainWindow::tr("occluded"), colourOf(scene::reasonColour(CullReason::occluded))},
-      {MainWindow::tr("beyond visibility"), colourOf(scene::reasonColour(CullReason::beyond_visibility))}};
+      {MainWindow::tr("beyond visibility"), colourOf(scene::reasonColour(CullReason::beyond_visibility))},
+      {MainWindow::tr("facing away"), colourOf(scene::reasonColour(CullReason::back_facing))}};
 }
 
 QList<LegendEntry> levelLegend(std::size_t levels) {

@@ -19,7 +19,7 @@ using CornerPlane = BlockTest::CornerPlane;
 using CornerPlanes = BlockTest::CornerPlanes;
 using BlockBits = BlockTest::Bits;
 
-CornerPlanes cornerPlanes(const BoxArrays& boxes, const Frustum& frustum) {
+CornerPlanes cornerPlanes(const BoxArrays& boxes, const Frustum& frustum, bool far) {
   CornerPlanes planes;
   const Vec3 eye = frustum.eye();
   const double reach = double{boxes.reach()};
@@ -33,7 +33,7 @@ CornerPlanes cornerPlanes(const BoxArrays& boxes, const Frustum& frustum) {
     CornerPlane& p = planes[i];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       p.normal[axis] = static_cast<float>(n[axis]);
-      p.corner[axis] = boxes.side(n[axis] > 0 ? axis + 3 : axis);
+      p.corner[axis] = boxes.side((n[axis] > 0) != far ? axis + 3 : axis);
     }
     const double offset = plane.offset + dot(plane.normal, eye);
     p.out = static_cast<float>(offset - margin - rounding);
@@ -131,7 +131,11 @@ SimdLevel simdLevel() {
 }
 
 BlockTest::BlockTest(const BoxArrays& boxes, const Frustum& frustum, SimdLevel level)
-    : boxes_(boxes), frustum_(frustum), planes_(cornerPlanes(boxes, frustum)), test_(testPortable) {
+    : boxes_(boxes),
+      frustum_(frustum),
+      planes_(cornerPlanes(boxes, frustum, false)),
+      farPlanes_(cornerPlanes(boxes, frustum, true)),
+      test_(testPortable) {
 #if TRIMTAB_X86
   level = std::min(level, simdLevel());
   if (level == SimdLevel::avx2) test_ = testAvx2;
@@ -141,16 +145,25 @@ BlockTest::BlockTest(const BoxArrays& boxes, const Frustum& frustum, SimdLevel l
 #endif
 }
 
+std::uint64_t BlockTest::there(std::size_t block) const {
+  const std::size_t left = boxes_.size() - block * kBlock;
+  return left < kBlock ? (std::uint64_t{1} << left) - 1 : ~std::uint64_t{0};
+}
+
+std::uint64_t BlockTest::wholly(std::size_t block) const {
+  const Bits bits = test_(farPlanes_, block * kBlock);
+  return bits.sure & ~bits.out & there(block);
+}
+
 std::uint64_t BlockTest::operator()(std::size_t block) const {
-  const std::size_t first = block * kBlock, left = boxes_.size() - first;
-  const std::uint64_t there = left < kBlock ? (std::uint64_t{1} << left) - 1 : ~std::uint64_t{0};
+  const std::size_t first = block * kBlock;
   const Bits bits = test_(planes_, first);
   std::uint64_t in = bits.sure & ~bits.out;
-  for (std::uint64_t ask = there & ~bits.out & ~bits.sure; ask != 0; ask &= ask - 1) {
+  for (std::uint64_t ask = there(block) & ~bits.out & ~bits.sure; ask != 0; ask &= ask - 1) {
     const int i = std::countr_zero(ask);
     if (frustum_.mayShow(boxes_[first + static_cast<std::size_t>(i)])) in |= std::uint64_t{1} << i;
   }
-  return in & there;
+  return in & there(block);
 }
 
 }  // namespace trimtab

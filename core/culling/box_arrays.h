@@ -20,6 +20,7 @@ class BoxArrays {
     return {side_[0][i], side_[1][i], side_[2][i], side_[3][i], side_[4][i], side_[5][i]};
   }
   std::size_t size() const { return size_; }
+  std::size_t blocks() const { return (size_ + kBlock - 1) / kBlock; }
   /// minX, minY, minZ, maxX, maxY, maxZ; as long as whole blocks of kBlock are.
   const float* side(std::size_t i) const { return side_[i].data(); }
   /// No coordinate is further from 0. Not a number or infinite where one is.
@@ -47,7 +48,9 @@ class BlockTest {
   BlockTest(const BoxArrays& boxes, const Frustum& frustum, SimdLevel level = simdLevel());
   /// A bit a box of the block, set where the box may show; 0 past the last box.
   std::uint64_t operator()(std::size_t block) const;
-  std::size_t blocks() const { return (boxes_.size() + BoxArrays::kBlock - 1) / BoxArrays::kBlock; }
+  /// Set only where all of the box is certainly inside of every plane.
+  std::uint64_t wholly(std::size_t block) const;
+  std::size_t blocks() const { return boxes_.blocks(); }
 
   /// A plane as one sees it from a box: the corner that is furthest inside, by the signs of the normal.
   struct CornerPlane {
@@ -63,9 +66,11 @@ class BlockTest {
   };
 
  private:
+  std::uint64_t there(std::size_t block) const;
+
   const BoxArrays& boxes_;
   const Frustum& frustum_;
-  CornerPlanes planes_;
+  CornerPlanes planes_, farPlanes_;  ///< the latter by the corners that are furthest outside
   Bits (*test_)(const CornerPlanes&, std::size_t first);
 };
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,7 @@ enum class CullReason : std::uint8_t {
   outside_frustum,
   occluded,           ///< proven hidden by the horizon or the depth map
   beyond_visibility,  ///< in the frustum, but wholly beyond the weather's far distance
+  back_facing,        ///< all of its triangles face away from the eye, so that nearer ones hide them
   other_level         ///< its ancestor or descendants stand for it
 };
 
@@ -32,8 +34,16 @@ struct TileDraw {
 /// The cut through the levels for an eye's position: independent of view direction and of culling, so that
 /// culling cannot change what a drawn tile looks like. Neighbouring tiles differ by at most one level.
 struct LevelCut {
-  std::vector<TileDraw> tiles;  ///< order is a function of the terrain only
-  BoxArrays boxes;              ///< the tiles' bounds, in order
+  std::vector<TileDraw> tiles;  ///< order is a function of the terrain only, near ones mostly together
+
+  // What selectVisible reads beside them, which `gather` makes.
+  BoxArrays boxes;                            ///< the tiles' bounds, in order
+  BoxArrays blockBoxes;                       ///< of each BoxArrays::kBlock tiles in turn
+  std::vector<std::uint32_t> triangles;       ///< that each tile draws
+  std::vector<std::uint64_t> blockTriangles;  ///< that the tiles of each block draw
+  std::vector<NormalCone> cones;              ///< in order; empty where the index has none
+  std::vector<std::int16_t> blockSteepness;   ///< the largest of steepness (back_facing.h) in each block
+  std::shared_ptr<std::vector<std::uint32_t>> nodes;  ///< the tiles', shared with visible sets: never changed
 
   // What selectLevels works with, kept so that a frame allocates nothing.
   std::vector<std::uint8_t> split;                     ///< one a node: its children stand for it
@@ -46,14 +56,22 @@ struct LevelCut {
 void selectLevels(const TerrainIndex& index, Vec3 eye, double maxErrorPx, double lodScale,
                   double pixelsPerRadian, LevelCut& cut);
 
-/// Fills `cut.boxes`, which selectVisible reads; selectLevels does it. `bounds`: the index's.
-void gatherBoxes(std::span<const Box> bounds, LevelCut& cut);
+/// Makes the rest of a cut from its tiles; selectLevels does it.
+void gather(const TerrainIndex& index, LevelCut& cut);
 
+/// What a view draws of a cut. It costs nothing by the size of the index: reasons stand by place in the cut.
 struct VisibleSet {
-  std::vector<TileDraw> tiles;                                         ///< to draw
-  std::vector<CullReason> reason;                                      ///< one a node of the index
-  std::size_t outsideFrustum = 0, occluded = 0, beyondVisibility = 0;  ///< tiles of the cut, by reason
+  std::vector<TileDraw> tiles;                              ///< to draw, in the cut's order
+  std::vector<CullReason> reason;                           ///< one a tile of the cut, in order
+  std::shared_ptr<const std::vector<std::uint32_t>> nodes;  ///< of the cut, in order; may be null
+  std::size_t outsideFrustum = 0, occluded = 0, beyondVisibility = 0,
+              backFacing = 0;                 ///< tiles of the cut, by reason
   std::uint64_t triangles = 0, vertices = 0;  ///< of the tiles drawn; degenerate triangles not counted
+
+  /// Looks through the cut: for one node that a person picked.
+  CullReason reasonOf(std::uint32_t node) const;
+  /// One a node of an index of so many: for those who look at all of them.
+  std::vector<CullReason> reasons(std::size_t ofNodes) const;
 };
 
 /// Tests every tile of the cut against the view frustum (near, left, right, bottom, top; the far plane is
@@ -61,9 +79,11 @@ struct VisibleSet {
 /// D moves the far plane: so a head that turns does not move the cut, and fog is by the same distance. Never
 /// drops a tile that owns a pixel within `farM`. `test` false draws the whole cut (culling case *none*).
 /// `hidden`: one a tile of the cut, not 0 where it is proven hidden from the eye's place; or empty.
+/// `backFaces`: tiles all of whose triangles face away are left out too, which back_facing.h says when one
+/// may ask for.
 void selectVisible(const TerrainIndex& index, const LevelCut& cut, const EyePose& eye, const ViewShape& view,
                    bool test, VisibleSet& visible, double farM = std::numeric_limits<double>::infinity(),
-                   std::span<const std::uint8_t> hidden = {});
+                   std::span<const std::uint8_t> hidden = {}, bool backFaces = false);
 
 /// Removes tiles by one flag a tile of `visible.tiles`, in order: 0 stays, 1 is proven hidden, 2 is proven
 /// outside the view (by finer boxes than the index has).

@@ -87,7 +87,7 @@ void selectLevels(const TerrainIndex& index, Vec3 eye, double maxErrorPx, double
     for (std::size_t i = 4; i-- > 0;)
       if (index.children[node][i] != TerrainIndex::kNone) cut.stack.push_back(index.children[node][i]);
   }
-  gatherBoxes(index.bounds, cut);
+  gather(index, cut);
 }
 
 }  // namespace trimtab

@@ -177,15 +177,16 @@ class Selection {
 void selectPatches(const PatchIndex& index, std::span<const std::uint8_t> resident, Vec3 eye,
                    double maxErrorPx, double lodScale, double pixelsPerRadian, PatchCut& cut) {
   Selection(index, resident, eye, maxErrorPx * lodScale / pixelsPerRadian, cut).run(pixelsPerRadian);
-  gatherBoxes(index.bounds, cut.cut);
+  cut.cut.triangles.clear();
+  for (const TileDraw& tile : cut.cut.tiles)
+    cut.cut.triangles.push_back(index.triangles[tile.node][tile.coarser]);
+  gatherCut(index.bounds, index.cones, cut.cut);
 }
 
-void selectVisiblePatches(const PatchIndex& index, const LevelCut& cut, const EyePose& eye,
-                          const ViewShape& view, bool test, VisibleSet& visible, double farM,
-                          std::span<const std::uint8_t> hidden) {
-  walkCut(index.size(), cut, eye, view, test, farM, hidden, visible);
-  visible.triangles = visible.vertices = 0;
-  for (const TileDraw& tile : visible.tiles) visible.triangles += index.triangles[tile.node][tile.coarser];
+void selectVisiblePatches(const PatchIndex&, const LevelCut& cut, const EyePose& eye, const ViewShape& view,
+                          bool test, VisibleSet& visible, double farM, std::span<const std::uint8_t> hidden,
+                          bool backFaces) {
+  walkCut(cut, eye, view, test, farM, hidden, backFaces, visible);
 }
 
 }  // namespace trimtab

@@ -48,6 +48,6 @@ void selectPatches(const PatchIndex& index, std::span<const std::uint8_t> reside
 void selectVisiblePatches(const PatchIndex& index, const LevelCut& cut, const EyePose& eye,
                           const ViewShape& view, bool test, VisibleSet& visible,
                           double farM = std::numeric_limits<double>::infinity(),
-                          std::span<const std::uint8_t> hidden = {});
+                          std::span<const std::uint8_t> hidden = {}, bool backFaces = false);
 
 }  // namespace trimtab

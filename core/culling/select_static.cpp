@@ -1,7 +1,9 @@
 #include "trimtab/culling/select_static.h"
 
 #include <algorithm>
+#include <memory>
 
+#include "trimtab/culling/back_facing.h"
 #include "trimtab/culling/box_distance.h"
 #include "trimtab/culling/frustum.h"
 
@@ -73,38 +75,46 @@ void selectStaticDepth(const StaticLodIndex& index, int depth, StaticCut& cut) {
 
 void selectStaticVisible(const StaticLodIndex& index, std::span<const std::uint32_t> vertices,
                          const StaticCut& cut, const EyePose& eye, const ViewShape& view, bool test,
-                         VisibleSet& visible, double farM) {
+                         VisibleSet& visible, double farM, bool backFaces) {
   visible.tiles.clear();
-  visible.reason.assign(index.size(), CullReason::other_level);
-  visible.outsideFrustum = visible.occluded = visible.beyondVisibility = 0;
+  visible.reason.clear();
+  if (!visible.nodes || *visible.nodes != cut.nodes)
+    visible.nodes = std::make_shared<const std::vector<std::uint32_t>>(cut.nodes);
+  visible.outsideFrustum = visible.occluded = visible.beyondVisibility = visible.backFacing = 0;
   visible.triangles = visible.vertices = 0;
   const Frustum frustum(eye, view);
+  const bool cones = test && backFaces && index.cones.size() == index.size();
   for (const std::uint32_t node : cut.nodes) {
     const Box& box = index.bounds[node];
+    CullReason reason = CullReason::drawn;
     if (test && !frustum.mayShow(box)) {
-      visible.reason[node] = CullReason::outside_frustum;
+      reason = CullReason::outside_frustum;
       ++visible.outsideFrustum;
     } else if (test && isBeyond(box, eye.position, farM)) {
-      visible.reason[node] = CullReason::beyond_visibility;
+      reason = CullReason::beyond_visibility;
       ++visible.beyondVisibility;
+    } else if (cones && facesAway(index.cones[node], box, eye.position)) {
+      reason = CullReason::back_facing;
+      ++visible.backFacing;
     } else {
       visible.tiles.push_back({node, 0});
-      visible.reason[node] = CullReason::drawn;
       count(index, vertices, node, visible, true);
     }
+    visible.reason.push_back(reason);
   }
 }
 
 void removeStaticOccluded(const StaticLodIndex& index, std::span<const std::uint32_t> vertices,
                           std::span<const std::uint8_t> flags, VisibleSet& visible) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < visible.tiles.size(); ++i) {
+  std::size_t kept = 0, place = 0;
+  for (std::size_t i = 0; i < visible.tiles.size(); ++i, ++place) {
     const TileDraw tile = visible.tiles[i];
+    while (visible.reason[place] != CullReason::drawn) ++place;
     if (i >= flags.size() || flags[i] != 1) {
       visible.tiles[kept++] = tile;
       continue;
     }
-    visible.reason[tile.node] = CullReason::occluded;
+    visible.reason[place] = CullReason::occluded;
     ++visible.occluded;
     count(index, vertices, tile.node, visible, false);
   }

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
+#include "trimtab/culling/back_facing.h"
 #include "trimtab/culling/box_distance.h"
 #include "trimtab/culling/frustum.h"
 #include "trimtab/culling/select.h"
@@ -9,80 +11,216 @@
 namespace trimtab {
 namespace {
 
-constexpr int kCells = TerrainIndex::kTileCells;
+constexpr std::size_t kBlock = BoxArrays::kBlock;
+constexpr std::uint64_t kAll = ~std::uint64_t{0};
 
-void count(VisibleSet& visible, const TileDraw& tile, int sign) {
-  // Each border that uses the coarser posts leaves out 16 vertices and folds 16 triangles away.
-  const int sides = std::popcount(tile.coarser);
-  visible.triangles += static_cast<std::uint64_t>(sign * (2 * kCells * kCells - sides * kCells / 2));
-  visible.vertices += static_cast<std::uint64_t>(sign * ((kCells + 1) * (kCells + 1) - sides * kCells / 2));
+/// Each border that uses the coarser posts leaves out as many vertices as triangles.
+std::uint64_t tileVertices(std::uint64_t triangles, std::size_t tiles) {
+  constexpr std::uint64_t kCells = TerrainIndex::kTileCells;
+  return triangles + tiles * (kCells + 1) * (kCells + 1) - tiles * 2 * kCells * kCells;
+}
+
+template <class Visit>
+void forEachBit(std::uint64_t bits, const Visit& visit) {
+  for (; bits != 0; bits &= bits - 1) visit(static_cast<std::size_t>(std::countr_zero(bits)));
+}
+
+/// A bit a byte that is not 0.
+std::uint64_t bitsOf(const std::uint8_t* bytes, std::size_t count) {
+  std::uint64_t bits = 0;
+  std::size_t i = 0;
+  for (; i + 8 <= count; i += 8) {
+    std::uint64_t eight;
+    std::memcpy(&eight, bytes + i, 8);
+    if (eight == 0) continue;
+    for (std::size_t k = i; k < i + 8; ++k) bits |= std::uint64_t{bytes[k] != 0} << k;
+  }
+  for (; i < count; ++i) bits |= std::uint64_t{bytes[i] != 0} << i;
+  return bits;
+}
+
+class Walk {
+ public:
+  Walk(const LevelCut& cut, const EyePose& eye, double farM, std::span<const std::uint8_t> hidden,
+       bool backFaces, VisibleSet& visible)
+      : cut_(cut),
+        eye_(eye.position),
+        farM_(farM),
+        reach_(std::max(farM, 0.0)),
+        hidden_(hidden.size() >= cut.tiles.size() ? hidden : std::span<const std::uint8_t>{}),
+        backFaces_(backFaces && cut.cones.size() == cut.tiles.size()),
+        visible_(visible) {}
+
+  /// `shown`: of the block's tiles, those in the frustum.
+  void block(std::size_t block, std::uint64_t shown) {
+    const std::size_t first = block * kBlock, count = std::min(kBlock, cut_.tiles.size() - first);
+    const std::uint64_t whole = count < kBlock ? (std::uint64_t{1} << count) - 1 : kAll;
+    visible_.outsideFrustum -= static_cast<std::size_t>(std::popcount(shown));
+    if (farM_ < std::numeric_limits<double>::infinity())
+      take(CullReason::beyond_visibility, visible_.beyondVisibility, first, shown, beyond(block, shown));
+    if (!hidden_.empty() && shown != 0)
+      take(CullReason::occluded, visible_.occluded, first, shown, bitsOf(hidden_.data() + first, count));
+    if (backFaces_ && shown != 0 && mayFaceAway(cut_.blockSteepness[block], cut_.blockBoxes[block], eye_))
+      take(CullReason::back_facing, visible_.backFacing, first, shown, facingAway(first, shown));
+    if (shown == 0) return;
+    mark(first, shown, CullReason::drawn);
+    if (shown == whole) {
+      visible_.triangles += cut_.blockTriangles[block];
+      if (runEnd_ != first) flush(), run_ = first;
+      runEnd_ = first + count;
+      return;
+    }
+    flush();
+    forEachBit(shown, [&](std::size_t i) { visible_.triangles += cut_.triangles[first + i]; });
+    while (shown != 0) {
+      const auto from = static_cast<unsigned>(std::countr_zero(shown)),
+                 length = static_cast<unsigned>(std::countr_one(shown >> from));
+      append(first + from, first + from + length);
+      shown &= ~(length == kBlock ? kAll : ((std::uint64_t{1} << length) - 1) << from);
+    }
+  }
+
+  /// Whole blocks that follow each other are copied at once.
+  void flush() {
+    append(run_, runEnd_);
+    run_ = runEnd_ = 0;
+  }
+
+ private:
+  void append(std::size_t from, std::size_t to) {
+    const auto begin = cut_.tiles.begin();
+    visible_.tiles.insert(visible_.tiles.end(), begin + static_cast<std::ptrdiff_t>(from),
+                          begin + static_cast<std::ptrdiff_t>(to));
+  }
+
+  void mark(std::size_t first, std::uint64_t bits, CullReason reason) {
+    CullReason* places = visible_.reason.data() + first;
+    if (bits == kAll)
+      std::fill_n(places, kBlock, reason);
+    else
+      forEachBit(bits, [&](std::size_t i) { places[i] = reason; });
+  }
+
+  void take(CullReason reason, std::size_t& counter, std::size_t first, std::uint64_t& shown,
+            std::uint64_t out) {
+    out &= shown;
+    if (out == 0) return;
+    shown &= ~out;
+    counter += static_cast<std::size_t>(std::popcount(out));
+    mark(first, out, reason);
+  }
+
+  std::uint64_t beyond(std::size_t block, std::uint64_t shown) const {
+    const Box all = cut_.blockBoxes[block];
+    if (isBeyond(all, eye_, farM_)) return kAll;
+    const auto furthest = [](double low, double high, double at) {
+      const double away = std::max(std::abs(low - at), std::abs(high - at));
+      return away * away;
+    };
+    if (furthest(all.minX, all.maxX, eye_.x) + furthest(all.minY, all.maxY, eye_.y) +
+            furthest(all.minZ, all.maxZ, eye_.z) <=
+        reach_ * reach_)
+      return 0;
+    std::uint64_t out = 0;
+    forEachBit(shown, [&](std::size_t i) {
+      out |= std::uint64_t{isBeyond(cut_.boxes[block * kBlock + i], eye_, farM_)} << i;
+    });
+    return out;
+  }
+
+  std::uint64_t facingAway(std::size_t first, std::uint64_t shown) const {
+    std::uint64_t out = 0;
+    forEachBit(shown, [&](std::size_t i) {
+      out |= std::uint64_t{facesAway(cut_.cones[first + i], cut_.boxes[first + i], eye_)} << i;
+    });
+    return out;
+  }
+
+  const LevelCut& cut_;
+  Vec3 eye_;
+  double farM_, reach_;
+  std::span<const std::uint8_t> hidden_;
+  bool backFaces_;
+  VisibleSet& visible_;
+  std::size_t run_ = 0, runEnd_ = 0;  ///< places to be copied
+};
+
+void clear(const LevelCut& cut, VisibleSet& visible) {
+  visible.tiles.clear();
+  visible.tiles.reserve(cut.tiles.size());
+  visible.nodes = cut.nodes;
+  visible.outsideFrustum = visible.occluded = visible.beyondVisibility = visible.backFacing = 0;
+  visible.triangles = visible.vertices = 0;
 }
 
 }  // namespace
 
-void gatherBoxes(std::span<const Box> bounds, LevelCut& cut) {
-  cut.boxes.clear();
-  cut.boxes.resize(cut.tiles.size());
-  for (std::size_t i = 0; i < cut.tiles.size(); ++i) cut.boxes.set(i, bounds[cut.tiles[i].node]);
-}
-
-void walkCut(std::size_t nodes, const LevelCut& cut, const EyePose& eye, const ViewShape& view, bool test,
-             double farM, std::span<const std::uint8_t> hidden, VisibleSet& visible) {
-  visible.tiles.clear();
-  visible.reason.assign(nodes, CullReason::other_level);
-  visible.outsideFrustum = visible.occluded = visible.beyondVisibility = 0;
-
+void walkCut(const LevelCut& cut, const EyePose& eye, const ViewShape& view, bool test, double farM,
+             std::span<const std::uint8_t> hidden, bool backFaces, VisibleSet& visible) {
+  clear(cut, visible);
+  visible.outsideFrustum = cut.tiles.size();
+  visible.reason.assign(cut.tiles.size(), CullReason::outside_frustum);
+  Walk walk(cut, eye, test ? farM : std::numeric_limits<double>::infinity(), hidden, test && backFaces,
+            visible);
   const Frustum frustum(eye, view);
-  const BlockTest mayShow(cut.boxes, frustum);
-  const bool cutByDistance = test && farM < std::numeric_limits<double>::infinity();
-  for (std::size_t block = 0; block * BoxArrays::kBlock < cut.tiles.size(); ++block) {
-    const std::uint64_t shown = test ? mayShow(block) : ~std::uint64_t{0};
-    const std::size_t first = block * BoxArrays::kBlock,
-                      end = std::min(first + BoxArrays::kBlock, cut.tiles.size());
-    for (std::size_t i = first; i < end; ++i) {
-      const TileDraw tile = cut.tiles[i];
-      CullReason reason = CullReason::drawn;
-      if ((shown >> (i - first) & 1) == 0) {
-        reason = CullReason::outside_frustum;
-        ++visible.outsideFrustum;
-      } else if (cutByDistance && isBeyond(cut.boxes[i], eye.position, farM)) {
-        reason = CullReason::beyond_visibility;
-        ++visible.beyondVisibility;
-      } else if (!hidden.empty() && hidden[i] != 0) {
-        reason = CullReason::occluded;
-        ++visible.occluded;
-      } else {
-        visible.tiles.push_back(tile);
-      }
-      visible.reason[tile.node] = reason;
-    }
+  // The blocks' boxes first: most blocks lie outside or inside as a whole.
+  const BlockTest ofBlocks(cut.blockBoxes, frustum), ofTiles(cut.boxes, frustum);
+  for (std::size_t group = 0; group < ofBlocks.blocks(); ++group) {
+    const std::size_t first = group * kBlock, count = std::min(kBlock, cut.blockBoxes.size() - first);
+    const std::uint64_t some = test             ? ofBlocks(group)
+                               : count < kBlock ? (std::uint64_t{1} << count) - 1
+                                                : kAll,
+                        all = test ? ofBlocks.wholly(group) : some;
+    forEachBit(some, [&](std::size_t i) {
+      const std::size_t tiles = std::min(kBlock, cut.tiles.size() - (first + i) * kBlock);
+      const bool inside = (all >> i & 1) != 0;
+      walk.block(first + i, !inside           ? ofTiles(first + i)
+                            : tiles == kBlock ? kAll
+                                              : (std::uint64_t{1} << tiles) - 1);
+    });
   }
+  walk.flush();
 }
 
-void selectVisible(const TerrainIndex& index, const LevelCut& cut, const EyePose& eye, const ViewShape& view,
-                   bool test, VisibleSet& visible, double farM, std::span<const std::uint8_t> hidden) {
-  walkCut(index.size(), cut, eye, view, test, farM, hidden, visible);
-  std::size_t sides = 0;
-  for (const TileDraw& tile : visible.tiles) sides += static_cast<std::size_t>(std::popcount(tile.coarser));
-  const std::size_t tiles = visible.tiles.size();
-  visible.triangles = tiles * 2 * kCells * kCells - sides * kCells / 2;
-  visible.vertices = tiles * (kCells + 1) * (kCells + 1) - sides * kCells / 2;
+void selectVisible(const TerrainIndex&, const LevelCut& cut, const EyePose& eye, const ViewShape& view,
+                   bool test, VisibleSet& visible, double farM, std::span<const std::uint8_t> hidden,
+                   bool backFaces) {
+  walkCut(cut, eye, view, test, farM, hidden, backFaces, visible);
+  visible.vertices = tileVertices(visible.triangles, visible.tiles.size());
 }
 
 void removeOccluded(const TerrainIndex&, std::span<const std::uint8_t> flags, VisibleSet& visible) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < visible.tiles.size(); ++i) {
+  std::size_t kept = 0, place = 0;
+  for (std::size_t i = 0; i < visible.tiles.size(); ++i, ++place) {
     const TileDraw tile = visible.tiles[i];
+    while (visible.reason[place] != CullReason::drawn) ++place;
     if (i >= flags.size() || flags[i] == 0) {
       visible.tiles[kept++] = tile;
       continue;
     }
     const bool hidden = flags[i] == 1;
-    visible.reason[tile.node] = hidden ? CullReason::occluded : CullReason::outside_frustum;
+    visible.reason[place] = hidden ? CullReason::occluded : CullReason::outside_frustum;
     ++(hidden ? visible.occluded : visible.outsideFrustum);
-    count(visible, tile, -1);
+    constexpr int kCells = TerrainIndex::kTileCells;
+    visible.triangles -=
+        static_cast<std::uint64_t>(2 * kCells * kCells - std::popcount(tile.coarser) * kCells / 2);
   }
   visible.tiles.resize(kept);
+  visible.vertices = tileVertices(visible.triangles, kept);
+}
+
+CullReason VisibleSet::reasonOf(std::uint32_t node) const {
+  if (!nodes) return CullReason::other_level;
+  const auto found = std::find(nodes->begin(), nodes->end(), node);
+  return found == nodes->end() ? CullReason::other_level
+                               : reason[static_cast<std::size_t>(found - nodes->begin())];
+}
+
+std::vector<CullReason> VisibleSet::reasons(std::size_t ofNodes) const {
+  std::vector<CullReason> all(ofNodes, CullReason::other_level);
+  for (std::size_t i = 0; nodes && i < nodes->size(); ++i)
+    if ((*nodes)[i] < ofNodes) all[(*nodes)[i]] = reason[i];
+  return all;
 }
 
 }  // namespace trimtab

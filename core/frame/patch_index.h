@@ -49,6 +49,8 @@ struct PatchIndex {
 
   // One entry a patch; pages follow each other from the coarsest, so parents stand before their children.
   std::vector<Box> bounds;  ///< of everything this patch or any descendant may draw, local frame
+  /// Of every triangle that this patch draws itself, in any variant; empty where they are not known.
+  std::vector<NormalCone> cones;
   /// Largest vertical distance at the source posts, metres, by variant from the finest: rises with the
   /// variant, and up the tree. Includes what the earth's curvature and the rounding of vertices add.
   std::vector<std::array<float, kVariants>> errorM;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "trimtab/frame/normal_cone.h"
 #include "trimtab/units/geodesy.h"
 
 namespace trimtab {
@@ -31,6 +32,9 @@ struct TerrainIndex {
 
   // One entry a node.
   std::vector<Box> bounds;  ///< of everything this node or any descendant may draw
+  /// Of every triangle that this node draws itself, at any mixture of its neighbours' levels; empty where
+  /// they are not known.
+  std::vector<NormalCone> cones;
   std::vector<float>
       errorM;  ///< largest vertical distance to the source posts below it; monotone up the tree
   std::vector<float> slopeMax;  ///< largest slope (rise over run) of a triangle of this node or a descendant,

@@ -167,8 +167,9 @@ void selectionRows(Report& report) {
     for (const TileDraw& tile : visible.tiles)
       extra += !std::binary_search(kept.begin(), kept.end(), tile.node) &&
                !isOutside(index.bounds[tile.node], v.eye, shape);
+    const std::vector<CullReason> reason = visible.reasons(index.size());
     for (const std::uint32_t node : kept)
-      unproven += visible.reason[node] != CullReason::drawn && !isOutside(index.bounds[node], v.eye, shape);
+      unproven += reason[node] != CullReason::drawn && !isOutside(index.bounds[node], v.eye, shape);
     const std::string what = "selecting of " + std::to_string(cut.tiles.size()) + " nodes, " + v.what;
     report.add(ratioAtMost(0.01, {.id = v.id,
                                   .what = "Time of " + what,
@@ -189,7 +190,7 @@ void selectionRows(Report& report) {
   const TerrainIndex small = test::randomIndex(128, 4);
   selectLevels(small, {64e3, 64e3, 500}, 1e-6, 1, 1100, cut);
   cut.tiles.resize(6400);
-  gatherBoxes(small.bounds, cut);
+  gather(small, cut);
   double heading = 0;
   const double turned = leastSeconds(100, [&] {
     heading += 3.3;

@@ -47,7 +47,7 @@ TEST_F(PatchForm, isDrawnWhereItIsAskedForOrThereIsNothingElse) {
   keep("patches", byPatches, r.view);
   EXPECT_TRUE(result.patches);
   EXPECT_FALSE(result.visible.tiles.empty());
-  EXPECT_EQ(result.visible.reason.size(), database->patches()->index().size());
+  EXPECT_EQ(result.visible.reason.size(), result.tilesInCut);
   EXPECT_GE(result.tilesInCut, result.visible.tiles.size());
   r.staticLod.terrain = TerrainForm::levels;
   const auto byTiles = picture(r, &result);

@@ -207,11 +207,11 @@ TEST_F(StaticTrees, fillTheCountsThatPlotsAndTracesRead) {
   EXPECT_EQ(byDepth, triangles);
   EXPECT_EQ(result.visible.tiles.size() + result.visible.outsideFrustum + result.visible.occluded,
             result.tilesInCut);
-  EXPECT_EQ(result.visible.reason.size(), trees().size());
+  EXPECT_EQ(result.visible.reason.size(), result.tilesInCut);
   r.staticLod.terrain = TerrainForm::levels;
   const auto levels = renderer.draw(r, offscreen->framebuffer());
   EXPECT_FALSE(levels.staticLod.drawn);
-  EXPECT_EQ(levels.visible.reason.size(), database->index().size());
+  EXPECT_EQ(levels.visible.reason.size(), levels.tilesInCut);
 }
 
 TEST_F(StaticTrees, areUploadedOnFirstUseAndSelectedOnlyAnew) {

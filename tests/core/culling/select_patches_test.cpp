@@ -262,7 +262,7 @@ TEST(PatchVisible, countsTheTrianglesOfTheVariantsThatAreDrawn) {
   selectVisiblePatches(index, cut.cut, eye, {}, true, visible, 1e9, hidden);
   EXPECT_GT(visible.tiles.size(), 3u);
   EXPECT_GT(visible.occluded, 0u);
-  EXPECT_EQ(visible.reason.size(), index.size());
+  EXPECT_EQ(visible.reason.size(), cut.cut.tiles.size());
   EXPECT_EQ(visible.tiles.size() + visible.occluded + visible.outsideFrustum, cut.cut.tiles.size());
   std::uint64_t triangles = 0;
   for (const TileDraw& tile : visible.tiles) triangles += index.triangles[tile.node][tile.coarser];

@@ -193,8 +193,10 @@ TEST_F(StaticVisible, neverDropsANodeWithAPointInThePicture) {
   for (int i = 0; i < 200; ++i) {
     eye.axes = axesOf(i * 1.9, i % 40 - 30);
     selectStaticVisible(index, vertices, cut, eye, view, true, visible);
-    for (const std::uint32_t node : cut.nodes) {
-      if (visible.reason[node] != CullReason::outside_frustum) continue;
+    for (std::size_t place = 0; place < cut.nodes.size(); ++place) {
+      const std::uint32_t node = cut.nodes[place];
+      ASSERT_EQ(visible.reasonOf(node), visible.reason[place]);
+      if (visible.reason[place] != CullReason::outside_frustum) continue;
       ++dropped;
       const Box& b = index.bounds[node];
       for (int corner = 0; corner < 27; ++corner) {
@@ -232,8 +234,8 @@ TEST_F(StaticVisible, leavesOutWhatIsBeyondTheWeathersFarDistance) {
                        std::clamp(eye.position.y, double{b.minY}, double{b.maxY}),
                        std::clamp(eye.position.z, double{b.minZ}, double{b.maxZ})};
     const double distance = length(nearest - eye.position);
-    ASSERT_FALSE(visible.reason[node] == CullReason::beyond_visibility && distance <= kFar);
-    ASSERT_FALSE(visible.reason[node] == CullReason::drawn && distance > kFar + 1);
+    ASSERT_FALSE(visible.reasonOf(node) == CullReason::beyond_visibility && distance <= kFar);
+    ASSERT_FALSE(visible.reasonOf(node) == CullReason::drawn && distance > kFar + 1);
   }
 }
 
@@ -249,7 +251,7 @@ TEST_F(StaticVisible, countsWhatIsDrawnAndWhyTheRestIsNot) {
   std::vector<std::uint32_t> expected;
   for (std::size_t i = 0; i < flags.size(); ++i) {
     const std::uint32_t node = all.tiles[i].node;
-    EXPECT_EQ(visible.reason[node], flags[i] ? CullReason::occluded : CullReason::drawn);
+    EXPECT_EQ(visible.reasonOf(node), flags[i] ? CullReason::occluded : CullReason::drawn);
     if (flags[i]) continue;
     expected.push_back(node);
     triangles += index.nodes[node].triangles;

@@ -50,8 +50,9 @@ TEST(VisibleSet, neverDropsATileWithAPointInThePicture) {
                360 * unit(random))};
     selectVisible(index, cut, eye, shape, true, visible);
     dropped += visible.outsideFrustum;
+    const std::vector<CullReason> reason = visible.reasons(index.size());
     for (const TileDraw& tile : cut.tiles) {
-      if (visible.reason[tile.node] != CullReason::outside_frustum) continue;
+      if (reason[tile.node] != CullReason::outside_frustum) continue;
       const Box& b = index.bounds[tile.node];
       for (int i = 0; i < 12; ++i) {
         const auto within = [&](float low, float high_) {
@@ -99,20 +100,24 @@ TEST(VisibleSet, dropsWhatLiesWhollyBeyondTheVisibilityAndNothingNearer) {
     selectVisible(index, cut, eye, {}, true, visible, farM);
     EXPECT_EQ(visible.outsideFrustum, whole.outsideFrustum) << "the frustum comes first";
     EXPECT_EQ(visible.tiles.size() + visible.beyondVisibility, whole.tiles.size());
+    const std::vector<CullReason> reason = visible.reasons(index.size());
     for (const TileDraw& tile : whole.tiles) {
       const Box& b = index.bounds[tile.node];
-      // By the definition, from the box's points; the nearest of a fine grid is near enough to see a box kept.
+      // By the definition, from the box's points; the nearest of a fine grid is near enough to see a box
+      // kept.
       double nearest = std::numeric_limits<double>::infinity();
       for (int i = 0; i <= 20; ++i)
         for (int j = 0; j <= 20; ++j) {
-          const Vec3 p{b.minX + (double{b.maxX} - b.minX) * i / 20, b.minY + (double{b.maxY} - b.minY) * j / 20,
+          const Vec3 p{b.minX + (double{b.maxX} - b.minX) * i / 20,
+                       b.minY + (double{b.maxY} - b.minY) * j / 20,
                        std::clamp(eye.position.z, double{b.minZ}, double{b.maxZ})};
           nearest = std::min(nearest, length(p - eye.position));
         }
-      if (visible.reason[tile.node] == CullReason::beyond_visibility)
+      if (reason[tile.node] == CullReason::beyond_visibility)
         ASSERT_GT(nearest, farM) << tile.node;
       else
-        ASSERT_LE(nearest, farM + 0.1 * length(Vec3{double{b.maxX} - b.minX, double{b.maxY} - b.minY, 0}) + 1);
+        ASSERT_LE(nearest,
+                  farM + 0.1 * length(Vec3{double{b.maxX} - b.minX, double{b.maxY} - b.minY, 0}) + 1);
     }
   }
 }
@@ -154,7 +159,7 @@ TEST(VisibleSet, countsWhatItDrawsAndWhyItDoesNot) {
     const CullReason expected = flags[i] == 1   ? CullReason::occluded
                                 : flags[i] == 2 ? CullReason::outside_frustum
                                                 : CullReason::drawn;
-    EXPECT_EQ(visible.reason[all.tiles[i].node], expected);
+    EXPECT_EQ(visible.reasonOf(all.tiles[i].node), expected);
     if (flags[i] != 0) continue;
     EXPECT_EQ(visible.tiles[kept++].node, all.tiles[i].node) << "order is kept";
     unsigned sides = 0;
@@ -165,7 +170,7 @@ TEST(VisibleSet, countsWhatItDrawsAndWhyItDoesNot) {
   EXPECT_EQ(visible.triangles, triangles);
   EXPECT_EQ(visible.vertices, vertices);
   std::size_t inCut = 0;
-  for (const CullReason reason : visible.reason) inCut += reason != CullReason::other_level;
+  for (const CullReason reason : visible.reasons(index.size())) inCut += reason != CullReason::other_level;
   EXPECT_EQ(inCut, cut.tiles.size());
 }
 

@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "trimtab/culling/back_facing.h"
+#include "trimtab/culling/visible_walk.h"
+
+namespace trimtab {
+namespace {
+
+constexpr std::size_t kBlock = BoxArrays::kBlock;
+
+/// Holds all boxes added; not a number where one of them is not finite, so that nothing is told of them.
+class BoxUnion {
+ public:
+  void add(const Box& b) {
+    all_ = {std::min(all_.minX, b.minX), std::min(all_.minY, b.minY), std::min(all_.minZ, b.minZ),
+            std::max(all_.maxX, b.maxX), std::max(all_.maxY, b.maxY), std::max(all_.maxZ, b.maxZ)};
+    // 0 for numbers, not a number for all else; and min and max pass over what is not one.
+    zero_ += 0 * (b.minX + b.minY + b.minZ) + 0 * (b.maxX + b.maxY + b.maxZ);
+  }
+  Box box() const {
+    if (zero_ == 0) return all_;
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    return {kNan, kNan, kNan, kNan, kNan, kNan};
+  }
+
+ private:
+  static constexpr float kFar = std::numeric_limits<float>::infinity();
+  Box all_{kFar, kFar, kFar, -kFar, -kFar, -kFar};
+  float zero_ = 0;
+};
+
+}  // namespace
+
+void gatherCut(std::span<const Box> bounds, std::span<const NormalCone> cones, LevelCut& cut) {
+  const std::size_t count = cut.tiles.size();
+  // Visible sets of earlier cuts may hold the last list.
+  if (cut.nodes.use_count() != 1) cut.nodes = std::make_shared<std::vector<std::uint32_t>>();
+  std::vector<std::uint32_t>& nodes = *cut.nodes;
+  nodes.resize(count);
+  cut.boxes.clear();
+  cut.boxes.resize(count);
+  cut.blockBoxes.clear();
+  cut.blockBoxes.resize(cut.boxes.blocks());
+  cut.blockTriangles.assign(cut.boxes.blocks(), 0);
+  cut.cones.resize(cones.empty() ? 0 : count);
+  cut.blockSteepness.assign(cones.empty() ? 0 : cut.boxes.blocks(), std::numeric_limits<std::int16_t>::min());
+  for (std::size_t block = 0; block < cut.boxes.blocks(); ++block) {
+    const std::size_t first = block * kBlock, end = std::min(first + kBlock, count);
+    BoxUnion all;
+    for (std::size_t i = first; i < end; ++i) {
+      const std::uint32_t node = cut.tiles[i].node;
+      nodes[i] = node;
+      cut.boxes.set(i, bounds[node]);
+      all.add(bounds[node]);
+      cut.blockTriangles[block] += cut.triangles[i];
+    }
+    cut.blockBoxes.set(block, all.box());
+    if (cones.empty()) continue;
+    for (std::size_t i = first; i < end; ++i) {
+      cut.cones[i] = cones[cut.tiles[i].node];
+      cut.blockSteepness[block] = std::max(cut.blockSteepness[block], steepness(cut.cones[i]));
+    }
+  }
+}
+
+void gather(const TerrainIndex& index, LevelCut& cut) {
+  // Each border that uses the coarser posts folds 16 triangles away.
+  constexpr std::uint32_t kCells = TerrainIndex::kTileCells;
+  cut.triangles.clear();
+  for (const TileDraw& tile : cut.tiles)
+    cut.triangles.push_back(2 * kCells * kCells -
+                            static_cast<std::uint32_t>(std::popcount(tile.coarser)) * kCells / 2);
+  gatherCut(index.bounds, index.cones, cut);
+}
+
+}  // namespace trimtab
