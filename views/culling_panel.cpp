@@ -3,7 +3,6 @@
 
 #include <QAction>
 #include <QBoxLayout>
-#include <QGridLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QToolButton>
@@ -12,12 +11,14 @@
 #include "trimtab/views/bar_list.h"
 #include "trimtab/views/depth_map_inset.h"
 #include "trimtab/views/horizon_inset.h"
-#include "trimtab/views/parameter_line.h"
+#include "trimtab/views/parameter_lines.h"
 #include "trimtab/views/theme.h"
+#include "trimtab/views/time_plot.h"
 
 namespace trimtab::views {
 namespace {
 
+constexpr double kStagesShownS = 20;
 constexpr const char* kKeys[] = {"culling.case", "culling.occlusion"};
 
 QString count(std::uint64_t n) {
@@ -71,27 +72,9 @@ CullingPanel::CullingPanel(Draft& draft, QWidget* parent)
   connect(pick_, &QPushButton::toggled, this, &CullingPanel::pickingChanged);
   map_->setReason(tr("The depth map, or the picture as the horizon covers it, shows here while it works."));
 
-  auto* grid = new QGridLayout;
-  int row = 0;
-  for (const char* key : kKeys) {
-    auto* line = new ParameterLine(draft, *findRow(key), *grid, row);
-    line->setParent(this);
-    line->setCompact(true);
-    lines_.push_back(line);
-    row += 2;
-  }
-  grid->setColumnStretch(1, 1);
-  connect(&draft, &Draft::findingsChanged, this, [this] {
-    for (ParameterLine* line : lines_) line->refresh();
-  });
-  connect(&draft, &Draft::valueChanged, this, [this](const QString& key) {
-    for (ParameterLine* line : lines_)
-      if (key.toStdString() == line->row().key) line->refresh();
-  });
-
-  auto* layout = new QVBoxLayout(this);
+  auto* layout = layout_ = new QVBoxLayout(this);
   layout->setContentsMargins(6, 6, 6, 6);
-  layout->addLayout(grid);
+  layout->addWidget(new ParameterLines(draft, kKeys));
   layout->addLayout(overlayRow_);
   layout->addWidget(new QLabel(tr("<b>Nodes of the cut, by reason</b>")));
   layout->addWidget(reasons_);
@@ -106,6 +89,14 @@ CullingPanel::CullingPanel(Draft& draft, QWidget* parent)
   layout->addWidget(picked_);
   showPicked(std::nullopt);
   refresh();
+}
+
+void CullingPanel::showStages(const TraceBuffer& frames) {
+  stages_ = new TimePlot(frames, TimePlot::Lanes::stages);
+  stages_->setAccessibleName(tr("Stages of a frame, stacked"));
+  stages_->setToolTip(tr("What each stage of a frame takes; the Plots dock has the rest"));
+  stages_->setSpan(kStagesShownS);
+  layout_->insertWidget(layout_->indexOf(work_), stages_, 2);
 }
 
 void CullingPanel::setActions(const QList<QAction*>& overlays) {
@@ -166,6 +157,7 @@ QString CullingPanel::served() const {
 
 void CullingPanel::refresh() {
   served_->setText(served());
+  if (stages_) stages_->refresh(true);
   const LiveFrame& f = frame_;
   const double all = std::max<double>(1, static_cast<double>(f.tilesInCut));
   const auto bar = [&](const QString& name, std::size_t nodes, const QString& more, int colour) {

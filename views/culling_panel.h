@@ -12,6 +12,7 @@
 
 class QAction;
 class QHBoxLayout;
+class QVBoxLayout;
 class QLabel;
 class QPushButton;
 
@@ -20,7 +21,8 @@ namespace trimtab::views {
 class BarList;
 class DepthMapInset;
 class HorizonInset;
-class ParameterLine;
+class TimePlot;
+class TraceBuffer;
 
 /// A node that was picked in the picture.
 struct PickedNode {
@@ -41,6 +43,8 @@ class CullingPanel : public QWidget {
  public:
   explicit CullingPanel(Draft& draft, QWidget* parent = nullptr);
 
+  /// What a frame's stages take, from a recording of frames that outlives this.
+  void showStages(const TraceBuffer& frames);
   /// The menus' overlays as buttons.
   void setActions(const QList<QAction*>& overlays);
   void showFrame(const LiveFrame& frame);
@@ -64,9 +68,10 @@ class CullingPanel : public QWidget {
   BarList* reasons_;
   DepthMapInset* map_;
   HorizonInset* horizon_;
+  TimePlot* stages_ = nullptr;
+  QVBoxLayout* layout_;
   QHBoxLayout* overlayRow_;
   QPushButton* pick_;
-  std::vector<ParameterLine*> lines_;
   LiveFrame frame_;
   Throttle throttle_;
 };

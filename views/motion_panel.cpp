@@ -3,7 +3,6 @@
 
 #include <QBoxLayout>
 #include <QComboBox>
-#include <QGridLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
@@ -14,7 +13,7 @@
 #include "trimtab/motion/head_motion.h"
 #include "trimtab/views/bar_list.h"
 #include "trimtab/views/motion_plot.h"
-#include "trimtab/views/parameter_line.h"
+#include "trimtab/views/parameter_lines.h"
 #include "trimtab/views/theme.h"
 
 namespace trimtab::views {
@@ -71,16 +70,6 @@ MotionPanel::MotionPanel(Draft& draft, QWidget* parent)
   top->addWidget(source_, 1);
   top->addWidget(sweep_, 1);
   top->addWidget(open_);
-  auto* grid = new QGridLayout;
-  int row = 0;
-  for (const char* key : kKeys) {
-    auto* line = new ParameterLine(draft, *findRow(key), *grid, row);
-    line->setParent(this);
-    line->setCompact(true);
-    lines_.push_back(line);
-    row += 2;
-  }
-  grid->setColumnStretch(1, 1);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(6, 6, 6, 6);
   layout->addLayout(top);
@@ -90,7 +79,7 @@ MotionPanel::MotionPanel(Draft& draft, QWidget* parent)
   layout->addWidget(plot_, 2);
   layout->addWidget(new QLabel(tr("<b>Changes</b>")));
   layout->addWidget(reasons_, 1);
-  layout->addLayout(grid);
+  layout->addWidget(new ParameterLines(draft, kKeys));
 
   connect(source_, &QComboBox::activated, this, [this](int source) {
     showWidgetsOf(static_cast<Source>(source));
@@ -101,13 +90,6 @@ MotionPanel::MotionPanel(Draft& draft, QWidget* parent)
   });
   connect(open_, &QPushButton::clicked, this, &MotionPanel::openLogAsked);
   connect(sweep_, &QLineEdit::returnPressed, this, [this] { emit sourceAsked(sweep); });
-  connect(&draft, &Draft::findingsChanged, this, [this] {
-    for (ParameterLine* line : lines_) line->refresh();
-  });
-  connect(&draft, &Draft::valueChanged, this, [this](const QString& key) {
-    for (ParameterLine* line : lines_)
-      if (key.toStdString() == line->row().key) line->refresh();
-  });
   showWidgetsOf(host);
   refresh();
 }

@@ -19,7 +19,6 @@ namespace trimtab::views {
 
 class BarList;
 class MotionPlot;
-class ParameterLine;
 
 /// The Head motion dock: where the head comes from, its rate against the threshold of Eq. (1), both stacks
 /// filling against their limits, LOD scale and blur, and the reason of each change.
@@ -60,7 +59,6 @@ class MotionPanel : public QWidget {
   BarList* bars_;
   MotionPlot* plot_;
   QListWidget* reasons_;
-  std::vector<ParameterLine*> lines_;
   LiveFrame frame_;
   MotionDecision noted_;
   bool any_ = false;

@@ -3,13 +3,12 @@
 
 #include <QBoxLayout>
 #include <QCheckBox>
-#include <QGridLayout>
 #include <QLabel>
 #include <QSlider>
 #include <algorithm>
 
 #include "trimtab/views/bar_list.h"
-#include "trimtab/views/parameter_line.h"
+#include "trimtab/views/parameter_lines.h"
 #include "trimtab/views/theme.h"
 
 namespace trimtab::views {
@@ -80,24 +79,6 @@ StaticLodPanel::StaticLodPanel(Draft& draft, QWidget* parent)
       "Faces light grey, edges red, edges that may not change in their level black: borders between nodes, "
       "tiles and holes"));
 
-  auto* grid = new QGridLayout;
-  int row = 0;
-  for (const ParameterRow& each : parameterRows()) {
-    if (!each.key.starts_with("static_lod.")) continue;
-    auto* line = new ParameterLine(draft, each, *grid, row);
-    line->setParent(this);
-    line->setCompact(true);
-    lines_.push_back(line);
-    row += 2;
-  }
-  grid->setColumnStretch(1, 1);
-  connect(&draft, &Draft::findingsChanged, this, [this] {
-    for (ParameterLine* line : lines_) line->refresh();
-  });
-  connect(&draft, &Draft::valueChanged, this, [this](const QString& key) {
-    for (ParameterLine* line : lines_)
-      if (key.toStdString() == line->row().key) line->refresh();
-  });
 
   auto* inside = new QVBoxLayout(body_);
   inside->setContentsMargins(0, 0, 0, 0);
@@ -112,7 +93,7 @@ StaticLodPanel::StaticLodPanel(Draft& draft, QWidget* parent)
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(6, 6, 6, 6);
   layout->addWidget(state_);
-  layout->addLayout(grid);
+  layout->addWidget(new ParameterLines(draft, "static_lod."));
   layout->addWidget(body_);
   layout->addStretch(1);
 

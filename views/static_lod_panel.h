@@ -17,7 +17,6 @@ class QSlider;
 namespace trimtab::views {
 
 class BarList;
-class ParameterLine;
 
 /// What the dock says of a terrain's trees.
 struct StaticLodSummary {
@@ -60,7 +59,6 @@ class StaticLodPanel : public QWidget {
   BarList* drawn_;
   QCheckBox *single_, *picture_;
   QSlider* slider_;
-  std::vector<ParameterLine*> lines_;
   std::optional<StaticLodSummary> trees_;
   LiveFrame frame_;
   Throttle throttle_;

@@ -3,7 +3,6 @@
 
 #include <QAction>
 #include <QBoxLayout>
-#include <QGridLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QProgressBar>
@@ -13,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trimtab/views/parameter_line.h"
+#include "trimtab/views/parameter_lines.h"
 #include "trimtab/views/terrain_levels_model.h"
 #include "trimtab/views/theme.h"
 
@@ -93,23 +92,6 @@ TerrainPanel::TerrainPanel(Draft& draft, QWidget* parent)
   // As high as its rows: the dock scrolls, and no bar of its own covers the last column.
   table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
 
-  auto* grid = new QGridLayout;
-  int row = 0;
-  for (const char* key : kKeys) {
-    auto* line = new ParameterLine(draft, *findRow(key), *grid, row);
-    line->setParent(this);
-    line->setCompact(true);
-    lines_.push_back(line);
-    row += 2;
-  }
-  grid->setColumnStretch(1, 1);
-  connect(&draft, &Draft::findingsChanged, this, [this] {
-    for (ParameterLine* line : lines_) line->refresh();
-  });
-  connect(&draft, &Draft::valueChanged, this, [this](const QString& key) {
-    for (ParameterLine* line : lines_)
-      if (key.toStdString() == line->row().key) line->refresh();
-  });
 
   auto* progress = new QHBoxLayout;
   progress->setContentsMargins(0, 0, 0, 0);
@@ -124,7 +106,7 @@ TerrainPanel::TerrainPanel(Draft& draft, QWidget* parent)
   layout->addLayout(fileRow_);
   layout->addWidget(jobLine_);
   layout->addWidget(summary_);
-  layout->addLayout(grid);
+  layout->addWidget(new ParameterLines(draft, kKeys));
   layout->addLayout(overlayRow_);
   layout->addWidget(drawn_);
   layout->addWidget(table_);

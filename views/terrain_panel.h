@@ -19,7 +19,6 @@ class QTableView;
 
 namespace trimtab::views {
 
-class ParameterLine;
 class TerrainLevelsModel;
 
 /// One level of what is drawn: of tiles 0 is the finest, of patches (their depth) the coarsest.
@@ -69,7 +68,6 @@ class TerrainPanel : public QWidget {
   QPushButton* cancel_;
   TerrainLevelsModel* levels_;
   QTableView* table_;
-  std::vector<ParameterLine*> lines_;
   std::optional<TerrainSummary> terrain_;
   std::optional<bool> shownPatches_;  ///< whose levels the table has
   LiveFrame frame_;

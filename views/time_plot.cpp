@@ -15,7 +15,8 @@ constexpr std::size_t kStageLane = 3;
 constexpr double kShortestSpanS = 0.05, kLongestSpanS = 3600 * 4;
 }  // namespace
 
-TimePlot::TimePlot(const TraceBuffer& buffer, QWidget* parent) : QCustomPlot(parent), buffer_(buffer) {
+TimePlot::TimePlot(const TraceBuffer& buffer, Lanes lanes, QWidget* parent)
+    : QCustomPlot(parent), buffer_(buffer), firstLane_(lanes == Lanes::all ? 0 : kStageLane) {
   setFocusPolicy(Qt::StrongFocus);
   setMouseTracking(true);
   setAccessibleName(tr("Live plots"));
@@ -33,9 +34,11 @@ TimePlot::TimePlot(const TraceBuffer& buffer, QWidget* parent) : QCustomPlot(par
     addLayer(QString::fromLatin1(name));
     layer(QString::fromLatin1(name))->setMode(QCPLayer::lmBuffered);
   }
-  makeLane(tr("Membership"), 2.6, false);
-  makeLane(tr("Triangles (k)"), 0, false);
-  makeLane(tr("Frame (ms)"), 0, true);
+  if (firstLane_ == 0) {
+    makeLane(tr("Membership"), 2.6, false);
+    makeLane(tr("Triangles (k)"), 0, false);
+    makeLane(tr("Frame (ms)"), 0, true);
+  }
   makeLane(tr("Stages (ms)"), 0, true);
   using S = QCPScatterStyle;
   addTrace(0, {Trace::altitude_membership, tr("altitude"), {}, 0, S::ssCircle, Qt::SolidLine, 1, 3});
@@ -130,7 +133,7 @@ void TimePlot::makeLane(const QString& title, double fixedTop, bool budget) {
 
 void TimePlot::arrange() {
   // Four lanes one above the other, or two by two in a dock that is wide and low.
-  const int columns = height() < kLowPx && width() > kWidePx ? 2 : 1;
+  const int columns = lanes_.size() > 1 && height() < kLowPx && width() > kWidePx ? 2 : 1;
   if (columns == columns_) return;
   columns_ = columns;
   for (Lane& lane : lanes_) plotLayout()->take(lane.rect);
@@ -154,7 +157,9 @@ void TimePlot::resizeEvent(QResizeEvent* event) {
 }
 
 void TimePlot::addTrace(std::size_t lane, TraceGraph::Look look, const QString& right) {
-  QCPAxisRect* rect = lanes_[lane].rect;
+  if (lane < firstLane_) return;
+  const Lane& into = lanes_[lane - firstLane_];
+  QCPAxisRect* rect = into.rect;
   QCPAxis* value = rect->axis(right.isEmpty() ? QCPAxis::atLeft : QCPAxis::atRight);
   if (!right.isEmpty()) {
     value->setVisible(true);
@@ -167,7 +172,7 @@ void TimePlot::addTrace(std::size_t lane, TraceGraph::Look look, const QString& 
   TraceGraph* graph = new TraceGraph(rect->axis(QCPAxis::atBottom), value, std::move(look));
   // The stages' lane says their unit, and its legend has many entries.
   if (lane == kStageLane) graph->setName(graph->look().name);
-  if (!graph->look().rare) graph->addToLegend(lanes_[lane].legend);
+  if (!graph->look().rare) graph->addToLegend(into.legend);
   traces_.push_back(graph);
 }
 
@@ -268,7 +273,8 @@ void TimePlot::draw() {
     lanes_[i].rect->axis(QCPAxis::atRight)->setRange(0, topRight[i] > 0 ? topRight[i] * 1.4 : 100);
     // In a narrow dock the legend needs the room, and so does that of the stages in any.
     if (lanes_[i].budgetText)
-      lanes_[i].budgetText->setVisible(i != kStageLane && width() / columns_ > kRoomForBudgetTextPx);
+      lanes_[i].budgetText->setVisible(i + firstLane_ != kStageLane &&
+                                       width() / columns_ > kRoomForBudgetTextPx);
   }
   for (Lane& lane : lanes_)
     lane.rect->axis(QCPAxis::atBottom)->setNumberPrecision(span_ < 2 ? 2 : span_ < 20 ? 1 : 0);

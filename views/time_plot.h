@@ -16,7 +16,8 @@ namespace trimtab::views {
 class TimePlot : public QCustomPlot {
   Q_OBJECT
  public:
-  explicit TimePlot(const TraceBuffer& buffer, QWidget* parent = nullptr);
+  enum class Lanes { all, stages };  ///< stages alone: how a dock of another matter shows what it costs
+  explicit TimePlot(const TraceBuffer& buffer, Lanes lanes = Lanes::all, QWidget* parent = nullptr);
 
   /// Draws the buffer again; with `follow`, the newest frame is at the right edge.
   void refresh(bool follow);
@@ -34,8 +35,8 @@ class TimePlot : public QCustomPlot {
   QPointF pixelOfTime(double time) const;
 
   const std::vector<TraceGraph*>& traces() const { return traces_; }
-  QSize sizeHint() const override { return {560, 420}; }
-  QSize minimumSizeHint() const override { return {260, 190}; }
+  QSize sizeHint() const override { return {560, firstLane_ == 0 ? 420 : 170}; }
+  QSize minimumSizeHint() const override { return {260, firstLane_ == 0 ? 190 : 130}; }
 
  signals:
   void movedByHand();  ///< the person panned or zoomed away from the newest frame
@@ -79,6 +80,7 @@ class TimePlot : public QCustomPlot {
   int cursorAt(QPointF pixel) const;
 
   const TraceBuffer& buffer_;
+  const std::size_t firstLane_;  ///< lanes before it are not shown
   std::vector<Lane> lanes_;
   std::vector<TraceGraph*> traces_;
   std::array<QCPMarginGroup*, 2> columnMargins_{};

@@ -230,6 +230,7 @@ class MainWindow : public QMainWindow {
   std::uint64_t traceCount_ = 0;
   // Of the terrain, what the Messages dock has told of.
   std::uint64_t pagesFailed_ = 0;
+  LevelsFrame levels_;  ///< of the last picture
   std::size_t damageTold_ = 0;
   QString saidOfFlight_;               ///< why the results' times mean nothing in the open flight
   QString traceFile_, recordedTrace_;  ///< being written; the last one that is whole

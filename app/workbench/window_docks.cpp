@@ -92,6 +92,7 @@ void MainWindow::makeDocks() {
   hostDock_ = addDock("host", tr("Host"), effect, new HostDock(feed_, draft_));
   flightDock_ = addDock("flight", tr("Flight"), effect, new FlightDock(feed_));
   plots_ = addDock("plots", tr("Plots"), foot, new views::PlotsPanel(draft_));
+  culling_->showStages(plots_->buffer());
   messages_ = addDock("messages", tr("Messages"), foot, new MessagePanel);
   addDock("history", tr("History"), foot, history);
   experiments_ =

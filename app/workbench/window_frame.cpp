@@ -133,6 +133,7 @@ void MainWindow::onPainted() {
   else
     fps_ = kNan;
   lastCost_ = feed_.session().finished(*viewport_->lastResult(), link::now());
+  levels_ = levelsDrawn(*viewport_->lastResult());
   drainTrace(false);
   showInDocks(liveFrame());
   followErrors();
@@ -197,7 +198,7 @@ views::LiveFrame MainWindow::liveFrame() const {
     frame.horizonsLeftOut = last->horizonsLeftOut;
     frame.depthMapsDrawn = last->depthMapsDrawn;
     frame.patches = last->patches;
-    frame.levels = levelsDrawn(*last);
+    frame.levels = levels_;
     frame.paging = last->paging;
   }
   return frame;
@@ -220,10 +221,7 @@ void MainWindow::setFrozen(bool frozen) {
 /// South of the middle, looking north over it, above the ground there.
 void MainWindow::placeCamera() {
   const terrain::TerrainInfo& info = terrain_->info();
-  const double south = info.southWest.latitude.value(), north = info.northEast.latitude.value();
-  GeodeticPosition at;
-  at.latitude = Degrees{south + (north - south) * 0.3};
-  at.longitude = wrapped180(info.southWest.longitude + scene::widthOf(info) / 2);
+  GeodeticPosition at = scene::placeIn(info, 0.5, 0.3);
   const std::optional<Metres> ground = terrain_->highestWithin(at.latitude, at.longitude, Metres{4000});
   at.height = (ground ? *ground : info.highest) + Feet{1500}.as<Metres>();
   viewport_->camera().place(at, {Degrees{0}, Degrees{-6}, Degrees{0}});
