@@ -43,6 +43,20 @@ Degrees widthOf(const terrain::TerrainInfo& info) {
   return info.postLongitude * (info.columns > 1 ? info.columns - 1.0 : 0.0);
 }
 
+GeodeticPosition placeIn(const terrain::TerrainInfo& info, double east, double north) {
+  return {info.southWest.latitude + (info.northEast.latitude - info.southWest.latitude) * north,
+          wrapped180(info.southWest.longitude + widthOf(info) * east), Metres{0}};
+}
+
+bool liesOver(const terrain::TerrainInfo& info, const GeodeticPosition& place) {
+  double east = std::fmod((place.longitude - info.southWest.longitude).value(), 360);
+  if (east < 0) east += 360;
+  // Borders are told rounded: a place on the western one may be a little west of it.
+  constexpr double kRounding = 1e-9;
+  return place.latitude >= info.southWest.latitude && place.latitude <= info.northEast.latitude &&
+         (east <= widthOf(info).value() + kRounding || east >= 360 - kRounding);
+}
+
 double leanOf(Vec3 place) {
   return std::hypot(place.x, place.y) / kEarthRadius;
 }

@@ -28,6 +28,9 @@ class DataExtent {
 /// From the western border eastward to the other one: longitudes of borders are wrapped, and the date line may
 /// lie between them.
 Degrees widthOf(const terrain::TerrainInfo& info);
+/// A place on the ellipsoid by fractions of the terrain's extent, from its south-western corner.
+GeodeticPosition placeIn(const terrain::TerrainInfo& info, double east, double north);
+bool liesOver(const terrain::TerrainInfo& info, const GeodeticPosition& place);
 
 /// Lean of the frame's z from the vertical at a place, radians.
 double leanOf(Vec3 place);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "trimtab/measure/statistics.h"
+#include "trimtab/scene/data_extent.h"
 #include "trimtab/session/session.h"
 
 namespace trimtab::harness {
@@ -16,11 +17,6 @@ using Clock = std::chrono::steady_clock;
 
 /// Rows that a blur can reach back over at 60 Hz and its longest; older ones have no trace left.
 constexpr std::size_t kLongestTrace = 64;
-
-bool liesOver(const terrain::TerrainInfo& info, const GeodeticPosition& position) {
-  return position.latitude >= info.southWest.latitude && position.latitude <= info.northEast.latitude &&
-         position.longitude >= info.southWest.longitude && position.longitude <= info.northEast.longitude;
-}
 
 /// A decision takes less than a clock tick: many, each from the memory as the row met it.
 double decideMilliseconds(const FrameInput& input, const ValidatedParameters& parameters,
@@ -48,7 +44,7 @@ std::vector<std::size_t> sampledRows(const Flight& flight, const terrain::Databa
                                      std::size_t count) {
   std::vector<std::size_t> over;
   for (std::size_t i = 0; i < flight.states.size(); ++i)
-    if (liesOver(terrain.info(), flight.states[i].position)) over.push_back(i);
+    if (scene::liesOver(terrain.info(), flight.states[i].position)) over.push_back(i);
   if (over.size() <= count) return over;
   std::vector<std::size_t> rows;
   for (std::size_t k = 0; k < count; ++k) rows.push_back(over[(2 * k + 1) * over.size() / (2 * count)]);

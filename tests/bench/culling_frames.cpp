@@ -125,10 +125,9 @@ void peerRowsOf(Report& report, const std::string& name,
 }  // namespace
 
 GeodeticPosition placeOver(const terrain::Database& database, double east, double north, double aboveM) {
-  const auto& i = database.info();
-  const Degrees latitude = i.southWest.latitude + (i.northEast.latitude - i.southWest.latitude) * north;
-  const Degrees longitude = i.southWest.longitude + (i.northEast.longitude - i.southWest.longitude) * east;
-  return {latitude, longitude, database.heightAt(latitude, longitude).value_or(Metres{0}) + Metres{aboveM}};
+  GeodeticPosition place = scene::placeIn(database.info(), east, north);
+  place.height = database.heightAt(place.latitude, place.longitude).value_or(Metres{0}) + Metres{aboveM};
+  return place;
 }
 
 void frameRows(Report& report) {

@@ -52,11 +52,9 @@ class SceneTest : public testing::Test {
   }
   /// A place by fractions of the terrain's extent, so far above the ground there.
   GeodeticPosition over(double east, double north, double aboveM) const {
-    const auto& i = database->info();
-    const Degrees latitude = i.southWest.latitude + (i.northEast.latitude - i.southWest.latitude) * north;
-    const Degrees longitude = wrapped180(i.southWest.longitude + scene::widthOf(i) * east);
-    return {latitude, longitude,
-            database->heightAt(latitude, longitude).value_or(Metres{0}) + Metres{aboveM}};
+    GeodeticPosition place = scene::placeIn(database->info(), east, north);
+    place.height = database->heightAt(place.latitude, place.longitude).value_or(Metres{0}) + Metres{aboveM};
+    return place;
   }
 
   std::vector<std::uint8_t> picture(const scene::FrameRequest& r, scene::FrameResult* result = nullptr) {

@@ -25,8 +25,8 @@ class SyntheticTerrain final : public terrain::Database {
                                southWest.longitude + Degrees{middle} + frameOffset, Metres{0}});
     info_.name = "synthetic";
     info_.southWest = southWest;
-    info_.northEast = {southWest.latitude + Degrees{2 * middle}, southWest.longitude + Degrees{2 * middle},
-                       Metres{0}};
+    info_.northEast = {southWest.latitude + Degrees{2 * middle},
+                       wrapped180(southWest.longitude + Degrees{2 * middle}), Metres{0}};
     info_.columns = info_.rows = static_cast<std::uint32_t>(posts_);
     info_.postLatitude = info_.postLongitude = Degrees{stepDegrees};
     position_.resize(static_cast<std::size_t>(posts_) * static_cast<std::size_t>(posts_));
@@ -45,7 +45,7 @@ class SyntheticTerrain final : public terrain::Database {
   const terrain::TerrainInfo& info() const override { return info_; }
   const TerrainIndex& index() const override { return index_; }
   std::optional<Metres> heightAt(Degrees latitude, Degrees longitude) const override {
-    const double x = (longitude - southWest_.longitude).value() / step_,
+    const double x = wrapped180(longitude - southWest_.longitude).value() / step_,
                  y = (latitude - southWest_.latitude).value() / step_;
     if (!(x >= 0 && y >= 0 && x <= posts_ - 1 && y <= posts_ - 1)) return {};
     const int column = std::min(static_cast<int>(x), posts_ - 2),
