@@ -13,6 +13,8 @@
 #include <sstream>
 #include <thread>
 
+#include "trimtab/preset/file_io.h"
+#include "trimtab/preset/preset.h"
 #include "trimtab/terrain/store.h"
 
 namespace trimtab::terrain {
@@ -99,11 +101,7 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, con
         if (error) return wrong(path / "old", "a database that can go back to its place", error.message());
         error = empty(path);
         if (error) return wrong(path, "a folder that can be emptied", error.message());
-        std::ofstream out(path / "recipe.new", std::ios::binary);
-        out << recipe;
-        out.close();
-        if (!out) return wrong(path / "recipe.new", "room to write it", std::strerror(errno));
-        fs::rename(path / "recipe.new", path / "recipe.json", error);
+        if (auto written = writeAtomically(path / "recipe.json", recipe); !written) return written.findings();
       }
       for (const char* folder : {"database", "pieces"})
         if (!error) fs::create_directories(path / folder, error);
@@ -158,7 +156,13 @@ Result<Done> WorkFolder::note(const std::string& line) const {
 }
 
 Result<Done> WorkFolder::finish(const fs::path& output) {
+  // Pieces that a power cut spoils are found by their sums and made again; the database must be whole under
+  // its name.
   std::error_code error, ignored;
+  for (const auto& entry : fs::directory_iterator(database(), error))
+    if (auto done = reachDisk(entry.path()); !done) return done;
+  if (error) return wrong(database(), "a folder that can be read", error.message());
+  if (auto done = reachDisk(database()); !done) return done;
   const fs::path recipe = path_ / "recipe.json", spent = path_ / "recipe.spent";
   // Killed after this, the next bake begins anew; it must not take the old database for its own.
   fs::rename(recipe, spent, error);
@@ -180,6 +184,8 @@ Result<Done> WorkFolder::finish(const fs::path& output) {
     fs::rename(spent, recipe, ignored);
     return wrong(output, "a place to put the database", error.message() + also);
   }
+  const fs::path beside = output.has_parent_path() ? output.parent_path() : fs::path(".");
+  static_cast<void>(reachDisk(beside));
   fs::remove_all(path_, ignored);
   lock_.reset();
   return Done{};

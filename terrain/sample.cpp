@@ -1,15 +1,11 @@
-#include <gdal_priv.h>
-#include <ogr_spatialref.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "trimtab/terrain/georeference.h"
+#include "trimtab/terrain/database.h"
 #include "trimtab/terrain/import.h"
 #include "trimtab/terrain/landscape.h"
 #include "trimtab/terrain/post_geometry.h"
+#include "trimtab/terrain/write_tiff.h"
 
 namespace trimtab::terrain {
 
@@ -106,49 +102,6 @@ void soften(Landscape& land) {
     }
 }
 
-Result<Done> writeTiff(const fs::path& tif, const PostGrid& posts, std::vector<float>& heights) {
-  useGdal();
-  GdalErrors errors;
-  const fs::path unfinished =
-      tif.parent_path() / ("." + tif.filename().string() + ".part-" + std::to_string(::getpid()));
-  const auto failed = [&](const std::string& otherwise) {
-    std::error_code ignored;
-    fs::remove(unfinished, ignored);
-    return about(Severity::error, tif, "", "a GeoTIFF to be written", errors.last(otherwise));
-  };
-  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
-  const int columns = static_cast<int>(posts.columns), rows = static_cast<int>(posts.rows);
-  {
-    std::array<const char*, 2> options{"BIGTIFF=IF_SAFER", nullptr};
-    Dataset data = owned(driver->Create(unfinished.c_str(), columns, rows, 1, GDT_Float32,
-                                        const_cast<char**>(options.data())));
-    if (!data) return failed("GDAL gives no reason");
-    std::array<double, 6> corner{posts.west - posts.stepLongitude / 2,
-                                 posts.stepLongitude,
-                                 0,
-                                 posts.latitude(posts.rows - 0.5),
-                                 0,
-                                 -posts.stepLatitude};
-    OGRSpatialReference crs;
-    crs.importFromEPSG(4326);
-    data->SetGeoTransform(corner.data());
-    data->SetSpatialRef(&crs);
-    data->SetMetadataItem(GDALMD_AREA_OR_POINT, GDALMD_AOP_POINT);
-    GDALRasterBand* band = data->GetRasterBand(1);
-    band->SetUnitType("m");
-    float* last = heights.data() + static_cast<std::ptrdiff_t>(rows - 1) * columns;
-    if (band->RasterIO(GF_Write, 0, 0, columns, rows, last, columns, rows, GDT_Float32, sizeof(float),
-                       -static_cast<GSpacing>(sizeof(float)) * columns, nullptr) != CE_None)
-      return failed("GDAL gives no reason");
-    data->FlushCache();
-    if (CPLGetLastErrorType() == CE_Failure) return failed(CPLGetLastErrorMsg());
-  }
-  std::error_code error;
-  fs::rename(unfinished, tif, error);
-  if (error) return failed(error.message());
-  return Done{};
-}
-
 }  // namespace
 
 Result<Done> writeSample(const fs::path& tif, const SampleOptions& options) {
@@ -185,7 +138,12 @@ Result<Done> writeSample(const fs::path& tif, const SampleOptions& options) {
   posts.stepLatitude = options.postM / middle.rowM(0);
   posts.west = kLongitude - posts.stepLongitude * (shape.side - 1) / 2;
   posts.south = kLatitude - posts.stepLatitude * (shape.side - 1) / 2;
-  return writeTiff(tif, posts, land.heights);
+  return writeTiff(tif, posts, [&](std::uint32_t first, std::uint32_t count, std::span<float> heights) {
+    for (std::uint32_t r = 0; r < count; ++r)
+      std::copy_n(&land.heights[std::size_t{land.side - 1 - first - r} * land.side], land.side,
+                  &heights[std::size_t{r} * land.side]);
+    return true;
+  });
 }
 
 }  // namespace trimtab::terrain

@@ -1,4 +1,3 @@
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <bit>
@@ -6,6 +5,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "trimtab/preset/file_io.h"
 #include "trimtab/terrain/static_lod.h"
 #include "trimtab/terrain/store.h"
 
@@ -254,17 +254,9 @@ Result<Done> writeStaticLod(const fs::path& file, const StaticLodTerrain& terrai
     return wrong(file, "", "room to write " + std::to_string(kHeaderBytes + body.bytes.size()) + " bytes",
                  reason);
   }
-  if (const int descriptor = ::open(unfinished.c_str(), O_RDONLY | O_CLOEXEC); descriptor >= 0) {
-    ::fsync(descriptor);
-    ::close(descriptor);
-  }
-  fs::rename(unfinished, file, error);
-  if (error) {
-    std::error_code ignored;
-    fs::remove(unfinished, ignored);
-    return wrong(file, "", "a place to put the file", error.message());
-  }
-  return Done{};
+  auto done = putInPlace(unfinished, file);
+  if (!done) fs::remove(unfinished, error);
+  return done;
 }
 
 Result<std::shared_ptr<const StaticLodTerrain>> readStaticLod(const fs::path& file) {

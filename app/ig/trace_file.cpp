@@ -1,5 +1,7 @@
 #include "trace_file.h"
 
+#include "trimtab/preset/file_io.h"
+
 namespace trimtab::ig {
 namespace {
 
@@ -25,11 +27,7 @@ void TraceFile::write(const std::vector<TraceRow>& rows) {
 Result<Done> TraceFile::finish() {
   Result<Done> closed = writer_.close();
   if (!closed) return closed;
-  std::error_code error;
-  std::filesystem::rename(partOf(file_), file_, error);
-  if (error)
-    return Finding{Severity::error, file_.string(), {}, "a file that can be replaced", error.message()};
-  return Done{};
+  return putInPlace(partOf(file_), file_);
 }
 
 }  // namespace trimtab::ig

@@ -105,18 +105,30 @@ Result<Done> writeAtomically(const std::filesystem::path& file, std::string_view
   std::string beside = (folder / ("." + target.filename().string() + ".XXXXXX")).string();
   Descriptor out(::mkostemp(beside.data(), O_CLOEXEC));
   if (!out.isOpen()) return refused(file, "a folder that can be written, " + folder.string(), errno);
-  const bool written = writeAll(out.get(), bytes) && ::fchmod(out.get(), modeOf(target)) == 0 &&
-                       ::fsync(out.get()) == 0 && out.close() &&
-                       ::rename(beside.c_str(), target.c_str()) == 0;
-  if (!written) {
+  if (!writeAll(out.get(), bytes) || ::fchmod(out.get(), modeOf(target)) != 0 || !out.close()) {
     const int error = errno;
     ::unlink(beside.c_str());
     return refused(file, kWritable, error);
   }
-  // The new name must survive a crash too; file systems that cannot sync a folder have nothing to sync.
-  if (const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-      directory.isOpen())
-    ::fsync(directory.get());
+  auto done = putInPlace(beside, target);
+  if (!done) ::unlink(beside.c_str());
+  return done;
+}
+
+Result<Done> reachDisk(const std::filesystem::path& fileOrFolder) {
+  Descriptor opened(::open(fileOrFolder.c_str(), O_RDONLY | O_CLOEXEC));
+  // EINVAL, EROFS: a file system that cannot flush this has nothing to flush.
+  if (!opened.isOpen() || (::fsync(opened.get()) != 0 && errno != EINVAL && errno != EROFS))
+    return refused(fileOrFolder, "to be written to the disk", errno);
+  return Done{};
+}
+
+Result<Done> putInPlace(const std::filesystem::path& unfinished, const std::filesystem::path& file) {
+  if (auto done = reachDisk(unfinished); !done) return done;
+  if (::rename(unfinished.c_str(), file.c_str()) != 0) return refused(file, kWritable, errno);
+  // The new name must survive as well. It is there already: who cannot look into its folder may still write.
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  static_cast<void>(reachDisk(folder));
   return Done{};
 }
 

@@ -9,6 +9,7 @@
 #include <random>
 #include <thread>
 
+#include "disk_order.h"
 #include "rasters.h"
 #include "trimtab/terrain/ground.h"
 #include "trimtab/terrain/patch_terrain.h"
@@ -73,6 +74,17 @@ class ResumedBake : public ::testing::Test {
   BakeOptions options_;
   Files whole_;
 };
+
+TEST_F(ResumedBake, isOnTheDiskBeforeItHasItsName) {
+  test::DiskOrder& order = test::DiskOrder::instance();
+  order.clear();
+  ASSERT_TRUE(bake(options_));
+  const std::size_t named = order.placeOf("rename db");
+  EXPECT_LT(named, order.events().size());
+  for (const auto& [name, bytes] : whole_) EXPECT_LT(order.placeOf("flush " + name), named) << name;
+  EXPECT_LT(order.placeOf("flush database"), named);
+  EXPECT_EQ(order.events()[named + 1], "flush " + dir_.path().filename().string());
+}
 
 TEST_F(ResumedBake, isTheSameWhereverItIsKilled) {
   int killed = 0;

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <functional>
 
+#include "disk_order.h"
 #include "support.h"
 #include "trimtab/preset/preset.h"
 
@@ -44,6 +45,29 @@ TEST(WriteAtomically, keepsModeAndLink) {
   struct stat status {};
   ASSERT_EQ(::stat((dir / "real").c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 07777, 0640u);
+}
+
+TEST(WriteAtomically, leavesTheOldFileOrTheNewOneWhenThePowerFails) {
+  const ScratchDir dir;
+  ASSERT_TRUE(writeAtomically(dir / "a", "old"));
+  test::DiskOrder& order = test::DiskOrder::instance();
+  order.clear();
+  ASSERT_TRUE(writeAtomically(dir / "a", "new"));
+  const std::vector<std::string> events = order.events();
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_THAT(events[0], ::testing::StartsWith("flush .a."));
+  EXPECT_EQ(events[1], "rename a");
+  EXPECT_EQ(events[2], "flush " + dir.path().filename().string());
+}
+
+TEST(PutInPlace, keepsWhatItCannotRename) {
+  const ScratchDir dir;
+  test::writeFile(dir / "unfinished", "rows");
+  EXPECT_FALSE(putInPlace(dir / "unfinished", dir / "no folder" / "a"));
+  EXPECT_EQ(test::readFile(dir / "unfinished"), "rows");
+  EXPECT_FALSE(putInPlace(dir / "nothing", dir / "a"));
+  ASSERT_TRUE(putInPlace(dir / "unfinished", dir / "a"));
+  EXPECT_EQ(test::readFile(dir / "a"), "rows");
 }
 
 TEST(WriteAtomically, givesNewFilesTheUsualMode) {
