@@ -1,8 +1,5 @@
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <fstream>
-#include <string_view>
 #include <thread>
 
 #include "trimtab/terrain/bake_heights.h"
@@ -37,37 +34,6 @@ auto orFinding(const fs::path& where, const Work& work) -> decltype(work()) {
   } catch (const std::exception& thrown) {
     return refused(where, "memory and threads enough to bake", thrown.what());
   }
-}
-
-/// A database of ours, by the beginning of its manifest (a damaged one may be baked again), and nothing
-/// beside it that a database does not hold.
-bool holdsNothingElse(const fs::path& folder) {
-  constexpr std::array<std::string_view, 10> kNames = {
-      kManifestName, kHeightsName, kHeightSumsName, kImageName,  kImageSumsName,
-      kNodesName,    kSlopesName,  kPatchesName,    kGroundName, kStaticLodName};
-  constexpr std::string_view kBegins = "{\n  \"format\": \"trimtab-terrain\"";
-  std::string begins(kBegins.size(), 0);
-  std::ifstream(folder / kManifestName, std::ios::binary)
-      .read(begins.data(), static_cast<std::streamsize>(begins.size()));
-  if (begins != kBegins) return false;
-  std::error_code error;
-  for (auto entry = fs::directory_iterator(folder, error); !error && entry != fs::directory_iterator();
-       entry.increment(error)) {
-    std::error_code unseen;
-    if (!fs::is_regular_file(entry->symlink_status(unseen)) ||
-        std::find(kNames.begin(), kNames.end(), entry->path().filename().string()) == kNames.end())
-      return false;
-  }
-  return !error;
-}
-
-/// Only a database or an empty folder may be replaced.
-bool mayReplace(const fs::path& output) {
-  std::error_code error;
-  const fs::file_status there = fs::symlink_status(output, error);
-  if (there.type() == fs::file_type::not_found) return true;
-  return fs::is_directory(output, error) && (fs::is_empty(output, error) || holdsNothingElse(output)) &&
-         !error;
 }
 
 /// An image over the colours of materials: those stay where it has nothing.
@@ -380,7 +346,7 @@ Result<std::shared_ptr<const Database>> openOrBake(const fs::path& source, const
   const bool scenery = isScenery(source);
   const auto files = scenery ? sceneryFiles(source) : elevationFiles(sources);
   if (!files) return files.findings();
-  std::string key = "v" + std::to_string(kFormatVersion);
+  std::string key = "v" + std::to_string(kFormatVersion) + " b" + std::to_string(kBuilderVersion);
   if (scenery) key += " n" + std::to_string(trianglesPerNode);
   for (const fs::path& file : *files) key += '\n' + stampOf(file);
   const std::string name = nameOf(source);

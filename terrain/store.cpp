@@ -1,5 +1,6 @@
 #include "trimtab/terrain/store.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cerrno>
@@ -17,7 +18,36 @@ using Json = nlohmann::ordered_json;
 
 static_assert(std::endian::native == std::endian::little, "the files are little-endian");
 
+/// By the beginning of its manifest, and by the names of its files.
+bool holdsNothingElse(const std::filesystem::path& folder) {
+  constexpr std::array<std::string_view, 10> kNames = {
+      kManifestName, kHeightsName, kHeightSumsName, kImageName,  kImageSumsName,
+      kNodesName,    kSlopesName,  kPatchesName,    kGroundName, kStaticLodName};
+  constexpr std::string_view kBegins = "{\n  \"format\": \"trimtab-terrain\"";
+  std::string begins(kBegins.size(), 0);
+  std::ifstream(folder / kManifestName, std::ios::binary)
+      .read(begins.data(), static_cast<std::streamsize>(begins.size()));
+  if (begins != kBegins) return false;
+  std::error_code error;
+  using Entries = std::filesystem::directory_iterator;
+  for (auto entry = Entries(folder, error); !error && entry != Entries(); entry.increment(error)) {
+    std::error_code unseen;
+    if (!std::filesystem::is_regular_file(entry->symlink_status(unseen)) ||
+        std::find(kNames.begin(), kNames.end(), entry->path().filename().string()) == kNames.end())
+      return false;
+  }
+  return !error;
+}
+
 }  // namespace
+
+bool mayReplace(const std::filesystem::path& folder) {
+  std::error_code error;
+  const std::filesystem::file_status there = std::filesystem::symlink_status(folder, error);
+  if (there.type() == std::filesystem::file_type::not_found) return true;
+  return std::filesystem::is_directory(folder, error) &&
+         (std::filesystem::is_empty(folder, error) || holdsNothingElse(folder)) && !error;
+}
 
 std::uint64_t checksum(std::string_view bytes) {
   constexpr std::uint64_t kPrime = 0x100000001b3u;

@@ -38,6 +38,10 @@ inline constexpr const char* kStaticLodName = "static-lod.bin";
 /// Larger grids are drawn from patches only.
 inline constexpr std::size_t kMostTiledPosts = std::size_t{1} << 26;
 
+/// Whether a bake may take a folder's place: there is nothing, or an empty folder, or a database of ours (a
+/// damaged one may be baked again) with nothing beside it.
+bool mayReplace(const std::filesystem::path& folder);
+
 /// All that a database holds; what is large is mapped, not read.
 struct Contents {
   TerrainInfo info;

@@ -16,6 +16,8 @@
 #include <QSpinBox>
 #include <QVBoxLayout>
 
+#include "trimtab/terrain/store.h"
+
 namespace trimtab::workbench {
 namespace {
 
@@ -166,6 +168,8 @@ void BakeDialog::check() {
     problem = tr("Name a folder for the database.");
   else if (folder.exists() && !folder.isDir())
     problem = tr("%1 is a file; a database is a folder.").arg(output);
+  else if (!terrain::mayReplace(output.toStdString()))
+    problem = tr("%1 holds something else, which stays as it is: name a new folder.").arg(output);
   bake_->setEnabled(problem.isEmpty());
   if (!problem.isEmpty())
     note_->setText(problem);

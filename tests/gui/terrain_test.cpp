@@ -80,20 +80,27 @@ TEST_F(TerrainDock, drawsPatchesWhereThePresetSaysSo) {
 
 TEST_F(TerrainDock, bakesWhatIsAskedForAndOpensIt) {
   ASSERT_TRUE(terrain::writeSample(dir_ / "small.tif", {7, 20, 100, {}}));
-  bool refusedWithout = false, acceptedWith = false;
+  // A manifest of another program's, that a bake leaves as it is.
+  std::filesystem::create_directories(dir_ / "foreign");
+  writeFile(dir_ / "foreign" / "manifest.json", R"({"name": "a web page"})");
+  bool refusedWithout = false, refusedForeign = false, acceptedWith = false;
   QTimer::singleShot(0, &w(), [&] {
     auto* dialog = w().findChild<workbench::BakeDialog*>();
     if (dialog == nullptr) return;
     refusedWithout = !accepting(*dialog)->isEnabled();
     dialog->addSources({QString::fromStdString((dir_ / "small.tif").string())});
     for (QLineEdit* line : dialog->findChildren<QLineEdit*>())
-      if (line->text().endsWith(QStringLiteral("small-terrain")))
+      if (line->text().endsWith(QStringLiteral("small-terrain"))) {
+        line->setText(QString::fromStdString((dir_ / "foreign").string()));
+        refusedForeign = !accepting(*dialog)->isEnabled();
         line->setText(QString::fromStdString((dir_ / "mine").string()));
+      }
     acceptedWith = accepting(*dialog)->isEnabled();
     accepting(*dialog)->click();
   });
   button(QStringLiteral("Bake"))->click();
   EXPECT_TRUE(refusedWithout);
+  EXPECT_TRUE(refusedForeign);
   ASSERT_TRUE(acceptedWith);
   ASSERT_TRUE(waitFor([this] { return says(QStringLiteral("<b>small</b>")); }))
       << w().messages().text().toStdString();

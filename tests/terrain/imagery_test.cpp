@@ -70,6 +70,23 @@ TEST_F(Imagery, leavesGroundWithoutItToTheLand) {
   EXPECT_LT(mesh.vertices[28].colour[0], 200);
 }
 
+TEST_F(Imagery, meetsATerrainAcrossTheDateLine) {
+  test::RasterRecipe ground, picture;
+  ground.west = 179.97;
+  picture.west = -180, picture.bands = 3, picture.type = GDT_Byte;
+  picture.value = [](int, int, int band) { return band == 1 ? 250.0 : 0.0; };
+  BakeOptions options;
+  options.sources = {test::writeRaster(dir_ / "ground.tif", ground)};
+  options.imagery = test::writeRaster(dir_ / "rgb.tif", picture);
+  options.output = dir_ / "db";
+  const auto database = bake(options);
+  ASSERT_TRUE(database) << toString(database.findings());
+  TileMesh mesh;
+  (*database)->buildTile(0, mesh);
+  EXPECT_LT(mesh.vertices[28].colour[0], 200) << "west of the line";
+  EXPECT_EQ(mesh.vertices[31].colour[0], 250);
+}
+
 TEST_F(Imagery, fromElsewhereOrNoImageIsRefused) {
   test::RasterRecipe picture;
   picture.bands = 3;
