@@ -22,6 +22,7 @@ namespace trimtab::test {
 struct RasterRecipe {
   int columns = 65, rows = 65;
   double west = 10, north = 50, step = 0.001;  ///< of the first pixel's corner
+  std::optional<double> stepEast;              ///< where that differs
   std::string crs = "EPSG:4326";               ///< empty: none
   GDALDataType type = GDT_Float32;
   std::optional<double> noData;
@@ -41,7 +42,8 @@ inline std::filesystem::path writeRaster(const std::filesystem::path& file, cons
   if (recipe.placed) {
     const double sign = recipe.southUp ? 1 : -1;
     const double top = recipe.southUp ? recipe.north - recipe.rows * recipe.step : recipe.north;
-    std::array<double, 6> corner{recipe.west, recipe.step, 0, top, 0, sign * recipe.step};
+    std::array<double, 6> corner{recipe.west,       recipe.stepEast.value_or(recipe.step), 0, top, 0,
+                                 sign * recipe.step};
     data->SetGeoTransform(corner.data());
   }
   if (!recipe.crs.empty()) {

@@ -1,0 +1,34 @@
+#include "culling_truth.h"
+
+/// As culling_views_test.cpp, over FlightGear scenery.
+namespace trimtab {
+namespace {
+
+class CullingScenery : public test::CullingTruth {
+ protected:
+  void proveAll(const char* folder, unsigned seed) {
+    use(bakeShared(folder));
+    ASSERT_TRUE(database);
+    ASSERT_TRUE(database->staticLod());
+    for (const TerrainForm form : {TerrainForm::levels, TerrainForm::patches, TerrainForm::static_trees})
+      prove(form, 25, seed++);
+  }
+};
+
+TEST_F(CullingScenery, losesNothingOverKansai) {
+  TRIMTAB_NEEDS_SHARED("data/fg-kansai-e135n35");
+  proveAll("fg-kansai-e135n35", 61);
+}
+
+TEST_F(CullingScenery, losesNothingOverTheCoastOfIceland) {
+  TRIMTAB_NEEDS_SHARED("data/fg-debian-iceland-reykjanes");
+  proveAll("fg-debian-iceland-reykjanes", 71);
+}
+
+TEST_F(CullingScenery, losesNothingOverHawaii) {
+  TRIMTAB_NEEDS_SHARED("data/fg-debian-hawaii-bigisland");
+  proveAll("fg-debian-hawaii-bigisland", 81);
+}
+
+}  // namespace
+}  // namespace trimtab
