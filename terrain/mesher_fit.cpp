@@ -17,29 +17,28 @@ using Triangle = Triangulation::Triangle;
 /// Posts are brought within this share of the bound where that can be done.
 constexpr double kMend = 0.95;
 
-double post(const float* z, std::size_t stride, const Vertex& v) {
-  return z[static_cast<std::size_t>(v.y) * stride + static_cast<std::size_t>(v.x)];
+double post(const PostRows& posts, const Vertex& v) {
+  return posts.row(v.y)[v.x];
 }
 
 }  // namespace
 
-MeshFit::Sum MeshFit::sumOf(const Vertex& a, const Vertex& b, const Vertex& c, const bool border[3]) const {
+TRIMTAB_LANES PostSum MeshFit::sumOf(const Vertex& a, const Vertex& b, const Vertex& c,
+                                     const bool border[3]) const {
   const Vertex* const corner[3] = {&a, &b, &c};
-  Sum sum;
-  forEachRow(corner, border, 1, [&](const FacetRow& r) {
-    const float* const z = z_ + static_cast<std::size_t>(r.y) * stride_;
-    double at = r.z;
-    for (std::int32_t x = r.first; x <= r.last; ++x) {
-      const double off = z[x] - at;
-      sum.squares += off * off;
-      sum.worst = std::max(sum.worst, std::fabs(off));
-      at += r.slope;
-    }
-  });
-  return sum;
+  Lanes squares{}, worst{};
+  forEachFour(
+      corner, border,
+      posts_, [&](const Lanes& off, const Lanes&, std::int32_t, std::int32_t) __attribute__((always_inline)) {
+        Lanes size;
+        absoluteLanes(off, size);
+        worst = size > worst ? size : worst;
+        squares += off * off;
+      });
+  return {sumOfLanes(squares), mostOfLanes(worst)};
 }
 
-MeshFit::Sum MeshFit::sumOf(std::int32_t t) const {
+PostSum MeshFit::sumOf(std::int32_t t) const {
   const Triangle& one = mesh_.triangles[static_cast<std::size_t>(t)];
   const bool border[3] = {one.twin[0] < 0, one.twin[1] < 0, one.twin[2] < 0};
   return sumOf(mesh_.vertices[one.corner[0]], mesh_.vertices[one.corner[1]], mesh_.vertices[one.corner[2]],
@@ -52,8 +51,8 @@ bool MeshFit::tryFlip(std::int32_t t, int i, double bound) {
   const std::int32_t u = other >> 2;
   const int j = other & 3;
   const Triangle& two = mesh_.triangles[static_cast<std::size_t>(u)];
-  Sum& sumT = sums_[static_cast<std::size_t>(t)];
-  Sum& sumU = sums_[static_cast<std::size_t>(u)];
+  PostSum& sumT = sums_[static_cast<std::size_t>(t)];
+  PostSum& sumU = sums_[static_cast<std::size_t>(u)];
   const double now = sumT.squares + sumU.squares;
   // What can be won is less than a hundredth of what one post may be off: leave it.
   if (now <= 0.01 * bound * bound) return false;
@@ -64,11 +63,11 @@ bool MeshFit::tryFlip(std::int32_t t, int i, double bound) {
   const double worst = std::max({bound, sumT.worst, sumU.worst});
   const bool borderT[3] = {two.twin[Triangulation::next(j)] < 0, false,
                            one.twin[Triangulation::before(i)] < 0};
-  const Sum newT = sumOf(a, d, c, borderT);
+  const PostSum newT = sumOf(a, d, c, borderT);
   if (newT.squares >= now || newT.worst > worst) return false;
   const bool borderU[3] = {two.twin[Triangulation::before(j)] < 0, one.twin[Triangulation::next(i)] < 0,
                            false};
-  const Sum newU = sumOf(d, b, c, borderU);
+  const PostSum newU = sumOf(d, b, c, borderU);
   if (newT.squares + newU.squares >= now * (1 - 1e-9) || newU.worst > worst) return false;
   if (i != 0) {
     const Triangle was = one;
@@ -104,9 +103,10 @@ void MeshFit::flipEdges(double bound) {
   }
 }
 
-bool MeshFit::gather(std::int32_t start, const Vertex& at, Star& star) {
+TRIMTAB_LANES bool MeshFit::gather(std::int32_t start, const Vertex& at, Star& star) {
   star = {};
   std::size_t count = 0;
+  Lanes rr{}, worst{};
   std::int32_t h = start;
   do {
     const Triangle& one = mesh_.triangles[static_cast<std::size_t>(h >> 2)];
@@ -116,35 +116,31 @@ bool MeshFit::gather(std::int32_t start, const Vertex& at, Star& star) {
     const std::int64_t twice = Triangulation::turn(at, b, c.x, c.y);
     if (twice <= 0) return false;
     star.area += twice;
-    const double area = static_cast<double>(twice);
     const bool border[3] = {false, one.twin[Triangulation::next(i)] < 0, false};
     const Vertex* const corner[3] = {&at, &b, &c};
-    const double slopeW = -static_cast<double>(c.y - b.y) / area;
-    double wr = 0, ww = 0;
-    forEachRow(corner, border, 1, [&](const FacetRow& row) {
-      const float* const z = z_ + static_cast<std::size_t>(row.y) * stride_;
-      double w = static_cast<double>(Triangulation::turn(b, c, row.first, row.y)) / area, facet = row.z;
-      const std::size_t had = count;
-      count += static_cast<std::size_t>(row.last - row.first + 1);
-      if (about_.size() < count) about_.resize(2 * count);
-      About* about = &about_[had];
-      for (std::int32_t x = row.first; x <= row.last; ++x) {
-        const double r = z[x] - facet;
-        *about++ = {r, w};
-        wr += w * r;
-        ww += w * w;
-        star.rr += r * r;
-        star.worst = std::max(star.worst, std::fabs(r));
-        w += slopeW;
-        facet += row.slope;
-      }
-    });
+    Lanes wrs{}, wws{};
+    forEachFour(
+        corner, border, posts_,
+        [&](const Lanes& r, const Lanes& w, std::int32_t, std::int32_t) __attribute__((always_inline)) {
+          if (about_.size() < count + 4 * kLanes) about_.resize(2 * count + 8 * kLanes);
+          std::memcpy(&about_[count], &r, sizeof r);
+          std::memcpy(&about_[count + kLanes], &w, sizeof w);
+          count += 2 * kLanes;
+          wrs += w * r;
+          wws += w * w;
+          rr += r * r;
+          Lanes size;
+          absoluteLanes(r, size);
+          worst = size > worst ? size : worst;
+        });
+    const double wr = sumOfLanes(wrs), ww = sumOfLanes(wws);
     star.wr += wr;
     star.ww += ww;
     // Moving the vertex by (dx, dy, dz) changes a residual by -w (dz - gx dx - gy dy).
+    const double perArea = 1 / static_cast<double>(twice);
     const double zb = static_cast<double>(b.z) - at.z, zc = static_cast<double>(c.z) - at.z;
-    const double gx = (zb * (c.y - at.y) - zc * (b.y - at.y)) / area;
-    const double gy = ((b.x - at.x) * zc - (c.x - at.x) * zb) / area;
+    const double gx = (zb * (c.y - at.y) - zc * (b.y - at.y)) * perArea;
+    const double gy = ((b.x - at.x) * zc - (c.x - at.x) * zb) * perArea;
     star.xz -= ww * gx;
     star.yz -= ww * gy;
     star.xx += ww * gx * gx;
@@ -154,42 +150,69 @@ bool MeshFit::gather(std::int32_t start, const Vertex& at, Star& star) {
     star.ry -= wr * gy;
     h = one.twin[Triangulation::before(i)];
   } while (h != start);
-  const double rv = post(z_, stride_, at) - at.z;
-  if (about_.size() <= count) about_.resize(2 * count + 1);
-  about_[count] = {rv, 1};
-  star.posts = count + 1;
-  star.wr += rv;
+  // The vertex's own post.
+  const double own = post(posts_, at) - at.z;
+  const Lanes r{own, 0, 0, 0}, w{1, 0, 0, 0};
+  if (about_.size() < count + 2 * kLanes) about_.resize(2 * count + 2 * kLanes);
+  std::memcpy(&about_[count], &r, sizeof r);
+  std::memcpy(&about_[count + kLanes], &w, sizeof w);
+  star.posts = count + 2 * kLanes;
+  star.wr += own;
   star.ww += 1;
-  star.rr += rv * rv;
-  star.worst = std::max(star.worst, std::fabs(rv));
+  star.rr = sumOfLanes(rr) + own * own;
+  star.worst = std::max(mostOfLanes(worst), std::fabs(own));
   return true;
 }
 
-bool MeshFit::bestHeight(const Star& star, float was, double limit, float& z, double& squares) const {
-  double low = -HUGE_VAL, high = HUGE_VAL;
-  for (std::size_t i = 0; i < star.posts; ++i) {
-    const About& p = about_[i];
-    if (p.w < 1e-9) {
-      if (std::fabs(p.r) > limit) return false;
-      continue;
-    }
-    const double inverse = 1 / p.w;
-    low = std::max(low, (p.r - limit) * inverse);
-    high = std::min(high, (p.r + limit) * inverse);
+/// Whether no post about the vertex is further off than `limit` where it rises so far.
+TRIMTAB_LANES bool MeshFit::keeps(const Star& star, double rise, double limit) const {
+  Lanes worst{};
+  for (std::size_t i = 0; i < star.posts; i += 2 * kLanes) {
+    Lanes r, w, size;
+    std::memcpy(&r, &about_[i], sizeof r);
+    std::memcpy(&w, &about_[i + kLanes], sizeof w);
+    absoluteLanes(r - w * rise, size);
+    worst = size > worst ? size : worst;
   }
+  return mostOfLanes(worst) <= limit;
+}
+
+bool MeshFit::bestHeight(const Star& star, float was, double limit, float& z, double& squares) const {
+  const auto take = [&](float height) {
+    z = height;
+    const double d = static_cast<double>(z) - was;
+    squares = star.rr + d * (d * star.ww - 2 * star.wr);
+  };
+  // Mostly the best of all keeps the limit.
+  const auto best = static_cast<float>(was + star.wr / star.ww);
+  if (keeps(star, static_cast<double>(best) - was, limit)) {
+    take(best);
+    return true;
+  }
+  double low = -HUGE_VAL, high = HUGE_VAL;
+  for (std::size_t i = 0; i < star.posts; i += 2 * kLanes)
+    for (std::size_t k = i; k < i + kLanes; ++k) {
+      const double r = about_[k], w = about_[k + kLanes];
+      if (w < 1e-9) {
+        if (std::fabs(r) > limit) return false;
+        continue;
+      }
+      // Those that allow what others allow anyway are not divided.
+      if (r - limit > low * w) low = (r - limit) / w;
+      if (r + limit < high * w) high = (r + limit) / w;
+    }
   if (low > high) return false;
-  z = static_cast<float>(was + std::clamp(star.wr / star.ww, low, high));
+  auto height = static_cast<float>(was + std::clamp(star.wr / star.ww, low, high));
   // Rounding to the precision of heights must not break the bound.
-  double d = static_cast<double>(z) - was;
-  if (d < low) z = std::nextafter(z, HUGE_VALF);
-  if (d > high) z = std::nextafter(z, -HUGE_VALF);
-  d = static_cast<double>(z) - was;
+  double d = static_cast<double>(height) - was;
+  if (d < low) height = std::nextafter(height, HUGE_VALF);
+  if (d > high) height = std::nextafter(height, -HUGE_VALF);
+  d = static_cast<double>(height) - was;
   if (d < low || d > high) {
     if (low > 0 || high < 0) return false;
-    z = was;
-    d = 0;
+    height = was;
   }
-  squares = star.rr + d * (d * star.ww - 2 * star.wr);
+  take(height);
   return true;
 }
 
@@ -232,7 +255,7 @@ void MeshFit::moveVertex(std::uint32_t v, double bound) {
     there.x += static_cast<std::int32_t>(std::lround(dx * part));
     there.y += static_cast<std::int32_t>(std::lround(dy * part));
     if (there.x != at.x || there.y != at.y) {
-      there.z = static_cast<float>(post(z_, stride_, there));
+      there.z = static_cast<float>(post(posts_, there));
       Star moved;
       float zThere;
       if (gather(starts_[v], there, moved)) {
@@ -254,12 +277,15 @@ void MeshFit::moveVertices(double bound) {
     if (starts_[v] >= 0) moveVertex(v, bound);
 }
 
-void MeshFit::run(double bound, int sweeps) {
+void MeshFit::run(double bound, int sweeps, std::vector<PostSum> known) {
   const auto count = static_cast<std::int32_t>(mesh_.triangles.size());
-  sums_.resize(static_cast<std::size_t>(count));
+  sums_ = std::move(known);
   changed_.assign(static_cast<std::size_t>(count), 1);
   moved_.assign(mesh_.vertices.size(), 0);
-  for (std::int32_t t = 0; t < count; ++t) sums_[static_cast<std::size_t>(t)] = sumOf(t);
+  if (sums_.size() != static_cast<std::size_t>(count)) {
+    sums_.resize(static_cast<std::size_t>(count));
+    for (std::int32_t t = 0; t < count; ++t) sums_[static_cast<std::size_t>(t)] = sumOf(t);
+  }
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     flipEdges(bound);
     starts_.assign(mesh_.vertices.size(), -1);
@@ -283,53 +309,67 @@ void MeshFit::run(double bound, int sweeps) {
 Triangulation fitTiles(MeshTiles& tiles, const HeightField& field, double bound, unsigned threads) {
   tiles.eachTile([&](GreedyMesh& tile) {
     const PolygonMesher::Point origin = tile.origin();
-    MeshFit(tile.mesh(), field.z + origin.row * field.stride + origin.column, field.stride)
-        .run(kMend * bound, 1);
+    MeshFit(tile.mesh(), {field.z + origin.row * field.stride + origin.column, field.stride,
+                          static_cast<std::int32_t>(field.columns - origin.column)})
+        .run(kMend * bound, 1, tile.sums());
   });
   // Again with other borders: what lay on the sides of tiles is free now.
   Triangulation mesh = tiles.join();
-  eachPart(mesh, tiles.width(), tiles.height(), threads,
-           [&](Triangulation& part) { MeshFit(part, field.z, field.stride).run(kMend * bound, 1); });
+  eachPart(mesh, tiles.width(), tiles.height(), threads, [&](Triangulation& part) {
+    MeshFit(part, {field.z, field.stride, static_cast<std::int32_t>(field.columns)})
+        .run(kMend * bound, 1, {});
+  });
   return mesh;
 }
+
+namespace {
+
+/// Sums of a run of triangles: what is below rounding is none.
+TRIMTAB_LANES PostSum sumOfPosts(const Triangulation& mesh, const PostRows& posts, std::int32_t first,
+                                 std::int32_t end) {
+  PostSum sum;
+  for (std::int32_t t = first; t < end; ++t) {
+    const Triangle& one = mesh.triangles[static_cast<std::size_t>(t)];
+    const Vertex* const corner[3] = {&mesh.vertices[one.corner[0]], &mesh.vertices[one.corner[1]],
+                                     &mesh.vertices[one.corner[2]]};
+    const bool border[3] = {one.twin[0] < 0, one.twin[1] < 0, one.twin[2] < 0};
+    Lanes squares{}, worst{};
+    forEachFour(
+        corner, border, posts,
+        [&](const Lanes& off, const Lanes&, std::int32_t, std::int32_t) __attribute__((always_inline)) {
+          Lanes size;
+          absoluteLanes(off, size);
+          worst = size > worst ? size : worst;
+          squares += off * off;
+        });
+    double scale = 0;
+    for (const Vertex* v : corner) scale = std::max(scale, std::fabs(static_cast<double>(v->z)));
+    const double most = mostOfLanes(worst);
+    if (roundedError(most, std::max(scale, most)) == 0) continue;
+    sum.squares += sumOfLanes(squares);
+    sum.worst = std::max(sum.worst, most);
+  }
+  return sum;
+}
+
+}  // namespace
 
 PostErrors postErrors(const Triangulation& mesh, const HeightField& field, unsigned threads) {
   constexpr std::int32_t kAtOnce = 8192;
   const auto count = static_cast<std::int32_t>(mesh.triangles.size());
   const auto parts = static_cast<std::uint32_t>((count + kAtOnce - 1) / kAtOnce);
-  struct Sum {
-    double squares = 0, worst = 0;
-  };
-  std::vector<Sum> sums(parts + 1);
-  const auto add = [](Sum& sum, double off) {
+  const PostRows posts{field.z, field.stride, static_cast<std::int32_t>(field.columns)};
+  std::vector<PostSum> sums(parts + 1);
+  const auto add = [](PostSum& sum, double off) {
     sum.squares += off * off;
     sum.worst = std::max(sum.worst, std::fabs(off));
   };
   onThreads(threads, parts, [&](std::uint32_t part) {
-    Sum sum;
-    const std::int32_t first = static_cast<std::int32_t>(part) * kAtOnce,
-                       end = std::min(count, first + kAtOnce);
-    for (std::int32_t t = first; t < end; ++t) {
-      const Triangle& one = mesh.triangles[static_cast<std::size_t>(t)];
-      const Vertex* const corner[3] = {&mesh.vertices[one.corner[0]], &mesh.vertices[one.corner[1]],
-                                       &mesh.vertices[one.corner[2]]};
-      const bool border[3] = {one.twin[0] < 0, one.twin[1] < 0, one.twin[2] < 0};
-      double scale = 0;
-      for (const Vertex* v : corner) scale = std::max(scale, std::fabs(static_cast<double>(v->z)));
-      forEachRow(corner, border, 1, [&](const FacetRow& r) {
-        const float* const z = field.z + static_cast<std::size_t>(r.y) * field.stride;
-        double at = r.z;
-        for (std::int32_t x = r.first; x <= r.last; ++x) {
-          const double off = std::fabs(z[x] - at);
-          add(sum, roundedError(off, std::max(scale, off)));
-          at += r.slope;
-        }
-      });
-    }
-    sums[part] = sum;
+    const std::int32_t first = static_cast<std::int32_t>(part) * kAtOnce;
+    sums[part] = sumOfPosts(mesh, posts, first, std::min(count, first + kAtOnce));
   });
-  Sum& rest = sums[parts];
-  for (const Vertex& v : mesh.vertices) add(rest, post(field.z, field.stride, v) - v.z);
+  PostSum& rest = sums[parts];
+  for (const Vertex& v : mesh.vertices) add(rest, post(posts, v) - v.z);
   for (std::size_t v = 0; v < mesh.borderEdge.size(); ++v) {
     const std::int32_t h = mesh.borderEdge[v];
     if (h < 0) continue;
@@ -340,13 +380,13 @@ PostErrors postErrors(const Triangulation& mesh, const HeightField& field, unsig
     for (std::int32_t i = 1; i < steps; ++i) {
       const Vertex at{a.x + (b.x - a.x) / steps * i, a.y + (b.y - a.y) / steps * i, 0};
       const double facet = a.z + (static_cast<double>(b.z) - a.z) * i / steps;
-      const double height = post(field.z, field.stride, at), off = std::fabs(height - facet);
+      const double height = post(posts, at), off = std::fabs(height - facet);
       add(rest, roundedError(off, std::max({std::fabs(height), std::fabs(facet)})));
     }
   }
   PostErrors out;
   double squares = 0;
-  for (const Sum& sum : sums) {
+  for (const PostSum& sum : sums) {
     squares += sum.squares;
     out.max = std::max(out.max, sum.worst);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "trimtab/terrain/mesher_lanes.h"
 #include "trimtab/terrain/mesher_tiles.h"
 #include "trimtab/terrain/mesher_triangulation.h"
 
@@ -16,45 +17,41 @@ PostErrors postErrors(const Triangulation& mesh, const HeightField& field, unsig
 /// border stay.
 Triangulation fitTiles(MeshTiles& tiles, const HeightField& field, double bound, unsigned threads);
 
-/// The same for a mesh, on one thread: `z` points at place (0, 0) of the mesh.
+/// The same for a mesh, on one thread; posts from place (0, 0) of the mesh.
 class MeshFit {
  public:
-  MeshFit(Triangulation& mesh, const float* z, std::size_t stride) : mesh_(mesh), z_(z), stride_(stride) {}
-  /// `sweeps` of flips, then heights. Vertices on the border are not moved.
-  void run(double bound, int sweeps);
+  MeshFit(Triangulation& mesh, const PostRows& posts) : mesh_(mesh), posts_(posts) {}
+  /// `sweeps` of flips, then heights. Vertices on the border are not moved. `known`: one a triangle, where
+  /// they are known already.
+  void run(double bound, int sweeps, std::vector<PostSum> known);
 
  private:
-  struct Sum {
-    double squares = 0, worst = 0;
-  };
-  Sum sumOf(const Triangulation::Vertex& a, const Triangulation::Vertex& b, const Triangulation::Vertex& c,
-            const bool border[3]) const;
-  Sum sumOf(std::int32_t t) const;
+  PostSum sumOf(const Triangulation::Vertex& a, const Triangulation::Vertex& b,
+                const Triangulation::Vertex& c, const bool border[3]) const;
+  PostSum sumOf(std::int32_t t) const;
   void flipEdges(double bound);
   bool tryFlip(std::int32_t t, int i, double bound);
   void moveVertices(double bound);
   void moveVertex(std::uint32_t v, double bound);
 
-  /// Residuals r at the posts about a vertex change by -w d where it rises by d; w is its share.
-  struct About {
-    double r, w;
-  };
   /// Sums over them, and of what moving the vertex sideways does to them.
   struct Star {
     double rr = 0, wr = 0, ww = 0, worst = 0;
     double xx = 0, xy = 0, yy = 0, xz = 0, yz = 0, rx = 0, ry = 0;
     std::int64_t area = 0;
-    std::size_t posts = 0;
+    std::size_t posts = 0;  ///< lanes in about_
   };
   bool gather(std::int32_t start, const Triangulation::Vertex& at, Star& star);
   bool bestHeight(const Star& star, float was, double limit, float& z, double& squares) const;
+  bool keeps(const Star& star, double rise, double limit) const;
 
   Triangulation& mesh_;
-  const float* z_;
-  std::size_t stride_;
-  std::vector<Sum> sums_;                      ///< one a triangle
+  PostRows posts_;
+  std::vector<PostSum> sums_;                  ///< one a triangle
   std::vector<std::uint8_t> changed_, moved_;  ///< since edges were last tried; one a triangle, one a vertex
-  std::vector<About> about_;
+  /// Residuals r at the posts about a vertex change by -w d where it rises by d; w is its share. Four of the
+  /// one, then four of the other; both are 0 where there is no post.
+  std::vector<double> about_;
   std::vector<std::int32_t> starts_;  ///< a half-edge that leaves a vertex; -1: on the border
 };
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "trimtab/terrain/mesher_scan.h"
+#include "trimtab/terrain/mesher_lanes.h"
 
 namespace trimtab::terrain {
 
@@ -44,6 +44,7 @@ void GreedyMesh::begin(const HeightField& field, std::span<const Point> border,
   step_ = static_cast<std::int32_t>(field.step);
   z_ = field.z + originY_ / field.step * field.stride + originX_ / field.step;
   stride_ = field.stride;
+  columns_ = static_cast<std::int32_t>(field.columns - originX_ / field.step);
   points_.assign(border.begin(), border.end());
   mesh_.vertices.clear();
   for (std::size_t i = 0; i < border.size(); ++i) {
@@ -77,30 +78,59 @@ std::uint32_t GreedyMesh::addBorder(std::uint32_t from, Point at) {
   return v;
 }
 
-void GreedyMesh::scan(std::int32_t t) {
-  const Facet facet = facetOf(mesh_, t);
-  double worst = 0, squares = 0;
-  std::int32_t worstX = 0, worstY = 0;
-  forEachRow(facet.corner, facet.border, step_, [&](const FacetRow& r) {
+TRIMTAB_LANES GreedyMesh::Scan GreedyMesh::scanPosts(const Triangulation::Vertex* const corner[3],
+                                                     const bool border[3], const PostRows& posts) {
+  Lanes worst{}, row{}, column{}, squares{};
+  forEachFour(
+      corner, border, posts,
+      [&](const Lanes& off, const Lanes&, std::int32_t x, std::int32_t y) __attribute__((always_inline)) {
+        Lanes size;
+        absoluteLanes(off, size);
+        const LaneMask more = size > worst;
+        worst = more ? size : worst;
+        row = more ? Lanes{} + y : row;
+        column = more ? Lanes{} + x : column;
+        squares += off * off;
+      });
+  Scan scan{mostOfLanes(worst), sumOfLanes(squares), 0, 0};
+  for (int k = kLanes - 1; k >= 0; --k)
+    if (worst[k] == scan.worst) {
+      scan.x = static_cast<std::int32_t>(column[k]) + k;
+      scan.y = static_cast<std::int32_t>(row[k]);
+    }
+  return scan;
+}
+
+GreedyMesh::Scan GreedyMesh::scanSteps(const Triangulation::Vertex* const corner[3],
+                                       const bool border[3]) const {
+  Scan scan;
+  forEachRow(corner, border, step_, [&](const FacetRow& r) {
     const float* const z = row(r.y);
     double at = r.z;
     for (std::int32_t x = r.first; x <= r.last; ++x) {
       const double off = std::fabs(static_cast<double>(z[x]) - at);
-      if (off > worst) {
-        worst = off;
-        worstX = x;
-        worstY = r.y;
+      if (off > scan.worst) {
+        scan.worst = off;
+        scan.x = x;
+        scan.y = r.y;
       }
-      squares += off * off;
+      scan.squares += off * off;
       at += r.slope;
     }
   });
-  worst = roundedError(worst, std::max(facet.scale, worst));
+  return scan;
+}
+
+void GreedyMesh::scan(std::int32_t t) {
+  const Facet facet = facetOf(mesh_, t);
+  const Scan found = step_ == 1 ? scanPosts(facet.corner, facet.border, {z_, stride_, columns_})
+                                : scanSteps(facet.corner, facet.border);
+  const double worst = roundedError(found.worst, std::max(facet.scale, found.worst));
   Triangulation::Triangle& one = mesh_.triangles[static_cast<std::size_t>(t)];
-  one.postX = worstX;
-  one.postY = worstY;
+  one.postX = found.x;
+  one.postY = found.y;
   error_[static_cast<std::size_t>(t)] = worst;
-  squares_[static_cast<std::size_t>(t)] = worst == 0 ? 0 : squares;
+  squares_[static_cast<std::size_t>(t)] = worst == 0 ? 0 : found.squares;
   if (worst > tolerance_) queue_.put(t, worst);
 }
 

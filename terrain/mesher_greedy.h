@@ -10,6 +10,13 @@
 
 namespace trimtab::terrain {
 
+struct PostRows;
+
+/// Over the posts of a triangle.
+struct PostSum {
+  double squares = 0, worst = 0;
+};
+
 /// What PolygonMesher does, open for what builds whole fields from it. Places are counted from `origin`.
 class GreedyMesh {
  public:
@@ -24,6 +31,12 @@ class GreedyMesh {
   Triangulation& mesh() { return mesh_; }
   /// One a triangle, largest at its posts; of the last refinement.
   std::span<const double> errors() const { return error_; }
+  /// The same with the sums of squares.
+  std::vector<PostSum> sums() const {
+    std::vector<PostSum> all(error_.size());
+    for (std::size_t t = 0; t < all.size(); ++t) all[t] = {squares_[t], error_[t]};
+    return all;
+  }
   Point origin() const { return {originX_, originY_}; }
   const std::vector<Point>& points() const { return points_; }
   double maxErrorM() const;
@@ -32,6 +45,14 @@ class GreedyMesh {
 
  private:
   static constexpr double kUnknown = -1;
+  /// Of a triangle: its post that is furthest off, and the sum of squares.
+  struct Scan {
+    double worst = 0, squares = 0;
+    std::int32_t x = 0, y = 0;
+  };
+  static Scan scanPosts(const Triangulation::Vertex* const corner[3], const bool border[3],
+                        const PostRows& posts);
+  Scan scanSteps(const Triangulation::Vertex* const corner[3], const bool border[3]) const;
   void scan(std::int32_t t);
   void scanAbout(std::int32_t t);
   /// Posts of the field, from the origin.
@@ -49,7 +70,7 @@ class GreedyMesh {
   const float* z_ = nullptr;  ///< of the origin
   std::size_t stride_ = 0;
   std::uint32_t originX_ = 0, originY_ = 0;
-  std::int32_t step_ = 1;
+  std::int32_t step_ = 1, columns_ = 0;
   double tolerance_ = 0;
   bool unknown_ = false;  ///< some errors are kUnknown
 };

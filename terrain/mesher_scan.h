@@ -8,6 +8,8 @@
 
 namespace trimtab::terrain {
 
+#define TRIMTAB_INLINE [[gnu::always_inline]] inline
+
 /// Heights of a triangle along the rows of posts in it.
 struct FacetRow {
   std::int32_t y, first, last;  ///< posts of the row, both ends included, counted in posts of the field
@@ -21,8 +23,8 @@ struct FacetRow {
 /// Ends of rows are found in floating point and are exact: a crossing that is no integer is 1 / (rows of the
 /// triangle) away from one, 2^-15 at least, and the error is below 2^-30.
 template <class Row>
-inline void forEachRow(const Triangulation::Vertex* const corner[3], const bool isBorder[3],
-                       std::int32_t step, const Row& row) {
+TRIMTAB_INLINE void forEachRow(const Triangulation::Vertex* const corner[3], const bool isBorder[3],
+                               std::int32_t step, const Row& row) {
   using Vertex = Triangulation::Vertex;
   struct Corner {
     const Vertex* v;
