@@ -44,10 +44,9 @@ bool HorizonMemory::hidLittleNear(const Key& key) const {
          length(key.eye - key_->eye) < kBelievedM;
 }
 
-std::span<const std::uint8_t> HorizonMemory::hidden(
-    Vec3 eye, const CutNumber& number, const Horizon::Settings& settings, const Skips& skips,
-    const std::function<void(std::vector<HorizonTile>&)>& fill) {
-  const Key key{eye, number, settings.columns, settings.slack, settings.raised};
+std::span<const std::uint8_t> HorizonMemory::hidden(OcclusionGround& ground, Vec3 eye,
+                                                    const Horizon::Settings& settings, const Skips& skips) {
+  const Key key{eye, ground.cutNumber(), settings.columns, settings.slack, settings.raised};
   if (key_ == key) {
     if (skips.sameHorizon) return horizon_.hidden();
   } else if (skips.littleHidden && hidLittleNear(key)) {
@@ -55,7 +54,7 @@ std::span<const std::uint8_t> HorizonMemory::hidden(
     return {};
   }
   tiles_.clear();
-  fill(tiles_);
+  ground.fill(tiles_);
   horizon_.build(eye, tiles_, settings);
   ++built_;
   key_ = key;

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "trimtab/culling/horizon.h"
+#include "trimtab/scene/occlusion_ground.h"
 #include "trimtab/scene/renderer.h"
 
 namespace trimtab::scene {
@@ -14,19 +14,13 @@ namespace trimtab::scene {
 /// A horizon, kept while what it depends on stays as it is.
 class HorizonMemory {
  public:
-  struct CutNumber {
-    std::uint64_t cut = 0;   ///< another one for another cut
-    std::uint64_t rule = 0;  ///< another one where not only the eye differs that it was made for
-    friend bool operator==(const CutNumber&, const CutNumber&) = default;
-  };
   /// Forgets it.
   void clear() { key_.reset(); }
-  /// Which tiles are proven hidden from an eye, in the order in which `fill` gives them; it is called when
-  /// the horizon must be built. Empty where nothing is: also, where `skips.littleHidden`, while the eye has
-  /// moved little since next to nothing was, by the same rule for the levels.
-  std::span<const std::uint8_t> hidden(Vec3 eye, const CutNumber& number, const Horizon::Settings& settings,
-                                       const Skips& skips,
-                                       const std::function<void(std::vector<HorizonTile>&)>& fill);
+  /// Which tiles are proven hidden from an eye that the ground does not refuse, in the cut's order, whatever
+  /// the view's direction. Empty where nothing is: also, where `skips.littleHidden`, while the eye has moved
+  /// little since next to nothing was, by the same rule for the levels.
+  std::span<const std::uint8_t> hidden(OcclusionGround& ground, Vec3 eye, const Horizon::Settings& settings,
+                                       const Skips& skips);
   /// The view as the last horizon sees it: what it covers grey, what stays open white. Row 0 at the bottom.
   Renderer::Grey picture(const EyePose& eye, const ViewShape& view, int widthPx, int heightPx) const;
 

@@ -3,26 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trimtab/scene/triangle_height.h"
+
 namespace trimtab::scene {
 namespace {
 
-/// Height of the mesh's triangle over (x, y), metres from the tile's origin; none beside the tile.
-std::optional<double> heightOver(const terrain::TileMesh& mesh, std::span<const std::uint16_t> indices,
-                                 double x, double y) {
+/// Height of the mesh over (x, y), metres from the tile's origin; none beside the tile.
+std::optional<double> heightOfMesh(const terrain::TileMesh& mesh, std::span<const std::uint16_t> indices,
+                                   double x, double y) {
   std::optional<double> highest;
-  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-    const terrain::TileVertex &a = mesh.vertices[indices[i]], &b = mesh.vertices[indices[i + 1]],
-                              &c = mesh.vertices[indices[i + 2]];
-    const auto area = [](double px, double py, double qx, double qy) { return px * qy - py * qx; };
-    const double whole = area(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
-    if (whole <= 0) continue;
-    const double v = area(x - a.x, y - a.y, c.x - a.x, c.y - a.y) / whole;
-    const double w = area(b.x - a.x, b.y - a.y, x - a.x, y - a.y) / whole;
-    constexpr double kEdge = -1e-6;
-    if (v < kEdge || w < kEdge || 1 - v - w < kEdge) continue;
-    const double z = a.z + v * (b.z - a.z) + w * (c.z - a.z);
-    highest = std::max(highest.value_or(z), z);
-  }
+  for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
+    if (const auto z = heightOver(mesh.vertices[indices[i]], mesh.vertices[indices[i + 1]],
+                                  mesh.vertices[indices[i + 2]], x, y))
+      highest = std::max(highest.value_or(*z), *z);
   return highest;
 }
 
@@ -65,8 +58,8 @@ std::optional<OcclusionConditions::Ground> OcclusionConditions::groundUnder(cons
       meshNode_ = tile.node;
     }
     const TileIndices::Range range = indices_.variant[tile.coarser];
-    const auto height = heightOver(mesh_, std::span(indices_.indices).subspan(range.first, range.count),
-                                   eye.x - 16.0 * mesh_.origin[0], eye.y - 16.0 * mesh_.origin[1]);
+    const auto height = heightOfMesh(mesh_, std::span(indices_.indices).subspan(range.first, range.count),
+                                     eye.x - 16.0 * mesh_.origin[0], eye.y - 16.0 * mesh_.origin[1]);
     if (!height) return {};
     return Ground{tile.node, *height + 16.0 * mesh_.origin[2]};
   };

@@ -71,13 +71,13 @@ struct PatchCulling::Impl {
   Bytes bytes;
   PageBudget pages;
   std::uint64_t reservedFor = 0;           ///< largest budget that the layer has made room for
-  std::uint64_t refusedFor = 0;            ///< budget in which the GPU had no memory for a page
-  std::uint64_t most = ~std::uint64_t{0};  ///< what it has memory for instead
+  std::uint64_t askedFor = 0;              ///< budget of the last frame
+  std::uint64_t most = ~std::uint64_t{0};  ///< what the GPU was found to have memory for, in that budget
   std::vector<std::shared_ptr<const terrain::PatchPage>> meshes;  ///< of the pages that are held
   std::vector<std::uint32_t> roots;
   std::uint64_t heldNumber = 0, dropped = 0;  ///< changes of what is held; pages given up
   std::optional<CutKey> key;
-  HorizonMemory::CutNumber number;
+  CutNumber number;
   PatchCut later;  ///< where the eye will be
   std::optional<Vec3> laterEye;
   std::vector<PageWant> laterWants, lacking;
@@ -180,8 +180,8 @@ void PatchCulling::Impl::takeAll(std::span<const std::uint32_t> wanted, PatchLay
 void PatchCulling::Impl::reserve(const FrameRequest& request, PatchLayer& layer) {
   const std::uint64_t budget = budgetOf(request);
   // Another budget is another try.
-  if (budget != refusedFor) most = ~std::uint64_t{0};
-  refusedFor = budget;
+  if (budget != askedFor) most = ~std::uint64_t{0};
+  askedFor = budget;
   if (budget <= reservedFor || bytes.all == 0) return;
   reservedFor = budget;
   const double onGpu = static_cast<double>(bytes.vertices + bytes.indices);
@@ -206,7 +206,7 @@ void PatchCulling::Impl::giveBack(const FrameRequest& request, PatchLayer& layer
 void PatchCulling::Impl::followLayer(PatchLayer& layer) {
   if (!pages.held().empty() && !layer.has(pages.held().front())) {
     while (!pages.held().empty()) letGo(pages.held().front());
-    reservedFor = refusedFor = 0;
+    reservedFor = askedFor = 0;
   }
   mustHave.clear();
   for (const std::uint32_t page : roots)
@@ -266,7 +266,10 @@ void PatchCulling::Impl::choose(const FrameRequest& request, const EyePose& eye,
     const bool wasShort = pages.isShort();
     pages.aim(cut.wants, laterWants, wanted.budget);
     // What may be drawn follows from what is wanted, and what is wanted from the eye alone.
-    if (wasShort || pages.isShort()) select(wanted, cut);
+    if (wasShort || pages.isShort()) {
+      select(wanted, cut);
+      number.cut += !newCut;
+    }
     ask();
   }
   number.cut += newCut;
@@ -322,7 +325,7 @@ void PatchCulling::page(const FrameRequest& request, const EyePose& eye, PatchLa
 }
 
 void PatchCulling::selectVisible(const FrameRequest& request, const EyePose& eye,
-                                 std::span<const std::uint8_t> hidden) {
+                                 std::span<const std::uint8_t> hidden, bool backFaces) {
   Impl& m = *impl_;
   if (!m.terrain) return;
   if (m.defects.culledNode) {
@@ -333,8 +336,28 @@ void PatchCulling::selectVisible(const FrameRequest& request, const EyePose& eye
   }
   selectVisiblePatches(
       index(), cut_.cut, eye, request.view, request.method != CullingCase::none, visible_,
-      request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited, hidden);
+      request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited, hidden,
+      backFaces);
   for (const TileDraw& tile : visible_.tiles) visible_.vertices += m.terrain->facts()[tile.node].vertices;
+}
+
+void PatchCulling::removeHidden(std::span<const std::uint8_t> flags) {
+  if (flags.empty()) return;
+  std::size_t kept = 0, place = 0;
+  for (std::size_t i = 0; i < visible_.tiles.size(); ++i, ++place) {
+    const TileDraw patch = visible_.tiles[i];
+    while (visible_.reason[place] != CullReason::drawn) ++place;
+    if (i >= flags.size() || flags[i] == 0) {
+      visible_.tiles[kept++] = patch;
+      continue;
+    }
+    const bool hidden = flags[i] == 1;
+    visible_.reason[place] = hidden ? CullReason::occluded : CullReason::outside_frustum;
+    ++(hidden ? visible_.occluded : visible_.outsideFrustum);
+    visible_.triangles -= cut_.cut.triangles[place];
+    visible_.vertices -= impl_->terrain->facts()[patch.node].vertices;
+  }
+  visible_.tiles.resize(kept);
 }
 
 const terrain::PatchMesh* PatchCulling::meshOf(std::uint32_t patch) const {
@@ -348,7 +371,7 @@ const PatchIndex& PatchCulling::index() const {
   return impl_->terrain ? impl_->terrain->index() : none;
 }
 
-const HorizonMemory::CutNumber& PatchCulling::cutNumber() const {
+const CutNumber& PatchCulling::cutNumber() const {
   return impl_->number;
 }
 

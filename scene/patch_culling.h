@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "trimtab/culling/select_patches.h"
-#include "trimtab/scene/horizon_memory.h"
+#include "trimtab/scene/occlusion_ground.h"
 #include "trimtab/scene/renderer.h"
 #include "trimtab/terrain/pager.h"
 
@@ -31,13 +31,16 @@ class PatchCulling {
   /// `request.waitForPages` for all that this view can use. The context is current, and `layer` has this
   /// terrain's index; where it has lost its pages they are read again. `eye`: whose cut it is.
   void page(const FrameRequest& request, const EyePose& eye, PatchLayer& layer, FrameResult& counters);
-  /// What of the cut is in the view, and not hidden: one a patch of the cut, or empty.
+  /// What of the cut is in the view, and not hidden: one a patch of the cut, or empty. `backFaces`: what is
+  /// seen from behind only is left out.
   void selectVisible(const FrameRequest& request, const EyePose& eye,
-                     std::span<const std::uint8_t> hidden = {});
+                     std::span<const std::uint8_t> hidden = {}, bool backFaces = false);
+  /// Takes out of the visible set what a map hides, as removeOccluded.
+  void removeHidden(std::span<const std::uint8_t> flags);
 
   const PatchIndex& index() const;
   const LevelCut& cut() const { return cut_.cut; }
-  const HorizonMemory::CutNumber& cutNumber() const;
+  const CutNumber& cutNumber() const;
   const VisibleSet& visible() const { return visible_; }
   /// Null where its page is not there; good until the next `page`.
   const terrain::PatchMesh* meshOf(std::uint32_t patch) const;

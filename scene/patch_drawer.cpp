@@ -20,13 +20,14 @@ void PatchDrawer::setTerrain(std::shared_ptr<const terrain::Database> database) 
   database_ = std::move(database);
   terrain_ = database_ ? database_->patches() : nullptr;
   culling_.setTerrain(terrain_);
-  horizon_.setTerrain(database_);
+  hiding_.setTerrain(database_);
+  occlusion_.clear();
   if (gl_) setGl();
 }
 
 void PatchDrawer::initialize() {
   gl_ = std::make_unique<Gl>();
-  subpixelBits_ = subpixelBitsOfContext();
+  occlusion_.setSubpixelBits(subpixelBitsOfContext());
   setGl();
 }
 
@@ -46,47 +47,22 @@ void PatchDrawer::prepare(FrameInProgress& frame) {
   const std::uint64_t before = frame.counters.paging.pagesRead;
   culling_.page(r, eye, gl_->layer, frame.counters);
   frame.clock.lap(before != frame.counters.paging.pagesRead ? &FrameCost::page : &FrameCost::select);
-  const std::string refusal = horizon_.refusal(culling_, eye, r.view);
-  const std::span<const std::uint8_t> hidden = findHidden(frame, eye, refusal);
-  frame.clock.lap(frame.counters.horizon ? &FrameCost::occlusion : &FrameCost::select);
-  culling_.selectVisible(r, eye, hidden);
-  frame.clock.lap(&FrameCost::select);
+  occlusion_.begin(r, eye, {}, frame.counters);
+  frame.clock.lap(occlusion_.horizonServes() ? &FrameCost::occlusion : &FrameCost::select);
+  if (!occlusion_.visibleStays(r, frame.counters)) {
+    culling_.selectVisible(r, eye, occlusion_.hidden(), r.backFaces && occlusion_.eyeIsAboveGround());
+    frame.clock.lap(&FrameCost::select);
+    culling_.removeHidden(occlusion_.hiddenByMap(r, culling_.visible(), frame.counters));
+  }
+  frame.clock.lap(occlusion_.mapServes() ? &FrameCost::occlusion : &FrameCost::select);
   updateGround();
   frame.counters.patches = true;
-  frame.view.oneSided = refusal.empty() && !r.frozenEye;
+  frame.view.oneSided = occlusion_.eyeIsAboveGround() && !r.frozenEye;
   addBounds();
 }
 
-std::span<const std::uint8_t> PatchDrawer::findHidden(FrameInProgress& frame, const EyePose& eye,
-                                                      const std::string& refusal) {
-  const FrameRequest& r = frame.request;
-  horizonView_.reset();
-  if (r.method != CullingCase::proposed || !r.decision.depthMap) return {};
-  FrameResult& counters = frame.counters;
-  counters.note = refusal;
-  if (!refusal.empty()) return {};
-  horizonView_ = {eye, r.view, *r.decision.depthMap};
-  const std::uint64_t built = horizon_.memory().built(), leftOut = horizon_.memory().leftOut();
-  const auto hidden =
-      horizon_.hidden(culling_, culling_.cutNumber(), eye.position,
-                      {HorizonMemory::columnsFor(horizonView_->size.widthPx),
-                       HorizonMemory::slackOf(r.view, subpixelBits_), defects_.loweringScale < 1},
-                      r.skips);
-  counters.horizon = true;
-  counters.occlusion = OcclusionMethod::horizon;
-  counters.horizonsBuilt += horizon_.memory().built() - built;
-  counters.horizonsLeftOut += horizon_.memory().leftOut() - leftOut;
-  return hidden;
-}
-
-Renderer::Grey PatchDrawer::readDepthMap() const {
-  if (!horizonView_) return {};
-  const auto& [eye, view, size] = *horizonView_;
-  return horizon_.memory().picture(eye, view, size.widthPx, size.heightPx);
-}
-
 void PatchDrawer::plant(const Defects& defects) {
-  defects_ = defects;
+  occlusion_.plant(defects);
   culling_.plant(defects);
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 
 #include "trimtab/scene/ground_texture.h"
+#include "trimtab/scene/occlusion_stage.h"
 #include "trimtab/scene/patch_culling.h"
-#include "trimtab/scene/patch_horizon.h"
+#include "trimtab/scene/patch_ground.h"
 #include "trimtab/scene/patch_layer.h"
 #include "trimtab/scene/terrain_drawer.h"
 
@@ -17,14 +18,14 @@ class PatchDrawer final : public TerrainDrawer {
   void plant(const Defects& defects) override;
 
   void prepare(FrameInProgress& frame) override;
+  void finished(const FrameResult& result) override { occlusion_.finished(result); }
 
   const std::vector<TileDraw>& cut() const override { return culling_.cut().tiles; }
   const VisibleSet& visible() const override { return culling_.visible(); }
-  /// A picture of the last horizon, if one served.
-  Renderer::Grey readDepthMap() const override;
+  Renderer::Grey readDepthMap() const override { return occlusion_.picture(); }
   /// Pages of meshes and tiles of the ground.
   Findings failures() const;
-  const Horizon* horizon() const override { return horizonView_ ? &horizon_.memory().horizon() : nullptr; }
+  const Horizon* horizon() const override { return occlusion_.horizon(); }
 
  private:
   const std::vector<Box>& bounds() const override { return terrain_->index().bounds; }
@@ -37,10 +38,6 @@ class PatchDrawer final : public TerrainDrawer {
   void arrange(std::vector<TileDraw>& patches, Vec3 eye) const override;
 
   void setGl();
-  /// By the horizon, whatever method is asked for: there is no depth map of patches. `refusal`: why nothing
-  /// may be hidden.
-  std::span<const std::uint8_t> findHidden(FrameInProgress& frame, const EyePose& eye,
-                                           const std::string& refusal);
   void updateGround();
 
   struct Gl {
@@ -50,16 +47,8 @@ class PatchDrawer final : public TerrainDrawer {
   std::shared_ptr<const terrain::Database> database_;
   std::shared_ptr<const terrain::PatchTerrain> terrain_;
   PatchCulling culling_;
-  PatchHorizon horizon_;
-  Defects defects_;
-  int subpixelBits_ = 4;
-  /// That the horizon served in the last frame.
-  struct HorizonView {
-    EyePose eye;
-    ViewShape view;
-    DepthMapSize size;
-  };
-  std::optional<HorizonView> horizonView_;
+  PatchGround hiding_{culling_};
+  OcclusionStage occlusion_{hiding_};
   std::unique_ptr<Gl> gl_;
   struct Place {
     float distance;

@@ -2,32 +2,31 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "trimtab/scene/data_extent.h"
-#include "trimtab/scene/horizon_memory.h"
+#include "trimtab/scene/occlusion_ground.h"
 #include "trimtab/scene/patch_culling.h"
+#include "trimtab/scene/surfaces_in_use.h"
 
 namespace trimtab::scene {
 
-/// The horizon over the patches of a cut, as they are drawn; keeps what it knows of patches while they are in
-/// use. Needs no context.
-class PatchHorizon {
+/// The terrain's patches as ground that hides and is hidden; keeps what it knows of patches while they are in
+/// use.
+class PatchGround final : public OcclusionGround {
  public:
+  /// `patches` must live as long.
+  explicit PatchGround(const PatchCulling& patches) : patches_(patches) {}
   /// Null: none.
   void setTerrain(std::shared_ptr<const terrain::Database> database);
 
-  /// Why nothing may be hidden from this eye; empty when it may.
-  std::string refusal(const PatchCulling& patches, const EyePose& eye, const ViewShape& view);
-  /// Which patches of the cut are proven hidden, in its order; see HorizonMemory::hidden.
-  std::span<const std::uint8_t> hidden(const PatchCulling& patches, const HorizonMemory::CutNumber& number,
-                                       Vec3 eye, const Horizon::Settings& settings, const Skips& skips);
+  const LevelCut& cut() const override { return patches_.cut(); }
+  const CutNumber& cutNumber() const override { return patches_.cutNumber(); }
+  std::string refusal(const EyePose& eye, const ViewShape& view) override;
+  void fill(std::vector<HorizonTile>& tiles) override;
 
-  const HorizonMemory& memory() const { return memory_; }
-  std::uint64_t reliefs() const { return reliefs_; }  ///< meshes that were looked at for it
+  std::uint64_t reliefs() const { return reliefs_; }  ///< meshes that were looked at
 
  private:
   struct Surface {
@@ -36,17 +35,21 @@ class PatchHorizon {
     bool inside = false;  ///< so far from the data's edge that no way to it leads over the edge
   };
   /// Null where the patch's page is not there.
-  const Surface* surfaceOf(const PatchCulling& patches, TileDraw patch);
-  void fill(const PatchCulling& patches, std::vector<HorizonTile>& tiles);
-  void forgetOthers(const LevelCut& cut);
+  const Surface* surfaceOf(TileDraw patch);
+  /// The same for where the eye is over, which leaves alone what `fill` gave away.
+  const Surface* surfaceUnder(TileDraw patch);
+  void make(const terrain::PatchMesh& mesh, TileDraw patch, Surface& surface);
 
-  std::shared_ptr<const terrain::Database> database_;
+  const PatchCulling& patches_;
   DataExtent extent_;
   std::uint32_t marginColumns_ = 0, marginRows_ = 0;  ///< posts that `inside` asks for
-  std::vector<std::unique_ptr<Surface>> surfaces_;    ///< one a patch; null until it is needed
-  std::size_t kept_ = 0;
+  SurfacesInUse<Surface> surfaces_;                   ///< some 10 KB each
+  struct Under {
+    std::uint32_t node;
+    std::unique_ptr<Surface> surface;
+  };
+  std::vector<Under> under_;
   std::vector<ReliefVertex> vertices_;
-  HorizonMemory memory_;
   std::uint64_t reliefs_ = 0;
 };
 

@@ -172,6 +172,7 @@ FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
   counters.visible = terrain ? terrain->visible() : VisibleSet{};
   counters.tilesInCut = terrain ? terrain->cut().size() : 0;
   counters.staticLod = terrain == &trees ? trees.frame() : StaticLodFrame{};
+  if (terrain) terrain->finished(counters);
   return counters;
 }
 

@@ -62,6 +62,7 @@ struct FrameRequest {
   CullingCase method = CullingCase::proposed;
   OcclusionMethod occlusion =
       OcclusionMethod::depth_map;  ///< of levels and patches; static trees have their own
+  bool backFaces = true;  ///< what the eye can only see from behind is left out, but in CullingCase::none
   LodParameters lod;
   StaticLodParameters staticLod;
   TerrainParameters terrain;

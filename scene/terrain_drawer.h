@@ -50,6 +50,8 @@ class TerrainDrawer {
   /// Chooses, with everything that is left out before it is drawn, and uploads. `frame` must live until the
   /// frame is drawn.
   virtual void prepare(FrameInProgress& frame) = 0;
+  /// The frame that it was called for is finished, at this cost.
+  virtual void finished(const FrameResult&) {}
   /// The picture's surface; afterwards `visible` stands.
   virtual void draw(unsigned program);
   /// The same again as lines.

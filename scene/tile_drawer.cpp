@@ -14,7 +14,7 @@ void TileDrawer::setTerrain(std::shared_ptr<const terrain::Database> database) {
 void TileDrawer::initialize() {
   gl_ = std::make_unique<Gl>();
   gl_->tiles.setDatabase(database_);
-  culling_.setSubpixelBits(subpixelBitsOfContext());
+  culling_.occlusion().setSubpixelBits(subpixelBitsOfContext());
 }
 
 void TileDrawer::prepare(FrameInProgress& frame) {
@@ -22,13 +22,17 @@ void TileDrawer::prepare(FrameInProgress& frame) {
   const FrameRequest& r = frame.request;
   culling_.selectCut(r, r.frozenEye.value_or(frame.view.eye), frame.counters);
   frame.clock.lap(&FrameCost::select);
-  if (culling_.findHidden(r, frame.counters)) frame.clock.lap(&FrameCost::occlusion);
-  culling_.selectVisible(r);
+  const OcclusionStage& occlusion = culling_.occlusion();
+  culling_.beginOcclusion(r, frame.counters);
+  frame.clock.lap(occlusion.horizonServes() ? &FrameCost::occlusion : &FrameCost::select);
+  const bool anew = culling_.selectVisible(r, frame.counters);
   frame.clock.lap(&FrameCost::select);
+  if (anew) culling_.removeHiddenByMap(r, frame.counters);
+  if (occlusion.mapServes()) frame.clock.lap(&FrameCost::occlusion);
   uploadShown();
   frame.view.depth = culling_.prepareOcclusion(r, gl_->tiles, gl_->occlusion, frame.counters);
   frame.clock.lap(frame.view.depth ? &FrameCost::occlusion : &FrameCost::select);
-  frame.view.oneSided = culling_.eyeIsAboveGround() && !r.frozenEye;
+  frame.view.oneSided = occlusion.eyeIsAboveGround() && !r.frozenEye;
   addBounds();
 }
 

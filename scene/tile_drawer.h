@@ -16,6 +16,7 @@ class TileDrawer final : public TerrainDrawer {
   void plant(const Defects& defects) override { culling_.plant(defects); }
 
   void prepare(FrameInProgress& frame) override;
+  void finished(const FrameResult& result) override { culling_.occlusion().finished(result); }
   // The depth map's passes, where `prepare` set a depth view.
   void drawOccluders();
   void reduce(unsigned program) { gl_->occlusion.reduce(program); }
@@ -23,7 +24,7 @@ class TileDrawer final : public TerrainDrawer {
 
   const std::vector<TileDraw>& cut() const override { return culling_.cut().tiles; }
   const VisibleSet& visible() const override { return culling_.visible(); }
-  const Horizon* horizon() const override { return culling_.horizon(); }
+  const Horizon* horizon() const override { return culling_.occlusion().horizon(); }
   Renderer::Grey readDepthMap() const override { return culling_.readDepthMap(gl_->occlusion); }
 
  private:

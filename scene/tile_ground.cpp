@@ -1,4 +1,4 @@
-#include "trimtab/scene/horizon_culling.h"
+#include "trimtab/scene/tile_ground.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,6 @@ namespace {
 constexpr double kEarthRadius = 6.35e6;
 /// Posts from one line that may hide others to the next.
 constexpr int kLineStep = 4;
-/// Tiles (25 KB each) that are kept beyond those of the cut.
-constexpr std::size_t kKept = 4096;
 
 }  // namespace
 
@@ -29,15 +27,13 @@ void makeRelief(const terrain::TileMesh& mesh, TileRelief& relief) {
   relief.finish(kLineStep);
 }
 
-void HorizonCulling::setDatabase(std::shared_ptr<const terrain::Database> database) {
+void TileGround::setDatabase(std::shared_ptr<const terrain::Database> database) {
   database_ = std::move(database);
-  memory_.clear();
-  relief_.clear();
+  conditions_.setDatabase(database_);
+  relief_.reset(database_ ? database_->index().size() : 0);
   upright_.clear();
-  kept_ = 0;
   if (!database_) return;
   const TerrainIndex& index = database_->index();
-  relief_.resize(index.size());
   upright_.assign(index.size(), 0);
   double lowest = 1e30, highest = -1e30;
   for (const Box& b : index.bounds) {
@@ -59,54 +55,32 @@ void HorizonCulling::setDatabase(std::shared_ptr<const terrain::Database> databa
   }
 }
 
-const TileRelief* HorizonCulling::reliefOf(std::uint32_t node) {
-  if (!relief_[node]) {
-    relief_[node] = std::make_unique<TileRelief>();
-    database_->buildTile(node, mesh_);
-    makeRelief(mesh_, *relief_[node]);
-    ++reliefs_;
-    ++kept_;
-  }
-  return relief_[node].get();
+const TileRelief* TileGround::reliefOf(std::uint32_t node) {
+  if (const TileRelief* known = relief_.find(node)) return known;
+  TileRelief& relief = relief_.make(node);
+  database_->buildTile(node, mesh_);
+  makeRelief(mesh_, relief);
+  ++reliefs_;
+  return &relief;
 }
 
-void HorizonCulling::forgetOthers(const LevelCut& cut) {
-  std::vector<std::uint8_t> used(relief_.size());
-  for (const TileDraw& tile : cut.tiles) used[tile.node] = 1;
-  for (std::size_t node = 0; node < relief_.size(); ++node)
-    if (relief_[node] && !used[node]) {
-      relief_[node].reset();
-      --kept_;
-    }
-}
-
-void HorizonCulling::fill(const LevelCut& cut, const OcclusionConditions& conditions,
-                          std::vector<HorizonTile>& tiles) {
-  if (kept_ > kKept + cut.tiles.size()) forgetOthers(cut);
+void TileGround::fill(std::vector<HorizonTile>& tiles) {
+  relief_.forgetOthers(*cut_);
   const TerrainIndex& index = database_->index();
   inCut_.assign(index.size(), 0);
-  for (const TileDraw& tile : cut.tiles) {
+  for (const TileDraw& tile : cut_->tiles) {
     inCut_[tile.node] = 1;
-    tiles.push_back({.relief = reliefOf(tile.node), .mayOcclude = mayOcclude(tile.node, conditions)});
+    tiles.push_back({.relief = reliefOf(tile.node), .mayOcclude = mayOcclude(tile.node)});
   }
   for (std::size_t i = 0; i < tiles.size(); ++i) {
-    const auto& [west, east, south, north] = index.neighbours[cut.tiles[i].node];
+    const auto& [west, east, south, north] = index.neighbours[cut_->tiles[i].node];
     const auto goesOn = [&](std::uint32_t node) -> const TileRelief* {
-      return node != TerrainIndex::kNone && inCut_[node] != 0 && mayOcclude(node, conditions)
-                 ? relief_[node].get()
-                 : nullptr;
+      return node != TerrainIndex::kNone && inCut_[node] != 0 && mayOcclude(node) ? relief_.find(node)
+                                                                                  : nullptr;
     };
     tiles[i].east = goesOn(east);
     tiles[i].north = goesOn(north);
   }
-}
-
-std::span<const std::uint8_t> HorizonCulling::hidden(const LevelCut& cut, const CutNumber& number, Vec3 eye,
-                                                     const Horizon::Settings& settings,
-                                                     const OcclusionConditions& conditions,
-                                                     const Skips& skips) {
-  return memory_.hidden(eye, number, settings, skips,
-                        [&](std::vector<HorizonTile>& tiles) { fill(cut, conditions, tiles); });
 }
 
 }  // namespace trimtab::scene

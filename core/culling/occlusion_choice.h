@@ -44,6 +44,9 @@ class OcclusionChoice {
   /// What that frame came to. Numbers that are not finite are not learnt from.
   void learn(const Outcome& outcome);
 
+  /// Nothing is chosen in the frame that comes: what serves in the next one starts anew.
+  void pause() { before_ = kArms; }
+
   /// Milliseconds a triangle, as far as it is known.
   double msPerTriangle() const;
   /// Milliseconds a frame that a method is thought to be worth; 0 for none, and for what was never tried.

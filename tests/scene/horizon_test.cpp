@@ -4,7 +4,7 @@
 #include <random>
 
 #include "culling_flight.h"
-#include "trimtab/scene/horizon_culling.h"
+#include "trimtab/scene/horizon_memory.h"
 
 namespace trimtab {
 namespace {
@@ -141,9 +141,9 @@ TEST(HorizonSlack, followsTheRasterisersSteps) {
   view.widthPx = 1000, view.heightPx = 1000;
   const double pixel = 2.0 / 1000;
   for (const int bits : {4, 6, 8, 12})
-    EXPECT_GE(scene::HorizonCulling::slackOf(view, bits), 2 * pixel / std::ldexp(1.0, bits)) << bits;
-  EXPECT_DOUBLE_EQ(scene::HorizonCulling::slackOf(view, 4), 16 * scene::HorizonCulling::slackOf(view, 8));
-  EXPECT_LT(scene::HorizonCulling::slackOf(view, 8), 0.05 * pixel);
+    EXPECT_GE(scene::HorizonMemory::slackOf(view, bits), 2 * pixel / std::ldexp(1.0, bits)) << bits;
+  EXPECT_DOUBLE_EQ(scene::HorizonMemory::slackOf(view, 4), 16 * scene::HorizonMemory::slackOf(view, 8));
+  EXPECT_LT(scene::HorizonMemory::slackOf(view, 8), 0.05 * pixel);
 }
 
 TEST_F(HorizonScene, hidesMoreAtTheSizeOfAHigherBand) {
