@@ -1,14 +1,20 @@
 #include "trimtab/culling/depth_pyramid.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
 namespace trimtab {
 namespace {
 
-/// Texels a side that are looked at: more see more hidden, and cost more.
-constexpr int kSpan = 8;
+/// Cells a side of the coarsest level, and that a rectangle is looked at in first.
+constexpr int kCoarsest = 8, kFirstCells = 3;
+
+/// Depths are not negative: they are in order as whole numbers too, of which compilers take several at once.
+std::int32_t leastOf(const float* a, const float* b) {
+  return std::min(std::bit_cast<std::int32_t>(*a), std::bit_cast<std::int32_t>(*b));
+}
 
 }  // namespace
 
@@ -20,14 +26,18 @@ void DepthPyramid::resize(int width, int height) {
   for (int w = width, h = height;; w = (w + 1) / 2, h = (h + 1) / 2) {
     levels_.push_back({cells, w, h});
     cells += static_cast<std::size_t>(w) * static_cast<std::size_t>(h);
-    if (w <= kSpan && h <= kSpan) break;
+    if (w <= kCoarsest && h <= kCoarsest) break;
   }
   cells_.resize(cells);
 }
 
-void DepthPyramid::build(std::span<const float> depths, int width, int height) {
+void DepthPyramid::build(std::span<const float> depths, int width, int height, int stride) {
   resize(width, height);
-  std::copy(depths.begin(), depths.end(), cells_.begin());
+  for (int y = 0; y < height; ++y) {
+    const float* from = depths.data() + static_cast<std::ptrdiff_t>(y) * (stride == 0 ? width : stride);
+    float* to = cells_.data() + static_cast<std::ptrdiff_t>(y) * width;
+    for (int x = 0; x < width; ++x) to[x] = from[x] > 0 ? from[x] : 0;
+  }
   reduce();
 }
 
@@ -69,10 +79,13 @@ void DepthPyramid::reduce() {
       const float* low = cells_.data() + from.first + static_cast<std::ptrdiff_t>(below) * from.width;
       const float* high = cells_.data() + from.first + static_cast<std::ptrdiff_t>(above) * from.width;
       float* out = cells_.data() + to.first + static_cast<std::ptrdiff_t>(y) * to.width;
-      for (int x = 0; x < to.width; ++x) {
-        const int left = 2 * x, right = std::min(2 * x + 1, from.width - 1);
-        out[x] = std::min(std::min(low[left], low[right]), std::min(high[left], high[right]));
+      const int pairs = from.width / 2;
+      for (int x = 0; x < pairs; ++x) {
+        const std::int32_t below2 = leastOf(low + 2 * x, low + 2 * x + 1),
+                           above2 = leastOf(high + 2 * x, high + 2 * x + 1);
+        out[x] = std::bit_cast<float>(std::min(below2, above2));
       }
+      if (pairs < to.width) out[pairs] = std::bit_cast<float>(leastOf(low + 2 * pairs, high + 2 * pairs));
     }
   }
 }
@@ -84,15 +97,28 @@ std::span<const float> DepthPyramid::depths() const {
 bool DepthPyramid::covers(int x0, int y0, int x1, int y1, float limit) const {
   std::size_t level = 0;
   while (level + 1 < levels_.size() &&
-         std::max((x1 >> level) - (x0 >> level), (y1 >> level) - (y0 >> level)) >= kSpan)
+         std::max((x1 >> level) - (x0 >> level), (y1 >> level) - (y0 >> level)) >= kFirstCells)
     ++level;
+  return coversWithin(level, x0, y0, x1, y1, limit);
+}
+
+bool DepthPyramid::coversWithin(std::size_t level, int x0, int y0, int x1, int y1, float limit) const {
   const Level& l = levels_[level];
-  for (int y = y0 >> level; y <= y1 >> level; ++y)
-    for (int x = x0 >> level; x <= x1 >> level; ++x)
-      // Said so that a depth that is not a number covers nothing.
-      if (!(cells_[l.first + static_cast<std::size_t>(y) * static_cast<std::size_t>(l.width) +
-                   static_cast<std::size_t>(x)] > limit))
+  // What is behind a ridge shows over it first: from above.
+  for (int y = y1 >> level; y >= y0 >> level; --y)
+    for (int x = x0 >> level; x <= x1 >> level; ++x) {
+      if (cells_[l.first + static_cast<std::size_t>(y) * static_cast<std::size_t>(l.width) +
+                 static_cast<std::size_t>(x)] > limit)
+        continue;
+      if (level == 0) return false;
+      // Two levels on, if there are: of half a cell's width less is gained than it costs.
+      const std::size_t finer = level == 1 ? 0 : level - 2;
+      const int left = x << level, right = ((x + 1) << level) - 1, bottom = y << level,
+                top = ((y + 1) << level) - 1;
+      if (!coversWithin(finer, std::max(x0, left), std::max(y0, bottom), std::min(x1, right),
+                        std::min(y1, top), limit))
         return false;
+    }
   return true;
 }
 

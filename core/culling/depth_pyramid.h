@@ -17,8 +17,8 @@ namespace trimtab {
 /// fragment of what lies in it would fail the depth test against what the pixel has already.
 class DepthPyramid {
  public:
-  /// Row 0 at the bottom. `depths` has width x height entries.
-  void build(std::span<const float> depths, int width, int height);
+  /// Row 0 at the bottom, `stride` entries from row to row (0: width). What is no number counts as uncovered.
+  void build(std::span<const float> depths, int width, int height, int stride = 0);
   /// The map of a picture of any size: the farthest pixel that each texel touches.
   void buildFromPicture(std::span<const float> picture, int pictureWidth, int pictureHeight, int width,
                         int height);
@@ -26,6 +26,9 @@ class DepthPyramid {
   /// False unless proven; false for a box that reaches the near plane. Margins cover float rounding in the
   /// picture. `view` has the picture's size, which need not be a multiple of the map's.
   bool isHidden(const Box& box, const EyePose& eye, const ViewShape& view) const;
+  /// Whether each texel from (x0, y0) to (x1, y1), which are in the map, is nearer than `limit`, near over
+  /// depth. From coarse to fine, so that it ends where the answer is known.
+  bool covers(int x0, int y0, int x1, int y1, float limit) const;
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -39,7 +42,7 @@ class DepthPyramid {
   };
   void resize(int width, int height);
   void reduce();
-  bool covers(int x0, int y0, int x1, int y1, float limit) const;
+  bool coversWithin(std::size_t level, int x0, int y0, int x1, int y1, float limit) const;
 
   int width_ = 0, height_ = 0;
   std::vector<Level> levels_;
