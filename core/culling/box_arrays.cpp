@@ -16,84 +16,99 @@ namespace {
 constexpr std::size_t kBlock = BoxArrays::kBlock;
 
 using CornerPlane = BlockTest::CornerPlane;
-using CornerPlanes = BlockTest::CornerPlanes;
+using Planes = BlockTest::Planes;
 using BlockBits = BlockTest::Bits;
 
-CornerPlanes cornerPlanes(const BoxArrays& boxes, const Frustum& frustum, bool far) {
-  CornerPlanes planes;
+Planes planesFor(const BoxArrays& boxes, const Frustum& frustum, bool far) {
+  Planes planes;
   const Vec3 eye = frustum.eye();
   const double reach = double{boxes.reach()};
   const double eyeReach = std::abs(eye.x) + std::abs(eye.y) + std::abs(eye.z);
-  // Frustum's own margin is at most this; four roundings of sums that are at most that long.
-  const double margin = 1e-3 + 1e-6 * (eyeReach + 6 * reach);
-  const double rounding = std::ldexp(4 * reach + eyeReach + 1, -20);
-  for (std::size_t i = 0; i < planes.size(); ++i) {
+  for (std::size_t i = 0; i < planes.corner.size(); ++i) {
     const auto& plane = frustum.planes()[i];
     const std::array<double, 3> n{plane.normal.x, plane.normal.y, plane.normal.z};
-    CornerPlane& p = planes[i];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      p.normal[axis] = static_cast<float>(n[axis]);
-      p.corner[axis] = boxes.side((n[axis] > 0) != far ? axis + 3 : axis);
-    }
     const double offset = plane.offset + dot(plane.normal, eye);
-    p.out = static_cast<float>(offset - margin - rounding);
-    p.sure = static_cast<float>(offset + rounding);
-    // Infinite reach: nothing is certain, of which comparisons with NaN take care.
-    if (!std::isfinite(reach)) p.out = p.sure = std::numeric_limits<float>::quiet_NaN();
+    // One that is not a number drops nothing.
+    const bool finite =
+        std::isfinite(n[0]) && std::isfinite(n[1]) && std::isfinite(n[2]) && std::isfinite(offset);
+    BlockTest::CornerPlane& p = planes.corner[i];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      p.normal[axis] = finite ? static_cast<float>(n[axis]) : 0;
+      p.place[axis] = boxes.side((n[axis] > 0) != far ? axis + 3 : axis);
+    }
+    p.offset = finite ? static_cast<float>(-offset) : std::numeric_limits<float>::max();
   }
+  // Frustum's own margin is at most this; five roundings of sums that are at most that long.
+  const double margin = 1e-3 + 1e-6 * (eyeReach + 6 * reach);
+  const double rounding = std::ldexp(4 * reach + eyeReach + 1, -20);
+  planes.out = static_cast<float>(-margin - rounding);
+  planes.sure = static_cast<float>(rounding);
+  // Infinite reach: nothing is certain, of which comparisons with NaN take care.
+  if (!std::isfinite(reach) || !std::isfinite(eyeReach))
+    planes.out = planes.sure = std::numeric_limits<float>::quiet_NaN();
   return planes;
 }
 
-BlockBits testPortable(const CornerPlanes& planes, std::size_t first) {
-  std::uint8_t out[kBlock] = {}, sure[kBlock];
-  std::fill(std::begin(sure), std::end(sure), std::uint8_t{1});
-  for (const CornerPlane& p : planes) {
-    const float *x = p.corner[0] + first, *y = p.corner[1] + first, *z = p.corner[2] + first;
+BlockBits testPortable(const Planes& planes, std::size_t first) {
+  float least[kBlock];
+  std::fill(std::begin(least), std::end(least), std::numeric_limits<float>::max());
+  for (const CornerPlane& p : planes.corner) {
+    const float *x = p.place[0] + first, *y = p.place[1] + first, *z = p.place[2] + first;
     for (std::size_t i = 0; i < kBlock; ++i) {
-      const float sum = p.normal[0] * x[i] + (p.normal[1] * y[i] + p.normal[2] * z[i]);
-      out[i] = static_cast<std::uint8_t>(out[i] | (sum < p.out));
-      sure[i] = static_cast<std::uint8_t>(sure[i] & (sum > p.sure));
+      const float sum = p.normal[0] * x[i] + (p.normal[1] * y[i] + (p.normal[2] * z[i] + p.offset));
+      least[i] = sum < least[i] ? sum : least[i];
     }
   }
   BlockBits bits;
   for (std::size_t i = 0; i < kBlock; ++i) {
-    bits.out |= std::uint64_t{out[i]} << i;
-    bits.sure |= std::uint64_t{sure[i]} << i;
+    bits.out |= std::uint64_t{least[i] < planes.out} << i;
+    bits.sure |= std::uint64_t{least[i] > planes.sure} << i;
   }
   return bits;
 }
 
 #if TRIMTAB_X86
-__attribute__((target("avx2,fma"))) BlockBits testAvx2(const CornerPlanes& planes, std::size_t first) {
+__attribute__((target("avx2,fma"))) BlockBits testAvx2(const Planes& planes, std::size_t first) {
   BlockBits bits;
+  const __m256 out = _mm256_set1_ps(planes.out), sure = _mm256_set1_ps(planes.sure);
   for (std::size_t i = 0; i < kBlock; i += 8) {
-    __m256 out = _mm256_setzero_ps(), unsure = _mm256_setzero_ps();
-    for (const CornerPlane& p : planes) {
-      __m256 sum = _mm256_mul_ps(_mm256_set1_ps(p.normal[2]), _mm256_loadu_ps(p.corner[2] + first + i));
-      sum = _mm256_fmadd_ps(_mm256_set1_ps(p.normal[1]), _mm256_loadu_ps(p.corner[1] + first + i), sum);
-      sum = _mm256_fmadd_ps(_mm256_set1_ps(p.normal[0]), _mm256_loadu_ps(p.corner[0] + first + i), sum);
-      out = _mm256_or_ps(out, _mm256_cmp_ps(sum, _mm256_set1_ps(p.out), _CMP_LT_OQ));
-      unsure = _mm256_or_ps(unsure, _mm256_cmp_ps(sum, _mm256_set1_ps(p.sure), _CMP_NGT_UQ));
+    __m256 least = _mm256_set1_ps(std::numeric_limits<float>::max());
+    for (const CornerPlane& p : planes.corner) {
+      __m256 sum = _mm256_fmadd_ps(_mm256_set1_ps(p.normal[2]), _mm256_loadu_ps(p.place[2] + first + i),
+                                   _mm256_set1_ps(p.offset));
+      sum = _mm256_fmadd_ps(_mm256_set1_ps(p.normal[1]), _mm256_loadu_ps(p.place[1] + first + i), sum);
+      sum = _mm256_fmadd_ps(_mm256_set1_ps(p.normal[0]), _mm256_loadu_ps(p.place[0] + first + i), sum);
+      least = _mm256_min_ps(sum, least);
     }
-    bits.out |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm256_movemask_ps(out))) << i;
-    bits.sure |= static_cast<std::uint64_t>(static_cast<unsigned>(~_mm256_movemask_ps(unsure)) & 0xffu) << i;
+    bits.out |=
+        std::uint64_t{static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(least, out, _CMP_LT_OQ)))}
+        << i;
+    bits.sure |=
+        std::uint64_t{static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(least, sure, _CMP_GT_OQ)))}
+        << i;
   }
   return bits;
 }
 
-__attribute__((target("avx512f"))) BlockBits testAvx512(const CornerPlanes& planes, std::size_t first) {
+__attribute__((target("avx512f"))) BlockBits testAvx512(const Planes& planes, std::size_t first) {
   BlockBits bits;
-  for (std::size_t i = 0; i < kBlock; i += 16) {
-    unsigned out = 0, sure = 0xffffu;
-    for (const CornerPlane& p : planes) {
-      __m512 sum = _mm512_mul_ps(_mm512_set1_ps(p.normal[2]), _mm512_loadu_ps(p.corner[2] + first + i));
-      sum = _mm512_fmadd_ps(_mm512_set1_ps(p.normal[1]), _mm512_loadu_ps(p.corner[1] + first + i), sum);
-      sum = _mm512_fmadd_ps(_mm512_set1_ps(p.normal[0]), _mm512_loadu_ps(p.corner[0] + first + i), sum);
-      out |= _mm512_cmp_ps_mask(sum, _mm512_set1_ps(p.out), _CMP_LT_OQ);
-      sure &= _mm512_cmp_ps_mask(sum, _mm512_set1_ps(p.sure), _CMP_GT_OQ);
+  __m512 least[kBlock / 16];
+  for (__m512& l : least) l = _mm512_set1_ps(std::numeric_limits<float>::max());
+  for (const CornerPlane& p : planes.corner) {
+    const __m512 x = _mm512_set1_ps(p.normal[0]), y = _mm512_set1_ps(p.normal[1]),
+                 z = _mm512_set1_ps(p.normal[2]), offset = _mm512_set1_ps(p.offset);
+    for (std::size_t i = 0; i < kBlock / 16; ++i) {
+      const std::size_t at = first + 16 * i;
+      __m512 sum = _mm512_fmadd_ps(z, _mm512_loadu_ps(p.place[2] + at), offset);
+      sum = _mm512_fmadd_ps(y, _mm512_loadu_ps(p.place[1] + at), sum);
+      sum = _mm512_fmadd_ps(x, _mm512_loadu_ps(p.place[0] + at), sum);
+      least[i] = _mm512_mask_min_ps(sum, 0xffff, sum, least[i]);  // without a mask g++ 12 warns
     }
-    bits.out |= std::uint64_t{out} << i;
-    bits.sure |= std::uint64_t{sure} << i;
+  }
+  const __m512 out = _mm512_set1_ps(planes.out), sure = _mm512_set1_ps(planes.sure);
+  for (std::size_t i = 0; i < kBlock / 16; ++i) {
+    bits.out |= std::uint64_t{_mm512_cmp_ps_mask(least[i], out, _CMP_LT_OQ)} << 16 * i;
+    bits.sure |= std::uint64_t{_mm512_cmp_ps_mask(least[i], sure, _CMP_GT_OQ)} << 16 * i;
   }
   return bits;
 }
@@ -133,8 +148,8 @@ SimdLevel simdLevel() {
 BlockTest::BlockTest(const BoxArrays& boxes, const Frustum& frustum, SimdLevel level)
     : boxes_(boxes),
       frustum_(frustum),
-      planes_(cornerPlanes(boxes, frustum, false)),
-      farPlanes_(cornerPlanes(boxes, frustum, true)),
+      planes_(planesFor(boxes, frustum, false)),
+      farPlanes_(planesFor(boxes, frustum, true)),
       test_(testPortable) {
 #if TRIMTAB_X86
   level = std::min(level, simdLevel());

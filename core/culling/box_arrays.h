@@ -52,14 +52,17 @@ class BlockTest {
   std::uint64_t wholly(std::size_t block) const;
   std::size_t blocks() const { return boxes_.blocks(); }
 
-  /// A plane as one sees it from a box: the corner that is furthest inside, by the signs of the normal.
+  /// A plane as one sees it from a box: a corner of each, by the signs of the normal.
   struct CornerPlane {
-    const float* corner[3];
+    const float* place[3];
     float normal[3];
-    float out;   ///< the sum over the corner is less: certainly outside
+    float offset;  ///< added to the sum over the corner: how far inside that is
+  };
+  struct Planes {
+    std::array<CornerPlane, 5> corner;
+    float out;   ///< the least of a box is less: certainly outside
     float sure;  ///< greater: certainly not
   };
-  using CornerPlanes = std::array<CornerPlane, 5>;
   /// Of one block: bits of boxes that are certainly outside, and of those certainly inside of all planes.
   struct Bits {
     std::uint64_t out = 0, sure = 0;
@@ -70,8 +73,8 @@ class BlockTest {
 
   const BoxArrays& boxes_;
   const Frustum& frustum_;
-  CornerPlanes planes_, farPlanes_;  ///< the latter by the corners that are furthest outside
-  Bits (*test_)(const CornerPlanes&, std::size_t first);
+  Planes planes_, farPlanes_;  ///< the latter by the corners that are furthest outside
+  Bits (*test_)(const Planes&, std::size_t first);
 };
 
 }  // namespace trimtab

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -67,12 +66,8 @@ void gatherCut(std::span<const Box> bounds, std::span<const NormalCone> cones, L
 }
 
 void gather(const TerrainIndex& index, LevelCut& cut) {
-  // Each border that uses the coarser posts folds 16 triangles away.
-  constexpr std::uint32_t kCells = TerrainIndex::kTileCells;
   cut.triangles.clear();
-  for (const TileDraw& tile : cut.tiles)
-    cut.triangles.push_back(2 * kCells * kCells -
-                            static_cast<std::uint32_t>(std::popcount(tile.coarser)) * kCells / 2);
+  for (const TileDraw& tile : cut.tiles) cut.triangles.push_back(tileTriangles(tile));
   gatherCut(index.bounds, index.cones, cut);
 }
 

@@ -87,6 +87,9 @@ void selectVisible(const TerrainIndex& index, const LevelCut& cut, const EyePose
 
 /// Removes tiles by one flag a tile of `visible.tiles`, in order: 0 stays, 1 is proven hidden, 2 is proven
 /// outside the view (by finer boxes than the index has).
+/// `vertices` is the caller's.
+void removeOccluded(const LevelCut& cut, std::span<const std::uint8_t> flags, VisibleSet& visible);
+/// The same for tiles, which know their vertices.
 void removeOccluded(const TerrainIndex& index, std::span<const std::uint8_t> flags, VisibleSet& visible);
 
 }  // namespace trimtab

@@ -189,7 +189,10 @@ void selectVisible(const TerrainIndex&, const LevelCut& cut, const EyePose& eye,
   visible.vertices = tileVertices(visible.triangles, visible.tiles.size());
 }
 
-void removeOccluded(const TerrainIndex&, std::span<const std::uint8_t> flags, VisibleSet& visible) {
+namespace {
+
+template <class TrianglesOf>
+void remove(std::span<const std::uint8_t> flags, VisibleSet& visible, const TrianglesOf& trianglesOf) {
   std::size_t kept = 0, place = 0;
   for (std::size_t i = 0; i < visible.tiles.size(); ++i, ++place) {
     const TileDraw tile = visible.tiles[i];
@@ -201,12 +204,20 @@ void removeOccluded(const TerrainIndex&, std::span<const std::uint8_t> flags, Vi
     const bool hidden = flags[i] == 1;
     visible.reason[place] = hidden ? CullReason::occluded : CullReason::outside_frustum;
     ++(hidden ? visible.occluded : visible.outsideFrustum);
-    constexpr int kCells = TerrainIndex::kTileCells;
-    visible.triangles -=
-        static_cast<std::uint64_t>(2 * kCells * kCells - std::popcount(tile.coarser) * kCells / 2);
+    visible.triangles -= trianglesOf(place, tile);
   }
   visible.tiles.resize(kept);
-  visible.vertices = tileVertices(visible.triangles, kept);
+}
+
+}  // namespace
+
+void removeOccluded(const LevelCut& cut, std::span<const std::uint8_t> flags, VisibleSet& visible) {
+  remove(flags, visible, [&](std::size_t place, TileDraw) { return std::uint64_t{cut.triangles[place]}; });
+}
+
+void removeOccluded(const TerrainIndex&, std::span<const std::uint8_t> flags, VisibleSet& visible) {
+  remove(flags, visible, [](std::size_t, TileDraw tile) { return tileTriangles(tile); });
+  visible.vertices = tileVertices(visible.triangles, visible.tiles.size());
 }
 
 CullReason VisibleSet::reasonOf(std::uint32_t node) const {
