@@ -12,8 +12,6 @@ namespace {
 
 /// Cells a side of a part that is tested as a box.
 constexpr int kPartCells = 4;
-/// Tiles (8 KB each) that are kept beyond those in use.
-constexpr std::size_t kKept = 4096;
 /// Narrower ones hide little that others do not, and cost as much: texels.
 constexpr double kLeastTexels = 16;
 
@@ -53,9 +51,7 @@ void makeDepthMesh(const terrain::TileMesh& mesh, float slopeMax, DepthMesh& out
 
 void TileMeshes::setDatabase(std::shared_ptr<const terrain::Database> database) {
   database_ = std::move(database);
-  meshes_.clear();
-  kept_ = 0;
-  if (database_) meshes_.resize(database_->index().size());
+  meshes_.reset(database_ ? database_->index().size() : 0);
 }
 
 const depth::Triangles& TileMeshes::triangles() {
@@ -64,26 +60,12 @@ const depth::Triangles& TileMeshes::triangles() {
 }
 
 const DepthMesh& TileMeshes::of(std::uint32_t node) {
-  std::unique_ptr<DepthMesh>& kept = meshes_[node];
-  if (!kept) {
-    database_->buildTile(node, mesh_);
-    kept = std::make_unique<DepthMesh>();
-    makeDepthMesh(mesh_, database_->index().slopeMax[node], *kept);
-    ++kept_;
-    ++made_;
-  }
-  return *kept;
-}
-
-void TileMeshes::forgetOthers(std::span<const TileDraw> used) {
-  if (kept_ <= kKept + used.size()) return;
-  std::vector<std::uint8_t> inUse(meshes_.size());
-  for (const TileDraw& tile : used) inUse[tile.node] = 1;
-  for (std::size_t node = 0; node < meshes_.size(); ++node)
-    if (meshes_[node] && inUse[node] == 0) {
-      meshes_[node].reset();
-      --kept_;
-    }
+  if (const DepthMesh* kept = meshes_.find(node)) return *kept;
+  database_->buildTile(node, mesh_);
+  DepthMesh& mesh = meshes_.make(node);
+  makeDepthMesh(mesh_, database_->index().slopeMax[node], mesh);
+  ++made_;
+  return mesh;
 }
 
 std::span<const std::uint8_t> DepthMapCulling::hidden(std::span<const Item> items, const EyePose& eye,
@@ -131,11 +113,12 @@ void MapCulling::setDatabase(std::shared_ptr<const terrain::Database> database) 
   meshes_.setDatabase(std::move(database));
 }
 
-std::span<const std::uint8_t> MapCulling::hidden(std::span<const TileDraw> tiles, const EyePose& eye,
-                                                 const MapView& view, const OcclusionConditions& conditions) {
-  meshes_.forgetOthers(tiles);
+std::span<const std::uint8_t> MapCulling::hidden(const LevelCut& cut, std::span<const TileDraw> visible,
+                                                 const EyePose& eye, const MapView& view,
+                                                 const OcclusionConditions& conditions) {
+  meshes_.forgetOthers(cut);
   items_.clear();
-  for (const TileDraw& tile : tiles)
+  for (const TileDraw& tile : visible)
     items_.push_back({&meshes_.of(tile.node), &TileMeshes::triangles(), conditions.mayOcclude(tile.node)});
   return culling_.hidden(items_, eye, view);
 }

@@ -9,6 +9,7 @@
 #include "trimtab/culling/select.h"
 #include "trimtab/scene/occlusion_conditions.h"
 #include "trimtab/scene/renderer.h"
+#include "trimtab/scene/surfaces_in_use.h"
 #include "trimtab/terrain/database.h"
 
 namespace trimtab::scene {
@@ -18,25 +19,6 @@ struct MapView {
   ViewShape view;       ///< the picture's
   DepthMapSize size;    ///< the map's: as the band says
   double lowering = 1;  ///< of what the proof asks for: Defects
-};
-
-/// Meshes of a terrain's nodes for the CPU's depth map: made when they are first asked for, kept while they
-/// are in use.
-class TileMeshes {
- public:
-  void setDatabase(std::shared_ptr<const terrain::Database> database);
-  /// Good until the next `forgetOthers`.
-  const DepthMesh& of(std::uint32_t node);
-  void forgetOthers(std::span<const TileDraw> used);
-  static const depth::Triangles& triangles();
-  std::uint64_t made() const { return made_; }
-
- private:
-  std::shared_ptr<const terrain::Database> database_;
-  std::vector<std::unique_ptr<DepthMesh>> meshes_;  ///< one a node
-  std::size_t kept_ = 0;
-  std::uint64_t made_ = 0;
-  terrain::TileMesh mesh_;
 };
 
 /// A tile for the depth map: its occluder, and boxes of its parts as drawn.
@@ -68,14 +50,32 @@ class DepthMapCulling {
   std::uint64_t drawn_ = 0;
 };
 
+/// Meshes of tiles for depth maps: made when they are first asked for, kept while they are in use.
+class TileMeshes {
+ public:
+  void setDatabase(std::shared_ptr<const terrain::Database> database);
+  /// Good until the next `forgetOthers`.
+  const DepthMesh& of(std::uint32_t node);
+  void forgetOthers(const LevelCut& cut) { meshes_.forgetOthers(cut); }
+  static const depth::Triangles& triangles();
+  std::uint64_t made() const { return made_; }
+
+ private:
+  std::shared_ptr<const terrain::Database> database_;
+  SurfacesInUse<DepthMesh> meshes_;  ///< 8 KB each
+  std::uint64_t made_ = 0;
+  terrain::TileMesh mesh_;
+};
+
 /// The CPU's depth map over the tiles of a cut.
 class MapCulling {
  public:
   void setDatabase(std::shared_ptr<const terrain::Database> database);
-  /// `tiles`: those in view that are not known to be hidden. One each, in their order, as removeOccluded
-  /// takes them. The eye must be one that `conditions` do not refuse.
-  std::span<const std::uint8_t> hidden(std::span<const TileDraw> tiles, const EyePose& eye,
-                                       const MapView& view, const OcclusionConditions& conditions);
+  /// `visible`: those of the cut in view that are not known to be hidden. One each, in their order, as
+  /// removeOccluded takes them. The eye must be one that `conditions` do not refuse.
+  std::span<const std::uint8_t> hidden(const LevelCut& cut, std::span<const TileDraw> visible,
+                                       const EyePose& eye, const MapView& view,
+                                       const OcclusionConditions& conditions);
   /// The last map.
   Renderer::Grey picture() const { return culling_.picture(); }
   std::uint64_t drawn() const { return culling_.drawn(); }
