@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "trimtab/culling/box_arrays.h"
 #include "trimtab/culling/mesh_relief.h"
 #include "trimtab/culling/relief.h"
 
@@ -25,7 +26,7 @@ namespace trimtab {
 /// (t, w). A line of edges that runs through a whole column [t0, t1] therefore reaches, for every t of the
 /// column, at least the least w of its corners and of where it crosses the column's sides. That, the greatest
 /// over the lines that are wholly nearer than a place, is the horizon there: rays of the column below it have
-/// ended before.
+/// ended before. Nothing of this asks that a line lies on S: it may lie under it.
 ///
 /// A tile lies inside the boxes of its posts, and in finer steps inside the hulls of blocks of its posts,
 /// whose images are the hulls of the posts' images. It is hidden when each part of it is below the horizon,
@@ -37,6 +38,15 @@ namespace trimtab {
 /// directions within `slack` of one end at S, then it ends at S as it is drawn, since that is as continuous;
 /// parts are tested with twice that all around. Lines of a tile beyond the data's border, or so steep that
 /// one place may have two heights, must not be used: HorizonTile::mayOcclude.
+///
+/// For all eyes of a room. Directions stay those from one place E; let the eye be at e = E + d. The way from
+/// e to P passes, where it has gone all but the share k of it, X = P + k (e - P). If X is F forwards of E,
+/// its direction from E differs from P's by k (dl - t df) / F sideways and k (dz - w df) / F upwards: P
+/// itself does not move, and what is nearer by no more than what is between. So the way to P in plan is led
+/// to the far side of a line at a place of the line whose t is within |dl - t df| / (F - |df|) of P's, and is
+/// under the line there if P's w is less than the line's there by |dz - w df| / (F - |df|). Lines are lowered
+/// by the latter; of the former, all count `kFarM` away and their columns' values are the least within what
+/// is left of it, while parts are tested wider by the rest.
 struct HorizonTile {
   const TileRelief* relief = nullptr;  ///< a regular tile; without it and `mesh` never hidden, hides nothing
   bool mayOcclude = false;
@@ -44,8 +54,18 @@ struct HorizonTile {
   /// column that a border lies in is not lost then.
   const TileRelief *east = nullptr, *north = nullptr;
   const MeshRelief* mesh = nullptr;  ///< instead of `relief`: any triangles
+  /// How much lower and higher than this the surface may be drawn here while the horizon is in use, metres.
+  float below = 0, above = 0;
 
   const Relief* surface() const { return relief ? static_cast<const Relief*>(relief) : mesh; }
+};
+
+/// Places of the eye that one horizon holds for: what is within `radius` of a segment.
+struct EyeRoom {
+  Vec3 from, to;
+  double radius = 0;
+
+  bool holds(Vec3 eye) const;
 };
 
 class Horizon {
@@ -56,13 +76,31 @@ class Horizon {
   struct Settings {
     int columns = 1024;   ///< of each quarter of the circle; clamped
     double slack = 1e-5;  ///< radians
-    bool raised =
-        false;  ///< wrong: lines reach as high as the highest of a column. For tests that see it fail
+    /// Wrong: lines reach as high as the highest of a column, and a room as far as its middle. For tests that
+    /// see it fail.
+    bool raised = false, still = false;
+    SimdLevel simd = SimdLevel::avx512;  ///< at most; the result is the same
+
+    friend bool operator==(const Settings&, const Settings&) = default;
   };
 
-  /// Tests all tiles against what is nearer. An eye that is not a number hides nothing.
-  void build(Vec3 eye, std::span<const HorizonTile> tiles, const Settings& settings);
+  /// Tests all tiles against what is nearer, for all eyes of the room. What is not a number, or a room larger
+  /// than kMostRoomM, hides nothing.
+  void buildFor(const EyeRoom& room, std::span<const HorizonTile> tiles, const Settings& settings);
+  void build(Vec3 eye, std::span<const HorizonTile> tiles, const Settings& settings) {
+    buildFor({eye, eye, 0}, tiles, settings);
+  }
+  static constexpr double kMostRoomM = 1000;
 
+  /// The same bit by bit: `tiles` and what they point to stay as they are until it is done. Until then
+  /// hidden() may say less than in the end, never more.
+  void begin(const EyeRoom& room, std::span<const HorizonTile> tiles, const Settings& settings);
+  /// `work`: roughly tiles. Whether it is done.
+  bool step(std::size_t work);
+  bool isDone() const { return isSorted_ && next_ == order_.size(); }
+  std::size_t work() const { return work_; }  ///< since begin()
+
+  const EyeRoom& room() const { return room_; }
   /// One a tile of the last build: 1 is proven hidden.
   const std::vector<std::uint8_t>& hidden() const { return hidden_; }
   std::size_t hiddenCount() const { return hiddenCount_; }
@@ -76,46 +114,70 @@ class Horizon {
   bool blocks(Vec3 direction) const;
 
  private:
-  struct Line {
-    std::uint32_t tile, line, next;
+  /// A piece of a line in columns of the profile, waiting until all of the line is nearer.
+  struct Piece {
+    std::uint32_t column, first, next;
+    std::int32_t count;
+  };
+  /// How far the eye may be from the middle of its room, by a quarter.
+  struct Play {
+    float along, across, radius;  ///< of the segment, forwards and sideways; around it
+    float forwards, upwards;      ///< at most
+    float beside;                 ///< directions by which parts are tested wider
   };
 
-  void takeUp(const Relief& relief);
-  bool isHidden(const TileRelief& relief) const;
-  bool isHidden(const MeshRelief& relief) const;
-  bool showsPeak(const TileRelief& relief) const;
+  void sortTiles();
+  void takeUp(const HorizonTile& tile);
+  void testNext();
+
+  bool isHidden(const TileRelief& relief);
+  bool isHidden(const MeshRelief& relief);
+  bool isPointBlocked(float x, float y, float z) const;
   bool isBoxHidden(const Box& box) const;
   bool isPartHidden(const TileRelief& relief, int part) const;
   bool isPartHidden(const MeshRelief& relief, const MeshRelief::Part& part) const;
   bool covers(int side, float t0, float t1, float w) const;
-  int cornersOf(const HorizonTile& tile, std::uint32_t line);
-  void take(const Relief& relief, const float* x, const float* y, const float* z, int count, int to);
-  void enqueueLines(std::uint32_t tile, const HorizonTile& from);
-  void addLine(const HorizonTile& tile, std::uint32_t line);
-  template <bool Raised>
-  void addRun(float* horizon, const float* u, const float* w, int count, int step) const;
 
-  Vec3 eye_;
+  void enqueueLines(const HorizonTile& tile);
+  void enqueueLine(std::uint32_t ring, int count);
+  void enqueueRun(std::uint32_t ring, int side, int from, int count, bool rises);
+  int take(const float* x, const float* y, const float* z, int count, float below);
+  std::uint32_t ringOfLine(int last, int count, float besideM) const;
+  template <bool Raised>
+  int reach(const float* u, const float* w, int count, int step, int beside, int& first);
+  void flush(std::uint32_t ring);
+
+  EyeRoom room_;
+  Vec3 eye_;  ///< its middle
+  std::array<Play, kSides> play_{};
+  Settings settings_;
   int columns_ = 0;
   float perT_ = 0;  ///< columns a unit of t
-  float slack_ = 0;
-  bool raised_ = false;
-  static constexpr int kMostPosts = 65,
-                       kGoOn = 2;  ///< of a tile's side; how far a line goes into the next tile
+  float slack_ = 0, leastM_ = 0;
+  std::span<const HorizonTile> tiles_;
+  std::size_t next_ = 0, work_ = 0;
+  std::uint32_t done_ = 0;  ///< rings whose lines are in the horizon
+  bool isSorted_ = true;    ///< tiles are in their order
+  bool lastStood_ = false;  ///< the last tile stood out: so will most likely those after it
+
+  static constexpr int kMostPosts = 65;  ///< of a tile's side
   /// Corners of a line; of a longer one what comes first.
   static constexpr int kMostCorners = 192;
-  static_assert(kMostCorners >= kMostPosts + kGoOn);
-  /// The line in hand, from the eye.
-  std::array<float, kMostCorners> x_, y_, z_;
-  // Of the tile in hand: its origin from the eye, and the least distance at which it counts.
+  static_assert(kMostCorners >= kMostPosts + TileRelief::kGoOn);
+  /// The line in hand, from the eye, and its image in a quarter.
+  alignas(64) std::array<float, kMostCorners + 16> x_, y_, z_, forward_, u_, w_;
+  std::vector<float> reached_;
+  // Of the tile in hand: its origin from the eye, the least distance at which it counts, and how far
+  // directions to it may be off.
   std::array<float, 3> offset_{};
-  float nearest_ = 0;
+  float nearest_ = 0, off_ = 0;
   std::vector<float> profile_;  ///< kSides * columns_
   std::vector<std::uint8_t> hidden_;
   std::size_t hiddenCount_ = 0;
   // Tiles by how near their nearest point is, lines by how far their furthest.
-  std::vector<std::uint32_t> ring_, firstOfRing_, order_, firstLine_;
-  std::vector<Line> lines_;
+  std::vector<std::uint32_t> ring_, firstOfRing_, order_, firstPiece_;
+  std::vector<Piece> pieces_;
+  std::vector<float> pool_;  ///< of the pieces' columns
 };
 
 }  // namespace trimtab

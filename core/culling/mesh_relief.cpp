@@ -141,6 +141,9 @@ void addLines(std::span<const ReliefVertex> vertices, std::span<const Triangle> 
       relief.lineY.push_back(crossings[i].y);
       relief.lineZ.push_back(crossings[i].z);
     }
+    const std::size_t from = relief.lineFirst.back();
+    relief.besideM = std::max(relief.besideM, furthestBeside(std::span(relief.lineX).subspan(from),
+                                                             std::span(relief.lineY).subspan(from)));
     relief.lineFirst.push_back(static_cast<std::uint32_t>(relief.lineX.size()));
   }
 }

@@ -6,33 +6,49 @@
 
 namespace trimtab {
 
+float furthestBeside(std::span<const float> x, std::span<const float> y) {
+  const double dx = double{x.back()} - x.front(), dy = double{y.back()} - y.front();
+  const double squared = dx * dx + dy * dy;
+  double furthest = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double px = double{x[i]} - x.front(), py = double{y[i]} - y.front();
+    const double s = squared > 0 ? std::clamp((px * dx + py * dy) / squared, 0.0, 1.0) : 0;
+    furthest = std::max(furthest, std::hypot(px - s * dx, py - s * dy));
+  }
+  return static_cast<float>(furthest * 1.001 + 1e-3);
+}
+
 void TileRelief::finish(int step) {
   const auto at = [this](int column, int row) {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(side) + static_cast<std::size_t>(column);
   };
   lines = 0;
-  lineX.clear();
-  lineY.clear();
-  lineZ.clear();
+  lineXyz.clear();
+  goOn.clear();
   parts.clear();
   peaks.clear();
   bounds = {};
-  reach = 0;
+  reach = besideM = 0;
   for (const auto* values : {&x, &y, &z})
     for (const float value : *values) {
       if (!std::isfinite(value)) return;
       reach = std::max(reach, std::abs(value));
     }
-  const auto add = [&](std::size_t post) {
-    lineX.push_back(x[post]);
-    lineY.push_back(y[post]);
-    lineZ.push_back(z[post]);
+  const auto add = [&](int column, int row, int right, int up) {
+    const std::size_t first = lineXyz.size();
+    for (const auto* values : {&x, &y, &z})
+      for (int k = 0; k < side; ++k) lineXyz.push_back((*values)[at(column + k * right, row + k * up)]);
+    for (int k = 1; k <= kGoOn; ++k)
+      for (const auto* values : {&x, &y, &z}) goOn.push_back((*values)[at(column + k * right, row + k * up)]);
+    const std::span<const float> line = std::span(lineXyz).subspan(first);
+    const auto corners = static_cast<std::size_t>(side);
+    besideM = std::max(besideM, furthestBeside(line.first(corners), line.subspan(corners, corners)));
+    ++lines;
   };
   // Not the borders: beside a coarser neighbour their odd posts are not drawn.
   for (int across = step; across < side - 1; across += step) {
-    for (int along = 0; along < side; ++along) add(at(along, across));
-    for (int along = 0; along < side; ++along) add(at(across, along));
-    lines += 2;
+    add(0, across, 1, 0);
+    add(across, 0, 0, 1);
   }
 
   constexpr float kMost = std::numeric_limits<float>::max();
@@ -50,12 +66,15 @@ void TileRelief::finish(int step) {
   for (int row = 0; row < side - 1; row += kPartCells)
     for (int column = 0; column < side - 1; column += kPartCells) {
       parts.push_back(boxOf(column, row, kPartCells));
-      std::size_t peak = at(column, row);
+      std::size_t highest = at(column, row);
       for (int r = row; r <= std::min(row + kPartCells, side - 1); ++r)
         for (int c = column; c <= std::min(column + kPartCells, side - 1); ++c)
-          if (z[at(c, r)] > z[peak]) peak = at(c, r);
-      peaks.push_back(static_cast<std::uint32_t>(peak));
+          if (z[at(c, r)] > z[highest]) highest = at(c, r);
+      peaks.push_back({x[highest], y[highest], z[highest]});
     }
+  std::sort(peaks.begin(), peaks.end(),
+            [](const std::array<float, 3>& a, const std::array<float, 3>& b) { return a[2] > b[2]; });
+  if (!peaks.empty()) peak = peaks.front();
 }
 
 }  // namespace trimtab

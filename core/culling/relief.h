@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "trimtab/frame/terrain_index.h"
@@ -14,6 +16,9 @@ struct Relief {
   float reach = 0;  ///< no coordinate is further from 0
 };
 
+/// How far from the way between its ends a line leads, metres.
+float furthestBeside(std::span<const float> x, std::span<const float> y);
+
 /// A tile's drawn surface as the horizon reads it, made once a tile.
 ///
 /// A square of posts, rows from south. What is drawn between them may be any triangles whose corners are
@@ -22,17 +27,22 @@ struct Relief {
 struct TileRelief : Relief {
   static constexpr int kBlockCells = 2;
   static constexpr int kPartCells = 8;  ///< cells a side of a part, which is tried as a box before its blocks
+  static constexpr int kGoOn = 2;       ///< corners of a line that the one before it may go on with
 
-  int side = 0;                            ///< posts
-  std::vector<float> x, y, z;              ///< side * side, metres
-  int lines = 0;                           ///< rows and columns of posts that may hide what is behind them
-  std::vector<float> lineX, lineY, lineZ;  ///< lines * side
-  std::vector<Box> parts;                  ///< partsPerSide() squared, rows from south
-  std::vector<std::uint32_t> peaks;        ///< the highest post of each part
+  // What most tiles need of all this stands together.
+  int side = 0;                 ///< posts
+  int lines = 0;                ///< rows and columns of posts that may hide what is behind them, taking turns
+  float besideM = 0;            ///< no corner of a line is further from the way between its ends, in plan
+  std::array<float, 3> peak{};  ///< the highest post
+  std::vector<float> lineXyz;   ///< of each line all x, all y, all z
+  std::vector<float> goOn;      ///< of each line x, y and z of kGoOn corners after its first
+  std::vector<std::array<float, 3>> peaks;  ///< the highest post of each part, the highest first
+  std::vector<Box> parts;                   ///< partsPerSide() squared, rows from south
+  std::vector<float> x, y, z;               ///< side * side, metres
 
   int partsPerSide() const { return (side - 1 + kPartCells - 1) / kPartCells; }
-  /// Completes lines and boxes from side, x, y and z. `step`: from one line to the next, posts, even. A
-  /// surface that is not all of finite numbers has neither: it hides nothing and is never hidden.
+  /// Completes the rest from side, x, y and z. `step`: from one line to the next, posts, even. A surface that
+  /// is not all of finite numbers has no lines and no parts: it hides nothing and is never hidden.
   void finish(int step);
 };
 

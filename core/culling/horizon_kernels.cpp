@@ -1,0 +1,96 @@
+#include "trimtab/culling/horizon_kernels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#if defined(__x86_64__)
+#define TRIMTAB_X86 1
+#endif
+
+namespace trimtab::horizon {
+namespace {
+
+#define TRIMTAB_INLINE inline __attribute__((always_inline))
+
+TRIMTAB_INLINE void projectAll(const Projection& p, int count, float* __restrict forward, float* __restrict u,
+                               float* __restrict w) {
+  const float* __restrict a = p.a, * __restrict b = p.b, * __restrict z = p.z;
+  const float signF = p.signF, signL = p.signL, perT = p.perT;
+  for (int from = 0; from < count; from += 16)
+    for (int i = from; i < from + 16; ++i) {
+      const float f = signF * a[i], inverse = 1 / f;
+      forward[i] = f;
+      u[i] = (signL * b[i] * inverse + 1) * perT;
+      w[i] = z[i] * inverse;
+    }
+}
+
+TRIMTAB_INLINE void lowerAll(float* w, int count, float up, float forwards, float inverse) {
+  for (int i = 0; i < count; ++i) w[i] -= (up + std::abs(w[i]) * forwards) * inverse;
+}
+
+TRIMTAB_INLINE bool areAllAbove(const float* values, int count, float limit) {
+  int i = 0;
+  for (; i + 16 <= count; i += 16) {
+    int low = 0;
+    for (int k = 0; k < 16; ++k) low |= !(values[i + k] > limit);
+    if (low) return false;
+  }
+  for (; i < count; ++i)
+    if (!(values[i] > limit)) return false;
+  return true;
+}
+
+TRIMTAB_INLINE void raiseAll(float* __restrict values, const float* __restrict to, int count) {
+  for (int i = 0; i < count; ++i) values[i] = values[i] < to[i] ? to[i] : values[i];
+}
+
+TRIMTAB_INLINE void erodeAll(float* values, int count, int width) {
+  int done = 1;
+  const auto least = [&](int step) {
+    count -= step;
+    for (int i = 0; i < count; ++i) values[i] = std::min(values[i], values[i + step]);
+  };
+  for (; 2 * done <= width; done *= 2) least(done);
+  if (done < width) least(width - done);
+}
+
+#define TRIMTAB_KERNELS(NAME, TARGET)                                                       \
+  TARGET void project##NAME(const Projection& p, int count, float* f, float* u, float* w) { \
+    projectAll(p, count, f, u, w);                                                          \
+  }                                                                                         \
+  TARGET void lower##NAME(float* w, int count, float up, float forwards, float inverse) {   \
+    lowerAll(w, count, up, forwards, inverse);                                              \
+  }                                                                                         \
+  TARGET bool allAbove##NAME(const float* v, int count, float limit) {                      \
+    return areAllAbove(v, count, limit);                                                    \
+  }                                                                                         \
+  TARGET void raise##NAME(float* v, const float* to, int count) {                           \
+    raiseAll(v, to, count);                                                                 \
+  }                                                                                         \
+  TARGET void erode##NAME(float* v, int count, int width) {                                 \
+    erodeAll(v, count, width);                                                              \
+  }                                                                                         \
+  constexpr Kernels k##NAME{project##NAME, lower##NAME, allAbove##NAME, raise##NAME, erode##NAME};
+
+TRIMTAB_KERNELS(Portable, )
+#if TRIMTAB_X86
+TRIMTAB_KERNELS(Avx2, __attribute__((target("avx2"))))
+TRIMTAB_KERNELS(Avx512, __attribute__((target("avx512f,avx512vl,avx512dq,prefer-vector-width=512"))))
+#endif
+
+}  // namespace
+
+const Kernels& kernels(SimdLevel atMost) {
+#if TRIMTAB_X86
+  static const bool hasAll = __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq");
+  const SimdLevel level = std::min(atMost, simdLevel());
+  if (level == SimdLevel::avx512 && hasAll) return kAvx512;
+  if (level != SimdLevel::portable) return kAvx2;
+#else
+  (void)atMost;
+#endif
+  return kPortable;
+}
+
+}  // namespace trimtab::horizon

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "trimtab/culling/box_arrays.h"
+
+/// The horizon's inner loops, by what the processor has. All forms give the same bits: each number comes from
+/// the same operations, none of them contracted.
+namespace trimtab::horizon {
+
+/// Forwards = signF * a, sideways = signL * b, over what is given; u in columns.
+struct Projection {
+  const float *a, *b, *z;
+  float signF, signL, perT;
+};
+
+struct Kernels {
+  /// Reads and writes up to the next multiple of 16.
+  void (*project)(const Projection& p, int count, float* forward, float* u, float* w);
+  /// Lowers w to w - (up + |w| forwards) / nearest.
+  void (*lower)(float* w, int count, float up, float forwards, float inverse);
+  bool (*allAbove)(const float* values, int count, float limit);
+  void (*raise)(float* values, const float* to, int count);
+  /// values[i] = least of values[i .. i + width - 1]; count - width + 1 of them stay.
+  void (*erode)(float* values, int count, int width);
+};
+
+const Kernels& kernels(SimdLevel atMost);
+
+}  // namespace trimtab::horizon

@@ -1,0 +1,190 @@
+#include "trimtab/culling/horizon.h"
+#include "trimtab/culling/horizon_geometry.h"
+#include "trimtab/culling/horizon_kernels.h"
+
+/// How lines get into the profile.
+namespace trimtab {
+
+using namespace horizon;
+
+namespace {
+
+/// A family of lines that runs this much along the line of sight adds next to nothing to the one across.
+constexpr float kAlong = 0.35f;
+
+}  // namespace
+
+/// Takes up a line of the tile in hand; how many corners.
+int Horizon::take(const float* x, const float* y, const float* z, int count, float below) {
+  const float left = offset_[0], back = offset_[1], down = offset_[2] - below;
+  for (int k = 0; k < count; ++k) x_.data()[k] = x[k] + left;
+  for (int k = 0; k < count; ++k) y_.data()[k] = y[k] + back;
+  for (int k = 0; k < count; ++k) z_.data()[k] = z[k] + down;
+  return count;
+}
+
+/// Where all of the line in hand is nearer, by more than the depth buffer's rounding. `besideM`: no corner
+/// up to `last` is further than that from the way between it and the first.
+std::uint32_t Horizon::ringOfLine(int last, int count, float besideM) const {
+  const auto squared = [this](int k) {
+    const auto i = static_cast<std::size_t>(k);
+    return x_[i] * x_[i] + y_[i] * y_[i];
+  };
+  float furthest = squared(0);
+  for (int k = last; k < count; ++k) furthest = std::max(furthest, squared(k));
+  return ringOf((std::sqrt(furthest) + besideM) * (1 + 2e-5f) + 0.02f);
+}
+
+void Horizon::enqueueLines(const HorizonTile& tile) {
+  if (!tile.relief) {
+    const MeshRelief& mesh = *tile.mesh;
+    for (std::size_t line = 0; line < mesh.lines(); ++line) {
+      const std::uint32_t first = mesh.lineFirst[line];
+      const int count =
+          take(mesh.lineX.data() + first, mesh.lineY.data() + first, mesh.lineZ.data() + first,
+               std::min(static_cast<int>(mesh.lineFirst[line + 1] - first), kMostCorners), tile.below);
+      enqueueLine(ringOfLine(count - 1, count, mesh.besideM), count);
+    }
+    return;
+  }
+  const TileRelief& relief = *tile.relief;
+  const float x = std::abs(0.5f * (relief.bounds.minX + relief.bounds.maxX) + offset_[0]),
+              y = std::abs(0.5f * (relief.bounds.minY + relief.bounds.maxY) + offset_[1]);
+  const auto goesOn = [&](const TileRelief* next) {
+    return next && next->lines == relief.lines && next->side == relief.side;
+  };
+  const std::array<const TileRelief*, 2> nexts{goesOn(tile.east) ? tile.east : nullptr,
+                                               goesOn(tile.north) ? tile.north : nullptr};
+  std::array<std::array<float, 3>, 2> origins{};
+  for (std::size_t i = 0; i < 2; ++i)
+    if (nexts[i]) origins[i] = fromEye(eye_, nexts[i]->origin);
+  const auto side = static_cast<std::size_t>(relief.side);
+  for (std::size_t line = 0; line < static_cast<std::size_t>(relief.lines); ++line) {
+    const std::size_t family = line % 2;  // rows, columns
+    if (family == 0 ? y < kAlong * x : x < kAlong * y) continue;
+    const float* xyz = relief.lineXyz.data() + 3 * side * line;
+    int count = take(xyz, xyz + side, xyz + 2 * side, relief.side, tile.below);
+    if (const TileRelief* next = nexts[family]) {
+      const float* on = next->goOn.data() + 3 * TileRelief::kGoOn * line;
+      for (int k = 0; k < TileRelief::kGoOn; ++k, on += 3) {
+        const auto to = static_cast<std::size_t>(count++);
+        x_[to] = on[0] + origins[family][0];
+        y_[to] = on[1] + origins[family][1];
+        z_[to] = on[2] + origins[family][2] - tile.below;
+      }
+    }
+    enqueueLine(ringOfLine(relief.side - 1, count, relief.besideM), count);
+  }
+}
+
+void Horizon::enqueueLine(std::uint32_t ring, int count) {
+  work_ += 1;
+  const auto [x0, x1] = std::minmax(x_[0], x_[static_cast<std::size_t>(count - 1)]);
+  const auto [y0, y1] = std::minmax(y_[0], y_[static_cast<std::size_t>(count - 1)]);
+  const Kernels& kernel = kernels(settings_.simd);
+  for (int side = 0; side < kSides; ++side) {
+    if (!meets(turned(side, x0, x1, y0, y1))) continue;
+    const bool turn = side % 2 != 0;
+    kernel.project({turn ? y_.data() : x_.data(), turn ? x_.data() : y_.data(), z_.data(),
+                    side < 2 ? 1.0f : -1.0f, side == 0 || side == 3 ? 1.0f : -1.0f, perT_},
+                   count, forward_.data(), u_.data(), w_.data());
+    const float *u = u_.data(), *forward = forward_.data();
+    const auto usable = [&](int k) { return forward[k] > nearest_; };
+    for (int k = 0; k + 1 < count;) {
+      if (!usable(k) || !usable(k + 1)) {
+        ++k;
+        continue;
+      }
+      const bool rises = u[k + 1] >= u[k];
+      int end = k + 1;
+      while (end + 1 < count && usable(end + 1) && (u[end + 1] >= u[end]) == rises) ++end;
+      enqueueRun(ring, side, k, end - k + 1, rises);
+      k = end;
+    }
+  }
+}
+
+/// Corners along which u rises, or falls all along.
+void Horizon::enqueueRun(std::uint32_t ring, int side, int from, int count, bool rises) {
+  const Kernels& kernel = kernels(settings_.simd);
+  const Play& play = play_[static_cast<std::size_t>(side)];
+  const float* u = u_.data() + from;
+  float* w = w_.data() + from;
+  int width = 1;
+  if (play.forwards > 0) {
+    const float* forward = forward_.data() + from;
+    const float inverse = 1 / (*std::min_element(forward, forward + count) - play.forwards);
+    kernel.lower(w, count, play.upwards, play.forwards, inverse);
+    const auto across = [&](float at) {
+      const float t = at / perT_ - 1;
+      return std::abs(play.across - t * play.along) + play.radius * std::sqrt(1 + t * t);
+    };
+    const float beside = std::max(across(u[0]), across(u[count - 1])) * inverse - play.beside;
+    // Of columns to either side.
+    if (beside > 0) width += 2 * static_cast<int>(std::ceil(std::min(beside * 1.0001f, 2.0f) * perT_));
+  }
+  int first = 0;
+  const int step = rises ? 1 : -1, start = rises ? 0 : count - 1;
+  int columns = settings_.raised ? reach<true>(u + start, w + start, count, step, width / 2, first)
+                                 : reach<false>(u + start, w + start, count, step, width / 2, first);
+  if (columns < width) return;
+  float* reached = reached_.data();
+  if (width > 1) {
+    kernel.erode(reached, columns, width);
+    columns -= width - 1;
+    first += (width - 1) / 2;
+  }
+  // What is not above the horizon already needs not wait.
+  const float* horizon = profile_.data() + side * columns_ + first;
+  while (columns > 0 && !(reached[columns - 1] > horizon[columns - 1])) --columns;
+  int skip = 0;
+  while (skip < columns && !(reached[skip] > horizon[skip])) ++skip;
+  if (skip == columns) return;
+  pieces_.push_back({.column = static_cast<std::uint32_t>(side * columns_ + first + skip),
+                     .first = static_cast<std::uint32_t>(pool_.size()),
+                     .next = firstPiece_[ring],
+                     .count = columns - skip});
+  firstPiece_[ring] = static_cast<std::uint32_t>(pieces_.size() - 1);
+  pool_.insert(pool_.end(), reached + skip, reached + columns);
+}
+
+/// What a run of corners, `step` apart in the arrays, along which u rises, reaches in the columns that it
+/// runs through, from `beside` of them before the quarter to as many after it: fills reached_; their number,
+/// and which is the first.
+template <bool Raised>
+int Horizon::reach(const float* u, const float* w, int count, int step, int beside, int& first) {
+  const auto worse = [](float a, float b) { return Raised ? std::max(a, b) : std::min(a, b); };
+  const float last = u[(count - 1) * step];
+  const int begin = -beside, most = columns_ + beside;
+  if (!(last >= static_cast<float>(begin)) || !(u[0] <= static_cast<float>(most))) return 0;
+  // The next column's side to be crossed.
+  int column = u[0] <= static_cast<float>(begin) ? begin : static_cast<int>(std::ceil(u[0]));
+  first = Raised ? std::max(column - 1, begin) : column;
+  float* reached = reached_.data();
+  bool started = Raised && column > begin;
+  float least = w[0];
+  for (int i = 0; i + 1 < count; ++i) {
+    const float ua = u[i * step], wa = w[i * step], ub = u[(i + 1) * step], wb = w[(i + 1) * step];
+    if (static_cast<float>(column) <= ub && column <= most) {
+      const float rise = ub > ua ? (wb - wa) / (ub - ua) : 0;
+      const float low = std::min(wa, wb), high = std::max(wa, wb);
+      for (; static_cast<float>(column) <= ub && column <= most; ++column) {
+        const float at = std::clamp(wa + (static_cast<float>(column) - ua) * rise, low, high);
+        if (started) *reached++ = worse(least, at);
+        least = at;
+        started = true;
+      }
+    }
+    least = worse(least, wb);
+  }
+  if (Raised && started && column <= most) *reached++ = least;
+  return static_cast<int>(reached - reached_.data());
+}
+
+void Horizon::flush(std::uint32_t ring) {
+  const Kernels& kernel = kernels(settings_.simd);
+  for (std::uint32_t n = firstPiece_[ring]; n != 0xffffffffu; n = pieces_[n].next)
+    kernel.raise(profile_.data() + pieces_[n].column, pool_.data() + pieces_[n].first, pieces_[n].count);
+}
+
+}  // namespace trimtab

@@ -1,0 +1,269 @@
+#include "trimtab/culling/moving_horizon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "trimtab/culling/box_distance.h"
+
+namespace trimtab {
+namespace {
+
+constexpr std::uint8_t kThere = 1, kHidden = 2, kMaySplit = 4, kMayJoin = 8;
+
+/// How far the eye may be beside the way that it is on: metres, and the share of the way to there. A turn at
+/// 5 g at 600 kt leads 2 m away in 20 frames.
+constexpr double kBesideM = 0.5, kBesideShare = 0.025;
+/// A step longer than this in one frame is a jump and says nothing about the next one, metres.
+constexpr double kJumpM = 60;
+/// Frames that a room holds for beyond those in which the next is built.
+constexpr double kSpareFrames = 2;
+/// Errors are along the earth's verticals, which lean from the frame's z: where a tile may occlude, so little
+/// beside its slopes that a place's height changes by at most half as much again.
+constexpr float kLean = 1.5f;
+/// The rule for the levels is not taken by its letter: it may be about to change its mind.
+constexpr double kMargin = 0.02;
+
+bool isPlace(Vec3 p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+}  // namespace
+
+void MovingHorizon::clear() {
+  for (Build& build : builds_) {
+    build.there = false;
+    build.mark.clear();
+    build.cut.clear();
+  }
+  moving_ = false;
+}
+
+/// The way from one frame to another, from now on.
+EyeRoom MovingHorizon::roomAhead(Vec3 eye, double firstFrame, double lastFrame) const {
+  return {eye + firstFrame * step_, eye + lastFrame * step_,
+          kBesideM + kBesideShare * lastFrame * length(step_)};
+}
+
+std::span<const std::uint8_t> MovingHorizon::verdicts(const Frame& frame) {
+  if (!isCarried_) return builds_[standing_].horizon.hidden();
+  ++carried_;
+  return std::span(verdicts_).first(frame.tiles.size());
+}
+
+std::span<const std::uint8_t> MovingHorizon::hidden(const Frame& frame, const SurfaceTree& tree,
+                                                    const Fill& fill) {
+  if (!isPlace(frame.eye)) {
+    moving_ = false;
+    verdicts_.assign(frame.tiles.size(), 0);
+    return verdicts_;
+  }
+  const Vec3 step = moving_ ? frame.eye - lastEye_ : Vec3{};
+  if (length(step) <= kJumpM) step_ = step;  // after a jump, most go on as before
+  lastEye_ = frame.eye;
+  moving_ = true;
+
+  if (!frame.incremental || !frame.sameHorizon) {
+    Build& build = builds_[standing_];
+    const EyeRoom room{frame.eye, frame.eye, 0};
+    builds_[1 - standing_].there = false;
+    isCarried_ = false;
+    const EyeRoom& last = build.horizon.room();
+    if (frame.sameHorizon && build.there && build.cutNumber == frame.cut && build.rule == frame.rule &&
+        build.settings == frame.settings && last.from == room.from && last.to == room.to && last.radius == 0)
+      return build.horizon.hidden();
+    begin(build, room, frame, tree, fill);
+    build.horizon.step(std::numeric_limits<std::size_t>::max() / 2);
+    ++fromScratch_;
+    return build.horizon.hidden();
+  }
+
+  // The newer one as soon as it holds.
+  Build& coming = builds_[1 - standing_];
+  if (coming.there && coming.horizon.isDone() && holds(coming, frame, tree)) {
+    builds_[standing_].there = false;
+    standing_ = 1 - standing_;
+  } else if (!holds(builds_[standing_], frame, tree)) {
+    if (coming.there && !coming.horizon.isDone() && coming.horizon.room().holds(frame.eye))
+      coming.horizon.step(std::numeric_limits<std::size_t>::max() / 2);
+    else
+      coming.there = false;
+    if (!coming.there || !holds(coming, frame, tree)) {
+      begin(coming, roomAhead(frame.eye, 0, kFrames + kSpareFrames), frame, tree, fill);
+      coming.horizon.step(std::numeric_limits<std::size_t>::max() / 2);
+      ++fromScratch_;
+      isCarried_ = false;
+    }
+    builds_[standing_].there = false;
+    standing_ = 1 - standing_;
+  } else {
+    prepareNext(frame, tree, fill);
+  }
+  return verdicts(frame);
+}
+
+void MovingHorizon::prepareNext(const Frame& frame, const SurfaceTree& tree, const Fill& fill) {
+  const Build& standing = builds_[standing_];
+  Build& coming = builds_[1 - standing_];
+  if (coming.there && (coming.rule != frame.rule || coming.settings != frame.settings)) coming.there = false;
+  if (coming.there) {
+    if (coming.horizon.isDone()) {
+      // What lies wholly behind will never hold.
+      const Vec3 ahead = frame.eye + kSpareFrames * step_;
+      const EyeRoom& room = coming.horizon.room();
+      if (dot(room.to - ahead, step_) < 0) coming.there = false;
+    } else {
+      coming.horizon.step(standing.horizon.work() * 11 / (10 * (kFrames - 1)) + 16);
+    }
+    return;
+  }
+  const auto extent = [](const EyeRoom& room) { return length(room.to - room.from) + 2 * room.radius; };
+  if (!standing.horizon.room().holds(frame.eye + (kFrames + 1.0) * step_))
+    begin(coming, roomAhead(frame.eye, kFrames - 1, 2 * kFrames + kSpareFrames), frame, tree, fill);
+  else if (const EyeRoom here = roomAhead(frame.eye, 0, 2 * kFrames);
+           extent(standing.horizon.room()) > 8 * extent(here))
+    begin(coming, here, frame, tree, fill);  // it has slowed down: less room proves more
+}
+
+void MovingHorizon::begin(Build& build, const EyeRoom& room, const Frame& frame, const SurfaceTree& tree,
+                          const Fill& fill) {
+  ++built_;
+  for (const TileDraw& tile : build.cut)
+    if (tile.node < build.mark.size()) build.mark[tile.node] = 0;
+  build.mark.resize(tree.size(), 0);
+  build.tiles.clear();
+  fill(build.tiles);
+  build.tiles.resize(frame.tiles.size());
+  build.cut.assign(frame.tiles.begin(), frame.tiles.end());
+  build.cutNumber = frame.cut;
+  build.rule = frame.rule;
+  build.settings = frame.settings;
+  build.there = true;
+  build.marked = false;
+  for (const TileDraw& tile : build.cut) build.mark[tile.node] = kThere;
+  const bool mayChange = frame.incremental && frame.sameHorizon && frame.errorOverDistance > 0;
+  if (mayChange) {
+    markChanges(build, room, frame, tree);
+    giveRoom(build, frame, tree);
+  }
+  build.horizon.begin(room, build.tiles, frame.settings);
+}
+
+/// What the rule may take apart or join until the eye has left the room.
+void MovingHorizon::markChanges(Build& build, const EyeRoom& room, const Frame& frame,
+                                const SurfaceTree& tree) {
+  const double reach = std::max(length(room.from - frame.eye), length(room.to - frame.eye)) + room.radius;
+  const double limit = frame.errorOverDistance;
+  const auto distance = [&](std::uint32_t node) {
+    return std::sqrt(distanceSquared(tree.bounds[node], frame.eye));
+  };
+  stack_.clear();
+  for (const TileDraw& tile : build.cut) {
+    const std::uint32_t node = tile.node, parent = tree.parent[node];
+    const double error = double{tree.finestError(node)};
+    if (error * (1 + kMargin) > limit * (distance(node) - reach) &&
+        std::any_of(tree.childrenOf(node).begin(), tree.childrenOf(node).end(),
+                    [](std::uint32_t child) { return child != SurfaceTree::kNone; })) {
+      build.mark[node] = static_cast<std::uint8_t>(build.mark[node] | kMaySplit);
+      stack_.push_back(node);
+    }
+    if (parent != SurfaceTree::kNone &&
+        double{tree.finestError(parent)} * (1 - kMargin) <= limit * (distance(parent) + reach))
+      build.mark[node] = static_cast<std::uint8_t>(build.mark[node] | kMayJoin);
+  }
+  // A tile that is taken apart needs neighbours of its level.
+  while (!stack_.empty() && !tree.neighbours.empty()) {
+    const std::uint32_t node = stack_.back();
+    stack_.pop_back();
+    for (const std::uint32_t neighbour : tree.neighbours[node]) {
+      if (neighbour == SurfaceTree::kNone || build.mark[neighbour] != 0) continue;
+      const std::uint32_t coarser = tree.parent[neighbour];
+      if (coarser == SurfaceTree::kNone || build.mark[coarser] == 0 || (build.mark[coarser] & kMaySplit) != 0)
+        continue;
+      build.mark[coarser] = static_cast<std::uint8_t>(build.mark[coarser] | kMaySplit);
+      stack_.push_back(coarser);
+    }
+  }
+}
+
+/// Room for all that may stand in a marked tile's place.
+void MovingHorizon::giveRoom(Build& build, const Frame& frame, const SurfaceTree& tree) {
+  const auto changes = [&](std::uint32_t node) {
+    return node != SurfaceTree::kNone && (build.mark[node] & (kMaySplit | kMayJoin)) != 0;
+  };
+  const auto mayOcclude = [&](std::uint32_t node) { return !frame.mayOcclude || frame.mayOcclude(node); };
+  for (std::size_t i = 0; i < build.cut.size(); ++i) {
+    const std::uint32_t node = build.cut[i].node;
+    HorizonTile& tile = build.tiles[i];
+    if (!tree.neighbours.empty()) {
+      if (changes(tree.neighbours[node][1])) tile.east = nullptr;
+      if (changes(tree.neighbours[node][3])) tile.north = nullptr;
+    }
+    // Of a patch, any variant may stand here; of a tile, the border may be that of a coarser neighbour.
+    if (!changes(node) && tree.variants == 1) continue;
+    float other = tree.coarsestError(node);
+    if ((build.mark[node] & kMaySplit) != 0)
+      for (const std::uint32_t child : tree.childrenOf(node))
+        if (child != SurfaceTree::kNone) {
+          other = std::max(other, tree.coarsestError(child));
+          tile.mayOcclude = tile.mayOcclude && mayOcclude(child);
+        }
+    if ((build.mark[node] & kMayJoin) != 0) {
+      const std::uint32_t parent = tree.parent[node], above = tree.parent[parent];
+      other = std::max(other, tree.coarsestError(parent));
+      if (above != SurfaceTree::kNone) other = std::max(other, tree.coarsestError(above));
+      tile.mayOcclude = tile.mayOcclude && mayOcclude(parent);
+    }
+    const float room = kLean * (tree.errorOf(build.cut[i]) + other);
+    tile.below = std::max(tile.below, room);
+    tile.above = std::max(tile.above, room);
+  }
+}
+
+bool MovingHorizon::holds(Build& build, const Frame& frame, const SurfaceTree& tree) {
+  if (!build.there || build.rule != frame.rule || build.settings != frame.settings ||
+      !build.horizon.isDone() || !build.horizon.room().holds(frame.eye) || build.mark.size() != tree.size())
+    return false;
+  if (build.cutNumber == frame.cut && build.cut.size() == frame.tiles.size()) {
+    isCarried_ = false;
+    return true;
+  }
+  isCarried_ = true;
+  return carry(build, frame, tree);
+}
+
+/// Verdicts for another cut; false where it has changed otherwise than was foreseen.
+bool MovingHorizon::carry(Build& build, const Frame& frame, const SurfaceTree& tree) {
+  if (!(frame.errorOverDistance > 0)) return false;
+  for (std::size_t i = 0; i < build.cut.size() && !build.marked; ++i)
+    if (build.horizon.hidden()[i] != 0) {
+      std::uint8_t& mark = build.mark[build.cut[i].node];
+      mark = static_cast<std::uint8_t>(mark | kHidden);
+    }
+  build.marked = true;
+  verdicts_.resize(std::max(verdicts_.size(), frame.tiles.size()));
+  for (std::size_t i = 0; i < frame.tiles.size(); ++i) {
+    const std::uint32_t node = frame.tiles[i].node, parent = tree.parent[node];
+    const std::uint8_t mark = build.mark[node];
+    if (mark != 0) {
+      verdicts_[i] = (mark & kHidden) != 0;
+      continue;
+    }
+    if (parent != SurfaceTree::kNone && (build.mark[parent] & kMaySplit) != 0) {
+      verdicts_[i] = (build.mark[parent] & kHidden) != 0;
+      continue;
+    }
+    std::uint8_t all = kHidden | kMayJoin;
+    bool any = false;
+    for (const std::uint32_t child : tree.childrenOf(node))
+      if (child != SurfaceTree::kNone) {
+        all = static_cast<std::uint8_t>(all & build.mark[child]);
+        any = true;
+      }
+    if (!any || (all & kMayJoin) == 0) return false;
+    verdicts_[i] = (all & kHidden) != 0;
+  }
+  return true;
+}
+
+}  // namespace trimtab
