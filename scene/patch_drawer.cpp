@@ -87,17 +87,6 @@ Findings PatchDrawer::failures() const {
   return all;
 }
 
-/// Near ones first, as they hide others; equal ones by number.
-void PatchDrawer::arrange(std::vector<TileDraw>& patches, Vec3 eye) const {
-  places_.clear();
-  for (const TileDraw& patch : patches)
-    places_.push_back({static_cast<float>(distanceSquared(bounds()[patch.node], eye)), patch});
-  std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
-    return std::tie(a.distance, a.patch.node) < std::tie(b.distance, b.patch.node);
-  });
-  std::transform(places_.begin(), places_.end(), patches.begin(), [](const Place& p) { return p.patch; });
-}
-
 void PatchDrawer::drawNodes(unsigned program, std::span<const TileDraw> patches) {
   const BoundSlots slots(gl_->layer.slotTexture(), gl_->layer.tintTexture());
   glUniform2i(glGetUniformLocation(program, "eyePost"), gl_->ground.eyeColumn(), gl_->ground.eyeRow());

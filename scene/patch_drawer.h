@@ -35,7 +35,6 @@ class PatchDrawer final : public TerrainDrawer {
   void drawNodes(unsigned program, std::span<const TileDraw> patches) override;
   void drawTinted(unsigned program, std::span<const TileDraw> patches,
                   std::span<const std::uint32_t> colours) override;
-  void arrange(std::vector<TileDraw>& patches, Vec3 eye) const override;
 
   void setGl();
   void updateGround();
@@ -50,11 +49,6 @@ class PatchDrawer final : public TerrainDrawer {
   PatchGround hiding_{culling_};
   OcclusionStage occlusion_{hiding_};
   std::unique_ptr<Gl> gl_;
-  struct Place {
-    float distance;
-    TileDraw patch;
-  };
-  mutable std::vector<Place> places_;
 };
 
 }  // namespace trimtab::scene

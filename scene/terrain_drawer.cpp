@@ -1,5 +1,9 @@
 #include "trimtab/scene/terrain_drawer.h"
 
+#include <algorithm>
+#include <tuple>
+
+#include "trimtab/culling/box_distance.h"
 #include "trimtab/scene/gl_api.h"
 #include "trimtab/scene/node_pass.h"
 #include "trimtab/scene/shaders.h"
@@ -47,6 +51,17 @@ void TerrainDrawer::draw(unsigned program) {
   drawn_ = shown();
   arrange(drawn_, frame_->view.eye.position);
   drawSurface(program, drawn_);
+}
+
+void TerrainDrawer::arrange(std::vector<TileDraw>& nodes, Vec3 eye) const {
+  places_.clear();
+  const std::vector<Box>& boxes = bounds();
+  for (const TileDraw& node : nodes)
+    places_.push_back({static_cast<float>(distanceSquared(boxes[node.node], eye)), node});
+  std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
+    return std::tie(a.distance, a.node.node) < std::tie(b.distance, b.node.node);
+  });
+  std::transform(places_.begin(), places_.end(), nodes.begin(), [](const Place& p) { return p.node; });
 }
 
 void TerrainDrawer::drawSurface(unsigned program, std::span<const TileDraw> nodes) {

@@ -78,8 +78,9 @@ class TerrainDrawer {
   /// Each with its colour (RGBA8).
   virtual void drawTinted(unsigned program, std::span<const TileDraw> nodes,
                           std::span<const std::uint32_t> colours) = 0;
-  /// Puts nodes into the order that they are drawn in, which depends on node and view alone.
-  virtual void arrange(std::vector<TileDraw>&, Vec3 /*eye*/) const {}
+  /// Puts nodes into the order that they are drawn in: near ones first, as they hide others. It depends on
+  /// node and eye alone, so what is left out changes nothing in the order of the rest.
+  virtual void arrange(std::vector<TileDraw>& nodes, Vec3 eye) const;
 
   /// First of all in `prepare`.
   void begin(FrameInProgress& frame);
@@ -98,6 +99,11 @@ class TerrainDrawer {
 
  private:
   std::vector<std::uint32_t> tints_;
+  struct Place {
+    float distance;
+    TileDraw node;
+  };
+  mutable std::vector<Place> places_;
 };
 
 }  // namespace trimtab::scene

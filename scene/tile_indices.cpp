@@ -6,6 +6,11 @@ namespace trimtab::scene {
 namespace {
 
 constexpr int kCells = TerrainIndex::kTileCells;
+/// Cells are drawn in strips so wide: two rows of a strip's vertices nearly fit the 32 that a GPU may keep,
+/// and a tile of 1,089 vertices costs 1,218 there; in whole rows it cost 2,112. On llvmpipe, which keeps 256
+/// by their numbers, 1,204 instead of 1,265: 3 % less for a frame of 600,000 triangles. Narrower strips cost
+/// its setup of triangles a tenth more.
+constexpr int kStrip = 16;
 
 std::uint16_t vertex(int column, int row) {
   return static_cast<std::uint16_t>(row * (kCells + 1) + column);
@@ -42,10 +47,10 @@ TileIndices makeTileIndices() {
   for (unsigned coarser = 0; coarser < 16; ++coarser) {
     const auto first = static_cast<std::uint32_t>(result.indices.size());
     const auto at = [coarser](int column, int row) { return foldedVertex(column, row, coarser); };
-    for (int y = 0; y < kCells; ++y)
-      for (int x = 0; x < kCells; ++x) {
-        addCell(result.indices, (x + y) % 2 == 0, at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1));
-      }
+    for (int strip = 0; strip < kCells; strip += kStrip)
+      for (int y = 0; y < kCells; ++y)
+        for (int x = strip; x < strip + kStrip; ++x)
+          addCell(result.indices, (x + y) % 2 == 0, at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1));
     result.variant[coarser] = {first, static_cast<std::uint32_t>(result.indices.size()) - first};
   }
   return result;

@@ -40,6 +40,8 @@ class TreeDrawer final : public TerrainDrawer {
                   std::span<const std::uint32_t> colours) override {
     gl_->layer.drawTinted(program, nodes, colours);
   }
+  /// They stand as they are drawn: StaticLodCulling::visible.
+  void arrange(std::vector<TileDraw>&, Vec3) const override {}
 
   struct Gl {
     StaticLodLayer layer;
