@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trimtab/scene/depth_read_back.h"
 #include "trimtab/scene/gl_api.h"
 #include "trimtab/scene/tile_cache.h"
 
@@ -32,6 +33,7 @@ void FrameCulling::selectCut(const FrameRequest& request, const EyePose& eye, Fr
                    std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom))};
   if (cutKey_ == key && request.skips.sameCut) return;
   selectLevels(index, key.eye, key.maxErrorPx, key.lodScale, key.pixelsPerRadian, cut_);
+  cutNumber_.errorOverDistance = key.maxErrorPx * key.lodScale / key.pixelsPerRadian;
   cutNumber_.cut += cutKey_ != key;
   if (cutKey_) cutKey_->eye = key.eye;
   cutNumber_.rule += cutKey_ != key;
@@ -40,7 +42,12 @@ void FrameCulling::selectCut(const FrameRequest& request, const EyePose& eye, Fr
 }
 
 void FrameCulling::beginOcclusion(const FrameRequest& request, FrameResult& counters) {
-  occlusion_.begin(request, eye_, {.depthMap = true, .readBack = false}, counters);
+  occlusion_.begin(request, eye_, {.depthMap = true, .readBack = readBack_ != nullptr}, counters);
+  if (!occlusion_.serves(OcclusionMethod::read_back)) return;
+  // One that is used at once is counted when it is drawn.
+  const std::uint64_t before = readBack_->maps();
+  readBack_->begin(eye_, cut_);
+  counters.mapsReadBack += readBack_->maps() - before;
 }
 
 bool FrameCulling::selectVisible(const FrameRequest& request, FrameResult& counters) {
@@ -58,6 +65,11 @@ bool FrameCulling::selectVisible(const FrameRequest& request, FrameResult& count
 }
 
 void FrameCulling::removeHiddenByMap(const FrameRequest& request, FrameResult& counters) {
+  if (occlusion_.serves(OcclusionMethod::read_back) && !readBack_->atOnce()) {
+    if (const auto flags = readBack_->hidden(visible_.tiles, eye_, request.view); !flags.empty())
+      removeOccluded(database_->index(), flags, visible_);
+    return;
+  }
   if (const auto flags = occlusion_.hiddenByMap(request, visible_, counters); !flags.empty())
     removeOccluded(database_->index(), flags, visible_);
 }
@@ -65,7 +77,12 @@ void FrameCulling::removeHiddenByMap(const FrameRequest& request, FrameResult& c
 std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& request, const TileCache& tiles,
                                                         OcclusionPass& pass, FrameResult& counters) {
   depthMapCurrent_ = false;
-  if (!occlusion_.serves(OcclusionMethod::depth_map) || visible_.tiles.empty()) return {};
+  const bool readBack = occlusion_.serves(OcclusionMethod::read_back);
+  if ((!occlusion_.serves(OcclusionMethod::depth_map) && !readBack) || visible_.tiles.empty()) return {};
+  // None where all maps are still on their way.
+  const std::optional<double> motionM = readBack ? readBack_->motionForMap() : 0;
+  if (!motionM) return {};
+  view_ = request.view;
   const DepthMapSize size = occlusion_.size();
   testedSlots_.clear();
   occluders_.clear();
@@ -91,6 +108,7 @@ std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& requ
   pass.prepare(size.widthPx, size.heightPx, testedSlots_);
   counters.depthMap = size;
   ++counters.depthMapsDrawn;
+  counters.mapsReadBack += readBack && readBack_->atOnce();
   depthMapCurrent_ = true;
   nearM_ = request.view.nearM;
   return DepthView{eye_,
@@ -99,15 +117,24 @@ std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& requ
                    OcclusionPass::kLevels,
                    static_cast<int>(testedSlots_.size()),
                    defects_.loweringScale,
-                   defects_.depthMapShiftTexels};
+                   defects_.depthMapShiftTexels,
+                   *motionM};
 }
 
 void FrameCulling::removeHidden(const TileCache& tiles, OcclusionPass& pass) {
+  if (occlusion_.serves(OcclusionMethod::read_back)) {
+    readBack_->take(pass, eye_, view_, occluders_);
+    if (!readBack_->atOnce()) return;
+    if (const auto flags = readBack_->hidden(visible_.tiles, eye_, view_); !flags.empty())
+      removeOccluded(database_->index(), flags, visible_);
+    return;
+  }
   pass.test(tiles, flags_);
   removeOccluded(database_->index(), flags_, visible_);
 }
 
 Renderer::Grey FrameCulling::readDepthMap(const OcclusionPass& pass) const {
+  if (occlusion_.serves(OcclusionMethod::read_back)) return readBack_->picture();
   if (!depthMapCurrent_) return occlusion_.picture();
   std::vector<float> depths;
   GLint before = 0;

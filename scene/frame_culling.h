@@ -15,6 +15,8 @@
 
 namespace trimtab::scene {
 
+class DepthReadBack;
+
 /// Depths (near / distance, row 0 at the bottom) as the greys that people look at.
 Renderer::Grey greyOf(std::span<const float> depths, int width, int height, double nearM);
 
@@ -42,6 +44,8 @@ class FrameCulling {
                                             OcclusionPass& pass, FrameResult& counters);
   /// Tests the visible tiles against that map and takes out what it hides.
   void removeHidden(const TileCache& tiles, OcclusionPass& pass);
+  /// Of the current context, or null; must live until it is replaced.
+  void setReadBack(DepthReadBack* readBack) { readBack_ = readBack; }
 
   const LevelCut& cut() const { return cut_; }
   const VisibleSet& visible() const { return visible_; }
@@ -71,6 +75,8 @@ class FrameCulling {
   std::vector<TileDraw> occluders_;
   std::vector<std::uint8_t> flags_;
   Defects defects_;
+  DepthReadBack* readBack_ = nullptr;
+  ViewShape view_;
   bool depthMapCurrent_ = false;  ///< the last frame drew one
   double nearM_ = 1;              ///< of the last depth map
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "trimtab/scene/depth_read_back.h"
 #include "trimtab/scene/frame_culling.h"
 #include "trimtab/scene/occlusion.h"
 #include "trimtab/scene/terrain_drawer.h"
@@ -12,14 +13,19 @@ class TileDrawer final : public TerrainDrawer {
  public:
   void setTerrain(std::shared_ptr<const terrain::Database> database) override;
   void initialize() override;
-  void release() override { gl_.reset(); }
+  void release() override {
+    culling_.setReadBack(nullptr);
+    gl_.reset();
+  }
   void plant(const Defects& defects) override { culling_.plant(defects); }
 
   void prepare(FrameInProgress& frame) override;
   void finished(const FrameResult& result) override { culling_.occlusion().finished(result); }
   // The depth map's passes, where `prepare` set a depth view.
   void drawOccluders();
-  void reduce(unsigned program) { gl_->occlusion.reduce(program); }
+  void reduce(unsigned program) {
+    if (!culling_.occlusion().serves(OcclusionMethod::read_back)) gl_->occlusion.reduce(program);
+  }
   void removeHidden() { culling_.removeHidden(gl_->tiles, gl_->occlusion); }
 
   const std::vector<TileDraw>& cut() const override { return culling_.cut().tiles; }
@@ -40,6 +46,7 @@ class TileDrawer final : public TerrainDrawer {
   struct Gl {
     TileCache tiles;
     OcclusionPass occlusion;
+    DepthReadBack readBack;
   };
   std::shared_ptr<const terrain::Database> database_;
   FrameCulling culling_;
