@@ -11,7 +11,7 @@ class CullingScenery : public test::CullingTruth {
     ASSERT_TRUE(database);
     ASSERT_TRUE(database->staticLod());
     for (const TerrainForm form : {TerrainForm::levels, TerrainForm::patches, TerrainForm::static_trees})
-      prove(form, 25, seed++);
+      prove(form, 9, seed++);
   }
 };
 

@@ -91,12 +91,12 @@ std::vector<scene::FrameRequest> CullingTruth::anyViews(int count, unsigned seed
     auto r =
         viewOf(over(east, north, above), {Degrees{between(random, 0, 360)}, Degrees{pitch}, Degrees{roll}});
     ViewShape& v = r.view;
-    if (i % 4 == 2) v.widthPx = 1280, v.heightPx = 720;
+    if (i % 8 == 2) v.widthPx = 1280, v.heightPx = 720;
     if (i % 16 == 9) v.widthPx = 333, v.heightPx = 217;
     if (i % 5 == 4) v.left = -0.2, v.right = 0.9, v.bottom = -0.6, v.top = 0.1;
     if (i % 9 == 2) v.left = -1.7, v.right = 1.7, v.bottom = -1, v.top = 1;
     if (i % 11 == 7) v.left = -0.02, v.right = 0.02, v.bottom = -0.01, v.top = 0.01;
-    r.lod.screenSpaceError = Pixels{i % 8 == 1 ? 0.1 : i % 4 == 0 ? 6.0 : i % 4 == 1 ? 0.5 : 2.0};
+    r.lod.screenSpaceError = Pixels{i % 16 == 1 ? 0.1 : i % 4 == 0 ? 6.0 : i % 4 == 1 ? 0.5 : 2.0};
     r.staticLod.errorPx = r.lod.screenSpaceError;
     if (i % 10 == 6) {
       const double farM = between(random, 3000, 20000);
@@ -175,6 +175,7 @@ CullingTruth::View CullingTruth::truthOf(const scene::FrameRequest& r, bool with
 
   scene::FrameRequest frustum = r;
   frustum.method = CullingCase::view_frustum;
+  frustum.backFaces = false;
   frustum.decision.depthMap.reset();
   result = renderer.draw(frustum, offscreen->framebuffer());
   view.frustum = view.hidden = result.visible.tiles.size();
@@ -267,10 +268,10 @@ void CullingTruth::prove(TerrainForm form, int count, unsigned seed) {
   std::printf("%s, %s\n", database->info().name.c_str(),
               table::ChoicesOf<TerrainForm>::options[static_cast<std::size_t>(form)].name.data());
   proveViews(anyViews(count * soak(), seed));
-  proveFlight(flight(count * soak(), seed + 1));
+  proveFlight(flight(std::max(24, count * soak() / 2), seed + 1));
 }
 
-std::string CullingTruth::describe(const scene::FrameRequest& r) const {
+std::string CullingTruth::describe(const scene::FrameRequest& r) {
   char text[400];
   std::snprintf(
       text, sizeof text,

@@ -59,20 +59,22 @@ class CullingTruth : public SceneTest {
   /// standing while it turns; now and then a leap to somewhere else.
   std::vector<scene::FrameRequest> flight(int frames, unsigned seed) const;
 
+  /// Its numbers, so that it can be drawn again.
+  static std::string describe(const scene::FrameRequest& r);
+
   /// Draws a view without culling, and by the frustum alone. `withPicture`: keeps the unculled picture.
   View truthOf(const scene::FrameRequest& request, bool withPicture);
   /// Draws it by a method and adds what is found.
   void compare(const View& view, CullingCase culling, OcclusionMethod method, DepthMapSize band,
                Tally& tally);
 
-  /// All methods over `count` views, each in one band, or in all where it soaks; and each method over as many
+  /// All methods over `count` views, each in one band, or in all where it soaks; and each method over
   /// frames of flight one after the other, so that what it keeps from frame to frame is used. Prints what was
   /// found, and fails where a node was culled wrongly.
   void prove(TerrainForm form, int count, unsigned seed);
 
  private:
   Owners owners();
-  std::string describe(const scene::FrameRequest& r) const;
   void tell(const char* what, const std::string& method, const Tally& tally);
   void proveViews(const std::vector<scene::FrameRequest>& requests);
   void proveFlight(const std::vector<scene::FrameRequest>& requests);
