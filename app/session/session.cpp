@@ -237,6 +237,7 @@ std::optional<scene::FrameRequest> Session::request(double now, int windowWidthP
   blurDrawn_ = blur.strength > 0;
   request.method = parameters_->culling.method;
   request.occlusion = parameters_->culling.occlusion;
+  request.backFaces = parameters_->culling.backFaces;
   request.lod = parameters_->lod;
   request.staticLod = parameters_->staticLod;
   request.terrain = parameters_->terrain;

@@ -88,6 +88,7 @@ struct SchemeParameters {
 struct CullingParameters {
   CullingCase method = CullingCase::proposed;
   OcclusionMethod occlusion = OcclusionMethod::automatic;
+  bool backFaces = true;  ///< what shows only its back is left out
 };
 
 struct LodParameters {
