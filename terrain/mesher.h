@@ -67,7 +67,9 @@ class PolygonMesher {
 
   const std::vector<Point>& vertices() const;                 ///< the border's first, as given
   void triangles(std::vector<std::uint32_t>& indices) const;  ///< of now: three a triangle, anticlockwise
-  double maxErrorM() const;                                   ///< at the posts inside and on the border
+  /// The same triangles, each next to one shortly before.
+  void triangleStrips(std::vector<std::uint32_t>& indices) const;
+  double maxErrorM() const;  ///< at the posts inside and on the border
   double rmsErrorM() const;
   std::uint32_t posts() const;  ///< that these were measured at
 

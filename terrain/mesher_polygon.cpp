@@ -1,8 +1,11 @@
 #include "trimtab/terrain/mesher_greedy.h"
+#include "trimtab/terrain/mesher_order.h"
 
 namespace trimtab::terrain {
 
-struct PolygonMesher::Impl : GreedyMesh {};
+struct PolygonMesher::Impl : GreedyMesh {
+  TriangleOrder order;
+};
 
 PolygonMesher::PolygonMesher() : impl_(std::make_unique<Impl>()) {}
 PolygonMesher::~PolygonMesher() = default;
@@ -25,6 +28,9 @@ void PolygonMesher::triangles(std::vector<std::uint32_t>& indices) const {
   indices.reserve(mesh.triangles.size() * 3);
   for (const Triangulation::Triangle& t : mesh.triangles)
     indices.insert(indices.end(), t.corner, t.corner + 3);
+}
+void PolygonMesher::triangleStrips(std::vector<std::uint32_t>& indices) const {
+  impl_->order.order(impl_->mesh(), indices);
 }
 double PolygonMesher::maxErrorM() const {
   return impl_->maxErrorM();

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "trimtab/terrain/patch_order.h"
 #include "trimtab/terrain/patch_store.h"
 
 namespace trimtab::terrain {
@@ -106,25 +105,17 @@ bool unpack(std::vector<T>& values, const std::byte* bytes, std::size_t size) {
                                     reinterpret_cast<const unsigned char*>(bytes), size) == 0;
 }
 
-/// Triangles variant by variant in an order that packs well, and where each vertex goes to: by first use.
-void reorder(const PatchMesh& mesh, TriangleOrder& order, std::vector<std::uint32_t>& indices,
-             std::vector<std::uint32_t>& goesTo) {
-  const std::size_t count = mesh.vertices.size();
+/// Where each vertex goes to: by first use.
+void reorder(const PatchMesh& mesh, std::vector<std::uint32_t>& indices, std::vector<std::uint32_t>& goesTo) {
   indices.assign(mesh.indices.begin(), mesh.indices.end());
-  std::vector<std::uint32_t> ordered(indices.size());
-  for (std::size_t v = 0; v < PatchIndex::kVariants; ++v) {
-    const std::size_t first = mesh.firstIndex[v], size = mesh.firstIndex[v + 1] - first;
-    if (size > 0) order.order(std::span(indices).subspan(first, size), count, &ordered[first]);
-  }
-  goesTo.assign(count, PatchIndex::kNone);
+  goesTo.assign(mesh.vertices.size(), PatchIndex::kNone);
   std::uint32_t next = 0;
-  for (std::uint32_t& index : ordered) {
+  for (std::uint32_t& index : indices) {
     if (goesTo[index] == PatchIndex::kNone) goesTo[index] = next++;
     index = goesTo[index];
   }
   for (std::uint32_t& to : goesTo)
     if (to == PatchIndex::kNone) to = next++;
-  indices = std::move(ordered);
 }
 
 }  // namespace
@@ -145,7 +136,6 @@ std::vector<std::byte> encodePage(const PatchPage& page, const PostGeometry& geo
   std::vector<PackedVertex> vertices;
   std::vector<std::uint32_t> indices, own, goesTo;
   std::vector<Exception> exceptions;
-  TriangleOrder order;
   for (const PatchMesh& mesh : page.patches) {
     PackedPatch patch{{mesh.origin[0], mesh.origin[1], mesh.origin[2]},
                       mesh.firstColumn,
@@ -155,7 +145,7 @@ std::vector<std::byte> encodePage(const PatchPage& page, const PostGeometry& geo
     for (std::size_t v = 0; v < PatchIndex::kVariants; ++v)
       patch.triangles[v] = (mesh.firstIndex[v + 1] - mesh.firstIndex[v]) / 3;
     patches.push_back(patch);
-    reorder(mesh, order, own, goesTo);
+    reorder(mesh, own, goesTo);
     const std::size_t first = vertices.size();
     vertices.resize(first + mesh.vertices.size());
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {

@@ -151,7 +151,7 @@ class PageMeasure {
     }
     for (std::size_t v = 0; v < kVariants; ++v) {
       mesh.firstIndex[v] = static_cast<std::uint32_t>(mesh.indices.size());
-      const std::vector<std::uint32_t>& triangles = draft.variants[v].triangles;
+      const std::vector<std::uint32_t>& triangles = draft.variants[v].strips;
       const std::size_t before = mesh.indices.size();
       mesh.indices.resize(before + triangles.size());
       for (std::size_t i = 0; i < triangles.size(); ++i)

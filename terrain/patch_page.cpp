@@ -39,6 +39,7 @@ PatchDraft drafted(PageField& page, const PatchIndex& index, const PatchPlace& p
                   kMostVertices);
     PatchDraft::Variant& of = draft.variants[static_cast<std::size_t>(variant)];
     mesher.triangles(of.triangles);
+    mesher.triangleStrips(of.strips);
     if (page.stride() != 1) continue;
     of.worst = mesher.maxErrorM();
     of.rms = mesher.rmsErrorM();

@@ -24,6 +24,7 @@ struct PatchDraft {
   std::vector<float> z;              ///< above the page's plane
   struct Variant {
     std::vector<std::uint32_t> triangles;  ///< three a triangle
+    std::vector<std::uint32_t> strips;     ///< the same, as they are drawn and packed
     double worst = 0, rms = 0;             ///< above the plane, at the posts that it was meshed on
   };
   std::array<Variant, PatchIndex::kVariants> variants;  ///< from the finest
