@@ -14,15 +14,6 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr double kRounding = 1.2e-5;
 /// Beyond this a surface's numbers are no places on earth, metres.
 constexpr float kMostReach = 1e8f;
-/// Distance at which a room's play is tested with the parts instead of taken off the lines, metres: there it
-/// is about a column.
-constexpr float kFarM = 8000;
-
-float nearestInPlan(const Box& b, const std::array<float, 3>& o) {
-  const float x = std::max({b.minX + o[0], -(b.maxX + o[0]), 0.0f}),
-              y = std::max({b.minY + o[1], -(b.maxY + o[1]), 0.0f});
-  return std::sqrt(x * x + y * y);
-}
 
 bool isPlace(Vec3 p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
@@ -71,34 +62,58 @@ void Horizon::begin(const EyeRoom& room, std::span<const HorizonTile> tiles, con
   for (int side = 0; side < kSides; ++side) {
     const Turned h = turned(side, static_cast<float>(half.x), static_cast<float>(half.y));
     const float radius = static_cast<float>(room.radius), forwards = std::abs(h.f) + radius;
-    play_[static_cast<std::size_t>(side)] = {
-        .along = h.f,
-        .across = h.l,
-        .radius = radius,
-        .forwards = forwards,
-        .upwards = std::abs(static_cast<float>(half.z)) + radius,
-        .beside = (std::abs(h.l) + std::abs(h.f) + 1.5f * radius) / kFarM};
+    play_[static_cast<std::size_t>(side)] = {.along = h.f,
+                                             .side = h.l,
+                                             .radius = radius,
+                                             .forwards = forwards,
+                                             .upwards = std::abs(static_cast<float>(half.z)) + radius};
     if (settings.still) play_[static_cast<std::size_t>(side)] = {};
   }
   isSorted_ = tiles.empty();
 }
 
+Horizon::Outline Horizon::outlineOf(std::uint32_t n) const {
+  const HorizonTile& tile = tiles_[n];
+  const Relief* relief = tile.surface();
+  Outline o{};
+  o.tile = kNone;
+  if (!relief || !(relief->reach >= 0 && relief->reach < kMostReach)) return o;
+  const auto from = fromEye(eye_, relief->origin);
+  const Box& b = relief->bounds;
+  o.x0 = b.minX + from[0];
+  o.x1 = b.maxX + from[0];
+  o.y0 = b.minY + from[1];
+  o.y1 = b.maxY + from[1];
+  o.top = b.maxZ + from[2];
+  for (std::size_t k = 0; k < 3; ++k) o.peak[k] = relief->peak[k] + from[k];
+  const float x = std::max({o.x0, -o.x1, 0.0f}), y = std::max({o.y0, -o.y1, 0.0f});
+  const float away = std::sqrt(x * x + y * y);
+  o.nearest = std::max({kNearest, leastM_, kNearestShare * relief->reach});
+  o.off = slack_ + (tile.above > 0 ? tile.above / away : 0);
+  o.tile = n;
+  o.ring = ringOf(away - tile.above);
+  o.lines = tile.relief ? tile.relief->lineXyz.data() : tile.mesh->lineX.data();
+  return o;
+}
+
 void Horizon::sortTiles() {
   isSorted_ = true;
-  ring_.assign(tiles_.size(), 0);
   firstOfRing_.assign(kRings + 1, 0);
   firstPiece_.assign(kRings, kNone);
+  outlines_.resize(tiles_.size());
   constexpr std::size_t kAhead = 8;
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
-    if (i + kAhead < tiles_.size()) __builtin_prefetch(tiles_[i + kAhead].surface());
-    if (const Relief* surface = tiles_[i].surface())
-      ring_[i] = ringOf(nearestInPlan(surface->bounds, fromEye(eye_, surface->origin)) - tiles_[i].above);
-    ++firstOfRing_[ring_[i] + 1];
+    if (i + kAhead < tiles_.size()) {
+      const Relief* ahead = tiles_[i + kAhead].surface();
+      __builtin_prefetch(ahead);
+      __builtin_prefetch(reinterpret_cast<const char*>(ahead) + 64);
+    }
+    outlines_[i] = outlineOf(static_cast<std::uint32_t>(i));
+    ++firstOfRing_[outlines_[i].ring + 1];
   }
   for (std::uint32_t ring = 0; ring < kRings; ++ring) firstOfRing_[ring + 1] += firstOfRing_[ring];
   order_.resize(tiles_.size());
-  for (std::size_t i = 0; i < tiles_.size(); ++i)
-    order_[firstOfRing_[ring_[i]]++] = static_cast<std::uint32_t>(i);
+  for (const Outline& outline : outlines_) order_[firstOfRing_[outline.ring]++] = outline;
 }
 
 bool Horizon::step(std::size_t work) {
@@ -111,42 +126,52 @@ bool Horizon::step(std::size_t work) {
   return isDone();
 }
 
-void Horizon::testNext() {
-  constexpr std::size_t kAhead = 5;
-  if (next_ + 2 * kAhead < order_.size()) {
-    // What is read of a tile lies in places that are each found by the one before.
-    const Relief* further = tiles_[order_[next_ + 2 * kAhead]].surface();
-    __builtin_prefetch(further);
-    __builtin_prefetch(reinterpret_cast<const char*>(further) + 64);
-    if (const TileRelief* relief = tiles_[order_[next_ + kAhead]].relief; relief && lastStood_) {
-      const char* lines = reinterpret_cast<const char*>(relief->lineXyz.data());
-      for (std::size_t at = 0; at < 3 * sizeof(float) * 64; at += 64) __builtin_prefetch(lines + at);
-    }
+/// What the lines of a tile are made of lies in places that are found one by the other: asked for some tiles
+/// ahead, each, as tiles that stand out follow each other.
+void Horizon::prefetchLines() const {
+  constexpr std::size_t kNear = 6, kFar = 14;
+  const auto at = [](const void* p, std::size_t bytes) {
+    for (std::size_t i = 0; i < bytes; i += 64) __builtin_prefetch(static_cast<const char*>(p) + i);
+  };
+  if (next_ + kFar >= order_.size()) return;
+  if (const Outline& far = order_[next_ + kFar]; far.tile != kNone) {
+    const HorizonTile& tile = tiles_[far.tile];
+    at(tile.surface(), 128);
+    if (tile.east) at(&tile.east->origin, 128);
+    if (tile.north) at(&tile.north->origin, 128);
   }
-  const std::uint32_t i = order_[next_++];
-  const HorizonTile& tile = tiles_[i];
-  ++work_;
-  if (!tile.surface()) return;
-  for (; done_ < ring_[i]; ++done_) flush(done_);
-  takeUp(tile);
-  if (!(tile.surface()->reach < kMostReach)) return;
-  if (tile.relief ? isHidden(*tile.relief) : isHidden(*tile.mesh)) {
-    // Nor can its lines stand out of what hides it.
-    hidden_[i] = 1;
-    ++hiddenCount_;
-    lastStood_ = false;
-  } else {
-    if (tile.mayOcclude) enqueueLines(tile);
-    lastStood_ = true;
+  if (const Outline& near = order_[next_ + kNear]; near.tile != kNone) {
+    const HorizonTile& tile = tiles_[near.tile];
+    at(near.lines, 6 * 64);
+    if (tile.east) at(tile.east->goOn.data(), 64);
+    if (tile.north) at(tile.north->goOn.data(), 64);
   }
 }
 
-void Horizon::takeUp(const HorizonTile& tile) {
-  const Relief& relief = *tile.surface();
-  offset_ = fromEye(eye_, relief.origin);
-  nearest_ = std::max({kNearest, leastM_, kNearestShare * relief.reach});
-  off_ = slack_;
-  if (tile.above > 0) off_ += tile.above / nearestInPlan(relief.bounds, offset_);
+void Horizon::testNext() {
+  if (lastStood_) prefetchLines();
+  const Outline& outline = order_[next_++];
+  ++work_;
+  if (outline.tile == kNone) return;
+  for (; done_ < outline.ring; ++done_) flush(done_);
+  const HorizonTile& tile = tiles_[outline.tile];
+  nearest_ = outline.nearest;
+  off_ = outline.off;
+  // If a post stands out of the horizon then its block would, and nothing else has to be looked at.
+  bool hidden = isPointBlocked(outline.peak[0], outline.peak[1], outline.peak[2]);
+  if (hidden && !isBoxHidden(outline)) {
+    offset_ = fromEye(eye_, tile.surface()->origin);
+    hidden = tile.relief ? isHidden(*tile.relief) : isHidden(*tile.mesh);
+  }
+  lastStood_ = !hidden;
+  if (hidden) {
+    // Nor can its lines stand out of what hides it.
+    hidden_[outline.tile] = 1;
+    ++hiddenCount_;
+  } else if (tile.mayOcclude) {
+    offset_ = fromEye(eye_, tile.surface()->origin);
+    enqueueLines(tile);
+  }
 }
 
 std::optional<double> Horizon::elevation(double x, double y) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -119,28 +120,40 @@ class Horizon {
     std::uint32_t column, first, next;
     std::int32_t count;
   };
+  /// What most tiles are judged by, so that they are not looked at themselves.
+  struct Outline {
+    float x0, x1, y0, y1, top;  ///< from the eye
+    std::array<float, 3> peak;
+    float nearest, off;  ///< least distance at which it counts; how far directions to it may be off
+    std::uint32_t tile, ring;
+    const float* lines;
+  };
   /// How far the eye may be from the middle of its room, by a quarter.
   struct Play {
-    float along, across, radius;  ///< of the segment, forwards and sideways; around it
-    float forwards, upwards;      ///< at most
-    float beside;                 ///< directions by which parts are tested wider
+    float along, side, radius;  ///< of the segment, forwards and sideways; around it
+    float forwards, upwards;    ///< at most
+
+    /// How far the eye may be beside a way of this t, times its length's share forwards.
+    float across(float t) const { return std::abs(side - t * along); }
   };
 
   void sortTiles();
-  void takeUp(const HorizonTile& tile);
+  Outline outlineOf(std::uint32_t tile) const;
   void testNext();
+  void prefetchLines() const;
 
   bool isHidden(const TileRelief& relief);
   bool isHidden(const MeshRelief& relief);
   bool isPointBlocked(float x, float y, float z) const;
+  bool isBoxHidden(const Outline& box) const;
   bool isBoxHidden(const Box& box) const;
   bool isPartHidden(const TileRelief& relief, int part) const;
   bool isPartHidden(const MeshRelief& relief, const MeshRelief::Part& part) const;
   bool covers(int side, float t0, float t1, float w) const;
 
   void enqueueLines(const HorizonTile& tile);
-  void enqueueLine(std::uint32_t ring, int count);
-  void enqueueRun(std::uint32_t ring, int side, int from, int count, bool rises);
+  void enqueueLine(int last, int count, float besideM);
+  void enqueueRun(std::uint32_t ring, int side, int from, int count, bool rises, float nearestM);
   int take(const float* x, const float* y, const float* z, int count, float below);
   std::uint32_t ringOfLine(int last, int count, float besideM) const;
   template <bool Raised>
@@ -160,10 +173,9 @@ class Horizon {
   bool isSorted_ = true;    ///< tiles are in their order
   bool lastStood_ = false;  ///< the last tile stood out: so will most likely those after it
 
-  static constexpr int kMostPosts = 65;  ///< of a tile's side
   /// Corners of a line; of a longer one what comes first.
   static constexpr int kMostCorners = 192;
-  static_assert(kMostCorners >= kMostPosts + TileRelief::kGoOn);
+  static_assert(kMostCorners >= TileRelief::kMostPosts + TileRelief::kGoOn);
   /// The line in hand, from the eye, and its image in a quarter.
   alignas(64) std::array<float, kMostCorners + 16> x_, y_, z_, forward_, u_, w_;
   std::vector<float> reached_;
@@ -175,7 +187,8 @@ class Horizon {
   std::vector<std::uint8_t> hidden_;
   std::size_t hiddenCount_ = 0;
   // Tiles by how near their nearest point is, lines by how far their furthest.
-  std::vector<std::uint32_t> ring_, firstOfRing_, order_, firstPiece_;
+  std::vector<std::uint32_t> firstOfRing_, firstPiece_;
+  std::vector<Outline> outlines_, order_;
   std::vector<Piece> pieces_;
   std::vector<float> pool_;  ///< of the pieces' columns
 };

@@ -17,6 +17,10 @@ constexpr float kNowhere = -std::numeric_limits<float>::max();
 /// seen: floats would leave its direction too uncertain.
 constexpr float kNearest = 64, kNearestShare = 0.05f;
 
+/// Distance at which a room's play is tested with the parts instead of taken off the lines, metres: there it
+/// is about a column.
+constexpr float kFarM = 8000;
+
 /// Rings of distance in plan, 128 to an octave from 1 m, by the bits of the number: what is in a lower ring
 /// is nearer.
 constexpr int kRingShift = 16;

@@ -25,6 +25,12 @@ TRIMTAB_INLINE void projectAll(const Projection& p, int count, float* __restrict
     }
 }
 
+TRIMTAB_INLINE int trendOf(const float* values, int count) {
+  int rising = 0;
+  for (int i = 0; i + 1 < count; ++i) rising += values[i + 1] >= values[i];
+  return rising == count - 1 ? 1 : rising == 0 ? -1 : 0;
+}
+
 TRIMTAB_INLINE void lowerAll(float* w, int count, float up, float forwards, float inverse) {
   for (int i = 0; i < count; ++i) w[i] -= (up + std::abs(w[i]) * forwards) * inverse;
 }
@@ -59,6 +65,9 @@ TRIMTAB_INLINE void erodeAll(float* values, int count, int width) {
   TARGET void project##NAME(const Projection& p, int count, float* f, float* u, float* w) { \
     projectAll(p, count, f, u, w);                                                          \
   }                                                                                         \
+  TARGET int trend##NAME(const float* values, int count) {                                  \
+    return trendOf(values, count);                                                          \
+  }                                                                                         \
   TARGET void lower##NAME(float* w, int count, float up, float forwards, float inverse) {   \
     lowerAll(w, count, up, forwards, inverse);                                              \
   }                                                                                         \
@@ -71,7 +80,8 @@ TRIMTAB_INLINE void erodeAll(float* values, int count, int width) {
   TARGET void erode##NAME(float* v, int count, int width) {                                 \
     erodeAll(v, count, width);                                                              \
   }                                                                                         \
-  constexpr Kernels k##NAME{project##NAME, lower##NAME, allAbove##NAME, raise##NAME, erode##NAME};
+  constexpr Kernels k##NAME{project##NAME,  trend##NAME, lower##NAME,                       \
+                            allAbove##NAME, raise##NAME, erode##NAME};
 
 TRIMTAB_KERNELS(Portable, )
 #if TRIMTAB_X86

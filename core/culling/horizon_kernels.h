@@ -15,6 +15,8 @@ struct Projection {
 struct Kernels {
   /// Reads and writes up to the next multiple of 16.
   void (*project)(const Projection& p, int count, float* forward, float* u, float* w);
+  /// 1 where each value is at least the one before, -1 where none is, else 0.
+  int (*trend)(const float* values, int count);
   /// Lowers w to w - (up + |w| forwards) / nearest.
   void (*lower)(float* w, int count, float up, float forwards, float inverse);
   bool (*allAbove)(const float* values, int count, float limit);

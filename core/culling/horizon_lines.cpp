@@ -10,7 +10,7 @@ using namespace horizon;
 namespace {
 
 /// A family of lines that runs this much along the line of sight adds next to nothing to the one across.
-constexpr float kAlong = 0.35f;
+constexpr float kAlong = 1.0f;
 
 }  // namespace
 
@@ -24,7 +24,7 @@ int Horizon::take(const float* x, const float* y, const float* z, int count, flo
 }
 
 /// Where all of the line in hand is nearer, by more than the depth buffer's rounding. `besideM`: no corner
-/// up to `last` is further than that from the way between it and the first.
+/// up to the one `last` is further than that from the way between it and the first.
 std::uint32_t Horizon::ringOfLine(int last, int count, float besideM) const {
   const auto squared = [this](int k) {
     const auto i = static_cast<std::size_t>(k);
@@ -43,7 +43,7 @@ void Horizon::enqueueLines(const HorizonTile& tile) {
       const int count =
           take(mesh.lineX.data() + first, mesh.lineY.data() + first, mesh.lineZ.data() + first,
                std::min(static_cast<int>(mesh.lineFirst[line + 1] - first), kMostCorners), tile.below);
-      enqueueLine(ringOfLine(count - 1, count, mesh.besideM), count);
+      enqueueLine(count - 1, count, mesh.besideM);
     }
     return;
   }
@@ -73,12 +73,13 @@ void Horizon::enqueueLines(const HorizonTile& tile) {
         z_[to] = on[2] + origins[family][2] - tile.below;
       }
     }
-    enqueueLine(ringOfLine(relief.side - 1, count, relief.besideM), count);
+    enqueueLine(relief.side - 1, count, relief.besideM);
   }
 }
 
-void Horizon::enqueueLine(std::uint32_t ring, int count) {
+void Horizon::enqueueLine(int last, int count, float besideM) {
   work_ += 1;
+  const std::uint32_t ring = ringOfLine(last, count, besideM);
   const auto [x0, x1] = std::minmax(x_[0], x_[static_cast<std::size_t>(count - 1)]);
   const auto [y0, y1] = std::minmax(y_[0], y_[static_cast<std::size_t>(count - 1)]);
   const Kernels& kernel = kernels(settings_.simd);
@@ -89,6 +90,14 @@ void Horizon::enqueueLine(std::uint32_t ring, int count) {
                     side < 2 ? 1.0f : -1.0f, side == 0 || side == 3 ? 1.0f : -1.0f, perT_},
                    count, forward_.data(), u_.data(), w_.data());
     const float *u = u_.data(), *forward = forward_.data();
+    // Mostly the line is far away and straight.
+    float nearestM = forward[0];
+    for (int k = last; k < count; ++k) nearestM = std::min(nearestM, forward[k]);
+    nearestM -= besideM;
+    if (const int trend = kernel.trend(u, count); trend != 0 && nearestM > nearest_) {
+      enqueueRun(ring, side, 0, count, trend > 0, nearestM);
+      continue;
+    }
     const auto usable = [&](int k) { return forward[k] > nearest_; };
     for (int k = 0; k + 1 < count;) {
       if (!usable(k) || !usable(k + 1)) {
@@ -98,28 +107,31 @@ void Horizon::enqueueLine(std::uint32_t ring, int count) {
       const bool rises = u[k + 1] >= u[k];
       int end = k + 1;
       while (end + 1 < count && usable(end + 1) && (u[end + 1] >= u[end]) == rises) ++end;
-      enqueueRun(ring, side, k, end - k + 1, rises);
+      enqueueRun(ring, side, k, end - k + 1, rises, *std::min_element(forward + k, forward + end + 1));
       k = end;
     }
   }
 }
 
 /// Corners along which u rises, or falls all along.
-void Horizon::enqueueRun(std::uint32_t ring, int side, int from, int count, bool rises) {
+void Horizon::enqueueRun(std::uint32_t ring, int side, int from, int count, bool rises, float nearestM) {
   const Kernels& kernel = kernels(settings_.simd);
   const Play& play = play_[static_cast<std::size_t>(side)];
   const float* u = u_.data() + from;
   float* w = w_.data() + from;
   int width = 1;
   if (play.forwards > 0) {
-    const float* forward = forward_.data() + from;
-    const float inverse = 1 / (*std::min_element(forward, forward + count) - play.forwards);
+    const float inverse = 1 / (nearestM - play.forwards);
     kernel.lower(w, count, play.upwards, play.forwards, inverse);
-    const auto across = [&](float at) {
-      const float t = at / perT_ - 1;
-      return std::abs(play.across - t * play.along) + play.radius * std::sqrt(1 + t * t);
-    };
-    const float beside = std::max(across(u[0]), across(u[count - 1])) * inverse - play.beside;
+    const float t0 = u[0] / perT_ - 1, t1 = u[count - 1] / perT_ - 1;
+    const float most = std::max(play.across(t0), play.across(t1)),
+                least = (play.side - t0 * play.along) * (play.side - t1 * play.along) > 0
+                            ? std::min(play.across(t0), play.across(t1))
+                            : 0;
+    const float around = play.radius * std::sqrt(1 + std::max(t0 * t0, t1 * t1));
+    // Parts are tested wider by what the play is at their own t, which is not quite that of the line.
+    const float beside =
+        (most + around) * inverse * (1 + play.forwards * (1 / kFarM)) - (least + play.radius) * (1 / kFarM);
     // Of columns to either side.
     if (beside > 0) width += 2 * static_cast<int>(std::ceil(std::min(beside * 1.0001f, 2.0f) * perT_));
   }

@@ -18,7 +18,9 @@ bool Horizon::covers(int side, float t0, float t1, float w) const {
   if (!(std::abs(w) <= kSteepest)) return false;
   // A direction that turns by `off_` moves in t and w by at most this.
   const float beside = off_ * 1.5f * (2.1f + w * w);
-  const float limit = w + beside, aside = beside + play_[static_cast<std::size_t>(side)].beside;
+  const Play& play = play_[static_cast<std::size_t>(side)];
+  const float limit = w + beside,
+              aside = beside + (std::max(play.across(t0), play.across(t1)) + play.radius) * (1 / kFarM);
   t0 -= aside;
   t1 += aside;
   if (t0 > 1 || t1 < -1) return true;  // another quarter's
@@ -32,15 +34,23 @@ bool Horizon::covers(int side, float t0, float t1, float w) const {
 }
 
 bool Horizon::isBoxHidden(const Box& box) const {
-  const float x0 = box.minX + offset_[0], x1 = box.maxX + offset_[0], y0 = box.minY + offset_[1],
-              y1 = box.maxY + offset_[1], top = box.maxZ + offset_[2];
+  Outline outline{};
+  outline.x0 = box.minX + offset_[0];
+  outline.x1 = box.maxX + offset_[0];
+  outline.y0 = box.minY + offset_[1];
+  outline.y1 = box.maxY + offset_[1];
+  outline.top = box.maxZ + offset_[2];
+  return isBoxHidden(outline);
+}
+
+bool Horizon::isBoxHidden(const Outline& box) const {
   for (int side = 0; side < kSides; ++side) {
-    const TurnedBox b = turned(side, x0, x1, y0, y1);
+    const TurnedBox b = turned(side, box.x0, box.x1, box.y0, box.y1);
     if (!meets(b)) continue;
     if (!(b.f0 > nearest_)) return false;
     const float nearer = 1 / b.f0, further = 1 / b.f1;
     if (!covers(side, b.l0 * (b.l0 < 0 ? nearer : further), b.l1 * (b.l1 > 0 ? nearer : further),
-                top * (top > 0 ? nearer : further)))
+                box.top * (box.top > 0 ? nearer : further)))
       return false;
   }
   return true;
@@ -84,16 +94,10 @@ bool Horizon::isPartHidden(const TileRelief& relief, int part) const {
   return true;
 }
 
+/// After the whole box was not.
 bool Horizon::isHidden(const TileRelief& relief) {
-  if (relief.parts.empty() || relief.side > kMostPosts) return false;
-  // If a post stands out of the horizon then its block would, and nothing else has to be looked at.
-  const auto isBlocked = [&](const std::array<float, 3>& p) {
-    return isPointBlocked(p[0] + offset_[0], p[1] + offset_[1], p[2] + offset_[2]);
-  };
-  if (!isBlocked(relief.peak)) return false;
-  if (isBoxHidden(relief.bounds)) return true;
   for (const auto& peak : relief.peaks)
-    if (!isBlocked(peak)) return false;
+    if (!isPointBlocked(peak[0] + offset_[0], peak[1] + offset_[1], peak[2] + offset_[2])) return false;
   work_ += relief.parts.size();
   for (int part = 0; part < static_cast<int>(relief.parts.size()); ++part)
     if (!isBoxHidden(relief.parts[static_cast<std::size_t>(part)]) && !isPartHidden(relief, part))
@@ -127,8 +131,6 @@ bool Horizon::isPartHidden(const MeshRelief& relief, const MeshRelief::Part& par
 }
 
 bool Horizon::isHidden(const MeshRelief& relief) {
-  if (relief.parts.empty()) return false;
-  if (isBoxHidden(relief.bounds)) return true;
   for (const MeshRelief::Part& part : relief.parts) {
     const std::size_t peak = part.firstVertex + part.peak;
     if (!isPointBlocked(relief.x[peak] + offset_[0], relief.y[peak] + offset_[1],

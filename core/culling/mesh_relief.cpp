@@ -156,6 +156,8 @@ void makeMeshRelief(std::span<const ReliefVertex> vertices, std::span<const std:
   relief.origin = origin;
   relief.bounds = nothing();
   if (indices.size() < 3) return;
+  float furthest = 0;
+  relief.peak[2] = -std::numeric_limits<float>::max();
   std::vector<Triangle> triangles;
   triangles.reserve(indices.size() / 3);
   relief.upright = true;
@@ -169,9 +171,11 @@ void makeMeshRelief(std::span<const ReliefVertex> vertices, std::span<const std:
         return;
       }
       extend(relief.bounds, v.x, v.y, v.z);
-      relief.reach = std::max({relief.reach, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+      furthest = std::max({furthest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+      if (v.z > relief.peak[2]) relief.peak = {v.x, v.y, v.z};
     }
   }
+  relief.reach = furthest;
   addParts(vertices, triangles, relief);
   if (!relief.upright) return;
   addLines<true>(vertices, triangles, step, relief);

@@ -11,9 +11,12 @@ namespace {
 
 constexpr std::uint8_t kThere = 1, kHidden = 2, kMaySplit = 4, kMayJoin = 8;
 
-/// How far the eye may be beside the way that it is on: metres, and the share of the way to there. A turn at
-/// 5 g at 600 kt leads 2 m away in 20 frames.
-constexpr double kBesideM = 0.5, kBesideShare = 0.025;
+/// How far the eye may be beside the way that it is on: metres, and shares of the way and of the turn to
+/// there.
+constexpr double kBesideM = 0.5, kBesideShare = 0.006, kTurnShare = 0.25;
+/// The turn is the mean over so many frames. Beyond this (11 g at 60 frames a second) it is none, m a frame
+/// squared.
+constexpr double kTurnFrames = 8, kMostTurn = 0.03;
 /// A step longer than this in one frame is a jump and says nothing about the next one, metres.
 constexpr double kJumpM = 60;
 /// Frames that a room holds for beyond those in which the next is built.
@@ -41,8 +44,10 @@ void MovingHorizon::clear() {
 
 /// The way from one frame to another, from now on.
 EyeRoom MovingHorizon::roomAhead(Vec3 eye, double firstFrame, double lastFrame) const {
-  return {eye + firstFrame * step_, eye + lastFrame * step_,
-          kBesideM + kBesideShare * lastFrame * length(step_)};
+  const auto at = [&](double frames) { return eye + frames * step_ + 0.5 * frames * frames * turn_; };
+  return {at(firstFrame), at(lastFrame),
+          kBesideM + kBesideShare * lastFrame * length(step_) +
+              kTurnShare * 0.5 * lastFrame * lastFrame * length(turn_)};
 }
 
 std::span<const std::uint8_t> MovingHorizon::verdicts(const Frame& frame) {
@@ -59,7 +64,11 @@ std::span<const std::uint8_t> MovingHorizon::hidden(const Frame& frame, const Su
     return verdicts_;
   }
   const Vec3 step = moving_ ? frame.eye - lastEye_ : Vec3{};
-  if (length(step) <= kJumpM) step_ = step;  // after a jump, most go on as before
+  if (length(step) <= kJumpM) {  // after a jump, most go on as before
+    const Vec3 turn = turn_ + (1 / kTurnFrames) * (step - step_ - turn_);
+    turn_ = length(step - step_) <= kMostTurn && length(turn) <= kMostTurn ? turn : Vec3{};
+    step_ = step;
+  }
   lastEye_ = frame.eye;
   moving_ = true;
 
@@ -118,7 +127,8 @@ void MovingHorizon::prepareNext(const Frame& frame, const SurfaceTree& tree, con
     return;
   }
   const auto extent = [](const EyeRoom& room) { return length(room.to - room.from) + 2 * room.radius; };
-  if (!standing.horizon.room().holds(frame.eye + (kFrames + 1.0) * step_))
+  const Vec3 then = roomAhead(frame.eye, kFrames + 1, kFrames + 1).to;
+  if (!standing.horizon.room().holds(then))
     begin(coming, roomAhead(frame.eye, kFrames - 1, 2 * kFrames + kSpareFrames), frame, tree, fill);
   else if (const EyeRoom here = roomAhead(frame.eye, 0, 2 * kFrames);
            extent(standing.horizon.room()) > 8 * extent(here))

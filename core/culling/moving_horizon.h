@@ -53,7 +53,7 @@ class MovingHorizon {
   std::uint64_t carried() const { return carried_; }          ///< frames with verdicts of another cut
 
   /// Frames that a horizon is built in.
-  static constexpr int kFrames = 10;
+  static constexpr int kFrames = 8;
 
  private:
   struct Build {
@@ -79,8 +79,8 @@ class MovingHorizon {
 
   std::array<Build, 2> builds_;
   std::size_t standing_ = 0;
-  bool moving_ = false;  ///< last eye and step are known
-  Vec3 lastEye_, step_;  ///< metres a frame
+  bool moving_ = false;         ///< last eye and step are known
+  Vec3 lastEye_, step_, turn_;  ///< metres a frame, and a frame squared
   std::vector<std::uint8_t> verdicts_;
   bool isCarried_ = false;
   std::vector<std::uint32_t> stack_;

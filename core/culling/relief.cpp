@@ -28,12 +28,16 @@ void TileRelief::finish(int step) {
   parts.clear();
   peaks.clear();
   bounds = {};
-  reach = besideM = 0;
+  reach = -1;
+  besideM = 0;
+  float furthest = -1;
   for (const auto* values : {&x, &y, &z})
     for (const float value : *values) {
       if (!std::isfinite(value)) return;
-      reach = std::max(reach, std::abs(value));
+      furthest = std::max(furthest, std::abs(value));
     }
+  if (side < 2 || side > kMostPosts) return;
+  reach = furthest;
   const auto add = [&](int column, int row, int right, int up) {
     const std::size_t first = lineXyz.size();
     for (const auto* values : {&x, &y, &z})

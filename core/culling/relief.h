@@ -11,9 +11,11 @@ namespace trimtab {
 
 /// What the horizon first asks of any surface.
 struct Relief {
-  Vec3 origin;      ///< of all that follows, local frame
-  Box bounds;       ///< metres
-  float reach = 0;  ///< no coordinate is further from 0
+  Vec3 origin;  ///< of all that follows, local frame
+  Box bounds;   ///< metres
+  /// No coordinate is further from 0; below 0: not known, hides nothing and is never hidden.
+  float reach = -1;
+  std::array<float, 3> peak{};  ///< the highest vertex
 };
 
 /// How far from the way between its ends a line leads, metres.
@@ -27,22 +29,22 @@ float furthestBeside(std::span<const float> x, std::span<const float> y);
 struct TileRelief : Relief {
   static constexpr int kBlockCells = 2;
   static constexpr int kPartCells = 8;  ///< cells a side of a part, which is tried as a box before its blocks
-  static constexpr int kGoOn = 2;       ///< corners of a line that the one before it may go on with
+  static constexpr int kMostPosts = 65;  ///< of a side: a larger tile is not known
+  static constexpr int kGoOn = 2;        ///< corners of a line that the one before it may go on with
 
   // What most tiles need of all this stands together.
-  int side = 0;                 ///< posts
-  int lines = 0;                ///< rows and columns of posts that may hide what is behind them, taking turns
-  float besideM = 0;            ///< no corner of a line is further from the way between its ends, in plan
-  std::array<float, 3> peak{};  ///< the highest post
-  std::vector<float> lineXyz;   ///< of each line all x, all y, all z
-  std::vector<float> goOn;      ///< of each line x, y and z of kGoOn corners after its first
+  int side = 0;                ///< posts
+  int lines = 0;               ///< rows and columns of posts that may hide what is behind them, taking turns
+  float besideM = 0;           ///< no corner of a line is further from the way between its ends, in plan
+  std::vector<float> lineXyz;  ///< of each line all x, all y, all z
+  std::vector<float> goOn;     ///< of each line x, y and z of kGoOn corners after its first
   std::vector<std::array<float, 3>> peaks;  ///< the highest post of each part, the highest first
   std::vector<Box> parts;                   ///< partsPerSide() squared, rows from south
   std::vector<float> x, y, z;               ///< side * side, metres
 
   int partsPerSide() const { return (side - 1 + kPartCells - 1) / kPartCells; }
   /// Completes the rest from side, x, y and z. `step`: from one line to the next, posts, even. A surface that
-  /// is not all of finite numbers has no lines and no parts: it hides nothing and is never hidden.
+  /// is not all of finite numbers is not known.
   void finish(int step);
 };
 

@@ -229,6 +229,7 @@ int main(int argc, char** argv) {
   frustumRows(report, "16m", report.quick() ? 4'000'000 : 16'000'000);
   selectionRows(report);
   horizonRows(report);
+  movingHorizonRows(report);
   submitRow(report);
   frameRows(report);
   return report.finish();

@@ -39,7 +39,7 @@ class RoughGround {
             t.z.push_back(
                 static_cast<float>(double{heights_[at(column * kCells + x, row * kCells + y)]} - t.origin.z));
           }
-        t.finish(5);
+        t.finish(8);
       }
     for (std::size_t i = 0; i < reliefs_.size(); ++i)
       tiles_.push_back({&reliefs_[i], true, i % kTiles + 1 < kTiles ? &reliefs_[i + 1] : nullptr,
