@@ -209,6 +209,7 @@ class Job {
       return cancelled("measuring levels");
     if (auto done = put(kNodesName, nodeNumbers(index)); !done) return done;
     if (auto done = put(kSlopesName, slopes.cells); !done) return done;
+    if (auto done = put(kConesName, index.cones); !done) return done;
     std::vector<std::uint8_t> image = std::move(source_->grid.image);
     if (options_.imagery) {
       auto read = readImagery(*options_.imagery, posts, stage(0.96, 0.98));

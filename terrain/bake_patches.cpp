@@ -30,6 +30,7 @@ struct Measured {
   std::array<float, PatchIndex::kVariants> errorM;
   std::array<std::uint16_t, PatchIndex::kVariants> triangles;
   PatchFacts facts;
+  NormalCone cone;
 };
 static_assert(std::is_trivially_copyable_v<Measured>);
 
@@ -92,7 +93,7 @@ Result<Done> PatchBake::makePiece(const HeightSource& heights, std::uint32_t pie
     for (const PatchMesh& mesh : built.meshes.patches) vertices += mesh.vertices.size() + 1;
     for (std::size_t p = 0; p < built.meshes.patches.size(); ++p) {
       const PatchMesh& mesh = built.meshes.patches[p];
-      Measured m{built.bounds[p], built.errorM[p], {}, built.facts[p]};
+      Measured m{built.bounds[p], built.errorM[p], {}, built.facts[p], built.cones[p]};
       for (std::size_t v = 0; v < PatchIndex::kVariants; ++v)
         m.triangles[v] = static_cast<std::uint16_t>((mesh.firstIndex[v + 1] - mesh.firstIndex[v]) / 3);
       m.facts.vertices = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -191,6 +192,7 @@ Result<Done> PatchBake::join(const fs::path& file, const Progress& progress) {
   std::vector<std::array<float, PatchIndex::kVariants>> errorM;
   std::vector<std::array<std::uint16_t, PatchIndex::kVariants>> triangles;
   std::vector<PatchFacts> facts;
+  index_.cones.clear();
   for (std::uint32_t piece = 0; piece < pieces(); ++piece) {
     if (progress && !progress(static_cast<double>(piece) / pieces(), "joining patches"))
       return cancelled("joining patches");
@@ -217,6 +219,7 @@ Result<Done> PatchBake::join(const fs::path& file, const Progress& progress) {
       errorM.push_back(m.errorM);
       triangles.push_back(m.triangles);
       facts.push_back(m.facts);
+      index_.cones.push_back(m.cone);
     }
   }
   if (facts.size() != index_.size())

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "trimtab/terrain/parallel.h"
+#include "trimtab/terrain/slope_cone.h"
 
 namespace trimtab::terrain {
 
@@ -30,6 +32,7 @@ struct Measure {
 
   void bounds(std::uint32_t node) const;
   void errorAndSlope(std::uint32_t node) const;
+  NormalCone coneOf(const SlopeCone& steep, const TilePosts& tile, double slack) const;
   double cellError(std::uint32_t r0, std::uint32_t r1, std::uint32_t c0, std::uint32_t c1,
                    bool southWestNorthEast) const;
 };
@@ -90,6 +93,7 @@ void Measure::errorAndSlope(std::uint32_t node) const {
   const TilePosts tile(index, posts, node);
   const std::uint32_t level = tile.level;
   double worst = 0;
+  SlopeCone cone;
   std::array<std::array<double, kCells>, kCells> steep{};
   for (std::uint32_t j = 0; j < kCells; ++j) {
     const std::uint32_t r0 = tile.row(j), r1 = tile.row(j + 1);
@@ -103,6 +107,8 @@ void Measure::errorAndSlope(std::uint32_t node) const {
       const double dx = columnM * (c1 - c0);
       const double sw = height(r0, c0), se = height(r0, c1), nw = height(r1, c0), ne = height(r1, c1);
       const bool diagonal = (i + j) % 2 == 0;
+      cone.addCell({sw, se, nw, ne}, geometry.columnM(r0) * (c1 - c0), geometry.columnM(r1) * (c1 - c0), dy,
+                   diagonal);
       const double south = std::abs(se - sw) / dx, north = std::abs(ne - nw) / dx;
       const double west = std::abs(nw - sw) / dy, east = std::abs(ne - se) / dy;
       steep[j][i] = diagonal ? std::max(std::hypot(south, east), std::hypot(north, west))
@@ -126,7 +132,10 @@ void Measure::errorAndSlope(std::uint32_t node) const {
     if (both == 0 || across == 0) return;
     const double h0 = post(k, even), h2 = post(k + 2, even), centre = post(k + 1, inner);
     const double run = both * (horizontal ? columnM : rowM);
-    const double slope = std::hypot((h2 - h0) / run, (centre - (h0 + (h2 - h0) * before / both)) / across);
+    const double rise = (h2 - h0) / run, inwards = (centre - (h0 + (h2 - h0) * before / both)) / across,
+                 sideways = inner > even ? inwards : -inwards;
+    const double slope = std::hypot(rise, inwards);
+    cone.add(horizontal ? rise : sideways, horizontal ? sideways : rise);
     const std::uint32_t cell = std::min(even, inner);
     for (const std::uint32_t along : {k, k + 1}) {
       double& s = horizontal ? steep[cell][along] : steep[along][cell];
@@ -158,8 +167,32 @@ void Measure::errorAndSlope(std::uint32_t node) const {
           static_cast<std::uint8_t>(steps < 255 ? steps : 255.0);
     }
   index.slopeMax[node] = static_cast<float>(steepest * (1 + 1e-6));
+  index.cones[node] = coneOf(cone, tile, slack);
   const double astray = (level > 0 ? geometry.sagM(level) : 0.0) + geometry.roundingM();
   index.errorM[node] = static_cast<float>((worst + astray * (1 + std::min(steepest, kCliff))) * (1 + 1e-6));
+}
+
+/// In the local frame. Slopes are by the compass at each place, their cone's axis by that in the tile's
+/// middle.
+NormalCone Measure::coneOf(const SlopeCone& steep, const TilePosts& tile, double slack) const {
+  const std::uint32_t firstRow = tile.row(0), lastRow = tile.row(kCells), firstColumn = tile.column(0),
+                      lastColumn = tile.column(kCells);
+  const double wide = (lastColumn - firstColumn) *
+                      std::max(geometry.columnM(firstRow), geometry.columnM(lastRow)),
+               high = (lastRow - firstRow) * std::max(geometry.rowM(firstRow), geometry.rowM(lastRow));
+  const double least = std::min(geometry.columnM(firstRow), geometry.columnM(lastRow));
+  if (!(least > kShortest)) return {};
+  // Up turns by what a place is off the middle over the earth's radius, east by as much as meridians
+  // converge.
+  const double earth = 6.3e6, off = std::hypot(wide, high) / 2,
+               furthest = std::max(std::abs(posts.latitude(firstRow)), std::abs(posts.latitude(lastRow)));
+  const double turned = 1.1 * off / earth * (1 + std::tan(furthest * std::numbers::pi / 180));
+  // Where that is much, more than these two count, and no such tile is seen from one side only.
+  if (!(furthest < 89.9 && turned < 0.1)) return {};
+  const auto [east, north] = steep.middle();
+  const Vec3 axis = geometry.normal(firstRow + (lastRow - firstRow) / 2,
+                                    firstColumn + (lastColumn - firstColumn) / 2, east, north);
+  return NormalCone::about(axis, steep.halfAngle() + turned + slack + 1e-4);
 }
 
 void gatherFromChildren(TerrainIndex& index) {
@@ -211,6 +244,7 @@ bool measureLevels(const PostGrid& posts, std::span<const float> heights, const 
                    TerrainIndex& index, CellSlopes& slopes, const std::function<bool(double)>& carryOn) {
   const Measure measure{posts, heights, geometry, index, slopes};
   index.frame = geometry.frame();
+  index.cones.assign(index.size(), {});
   const std::uint32_t finest =
       index.levels.size() > 1 ? index.levels[1].firstNode : static_cast<std::uint32_t>(index.size());
   const bool done = forEachParallel(

@@ -33,6 +33,7 @@ std::shared_ptr<const PatchTerrain> buildPatches(const HeightSource& heights, do
   std::vector<Box> bounds(index.size());
   std::vector<std::array<float, PatchIndex::kVariants>> errorM(index.size());
   std::vector<std::array<std::uint16_t, PatchIndex::kVariants>> triangles(index.size());
+  std::vector<NormalCone> cones(index.size());
   terrain->facts_.resize(index.size());
   terrain->pages_.resize(pageCount);
   const auto work = [&](std::uint32_t page) {
@@ -40,6 +41,7 @@ std::shared_ptr<const PatchTerrain> buildPatches(const HeightSource& heights, do
     const auto first = static_cast<std::ptrdiff_t>(index.pages[page].firstPatch);
     std::copy(built.bounds.begin(), built.bounds.end(), bounds.begin() + first);
     std::copy(built.errorM.begin(), built.errorM.end(), errorM.begin() + first);
+    std::copy(built.cones.begin(), built.cones.end(), cones.begin() + first);
     std::copy(built.facts.begin(), built.facts.end(), terrain->facts_.begin() + first);
     auto out = triangles.begin() + first;
     for (const PatchMesh& mesh : built.meshes.patches) {
@@ -51,6 +53,7 @@ std::shared_ptr<const PatchTerrain> buildPatches(const HeightSource& heights, do
   };
   if (!forEachParallel(pageCount, work, carryOn)) return nullptr;
   finishPatchIndex(index, bounds, errorM, triangles);
+  index.cones = std::move(cones);
   return terrain;
 }
 

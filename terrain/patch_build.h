@@ -29,6 +29,7 @@ struct BuiltPage {
   std::vector<PatchFacts> facts;
   std::vector<Box> bounds;
   std::vector<std::array<float, PatchIndex::kVariants>> errorM;
+  std::vector<NormalCone> cones;
 };
 /// Memory: a few times the posts of a page at no more than kMostPostsASide a side (coarser pages are meshed
 /// on every so-manyth post, and measured on all of them, strip by strip). `carryOn` is asked between patches
@@ -37,6 +38,9 @@ inline constexpr std::uint32_t kMostPostsASide = 1025;
 BuiltPage buildPage(const PatchIndex& index, std::uint32_t page, const HeightSource& heights,
                     const PostGeometry& geometry, const std::vector<double>& tolerances,
                     const std::function<bool()>& carryOn = {});
+
+/// Of the front faces of all of a patch's triangles, whatever variant draws them.
+NormalCone coneOf(const PatchMesh& mesh);
 
 /// Fills bounds, errors and triangles of the index, so that they are monotone up the tree; `facts` one a
 /// patch, `own*` as built, page by page.

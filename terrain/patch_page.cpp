@@ -79,7 +79,23 @@ BuiltPage buildPage(const PatchIndex& index, std::uint32_t page, const HeightSou
     built = {};
     built.meshes.page = page;
   }
+  for (const PatchMesh& mesh : built.meshes.patches) built.cones.push_back(coneOf(mesh));
   return built;
+}
+
+NormalCone coneOf(const PatchMesh& mesh) {
+  std::vector<Vec3> normals;
+  normals.reserve(mesh.indices.size() / 3);
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const auto place = [&](std::size_t corner) {
+      const PatchVertex& v = mesh.vertices[mesh.indices[i + corner]];
+      return Vec3{v.x, v.y, v.z};
+    };
+    const Vec3 a = place(0), normal = cross(place(1) - a, place(2) - a);
+    // One without an area draws nothing.
+    if (const double area = dot(normal, normal); area > 0) normals.push_back(normal * (1 / std::sqrt(area)));
+  }
+  return NormalCone::of(normals);
 }
 
 }  // namespace trimtab::terrain

@@ -9,7 +9,8 @@ namespace trimtab::terrain {
 
 namespace {
 
-constexpr std::uint64_t kIndexKey = std::uint64_t{1} << 32, kFactsKey = kIndexKey + 1;
+constexpr std::uint64_t kIndexKey = std::uint64_t{1} << 32, kFactsKey = kIndexKey + 1,
+                        kConesKey = kIndexKey + 2;
 
 /// What a file of patches was made for.
 struct GridHeader {
@@ -85,12 +86,26 @@ class StoredPatches final : public PatchTerrain {
                    std::to_string(facts->size()) + " bytes");
     facts_.resize(count);
     std::memcpy(facts_.data(), facts->data(), facts->size());
+    if (auto read = readCones(); !read) return read;
     for (std::uint32_t page = 0; page < index_.pages.size(); ++page)
       if (!pages_->has(page)) return wrong("page " + std::to_string(page), "one in the table", "nothing");
     return Done{};
   }
 
  private:
+  /// Files of earlier bakes have none.
+  Result<Done> readCones() {
+    if (!pages_->has(kConesKey)) return Done{};
+    const auto cones = pages_->read(kConesKey);
+    if (!cones) return cones.findings();
+    if (cones->size() != index_.size() * sizeof(NormalCone))
+      return wrong("cones", std::to_string(index_.size() * sizeof(NormalCone)) + " bytes",
+                   std::to_string(cones->size()) + " bytes");
+    index_.cones.resize(index_.size());
+    std::memcpy(index_.cones.data(), cones->data(), cones->size());
+    return Done{};
+  }
+
   std::shared_ptr<const PageFile> pages_;
   std::filesystem::path file_;
   PostGeometry geometry_;
@@ -114,6 +129,8 @@ Result<Done> finishPatchFile(PageFileWriter& writer, const PostGrid& posts, cons
   }
   if (auto done = writer.add(kIndexKey, measured); !done) return done;
   if (auto done = writer.add(kFactsKey, std::as_bytes(std::span(facts))); !done) return done;
+  if (index.cones.size() == index.size())
+    if (auto done = writer.add(kConesKey, std::as_bytes(std::span(index.cones))); !done) return done;
   return writer.finish();
 }
 

@@ -20,9 +20,9 @@ static_assert(std::endian::native == std::endian::little, "the files are little-
 
 /// By the beginning of its manifest, and by the names of its files.
 bool holdsNothingElse(const std::filesystem::path& folder) {
-  constexpr std::array<std::string_view, 10> kNames = {
-      kManifestName, kHeightsName, kHeightSumsName, kImageName,  kImageSumsName,
-      kNodesName,    kSlopesName,  kPatchesName,    kGroundName, kStaticLodName};
+  constexpr std::array<std::string_view, 11> kNames = {
+      kManifestName, kHeightsName, kHeightSumsName, kImageName,  kImageSumsName, kNodesName,
+      kSlopesName,   kConesName,   kPatchesName,    kGroundName, kStaticLodName};
   constexpr std::string_view kBegins = "{\n  \"format\": \"trimtab-terrain\"";
   std::string begins(kBegins.size(), 0);
   std::ifstream(folder / kManifestName, std::ios::binary)

@@ -18,7 +18,7 @@
 /// heights.f32 heights in metres, rows from south, and heights.sums the checksums of its blocks of rows;
 /// patches.pages the error-bounded levels (patch_store.h); ground.pages colours and normals. Of grids of up
 /// to kMostTiledPosts posts also, where memory allowed: nodes.f32 eight numbers a node (box, error, slope);
-/// slopes.u8 the cells of CellSlopes; image.rgba four bytes a post with image.sums, where there is an image.
+/// slopes.u8 the cells of CellSlopes; cones.u32 a NormalCone a node, which earlier bakes lack; image.rgba four bytes a post with image.sums, where there is an image.
 /// static-lod.bin the trees of static levels of detail, where the source was scenery.
 ///
 /// Version 1 has neither sums nor pages: all of a file is checked when the folder is opened.
@@ -32,6 +32,7 @@ inline constexpr const char* kImageName = "image.rgba";
 inline constexpr const char* kImageSumsName = "image.sums";
 inline constexpr const char* kNodesName = "nodes.f32";
 inline constexpr const char* kSlopesName = "slopes.u8";
+inline constexpr const char* kConesName = "cones.u32";
 inline constexpr const char* kPatchesName = "patches.pages";
 inline constexpr const char* kGroundName = "ground.pages";
 inline constexpr const char* kStaticLodName = "static-lod.bin";

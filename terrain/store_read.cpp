@@ -176,6 +176,9 @@ void readNodes(Files& files, Contents& contents) {
     contents.index.errorM[i] = n[6];
     contents.index.slopeMax[i] = n[7];
   }
+  // Earlier bakes have none.
+  if (files.entries.contains(kConesName))
+    contents.index.cones = files.array<NormalCone>(kConesName, contents.index.size());
 }
 
 }  // namespace

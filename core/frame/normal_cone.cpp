@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace trimtab {
 namespace {
@@ -37,6 +38,17 @@ Vec3 NormalCone::axis() const {
   const double z = 1 - std::abs(x) - std::abs(y);
   if (z < 0) turnOut(x, y);
   return normalized({x, y, z});
+}
+
+NormalCone NormalCone::about(Vec3 axis, double halfAngle) {
+  NormalCone cone, tried{packedAxis(axis)};
+  // Two thousandths: no axis is further from its place on the octahedron's lattice.
+  const double angle = halfAngle + 2e-3;
+  if (!(angle < std::numbers::pi / 2)) return cone;
+  const double steps = std::ceil(std::sin(angle) * 254);
+  if (!(steps <= 254)) return cone;
+  tried.packed |= static_cast<std::uint32_t>(steps) << 24;
+  return tried;
 }
 
 NormalCone NormalCone::of(std::span<const Vec3> normals) {

@@ -19,6 +19,9 @@ struct NormalCone {
   /// Of unit normals; narrowest about the middle of their bounds, not the narrowest there is.
   static NormalCone of(std::span<const Vec3> normals);
 
+  /// Of that half-angle and more about a unit axis; nothing known from a right angle on.
+  static NormalCone about(Vec3 axis, double halfAngle);
+
   bool isKnown() const { return packed >> 24 != 0xff; }
   Vec3 axis() const;  ///< unit; anything where nothing is known
   double sine() const { return static_cast<double>(packed >> 24) / 254; }  ///< of the half-angle

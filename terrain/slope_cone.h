@@ -1,0 +1,49 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace trimtab::terrain {
+
+/// The narrowest cone about the middle of their bounds that holds the upward normals of surfaces given by how
+/// much they rise towards east and north a metre.
+class SlopeCone {
+ public:
+  SlopeCone() { slopes_.reserve(2200); }  // all triangles of a tile
+  void add(double east, double north) {
+    slopes_.push_back({east, north});
+    low_ = {std::min(low_[0], east), std::min(low_[1], north)};
+    high_ = {std::max(high_[0], east), std::max(high_[1], north)};
+  }
+  /// Both triangles of a cell. Heights: south-west, south-east, north-west, north-east.
+  void addCell(const std::array<double, 4>& h, double southM, double northM, double highM,
+               bool southWestNorthEast) {
+    const double south = (h[1] - h[0]) / southM, north = (h[3] - h[2]) / northM, west = (h[2] - h[0]) / highM,
+                 east = (h[3] - h[1]) / highM;
+    add(south, southWestNorthEast ? east : west);
+    add(north, southWestNorthEast ? west : east);
+  }
+  std::pair<double, double> middle() const { return {(low_[0] + high_[0]) / 2, (low_[1] + high_[1]) / 2}; }
+  /// Radians, about the normal of `middle`; a right angle and more where there is nothing.
+  double halfAngle() const {
+    if (slopes_.empty()) return 2;
+    const auto [x, y] = middle();
+    double least = 1;
+    for (const auto& [east, north] : slopes_) {
+      const double along = 1 + x * east + y * north;
+      least = std::min(least, along * std::abs(along) / (1 + east * east + north * north));
+    }
+    return std::acos(
+        std::clamp(std::copysign(std::sqrt(std::abs(least) / (1 + x * x + y * y)), least), -1.0, 1.0));
+  }
+
+ private:
+  static constexpr double kFar = 1e30;
+  std::vector<std::array<double, 2>> slopes_;
+  std::array<double, 2> low_{kFar, kFar}, high_{-kFar, -kFar};
+};
+
+}  // namespace trimtab::terrain
