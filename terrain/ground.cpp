@@ -1,5 +1,6 @@
 #include "trimtab/terrain/ground.h"
 
+#include <meshoptimizer.h>
 #include <zlib.h>
 
 #include <bit>
@@ -17,7 +18,10 @@ namespace fs = std::filesystem;
 constexpr std::uint32_t kTile = GroundShape::kTile;
 constexpr std::size_t kTexels = std::size_t{kTile} * kTile;
 constexpr std::size_t kRawBytes = kTexels * sizeof(GroundTexel);
-constexpr std::byte kRaw{0}, kDeflated{1};
+constexpr std::byte kRaw{0}, kDeflated{1}, kPacked{2};
+/// A texel as the packing takes it: by fours of bytes.
+using PaddedTexel = std::array<std::uint8_t, 8>;
+static_assert(sizeof(PaddedTexel) == 8 && sizeof(GroundTexel) <= 8);
 
 double linearOf(double srgb) {
   return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
@@ -146,26 +150,43 @@ GroundTile halvedGround(const std::array<const GroundTile*, 4>& below, GroundTil
   return tile;
 }
 
-// A tile is stored as it is, unless deflating leaves little of it (seas, plains): to inflate a photograph
-// takes many times longer than to read it from a disk, to inflate a plain takes less.
+// Bytes' differences from texel to texel are packed with as few bits as sixteen of them need, which is undone
+// as fast as a disk reads. Where that leaves little (seas, plains) deflating leaves less: to inflate a
+// photograph takes many times longer than to read it, to inflate a plain takes less.
 std::vector<std::byte> packGroundTile(const GroundTile& tile) {
-  std::vector<std::byte> planes(kRawBytes);
-  const auto* bytes = reinterpret_cast<const std::uint8_t*>(tile.data());
-  for (std::size_t k = 0; k < sizeof(GroundTexel); ++k) {
-    std::uint8_t before = 0;
-    for (std::size_t i = 0; i < kTexels; ++i) {
-      const std::uint8_t now = bytes[i * sizeof(GroundTexel) + k];
-      planes[k * kTexels + i] = static_cast<std::byte>(static_cast<std::uint8_t>(now - before));
-      before = now;
+  // Bytes must not depend on what the library's next version likes best.
+  static const bool versioned = (meshopt_encodeVertexVersion(0), true);
+  static_cast<void>(versioned);
+  constexpr uLong kWorthIt = kRawBytes / 4;
+  std::vector<PaddedTexel> padded(kTexels);
+  for (std::size_t i = 0; i < kTexels; ++i) std::memcpy(padded[i].data(), &tile[i], sizeof(GroundTexel));
+  std::vector<std::byte> blob(1 + meshopt_encodeVertexBufferBound(kTexels, sizeof(PaddedTexel)));
+  const std::size_t packed =
+      meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(blob.data() + 1), blob.size() - 1,
+                                 padded.data(), kTexels, sizeof(PaddedTexel));
+  if (packed < 2 * kWorthIt) {
+    std::vector<std::byte> planes(kRawBytes), deflated(1 + kWorthIt);
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(tile.data());
+    for (std::size_t k = 0; k < sizeof(GroundTexel); ++k) {
+      std::uint8_t before = 0;
+      for (std::size_t i = 0; i < kTexels; ++i) {
+        const std::uint8_t now = bytes[i * sizeof(GroundTexel) + k];
+        planes[k * kTexels + i] = static_cast<std::byte>(static_cast<std::uint8_t>(now - before));
+        before = now;
+      }
+    }
+    uLongf size = kWorthIt;
+    if (compress2(reinterpret_cast<Bytef*>(deflated.data() + 1), &size,
+                  reinterpret_cast<const Bytef*>(planes.data()), planes.size(), 1) == Z_OK &&
+        size < packed) {
+      deflated[0] = kDeflated;
+      deflated.resize(1 + size);
+      return deflated;
     }
   }
-  constexpr uLong kWorthIt = kRawBytes / 4;
-  std::vector<std::byte> blob(1 + kWorthIt);
-  uLongf size = kWorthIt;
-  if (compress2(reinterpret_cast<Bytef*>(blob.data() + 1), &size,
-                reinterpret_cast<const Bytef*>(planes.data()), planes.size(), 1) == Z_OK) {
-    blob[0] = kDeflated;
-    blob.resize(1 + size);
+  if (packed > 0 && packed < kRawBytes) {
+    blob[0] = kPacked;
+    blob.resize(1 + packed);
     return blob;
   }
   blob.resize(1 + kRawBytes);
@@ -183,8 +204,17 @@ Result<GroundTile> unpackGroundTile(std::span<const std::byte> blob) {
     std::memcpy(tile.data(), blob.data() + 1, kRawBytes);
     return tile;
   }
+  if (blob[0] == kPacked) {
+    std::vector<PaddedTexel> padded(kTexels);
+    if (meshopt_decodeVertexBuffer(padded.data(), kTexels, sizeof(PaddedTexel),
+                                   reinterpret_cast<const unsigned char*>(blob.data() + 1),
+                                   blob.size() - 1) != 0)
+      return broken(std::to_string(kTexels) + " texels, packed", "something else");
+    for (std::size_t i = 0; i < kTexels; ++i) std::memcpy(&tile[i], padded[i].data(), sizeof(GroundTexel));
+    return tile;
+  }
   if (blob[0] != kDeflated)
-    return broken("raw or deflated texels", "kind " + std::to_string(std::to_integer<int>(blob[0])));
+    return broken("raw, packed or deflated texels", "kind " + std::to_string(std::to_integer<int>(blob[0])));
   std::vector<std::uint8_t> planes(kRawBytes);
   uLongf size = kRawBytes;
   const int code = uncompress(planes.data(), &size, reinterpret_cast<const Bytef*>(blob.data() + 1),

@@ -9,7 +9,7 @@ namespace {
 /// As many half-edges as the packing of triangles looks back on.
 constexpr std::uint32_t kRecent = 16;
 /// Of these the best is sought; older ones are taken as they come.
-constexpr std::uint32_t kSought = 8;
+constexpr std::uint32_t kSought = 3;
 
 }  // namespace
 

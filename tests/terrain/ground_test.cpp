@@ -268,8 +268,26 @@ TEST(GroundTile, comesBackAsItWasPacked) {
   const auto small = packGroundTile(plain);
   EXPECT_LT(small.size(), 4096u);
   EXPECT_EQ(*unpackGroundTile(small), plain);
+  // Hills: neighbours differ by little.
+  GroundTile hills = tile;
+  for (std::size_t i = 1; i < hills.size(); ++i) {
+    const auto near = [&](auto before, int by) { return static_cast<decltype(before)>(before + by % 8 - 4); };
+    hills[i] = {near(hills[i - 1].red, tile[i].red),       near(hills[i - 1].green, tile[i].green),
+                near(hills[i - 1].blue, tile[i].blue),     0,
+                near(hills[i - 1].normalX, tile[i].voids), near(hills[i - 1].normalY, tile[i].voids)};
+  }
+  const auto packed = packGroundTile(hills);
+  EXPECT_LT(packed.size(), hills.size() * 3);
+  EXPECT_EQ(*unpackGroundTile(packed), hills);
   // Cut off or changed, it is refused or something else, and never more.
-  for (const auto& blob : {noisy, small})
+  for (std::size_t i = 0; i < packed.size(); i += 97) {
+    auto changed = packed;
+    changed[i] ^= std::byte{0x55};
+    if (const auto read = unpackGroundTile(changed)) {
+      EXPECT_EQ(read->size(), hills.size());
+    }
+  }
+  for (const auto& blob : {noisy, packed, small})
     for (std::size_t length = 0; length < blob.size(); length = length * 2 + 1)
       EXPECT_FALSE(unpackGroundTile(std::span(blob).first(length)));
   for (std::size_t i = 0; i < small.size(); ++i) {
