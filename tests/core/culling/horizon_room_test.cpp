@@ -144,7 +144,10 @@ TEST(MovingHorizon, isDefinedForEyesAndTilesThatAreNone) {
   EXPECT_GT(hiddenAt(good, 2'000'000'000), 0);
 
   moving.clear();
-  EXPECT_TRUE(moving.hidden({.eye = good}, SurfaceTree{}, [](std::vector<HorizonTile>&) {}).empty());
+  EXPECT_TRUE(
+      moving
+          .hidden({.eye = good, .tiles = {}, .settings = {}}, SurfaceTree{}, [](std::vector<HorizonTile>&) {})
+          .empty());
 }
 
 TEST(MovingHorizon, neverHidesTilesThatAreNoSurfaceNorByThem) {
