@@ -84,6 +84,8 @@ class Selection {
   void ask(std::uint32_t patch) {
     const double distance2 = distanceSquared(index_.bounds[patch], eye_);
     const float error = index_.errorM[patch][0];
+    if (isLost(index_.page[patch]))
+      return halve(index_.diamond[patch], std::numeric_limits<float>::infinity());
     if (!tooCoarse(error, distance2)) return;
     halve(index_.diamond[patch], std::max(static_cast<float>(double{error} * double{error} / distance2),
                                           std::numeric_limits<float>::min()));
@@ -97,7 +99,7 @@ class Selection {
       const std::size_t before = cut_.stack.size();
       forEachChild(diamond, [&](std::uint32_t child) {
         cut_.stack.push_back(child);
-        if (!isResident(index_.page[child])) cut_.lack[diamond] = kOwn;
+        if (!isResident(index_.page[child]) && !isLost(index_.page[child])) cut_.lack[diamond] = kOwn;
       });
       if (cut_.stack.size() == before) return;
       cut_.splitList.push_back(diamond);
@@ -116,6 +118,8 @@ class Selection {
   }
 
   bool isResident(std::uint32_t page) const { return resident_.empty() || resident_[page] != 0; }
+  /// Of the roots one that cannot be read: nothing coarser could be drawn in its stead, so what is finer is.
+  bool isLost(std::uint32_t page) const { return index_.pages[page].pair == 0 && !isResident(page); }
 
   bool isHeldBack(std::uint32_t diamond) {
     std::uint8_t& lack = cut_.lack[diamond];

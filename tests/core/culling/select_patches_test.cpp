@@ -207,6 +207,39 @@ TEST_P(PatchCutOf, neverGetsCoarserAnywhereByAPageMore) {
   }
 }
 
+TEST_P(PatchCutOf, isFinerWhereAPageOfRootsIsLost) {
+  std::vector<std::uint32_t> roots;
+  for (std::uint32_t page = 0; page < index.pages.size(); ++page)
+    if (index.pages[page].pair == 0) roots.push_back(page);
+  if (roots.size() == index.pages.size()) GTEST_SKIP() << "nothing is finer";
+  for (int i = 0; i < 20; ++i) {
+    std::vector<std::uint8_t> resident(index.pages.size(), 1);
+    resident[roots[random() % roots.size()]] = 0;
+    const Vec3 eye = randomEye();
+    selectPatches(index, resident, eye, 4, 1, kPixelsPerRadian, cut);
+    const auto nodes = drawn();
+    std::size_t lost = 0;
+    for (const std::uint32_t node : nodes) {
+      // Only what has nothing finer is missing.
+      if (resident[index.page[node]]) continue;
+      EXPECT_FALSE(test::hasChildren(index, index.diamond[node])) << node;
+      ++lost;
+    }
+    EXPECT_LT(lost, nodes.size());
+    // It is a cut like any: each diamond whole or halved, and those that it stands on halved.
+    std::set<std::uint32_t> above;
+    for (std::uint32_t node : nodes)
+      for (node = index.parent[node]; node != kNone; node = index.parent[node])
+        above.insert(index.diamond[node]);
+    for (const std::uint32_t node : nodes) EXPECT_FALSE(above.contains(index.diamond[node])) << node;
+    // The finer pages of what is lost come before all others.
+    for (const PageWant& want : cut.wants)
+      if (index.pages[want.page].pair == 0) {
+        EXPECT_EQ(want.errorPx, kInfinity);
+      }
+  }
+}
+
 TEST_P(PatchCutOf, isTheRootsForAnEyeThatIsNotANumberOrNotAnywhere) {
   std::size_t roots = 0;
   for (const std::uint32_t parent : index.parent) roots += parent == kNone;
