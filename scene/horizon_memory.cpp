@@ -1,7 +1,6 @@
 #include "trimtab/scene/horizon_memory.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace trimtab::scene {
 namespace {
@@ -32,33 +31,54 @@ Renderer::Grey HorizonMemory::picture(const EyePose& eye, const ViewShape& view,
     for (int x = 0; x < widthPx; ++x) {
       const double across = view.left + (view.right - view.left) * (x + 0.5) / widthPx,
                    up = view.bottom + (view.top - view.bottom) * (y + 0.5) / heightPx;
-      grey.pixels.push_back(horizon_.blocks(toLocal * Vec3{across, up, -1}) ? kCovered : kOpen);
+      grey.pixels.push_back(horizon().blocks(toLocal * Vec3{across, up, -1}) ? kCovered : kOpen);
     }
   return grey;
 }
 
+void HorizonMemory::clear() {
+  moving_.clear();
+  key_.reset();
+}
+
 /// Where next to nothing is hidden there is nothing to gain a little further on.
 bool HorizonMemory::hidLittleNear(const Key& key) const {
-  return key_ && key_->cut.rule == key.cut.rule && key_->columns == key.columns &&
-         key_->raised == key.raised && horizon_.hiddenCount() * kLeastShare < tiles_.size() &&
+  return key_ && hidLittle_ && key_->cut.rule == key.cut.rule &&
+         key_->settings.columns == key.settings.columns && key_->settings.raised == key.settings.raised &&
          length(key.eye - key_->eye) < kBelievedM;
 }
 
 std::span<const std::uint8_t> HorizonMemory::hidden(OcclusionGround& ground, Vec3 eye,
                                                     const Horizon::Settings& settings, const Skips& skips) {
-  const Key key{eye, ground.cutNumber(), settings.columns, settings.slack, settings.raised};
-  if (key_ == key) {
-    if (skips.sameHorizon) return horizon_.hidden();
-  } else if (skips.littleHidden && hidLittleNear(key)) {
+  const Key key{eye, ground.cutNumber(), settings};
+  const bool samePlace = key_ == key;
+  if (!samePlace && skips.littleHidden && hidLittleNear(key)) {
     ++leftOut_;
     return {};
   }
-  tiles_.clear();
-  ground.fill(tiles_);
-  horizon_.build(eye, tiles_, settings);
-  ++built_;
+  if (!ground.isGraph()) {
+    clear();
+    return {};
+  }
+  MovingHorizon::Frame frame;
+  frame.eye = eye;
+  frame.cut = key.cut.cut;
+  frame.rule = key.cut.rule;
+  frame.tiles = ground.cut().tiles;
+  frame.errorOverDistance = key.cut.errorOverDistance;
+  frame.settings = settings;
+  frame.sameHorizon = skips.sameHorizon;
+  frame.mayOcclude = [&ground](std::uint32_t node) { return ground.mayOcclude(node); };
+  const std::uint64_t scratch = moving_.fromScratch();
+  const auto hidden =
+      moving_.hidden(frame, ground.tree(), [&](std::vector<HorizonTile>& tiles) { ground.fill(tiles); });
+  moved_ += !samePlace && moving_.fromScratch() == scratch;
+  if (!samePlace) {
+    const auto count = static_cast<std::size_t>(std::count(hidden.begin(), hidden.end(), std::uint8_t{1}));
+    hidLittle_ = count * kLeastShare < hidden.size();
+  }
   key_ = key;
-  return horizon_.hidden();
+  return hidden;
 }
 
 }  // namespace trimtab::scene

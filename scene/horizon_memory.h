@@ -5,17 +5,17 @@
 #include <span>
 #include <vector>
 
-#include "trimtab/culling/horizon.h"
+#include "trimtab/culling/moving_horizon.h"
 #include "trimtab/scene/occlusion_ground.h"
 #include "trimtab/scene/renderer.h"
 
 namespace trimtab::scene {
 
-/// A horizon, kept while what it depends on stays as it is.
+/// A horizon that goes with the eye, and is left out where it would hide next to nothing.
 class HorizonMemory {
  public:
   /// Forgets it.
-  void clear() { key_.reset(); }
+  void clear();
   /// Which tiles are proven hidden from an eye that the ground does not refuse, in the cut's order, whatever
   /// the view's direction. Empty where nothing is: also, where `skips.littleHidden`, while the eye has moved
   /// little since next to nothing was, by the same rule for the levels.
@@ -24,8 +24,9 @@ class HorizonMemory {
   /// The view as the last horizon sees it: what it covers grey, what stays open white. Row 0 at the bottom.
   Renderer::Grey picture(const EyePose& eye, const ViewShape& view, int widthPx, int heightPx) const;
 
-  const Horizon& horizon() const { return horizon_; }
-  std::uint64_t built() const { return built_; }  ///< horizons, since the start
+  const Horizon& horizon() const { return moving_.horizon(); }
+  std::uint64_t built() const { return moving_.built(); }  ///< horizons, since the start
+  std::uint64_t moved() const { return moved_; }           ///< frames that an earlier one served
   /// Calls since the start that skips.littleHidden spared.
   std::uint64_t leftOut() const { return leftOut_; }
 
@@ -38,17 +39,15 @@ class HorizonMemory {
   struct Key {
     Vec3 eye;
     CutNumber cut;
-    int columns = 0;
-    double slack = 0;
-    bool raised = false;
+    Horizon::Settings settings;
     friend bool operator==(const Key&, const Key&) = default;
   };
   bool hidLittleNear(const Key& key) const;
 
-  std::vector<HorizonTile> tiles_;
-  Horizon horizon_;
+  MovingHorizon moving_;
   std::optional<Key> key_;
-  std::uint64_t built_ = 0, leftOut_ = 0;
+  bool hidLittle_ = false;
+  std::uint64_t moved_ = 0, leftOut_ = 0;
 };
 
 }  // namespace trimtab::scene

@@ -66,12 +66,13 @@ void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, GpuM
   counters.occlusion = serves_;
   counters.horizon = horizonServes();
   if (!horizonServes()) return;
-  const std::uint64_t built = memory_.built(), leftOut = memory_.leftOut();
+  const std::uint64_t built = memory_.built(), moved = memory_.moved(), leftOut = memory_.leftOut();
   hidden_ = memory_.hidden(ground_, eye.position,
                            {HorizonMemory::columnsFor(size_.widthPx),
                             HorizonMemory::slackOf(request.view, subpixelBits_), defects_.loweringScale < 1},
                            request.skips);
   counters.horizonsBuilt += memory_.built() - built;
+  counters.horizonsMoved += memory_.moved() - moved;
   counters.horizonsLeftOut += memory_.leftOut() - leftOut;
 }
 
@@ -123,7 +124,7 @@ bool OcclusionStage::visibleStays(const FrameRequest& request, FrameResult& coun
                  ground_.cutNumber(),
                  serves_,
                  serves_ ? size_ : DepthMapSize{},
-                 horizonServes() ? memory_.built() : 0};
+                 !hidden_.empty()};
   // What a map on the GPU takes out is gone from the set.
   const bool onGpu = serves(OcclusionMethod::depth_map) || serves(OcclusionMethod::read_back);
   const bool stays = request.skips.sameVisible && !onGpu && visibleKey_ == key;

@@ -77,7 +77,7 @@ class OcclusionStage {
     CutNumber cut;
     std::optional<OcclusionMethod> serves;
     DepthMapSize size;
-    std::uint64_t horizons = 0;
+    bool horizon = false;  ///< whether one said what it hides
     friend bool operator==(const VisibleKey&, const VisibleKey&) = default;
   };
   /// Where a map hid next to nothing.

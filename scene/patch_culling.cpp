@@ -28,6 +28,10 @@ struct CutKey {
   Vec3 eye;
   double maxErrorPx = 0, lodScale = 0, pixelsPerRadian = 0;
   std::uint64_t budget = 0, heldNumber = 0;
+  bool sameRule(const CutKey& other) const {
+    return maxErrorPx == other.maxErrorPx && lodScale == other.lodScale &&
+           pixelsPerRadian == other.pixelsPerRadian;
+  }
   friend bool operator==(const CutKey&, const CutKey&) = default;
 };
 
@@ -235,9 +239,8 @@ bool PatchCulling::Impl::lookAhead(const FrameRequest& request, const CutKey& wa
     laterWants.clear();
     return had;
   }
-  const bool samePicture = key && key->maxErrorPx == wanted.maxErrorPx && key->lodScale == wanted.lodScale &&
-                           key->pixelsPerRadian == wanted.pixelsPerRadian;
-  if (laterEye && samePicture && length(*ahead - *laterEye) <= kAheadStep * length(*ahead - wanted.eye))
+  if (laterEye && key && key->sameRule(wanted) &&
+      length(*ahead - *laterEye) <= kAheadStep * length(*ahead - wanted.eye))
     return false;
   laterEye = ahead;
   selectPatches(terrain->index(), {}, *ahead, wanted.maxErrorPx, wanted.lodScale, wanted.pixelsPerRadian,
@@ -272,9 +275,9 @@ void PatchCulling::Impl::choose(const FrameRequest& request, const EyePose& eye,
     }
     ask();
   }
+  number.errorOverDistance = wanted.maxErrorPx * wanted.lodScale / wanted.pixelsPerRadian;
   number.cut += newCut;
-  if (key) key->eye = wanted.eye;
-  number.rule += key != wanted;
+  number.rule += !key || !key->sameRule(wanted);
   key = wanted;
 }
 

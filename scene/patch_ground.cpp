@@ -59,10 +59,17 @@ void makeRelief(const terrain::PatchMesh& mesh, int variant, std::vector<ReliefV
 void PatchGround::setTerrain(std::shared_ptr<const terrain::Database> database) {
   const bool any = database && database->patches();
   under_.clear();
+  graphOf_.reset();
+  inside_.assign(any ? database->patches()->index().size() : 0, 0);
   surfaces_.reset(any ? database->patches()->index().size() : 0);
+  map_.setTerrain(database);
   if (!any) return;
   const terrain::TerrainInfo& info = database->info();
   extent_ = DataExtent(info);
+  west_ = info.southWest.longitude;
+  south_ = info.southWest.latitude;
+  postLongitude_ = info.postLongitude.value();
+  postLatitude_ = info.postLatitude.value();
   const auto margin = [this](double postM) {
     return static_cast<std::uint32_t>(std::min(1e9, std::ceil(extent_.sagM() / std::max(postM, 1e-3)) + 1));
   };
@@ -83,13 +90,13 @@ void PatchGround::make(const terrain::PatchMesh& mesh, TileDraw patch, Surface& 
 }
 
 const PatchGround::Surface* PatchGround::surfaceOf(TileDraw patch) {
-  Surface* kept = surfaces_.find(patch.node);
+  const Surface* kept = surfaces_.find(patch.node);
   if (kept && kept->variant == patch.coarser) return kept;
   const terrain::PatchMesh* mesh = patches_.meshOf(patch.node);
   if (!mesh) return nullptr;
-  if (!kept) kept = &surfaces_.make(patch.node);
-  make(*mesh, patch, *kept);
-  return kept;
+  Surface& surface = surfaces_.make(patch.node);
+  make(*mesh, patch, surface);
+  return &surface;
 }
 
 const PatchGround::Surface* PatchGround::surfaceUnder(TileDraw patch) {
@@ -128,15 +135,44 @@ std::string PatchGround::refusal(const EyePose& eye, const ViewShape& view) {
 
 void PatchGround::fill(std::vector<HorizonTile>& tiles) {
   surfaces_.forgetOthers(cut());
-  // Where a single patch stands upright or hangs over, a place may have two heights.
-  bool graph = true;
   for (const TileDraw& patch : cut().tiles) {
     const Surface* surface = surfaceOf(patch);
-    graph = graph && surface && surface->relief.upright;
     tiles.push_back({.mayOcclude = surface && surface->inside, .mesh = surface ? &surface->relief : nullptr});
   }
-  if (!graph)
-    for (HorizonTile& tile : tiles) tile.mayOcclude = false;
+}
+
+/// Where a single patch stands upright or hangs over, a place may have two heights.
+bool PatchGround::isGraph() {
+  if (graphOf_ == cutNumber().cut) return graph_;
+  graphOf_ = cutNumber().cut;
+  graph_ = std::all_of(cut().tiles.begin(), cut().tiles.end(), [this](const TileDraw& patch) {
+    const Surface* surface = surfaceOf(patch);
+    return surface && surface->relief.upright;
+  });
+  return graph_;
+}
+
+/// By the box of the node and of all below it.
+bool PatchGround::mayOcclude(std::uint32_t node) {
+  std::uint8_t& known = inside_[node];
+  if (known == 0) {
+    const PatchIndex& index = patches_.index();
+    const Box& b = index.bounds[node];
+    known = 2;
+    for (int corner = 0; corner < 8; ++corner) {
+      const GeodeticPosition place =
+          index.frame.toGeodetic({(corner & 1) != 0 ? b.maxX : b.minX, (corner & 2) != 0 ? b.maxY : b.minY,
+                                  (corner & 4) != 0 ? b.maxZ : b.minZ});
+      const double column = wrapped180(place.longitude - west_).value() / postLongitude_,
+                   row = (place.latitude - south_).value() / postLatitude_;
+      // One more for the bulge of a meridian or parallel within the box.
+      const double besideColumns = marginColumns_ + 1.0, besideRows = marginRows_ + 1.0;
+      if (!(column >= besideColumns && row >= besideRows && column + besideColumns < index.columns &&
+            row + besideRows < index.rows))
+        known = 1;
+    }
+  }
+  return known == 2;
 }
 
 }  // namespace trimtab::scene

@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "trimtab/scene/data_extent.h"
 #include "trimtab/scene/occlusion_ground.h"
 #include "trimtab/scene/patch_culling.h"
+#include "trimtab/scene/patch_map.h"
 #include "trimtab/scene/surfaces_in_use.h"
 
 namespace trimtab::scene {
@@ -25,6 +27,16 @@ class PatchGround final : public OcclusionGround {
   const CutNumber& cutNumber() const override { return patches_.cutNumber(); }
   std::string refusal(const EyePose& eye, const ViewShape& view) override;
   void fill(std::vector<HorizonTile>& tiles) override;
+  SurfaceTree tree() const override { return SurfaceTree::of(patches_.index()); }
+  bool mayOcclude(std::uint32_t node) override;
+  bool isGraph() override;
+  bool drawsMap() const override { return true; }
+  std::span<const std::uint8_t> hiddenByMap(std::span<const TileDraw> visible, const EyePose& eye,
+                                            const ViewShape& view, DepthMapSize size,
+                                            double loweringScale) override {
+    return map_.hidden(patches_, cutNumber().cut, visible, eye, {view, size, loweringScale});
+  }
+  Renderer::Grey mapPicture() const override { return map_.picture(); }
 
   std::uint64_t reliefs() const { return reliefs_; }  ///< meshes that were looked at
 
@@ -41,6 +53,7 @@ class PatchGround final : public OcclusionGround {
   void make(const terrain::PatchMesh& mesh, TileDraw patch, Surface& surface);
 
   const PatchCulling& patches_;
+  PatchMapCulling map_;
   DataExtent extent_;
   std::uint32_t marginColumns_ = 0, marginRows_ = 0;  ///< posts that `inside` asks for
   SurfacesInUse<Surface> surfaces_;                   ///< some 10 KB each
@@ -49,6 +62,11 @@ class PatchGround final : public OcclusionGround {
     std::unique_ptr<Surface> surface;
   };
   std::vector<Under> under_;
+  std::optional<std::uint64_t> graphOf_;  ///< the cut that `graph_` is of
+  bool graph_ = false;
+  std::vector<std::uint8_t> inside_;  ///< of mayOcclude: 0 is not known, 1 no, 2 yes
+  Degrees west_, south_;
+  double postLongitude_ = 1, postLatitude_ = 1;
   std::vector<ReliefVertex> vertices_;
   std::uint64_t reliefs_ = 0;
 };

@@ -74,6 +74,7 @@ void StaticLodCulling::select(const FrameRequest& request, const EyePose& eye, F
   // Frozen, what was hidden from there stays hidden: the picture is another eye's and cannot tell.
   if (request.frozenEye && visibleKey_ == wanted) return;
   visibleKey_ = wanted;
+  ++counters.visibleSelected;
   selectStaticVisible(
       index(), vertices_, cut_, eye, v, request.method != CullingCase::none, visible_,
       request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited);

@@ -30,6 +30,7 @@ void makeRelief(const terrain::TileMesh& mesh, TileRelief& relief) {
 void TileGround::setDatabase(std::shared_ptr<const terrain::Database> database) {
   database_ = std::move(database);
   conditions_.setDatabase(database_);
+  map_.setDatabase(database_);
   relief_.reset(database_ ? database_->index().size() : 0);
   upright_.clear();
   if (!database_) return;

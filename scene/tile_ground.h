@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "trimtab/scene/map_culling.h"
 #include "trimtab/scene/occlusion_conditions.h"
 #include "trimtab/scene/occlusion_ground.h"
 #include "trimtab/scene/surfaces_in_use.h"
@@ -26,16 +27,25 @@ class TileGround final : public OcclusionGround {
     return conditions_.refusal(*cut_, eye, view);
   }
   void fill(std::vector<HorizonTile>& tiles) override;
+  SurfaceTree tree() const override { return SurfaceTree::of(database_->index()); }
+  bool mayOcclude(std::uint32_t node) override { return upright_[node] != 0 && conditions_.mayOcclude(node); }
+  bool drawsMap() const override { return true; }
+  std::span<const std::uint8_t> hiddenByMap(std::span<const TileDraw> visible, const EyePose& eye,
+                                            const ViewShape& view, DepthMapSize size,
+                                            double loweringScale) override {
+    return map_.hidden(*cut_, visible, eye, {view, size, loweringScale}, conditions_);
+  }
+  Renderer::Grey mapPicture() const override { return map_.picture(); }
 
   const OcclusionConditions& conditions() const { return conditions_; }
   std::uint64_t reliefs() const { return reliefs_; }  ///< tiles that were looked at
 
  private:
   const TileRelief* reliefOf(std::uint32_t node);
-  bool mayOcclude(std::uint32_t node) const { return upright_[node] != 0 && conditions_.mayOcclude(node); }
 
   std::shared_ptr<const terrain::Database> database_;
   OcclusionConditions conditions_;
+  MapCulling map_;
   const LevelCut* cut_ = nullptr;
   const CutNumber* number_ = nullptr;
   std::vector<std::uint8_t> upright_;  ///< one a node: no place there has two heights

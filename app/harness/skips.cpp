@@ -35,14 +35,6 @@ FrameRequest inCase(const FrameRequest& request, CullingCase method) {
   return changed;
 }
 
-/// The map that the smallest band of the default preset asks for: the least that a frame with one can pay.
-FrameRequest withDepthMap(const FrameRequest& request) {
-  FrameRequest changed = request;
-  const Band& band = kDepthMapBands.span().front();
-  changed.decision.depthMap = DepthMapSize{band.widthPx, band.heightPx};
-  return changed;
-}
-
 double millisecondsOf(const DrawFrame& draw, const FrameRequest& request) {
   const auto start = std::chrono::steady_clock::now();
   draw(request);
@@ -81,12 +73,17 @@ const std::vector<Skip>& skips() {
        [](const FrameRequest& r, const FrameResult&, const FrameResult& after) {
          return r.method == CullingCase::proposed && !r.decision.depthMap && !after.visible.tiles.empty();
        },
-       withDepthMap, itself},
+       without<&scene::Skips::schemeFrustum>, itself},
       {"levels chosen again for an eye that stands",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
          return unchanged<&FrameResult::cutsSelected>(before, after) && after.tilesInCut > 0;
        },
        without<&scene::Skips::sameCut>, itself, true},
+      {"tiles in view chosen again for a view that stands",
+       [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
+         return unchanged<&FrameResult::visibleSelected>(before, after) && after.tilesInCut > 0;
+       },
+       without<&scene::Skips::sameVisible>, itself, true},
       {"horizon built again for an eye that stands",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
          return after.horizon && unchanged<&FrameResult::horizonsBuilt>(before, after) &&
@@ -96,6 +93,12 @@ const std::vector<Skip>& skips() {
       {"horizon where it hid next to nothing",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
          return after.horizon && !unchanged<&FrameResult::horizonsLeftOut>(before, after);
+       },
+       without<&scene::Skips::littleHidden>, itself, true},
+      {"depth map where it hid next to nothing",
+       [](const FrameRequest& r, const FrameResult& before, const FrameResult& after) {
+         return r.occlusion != OcclusionMethod::automatic && after.occlusion.has_value() &&
+                !unchanged<&FrameResult::occlusionsLeftOut>(before, after);
        },
        without<&scene::Skips::littleHidden>, itself, true},
       {"tiles that the GPU holds already",

@@ -54,6 +54,7 @@ TEST_F(SkipsTest, changeNoPixelWhetherTheirWorkIsDoneOrNot) {
     const char* name;
     void (*set)(FrameRequest&);
     double climbM = 0;  ///< from the first frame to the second
+    double turnDeg = 20;
   };
   const Scene kScenes[] = {
       {"scheme frustum", [](FrameRequest&) {}},
@@ -73,6 +74,15 @@ TEST_F(SkipsTest, changeNoPixelWhetherTheirWorkIsDoneOrNot) {
          r.occlusion = OcclusionMethod::horizon;
        },
        20},
+      {"view that stands", [](FrameRequest&) {}, 0, 0},
+      {"climb high above, depth map of the processor",
+       [](FrameRequest& r) {
+         r.eye.height = r.eye.height + Metres{6000};
+         r.attitude.pitch = Degrees{-50};
+         r.decision.depthMap = DepthMapSize{400, 300};
+         r.occlusion = OcclusionMethod::cpu_map;
+       },
+       20, 0},
       {"fog", foggy},
       {"fog, depth map",
        [](FrameRequest& r) {
@@ -96,7 +106,7 @@ TEST_F(SkipsTest, changeNoPixelWhetherTheirWorkIsDoneOrNot) {
   }
   std::set<std::string_view> met;
   for (const Scene& scene : kScenes) {
-    std::vector<FrameRequest> frames{looking(heading - 20), looking(heading)};
+    std::vector<FrameRequest> frames{looking(heading - scene.turnDeg), looking(heading)};
     for (FrameRequest& r : frames) scene.set(r);
     frames[1].eye.height = frames[1].eye.height + Metres{scene.climbM};
     FrameResult before, after;
@@ -178,6 +188,7 @@ TEST_F(SkipsTest, areCountedByFrameAndMeasured) {
                    {"tiles outside the frustum", 5, 5},
                    {"tiles that the GPU holds already", 5, 5},
                    {"tiles beyond visibility", 0, 5},
+                   {"tiles in view chosen again for a view that stands", 0, 4},
                    {"horizon built again for an eye that stands", 0, 4},
                    {"horizon where it hid next to nothing", 0, 4}};
   for (const auto& [name, skipped, count] : kExpected) {
