@@ -10,6 +10,29 @@ namespace {
 constexpr double kEarthRadius = 6.37e6;
 constexpr double kRadians = std::numbers::pi / 180;
 
+/// Whether every straight line from a place to one on a parallel of latitude, at most `away` degrees of
+/// longitude off, comes to it from the equator's side. North is where that parallel is.
+///
+/// Places of one latitude, at any height, make a cone about the earth's axis, and what is nearer the pole is
+/// inside of it. A line enters the cone where its eye is on the inner side of the plane that touches the cone
+/// there, and nowhere else: so the eye must be on the outer side of all of those planes, of which the one
+/// furthest away in longitude is the closest. Meridians are planes, and the border on the equator's side
+/// bends outwards: lines between two places inside do not cross those.
+bool seesParallelFromOutside(double parallel, double latitude, double height, double away) {
+  if (parallel <= 0) return true;
+  if (!(away < 90)) return false;
+  constexpr double kAxis = 6378137, kSquare = 6.69437999014e-3;  // WGS84
+  const auto normalRadius = [](double degrees) {
+    const double sine = std::sin(degrees * kRadians);
+    return kAxis / std::sqrt(1 - kSquare * sine * sine);
+  };
+  const double own = normalRadius(latitude), sine = std::sin(parallel * kRadians),
+               cosine = std::cos(parallel * kRadians), apex = -kSquare * normalRadius(parallel) * sine,
+               out = (own + height) * std::cos(latitude * kRadians),
+               up = (own * (1 - kSquare) + height) * std::sin(latitude * kRadians) - apex;
+  return out * sine * std::cos(away * kRadians) > up * cosine;
+}
+
 }  // namespace
 
 DataExtent::DataExtent(const terrain::TerrainInfo& info)
@@ -35,6 +58,10 @@ const char* DataExtent::refusal(const LocalFrame& frame, Vec3 eye) const {
   // The frame's z leans away from the vertical far from its origin: the place under the eye, by z, is
   // elsewhere.
   if (!(inside > sagM_ + std::abs(place.height.value()) * leanOf(eye)))
+    return "the eye is too near the terrain's edge";
+  const double furthest = away + width_ / 2;
+  if (!seesParallelFromOutside(north_, latitude, place.height.value(), furthest) ||
+      !seesParallelFromOutside(-south_, -latitude, place.height.value(), furthest))
     return "the eye is too near the terrain's edge";
   return "";
 }

@@ -57,7 +57,7 @@ void PatchDrawer::prepare(FrameInProgress& frame) {
   frame.clock.lap(occlusion_.mapServes() ? &FrameCost::occlusion : &FrameCost::select);
   updateGround();
   frame.counters.patches = true;
-  frame.view.oneSided = occlusion_.eyeIsAboveGround() && !r.frozenEye;
+  frame.view.oneSided = r.backFaces && occlusion_.eyeIsAboveGround() && !r.frozenEye;
   addBounds();
 }
 

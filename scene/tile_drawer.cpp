@@ -40,7 +40,7 @@ void TileDrawer::prepare(FrameInProgress& frame) {
   uploadShown();
   frame.view.depth = culling_.prepareOcclusion(r, gl_->tiles, gl_->occlusion, frame.counters);
   frame.clock.lap(frame.view.depth ? &FrameCost::occlusion : &FrameCost::select);
-  frame.view.oneSided = occlusion.eyeIsAboveGround() && !r.frozenEye;
+  frame.view.oneSided = r.backFaces && occlusion.eyeIsAboveGround() && !r.frozenEye;
   addBounds();
 }
 

@@ -12,12 +12,12 @@
 ///
 /// When they may be left out. Let the drawn surface be the graph of heights over the data's area, without
 /// cracks, the eye above it, and let every straight line from the eye to a place on the surface stay over
-/// that area (data_edge.h tells). A line that ends at a place p from the side that the triangle at p turns
-/// away comes from below the surface. It began above, so it went through the surface before p, from above to
-/// below: through a front face, nearer than p. What is drawn there covers p, and with p every pixel that p
-/// could own. The same proof serves GL's face culling. It fails for an eye below the surface or beyond the
-/// data, for a front face that the near plane cuts away, and where the far cut is nearer than p: no, a nearer
-/// face is within it when p is. So the drawers ask only where their occlusion tests may hide anything.
+/// that area (scene/data_extent tells). A line that ends at a place p from the side that the triangle at p
+/// turns away comes from below the surface. It began above, so it went through the surface before p, from
+/// above to below: through a front face, nearer than p. What is drawn there covers p, and with p every pixel
+/// that p could own. The same proof serves GL's face culling. The far cut takes nothing from that: a nearer
+/// face is within it when p is. It fails for an eye below the surface or beyond the data, and where the near
+/// plane cuts the front face away. So the drawers ask only where their occlusion tests may hide anything.
 ///
 /// Rounding. Pictures are made from vertices rounded to parts of a pixel, so that a triangle seen edge-on may
 /// turn over. kBackFacingMargin keeps nodes that have one so near its edge: what is left out is seen under
