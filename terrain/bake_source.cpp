@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "trimtab/terrain/arithmetic.h"
 #include "trimtab/terrain/bake_heights.h"
 #include "trimtab/terrain/import.h"
 #include "trimtab/terrain/scenery_import.h"
@@ -17,6 +18,7 @@ namespace {
 
 /// Of latitude, on the sphere of equal volume.
 constexpr double kMetresADegree = 111195;
+constexpr const char* kArithmetic = "arithmetic";
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
@@ -109,10 +111,19 @@ std::string stampedRecipe(const BakeOptions& options, const std::vector<fs::path
   Json recipe = recipeJson(options, files);
   recipe["format"] = kFormatVersion;
   recipe["builder"] = kBuilderVersion;
+  recipe[kArithmetic] = arithmeticOfThisMachine();
   recipe["stamps"] = Json::array();
   for (const fs::path& file : files) recipe["stamps"].push_back(stampOf(file));
   if (options.imagery) recipe["stamps"].push_back(stampOf(*options.imagery));
   return dump(recipe);
+}
+
+bool sameButForArithmetic(const std::string& stampedRecipe, const std::string& other) {
+  Json a = Json::parse(stampedRecipe, nullptr, false), b = Json::parse(other, nullptr, false);
+  if (!a.is_object() || !b.is_object()) return false;
+  a.erase(kArithmetic);
+  b.erase(kArithmetic);
+  return a == b;
 }
 
 RasterCacheLimit::RasterCacheLimit(std::size_t bytes) : before_(GDALGetCacheMax64()) {

@@ -33,8 +33,10 @@ Result<std::vector<std::filesystem::path>> sourceFiles(const std::vector<std::fi
 
 /// What a database is made from, a JSON object: of the options, those that change a byte of it.
 std::string recipeOf(const BakeOptions& options, const std::vector<std::filesystem::path>& files);
-/// The same with places and times: another one begins a bake anew.
+/// The same with places and times and what the machine's arithmetic is: another one begins a bake anew.
 std::string stampedRecipe(const BakeOptions& options, const std::vector<std::filesystem::path>& files);
+/// Whether two of those differ in nothing but the machines that they were made on.
+bool sameButForArithmetic(const std::string& stampedRecipe, const std::string& other);
 /// Place, size and time.
 std::string stampOf(const std::filesystem::path& file);
 

@@ -15,6 +15,7 @@
 
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
+#include "trimtab/terrain/bake_source.h"
 #include "trimtab/terrain/store.h"
 
 namespace trimtab::terrain {
@@ -41,6 +42,11 @@ bool onFileSystemOfParent(const fs::path& output) {
   }, beside{};
   return ::lstat(output.c_str(), &there) != 0 || ::stat(parent.c_str(), &beside) != 0 ||
          there.st_dev == beside.st_dev;
+}
+
+Finding otherArithmetic(const fs::path& path) {
+  return wrong(path, "parts by machines whose C library, GDAL and PROJ agree to the last bit",
+               "those of another machine, left as they are: bake all parts on machines alike");
 }
 
 /// All but the lock.
@@ -90,7 +96,9 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, con
     if (!lock && errno != EWOULDBLOCK && !fs::exists(lockFile, error) && fs::exists(path, error))
       return wrong(lockFile, "a file that can be written", std::strerror(errno));
     if (lock) {
-      const bool same = textOf(path / "recipe.json") == recipe;
+      const std::string there = textOf(path / "recipe.json");
+      const bool same = there == recipe;
+      if (!same && use != Use::alone && sameButForArithmetic(there, recipe)) return otherArithmetic(path);
       if (!same && use == Use::join && fs::exists(path / "recipe.json", error))
         return wrong(path, "parts of the same sources, options and version of this program",
                      "those of others, left as they are");
@@ -113,6 +121,7 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, con
       lock = FileLock::tryLock(lockFile, true);
       if (lock && textOf(path / "recipe.json") == recipe)
         return std::unique_ptr<WorkFolder>(new WorkFolder(path, std::move(lock), true));
+      if (lock && sameButForArithmetic(textOf(path / "recipe.json"), recipe)) return otherArithmetic(path);
       if (lock) return wrong(path, "no bake of other sources or options at work on the same output", "one");
     } else if (turn >= 5) {
       break;

@@ -14,6 +14,12 @@
 #include "trimtab/terrain/ground.h"
 #include "trimtab/terrain/patch_terrain.h"
 
+/// As many cores as a test says there are, in place of the C library's answer.
+static int coresThere = 0;
+extern "C" int get_nprocs() noexcept {
+  return coresThere > 0 ? coresThere : static_cast<int>(::sysconf(_SC_NPROCESSORS_ONLN));
+}
+
 /// Bakes that are killed, run out of room, meet each other or share the work: the database is the same to the
 /// byte.
 namespace trimtab::terrain {
@@ -187,6 +193,42 @@ TEST_F(ResumedBake, inPartsIsTheSame) {
   expectWhole(dir_ / "db");
   EXPECT_FALSE(bakePart(options_, 0, 3));
   EXPECT_FALSE(bakePart(options_, 4, 3));
+}
+
+TEST_F(ResumedBake, onAnyNumberOfCoresIsTheSame) {
+  for (const int cores : {1, 5}) {
+    const pid_t child = start([&] {
+      coresThere = cores;
+      if (std::thread::hardware_concurrency() != static_cast<unsigned>(cores)) return 2;
+      return bake(options_) ? 0 : 1;
+    });
+    ASSERT_EQ(ended(child), 0) << cores;
+    expectWhole(dir_ / "db");
+  }
+}
+
+/// A part by a machine whose sines end in other bits.
+TEST_F(ResumedBake, doesNotMixPartsOfMachinesThatCalculateOtherwise) {
+  ASSERT_TRUE(bakePart(options_, 1, 2));
+  const fs::path recipe = dir_ / ".db.work/recipe.json";
+  const std::string ours = test::readFile(recipe);
+  std::string theirs = ours;
+  const std::size_t at = theirs.find("\"arithmetic\": \"");
+  ASSERT_NE(at, std::string::npos);
+  theirs[at + 15] = theirs[at + 15] == '0' ? '1' : '0';
+  test::writeFile(recipe, theirs);
+  const auto pieces = test::namesIn(dir_ / ".db.work/pieces");
+  const auto second = bakePart(options_, 2, 2);
+  ASSERT_FALSE(second);
+  EXPECT_NE(toString(second.findings()).find("last bit"), std::string::npos) << toString(second.findings());
+  const auto joined = bakeJoin(options_);
+  ASSERT_FALSE(joined);
+  EXPECT_NE(toString(joined.findings()).find("last bit"), std::string::npos) << toString(joined.findings());
+  EXPECT_EQ(test::namesIn(dir_ / ".db.work/pieces"), pieces) << "nothing is lost";
+  test::writeFile(recipe, ours);
+  ASSERT_TRUE(bakePart(options_, 2, 2));
+  ASSERT_TRUE(bakeJoin(options_));
+  expectWhole(dir_ / "db");
 }
 
 TEST_F(ResumedBake, doesNotJoinWhenAPartIsAbsent) {
