@@ -1,10 +1,26 @@
 #include "trimtab/scene/gl_buffer.h"
 
+#include <limits>
+
 #include "trimtab/scene/gl_api.h"
 
 namespace trimtab::scene {
+namespace {
+
+std::size_t mostBytes = std::numeric_limits<std::size_t>::max();
+
+}  // namespace
+
+ScarceMemory::ScarceMemory(std::size_t most) : before_(mostBytes) {
+  mostBytes = most;
+}
+
+ScarceMemory::~ScarceMemory() {
+  mostBytes = before_;
+}
 
 bool growBuffer(unsigned& buffer, std::size_t before, std::size_t after) {
+  if (after > mostBytes) return false;
   // Errors of before are not this one's; a lost context has no end of them.
   for (int i = 0; i < 8 && glGetError() != GL_NO_ERROR; ++i) {
   }

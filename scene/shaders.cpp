@@ -17,8 +17,7 @@ uniform float hazeDistance;
 uniform bool tinted;
 uniform bool wire;
 #ifdef STATIC_TREE
-uniform ivec3 treeOrigin;  // of the tile, units of 16 m
-uniform vec4 treeTint;
+layout(location = 5) in vec4 treeTint;
 #else
 uniform samplerBuffer tints;
 #endif
@@ -27,7 +26,7 @@ out float clearness;       // what the air leaves of it
 out vec2 ground;           // metres east and north, modulo 8192 from tile to tile
 #ifdef NODE_IDS
 #ifdef STATIC_TREE
-uniform uint treeNode;
+layout(location = 4) in uint treeNode;
 #endif
 flat out uint owner;
 #endif
@@ -35,7 +34,7 @@ flat out uint owner;
 invariant gl_Position;
 void main() {
 #ifdef STATIC_TREE
-  ivec4 slot = ivec4(treeOrigin, 0);
+  ivec4 slot = texelFetch(slots, gl_VertexID / 64);
 #else
   int tile = gl_VertexID / 1089;
   ivec4 slot = texelFetch(slots, tile * 2);
@@ -174,13 +173,12 @@ void main() {
 const char* const kTreeFlatVertex = R"(#version 430 compatibility
 )" TRIMTAB_RELATIVE_POSITION R"(
 in vec3 vertexPosition;
-uniform ivec3 treeOrigin;
 uniform vec4 flatColour;
 uniform float depthScale;  // more than 1 is nearer, as depth is reversed
 out vec4 colour;
 void main() {
   colour = flatColour;
-  gl_Position = gl_ModelViewProjectionMatrix * vec4(relativePosition(vertexPosition, ivec4(treeOrigin, 0)), 1.0);
+  gl_Position = gl_ModelViewProjectionMatrix * vec4(relativePosition(vertexPosition, texelFetch(slots, gl_VertexID / 64)), 1.0);
   gl_Position.z *= depthScale;
 }
 )";

@@ -5,12 +5,35 @@
 #include <cstddef>
 
 #include "trimtab/scene/gl_api.h"
+#include "trimtab/scene/gl_buffer.h"
 #include "trimtab/terrain/static_lod.h"
 
 namespace trimtab::scene {
 namespace {
 
 using terrain::StaticLodVertex;
+
+constexpr auto kBlock = static_cast<std::uint32_t>(StaticLodLayer::kBlock);
+constexpr std::uint32_t kIndexBlock = 64;
+constexpr std::size_t kBlockBytes = kBlock * sizeof(StaticLodVertex) + 4 * sizeof(std::int32_t),
+                      kIndexBlockBytes = kIndexBlock * sizeof(std::uint32_t);
+
+std::uint32_t inBlocks(std::size_t count, std::uint32_t block) {
+  return static_cast<std::uint32_t>((count + block - 1) / block);
+}
+
+/// Room for `units` more: half as much again, or what is needed, where there is memory for it.
+template <class Grow>
+std::optional<std::uint32_t> takeGrowing(RangeAllocator& places, std::uint32_t units, const Grow& grow) {
+  if (const auto first = places.take(units)) return first;
+  const std::uint32_t size = places.size(), least = std::max(size + units, 4096u);
+  for (const std::uint32_t after : {std::max(least, size + size / 2), least})
+    if (grow(after)) {
+      places.growTo(after);
+      return places.take(units);
+    }
+  return {};
+}
 
 void defineAttributes() {
   const auto attribute = [](unsigned index, int size, unsigned type, unsigned char normalise,
@@ -53,108 +76,174 @@ void collectEdges(const terrain::StaticLodTile& tile, const terrain::StaticLodRa
 
 }  // namespace
 
+StaticLodLayer::StaticLodLayer(std::size_t keptBytes) : keptBytes_(keptBytes) {
+  for (GLuint* array : {&array_, &numberedArray_, &edgeArray_}) glGenVertexArrays(1, array);
+  glGenTextures(1, &slotTexture_);
+  glGenBuffers(1, &dataBuffer_);
+}
+
 StaticLodLayer::~StaticLodLayer() {
   clear();
+  glDeleteBuffers(1, &dataBuffer_);
+  glDeleteTextures(1, &slotTexture_);
+  for (const GLuint array : {array_, numberedArray_, edgeArray_}) glDeleteVertexArrays(1, &array);
 }
 
+/// Gives the memory back: another terrain may need far less.
 void StaticLodLayer::clear() {
-  for (Tile& tile : tiles_) drop(tile);
   for (const Edges& edges : edges_) glDeleteBuffers(1, &edges.buffer);
-  tiles_.clear();
+  for (GLuint* buffer : {&vertexBuffer_, &indexBuffer_, &slotBuffer_}) {
+    glDeleteBuffers(1, buffer);
+    *buffer = 0;
+  }
+  places_.clear();
   edges_.clear();
-  bytes_ = 0;
-}
-
-void StaticLodLayer::drop(Tile& tile) {
-  for (const GLuint array : {tile.vertexArray, tile.edgeArray}) glDeleteVertexArrays(1, &array);
-  for (const GLuint buffer : {tile.vertexBuffer, tile.indexBuffer}) glDeleteBuffers(1, &buffer);
-  tile = {};
+  blocks_.clear();
+  indexBlocks_.clear();
+  ++placesNumber_;
 }
 
 void StaticLodLayer::setTerrain(std::shared_ptr<const terrain::StaticLodTerrain> terrain) {
   clear();
   terrain_ = std::move(terrain);
   if (!terrain_) return;
-  tiles_.resize(terrain_->tiles.size());
+  places_.resize(terrain_->tiles.size());
   edges_.resize(terrain_->index.size());
 }
 
-void StaticLodLayer::upload(std::uint32_t at) {
-  const terrain::StaticLodTile& source = terrain_->tiles[at];
-  Tile& tile = tiles_[at];
-  glGenVertexArrays(1, &tile.vertexArray);
-  glBindVertexArray(tile.vertexArray);
-  tile.vertexBuffer = makeBuffer(GL_ARRAY_BUFFER, source.vertices);
-  defineAttributes();
-  tile.indexBuffer = makeBuffer(GL_ELEMENT_ARRAY_BUFFER, source.indices);
-  glGenVertexArrays(1, &tile.edgeArray);
-  glBindVertexArray(tile.edgeArray);
-  defineAttributes();
+std::size_t StaticLodLayer::bytes() const {
+  return blocks_.used() * kBlockBytes + indexBlocks_.used() * kIndexBlockBytes;
+}
+
+void StaticLodLayer::drop(std::uint32_t tile) {
+  Place& place = places_[tile];
+  if (place.blocks == 0) return;
+  blocks_.give(place.block, place.blocks);
+  indexBlocks_.give(place.indexBlock, place.indexBlocks);
+  place = {};
+  ++placesNumber_;
+}
+
+/// False where this frame needs all that is there.
+bool StaticLodLayer::dropOldest() {
+  std::optional<std::uint32_t> oldest;
+  for (std::uint32_t tile = 0; tile < places_.size(); ++tile)
+    if (places_[tile].blocks > 0 && places_[tile].lastUse < frame_ &&
+        (!oldest || places_[tile].lastUse < places_[*oldest].lastUse))
+      oldest = tile;
+  if (oldest) drop(*oldest);
+  return oldest.has_value();
+}
+
+/// The buffers that there are now, to all that read them.
+void StaticLodLayer::attach() {
+  for (const GLuint array : {array_, numberedArray_, edgeArray_}) {
+    glBindVertexArray(array);
+    glBindBuffer(GL_ARRAY_BUFFER, vertexBuffer_);
+    if (vertexBuffer_ != 0) defineAttributes();
+    if (array != edgeArray_) glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indexBuffer_);
+  }
+  glBindVertexArray(numberedArray_);
+  glBindBuffer(GL_ARRAY_BUFFER, dataBuffer_);
+  glEnableVertexAttribArray(4);
+  glVertexAttribIPointer(4, 1, GL_UNSIGNED_INT, sizeof(DrawData), nullptr);
+  glVertexAttribDivisor(4, 1);
+  glEnableVertexAttribArray(5);
+  glVertexAttribPointer(5, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(DrawData),
+                        reinterpret_cast<const void*>(offsetof(DrawData, tint)));
+  glVertexAttribDivisor(5, 1);
   glBindVertexArray(0);
   glBindBuffer(GL_ARRAY_BUFFER, 0);
-  bytes_ += source.vertices.size() * sizeof(StaticLodVertex) + source.indices.size() * sizeof(std::uint32_t);
+  if (slotBuffer_ != 0) attachBuffer(slotTexture_, GL_RGBA32I, slotBuffer_);
+}
+
+bool StaticLodLayer::place(Place& place) {
+  constexpr std::size_t kVertices = kBlock * sizeof(StaticLodVertex), kSlot = 4 * sizeof(std::int32_t);
+  const auto block = takeGrowing(blocks_, place.blocks, [this](std::uint32_t after) {
+    const bool grown = growBuffer(vertexBuffer_, blocks_.size() * kVertices, after * kVertices) &&
+                       growBuffer(slotBuffer_, blocks_.size() * kSlot, after * kSlot);
+    attach();
+    return grown;
+  });
+  if (!block) return false;
+  const auto indexBlock = takeGrowing(indexBlocks_, place.indexBlocks, [this](std::uint32_t after) {
+    const bool grown =
+        growBuffer(indexBuffer_, indexBlocks_.size() * kIndexBlockBytes, after * kIndexBlockBytes);
+    attach();
+    return grown;
+  });
+  if (!indexBlock) {
+    blocks_.give(*block, place.blocks);
+    return false;
+  }
+  place.block = *block;
+  place.indexBlock = *indexBlock;
+  return true;
+}
+
+bool StaticLodLayer::upload(std::uint32_t at) {
+  const terrain::StaticLodTile& source = terrain_->tiles[at];
+  Place place{.blocks = inBlocks(source.vertices.size(), kBlock),
+              .indexBlocks = inBlocks(source.indices.size(), kIndexBlock)};
+  if (place.blocks == 0 || place.indexBlocks == 0) return false;
+  const std::size_t needed = place.blocks * kBlockBytes + place.indexBlocks * kIndexBlockBytes;
+  while (bytes() + needed > keptBytes_ && dropOldest()) {
+  }
+  while (!this->place(place))
+    if (!dropOldest()) return false;
+  uploadPart(vertexBuffer_, std::size_t{place.block} * kBlock * sizeof(StaticLodVertex),
+             source.vertices.data(), source.vertices.size() * sizeof(StaticLodVertex));
+  uploadPart(indexBuffer_, place.indexBlock * kIndexBlockBytes, source.indices.data(),
+             source.indices.size() * sizeof(std::uint32_t));
+  std::vector<std::array<std::int32_t, 4>> slots(place.blocks,
+                                                 {source.origin[0], source.origin[1], source.origin[2], 0});
+  uploadPart(slotBuffer_, place.block * sizeof slots[0], slots.data(), slots.size() * sizeof slots[0]);
+  place.lastUse = frame_;
+  places_[at] = place;
+  ++placesNumber_;
+  return true;
 }
 
 std::size_t StaticLodLayer::prepare(std::span<const TileDraw> nodes, bool anew) {
-  std::size_t uploaded = 0;
+  ++frame_;
+  const auto tileOf = [this](const TileDraw& node) { return terrain_->index.nodes[node.node].tile; };
   if (anew)
-    for (const TileDraw& node : nodes) drop(tiles_[terrain_->index.nodes[node.node].tile]);
-  for (const TileDraw& node : nodes) {
-    const std::uint32_t tile = terrain_->index.nodes[node.node].tile;
-    if (tiles_[tile].vertexArray != 0) continue;
-    upload(tile);
-    ++uploaded;
-  }
+    for (const TileDraw& node : nodes) drop(tileOf(node));
+  // First those that are there, so that none of them is given up for another of the same frame.
+  for (const TileDraw& node : nodes) places_[tileOf(node)].lastUse = frame_;
+  std::size_t uploaded = 0;
+  for (const TileDraw& node : nodes)
+    if (const std::uint32_t tile = tileOf(node); places_[tile].blocks == 0) uploaded += upload(tile);
   return uploaded;
 }
 
-template <class Draw>
-void StaticLodLayer::eachTile(unsigned program, std::span<const TileDraw> nodes, const Draw& draw) {
-  const GLint origin = glGetUniformLocation(program, "treeOrigin");
-  for (std::size_t first = 0, end = 0; first < nodes.size(); first = end) {
-    const std::uint32_t tile = terrain_->index.nodes[nodes[first].node].tile;
-    while (end < nodes.size() && terrain_->index.nodes[nodes[end].node].tile == tile) ++end;
-    if (tiles_[tile].vertexArray == 0) continue;
-    const std::int32_t* o = terrain_->tiles[tile].origin;
-    glUniform3i(origin, o[0], o[1], o[2]);
-    draw(tiles_[tile], nodes.subspan(first, end - first));
-  }
-  glBindVertexArray(0);
+const StaticLodLayer::Place& StaticLodLayer::placeOf(std::uint32_t node) const {
+  return places_[terrain_->index.nodes[node].tile];
 }
 
-void StaticLodLayer::draw(unsigned program, std::span<const TileDraw> nodes) {
-  eachTile(program, nodes, [this](const Tile& tile, std::span<const TileDraw> ofTile) {
-    counts_.clear();
-    offsets_.clear();
-    for (const TileDraw& node : ofTile) {
-      const terrain::StaticLodRange range = terrain_->ranges[node.node];
-      counts_.push_back(static_cast<int>(3 * range.triangles));
-      offsets_.push_back(
-          reinterpret_cast<const void*>(std::size_t{range.firstTriangle} * 3 * sizeof(std::uint32_t)));
-    }
-    glBindVertexArray(tile.vertexArray);
-    glMultiDrawElements(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_INT, offsets_.data(),
-                        static_cast<int>(counts_.size()));
-  });
-}
-
-void StaticLodLayer::drawTinted(unsigned program, std::span<const TileDraw> nodes,
-                                std::span<const std::uint32_t> colours) {
-  const GLint tint = glGetUniformLocation(program, "treeTint");
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const std::uint32_t c = colours[i];
-    const auto part = [c](unsigned shift) { return static_cast<float>(c >> shift & 255u) / 255.0f; };
-    glUniform4f(tint, part(0), part(8), part(16), part(24));
-    draw(program, nodes.subspan(i, 1));
+void StaticLodLayer::addCommands(MultiDraw& draw, std::span<const TileDraw> nodes) {
+  if (!draw.begin(nodes, placesNumber_)) return;
+  for (const TileDraw& node : nodes) {
+    const Place& place = placeOf(node.node);
+    const terrain::StaticLodRange range = terrain_->ranges[node.node];
+    if (place.blocks > 0)
+      draw.add(place.indexBlock * kIndexBlock + 3 * range.firstTriangle, 3 * range.triangles,
+               place.block * kBlock);
   }
 }
 
-void StaticLodLayer::drawNumbered(unsigned program, std::span<const TileDraw> nodes) {
-  const GLint number = glGetUniformLocation(program, "treeNode");
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    glUniform1ui(number, nodes[i].node);
-    draw(program, nodes.subspan(i, 1));
-  }
+void StaticLodLayer::draw(std::span<const TileDraw> nodes) {
+  addCommands(surface_, nodes);
+  surface_.draw(array_, GL_UNSIGNED_INT);
+}
+
+void StaticLodLayer::drawNumbered(std::span<const TileDraw> nodes, std::span<const std::uint32_t> colours) {
+  addCommands(numbered_, nodes);
+  data_.clear();
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (placeOf(nodes[i].node).blocks > 0) data_.push_back({nodes[i].node, colours.empty() ? 0 : colours[i]});
+  uploadBuffer(dataBuffer_, data_.data(), data_.size() * sizeof(DrawData));
+  numbered_.draw(numberedArray_, GL_UNSIGNED_INT, true);
 }
 
 const StaticLodLayer::Edges& StaticLodLayer::edgesOf(std::uint32_t node) {
@@ -170,8 +259,21 @@ const StaticLodLayer::Edges& StaticLodLayer::edgesOf(std::uint32_t node) {
     }
   edges = {makeBuffer(GL_ELEMENT_ARRAY_BUFFER, indices), static_cast<int>(2 * free.size()),
            static_cast<int>(2 * locked.size())};
-  bytes_ += indices.size() * sizeof(std::uint32_t);
   return edges;
+}
+
+void StaticLodLayer::drawEdges(std::span<const TileDraw> nodes, bool locked) {
+  glBindVertexArray(edgeArray_);
+  for (const TileDraw& node : nodes) {
+    const Place& place = placeOf(node.node);
+    if (place.blocks == 0) continue;
+    const Edges& edges = edgesOf(node.node);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, edges.buffer);
+    const std::size_t first = locked ? static_cast<std::size_t>(edges.free) * sizeof(std::uint32_t) : 0;
+    glDrawElementsBaseVertex(GL_LINES, locked ? edges.locked : edges.free, GL_UNSIGNED_INT,
+                             reinterpret_cast<const void*>(first), static_cast<GLint>(place.block * kBlock));
+  }
+  glBindVertexArray(0);
 }
 
 void StaticLodLayer::drawPicture(unsigned program, std::span<const TileDraw> nodes) {
@@ -179,25 +281,14 @@ void StaticLodLayer::drawPicture(unsigned program, std::span<const TileDraw> nod
   const GLint depthScale = glGetUniformLocation(program, "depthScale");
   glUniform4f(colour, 0.84f, 0.84f, 0.84f, 1);
   glUniform1f(depthScale, 1);
-  draw(program, nodes);
+  draw(nodes);
   // Lines nearer than the faces they bound, and black before red: where they meet, locked shows.
-  const auto lines = [&](float nearer, bool locked) {
-    glUniform1f(depthScale, nearer);
-    eachTile(program, nodes, [&](const Tile& tile, std::span<const TileDraw> ofTile) {
-      glBindVertexArray(tile.edgeArray);
-      for (const TileDraw& node : ofTile) {
-        const Edges& edges = edgesOf(node.node);
-        glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, edges.buffer);
-        const std::size_t first = locked ? static_cast<std::size_t>(edges.free) * sizeof(std::uint32_t) : 0;
-        glDrawElements(GL_LINES, locked ? edges.locked : edges.free, GL_UNSIGNED_INT,
-                       reinterpret_cast<const void*>(first));
-      }
-    });
-  };
   glUniform4f(colour, 0, 0, 0, 1);
-  lines(1.003f, true);
+  glUniform1f(depthScale, 1.003f);
+  drawEdges(nodes, true);
   glUniform4f(colour, 0.85f, 0, 0, 1);
-  lines(1.002f, false);
+  glUniform1f(depthScale, 1.002f);
+  drawEdges(nodes, false);
 }
 
 }  // namespace trimtab::scene

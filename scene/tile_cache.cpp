@@ -78,12 +78,14 @@ std::size_t TileCache::bytes() const {
   return slots_.size() * kSlotBytes;
 }
 
-void TileCache::grow() {
+/// False where there is no memory for more: the slots are those that there were.
+bool TileCache::grow() {
   const std::size_t before = slots_.size();
   const std::size_t after = before == 0 ? kFirstSlots : before * 2;
-  growBuffer(vertexBuffer_, before * kSlotBytes, after * kSlotBytes);
-  growBuffer(occluderBuffer_, before * kOccluderBytes, after * kOccluderBytes);
-  growBuffer(partBuffer_, before * kPartBytes, after * kPartBytes);
+  const bool grown = growBuffer(vertexBuffer_, before * kSlotBytes, after * kSlotBytes) &&
+                     growBuffer(occluderBuffer_, before * kOccluderBytes, after * kOccluderBytes) &&
+                     growBuffer(partBuffer_, before * kPartBytes, after * kPartBytes);
+  // Some may have been replaced even so.
   glBindVertexArray(vertexArray_);
   glBindBuffer(GL_ARRAY_BUFFER, vertexBuffer_);
   defineAttributes();
@@ -93,6 +95,8 @@ void TileCache::grow() {
   glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(OccluderVertex), nullptr);
   glBindVertexArray(0);
   glBindBuffer(GL_ARRAY_BUFFER, 0);
+  attachBuffer(partTexture_, GL_RGBA32F, partBuffer_);
+  if (!grown) return false;
 
   slots_.resize(after);
   slotData_.resize(after);
@@ -101,21 +105,20 @@ void TileCache::grow() {
   uploadBuffer(tintBuffer_, tints_.data(), after * sizeof(std::uint32_t));
   attachBuffer(slotTexture_, GL_RGBA32I, slotBuffer_);
   attachBuffer(tintTexture_, GL_RGBA8, tintBuffer_);
-  attachBuffer(partTexture_, GL_RGBA32F, partBuffer_);
+  return true;
 }
 
 std::uint32_t TileCache::takeSlot() {
   if (used_ < slots_.size()) return used_++;
-  if (slots_.size() >= kKeptSlots) {
-    const auto oldest = std::min_element(slots_.begin(), slots_.end(),
-                                         [](const Slot& a, const Slot& b) { return a.lastUse < b.lastUse; });
-    if (oldest->lastUse < frame_) {
-      slotOfNode_[oldest->node] = kNoSlot;
-      return static_cast<std::uint32_t>(oldest - slots_.begin());
-    }
+  if (slots_.size() < kKeptSlots && grow()) return used_++;
+  const auto oldest = std::min_element(slots_.begin(), slots_.end(),
+                                       [](const Slot& a, const Slot& b) { return a.lastUse < b.lastUse; });
+  if (oldest != slots_.end() && oldest->lastUse < frame_) {
+    slotOfNode_[oldest->node] = kNoSlot;
+    ++places_;
+    return static_cast<std::uint32_t>(oldest - slots_.begin());
   }
-  grow();
-  return used_++;
+  return slots_.size() >= kKeptSlots && grow() ? used_++ : kNoSlot;
 }
 
 void TileCache::fill(std::uint32_t slot, std::uint32_t node) {
@@ -142,6 +145,7 @@ std::size_t TileCache::prepare(std::span<const TileDraw> tiles, bool anew) {
     const std::uint32_t had = slotOfNode_[tile.node];
     if (had != kNoSlot && !anew) continue;
     const std::uint32_t slot = had != kNoSlot ? had : takeSlot();
+    if (slot == kNoSlot) break;
     fill(slot, tile.node);
     slots_[slot].lastUse = frame_;
     ++built;

@@ -31,7 +31,8 @@ class TileCache {
   /// Forgets all tiles.
   void setDatabase(std::shared_ptr<const terrain::Database> database);
   /// Makes sure that the tiles have slots, building those that lack one, or all of them with `anew`. Returns
-  /// how many were built.
+  /// how many were built. Where there is no memory for more, the longest unused are given up, and what a
+  /// frame needs beyond that has no slot.
   std::size_t prepare(std::span<const TileDraw> tiles, bool anew = false);
 
   /// One multi-draw of the tiles, in order; those without a slot are skipped. A program that reads attributes
@@ -63,7 +64,7 @@ class TileCache {
   };
 
   std::uint32_t takeSlot();
-  void grow();
+  bool grow();
   void fill(std::uint32_t slot, std::uint32_t node);
 
   std::shared_ptr<const terrain::Database> database_;

@@ -53,6 +53,27 @@ void TreeDrawer::draw(unsigned program) {
   }
 }
 
+void TreeDrawer::drawPicture(unsigned program) {
+  const BoundSlots slots(gl_->layer.slotTexture(), 0);
+  gl_->layer.drawPicture(program, visible().tiles);
+}
+
+void TreeDrawer::drawNumbered(unsigned) {
+  const BoundSlots slots(gl_->layer.slotTexture(), 0);
+  gl_->layer.drawNumbered(numbered_);
+}
+
+void TreeDrawer::drawNodes(unsigned, std::span<const TileDraw> nodes) {
+  const BoundSlots slots(gl_->layer.slotTexture(), 0);
+  gl_->layer.draw(nodes);
+}
+
+void TreeDrawer::drawTinted(unsigned, std::span<const TileDraw> nodes,
+                            std::span<const std::uint32_t> colours) {
+  const BoundSlots slots(gl_->layer.slotTexture(), 0);
+  gl_->layer.drawNumbered(nodes, colours);
+}
+
 Renderer::Grey TreeDrawer::readDepthMap() const {
   if (!mapDrawn_) return {};
   const DepthPyramid& map = gl_->occlusion.pyramid();

@@ -19,8 +19,8 @@ class TreeDrawer final : public TerrainDrawer {
   /// With a depth map the near nodes, then what they leave of the far ones.
   void draw(unsigned program) override;
   /// Document E's picture instead.
-  void drawPicture(unsigned program) { gl_->layer.drawPicture(program, visible().tiles); }
-  void drawNumbered(unsigned program) override { gl_->layer.drawNumbered(program, numbered_); }
+  void drawPicture(unsigned program);
+  void drawNumbered(unsigned program) override;
 
   const std::vector<TileDraw>& cut() const override { return culling_.cut(); }
   const VisibleSet& visible() const override { return culling_.visible(); }
@@ -33,13 +33,9 @@ class TreeDrawer final : public TerrainDrawer {
   std::size_t upload(std::span<const TileDraw> nodes, bool anew) override {
     return gl_->layer.prepare(nodes, anew);
   }
-  void drawNodes(unsigned program, std::span<const TileDraw> nodes) override {
-    gl_->layer.draw(program, nodes);
-  }
+  void drawNodes(unsigned program, std::span<const TileDraw> nodes) override;
   void drawTinted(unsigned program, std::span<const TileDraw> nodes,
-                  std::span<const std::uint32_t> colours) override {
-    gl_->layer.drawTinted(program, nodes, colours);
-  }
+                  std::span<const std::uint32_t> colours) override;
   /// They stand as they are drawn: StaticLodCulling::visible.
   void arrange(std::vector<TileDraw>&, Vec3) const override {}
 

@@ -63,17 +63,17 @@ osg::ref_ptr<osg::Node> quadtree(const TerrainIndex& index, std::uint32_t node) 
   return group;
 }
 
-/// Draws all tiles by one call.
-class MultiDraw final : public osg::Drawable {
+/// Draws all tiles as the terrain's layers do.
+class AllTiles final : public osg::Drawable {
  public:
-  MultiDraw() = default;
-  MultiDraw(const MultiDraw& other, const osg::CopyOp& op) : osg::Drawable(other, op) {}
-  explicit MultiDraw(const std::vector<osg::Vec3f>& vertices)
-      : counts_(vertices.size() / 3, 3), bases_(vertices.size() / 3), offsets_(vertices.size() / 3, nullptr) {
+  AllTiles() = default;
+  AllTiles(const AllTiles& other, const osg::CopyOp& op) : osg::Drawable(other, op) {}
+  AllTiles(const std::vector<osg::Vec3f>& vertices, const Submission& submission)
+      : anew_(submission.anew), draw_(std::make_unique<scene::MultiDraw>(*submission.way)) {
     setUseDisplayList(false);
     setSupportsDisplayList(false);
     setCullingActive(false);
-    for (std::size_t i = 0; i < bases_.size(); ++i) bases_[i] = static_cast<int>(3 * i);
+    for (std::uint32_t i = 0; 3 * i < vertices.size(); ++i) tiles_.push_back({i, 0});
     const std::uint16_t indices[3] = {0, 1, 2};
     glGenVertexArrays(1, &array_);
     glBindVertexArray(array_);
@@ -89,17 +89,19 @@ class MultiDraw final : public osg::Drawable {
     glBindVertexArray(0);
     glBindBuffer(GL_ARRAY_BUFFER, 0);
   }
-  META_Object(trimtab, MultiDraw);
+  META_Object(trimtab, AllTiles);
   void drawImplementation(osg::RenderInfo&) const override {
-    glBindVertexArray(array_);
-    glMultiDrawElementsBaseVertex(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_SHORT, offsets_.data(),
-                                  static_cast<GLsizei>(counts_.size()), bases_.data());
-    glBindVertexArray(0);
+    places_ += anew_;
+    if (draw_->begin(tiles_, places_))
+      for (const TileDraw& tile : tiles_) draw_->add(0, 3, 3 * tile.node);
+    draw_->draw(array_, GL_UNSIGNED_SHORT);
   }
 
  private:
-  std::vector<int> counts_, bases_;
-  std::vector<const void*> offsets_;
+  std::vector<TileDraw> tiles_;
+  bool anew_ = false;
+  mutable std::uint64_t places_ = 1;
+  std::unique_ptr<scene::MultiDraw> draw_;
   GLuint array_ = 0;
 };
 
@@ -171,7 +173,7 @@ std::vector<std::uint32_t> OsgQuadtree::kept() const {
   return nodes;
 }
 
-double submitMilliseconds(int tiles, bool multiDraw, unsigned framebuffer, int frames) {
+double submitMilliseconds(int tiles, Submission submission, unsigned framebuffer, int frames) {
   osgViewer::Viewer viewer;
   viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
   osg::ref_ptr<osgViewer::GraphicsWindowEmbedded> window =
@@ -191,7 +193,7 @@ double submitMilliseconds(int tiles, bool multiDraw, unsigned framebuffer, int f
     const float x = static_cast<float>(i % 64) / 32 - 1, y = static_cast<float>(i / 64 % 64) / 32 - 1;
     const std::vector<osg::Vec3f> triangle{{x, y, 0}, {x + 0.02f, y, 0}, {x, y + 0.02f, 0}};
     all.insert(all.end(), triangle.begin(), triangle.end());
-    if (multiDraw) continue;
+    if (submission.way) continue;
     osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
     geometry->setUseDisplayList(false);
     geometry->setUseVertexBufferObjects(true);
@@ -200,7 +202,7 @@ double submitMilliseconds(int tiles, bool multiDraw, unsigned framebuffer, int f
     geometry->addPrimitiveSet(new osg::DrawElementsUShort(GL_TRIANGLES, 3, indices));
     root->addChild(geometry);
   }
-  if (multiDraw) root->addChild(new MultiDraw(all));
+  if (submission.way) root->addChild(new AllTiles(all, submission));
   viewer.setSceneData(root);
   viewer.realize();
   camera->getStats()->collectStats("rendering", true);

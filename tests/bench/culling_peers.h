@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "trimtab/culling/select.h"
+#include "trimtab/scene/multi_draw.h"
 
 /// OpenSceneGraph's own ways of the same work, run as OSG runs them.
 namespace trimtab::bench {
@@ -43,8 +45,13 @@ class OsgQuadtree {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Milliseconds that OSG's draw traversal takes to submit `tiles` tiles of one triangle: a drawable a tile,
-/// or one drawable that issues one multi-draw. Needs the context current; the least of `frames`.
-double submitMilliseconds(int tiles, bool multiDraw, unsigned framebuffer, int frames);
+/// How tiles of one triangle are submitted.
+struct Submission {
+  std::optional<scene::DrawWay> way = {};  ///< none: an osg::Geometry a tile
+  bool anew = false;                       ///< another list of tiles each frame
+};
+/// Milliseconds that OSG's draw traversal takes to submit `tiles` such tiles. Needs the context current; the
+/// least of `frames`.
+double submitMilliseconds(int tiles, Submission submission, unsigned framebuffer, int frames);
 
 }  // namespace trimtab::bench
