@@ -21,6 +21,8 @@ constexpr double kUsual = 4;
 constexpr double kFollowsTriangles = 0.5;
 /// What a method is taken to cost before it was tried, as a share of the frame.
 constexpr double kUnknownShare = 0.2;
+/// What its very first frame is believed to have cost, at most.
+constexpr double kMostFirstShare = 0.5;
 
 double follow(double known, double measured) {
   return known + kFollow * (std::min(measured, std::max(kUsual * known, 0.5)) - known);
@@ -140,16 +142,20 @@ void OcclusionChoice::learnTriangleCost(const Outcome& outcome) {
 void OcclusionChoice::learnArm(const Outcome& outcome) {
   Arm& arm = arms_[served_];
   const bool first = before_ != served_;
-  if (!arm.known)
-    arm.firstMs = arm.costMs = outcome.occlusionMs;
-  else if (first && arm.firstMs > 0) {
+  if (arm.frames < kFirstTrialFrames) {
+    // The very first frame also makes what is kept for good; it says the least about those that follow.
+    if (arm.frames == 0)
+      arm.firstMs = arm.costMs = std::min(outcome.occlusionMs, kMostFirstShare * frameMs_);
+    else
+      arm.costMs = arm.frames == 1 ? outcome.occlusionMs : std::min(arm.costMs, outcome.occlusionMs);
+    ++arm.frames;
+  } else if (first && arm.firstMs > 0) {
     const double before = arm.firstMs;
     arm.firstMs = follow(before, outcome.occlusionMs);
     arm.costMs *= arm.firstMs / before;
-  } else if (arm.costMs == arm.firstMs)
-    arm.costMs = outcome.occlusionMs;  // of a row nothing was known yet
-  else
+  } else {
     arm.costMs = follow(arm.costMs, outcome.occlusionMs);
+  }
   arm.known = true;
   arm.last = now_;
   const auto all = static_cast<double>(outcome.drawn + outcome.hidden);
@@ -169,7 +175,8 @@ void OcclusionChoice::learn(const Outcome& outcome) {
   learnArm(outcome);
   const double worthNow = msPerTriangle() * static_cast<double>(outcome.hidden) - outcome.occlusionMs;
   if (trial) {
-    arms_[served_].purseMs -= std::max(0.0, worth(current_) - worthNow);
+    const double loss = std::max(0.0, worth(current_) - worthNow);
+    arms_[served_].purseMs -= arms_[served_].frames == 1 ? std::min(loss, 2 * frameMs_) : loss;
     // Even for nothing it would not be better: no more of it.
     if (served_ != 0 && msPerTriangle() * static_cast<double>(outcome.hidden) <= worth(current_) + 1e-3)
       trialLeft_ = 0;

@@ -57,6 +57,7 @@ class OcclusionChoice {
   static constexpr std::size_t kArms = 6;  ///< none, and the methods but `automatic`
   struct Arm {
     bool known = false;
+    int frames = 0;      ///< of its first trial
     double costMs = 0;   ///< a frame in a row
     double firstMs = 0;  ///< the first frame of a row
     double share = 0;    ///< of the triangles in view that it hides

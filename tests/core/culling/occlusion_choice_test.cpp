@@ -118,6 +118,24 @@ TEST(OcclusionChoice, findsTheFastestOfMethodsThatCostTheSame) {
   EXPECT_LT(total.ms, 0.5 * total.noneMs + 0.5 * total.bestFixedMs);
 }
 
+TEST(OcclusionChoice, forgivesAMethodWhatItsVeryFirstFrameMakesForGood) {
+  int served = 0;
+  Flight flight;
+  flight.machine = [&served](int) {
+    const double once = served == 0 ? 400 : 2;
+    return Machine{6, 6e-5, {{0.3, once, 0.8}, {9, 9, 0.1}, {9, 9, 0.1}}};
+  };
+  OcclusionChoice choice;
+  Method before;
+  for (int i = 0; i < 400; ++i) {
+    const Method method = choice.choose({i * 16.0, {i * 5.0, 0, 0}, {1, 0, 0}, 0, kMethods});
+    choice.learn(flight.machine(i).frame(method, method != before, 180e3));
+    served += method == OcclusionMethod::horizon;
+    before = method;
+  }
+  EXPECT_GT(served, 300);
+}
+
 TEST(OcclusionChoice, takesNoneWhereNonePays) {
   for (const double share : {0.0, 0.005, 0.02}) {
     const Machine plain{10, 4e-5, {{1, 3, share}, {2, 4, share}, {2, 2, share}}};
