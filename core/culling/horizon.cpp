@@ -92,8 +92,28 @@ Horizon::Outline Horizon::outlineOf(std::uint32_t n) const {
   o.off = slack_ + (tile.above > 0 ? tile.above / away : 0);
   o.tile = n;
   o.ring = ringOf(away - tile.above);
-  o.lines = tile.relief ? tile.relief->lineXyz.data() : tile.mesh->lineX.data();
   return o;
+}
+
+Horizon::Lines Horizon::linesOf(const HorizonTile& tile, const Outline& o) const {
+  Lines l{};
+  if (!tile.relief || !tile.mayOcclude || o.tile == kNone) return l;
+  const TileRelief& relief = *tile.relief;
+  // Those along the line of sight hide next to nothing that the others do not.
+  const bool rows = std::abs(o.y0 + o.y1) >= std::abs(o.x0 + o.x1);
+  l.side = relief.side;
+  l.count = relief.lines / 2;
+  const auto first = static_cast<std::size_t>(rows ? 0 : l.count);
+  l.xyz = relief.lineXyz.data() + first * 3 * static_cast<std::size_t>(relief.side);
+  l.from = fromEye(eye_, relief.origin);
+  l.besideM = relief.besideM;
+  l.below = tile.below;
+  const TileRelief* next = rows ? tile.east : tile.north;
+  if (next && next->lines == relief.lines && next->side == relief.side) {
+    l.goOn = next->goOn.data() + first * 3 * TileRelief::kGoOn;
+    l.goOnFrom = fromEye(eye_, next->origin);
+  }
+  return l;
 }
 
 void Horizon::sortTiles() {
@@ -101,19 +121,24 @@ void Horizon::sortTiles() {
   firstOfRing_.assign(kRings + 1, 0);
   firstPiece_.assign(kRings, kNone);
   outlines_.resize(tiles_.size());
+  lines_.resize(tiles_.size());
   constexpr std::size_t kAhead = 8;
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     if (i + kAhead < tiles_.size()) {
-      const Relief* ahead = tiles_[i + kAhead].surface();
-      __builtin_prefetch(ahead);
-      __builtin_prefetch(reinterpret_cast<const char*>(ahead) + 64);
+      const HorizonTile& ahead = tiles_[i + kAhead];
+      for (const void* p :
+           {static_cast<const void*>(ahead.surface()), static_cast<const void*>(ahead.north)}) {
+        __builtin_prefetch(p);
+        __builtin_prefetch(static_cast<const char*>(p) + 64);
+      }
     }
     outlines_[i] = outlineOf(static_cast<std::uint32_t>(i));
+    lines_[i] = linesOf(tiles_[i], outlines_[i]);
     ++firstOfRing_[outlines_[i].ring + 1];
   }
   for (std::uint32_t ring = 0; ring < kRings; ++ring) firstOfRing_[ring + 1] += firstOfRing_[ring];
   order_.resize(tiles_.size());
-  for (const Outline& outline : outlines_) order_[firstOfRing_[outline.ring]++] = outline;
+  for (std::uint32_t i = 0; i < tiles_.size(); ++i) order_[firstOfRing_[outlines_[i].ring]++] = i;
 }
 
 bool Horizon::step(std::size_t work) {
@@ -126,31 +151,20 @@ bool Horizon::step(std::size_t work) {
   return isDone();
 }
 
-/// What the lines of a tile are made of lies in places that are found one by the other: asked for some tiles
-/// ahead, each, as tiles that stand out follow each other.
+/// Tiles that stand out follow each other.
 void Horizon::prefetchLines() const {
-  constexpr std::size_t kNear = 6, kFar = 14;
-  const auto at = [](const void* p, std::size_t bytes) {
-    for (std::size_t i = 0; i < bytes; i += 64) __builtin_prefetch(static_cast<const char*>(p) + i);
-  };
-  if (next_ + kFar >= order_.size()) return;
-  if (const Outline& far = order_[next_ + kFar]; far.tile != kNone) {
-    const HorizonTile& tile = tiles_[far.tile];
-    at(tile.surface(), 128);
-    if (tile.east) at(&tile.east->origin, 128);
-    if (tile.north) at(&tile.north->origin, 128);
-  }
-  if (const Outline& near = order_[next_ + kNear]; near.tile != kNone) {
-    const HorizonTile& tile = tiles_[near.tile];
-    at(near.lines, 6 * 64);
-    if (tile.east) at(tile.east->goOn.data(), 64);
-    if (tile.north) at(tile.north->goOn.data(), 64);
-  }
+  constexpr std::size_t kAhead = 8;
+  if (next_ + kAhead >= order_.size()) return;
+  const Lines& lines = lines_[order_[next_ + kAhead]];
+  const auto bytes = sizeof(float) * 3 * static_cast<std::size_t>(lines.side * std::min(lines.count, 2));
+  for (std::size_t at = 0; at < bytes; at += 64)
+    __builtin_prefetch(reinterpret_cast<const char*>(lines.xyz) + at);
+  __builtin_prefetch(lines.goOn);
 }
 
 void Horizon::testNext() {
   if (lastStood_) prefetchLines();
-  const Outline& outline = order_[next_++];
+  const Outline& outline = outlines_[order_[next_++]];
   ++work_;
   if (outline.tile == kNone) return;
   for (; done_ < outline.ring; ++done_) flush(done_);
@@ -169,8 +183,12 @@ void Horizon::testNext() {
     hidden_[outline.tile] = 1;
     ++hiddenCount_;
   } else if (tile.mayOcclude) {
-    offset_ = fromEye(eye_, tile.surface()->origin);
-    enqueueLines(tile);
+    if (tile.relief) {
+      enqueueLines(lines_[outline.tile]);
+    } else {
+      offset_ = fromEye(eye_, tile.mesh->origin);
+      enqueueLines(*tile.mesh, tile.below);
+    }
   }
 }
 

@@ -126,7 +126,13 @@ class Horizon {
     std::array<float, 3> peak;
     float nearest, off;  ///< least distance at which it counts; how far directions to it may be off
     std::uint32_t tile, ring;
-    const float* lines;
+  };
+  /// Of a regular tile, those of its lines that run across the line of sight, and how they go on.
+  struct Lines {
+    const float *xyz, *goOn;
+    std::array<float, 3> from, goOnFrom;  ///< their origins, from the eye
+    float besideM, below;
+    int side, count;
   };
   /// How far the eye may be from the middle of its room, by a quarter.
   struct Play {
@@ -139,6 +145,7 @@ class Horizon {
 
   void sortTiles();
   Outline outlineOf(std::uint32_t tile) const;
+  Lines linesOf(const HorizonTile& tile, const Outline& outline) const;
   void testNext();
   void prefetchLines() const;
 
@@ -151,7 +158,8 @@ class Horizon {
   bool isPartHidden(const MeshRelief& relief, const MeshRelief::Part& part) const;
   bool covers(int side, float t0, float t1, float w) const;
 
-  void enqueueLines(const HorizonTile& tile);
+  void enqueueLines(const Lines& lines);
+  void enqueueLines(const MeshRelief& mesh, float below);
   void enqueueLine(int last, int count, float besideM);
   void enqueueRun(std::uint32_t ring, int side, int from, int count, bool rises, float nearestM);
   int take(const float* x, const float* y, const float* z, int count, float below);
@@ -187,8 +195,9 @@ class Horizon {
   std::vector<std::uint8_t> hidden_;
   std::size_t hiddenCount_ = 0;
   // Tiles by how near their nearest point is, lines by how far their furthest.
-  std::vector<std::uint32_t> firstOfRing_, firstPiece_;
-  std::vector<Outline> outlines_, order_;
+  std::vector<std::uint32_t> firstOfRing_, order_, firstPiece_;
+  std::vector<Outline> outlines_;
+  std::vector<Lines> lines_;
   std::vector<Piece> pieces_;
   std::vector<float> pool_;  ///< of the pieces' columns
 };

@@ -7,13 +7,6 @@ namespace trimtab {
 
 using namespace horizon;
 
-namespace {
-
-/// A family of lines that runs this much along the line of sight adds next to nothing to the one across.
-constexpr float kAlong = 1.0f;
-
-}  // namespace
-
 /// Takes up a line of the tile in hand; how many corners.
 int Horizon::take(const float* x, const float* y, const float* z, int count, float below) {
   const float left = offset_[0], back = offset_[1], down = offset_[2] - below;
@@ -35,45 +28,27 @@ std::uint32_t Horizon::ringOfLine(int last, int count, float besideM) const {
   return ringOf((std::sqrt(furthest) + besideM) * (1 + 2e-5f) + 0.02f);
 }
 
-void Horizon::enqueueLines(const HorizonTile& tile) {
-  if (!tile.relief) {
-    const MeshRelief& mesh = *tile.mesh;
-    for (std::size_t line = 0; line < mesh.lines(); ++line) {
-      const std::uint32_t first = mesh.lineFirst[line];
-      const int count =
-          take(mesh.lineX.data() + first, mesh.lineY.data() + first, mesh.lineZ.data() + first,
-               std::min(static_cast<int>(mesh.lineFirst[line + 1] - first), kMostCorners), tile.below);
-      enqueueLine(count - 1, count, mesh.besideM);
-    }
-    return;
+void Horizon::enqueueLines(const MeshRelief& mesh, float below) {
+  for (std::size_t line = 0; line < mesh.lines(); ++line) {
+    const std::uint32_t first = mesh.lineFirst[line];
+    const int count = take(mesh.lineX.data() + first, mesh.lineY.data() + first, mesh.lineZ.data() + first,
+                           std::min(static_cast<int>(mesh.lineFirst[line + 1] - first), kMostCorners), below);
+    enqueueLine(count - 1, count, mesh.besideM);
   }
-  const TileRelief& relief = *tile.relief;
-  const float x = std::abs(0.5f * (relief.bounds.minX + relief.bounds.maxX) + offset_[0]),
-              y = std::abs(0.5f * (relief.bounds.minY + relief.bounds.maxY) + offset_[1]);
-  const auto goesOn = [&](const TileRelief* next) {
-    return next && next->lines == relief.lines && next->side == relief.side;
-  };
-  const std::array<const TileRelief*, 2> nexts{goesOn(tile.east) ? tile.east : nullptr,
-                                               goesOn(tile.north) ? tile.north : nullptr};
-  std::array<std::array<float, 3>, 2> origins{};
-  for (std::size_t i = 0; i < 2; ++i)
-    if (nexts[i]) origins[i] = fromEye(eye_, nexts[i]->origin);
-  const auto side = static_cast<std::size_t>(relief.side);
-  for (std::size_t line = 0; line < static_cast<std::size_t>(relief.lines); ++line) {
-    const std::size_t family = line % 2;  // rows, columns
-    if (family == 0 ? y < kAlong * x : x < kAlong * y) continue;
-    const float* xyz = relief.lineXyz.data() + 3 * side * line;
-    int count = take(xyz, xyz + side, xyz + 2 * side, relief.side, tile.below);
-    if (const TileRelief* next = nexts[family]) {
-      const float* on = next->goOn.data() + 3 * TileRelief::kGoOn * line;
-      for (int k = 0; k < TileRelief::kGoOn; ++k, on += 3) {
-        const auto to = static_cast<std::size_t>(count++);
-        x_[to] = on[0] + origins[family][0];
-        y_[to] = on[1] + origins[family][1];
-        z_[to] = on[2] + origins[family][2] - tile.below;
-      }
+}
+
+void Horizon::enqueueLines(const Lines& lines) {
+  offset_ = lines.from;
+  const float *xyz = lines.xyz, *on = lines.goOn;
+  for (int line = 0; line < lines.count; ++line, xyz += 3 * lines.side) {
+    int count = take(xyz, xyz + lines.side, xyz + 2 * lines.side, lines.side, lines.below);
+    for (int k = 0; on && k < TileRelief::kGoOn; ++k, on += 3) {
+      const auto to = static_cast<std::size_t>(count++);
+      x_[to] = on[0] + lines.goOnFrom[0];
+      y_[to] = on[1] + lines.goOnFrom[1];
+      z_[to] = on[2] + lines.goOnFrom[2] - lines.below;
     }
-    enqueueLine(relief.side - 1, count, relief.besideM);
+    enqueueLine(lines.side - 1, count, lines.besideM);
   }
 }
 

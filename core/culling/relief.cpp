@@ -50,10 +50,8 @@ void TileRelief::finish(int step) {
     ++lines;
   };
   // Not the borders: beside a coarser neighbour their odd posts are not drawn.
-  for (int across = step; across < side - 1; across += step) {
-    add(0, across, 1, 0);
-    add(across, 0, 0, 1);
-  }
+  for (int across = step; across < side - 1; across += step) add(0, across, 1, 0);
+  for (int across = step; across < side - 1; across += step) add(across, 0, 0, 1);
 
   constexpr float kMost = std::numeric_limits<float>::max();
   const auto boxOf = [&](int column, int row, int cells) {

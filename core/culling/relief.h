@@ -34,7 +34,7 @@ struct TileRelief : Relief {
 
   // What most tiles need of all this stands together.
   int side = 0;                ///< posts
-  int lines = 0;               ///< rows and columns of posts that may hide what is behind them, taking turns
+  int lines = 0;               ///< that may hide what is behind them: rows of posts, then as many columns
   float besideM = 0;           ///< no corner of a line is further from the way between its ends, in plan
   std::vector<float> lineXyz;  ///< of each line all x, all y, all z
   std::vector<float> goOn;     ///< of each line x, y and z of kGoOn corners after its first
