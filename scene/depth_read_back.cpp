@@ -100,11 +100,15 @@ void DepthReadBack::begin(const EyePose& eye, const LevelCut& cut) {
   if (map_ && !forced_.keepsChanged) uncoverChanged(cut);
 }
 
+/// Until the map after the one that is drawn now is there, and a little faster than the eye was last.
+double DepthReadBack::motionM() const {
+  return 1.1 * speedM_ * std::max(slowestFrames_, forced_.lag + 1);
+}
+
 std::optional<double> DepthReadBack::motionForMap() const {
   if (atOnce()) return 0;
   if (std::none_of(flights_.begin(), flights_.end(), [](const Flight& f) { return !f.fence; })) return {};
-  // Until the map after it is there, and a little faster than now.
-  return forced_.motionScale * 1.1 * speedM_ * (std::max(slowestFrames_, forced_.lag + 1));
+  return forced_.motionScale * motionM();
 }
 
 void DepthReadBack::take(const OcclusionPass& pass, const EyePose& eye, const ViewShape& view,
@@ -119,7 +123,7 @@ void DepthReadBack::take(const OcclusionPass& pass, const EyePose& eye, const Vi
   }
   const auto free = std::find_if(flights_.begin(), flights_.end(), [](const Flight& f) { return !f.fence; });
   if (free == flights_.end()) return;
-  map.motionM = motionForMap().value_or(0) / std::max(forced_.motionScale, 1e-9);
+  map.motionM = motionM();
   for (const TileDraw& tile : occluders) map.occluders.push_back(tile.node);
   const std::size_t bytes = static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height) * 4;
   if (bytes > free->capacity) {

@@ -91,6 +91,7 @@ class DepthReadBack {
     std::size_t capacity = 0;
     void* fence = nullptr;
   };
+  double motionM() const;
   bool arrived(const Flight& flight) const;
   void land(Flight& flight);
   void uncoverChanged(const LevelCut& cut);

@@ -1,0 +1,115 @@
+#include "trimtab/scene/map_culling.h"
+
+#include <limits>
+#include <random>
+
+#include "culling_flight.h"
+#include "patched_terrain.h"
+
+namespace trimtab {
+namespace {
+
+class MapScene : public test::CullingFlight {
+ protected:
+  explicit MapScene(OcclusionMethod method = OcclusionMethod::cpu_map) : CullingFlight(method, 15) {}
+};
+
+TEST_F(MapScene, leavesNoPixelOutOverSyntheticMountains) {
+  use(test::syntheticMountains());
+  const Tally tally = fly(24, 1);
+  EXPECT_EQ(tally.differing, 0u);
+  EXPECT_GT(tally.served, 20);
+  EXPECT_LT(tally.proposed * 10, tally.frustum * 9) << "it hides hardly anything";
+}
+
+TEST_F(MapScene, leavesNoPixelOutOverEverest) {
+  TRIMTAB_NEEDS_SHARED("data/dem-srtm3-everest");
+  use(bakeShared("dem-srtm3-everest"));
+  ASSERT_TRUE(database);
+  const Tally tally = fly(18, 2);
+  EXPECT_EQ(tally.differing, 0u);
+  EXPECT_LT(tally.proposed * 10, tally.frustum * 8);
+}
+
+// Without this, the tests above might pass because nothing can go wrong where they look.
+TEST_F(MapScene, losesPixelsWhereOccludersAreNotLowered) {
+  use(test::syntheticMountains());
+  constexpr std::array<DepthMapSize, 2> kCoarse{{{16, 12}, {24, 18}}};
+  renderer.plant({.loweringScale = 0});
+  EXPECT_GT(fly(12, 1, kCoarse).differing, 0u);
+  renderer.plant({});
+  EXPECT_EQ(fly(12, 1, kCoarse).differing, 0u);
+}
+
+TEST_F(MapScene, leavesNoPixelOfPatchesOut) {
+  use(test::patchedMountains(false));
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(0.2, 0.8), unit(0, 1);
+  Tally tally;
+  for (int i = 0; i < 40; ++i) {
+    auto r = request(over(place(random), place(random), 15 * std::pow(300, unit(random) * unit(random))),
+                     {Degrees{360 * unit(random)}, Degrees{-25 + 30 * unit(random)},
+                      Degrees{i % 3 == 0 ? 360 * unit(random) : 0}});
+    r.staticLod.terrain = TerrainForm::patches;
+    r.waitForPages = true;
+    r.lod.screenSpaceError = Pixels{i % 2 == 0 ? 0.25 : 1.0};
+    compare(r, kSizes[static_cast<std::size_t>(i) % kSizes.size()], tally);
+  }
+  std::printf("%zu patches by frustum, %zu proposed, %d tested\n", tally.frustum, tally.proposed,
+              tally.served);
+  EXPECT_EQ(tally.differing, 0u);
+  EXPECT_GT(tally.served, 30);
+  EXPECT_LT(tally.proposed * 100, tally.frustum * 95) << "it hides hardly anything";
+}
+
+TEST_F(MapScene, showsItsMapAsGreys) {
+  use(test::syntheticMountains());
+  auto r = request(over(0.5, 0.5, 400), {Degrees{20}, Degrees{-10}, Degrees{0}});
+  r.decision.depthMap = DepthMapSize{320, 240};
+  for (const OcclusionMethod method : {OcclusionMethod::cpu_map, OcclusionMethod::read_back}) {
+    r.occlusion = method;
+    scene::FrameResult result;
+    picture(r, &result);
+    ASSERT_EQ(result.occlusion, method);
+    const auto grey = renderer.readDepthMap();
+    ASSERT_EQ(grey.width, 320);
+    ASSERT_EQ(grey.height, 240);
+    EXPECT_LT(grey.pixels[160], 200) << "near ground below";
+    EXPECT_EQ(grey.pixels[239 * 320 + 160], 255) << "sky above";
+  }
+}
+
+TEST_F(MapScene, cullsNothingForDegenerateViews) {
+  use(test::syntheticMountains());
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto good = request(over(0.5, 0.5, 300), {Degrees{270}, Degrees{-5}, Degrees{0}});
+  std::vector<scene::FrameRequest> views;
+  const auto add = [&](auto&& change) {
+    views.push_back(good);
+    change(views.back());
+  };
+  add([&](auto& r) { r.attitude.heading = Degrees{nan}; });
+  add([&](auto& r) { r.attitude = {Degrees{nan}, Degrees{nan}, Degrees{nan}}; });
+  add([&](auto& r) { r.eye.height = Metres{nan}; });
+  add([&](auto& r) { r.eye.latitude = Degrees{90}; });
+  add([&](auto& r) { r.eye.latitude = Degrees{-90}, r.eye.height = Metres{-6e6}; });
+  add([&](auto& r) { r.eye.height = Metres{1e9}; });
+  add([&](auto& r) { r.view.left = r.view.right = 0; });
+  add([&](auto& r) { r.view.left = r.view.right = r.view.bottom = r.view.top = nan; });
+  add([&](auto& r) { r.view.nearM = nan; });
+  add([&](auto& r) { r.eye = over(0.5, 0.5, -40); });
+  add([&](auto& r) { r.eye = over(0.02, 0.98, 30); });
+  for (const OcclusionMethod method : {OcclusionMethod::cpu_map, OcclusionMethod::read_back})
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      scene::FrameRequest r = views[i];
+      r.decision.depthMap = DepthMapSize{320, 240};
+      r.occlusion = method;
+      r.method = CullingCase::view_frustum;
+      const auto whole = picture(r);
+      r.method = CullingCase::proposed;
+      EXPECT_EQ(differing(whole, picture(r)), 0u) << "view " << i;
+    }
+}
+
+}  // namespace
+}  // namespace trimtab
