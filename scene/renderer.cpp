@@ -231,8 +231,14 @@ void Renderer::setTerrain(std::shared_ptr<const terrain::Database> database) {
 }
 
 FrameResult Renderer::draw(const FrameRequest& request, unsigned fbo) {
-  if (!impl_->gl || request.view.widthPx <= 0 || request.view.heightPx <= 0) return {};
-  return impl_->draw(request, fbo);
+  const ViewShape& v = request.view;
+  if (!impl_->gl || v.widthPx <= 0 || v.heightPx <= 0) return {};
+  const double across = v.right - v.left, upward = v.top - v.bottom;
+  if (across > 0 && upward > 0 && std::isfinite(across + upward)) return impl_->draw(request, fbo);
+  // A view that is none, turned round for one, shows whatever GL makes of it: nothing is left out.
+  FrameRequest whole = request;
+  whole.method = CullingCase::none;
+  return impl_->draw(whole, fbo);
 }
 
 std::vector<float> Renderer::readDistances() {

@@ -123,7 +123,10 @@ bool DepthPyramid::coversWithin(std::size_t level, int x0, int y0, int x1, int y
 }
 
 bool DepthPyramid::isHidden(const Box& box, const EyePose& eye, const ViewShape& view) const {
-  if (width_ <= 0 || height_ <= 0) return false;
+  const double across = view.right - view.left, upward = view.top - view.bottom;
+  // Said so that a view that is none hides nothing: turned round, without width, endless, or not a number.
+  if (width_ <= 0 || height_ <= 0 || !(across > 0 && upward > 0 && std::isfinite(across + upward)))
+    return false;
   double lowX = 1e300, highX = -1e300, lowY = 1e300, highY = -1e300, nearest = 1e300;
   for (unsigned corner = 0; corner < 8; ++corner) {
     const Vec3 p = Vec3{corner & 1u ? box.maxX : box.minX, corner & 2u ? box.maxY : box.minY,

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "trimtab/preset/choices.h"
+#include "trimtab/scene/depth_read_back.h"
 
 namespace trimtab::test {
 namespace {
@@ -254,13 +255,20 @@ void CullingTruth::proveFlight(const std::vector<scene::FrameRequest>& requests)
   std::size_t hidden = 0;
   for (const View& view : views) hidden += view.hidden;
   std::printf("  %zu frames of flight: %zu nodes in the frustum without a pixel\n", views.size(), hidden);
-  for (const auto& [method, name] : occlusionChoices()) {
+  const auto follow = [&](OcclusionMethod method, const std::string& name) {
     Tally tally;
     // The band changes in flight too.
     for (std::size_t i = 0; i < views.size(); ++i)
       compare(views[i], CullingCase::proposed, method, kBands[i / 32 % kBands.size()], tally);
     tell("flight", name, tally);
+  };
+  for (const auto& [method, name] : occlusionChoices()) follow(method, name);
+  // As on a GPU, whose maps come late.
+  for (const int lag : {1, 3}) {
+    scene::DepthReadBack::force({.lag = lag});
+    follow(OcclusionMethod::read_back, "read_back, late by " + std::to_string(lag));
   }
+  scene::DepthReadBack::force({});
 }
 
 void CullingTruth::prove(TerrainForm form, int count, unsigned seed) {
