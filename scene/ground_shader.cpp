@@ -1,3 +1,4 @@
+#include "trimtab/scene/ground_noise.h"
 #include "trimtab/scene/ground_texture.h"
 
 namespace trimtab::scene {
@@ -8,10 +9,6 @@ namespace trimtab::scene {
 // level 0 about the eye, and hands over to the next in the last 15 % of that. Both are told with the
 // logarithm that the bits of a float are, which is wrong by less than a tenth. A software rasteriser pays for
 // every instruction: with a reach of its own for every level this cost twice as much.
-//
-// The noise hashes, as a texture of it with its levels costs more than twice as much there. Each octave fades
-// out before its cells are smaller than two pixels, so that nothing shimmers; the lattice repeats every
-// 8,192 m.
 const char* const kGroundColour = R"(
 uniform sampler2DArray groundTexels;
 uniform bool groundThere;
@@ -38,27 +35,6 @@ vec4 groundAt(vec2 post) {
   vec4 ground = mix(texture(groundTexels, vec3(place, fine)), texture(groundTexels, vec3(place * 0.5, fine + 1.0)), level - fine);
   return ground * vec4(1.0, 1.0, 1.0, 1.5);
 }
-
-float groundRandom(ivec2 cell) {
-  uint h = uint(cell.x) * 374761393u + uint(cell.y) * 668265263u;
-  h = (h ^ (h >> 13)) * 1274126177u;
-  return float((h ^ (h >> 16)) & 65535u) * (2.0 / 65535.0) - 1.0;
-}
-
-float groundNoise(vec2 p, int period) {
-  vec2 whole = floor(p);
-  vec2 t = p - whole;
-  t = t * t * (3.0 - 2.0 * t);
-  ivec2 low = ivec2(whole) & (period - 1), high = (ivec2(whole) + 1) & (period - 1);
-  return mix(mix(groundRandom(low), groundRandom(ivec2(high.x, low.y)), t.x), mix(groundRandom(ivec2(low.x, high.y)), groundRandom(high), t.x), t.y);
-}
-
-float groundDetail(vec2 metres) {
-  vec2 footprint = fwidth(metres);
-  float widest = max(footprint.x, footprint.y);
-  float coarse = clamp(1.5 - widest * (3.0 / 128.0), 0.0, 1.0), fine = clamp(1.5 - widest * (3.0 / 32.0), 0.0, 1.0);
-  return 0.11 * coarse * groundNoise(metres * (1.0 / 128.0), 64) + 0.09 * fine * groundNoise(metres * (1.0 / 32.0), 256);
-}
-)";
+)" TRIMTAB_GROUND_NOISE;
 
 }  // namespace trimtab::scene

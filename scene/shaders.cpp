@@ -1,5 +1,6 @@
 #include "trimtab/scene/shaders.h"
 
+#include "trimtab/scene/ground_noise.h"
 #include "trimtab/scene/patch_shaders.h"
 #include "trimtab/scene/weather_air.h"
 
@@ -67,12 +68,9 @@ void main() {
 }
 )";
 
-// Land between posts is no even colour: two octaves of noise that stand on the ground. Each fades out before
-// its cells are smaller than two pixels, so that nothing shimmers. The lattice repeats every 8,192 m, as
-// `ground` does.
 const char* const kTerrainFragment = R"(#version 430 compatibility
 #pragma import_defines(IN_WEATHER)
-)" TRIMTAB_AIR R"(
+)" TRIMTAB_AIR TRIMTAB_GROUND_NOISE R"(
 in vec3 lit;
 in float clearness;
 in vec2 ground;
@@ -80,28 +78,8 @@ uniform vec3 haze;         // sRGB
 uniform bool wire;
 out vec4 fragment;
 
-float random(ivec2 cell) {
-  uint h = uint(cell.x) * 374761393u + uint(cell.y) * 668265263u;
-  h = (h ^ (h >> 13)) * 1274126177u;
-  return float((h ^ (h >> 16)) & 65535u) * (2.0 / 65535.0) - 1.0;
-}
-
-float noise(vec2 p, int period) {
-  vec2 whole = floor(p);
-  vec2 t = p - whole;
-  t = t * t * (3.0 - 2.0 * t);
-  ivec2 low = ivec2(whole) & (period - 1), high = (ivec2(whole) + 1) & (period - 1);
-  return mix(mix(random(low), random(ivec2(high.x, low.y)), t.x), mix(random(ivec2(low.x, high.y)), random(high), t.x), t.y);
-}
-
 void main() {
-  vec2 footprint = fwidth(ground);
-  float widest = max(footprint.x, footprint.y);
-  float detail = 0.0;
-  float coarse = clamp(1.5 - widest * (3.0 / 128.0), 0.0, 1.0), fine = clamp(1.5 - widest * (3.0 / 32.0), 0.0, 1.0);
-  if (coarse > 0.0) detail += 0.11 * coarse * noise(ground * (1.0 / 128.0), 64);
-  if (fine > 0.0) detail += 0.09 * fine * noise(ground * (1.0 / 32.0), 256);
-  if (wire) detail = 0.0;
+  float detail = wire ? 0.0 : groundDetail(ground);
   fragment = vec4(throughAir(mix(haze, lit * (1.0 + detail), clearness)), 1.0);
 }
 )";
