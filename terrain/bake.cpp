@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <thread>
@@ -361,6 +363,11 @@ Result<std::shared_ptr<const Database>> openOrBake(const fs::path& source, const
   options.output = cached;
   options.trianglesPerNode = trianglesPerNode;
   options.progress = progress;
+  // Nobody named a bound: scenery, which is read whole, may have half of the machine.
+  if (scenery)
+    options.memory =
+        Megabytes{std::max(options.memory.value(), 0.5e-6 * static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
+                                                       static_cast<double>(::sysconf(_SC_PAGESIZE)))};
   return bake(options);
 }
 

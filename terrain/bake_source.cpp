@@ -3,12 +3,14 @@
 #include <gdal.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "trimtab/terrain/arithmetic.h"
 #include "trimtab/terrain/bake_heights.h"
 #include "trimtab/terrain/import.h"
 #include "trimtab/terrain/scenery_import.h"
+#include "trimtab/terrain/scenery_memory.h"
 #include "trimtab/terrain/scenery_merge.h"
 #include "trimtab/terrain/store.h"
 
@@ -66,6 +68,15 @@ Result<std::unique_ptr<BakeSource>> readSource(const BakeOptions& options, const
     const Findings findings = opened.findings();
     source->elevation = std::move(opened).value();
     return Result<std::unique_ptr<BakeSource>>(std::move(source), findings);
+  }
+  // Scenery is read whole: better to say so now than when memory has run out.
+  if (const auto files = sourceFiles(options.sources)) {
+    const std::uint64_t bytes = sceneryBakeBytes(*files, options.post);
+    if (static_cast<double>(bytes) > options.memory.value() * 1e6)
+      return Finding{Severity::error, nameOf(options.sources.front()), "memory",
+                     "room for all of this scenery: about " + std::to_string(bytes / 1000000 + 1) + " MB",
+                     std::to_string(std::lround(options.memory.value())) +
+                         " MB allowed: allow more, choose fewer tiles or posts farther apart"};
   }
   std::vector<fs::path> sources = options.sources;
   const auto elevation = std::stable_partition(sources.begin(), sources.end(), isScenery);

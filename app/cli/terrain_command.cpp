@@ -105,7 +105,7 @@ void addTerrain(CLI::App& app, int& exitCode) {
       ->check(CLI::Range(0.0, 1000.0));
   makeBake
       ->add_option("--memory-mb", bake->memoryMb,
-                   "Most memory that baking may use; scenery is read whole, whatever it takes")
+                   "Most memory that baking may use; scenery that would take more is refused")
       ->capture_default_str()
       ->check(CLI::Range(64.0, 1048576.0));
   CLI::Option* part = makeBake->add_option("--part", bake->part,
@@ -150,7 +150,9 @@ void addTerrain(CLI::App& app, int& exitCode) {
     bool json = false, check = false;
   };
   auto info = std::make_shared<InfoArguments>();
-  CLI::App* showInfo = group->add_subcommand("info", "What a database or some scenery holds");
+  CLI::App* showInfo = group->add_subcommand("info",
+                                             "What a database or some scenery holds; of patches each depth's "
+                                             "largest error and its RMS over all posts");
   showInfo->add_option("terrain", info->terrain, "Folder of a database; or scenery, not baked")->required();
   showInfo->add_flag("--json", info->json, "One JSON document on standard output");
   showInfo->add_flag("--check", info->check, "Read all of a database and compare every checksum");

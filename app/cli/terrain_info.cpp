@@ -160,7 +160,10 @@ void printInfo(const terrain::Database& database, bool json) {
               << depth["bytes"].get<std::uint64_t>() << std::setprecision(2) << std::setw(10)
               << depth["error_m"].get<double>() << std::setw(10) << depth["rms_error_m"].get<double>()
               << std::setw(17) << depth["bilinear_error_m"].get<double>() << '\n';
-  std::cout << std::defaultfloat << std::left;
+  std::cout
+      << "error: the largest at any post; rms: over all posts of the depth, not the worst patch's; between\n"
+         "posts: the largest measured over the bilinear surface\n"
+      << std::defaultfloat << std::left;
 }
 
 int printSceneryInfo(const std::filesystem::path& path, bool json) {

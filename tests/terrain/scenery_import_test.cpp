@@ -271,6 +271,21 @@ TEST_F(SceneryBake, isRefusedWithoutItsTreesOrWithOthers) {
   EXPECT_FALSE(terrain::Database::open(dir_ / "db"));
 }
 
+TEST_F(SceneryBake, refusesWhatWouldTakeMoreMemoryThanAllowedBeforeItReads) {
+  terrain::BakeOptions all = options();
+  all.memory = Megabytes{150};
+  ASSERT_TRUE(terrain::bake(all));
+  // Ten million posts.
+  all.post = Metres{5};
+  all.output = dir_ / "fine";
+  const auto refused = terrain::bake(all);
+  ASSERT_FALSE(refused);
+  const std::string said = toString(refused.findings());
+  EXPECT_NE(said.find("150 MB allowed"), std::string::npos) << said;
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "fine"));
+  EXPECT_FALSE(std::filesystem::exists(dir_ / ".fine.work"));
+}
+
 TEST_F(SceneryBake, takesElevationBesideScenery) {
   auto both = options();
   const auto alone = terrain::bake(both);

@@ -4,6 +4,7 @@
 #include <random>
 #include <set>
 
+#include "plain_btg.h"
 #include "scenery_tiles.h"
 #include "trimtab/terrain/scenery_import.h"
 
@@ -13,54 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using terrain::SceneryMesh;
-
-struct Counts {
-  std::uint64_t triangles = 0, degenerate = 0;
-  Counts& operator+=(const Counts& other) {
-    triangles += other.triangles;
-    degenerate += other.degenerate;
-    return *this;
-  }
-};
-
-/// A reader that knows single triangles with three columns alone, and trusts the file.
-Counts countedPlainly(const std::string& bytes) {
-  Counts counts;
-  std::size_t at = 0;
-  const auto number = [&](std::size_t size) {
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < size; ++i)
-      value |= std::uint64_t{static_cast<unsigned char>(bytes.at(at + i))} << (8 * i);
-    at += size;
-    return value;
-  };
-  const std::size_t wide = number(2) == 10 ? 4 : 2;
-  at = 8;
-  std::string vertices;
-  for (auto objects = number(wide); objects > 0; --objects) {
-    const auto kind = number(1);
-    auto properties = number(wide);
-    auto elements = number(wide);
-    for (; properties > 0; --properties) at += 1, at += number(4);
-    for (; elements > 0; --elements) {
-      const auto size = number(4);
-      if (kind == 1) vertices = bytes.substr(at, size);
-      if (kind != 10) {
-        at += size;
-        continue;
-      }
-      for (const std::size_t end = at + size; at < end; ++counts.triangles) {
-        std::set<std::string> places;
-        for (int corner = 0; corner < 3; ++corner) {
-          places.insert(vertices.substr(number(wide) * 12, 12));
-          at += 2 * wide;
-        }
-        if (places.size() < 3) ++counts.degenerate;
-      }
-    }
-  }
-  return counts;
-}
 
 const fs::path& data() {
   static const fs::path kData = test::sharedDir() / "data";
@@ -113,15 +66,17 @@ TEST(RealScenery, hasTheTrianglesThatASecondReaderCounts) {
     EXPECT_NEAR(static_cast<double>(counts.trianglesInFile) / 1e6, set.millions, 0.005) << set.folder;
     const double share = static_cast<double>(counts.degenerate) / static_cast<double>(counts.trianglesInFile);
     EXPECT_NEAR(share, set.degenerateShare, 0.005) << set.folder;
-    Counts plain;
+    std::uint64_t triangles = 0, degenerate = 0;
     const auto files = terrain::sceneryFiles(data() / set.folder);
     for (const fs::path& file : *files) {
       if (file.extension() == ".stg") continue;
       const std::string bytes = test::readFile(file);
-      plain += countedPlainly(file.extension() == ".gz" ? *terrain::gunzip(bytes, "") : bytes);
+      const auto plain =
+          test::decodedPlainly(file.extension() == ".gz" ? *terrain::gunzip(bytes, "") : bytes);
+      triangles += plain.trianglesInFile, degenerate += plain.degenerate;
     }
-    EXPECT_EQ(counts.trianglesInFile, plain.triangles) << set.folder;
-    EXPECT_EQ(counts.degenerate, plain.degenerate) << set.folder;
+    EXPECT_EQ(counts.trianglesInFile, triangles) << set.folder;
+    EXPECT_EQ(counts.degenerate, degenerate) << set.folder;
     for (const SceneryMesh& mesh : scenery->tiles) ASSERT_TRUE(test::isSound(mesh)) << mesh.name;
   }
 }
