@@ -153,19 +153,33 @@ void MovingHorizon::begin(Build& build, const EyeRoom& room, const Frame& frame,
   for (const TileDraw& tile : build.cut) build.mark[tile.node] = kThere;
   const bool mayChange = frame.incremental && frame.sameHorizon && frame.errorOverDistance > 0;
   if (mayChange) {
-    markChanges(build, room, frame, tree);
+    build.eye = frame.eye;
+    build.limit = frame.errorOverDistance;
+    build.reach = std::max(length(room.from - frame.eye), length(room.to - frame.eye)) + room.radius;
+    markChanges(build, tree);
     giveRoom(build, frame, tree);
   }
   build.horizon.begin(room, build.tiles, frame.settings);
 }
 
+/// The largest error of what the rule may draw of a node while the build stands: of a patch, the coarsest
+/// variant that is good enough, else the finest.
+float MovingHorizon::worstError(const Build& build, const SurfaceTree& tree, std::uint32_t node) {
+  float worst = tree.finestError(node);
+  if (tree.variants == 1) return worst;
+  const double away = std::sqrt(distanceSquared(tree.bounds[node], build.eye)) + build.reach;
+  for (std::size_t v = 1; v < tree.variants; ++v)
+    if (const float error = tree.errorM[node * tree.variants + v];
+        double{error} <= build.limit * away * (1 + kMargin))
+      worst = std::max(worst, error);
+  return worst;
+}
+
 /// What the rule may take apart or join until the eye has left the room.
-void MovingHorizon::markChanges(Build& build, const EyeRoom& room, const Frame& frame,
-                                const SurfaceTree& tree) {
-  const double reach = std::max(length(room.from - frame.eye), length(room.to - frame.eye)) + room.radius;
-  const double limit = frame.errorOverDistance;
+void MovingHorizon::markChanges(Build& build, const SurfaceTree& tree) {
+  const double reach = build.reach, limit = build.limit;
   const auto distance = [&](std::uint32_t node) {
-    return std::sqrt(distanceSquared(tree.bounds[node], frame.eye));
+    return std::sqrt(distanceSquared(tree.bounds[node], build.eye));
   };
   stack_.clear();
   for (const TileDraw& tile : build.cut) {
@@ -209,19 +223,20 @@ void MovingHorizon::giveRoom(Build& build, const Frame& frame, const SurfaceTree
       if (changes(tree.neighbours[node][1])) tile.east = nullptr;
       if (changes(tree.neighbours[node][3])) tile.north = nullptr;
     }
-    // Of a patch, any variant may stand here; of a tile, the border may be that of a coarser neighbour.
+    // Of a patch, another variant may stand here; of a tile, with the border of a coarser neighbour.
     if (!changes(node) && tree.variants == 1) continue;
-    float other = tree.coarsestError(node);
+    float other = worstError(build, tree, node);
     if ((build.mark[node] & kMaySplit) != 0)
       for (const std::uint32_t child : tree.childrenOf(node))
         if (child != SurfaceTree::kNone) {
-          other = std::max(other, tree.coarsestError(child));
+          other = std::max(other, worstError(build, tree, child));
           tile.mayOcclude = tile.mayOcclude && mayOcclude(child);
         }
     if ((build.mark[node] & kMayJoin) != 0) {
       const std::uint32_t parent = tree.parent[node], above = tree.parent[parent];
-      other = std::max(other, tree.coarsestError(parent));
-      if (above != SurfaceTree::kNone) other = std::max(other, tree.coarsestError(above));
+      other = std::max(other, worstError(build, tree, parent));
+      if (!tree.neighbours.empty() && above != SurfaceTree::kNone)
+        other = std::max(other, worstError(build, tree, above));
       tile.mayOcclude = tile.mayOcclude && mayOcclude(parent);
     }
     const float room = kLean * (tree.errorOf(build.cut[i]) + other);
@@ -255,6 +270,7 @@ bool MovingHorizon::carry(Build& build, const Frame& frame, const SurfaceTree& t
   for (std::size_t i = 0; i < frame.tiles.size(); ++i) {
     const std::uint32_t node = frame.tiles[i].node, parent = tree.parent[node];
     const std::uint8_t mark = build.mark[node];
+    if (tree.errorOf(frame.tiles[i]) > worstError(build, tree, node)) return false;
     if (mark != 0) {
       verdicts_[i] = (mark & kHidden) != 0;
       continue;

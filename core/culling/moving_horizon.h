@@ -63,13 +63,17 @@ class MovingHorizon {
     std::vector<std::uint8_t> mark;  ///< one a node
     std::uint64_t cutNumber = 0, rule = 0;
     Horizon::Settings settings;
+    // Of the rule for the levels, when the build began: the eye, and how far it may come from there.
+    Vec3 eye;
+    double limit = 0, reach = 0;
     bool there = false, marked = false;  ///< marked: what is hidden is in `mark`
   };
 
   void begin(Build& build, const EyeRoom& room, const Frame& frame, const SurfaceTree& tree,
              const Fill& fill);
-  void markChanges(Build& build, const EyeRoom& room, const Frame& frame, const SurfaceTree& tree);
+  void markChanges(Build& build, const SurfaceTree& tree);
   void giveRoom(Build& build, const Frame& frame, const SurfaceTree& tree);
+  static float worstError(const Build& build, const SurfaceTree& tree, std::uint32_t node);
   /// Whether the build holds in this frame; fills in verdicts_ where its cut is another.
   bool holds(Build& build, const Frame& frame, const SurfaceTree& tree);
   bool carry(Build& build, const Frame& frame, const SurfaceTree& tree);

@@ -32,7 +32,6 @@ struct SurfaceTree {
     return {children + node * childrenEach, childrenEach};
   }
   float finestError(std::uint32_t node) const { return errorM[node * variants]; }
-  float coarsestError(std::uint32_t node) const { return errorM[node * variants + variants - 1]; }
   float errorOf(TileDraw tile) const {
     return errorM[tile.node * variants + (variants > 1 ? tile.coarser : 0)];
   }
