@@ -148,6 +148,7 @@ class SyntheticTerrain final : public terrain::Database {
     for (std::uint32_t node = 0; node < index_.size(); ++node) {
       const std::uint32_t parent = index_.parent[node];
       measure(node);
+      index_.cones.push_back(coneOf(node));
       if (parent == TerrainIndex::kNone) continue;
       Box& box = index_.bounds[parent];
       const Box& b = index_.bounds[node];
@@ -207,6 +208,34 @@ class SyntheticTerrain final : public terrain::Database {
                              : h11 + (1 - u) * (h01 - h11) + (1 - v) * (h10 - h11));
         error = std::max(error, static_cast<float>(std::abs(height_[at(c, r)] - onPlanes) * 1.5));
       }
+  }
+
+  /// Of the own triangles, no border folded and each that has a neighbour.
+  NormalCone coneOf(std::uint32_t node) const {
+    const auto corner = cornerOf(node);
+    const auto beside = [&](std::size_t side) {
+      return index_.neighbours[node][side] != TerrainIndex::kNone;
+    };
+    std::vector<Vec3> normals;
+    for (const bool folded : {false, true}) {
+      const auto place = [&](int i, int j) {
+        if (folded && j % 2 != 0 && ((i == 0 && beside(0)) || (i == kCells && beside(1)))) --j;
+        if (folded && i % 2 != 0 && ((j == 0 && beside(2)) || (j == kCells && beside(3)))) --i;
+        return post(corner.column + i * corner.step, corner.row + j * corner.step);
+      };
+      const auto add = [&](Vec3 a, Vec3 b, Vec3 c) {
+        const Vec3 n = cross(b - a, c - a);
+        if (dot(n, n) > 0) normals.push_back(normalized(n));
+      };
+      for (int j = 0; j < kCells; ++j)
+        for (int i = 0; i < kCells; ++i) {
+          const Vec3 sw = place(i, j), se = place(i + 1, j), nw = place(i, j + 1), ne = place(i + 1, j + 1);
+          const bool rising = (i + j) % 2 == 0;
+          add(sw, se, rising ? ne : nw);
+          add(rising ? sw : se, ne, nw);
+        }
+    }
+    return NormalCone::of(normals);
   }
 
   int posts_;

@@ -1,0 +1,113 @@
+#include <cmath>
+#include <numbers>
+
+#include "patched_terrain.h"
+#include "scene_test.h"
+
+/// Tiles and patches that show only their backs are left out, and no picture tells.
+namespace trimtab {
+namespace {
+
+constexpr int kTiles = 8, kPosts = kTiles * TerrainIndex::kTileCells + 1;
+constexpr double kStep = 1.0 / 1200;
+const GeodeticPosition kCorner{Degrees{46.2}, Degrees{7.4}, Metres{0}};
+
+/// Roofs that run from south to north, three tiles up and three down, bent so that the eye sees round them;
+/// steep enough that one side of each is seen from behind from below the ridge beyond it.
+double roofs(int column, int row) {
+  const double across = (column + 6 * std::sin(row * 0.03)) / 192.0,
+               up = std::abs(across - std::floor(across) - 0.5);
+  return 8000 * up + 20 * std::sin(row * 0.05) + 3 * std::sin(column * 0.7);
+}
+
+class BackFaces : public test::SceneTest {
+ protected:
+  void useTiles() { use(std::make_shared<const test::SyntheticTerrain>(kTiles, kStep, kCorner, roofs)); }
+  void usePatches() {
+    terrain::HeightGrid grid;
+    grid.posts = {kCorner.longitude.value(), kCorner.latitude.value(), kStep, kStep, kPosts, kPosts};
+    for (int row = 0; row < kPosts; ++row)
+      for (int column = 0; column < kPosts; ++column)
+        grid.heights.push_back(static_cast<float>(roofs(column, row)));
+    use(std::make_shared<const test::PatchedTerrain>(std::move(grid), nullptr));
+  }
+
+  struct Seen {
+    std::size_t leftOut = 0, differing = 0;
+    std::size_t slivers =
+        0;  ///< pixels that GL's own face culling changes: edges rounded to parts of a pixel
+  };
+  /// The same view with the switch on and off and without culling.
+  void look(const GeodeticPosition& eye, const Attitude& attitude, CullingCase method, Seen& seen) {
+    auto r = request(eye, attitude);
+    r.staticLod.terrain = database->patches() ? TerrainForm::patches : TerrainForm::levels;
+    r.lod.screenSpaceError = Pixels{4};
+    r.waitForPages = r.reproducible = true;
+    r.decision.depthMap = DepthMapSize{320, 240};
+    r.method = method;
+    scene::FrameResult on, off;
+    const auto fronts = picture(r, &on);
+    r.method = CullingCase::none;
+    const auto all = picture(r);
+    r.backFaces = false;
+    const auto bothOfAll = picture(r);
+    r.method = method;
+    const auto both = picture(r, &off);
+    EXPECT_EQ(off.visible.backFacing, 0u);
+    EXPECT_EQ(on.visible.tiles.size() + on.visible.outsideFrustum + on.visible.occluded +
+                  on.visible.beyondVisibility + on.visible.backFacing,
+              on.tilesInCut);
+    seen.leftOut += on.visible.backFacing;
+    seen.differing += differing(fronts, all) + differing(both, bothOfAll);
+    seen.slivers += differing(all, bothOfAll);
+  }
+  void flyOver(CullingCase method, Seen& seen) {
+    for (int i = 0; i < 60; ++i) {
+      const double east = 0.12 + 0.76 * (i % 6) / 5, north = 0.15 + 0.7 * (i / 6) / 9;
+      look(over(east, north,
+                i % 3 == 0   ? 60
+                : i % 3 == 1 ? 600
+                             : 3000),
+           {Degrees{i * 47.0}, Degrees{-4.0 - i % 5 * 6}, Degrees{i * 13.0}}, method, seen);
+    }
+  }
+};
+
+TEST_F(BackFaces, ofTilesAreLeftOutWhereNoPictureTells) {
+  useTiles();
+  Seen frustum, proposed;
+  flyOver(CullingCase::view_frustum, frustum);
+  flyOver(CullingCase::proposed, proposed);
+  EXPECT_EQ(frustum.differing + proposed.differing, 0u);
+  EXPECT_LT(frustum.slivers, 30u);
+  EXPECT_GT(frustum.leftOut, 24u) << "nothing was left out, so nothing was tested";
+}
+
+TEST_F(BackFaces, ofPatchesAreLeftOutWhereNoPictureTells) {
+  usePatches();
+  Seen seen;
+  flyOver(CullingCase::view_frustum, seen);
+  EXPECT_EQ(seen.differing, 0u);
+  EXPECT_LT(seen.slivers, 30u);
+  EXPECT_GT(seen.leftOut, 10u) << "nothing was left out, so nothing was tested";
+}
+
+TEST_F(BackFaces, areDrawnForAnEyeBeyondTheDataOrBelowTheGround) {
+  for (const bool patches : {false, true}) {
+    patches ? usePatches() : useTiles();
+    Seen seen;
+    for (int i = 0; i < 8; ++i) {
+      // From beyond an edge one sees the backs of what slopes away from it, and under the ground there.
+      GeodeticPosition beyond = scene::placeIn(database->info(), i % 2 ? -0.2 : 1.15, 0.1 + 0.1 * i);
+      beyond.height = Metres{-300.0 + 900 * i};
+      look(beyond, {Degrees{i % 2 ? 90.0 : 270.0}, Degrees{-3}, Degrees{0}}, CullingCase::proposed, seen);
+      look(over(0.2 + 0.08 * i, 0.5, -150.0 - 100 * i), {Degrees{i * 45.0}, Degrees{10}, Degrees{5}},
+           CullingCase::proposed, seen);
+    }
+    EXPECT_EQ(seen.leftOut, 0u);
+    EXPECT_EQ(seen.differing + seen.slivers, 0u);
+  }
+}
+
+}  // namespace
+}  // namespace trimtab
