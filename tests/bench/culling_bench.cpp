@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/culling/random_index.h"
+#include "culling_depth.h"
 #include "culling_frames.h"
 #include "culling_horizon.h"
 #include "culling_peers.h"
@@ -251,6 +252,7 @@ int main(int argc, char** argv) {
   frustumRows(report, "16m", report.quick() ? 4'000'000 : 16'000'000);
   selectionRows(report);
   horizonRows(report);
+  depthMapRows(report);
   movingHorizonRows(report);
   submitRow(report);
   frameRows(report);
