@@ -255,7 +255,7 @@ void shareRows(Report& report, const RoughGround& ground, const RoughMeshes& mes
                  above + " m above fractal ground",
          .value = 1e3 * seconds / views,
          .unit = "ms",
-         .peer = "masked occlusion culling at 1,500 m, coarser occluders",
+         .peer = "masked occlusion culling, one view of 60 degrees at 71 %",
          .peerValue = 0.97,
          .peerFrom = "quoted"});
     report.add(valueAtLeast(100 * goal.share,
