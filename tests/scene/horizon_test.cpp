@@ -134,7 +134,9 @@ TEST_F(HorizonScene, isNotBuiltAgainNearWhereItHidNextToNothing) {
   const std::uint64_t moved = result.horizonsMoved;
   draw(3, 4, "5 m on, switched off");
   EXPECT_EQ(result.horizonsMoved, moved + 1) << "the last one holds here too";
-  draw(3, 4, "the same place, switched off");
+  // An eye that has come to rest is given a horizon of its place alone, once.
+  draw(4, 4, "the same place, switched off");
+  draw(4, 4, "again");
 }
 
 TEST(HorizonSlack, followsTheRasterisersSteps) {
