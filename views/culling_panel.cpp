@@ -19,7 +19,7 @@ namespace trimtab::views {
 namespace {
 
 constexpr double kStagesShownS = 20;
-constexpr const char* kKeys[] = {"culling.case", "culling.occlusion"};
+constexpr const char* kKeys[] = {"culling.case", "culling.occlusion", "culling.back_faces"};
 
 QString count(std::uint64_t n) {
   return numberText(static_cast<double>(n), 0);
@@ -28,6 +28,28 @@ QString count(std::uint64_t n) {
 QString metres(double m) {
   return m < 10000 ? CullingPanel::tr("%1 m").arg(numberText(m, m < 10 ? 2 : 0))
                    : CullingPanel::tr("%1 km").arg(numberText(m / 1000, 1));
+}
+
+QString whatServes(OcclusionMethod method, const QString& size) {
+  switch (method) {
+    case OcclusionMethod::depth_map:
+      return CullingPanel::tr("The <b>depth map</b> serves, %1, tested on the GPU.").arg(size);
+    case OcclusionMethod::read_back:
+      return CullingPanel::tr("The <b>depth map</b> serves, %1, read back and tested by the processor.")
+          .arg(size);
+    case OcclusionMethod::cpu_map:
+      return CullingPanel::tr("A <b>depth map by the processor</b> serves, %1.").arg(size);
+    case OcclusionMethod::horizon:
+      return CullingPanel::tr("The <b>horizon</b> serves: what the ground about the eye hides, all round.");
+    case OcclusionMethod::horizon_and_map:
+      return CullingPanel::tr(
+                 "The <b>horizon</b> serves, and a <b>depth map by the processor</b>, %1, for "
+                 "what it leaves.")
+          .arg(size);
+    case OcclusionMethod::automatic:
+      break;
+  }
+  return {};
 }
 
 QString textOf(const PickedNode& node) {
@@ -124,8 +146,8 @@ void CullingPanel::showMap(const QImage& image, const QString& caption) {
 
 void CullingPanel::showHorizon(std::vector<float> elevationDeg, double headingDeg, double fovDeg) {
   if (elevationDeg.empty())
-    horizon_->setReason(frame_.depthMap ? tr("The depth map serves, not the horizon.")
-                                        : tr("No horizon: nothing asks for one in this frame."));
+    horizon_->setReason(frame_.occlusion ? tr("A depth map serves, not the horizon.")
+                                         : tr("No horizon: nothing asks for one in this frame."));
   else
     horizon_->setProfile(std::move(elevationDeg), headingDeg, fovDeg);
 }
@@ -144,12 +166,14 @@ void CullingPanel::endPicking() {
 }
 
 QString CullingPanel::served() const {
-  const QString note = QString::fromStdString(frame_.cullingNote);
-  if (frame_.horizon) return tr("The <b>horizon</b> serves: what the ground about the eye hides, all round.");
-  if (frame_.depthMap)
-    return tr("The <b>depth map</b> serves, %1 × %2 px.")
-        .arg(frame_.depthMap->widthPx)
-        .arg(frame_.depthMap->heightPx);
+  const QString note = QString::fromStdString(frame_.cullingNote).toHtmlEscaped();
+  if (frame_.occlusion) {
+    const QString size =
+        frame_.decision.depthMap
+            ? tr("%1 × %2 px").arg(frame_.decision.depthMap->widthPx).arg(frame_.decision.depthMap->heightPx)
+            : QString();
+    return whatServes(*frame_.occlusion, size) + (note.isEmpty() ? QString() : QLatin1Char(' ') + note);
+  }
   if (!note.isEmpty()) return tr("Nothing is looked for behind the ground: %1.").arg(note);
   if (!frame_.decision.depthMap) return tr("The decision is plain view-frustum culling in this frame.");
   return tr("Nothing is looked for behind the ground in this case.");
@@ -164,13 +188,17 @@ void CullingPanel::refresh() {
     return BarList::Bar{name,   static_cast<double>(nodes), all, count(nodes) + more, {},
                         colour, f.tilesInCut == 0};
   };
-  reasons_->setBars({bar(tr("drawn"), f.tilesDrawn, tr(" (%1 triangles)").arg(count(f.triangles)), 2),
-                     bar(tr("outside the frustum"), f.outsideFrustum, {}, 0),
-                     bar(tr("hidden"), f.occluded, {}, 5),
-                     bar(tr("beyond visibility"), f.beyondVisibility, {}, 3)});
-  work_->setText(tr("Cuts chosen %1, horizons built %2 and left out %3, depth maps %4.")
-                     .arg(count(f.cutsSelected), count(f.horizonsBuilt), count(f.horizonsLeftOut),
-                          count(f.depthMapsDrawn)));
+  // The colours of the picture where it is coloured by reason, as near as the palette has them.
+  reasons_->setBars(
+      {bar(tr("drawn"), f.tilesDrawn, tr(" (%1 triangles)").arg(count(f.triangles)), 2),
+       bar(tr("outside the frustum"), f.outsideFrustum, {}, 1), bar(tr("hidden"), f.occluded, {}, 3),
+       bar(tr("beyond visibility"), f.beyondVisibility, {}, 4), bar(tr("facing away"), f.backFacing, {}, 0)});
+  work_->setText(tr("Cuts chosen %1, views %2; horizons built %3, moved along %4, left out %5; depth maps "
+                    "by GL %6, read back %7, by the processor %8; frames in which nothing was worth its "
+                    "cost %9.")
+                     .arg(count(f.cutsSelected), count(f.visibleSelected), count(f.horizonsBuilt),
+                          count(f.horizonsMoved), count(f.horizonsLeftOut), count(f.depthMapsDrawn),
+                          count(f.mapsReadBack), count(f.mapsDrawnByCpu), count(f.occlusionsLeftOut)));
 }
 
 }  // namespace trimtab::views

@@ -22,17 +22,22 @@ struct LiveFrame {
   FrameDecision decision;
   FrameCost cost;  ///< NaN: not run or not measured
   std::uint64_t triangles = 0, vertices = 0;
-  std::size_t tilesDrawn = 0, tilesInCut = 0, outsideFrustum = 0, occluded = 0, beyondVisibility = 0;
+  std::size_t tilesDrawn = 0, tilesInCut = 0, outsideFrustum = 0, occluded = 0, beyondVisibility = 0,
+              backFacing = 0;
   double fps = std::numeric_limits<double>::quiet_NaN();
   std::uint64_t blurPasses = 0, symbologyDraws = 0, symbologyRedraws = 0;  ///< since the context was made
   StaticLodFrame staticLod;
   bool patches = false;  ///< were drawn: `levels` is by their depth
   LevelsFrame levels;
   PagingFrame paging;
-  std::optional<DepthMapSize> depthMap;  ///< that was drawn this frame
-  bool horizon = false;                  ///< served this frame
-  std::string cullingNote;               ///< why nothing served although it was asked for; empty otherwise
-  std::uint64_t cutsSelected = 0, horizonsBuilt = 0, horizonsLeftOut = 0, depthMapsDrawn = 0;  ///< so far
+  std::optional<DepthMapSize> depthMap;      ///< that was drawn this frame
+  bool horizon = false;                      ///< served this frame
+  std::optional<OcclusionMethod> occlusion;  ///< what looked for hidden ground; none: nothing did
+  std::string cullingNote;  ///< why it was not as asked for, and what served instead; empty otherwise
+  // So far.
+  std::uint64_t cutsSelected = 0, visibleSelected = 0, horizonsBuilt = 0, horizonsMoved = 0,
+                horizonsLeftOut = 0, depthMapsDrawn = 0, mapsDrawnByCpu = 0, mapsReadBack = 0,
+                occlusionsLeftOut = 0;
   std::optional<HostWeather> hostWeather;  ///< as the host, or the flight, says
   std::optional<Metres> hostVisibility;
 };

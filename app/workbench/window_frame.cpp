@@ -32,12 +32,11 @@ QColor colourOf(const std::array<std::uint8_t, 3>& c) {
 }
 
 QList<LegendEntry> reasonLegend() {
-  return {
-      {MainWindow::tr("drawn"), colourOf(scene::reasonColour(CullReason::drawn))},
-      {MainWindow::tr("outside the frustum"), colourOf(scene::reasonColour(CullReason::outside_frustum))},
-      {MainWindow::tr("occluded"), colourOf(scene::reasonColour(CullReason::occluded))},
-      {MainWindow::tr("beyond visibility"), colourOf(scene::reasonColour(CullReason::beyond_visibility))},
-      {MainWindow::tr("facing away"), colourOf(scene::reasonColour(CullReason::back_facing))}};
+  return {{MainWindow::tr("drawn"), colourOf(scene::reasonColour(CullReason::drawn))},
+          {MainWindow::tr("outside the frustum"), colourOf(scene::reasonColour(CullReason::outside_frustum))},
+          {MainWindow::tr("occluded"), colourOf(scene::reasonColour(CullReason::occluded))},
+          {MainWindow::tr("beyond visibility"), colourOf(scene::reasonColour(CullReason::beyond_visibility))},
+          {MainWindow::tr("facing away"), colourOf(scene::reasonColour(CullReason::back_facing))}};
 }
 
 QList<LegendEntry> levelLegend(std::size_t levels) {
@@ -186,17 +185,24 @@ views::LiveFrame MainWindow::liveFrame() const {
     frame.outsideFrustum = last->visible.outsideFrustum;
     frame.occluded = last->visible.occluded;
     frame.beyondVisibility = last->visible.beyondVisibility;
+    frame.backFacing = last->visible.backFacing;
     frame.depthMap = last->depthMap;
     frame.blurPasses = last->blurPasses;
     frame.symbologyDraws = last->symbologyDraws;
     frame.symbologyRedraws = last->symbologyRedraws;
     frame.staticLod = last->staticLod;
     frame.horizon = last->horizon;
+    frame.occlusion = last->occlusion;
     frame.cullingNote = last->note;
     frame.cutsSelected = last->cutsSelected;
+    frame.visibleSelected = last->visibleSelected;
     frame.horizonsBuilt = last->horizonsBuilt;
+    frame.horizonsMoved = last->horizonsMoved;
     frame.horizonsLeftOut = last->horizonsLeftOut;
     frame.depthMapsDrawn = last->depthMapsDrawn;
+    frame.mapsDrawnByCpu = last->mapsDrawnByCpu;
+    frame.mapsReadBack = last->mapsReadBack;
+    frame.occlusionsLeftOut = last->occlusionsLeftOut;
     frame.patches = last->patches;
     frame.levels = levels_;
     frame.paging = last->paging;
