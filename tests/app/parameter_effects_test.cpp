@@ -7,6 +7,7 @@
 
 #include "patched_terrain.h"
 #include "scene_test.h"
+#include "steep_roofs.h"
 #include "synthetic_trees.h"
 #include "trimtab/host/encoder.h"
 #include "trimtab/session/session.h"
@@ -105,7 +106,9 @@ class ParameterEffects : public test::SceneTest {
                                               (result.horizon    ? "horizon"
                                                : result.depthMap ? std::to_string(result.depthMap->widthPx)
                                                                  : "-") +
-                                              ' ' + std::to_string(result.paging.heldBack);
+                                              ' ' + std::to_string(result.paging.heldBack) + ' ' +
+                                              std::to_string(result.visible.occluded) + ' ' +
+                                              std::to_string(result.visible.backFacing);
         result.cost = {0, 1, 1, 1, 20, 0, 23};  // the clock is no effect
         session.finished(result, state.time);
       }
@@ -125,8 +128,19 @@ class ParameterEffects : public test::SceneTest {
       for (std::size_t i = 0; i < grid.posts.size(); ++i) grid.heights.push_back(height(random));
       return std::make_shared<const test::PatchedTerrain>(std::move(grid), nullptr, false);
     }();
+    return flyOver(rough, parameters);
+  }
+
+  /// The same over ground so steep that much of it shows its back.
+  Observed flyOverRoofs(const ValidatedParameters& parameters) {
+    static const auto roofs = std::make_shared<const test::SyntheticTerrain>(
+        8, 1.0 / 1200, GeodeticPosition{Degrees{46.2}, Degrees{7.4}, Metres{0}}, test::steepRoofs);
+    return flyOver(roofs, parameters);
+  }
+
+  Observed flyOver(std::shared_ptr<const terrain::Database> terrain, const ValidatedParameters& parameters) {
     const auto before = database;
-    use(rough);
+    use(std::move(terrain));
     const Observed seen = fly(parameters);
     use(before);
     return seen;
@@ -238,6 +252,7 @@ TEST_F(ParameterEffects, everyParameterChangesADecisionAPictureOrACount) {
       {"terrain.",
        {{"static_lod.terrain", "patches"}, {"terrain.cache_mb", "16"}, {"lod.screen_space_error_px", "0.25"}},
        &ParameterEffects::flyOverPatches},
+      {"culling.back", {}, &ParameterEffects::flyOverRoofs},
       {"symbology. symbol", {{"symbology.enabled", "true"}}},
       {"weather.haze weather.clear weather.contrast weather.ratio weather.default",
        {{"weather.haze", "true"}, {"weather.clear_visibility_m", "5000"}}},
@@ -293,6 +308,39 @@ TEST_F(ParameterEffects, everyParameterChangesADecisionAPictureOrACount) {
     if (!effective) without.insert(std::string(row.key));
   }
   EXPECT_EQ(without, std::set<std::string>{});
+}
+
+TEST_F(ParameterEffects, everyWayToHiddenGroundDoesWorkOfItsOwn) {
+  use(test::syntheticMountains());
+  const ParameterRow& row = *findRow("culling.occlusion");
+  const auto workOf = [](const scene::FrameResult& r) {
+    return std::array{r.horizonsBuilt + r.horizonsMoved, r.mapsDrawnByCpu, r.mapsReadBack, r.depthMapsDrawn};
+  };
+  std::map<decltype(workOf({})), std::vector<std::string_view>> ways;  // by their work
+  std::set<std::string> pictures;
+  for (const auto& way : row.choices) {
+    const auto parameters = validate(with({{"culling.occlusion", std::string(way.name)}}));
+    ASSERT_TRUE(parameters) << toString(parameters.findings());
+    session::Session session(*parameters);
+    session.setTerrain(database);
+    scene::FrameResult result;
+    renderer.setTerrain(database);  // what an earlier way left is no work of this one
+    picture(request(over(0.5, 0.5, 6000), {}), &result);
+    auto work = workOf(result);
+    session.fly(packets(over(0.5, 0.5, 0)).front());
+    scene::FrameRequest low = *session.request(0, 192, 108);
+    ASSERT_TRUE(low.decision.depthMap);
+    low.eye = over(0.5, 0.5, 60);
+    low.attitude = {Degrees{40}, Degrees{-3}, Degrees{0}};
+    low.waitForPages = low.reproducible = true;
+    pictures.insert(digest(picture(low, &result)));
+    const auto now = workOf(result);
+    for (std::size_t k = 0; k < now.size(); ++k) work[k] = now[k] - work[k];
+    ways[work].push_back(way.name);
+  }
+  // Where counts depend on no clock, the automatic way is the horizon's.
+  EXPECT_EQ(ways.size() + 1, row.choices.size()) << ::testing::PrintToString(ways);
+  EXPECT_EQ(pictures.size(), 1u) << "none changes a pixel";
 }
 
 }  // namespace

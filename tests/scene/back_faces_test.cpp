@@ -3,6 +3,7 @@
 
 #include "patched_terrain.h"
 #include "scene_test.h"
+#include "steep_roofs.h"
 
 /// Tiles and patches that show only their backs are left out, and no picture tells.
 namespace trimtab {
@@ -12,23 +13,17 @@ constexpr int kTiles = 8, kPosts = kTiles * TerrainIndex::kTileCells + 1;
 constexpr double kStep = 1.0 / 1200;
 const GeodeticPosition kCorner{Degrees{46.2}, Degrees{7.4}, Metres{0}};
 
-/// Roofs that run from south to north, three tiles up and three down, bent so that the eye sees round them;
-/// steep enough that one side of each is seen from behind from below the ridge beyond it.
-double roofs(int column, int row) {
-  const double across = (column + 6 * std::sin(row * 0.03)) / 192.0,
-               up = std::abs(across - std::floor(across) - 0.5);
-  return 8000 * up + 20 * std::sin(row * 0.05) + 3 * std::sin(column * 0.7);
-}
-
 class BackFaces : public test::SceneTest {
  protected:
-  void useTiles() { use(std::make_shared<const test::SyntheticTerrain>(kTiles, kStep, kCorner, roofs)); }
+  void useTiles() {
+    use(std::make_shared<const test::SyntheticTerrain>(kTiles, kStep, kCorner, test::steepRoofs));
+  }
   void usePatches() {
     terrain::HeightGrid grid;
     grid.posts = {kCorner.longitude.value(), kCorner.latitude.value(), kStep, kStep, kPosts, kPosts};
     for (int row = 0; row < kPosts; ++row)
       for (int column = 0; column < kPosts; ++column)
-        grid.heights.push_back(static_cast<float>(roofs(column, row)));
+        grid.heights.push_back(static_cast<float>(test::steepRoofs(column, row)));
     use(std::make_shared<const test::PatchedTerrain>(std::move(grid), nullptr));
   }
 
