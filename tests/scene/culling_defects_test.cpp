@@ -1,0 +1,42 @@
+#include <algorithm>
+
+#include "culling_truth.h"
+
+/// That culling_views_test.cpp and its like find what is culled wrongly.
+namespace trimtab {
+namespace {
+
+using CullingDefects = test::CullingTruth;
+
+TEST_F(CullingDefects, areFoundByWhoOwnsThePixels) {
+  use(test::syntheticMountains());
+  constexpr DepthMapSize kCoarse{8, 6};
+  std::vector<View> views;
+  for (const auto& r : anyViews(48, 1)) views.push_back(truthOf(r, false));
+  for (const OcclusionMethod method :
+       {OcclusionMethod::depth_map, OcclusionMethod::cpu_map, OcclusionMethod::horizon})
+    for (const double lowering : {0.0, 1.0}) {
+      renderer.plant({.loweringScale = lowering});
+      Tally tally;
+      for (const View& view : views) compare(view, CullingCase::proposed, method, kCoarse, tally);
+      EXPECT_EQ(tally.wrongNodes > 0, lowering < 1) << "method " << static_cast<int>(method);
+      EXPECT_GE(tally.wrongPixels, tally.wrongNodes);
+    }
+  std::size_t found = 0;
+  for (const View& view : views) {
+    if (view.owners.empty()) continue;
+    // The one that shows least.
+    const auto least = *std::min_element(view.owners.begin(), view.owners.end(),
+                                         [](auto a, auto b) { return a.second < b.second; });
+    renderer.plant({.culledNode = least.first});
+    Tally tally;
+    compare(view, CullingCase::view_frustum, OcclusionMethod::horizon, kCoarse, tally);
+    EXPECT_EQ(tally.wrongNodes, 1u);
+    EXPECT_EQ(tally.wrongPixels, least.second);
+    ++found;
+  }
+  EXPECT_GT(found, 36u);
+}
+
+}  // namespace
+}  // namespace trimtab
