@@ -50,6 +50,20 @@ bool writeAll(int fd, std::string_view bytes) {
   return true;
 }
 
+bool flushed(int fd) {
+  // EINVAL, EROFS: a file system that cannot flush this has nothing to flush.
+  return ::fsync(fd) == 0 || errno == EINVAL || errno == EROFS;
+}
+
+/// Gives what has reached the disk its name.
+Result<Done> named(const std::filesystem::path& unfinished, const std::filesystem::path& file) {
+  if (::rename(unfinished.c_str(), file.c_str()) != 0) return refused(file, kWritable, errno);
+  // The new name must survive as well. It is there already: who cannot look into its folder may still write.
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  static_cast<void>(reachDisk(folder));
+  return Done{};
+}
+
 /// The mode of the file that is replaced, else what the process creates files with.
 mode_t modeOf(const std::filesystem::path& file) {
   struct stat status {};
@@ -105,31 +119,28 @@ Result<Done> writeAtomically(const std::filesystem::path& file, std::string_view
   std::string beside = (folder / ("." + target.filename().string() + ".XXXXXX")).string();
   Descriptor out(::mkostemp(beside.data(), O_CLOEXEC));
   if (!out.isOpen()) return refused(file, "a folder that can be written, " + folder.string(), errno);
-  if (!writeAll(out.get(), bytes) || ::fchmod(out.get(), modeOf(target)) != 0 || !out.close()) {
+  // By the descriptor that is held: the file's mode may forbid to open it for reading.
+  if (!writeAll(out.get(), bytes) || ::fchmod(out.get(), modeOf(target)) != 0 || !flushed(out.get()) ||
+      !out.close()) {
     const int error = errno;
     ::unlink(beside.c_str());
     return refused(file, kWritable, error);
   }
-  auto done = putInPlace(beside, target);
+  auto done = named(beside, target);
   if (!done) ::unlink(beside.c_str());
   return done;
 }
 
 Result<Done> reachDisk(const std::filesystem::path& fileOrFolder) {
   Descriptor opened(::open(fileOrFolder.c_str(), O_RDONLY | O_CLOEXEC));
-  // EINVAL, EROFS: a file system that cannot flush this has nothing to flush.
-  if (!opened.isOpen() || (::fsync(opened.get()) != 0 && errno != EINVAL && errno != EROFS))
+  if (!opened.isOpen() || !flushed(opened.get()))
     return refused(fileOrFolder, "to be written to the disk", errno);
   return Done{};
 }
 
 Result<Done> putInPlace(const std::filesystem::path& unfinished, const std::filesystem::path& file) {
   if (auto done = reachDisk(unfinished); !done) return done;
-  if (::rename(unfinished.c_str(), file.c_str()) != 0) return refused(file, kWritable, errno);
-  // The new name must survive as well. It is there already: who cannot look into its folder may still write.
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  static_cast<void>(reachDisk(folder));
-  return Done{};
+  return named(unfinished, file);
 }
 
 }  // namespace trimtab

@@ -140,6 +140,24 @@ TEST(WriteAtomically, respectsReadOnlyFilesAndFolders) {
   EXPECT_EQ(test::readFile(dir / "open/new"), "new");
 }
 
+TEST(WriteAtomically, replacesAFileThatMayBeWrittenButNotRead) {
+  const ScratchDir dir;
+  test::writeFile(dir / "a", "old");
+  EXPECT_TRUE(holdsInChild([&] {
+    constexpr uid_t kNobody = 65534;
+    if (::geteuid() == 0 && (::chown(dir.path().c_str(), kNobody, kNobody) != 0 ||
+                             ::chown((dir / "a").c_str(), kNobody, kNobody) != 0 || ::setuid(kNobody) != 0))
+      return false;
+    return ::chmod((dir / "a").c_str(), 0200) == 0 && writeAtomically(dir / "a", "new").ok();
+  }));
+  struct stat status {};
+  ASSERT_EQ(::stat((dir / "a").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 07777, 0200u);
+  ::chmod((dir / "a").c_str(), 0600);
+  EXPECT_EQ(test::readFile(dir / "a"), "new");
+  EXPECT_EQ(filesIn(dir.path()), 1u);
+}
+
 TEST(ReadWhole, readsBytesAndRefusesTheRest) {
   const ScratchDir dir;
   test::writeFile(dir / "a", std::string("t\0o", 3));
