@@ -256,5 +256,6 @@ int main(int argc, char** argv) {
   movingHorizonRows(report);
   submitRow(report);
   frameRows(report);
+  stageRows(report);
   return report.finish();
 }

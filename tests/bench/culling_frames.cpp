@@ -101,6 +101,50 @@ class Frames {
     report.add(ratioAtMost(1.02, bound));
   }
 
+  /// What *proposed* takes of the processor to choose what to draw, levels, view and hidden ground, of the
+  /// frames of a flight; none of them is the first of its kind.
+  void stageRow(Report& report, OcclusionMethod method) {
+    scene::FrameRequest r;
+    constexpr double kCourse = 30;
+    r.eye = placeOver(*database_, 0.45, 0.35, 2000 * kMetresAFoot);
+    r.attitude = {Degrees{kCourse}, Degrees{-5}, Degrees{0}};
+    r.view.widthPx = 1280, r.view.heightPx = 720;
+    r.occlusion = method;
+    r.waitForPages = true;
+    r.lod.screenSpaceError = Pixels{0.05};
+    r.decision.depthMap = DepthMapSize{800, 600};
+    const int frames = report.quick() ? 8 : 24, warmUp = 8;
+    std::vector<double> stage, total;
+    std::size_t cut = 0, looked = 0;
+    for (int i = -warmUp; i < frames; ++i) {
+      moveOn(r.eye, kCourse, false);
+      draw(r);
+      if (i < 0) continue;
+      const FrameCost& cost = last_.cost;
+      stage.push_back(cost.select + (std::isfinite(cost.occlusion) ? cost.occlusion : 0));
+      total.push_back(cost.total);
+      cut += last_.tilesInCut;
+      looked += last_.occlusion.has_value();
+    }
+    std::vector<double> shares;
+    for (std::size_t i = 0; i < stage.size(); ++i) shares.push_back(stage[i] / total[i]);
+    char what[200];
+    std::snprintf(what, sizeof what,
+                  "Levels, view and hidden ground of %zu tiles at 600 kt, median of %d frames; hidden ground "
+                  "looked for in %.0f %% of them",
+                  cut / stage.size(), frames,
+                  100.0 * static_cast<double>(looked) / static_cast<double>(stage.size()));
+    const Row row{.id = "culling.stage" + suffixOf(method),
+                  .what = what,
+                  .value = median(stage),
+                  .unit = "ms",
+                  .peer = "the whole frame at 1280x720",
+                  .peerValue = median(total),
+                  .peerFrom = "run",
+                  .ratio = median(shares)};
+    report.add(method == OcclusionMethod::automatic ? ratioAtMost(0.02, row) : row);
+  }
+
  private:
   static double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
@@ -206,6 +250,20 @@ void frameRows(Report& report) {
   if (!terrain::writeSample(dir / "sample.tif", options)) return;
   if (const auto baked = terrain::openOrBake(dir / "sample.tif", dir / "cache", {}))
     rowsOf(report, "sample", baked.value());
+}
+
+void stageRows(Report& report) {
+  const test::ScratchDir dir;
+  terrain::SampleOptions options;
+  options.postM = 50;
+  options.sizeKm = 102.4;
+  if (!terrain::writeSample(dir / "stage.tif", options)) return;
+  const auto baked = terrain::openOrBake(dir / "stage.tif", dir / "cache", {});
+  if (!baked) return;
+  Frames frames(baked.value());
+  if (!frames.ready()) return;
+  for (const OcclusionMethod method : {OcclusionMethod::automatic, OcclusionMethod::horizon})
+    frames.stageRow(report, method);
 }
 
 }  // namespace trimtab::bench

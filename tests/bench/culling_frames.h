@@ -12,6 +12,10 @@ namespace trimtab::bench {
 /// terrain.
 void frameRows(Report& report);
 
+/// All that the processor does to choose what to draw, beside the frame: over 64 x 64 tiles of the finest
+/// level, all of which the cut has.
+void stageRows(Report& report);
+
 /// So far above the ground at a place by fractions of the terrain's extent.
 GeodeticPosition placeOver(const terrain::Database& database, double east, double north, double aboveM);
 
