@@ -4,6 +4,7 @@
 #include <random>
 
 #include "culling_flight.h"
+#include "patched_terrain.h"
 #include "trimtab/scene/horizon_memory.h"
 
 namespace trimtab {
@@ -93,6 +94,36 @@ TEST_F(HorizonScene, isNotBuiltAgainWhileOnlyTheHeadTurns) {
   EXPECT_EQ(result.visible.occluded, 0u);
 }
 
+/// A head at 200 degrees a second, to and fro and up and down.
+TEST_F(HorizonScene, isNeitherBuiltNorMovedForAHeadThatTurns) {
+  for (const bool patches : {false, true})
+    for (const OcclusionMethod method : {OcclusionMethod::horizon, OcclusionMethod::automatic}) {
+      if (patches)
+        use(test::patchedMountains(false));
+      else
+        use(test::syntheticMountains());
+      auto r = request(over(0.44, 0.5, 60), {Degrees{40}, Degrees{-3}, Degrees{0}});
+      r.decision.depthMap = DepthMapSize{320, 240};
+      r.occlusion = method;
+      r.lod.screenSpaceError = Pixels{0.5};
+      r.reproducible = r.waitForPages = true;
+      scene::FrameResult first, result;
+      picture(r, &first);
+      std::size_t hidden = 0;
+      for (int i = 0; i < 100; ++i) {
+        const double turned = 200.0 / 60 * (i < 60 ? i : 120 - i);
+        r.attitude = {Degrees{40 + turned}, Degrees{-3 - 0.1 * turned}, Degrees{0.05 * turned}};
+        picture(r, &result);
+        ASSERT_TRUE(result.horizon) << i << ' ' << result.note;
+        ASSERT_EQ(result.horizonsBuilt, first.horizonsBuilt) << i;
+        ASSERT_EQ(result.horizonsMoved, first.horizonsMoved) << i;
+        hidden += result.visible.occluded;
+      }
+      EXPECT_EQ(result.cutsSelected, first.cutsSelected);
+      EXPECT_GT(hidden, 0u) << "nothing to be seen of a horizon";
+    }
+}
+
 TEST_F(HorizonScene, isNotBuiltAgainNearWhereItHidNextToNothing) {
   use(test::syntheticMountains());
   auto r = request(over(0.5, 0.5, 3000), {Degrees{40}, Degrees{-15}, {}});
@@ -100,12 +131,14 @@ TEST_F(HorizonScene, isNotBuiltAgainNearWhereItHidNextToNothing) {
   r.occlusion = OcclusionMethod::horizon;
   scene::FrameResult result;
   const auto draw = [&](std::uint64_t built, std::uint64_t leftOut, const char* what) {
+    const std::uint64_t before = result.horizonsLeftOut;
     const auto drawn = picture(r, &result);
-    EXPECT_TRUE(result.horizon) << what;
+    EXPECT_EQ(result.occlusion, OcclusionMethod::horizon) << what;
+    EXPECT_EQ(result.horizon, result.horizonsLeftOut == before) << what << ": no profile of elsewhere";
     EXPECT_EQ(result.horizonsBuilt, built) << what;
     EXPECT_EQ(result.horizonsLeftOut, leftOut) << what;
-    // Served, if only by what is known from nearby: its picture stays, so that an inset does not flicker.
-    EXPECT_EQ(renderer.readDepthMap().pixels.size(), 320u * 240u) << what;
+    EXPECT_EQ(renderer.readHorizon(8).empty(), !result.horizon) << what;
+    EXPECT_EQ(renderer.readDepthMap().pixels.size(), result.horizon ? 320u * 240u : 0u) << what;
     auto whole = r;
     whole.method = CullingCase::none;
     EXPECT_EQ(differing(drawn, picture(whole)), 0u) << what;
@@ -180,11 +213,11 @@ TEST_F(HorizonScene, saysWhyItIsNotUsed) {
     return result.note;
   };
   EXPECT_EQ(note(over(0.5, 0.5, 300)), "");
-  EXPECT_EQ(note(over(0.5, 0.5, -30)), "the eye is under the ground");
-  EXPECT_EQ(note(over(0.5, 0.5, 0.2)), "the eye is too near the ground");
+  EXPECT_EQ(note(over(0.5, 0.5, -30)), "The eye is under the ground.");
+  EXPECT_EQ(note(over(0.5, 0.5, 0.2)), "The eye is too near the ground.");
   auto beside = over(0.5, 0.5, 3000);
   beside.longitude = beside.longitude + Degrees{0.6};
-  EXPECT_EQ(note(beside), "the eye is not over the terrain");
+  EXPECT_EQ(note(beside), "The eye is not over the terrain.");
 }
 
 TEST_F(HorizonScene, cullsNothingForDegenerateViews) {
