@@ -103,6 +103,7 @@ const std::vector<Quantity>& quantities() {
         count<&TraceCounts::culledOccluded>("culled_occluded", "tiles hidden", false),
         count<&TraceCounts::culledBeyondVisibility>("culled_beyond_visibility", "tiles beyond the visibility",
                                                     false),
+        count<&TraceCounts::culledBackFacing>("culled_back_facing", "tiles facing away", false),
         error<&FrameError::wronglyCulledPixels>("wrongly_culled_px", "wrongly culled pixels", "px"),
         error<&FrameError::geometricMaxPx>("geometric_max_px", "geometric error, largest", "px"),
         error<&FrameError::geometricMeanPx>("geometric_mean_px", "geometric error, mean", "px"),

@@ -51,8 +51,8 @@ FrameCost medians(const std::vector<FrameCost>& costs) {
 }
 
 TraceCounts countsOf(const VisibleSet& visible) {
-  return {visible.triangles,      visible.vertices, visible.tiles.size(),
-          visible.outsideFrustum, visible.occluded, visible.beyondVisibility};
+  return {visible.triangles, visible.vertices,         visible.tiles.size(), visible.outsideFrustum,
+          visible.occluded,  visible.beyondVisibility, visible.backFacing};
 }
 
 /// What is drawn must not depend on what was drawn before, nor on where a run was taken up again.

@@ -268,7 +268,7 @@ FrameCost Session::finished(const scene::FrameResult& result, double now) {
     const VisibleSet& visible = result.visible;
     rows_[requestedRows_ - 1].frame = TraceFrame{
         {visible.triangles, visible.vertices, visible.tiles.size(), visible.outsideFrustum, visible.occluded,
-         visible.beyondVisibility},
+         visible.beyondVisibility, visible.backFacing},
         lastCost_};
     completeRows_ = requestedRows_;
   }

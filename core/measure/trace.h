@@ -20,7 +20,8 @@ namespace trimtab {
 /// What a frame drew and left out.
 struct TraceCounts {
   std::uint64_t triangles = 0, vertices = 0;
-  std::uint64_t tilesDrawn = 0, culledFrustum = 0, culledOccluded = 0, culledBeyondVisibility = 0;
+  std::uint64_t tilesDrawn = 0, culledFrustum = 0, culledOccluded = 0, culledBeyondVisibility = 0,
+                culledBackFacing = 0;
 
   friend bool operator==(const TraceCounts&, const TraceCounts&) = default;
 };

@@ -155,6 +155,7 @@ void forEachColumn(F& f, const Visit& visit) {
   visit("culled_frustum", Cell::frame, f.frame.counts.culledFrustum);
   visit("culled_occluded", Cell::frame, f.frame.counts.culledOccluded);
   visit("culled_beyond_visibility", Cell::frame, f.frame.counts.culledBeyondVisibility);
+  visit("culled_back_facing", Cell::frame, f.frame.counts.culledBackFacing);
   auto& cost = f.frame.cost;
   for (const CostStage& stage : kCostStages) visit(stage.column, Cell::frame, cost.*stage.ms);
 }
