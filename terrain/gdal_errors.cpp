@@ -34,6 +34,10 @@ std::string GdalErrors::last(const std::string& otherwise) const {
   return said_.empty() ? otherwise : said_.back().text;
 }
 
+bool GdalErrors::any() const {
+  return std::any_of(said_.begin(), said_.end(), [](const Said& said) { return said.error; });
+}
+
 void GdalErrors::moveTo(Findings& findings, const std::string& where, Severity worst) {
   for (const Said& said : said_)
     findings.push_back(

@@ -16,6 +16,8 @@ class GdalErrors {
 
   /// The last thing it complained of, or `otherwise`.
   std::string last(const std::string& otherwise) const;
+  /// Whether it complained of more than what it only warns of.
+  bool any() const;
   /// All of it as findings about a file, each text once: `worst` for what GDAL calls errors.
   void moveTo(Findings& findings, const std::string& where, Severity worst);
 

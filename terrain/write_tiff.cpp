@@ -69,9 +69,11 @@ Result<Done> writeTiff(const fs::path& tif, const PostGrid& posts, const TiffRow
         return failed("GDAL gives no reason");
       // Full rows of tiles go to the file, not to the cache.
       data->FlushCache();
-      if (CPLGetLastErrorType() == CE_Failure) return failed(CPLGetLastErrorMsg());
+      if (errors.any()) return failed("GDAL gives no reason");
     }
   }
+  // What was buffered, and the table of tiles, is only written when the dataset closes.
+  if (errors.any()) return failed("GDAL gives no reason");
   const auto done = putInPlace(unfinished, tif);
   return done ? done : gone(done.findings().front());
 }

@@ -154,6 +154,29 @@ TEST_F(Bake, saysSoWhereItCannotWrite) {
   EXPECT_NE(toString(made.findings()).find("/proc/"), std::string::npos);
 }
 
+/// Whatever part of it there is no room for: tiles, or what GDAL keeps until it closes the file.
+TEST_F(Bake, namesNoHeightsThatTheDiskHadNoRoomFor) {
+  const SampleOptions sample{1, 20, 300, nullptr};
+  const fs::path whole = dir_ / "whole.tif", part = dir_ / "part.tif";
+  ASSERT_TRUE(writeSample(whole, sample));
+  const rlim_t size = fs::file_size(whole);
+  const auto before = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &limit), 0);
+  for (const rlim_t lacks : {rlim_t{1}, rlim_t{8}, rlim_t{100}, rlim_t{1000}, size / 2, size - 8, size}) {
+    rlimit little = limit;
+    little.rlim_cur = size - lacks;
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &little), 0);
+    const auto written = writeSample(part, sample);
+    setrlimit(RLIMIT_FSIZE, &limit);
+    EXPECT_FALSE(written) << lacks << " of " << size;
+    EXPECT_FALSE(fs::exists(part));
+  }
+  std::signal(SIGXFSZ, before);
+  EXPECT_TRUE(writeSample(part, sample));
+  EXPECT_EQ(test::readFile(part), test::readFile(whole));
+}
+
 TEST_F(Bake, saysWhereALargeFileHasNoRoomAndGoesOnWhenThereIs) {
   // A limit on the size of files stands in for it.
   const auto before = std::signal(SIGXFSZ, SIG_IGN);
