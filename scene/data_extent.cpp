@@ -54,15 +54,15 @@ const char* DataExtent::refusal(const LocalFrame& frame, Vec3 eye) const {
                away = std::abs(wrapped180(place.longitude - Degrees{middle_}).value());
   const double inside = std::min({(latitude - south_) * metresNorth_, (north_ - latitude) * metresNorth_,
                                   (width_ / 2 - away) * metresEast_});
-  if (!(inside > 0)) return "the eye is not over the terrain";
+  if (!(inside > 0)) return "The eye is not over the terrain.";
   // The frame's z leans away from the vertical far from its origin: the place under the eye, by z, is
   // elsewhere.
   if (!(inside > sagM_ + std::abs(place.height.value()) * leanOf(eye)))
-    return "the eye is too near the terrain's edge";
+    return "The eye is too near the terrain's edge.";
   const double furthest = away + width_ / 2;
   if (!seesParallelFromOutside(north_, latitude, place.height.value(), furthest) ||
       !seesParallelFromOutside(-south_, -latitude, place.height.value(), furthest))
-    return "the eye is too near the terrain's edge";
+    return "The eye is too near the terrain's edge.";
   return "";
 }
 
@@ -89,8 +89,8 @@ double leanOf(Vec3 place) {
 }
 
 const char* nearPlaneRefusal(double aboveM, double nearestM, double slope) {
-  if (!(aboveM > 0)) return "the eye is under the ground";
-  if (!(aboveM > nearestM * std::sqrt(1 + slope * slope))) return "the eye is too near the ground";
+  if (!(aboveM > 0)) return "The eye is under the ground.";
+  if (!(aboveM > nearestM * std::sqrt(1 + slope * slope))) return "The eye is too near the ground.";
   return "";
 }
 

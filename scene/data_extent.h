@@ -16,7 +16,7 @@ class DataExtent {
   double sagM() const { return sagM_; }
   double metresPerDegreeNorth() const { return metresNorth_; }
   double metresPerDegreeEast() const { return metresEast_; }  ///< where it is least
-  /// Why nothing may be hidden from an eye at this place; empty when it may.
+  /// Why nothing may be hidden from an eye at this place, a sentence; empty when it may.
   const char* refusal(const LocalFrame& frame, Vec3 eye) const;
 
  private:

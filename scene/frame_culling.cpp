@@ -17,6 +17,7 @@ void FrameCulling::setDatabase(std::shared_ptr<const terrain::Database> database
   ground_.setDatabase(database_);
   ground_.setCut(cut_, cutNumber_);
   occlusion_.clear();
+  depthMapCurrent_ = false;
 }
 
 void FrameCulling::plant(const Defects& defects) {
@@ -102,7 +103,7 @@ std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& requ
       occluders_.push_back(tile);
   }
   if (occluders_.empty()) {
-    counters.note = "no tile in view may hide another: too far, or at the terrain's edge";
+    counters.note = "No tile in view may hide another: all are too far, or at the terrain's edge.";
     return {};
   }
   pass.prepare(size.widthPx, size.heightPx, testedSlots_);
@@ -134,7 +135,8 @@ void FrameCulling::removeHidden(const TileCache& tiles, OcclusionPass& pass) {
 }
 
 Renderer::Grey FrameCulling::readDepthMap(const OcclusionPass& pass) const {
-  if (occlusion_.serves(OcclusionMethod::read_back)) return readBack_->picture();
+  if (occlusion_.serves(OcclusionMethod::read_back))
+    return readBack_->age() < 0 ? Renderer::Grey{} : readBack_->picture();
   if (!depthMapCurrent_) return occlusion_.picture();
   std::vector<float> depths;
   GLint before = 0;

@@ -77,7 +77,7 @@ std::string OcclusionConditions::refusal(const LevelCut& cut, const EyePose& eye
   const TerrainIndex& index = database_->index();
   if (const char* why = extent_.refusal(index.frame, eye.position); *why != 0) return why;
   const std::optional<Ground> ground = groundUnder(cut, eye.position);
-  if (!ground) return "no tile is under the eye";
+  if (!ground) return "No tile is under the eye.";
   const double slope = 1.5 * index.slopeMax[ground->node] + leanOf(eye.position) + 0.1;
   return nearPlaneRefusal(eye.position.z - ground->height, nearestOf(view), slope);
 }

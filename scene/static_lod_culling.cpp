@@ -141,9 +141,9 @@ std::optional<DepthMapSize> StaticLodCulling::occlusion(const FrameRequest& requ
   const std::optional<DepthMapSize>& size = request.decision.depthMap;
   if (request.method != CullingCase::proposed || !size || request.overlays.treePicture) return {};
   if (request.frozenEye)
-    counters.note = "what is hidden stays as it was when culling was frozen";
+    counters.note = "What is hidden stays as it was when culling was frozen.";
   else if (hideableTriangles(visibleKey_->eye.position) < kWorthHiding)
-    counters.note = "too little of the static trees can be hidden for a depth map to be worth its cost";
+    counters.note = "Too little of the static trees can be hidden for a depth map to be worth its cost.";
   return counters.note.empty() ? size : std::nullopt;
 }
 

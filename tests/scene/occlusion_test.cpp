@@ -70,11 +70,11 @@ TEST_F(Occlusion, saysWhyItIsNotUsed) {
     return result.note;
   };
   EXPECT_EQ(note(over(0.5, 0.5, 300)), "");
-  EXPECT_EQ(note(over(0.5, 0.5, -30)), "the eye is under the ground");
-  EXPECT_EQ(note(over(0.5, 0.5, 0.2)), "the eye is too near the ground");
+  EXPECT_EQ(note(over(0.5, 0.5, -30)), "The eye is under the ground.");
+  EXPECT_EQ(note(over(0.5, 0.5, 0.2)), "The eye is too near the ground.");
   auto beside = over(0.5, 0.5, 3000);
   beside.longitude = beside.longitude + Degrees{0.6};
-  EXPECT_EQ(note(beside), "the eye is not over the terrain");
+  EXPECT_EQ(note(beside), "The eye is not over the terrain.");
 }
 
 TEST_F(Occlusion, isSkippedWhereTheDecisionAsksForNone) {
