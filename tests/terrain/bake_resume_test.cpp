@@ -1,16 +1,12 @@
-#include <sched.h>
-#include <sys/mount.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <csignal>
-#include <map>
 #include <random>
 #include <thread>
 
 #include "disk_order.h"
-#include "rasters.h"
+#include "resumed_bake.h"
 #include "trimtab/terrain/ground.h"
 #include "trimtab/terrain/patch_terrain.h"
 
@@ -20,66 +16,9 @@ extern "C" int get_nprocs() noexcept {
   return coresThere > 0 ? coresThere : static_cast<int>(::sysconf(_SC_NPROCESSORS_ONLN));
 }
 
-/// Bakes that are killed, run out of room, meet each other or share the work: the database is the same to the
-/// byte.
+/// Bakes that are killed, meet each other or share the work: the database is the same to the byte.
 namespace trimtab::terrain {
 namespace {
-
-namespace fs = std::filesystem;
-using Files = std::map<std::string, std::string>;
-
-Files filesIn(const fs::path& folder) {
-  Files all;
-  for (const std::string& name : test::namesIn(folder)) all[name] = test::readFile(folder / name);
-  return all;
-}
-
-class ResumedBake : public ::testing::Test {
- protected:
-  ResumedBake() {
-    test::RasterRecipe recipe;
-    recipe.columns = 420;
-    recipe.rows = 330;
-    recipe.noData = -999;
-    recipe.value = [](int c, int r, int) {
-      const bool hole = (c - 200) * (c - 200) + (r - 120) * (r - 120) < 900 || (c > 390 && r > 300);
-      return hole ? -999.0 : test::roughGround(c, r);
-    };
-    options_.sources = {test::writeRaster(dir_ / "ground.tif", recipe)};
-    options_.maxError = Metres{20};
-    options_.output = dir_ / "whole";
-    const auto made = bake(options_);
-    EXPECT_TRUE(made) << toString(made.findings());
-    if (made) {
-      EXPECT_GT((*made)->info().voidsFilled, 2500u);
-    }
-    whole_ = filesIn(dir_ / "whole");
-    options_.output = dir_ / "db";
-  }
-
-  /// In a process of its own.
-  template <class Work>
-  static pid_t start(const Work& work) {
-    const pid_t child = ::fork();
-    if (child == 0) ::_exit(work());
-    return child;
-  }
-  static int ended(pid_t child) {
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-  }
-  void expectWhole(const fs::path& folder) const {
-    const Files made = filesIn(folder);
-    ASSERT_EQ(made.size(), whole_.size());
-    for (const auto& [name, bytes] : whole_)
-      EXPECT_TRUE(made.count(name) && made.at(name) == bytes) << name << " is another";
-  }
-
-  test::ScratchDir dir_;
-  BakeOptions options_;
-  Files whole_;
-};
 
 TEST_F(ResumedBake, isOnTheDiskBeforeItHasItsName) {
   test::DiskOrder& order = test::DiskOrder::instance();
@@ -265,95 +204,6 @@ TEST_F(ResumedBake, doesNotMeetAnotherOfTheSameOutput) {
   ASSERT_EQ(::write(go[1], "g", 1), 1);
   EXPECT_EQ(ended(child), 0);
   expectWhole(dir_ / "db");
-}
-
-/// A name space of its own for mounts, as root or as root of a name space of users.
-bool mayMount() {
-  if (::unshare(CLONE_NEWNS) == 0) return true;
-  const std::string uid = std::to_string(::getuid()), gid = std::to_string(::getgid());
-  if (::unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return false;
-  test::writeFile("/proc/self/setgroups", "deny");
-  test::writeFile("/proc/self/uid_map", "0 " + uid + " 1");
-  test::writeFile("/proc/self/gid_map", "0 " + gid + " 1");
-  return ::getuid() == 0;
-}
-
-/// A real file system without room.
-TEST_F(ResumedBake, goesOnWhenThereIsRoomAgain) {
-  const fs::path disk = dir_ / "disk";
-  fs::create_directory(disk);
-  std::size_t size = 0;
-  for (const auto& [name, bytes] : whole_) size += bytes.size();
-  const int status = ended(start([&] {
-    if (!mayMount()) return 100;
-    // What is mounted here stays here.
-    ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr);
-    if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=64k") != 0) return 100;
-    options_.output = disk / "db";
-    int refused = 0;
-    for (std::size_t room = 96 * 1024; room < 4 * size; room += size / 7) {
-      ::mount("tmpfs", disk.c_str(), "tmpfs", MS_REMOUNT, ("size=" + std::to_string(room)).c_str());
-      const auto made = bake(options_);
-      if (made) break;
-      if (toString(made.findings()).find("room") == std::string::npos &&
-          toString(made.findings()).find("No space") == std::string::npos) {
-        std::fprintf(stderr, "%s\n", toString(made.findings()).c_str());
-        return 1;
-      }
-      if (fs::exists(disk / "db")) return 2;
-      ++refused;
-    }
-    if (refused < 3 || !fs::exists(disk / "db")) return 3;
-    return filesIn(disk / "db") == whole_ ? 0 : 4;
-  }));
-  if (status == 100) GTEST_SKIP() << "needs leave to mount";
-  EXPECT_EQ(status, 0);
-}
-
-/// Who has it mounted cannot rename it: every way for the last step to fail, and nothing is lost.
-TEST_F(ResumedBake, goesOnWhenItsLastStepFailed) {
-  const fs::path work = dir_ / ".db.work";
-  const Files before = filesIn(dir_ / "whole");
-  const int status = ended(start([&] {
-    if (!mayMount()) return 100;
-    ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr);
-    fs::copy(dir_ / "whole", dir_ / "db");
-    options_.maxError = Metres{60};
-    // The output that cannot go, then the new one that cannot come once the old is gone.
-    for (const fs::path& held : {dir_ / "db", work / "database"}) {
-      options_.progress = [&](double, const std::string& what) {
-        if (what == "writing") ::mount(held.c_str(), held.c_str(), nullptr, MS_BIND, nullptr);
-        return true;
-      };
-      const auto made = bake(options_);
-      if (::umount(held.c_str()) != 0) return 100;
-      if (made) return 1;
-      if (filesIn(dir_ / "db") != before) return 2;
-      if (!fs::exists(work / "recipe.json") || fs::exists(work / "old")) return 3;
-    }
-    options_.progress = nullptr;
-    const auto made = bake(options_);
-    if (!made || toString(made.findings()).find("goes on") == std::string::npos) return 4;
-    return filesIn(dir_ / "db") == before || fs::exists(work) ? 5 : 0;
-  }));
-  if (status == 100) GTEST_SKIP() << "needs leave to mount";
-  EXPECT_EQ(status, 0);
-}
-
-TEST_F(ResumedBake, refusesAMountPointBeforeItBegins) {
-  const fs::path disk = dir_ / "disk";
-  fs::create_directory(disk);
-  const int status = ended(start([&] {
-    if (!mayMount()) return 100;
-    ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr);
-    if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=64m") != 0) return 100;
-    options_.output = disk;
-    const auto made = bake(options_);
-    if (made || fs::exists(dir_ / ".disk.work")) return 1;
-    return toString(made.findings()).find("mount point") == std::string::npos ? 2 : 0;
-  }));
-  if (status == 100) GTEST_SKIP() << "needs leave to mount";
-  EXPECT_EQ(status, 0);
 }
 
 /// Killed when the old database was aside and the new one not yet there.
