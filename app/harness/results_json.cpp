@@ -185,7 +185,8 @@ Unit readUnit(Reader& reader, const Json& json, const std::string& place) {
   needed("row");
   needed("time_s");
   for (const Quantity& quantity : quantities())
-    if (quantity.whole) needed(quantity.key);
+    // Results of before back faces were left out have no count of them.
+    if (quantity.whole && quantity.key != "culled_back_facing") needed(quantity.key);
   reader.list(Reader::member(json, "frames"), place + ".frames",
               [&](const Json& cells, const std::string& at) {
                 unit.frames.push_back(readFrame(reader, cells, columns, at));
