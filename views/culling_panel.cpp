@@ -30,20 +30,21 @@ QString metres(double m) {
                    : CullingPanel::tr("%1 km").arg(numberText(m / 1000, 1));
 }
 
+/// `size`: empty, or with a comma before it.
 QString whatServes(OcclusionMethod method, const QString& size) {
   switch (method) {
     case OcclusionMethod::depth_map:
-      return CullingPanel::tr("The <b>depth map</b> serves, %1, tested on the GPU.").arg(size);
+      return CullingPanel::tr("The <b>depth map</b> serves%1, tested on the GPU.").arg(size);
     case OcclusionMethod::read_back:
-      return CullingPanel::tr("The <b>depth map</b> serves, %1, read back and tested by the processor.")
+      return CullingPanel::tr("The <b>depth map</b> serves%1, read back and tested by the processor.")
           .arg(size);
     case OcclusionMethod::cpu_map:
-      return CullingPanel::tr("A <b>depth map by the processor</b> serves, %1.").arg(size);
+      return CullingPanel::tr("A <b>depth map by the processor</b> serves%1.").arg(size);
     case OcclusionMethod::horizon:
       return CullingPanel::tr("The <b>horizon</b> serves: what the ground about the eye hides, all round.");
     case OcclusionMethod::horizon_and_map:
       return CullingPanel::tr(
-                 "The <b>horizon</b> serves, and a <b>depth map by the processor</b>, %1, for "
+                 "The <b>horizon</b> serves, and a <b>depth map by the processor</b>%1 for "
                  "what it leaves.")
           .arg(size);
     case OcclusionMethod::automatic:
@@ -145,11 +146,19 @@ void CullingPanel::showMap(const QImage& image, const QString& caption) {
 }
 
 void CullingPanel::showHorizon(std::vector<float> elevationDeg, double headingDeg, double fovDeg) {
-  if (elevationDeg.empty())
-    horizon_->setReason(frame_.occlusion ? tr("A depth map serves, not the horizon.")
-                                         : tr("No horizon: nothing asks for one in this frame."));
-  else
+  hasHorizon_ = !elevationDeg.empty();
+  if (hasHorizon_)
     horizon_->setProfile(std::move(elevationDeg), headingDeg, fovDeg);
+  else
+    horizon_->setReason(whyNoHorizon());
+}
+
+QString CullingPanel::whyNoHorizon() const {
+  if (!frame_.cullingNote.empty()) return QString::fromStdString(frame_.cullingNote);
+  if (frame_.occlusion == OcclusionMethod::horizon || frame_.occlusion == OcclusionMethod::horizon_and_map)
+    return tr("The horizon is left out: near here it hid next to nothing.");
+  if (frame_.occlusion || frame_.depthMap) return tr("A depth map serves, not the horizon.");
+  return tr("No horizon: nothing asks for one in this frame.");
 }
 
 void CullingPanel::showPicked(std::optional<PickedNode> node) {
@@ -167,20 +176,29 @@ void CullingPanel::endPicking() {
 
 QString CullingPanel::served() const {
   const QString note = QString::fromStdString(frame_.cullingNote).toHtmlEscaped();
+  const QString size = frame_.depthMap
+                           ? tr(", %1 × %2 px").arg(frame_.depthMap->widthPx).arg(frame_.depthMap->heightPx)
+                           : QString();
   if (frame_.occlusion) {
-    const QString size =
-        frame_.decision.depthMap
-            ? tr("%1 × %2 px").arg(frame_.decision.depthMap->widthPx).arg(frame_.decision.depthMap->heightPx)
-            : QString();
-    return whatServes(*frame_.occlusion, size) + (note.isEmpty() ? QString() : QLatin1Char(' ') + note);
+    const OcclusionMethod method = *frame_.occlusion;
+    const bool both = method == OcclusionMethod::horizon_and_map;
+    QStringList sentences{whatServes(method, size)};
+    if (!note.isEmpty()) sentences << note;
+    if (!frame_.horizon && note.isEmpty() && (both || method == OcclusionMethod::horizon))
+      sentences << tr("The horizon is left out: near here it hid next to nothing.");
+    if (!frame_.depthMap && frame_.tilesDrawn > 0 && (both || method == OcclusionMethod::cpu_map))
+      sentences << tr("The map is left out: near here one hid next to nothing.");
+    return sentences.join(QLatin1Char(' '));
   }
-  if (!note.isEmpty()) return tr("Nothing is looked for behind the ground: %1.").arg(note);
+  if (frame_.depthMap) return tr("A <b>depth map</b> of the static trees serves%1.").arg(size);
+  if (!note.isEmpty()) return tr("Nothing is looked for behind the ground.") + QLatin1Char(' ') + note;
   if (!frame_.decision.depthMap) return tr("The decision is plain view-frustum culling in this frame.");
   return tr("Nothing is looked for behind the ground in this case.");
 }
 
 void CullingPanel::refresh() {
   served_->setText(served());
+  if (!hasHorizon_) horizon_->setReason(whyNoHorizon());
   if (stages_) stages_->refresh(true);
   const LiveFrame& f = frame_;
   const double all = std::max<double>(1, static_cast<double>(f.tilesInCut));
@@ -194,11 +212,12 @@ void CullingPanel::refresh() {
        bar(tr("outside the frustum"), f.outsideFrustum, {}, 1), bar(tr("hidden"), f.occluded, {}, 3),
        bar(tr("beyond visibility"), f.beyondVisibility, {}, 4), bar(tr("facing away"), f.backFacing, {}, 0)});
   work_->setText(tr("Cuts chosen %1, views %2; horizons built %3, moved along %4, left out %5; depth maps "
-                    "by GL %6, read back %7, by the processor %8; frames in which nothing was worth its "
-                    "cost %9.")
+                    "by GL %6, read back %7, by the processor %8, left out %9; frames in which nothing "
+                    "was worth its cost %10.")
                      .arg(count(f.cutsSelected), count(f.visibleSelected), count(f.horizonsBuilt),
                           count(f.horizonsMoved), count(f.horizonsLeftOut), count(f.depthMapsDrawn),
-                          count(f.mapsReadBack), count(f.mapsDrawnByCpu), count(f.occlusionsLeftOut)));
+                          count(f.mapsReadBack), count(f.mapsDrawnByCpu), count(f.mapsLeftOut),
+                          count(f.occlusionsLeftOut)));
 }
 
 }  // namespace trimtab::views

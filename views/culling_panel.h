@@ -63,6 +63,7 @@ class CullingPanel : public QWidget {
  private:
   void refresh();
   QString served() const;
+  QString whyNoHorizon() const;
 
   QLabel *served_, *work_, *picked_;
   BarList* reasons_;
@@ -73,6 +74,7 @@ class CullingPanel : public QWidget {
   QHBoxLayout* overlayRow_;
   QPushButton* pick_;
   LiveFrame frame_;
+  bool hasHorizon_ = false;
   Throttle throttle_;
 };
 

@@ -30,14 +30,14 @@ struct LiveFrame {
   bool patches = false;  ///< were drawn: `levels` is by their depth
   LevelsFrame levels;
   PagingFrame paging;
-  std::optional<DepthMapSize> depthMap;      ///< that was drawn this frame
-  bool horizon = false;                      ///< served this frame
-  std::optional<OcclusionMethod> occlusion;  ///< what looked for hidden ground; none: nothing did
-  std::string cullingNote;  ///< why it was not as asked for, and what served instead; empty otherwise
+  std::optional<DepthMapSize> depthMap;      ///< of the map that had a part in what is drawn
+  bool horizon = false;                      ///< one had a part in it
+  std::optional<OcclusionMethod> occlusion;  ///< what looks for hidden ground; none: nothing does
+  std::string cullingNote;  ///< why it is not as asked for, and what serves instead: sentences; or empty
   // So far.
   std::uint64_t cutsSelected = 0, visibleSelected = 0, horizonsBuilt = 0, horizonsMoved = 0,
                 horizonsLeftOut = 0, depthMapsDrawn = 0, mapsDrawnByCpu = 0, mapsReadBack = 0,
-                occlusionsLeftOut = 0;
+                mapsLeftOut = 0, occlusionsLeftOut = 0;
   std::optional<HostWeather> hostWeather;  ///< as the host, or the flight, says
   std::optional<Metres> hostVisibility;
 };

@@ -84,8 +84,8 @@ void MainWindow::showDepthMap(const QImage& grey) {
     return culling_->showMap({}, tr("Neither a depth map nor a horizon served in this frame."));
   }
   using Grey = scene::Renderer::Grey;
-  const bool horizon =
-      viewport_->lastResult() && viewport_->lastResult()->occlusion == OcclusionMethod::horizon;
+  const auto& last = viewport_->lastResult();
+  const bool horizon = last && last->horizon && !last->depthMap;
   const QString size = tr("%1 × %2 px").arg(grey.width()).arg(grey.height());
   bands_->showDepthMap(
       grey, tr("%1; black %2 m, white %3 km").arg(size).arg(Grey::kNearestM).arg(Grey::kFurthestM / 1000));

@@ -202,6 +202,7 @@ views::LiveFrame MainWindow::liveFrame() const {
     frame.depthMapsDrawn = last->depthMapsDrawn;
     frame.mapsDrawnByCpu = last->mapsDrawnByCpu;
     frame.mapsReadBack = last->mapsReadBack;
+    frame.mapsLeftOut = last->mapsLeftOut;
     frame.occlusionsLeftOut = last->occlusionsLeftOut;
     frame.patches = last->patches;
     frame.levels = levels_;
