@@ -328,6 +328,7 @@ TEST_F(PagedPicture, isWholeFromTheFirstFrameOn) {
   slow->setDelay(40ms);
   FrameRequest r = request(over(0.5, 0.5, 900), {Degrees{50}, Degrees{-70}, Degrees{0}});
   r.overlays.showHoles = true;
+  r.waitForPages = false;
   for (int i = 0; i < 12; ++i) {
     r.eye = over(0.3 + 0.03 * i, 0.5, 900);
     FrameResult result;

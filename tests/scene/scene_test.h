@@ -48,6 +48,7 @@ class SceneTest : public testing::Test {
     r.attitude = attitude;
     r.view.widthPx = kWidth;
     r.view.heightPx = kHeight;
+    r.waitForPages = true;  // what is drawn and counted does not depend on the frames before
     return r;
   }
   /// A place by fractions of the terrain's extent, so far above the ground there.

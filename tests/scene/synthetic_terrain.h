@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <memory>
+#include <mutex>
 
 #include "trimtab/terrain/database.h"
 
@@ -40,6 +42,7 @@ class SyntheticTerrain final : public terrain::Database {
         height_[at(column, row)] = h;
       }
     makeIndex(tiles);
+    tiles_.resize(index_.size());
   }
 
   const terrain::TerrainInfo& info() const override { return info_; }
@@ -59,7 +62,18 @@ class SyntheticTerrain final : public terrain::Database {
     return Metres{*std::max_element(height_.begin(), height_.end())};
   }
 
+  /// The first time takes some ms for its slopes, so that it is kept.
   void buildTile(std::uint32_t node, terrain::TileMesh& mesh) const override {
+    const std::scoped_lock lock(tilesMutex_);
+    std::unique_ptr<const terrain::TileMesh>& kept = tiles_.at(node);
+    if (!kept) {
+      auto made = std::make_unique<terrain::TileMesh>();
+      makeTile(node, *made);
+      kept = std::move(made);
+    }
+    mesh = *kept;
+  }
+  void makeTile(std::uint32_t node, terrain::TileMesh& mesh) const {
     const auto [column, row, step] = cornerOf(node);
     const Vec3& middle = post(column + kCells / 2 * step, row + kCells / 2 * step);
     const std::array<double, 3> m{middle.x, middle.y, middle.z};
@@ -245,6 +259,8 @@ class SyntheticTerrain final : public terrain::Database {
   TerrainIndex index_;
   std::vector<Vec3> position_;
   std::vector<double> height_;
+  mutable std::mutex tilesMutex_;
+  mutable std::vector<std::unique_ptr<const terrain::TileMesh>> tiles_;
 };
 
 /// Ridges and valleys of several sizes, to 1,600 m; the same every time.
