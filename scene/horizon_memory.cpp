@@ -52,14 +52,25 @@ std::span<const std::uint8_t> HorizonMemory::hidden(OcclusionGround& ground, Vec
                                                     const Horizon::Settings& settings, const Skips& skips) {
   const Key key{eye, ground.cutNumber(), settings};
   const bool samePlace = key_ == key;
+  noGraph_ = false;
   if (!samePlace && skips.littleHidden && hidLittleNear(key)) {
     ++leftOut_;
     return {};
   }
+  const std::size_t lacking = ground.makeSurfaces(eye), nodes = ground.cut().tiles.size();
   if (!ground.isGraph()) {
-    clear();
+    noGraph_ = true;
+    if (lacking == 0) {
+      clear();
+      ground.forgetOthers();
+    }
     return {};
   }
+  // Surfaces that were made since enter the next horizon; an eye that moves begins one soon. Else one is
+  // built once half of them are there, or all.
+  const bool grown = lacking < lacked_ && ((samePlace && lacking == 0) ||
+                                           (SurfaceShare::isMany(lacked_, nodes) && 2 * lacking <= lacked_));
+  if (grown) moving_.restart();
   MovingHorizon::Frame frame;
   frame.eye = eye;
   frame.cut = key.cut.cut;
@@ -69,13 +80,16 @@ std::span<const std::uint8_t> HorizonMemory::hidden(OcclusionGround& ground, Vec
   frame.settings = settings;
   frame.sameHorizon = skips.sameHorizon;
   frame.mayOcclude = [&ground](std::uint32_t node) { return ground.mayOcclude(node); };
+  frame.takesRoom = [&ground](std::uint32_t node) { return ground.takesRoom(node); };
   const std::uint64_t scratch = moving_.fromScratch();
-  const auto hidden =
-      moving_.hidden(frame, ground.tree(), [&](std::vector<HorizonTile>& tiles) { ground.fill(tiles); });
+  const auto hidden = moving_.hidden(frame, ground.tree(), [&](std::vector<HorizonTile>& tiles) {
+    lacked_ = lacking;
+    ground.fill(tiles);
+  });
   moved_ += !samePlace && moving_.fromScratch() == scratch;
-  if (!samePlace) {
+  if (!samePlace || grown) {
     const auto count = static_cast<std::size_t>(std::count(hidden.begin(), hidden.end(), std::uint8_t{1}));
-    hidLittle_ = count * kLeastShare < hidden.size();
+    hidLittle_ = count * kLeastShare < hidden.size() && !SurfaceShare::isMany(lacked_, nodes);
   }
   key_ = key;
   return hidden;

@@ -24,6 +24,9 @@ class HorizonMemory {
   /// The view as the last horizon sees it: what it covers grey, what stays open white. Row 0 at the bottom.
   Renderer::Grey picture(const EyePose& eye, const ViewShape& view, int widthPx, int heightPx) const;
 
+  /// Whether the last call had no graph to make a horizon of.
+  bool noGraph() const { return noGraph_; }
+
   const Horizon& horizon() const { return moving_.horizon(); }
   std::uint64_t built() const { return moving_.built(); }  ///< horizons, since the start
   std::uint64_t moved() const { return moved_; }           ///< frames that an earlier one served
@@ -46,7 +49,8 @@ class HorizonMemory {
 
   MovingHorizon moving_;
   std::optional<Key> key_;
-  bool hidLittle_ = false;
+  bool hidLittle_ = false, noGraph_ = false;
+  std::size_t lacked_ = 0;  ///< surfaces, when a horizon was last begun
   std::uint64_t moved_ = 0, leftOut_ = 0;
 };
 

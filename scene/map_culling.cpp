@@ -115,11 +115,14 @@ void MapCulling::setDatabase(std::shared_ptr<const terrain::Database> database) 
 
 std::span<const std::uint8_t> MapCulling::hidden(const LevelCut& cut, std::span<const TileDraw> visible,
                                                  const EyePose& eye, const MapView& view,
-                                                 const OcclusionConditions& conditions) {
+                                                 const OcclusionConditions& conditions, SurfaceShare& share) {
   meshes_.forgetOthers(cut);
+  share.makeNearest(
+      visible, meshes_.bounds(), eye.position, [this](TileDraw tile) { return !meshes_.find(tile.node); },
+      [this](TileDraw tile) { meshes_.of(tile.node); });
   items_.clear();
   for (const TileDraw& tile : visible)
-    items_.push_back({&meshes_.of(tile.node), &TileMeshes::triangles(), conditions.mayOcclude(tile.node)});
+    items_.push_back({meshes_.find(tile.node), &TileMeshes::triangles(), conditions.mayOcclude(tile.node)});
   return culling_.hidden(items_, eye, view);
 }
 

@@ -54,9 +54,11 @@ class DepthMapCulling {
 class TileMeshes {
  public:
   void setDatabase(std::shared_ptr<const terrain::Database> database);
+  const DepthMesh* find(std::uint32_t node) const { return meshes_.find(node); }  ///< null: not made
   /// Good until the next `forgetOthers`.
   const DepthMesh& of(std::uint32_t node);
   void forgetOthers(const LevelCut& cut) { meshes_.forgetOthers(cut); }
+  const std::vector<Box>& bounds() const { return database_->index().bounds; }
   static const depth::Triangles& triangles();
   std::uint64_t made() const { return made_; }
 
@@ -75,7 +77,7 @@ class MapCulling {
   /// removeOccluded takes them. The eye must be one that `conditions` do not refuse.
   std::span<const std::uint8_t> hidden(const LevelCut& cut, std::span<const TileDraw> visible,
                                        const EyePose& eye, const MapView& view,
-                                       const OcclusionConditions& conditions);
+                                       const OcclusionConditions& conditions, SurfaceShare& share);
   /// The last map.
   Renderer::Grey picture() const { return culling_.picture(); }
   std::uint64_t drawn() const { return culling_.drawn(); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 namespace trimtab::scene {
 namespace {
@@ -12,7 +13,15 @@ namespace {
 constexpr std::size_t kLeastShare = 50;
 constexpr double kBelievedM = 50, kBelievedTurn = 0.05;
 
-constexpr const char* kNothingPays = "no way to find hidden ground is worth its cost here";
+/// A frame that lacks many surfaces says nothing about what a method is worth; so many in a row do.
+constexpr int kUnlearntFrames = 600;
+
+constexpr const char* kNothingPays = "No way to find hidden ground is worth its cost here.";
+constexpr const char* kNoGpuMap = "Patches have no depth map on the GPU; the processor draws one instead.";
+constexpr const char* kNoReadBack =
+    "A depth map cannot be read back in this GL; the processor draws one instead.";
+constexpr const char* kNoGraph =
+    "Some of this ground stands upright or hangs over, or is not known yet: there is no horizon.";
 
 /// The size that the band asks for; none where the scheme asks for no test of any kind.
 std::optional<DepthMapSize> sizeOf(const FrameRequest& request) {
@@ -34,8 +43,16 @@ void OcclusionStage::clear() {
   chosen_ = false;
   serves_.reset();
   hidden_ = {};
+  mapHid_ = false;
   visibleKey_.reset();
   barren_.reset();
+}
+
+void OcclusionStage::setSubpixelBits(int bits) {
+  subpixelBits_ = bits;
+  choice_ = {};
+  chosen_ = false;
+  visibleKey_.reset();
 }
 
 void OcclusionStage::plant(const Defects& defects) {
@@ -64,7 +81,9 @@ void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, GpuM
   }
   if (!chosen_) choice_.pause();
   counters.occlusion = serves_;
-  counters.horizon = horizonServes();
+  // Where counts must not depend on what came before, all surfaces are made at once.
+  const bool atOnce = request.reproducible || request.waitForPages;
+  ground_.share().begin(atOnce ? std::numeric_limits<std::size_t>::max() : SurfaceShare::kAFrame);
   if (!horizonServes()) return;
   const std::uint64_t built = memory_.built(), moved = memory_.moved(), leftOut = memory_.leftOut();
   hidden_ = memory_.hidden(ground_, eye.position,
@@ -74,6 +93,14 @@ void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, GpuM
   counters.horizonsBuilt += memory_.built() - built;
   counters.horizonsMoved += memory_.moved() - moved;
   counters.horizonsLeftOut += memory_.leftOut() - leftOut;
+  counters.horizon = !hidden_.empty();
+  if (!memory_.noGraph()) return;
+  counters.note = kNoGraph;
+  if (serves(OcclusionMethod::horizon))
+    serves_.reset();
+  else
+    serves_ = OcclusionMethod::cpu_map;
+  counters.occlusion = serves_;
 }
 
 std::optional<OcclusionMethod> OcclusionStage::resolve(const FrameRequest& request, GpuMaps gpu,
@@ -86,11 +113,7 @@ std::optional<OcclusionMethod> OcclusionStage::resolve(const FrameRequest& reque
   }
   if ((method == depth_map && !gpu.depthMap) || (method == read_back && !gpu.readBack)) {
     method = cpu_map;
-    counters.note = "no such depth map of this terrain in this GL: the processor draws one instead";
-  }
-  if ((method == cpu_map || method == horizon_and_map) && !ground_.drawsMap()) {
-    method = horizon;
-    counters.note = "no depth map of this terrain: the horizon serves instead";
+    counters.note = gpu.depthMap ? kNoReadBack : kNoGpuMap;
   }
   return method;
 }
@@ -106,8 +129,7 @@ std::optional<OcclusionMethod> OcclusionStage::choose(FrameResult& counters) {
                              (static_cast<std::uint64_t>(size_.widthPx) << 13) ^
                              static_cast<std::uint64_t>(size_.heightPx);
   chosen_ = true;
-  const auto method = choice_.choose(
-      {now, eye_.position, forwardOf(eye_), rule, std::span(kMethods).first(ground_.drawsMap() ? 3 : 1)});
+  const auto method = choice_.choose({now, eye_.position, forwardOf(eye_), rule, kMethods});
   if (!method) {
     ++counters.occlusionsLeftOut;
     counters.note = kNothingPays;
@@ -124,13 +146,15 @@ bool OcclusionStage::visibleStays(const FrameRequest& request, FrameResult& coun
                  ground_.cutNumber(),
                  serves_,
                  serves_ ? size_ : DepthMapSize{},
-                 !hidden_.empty()};
+                 !hidden_.empty(),
+                 ground_.share().made()};
   // What a map on the GPU takes out is gone from the set.
   const bool onGpu = serves(OcclusionMethod::depth_map) || serves(OcclusionMethod::read_back);
   const bool stays = request.skips.sameVisible && !onGpu && visibleKey_ == key;
   visibleKey_ = key;
   counters.visibleSelected += !stays;
-  if (stays && mapServes()) counters.depthMap = size_;
+  mapHid_ = mapHid_ && stays;
+  if (mapHid_) counters.depthMap = size_;
   return stays;
 }
 
@@ -146,14 +170,19 @@ std::span<const std::uint8_t> OcclusionStage::hiddenByMap(const FrameRequest& re
                                                           const VisibleSet& visible, FrameResult& counters) {
   if (!mapServes() || visible.tiles.empty()) return {};
   if (request.skips.littleHidden && mapHidLittleNear()) {
-    ++counters.occlusionsLeftOut;
+    ++counters.mapsLeftOut;
     return {};
   }
   const auto flags = ground_.hiddenByMap(visible.tiles, eye_, view_, size_, defects_.loweringScale);
+  mapHid_ = true;
   ++counters.mapsDrawnByCpu;
   counters.depthMap = size_;
+  if (ground_.share().lacksAny())
+    visibleKey_.reset();  // the next frame's map knows more
+  else if (visibleKey_)
+    visibleKey_->surfaces = ground_.share().made();
   const auto hidden = static_cast<std::size_t>(std::count(flags.begin(), flags.end(), std::uint8_t{1}));
-  if (hidden * kLeastShare < visible.tiles.size())
+  if (hidden * kLeastShare < visible.tiles.size() && !ground_.share().lacksMany())
     barren_ = {eye_.position, forwardOf(eye_), ground_.cutNumber().rule, size_, *serves_};
   else
     barren_.reset();
@@ -162,6 +191,8 @@ std::span<const std::uint8_t> OcclusionStage::hiddenByMap(const FrameRequest& re
 
 void OcclusionStage::finished(const FrameResult& result) {
   if (!chosen_) return;
+  if (ground_.share().lacksMany() && ++unlearnt_ < kUnlearntFrames) return;
+  unlearnt_ = 0;
   const auto or0 = [](double ms) { return std::isfinite(ms) ? ms : 0; };
   const FrameCost& cost = result.cost;
   OcclusionChoice::Outcome outcome;
@@ -179,8 +210,8 @@ void OcclusionStage::finished(const FrameResult& result) {
 }
 
 Renderer::Grey OcclusionStage::picture() const {
-  if (mapServes()) return ground_.mapPicture();
-  if (horizonServes()) return memory_.picture(eye_, view_, size_.widthPx, size_.heightPx);
+  if (mapHid_) return ground_.mapPicture();
+  if (horizon()) return memory_.picture(eye_, view_, size_.widthPx, size_.heightPx);
   return {};
 }
 

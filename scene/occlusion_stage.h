@@ -18,11 +18,13 @@ class OcclusionStage {
  public:
   /// `ground` must live as long.
   explicit OcclusionStage(OcclusionGround& ground) : ground_(ground) {}
+  OcclusionStage(const OcclusionStage&) = delete;
+  OcclusionStage& operator=(const OcclusionStage&) = delete;
 
   /// Another terrain: everything is forgotten.
   void clear();
-  /// Of the context's rasteriser.
-  void setSubpixelBits(int bits) { subpixelBits_ = bits; }
+  /// Of the rasteriser of a new context: what frames cost is learnt anew.
+  void setSubpixelBits(int bits);
   void plant(const Defects& defects);
 
   // In this order, every frame.
@@ -57,9 +59,9 @@ class OcclusionStage {
   DepthMapSize size() const { return size_; }
   /// Whether the eye is over the ground and above it, so that no underside can be seen.
   bool eyeIsAboveGround() const { return refusal_.empty(); }
-  /// That served in the last frame, or null.
-  const Horizon* horizon() const { return horizonServes() ? &memory_.horizon() : nullptr; }
-  /// What the processor's map or the horizon saw last; empty where neither served.
+  /// That had a part in the visible set of the last frame, or null.
+  const Horizon* horizon() const { return hidden_.empty() ? nullptr : &memory_.horizon(); }
+  /// What the processor's map saw, or else the horizon; empty where neither had a part in the visible set.
   Renderer::Grey picture() const;
 
  private:
@@ -77,7 +79,8 @@ class OcclusionStage {
     CutNumber cut;
     std::optional<OcclusionMethod> serves;
     DepthMapSize size;
-    bool horizon = false;  ///< whether one said what it hides
+    bool horizon = false;        ///< whether one said what it hides
+    std::uint64_t surfaces = 0;  ///< that were made
     friend bool operator==(const VisibleKey&, const VisibleKey&) = default;
   };
   /// Where a map hid next to nothing.
@@ -92,6 +95,7 @@ class OcclusionStage {
   HorizonMemory memory_;
   OcclusionChoice choice_;
   bool chosen_ = false;  ///< by cost, in this frame
+  int unlearnt_ = 0;     ///< frames in a row
   Defects defects_;
   int subpixelBits_ = 4;
   EyePose eye_;
@@ -100,6 +104,7 @@ class OcclusionStage {
   std::string refusal_;  ///< why nothing may be hidden from the eye
   std::optional<OcclusionMethod> serves_;
   std::span<const std::uint8_t> hidden_;
+  bool mapHid_ = false;  ///< the processor's map had a part in the visible set
   std::optional<VisibleKey> visibleKey_;
   std::optional<Barren> barren_;
 };

@@ -97,7 +97,7 @@ struct PatchCulling::Impl {
   void takeArrivals(PatchLayer& layer);
   void takeAll(std::span<const std::uint32_t> wanted, PatchLayer& layer);
   void reserve(const FrameRequest& request, PatchLayer& layer);
-  void giveBack(const FrameRequest& request, PatchLayer& layer);
+  bool giveBack(const FrameRequest& request, PatchLayer& layer);
   void followLayer(PatchLayer& layer);
   std::optional<Vec3> eyeAhead(const FrameRequest& request, Vec3 eye) const;
   bool lookAhead(const FrameRequest& request, const CutKey& wanted);
@@ -195,15 +195,16 @@ void PatchCulling::Impl::reserve(const FrameRequest& request, PatchLayer& layer)
                 static_cast<std::size_t>(share * static_cast<double>(bytes.indices)));
 }
 
-/// Where the budget has shrunk a lot, the room of before is somebody else's to use.
-void PatchCulling::Impl::giveBack(const FrameRequest& request, PatchLayer& layer) {
+/// Where the budget has shrunk a lot, the room of before is somebody else's to use. Whether pages had to go.
+bool PatchCulling::Impl::giveBack(const FrameRequest& request, PatchLayer& layer) {
   const std::uint64_t budget = budgetOf(request);
-  if (budget >= reservedFor / 2) return;
+  if (budget >= reservedFor / 2) return false;
   reservedFor = budget;
   layer.setTerrain(&terrain->index());
   const std::vector<std::uint32_t> held(pages.held().begin(), pages.held().end());
   for (const std::uint32_t page : held)
     if (!layer.add(*meshes[page])) letGo(page);
+  return pages.held().size() < held.size();
 }
 
 /// A layer of a new context has nothing.
@@ -312,7 +313,8 @@ void PatchCulling::page(const FrameRequest& request, const EyePose& eye, PatchLa
     }
   }
   m.makeRoom(0, layer);
-  m.giveBack(request, layer);
+  // What is not there must not be taken for ground that hides.
+  if (m.giveBack(request, layer)) m.choose(request, eye, cut_, counters);
 
   const terrain::Pager::Counters read = m.pager->counters();
   PagingFrame& paging = counters.paging;
@@ -346,21 +348,10 @@ void PatchCulling::selectVisible(const FrameRequest& request, const EyePose& eye
 
 void PatchCulling::removeHidden(std::span<const std::uint8_t> flags) {
   if (flags.empty()) return;
-  std::size_t kept = 0, place = 0;
-  for (std::size_t i = 0; i < visible_.tiles.size(); ++i, ++place) {
-    const TileDraw patch = visible_.tiles[i];
-    while (visible_.reason[place] != CullReason::drawn) ++place;
-    if (i >= flags.size() || flags[i] == 0) {
-      visible_.tiles[kept++] = patch;
-      continue;
-    }
-    const bool hidden = flags[i] == 1;
-    visible_.reason[place] = hidden ? CullReason::occluded : CullReason::outside_frustum;
-    ++(hidden ? visible_.occluded : visible_.outsideFrustum);
-    visible_.triangles -= cut_.cut.triangles[place];
-    visible_.vertices -= impl_->terrain->facts()[patch.node].vertices;
-  }
-  visible_.tiles.resize(kept);
+  removeOccluded(cut_.cut, flags, visible_);
+  visible_.vertices = 0;
+  for (const TileDraw& tile : visible_.tiles)
+    visible_.vertices += impl_->terrain->facts()[tile.node].vertices;
 }
 
 const terrain::PatchMesh* PatchCulling::meshOf(std::uint32_t patch) const {

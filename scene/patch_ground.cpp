@@ -63,7 +63,10 @@ void PatchGround::setTerrain(std::shared_ptr<const terrain::Database> database) 
   inside_.assign(any ? database->patches()->index().size() : 0, 0);
   surfaces_.reset(any ? database->patches()->index().size() : 0);
   map_.setTerrain(database);
+  surfaceErrorM_.clear();
   if (!any) return;
+  for (const terrain::PatchFacts& facts : database->patches()->facts())
+    surfaceErrorM_.push_back(facts.bilinearErrorM);
   const terrain::TerrainInfo& info = database->info();
   extent_ = DataExtent(info);
   west_ = info.southWest.longitude;
@@ -80,7 +83,14 @@ void PatchGround::setTerrain(std::shared_ptr<const terrain::Database> database) 
 void PatchGround::make(const terrain::PatchMesh& mesh, TileDraw patch, Surface& surface) {
   surface.variant = patch.coarser;
   makeRelief(mesh, patch.coarser, vertices_, surface.relief);
-  ++reliefs_;
+  // Errors are along the ellipsoid's verticals: what is so far above or below this surface along one that
+  // leans is half as much again along z at most, if the surface rises no more than that beside it.
+  const Box& b = surface.relief.bounds;
+  const Vec3& origin = surface.relief.origin;
+  double lean = 0;
+  for (const float x : {b.minX, b.maxX})
+    for (const float y : {b.minY, b.maxY}) lean = std::max(lean, leanOf(origin + Vec3{x, y, 0}));
+  surface.takesRoom = 1.5 * double{surface.relief.steepest} * lean < 0.5;
   const PatchIndex& index = patches_.index();
   surface.inside = std::all_of(vertices_.begin(), vertices_.end(), [&](const ReliefVertex& v) {
     const std::uint32_t column = mesh.firstColumn + v.column, row = mesh.firstRow + v.row;
@@ -89,19 +99,20 @@ void PatchGround::make(const terrain::PatchMesh& mesh, TileDraw patch, Surface& 
   });
 }
 
-const PatchGround::Surface* PatchGround::surfaceOf(TileDraw patch) {
+const PatchGround::Surface* PatchGround::surfaceOf(TileDraw patch) const {
   const Surface* kept = surfaces_.find(patch.node);
-  if (kept && kept->variant == patch.coarser) return kept;
-  const terrain::PatchMesh* mesh = patches_.meshOf(patch.node);
-  if (!mesh) return nullptr;
-  Surface& surface = surfaces_.make(patch.node);
-  make(*mesh, patch, surface);
-  return &surface;
+  return kept && kept->variant == patch.coarser ? kept : nullptr;
+}
+
+std::size_t PatchGround::makeSurfaces(Vec3 eye) {
+  return share().makeNearest(
+      cut().tiles, patches_.index().bounds, eye,
+      [this](TileDraw patch) { return !surfaceOf(patch) && patches_.meshOf(patch.node); },
+      [this](TileDraw patch) { make(*patches_.meshOf(patch.node), patch, surfaces_.make(patch.node)); });
 }
 
 const PatchGround::Surface* PatchGround::surfaceUnder(TileDraw patch) {
-  const Surface* kept = surfaces_.find(patch.node);
-  if (kept && kept->variant == patch.coarser) return kept;
+  if (const Surface* kept = surfaceOf(patch)) return kept;
   for (const Under& under : under_)
     if (under.node == patch.node && under.surface->variant == patch.coarser) return under.surface.get();
   const terrain::PatchMesh* mesh = patches_.meshOf(patch.node);
@@ -128,8 +139,8 @@ std::string PatchGround::refusal(const EyePose& eye, const ViewShape& view) {
       ground = std::max(ground.value_or(-1e30), *height + surface->relief.origin.z);
     steepest = std::max(steepest, surface->relief.steepest);
   }
-  if (!ground) return "no patch is under the eye";
-  if (!(nearestOf(view) < kBesideM)) return "the near plane is too far from the eye";
+  if (!ground) return "No patch is under the eye.";
+  if (!(nearestOf(view) < kBesideM)) return "The near plane is too far from the eye.";
   return nearPlaneRefusal(eye.position.z - *ground, nearestOf(view), steepest);
 }
 
@@ -143,13 +154,13 @@ void PatchGround::fill(std::vector<HorizonTile>& tiles) {
 
 /// Where a single patch stands upright or hangs over, a place may have two heights.
 bool PatchGround::isGraph() {
-  if (graphOf_ == cutNumber().cut) return graph_;
-  graphOf_ = cutNumber().cut;
-  graph_ = std::all_of(cut().tiles.begin(), cut().tiles.end(), [this](const TileDraw& patch) {
+  if (graphOf_ == cutNumber().cut) return true;
+  const bool graph = std::all_of(cut().tiles.begin(), cut().tiles.end(), [this](const TileDraw& patch) {
     const Surface* surface = surfaceOf(patch);
     return surface && surface->relief.upright;
   });
-  return graph_;
+  if (graph) graphOf_ = cutNumber().cut;
+  return graph;
 }
 
 /// By the box of the node and of all below it.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -26,49 +27,53 @@ class PatchGround final : public OcclusionGround {
   const LevelCut& cut() const override { return patches_.cut(); }
   const CutNumber& cutNumber() const override { return patches_.cutNumber(); }
   std::string refusal(const EyePose& eye, const ViewShape& view) override;
+  std::size_t makeSurfaces(Vec3 eye) override;
   void fill(std::vector<HorizonTile>& tiles) override;
-  SurfaceTree tree() const override { return SurfaceTree::of(patches_.index()); }
+  SurfaceTree tree() const override { return SurfaceTree::of(patches_.index(), surfaceErrorM_); }
   bool mayOcclude(std::uint32_t node) override;
+  bool takesRoom(std::uint32_t node) const override {
+    const Surface* surface = surfaces_.find(node);
+    return surface && surface->takesRoom;
+  }
+  void forgetOthers() override { surfaces_.forgetOthers(cut()); }
   bool isGraph() override;
-  bool drawsMap() const override { return true; }
   std::span<const std::uint8_t> hiddenByMap(std::span<const TileDraw> visible, const EyePose& eye,
                                             const ViewShape& view, DepthMapSize size,
                                             double loweringScale) override {
-    return map_.hidden(patches_, cutNumber().cut, visible, eye, {view, size, loweringScale});
+    return map_.hidden(patches_, cutNumber().cut, visible, eye, {view, size, loweringScale}, share());
   }
   Renderer::Grey mapPicture() const override { return map_.picture(); }
-
-  std::uint64_t reliefs() const { return reliefs_; }  ///< meshes that were looked at
 
  private:
   struct Surface {
     MeshRelief relief;
     std::uint8_t variant = 0;
     bool inside = false;  ///< so far from the data's edge that no way to it leads over the edge
+    bool takesRoom = false;
   };
-  /// Null where the patch's page is not there.
-  const Surface* surfaceOf(TileDraw patch);
-  /// The same for where the eye is over, which leaves alone what `fill` gave away.
+  /// Null where it is not made.
+  const Surface* surfaceOf(TileDraw patch) const;
+  /// Makes it where the patch's page is there: of where the eye is over, and leaves alone what `fill` gave
+  /// away.
   const Surface* surfaceUnder(TileDraw patch);
   void make(const terrain::PatchMesh& mesh, TileDraw patch, Surface& surface);
 
   const PatchCulling& patches_;
   PatchMapCulling map_;
   DataExtent extent_;
-  std::uint32_t marginColumns_ = 0, marginRows_ = 0;  ///< posts that `inside` asks for
-  SurfacesInUse<Surface> surfaces_;                   ///< some 10 KB each
+  std::vector<std::array<float, PatchIndex::kVariants>> surfaceErrorM_;  ///< as SurfaceTree takes it
+  std::uint32_t marginColumns_ = 0, marginRows_ = 0;                     ///< posts that `inside` asks for
+  SurfacesInUse<Surface> surfaces_;                                      ///< some 10 KB each
   struct Under {
     std::uint32_t node;
     std::unique_ptr<Surface> surface;
   };
   std::vector<Under> under_;
-  std::optional<std::uint64_t> graphOf_;  ///< the cut that `graph_` is of
-  bool graph_ = false;
-  std::vector<std::uint8_t> inside_;  ///< of mayOcclude: 0 is not known, 1 no, 2 yes
+  std::optional<std::uint64_t> graphOf_;  ///< the last cut that was found to be a graph
+  std::vector<std::uint8_t> inside_;      ///< of mayOcclude: 0 is not known, 1 no, 2 yes
   Degrees west_, south_;
   double postLongitude_ = 1, postLatitude_ = 1;
   std::vector<ReliefVertex> vertices_;
-  std::uint64_t reliefs_ = 0;
 };
 
 /// A patch's surface for the horizon: one of its variants.

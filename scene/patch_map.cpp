@@ -129,6 +129,7 @@ void makePatchSurface(const terrain::PatchMesh& mesh, int variant, PatchSurface&
 
   // Vertices: the patch's, then its outline's once more, lower.
   const std::size_t count = mesh.vertices.size();
+  if (count + outline.size() > 0xffff) return;
   m.setVertices(count + outline.size());
   out.slope.assign(count + outline.size(), 0.0f);
   std::vector<std::uint8_t> atBorder(count + outline.size());
@@ -162,10 +163,9 @@ void makePatchSurface(const terrain::PatchMesh& mesh, int variant, PatchSurface&
     atBorder[low] = 1;
   }
   m.vertices = next;
-  if (next <= 0xffff)
-    for (const auto& [from, to] : outline)
-      if (const auto b = below.find(to); b != below.end())
-        indices.insert(indices.end(), {below[from], b->second, to, below[from], to, from});
+  for (const auto& [from, to] : outline)
+    if (const auto b = below.find(to); b != below.end())
+      indices.insert(indices.end(), {below[from], b->second, to, below[from], to, from});
   m.finishVertices();
   for (std::uint32_t i = 0; i < next; ++i)
     if (atBorder[i] != 0) out.border.push_back(i);
@@ -187,11 +187,13 @@ void PatchMapCulling::setTerrain(std::shared_ptr<const terrain::Database> databa
   metresNorth_ = std::max(1e-3, info.postLatitude.value() * extent_.metresPerDegreeNorth());
 }
 
-const PatchSurface* PatchMapCulling::surfaceOf(const PatchCulling& patches, TileDraw patch) {
+const PatchSurface* PatchMapCulling::surfaceOf(TileDraw patch) const {
   const PatchSurface* kept = surfaces_.find(patch.node);
-  if (kept && kept->variant == patch.coarser) return kept;
+  return kept && kept->variant == patch.coarser ? kept : nullptr;
+}
+
+void PatchMapCulling::make(const PatchCulling& patches, TileDraw patch) {
   const terrain::PatchMesh* mesh = patches.meshOf(patch.node);
-  if (!mesh) return nullptr;
   PatchSurface& surface = surfaces_.make(patch.node);
   makePatchSurface(*mesh, patch.coarser, surface);
   const PatchIndex& index = patches.index();
@@ -202,18 +204,18 @@ const PatchSurface* PatchMapCulling::surfaceOf(const PatchCulling& patches, Tile
            (index.columns - 1 - column) * metresEast_ > beside &&
            (index.rows - 1 - row) * metresNorth_ > beside;
   });
-  return &surface;
 }
 
-void PatchMapCulling::takeInNeighbours(const PatchCulling& patches) {
+bool PatchMapCulling::takeInNeighbours(const PatchCulling& patches, Vec3 eye, SurfaceShare& share) {
   surfaces_.forgetOthers(patches.cut());
   const std::vector<TileDraw>& cut = patches.cut().tiles;
   const std::vector<Box>& bounds = patches.index().bounds;
+  const std::size_t lacking = share.makeNearest(
+      cut, bounds, eye, [&](TileDraw patch) { return !surfaceOf(patch) && patches.meshOf(patch.node); },
+      [&](TileDraw patch) { make(patches, patch); });
   places_.clear();
-  for (std::uint32_t i = 0; i < cut.size(); ++i) {
-    surfaceOf(patches, cut[i]);
+  for (std::uint32_t i = 0; i < cut.size(); ++i)
     places_.push_back({bounds[cut[i].node].minX, bounds[cut[i].node].maxX, i});
-  }
   std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) { return a.low < b.low; });
   // Of those to the west only the widest can reach as far as this: how wide that is.
   float widest = 0;
@@ -246,13 +248,13 @@ void PatchMapCulling::takeInNeighbours(const PatchCulling& patches) {
     for (const std::uint32_t i : surface->border)
       surface->mesh.slope[i] = std::max(surface->slope[i], around);
   }
+  return lacking == 0;
 }
 
 std::span<const std::uint8_t> PatchMapCulling::hidden(const PatchCulling& patches, std::uint64_t cut,
                                                       std::span<const TileDraw> visible, const EyePose& eye,
-                                                      const MapView& view) {
-  if (!known_ || cut_ != cut) takeInNeighbours(patches);
-  known_ = true;
+                                                      const MapView& view, SurfaceShare& share) {
+  if (!known_ || cut_ != cut) known_ = takeInNeighbours(patches, eye.position, share);
   cut_ = cut;
   items_.clear();
   for (const TileDraw& patch : visible) {

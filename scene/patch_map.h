@@ -40,21 +40,23 @@ class PatchMapCulling {
   /// PatchGround::refusal lets pass.
   std::span<const std::uint8_t> hidden(const PatchCulling& patches, std::uint64_t cut,
                                        std::span<const TileDraw> visible, const EyePose& eye,
-                                       const MapView& view);
+                                       const MapView& view, SurfaceShare& share);
   /// The last map.
   Renderer::Grey picture() const { return culling_.picture(); }
   std::uint64_t drawn() const { return culling_.drawn(); }
   std::uint64_t triangles() const { return culling_.triangles(); }
 
  private:
-  const PatchSurface* surfaceOf(const PatchCulling& patches, TileDraw patch);
-  void takeInNeighbours(const PatchCulling& patches);
+  const PatchSurface* surfaceOf(TileDraw patch) const;  ///< null where it is not made
+  void make(const PatchCulling& patches, TileDraw patch);
+  /// Whether all that can be made is there.
+  bool takeInNeighbours(const PatchCulling& patches, Vec3 eye, SurfaceShare& share);
 
   DataExtent extent_;
   double metresEast_ = 1, metresNorth_ = 1;  ///< from post to post
   SurfacesInUse<PatchSurface> surfaces_;
   std::uint64_t cut_ = 0;
-  bool known_ = false;  ///< the neighbours of that cut
+  bool known_ = false;  ///< all neighbours of that cut
   DepthMapCulling culling_;
   std::vector<DepthMapCulling::Item> items_;
   struct Place {

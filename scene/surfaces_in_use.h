@@ -1,9 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 
+#include "trimtab/culling/box_distance.h"
 #include "trimtab/culling/select.h"
 
 namespace trimtab::scene {
@@ -48,6 +52,47 @@ class SurfacesInUse {
  private:
   std::vector<std::unique_ptr<Surface>> surfaces_, replaced_;
   std::size_t count_ = 0;
+};
+
+/// How many surfaces a frame makes at most: a number and no time, so that runs can be repeated. What is not
+/// made yet hides nothing and is never hidden.
+class SurfaceShare {
+ public:
+  /// About a millisecond: 0.1 ms each on a desktop of 2023.
+  static constexpr std::size_t kAFrame = 8;
+
+  void begin(std::size_t most) {
+    left_ = most;
+    lacksAny_ = lacksMany_ = false;
+  }
+  /// Makes what lacks of `nodes`, nearest first; returns how many still lack.
+  template <class Lacks, class Make>
+  std::size_t makeNearest(std::span<const TileDraw> nodes, const std::vector<Box>& bounds, Vec3 eye,
+                          const Lacks& lacks, const Make& make) {
+    wanted_.clear();
+    for (std::uint32_t i = 0; i < nodes.size(); ++i)
+      if (lacks(nodes[i])) wanted_.emplace_back(distanceSquared(bounds[nodes[i].node], eye), i);
+    const std::size_t now = std::min(left_, wanted_.size()), later = wanted_.size() - now;
+    std::partial_sort(wanted_.begin(), wanted_.begin() + static_cast<std::ptrdiff_t>(now), wanted_.end());
+    for (std::size_t k = 0; k < now; ++k) make(nodes[wanted_[k].second]);
+    left_ -= now;
+    made_ += now;
+    lacksAny_ = lacksAny_ || later > 0;
+    lacksMany_ = lacksMany_ || isMany(later, nodes.size());
+    return later;
+  }
+  /// Whether what is known of the ground says little about what it would hide.
+  static bool isMany(std::size_t lacking, std::size_t of) { return lacking * 8 > of; }
+  // After any makeNearest of this frame.
+  bool lacksAny() const { return lacksAny_; }
+  bool lacksMany() const { return lacksMany_; }
+  std::uint64_t made() const { return made_; }  ///< since the start
+
+ private:
+  std::size_t left_ = 0;
+  bool lacksAny_ = false, lacksMany_ = false;
+  std::uint64_t made_ = 0;
+  std::vector<std::pair<double, std::uint32_t>> wanted_;
 };
 
 }  // namespace trimtab::scene

@@ -33,9 +33,11 @@ void TileGround::setDatabase(std::shared_ptr<const terrain::Database> database) 
   map_.setDatabase(database_);
   relief_.reset(database_ ? database_->index().size() : 0);
   upright_.clear();
+  takesRoom_.clear();
   if (!database_) return;
   const TerrainIndex& index = database_->index();
   upright_.assign(index.size(), 0);
+  takesRoom_.assign(index.size(), 0);
   double lowest = 1e30, highest = -1e30;
   for (const Box& b : index.bounds) {
     lowest = std::min(lowest, double{b.minZ});
@@ -51,18 +53,26 @@ void TileGround::setDatabase(std::shared_ptr<const terrain::Database> database) 
                                    std::max(std::abs(double{b.minY}), std::abs(double{b.maxY})));
     const double lean = away / kEarthRadius;
     const double astray = (highest - lowest) * lean / std::sqrt(std::max(1e-6, 1 - lean * lean));
-    upright_[node] = 1.5 * double{index.slopeMax[node]} * lean < 0.5 &&
-                     astray < 0.5 * std::min(double{b.maxX} - b.minX, double{b.maxY} - b.minY);
+    const bool gentle = 1.5 * double{index.slopeMax[node]} * lean < 0.5;
+    upright_[node] = gentle && astray < 0.5 * std::min(double{b.maxX} - b.minX, double{b.maxY} - b.minY);
+    // A tile that ends between two of its posts has diagonals of its own, and an error known at posts alone.
+    const TerrainIndex::Level& level = index.levels[index.level[node]];
+    const std::uint32_t i = node - level.firstNode;
+    const auto isWhole = [&](std::uint32_t place, std::uint32_t posts) {
+      return ((std::uint64_t{place} + 1) * TerrainIndex::kTileCells << index.level[node]) < posts;
+    };
+    takesRoom_[node] = gentle && isWhole(i % level.columns, database_->info().columns) &&
+                       isWhole(i / level.columns, database_->info().rows);
   }
 }
 
-const TileRelief* TileGround::reliefOf(std::uint32_t node) {
-  if (const TileRelief* known = relief_.find(node)) return known;
-  TileRelief& relief = relief_.make(node);
-  database_->buildTile(node, mesh_);
-  makeRelief(mesh_, relief);
-  ++reliefs_;
-  return &relief;
+std::size_t TileGround::makeSurfaces(Vec3 eye) {
+  return share().makeNearest(
+      cut_->tiles, database_->index().bounds, eye, [this](TileDraw tile) { return !relief_.find(tile.node); },
+      [this](TileDraw tile) {
+        database_->buildTile(tile.node, mesh_);
+        makeRelief(mesh_, relief_.make(tile.node));
+      });
 }
 
 void TileGround::fill(std::vector<HorizonTile>& tiles) {
@@ -71,7 +81,7 @@ void TileGround::fill(std::vector<HorizonTile>& tiles) {
   inCut_.assign(index.size(), 0);
   for (const TileDraw& tile : cut_->tiles) {
     inCut_[tile.node] = 1;
-    tiles.push_back({.relief = reliefOf(tile.node), .mayOcclude = mayOcclude(tile.node)});
+    tiles.push_back({.relief = relief_.find(tile.node), .mayOcclude = mayOcclude(tile.node)});
   }
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     const auto& [west, east, south, north] = index.neighbours[cut_->tiles[i].node];

@@ -26,33 +26,32 @@ class TileGround final : public OcclusionGround {
   std::string refusal(const EyePose& eye, const ViewShape& view) override {
     return conditions_.refusal(*cut_, eye, view);
   }
+  std::size_t makeSurfaces(Vec3 eye) override;
   void fill(std::vector<HorizonTile>& tiles) override;
   SurfaceTree tree() const override { return SurfaceTree::of(database_->index()); }
   bool mayOcclude(std::uint32_t node) override { return upright_[node] != 0 && conditions_.mayOcclude(node); }
-  bool drawsMap() const override { return true; }
+  bool takesRoom(std::uint32_t node) const override { return takesRoom_[node] != 0; }
+  void forgetOthers() override { relief_.forgetOthers(*cut_); }
   std::span<const std::uint8_t> hiddenByMap(std::span<const TileDraw> visible, const EyePose& eye,
                                             const ViewShape& view, DepthMapSize size,
                                             double loweringScale) override {
-    return map_.hidden(*cut_, visible, eye, {view, size, loweringScale}, conditions_);
+    return map_.hidden(*cut_, visible, eye, {view, size, loweringScale}, conditions_, share());
   }
   Renderer::Grey mapPicture() const override { return map_.picture(); }
 
   const OcclusionConditions& conditions() const { return conditions_; }
-  std::uint64_t reliefs() const { return reliefs_; }  ///< tiles that were looked at
 
  private:
-  const TileRelief* reliefOf(std::uint32_t node);
-
   std::shared_ptr<const terrain::Database> database_;
   OcclusionConditions conditions_;
   MapCulling map_;
   const LevelCut* cut_ = nullptr;
   const CutNumber* number_ = nullptr;
   std::vector<std::uint8_t> upright_;  ///< one a node: no place there has two heights
-  SurfacesInUse<TileRelief> relief_;   ///< 25 KB each
-  std::vector<std::uint8_t> inCut_;    ///< one a node
+  std::vector<std::uint8_t> takesRoom_;
+  SurfacesInUse<TileRelief> relief_;  ///< 25 KB each
+  std::vector<std::uint8_t> inCut_;   ///< one a node
   terrain::TileMesh mesh_;
-  std::uint64_t reliefs_ = 0;
 };
 
 /// A tile's surface for the horizon.

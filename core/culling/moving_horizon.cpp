@@ -21,7 +21,7 @@ constexpr double kTurnFrames = 8, kMostTurn = 0.03;
 constexpr double kJumpM = 60;
 /// Frames that a room holds for beyond those in which the next is built.
 constexpr double kSpareFrames = 2;
-/// Errors are along the earth's verticals, which lean from the frame's z: where a tile may occlude, so little
+/// Errors are along the earth's verticals, which lean from the frame's z: where a tile takes room, so little
 /// beside its slopes that a place's height changes by at most half as much again.
 constexpr float kLean = 1.5f;
 /// The rule for the levels is not taken by its letter: it may be about to change its mind.
@@ -40,6 +40,10 @@ void MovingHorizon::clear() {
     build.cut.clear();
   }
   moving_ = false;
+}
+
+void MovingHorizon::restart() {
+  for (Build& build : builds_) build.there = false;
 }
 
 /// The way from one frame to another, from now on.
@@ -151,7 +155,8 @@ void MovingHorizon::begin(Build& build, const EyeRoom& room, const Frame& frame,
   build.there = true;
   build.marked = false;
   for (const TileDraw& tile : build.cut) build.mark[tile.node] = kThere;
-  const bool mayChange = frame.incremental && frame.sameHorizon && frame.errorOverDistance > 0;
+  const bool mayChange =
+      frame.incremental && frame.sameHorizon && frame.errorOverDistance > 0 && tree.surfaceErrorM;
   if (mayChange) {
     build.eye = frame.eye;
     build.limit = frame.errorOverDistance;
@@ -162,16 +167,19 @@ void MovingHorizon::begin(Build& build, const EyeRoom& room, const Frame& frame,
   build.horizon.begin(room, build.tiles, frame.settings);
 }
 
-/// The largest error of what the rule may draw of a node while the build stands: of a patch, the coarsest
+/// The largest errors of what the rule may draw of a node while the build stands: of a patch, the coarsest
 /// variant that is good enough, else the finest.
-float MovingHorizon::worstError(const Build& build, const SurfaceTree& tree, std::uint32_t node) {
-  float worst = tree.finestError(node);
+MovingHorizon::Errors MovingHorizon::worstErrors(const Build& build, const SurfaceTree& tree,
+                                                 std::uint32_t node) {
+  Errors worst{tree.finestError(node), tree.surfaceError(node, 0)};
   if (tree.variants == 1) return worst;
   const double away = std::sqrt(distanceSquared(tree.bounds[node], build.eye)) + build.reach;
   for (std::size_t v = 1; v < tree.variants; ++v)
     if (const float error = tree.errorM[node * tree.variants + v];
-        double{error} <= build.limit * away * (1 + kMargin))
-      worst = std::max(worst, error);
+        error <= worst.atPosts || double{error} <= build.limit * away * (1 + kMargin)) {
+      worst.atPosts = std::max(worst.atPosts, error);
+      worst.anywhere = std::max(worst.anywhere, tree.surfaceError(node, v));
+    }
   return worst;
 }
 
@@ -216,6 +224,7 @@ void MovingHorizon::giveRoom(Build& build, const Frame& frame, const SurfaceTree
     return node != SurfaceTree::kNone && (build.mark[node] & (kMaySplit | kMayJoin)) != 0;
   };
   const auto mayOcclude = [&](std::uint32_t node) { return !frame.mayOcclude || frame.mayOcclude(node); };
+  const auto worst = [&](std::uint32_t node) { return worstErrors(build, tree, node).anywhere; };
   for (std::size_t i = 0; i < build.cut.size(); ++i) {
     const std::uint32_t node = build.cut[i].node;
     HorizonTile& tile = build.tiles[i];
@@ -225,21 +234,24 @@ void MovingHorizon::giveRoom(Build& build, const Frame& frame, const SurfaceTree
     }
     // Of a patch, another variant may stand here; of a tile, with the border of a coarser neighbour.
     if (!changes(node) && tree.variants == 1) continue;
-    float other = worstError(build, tree, node);
+    float other = worst(node);
     if ((build.mark[node] & kMaySplit) != 0)
       for (const std::uint32_t child : tree.childrenOf(node))
         if (child != SurfaceTree::kNone) {
-          other = std::max(other, worstError(build, tree, child));
+          other = std::max(other, worst(child));
           tile.mayOcclude = tile.mayOcclude && mayOcclude(child);
         }
     if ((build.mark[node] & kMayJoin) != 0) {
       const std::uint32_t parent = tree.parent[node], above = tree.parent[parent];
-      other = std::max(other, worstError(build, tree, parent));
-      if (!tree.neighbours.empty() && above != SurfaceTree::kNone)
-        other = std::max(other, worstError(build, tree, above));
+      other = std::max(other, worst(parent));
+      if (!tree.neighbours.empty() && above != SurfaceTree::kNone) other = std::max(other, worst(above));
       tile.mayOcclude = tile.mayOcclude && mayOcclude(parent);
     }
-    const float room = kLean * (tree.errorOf(build.cut[i]) + other);
+    const float room = kLean * (tree.surfaceError(node, tree.variantOf(build.cut[i])) + other);
+    if (!std::isfinite(room) || (frame.takesRoom && !frame.takesRoom(node))) {
+      tile = {};  // hides nothing and is never hidden, so that nothing is said of what takes its place
+      continue;
+    }
     tile.below = std::max(tile.below, room);
     tile.above = std::max(tile.above, room);
   }
@@ -259,7 +271,7 @@ bool MovingHorizon::holds(Build& build, const Frame& frame, const SurfaceTree& t
 
 /// Verdicts for another cut; false where it has changed otherwise than was foreseen.
 bool MovingHorizon::carry(Build& build, const Frame& frame, const SurfaceTree& tree) {
-  if (!(frame.errorOverDistance > 0)) return false;
+  if (!(frame.errorOverDistance > 0) || tree.surfaceErrorM == nullptr) return false;
   for (std::size_t i = 0; i < build.cut.size() && !build.marked; ++i)
     if (build.horizon.hidden()[i] != 0) {
       std::uint8_t& mark = build.mark[build.cut[i].node];
@@ -270,7 +282,7 @@ bool MovingHorizon::carry(Build& build, const Frame& frame, const SurfaceTree& t
   for (std::size_t i = 0; i < frame.tiles.size(); ++i) {
     const std::uint32_t node = frame.tiles[i].node, parent = tree.parent[node];
     const std::uint8_t mark = build.mark[node];
-    if (tree.errorOf(frame.tiles[i]) > worstError(build, tree, node)) return false;
+    if (tree.errorOf(frame.tiles[i]) > worstErrors(build, tree, node).atPosts) return false;
     if (mark != 0) {
       verdicts_[i] = (mark & kHidden) != 0;
       continue;

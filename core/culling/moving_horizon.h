@@ -35,6 +35,9 @@ class MovingHorizon {
     bool incremental = true;  ///< false: from scratch at every new place
     /// Of any node, whether it may occlude where it is drawn; not there: all do.
     std::function<bool(std::uint32_t node)> mayOcclude = {};
+    /// Of a node of the cut, whether all that may stand in its place is within the sum of both errors, half
+    /// as much again for how far verticals lean, above and below it; not there: all are.
+    std::function<bool(std::uint32_t node)> takesRoom = {};
   };
   /// Appends one tile for each of the frame's, in order. What they point to must stay as it is until the next
   /// fill, or clear().
@@ -45,6 +48,8 @@ class MovingHorizon {
   std::span<const std::uint8_t> hidden(const Frame& frame, const SurfaceTree& tree, const Fill& fill);
   /// Forgets all.
   void clear();
+  /// The surfaces tell more than before: the next horizon is built at once. The eye's way is still known.
+  void restart();
 
   /// The one that stands.
   const Horizon& horizon() const { return builds_[standing_].horizon; }
@@ -73,7 +78,10 @@ class MovingHorizon {
              const Fill& fill);
   void markChanges(Build& build, const SurfaceTree& tree);
   void giveRoom(Build& build, const Frame& frame, const SurfaceTree& tree);
-  static float worstError(const Build& build, const SurfaceTree& tree, std::uint32_t node);
+  struct Errors {
+    float atPosts, anywhere;
+  };
+  static Errors worstErrors(const Build& build, const SurfaceTree& tree, std::uint32_t node);
   /// Whether the build holds in this frame; fills in verdicts_ where its cut is another.
   bool holds(Build& build, const Frame& frame, const SurfaceTree& tree);
   bool carry(Build& build, const Frame& frame, const SurfaceTree& tree);

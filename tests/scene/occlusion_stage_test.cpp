@@ -1,3 +1,5 @@
+#include <gmock/gmock.h>
+
 #include <array>
 #include <cmath>
 #include <random>
@@ -80,7 +82,7 @@ TEST_F(OcclusionStage, hidesNothingFromUnderTheGroundAndSaysSo) {
       r.eye = over(0.5, 0.5, -40);
       scene::FrameResult result;
       EXPECT_EQ(lost(r, &result), 0u);
-      EXPECT_EQ(result.note, "the eye is under the ground");
+      EXPECT_EQ(result.note, "The eye is under the ground.");
       EXPECT_FALSE(result.occlusion.has_value());
       EXPECT_EQ(result.visible.occluded, 0u);
     }
@@ -164,7 +166,15 @@ TEST_F(OcclusionStage, drawsNoMapNearWhereOneHidNextToNothing) {
   r.eye.height = r.eye.height + Metres{5};
   const auto drawn = picture(r, &second);
   EXPECT_EQ(second.mapsDrawnByCpu, first.mapsDrawnByCpu);
-  EXPECT_EQ(second.occlusionsLeftOut, first.occlusionsLeftOut + 1);
+  EXPECT_EQ(second.mapsLeftOut, first.mapsLeftOut + 1);
+  EXPECT_EQ(second.occlusionsLeftOut, first.occlusionsLeftOut) << "the method is worth its cost";
+  EXPECT_EQ(first.depthMap, r.decision.depthMap);
+  EXPECT_EQ(second.occlusion, OcclusionMethod::cpu_map);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_FALSE(second.depthMap) << "none had a part in what is drawn";
+    EXPECT_TRUE(renderer.readDepthMap().pixels.empty());
+    picture(r, &second);  // a view that stands
+  }
   r.skips.littleHidden = r.skips.sameVisible = false;
   EXPECT_EQ(picture(r, &third), drawn);
   EXPECT_EQ(third.mapsDrawnByCpu, second.mapsDrawnByCpu + 1);
@@ -172,6 +182,62 @@ TEST_F(OcclusionStage, drawsNoMapNearWhereOneHidNextToNothing) {
   r.attitude.heading = Degrees{60};
   EXPECT_EQ(lost(r, &second), 0u);
   EXPECT_EQ(second.mapsDrawnByCpu, third.mapsDrawnByCpu + 1) << "a turn ends what was believed";
+}
+
+TEST_F(OcclusionStage, tellsOnlyOfMapsAndHorizonsOfThisPicture) {
+  for (const bool patches : {false, true})
+    for (const OcclusionMethod method :
+         {OcclusionMethod::cpu_map, OcclusionMethod::horizon, OcclusionMethod::horizon_and_map}) {
+      use(patches ? patchedMountains() : test::syntheticMountains());
+      const bool horizon = method != OcclusionMethod::cpu_map, map = method != OcclusionMethod::horizon;
+      const auto tells = [&](const scene::FrameRequest& r, bool ofHorizon, bool ofMap, const char* what) {
+        scene::FrameResult result;
+        picture(r, &result);
+        EXPECT_EQ(result.horizon, ofHorizon) << what;
+        EXPECT_EQ(renderer.readHorizon(8).size(), ofHorizon ? 8u : 0u) << what;
+        EXPECT_EQ(result.depthMap.has_value(), ofMap) << what;
+        EXPECT_EQ(renderer.readDepthMap().pixels.empty(), !ofHorizon && !ofMap) << what;
+      };
+      auto r = low(40, method);
+      r.skips.littleHidden = false;
+      tells(r, horizon, map, "low");
+      tells(r, horizon, map, "a view that stands");
+      auto sky = r;
+      sky.eye = over(0.5, 0.5, 6000);
+      sky.attitude.pitch = Degrees{80};
+      tells(sky, horizon, false, "nothing but sky");
+      tells(sky, horizon, false, "nothing but sky, again");
+      tells(r, horizon, map, "low again");
+      auto under = r;
+      under.eye = over(0.5, 0.5, -40);
+      tells(under, false, false, "under the ground");
+      tells(r, horizon, map, "out of it");
+      renderer.setTerrain(database);
+      EXPECT_TRUE(renderer.readHorizon(8).empty());
+      EXPECT_TRUE(renderer.readDepthMap().pixels.empty());
+      tells(sky, horizon, false, "the terrain anew");
+    }
+}
+
+/// Triangles that stand nearly upright: the earth's curvature may make them hang over.
+TEST_F(OcclusionStage, saysThatACliffHasNoHorizon) {
+  terrain::HeightGrid grid;
+  grid.posts = {128.1, 36.4, 1e-5, 1e-5, 129, 129};
+  for (std::uint32_t post = 0; post < 129 * 129; ++post)
+    grid.heights.push_back(post % 129 > 110 ? 3000.0f : 0.0f);
+  use(std::make_shared<const test::PatchedTerrain>(std::move(grid)));
+  for (const OcclusionMethod method : {OcclusionMethod::horizon, OcclusionMethod::horizon_and_map}) {
+    auto r = low(90, method);
+    r.eye = over(0.5, 0.5, 30);
+    scene::FrameResult result;
+    EXPECT_EQ(lost(r, &result), 0u);
+    picture(r, &result);
+    EXPECT_FALSE(result.horizon);
+    EXPECT_TRUE(renderer.readHorizon(8).empty());
+    EXPECT_EQ(result.occlusion, method == OcclusionMethod::horizon ? std::optional<OcclusionMethod>{}
+                                                                   : OcclusionMethod::cpu_map);
+    EXPECT_THAT(result.note, testing::EndsWith("there is no horizon."));
+  }
 }
 
 /// A head that turns at 200 degrees a second in an aircraft at 600 kt, which is put elsewhere now and then.
