@@ -92,13 +92,12 @@ const std::vector<Skip>& skips() {
        without<&scene::Skips::sameHorizon>, itself, true},
       {"horizon where it hid next to nothing",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
-         return after.horizon && !unchanged<&FrameResult::horizonsLeftOut>(before, after);
+         return !unchanged<&FrameResult::horizonsLeftOut>(before, after);
        },
        without<&scene::Skips::littleHidden>, itself, true},
       {"depth map where it hid next to nothing",
-       [](const FrameRequest& r, const FrameResult& before, const FrameResult& after) {
-         return r.occlusion != OcclusionMethod::automatic && after.occlusion.has_value() &&
-                !unchanged<&FrameResult::occlusionsLeftOut>(before, after);
+       [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
+         return !unchanged<&FrameResult::mapsLeftOut>(before, after);
        },
        without<&scene::Skips::littleHidden>, itself, true},
       {"tiles that the GPU holds already",
