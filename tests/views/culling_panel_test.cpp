@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trimtab/views/culling_panel.h"
+
+#include <gtest/gtest.h>
+
+#include <QLabel>
+#include <QTest>
+#include <algorithm>
+
+#include "trimtab/views/horizon_inset.h"
+
+namespace trimtab::views {
+namespace {
+
+/// What the panel says of a frame that has no horizon to show.
+class CullingPanelTest : public ::testing::Test {
+ protected:
+  CullingPanelTest() { panel_.show(); }
+  bool says(const LiveFrame& frame, const QString& text) {
+    panel_.showFrame(frame);
+    panel_.showHorizon({}, 0, 60);
+    return QTest::qWaitFor([&] {
+      const auto labels = panel_.findChildren<QLabel*>();
+      return std::any_of(labels.begin(), labels.end(),
+                         [&](const QLabel* label) { return label->text().contains(text); });
+    });
+  }
+  QString ofHorizon() const { return panel_.findChild<HorizonInset*>()->accessibleDescription(); }
+
+  Draft draft_;
+  CullingPanel panel_{draft_};
+};
+
+TEST_F(CullingPanelTest, saysWhatServesAndWhyNotWhatWasAskedFor) {
+  LiveFrame frame;
+  frame.tilesDrawn = 10;
+  frame.decision.depthMap = DepthMapSize{800, 600};
+  frame.cullingNote = "The eye is under the ground.";
+  EXPECT_TRUE(
+      says(frame, QStringLiteral("Nothing is looked for behind the ground. The eye is under the ground.")));
+  EXPECT_EQ(ofHorizon(), QStringLiteral("The eye is under the ground."));
+
+  frame.cullingNote.clear();
+  frame.occlusion = OcclusionMethod::horizon;
+  EXPECT_TRUE(says(frame, QStringLiteral("The horizon is left out: near here it hid next to nothing.")));
+  EXPECT_EQ(ofHorizon(), QStringLiteral("The horizon is left out: near here it hid next to nothing."));
+
+  frame.occlusion = OcclusionMethod::cpu_map;
+  frame.mapsLeftOut = 4711;
+  EXPECT_TRUE(says(frame, QStringLiteral("The map is left out: near here one hid next to nothing.")));
+  EXPECT_TRUE(says(frame, QStringLiteral("left out 4")));
+  EXPECT_EQ(ofHorizon(), QStringLiteral("A depth map serves, not the horizon."));
+  frame.depthMap = DepthMapSize{400, 300};
+  EXPECT_TRUE(says(frame, QStringLiteral("serves, 400 × 300 px."))) << "the map's size, not the band's";
+
+  frame.occlusion.reset();
+  EXPECT_TRUE(says(frame, QStringLiteral("of the static trees serves, 400")));
+  frame.depthMap.reset();
+  frame.decision.depthMap.reset();
+  EXPECT_TRUE(says(frame, QStringLiteral("plain view-frustum culling")));
+  EXPECT_EQ(ofHorizon(), QStringLiteral("No horizon: nothing asks for one in this frame."));
+}
+
+}  // namespace
+}  // namespace trimtab::views
