@@ -32,7 +32,7 @@ FrameRequest withoutEngineer(const FrameRequest& request) {
   r.overlays.treeDepth = request.overlays.treeDepth;
   r.frozenEye.reset();
   r.separateStages = false;
-  r.waitForPages = true;
+  r.waitForPages = r.reproducible = true;
   // It depends on what was drawn before, and so would the share of nodes drawn in vain.
   r.skips.littleHidden = false;
   return r;

@@ -79,6 +79,9 @@ std::span<const std::uint8_t> HorizonMemory::hidden(OcclusionGround& ground, Vec
   frame.errorOverDistance = key.cut.errorOverDistance;
   frame.settings = settings;
   frame.sameHorizon = skips.sameHorizon;
+  // Both take what was found at other places for this one: who wants a frame that depends on none before it
+  // undoes both.
+  frame.incremental = skips.littleHidden;
   frame.mayOcclude = [&ground](std::uint32_t node) { return ground.mayOcclude(node); };
   frame.takesRoom = [&ground](std::uint32_t node) { return ground.takesRoom(node); };
   const std::uint64_t scratch = moving_.fromScratch();

@@ -31,6 +31,7 @@ class BakedScene : public test::SceneTest {
     r.staticLod.terrain = TerrainForm::patches;
     r.waitForPages = true;
     r.decision.depthMap = DepthMapSize{320, 240};
+    r.occlusion = OcclusionMethod::horizon;
     return r;
   }
   test::ScratchDir dir;
