@@ -55,6 +55,8 @@ class Queries {
       r.attitude = {Degrees{heading(random)}, Degrees{-5}, Degrees{0}};
       r.view.widthPx = kWidth, r.view.heightPx = kHeight;
       r.method = CullingCase::proposed;
+      // All surfaces that may hide others at once: the peer has its scene whole too.
+      r.reproducible = true;
       r.lod.screenSpaceError = Pixels{kErrorPx};
       // The band of level flight below 4,000 ft, and above 8,000 ft.
       r.decision.depthMap = feet < 4000 ? DepthMapSize{800, 600} : DepthMapSize{320, 240};
