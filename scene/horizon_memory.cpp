@@ -49,7 +49,8 @@ bool HorizonMemory::hidLittleNear(const Key& key) const {
 }
 
 std::span<const std::uint8_t> HorizonMemory::hidden(OcclusionGround& ground, Vec3 eye,
-                                                    const Horizon::Settings& settings, const Skips& skips) {
+                                                    const Horizon::Settings& settings, const Skips& skips,
+                                                    bool alone) {
   const Key key{eye, ground.cutNumber(), settings};
   const bool samePlace = key_ == key;
   noGraph_ = false;
@@ -79,9 +80,7 @@ std::span<const std::uint8_t> HorizonMemory::hidden(OcclusionGround& ground, Vec
   frame.errorOverDistance = key.cut.errorOverDistance;
   frame.settings = settings;
   frame.sameHorizon = skips.sameHorizon;
-  // Both take what was found at other places for this one: who wants a frame that depends on none before it
-  // undoes both.
-  frame.incremental = skips.littleHidden;
+  frame.incremental = !alone;
   frame.mayOcclude = [&ground](std::uint32_t node) { return ground.mayOcclude(node); };
   frame.takesRoom = [&ground](std::uint32_t node) { return ground.takesRoom(node); };
   const std::uint64_t scratch = moving_.fromScratch();

@@ -18,9 +18,10 @@ class HorizonMemory {
   void clear();
   /// Which tiles are proven hidden from an eye that the ground does not refuse, in the cut's order, whatever
   /// the view's direction. Empty where nothing is: also, where `skips.littleHidden`, while the eye has moved
-  /// little since next to nothing was, by the same rule for the levels.
+  /// little since next to nothing was, by the same rule for the levels. `alone`: built whole at every new
+  /// place, never taken along from another.
   std::span<const std::uint8_t> hidden(OcclusionGround& ground, Vec3 eye, const Horizon::Settings& settings,
-                                       const Skips& skips);
+                                       const Skips& skips, bool alone = false);
   /// The view as the last horizon sees it: what it covers grey, what stays open white. Row 0 at the bottom.
   Renderer::Grey picture(const EyePose& eye, const ViewShape& view, int widthPx, int heightPx) const;
 

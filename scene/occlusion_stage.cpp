@@ -85,11 +85,12 @@ void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, GpuM
   const bool atOnce = request.reproducible || request.waitForPages;
   ground_.share().begin(atOnce ? std::numeric_limits<std::size_t>::max() : SurfaceShare::kAFrame);
   if (!horizonServes()) return;
+  // Who wants a frame that depends on none before it believes nothing of other places.
   const std::uint64_t built = memory_.built(), moved = memory_.moved(), leftOut = memory_.leftOut();
   hidden_ = memory_.hidden(ground_, eye.position,
                            {HorizonMemory::columnsFor(size_.widthPx),
                             HorizonMemory::slackOf(request.view, subpixelBits_), defects_.loweringScale < 1},
-                           request.skips);
+                           request.skips, request.reproducible && !request.skips.littleHidden);
   counters.horizonsBuilt += memory_.built() - built;
   counters.horizonsMoved += memory_.moved() - moved;
   counters.horizonsLeftOut += memory_.leftOut() - leftOut;
