@@ -19,7 +19,7 @@ class Looking {
     ground_.setDatabase(database_);
     ground_.setCut(cut_, number_);
     request_.occlusion = method;
-    request_.reproducible = atOnce;
+    request_.waitForPages = atOnce;
     request_.skips.littleHidden = false;
     request_.decision.depthMap = DepthMapSize{400, 300};
     request_.view.widthPx = 640, request_.view.heightPx = 360;
