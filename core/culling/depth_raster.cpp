@@ -27,6 +27,9 @@ constexpr int kBlockRows = 4;
 using F [[gnu::vector_size(32)]] = float;
 using I [[gnu::vector_size(32)]] = std::int32_t;
 
+/// Texels to the side of the first, as many as the widest registers hold.
+constexpr float kSteps[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+
 }  // namespace
 
 namespace portable {
@@ -36,16 +39,8 @@ inline unsigned bitsOf(I lanes) {
   for (std::size_t k = 0; k < kLanes; ++k) bits |= (static_cast<unsigned>(lanes[k]) & 1u) << k;
   return bits;
 }
-inline void write(std::uint8_t* to, I v) {
-  for (std::size_t k = 0; k < kLanes; ++k) to[k] = static_cast<std::uint8_t>(v[k]);
-}
 using W = F;
 using WI = I;
-constexpr int kWide = 8;
-constexpr W kSteps{0, 1, 2, 3, 4, 5, 6, 7};
-[[gnu::always_inline]] inline W spreadW(float v) {
-  return W{v, v, v, v, v, v, v, v};
-}
 #include "trimtab/culling/depth_raster_lanes.inl"
 }  // namespace
 }  // namespace portable
@@ -62,16 +57,8 @@ namespace {
 inline unsigned bitsOf(I lanes) {
   return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(lanes)));
 }
-inline void write(std::uint8_t* to, I v) {
-  for (std::size_t k = 0; k < kLanes; ++k) to[k] = static_cast<std::uint8_t>(v[k]);
-}
 using W = F;
 using WI = I;
-constexpr int kWide = 8;
-constexpr W kSteps{0, 1, 2, 3, 4, 5, 6, 7};
-[[gnu::always_inline]] inline W spreadW(float v) {
-  return W{v, v, v, v, v, v, v, v};
-}
 #include "trimtab/culling/depth_raster_lanes.inl"
 }  // namespace
 }  // namespace avx2
@@ -91,19 +78,9 @@ constexpr W kSteps{0, 1, 2, 3, 4, 5, 6, 7};
 #endif
 namespace avx512 {
 namespace {
-inline unsigned bitsOf(I lanes) {
-  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(lanes)));
-}
-inline void write(std::uint8_t* to, I v) {
-  for (std::size_t k = 0; k < kLanes; ++k) to[k] = static_cast<std::uint8_t>(v[k]);
-}
+using avx2::bitsOf;
 using W [[gnu::vector_size(64)]] = float;
 using WI [[gnu::vector_size(64)]] = std::int32_t;
-constexpr int kWide = 16;
-constexpr W kSteps{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-[[gnu::always_inline]] inline W spreadW(float v) {
-  return W{v, v, v, v, v, v, v, v, v, v, v, v, v, v, v, v};
-}
 #include "trimtab/culling/depth_raster_lanes.inl"
 }  // namespace
 }  // namespace avx512

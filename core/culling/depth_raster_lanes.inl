@@ -1,5 +1,8 @@
 // The loops of depth_raster.h, included once for each kind of processor, inside a namespace of its own: no
-// include guard, nothing included here. F and I are eight floats and eight integers.
+// include guard, nothing included here. F and I are eight floats and eight integers, W and WI as many as the
+// processor has lanes; bitsOf tells the lanes whose sign is set.
+
+constexpr int kWide = sizeof(W) / sizeof(float);
 
 [[gnu::always_inline]] inline F select(I condition, F yes, F no) {
   return reinterpret_cast<F>((condition & reinterpret_cast<I>(yes)) | (~condition & reinterpret_cast<I>(no)));
@@ -13,14 +16,19 @@
 [[gnu::always_inline]] inline F most(F a, F b) {
   return select(a > b, a, b);
 }
+// All lanes alike: nothing is subtracted, so that a zero keeps its sign.
 [[gnu::always_inline]] inline F spread(float v) {
-  return F{v, v, v, v, v, v, v, v};
+  return v - F{};
 }
 [[gnu::always_inline]] inline I spread(std::int32_t v) {
-  return I{v, v, v, v, v, v, v, v};
+  return v - I{};
 }
-[[gnu::always_inline]] inline F read(const float* from) {
-  F v;
+[[gnu::always_inline]] inline W spreadW(float v) {
+  return v - W{};
+}
+template <class V = F>
+[[gnu::always_inline]] inline V read(const float* from) {
+  V v;
   std::memcpy(&v, from, sizeof v);
   return v;
 }
@@ -28,6 +36,9 @@ template <class V, class T>
 [[gnu::always_inline]] inline void write(T* to, V v) {
   static_assert(sizeof(V) == kLanes * sizeof(T));
   std::memcpy(to, &v, sizeof v);
+}
+[[gnu::always_inline]] inline void write(std::uint8_t* to, I v) {
+  for (std::size_t k = 0; k < kLanes; ++k) to[k] = static_cast<std::uint8_t>(v[k]);
 }
 [[gnu::always_inline]] inline F magnitude(F v) {
   return reinterpret_cast<F>(reinterpret_cast<I>(v) & spread(0x7fffffff));
@@ -145,7 +156,7 @@ struct Filler {
 [[gnu::always_inline]] inline void fillBlock(const Texels& to, const Ready& r, std::size_t i) {
   const int x = r.x0[i] & ~(kWide - 1);
   Filler filler(r, i);
-  filler.begin(kSteps + spreadW(static_cast<float>(x - r.x0[i])));
+  filler.begin(read<W>(kSteps) + spreadW(static_cast<float>(x - r.x0[i])));
   float* row = to.first + static_cast<std::ptrdiff_t>(r.y0[i]) * to.stride + x;
   for (int y = 0; y < kBlockRows; ++y)
     filler.row(row + static_cast<std::ptrdiff_t>(y) * to.stride, static_cast<float>(y));
@@ -157,7 +168,7 @@ struct Filler {
   const int x0 = r.x0[i], x1 = r.x1[i], rows = r.y1[i] - r.y0[i] + 1, stride = to.stride;
   float* first = to.first + static_cast<std::ptrdiff_t>(r.y0[i]) * stride;
   for (int x = x0 & ~(kWide - 1); x <= x1; x += kWide) {
-    filler.begin(kSteps + spreadW(static_cast<float>(x - x0)));
+    filler.begin(read<W>(kSteps) + spreadW(static_cast<float>(x - x0)));
     float *row = first + x, above = 0;
     for (int y = 0; y < rows; ++y, row += stride, above += 1) filler.row(row, above);
   }
