@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <memory>
 
-#include "trimtab/culling/back_facing.h"
 #include "trimtab/culling/box_distance.h"
 #include "trimtab/culling/frustum.h"
 
@@ -75,7 +74,7 @@ void selectStaticDepth(const StaticLodIndex& index, int depth, StaticCut& cut) {
 
 void selectStaticVisible(const StaticLodIndex& index, std::span<const std::uint32_t> vertices,
                          const StaticCut& cut, const EyePose& eye, const ViewShape& view, bool test,
-                         VisibleSet& visible, double farM, bool backFaces) {
+                         VisibleSet& visible, double farM) {
   visible.tiles.clear();
   visible.reason.clear();
   if (!visible.nodes || *visible.nodes != cut.nodes)
@@ -83,7 +82,6 @@ void selectStaticVisible(const StaticLodIndex& index, std::span<const std::uint3
   visible.outsideFrustum = visible.occluded = visible.beyondVisibility = visible.backFacing = 0;
   visible.triangles = visible.vertices = 0;
   const Frustum frustum(eye, view);
-  const bool cones = test && backFaces && index.cones.size() == index.size();
   for (const std::uint32_t node : cut.nodes) {
     const Box& box = index.bounds[node];
     CullReason reason = CullReason::drawn;
@@ -93,9 +91,6 @@ void selectStaticVisible(const StaticLodIndex& index, std::span<const std::uint3
     } else if (test && isBeyond(box, eye.position, farM)) {
       reason = CullReason::beyond_visibility;
       ++visible.beyondVisibility;
-    } else if (cones && facesAway(index.cones[node], box, eye.position)) {
-      reason = CullReason::back_facing;
-      ++visible.backFacing;
     } else {
       visible.tiles.push_back({node, 0});
       count(index, vertices, node, visible, true);

@@ -35,11 +35,12 @@ void selectStatic(const StaticLodIndex& index, std::span<const float> error, dou
 void selectStaticDepth(const StaticLodIndex& index, int depth, StaticCut& cut);
 
 /// As selectVisible, weather's far distance included: `visible.tiles` holds nodes of the trees and
-/// `visible.reason` is one a node of `cut`. `vertices` has the number of vertices of each node.
+/// `visible.reason` is one a node of `cut`. `vertices` has the number of vertices of each node. No node is
+/// left out for showing its back: the proof of back_facing.h needs a surface without holes and folds, and
+/// scenery promises neither.
 void selectStaticVisible(const StaticLodIndex& index, std::span<const std::uint32_t> vertices,
                          const StaticCut& cut, const EyePose& eye, const ViewShape& view, bool test,
-                         VisibleSet& visible, double farM = std::numeric_limits<double>::infinity(),
-                         bool backFaces = false);
+                         VisibleSet& visible, double farM = std::numeric_limits<double>::infinity());
 /// As removeOccluded: one flag a node of `visible.tiles`, in order; 1 is proven hidden.
 void removeStaticOccluded(const StaticLodIndex& index, std::span<const std::uint32_t> vertices,
                           std::span<const std::uint8_t> flags, VisibleSet& visible);

@@ -26,7 +26,6 @@ struct StaticLodIndex {
   std::vector<std::uint32_t> roots;  ///< one a tile
   std::vector<Node> nodes;
   std::vector<Box> bounds;       ///< of everything this node or any descendant draws, local frame
-  std::vector<NormalCone> cones;  ///< of the triangles that this node draws; empty where they are not known
   std::vector<float> rmsErrorM;  ///< vertical, against the source triangles below; monotone up the tree
   std::vector<float> maxErrorM;  ///< likewise the largest
   std::vector<float> slopeMax;   ///< steepest triangle of this node or a descendant, rise over run
