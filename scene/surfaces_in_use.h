@@ -12,8 +12,8 @@
 
 namespace trimtab::scene {
 
-/// What is known of a node's surface, made when it is first needed; of nodes that are in no cut any more, so
-/// many are kept.
+/// What is known of a node's surface, made when it is first needed. Those of nodes that are in no cut any
+/// more stay until there are more than kKept of them; then all of them go.
 template <class Surface>
 class SurfacesInUse {
  public:
@@ -36,7 +36,7 @@ class SurfacesInUse {
     surfaces_[node] = std::make_unique<Surface>();
     return *surfaces_[node];
   }
-  /// Frees what was replaced, and what is neither in the cut nor among those that may be kept.
+  /// Frees what was replaced, and once there are too many, what is not in the cut.
   void forgetOthers(const LevelCut& cut) {
     replaced_.clear();
     if (count_ <= kKept + cut.tiles.size()) return;

@@ -34,10 +34,12 @@ void TileGround::setDatabase(std::shared_ptr<const terrain::Database> database) 
   relief_.reset(database_ ? database_->index().size() : 0);
   upright_.clear();
   takesRoom_.clear();
+  inCut_.clear();
   if (!database_) return;
   const TerrainIndex& index = database_->index();
   upright_.assign(index.size(), 0);
   takesRoom_.assign(index.size(), 0);
+  inCut_.assign(index.size(), 0);
   double lowest = 1e30, highest = -1e30;
   for (const Box& b : index.bounds) {
     lowest = std::min(lowest, double{b.minZ});
@@ -78,7 +80,6 @@ std::size_t TileGround::makeSurfaces(Vec3 eye) {
 void TileGround::fill(std::vector<HorizonTile>& tiles) {
   relief_.forgetOthers(*cut_);
   const TerrainIndex& index = database_->index();
-  inCut_.assign(index.size(), 0);
   for (const TileDraw& tile : cut_->tiles) {
     inCut_[tile.node] = 1;
     tiles.push_back({.relief = relief_.find(tile.node), .mayOcclude = mayOcclude(tile.node)});
@@ -92,6 +93,7 @@ void TileGround::fill(std::vector<HorizonTile>& tiles) {
     tiles[i].east = goesOn(east);
     tiles[i].north = goesOn(north);
   }
+  for (const TileDraw& tile : cut_->tiles) inCut_[tile.node] = 0;
 }
 
 }  // namespace trimtab::scene

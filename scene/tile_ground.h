@@ -13,8 +13,7 @@
 
 namespace trimtab::scene {
 
-/// The terrain's levels of square tiles as ground that hides and is hidden; keeps what it knows of tiles
-/// while they are in use.
+/// The terrain's levels of square tiles as ground that hides and is hidden.
 class TileGround final : public OcclusionGround {
  public:
   void setDatabase(std::shared_ptr<const terrain::Database> database);
@@ -47,10 +46,10 @@ class TileGround final : public OcclusionGround {
   MapCulling map_;
   const LevelCut* cut_ = nullptr;
   const CutNumber* number_ = nullptr;
-  std::vector<std::uint8_t> upright_;  ///< one a node: no place there has two heights
-  std::vector<std::uint8_t> takesRoom_;
-  SurfacesInUse<TileRelief> relief_;  ///< 25 KB each
-  std::vector<std::uint8_t> inCut_;   ///< one a node
+  std::vector<std::uint8_t> upright_;    ///< one a node: no place there has two heights
+  std::vector<std::uint8_t> takesRoom_;  ///< one a node
+  SurfacesInUse<TileRelief> relief_;     ///< 25 KB each
+  std::vector<std::uint8_t> inCut_;      ///< one a node, all 0 but in `fill`
   terrain::TileMesh mesh_;
 };
 
