@@ -3,13 +3,6 @@
 #include <algorithm>
 
 namespace trimtab::scene {
-namespace {
-
-/// A horizon that hides less than one tile in so many is not built again until the eye is this far away.
-constexpr std::size_t kLeastShare = 50;
-constexpr double kBelievedM = 50;
-
-}  // namespace
 
 int HorizonMemory::columnsFor(int depthMapWidthPx) {
   return std::clamp(2 * depthMapWidthPx, Horizon::kLeastColumns, Horizon::kMostColumns);
@@ -84,14 +77,17 @@ std::span<const std::uint8_t> HorizonMemory::hidden(OcclusionGround& ground, Vec
   frame.mayOcclude = [&ground](std::uint32_t node) { return ground.mayOcclude(node); };
   frame.takesRoom = [&ground](std::uint32_t node) { return ground.takesRoom(node); };
   const std::uint64_t scratch = moving_.fromScratch();
+  const Horizon* const before = &horizon();
   const auto hidden = moving_.hidden(frame, ground.tree(), [&](std::vector<HorizonTile>& tiles) {
     lacked_ = lacking;
     ground.fill(tiles);
   });
-  moved_ += !samePlace && moving_.fromScratch() == scratch;
+  const bool atOnce = moving_.fromScratch() != scratch;
+  number_ += atOnce || before != &horizon();
+  moved_ += !samePlace && !atOnce;
   if (!samePlace || grown) {
     const auto count = static_cast<std::size_t>(std::count(hidden.begin(), hidden.end(), std::uint8_t{1}));
-    hidLittle_ = count * kLeastShare < hidden.size() && !SurfaceShare::isMany(lacked_, nodes);
+    hidLittle_ = isLittle(count, hidden.size()) && !SurfaceShare::isMany(lacked_, nodes);
   }
   key_ = key;
   return hidden;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "trimtab/culling/moving_horizon.h"
+#include "trimtab/culling/occlusion_choice.h"
 #include "trimtab/scene/occlusion_ground.h"
 #include "trimtab/scene/renderer.h"
 
@@ -29,10 +30,15 @@ class HorizonMemory {
   bool noGraph() const { return noGraph_; }
 
   const Horizon& horizon() const { return moving_.horizon(); }
+  std::uint64_t number() const { return number_; }         ///< another one for another horizon
   std::uint64_t built() const { return moving_.built(); }  ///< horizons, since the start
   std::uint64_t moved() const { return moved_; }           ///< frames that an earlier one served
   /// Calls since the start that skips.littleHidden spared.
   std::uint64_t leftOut() const { return leftOut_; }
+
+  /// Where so little of all tiles is hidden, no more is believed to be for kBelievedM around.
+  static bool isLittle(std::size_t hidden, std::size_t of) { return hidden * 50 < of; }
+  static constexpr double kBelievedM = OcclusionChoice::kBelievedM;
 
   /// Columns of a quarter of the circle for a depth map of this width.
   static int columnsFor(int depthMapWidthPx);
@@ -52,7 +58,7 @@ class HorizonMemory {
   std::optional<Key> key_;
   bool hidLittle_ = false, noGraph_ = false;
   std::size_t lacked_ = 0;  ///< surfaces, when a horizon was last begun
-  std::uint64_t moved_ = 0, leftOut_ = 0;
+  std::uint64_t number_ = 0, moved_ = 0, leftOut_ = 0;
 };
 
 }  // namespace trimtab::scene

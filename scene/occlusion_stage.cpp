@@ -8,10 +8,9 @@
 namespace trimtab::scene {
 namespace {
 
-/// A map that hides less than one tile in so many is not drawn again until the eye has moved or turned so
+/// A map that hid little is not drawn again until the eye has moved by HorizonMemory::kBelievedM or turned so
 /// far.
-constexpr std::size_t kLeastShare = 50;
-constexpr double kBelievedM = 50, kBelievedTurn = 0.05;
+constexpr double kBelievedTurn = 0.05;
 
 /// A frame that lacks many surfaces says nothing about what a method is worth; so many in a row do.
 constexpr int kUnlearntFrames = 600;
@@ -86,11 +85,12 @@ void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, GpuM
   ground_.share().begin(atOnce ? std::numeric_limits<std::size_t>::max() : SurfaceShare::kAFrame);
   if (!horizonServes()) return;
   // Who wants a frame that depends on none before it believes nothing of other places.
+  const bool alone = request.reproducible && !request.skips.littleHidden;
   const std::uint64_t built = memory_.built(), moved = memory_.moved(), leftOut = memory_.leftOut();
   hidden_ = memory_.hidden(ground_, eye.position,
                            {HorizonMemory::columnsFor(size_.widthPx),
                             HorizonMemory::slackOf(request.view, subpixelBits_), defects_.loweringScale < 1},
-                           request.skips, request.reproducible && !request.skips.littleHidden);
+                           request.skips, alone);
   counters.horizonsBuilt += memory_.built() - built;
   counters.horizonsMoved += memory_.moved() - moved;
   counters.horizonsLeftOut += memory_.leftOut() - leftOut;
@@ -147,7 +147,7 @@ bool OcclusionStage::visibleStays(const FrameRequest& request, FrameResult& coun
                  ground_.cutNumber(),
                  serves_,
                  serves_ ? size_ : DepthMapSize{},
-                 !hidden_.empty(),
+                 hidden_.empty() ? 0 : memory_.number(),
                  ground_.share().made()};
   // What a map on the GPU takes out is gone from the set.
   const bool onGpu = serves(OcclusionMethod::depth_map) || serves(OcclusionMethod::read_back);
@@ -163,7 +163,7 @@ bool OcclusionStage::mapHidLittleNear() const {
   if (!barren_ || barren_->method != serves_ || barren_->size != size_ ||
       barren_->rule != ground_.cutNumber().rule)
     return false;
-  return length(eye_.position - barren_->eye) < kBelievedM &&
+  return length(eye_.position - barren_->eye) < HorizonMemory::kBelievedM &&
          length(forwardOf(eye_) - barren_->forward) < kBelievedTurn;
 }
 
@@ -183,7 +183,7 @@ std::span<const std::uint8_t> OcclusionStage::hiddenByMap(const FrameRequest& re
   else if (visibleKey_)
     visibleKey_->surfaces = ground_.share().made();
   const auto hidden = static_cast<std::size_t>(std::count(flags.begin(), flags.end(), std::uint8_t{1}));
-  if (hidden * kLeastShare < visible.tiles.size() && !ground_.share().lacksMany())
+  if (HorizonMemory::isLittle(hidden, visible.tiles.size()) && !ground_.share().lacksMany())
     barren_ = {eye_.position, forwardOf(eye_), ground_.cutNumber().rule, size_, *serves_};
   else
     barren_.reset();

@@ -79,7 +79,7 @@ class OcclusionStage {
     CutNumber cut;
     std::optional<OcclusionMethod> serves;
     DepthMapSize size;
-    bool horizon = false;        ///< whether one said what it hides
+    std::uint64_t horizon = 0;   ///< which one said what it hides; 0: none
     std::uint64_t surfaces = 0;  ///< that were made
     friend bool operator==(const VisibleKey&, const VisibleKey&) = default;
   };

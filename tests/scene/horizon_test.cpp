@@ -172,6 +172,35 @@ TEST_F(HorizonScene, isNotBuiltAgainNearWhereItHidNextToNothing) {
   draw(4, 4, "again");
 }
 
+TEST_F(HorizonScene, isUsedOnceAnEyeAtRestHasABetterOne) {
+  use(test::syntheticMountains());
+  auto r = request({}, {Degrees{40}, Degrees{-10}, Degrees{0}});
+  r.decision.depthMap = DepthMapSize{320, 240};
+  r.occlusion = OcclusionMethod::horizon;
+  r.lod.screenSpaceError = Pixels{0.1};
+  r.skips.littleHidden = false;
+  r.waitForPages = true;
+  scene::FrameResult flying, resting, anew;
+  std::size_t before = 0, after = 0;
+  for (const double east : {0.4, 0.45, 0.5, 0.55}) {
+    for (int i = 0; i < 12; ++i) {
+      r.eye = over(east, 0.5 + 8e-4 * i, 60);
+      picture(r, &flying);
+    }
+    for (int i = 0; i < 20; ++i) picture(r, &resting);
+    const std::uint64_t selected = resting.visibleSelected;
+    picture(r, &resting);
+    EXPECT_EQ(resting.visibleSelected, selected) << "nothing is done any more";
+    auto again = r;
+    again.skips.sameVisible = false;
+    picture(again, &anew);
+    EXPECT_EQ(resting.visible.occluded, anew.visible.occluded) << east;
+    before += flying.visible.occluded;
+    after += resting.visible.occluded;
+  }
+  EXPECT_LT(before, after) << "no place for this test";
+}
+
 TEST(HorizonSlack, followsTheRasterisersSteps) {
   ViewShape view;
   view.left = -1, view.right = 1, view.bottom = -0.5, view.top = 0.5;
