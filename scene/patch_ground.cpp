@@ -13,6 +13,8 @@ namespace {
 constexpr int kLinesASide = 8;
 /// Patches so near in plan share the ground under the near plane, metres.
 constexpr float kBesideM = 20;
+/// Of a normal's z: with less, a rounding step might turn its triangle over. As MeshRelief has it.
+constexpr double kLeastRise = 0.001;
 
 bool isOver(const Box& b, float x, float y, float beside = 0) {
   return x >= b.minX - beside && x <= b.maxX + beside && y >= b.minY - beside && y <= b.maxY + beside;
@@ -60,8 +62,10 @@ void PatchGround::setTerrain(std::shared_ptr<const terrain::Database> database) 
   const bool any = database && database->patches();
   under_.clear();
   graphOf_.reset();
-  inside_.assign(any ? database->patches()->index().size() : 0, 0);
-  surfaces_.reset(any ? database->patches()->index().size() : 0);
+  const std::size_t patches = any ? database->patches()->index().size() : 0;
+  inside_.assign(patches, 0);
+  normalsRise_.assign(patches, 0);
+  surfaces_.reset(patches);
   map_.setTerrain(database);
   surfaceErrorM_.clear();
   if (!any) return;
@@ -152,12 +156,25 @@ void PatchGround::fill(std::vector<HorizonTile>& tiles) {
   }
 }
 
-/// Where a single patch stands upright or hangs over, a place may have two heights.
+/// By the cone of its normals; where that is too wide, by its surface.
+bool PatchGround::isUpright(TileDraw patch) {
+  std::uint8_t& known = normalsRise_[patch.node];
+  if (known == 0) {
+    const std::vector<NormalCone>& cones = patches_.index().cones;
+    const NormalCone cone = cones.empty() ? NormalCone{} : cones[patch.node];
+    known = cone.isKnown() && cone.axis().z > cone.sine() + kLeastRise ? 2 : 1;
+  }
+  if (known == 2) return true;
+  const Surface* surface = surfaceOf(patch);
+  return surface && surface->relief.upright;
+}
+
+/// Where a single patch stands upright or hangs over, a place may have two heights; where one is missing, it
+/// has none.
 bool PatchGround::isGraph() {
   if (graphOf_ == cutNumber().cut) return true;
   const bool graph = std::all_of(cut().tiles.begin(), cut().tiles.end(), [this](const TileDraw& patch) {
-    const Surface* surface = surfaceOf(patch);
-    return surface && surface->relief.upright;
+    return patches_.meshOf(patch.node) && isUpright(patch);
   });
   if (graph) graphOf_ = cutNumber().cut;
   return graph;

@@ -15,8 +15,7 @@
 
 namespace trimtab::scene {
 
-/// The terrain's patches as ground that hides and is hidden; keeps what it knows of patches while they are in
-/// use.
+/// The terrain's patches as ground that hides and is hidden.
 class PatchGround final : public OcclusionGround {
  public:
   /// `patches` must live as long.
@@ -57,6 +56,8 @@ class PatchGround final : public OcclusionGround {
   /// away.
   const Surface* surfaceUnder(TileDraw patch);
   void make(const terrain::PatchMesh& mesh, TileDraw patch, Surface& surface);
+  /// Whether no triangle that is drawn of it stands upright or hangs over, as far as is known.
+  bool isUpright(TileDraw patch);
 
   const PatchCulling& patches_;
   PatchMapCulling map_;
@@ -70,7 +71,9 @@ class PatchGround final : public OcclusionGround {
   };
   std::vector<Under> under_;
   std::optional<std::uint64_t> graphOf_;  ///< the last cut that was found to be a graph
-  std::vector<std::uint8_t> inside_;      ///< of mayOcclude: 0 is not known, 1 no, 2 yes
+  // One a patch: 0 is not known, 1 no, 2 yes.
+  std::vector<std::uint8_t> inside_;       ///< of mayOcclude
+  std::vector<std::uint8_t> normalsRise_;  ///< all of its triangles' are proven to
   Degrees west_, south_;
   double postLongitude_ = 1, postLatitude_ = 1;
   std::vector<ReliefVertex> vertices_;

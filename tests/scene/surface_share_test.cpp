@@ -127,5 +127,32 @@ TEST_F(SharedScene, drawsWhateverIsVisibleWhileSurfacesAreMade) {
   }
 }
 
+/// Of patches as of tiles: the others need not be known.
+TEST_F(SharedScene, hidesPatchesWhileSomeSurfacesAreNotMade) {
+  use(test::patchedMountains(false));
+  auto r = request({}, {Degrees{40}, Degrees{-3}, Degrees{0}});
+  r.staticLod.terrain = TerrainForm::patches;
+  r.decision.depthMap = DepthMapSize{400, 300};
+  r.occlusion = OcclusionMethod::horizon;
+  r.lod.screenSpaceError = Pixels{0.5};
+  r.eye = over(0.55, 0.5, 60);
+  r.waitForPages = true;
+  r.method = CullingCase::view_frustum;
+  scene::FrameResult result;
+  picture(r, &result);
+  r.method = CullingCase::proposed;
+  r.waitForPages = false;
+  const std::size_t frames = result.tilesInCut / scene::SurfaceShare::kAFrame;
+  ASSERT_GT(frames, 10u) << "no place for this test";
+  std::size_t hidden = 0;
+  for (std::size_t i = 0; i + 2 < frames; ++i) {
+    r.eye = over(0.55 + 1e-5 * static_cast<double>(i), 0.5, 60);
+    picture(r, &result);
+    EXPECT_EQ(result.note, "") << i;
+    hidden += result.visible.occluded;
+  }
+  EXPECT_GT(hidden, 0u);
+}
+
 }  // namespace
 }  // namespace trimtab
