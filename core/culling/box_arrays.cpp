@@ -15,11 +15,6 @@ namespace {
 
 constexpr std::size_t kBlock = BoxArrays::kBlock;
 
-/// Blocks that are asked for ahead of the one that is tested, where there are more boxes than the caches near
-/// the processor hold: six streams are more than it looks ahead of by itself. Measured on a Xeon with
-/// AVX-512: 1.15 times the boxes a second from memory, 1.5 from the last cache, 0.85 from the first two.
-constexpr std::size_t kAhead = 8, kNear = 16'384, kFloatsALine = 16;
-
 using CornerPlane = BlockTest::CornerPlane;
 using Planes = BlockTest::Planes;
 using BlockBits = BlockTest::Bits;
@@ -46,7 +41,7 @@ Planes planesFor(const BoxArrays& boxes, const Frustum& frustum, bool far) {
     }
     p.offset = finite ? static_cast<float>(-offset) : std::numeric_limits<float>::max();
   }
-  for (std::size_t side = 0, count = 0; boxes.size() > kNear && side < read.size(); ++side)
+  for (std::size_t side = 0, count = 0; side < read.size(); ++side)
     if (read[side]) planes.sides[count++] = boxes.side(side);
   // Frustum's own margin is at most this; five roundings of sums that are at most that long.
   const double margin = 1e-3 + 1e-6 * (eyeReach + 6 * reach);
@@ -181,10 +176,7 @@ std::uint64_t BlockTest::wholly(std::size_t block) const {
 }
 
 std::uint64_t BlockTest::operator()(std::size_t block) const {
-  const std::size_t first = block * kBlock, ahead = std::min(block + kAhead, blocks() - 1) * kBlock;
-  for (std::size_t i = 0; i < planes_.sides.size() && planes_.sides[i] != nullptr; ++i)
-    for (std::size_t line = 0; line < kBlock; line += kFloatsALine)
-      __builtin_prefetch(planes_.sides[i] + ahead + line);
+  const std::size_t first = block * kBlock;
   const Bits bits = test_(planes_, first);
   std::uint64_t in = bits.sure & ~bits.out;
   for (std::uint64_t ask = there(block) & ~bits.out & ~bits.sure; ask != 0; ask &= ask - 1) {
@@ -192,6 +184,24 @@ std::uint64_t BlockTest::operator()(std::size_t block) const {
     if (frustum_.mayShow(boxes_[first + static_cast<std::size_t>(i)])) in |= std::uint64_t{1} << i;
   }
   return in & there(block);
+}
+
+void BlockTest::fetch(std::size_t block) const {
+  constexpr std::size_t kFloatsALine = 16;
+  if (block >= blocks()) return;
+  for (std::size_t i = 0; i < planes_.sides.size() && planes_.sides[i] != nullptr; ++i)
+    for (std::size_t line = 0; line < kBlock; line += kFloatsALine)
+      __builtin_prefetch(planes_.sides[i] + block * kBlock + line);
+}
+
+void BlockTest::all(std::span<std::uint64_t> shown) const {
+  // Six streams are more than the processor looks ahead of by itself. On a Xeon with AVX-512 this makes 1.15
+  // times the boxes a second from memory, 1.5 from the last cache, and 0.85 from the first two.
+  constexpr std::size_t kAhead = 8;
+  for (std::size_t block = 0; block < blocks(); ++block) {
+    fetch(block + kAhead);
+    shown[block] = (*this)(block);
+  }
 }
 
 }  // namespace trimtab

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "trimtab/culling/frustum.h"
@@ -48,6 +49,9 @@ class BlockTest {
   BlockTest(const BoxArrays& boxes, const Frustum& frustum, SimdLevel level = simdLevel());
   /// A bit a box of the block, set where the box may show; 0 past the last box.
   std::uint64_t operator()(std::size_t block) const;
+  /// Of every block, in order, a word each: for more boxes than the near caches hold, as memory is asked for
+  /// ahead of time.
+  void all(std::span<std::uint64_t> shown) const;
   /// Set only where all of the box is certainly inside of every plane.
   std::uint64_t wholly(std::size_t block) const;
   std::size_t blocks() const { return boxes_.blocks(); }
@@ -60,7 +64,7 @@ class BlockTest {
   };
   struct Planes {
     std::array<CornerPlane, 5> corner;
-    std::array<const float*, 6> sides;  ///< to be asked for ahead of time; null after the last
+    std::array<const float*, 6> sides;  ///< that any corner is of; null after the last
     float out;                          ///< the least of a box is less: certainly outside
     float sure;                         ///< greater: certainly not
   };
@@ -70,6 +74,7 @@ class BlockTest {
   };
 
  private:
+  void fetch(std::size_t block) const;
   std::uint64_t there(std::size_t block) const;
 
   const BoxArrays& boxes_;
