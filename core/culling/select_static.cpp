@@ -5,6 +5,7 @@
 
 #include "trimtab/culling/box_distance.h"
 #include "trimtab/culling/frustum.h"
+#include "trimtab/culling/visible_walk.h"
 
 namespace trimtab {
 namespace {
@@ -101,19 +102,8 @@ void selectStaticVisible(const StaticLodIndex& index, std::span<const std::uint3
 
 void removeStaticOccluded(const StaticLodIndex& index, std::span<const std::uint32_t> vertices,
                           std::span<const std::uint8_t> flags, VisibleSet& visible) {
-  std::size_t kept = 0, place = 0;
-  for (std::size_t i = 0; i < visible.tiles.size(); ++i, ++place) {
-    const TileDraw tile = visible.tiles[i];
-    while (visible.reason[place] != CullReason::drawn) ++place;
-    if (i >= flags.size() || flags[i] != 1) {
-      visible.tiles[kept++] = tile;
-      continue;
-    }
-    visible.reason[place] = CullReason::occluded;
-    ++visible.occluded;
-    count(index, vertices, tile.node, visible, false);
-  }
-  visible.tiles.resize(kept);
+  removeFlagged(flags, visible,
+                [&](std::size_t, TileDraw tile) { count(index, vertices, tile.node, visible, false); });
 }
 
 StaticLodFrame staticLodFrame(const StaticLodIndex& index, const VisibleSet& visible) {

@@ -189,34 +189,14 @@ void selectVisible(const TerrainIndex&, const LevelCut& cut, const EyePose& eye,
   visible.vertices = tileVertices(visible.triangles, visible.tiles.size());
 }
 
-namespace {
-
-template <class TrianglesOf>
-void remove(std::span<const std::uint8_t> flags, VisibleSet& visible, const TrianglesOf& trianglesOf) {
-  std::size_t kept = 0, place = 0;
-  for (std::size_t i = 0; i < visible.tiles.size(); ++i, ++place) {
-    const TileDraw tile = visible.tiles[i];
-    while (visible.reason[place] != CullReason::drawn) ++place;
-    if (i >= flags.size() || flags[i] == 0) {
-      visible.tiles[kept++] = tile;
-      continue;
-    }
-    const bool hidden = flags[i] == 1;
-    visible.reason[place] = hidden ? CullReason::occluded : CullReason::outside_frustum;
-    ++(hidden ? visible.occluded : visible.outsideFrustum);
-    visible.triangles -= trianglesOf(place, tile);
-  }
-  visible.tiles.resize(kept);
-}
-
-}  // namespace
-
 void removeOccluded(const LevelCut& cut, std::span<const std::uint8_t> flags, VisibleSet& visible) {
-  remove(flags, visible, [&](std::size_t place, TileDraw) { return std::uint64_t{cut.triangles[place]}; });
+  removeFlagged(flags, visible,
+                [&](std::size_t place, TileDraw) { visible.triangles -= cut.triangles[place]; });
 }
 
 void removeOccluded(const TerrainIndex&, std::span<const std::uint8_t> flags, VisibleSet& visible) {
-  remove(flags, visible, [](std::size_t, TileDraw tile) { return tileTriangles(tile); });
+  removeFlagged(flags, visible,
+                [&](std::size_t, TileDraw tile) { visible.triangles -= tileTriangles(tile); });
   visible.vertices = tileVertices(visible.triangles, visible.tiles.size());
 }
 
