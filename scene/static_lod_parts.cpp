@@ -5,18 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "trimtab/frame/box_union.h"
 #include "trimtab/terrain/static_lod.h"
 
 namespace trimtab::scene {
 namespace {
 
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
-constexpr Box kEmpty{kInfinite, kInfinite, kInfinite, -kInfinite, -kInfinite, -kInfinite};
-
-void include(Box& box, const Box& other) {
-  box = {std::min(box.minX, other.minX), std::min(box.minY, other.minY), std::min(box.minZ, other.minZ),
-         std::max(box.maxX, other.maxX), std::max(box.maxY, other.maxY), std::max(box.maxZ, other.maxZ)};
-}
 
 /// From the tile's origin to the terrain's frame, rounded outwards.
 Box placed(const Box& box, const std::int32_t* origin) {
@@ -44,27 +39,27 @@ void StaticLodParts::make(std::uint32_t node) {
   const terrain::StaticLodTile& tile = terrain_->tiles[terrain_->index.nodes[node].tile];
   const terrain::StaticLodRange range = terrain_->ranges[node];
   const auto boxOf = [&tile](std::size_t triangle) {
-    Box box = kEmpty;
+    Box box = kNoBox;
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const terrain::StaticLodVertex& v = tile.vertices[tile.indices[3 * triangle + corner]];
-      include(box, {v.x, v.y, v.z, v.x, v.y, v.z});
+      box = united(box, v.x, v.y, v.z);
     }
     return box;
   };
   const std::size_t end = std::size_t{range.firstTriangle} + range.triangles;
-  Box whole = kEmpty;
-  for (std::size_t t = range.firstTriangle; t < end; ++t) include(whole, boxOf(t));
+  Box whole = kNoBox;
+  for (std::size_t t = range.firstTriangle; t < end; ++t) whole = united(whole, boxOf(t));
   std::array<Box, kPerSide * kPerSide> parts;
-  parts.fill(kEmpty);
+  parts.fill(kNoBox);
   const auto place = [](float low, float high, float from, float to) {
     const float at = to > from ? (0.5f * (low + high) - from) / (to - from) : 0;
     return static_cast<std::size_t>(std::clamp(at * kPerSide, 0.0f, kPerSide - 1.0f));
   };
   for (std::size_t t = range.firstTriangle; t < end; ++t) {
     const Box box = boxOf(t);
-    include(parts[place(box.minY, box.maxY, whole.minY, whole.maxY) * kPerSide +
-                  place(box.minX, box.maxX, whole.minX, whole.maxX)],
-            box);
+    Box& part = parts[place(box.minY, box.maxY, whole.minY, whole.maxY) * kPerSide +
+                      place(box.minX, box.maxX, whole.minX, whole.maxX)];
+    part = united(part, box);
   }
   ranges_[node].first = static_cast<std::uint32_t>(boxes_.size());
   for (const Box& part : parts)

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "trimtab/frame/box_union.h"
+
 namespace trimtab {
 namespace {
 
@@ -39,15 +41,13 @@ void DepthMesh::finishVertices() {
 
 void DepthMesh::setBoxes(std::span<const Box> parts) {
   const std::size_t padded = kLanes + (parts.size() + kLanes - 1) / kLanes * kLanes;
-  constexpr float kMost = std::numeric_limits<float>::max();
-  Box whole{kMost, kMost, kMost, -kMost, -kMost, -kMost};
-  for (const Box& b : parts)
-    whole = {std::min(whole.minX, b.minX), std::min(whole.minY, b.minY), std::min(whole.minZ, b.minZ),
-             std::max(whole.maxX, b.maxX), std::max(whole.maxY, b.maxY), std::max(whole.maxZ, b.maxZ)};
+  Box whole = kNoBox;
   bool numbers = true;
-  for (const Box& b : parts)
+  for (const Box& b : parts) {
+    whole = united(whole, b);
     for (const float v : {b.minX, b.minY, b.minZ, b.maxX, b.maxY, b.maxZ})
       numbers = numbers && std::isfinite(v);
+  }
   if (!numbers) whole.minX = std::numeric_limits<float>::quiet_NaN();
   for (auto& side : boxes) side.resize(padded);
   for (std::size_t i = 0; i < padded; ++i) {

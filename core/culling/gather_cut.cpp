@@ -4,6 +4,7 @@
 
 #include "trimtab/culling/back_facing.h"
 #include "trimtab/culling/visible_walk.h"
+#include "trimtab/frame/box_union.h"
 
 namespace trimtab {
 namespace {
@@ -14,8 +15,7 @@ constexpr std::size_t kBlock = BoxArrays::kBlock;
 class BoxUnion {
  public:
   void add(const Box& b) {
-    all_ = {std::min(all_.minX, b.minX), std::min(all_.minY, b.minY), std::min(all_.minZ, b.minZ),
-            std::max(all_.maxX, b.maxX), std::max(all_.maxY, b.maxY), std::max(all_.maxZ, b.maxZ)};
+    all_ = united(all_, b);
     // 0 for numbers, not a number for all else; and min and max pass over what is not one.
     zero_ += 0 * (b.minX + b.minY + b.minZ) + 0 * (b.maxX + b.maxY + b.maxZ);
   }
@@ -26,8 +26,7 @@ class BoxUnion {
   }
 
  private:
-  static constexpr float kFar = std::numeric_limits<float>::infinity();
-  Box all_{kFar, kFar, kFar, -kFar, -kFar, -kFar};
+  Box all_ = kNoBox;
   float zero_ = 0;
 };
 

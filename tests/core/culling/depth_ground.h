@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "trimtab/culling/depth_map.h"
+#include "trimtab/frame/box_union.h"
 
 /// Ground for depth maps, views of it, and which of its tiles own the pixels there.
 namespace trimtab::test {
@@ -69,12 +70,11 @@ class DepthGround {
         m.setVertex(static_cast<std::size_t>(y * (kCells + 1) + x), f(p.x), f(p.y), f(p.z),
                     f(steepest(c + x, r + y)));
         if (x == kCells || y == kCells) continue;
-        Box b{1e30f, 1e30f, 1e30f, -1e30f, -1e30f, -1e30f};
+        Box b = kNoBox;
         for (const int j : {0, 1})
           for (const int i : {0, 1}) {
             const Vec3 q = post(c + x + i, r + y + j) - m.origin;
-            b = {std::min(b.minX, f(q.x)), std::min(b.minY, f(q.y)), std::min(b.minZ, f(q.z)),
-                 std::max(b.maxX, f(q.x)), std::max(b.maxY, f(q.y)), std::max(b.maxZ, f(q.z))};
+            b = united(b, f(q.x), f(q.y), f(q.z));
           }
         parts.push_back(b);
       }

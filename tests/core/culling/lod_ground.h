@@ -9,6 +9,7 @@
 
 #include "trimtab/culling/horizon.h"
 #include "trimtab/culling/select.h"
+#include "trimtab/frame/box_union.h"
 
 /// A height field in levels, with a brute-force answer to what its surface, as a cut draws it, hides.
 namespace trimtab::test {
@@ -182,14 +183,12 @@ class LodGround {
     const int cell = 1 << level, x0 = column * kCells * cell, y0 = row * kCells * cell;
     r.side = kCells + 1;
     r.origin = {(x0 + 3) * step_, (y0 + 5) * step_, 200};
-    Box box{1e9f, 1e9f, 1e9f, -1e9f, -1e9f, -1e9f};
+    Box box = kNoBox;
     double error = 0;
     for (int y = 0; y <= kCells * cell; ++y)
       for (int x = 0; x <= kCells * cell; ++x) {
         const Vec3 p{(x0 + x) * step_, (y0 + y) * step_, double{source(x0 + x, y0 + y)}};
-        box = {std::min(box.minX, static_cast<float>(p.x)), std::min(box.minY, static_cast<float>(p.y)),
-               std::min(box.minZ, static_cast<float>(p.z)), std::max(box.maxX, static_cast<float>(p.x)),
-               std::max(box.maxY, static_cast<float>(p.y)), std::max(box.maxZ, static_cast<float>(p.z))};
+        box = united(box, static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z));
         if (x % cell == 0 && y % cell == 0) {
           r.x.push_back(static_cast<float>(p.x - r.origin.x));
           r.y.push_back(static_cast<float>(p.y - r.origin.y));
