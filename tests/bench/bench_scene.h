@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "row.h"
 #include "trimtab/experiment/stage.h"
 #include "trimtab/measure/paired_ratio.h"
 #include "trimtab/scene/offscreen.h"
@@ -106,6 +107,14 @@ inline Pairs inTurn(int pairs, const std::function<double(int)>& a, const std::f
     result.b.push_back(second);
   }
   return result;
+}
+
+/// The row of the first way, with the second as its peer.
+inline Row rowOf(const Pairs& pairs, Row row) {
+  row.value = pairs.medianA(), row.unit = "ms";
+  row.peerValue = pairs.medianB(), row.peerFrom = "run";
+  row.ratio = pairs.ratio();
+  return row;
 }
 
 }  // namespace trimtab::bench

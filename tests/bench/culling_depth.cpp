@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "bench_scene.h"
+#include "hidden_share.h"
 #include "rough_ground.h"
 #include "trimtab/culling/depth_map.h"
 #include "trimtab/culling/frustum.h"
+#include "trimtab/frame/box_union.h"
 
 namespace trimtab::bench {
 namespace {
@@ -103,12 +105,11 @@ class RoughMeshes {
     std::vector<Box> parts;
     for (int y = 0; y < kCells; y += kPart)
       for (int x = 0; x < kCells; x += kPart) {
-        Box b{1e30f, 1e30f, 1e30f, -1e30f, -1e30f, -1e30f};
+        Box b = kNoBox;
         for (int j = y; j <= y + kPart; ++j)
           for (int i = x; i <= x + kPart; ++i) {
             const std::size_t v = at(i, j);
-            b = {std::min(b.minX, m.x[v]), std::min(b.minY, m.y[v]), std::min(b.minZ, m.z[v]),
-                 std::max(b.maxX, m.x[v]), std::max(b.maxY, m.y[v]), std::max(b.maxZ, m.z[v])};
+            b = united(b, m.x[v], m.y[v], m.z[v]);
           }
         parts.push_back(b);
       }
@@ -119,12 +120,6 @@ class RoughMeshes {
   const RoughGround& ground_;
   std::vector<Tile> tiles_;
 };
-
-EyePose levelEye(Vec3 p, double heading) {
-  return {p,
-          {{Vec3{std::cos(heading), -std::sin(heading), 0}, Vec3{0, 0, 1},
-            Vec3{-std::sin(heading), -std::cos(heading), 0}}}};
-}
 
 /// The tiles in view, nearest first.
 std::vector<std::uint32_t> inView(const RoughGround& ground, const EyePose& eye, const ViewShape& view) {
@@ -149,16 +144,12 @@ std::vector<std::uint32_t> inView(const RoughGround& ground, const EyePose& eye,
 /// 45,000 triangles of the nearest tiles that are not hidden, and rectangles of many sizes.
 void rasterRows(Report& report, const RoughGround& ground, const RoughMeshes& meshes, const ViewShape& view) {
   constexpr std::size_t kTriangles = 45000;
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> place(0.3, 0.7), circle(0, 6.283185307);
+  RoughViews eyes(ground, 7);
   DepthMap map;
   double seconds = 0, triangles = 0;
   const int views = report.quick() ? 4 : 12;
   for (int i = 0; i < views; ++i) {
-    const double side = (RoughGround::kPosts - 1) * kPostM;
-    Vec3 p{side * place(random), side * place(random), 0};
-    p.z = ground.heightAt(p.x, p.y) + 100;
-    const EyePose eye = levelEye(p, circle(random));
+    const EyePose eye = eyes.next(100);
     std::vector<const RoughMeshes::Tile*> drawn;
     map.begin(eye, view, {640, 360});
     for (const std::uint32_t t : inView(ground, eye, view))
@@ -192,6 +183,7 @@ void rasterRows(Report& report, const RoughGround& ground, const RoughMeshes& me
     float limit;
   };
   std::vector<Rectangle> rectangles(4096);
+  std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(0, 1);
   for (Rectangle& r : rectangles) {
     r.x0 = static_cast<int>(600 * unit(random)), r.y0 = static_cast<int>(330 * unit(random));
@@ -213,21 +205,15 @@ void rasterRows(Report& report, const RoughGround& ground, const RoughMeshes& me
 }
 
 void shareRows(Report& report, const RoughGround& ground, const RoughMeshes& meshes, const ViewShape& view) {
-  struct Goal {
-    double aboveM, share, quoted;
-  };
   DepthMap map;
-  for (const Goal goal : {Goal{100, 0.90, 0.78}, Goal{400, 0.88, 0.65}, Goal{1500, 0.60, 0.19}}) {
-    std::mt19937 random(1);
-    std::uniform_real_distribution<double> place(0.3, 0.7), circle(0, 6.283185307);
+  for (const ShareGoal goal :
+       {ShareGoal{100, 0.90, 0.78}, ShareGoal{400, 0.88, 0.65}, ShareGoal{1500, 0.60, 0.19}}) {
+    RoughViews eyes(ground, 1);
     double seconds = 0;
-    std::size_t hidden = 0, culled = 0, wrong = 0, seen = 0;
+    HiddenShare share;
     const int views = report.quick() ? 4 : 20;
     for (int i = 0; i < views; ++i) {
-      const double side = (RoughGround::kPosts - 1) * kPostM;
-      Vec3 p{side * place(random), side * place(random), 0};
-      p.z = ground.heightAt(p.x, p.y) + goal.aboveM;
-      const EyePose eye = levelEye(p, circle(random));
+      const EyePose eye = eyes.next(goal.aboveM);
       const std::vector<std::uint32_t> tiles = inView(ground, eye, view);
       std::vector<DepthFate> fates(tiles.size());
       seconds += leastSeconds(5, [&] {
@@ -239,39 +225,20 @@ void shareRows(Report& report, const RoughGround& ground, const RoughMeshes& mes
           if (fates[k] == DepthFate::seen) fates[k] = map.test(meshes[tiles[k]].mesh);
       });
       const std::vector<std::uint8_t> owns = ground.owners(eye, view);
-      for (std::size_t k = 0; k < tiles.size(); ++k) {
-        const bool owner = owns[tiles[k]] != 0, left = fates[k] != DepthFate::seen;
-        ++seen;
-        hidden += !owner;
-        culled += left && !owner;
-        wrong += left && owner;
-      }
+      for (std::size_t k = 0; k < tiles.size(); ++k)
+        share.add(owns[tiles[k]] != 0, fates[k] != DepthFate::seen);
     }
-    const std::string above = std::to_string(static_cast<int>(goal.aboveM));
     report.add(
-        {.id = "culling.map_" + above + "m",
+        {.id = "culling.map_" + goal.above() + "m",
          .what = "Depth map of the CPU at 640 x 360 from scratch, a view's tiles of 450 m at the finest "
                  "level drawn and tested, " +
-                 above + " m above fractal ground",
+                 goal.above() + " m above fractal ground",
          .value = 1e3 * seconds / views,
          .unit = "ms",
          .peer = "masked occlusion culling, one view of 60 degrees at 71 %",
          .peerValue = 0.97,
          .peerFrom = "quoted"});
-    report.add(valueAtLeast(100 * goal.share,
-                            {.id = "culling.map_share_" + above + "m",
-                             .what = "Of the tiles in view that own no pixel, left out by the depth map (" +
-                                     std::to_string(hidden) + " hidden of " + std::to_string(seen) + " in " +
-                                     std::to_string(views) + " views)",
-                             .value = 100.0 * static_cast<double>(culled) / static_cast<double>(hidden),
-                             .unit = "%",
-                             .peer = "masked occlusion culling",
-                             .peerValue = 100 * goal.quoted,
-                             .peerFrom = "quoted"}));
-    report.add(valueAtMost(0, {.id = "culling.map_wrong_" + above + "m",
-                               .what = "Tiles that own a pixel and are left out",
-                               .value = static_cast<double>(wrong),
-                               .unit = "tiles"}));
+    addShareRows(report, "culling.map", "depth map", goal, views, share, "masked occlusion culling");
   }
 }
 
@@ -294,23 +261,15 @@ void methodRows(Report& report) {
   };
   const int pairs = report.quick() ? 6 : 30;
   const Pairs maps = inTurn(pairs, cost(OcclusionMethod::cpu_map), cost(OcclusionMethod::depth_map));
-  report.add(ratioAtMost(1, {.id = "culling.map_cpu_gpu",
-                             .what = "The depth map's stage by the CPU, at 640 x 480 over the sample",
-                             .value = maps.medianA(),
-                             .unit = "ms",
-                             .peer = "the published form: drawn, tested and waited for by GL",
-                             .peerValue = maps.medianB(),
-                             .peerFrom = "run",
-                             .ratio = maps.ratio()}));
+  const std::string published = "the published form: drawn, tested and waited for by GL";
+  report.add(ratioAtMost(1, rowOf(maps, {.id = "culling.map_cpu_gpu",
+                                         .what = "The depth map's stage by the CPU, at 640 x 480 over the "
+                                                 "sample",
+                                         .peer = published})));
   const Pairs reads = inTurn(pairs, cost(OcclusionMethod::read_back), cost(OcclusionMethod::depth_map));
-  report.add(ratioAtMost(1, {.id = "culling.map_read_back",
-                             .what = "The same drawn by GL, read back and tested by the CPU",
-                             .value = reads.medianA(),
-                             .unit = "ms",
-                             .peer = "the published form: drawn, tested and waited for by GL",
-                             .peerValue = reads.medianB(),
-                             .peerFrom = "run",
-                             .ratio = reads.ratio()}));
+  report.add(ratioAtMost(1, rowOf(reads, {.id = "culling.map_read_back",
+                                          .what = "The same drawn by GL, read back and tested by the CPU",
+                                          .peer = published})));
 }
 
 }  // namespace

@@ -1,41 +1,23 @@
 #include "culling_lod.h"
 
-#include <osg/Drawable>
 #include <osg/LOD>
-#include <osgUtil/CullVisitor>
-#include <osgUtil/RenderStage>
-#include <osgUtil/StateGraph>
 
 #include <limits>
 #include <random>
 
 #include "culling_frames.h"
-#include "osg_view.h"
+#include "osg_cull.h"
 #include "trimtab/culling/select.h"
 
 namespace trimtab::bench {
 namespace {
 
-constexpr double kErrorPx = 2, kFar = 1e7;
-
-/// A tile's level as far as culling knows it: a bound.
-class Tile final : public osg::Drawable {
- public:
-  Tile() = default;
-  Tile(const Tile& other, const osg::CopyOp& op) : osg::Drawable(other, op), box_(other.box_) {}
-  explicit Tile(const Box& box) : box_(boundOf(box)) { setSupportsDisplayList(false); }
-  META_Object(trimtab, Tile);
-  osg::BoundingBox computeBoundingBox() const override { return box_; }
-  void drawImplementation(osg::RenderInfo&) const override {}
-
- private:
-  osg::BoundingBox box_;
-};
+constexpr double kErrorPx = 2;
 
 /// Ranges are from the bounding sphere's middle, so what is nearer than the sphere's own radius and the
 /// distance at which the error shows is split: the same screen-space error holds as ours.
 osg::ref_ptr<osg::Node> lodTree(const TerrainIndex& index, std::uint32_t node, double metresPerError) {
-  osg::ref_ptr<Tile> tile = new Tile(index.bounds[node]);
+  osg::ref_ptr<BoundOnly> tile = new BoundOnly(index.bounds[node], node);
   if (index.level[node] == 0) return tile;
   osg::ref_ptr<osg::Group> finer = new osg::Group;
   for (const std::uint32_t child : index.children[node])
@@ -59,30 +41,11 @@ class LodPeer {
     root_->getBound();
   }
   /// Tiles of one cull traversal.
-  std::size_t cull(const EyePose& eye, const ViewShape& view) {
-    visitor_->reset();
-    graph_->clean();
-    stage_->reset();
-    visitor_->setStateGraph(graph_);
-    visitor_->setRenderStage(stage_);
-    visitor_->setCullingMode(osg::CullSettings::VIEW_FRUSTUM_CULLING);
-    visitor_->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
-    visitor_->pushViewport(viewport_);
-    visitor_->pushProjectionMatrix(new osg::RefMatrix(projectionOf(view, kFar)));
-    visitor_->pushModelViewMatrix(new osg::RefMatrix(viewOf(eye)), osg::Transform::ABSOLUTE_RF);
-    root_->accept(*visitor_);
-    visitor_->popModelViewMatrix();
-    visitor_->popProjectionMatrix();
-    visitor_->popViewport();
-    return graph_->_leaves.size();
-  }
+  std::size_t cull(const EyePose& eye, const ViewShape& view) { return traversal_.cull(*root_, eye, view); }
 
  private:
   osg::ref_ptr<osg::Group> root_ = new osg::Group;
-  osg::ref_ptr<osgUtil::CullVisitor> visitor_ = new osgUtil::CullVisitor;
-  osg::ref_ptr<osgUtil::StateGraph> graph_ = new osgUtil::StateGraph;
-  osg::ref_ptr<osgUtil::RenderStage> stage_ = new osgUtil::RenderStage;
-  osg::ref_ptr<osg::Viewport> viewport_ = new osg::Viewport(0, 0, 1280, 720);
+  CullTraversal traversal_;
 };
 
 }  // namespace

@@ -4,59 +4,19 @@
 #include "trimtab/scene/gl_api.h"
 
 #include <osg/Geometry>
-#include <osg/Group>
-#include <osgUtil/CullVisitor>
-#include <osgUtil/RenderStage>
-#include <osgUtil/StateGraph>
 #include <osgViewer/GraphicsWindow>
 #include <osgViewer/Viewer>
 
 #include <algorithm>
 #include <functional>
 
-#include "osg_view.h"
+#include "osg_cull.h"
 
 namespace trimtab::bench {
 namespace {
 
-constexpr double kFar = 1e7;
-
-void setUp(osg::CullStack& stack, osg::Viewport* viewport, const EyePose& eye, const ViewShape& view) {
-  stack.setCullingMode(osg::CullSettings::VIEW_FRUSTUM_CULLING);
-  stack.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
-  stack.pushViewport(viewport);
-  stack.pushProjectionMatrix(new osg::RefMatrix(projectionOf(view, kFar)));
-  stack.pushModelViewMatrix(new osg::RefMatrix(viewOf(eye)), osg::Transform::ABSOLUTE_RF);
-}
-
-void tearDown(osg::CullStack& stack) {
-  stack.popModelViewMatrix();
-  stack.popProjectionMatrix();
-  stack.popViewport();
-}
-
-/// A drawable that is nothing but its bound.
-class Leaf final : public osg::Drawable {
- public:
-  Leaf() = default;
-  Leaf(const Leaf& other, const osg::CopyOp& op)
-      : osg::Drawable(other, op), box_(other.box_), node_(other.node_) {}
-  Leaf(const Box& box, std::uint32_t node) : box_(boundOf(box)), node_(node) {
-    setUseDisplayList(false);
-    setSupportsDisplayList(false);
-  }
-  META_Object(trimtab, Leaf);
-  osg::BoundingBox computeBoundingBox() const override { return box_; }
-  void drawImplementation(osg::RenderInfo&) const override {}
-  std::uint32_t node() const { return node_; }
-
- private:
-  osg::BoundingBox box_;
-  std::uint32_t node_ = 0;
-};
-
 osg::ref_ptr<osg::Node> quadtree(const TerrainIndex& index, std::uint32_t node) {
-  if (index.level[node] == 0) return new Leaf(index.bounds[node], node);
+  if (index.level[node] == 0) return new BoundOnly(index.bounds[node], node);
   osg::ref_ptr<osg::Group> group = new osg::Group;
   for (const std::uint32_t child : index.children[node])
     if (child != TerrainIndex::kNone) group->addChild(quadtree(index, child));
@@ -108,19 +68,19 @@ class AllTiles final : public osg::Drawable {
 }  // namespace
 
 struct OsgBoxTests::Impl {
+  Impl(const EyePose& eye, const ViewShape& view) : pushed(stack, viewport, eye, view) {
+    polytope.setToUnitFrustum();
+    polytope.transformProvidingInverse(viewOf(eye) * projectionOf(view, ViewOf::kCullFar));
+  }
   osg::CullStack stack;
   osg::ref_ptr<osg::Viewport> viewport = new osg::Viewport(0, 0, 1280, 720);
+  ViewOf pushed;
   osg::Polytope polytope;
 };
 
-OsgBoxTests::OsgBoxTests(const EyePose& eye, const ViewShape& view) : impl_(std::make_unique<Impl>()) {
-  setUp(impl_->stack, impl_->viewport, eye, view);
-  impl_->polytope.setToUnitFrustum();
-  impl_->polytope.transformProvidingInverse(viewOf(eye) * projectionOf(view, kFar));
-}
-OsgBoxTests::~OsgBoxTests() {
-  tearDown(impl_->stack);
-}
+OsgBoxTests::OsgBoxTests(const EyePose& eye, const ViewShape& view)
+    : impl_(std::make_unique<Impl>(eye, view)) {}
+OsgBoxTests::~OsgBoxTests() = default;
 
 std::size_t OsgBoxTests::cullingSet(std::span<const Box> boxes) {
   osg::CullingSet& set = impl_->stack.getCurrentCullingSet();
@@ -140,10 +100,7 @@ std::size_t OsgBoxTests::polytope(std::span<const Box> boxes) {
 
 struct OsgQuadtree::Impl {
   osg::ref_ptr<osg::Group> root = new osg::Group;
-  osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-  osg::ref_ptr<osgUtil::StateGraph> graph = new osgUtil::StateGraph;
-  osg::ref_ptr<osgUtil::RenderStage> stage = new osgUtil::RenderStage;
-  osg::ref_ptr<osg::Viewport> viewport = new osg::Viewport(0, 0, 1280, 720);
+  CullTraversal traversal;
 };
 
 OsgQuadtree::OsgQuadtree(const TerrainIndex& index) : impl_(std::make_unique<Impl>()) {
@@ -154,22 +111,13 @@ OsgQuadtree::OsgQuadtree(const TerrainIndex& index) : impl_(std::make_unique<Imp
 OsgQuadtree::~OsgQuadtree() = default;
 
 std::size_t OsgQuadtree::cull(const EyePose& eye, const ViewShape& view) {
-  osgUtil::CullVisitor& visitor = *impl_->visitor;
-  visitor.reset();
-  impl_->graph->clean();
-  impl_->stage->reset();
-  visitor.setStateGraph(impl_->graph);
-  visitor.setRenderStage(impl_->stage);
-  setUp(visitor, impl_->viewport, eye, view);
-  impl_->root->accept(visitor);
-  tearDown(visitor);
-  return impl_->graph->_leaves.size();
+  return impl_->traversal.cull(*impl_->root, eye, view);
 }
 
 std::vector<std::uint32_t> OsgQuadtree::kept() const {
   std::vector<std::uint32_t> nodes;
-  for (const auto& leaf : impl_->graph->_leaves)
-    nodes.push_back(static_cast<const Leaf*>(leaf->getDrawable())->node());
+  for (const auto& leaf : impl_->traversal.kept())
+    nodes.push_back(static_cast<const BoundOnly*>(leaf->getDrawable())->node());
   return nodes;
 }
 

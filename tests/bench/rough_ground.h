@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <random>
 #include <vector>
 
 #include "trimtab/culling/eye_pose.h"
@@ -110,6 +111,28 @@ class RoughGround {
   std::vector<float> heights_;
   std::vector<TileRelief> reliefs_;
   std::vector<HorizonTile> tiles_;
+};
+
+inline EyePose levelEye(Vec3 position, double heading) {
+  return {position,
+          {{Vec3{std::cos(heading), -std::sin(heading), 0}, Vec3{0, 0, 1},
+            Vec3{-std::sin(heading), -std::cos(heading), 0}}}};
+}
+
+/// Level views from over the ground's middle, the same ones for the same seed.
+class RoughViews {
+ public:
+  RoughViews(const RoughGround& ground, unsigned seed) : ground_(ground), random_(seed) {}
+  EyePose next(double aboveM) {
+    const double side = (RoughGround::kPosts - 1) * RoughGround::kPostM;
+    const double x = side * place_(random_), y = side * place_(random_);
+    return levelEye({x, y, ground_.heightAt(x, y) + aboveM}, circle_(random_));
+  }
+
+ private:
+  const RoughGround& ground_;
+  std::mt19937 random_;
+  std::uniform_real_distribution<double> place_{0.3, 0.7}, circle_{0, 6.283185307};
 };
 
 }  // namespace trimtab::bench

@@ -15,7 +15,7 @@ struct Row {
   std::string id;    ///< "group.what"
   std::string what;  ///< a sentence
   double value = 0;
-  std::string unit;
+  std::string unit = {};
   std::string peer = {};  ///< what it is held against; empty: nothing but the goal
   std::optional<double> peerValue = {};
   std::string peerFrom = {};  ///< "run": measured here and now; "quoted": from a publication

@@ -67,15 +67,11 @@ void falling(Report& report) {
           wet = theirs.wetShare();
           return with - without;
         });
-    Row row{std::string("weather.") + c.name,
-            "what " + std::string(c.name) + " adds to a frame, 1280 x 720, density " +
-                std::to_string(c.density).substr(0, 4),
-            pairs.medianA(),
-            "ms",
-            "osgParticle::PrecipitationEffect of the same density",
-            pairs.medianB(),
-            "run"};
-    row.ratio = wet > 1e-4 ? pairs.ratio() : NAN;
+    Row row = rowOf(pairs, {.id = std::string("weather.") + c.name,
+                            .what = "what " + std::string(c.name) + " adds to a frame, 1280 x 720, density " +
+                                    std::to_string(c.density).substr(0, 4),
+                            .peer = "osgParticle::PrecipitationEffect of the same density"});
+    if (!(wet > 1e-4)) row.ratio = NAN;
     report.add(ratioAtMost(1, row));
   }
 }
@@ -102,28 +98,18 @@ void frames(Report& report, BenchScene& bench) {
   fog.precipitation = Precipitation::none;
   fog.density = 0;
   const Pairs foggy = inTurn(pairs, frame(fog), frame({}));
-  report.add(ratioAtMost(1.1, {.id = "weather.fog",
-                               .what = "a frame in fog, nothing cut and nothing falling",
-                               .value = foggy.medianA(),
-                               .unit = "ms",
-                               .peer = "the same frame in clear air",
-                               .peerValue = foggy.medianB(),
-                               .peerFrom = "run",
-                               .ratio = foggy.ratio()}));
+  report.add(ratioAtMost(1.1, rowOf(foggy, {.id = "weather.fog",
+                                            .what = "a frame in fog, nothing cut and nothing falling",
+                                            .peer = "the same frame in clear air"})));
   for (const auto& [name, step] : {std::pair{"rain_light", WeatherStep::rain_light},
                                    {"rain_medium", WeatherStep::rain_medium},
                                    {"rain_heavy", WeatherStep::rain_heavy}}) {
     const Pairs modes =
         inTurn(pairs, frame(decided(step, RatioMode::adaptive)), frame(decided(step, RatioMode::fixed)));
-    Row row{std::string("weather.adaptive_") + name,
-            std::string("a frame in ") + name + ", adaptive ratio as preset (not calibrated here)",
-            modes.medianA(),
-            "ms",
-            "the same frame, fixed ratio",
-            modes.medianB(),
-            "run",
-            modes.ratio()};
-    report.add(ratioAtMost(1, row));
+    report.add(ratioAtMost(1, rowOf(modes, {.id = std::string("weather.adaptive_") + name,
+                                            .what = std::string("a frame in ") + name +
+                                                    ", adaptive ratio as preset (not calibrated here)",
+                                            .peer = "the same frame, fixed ratio"})));
   }
 }
 
