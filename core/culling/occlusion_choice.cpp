@@ -67,8 +67,9 @@ double OcclusionChoice::startMs(std::size_t arm) const {
 
 bool OcclusionChoice::isDue(std::size_t arm, const Situation& now) const {
   const Arm& a = arms_[arm];
-  return !a.known || a.last.rule != now.rule || now.timeMs - a.last.timeMs > kBelievedMs ||
-         length(now.eye - a.last.eye) > kBelievedM || turned(now.forward, a.last.forward) > kBelievedTurn;
+  return !a.known || a.last.rule != now.rule || now.timeMs - a.last.timeMs > a.patience * kBelievedMs ||
+         length(now.eye - a.last.eye) > a.patience * kBelievedM ||
+         turned(now.forward, a.last.forward) > a.patience * kBelievedTurn;
 }
 
 /// What a trial is likely to lose against the method in use.
@@ -156,6 +157,10 @@ void OcclusionChoice::learnArm(const Outcome& outcome) {
   } else {
     arm.costMs = follow(arm.costMs, outcome.occlusionMs);
   }
+  if (served_ == current_ || arm.last.rule != now_.rule)
+    arm.patience = 1;
+  else if (first)
+    arm.patience = std::min(2 * arm.patience, kMostPatience);
   arm.known = true;
   arm.last = now_;
   const auto all = static_cast<double>(outcome.drawn + outcome.hidden);

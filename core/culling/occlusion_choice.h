@@ -21,8 +21,10 @@ namespace trimtab {
 class OcclusionChoice {
  public:
   static constexpr double kExploring = 0.01;  ///< share of all time that may be lost to trying methods
-  // Having been found worth less than another one is believed at most so long.
+  // Having been found worth less than another one is believed at most so long; found again and again, up to
+  // kMostPatience times as long.
   static constexpr double kBelievedMs = 1000, kBelievedM = 50, kBelievedTurn = 0.1;  ///< the last: radians
+  static constexpr double kMostPatience = 4;
 
   using Method = std::optional<OcclusionMethod>;  ///< none: nothing looks
 
@@ -63,6 +65,7 @@ class OcclusionChoice {
     double share = 0;    ///< of the triangles in view that it hides
     Situation last;      ///< when it was in use
     double purseMs = 0;  ///< what may be lost to trying it
+    double patience = 1;
     bool canServe = false;
   };
   static std::size_t armOf(Method method);

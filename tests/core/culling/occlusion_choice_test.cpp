@@ -222,6 +222,18 @@ TEST(OcclusionChoice, triesAgainAfterABoundedTimeWayOrTurn) {
   EXPECT_GT(trials(0, 0.1), resting);
 }
 
+/// What costs next to nothing to try would be tried at every turn.
+TEST(OcclusionChoice, triesLessOftenWhatNeverPays) {
+  const Machine sea{5, 1e-6, {{0.02, 0.02, 0}, {0.02, 0.02, 0}, {0.02, 0.02, 0}}};
+  Flight flight = still(sea);
+  flight.turn = 0;
+  flight.frames = 2000;
+  const Total total = fly(flight);
+  // Each of three, had they no patience, at every 11th frame.
+  EXPECT_LT(total.trials, 2000u * 3 / 11 / 2);
+  EXPECT_GT(total.trials, 2000u * 3 / 11 / 8) << "it will be worth it somewhere";
+}
+
 TEST(OcclusionChoice, choosesAmongWhatCanServe) {
   OcclusionChoice choice;
   const OcclusionMethod one[] = {OcclusionMethod::cpu_map};
