@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/culling/random_index.h"
+#include "core/culling/view_axes.h"
 #include "culling_depth.h"
 #include "culling_frames.h"
 #include "culling_horizon.h"
@@ -22,12 +23,7 @@
 namespace trimtab::bench {
 namespace {
 
-Mat3 axesOf(double headingDeg, double pitchDeg) {
-  const double h = headingDeg * std::numbers::pi / 180, p = pitchDeg * std::numbers::pi / 180;
-  const Vec3 forward{std::sin(h) * std::cos(p), std::cos(h) * std::cos(p), std::sin(p)};
-  const Vec3 right{std::cos(h), -std::sin(h), 0};
-  return {{right, cross(right, forward), -forward}};
-}
+using test::axesOf;
 
 std::vector<Box> randomBoxes(std::size_t count) {
   std::mt19937 random(7);

@@ -12,6 +12,7 @@
 
 #include "trimtab/culling/depth_map.h"
 #include "trimtab/frame/box_union.h"
+#include "view_axes.h"
 
 /// Ground for depth maps, views of it, and which of its tiles own the pixels there.
 namespace trimtab::test {
@@ -121,15 +122,6 @@ class DepthGround {
   std::vector<double> heights_;
 };
 
-inline EyePose pose(Vec3 position, double heading, double pitch, double roll) {
-  const double h = heading, p = pitch;
-  const Vec3 forward{std::cos(p) * std::sin(h), std::cos(p) * std::cos(h), std::sin(p)};
-  const Vec3 side{std::cos(h), -std::sin(h), 0}, above = cross(side, forward);
-  const Vec3 right = side * std::cos(roll) + above * std::sin(roll),
-             up = above * std::cos(roll) - side * std::sin(roll);
-  return {position, {{right, up, -forward}}};
-}
-
 /// For each pixel of the picture the nearest surface's depth, infinite where there is none, and whose it is.
 struct PixelOwners {
   std::vector<double> depth;
@@ -191,12 +183,11 @@ inline DepthView randomView(const DepthGround& ground, std::mt19937& random, int
   std::uniform_real_distribution<double> unit(0, 1);
   const double side = (DepthGround::kPosts - 1) * DepthGround::kStepM, x = side * (0.25 + 0.5 * unit(random)),
                y = side * (0.25 + 0.5 * unit(random));
-  DepthView v{pose({x, y, ground.heightNear(x, y) + 3 + 250 * unit(random) * unit(random)},
-                   6.28 * unit(random), i % 4 == 3 ? -1.2 + 0.5 * unit(random) : -0.35 + 0.4 * unit(random),
-                   i % 3 == 2 ? 6.28 * unit(random) : 0),
-              {},
-              0,
-              0};
+  const Vec3 eye{x, y, ground.heightNear(x, y) + 3 + 250 * unit(random) * unit(random)};
+  const double heading = 360 * unit(random),
+               pitch = i % 4 == 3 ? -70 + 30 * unit(random) : -20 + 23 * unit(random),
+               roll = i % 3 == 2 ? 360 * unit(random) : 0;
+  DepthView v{{eye, axesOf(heading, pitch, roll)}, {}, 0, 0};
   v.shape.widthPx = 200, v.shape.heightPx = 112;
   if (i % 5 == 4) v.shape.left = -0.2, v.shape.right = 0.9, v.shape.bottom = -0.6, v.shape.top = 0.1;
   constexpr std::array<std::pair<int, int>, 6> kSizes{

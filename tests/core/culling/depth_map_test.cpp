@@ -14,7 +14,7 @@
 namespace trimtab {
 namespace {
 
-using test::pose;
+using test::axesOf;
 using test::randomView;
 using Ground = test::DepthGround;
 using Truth = test::PixelOwners;
@@ -117,7 +117,7 @@ TEST(DepthMap, hidesNothingForViewsThatAreNone) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Ground ground(1);
   const depth::Triangles indices = Ground::indices();
-  const EyePose good = pose({640, 640, 400}, 0.3, -0.3, 0);
+  const EyePose good = {{640, 640, 400}, axesOf(17, -17)};
   struct Case {
     const char* what;
     std::function<void(EyePose&, ViewShape&, DepthMap::Settings&)> change;
@@ -172,7 +172,7 @@ TEST(DepthMap, neverHidesAMeshThatIsNotOfNumbers) {
   wall.reach = wall.farReach = 1e9f;
   wall.setBoxes(std::vector<Box>{{-1e4f, 20, -1e4f, 1e4f, 20, 1e4f}});
   DepthMap map;
-  map.begin(pose({640, -200, 100}, 0, 0, 0), {}, {200, 100, 0});
+  map.begin({{640, -200, 100}, axesOf(0)}, {}, {200, 100, 0});
   wall.origin = {640, -200, 100};
   map.draw(wall, depth::Triangles(std::array<std::uint16_t, 6>{0, 1, 2, 0, 2, 3}));
   map.finish();

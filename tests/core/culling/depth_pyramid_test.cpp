@@ -6,15 +6,12 @@
 #include <limits>
 #include <random>
 
+#include "view_axes.h"
+
 namespace trimtab {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-/// Looking along +y from the origin.
-EyePose levelEye() {
-  return {{0, 0, 0}, {{Vec3{1, 0, 0}, Vec3{0, 0, 1}, Vec3{0, -1, 0}}}};
-}
 
 Box boxAt(double x, double y, double z, double half) {
   const auto f = [](double v) { return static_cast<float>(v); };
@@ -30,7 +27,7 @@ TEST_P(DepthPyramidOf, hidesNoBoxWithAPointThatCouldBeSeen) {
   std::uniform_real_distribution<double> unit(0, 1);
   ViewShape view;
   view.widthPx = 640, view.heightPx = 360;
-  const EyePose eye = levelEye();
+  const EyePose eye{{}, test::axesOf(0)};
   std::size_t hidden = 0, kept = 0;
   DepthPyramid pyramid;
   for (int map = 0; map < 12; ++map) {
@@ -80,7 +77,7 @@ class DepthPyramidTest : public testing::Test {
   DepthPyramidTest() { pyramid.build(depths, 64, 48); }
   std::vector<float> depths = std::vector<float>(64 * 48, 1 / 1000.0f);
   ViewShape view;
-  EyePose eye = levelEye();
+  EyePose eye{{}, test::axesOf(0)};
   DepthPyramid pyramid;
 };
 
@@ -126,7 +123,7 @@ TEST_F(DepthPyramidTest, hidesNothingByWhatIsNotANumber) {
   const Box behind = boxAt(0, 1200, 0, 100);
   eye.position.x = double{kNan};
   EXPECT_FALSE(pyramid.isHidden(behind, eye, view));
-  eye = levelEye();
+  eye = {{}, test::axesOf(0)};
   std::fill(depths.begin(), depths.end(), kNan);
   pyramid.build(depths, 64, 48);
   EXPECT_FALSE(pyramid.isHidden(behind, eye, view));

@@ -15,7 +15,7 @@
 namespace trimtab {
 namespace {
 
-using test::pose;
+using test::axesOf;
 
 /// Triangles by themselves, looked at along +y from the origin with a texel at a depth of 1 being 1/50.
 class DepthRaster : public testing::Test {
@@ -41,7 +41,7 @@ class DepthRaster : public testing::Test {
     mesh.finishVertices();
     mesh.reach = mesh.farReach = 1e9f;
     mesh.setBoxes(std::vector<Box>{{-1e6f, 0, -1e6f, 1e6f, 1e6f, 1e6f}});
-    map.begin(pose({0, 0, 0}, 0, 0, 0), view, {kWidth, kHeight, 0});
+    map.begin({{}, axesOf(0)}, view, {kWidth, kHeight, 0});
     map.draw(mesh, depth::Triangles(indices));
     map.finish();
   }
@@ -129,7 +129,7 @@ TEST_F(DepthRaster, cutsWhatReachesBehindTheEye) {
   floor.finishVertices();
   floor.reach = floor.farReach = 1e9f;
   floor.setBoxes(std::vector<Box>{{-500, -300, -2, 500, 200, -2}});
-  map.begin(pose({0, 0, 0}, 0, 0, 0), view, {kWidth, kHeight, 0});
+  map.begin({{}, axesOf(0)}, view, {kWidth, kHeight, 0});
   EXPECT_EQ(map.draw(floor, depth::Triangles(std::array<std::uint16_t, 6>{0, 1, 2, 0, 2, 3})),
             DepthFate::seen);
   map.finish();

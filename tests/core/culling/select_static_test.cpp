@@ -7,9 +7,12 @@
 #include <set>
 
 #include "random_trees.h"
+#include "view_axes.h"
 
 namespace trimtab {
 namespace {
+
+using test::axesOf;
 
 constexpr double kPixelsPerRadian = 1100;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -165,13 +168,6 @@ TEST(StaticDistance, takesTheErrorThatIsAskedFor) {
   const StaticLodIndex index = test::randomTrees(1, 6);
   EXPECT_EQ(staticLodError(index, ErrorMeasure::rms).data(), index.rmsErrorM.data());
   EXPECT_EQ(staticLodError(index, ErrorMeasure::maximum).data(), index.maxErrorM.data());
-}
-
-Mat3 axesOf(double heading, double pitch) {
-  const double h = heading * 0.0174532925, p = pitch * 0.0174532925;
-  const Vec3 forward{std::sin(h) * std::cos(p), std::cos(h) * std::cos(p), std::sin(p)};
-  const Vec3 right{std::cos(h), -std::sin(h), 0};
-  return {{right, cross(right, forward), -forward}};
 }
 
 class StaticVisible : public testing::Test {

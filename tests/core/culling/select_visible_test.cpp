@@ -6,18 +6,12 @@
 #include <numbers>
 
 #include "random_index.h"
+#include "view_axes.h"
 
 namespace trimtab {
 namespace {
 
-Mat3 axesOf(double heading, double pitch, double roll) {
-  constexpr double kRadians = std::numbers::pi / 180;
-  const double h = heading * kRadians, p = pitch * kRadians, r = roll * kRadians;
-  const Vec3 forward{std::sin(h) * std::cos(p), std::cos(h) * std::cos(p), std::sin(p)};
-  const Vec3 level{std::cos(h), -std::sin(h), 0};
-  const Vec3 above = cross(level, forward);
-  return {{level * std::cos(r) - above * std::sin(r), above * std::cos(r) + level * std::sin(r), -forward}};
-}
+using test::axesOf;
 
 /// Inside the frustum by projecting, as the picture does.
 bool isInPicture(Vec3 p, const EyePose& eye, const ViewShape& v) {
