@@ -109,10 +109,15 @@ const PatchGround::Surface* PatchGround::surfaceOf(TileDraw patch) const {
 }
 
 std::size_t PatchGround::makeSurfaces(Vec3 eye) {
-  return share().makeNearest(
-      cut().tiles, patches_.index().bounds, eye,
-      [this](TileDraw patch) { return !surfaceOf(patch) && patches_.meshOf(patch.node); },
-      [this](TileDraw patch) { make(*patches_.meshOf(patch.node), patch, surfaces_.make(patch.node)); });
+  const auto lacks = [this](TileDraw patch) { return !surfaceOf(patch) && patches_.meshOf(patch.node); };
+  const auto makeNearest = [&](const auto& which) {
+    return share().makeNearest(cut().tiles, patches_.index().bounds, eye, which, [this](TileDraw patch) {
+      make(*patches_.meshOf(patch.node), patch, surfaces_.make(patch.node));
+    });
+  };
+  // While one may hang over, none hides anything: first those that only their surface can tell of.
+  makeNearest([&](TileDraw patch) { return !normalsRise(patch.node) && lacks(patch); });
+  return makeNearest(lacks);
 }
 
 const PatchGround::Surface* PatchGround::surfaceUnder(TileDraw patch) {
@@ -156,17 +161,14 @@ void PatchGround::fill(std::vector<HorizonTile>& tiles) {
   }
 }
 
-/// By the cone of its normals; where that is too wide, by its surface.
-bool PatchGround::isUpright(TileDraw patch) {
-  std::uint8_t& known = normalsRise_[patch.node];
+bool PatchGround::normalsRise(std::uint32_t node) {
+  std::uint8_t& known = normalsRise_[node];
   if (known == 0) {
     const std::vector<NormalCone>& cones = patches_.index().cones;
-    const NormalCone cone = cones.empty() ? NormalCone{} : cones[patch.node];
+    const NormalCone cone = cones.empty() ? NormalCone{} : cones[node];
     known = cone.isKnown() && cone.axis().z > cone.sine() + kLeastRise ? 2 : 1;
   }
-  if (known == 2) return true;
-  const Surface* surface = surfaceOf(patch);
-  return surface && surface->relief.upright;
+  return known == 2;
 }
 
 /// Where a single patch stands upright or hangs over, a place may have two heights; where one is missing, it
@@ -174,7 +176,9 @@ bool PatchGround::isUpright(TileDraw patch) {
 bool PatchGround::isGraph() {
   if (graphOf_ == cutNumber().cut) return true;
   const bool graph = std::all_of(cut().tiles.begin(), cut().tiles.end(), [this](const TileDraw& patch) {
-    return patches_.meshOf(patch.node) && isUpright(patch);
+    if (normalsRise(patch.node)) return patches_.meshOf(patch.node) != nullptr;
+    const Surface* surface = surfaceOf(patch);
+    return surface && surface->relief.upright;
   });
   if (graph) graphOf_ = cutNumber().cut;
   return graph;

@@ -56,8 +56,8 @@ class PatchGround final : public OcclusionGround {
   /// away.
   const Surface* surfaceUnder(TileDraw patch);
   void make(const terrain::PatchMesh& mesh, TileDraw patch, Surface& surface);
-  /// Whether no triangle that is drawn of it stands upright or hangs over, as far as is known.
-  bool isUpright(TileDraw patch);
+  /// Whether none of its triangles stands upright or hangs over, as far as the cone of their normals tells.
+  bool normalsRise(std::uint32_t node);
 
   const PatchCulling& patches_;
   PatchMapCulling map_;
