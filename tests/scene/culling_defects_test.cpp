@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "culling_truth.h"
+#include "undrawn.h"
 
 /// That culling_views_test.cpp and its like find what is culled wrongly.
 namespace trimtab {
@@ -36,6 +37,29 @@ TEST_F(CullingDefects, areFoundByWhoOwnsThePixels) {
     ++found;
   }
   EXPECT_GT(found, 36u);
+}
+
+/// Most frames of these tests are made without their pictures.
+TEST_F(CullingDefects, areSoughtInTheSetsOfDrawnFrames) {
+  use(test::syntheticMountains());
+  std::size_t occluded = 0;
+  for (auto& r : anyViews(48, 2)) {
+    r.decision.depthMap = kBands[1];
+    for (const auto& choice : test::occlusionChoices()) {
+      if (choice.method == OcclusionMethod::automatic) continue;
+      r.occlusion = choice.method;
+      const auto nodes = [&](bool wholly) {
+        const unsigned long before = test::Undrawn::calls();
+        const auto result = draw(r, wholly);
+        EXPECT_EQ(test::Undrawn::calls() > before, !wholly);
+        occluded += result.visible.occluded;
+        return nodesOf(result.visible);
+      };
+      const auto drawn = nodes(true);
+      EXPECT_EQ(nodes(false), drawn) << choice.name << ", " << describe(r);
+    }
+  }
+  EXPECT_GT(occluded, 1000u);
 }
 
 }  // namespace

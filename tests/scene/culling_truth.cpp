@@ -1,41 +1,41 @@
 #include "culling_truth.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
-#include <random>
+#include <optional>
 
 #include "trimtab/preset/choices.h"
 #include "trimtab/scene/depth_read_back.h"
+#include "undrawn.h"
 
 namespace trimtab::test {
 namespace {
 
 constexpr std::uint32_t kNoNode = scene::Renderer::kNoNode;
 
-double between(std::mt19937& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
-
-std::vector<std::uint32_t> nodesOf(const VisibleSet& visible) {
-  std::vector<std::uint32_t> nodes;
-  for (const TileDraw& tile : visible.tiles) nodes.push_back(tile.node);
-  std::sort(nodes.begin(), nodes.end());
-  return nodes;
-}
-
 bool contains(const std::vector<std::uint32_t>& nodes, std::uint32_t node) {
   return std::binary_search(nodes.begin(), nodes.end(), node);
 }
 
-}  // namespace
-
-int soak() {
-  const char* text = std::getenv("TRIMTAB_SOAK");
-  return text ? std::max(1, std::atoi(text)) : 1;
+/// One view in twenty, of all kinds in turn.
+bool hasPicture(std::size_t view) {
+  return view % 20 == view / 20 * 7 % 20;
 }
+
+/// Whether this process looks at a view or leg, of many: TRIMTAB_SHARD=2/5 is the third of five processes.
+bool inShard(std::size_t index) {
+  static const std::pair<std::size_t, std::size_t> shard = [] {
+    unsigned which = 0, of = 1;
+    const char* text = std::getenv("TRIMTAB_SHARD");
+    if (text && (std::sscanf(text, "%u/%u", &which, &of) != 2 || which >= of)) std::abort();
+    return std::pair<std::size_t, std::size_t>(which, of);
+  }();
+  return index % shard.second == shard.first;
+}
+
+}  // namespace
 
 std::vector<OcclusionChoice> occlusionChoices() {
   std::vector<OcclusionChoice> all;
@@ -56,94 +56,11 @@ void CullingTruth::SetUp() {
   ASSERT_TRUE(report.usable) << report.missing;
 }
 
-scene::FrameRequest CullingTruth::viewOf(const GeodeticPosition& eye, const Attitude& attitude) const {
-  auto r = request(eye, attitude);
-  r.staticLod.terrain = form_;
-  r.waitForPages = true;
-  return r;
-}
-
-std::vector<scene::FrameRequest> CullingTruth::anyViews(int count, unsigned seed) const {
-  std::mt19937 random(seed);
-  std::vector<scene::FrameRequest> views;
-  for (int i = 0; i < count; ++i) {
-    double east = between(random, 0.02, 0.98), north = between(random, 0.02, 0.98);
-    // Valleys and shores: the lowest of some places nearby.
-    if (i % 3 == 1) {
-      double lowest = 1e9;
-      const double east0 = east, north0 = north;
-      for (int k = 0; k < 12; ++k) {
-        const double e = std::clamp(east0 + between(random, -0.03, 0.03), 0.0, 1.0),
-                     n = std::clamp(north0 + between(random, -0.03, 0.03), 0.0, 1.0);
-        const double height = over(e, n, 0).height.value();
-        if (height < lowest) lowest = height, east = e, north = n;
-      }
-    }
-    // Up to 9,000 m above the ground, most of them low, where much is hidden.
-    double above = 8 * std::pow(9000 / 8.0, std::pow(between(random, 0, 1), 2.5));
-    if (i % 16 == 5) above = between(random, 9000, 30000);
-    if (i % 24 == 11) above = -between(random, 5, 300);
-    if (i % 12 == 8) east = between(random, -0.2, 1.2), north = i % 8 == 0 ? -0.1 : 1.15;
-    double pitch = between(random, -20, 5);
-    if (i % 7 == 3) pitch = between(random, -89, -45);
-    if (i % 13 == 6) pitch = between(random, 5, 60);
-    if (i % 40 == 39) pitch = -90;
-    const double roll = i % 3 == 0 ? between(random, -180, 180) : 0;
-    auto r =
-        viewOf(over(east, north, above), {Degrees{between(random, 0, 360)}, Degrees{pitch}, Degrees{roll}});
-    ViewShape& v = r.view;
-    if (i % 8 == 2) v.widthPx = 1280, v.heightPx = 720;
-    if (i % 16 == 9) v.widthPx = 333, v.heightPx = 217;
-    if (i % 5 == 4) v.left = -0.2, v.right = 0.9, v.bottom = -0.6, v.top = 0.1;
-    if (i % 9 == 2) v.left = -1.7, v.right = 1.7, v.bottom = -1, v.top = 1;
-    if (i % 11 == 7) v.left = -0.02, v.right = 0.02, v.bottom = -0.01, v.top = 0.01;
-    r.lod.screenSpaceError = Pixels{i % 16 == 1 ? 0.1 : i % 4 == 0 ? 6.0 : i % 4 == 1 ? 0.5 : 2.0};
-    r.staticLod.errorPx = r.lod.screenSpaceError;
-    if (i % 10 == 6) {
-      const double farM = between(random, 3000, 20000);
-      r.decision.weather = {
-          .fogged = true, .visibilityM = farM, .extinctionPerM = 3.912 / farM, .farM = farM};
-    }
-    views.push_back(r);
-  }
-  return views;
-}
-
-std::vector<scene::FrameRequest> CullingTruth::flight(int frames, unsigned seed) const {
-  std::mt19937 random(seed);
-  std::vector<scene::FrameRequest> path;
-  constexpr double kStepM = 600 * 1852.0 / 3600 / 60, kTurnDeg = 200.0 / 60;
-  // Long enough for what is built ahead over many frames, where there is time for it.
-  const int legFrames = soak() > 1 ? 48 : 8;
-  double east = 0.5, north = 0.5, course = 0, head = 0, above = 60;
-  for (int i = 0; i < frames; ++i) {
-    const int leg = i / legFrames, step = i % legFrames;
-    if (step == 0) {  // a leap
-      east = between(random, 0.2, 0.8), north = between(random, 0.2, 0.8);
-      course = between(random, 0, 360), head = course;
-      above = leg % 4 == 3 ? between(random, 1500, 4000) : between(random, 15, 400);
-    }
-    const bool stands = leg % 3 == 2;
-    if (!stands) {
-      const auto& info = database->info();
-      const double heightM = 111e3 * (info.northEast.latitude - info.southWest.latitude).value(),
-                   turned = course * 3.14159265358979 / 180;
-      const double middle = (info.northEast.latitude + info.southWest.latitude).value() / 2;
-      const double widthM = 111e3 * scene::widthOf(info).value() * std::cos(middle * 3.14159265358979 / 180);
-      east += kStepM * std::sin(turned) / widthM, north += kStepM * std::cos(turned) / heightM;
-      if (leg % 4 == 1) above += 2;
-    }
-    head += (step / (legFrames / 2) % 2 == 0 ? kTurnDeg : -kTurnDeg);
-    if (leg % 5 == 4) head = course;
-    auto r = viewOf(over(east, north, above),
-                    {Degrees{head}, Degrees{leg % 4 == 2 ? -35.0 : -4.0}, Degrees{leg % 3 == 1 ? 30.0 : 0}});
-    r.time = i / 60.0;
-    r.lod.screenSpaceError = Pixels{leg % 3 == 0 ? 0.5 : 2.0};
-    if (step >= legFrames * 3 / 4) r.decision.lodScale = 2;
-    r.staticLod.errorPx = r.lod.screenSpaceError;
-    path.push_back(r);
-  }
-  return path;
+std::vector<std::uint32_t> CullingTruth::nodesOf(const VisibleSet& visible) {
+  std::vector<std::uint32_t> nodes;
+  for (const TileDraw& tile : visible.tiles) nodes.push_back(tile.node);
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
 }
 
 CullingTruth::Owners CullingTruth::owners() {
@@ -159,7 +76,7 @@ CullingTruth::View CullingTruth::truthOf(const scene::FrameRequest& r, bool with
   scene::FrameRequest whole = r;
   whole.method = CullingCase::none;
   whole.decision.depthMap.reset();
-  scene::FrameResult result = renderer.draw(whole, offscreen->framebuffer());
+  scene::FrameResult result = draw(whole, withPicture);
   view.cut = result.visible.tiles.size();
   EXPECT_EQ(view.cut + result.visible.beyondVisibility, result.tilesInCut) << describe(r);
   view.owners = owners();
@@ -168,7 +85,7 @@ CullingTruth::View CullingTruth::truthOf(const scene::FrameRequest& r, bool with
     // Frozen where it stands nothing is left out for facing away either.
     const LocalFrame& frame = database->index().frame;
     whole.frozenEye = EyePose{frame.fromGeodetic(r.eye), eyeAxes(frame, r.eye, r.attitude)};
-    renderer.draw(whole, offscreen->framebuffer());
+    draw(whole, false);
     for (const auto& [node, pixels] : owners())
       view.pixelsFromBehind +=
           std::none_of(view.owners.begin(), view.owners.end(), [&](const auto& o) { return o.first == node; })
@@ -180,20 +97,26 @@ CullingTruth::View CullingTruth::truthOf(const scene::FrameRequest& r, bool with
   frustum.method = CullingCase::view_frustum;
   frustum.backFaces = false;
   frustum.decision.depthMap.reset();
-  result = renderer.draw(frustum, offscreen->framebuffer());
+  result = draw(frustum, false);
   view.frustum = view.hidden = result.visible.tiles.size();
   const auto drawn = nodesOf(result.visible);
   for (const auto& [node, pixels] : view.owners) view.hidden -= contains(drawn, node);
   return view;
 }
 
+scene::FrameResult CullingTruth::draw(const scene::FrameRequest& r, bool wholly) {
+  std::optional<Undrawn> undrawn;
+  if (!wholly) undrawn.emplace(r.view.widthPx, r.view.heightPx);
+  return renderer.draw(r, offscreen->framebuffer());
+}
+
 void CullingTruth::compare(const View& view, CullingCase culling, OcclusionMethod method, DepthMapSize band,
-                           Tally& tally) {
+                           Tally& tally, bool wholly) {
   scene::FrameRequest r = view.request;
   r.method = culling;
   r.occlusion = method;
   r.decision.depthMap = band;
-  const auto result = renderer.draw(r, offscreen->framebuffer());
+  const auto result = draw(r, wholly);
   const auto drawn = nodesOf(result.visible);
   std::size_t nodes = 0, pixels = 0;
   for (const auto& [node, count] : view.owners)
@@ -206,64 +129,88 @@ void CullingTruth::compare(const View& view, CullingCase culling, OcclusionMetho
   tally.hidden += view.hidden;
   tally.wrongNodes += nodes;
   tally.wrongPixels += pixels;
-  if (view.picture.empty()) return;
+  if (!wholly || view.picture.empty()) return;
   ++tally.pictures;
   tally.differing += differing(view.picture, renderer.readPixels(r.view.widthPx, r.view.heightPx));
+}
+
+void CullingTruth::Tally::add(const Tally& other) {
+  sets += other.sets, occluded += other.occluded, hidden += other.hidden;
+  wrongNodes += other.wrongNodes, wrongPixels += other.wrongPixels, told += other.told;
+  pictures += other.pictures, differing += other.differing;
 }
 
 void CullingTruth::tell(const char* what, const std::string& method, const Tally& t) {
   std::printf(
       "    %-24s %6zu sets, %4.1f %% of the hidden left out, %zu wrong; %zu pictures, %zu pixels differ\n",
-      method.c_str(), t.sets, t.hidden > 0 ? 100.0 * double(t.occluded) / double(t.hidden) : 0.0,
-      t.wrongNodes, t.pictures, t.differing);
+      method.c_str(), t.sets, shareOf(t), t.wrongNodes, t.pictures, t.differing);
   std::fflush(stdout);
   EXPECT_EQ(t.wrongNodes, 0u) << what << ", " << method;
   EXPECT_EQ(t.differing, 0u) << what << ", " << method;
 }
 
-void CullingTruth::proveViews(const std::vector<scene::FrameRequest>& requests) {
+void CullingTruth::proveViews(const std::vector<scene::FrameRequest>& requests, Sum& sum) {
   const auto methods = occlusionChoices();
   const bool everyBand = soak() > 1;
-  std::size_t cut = 0, frustum = 0, hidden = 0, fromBehind = 0;
+  std::size_t views = 0, cut = 0, frustum = 0, hidden = 0, fromBehind = 0;
   Tally plain;
   std::vector<std::array<Tally, kBands.size()>> tallies(methods.size());
   for (std::size_t i = 0; i < requests.size(); ++i) {
-    const View view = truthOf(requests[i], i % 20 == 0);
+    if (!inShard(i / 20)) continue;
+    const View view = truthOf(requests[i], hasPicture(i));
+    const bool pictured = !view.picture.empty();
     cut += view.cut, frustum += view.frustum, hidden += view.hidden;
     fromBehind += view.pixelsFromBehind;
-    const std::size_t own = i % kBands.size();
-    compare(view, CullingCase::view_frustum, OcclusionMethod::depth_map, kBands[own], plain);
-    for (std::size_t m = 0; m < methods.size(); ++m)
-      for (std::size_t b = 0; b < kBands.size(); ++b)
-        if (everyBand || b == own)
-          compare(view, CullingCase::proposed, methods[m].method, kBands[b], tallies[m][everyBand ? b : 0]);
+    sum.kinds.add(requests[i], *database);
+    const std::size_t own = (i + i / 20) % kBands.size();
+    compare(view, CullingCase::view_frustum, OcclusionMethod::depth_map, kBands[own], plain, pictured);
+    // A horizon serves all methods of its band.
+    for (std::size_t b = 0; b < kBands.size(); ++b)
+      for (std::size_t m = 0; m < methods.size(); ++m) {
+        if (!everyBand && b != own) continue;
+        // What frames cost is what it chooses by.
+        const bool costs = methods[m].method == OcclusionMethod::automatic;
+        compare(view, CullingCase::proposed, methods[m].method, kBands[b], tallies[m][everyBand ? b : 0],
+                b == own && (pictured || costs));
+      }
+    if (++views % 100 == 0) std::printf("  %zu views\n", views), std::fflush(stdout);
   }
   std::printf(
       "  %zu views: %zu nodes in their cuts, %zu in the frustum, %zu of these without a pixel; %zu pixels "
       "are of nodes that show their backs alone\n",
-      requests.size(), cut, frustum, hidden, fromBehind);
+      views, cut, frustum, hidden, fromBehind);
+  sum.views += views;
+  sum.all.add(plain);
   tell("views", "view_frustum", plain);
   for (std::size_t m = 0; m < methods.size(); ++m)
-    for (std::size_t b = 0; b < (everyBand ? kBands.size() : 1); ++b)
-      tell("views",
-           methods[m].name +
-               (everyBand ? ' ' + std::to_string(kBands[b].widthPx) + 'x' + std::to_string(kBands[b].heightPx)
-                          : std::string()),
-           tallies[m][b]);
+    for (std::size_t b = 0; b < (everyBand ? kBands.size() : 1); ++b) {
+      std::string name = methods[m].name;
+      sum.all.add(tallies[m][b]);
+      sum.methods[name].add(tallies[m][b]);
+      if (everyBand)
+        name += ' ' + std::to_string(kBands[b].widthPx) + 'x' + std::to_string(kBands[b].heightPx);
+      tell("views", name, tallies[m][b]);
+    }
 }
 
-void CullingTruth::proveFlight(const std::vector<scene::FrameRequest>& requests) {
+void CullingTruth::proveFlight(const std::vector<scene::FrameRequest>& requests, Sum& sum) {
   std::vector<View> views;
-  for (const auto& r : requests) views.push_back(truthOf(r, views.size() % 20 == 0));
+  for (std::size_t i = 0; i < requests.size(); ++i)
+    if (inShard(i / static_cast<std::size_t>(legFrames())))
+      views.push_back(truthOf(requests[i], hasPicture(i)));
   std::size_t hidden = 0;
   for (const View& view : views) hidden += view.hidden;
   std::printf("  %zu frames of flight: %zu nodes in the frustum without a pixel\n", views.size(), hidden);
+  sum.frames += views.size();
   const auto follow = [&](OcclusionMethod method, const std::string& name) {
+    const bool costs = method == OcclusionMethod::automatic;
     Tally tally;
     // The band changes in flight too.
     for (std::size_t i = 0; i < views.size(); ++i)
-      compare(views[i], CullingCase::proposed, method, kBands[i / 32 % kBands.size()], tally);
+      compare(views[i], CullingCase::proposed, method, kBands[i / 32 % kBands.size()], tally,
+              costs || !views[i].picture.empty());
     tell("flight", name, tally);
+    sum.all.add(tally);
   };
   for (const auto& [method, name] : occlusionChoices()) follow(method, name);
   // As on a GPU, whose maps come late.
@@ -272,27 +219,43 @@ void CullingTruth::proveFlight(const std::vector<scene::FrameRequest>& requests)
     follow(OcclusionMethod::read_back, "read_back, late by " + std::to_string(lag));
   }
   scene::DepthReadBack::force({});
+  // From nothing, surfaces made some a frame. Levels alone are the same without waiting for pages.
+  if (form_ != TerrainForm::levels) return;
+  for (View& view : views) view.request.waitForPages = false;
+  for (const auto& [method, name] : occlusionChoices()) {
+    if (method == OcclusionMethod::depth_map || method == OcclusionMethod::read_back) continue;
+    renderer.setTerrain(database);
+    follow(method, std::string(name) + ", from nothing");
+  }
 }
 
-void CullingTruth::prove(TerrainForm form, int count, unsigned seed) {
-  useForm(form);
-  std::printf("%s, %s\n", database->info().name.c_str(),
-              table::ChoicesOf<TerrainForm>::options[static_cast<std::size_t>(form)].name.data());
-  proveViews(anyViews(count * soak(), seed));
-  proveFlight(flight(std::max(16, count * soak() / 2), seed + 1));
+void CullingTruth::prove(std::initializer_list<Part> parts, unsigned seed) {
+  Sum sum;
+  for (const auto& [form, count] : parts) {
+    useForm(form);
+    std::printf("%s, %s\n", database->info().name.c_str(),
+                table::ChoicesOf<TerrainForm>::options[static_cast<std::size_t>(form)].name.data());
+    proveViews(anyViews(count * soak(), seed), sum);
+    proveFlight(flight(std::max(16, count * soak() / 2), seed + 1), sum);
+    ++seed;
+  }
+  tellSum(sum);
 }
 
-std::string CullingTruth::describe(const scene::FrameRequest& r) {
-  char text[400];
-  std::snprintf(
-      text, sizeof text,
-      "eye %.9f %.9f %.4f, attitude %.6f %.6f %.6f, %dx%d, tangents %g %g %g %g, error %g, scale %g, "
-      "far %g",
-      r.eye.latitude.value(), r.eye.longitude.value(), r.eye.height.value(), r.attitude.heading.value(),
-      r.attitude.pitch.value(), r.attitude.roll.value(), r.view.widthPx, r.view.heightPx, r.view.left,
-      r.view.right, r.view.bottom, r.view.top, r.lod.screenSpaceError.value(), r.decision.lodScale,
-      r.decision.weather.farM);
-  return text;
+void CullingTruth::tellSum(const Sum& sum) const {
+  std::string shares;
+  for (const auto& [name, tally] : sum.methods) {
+    char share[80];
+    std::snprintf(share, sizeof share, "%s%s %.1f %%", shares.empty() ? "" : ", ", name.c_str(),
+                  shareOf(tally));
+    shares += share;
+  }
+  std::printf(
+      "%s: %zu views and %zu frames of flight, %zu sets: %zu nodes culled wrongly; %zu pictures, %zu pixels "
+      "differ; of the nodes without a pixel in these views are left out by %s; the views are %s\n",
+      database->info().name.c_str(), sum.views, sum.frames, sum.all.sets, sum.all.wrongNodes,
+      sum.all.pictures, sum.all.differing, shares.c_str(), sum.kinds.text().c_str());
+  std::fflush(stdout);
 }
 
 }  // namespace trimtab::test

@@ -2,16 +2,16 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "culling_kinds.h"
 #include "scene_test.h"
 
 namespace trimtab::test {
-
-/// TRIMTAB_SOAK in the environment multiplies the views.
-int soak();
 
 /// Every way of hiding that a preset can choose, by the name that files give it: a new one joins by itself.
 struct OcclusionChoice {
@@ -25,7 +25,7 @@ std::vector<OcclusionChoice> occlusionChoices();
 /// pixel and is not drawn was culled wrongly.
 class CullingTruth : public SceneTest {
  protected:
-  /// The sizes of the published bands, and an odd one.
+  /// The sizes of the published bands, and an odd one; no picture has any of them.
   static constexpr std::array<DepthMapSize, 5> kBands{
       {{320, 240}, {400, 300}, {640, 480}, {800, 600}, {333, 251}}};
 
@@ -44,6 +44,7 @@ class CullingTruth : public SceneTest {
     std::size_t sets = 0, occluded = 0, hidden = 0;
     std::size_t wrongNodes = 0, wrongPixels = 0, told = 0;
     std::size_t pictures = 0, differing = 0;  ///< pictures compared, and pixels in them
+    void add(const Tally& other);
   };
 
   void SetUp() override;
@@ -56,28 +57,50 @@ class CullingTruth : public SceneTest {
   /// levels and at coarse ones, in fog, beyond the data's edge and below the ground.
   std::vector<scene::FrameRequest> anyViews(int count, unsigned seed) const;
   /// Frames at 60 Hz on one path: 600 kt low over the ground, the head turning at 200 deg/s to both sides;
-  /// standing while it turns; now and then a leap to somewhere else.
+  /// standing while it turns; a leap to somewhere else after each leg.
   std::vector<scene::FrameRequest> flight(int frames, unsigned seed) const;
+  /// Long enough for what is built ahead over many frames, where there is time for it.
+  static int legFrames() { return soak() > 1 ? 48 : 8; }
 
   /// Its numbers, so that it can be drawn again.
   static std::string describe(const scene::FrameRequest& r);
 
   /// Draws a view without culling, and by the frustum alone. `withPicture`: keeps the unculled picture.
   View truthOf(const scene::FrameRequest& request, bool withPicture);
-  /// Draws it by a method and adds what is found.
-  void compare(const View& view, CullingCase culling, OcclusionMethod method, DepthMapSize band,
-               Tally& tally);
+  /// Adds what a method finds. `wholly`: with all that a frame does, and its picture where the view has one;
+  /// else only its visible set is made, and maps of the GPU.
+  void compare(const View& view, CullingCase culling, OcclusionMethod method, DepthMapSize band, Tally& tally,
+               bool wholly = true);
 
-  /// All methods over `count` views, each in one band, or in all where it soaks; and each method over
-  /// frames of flight one after the other, so that what it keeps from frame to frame is used. Prints what was
-  /// found, and fails where a node was culled wrongly.
-  void prove(TerrainForm form, int count, unsigned seed);
+  scene::FrameResult draw(const scene::FrameRequest& request, bool wholly);
+  static std::vector<std::uint32_t> nodesOf(const VisibleSet& visible);  ///< sorted
+
+  struct Part {
+    TerrainForm form;
+    int count;  ///< of views
+  };
+  /// In each form, all methods over so many views, each in one band, or in all where it soaks; and each
+  /// method over frames of flight one after the other, so that what it keeps from frame to frame is used.
+  /// Prints what was found, and a line for all of it; fails where a node was culled wrongly.
+  void prove(std::initializer_list<Part> parts, unsigned seed);
 
  private:
+  /// Of all forms of a terrain together.
+  struct Sum {
+    std::size_t views = 0, frames = 0;
+    CullingKinds kinds;
+    Tally all;
+    std::map<std::string, Tally> methods;
+  };
+
   Owners owners();
+  static double shareOf(const Tally& t) {
+    return t.hidden > 0 ? 100 * static_cast<double>(t.occluded) / static_cast<double>(t.hidden) : 0;
+  }
   void tell(const char* what, const std::string& method, const Tally& tally);
-  void proveViews(const std::vector<scene::FrameRequest>& requests);
-  void proveFlight(const std::vector<scene::FrameRequest>& requests);
+  void proveViews(const std::vector<scene::FrameRequest>& requests, Sum& sum);
+  void proveFlight(const std::vector<scene::FrameRequest>& requests, Sum& sum);
+  void tellSum(const Sum& sum) const;
 
   TerrainForm form_ = TerrainForm::levels;
 };

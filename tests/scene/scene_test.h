@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
+
 #include "support.h"
 #include "synthetic_terrain.h"
 #include "trimtab/scene/data_extent.h"
@@ -10,6 +13,12 @@
 
 /// What tests of pictures share: a surfaceless context, a renderer, a terrain.
 namespace trimtab::test {
+
+/// TRIMTAB_SOAK in the environment multiplies the views; 1 without.
+inline int soak() {
+  const char* text = std::getenv("TRIMTAB_SOAK");
+  return text ? std::max(1, std::atoi(text)) : 1;
+}
 
 class SceneTest : public testing::Test {
  protected:
@@ -29,6 +38,25 @@ class SceneTest : public testing::Test {
   void use(std::shared_ptr<const terrain::Database> terrain) {
     database = std::move(terrain);
     renderer.setTerrain(database);
+  }
+
+  /// bakeShared as the terrain; false when there is none.
+  bool useShared(const std::string& folder) {
+    use(bakeShared(folder));
+    return database != nullptr;
+  }
+  /// The sample, of posts far enough apart to be made within a second.
+  bool useSample() {
+    terrain::SampleOptions options;
+    options.postM = 90;
+    sampleDir_ = std::make_unique<ScratchDir>();
+    const auto written = terrain::writeSample(*sampleDir_ / "sample.tif", options);
+    EXPECT_TRUE(written) << toString(written.findings());
+    if (!written) return false;
+    auto baked = terrain::openOrBake(*sampleDir_ / "sample.tif", *sampleDir_ / "cache", {});
+    EXPECT_TRUE(baked) << toString(baked.findings());
+    if (baked) use(baked.value());
+    return baked.ok();
   }
 
   /// Real data, baked once into a folder beside the temporary files; none when it cannot be.
@@ -73,6 +101,7 @@ class SceneTest : public testing::Test {
     return n;
   }
 
+  std::unique_ptr<ScratchDir> sampleDir_;  ///< before what reads files of it
   std::unique_ptr<scene::Offscreen> offscreen;
   scene::Renderer renderer;
   scene::GlReport report;
