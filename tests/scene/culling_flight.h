@@ -2,9 +2,9 @@
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <random>
 #include <span>
+#include <string>
 
 #include "scene_test.h"
 
@@ -48,12 +48,6 @@ class CullingFlight : public SceneTest {
     tally.viewsOverFifth += proposed.visible.occluded * 5 > frustum.visible.tiles.size();
   }
 
-  /// TRIMTAB_SOAK in the environment multiplies the views.
-  static int soak() {
-    const char* text = std::getenv("TRIMTAB_SOAK");
-    return text ? std::max(1, std::atoi(text)) : 1;
-  }
-
   /// Flights along valleys and above, any attitude, every size; lopsided and narrow views too.
   Tally fly(int views, unsigned seed, std::span<const DepthMapSize> sizes = kSizes) {
     std::mt19937 random(seed);
@@ -75,6 +69,26 @@ class CullingFlight : public SceneTest {
     std::printf("%d views: %zu tiles by frustum, %zu proposed, %d tested, %d leave out over a fifth\n",
                 tally.views, tally.frustum, tally.proposed, tally.served, tally.viewsOverFifth);
     return tally;
+  }
+
+  /// What stands in the way of the method where the eye sees too much, in the result's words.
+  void expectReasons() {
+    const auto note = [this](const GeodeticPosition& eye) {
+      auto r = request(eye, {Degrees{270}, Degrees{-5}, Degrees{0}});
+      r.decision.depthMap = DepthMapSize{320, 240};
+      r.occlusion = method_;
+      const auto result = renderer.draw(r, offscreen->framebuffer());
+      EXPECT_EQ(method_ == OcclusionMethod::horizon ? result.horizon : result.depthMap.has_value(),
+                result.note.empty());
+      EXPECT_TRUE(result.note.empty() || result.visible.occluded == 0);
+      return result.note;
+    };
+    EXPECT_EQ(note(over(0.5, 0.5, 300)), "");
+    EXPECT_EQ(note(over(0.5, 0.5, -30)), "The eye is under the ground.");
+    EXPECT_EQ(note(over(0.5, 0.5, 0.2)), "The eye is too near the ground.");
+    auto beside = over(0.5, 0.5, 3000);
+    beside.longitude = beside.longitude + Degrees{0.6};
+    EXPECT_EQ(note(beside), "The eye is not over the terrain.");
   }
 
  private:

@@ -1,7 +1,4 @@
-#include <chrono>
 #include <cmath>
-#include <limits>
-#include <random>
 
 #include "culling_flight.h"
 #include "patched_terrain.h"
@@ -25,8 +22,7 @@ TEST_F(HorizonScene, leavesNoPixelOutOverSyntheticMountains) {
 
 TEST_F(HorizonScene, leavesNoPixelOutOverEverest) {
   TRIMTAB_NEEDS_SHARED("data/dem-srtm3-everest");
-  use(bakeShared("dem-srtm3-everest"));
-  ASSERT_TRUE(database);
+  ASSERT_TRUE(useShared("dem-srtm3-everest"));
   const Tally tally = fly(24, 2);
   EXPECT_EQ(tally.differing, 0u);
   EXPECT_LT(tally.proposed * 10, tally.frustum * 8);
@@ -34,20 +30,13 @@ TEST_F(HorizonScene, leavesNoPixelOutOverEverest) {
 
 TEST_F(HorizonScene, leavesNoPixelOutOverFuji) {
   TRIMTAB_NEEDS_SHARED("data/dem-osgearth-fuji");
-  use(bakeShared("dem-osgearth-fuji"));
-  ASSERT_TRUE(database);
+  ASSERT_TRUE(useShared("dem-osgearth-fuji"));
   const Tally tally = fly(18, 3);
   EXPECT_EQ(tally.differing, 0u);
 }
 
 TEST_F(HorizonScene, leavesNoPixelOutOverTheSample) {
-  const test::ScratchDir dir;
-  terrain::SampleOptions options;
-  options.postM = 90;
-  ASSERT_TRUE(terrain::writeSample(dir / "sample.tif", options));
-  auto baked = terrain::openOrBake(dir / "sample.tif", dir / "cache", {});
-  ASSERT_TRUE(baked) << toString(baked.findings());
-  use(baked.value());
+  ASSERT_TRUE(useSample());
   const Tally tally = fly(18, 4);
   EXPECT_EQ(tally.differing, 0u);
 }
@@ -232,52 +221,7 @@ TEST_F(HorizonScene, hidesMoreAtTheSizeOfAHigherBand) {
 
 TEST_F(HorizonScene, saysWhyItIsNotUsed) {
   use(test::syntheticMountains());
-  const auto note = [this](const GeodeticPosition& eye) {
-    auto r = request(eye, {Degrees{270}, Degrees{-5}, Degrees{0}});
-    r.decision.depthMap = DepthMapSize{320, 240};
-    r.occlusion = OcclusionMethod::horizon;
-    const auto result = renderer.draw(r, offscreen->framebuffer());
-    EXPECT_EQ(result.horizon, result.note.empty());
-    EXPECT_TRUE(result.note.empty() || result.visible.occluded == 0);
-    return result.note;
-  };
-  EXPECT_EQ(note(over(0.5, 0.5, 300)), "");
-  EXPECT_EQ(note(over(0.5, 0.5, -30)), "The eye is under the ground.");
-  EXPECT_EQ(note(over(0.5, 0.5, 0.2)), "The eye is too near the ground.");
-  auto beside = over(0.5, 0.5, 3000);
-  beside.longitude = beside.longitude + Degrees{0.6};
-  EXPECT_EQ(note(beside), "The eye is not over the terrain.");
-}
-
-TEST_F(HorizonScene, cullsNothingForDegenerateViews) {
-  use(test::syntheticMountains());
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  auto good = request(over(0.5, 0.5, 300), {Degrees{270}, Degrees{-5}, Degrees{0}});
-  std::vector<scene::FrameRequest> views;
-  const auto add = [&](auto&& change) {
-    views.push_back(good);
-    change(views.back());
-  };
-  add([&](auto& r) { r.attitude.heading = Degrees{nan}; });
-  add([&](auto& r) { r.attitude = {Degrees{nan}, Degrees{nan}, Degrees{nan}}; });
-  add([&](auto& r) { r.eye.height = Metres{nan}; });
-  add([&](auto& r) { r.eye.latitude = Degrees{90}; });
-  add([&](auto& r) { r.eye.latitude = Degrees{-90}, r.eye.height = Metres{-6e6}; });
-  add([&](auto& r) { r.eye.height = Metres{1e9}; });
-  add([&](auto& r) { r.view.left = r.view.right = 0; });
-  add([&](auto& r) { r.view.left = r.view.right = r.view.bottom = r.view.top = nan; });
-  add([&](auto& r) { r.view.nearM = nan; });
-  add([&](auto& r) { r.eye = over(0.5, 0.5, -40); });
-  add([&](auto& r) { r.eye = over(0.02, 0.98, 30); });
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    scene::FrameRequest r = views[i];
-    r.decision.depthMap = DepthMapSize{320, 240};
-    r.occlusion = OcclusionMethod::horizon;
-    r.method = CullingCase::view_frustum;
-    const auto whole = picture(r);
-    r.method = CullingCase::proposed;
-    EXPECT_EQ(differing(whole, picture(r)), 0u) << "view " << i;
-  }
+  expectReasons();
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "trimtab/scene/map_culling.h"
 
-#include <limits>
 #include <random>
 
 #include "culling_flight.h"
@@ -24,8 +23,7 @@ TEST_F(MapScene, leavesNoPixelOutOverSyntheticMountains) {
 
 TEST_F(MapScene, leavesNoPixelOutOverEverest) {
   TRIMTAB_NEEDS_SHARED("data/dem-srtm3-everest");
-  use(bakeShared("dem-srtm3-everest"));
-  ASSERT_TRUE(database);
+  ASSERT_TRUE(useShared("dem-srtm3-everest"));
   const Tally tally = fly(18, 2);
   EXPECT_EQ(tally.differing, 0u);
   EXPECT_LT(tally.proposed * 10, tally.frustum * 8);
@@ -77,38 +75,6 @@ TEST_F(MapScene, showsItsMapAsGreys) {
     EXPECT_LT(grey.pixels[160], 200) << "near ground below";
     EXPECT_EQ(grey.pixels[239 * 320 + 160], 255) << "sky above";
   }
-}
-
-TEST_F(MapScene, cullsNothingForDegenerateViews) {
-  use(test::syntheticMountains());
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto good = request(over(0.5, 0.5, 300), {Degrees{270}, Degrees{-5}, Degrees{0}});
-  std::vector<scene::FrameRequest> views;
-  const auto add = [&](auto&& change) {
-    views.push_back(good);
-    change(views.back());
-  };
-  add([&](auto& r) { r.attitude.heading = Degrees{nan}; });
-  add([&](auto& r) { r.attitude = {Degrees{nan}, Degrees{nan}, Degrees{nan}}; });
-  add([&](auto& r) { r.eye.height = Metres{nan}; });
-  add([&](auto& r) { r.eye.latitude = Degrees{90}; });
-  add([&](auto& r) { r.eye.latitude = Degrees{-90}, r.eye.height = Metres{-6e6}; });
-  add([&](auto& r) { r.eye.height = Metres{1e9}; });
-  add([&](auto& r) { r.view.left = r.view.right = 0; });
-  add([&](auto& r) { r.view.left = r.view.right = r.view.bottom = r.view.top = nan; });
-  add([&](auto& r) { r.view.nearM = nan; });
-  add([&](auto& r) { r.eye = over(0.5, 0.5, -40); });
-  add([&](auto& r) { r.eye = over(0.02, 0.98, 30); });
-  for (const OcclusionMethod method : {OcclusionMethod::cpu_map, OcclusionMethod::read_back})
-    for (std::size_t i = 0; i < views.size(); ++i) {
-      scene::FrameRequest r = views[i];
-      r.decision.depthMap = DepthMapSize{320, 240};
-      r.occlusion = method;
-      r.method = CullingCase::view_frustum;
-      const auto whole = picture(r);
-      r.method = CullingCase::proposed;
-      EXPECT_EQ(differing(whole, picture(r)), 0u) << "view " << i;
-    }
 }
 
 }  // namespace

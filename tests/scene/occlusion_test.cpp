@@ -20,8 +20,7 @@ TEST_F(Occlusion, leavesNoPixelOutOverSyntheticMountains) {
 
 TEST_F(Occlusion, leavesNoPixelOutOverEverest) {
   TRIMTAB_NEEDS_SHARED("data/dem-srtm3-everest");
-  use(bakeShared("dem-srtm3-everest"));
-  ASSERT_TRUE(database);
+  ASSERT_TRUE(useShared("dem-srtm3-everest"));
   const Tally tally = fly(24, 2);
   EXPECT_EQ(tally.differing, 0u);
   EXPECT_GT(tally.viewsOverFifth, 8);
@@ -29,21 +28,14 @@ TEST_F(Occlusion, leavesNoPixelOutOverEverest) {
 
 TEST_F(Occlusion, leavesNoPixelOutOverFuji) {
   TRIMTAB_NEEDS_SHARED("data/dem-osgearth-fuji");
-  use(bakeShared("dem-osgearth-fuji"));
-  ASSERT_TRUE(database);
+  ASSERT_TRUE(useShared("dem-osgearth-fuji"));
   const Tally tally = fly(18, 3);
   EXPECT_EQ(tally.differing, 0u);
   EXPECT_GT(tally.viewsOverFifth, 2);
 }
 
 TEST_F(Occlusion, leavesNoPixelOutOverTheSample) {
-  const test::ScratchDir dir;
-  terrain::SampleOptions options;
-  options.postM = 90;
-  ASSERT_TRUE(terrain::writeSample(dir / "sample.tif", options));
-  auto baked = terrain::openOrBake(dir / "sample.tif", dir / "cache", {});
-  ASSERT_TRUE(baked) << toString(baked.findings());
-  use(baked.value());
+  ASSERT_TRUE(useSample());
   const Tally tally = fly(18, 4);
   EXPECT_EQ(tally.differing, 0u);
   EXPECT_GT(tally.viewsOverFifth, 2);
@@ -61,20 +53,7 @@ TEST_F(Occlusion, losesPixelsWhenOccludersAreNotLowered) {
 
 TEST_F(Occlusion, saysWhyItIsNotUsed) {
   use(test::syntheticMountains());
-  const auto note = [this](const GeodeticPosition& eye) {
-    auto r = request(eye, {Degrees{270}, Degrees{-5}, Degrees{0}});
-    r.decision.depthMap = DepthMapSize{320, 240};
-    const auto result = renderer.draw(r, offscreen->framebuffer());
-    EXPECT_EQ(result.depthMap.has_value(), result.note.empty());
-    EXPECT_TRUE(result.note.empty() || result.visible.occluded == 0);
-    return result.note;
-  };
-  EXPECT_EQ(note(over(0.5, 0.5, 300)), "");
-  EXPECT_EQ(note(over(0.5, 0.5, -30)), "The eye is under the ground.");
-  EXPECT_EQ(note(over(0.5, 0.5, 0.2)), "The eye is too near the ground.");
-  auto beside = over(0.5, 0.5, 3000);
-  beside.longitude = beside.longitude + Degrees{0.6};
-  EXPECT_EQ(note(beside), "The eye is not over the terrain.");
+  expectReasons();
 }
 
 TEST_F(Occlusion, isSkippedWhereTheDecisionAsksForNone) {
