@@ -1,5 +1,6 @@
 #include <sstream>
 
+#include "csv_cells.h"
 #include "ig_support.h"
 #include "trimtab/measure/cost_stages.h"
 
@@ -11,21 +12,12 @@ using test::IgProcess;
 /// The named columns of a CSV as text, read without any code of the trace's own.
 std::vector<std::string> columns(const std::filesystem::path& file, const std::vector<std::string>& names) {
   std::istringstream in(test::readFile(file));
-  const auto split = [](const std::string& line) {
-    std::vector<std::string> cells(1);
-    for (const char c : line)
-      if (c == ',')
-        cells.emplace_back();
-      else
-        cells.back() += c;
-    return cells;
-  };
   std::string line;
   std::getline(in, line);
-  const std::vector<std::string> header = split(line);
+  const std::vector<std::string> header = test::csvCells(line);
   std::vector<std::string> rows;
   while (std::getline(in, line)) {
-    const std::vector<std::string> cells = split(line);
+    const std::vector<std::string> cells = test::csvCells(line);
     std::string row;
     for (const std::string& name : names) {
       const auto at = std::find(header.begin(), header.end(), name);

@@ -4,6 +4,7 @@
 #include <random>
 #include <sstream>
 
+#include "csv_cells.h"
 #include "trimtab/measure/cost_stages.h"
 #include "trimtab/measure/trace.h"
 
@@ -131,12 +132,7 @@ TEST(Trace, readsColumnsInAnyOrderAndPassesOverOthers) {
   std::istringstream lines(text);
   std::string line, turned;
   while (std::getline(lines, line)) {
-    std::vector<std::string> cells(1);
-    for (const char c : line)
-      if (c == ',')
-        cells.emplace_back();
-      else
-        cells.back() += c;
+    const std::vector<std::string> cells = test::csvCells(line);
     turned += turned.empty() ? "remark" : "none";
     for (auto cell = cells.rbegin(); cell != cells.rend(); ++cell) turned += ',' + *cell;
     turned += "\r\n";
