@@ -90,6 +90,13 @@ TEST(PatchCracks, noneInAnyMixtureOfBigTujunga) {
   TRIMTAB_NEEDS_SHARED("data/dem-30m-bigtujunga/bigtujunga.tif");
   check("Big Tujunga", test::imported("data/dem-30m-bigtujunga/bigtujunga.tif"));
 }
+TEST(PatchCracks, noneInAnyMixtureOfTheSample) {
+  const test::ScratchDir dir;
+  SampleOptions options;
+  options.postM = 90;
+  ASSERT_TRUE(writeSample(dir / "sample.tif", options));
+  check("sample", test::imported(dir / "sample.tif"));
+}
 TEST(PatchCracks, noneInAnyMixtureOfFractalGround) {
   check("fractal", test::fractal({10, 45, 1.0 / 1200, 1.0 / 1200, 1025, 1025}, 3));
 }
