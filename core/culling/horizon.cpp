@@ -14,6 +14,8 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr double kRounding = 1.2e-5;
 /// Beyond this a surface's numbers are no places on earth, metres.
 constexpr float kMostReach = 1e8f;
+/// Bins of waiting lines, a quarter: a dozen columns each serve best, with 800.
+constexpr int kMostBins = 64;
 
 bool isPlace(Vec3 p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
@@ -45,11 +47,14 @@ void Horizon::begin(const EyeRoom& room, std::span<const HorizonTile> tiles, con
   hiddenCount_ = 0;
   tiles_ = tiles;
   order_.clear();
-  pieces_.clear();
-  pool_.clear();
+  binShift_ = std::bit_width(static_cast<unsigned>((columns_ - 1) / kMostBins));
+  binsEach_ = ((columns_ - 1) >> binShift_) + 1;
+  bins_.resize(static_cast<std::size_t>(kSides * binsEach_));
+  for (auto& bin : bins_) bin.clear();
+  waiting_.clear();
+  awaited_.assign(profile_.size(), kNowhere);
   next_ = work_ = 0;
-  done_ = 0;
-  isSorted_ = true;
+  phase_ = Phase::done;
 
   const Vec3 half = 0.5 * (room.to - room.from);
   const double play = std::hypot(half.x, half.y) + room.radius;
@@ -69,7 +74,9 @@ void Horizon::begin(const EyeRoom& room, std::span<const HorizonTile> tiles, con
                                              .upwards = std::abs(static_cast<float>(half.z)) + radius};
     if (settings.still) play_[static_cast<std::size_t>(side)] = {};
   }
-  isSorted_ = tiles.empty();
+  outlines_.resize(tiles.size());
+  firstOfRing_.assign(kRings + 1, 0);
+  if (!tiles.empty()) phase_ = Phase::outline;
 }
 
 Horizon::Outline Horizon::outlineOf(std::uint32_t n) const {
@@ -92,103 +99,89 @@ Horizon::Outline Horizon::outlineOf(std::uint32_t n) const {
   o.off = slack_ + (tile.above > 0 ? tile.above / away : 0);
   o.tile = n;
   o.ring = ringOf(away - tile.above);
+  if (tile.relief && tile.mayOcclude) {
+    const TileRelief& lines = *tile.relief;
+    const bool rows = runsInRows(o);
+    const auto cells = static_cast<float>(lines.side - 1);
+    o.lines = lines.lines / 2;
+    o.lineTop = lines.lineTop[rows ? 0 : 1] + from[2] - tile.below;
+    // A little less, as a tile may lie a little askew.
+    o.inset = 0.95f * static_cast<float>(lines.lineStep) / cells;
+    o.goOn = (rows ? tile.east : tile.north) ? static_cast<float>(TileRelief::kGoOn) / cells : 0;
+  }
   return o;
 }
 
-Horizon::Lines Horizon::linesOf(const HorizonTile& tile, const Outline& o) const {
-  Lines l{};
-  if (!tile.relief || !tile.mayOcclude || o.tile == kNone) return l;
-  const TileRelief& relief = *tile.relief;
-  // Those along the line of sight hide next to nothing that the others do not.
-  const bool rows = std::abs(o.y0 + o.y1) >= std::abs(o.x0 + o.x1);
-  l.side = relief.side;
-  l.count = relief.lines / 2;
-  const auto first = static_cast<std::size_t>(rows ? 0 : l.count);
-  l.xyz = relief.lineXyz.data() + first * 3 * static_cast<std::size_t>(relief.side);
-  l.from = fromEye(eye_, relief.origin);
-  l.besideM = relief.besideM;
-  l.below = tile.below;
-  const TileRelief* next = rows ? tile.east : tile.north;
-  if (next && next->lines == relief.lines && next->side == relief.side) {
-    l.goOn = next->goOn.data() + first * 3 * TileRelief::kGoOn;
-    l.goOnFrom = fromEye(eye_, next->origin);
+/// Takes up some more tiles.
+void Horizon::outlineSome() {
+  constexpr std::size_t kAhead = 8, kSome = 64;
+  for (const std::size_t end = std::min(next_ + kSome, tiles_.size()); next_ < end; ++next_) {
+    if (next_ + kAhead < tiles_.size()) {
+      const void* ahead = tiles_[next_ + kAhead].surface();
+      __builtin_prefetch(ahead);
+      __builtin_prefetch(static_cast<const char*>(ahead) + 64);
+    }
+    outlines_[next_] = outlineOf(static_cast<std::uint32_t>(next_));
+    ++firstOfRing_[outlines_[next_].ring + 1];
   }
-  return l;
+  work_ += kSome / 8;
+  if (next_ == tiles_.size()) sortTiles();
 }
 
 void Horizon::sortTiles() {
-  isSorted_ = true;
-  firstOfRing_.assign(kRings + 1, 0);
-  firstPiece_.assign(kRings, kNone);
-  outlines_.resize(tiles_.size());
-  lines_.resize(tiles_.size());
-  constexpr std::size_t kAhead = 8;
-  for (std::size_t i = 0; i < tiles_.size(); ++i) {
-    if (i + kAhead < tiles_.size()) {
-      const HorizonTile& ahead = tiles_[i + kAhead];
-      for (const void* p :
-           {static_cast<const void*>(ahead.surface()), static_cast<const void*>(ahead.north)}) {
-        __builtin_prefetch(p);
-        __builtin_prefetch(static_cast<const char*>(p) + 64);
-      }
-    }
-    outlines_[i] = outlineOf(static_cast<std::uint32_t>(i));
-    lines_[i] = linesOf(tiles_[i], outlines_[i]);
-    ++firstOfRing_[outlines_[i].ring + 1];
-  }
   for (std::uint32_t ring = 0; ring < kRings; ++ring) firstOfRing_[ring + 1] += firstOfRing_[ring];
   order_.resize(tiles_.size());
   for (std::uint32_t i = 0; i < tiles_.size(); ++i) order_[firstOfRing_[outlines_[i].ring]++] = i;
+  phase_ = Phase::test;
+  next_ = 0;
 }
 
 bool Horizon::step(std::size_t work) {
-  const std::size_t end = work_ + work;
-  if (!isSorted_) {
-    sortTiles();
-    work_ += tiles_.size() / 8;
-  }
-  while (!isDone() && work_ < end) testNext();
+  for (const std::size_t end = work_ + work; !isDone() && work_ < end;) switch (phase_) {
+      case Phase::outline:
+        outlineSome();
+        break;
+      case Phase::test:
+        testNext();
+        break;
+      default:
+        lookAtAll(next_);
+        ++work_;
+        if (++next_ == bins_.size()) phase_ = Phase::done;
+    }
   return isDone();
 }
 
-/// Tiles that stand out follow each other.
-void Horizon::prefetchLines() const {
-  constexpr std::size_t kAhead = 8;
-  if (next_ + kAhead >= order_.size()) return;
-  const Lines& lines = lines_[order_[next_ + kAhead]];
-  const auto bytes = sizeof(float) * 3 * static_cast<std::size_t>(lines.side * std::min(lines.count, 2));
-  for (std::size_t at = 0; at < bytes; at += 64)
-    __builtin_prefetch(reinterpret_cast<const char*>(lines.xyz) + at);
-  __builtin_prefetch(lines.goOn);
+void Horizon::testNext() {
+  if (constexpr std::size_t kAhead = 8; next_ + kAhead < order_.size())
+    __builtin_prefetch(&outlines_[order_[next_ + kAhead]]);
+  const Outline& outline = outlines_[order_[next_]];
+  ++work_;
+  if (outline.tile != kNone) test(outline);
+  if (++next_ < order_.size()) return;
+  phase_ = Phase::finish;
+  next_ = 0;
+  ring_ = kRings;
 }
 
-void Horizon::testNext() {
-  if (lastStood_) prefetchLines();
-  const Outline& outline = outlines_[order_[next_++]];
-  ++work_;
-  if (outline.tile == kNone) return;
-  for (; done_ < outline.ring; ++done_) flush(done_);
+void Horizon::test(const Outline& outline) {
   const HorizonTile& tile = tiles_[outline.tile];
+  ring_ = outline.ring;
   nearest_ = outline.nearest;
   off_ = outline.off;
+  for (std::size_t bin = 0; settings_.noWaiting && bin < bins_.size(); ++bin) lookAtAll(bin);
   // If a post stands out of the horizon then its block would, and nothing else has to be looked at.
   bool hidden = isPointBlocked(outline.peak[0], outline.peak[1], outline.peak[2]);
   if (hidden && !isBoxHidden(outline)) {
     offset_ = fromEye(eye_, tile.surface()->origin);
     hidden = tile.relief ? isHidden(*tile.relief) : isHidden(*tile.mesh);
   }
-  lastStood_ = !hidden;
   if (hidden) {
     // Nor can its lines stand out of what hides it.
     hidden_[outline.tile] = 1;
     ++hiddenCount_;
   } else if (tile.mayOcclude) {
-    if (tile.relief) {
-      enqueueLines(lines_[outline.tile]);
-    } else {
-      offset_ = fromEye(eye_, tile.mesh->origin);
-      enqueueLines(*tile.mesh, tile.below);
-    }
+    awaitLines(outline, tile);
   }
 }
 
@@ -198,7 +191,7 @@ std::optional<double> Horizon::elevation(double x, double y) const {
     if (!(d.f > 0 && std::abs(d.l) <= d.f)) continue;
     const float t = d.l / d.f;
     const int column = std::clamp(static_cast<int>((t + 1) * perT_), 0, columns_ - 1);
-    const float w = profile_[static_cast<std::size_t>(side * columns_ + column)];
+    const float w = profile_[at(side, column)];
     if (w == kNowhere) return {};
     return std::atan2(double{w}, std::sqrt(1 + double{t} * t));
   }
@@ -206,16 +199,22 @@ std::optional<double> Horizon::elevation(double x, double y) const {
 }
 
 bool Horizon::blocks(Vec3 direction) const {
-  return !profile_.empty() && isPointBlocked(static_cast<float>(direction.x), static_cast<float>(direction.y),
-                                             static_cast<float>(direction.z));
+  if (profile_.empty()) return false;
+  const auto place = placeOf(static_cast<float>(direction.x), static_cast<float>(direction.y));
+  return place &&
+         profile_[at(place->side, place->column)] * place->forwards > static_cast<float>(direction.z);
 }
 
-bool Horizon::isPointBlocked(float x, float y, float z) const {
+std::optional<Horizon::Place> Horizon::placeOf(float x, float y) const {
   const int side = std::abs(x) >= std::abs(y) ? (x > 0 ? 0 : 2) : (y > 0 ? 1 : 3);
   const Turned d = turned(side, x, y);
-  if (!(d.f > 0 && d.f < std::numeric_limits<float>::max())) return false;
-  const int column = std::min(static_cast<int>((d.l / d.f + 1) * perT_), columns_ - 1);
-  return profile_[static_cast<std::size_t>(side * columns_ + column)] * d.f > z;
+  if (!(d.f > 0 && d.f < std::numeric_limits<float>::max())) return {};
+  return Place{side, std::min(static_cast<int>((d.l / d.f + 1) * perT_), columns_ - 1), d.f};
+}
+
+bool Horizon::isPointBlocked(float x, float y, float z) {
+  const auto place = placeOf(x, y);
+  return place && lift(place->side, place->column, z / place->forwards);
 }
 
 }  // namespace trimtab

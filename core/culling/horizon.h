@@ -27,7 +27,8 @@ namespace trimtab {
 /// (t, w). A line of edges that runs through a whole column [t0, t1] therefore reaches, for every t of the
 /// column, at least the least w of its corners and of where it crosses the column's sides. That, the greatest
 /// over the lines that are wholly nearer than a place, is the horizon there: rays of the column below it have
-/// ended before. Nothing of this asks that a line lies on S: it may lie under it.
+/// ended before. Nothing of this asks that a line lies on S: it may lie under it; nor that all lines are
+/// looked at: so those that no tile's test asks for wait, and most need never be.
 ///
 /// A tile lies inside the boxes of its posts, and in finer steps inside the hulls of blocks of its posts,
 /// whose images are the hulls of the posts' images. It is hidden when each part of it is below the horizon,
@@ -80,6 +81,7 @@ class Horizon {
     /// Wrong: lines reach as high as the highest of a column, and a room as far as its middle. For tests that
     /// see it fail.
     bool raised = false, still = false;
+    bool noWaiting = false;  ///< lines are looked at before a tile asks for them: for tests that compare
     SimdLevel simd = SimdLevel::avx512;  ///< at most; the result is the same
 
     friend bool operator==(const Settings&, const Settings&) = default;
@@ -98,7 +100,7 @@ class Horizon {
   void begin(const EyeRoom& room, std::span<const HorizonTile> tiles, const Settings& settings);
   /// `work`: roughly tiles. Whether it is done.
   bool step(std::size_t work);
-  bool isDone() const { return isSorted_ && next_ == order_.size(); }
+  bool isDone() const { return phase_ == Phase::done; }
   std::size_t work() const { return work_; }  ///< since begin()
 
   const EyeRoom& room() const { return room_; }
@@ -115,10 +117,16 @@ class Horizon {
   bool blocks(Vec3 direction) const;
 
  private:
-  /// A piece of a line in columns of the profile, waiting until all of the line is nearer.
-  struct Piece {
-    std::uint32_t column, first, next;
-    std::int32_t count;
+  /// Lines that no tile has asked for yet: some of a tile's, in a quarter.
+  struct Waiting {
+    std::uint32_t tile, ring;  ///< the next is nearer than what is further out, as far as is known
+    int line, count, step;     ///< the next, how many are left, and from one to the next
+  };
+  /// Of a bin, which is a few columns of the profile that follow each other: who waits to raise them.
+  struct Raiser {
+    float top, topSoFar;       ///< to this at most; the most of all in the bin up to this one
+    std::int16_t first, last;  ///< columns, of other bins too
+    std::uint32_t waiting;
   };
   /// What most tiles are judged by, so that they are not looked at themselves.
   struct Outline {
@@ -126,13 +134,17 @@ class Horizon {
     std::array<float, 3> peak;
     float nearest, off;  ///< least distance at which it counts; how far directions to it may be off
     std::uint32_t tile, ring;
+    // Of a regular tile's lines that run across the line of sight: their highest corner; how far the
+    // outermost are from the borders, and how far they go on beyond, in shares of its size; how many.
+    float lineTop, inset, goOn;
+    int lines;
   };
-  /// Of a regular tile, those of its lines that run across the line of sight, and how they go on.
+  /// A tile's lines; of a regular one, those that run across the line of sight, and how they go on.
   struct Lines {
     const float *xyz, *goOn;
     std::array<float, 3> from, goOnFrom;  ///< their origins, from the eye
     float besideM, below;
-    int side, count;
+    int side;
   };
   /// How far the eye may be from the middle of its room, by a quarter.
   struct Play {
@@ -143,30 +155,47 @@ class Horizon {
     float across(float t) const { return std::abs(side - t * along); }
   };
 
+  void outlineSome();
   void sortTiles();
   Outline outlineOf(std::uint32_t tile) const;
-  Lines linesOf(const HorizonTile& tile, const Outline& outline) const;
+  /// Lines along the line of sight hide next to nothing that the others do not.
+  static bool runsInRows(const Outline& o) { return std::abs(o.y0 + o.y1) >= std::abs(o.x0 + o.x1); }
+  Lines linesOf(const HorizonTile& tile, bool rows) const;
   void testNext();
-  void prefetchLines() const;
+  void test(const Outline& outline);
 
   bool isHidden(const TileRelief& relief);
   bool isHidden(const MeshRelief& relief);
-  bool isPointBlocked(float x, float y, float z) const;
-  bool isBoxHidden(const Outline& box) const;
-  bool isBoxHidden(const Box& box) const;
-  bool isPartHidden(const TileRelief& relief, int part) const;
-  bool isPartHidden(const MeshRelief& relief, const MeshRelief::Part& part) const;
-  bool covers(int side, float t0, float t1, float w) const;
+  bool isPointBlocked(float x, float y, float z);
+  bool isBoxHidden(const Outline& box);
+  bool isBoxHidden(const Box& box);
+  bool isPartHidden(const TileRelief& relief, int part);
+  bool isPartHidden(const MeshRelief& relief, const MeshRelief::Part& part);
+  bool covers(int side, float t0, float t1, float w);
+  /// The nearest in the quarter.
+  int columnOf(float t) const {
+    return std::min(static_cast<int>((std::clamp(t, -1.0f, 1.0f) + 1) * perT_), columns_ - 1);
+  }
+  /// A direction of the plan: its column of the profile, and how far forwards the place is.
+  struct Place {
+    int side, column;
+    float forwards;
+  };
+  std::optional<Place> placeOf(float x, float y) const;
+  std::size_t at(int side, int column) const { return static_cast<std::size_t>(side * columns_ + column); }
 
-  void enqueueLines(const Lines& lines);
-  void enqueueLines(const MeshRelief& mesh, float below);
-  void enqueueLine(int last, int count, float besideM);
-  void enqueueRun(std::uint32_t ring, int side, int from, int count, bool rises, float nearestM);
-  int take(const float* x, const float* y, const float* z, int count, float below);
-  std::uint32_t ringOfLine(int last, int count, float besideM) const;
+  void awaitLines(const Outline& outline, const HorizonTile& tile);
+  void await(const Waiting& lines, const Outline& box);
+  bool lift(int side, int column, float w);
+  void tidy(std::size_t bin);
+  void lookAtAll(std::size_t bin);
+  bool look(Waiting& lines, int side);
+  void raiseLine(int side, float besideM, float nearest);
+  void raiseRun(int side, int from, int count, bool rises, float nearestM);
+  void take(const Lines& lines, int line, const HorizonTile& tile);
+  std::uint32_t ringOfLine(float besideM) const;
   template <bool Raised>
   int reach(const float* u, const float* w, int count, int step, int beside, int& first);
-  void flush(std::uint32_t ring);
 
   EyeRoom room_;
   Vec3 eye_;  ///< its middle
@@ -176,16 +205,18 @@ class Horizon {
   float perT_ = 0;  ///< columns a unit of t
   float slack_ = 0, leastM_ = 0;
   std::span<const HorizonTile> tiles_;
-  std::size_t next_ = 0, work_ = 0;
-  std::uint32_t done_ = 0;  ///< rings whose lines are in the horizon
-  bool isSorted_ = true;    ///< tiles are in their order
-  bool lastStood_ = false;  ///< the last tile stood out: so will most likely those after it
+  /// Outlines of all tiles, the test of each, nearest first, and then what still waits, bin by bin.
+  enum class Phase : std::uint8_t { outline, test, finish, done } phase_ = Phase::done;
+  std::size_t next_ = 0;  ///< of the phase
+  std::size_t work_ = 0;
+  std::uint32_t ring_ = 0;  ///< of the tile in hand
 
   /// Corners of a line; of a longer one what comes first.
   static constexpr int kMostCorners = 192;
   static_assert(kMostCorners >= TileRelief::kMostPosts + TileRelief::kGoOn);
-  /// The line in hand, from the eye, and its image in a quarter.
+  /// The line in hand, from the eye, and its image in a quarter; after the corner `last_` its neighbour's.
   alignas(64) std::array<float, kMostCorners + 16> x_, y_, z_, forward_, u_, w_;
+  int last_ = 0, corners_ = 0;
   std::vector<float> reached_;
   // Of the tile in hand: its origin from the eye, the least distance at which it counts, and how far
   // directions to it may be off.
@@ -194,12 +225,15 @@ class Horizon {
   std::vector<float> profile_;  ///< kSides * columns_
   std::vector<std::uint8_t> hidden_;
   std::size_t hiddenCount_ = 0;
-  // Tiles by how near their nearest point is, lines by how far their furthest.
-  std::vector<std::uint32_t> firstOfRing_, order_, firstPiece_;
+  std::vector<std::uint32_t> firstOfRing_, order_;  ///< tiles by how near their nearest point is
   std::vector<Outline> outlines_;
-  std::vector<Lines> lines_;
-  std::vector<Piece> pieces_;
-  std::vector<float> pool_;  ///< of the pieces' columns
+  std::vector<Waiting> waiting_;
+  std::vector<std::vector<Raiser>> bins_;  ///< kSides * binsEach_
+  int binsEach_ = 0, binShift_ = 0;        ///< 1 << binShift_ columns each
+  std::vector<float> awaited_;             ///< kSides * columns_: nothing that waits there is higher
+  /// Posts of the part in hand, from the eye: rows of kPartLanes.
+  static constexpr int kPartPosts = TileRelief::kPartCells + 1, kPartLanes = 16;
+  alignas(64) std::array<float, kPartPosts * kPartLanes> partX_{}, partY_{}, partZ_{};
 };
 
 }  // namespace trimtab

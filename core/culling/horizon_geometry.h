@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "trimtab/culling/horizon_kernels.h"
 #include "trimtab/frame/terrain_index.h"
 
 /// What the parts of the horizon share.
@@ -57,6 +58,25 @@ inline TurnedBox turned(int side, float x0, float x1, float y0, float y1) {
       return {-y1, -y0, x0, x1};
   }
 }
+
+/// From places as they lie from the eye.
+inline Projection projectionOf(int side, const float* x, const float* y, const float* z, float perT = 1) {
+  const bool turn = side % 2 != 0;
+  return {turn ? y : x, turn ? x : y, z, side < 2 ? 1.0f : -1.0f, side == 0 || side == 3 ? 1.0f : -1.0f,
+          perT};
+}
+
+/// What a box in front of the eye spans at most, and how high its top reaches.
+struct BoxImage {
+  float t0, t1, w;
+
+  BoxImage(const TurnedBox& b, float top) {
+    const float nearer = 1 / b.f0, further = 1 / b.f1;
+    t0 = b.l0 * (b.l0 < 0 ? nearer : further);
+    t1 = b.l1 * (b.l1 > 0 ? nearer : further);
+    w = top * (top > 0 ? nearer : further);
+  }
+};
 
 /// Whether the quarter, and a little beside it, meets the box.
 inline bool meets(const TurnedBox& b) {

@@ -25,6 +25,33 @@ TRIMTAB_INLINE void projectAll(const Projection& p, int count, float* __restrict
     }
 }
 
+TRIMTAB_INLINE void hullsOf(const Projection& p, PartHulls& hulls) {
+  constexpr int kLanes = PartHulls::kLanes, kAll = PartHulls::kRows * kLanes;
+  const auto least = [](float a, float b) { return b < a ? b : a; };
+  const auto most = [](float a, float b) { return a < b ? b : a; };
+  alignas(64) float t[kAll], w[kAll], low[kLanes + 2], high[kLanes + 2], up[kLanes + 2];
+  for (int k = 0; k < 2; ++k) low[kLanes + k] = high[kLanes + k] = up[kLanes + k] = 0;
+  for (int i = 0; i < kAll; ++i) {
+    const float inverse = 1 / (p.signF * p.a[i]);
+    t[i] = p.signL * p.b[i] * inverse;
+    w[i] = p.z[i] * inverse;
+  }
+  for (int row = 0; row < PartHulls::kBlockRows; ++row) {
+    const float *ta = t + 2 * row * kLanes, *wa = w + 2 * row * kLanes;
+    float *t0 = hulls.t0 + row * kLanes, *t1 = hulls.t1 + row * kLanes, *top = hulls.top + row * kLanes;
+    for (int i = 0; i < kLanes; ++i) {
+      low[i] = least(least(ta[i], ta[i + kLanes]), ta[i + 2 * kLanes]);
+      high[i] = most(most(ta[i], ta[i + kLanes]), ta[i + 2 * kLanes]);
+      up[i] = most(most(wa[i], wa[i + kLanes]), wa[i + 2 * kLanes]);
+    }
+    for (int i = 0; i < kLanes; ++i) {
+      t0[i] = least(least(low[i], low[i + 1]), low[i + 2]);
+      t1[i] = most(most(high[i], high[i + 1]), high[i + 2]);
+      top[i] = most(most(up[i], up[i + 1]), up[i + 2]);
+    }
+  }
+}
+
 TRIMTAB_INLINE int trendOf(const float* values, int count) {
   int rising = 0;
   for (int i = 0; i + 1 < count; ++i) rising += values[i + 1] >= values[i];
@@ -35,16 +62,15 @@ TRIMTAB_INLINE void lowerAll(float* w, int count, float up, float forwards, floa
   for (int i = 0; i < count; ++i) w[i] -= (up + std::abs(w[i]) * forwards) * inverse;
 }
 
-TRIMTAB_INLINE bool areAllAbove(const float* values, int count, float limit) {
+TRIMTAB_INLINE int firstNotAboveOf(const float* values, int count, float limit) {
   int i = 0;
   for (; i + 16 <= count; i += 16) {
     int low = 0;
     for (int k = 0; k < 16; ++k) low |= !(values[i + k] > limit);
-    if (low) return false;
+    if (low) break;
   }
-  for (; i < count; ++i)
-    if (!(values[i] > limit)) return false;
-  return true;
+  while (i < count && values[i] > limit) ++i;
+  return i;
 }
 
 TRIMTAB_INLINE void raiseAll(float* __restrict values, const float* __restrict to, int count) {
@@ -65,14 +91,17 @@ TRIMTAB_INLINE void erodeAll(float* values, int count, int width) {
   TARGET void project##NAME(const Projection& p, int count, float* f, float* u, float* w) { \
     projectAll(p, count, f, u, w);                                                          \
   }                                                                                         \
+  TARGET void hulls##NAME(const Projection& p, PartHulls& hulls) {                          \
+    hullsOf(p, hulls);                                                                      \
+  }                                                                                         \
   TARGET int trend##NAME(const float* values, int count) {                                  \
     return trendOf(values, count);                                                          \
   }                                                                                         \
   TARGET void lower##NAME(float* w, int count, float up, float forwards, float inverse) {   \
     lowerAll(w, count, up, forwards, inverse);                                              \
   }                                                                                         \
-  TARGET bool allAbove##NAME(const float* v, int count, float limit) {                      \
-    return areAllAbove(v, count, limit);                                                    \
+  TARGET int firstNotAbove##NAME(const float* v, int count, float limit) {                  \
+    return firstNotAboveOf(v, count, limit);                                                \
   }                                                                                         \
   TARGET void raise##NAME(float* v, const float* to, int count) {                           \
     raiseAll(v, to, count);                                                                 \
@@ -80,8 +109,8 @@ TRIMTAB_INLINE void erodeAll(float* values, int count, int width) {
   TARGET void erode##NAME(float* v, int count, int width) {                                 \
     erodeAll(v, count, width);                                                              \
   }                                                                                         \
-  constexpr Kernels k##NAME{project##NAME,  trend##NAME, lower##NAME,                       \
-                            allAbove##NAME, raise##NAME, erode##NAME};
+  constexpr Kernels k##NAME{project##NAME,       hulls##NAME, trend##NAME, lower##NAME,     \
+                            firstNotAbove##NAME, raise##NAME, erode##NAME};
 
 TRIMTAB_KERNELS(Portable, )
 #if TRIMTAB_X86

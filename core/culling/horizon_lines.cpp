@@ -1,95 +1,104 @@
 #include "trimtab/culling/horizon.h"
 #include "trimtab/culling/horizon_geometry.h"
-#include "trimtab/culling/horizon_kernels.h"
 
 /// How lines get into the profile.
 namespace trimtab {
 
 using namespace horizon;
 
-/// Takes up a line of the tile in hand; how many corners.
-int Horizon::take(const float* x, const float* y, const float* z, int count, float below) {
-  const float left = offset_[0], back = offset_[1], down = offset_[2] - below;
-  for (int k = 0; k < count; ++k) x_.data()[k] = x[k] + left;
-  for (int k = 0; k < count; ++k) y_.data()[k] = y[k] + back;
-  for (int k = 0; k < count; ++k) z_.data()[k] = z[k] + down;
-  return count;
+Horizon::Lines Horizon::linesOf(const HorizonTile& tile, bool rows) const {
+  Lines l{};
+  l.from = fromEye(eye_, tile.surface()->origin);
+  l.below = tile.below;
+  if (!tile.relief) {
+    l.besideM = tile.mesh->besideM;
+    return l;
+  }
+  const TileRelief& relief = *tile.relief;
+  l.side = relief.side;
+  l.besideM = relief.besideM;
+  const auto first = static_cast<std::size_t>(rows ? 0 : relief.lines / 2);
+  l.xyz = relief.lineXyz.data() + first * 3 * static_cast<std::size_t>(relief.side);
+  const TileRelief* next = rows ? tile.east : tile.north;
+  if (next && next->lines == relief.lines && next->side == relief.side) {
+    l.goOn = next->goOn.data() + first * 3 * TileRelief::kGoOn;
+    l.goOnFrom = fromEye(eye_, next->origin);
+  }
+  return l;
+}
+
+/// Takes a line in hand.
+void Horizon::take(const Lines& lines, int line, const HorizonTile& tile) {
+  const auto copy = [&](const float* x, const float* y, const float* z) {
+    const float left = lines.from[0], back = lines.from[1], down = lines.from[2] - lines.below;
+    for (int k = 0; k < corners_; ++k) x_.data()[k] = x[k] + left;
+    for (int k = 0; k < corners_; ++k) y_.data()[k] = y[k] + back;
+    for (int k = 0; k < corners_; ++k) z_.data()[k] = z[k] + down;
+    last_ = corners_ - 1;
+  };
+  if (!tile.relief) {
+    const MeshRelief& mesh = *tile.mesh;
+    const std::uint32_t first = mesh.lineFirst[static_cast<std::size_t>(line)],
+                        end = mesh.lineFirst[static_cast<std::size_t>(line) + 1];
+    corners_ = std::min(static_cast<int>(end - first), kMostCorners);
+    copy(mesh.lineX.data() + first, mesh.lineY.data() + first, mesh.lineZ.data() + first);
+    return;
+  }
+  corners_ = lines.side;
+  const float* xyz = lines.xyz + 3 * line * lines.side;
+  copy(xyz, xyz + lines.side, xyz + 2 * lines.side);
+  if (!lines.goOn) return;
+  const float* on = lines.goOn + 3 * TileRelief::kGoOn * line;
+  for (int k = 0; k < TileRelief::kGoOn; ++k, on += 3) {
+    const auto to = static_cast<std::size_t>(corners_++);
+    x_[to] = on[0] + lines.goOnFrom[0];
+    y_[to] = on[1] + lines.goOnFrom[1];
+    z_[to] = on[2] + lines.goOnFrom[2] - lines.below;
+  }
 }
 
 /// Where all of the line in hand is nearer, by more than the depth buffer's rounding. `besideM`: no corner
-/// up to the one `last` is further than that from the way between it and the first.
-std::uint32_t Horizon::ringOfLine(int last, int count, float besideM) const {
+/// up to `last_` is further than that from the way between it and the first.
+std::uint32_t Horizon::ringOfLine(float besideM) const {
   const auto squared = [this](int k) {
     const auto i = static_cast<std::size_t>(k);
     return x_[i] * x_[i] + y_[i] * y_[i];
   };
   float furthest = squared(0);
-  for (int k = last; k < count; ++k) furthest = std::max(furthest, squared(k));
+  for (int k = last_; k < corners_; ++k) furthest = std::max(furthest, squared(k));
   return ringOf((std::sqrt(furthest) + besideM) * (1 + 2e-5f) + 0.02f);
 }
 
-void Horizon::enqueueLines(const MeshRelief& mesh, float below) {
-  for (std::size_t line = 0; line < mesh.lines(); ++line) {
-    const std::uint32_t first = mesh.lineFirst[line];
-    const int count = take(mesh.lineX.data() + first, mesh.lineY.data() + first, mesh.lineZ.data() + first,
-                           std::min(static_cast<int>(mesh.lineFirst[line + 1] - first), kMostCorners), below);
-    enqueueLine(count - 1, count, mesh.besideM);
-  }
-}
-
-void Horizon::enqueueLines(const Lines& lines) {
-  offset_ = lines.from;
-  const float *xyz = lines.xyz, *on = lines.goOn;
-  for (int line = 0; line < lines.count; ++line, xyz += 3 * lines.side) {
-    int count = take(xyz, xyz + lines.side, xyz + 2 * lines.side, lines.side, lines.below);
-    for (int k = 0; on && k < TileRelief::kGoOn; ++k, on += 3) {
-      const auto to = static_cast<std::size_t>(count++);
-      x_[to] = on[0] + lines.goOnFrom[0];
-      y_[to] = on[1] + lines.goOnFrom[1];
-      z_[to] = on[2] + lines.goOnFrom[2] - lines.below;
-    }
-    enqueueLine(lines.side - 1, count, lines.besideM);
-  }
-}
-
-void Horizon::enqueueLine(int last, int count, float besideM) {
-  work_ += 1;
-  const std::uint32_t ring = ringOfLine(last, count, besideM);
-  const auto [x0, x1] = std::minmax(x_[0], x_[static_cast<std::size_t>(count - 1)]);
-  const auto [y0, y1] = std::minmax(y_[0], y_[static_cast<std::size_t>(count - 1)]);
+/// Raises the profile of a quarter to the line in hand. `nearest`: corners that are nearer do not count.
+void Horizon::raiseLine(int side, float besideM, float nearest) {
   const Kernels& kernel = kernels(settings_.simd);
-  for (int side = 0; side < kSides; ++side) {
-    if (!meets(turned(side, x0, x1, y0, y1))) continue;
-    const bool turn = side % 2 != 0;
-    kernel.project({turn ? y_.data() : x_.data(), turn ? x_.data() : y_.data(), z_.data(),
-                    side < 2 ? 1.0f : -1.0f, side == 0 || side == 3 ? 1.0f : -1.0f, perT_},
-                   count, forward_.data(), u_.data(), w_.data());
-    const float *u = u_.data(), *forward = forward_.data();
-    // Mostly the line is far away and straight.
-    float nearestM = forward[0];
-    for (int k = last; k < count; ++k) nearestM = std::min(nearestM, forward[k]);
-    nearestM -= besideM;
-    if (const int trend = kernel.trend(u, count); trend != 0 && nearestM > nearest_) {
-      enqueueRun(ring, side, 0, count, trend > 0, nearestM);
+  kernel.project(projectionOf(side, x_.data(), y_.data(), z_.data(), perT_), corners_, forward_.data(),
+                 u_.data(), w_.data());
+  const float *u = u_.data(), *forward = forward_.data();
+  // Mostly the line is far away and straight.
+  float nearestM = forward[0];
+  for (int k = last_; k < corners_; ++k) nearestM = std::min(nearestM, forward[k]);
+  nearestM -= besideM;
+  if (const int trend = kernel.trend(u, corners_); trend != 0 && nearestM > nearest) {
+    raiseRun(side, 0, corners_, trend > 0, nearestM);
+    return;
+  }
+  const auto usable = [&](int k) { return forward[k] > nearest; };
+  for (int k = 0; k + 1 < corners_;) {
+    if (!usable(k) || !usable(k + 1)) {
+      ++k;
       continue;
     }
-    const auto usable = [&](int k) { return forward[k] > nearest_; };
-    for (int k = 0; k + 1 < count;) {
-      if (!usable(k) || !usable(k + 1)) {
-        ++k;
-        continue;
-      }
-      const bool rises = u[k + 1] >= u[k];
-      int end = k + 1;
-      while (end + 1 < count && usable(end + 1) && (u[end + 1] >= u[end]) == rises) ++end;
-      enqueueRun(ring, side, k, end - k + 1, rises, *std::min_element(forward + k, forward + end + 1));
-      k = end;
-    }
+    const bool rises = u[k + 1] >= u[k];
+    int end = k + 1;
+    while (end + 1 < corners_ && usable(end + 1) && (u[end + 1] >= u[end]) == rises) ++end;
+    raiseRun(side, k, end - k + 1, rises, *std::min_element(forward + k, forward + end + 1));
+    k = end;
   }
 }
 
 /// Corners along which u rises, or falls all along.
-void Horizon::enqueueRun(std::uint32_t ring, int side, int from, int count, bool rises, float nearestM) {
+void Horizon::raiseRun(int side, int from, int count, bool rises, float nearestM) {
   const Kernels& kernel = kernels(settings_.simd);
   const Play& play = play_[static_cast<std::size_t>(side)];
   const float* u = u_.data() + from;
@@ -121,18 +130,7 @@ void Horizon::enqueueRun(std::uint32_t ring, int side, int from, int count, bool
     columns -= width - 1;
     first += (width - 1) / 2;
   }
-  // What is not above the horizon already needs not wait.
-  const float* horizon = profile_.data() + side * columns_ + first;
-  while (columns > 0 && !(reached[columns - 1] > horizon[columns - 1])) --columns;
-  int skip = 0;
-  while (skip < columns && !(reached[skip] > horizon[skip])) ++skip;
-  if (skip == columns) return;
-  pieces_.push_back({.column = static_cast<std::uint32_t>(side * columns_ + first + skip),
-                     .first = static_cast<std::uint32_t>(pool_.size()),
-                     .next = firstPiece_[ring],
-                     .count = columns - skip});
-  firstPiece_[ring] = static_cast<std::uint32_t>(pieces_.size() - 1);
-  pool_.insert(pool_.end(), reached + skip, reached + columns);
+  kernel.raise(profile_.data() + side * columns_ + first, reached, columns);
 }
 
 /// What a run of corners, `step` apart in the arrays, along which u rises, reaches in the columns that it
@@ -166,12 +164,6 @@ int Horizon::reach(const float* u, const float* w, int count, int step, int besi
   }
   if (Raised && started && column <= most) *reached++ = least;
   return static_cast<int>(reached - reached_.data());
-}
-
-void Horizon::flush(std::uint32_t ring) {
-  const Kernels& kernel = kernels(settings_.simd);
-  for (std::uint32_t n = firstPiece_[ring]; n != 0xffffffffu; n = pieces_[n].next)
-    kernel.raise(profile_.data() + pieces_[n].column, pool_.data() + pieces_[n].first, pieces_[n].count);
 }
 
 }  // namespace trimtab

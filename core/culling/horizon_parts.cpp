@@ -14,7 +14,7 @@ constexpr float kSteepest = 10;
 
 }  // namespace
 
-bool Horizon::covers(int side, float t0, float t1, float w) const {
+bool Horizon::covers(int side, float t0, float t1, float w) {
   if (!(std::abs(w) <= kSteepest)) return false;
   // A direction that turns by `off_` moves in t and w by at most this.
   const float beside = off_ * 1.5f * (2.1f + w * w);
@@ -24,16 +24,18 @@ bool Horizon::covers(int side, float t0, float t1, float w) const {
   t0 -= aside;
   t1 += aside;
   if (t0 > 1 || t1 < -1) return true;  // another quarter's
-  const int last = columns_ - 1;
-  const int from = std::clamp(static_cast<int>((std::max(t0, -1.0f) + 1) * perT_), 0, last),
-            to = std::clamp(static_cast<int>((std::min(t1, 1.0f) + 1) * perT_), 0, last);
-  const float* horizon = profile_.data() + side * columns_;
+  const int from = columnOf(t0), to = columnOf(t1);
+  const float* horizon = profile_.data() + at(side, 0);
   // Mostly it is the first that stands out.
-  if (!(horizon[from] > limit)) return false;
-  return kernels(settings_.simd).allAbove(horizon + from, to - from + 1, limit);
+  for (int column = from; column <= to;) {
+    if (!lift(side, column, limit)) return false;
+    ++column;
+    column += kernels(settings_.simd).firstNotAbove(horizon + column, to - column + 1, limit);
+  }
+  return true;
 }
 
-bool Horizon::isBoxHidden(const Box& box) const {
+bool Horizon::isBoxHidden(const Box& box) {
   Outline outline{};
   outline.x0 = box.minX + offset_[0];
   outline.x1 = box.maxX + offset_[0];
@@ -43,52 +45,51 @@ bool Horizon::isBoxHidden(const Box& box) const {
   return isBoxHidden(outline);
 }
 
-bool Horizon::isBoxHidden(const Outline& box) const {
+bool Horizon::isBoxHidden(const Outline& box) {
   for (int side = 0; side < kSides; ++side) {
     const TurnedBox b = turned(side, box.x0, box.x1, box.y0, box.y1);
     if (!meets(b)) continue;
     if (!(b.f0 > nearest_)) return false;
-    const float nearer = 1 / b.f0, further = 1 / b.f1;
-    if (!covers(side, b.l0 * (b.l0 < 0 ? nearer : further), b.l1 * (b.l1 > 0 ? nearer : further),
-                box.top * (box.top > 0 ? nearer : further)))
-      return false;
+    const BoxImage image(b, box.top);
+    if (!covers(side, image.t0, image.t1, image.w)) return false;
   }
   return true;
 }
 
-bool Horizon::isPartHidden(const TileRelief& relief, int part) const {
-  constexpr int kPosts = TileRelief::kPartCells + 1;
+bool Horizon::isPartHidden(const TileRelief& relief, int part) {
+  constexpr int kPosts = kPartPosts, kLanes = kPartLanes, kStep = TileRelief::kBlockCells;
+  static_assert(kPosts == PartHulls::kRows && kLanes == PartHulls::kLanes && kStep == 2);
   const int row0 = part / relief.partsPerSide() * TileRelief::kPartCells,
             column0 = part % relief.partsPerSide() * TileRelief::kPartCells;
   const int rows = std::min(kPosts, relief.side - row0), columns = std::min(kPosts, relief.side - column0);
+  for (int row = 0; row < kPosts; ++row) {
+    // What is beyond the last row or column is that once more.
+    const int first = (row0 + std::min(row, rows - 1)) * relief.side + column0;
+    const auto copy = [&](const std::vector<float>& values, float offset, auto& posts) {
+      const float* in = values.data() + first;
+      float* to = posts.data() + row * kLanes;
+      if (columns >= kPosts - 1)
+        for (int k = 0; k < kPosts - 1; ++k) to[k] = in[k] + offset;
+      else
+        for (int k = 0; k < columns; ++k) to[k] = in[k] + offset;
+      to[columns] = to[kPosts - 1] = in[columns - 1] + offset;
+    };
+    copy(relief.x, offset_[0], partX_);
+    copy(relief.y, offset_[1], partY_);
+    copy(relief.z, offset_[2], partZ_);
+  }
   const Box& b = relief.parts[static_cast<std::size_t>(part)];
   for (int side = 0; side < kSides; ++side) {
     const TurnedBox box =
         turned(side, b.minX + offset_[0], b.maxX + offset_[0], b.minY + offset_[1], b.maxY + offset_[1]);
     if (!meets(box)) continue;
     if (!(box.f0 > nearest_)) return false;
-    float t[kPosts][kPosts], w[kPosts][kPosts];
-    for (int j = 0; j < rows; ++j) {
-      const std::size_t first = static_cast<std::size_t>((row0 + j) * relief.side + column0);
-      for (int i = 0; i < columns; ++i) {
-        const std::size_t k = first + static_cast<std::size_t>(i);
-        const Turned p = turned(side, relief.x[k] + offset_[0], relief.y[k] + offset_[1]);
-        const float inverse = 1 / p.f;
-        t[j][i] = p.l * inverse;
-        w[j][i] = (relief.z[k] + offset_[2]) * inverse;
-      }
-    }
-    constexpr int kStep = TileRelief::kBlockCells;
+    PartHulls hulls;
+    kernels(settings_.simd).hulls(projectionOf(side, partX_.data(), partY_.data(), partZ_.data()), hulls);
     for (int j = 0; j + 1 < rows; j += kStep)
       for (int i = 0; i + 1 < columns; i += kStep) {
-        float t0 = t[j][i], t1 = t0, top = w[j][i];
-        for (int r = j; r <= std::min(j + kStep, rows - 1); ++r)
-          for (int c = i; c <= std::min(i + kStep, columns - 1); ++c) {
-            t0 = std::min(t0, t[r][c]);
-            t1 = std::max(t1, t[r][c]);
-            top = std::max(top, w[r][c]);
-          }
-        if (!covers(side, t0, t1, top)) return false;
+        const int k = j / kStep * kLanes + i;
+        if (!covers(side, hulls.t0[k], hulls.t1[k], hulls.top[k])) return false;
       }
   }
   return true;
@@ -105,7 +106,7 @@ bool Horizon::isHidden(const TileRelief& relief) {
   return true;
 }
 
-bool Horizon::isPartHidden(const MeshRelief& relief, const MeshRelief::Part& part) const {
+bool Horizon::isPartHidden(const MeshRelief& relief, const MeshRelief::Part& part) {
   for (int side = 0; side < kSides; ++side) {
     const TurnedBox box = turned(side, part.box.minX + offset_[0], part.box.maxX + offset_[0],
                                  part.box.minY + offset_[1], part.box.maxY + offset_[1]);

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "trimtab/frame/box_union.h"
+
 namespace trimtab {
 namespace {
 
@@ -20,16 +22,6 @@ std::uint32_t interleaved(std::uint32_t a, std::uint32_t b) {
     return (v | v << 1) & 0x55555555u;
   };
   return spread(a & 0xffffu) | spread(b & 0xffffu) << 1;
-}
-
-void extend(Box& b, float x, float y, float z) {
-  b = {std::min(b.minX, x), std::min(b.minY, y), std::min(b.minZ, z),
-       std::max(b.maxX, x), std::max(b.maxY, y), std::max(b.maxZ, z)};
-}
-
-constexpr Box nothing() {
-  constexpr float kMost = std::numeric_limits<float>::max();
-  return {kMost, kMost, kMost, -kMost, -kMost, -kMost};
 }
 
 /// Slope and orientation, in doubles of the floats that are drawn.
@@ -64,7 +56,7 @@ void addParts(std::span<const ReliefVertex> vertices, std::vector<Triangle>& tri
   std::vector<std::uint16_t> used;
   for (std::size_t first = 0; first < triangles.size(); first += MeshRelief::kPartTriangles) {
     const std::size_t end = std::min(first + MeshRelief::kPartTriangles, triangles.size());
-    MeshRelief::Part part{.box = nothing(),
+    MeshRelief::Part part{.box = kNoBox,
                           .firstVertex = static_cast<std::uint32_t>(relief.x.size()),
                           .firstCorner = static_cast<std::uint32_t>(relief.corners.size()),
                           .triangles = static_cast<std::uint8_t>(end - first)};
@@ -79,7 +71,7 @@ void addParts(std::span<const ReliefVertex> vertices, std::vector<Triangle>& tri
       relief.x.push_back(v.x);
       relief.y.push_back(v.y);
       relief.z.push_back(v.z);
-      extend(part.box, v.x, v.y, v.z);
+      part.box = united(part.box, v.x, v.y, v.z);
       if (v.z > vertices[used[part.peak]].z) part.peak = static_cast<std::uint8_t>(i);
     }
     for (std::size_t i = first; i < end; ++i)
@@ -142,8 +134,13 @@ void addLines(std::span<const ReliefVertex> vertices, std::span<const Triangle> 
       relief.lineZ.push_back(crossings[i].z);
     }
     const std::size_t from = relief.lineFirst.back();
-    relief.besideM = std::max(relief.besideM, furthestBeside(std::span(relief.lineX).subspan(from),
-                                                             std::span(relief.lineY).subspan(from)));
+    const std::span<const float> x = std::span(relief.lineX).subspan(from),
+                                 y = std::span(relief.lineY).subspan(from),
+                                 z = std::span(relief.lineZ).subspan(from);
+    relief.besideM = std::max(relief.besideM, furthestBeside(x, y));
+    Box box = kNoBox;
+    for (std::size_t i = 0; i < x.size(); ++i) box = united(box, x[i], y[i], z[i]);
+    relief.lineBox.push_back(box);
     relief.lineFirst.push_back(static_cast<std::uint32_t>(relief.lineX.size()));
   }
 }
@@ -154,7 +151,7 @@ void makeMeshRelief(std::span<const ReliefVertex> vertices, std::span<const std:
                     Vec3 origin, int step, MeshRelief& relief) {
   relief = {};
   relief.origin = origin;
-  relief.bounds = nothing();
+  relief.bounds = kNoBox;
   if (indices.size() < 3) return;
   float furthest = 0;
   relief.peak[2] = -std::numeric_limits<float>::max();
@@ -170,7 +167,7 @@ void makeMeshRelief(std::span<const ReliefVertex> vertices, std::span<const std:
         relief.upright = false;
         return;
       }
-      extend(relief.bounds, v.x, v.y, v.z);
+      relief.bounds = united(relief.bounds, v.x, v.y, v.z);
       furthest = std::max({furthest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
       if (v.z > relief.peak[2]) relief.peak = {v.x, v.y, v.z};
     }

@@ -28,8 +28,9 @@ struct MeshRelief : Relief {
   std::vector<std::uint8_t> corners;  ///< three a triangle, from the part's first vertex
   std::vector<std::uint32_t> lineFirst{0};  ///< where a line begins; one more than lines
   std::vector<float> lineX, lineY, lineZ;
-  float besideM = 0;   ///< no corner of a line is further from the way between its ends, in plan
-  float steepest = 0;  ///< rise over run of its triangles, against the frame's z
+  std::vector<Box> lineBox;  ///< one a line
+  float besideM = 0;         ///< no corner of a line is further from the way between its ends, in plan
+  float steepest = 0;        ///< rise over run of its triangles, against the frame's z
   /// No triangle stands upright or hangs over in the frame: over each place the mesh has one height.
   bool upright = false;
 

@@ -19,8 +19,9 @@ constexpr double kBesideM = 0.5, kBesideShare = 0.006, kTurnShare = 0.25;
 constexpr double kTurnFrames = 8, kMostTurn = 0.03;
 /// A step longer than this in one frame is a jump and says nothing about the next one, metres.
 constexpr double kJumpM = 60;
-/// Frames that a room holds for beyond those in which the next is built.
-constexpr double kSpareFrames = 2;
+/// Frames that a room holds for beyond those in which the next is built: more would be spent idle, while the
+/// others did the more.
+constexpr double kSpareFrames = 1;
 /// Errors are along the earth's verticals, which lean from the frame's z: where a tile takes room, so little
 /// beside its slopes that a place's height changes by at most half as much again.
 constexpr float kLean = 1.5f;
@@ -65,6 +66,7 @@ std::span<const std::uint8_t> MovingHorizon::hidden(const Frame& frame, const Su
   if (!isPlace(frame.eye)) {
     moving_ = false;
     verdicts_.assign(frame.tiles.size(), 0);
+    carriedBy_ = nullptr;
     return verdicts_;
   }
   const Vec3 step = moving_ ? frame.eye - lastEye_ : Vec3{};
@@ -121,12 +123,10 @@ void MovingHorizon::prepareNext(const Frame& frame, const SurfaceTree& tree, con
   if (coming.there && (coming.rule != frame.rule || coming.settings != frame.settings)) coming.there = false;
   if (coming.there) {
     if (coming.horizon.isDone()) {
-      // What lies wholly behind will never hold.
-      const Vec3 ahead = frame.eye + kSpareFrames * step_;
-      const EyeRoom& room = coming.horizon.room();
-      if (dot(room.to - ahead, step_) < 0) coming.there = false;
+      // Where the eye does not come to, since it slowed down, turned or has gone past, it would never hold.
+      if (!coming.horizon.room().holds(roomAhead(frame.eye, kFrames, kFrames).to)) coming.there = false;
     } else {
-      coming.horizon.step(standing.horizon.work() * 11 / (10 * (kFrames - 1)) + 16);
+      coming.horizon.step(standing.horizon.work() * 11 / (10 * kFrames) + 16);
     }
     return;
   }
@@ -142,6 +142,7 @@ void MovingHorizon::prepareNext(const Frame& frame, const SurfaceTree& tree, con
 void MovingHorizon::begin(Build& build, const EyeRoom& room, const Frame& frame, const SurfaceTree& tree,
                           const Fill& fill) {
   ++built_;
+  if (carriedBy_ == &build) carriedBy_ = nullptr;
   for (const TileDraw& tile : build.cut)
     if (tile.node < build.mark.size()) build.mark[tile.node] = 0;
   build.mark.resize(tree.size(), 0);
@@ -266,7 +267,12 @@ bool MovingHorizon::holds(Build& build, const Frame& frame, const SurfaceTree& t
     return true;
   }
   isCarried_ = true;
-  return carry(build, frame, tree);
+  if (carriedBy_ == &build && carriedTo_ == frame.cut) return true;
+  carriedBy_ = nullptr;
+  if (!carry(build, frame, tree)) return false;
+  carriedBy_ = &build;
+  carriedTo_ = frame.cut;
+  return true;
 }
 
 /// Verdicts for another cut; false where it has changed otherwise than was foreseen.

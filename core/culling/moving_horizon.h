@@ -57,8 +57,9 @@ class MovingHorizon {
   std::uint64_t fromScratch() const { return fromScratch_; }  ///< of them in a single frame
   std::uint64_t carried() const { return carried_; }          ///< frames with verdicts of another cut
 
-  /// Frames that a horizon is built in.
-  static constexpr int kFrames = 8;
+  /// Frames that a horizon is built in, after the one in which it is begun: with the spare one, all in which
+  /// the one before it serves, so that all cost alike.
+  static constexpr int kFrames = 10;
 
  private:
   struct Build {
@@ -95,6 +96,8 @@ class MovingHorizon {
   Vec3 lastEye_, step_, turn_;  ///< metres a frame, and a frame squared
   std::vector<std::uint8_t> verdicts_;
   bool isCarried_ = false;
+  const Build* carriedBy_ = nullptr;  ///< whose verdicts_ are, for the cut carriedTo_
+  std::uint64_t carriedTo_ = 0;
   std::vector<std::uint32_t> stack_;
   std::uint64_t built_ = 0, fromScratch_ = 0, carried_ = 0;
 };

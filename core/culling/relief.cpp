@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "trimtab/frame/box_union.h"
+
 namespace trimtab {
 
 float furthestBeside(std::span<const float> x, std::span<const float> y) {
@@ -19,6 +21,7 @@ float furthestBeside(std::span<const float> x, std::span<const float> y) {
 }
 
 void TileRelief::finish(int step) {
+  lineStep = step;
   const auto at = [this](int column, int row) {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(side) + static_cast<std::size_t>(column);
   };
@@ -30,6 +33,7 @@ void TileRelief::finish(int step) {
   bounds = {};
   reach = -1;
   besideM = 0;
+  lineTop.fill(-std::numeric_limits<float>::max());
   float furthest = -1;
   for (const auto* values : {&x, &y, &z})
     for (const float value : *values) {
@@ -46,21 +50,23 @@ void TileRelief::finish(int step) {
       for (const auto* values : {&x, &y, &z}) goOn.push_back((*values)[at(column + k * right, row + k * up)]);
     const std::span<const float> line = std::span(lineXyz).subspan(first);
     const auto corners = static_cast<std::size_t>(side);
-    besideM = std::max(besideM, furthestBeside(line.first(corners), line.subspan(corners, corners)));
+    const auto xs = line.first(corners), ys = line.subspan(corners, corners);
+    besideM = std::max(besideM, furthestBeside(xs, ys));
+    const auto zs = line.subspan(2 * corners);
+    float& top = lineTop[right != 0 ? 0 : 1];
+    top = std::max(top, *std::max_element(zs.begin(), zs.end()));
     ++lines;
   };
   // Not the borders: beside a coarser neighbour their odd posts are not drawn.
   for (int across = step; across < side - 1; across += step) add(0, across, 1, 0);
   for (int across = step; across < side - 1; across += step) add(across, 0, 0, 1);
 
-  constexpr float kMost = std::numeric_limits<float>::max();
   const auto boxOf = [&](int column, int row, int cells) {
-    Box b{kMost, kMost, kMost, -kMost, -kMost, -kMost};
+    Box b = kNoBox;
     for (int r = row; r <= std::min(row + cells, side - 1); ++r)
       for (int c = column; c <= std::min(column + cells, side - 1); ++c) {
         const std::size_t i = at(c, r);
-        b = {std::min(b.minX, x[i]), std::min(b.minY, y[i]), std::min(b.minZ, z[i]),
-             std::max(b.maxX, x[i]), std::max(b.maxY, y[i]), std::max(b.maxZ, z[i])};
+        b = united(b, x[i], y[i], z[i]);
       }
     return b;
   };

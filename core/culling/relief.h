@@ -33,11 +33,13 @@ struct TileRelief : Relief {
   static constexpr int kGoOn = 2;        ///< corners of a line that the one before it may go on with
 
   // What most tiles need of all this stands together.
-  int side = 0;                ///< posts
-  int lines = 0;               ///< that may hide what is behind them: rows of posts, then as many columns
-  float besideM = 0;           ///< no corner of a line is further from the way between its ends, in plan
-  std::vector<float> lineXyz;  ///< of each line all x, all y, all z
-  std::vector<float> goOn;     ///< of each line x, y and z of kGoOn corners after its first
+  int side = 0;                    ///< posts
+  int lines = 0;                   ///< that may hide what is behind them: rows of posts, then as many columns
+  int lineStep = 1;                ///< posts from one to the next
+  std::array<float, 2> lineTop{};  ///< the highest corner of the rows, and of the columns
+  float besideM = 0;               ///< no corner of a line is further from the way between its ends, in plan
+  std::vector<float> lineXyz;      ///< of each line all x, all y, all z
+  std::vector<float> goOn;         ///< of each line x, y and z of kGoOn corners after its first
   std::vector<std::array<float, 3>> peaks;  ///< the highest post of each part, the highest first
   std::vector<Box> parts;                   ///< partsPerSide() squared, rows from south
   std::vector<float> x, y, z;               ///< side * side, metres

@@ -4,6 +4,7 @@
 #include <limits>
 #include <random>
 
+#include "grid_surface.h"
 #include "trimtab/culling/horizon.h"
 
 namespace trimtab {
@@ -65,27 +66,12 @@ class Ground {
     const int i = std::min(static_cast<int>(u), posts_ - 2), j = std::min(static_cast<int>(v), posts_ - 2);
     const double a = u - i, b = v - j;
     const double sw = post(i, j), se = post(i + 1, j), nw = post(i, j + 1), ne = post(i + 1, j + 1);
-    if ((i + j) % 2 == 0)
-      return a > b ? sw + a * (se - sw) + b * (ne - se) : sw + b * (nw - sw) + a * (ne - nw);
-    return a + b < 1 ? sw + a * (se - sw) + b * (nw - sw) : ne + (1 - a) * (nw - ne) + (1 - b) * (se - ne);
+    return test::heightInCell(a, b, (i + j) % 2 == 0, sw, se, nw, ne);
   }
 
-  /// Whether the ground is over the segment from `eye` to `p` anywhere before its end: exact, since the
-  /// height over a straight way is linear from one grid line or diagonal to the next.
+  /// Whether the ground is over the way from `eye` to `p`.
   bool isCovered(Vec3 eye, Vec3 p) const {
-    const Vec3 d = p - eye;
-    const auto over = [&](double s) {
-      return s > 0 && s < 1 - 1e-9 && heightAt(eye.x + s * d.x, eye.y + s * d.y) > eye.z + s * d.z;
-    };
-    const auto along = [&](double from, double by) {
-      if (by == 0) return false;
-      const double a = from / step_, b = (from + by) / step_;
-      for (double k = std::ceil(std::min(a, b)); k <= std::max(a, b); ++k)
-        if (over((k * step_ - from) / by)) return true;
-      return false;
-    };
-    return along(eye.x, d.x) || along(eye.y, d.y) || along(eye.x + eye.y, d.x + d.y) ||
-           along(eye.x - eye.y, d.x - d.y);
+    return test::isCovered(eye, p, step_, [this](double x, double y) { return heightAt(x, y); });
   }
 
  private:
@@ -215,6 +201,85 @@ TEST(Horizon, hidesMoreWithMoreColumns) {
     const std::size_t hidden = fly(ground, 20, {.columns = columns}, 7).hidden;
     EXPECT_GT(hidden, last);
     last = hidden;
+  }
+}
+
+// Parts and blocks of posts end where the tile does.
+TEST(Horizon, hidesOnlyWhatTheGroundItselfHidesWhateverTheTilesSize) {
+  for (const int cells : {5, 6, 9, 15, 31}) {
+    const Ground ground(160 / cells, cells, 60, 3);
+    const Tally tally = fly(ground, 40, {}, 5);
+    EXPECT_EQ(tally.wrong, 0u) << cells;
+    EXPECT_GT(tally.hidden, 100u) << cells;
+  }
+}
+
+/// A level tile.
+TileRelief plateau(double x0, double x1, double y0, double y1, double z) {
+  TileRelief relief;
+  relief.side = 9;
+  relief.origin = {x0, y0, z};
+  for (int y = 0; y < 9; ++y)
+    for (int x = 0; x < 9; ++x) {
+      relief.x.push_back(static_cast<float>((x1 - x0) * x / 8));
+      relief.y.push_back(static_cast<float>((y1 - y0) * y / 8));
+      relief.z.push_back(0);
+    }
+  relief.finish(4);
+  return relief;
+}
+
+TEST(Horizon, hidesNothingByLinesThatAreBehindIt) {
+  // Begins nearer to the eye than the one beside it, and is seen behind that.
+  const TileRelief high = plateau(-100, 12000, 1000, 3000, 600), before = plateau(2000, 2400, 600, 1000, 0),
+                   behind = plateau(14000, 14400, 4000, 4400, 0);
+  const std::vector<HorizonTile> tiles{{&high, true}, {&before, true}, {&behind, true}};
+  for (const bool noWaiting : {false, true}) {
+    Horizon horizon;
+    horizon.build({0, 0, 100}, tiles, {.noWaiting = noWaiting});
+    EXPECT_EQ(horizon.hidden(), (std::vector<std::uint8_t>{0, 0, 1}));
+  }
+}
+
+// What waits until a test asks for it is not missing where it would have hidden something.
+TEST(Horizon, hidesByLinesThatWaitAsMuchAsByThoseThatDoNot) {
+  const Ground ground(12, 16, 60, 5);
+  const std::vector<MeshRelief> meshes = ground.meshes(4);
+  for (const std::vector<HorizonTile>& tiles : {ground.tiles(), tilesOf(meshes)}) {
+    const Tally waiting = fly(ground, tiles, 40, {}, 7);
+    const Tally all = fly(ground, tiles, 40, {.noWaiting = true}, 7);
+    EXPECT_GT(all.hidden, 1000u);
+    EXPECT_GT(waiting.hidden, all.hidden * 995 / 1000);
+    EXPECT_LE(waiting.hidden, all.hidden);
+  }
+}
+
+TEST(Horizon, looksAtAFewLinesOnly) {
+  const Ground ground(12, 16, 60, 5);
+  const std::vector<HorizonTile> tiles = ground.tiles();
+  std::size_t waiting = 0, all = 0;
+  Horizon horizon;
+  for (const double above : {100.0, 400.0, 1500.0}) {
+    const Vec3 eye{5000, 5000, ground.heightAt(5000, 5000) + above};
+    horizon.build(eye, tiles, {});
+    waiting += horizon.work();
+    horizon.build(eye, tiles, {.noWaiting = true});
+    all += horizon.work();
+  }
+  EXPECT_LT(waiting, all * 8 / 10);
+  std::printf("work: %zu, without waiting %zu\n", waiting, all);
+}
+
+TEST(Horizon, doesNoMoreInAStepThanItMay) {
+  const Ground ground(12, 16, 60, 5);
+  const std::vector<HorizonTile> tiles = ground.tiles();
+  const Vec3 eye{5000, 5000, ground.heightAt(5000, 5000) + 400};
+  Horizon horizon;
+  horizon.begin({eye, eye, 0}, tiles, {});
+  EXPECT_EQ(horizon.work(), 0u);
+  for (std::size_t before = 0, steps = 0; !horizon.step(20); before = horizon.work(), ++steps) {
+    ASSERT_LT(horizon.work() - before, 20u + 24u) << "the last tile's parts and the lines that it asks for";
+    ASSERT_LT(steps, 1000u);
   }
 }
 

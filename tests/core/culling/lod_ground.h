@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "grid_surface.h"
 #include "trimtab/culling/horizon.h"
 #include "trimtab/culling/select.h"
 #include "trimtab/frame/box_union.h"
@@ -84,29 +85,14 @@ class LodGround {
       const double a = u - i, b = v - j;
       const auto post = [&](int c, int r) { return drawnPost(node, level, column, row, c, r); };
       const double sw = post(i, j), se = post(i + 1, j), nw = post(i, j + 1), ne = post(i + 1, j + 1);
-      if ((i + j) % 2 == 0)
-        return a > b ? sw + a * (se - sw) + b * (ne - se) : sw + b * (nw - sw) + a * (ne - nw);
-      return a + b < 1 ? sw + a * (se - sw) + b * (nw - sw) : ne + (1 - a) * (nw - ne) + (1 - b) * (se - ne);
+      return heightInCell(a, b, (i + j) % 2 == 0, sw, se, nw, ne);
     }
     return 0;
   }
 
-  /// Whether the ground is over the segment from `eye` to `p` anywhere before its end: exact, since the
-  /// height over a straight way is linear from one line of the finest grid, or of its diagonals, to the next.
+  /// Whether the ground is over the way from `eye` to `p`.
   bool isCovered(Vec3 eye, Vec3 p) const {
-    const Vec3 d = p - eye;
-    const auto over = [&](double s) {
-      return s > 0 && s < 1 - 1e-9 && heightAt(eye.x + s * d.x, eye.y + s * d.y) > eye.z + s * d.z;
-    };
-    const auto along = [&](double from, double by) {
-      if (by == 0) return false;
-      const double a = from / step_, b = (from + by) / step_;
-      for (double k = std::ceil(std::min(a, b)); k <= std::max(a, b); ++k)
-        if (over((k * step_ - from) / by)) return true;
-      return false;
-    };
-    return along(eye.x, d.x) || along(eye.y, d.y) || along(eye.x + eye.y, d.x + d.y) ||
-           along(eye.x - eye.y, d.x - d.y);
+    return test::isCovered(eye, p, step_, [this](double x, double y) { return heightAt(x, y); });
   }
   /// A point of a tile's surface as drawn.
   Vec3 pointOf(std::uint32_t node, double u, double v) const {
@@ -211,9 +197,7 @@ class LodGround {
     const double a = double(x - x0) / cell - i, b = double(y - y0) / cell - j;
     const auto post = [&](int c, int r) { return double{source(x0 + c * cell, y0 + r * cell)}; };
     const double sw = post(i, j), se = post(i + 1, j), nw = post(i, j + 1), ne = post(i + 1, j + 1);
-    if ((i + j) % 2 == 0)
-      return a > b ? sw + a * (se - sw) + b * (ne - se) : sw + b * (nw - sw) + a * (ne - nw);
-    return a + b < 1 ? sw + a * (se - sw) + b * (nw - sw) : ne + (1 - a) * (nw - ne) + (1 - b) * (se - ne);
+    return heightInCell(a, b, (i + j) % 2 == 0, sw, se, nw, ne);
   }
 
   int posts_;

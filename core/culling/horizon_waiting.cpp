@@ -1,0 +1,151 @@
+#include "trimtab/culling/horizon.h"
+#include "trimtab/culling/horizon_geometry.h"
+
+/// Lines that wait until a test asks for them. What is told of them here is an estimate, which decides no
+/// more than whether they are looked at: the proof needs none of it.
+namespace trimtab {
+
+using namespace horizon;
+
+void Horizon::awaitLines(const Outline& outline, const HorizonTile& tile) {
+  Outline box = outline;
+  if (tile.relief) {
+    if (outline.lines == 0) return;
+    const bool rows = runsInRows(outline);
+    float &near = rows ? box.y0 : box.x0, &far = rows ? box.y1 : box.x1;
+    const float inset = outline.inset * (far - near);
+    near += inset;
+    far -= inset;
+    (rows ? box.x1 : box.y1) += outline.goOn * (rows ? box.x1 - box.x0 : box.y1 - box.y0);
+    box.top = outline.lineTop;
+    const bool forwards = near + far > 0;
+    await({.tile = outline.tile,
+           .ring = 0,
+           .line = forwards ? 0 : outline.lines - 1,
+           .count = outline.lines,
+           .step = forwards ? 1 : -1},
+          box);
+    return;
+  }
+  const auto from = fromEye(eye_, tile.mesh->origin);
+  Waiting line{.tile = outline.tile, .ring = 0, .line = 0, .count = 1, .step = 1};
+  for (const Box& b : tile.mesh->lineBox) {
+    box.x0 = b.minX + from[0];
+    box.x1 = b.maxX + from[0];
+    box.y0 = b.minY + from[1];
+    box.y1 = b.maxY + from[1];
+    box.top = b.maxZ + from[2] - tile.below;
+    await(line, box);
+    ++line.line;
+  }
+}
+
+/// Lines within a box.
+void Horizon::await(const Waiting& lines, const Outline& box) {
+  for (int side = 0; side < kSides; ++side) {
+    const TurnedBox b = turned(side, box.x0, box.x1, box.y0, box.y1);
+    if (!meets(b)) continue;
+    Waiting here = lines;
+    // What is too near for that may raise all.
+    int first = 0, last = columns_ - 1;
+    float top = std::numeric_limits<float>::max();
+    if (b.f0 > box.nearest) {
+      const BoxImage image(b, box.top);
+      if (image.t0 > 1 || image.t1 < -1) continue;
+      first = columnOf(image.t0);
+      last = columnOf(image.t1);
+      top = image.w;
+      const float beside = std::max(-b.l0, b.l1);
+      here.ring = ringOf(std::sqrt(b.f0 * b.f0 + beside * beside));
+    }
+    float* awaited = awaited_.data() + at(side, 0);
+    for (int column = first; column <= last; ++column) awaited[column] = std::max(awaited[column], top);
+    for (int n = first >> binShift_; n <= last >> binShift_; ++n) {
+      auto& bin = bins_[static_cast<std::size_t>(side * binsEach_ + n)];
+      bin.push_back({.top = top,
+                     .topSoFar = bin.empty() ? top : std::max(bin.back().topSoFar, top),
+                     .first = static_cast<std::int16_t>(first),
+                     .last = static_cast<std::int16_t>(last),
+                     .waiting = static_cast<std::uint32_t>(waiting_.size())});
+    }
+    waiting_.push_back(here);
+  }
+}
+
+/// Whether the profile is above w in a column, once lines that may raise it so far are looked at. Those that
+/// came last come first: mostly ground rises towards its crest, and what is before that need not be looked
+/// at.
+bool Horizon::lift(int side, int column, float w) {
+  const float& reached = profile_[at(side, column)];
+  if (reached > w) return true;
+  float& awaited = awaited_[at(side, column)];
+  if (!(awaited > w)) return false;
+  const auto number = static_cast<std::size_t>(side * binsEach_ + (column >> binShift_));
+  const auto& bin = bins_[number];
+  bool any = false;
+  float stays = w;
+  for (std::size_t k = bin.size(); k-- > 0 && bin[k].topSoFar > w && !(reached > w);) {
+    const Raiser& raiser = bin[k];
+    if (!(raiser.top > w && raiser.first <= column && column <= raiser.last)) continue;
+    Waiting& lines = waiting_[raiser.waiting];
+    if (lines.count > 0 && lines.ring < ring_) any = look(lines, side) || any;
+    if (lines.count > 0) stays = std::max(stays, raiser.top);
+  }
+  if (any) tidy(number);
+  if (reached > w) return true;
+  awaited = stays;
+  return false;
+}
+
+/// Forgets what is done, or is no higher than all of a bin's columns are.
+void Horizon::tidy(std::size_t number) {
+  auto& bin = bins_[number];
+  const int side = static_cast<int>(number) / binsEach_,
+            first = static_cast<int>(number) % binsEach_ << binShift_;
+  const float* profile = profile_.data() + at(side, 0);
+  const float floor =
+      *std::min_element(profile + first, profile + std::min(first + (1 << binShift_), columns_));
+  std::size_t kept = 0;
+  float topSoFar = kNowhere;
+  for (Raiser raiser : bin) {
+    if (!(raiser.top > floor) || waiting_[raiser.waiting].count == 0) continue;
+    raiser.topSoFar = topSoFar = std::max(topSoFar, raiser.top);
+    bin[kept++] = raiser;
+  }
+  bin.resize(kept);
+}
+
+/// All that may raise a bin's columns, as far as it is nearer than the tile in hand.
+void Horizon::lookAtAll(std::size_t number) {
+  const auto& bin = bins_[number];
+  const int side = static_cast<int>(number) / binsEach_,
+            first = static_cast<int>(number) % binsEach_ << binShift_,
+            last = std::min(first + (1 << binShift_), columns_) - 1;
+  const Kernels& kernel = kernels(settings_.simd);
+  for (std::size_t k = bin.size(); k-- > 0;) {
+    const Raiser& raiser = bin[k];
+    Waiting& lines = waiting_[raiser.waiting];
+    if (lines.count == 0 || lines.ring >= ring_) continue;
+    const int from = std::max(first, int{raiser.first}), count = std::min(last, int{raiser.last}) - from + 1;
+    if (kernel.firstNotAbove(profile_.data() + at(side, from), count, raiser.top) < count) look(lines, side);
+  }
+}
+
+/// Puts lines into the profile, as far as they are all nearer than the tile in hand; whether any.
+bool Horizon::look(Waiting& waiting, int side) {
+  const HorizonTile& tile = tiles_[waiting.tile];
+  const Outline& outline = outlines_[waiting.tile];
+  const Lines lines = linesOf(tile, runsInRows(outline));
+  bool any = false;
+  for (; waiting.count > 0; --waiting.count, waiting.line += waiting.step) {
+    take(lines, waiting.line, tile);
+    waiting.ring = ringOfLine(lines.besideM);
+    if (waiting.ring >= ring_) break;
+    ++work_;
+    raiseLine(side, lines.besideM, outline.nearest);
+    any = true;
+  }
+  return any;
+}
+
+}  // namespace trimtab
