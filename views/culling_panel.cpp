@@ -53,6 +53,10 @@ QString whatServes(OcclusionMethod method, const QString& size) {
   return {};
 }
 
+QString horizonLeftOut() {
+  return CullingPanel::tr("The horizon is left out: near here it hid next to nothing.");
+}
+
 QString textOf(const PickedNode& node) {
   const auto row = [](const QString& name, const QString& value) {
     return QStringLiteral("<tr><td>%1&nbsp;&nbsp;</td><td>%2</td></tr>").arg(name, value);
@@ -76,6 +80,7 @@ QString textOf(const PickedNode& node) {
 
 CullingPanel::CullingPanel(Draft& draft, QWidget* parent)
     : QWidget(parent),
+      draft_(draft),
       served_(new QLabel),
       work_(new QLabel),
       picked_(new QLabel),
@@ -119,6 +124,9 @@ void CullingPanel::showStages(const TraceBuffer& frames) {
   stages_->setAccessibleName(tr("Stages of a frame, stacked"));
   stages_->setToolTip(tr("What each stage of a frame takes; the Plots dock has the rest"));
   stages_->setSpan(kStagesShownS);
+  const auto budget = [this] { stages_->setBudget(draft_.active()->measure.budget.value()); };
+  connect(&draft_, &Draft::activeChanged, this, budget);
+  budget();
   layout_->insertWidget(layout_->indexOf(work_), stages_, 2);
 }
 
@@ -156,7 +164,7 @@ void CullingPanel::showHorizon(std::vector<float> elevationDeg, double headingDe
 QString CullingPanel::whyNoHorizon() const {
   if (!frame_.cullingNote.empty()) return QString::fromStdString(frame_.cullingNote);
   if (frame_.occlusion == OcclusionMethod::horizon || frame_.occlusion == OcclusionMethod::horizon_and_map)
-    return tr("The horizon is left out: near here it hid next to nothing.");
+    return horizonLeftOut();
   if (frame_.occlusion || frame_.depthMap) return tr("A depth map serves, not the horizon.");
   return tr("No horizon: nothing asks for one in this frame.");
 }
@@ -185,7 +193,7 @@ QString CullingPanel::served() const {
     QStringList sentences{whatServes(method, size)};
     if (!note.isEmpty()) sentences << note;
     if (!frame_.horizon && note.isEmpty() && (both || method == OcclusionMethod::horizon))
-      sentences << tr("The horizon is left out: near here it hid next to nothing.");
+      sentences << horizonLeftOut();
     if (!frame_.depthMap && frame_.tilesDrawn > 0 && (both || method == OcclusionMethod::cpu_map))
       sentences << tr("The map is left out: near here one hid next to nothing.");
     return sentences.join(QLatin1Char(' '));

@@ -65,6 +65,7 @@ class CullingPanel : public QWidget {
   QString served() const;
   QString whyNoHorizon() const;
 
+  Draft& draft_;
   QLabel *served_, *work_, *picked_;
   BarList* reasons_;
   DepthMapInset* map_;

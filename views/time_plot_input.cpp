@@ -70,6 +70,8 @@ void TimePlot::mouseReleaseEvent(QMouseEvent*) {
 }
 
 void TimePlot::wheelEvent(QWheelEvent* event) {
+  // In a dock of another matter, which scrolls, the wheel is the dock's until the plot was clicked.
+  if (firstLane_ != 0 && !hasFocus()) return event->ignore();
   zoom(std::pow(0.85, event->angleDelta().y() / 120.0), timeAxis()->pixelToCoord(event->position().x()));
   event->accept();
 }

@@ -5,9 +5,11 @@
 
 #include <QLabel>
 #include <QTest>
+#include <QWheelEvent>
 #include <algorithm>
 
 #include "trimtab/views/horizon_inset.h"
+#include "trimtab/views/time_plot.h"
 
 namespace trimtab::views {
 namespace {
@@ -59,6 +61,28 @@ TEST_F(CullingPanelTest, saysWhatServesAndWhyNotWhatWasAskedFor) {
   frame.decision.depthMap.reset();
   EXPECT_TRUE(says(frame, QStringLiteral("plain view-frustum culling")));
   EXPECT_EQ(ofHorizon(), QStringLiteral("No horizon: nothing asks for one in this frame."));
+}
+
+TEST_F(CullingPanelTest, showsStagesWithTheirBudgetAndLetsTheDockScroll) {
+  TraceBuffer frames;
+  panel_.showStages(frames);
+  auto* plot = panel_.findChild<TimePlot*>();
+  ASSERT_NE(plot, nullptr);
+  const auto budget = [&] {
+    for (int i = 0; i < plot->itemCount(); ++i)
+      if (const auto* line = qobject_cast<QCPItemStraightLine*>(plot->item(i)))
+        if (line->point1->value() == line->point2->value()) return line->point1->value();
+    return 0.0;
+  };
+  EXPECT_EQ(budget(), draft_.active()->measure.budget.value());
+  draft_.setValue("measure.budget_ms", 8.3);
+  EXPECT_EQ(budget(), 8.3);
+  const double shown = plot->shown().size();
+  plot->clearFocus();
+  QWheelEvent wheel({50, 50}, plot->mapToGlobal(QPointF(50, 50)), {}, {0, -120}, Qt::NoButton, Qt::NoModifier,
+                    Qt::NoScrollPhase, false);
+  QCoreApplication::sendEvent(plot, &wheel);
+  EXPECT_EQ(plot->shown().size(), shown);
 }
 
 }  // namespace
