@@ -79,7 +79,6 @@ StaticLodPanel::StaticLodPanel(Draft& draft, QWidget* parent)
       "Faces light grey, edges red, edges that may not change in their level black: borders between nodes, "
       "tiles and holes"));
 
-
   auto* inside = new QVBoxLayout(body_);
   inside->setContentsMargins(0, 0, 0, 0);
   inside->addWidget(new QLabel(tr("<b>Triangles drawn now, of those in the level</b>")));

@@ -92,7 +92,6 @@ TerrainPanel::TerrainPanel(Draft& draft, QWidget* parent)
   // As high as its rows: the dock scrolls, and no bar of its own covers the last column.
   table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
 
-
   auto* progress = new QHBoxLayout;
   progress->setContentsMargins(0, 0, 0, 0);
   progress->addWidget(bar_, 1);

@@ -266,10 +266,10 @@ FrameCost Session::finished(const scene::FrameResult& result, double now) {
   inPicture_.clear();
   if (requestedRows_ > completeRows_) {
     const VisibleSet& visible = result.visible;
-    rows_[requestedRows_ - 1].frame = TraceFrame{
-        {visible.triangles, visible.vertices, visible.tiles.size(), visible.outsideFrustum, visible.occluded,
-         visible.beyondVisibility, visible.backFacing},
-        lastCost_};
+    rows_[requestedRows_ - 1].frame =
+        TraceFrame{{visible.triangles, visible.vertices, visible.tiles.size(), visible.outsideFrustum,
+                    visible.occluded, visible.beyondVisibility, visible.backFacing},
+                   lastCost_};
     completeRows_ = requestedRows_;
   }
   return lastCost_;

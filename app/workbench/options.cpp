@@ -24,8 +24,8 @@ Parsed parseOptions(const QStringList& arguments) {
   const QCommandLineOption version({"v", "version"}, "Show the version.");
   const QCommandLineOption preset("preset", "Open this preset: a file, or default, as-published, as-printed.",
                                   "P");
-  const QCommandLineOption terrain("terrain", "Open this terrain: an elevation file, a folder, scenery or a database.",
-                                   "DB");
+  const QCommandLineOption terrain(
+      "terrain", "Open this terrain: an elevation file, a folder, scenery or a database.", "DB");
   const QCommandLineOption listen("listen", "Listen for a host on this UDP port.", "PORT");
   const QCommandLineOption fly("fly", "Play this flight here.", "FLIGHT");
   const QCommandLineOption head(

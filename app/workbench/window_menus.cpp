@@ -335,7 +335,8 @@ void MainWindow::showAbout() {
          "<p>Terrain: %5</p>")
           .arg(QStringLiteral(TRIMTAB_VERSION), QString::fromStdString(gl.renderer).toHtmlEscaped(),
                QString::fromStdString(gl.version).toHtmlEscaped(),
-               gl.software ? tr(" (software)") : QString(), QString::fromStdString(gl.drawing).toHtmlEscaped()));
+               gl.software ? tr(" (software)") : QString(),
+               QString::fromStdString(gl.drawing).toHtmlEscaped()));
 }
 
 }  // namespace trimtab::workbench
