@@ -1,7 +1,7 @@
 #include "trimtab/scene/terrain_drawer.h"
 
 #include <algorithm>
-#include <tuple>
+#include <bit>
 
 #include "trimtab/culling/box_distance.h"
 #include "trimtab/scene/gl_api.h"
@@ -56,11 +56,12 @@ void TerrainDrawer::draw(unsigned program) {
 void TerrainDrawer::arrange(std::vector<TileDraw>& nodes, Vec3 eye) const {
   places_.clear();
   const std::vector<Box>& boxes = bounds();
-  for (const TileDraw& node : nodes)
-    places_.push_back({static_cast<float>(distanceSquared(boxes[node.node], eye)), node});
-  std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
-    return std::tie(a.distance, a.node.node) < std::tie(b.distance, b.node.node);
-  });
+  // A distance is not negative: its bits are in order too, also where the eye is no place.
+  for (const TileDraw& node : nodes) {
+    const auto distance = static_cast<float>(distanceSquared(boxes[node.node], eye));
+    places_.push_back({std::uint64_t{std::bit_cast<std::uint32_t>(distance)} << 32 | node.node, node});
+  }
+  std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) { return a.key < b.key; });
   std::transform(places_.begin(), places_.end(), nodes.begin(), [](const Place& p) { return p.node; });
 }
 
@@ -71,8 +72,8 @@ void TerrainDrawer::drawSurface(unsigned program, std::span<const TileDraw> node
   const std::vector<CullReason> reason =
       overlays.colourByReason ? visible().reasons(bounds().size()) : std::vector<CullReason>{};
   for (const TileDraw& node : nodes)
-    tints_.push_back(tint(overlays.colourByReason ? reasonColour(reason[node.node])
-                                                  : levelColour(levelOf(node))));
+    tints_.push_back(
+        tint(overlays.colourByReason ? reasonColour(reason[node.node]) : levelColour(levelOf(node))));
   drawTinted(program, nodes, tints_);
 }
 

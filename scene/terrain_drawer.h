@@ -100,7 +100,7 @@ class TerrainDrawer {
  private:
   std::vector<std::uint32_t> tints_;
   struct Place {
-    float distance;
+    std::uint64_t key;  ///< the square of its distance, then its number
     TileDraw node;
   };
   mutable std::vector<Place> places_;
