@@ -69,15 +69,16 @@ void StaticLodCulling::select(const FrameRequest& request, const EyePose& eye, F
     cutKey_ = key;
     ++counters.cutsSelected;
   }
+  const double farM =
+      request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited;
   const VisibleKey wanted{
-      key, eye, v, request.method, request.decision.depthMap, request.decision.weather.farM};
+      key, eye, v, request.method, request.decision.depthMap, farM, request.overlays.treePicture};
   // Frozen, what was hidden from there stays hidden: the picture is another eye's and cannot tell.
-  if (request.frozenEye && visibleKey_ == wanted) return;
+  if (visibleKey_ == wanted && (request.frozenEye || request.skips.sameVisible)) return;
   visibleKey_ = wanted;
+  hiddenIsKnown_ = false;
   ++counters.visibleSelected;
-  selectStaticVisible(
-      index(), vertices_, cut_, eye, v, request.method != CullingCase::none, visible_,
-      request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited);
+  selectStaticVisible(index(), vertices_, cut_, eye, v, request.method != CullingCase::none, visible_, farM);
   if (defects_.culledNode) {
     flags_.clear();
     for (const TileDraw& node : visible_.tiles) flags_.push_back(node.node == defects_.culledNode);
@@ -142,7 +143,7 @@ std::optional<DepthMapSize> StaticLodCulling::occlusion(const FrameRequest& requ
   if (request.method != CullingCase::proposed || !size || request.overlays.treePicture) return {};
   if (request.frozenEye)
     counters.note = "What is hidden stays as it was when culling was frozen.";
-  else if (hideableTriangles(visibleKey_->eye.position) < kWorthHiding)
+  else if (!hiddenIsKnown_ && hideableTriangles(visibleKey_->eye.position) < kWorthHiding)
     counters.note = "Too little of the static trees can be hidden for a depth map to be worth its cost.";
   return counters.note.empty() ? size : std::nullopt;
 }
@@ -156,6 +157,12 @@ void StaticLodCulling::removeHidden(const DepthPyramid& covered) {
     });
   }
   removeStaticOccluded(index(), vertices_, flags_, visible_);
+  hiddenIsKnown_ = true;
+}
+
+void StaticLodCulling::plant(const Defects& defects) {
+  defects_ = defects;
+  visibleKey_.reset();
 }
 
 }  // namespace trimtab::scene

@@ -21,13 +21,15 @@ class StaticLodCulling {
  public:
   void setTerrain(std::shared_ptr<const terrain::StaticLodTerrain> terrain);
 
-  /// Cut and visible set for an eye; the cut only if it can have changed, which counts as `cutsSelected`.
+  /// Cut and visible set for an eye, each only if it can have changed: `cutsSelected`, `visibleSelected`.
   void select(const FrameRequest& request, const EyePose& eye, FrameResult& counters);
   /// Whether the far nodes are to be held against what the near ones cover, and by a map of which size; else
   /// `counters.note` may say why not.
   std::optional<DepthMapSize> occlusion(const FrameRequest& request, FrameResult& counters) const;
   /// Takes the far nodes out that `covered` hides.
   void removeHidden(const DepthPyramid& covered);
+  /// That was done for this very view: no map needs to be read again.
+  bool hiddenIsKnown() const { return hiddenIsKnown_; }
 
   const StaticLodIndex& index() const;
   const std::vector<TileDraw>& cut() const { return cutTiles_; }
@@ -35,7 +37,7 @@ class StaticLodCulling {
   /// two triangles have the same depth, the first one shows.
   const VisibleSet& visible() const { return visible_; }
   std::size_t visibleNear() const { return visibleNear_; }
-  void plant(const Defects& defects) { defects_ = defects; }
+  void plant(const Defects& defects);
   StaticLodFrame frame() const { return staticLodFrame(index(), visible_); }
 
  private:
@@ -67,9 +69,11 @@ class StaticLodCulling {
     CullingCase method = CullingCase::proposed;
     std::optional<DepthMapSize> map;
     double farM = 0;
+    bool picture = false;
     friend bool operator==(const VisibleKey&, const VisibleKey&) = default;
   };
   std::optional<VisibleKey> visibleKey_;
+  bool hiddenIsKnown_ = false;
   StaticLodParts parts_;
   std::vector<double> distances_;
   std::vector<std::uint32_t> far_;

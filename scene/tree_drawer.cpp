@@ -24,9 +24,10 @@ void TreeDrawer::prepare(FrameInProgress& frame) {
   frame.clock.lap(&FrameCost::select);
   uploadShown();
   frame.counters.depthMap = culling_.occlusion(r, frame.counters);
-  mapDrawn_ = frame.counters.depthMap.has_value();
+  mapServes_ = frame.counters.depthMap.has_value();
+  mapDrawn_ = mapServes_ && !culling_.hiddenIsKnown();
   frame.counters.depthMapsDrawn += mapDrawn_;
-  if (mapDrawn_) frame.counters.occlusion = OcclusionMethod::read_back;
+  if (mapServes_) frame.counters.occlusion = OcclusionMethod::read_back;
   nearM_ = r.view.nearM;
   frame.view.treePicture = r.overlays.treePicture;
   addBounds();
@@ -75,8 +76,8 @@ void TreeDrawer::drawTinted(unsigned, std::span<const TileDraw> nodes,
 }
 
 Renderer::Grey TreeDrawer::readDepthMap() const {
-  if (!mapDrawn_) return {};
   const DepthPyramid& map = gl_->occlusion.pyramid();
+  if (!mapServes_ || map.width() == 0) return {};
   return greyOf(map.depths(), map.width(), map.height(), nearM_);
 }
 

@@ -46,7 +46,8 @@ class TreeDrawer final : public TerrainDrawer {
   std::shared_ptr<const terrain::StaticLodTerrain> terrain_;
   StaticLodCulling culling_;
   std::unique_ptr<Gl> gl_;
-  bool mapDrawn_ = false;  ///< in the last frame
+  bool mapServes_ = false;  ///< in the last frame, if only by what it hid when it was drawn
+  bool mapDrawn_ = false;   ///< in the last frame
   double nearM_ = 1;
 };
 

@@ -369,6 +369,45 @@ TEST_F(StaticTrees, keepWhatWasHiddenWhileCullingIsFrozen) {
   }
 }
 
+TEST_F(StaticTrees, chooseAndReadNothingAgainForAViewThatStands) {
+  use(treeMountains());
+  auto r = treeRequest(over(0.3, 0.3, 60), {Degrees{40}, Degrees{-3}, Degrees{0}});
+  r.staticLod.errorPx = Pixels{0.05};
+  r.decision.depthMap = DepthMapSize{320, 240};
+  scene::FrameResult first, second;
+  const auto before = picture(r, &first);
+  ASSERT_GT(first.visible.occluded, 5u);
+  const auto grey = renderer.readDepthMap();
+  const auto after = picture(r, &second);
+  EXPECT_EQ(differing(before, after), 0u);
+  EXPECT_EQ(second.visibleSelected, first.visibleSelected);
+  EXPECT_EQ(second.depthMapsDrawn, first.depthMapsDrawn);
+  EXPECT_EQ(second.visible.reason, first.visible.reason);
+  EXPECT_EQ(second.note, "");
+  EXPECT_TRUE(second.depthMap) << "it has its part in what is drawn";
+  EXPECT_EQ(second.occlusion, OcclusionMethod::read_back);
+  EXPECT_EQ(renderer.readDepthMap().pixels, grey.pixels);
+  r.skips.sameVisible = false;
+  EXPECT_EQ(differing(before, picture(r, &second)), 0u);
+  EXPECT_EQ(second.visibleSelected, first.visibleSelected + 1);
+  EXPECT_EQ(second.depthMapsDrawn, first.depthMapsDrawn + 1);
+  r.skips.sameVisible = true;
+  const auto changes = [&](const char* what, const auto& change) {
+    auto other = r;
+    change(other);
+    scene::FrameResult result;
+    picture(other, &result);
+    EXPECT_EQ(result.visibleSelected, second.visibleSelected + 1) << what;
+    second = result;
+    picture(r, &second);
+  };
+  changes("a head that turns", [](auto& c) { c.attitude.heading = Degrees{41}; });
+  changes("another case", [](auto& c) { c.method = CullingCase::view_frustum; });
+  changes("another size of the map", [](auto& c) { c.decision.depthMap = DepthMapSize{160, 120}; });
+  changes("coarser levels", [](auto& c) { c.decision.lodScale = 3; });
+  changes("weather", [](auto& c) { c.decision.weather.farM = 2000; });
+}
+
 TEST_F(StaticTrees, readNoDepthMapWhereNoneIsAskedForOrWorthIt) {
   use(treeMountains());
   auto r = treeRequest(over(0.3, 0.3, 60), {Degrees{40}, Degrees{-3}, Degrees{0}});
