@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "../core/culling/lod_ground.h"
 #include "culling_horizon.h"
+#include "hidden_share.h"
 #include "rough_ground.h"
 #include "trimtab/culling/frustum.h"
 #include "trimtab/culling/moving_horizon.h"
@@ -17,12 +17,6 @@ namespace {
 /// 600 kt at 60 frames a second.
 constexpr double kStepM = 308.67 / 60;
 const Horizon::Settings kSettings{.columns = 800, .slack = 0.02 * 1.1547 / 1280};
-
-EyePose levelEye(Vec3 position, double heading) {
-  return {position,
-          {{Vec3{std::cos(heading), -std::sin(heading), 0}, Vec3{0, 0, 1},
-            Vec3{-std::sin(heading), -std::cos(heading), 0}}}};
-}
 
 /// The least that each frame of a flight took in some runs of it; the first frames, in which the eye's motion
 /// is not known yet, are left out.
@@ -63,10 +57,6 @@ struct StandingCut {
   std::vector<TileDraw> tiles;
 };
 
-struct Share {
-  std::size_t hidden = 0, culled = 0, culledFromScratch = 0, wrong = 0;
-};
-
 void addTimes(Report& report, const std::string& id, const std::string& what, const FrameTimes& times) {
   report.add(valueAtMost(0.32, {.id = "culling.horizon_moving_" + id,
                                 .what = "Horizon a frame at 600 kt, mean: " + what,
@@ -84,17 +74,14 @@ void standingRows(Report& report) {
   const SurfaceTree tree = SurfaceTree::of(cut.index);
   const int flights = report.quick() ? 2 : 6, frames = 90, runs = report.quick() ? 2 : 4;
   for (const double aboveM : {100.0, 400.0, 1500.0}) {
-    std::mt19937 random(1);
-    std::uniform_real_distribution<double> place(0.3, 0.7), circle(0, 6.283185307);
+    RoughViews eyes(ground, 1);
     FrameTimes all;
-    Share share;
+    HiddenShare share, fromScratch;
     double lookUp = 0;
     for (int flight = 0; flight < flights; ++flight) {
-      const double side = (RoughGround::kPosts - 1) * RoughGround::kPostM;
-      Vec3 from{side * place(random), side * place(random), 0};
-      const double heading = circle(random);
-      const Vec3 forward{std::sin(heading), std::cos(heading), 0};
-      from.z = ground.heightAt(from.x, from.y) + aboveM;
+      const EyePose start = eyes.next(aboveM);
+      Vec3 from = start.position;
+      const Vec3 forward = -start.axes.row[2];
       for (int frame = 0; frame < frames; ++frame) {
         const Vec3 on = from + (kStepM * frame) * forward;
         from.z = std::max(from.z, ground.heightAt(on.x, on.y) + 20);
@@ -103,15 +90,15 @@ void standingRows(Report& report) {
       const FrameTimes times = frameTimes(runs, frames, [&](int run, int frame) {
         if (frame == 0) moving.clear();
         const Vec3 eye = from + (kStepM * frame) * forward;
-        const double start = monotonicSeconds();
+        const double begun = monotonicSeconds();
         const auto hidden = moving.hidden(
             {.eye = eye, .cut = 1, .tiles = cut.tiles, .errorOverDistance = 0.002, .settings = kSettings},
             tree, [&](std::vector<HorizonTile>& tiles) { tiles = ground.tiles(); });
-        const double took = monotonicSeconds() - start;
+        const double took = monotonicSeconds() - begun;
         if (run > 0 || frame % 30 != 29) return took;
         Horizon scratch;
         scratch.build(eye, ground.tiles(), kSettings);
-        const EyePose pose = levelEye(eye, heading);
+        const EyePose pose{eye, start.axes};
         const ViewShape view;
         const std::vector<std::uint8_t> owns = ground.owners(pose, view);
         const Frustum frustum(pose, view);
@@ -119,10 +106,8 @@ void standingRows(Report& report) {
         for (std::uint32_t t = 0; t < owns.size(); ++t) {
           if (!frustum.mayShow(ground.boxOf(t))) continue;
           inView.push_back(t);
-          share.hidden += owns[t] == 0;
-          share.culled += owns[t] == 0 && hidden[t] != 0;
-          share.culledFromScratch += owns[t] == 0 && scratch.hidden()[t] != 0;
-          share.wrong += owns[t] != 0 && hidden[t] != 0;
+          share.add(owns[t] != 0, hidden[t] != 0);
+          fromScratch.add(owns[t] != 0, scratch.hidden()[t] != 0);
         }
         lookUp = std::max(lookUp, leastSeconds(5, [&] {
                             std::size_t left = 0;
@@ -136,15 +121,15 @@ void standingRows(Report& report) {
     }
     const std::string above = std::to_string(static_cast<int>(aboveM)) + "m";
     addTimes(report, above, "6,400 tiles, a cut that stands, " + above + " above fractal ground", all);
-    const auto percent = [&](std::size_t n) {
-      return 100.0 * static_cast<double>(n) / static_cast<double>(share.hidden);
+    const auto percent = [](const HiddenShare& of) {
+      return 100.0 * static_cast<double>(of.culled) / static_cast<double>(of.hidden);
     };
     report.add({.id = "culling.horizon_moving_share_" + above,
                 .what = "Of the tiles in view that own no pixel, left out in flight, and from scratch",
-                .value = percent(share.culled),
+                .value = percent(share),
                 .unit = "%",
                 .peer = "from scratch in the same frames",
-                .peerValue = percent(share.culledFromScratch),
+                .peerValue = percent(fromScratch),
                 .peerFrom = "run"});
     report.add(valueAtMost(0, {.id = "culling.horizon_moving_wrong_" + above,
                                .what = "Tiles that own a pixel and are left out in flight",
