@@ -61,9 +61,10 @@ std::span<const std::uint8_t> HorizonMemory::hidden(OcclusionGround& ground, Vec
     return {};
   }
   // Surfaces that were made since enter the next horizon; an eye that moves begins one soon. Else one is
-  // built once half of them are there, or all.
-  const bool grown = lacking < lacked_ && ((samePlace && lacking == 0) ||
-                                           (SurfaceShare::isMany(lacked_, nodes) && 2 * lacking <= lacked_));
+  // built once twice as many are there, or half as many lack, or none.
+  const bool muchMore = 2 * lacking <= lacked_ || nodes - lacking >= 2 * (nodes - std::min(lacked_, nodes));
+  const bool grown = lacking < lacked_ &&
+                     ((samePlace && lacking == 0) || (SurfaceShare::isMany(lacked_, nodes) && muchMore));
   if (grown) moving_.restart();
   MovingHorizon::Frame frame;
   frame.eye = eye;

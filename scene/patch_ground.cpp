@@ -20,6 +20,15 @@ bool isOver(const Box& b, float x, float y, float beside = 0) {
   return x >= b.minX - beside && x <= b.maxX + beside && y >= b.minY - beside && y <= b.maxY + beside;
 }
 
+/// Whether heights that differ along the earth's verticals differ by at most half as much again along the
+/// frame's, where it is nowhere steeper than that. Bounds: metres from the origin.
+bool isGentle(const Box& b, Vec3 origin, double steepest) {
+  double lean = 0;
+  for (const float x : {b.minX, b.maxX})
+    for (const float y : {b.minY, b.maxY}) lean = std::max(lean, leanOf(origin + Vec3{x, y, 0}));
+  return 1.5 * steepest * lean < 0.5;
+}
+
 /// z of the surface over a place, from the relief's origin; none beside it.
 std::optional<double> heightOfRelief(const MeshRelief& relief, double x, double y) {
   struct Corner {
@@ -66,6 +75,7 @@ void PatchGround::setTerrain(std::shared_ptr<const terrain::Database> database) 
   inside_.assign(patches, 0);
   normalsRise_.assign(patches, 0);
   surfaces_.reset(patches);
+  lids_.reset(patches);
   map_.setTerrain(database);
   surfaceErrorM_.clear();
   if (!any) return;
@@ -89,12 +99,7 @@ void PatchGround::make(const terrain::PatchMesh& mesh, TileDraw patch, Surface& 
   makeRelief(mesh, patch.coarser, vertices_, surface.relief);
   // Errors are along the ellipsoid's verticals: what is so far above or below this surface along one that
   // leans is half as much again along z at most, if the surface rises no more than that beside it.
-  const Box& b = surface.relief.bounds;
-  const Vec3& origin = surface.relief.origin;
-  double lean = 0;
-  for (const float x : {b.minX, b.maxX})
-    for (const float y : {b.minY, b.maxY}) lean = std::max(lean, leanOf(origin + Vec3{x, y, 0}));
-  surface.takesRoom = 1.5 * double{surface.relief.steepest} * lean < 0.5;
+  surface.takesRoom = isGentle(surface.relief.bounds, surface.relief.origin, surface.relief.steepest);
   const PatchIndex& index = patches_.index();
   surface.inside = std::all_of(vertices_.begin(), vertices_.end(), [&](const ReliefVertex& v) {
     const std::uint32_t column = mesh.firstColumn + v.column, row = mesh.firstRow + v.row;
@@ -154,11 +159,23 @@ std::string PatchGround::refusal(const EyePose& eye, const ViewShape& view) {
 }
 
 void PatchGround::fill(std::vector<HorizonTile>& tiles) {
-  surfaces_.forgetOthers(cut());
+  forgetOthers();
   for (const TileDraw& patch : cut().tiles) {
     const Surface* surface = surfaceOf(patch);
     tiles.push_back({.mayOcclude = surface && surface->inside, .mesh = surface ? &surface->relief : nullptr});
+    // Beside another variant's surface it would be told by that one whether it takes room.
+    if (!surfaces_.find(patch.node))
+      tiles.back().mesh = lids_.of(patch.node, patches_.index().bounds[patch.node]);
   }
+}
+
+/// Of a patch without a surface by the cone of its normals.
+bool PatchGround::takesRoom(std::uint32_t node) const {
+  if (const Surface* surface = surfaces_.find(node)) return surface->takesRoom;
+  const PatchIndex& index = patches_.index();
+  if (normalsRise_[node] != 2) return false;
+  const double steepest = std::acos(index.cones[node].axis().z) + std::asin(index.cones[node].sine());
+  return isGentle(index.bounds[node], {}, std::tan(steepest));
 }
 
 bool PatchGround::normalsRise(std::uint32_t node) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "trimtab/scene/box_lids.h"
 #include "trimtab/scene/data_extent.h"
 #include "trimtab/scene/occlusion_ground.h"
 #include "trimtab/scene/patch_culling.h"
@@ -30,11 +31,11 @@ class PatchGround final : public OcclusionGround {
   void fill(std::vector<HorizonTile>& tiles) override;
   SurfaceTree tree() const override { return SurfaceTree::of(patches_.index(), surfaceErrorM_); }
   bool mayOcclude(std::uint32_t node) override;
-  bool takesRoom(std::uint32_t node) const override {
-    const Surface* surface = surfaces_.find(node);
-    return surface && surface->takesRoom;
+  bool takesRoom(std::uint32_t node) const override;
+  void forgetOthers() override {
+    surfaces_.forgetOthers(cut());
+    lids_.forgetOthers(cut());
   }
-  void forgetOthers() override { surfaces_.forgetOthers(cut()); }
   bool isGraph() override;
   std::span<const std::uint8_t> hiddenByMap(std::span<const TileDraw> visible, const EyePose& eye,
                                             const ViewShape& view, DepthMapSize size,
@@ -65,6 +66,7 @@ class PatchGround final : public OcclusionGround {
   std::vector<std::array<float, PatchIndex::kVariants>> surfaceErrorM_;  ///< as SurfaceTree takes it
   std::uint32_t marginColumns_ = 0, marginRows_ = 0;                     ///< posts that `inside` asks for
   SurfacesInUse<Surface> surfaces_;                                      ///< some 10 KB each
+  BoxLids lids_;
   struct Under {
     std::uint32_t node;
     std::unique_ptr<Surface> surface;

@@ -32,6 +32,7 @@ void TileGround::setDatabase(std::shared_ptr<const terrain::Database> database) 
   conditions_.setDatabase(database_);
   map_.setDatabase(database_);
   relief_.reset(database_ ? database_->index().size() : 0);
+  lids_.reset(database_ ? database_->index().size() : 0);
   upright_.clear();
   takesRoom_.clear();
   inCut_.clear();
@@ -78,11 +79,13 @@ std::size_t TileGround::makeSurfaces(Vec3 eye) {
 }
 
 void TileGround::fill(std::vector<HorizonTile>& tiles) {
-  relief_.forgetOthers(*cut_);
+  forgetOthers();
   const TerrainIndex& index = database_->index();
   for (const TileDraw& tile : cut_->tiles) {
     inCut_[tile.node] = 1;
-    tiles.push_back({.relief = relief_.find(tile.node), .mayOcclude = mayOcclude(tile.node)});
+    const TileRelief* relief = relief_.find(tile.node);
+    tiles.push_back({.relief = relief, .mayOcclude = relief && mayOcclude(tile.node)});
+    if (!relief) tiles.back().mesh = lids_.of(tile.node, index.bounds[tile.node]);
   }
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     const auto& [west, east, south, north] = index.neighbours[cut_->tiles[i].node];

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "trimtab/scene/box_lids.h"
 #include "trimtab/scene/map_culling.h"
 #include "trimtab/scene/occlusion_conditions.h"
 #include "trimtab/scene/occlusion_ground.h"
@@ -30,7 +31,10 @@ class TileGround final : public OcclusionGround {
   SurfaceTree tree() const override { return SurfaceTree::of(database_->index()); }
   bool mayOcclude(std::uint32_t node) override { return upright_[node] != 0 && conditions_.mayOcclude(node); }
   bool takesRoom(std::uint32_t node) const override { return takesRoom_[node] != 0; }
-  void forgetOthers() override { relief_.forgetOthers(*cut_); }
+  void forgetOthers() override {
+    relief_.forgetOthers(*cut_);
+    lids_.forgetOthers(*cut_);
+  }
   std::span<const std::uint8_t> hiddenByMap(std::span<const TileDraw> visible, const EyePose& eye,
                                             const ViewShape& view, DepthMapSize size,
                                             double loweringScale) override {
@@ -49,7 +53,8 @@ class TileGround final : public OcclusionGround {
   std::vector<std::uint8_t> upright_;    ///< one a node: no place there has two heights
   std::vector<std::uint8_t> takesRoom_;  ///< one a node
   SurfacesInUse<TileRelief> relief_;     ///< 25 KB each
-  std::vector<std::uint8_t> inCut_;      ///< one a node, all 0 but in `fill`
+  BoxLids lids_;
+  std::vector<std::uint8_t> inCut_;  ///< one a node, all 0 but in `fill`
   terrain::TileMesh mesh_;
 };
 
