@@ -7,10 +7,18 @@
 #include <memory>
 #include <mutex>
 
+#include "trimtab/frame/box_union.h"
 #include "trimtab/terrain/database.h"
 
 /// A small terrain made of a function, by means of its own: an oracle for what draws and culls any database.
 namespace trimtab::test {
+
+/// Of floats, so that the place is inside.
+inline Box around(Vec3 p) {
+  const auto down = [](double v) { return std::nextafter(static_cast<float>(v), -1e30f); };
+  const auto upwards = [](double v) { return std::nextafter(static_cast<float>(v), 1e30f); };
+  return {down(p.x), down(p.y), down(p.z), upwards(p.x), upwards(p.y), upwards(p.z)};
+}
 
 class SyntheticTerrain final : public terrain::Database {
  public:
@@ -164,10 +172,7 @@ class SyntheticTerrain final : public terrain::Database {
       measure(node);
       index_.cones.push_back(coneOf(node));
       if (parent == TerrainIndex::kNone) continue;
-      Box& box = index_.bounds[parent];
-      const Box& b = index_.bounds[node];
-      box = {std::min(box.minX, b.minX), std::min(box.minY, b.minY), std::min(box.minZ, b.minZ),
-             std::max(box.maxX, b.maxX), std::max(box.maxY, b.maxY), std::max(box.maxZ, b.maxZ)};
+      index_.bounds[parent] = united(index_.bounds[parent], index_.bounds[node]);
       index_.errorM[parent] = std::max(index_.errorM[parent], index_.errorM[node]);
     }
     double slope = 0;
@@ -180,7 +185,7 @@ class SyntheticTerrain final : public terrain::Database {
   void addNode(int level, std::uint32_t row, std::uint32_t column, std::uint32_t n) {
     const std::uint32_t first = index_.levels.back().firstNode, node = first + row * n + column;
     constexpr std::uint32_t kNone = TerrainIndex::kNone;
-    index_.bounds.push_back({1e30f, 1e30f, 1e30f, -1e30f, -1e30f, -1e30f});
+    index_.bounds.push_back(kNoBox);
     index_.errorM.push_back(0);
     index_.level.push_back(static_cast<std::uint8_t>(level));
     index_.parent.push_back(n == 1 ? kNone : first + n * n + row / 2 * (n / 2) + column / 2);
@@ -202,11 +207,7 @@ class SyntheticTerrain final : public terrain::Database {
     for (int y = 0; y <= kCells; ++y)
       for (int x = 0; x <= kCells; ++x) {
         const Vec3 p = post(column + x * step, row + y * step);
-        const auto down = [](double v) { return std::nextafter(static_cast<float>(v), -1e30f); };
-        const auto upwards = [](double v) { return std::nextafter(static_cast<float>(v), 1e30f); };
-        box = {std::min(box.minX, down(p.x)),    std::min(box.minY, down(p.y)),
-               std::min(box.minZ, down(p.z)),    std::max(box.maxX, upwards(p.x)),
-               std::max(box.maxY, upwards(p.y)), std::max(box.maxZ, upwards(p.z))};
+        box = united(box, around(p));
       }
     if (step == 1) return;
     for (int r = row; r < row + kCells * step; r += step / 2)

@@ -103,7 +103,7 @@ class TreeTerrain final : public terrain::Database {
       StaticLodIndex& index = terrain.index;
       const auto self = static_cast<std::uint32_t>(index.size());
       index.nodes.push_back({{}, tileNumber, 0, static_cast<std::uint8_t>(depth), false});
-      index.bounds.push_back({1e30f, 1e30f, 1e30f, -1e30f, -1e30f, -1e30f});
+      index.bounds.push_back(kNoBox);
       index.rmsErrorM.push_back(0);
       index.maxErrorM.push_back(0);
       index.slopeMax.push_back(1e3f);
@@ -116,12 +116,7 @@ class TreeTerrain final : public terrain::Database {
       for (int y = r.y0; y <= r.y1; ++y)
         for (int x = r.x0; x <= r.x1; ++x) {
           const Vec3 p = ground.post(x, y);
-          const auto down = [](double v) { return std::nextafter(static_cast<float>(v), -1e30f); };
-          const auto upwards = [](double v) { return std::nextafter(static_cast<float>(v), 1e30f); };
-          Box& box = index.bounds[self];
-          box = {std::min(box.minX, down(p.x)),    std::min(box.minY, down(p.y)),
-                 std::min(box.minZ, down(p.z)),    std::max(box.maxX, upwards(p.x)),
-                 std::max(box.maxY, upwards(p.y)), std::max(box.maxZ, upwards(p.z))};
+          index.bounds[self] = united(index.bounds[self], around(p));
         }
       if (leaf) return self;
       Rectangle low = r, high = r;
