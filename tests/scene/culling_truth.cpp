@@ -142,7 +142,7 @@ void CullingTruth::Tally::add(const Tally& other) {
 
 void CullingTruth::tell(const char* what, const std::string& method, const Tally& t) {
   std::printf(
-      "    %-24s %6zu sets, %4.1f %% of the hidden left out, %zu wrong; %zu pictures, %zu pixels differ\n",
+      "    %-29s %6zu sets, %4.1f %% of the hidden left out, %zu wrong; %zu pictures, %zu pixels differ\n",
       method.c_str(), t.sets, shareOf(t), t.wrongNodes, t.pictures, t.differing);
   std::fflush(stdout);
   EXPECT_EQ(t.wrongNodes, 0u) << what << ", " << method;
@@ -171,7 +171,7 @@ void CullingTruth::proveViews(const std::vector<scene::FrameRequest>& requests, 
         // What frames cost is what it chooses by.
         const bool costs = methods[m].method == OcclusionMethod::automatic;
         compare(view, CullingCase::proposed, methods[m].method, kBands[b], tallies[m][everyBand ? b : 0],
-                b == own && (pictured || costs));
+                costs || (pictured && b == own));
       }
     if (++views % 100 == 0) std::printf("  %zu views\n", views), std::fflush(stdout);
   }
