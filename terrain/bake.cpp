@@ -10,10 +10,10 @@
 #include "trimtab/terrain/bake_work.h"
 #include "trimtab/terrain/database.h"
 #include "trimtab/terrain/ground_build.h"
+#include "trimtab/terrain/ground_triangles.h"
 #include "trimtab/terrain/import.h"
 #include "trimtab/terrain/patch_build.h"
 #include "trimtab/terrain/scenery.h"
-#include "trimtab/terrain/scenery_lines.h"
 #include "trimtab/terrain/static_lod.h"
 #include "trimtab/terrain/static_lod_sea.h"
 #include "trimtab/terrain/store.h"
@@ -111,7 +111,7 @@ class Job {
       findings_.push_back({Severity::note, output_.string(), "", "", "goes on from an interrupted bake"});
 
     scenery_ = std::any_of(options_.sources.begin(), options_.sources.end(), isScenery);
-    auto source = readSource(options_, stage(0, scenery_ ? 0.1 : 0.2));
+    auto source = readSource(options_, memory_, stage(0, scenery_ ? 0.1 : 0.2));
     if (!source) return source.findings();
     keep(source.findings());
     source_ = std::move(source).value();
@@ -128,9 +128,9 @@ class Job {
     keep(sharesOf(*source_->elevation));
     if (heights_.outside > 0)
       findings_.push_back({Severity::note, files->front().string(), "outline",
-                           "elevation over the whole rectangle of the terrain",
+                           scenery_ ? "tiles over the whole rectangle of the terrain"
+                                    : "elevation over the whole rectangle of the terrain",
                            std::to_string(heights_.outside) + " posts beyond it, continued from its edge"});
-    if (!scenery_) source_->grid = {};
     auto opened = FileHeights::open(*work_, heights_);
     if (!opened) return opened.findings();
     file_ = std::move(opened).value();
@@ -157,9 +157,10 @@ class Job {
       sources.heights = file_.get();
       sources.geometry = geometry_.get();
       if (options_.imagery) sources.images = {*options_.imagery};
-      const auto triangles =
-          groundTriangles(source_->meshes, heights_.posts.longitude((heights_.posts.columns - 1) / 2.0));
-      sources.triangles = triangles;
+      std::optional<SceneryGround> triangles;
+      if (source_->tiles)
+        sources.triangles =
+            &triangles.emplace(*source_->tiles, heights_.posts.longitude((heights_.posts.columns - 1) / 2.0));
       const Progress progress = stage(scenery_ ? 0.2 : 0.7, scenery_ ? 0.25 : 0.9);
       if (auto made = buildGroundPart(sources, part, parts, file, progress); !made) return made;
     }
@@ -192,8 +193,12 @@ class Job {
   Result<Done> makeTiles() {
     const PostGrid& posts = heights_.posts;
     if (posts.size() > kMostTiledPosts) return Done{};
+    const auto part = [&](double from, double to) {
+      return scenery_ ? stage(0.25 + 0.1 * from, 0.25 + 0.1 * to) : stage(0.9 + 0.08 * from, 0.9 + 0.08 * to);
+    };
     // Slopes of all levels, and colours.
-    const std::size_t bytes = posts.size() * 4 / 3 + (options_.imagery ? posts.size() * 4 : 0);
+    const std::size_t images = (options_.imagery ? 1 : 0) + (source_->tiles ? 1 : 0);
+    const std::size_t bytes = posts.size() * 4 / 3 + images * posts.size() * 4;
     if (bytes > memory_) {
       findings_.push_back({Severity::note, output_.string(), "tiles",
                            std::to_string(bytes / 1000000 + 1) + " MB of memory for them",
@@ -204,7 +209,7 @@ class Job {
     if (!mapped) return mapped.findings();
     TerrainIndex index = makeLevels(posts);
     CellSlopes slopes(index);
-    const Progress measuring = stage(0.9, 0.96);
+    const Progress measuring = part(0, 0.7);
     const std::span heights(reinterpret_cast<const float*>((*mapped)->bytes().data()), posts.size());
     if (!measureLevels(posts, heights, *geometry_, index, slopes,
                        [&](double f) { return measuring(f, "measuring levels"); }))
@@ -212,9 +217,11 @@ class Job {
     if (auto done = put(kNodesName, nodeNumbers(index)); !done) return done;
     if (auto done = put(kSlopesName, slopes.cells); !done) return done;
     if (auto done = put(kConesName, index.cones); !done) return done;
-    std::vector<std::uint8_t> image = std::move(source_->grid.image);
+    auto colours = source_->takeImage(part(0.7, 0.85));
+    if (!colours) return colours.findings();
+    std::vector<std::uint8_t> image = std::move(colours).value();
     if (options_.imagery) {
-      auto read = readImagery(*options_.imagery, posts, stage(0.96, 0.98));
+      auto read = readImagery(*options_.imagery, posts, part(0.85, 1));
       if (!read) return read.findings();
       keep(read.findings());
       drape(std::move(read).value(), image);
@@ -247,15 +254,23 @@ class Job {
   }
 
   Result<Done> makeTrees() {
-    if (source_->meshes.empty()) return Done{};
+    if (!source_->tiles) return Done{};
+    if (source_->treesBytes > memory_) {
+      findings_.push_back({Severity::note, output_.string(), "trees",
+                           std::to_string(source_->treesBytes / 1000000 + 1) + " MB of memory for them",
+                           std::to_string(memory_ / 1000000) + " MB: left out, patches are drawn"});
+      return Done{};
+    }
+    const auto meshes = source_->tiles->takeAll();
+    if (!meshes) return meshes.findings();
     StaticLodOptions trees;
     trees.trianglesPerNode = options_.trianglesPerNode;
     trees.keepLines = options_.keepLines;
-    trees.progress = stage(0.25, 0.9);
-    auto built = buildStaticLod(source_->meshes, geometry_->frame(), trees);
+    trees.progress = stage(0.35, 0.98);
+    auto built = buildStaticLod(*meshes, geometry_->frame(), trees);
     if (!built) return built.findings();
     keep(built.findings());
-    const auto withSea = withOpenSea(*built, source_->meshes, source_->grid);
+    const auto withSea = withOpenSea(*built, *meshes, *file_);
     trianglesPerNode_ = withSea->trianglesPerNode;
     const fs::path file = work_->database() / kStaticLodName;
     if (auto written = writeStaticLod(file, *withSea); !written) return written.findings();
@@ -271,19 +286,26 @@ class Job {
       const std::string name = entry.path().filename().string();
       if (name != kHeightsName && name != kHeightSumsName) fs::remove_all(entry.path(), error);
     }
-    if (auto done = patches_->join(work_->database() / kPatchesName, stage(0.9, 0.9)); !done) return done;
+    if (auto done = patches_->join(work_->database() / kPatchesName,
+                                   stage(scenery_ ? 0.25 : 0.9, scenery_ ? 0.25 : 0.9));
+        !done)
+      return done;
     std::vector<fs::path> grounds;
     const std::uint32_t parts = join ? groundParts() : 1;
     for (std::uint32_t part = 0; part < parts; ++part) grounds.push_back(groundPart(part, parts));
-    if (auto done = joinGround(grounds, work_->database() / kGroundName, stage(0.9, 0.9)); !done) return done;
+    if (auto done = joinGround(grounds, work_->database() / kGroundName,
+                               stage(scenery_ ? 0.25 : 0.9, scenery_ ? 0.25 : 0.9));
+        !done)
+      return done;
     for (const char* name : {kPatchesName, kGroundName})
       if (auto done = putPages(name); !done) return done;
     const std::uint64_t bytes = std::uint64_t{heights_.posts.size()} * sizeof(float);
     files_.push_back({kHeightsName, bytes, heights_.sum});
     const auto sums = fs::file_size(work_->database() / kHeightSumsName, error);
     files_.push_back({kHeightSumsName, sums, heights_.sum});
-    if (auto done = makeTrees(); !done) return done;
     if (auto done = makeTiles(); !done) return done;
+    // Last: these take scenery's tiles for themselves.
+    if (auto done = makeTrees(); !done) return done;
 
     TerrainInfo info;
     info.name = nameOf(options_.sources.front());
@@ -363,7 +385,7 @@ Result<std::shared_ptr<const Database>> openOrBake(const fs::path& source, const
   options.output = cached;
   options.trianglesPerNode = trianglesPerNode;
   options.progress = progress;
-  // Nobody named a bound: scenery, which is read whole, may have half of the machine.
+  // Nobody named a bound: scenery, whose trees are made in memory, may have half of the machine.
   if (scenery)
     options.memory =
         Megabytes{std::max(options.memory.value(), 0.5e-6 * static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *

@@ -56,8 +56,63 @@ std::string nameOf(const fs::path& path) {
   return (last.extension() == ".gz" ? last.stem() : last).stem().string();
 }
 
-Result<std::unique_ptr<BakeSource>> readSource(const BakeOptions& options, const Progress& progress) {
+Result<std::vector<std::uint8_t>> BakeSource::takeImage(const Progress& progress) {
+  if (heights) return heights->image(progress);
+  return std::move(grid.image);
+}
+
+namespace {
+
+/// Scenery alone: its tiles are read as they are needed.
+Result<std::unique_ptr<BakeSource>> readScenery(const BakeOptions& options, std::size_t memory,
+                                                const Progress& progress) {
   auto source = std::make_unique<BakeSource>();
+  auto tiles = SceneryCatalogue::open(options.sources, memory / 4, stageOf(progress, 0, 0.6));
+  if (!tiles) return tiles.findings();
+  Findings findings = tiles.findings();
+  source->tiles = std::move(tiles).value();
+  source->scenery = source->tiles->counts();
+  const auto posts = sceneryPosts(*source->tiles, options.post);
+  if (!posts) {
+    findings.insert(findings.end(), posts.findings().begin(), posts.findings().end());
+    return findings;
+  }
+  auto heights = SceneryHeights::open(*source->tiles, *posts, stageOf(progress, 0.6, 1));
+  findings.insert(findings.end(), heights.findings().begin(), heights.findings().end());
+  if (!heights) return findings;
+  source->heights = heights->get();
+  source->elevation = std::move(heights).value();
+  return Result<std::unique_ptr<BakeSource>>(std::move(source), std::move(findings));
+}
+
+/// Scenery beside elevation is read whole: better to say so now than when memory has run out.
+Result<std::unique_ptr<BakeSource>> readMerged(const BakeOptions& options, const std::vector<fs::path>& files,
+                                               std::size_t memory, const Progress& progress) {
+  const std::uint64_t bytes = sceneryBytes(files) + sceneryPostsBytes(files, options.post);
+  if (bytes > memory)
+    return Finding{
+        Severity::error, nameOf(options.sources.front()), "memory",
+        "room for all of this scenery beside elevation: about " + std::to_string(bytes / 1000000 + 1) + " MB",
+        std::to_string(memory / 1000000) +
+            " MB allowed: allow more, choose fewer tiles or posts farther apart, or bake scenery alone"};
+  std::vector<fs::path> sources = options.sources;
+  const auto elevation = std::stable_partition(sources.begin(), sources.end(), isScenery);
+  auto merged =
+      importMerged({sources.begin(), elevation}, {elevation, sources.end()}, options.post, progress);
+  if (!merged) return merged.findings();
+  auto source = std::make_unique<BakeSource>();
+  source->grid = std::move((*merged).grid);
+  source->voidsFilled = merged->voidsFilled;
+  source->scenery = std::move((*merged).counts);
+  source->tiles = std::move((*merged).tiles);
+  source->elevation = sourceOf(source->grid);
+  return Result<std::unique_ptr<BakeSource>>(std::move(source), merged.findings());
+}
+
+}  // namespace
+
+Result<std::unique_ptr<BakeSource>> readSource(const BakeOptions& options, std::size_t memory,
+                                               const Progress& progress) {
   const auto scenery = std::count_if(options.sources.begin(), options.sources.end(), isScenery);
   if (scenery == 0) {
     ElevationOptions elevation;
@@ -66,31 +121,16 @@ Result<std::unique_ptr<BakeSource>> readSource(const BakeOptions& options, const
     auto opened = openElevation(options.sources, elevation);
     if (!opened) return opened.findings();
     const Findings findings = opened.findings();
+    auto source = std::make_unique<BakeSource>();
     source->elevation = std::move(opened).value();
     return Result<std::unique_ptr<BakeSource>>(std::move(source), findings);
   }
-  // Scenery is read whole: better to say so now than when memory has run out.
-  if (const auto files = sourceFiles(options.sources)) {
-    const std::uint64_t bytes = sceneryBakeBytes(*files, options.post);
-    if (static_cast<double>(bytes) > options.memory.value() * 1e6)
-      return Finding{Severity::error, nameOf(options.sources.front()), "memory",
-                     "room for all of this scenery: about " + std::to_string(bytes / 1000000 + 1) + " MB",
-                     std::to_string(std::lround(options.memory.value())) +
-                         " MB allowed: allow more, choose fewer tiles or posts farther apart"};
-  }
-  std::vector<fs::path> sources = options.sources;
-  const auto elevation = std::stable_partition(sources.begin(), sources.end(), isScenery);
-  auto imported =
-      elevation == sources.end()
-          ? importScenery(sources, options.post, progress)
-          : importMerged({sources.begin(), elevation}, {elevation, sources.end()}, options.post, progress);
-  if (!imported) return imported.findings();
-  source->grid = std::move((*imported).grid);
-  source->voidsFilled = imported->voidsFilled;
-  source->scenery = std::move((*imported).counts);
-  source->meshes = std::move((*imported).meshes);
-  source->elevation = sourceOf(source->grid);
-  return Result<std::unique_ptr<BakeSource>>(std::move(source), imported.findings());
+  const auto files = sourceFiles(options.sources);
+  if (!files) return files.findings();
+  const bool alone = static_cast<std::size_t>(scenery) == options.sources.size();
+  auto read = alone ? readScenery(options, memory, progress) : readMerged(options, *files, memory, progress);
+  if (read) (*read)->treesBytes = sceneryBytes(*files);
+  return read;
 }
 
 Result<std::vector<fs::path>> sourceFiles(const std::vector<fs::path>& sources) {

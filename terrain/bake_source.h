@@ -9,24 +9,31 @@
 
 #include "trimtab/terrain/database.h"
 #include "trimtab/terrain/elevation_source.h"
-#include "trimtab/terrain/scenery.h"
+#include "trimtab/terrain/scenery_import.h"
 
 namespace trimtab::terrain {
 
 /// To be raised with every change of the mesher, sides or tolerances: pieces that different programs made do
 /// not fit together.
-inline constexpr int kBuilderVersion = 4;
+inline constexpr int kBuilderVersion = 5;
 
 /// What the sources hold, by either import.
 struct BakeSource {
-  std::unique_ptr<ElevationSource> elevation;
-  HeightGrid grid;  ///< of scenery; else only as large as need be
-  std::uint64_t voidsFilled = 0;
   std::optional<SceneryCounts> scenery;
-  std::vector<SceneryMesh> meshes;
+  std::unique_ptr<SceneryCatalogue> tiles;  ///< of scenery; null without
+  std::uint64_t treesBytes = 0;             ///< that making their trees will take
+  HeightGrid grid;                          ///< of scenery beside elevation, which is read whole
+  std::uint64_t voidsFilled = 0;            ///< in that
+  std::unique_ptr<ElevationSource> elevation;
+  const SceneryHeights* heights = nullptr;  ///< the same, where it is scenery alone
+
+  /// Scenery's colours at its posts, RGBA; empty without scenery.
+  Result<std::vector<std::uint8_t>> takeImage(const Progress& progress);
 };
 
-Result<std::unique_ptr<BakeSource>> readSource(const BakeOptions& options, const Progress& progress);
+/// `memory`: bytes that it may take.
+Result<std::unique_ptr<BakeSource>> readSource(const BakeOptions& options, std::size_t memory,
+                                               const Progress& progress);
 
 /// Every file of the sources.
 Result<std::vector<std::filesystem::path>> sourceFiles(const std::vector<std::filesystem::path>& sources);

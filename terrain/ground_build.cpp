@@ -53,7 +53,7 @@ class Blocks {
       if (step > 0 && (finest == 0 || step < finest)) finest = step;
       blocks->images_.push_back(std::move(image).value());
     }
-    double texels = sources.triangles.empty() ? 1 : 2;
+    double texels = sources.triangles == nullptr ? 1 : 2;
     // A picture a little finer than the posts keeps their grid: up to half an octave is given away.
     if (finest > 0)
       texels = std::clamp(std::exp2(std::round(std::log2(posts.stepLatitude / finest))), texels,
@@ -132,7 +132,7 @@ class Blocks {
     blockLevel_ = std::min(kBlockLevel, static_cast<std::uint32_t>(levels_.size()) - 1);
     texelsPerPost_ = fine.texelsPerPost;
     fine.levels = levels_;
-    paint_ = std::make_unique<GroundPaint>(sources_.triangles, posts, fine, kTile << blockLevel_);
+    paint_ = std::make_unique<GroundPaint>(posts, fine, kTile << blockLevel_);
   }
 
   void gather(const Place& place, std::vector<Place>& blocks) const {
@@ -143,9 +143,10 @@ class Blocks {
     for (const Place& child : tilesBelow(levels_, place)) gather(child, blocks);
   }
 
-  /// RGBA of a block's texels of level 0, and which of them images gave.
+  /// RGBA of a block's texels of level 0, which of them images gave, and what was painted.
   struct Colours {
     GroundWindow window;
+    std::vector<GroundTriangle> triangles;
     std::vector<std::uint8_t> rgba;     ///< empty: none
     std::vector<std::uint8_t> byImage;  ///< a byte a texel; empty: none
   };
@@ -158,9 +159,12 @@ class Blocks {
     w.columns = std::min(side, levels_[0].columns - w.column);
     w.rows = std::min(side, levels_[0].rows - w.row);
     const std::size_t texels = std::size_t{w.columns} * w.rows;
-    if (!paint_->empty()) {
+    if (sources_.triangles != nullptr) {
+      auto found = sources_.triangles->over(paint_->degreesOf(block.column, block.row));
+      if (!found) return found.findings();
+      colours.triangles = std::move(found).value();
       colours.rgba.resize(texels * 4);
-      paint_->paint(block.column, block.row, w, colours.rgba);
+      paint_->paint(colours.triangles, w, colours.rgba);
     }
     const PostGrid& posts = sources_.heights->posts();
     PostGrid places;
@@ -208,8 +212,8 @@ class Blocks {
     auto made =
         halvedFrom(levels_, place, [&](const Place& child) { return tile(child, block, colours, blobs); });
     if (!made) return made;
-    if (!paint_->empty()) {
-      paint_->paintLines(block.column, block.row, place.level, place.column, place.row,
+    if (sources_.triangles != nullptr) {
+      paint_->paintLines(colours.triangles, place.level, place.column, place.row,
                          byImageOf(place, size, colours), *made);
       padGroundTile(*made, size);
     }

@@ -15,7 +15,7 @@
 /// Builds the ground's pyramid, block by block: memory follows the number of cores, not the size of the land.
 namespace trimtab::terrain {
 
-struct GroundTriangle;
+class GroundTriangles;
 
 /// What the ground's look is made from. Where no image has a colour the triangles' materials give it, and
 /// where there are none of those the land cover that height, slope and latitude suggest.
@@ -25,7 +25,7 @@ struct GroundSources {
   /// Any raster that GDAL reads with bytes of red, green and blue, of grey, or of a palette, in any CRS; the
   /// first that has something at a place gives its colour.
   std::vector<std::filesystem::path> images;
-  std::span<const GroundTriangle> triangles;
+  const GroundTriangles* triangles = nullptr;
   /// A power of two, 1/64 to 64. Without: as fine as the finest image, from 1 to `mostTexelsPerPost`; 2 for
   /// triangles.
   std::optional<double> texelsPerPost;

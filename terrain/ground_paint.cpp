@@ -103,48 +103,18 @@ std::array<GroundPaint::Corner, 3> GroundPaint::cornersOf(const GroundTriangle& 
   return corners;
 }
 
-GroundPaint::GroundPaint(std::span<const GroundTriangle> triangles, const PostGrid& posts,
-                         const GroundShape& shape, std::uint32_t side)
-    : triangles_(triangles), posts_(posts), shape_(shape), side_(side) {
-  columns_ = (shape.levels[0].columns + side - 1) / side;
-  rows_ = (shape.levels[0].rows + side - 1) / side;
-  if (triangles.empty()) return;
-  // Twice the same walk: how many a block has, then which.
-  const auto forEachBlock = [&](const auto& visit) {
-    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-      const auto c = cornersOf(triangles_[i], 1);
-      const auto [west, east] = std::minmax({c[0].x, c[1].x, c[2].x});
-      const auto [south, north] = std::minmax({c[0].y, c[1].y, c[2].y});
-      // What is widened in the coarsest level of a block reaches half a texel of it further.
-      const double more = triangles_[i].line == LineFeature::none ? 1 : 4;
-      const auto block = [&](double x, std::uint32_t count) {
-        return static_cast<std::int64_t>(std::clamp(std::floor(x / side_), -1.0, static_cast<double>(count)));
-      };
-      for (std::int64_t r = std::max<std::int64_t>(block(south - more, rows_), 0);
-           r <= std::min<std::int64_t>(block(north + more, rows_), rows_ - 1); ++r)
-        for (std::int64_t b = std::max<std::int64_t>(block(west - more, columns_), 0);
-             b <= std::min<std::int64_t>(block(east + more, columns_), columns_ - 1); ++b)
-          visit(static_cast<std::size_t>(r) * columns_ + static_cast<std::size_t>(b), i);
-    }
-  };
-  first_.assign(std::size_t{columns_} * rows_ + 1, 0);
-  forEachBlock([&](std::size_t block, std::uint32_t) { ++first_[block + 1]; });
-  for (std::size_t b = 1; b < first_.size(); ++b) first_[b] += first_[b - 1];
-  found_.resize(first_.back());
-  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  forEachBlock([&](std::size_t block, std::uint32_t i) { found_[next[block]++] = i; });
+Rectangle GroundPaint::degreesOf(std::uint32_t blockColumn, std::uint32_t blockRow) const {
+  // What is widened in the coarsest level of a block reaches half a texel of it further.
+  constexpr double kMore = 4;
+  const auto post = [&](double texel) { return (texel - shape_.texelOf(0)) / shape_.texelsPerPost; };
+  const double side = side_, column = side * blockColumn, row = side * blockRow;
+  return {posts_.longitude(post(column - kMore)), posts_.latitude(post(row - kMore)),
+          posts_.longitude(post(column + side + kMore)), posts_.latitude(post(row + side + kMore))};
 }
 
-std::span<const std::uint32_t> GroundPaint::inBlock(std::uint32_t column, std::uint32_t row) const {
-  if (triangles_.empty()) return {};
-  const std::size_t block = std::size_t{row} * columns_ + column;
-  return std::span(found_).subspan(first_[block], first_[block + 1] - first_[block]);
-}
-
-void GroundPaint::paint(std::uint32_t blockColumn, std::uint32_t blockRow, const GroundWindow& window,
+void GroundPaint::paint(std::span<const GroundTriangle> triangles, const GroundWindow& window,
                         std::span<std::uint8_t> rgba) const {
-  for (const std::uint32_t i : inBlock(blockColumn, blockRow)) {
-    const GroundTriangle& triangle = triangles_[i];
+  for (const GroundTriangle& triangle : triangles) {
     const auto corners = cornersOf(triangle, 1);
     const Coverage coverage(corners, reachOf(triangle, widthOf(corners)));
     coverage.forEach(window.column, window.row, window.columns, window.rows,
@@ -156,13 +126,12 @@ void GroundPaint::paint(std::uint32_t blockColumn, std::uint32_t blockRow, const
   }
 }
 
-void GroundPaint::paintLines(std::uint32_t blockColumn, std::uint32_t blockRow, std::uint32_t level,
+void GroundPaint::paintLines(std::span<const GroundTriangle> triangles, std::uint32_t level,
                              std::uint32_t tileColumn, std::uint32_t tileRow,
                              std::span<const std::uint8_t> covered, GroundTile& tile) const {
   constexpr std::uint32_t kTile = GroundShape::kTile;
   const double scale = std::ldexp(1.0, -static_cast<int>(level));
-  for (const std::uint32_t i : inBlock(blockColumn, blockRow)) {
-    const GroundTriangle& triangle = triangles_[i];
+  for (const GroundTriangle& triangle : triangles) {
     if (triangle.line == LineFeature::none) continue;
     const auto corners = cornersOf(triangle, scale);
     const double width = widthOf(corners), strength = std::min(2 * width, 1.0);

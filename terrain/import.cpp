@@ -50,6 +50,12 @@ Progress half(const Progress& progress, double from) {
 
 }  // namespace
 
+Progress stageOf(const Progress& progress, double from, double to) {
+  return [&progress, from, to](double fraction, const std::string& what) {
+    return !progress || progress(from + (to - from) * fraction, what);
+  };
+}
+
 Finding cancelled(const std::string& what) {
   return {Severity::note, what, "", "to be completed", "cancelled"};
 }

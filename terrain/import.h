@@ -27,6 +27,9 @@ Result<HeightGrid> readElevation(const std::filesystem::path& file, const Progre
 Result<std::vector<std::uint8_t>> readImagery(const std::filesystem::path& file, const PostGrid& posts,
                                               const Progress& progress);
 
+/// Of a longer work's progress, from one share of it to another; `progress` must outlive it.
+Progress stageOf(const Progress& progress, double from, double to);
+
 /// What a cancelled step yields.
 Finding cancelled(const std::string& what);
 

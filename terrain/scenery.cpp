@@ -144,26 +144,35 @@ Result<std::vector<fs::path>> sceneryFiles(const fs::path& path) {
   return files;
 }
 
-Result<Scenery> readScenery(const fs::path& path, const SceneryProgress& progress) {
+Result<SceneryList> listScenery(const fs::path& path) {
   auto found = inventory(path);
   if (!found) return found.findings();
-  std::vector<std::pair<fs::path, bool>> files(found->tiles.begin(), found->tiles.end());
-  std::stable_partition(files.begin(), files.end(), [](const auto& file) { return !file.second; });
+  SceneryList list;
+  list.missing = std::move(found->missing);
+  for (const auto& [file, airport] : found->tiles) list.files.push_back({file, airport});
+  std::stable_partition(list.files.begin(), list.files.end(),
+                        [](const SceneryList::File& file) { return !file.airport; });
+  return Result<SceneryList>(std::move(list), std::move(found->findings));
+}
 
+Result<Scenery> readScenery(const fs::path& path, const SceneryProgress& progress) {
+  auto list = listScenery(path);
+  if (!list) return list.findings();
+  const auto& files = list->files;
   std::vector<Result<SceneryMesh>> read(files.size(), Result<SceneryMesh>(Findings{}));
   const bool whole = forEachParallel(
-      static_cast<std::uint32_t>(files.size()), [&](std::uint32_t i) { read[i] = readBtg(files[i].first); },
+      static_cast<std::uint32_t>(files.size()), [&](std::uint32_t i) { read[i] = readBtg(files[i].path); },
       [&](double fraction) { return !progress || progress(fraction, "reading scenery"); });
   if (!whole) return about(Severity::note, path.string(), "", "to be completed", "cancelled");
 
   Scenery scenery;
-  scenery.missing = std::move(found->missing);
-  Findings findings = std::move(found->findings);
+  scenery.missing = std::move(list->missing);
+  Findings findings = list.findings();
   for (std::size_t i = 0; i < files.size(); ++i) {
     findings.insert(findings.end(), read[i].findings().begin(), read[i].findings().end());
     if (!read[i]) continue;
     SceneryMesh& mesh = *read[i];
-    mesh.airport = files[i].second;
+    mesh.airport = files[i].airport;
     scenery.tiles.push_back(std::move(mesh));
   }
   if (scenery.tiles.empty()) return findings;

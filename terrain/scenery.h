@@ -44,7 +44,19 @@ Result<SceneryMesh> parseBtg(std::string_view bytes, const std::string& where);
 /// What gzip packed: all members, checked by their sums. Refuses to grow beyond 256 MiB.
 Result<std::string> gunzip(std::string_view bytes, const std::string& where);
 
-/// Listed tiles first, then airports, each by path.
+/// What a source names: tiles first, then airports, each by path.
+struct SceneryList {
+  struct File {
+    std::filesystem::path path;
+    bool airport = false;
+  };
+  std::vector<File> files;
+  std::vector<std::string> missing;  ///< listed, but not there
+};
+/// Opens lists alone; findings as readScenery's.
+Result<SceneryList> listScenery(const std::filesystem::path& path);
+
+/// In the list's order.
 struct Scenery {
   std::vector<SceneryMesh> tiles;
   std::vector<std::string> missing;  ///< listed, but not there

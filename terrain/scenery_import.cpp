@@ -4,12 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <set>
 
 #include "trimtab/terrain/import.h"
 #include "trimtab/terrain/scenery_blend.h"
-#include "trimtab/terrain/scenery_sea.h"
-#include "trimtab/terrain/voids.h"
 
 namespace trimtab::terrain {
 
@@ -19,50 +16,8 @@ constexpr double kMostPosts = 4e8, kUsualPosts = 6e6;
 constexpr double kFinestM = 30, kCoarsestM = 60;
 constexpr double kDegreeM = 111320;
 constexpr double kMostSide = 1u << 20;  ///< as the store checks
-
-/// Rectangle in degrees; longitudes on one side of the earth.
-struct Extent {
-  double west = 1e9, south = 1e9, east = -1e9, north = -1e9;
-
-  bool empty() const { return west > east; }
-  void add(double longitude, double latitude) {
-    west = std::min(west, longitude);
-    east = std::max(east, longitude);
-    south = std::min(south, latitude);
-    north = std::max(north, latitude);
-  }
-  void add(const Extent& other) {
-    if (other.empty()) return;
-    add(other.west, other.south);
-    add(other.east, other.north);
-  }
-};
-
-/// A mesh's vertices as longitude, latitude, height.
-std::vector<Vec3> geodetic(const SceneryMesh& mesh, double nearLongitude) {
-  std::vector<Vec3> places;
-  places.reserve(mesh.vertices.size());
-  for (const Vec3& v : mesh.vertices) {
-    const GeodeticPosition p = toGeodetic(v);
-    const double turn = std::remainder(p.longitude.value() - nearLongitude, 360.0);
-    places.push_back({nearLongitude + turn, p.latitude.value(), p.height.value()});
-  }
-  return places;
-}
-
-Extent extentOf(const SceneryMesh& mesh, std::span<const Vec3> places) {
-  Extent extent;
-  for (const SceneryMesh::Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : t.vertex) extent.add(places[v].x, places[v].y);
-  return extent;
-}
-
-double firstLongitude(std::span<const SceneryMesh> meshes) {
-  for (const SceneryMesh& mesh : meshes)
-    if (!mesh.triangles.empty())
-      return toGeodetic(mesh.vertices[mesh.triangles[0].vertex[0]]).longitude.value();
-  return 0;
-}
+/// Posts that are looked at together.
+constexpr std::size_t kBandPosts = std::size_t{1} << 21;
 
 /// Borders of buckets are eighths of a degree, which the tiles' floats miss by a millimetre.
 double snapped(double degrees) {
@@ -70,75 +25,40 @@ double snapped(double degrees) {
   return std::abs(degrees - eighth) < 1e-6 ? eighth : degrees;
 }
 
-/// Puts triangles on a grid: places are columns and rows.
-class Raster {
- public:
-  explicit Raster(HeightGrid& grid) : grid_(grid) {}
+Finding nothingCovered() {
+  return {Severity::error, "scenery", "", "triangles that cover ground", "none"};
+}
 
-  void add(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::uint8_t, 3>& colour) {
-    const double area = edge(a, b, c);
-    if (std::abs(area) < 1e-9) return;  // seen from above it is a line
-    const auto first = [](double x) { return static_cast<std::int64_t>(std::ceil(x - kSlack)); };
-    const auto last = [](double x) { return static_cast<std::int64_t>(std::floor(x + kSlack)); };
-    const std::int64_t west = std::max<std::int64_t>(first(std::min({a.x, b.x, c.x})), 0),
-                       south = std::max<std::int64_t>(first(std::min({a.y, b.y, c.y})), 0);
-    const std::int64_t east =
-                           std::min<std::int64_t>(last(std::max({a.x, b.x, c.x})), grid_.posts.columns - 1),
-                       north = std::min<std::int64_t>(last(std::max({a.y, b.y, c.y})), grid_.posts.rows - 1);
-    const double sign = area > 0 ? 1 : -1;
-    const double slackA = -kSlack * distance(b, c), slackB = -kSlack * distance(c, a),
-                 slackC = -kSlack * distance(a, b);
-    const double low = std::min({a.z, b.z, c.z}), high = std::max({a.z, b.z, c.z});
-    for (std::int64_t row = south; row <= north; ++row)
-      for (std::int64_t column = west; column <= east; ++column) {
-        const Vec3 p{static_cast<double>(column), static_cast<double>(row), 0};
-        const double wa = edge(b, c, p) * sign, wb = edge(c, a, p) * sign, wc = edge(a, b, p) * sign;
-        if (wa < slackA || wb < slackB || wc < slackC) continue;
-        const double height = std::clamp((wa * a.z + wb * b.z + wc * c.z) / (area * sign), low, high);
-        const auto rounded = static_cast<float>(std::round(height * 100) / 100);
-        const std::size_t post =
-            static_cast<std::size_t>(row) * grid_.posts.columns + static_cast<std::size_t>(column);
-        float& known = grid_.heights[post];
-        if (known > rounded) continue;  // false while it is void
-        known = rounded;
-        std::copy_n(colour.data(), 3, &grid_.image[post * 4]);
-        grid_.image[post * 4 + 3] = 255;
-      }
+Finding aboutSea(std::uint64_t posts) {
+  return {Severity::note, "scenery", "outline", "tiles over the whole rectangle of the terrain",
+          std::to_string(posts) + " posts beyond them, taken for open sea"};
+}
+
+/// `take` is called for all rows, some at a time.
+Result<Done> forEachBand(const PostGrid& posts, const Progress& progress, const char* what,
+                         const std::function<Result<Done>(std::uint32_t first, std::uint32_t rows)>& take) {
+  const auto most = static_cast<std::uint32_t>(std::max<std::size_t>(1, kBandPosts / posts.columns));
+  for (std::uint32_t first = 0; first < posts.rows; first += most) {
+    if (progress && !progress(static_cast<double>(first) / posts.rows, what)) return cancelled(what);
+    if (auto taken = take(first, std::min(most, posts.rows - first)); !taken) return taken;
   }
-
- private:
-  /// Part of a post by which a triangle is widened, so that no post falls between two of them.
-  static constexpr double kSlack = 1e-4;
-
-  static double edge(const Vec3& a, const Vec3& b, const Vec3& p) {
-    return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-  }
-  static double distance(const Vec3& a, const Vec3& b) {
-    return std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
-  }
-
-  HeightGrid& grid_;
-};
+  return Done{};
+}
 
 }  // namespace
 
-Result<PostGrid> sceneryPosts(std::span<const SceneryMesh> meshes, std::optional<Metres> distance) {
-  const double reference = firstLongitude(meshes);
-  Extent whole;
-  for (const SceneryMesh& mesh : meshes) whole.add(extentOf(mesh, geodetic(mesh, reference)));
-  const Finding nothing{Severity::error, "scenery", "", "triangles that cover ground", "none"};
-  if (whole.empty()) return nothing;
-  return postsOver(snapped(whole.west), snapped(whole.south), snapped(whole.east), snapped(whole.north),
+Result<PostGrid> sceneryPosts(const SceneryCatalogue& scenery, std::optional<Metres> distance) {
+  const Rectangle whole = scenery.extent();
+  if (whole.empty()) return nothingCovered();
+  return postsOver({snapped(whole.west), snapped(whole.south), snapped(whole.east), snapped(whole.north)},
                    distance);
 }
 
-Result<PostGrid> postsOver(double west, double south, double east, double north,
-                           std::optional<Metres> distance) {
-  const double narrow = std::min(std::abs(south), std::abs(north)) * std::numbers::pi / 180;
-  const double wideM = (east - west) * kDegreeM * (south * north <= 0 ? 1 : std::cos(narrow)),
-               highM = (north - south) * kDegreeM;
-  if (!(wideM > 0 && highM > 0))
-    return Finding{Severity::error, "scenery", "", "triangles that cover ground", "none"};
+Result<PostGrid> postsOver(const Rectangle& r, std::optional<Metres> distance) {
+  const double narrow = std::min(std::abs(r.south), std::abs(r.north)) * std::numbers::pi / 180;
+  const double wideM = (r.east - r.west) * kDegreeM * (r.south * r.north <= 0 ? 1 : std::cos(narrow)),
+               highM = (r.north - r.south) * kDegreeM;
+  if (!(wideM > 0 && highM > 0)) return nothingCovered();
   double step = kFinestM;
   if (distance)
     step = distance->value();
@@ -151,122 +71,103 @@ Result<PostGrid> postsOver(double west, double south, double east, double north,
                    "at most 400 million posts, and 1,048,576 a side, at the distance wanted",
                    std::to_string(columns * rows) + " posts, " + std::to_string(step) + " m apart"};
   PostGrid posts;
-  posts.west = west;
-  posts.south = south;
+  posts.west = r.west;
+  posts.south = r.south;
   posts.columns = static_cast<std::uint32_t>(columns);
   posts.rows = static_cast<std::uint32_t>(rows);
-  posts.stepLongitude = (east - west) / (columns - 1);
-  posts.stepLatitude = (north - south) / (rows - 1);
+  posts.stepLongitude = (r.east - r.west) / (columns - 1);
+  posts.stepLatitude = (r.north - r.south) / (rows - 1);
   return posts;
 }
 
-Result<HeightGrid> rasterised(std::span<const SceneryMesh> meshes, const PostGrid& posts,
+Result<HeightGrid> rasterised(const SceneryCatalogue& scenery, const PostGrid& posts,
                               const Progress& progress, const HeightGrid* elevation) {
-  HeightGrid grid{posts, std::vector<float>(posts.size(), std::numeric_limits<float>::quiet_NaN()), 0,
-                  std::vector<std::uint8_t>(posts.size() * 4, 0)};
-  std::vector<std::uint8_t> reached(posts.size(), 0);
-  Raster raster(grid);
-  const double middle = posts.longitude((posts.columns - 1) / 2.0);
-  for (std::size_t m = 0; m < meshes.size(); ++m) {
-    const SceneryMesh& mesh = meshes[m];
-    if (progress &&
-        !progress(static_cast<double>(m) / static_cast<double>(meshes.size()), "putting triangles on posts"))
-      return cancelled("putting triangles on posts");
-    std::vector<Vec3> places = geodetic(mesh, middle);
-    for (Vec3& p : places) {
-      p.x = (p.x - posts.west) / posts.stepLongitude;
-      p.y = (p.y - posts.south) / posts.stepLatitude;
-    }
-    const Extent extent = extentOf(mesh, places);
-    if (extent.empty()) continue;
-    std::vector<std::array<std::uint8_t, 3>> colours;
-    for (const std::string& material : mesh.materials) colours.push_back(materialColour(material));
-    for (const SceneryMesh::Triangle& t : mesh.triangles)
-      raster.add(places[t.vertex[0]], places[t.vertex[1]], places[t.vertex[2]], colours[t.material]);
-    const auto index = [](double x, std::uint32_t count) {
-      return static_cast<std::uint32_t>(std::clamp(x, 0.0, static_cast<double>(count)));
-    };
-    const std::uint32_t c0 = index(std::ceil(extent.west - 1e-3), posts.columns),
-                        c1 = index(std::floor(extent.east + 1e-3) + 1, posts.columns),
-                        r0 = index(std::ceil(extent.south - 1e-3), posts.rows),
-                        r1 = index(std::floor(extent.north + 1e-3) + 1, posts.rows);
-    for (std::uint32_t r = r0; r < r1; ++r)
-      std::fill_n(reached.begin() + static_cast<std::ptrdiff_t>(std::size_t{r} * posts.columns + c0),
-                  c1 > c0 ? c1 - c0 : 0, std::uint8_t{1});
-  }
+  HeightGrid grid{posts, std::vector<float>(posts.size()), 0, std::vector<std::uint8_t>(posts.size() * 4)};
+  std::vector<std::uint8_t> reached(posts.size());
+  const SceneryRaster raster(scenery, posts);
+  const std::size_t columns = posts.columns;
+  const auto take = [&](std::uint32_t first, std::uint32_t rows) {
+    for (std::uint32_t row = first; row < first + rows; ++row)
+      raster.reached(row, std::span(reached).subspan(row * columns, columns));
+    return raster.read(first, rows, std::span(grid.heights).subspan(first * columns, rows * columns),
+                       std::span(grid.image).subspan(first * columns * 4, rows * columns * 4));
+  };
+  if (auto done = forEachBand(posts, progress, "putting triangles on posts", take); !done)
+    return done.findings();
   if (elevation != nullptr) blendElevation(grid, *elevation, reached);
   grid.outside = static_cast<std::uint64_t>(std::count(reached.begin(), reached.end(), 0));
   Findings notes;
-  if (const std::uint64_t sea = fillOpenSea(grid, reached); sea > 0)
-    notes.push_back({Severity::note, "scenery", "outline", "tiles over the whole rectangle of the terrain",
-                     std::to_string(sea) + " posts beyond them, taken for open sea"});
+  if (const std::uint64_t sea = fillOpenSea(grid, reached); sea > 0) notes.push_back(aboutSea(sea));
   return Result<HeightGrid>(std::move(grid), std::move(notes));
 }
 
-SceneryCounts countsOf(const Scenery& scenery) {
-  SceneryCounts counts;
-  for (const SceneryMesh& mesh : scenery.tiles) {
-    ++(mesh.airport ? counts.airports : counts.tiles);
-    counts.trianglesInFile += mesh.trianglesInFile;
-    counts.degenerate += mesh.degenerate;
-    counts.triangles += mesh.triangles.size();
-  }
-  counts.missing = scenery.missing;
-  return counts;
+Result<std::unique_ptr<SceneryHeights>> SceneryHeights::open(const SceneryCatalogue& scenery,
+                                                             const PostGrid& posts,
+                                                             const Progress& progress) {
+  auto heights = std::unique_ptr<SceneryHeights>(new SceneryHeights(scenery, posts));
+  Findings notes;
+  if (auto found = heights->findSea(progress); !found) return found.findings();
+  if (heights->sea_ && heights->sea_->posts() > 0) notes.push_back(aboutSea(heights->sea_->posts()));
+  return Result<std::unique_ptr<SceneryHeights>>(std::move(heights), std::move(notes));
 }
 
-Result<Scenery> readSceneries(std::span<const std::filesystem::path> sources, const Progress& progress) {
-  Scenery all;
-  Findings findings;
-  std::set<std::string> names;
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    auto part = readScenery(sources[i], [&](double fraction, const std::string& what) {
-      return !progress ||
-             progress((static_cast<double>(i) + fraction) / static_cast<double>(sources.size()), what);
-    });
-    findings.insert(findings.end(), part.findings().begin(), part.findings().end());
-    if (!part) return findings;
-    for (SceneryMesh& mesh : (*part).tiles)
-      if (names.insert(mesh.name).second) all.tiles.push_back(std::move(mesh));
-    all.missing.insert(all.missing.end(), part->missing.begin(), part->missing.end());
+Result<Done> SceneryHeights::findSea(const Progress& progress) {
+  const std::size_t columns = posts().columns;
+  std::vector<std::uint8_t> reached(columns);
+  bool all = true;
+  for (std::uint32_t row = 0; all && row < posts().rows; ++row) {
+    raster_.reached(row, reached);
+    all = std::find(reached.begin(), reached.end(), 0) == reached.end();
   }
-  // Ground that a broken tile leaves out would look like sea or like a plain: better no database than that.
-  if (std::any_of(findings.begin(), findings.end(),
-                  [](const Finding& f) { return f.severity == Severity::error; }))
-    return findings;
-  return Result<Scenery>(std::move(all), std::move(findings));
-}
-
-Result<ImportedScenery> importScenery(std::span<const std::filesystem::path> sources,
-                                      std::optional<Metres> distance, const Progress& progress) {
-  const auto stage = [&](double from, double to) -> Progress {
-    return [&progress, from, to](double fraction, const std::string& what) {
-      return !progress || progress(from + (to - from) * fraction, what);
-    };
+  if (all) return Done{};
+  sea_.emplace();
+  std::vector<float> heights;
+  const auto take = [&](std::uint32_t first, std::uint32_t rows) -> Result<Done> {
+    heights.resize(rows * columns);
+    if (auto read = raster_.read(first, rows, heights); !read) return read;
+    for (std::uint32_t row = 0; row < rows; ++row) {
+      raster_.reached(first + row, reached);
+      sea_->add(std::span(heights).subspan(row * columns, columns), reached);
+    }
+    return Done{};
   };
-  auto read = readSceneries(sources, stage(0, 0.5));
-  if (!read) return read.findings();
-  Findings findings = read.findings();
-  Scenery& all = *read;
-  ImportedScenery imported;
-  imported.counts = countsOf(all);
-  const auto posts = sceneryPosts(all.tiles, distance);
-  if (!posts) {
-    findings.insert(findings.end(), posts.findings().begin(), posts.findings().end());
-    return findings;
-  }
-  auto grid = rasterised(all.tiles, *posts, stage(0.5, 1));
-  findings.insert(findings.end(), grid.findings().begin(), grid.findings().end());
-  if (!grid) return findings;
-  imported.grid = std::move(grid).value();
-  const std::uint64_t filled = fillVoids(imported.grid), outside = std::min(filled, imported.grid.outside);
-  imported.voidsFilled = filled - outside;
-  if (outside > 0)
-    findings.push_back({Severity::note, sources[0].string(), "outline",
-                        "tiles over the whole rectangle of the terrain",
-                        std::to_string(outside) + " posts beyond them, continued from their edges"});
-  imported.meshes = std::move(all.tiles);
-  return Result<ImportedScenery>(std::move(imported), std::move(findings));
+  if (auto done = forEachBand(posts(), progress, "looking for open sea", take); !done) return done;
+  sea_->finish();
+  return Done{};
+}
+
+Result<Done> SceneryHeights::readRows(std::uint32_t first, std::uint32_t rows, std::span<float> heights,
+                                      std::span<std::uint8_t> beyond) {
+  if (auto read = raster_.read(first, rows, heights); !read) return read;
+  std::fill(beyond.begin(), beyond.end(), std::uint8_t{0});
+  if (!sea_) return Done{};
+  for (std::uint32_t row = 0; row < rows; ++row)
+    for (const OpenSea::Stretch& stretch : sea_->stretches(first + row)) {
+      const auto from = static_cast<std::ptrdiff_t>(std::size_t{row} * posts().columns);
+      if (sea_->isSea(stretch))
+        std::fill(heights.begin() + from + stretch.first, heights.begin() + from + stretch.end, 0.0f);
+      else if (!beyond.empty())
+        std::fill(beyond.begin() + from + stretch.first, beyond.begin() + from + stretch.end,
+                  std::uint8_t{1});
+    }
+  return Done{};
+}
+
+Result<std::vector<std::uint8_t>> SceneryHeights::image(const Progress& progress) const {
+  const std::size_t columns = posts().columns;
+  std::vector<std::uint8_t> image(posts().size() * 4);
+  std::vector<float> heights;
+  const auto take = [&](std::uint32_t first, std::uint32_t rows) -> Result<Done> {
+    heights.resize(rows * columns);
+    const auto band = std::span(image).subspan(first * columns * 4, rows * columns * 4);
+    if (auto read = raster_.read(first, rows, heights, band); !read) return read;
+    for (std::uint32_t row = 0; sea_ && row < rows; ++row)
+      for (const OpenSea::Stretch& stretch : sea_->stretches(first + row))
+        if (sea_->isSea(stretch)) paintSea(band.subspan(row * columns * 4, columns * 4), stretch);
+    return Done{};
+  };
+  if (auto done = forEachBand(posts(), progress, "colours of posts", take); !done) return done.findings();
+  return image;
 }
 
 }  // namespace trimtab::terrain

@@ -1,45 +1,53 @@
 #pragma once
 
-#include <filesystem>
+#include <memory>
 #include <optional>
-#include <span>
-#include <vector>
 
 #include "trimtab/terrain/database.h"
+#include "trimtab/terrain/elevation_source.h"
 #include "trimtab/terrain/post_grid.h"
-#include "trimtab/terrain/scenery.h"
+#include "trimtab/terrain/scenery_catalogue.h"
+#include "trimtab/terrain/scenery_raster.h"
+#include "trimtab/terrain/scenery_sea.h"
 
 namespace trimtab::terrain {
 
 /// Posts from the south-west to the north-east corner of what the triangles cover, both included. Without a
 /// distance: 30 m, and up to 60 m where that keeps the grid at about six million posts.
-Result<PostGrid> sceneryPosts(std::span<const SceneryMesh> meshes, std::optional<Metres> distance);
+Result<PostGrid> sceneryPosts(const SceneryCatalogue& scenery, std::optional<Metres> distance);
 /// Posts over a rectangle of degrees, its corners included; without a distance as above.
-Result<PostGrid> postsOver(double west, double south, double east, double north,
-                           std::optional<Metres> distance);
+Result<PostGrid> postsOver(const Rectangle& degrees, std::optional<Metres> distance);
 
-/// The surface at each post, the highest where there are several, NaN where there is none; the material's
-/// colour as the post's image, alpha 0 where there is no surface. Heights to a centimetre: tiles hold theirs
-/// to some millimetres. What lies in no
-/// mesh's rectangle is open sea where its borders are, with a note; the rest of it counts as `outside`.
-/// `elevation`, where there is one: heights, with NaN for none, for the posts that no triangle covers.
-Result<HeightGrid> rasterised(std::span<const SceneryMesh> meshes, const PostGrid& posts,
+/// All of a SceneryRaster, the material's colour as the post's image. What lies in no tile's rectangle is
+/// open sea where its borders are, with a note; the rest of it counts as `outside`. `elevation`, where there
+/// is one: heights, with NaN for none, for the posts that no triangle covers.
+Result<HeightGrid> rasterised(const SceneryCatalogue& scenery, const PostGrid& posts,
                               const Progress& progress, const HeightGrid* elevation = nullptr);
 
-struct ImportedScenery {
-  HeightGrid grid;  ///< no voids left
-  std::uint64_t voidsFilled = 0;
-  std::vector<SceneryMesh> meshes;
-  SceneryCounts counts;
+/// The same, a band of rows at a time: memory follows the catalogue's, not the size of the land.
+class SceneryHeights final : public ElevationSource {
+ public:
+  /// Looks through all rows for open sea where tiles leave any out. The catalogue must outlive it.
+  static Result<std::unique_ptr<SceneryHeights>> open(const SceneryCatalogue& scenery, const PostGrid& posts,
+                                                      const Progress& progress);
+
+  const PostGrid& posts() const override { return raster_.posts(); }
+  Result<Done> readRows(std::uint32_t first, std::uint32_t rows, std::span<float> heights,
+                        std::span<std::uint8_t> beyond = {}) override;
+  std::vector<std::string> names() const override { return {}; }
+  std::vector<std::uint64_t> given() const override { return {}; }
+  /// Colours of all posts, RGBA, alpha 0 where there are none.
+  Result<std::vector<std::uint8_t>> image(const Progress& progress) const;
+
+ private:
+  SceneryHeights(const SceneryCatalogue& scenery, const PostGrid& posts) : raster_(scenery, posts) {}
+  Result<Done> findSea(const Progress& progress);
+
+  SceneryRaster raster_;
+  std::optional<OpenSea> sea_;  ///< none: tiles reach every post
 };
-/// Reads all sources and puts them on one grid. A tile that two sources hold counts once.
-Result<ImportedScenery> importScenery(std::span<const std::filesystem::path> sources,
-                                      std::optional<Metres> distance, const Progress& progress);
 
-/// All tiles of some sources, each once.
-Result<Scenery> readSceneries(std::span<const std::filesystem::path> sources, const Progress& progress);
-
-/// What the meshes of some scenery hold.
+/// What the files of some scenery hold.
 SceneryCounts countsOf(const Scenery& scenery);
 
 }  // namespace trimtab::terrain

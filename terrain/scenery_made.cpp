@@ -26,10 +26,13 @@ struct Place {
   Vec3 ecef;
 };
 
-/// Vertices of scenery on edges that one triangle alone has.
-std::vector<Place> bordersOf(std::span<const SceneryMesh> meshes, double nearLongitude) {
+/// Vertices of scenery on edges that one triangle alone has, with longitudes turned by so many degrees.
+Result<std::vector<Place>> bordersOf(const SceneryCatalogue& scenery, double turn) {
   std::vector<Place> places;
-  for (const SceneryMesh& mesh : meshes) {
+  for (std::size_t tile = 0; tile < scenery.tiles().size(); ++tile) {
+    const auto placed = scenery.mesh(tile);
+    if (!placed) return placed.findings();
+    const SceneryMesh& mesh = (*placed)->mesh;
     std::vector<std::uint64_t> edges;
     for (const SceneryMesh::Triangle& t : mesh.triangles)
       for (std::size_t k = 0; k < 3; ++k) {
@@ -45,9 +48,8 @@ std::vector<Place> bordersOf(std::span<const SceneryMesh> meshes, double nearLon
       open.insert(static_cast<std::uint32_t>(edges[i]));
     }
     for (const std::uint32_t v : open) {
-      const GeodeticPosition p = toGeodetic(mesh.vertices[v]);
-      places.push_back({nearLongitude + std::remainder(p.longitude.value() - nearLongitude, 360.0),
-                        p.latitude.value(), mesh.vertices[v]});
+      const Vec3& place = (*placed)->places[v];
+      places.push_back({place.x + turn, place.y, mesh.vertices[v]});
     }
   }
   return places;
@@ -55,11 +57,11 @@ std::vector<Place> bordersOf(std::span<const SceneryMesh> meshes, double nearLon
 
 class Maker {
  public:
-  Maker(std::span<const SceneryMesh> scenery, const HeightGrid& grid, const Rectangle& where)
-      : grid_(grid), where_(where) {
-    borders_ = bordersOf(scenery, grid.posts.longitude((grid.posts.columns - 1) / 2.0));
-    for (const SceneryMesh& mesh : scenery)
-      if (!mesh.airport) there_.insert(mesh.name);
+  Maker(const SceneryCatalogue& scenery, std::vector<Place> borders, const HeightGrid& grid,
+        const Rectangle& where)
+      : grid_(grid), where_(where), borders_(std::move(borders)) {
+    for (const SceneryCatalogue::Tile& tile : scenery.tiles())
+      if (!tile.airport) there_.insert(tile.name);
     constexpr double kDegreeM = 111320;
     stepM_ = grid.posts.stepLatitude * kDegreeM;
   }
@@ -310,9 +312,11 @@ class Maker {
 
 }  // namespace
 
-std::vector<SceneryMesh> madeTiles(std::span<const SceneryMesh> scenery, const HeightGrid& grid,
-                                   const Rectangle& where) {
-  const Maker maker(scenery, grid, where);
+Result<std::vector<SceneryMesh>> madeTiles(const SceneryCatalogue& scenery, const HeightGrid& grid,
+                                           const Rectangle& where) {
+  auto borders = bordersOf(scenery, scenery.turnTo(grid.posts.longitude((grid.posts.columns - 1) / 2.0)));
+  if (!borders) return borders.findings();
+  const Maker maker(scenery, std::move(borders).value(), grid, where);
   const std::vector<Bucket> buckets = maker.buckets();
   std::vector<SceneryMesh> made(buckets.size());
   forEachParallel(static_cast<std::uint32_t>(buckets.size()),

@@ -33,27 +33,35 @@ std::uint64_t unzippedSize(const fs::path& file) {
   return bytes >= size && bytes <= 20 * size ? bytes : 3 * size;
 }
 
+bool isTile(const fs::path& file) {
+  return file.filename().string().find(".btg") != std::string::npos;
+}
+
 }  // namespace
 
-std::uint64_t sceneryBakeBytes(std::span<const fs::path> files, std::optional<Metres> post) {
-  double bytes = kProgram, west = 1e9, south = 1e9, east = -1e9, north = -1e9;
+std::uint64_t sceneryBytes(std::span<const fs::path> files) {
+  double bytes = kProgram;
+  for (const fs::path& file : files)
+    if (isTile(file)) bytes += kByByte * static_cast<double>(unzippedSize(file));
+  return static_cast<std::uint64_t>(bytes);
+}
+
+std::uint64_t sceneryPostsBytes(std::span<const fs::path> files, std::optional<Metres> post) {
+  Rectangle whole = Rectangle::none();
   for (const fs::path& file : files) {
+    if (!isTile(file)) continue;
     const std::string name = file.filename().string();
-    if (name.find(".btg") == std::string::npos) continue;
-    bytes += kByByte * static_cast<double>(unzippedSize(file));
     long index = -1;
     std::from_chars(name.data(), name.data() + name.size(), index);
     const Bucket bucket = bucketOf(index);
     if (bucket.index < 0) continue;
+    const Rectangle b{bucket.west.value(), bucket.south.value(), bucket.east.value(), bucket.north.value()};
     // On one side of the earth with the first.
-    const double turn = west < 1e9 ? 360 * std::round((west - bucket.west.value()) / 360) : 0;
-    west = std::min(west, bucket.west.value() + turn), east = std::max(east, bucket.east.value() + turn);
-    south = std::min(south, bucket.south.value()), north = std::max(north, bucket.north.value());
+    whole.add(b.turned(whole.empty() ? 0 : 360 * std::round((whole.west - b.west) / 360)));
   }
-  if (west < east)
-    if (const auto posts = postsOver(west, south, east, north, post))
-      bytes += kByPost * static_cast<double>(posts->size());
-  return static_cast<std::uint64_t>(bytes);
+  if (whole.empty()) return 0;
+  const auto posts = postsOver(whole, post);
+  return posts ? static_cast<std::uint64_t>(kByPost * static_cast<double>(posts->size())) : 0;
 }
 
 }  // namespace trimtab::terrain

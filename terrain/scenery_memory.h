@@ -9,8 +9,12 @@
 
 namespace trimtab::terrain {
 
-/// Bytes that baking scenery's files will take at its highest, told before any is read: by the sizes of the
-/// files as unzipped, and by the posts over their buckets. Elevation beside them is not counted.
-std::uint64_t sceneryBakeBytes(std::span<const std::filesystem::path> files, std::optional<Metres> post);
+// Told before any file is read.
+
+/// Bytes that scenery's files take at their highest where all of them are in memory and trees are made of
+/// them: by their sizes as unzipped.
+std::uint64_t sceneryBytes(std::span<const std::filesystem::path> files);
+/// And those of the posts over their buckets, where those are in memory too.
+std::uint64_t sceneryPostsBytes(std::span<const std::filesystem::path> files, std::optional<Metres> post);
 
 }  // namespace trimtab::terrain

@@ -16,12 +16,6 @@ namespace {
 constexpr double kDegreeM = 111320;
 constexpr double kMostPosts = 1e8;  ///< where no distance was given
 
-Progress part(const Progress& progress, double from, double to) {
-  return [&progress, from, to](double fraction, const std::string& what) {
-    return !progress || progress(from + (to - from) * fraction, what);
-  };
-}
-
 Rectangle rectangleOf(const PostGrid& posts) {
   return {posts.west, posts.south, posts.longitude(posts.columns - 1), posts.latitude(posts.rows - 1)};
 }
@@ -56,58 +50,60 @@ Result<PostGrid> postsOfBoth(const PostGrid& scenery, const PostGrid& elevation,
     const double posts = (a.east - a.west) * (a.north - a.south) / (step * step);
     distance = Metres{std::max(1.0, kDegreeM * step * std::sqrt(std::max(1.0, posts / kMostPosts)))};
   }
-  return postsOver(a.west, a.south, a.east, a.north, distance);
+  return postsOver(a, distance);
 }
 
 }  // namespace
 
-Result<ImportedScenery> merged(Scenery scenery, const HeightGrid& elevation, std::optional<Metres> distance,
-                               const Progress& progress) {
-  ImportedScenery imported;
-  imported.counts = countsOf(scenery);
-  const auto own = sceneryPosts(scenery.tiles, distance);
+Result<MergedScenery> merged(std::unique_ptr<SceneryCatalogue> scenery, const HeightGrid& elevation,
+                             std::optional<Metres> distance, const Progress& progress) {
+  MergedScenery all;
+  all.counts = scenery->counts();
+  const auto own = sceneryPosts(*scenery, distance);
   if (!own) return own.findings();
   const auto posts = postsOfBoth(*own, elevation.posts, distance);
   if (!posts) return posts.findings();
-  auto grid = rasterised(scenery.tiles, *posts, part(progress, 0, 0.6), &elevation);
+  auto grid = rasterised(*scenery, *posts, stageOf(progress, 0, 0.6), &elevation);
   if (!grid) return grid.findings();
   Findings findings = grid.findings();
-  imported.grid = std::move(grid).value();
-  const std::uint64_t filled = fillVoids(imported.grid), outside = std::min(filled, imported.grid.outside);
-  imported.voidsFilled = filled - outside;
+  all.grid = std::move(grid).value();
+  const std::uint64_t filled = fillVoids(all.grid), outside = std::min(filled, all.grid.outside);
+  all.voidsFilled = filled - outside;
   if (outside > 0)
     findings.push_back({Severity::note, "scenery and elevation", "outline",
                         "tiles or heights over the whole rectangle of the terrain",
                         std::to_string(outside) + " posts beyond them, continued from their edges"});
   if (progress && !progress(0.7, "tiles between scenery")) return cancelled("tiles between scenery");
   Rectangle where = rectangleOf(elevation.posts);
-  const Rectangle whole = rectangleOf(imported.grid.posts);
-  const double turn = 360 * std::round((whole.west + whole.east - where.west - where.east) / 720);
-  where.west = std::max(where.west + turn, whole.west), where.east = std::min(where.east + turn, whole.east);
-  where.south = std::max(where.south, whole.south), where.north = std::min(where.north, whole.north);
-  std::vector<SceneryMesh> made = madeTiles(scenery.tiles, imported.grid, where);
-  imported.meshes = std::move(scenery.tiles);
-  std::move(made.begin(), made.end(), std::back_inserter(imported.meshes));
-  return Result<ImportedScenery>(std::move(imported), std::move(findings));
+  const Rectangle whole = rectangleOf(all.grid.posts);
+  where = where.turned(360 * std::round((whole.west + whole.east - where.west - where.east) / 720));
+  where = {std::max(where.west, whole.west), std::max(where.south, whole.south),
+           std::min(where.east, whole.east), std::min(where.north, whole.north)};
+  auto made = madeTiles(*scenery, all.grid, where);
+  if (!made) return made.findings();
+  for (SceneryMesh& mesh : *made) scenery->add(std::move(mesh));
+  all.tiles = std::move(scenery);
+  return Result<MergedScenery>(std::move(all), std::move(findings));
 }
 
-Result<ImportedScenery> importMerged(std::span<const std::filesystem::path> scenery,
-                                     std::span<const std::filesystem::path> elevation,
-                                     std::optional<Metres> distance, const Progress& progress) {
-  auto tiles = readSceneries(scenery, part(progress, 0, 0.3));
+Result<MergedScenery> importMerged(std::span<const std::filesystem::path> scenery,
+                                   std::span<const std::filesystem::path> elevation,
+                                   std::optional<Metres> distance, const Progress& progress) {
+  auto tiles =
+      SceneryCatalogue::open(scenery, std::numeric_limits<std::size_t>::max(), stageOf(progress, 0, 0.3));
   if (!tiles) return tiles.findings();
   ElevationOptions options;
-  options.progress = part(progress, 0.3, 0.5);
+  options.progress = stageOf(progress, 0.3, 0.5);
   const auto source = openElevation(elevation, options);
   if (!source) return source.findings();
   Findings findings = tiles.findings();
   findings.insert(findings.end(), source.findings().begin(), source.findings().end());
   const auto heights = wholeOf(**source);
   if (!heights) return heights.findings();
-  auto both = merged(std::move(tiles).value(), *heights, distance, part(progress, 0.5, 1));
+  auto both = merged(std::move(tiles).value(), *heights, distance, stageOf(progress, 0.5, 1));
   findings.insert(findings.end(), both.findings().begin(), both.findings().end());
   if (!both) return findings;
-  return Result<ImportedScenery>(std::move(both).value(), std::move(findings));
+  return Result<MergedScenery>(std::move(both).value(), std::move(findings));
 }
 
 }  // namespace trimtab::terrain

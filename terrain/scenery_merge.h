@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -8,19 +9,26 @@
 
 namespace trimtab::terrain {
 
+struct MergedScenery {
+  HeightGrid grid;  ///< no voids left
+  std::uint64_t voidsFilled = 0;
+  std::unique_ptr<SceneryCatalogue> tiles;  ///< all of it in memory
+  SceneryCounts counts;
+};
+
 /// Scenery and elevation side by side on one grid of posts over both: scenery's triangles where there are
-/// any, elevation elsewhere, blended so that no step shows. `meshes` has scenery's tiles and, for buckets
+/// any, elevation elsewhere, blended so that no step shows. `tiles` has scenery's tiles and, for buckets
 /// without one, tiles made of the grid that share its borders, so that trees close between both kinds;
 /// `counts` has scenery's alone. Airports sit in their holes as ever.
 ///
 /// Posts are as close as the finer of the two has them, where no distance is given; all of them are in
 /// memory.
-Result<ImportedScenery> importMerged(std::span<const std::filesystem::path> scenery,
-                                     std::span<const std::filesystem::path> elevation,
-                                     std::optional<Metres> distance, const Progress& progress);
+Result<MergedScenery> importMerged(std::span<const std::filesystem::path> scenery,
+                                   std::span<const std::filesystem::path> elevation,
+                                   std::optional<Metres> distance, const Progress& progress);
 
 /// The same of what was read. `elevation`: heights with NaN for none.
-Result<ImportedScenery> merged(Scenery scenery, const HeightGrid& elevation, std::optional<Metres> distance,
-                               const Progress& progress);
+Result<MergedScenery> merged(std::unique_ptr<SceneryCatalogue> scenery, const HeightGrid& elevation,
+                             std::optional<Metres> distance, const Progress& progress);
 
 }  // namespace trimtab::terrain

@@ -1,7 +1,6 @@
 #include "trimtab/terrain/scenery_sea.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "trimtab/terrain/scenery.h"
@@ -14,48 +13,103 @@ constexpr float kSeaLevelM = 0.5f;
 
 }  // namespace
 
-std::uint64_t fillOpenSea(HeightGrid& grid, const std::vector<std::uint8_t>& reached) {
-  const std::uint32_t columns = grid.posts.columns, rows = grid.posts.rows;
-  const auto colour = materialColour("Ocean");
-  std::vector<std::uint8_t> seen(reached);
-  std::uint64_t sea = 0;
-  std::vector<std::size_t> area;
-  for (std::size_t first = 0; first < seen.size(); ++first) {
-    if (seen[first] != 0) continue;
-    std::uint64_t border = 0, level = 0;
-    area.assign(1, first);
-    seen[first] = 1;
-    for (std::size_t i = 0; i < area.size(); ++i) {
-      const std::size_t post = area[i];
-      const std::size_t row = post / columns, column = post % columns;
-      std::array<std::size_t, 4> beside;
-      std::size_t count = 0;
-      if (column > 0) beside[count++] = post - 1;
-      if (column + 1 < columns) beside[count++] = post + 1;
-      if (row > 0) beside[count++] = post - columns;
-      if (row + 1 < rows) beside[count++] = post + columns;
-      for (std::size_t k = 0; k < count; ++k) {
-        const std::size_t next = beside[k];
-        if (reached[next] != 0) {
-          const float height = grid.heights[next];
-          border += std::isnan(height) ? 0 : 1;
-          level += std::abs(height) <= kSeaLevelM ? 1 : 0;
-        } else if (seen[next] == 0) {
-          seen[next] = 1;
-          area.push_back(next);
-        }
-      }
+std::uint32_t OpenSea::rootOf(std::uint32_t area) const {
+  while (areas_[area].parent != area) area = areas_[area].parent;
+  return area;
+}
+
+/// The older stays the root, so that ways to it are short.
+void OpenSea::join(std::uint32_t a, std::uint32_t b) {
+  a = rootOf(a), b = rootOf(b);
+  if (a == b) return;
+  const auto [root, other] = std::minmax(a, b);
+  areas_[other].parent = root;
+  areas_[root].border += areas_[other].border;
+  areas_[root].level += areas_[other].level;
+  areas_[root].posts += areas_[other].posts;
+}
+
+/// A post of the area lies beside one that a tile reaches.
+void OpenSea::meet(std::uint32_t area, float height) {
+  Area& root = areas_[rootOf(area)];
+  root.border += !std::isnan(height);
+  root.level += std::abs(height) <= kSeaLevelM;
+}
+
+void OpenSea::add(std::span<const float> heights, std::span<const std::uint8_t> reached) {
+  const auto columns = static_cast<std::uint32_t>(heights.size());
+  const bool isFirst = firstOfRow_.size() == 1;
+  const std::size_t before = isFirst ? 0 : firstOfRow_[firstOfRow_.size() - 2], own = stretches_.size();
+  for (std::uint32_t c = 0; c < columns;) {
+    if (reached[c] != 0) {
+      ++c;
+      continue;
     }
-    if (border == 0 || 2 * level < border) continue;
-    for (const std::size_t post : area) {
-      grid.heights[post] = 0;
-      std::copy_n(colour.data(), 3, &grid.image[post * 4]);
-      grid.image[post * 4 + 3] = 255;
+    Stretch stretch{c, c, 0};
+    while (stretch.end < columns && reached[stretch.end] == 0) ++stretch.end;
+    c = stretch.end;
+    bool known = false;
+    for (std::size_t i = before; i < own; ++i) {
+      const Stretch& other = stretches_[i];
+      if (other.end <= stretch.first || other.first >= stretch.end) continue;
+      if (known)
+        join(stretch.area, other.area);
+      else
+        stretch.area = other.area;
+      known = true;
     }
-    sea += area.size();
+    if (!known) {
+      stretch.area = static_cast<std::uint32_t>(areas_.size());
+      areas_.push_back({stretch.area});
+    }
+    areas_[rootOf(stretch.area)].posts += stretch.end - stretch.first;
+    if (stretch.first > 0) meet(stretch.area, heights[stretch.first - 1]);
+    if (stretch.end < columns) meet(stretch.area, heights[stretch.end]);
+    for (std::uint32_t k = stretch.first; !isFirst && k < stretch.end; ++k)
+      if (belowReach_[k] != 0) meet(stretch.area, below_[k]);
+    stretches_.push_back(stretch);
   }
-  grid.outside -= std::min<std::uint64_t>(sea, grid.outside);
-  return sea;
+  for (std::size_t i = before; i < own; ++i)
+    for (std::uint32_t k = stretches_[i].first; k < stretches_[i].end; ++k)
+      if (reached[k] != 0) meet(stretches_[i].area, heights[k]);
+  firstOfRow_.push_back(stretches_.size());
+  below_.assign(heights.begin(), heights.end());
+  belowReach_.assign(reached.begin(), reached.end());
+}
+
+void OpenSea::finish() {
+  posts_ = 0;
+  for (std::uint32_t i = 0; i < areas_.size(); ++i) {
+    Area& area = areas_[i];
+    area.sea = area.parent == i && area.border > 0 && 2 * area.level >= area.border;
+    if (area.sea) posts_ += area.posts;
+  }
+}
+
+void paintSea(std::span<std::uint8_t> row, const OpenSea::Stretch& stretch) {
+  const auto colour = materialColour("Ocean");
+  for (std::size_t post = stretch.first; post < stretch.end; ++post) {
+    std::copy_n(colour.data(), 3, &row[post * 4]);
+    row[post * 4 + 3] = 255;
+  }
+}
+
+std::uint64_t fillOpenSea(HeightGrid& grid, const std::vector<std::uint8_t>& reached) {
+  const std::size_t columns = grid.posts.columns;
+  OpenSea sea;
+  for (std::size_t row = 0; row < grid.posts.rows; ++row)
+    sea.add(std::span(grid.heights).subspan(row * columns, columns),
+            std::span(reached).subspan(row * columns, columns));
+  sea.finish();
+  for (std::uint32_t row = 0; row < grid.posts.rows; ++row)
+    for (const OpenSea::Stretch& stretch : sea.stretches(row))
+      if (sea.isSea(stretch)) {
+        const auto first = grid.heights.begin() + static_cast<std::ptrdiff_t>(row * columns);
+        std::fill(first + stretch.first, first + stretch.end, 0.0f);
+        paintSea(std::span(grid.image).subspan(row * columns * 4, columns * 4), stretch);
+      }
+  grid.outside -= std::min<std::uint64_t>(sea.posts(), grid.outside);
+  return sea.posts();
 }
 
 }  // namespace trimtab::terrain

@@ -14,10 +14,10 @@ constexpr int kCells = 16;
 constexpr double kApronDegrees = 0.0015, kApronM = 12;
 constexpr int kSamples = 9;
 
-std::vector<Bucket> openSea(std::span<const SceneryMesh> tiles, const HeightGrid& grid) {
+std::vector<Bucket> openSea(std::span<const SceneryMesh> tiles, const HeightSource& heights) {
   std::set<std::string> there;
   for (const SceneryMesh& tile : tiles) there.insert(tile.name);
-  const PostGrid& posts = grid.posts;
+  const PostGrid& posts = heights.posts();
   const double east = posts.longitude(posts.columns - 1), north = posts.latitude(posts.rows - 1);
   const auto isSea = [&](const Bucket& b) {
     for (int y = 0; y < kSamples; ++y)
@@ -28,9 +28,11 @@ std::vector<Bucket> openSea(std::span<const SceneryMesh> tiles, const HeightGrid
         const double column = (within(b.west.value(), b.east.value(), x) - posts.west) / posts.stepLongitude,
                      row = (within(b.south.value(), b.north.value(), y) - posts.south) / posts.stepLatitude;
         if (!(column >= 0 && row >= 0 && column <= posts.columns - 1 && row <= posts.rows - 1)) return false;
-        const auto post = static_cast<std::size_t>(std::lround(row)) * posts.columns +
-                          static_cast<std::size_t>(std::lround(column));
-        if (grid.heights[post] != 0) return false;
+        float height = 0;
+        heights.read({static_cast<std::uint32_t>(std::lround(column)),
+                      static_cast<std::uint32_t>(std::lround(row)), 1, 1},
+                     1, {&height, 1});
+        if (height != 0) return false;
       }
     return true;
   };
@@ -118,8 +120,8 @@ void append(StaticLodTerrain& trees, const Bucket& bucket, std::uint16_t materia
 
 std::shared_ptr<const StaticLodTerrain> withOpenSea(std::shared_ptr<const StaticLodTerrain> trees,
                                                     std::span<const SceneryMesh> tiles,
-                                                    const HeightGrid& grid) {
-  const std::vector<Bucket> sea = openSea(tiles, grid);
+                                                    const HeightSource& heights) {
+  const std::vector<Bucket> sea = openSea(tiles, heights);
   if (sea.empty()) return trees;
   auto whole = std::make_shared<StaticLodTerrain>(*trees);
   const auto ocean = std::find(whole->materials.begin(), whole->materials.end(), "Ocean");

@@ -3,7 +3,7 @@
 #include <memory>
 #include <span>
 
-#include "trimtab/terrain/post_grid.h"
+#include "trimtab/terrain/height_window.h"
 #include "trimtab/terrain/scenery.h"
 #include "trimtab/terrain/static_lod.h"
 
@@ -15,6 +15,6 @@ namespace trimtab::terrain {
 /// in.
 std::shared_ptr<const StaticLodTerrain> withOpenSea(std::shared_ptr<const StaticLodTerrain> trees,
                                                     std::span<const SceneryMesh> tiles,
-                                                    const HeightGrid& grid);
+                                                    const HeightSource& heights);
 
 }  // namespace trimtab::terrain

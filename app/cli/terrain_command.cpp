@@ -105,7 +105,7 @@ void addTerrain(CLI::App& app, int& exitCode) {
       ->check(CLI::Range(0.0, 1000.0));
   makeBake
       ->add_option("--memory-mb", bake->memoryMb,
-                   "Most memory that baking may use; scenery that would take more is refused")
+                   "Most memory that baking may use; tiles and trees that would take more are left out")
       ->capture_default_str()
       ->check(CLI::Range(64.0, 1048576.0));
   CLI::Option* part = makeBake->add_option("--part", bake->part,

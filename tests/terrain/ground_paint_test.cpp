@@ -42,10 +42,23 @@ bool isRoad(const GroundTexel& t) {
   return t.red > 200 && t.green < 80;
 }
 
+/// All of them, wherever they are asked for.
+class Everywhere final : public GroundTriangles {
+ public:
+  explicit Everywhere(std::span<const GroundTriangle> triangles) : triangles_(triangles) {}
+  Result<std::vector<GroundTriangle>> over(const Rectangle&) const override {
+    return std::vector<GroundTriangle>(triangles_.begin(), triangles_.end());
+  }
+
+ private:
+  std::span<const GroundTriangle> triangles_;
+};
+
 std::shared_ptr<const GroundPyramid> painted(GroundLand& land, std::span<const GroundTriangle> triangles,
                                              double texels) {
   GroundSources sources = land.sources();
-  sources.triangles = triangles;
+  const Everywhere all(triangles);
+  sources.triangles = &all;
   sources.texelsPerPost = texels;
   auto pyramid = buildGroundInMemory(sources);
   EXPECT_TRUE(pyramid) << toString(pyramid.findings());
@@ -163,7 +176,8 @@ TEST(GroundPaint, imagesLieOverMaterials) {
   addStrip(triangles, land.grid.posts, 5, 150, 295, 150, 1, kRoad, LineFeature::road);
   GroundSources sources = land.sources();
   sources.images = {test::writeRaster(dir / "half.tif", picture)};
-  sources.triangles = triangles;
+  const Everywhere all(triangles);
+  sources.triangles = &all;
   sources.texelsPerPost = 1;
   const auto pyramid = buildGroundInMemory(sources);
   ASSERT_TRUE(pyramid);

@@ -271,19 +271,38 @@ TEST_F(SceneryBake, isRefusedWithoutItsTreesOrWithOthers) {
   EXPECT_FALSE(terrain::Database::open(dir_ / "db"));
 }
 
-TEST_F(SceneryBake, refusesWhatWouldTakeMoreMemoryThanAllowedBeforeItReads) {
+TEST_F(SceneryBake, isTheSameInLittleMemoryButForItsTrees) {
   terrain::BakeOptions all = options();
+  const auto whole = terrain::bake(all);
+  ASSERT_TRUE(whole);
+  EXPECT_TRUE((*whole)->staticLod());
+  // No room for trees. Tiles are read again whenever they are needed.
+  all.memory = Megabytes{64};
+  all.output = dir_ / "little";
+  const auto little = terrain::bake(all);
+  ASSERT_TRUE(little) << toString(little.findings());
+  EXPECT_NE(toString(little.findings()).find("trees"), std::string::npos);
+  EXPECT_FALSE((*little)->staticLod());
+  EXPECT_TRUE(terrain::Database::open(dir_ / "little"));
+  for (const char* name : {terrain::kHeightsName, terrain::kPatchesName, terrain::kGroundName,
+                           terrain::kImageName, terrain::kNodesName})
+    EXPECT_TRUE(test::readFile(dir_ / "db" / name) == test::readFile(dir_ / "little" / name)) << name;
+}
+
+TEST_F(SceneryBake, besideElevationIsRefusedWhereItWouldTakeMoreMemoryThanAllowed) {
+  terrain::BakeOptions all = options();
+  test::RasterRecipe around;
+  around.west = 6.8, around.north = 50.8;
+  all.sources.push_back(test::writeRaster(dir_ / "around.tif", around));
   all.memory = Megabytes{150};
-  ASSERT_TRUE(terrain::bake(all));
   // Ten million posts.
   all.post = Metres{5};
-  all.output = dir_ / "fine";
   const auto refused = terrain::bake(all);
   ASSERT_FALSE(refused);
   const std::string said = toString(refused.findings());
   EXPECT_NE(said.find("150 MB allowed"), std::string::npos) << said;
-  EXPECT_FALSE(std::filesystem::exists(dir_ / "fine"));
-  EXPECT_FALSE(std::filesystem::exists(dir_ / ".fine.work"));
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "db"));
+  EXPECT_FALSE(std::filesystem::exists(dir_ / ".db.work"));
 }
 
 TEST_F(SceneryBake, takesElevationBesideScenery) {

@@ -15,7 +15,6 @@ namespace trimtab {
 namespace {
 
 using terrain::HeightGrid;
-using terrain::ImportedScenery;
 using terrain::Lattice;
 using terrain::SceneryMesh;
 
@@ -41,7 +40,7 @@ struct Seams {
   std::size_t slits = 0;                     ///< the same, but shorter than 5 cm: scenery has some of its own
   std::size_t rim = 0;                       ///< and on the rim
 };
-Seams seamsOf(const std::vector<SceneryMesh>& meshes, const std::set<std::string>& scenery,
+Seams seamsOf(std::span<const SceneryMesh> meshes, const std::set<std::string>& scenery,
               const terrain::Rectangle& rim) {
   GeodeticPosition middle = toGeodetic(meshes[0].vertices[0]);
   middle.height = Metres{0};
@@ -100,6 +99,10 @@ std::set<std::string> namesOf(const terrain::Scenery& scenery) {
   return names;
 }
 
+std::unique_ptr<terrain::SceneryCatalogue> catalogue(terrain::Scenery scenery) {
+  return std::make_unique<terrain::SceneryCatalogue>(std::move(scenery.tiles));
+}
+
 terrain::Scenery oneTile() {
   test::TileRecipe recipe;
   recipe.cells = 24;
@@ -116,11 +119,12 @@ TEST(SceneryMerge, closesTheSurfaceAroundATile) {
   const auto names = namesOf(scenery);
   const auto elevation = elevationOver(
       6.6, 50.3, 7.6, 50.75, 0.001, [](double x, double y) { return 320 + 60 * std::sin(60 * x + 70 * y); });
-  const auto both = terrain::merged(std::move(scenery), elevation, {}, {});
+  const auto both = terrain::merged(catalogue(std::move(scenery)), elevation, {}, {});
   ASSERT_TRUE(both) << toString(both.findings());
+  const auto meshes = both->tiles->takeAll();
   // 5 columns of buckets, cut to 1 degree, by 4 rows, cut; but for the one that is there.
-  EXPECT_EQ(both->meshes.size(), 20U);
-  const Seams seams = seamsOf(both->meshes, names, {6.6, 50.3, 7.6, 50.75});
+  EXPECT_EQ(meshes->size(), 20U);
+  const Seams seams = seamsOf(*meshes, names, {6.6, 50.3, 7.6, 50.75});
   EXPECT_EQ(seams.madeTiles, 19U);
   EXPECT_EQ(seams.open, 0U);
   EXPECT_GT(seams.rim, 100U);
@@ -130,7 +134,7 @@ TEST(SceneryMerge, closesTheSurfaceAroundATile) {
 
   // And the trees of it: at every level the same borders, with no open edge but the rim.
   const LocalFrame frame({Degrees{50.5}, Degrees{7.1}, Metres{0}});
-  const auto trees = terrain::buildStaticLod(both->meshes, frame, {});
+  const auto trees = terrain::buildStaticLod(*meshes, frame, {});
   ASSERT_TRUE(trees) << toString(trees.findings());
   EXPECT_EQ((*trees)->tiles.size(), 20U);
 }
@@ -141,7 +145,7 @@ TEST(SceneryMerge, hasNoStepWhereTheSourcesDiffer) {
   const auto elevation = elevationOver(6.8, 50.4, 7.5, 50.75, 0.0005, [](double x, double y) {
     return 340 + 80 * std::sin(60 * x) * std::cos(80 * y);
   });
-  const auto both = terrain::merged(std::move(scenery), elevation, Metres{40}, {});
+  const auto both = terrain::merged(catalogue(std::move(scenery)), elevation, Metres{40}, {});
   ASSERT_TRUE(both);
   const auto& posts = both->grid.posts;
   double steepest = 0, away = 0;
@@ -196,11 +200,11 @@ TEST_P(RealMerge, closesTheSurfaceBetweenBothKinds) {
     return std::find(without.begin(), without.end(), mesh.name) != without.end();
   });
   const auto names = namesOf(*scenery);
-  const auto both = terrain::merged(std::move(scenery).value(), elevation, Metres{90}, {});
+  const auto both = terrain::merged(catalogue(std::move(scenery).value()), elevation, Metres{90}, {});
   ASSERT_TRUE(both) << toString(both.findings());
   const auto& e = elevation.posts;
-  const Seams seams =
-      seamsOf(both->meshes, names, {e.west, e.south, e.longitude(e.columns - 1), e.latitude(e.rows - 1)});
+  const Seams seams = seamsOf(*both->tiles->takeAll(), names,
+                              {e.west, e.south, e.longitude(e.columns - 1), e.latitude(e.rows - 1)});
   EXPECT_EQ(seams.madeTiles, GetParam().made);
   EXPECT_EQ(seams.open, 0U);
   EXPECT_LE(seams.slits, 1U);

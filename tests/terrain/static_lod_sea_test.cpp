@@ -30,7 +30,7 @@ class OpenSea : public testing::Test {
 };
 
 TEST_F(OpenSea, fillsTheBucketWithoutATile) {
-  const auto sea = withOpenSea(trees, tiles, grid);
+  const auto sea = withOpenSea(trees, tiles, GridHeights(grid));
   ASSERT_EQ(sea->tiles.size(), 1u);
   ASSERT_EQ(sea->index.roots, std::vector<std::uint32_t>{0});
   const StaticLodTile& tile = sea->tiles[0];
@@ -69,23 +69,23 @@ TEST_F(OpenSea, fillsTheBucketWithoutATile) {
 
 TEST_F(OpenSea, isLeftOutWhereLandOrATileIs) {
   grid.heights[25 * 301 + 150] = 12;
-  EXPECT_EQ(withOpenSea(trees, tiles, grid), trees) << "land in the middle of the bucket";
+  EXPECT_EQ(withOpenSea(trees, tiles, GridHeights(grid)), trees) << "land in the middle of the bucket";
   grid.heights.assign(grid.posts.size(), 0.0f);
   SceneryMesh tile;
   tile.name = std::to_string(bucketAt(Degrees{35.55}, Degrees{135.35}).index);
   tiles.push_back(tile);
-  EXPECT_EQ(withOpenSea(trees, tiles, grid), trees);
+  EXPECT_EQ(withOpenSea(trees, tiles, GridHeights(grid)), trees);
 }
 
 TEST_F(OpenSea, staysInsideTheTerrain) {
   grid.posts.columns = 160;  // to 135.4: the bucket reaches past it
   grid.heights.assign(grid.posts.size(), 0.0f);
-  EXPECT_EQ(withOpenSea(trees, tiles, grid), trees);
+  EXPECT_EQ(withOpenSea(trees, tiles, GridHeights(grid)), trees);
 }
 
 TEST_F(OpenSea, isWrittenAndReadAsAnyTree) {
   const test::ScratchDir dir;
-  const auto sea = withOpenSea(trees, tiles, grid);
+  const auto sea = withOpenSea(trees, tiles, GridHeights(grid));
   const auto written = writeStaticLod(dir / "trees.bin", *sea);
   ASSERT_TRUE(written) << toString(written.findings());
   const auto read = readStaticLod(dir / "trees.bin");

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <algorithm>
+
+namespace trimtab::terrain {
+
+/// Degrees; longitudes on one side of the earth.
+struct Rectangle {
+  double west = 0, south = 0, east = 0, north = 0;
+
+  /// To which places are added.
+  static constexpr Rectangle none() { return {1e9, 1e9, -1e9, -1e9}; }
+  bool empty() const { return west > east; }
+  void add(double longitude, double latitude) {
+    west = std::min(west, longitude);
+    east = std::max(east, longitude);
+    south = std::min(south, latitude);
+    north = std::max(north, latitude);
+  }
+  void add(const Rectangle& other) {
+    if (other.empty()) return;
+    add(other.west, other.south);
+    add(other.east, other.north);
+  }
+  Rectangle turned(double degrees) const { return {west + degrees, south, east + degrees, north}; }
+  bool meets(const Rectangle& other) const {
+    return west <= other.east && other.west <= east && south <= other.north && other.south <= north;
+  }
+};
+
+}  // namespace trimtab::terrain
