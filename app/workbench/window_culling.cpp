@@ -52,6 +52,15 @@ QSizeF spanOf(const Box& box, const EyePose& eye, const ViewShape& view) {
           std::max(0.0, height) * view.heightPx / (view.top - view.bottom)};
 }
 
+/// White all over.
+bool coversNothing(const QImage& grey) {
+  for (int y = 0; y < grey.height(); ++y) {
+    const uchar* const row = grey.constScanLine(y);
+    if (std::any_of(row, row + grey.width(), [](uchar pixel) { return pixel != 255; })) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 views::CullingPanel* MainWindow::makeCullingPanel() {
@@ -87,13 +96,15 @@ void MainWindow::showDepthMap(const QImage& grey) {
   const auto& last = viewport_->lastResult();
   const bool horizon = last && last->horizon && !last->depthMap;
   const QString size = tr("%1 × %2 px").arg(grey.width()).arg(grey.height());
-  bands_->showDepthMap(
-      grey, tr("%1; black %2 m, white %3 km").arg(size).arg(Grey::kNearestM).arg(Grey::kFurthestM / 1000));
-  culling_->showMap(grey, horizon ? tr("The view as the horizon covers it: grey is proven covered")
-                                  : tr("Depth map %1; black %2 m, white %3 km")
-                                        .arg(size)
-                                        .arg(Grey::kNearestM)
-                                        .arg(Grey::kFurthestM / 1000));
+  const QString caption = coversNothing(grey) ? tr("%1: nothing of this view is covered").arg(size)
+                          : horizon
+                              ? tr("The view as the horizon covers it, %1: grey is proven covered").arg(size)
+                              : tr("Depth map %1; black %2 m, white %3 km")
+                                    .arg(size)
+                                    .arg(Grey::kNearestM)
+                                    .arg(Grey::kFurthestM / 1000);
+  bands_->showDepthMap(grey, caption);
+  culling_->showMap(grey, caption);
 }
 
 void MainWindow::showPicked(std::uint32_t node) {
