@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "trimtab/frame/box_union.h"
 #include "trimtab/scene/frame_culling.h"
 #include "trimtab/scene/occluder.h"
 
@@ -36,13 +37,11 @@ void makeDepthMesh(const terrain::TileMesh& mesh, float slopeMax, DepthMesh& out
   std::array<Box, kAcross * kAcross> parts;
   for (int part = 0; part < kAcross * kAcross; ++part) {
     const int x0 = part % kAcross * kPartCells, y0 = part / kAcross * kPartCells;
-    constexpr float kFar = 1e30f;
-    Box box{kFar, kFar, kFar, -kFar, -kFar, -kFar};
+    Box box = kNoBox;
     for (int y = y0; y <= y0 + kPartCells; ++y)
       for (int x = x0; x <= x0 + kPartCells; ++x) {
         const terrain::TileVertex& v = mesh.vertices[static_cast<std::size_t>(y * kSide + x)];
-        box = {std::min(box.minX, v.x), std::min(box.minY, v.y), std::min(box.minZ, v.z),
-               std::max(box.maxX, v.x), std::max(box.maxY, v.y), std::max(box.maxZ, v.z)};
+        box = united(box, v.x, v.y, v.z);
       }
     parts[static_cast<std::size_t>(part)] = box;
   }

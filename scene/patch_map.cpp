@@ -6,6 +6,8 @@
 #include <limits>
 #include <map>
 
+#include "trimtab/frame/box_union.h"
+
 namespace trimtab::scene {
 namespace {
 
@@ -50,12 +52,6 @@ class Squares {
   std::vector<T> values_;
 };
 
-Box grown(Box box, float x, float y, float z) {
-  return {std::min(box.minX, x), std::min(box.minY, y), std::min(box.minZ, z),
-          std::max(box.maxX, x), std::max(box.maxY, y), std::max(box.maxZ, z)};
-}
-constexpr Box kEmpty{1e30f, 1e30f, 1e30f, -1e30f, -1e30f, -1e30f};
-
 }  // namespace
 
 void makePatchSurface(const terrain::PatchMesh& mesh, int variant, PatchSurface& out) {
@@ -66,8 +62,8 @@ void makePatchSurface(const terrain::PatchMesh& mesh, int variant, PatchSurface&
   const std::span<const std::uint16_t> corners = std::span(mesh.indices).subspan(first, end - first);
   DepthMesh& m = out.mesh;
   m.origin = {16.0 * mesh.origin[0], 16.0 * mesh.origin[1], 16.0 * mesh.origin[2]};
-  Box box = kEmpty;
-  for (const terrain::PatchVertex& v : mesh.vertices) box = grown(box, v.x, v.y, v.z);
+  Box box = kNoBox;
+  for (const terrain::PatchVertex& v : mesh.vertices) box = united(box, v.x, v.y, v.z);
   if (corners.empty() || !(box.maxX >= box.minX)) return;
   const float extent = std::max(box.maxX - box.minX, box.maxY - box.minY);
   m.reach = std::max(extent / kSlopeSquares, 1e-3f);
@@ -77,10 +73,10 @@ void makePatchSurface(const terrain::PatchMesh& mesh, int variant, PatchSurface&
   Squares<float> steep(box, m.reach, 0.0f), steepAround(box, m.reach, 0.0f);
   std::map<std::pair<std::uint16_t, std::uint16_t>, int> edges;
   const auto boxOf = [&](std::size_t i) {
-    Box b = kEmpty;
+    Box b = kNoBox;
     for (std::size_t k = 0; k < 3; ++k) {
       const terrain::PatchVertex& v = mesh.vertices[corners[i + k]];
-      b = grown(b, v.x, v.y, v.z);
+      b = united(b, v.x, v.y, v.z);
     }
     return b;
   };
@@ -133,7 +129,7 @@ void makePatchSurface(const terrain::PatchMesh& mesh, int variant, PatchSurface&
   m.setVertices(count + outline.size());
   out.slope.assign(count + outline.size(), 0.0f);
   std::vector<std::uint8_t> atBorder(count + outline.size());
-  Squares<Box> parts(box, std::max(extent / kPartSquares, 1e-3f), kEmpty);
+  Squares<Box> parts(box, std::max(extent / kPartSquares, 1e-3f), kNoBox);
   for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
     const Box b = boxOf(i);
     float most = 0;
@@ -147,7 +143,7 @@ void makePatchSurface(const terrain::PatchMesh& mesh, int variant, PatchSurface&
     }
     const auto at = parts.of(0.5f * (b.minX + b.maxX), 0.5f * (b.minY + b.maxY), b.minX, b.minY);
     Box& part = parts(at.x0, at.y0);
-    part = grown(grown(part, b.minX, b.minY, b.minZ), b.maxX, b.maxY, b.maxZ);
+    part = united(part, b);
   }
   std::vector<std::uint16_t> indices(corners.begin(), corners.end());
   const float wall = 0.02f * extent + 5;
