@@ -277,7 +277,7 @@ void TimePlot::draw() {
                                        width() / columns_ > kRoomForBudgetTextPx);
   }
   for (Lane& lane : lanes_)
-    lane.rect->axis(QCPAxis::atBottom)->setNumberPrecision(span_ < 2 ? 2 : span_ < 20 ? 1 : 0);
+    lane.rect->axis(QCPAxis::atBottom)->setNumberPrecision(span_ < 2 ? 2 : span_ <= 25 ? 1 : 0);
   placeCursors();
   replot(QCustomPlot::rpQueuedReplot);
 }
