@@ -69,9 +69,10 @@ std::span<const std::uint8_t> MovingHorizon::hidden(const Frame& frame, const Su
     carriedBy_ = nullptr;
     return verdicts_;
   }
-  const Vec3 step = moving_ ? frame.eye - lastEye_ : Vec3{};
+  const double share = 1 / std::max(1.0, frame.framesSince);
+  const Vec3 step = moving_ ? share * (frame.eye - lastEye_) : Vec3{};
   if (length(step) <= kJumpM) {  // after a jump, most go on as before
-    const Vec3 turn = turn_ + (1 / kTurnFrames) * (step - step_ - turn_);
+    const Vec3 turn = turn_ + (1 / kTurnFrames) * (share * (step - step_) - turn_);
     turn_ = length(step - step_) <= kMostTurn && length(turn) <= kMostTurn ? turn : Vec3{};
     step_ = step;
   }

@@ -24,6 +24,7 @@ class MovingHorizon {
  public:
   struct Frame {
     Vec3 eye;
+    double framesSince = 1;  ///< that the eye took from where it was at the last call; at least 1
     std::uint64_t cut = 0;   ///< another one for another cut
     std::uint64_t rule = 0;  ///< another one where not only the eye differs that the cut was made for
     std::span<const TileDraw> tiles;  ///< the whole cut

@@ -174,6 +174,27 @@ TEST(MovingHorizon, holdsThroughTurnsStopsClimbsAndJumps) {
     }
 }
 
+// A horizon is for a few frames' way, whatever was not asked for before.
+TEST(MovingHorizon, takesTheEyesStepFromAllFramesSinceItWasAsked) {
+  const SurfaceTree tree = SurfaceTree::of(ground().index());
+  const double side = ground().sideM();
+  LevelCut cut;
+  const auto roomAfter = [&](double framesSince) {
+    MovingHorizon moving;
+    for (int call = 0; call < 3; ++call) {
+      const Vec3 eye{0.3 * side + 50 * call, 0.4 * side, 900};
+      if (call == 0) selectLevels(ground().index(), eye, 0.004, 1, 1, cut);
+      moving.hidden({.eye = eye, .framesSince = framesSince, .cut = 1, .tiles = cut.tiles, .settings = {}},
+                    tree, [&](std::vector<HorizonTile>& tiles) { tiles = ground().tiles(cut); });
+    }
+    const EyeRoom& room = moving.horizon().room();
+    return length(room.to - room.from);
+  };
+  EXPECT_LT(roomAfter(10), 5 * (MovingHorizon::kFrames + 2));
+  EXPECT_GT(roomAfter(1), 50 * MovingHorizon::kFrames) << "in one frame";
+  EXPECT_EQ(roomAfter(0), roomAfter(1));
+}
+
 // The room shrinks to where the eye is, wherever the one that was being made lies.
 TEST(MovingHorizon, givesAnEyeThatComesToRestABetterHorizon) {
   const double side = ground().sideM();
