@@ -36,7 +36,12 @@ double spend(MeshTiles& tiles, double tolerance, double least, double budget, do
       continue;
     }
     fits = tolerance;
-    if (tolerance <= least || count >= enough * budget) return tolerance;
+    if (tolerance <= least) return tolerance;
+    if (count >= enough * budget) {
+      // A tolerance for the rest would often be too far, and each time all begins anew.
+      if (!sample) tiles.add(static_cast<std::size_t>(budget), fits);
+      return fits;
+    }
     if (lastCount > 0 && count > lastCount * 1.01)
       power = std::clamp(std::log(count / lastCount) / std::log(lastTolerance / tolerance), 0.8, 4.0);
     lastCount = count;
@@ -70,7 +75,7 @@ void spend(MeshTiles& tiles, const HeightField& field, double least, std::size_t
   tiles.restart(true);
   if (tiles.taken() < 1) tolerance = spend(tiles, tolerance, least, wanted * tiles.taken(), 0.9, true, power);
   tiles.restart(false);
-  spend(tiles, tolerance, least, wanted, 0.997, false, power);
+  spend(tiles, tolerance, least, wanted, 0.97, false, power);
 }
 
 }  // namespace
@@ -85,9 +90,10 @@ FieldMesh meshField(const HeightField& field, const MeshOptions& options) {
     tiles.refine(options.maxErrorM);
   else
     spend(tiles, field, options.maxErrorM, options.mostTriangles);
-  Triangulation mesh = options.fitHeights
-                           ? fitTiles(tiles, field, std::max(options.maxErrorM, tiles.maxErrorM()), threads)
-                           : tiles.join();
+  const double bound = std::max(options.maxErrorM, tiles.maxErrorM());
+  Triangulation mesh = options.fitHeights ? fitTiles(tiles, field, bound, threads) : tiles.join();
+  std::vector<PostSum> sums = postSums(mesh, field, threads);
+  if (options.fitHeights) mendPosts(mesh, field, bound, sums);
 
   out.vertices.reserve(mesh.vertices.size());
   for (const Triangulation::Vertex& v : mesh.vertices)
@@ -95,7 +101,7 @@ FieldMesh meshField(const HeightField& field, const MeshOptions& options) {
   out.indices.reserve(mesh.triangles.size() * 3);
   for (const Triangulation::Triangle& t : mesh.triangles)
     out.indices.insert(out.indices.end(), t.corner, t.corner + 3);
-  const PostErrors errors = postErrors(mesh, field, threads);
+  const PostErrors errors = postErrors(mesh, field, sums);
   out.maxErrorM = errors.max;
   out.rmsErrorM = errors.rms;
   return out;

@@ -81,9 +81,13 @@ bool MeshFit::tryFlip(std::int32_t t, int i, double bound) {
   return true;
 }
 
-void MeshFit::flipEdges(double bound) {
+void MeshFit::flipEdges(double bound, int passes, std::vector<PostSum> known) {
   const auto count = static_cast<std::int32_t>(mesh_.triangles.size());
-  for (int pass = 0; pass < 3; ++pass) {
+  sums_ = std::move(known);
+  if (sums_.empty())
+    for (std::int32_t t = 0; t < count; ++t) sums_.push_back(sumOf(t));
+  changed_.assign(mesh_.triangles.size(), 1);
+  for (int pass = 0; pass < passes; ++pass) {
     std::size_t flips = 0;
     for (std::int32_t t = 0; t < count; ++t) {
       if (!changed_[static_cast<std::size_t>(t)]) continue;
@@ -267,57 +271,97 @@ void MeshFit::moveVertex(std::uint32_t v, double bound) {
       }
     }
   }
-  if (!better) return;
-  at = best;
-  moved_[v] = 1;
+  if (better) at = best;
+}
+
+void MeshFit::findStarts() {
+  const auto count = static_cast<std::int32_t>(mesh_.triangles.size());
+  starts_.assign(mesh_.vertices.size(), -1);
+  for (std::int32_t t = 0; t < count; ++t)
+    for (int i = 0; i < 3; ++i) starts_[mesh_.triangles[static_cast<std::size_t>(t)].corner[i]] = 4 * t + i;
+  for (const Triangle& one : mesh_.triangles)
+    for (int i = 0; i < 3; ++i)
+      if (one.twin[i] < 0) starts_[one.corner[i]] = starts_[one.corner[Triangulation::next(i)]] = -1;
 }
 
 void MeshFit::moveVertices(double bound) {
+  findStarts();
   for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v)
     if (starts_[v] >= 0) moveVertex(v, bound);
 }
 
-void MeshFit::run(double bound, int sweeps, std::vector<PostSum> known) {
-  const auto count = static_cast<std::int32_t>(mesh_.triangles.size());
-  sums_ = std::move(known);
-  changed_.assign(static_cast<std::size_t>(count), 1);
-  moved_.assign(mesh_.vertices.size(), 0);
-  if (sums_.size() != static_cast<std::size_t>(count)) {
-    sums_.resize(static_cast<std::size_t>(count));
-    for (std::int32_t t = 0; t < count; ++t) sums_[static_cast<std::size_t>(t)] = sumOf(t);
+void MeshFit::mendPosts(double bound, std::span<PostSum> sums) {
+  constexpr int kRounds = 3;
+  findStarts();
+  bool better = true;
+  for (int round = 0; round < kRounds && better; ++round) {
+    better = false;
+    for (std::size_t t = 0; t < sums.size(); ++t)
+      for (int i = 0; i < 3 && sums[t].worst > bound; ++i) {
+        const std::uint32_t v = mesh_.triangles[t].corner[i];
+        if (starts_[v] < 0 || !mendVertex(v, bound)) continue;
+        better = true;
+        std::int32_t h = starts_[v];
+        do {
+          sums[static_cast<std::size_t>(h >> 2)] = sumOf(h >> 2);
+          h = mesh_.triangles[static_cast<std::size_t>(h >> 2)].twin[Triangulation::before(h & 3)];
+        } while (h != starts_[v]);
+      }
   }
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    flipEdges(bound);
-    starts_.assign(mesh_.vertices.size(), -1);
-    for (std::int32_t t = 0; t < count; ++t)
-      for (int i = 0; i < 3; ++i) starts_[mesh_.triangles[static_cast<std::size_t>(t)].corner[i]] = 4 * t + i;
-    for (const Triangle& one : mesh_.triangles)
-      for (int i = 0; i < 3; ++i)
-        if (one.twin[i] < 0) starts_[one.corner[i]] = starts_[one.corner[Triangulation::next(i)]] = -1;
-    moveVertices(bound);
-    if (sweep + 1 == sweeps) break;
-    for (std::int32_t t = 0; t < count; ++t) {
-      const Triangle& one = mesh_.triangles[static_cast<std::size_t>(t)];
-      if (!moved_[one.corner[0]] && !moved_[one.corner[1]] && !moved_[one.corner[2]]) continue;
-      changed_[static_cast<std::size_t>(t)] = 1;
-      sums_[static_cast<std::size_t>(t)] = sumOf(t);
+}
+
+bool MeshFit::mendVertex(std::uint32_t v, double bound) {
+  constexpr int kHalvings = 5;
+  Vertex& at = mesh_.vertices[v];
+  Star star;
+  gather(starts_[v], at, star);
+  const double was = star.worst;
+  Vertex best = at;
+  // The least limit that some height keeps at its own place or one beside it, to a few percent.
+  double high = was * (1 - 1e-3);
+  for (std::int32_t place = 0; place < 9 && high > bound; ++place) {
+    Vertex there = at;
+    if (place != 0) {
+      there.x += (place + 4) % 9 % 3 - 1;
+      there.y += (place + 4) % 9 / 3 - 1;
+      there.z = static_cast<float>(post(posts_, there));
+      if (!gather(starts_[v], there, star)) continue;
     }
-    moved_.assign(mesh_.vertices.size(), 0);
+    double low = 0;
+    for (int i = 0; i < kHalvings && high > bound; ++i) {
+      const double limit = std::max(bound, i == 0 ? high : 0.5 * (low + high));
+      float z;
+      double squares;
+      if (bestHeight(star, there.z, limit, z, squares)) {
+        high = limit;
+        best = there;
+        best.z = z;
+      } else if (i == 0) {
+        break;
+      } else {
+        low = limit;
+      }
+    }
   }
+  if (best == at) return false;
+  at = best;
+  return true;
 }
 
 Triangulation fitTiles(MeshTiles& tiles, const HeightField& field, double bound, unsigned threads) {
   tiles.eachTile([&](GreedyMesh& tile) {
     const PolygonMesher::Point origin = tile.origin();
-    MeshFit(tile.mesh(), {field.z + origin.row * field.stride + origin.column, field.stride,
-                          static_cast<std::int32_t>(field.columns - origin.column)})
-        .run(kMend * bound, 1, tile.sums());
+    MeshFit fit(tile.mesh(), {field.z + origin.row * field.stride + origin.column, field.stride,
+                              static_cast<std::int32_t>(field.columns - origin.column)});
+    fit.flipEdges(kMend * bound, 1, tile.sums());
+    fit.moveVertices(kMend * bound);
   });
   // Again with other borders: what lay on the sides of tiles is free now.
   Triangulation mesh = tiles.join();
   eachPart(mesh, tiles.width(), tiles.height(), threads, [&](Triangulation& part) {
-    MeshFit(part, {field.z, field.stride, static_cast<std::int32_t>(field.columns)})
-        .run(kMend * bound, 1, {});
+    MeshFit fit(part, {field.z, field.stride, static_cast<std::int32_t>(field.columns)});
+    fit.flipEdges(kMend * bound, 3, {});
+    fit.moveVertices(kMend * bound);
   });
   return mesh;
 }
@@ -325,11 +369,10 @@ Triangulation fitTiles(MeshTiles& tiles, const HeightField& field, double bound,
 namespace {
 
 /// Sums of a run of triangles: what is below rounding is none.
-TRIMTAB_LANES PostSum sumOfPosts(const Triangulation& mesh, const PostRows& posts, std::int32_t first,
-                                 std::int32_t end) {
-  PostSum sum;
-  for (std::int32_t t = first; t < end; ++t) {
-    const Triangle& one = mesh.triangles[static_cast<std::size_t>(t)];
+TRIMTAB_LANES void sumPosts(const Triangulation& mesh, const PostRows& posts, std::size_t first,
+                            std::span<PostSum> sums) {
+  for (std::size_t t = 0; t < sums.size(); ++t) {
+    const Triangle& one = mesh.triangles[first + t];
     const Vertex* const corner[3] = {&mesh.vertices[one.corner[0]], &mesh.vertices[one.corner[1]],
                                      &mesh.vertices[one.corner[2]]};
     const bool border[3] = {one.twin[0] < 0, one.twin[1] < 0, one.twin[2] < 0};
@@ -345,31 +388,42 @@ TRIMTAB_LANES PostSum sumOfPosts(const Triangulation& mesh, const PostRows& post
     double scale = 0;
     for (const Vertex* v : corner) scale = std::max(scale, std::fabs(static_cast<double>(v->z)));
     const double most = mostOfLanes(worst);
-    if (roundedError(most, std::max(scale, most)) == 0) continue;
-    sum.squares += sumOfLanes(squares);
-    sum.worst = std::max(sum.worst, most);
+    if (roundedError(most, std::max(scale, most)) == 0)
+      sums[t] = {};
+    else
+      sums[t] = {sumOfLanes(squares), most};
   }
-  return sum;
 }
 
 }  // namespace
 
-PostErrors postErrors(const Triangulation& mesh, const HeightField& field, unsigned threads) {
-  constexpr std::int32_t kAtOnce = 8192;
-  const auto count = static_cast<std::int32_t>(mesh.triangles.size());
-  const auto parts = static_cast<std::uint32_t>((count + kAtOnce - 1) / kAtOnce);
+std::vector<PostSum> postSums(const Triangulation& mesh, const HeightField& field, unsigned threads) {
+  constexpr std::size_t kAtOnce = 8192;
+  std::vector<PostSum> sums(mesh.triangles.size());
   const PostRows posts{field.z, field.stride, static_cast<std::int32_t>(field.columns)};
-  std::vector<PostSum> sums(parts + 1);
-  const auto add = [](PostSum& sum, double off) {
-    sum.squares += off * off;
-    sum.worst = std::max(sum.worst, std::fabs(off));
+  onThreads(
+      threads, static_cast<std::uint32_t>((sums.size() + kAtOnce - 1) / kAtOnce), [&](std::uint32_t part) {
+        const std::size_t first = part * kAtOnce;
+        sumPosts(mesh, posts, first, std::span(sums).subspan(first, std::min(kAtOnce, sums.size() - first)));
+      });
+  return sums;
+}
+
+void mendPosts(Triangulation& mesh, const HeightField& field, double bound, std::vector<PostSum>& sums) {
+  if (std::none_of(sums.begin(), sums.end(), [&](const PostSum& sum) { return sum.worst > kMend * bound; }))
+    return;
+  MeshFit(mesh, {field.z, field.stride, static_cast<std::int32_t>(field.columns)})
+      .mendPosts(kMend * bound, sums);
+}
+
+PostErrors postErrors(const Triangulation& mesh, const HeightField& field, std::span<const PostSum> sums) {
+  const PostRows posts{field.z, field.stride, static_cast<std::int32_t>(field.columns)};
+  PostSum all;
+  const auto add = [&](double off) {
+    all.squares += off * off;
+    all.worst = std::max(all.worst, std::fabs(off));
   };
-  onThreads(threads, parts, [&](std::uint32_t part) {
-    const std::int32_t first = static_cast<std::int32_t>(part) * kAtOnce;
-    sums[part] = sumOfPosts(mesh, posts, first, std::min(count, first + kAtOnce));
-  });
-  PostSum& rest = sums[parts];
-  for (const Vertex& v : mesh.vertices) add(rest, post(posts, v) - v.z);
+  for (const Vertex& v : mesh.vertices) add(post(posts, v) - v.z);
   for (std::size_t v = 0; v < mesh.borderEdge.size(); ++v) {
     const std::int32_t h = mesh.borderEdge[v];
     if (h < 0) continue;
@@ -381,17 +435,14 @@ PostErrors postErrors(const Triangulation& mesh, const HeightField& field, unsig
       const Vertex at{a.x + (b.x - a.x) / steps * i, a.y + (b.y - a.y) / steps * i, 0};
       const double facet = a.z + (static_cast<double>(b.z) - a.z) * i / steps;
       const double height = post(posts, at), off = std::fabs(height - facet);
-      add(rest, roundedError(off, std::max({std::fabs(height), std::fabs(facet)})));
+      add(roundedError(off, std::max({std::fabs(height), std::fabs(facet)})));
     }
   }
-  PostErrors out;
-  double squares = 0;
   for (const PostSum& sum : sums) {
-    squares += sum.squares;
-    out.max = std::max(out.max, sum.worst);
+    all.squares += sum.squares;
+    all.worst = std::max(all.worst, sum.worst);
   }
-  out.rms = std::sqrt(squares / (static_cast<double>(field.columns) * field.rows));
-  return out;
+  return {all.worst, std::sqrt(all.squares / (static_cast<double>(field.columns) * field.rows))};
 }
 
 }  // namespace trimtab::terrain

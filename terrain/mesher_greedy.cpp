@@ -11,6 +11,10 @@ namespace trimtab::terrain {
 
 namespace {
 
+/// In a triangle of so many rows every so-manyth is enough to find a post to insert: its posts soon lie in
+/// others.
+constexpr std::int32_t kTall = 16, kEveryRow = 4;
+
 struct Facet {
   const Triangulation::Vertex* corner[3];
   bool border[3];
@@ -45,6 +49,8 @@ void GreedyMesh::begin(const HeightField& field, std::span<const Point> border,
   z_ = field.z + originY_ / field.step * field.stride + originX_ / field.step;
   stride_ = field.stride;
   columns_ = static_cast<std::int32_t>(field.columns - originX_ / field.step);
+  border_.reset();
+  posts_ = 0;
   points_.assign(border.begin(), border.end());
   mesh_.vertices.clear();
   for (std::size_t i = 0; i < border.size(); ++i) {
@@ -63,6 +69,7 @@ std::uint32_t GreedyMesh::addBorder(std::uint32_t from, Point at) {
   const auto v = static_cast<std::uint32_t>(points_.size());
   const auto x = static_cast<std::int32_t>(at.column - originX_),
              y = static_cast<std::int32_t>(at.row - originY_);
+  border_.reset();
   points_.push_back(at);
   mesh_.vertices.push_back({x, y, row(y / step_)[x / step_]});
   mesh_.splitBorder(from, v);
@@ -79,8 +86,11 @@ std::uint32_t GreedyMesh::addBorder(std::uint32_t from, Point at) {
 }
 
 TRIMTAB_LANES GreedyMesh::Scan GreedyMesh::scanPosts(const Triangulation::Vertex* const corner[3],
-                                                     const bool border[3], const PostRows& posts) {
-  Lanes worst{}, row{}, column{}, squares{};
+                                                     const bool border[3], const PostRows& posts,
+                                                     std::int32_t everyRow) {
+  // Places as one number: row times kPlaces + column.
+  constexpr std::int64_t kPlaces = std::int64_t{1} << 20;
+  Lanes worst{}, place{}, squares{};
   forEachFour(
       corner, border, posts,
       [&](const Lanes& off, const Lanes&, std::int32_t x, std::int32_t y) __attribute__((always_inline)) {
@@ -88,15 +98,16 @@ TRIMTAB_LANES GreedyMesh::Scan GreedyMesh::scanPosts(const Triangulation::Vertex
         absoluteLanes(off, size);
         const LaneMask more = size > worst;
         worst = more ? size : worst;
-        row = more ? Lanes{} + y : row;
-        column = more ? Lanes{} + x : column;
+        place = more ? Lanes{} + static_cast<double>(y * kPlaces + x) : place;
         squares += off * off;
-      });
+      },
+      everyRow);
   Scan scan{mostOfLanes(worst), sumOfLanes(squares), 0, 0};
   for (int k = kLanes - 1; k >= 0; --k)
     if (worst[k] == scan.worst) {
-      scan.x = static_cast<std::int32_t>(column[k]) + k;
-      scan.y = static_cast<std::int32_t>(row[k]);
+      const auto at = static_cast<std::int64_t>(place[k]) + k;
+      scan.x = static_cast<std::int32_t>(at % kPlaces);
+      scan.y = static_cast<std::int32_t>(at / kPlaces);
     }
   return scan;
 }
@@ -121,11 +132,26 @@ GreedyMesh::Scan GreedyMesh::scanSteps(const Triangulation::Vertex* const corner
   return scan;
 }
 
-void GreedyMesh::scan(std::int32_t t) {
+void GreedyMesh::scan(std::int32_t t, bool all) {
   const Facet facet = facetOf(mesh_, t);
-  const Scan found = step_ == 1 ? scanPosts(facet.corner, facet.border, {z_, stride_, columns_})
-                                : scanSteps(facet.corner, facet.border);
-  const double worst = roundedError(found.worst, std::max(facet.scale, found.worst));
+  const auto worstOf = [&](const Scan& scan) {
+    return roundedError(scan.worst, std::max(facet.scale, scan.worst));
+  };
+  Scan found;
+  double worst = 0;
+  const PostRows posts{z_, stride_, columns_};
+  const auto [low, high] = std::minmax({facet.corner[0]->y, facet.corner[1]->y, facet.corner[2]->y});
+  const bool some = !all && step_ == 1 && high - low >= kTall;
+  if (some) {
+    found = scanPosts(facet.corner, facet.border, posts, kEveryRow);
+    found.squares = kUnknown;
+    worst = worstOf(found);
+  }
+  if (!some || worst <= tolerance_) {
+    found =
+        step_ == 1 ? scanPosts(facet.corner, facet.border, posts, 1) : scanSteps(facet.corner, facet.border);
+    worst = worstOf(found);
+  }
   Triangulation::Triangle& one = mesh_.triangles[static_cast<std::size_t>(t)];
   one.postX = found.x;
   one.postY = found.y;
@@ -138,7 +164,7 @@ void GreedyMesh::scanAbout(std::int32_t first) {
   std::int32_t t = first;
   do {
     queue_.remove(t);
-    scan(t);
+    scan(t, false);
     t = mesh_.triangles[static_cast<std::size_t>(t)].twin[1] >> 2;
   } while (t != first);
 }
@@ -150,7 +176,7 @@ void GreedyMesh::refine(double tolerance, std::size_t mostVertices) {
   for (std::int32_t t = 0; t < count; ++t) {
     const double error = error_[static_cast<std::size_t>(t)];
     if (error < 0)
-      scan(t);
+      scan(t, false);
     else if (error > tolerance_)
       queue_.put(t, error);
   }
@@ -167,6 +193,9 @@ void GreedyMesh::refine(double tolerance, std::size_t mostVertices) {
     squares_.resize(mesh_.triangles.size());
     scanAbout(about);
   }
+  if (queue_.top() < 0) return;
+  for (std::size_t t = 0; t < squares_.size(); ++t)
+    if (squares_[t] < 0) scan(static_cast<std::int32_t>(t), true);
 }
 
 template <class Visit>
@@ -189,9 +218,19 @@ void GreedyMesh::eachBorderPost(const Visit& visit) const {
   }
 }
 
+const PostSum& GreedyMesh::border() const {
+  if (!border_) {
+    border_.emplace();
+    eachBorderPost([&](double off) {
+      border_->worst = std::max(border_->worst, off);
+      border_->squares += off * off;
+    });
+  }
+  return *border_;
+}
+
 double GreedyMesh::maxErrorM() const {
-  double worst = 0;
-  eachBorderPost([&](double off) { worst = std::max(worst, off); });
+  double worst = border().worst;
   if (!unknown_) {
     for (const double error : error_) worst = std::max(worst, error);
     return worst;
@@ -223,13 +262,17 @@ double GreedyMesh::rmsErrorM() const {
     copy.refine(HUGE_VAL, 0);
     return copy.rmsErrorM();
   }
-  double sum = 0;
-  eachBorderPost([&](double off) { sum += off * off; });
+  double sum = border().squares;
   for (const double squares : squares_) sum += squares;
   return std::sqrt(sum / static_cast<double>(std::max<std::uint64_t>(posts(), 1)));
 }
 
 std::uint64_t GreedyMesh::posts() const {
+  if (posts_ == 0) posts_ = countPosts();
+  return posts_;
+}
+
+std::uint64_t GreedyMesh::countPosts() const {
   if (step_ != 1) {
     std::uint64_t count = 0;
     const auto add = [&](double) { ++count; };

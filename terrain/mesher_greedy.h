@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -51,9 +52,10 @@ class GreedyMesh {
     std::int32_t x = 0, y = 0;
   };
   static Scan scanPosts(const Triangulation::Vertex* const corner[3], const bool border[3],
-                        const PostRows& posts);
+                        const PostRows& posts, std::int32_t everyRow);
   Scan scanSteps(const Triangulation::Vertex* const corner[3], const bool border[3]) const;
-  void scan(std::int32_t t);
+  /// Looks at all posts, or only so far as to know that one is too far off.
+  void scan(std::int32_t t, bool all);
   void scanAbout(std::int32_t t);
   /// Posts of the field, from the origin.
   const float* row(std::int32_t y) const { return z_ + static_cast<std::size_t>(y) * stride_; }
@@ -61,11 +63,13 @@ class GreedyMesh {
   void eachBorderPost(const Visit& visit) const;
   template <class Visit>
   void eachInnerPost(const Visit& visit) const;
+  const PostSum& border() const;
+  std::uint64_t countPosts() const;
 
   Triangulation mesh_;
   ErrorQueue queue_;
   std::vector<double> error_;    ///< one a triangle, largest at its posts
-  std::vector<double> squares_;  ///< their sum, one a triangle
+  std::vector<double> squares_;  ///< their sum, one a triangle; kUnknown where only some rows were looked at
   std::vector<Point> points_;
   const float* z_ = nullptr;  ///< of the origin
   std::size_t stride_ = 0;
@@ -73,6 +77,9 @@ class GreedyMesh {
   std::int32_t step_ = 1, columns_ = 0;
   double tolerance_ = 0;
   bool unknown_ = false;  ///< some errors are kUnknown
+  // Refinement changes neither: found once.
+  mutable std::optional<PostSum> border_;
+  mutable std::uint64_t posts_ = 0;
 };
 
 /// Difference of a post from a facet: what is below rounding is none, so that planes are flat.

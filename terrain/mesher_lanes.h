@@ -45,10 +45,10 @@ TRIMTAB_INLINE void absoluteLanes(const Lanes& v, Lanes& out) {
 
 /// Calls `four(off, weight, x, y)` for the posts that forEachRow visits (at step 1): how far each is above
 /// the triangle, and the share of corner 0 in the triangle's height there; both are 0 in lanes that are no
-/// such post. Lane k is post (x + k, y).
+/// such post. Lane k is post (x + k, y). `everyRow` as there.
 template <class Four>
 TRIMTAB_INLINE void forEachFour(const Triangulation::Vertex* const corner[3], const bool isBorder[3],
-                                const PostRows& posts, const Four& four) {
+                                const PostRows& posts, const Four& four, std::int32_t everyRow = 1) {
   const Triangulation::Vertex &a = *corner[0], &b = *corner[1], &c = *corner[2];
   const std::int64_t area = Triangulation::turn(a, b, c.x, c.y);
   if (area == 1) return;  // no post but its corners
@@ -69,21 +69,23 @@ TRIMTAB_INLINE void forEachFour(const Triangulation::Vertex* const corner[3], co
   const std::int32_t left = west + ((a.x == west) + (b.x == west) + (c.x == west) == 2 ? 0 : 1);
   if (left >= east || top >= high) return;
   constexpr std::int32_t kWidest = 2 * kLanes;
-  if (east - left <= kWidest && posts.columns >= kLanes) {
+  if (east - left <= kWidest && posts.columns >= kLanes && everyRow == 1) {
     // Twice the areas beside the three edges: whole numbers, so that sums of them are exact. On left edges
-    // and lower ones they may be 0; at a corner one of them is the whole.
+    // and lower ones they may be 0, beside others they are less by a half to tell the two apart; at a corner
+    // one of them is the whole.
     struct Edge {
-      double least, right, up, start;
+      double less, right, up, start;
     };
     const auto edge = [&](const Triangulation::Vertex& from, const Triangulation::Vertex& to, bool border)
         __attribute__((always_inline)) {
       const std::int32_t dx = to.x - from.x, dy = to.y - from.y;
-      const bool own = !border && (dy < 0 || (dy == 0 && dx > 0));
-      return Edge{own ? 0.0 : 1.0, static_cast<double>(-dy), static_cast<double>(dx),
-                  static_cast<double>(dx) * (top - from.y) - static_cast<double>(dy) * (left - from.x)};
+      const double less = !border && (dy < 0 || (dy == 0 && dx > 0)) ? 0.0 : 0.5;
+      return Edge{
+          less, static_cast<double>(-dy), static_cast<double>(dx),
+          static_cast<double>(dx) * (top - from.y) - static_cast<double>(dy) * (left - from.x) - less};
     };
     const Edge ab = edge(a, b, isBorder[0]), bc = edge(b, c, isBorder[1]), ca = edge(c, a, isBorder[2]);
-    const double whole = static_cast<double>(area);
+    const double nearCorner = static_cast<double>(area) - 0.75, zLess = za + (ca.less * toB + ab.less * toC);
     for (std::int32_t x = left; x < east; x += kLanes) {
       // The last columns come with some before them, which are not counted twice.
       const std::int32_t first = std::min(x, posts.columns - kLanes);
@@ -93,13 +95,14 @@ TRIMTAB_INLINE void forEachFour(const Triangulation::Vertex* const corner[3], co
             e2 = ca.start + ca.right * along;
       const float* row = posts.row(top) + first;
       for (std::int32_t y = top; y < high; ++y, row += posts.stride) {
-        const LaneMask in = ((e0 >= ab.least) & (e1 >= bc.least) & (e2 >= ca.least)) &
-                            ((e0 < whole) & (e1 < whole) & (e2 < whole)) & fresh;
+        const Lanes l01 = e0 < e1 ? e0 : e1, h01 = e0 < e1 ? e1 : e0, least = l01 < e2 ? l01 : e2,
+                    most = h01 < e2 ? e2 : h01;
+        const LaneMask in = (least >= 0.0) & (most < nearCorner) & fresh;
         Lanes z;
         load(row, z);
-        const Lanes off = z - (za + (e2 * toB + e0 * toC));
+        const Lanes off = z - (zLess + (e2 * toB + e0 * toC));
         four(reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(off) & in),
-             reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(e1 * perArea) & in), first, y);
+             reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>((e1 + bc.less) * perArea) & in), first, y);
         e0 += ab.up;
         e1 += bc.up;
         e2 += ca.up;
@@ -110,7 +113,8 @@ TRIMTAB_INLINE void forEachFour(const Triangulation::Vertex* const corner[3], co
 
   const double slopeW = -static_cast<double>(c.y - b.y) * perArea;
   forEachRow(
-      corner, isBorder, 1, [&](const FacetRow& r) __attribute__((always_inline)) {
+      corner, isBorder, 1,
+      [&](const FacetRow& r) __attribute__((always_inline)) {
         const float* const row = posts.row(r.y);
         const double w = static_cast<double>(Triangulation::turn(b, c, r.first, r.y)) * perArea;
         for (std::int32_t x = r.first; x <= r.last; x += kLanes) {
@@ -128,7 +132,8 @@ TRIMTAB_INLINE void forEachFour(const Triangulation::Vertex* const corner[3], co
           four(reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(off) & in),
                reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(weight) & in), x, r.y);
         }
-      });
+      },
+      everyRow);
 }
 
 }  // namespace trimtab::terrain

@@ -15,12 +15,14 @@ class ErrorQueue {
   void begin(double least) {
     base_ = keyOf(least);
     heads_.assign(kBuckets, -1);
-    links_.assign(links_.size(), Link{-1, -1, -1});
+    std::fill_n(links_.begin(), used_, Link{-1, -1, -1});
+    used_ = 0;
     top_ = -1;
   }
   void put(std::int32_t t, double error) {
     if (static_cast<std::size_t>(t) >= links_.size()) links_.resize(grown(t), Link{-1, -1, -1});
     const std::int32_t bucket = std::clamp(keyOf(error) - base_, 0, kBuckets - 1);
+    used_ = std::max(used_, t + 1);
     Link& link = links_[static_cast<std::size_t>(t)];
     std::int32_t& head = heads_[static_cast<std::size_t>(bucket)];
     link = {head, -1, bucket};
@@ -57,7 +59,7 @@ class ErrorQueue {
   std::size_t grown(std::int32_t t) const {
     return std::max<std::size_t>(static_cast<std::size_t>(t) + 1, links_.size() * 2 + 64);
   }
-  std::int32_t base_ = 0, top_ = -1;
+  std::int32_t base_ = 0, top_ = -1, used_ = 0;
   std::vector<std::int32_t> heads_;
   std::vector<Link> links_;
 };

@@ -18,13 +18,14 @@ struct FacetRow {
 
 /// Visits the posts of a triangle row by row. Each post of a mesh belongs to one triangle: an edge belongs to
 /// the triangle on its right or above it. Posts that are corners, and posts on edges that `isBorder`, are
-/// left out. `row` gets a FacetRow. Posts lie at every `step`-th place.
+/// left out. `row` gets a FacetRow. Posts lie at every `step`-th place. Of their rows every `everyRow`-th is
+/// visited.
 ///
 /// Ends of rows are found in floating point and are exact: a crossing that is no integer is 1 / (rows of the
 /// triangle) away from one, 2^-15 at least, and the error is below 2^-30.
 template <class Row>
 TRIMTAB_INLINE void forEachRow(const Triangulation::Vertex* const corner[3], const bool isBorder[3],
-                               std::int32_t step, const Row& row) {
+                               std::int32_t step, const Row& row, std::int32_t everyRow = 1) {
   using Vertex = Triangulation::Vertex;
   struct Corner {
     const Vertex* v;
@@ -63,12 +64,15 @@ TRIMTAB_INLINE void forEachRow(const Triangulation::Vertex* const corner[3], con
   const double longStep = cx / cy;
   double longX = a.v->x;
   std::int32_t y = a.v->y;
+  const std::int32_t rows = step * everyRow;
   const auto toPost = [step](std::int32_t from) { return (step - from % step) % step; };
   if (step != 1) {
     const std::int32_t skipped = toPost(y);
     y += skipped;
     longX += longStep * skipped;
   }
+  y += everyRow / 2 * step;
+  longX += longStep * (everyRow / 2 * step);
   for (int half = 0; half < 2; ++half) {
     const Corner& from = half == 0 ? a : b;
     const Corner& to = half == 0 ? b : c;
@@ -80,7 +84,7 @@ TRIMTAB_INLINE void forEachRow(const Triangulation::Vertex* const corner[3], con
     const double left = leftBorder ? kOut : kIn;
     bool bottom = half == 1 && y == a.v->y && a.v->y == b.v->y && borderOf(a, b);
     bool atMiddle = half == 1 && middleLeft && y == b.v->y;
-    for (; y < end; y += step) {
+    for (; y < end; y += rows) {
       std::int32_t first = static_cast<std::int32_t>((middleLeft ? shortX : longX) + left);
       std::int32_t last = static_cast<std::int32_t>((middleLeft ? longX : shortX) + kIn) - 1;
       if (atMiddle) first = b.v->x + 1;
@@ -104,8 +108,8 @@ TRIMTAB_INLINE void forEachRow(const Triangulation::Vertex* const corner[3], con
       }
       atMiddle = false;
       bottom = false;
-      longX += longStep * step;
-      shortX += shortStep * step;
+      longX += longStep * rows;
+      shortX += shortStep * rows;
     }
   }
 }

@@ -1,11 +1,41 @@
+#include "trimtab/terrain/mesher_side.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
-#include "trimtab/terrain/mesher.h"
+#include "trimtab/terrain/mesher_greedy.h"
 
 namespace trimtab::terrain {
+
+void sideKeys(const float* z, std::ptrdiff_t stride, std::uint32_t steps, double least,
+              std::vector<double>& keys) {
+  struct Part {
+    std::uint32_t a, b;
+    double most;
+  };
+  keys.assign(steps + std::size_t{1}, 0.0);
+  std::vector<Part> parts{{0, steps, HUGE_VAL}};
+  while (!parts.empty()) {
+    const auto [a, b, most] = parts.back();
+    parts.pop_back();
+    const double za = z[a * stride], zb = z[b * stride], slope = (zb - za) / (b - a);
+    double worst = 0;
+    std::uint32_t split = a;
+    for (std::uint32_t i = a + 1; i < b; ++i) {
+      const double off = std::fabs(z[i * stride] - (za + slope * (i - a)));
+      if (off > worst) {
+        worst = off;
+        split = i;
+      }
+    }
+    worst = roundedError(worst, std::max({std::fabs(za), std::fabs(zb), worst}));
+    if (!(worst > least)) continue;
+    keys[split] = std::min(worst, most);
+    parts.push_back({a, split, keys[split]});
+    parts.push_back({split, b, keys[split]});
+  }
+}
 
 void simplifySide(const HeightField& field, PolygonMesher::Point from, PolygonMesher::Point to,
                   double tolerance, std::vector<PolygonMesher::Point>& polyline) {
@@ -20,39 +50,16 @@ void simplifySide(const HeightField& field, PolygonMesher::Point from, PolygonMe
   const Point start = turned ? to : from, end = turned ? from : to;
   const std::int64_t dx = std::int64_t{end.column} - start.column, dy = std::int64_t{end.row} - start.row;
   const std::int64_t steps = std::gcd(dx, dy);
-  const auto at = [&](std::int64_t i) {
-    return Point{static_cast<std::uint32_t>(start.column + dx / steps * i),
-                 static_cast<std::uint32_t>(start.row + dy / steps * i)};
-  };
-  const float* const first = field.z + start.row * field.stride + start.column;
-  const std::int64_t stride = dy / steps * static_cast<std::int64_t>(field.stride) + dx / steps;
-
-  // Each part is split at its furthest post, the nearer half of the line first.
-  std::vector<std::int64_t> kept;
-  std::vector<std::pair<std::int64_t, std::int64_t>> parts{{0, steps}};
-  while (!parts.empty()) {
-    const auto [a, b] = parts.back();
-    parts.pop_back();
-    const double za = first[a * stride], slope = (first[b * stride] - za) / static_cast<double>(b - a);
-    double worst = 0;
-    std::int64_t split = a;
-    for (std::int64_t i = a + 1; i < b; ++i) {
-      const double off = std::fabs(first[i * stride] - (za + slope * static_cast<double>(i - a)));
-      if (off > worst) {
-        worst = off;
-        split = i;
-      }
-    }
-    const double scale = std::max({std::fabs(za), std::fabs(static_cast<double>(first[b * stride])), worst});
-    if (worst > tolerance && worst > scale * 0x1p-38) {
-      parts.push_back({split, b});
-      parts.push_back({a, split});
-    } else if (b != steps) {
-      kept.push_back(b);
-    }
+  std::vector<double> keys;
+  sideKeys(field.z + start.row * field.stride + start.column,
+           static_cast<std::ptrdiff_t>(dy / steps * static_cast<std::int64_t>(field.stride) + dx / steps),
+           static_cast<std::uint32_t>(steps), tolerance, keys);
+  for (std::int64_t k = 1; k < steps; ++k) {
+    const std::int64_t i = turned ? steps - k : k;
+    if (keys[static_cast<std::size_t>(i)] > tolerance)
+      polyline.push_back({static_cast<std::uint32_t>(start.column + dx / steps * i),
+                          static_cast<std::uint32_t>(start.row + dy / steps * i)});
   }
-  if (turned) std::reverse(kept.begin(), kept.end());
-  for (const std::int64_t i : kept) polyline.push_back(at(i));
   polyline.push_back(to);
 }
 

@@ -6,6 +6,8 @@
 #include <limits>
 #include <thread>
 
+#include "trimtab/terrain/mesher_side.h"
+
 namespace trimtab::terrain {
 
 namespace {
@@ -14,39 +16,6 @@ constexpr std::uint32_t kTilePosts = 100;
 /// Sides keep their posts closer than tiles do: what they are off cannot be mended later, and they are few.
 constexpr double kSideShare = 0.9;
 constexpr std::size_t kAnyVertices = std::numeric_limits<std::size_t>::max();
-
-/// Keys of a side as simplifySide would keep its posts: what is kept at a tolerance is what has a greater
-/// key.
-std::vector<double> sideKeys(const HeightField& field, PolygonMesher::Point from, std::uint32_t steps,
-                             std::size_t stride) {
-  struct Part {
-    std::uint32_t a, b;
-    double most;
-  };
-  std::vector<double> key(steps + 1, 0.0);
-  const float* const z = field.z + from.row * field.stride + from.column;
-  std::vector<Part> parts{{0, steps, HUGE_VAL}};
-  while (!parts.empty()) {
-    const auto [a, b, most] = parts.back();
-    parts.pop_back();
-    const double za = z[a * stride], slope = (z[b * stride] - za) / (b - a);
-    double worst = 0, scale = std::fabs(za);
-    std::uint32_t split = a;
-    for (std::uint32_t i = a + 1; i < b; ++i) {
-      const double off = std::fabs(z[i * stride] - (za + slope * (i - a)));
-      if (off > worst) {
-        worst = off;
-        split = i;
-      }
-    }
-    worst = roundedError(worst, std::max(scale, worst));
-    if (worst == 0) continue;
-    key[split] = std::min(worst, most);
-    parts.push_back({a, split, key[split]});
-    parts.push_back({split, b, key[split]});
-  }
-  return key;
-}
 
 }  // namespace
 
@@ -89,9 +58,9 @@ MeshTiles::MeshTiles(const HeightField& field, std::size_t mostTriangles, unsign
       sides_.push_back({{columns_[i], rows_[j]}, {columns_[i], rows_[j + 1]}, {}});
   for (Side& side : sides_) {
     const bool flat = side.from.row == side.to.row;
-    side.key =
-        sideKeys(field, side.from, flat ? side.to.column - side.from.column : side.to.row - side.from.row,
-                 flat ? 1 : field.stride);
+    sideKeys(field.z + side.from.row * field.stride + side.from.column,
+             flat ? 1 : static_cast<std::ptrdiff_t>(field.stride),
+             flat ? side.to.column - side.from.column : side.to.row - side.from.row, 0, side.key);
   }
   tiles_.resize(std::size_t{across_} * up_);
   for (std::uint32_t j = 0; j < up_; ++j)
@@ -173,21 +142,25 @@ void MeshTiles::add(std::size_t most, double bound) {
   // Each tile gets as many as it has of the worst, and takes its own worst first. A post that is inserted can
   // leave others further off than it was; they are seen to at once, and a tile ends early where that takes
   // too many.
+  std::vector<std::size_t> shares;
   std::size_t left = vertices;
-  for (Tile& tile : tiles_) {
+  for (const Tile& tile : tiles_) {
     std::size_t wanted = 0;
     for (const double error : tile.mesh.errors()) wanted += error >= least;
-    wanted = std::min(wanted, left);
-    const std::size_t had = tile.mesh.points().size();
-    GreedyMesh kept = tile.mesh;
-    for (std::size_t share = wanted; share > 0; share /= 2) {
-      tile.mesh.refine(0, had + share);
-      tile.mesh.refine(bound, kAnyVertices);
-      if (tile.mesh.points().size() <= had + wanted) break;
-      tile.mesh = kept;
-    }
-    left -= tile.mesh.points().size() - had;
+    shares.push_back(std::min(wanted, left));
+    left -= shares.back();
   }
+  onThreads(threads_, static_cast<std::uint32_t>(tiles_.size()), [&](std::uint32_t index) {
+    GreedyMesh& mesh = tiles_[index].mesh;
+    const std::size_t had = mesh.points().size();
+    const GreedyMesh kept = mesh;
+    for (std::size_t share = shares[index]; share > 0; share /= 2) {
+      mesh.refine(0, had + share);
+      mesh.refine(bound, kAnyVertices);
+      if (mesh.points().size() <= had + shares[index]) break;
+      mesh = kept;
+    }
+  });
 }
 
 void MeshTiles::restart(bool sample) {
