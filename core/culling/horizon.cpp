@@ -17,10 +17,6 @@ constexpr float kMostReach = 1e8f;
 /// Bins of waiting lines, a quarter: a dozen columns each serve best, with 800.
 constexpr int kMostBins = 64;
 
-bool isPlace(Vec3 p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 }  // namespace
 
 bool EyeRoom::holds(Vec3 eye) const {

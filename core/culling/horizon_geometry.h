@@ -83,6 +83,10 @@ inline bool meets(const TurnedBox& b) {
   return b.f1 > 0 && std::max({b.l0, -b.l1, 0.0f}) <= 1.01f * b.f1;
 }
 
+inline bool isPlace(Vec3 p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
 inline std::array<float, 3> fromEye(Vec3 eye, Vec3 origin) {
   return {static_cast<float>(origin.x - eye.x), static_cast<float>(origin.y - eye.y),
           static_cast<float>(origin.z - eye.z)};

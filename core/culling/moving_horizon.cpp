@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "trimtab/culling/box_distance.h"
+#include "trimtab/culling/horizon_geometry.h"
 
 namespace trimtab {
 namespace {
@@ -27,10 +28,6 @@ constexpr double kSpareFrames = 1;
 constexpr float kLean = 1.5f;
 /// The rule for the levels is not taken by its letter: it may be about to change its mind.
 constexpr double kMargin = 0.02;
-
-bool isPlace(Vec3 p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 }  // namespace
 
@@ -63,7 +60,7 @@ std::span<const std::uint8_t> MovingHorizon::verdicts(const Frame& frame) {
 
 std::span<const std::uint8_t> MovingHorizon::hidden(const Frame& frame, const SurfaceTree& tree,
                                                     const Fill& fill) {
-  if (!isPlace(frame.eye)) {
+  if (!horizon::isPlace(frame.eye)) {
     moving_ = false;
     verdicts_.assign(frame.tiles.size(), 0);
     carriedBy_ = nullptr;
