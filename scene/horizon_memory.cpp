@@ -1,6 +1,7 @@
 #include "trimtab/scene/horizon_memory.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace trimtab::scene {
 
@@ -68,6 +69,7 @@ std::span<const std::uint8_t> HorizonMemory::hidden(OcclusionGround& ground, Vec
   if (grown) moving_.restart();
   MovingHorizon::Frame frame;
   frame.eye = eye;
+  frame.framesSince = static_cast<double>(frame_ - std::exchange(lastFrame_, frame_));
   frame.cut = key.cut.cut;
   frame.rule = key.cut.rule;
   frame.tiles = ground.cut().tiles;

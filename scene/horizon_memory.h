@@ -17,6 +17,8 @@ class HorizonMemory {
  public:
   /// Forgets it.
   void clear();
+  /// In every frame, whether it is asked or not: so it knows how fast the eye goes.
+  void beginFrame() { ++frame_; }
   /// Which tiles are proven hidden from an eye that the ground does not refuse, in the cut's order, whatever
   /// the view's direction. Empty where nothing is: also, where `skips.littleHidden`, while the eye has moved
   /// little since next to nothing was, by the same rule for the levels. `alone`: built whole at every new
@@ -57,7 +59,8 @@ class HorizonMemory {
   MovingHorizon moving_;
   std::optional<Key> key_;
   bool hidLittle_ = false, noGraph_ = false;
-  std::size_t lacked_ = 0;  ///< surfaces, when a horizon was last begun
+  std::size_t lacked_ = 0;                   ///< surfaces, when a horizon was last begun
+  std::uint64_t frame_ = 0, lastFrame_ = 0;  ///< of now, and when it was last asked
   std::uint64_t number_ = 0, moved_ = 0, leftOut_ = 0;
 };
 

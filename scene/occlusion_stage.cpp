@@ -68,6 +68,7 @@ void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, GpuM
   eye_ = eye;
   view_ = request.view;
   refusal_ = ground_.refusal(eye, request.view);
+  memory_.beginFrame();
   counters.depthMap.reset();
   counters.horizon = false;
   counters.note.clear();

@@ -3,6 +3,7 @@
 #include "culling_flight.h"
 #include "patched_terrain.h"
 #include "trimtab/scene/horizon_memory.h"
+#include "trimtab/scene/tile_ground.h"
 
 namespace trimtab {
 namespace {
@@ -188,6 +189,31 @@ TEST_F(HorizonScene, isUsedOnceAnEyeAtRestHasABetterOne) {
     after += resting.visible.occluded;
   }
   EXPECT_LT(before, after) << "no place for this test";
+}
+
+TEST(HorizonMemory, knowsHowFastTheEyeGoesAlsoWhereItIsNotAsked) {
+  const auto database = test::syntheticMountains();
+  scene::TileGround ground;
+  LevelCut cut;
+  scene::CutNumber number{1, 1, 0.2 / 640};
+  ground.setDatabase(database);
+  ground.setCut(cut, number);
+  ground.share().begin(1000);
+  scene::HorizonMemory memory;
+  GeodeticPosition place = scene::placeIn(database->info(), 0.5, 0.5);
+  place.height = database->heightAt(place.latitude, place.longitude).value() + Metres{200};
+  Vec3 eye = database->index().frame.fromGeodetic(place);
+  for (int frame = 0; frame <= 100; ++frame) {
+    memory.beginFrame();
+    if (frame % 10 == 0) {
+      selectLevels(database->index(), eye, 0.2, 1, 640, cut);
+      ++number.cut;
+      memory.hidden(ground, eye, {}, {.littleHidden = false});
+      const EyeRoom& room = memory.horizon().room();
+      EXPECT_LT(length(room.to - room.from), 30 * 5.0) << "frame " << frame;
+    }
+    eye = eye + Vec3{5, 0, 0};
+  }
 }
 
 TEST(HorizonSlack, followsTheRasterisersSteps) {
