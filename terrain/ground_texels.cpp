@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "trimtab/terrain/land_cover.h"
+#include "trimtab/terrain/post_gradient.h"
 
 namespace trimtab::terrain {
 
@@ -30,12 +31,11 @@ class Posts {
     cover_.resize(inner.size());
     for (std::uint32_t r = 0; r < inner.rows; ++r)
       for (std::uint32_t c = 0; c < inner.columns; ++c)
-        slopes_[at(inner.row + r, inner.column + c)] = gradient(inner.row + r, inner.column + c);
+        slopes_[at(inner.row + r, inner.column + c)] =
+            gradientAt(posts_, geometry_, inner.row + r, inner.column + c,
+                       [&](std::uint32_t row, std::uint32_t column) { return height(row, column); });
   }
 
-  struct Slope {
-    double east = 0, north = 0;
-  };
   struct Colour {
     std::uint8_t rgb[3] = {};
     bool known = false;
@@ -44,12 +44,14 @@ class Posts {
   std::size_t at(std::uint32_t row, std::uint32_t column) const {
     return std::size_t{row - inner_.row} * inner_.columns + (column - inner_.column);
   }
-  const Slope& slope(std::uint32_t row, std::uint32_t column) const { return slopes_[at(row, column)]; }
+  const PostGradient& slope(std::uint32_t row, std::uint32_t column) const {
+    return slopes_[at(row, column)];
+  }
   bool filled(std::uint32_t row, std::uint32_t column) const { return voids_[at(row, column)] != 0; }
   const Colour& cover(std::uint32_t row, std::uint32_t column) {
     Colour& colour = cover_[at(row, column)];
     if (!colour.known) {
-      const Slope& s = slope(row, column);
+      const PostGradient& s = slope(row, column);
       const auto rgb = landCover(height(row, column), std::sqrt(s.east * s.east + s.north * s.north),
                                  posts_.latitude(row), row, column);
       std::copy(rgb.begin(), rgb.end(), colour.rgb);
@@ -63,24 +65,13 @@ class Posts {
     return static_cast<double>(
         heights_[std::size_t{row - outer_.row} * outer_.columns + (column - outer_.column)]);
   }
-  Slope gradient(std::uint32_t row, std::uint32_t column) const {
-    const std::uint32_t s = row == 0 ? 0 : row - 1, n = std::min(row + 1, posts_.rows - 1);
-    const std::uint32_t w = column == 0 ? 0 : column - 1, e = std::min(column + 1, posts_.columns - 1);
-    const double eastward =
-        (height(s, e) - height(s, w)) + 2 * (height(row, e) - height(row, w)) + (height(n, e) - height(n, w));
-    const double northward = (height(n, w) - height(s, w)) + 2 * (height(n, column) - height(s, column)) +
-                             (height(n, e) - height(s, e));
-    const double dx = std::max(geometry_.columnM(row), 1e-3) * std::max(e - w, 1u),
-                 dy = geometry_.rowM(row) * std::max(n - s, 1u);
-    return {eastward / (4 * dx), northward / (4 * dy)};
-  }
 
   const PostGrid& posts_;
   const PostGeometry& geometry_;
   PostWindow inner_, outer_;
   std::vector<float> heights_;
   std::vector<std::uint8_t> voids_;
-  std::vector<Slope> slopes_;
+  std::vector<PostGradient> slopes_;
   std::vector<Colour> cover_;
 };
 

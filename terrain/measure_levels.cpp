@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "trimtab/frame/box_union.h"
 #include "trimtab/terrain/parallel.h"
 #include "trimtab/terrain/slope_cone.h"
 
@@ -201,14 +202,8 @@ void gatherFromChildren(TerrainIndex& index) {
     if (parent == TerrainIndex::kNone) continue;
     index.errorM[parent] = std::max(index.errorM[parent], index.errorM[node]);
     index.slopeMax[parent] = std::max(index.slopeMax[parent], index.slopeMax[node]);
-    Box& up = index.bounds[parent];
     const Box& box = index.bounds[node];
-    if (index.children[parent][0] == node) {
-      up = box;
-    } else {
-      up = {std::min(up.minX, box.minX), std::min(up.minY, box.minY), std::min(up.minZ, box.minZ),
-            std::max(up.maxX, box.maxX), std::max(up.maxY, box.maxY), std::max(up.maxZ, box.maxZ)};
-    }
+    index.bounds[parent] = index.children[parent][0] == node ? box : united(index.bounds[parent], box);
   }
 }
 

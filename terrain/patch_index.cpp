@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "trimtab/frame/box_union.h"
 #include "trimtab/terrain/patch_build.h"
 #include "trimtab/terrain/patch_shape.h"
 
@@ -303,10 +304,7 @@ void finishPatchIndex(PatchIndex& index, const std::vector<Box>& ownBounds,
     for (std::size_t v = 1; v < errors.size(); ++v) errors[v] = std::max(errors[v], errors[v - 1]);
     const std::uint32_t parent = index.parent[patch];
     if (parent == kNone) continue;
-    Box& up = index.bounds[parent];
-    const Box& own = index.bounds[patch];
-    up = {std::min(up.minX, own.minX), std::min(up.minY, own.minY), std::min(up.minZ, own.minZ),
-          std::max(up.maxX, own.maxX), std::max(up.maxY, own.maxY), std::max(up.maxZ, own.maxZ)};
+    index.bounds[parent] = united(index.bounds[parent], index.bounds[patch]);
     for (std::size_t v = 0; v < errors.size(); ++v)
       index.errorM[parent][v] = std::max(index.errorM[parent][v], errors[v]);
   }

@@ -6,6 +6,7 @@
 #include "trimtab/terrain/database.h"
 #include "trimtab/terrain/land_cover.h"
 #include "trimtab/terrain/post_geometry.h"
+#include "trimtab/terrain/post_gradient.h"
 #include "trimtab/terrain/store.h"
 #include "trimtab/terrain/tiled_database.h"
 
@@ -41,7 +42,7 @@ class TiledDatabase final : public Database {
     return heights ? double{heights[column]} : contents_.info.lowest.value();
   }
   /// Rise towards east and north a metre at a post, from the eight posts around it.
-  std::array<double, 2> gradient(std::uint32_t row, std::uint32_t column) const;
+  PostGradient gradient(std::uint32_t row, std::uint32_t column) const;
   void vertexSlopes(const TilePosts& tile, std::array<std::uint8_t, kSide * kSide>& slopes) const;
   /// Column of a longitude, wrapped to the grid's side of the earth; may lie outside.
   double columnOf(double longitudeDeg) const;
@@ -50,16 +51,9 @@ class TiledDatabase final : public Database {
   PostGeometry geometry_;
 };
 
-std::array<double, 2> TiledDatabase::gradient(std::uint32_t row, std::uint32_t column) const {
-  const PostGrid& posts = contents_.posts;
-  const std::uint32_t s = row == 0 ? 0 : row - 1, n = std::min(row + 1, posts.rows - 1);
-  const std::uint32_t w = column == 0 ? 0 : column - 1, e = std::min(column + 1, posts.columns - 1);
-  const double eastward =
-      (height(s, e) - height(s, w)) + 2 * (height(row, e) - height(row, w)) + (height(n, e) - height(n, w));
-  const double northward = (height(n, w) - height(s, w)) + 2 * (height(n, column) - height(s, column)) +
-                           (height(n, e) - height(s, e));
-  const double dx = std::max(geometry_.columnM(row), 1e-3) * (e - w), dy = geometry_.rowM(row) * (n - s);
-  return {eastward / (4 * dx), northward / (4 * dy)};
+PostGradient TiledDatabase::gradient(std::uint32_t row, std::uint32_t column) const {
+  return gradientAt(contents_.posts, geometry_, row, column,
+                    [&](std::uint32_t r, std::uint32_t c) { return height(r, c); });
 }
 
 void TiledDatabase::vertexSlopes(const TilePosts& tile,
