@@ -39,9 +39,6 @@ BuiltPage buildPage(const PatchIndex& index, std::uint32_t page, const HeightSou
                     const PostGeometry& geometry, const std::vector<double>& tolerances,
                     const std::function<bool()>& carryOn = {});
 
-/// Of the front faces of all of a patch's triangles, whatever variant draws them.
-NormalCone coneOf(const PatchMesh& mesh);
-
 /// Fills bounds, errors and triangles of the index, so that they are monotone up the tree; `facts` one a
 /// patch, `own*` as built, page by page.
 void finishPatchIndex(PatchIndex& index, const std::vector<Box>& ownBounds,

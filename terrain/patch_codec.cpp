@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "trimtab/terrain/patch_store.h"
 
@@ -53,30 +54,34 @@ Place placeOf(const PostGeometry& geometry, std::uint32_t row, std::uint32_t col
   return {at.x, at.y, at.z};
 }
 Place placeOf(const PatchMesh& mesh, const PatchVertex& v) {
-  return {mesh.origin[0] * std::int64_t{kOriginSteps} + std::llround(static_cast<double>(v.x) * kSteps),
-          mesh.origin[1] * std::int64_t{kOriginSteps} + std::llround(static_cast<double>(v.y) * kSteps),
-          mesh.origin[2] * std::int64_t{kOriginSteps} + std::llround(static_cast<double>(v.z) * kSteps)};
+  // Whole numbers of steps, exact in a float.
+  const auto steps = [](float metres) {
+    return static_cast<std::int64_t>(static_cast<double>(metres) * kSteps);
+  };
+  return {mesh.origin[0] * std::int64_t{kOriginSteps} + steps(v.x),
+          mesh.origin[1] * std::int64_t{kOriginSteps} + steps(v.y),
+          mesh.origin[2] * std::int64_t{kOriginSteps} + steps(v.z)};
 }
 int steepness(std::int8_t x, std::int8_t y) {
   return static_cast<int>(std::lround(std::sqrt(std::max(0, 127 * 127 - x * x - y * y))));
 }
 
-/// The height whose place is the vertex's, or comes nearest.
-std::int32_t heightOf(const PostGeometry& geometry, std::uint32_t row, std::uint32_t column,
-                      const Place& place) {
+/// The height whose place is the vertex's, or comes nearest, and that place.
+std::pair<std::int32_t, Place> heightOf(const PostGeometry& geometry, std::uint32_t row, std::uint32_t column,
+                                        const Place& place) {
   const PostGeometry::Lattice ground = geometry.lattice(row, column, 0);
   const Vec3 up = geometry.normal(row, column, 0, 0);
   const double along = static_cast<double>(place[0] - ground.x) * up.x +
                        static_cast<double>(place[1] - ground.y) * up.y +
                        static_cast<double>(place[2] - ground.z) * up.z;
   const auto guess = static_cast<std::int32_t>(std::lround(along));
-  std::int32_t best = guess;
+  std::pair<std::int32_t, Place> best;
   std::int64_t least = -1;
   for (const std::int32_t height : {guess, guess - 1, guess + 1}) {
     const Place there = placeOf(geometry, row, column, height);
     std::int64_t off = 0;
     for (std::size_t k = 0; k < 3; ++k) off += std::abs(there[k] - place[k]);
-    if (least < 0 || off < least) least = off, best = height;
+    if (least < 0 || off < least) least = off, best = {height, there};
     if (least == 0) break;
   }
   return best;
@@ -153,7 +158,7 @@ std::vector<std::byte> encodePage(const PatchPage& page, const PostGeometry& geo
       const std::size_t to = first + goesTo[i];
       const Place place = placeOf(mesh, v);
       const std::uint32_t row = mesh.firstRow + v.row, column = mesh.firstColumn + v.column;
-      const std::int32_t height = heightOf(geometry, row, column, place);
+      const auto [height, there] = heightOf(geometry, row, column, place);
       vertices[to] = {static_cast<std::uint16_t>(v.column >> header.postShift),
                       static_cast<std::uint16_t>(v.row >> header.postShift),
                       height,
@@ -161,7 +166,6 @@ std::vector<std::byte> encodePage(const PatchPage& page, const PostGeometry& geo
                       v.normal[1],
                       static_cast<std::int8_t>(v.normal[2] - steepness(v.normal[0], v.normal[1])),
                       0};
-      const Place there = placeOf(geometry, row, column, height);
       if (there == place) continue;
       Exception exception{static_cast<std::uint32_t>(to), {}};
       for (std::size_t k = 0; k < 3; ++k) exception.by[k] = static_cast<std::int32_t>(place[k] - there[k]);

@@ -73,25 +73,12 @@ class PageMeasure {
     addMesh(draft);
   }
 
-  /// Calls `work(t, corners)` for the triangles of a variant that the next finer one does not have: most stay
-  /// where they were. So everything that is a maximum is taken from the finest variant on, and never falls.
-  template <class Work>
-  static void eachNew(const PatchDraft& draft, std::size_t v, const Work& work) {
-    const std::vector<std::uint32_t>& triangles = draft.variants[v].triangles;
-    const std::uint32_t* const finer = v == 0 ? nullptr : draft.variants[v - 1].triangles.data();
-    for (std::size_t t = 0; t < triangles.size(); t += 3) {
-      const std::uint32_t* const c = &triangles[t];
-      if (finer != nullptr && c[0] == finer[t] && c[1] == finer[t + 1] && c[2] == finer[t + 2]) continue;
-      work(t / 3, c);
-    }
-  }
-
   /// What is not seen in heights above the plane. A vertex's slope is that of the steepest triangle about it
   /// in any variant.
   void bends(const PatchDraft& draft, PatchMeasure& patch) {
     slopes_.assign(draft.vertices.size(), 0.0);
     for (std::size_t v = 0; v < kVariants; ++v)
-      eachNew(draft, v, [&](std::size_t, const std::uint32_t* c) {
+      draft.eachNew(v, [&](std::size_t, const std::uint32_t* c) {
         const double steep = bound_.steepness(draft, c);
         for (std::size_t k = 0; k < 3; ++k) slopes_[c[k]] = std::max(slopes_[c[k]], steep);
       });
@@ -99,7 +86,7 @@ class PageMeasure {
     const double mostLean = bound_.leaning(steepest);
     double worst = 0;
     for (std::size_t v = 0; v < kVariants; ++v) {
-      eachNew(draft, v, [&](std::size_t, const std::uint32_t* c) {
+      draft.eachNew(v, [&](std::size_t, const std::uint32_t* c) {
         const VerticalBound::Extent extent = bound_.extent(draft, c);
         if (bound_.atMostSideways(extent) * mostLean <= worst) return;
         const double about = std::max({slopes_[c[0]], slopes_[c[1]], slopes_[c[2]]});
@@ -277,7 +264,7 @@ class PageMeasure {
     if (stride_ != 1) scanned_.assign(draft.variants[0].triangles.size() / 3, {});
     double worst = 0, bilinear = 0;
     for (std::size_t v = 0; v < kVariants; ++v) {
-      eachNew(draft, v, [&](std::size_t t, const std::uint32_t* c) {
+      draft.eachNew(v, [&](std::size_t t, const std::uint32_t* c) {
         // Each edge once: the triangle on its other side has it the other way round, and is new as well.
         for (std::size_t k = 0; k < 3; ++k) {
           const std::uint32_t from = c[k], to = c[k == 2 ? 0 : k + 1];

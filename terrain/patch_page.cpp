@@ -51,6 +51,24 @@ PatchDraft drafted(PageField& page, const PatchIndex& index, const PatchPlace& p
   return draft;
 }
 
+/// Of the front faces of all of a patch's triangles, whatever variant draws them.
+NormalCone coneOf(const PatchDraft& draft, const PatchMesh& mesh) {
+  std::vector<Vec3> normals;
+  normals.reserve(2 * draft.variants[0].triangles.size() / 3);
+  for (std::size_t v = 0; v < PatchIndex::kVariants; ++v)
+    draft.eachNew(v, [&](std::size_t, const std::uint32_t* corners) {
+      const auto place = [&](std::size_t corner) {
+        const PatchVertex& at = mesh.vertices[corners[corner]];
+        return Vec3{at.x, at.y, at.z};
+      };
+      const Vec3 a = place(0), normal = cross(place(1) - a, place(2) - a);
+      // One without an area draws nothing.
+      if (const double area = dot(normal, normal); area > 0)
+        normals.push_back(normal * (1 / std::sqrt(area)));
+    });
+  return NormalCone::of(normals);
+}
+
 }  // namespace
 
 std::size_t PatchPage::bytes() const {
@@ -79,23 +97,9 @@ BuiltPage buildPage(const PatchIndex& index, std::uint32_t page, const HeightSou
     built = {};
     built.meshes.page = page;
   }
-  for (const PatchMesh& mesh : built.meshes.patches) built.cones.push_back(coneOf(mesh));
+  for (std::size_t i = 0; i < built.meshes.patches.size(); ++i)
+    built.cones.push_back(coneOf(drafts[i], built.meshes.patches[i]));
   return built;
-}
-
-NormalCone coneOf(const PatchMesh& mesh) {
-  std::vector<Vec3> normals;
-  normals.reserve(mesh.indices.size() / 3);
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const auto place = [&](std::size_t corner) {
-      const PatchVertex& v = mesh.vertices[mesh.indices[i + corner]];
-      return Vec3{v.x, v.y, v.z};
-    };
-    const Vec3 a = place(0), normal = cross(place(1) - a, place(2) - a);
-    // One without an area draws nothing.
-    if (const double area = dot(normal, normal); area > 0) normals.push_back(normal * (1 / std::sqrt(area)));
-  }
-  return NormalCone::of(normals);
 }
 
 }  // namespace trimtab::terrain

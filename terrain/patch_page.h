@@ -28,6 +28,19 @@ struct PatchDraft {
     double worst = 0, rms = 0;             ///< above the plane, at the posts that it was meshed on
   };
   std::array<Variant, PatchIndex::kVariants> variants;  ///< from the finest
+
+  /// Calls `work(t, corners)` for the triangles of a variant that the next finer one does not have: most stay
+  /// where they were. So everything that is a maximum is taken from the finest variant on, and never falls.
+  template <class Work>
+  void eachNew(std::size_t v, const Work& work) const {
+    const std::vector<std::uint32_t>& triangles = variants[v].triangles;
+    const std::uint32_t* const finer = v == 0 ? nullptr : variants[v - 1].triangles.data();
+    for (std::size_t t = 0; t < triangles.size(); t += 3) {
+      const std::uint32_t* const c = &triangles[t];
+      if (finer != nullptr && c[0] == finer[t] && c[1] == finer[t + 1] && c[2] == finer[t + 2]) continue;
+      work(t / 3, c);
+    }
+  }
 };
 
 /// Posts from one to the next at which pages of a pair are meshed.

@@ -17,6 +17,8 @@ double edgeError(ScanVertex a, ScanVertex b, const PostStrip& strip, std::int32_
   // Columns are crossed at whole numbers of `next` from a, rows between.
   const double dx = sign * (b.x - a.x), dy = b.y - a.y, slope = (b.z - a.z) / dy;
   const double perRow = dx / dy, perColumn = dy / dx;
+  double e0 = 0;
+  bool fresh = true;  // the surface has no steps: further on a cell begins where the one before ended
   for (std::int32_t y = low; y < high; ++y) {
     const float* const south = strip.row(y);
     const float* const north = south + strip.stride;
@@ -34,15 +36,17 @@ double edgeError(ScanVertex a, ScanVertex b, const PostStrip& strip, std::int32_
       const auto off = [&](double s, double t) {
         return z0 + s * rise + t * (climb + s * twist) - (a.z + slope * ((y - a.y) + t));
       };
-      const double e0 = off(u, v), e1 = off(u1, v1);
+      if (fresh) e0 = off(u, v), fresh = false, worst = std::max(worst, std::fabs(e0));
+      const double e1 = off(u1, v1);
       const double bend = twist * (u1 - u) * (v1 - v);
-      worst = std::max({worst, std::fabs(e0), std::fabs(e1)});
+      worst = std::max(worst, std::fabs(e1));
       if (std::max(std::fabs(e0), std::fabs(e1)) + std::fabs(bend) / 4 > worst) {
         const double turn = (bend - (e1 - e0)) / (2 * bend);
         if (turn > 0 && turn < 1)
           worst = std::max(worst, std::fabs(e0 + turn * ((e1 - e0 - bend) + turn * bend)));
       }
       v = v1;
+      e0 = e1;
     }
   }
   return worst;
