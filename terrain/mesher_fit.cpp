@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "trimtab/terrain/mesher_regroup.h"
 #include "trimtab/terrain/mesher_scan.h"
@@ -366,83 +365,11 @@ Triangulation fitTiles(MeshTiles& tiles, const HeightField& field, double bound,
   return mesh;
 }
 
-namespace {
-
-/// Sums of a run of triangles: what is below rounding is none.
-TRIMTAB_LANES void sumPosts(const Triangulation& mesh, const PostRows& posts, std::size_t first,
-                            std::span<PostSum> sums) {
-  for (std::size_t t = 0; t < sums.size(); ++t) {
-    const Triangle& one = mesh.triangles[first + t];
-    const Vertex* const corner[3] = {&mesh.vertices[one.corner[0]], &mesh.vertices[one.corner[1]],
-                                     &mesh.vertices[one.corner[2]]};
-    const bool border[3] = {one.twin[0] < 0, one.twin[1] < 0, one.twin[2] < 0};
-    Lanes squares{}, worst{};
-    forEachFour(
-        corner, border, posts,
-        [&](const Lanes& off, const Lanes&, std::int32_t, std::int32_t) __attribute__((always_inline)) {
-          Lanes size;
-          absoluteLanes(off, size);
-          worst = size > worst ? size : worst;
-          squares += off * off;
-        });
-    double scale = 0;
-    for (const Vertex* v : corner) scale = std::max(scale, std::fabs(static_cast<double>(v->z)));
-    const double most = mostOfLanes(worst);
-    if (roundedError(most, std::max(scale, most)) == 0)
-      sums[t] = {};
-    else
-      sums[t] = {sumOfLanes(squares), most};
-  }
-}
-
-}  // namespace
-
-std::vector<PostSum> postSums(const Triangulation& mesh, const HeightField& field, unsigned threads) {
-  constexpr std::size_t kAtOnce = 8192;
-  std::vector<PostSum> sums(mesh.triangles.size());
-  const PostRows posts{field.z, field.stride, static_cast<std::int32_t>(field.columns)};
-  onThreads(
-      threads, static_cast<std::uint32_t>((sums.size() + kAtOnce - 1) / kAtOnce), [&](std::uint32_t part) {
-        const std::size_t first = part * kAtOnce;
-        sumPosts(mesh, posts, first, std::span(sums).subspan(first, std::min(kAtOnce, sums.size() - first)));
-      });
-  return sums;
-}
-
 void mendPosts(Triangulation& mesh, const HeightField& field, double bound, std::vector<PostSum>& sums) {
   if (std::none_of(sums.begin(), sums.end(), [&](const PostSum& sum) { return sum.worst > kMend * bound; }))
     return;
   MeshFit(mesh, {field.z, field.stride, static_cast<std::int32_t>(field.columns)})
       .mendPosts(kMend * bound, sums);
-}
-
-PostErrors postErrors(const Triangulation& mesh, const HeightField& field, std::span<const PostSum> sums) {
-  const PostRows posts{field.z, field.stride, static_cast<std::int32_t>(field.columns)};
-  PostSum all;
-  const auto add = [&](double off) {
-    all.squares += off * off;
-    all.worst = std::max(all.worst, std::fabs(off));
-  };
-  for (const Vertex& v : mesh.vertices) add(post(posts, v) - v.z);
-  for (std::size_t v = 0; v < mesh.borderEdge.size(); ++v) {
-    const std::int32_t h = mesh.borderEdge[v];
-    if (h < 0) continue;
-    const Vertex& a = mesh.vertices[v];
-    const Triangle& one = mesh.triangles[static_cast<std::size_t>(h >> 2)];
-    const Vertex& b = mesh.vertices[one.corner[Triangulation::next(h & 3)]];
-    const std::int32_t steps = std::gcd(b.x - a.x, b.y - a.y);
-    for (std::int32_t i = 1; i < steps; ++i) {
-      const Vertex at{a.x + (b.x - a.x) / steps * i, a.y + (b.y - a.y) / steps * i, 0};
-      const double facet = a.z + (static_cast<double>(b.z) - a.z) * i / steps;
-      const double height = post(posts, at), off = std::fabs(height - facet);
-      add(roundedError(off, std::max({std::fabs(height), std::fabs(facet)})));
-    }
-  }
-  for (const PostSum& sum : sums) {
-    all.squares += sum.squares;
-    all.worst = std::max(all.worst, sum.worst);
-  }
-  return {all.worst, std::sqrt(all.squares / (static_cast<double>(field.columns) * field.rows))};
 }
 
 }  // namespace trimtab::terrain
