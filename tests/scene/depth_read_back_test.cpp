@@ -106,7 +106,7 @@ class ReadBackLag : public ReadBackScene, public testing::WithParamInterface<int
 TEST_P(ReadBackLag, leavesNothingOutThatTheEyeOfNowSees) {
   use(test::syntheticMountains());
   scene::DepthReadBack::force({.lag = GetParam()});
-  const Flight flight = flyOn(75 * soak(), 11, {640, 480});
+  const Flight flight = flyOn(75 * test::soak(), 11, {640, 480});
   EXPECT_EQ(flight.wrong, 0u);
   EXPECT_EQ(flight.differing, 0u);
   EXPECT_GT(flight.served, 15) << "maps that come late serve hardly ever";
