@@ -23,12 +23,14 @@ class BoxLids {
     constexpr float kRounding = 0.1f;
     const float x = static_cast<float>(box.maxX - middle.x) + kRounding,
                 y = static_cast<float>(box.maxY - middle.y) + kRounding;
-    const std::array<ReliefVertex, 4> corners{{{-x, -y, kRounding, 0, 0},
-                                               {x, -y, kRounding, 1, 0},
-                                               {x, y, kRounding, 1, 1},
-                                               {-x, y, kRounding, 0, 1}}};
+    // No row or column of posts that the step divides crosses it: it has no lines that might hide.
+    constexpr int kStep = 4;
+    const std::array<ReliefVertex, 4> corners{{{-x, -y, kRounding, 1, 1},
+                                               {x, -y, kRounding, 2, 1},
+                                               {x, y, kRounding, 2, 2},
+                                               {-x, y, kRounding, 1, 2}}};
     constexpr std::array<std::uint16_t, 6> kTriangles{0, 1, 2, 0, 2, 3};
-    makeMeshRelief(corners, kTriangles, middle, 1, lid);
+    makeMeshRelief(corners, kTriangles, middle, kStep, lid);
     return &lid;
   }
   void forgetOthers(const LevelCut& cut) { lids_.forgetOthers(cut); }

@@ -36,8 +36,8 @@ class OcclusionGround {
   /// Makes surfaces of the cut's nodes for `fill` and `isGraph`, within the frame's share; returns how many
   /// lack.
   virtual std::size_t makeSurfaces(Vec3 eye) = 0;
-  /// The surfaces of the cut's nodes, in its order, and lids of boxes where they are not made. They stay as
-  /// they are until the next call.
+  /// The surfaces of the cut's nodes, in its order; where there is none of any variant, the lid of the box.
+  /// They stay as they are until the next call.
   virtual void fill(std::vector<HorizonTile>& tiles) = 0;
   /// What may stand in the place of what.
   virtual SurfaceTree tree() const = 0;

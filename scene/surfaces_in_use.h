@@ -55,7 +55,7 @@ class SurfacesInUse {
 };
 
 /// How many surfaces a frame makes at most: a number and no time, so that runs can be repeated. What is not
-/// made yet hides nothing, and is hidden from the horizon by its box alone.
+/// made yet hides nothing, and is hidden by its box alone.
 class SurfaceShare {
  public:
   /// About a millisecond: 0.1 ms each on a desktop of 2023.

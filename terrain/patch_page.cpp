@@ -63,7 +63,7 @@ NormalCone coneOf(const PatchDraft& draft, const PatchMesh& mesh) {
       };
       const Vec3 a = place(0), normal = cross(place(1) - a, place(2) - a);
       // One without an area draws nothing.
-      if (const double area = dot(normal, normal); area > 0)
+      if (const double area = dot(normal, normal); area != 0)
         normals.push_back(normal * (1 / std::sqrt(area)));
     });
   return NormalCone::of(normals);

@@ -53,11 +53,11 @@ void Horizon::begin(const EyeRoom& room, std::span<const HorizonTile> tiles, con
   phase_ = Phase::done;
 
   const Vec3 half = 0.5 * (room.to - room.from);
-  const double play = std::hypot(half.x, half.y) + room.radius;
+  const double play = std::hypot(half.x, half.y) + std::abs(half.z) + room.radius;
   // A direction from another place of the room turns by at most half as much again.
   slack_ = static_cast<float>((play > 0 ? 3 : 2) * settings.slack + kRounding);
   if (!isPlace(room.from) || !isPlace(room.to) || !(room.radius >= 0) || !(slack_ < 0.1f) ||
-      !(play + std::abs(half.z) <= kMostRoomM))
+      !(play <= kMostRoomM))
     return;
   leastM_ = static_cast<float>(2 * play);
   for (int side = 0; side < kSides; ++side) {
@@ -93,6 +93,7 @@ Horizon::Outline Horizon::outlineOf(std::uint32_t n) const {
   const float away = std::sqrt(x * x + y * y);
   o.nearest = std::max({kNearest, leastM_, kNearestShare * relief->reach});
   o.off = slack_ + (tile.above > 0 ? tile.above / away : 0);
+  o.beside = besideOf(o.off, std::max(std::abs(o.top), std::abs(b.minZ + from[2])), away);
   o.tile = n;
   o.ring = ringOf(away - tile.above);
   if (tile.relief && tile.mayOcclude) {
@@ -165,6 +166,7 @@ void Horizon::test(const Outline& outline) {
   ring_ = outline.ring;
   nearest_ = outline.nearest;
   off_ = outline.off;
+  beside_ = outline.beside;
   for (std::size_t bin = 0; settings_.noWaiting && bin < bins_.size(); ++bin) lookAtAll(bin);
   // If a post stands out of the horizon then its block would, and nothing else has to be looked at.
   bool hidden = isPointBlocked(outline.peak[0], outline.peak[1], outline.peak[2]);

@@ -48,7 +48,7 @@ namespace trimtab {
 /// to the far side of a line at a place of the line whose t is within |dl - t df| / (F - |df|) of P's, and is
 /// under the line there if P's w is less than the line's there by |dz - w df| / (F - |df|). Lines are lowered
 /// by the latter; of the former, all count `kFarM` away and their columns' values are the least within what
-/// is left of it, while parts are tested wider by the rest.
+/// is left of it, while parts are tested wider by the rest, in every quarter that they then reach.
 struct HorizonTile {
   const TileRelief* relief = nullptr;  ///< a regular tile; without it and `mesh` never hidden, hides nothing
   bool mayOcclude = false;
@@ -133,6 +133,7 @@ class Horizon {
     float x0, x1, y0, y1, top;  ///< from the eye
     std::array<float, 3> peak;
     float nearest, off;  ///< least distance at which it counts; how far directions to it may be off
+    float beside;        ///< by how much of t, for all eyes, it may reach into another quarter
     std::uint32_t tile, ring;
     // Of a regular tile's lines that run across the line of sight: their highest corner; how far the
     // outermost are from the borders, and how far they go on beyond, in shares of its size; how many.
@@ -172,6 +173,9 @@ class Horizon {
   bool isPartHidden(const TileRelief& relief, int part);
   bool isPartHidden(const MeshRelief& relief, const MeshRelief::Part& part);
   bool covers(int side, float t0, float t1, float w);
+  /// What covers() widens by at most, of a tile so far away whose surface lies within so much of the eye's
+  /// height; nothing that it leaves to another quarter may be left out there.
+  float besideOf(float off, float z, float away) const;
   /// The nearest in the quarter.
   int columnOf(float t) const {
     return std::min(static_cast<int>((std::clamp(t, -1.0f, 1.0f) + 1) * perT_), columns_ - 1);
@@ -211,17 +215,16 @@ class Horizon {
   std::size_t work_ = 0;
   std::uint32_t ring_ = 0;  ///< of the tile in hand
 
-  /// Corners of a line; of a longer one what comes first.
-  static constexpr int kMostCorners = 192;
+  /// Corners of a line.
+  static constexpr int kMostCorners = MeshRelief::kMostCorners;
   static_assert(kMostCorners >= TileRelief::kMostPosts + TileRelief::kGoOn);
   /// The line in hand, from the eye, and its image in a quarter; after the corner `last_` its neighbour's.
   alignas(64) std::array<float, kMostCorners + 16> x_, y_, z_, forward_, u_, w_;
   int last_ = 0, corners_ = 0;
   std::vector<float> reached_;
-  // Of the tile in hand: its origin from the eye, the least distance at which it counts, and how far
-  // directions to it may be off.
+  // Of the tile in hand: its origin from the eye, and what its outline says.
   std::array<float, 3> offset_{};
-  float nearest_ = 0, off_ = 0;
+  float nearest_ = 0, off_ = 0, beside_ = 0;
   std::vector<float> profile_;  ///< kSides * columns_
   std::vector<std::uint8_t> hidden_;
   std::size_t hiddenCount_ = 0;

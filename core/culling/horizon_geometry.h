@@ -78,9 +78,9 @@ struct BoxImage {
   }
 };
 
-/// Whether the quarter, and a little beside it, meets the box.
-inline bool meets(const TurnedBox& b) {
-  return b.f1 > 0 && std::max({b.l0, -b.l1, 0.0f}) <= 1.01f * b.f1;
+/// Whether the quarter, and so much of t beside it, meets the box.
+inline bool meets(const TurnedBox& b, float beside = 0.01f) {
+  return b.f1 > 0 && std::max({b.l0, -b.l1, 0.0f}) <= (1 + beside) * b.f1;
 }
 
 inline bool isPlace(Vec3 p) {

@@ -40,7 +40,7 @@ void Horizon::take(const Lines& lines, int line, const HorizonTile& tile) {
     const MeshRelief& mesh = *tile.mesh;
     const std::uint32_t first = mesh.lineFirst[static_cast<std::size_t>(line)],
                         end = mesh.lineFirst[static_cast<std::size_t>(line) + 1];
-    corners_ = std::min(static_cast<int>(end - first), kMostCorners);
+    corners_ = static_cast<int>(end - first);
     copy(mesh.lineX.data() + first, mesh.lineY.data() + first, mesh.lineZ.data() + first);
     return;
   }
@@ -104,7 +104,7 @@ void Horizon::raiseRun(int side, int from, int count, bool rises, float nearestM
   const float* u = u_.data() + from;
   float* w = w_.data() + from;
   int width = 1;
-  if (play.forwards > 0) {
+  if (play.forwards > 0 || play.upwards > 0 || play.side != 0) {
     const float inverse = 1 / (nearestM - play.forwards);
     kernel.lower(w, count, play.upwards, play.forwards, inverse);
     const float t0 = u[0] / perT_ - 1, t1 = u[count - 1] / perT_ - 1;

@@ -12,12 +12,21 @@ namespace {
 /// Steeper directions are not looked at: what is there is seen.
 constexpr float kSteepest = 10;
 
+/// A direction that turns by `off` radians moves in t and w by at most this.
+float movedBy(float off, float w) {
+  return off * 1.5f * (2.1f + w * w);
+}
+
 }  // namespace
+
+float Horizon::besideOf(float off, float z, float away) const {
+  // In plan a place is at most the root of 2 further away than forwards.
+  return 0.01f + movedBy(off, std::min(kSteepest, 1.5f * z / away)) + leastM_ * (1 / kFarM);
+}
 
 bool Horizon::covers(int side, float t0, float t1, float w) {
   if (!(std::abs(w) <= kSteepest)) return false;
-  // A direction that turns by `off_` moves in t and w by at most this.
-  const float beside = off_ * 1.5f * (2.1f + w * w);
+  const float beside = movedBy(off_, w);
   const Play& play = play_[static_cast<std::size_t>(side)];
   const float limit = w + beside,
               aside = beside + (std::max(play.across(t0), play.across(t1)) + play.radius) * (1 / kFarM);
@@ -48,7 +57,7 @@ bool Horizon::isBoxHidden(const Box& box) {
 bool Horizon::isBoxHidden(const Outline& box) {
   for (int side = 0; side < kSides; ++side) {
     const TurnedBox b = turned(side, box.x0, box.x1, box.y0, box.y1);
-    if (!meets(b)) continue;
+    if (!meets(b, beside_)) continue;
     if (!(b.f0 > nearest_)) return false;
     const BoxImage image(b, box.top);
     if (!covers(side, image.t0, image.t1, image.w)) return false;
@@ -82,7 +91,7 @@ bool Horizon::isPartHidden(const TileRelief& relief, int part) {
   for (int side = 0; side < kSides; ++side) {
     const TurnedBox box =
         turned(side, b.minX + offset_[0], b.maxX + offset_[0], b.minY + offset_[1], b.maxY + offset_[1]);
-    if (!meets(box)) continue;
+    if (!meets(box, beside_)) continue;
     if (!(box.f0 > nearest_)) return false;
     PartHulls hulls;
     kernels(settings_.simd).hulls(projectionOf(side, partX_.data(), partY_.data(), partZ_.data()), hulls);
@@ -110,7 +119,7 @@ bool Horizon::isPartHidden(const MeshRelief& relief, const MeshRelief::Part& par
   for (int side = 0; side < kSides; ++side) {
     const TurnedBox box = turned(side, part.box.minX + offset_[0], part.box.maxX + offset_[0],
                                  part.box.minY + offset_[1], part.box.maxY + offset_[1]);
-    if (!meets(box)) continue;
+    if (!meets(box, beside_)) continue;
     if (!(box.f0 > nearest_)) return false;
     float t[3 * MeshRelief::kPartTriangles], w[3 * MeshRelief::kPartTriangles];
     for (std::size_t i = 0; i < part.vertices; ++i) {

@@ -127,7 +127,7 @@ void addLines(std::span<const ReliefVertex> vertices, std::span<const Triangle> 
                   crossings.end());
   for (std::size_t first = 0, end = 0; first < crossings.size(); first = end) {
     while (end < crossings.size() && crossings[end].line == crossings[first].line) ++end;
-    if (end - first < 2) continue;
+    if (end - first < 2 || end - first > std::size_t{MeshRelief::kMostCorners}) continue;
     for (std::size_t i = first; i < end; ++i) {
       relief.lineX.push_back(crossings[i].x);
       relief.lineY.push_back(crossings[i].y);

@@ -22,6 +22,7 @@ struct MeshRelief : Relief {
     std::uint8_t peak = 0;  ///< its highest vertex
   };
   static constexpr std::size_t kPartTriangles = 24;
+  static constexpr int kMostCorners = 192;  ///< of a line: a longer one hides nothing
 
   std::vector<Part> parts;            ///< none where a number is not finite: hides nothing, is never hidden
   std::vector<float> x, y, z;         ///< vertices, part by part
