@@ -4,123 +4,12 @@
 #include <limits>
 #include <random>
 
-#include "grid_surface.h"
-#include "trimtab/culling/horizon.h"
+#include "ridge_ground.h"
 
 namespace trimtab {
 namespace {
 
-/// A height field of square tiles, with a brute-force answer to whether a ray ends at it.
-class Ground {
- public:
-  Ground(int tiles, int cells, double stepM, unsigned seed)
-      : cells_(cells), posts_(tiles * cells + 1), step_(stepM) {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<double> unit(0, 1);
-    std::array<double, 12> phase{};
-    for (double& p : phase) p = 6.28 * unit(random);
-    for (int y = 0; y < posts_; ++y)
-      for (int x = 0; x < posts_; ++x) {
-        double h = 0, size = 300;
-        for (std::size_t octave = 0; octave < 4; ++octave, size *= 0.45) {
-          const double f = 0.045 * std::pow(2.1, double(octave));
-          h += size *
-               (1 - std::abs(std::sin(f * x + phase[3 * octave] + std::sin(f * y + phase[3 * octave + 1])))) *
-               (1 - std::abs(std::sin(f * y + phase[3 * octave + 2])));
-        }
-        h += 15 * unit(random);
-        // As the earth falls away.
-        const double dx = (x - posts_ / 2) * step_, dy = (y - posts_ / 2) * step_;
-        heights_.push_back(static_cast<float>(h - (dx * dx + dy * dy) / 12.7e6));
-      }
-    for (int row = 0; row < tiles; ++row)
-      for (int column = 0; column < tiles; ++column)
-        reliefs_.push_back(reliefOf(column * cells, row * cells));
-  }
-
-  std::vector<HorizonTile> tiles() const {
-    std::vector<HorizonTile> tiles;
-    for (const TileRelief& relief : reliefs_) tiles.push_back({&relief, true});
-    const std::size_t wide = static_cast<std::size_t>((posts_ - 1) / cells_);
-    for (std::size_t i = 0; i < tiles.size(); ++i) {
-      if (i % wide + 1 < wide) tiles[i].east = &reliefs_[i + 1];
-      if (i + wide < tiles.size()) tiles[i].north = &reliefs_[i + wide];
-    }
-    return tiles;
-  }
-  const std::vector<TileRelief>& reliefs() const { return reliefs_; }
-  /// The same surface as meshes of any triangles, in the order of tiles().
-  std::vector<MeshRelief> meshes(int step) const {
-    std::vector<MeshRelief> meshes;
-    const int tiles = (posts_ - 1) / cells_;
-    for (int row = 0; row < tiles; ++row)
-      for (int column = 0; column < tiles; ++column)
-        meshes.push_back(meshOf(column * cells_, row * cells_, step));
-    return meshes;
-  }
-  double sideM() const { return (posts_ - 1) * step_; }
-
-  /// z of the surface; diagonals alternate as the terrain's do.
-  double heightAt(double x, double y) const {
-    const double u = std::clamp(x / step_, 0.0, posts_ - 1.0), v = std::clamp(y / step_, 0.0, posts_ - 1.0);
-    const int i = std::min(static_cast<int>(u), posts_ - 2), j = std::min(static_cast<int>(v), posts_ - 2);
-    const double a = u - i, b = v - j;
-    const double sw = post(i, j), se = post(i + 1, j), nw = post(i, j + 1), ne = post(i + 1, j + 1);
-    return test::heightInCell(a, b, (i + j) % 2 == 0, sw, se, nw, ne);
-  }
-
-  /// Whether the ground is over the way from `eye` to `p`.
-  bool isCovered(Vec3 eye, Vec3 p) const {
-    return test::isCovered(eye, p, step_, [this](double x, double y) { return heightAt(x, y); });
-  }
-
- private:
-  double post(int x, int y) const {
-    return double{heights_[static_cast<std::size_t>(y) * static_cast<std::size_t>(posts_) +
-                           static_cast<std::size_t>(x)]};
-  }
-  MeshRelief meshOf(int column, int row, int step) const {
-    const Vec3 origin{(column + cells_ / 3) * step_, (row + cells_ / 2) * step_, 50};
-    std::vector<ReliefVertex> vertices;
-    std::vector<std::uint16_t> indices;
-    for (int y = 0; y <= cells_; ++y)
-      for (int x = 0; x <= cells_; ++x)
-        vertices.push_back({static_cast<float>((column + x) * step_ - origin.x),
-                            static_cast<float>((row + y) * step_ - origin.y),
-                            static_cast<float>(post(column + x, row + y) - origin.z),
-                            static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)});
-    const auto at = [this](int x, int y) { return static_cast<std::uint16_t>(y * (cells_ + 1) + x); };
-    for (int y = 0; y < cells_; ++y)
-      for (int x = 0; x < cells_; ++x) {
-        const auto sw = at(x, y), se = at(x + 1, y), nw = at(x, y + 1), ne = at(x + 1, y + 1);
-        if ((column + x + row + y) % 2 == 0)
-          indices.insert(indices.end(), {sw, se, ne, sw, ne, nw});
-        else
-          indices.insert(indices.end(), {sw, se, nw, se, ne, nw});
-      }
-    MeshRelief relief;
-    makeMeshRelief(vertices, indices, origin, step, relief);
-    return relief;
-  }
-  TileRelief reliefOf(int column, int row) const {
-    TileRelief relief;
-    relief.side = cells_ + 1;
-    relief.origin = {(column + cells_ / 2) * step_, (row + cells_ / 2) * step_, 100};
-    for (int y = 0; y <= cells_; ++y)
-      for (int x = 0; x <= cells_; ++x) {
-        relief.x.push_back(static_cast<float>((column + x) * step_ - relief.origin.x));
-        relief.y.push_back(static_cast<float>((row + y) * step_ - relief.origin.y));
-        relief.z.push_back(static_cast<float>(post(column + x, row + y) - relief.origin.z));
-      }
-    relief.finish(4);
-    return relief;
-  }
-
-  int cells_, posts_;
-  double step_;
-  std::vector<float> heights_;
-  std::vector<TileRelief> reliefs_;
-};
+using Ground = test::RidgeGround;
 
 struct Tally {
   std::size_t hidden = 0, tiles = 0, wrong = 0, asked = 0;
@@ -364,69 +253,6 @@ TEST(Horizon, isSeenToFailWhereLinesOfMeshesReachTooHigh) {
   const Ground ground(10, 16, 60, 2);
   const std::vector<MeshRelief> meshes = ground.meshes(4);
   EXPECT_GT(fly(ground, tilesOf(meshes), 60, {.columns = 16, .raised = true}, 3).wrong, 0u);
-}
-
-TEST(MeshRelief, hasLinesThatLieOnTheSurfaceFromBorderToBorder) {
-  const Ground ground(3, 16, 60, 4);
-  for (const MeshRelief& mesh : ground.meshes(5)) {
-    ASSERT_GE(mesh.lines(), 6u);
-    EXPECT_TRUE(mesh.upright);
-    for (std::size_t line = 0; line < mesh.lines(); ++line) {
-      const std::size_t first = mesh.lineFirst[line], end = mesh.lineFirst[line + 1];
-      EXPECT_NEAR(
-          std::hypot(mesh.lineX[end - 1] - mesh.lineX[first], mesh.lineY[end - 1] - mesh.lineY[first]),
-          16 * 60, 1e-2);
-      // Between two corners it is straight, and so is the surface.
-      for (std::size_t i = first; i + 1 < end; ++i)
-        for (const double s : {0.0, 0.3, 0.5, 0.8}) {
-          const auto at = [&](const std::vector<float>& v) { return v[i] + s * (double{v[i + 1]} - v[i]); };
-          const Vec3 p = mesh.origin + Vec3{at(mesh.lineX), at(mesh.lineY), at(mesh.lineZ)};
-          EXPECT_NEAR(ground.heightAt(p.x, p.y), p.z, 1e-3);
-        }
-    }
-  }
-}
-
-TEST(MeshRelief, keepsEveryTriangleOnce) {
-  const Ground ground(2, 16, 60, 4);
-  for (const MeshRelief& mesh : ground.meshes(4)) {
-    std::size_t triangles = 0;
-    double area = 0;
-    for (const MeshRelief::Part& part : mesh.parts) {
-      triangles += part.triangles;
-      for (std::size_t i = 0; i < part.triangles; ++i) {
-        const std::uint8_t* c = &mesh.corners[part.firstCorner + 3 * i];
-        const auto x = [&](int k) { return double{mesh.x[part.firstVertex + c[k]]}; };
-        const auto y = [&](int k) { return double{mesh.y[part.firstVertex + c[k]]}; };
-        area += 0.5 * ((x(1) - x(0)) * (y(2) - y(0)) - (x(2) - x(0)) * (y(1) - y(0)));
-      }
-    }
-    EXPECT_EQ(triangles, 2u * 16 * 16);
-    EXPECT_NEAR(area, 960.0 * 960, 1);
-  }
-}
-
-TEST(MeshRelief, isNoSurfaceWhereItStandsUprightOrIsNoNumber) {
-  const std::vector<std::uint16_t> one{0, 1, 2};
-  MeshRelief relief;
-  makeMeshRelief(std::vector<ReliefVertex>{{0, 0, 0, 0, 0}, {10, 0, 5, 1, 0}, {0, 10, 0, 0, 1}}, one, {}, 1,
-                 relief);
-  EXPECT_TRUE(relief.upright);
-  EXPECT_NEAR(relief.steepest, 0.5, 1e-6);
-  makeMeshRelief(std::vector<ReliefVertex>{{0, 0, 0, 0, 0}, {0, 0, 10, 1, 0}, {0, 10, 0, 0, 1}}, one, {}, 1,
-                 relief);
-  EXPECT_FALSE(relief.upright);
-  EXPECT_EQ(relief.lines(), 0u);
-  makeMeshRelief(std::vector<ReliefVertex>{{0, 0, 0, 0, 0}, {0, 10, 0, 1, 0}, {10, 0, 0, 0, 1}}, one, {}, 1,
-                 relief);
-  EXPECT_FALSE(relief.upright) << "it faces down";
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  makeMeshRelief(std::vector<ReliefVertex>{{0, 0, nan, 0, 0}, {10, 0, 0, 1, 0}, {0, 10, 0, 0, 1}}, one, {}, 1,
-                 relief);
-  EXPECT_FALSE(relief.upright);
-  EXPECT_TRUE(relief.parts.empty());
-  makeMeshRelief({}, {}, {}, 1, relief);
-  EXPECT_TRUE(relief.parts.empty());
 }
 
 // A tile of one cell has no line inside, so it hides nothing; it can be hidden.
