@@ -64,7 +64,7 @@ Result<std::vector<std::uint8_t>> BakeSource::takeImage(const Progress& progress
 namespace {
 
 /// Scenery alone: its tiles are read as they are needed.
-Result<std::unique_ptr<BakeSource>> readScenery(const BakeOptions& options, std::size_t memory,
+Result<std::unique_ptr<BakeSource>> openScenery(const BakeOptions& options, std::size_t memory,
                                                 const Progress& progress) {
   auto source = std::make_unique<BakeSource>();
   auto tiles = SceneryCatalogue::open(options.sources, memory / 4, stageOf(progress, 0, 0.6));
@@ -86,7 +86,7 @@ Result<std::unique_ptr<BakeSource>> readScenery(const BakeOptions& options, std:
 }
 
 /// Scenery beside elevation is read whole: better to say so now than when memory has run out.
-Result<std::unique_ptr<BakeSource>> readMerged(const BakeOptions& options, const std::vector<fs::path>& files,
+Result<std::unique_ptr<BakeSource>> openMerged(const BakeOptions& options, const std::vector<fs::path>& files,
                                                std::size_t memory, const Progress& progress) {
   const std::uint64_t bytes = sceneryBytes(files) + sceneryPostsBytes(files, options.post);
   if (bytes > memory)
@@ -128,7 +128,7 @@ Result<std::unique_ptr<BakeSource>> readSource(const BakeOptions& options, std::
   const auto files = sourceFiles(options.sources);
   if (!files) return files.findings();
   const bool alone = static_cast<std::size_t>(scenery) == options.sources.size();
-  auto read = alone ? readScenery(options, memory, progress) : readMerged(options, *files, memory, progress);
+  auto read = alone ? openScenery(options, memory, progress) : openMerged(options, *files, memory, progress);
   if (read) (*read)->treesBytes = sceneryBytes(*files);
   return read;
 }
