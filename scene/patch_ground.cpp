@@ -13,8 +13,8 @@ namespace {
 constexpr int kLinesASide = 8;
 /// Patches so near in plan share the ground under the near plane, metres.
 constexpr float kBesideM = 20;
-/// Of a normal's z: with less, a rounding step might turn its triangle over. As MeshRelief has it.
-constexpr double kLeastRise = 0.001;
+/// Of a normal's z, where MeshRelief does not take its triangle for upright.
+constexpr double kLeastRise = 1 / MeshRelief::kSteepest;
 
 bool isOver(const Box& b, float x, float y, float beside = 0) {
   return x >= b.minX - beside && x <= b.maxX + beside && y >= b.minY - beside && y <= b.maxY + beside;

@@ -30,8 +30,7 @@ void judge(const ReliefVertex& a, const ReliefVertex& b, const ReliefVertex& c, 
   const double vx = double{c.x} - a.x, vy = double{c.y} - a.y, vz = double{c.z} - a.z;
   const double up = ux * vy - uy * vx;
   const double flat = std::hypot(uy * vz - uz * vy, uz * vx - ux * vz);
-  // Steeper than this a rounding step might turn it over.
-  if (!(up > 0 && flat < 1000 * up)) relief.upright = false;
+  if (!(up > 0 && flat < MeshRelief::kSteepest * up)) relief.upright = false;
   relief.steepest = std::max(relief.steepest, static_cast<float>(up > 0 ? flat / up : 1e6));
 }
 

@@ -22,6 +22,8 @@ struct MeshRelief : Relief {
     std::uint8_t peak = 0;  ///< its highest vertex
   };
   static constexpr std::size_t kPartTriangles = 24;
+  /// Rise over run: a triangle that is steeper might turn over by a rounding step, and counts as upright.
+  static constexpr double kSteepest = 1000;
   static constexpr int kMostCorners = 192;  ///< of a line: a longer one hides nothing
 
   std::vector<Part> parts;            ///< none where a number is not finite: hides nothing, is never hidden
