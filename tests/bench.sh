@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Measures every performance and accuracy row of the project and sets it beside a peer.
-# Options: --quick (fewer repeats), --only GROUP, --json (one document {"rows": [...]} on standard output)
+# Options: --quick (fewer repeats), --only GROUP[.PART] (the beginning of a row's name), --json (one document
+# {"rows": [...]} on standard output)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-usage() { echo "usage: tests/bench.sh [--quick] [--only GROUP] [--json]" >&2; exit 2; }
+usage() { echo "usage: tests/bench.sh [--quick] [--only GROUP[.PART]] [--json]" >&2; exit 2; }
 only= json= options=()
 while [ $# -gt 0 ]; do
   case $1 in
@@ -21,6 +22,7 @@ fail() { tail -40 "$log" >&2; echo "$1 failed" >&2; exit 1; }
 { bash resources/install-packages.sh && cmake --preset release; } >"$log" 2>&1 || fail configuring
 groups=$(cat build/bench.list)
 if [ -n "$only" ]; then
+  case $only in *.*) options+=(--only "${only#*.}"); only=${only%%.*} ;; esac
   grep -qx "$only" build/bench.list || { echo "no group $only; there are: $(echo $groups)" >&2; exit 2; }
   groups=$only
 fi

@@ -255,14 +255,14 @@ void submitRow(Report& report) {
 int main(int argc, char** argv) {
   using namespace trimtab::bench;
   Report report(argc, argv);
-  frustumRows(report, "64k", 65'536);
-  frustumRows(report, "16m", 16'000'000);
-  selectionRows(report);
-  horizonRows(report);
-  depthMapRows(report);
+  if (report.wants("frustum_64k")) frustumRows(report, "64k", 65'536);
+  if (report.wants("frustum_16m")) frustumRows(report, "16m", 16'000'000);
+  if (report.wants("selection")) selectionRows(report);
+  if (report.wants("horizon")) horizonRows(report);
+  if (report.wants("map")) depthMapRows(report);
   movingHorizonRows(report);
-  submitRow(report);
+  if (report.wants("submit")) submitRow(report);
   frameRows(report);
-  stageRows(report);
+  if (report.wants("stage")) stageRows(report);
   return report.finish();
 }

@@ -242,18 +242,21 @@ GeodeticPosition placeOver(const terrain::Database& database, double east, doubl
 }
 
 void frameRows(Report& report) {
-  const auto mountains = test::syntheticMountains();
-  rowsOf(report, "mountains", mountains);
-  peerRowsOf(report, "mountains", mountains);
+  if (report.wants("frame_mountains")) {
+    const auto mountains = test::syntheticMountains();
+    rowsOf(report, "mountains", mountains);
+    peerRowsOf(report, "mountains", mountains);
+  }
   const auto flat = [](double relief) {
     return std::make_shared<const test::SyntheticTerrain>(
         16, 1.0 / 1200, GeodeticPosition{Degrees{36.4}, Degrees{128.1}, Metres{0}},
         [relief](int column, int row) { return relief * std::sin(column * 0.1) * std::cos(row * 0.13); });
   };
-  rowsOf(report, "sea", flat(0));
-  rowsOf(report, "plain", flat(5));
+  if (report.wants("frame_sea")) rowsOf(report, "sea", flat(0));
+  if (report.wants("frame_plain")) rowsOf(report, "plain", flat(5));
   const test::ScratchDir dir;
   const auto shared = [&](const char* folder, const char* name, bool peers) {
+    if (!report.wants(std::string("frame_") + name)) return;
     const auto source = test::sharedDir() / "data" / folder;
     if (!std::filesystem::exists(source)) return;
     const auto baked = terrain::openOrBake(source, dir / "cache", {});
@@ -263,6 +266,7 @@ void frameRows(Report& report) {
   };
   shared("dem-srtm3-everest", "everest", true);
   shared("fg-debian-iceland-reykjanes", "iceland", false);
+  if (!report.wants("frame_sample")) return;
   terrain::SampleOptions options;
   options.postM = report.quick() ? 180 : 90;
   if (!terrain::writeSample(dir / "sample.tif", options)) return;

@@ -212,8 +212,8 @@ void levelRows(Report& report) {
 }  // namespace
 
 void movingHorizonRows(Report& report) {
-  standingRows(report);
-  levelRows(report);
+  if (report.wants("horizon_moving")) standingRows(report);
+  if (report.wants("horizon_levels")) levelRows(report);
 }
 
 }  // namespace trimtab::bench

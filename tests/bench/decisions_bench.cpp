@@ -262,9 +262,9 @@ int main(int argc, char** argv) {
     return 1;
   }
   const std::vector<FrameInput> inputs = bench::inputsOf(*flight);
-  bench::speed(report, inputs);
-  bench::rulesAgainstFuzzylite(report);
-  bench::traceSpeed(report, inputs);
-  bench::exactness(report, inputs);
+  if (report.wants("speed")) bench::speed(report, inputs);
+  if (report.wants("rules")) bench::rulesAgainstFuzzylite(report);
+  if (report.wants("trace")) bench::traceSpeed(report, inputs);
+  if (report.wants("exactness")) bench::exactness(report, inputs);
   return report.finish();
 }

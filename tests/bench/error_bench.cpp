@@ -213,7 +213,7 @@ void differenceRows(Report& report) {
 
 int main(int argc, char** argv) {
   trimtab::bench::Report report(argc, argv);
-  trimtab::bench::speedRows(report);
-  trimtab::bench::differenceRows(report);
+  if (report.wants("speed")) trimtab::bench::speedRows(report);
+  if (report.wants("difference")) trimtab::bench::differenceRows(report);
   return report.finish();
 }

@@ -178,11 +178,11 @@ void passes(Report& report, BenchScene& bench) {
 int main(int argc, char** argv) {
   using namespace trimtab;
   bench::Report report(argc, argv);
-  bench::decisions(report);
+  if (report.wants("decisions")) bench::decisions(report);
   const auto terrain = bench::sampleTerrain(40);
   if (!terrain) return 1;
-  bench::sweep(report, terrain);
+  if (report.wants("sweep")) bench::sweep(report, terrain);
   bench::BenchScene scene(terrain);
-  if (scene.ready()) bench::passes(report, scene);
+  if (report.wants("passes") && scene.ready()) bench::passes(report, scene);
   return report.finish();
 }

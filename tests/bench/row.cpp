@@ -94,11 +94,20 @@ Report::Report(int argc, char** argv) {
       quick_ = true;
     else if (std::strcmp(argv[i], "--json") == 0)
       json_ = true;
+    else if (std::strcmp(argv[i], "--only") == 0 && i + 1 < argc)
+      only_ = argv[++i];
     else {
-      std::fprintf(stderr, "usage: %s [--quick] [--json]\n", argv[0]);
+      std::fprintf(stderr, "usage: %s [--quick] [--only PART] [--json]\n", argv[0]);
       std::exit(2);
     }
   }
+}
+
+bool Report::wants(const std::string& part) {
+  parts_ += " " + part;
+  const bool wanted = part.starts_with(only_);
+  measured_ |= wanted;
+  return wanted;
 }
 
 void Report::add(Row row) {
@@ -109,6 +118,11 @@ void Report::add(Row row) {
 
 // One row a line, so that scripts can join the rows of several programs.
 int Report::finish() const {
+  if (!only_.empty() && !measured_) {
+    std::fprintf(stderr, "no part %s; there are:%s\n", only_.c_str(),
+                 parts_.empty() ? " none" : parts_.c_str());
+    return 2;
+  }
   if (!json_) return 0;
   std::printf("{\"rows\": [\n");
   for (std::size_t i = 0; i < rows_.size(); ++i)

@@ -31,18 +31,21 @@ Row ratioAtMost(double goal, Row row);
 Row valueAtLeast(double goal, Row row);
 Row valueAtMost(double goal, Row row);
 
-/// Options --quick and --json, and the rows so far. In text mode rows are printed as they come.
+/// Options --quick, --only and --json, and the rows so far. In text mode rows are printed as they come.
 class Report {
  public:
   /// Ends the program with status 2 on any other option.
   Report(int argc, char** argv);
   bool quick() const { return quick_; }
+  /// Whether to measure a part of the program: with --only, one whose name begins with what was asked for.
+  bool wants(const std::string& part);
   void add(Row row);
-  /// Prints what is left; the program's exit status, 0 whether goals hold or not.
+  /// Prints what is left; the program's exit status: 0 whether goals hold or not, 2 if --only names no part.
   int finish() const;
 
  private:
-  bool quick_ = false, json_ = false;
+  bool quick_ = false, json_ = false, measured_ = false;
+  std::string only_, parts_;
   std::vector<Row> rows_;
 };
 

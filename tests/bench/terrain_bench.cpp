@@ -121,14 +121,15 @@ int main(int argc, char** argv) {
   // First: its processes start as small as this one is now.
   bench::bakingRows(report);
   const std::uint32_t side = report.quick() ? 100 : 230;
-  bench::compare(report, "terrain.simplify_hills", "jittered hills",
-                 test::tin("hills", {.columns = side, .rows = side}));
+  if (report.wants("simplify_hills"))
+    bench::compare(report, "terrain.simplify_hills", "jittered hills",
+                   test::tin("hills", {.columns = side, .rows = side}));
   const auto tile = test::sharedDir() / "data/fg-kansai-e135n35/Terrain/e130n30/e135n35/5168985.btg.gz";
-  if (!report.quick() && std::filesystem::exists(tile))
+  if (!report.quick() && report.wants("simplify_scenery") && std::filesystem::exists(tile))
     if (const auto mesh = terrain::readBtg(tile))
       bench::compare(report, "terrain.simplify_scenery", "tile 5168985", *mesh);
-  bench::mesherRows(report);
-  bench::patchRows(report);
-  bench::pagingRows(report);
+  if (report.wants("mesh")) bench::mesherRows(report);
+  if (report.wants("patches")) bench::patchRows(report);
+  if (report.wants("paging")) bench::pagingRows(report);
   return report.finish();
 }

@@ -119,11 +119,11 @@ void frames(Report& report, BenchScene& bench) {
 int main(int argc, char** argv) {
   using namespace trimtab;
   bench::Report report(argc, argv);
-  bench::decisions(report);
-  bench::falling(report);
+  if (report.wants("decisions")) bench::decisions(report);
+  if (report.wants("falling")) bench::falling(report);
   const auto terrain = bench::sampleTerrain(40);
   if (!terrain) return 1;
   bench::BenchScene scene(terrain);
-  if (scene.ready()) bench::frames(report, scene);
+  if (report.wants("frames") && scene.ready()) bench::frames(report, scene);
   return report.finish();
 }
