@@ -185,13 +185,15 @@ std::vector<PatchPlace> placesOfPage(const PatchIndex& index, const PatchIndex::
   constexpr std::uint32_t k = PatchIndex::kPageSquares;
   std::vector<PatchPlace> places;
   const std::uint32_t columns = squaresAlong(index, page.pair, index.columns),
-                      rows = squaresAlong(index, page.pair, index.rows);
+                      rows = squaresAlong(index, page.pair, index.rows), s = index.squareCells(page.pair);
   for (std::uint32_t r = page.row * k; r < std::min(rows, (page.row + 1) * k); ++r)
-    for (std::uint32_t c = page.column * k; c < std::min(columns, (page.column + 1) * k); ++c)
+    for (std::uint32_t c = page.column * k; c < std::min(columns, (page.column + 1) * k); ++c) {
+      const bool inside = (c + 1) * s < index.columns && (r + 1) * s < index.rows;
       for (int part = 0; part < kPatchParts; ++part) {
         const PatchPlace place{page.pair, c, r, part};
-        if (!patchEdges(index, place).empty()) places.push_back(place);
+        if (inside || !patchEdges(index, place).empty()) places.push_back(place);
       }
+    }
   return places;
 }
 
