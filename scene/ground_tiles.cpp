@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "trimtab/scene/sun.h"
+#include "trimtab/terrain/background_thread.h"
 
 namespace trimtab::scene {
 
@@ -164,6 +165,7 @@ void GroundTiles::want(std::vector<Tile> tiles) {
 }
 
 void GroundTiles::run() {
+  terrain::giveWayToPictures();
   std::unique_lock lock(mutex_);
   while (true) {
     wake_.wait(lock, [&] { return stop_ || (!wanted_.empty() && untaken_ < kMostUntaken); });

@@ -8,6 +8,8 @@
 #include <optional>
 #include <thread>
 
+#include "trimtab/terrain/background_thread.h"
+
 namespace trimtab::terrain {
 namespace {
 
@@ -138,6 +140,7 @@ class ThreadedPager final : public Pager {
   }
 
   void run() {
+    giveWayToPictures();
     std::unique_lock lock(mutex_);
     while (!stop_) {
       if (const auto page = nextPage())

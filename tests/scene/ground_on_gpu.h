@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <atomic>
@@ -34,6 +35,7 @@ class Formula final : public GroundPyramid {
   }
   const GroundShape& shape() const override { return shape_; }
   Result<GroundTile> readTile(std::uint32_t level, std::uint32_t column, std::uint32_t row) const override {
+    niceness = ::getpriority(PRIO_PROCESS, 0);
     while (held) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     if (level == brokenLevel) ++failed;
     if (level == brokenLevel) return Finding{Severity::error, "ground", "tile", "texels", "none"};
@@ -81,6 +83,7 @@ class Formula final : public GroundPyramid {
   }
   mutable std::atomic<int> read{0}, failed{0};
   std::atomic<bool> held{false};
+  mutable std::atomic<int> niceness{0};  ///< of the last thread that read
   std::uint32_t brokenLevel = 99;
 
  private:

@@ -229,6 +229,19 @@ TEST_F(GroundOnGpu, neverWaitsNorUploadsMoreThanAllowed) {
   }
 }
 
+TEST_F(GroundOnGpu, itsThreadGivesWayToWhoDraws) {
+  const int own = ::getpriority(PRIO_PROCESS, 0);
+  const auto ground = std::make_shared<Formula>(2000, 2000);
+  texture_->setGround(ground);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  for (; !texture_->complete() && std::chrono::steady_clock::now() < end;
+       std::this_thread::sleep_for(std::chrono::milliseconds(1)))
+    texture_->update(1000, 1000, false, 16 << 20);
+  EXPECT_TRUE(texture_->complete());
+  EXPECT_GE(ground->niceness, std::min(own + 10, 19));
+  EXPECT_EQ(::getpriority(PRIO_PROCESS, 0), own);
+}
+
 TEST_F(GroundOnGpu, keepsItsMemoryHoweverFarItFlies) {
   const auto ground = std::make_shared<Formula>(60000, 60000);
   texture_->setGround(ground);

@@ -115,6 +115,16 @@ TEST_F(PagerOf, keepsNoCallerWaitingForASlowDisk) {
   EXPECT_GT(pager->counters().waiting, 0u);
 }
 
+TEST_F(PagerOf, itsThreadsGiveWayToWhoDraws) {
+  const int own = ::getpriority(PRIO_PROCESS, 0);
+  start(0ms);
+  pager->want(wants({1, 2, 3}));
+  EXPECT_EQ(take(3).size(), 3u);
+  EXPECT_GE(slow->niceness, std::min(own + 10, 19));
+  pager->waitFor(std::vector<std::uint32_t>{4});
+  EXPECT_EQ(::getpriority(PRIO_PROCESS, 0), own) << "who waits stays as it is";
+}
+
 TEST_F(PagerOf, readsNothingThatIsNoLongerWanted) {
   start(20ms);
   std::vector<std::uint32_t> first, then{pages() - 1, pages() - 2};

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/resource.h>
+
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -40,6 +42,7 @@ class SlowPatches final : public terrain::PatchTerrain {
   std::uint64_t pageBytes(std::uint32_t page) const override { return inner_->pageBytes(page); }
   Result<terrain::PatchPage> readPage(std::uint32_t page) const override {
     std::this_thread::sleep_for(delay_.load());
+    niceness = ::getpriority(PRIO_PROCESS, 0);
     {
       const std::lock_guard lock(mutex_);
       read_.push_back(page);
@@ -59,6 +62,7 @@ class SlowPatches final : public terrain::PatchTerrain {
   }
   std::set<std::uint32_t> broken;  ///< set before it is used
   bool throws = false, lies = false;
+  mutable std::atomic<int> niceness{0};  ///< of the last thread that read
 
  private:
   std::shared_ptr<const terrain::PatchTerrain> inner_;
