@@ -89,8 +89,10 @@ void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, GpuM
   const bool alone = request.reproducible && !request.skips.littleHidden;
   const std::uint64_t built = memory_.built(), moved = memory_.moved(), leftOut = memory_.leftOut();
   hidden_ = memory_.hidden(ground_, eye.position,
-                           {HorizonMemory::columnsFor(size_.widthPx),
-                            HorizonMemory::slackOf(request.view, subpixelBits_), defects_.loweringScale < 1},
+                           {.columns = HorizonMemory::columnsFor(size_.widthPx),
+                            .slack = HorizonMemory::slackOf(request.view, subpixelBits_),
+                            .raised = defects_.loweringScale < 1,
+                            .whole = request.wholeHorizon},
                            request.skips, alone);
   counters.horizonsBuilt += memory_.built() - built;
   counters.horizonsMoved += memory_.moved() - moved;

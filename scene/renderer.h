@@ -83,6 +83,9 @@ struct FrameRequest {
   /// What is counted depends on the requests alone, and on no clock: OcclusionMethod::automatic is the
   /// horizon.
   bool reproducible = false;
+  /// readHorizon, and readDepthMap where a horizon serves, tell all that it proves, not only as much as a
+  /// tile's test asked for. Costs a twentieth of the horizon.
+  bool wholeHorizon = false;
   Skips skips;
 };
 

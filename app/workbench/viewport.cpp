@@ -172,6 +172,7 @@ void Viewport::paintGL() {
   if (renderer_ != nullptr && terrain_ != nullptr && source_)
     picture = source_(pixels.width(), pixels.height());
   if (picture) {
+    picture->request.wholeHorizon = !depthMapWanted_.empty();
     drawPicture(*picture, pixels.width(), pixels.height());
     placePicture(*picture, pixels);
     if (picture->hud) picture->overlay.hud = picture->hud();

@@ -35,9 +35,10 @@ void Horizon::begin(const EyeRoom& room, std::span<const HorizonTile> tiles, con
   room_ = room;
   eye_ = 0.5 * (room.from + room.to);
   settings_ = settings;
+  kernels_ = &kernels(settings.simd);
   columns_ = std::clamp(settings.columns, kLeastColumns, kMostColumns);
   perT_ = 0.5f * static_cast<float>(columns_);
-  profile_.assign(static_cast<std::size_t>(kSides * columns_), kNowhere);
+  profile_.assign(static_cast<std::size_t>(kSides * columns_) + 16, kNowhere);
   reached_.resize(static_cast<std::size_t>(3 * columns_ + 16));  // and what a room asks for beside a quarter
   hidden_.assign(tiles.size(), 0);
   hiddenCount_ = 0;
@@ -83,11 +84,7 @@ Horizon::Outline Horizon::outlineOf(std::uint32_t n) const {
   if (!relief || !(relief->reach >= 0 && relief->reach < kMostReach)) return o;
   const auto from = fromEye(eye_, relief->origin);
   const Box& b = relief->bounds;
-  o.x0 = b.minX + from[0];
-  o.x1 = b.maxX + from[0];
-  o.y0 = b.minY + from[1];
-  o.y1 = b.maxY + from[1];
-  o.top = b.maxZ + from[2];
+  static_cast<Prism&>(o) = prismOf(b, from);
   for (std::size_t k = 0; k < 3; ++k) o.peak[k] = relief->peak[k] + from[k];
   const float x = std::max({o.x0, -o.x1, 0.0f}), y = std::max({o.y0, -o.y1, 0.0f});
   const float away = std::sqrt(x * x + y * y);
@@ -95,17 +92,18 @@ Horizon::Outline Horizon::outlineOf(std::uint32_t n) const {
   o.off = slack_ + (tile.above > 0 ? tile.above / away : 0);
   o.beside = besideOf(o.off, std::max(std::abs(o.top), std::abs(b.minZ + from[2])), away);
   o.tile = n;
-  o.ring = ringOf(away - tile.above);
-  if (tile.relief && tile.mayOcclude) {
-    const TileRelief& lines = *tile.relief;
-    const bool rows = runsInRows(o);
-    const auto cells = static_cast<float>(lines.side - 1);
-    o.lines = lines.lines / 2;
-    o.lineTop = lines.lineTop[rows ? 0 : 1] + from[2] - tile.below;
-    // A little less, as a tile may lie a little askew.
-    o.inset = 0.95f * static_cast<float>(lines.lineStep) / cells;
-    o.goOn = (rows ? tile.east : tile.north) ? static_cast<float>(TileRelief::kGoOn) / cells : 0;
-  }
+  o.ring = static_cast<std::uint16_t>(ringOf(away - tile.above));
+  if (!tile.mayOcclude) return o;
+  o.lines = -1;
+  if (!tile.relief) return o;
+  const TileRelief& lines = *tile.relief;
+  const bool rows = runsInRows(o);
+  const auto cells = static_cast<float>(lines.side - 1);
+  o.lines = static_cast<std::int16_t>(lines.lines / 2);
+  o.lineTop = lines.lineTop[rows ? 0 : 1] + from[2] - tile.below;
+  // A little less, as a tile may lie a little askew.
+  o.inset = 0.95f * static_cast<float>(lines.lineStep) / cells;
+  o.goOn = (rows ? tile.east : tile.north) ? static_cast<float>(TileRelief::kGoOn) / cells : 0;
   return o;
 }
 
@@ -118,8 +116,8 @@ void Horizon::outlineSome() {
       __builtin_prefetch(ahead);
       __builtin_prefetch(static_cast<const char*>(ahead) + 64);
     }
-    outlines_[next_] = outlineOf(static_cast<std::uint32_t>(next_));
-    ++firstOfRing_[outlines_[next_].ring + 1];
+    const Outline& outline = outlines_[next_] = outlineOf(static_cast<std::uint32_t>(next_));
+    ++firstOfRing_[std::size_t{outline.ring} + 1];
   }
   work_ += kSome / 8;
   if (next_ == tiles_.size()) sortTiles();
@@ -156,13 +154,12 @@ void Horizon::testNext() {
   ++work_;
   if (outline.tile != kNone) test(outline);
   if (++next_ < order_.size()) return;
-  phase_ = Phase::finish;
+  phase_ = settings_.whole ? Phase::finish : Phase::done;
   next_ = 0;
   ring_ = kRings;
 }
 
 void Horizon::test(const Outline& outline) {
-  const HorizonTile& tile = tiles_[outline.tile];
   ring_ = outline.ring;
   nearest_ = outline.nearest;
   off_ = outline.off;
@@ -170,7 +167,8 @@ void Horizon::test(const Outline& outline) {
   for (std::size_t bin = 0; settings_.noWaiting && bin < bins_.size(); ++bin) lookAtAll(bin);
   // If a post stands out of the horizon then its block would, and nothing else has to be looked at.
   bool hidden = isPointBlocked(outline.peak[0], outline.peak[1], outline.peak[2]);
-  if (hidden && !isBoxHidden(outline)) {
+  if (hidden && !isPrismHidden(outline)) {
+    const HorizonTile& tile = tiles_[outline.tile];
     offset_ = fromEye(eye_, tile.surface()->origin);
     hidden = tile.relief ? isHidden(*tile.relief) : isHidden(*tile.mesh);
   }
@@ -178,8 +176,8 @@ void Horizon::test(const Outline& outline) {
     // Nor can its lines stand out of what hides it.
     hidden_[outline.tile] = 1;
     ++hiddenCount_;
-  } else if (tile.mayOcclude) {
-    awaitLines(outline, tile);
+  } else if (outline.lines != 0) {
+    awaitLines(outline);
   }
 }
 

@@ -13,6 +13,10 @@
 
 namespace trimtab {
 
+namespace horizon {
+struct Kernels;
+}
+
 /// What the ground around an eye hides, in every direction at once: so a head that turns rebuilds nothing.
 ///
 /// The proof. S is the terrain as drawn this frame: continuous over its footprint, one height (by the frame's
@@ -30,11 +34,10 @@ namespace trimtab {
 /// ended before. Nothing of this asks that a line lies on S: it may lie under it; nor that all lines are
 /// looked at: so those that no tile's test asks for wait, and most need never be.
 ///
-/// A tile lies inside the boxes of its posts, and in finer steps inside the hulls of blocks of its posts,
-/// whose images are the hulls of the posts' images. It is hidden when each part of it is below the horizon,
-/// by the part's largest w, in each column that the part touches. What the ray of a visible pixel meets first
-/// is never left out: a hidden tile's rays have met something strictly nearer. A pixel therefore keeps its
-/// fragment.
+/// A tile lies inside the box of its posts, and in finer steps inside those of blocks of its posts. It is
+/// hidden when each part of it is below the horizon, by the part's largest w, in each column that the part
+/// touches. What the ray of a visible pixel meets first is never left out: a hidden tile's rays have met
+/// something strictly nearer. A pixel therefore keeps its fragment.
 ///
 /// Drawn vertices are off by rounding and by the rasteriser's sub-pixels, less than `slack` (radians). If all
 /// directions within `slack` of one end at S, then it ends at S as it is drawn, since that is as continuous;
@@ -81,6 +84,7 @@ class Horizon {
     /// Wrong: lines reach as high as the highest of a column, and a room as far as its middle. For tests that
     /// see it fail.
     bool raised = false, still = false;
+    bool whole = false;      ///< the profile is as high as all lines prove, not as high as tiles asked
     bool noWaiting = false;  ///< lines are looked at before a tile asks for them: for tests that compare
     SimdLevel simd = SimdLevel::avx512;  ///< at most; the result is the same
 
@@ -107,13 +111,16 @@ class Horizon {
   /// One a tile of the last build: 1 is proven hidden.
   const std::vector<std::uint8_t>& hidden() const { return hidden_; }
   std::size_t hiddenCount() const { return hiddenCount_; }
-  /// All of the horizon, from +x by +y, -x and -y: the w of each column; very low where there is none.
-  std::span<const float> profile() const { return profile_; }
+  /// From +x by +y, -x and -y: the w of each column; very low where there is none. All of the horizon where
+  /// Settings::whole.
+  std::span<const float> profile() const {
+    return std::span(profile_).first(static_cast<std::size_t>(kSides * columns_));
+  }
   int columns() const { return columns_; }
-  /// Elevation in radians in a direction of the plan, as far as the whole of the horizon proves; none where
-  /// nothing bounds the sky.
+  /// Elevation in radians in a direction of the plan, as far as the profile proves; none where nothing bounds
+  /// the sky.
   std::optional<double> elevation(double x, double y) const;
-  /// Whether a ray of this direction ends at the ground, as far as the whole of the horizon proves.
+  /// Whether a ray of this direction ends at the ground, as far as the profile proves.
   bool blocks(Vec3 direction) const;
 
  private:
@@ -128,23 +135,32 @@ class Horizon {
     std::int16_t first, last;  ///< columns, of other bins too
     std::uint32_t waiting;
   };
-  /// What most tiles are judged by, so that they are not looked at themselves.
-  struct Outline {
-    float x0, x1, y0, y1, top;  ///< from the eye
+  /// In plan, and up to the top, metres from the eye.
+  struct Prism {
+    float x0, x1, y0, y1, top;
+  };
+  static Prism prismOf(const Box& box, const std::array<float, 3>& from) {
+    return {box.minX + from[0], box.maxX + from[0], box.minY + from[1], box.maxY + from[1],
+            box.maxZ + from[2]};
+  }
+  /// What most tiles are judged by, so that they are not looked at themselves: one line of the cache.
+  struct alignas(64) Outline : Prism {
     std::array<float, 3> peak;
     float nearest, off;  ///< least distance at which it counts; how far directions to it may be off
     float beside;        ///< by how much of t, for all eyes, it may reach into another quarter
-    std::uint32_t tile, ring;
+    std::uint32_t tile;
     // Of a regular tile's lines that run across the line of sight: their highest corner; how far the
-    // outermost are from the borders, and how far they go on beyond, in shares of its size; how many.
+    // outermost are from the borders, and how far they go on beyond, in shares of its size.
     float lineTop, inset, goOn;
-    int lines;
+    std::uint16_t ring;
+    std::int16_t lines;  ///< how many; of a mesh -1, where it may occlude
   };
   /// A tile's lines; of a regular one, those that run across the line of sight, and how they go on.
   struct Lines {
+    const MeshRelief* mesh;  ///< or else:
     const float *xyz, *goOn;
     std::array<float, 3> from, goOnFrom;  ///< their origins, from the eye
-    float besideM, below;
+    float besideM, below, nearest;
     int side;
   };
   /// How far the eye may be from the middle of its room, by a quarter.
@@ -160,17 +176,17 @@ class Horizon {
   void sortTiles();
   Outline outlineOf(std::uint32_t tile) const;
   /// Lines along the line of sight hide next to nothing that the others do not.
-  static bool runsInRows(const Outline& o) { return std::abs(o.y0 + o.y1) >= std::abs(o.x0 + o.x1); }
-  Lines linesOf(const HorizonTile& tile, bool rows) const;
+  static bool runsInRows(const Prism& p) { return std::abs(p.y0 + p.y1) >= std::abs(p.x0 + p.x1); }
+  Lines linesOf(const HorizonTile& tile, const Outline& outline) const;
   void testNext();
   void test(const Outline& outline);
 
   bool isHidden(const TileRelief& relief);
   bool isHidden(const MeshRelief& relief);
   bool isPointBlocked(float x, float y, float z);
-  bool isBoxHidden(const Outline& box);
+  bool isPrismHidden(const Prism& prism);
   bool isBoxHidden(const Box& box);
-  bool isPartHidden(const TileRelief& relief, int part);
+  bool isPartHidden(const TileRelief::Part& part);
   bool isPartHidden(const MeshRelief& relief, const MeshRelief::Part& part);
   bool covers(int side, float t0, float t1, float w);
   /// What covers() widens by at most, of a tile so far away whose surface lies within so much of the eye's
@@ -188,15 +204,15 @@ class Horizon {
   std::optional<Place> placeOf(float x, float y) const;
   std::size_t at(int side, int column) const { return static_cast<std::size_t>(side * columns_ + column); }
 
-  void awaitLines(const Outline& outline, const HorizonTile& tile);
-  void await(const Waiting& lines, const Outline& box);
+  void awaitLines(const Outline& outline);
+  void await(const Waiting& lines, const Prism& prism, float nearest);
   bool lift(int side, int column, float w);
   void tidy(std::size_t bin);
   void lookAtAll(std::size_t bin);
   bool look(Waiting& lines, int side);
   void raiseLine(int side, float besideM, float nearest);
   void raiseRun(int side, int from, int count, bool rises, float nearestM);
-  void take(const Lines& lines, int line, const HorizonTile& tile);
+  void take(const Lines& lines, int line);
   std::uint32_t ringOfLine(float besideM) const;
   template <bool Raised>
   int reach(const float* u, const float* w, int count, int step, int beside, int& first);
@@ -205,11 +221,13 @@ class Horizon {
   Vec3 eye_;  ///< its middle
   std::array<Play, kSides> play_{};
   Settings settings_;
+  const horizon::Kernels* kernels_ = nullptr;
   int columns_ = 0;
   float perT_ = 0;  ///< columns a unit of t
   float slack_ = 0, leastM_ = 0;
   std::span<const HorizonTile> tiles_;
-  /// Outlines of all tiles, the test of each, nearest first, and then what still waits, bin by bin.
+  /// Outlines of all tiles, the test of each, nearest first, and then what still waits, bin by bin, where
+  /// Settings::whole.
   enum class Phase : std::uint8_t { outline, test, finish, done } phase_ = Phase::done;
   std::size_t next_ = 0;  ///< of the phase
   std::size_t work_ = 0;
@@ -225,7 +243,7 @@ class Horizon {
   // Of the tile in hand: its origin from the eye, and what its outline says.
   std::array<float, 3> offset_{};
   float nearest_ = 0, off_ = 0, beside_ = 0;
-  std::vector<float> profile_;  ///< kSides * columns_
+  std::vector<float> profile_;  ///< kSides * columns_, and 16 that are read but never matter
   std::vector<std::uint8_t> hidden_;
   std::size_t hiddenCount_ = 0;
   std::vector<std::uint32_t> firstOfRing_, order_;  ///< tiles by how near their nearest point is
@@ -234,9 +252,6 @@ class Horizon {
   std::vector<std::vector<Raiser>> bins_;  ///< kSides * binsEach_
   int binsEach_ = 0, binShift_ = 0;        ///< 1 << binShift_ columns each
   std::vector<float> awaited_;             ///< kSides * columns_: nothing that waits there is higher
-  /// Posts of the part in hand, from the eye: rows of kPartLanes.
-  static constexpr int kPartPosts = TileRelief::kPartCells + 1, kPartLanes = 16;
-  alignas(64) std::array<float, kPartPosts * kPartLanes> partX_{}, partY_{}, partZ_{};
 };
 
 }  // namespace trimtab

@@ -1,6 +1,7 @@
 #include "trimtab/culling/horizon_kernels.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #if defined(__x86_64__)
@@ -25,30 +26,16 @@ TRIMTAB_INLINE void projectAll(const Projection& p, int count, float* __restrict
     }
 }
 
-TRIMTAB_INLINE void hullsOf(const Projection& p, PartHulls& hulls) {
-  constexpr int kLanes = PartHulls::kLanes, kAll = PartHulls::kRows * kLanes;
-  const auto least = [](float a, float b) { return b < a ? b : a; };
-  const auto most = [](float a, float b) { return a < b ? b : a; };
-  alignas(64) float t[kAll], w[kAll], low[kLanes + 2], high[kLanes + 2], up[kLanes + 2];
-  for (int k = 0; k < 2; ++k) low[kLanes + k] = high[kLanes + k] = up[kLanes + k] = 0;
-  for (int i = 0; i < kAll; ++i) {
-    const float inverse = 1 / (p.signF * p.a[i]);
-    t[i] = p.signL * p.b[i] * inverse;
-    w[i] = p.z[i] * inverse;
-  }
-  for (int row = 0; row < PartHulls::kBlockRows; ++row) {
-    const float *ta = t + 2 * row * kLanes, *wa = w + 2 * row * kLanes;
-    float *t0 = hulls.t0 + row * kLanes, *t1 = hulls.t1 + row * kLanes, *top = hulls.top + row * kLanes;
-    for (int i = 0; i < kLanes; ++i) {
-      low[i] = least(least(ta[i], ta[i + kLanes]), ta[i + 2 * kLanes]);
-      high[i] = most(most(ta[i], ta[i + kLanes]), ta[i + 2 * kLanes]);
-      up[i] = most(most(wa[i], wa[i + kLanes]), wa[i + 2 * kLanes]);
-    }
-    for (int i = 0; i < kLanes; ++i) {
-      t0[i] = least(least(low[i], low[i + 1]), low[i + 2]);
-      t1[i] = most(most(high[i], high[i + 1]), high[i + 2]);
-      top[i] = most(most(up[i], up[i + 1]), up[i + 2]);
-    }
+TRIMTAB_INLINE void imagesOf(const Boxes& b, BoxImages& images) {
+  const float signF = b.signF, signL = b.signL;
+  const auto [forwards, sideways, upwards] = b.from;
+  for (std::size_t i = 0; i < kBoxes; ++i) {
+    const float nearer = 1 / (signF * b.near[i] + forwards), further = 1 / (signF * b.far[i] + forwards);
+    const float left = signL * b.left[i] + sideways, right = signL * b.right[i] + sideways,
+                top = b.top[i] + upwards;
+    images.t0[i] = left * (left < 0 ? nearer : further);
+    images.t1[i] = right * (right > 0 ? nearer : further);
+    images.w[i] = top * (top > 0 ? nearer : further);
   }
 }
 
@@ -63,14 +50,13 @@ TRIMTAB_INLINE void lowerAll(float* w, int count, float up, float forwards, floa
 }
 
 TRIMTAB_INLINE int firstNotAboveOf(const float* values, int count, float limit) {
-  int i = 0;
-  for (; i + 16 <= count; i += 16) {
-    int low = 0;
-    for (int k = 0; k < 16; ++k) low |= !(values[i + k] > limit);
-    if (low) break;
+  for (int i = 0; i < count; i += 16) {
+    unsigned low = 0;
+    for (unsigned k = 0; k < 16; ++k)
+      low |= static_cast<unsigned>(!(values[i + static_cast<int>(k)] > limit)) << k;
+    if (low != 0) return std::min(i + std::countr_zero(low), count);
   }
-  while (i < count && values[i] > limit) ++i;
-  return i;
+  return count;
 }
 
 TRIMTAB_INLINE void raiseAll(float* __restrict values, const float* __restrict to, int count) {
@@ -91,8 +77,8 @@ TRIMTAB_INLINE void erodeAll(float* values, int count, int width) {
   TARGET void project##NAME(const Projection& p, int count, float* f, float* u, float* w) { \
     projectAll(p, count, f, u, w);                                                          \
   }                                                                                         \
-  TARGET void hulls##NAME(const Projection& p, PartHulls& hulls) {                          \
-    hullsOf(p, hulls);                                                                      \
+  TARGET void images##NAME(const Boxes& boxes, BoxImages& images) {                         \
+    imagesOf(boxes, images);                                                                \
   }                                                                                         \
   TARGET int trend##NAME(const float* values, int count) {                                  \
     return trendOf(values, count);                                                          \
@@ -109,8 +95,8 @@ TRIMTAB_INLINE void erodeAll(float* values, int count, int width) {
   TARGET void erode##NAME(float* v, int count, int width) {                                 \
     erodeAll(v, count, width);                                                              \
   }                                                                                         \
-  constexpr Kernels k##NAME{project##NAME,       hulls##NAME, trend##NAME, lower##NAME,     \
-                            firstNotAbove##NAME, raise##NAME, erode##NAME};
+  constexpr Kernels k##NAME{project##NAME,       images##NAME, trend##NAME, lower##NAME,    \
+                            firstNotAbove##NAME, raise##NAME,  erode##NAME};
 
 TRIMTAB_KERNELS(Portable, )
 #if TRIMTAB_X86

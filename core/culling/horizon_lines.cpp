@@ -6,15 +6,18 @@ namespace trimtab {
 
 using namespace horizon;
 
-Horizon::Lines Horizon::linesOf(const HorizonTile& tile, bool rows) const {
+Horizon::Lines Horizon::linesOf(const HorizonTile& tile, const Outline& outline) const {
   Lines l{};
   l.from = fromEye(eye_, tile.surface()->origin);
   l.below = tile.below;
+  l.nearest = outline.nearest;
   if (!tile.relief) {
+    l.mesh = tile.mesh;
     l.besideM = tile.mesh->besideM;
     return l;
   }
   const TileRelief& relief = *tile.relief;
+  const bool rows = runsInRows(outline);
   l.side = relief.side;
   l.besideM = relief.besideM;
   const auto first = static_cast<std::size_t>(rows ? 0 : relief.lines / 2);
@@ -28,7 +31,7 @@ Horizon::Lines Horizon::linesOf(const HorizonTile& tile, bool rows) const {
 }
 
 /// Takes a line in hand.
-void Horizon::take(const Lines& lines, int line, const HorizonTile& tile) {
+void Horizon::take(const Lines& lines, int line) {
   const auto copy = [&](const float* x, const float* y, const float* z) {
     const float left = lines.from[0], back = lines.from[1], down = lines.from[2] - lines.below;
     for (int k = 0; k < corners_; ++k) x_.data()[k] = x[k] + left;
@@ -36,8 +39,8 @@ void Horizon::take(const Lines& lines, int line, const HorizonTile& tile) {
     for (int k = 0; k < corners_; ++k) z_.data()[k] = z[k] + down;
     last_ = corners_ - 1;
   };
-  if (!tile.relief) {
-    const MeshRelief& mesh = *tile.mesh;
+  if (lines.mesh) {
+    const MeshRelief& mesh = *lines.mesh;
     const std::uint32_t first = mesh.lineFirst[static_cast<std::size_t>(line)],
                         end = mesh.lineFirst[static_cast<std::size_t>(line) + 1];
     corners_ = static_cast<int>(end - first);
@@ -71,7 +74,7 @@ std::uint32_t Horizon::ringOfLine(float besideM) const {
 
 /// Raises the profile of a quarter to the line in hand. `nearest`: corners that are nearer do not count.
 void Horizon::raiseLine(int side, float besideM, float nearest) {
-  const Kernels& kernel = kernels(settings_.simd);
+  const Kernels& kernel = *kernels_;
   kernel.project(projectionOf(side, x_.data(), y_.data(), z_.data(), perT_), corners_, forward_.data(),
                  u_.data(), w_.data());
   const float *u = u_.data(), *forward = forward_.data();
@@ -99,7 +102,7 @@ void Horizon::raiseLine(int side, float besideM, float nearest) {
 
 /// Corners along which u rises, or falls all along.
 void Horizon::raiseRun(int side, int from, int count, bool rises, float nearestM) {
-  const Kernels& kernel = kernels(settings_.simd);
+  const Kernels& kernel = *kernels_;
   const Play& play = play_[static_cast<std::size_t>(side)];
   const float* u = u_.data() + from;
   float* w = w_.data() + from;

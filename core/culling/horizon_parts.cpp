@@ -17,6 +17,22 @@ float movedBy(float off, float w) {
   return off * 1.5f * (2.1f + w * w);
 }
 
+Boxes boxesOf(int side, const TileRelief::Part& part, const std::array<float, 3>& offset) {
+  const bool turn = side % 2 != 0, back = side >= 2, mirrored = side == 1 || side == 2;
+  const std::array<const float*, 2> f{turn ? part.minY.data() : part.minX.data(),
+                                      turn ? part.maxY.data() : part.maxX.data()},
+      l{turn ? part.minX.data() : part.minY.data(), turn ? part.maxX.data() : part.maxY.data()};
+  const Turned from = turned(side, offset[0], offset[1]);
+  return {f[back],
+          f[!back],
+          l[mirrored],
+          l[!mirrored],
+          part.top.data(),
+          back ? -1.0f : 1.0f,
+          mirrored ? -1.0f : 1.0f,
+          {from.f, from.l, offset[2]}};
+}
+
 }  // namespace
 
 float Horizon::besideOf(float off, float z, float away) const {
@@ -39,79 +55,50 @@ bool Horizon::covers(int side, float t0, float t1, float w) {
   for (int column = from; column <= to;) {
     if (!lift(side, column, limit)) return false;
     ++column;
-    column += kernels(settings_.simd).firstNotAbove(horizon + column, to - column + 1, limit);
+    column += kernels_->firstNotAbove(horizon + column, to - column + 1, limit);
   }
   return true;
 }
 
 bool Horizon::isBoxHidden(const Box& box) {
-  Outline outline{};
-  outline.x0 = box.minX + offset_[0];
-  outline.x1 = box.maxX + offset_[0];
-  outline.y0 = box.minY + offset_[1];
-  outline.y1 = box.maxY + offset_[1];
-  outline.top = box.maxZ + offset_[2];
-  return isBoxHidden(outline);
+  return isPrismHidden(prismOf(box, offset_));
 }
 
-bool Horizon::isBoxHidden(const Outline& box) {
+bool Horizon::isPrismHidden(const Prism& prism) {
   for (int side = 0; side < kSides; ++side) {
-    const TurnedBox b = turned(side, box.x0, box.x1, box.y0, box.y1);
+    const TurnedBox b = turned(side, prism.x0, prism.x1, prism.y0, prism.y1);
     if (!meets(b, beside_)) continue;
     if (!(b.f0 > nearest_)) return false;
-    const BoxImage image(b, box.top);
+    const BoxImage image(b, prism.top);
     if (!covers(side, image.t0, image.t1, image.w)) return false;
   }
   return true;
 }
 
-bool Horizon::isPartHidden(const TileRelief& relief, int part) {
-  constexpr int kPosts = kPartPosts, kLanes = kPartLanes, kStep = TileRelief::kBlockCells;
-  static_assert(kPosts == PartHulls::kRows && kLanes == PartHulls::kLanes && kStep == 2);
-  const int row0 = part / relief.partsPerSide() * TileRelief::kPartCells,
-            column0 = part % relief.partsPerSide() * TileRelief::kPartCells;
-  const int rows = std::min(kPosts, relief.side - row0), columns = std::min(kPosts, relief.side - column0);
-  for (int row = 0; row < kPosts; ++row) {
-    // What is beyond the last row or column is that once more.
-    const int first = (row0 + std::min(row, rows - 1)) * relief.side + column0;
-    const auto copy = [&](const std::vector<float>& values, float offset, auto& posts) {
-      const float* in = values.data() + first;
-      float* to = posts.data() + row * kLanes;
-      if (columns >= kPosts - 1)
-        for (int k = 0; k < kPosts - 1; ++k) to[k] = in[k] + offset;
-      else
-        for (int k = 0; k < columns; ++k) to[k] = in[k] + offset;
-      to[columns] = to[kPosts - 1] = in[columns - 1] + offset;
-    };
-    copy(relief.x, offset_[0], partX_);
-    copy(relief.y, offset_[1], partY_);
-    copy(relief.z, offset_[2], partZ_);
-  }
-  const Box& b = relief.parts[static_cast<std::size_t>(part)];
+bool Horizon::isPartHidden(const TileRelief::Part& part) {
+  static_assert(TileRelief::Part::kMostBlocks == kBoxes);
+  const Box& b = part.box;
   for (int side = 0; side < kSides; ++side) {
     const TurnedBox box =
         turned(side, b.minX + offset_[0], b.maxX + offset_[0], b.minY + offset_[1], b.maxY + offset_[1]);
     if (!meets(box, beside_)) continue;
     if (!(box.f0 > nearest_)) return false;
-    PartHulls hulls;
-    kernels(settings_.simd).hulls(projectionOf(side, partX_.data(), partY_.data(), partZ_.data()), hulls);
-    for (int j = 0; j + 1 < rows; j += kStep)
-      for (int i = 0; i + 1 < columns; i += kStep) {
-        const int k = j / kStep * kLanes + i;
-        if (!covers(side, hulls.t0[k], hulls.t1[k], hulls.top[k])) return false;
-      }
+    BoxImages images;
+    kernels_->images(boxesOf(side, part, offset_), images);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(part.blocks); ++k)
+      if (!covers(side, images.t0[k], images.t1[k], images.w[k])) return false;
   }
   return true;
 }
 
 /// After the whole box was not.
 bool Horizon::isHidden(const TileRelief& relief) {
-  for (const auto& peak : relief.peaks)
-    if (!isPointBlocked(peak[0] + offset_[0], peak[1] + offset_[1], peak[2] + offset_[2])) return false;
-  work_ += relief.parts.size();
-  for (int part = 0; part < static_cast<int>(relief.parts.size()); ++part)
-    if (!isBoxHidden(relief.parts[static_cast<std::size_t>(part)]) && !isPartHidden(relief, part))
+  for (const TileRelief::Part& part : relief.parts)
+    if (!isPointBlocked(part.peak[0] + offset_[0], part.peak[1] + offset_[1], part.peak[2] + offset_[2]))
       return false;
+  work_ += relief.parts.size();
+  for (const TileRelief::Part& part : relief.parts)
+    if (!isBoxHidden(part.box) && !isPartHidden(part)) return false;
   return true;
 }
 

@@ -29,7 +29,6 @@ void TileRelief::finish(int step) {
   lineXyz.clear();
   goOn.clear();
   parts.clear();
-  peaks.clear();
   bounds = {};
   reach = -1;
   besideM = 0;
@@ -73,16 +72,32 @@ void TileRelief::finish(int step) {
   bounds = boxOf(0, 0, side - 1);
   for (int row = 0; row < side - 1; row += kPartCells)
     for (int column = 0; column < side - 1; column += kPartCells) {
-      parts.push_back(boxOf(column, row, kPartCells));
+      Part part{};
+      part.box = boxOf(column, row, kPartCells);
       std::size_t highest = at(column, row);
+      std::array<Box, Part::kMostBlocks> boxes;
       for (int r = row; r <= std::min(row + kPartCells, side - 1); ++r)
         for (int c = column; c <= std::min(column + kPartCells, side - 1); ++c)
           if (z[at(c, r)] > z[highest]) highest = at(c, r);
-      peaks.push_back({x[highest], y[highest], z[highest]});
+      part.peak = {x[highest], y[highest], z[highest]};
+      for (int r = row; r < std::min(row + kPartCells, side - 1); r += kBlockCells)
+        for (int c = column; c < std::min(column + kPartCells, side - 1); c += kBlockCells)
+          boxes[static_cast<std::size_t>(part.blocks++)] = boxOf(c, r, kBlockCells);
+      const auto end = boxes.begin() + part.blocks;
+      std::sort(boxes.begin(), end, [](const Box& a, const Box& b) { return a.maxZ > b.maxZ; });
+      std::fill(end, boxes.end(), end[-1]);
+      for (std::size_t i = 0; i < boxes.size(); ++i) {
+        part.minX[i] = boxes[i].minX;
+        part.maxX[i] = boxes[i].maxX;
+        part.minY[i] = boxes[i].minY;
+        part.maxY[i] = boxes[i].maxY;
+        part.top[i] = boxes[i].maxZ;
+      }
+      const auto place = std::upper_bound(parts.begin(), parts.end(), part,
+                                          [](const Part& a, const Part& b) { return a.peak[2] > b.peak[2]; });
+      parts.insert(place, part);
     }
-  std::sort(peaks.begin(), peaks.end(),
-            [](const std::array<float, 3>& a, const std::array<float, 3>& b) { return a[2] > b[2]; });
-  if (!peaks.empty()) peak = peaks.front();
+  peak = parts.front().peak;
 }
 
 }  // namespace trimtab

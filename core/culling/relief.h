@@ -40,11 +40,19 @@ struct TileRelief : Relief {
   float besideM = 0;               ///< no corner of a line is further from the way between its ends, in plan
   std::vector<float> lineXyz;      ///< of each line all x, all y, all z
   std::vector<float> goOn;         ///< of each line x, y and z of kGoOn corners after its first
-  std::vector<std::array<float, 3>> peaks;  ///< the highest post of each part, the highest first
-  std::vector<Box> parts;                   ///< partsPerSide() squared, rows from south
-  std::vector<float> x, y, z;               ///< side * side, metres
 
-  int partsPerSide() const { return (side - 1 + kPartCells - 1) / kPartCells; }
+  /// A square of kPartCells x kPartCells cells, less beside the last borders.
+  struct Part {
+    static constexpr int kMostBlocks = (kPartCells / kBlockCells) * (kPartCells / kBlockCells);
+    /// Boxes of its blocks, the highest first; after the last that one again.
+    alignas(64) std::array<float, kMostBlocks> minX, maxX, minY, maxY, top;
+    int blocks;
+    Box box;
+    std::array<float, 3> peak;  ///< its highest post
+  };
+  std::vector<Part> parts;     ///< the highest first
+  std::vector<float> x, y, z;  ///< side * side, metres
+
   /// Completes the rest from side, x, y and z. `step`: from one line to the next, posts, even. A surface that
   /// is not all of finite numbers is not known.
   void finish(int step);

@@ -172,6 +172,24 @@ TEST(Horizon, doesNoMoreInAStepThanItMay) {
   }
 }
 
+TEST(Horizon, tellsAllOfItsProfileWhereThatIsAsked) {
+  const Ground ground(12, 16, 60, 5);
+  const std::vector<HorizonTile> tiles = ground.tiles();
+  const Vec3 eye{5000, 5000, ground.heightAt(5000, 5000) + 200};
+  Horizon asked, whole, all;
+  asked.build(eye, tiles, {});
+  whole.build(eye, tiles, {.whole = true});
+  all.build(eye, tiles, {.whole = true, .noWaiting = true});
+  EXPECT_EQ(asked.hidden(), whole.hidden());
+  std::size_t higher = 0;
+  for (std::size_t k = 0; k < whole.profile().size(); ++k) {
+    EXPECT_LE(asked.profile()[k], whole.profile()[k]);
+    EXPECT_EQ(whole.profile()[k], all.profile()[k]);
+    higher += asked.profile()[k] < whole.profile()[k];
+  }
+  EXPECT_GT(higher, 10u);
+}
+
 TEST(Horizon, hidesNothingByTilesThatMayNot) {
   const Ground ground(10, 16, 60, 2);
   std::vector<HorizonTile> tiles = ground.tiles();
