@@ -102,14 +102,13 @@ TRIMTAB_LANES GreedyMesh::Scan GreedyMesh::scanPosts(const Triangulation::Vertex
         squares += off * off;
       },
       everyRow);
-  Scan scan{mostOfLanes(worst), sumOfLanes(squares), 0, 0};
-  for (int k = kLanes - 1; k >= 0; --k)
-    if (worst[k] == scan.worst) {
-      const auto at = static_cast<std::int64_t>(place[k]) + k;
-      scan.x = static_cast<std::int32_t>(at % kPlaces);
-      scan.y = static_cast<std::int32_t>(at / kPlaces);
-    }
-  return scan;
+  const double most = mostOfLanes(worst);
+  const LaneMask is = worst == Lanes{} + most;
+  int lane = kLanes - 1;
+  for (int k = kLanes - 2; k >= 0; --k) lane = is[k] != 0 ? k : lane;
+  const auto at = static_cast<std::int64_t>(place[lane]) + lane;
+  return {most, sumOfLanes(squares), static_cast<std::int32_t>(at % kPlaces),
+          static_cast<std::int32_t>(at / kPlaces)};
 }
 
 GreedyMesh::Scan GreedyMesh::scanSteps(const Triangulation::Vertex* const corner[3],
@@ -134,6 +133,12 @@ GreedyMesh::Scan GreedyMesh::scanSteps(const Triangulation::Vertex* const corner
 
 void GreedyMesh::scan(std::int32_t t, bool all) {
   const Facet facet = facetOf(mesh_, t);
+  if (step_ == 1 &&
+      Triangulation::turn(*facet.corner[0], *facet.corner[1], facet.corner[2]->x, facet.corner[2]->y) == 1) {
+    // No post but its corners.
+    error_[static_cast<std::size_t>(t)] = squares_[static_cast<std::size_t>(t)] = 0;
+    return;
+  }
   const auto worstOf = [&](const Scan& scan) {
     return roundedError(scan.worst, std::max(facet.scale, scan.worst));
   };

@@ -67,7 +67,7 @@ TRIMTAB_INLINE void forEachFour(const Triangulation::Vertex* const corner[3], co
   const std::int32_t low = std::min({a.y, b.y, c.y}), high = std::max({a.y, b.y, c.y});
   const std::int32_t top = low + ((a.y == low) + (b.y == low) + (c.y == low) == 2 ? 0 : 1);
   const std::int32_t left = west + ((a.x == west) + (b.x == west) + (c.x == west) == 2 ? 0 : 1);
-  if (left >= east || top >= high) return;
+  if ((left >= east) | (top >= high)) return;
   constexpr std::int32_t kWidest = 2 * kLanes;
   if (east - left <= kWidest && posts.columns >= kLanes && everyRow == 1) {
     // Twice the areas beside the three edges: whole numbers, so that sums of them are exact. On left edges
@@ -79,7 +79,9 @@ TRIMTAB_INLINE void forEachFour(const Triangulation::Vertex* const corner[3], co
     const auto edge = [&](const Triangulation::Vertex& from, const Triangulation::Vertex& to, bool border)
         __attribute__((always_inline)) {
       const std::int32_t dx = to.x - from.x, dy = to.y - from.y;
-      const double less = !border && (dy < 0 || (dy == 0 && dx > 0)) ? 0.0 : 0.5;
+      // Which way edges lead cannot be guessed: without branches.
+      constexpr double kLess[2] = {0.5, 0.0};
+      const double less = kLess[(!border) & ((dy < 0) | ((dy == 0) & (dx > 0)))];
       return Edge{
           less, static_cast<double>(-dy), static_cast<double>(dx),
           static_cast<double>(dx) * (top - from.y) - static_cast<double>(dy) * (left - from.x) - less};

@@ -16,7 +16,9 @@ class TriangleOrder {
   void order(const Triangulation& mesh, std::vector<std::uint32_t>& indices);
 
  private:
-  std::vector<std::uint8_t> done_;  ///< one a triangle
+  /// Neighbours of a triangle that are not in the order yet, or kDone; the first entry is for what lies
+  /// beyond the border.
+  std::vector<std::uint8_t> open_;
 };
 
 }  // namespace trimtab::terrain

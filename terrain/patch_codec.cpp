@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <utility>
 
 #include "trimtab/terrain/patch_store.h"
@@ -96,11 +97,12 @@ void append(std::vector<std::byte>& bytes, const T* data, std::size_t count) {
 template <class T>
 std::uint32_t appendPacked(std::vector<std::byte>& bytes, const std::vector<T>& values) {
   if (values.empty()) return 0;
-  std::vector<unsigned char> packed(meshopt_encodeVertexBufferBound(values.size(), sizeof(T)));
-  packed.resize(
-      meshopt_encodeVertexBuffer(packed.data(), packed.size(), values.data(), values.size(), sizeof(T)));
-  append(bytes, packed.data(), packed.size());
-  return static_cast<std::uint32_t>(packed.size());
+  const std::size_t most = meshopt_encodeVertexBufferBound(values.size(), sizeof(T));
+  const auto packed = std::make_unique_for_overwrite<unsigned char[]>(most);
+  const std::size_t size =
+      meshopt_encodeVertexBuffer(packed.get(), most, values.data(), values.size(), sizeof(T));
+  append(bytes, packed.get(), size);
+  return static_cast<std::uint32_t>(size);
 }
 
 template <class T>
@@ -110,17 +112,25 @@ bool unpack(std::vector<T>& values, const std::byte* bytes, std::size_t size) {
                                     reinterpret_cast<const unsigned char*>(bytes), size) == 0;
 }
 
-/// Where each vertex goes to: by first use.
-void reorder(const PatchMesh& mesh, std::vector<std::uint32_t>& indices, std::vector<std::uint32_t>& goesTo) {
-  indices.assign(mesh.indices.begin(), mesh.indices.end());
+/// Where each vertex goes to, counted from `first`: by first use. `indices` gets a mesh's more.
+void reorder(const PatchMesh& mesh, std::uint32_t first, std::vector<std::uint32_t>& indices,
+             std::vector<std::uint32_t>& goesTo) {
   goesTo.assign(mesh.vertices.size(), PatchIndex::kNone);
-  std::uint32_t next = 0;
-  for (std::uint32_t& index : indices) {
-    if (goesTo[index] == PatchIndex::kNone) goesTo[index] = next++;
-    index = goesTo[index];
+  std::uint32_t next = first;
+  const auto place = [&](std::uint32_t& to) {
+    // Whether a vertex is a new one cannot be guessed: without a branch.
+    const bool fresh = to == PatchIndex::kNone;
+    to = fresh ? next : to;
+    next += fresh ? 1 : 0;
+  };
+  const std::size_t before = indices.size();
+  indices.resize(before + mesh.indices.size());
+  for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+    std::uint32_t& to = goesTo[mesh.indices[i]];
+    place(to);
+    indices[before + i] = to;
   }
-  for (std::uint32_t& to : goesTo)
-    if (to == PatchIndex::kNone) to = next++;
+  for (std::uint32_t& to : goesTo) place(to);
 }
 
 }  // namespace
@@ -139,7 +149,7 @@ std::vector<std::byte> encodePage(const PatchPage& page, const PostGeometry& geo
 
   std::vector<PackedPatch> patches;
   std::vector<PackedVertex> vertices;
-  std::vector<std::uint32_t> indices, own, goesTo;
+  std::vector<std::uint32_t> indices, goesTo;
   std::vector<Exception> exceptions;
   for (const PatchMesh& mesh : page.patches) {
     PackedPatch patch{{mesh.origin[0], mesh.origin[1], mesh.origin[2]},
@@ -150,12 +160,12 @@ std::vector<std::byte> encodePage(const PatchPage& page, const PostGeometry& geo
     for (std::size_t v = 0; v < PatchIndex::kVariants; ++v)
       patch.triangles[v] = (mesh.firstIndex[v + 1] - mesh.firstIndex[v]) / 3;
     patches.push_back(patch);
-    reorder(mesh, own, goesTo);
     const std::size_t first = vertices.size();
+    reorder(mesh, static_cast<std::uint32_t>(first), indices, goesTo);
     vertices.resize(first + mesh.vertices.size());
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
       const PatchVertex& v = mesh.vertices[i];
-      const std::size_t to = first + goesTo[i];
+      const std::size_t to = goesTo[i];
       const Place place = placeOf(mesh, v);
       const std::uint32_t row = mesh.firstRow + v.row, column = mesh.firstColumn + v.column;
       const auto [height, there] = heightOf(geometry, row, column, place);
@@ -171,7 +181,6 @@ std::vector<std::byte> encodePage(const PatchPage& page, const PostGeometry& geo
       for (std::size_t k = 0; k < 3; ++k) exception.by[k] = static_cast<std::int32_t>(place[k] - there[k]);
       exceptions.push_back(exception);
     }
-    for (const std::uint32_t index : own) indices.push_back(static_cast<std::uint32_t>(first) + index);
   }
   std::sort(exceptions.begin(), exceptions.end(),
             [](const Exception& a, const Exception& b) { return a.vertex < b.vertex; });
@@ -182,10 +191,11 @@ std::vector<std::byte> encodePage(const PatchPage& page, const PostGeometry& geo
   header.patchBytes = appendPacked(bytes, patches);
   header.vertexBytes = appendPacked(bytes, vertices);
   if (!indices.empty()) {
-    std::vector<unsigned char> packed(meshopt_encodeIndexBufferBound(indices.size(), vertices.size()));
-    packed.resize(meshopt_encodeIndexBuffer(packed.data(), packed.size(), indices.data(), indices.size()));
-    append(bytes, packed.data(), packed.size());
-    header.indexBytes = static_cast<std::uint32_t>(packed.size());
+    const std::size_t most = meshopt_encodeIndexBufferBound(indices.size(), vertices.size());
+    const auto packed = std::make_unique_for_overwrite<unsigned char[]>(most);
+    const std::size_t size = meshopt_encodeIndexBuffer(packed.get(), most, indices.data(), indices.size());
+    append(bytes, packed.get(), size);
+    header.indexBytes = static_cast<std::uint32_t>(size);
   }
   append(bytes, exceptions.data(), exceptions.size());
   std::memcpy(bytes.data(), &header, sizeof header);

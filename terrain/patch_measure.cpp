@@ -77,20 +77,22 @@ class PageMeasure {
   /// in any variant.
   void bends(const PatchDraft& draft, PatchMeasure& patch) {
     slopes_.assign(draft.vertices.size(), 0.0);
+    sideways_.clear();
     for (std::size_t v = 0; v < kVariants; ++v)
       draft.eachNew(v, [&](std::size_t, const std::uint32_t* c) {
         const double steep = bound_.steepness(draft, c);
         for (std::size_t k = 0; k < 3; ++k) slopes_[c[k]] = std::max(slopes_[c[k]], steep);
+        sideways_.push_back(bound_.atMostSideways(bound_.extent(draft, c)));
       });
     const double steepest = *std::max_element(slopes_.begin(), slopes_.end());
     const double mostLean = bound_.leaning(steepest);
     double worst = 0;
+    const double* sideways = sideways_.data();
     for (std::size_t v = 0; v < kVariants; ++v) {
       draft.eachNew(v, [&](std::size_t, const std::uint32_t* c) {
-        const VerticalBound::Extent extent = bound_.extent(draft, c);
-        if (bound_.atMostSideways(extent) * mostLean <= worst) return;
+        if (*sideways++ * mostLean <= worst) return;
         const double about = std::max({slopes_[c[0]], slopes_[c[1]], slopes_[c[2]]});
-        worst = std::max(worst, bound_.sideways(extent) * bound_.leaning(about));
+        worst = std::max(worst, bound_.sideways(bound_.extent(draft, c)) * bound_.leaning(about));
       });
       patch.variants[v].bend = worst;
     }
@@ -337,7 +339,8 @@ class PageMeasure {
   VerticalBound bound_;
   std::vector<PatchMeasure> patches_;
 
-  std::vector<double> slopes_;  ///< one a vertex: steepness of the steepest triangle about it
+  std::vector<double> slopes_;    ///< one a vertex: steepness of the steepest triangle about it
+  std::vector<double> sideways_;  ///< one a triangle that is new in its variant: no less than it is
   std::vector<ScanVertex> corners_;
   std::vector<ScanResult> scanned_;  ///< one a triangle
 

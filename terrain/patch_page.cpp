@@ -14,6 +14,22 @@ static_assert(kMostVertices >= (PatchIndex::kLeafCells + 1) * (PatchIndex::kLeaf
 /// split at and what its neighbours force on it.
 constexpr double kVariantOctaves = 0.25;
 
+/// Triangles of a variant that a finer one, or none, does not have in the same place.
+std::vector<std::uint32_t> freshTriangles(const std::vector<std::uint32_t>& triangles,
+                                          const std::vector<std::uint32_t>* finer) {
+  std::vector<std::uint32_t> fresh(triangles.size() / 3);
+  std::size_t count = 0;
+  for (std::uint32_t t = 0; t < triangles.size() / 3; ++t) {
+    const std::uint32_t* const c = &triangles[3 * std::size_t{t}];
+    fresh[count] = t;
+    // About every other one is: which cannot be guessed.
+    const std::uint32_t* const f = finer != nullptr ? &(*finer)[3 * std::size_t{t}] : nullptr;
+    count += f == nullptr || ((c[0] ^ f[0]) | (c[1] ^ f[1]) | (c[2] ^ f[2])) != 0 ? 1 : 0;
+  }
+  fresh.resize(count);
+  return fresh;
+}
+
 PatchDraft drafted(PageField& page, const PatchIndex& index, const PatchPlace& place,
                    const std::vector<double>& tolerances, PolygonMesher& mesher) {
   PatchDraft draft;
@@ -44,6 +60,9 @@ PatchDraft drafted(PageField& page, const PatchIndex& index, const PatchPlace& p
     of.worst = mesher.maxErrorM();
     of.rms = mesher.rmsErrorM();
   }
+  for (std::size_t v = 0; v < draft.variants.size(); ++v)
+    draft.variants[v].fresh =
+        freshTriangles(draft.variants[v].triangles, v == 0 ? nullptr : &draft.variants[v - 1].triangles);
   for (std::size_t i = border.size(); i < mesher.vertices().size(); ++i) {
     const PatchPoint& p = mesher.vertices()[i];
     addHeight({p.column + window.column, p.row + window.row});

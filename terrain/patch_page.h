@@ -25,21 +25,16 @@ struct PatchDraft {
   struct Variant {
     std::vector<std::uint32_t> triangles;  ///< three a triangle
     std::vector<std::uint32_t> strips;     ///< the same, as they are drawn and packed
+    std::vector<std::uint32_t> fresh;      ///< those that the next finer variant does not have
     double worst = 0, rms = 0;             ///< above the plane, at the posts that it was meshed on
   };
   std::array<Variant, PatchIndex::kVariants> variants;  ///< from the finest
 
-  /// Calls `work(t, corners)` for the triangles of a variant that the next finer one does not have: most stay
-  /// where they were. So everything that is a maximum is taken from the finest variant on, and never falls.
+  /// Calls `work(t, corners)` for the fresh triangles of a variant: most stay where they were. So everything
+  /// that is a maximum is taken from the finest variant on, and never falls.
   template <class Work>
   void eachNew(std::size_t v, const Work& work) const {
-    const std::vector<std::uint32_t>& triangles = variants[v].triangles;
-    const std::uint32_t* const finer = v == 0 ? nullptr : variants[v - 1].triangles.data();
-    for (std::size_t t = 0; t < triangles.size(); t += 3) {
-      const std::uint32_t* const c = &triangles[t];
-      if (finer != nullptr && c[0] == finer[t] && c[1] == finer[t + 1] && c[2] == finer[t + 2]) continue;
-      work(t / 3, c);
-    }
+    for (const std::uint32_t t : variants[v].fresh) work(std::size_t{t}, &variants[v].triangles[3 * t]);
   }
 };
 

@@ -2,18 +2,11 @@
 
 namespace trimtab::terrain {
 
-double edgeError(ScanVertex a, ScanVertex b, const PostStrip& strip, std::int32_t first, std::int32_t last,
-                 double worst) {
-  if (a.y == b.y || a.x == b.x) return worst;
+double longEdgeError(ScanVertex a, ScanVertex b, const PostStrip& strip, std::int32_t first,
+                     std::int32_t last, double worst) {
   if (b.y < a.y) std::swap(a, b);
   const std::int32_t low = std::max(a.y, first), high = std::min(b.y, last);
   const std::int32_t sign = a.x < b.x ? 1 : -1;
-  if (b.y - a.y == 1 && b.x - a.x == sign) {
-    if (low >= high) return worst;
-    const float* const z = strip.row(a.y);
-    const float* const up = strip.row(b.y);
-    return std::max(worst, std::fabs(static_cast<double>(z[a.x]) + up[b.x] - z[b.x] - up[a.x]) / 4);
-  }
   // Columns are crossed at whole numbers of `next` from a, rows between.
   const double dx = sign * (b.x - a.x), dy = b.y - a.y, slope = (b.z - a.z) / dy;
   const double perRow = dx / dy, perColumn = dy / dx;
@@ -38,13 +31,7 @@ double edgeError(ScanVertex a, ScanVertex b, const PostStrip& strip, std::int32_
       };
       if (fresh) e0 = off(u, v), fresh = false, worst = std::max(worst, std::fabs(e0));
       const double e1 = off(u1, v1);
-      const double bend = twist * (u1 - u) * (v1 - v);
-      worst = std::max(worst, std::fabs(e1));
-      if (std::max(std::fabs(e0), std::fabs(e1)) + std::fabs(bend) / 4 > worst) {
-        const double turn = (bend - (e1 - e0)) / (2 * bend);
-        if (turn > 0 && turn < 1)
-          worst = std::max(worst, std::fabs(e0 + turn * ((e1 - e0 - bend) + turn * bend)));
-      }
+      worst = bentError(e0, e1, twist * (u1 - u) * (v1 - v), worst);
       v = v1;
       e0 = e1;
     }

@@ -100,12 +100,47 @@ class ScanTriangle {
   double area2_, byColumn_, byRow_, long_, low_, high_;
 };
 
-/// Largest distance of an edge of a mesh from the bilinear surface of the posts, in rows of cells `first` to
-/// `last` - 1, or `worst` if that is more.
+/// As edgeError, of any edge.
+double longEdgeError(ScanVertex a, ScanVertex b, const PostStrip& strip, std::int32_t first,
+                     std::int32_t last, double worst);
+
+/// The largest of `worst` and what an edge is off within a cell, where the difference is a parabola: from e0
+/// to e1, bent so that its second difference is 2 * bend.
+inline double bentError(double e0, double e1, double bend, double worst) {
+  worst = std::max(worst, std::fabs(e1));
+  if (std::max(std::fabs(e0), std::fabs(e1)) + std::fabs(bend) / 4 <= worst) return worst;
+  const double turn = (bend - (e1 - e0)) / (2 * bend);
+  return turn > 0 && turn < 1 ? std::max(worst, std::fabs(e0 + turn * ((e1 - e0 - bend) + turn * bend)))
+                              : worst;
+}
+
+/// Largest distance of an edge of a mesh, from a post to another, from the bilinear surface of the posts, in
+/// rows of cells `first` to `last` - 1, or `worst` if that is more.
 ///
 /// Within a cell the difference along the edge is a parabola. Over a whole mesh the largest is at a post or
 /// on an edge, as a plane less a bilinear surface is a saddle; along rows and columns it is at posts.
-double edgeError(ScanVertex a, ScanVertex b, const PostStrip& strip, std::int32_t first, std::int32_t last,
-                 double worst);
+inline double edgeError(const ScanVertex& p, const ScanVertex& q, const PostStrip& strip, std::int32_t first,
+                        std::int32_t last, double worst) {
+  const ScanVertex &a = q.y < p.y ? q : p, &b = q.y < p.y ? p : q;
+  const std::int32_t dx = b.x - a.x, dy = b.y - a.y;
+  if (dx == 0 || dy == 0) return worst;
+  // Short ones, of which fine meshes are made, without a loop.
+  const std::int32_t wide = std::abs(dx), cells = wide + dy;
+  if (cells > 3 || a.y < first || b.y > last) return longEdgeError(a, b, strip, first, last, worst);
+  const std::int32_t step = dx < 0 ? -1 : 1;
+  const float* const z = strip.row(a.y) + a.x;
+  const float* const up = z + strip.stride;
+  const auto twist = [step](const float* south, const float* north) {
+    return (static_cast<double>(north[step]) - south[step]) - (static_cast<double>(north[0]) - south[0]);
+  };
+  if (cells == 2) return std::max(worst, std::fabs(twist(z, up)) / 4);
+  const double middle = (a.z + b.z) / 2;
+  const bool high = dy == 2;
+  const float* const south = high ? up : z + step;
+  const float* const north = south + strip.stride;
+  const double off = (static_cast<double>(south[0]) + (high ? south[step] : north[0])) / 2 - middle;
+  worst = bentError(0, off, twist(z, up) / 2, worst);
+  return bentError(off, 0, twist(south, north) / 2, worst);
+}
 
 }  // namespace trimtab::terrain

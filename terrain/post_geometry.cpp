@@ -67,7 +67,7 @@ PostGeometry::Lattice PostGeometry::lattice(std::uint32_t row, std::uint32_t col
   const int byRow = row + 1 == rows_.size() ? top : std::countr_zero(row);
   const int byColumn = column + 1 == columns_.size() ? top : std::countr_zero(column);
   const int shift = shiftOfLevel_[static_cast<std::size_t>(std::min({byRow, byColumn, top}))];
-  const double steps = std::ldexp(static_cast<double>(kStepsPerMetre), -shift);
+  const double steps = static_cast<double>(kStepsPerMetre) / static_cast<double>(std::int64_t{1} << shift);
   const auto whole = [&](double metres) {
     return static_cast<std::int64_t>(rounded(metres * steps)) << shift;
   };

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <random>
 
 #include "terrain/patch_support.h"
+#include "trimtab/terrain/patch_scan.h"
 
 namespace trimtab::terrain {
 namespace {
@@ -204,6 +206,52 @@ TEST(PatchPages, stopBeingMadeWheneverTheyAreToldTo) {
     const BuiltPage stopped = buildPage(index, 0, heights, geometry, tolerances, [&] { return left-- > 0; });
     EXPECT_TRUE(stopped.meshes.patches.empty());
     EXPECT_TRUE(stopped.facts.empty());
+  }
+}
+
+/// Of a line between two posts, by many places along it, those where it leaves a cell among them.
+double sampledEdge(const std::vector<float>& z, std::int32_t columns, const ScanVertex& a,
+                   const ScanVertex& b) {
+  constexpr int kPlaces = 1800;
+  double worst = 0;
+  for (int i = 0; i <= kPlaces; ++i) {
+    const double t = static_cast<double>(i) / kPlaces, x = a.x + t * (b.x - a.x), y = a.y + t * (b.y - a.y);
+    const auto column = std::min(static_cast<std::int32_t>(x), columns - 2),
+               row = std::min(static_cast<std::int32_t>(y), columns - 2);
+    const auto at = [&](std::int32_t c, std::int32_t r) {
+      return static_cast<double>(z[static_cast<std::size_t>(r * columns + c)]);
+    };
+    const double u = x - column, v = y - row;
+    const double surface = (1 - v) * ((1 - u) * at(column, row) + u * at(column + 1, row)) +
+                           v * ((1 - u) * at(column, row + 1) + u * at(column + 1, row + 1));
+    worst = std::max(worst, std::abs(surface - (a.z + t * (b.z - a.z))));
+  }
+  return worst;
+}
+
+TEST(EdgeError, isTheLargestAlongAnEdge) {
+  constexpr std::int32_t kColumns = 6;
+  std::mt19937 random(5);
+  std::vector<float> z(kColumns * kColumns);
+  for (int land = 0; land < 3; ++land) {
+    for (float& height : z) height = static_cast<float>(random() % 1000) / 10;
+    const PostStrip strip{z.data(), kColumns, 0, 0};
+    const auto vertex = [&](std::int32_t i) {
+      return ScanVertex{i % kColumns, i / kColumns, z[static_cast<std::size_t>(i)]};
+    };
+    for (std::int32_t from = 0; from < kColumns * kColumns; ++from)
+      for (std::int32_t to = 0; to < kColumns * kColumns; ++to) {
+        const ScanVertex a = vertex(from), b = vertex(to);
+        if (a.x == b.x || a.y == b.y) continue;
+        const double truth = sampledEdge(z, kColumns, a, b);
+        const double whole = edgeError(a, b, strip, 0, kColumns, 0);
+        ASSERT_NEAR(whole, truth, 1e-3) << from << " to " << to;
+        // Strip by strip it is the same.
+        double parts = 0;
+        for (std::int32_t row = 0; row + 1 < kColumns; ++row)
+          parts = edgeError(a, b, strip, row, row + 1, parts);
+        ASSERT_NEAR(parts, whole, 1e-9) << from << " to " << to;
+      }
   }
 }
 
