@@ -101,6 +101,22 @@ class SceneTest : public testing::Test {
     return n;
   }
 
+  /// Each overlay shows in the picture, and none stays behind.
+  void paintEachOverlay(const scene::FrameRequest& r) {
+    const auto plain = picture(r);
+    const auto changes = [&](bool scene::Overlays::*overlay) {
+      auto with = r;
+      with.overlays.*overlay = true;
+      return differing(plain, picture(with));
+    };
+    constexpr std::size_t kAll = std::size_t{kWidth} * kHeight;
+    EXPECT_GT(changes(&scene::Overlays::wireframe), kAll / 50);
+    EXPECT_GT(changes(&scene::Overlays::tileBounds), kAll / 500);
+    EXPECT_GT(changes(&scene::Overlays::colourByLevel), kAll / 4);
+    EXPECT_GT(changes(&scene::Overlays::colourByReason), kAll / 4);
+    EXPECT_EQ(differing(plain, picture(r)), 0u) << "an overlay stays behind";
+  }
+
   std::unique_ptr<ScratchDir> sampleDir_;  ///< before what reads files of it
   std::unique_ptr<scene::Offscreen> offscreen;
   scene::Renderer renderer;
