@@ -85,6 +85,9 @@ ErrorTimeline::ErrorTimeline(QWidget* parent) : QCustomPlot(parent), cursor_(kNa
   cursorText_ = text("cursor");
   numbers_ = text("numbers");
   hint_ = text("main");
+  hint_->position->setType(QCPItemPosition::ptAxisRectRatio);
+  hint_->position->setAxisRect(lanes_[0].rect);
+  hint_->position->setCoords(0.5, 0.5);
   redraw();
 }
 
@@ -227,10 +230,9 @@ void ErrorTimeline::redraw() {
   numbers_->setBrush(base);
   numbers_->setPen(QPen(blend(base, ink, 0.4)));
   hint_->setVisible(times_.empty());
-  hint_->setText(tr("Frames of a measured flight\nstand here."));
+  hint_->setText(tr("Frames of a measured flight stand here."));
   hint_->setColor(quietColour(palette()));
   hint_->setPositionAlignment(Qt::AlignCenter);
-  hint_->position->setCoords(width() / 2.0, height() / 2.0);
   const int labelWidth = QFontMetrics(font()).horizontalAdvance(QStringLiteral("00000  "));
   for (int lane = 0; lane < 2; ++lane)
     time(lane)->ticker()->setTickCount(std::clamp(width() / labelWidth / 2, 2, 8));

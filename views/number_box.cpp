@@ -91,10 +91,7 @@ void NumberBox::keyReleaseEvent(QKeyEvent* event) {
 }
 
 QString NumberBox::textFromValue(double value) const {
-  // Shortest text that reads back the same value; plain digits unless that would be long.
-  QString text = QLocale().toString(value, 'f', QLocale::FloatingPointShortest);
-  if (text.size() > 12) text = QLocale().toString(value, 'g', QLocale::FloatingPointShortest);
-  return text;
+  return exactText(value);
 }
 
 void NumberBox::mouseReleaseEvent(QMouseEvent* event) {

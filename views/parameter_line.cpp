@@ -39,7 +39,7 @@ QString valueText(const ParameterRow& row, const ParameterValue& value) {
   }
   const QString unit =
       row.unit.empty() ? QString() : (row.unit == "°" ? QString() : QStringLiteral(" ")) + fromView(row.unit);
-  return QString::fromStdString(toText(row, value)) + unit;
+  return exactText(std::get<double>(value)) + unit;
 }
 
 }  // namespace

@@ -96,6 +96,11 @@ QString numberText(double value, int decimals) {
   return text == QStringLiteral("-0") ? QStringLiteral("0") : text;
 }
 
+QString exactText(double value) {
+  const QString text = QLocale().toString(value, 'f', QLocale::FloatingPointShortest);
+  return text.size() > 12 ? QLocale().toString(value, 'g', QLocale::FloatingPointShortest) : text;
+}
+
 std::optional<double> parseNumber(const QString& text, const QString& unit) {
   QString bare = text.trimmed();
   if (!unit.isEmpty() && bare.endsWith(unit, Qt::CaseInsensitive)) bare.chop(unit.size());

@@ -35,6 +35,8 @@ void applyTheme(QCustomPlot& plot);
 
 /// Shortest text of a number to at most `decimals`, in the person's locale: 4,000 or 0.35.
 QString numberText(double value, int decimals);
+/// The shortest that reads back the same value; plain digits unless that would be long.
+QString exactText(double value);
 /// The number in a text of the person's locale or of C, with or without `unit` after it. None: not a finite
 /// number.
 std::optional<double> parseNumber(const QString& text, const QString& unit);

@@ -13,6 +13,8 @@ constexpr int kLowPx = 330, kWidePx = 560;
 constexpr int kRoomForBudgetTextPx = 420;
 constexpr std::size_t kStageLane = 3;
 constexpr double kShortestSpanS = 0.05, kLongestSpanS = 3600 * 4;
+/// A frame that took longer than this many usual ones does not flatten the others: the axis ends here.
+constexpr double kMostOverUsual = 4;
 }  // namespace
 
 TimePlot::TimePlot(const TraceBuffer& buffer, Lanes lanes, QWidget* parent)
@@ -115,12 +117,16 @@ void TimePlot::makeLane(const QString& title, double fixedTop, bool budget) {
   };
   if (budget) {
     lane.budget = line("main");
-    lane.budgetText = new QCPItemText(this);
-    lane.budgetText->setClipAxisRect(lane.rect);
-    lane.budgetText->position->setAxes(time, left);
-    lane.budgetText->position->setTypeX(QCPItemPosition::ptAxisRectRatio);
-    lane.budgetText->position->setAxisRect(lane.rect);
+    for (QCPItemText** text : {&lane.budgetText, &lane.longest}) {
+      *text = new QCPItemText(this);
+      (*text)->setClipAxisRect(lane.rect);
+      (*text)->position->setAxes(time, left);
+      (*text)->position->setTypeX(QCPItemPosition::ptAxisRectRatio);
+      (*text)->position->setAxisRect(lane.rect);
+    }
     lane.budgetText->setPositionAlignment(Qt::AlignRight | Qt::AlignBottom);
+    lane.longest->position->setTypeY(QCPItemPosition::ptAxisRectRatio);
+    lane.longest->setPositionAlignment(Qt::AlignRight | Qt::AlignTop);
   }
   for (QCPItemStraightLine*& cursor : lane.cursor) {
     cursor = line("cursors");
@@ -190,8 +196,10 @@ void TimePlot::colour() {
     lane.legend->setFont(font());
     if (lane.budget) {
       lane.budget->setPen(QPen(errorColour(p), 1.4, Qt::DashLine));
-      lane.budgetText->setColor(errorColour(p));
-      lane.budgetText->setFont(font());
+      for (QCPItemText* text : {lane.budgetText, lane.longest}) {
+        text->setColor(errorColour(p));
+        text->setFont(font());
+      }
     }
     lane.cursor[0]->setPen(QPen(ink, 1.2));
     lane.cursor[1]->setPen(QPen(ink, 1.2, Qt::DashDotLine));
@@ -243,6 +251,18 @@ void TimePlot::refresh(bool follow) {
   }
 }
 
+double TimePlot::shownTop(const Lane& lane, double longest, double usual) const {
+  const double most = kMostOverUsual * std::max(usual, budget_);
+  lane.longest->setVisible(longest > most);
+  if (longest > most) {
+    lane.longest->setText(tr("longest %L1 ms ↑").arg(longest, 0, 'f', 0));
+    const QRect area = lane.rect->rect();
+    const double below = lane.legend->outerRect().bottom() - area.top();
+    lane.longest->position->setCoords(0.995, below / std::max(1, area.height()));
+  }
+  return std::clamp(longest, budget_, most);
+}
+
 void TimePlot::draw() {
   const QCPRange range = shown();
   // One frame more on each side, so that lines reach the edges.
@@ -251,14 +271,16 @@ void TimePlot::draw() {
   if (to < buffer_.end()) ++to;
   const std::size_t columns = static_cast<std::size_t>(std::max(100, lanes_.front().rect->width() / 2));
   const double markerStep = roundStep(range.size() / 5);
-  std::array<double, 4> top{}, topRight{};
+  std::array<double, 4> top{}, topRight{}, usual{};
   for (TraceGraph* trace : traces_) {
-    const double largest = trace->take(buffer_, from, to, columns, markerStep);
-    auto& tops = trace->valueAxis()->axisType() == QCPAxis::atRight ? topRight : top;
+    const TraceGraph::Heights heights = trace->take(buffer_, from, to, columns, markerStep);
+    const bool onRight = trace->valueAxis()->axisType() == QCPAxis::atRight;
     for (std::size_t i = 0; i < lanes_.size(); ++i)
       if (lanes_[i].rect == trace->keyAxis()->axisRect()) {
-        tops[i] = std::max(tops[i], largest);
-        if (largest > 0 && !lanes_[i].legend->hasItemWithPlottable(trace))
+        double& highest = (onRight ? topRight : top)[i];
+        highest = std::max(highest, heights.largest);
+        if (!onRight) usual[i] = std::max(usual[i], heights.usual);
+        if (heights.largest > 0 && !lanes_[i].legend->hasItemWithPlottable(trace))
           trace->addToLegend(lanes_[i].legend);
       }
   }
@@ -266,7 +288,7 @@ void TimePlot::draw() {
     double high = lanes_[i].fixedTop;
     if (high == 0) {
       // Room above for the legend; the budget line stays in sight.
-      if (lanes_[i].budget) top[i] = std::max(top[i], budget_);
+      if (lanes_[i].budget) top[i] = shownTop(lanes_[i], top[i], usual[i]);
       high = top[i] > 0 ? top[i] * 1.4 : 1;
     }
     lanes_[i].rect->axis(QCPAxis::atLeft)->setRange(0, high);

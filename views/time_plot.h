@@ -64,6 +64,7 @@ class TimePlot : public QCustomPlot {
     QCPLegend* legend = nullptr;
     QCPItemStraightLine* budget = nullptr;
     QCPItemText* budgetText = nullptr;
+    QCPItemText* longest = nullptr;  ///< of times, where the axis ends below it
     std::array<QCPItemStraightLine*, 2> cursor{};
     QCPItemStraightLine* tracker = nullptr;
     double fixedTop = 0;  ///< 0: by what is shown
@@ -75,6 +76,8 @@ class TimePlot : public QCustomPlot {
   void colour();
   QCPAxis* timeAxis() const { return lanes_.front().rect->axis(QCPAxis::atBottom); }
   void draw();
+  /// Where the axis of times ends; says the longest where that is beyond.
+  double shownTop(const Lane& lane, double longest, double usual) const;
   void placeCursors();
   void zoom(double factor, double anchor);
   int cursorAt(QPointF pixel) const;

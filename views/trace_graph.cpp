@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trimtab/views/trace_graph.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "trimtab/views/theme.h"
@@ -26,18 +27,18 @@ void TraceGraph::colour(const QPalette& palette) {
   marker_ = QCPScatterStyle(look_.shape, QPen(colour, 1.4), QBrush(base), 7);
 }
 
-double TraceGraph::take(const TraceBuffer& buffer, std::uint64_t from, std::uint64_t to, std::size_t columns,
-                        double markerStepS) {
+TraceGraph::Heights TraceGraph::take(const TraceBuffer& buffer, std::uint64_t from, std::uint64_t to,
+                                     std::size_t columns, double markerStepS) {
   buffer.columns(look_.trace, from, to, columns, columns_);
   points_.clear();
-  double largest = 0;
+  highs_.clear();
   // Nothing is drawn across a stretch without frames: an idle view paints none.
   const double span = columns_.size() > 1 ? columns_.back().time - columns_.front().time : 0;
   const double gap = std::max(kGapS, 4 * span / static_cast<double>(columns));
   double last = columns_.empty() ? 0 : columns_.front().time;
   for (const TraceBuffer::Column& column : columns_) {
     const double low = column.low * look_.scale, high = column.high * look_.scale;
-    if (high > largest) largest = high;
+    if (high > 0) highs_.push_back(high);
     if (column.time - last > gap) points_.append({(column.time + last) / 2, std::nan("")});
     last = column.time;
     // Stacked areas show their crests; lines show both ends of what a column holds.
@@ -54,7 +55,10 @@ double TraceGraph::take(const TraceBuffer& buffer, std::uint64_t from, std::uint
         markers_.append({buffer.time(frame), v});
     }
   }
-  return largest;
+  if (highs_.empty()) return {};
+  const auto usual = highs_.end() - 1 - static_cast<std::ptrdiff_t>(highs_.size() / 20);
+  std::nth_element(highs_.begin(), usual, highs_.end());
+  return {*std::max_element(usual, highs_.end()), *usual};
 }
 
 void TraceGraph::draw(QCPPainter* painter) {

@@ -30,9 +30,12 @@ class TraceGraph : public QCPGraph {
   TraceGraph(QCPAxis* timeAxis, QCPAxis* valueAxis, Look look);
   const Look& look() const { return look_; }
   void colour(const QPalette& palette);
-  /// Draws frames from `from` up to `to`; markers at multiples of `markerStepS`. Returns the largest value
-  /// shown.
-  double take(const TraceBuffer& buffer, std::uint64_t from, std::uint64_t to, std::size_t columns,
+  struct Heights {
+    double largest = 0;
+    double usual = 0;  ///< one screen column in twenty reaches higher
+  };
+  /// Draws frames from `from` up to `to`; markers at multiples of `markerStepS`.
+  Heights take(const TraceBuffer& buffer, std::uint64_t from, std::uint64_t to, std::size_t columns,
               double markerStepS);
 
  protected:
@@ -45,6 +48,7 @@ class TraceGraph : public QCPGraph {
   QVector<QPointF> markers_;  ///< time, value
   std::vector<TraceBuffer::Column> columns_;
   QVector<QCPGraphData> points_;
+  std::vector<double> highs_;
 };
 
 }  // namespace trimtab::views

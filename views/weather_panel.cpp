@@ -72,7 +72,7 @@ QString fallsText(const WeatherDecision& d) {
 }
 
 QString ratioText(double ratio) {
-  return QString::number(ratio, 'g', 3);
+  return numberText(ratio, 7);
 }
 
 QString hostText(const LiveFrame& frame) {

@@ -155,6 +155,31 @@ TEST_F(PlotsPanelTest, aWideAndLowDockHasItsLanesTwoByTwo) {
   EXPECT_EQ(plot().plotLayout()->rowCount(), 4);
 }
 
+TEST_F(PlotsPanelTest, aFrameThatTookSecondsIsNamedAndDoesNotFlattenTheOthers) {
+  const auto longest = [&] {
+    for (int i = 0; i < plot().itemCount(); ++i)
+      if (const auto* text = qobject_cast<QCPItemText*>(plot().item(i)))
+        if (text->visible() && text->text().contains(QStringLiteral("longest"))) return text->text();
+    return QString();
+  };
+  const auto top = [&] { return plot().axisRect(2)->axis(QCPAxis::atLeft)->range().upper; };
+  const double before = top();
+  EXPECT_EQ(longest(), QString());
+  LiveFrame slow = flight_.next(draft_.active());
+  slow.cost.total = 3020;
+  panel_.showFrame(slow);
+  EXPECT_TRUE(test::eventually([&] { return longest().contains(QStringLiteral("3,020 ms")); }));
+  EXPECT_LE(top(), 4 * before);
+  // One that is longer by little is shown whole.
+  panel_.clear();
+  for (int i = 0; i < 600; ++i) panel_.showFrame(flight_.next(draft_.active()));
+  slow = flight_.next(draft_.active());
+  slow.cost.total = 55;
+  panel_.showFrame(slow);
+  EXPECT_TRUE(test::eventually([&] { return top() > 55; }));
+  EXPECT_EQ(longest(), QString());
+}
+
 TEST_F(PlotsPanelTest, theBudgetLineFollowsTheActivePreset) {
   draft_.setValue("measure.budget_ms", 8.3);
   bool found = false;
