@@ -122,7 +122,7 @@ class Job {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
     auto heights =
-        bakeHeights(*work_, *source_->elevation, memory_, stage(scenery_ ? 0.1 : 0.2, scenery_ ? 0.15 : 0.3));
+        bakeHeights(*work_, *source_->elevation, memory_, stage(scenery_ ? 0.1 : 0.2, scenery_ ? 0.13 : 0.3));
     if (!heights) return heights.findings();
     heights_ = *heights;
     keep(sharesOf(*source_->elevation));
@@ -134,6 +134,7 @@ class Job {
     auto opened = FileHeights::open(*work_, heights_);
     if (!opened) return opened.findings();
     file_ = std::move(opened).value();
+    if (auto made = source_->makeTiles(*file_, stage(0.13, 0.15)); !made) return made;
     geometry_ = std::make_unique<PostGeometry>(heights_.posts);
     const double leafM =
         options_.maxError ? options_.maxError->value() : defaultLeafToleranceM(heights_.posts);
@@ -217,7 +218,7 @@ class Job {
     if (auto done = put(kNodesName, nodeNumbers(index)); !done) return done;
     if (auto done = put(kSlopesName, slopes.cells); !done) return done;
     if (auto done = put(kConesName, index.cones); !done) return done;
-    auto colours = source_->takeImage(part(0.7, 0.85));
+    auto colours = source_->image(part(0.7, 0.85));
     if (!colours) return colours.findings();
     std::vector<std::uint8_t> image = std::move(colours).value();
     if (options_.imagery) {
@@ -315,7 +316,7 @@ class Job {
     if (options_.imagery) info.source += ", " + options_.imagery->string();
     info.lowest = Metres{heights_.lowest};
     info.highest = Metres{heights_.highest};
-    info.voidsFilled = heights_.voids + source_->voidsFilled;
+    info.voidsFilled = heights_.voids;
     info.scenery = source_->scenery;
     info.hasImage = hasImage_ || options_.imagery;
     std::sort(files_.begin(), files_.end(),

@@ -7,9 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "trimtab/terrain/arithmetic.h"
-#include "trimtab/terrain/bake_heights.h"
 #include "trimtab/terrain/import.h"
-#include "trimtab/terrain/scenery_import.h"
+#include "trimtab/terrain/scenery_made.h"
 #include "trimtab/terrain/scenery_memory.h"
 #include "trimtab/terrain/scenery_merge.h"
 #include "trimtab/terrain/store.h"
@@ -56,57 +55,54 @@ std::string nameOf(const fs::path& path) {
   return (last.extension() == ".gz" ? last.stem() : last).stem().string();
 }
 
-Result<std::vector<std::uint8_t>> BakeSource::takeImage(const Progress& progress) {
-  if (heights) return heights->image(progress);
-  return std::move(grid.image);
+Result<std::vector<std::uint8_t>> BakeSource::image(const Progress& progress) const {
+  if (!heights) return std::vector<std::uint8_t>{};
+  return heights->image(progress);
+}
+
+Result<Done> BakeSource::makeTiles(const HeightSource& baked, const Progress& progress) {
+  if (!between) return Done{};
+  if (auto made = terrain::makeTiles(*tiles, baked, *between, progress); !made) return made;
+  treesBytes += madeTilesBytes(tiles->counts().triangles - scenery->triangles);
+  return Done{};
 }
 
 namespace {
 
-/// Scenery alone: its tiles are read as they are needed.
+/// Tiles are read as they are needed, and so is elevation beside them.
 Result<std::unique_ptr<BakeSource>> openScenery(const BakeOptions& options, std::size_t memory,
                                                 const Progress& progress) {
+  std::vector<fs::path> sources = options.sources;
+  const auto others = std::stable_partition(sources.begin(), sources.end(), isScenery);
   auto source = std::make_unique<BakeSource>();
-  auto tiles = SceneryCatalogue::open(options.sources, memory / 4, stageOf(progress, 0, 0.6));
+  auto tiles = SceneryCatalogue::open({sources.begin(), others}, memory / 4, stageOf(progress, 0, 0.5));
   if (!tiles) return tiles.findings();
   Findings findings = tiles.findings();
   source->tiles = std::move(tiles).value();
   source->scenery = source->tiles->counts();
-  const auto posts = sceneryPosts(*source->tiles, options.post);
+  std::unique_ptr<ElevationSource> elevation;
+  if (others != sources.end()) {
+    ElevationOptions elevationOptions;
+    elevationOptions.progress = stageOf(progress, 0.5, 0.6);
+    auto opened = openElevation({others, sources.end()}, elevationOptions);
+    if (!opened) return opened.findings();
+    findings.insert(findings.end(), opened.findings().begin(), opened.findings().end());
+    elevation = std::move(opened).value();
+  }
+  const auto posts = elevation ? postsOfBoth(*source->tiles, elevation->posts(), options.post)
+                               : sceneryPosts(*source->tiles, options.post);
   if (!posts) {
     findings.insert(findings.end(), posts.findings().begin(), posts.findings().end());
     return findings;
   }
-  auto heights = SceneryHeights::open(*source->tiles, *posts, stageOf(progress, 0.6, 1));
+  if (elevation) source->between = elevationsPart(*posts, elevation->posts());
+  auto heights =
+      SceneryHeights::open(*source->tiles, *posts, stageOf(progress, 0.6, 1), std::move(elevation));
   findings.insert(findings.end(), heights.findings().begin(), heights.findings().end());
   if (!heights) return findings;
   source->heights = heights->get();
   source->elevation = std::move(heights).value();
   return Result<std::unique_ptr<BakeSource>>(std::move(source), std::move(findings));
-}
-
-/// Scenery beside elevation is read whole: better to say so now than when memory has run out.
-Result<std::unique_ptr<BakeSource>> openMerged(const BakeOptions& options, const std::vector<fs::path>& files,
-                                               std::size_t memory, const Progress& progress) {
-  const std::uint64_t bytes = sceneryBytes(files) + sceneryPostsBytes(files, options.post);
-  if (bytes > memory)
-    return Finding{
-        Severity::error, nameOf(options.sources.front()), "memory",
-        "room for all of this scenery beside elevation: about " + std::to_string(bytes / 1000000 + 1) + " MB",
-        std::to_string(memory / 1000000) +
-            " MB allowed: allow more, choose fewer tiles or posts farther apart, or bake scenery alone"};
-  std::vector<fs::path> sources = options.sources;
-  const auto elevation = std::stable_partition(sources.begin(), sources.end(), isScenery);
-  auto merged =
-      importMerged({sources.begin(), elevation}, {elevation, sources.end()}, options.post, progress);
-  if (!merged) return merged.findings();
-  auto source = std::make_unique<BakeSource>();
-  source->grid = std::move((*merged).grid);
-  source->voidsFilled = merged->voidsFilled;
-  source->scenery = std::move((*merged).counts);
-  source->tiles = std::move((*merged).tiles);
-  source->elevation = sourceOf(source->grid);
-  return Result<std::unique_ptr<BakeSource>>(std::move(source), merged.findings());
 }
 
 }  // namespace
@@ -127,8 +123,7 @@ Result<std::unique_ptr<BakeSource>> readSource(const BakeOptions& options, std::
   }
   const auto files = sourceFiles(options.sources);
   if (!files) return files.findings();
-  const bool alone = static_cast<std::size_t>(scenery) == options.sources.size();
-  auto read = alone ? openScenery(options, memory, progress) : openMerged(options, *files, memory, progress);
+  auto read = openScenery(options, memory, progress);
   if (read) (*read)->treesBytes = sceneryBytes(*files);
   return read;
 }

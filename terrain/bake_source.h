@@ -15,20 +15,21 @@ namespace trimtab::terrain {
 
 /// To be raised with every change of the mesher, sides or tolerances: pieces that different programs made do
 /// not fit together.
-inline constexpr int kBuilderVersion = 5;
+inline constexpr int kBuilderVersion = 6;
 
 /// What the sources hold, by either import.
 struct BakeSource {
   std::optional<SceneryCounts> scenery;
   std::unique_ptr<SceneryCatalogue> tiles;  ///< of scenery; null without
   std::uint64_t treesBytes = 0;             ///< that making their trees will take
-  HeightGrid grid;                          ///< of scenery beside elevation, which is read whole
-  std::uint64_t voidsFilled = 0;            ///< in that
   std::unique_ptr<ElevationSource> elevation;
-  const SceneryHeights* heights = nullptr;  ///< the same, where it is scenery alone
+  const SceneryHeights* heights = nullptr;  ///< the same, where it is scenery
+  std::optional<Rectangle> between;         ///< what elevation has, where it lies beside scenery
 
   /// Scenery's colours at its posts, RGBA; empty without scenery.
-  Result<std::vector<std::uint8_t>> takeImage(const Progress& progress);
+  Result<std::vector<std::uint8_t>> image(const Progress& progress) const;
+  /// Those between scenery's, of the heights of both; `baked` must live as long as tiles are asked for.
+  Result<Done> makeTiles(const HeightSource& baked, const Progress& progress);
 };
 
 /// `memory`: bytes that it may take.

@@ -99,8 +99,8 @@ struct BakeOptions {
   std::optional<Metres> post;  ///< distance of posts; else by the scenery's size, or the finest file's
   /// Vertical error of the finest patches at the posts; else defaultLeafToleranceM (patch_build.h). 0: exact.
   std::optional<Metres> maxError;
-  /// Most that baking may use. A database whose tiles, or whose scenery's trees, would take more is made without
-  /// them, and drawn from patches. Scenery beside elevation is read whole, and refused where it would take more.
+  /// Most that baking may use. A database whose tiles, or whose scenery's trees, would take more is made
+  /// without them, and drawn from patches.
   Megabytes memory{1024};
   std::filesystem::path output;
   Progress progress;

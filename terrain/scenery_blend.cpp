@@ -3,109 +3,213 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+
+#include "trimtab/terrain/grid_height.h"
 
 namespace trimtab::terrain {
 
 namespace {
 
+/// Posts that a difference is spread over.
 constexpr std::uint8_t kBandPosts = 32;
-constexpr int kSweeps = 150;
+constexpr std::uint32_t kSweeps = 150;
 constexpr double kOverRelaxation = 1.8;
+/// Posts that are read together: what overlaps a band of rows is looked through for each.
+constexpr std::size_t kTogether = std::size_t{1} << 19;
+
+// Away from the nearest post of scenery, in posts, 0 on its border; or:
+constexpr std::uint8_t kFar = kBandPosts + 1, kNotBlended = 255;
+bool isElevations(std::uint8_t away) {
+  return away != 0 && away != kNotBlended;
+}
 
 }  // namespace
 
-double heightOf(const HeightGrid& grid, double longitude, double latitude) {
-  const PostGrid& posts = grid.posts;
-  // Places on the grid's own border, computed another way, may be a rounding beyond it.
-  constexpr double kSlack = 1e-6;
-  const double turn = std::remainder(longitude - posts.west, 360.0);
-  const double c = (turn < -kSlack ? turn + 360 : turn) / posts.stepLongitude,
-               r = (latitude - posts.south) / posts.stepLatitude;
-  if (!(c >= -kSlack && r >= -kSlack && c <= posts.columns - 1 + kSlack && r <= posts.rows - 1 + kSlack))
-    return std::numeric_limits<double>::quiet_NaN();
-  const double lastC = posts.columns - 1, lastR = posts.rows - 1;
-  const double fc = std::clamp(c, 0.0, lastC), fr = std::clamp(r, 0.0, lastR);
-  const auto c0 = static_cast<std::size_t>(fc), r0 = static_cast<std::size_t>(fr);
-  const std::size_t c1 = std::min<std::size_t>(c0 + 1, posts.columns - 1),
-                    r1 = std::min<std::size_t>(r0 + 1, posts.rows - 1);
-  const double x = fc - static_cast<double>(c0), y = fr - static_cast<double>(r0);
-  double sum = 0, weight = 0;
-  const auto add = [&](std::size_t row, std::size_t column, double w) {
-    const float z = grid.heights[row * posts.columns + column];
-    if (w <= 0 || std::isnan(z)) return;
-    sum += w * static_cast<double>(z);
-    weight += w;
-  };
-  add(r0, c0, (1 - x) * (1 - y));
-  add(r0, c1, x * (1 - y));
-  add(r1, c0, (1 - x) * y);
-  add(r1, c1, x * y);
-  return weight > 0 ? sum / weight : std::numeric_limits<double>::quiet_NaN();
+double BlendedRows::elevationAt(std::uint32_t number, std::uint32_t column) const {
+  const PostGrid& posts = scenery_.posts();
+  return heightOf(
+      elevation_->posts(), posts.longitude(column), posts.latitude(number),
+      [&](std::uint32_t r, std::uint32_t c) { return elevationRows_[r - firstElevationRow_][c]; });
 }
 
-void blendElevation(HeightGrid& grid, const HeightGrid& elevation, std::vector<std::uint8_t>& reached) {
-  const PostGrid& posts = grid.posts;
-  const std::size_t columns = posts.columns;
-  const auto beside = [&](std::size_t post, const auto& visit) {
-    const std::size_t column = post % columns, row = post / columns;
-    if (column > 0) visit(post - 1);
-    if (column + 1 < columns) visit(post + 1);
-    if (row > 0) visit(post - columns);
-    if (row + 1 < posts.rows) visit(post + columns);
+/// What a row's posts lie between, and lets go of what lies south of the row before it.
+Result<Done> BlendedRows::readElevation(std::uint32_t number) {
+  const PostGrid& posts = elevation_->posts();
+  const auto rowAt = [&](std::int64_t of) {
+    const double latitude = scenery_.posts().latitude(static_cast<double>(of));
+    return static_cast<std::int64_t>(std::floor((latitude - posts.south) / posts.stepLatitude));
   };
-  // Steps from the nearest post that was there, up to one beyond the band; 255: nothing to blend.
-  std::vector<std::uint8_t> away(posts.size(), 255);
-  std::vector<std::size_t> filled;
-  for (std::size_t i = 0; i < posts.size(); ++i) {
-    if (!std::isnan(grid.heights[i])) continue;
-    const double z = heightOf(elevation, posts.longitude(static_cast<double>(i % columns)),
-                              posts.latitude(static_cast<double>(i / columns)));
-    if (std::isnan(z)) continue;
-    filled.push_back(i);
-    away[i] = kBandPosts + 1;
-    grid.heights[i] = static_cast<float>(z);
-    reached[i] = 1;
-  }
-  // What the posts that were there differ by is known where they meet the others.
-  std::vector<float> difference(posts.size(), 0);
-  std::vector<std::size_t> band, front, next;
-  for (const std::size_t i : filled)
-    beside(i, [&](std::size_t j) {
-      if (away[j] != 255 || std::isnan(grid.heights[j])) return;
-      const double z = heightOf(elevation, posts.longitude(static_cast<double>(j % columns)),
-                                posts.latitude(static_cast<double>(j / columns)));
-      if (std::isnan(z)) return;
-      difference[j] = grid.heights[j] - static_cast<float>(z);
-      away[j] = 0;
-      front.push_back(j);
-    });
-  for (std::uint8_t step = 1; step <= kBandPosts && !front.empty(); ++step) {
-    next.clear();
-    for (const std::size_t i : front)
-      beside(i, [&](std::size_t j) {
-        if (away[j] == 255 || away[j] <= step) return;
-        away[j] = step;
-        next.push_back(j);
-        band.push_back(j);
-      });
-    front.swap(next);
-  }
-  std::sort(band.begin(), band.end());
-  for (int sweep = 0; sweep < kSweeps; ++sweep)
-    for (const std::size_t i : band) {
-      double sum = 0;
-      int count = 0;
-      beside(i, [&](std::size_t j) {
-        if (away[j] == 255) return;
-        sum += static_cast<double>(difference[j]);
-        ++count;
-      });
-      if (count == 0) continue;
-      const double was = static_cast<double>(difference[i]);
-      difference[i] = static_cast<float>(was + kOverRelaxation * (sum / count - was));
+  constexpr std::uint32_t kRows = 64;
+  const std::int64_t last = std::min<std::int64_t>(rowAt(number) + 2, std::int64_t{posts.rows} - 1),
+                     first = rowAt(std::int64_t{number} - 1) - 1;
+  while (!elevationRows_.empty() && firstElevationRow_ < first)
+    elevationRows_.pop_front(), ++firstElevationRow_;
+  // Rows that nobody asks for are not read.
+  if (elevationRows_.empty())
+    firstElevationRow_ = static_cast<std::uint32_t>(std::clamp<std::int64_t>(first, 0, posts.rows));
+  while (firstElevationRow_ + std::int64_t(elevationRows_.size()) <= last) {
+    const auto next = firstElevationRow_ + static_cast<std::uint32_t>(elevationRows_.size());
+    const std::uint32_t rows = std::min(kRows, posts.rows - next);
+    std::vector<float> heights(std::size_t{rows} * posts.columns);
+    if (auto read = elevation_->readRows(next, rows, heights); !read) return read;
+    for (std::uint32_t r = 0; r < rows; ++r) {
+      const auto from = heights.begin() + static_cast<std::ptrdiff_t>(std::size_t{r} * posts.columns);
+      elevationRows_.emplace_back(from, from + posts.columns);
     }
-  for (const std::size_t i : band) grid.heights[i] += difference[i];
+  }
+  return Done{};
+}
+
+/// Some rows more, and elevation at their posts that are void.
+Result<Done> BlendedRows::readScenery() {
+  const PostGrid& posts = scenery_.posts();
+  const std::size_t columns = posts.columns;
+  const auto some = static_cast<std::uint32_t>(std::max<std::size_t>(kTogether / columns, kBandPosts));
+  const std::uint32_t rows = std::min(some, posts.rows - read_);
+  std::vector<float> heights(rows * columns);
+  if (auto read = scenery_.read(read_, rows, heights); !read) return read;
+  for (std::uint32_t r = 0; r < rows; ++r, ++read_) {
+    if (auto read = readElevation(read_); !read) return read;
+    Row& own = rows_.emplace_back();
+    const auto from = heights.begin() + static_cast<std::ptrdiff_t>(r * columns);
+    own.heights.assign(from, from + static_cast<std::ptrdiff_t>(columns));
+    own.away.assign(columns, kNotBlended);
+    own.reached.resize(columns);
+    scenery_.reached(read_, own.reached);
+    for (std::uint32_t c = 0; c < columns; ++c) {
+      if (!std::isnan(own.heights[c])) continue;
+      const double z = elevationAt(read_, c);
+      if (std::isnan(z)) continue;
+      own.heights[c] = static_cast<float>(z);
+      own.away[c] = kFar;
+      own.reached[c] = 1;
+      own.difference.resize(columns);
+    }
+    if (read_ > 0) findBorder(read_ - 1);
+  }
+  if (read_ == posts.rows) findBorder(read_ - 1);
+  return Done{};
+}
+
+/// What scenery differs by from elevation is known where they meet. The row after it has been read.
+void BlendedRows::findBorder(std::uint32_t number) {
+  bordered_ = number + 1;
+  Row& own = row(number);
+  const Row *south = beside(number, -1), *north = beside(number, 1);
+  const std::size_t columns = own.heights.size();
+  const auto blends = [](const Row* of, std::size_t c) { return of && isElevations(of->away[c]); };
+  for (std::uint32_t c = 0; c < columns; ++c) {
+    if (own.away[c] != kNotBlended || std::isnan(own.heights[c])) continue;
+    if (!((c > 0 && blends(&own, c - 1)) || (c + 1 < columns && blends(&own, c + 1)) || blends(south, c) ||
+          blends(north, c)))
+      continue;
+    const double z = elevationAt(number, c);
+    if (std::isnan(z)) continue;
+    own.difference.resize(columns);
+    own.difference[c] = own.heights[c] - static_cast<float>(z);
+    own.away[c] = 0;
+  }
+}
+
+/// Distances from the border, of the rows that nothing further north can be nearer to.
+void BlendedRows::spread() {
+  const std::uint32_t all = scenery_.posts().rows, columns = scenery_.posts().columns;
+  const std::uint32_t end =
+      bordered_ == all ? all : bordered_ - std::min<std::uint32_t>(bordered_, kBandPosts);
+  if (end <= spread_) return;
+  struct Post {
+    std::uint32_t row, column;
+  };
+  std::array<std::vector<Post>, kFar> fronts;
+  const std::uint32_t first = spread_ > 0 ? spread_ - 1 : 0;
+  for (std::uint32_t r = first; r < bordered_; ++r)
+    for (std::uint32_t c = 0; c < columns; ++c) {
+      std::uint8_t& away = row(r).away[c];
+      // What was told of them when less of the north was known.
+      if (r >= spread_ && isElevations(away)) away = kFar;
+      if (away < kFar) fronts[away].push_back({r, c});
+    }
+  for (std::uint8_t step = 1; step <= kBandPosts; ++step)
+    for (const Post& post : fronts[step - 1u]) {
+      const auto visit = [&](std::uint32_t r, std::uint32_t c) {
+        if (r < spread_ || r >= bordered_ || c >= columns) return;
+        std::uint8_t& away = row(r).away[c];
+        if (away == kNotBlended || away <= step) return;
+        away = step;
+        fronts[step].push_back({r, c});
+      };
+      visit(post.row, post.column - 1);
+      visit(post.row, post.column + 1);
+      visit(post.row - 1, post.column);
+      visit(post.row + 1, post.column);
+    }
+  for (; spread_ < end; ++spread_) {
+    Row& own = row(spread_);
+    for (std::uint32_t c = 0; c < columns; ++c)
+      if (isElevations(own.away[c]) && own.away[c] < kFar) own.band.push_back(c);
+  }
+}
+
+/// One sweep over a row's band.
+void BlendedRows::relax(std::uint32_t number) {
+  Row& own = row(number);
+  if (own.band.empty()) return;
+  const Row *south = beside(number, -1), *north = beside(number, 1);
+  const std::size_t columns = own.heights.size();
+  for (const std::uint32_t c : own.band) {
+    double sum = 0;
+    int count = 0;
+    const auto add = [&](const Row* of, std::size_t column) {
+      if (!of || column >= columns || of->away[column] == kNotBlended) return;
+      sum += static_cast<double>(of->difference[column]);
+      ++count;
+    };
+    add(&own, std::size_t{c} - 1);
+    add(&own, std::size_t{c} + 1);
+    add(south, c);
+    add(north, c);
+    if (count == 0) continue;
+    const double was = static_cast<double>(own.difference[c]);
+    own.difference[c] = static_cast<float>(was + kOverRelaxation * (sum / count - was));
+  }
+}
+
+/// A sweep takes from the row south of it what this sweep left there, and from the north what the one before
+/// did: as row by row through the whole grid, again and again. So one row can begin its first sweep while
+/// the one before it has its second, and all of them together need no more rows than there are sweeps.
+Result<Done> BlendedRows::advance() {
+  const std::uint32_t all = scenery_.posts().rows;
+  while (spread_ < all && spread_ <= relaxing_) {
+    if (auto read = readScenery(); !read) return read;
+    spread();
+  }
+  for (std::uint32_t sweep = 0; sweep < kSweeps && sweep <= relaxing_; ++sweep)
+    if (relaxing_ - sweep < all) relax(relaxing_ - sweep);
+  if (++relaxing_ < kSweeps) return Done{};
+  Row& done = row(finished_++);
+  for (const std::uint32_t c : done.band) done.heights[c] += done.difference[c];
+  return Done{};
+}
+
+Result<Done> BlendedRows::read(std::uint32_t first, std::uint32_t rows, std::span<float> heights,
+                               std::span<std::uint8_t> reached) {
+  if (first < firstRow_) {
+    elevationRows_.clear();
+    rows_.clear();
+    firstRow_ = read_ = bordered_ = spread_ = relaxing_ = finished_ = 0;
+  }
+  for (std::uint32_t number = first; number < first + rows; ++number) {
+    while (finished_ <= number) {
+      if (auto advanced = advance(); !advanced) return advanced;
+      // The one before those that are not finished is beside one of them.
+      while (firstRow_ + 1 < finished_ && firstRow_ < number) rows_.pop_front(), ++firstRow_;
+    }
+    const Row& own = row(number);
+    const auto to = static_cast<std::ptrdiff_t>((number - first) * own.heights.size());
+    std::copy(own.heights.begin(), own.heights.end(), heights.begin() + to);
+    std::copy(own.reached.begin(), own.reached.end(), reached.begin() + to);
+  }
+  return Done{};
 }
 
 }  // namespace trimtab::terrain

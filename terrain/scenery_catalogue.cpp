@@ -56,16 +56,17 @@ PlacedMesh SceneryCatalogue::placed(SceneryMesh mesh) const {
   return all;
 }
 
-void SceneryCatalogue::enter(fs::path file, SceneryMesh mesh) {
+void SceneryCatalogue::enter(fs::path file, std::function<SceneryMesh()> make, SceneryMesh mesh) {
   if (!hasReference_ && !mesh.triangles.empty()) {
     reference_ = toGeodetic(mesh.vertices[mesh.triangles[0].vertex[0]]).longitude.value();
     hasReference_ = true;
   }
   count(counts_, mesh);
   auto all = std::make_shared<PlacedMesh>(placed(std::move(mesh)));
-  tiles_.push_back({std::move(file), all->mesh.name, all->mesh.airport, extentOf(*all)});
+  const bool stays = file.empty() && !make;
+  tiles_.push_back({std::move(file), std::move(make), all->mesh.name, all->mesh.airport, extentOf(*all)});
   slots_.emplace_back();
-  if (tiles_.back().file.empty())
+  if (stays)
     slots_.back().mesh = std::move(all);
   else
     keep(tiles_.size() - 1, std::move(all));
@@ -108,7 +109,7 @@ Result<std::unique_ptr<SceneryCatalogue>> SceneryCatalogue::open(std::span<const
       if (broken || !names.insert(read[i]->name).second) continue;
       SceneryMesh mesh = std::move(*read[i]);
       mesh.airport = files[from + i].airport;
-      all->enter(files[from + i].path, std::move(mesh));
+      all->enter(files[from + i].path, {}, std::move(mesh));
     }
   }
   if (broken) return findings;
@@ -141,6 +142,13 @@ void SceneryCatalogue::keep(std::size_t tile, std::shared_ptr<PlacedMesh> mesh) 
   slots_[tile] = {std::move(mesh), bytes, ++use_};
 }
 
+Result<SceneryMesh> SceneryCatalogue::again(const Tile& tile) const {
+  if (tile.make) return tile.make();
+  auto read = readBtg(tile.file);
+  if (read) (*read).airport = tile.airport;
+  return read;
+}
+
 Result<std::shared_ptr<const PlacedMesh>> SceneryCatalogue::mesh(std::size_t tile) const {
   {
     const std::lock_guard lock(mutex_);
@@ -149,11 +157,9 @@ Result<std::shared_ptr<const PlacedMesh>> SceneryCatalogue::mesh(std::size_t til
       return std::shared_ptr<const PlacedMesh>(slot.mesh);
     }
   }
-  auto read = readBtg(tiles_[tile].file);
-  if (!read) return read.findings();
-  SceneryMesh own = std::move(read).value();
-  own.airport = tiles_[tile].airport;
-  auto made = std::make_shared<PlacedMesh>(placed(std::move(own)));
+  auto own = again(tiles_[tile]);
+  if (!own) return own.findings();
+  auto made = std::make_shared<PlacedMesh>(placed(std::move(own).value()));
   keep(tile, made);
   return std::shared_ptr<const PlacedMesh>(std::move(made));
 }
@@ -168,10 +174,9 @@ Result<std::vector<SceneryMesh>> SceneryCatalogue::takeAll() {
       slots_[i] = {};
       continue;
     }
-    auto read = readBtg(tiles_[i].file);
-    if (!read) return read.findings();
-    all.push_back(std::move(read).value());
-    all.back().airport = tiles_[i].airport;
+    auto own = again(tiles_[i]);
+    if (!own) return own.findings();
+    all.push_back(std::move(own).value());
   }
   return all;
 }

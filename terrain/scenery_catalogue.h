@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -19,12 +20,13 @@ struct PlacedMesh {
   std::vector<Vec3> places;  ///< longitude, latitude (degrees) and height (metres), one a vertex
 };
 
-/// All tiles of some scenery. Those that came from files are read again when they are needed: as many stay in
-/// memory as it was given.
+/// All tiles of some scenery. Those that came from files are read again when they are needed, and those that
+/// can be made again are: as many stay in memory as it was given.
 class SceneryCatalogue {
  public:
   struct Tile {
-    std::filesystem::path file;  ///< empty: it stays in memory
+    std::filesystem::path file;         ///< empty: it was not read from one
+    std::function<SceneryMesh()> make;  ///< the same again; neither: it stays in memory
     std::string name;
     bool airport = false;
     Rectangle extent = Rectangle::none();  ///< of its triangles
@@ -38,7 +40,10 @@ class SceneryCatalogue {
   /// Of tiles that stay in memory; a vector of them is a catalogue where one is asked for.
   SceneryCatalogue(std::vector<SceneryMesh> meshes = {});
 
-  void add(SceneryMesh mesh) { enter({}, std::move(mesh)); }
+  /// `again`, where it can be made again: the same, on any thread.
+  void add(SceneryMesh mesh, std::function<SceneryMesh()> again = {}) {
+    enter({}, std::move(again), std::move(mesh));
+  }
   const std::vector<Tile>& tiles() const { return tiles_; }
   const SceneryCounts& counts() const { return counts_; }
   /// Of all tiles.
@@ -58,7 +63,8 @@ class SceneryCatalogue {
     std::uint64_t used = 0;
   };
   PlacedMesh placed(SceneryMesh mesh) const;
-  void enter(std::filesystem::path file, SceneryMesh mesh);
+  void enter(std::filesystem::path file, std::function<SceneryMesh()> make, SceneryMesh mesh);
+  Result<SceneryMesh> again(const Tile& tile) const;
   void keep(std::size_t tile, std::shared_ptr<PlacedMesh> mesh) const;
 
   std::vector<Tile> tiles_;
@@ -68,7 +74,7 @@ class SceneryCatalogue {
   std::size_t memory_ = 0;
   mutable std::mutex mutex_;
   mutable std::vector<Slot> slots_;  ///< one a tile
-  mutable std::size_t bytes_ = 0;    ///< of those that have a file
+  mutable std::size_t bytes_ = 0;    ///< of those that need not stay
   mutable std::uint64_t use_ = 0;
 };
 

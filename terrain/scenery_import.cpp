@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "trimtab/terrain/import.h"
-#include "trimtab/terrain/scenery_blend.h"
 
 namespace trimtab::terrain {
 
@@ -81,7 +80,7 @@ Result<PostGrid> postsOver(const Rectangle& r, std::optional<Metres> distance) {
 }
 
 Result<HeightGrid> rasterised(const SceneryCatalogue& scenery, const PostGrid& posts,
-                              const Progress& progress, const HeightGrid* elevation) {
+                              const Progress& progress) {
   HeightGrid grid{posts, std::vector<float>(posts.size()), 0, std::vector<std::uint8_t>(posts.size() * 4)};
   std::vector<std::uint8_t> reached(posts.size());
   const SceneryRaster raster(scenery, posts);
@@ -94,7 +93,6 @@ Result<HeightGrid> rasterised(const SceneryCatalogue& scenery, const PostGrid& p
   };
   if (auto done = forEachBand(posts, progress, "putting triangles on posts", take); !done)
     return done.findings();
-  if (elevation != nullptr) blendElevation(grid, *elevation, reached);
   grid.outside = static_cast<std::uint64_t>(std::count(reached.begin(), reached.end(), 0));
   Findings notes;
   if (const std::uint64_t sea = fillOpenSea(grid, reached); sea > 0) notes.push_back(aboutSea(sea));
@@ -102,13 +100,22 @@ Result<HeightGrid> rasterised(const SceneryCatalogue& scenery, const PostGrid& p
 }
 
 Result<std::unique_ptr<SceneryHeights>> SceneryHeights::open(const SceneryCatalogue& scenery,
-                                                             const PostGrid& posts,
-                                                             const Progress& progress) {
-  auto heights = std::unique_ptr<SceneryHeights>(new SceneryHeights(scenery, posts));
+                                                             const PostGrid& posts, const Progress& progress,
+                                                             std::unique_ptr<ElevationSource> elevation) {
+  auto heights = std::unique_ptr<SceneryHeights>(new SceneryHeights(scenery, posts, std::move(elevation)));
   Findings notes;
   if (auto found = heights->findSea(progress); !found) return found.findings();
   if (heights->sea_ && heights->sea_->posts() > 0) notes.push_back(aboutSea(heights->sea_->posts()));
   return Result<std::unique_ptr<SceneryHeights>>(std::move(heights), std::move(notes));
+}
+
+/// Before what is sea is known.
+Result<Done> SceneryHeights::readSources(std::uint32_t first, std::uint32_t rows, std::span<float> heights,
+                                         std::span<std::uint8_t> reached) {
+  if (blended_) return blended_->read(first, rows, heights, reached);
+  for (std::uint32_t row = 0; row < rows; ++row)
+    raster_.reached(first + row, reached.subspan(row * posts().columns, posts().columns));
+  return raster_.read(first, rows, heights);
 }
 
 Result<Done> SceneryHeights::findSea(const Progress& progress) {
@@ -124,11 +131,11 @@ Result<Done> SceneryHeights::findSea(const Progress& progress) {
   std::vector<float> heights;
   const auto take = [&](std::uint32_t first, std::uint32_t rows) -> Result<Done> {
     heights.resize(rows * columns);
-    if (auto read = raster_.read(first, rows, heights); !read) return read;
-    for (std::uint32_t row = 0; row < rows; ++row) {
-      raster_.reached(first + row, reached);
-      sea_->add(std::span(heights).subspan(row * columns, columns), reached);
-    }
+    reached.resize(rows * columns);
+    if (auto read = readSources(first, rows, heights, reached); !read) return read;
+    for (std::uint32_t row = 0; row < rows; ++row)
+      sea_->add(std::span(heights).subspan(row * columns, columns),
+                std::span(reached).subspan(row * columns, columns));
     return Done{};
   };
   if (auto done = forEachBand(posts(), progress, "looking for open sea", take); !done) return done;
@@ -138,7 +145,8 @@ Result<Done> SceneryHeights::findSea(const Progress& progress) {
 
 Result<Done> SceneryHeights::readRows(std::uint32_t first, std::uint32_t rows, std::span<float> heights,
                                       std::span<std::uint8_t> beyond) {
-  if (auto read = raster_.read(first, rows, heights); !read) return read;
+  reached_.resize(heights.size());
+  if (auto read = readSources(first, rows, heights, reached_); !read) return read;
   std::fill(beyond.begin(), beyond.end(), std::uint8_t{0});
   if (!sea_) return Done{};
   for (std::uint32_t row = 0; row < rows; ++row)

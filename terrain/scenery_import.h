@@ -6,6 +6,7 @@
 #include "trimtab/terrain/database.h"
 #include "trimtab/terrain/elevation_source.h"
 #include "trimtab/terrain/post_grid.h"
+#include "trimtab/terrain/scenery_blend.h"
 #include "trimtab/terrain/scenery_catalogue.h"
 #include "trimtab/terrain/scenery_raster.h"
 #include "trimtab/terrain/scenery_sea.h"
@@ -19,32 +20,41 @@ Result<PostGrid> sceneryPosts(const SceneryCatalogue& scenery, std::optional<Met
 Result<PostGrid> postsOver(const Rectangle& degrees, std::optional<Metres> distance);
 
 /// All of a SceneryRaster, the material's colour as the post's image. What lies in no tile's rectangle is
-/// open sea where its borders are, with a note; the rest of it counts as `outside`. `elevation`, where there
-/// is one: heights, with NaN for none, for the posts that no triangle covers.
+/// open sea where its borders are, with a note; the rest of it counts as `outside`.
 Result<HeightGrid> rasterised(const SceneryCatalogue& scenery, const PostGrid& posts,
-                              const Progress& progress, const HeightGrid* elevation = nullptr);
+                              const Progress& progress);
 
-/// The same, a band of rows at a time: memory follows the catalogue's, not the size of the land.
+/// The same, a band of rows at a time: memory follows the catalogue's, not the size of the land. With
+/// elevation, where there is one, at the posts that no triangle covers (BlendedRows).
 class SceneryHeights final : public ElevationSource {
  public:
   /// Looks through all rows for open sea where tiles leave any out. The catalogue must outlive it.
   static Result<std::unique_ptr<SceneryHeights>> open(const SceneryCatalogue& scenery, const PostGrid& posts,
-                                                      const Progress& progress);
+                                                      const Progress& progress,
+                                                      std::unique_ptr<ElevationSource> elevation = nullptr);
 
   const PostGrid& posts() const override { return raster_.posts(); }
   Result<Done> readRows(std::uint32_t first, std::uint32_t rows, std::span<float> heights,
                         std::span<std::uint8_t> beyond = {}) override;
   std::vector<std::string> names() const override { return {}; }
   std::vector<std::uint64_t> given() const override { return {}; }
-  /// Colours of all posts, RGBA, alpha 0 where there are none.
+  /// Colours of all posts, RGBA, alpha 0 where there are none: elevation has none.
   Result<std::vector<std::uint8_t>> image(const Progress& progress) const;
 
  private:
-  SceneryHeights(const SceneryCatalogue& scenery, const PostGrid& posts) : raster_(scenery, posts) {}
+  SceneryHeights(const SceneryCatalogue& scenery, const PostGrid& posts,
+                 std::unique_ptr<ElevationSource> elevation)
+      : raster_(scenery, posts) {
+    if (elevation) blended_.emplace(raster_, std::move(elevation));
+  }
   Result<Done> findSea(const Progress& progress);
+  Result<Done> readSources(std::uint32_t first, std::uint32_t rows, std::span<float> heights,
+                           std::span<std::uint8_t> reached);
 
   SceneryRaster raster_;
+  std::optional<BlendedRows> blended_;
   std::optional<OpenSea> sea_;  ///< none: tiles reach every post
+  std::vector<std::uint8_t> reached_;
 };
 
 /// What the files of some scenery hold.

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <memory>
 #include <numbers>
 #include <set>
 #include <string>
 
+#include "trimtab/terrain/grid_height.h"
+#include "trimtab/terrain/import.h"
 #include "trimtab/terrain/mesher.h"
 #include "trimtab/terrain/parallel.h"
-#include "trimtab/terrain/scenery_blend.h"
 
 namespace trimtab::terrain {
 
@@ -55,16 +56,21 @@ Result<std::vector<Place>> bordersOf(const SceneryCatalogue& scenery, double tur
   return places;
 }
 
-class Maker {
+/// What all made tiles lie in.
+class Surroundings {
  public:
-  Maker(const SceneryCatalogue& scenery, std::vector<Place> borders, const HeightGrid& grid,
-        const Rectangle& where)
-      : grid_(grid), where_(where), borders_(std::move(borders)) {
+  Surroundings(const SceneryCatalogue& scenery, std::vector<Place> borders, const HeightSource& heights,
+               const Rectangle& where)
+      : heights_(heights), where_(where), borders_(std::move(borders)) {
     for (const SceneryCatalogue::Tile& tile : scenery.tiles())
       if (!tile.airport) there_.insert(tile.name);
-    constexpr double kDegreeM = 111320;
-    stepM_ = grid.posts.stepLatitude * kDegreeM;
   }
+
+  const HeightSource& heights() const { return heights_; }
+  const PostGrid& posts() const { return heights_.posts(); }
+  const Rectangle& where() const { return where_; }
+  const std::vector<Place>& borders() const { return borders_; }
+  bool hasScenery(const Bucket& b) const { return b.index >= 0 && there_.contains(std::to_string(b.index)); }
 
   std::vector<Bucket> buckets() const {
     std::vector<Bucket> all;
@@ -73,14 +79,45 @@ class Maker {
       for (double longitude = where_.west + 1e-7; longitude < where_.east;) {
         const Bucket b = bucketNear(latitude, longitude);
         if (b.index < 0) break;
-        if (!there_.contains(std::to_string(b.index)) && covers(clipped(b))) all.push_back(b);
+        if (!hasScenery(b) && covers(clipped(b))) all.push_back(b);
         longitude = b.east.value() + 1e-7;
       }
     return all;
   }
+  /// With longitudes as the grid counts them.
+  Bucket bucketNear(double latitude, double longitude) const {
+    Bucket b = bucketAt(Degrees{latitude}, Degrees{longitude});
+    const double turn = 360 * std::round((longitude - b.west.value()) / 360);
+    b.west = b.west + Degrees{turn};
+    b.east = b.east + Degrees{turn};
+    return b;
+  }
+  Rectangle clipped(const Bucket& b) const {
+    return {std::max(b.west.value(), where_.west), std::max(b.south.value(), where_.south),
+            std::min(b.east.value(), where_.east), std::min(b.north.value(), where_.north)};
+  }
 
-  SceneryMesh make(const Bucket& bucket) const {
-    const Rectangle r = clipped(bucket);
+ private:
+  /// Large enough for a ring and posts inside it.
+  bool covers(const Rectangle& r) const {
+    const double least = 4 * std::max(posts().stepLatitude, posts().stepLongitude);
+    return r.east - r.west > least && r.north - r.south > least;
+  }
+
+  const HeightSource& heights_;
+  Rectangle where_;
+  std::vector<Place> borders_;
+  std::set<std::string> there_;
+};
+
+/// One tile.
+class Maker {
+ public:
+  explicit Maker(const Surroundings& around) : around_(around), where_(around.where()) {}
+
+  SceneryMesh make(const Bucket& bucket) {
+    const Rectangle r = around_.clipped(bucket);
+    readWindow(r);
     SceneryMesh mesh;
     mesh.name = std::to_string(bucket.index);
     mesh.materials = {"Default", "Ocean"};
@@ -96,32 +133,39 @@ class Maker {
   }
 
  private:
-  /// With longitudes as the grid counts them.
-  Bucket bucketNear(double latitude, double longitude) const {
-    Bucket b = bucketAt(Degrees{latitude}, Degrees{longitude});
-    const double turn = 360 * std::round((longitude - b.west.value()) / 360);
-    b.west = b.west + Degrees{turn};
-    b.east = b.east + Degrees{turn};
-    return b;
+  /// Posts in and about a rectangle.
+  void readWindow(const Rectangle& r) {
+    const PostGrid& posts = around_.posts();
+    const auto post = [](double at, std::uint32_t count) {
+      return static_cast<std::uint32_t>(std::clamp(std::floor(at), 0.0, count - 1.0));
+    };
+    window_.column = post((r.west - posts.west) / posts.stepLongitude - 1, posts.columns);
+    window_.row = post((r.south - posts.south) / posts.stepLatitude - 1, posts.rows);
+    window_.columns =
+        post((r.east - posts.west) / posts.stepLongitude + 2, posts.columns) + 1 - window_.column;
+    window_.rows = post((r.north - posts.south) / posts.stepLatitude + 2, posts.rows) + 1 - window_.row;
+    posts_.resize(window_.size());
+    around_.heights().read(window_, 1, posts_);
   }
-  Rectangle clipped(const Bucket& b) const {
-    return {std::max(b.west.value(), where_.west), std::max(b.south.value(), where_.south),
-            std::min(b.east.value(), where_.east), std::min(b.north.value(), where_.north)};
-  }
-  /// Large enough for a ring and posts inside it.
-  bool covers(const Rectangle& r) const {
-    const double least = 4 * std::max(grid_.posts.stepLatitude, grid_.posts.stepLongitude);
-    return r.east - r.west > least && r.north - r.south > least;
+  double heightAt(double longitude, double latitude) const {
+    return heightOf(around_.posts(), longitude, latitude, [this](std::uint32_t row, std::uint32_t column) {
+      const std::uint32_t r = row - window_.row, c = column - window_.column;
+      if (r < window_.rows && c < window_.columns) return posts_[std::size_t{r} * window_.columns + c];
+      // A grid all around the earth has its first column beside its last.
+      float one = 0;
+      around_.heights().read({column, row, 1, 1}, 1, std::span(&one, 1));
+      return one;
+    });
   }
 
   Place sampled(double longitude, double latitude) const {
-    const double height = heightOf(grid_, longitude, latitude);
+    const double height = heightAt(longitude, latitude);
     return {longitude, latitude,
             toEcef({Degrees{latitude}, Degrees{longitude}, Metres{std::isnan(height) ? 0 : height}})};
   }
   /// Scenery's vertex at a corner, or a place of the grid.
   Place corner(double longitude, double latitude, bool& known) const {
-    for (const Place& p : borders_)
+    for (const Place& p : around_.borders())
       if (std::abs(p.longitude - longitude) < kOnLineDegrees &&
           std::abs(p.latitude - latitude) < kOnLineDegrees) {
         known = true;
@@ -137,7 +181,7 @@ class Maker {
     std::vector<double> cuts{from};
     if (level) {
       for (double at = from + 1e-7; at < to;) {
-        const Bucket b = bucketNear(line + outward * 1e-6, at);
+        const Bucket b = around_.bucketNear(line + outward * 1e-6, at);
         if (b.index < 0 || b.east.value() >= to - 1e-7) break;
         cuts.push_back(b.east.value());
         at = b.east.value() + 1e-7;
@@ -147,9 +191,9 @@ class Maker {
     std::vector<Place> all;
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
       const double middle = (cuts[i] + cuts[i + 1]) / 2;
-      const Bucket b =
-          level ? bucketNear(line + outward * 1e-6, middle) : bucketNear(middle, line + outward * 1e-6);
-      const bool scenery = b.index >= 0 && there_.contains(std::to_string(b.index));
+      const Bucket b = level ? around_.bucketNear(line + outward * 1e-6, middle)
+                             : around_.bucketNear(middle, line + outward * 1e-6);
+      const bool scenery = around_.hasScenery(b);
       auto part = scenery ? sceneryStretch(level, line, cuts[i], cuts[i + 1])
                           : gridStretch(level, line, cuts[i], cuts[i + 1]);
       if (!all.empty()) all.pop_back();
@@ -163,7 +207,7 @@ class Maker {
   std::vector<Place> sceneryStretch(bool level, double line, double from, double to) const {
     const auto along = [&](const Place& p) { return level ? p.longitude : p.latitude; };
     std::vector<Place> found;
-    for (const Place& p : borders_)
+    for (const Place& p : around_.borders())
       if (std::abs((level ? p.latitude : p.longitude) - line) < kOnLineDegrees &&
           along(p) > from - kOnLineDegrees && along(p) < to + kOnLineDegrees)
         found.push_back(p);
@@ -179,7 +223,7 @@ class Maker {
   std::vector<Place> gridStretch(bool level, double line, double from, double to) const {
     bool known = false;
     std::vector<Place> all{cornerOf(level, line, from, known)};
-    const double step = 2 * (level ? grid_.posts.stepLongitude : grid_.posts.stepLatitude);
+    const double step = 2 * (level ? around_.posts().stepLongitude : around_.posts().stepLatitude);
     const int count = std::max(1, static_cast<int>(std::lround((to - from) / step)));
     for (int i = 1; i < count; ++i) {
       const double at = from + (to - from) * i / count;
@@ -213,7 +257,7 @@ class Maker {
     for (const Place& p : sides[1]) in.east = std::min(in.east, p.longitude);
     for (const Place& p : sides[2]) in.north = std::min(in.north, p.latitude);
     for (const Place& p : sides[3]) in.west = std::max(in.west, p.longitude);
-    const PostGrid& posts = grid_.posts;
+    const PostGrid& posts = around_.posts();
     // An edge along a parallel leaves it by its sag, and nothing of the rectangle may come that near.
     double longest = 0;
     for (const std::size_t i : {0u, 2u})
@@ -238,10 +282,11 @@ class Maker {
         const Place p = sampled(longitude(c), latitude(r));
         const Vec3 local = frame.fromEcef(p.ecef);
         z[std::size_t{r} * columns + c] = static_cast<float>(local.z);
-        sea = sea && heightOf(grid_, p.longitude, p.latitude) == 0;
+        sea = sea && heightAt(p.longitude, p.latitude) == 0;
       }
     const HeightField field{z.data(), columns, rows, columns};
-    const double tolerance = stepM_ / 15;
+    constexpr double kDegreeM = 111320;
+    const double tolerance = posts.stepLatitude * kDegreeM / 15;
     using Point = PolygonMesher::Point;
     const std::array<Point, 4> corners{Point{0, 0}, Point{columns - 1, 0}, Point{columns - 1, rows - 1},
                                        Point{0, rows - 1}};
@@ -303,25 +348,37 @@ class Maker {
     mesh.trianglesInFile = mesh.triangles.size();
   }
 
-  const HeightGrid& grid_;
+  const Surroundings& around_;
   Rectangle where_;
-  std::vector<Place> borders_;
-  std::set<std::string> there_;
-  double stepM_ = 0;
+  PostWindow window_;
+  std::vector<float> posts_;
 };
 
 }  // namespace
 
-Result<std::vector<SceneryMesh>> madeTiles(const SceneryCatalogue& scenery, const HeightGrid& grid,
-                                           const Rectangle& where) {
-  auto borders = bordersOf(scenery, scenery.turnTo(grid.posts.longitude((grid.posts.columns - 1) / 2.0)));
+Result<Done> makeTiles(SceneryCatalogue& scenery, const HeightSource& heights, const Rectangle& where,
+                       const Progress& progress) {
+  const PostGrid& posts = heights.posts();
+  auto borders = bordersOf(scenery, scenery.turnTo(posts.longitude((posts.columns - 1) / 2.0)));
   if (!borders) return borders.findings();
-  const Maker maker(scenery, std::move(borders).value(), grid, where);
-  const std::vector<Bucket> buckets = maker.buckets();
-  std::vector<SceneryMesh> made(buckets.size());
-  forEachParallel(static_cast<std::uint32_t>(buckets.size()),
-                  [&](std::uint32_t i) { made[i] = maker.make(buckets[i]); }, {});
-  return made;
+  const auto around =
+      std::make_shared<const Surroundings>(scenery, std::move(borders).value(), heights, where);
+  const std::vector<Bucket> buckets = around->buckets();
+  // A few at a time: what does not stay is gone before the next are made.
+  constexpr std::size_t kTogether = 8;
+  for (std::size_t from = 0; from < buckets.size(); from += kTogether) {
+    const std::size_t some = std::min(kTogether, buckets.size() - from);
+    if (progress &&
+        !progress(static_cast<double>(from) / static_cast<double>(buckets.size()), "tiles between scenery"))
+      return cancelled("tiles between scenery");
+    std::vector<SceneryMesh> made(some);
+    forEachParallel(static_cast<std::uint32_t>(some),
+                    [&](std::uint32_t i) { made[i] = Maker(*around).make(buckets[from + i]); }, {});
+    for (std::size_t i = 0; i < some; ++i)
+      scenery.add(std::move(made[i]),
+                  [around, bucket = buckets[from + i]] { return Maker(*around).make(bucket); });
+  }
+  return Done{};
 }
 
 }  // namespace trimtab::terrain

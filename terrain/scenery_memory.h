@@ -2,19 +2,14 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <span>
 
-#include "trimtab/units/quantity.h"
-
 namespace trimtab::terrain {
-
-// Told before any file is read.
 
 /// Bytes that scenery's files take at their highest where all of them are in memory and trees are made of
 /// them: by their sizes as unzipped.
 std::uint64_t sceneryBytes(std::span<const std::filesystem::path> files);
-/// And those of the posts over their buckets, where those are in memory too.
-std::uint64_t sceneryPostsBytes(std::span<const std::filesystem::path> files, std::optional<Metres> post);
+/// And what tiles made between them add, by their triangles.
+std::uint64_t madeTilesBytes(std::uint64_t triangles);
 
 }  // namespace trimtab::terrain

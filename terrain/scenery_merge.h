@@ -1,34 +1,22 @@
 #pragma once
 
-#include <filesystem>
-#include <memory>
 #include <optional>
-#include <span>
 
-#include "trimtab/terrain/scenery_import.h"
-
-namespace trimtab::terrain {
-
-struct MergedScenery {
-  HeightGrid grid;  ///< no voids left
-  std::uint64_t voidsFilled = 0;
-  std::unique_ptr<SceneryCatalogue> tiles;  ///< all of it in memory
-  SceneryCounts counts;
-};
+#include "trimtab/terrain/post_grid.h"
+#include "trimtab/terrain/rectangle.h"
+#include "trimtab/terrain/scenery_catalogue.h"
 
 /// Scenery and elevation side by side on one grid of posts over both: scenery's triangles where there are
-/// any, elevation elsewhere, blended so that no step shows. `tiles` has scenery's tiles and, for buckets
-/// without one, tiles made of the grid that share its borders, so that trees close between both kinds;
-/// `counts` has scenery's alone. Airports sit in their holes as ever.
-///
-/// Posts are as close as the finer of the two has them, where no distance is given; all of them are in
-/// memory.
-Result<MergedScenery> importMerged(std::span<const std::filesystem::path> scenery,
-                                   std::span<const std::filesystem::path> elevation,
-                                   std::optional<Metres> distance, const Progress& progress);
+/// any, elevation elsewhere, blended so that no step shows (SceneryHeights). Buckets without a tile get one
+/// that is made of the heights and shares its neighbours' borders (makeTiles), so that trees close between
+/// both kinds. Airports sit in their holes as ever.
+namespace trimtab::terrain {
 
-/// The same of what was read. `elevation`: heights with NaN for none.
-Result<MergedScenery> merged(std::unique_ptr<SceneryCatalogue> scenery, const HeightGrid& elevation,
-                             std::optional<Metres> distance, const Progress& progress);
+/// As close as the finer of the two has them, where no distance is given.
+Result<PostGrid> postsOfBoth(const SceneryCatalogue& scenery, const PostGrid& elevation,
+                             std::optional<Metres> distance);
+
+/// Degrees that a grid over both has from the elevation, with longitudes as the grid counts them.
+Rectangle elevationsPart(const PostGrid& both, const PostGrid& elevation);
 
 }  // namespace trimtab::terrain

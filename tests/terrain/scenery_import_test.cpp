@@ -289,20 +289,23 @@ TEST_F(SceneryBake, isTheSameInLittleMemoryButForItsTrees) {
     EXPECT_TRUE(test::readFile(dir_ / "db" / name) == test::readFile(dir_ / "little" / name)) << name;
 }
 
-TEST_F(SceneryBake, besideElevationIsRefusedWhereItWouldTakeMoreMemoryThanAllowed) {
+TEST_F(SceneryBake, besideElevationIsTheSameInLittleMemoryButForItsTrees) {
   terrain::BakeOptions all = options();
   test::RasterRecipe around;
+  around.columns = 500, around.rows = 300;
   around.west = 6.8, around.north = 50.8;
   all.sources.push_back(test::writeRaster(dir_ / "around.tif", around));
-  all.memory = Megabytes{150};
-  // Ten million posts.
-  all.post = Metres{5};
-  const auto refused = terrain::bake(all);
-  ASSERT_FALSE(refused);
-  const std::string said = toString(refused.findings());
-  EXPECT_NE(said.find("150 MB allowed"), std::string::npos) << said;
-  EXPECT_FALSE(std::filesystem::exists(dir_ / "db"));
-  EXPECT_FALSE(std::filesystem::exists(dir_ / ".db.work"));
+  const auto whole = terrain::bake(all);
+  ASSERT_TRUE(whole) << toString(whole.findings());
+  all.output = dir_ / "little";
+  all.memory = Megabytes{1};
+  const auto little = terrain::bake(all);
+  ASSERT_TRUE(little) << toString(little.findings());
+  EXPECT_TRUE((*whole)->staticLod());
+  EXPECT_FALSE((*little)->staticLod());
+  EXPECT_NE(toString(little.findings()).find("left out"), std::string::npos);
+  for (const char* name : {terrain::kHeightsName, terrain::kPatchesName, terrain::kGroundName})
+    EXPECT_TRUE(test::readFile(dir_ / "db" / name) == test::readFile(dir_ / "little" / name)) << name;
 }
 
 TEST_F(SceneryBake, takesElevationBesideScenery) {

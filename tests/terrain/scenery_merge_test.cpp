@@ -6,9 +6,12 @@
 #include <set>
 
 #include "scenery_tiles.h"
+#include "trimtab/terrain/bake_heights.h"
+#include "trimtab/terrain/scenery_import.h"
 #include "trimtab/terrain/scenery_made.h"
 #include "trimtab/terrain/static_lod.h"
 #include "trimtab/terrain/static_lod_lattice.h"
+#include "trimtab/terrain/voids.h"
 
 /// Scenery and elevation in one terrain.
 namespace trimtab {
@@ -99,8 +102,31 @@ std::set<std::string> namesOf(const terrain::Scenery& scenery) {
   return names;
 }
 
-std::unique_ptr<terrain::SceneryCatalogue> catalogue(terrain::Scenery scenery) {
-  return std::make_unique<terrain::SceneryCatalogue>(std::move(scenery.tiles));
+/// As a bake does it.
+struct Merged {
+  std::vector<SceneryMesh> meshes;
+  terrain::SceneryCounts counts;
+  HeightGrid grid;  ///< no voids left
+};
+Result<Merged> merged(terrain::Scenery scenery, const HeightGrid& elevation, std::optional<Metres> distance) {
+  Merged all;
+  terrain::SceneryCatalogue tiles(std::move(scenery.tiles));
+  all.counts = tiles.counts();
+  const auto posts = terrain::postsOfBoth(tiles, elevation.posts, distance);
+  if (!posts) return posts.findings();
+  auto heights = terrain::SceneryHeights::open(tiles, *posts, {}, terrain::sourceOf(elevation));
+  if (!heights) return heights.findings();
+  all.grid.posts = *posts;
+  all.grid.heights.resize(posts->size());
+  if (auto read = (*heights)->readRows(0, posts->rows, all.grid.heights); !read) return read.findings();
+  terrain::fillVoids(all.grid);
+  const terrain::GridHeights baked(all.grid);
+  const auto where = terrain::elevationsPart(*posts, elevation.posts);
+  if (auto made = terrain::makeTiles(tiles, baked, where, {}); !made) return made.findings();
+  auto meshes = tiles.takeAll();
+  if (!meshes) return meshes.findings();
+  all.meshes = std::move(meshes).value();
+  return Result<Merged>(std::move(all));
 }
 
 terrain::Scenery oneTile() {
@@ -119,12 +145,12 @@ TEST(SceneryMerge, closesTheSurfaceAroundATile) {
   const auto names = namesOf(scenery);
   const auto elevation = elevationOver(
       6.6, 50.3, 7.6, 50.75, 0.001, [](double x, double y) { return 320 + 60 * std::sin(60 * x + 70 * y); });
-  const auto both = terrain::merged(catalogue(std::move(scenery)), elevation, {}, {});
+  const auto both = merged(std::move(scenery), elevation, {});
   ASSERT_TRUE(both) << toString(both.findings());
-  const auto meshes = both->tiles->takeAll();
+  const auto& meshes = both->meshes;
   // 5 columns of buckets, cut to 1 degree, by 4 rows, cut; but for the one that is there.
-  EXPECT_EQ(meshes->size(), 20U);
-  const Seams seams = seamsOf(*meshes, names, {6.6, 50.3, 7.6, 50.75});
+  EXPECT_EQ(meshes.size(), 20U);
+  const Seams seams = seamsOf(meshes, names, {6.6, 50.3, 7.6, 50.75});
   EXPECT_EQ(seams.madeTiles, 19U);
   EXPECT_EQ(seams.open, 0U);
   EXPECT_GT(seams.rim, 100U);
@@ -134,7 +160,7 @@ TEST(SceneryMerge, closesTheSurfaceAroundATile) {
 
   // And the trees of it: at every level the same borders, with no open edge but the rim.
   const LocalFrame frame({Degrees{50.5}, Degrees{7.1}, Metres{0}});
-  const auto trees = terrain::buildStaticLod(*meshes, frame, {});
+  const auto trees = terrain::buildStaticLod(meshes, frame, {});
   ASSERT_TRUE(trees) << toString(trees.findings());
   EXPECT_EQ((*trees)->tiles.size(), 20U);
 }
@@ -145,7 +171,7 @@ TEST(SceneryMerge, hasNoStepWhereTheSourcesDiffer) {
   const auto elevation = elevationOver(6.8, 50.4, 7.5, 50.75, 0.0005, [](double x, double y) {
     return 340 + 80 * std::sin(60 * x) * std::cos(80 * y);
   });
-  const auto both = terrain::merged(catalogue(std::move(scenery)), elevation, Metres{40}, {});
+  const auto both = merged(std::move(scenery), elevation, Metres{40});
   ASSERT_TRUE(both);
   const auto& posts = both->grid.posts;
   double steepest = 0, away = 0;
@@ -200,11 +226,11 @@ TEST_P(RealMerge, closesTheSurfaceBetweenBothKinds) {
     return std::find(without.begin(), without.end(), mesh.name) != without.end();
   });
   const auto names = namesOf(*scenery);
-  const auto both = terrain::merged(catalogue(std::move(scenery).value()), elevation, Metres{90}, {});
+  const auto both = merged(std::move(scenery).value(), elevation, Metres{90});
   ASSERT_TRUE(both) << toString(both.findings());
   const auto& e = elevation.posts;
-  const Seams seams = seamsOf(*both->tiles->takeAll(), names,
-                              {e.west, e.south, e.longitude(e.columns - 1), e.latitude(e.rows - 1)});
+  const Seams seams =
+      seamsOf(both->meshes, names, {e.west, e.south, e.longitude(e.columns - 1), e.latitude(e.rows - 1)});
   EXPECT_EQ(seams.madeTiles, GetParam().made);
   EXPECT_EQ(seams.open, 0U);
   EXPECT_LE(seams.slits, 1U);
