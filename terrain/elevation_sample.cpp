@@ -43,12 +43,17 @@ double mixed(const std::array<double, 4>& v, const std::array<double, 4>& weight
 }  // namespace
 
 float heightBetween(const RasterWindow& window, std::int64_t across, std::int64_t down, double x, double y) {
-  const Axis column = axisAt(x, across), row = axisAt(y, down);
   const auto at = [&](std::int64_t r, std::int64_t c) -> double {
     const std::int64_t i = r - window.row, j = c - window.column;
     if (i < 0 || j < 0 || i >= window.rows || j >= window.columns) return kVoid;
     return static_cast<double>(window.heights[static_cast<std::size_t>(i * window.columns + j)]);
   };
+  // A grid that has the file's posts asks for nothing else.
+  const auto onColumn = static_cast<std::int64_t>(x), onRow = static_cast<std::int64_t>(y);
+  if (static_cast<double>(onColumn) == x && static_cast<double>(onRow) == y && onColumn >= 0 && onRow >= 0 &&
+      onColumn < across && onRow < down)
+    return static_cast<float>(at(onRow, onColumn));
+  const Axis column = axisAt(x, across), row = axisAt(y, down);
   std::optional<double> level;
   bool isLevel = true;
   for (const int j : {0, 1})
