@@ -22,7 +22,7 @@ const void* offsetOf(std::uint32_t firstIndex, unsigned indexType) {
 
 bool sameNodes(std::span<const TileDraw> a, std::span<const TileDraw> b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const TileDraw& x, const TileDraw& y) {
-    return x.node == y.node && x.coarser == y.coarser;
+    return x.node == y.node && x.coarser == y.coarser && x.bothSides == y.bothSides;
   });
 }
 
@@ -87,38 +87,52 @@ bool MultiDraw::begin(std::span<const TileDraw> nodes, std::uint64_t places) {
   nodes_.assign(nodes.begin(), nodes.end());
   places_ = places;
   commands_.clear();
+  bothSides_ = 0;
   passed_ = false;
   ++made_;
   return true;
 }
 
-void MultiDraw::add(std::uint32_t firstIndex, std::uint32_t indices, std::uint32_t baseVertex) {
+void MultiDraw::add(std::uint32_t firstIndex, std::uint32_t indices, std::uint32_t baseVertex,
+                    bool bothSides) {
   commands_.push_back({indices, 1, firstIndex, static_cast<std::int32_t>(baseVertex),
                        static_cast<std::uint32_t>(commands_.size())});
+  if (bothSides) bothSides_ = commands_.size();
 }
 
 void MultiDraw::draw(unsigned vertexArray, unsigned indexType, bool numbered) {
   if (commands_.empty()) return;
   glBindVertexArray(vertexArray);
-  if (way_ == DrawWay::indirect)
-    drawIndirect(indexType);
-  else if (way_ == DrawWay::base_vertex && !numbered)
-    drawBaseVertex(indexType);
-  else
-    drawLoop(indexType, numbered);
+  const std::size_t both = bothSides_ > 0 && glIsEnabled(GL_CULL_FACE) ? bothSides_ : 0;
+  if (both > 0) {
+    glDisable(GL_CULL_FACE);
+    drawPart(indexType, numbered, 0, both);
+    glEnable(GL_CULL_FACE);
+  }
+  if (both < commands_.size()) drawPart(indexType, numbered, both, commands_.size() - both);
   glBindVertexArray(0);
 }
 
-void MultiDraw::drawIndirect(unsigned indexType) {
+void MultiDraw::drawPart(unsigned indexType, bool numbered, std::size_t first, std::size_t count) {
+  if (way_ == DrawWay::indirect)
+    drawIndirect(indexType, first, count);
+  else if (way_ == DrawWay::base_vertex && !numbered)
+    drawBaseVertex(indexType, first, count);
+  else
+    drawLoop(indexType, numbered, first, count);
+}
+
+void MultiDraw::drawIndirect(unsigned indexType, std::size_t first, std::size_t count) {
   // All of it anew, so that the driver need not wait for the frame that still reads the old.
   if (!passed_) uploadBuffer(buffer_, commands_.data(), commands_.size() * sizeof(Command));
   passed_ = true;
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, buffer_);
-  glMultiDrawElementsIndirect(GL_TRIANGLES, indexType, nullptr, static_cast<GLsizei>(commands_.size()), 0);
+  glMultiDrawElementsIndirect(GL_TRIANGLES, indexType, reinterpret_cast<const void*>(first * sizeof(Command)),
+                              static_cast<GLsizei>(count), 0);
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
 }
 
-void MultiDraw::drawBaseVertex(unsigned indexType) {
+void MultiDraw::drawBaseVertex(unsigned indexType, std::size_t first, std::size_t count) {
   if (!passed_) {
     counts_.clear();
     offsets_.clear();
@@ -130,12 +144,12 @@ void MultiDraw::drawBaseVertex(unsigned indexType) {
     }
     passed_ = true;
   }
-  glMultiDrawElementsBaseVertex(GL_TRIANGLES, counts_.data(), indexType, offsets_.data(),
-                                static_cast<GLsizei>(counts_.size()), baseVertices_.data());
+  glMultiDrawElementsBaseVertex(GL_TRIANGLES, counts_.data() + first, indexType, offsets_.data() + first,
+                                static_cast<GLsizei>(count), baseVertices_.data() + first);
 }
 
-void MultiDraw::drawLoop(unsigned indexType, bool numbered) {
-  for (const Command& c : commands_) {
+void MultiDraw::drawLoop(unsigned indexType, bool numbered, std::size_t first, std::size_t commands) {
+  for (const Command& c : std::span(commands_).subspan(first, commands)) {
     const auto count = static_cast<GLsizei>(c.indices);
     const void* offset = offsetOf(c.firstIndex, indexType);
     if (numbered)

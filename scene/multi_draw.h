@@ -59,8 +59,9 @@ class MultiDraw {
   /// False where the commands are those of these nodes already. True: they are forgotten, and to be added
   /// anew. `places` is a number that changes whenever a mesh's place may have; never 0.
   bool begin(std::span<const TileDraw> nodes, std::uint64_t places);
-  /// In the order in which they are to be drawn. Offsets and sizes in indices and vertices.
-  void add(std::uint32_t firstIndex, std::uint32_t indices, std::uint32_t baseVertex);
+  /// In the order in which they are to be drawn, which has those of `bothSides` first: they are drawn without
+  /// GL's face culling. Offsets and sizes in indices and vertices.
+  void add(std::uint32_t firstIndex, std::uint32_t indices, std::uint32_t baseVertex, bool bothSides = false);
   /// Triangles of the array's element buffer, whose indices are `indexType` (GL_UNSIGNED_SHORT or _INT). With
   /// `numbered`, attributes that advance by instance are read at the command's number among those added;
   /// glMultiDrawElementsBaseVertex cannot, so a loop takes its place.
@@ -76,15 +77,17 @@ class MultiDraw {
     std::int32_t baseVertex;
     std::uint32_t baseInstance;
   };
-  void drawIndirect(unsigned indexType);
-  void drawBaseVertex(unsigned indexType);
-  void drawLoop(unsigned indexType, bool numbered);
+  void drawPart(unsigned indexType, bool numbered, std::size_t first, std::size_t count);
+  void drawIndirect(unsigned indexType, std::size_t first, std::size_t count);
+  void drawBaseVertex(unsigned indexType, std::size_t first, std::size_t count);
+  void drawLoop(unsigned indexType, bool numbered, std::size_t first, std::size_t commands);
 
   DrawWay way_;
   std::vector<TileDraw> nodes_;
   std::uint64_t places_ = 0, made_ = 0;
   std::vector<Command> commands_;
-  bool passed_ = false;  ///< the commands are where the way wants them
+  std::size_t bothSides_ = 0;  ///< the first so many commands
+  bool passed_ = false;        ///< the commands are where the way wants them
   unsigned buffer_ = 0;
   std::vector<std::int32_t> counts_, baseVertices_;
   std::vector<const void*> offsets_;

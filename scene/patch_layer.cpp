@@ -264,7 +264,8 @@ void PatchLayer::draw(std::span<const TileDraw> patches) {
       if (!place || place->blocks == 0) continue;
       const std::uint32_t first = place->firstIndex[patch.coarser];
       const std::uint32_t count = place->firstIndex[patch.coarser + 1u] - first;
-      if (count > 0) m.surface.add(place->indexBlock * kIndexBlock + first, count, place->block * kBlock);
+      if (count > 0)
+        m.surface.add(place->indexBlock * kIndexBlock + first, count, place->block * kBlock, patch.bothSides);
     }
   m.surface.draw(m.vertexArray, GL_UNSIGNED_SHORT);
 }

@@ -14,6 +14,7 @@ in vec2 vertexPost;
 uniform samplerBuffer tints;
 uniform bool tinted;
 uniform bool wire;
+uniform float inGuardBand;
 uniform ivec2 eyePost;     // column and row
 out vec3 relative;         // metres from the eye
 out vec3 upward;
@@ -41,6 +42,7 @@ void main() {
   tint = tinted ? texelFetch(tints, block) : vec4(0.0);
   gl_Position = gl_ModelViewProjectionMatrix * vec4(p, 1.0);
   if (wire) gl_Position.z *= 1.002;  // nearer, as depth is reversed
+  gl_Position.xy *= inGuardBand;
 }
 )";
 

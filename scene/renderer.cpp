@@ -9,6 +9,7 @@
 #include "trimtab/scene/frame_buffer.h"
 #include "trimtab/scene/gl_api.h"
 #include "trimtab/scene/gl_report.h"
+#include "trimtab/scene/guard_band.h"
 #include "trimtab/scene/lines.h"
 #include "trimtab/scene/node_pass.h"
 #include "trimtab/scene/patch_drawer.h"
@@ -94,6 +95,7 @@ void Renderer::Impl::removeHidden() {
 void Renderer::Impl::prepare(const FrameRequest& r, FrameInProgress& frame) {
   SceneView& view = frame.view;
   view.shape = r.view;
+  view.guardBand = guardBandOf(r.view);
   view.sky = !r.overlays.showHoles;
   view.wireframe = r.overlays.wireframe;
   view.tinted = r.overlays.colourByReason || r.overlays.colourByLevel;

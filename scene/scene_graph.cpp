@@ -11,6 +11,7 @@
 #include <array>
 
 #include "trimtab/scene/gl_api.h"
+#include "trimtab/scene/guard_band.h"
 #include "trimtab/scene/shaders.h"
 #include "trimtab/scene/sun.h"
 
@@ -161,6 +162,8 @@ struct SceneGraph::Nodes {
   osg::ref_ptr<Pass> beforeWeather, afterWeather;
   PrecipitationNode precipitation;
   bool begun = false;  ///< this frame's drawing
+  ViewShape drawnShape;  ///< the frame's
+  int guardBand = 1;
 
   explicit Nodes(ScenePasses& passes) {
     makeState();
@@ -176,11 +179,17 @@ struct SceneGraph::Nodes {
     for (const TerrainForm form : kForms) {
       FormPasses& of = forms[static_cast<std::size_t>(form)];
       const TerrainShaders shaders = terrainShaders(form);
-      of.surface = addPass(root, passes.surface, 1, shaders.vertex.c_str(), shaders.fragment.c_str());
+      const auto inBand = [this](const ScenePasses::Call& call) -> ScenePasses::Call {
+        return [this, call](unsigned program) {
+          const WideViewport wide(drawnShape, guardBand);
+          if (call) call(program);
+        };
+      };
+      of.surface = addPass(root, inBand(passes.surface), 1, shaders.vertex.c_str(), shaders.fragment.c_str());
       of.surface->getStateSet()->addUniform(new osg::Uniform("wire", false));
-      of.wire = addPass(root, passes.wire, 2, shaders.vertex.c_str(), shaders.fragment.c_str());
+      of.wire = addPass(root, inBand(passes.wire), 2, shaders.vertex.c_str(), shaders.fragment.c_str());
       of.wire->getStateSet()->addUniform(new osg::Uniform("wire", true));
-      of.numbers = addPass(root, passes.numbers, 1, forNodes(shaders.vertex).c_str(), kNodeFragment);
+      of.numbers = addPass(root, inBand(passes.numbers), 1, forNodes(shaders.vertex).c_str(), kNodeFragment);
     }
     treePicture = addPass(root, std::move(passes.treePicture), 1, kTreeFlatVertex, kLineFragment);
     lines = addPass(root, std::move(passes.lines), 3, kLineVertex, kLineFragment);
@@ -336,6 +345,8 @@ void SceneGraph::frame(const SceneView& view, unsigned fbo) {
   uniforms.set("tangents", Type::FLOAT_VEC4, tangentsOf(view.shape));
   uniforms.set("dip", Type::FLOAT, static_cast<float>(view.horizonDip));
   uniforms.set("tinted", Type::BOOL, view.tinted);
+  uniforms.set("inGuardBand", Type::FLOAT, 1.0f / static_cast<float>(view.guardBand));
+  n.drawnShape = view.shape, n.guardBand = view.guardBand;
   const auto show = [](Pass& pass, bool on) { pass.setNodeMask(on ? ~0u : 0u); };
   for (const TerrainForm form : kForms) {
     const Nodes::FormPasses& of = n.forms[static_cast<std::size_t>(form)];

@@ -44,10 +44,10 @@ struct SceneView {
   Vec3 up{0, 0, 1};       ///< local vertical at the eye
   double horizonDip = 0;  ///< radians
   ViewShape shape;
+  int guardBand = 1;  ///< guard_band.h
   std::optional<DepthView> depth;
   /// An eye over the ground and above it never sees its underside: triangles that face away are dropped,
-  /// which saves a third of the frame. In every culling case: dropping them in one case alone changed 2
-  /// pixels in 288 views, slivers at silhouettes.
+  /// which saves a third of the frame. In every culling case, since guard_band.h says what it may change.
   bool oneSided = false;
   bool sky = true, tinted = false, wireframe = false, lines = false;
   std::optional<TerrainForm> form;  ///< of the terrain that is drawn; none: no terrain

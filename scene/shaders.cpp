@@ -17,6 +17,7 @@ uniform vec3 sun;          // unit, towards it
 uniform float hazeDistance;
 uniform bool tinted;
 uniform bool wire;
+uniform float inGuardBand;
 #ifdef STATIC_TREE
 layout(location = 5) in vec4 treeTint;
 #else
@@ -65,6 +66,7 @@ void main() {
     lit = vec3(0.05, 0.05, 0.08);
     gl_Position.z *= 1.002;  // nearer, as depth is reversed
   }
+  gl_Position.xy *= inGuardBand;
 }
 )";
 

@@ -4,7 +4,9 @@
 #include <bit>
 
 #include "trimtab/culling/box_distance.h"
+#include "trimtab/culling/frustum.h"
 #include "trimtab/scene/gl_api.h"
+#include "trimtab/scene/guard_band.h"
 #include "trimtab/scene/node_pass.h"
 #include "trimtab/scene/shaders.h"
 
@@ -49,17 +51,22 @@ void TerrainDrawer::addBounds() {
 
 void TerrainDrawer::draw(unsigned program) {
   drawn_ = shown();
-  arrange(drawn_, frame_->view.eye.position);
+  arrange(drawn_, frame_->view);
   drawSurface(program, drawn_);
 }
 
-void TerrainDrawer::arrange(std::vector<TileDraw>& nodes, Vec3 eye) const {
+void TerrainDrawer::arrange(std::vector<TileDraw>& nodes, const SceneView& view) const {
   places_.clear();
+  const Frustum uncut(view.eye, withGuardBand(view.shape, view.guardBand));
   const std::vector<Box>& boxes = bounds();
-  // A distance is not negative: its bits are in order too, also where the eye is no place.
-  for (const TileDraw& node : nodes) {
-    const auto distance = static_cast<float>(distanceSquared(boxes[node.node], eye));
-    places_.push_back({std::uint64_t{std::bit_cast<std::uint32_t>(distance)} << 32 | node.node, node});
+  // A distance is not negative: its bits are in order too, also where the eye is no place, and the first of
+  // them is free.
+  for (TileDraw& node : nodes) {
+    const auto distance = static_cast<float>(distanceSquared(boxes[node.node], view.eye.position));
+    node.bothSides = !uncut.holds(boxes[node.node]);
+    places_.push_back({std::uint64_t{!node.bothSides} << 63 |
+                           std::uint64_t{std::bit_cast<std::uint32_t>(distance)} << 32 | node.node,
+                       node});
   }
   std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) { return a.key < b.key; });
   std::transform(places_.begin(), places_.end(), nodes.begin(), [](const Place& p) { return p.node; });
@@ -89,7 +96,7 @@ std::size_t TerrainDrawer::prepareNumbers(const SceneView& view, bool unculled) 
     return 0;
   }
   nearView(cut(), bounds(), view.eye, view.shape, numbered_);
-  arrange(numbered_, view.eye.position);
+  arrange(numbered_, view);
   return upload(numbered_, false);
 }
 

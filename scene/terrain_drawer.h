@@ -78,9 +78,10 @@ class TerrainDrawer {
   /// Each with its colour (RGBA8).
   virtual void drawTinted(unsigned program, std::span<const TileDraw> nodes,
                           std::span<const std::uint32_t> colours) = 0;
-  /// Puts nodes into the order that they are drawn in: near ones first, as they hide others. It depends on
-  /// node and eye alone, so what is left out changes nothing in the order of the rest.
-  virtual void arrange(std::vector<TileDraw>& nodes, Vec3 eye) const;
+  /// Puts nodes into the order that they are drawn in: those drawn from both sides, then near ones first, as
+  /// they hide others. It depends on node and view alone, so what is left out changes nothing in the order of
+  /// the rest.
+  virtual void arrange(std::vector<TileDraw>& nodes, const SceneView& view) const;
 
   /// First of all in `prepare`.
   void begin(FrameInProgress& frame);
@@ -100,7 +101,7 @@ class TerrainDrawer {
  private:
   std::vector<std::uint32_t> tints_;
   struct Place {
-    std::uint64_t key;  ///< the square of its distance, then its number
+    std::uint64_t key;  ///< whether it is drawn from one side, the square of its distance, then its number
     TileDraw node;
   };
   mutable std::vector<Place> places_;

@@ -37,7 +37,7 @@ class TreeDrawer final : public TerrainDrawer {
   void drawTinted(unsigned program, std::span<const TileDraw> nodes,
                   std::span<const std::uint32_t> colours) override;
   /// They stand as they are drawn: StaticLodCulling::visible.
-  void arrange(std::vector<TileDraw>&, Vec3) const override {}
+  void arrange(std::vector<TileDraw>&, const SceneView&) const override {}
 
   struct Gl {
     StaticLodLayer layer;

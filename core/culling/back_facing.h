@@ -15,11 +15,10 @@
 /// that area (scene/data_extent tells). A line that ends at a place p from the side that the triangle at p
 /// turns away comes from below the surface. It began above, so it went through the surface before p, from
 /// above to below: through a front face, nearer than p. What is drawn there covers p, and with p every pixel
-/// that p could own. The same proof serves GL's face culling, but for
-/// slivers that rounding turns over: so that is the same in every culling case, and this test is held against
-/// pictures that have it. The far cut takes nothing from that: a nearer
-/// face is within it when p is. It fails for an eye below the surface or beyond the data, and where the near
-/// plane cuts the front face away. So the drawers ask only where their occlusion tests may hide anything.
+/// that p could own. The same proof serves GL's face culling, but for slivers that rounding turns over, of
+/// which scene/guard_band.h tells. The far cut takes nothing from that: a nearer face is within it when p is.
+/// It fails for an eye below the surface or beyond the data, and where the near plane cuts the front face
+/// away. So the drawers ask only where their occlusion tests may hide anything.
 ///
 /// Rounding. Pictures are made from vertices rounded to parts of a pixel, so that a triangle seen edge-on may
 /// turn over. kBackFacingMargin keeps nodes that have one so near its edge: what is left out is seen under

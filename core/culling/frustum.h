@@ -29,6 +29,22 @@ class Frustum {
 
   /// False only when no point of the box can be in the picture.
   bool mayShow(const Box& b) const {
+    return eachPlane(b, [](double middle, double reach, double offset, double margin) {
+      // Said so that a plane that is not a number drops nothing.
+      return !(middle + reach < offset - margin);
+    });
+  }
+
+  /// True only when every point of the box is within all planes: GL cuts no triangle there.
+  bool holds(const Box& b) const {
+    return eachPlane(b, [](double middle, double reach, double offset, double margin) {
+      return middle - reach > offset + margin;
+    });
+  }
+
+ private:
+  template <class Test>
+  bool eachPlane(const Box& b, Test test) const {
     const Vec3 centre = Vec3{0.5 * (double{b.minX} + b.maxX), 0.5 * (double{b.minY} + b.maxY),
                              0.5 * (double{b.minZ} + b.maxZ)} -
                         eye_;
@@ -40,13 +56,11 @@ class Frustum {
     for (const Plane& plane : planes_) {
       const double reach = half.x * std::abs(plane.normal.x) + half.y * std::abs(plane.normal.y) +
                            half.z * std::abs(plane.normal.z);
-      // Said so that a plane that is not a number drops nothing.
-      if (dot(plane.normal, centre) + reach < plane.offset - margin) return false;
+      if (!test(dot(plane.normal, centre), reach, plane.offset, margin)) return false;
     }
     return true;
   }
 
- private:
   Vec3 eye_;
   std::array<Plane, 5> planes_;
 };

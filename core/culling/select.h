@@ -29,6 +29,7 @@ enum class CullReason : std::uint8_t {
 struct TileDraw {
   std::uint32_t node = 0;
   std::uint8_t coarser = 0;
+  bool bothSides = false;  ///< drawn so although the picture has no back faces; set where draws are arranged
 };
 
 /// The cut through the levels for an eye's position: independent of view direction and of culling, so that

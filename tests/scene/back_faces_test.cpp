@@ -104,5 +104,18 @@ TEST_F(BackFaces, areDrawnForAnEyeBeyondTheDataOrBelowTheGround) {
   }
 }
 
+TEST_F(BackFaces, openNoRidgeWhereGlCutsTriangles) {
+  TRIMTAB_NEEDS_SHARED("data/dem-srtm3-everest");
+  ASSERT_TRUE(useShared("dem-srtm3-everest"));
+  // A sliver beside the picture's left edge; judged unrounded, it faces away (guard_band.h).
+  auto r = request({Degrees{27.526951337}, Degrees{86.273159672}, Metres{2612.9352}},
+                   {Degrees{151.820795}, Degrees{-4}, Degrees{0}});
+  r.lod.screenSpaceError = Pixels{0.5};
+  r.method = CullingCase::none;
+  const auto fronts = picture(r);
+  r.backFaces = false;
+  EXPECT_EQ(differing(fronts, picture(r)), 0u);
+}
+
 }  // namespace
 }  // namespace trimtab

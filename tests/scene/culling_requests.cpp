@@ -83,13 +83,14 @@ std::vector<scene::FrameRequest> CullingTruth::flight(int frames, unsigned seed)
       above = leg % 4 == 3 ? between(random, 1500, 4000) : between(random, 15, 400);
     }
     const bool stands = leg % 3 == 2;
+    const double stepM = leg % 2 == 1 ? kStepM * (4 + leg % 9) : kStepM;
     if (!stands) {
       const auto& info = database->info();
       const double heightM = 111e3 * (info.northEast.latitude - info.southWest.latitude).value(),
                    turned = course * kRadians;
       const double middle = (info.northEast.latitude + info.southWest.latitude).value() / 2;
       const double widthM = 111e3 * scene::widthOf(info).value() * std::cos(middle * kRadians);
-      east += kStepM * std::sin(turned) / widthM, north += kStepM * std::cos(turned) / heightM;
+      east += stepM * std::sin(turned) / widthM, north += stepM * std::cos(turned) / heightM;
       if (leg % 4 == 1) above += 2;
     }
     head += (step / (legFrames() / 2) % 2 == 0 ? kTurnDeg : -kTurnDeg);

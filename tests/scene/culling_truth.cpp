@@ -24,6 +24,14 @@ bool hasPicture(std::size_t view) {
   return view % 20 == view / 20 * 7 % 20;
 }
 
+/// Pixels that show something much farther than `truth` does: more than steps between two triangles at a
+/// ridge.
+std::size_t farther(const std::vector<float>& distances, const std::vector<float>& truth) {
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) n += distances[i] > 1.2f * truth[i];
+  return n;
+}
+
 /// Whether this process looks at a view or leg, of many: TRIMTAB_SHARD=2/5 is the third of five processes.
 bool inShard(std::size_t index) {
   static const std::pair<std::size_t, std::size_t> shard = [] {
@@ -70,7 +78,7 @@ CullingTruth::Owners CullingTruth::owners() {
   return {owned.begin(), owned.end()};
 }
 
-CullingTruth::View CullingTruth::truthOf(const scene::FrameRequest& r, bool withPicture) {
+CullingTruth::View CullingTruth::truthOf(const scene::FrameRequest& r, bool withPicture, bool bothSides) {
   View view;
   view.request = r;
   scene::FrameRequest whole = r;
@@ -82,6 +90,12 @@ CullingTruth::View CullingTruth::truthOf(const scene::FrameRequest& r, bool with
   view.owners = owners();
   if (withPicture) {
     view.picture = renderer.readPixels(r.view.widthPx, r.view.heightPx);
+    const auto distances = renderer.readDistances();
+    whole.backFaces = false;
+    draw(whole, true);
+    view.ridges = differing(view.picture, renderer.readPixels(r.view.widthPx, r.view.heightPx));
+    view.open = farther(distances, renderer.readDistances());
+    whole.backFaces = true;
     // Frozen where it stands nothing is left out for facing away either.
     const LocalFrame& frame = database->index().frame;
     whole.frozenEye = EyePose{frame.fromGeodetic(r.eye), eyeAxes(frame, r.eye, r.attitude)};
@@ -91,6 +105,12 @@ CullingTruth::View CullingTruth::truthOf(const scene::FrameRequest& r, bool with
           std::none_of(view.owners.begin(), view.owners.end(), [&](const auto& o) { return o.first == node; })
               ? pixels
               : 0;
+    whole.frozenEye.reset();
+  }
+  if (bothSides) {
+    whole.backFaces = false;
+    draw(whole, false);
+    view.owners = owners();
   }
 
   scene::FrameRequest frustum = r;
@@ -152,12 +172,14 @@ void CullingTruth::tell(const char* what, const std::string& method, const Tally
 void CullingTruth::proveViews(const std::vector<scene::FrameRequest>& requests, Sum& sum) {
   const auto methods = occlusionChoices();
   const bool everyBand = soak() > 1;
-  std::size_t views = 0, cut = 0, frustum = 0, hidden = 0, fromBehind = 0;
+  std::size_t views = 0, cut = 0, frustum = 0, hidden = 0, fromBehind = 0, both = 0, ridges = 0, open = 0;
   Tally plain;
   std::vector<std::array<Tally, kBands.size()>> tallies(methods.size());
   for (std::size_t i = 0; i < requests.size(); ++i) {
     if (!inShard(i / 20)) continue;
-    const View view = truthOf(requests[i], hasPicture(i));
+    const bool bothSides = i % 4 == 3;
+    const View view = truthOf(requests[i], hasPicture(i), bothSides);
+    both += bothSides, ridges += view.ridges, open += view.open;
     const bool pictured = !view.picture.empty();
     cut += view.cut, frustum += view.frustum, hidden += view.hidden;
     fromBehind += view.pixelsFromBehind;
@@ -179,6 +201,11 @@ void CullingTruth::proveViews(const std::vector<scene::FrameRequest>& requests, 
       "  %zu views: %zu nodes in their cuts, %zu in the frustum, %zu of these without a pixel; %zu pixels "
       "are of nodes that show their backs alone\n",
       views, cut, frustum, hidden, fromBehind);
+  std::printf(
+      "  owners of both sides in %zu of them; GL's face culling changes %zu pixels of the pictures, %zu show "
+      "what lies behind\n",
+      both, ridges, open);
+  EXPECT_EQ(open, 0u);
   sum.views += views;
   sum.all.add(plain);
   tell("views", "view_frustum", plain);
@@ -197,9 +224,10 @@ void CullingTruth::proveFlight(const std::vector<scene::FrameRequest>& requests,
   std::vector<View> views;
   for (std::size_t i = 0; i < requests.size(); ++i)
     if (inShard(i / static_cast<std::size_t>(legFrames())))
-      views.push_back(truthOf(requests[i], hasPicture(i)));
-  std::size_t hidden = 0;
-  for (const View& view : views) hidden += view.hidden;
+      views.push_back(truthOf(requests[i], hasPicture(i), i % 4 == 3));
+  std::size_t hidden = 0, open = 0;
+  for (const View& view : views) hidden += view.hidden, open += view.open;
+  EXPECT_EQ(open, 0u);
   std::printf("  %zu frames of flight: %zu nodes in the frustum without a pixel\n", views.size(), hidden);
   sum.frames += views.size();
   const auto follow = [&](OcclusionMethod method, const std::string& name) {

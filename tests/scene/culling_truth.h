@@ -37,6 +37,8 @@ class CullingTruth : public SceneTest {
     std::size_t cut = 0, frustum = 0;   ///< nodes of the cut, and in the frustum
     std::size_t hidden = 0;             ///< of those in the frustum: none of their pixels shows
     std::size_t pixelsFromBehind = 0;   ///< with the picture: of nodes that show nothing but their backs
+    std::size_t ridges = 0, open = 0;   ///< with the picture: pixels that GL's face culling changes, and of
+                                        ///< these such that show what lies behind a ridge
     std::vector<std::uint8_t> picture;  ///< of the unculled scene; empty but for one view in twenty
   };
 
@@ -56,8 +58,9 @@ class CullingTruth : public SceneTest {
   /// Views of all kinds: low and high, in valleys, steep, rolled, lopsided, narrow and wide, at the finest
   /// levels and at coarse ones, in fog, beyond the data's edge and below the ground.
   std::vector<scene::FrameRequest> anyViews(int count, unsigned seed) const;
-  /// Frames at 60 Hz on one path: 600 kt low over the ground, the head turning at 200 deg/s to both sides;
-  /// standing while it turns; a leap to somewhere else after each leg.
+  /// Frames at 60 Hz on one path: 600 kt low over the ground, or as far a frame as at 15 Hz and up to three
+  /// times as fast; the head turning at 200 deg/s to both sides; standing while it turns; a leap to somewhere
+  /// else after each leg.
   std::vector<scene::FrameRequest> flight(int frames, unsigned seed) const;
   /// Long enough for what is built ahead over many frames, where there is time for it.
   static int legFrames() { return soak() > 1 ? 48 : 8; }
@@ -66,7 +69,8 @@ class CullingTruth : public SceneTest {
   static std::string describe(const scene::FrameRequest& r);
 
   /// Draws a view without culling, and by the frustum alone. `withPicture`: keeps the unculled picture.
-  View truthOf(const scene::FrameRequest& request, bool withPicture);
+  /// `bothSides`: the owners are those of a scene without GL's face culling too.
+  View truthOf(const scene::FrameRequest& request, bool withPicture, bool bothSides = false);
   /// Adds what a method finds. `wholly`: with all that a frame does, and its picture where the view has one;
   /// else only its visible set is made, and maps of the GPU.
   void compare(const View& view, CullingCase culling, OcclusionMethod method, DepthMapSize band, Tally& tally,

@@ -1,0 +1,43 @@
+#include "trimtab/scene/guard_band.h"
+
+#include <algorithm>
+
+#include "trimtab/scene/gl_api.h"
+
+namespace trimtab::scene {
+namespace {
+
+constexpr int kTimes = 4;
+
+}  // namespace
+
+int guardBandOf(const ViewShape& view) {
+  GLint most[2] = {0, 0};
+  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, most);
+  int times = kTimes;
+  while (times > 1 && (view.widthPx > most[0] / times || view.heightPx > most[1] / times)) times /= 2;
+  return times;
+}
+
+ViewShape withGuardBand(const ViewShape& view, int times) {
+  ViewShape wide = view;
+  const double beyondX = 0.5 * (times - 1) * (view.right - view.left),
+               beyondY = 0.5 * (times - 1) * (view.top - view.bottom);
+  wide.left -= beyondX, wide.right += beyondX;
+  wide.bottom -= beyondY, wide.top += beyondY;
+  return wide;
+}
+
+WideViewport::WideViewport(const ViewShape& view, int times)
+    : widthPx_(view.widthPx), heightPx_(view.heightPx) {
+  // Floats, as the edge of an odd size is at half a pixel.
+  const auto width = static_cast<float>(widthPx_), height = static_cast<float>(heightPx_),
+             beyond = 0.5f * static_cast<float>(times - 1), wide = static_cast<float>(times);
+  glViewportIndexedf(0, -beyond * width, -beyond * height, wide * width, wide * height);
+}
+
+WideViewport::~WideViewport() {
+  glViewport(0, 0, widthPx_, heightPx_);
+}
+
+}  // namespace trimtab::scene
