@@ -21,6 +21,9 @@ constexpr double kUsual = 4;
 constexpr double kFollowsTriangles = 0.5;
 /// What a method is taken to cost before it was tried, as a share of the frame.
 constexpr double kUnknownShare = 0.2;
+/// Of what the method in use leaves to be drawn, another one is taken to hide so much at most; and where it
+/// saves so many times its cost, none is no better.
+constexpr double kMostOfRest = 1.0 / 3, kSurelySaves = 4;
 /// What its very first frame is believed to have cost, at most.
 constexpr double kMostFirstShare = 0.5;
 
@@ -65,11 +68,24 @@ double OcclusionChoice::startMs(std::size_t arm) const {
   return std::max(0.0, arms_[arm].firstMs - arms_[arm].costMs);
 }
 
+/// Whether it would be no better than the one in use though it hid a good part of what that leaves: what it
+/// costs is known from its last trial, what is left to gain from every frame.
+bool OcclusionChoice::isHopeless(std::size_t arm) const {
+  const Arm &a = arms_[arm], &current = arms_[current_];
+  if (!a.known || !current.known || arm == current_) return false;
+  const double all = msPerTriangle() * inView_;
+  if (arm == 0) return all * current.share > kSurelySaves * current.costMs;
+  return a.costMs - current.costMs > kMostOfRest * all * (1 - current.share);
+}
+
 bool OcclusionChoice::isDue(std::size_t arm, const Situation& now) const {
   const Arm& a = arms_[arm];
-  return !a.known || a.last.rule != now.rule || now.timeMs - a.last.timeMs > a.patience * kBelievedMs ||
-         length(now.eye - a.last.eye) > a.patience * kBelievedM ||
-         turned(now.forward, a.last.forward) > a.patience * kBelievedTurn;
+  const bool hopeless = isHopeless(arm);
+  const double patience = a.patience * (hopeless ? kHopelessPatience : 1);
+  return !a.known || (a.last.rule != now.rule && !hopeless) ||
+         now.timeMs - a.last.timeMs > patience * kBelievedMs ||
+         length(now.eye - a.last.eye) > patience * kBelievedM ||
+         turned(now.forward, a.last.forward) > patience * kBelievedTurn;
 }
 
 /// What a trial is likely to lose against the method in use.
@@ -157,7 +173,7 @@ void OcclusionChoice::learnArm(const Outcome& outcome) {
   } else {
     arm.costMs = follow(arm.costMs, outcome.occlusionMs);
   }
-  if (served_ == current_ || arm.last.rule != now_.rule)
+  if (served_ == current_ || (arm.last.rule != now_.rule && !isHopeless(served_)))
     arm.patience = 1;
   else if (first)
     arm.patience = std::min(2 * arm.patience, kMostPatience);
@@ -182,8 +198,10 @@ void OcclusionChoice::learn(const Outcome& outcome) {
   if (trial) {
     const double loss = std::max(0.0, worth(current_) - worthNow);
     arms_[served_].purseMs -= arms_[served_].frames == 1 ? std::min(loss, 2 * frameMs_) : loss;
-    // Even for nothing it would not be better: no more of it.
-    if (served_ != 0 && msPerTriangle() * static_cast<double>(outcome.hidden) <= worth(current_) + 1e-3)
+    // Even for nothing it would not be better, or not at what its second frame has cost: no more of it.
+    const double cost = arms_[served_].frames > 1 ? arms_[served_].costMs : 0;
+    if (served_ != 0 &&
+        msPerTriangle() * static_cast<double>(outcome.hidden) - cost <= worth(current_) + 1e-3)
       trialLeft_ = 0;
   } else if (first && before_ < kArms)  // after a trial of another one, or for good
     arms_[before_].purseMs -= std::max(0.0, outcome.occlusionMs - arms_[served_].costMs);

@@ -25,6 +25,9 @@ class OcclusionChoice {
   // kMostPatience times as long.
   static constexpr double kBelievedMs = 1000, kBelievedM = 50, kBelievedTurn = 0.1;  ///< the last: radians
   static constexpr double kMostPatience = 4;
+  /// And what could not win so much as its own cost, as far as is known: so many times as long again,
+  /// whatever the rule.
+  static constexpr double kHopelessPatience = 8;
 
   using Method = std::optional<OcclusionMethod>;  ///< none: nothing looks
 
@@ -72,6 +75,7 @@ class OcclusionChoice {
   static Method methodOf(std::size_t arm);
   double worth(std::size_t arm) const;
   double startMs(std::size_t arm) const;
+  bool isHopeless(std::size_t arm) const;
   bool isDue(std::size_t arm, const Situation& now) const;
   double lossOfTrying(std::size_t arm) const;
   std::size_t best(std::span<const std::size_t> arms) const;

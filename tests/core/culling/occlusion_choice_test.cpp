@@ -234,6 +234,39 @@ TEST(OcclusionChoice, triesLessOftenWhatNeverPays) {
   EXPECT_GT(total.trials, 2000u * 3 / 11 / 8) << "it will be worth it somewhere";
 }
 
+/// Maps that cost more than a third of what the horizon leaves to be drawn.
+TEST(OcclusionChoice, seldomTriesWhatCouldNotWinItsOwnCost) {
+  const Machine mountains{6, 7e-5, {{0.15, 1.5, 0.75}, {2.2, 3.2, 0.81}, {2, 2, 0.79}}};
+  for (const bool sameRule : {true, false}) {
+    Flight flight = still(mountains);
+    flight.turn = 0.002;
+    flight.noise = 0.05;
+    if (!sameRule) flight.rule = [](int i) -> std::uint64_t { return static_cast<std::uint64_t>(i / 60); };
+    const Total total = fly(flight);
+    EXPECT_GT(shareOf(total, OcclusionMethod::horizon), 0.97);
+    EXPECT_LE(total.ms, total.bestFixedMs * 1.008);
+    EXPECT_LT(total.trials, 70u);
+    EXPECT_LT(shareOf(total, OcclusionMethod::horizon), 1) << "it is not believed for ever";
+  }
+}
+
+TEST(OcclusionChoice, findsWhatHadNoHopeOnceThereIsMuchLeftToHide) {
+  Flight flight;
+  flight.triangles = 250e3;
+  flight.machine = [&flight](int i) {
+    const bool later = 2 * i >= flight.frames;
+    return Machine{6, 7e-5, {{0.15, 1.5, later ? 0.2 : 0.75}, {2.2, 3.2, 0.81}, {2, 2, 0.79}}};
+  };
+  const Total total = fly(flight);
+  const auto middle = total.methods.begin() + static_cast<std::ptrdiff_t>(total.methods.size() / 2);
+  const auto isMap = [](Method m) {
+    return m == OcclusionMethod::cpu_map || m == OcclusionMethod::horizon_and_map;
+  };
+  EXPECT_LT(std::count_if(total.methods.begin(), middle, isMap), 60);
+  // Within half a second.
+  EXPECT_GT(std::count_if(middle, total.methods.end(), isMap), total.methods.end() - middle - 100);
+}
+
 TEST(OcclusionChoice, choosesAmongWhatCanServe) {
   OcclusionChoice choice;
   const OcclusionMethod one[] = {OcclusionMethod::cpu_map};
