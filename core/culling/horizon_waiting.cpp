@@ -9,9 +9,10 @@ using namespace horizon;
 
 namespace {
 
-/// Lines that reach above what is asked for by less than this share of its w are left alone: of those that
-/// do, one in five proves it, and they were half of all that were looked at 1,500 m above rough ground.
-constexpr float kLeastRise = 0.03f;
+/// Lines that reach above what is asked for by less than this share of its w, and less than so much, are left
+/// alone: one in five of them proves it, and they were half of all that were looked at 1,500 m above rough
+/// ground.
+constexpr float kLeastShare = 0.03f, kLeastRise = 0.003f;
 
 }  // namespace
 
@@ -84,7 +85,7 @@ bool Horizon::lift(int side, int column, float w) {
   const float& reached = profile_[at(side, column)];
   if (reached > w) return true;
   float& awaited = awaited_[at(side, column)];
-  const float worth = w + kLeastRise * std::abs(w);
+  const float worth = w + std::min(kLeastShare * std::abs(w), kLeastRise);
   if (!(awaited > worth)) return false;
   const auto number = static_cast<std::size_t>(side * binsEach_ + (column >> binShift_));
   const auto& bin = bins_[number];
