@@ -3,15 +3,25 @@
 #include <algorithm>
 
 #include "trimtab/scene/gl_api.h"
+#include "trimtab/scene/gl_report.h"
 
 namespace trimtab::scene {
 namespace {
 
 constexpr int kTimes = 4;
 
+/// Mesa's software rasterisers say that they have no bits for it, and keep floats.
+bool viewportsBeginAtHalves() {
+  GLint bits = 0;
+  glGetIntegerv(GL_VIEWPORT_SUBPIXEL_BITS, &bits);
+  return bits > 0 || contextIsSoftware();
+}
+
 }  // namespace
 
 int guardBandOf(const ViewShape& view) {
+  // The wide viewport of an odd size begins at half a pixel.
+  if ((view.widthPx % 2 != 0 || view.heightPx % 2 != 0) && !viewportsBeginAtHalves()) return 1;
   GLint most[2] = {0, 0};
   glGetIntegerv(GL_MAX_VIEWPORT_DIMS, most);
   int times = kTimes;

@@ -24,7 +24,8 @@
 namespace trimtab::scene {
 
 /// How many times wider and higher than the picture: a power of two, so that no vertex moves by its rounding,
-/// or 1 where the context's viewports are too small. The context is current.
+/// or 1 where the context's viewports are too small, or begin at whole pixels alone and the picture's size is
+/// odd. The context is current.
 int guardBandOf(const ViewShape& view);
 
 /// What GL does not cut, `times` as wide and high about the picture's middle.
