@@ -29,6 +29,7 @@ class PatchDrawer final : public TerrainDrawer {
 
  private:
   const std::vector<Box>& bounds() const override { return terrain_->index().bounds; }
+  std::span<const NormalCone> cones() const override { return terrain_->index().cones; }
   int levelOf(TileDraw patch) const override;
   /// They are: what is not on the GPU is in no cut.
   std::size_t upload(std::span<const TileDraw>, bool) override { return 0; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "trimtab/culling/back_facing.h"
 #include "trimtab/culling/box_distance.h"
 #include "trimtab/culling/frustum.h"
 #include "trimtab/scene/gl_api.h"
@@ -59,11 +60,15 @@ void TerrainDrawer::arrange(std::vector<TileDraw>& nodes, const SceneView& view)
   places_.clear();
   const Frustum uncut(view.eye, withGuardBand(view.shape, view.guardBand));
   const std::vector<Box>& boxes = bounds();
+  const std::span<const NormalCone> normals = cones();
+  const auto isAway = [&](std::uint32_t node) {
+    return !normals.empty() && facesAway(normals[node], boxes[node], view.eye.position);
+  };
   // A distance is not negative: its bits are in order too, also where the eye is no place, and the first of
   // them is free.
   for (TileDraw& node : nodes) {
     const auto distance = static_cast<float>(distanceSquared(boxes[node.node], view.eye.position));
-    node.bothSides = !uncut.holds(boxes[node.node]);
+    node.bothSides = !uncut.holds(boxes[node.node]) && !isAway(node.node);
     places_.push_back({std::uint64_t{!node.bothSides} << 63 |
                            std::uint64_t{std::bit_cast<std::uint32_t>(distance)} << 32 | node.node,
                        node});

@@ -70,6 +70,8 @@ class TerrainDrawer {
 
  protected:
   virtual const std::vector<Box>& bounds() const = 0;
+  /// One a node, or none.
+  virtual std::span<const NormalCone> cones() const { return {}; }
   /// As colourByLevel shows it.
   virtual int levelOf(TileDraw node) const = 0;
   /// Makes sure that they are on the GPU, or makes them `anew`; returns how many were made.
@@ -79,8 +81,8 @@ class TerrainDrawer {
   virtual void drawTinted(unsigned program, std::span<const TileDraw> nodes,
                           std::span<const std::uint32_t> colours) = 0;
   /// Puts nodes into the order that they are drawn in: those drawn from both sides, then near ones first, as
-  /// they hide others. It depends on node and view alone, so what is left out changes nothing in the order of
-  /// the rest.
+  /// they hide others. Which have both sides, and the order, depend on node and view alone, so what is left
+  /// out changes nothing in the rest; nodes that face away have none, as some culling cases leave them out.
   virtual void arrange(std::vector<TileDraw>& nodes, const SceneView& view) const;
 
   /// First of all in `prepare`.

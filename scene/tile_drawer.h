@@ -35,6 +35,7 @@ class TileDrawer final : public TerrainDrawer {
 
  private:
   const std::vector<Box>& bounds() const override { return database_->index().bounds; }
+  std::span<const NormalCone> cones() const override { return database_->index().cones; }
   int levelOf(TileDraw node) const override { return database_->index().level[node.node]; }
   std::size_t upload(std::span<const TileDraw> nodes, bool anew) override {
     return gl_->tiles.prepare(nodes, anew);
