@@ -21,8 +21,8 @@ constexpr double kUsual = 4;
 constexpr double kFollowsTriangles = 0.5;
 /// What a method is taken to cost before it was tried, as a share of the frame.
 constexpr double kUnknownShare = 0.2;
-/// Of what the method in use leaves to be drawn, another one is taken to hide so much at most; and where it
-/// saves so many times its cost, none is no better.
+/// Of what the method in use leaves to be drawn, another one is taken to hide so much at most (of what none
+/// leaves, all); and where it saves so many times its cost, none is no better.
 constexpr double kMostOfRest = 1.0 / 3, kSurelySaves = 4;
 /// What its very first frame is believed to have cost, at most.
 constexpr double kMostFirstShare = 0.5;
@@ -75,6 +75,7 @@ bool OcclusionChoice::isHopeless(std::size_t arm) const {
   if (!a.known || !current.known || arm == current_) return false;
   const double all = msPerTriangle() * inView_;
   if (arm == 0) return all * current.share > kSurelySaves * current.costMs;
+  if (current_ == 0) return a.costMs > all;
   return a.costMs - current.costMs > kMostOfRest * all * (1 - current.share);
 }
 
@@ -164,7 +165,8 @@ void OcclusionChoice::learnArm(const Outcome& outcome) {
     if (arm.frames == 0)
       arm.firstMs = arm.costMs = std::min(outcome.occlusionMs, kMostFirstShare * frameMs_);
     else
-      arm.costMs = arm.frames == 1 ? outcome.occlusionMs : std::min(arm.costMs, outcome.occlusionMs);
+      // No more than starting took: a second frame that is late for reasons of its own ends no trial.
+      arm.costMs = std::min(arm.frames == 1 ? arm.firstMs : arm.costMs, outcome.occlusionMs);
     ++arm.frames;
   } else if (first && arm.firstMs > 0) {
     const double before = arm.firstMs;
