@@ -147,12 +147,18 @@ class Job {
            ("ground-" + std::to_string(part + 1) + "-of-" + std::to_string(parts) + ".pages");
   }
 
+  /// Asked after whatever reads heights: what could not be read is 0 m there.
+  Result<Done> allRead() const {
+    if (file_->failed()) return refused(work_->database() / kHeightsName, "rows that can be read", "others");
+    return Done{};
+  }
+
   Result<Done> makePart(std::uint32_t part, std::uint32_t parts) {
     if (auto made =
             patches_->make(*file_, part, parts, memory_, stage(scenery_ ? 0.15 : 0.3, scenery_ ? 0.2 : 0.7));
         !made)
       return made;
-    if (file_->failed()) return refused(work_->database() / kHeightsName, "rows that can be read", "others");
+    if (auto read = allRead(); !read) return read;
     if (const fs::path file = groundPart(part, parts); !PageFile::open(file)) {
       GroundSources sources;
       sources.heights = file_.get();
@@ -272,6 +278,7 @@ class Job {
     if (!built) return built.findings();
     keep(built.findings());
     const auto withSea = withOpenSea(*built, *meshes, *file_);
+    if (auto read = allRead(); !read) return read;
     trianglesPerNode_ = withSea->trianglesPerNode;
     const fs::path file = work_->database() / kStaticLodName;
     if (auto written = writeStaticLod(file, *withSea); !written) return written.findings();
