@@ -130,6 +130,7 @@ struct QueryPeers::Impl {
     state->addUniform(new osg::Uniform("hazeDistance", 110e3f));
     state->addUniform(new osg::Uniform("tinted", false));
     state->addUniform(new osg::Uniform("wire", false));
+    state->addUniform(new osg::Uniform("inGuardBand", 1.0f));
     state->addUniform(new osg::Uniform("slots", scene::kSlotUnit));
     state->addUniform(new osg::Uniform("tints", scene::kTintUnit));
     // OSG culls in the terrain's frame, the vertices are relative to the eye.

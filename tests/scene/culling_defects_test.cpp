@@ -51,7 +51,7 @@ TEST_F(CullingDefects, areSoughtInTheSetsOfDrawnFrames) {
       const auto nodes = [&](bool wholly) {
         const unsigned long before = test::Undrawn::calls();
         const auto result = draw(r, wholly);
-        EXPECT_EQ(test::Undrawn::calls() > before, !wholly);
+        EXPECT_EQ(test::Undrawn::calls() > before, !wholly && !result.visible.tiles.empty());
         occluded += result.visible.occluded;
         return nodesOf(result.visible);
       };
