@@ -29,11 +29,12 @@ inline constexpr std::array kViewRows{
     row<&TuningParameters::culling, &CullingParameters::backFaces>(
         {.key = "culling.back_faces",
          .label = "Leave out back faces",
-         .help = "What shows only its back is left out: triangles by GL, in every culling case, and tiles "
-                 "and patches all of whose triangles face away. Only while the eye is over the terrain and"
-                 " above the ground, where nearer ground hides every back. Off: both sides are drawn; "
-                 "slivers along ridges may then win single pixels. Static trees are always drawn from both"
-                 " sides.",
+         .help =
+             "What shows only its back is left out: triangles by GL, in every culling case, and tiles "
+             "and patches all of whose triangles face away. Only while the eye is over the terrain and"
+             " above the ground, where nearer ground hides every back. Off: both sides are drawn; "
+             "slivers along ridges may then win single pixels (over Everest, in one picture of 640 x 360 in "
+             "six). Static trees are always drawn from both sides.",
          .source = "A: view-frustum and back-face culling together"}),
     row<&TuningParameters::lod, &LodParameters::screenSpaceError>(
         {.key = "lod.screen_space_error_px",
