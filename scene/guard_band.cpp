@@ -10,22 +10,22 @@ namespace {
 
 constexpr int kTimes = 4;
 
-/// Mesa's software rasterisers say that they have no bits for it, and keep floats.
-bool viewportsBeginAtHalves() {
-  GLint bits = 0;
-  glGetIntegerv(GL_VIEWPORT_SUBPIXEL_BITS, &bits);
-  return bits > 0 || contextIsSoftware();
-}
-
 }  // namespace
 
-int guardBandOf(const ViewShape& view) {
-  // The wide viewport of an odd size begins at half a pixel.
-  if ((view.widthPx % 2 != 0 || view.heightPx % 2 != 0) && !viewportsBeginAtHalves()) return 1;
-  GLint most[2] = {0, 0};
+ViewportLimits viewportLimitsOfContext() {
+  GLint most[2] = {0, 0}, bits = 0;
   glGetIntegerv(GL_MAX_VIEWPORT_DIMS, most);
+  glGetIntegerv(GL_VIEWPORT_SUBPIXEL_BITS, &bits);
+  // Mesa's software rasterisers say that they have no bits for it, and keep floats.
+  return {most[0], most[1], bits > 0 || contextIsSoftware()};
+}
+
+int guardBandOf(const ViewShape& view, const ViewportLimits& limits) {
+  // The wide viewport of an odd size begins at half a pixel.
+  if ((view.widthPx % 2 != 0 || view.heightPx % 2 != 0) && !limits.beginAtHalves) return 1;
   int times = kTimes;
-  while (times > 1 && (view.widthPx > most[0] / times || view.heightPx > most[1] / times)) times /= 2;
+  while (times > 1 && (view.widthPx > limits.widthPx / times || view.heightPx > limits.heightPx / times))
+    times /= 2;
   return times;
 }
 

@@ -23,10 +23,17 @@
 /// shader before the rasteriser does) may lose slivers still.
 namespace trimtab::scene {
 
+/// What a context's viewports may be.
+struct ViewportLimits {
+  int widthPx = 0, heightPx = 0;  ///< at most
+  bool beginAtHalves = false;     ///< of pixels
+};
+/// Of the current one.
+ViewportLimits viewportLimitsOfContext();
+
 /// How many times wider and higher than the picture: a power of two, so that no vertex moves by its rounding,
-/// or 1 where the context's viewports are too small, or begin at whole pixels alone and the picture's size is
-/// odd. The context is current.
-int guardBandOf(const ViewShape& view);
+/// or 1 where viewports are too small, or begin at whole pixels alone and the picture's size is odd.
+int guardBandOf(const ViewShape& view, const ViewportLimits& limits);
 
 /// What GL does not cut, `times` as wide and high about the picture's middle.
 ViewShape withGuardBand(const ViewShape& view, int times);

@@ -54,6 +54,7 @@ struct Renderer::Impl {
     SymbologyPass symbology;
     StageClock clock;
     SceneGraph graph;
+    const ViewportLimits viewports = viewportLimitsOfContext();
   };
   std::unique_ptr<Gl> gl;
 
@@ -95,7 +96,7 @@ void Renderer::Impl::removeHidden() {
 void Renderer::Impl::prepare(const FrameRequest& r, FrameInProgress& frame) {
   SceneView& view = frame.view;
   view.shape = r.view;
-  view.guardBand = guardBandOf(r.view);
+  view.guardBand = guardBandOf(r.view, gl->viewports);
   view.sky = !r.overlays.showHoles;
   view.wireframe = r.overlays.wireframe;
   view.tinted = r.overlays.colourByReason || r.overlays.colourByLevel;

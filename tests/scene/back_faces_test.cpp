@@ -4,6 +4,7 @@
 #include "patched_terrain.h"
 #include "scene_test.h"
 #include "steep_roofs.h"
+#include "trimtab/scene/guard_band.h"
 
 /// Tiles and patches that show only their backs are left out, and no picture tells.
 namespace trimtab {
@@ -102,6 +103,23 @@ TEST_F(BackFaces, areDrawnForAnEyeBeyondTheDataOrBelowTheGround) {
     EXPECT_EQ(seen.leftOut, 0u);
     EXPECT_EQ(seen.differing + seen.slivers, 0u);
   }
+}
+
+TEST(GuardBand, isAsWideAsViewportsAllow) {
+  const auto times = [](int width, int height, const scene::ViewportLimits& limits) {
+    ViewShape view;
+    view.widthPx = width, view.heightPx = height;
+    return scene::guardBandOf(view, limits);
+  };
+  EXPECT_EQ(times(1280, 720, {16384, 16384, true}), 4);
+  EXPECT_EQ(times(4096, 4096, {16384, 16384, true}), 4);
+  EXPECT_EQ(times(4098, 2000, {16384, 16384, true}), 2);
+  EXPECT_EQ(times(2000, 8194, {16384, 16384, true}), 1);
+  EXPECT_EQ(times(1281, 720, {16384, 16384, true}), 4);
+  EXPECT_EQ(times(1281, 720, {16384, 16384, false}), 1);
+  EXPECT_EQ(times(1280, 721, {16384, 16384, false}), 1);
+  EXPECT_EQ(times(1280, 720, {16384, 16384, false}), 4);
+  EXPECT_EQ(times(1280, 720, {}), 1);
 }
 
 TEST_F(BackFaces, openNoRidgeWhereGlCutsTriangles) {
