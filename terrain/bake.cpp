@@ -1,7 +1,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <future>
 #include <thread>
 
 #include "trimtab/terrain/bake_heights.h"
@@ -38,6 +40,9 @@ auto orFinding(const fs::path& where, const Work& work) -> decltype(work()) {
   }
 }
 
+/// Patches and ground are made at the same time where they may take so much, bytes.
+constexpr std::size_t kBesideBytes = std::size_t{512} << 20;
+
 /// An image over the colours of materials: those stay where it has nothing.
 void drape(std::vector<std::uint8_t> image, std::vector<std::uint8_t>& under) {
   if (under.empty()) {
@@ -62,7 +67,7 @@ class Job {
     if (join) {
       if (auto there = allThere(); !there) return there.findings();
     } else {
-      if (auto made = makePart(0, 1); !made) return made.findings();
+      if (auto made = makePart(0, 1, true); !made) return made.findings();
     }
     if (auto made = finish(join); !made) return made.findings();
     auto database = Database::open(output_);
@@ -76,7 +81,7 @@ class Job {
     if (part < 1 || part > parts)
       return refused("bake", "a part from 1 to " + std::to_string(parts), std::to_string(part));
     if (auto begun = begin(WorkFolder::Use::part); !begun) return begun.findings();
-    if (auto made = makePart(part - 1, parts); !made) return made.findings();
+    if (auto made = makePart(part - 1, parts, false); !made) return made.findings();
     return Result<Done>(Done{}, findings_);
   }
 
@@ -153,25 +158,42 @@ class Job {
     return Done{};
   }
 
-  Result<Done> makePart(std::uint32_t part, std::uint32_t parts) {
-    if (auto made =
-            patches_->make(*file_, part, parts, memory_, stage(scenery_ ? 0.15 : 0.3, scenery_ ? 0.2 : 0.7));
-        !made)
-      return made;
-    if (auto read = allRead(); !read) return read;
-    if (const fs::path file = groundPart(part, parts); !PageFile::open(file)) {
-      GroundSources sources;
-      sources.heights = file_.get();
-      sources.geometry = geometry_.get();
-      if (options_.imagery) sources.images = {*options_.imagery};
-      std::optional<SceneryGround> triangles;
-      if (source_->tiles)
-        sources.triangles =
-            &triangles.emplace(*source_->tiles, heights_.posts.longitude((heights_.posts.columns - 1) / 2.0));
-      const Progress progress = stage(scenery_ ? 0.2 : 0.7, scenery_ ? 0.25 : 0.9);
-      if (auto made = buildGroundPart(sources, part, parts, file, progress); !made) return made;
-    }
-    return Done{};
+  /// Patches and ground of a share, and of the whole what its tiles are drawn by.
+  Result<Done> makePart(std::uint32_t part, std::uint32_t parts, bool whole) {
+    // Side by side, where memory holds both: the ground is one core's work for long, and patches, in many
+    // small pieces, take whatever time of the cores is left.
+    const bool beside = memory_ >= kBesideBytes;
+    std::atomic<bool> stop{false};
+    const Progress told = stage(scenery_ ? 0.2 : 0.7, scenery_ ? 0.25 : 0.9);
+    const Progress other = [&](double share, const std::string& what) {
+      return beside ? !stop : told(share, what);
+    };
+    auto ground = std::async(
+        beside ? std::launch::async | std::launch::deferred : std::launch::deferred, [&]() -> Result<Done> {
+          if (auto made = makeGround(part, parts, other); !made) return made;
+          return beside && whole && tileBytes() <= memory_ / 4 ? measureTiles(other) : Done{};
+        });
+    auto made =
+        patches_->make(*file_, part, parts, memory_, stage(scenery_ ? 0.15 : 0.3, scenery_ ? 0.2 : 0.7));
+    if (made) made = allRead();
+    stop = !made;
+    while (ground.wait_for(std::chrono::milliseconds(50)) == std::future_status::timeout)
+      if (!stop) stop = !told(0, "the ground's colours");
+    return made ? ground.get() : made;
+  }
+
+  Result<Done> makeGround(std::uint32_t part, std::uint32_t parts, const Progress& progress) const {
+    const fs::path file = groundPart(part, parts);
+    if (PageFile::open(file)) return Done{};
+    GroundSources sources;
+    sources.heights = file_.get();
+    sources.geometry = geometry_.get();
+    if (options_.imagery) sources.images = {*options_.imagery};
+    std::optional<SceneryGround> triangles;
+    if (source_->tiles)
+      sources.triangles =
+          &triangles.emplace(*source_->tiles, heights_.posts.longitude((heights_.posts.columns - 1) / 2.0));
+    return buildGroundPart(sources, part, parts, file, progress);
   }
 
   /// How many shares the ground was made in: all of one number must be there.
@@ -196,6 +218,27 @@ class Job {
     return Done{};
   }
 
+  /// Of slopes of all levels, and of colours.
+  std::size_t tileBytes() const {
+    const std::size_t posts = heights_.posts.size(),
+                      images = (options_.imagery ? 1 : 0) + (source_->tiles ? 1 : 0);
+    return posts * 4 / 3 + images * posts * 4;
+  }
+  Result<Done> measureTiles(const Progress& progress) {
+    const PostGrid& posts = heights_.posts;
+    if (posts.size() > kMostTiledPosts || tileLevels_) return Done{};
+    const auto mapped = MappedFile::open(work_->database() / kHeightsName);
+    if (!mapped) return mapped.findings();
+    TerrainIndex index = makeLevels(posts);
+    CellSlopes slopes(index);
+    const std::span heights(reinterpret_cast<const float*>((*mapped)->bytes().data()), posts.size());
+    if (!measureLevels(posts, heights, *geometry_, index, slopes,
+                       [&](double f) { return progress(f, "measuring levels"); }))
+      return cancelled("measuring levels");
+    tileLevels_ = {std::move(index), std::move(slopes)};
+    return Done{};
+  }
+
   /// Nodes, slopes and colours of tiles, where the grid has them.
   Result<Done> makeTiles() {
     const PostGrid& posts = heights_.posts;
@@ -203,27 +246,18 @@ class Job {
     const auto part = [&](double from, double to) {
       return scenery_ ? stage(0.25 + 0.1 * from, 0.25 + 0.1 * to) : stage(0.9 + 0.08 * from, 0.9 + 0.08 * to);
     };
-    // Slopes of all levels, and colours.
-    const std::size_t images = (options_.imagery ? 1 : 0) + (source_->tiles ? 1 : 0);
-    const std::size_t bytes = posts.size() * 4 / 3 + images * posts.size() * 4;
-    if (bytes > memory_) {
+    if (tileBytes() > memory_) {
       findings_.push_back({Severity::note, output_.string(), "tiles",
-                           std::to_string(bytes / 1000000 + 1) + " MB of memory for them",
+                           std::to_string(tileBytes() / 1000000 + 1) + " MB of memory for them",
                            std::to_string(memory_ / 1000000) + " MB: left out, patches are drawn"});
       return Done{};
     }
-    const auto mapped = MappedFile::open(work_->database() / kHeightsName);
-    if (!mapped) return mapped.findings();
-    TerrainIndex index = makeLevels(posts);
-    CellSlopes slopes(index);
-    const Progress measuring = part(0, 0.7);
-    const std::span heights(reinterpret_cast<const float*>((*mapped)->bytes().data()), posts.size());
-    if (!measureLevels(posts, heights, *geometry_, index, slopes,
-                       [&](double f) { return measuring(f, "measuring levels"); }))
-      return cancelled("measuring levels");
+    if (auto done = measureTiles(part(0, 0.7)); !done) return done;
+    const auto& [index, slopes] = *tileLevels_;
     if (auto done = put(kNodesName, nodeNumbers(index)); !done) return done;
     if (auto done = put(kSlopesName, slopes.cells); !done) return done;
     if (auto done = put(kConesName, index.cones); !done) return done;
+    tileLevels_.reset();
     auto colours = source_->image(part(0.7, 0.85));
     if (!colours) return colours.findings();
     std::vector<std::uint8_t> image = std::move(colours).value();
@@ -351,6 +385,7 @@ class Job {
   std::unique_ptr<FileHeights> file_;
   std::unique_ptr<PostGeometry> geometry_;
   std::unique_ptr<PatchBake> patches_;
+  std::optional<std::pair<TerrainIndex, CellSlopes>> tileLevels_;  ///< once they are measured
   std::vector<FileEntry> files_;
   std::optional<std::uint32_t> trianglesPerNode_;
 };

@@ -39,6 +39,7 @@ Result<Done> buildGround(const GroundSources& sources, const std::filesystem::pa
 /// The i-th of so many shares, for several processes or machines; joined, the same bytes as buildGround's.
 Result<Done> buildGroundPart(const GroundSources& sources, std::uint32_t part, std::uint32_t parts,
                              const std::filesystem::path& file, const Progress& progress);
+/// Removes a part that turns out damaged, and says so.
 Result<Done> joinGround(std::span<const std::filesystem::path> parts, const std::filesystem::path& file,
                         const Progress& progress);
 

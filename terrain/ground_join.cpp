@@ -38,6 +38,13 @@ Result<Done> joinGround(std::span<const std::filesystem::path> parts, const fs::
   const auto refused = [](const fs::path& where, std::string expected, std::string found) {
     return Finding{Severity::error, where.string(), "ground", std::move(expected), std::move(found)};
   };
+  // A damaged part is made again next time.
+  const auto damaged = [&](const fs::path& part, Findings findings) {
+    std::error_code ignored;
+    fs::remove(part, ignored);
+    findings.push_back(refused(part, "a sound part", "a damaged one, removed: bake again"));
+    return findings;
+  };
   if (parts.empty()) return refused(file, "parts to join", "none");
   std::vector<std::shared_ptr<const PageFile>> files;
   std::optional<GroundShape> shape;
@@ -45,7 +52,7 @@ Result<Done> joinGround(std::span<const std::filesystem::path> parts, const fs::
     auto opened = PageFile::open(part);
     if (!opened) return opened.findings();
     const auto blob = (*opened)->read(kGroundShapeKey);
-    if (!blob) return blob.findings();
+    if (!blob) return damaged(part, blob.findings());
     auto own = unpackGroundShape(*blob);
     if (!own) return own.findings();
     if (!shape) shape = *own;
@@ -80,7 +87,7 @@ Result<Done> joinGround(std::span<const std::filesystem::path> parts, const fs::
         for (const GroundPlace& child : tilesBelow(shape->levels, place))
           if (auto joined = join(child, false); !joined) return joined;
       const auto bytes = (*part)->read(key);
-      if (!bytes) return bytes.findings();
+      if (!bytes) return damaged(parts[static_cast<std::size_t>(part - files.begin())], bytes.findings());
       blob.assign(bytes->begin(), bytes->end());
       // Else all of the ground would be in memory at the end.
       (*part)->forget(key);

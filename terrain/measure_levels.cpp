@@ -112,8 +112,9 @@ void Measure::errorAndSlope(std::uint32_t node) const {
                    diagonal);
       const double south = std::abs(se - sw) / dx, north = std::abs(ne - nw) / dx;
       const double west = std::abs(nw - sw) / dy, east = std::abs(ne - se) / dy;
-      steep[j][i] = diagonal ? std::max(std::hypot(south, east), std::hypot(north, west))
-                             : std::max(std::hypot(south, west), std::hypot(north, east));
+      const double first = south * south + (diagonal ? east * east : west * west),
+                   second = north * north + (diagonal ? west * west : east * east);
+      steep[j][i] = std::sqrt(std::max(first, second));
       if (level > 0) worst = std::max(worst, cellError(r0, r1, c0, c1, diagonal));
     }
   }
