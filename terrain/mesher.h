@@ -65,8 +65,10 @@ class PolygonMesher {
   /// inserted before stays: vertices of a coarser mesh are the first of a finer one.
   void refine(double tolerance, std::size_t mostVertices);
 
-  const std::vector<Point>& vertices() const;                 ///< the border's first, as given
-  void triangles(std::vector<std::uint32_t>& indices) const;  ///< of now: three a triangle, anticlockwise
+  const std::vector<Point>& vertices() const;  ///< the border's first, as given
+  /// Of now: three a triangle, anticlockwise; and of its edges, the first from its first corner, the
+  /// triangles on the other side, negative at the border.
+  void triangles(std::vector<std::uint32_t>& indices, std::vector<std::int32_t>* beyond = nullptr) const;
   /// The same triangles, each next to one shortly before.
   void triangleStrips(std::vector<std::uint32_t>& indices) const;
   double maxErrorM() const;  ///< at the posts inside and on the border

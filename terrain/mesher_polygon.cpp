@@ -22,12 +22,15 @@ void PolygonMesher::refine(double tolerance, std::size_t mostVertices) {
 const std::vector<PolygonMesher::Point>& PolygonMesher::vertices() const {
   return impl_->points();
 }
-void PolygonMesher::triangles(std::vector<std::uint32_t>& indices) const {
-  const Triangulation& mesh = impl_->mesh();
-  indices.clear();
-  indices.reserve(mesh.triangles.size() * 3);
-  for (const Triangulation::Triangle& t : mesh.triangles)
-    indices.insert(indices.end(), t.corner, t.corner + 3);
+void PolygonMesher::triangles(std::vector<std::uint32_t>& indices, std::vector<std::int32_t>* beyond) const {
+  const std::vector<Triangulation::Triangle>& all = impl_->mesh().triangles;
+  indices.resize(all.size() * 3);
+  for (std::size_t t = 0; t < all.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) indices[3 * t + k] = all[t].corner[k];
+  if (beyond == nullptr) return;
+  beyond->resize(all.size() * 3);
+  for (std::size_t t = 0; t < all.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) (*beyond)[3 * t + k] = all[t].twin[k] >> 2;
 }
 void PolygonMesher::triangleStrips(std::vector<std::uint32_t>& indices) const {
   impl_->order.order(impl_->mesh(), indices);

@@ -14,6 +14,24 @@ constexpr std::int64_t kStepsPerOrigin = 16 * PostGeometry::kStepsPerMetre;
 constexpr std::size_t kVariants = PatchIndex::kVariants;
 constexpr std::size_t kStripPosts = std::size_t{1} << 20;
 
+/// Of the front faces of all of a patch's triangles, whatever variant draws them.
+NormalCone coneOf(const PatchDraft& draft, const PatchMesh& mesh) {
+  std::vector<Vec3> normals;
+  normals.reserve(2 * draft.variants[0].triangles.size() / 3);
+  for (std::size_t v = 0; v < PatchIndex::kVariants; ++v)
+    draft.eachNew(v, [&](std::size_t, const std::uint32_t* corners) {
+      const auto place = [&](std::size_t corner) {
+        const PatchVertex& at = mesh.vertices[corners[corner]];
+        return Vec3{at.x, at.y, at.z};
+      };
+      const Vec3 a = place(0), normal = cross(place(1) - a, place(2) - a);
+      // One without an area draws nothing.
+      if (const double area = dot(normal, normal); area != 0)
+        normals.push_back(normal * (1 / std::sqrt(area)));
+    });
+  return NormalCone::of(normals);
+}
+
 struct VariantMeasure {
   double worst = 0, bilinear = 0, squares = 0;
   std::uint64_t posts = 0;
@@ -31,32 +49,35 @@ struct PatchMeasure {
 class PageMeasure {
  public:
   PageMeasure(const PatchIndex& index, const PatchIndex::Page& page, const HeightSource& heights,
-              const PostGeometry& geometry, std::span<const PatchDraft> drafts, BuiltPage& built)
+              const PostGeometry& geometry, std::size_t patches, BuiltPage& built)
       : index_(index),
         page_(page),
         heights_(heights),
         geometry_(geometry),
-        drafts_(drafts),
         built_(built),
         window_(pageWindow(index, page)),
         stride_(meshStride(index, page.pair)),
         plane_(pagePlane(geometry, window_)),
         bound_(heights.posts(), geometry, window_),
-        patches_(drafts.size()) {}
+        patches_(patches) {}
 
-  bool run(const std::function<bool()>& carryOn) {
-    for (std::size_t i = 0; i < drafts_.size(); ++i) begin(drafts_[i], patches_[i]);
+  bool run(const DraftOf& draftOf, const std::function<bool()>& carryOn) {
+    // A page that is meshed on all posts is measured in one piece, each patch as soon as it is meshed.
     const auto rows =
-        static_cast<std::uint32_t>(std::max<std::size_t>(2, kStripPosts / (window_.columns + 2)));
+        stride_ == 1
+            ? window_.rows
+            : static_cast<std::uint32_t>(std::max<std::size_t>(2, kStripPosts / (window_.columns + 2)));
     const std::uint32_t end = window_.row + window_.rows;
     for (std::uint32_t row = window_.row; row < end; row += rows) {
       read(row, std::min(row + rows, end));
-      for (std::size_t i = 0; i < drafts_.size(); ++i) {
+      for (std::size_t i = 0; i < patches_.size(); ++i) {
         if (carryOn && !carryOn()) return false;
-        measure(drafts_[i], patches_[i], i);
+        const PatchDraft& draft = draftOf(i);
+        if (row == window_.row) begin(draft, patches_[i]);
+        measure(draft, patches_[i], i);
+        if (end_ == end) finish(draft, patches_[i], i);
       }
     }
-    for (std::size_t i = 0; i < drafts_.size(); ++i) finish(drafts_[i], patches_[i], i);
     return true;
   }
 
@@ -258,7 +279,6 @@ class PageMeasure {
                           static_cast<std::int32_t>(block_.row)};
     const auto first = static_cast<std::int32_t>(row_), end = static_cast<std::int32_t>(end_);
     const auto last = std::min(end, static_cast<std::int32_t>(block_.row + block_.rows) - 1);
-    const auto borders = static_cast<std::uint32_t>(draft.border);
     corners_.clear();
     for (std::size_t i = 0; i < draft.vertices.size(); ++i)
       corners_.push_back({static_cast<std::int32_t>(draft.vertices[i].column),
@@ -266,13 +286,16 @@ class PageMeasure {
     if (stride_ != 1) scanned_.assign(draft.variants[0].triangles.size() / 3, {});
     double worst = 0, bilinear = 0;
     for (std::size_t v = 0; v < kVariants; ++v) {
+      const std::vector<std::uint8_t>& fresh = draft.variants[v].isFresh;
       draft.eachNew(v, [&](std::size_t t, const std::uint32_t* c) {
-        // Each edge once: the triangle on its other side has it the other way round, and is new as well.
-        for (std::size_t k = 0; k < 3; ++k) {
-          const std::uint32_t from = c[k], to = c[k == 2 ? 0 : k + 1];
-          if (from < to || (to == 0 && from + 1 == borders))
-            bilinear = edgeError(corners_[from], corners_[to], strip, first, last, bilinear);
-        }
+        // Each edge once. One that a triangle shares with another that is not new was measured as its.
+        const std::int32_t* const beyond = &draft.variants[v].beyond[3 * t];
+        for (std::size_t k = 0; k < 3; ++k)
+          if (beyond[k] < 0
+                  ? v == 0
+                  : static_cast<std::size_t>(beyond[k]) > t && fresh[static_cast<std::size_t>(beyond[k])])
+            bilinear =
+                edgeError(corners_[c[k]], corners_[c[k == 2 ? 0 : k + 1]], strip, first, last, bilinear);
         if (stride_ == 1) return;
         scanned_[t] = {};
         const ScanTriangle triangle(corners_[c[0]], corners_[c[1]], corners_[c[2]]);
@@ -325,13 +348,13 @@ class PageMeasure {
                                              mesh.indices.size() * sizeof(std::uint16_t));
     built_.errorM.push_back(errorM);
     built_.facts.push_back(facts);
+    built_.cones.push_back(coneOf(draft, mesh));
   }
 
   const PatchIndex& index_;
   const PatchIndex::Page& page_;
   const HeightSource& heights_;
   const PostGeometry& geometry_;
-  std::span<const PatchDraft> drafts_;
   BuiltPage& built_;
   PostWindow window_;
   std::uint32_t stride_;
@@ -354,9 +377,9 @@ class PageMeasure {
 }  // namespace
 
 bool measurePage(const PatchIndex& index, const PatchIndex::Page& page, const HeightSource& heights,
-                 const PostGeometry& geometry, std::span<const PatchDraft> drafts,
+                 const PostGeometry& geometry, std::size_t patches, const DraftOf& draftOf,
                  const std::function<bool()>& carryOn, BuiltPage& built) {
-  return PageMeasure(index, page, heights, geometry, drafts, built).run(carryOn);
+  return PageMeasure(index, page, heights, geometry, patches, built).run(draftOf, carryOn);
 }
 
 }  // namespace trimtab::terrain

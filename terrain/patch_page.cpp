@@ -14,79 +14,78 @@ static_assert(kMostVertices >= (PatchIndex::kLeafCells + 1) * (PatchIndex::kLeaf
 /// split at and what its neighbours force on it.
 constexpr double kVariantOctaves = 0.25;
 
-/// Triangles of a variant that a finer one, or none, does not have in the same place.
-std::vector<std::uint32_t> freshTriangles(const std::vector<std::uint32_t>& triangles,
-                                          const std::vector<std::uint32_t>* finer) {
-  std::vector<std::uint32_t> fresh(triangles.size() / 3);
+/// Finds the triangles of a variant that a finer one, or none, does not have in the same place.
+void findFresh(PatchDraft::Variant& of, const PatchDraft::Variant* finer) {
+  const std::size_t triangles = of.triangles.size() / 3;
+  of.fresh.resize(triangles);
+  of.isFresh.resize(triangles);
   std::size_t count = 0;
-  for (std::uint32_t t = 0; t < triangles.size() / 3; ++t) {
-    const std::uint32_t* const c = &triangles[3 * std::size_t{t}];
-    fresh[count] = t;
-    // About every other one is: which cannot be guessed.
-    const std::uint32_t* const f = finer != nullptr ? &(*finer)[3 * std::size_t{t}] : nullptr;
-    count += f == nullptr || ((c[0] ^ f[0]) | (c[1] ^ f[1]) | (c[2] ^ f[2])) != 0 ? 1 : 0;
+  for (std::uint32_t t = 0; t < triangles; ++t) {
+    const std::uint32_t* const c = &of.triangles[3 * std::size_t{t}];
+    const std::uint32_t* const f = finer != nullptr ? &finer->triangles[3 * std::size_t{t}] : nullptr;
+    const bool fresh = f == nullptr || ((c[0] ^ f[0]) | (c[1] ^ f[1]) | (c[2] ^ f[2])) != 0;
+    of.fresh[count] = t;
+    of.isFresh[t] = fresh;
+    count += fresh ? 1 : 0;
   }
-  fresh.resize(count);
-  return fresh;
+  of.fresh.resize(count);
 }
 
-PatchDraft drafted(PageField& page, const PatchIndex& index, const PatchPlace& place,
-                   const std::vector<double>& tolerances, PolygonMesher& mesher) {
-  PatchDraft draft;
-  draft.place = place;
-  draft.edges = patchEdges(index, place);
-  const int depth = place.depth();
-  const PostWindow& window = page.window();
-  std::vector<PatchPoint> border;
-  const auto addHeight = [&](PatchPoint p) {
-    draft.vertices.push_back(p);
-    draft.heights.push_back(page.height(p));
-    draft.z.push_back(static_cast<float>(page.plane().at(p.column, p.row, draft.heights.back())));
-  };
-  for (const PatchEdge& edge : draft.edges) {
-    const std::vector<PatchPoint> line = page.side(edge, depth);
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) addHeight(line[i]);
-  }
-  for (const PatchPoint& p : draft.vertices) border.push_back({p.column - window.column, p.row - window.row});
-  draft.border = border.size();
-  mesher.begin(page.field(), border, draft.z);
-  for (int variant = PatchIndex::kVariants - 1; variant >= 0; --variant) {
-    mesher.refine(tolerances[static_cast<std::size_t>(depth)] * std::exp2(variant * kVariantOctaves),
-                  kMostVertices);
-    PatchDraft::Variant& of = draft.variants[static_cast<std::size_t>(variant)];
-    mesher.triangles(of.triangles);
-    mesher.triangleStrips(of.strips);
-    if (page.stride() != 1) continue;
-    of.worst = mesher.maxErrorM();
-    of.rms = mesher.rmsErrorM();
-  }
-  for (std::size_t v = 0; v < draft.variants.size(); ++v)
-    draft.variants[v].fresh =
-        freshTriangles(draft.variants[v].triangles, v == 0 ? nullptr : &draft.variants[v - 1].triangles);
-  for (std::size_t i = border.size(); i < mesher.vertices().size(); ++i) {
-    const PatchPoint& p = mesher.vertices()[i];
-    addHeight({p.column + window.column, p.row + window.row});
-  }
-  return draft;
-}
+/// Patches of a page, one by one.
+class Drafter {
+ public:
+  Drafter(const PatchIndex& index, const PatchIndex::Page& page, const HeightSource& heights,
+          const PostGeometry& geometry, const std::vector<double>& tolerances)
+      : index_(index), tolerances_(tolerances), field_(index, page, heights, geometry, tolerances) {}
 
-/// Of the front faces of all of a patch's triangles, whatever variant draws them.
-NormalCone coneOf(const PatchDraft& draft, const PatchMesh& mesh) {
-  std::vector<Vec3> normals;
-  normals.reserve(2 * draft.variants[0].triangles.size() / 3);
-  for (std::size_t v = 0; v < PatchIndex::kVariants; ++v)
-    draft.eachNew(v, [&](std::size_t, const std::uint32_t* corners) {
-      const auto place = [&](std::size_t corner) {
-        const PatchVertex& at = mesh.vertices[corners[corner]];
-        return Vec3{at.x, at.y, at.z};
-      };
-      const Vec3 a = place(0), normal = cross(place(1) - a, place(2) - a);
-      // One without an area draws nothing.
-      if (const double area = dot(normal, normal); area != 0)
-        normals.push_back(normal * (1 / std::sqrt(area)));
-    });
-  return NormalCone::of(normals);
-}
+  std::uint32_t stride() const { return field_.stride(); }
+
+  void make(const PatchPlace& place, PatchDraft& draft) {
+    draft.place = place;
+    draft.edges = patchEdges(index_, place);
+    draft.vertices.clear();
+    draft.heights.clear();
+    draft.z.clear();
+    const int depth = place.depth();
+    const PostWindow& window = field_.window();
+    const auto addHeight = [&](PatchPoint p) {
+      draft.vertices.push_back(p);
+      draft.heights.push_back(field_.height(p));
+      draft.z.push_back(static_cast<float>(field_.plane().at(p.column, p.row, draft.heights.back())));
+    };
+    for (const PatchEdge& edge : draft.edges) {
+      const std::vector<PatchPoint> line = field_.side(edge, depth);
+      for (std::size_t i = 0; i + 1 < line.size(); ++i) addHeight(line[i]);
+    }
+    border_.clear();
+    for (const PatchPoint& p : draft.vertices)
+      border_.push_back({p.column - window.column, p.row - window.row});
+    mesher_.begin(field_.field(), border_, draft.z);
+    for (int variant = PatchIndex::kVariants - 1; variant >= 0; --variant) {
+      mesher_.refine(tolerances_[static_cast<std::size_t>(depth)] * std::exp2(variant * kVariantOctaves),
+                     kMostVertices);
+      PatchDraft::Variant& of = draft.variants[static_cast<std::size_t>(variant)];
+      mesher_.triangles(of.triangles, &of.beyond);
+      mesher_.triangleStrips(of.strips);
+      if (field_.stride() != 1) continue;
+      of.worst = mesher_.maxErrorM();
+      of.rms = mesher_.rmsErrorM();
+    }
+    for (std::size_t v = 0; v < draft.variants.size(); ++v)
+      findFresh(draft.variants[v], v == 0 ? nullptr : &draft.variants[v - 1]);
+    for (std::size_t i = border_.size(); i < mesher_.vertices().size(); ++i) {
+      const PatchPoint& p = mesher_.vertices()[i];
+      addHeight({p.column + window.column, p.row + window.row});
+    }
+  }
+
+ private:
+  const PatchIndex& index_;
+  const std::vector<double>& tolerances_;
+  PageField field_;
+  PolygonMesher mesher_;
+  std::vector<PatchPoint> border_;
+};
 
 }  // namespace
 
@@ -101,23 +100,29 @@ BuiltPage buildPage(const PatchIndex& index, std::uint32_t page, const HeightSou
                     const PostGeometry& geometry, const std::vector<double>& tolerances,
                     const std::function<bool()>& carryOn) {
   const PatchIndex::Page& at = index.pages[page];
+  const std::vector<PatchPlace> places = placesOfPage(index, at);
   BuiltPage built;
-  built.meshes.page = page;
-  std::vector<PatchDraft> drafts;
-  {
-    PageField field(index, at, heights, geometry, tolerances);
-    PolygonMesher mesher;
-    for (const PatchPlace& place : placesOfPage(index, at)) {
-      if (carryOn && !carryOn()) return built;
-      drafts.push_back(drafted(field, index, place, tolerances, mesher));
+  Drafter drafter(index, at, heights, geometry, tolerances);
+  std::vector<PatchDraft> drafts(1);
+  bool measured;
+  if (drafter.stride() == 1) {
+    const auto draftOf = [&](std::size_t i) -> const PatchDraft& {
+      drafter.make(places[i], drafts[0]);
+      return drafts[0];
+    };
+    measured = measurePage(index, at, heights, geometry, places.size(), draftOf, carryOn, built);
+  } else {
+    drafts.resize(places.size());
+    bool more = true;
+    for (std::size_t i = 0; i < places.size() && more; ++i) {
+      drafter.make(places[i], drafts[i]);
+      more = !carryOn || carryOn();
     }
+    const auto draftOf = [&](std::size_t i) -> const PatchDraft& { return drafts[i]; };
+    measured = more && measurePage(index, at, heights, geometry, places.size(), draftOf, carryOn, built);
   }
-  if (!measurePage(index, at, heights, geometry, drafts, carryOn, built)) {
-    built = {};
-    built.meshes.page = page;
-  }
-  for (std::size_t i = 0; i < built.meshes.patches.size(); ++i)
-    built.cones.push_back(coneOf(drafts[i], built.meshes.patches[i]));
+  if (!measured) built = {};
+  built.meshes.page = page;
   return built;
 }
 

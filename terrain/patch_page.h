@@ -14,18 +14,19 @@
 /// What building a page works with.
 namespace trimtab::terrain {
 
-/// Vertices and triangles of one patch before its positions are known.
+/// Vertices and triangles of one patch before its positions are known. Keeps its storage from patch to patch.
 struct PatchDraft {
   PatchPlace place;
   std::vector<PatchEdge> edges;
   std::vector<PatchPoint> vertices;  ///< the border's first
-  std::size_t border = 0;            ///< of them
   std::vector<float> heights;        ///< one a vertex
   std::vector<float> z;              ///< above the page's plane
   struct Variant {
     std::vector<std::uint32_t> triangles;  ///< three a triangle
-    std::vector<std::uint32_t> strips;     ///< the same, as they are drawn and packed
+    std::vector<std::int32_t> beyond;      ///< triangles on the other sides of their edges; negative: none
+    std::vector<std::uint32_t> strips;     ///< the triangles again, as they are drawn and packed
     std::vector<std::uint32_t> fresh;      ///< those that the next finer variant does not have
+    std::vector<std::uint8_t> isFresh;     ///< the same, one a triangle
     double worst = 0, rms = 0;             ///< above the plane, at the posts that it was meshed on
   };
   std::array<Variant, PatchIndex::kVariants> variants;  ///< from the finest
@@ -78,10 +79,14 @@ class PageField {
   std::vector<float> strip_;
 };
 
+/// A patch of the page by its number; good until the next is asked for. Pages meshed on every so-manyth post
+/// ask for each several times, others once.
+using DraftOf = std::function<const PatchDraft&(std::size_t)>;
+
 /// Measures errors, facts and normals of a page's patches on all posts, strip by strip, and fills `built`.
 /// False where `carryOn` said no: what is in `built` then is of no use.
 bool measurePage(const PatchIndex& index, const PatchIndex::Page& page, const HeightSource& heights,
-                 const PostGeometry& geometry, std::span<const PatchDraft> drafts,
+                 const PostGeometry& geometry, std::size_t patches, const DraftOf& draftOf,
                  const std::function<bool()>& carryOn, BuiltPage& built);
 
 }  // namespace trimtab::terrain
