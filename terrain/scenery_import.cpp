@@ -79,26 +79,6 @@ Result<PostGrid> postsOver(const Rectangle& r, std::optional<Metres> distance) {
   return posts;
 }
 
-Result<HeightGrid> rasterised(const SceneryCatalogue& scenery, const PostGrid& posts,
-                              const Progress& progress) {
-  HeightGrid grid{posts, std::vector<float>(posts.size()), 0, std::vector<std::uint8_t>(posts.size() * 4)};
-  std::vector<std::uint8_t> reached(posts.size());
-  const SceneryRaster raster(scenery, posts);
-  const std::size_t columns = posts.columns;
-  const auto take = [&](std::uint32_t first, std::uint32_t rows) {
-    for (std::uint32_t row = first; row < first + rows; ++row)
-      raster.reached(row, std::span(reached).subspan(row * columns, columns));
-    return raster.read(first, rows, std::span(grid.heights).subspan(first * columns, rows * columns),
-                       std::span(grid.image).subspan(first * columns * 4, rows * columns * 4));
-  };
-  if (auto done = forEachBand(posts, progress, "putting triangles on posts", take); !done)
-    return done.findings();
-  grid.outside = static_cast<std::uint64_t>(std::count(reached.begin(), reached.end(), 0));
-  Findings notes;
-  if (const std::uint64_t sea = fillOpenSea(grid, reached); sea > 0) notes.push_back(aboutSea(sea));
-  return Result<HeightGrid>(std::move(grid), std::move(notes));
-}
-
 Result<std::unique_ptr<SceneryHeights>> SceneryHeights::open(const SceneryCatalogue& scenery,
                                                              const PostGrid& posts, const Progress& progress,
                                                              std::unique_ptr<ElevationSource> elevation) {

@@ -19,12 +19,8 @@ Result<PostGrid> sceneryPosts(const SceneryCatalogue& scenery, std::optional<Met
 /// Posts over a rectangle of degrees, its corners included; without a distance as above.
 Result<PostGrid> postsOver(const Rectangle& degrees, std::optional<Metres> distance);
 
-/// All of a SceneryRaster, the material's colour as the post's image. What lies in no tile's rectangle is
-/// open sea where its borders are, with a note; the rest of it counts as `outside`.
-Result<HeightGrid> rasterised(const SceneryCatalogue& scenery, const PostGrid& posts,
-                              const Progress& progress);
-
-/// The same, a band of rows at a time: memory follows the catalogue's, not the size of the land. With
+/// Rows of a SceneryRaster: memory follows the catalogue's, not the size of the land. What lies in no tile's
+/// rectangle is open sea, at 0 m, where its borders are, with a note; the rest of it is `beyond`. With
 /// elevation, where there is one, at the posts that no triangle covers (BlendedRows).
 class SceneryHeights final : public ElevationSource {
  public:

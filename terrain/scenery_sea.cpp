@@ -94,22 +94,4 @@ void paintSea(std::span<std::uint8_t> row, const OpenSea::Stretch& stretch) {
   }
 }
 
-std::uint64_t fillOpenSea(HeightGrid& grid, const std::vector<std::uint8_t>& reached) {
-  const std::size_t columns = grid.posts.columns;
-  OpenSea sea;
-  for (std::size_t row = 0; row < grid.posts.rows; ++row)
-    sea.add(std::span(grid.heights).subspan(row * columns, columns),
-            std::span(reached).subspan(row * columns, columns));
-  sea.finish();
-  for (std::uint32_t row = 0; row < grid.posts.rows; ++row)
-    for (const OpenSea::Stretch& stretch : sea.stretches(row))
-      if (sea.isSea(stretch)) {
-        const auto first = grid.heights.begin() + static_cast<std::ptrdiff_t>(row * columns);
-        std::fill(first + stretch.first, first + stretch.end, 0.0f);
-        paintSea(std::span(grid.image).subspan(row * columns * 4, columns * 4), stretch);
-      }
-  grid.outside -= std::min<std::uint64_t>(sea.posts(), grid.outside);
-  return sea.posts();
-}
-
 }  // namespace trimtab::terrain

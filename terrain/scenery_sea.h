@@ -49,11 +49,7 @@ class OpenSea {
   std::uint64_t posts_ = 0;
 };
 
-/// Gives the sea 0 m and its colour. `reached`: one a post. Takes those posts off `outside`, and says how
-/// many there were.
-std::uint64_t fillOpenSea(HeightGrid& grid, const std::vector<std::uint8_t>& reached);
-
-/// A stretch's posts in a row of RGBA.
+/// Gives a stretch's posts in a row of RGBA the colour of the sea.
 void paintSea(std::span<std::uint8_t> row, const OpenSea::Stretch& stretch);
 
 }  // namespace trimtab::terrain

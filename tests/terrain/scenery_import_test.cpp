@@ -2,6 +2,7 @@
 #include <random>
 
 #include "rasters.h"
+#include "scenery_grid.h"
 #include "scenery_tiles.h"
 #include "trimtab/terrain/database.h"
 #include "trimtab/terrain/scenery_import.h"
@@ -71,7 +72,7 @@ TEST(Rasterised, isTheHighestSurfaceAtEachPost) {
   high.width = 0.125;
   const std::vector<SceneryMesh> meshes{meshOf(high), meshOf(low)};
   const auto posts = terrain::sceneryPosts(meshes, Metres{200});
-  const auto grid = terrain::rasterised(meshes, *posts, {});
+  const auto grid = test::rasterised(meshes, *posts);
   ASSERT_TRUE(posts && grid);
   std::size_t ofHigh = 0;
   for (std::uint32_t r = 0; r < posts->rows; ++r)
@@ -90,7 +91,7 @@ TEST(Rasterised, isTheHighestSurfaceAtEachPost) {
 TEST(Rasterised, hasTheMaterialsColourAtEachPost) {
   const std::vector<SceneryMesh> meshes{meshOf({})};
   const auto posts = terrain::sceneryPosts(meshes, Metres{500});
-  const auto grid = terrain::rasterised(meshes, *posts, {});
+  const auto grid = test::rasterised(meshes, *posts);
   ASSERT_TRUE(grid);
   const auto lake = terrain::materialColour("Lake"), forest = terrain::materialColour("EvergreenForest");
   for (std::uint32_t r = 0; r < posts->rows; ++r)
@@ -111,7 +112,7 @@ TEST(Rasterised, leavesHolesVoidAndCountsWhatNoTileReaches) {
   far.south = 50.625;
   const std::vector<SceneryMesh> meshes{meshOf(holed), meshOf(far)};
   const auto posts = terrain::sceneryPosts(meshes, Metres{300});
-  const auto grid = terrain::rasterised(meshes, *posts, {});
+  const auto grid = test::rasterised(meshes, *posts);
   ASSERT_TRUE(grid);
   std::uint64_t outside = 0;
   for (std::uint32_t r = 0; r < posts->rows; ++r)
@@ -140,7 +141,7 @@ TEST(Rasterised, takesForSeaWhatTilesAtSeaLevelSurround) {
     second.heightM = [&](double, double) { return level; };
     const std::vector<SceneryMesh> meshes{meshOf(first), meshOf(second)};
     const auto posts = terrain::sceneryPosts(meshes, Metres{300});
-    const auto grid = terrain::rasterised(meshes, *posts, {});
+    const auto grid = test::rasterised(meshes, *posts);
     ASSERT_TRUE(grid);
     // South of the second tile: it touches the end of the first, at the level, and the second.
     const auto column = static_cast<std::size_t>((7.6 - posts->west) / posts->stepLongitude);
@@ -161,7 +162,7 @@ TEST(Rasterised, isNoSeaForALittleWaterAtItsEdge) {
   second.south = 50.625;
   const std::vector<SceneryMesh> meshes{meshOf(first), meshOf(second)};
   const auto posts = terrain::sceneryPosts(meshes, Metres{300});
-  const auto grid = terrain::rasterised(meshes, *posts, {});
+  const auto grid = test::rasterised(meshes, *posts);
   ASSERT_TRUE(grid);
   EXPECT_GT(grid->outside, posts->size() / 2);
   EXPECT_TRUE(grid.findings().empty());
@@ -176,7 +177,7 @@ TEST(Rasterised, crossesTheDateLine) {
   const auto posts = terrain::sceneryPosts(meshes, Metres{500});
   ASSERT_TRUE(posts);
   EXPECT_NEAR(posts->stepLongitude * (posts->columns - 1), 0.5, 1e-9);
-  const auto grid = terrain::rasterised(meshes, *posts, {});
+  const auto grid = test::rasterised(meshes, *posts);
   for (const float height : grid->heights) EXPECT_NEAR(height, 100, 0.02);
 }
 

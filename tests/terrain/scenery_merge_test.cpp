@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "scenery_grid.h"
 #include "scenery_tiles.h"
 #include "trimtab/terrain/bake_heights.h"
 #include "trimtab/terrain/scenery_import.h"
@@ -196,7 +197,7 @@ TEST(SceneryMerge, hasNoStepWhereTheSourcesDiffer) {
 /// A coarse elevation of what the scenery covers and 0.1 degrees around, 7 m higher.
 HeightGrid coarse(const std::vector<SceneryMesh>& meshes, double stepDegrees, double aroundDegrees) {
   const auto posts = terrain::sceneryPosts(meshes, Metres{500});
-  const auto grid = terrain::rasterised(meshes, *posts, {});
+  const auto grid = test::rasterised(meshes, *posts);
   return elevationOver(
       posts->west - aroundDegrees, posts->south - aroundDegrees,
       posts->longitude(posts->columns - 1) + aroundDegrees, posts->latitude(posts->rows - 1) + aroundDegrees,

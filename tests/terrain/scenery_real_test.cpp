@@ -5,6 +5,7 @@
 #include <set>
 
 #include "plain_btg.h"
+#include "scenery_grid.h"
 #include "scenery_tiles.h"
 #include "trimtab/terrain/scenery_import.h"
 
@@ -144,7 +145,7 @@ TEST(RealScenery, putsAirportsIntoHoles) {
     }
     const auto voids = [&] {
       const auto posts = terrain::sceneryPosts(meshes, Metres{60});
-      const auto grid = terrain::rasterised(meshes, *posts, {});
+      const auto grid = test::rasterised(meshes, *posts);
       std::size_t count = 0;
       for (const float h : grid->heights) count += std::isnan(h) ? 1 : 0;
       return count - grid->outside;
@@ -163,7 +164,7 @@ TEST(RealScenery, hasTheTrianglesHeightsAtItsPosts) {
   TRIMTAB_NEEDS_SHARED(name);
   const std::vector<SceneryMesh> meshes{*terrain::readBtg(test::sharedDir() / name)};
   const auto posts = terrain::sceneryPosts(meshes, Metres{40});
-  const auto grid = terrain::rasterised(meshes, *posts, {});
+  const auto grid = test::rasterised(meshes, *posts);
   ASSERT_TRUE(grid);
   std::vector<GeodeticPosition> g;
   for (const Vec3& v : meshes[0].vertices) g.push_back(toGeodetic(v));

@@ -89,16 +89,63 @@ TEST_F(SceneryStream, takesAllOutInTheirOrder) {
   }
 }
 
+/// Areas by flooding, as a person would.
+std::vector<std::uint8_t> flooded(const HeightGrid& grid, const std::vector<std::uint8_t>& reached) {
+  const auto columns = static_cast<std::ptrdiff_t>(grid.posts.columns),
+             posts = static_cast<std::ptrdiff_t>(grid.posts.size());
+  std::vector<std::uint8_t> sea(reached.size()), seen(reached);
+  for (std::ptrdiff_t start = 0; start < posts; ++start) {
+    if (seen[static_cast<std::size_t>(start)] != 0) continue;
+    std::vector<std::ptrdiff_t> area{start};
+    seen[static_cast<std::size_t>(start)] = 1;
+    int border = 0, level = 0;
+    for (std::size_t i = 0; i < area.size(); ++i)
+      for (const auto& [right, up] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+        const std::ptrdiff_t next = area[i] + right + up * columns;
+        if (next < 0 || next >= posts || next / columns != area[i] / columns + up) continue;
+        const auto at = static_cast<std::size_t>(next);
+        if (reached[at] != 0) {
+          border += !std::isnan(grid.heights[at]);
+          level += std::abs(grid.heights[at]) <= 0.5f;
+        } else if (seen[at] == 0) {
+          seen[at] = 1;
+          area.push_back(next);
+        }
+      }
+    if (border > 0 && 2 * level >= border)
+      for (const std::ptrdiff_t post : area) sea[static_cast<std::size_t>(post)] = 1;
+  }
+  return sea;
+}
+
+/// The rows in one piece, with the sea by flooding.
+HeightGrid atOnce(const SceneryCatalogue& scenery, const PostGrid& posts) {
+  const terrain::SceneryRaster raster(scenery, posts);
+  HeightGrid grid{posts, std::vector<float>(posts.size()), 0, std::vector<std::uint8_t>(posts.size() * 4)};
+  EXPECT_TRUE(raster.read(0, posts.rows, grid.heights, grid.image));
+  std::vector<std::uint8_t> reached(posts.size());
+  for (std::uint32_t row = 0; row < posts.rows; ++row)
+    raster.reached(row, std::span(reached).subspan(std::size_t{row} * posts.columns, posts.columns));
+  const auto sea = flooded(grid, reached);
+  const auto blue = terrain::materialColour("Ocean");
+  for (std::size_t i = 0; i < posts.size(); ++i) {
+    grid.outside += reached[i] == 0 && sea[i] == 0;
+    if (sea[i] == 0) continue;
+    grid.heights[i] = 0;
+    std::copy_n(blue.data(), 3, &grid.image[4 * i]);
+    grid.image[4 * i + 3] = 255;
+  }
+  return grid;
+}
+
 TEST_F(SceneryStream, hasTheSameHeightsInAnyBands) {
   const auto all = catalogue(kAll), none = catalogue(0);
   const auto posts = terrain::sceneryPosts(*all, Metres{400});
   ASSERT_TRUE(posts);
   // The bay is sea; the gap in the hills is not.
-  const auto grid = terrain::rasterised(*all, *posts, {});
-  ASSERT_TRUE(grid);
+  const HeightGrid grid = atOnce(*all, *posts);
   const auto heights = terrain::SceneryHeights::open(*none, *posts, {});
   ASSERT_TRUE(heights);
-  EXPECT_EQ(toString(heights.findings()), toString(grid.findings()));
   const std::size_t columns = posts->columns;
   std::uint64_t beyondAll = 0, sea = 0;
   std::mt19937 random(4);
@@ -107,7 +154,7 @@ TEST_F(SceneryStream, hasTheSameHeightsInAnyBands) {
     std::vector<float> band(rows * columns);
     std::vector<std::uint8_t> beyond(rows * columns, 7);
     ASSERT_TRUE((*heights)->readRows(first, rows, band, beyond));
-    EXPECT_TRUE(same(band, std::span(grid->heights).subspan(first * columns, rows * columns))) << first;
+    EXPECT_TRUE(same(band, std::span(grid.heights).subspan(first * columns, rows * columns))) << first;
     for (std::size_t i = 0; i < band.size(); ++i) {
       beyondAll += beyond[i];
       sea += band[i] == 0;
@@ -117,10 +164,10 @@ TEST_F(SceneryStream, hasTheSameHeightsInAnyBands) {
     }
     first += rows;
   }
-  EXPECT_EQ(beyondAll, grid->outside);
+  EXPECT_EQ(beyondAll, grid.outside);
   EXPECT_GT(beyondAll, posts->size() / 20);
   EXPECT_GT(sea, posts->size() / 10);
-  EXPECT_TRUE(*(*heights)->image({}) == grid->image);
+  EXPECT_TRUE(*(*heights)->image({}) == grid.image);
   const auto stopped =
       terrain::SceneryHeights::open(*none, *posts, [](double, const std::string&) { return false; });
   EXPECT_FALSE(stopped);
@@ -155,35 +202,6 @@ TEST_F(SceneryStream, paintsTheSameTrianglesWhicheverAreaIsAskedFor) {
   }
 }
 
-/// Areas by flooding, as a person would.
-std::vector<std::uint8_t> flooded(const HeightGrid& grid, const std::vector<std::uint8_t>& reached) {
-  const auto columns = static_cast<std::ptrdiff_t>(grid.posts.columns),
-             posts = static_cast<std::ptrdiff_t>(grid.posts.size());
-  std::vector<std::uint8_t> sea(reached.size()), seen(reached);
-  for (std::ptrdiff_t start = 0; start < posts; ++start) {
-    if (seen[static_cast<std::size_t>(start)] != 0) continue;
-    std::vector<std::ptrdiff_t> area{start};
-    seen[static_cast<std::size_t>(start)] = 1;
-    int border = 0, level = 0;
-    for (std::size_t i = 0; i < area.size(); ++i)
-      for (const auto& [right, up] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
-        const std::ptrdiff_t next = area[i] + right + up * columns;
-        if (next < 0 || next >= posts || next / columns != area[i] / columns + up) continue;
-        const auto at = static_cast<std::size_t>(next);
-        if (reached[at] != 0) {
-          border += !std::isnan(grid.heights[at]);
-          level += std::abs(grid.heights[at]) <= 0.5f;
-        } else if (seen[at] == 0) {
-          seen[at] = 1;
-          area.push_back(next);
-        }
-      }
-    if (border > 0 && 2 * level >= border)
-      for (const std::ptrdiff_t post : area) sea[static_cast<std::size_t>(post)] = 1;
-  }
-  return sea;
-}
-
 TEST(OpenSea, isWhatFloodingFinds) {
   std::mt19937 engine(6);
   const auto random = [&] { return static_cast<std::uint32_t>(engine()); };
@@ -199,19 +217,20 @@ TEST(OpenSea, isWhatFloodingFinds) {
       const unsigned kind = random() % 6;
       grid.heights.push_back(kind == 0 ? std::nanf("") : kind <= (low ? 4U : 2U) ? 0.0f : 50.0f);
     }
-    grid.image.resize(4 * reached.size());
-    grid.outside = static_cast<std::uint64_t>(std::count(reached.begin(), reached.end(), 0));
+    const std::size_t columns = grid.posts.columns;
+    terrain::OpenSea sea;
+    for (std::size_t row = 0; row < grid.posts.rows; ++row)
+      sea.add(std::span(grid.heights).subspan(row * columns, columns),
+              std::span(reached).subspan(row * columns, columns));
+    sea.finish();
+    std::vector<std::uint8_t> found(reached.size());
+    for (std::uint32_t row = 0; row < grid.posts.rows; ++row)
+      for (const auto& stretch : sea.stretches(row))
+        for (std::size_t c = stretch.first; c < stretch.end; ++c)
+          found[row * columns + c] = sea.isSea(stretch);
     const auto expected = flooded(grid, reached);
-    const std::uint64_t outside = grid.outside;
-    const auto count = static_cast<std::uint64_t>(std::count(expected.begin(), expected.end(), 1));
-    EXPECT_EQ(terrain::fillOpenSea(grid, reached), count);
-    EXPECT_EQ(grid.outside, outside - count);
-    for (std::size_t i = 0; i < reached.size(); ++i) {
-      EXPECT_EQ(grid.image[4 * i + 3], expected[i] != 0 ? 255 : 0) << round;
-      if (expected[i] != 0) {
-        EXPECT_EQ(grid.heights[i], 0);
-      }
-    }
+    EXPECT_TRUE(found == expected) << round;
+    EXPECT_EQ(sea.posts(), static_cast<std::uint64_t>(std::count(expected.begin(), expected.end(), 1)));
   }
 }
 
