@@ -18,8 +18,8 @@ LineVertex vertex(Vec3 p, Vec3 eye, std::array<std::uint8_t, 3> colour) {
 
 }  // namespace
 
-void addBoxes(std::span<const Box> bounds, std::span<const TileDraw> tiles, std::span<const CullReason> reason,
-              Vec3 eye, std::vector<LineVertex>& lines) {
+void addBoxes(std::span<const Box> bounds, std::span<const TileDraw> tiles,
+              std::span<const CullReason> reason, Vec3 eye, std::vector<LineVertex>& lines) {
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     const Box& b = bounds[tiles[i].node];
     const auto colour = reasonColour(reason[i]);

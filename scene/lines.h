@@ -15,8 +15,8 @@ struct LineVertex {
 };
 
 /// Boxes of the tiles, as pairs of points; a reason a tile.
-void addBoxes(std::span<const Box> bounds, std::span<const TileDraw> tiles, std::span<const CullReason> reason,
-              Vec3 eye, std::vector<LineVertex>& lines);
+void addBoxes(std::span<const Box> bounds, std::span<const TileDraw> tiles,
+              std::span<const CullReason> reason, Vec3 eye, std::vector<LineVertex>& lines);
 /// Edges of a view pyramid that stands at `frozen`, seen from `eye`.
 void addFrustum(const EyePose& frozen, const ViewShape& view, Vec3 eye, std::vector<LineVertex>& lines);
 

@@ -161,7 +161,7 @@ struct SceneGraph::Nodes {
   osg::ref_ptr<Pass> treePicture, lines, sky;
   osg::ref_ptr<Pass> beforeWeather, afterWeather;
   PrecipitationNode precipitation;
-  bool begun = false;  ///< this frame's drawing
+  bool begun = false;    ///< this frame's drawing
   ViewShape drawnShape;  ///< the frame's
   int guardBand = 1;
 

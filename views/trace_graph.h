@@ -36,7 +36,7 @@ class TraceGraph : public QCPGraph {
   };
   /// Draws frames from `from` up to `to`; markers at multiples of `markerStepS`.
   Heights take(const TraceBuffer& buffer, std::uint64_t from, std::uint64_t to, std::size_t columns,
-              double markerStepS);
+               double markerStepS);
 
  protected:
   void draw(QCPPainter* painter) override;

@@ -153,12 +153,12 @@ void measureDrawing(Report& report, const std::shared_ptr<const GroundPyramid>& 
               .value = each(seconds[2]),
               .unit = "ms"});
   report.add(ratioAtMost(3, {.id = "ground.fill",
-                                .what = "1280 x 720 pixels of ground by two levels of texels",
-                                .value = each(seconds[1]),
-                                .unit = "ms",
-                                .peer = "colours of vertices and hashed noise",
-                                .peerValue = each(seconds[0]),
-                                .peerFrom = "run"}));
+                             .what = "1280 x 720 pixels of ground by two levels of texels",
+                             .value = each(seconds[1]),
+                             .unit = "ms",
+                             .peer = "colours of vertices and hashed noise",
+                             .peerValue = each(seconds[0]),
+                             .peerFrom = "run"}));
   glBindVertexArray(0);
   glDeleteVertexArrays(1, &array);
   for (const unsigned program : {byVertex, byTexel, plain}) glDeleteProgram(program);

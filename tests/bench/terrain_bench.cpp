@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "bake_bench.h"
 #include "mesher_bench.h"
 #include "paging_bench.h"
 #include "patch_bench.h"
-#include "bake_bench.h"
 #include "row.h"
 #include "support.h"
 #include "terrain/static_lod_support.h"
