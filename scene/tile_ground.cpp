@@ -25,6 +25,7 @@ void makeRelief(const terrain::TileMesh& mesh, TileRelief& relief) {
     relief.z[i] = mesh.vertices[i].z;
   }
   relief.finish(kLineStep);
+  relief.x = relief.y = relief.z = {};
 }
 
 void TileGround::setDatabase(std::shared_ptr<const terrain::Database> database) {

@@ -52,7 +52,7 @@ class TileGround final : public OcclusionGround {
   const CutNumber* number_ = nullptr;
   std::vector<std::uint8_t> upright_;    ///< one a node: no place there has two heights
   std::vector<std::uint8_t> takesRoom_;  ///< one a node
-  SurfacesInUse<TileRelief> relief_;     ///< 25 KB each
+  SurfacesInUse<TileRelief> relief_;     ///< 15 KB each
   BoxLids lids_;
   std::vector<std::uint8_t> inCut_;  ///< one a node, all 0 but in `fill`
   terrain::TileMesh mesh_;

@@ -51,7 +51,7 @@ struct TileRelief : Relief {
     std::array<float, 3> peak;  ///< its highest post
   };
   std::vector<Part> parts;     ///< the highest first
-  std::vector<float> x, y, z;  ///< side * side, metres
+  std::vector<float> x, y, z;  ///< side * side, metres; read by `finish` alone, and of no use after it
 
   /// Completes the rest from side, x, y and z. `step`: from one line to the next, posts, even. A surface that
   /// is not all of finite numbers is not known.
