@@ -155,6 +155,7 @@ class Horizon {
     std::uint16_t ring;
     std::int16_t lines;  ///< how many; of a mesh -1, where it may occlude
   };
+  static_assert(sizeof(Outline) == 64);
   /// A tile's lines; of a regular one, those that run across the line of sight, and how they go on.
   struct Lines {
     const MeshRelief* mesh;  ///< or else:

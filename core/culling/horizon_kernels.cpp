@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "trimtab/culling/horizon_geometry.h"
+
 #if defined(__x86_64__)
 #define TRIMTAB_X86 1
 #endif
@@ -26,16 +28,30 @@ TRIMTAB_INLINE void projectAll(const Projection& p, int count, float* __restrict
     }
 }
 
-TRIMTAB_INLINE void imagesOf(const Boxes& b, BoxImages& images) {
-  const float signF = b.signF, signL = b.signL;
-  const auto [forwards, sideways, upwards] = b.from;
-  for (std::size_t i = 0; i < kBoxes; ++i) {
-    const float nearer = 1 / (signF * b.near[i] + forwards), further = 1 / (signF * b.far[i] + forwards);
-    const float left = signL * b.left[i] + sideways, right = signL * b.right[i] + sideways,
-                top = b.top[i] + upwards;
-    images.t0[i] = left * (left < 0 ? nearer : further);
-    images.t1[i] = right * (right > 0 ? nearer : further);
-    images.w[i] = top * (top > 0 ? nearer : further);
+template <int Side>
+TRIMTAB_INLINE void imagesFrom(const TileRelief::Part& p, const std::array<float, 3>& from,
+                               BoxImages& __restrict images) {
+  const auto [x, y, z] = from;
+  for (std::size_t i = 0; i < p.top.size(); ++i) {
+    const BoxImage image(turned(Side, p.minX[i] + x, p.maxX[i] + x, p.minY[i] + y, p.maxY[i] + y),
+                         p.top[i] + z);
+    images.t0[i] = image.t0;
+    images.t1[i] = image.t1;
+    images.w[i] = image.w;
+  }
+}
+
+TRIMTAB_INLINE void imagesOf(int side, const TileRelief::Part& part, const std::array<float, 3>& from,
+                             BoxImages& images) {
+  switch (side) {
+    case 0:
+      return imagesFrom<0>(part, from, images);
+    case 1:
+      return imagesFrom<1>(part, from, images);
+    case 2:
+      return imagesFrom<2>(part, from, images);
+    default:
+      return imagesFrom<3>(part, from, images);
   }
 }
 
@@ -73,29 +89,30 @@ TRIMTAB_INLINE void erodeAll(float* values, int count, int width) {
   if (done < width) least(width - done);
 }
 
-#define TRIMTAB_KERNELS(NAME, TARGET)                                                       \
-  TARGET void project##NAME(const Projection& p, int count, float* f, float* u, float* w) { \
-    projectAll(p, count, f, u, w);                                                          \
-  }                                                                                         \
-  TARGET void images##NAME(const Boxes& boxes, BoxImages& images) {                         \
-    imagesOf(boxes, images);                                                                \
-  }                                                                                         \
-  TARGET int trend##NAME(const float* values, int count) {                                  \
-    return trendOf(values, count);                                                          \
-  }                                                                                         \
-  TARGET void lower##NAME(float* w, int count, float up, float forwards, float inverse) {   \
-    lowerAll(w, count, up, forwards, inverse);                                              \
-  }                                                                                         \
-  TARGET int firstNotAbove##NAME(const float* v, int count, float limit) {                  \
-    return firstNotAboveOf(v, count, limit);                                                \
-  }                                                                                         \
-  TARGET void raise##NAME(float* v, const float* to, int count) {                           \
-    raiseAll(v, to, count);                                                                 \
-  }                                                                                         \
-  TARGET void erode##NAME(float* v, int count, int width) {                                 \
-    erodeAll(v, count, width);                                                              \
-  }                                                                                         \
-  constexpr Kernels k##NAME{project##NAME,       images##NAME, trend##NAME, lower##NAME,    \
+#define TRIMTAB_KERNELS(NAME, TARGET)                                                                \
+  TARGET void project##NAME(const Projection& p, int count, float* f, float* u, float* w) {          \
+    projectAll(p, count, f, u, w);                                                                   \
+  }                                                                                                  \
+  TARGET void images##NAME(int side, const TileRelief::Part& part, const std::array<float, 3>& from, \
+                           BoxImages& images) {                                                      \
+    imagesOf(side, part, from, images);                                                              \
+  }                                                                                                  \
+  TARGET int trend##NAME(const float* values, int count) {                                           \
+    return trendOf(values, count);                                                                   \
+  }                                                                                                  \
+  TARGET void lower##NAME(float* w, int count, float up, float forwards, float inverse) {            \
+    lowerAll(w, count, up, forwards, inverse);                                                       \
+  }                                                                                                  \
+  TARGET int firstNotAbove##NAME(const float* v, int count, float limit) {                           \
+    return firstNotAboveOf(v, count, limit);                                                         \
+  }                                                                                                  \
+  TARGET void raise##NAME(float* v, const float* to, int count) {                                    \
+    raiseAll(v, to, count);                                                                          \
+  }                                                                                                  \
+  TARGET void erode##NAME(float* v, int count, int width) {                                          \
+    erodeAll(v, count, width);                                                                       \
+  }                                                                                                  \
+  constexpr Kernels k##NAME{project##NAME,       images##NAME, trend##NAME, lower##NAME,             \
                             firstNotAbove##NAME, raise##NAME,  erode##NAME};
 
 TRIMTAB_KERNELS(Portable, )

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "trimtab/culling/box_arrays.h"
+#include "trimtab/culling/relief.h"
 
 /// The horizon's inner loops, by what the processor has. All forms give the same bits: each number comes from
 /// the same operations, none of them contracted.
@@ -14,23 +15,16 @@ struct Projection {
   float signF, signL, perT;
 };
 
-/// kBoxes boxes as a quarter sees them, from `forward` and `left` on: what they span at most, and how high
-/// their tops reach.
-struct Boxes {
-  const float *near, *far, *left, *right, *top;
-  float signF, signL;
-  std::array<float, 3> from;  ///< forwards, sideways and upwards
-};
-constexpr int kBoxes = 16;
+/// What the boxes of a part's blocks span at most, and how high their tops reach: a BoxImage each.
 struct BoxImages {
-  alignas(64) std::array<float, kBoxes> t0, t1, w;
+  alignas(64) std::array<float, TileRelief::Part::kMostBlocks> t0, t1, w;
 };
 
 struct Kernels {
   /// Reads and writes up to the next multiple of 16.
   void (*project)(const Projection& p, int count, float* forward, float* u, float* w);
-  /// All of them must be in front of the eye.
-  void (*images)(const Boxes& boxes, BoxImages& images);
+  /// As a quarter sees them; all of them must be in front of the eye. `from`: their origin, from it.
+  void (*images)(int side, const TileRelief::Part& part, const std::array<float, 3>& from, BoxImages& images);
   /// 1 where each value is at least the one before, -1 where none is, else 0.
   int (*trend)(const float* values, int count);
   /// Lowers w to w - (up + |w| forwards) / nearest.

@@ -17,22 +17,6 @@ float movedBy(float off, float w) {
   return off * 1.5f * (2.1f + w * w);
 }
 
-Boxes boxesOf(int side, const TileRelief::Part& part, const std::array<float, 3>& offset) {
-  const bool turn = side % 2 != 0, back = side >= 2, mirrored = side == 1 || side == 2;
-  const std::array<const float*, 2> f{turn ? part.minY.data() : part.minX.data(),
-                                      turn ? part.maxY.data() : part.maxX.data()},
-      l{turn ? part.minX.data() : part.minY.data(), turn ? part.maxX.data() : part.maxY.data()};
-  const Turned from = turned(side, offset[0], offset[1]);
-  return {f[back],
-          f[!back],
-          l[mirrored],
-          l[!mirrored],
-          part.top.data(),
-          back ? -1.0f : 1.0f,
-          mirrored ? -1.0f : 1.0f,
-          {from.f, from.l, offset[2]}};
-}
-
 }  // namespace
 
 float Horizon::besideOf(float off, float z, float away) const {
@@ -76,7 +60,6 @@ bool Horizon::isPrismHidden(const Prism& prism) {
 }
 
 bool Horizon::isPartHidden(const TileRelief::Part& part) {
-  static_assert(TileRelief::Part::kMostBlocks == kBoxes);
   const Box& b = part.box;
   for (int side = 0; side < kSides; ++side) {
     const TurnedBox box =
@@ -84,7 +67,7 @@ bool Horizon::isPartHidden(const TileRelief::Part& part) {
     if (!meets(box, beside_)) continue;
     if (!(box.f0 > nearest_)) return false;
     BoxImages images;
-    kernels_->images(boxesOf(side, part, offset_), images);
+    kernels_->images(side, part, offset_, images);
     for (std::size_t k = 0; k < static_cast<std::size_t>(part.blocks); ++k)
       if (!covers(side, images.t0[k], images.t1[k], images.w[k])) return false;
   }
