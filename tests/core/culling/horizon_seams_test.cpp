@@ -81,9 +81,9 @@ TEST(HorizonRoom, holdsStraightUpAlsoWithoutARadius) {
 /// and beside the post: the raised post alone looks over the low wall behind the gap.
 class GapScene {
  public:
-  static constexpr float kWallM = 2000, kTileM = 6000, kSizeM = 900;
+  static constexpr float kEyeM = 50, kLowM = 100, kWallM = 2000, kThickM = 20, kTileM = 6000, kSizeM = 900;
 
-  GapScene(int posts, int side) : posts_(posts), side_(side), low_(wall(kWallM, -0.4f, 0.4f, 100)) {}
+  GapScene(int posts, int side) : posts_(posts), side_(side), low_(wall(kWallM, -0.4f, 0.4f, kLowM)) {}
 
   /// Whether the tile is hidden: `post`, raised or not, counted through the gap at `beside` cells from it.
   bool isHidden(int post, float beside, bool raised, SimdLevel simd) const {
@@ -96,15 +96,18 @@ class GapScene {
     const TileRelief tile = relief(posts_, kTileM, kSizeM, -0.5f * kSizeM, 0.5f * kSizeM, [&](int c, int r) {
       const float forwards = kTileM + cell() * static_cast<float>(away(c, r)),
                   sideways = cell() * static_cast<float>(across(c, r)) - 0.5f * kSizeM;
-      if (std::abs(sideways - l / f * forwards) >= 4 * cell()) return 800.0f;  // behind the high walls
-      return raised && c == i && r == j ? 600.0f : 0.0f;  // behind the low one alone, in the gap
+      if (std::abs(sideways - l / f * forwards) >= 3 * cell()) return 800.0f;  // behind the high walls
+      // In the gap, over the low one or, as all of a block reaches, below it.
+      return raised && c == i && r == j
+                 ? kLowM + 2 + (kLowM - kEyeM) / kWallM * (forwards - kWallM)
+                 : kEyeM - 6 + (kLowM - kEyeM) / (kWallM + kThickM) * (forwards - 2 * cell());
     });
     const std::vector<HorizonTile> tiles{{.relief = &low_, .mayOcclude = true},
                                          {.relief = &before, .mayOcclude = true},
                                          {.relief = &after, .mayOcclude = true},
                                          {.relief = &tile}};
     Horizon horizon;
-    horizon.build({0, 0, 50}, tiles, {.columns = 8192, .simd = simd});
+    horizon.build({0, 0, kEyeM}, tiles, {.columns = 8192, .simd = simd});
     return horizon.hidden()[3] != 0;
   }
   /// Cells that a post is from the tile's border on the right.
@@ -141,15 +144,15 @@ class GapScene {
     return r;
   }
   TileRelief wall(float f, float t0, float t1, float z) const {
-    return relief(9, f, 20, f * t0, f * t1, [z](int, int) { return z; });
+    return relief(9, f, kThickM, f * t0, f * t1, [z](int, int) { return z; });
   }
 
   int posts_, side_;
   TileRelief low_;
 };
 
-/// The raised post is lower than most blocks of its part: so each post counts in each block that holds it,
-/// the last rows and columns of parts and tiles too.
+/// The raised post is hardly higher than what stays hidden, and lower than most of its part: so each post
+/// counts in each block that holds it, the lowest and those of the last rows and columns too.
 TEST(Horizon, seesATileByAnyBlockOfAnyOfItsPosts) {
   for (const int posts : {9, 12, 33})
     for (int side = 0; side < Horizon::kSides; ++side) {
