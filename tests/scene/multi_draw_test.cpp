@@ -5,6 +5,7 @@
 #include "patched_terrain.h"
 #include "scene_test.h"
 #include "synthetic_trees.h"
+#include "trimtab/scene/gl_api.h"
 
 namespace trimtab {
 namespace {
@@ -125,6 +126,50 @@ TEST_F(MultiDraw, makesCommandsAnewOnlyForOtherNodesOrOtherPlaces) {
     EXPECT_TRUE(draw.begin(std::span(other).first(2), 2)) << "order counts";
     EXPECT_EQ(draw.made(), 5u);
   }
+}
+
+/// Pixels of a triangle that shows its back, drawn once as it is and once from both sides.
+TEST_F(MultiDraw, drawsFromBothSidesWhatIsToBeAndLeavesFaceCullingAsItWas) {
+  offscreen->makeCurrent();
+  glBindFramebuffer(GL_FRAMEBUFFER, offscreen->framebuffer());
+  glViewport(0, 0, kWidth, kHeight);
+  glDisable(GL_DEPTH_TEST);
+  const std::array<float, 6> corners{-1, -1, -1, 1, 1, -1};
+  const std::array<std::uint16_t, 3> indices{0, 1, 2};
+  unsigned array = 0, query = 0;
+  std::array<unsigned, 2> buffers{};
+  glGenVertexArrays(1, &array);
+  glGenBuffers(2, buffers.data());
+  glBindVertexArray(array);
+  glBindBuffer(GL_ARRAY_BUFFER, buffers[0]);
+  glBufferData(GL_ARRAY_BUFFER, sizeof corners, corners.data(), GL_STATIC_DRAW);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, sizeof indices, indices.data(), GL_STATIC_DRAW);
+  glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
+  glEnableVertexAttribArray(0);
+  glGenQueries(1, &query);
+  const auto pixels = [&](DrawWay way, bool oneSided) {
+    scene::MultiDraw draw(way);
+    EXPECT_TRUE(draw.begin(std::array<TileDraw, 2>{{{1, 0}, {2, 0}}}, 1));
+    draw.add(0, 3, 0, true);
+    draw.add(0, 3, 0);
+    (oneSided ? glEnable : glDisable)(GL_CULL_FACE);
+    glBeginQuery(GL_SAMPLES_PASSED, query);
+    draw.draw(array, GL_UNSIGNED_SHORT);
+    glEndQuery(GL_SAMPLES_PASSED);
+    EXPECT_EQ(glIsEnabled(GL_CULL_FACE) == GL_TRUE, oneSided);
+    unsigned passed = 0;
+    glGetQueryObjectuiv(query, GL_QUERY_RESULT, &passed);
+    return passed;
+  };
+  for (const DrawWay way : kWays) {
+    const unsigned one = pixels(way, true);
+    EXPECT_NEAR(one, kWidth * kHeight / 2, kWidth + kHeight);
+    EXPECT_EQ(pixels(way, false), 2 * one);
+  }
+  glDeleteQueries(1, &query);
+  glDeleteBuffers(2, buffers.data());
+  glDeleteVertexArrays(1, &array);
 }
 
 }  // namespace
