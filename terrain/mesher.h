@@ -86,9 +86,4 @@ class PolygonMesher {
 void simplifySide(const HeightField& field, PolygonMesher::Point from, PolygonMesher::Point to,
                   double tolerance, std::vector<PolygonMesher::Point>& polyline);
 
-/// Largest vertical distance of a mesh from the field's bilinear surface: found exactly, from the crossings
-/// of edges with cells. `z` one a vertex.
-double bilinearError(const HeightField& field, std::span<const PolygonMesher::Point> vertices,
-                     std::span<const float> z, std::span<const std::uint32_t> indices);
-
 }  // namespace trimtab::terrain
