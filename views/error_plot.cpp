@@ -331,7 +331,8 @@ void ErrorPlot::redraw() {
     budgetText_->setFont(font());
   }
   hint_->setVisible(points_.empty() && tail_.empty() && height() > kRoomForHintPx / 2);
-  hint_->setText(tr("Nothing measured yet.\nMeasure presets, open results,\nor switch Measure live on."));
+  hint_->setText(
+      tr("Nothing measured yet.\nMeasure presets or open results;\nMeasure live shows this session."));
   hint_->setColor(quietColour(palette()));
   hint_->setFont(font());
   const QFontMetrics metrics(font());
