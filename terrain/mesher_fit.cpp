@@ -106,7 +106,19 @@ void MeshFit::flipEdges(double bound, int passes, std::vector<PostSum> known) {
   }
 }
 
-TRIMTAB_LANES bool MeshFit::gather(std::int32_t start, const Vertex& at, Star& star) {
+bool MeshFit::mayStand(std::int32_t start, const Vertex& there) const {
+  std::int32_t h = start;
+  do {
+    const Triangle& one = mesh_.triangles[static_cast<std::size_t>(h >> 2)];
+    const Vertex &b = mesh_.vertices[one.corner[Triangulation::next(h & 3)]],
+                 &c = mesh_.vertices[one.corner[Triangulation::before(h & 3)]];
+    if (Triangulation::turn(there, b, c.x, c.y) <= 0) return false;
+    h = one.twin[Triangulation::before(h & 3)];
+  } while (h != start);
+  return true;
+}
+
+TRIMTAB_LANES void MeshFit::gather(std::int32_t start, const Vertex& at, Star& star) {
   star = {};
   std::size_t count = 0;
   Lanes rr{}, worst{};
@@ -117,7 +129,6 @@ TRIMTAB_LANES bool MeshFit::gather(std::int32_t start, const Vertex& at, Star& s
     const Vertex &b = mesh_.vertices[one.corner[Triangulation::next(i)]],
                  &c = mesh_.vertices[one.corner[Triangulation::before(i)]];
     const std::int64_t twice = Triangulation::turn(at, b, c.x, c.y);
-    if (twice <= 0) return false;
     star.area += twice;
     const bool border[3] = {false, one.twin[Triangulation::next(i)] < 0, false};
     const Vertex* const corner[3] = {&at, &b, &c};
@@ -164,7 +175,6 @@ TRIMTAB_LANES bool MeshFit::gather(std::int32_t start, const Vertex& at, Star& s
   star.ww += 1;
   star.rr = sumOfLanes(rr) + own * own;
   star.worst = std::max(mostOfLanes(worst), std::fabs(own));
-  return true;
 }
 
 /// Whether no post about the vertex is further off than `limit` where it rises so far.
@@ -257,16 +267,15 @@ void MeshFit::moveVertex(std::uint32_t v, double bound) {
     Vertex there = at;
     there.x += static_cast<std::int32_t>(std::lround(dx * part));
     there.y += static_cast<std::int32_t>(std::lround(dy * part));
-    if (there.x != at.x || there.y != at.y) {
+    if ((there.x != at.x || there.y != at.y) && mayStand(starts_[v], there)) {
       there.z = static_cast<float>(post(posts_, there));
       Star moved;
+      gather(starts_[v], there, moved);
       float zThere;
-      if (gather(starts_[v], there, moved)) {
-        if (bestHeight(moved, there.z, limit, zThere, squares) && squares < least * (1 - 1e-4)) {
-          best = there;
-          best.z = zThere;
-          better = true;
-        }
+      if (bestHeight(moved, there.z, limit, zThere, squares) && squares < least * (1 - 1e-4)) {
+        best = there;
+        best.z = zThere;
+        better = true;
       }
     }
   }
@@ -323,8 +332,9 @@ bool MeshFit::mendVertex(std::uint32_t v, double bound) {
     if (place != 0) {
       there.x += (place + 4) % 9 % 3 - 1;
       there.y += (place + 4) % 9 / 3 - 1;
+      if (!mayStand(starts_[v], there)) continue;
       there.z = static_cast<float>(post(posts_, there));
-      if (!gather(starts_[v], there, star)) continue;
+      gather(starts_[v], there, star);
     }
     double low = 0;
     for (int i = 0; i < kHalvings && high > bound; ++i) {

@@ -54,7 +54,9 @@ class MeshFit {
     std::int64_t area = 0;
     std::size_t posts = 0;  ///< lanes in about_
   };
-  bool gather(std::int32_t start, const Triangulation::Vertex& at, Star& star);
+  /// Whether the triangles about a vertex would stay anticlockwise with it there: only then there are posts.
+  bool mayStand(std::int32_t start, const Triangulation::Vertex& there) const;
+  void gather(std::int32_t start, const Triangulation::Vertex& at, Star& star);
   bool bestHeight(const Star& star, float was, double limit, float& z, double& squares) const;
   bool keeps(const Star& star, double rise, double limit) const;
 

@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "mesher_check.h"
 #include "trimtab/terrain/mesher.h"
@@ -107,6 +110,25 @@ TEST(MeshField, spendsABudgetWhereManyPostsAreOffByTheSame) {
     expectTrue(field, mesh);
     EXPECT_LE(mesh.triangles(), most);
   }
+}
+
+/// Memory that may not be read stands right before the first post, or right after the last.
+TEST(MeshField, readsNothingBesideTheField) {
+  constexpr std::uint32_t kSide = 301;
+  const Field field(kSide, kSide, [](int x, int y) { return (x * 7 + y * 13) % 29 == 0 ? 10.0 : 0.0; });
+  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)), bytes = field.z.size() * sizeof(float);
+  const std::size_t inside = (bytes + page - 1) / page * page;
+  void* const all = ::mmap(nullptr, inside + 2 * page, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(all, MAP_FAILED);
+  char* const begin = static_cast<char*>(all) + page;
+  ASSERT_EQ(::mprotect(begin, inside, PROT_READ | PROT_WRITE), 0);
+  for (char* const first : {begin, begin + (inside - bytes)}) {
+    std::memcpy(first, field.z.data(), bytes);
+    for (const std::size_t most : {500u, 5000u, 9000u})
+      expectSame(meshField({reinterpret_cast<float*>(first), kSide, kSide, kSide}, {.mostTriangles = most}),
+                 meshField(field.view(), {.mostTriangles = most}));
+  }
+  ::munmap(all, inside + 2 * page);
 }
 
 TEST(MeshField, stopsAtTheBoundWhereTheBudgetAllowsMore) {
