@@ -29,6 +29,7 @@ struct Measured {
   Box bounds;
   std::array<float, PatchIndex::kVariants> errorM;
   std::array<std::uint16_t, PatchIndex::kVariants> triangles;
+  std::uint16_t unused = 0;  // no byte of the file is left to chance
   PatchFacts facts;
   NormalCone cone;
 };
@@ -93,7 +94,7 @@ Result<Done> PatchBake::makePiece(const HeightSource& heights, std::uint32_t pie
     for (const PatchMesh& mesh : built.meshes.patches) vertices += mesh.vertices.size() + 1;
     for (std::size_t p = 0; p < built.meshes.patches.size(); ++p) {
       const PatchMesh& mesh = built.meshes.patches[p];
-      Measured m{built.bounds[p], built.errorM[p], {}, built.facts[p], built.cones[p]};
+      Measured m{built.bounds[p], built.errorM[p], {}, 0, built.facts[p], built.cones[p]};
       for (std::size_t v = 0; v < PatchIndex::kVariants; ++v)
         m.triangles[v] = static_cast<std::uint16_t>((mesh.firstIndex[v + 1] - mesh.firstIndex[v]) / 3);
       m.facts.vertices = static_cast<std::uint32_t>(mesh.vertices.size());

@@ -12,9 +12,12 @@ namespace {
 constexpr std::uint64_t kIndexKey = std::uint64_t{1} << 32, kFactsKey = kIndexKey + 1,
                         kConesKey = kIndexKey + 2;
 
+/// Of what is stored of a patch, in the index and in pages.
+constexpr std::uint64_t kVersion = 2;
+
 /// What a file of patches was made for.
 struct GridHeader {
-  std::uint64_t version = 1;
+  std::uint64_t version = kVersion;
   PostGrid posts;
   std::uint32_t patches = 0, pages = 0;
 };
@@ -22,8 +25,9 @@ struct Measured {
   Box bounds;
   std::array<float, PatchIndex::kVariants> errorM;
   std::array<std::uint16_t, PatchIndex::kVariants> triangles;
+  std::uint16_t unused = 0;
 };
-static_assert(sizeof(GridHeader) == 56 && sizeof(Measured) == 48 && sizeof(PatchFacts) == 56);
+static_assert(sizeof(GridHeader) == 56 && sizeof(Measured) == 44 && sizeof(PatchFacts) == 48);
 
 bool isSound(const Measured& m) {
   const Box& b = m.bounds;
@@ -61,7 +65,9 @@ class StoredPatches final : public PatchTerrain {
     GridHeader header;
     if (measured->size() < sizeof header) return wrong("index", "a header", "less");
     std::memcpy(&header, measured->data(), sizeof header);
-    if (header.version != 1) return wrong("index", "version 1", std::to_string(header.version));
+    if (header.version != kVersion)
+      return wrong("index", "version " + std::to_string(kVersion) + " (bake it again)",
+                   "version " + std::to_string(header.version));
     if (!(header.posts == posts)) return wrong("index", "the grid of the manifest", "another one");
     index_ = makePatchIndex(posts, geometry_);
     const std::size_t count = index_.size();

@@ -28,7 +28,7 @@ struct PatchIndex {
   static constexpr std::uint32_t kNone = 0xffffffffu;
   static constexpr std::uint32_t kLeafCells = 32;   ///< side of the smallest squares
   static constexpr std::uint32_t kPageSquares = 4;  ///< a page holds the patches of so many squares, squared
-  static constexpr int kVariants = 4;
+  static constexpr int kVariants = 3;
 
   /// Two patches about one hypotenuse. Halving it needs the two diamonds that it came from halved before:
   /// those whose children its patches are.

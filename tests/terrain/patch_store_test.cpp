@@ -182,6 +182,23 @@ TEST(PatchStore, opensWhatItWroteAndNothingElse) {
   const auto refused = openPatches(*pages, file, other);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.findings().front().where, file.string());
+
+  constexpr std::uint64_t kIndexKey = std::uint64_t{1} << 32;
+  const auto stored = (*pages)->read(kIndexKey);
+  ASSERT_TRUE(stored);
+  std::vector<std::byte> measured(stored->begin(), stored->end());
+  measured[0] = std::byte{1};
+  const auto older = dir / "older.pages";
+  {
+    auto writer = PageFileWriter::create(older);
+    ASSERT_TRUE(writer);
+    ASSERT_TRUE((*writer)->add(kIndexKey, measured));
+    ASSERT_TRUE((*writer)->finish());
+  }
+  const auto refusedVersion = openPatches(*PageFile::open(older), older, grid.posts);
+  ASSERT_FALSE(refusedVersion);
+  EXPECT_EQ(refusedVersion.findings().front().expected, "version 2 (bake it again)");
+  EXPECT_EQ(refusedVersion.findings().front().found, "version 1");
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ class PatchRoom : public testing::Test {
                      {3000, -200, 0, 3100, 200, 48}};
     index_.parent = {kNone, kRidge, kRidge, kNone};
     index_.children = {{kHalf, kHalf + 1}, {kNone, kNone}, {kNone, kNone}, {kNone, kNone}};
-    index_.errorM.assign(4, Errors{0, 0, 0, 0});
+    index_.errorM.assign(4, Errors{});
     index_.errorM[kRidge].fill(0.5f);
     index_.errorM[kHalf].fill(0.1f);
     index_.errorM[kHalf + 1].fill(0.1f);

@@ -125,7 +125,7 @@ TEST_P(PatchCutOf, keepsThePromisedErrorAndTheCoarsestVariantThatDoes) {
       }
     }
   }
-  EXPECT_EQ(variants.size(), 4u);
+  EXPECT_EQ(variants.size(), std::size_t{PatchIndex::kVariants});
 }
 
 TEST_P(PatchCutOf, saysWhatThePictureLacksInPixelsCoarsePagesFirst) {
