@@ -66,11 +66,9 @@ class PolygonMesher {
   void refine(double tolerance, std::size_t mostVertices);
 
   const std::vector<Point>& vertices() const;  ///< the border's first, as given
-  /// Of now: three a triangle, anticlockwise; and of its edges, the first from its first corner, the
-  /// triangles on the other side, negative at the border.
-  void triangles(std::vector<std::uint32_t>& indices, std::vector<std::int32_t>* beyond = nullptr) const;
-  /// The same triangles, each next to one shortly before.
-  void triangleStrips(std::vector<std::uint32_t>& indices) const;
+  /// Of now: three a triangle, anticlockwise. `twins`: of its edges, the first from its first corner, the
+  /// half-edges on the other side, edge i of triangle t as 4 t + i; negative at the border.
+  void triangles(std::vector<std::uint32_t>& indices, std::vector<std::int32_t>* twins = nullptr) const;
   double maxErrorM() const;  ///< at the posts inside and on the border
   double rmsErrorM() const;
   std::uint32_t posts() const;  ///< that these were measured at

@@ -1,6 +1,9 @@
 #include "trimtab/terrain/mesher_order.h"
 
+#include <algorithm>
 #include <array>
+
+#include "trimtab/terrain/mesher_triangulation.h"
 
 namespace trimtab::terrain {
 
@@ -15,16 +18,16 @@ constexpr std::uint8_t kDone = 4;
 
 }  // namespace
 
-void TriangleOrder::order(const Triangulation& mesh, std::vector<std::uint32_t>& indices) {
-  const std::size_t count = mesh.triangles.size();
+void TriangleOrder::order(std::span<const std::int32_t> twins, std::vector<std::int32_t>& order) {
+  const std::size_t count = twins.size() / 3;
   open_.resize(count + 1);
   open_[0] = kDone;
   for (std::size_t t = 0; t < count; ++t) {
-    const std::int32_t* const twin = mesh.triangles[t].twin;
+    const std::int32_t* const twin = &twins[3 * t];
     open_[t + 1] = static_cast<std::uint8_t>((twin[0] >= 0) + (twin[1] >= 0) + (twin[2] >= 0));
   }
-  indices.resize(3 * count);
-  std::uint32_t* out = indices.data();
+  order.resize(count);
+  std::int32_t* out = order.data();
   const auto openOf = [&](std::int32_t h) -> std::uint8_t& {
     return open_[static_cast<std::size_t>(std::max(h, -1) + 4) >> 2];
   };
@@ -50,18 +53,15 @@ void TriangleOrder::order(const Triangulation& mesh, std::vector<std::uint32_t>&
       while (open_[unseen] == kDone) ++unseen;
       best = static_cast<std::int32_t>(4 * (unseen - 1));
     }
-    const Triangulation::Triangle& at = mesh.triangles[static_cast<std::size_t>(best >> 2)];
-    const int second = Triangulation::next(best & 3), third = Triangulation::before(best & 3);
+    const std::int32_t* const twin = &twins[3 * static_cast<std::size_t>(best >> 2)];
     openOf(best) = kDone;
-    for (const std::int32_t h : at.twin) {
-      std::uint8_t& open = openOf(h);
+    for (int k = 0; k < 3; ++k) {
+      std::uint8_t& open = openOf(twin[k]);
       open = static_cast<std::uint8_t>(open - (open != kDone));
     }
-    *out++ = at.corner[best & 3];
-    *out++ = at.corner[second];
-    *out++ = at.corner[third];
-    recent[newest++ % kRecent] = at.twin[third];
-    recent[newest++ % kRecent] = at.twin[second];
+    *out++ = best;
+    recent[newest++ % kRecent] = twin[Triangulation::before(best & 3)];
+    recent[newest++ % kRecent] = twin[Triangulation::next(best & 3)];
   }
 }
 

@@ -1,9 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
-
-#include "trimtab/terrain/mesher_triangulation.h"
 
 namespace trimtab::terrain {
 
@@ -12,8 +11,9 @@ namespace trimtab::terrain {
 /// storage from mesh to mesh.
 class TriangleOrder {
  public:
-  /// Three indices a triangle.
-  void order(const Triangulation& mesh, std::vector<std::uint32_t>& indices);
+  /// `twins`: of PolygonMesher, three a triangle. `order`: of each triangle the half-edge from which it is to
+  /// be drawn.
+  void order(std::span<const std::int32_t> twins, std::vector<std::int32_t>& order);
 
  private:
   /// Neighbours of a triangle that are not in the order yet, or kDone; the first entry is for what lies

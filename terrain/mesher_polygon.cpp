@@ -1,11 +1,10 @@
+#include <algorithm>
+
 #include "trimtab/terrain/mesher_greedy.h"
-#include "trimtab/terrain/mesher_order.h"
 
 namespace trimtab::terrain {
 
-struct PolygonMesher::Impl : GreedyMesh {
-  TriangleOrder order;
-};
+struct PolygonMesher::Impl : GreedyMesh {};
 
 PolygonMesher::PolygonMesher() : impl_(std::make_unique<Impl>()) {}
 PolygonMesher::~PolygonMesher() = default;
@@ -22,18 +21,13 @@ void PolygonMesher::refine(double tolerance, std::size_t mostVertices) {
 const std::vector<PolygonMesher::Point>& PolygonMesher::vertices() const {
   return impl_->points();
 }
-void PolygonMesher::triangles(std::vector<std::uint32_t>& indices, std::vector<std::int32_t>* beyond) const {
+void PolygonMesher::triangles(std::vector<std::uint32_t>& indices, std::vector<std::int32_t>* twins) const {
   const std::vector<Triangulation::Triangle>& all = impl_->mesh().triangles;
   indices.resize(all.size() * 3);
-  for (std::size_t t = 0; t < all.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) indices[3 * t + k] = all[t].corner[k];
-  if (beyond == nullptr) return;
-  beyond->resize(all.size() * 3);
-  for (std::size_t t = 0; t < all.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) (*beyond)[3 * t + k] = all[t].twin[k] >> 2;
-}
-void PolygonMesher::triangleStrips(std::vector<std::uint32_t>& indices) const {
-  impl_->order.order(impl_->mesh(), indices);
+  for (std::size_t t = 0; t < all.size(); ++t) std::copy_n(all[t].corner, 3, &indices[3 * t]);
+  if (twins == nullptr) return;
+  twins->resize(all.size() * 3);
+  for (std::size_t t = 0; t < all.size(); ++t) std::copy_n(all[t].twin, 3, &(*twins)[3 * t]);
 }
 double PolygonMesher::maxErrorM() const {
   return impl_->maxErrorM();

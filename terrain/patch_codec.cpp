@@ -14,7 +14,7 @@ namespace trimtab::terrain {
 
 namespace {
 
-constexpr std::uint32_t kBlobMagic = 0x31505454;  // TTP1
+constexpr std::uint32_t kBlobMagic = 0x32505454;  // TTP2
 constexpr double kSteps = static_cast<double>(PostGeometry::kStepsPerMetre);
 constexpr std::int32_t kOriginSteps = 16 * static_cast<std::int32_t>(PostGeometry::kStepsPerMetre);
 constexpr std::size_t kMostVertices = 1u << 16;  ///< of a patch: indices have 16 bits
@@ -23,8 +23,9 @@ struct BlobHeader {
   std::uint32_t magic = kBlobMagic, page = 0, patches = 0, vertices = 0, indices = 0;
   std::uint32_t patchBytes = 0, vertexBytes = 0, indexBytes = 0, exceptions = 0;
   std::uint32_t postShift = 0;  ///< of columns and rows
+  std::uint32_t heirBytes = 0;
 };
-static_assert(sizeof(BlobHeader) == 40);
+static_assert(sizeof(BlobHeader) == 44);
 
 struct PackedPatch {
   std::int32_t origin[3];
@@ -112,10 +113,73 @@ bool unpack(std::vector<T>& values, const std::byte* bytes, std::size_t size) {
                                     reinterpret_cast<const unsigned char*>(bytes), size) == 0;
 }
 
-/// Where each vertex goes to, counted from `first`: by first use. `indices` gets a mesh's more.
-void reorder(const PatchMesh& mesh, std::uint32_t first, std::vector<std::uint32_t>& indices,
-             std::vector<std::uint32_t>& goesTo) {
-  goesTo.assign(mesh.vertices.size(), PatchIndex::kNone);
+/// Heirs of triangles, a bit or two each.
+class HeirWriter {
+ public:
+  void add(Heir heir) {
+    open_ |= std::uint64_t{heir == Heir::same} << count_ | std::uint64_t{heir == Heir::other} << (count_ + 1);
+    count_ += 1 + (heir != Heir::same);
+    if (count_ >= 48) flush();
+  }
+  const std::vector<std::uint8_t>& finish() {
+    flush();
+    if (count_ > 0) bytes_.push_back(static_cast<std::uint8_t>(open_));
+    return bytes_;
+  }
+
+ private:
+  void flush() {
+    for (; count_ >= 8; count_ -= 8, open_ >>= 8) bytes_.push_back(static_cast<std::uint8_t>(open_));
+  }
+  std::vector<std::uint8_t> bytes_;
+  std::uint64_t open_ = 0;
+  std::uint32_t count_ = 0;
+};
+
+class HeirReader {
+ public:
+  explicit HeirReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  /// None beyond the end.
+  Heir next() { return bit() ? Heir::same : bit() ? Heir::other : Heir::none; }
+
+ private:
+  bool bit() {
+    const std::size_t at = next_++;
+    return at / 8 < bytes_.size() && (std::to_integer<unsigned>(bytes_[at / 8]) >> at % 8 & 1) != 0;
+  }
+  std::span<const std::byte> bytes_;
+  std::size_t next_ = 0;
+};
+
+/// Of a mesh's triangles those that are packed: all of the finest variant, and of the others what the one
+/// before does not have.
+void split(const PatchMesh& mesh, std::vector<std::uint16_t>& packed, HeirWriter& heirs) {
+  const std::uint16_t* const all = mesh.indices.data();
+  packed.assign(all, all + mesh.firstIndex[1]);
+  for (std::size_t v = 1; v < PatchIndex::kVariants; ++v) {
+    const std::uint32_t end = mesh.firstIndex[v + 1];
+    std::uint32_t own = mesh.firstIndex[v];
+    std::size_t size = packed.size();
+    packed.resize(size + (end - own) + 3);
+    for (std::uint32_t t = mesh.firstIndex[v - 1] / 3; t < mesh.firstIndex[v] / 3; ++t) {
+      const Heir heir = mesh.heirs.empty() ? Heir::none : mesh.heirs[t];
+      heirs.add(heir);
+      // What a triangle has for an heir cannot be guessed: without a branch.
+      const std::uint16_t* const from = all + std::min(own, end - 3);
+      for (std::size_t k = 0; k < 3; ++k) packed[size + k] = from[k];
+      size += std::size_t{3} * (heir == Heir::other);
+      own += 3u * (heir != Heir::none);
+    }
+    packed.resize(size);
+    packed.insert(packed.end(), all + own, all + end);
+  }
+}
+
+/// Where each of so many vertices goes to, counted from `first`: by first use. `indices` gets the packed
+/// ones.
+void reorder(std::span<const std::uint16_t> packed, std::size_t vertices, std::uint32_t first,
+             std::vector<std::uint32_t>& indices, std::vector<std::uint32_t>& goesTo) {
+  goesTo.assign(vertices, PatchIndex::kNone);
   std::uint32_t next = first;
   const auto place = [&](std::uint32_t& to) {
     // Whether a vertex is a new one cannot be guessed: without a branch.
@@ -124,9 +188,9 @@ void reorder(const PatchMesh& mesh, std::uint32_t first, std::vector<std::uint32
     next += fresh ? 1 : 0;
   };
   const std::size_t before = indices.size();
-  indices.resize(before + mesh.indices.size());
-  for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
-    std::uint32_t& to = goesTo[mesh.indices[i]];
+  indices.resize(before + packed.size());
+  for (std::size_t i = 0; i < packed.size(); ++i) {
+    std::uint32_t& to = goesTo[packed[i]];
     place(to);
     indices[before + i] = to;
   }
@@ -150,6 +214,8 @@ std::vector<std::byte> encodePage(const PatchPage& page, const PostGeometry& geo
   std::vector<PackedPatch> patches;
   std::vector<PackedVertex> vertices;
   std::vector<std::uint32_t> indices, goesTo;
+  std::vector<std::uint16_t> packed;
+  HeirWriter heirs;
   std::vector<Exception> exceptions;
   for (const PatchMesh& mesh : page.patches) {
     PackedPatch patch{{mesh.origin[0], mesh.origin[1], mesh.origin[2]},
@@ -161,7 +227,8 @@ std::vector<std::byte> encodePage(const PatchPage& page, const PostGeometry& geo
       patch.triangles[v] = (mesh.firstIndex[v + 1] - mesh.firstIndex[v]) / 3;
     patches.push_back(patch);
     const std::size_t first = vertices.size();
-    reorder(mesh, static_cast<std::uint32_t>(first), indices, goesTo);
+    split(mesh, packed, heirs);
+    reorder(packed, mesh.vertices.size(), static_cast<std::uint32_t>(first), indices, goesTo);
     vertices.resize(first + mesh.vertices.size());
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
       const PatchVertex& v = mesh.vertices[i];
@@ -192,12 +259,15 @@ std::vector<std::byte> encodePage(const PatchPage& page, const PostGeometry& geo
   header.vertexBytes = appendPacked(bytes, vertices);
   if (!indices.empty()) {
     const std::size_t most = meshopt_encodeIndexBufferBound(indices.size(), vertices.size());
-    const auto packed = std::make_unique_for_overwrite<unsigned char[]>(most);
-    const std::size_t size = meshopt_encodeIndexBuffer(packed.get(), most, indices.data(), indices.size());
-    append(bytes, packed.get(), size);
+    const auto code = std::make_unique_for_overwrite<unsigned char[]>(most);
+    const std::size_t size = meshopt_encodeIndexBuffer(code.get(), most, indices.data(), indices.size());
+    append(bytes, code.get(), size);
     header.indexBytes = static_cast<std::uint32_t>(size);
   }
   append(bytes, exceptions.data(), exceptions.size());
+  const std::vector<std::uint8_t>& heirBytes = heirs.finish();
+  append(bytes, heirBytes.data(), heirBytes.size());
+  header.heirBytes = static_cast<std::uint32_t>(heirBytes.size());
   std::memcpy(bytes.data(), &header, sizeof header);
   return bytes;
 }
@@ -218,7 +288,8 @@ Result<PatchPage> decodePage(std::span<const std::byte> bytes, const PatchIndex&
   if (header.patches != expected.patches)
     return wrong("patches", number(expected.patches), number(header.patches));
   const std::uint64_t size = std::uint64_t{sizeof header} + header.patchBytes + header.vertexBytes +
-                             header.indexBytes + std::uint64_t{header.exceptions} * sizeof(Exception);
+                             header.indexBytes + std::uint64_t{header.exceptions} * sizeof(Exception) +
+                             header.heirBytes;
   if (size != bytes.size()) return wrong("size", number(size) + " bytes", number(bytes.size()) + " bytes");
   // Before anything is allocated by what it claims: sixteen packed vertices take three bytes or more, a
   // triangle one.
@@ -242,11 +313,12 @@ Result<PatchPage> decodePage(std::span<const std::byte> bytes, const PatchIndex&
     return wrong("triangles", "packed triangles", "something else");
   from += header.indexBytes;
   if (!exceptions.empty()) std::memcpy(exceptions.data(), from, exceptions.size() * sizeof(Exception));
+  HeirReader heirs(bytes.last(header.heirBytes));
 
   PatchPage out;
   out.page = page;
   out.patches.resize(patches.size());
-  std::uint64_t firstVertex = 0, firstIndex = 0;
+  std::uint64_t firstVertex = 0, next = 0;
   auto exception = exceptions.begin();
   for (std::size_t p = 0; p < patches.size(); ++p) {
     const PackedPatch& patch = patches[p];
@@ -255,18 +327,14 @@ Result<PatchPage> decodePage(std::span<const std::byte> bytes, const PatchIndex&
     std::copy_n(patch.origin, 3, mesh.origin);
     mesh.firstColumn = patch.firstColumn;
     mesh.firstRow = patch.firstRow;
-    std::uint64_t ends = firstIndex;
     for (std::size_t v = 0; v < PatchIndex::kVariants; ++v) {
       if (patch.triangles[v] != index.triangles[own][v])
         return wrong("triangles of patch " + number(own), number(index.triangles[own][v]),
                      number(patch.triangles[v]));
-      ends += std::uint64_t{patch.triangles[v]} * 3;
-      mesh.firstIndex[v + 1] = static_cast<std::uint32_t>(ends - firstIndex);
+      mesh.firstIndex[v + 1] = mesh.firstIndex[v] + 3 * patch.triangles[v];
     }
-    if (patch.vertices > kMostVertices || firstVertex + patch.vertices > vertices.size() ||
-        ends > indices.size())
-      return wrong("patch " + number(own), "vertices and triangles that are there",
-                   number(patch.vertices) + " and " + number((ends - firstIndex) / 3));
+    if (patch.vertices > kMostVertices || firstVertex + patch.vertices > vertices.size())
+      return wrong("patch " + number(own), "vertices that are there", number(patch.vertices));
     mesh.vertices.resize(patch.vertices);
     for (std::uint32_t i = 0; i < patch.vertices; ++i) {
       const PackedVertex& packed = vertices[firstVertex + i];
@@ -296,17 +364,38 @@ Result<PatchPage> decodePage(std::span<const std::byte> bytes, const PatchIndex&
           static_cast<std::uint16_t>(c),
           static_cast<std::uint16_t>(r)};
     }
-    mesh.indices.resize(ends - firstIndex);
-    for (std::uint64_t i = firstIndex; i < ends; ++i) {
-      if (indices[i] < firstVertex || indices[i] - firstVertex >= patch.vertices)
-        return wrong("triangles of patch " + number(own), "vertices of the patch", number(indices[i]));
-      mesh.indices[i - firstIndex] = static_cast<std::uint16_t>(indices[i] - firstVertex);
+    mesh.indices.resize(mesh.firstIndex.back());
+    std::uint16_t* to = mesh.indices.data();
+    const auto takePacked = [&](std::size_t count) {
+      for (; count > 0; --count, ++next) {
+        if (next == indices.size() || indices[next] < firstVertex ||
+            indices[next] - firstVertex >= patch.vertices)
+          return false;
+        *to++ = static_cast<std::uint16_t>(indices[next] - firstVertex);
+      }
+      return true;
+    };
+    bool sound = true;
+    for (std::size_t v = 0; v < PatchIndex::kVariants && sound; ++v) {
+      const std::uint16_t* const end = mesh.indices.data() + mesh.firstIndex[v + 1];
+      for (std::uint32_t t = 0; v > 0 && t < patch.triangles[v - 1] && sound; ++t) {
+        const Heir heir = heirs.next();
+        if (heir == Heir::none) continue;
+        sound = to < end;
+        if (sound && heir == Heir::same)
+          to = std::copy_n(mesh.indices.data() + mesh.firstIndex[v - 1] + 3 * t, 3, to);
+        else
+          sound = sound && takePacked(3);
+      }
+      sound = sound && takePacked(static_cast<std::size_t>(end - to));
     }
+    if (!sound)
+      return wrong("triangles of patch " + number(own), "as many as it has, of vertices of the patch",
+                   "others");
     firstVertex += patch.vertices;
-    firstIndex = ends;
   }
-  if (firstVertex != vertices.size() || firstIndex != indices.size())
-    return wrong("counts", number(firstVertex) + " vertices, " + number(firstIndex / 3) + " triangles",
+  if (firstVertex != vertices.size() || next != indices.size())
+    return wrong("counts", number(firstVertex) + " vertices, " + number(next / 3) + " triangles",
                  number(vertices.size()) + " and " + number(indices.size() / 3));
   return out;
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "trimtab/terrain/mesher_triangulation.h"
 #include "trimtab/terrain/patch_bend.h"
 #include "trimtab/terrain/patch_page.h"
 #include "trimtab/terrain/patch_scan.h"
@@ -159,15 +160,7 @@ class PageMeasure {
       v.row = static_cast<std::uint16_t>(draft.vertices[i].row - mesh.firstRow);
       mesh.vertices.push_back(v);
     }
-    for (std::size_t v = 0; v < kVariants; ++v) {
-      mesh.firstIndex[v] = static_cast<std::uint32_t>(mesh.indices.size());
-      const std::vector<std::uint32_t>& triangles = draft.variants[v].strips;
-      const std::size_t before = mesh.indices.size();
-      mesh.indices.resize(before + triangles.size());
-      for (std::size_t i = 0; i < triangles.size(); ++i)
-        mesh.indices[before + i] = static_cast<std::uint16_t>(triangles[i]);
-    }
-    mesh.firstIndex[kVariants] = static_cast<std::uint32_t>(mesh.indices.size());
+    addTriangles(draft, mesh);
     // The next floats outwards: a float need not hold a place that far from the frame's origin.
     const auto metres = [](std::int64_t steps) {
       return static_cast<float>(static_cast<double>(steps) / PostGeometry::kStepsPerMetre);
@@ -178,6 +171,40 @@ class PageMeasure {
     built_.bounds.push_back(
         {below(low.x), below(low.y), below(low.z), above(high.x), above(high.y), above(high.z)});
     built_.meshes.patches.push_back(std::move(mesh));
+  }
+
+  /// A coarser variant's triangle stands where the finer one's of the same number does: beside its
+  /// neighbours.
+  static void addTriangles(const PatchDraft& draft, PatchMesh& mesh) {
+    for (std::size_t v = 0; v < kVariants; ++v)
+      mesh.firstIndex[v + 1] =
+          mesh.firstIndex[v] + static_cast<std::uint32_t>(draft.variants[v].triangles.size());
+    // Room for one more: what a triangle has for an heir cannot be guessed, so all are written, without a
+    // branch.
+    mesh.indices.resize(mesh.firstIndex[kVariants] + std::size_t{3});
+    mesh.heirs.resize(mesh.firstIndex[kVariants - 1] / 3 + std::size_t{1});
+    std::uint16_t* out = mesh.indices.data();
+    Heir* heir = mesh.heirs.data();
+    for (std::size_t v = 0; v < kVariants; ++v) {
+      const PatchDraft::Variant& variant = draft.variants[v];
+      const std::size_t count = variant.triangles.size() / 3;
+      const bool coarsest = v + 1 == kVariants;
+      const Heir* const heirs = draft.variants[coarsest ? v : v + 1].heirs.data();
+      for (const std::int32_t h : draft.order) {
+        const auto t = static_cast<std::size_t>(h >> 2);
+        const std::size_t is = t < count, at = t * is;
+        const std::uint32_t* const corner = &variant.triangles[3 * at];
+        const int i = h & 3;
+        out[0] = static_cast<std::uint16_t>(corner[i]);
+        out[1] = static_cast<std::uint16_t>(corner[Triangulation::next(i)]);
+        out[2] = static_cast<std::uint16_t>(corner[Triangulation::before(i)]);
+        out += 3 * is;
+        *heir = heirs[at];
+        heir += coarsest ? 0 : is;
+      }
+    }
+    mesh.indices.resize(mesh.firstIndex[kVariants]);
+    mesh.heirs.resize(mesh.firstIndex[kVariants - 1] / 3);
   }
 
   /// Rows of the strip, with those before and after where there are some.
@@ -286,14 +313,15 @@ class PageMeasure {
     if (stride_ != 1) scanned_.assign(draft.variants[0].triangles.size() / 3, {});
     double worst = 0, bilinear = 0;
     for (std::size_t v = 0; v < kVariants; ++v) {
-      const std::vector<std::uint8_t>& fresh = draft.variants[v].isFresh;
+      const std::vector<Heir>& heirs = draft.variants[v].heirs;
+      const auto isNew = [&](std::size_t t, std::size_t other) {
+        return t < other && heirs[other] == Heir::other;
+      };
       draft.eachNew(v, [&](std::size_t t, const std::uint32_t* c) {
         // Each edge once. One that a triangle shares with another that is not new was measured as its.
-        const std::int32_t* const beyond = &draft.variants[v].beyond[3 * t];
+        const std::int32_t* const twin = &draft.variants[v].twins[3 * t];
         for (std::size_t k = 0; k < 3; ++k)
-          if (beyond[k] < 0
-                  ? v == 0
-                  : static_cast<std::size_t>(beyond[k]) > t && fresh[static_cast<std::size_t>(beyond[k])])
+          if (twin[k] < 0 ? v == 0 : isNew(t, static_cast<std::size_t>(twin[k] >> 2)))
             bilinear =
                 edgeError(corners_[c[k]], corners_[c[k == 2 ? 0 : k + 1]], strip, first, last, bilinear);
         if (stride_ == 1) return;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "trimtab/terrain/mesher_order.h"
+
 namespace trimtab::terrain {
 
 namespace {
@@ -19,14 +21,14 @@ constexpr double kVariantOctaves = 0.25;
 void findFresh(PatchDraft::Variant& of, const PatchDraft::Variant* finer) {
   const std::size_t triangles = of.triangles.size() / 3;
   of.fresh.resize(triangles);
-  of.isFresh.resize(triangles);
+  of.heirs.assign(finer != nullptr ? finer->triangles.size() / 3 : triangles, Heir::none);
   std::size_t count = 0;
   for (std::uint32_t t = 0; t < triangles; ++t) {
     const std::uint32_t* const c = &of.triangles[3 * std::size_t{t}];
     const std::uint32_t* const f = finer != nullptr ? &finer->triangles[3 * std::size_t{t}] : nullptr;
     const bool fresh = f == nullptr || ((c[0] ^ f[0]) | (c[1] ^ f[1]) | (c[2] ^ f[2])) != 0;
     of.fresh[count] = t;
-    of.isFresh[t] = fresh;
+    of.heirs[t] = fresh ? Heir::other : Heir::same;
     count += fresh ? 1 : 0;
   }
   of.fresh.resize(count);
@@ -66,14 +68,14 @@ class Drafter {
       mesher_.refine(tolerances_[static_cast<std::size_t>(depth)] * std::exp2(variant * kVariantOctaves),
                      kMostVertices);
       PatchDraft::Variant& of = draft.variants[static_cast<std::size_t>(variant)];
-      mesher_.triangles(of.triangles, &of.beyond);
-      mesher_.triangleStrips(of.strips);
+      mesher_.triangles(of.triangles, &of.twins);
       if (field_.stride() != 1) continue;
       of.worst = mesher_.maxErrorM();
       of.rms = mesher_.rmsErrorM();
     }
     for (std::size_t v = 0; v < draft.variants.size(); ++v)
       findFresh(draft.variants[v], v == 0 ? nullptr : &draft.variants[v - 1]);
+    order_.order(draft.variants[0].twins, draft.order);
     for (std::size_t i = border_.size(); i < mesher_.vertices().size(); ++i) {
       const PatchPoint& p = mesher_.vertices()[i];
       addHeight({p.column + window.column, p.row + window.row});
@@ -85,6 +87,7 @@ class Drafter {
   const std::vector<double>& tolerances_;
   PageField field_;
   PolygonMesher mesher_;
+  TriangleOrder order_;
   std::vector<PatchPoint> border_;
 };
 

@@ -23,13 +23,15 @@ struct PatchDraft {
   std::vector<float> z;              ///< above the page's plane
   struct Variant {
     std::vector<std::uint32_t> triangles;  ///< three a triangle
-    std::vector<std::int32_t> beyond;      ///< triangles on the other sides of their edges; negative: none
-    std::vector<std::uint32_t> strips;     ///< the triangles again, as they are drawn and packed
+    std::vector<std::int32_t> twins;       ///< of PolygonMesher::triangles
     std::vector<std::uint32_t> fresh;      ///< those that the next finer variant does not have
-    std::vector<std::uint8_t> isFresh;     ///< the same, one a triangle
-    double worst = 0, rms = 0;             ///< above the plane, at the posts that it was meshed on
+    std::vector<Heir> heirs;    ///< of the next finer variant's triangles; all others of the finest's
+    double worst = 0, rms = 0;  ///< above the plane, at the posts that it was meshed on
   };
   std::array<Variant, PatchIndex::kVariants> variants;  ///< from the finest
+  /// Of the finest variant's triangles as they are drawn and packed: half-edges to begin from. A coarser
+  /// one's are drawn in the same order, by their places among the triangles.
+  std::vector<std::int32_t> order;
 
   /// Calls `work(t, corners)` for the fresh triangles of a variant: most stay where they were. So everything
   /// that is a maximum is taken from the finest variant on, and never falls.

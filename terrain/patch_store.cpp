@@ -13,7 +13,7 @@ constexpr std::uint64_t kIndexKey = std::uint64_t{1} << 32, kFactsKey = kIndexKe
                         kConesKey = kIndexKey + 2;
 
 /// Of what is stored of a patch, in the index and in pages.
-constexpr std::uint64_t kVersion = 2;
+constexpr std::uint64_t kVersion = 3;
 
 /// What a file of patches was made for.
 struct GridHeader {

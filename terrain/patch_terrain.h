@@ -22,6 +22,9 @@ struct PatchVertex {
 };
 static_assert(sizeof(PatchVertex) == 20);
 
+/// What a variant has in place of a triangle of the next finer one.
+enum class Heir : std::uint8_t { none, same, other };
+
 /// One patch: vertices for all of its variants, the border's first, and each variant's triangles,
 /// anticlockwise from above.
 struct PatchMesh {
@@ -30,6 +33,9 @@ struct PatchMesh {
   std::vector<PatchVertex> vertices;
   std::vector<std::uint16_t> indices;  ///< three a triangle, variant by variant from the finest
   std::array<std::uint32_t, PatchIndex::kVariants + 1> firstIndex{};  ///< the last is the size
+  /// As built, one for each triangle of all variants but the coarsest; empty where it is not known. Triangles
+  /// of a variant are in the order of those that they stand for, and what has none there comes last.
+  std::vector<Heir> heirs;
 };
 
 /// What is known of a patch beyond what its selection needs; errors in metres.

@@ -197,7 +197,7 @@ TEST(PatchStore, opensWhatItWroteAndNothingElse) {
   }
   const auto refusedVersion = openPatches(*PageFile::open(older), older, grid.posts);
   ASSERT_FALSE(refusedVersion);
-  EXPECT_EQ(refusedVersion.findings().front().expected, "version 2 (bake it again)");
+  EXPECT_EQ(refusedVersion.findings().front().expected, "version 3 (bake it again)");
   EXPECT_EQ(refusedVersion.findings().front().found, "version 1");
 }
 
