@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "trimtab/terrain/mesher_triangulation.h"
@@ -301,6 +302,37 @@ class PageMeasure {
     }
   }
 
+  using Edge = std::array<std::uint32_t, 2>;
+  /// Edges of a variant that no finer one has, each once; those along rows and columns, where all is measured
+  /// at posts, are left out. Sorted by how many cells they cross, as each sort is measured in a way of its
+  /// own.
+  std::span<const Edge> newEdges(const PatchDraft& draft, std::size_t v) {
+    constexpr std::size_t kSorts = 4;  // two cells, three, more; left out
+    const PatchDraft::Variant& of = draft.variants[v];
+    const std::size_t most = 3 * of.fresh.size();
+    if (edges_.size() < kSorts * most) edges_.resize(kSorts * most);
+    std::array<Edge*, kSorts> end;
+    for (std::size_t sort = 0; sort < kSorts; ++sort) end[sort] = edges_.data() + sort * most;
+    draft.eachNew(v, [&](std::size_t t, const std::uint32_t* c) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        // Which edges are wanted cannot be guessed: without a branch.
+        const Edge edge{c[k], c[k == 2 ? 0 : k + 1]};
+        const std::int32_t twin = of.twins[3 * t + k], other = twin >> 2;
+        const bool isNew = of.heirs[static_cast<std::size_t>(std::max(other, 0))] == Heir::other;
+        const bool once = ((twin < 0) & (v == 0)) | ((static_cast<std::int32_t>(t) < other) & isNew);
+        const ScanVertex &a = corners_[edge[0]], &b = corners_[edge[1]];
+        const std::int32_t wide = std::abs(b.x - a.x), high = std::abs(b.y - a.y);
+        const bool wanted = once & (wide != 0) & (high != 0);
+        const int sort = std::clamp(wide + high - 2, 0, 2) | (3 * !wanted);
+        *end[static_cast<std::size_t>(sort)]++ = edge;
+      }
+    });
+    Edge* all = end[0];
+    for (std::size_t sort = 1; sort + 1 < kSorts; ++sort)
+      all = std::copy(edges_.data() + sort * most, end[sort], all);
+    return {edges_.data(), all};
+  }
+
   void errors(const PatchDraft& draft, PatchMeasure& patch) {
     const PostStrip strip{z_.data(), block_.columns, static_cast<std::int32_t>(block_.column),
                           static_cast<std::int32_t>(block_.row)};
@@ -313,25 +345,17 @@ class PageMeasure {
     if (stride_ != 1) scanned_.assign(draft.variants[0].triangles.size() / 3, {});
     double worst = 0, bilinear = 0;
     for (std::size_t v = 0; v < kVariants; ++v) {
-      const std::vector<Heir>& heirs = draft.variants[v].heirs;
-      const auto isNew = [&](std::size_t t, std::size_t other) {
-        return t < other && heirs[other] == Heir::other;
-      };
-      draft.eachNew(v, [&](std::size_t t, const std::uint32_t* c) {
-        // Each edge once. One that a triangle shares with another that is not new was measured as its.
-        const std::int32_t* const twin = &draft.variants[v].twins[3 * t];
-        for (std::size_t k = 0; k < 3; ++k)
-          if (twin[k] < 0 ? v == 0 : isNew(t, static_cast<std::size_t>(twin[k] >> 2)))
-            bilinear =
-                edgeError(corners_[c[k]], corners_[c[k == 2 ? 0 : k + 1]], strip, first, last, bilinear);
-        if (stride_ == 1) return;
-        scanned_[t] = {};
-        const ScanTriangle triangle(corners_[c[0]], corners_[c[1]], corners_[c[2]]);
-        const std::int32_t low = std::max(triangle.firstRow(), first),
-                           high = std::min(triangle.lastRow(), last);
-        if (low < end) triangle.scan(strip, low, high, end, scanned_[t]);
-        worst = std::max(worst, scanned_[t].worst);
-      });
+      for (const auto& [from, to] : newEdges(draft, v))
+        bilinear = edgeError(corners_[from], corners_[to], strip, first, last, bilinear);
+      if (stride_ != 1)
+        draft.eachNew(v, [&](std::size_t t, const std::uint32_t* c) {
+          scanned_[t] = {};
+          const ScanTriangle triangle(corners_[c[0]], corners_[c[1]], corners_[c[2]]);
+          const std::int32_t low = std::max(triangle.firstRow(), first),
+                             high = std::min(triangle.lastRow(), last);
+          if (low < end) triangle.scan(strip, low, high, end, scanned_[t]);
+          worst = std::max(worst, scanned_[t].worst);
+        });
       VariantMeasure& variant = patch.variants[v];
       variant.worst = std::max(variant.worst, worst);
       variant.bilinear = std::max(variant.bilinear, bilinear);
@@ -393,6 +417,7 @@ class PageMeasure {
   std::vector<double> slopes_;    ///< one a vertex: steepness of the steepest triangle about it
   std::vector<double> sideways_;  ///< one a triangle that is new in its variant: no less than it is
   std::vector<ScanVertex> corners_;
+  std::vector<Edge> edges_;
   std::vector<ScanResult> scanned_;  ///< one a triangle
 
   // The strip.
