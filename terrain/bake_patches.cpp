@@ -60,11 +60,15 @@ PatchBake::PatchBake(const WorkFolder& work, const PostGrid& posts, const PostGe
       tolerances_(patchTolerances(index_, leafM)) {
   constexpr std::uint64_t kLeafPage = std::uint64_t{PatchIndex::kLeafCells * PatchIndex::kPageSquares} *
                                       PatchIndex::kLeafCells * PatchIndex::kPageSquares;
-  std::uint64_t open = 0;
+  std::uint64_t open = 0, left = 0;
+  for (const PatchIndex::Page& page : index_.pages) left += workOf(index_, page);
   for (std::uint32_t page = 0; page < index_.pages.size(); ++page) {
     if (open == 0) firstPage_.push_back(page);
-    open += workOf(index_, index_.pages[page]);
-    if (open >= 8 * kLeafPage) open = 0;
+    const std::uint64_t pageWork = workOf(index_, index_.pages[page]);
+    open += pageWork;
+    left -= pageWork;
+    // The last ones are small, so that no core has a long one left when the others are done.
+    if (open >= std::clamp(left / 32, kLeafPage, 8 * kLeafPage)) open = 0;
   }
   firstPage_.push_back(static_cast<std::uint32_t>(index_.pages.size()));
 }
