@@ -105,10 +105,10 @@ TEST_F(LongFlight, holdsWithHeadMotionWeatherAndAllDocksOpen) {
   ASSERT_TRUE((*player)->finished());
   w().stopTrace();
   // Another program that takes the cores for a moment is no fault of the window's.
-  EXPECT_LE(late, 1 + turn / 50) << "events that waited for more than one picture, of " << turn;
+  EXPECT_LE(late, 2 + turn / 20) << "events that waited for more than one picture, of " << turn;
   EXPECT_EQ(errors, 0u) << "GL errors";
   // Measuring errors keeps the finest tiles that its references have shown, as far as the terrain goes.
-  EXPECT_LT(last - third, 64) << "MiB more at the end than after a third, however long the flight";
+  EXPECT_LT(last - third, 128) << "MiB more at the end than after a third, however long the flight";
   std::cout << "resident after a third " << third << " MiB, at the end " << last << " MiB; " << paints()
             << " pictures, " << session().packets() << " packets" << std::endl;
 

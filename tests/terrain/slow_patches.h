@@ -41,6 +41,9 @@ class SlowPatches final : public terrain::PatchTerrain {
   const std::vector<terrain::PatchFacts>& facts() const override { return inner_->facts(); }
   std::uint64_t pageBytes(std::uint32_t page) const override { return inner_->pageBytes(page); }
   Result<terrain::PatchPage> readPage(std::uint32_t page) const override {
+    ++begun;
+    // No longer than a test may take.
+    for (int ms = 0; held && ms < 20'000; ++ms) std::this_thread::sleep_for(std::chrono::milliseconds{1});
     std::this_thread::sleep_for(delay_.load());
     niceness = ::getpriority(PRIO_PROCESS, 0);
     {
@@ -62,6 +65,8 @@ class SlowPatches final : public terrain::PatchTerrain {
   }
   std::set<std::uint32_t> broken;  ///< set before it is used
   bool throws = false, lies = false;
+  std::atomic<bool> held{false};         ///< until it is let go, no read ends
+  mutable std::atomic<int> begun{0};     ///< reads
   mutable std::atomic<int> niceness{0};  ///< of the last thread that read
 
  private:

@@ -74,7 +74,7 @@ TEST(FeedCommand, recordsWhatItPlaysAndTheRecordingPlaysAgain) {
     const Ran played = run(cli() + " feed play " + aFlight(dir) + " --to 127.0.0.1:" + port +
                            " --protocol cigi3 --rate-hz 50");
     EXPECT_EQ(played.exitCode, 0) << played.err;
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // the last packets, under load
     EXPECT_EQ(recorder.end(SIGINT), 0) << readFile(dir / "err");
     const auto flight = readFlight(first);
     ASSERT_TRUE(flight) << toString(flight.findings());
@@ -106,7 +106,7 @@ TEST(FeedCommand, sendsAHeadAsViewControl) {
   waitFor(dir / "err", "listening");
   const std::string play = cli() + " feed play " + aFlight(dir) + " --to 127.0.0.1:" + port;
   EXPECT_EQ(run(play + " --protocol cigi3 --rate-hz 50 --head sweep:180/1s/0.5s").exitCode, 0);
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // the last packets, under load
   EXPECT_EQ(recorder.end(SIGINT), 0) << readFile(dir / "err");
   const auto flight = readFlight(dir / "out.csv");
   ASSERT_TRUE(flight) << toString(flight.findings());
