@@ -37,7 +37,9 @@ struct FieldMesh {
 struct MeshOptions {
   double maxErrorM = 0;           ///< insertion ends where no post is further off; 0: every post counts
   std::size_t mostTriangles = 0;  ///< or at so many, two at the least; 0: no limit
-  bool fitHeights = true;         ///< flips edges and moves vertices for a smaller RMS; the bound is kept
+  /// Flips edges and moves vertices for a smaller RMS; of a limit's triangles, takes out and puts in. The
+  /// bound is kept.
+  bool fitHeights = true;
   unsigned threads = 1;
 };
 

@@ -2,53 +2,33 @@
 #include <cmath>
 #include <numeric>
 
-#include "trimtab/terrain/mesher_fit.h"
+#include "trimtab/terrain/mesher_errors.h"
+#include "trimtab/terrain/mesher_lanes.h"
 
 namespace trimtab::terrain {
 
 namespace {
 
-/// Sums of a run of triangles: what is below rounding is none.
-TRIMTAB_LANES void sumPosts(const Triangulation& mesh, const PostRows& posts, std::size_t first,
-                            std::span<PostSum> sums) {
-  for (std::size_t t = 0; t < sums.size(); ++t) {
-    const Triangulation::Triangle& one = mesh.triangles[first + t];
-    const Triangulation::Vertex* const corner[3] = {
-        &mesh.vertices[one.corner[0]], &mesh.vertices[one.corner[1]], &mesh.vertices[one.corner[2]]};
-    const bool border[3] = {one.twin[0] < 0, one.twin[1] < 0, one.twin[2] < 0};
-    Lanes squares{}, worst{};
-    forEachFour(
-        corner, border, posts,
-        [&](const Lanes& off, const Lanes&, std::int32_t, std::int32_t) __attribute__((always_inline)) {
-          Lanes size;
-          absoluteLanes(off, size);
-          worst = size > worst ? size : worst;
-          squares += off * off;
-        });
-    double scale = 0;
-    for (const Triangulation::Vertex* v : corner)
-      scale = std::max(scale, std::fabs(static_cast<double>(v->z)));
-    const double most = mostOfLanes(worst);
-    if (roundedError(most, std::max(scale, most)) == 0)
-      sums[t] = {};
-    else
-      sums[t] = {sumOfLanes(squares), most};
-  }
+/// At the posts of a triangle: what is below rounding is none.
+PostSum sumOf(const Triangulation& mesh, const PostRows& posts, const Triangulation::Triangle& one) {
+  const Triangulation::Vertex* const corner[3] = {
+      &mesh.vertices[one.corner[0]], &mesh.vertices[one.corner[1]], &mesh.vertices[one.corner[2]]};
+  const bool border[3] = {one.twin[0] < 0, one.twin[1] < 0, one.twin[2] < 0};
+  Lanes squares{}, worst{};
+  forEachFour(
+      corner, border, posts,
+      [&](const Lanes& off, const Lanes(&)[3], std::int32_t, std::int32_t) __attribute__((always_inline)) {
+        Lanes size;
+        absoluteLanes(off, size);
+        worst = size > worst ? size : worst;
+        squares += off * off;
+      });
+  double scale = mostOfLanes(worst);
+  for (const Triangulation::Vertex* v : corner) scale = std::max(scale, std::fabs(static_cast<double>(v->z)));
+  return {sumOfLanes(squares), roundedError(mostOfLanes(worst), scale)};
 }
 
 }  // namespace
-
-std::vector<PostSum> postSums(const Triangulation& mesh, const HeightField& field, unsigned threads) {
-  constexpr std::size_t kAtOnce = 8192;
-  std::vector<PostSum> sums(mesh.triangles.size());
-  const PostRows posts{field.z, field.stride, static_cast<std::int32_t>(field.columns)};
-  onThreads(
-      threads, static_cast<std::uint32_t>((sums.size() + kAtOnce - 1) / kAtOnce), [&](std::uint32_t part) {
-        const std::size_t first = part * kAtOnce;
-        sumPosts(mesh, posts, first, std::span(sums).subspan(first, std::min(kAtOnce, sums.size() - first)));
-      });
-  return sums;
-}
 
 PostErrors postErrors(const Triangulation& mesh, const HeightField& field, std::span<const PostSum> sums) {
   const PostRows posts{field.z, field.stride, static_cast<std::int32_t>(field.columns)};
@@ -72,7 +52,9 @@ PostErrors postErrors(const Triangulation& mesh, const HeightField& field, std::
       add(roundedError(off, std::max({std::fabs(height), std::fabs(facet)})));
     }
   }
-  for (const PostSum& sum : sums) {
+  for (std::size_t t = 0; t < sums.size(); ++t) {
+    PostSum sum = sums[t];
+    if (!sum.known() || sum.worst > all.worst) sum = sumOf(mesh, posts, mesh.triangles[t]);
     all.squares += sum.squares;
     all.worst = std::max(all.worst, sum.worst);
   }

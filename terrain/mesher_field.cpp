@@ -1,23 +1,33 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trimtab/terrain/mesher_errors.h"
 #include "trimtab/terrain/mesher_fit.h"
+#include "trimtab/terrain/mesher_regroup.h"
+#include "trimtab/terrain/mesher_thin.h"
 #include "trimtab/terrain/mesher_tiles.h"
 
 namespace trimtab::terrain {
 
 namespace {
 
-/// Refines until there are at least `enough` of `budget` triangles, never more than all of it, or the
-/// tolerance is down to `least`. The tolerance that it ended at.
-double spend(MeshTiles& tiles, double tolerance, double least, double budget, double enough, bool sample,
+/// So many more triangles than the budget are inserted where some are taken out again.
+constexpr double kOver = 1.16;
+/// Shares of a budget that are near enough.
+struct Near {
+  double least, most;
+};
+
+/// Refines until the triangles are near the budget, or the tolerance is down to `least`. The tolerance that
+/// it ended at; of a sample that which all tiles may begin with.
+double spend(MeshTiles& tiles, double tolerance, double least, double budget, Near near, bool sample,
              double& power) {
   double fits = HUGE_VAL, tooMany = 0, lastCount = 0, lastTolerance = 0;
   for (int step = 0; step < 100; ++step) {
     tiles.refine(tolerance);
     const auto count = static_cast<double>(tiles.triangles());
-    if (count > budget) {
-      // Too far, and nothing is ever taken out: again from the start, to where it was fewer.
+    if (count > near.most * budget) {
+      // Too far, and insertion takes nothing back: again from the start, to where it was fewer.
       const double over = tolerance * std::pow(count / budget, 1 / power);
       if (sample && fits < HUGE_VAL) return std::min(over, fits);
       tiles.restart(sample);
@@ -37,9 +47,10 @@ double spend(MeshTiles& tiles, double tolerance, double least, double budget, do
     }
     fits = tolerance;
     if (tolerance <= least) return tolerance;
-    if (count >= enough * budget) {
+    if (count >= near.least * budget) {
+      if (sample) return fits * std::pow(count / budget, 1 / power);
       // A tolerance for the rest would often be too far, and each time all begins anew.
-      if (!sample) tiles.add(static_cast<std::size_t>(budget), fits);
+      if (near.most == 1) tiles.add(static_cast<std::size_t>(budget), fits);
       return fits;
     }
     if (lastCount > 0 && count > lastCount * 1.01)
@@ -60,7 +71,7 @@ double spend(MeshTiles& tiles, double tolerance, double least, double budget, do
   return fits;
 }
 
-void spend(MeshTiles& tiles, const HeightField& field, double least, std::size_t budget) {
+void spend(MeshTiles& tiles, const HeightField& field, double least, double budget, Near near) {
   float low = field.at(0, 0), high = low;
   for (std::uint32_t y = 0; y < field.rows; ++y) {
     const float* const row = field.z + y * field.stride;
@@ -68,14 +79,79 @@ void spend(MeshTiles& tiles, const HeightField& field, double least, std::size_t
     low = std::min(low, *a);
     high = std::max(high, *b);
   }
-  const auto wanted = static_cast<double>(budget);
   double tolerance = std::max(least, (static_cast<double>(high) - low) / 8), power = 1.5;
   // Tiles that are refined in many steps have a few triangles more than those that go straight to where they
   // end: so the steps are taken by some of them.
   tiles.restart(true);
-  if (tiles.taken() < 1) tolerance = spend(tiles, tolerance, least, wanted * tiles.taken(), 0.9, true, power);
+  if (tiles.taken() < 1)
+    tolerance = spend(tiles, tolerance, least, budget * tiles.taken(), {0.85, 1.1}, true, power);
   tiles.restart(false);
-  spend(tiles, tolerance, least, wanted, 0.97, false, power);
+  spend(tiles, std::max(tolerance, least), least, budget, near, false, power);
+}
+
+struct Fitted {
+  Triangulation mesh;
+  std::vector<PostSum> sums;
+};
+
+/// All tiles as one mesh.
+Fitted join(const MeshTiles& tiles, const std::vector<std::vector<PostSum>>& sums) {
+  Fitted out{tiles.join(), {}};
+  out.sums.reserve(out.mesh.triangles.size());
+  for (const std::vector<PostSum>& some : sums) out.sums.insert(out.sums.end(), some.begin(), some.end());
+  return out;
+}
+
+/// Flips edges and moves vertices; takes out what is more than `most` triangles, where that can be done.
+Fitted fit(MeshTiles& tiles, const HeightField& field, double bound, std::size_t most, unsigned threads) {
+  // Of the squares that one post may add.
+  constexpr double kFirst = 0.2, kAgain = 0.1;
+  // Tiles give as many as they have triangles.
+  const std::size_t total = tiles.triangles(), excess = total > most ? (total - most + 1) / 2 : 0;
+  std::vector<std::size_t> before(1, 0);
+  for (std::size_t i = 0; i < tiles.count(); ++i)
+    before.push_back(before.back() + tiles.tile(i).mesh().triangles.size());
+  std::vector<std::vector<PostSum>> sums(tiles.count());
+  tiles.eachTile([&](GreedyMesh& tile, std::size_t i) {
+    const PolygonMesher::Point origin = tile.origin();
+    MeshFit one(tile.mesh(),
+                {field.z + origin.row * field.stride + origin.column, field.stride,
+                 static_cast<std::int32_t>(field.columns - origin.column)},
+                tile.sums());
+    one.flipEdges(bound);
+    one.moveHeights(bound);
+    one.moveAside(bound, kFirst * bound * bound);
+    if (excess > 0)
+      MeshThin(tile.mesh(), one).thin(excess * before[i + 1] / total - excess * before[i] / total, bound);
+    sums[i] = std::move(one.sums());
+    forgetBorder(tile.mesh(), sums[i]);
+  });
+  // Again with other borders: what lay on the sides of tiles is free now.
+  Fitted out = join(tiles, sums);
+  eachPart(
+      out.mesh, tiles.width(), tiles.height(), threads,
+      [&](Triangulation& part, std::span<const std::int32_t> members) {
+        std::vector<PostSum> some;
+        some.reserve(members.size());
+        for (const std::int32_t t : members) some.push_back(out.sums[static_cast<std::size_t>(t)]);
+        MeshFit one(part, {field.z, field.stride, static_cast<std::int32_t>(field.columns)}, std::move(some));
+        one.flipEdges(bound);
+        one.moveHeights(bound);
+        one.moveAside(bound, kAgain * bound * bound);
+        forgetBorder(part, one.sums());
+        for (std::size_t k = 0; k < members.size(); ++k)
+          out.sums[static_cast<std::size_t>(members[k])] = one.sums()[k];
+      });
+  return out;
+}
+
+Fitted unfitted(const MeshTiles& tiles) {
+  std::vector<std::vector<PostSum>> sums;
+  for (std::size_t i = 0; i < tiles.count(); ++i) {
+    sums.push_back(tiles.tile(i).sums());
+    forgetBorder(tiles.tile(i).mesh(), sums.back());
+  }
+  return join(tiles, sums);
 }
 
 }  // namespace
@@ -84,16 +160,27 @@ FieldMesh meshField(const HeightField& field, const MeshOptions& options) {
   FieldMesh out;
   if (field.columns < 2 || field.rows < 2) return out;
   const unsigned threads = std::max(options.threads, 1u);
-  MeshTiles tiles(field, options.mostTriangles, threads);
-  tiles.restart(false);
-  if (options.mostTriangles == 0)
-    tiles.refine(options.maxErrorM);
+  const std::size_t most = options.mostTriangles;
+  MeshTiles tiles(field, most, threads);
+  Fitted fitted;
+  const auto make = [&](double share, Near near) {
+    tiles.restart(false);
+    if (most == 0)
+      tiles.refine(options.maxErrorM);
+    else
+      spend(tiles, field, options.maxErrorM, share * static_cast<double>(most), near);
+    const double bound = std::max(options.maxErrorM, tiles.maxErrorM());
+    const std::size_t keep = most == 0 ? tiles.triangles() : most;
+    fitted = options.fitHeights ? fit(tiles, field, bound, keep, threads) : unfitted(tiles);
+  };
+  constexpr Near kStrictly{0.97, 1};
+  if (options.fitHeights)
+    make(kOver, {0.95, 1.07});
   else
-    spend(tiles, field, options.maxErrorM, options.mostTriangles);
-  const double bound = std::max(options.maxErrorM, tiles.maxErrorM());
-  Triangulation mesh = options.fitHeights ? fitTiles(tiles, field, bound, threads) : tiles.join();
-  std::vector<PostSum> sums = postSums(mesh, field, threads);
-  if (options.fitHeights) mendPosts(mesh, field, bound, sums);
+    make(1, kStrictly);
+  // Where none can be taken out, no more are put in.
+  if (most != 0 && options.fitHeights && fitted.mesh.triangles.size() > most) make(1, kStrictly);
+  const Triangulation& mesh = fitted.mesh;
 
   out.vertices.reserve(mesh.vertices.size());
   for (const Triangulation::Vertex& v : mesh.vertices)
@@ -101,7 +188,7 @@ FieldMesh meshField(const HeightField& field, const MeshOptions& options) {
   out.indices.reserve(mesh.triangles.size() * 3);
   for (const Triangulation::Triangle& t : mesh.triangles)
     out.indices.insert(out.indices.end(), t.corner, t.corner + 3);
-  const PostErrors errors = postErrors(mesh, field, sums);
+  const PostErrors errors = postErrors(mesh, field, fitted.sums);
   out.maxErrorM = errors.max;
   out.rmsErrorM = errors.rms;
   return out;

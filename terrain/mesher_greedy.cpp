@@ -93,14 +93,15 @@ TRIMTAB_LANES GreedyMesh::Scan GreedyMesh::scanPosts(const Triangulation::Vertex
   Lanes worst{}, place{}, squares{};
   forEachFour(
       corner, border, posts,
-      [&](const Lanes& off, const Lanes&, std::int32_t x, std::int32_t y) __attribute__((always_inline)) {
-        Lanes size;
-        absoluteLanes(off, size);
-        const LaneMask more = size > worst;
-        worst = more ? size : worst;
-        place = more ? Lanes{} + static_cast<double>(y * kPlaces + x) : place;
-        squares += off * off;
-      },
+      [&](const Lanes& off, const Lanes(&)[3], std::int32_t x, std::int32_t y)
+          __attribute__((always_inline)) {
+            Lanes size;
+            absoluteLanes(off, size);
+            const LaneMask more = size > worst;
+            worst = more ? size : worst;
+            place = more ? Lanes{} + static_cast<double>(y * kPlaces + x) : place;
+            squares += off * off;
+          },
       everyRow);
   const double most = mostOfLanes(worst);
   const LaneMask is = worst == Lanes{} + most;

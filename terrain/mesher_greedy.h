@@ -16,6 +16,8 @@ struct PostRows;
 /// Over the posts of a triangle.
 struct PostSum {
   double squares = 0, worst = 0;
+  static constexpr PostSum unknown() { return {-1, 0}; }
+  bool known() const { return squares >= 0; }
 };
 
 /// What PolygonMesher does, open for what builds whole fields from it. Places are counted from `origin`.

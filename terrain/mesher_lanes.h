@@ -44,7 +44,7 @@ TRIMTAB_INLINE void absoluteLanes(const Lanes& v, Lanes& out) {
 }
 
 /// Calls `four(off, weight, x, y)` for the posts that forEachRow visits (at step 1): how far each is above
-/// the triangle, and the share of corner 0 in the triangle's height there; both are 0 in lanes that are no
+/// the triangle, and the shares of the corners in the triangle's height there; all are 0 in lanes that are no
 /// such post. Lane k is post (x + k, y). `everyRow` as there.
 template <class Four>
 TRIMTAB_INLINE void forEachFour(const Triangulation::Vertex* const corner[3], const bool isBorder[3],
@@ -103,8 +103,14 @@ TRIMTAB_INLINE void forEachFour(const Triangulation::Vertex* const corner[3], co
         Lanes z;
         load(row, z);
         const Lanes off = z - (zLess + (e2 * toB + e0 * toC));
-        four(reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(off) & in),
-             reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>((e1 + bc.less) * perArea) & in), first, y);
+        const auto share = [&](const Lanes& e, const Edge& of, Lanes& out) __attribute__((always_inline)) {
+          out = reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>((e + of.less) * perArea) & in);
+        };
+        Lanes shares[3];
+        share(e1, bc, shares[0]);
+        share(e2, ca, shares[1]);
+        share(e0, ab, shares[2]);
+        four(reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(off) & in), shares, first, y);
         e0 += ab.up;
         e1 += bc.up;
         e2 += ca.up;
@@ -113,12 +119,14 @@ TRIMTAB_INLINE void forEachFour(const Triangulation::Vertex* const corner[3], co
     return;
   }
 
-  const double slopeW = -static_cast<double>(c.y - b.y) * perArea;
+  const double slope[3] = {(b.y - c.y) * perArea, (c.y - a.y) * perArea, (a.y - b.y) * perArea};
   forEachRow(
       corner, isBorder, 1,
       [&](const FacetRow& r) __attribute__((always_inline)) {
         const float* const row = posts.row(r.y);
-        const double w = static_cast<double>(Triangulation::turn(b, c, r.first, r.y)) * perArea;
+        const double start[3] = {static_cast<double>(Triangulation::turn(b, c, r.first, r.y)) * perArea,
+                                 static_cast<double>(Triangulation::turn(c, a, r.first, r.y)) * perArea,
+                                 static_cast<double>(Triangulation::turn(a, b, r.first, r.y)) * perArea};
         for (std::int32_t x = r.first; x <= r.last; x += kLanes) {
           Lanes z;
           if (x + kLanes <= posts.columns) {
@@ -130,9 +138,11 @@ TRIMTAB_INLINE void forEachFour(const Triangulation::Vertex* const corner[3], co
           }
           const Lanes along = kCount + static_cast<double>(x - r.first);
           const LaneMask in = along <= static_cast<double>(r.last - r.first);
-          const Lanes off = z - (r.z + r.slope * along), weight = w + slopeW * along;
-          four(reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(off) & in),
-               reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(weight) & in), x, r.y);
+          const Lanes off = z - (r.z + r.slope * along);
+          Lanes shares[3];
+          for (int k = 0; k < 3; ++k)
+            shares[k] = reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(start[k] + slope[k] * along) & in);
+          four(reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(off) & in), shares, x, r.y);
         }
       },
       everyRow);

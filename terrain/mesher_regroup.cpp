@@ -8,7 +8,7 @@
 namespace trimtab::terrain {
 
 void eachPart(Triangulation& mesh, std::int32_t width, std::int32_t height, unsigned threads,
-              const std::function<void(Triangulation&)>& work) {
+              const std::function<void(Triangulation&, std::span<const std::int32_t>)>& work) {
   using Triangle = Triangulation::Triangle;
   const auto count = static_cast<std::int32_t>(mesh.triangles.size());
   std::int32_t right = 0, top = 0;
@@ -81,7 +81,7 @@ void eachPart(Triangulation& mesh, std::int32_t width, std::int32_t height, unsi
         if (local.triangles[t].twin[i] < 0)
           local.borderEdge[static_cast<std::size_t>(~local.triangles[t].twin[i])] =
               4 * static_cast<std::int32_t>(t) + i;
-    if (!local.triangles.empty()) work(local);
+    if (!local.triangles.empty()) work(local, std::span(members).subspan(first[p], first[p + 1] - first[p]));
     const auto toGlobal = [&](std::int32_t h) {
       return 4 * members[first[p] + static_cast<std::uint32_t>(h >> 2)] + (h & 3);
     };

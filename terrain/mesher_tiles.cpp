@@ -168,7 +168,7 @@ void MeshTiles::restart(bool sample) {
   taken_ = 0;
   for (std::size_t index = 0; index < tiles_.size(); ++index) {
     Tile& tile = tiles_[index];
-    tile.taken = !sample || tiles_.size() < 32 || (index % across_ + 2 * (index / across_)) % 4 == 0;
+    tile.taken = !sample || tiles_.size() < 32 || (index % across_ + 3 * (index / across_)) % 8 == 0;
     taken_ += tile.taken;
   }
 }
@@ -186,12 +186,13 @@ double MeshTiles::maxErrorM() const {
   return worst;
 }
 
-void MeshTiles::eachTile(const std::function<void(GreedyMesh&)>& work) {
+void MeshTiles::eachTile(const std::function<void(GreedyMesh&, std::size_t)>& work) {
   onThreads(threads_, static_cast<std::uint32_t>(tiles_.size()),
-            [&](std::uint32_t i) { work(tiles_[i].mesh); });
+            [&](std::uint32_t i) { work(tiles_[i].mesh, i); });
 }
 
 Triangulation MeshTiles::join() const {
+  constexpr std::int32_t kUnused = -2;
   Triangulation out;
   std::size_t vertices = 0, triangles = 0;
   for (const Tile& tile : tiles_) {
@@ -202,7 +203,6 @@ Triangulation MeshTiles::join() const {
   out.triangles.reserve(triangles);
 
   std::vector<std::vector<std::int32_t>> sideVertex(sides_.size());
-  std::vector<std::vector<std::uint32_t>> global(tiles_.size());
   std::vector<std::int32_t> firstTriangle;
   std::vector<std::int32_t> corners(std::size_t{across_ + 1} * (up_ + 1), -1);
   for (std::size_t index = 0; index < tiles_.size(); ++index) {
@@ -210,7 +210,9 @@ Triangulation MeshTiles::join() const {
     const Triangulation& mesh = tile.mesh.mesh();
     const auto i = static_cast<std::uint32_t>(index % across_),
                j = static_cast<std::uint32_t>(index / across_);
-    std::vector<std::int32_t> of(mesh.vertices.size(), -1);
+    std::vector<std::int32_t> of(mesh.vertices.size(), kUnused);
+    for (const Triangulation::Triangle& one : mesh.triangles)
+      for (const std::uint32_t v : one.corner) of[v] = -1;
     // What another tile has brought already: along sides, then at corners.
     for (int s = 0; s < 4; ++s) {
       const std::vector<std::int32_t>& theirs = sideVertex[tile.sides[s]];
@@ -225,7 +227,7 @@ Triangulation MeshTiles::join() const {
     for (int k = 0; k < 4; ++k)
       if (corners[corner[k]] >= 0) of[static_cast<std::size_t>(cornerVertex[k])] = corners[corner[k]];
     for (std::size_t v = 0; v < of.size(); ++v) {
-      if (of[v] >= 0) continue;
+      if (of[v] != -1) continue;
       of[v] = static_cast<std::int32_t>(out.vertices.size());
       Triangulation::Vertex place = mesh.vertices[v];
       place.x += static_cast<std::int32_t>(tile.mesh.origin().column);

@@ -22,7 +22,7 @@ class MeshTiles {
   /// Adds triangles where tiles are furthest off, up to `most` in all; sides stay as they are. No post gets
   /// further off than `bound`, which holds before.
   void add(std::size_t most, double bound);
-  /// Begins anew; `sample`: with a quarter of the tiles, to learn what a tolerance costs.
+  /// Begins anew; `sample`: with an eighth of the tiles, to learn what a tolerance costs.
   void restart(bool sample);
   double taken() const { return static_cast<double>(taken_) / static_cast<double>(tiles_.size()); }
 
@@ -30,9 +30,12 @@ class MeshTiles {
   std::int32_t height() const { return static_cast<std::int32_t>((field_.rows - 1) / up_); }
   std::size_t triangles() const;
   double maxErrorM() const;
-  /// Calls `work` for each tile, in parallel; what it does to the mesh ends refinement.
-  void eachTile(const std::function<void(GreedyMesh&)>& work);
-  /// All tiles as one mesh, in places of the field.
+  std::size_t count() const { return tiles_.size(); }
+  const GreedyMesh& tile(std::size_t index) const { return tiles_[index].mesh; }
+  /// Calls `work` for each tile with its index, in parallel; what it does to the mesh ends refinement. Inner
+  /// vertices may lose all their triangles.
+  void eachTile(const std::function<void(GreedyMesh&, std::size_t)>& work);
+  /// All tiles as one mesh, in places of the field: their triangles one tile after the other.
   Triangulation join() const;
 
  private:
