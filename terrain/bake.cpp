@@ -154,7 +154,7 @@ class Job {
 
   /// Asked after whatever reads heights: what could not be read is 0 m there.
   Result<Done> allRead() const {
-    if (file_->failed()) return refused(work_->database() / kHeightsName, "rows that can be read", "others");
+    if (file_->failed()) return unreadable((work_->database() / kHeightsName).string());
     return Done{};
   }
 
@@ -163,23 +163,34 @@ class Job {
     // Side by side, where memory holds both: the ground is one core's work for long, and patches, in many
     // small pieces, take whatever time of the cores is left.
     const bool beside = memory_ >= kBesideBytes;
-    std::atomic<bool> stop{false};
-    const Progress told = stage(scenery_ ? 0.2 : 0.7, scenery_ ? 0.25 : 0.9);
-    const Progress other = [&](double share, const std::string& what) {
-      return beside ? !stop : told(share, what);
+    const Progress patches = stage(scenery_ ? 0.15 : 0.3, scenery_ ? 0.2 : 0.7);
+    const Progress ground = stage(scenery_ ? 0.2 : 0.7, scenery_ ? 0.25 : 0.9);
+    std::atomic<bool> stop{false}, failed{false};
+    std::atomic<double> share{0};
+    // Only this thread tells of progress.
+    const Progress other = [&](double done, const std::string& what) {
+      share = done;
+      return beside ? !stop : ground(done, what);
     };
-    auto ground = std::async(
-        beside ? std::launch::async | std::launch::deferred : std::launch::deferred, [&]() -> Result<Done> {
-          if (auto made = makeGround(part, parts, other); !made) return made;
-          return beside && whole && tileBytes() <= memory_ / 4 ? measureTiles(other) : Done{};
-        });
-    auto made =
-        patches_->make(*file_, part, parts, memory_, stage(scenery_ ? 0.15 : 0.3, scenery_ ? 0.2 : 0.7));
-    if (made) made = allRead();
-    stop = !made;
-    while (ground.wait_for(std::chrono::milliseconds(50)) == std::future_status::timeout)
-      if (!stop) stop = !told(0, "the ground's colours");
-    return made ? ground.get() : made;
+    auto made = std::async(beside ? std::launch::async : std::launch::deferred, [&]() -> Result<Done> {
+      auto done = makeGround(part, parts, other);
+      if (done && beside && whole && tileBytes() <= memory_ / 4) done = measureTiles(other);
+      failed = !done;
+      return done;
+    });
+    // However this ends, the other thread is not left at what nobody wants.
+    const std::unique_ptr<std::atomic<bool>, void (*)(std::atomic<bool>*)> stopper(
+        &stop, [](std::atomic<bool>* flag) { *flag = true; });
+    auto result =
+        patches_->make(*file_, part, parts, beside ? memory_ / 2 : memory_,
+                       [&](double done, const std::string& what) { return !failed && patches(done, what); });
+    if (result || failed) {
+      while (made.wait_for(std::chrono::milliseconds(50)) == std::future_status::timeout)
+        if (!ground(share, "the ground's colours")) stop = true;
+      result = made.get();
+    }
+    const auto read = allRead();
+    return read ? result : read;
   }
 
   Result<Done> makeGround(std::uint32_t part, std::uint32_t parts, const Progress& progress) const {

@@ -44,8 +44,7 @@ class FileHeights final : public HeightSource {
   void read(const PostWindow& window, std::uint32_t stride, std::span<float> heights) const override;
   void readVoids(const PostWindow& window, std::uint32_t stride,
                  std::span<std::uint8_t> voids) const override;
-  /// Whether a read failed, ever; what it gave is 0 m.
-  bool failed() const { return failed_; }
+  bool failed() const override { return failed_; }
 
  private:
   FileHeights(const PostGrid& posts, int heights, int voids) : posts_(posts), file_(heights), voids_(voids) {}

@@ -108,6 +108,7 @@ Result<Done> PatchBake::makePiece(const HeightSource& heights, std::uint32_t pie
     }
     if (auto added = (*writer)->add(page, blob); !added) return added;
   }
+  if (heights.failed()) return unreadable("heights");
   if (auto added = (*writer)->add(kMeasuredKey, std::as_bytes(std::span(all))); !added) return added;
   return (*writer)->finish();
 }

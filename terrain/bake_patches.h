@@ -13,8 +13,9 @@
 
 namespace trimtab::terrain {
 
-/// The pages of a grid's patches, made in pieces: runs of pages about equally much work, less towards the end,
-/// the coarsest and longest first. A piece is a file of its own, whole or not there, and the same whoever makes it.
+/// The pages of a grid's patches, made in pieces: runs of pages about equally much work, less towards the
+/// end, the coarsest and longest first. A piece is a file of its own, whole or not there, and the same
+/// whoever makes it.
 class PatchBake {
  public:
   PatchBake(const WorkFolder& work, const PostGrid& posts, const PostGeometry& geometry, double leafM);

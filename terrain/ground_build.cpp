@@ -339,6 +339,7 @@ Result<Done> buildShare(const GroundSources& sources, std::uint32_t part, std::u
     for (const Finding& finding : cover)
       if (finding.severity == Severity::error) return notes;
   }
+  if (sources.heights->failed()) return unreadable("heights");
   if (auto done = (*writer)->finish(); !done) return done;
   return Result<Done>(Done{}, std::move(notes));
 }

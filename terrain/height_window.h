@@ -24,6 +24,8 @@ class HeightSource {
   /// 1 where a post was a void and filled; the same order.
   virtual void readVoids(const PostWindow& window, std::uint32_t stride,
                          std::span<std::uint8_t> voids) const = 0;
+  /// Whether a read failed, ever: what it gave is 0 m, and nothing made of it may be kept.
+  virtual bool failed() const { return false; }
 };
 
 /// How many a read gives along one side.

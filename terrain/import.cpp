@@ -60,6 +60,10 @@ Finding cancelled(const std::string& what) {
   return {Severity::note, what, "", "to be completed", "cancelled"};
 }
 
+Finding unreadable(const std::string& what) {
+  return {Severity::error, what, "", "rows that can be read", "others"};
+}
+
 Result<std::vector<fs::path>> elevationFiles(std::span<const fs::path> sources) {
   useGdal();
   Findings findings;

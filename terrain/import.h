@@ -32,5 +32,7 @@ Progress stageOf(const Progress& progress, double from, double to);
 
 /// What a cancelled step yields.
 Finding cancelled(const std::string& what);
+/// Nothing made of it is kept.
+Finding unreadable(const std::string& what);
 
 }  // namespace trimtab::terrain

@@ -1,6 +1,7 @@
 #include <sys/resource.h>
 
 #include <csignal>
+#include <fstream>
 #include <thread>
 
 #include "bake_support.h"
@@ -60,7 +61,7 @@ TEST_F(Bake, isCancelledAnywhereAndGoesOnToTheSameBytes) {
   options_.output = dir_ / "undisturbed";
   ASSERT_TRUE(bake(options_));
   options_.output = dir_ / "db";
-  for (const double stop : {0.0, 0.05, 0.2, 0.25, 0.3, 0.5, 0.51, 0.6, 0.75, 0.9, 1.0}) {
+  for (const double stop : {0.0, 0.05, 0.2, 0.25, 0.3, 0.5, 0.51, 0.6, 0.71, 0.75, 0.9, 1.0}) {
     options_.progress = [&](double fraction, const std::string&) {
       EXPECT_GE(fraction, 0);
       EXPECT_LE(fraction, 1);
@@ -80,6 +81,33 @@ TEST_F(Bake, isCancelledAnywhereAndGoesOnToTheSameBytes) {
   EXPECT_FALSE(fs::exists(dir_ / ".db.work"));
   EXPECT_EQ(test::namesIn(dir_ / "db"), test::namesIn(dir_ / "undisturbed"));
   for (const std::string& name : test::namesIn(dir_ / "db"))
+    EXPECT_EQ(test::readFile(dir_ / "db" / name), test::readFile(dir_ / "undisturbed" / name)) << name;
+}
+
+TEST_F(Bake, keepsNothingOfHeightsThatCouldNotBeRead) {
+  options_.output = dir_ / "undisturbed";
+  ASSERT_TRUE(bake(options_));
+  options_.output = dir_ / "db";
+  // No other thread maps them then.
+  options_.memory = Megabytes{64};
+  std::string heights;
+  fs::path file;
+  options_.progress = [&](double, const std::string& what) {
+    if (what != "building patches" || !file.empty()) return true;
+    for (const auto& entry : fs::recursive_directory_iterator(dir_ / ".db.work"))
+      if (entry.path().filename() == "heights.f32") file = entry.path();
+    heights = test::readFile(file);
+    fs::resize_file(file, heights.size() / 2);
+    return true;
+  };
+  const auto made = bake(options_);
+  ASSERT_FALSE(made);
+  EXPECT_NE(toString(made.findings()).find("heights.f32"), std::string::npos) << toString(made.findings());
+  ASSERT_FALSE(file.empty());
+  std::ofstream(file, std::ios::binary) << heights;
+  options_.progress = nullptr;
+  ASSERT_TRUE(bake(options_));
+  for (const std::string& name : test::namesIn(dir_ / "undisturbed"))
     EXPECT_EQ(test::readFile(dir_ / "db" / name), test::readFile(dir_ / "undisturbed" / name)) << name;
 }
 

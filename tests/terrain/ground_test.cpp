@@ -218,6 +218,29 @@ TEST(Ground, isTheSameFromAFileAndFromParts) {
   }
 }
 
+TEST(Ground, isNotMadeOfHeightsThatCouldNotBeRead) {
+  struct Failing final : HeightSource {
+    explicit Failing(const HeightSource& heights) : inner(heights) {}
+    const PostGrid& posts() const override { return inner.posts(); }
+    void read(const PostWindow& window, std::uint32_t stride, std::span<float> heights) const override {
+      inner.read(window, stride, heights);
+    }
+    void readVoids(const PostWindow& window, std::uint32_t stride,
+                   std::span<std::uint8_t> voids) const override {
+      inner.readVoids(window, stride, voids);
+    }
+    bool failed() const override { return true; }
+    const HeightSource& inner;
+  };
+  GroundLand land(90, 70);
+  GroundSources sources = land.sources();
+  const Failing failing(*sources.heights);
+  sources.heights = &failing;
+  test::ScratchDir dir;
+  EXPECT_FALSE(buildGroundPart(sources, 0, 1, dir / "ground", {}));
+  EXPECT_TRUE(test::namesIn(dir.path()).empty());
+}
+
 TEST(Ground, leavesNothingBehindWhereItIsCancelled) {
   GroundLand land(2500, 1500);
   test::ScratchDir dir;

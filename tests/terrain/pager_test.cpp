@@ -36,9 +36,11 @@ class PagerOf : public testing::Test {
     }
     return numbers;
   }
-  /// Until one has begun, for no longer than a test may take, and the other threads had time to begin theirs.
-  void awaitReads() {
+  /// Until a read has begun, for no longer than a test may take, and the other threads had time to begin
+  /// theirs.
+  void wantAndAwaitReads(const std::vector<PageWant>& wanted) {
     const int before = slow->begun;
+    pager->want(wanted);
     for (int ms = 0; slow->begun == before && ms < 20'000; ++ms) std::this_thread::sleep_for(1ms);
     std::this_thread::sleep_for(50ms);
   }
@@ -98,8 +100,7 @@ TEST_F(PagerOf, keepsNoCallerWaitingForASlowDisk) {
   slow->held = true;
   std::vector<std::uint32_t> all(pages());
   std::iota(all.begin(), all.end(), 0u);
-  pager->want(wants(all));
-  awaitReads();
+  wantAndAwaitReads(wants(all));
   for (int i = 0; i < 200; ++i) {
     pager->want(wants(all));
     EXPECT_TRUE(pager->takeArrived(kAll).empty());
@@ -127,8 +128,7 @@ TEST_F(PagerOf, readsNothingThatIsNoLongerWanted) {
   slow->held = true;
   std::vector<std::uint32_t> first, then{pages() - 1, pages() - 2};
   for (std::uint32_t page = 0; page + 2 < pages(); ++page) first.push_back(page);
-  pager->want(wants(first));
-  awaitReads();
+  wantAndAwaitReads(wants(first));
   pager->want(wants(then));
   const auto inHand = static_cast<std::size_t>(slow->begun);
   slow->held = false;
@@ -139,8 +139,7 @@ TEST_F(PagerOf, readsNothingThatIsNoLongerWanted) {
   EXPECT_LE(slow->read().size(), inHand + then.size());
 
   slow->held = true;
-  pager->want(wants(first));
-  awaitReads();
+  wantAndAwaitReads(wants(first));
   pager->want({});
   const int begun = slow->begun;
   slow->held = false;
