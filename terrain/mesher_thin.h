@@ -7,7 +7,7 @@
 
 namespace trimtab::terrain {
 
-/// Takes vertices out of a mesh, first those without which the sum of squared errors grows least. Greedy
+/// Takes vertices out of a mesh, about in the order in which the sum of squared errors grows. Greedy
 /// insertion takes what is furthest off at the time, and with what came later some of it serves little.
 class MeshThin {
  public:

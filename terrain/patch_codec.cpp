@@ -141,6 +141,8 @@ class HeirReader {
   explicit HeirReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
   /// None beyond the end.
   Heir next() { return bit() ? Heir::same : bit() ? Heir::other : Heir::none; }
+  /// Whether as much was read as there is, to the byte.
+  bool isAtEnd() const { return (next_ + 7) / 8 == bytes_.size(); }
 
  private:
   bool bit() {
@@ -394,6 +396,7 @@ Result<PatchPage> decodePage(std::span<const std::byte> bytes, const PatchIndex&
                    "others");
     firstVertex += patch.vertices;
   }
+  if (!heirs.isAtEnd()) return wrong("heirs", "as many as there are triangles", "others");
   if (firstVertex != vertices.size() || next != indices.size())
     return wrong("counts", number(firstVertex) + " vertices, " + number(next / 3) + " triangles",
                  number(vertices.size()) + " and " + number(indices.size() / 3));

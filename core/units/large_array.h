@@ -18,6 +18,7 @@ struct LargePages {
   LargePages() = default;
   template <class U>
   LargePages(const LargePages<U>&) {}
+  static_assert(alignof(T) <= 64);
   T* allocate(std::size_t count) { return static_cast<T*>(allocateLarge(count * sizeof(T))); }
   void deallocate(T* memory, std::size_t count) { freeLarge(memory, count * sizeof(T)); }
   friend bool operator==(const LargePages&, const LargePages&) { return true; }

@@ -60,7 +60,7 @@ TEST(MeshField, fittingTakesAFifthOfTheRmsAndNoTriangle) {
   EXPECT_LE(fitted.maxErrorM, 30 * (1 + 1e-6));
 }
 
-TEST(MeshField, fittingOfABudgetTakesAQuarterOfTheRms) {
+TEST(MeshField, fittingOfABudgetTakesTwentyThreeHundredthsOfTheRms) {
   const Field field = test::fractal(401, 401, 2);
   for (const std::size_t most : {32000u, 3200u}) {
     const FieldMesh plain = meshField(field.view(), {.mostTriangles = most, .fitHeights = false});

@@ -127,8 +127,11 @@ TEST(PatchStore, neverPointsBeyondItsOwnArrays) {
   for (int k = 0; k < 5000; ++k) {
     auto damaged = bytes;
     for (auto edits = 1 + random() % 3; edits > 0; --edits) {
-      // Counts and packed streams alike.
-      const std::size_t at = random() % 3 == 0 ? random() % 40 : random() % damaged.size();
+      // Counts, heirs, which come last, and packed streams alike.
+      const std::size_t kind = random() % 3;
+      const std::size_t at = kind == 0   ? random() % 44
+                             : kind == 1 ? damaged.size() - 1 - random() % 64
+                                         : random() % damaged.size();
       damaged[at] = static_cast<std::byte>(random());
     }
     if (random() % 8 == 0) damaged.resize(random() % damaged.size());
