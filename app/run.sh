@@ -28,7 +28,8 @@ mkdir -p build
 
 if [ -z "$terrain" ]; then
   terrain=build/sample/terrain
-  if [ ! -d "$terrain" ]; then
+  # One that another version baked is made again.
+  if ! build/bin/trimtab-cli terrain info "$terrain" >/dev/null 2>&1; then
     echo "making the sample terrain in build/sample (once)"
     mkdir -p build/sample
     [ -f build/sample/sample.tif ] || build/bin/trimtab-cli terrain sample -o build/sample/sample.tif >build/sample/log 2>&1
