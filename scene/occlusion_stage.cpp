@@ -129,11 +129,11 @@ std::optional<OcclusionMethod> OcclusionStage::choose(FrameResult& counters) {
                                                  OcclusionMethod::cpu_map};
   const double now =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  const std::uint64_t rule = (ground_.cutNumber().rule << 26) ^
-                             (static_cast<std::uint64_t>(size_.widthPx) << 13) ^
-                             static_cast<std::uint64_t>(size_.heightPx);
+  const std::uint64_t band =
+      (static_cast<std::uint64_t>(size_.widthPx) << 32) | static_cast<std::uint32_t>(size_.heightPx);
   chosen_ = true;
-  const auto method = choice_.choose({now, eye_.position, forwardOf(eye_), rule, kMethods});
+  const auto method =
+      choice_.choose({now, eye_.position, forwardOf(eye_), ground_.cutNumber().rule, kMethods, band});
   if (!method) {
     ++counters.occlusionsLeftOut;
     counters.note = kNothingPays;

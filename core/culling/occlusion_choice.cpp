@@ -6,8 +6,8 @@
 namespace trimtab {
 namespace {
 
-/// Frames of a method's first trial: the first builds what later ones keep. How these two compare is known
-/// afterwards, and one frame tells how much there is to hide.
+/// Frames of a method's first trial in a chapter: the first builds what later ones keep. How these two
+/// compare is known afterwards, and one frame tells how much there is to hide.
 constexpr int kFirstTrialFrames = 4;
 /// A method that starts must win back within so many frames what starting costs.
 constexpr double kWonBackFrames = 30;
@@ -83,7 +83,7 @@ bool OcclusionChoice::isDue(std::size_t arm, const Situation& now) const {
   const Arm& a = arms_[arm];
   const bool hopeless = isHopeless(arm);
   const double patience = a.patience * (hopeless ? kHopelessPatience : 1);
-  return !a.known || (a.last.rule != now.rule && !hopeless) ||
+  return isNew(arm) || (a.last.rule != now.rule && !hopeless) ||
          now.timeMs - a.last.timeMs > patience * kBelievedMs ||
          length(now.eye - a.last.eye) > patience * kBelievedM ||
          turned(now.forward, a.last.forward) > patience * kBelievedTurn;
@@ -107,6 +107,8 @@ std::size_t OcclusionChoice::best(std::span<const std::size_t> arms) const {
 }
 
 OcclusionChoice::Method OcclusionChoice::choose(const Situation& situation) {
+  if (!goesOn_ || situation.band != now_.band || !(length(situation.eye - now_.eye) <= kLeapM)) ++chapter_;
+  goesOn_ = true;
   now_ = situation;
   now_.methods = {};
   std::array<std::size_t, kArms> list{};
@@ -135,7 +137,7 @@ OcclusionChoice::Method OcclusionChoice::choose(const Situation& situation) {
   }
   if (longest) {
     served_ = *longest;
-    trialLeft_ = served_ == 0 || arms_[served_].known ? 0 : kFirstTrialFrames - 1;
+    trialLeft_ = served_ == 0 || !isNew(served_) ? 0 : kFirstTrialFrames - 1;
     ++trials_;
   }
   return methodOf(served_);
@@ -159,7 +161,10 @@ void OcclusionChoice::learnTriangleCost(const Outcome& outcome) {
 
 void OcclusionChoice::learnArm(const Outcome& outcome) {
   Arm& arm = arms_[served_];
-  const bool first = before_ != served_;
+  const bool first = before_ != served_, isNew = this->isNew(served_);
+  arm.chapter = chapter_;
+  // What serves goes on; what is tried may cost something else altogether.
+  if (isNew && served_ != current_) arm.frames = 0;
   if (arm.frames < kFirstTrialFrames) {
     // The very first frame also makes what is kept for good; it says the least about those that follow.
     if (arm.frames == 0)
@@ -175,7 +180,7 @@ void OcclusionChoice::learnArm(const Outcome& outcome) {
   } else {
     arm.costMs = follow(arm.costMs, outcome.occlusionMs);
   }
-  if (served_ == current_ || (arm.last.rule != now_.rule && !isHopeless(served_)))
+  if (served_ == current_ || isNew || (arm.last.rule != now_.rule && !isHopeless(served_)))
     arm.patience = 1;
   else if (first)
     arm.patience = std::min(2 * arm.patience, kMostPatience);

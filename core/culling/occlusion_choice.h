@@ -15,7 +15,8 @@ namespace trimtab {
 ///
 /// A method is worth what the triangles that it hides would cost to draw, less its own time. What a triangle
 /// costs is learnt from how the time to draw follows their number. The method in use is judged by every
-/// frame; the others, and none, by a few frames now and then: sooner where eye, view or rule have changed,
+/// frame; the others, and none, by a few frames now and then: sooner where eye, view or rule have changed, at
+/// once where a band, a scheme without any of them or a leap of the eye makes what is known of little worth,
 /// and never for more than kExploring of all time, so that in the long run a frame costs at most so much more
 /// than with the best of them.
 class OcclusionChoice {
@@ -28,14 +29,17 @@ class OcclusionChoice {
   /// And what could not win so much as its own cost, as far as is known: so many times as long again,
   /// whatever the rule.
   static constexpr double kHopelessPatience = 8;
+  /// An eye that goes further in one frame than that could reach has leapt.
+  static constexpr double kLeapM = kHopelessPatience * kBelievedM;
 
   using Method = std::optional<OcclusionMethod>;  ///< none: nothing looks
 
   struct Situation {
     double timeMs = 0;                         ///< of a clock that never goes back
     Vec3 eye, forward;                         ///< place and direction of view, in one frame
-    std::uint64_t rule = 0;                    ///< another one where parameters, levels or band differ
+    std::uint64_t rule = 0;                    ///< another one where parameters or levels differ
     std::span<const OcclusionMethod> methods;  ///< that can serve; what is likely to be best first
+    std::uint64_t band = 0;                    ///< another one where the methods themselves differ
   };
   /// For the frame that comes.
   Method choose(const Situation& situation);
@@ -50,7 +54,10 @@ class OcclusionChoice {
   void learn(const Outcome& outcome);
 
   /// Nothing is chosen in the frame that comes: what serves in the next one starts anew.
-  void pause() { before_ = kArms; }
+  void pause() {
+    before_ = kArms;
+    goesOn_ = false;
+  }
 
   /// Milliseconds a triangle, as far as it is known.
   double msPerTriangle() const;
@@ -62,7 +69,8 @@ class OcclusionChoice {
   static constexpr std::size_t kArms = 6;  ///< none, and the methods but `automatic`
   struct Arm {
     bool known = false;
-    int frames = 0;      ///< of its first trial
+    int frames = 0;  ///< of its first trial in a chapter
+    std::uint64_t chapter = 0;
     double costMs = 0;   ///< a frame in a row
     double firstMs = 0;  ///< the first frame of a row
     double share = 0;    ///< of the triangles in view that it hides
@@ -76,6 +84,8 @@ class OcclusionChoice {
   double worth(std::size_t arm) const;
   double startMs(std::size_t arm) const;
   bool isHopeless(std::size_t arm) const;
+  /// Whether it was never tried, or not since what it is worth may have changed for good.
+  bool isNew(std::size_t arm) const { return !arms_[arm].known || arms_[arm].chapter != chapter_; }
   bool isDue(std::size_t arm, const Situation& now) const;
   double lossOfTrying(std::size_t arm) const;
   std::size_t best(std::span<const std::size_t> arms) const;
@@ -94,6 +104,8 @@ class OcclusionChoice {
   std::optional<Outcome> previous_;
   std::uint64_t trials_ = 0;
   Situation now_;
+  std::uint64_t chapter_ = 0;  ///< ends with a band, a pause or a leap
+  bool goesOn_ = false;        ///< the last frame chose too
 };
 
 }  // namespace trimtab

@@ -267,6 +267,62 @@ TEST(OcclusionChoice, findsWhatHadNoHopeOnceThereIsMuchLeftToHide) {
   EXPECT_GT(std::count_if(middle, total.methods.end(), isMap), total.methods.end() - middle - 100);
 }
 
+/// A map that is hopeless, and found so again and again, costs a tenth once the band has fallen, or where the
+/// eye is; and another one hides much there.
+TEST(OcclusionChoice, triesWhatHadNoHopeAtOnceAfterABandASchemeOrALeap) {
+  const Machine before{6, 6e-5, {{12, 12, 0.1}, {14, 14, 0.1}, {12, 12, 0.1}}},
+      after{6, 6e-5, {{12, 12, 0.1}, {14, 14, 0.1}, {1, 1, 0.7}}};
+  struct Change {
+    const char* what;
+    std::uint64_t band;
+    double leapM;
+    bool pauses, isOne;
+  };
+  for (const Change& change : {Change{"band", 1, 0, false, true},
+                               {"leap", 0, 600, false, true},
+                               {"scheme", 0, 0, true, true},
+                               {"nothing", 0, 0, false, false}}) {
+    OcclusionChoice choice;
+    Method last;
+    int served = 0;
+    double clock = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const bool later = i >= 3000;
+      if (i == 3000 && change.pauses) choice.pause();
+      const Method method = choice.choose(
+          {clock, {later ? change.leapM : 0, 0, 0}, {1, 0, 0}, 0, kMethods, later ? change.band : 0});
+      const auto outcome = (later ? after : before).frame(method, method != last, 180e3);
+      choice.learn(outcome);
+      clock += outcome.totalMs;
+      last = method;
+      served += later && i < 3060 && method == OcclusionMethod::cpu_map;
+    }
+    EXPECT_EQ(served > 40, change.isOne) << change.what << ": " << served << " of 60 frames";
+  }
+}
+
+/// Bands that come and go, and an eye that leaps, ask for trials in every frame.
+TEST(OcclusionChoice, losesABoundedShareWhereBandsAndPlacesChange) {
+  const Machine plain{6, 6e-5, {{5, 20, 0.1}, {8, 30, 0.1}, {9, 9, 0.1}}};
+  for (const int frames : {1, 7, 100}) {
+    OcclusionChoice choice;
+    Method last;
+    double clock = 0, none = 0;
+    for (int i = 0; i < 6000; ++i) {
+      const auto turn = static_cast<std::uint64_t>(i / frames);
+      const Method method = choice.choose(
+          {clock, {1000.0 * static_cast<double>(turn % 3), 0, 0}, {1, 0, 0}, 0, kMethods, turn % 2});
+      const auto outcome = plain.frame(method, method != last, 180e3);
+      choice.learn(outcome);
+      clock += outcome.totalMs;
+      none += plain.frame({}, false, 180e3).totalMs;
+      last = method;
+    }
+    EXPECT_LE(clock, none * (1 + kSlack)) << frames;
+    EXPECT_GT(choice.trials(), 3u) << frames;
+  }
+}
+
 TEST(OcclusionChoice, choosesAmongWhatCanServe) {
   OcclusionChoice choice;
   const OcclusionMethod one[] = {OcclusionMethod::cpu_map};
