@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "support.h"
@@ -147,10 +148,18 @@ void compare(Report& report, const Land& land, std::size_t part, const Greedy& g
   std::vector<unsigned> theirs(indices.size());
   std::size_t left = 0;
   FieldMesh ours, ours2;
+  // Two that share nothing but the machine: what its second core is worth.
+  const Land copy = land;
+  const auto twice = [&] {
+    std::thread other([&] { keep(meshField(copy.field(), {.mostTriangles = most})); });
+    keep(meshField(land.field(), {.mostTriangles = most}));
+    other.join();
+  };
   const int turns = report.quick() ? 1 : 3;
-  const auto [seconds, seconds2, theirSeconds] = leastInTurn(
+  const auto [seconds, seconds2, secondsTwice, theirSeconds] = leastInTurn(
       turns, std::pair{2, [&] { ours = meshField(land.field(), {.mostTriangles = most}); }},
       std::pair{2, [&] { ours2 = meshField(land.field(), {.mostTriangles = most, .threads = 2}); }},
+      std::pair{2, twice},
       std::pair{1, [&] {
                   left = meshopt_simplify(theirs.data(), indices.data(), indices.size(), places.data(),
                                           posts.size(), 3 * sizeof(float), most * 3, 1.0f,
@@ -212,6 +221,13 @@ void compare(Report& report, const Land& land, std::size_t part, const Greedy& g
                                 .unit = "triangles/s",
                                 .peer = "one core",
                                 .peerValue = count / seconds,
+                                .peerFrom = "run"}));
+  report.add(ratioAtLeast(0.9, {.id = id + "_two_cores_limit",
+                                .what = "Meshing " + quoted + " on two cores, beside two at once on one each",
+                                .value = count / seconds2,
+                                .unit = "triangles/s",
+                                .peer = "two one-core meshings at once",
+                                .peerValue = 2 * count / secondsTwice,
                                 .peerFrom = "run"}));
 }
 
