@@ -1,19 +1,34 @@
+#include "trimtab/terrain/mesher_errors.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "trimtab/terrain/mesher_errors.h"
-#include "trimtab/terrain/mesher_lanes.h"
+#include "trimtab/terrain/mesher_tiles.h"
 
 namespace trimtab::terrain {
 
 namespace {
+
+/// Triangles that are summed up together: the same on any number of threads.
+constexpr std::size_t kTogether = 4096;
 
 /// At the posts of a triangle: what is below rounding is none.
 PostSum sumOf(const Triangulation& mesh, const PostRows& posts, const Triangulation::Triangle& one) {
   const Triangulation::Vertex* const corner[3] = {
       &mesh.vertices[one.corner[0]], &mesh.vertices[one.corner[1]], &mesh.vertices[one.corner[2]]};
   const bool border[3] = {one.twin[0] < 0, one.twin[1] < 0, one.twin[2] < 0};
+  PostSum sum = sumOfPosts(corner, border, posts);
+  double scale = sum.worst;
+  for (const Triangulation::Vertex* v : corner) scale = std::max(scale, std::fabs(static_cast<double>(v->z)));
+  sum.worst = roundedError(sum.worst, scale);
+  return sum;
+}
+
+}  // namespace
+
+TRIMTAB_LANES PostSum sumOfPosts(const Triangulation::Vertex* const corner[3], const bool border[3],
+                                 const PostRows& posts) {
   Lanes squares{}, worst{};
   forEachFour(
       corner, border, posts,
@@ -23,14 +38,11 @@ PostSum sumOf(const Triangulation& mesh, const PostRows& posts, const Triangulat
         worst = size > worst ? size : worst;
         squares += off * off;
       });
-  double scale = mostOfLanes(worst);
-  for (const Triangulation::Vertex* v : corner) scale = std::max(scale, std::fabs(static_cast<double>(v->z)));
-  return {sumOfLanes(squares), roundedError(mostOfLanes(worst), scale)};
+  return {sumOfLanes(squares), mostOfLanes(worst)};
 }
 
-}  // namespace
-
-PostErrors postErrors(const Triangulation& mesh, const HeightField& field, std::span<const PostSum> sums) {
+PostErrors postErrors(const Triangulation& mesh, const HeightField& field, std::span<const PostSum> sums,
+                      unsigned threads) {
   const PostRows posts{field.z, field.stride, static_cast<std::int32_t>(field.columns)};
   PostSum all;
   const auto add = [&](double off) {
@@ -52,11 +64,20 @@ PostErrors postErrors(const Triangulation& mesh, const HeightField& field, std::
       add(roundedError(off, std::max({std::fabs(height), std::fabs(facet)})));
     }
   }
-  for (std::size_t t = 0; t < sums.size(); ++t) {
-    PostSum sum = sums[t];
-    if (!sum.known() || sum.worst > all.worst) sum = sumOf(mesh, posts, mesh.triangles[t]);
-    all.squares += sum.squares;
-    all.worst = std::max(all.worst, sum.worst);
+  std::vector<PostSum> parts((sums.size() + kTogether - 1) / kTogether, PostSum{0, all.worst});
+  onThreads(threads, static_cast<std::uint32_t>(parts.size()), [&](std::uint32_t part) {
+    PostSum own = parts[part];
+    for (std::size_t t = part * kTogether; t < std::min(sums.size(), (part + 1) * kTogether); ++t) {
+      PostSum sum = sums[t];
+      if (!sum.known() || sum.worst > own.worst) sum = sumOf(mesh, posts, mesh.triangles[t]);
+      own.squares += sum.squares;
+      own.worst = std::max(own.worst, sum.worst);
+    }
+    parts[part] = own;
+  });
+  for (const PostSum& part : parts) {
+    all.squares += part.squares;
+    all.worst = std::max(all.worst, part.worst);
   }
   return {all.worst, std::sqrt(all.squares / (static_cast<double>(field.columns) * field.rows))};
 }

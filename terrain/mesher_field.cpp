@@ -188,7 +188,7 @@ FieldMesh meshField(const HeightField& field, const MeshOptions& options) {
   out.indices.reserve(mesh.triangles.size() * 3);
   for (const Triangulation::Triangle& t : mesh.triangles)
     out.indices.insert(out.indices.end(), t.corner, t.corner + 3);
-  const PostErrors errors = postErrors(mesh, field, fitted.sums);
+  const PostErrors errors = postErrors(mesh, field, fitted.sums, threads);
   out.maxErrorM = errors.max;
   out.rmsErrorM = errors.rms;
   return out;

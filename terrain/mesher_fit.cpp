@@ -38,21 +38,6 @@ MeshFit::MeshFit(Triangulation& mesh, const PostRows& posts, std::vector<PostSum
     if (!sums_[t].known()) sums_[t] = sumOf(static_cast<std::int32_t>(t));
 }
 
-TRIMTAB_LANES PostSum MeshFit::sumOf(const Vertex& a, const Vertex& b, const Vertex& c,
-                                     const bool border[3]) const {
-  const Vertex* const corner[3] = {&a, &b, &c};
-  Lanes squares{}, worst{};
-  forEachFour(
-      corner, border, posts_,
-      [&](const Lanes& off, const Lanes(&)[3], std::int32_t, std::int32_t) __attribute__((always_inline)) {
-        Lanes size;
-        absoluteLanes(off, size);
-        worst = size > worst ? size : worst;
-        squares += off * off;
-      });
-  return {sumOfLanes(squares), mostOfLanes(worst)};
-}
-
 PostSum MeshFit::sumOf(std::int32_t t) const {
   const Triangle& one = mesh_.triangles[static_cast<std::size_t>(t)];
   const bool border[3] = {one.twin[0] < 0, one.twin[1] < 0, one.twin[2] < 0};

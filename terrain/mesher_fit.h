@@ -4,8 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "trimtab/terrain/mesher_greedy.h"
-#include "trimtab/terrain/mesher_lanes.h"
+#include "trimtab/terrain/mesher_errors.h"
 #include "trimtab/terrain/mesher_triangulation.h"
 
 namespace trimtab::terrain {
@@ -25,7 +24,10 @@ class MeshFit {
   void moveAside(double bound, double least);
 
   PostSum sumOf(const Triangulation::Vertex& a, const Triangulation::Vertex& b,
-                const Triangulation::Vertex& c, const bool border[3]) const;
+                const Triangulation::Vertex& c, const bool border[3]) const {
+    const Triangulation::Vertex* const corner[3] = {&a, &b, &c};
+    return sumOfPosts(corner, border, posts_);
+  }
   PostSum sumOf(std::int32_t t) const;
   /// Post less vertex.
   double offAt(const Triangulation::Vertex& v) const {
