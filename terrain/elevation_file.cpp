@@ -249,6 +249,16 @@ std::uint32_t ElevationFile::lattice() const {
 
 void ElevationFile::findPlaces(const Rectangle& posts) {
   places_.resize(std::size_t{posts.rows} * posts.columns);
+  if (stride_ == 1 && direct_) {
+    // Columns do not know of rows.
+    const auto columns = exact(posts.row, posts.column, posts.columns, 1);
+    Place* to = places_.data();
+    for (std::uint32_t r = 0; r < posts.rows; ++r, to += posts.columns) {
+      const double y = exact(posts.row + r, posts.column, 1, 1)[0].y;
+      for (std::uint32_t c = 0; c < posts.columns; ++c) to[c] = {columns[c].x, y, 0};
+    }
+    return;
+  }
   if (stride_ == 1) {
     for (std::uint32_t r = 0; r < posts.rows; ++r) {
       const auto row = exact(posts.row + r, posts.column, posts.columns, 1);

@@ -89,10 +89,6 @@ struct Between {
   }
 };
 
-std::int8_t byteOf(double component) {
-  return static_cast<std::int8_t>(static_cast<int>(component * 127 + 127.5) - 127);
-}
-
 }  // namespace
 
 GroundTile groundTexels(const HeightSource& heights, const PostGeometry& geometry, double texelsPerPost,

@@ -43,6 +43,29 @@ TRIMTAB_INLINE void absoluteLanes(const Lanes& v, Lanes& out) {
   out = reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(v) & INT64_MAX);
 }
 
+/// The least and the greatest of heights.
+class LaneRange {
+ public:
+  LaneRange(float low, float high) : low_(LaneFloats{} + low), high_(LaneFloats{} + high) {}
+  void add(const float* from, const float* end) {
+    for (; end - from >= kLanes; from += kLanes) {
+      LaneFloats z;
+      std::memcpy(&z, from, sizeof z);
+      add(z);
+    }
+    for (; from < end; ++from) add(LaneFloats{} + *from);
+  }
+  float low() const { return std::min(std::min(low_[0], low_[1]), std::min(low_[2], low_[3])); }
+  float high() const { return std::max(std::max(high_[0], high_[1]), std::max(high_[2], high_[3])); }
+
+ private:
+  void add(const LaneFloats& z) {
+    low_ = z < low_ ? z : low_;
+    high_ = z > high_ ? z : high_;
+  }
+  LaneFloats low_, high_;
+};
+
 /// Calls `four(off, weight, x, y)` for the posts that forEachRow visits (at step 1): how far each is above
 /// the triangle, and the shares of the corners in the triangle's height there; all are 0 in lanes that are no
 /// such post. Lane k is post (x + k, y). `everyRow` as there.

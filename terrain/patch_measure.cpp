@@ -1,38 +1,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 
-#include "trimtab/terrain/mesher_triangulation.h"
+#include "trimtab/terrain/mesher_lanes.h"
 #include "trimtab/terrain/patch_bend.h"
 #include "trimtab/terrain/patch_page.h"
 #include "trimtab/terrain/patch_scan.h"
+#include "trimtab/terrain/post_gradient.h"
 
 namespace trimtab::terrain {
 
 namespace {
 
-constexpr std::int64_t kStepsPerOrigin = 16 * PostGeometry::kStepsPerMetre;
 constexpr std::size_t kVariants = PatchIndex::kVariants;
 constexpr std::size_t kStripPosts = std::size_t{1} << 20;
-
-/// Of the front faces of all of a patch's triangles, whatever variant draws them.
-NormalCone coneOf(const PatchDraft& draft, const PatchMesh& mesh) {
-  std::vector<Vec3> normals;
-  normals.reserve(2 * draft.variants[0].triangles.size() / 3);
-  for (std::size_t v = 0; v < PatchIndex::kVariants; ++v)
-    draft.eachNew(v, [&](std::size_t, const std::uint32_t* corners) {
-      const auto place = [&](std::size_t corner) {
-        const PatchVertex& at = mesh.vertices[corners[corner]];
-        return Vec3{at.x, at.y, at.z};
-      };
-      const Vec3 a = place(0), normal = cross(place(1) - a, place(2) - a);
-      // One without an area draws nothing.
-      if (const double area = dot(normal, normal); area != 0)
-        normals.push_back(normal * (1 / std::sqrt(area)));
-    });
-  return NormalCone::of(normals);
-}
 
 struct VariantMeasure {
   double worst = 0, bilinear = 0, squares = 0;
@@ -93,7 +76,9 @@ class PageMeasure {
       patch.lastColumn = std::max(patch.lastColumn, e.from.column);
     }
     bends(draft, patch);
-    addMesh(draft);
+    Box bounds;
+    built_.meshes.patches.push_back(patchMesh(index_, geometry_, draft, bounds));
+    built_.bounds.push_back(bounds);
   }
 
   /// What is not seen in heights above the plane. A vertex's slope is that of the steepest triangle about it
@@ -124,90 +109,6 @@ class PageMeasure {
     patch.rounding = geometry_.roundingM() * std::sqrt(1 + slope * slope) + 0.002;
   }
 
-  void addMesh(const PatchDraft& draft) {
-    PatchMesh mesh;
-    const std::uint32_t side = index_.squareCells(page_.pair);
-    mesh.firstColumn = draft.place.column * side;
-    mesh.firstRow = draft.place.row * side;
-    constexpr std::int64_t kFar = std::numeric_limits<std::int64_t>::max();
-    PostGeometry::Lattice low{kFar, kFar, kFar}, high{-kFar, -kFar, -kFar};
-    std::vector<PostGeometry::Lattice> places;
-    places.reserve(draft.vertices.size());
-    for (std::size_t i = 0; i < draft.vertices.size(); ++i) {
-      const PatchPoint& p = draft.vertices[i];
-      const PostGeometry::Lattice at = geometry_.lattice(p.row, p.column, draft.heights[i]);
-      low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
-      high = {std::max(high.x, at.x), std::max(high.y, at.y), std::max(high.z, at.z)};
-      places.push_back(at);
-    }
-    const auto middle = [](std::int64_t a, std::int64_t b) {
-      return static_cast<std::int32_t>(
-          std::llround(static_cast<double>(a + b) / 2 / static_cast<double>(kStepsPerOrigin)));
-    };
-    mesh.origin[0] = middle(low.x, high.x);
-    mesh.origin[1] = middle(low.y, high.y);
-    mesh.origin[2] = middle(low.z, high.z);
-    mesh.vertices.reserve(places.size());
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const auto metres = [](std::int64_t steps, std::int32_t origin) {
-        return static_cast<float>(steps - origin * kStepsPerOrigin) /
-               static_cast<float>(PostGeometry::kStepsPerMetre);
-      };
-      PatchVertex v{};
-      v.x = metres(places[i].x, mesh.origin[0]);
-      v.y = metres(places[i].y, mesh.origin[1]);
-      v.z = metres(places[i].z, mesh.origin[2]);
-      v.column = static_cast<std::uint16_t>(draft.vertices[i].column - mesh.firstColumn);
-      v.row = static_cast<std::uint16_t>(draft.vertices[i].row - mesh.firstRow);
-      mesh.vertices.push_back(v);
-    }
-    addTriangles(draft, mesh);
-    // The next floats outwards: a float need not hold a place that far from the frame's origin.
-    const auto metres = [](std::int64_t steps) {
-      return static_cast<float>(static_cast<double>(steps) / PostGeometry::kStepsPerMetre);
-    };
-    constexpr float kMost = std::numeric_limits<float>::max();
-    const auto below = [&](std::int64_t steps) { return std::nextafter(metres(steps), -kMost); };
-    const auto above = [&](std::int64_t steps) { return std::nextafter(metres(steps), kMost); };
-    built_.bounds.push_back(
-        {below(low.x), below(low.y), below(low.z), above(high.x), above(high.y), above(high.z)});
-    built_.meshes.patches.push_back(std::move(mesh));
-  }
-
-  /// A coarser variant's triangle stands where the finer one's of the same number does: beside its
-  /// neighbours.
-  static void addTriangles(const PatchDraft& draft, PatchMesh& mesh) {
-    for (std::size_t v = 0; v < kVariants; ++v)
-      mesh.firstIndex[v + 1] =
-          mesh.firstIndex[v] + static_cast<std::uint32_t>(draft.variants[v].triangles.size());
-    // Room for one more: what a triangle has for an heir cannot be guessed, so all are written, without a
-    // branch.
-    mesh.indices.resize(mesh.firstIndex[kVariants] + std::size_t{3});
-    mesh.heirs.resize(mesh.firstIndex[kVariants - 1] / 3 + std::size_t{1});
-    std::uint16_t* out = mesh.indices.data();
-    Heir* heir = mesh.heirs.data();
-    for (std::size_t v = 0; v < kVariants; ++v) {
-      const PatchDraft::Variant& variant = draft.variants[v];
-      const std::size_t count = variant.triangles.size() / 3;
-      const bool coarsest = v + 1 == kVariants;
-      const Heir* const heirs = draft.variants[coarsest ? v : v + 1].heirs.data();
-      for (const std::int32_t h : draft.order) {
-        const auto t = static_cast<std::size_t>(h >> 2);
-        const std::size_t is = t < count, at = t * is;
-        const std::uint32_t* const corner = &variant.triangles[3 * at];
-        const int i = h & 3;
-        out[0] = static_cast<std::uint16_t>(corner[i]);
-        out[1] = static_cast<std::uint16_t>(corner[Triangulation::next(i)]);
-        out[2] = static_cast<std::uint16_t>(corner[Triangulation::before(i)]);
-        out += 3 * is;
-        *heir = heirs[at];
-        heir += coarsest ? 0 : is;
-      }
-    }
-    mesh.indices.resize(mesh.firstIndex[kVariants]);
-    mesh.heirs.resize(mesh.firstIndex[kVariants - 1] / 3);
-  }
-
   /// Rows of the strip, with those before and after where there are some.
   void read(std::uint32_t row, std::uint32_t end) {
     row_ = row;
@@ -222,6 +123,7 @@ class PageMeasure {
     voids_.resize(block_.size());
     heights_.read(block_, 1, raw_);
     heights_.readVoids(block_, 1, voids_);
+    anyVoids_ = std::memchr(voids_.data(), 1, voids_.size()) != nullptr;
     for (std::uint32_t r = 0; r < block_.rows; ++r)
       plane_.row(block_.column, block_.row + r, 1,
                  std::span<const float>(raw_).subspan(std::size_t{r} * block_.columns, block_.columns),
@@ -259,27 +161,21 @@ class PageMeasure {
   /// Heights under a patch, and how many: posts on its left and lower edges are its own, and those where the
   /// posts end.
   void posts(const PatchDraft& draft, PatchMeasure& patch) {
+    LaneRange heights(patch.lowest, patch.highest);
     for (std::uint32_t r = std::max(row_, patch.firstRow); r <= std::min(end_ - 1, patch.lastRow); ++r) {
       const auto [from, to] = columnsOf(draft, r);
       const float* const z = &raw_[at(from, r)];
-      // Four at a time: each waits for nothing but the fourth before it.
-      std::array<float, 4> lowest, highest;
-      lowest.fill(patch.lowest), highest.fill(patch.highest);
-      for (std::uint32_t c = 0; c <= to - from; c += 4)
-        for (std::uint32_t k = 0; k < 4; ++k) {
-          const float height = z[std::min(c + k, to - from)];
-          lowest[k] = std::min(lowest[k], height);
-          highest[k] = std::max(highest[k], height);
-        }
-      patch.lowest = *std::min_element(lowest.begin(), lowest.end());
-      patch.highest = *std::max_element(highest.begin(), highest.end());
+      heights.add(z, z + (to - from + 1));
       const bool top = r + 1 == index_.rows;
       if (r == patch.lastRow && !top) continue;
       std::uint32_t stop = to;
       if (to + 1 == index_.columns && columnsOf(draft, top ? r - 1 : r + 1).second == to) ++stop;
-      for (std::uint32_t c = from; c < stop; ++c) patch.voids += voids_[at(c, r)];
+      if (anyVoids_)
+        for (std::uint32_t c = from; c < stop; ++c) patch.voids += voids_[at(c, r)];
       patch.posts += stop - from;
     }
+    patch.lowest = heights.low();
+    patch.highest = heights.high();
   }
 
   /// Of the finest surface: the same for a post in whatever patch.
@@ -296,9 +192,9 @@ class PageMeasure {
           (raw_[at(p.column, north)] - raw_[at(p.column, south)]) / ((north - south) * geometry_.rowM(p.row));
       const Vec3 normal = geometry_.normal(p.row, p.column, x, y);
       PatchVertex& v = mesh.vertices[i];
-      v.normal[0] = static_cast<std::int8_t>(std::lround(normal.x * 127));
-      v.normal[1] = static_cast<std::int8_t>(std::lround(normal.y * 127));
-      v.normal[2] = static_cast<std::int8_t>(std::lround(normal.z * 127));
+      v.normal[0] = byteOf(normal.x);
+      v.normal[1] = byteOf(normal.y);
+      v.normal[2] = byteOf(normal.z);
     }
   }
 
@@ -400,7 +296,7 @@ class PageMeasure {
                                              mesh.indices.size() * sizeof(std::uint16_t));
     built_.errorM.push_back(errorM);
     built_.facts.push_back(facts);
-    built_.cones.push_back(coneOf(draft, mesh));
+    built_.cones.push_back(patchCone(draft, mesh));
   }
 
   const PatchIndex& index_;
@@ -425,6 +321,7 @@ class PageMeasure {
   PostWindow block_;
   std::vector<float> raw_, z_;
   std::vector<std::uint8_t> voids_;
+  bool anyVoids_ = false;
 };
 
 }  // namespace

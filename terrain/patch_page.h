@@ -81,6 +81,12 @@ class PageField {
   std::vector<float> strip_;
 };
 
+/// A draft's mesh in the frame, all but its normals; its own bounds.
+PatchMesh patchMesh(const PatchIndex& index, const PostGeometry& geometry, const PatchDraft& draft,
+                    Box& bounds);
+/// Of the front faces of all of a patch's triangles, whatever variant draws them.
+NormalCone patchCone(const PatchDraft& draft, const PatchMesh& mesh);
+
 /// A patch of the page by its number; good until the next is asked for. Pages meshed on every so-manyth post
 /// ask for each several times, others once.
 using DraftOf = std::function<const PatchDraft&(std::size_t)>;

@@ -52,7 +52,18 @@ PostGeometry::PostGeometry(const PostGrid& posts)
     std::uint8_t shift = 0;
     while (reach > kReachM * std::ldexp(1.0, shift)) ++shift;
     shiftOfLevel_.push_back(shift);
+    if (shift == 0) unshifted_ = 2 * unshifted_ + 1;
   }
+}
+
+/// By the coarsest level that has the post; the last row and column are in all of them.
+int PostGeometry::shiftOf(std::uint32_t row, std::uint32_t column) const {
+  const bool lastRow = row + 1 == rows_.size(), lastColumn = column + 1 == columns_.size();
+  if ((!lastRow && (row & unshifted_) != 0) || (!lastColumn && (column & unshifted_) != 0)) return 0;
+  const int top = static_cast<int>(shiftOfLevel_.size()) - 1;
+  const int byRow = lastRow ? top : std::countr_zero(row);
+  const int byColumn = lastColumn ? top : std::countr_zero(column);
+  return shiftOfLevel_[static_cast<std::size_t>(std::min({byRow, byColumn, top}))];
 }
 
 PostGeometry::Lattice PostGeometry::lattice(std::uint32_t row, std::uint32_t column, double height) const {
@@ -62,12 +73,9 @@ PostGeometry::Lattice PostGeometry::lattice(std::uint32_t row, std::uint32_t col
   const Vec3 local =
       frame_.ecefToLocal() *
       (Vec3{out * c.cosine, out * c.sine, (r.polarRadius + height) * r.sine} - localOriginEcef_);
-  // The coarsest level that has this post; the last row and column are in all of them.
-  const int top = static_cast<int>(shiftOfLevel_.size()) - 1;
-  const int byRow = row + 1 == rows_.size() ? top : std::countr_zero(row);
-  const int byColumn = column + 1 == columns_.size() ? top : std::countr_zero(column);
-  const int shift = shiftOfLevel_[static_cast<std::size_t>(std::min({byRow, byColumn, top}))];
-  const double steps = static_cast<double>(kStepsPerMetre) / static_cast<double>(std::int64_t{1} << shift);
+  const int shift = shiftOf(row, column);
+  const double steps = static_cast<double>(kStepsPerMetre) *
+                       (shift == 0 ? 1.0 : 1 / static_cast<double>(std::int64_t{1} << shift));
   const auto whole = [&](double metres) {
     return static_cast<std::int64_t>(rounded(metres * steps)) << shift;
   };

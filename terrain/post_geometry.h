@@ -52,12 +52,14 @@ class PostGeometry {
   struct Column {
     double sine, cosine;
   };
+  int shiftOf(std::uint32_t row, std::uint32_t column) const;
   std::vector<Row> rows_;
   std::vector<Column> columns_;
   double stepLongitudeRad_, stepLatitudeRad_;
   LocalFrame frame_;
   Vec3 localOriginEcef_;
-  std::vector<std::uint8_t> shiftOfLevel_;  ///< lattice step of a level = 2^shift / 256 m
+  std::vector<std::uint8_t> shiftOfLevel_;  ///< lattice step of a level = 2^shift / 256 m; never falls
+  std::uint32_t unshifted_ = 0;             ///< bits of the posts' numbers: one is set, the shift is 0
 };
 
 }  // namespace trimtab::terrain

@@ -13,6 +13,11 @@ struct PostGradient {
   double east = 0, north = 0;
 };
 
+/// A component of a unit vector in 127ths, to the nearest.
+inline std::int8_t byteOf(double component) {
+  return static_cast<std::int8_t>(static_cast<int>(component * 127 + 127.5) - 127);
+}
+
 /// At a post, from the eight about it, the nearest of them twice; at the last rows and columns from those
 /// that are there. `height(row, column)`: metres.
 template <class Height>

@@ -246,6 +246,10 @@ TEST(EdgeError, isTheLargestAlongAnEdge) {
         const double truth = sampledEdge(z, kColumns, a, b);
         const double whole = edgeError(a, b, strip, 0, kColumns, 0);
         ASSERT_NEAR(whole, truth, 1e-3) << from << " to " << to;
+        // What was worse before stays, and nothing that is worse is taken for less.
+        for (const double share : {0.5, 0.999, 1.001})
+          ASSERT_DOUBLE_EQ(edgeError(a, b, strip, 0, kColumns, share * whole), std::max(share, 1.0) * whole)
+              << from << " to " << to;
         // Strip by strip it is the same.
         double parts = 0;
         for (std::int32_t row = 0; row + 1 < kColumns; ++row)
