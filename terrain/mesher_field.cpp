@@ -30,16 +30,13 @@ double spend(MeshTiles& tiles, double tolerance, double least, double budget, Ne
       // Too far, and insertion takes nothing back: again from the start, to where it was fewer.
       const double over = tolerance * std::pow(count / budget, 1 / power);
       if (sample && fits < HUGE_VAL) return std::min(over, fits);
-      tiles.restart(sample);
       tooMany = tolerance;
       tolerance = fits == HUGE_VAL ? 1.02 * over : std::min(1.005 * over, 0.5 * (tolerance + fits));
       if (fits - tooMany < 1e-3 * fits) {
         // Many posts are off by the same: some of them are taken.
         // One step makes a little more or less of a tolerance than many did.
-        for (tiles.refine(fits); static_cast<double>(tiles.triangles()) > budget; tiles.refine(fits)) {
+        for (tiles.refine(fits); static_cast<double>(tiles.triangles()) > budget; tiles.refine(fits))
           fits *= 1.005;
-          tiles.restart(sample);
-        }
         tiles.add(static_cast<std::size_t>(budget), fits);
         return fits;
       }
@@ -72,20 +69,17 @@ double spend(MeshTiles& tiles, double tolerance, double least, double budget, Ne
 }
 
 void spend(MeshTiles& tiles, const HeightField& field, double least, double budget, Near near) {
-  float low = field.at(0, 0), high = low;
+  LaneRange heights(field.at(0, 0), field.at(0, 0));
   for (std::uint32_t y = 0; y < field.rows; ++y) {
     const float* const row = field.z + y * field.stride;
-    const auto [a, b] = std::minmax_element(row, row + field.columns);
-    low = std::min(low, *a);
-    high = std::max(high, *b);
+    heights.add(row, row + field.columns);
   }
-  double tolerance = std::max(least, (static_cast<double>(high) - low) / 8), power = 1.5;
+  double tolerance = std::max(least, (static_cast<double>(heights.high()) - heights.low()) / 8), power = 1.5;
   // Tiles that are refined in many steps have a few triangles more than those that go straight to where they
   // end: so the steps are taken by some of them.
-  tiles.restart(true);
-  if (tiles.taken() < 1)
-    tolerance = spend(tiles, tolerance, least, budget * tiles.taken(), {0.85, 1.1}, true, power);
-  tiles.restart(false);
+  if (const double share = tiles.take(true); share < 1)
+    tolerance = spend(tiles, tolerance, least, budget * share, {0.85, 1.1}, true, power);
+  tiles.take(false);
   spend(tiles, std::max(tolerance, least), least, budget, near, false, power);
 }
 
@@ -164,7 +158,6 @@ FieldMesh meshField(const HeightField& field, const MeshOptions& options) {
   MeshTiles tiles(field, most, threads);
   Fitted fitted;
   const auto make = [&](double share, Near near) {
-    tiles.restart(false);
     if (most == 0)
       tiles.refine(options.maxErrorM);
     else

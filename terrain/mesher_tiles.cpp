@@ -72,7 +72,7 @@ MeshTiles::MeshTiles(const HeightField& field, std::size_t mostTriangles, unsign
     }
 }
 
-void MeshTiles::begin(Tile& tile) {
+void MeshTiles::begin(Tile& tile, double tolerance) {
   std::vector<PolygonMesher::Point> border;
   std::int32_t count = 0;
   for (int s = 0; s < 4; ++s) {
@@ -82,7 +82,7 @@ void MeshTiles::begin(Tile& tile) {
     for (std::int32_t i = 0; i < last; ++i) {
       // South and east run as the side does, north and west against it; the far end is the next side's.
       const std::int32_t k = s < 2 ? i : last - i;
-      if (i != 0 && !(side.key[static_cast<std::size_t>(k)] > kSideShare * tolerance_)) continue;
+      if (i != 0 && !(side.key[static_cast<std::size_t>(k)] > kSideShare * tolerance)) continue;
       const auto along = static_cast<std::uint32_t>(k);
       border.push_back(s % 2 == 0 ? PolygonMesher::Point{side.from.column + along, side.from.row}
                                   : PolygonMesher::Point{side.from.column, side.from.row + along});
@@ -97,34 +97,35 @@ void MeshTiles::begin(Tile& tile) {
   tile.mesh.begin(field_, border);
 }
 
+void MeshTiles::addSides(Tile& tile, double tolerance) {
+  for (int s = 0; s < 4; ++s) {
+    const Side& side = sides_[tile.sides[s]];
+    std::vector<std::int32_t>& vertex = tile.vertex[s];
+    for (std::size_t k = 1; k + 1 < side.key.size(); ++k) {
+      if (!(side.key[k] > kSideShare * tolerance) || side.key[k] > kSideShare * tile.tolerance) continue;
+      std::size_t from = k;
+      do from = s < 2 ? from - 1 : from + 1;
+      while (vertex[from] < 0);
+      const auto along = static_cast<std::uint32_t>(k);
+      vertex[k] = static_cast<std::int32_t>(
+          tile.mesh.addBorder(static_cast<std::uint32_t>(vertex[from]),
+                              s % 2 == 0 ? PolygonMesher::Point{side.from.column + along, side.from.row}
+                                         : PolygonMesher::Point{side.from.column, side.from.row + along}));
+    }
+  }
+}
+
 void MeshTiles::refine(double tolerance) {
-  const double before = tolerance_;
-  tolerance_ = tolerance;
   onThreads(threads_, static_cast<std::uint32_t>(tiles_.size()), [&](std::uint32_t index) {
     Tile& tile = tiles_[index];
     if (!tile.taken) return;
-    if (!begun_) {
-      begin(tile);
-    } else {
-      for (int s = 0; s < 4; ++s) {
-        const Side& side = sides_[tile.sides[s]];
-        std::vector<std::int32_t>& vertex = tile.vertex[s];
-        for (std::size_t k = 1; k + 1 < side.key.size(); ++k) {
-          if (!(side.key[k] > kSideShare * tolerance) || side.key[k] > kSideShare * before) continue;
-          std::size_t from = k;
-          do from = s < 2 ? from - 1 : from + 1;
-          while (vertex[from] < 0);
-          const auto along = static_cast<std::uint32_t>(k);
-          vertex[k] = static_cast<std::int32_t>(tile.mesh.addBorder(
-              static_cast<std::uint32_t>(vertex[from]),
-              s % 2 == 0 ? PolygonMesher::Point{side.from.column + along, side.from.row}
-                         : PolygonMesher::Point{side.from.column, side.from.row + along}));
-        }
-      }
-    }
+    if (tile.tolerance < tolerance)
+      begin(tile, tolerance);
+    else
+      addSides(tile, tolerance);
     tile.mesh.refine(tolerance, kAnyVertices);
+    tile.tolerance = tolerance;
   });
-  begun_ = true;
 }
 
 void MeshTiles::add(std::size_t most, double bound) {
@@ -163,14 +164,14 @@ void MeshTiles::add(std::size_t most, double bound) {
   });
 }
 
-void MeshTiles::restart(bool sample) {
-  begun_ = false;
-  taken_ = 0;
+double MeshTiles::take(bool sample) {
+  std::size_t taken = 0;
   for (std::size_t index = 0; index < tiles_.size(); ++index) {
     Tile& tile = tiles_[index];
     tile.taken = !sample || tiles_.size() < 32 || (index % across_ + 3 * (index / across_)) % 8 == 0;
-    taken_ += tile.taken;
+    taken += tile.taken;
   }
+  return static_cast<double>(taken) / static_cast<double>(tiles_.size());
 }
 
 std::size_t MeshTiles::triangles() const {
@@ -187,8 +188,10 @@ double MeshTiles::maxErrorM() const {
 }
 
 void MeshTiles::eachTile(const std::function<void(GreedyMesh&, std::size_t)>& work) {
-  onThreads(threads_, static_cast<std::uint32_t>(tiles_.size()),
-            [&](std::uint32_t i) { work(tiles_[i].mesh, i); });
+  onThreads(threads_, static_cast<std::uint32_t>(tiles_.size()), [&](std::uint32_t i) {
+    work(tiles_[i].mesh, i);
+    tiles_[i].tolerance = kNotBegun;
+  });
 }
 
 Triangulation MeshTiles::join() const {

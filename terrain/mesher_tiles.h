@@ -17,14 +17,13 @@ class MeshTiles {
  public:
   MeshTiles(const HeightField& field, std::size_t mostTriangles, unsigned threads);
 
-  /// Refines to `tolerance`, which never rises; falling tolerances give finer meshes.
+  /// Refines to `tolerance` the tiles that are taken. One that is finer already begins anew.
   void refine(double tolerance);
   /// Adds triangles where tiles are furthest off, up to `most` in all; sides stay as they are. No post gets
   /// further off than `bound`, which holds before.
   void add(std::size_t most, double bound);
-  /// Begins anew; `sample`: with an eighth of the tiles, to learn what a tolerance costs.
-  void restart(bool sample);
-  double taken() const { return static_cast<double>(taken_) / static_cast<double>(tiles_.size()); }
+  /// All tiles, or as a sample an eighth of them, to learn what a tolerance costs. What share that is.
+  double take(bool sample);
 
   std::int32_t width() const { return static_cast<std::int32_t>((field_.columns - 1) / across_); }
   std::int32_t height() const { return static_cast<std::int32_t>((field_.rows - 1) / up_); }
@@ -32,8 +31,8 @@ class MeshTiles {
   double maxErrorM() const;
   std::size_t count() const { return tiles_.size(); }
   const GreedyMesh& tile(std::size_t index) const { return tiles_[index].mesh; }
-  /// Calls `work` for each tile with its index, in parallel; what it does to the mesh ends refinement. Inner
-  /// vertices may lose all their triangles.
+  /// Calls `work` for each tile with its index, in parallel; what it does to the mesh ends refinement: all
+  /// begin anew after it. Inner vertices may lose all their triangles.
   void eachTile(const std::function<void(GreedyMesh&, std::size_t)>& work);
   /// All tiles as one mesh, in places of the field: their triangles one tile after the other.
   Triangulation join() const;
@@ -44,13 +43,16 @@ class MeshTiles {
     PolygonMesher::Point from, to;
     std::vector<double> key;  ///< one a post from `from` to `to`
   };
+  static constexpr double kNotBegun = -1;
   struct Tile {
     GreedyMesh mesh;
     bool taken = true;
+    double tolerance = kNotBegun;         ///< that it is refined to
     std::uint32_t sides[4];               ///< south, east, north, west
     std::vector<std::int32_t> vertex[4];  ///< of each post of a side, in the side's order; -1: none
   };
-  void begin(Tile& tile);
+  void begin(Tile& tile, double tolerance);
+  void addSides(Tile& tile, double tolerance);
   std::uint32_t horizontal(std::uint32_t i, std::uint32_t j) const { return j * across_ + i; }
   std::uint32_t vertical(std::uint32_t i, std::uint32_t j) const {
     return across_ * (up_ + 1) + j * (across_ + 1) + i;
@@ -62,9 +64,6 @@ class MeshTiles {
   std::vector<std::uint32_t> columns_, rows_;  ///< of the lines between tiles
   std::vector<Side> sides_;
   std::vector<Tile> tiles_;
-  double tolerance_ = 0;
-  std::size_t taken_ = 0;  ///< tiles that are meshed now
-  bool begun_ = false;
 };
 
 }  // namespace trimtab::terrain
