@@ -357,9 +357,9 @@ Result<Done> ElevationFile::readTile(const Rectangle& posts, std::uint32_t first
   const bool averages = footprintX_ > kFiner || footprintY_ > kFiner;
   const double marginX = averages ? footprintX_ : 0, marginY = averages ? footprintY_ : 0;
   const auto bounds = [](double from, double to, std::int64_t count) {
-    const auto first =
-                   std::clamp(static_cast<std::int64_t>(std::floor(from)) - 2, std::int64_t{0}, count - 1),
-               last = std::clamp(static_cast<std::int64_t>(std::floor(to)) + 3, std::int64_t{0}, count - 1);
+    const double end = static_cast<double>(count - 1);
+    const auto first = static_cast<std::int64_t>(std::clamp(std::floor(from) - 2, 0.0, end)),
+               last = static_cast<std::int64_t>(std::clamp(std::floor(to) + 3, 0.0, end));
     return std::pair{first, last - first + 1};
   };
   const auto [column, columns] = bounds(west - marginX, east + marginX, across_);

@@ -18,9 +18,15 @@ struct Axis {
   std::array<double, 4> weight{};
 };
 
+/// Not so for what is no number.
+bool isWithinAPost(double x, std::int64_t count) {
+  return x >= -1 && x <= static_cast<double>(count);
+}
+
+/// Of a place within a post.
 Axis axisAt(double x, std::int64_t count) {
   Axis axis;
-  axis.post = std::clamp(static_cast<std::int64_t>(std::floor(x)), std::int64_t{0}, count - 2);
+  axis.post = std::max(std::min(static_cast<std::int64_t>(std::floor(x)), count - 2), std::int64_t{0});
   const double t = x - static_cast<double>(axis.post);
   if (t < 0 || t > 1)
     axis.weight = {0, 1 - t, t, 0};
@@ -48,6 +54,7 @@ float heightBetween(const RasterWindow& window, std::int64_t across, std::int64_
     if (i < 0 || j < 0 || i >= window.rows || j >= window.columns) return kVoid;
     return static_cast<double>(window.heights[static_cast<std::size_t>(i * window.columns + j)]);
   };
+  if (!isWithinAPost(x, across) || !isWithinAPost(y, down)) return std::numeric_limits<float>::quiet_NaN();
   // A grid that has the file's posts asks for nothing else.
   const auto onColumn = static_cast<std::int64_t>(x), onRow = static_cast<std::int64_t>(y);
   if (static_cast<double>(onColumn) == x && static_cast<double>(onRow) == y && onColumn >= 0 && onRow >= 0 &&
@@ -82,9 +89,11 @@ float heightBetween(const RasterWindow& window, std::int64_t across, std::int64_
 
 float meanAbout(const RasterWindow& window, double x, double y, double width, double height) {
   const auto range = [](double middle, double size, std::int64_t first, std::int64_t count) {
-    const auto from = static_cast<std::int64_t>(std::ceil(middle - size / 2)) - first,
-               to = static_cast<std::int64_t>(std::floor(middle + size / 2)) - first;
-    return std::pair{std::max<std::int64_t>(from, 0), std::min(to, count - 1)};
+    const double before = static_cast<double>(first),
+                 from = std::max(std::ceil(middle - size / 2) - before, 0.0),
+                 to = std::min(std::floor(middle + size / 2) - before, static_cast<double>(count - 1));
+    if (!(from <= to)) return std::pair<std::int64_t, std::int64_t>{0, -1};
+    return std::pair{static_cast<std::int64_t>(from), static_cast<std::int64_t>(to)};
   };
   const auto [left, right] = range(x, width, window.column, window.columns);
   const auto [low, high] = range(y, height, window.row, window.rows);
