@@ -32,6 +32,18 @@ Facet facetOf(const Triangulation& mesh, std::int32_t t) {
   return out;
 }
 
+[[maybe_unused]] bool allFinite(const HeightField& field, std::span<const PolygonMesher::Point> border) {
+  std::uint32_t west = ~0u, east = 0, south = ~0u, north = 0;
+  for (const PolygonMesher::Point& p : border) {
+    west = std::min(west, p.column / field.step), east = std::max(east, p.column / field.step);
+    south = std::min(south, p.row / field.step), north = std::max(north, p.row / field.step);
+  }
+  for (std::uint32_t row = south; row <= north; ++row)
+    for (std::uint32_t column = west; column <= east; ++column)
+      if (!std::isfinite(field.at(column, row))) return false;
+  return true;
+}
+
 }  // namespace
 
 void GreedyMesh::begin(const HeightField& field, std::span<const Point> border,
@@ -43,6 +55,7 @@ void GreedyMesh::begin(const HeightField& field, std::span<const Point> border,
     originX_ = std::min(originX_, p.column);
     originY_ = std::min(originY_, p.row);
   }
+  assert(allFinite(field, border));
   originX_ -= originX_ % field.step;
   originY_ -= originY_ % field.step;
   step_ = static_cast<std::int32_t>(field.step);

@@ -9,7 +9,9 @@
 #include <new>
 
 #include "rasters.h"
+#include "scenery_tiles.h"
 #include "trimtab/terrain/bake_heights.h"
+#include "trimtab/terrain/bake_source.h"
 #include "trimtab/terrain/bake_work.h"
 #include "trimtab/terrain/file_at.h"
 #include "trimtab/terrain/manifest_checksum.h"
@@ -72,6 +74,60 @@ TEST(HeightsBake, countsItsVoidsWhenBandsOfAnotherSizeWereReadAgain) {
     const auto made = bakeHeights(**work, *source, row * 16 * 4, {});
     ASSERT_TRUE(made) << toString(made.findings());
     EXPECT_EQ(made->voids, 30u) << turn;
+  }
+}
+
+/// What meshes are made of, whatever the sources leave open: nothing there is no height.
+TEST(HeightsBake, fillsEveryPostWhateverTheSourcesLeaveOpen) {
+  const test::ScratchDir dir;
+  test::RasterRecipe voids, beside, turned, nothing;
+  voids.noData = -32768;
+  voids.value = [](int c, int r, int) {
+    constexpr double kNone[] = {std::numeric_limits<double>::quiet_NaN(),
+                                std::numeric_limits<double>::infinity(), -32768, 1e30};
+    return c / 8 % 2 == 1 && r / 5 % 3 == 1 ? kNone[c % 4] : test::roughGround(c, r);
+  };
+  beside.west = 10.1;
+  turned.crs = "EPSG:32632";
+  turned.west = 570000, turned.north = 5541000, turned.step = 50;
+  nothing.value = [](int, int, int) { return std::numeric_limits<double>::quiet_NaN(); };
+  const auto raster = [&](const char* name, const test::RasterRecipe& recipe) {
+    return test::writeRaster(dir / name, recipe);
+  };
+  const fs::path tile = dir / "3072816.btg";
+  test::TileRecipe hole;
+  hole.hole = true;
+  test::writeFile(tile, test::gridTile(hole));
+  test::RasterRecipe hills;
+  hills.west = 7.3, hills.north = 50.7, hills.step = 0.002;
+  hills.value = [](int c, int r, int) { return c == r ? std::nan("") : test::roughGround(c, r); };
+
+  const std::vector<std::vector<fs::path>> all{{raster("voids.tif", voids)},
+                                               {raster("voids.tif", voids), raster("beside.tif", beside)},
+                                               {raster("turned.tif", turned)},
+                                               {raster("nothing.tif", nothing)},
+                                               {tile},
+                                               {tile, raster("hills.tif", hills)}};
+  for (const std::vector<fs::path>& sources : all) {
+    SCOPED_TRACE(sources.back().string());
+    BakeOptions options;
+    options.sources = sources;
+    options.output = dir / "db";
+    const auto files = sourceFiles(sources);
+    ASSERT_TRUE(files);
+    const auto source = readSource(options, std::size_t{1} << 28, {});
+    ASSERT_TRUE(source) << toString(source.findings());
+    const auto work = WorkFolder::open(options.output, recipeOf(options, *files), WorkFolder::Use::alone);
+    ASSERT_TRUE(work) << toString(work.findings());
+    const auto made = bakeHeights(**work, *(*source)->elevation, std::size_t{1} << 28, {});
+    ASSERT_TRUE(made) << toString(made.findings());
+    EXPECT_GT(made->voids + made->outside, 0u);
+    const auto heights = FileHeights::open(**work, *made);
+    ASSERT_TRUE(heights) << toString(heights.findings());
+    std::vector<float> posts(made->posts.size());
+    (*heights)->read({0, 0, made->posts.columns, made->posts.rows}, 1, posts);
+    EXPECT_TRUE(std::all_of(posts.begin(), posts.end(), [](float z) { return std::isfinite(z); }));
+    EXPECT_FALSE((*heights)->failed());
   }
 }
 
