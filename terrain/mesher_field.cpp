@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "trimtab/terrain/mesher_errors.h"
@@ -89,39 +90,65 @@ struct Fitted {
 };
 
 /// All tiles as one mesh.
-Fitted join(const MeshTiles& tiles, const std::vector<std::vector<PostSum>>& sums) {
+Fitted join(const MeshTiles& tiles, std::vector<std::vector<PostSum>> sums) {
   Fitted out{tiles.join(), {}};
   out.sums.reserve(out.mesh.triangles.size());
-  for (const std::vector<PostSum>& some : sums) out.sums.insert(out.sums.end(), some.begin(), some.end());
+  for (std::size_t i = 0; i < tiles.count(); ++i) {
+    forgetBorder(tiles.tile(i).mesh(), sums[i]);
+    out.sums.insert(out.sums.end(), sums[i].begin(), sums[i].end());
+  }
   return out;
+}
+
+PostRows rowsOf(const HeightField& field, const GreedyMesh& tile) {
+  const PolygonMesher::Point origin = tile.origin();
+  return {field.z + origin.row * field.stride + origin.column, field.stride,
+          static_cast<std::int32_t>(field.columns - origin.column)};
+}
+
+/// Takes out `excess` vertices. Tiles give as many as they have triangles; what some have not to give, others
+/// do.
+void thin(MeshTiles& tiles, const HeightField& field, double bound, std::size_t excess,
+          std::vector<std::vector<PostSum>>& sums) {
+  // The first round is nearly always the last.
+  constexpr int kRounds = 4;
+  std::vector<std::uint8_t> gives(tiles.count(), 1);
+  for (int round = 0; round < kRounds && excess > 0; ++round) {
+    std::vector<std::size_t> before(1, 0);
+    for (std::size_t i = 0; i < tiles.count(); ++i)
+      before.push_back(before.back() + (gives[i] != 0 ? tiles.tile(i).mesh().triangles.size() : 0));
+    const std::size_t total = before.back();
+    if (total == 0) return;
+    std::atomic<std::size_t> gone{0};
+    tiles.eachTile([&](GreedyMesh& tile, std::size_t i) {
+      const std::size_t share = excess * before[i + 1] / total - excess * before[i] / total;
+      if (share == 0) return;
+      MeshFit one(tile.mesh(), rowsOf(field, tile), std::move(sums[i]));
+      const std::size_t given = MeshThin(tile.mesh(), one).thin(share, bound);
+      gives[i] = given == share;
+      gone += given;
+      sums[i] = std::move(one.sums());
+    });
+    excess -= gone;
+  }
 }
 
 /// Flips edges and moves vertices; takes out what is more than `most` triangles, where that can be done.
 Fitted fit(MeshTiles& tiles, const HeightField& field, double bound, std::size_t most, unsigned threads) {
   // Of the squares that one post may add.
   constexpr double kFirst = 0.2, kAgain = 0.1;
-  // Tiles give as many as they have triangles.
-  const std::size_t total = tiles.triangles(), excess = total > most ? (total - most + 1) / 2 : 0;
-  std::vector<std::size_t> before(1, 0);
-  for (std::size_t i = 0; i < tiles.count(); ++i)
-    before.push_back(before.back() + tiles.tile(i).mesh().triangles.size());
   std::vector<std::vector<PostSum>> sums(tiles.count());
   tiles.eachTile([&](GreedyMesh& tile, std::size_t i) {
-    const PolygonMesher::Point origin = tile.origin();
-    MeshFit one(tile.mesh(),
-                {field.z + origin.row * field.stride + origin.column, field.stride,
-                 static_cast<std::int32_t>(field.columns - origin.column)},
-                tile.sums());
+    MeshFit one(tile.mesh(), rowsOf(field, tile), tile.sums());
     one.flipEdges(bound);
     one.moveHeights(bound);
     one.moveAside(bound, kFirst * bound * bound);
-    if (excess > 0)
-      MeshThin(tile.mesh(), one).thin(excess * before[i + 1] / total - excess * before[i] / total, bound);
     sums[i] = std::move(one.sums());
-    forgetBorder(tile.mesh(), sums[i]);
   });
+  if (const std::size_t total = tiles.triangles(); total > most)
+    thin(tiles, field, bound, (total - most + 1) / 2, sums);
   // Again with other borders: what lay on the sides of tiles is free now.
-  Fitted out = join(tiles, sums);
+  Fitted out = join(tiles, std::move(sums));
   eachPart(
       out.mesh, tiles.width(), tiles.height(), threads,
       [&](Triangulation& part, std::span<const std::int32_t> members) {
@@ -141,11 +168,8 @@ Fitted fit(MeshTiles& tiles, const HeightField& field, double bound, std::size_t
 
 Fitted unfitted(const MeshTiles& tiles) {
   std::vector<std::vector<PostSum>> sums;
-  for (std::size_t i = 0; i < tiles.count(); ++i) {
-    sums.push_back(tiles.tile(i).sums());
-    forgetBorder(tiles.tile(i).mesh(), sums.back());
-  }
-  return join(tiles, sums);
+  for (std::size_t i = 0; i < tiles.count(); ++i) sums.push_back(tiles.tile(i).sums());
+  return join(tiles, std::move(sums));
 }
 
 }  // namespace
@@ -154,7 +178,8 @@ FieldMesh meshField(const HeightField& field, const MeshOptions& options) {
   FieldMesh out;
   if (field.columns < 2 || field.rows < 2) return out;
   const unsigned threads = std::max(options.threads, 1u);
-  const std::size_t most = options.mostTriangles;
+  // A search for fewer than there can be would end nowhere.
+  const std::size_t most = options.mostTriangles == 0 ? 0 : std::max<std::size_t>(options.mostTriangles, 2);
   MeshTiles tiles(field, most, threads);
   Fitted fitted;
   const auto make = [&](double share, Near near) {

@@ -118,7 +118,7 @@ void MeshThin::remove(const Removal& removal) {
   for (const About& one : ring_) ++stamps_[one.vertex];
 }
 
-void MeshThin::thin(std::size_t most, double bound) {
+std::size_t MeshThin::thin(std::size_t most, double bound) {
   const auto later = [](const Removal& a, const Removal& b) {
     return a.cost != b.cost ? a.cost > b.cost : a.vertex > b.vertex;
   };
@@ -137,7 +137,8 @@ void MeshThin::thin(std::size_t most, double bound) {
     open.erase(middle, open.end());
   }
   std::make_heap(open.begin(), open.end(), later);
-  for (std::size_t removed = 0; removed < most;) {
+  std::size_t removed = 0;
+  while (removed < most) {
     if (open.empty()) {
       if (rest.empty()) break;
       open.swap(rest);
@@ -159,6 +160,7 @@ void MeshThin::thin(std::size_t most, double bound) {
     std::push_heap(open.begin(), open.end(), later);
   }
   compact();
+  return removed;
 }
 
 void MeshThin::compact() {

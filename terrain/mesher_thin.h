@@ -13,9 +13,9 @@ class MeshThin {
  public:
   /// The sums of `fit`, which is of the same mesh, stay right; nothing else of it does.
   MeshThin(Triangulation& mesh, MeshFit& fit) : mesh_(mesh), fit_(fit), starts_(innerStarts(mesh)) {}
-  /// Up to `most` that are not on the border, as long as no post gets further off than `bound`. They stay in
-  /// the mesh without triangles.
-  void thin(std::size_t most, double bound);
+  /// Up to `most` that are not on the border, as long as no post gets further off than `bound`; how many.
+  /// They stay in the mesh without triangles.
+  std::size_t thin(std::size_t most, double bound);
 
  private:
   static constexpr std::size_t kMostAbout = 16;  ///< triangles; a vertex with more stays

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 
 #include "mesher_check.h"
 #include "trimtab/terrain/mesher.h"
@@ -112,6 +113,36 @@ TEST(MeshField, hasTwoTrianglesAtTheLeast) {
   }
 }
 
+/// Looking for fewer than two would take a hundred meshes of all.
+TEST(MeshField, looksForNoFewerThanThereCanBe) {
+  const Field field = test::fractal(900, 900, 8);
+  FieldMesh mesh;
+  const auto seconds = [&](std::size_t most) {
+    const std::clock_t began = std::clock();
+    mesh = meshField(field.view(), {.mostTriangles = most});
+    return static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
+  };
+  const double two = std::min(seconds(2), seconds(2));
+  const FieldMesh least = mesh;
+  EXPECT_LE(seconds(1), 3 * two);
+  expectSame(mesh, least);
+}
+
+/// Posts of which none can go, beside hills.
+TEST(MeshField, takesOutElsewhereWhatATileHasNotToGive) {
+  const Field hills = test::fractal(401, 401, 2);
+  const Field field(401, 401, [&](int x, int y) {
+    return x < 200 ? static_cast<double>(hills.z[static_cast<std::size_t>(y * 401 + x)])
+           : x > 250 && x < 290 && y > 250 && y < 290 ? 3000.0 * ((x * 7 + y * 13) % 29)
+                                                      : 0.0;
+  });
+  const FieldMesh plain = meshField(field.view(), {.mostTriangles = 8000, .fitHeights = false});
+  const FieldMesh fitted = meshField(field.view(), {.mostTriangles = 8000});
+  expectTrue(field, fitted);
+  EXPECT_LE(fitted.triangles(), 8000u);
+  EXPECT_LE(fitted.rmsErrorM, 0.72 * plain.rmsErrorM);
+}
+
 TEST(MeshField, spendsABudgetWhereManyPostsAreOffByTheSame) {
   const Field field(301, 301, [](int x, int y) { return (x * 7 + y * 13) % 29 == 0 ? 10.0 : 0.0; });
   for (const std::size_t most : {500u, 5000u, 9000u}) {
@@ -169,6 +200,15 @@ TEST(MeshField, takesTheSmallestFlatHugeAndSteppedFields) {
   EXPECT_EQ(meshField({nullptr, 1, 1, 1}, {}).triangles(), 0u);
   EXPECT_EQ(meshField({}, {}).triangles(), 0u);
 }
+
+#ifndef NDEBUG
+TEST(MeshField, takesNoPostWithoutAHeight) {
+  for (const double none : {std::nan(""), HUGE_VAL}) {
+    const Field field(40, 30, [none](int x, int y) { return x == 21 && y == 13 ? none : 5.0 * x; });
+    EXPECT_DEATH(meshField(field.view(), {}), "allFinite");
+  }
+}
+#endif
 
 TEST(MeshField, needsAboutAsFewTrianglesAsOneMeshOfAll) {
   const Field field = test::fractal(401, 401, 7);
