@@ -6,12 +6,12 @@
 #include <future>
 #include <thread>
 
+#include "trimtab/terrain/bake_ground.h"
 #include "trimtab/terrain/bake_heights.h"
 #include "trimtab/terrain/bake_patches.h"
 #include "trimtab/terrain/bake_source.h"
 #include "trimtab/terrain/bake_work.h"
 #include "trimtab/terrain/database.h"
-#include "trimtab/terrain/ground_build.h"
 #include "trimtab/terrain/ground_triangles.h"
 #include "trimtab/terrain/import.h"
 #include "trimtab/terrain/patch_build.h"
@@ -144,12 +144,15 @@ class Job {
     const double leafM =
         options_.maxError ? options_.maxError->value() : defaultLeafToleranceM(heights_.posts);
     patches_ = std::make_unique<PatchBake>(*work_, heights_.posts, *geometry_, leafM);
+    GroundSources ground;
+    ground.heights = file_.get();
+    ground.geometry = geometry_.get();
+    if (options_.imagery) ground.images = {*options_.imagery};
+    if (source_->tiles)
+      ground.triangles =
+          &materials_.emplace(*source_->tiles, heights_.posts.longitude((heights_.posts.columns - 1) / 2.0));
+    ground_ = std::make_unique<GroundBake>(*work_, std::move(ground));
     return Done{};
-  }
-
-  fs::path groundPart(std::uint32_t part, std::uint32_t parts) const {
-    return work_->pieces() /
-           ("ground-" + std::to_string(part + 1) + "-of-" + std::to_string(parts) + ".pages");
   }
 
   /// Asked after whatever reads heights: what could not be read is 0 m there.
@@ -173,7 +176,7 @@ class Job {
       return beside ? !stop : ground(done, what);
     };
     auto made = std::async(beside ? std::launch::async : std::launch::deferred, [&]() -> Result<Done> {
-      auto done = makeGround(part, parts, other);
+      auto done = ground_->make(part, parts, other);
       if (done && beside && whole && tileBytes() <= memory_ / 4) done = measureTiles(other);
       failed = !done;
       return done;
@@ -193,38 +196,13 @@ class Job {
     return read ? result : read;
   }
 
-  Result<Done> makeGround(std::uint32_t part, std::uint32_t parts, const Progress& progress) const {
-    const fs::path file = groundPart(part, parts);
-    if (PageFile::open(file)) return Done{};
-    GroundSources sources;
-    sources.heights = file_.get();
-    sources.geometry = geometry_.get();
-    if (options_.imagery) sources.images = {*options_.imagery};
-    std::optional<SceneryGround> triangles;
-    if (source_->tiles)
-      sources.triangles =
-          &triangles.emplace(*source_->tiles, heights_.posts.longitude((heights_.posts.columns - 1) / 2.0));
-    return buildGroundPart(sources, part, parts, file, progress);
-  }
-
-  /// How many shares the ground was made in: all of one number must be there.
-  std::uint32_t groundParts() const {
-    for (std::uint32_t parts = 1; parts <= kMostBakeParts; ++parts) {
-      std::uint32_t there = 0;
-      std::error_code error;
-      while (there < parts && fs::exists(groundPart(there, parts), error)) ++there;
-      if (there == parts) return parts;
-    }
-    return 0;
-  }
-
   Result<Done> allThere() {
     const auto there = patches_->finished();
     const auto missing = std::count(there.begin(), there.end(), std::uint8_t{0});
     if (missing > 0)
       return refused(work_->path(), "all " + std::to_string(there.size()) + " pieces of the parts",
                      std::to_string(missing) + " missing: let every part end, then join");
-    if (groundParts() == 0)
+    if (ground_->parts() == 0)
       return refused(work_->path(), "the ground of all parts of one number of parts", "not all of them");
     return Done{};
   }
@@ -275,7 +253,6 @@ class Job {
     if (options_.imagery) {
       auto read = readImagery(*options_.imagery, posts, part(0.85, 1));
       if (!read) return read.findings();
-      keep(read.findings());
       drape(std::move(read).value(), image);
     }
     if (image.empty()) return Done{};
@@ -343,13 +320,10 @@ class Job {
                                    stage(scenery_ ? 0.25 : 0.9, scenery_ ? 0.25 : 0.9));
         !done)
       return done;
-    std::vector<fs::path> grounds;
-    const std::uint32_t parts = join ? groundParts() : 1;
-    for (std::uint32_t part = 0; part < parts; ++part) grounds.push_back(groundPart(part, parts));
-    if (auto done = joinGround(grounds, work_->database() / kGroundName,
-                               stage(scenery_ ? 0.25 : 0.9, scenery_ ? 0.25 : 0.9));
-        !done)
-      return done;
+    const auto ground = ground_->join(join ? ground_->parts() : 1, work_->database() / kGroundName,
+                                      stage(scenery_ ? 0.25 : 0.9, scenery_ ? 0.25 : 0.9));
+    if (!ground) return ground;
+    keep(ground.findings());
     for (const char* name : {kPatchesName, kGroundName})
       if (auto done = putPages(name); !done) return done;
     const std::uint64_t bytes = std::uint64_t{heights_.posts.size()} * sizeof(float);
@@ -396,6 +370,8 @@ class Job {
   std::unique_ptr<FileHeights> file_;
   std::unique_ptr<PostGeometry> geometry_;
   std::unique_ptr<PatchBake> patches_;
+  std::optional<SceneryGround> materials_;  ///< where the source is scenery
+  std::unique_ptr<GroundBake> ground_;
   std::optional<std::pair<TerrainIndex, CellSlopes>> tileLevels_;  ///< once they are measured
   std::vector<FileEntry> files_;
   std::optional<std::uint32_t> trianglesPerNode_;

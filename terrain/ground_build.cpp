@@ -100,17 +100,10 @@ class Blocks {
     return built;
   }
 
-  Findings aboutCover(std::span<const fs::path> files) const {
-    Findings notes;
-    const std::uint64_t texels = std::uint64_t{levels_[0].columns} * levels_[0].rows;
-    for (std::size_t i = 0; i < files.size(); ++i)
-      if (const std::uint64_t covered = covered_[i].load(); covered == 0)
-        notes.push_back({Severity::error, files[i].string(), "georeference", "an image over the terrain",
-                         "none of its ground covered"});
-      else if (covered < texels)
-        notes.push_back({Severity::note, files[i].string(), "georeference", "an image over the whole terrain",
-                         std::to_string(100 * (texels - covered) / texels) + " % of it without"});
-    return notes;
+  GroundCover cover() const {
+    GroundCover cover{std::uint64_t{levels_[0].columns} * levels_[0].rows, {}};
+    for (const auto& covered : covered_) cover.covered.push_back(covered.load());
+    return cover;
   }
 
   void keep(std::vector<Blob>& blobs, const Place& place, const GroundTile& tile) const {
@@ -316,34 +309,6 @@ Result<Done> buildBlocks(const Blocks& blocks, std::span<const Place> places, co
   return Done{};
 }
 
-Result<Done> buildShare(const GroundSources& sources, std::uint32_t part, std::uint32_t parts,
-                        const fs::path& file, const Progress& progress) {
-  auto blocks = Blocks::make(sources);
-  if (!blocks) return blocks.findings();
-  Findings notes = blocks.findings();
-  auto writer = PageFileWriter::create(file);
-  if (!writer) return writer.findings();
-  const AddBlob add = [&](std::uint64_t key, std::span<const std::byte> blob) {
-    return (*writer)->add(key, blob);
-  };
-  if (auto done = add(kGroundShapeKey, packGroundShape((*blocks)->shape())); !done) return done;
-  const std::vector<Place> all = (*blocks)->all();
-  const auto bound = [&](std::uint32_t i) { return (*blocks)->boundary(all, all.size() * i / parts); };
-  if (auto done = buildBlocks(**blocks, std::span(all).subspan(bound(part), bound(part + 1) - bound(part)),
-                              add, progress);
-      !done)
-    return done;
-  if (parts == 1) {
-    const Findings cover = (*blocks)->aboutCover(sources.images);
-    notes.insert(notes.end(), cover.begin(), cover.end());
-    for (const Finding& finding : cover)
-      if (finding.severity == Severity::error) return notes;
-  }
-  if (sources.heights->failed()) return unreadable("heights");
-  if (auto done = (*writer)->finish(); !done) return done;
-  return Result<Done>(Done{}, std::move(notes));
-}
-
 class MemoryPyramid final : public GroundPyramid {
  public:
   explicit MemoryPyramid(GroundShape shape) : shape_(std::move(shape)) {}
@@ -362,13 +327,53 @@ class MemoryPyramid final : public GroundPyramid {
 
 }  // namespace
 
-Result<Done> buildGround(const GroundSources& sources, const fs::path& file, const Progress& progress) {
-  return buildShare(sources, 0, 1, file, progress);
+Findings aboutCover(std::span<const fs::path> images, const GroundCover& cover) {
+  Findings notes;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const std::uint64_t without = cover.texels - cover.covered[i], percent = 100 * without / cover.texels;
+    if (without == cover.texels)
+      notes.push_back({Severity::error, images[i].string(), "georeference", "an image over the terrain",
+                       "none of its ground covered"});
+    else if (without > 0)
+      notes.push_back({Severity::note, images[i].string(), "georeference", "an image over the whole terrain",
+                       (percent == 0 ? "less than 1" : std::to_string(percent)) + " % of it without"});
+  }
+  return notes;
 }
 
-Result<Done> buildGroundPart(const GroundSources& sources, std::uint32_t part, std::uint32_t parts,
-                             const fs::path& file, const Progress& progress) {
-  return buildShare(sources, part, parts, file, progress);
+Result<GroundCover> buildGroundPart(const GroundSources& sources, std::uint32_t part, std::uint32_t parts,
+                                    const fs::path& file, const Progress& progress) {
+  auto blocks = Blocks::make(sources);
+  if (!blocks) return blocks.findings();
+  Findings notes = blocks.findings();
+  auto writer = PageFileWriter::create(file);
+  if (!writer) return writer.findings();
+  const AddBlob add = [&](std::uint64_t key, std::span<const std::byte> blob) {
+    return (*writer)->add(key, blob);
+  };
+  if (auto done = add(kGroundShapeKey, packGroundShape((*blocks)->shape())); !done) return done.findings();
+  const std::vector<Place> all = (*blocks)->all();
+  const auto bound = [&](std::uint32_t i) { return (*blocks)->boundary(all, all.size() * i / parts); };
+  if (auto done = buildBlocks(**blocks, std::span(all).subspan(bound(part), bound(part + 1) - bound(part)),
+                              add, progress);
+      !done)
+    return done.findings();
+  GroundCover cover = (*blocks)->cover();
+  if (parts == 1) {
+    const Findings about = aboutCover(sources.images, cover);
+    notes.insert(notes.end(), about.begin(), about.end());
+    for (const Finding& finding : about)
+      if (finding.severity == Severity::error) return notes;
+  }
+  if (sources.heights->failed()) return unreadable("heights");
+  if (auto done = (*writer)->finish(); !done) return done.findings();
+  return Result<GroundCover>(std::move(cover), std::move(notes));
+}
+
+Result<Done> buildGround(const GroundSources& sources, const fs::path& file, const Progress& progress) {
+  const auto made = buildGroundPart(sources, 0, 1, file, progress);
+  if (!made) return made.findings();
+  return Result<Done>(Done{}, made.findings());
 }
 
 Result<std::shared_ptr<const GroundPyramid>> buildGroundInMemory(const GroundSources& sources,
@@ -383,9 +388,9 @@ Result<std::shared_ptr<const GroundPyramid>> buildGroundInMemory(const GroundSou
     return Done{};
   };
   if (auto done = buildBlocks(**blocks, all, add, progress); !done) return done.findings();
-  const Findings cover = (*blocks)->aboutCover(sources.images);
-  notes.insert(notes.end(), cover.begin(), cover.end());
-  for (const Finding& finding : cover)
+  const Findings about = aboutCover(sources.images, (*blocks)->cover());
+  notes.insert(notes.end(), about.begin(), about.end());
+  for (const Finding& finding : about)
     if (finding.severity == Severity::error) return notes;
   return Result<std::shared_ptr<const GroundPyramid>>(std::move(pyramid), std::move(notes));
 }

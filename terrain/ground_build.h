@@ -32,13 +32,21 @@ struct GroundSources {
   double mostTexelsPerPost = 8;
 };
 
+/// What images cover of the finest texels that are made.
+struct GroundCover {
+  std::uint64_t texels = 0;            ///< of the whole ground
+  std::vector<std::uint64_t> covered;  ///< one an image: of the whole, or of a share
+};
+/// Tells of images that leave ground without; an error where one covers none.
+Findings aboutCover(std::span<const std::filesystem::path> images, const GroundCover& cover);
+
 /// Into a page file that openGround opens. The bytes depend on the sources alone.
 Result<Done> buildGround(const GroundSources& sources, const std::filesystem::path& file,
                          const Progress& progress);
 
 /// The i-th of so many shares, for several processes or machines; joined, the same bytes as buildGround's.
-Result<Done> buildGroundPart(const GroundSources& sources, std::uint32_t part, std::uint32_t parts,
-                             const std::filesystem::path& file, const Progress& progress);
+Result<GroundCover> buildGroundPart(const GroundSources& sources, std::uint32_t part, std::uint32_t parts,
+                                    const std::filesystem::path& file, const Progress& progress);
 /// Removes a part that turns out damaged, and says so.
 Result<Done> joinGround(std::span<const std::filesystem::path> parts, const std::filesystem::path& file,
                         const Progress& progress);

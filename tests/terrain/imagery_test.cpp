@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "rasters.h"
@@ -68,6 +69,65 @@ TEST_F(Imagery, leavesGroundWithoutItToTheLand) {
   (*database)->buildTile(0, mesh);
   EXPECT_EQ(mesh.vertices[5].colour[0], 250);
   EXPECT_LT(mesh.vertices[28].colour[0], 200);
+}
+
+/// Once, however the database comes about.
+TEST_F(Imagery, tellsHowMuchOfTheGroundIsWithoutIt) {
+  test::RasterRecipe picture;
+  picture.bands = 4;
+  picture.type = GDT_Byte;
+  picture.value = [](int c, int, int band) { return band == 4 ? (c < 20 ? 255 : 0) : 250; };
+  BakeOptions options;
+  options.sources = {test::writeRaster(dir_ / "ground.tif", {})};
+  options.imagery = test::writeRaster(dir_ / "rgba.tif", picture);
+  const auto expectToldOnce = [](const Findings& findings) {
+    EXPECT_EQ(std::count_if(findings.begin(), findings.end(),
+                            [](const Finding& f) {
+                              return f.severity == Severity::note &&
+                                     f.where.find("rgba.tif") != std::string::npos &&
+                                     f.found == "69 % of it without";
+                            }),
+              1)
+        << toString(findings);
+  };
+
+  options.output = dir_ / "whole";
+  const auto whole = bake(options);
+  ASSERT_TRUE(whole);
+  expectToldOnce(whole.findings());
+
+  options.output = dir_ / "resumed";
+  options.progress = [](double fraction, const std::string&) { return fraction < 0.97; };
+  ASSERT_FALSE(bake(options));
+  options.progress = {};
+  const auto resumed = bake(options);
+  ASSERT_TRUE(resumed);
+  expectToldOnce(resumed.findings());
+
+  options.output = dir_ / "parts";
+  for (const std::uint32_t part : {1u, 2u, 3u}) ASSERT_TRUE(bakePart(options, part, 3));
+  const auto joined = bakeJoin(options);
+  ASSERT_TRUE(joined);
+  expectToldOnce(joined.findings());
+}
+
+TEST_F(Imagery, tellsSoWhereThereIsNoMemoryForTiles) {
+  test::RasterRecipe ground, picture;
+  ground.columns = ground.rows = 3500;
+  ground.step = 0.0001;
+  picture.bands = 3;
+  picture.type = GDT_Byte;
+  picture.step = 0.0035;
+  BakeOptions options;
+  options.sources = {test::writeRaster(dir_ / "ground.tif", ground)};
+  options.imagery = test::writeRaster(dir_ / "rgb.tif", picture);
+  options.memory = Megabytes{64};
+  options.output = dir_ / "db";
+  const auto database = bake(options);
+  ASSERT_TRUE(database) << toString(database.findings());
+  EXPECT_EQ((*database)->index().size(), 0u);
+  EXPECT_NE(toString(database.findings()).find("% of it without"), std::string::npos)
+      << toString(database.findings());
 }
 
 TEST_F(Imagery, meetsATerrainAcrossTheDateLine) {
