@@ -1,6 +1,7 @@
 #include "trimtab/terrain/bake_work.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -10,6 +11,7 @@
 #include <chrono>
 #include <cstring>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <thread>
 
@@ -33,6 +35,34 @@ std::string textOf(const fs::path& file) {
   std::ostringstream text;
   text << in.rdbuf();
   return in ? text.str() : std::string();
+}
+
+std::string thisMachine() {
+  char name[256] = "";
+  return ::gethostname(name, sizeof name - 1) == 0 && name[0] != 0 ? name : "localhost";
+}
+
+/// The other processes that have a lock, by what they wrote there; of this machine, those that live.
+std::string holdersOf(const fs::path& file) {
+  std::set<std::string> holders;
+  std::istringstream lines(textOf(file));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    pid_t process = 0;
+    std::string machine, program;
+    if (!(words >> process >> machine) || !std::getline(words >> std::ws, program)) continue;
+    if (machine == thisMachine() && (process == ::getpid() || (::kill(process, 0) != 0 && errno == ESRCH)))
+      continue;
+    holders.insert("process " + std::to_string(process) + " (" + program + ") on " + machine);
+  }
+  std::string all;
+  for (const std::string& holder : holders) all += (all.empty() ? " by " : ", ") + holder;
+  return all;
+}
+
+Finding otherBake(const fs::path& output, const fs::path& lock, const std::string& also) {
+  return wrong(output, "no other bake at work on this folder" + also,
+               "one" + holdersOf(lock) + ": let it end and bake again, stop it, or name another folder");
 }
 
 /// A rename must be able to put the database there: an empty mount point looks like an empty folder.
@@ -62,7 +92,7 @@ std::error_code empty(const fs::path& folder) {
 }  // namespace
 
 std::unique_ptr<FileLock> FileLock::tryLock(const fs::path& file, bool shared) {
-  const int handle = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  const int handle = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_APPEND, 0666);
   if (handle < 0) return {};
   struct stat held {
   }, there{};
@@ -72,6 +102,11 @@ std::unique_ptr<FileLock> FileLock::tryLock(const fs::path& file, bool shared) {
     ::close(handle);
     return {};
   }
+  // For whoever is refused; without room for it the lock holds all the same.
+  const std::string line =
+      std::to_string(::getpid()) + ' ' + thisMachine() + ' ' + ::program_invocation_short_name + '\n';
+  const bool told = (shared || ::ftruncate(handle, 0) == 0) && ::write(handle, line.data(), line.size()) > 0;
+  static_cast<void>(told);
   return std::unique_ptr<FileLock>(new FileLock(handle));
 }
 
@@ -122,13 +157,13 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, con
       if (lock && textOf(path / "recipe.json") == recipe)
         return std::unique_ptr<WorkFolder>(new WorkFolder(path, std::move(lock), true));
       if (lock && sameButForArithmetic(textOf(path / "recipe.json"), recipe)) return otherArithmetic(path);
-      if (lock) return wrong(path, "no bake of other sources or options at work on the same output", "one");
+      if (lock) return otherBake(output, lockFile, " with other sources or options");
     } else if (turn >= 5) {
       break;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  return wrong(path, "no other bake at work on the same output", "one: let it end, or stop it");
+  return otherBake(output, lockFile, "");
 }
 
 WorkFolder::~WorkFolder() {

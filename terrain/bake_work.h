@@ -9,9 +9,10 @@
 
 namespace trimtab::terrain {
 
-/// A lock on a file that ends with the process; null where another process has it.
+/// A lock on a file that ends with the process.
 class FileLock {
  public:
+  /// Null where another process has it. The file says who does, for people: a line a process.
   static std::unique_ptr<FileLock> tryLock(const std::filesystem::path& file, bool shared);
   ~FileLock();
   FileLock(const FileLock&) = delete;

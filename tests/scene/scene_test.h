@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "shared_scene.h"
 #include "support.h"
 #include "synthetic_terrain.h"
 #include "trimtab/scene/data_extent.h"
@@ -59,10 +60,9 @@ class SceneTest : public testing::Test {
     return baked.ok();
   }
 
-  /// Real data, baked once into a folder beside the temporary files; none when it cannot be.
+  /// bakedOnce; none when it cannot be.
   static std::shared_ptr<const terrain::Database> bakeShared(const std::string& folder) {
-    const auto cache = std::filesystem::temp_directory_path() / "trimtab-scene-test";
-    auto opened = terrain::openOrBake(sharedDir() / "data" / folder, cache, {});
+    auto opened = bakedOnce(folder);
     if (!opened) {
       ADD_FAILURE() << toString(opened.findings());
       return nullptr;

@@ -7,6 +7,8 @@
 
 #include "disk_order.h"
 #include "resumed_bake.h"
+#include "shared_scene.h"
+#include "trimtab/terrain/bake_work.h"
 #include "trimtab/terrain/ground.h"
 #include "trimtab/terrain/patch_terrain.h"
 
@@ -200,10 +202,60 @@ TEST_F(ResumedBake, doesNotMeetAnotherOfTheSameOutput) {
   ASSERT_EQ(::read(ready[0], &c, 1), 1);
   const auto second = bake(options_);
   ASSERT_FALSE(second);
-  EXPECT_NE(toString(second.findings()).find("other bake"), std::string::npos) << toString(second.findings());
+  const std::string said = toString(second.findings());
+  for (const std::string& word : {std::string("other bake"), "process " + std::to_string(child) + " (",
+                                  options_.output.string(), std::string("another folder")})
+    EXPECT_NE(said.find(word), std::string::npos) << word << ": " << said;
   ASSERT_EQ(::write(go[1], "g", 1), 1);
   EXPECT_EQ(ended(child), 0);
   expectWhole(dir_ / "db");
+}
+
+/// Those that were killed, or have ended, are not named.
+TEST_F(ResumedBake, namesEveryPartAtWorkAndNoOther) {
+  int ready[2];
+  ASSERT_EQ(::pipe(ready), 0);
+  std::vector<pid_t> parts;
+  for (int i = 0; i < 3; ++i) {
+    parts.push_back(start([&] {
+      const auto work = WorkFolder::open(options_.output, "{}", WorkFolder::Use::part);
+      if (!work || ::write(ready[1], "r", 1) != 1) return 1;
+      ::pause();
+      return 0;
+    }));
+    char c = 0;
+    ASSERT_EQ(::read(ready[0], &c, 1), 1);
+  }
+  ::kill(parts[1], SIGKILL);
+  EXPECT_EQ(ended(parts[1]), -SIGKILL);
+  const auto refused = WorkFolder::open(options_.output, "{}", WorkFolder::Use::alone);
+  ASSERT_FALSE(refused);
+  const std::string said = toString(refused.findings());
+  const auto names = [&](pid_t part) {
+    return said.find("process " + std::to_string(part) + " (") != std::string::npos;
+  };
+  EXPECT_TRUE(names(parts[0]) && names(parts[2])) << said;
+  EXPECT_FALSE(names(parts[1])) << said;
+  for (const pid_t part : {parts[0], parts[2]}) {
+    ::kill(part, SIGKILL);
+    ended(part);
+  }
+  EXPECT_TRUE(WorkFolder::open(options_.output, "{}", WorkFolder::Use::alone));
+}
+
+TEST_F(ResumedBake, sharedByTestsWaitsForItsTurn) {
+  test::RasterRecipe recipe;
+  recipe.columns = recipe.rows = 900;  // more work than a bake waits for another
+  recipe.value = [](int c, int r, int) { return test::roughGround(c, r); };
+  const fs::path source = test::writeRaster(dir_ / "shared.tif", recipe);
+  std::vector<pid_t> children;
+  for (int i = 0; i < 4; ++i)
+    children.push_back(start([&] {
+      const auto opened = test::openOrBakeInTurn(source, dir_ / "cache");
+      if (!opened) std::fprintf(stderr, "%s\n", toString(opened.findings()).c_str());
+      return opened ? 0 : 1;
+    }));
+  for (const pid_t child : children) EXPECT_EQ(ended(child), 0);
 }
 
 /// Killed when the old database was aside and the new one not yet there.

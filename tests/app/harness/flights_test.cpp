@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "route.h"
+#include "shared_scene.h"
 #include "support.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/session/session.h"
-#include "trimtab/terrain/database.h"
 
 namespace trimtab {
 namespace {
@@ -100,9 +100,7 @@ TEST(RouteFlights, makeTheShippedPresetsChangeTheirBands) {
 TEST(RouteFlights, stayAboveTheGroundAndOverTheData) {
   for (const Generated& generated : kFlights) {
     TRIMTAB_NEEDS_SHARED(std::filesystem::path("data") / generated.data);
-    const auto terrain =
-        terrain::openOrBake(test::sharedDir() / "data" / generated.data,
-                            std::filesystem::temp_directory_path() / "trimtab-scene-test", {});
+    const auto terrain = test::bakedOnce(generated.data);
     ASSERT_TRUE(terrain) << toString(terrain.findings());
     double lowest = std::numeric_limits<double>::infinity(), highest = 0, low = 0;
     const Flight flight = read(generated);
