@@ -1,111 +1,136 @@
 #include "culling_floor.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <random>
-#include <utility>
 #include <vector>
 
 #include "bench_scene.h"
 #include "culling_frames.h"
+#include "draw_oracle.h"
 #include "trimtab/experiment/stage.h"
+#include "trimtab/scene/multi_draw.h"
 
 namespace trimtab::bench {
 namespace {
 
-/// A terrain without some of the nodes in view: their boxes stand opposite the eye, as far away as they are,
-/// so that all else (levels, order) stays as it is.
-class Partly final : public terrain::Database {
+/// Pictures of the same view: by the frustum, as *proposed* with the horizon, of what an oracle lets through,
+/// and of the sky.
+struct Way {
+  enum class What { frustum, proposed, owners, sky } what;
+  int blocksAcross;
+};
+constexpr std::array<Way, 7> kWays{{{Way::What::frustum, 0},
+                                    {Way::What::proposed, 0},
+                                    {Way::What::owners, 1},
+                                    {Way::What::owners, 2},
+                                    {Way::What::owners, 4},
+                                    {Way::What::owners, 0},
+                                    {Way::What::sky, 0}}};
+constexpr int kWidth = 1280, kHeight = 720;
+
+class Floor {
  public:
-  Partly(std::shared_ptr<const terrain::Database> whole, Vec3 eye, const std::vector<std::uint32_t>& gone)
-      : whole_(std::move(whole)), index_(whole_->index()) {
-    const auto x = [&](float v) { return static_cast<float>(2 * eye.x - double{v}); };
-    const auto y = [&](float v) { return static_cast<float>(2 * eye.y - double{v}); };
-    const auto z = [&](float v) { return static_cast<float>(2 * eye.z - double{v}); };
-    for (const std::uint32_t node : gone) {
-      const Box& b = index_.bounds[node];
-      index_.bounds[node] = {x(b.maxX), y(b.maxY), z(b.maxZ), x(b.minX), y(b.minY), z(b.minZ)};
+  Floor(scene::Offscreen& context, std::shared_ptr<const terrain::Database> database)
+      : context_(context), database_(std::move(database)) {
+    usable_ = renderer_.initialize().usable;
+    renderer_.setTerrain(database_);
+  }
+  ~Floor() { renderer_.release(); }
+  bool usable() const { return usable_; }
+
+  /// A place's frames, one of each way in turn; whether all that owners draw is the whole picture.
+  bool measure(scene::FrameRequest r, int pairs) {
+    r.method = CullingCase::view_frustum;
+    oracle_.letAll();
+    renderer_.draw(r, context_.framebuffer());
+    oracle_.learn(kWidth, kHeight);
+    renderer_.draw(r, context_.framebuffer());
+    draw(r, kWays[0]);
+    const auto whole = renderer_.readPixels(kWidth, kHeight);
+    bool same = true;
+    for (const Way& way : kWays) {
+      if (way.what != Way::What::owners) continue;
+      draw(r, way);
+      same = same && renderer_.readPixels(kWidth, kHeight) == whole;
     }
+    all_ += oracle_.triangles();
+    owners_ += oracle_.drawn(0);
+    for (int i = -2; i < pairs; ++i) {
+      r.eye.height = r.eye.height + Metres{0.01};
+      for (std::size_t way = 0; way < kWays.size(); ++way)
+        if (const double took = draw(r, kWays[way]); i >= 0) ms_[way].push_back(took);
+    }
+    return same;
   }
-  const terrain::TerrainInfo& info() const override { return whole_->info(); }
-  const TerrainIndex& index() const override { return index_; }
-  void buildTile(std::uint32_t node, terrain::TileMesh& mesh) const override {
-    whole_->buildTile(node, mesh);
-  }
-  std::optional<Metres> heightAt(Degrees latitude, Degrees longitude) const override {
-    return whole_->heightAt(latitude, longitude);
-  }
-  std::optional<Metres> highestWithin(Degrees latitude, Degrees longitude, Metres radius) const override {
-    return whole_->highestWithin(latitude, longitude, radius);
-  }
+  double median(std::size_t way) const { return experiment::quantileOf(ms_[way], 0.5); }
+  PairedRatio ratio(std::size_t way) const { return pairedRatio(ms_[0], ms_[way]); }
+  double owners() const { return static_cast<double>(owners_) / static_cast<double>(all_); }
 
  private:
-  std::shared_ptr<const terrain::Database> whole_;
-  TerrainIndex index_;
+  double draw(scene::FrameRequest r, const Way& way) {
+    if (way.what == Way::What::proposed) r.method = CullingCase::proposed;
+    if (way.what == Way::What::sky) r.attitude.pitch = Degrees{85};
+    if (way.what == Way::What::owners)
+      oracle_.letOwners(way.blocksAcross);
+    else
+      oracle_.letAll();
+    return renderer_.draw(r, context_.framebuffer()).cost.total;
+  }
+
+  scene::Offscreen& context_;
+  std::shared_ptr<const terrain::Database> database_;
+  DrawOracle oracle_;
+  scene::Renderer renderer_;
+  bool usable_ = false;
+  std::array<std::vector<double>, kWays.size()> ms_;
+  std::size_t all_ = 0, owners_ = 0;
 };
 
 void floorRow(Report& report, const std::string& terrain,
-              const std::shared_ptr<const terrain::Database>& database, double errorPx) {
-  auto created = scene::Offscreen::create(1280, 720);
+              const std::shared_ptr<const terrain::Database>& database, TerrainForm form, double errorPx) {
+  auto created = scene::Offscreen::create(kWidth, kHeight);
   if (!created) return;
-  scene::Offscreen& context = *created.value();
-  context.makeCurrent();
-  scene::Renderer whole, partly;
-  if (!whole.initialize().usable || !partly.initialize().usable) return;
-  whole.setTerrain(database);
+  created.value()->makeCurrent();
+  const scene::ForcedDrawWay seen(scene::DrawWay::base_vertex);
+  Floor floor(*created.value(), database);
+  if (!floor.usable()) return;
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(0.25, 0.75), heading(0, 360);
-  std::vector<double> frustum, owned, sky;
-  std::size_t inView = 0, owning = 0;
-  const int views = report.quick() ? 3 : 6, pairs = report.quick() ? 8 : 24;
-  for (int view = 0; view < views; ++view) {
+  bool same = true;
+  for (int view = 0; view < 6; ++view) {
     scene::FrameRequest r;
     const double east = place(random), north = place(random);
     r.attitude = {Degrees{heading(random)}, Degrees{-5}, Degrees{0}};
     r.eye = placeOver(*database, east, north, 2000 * 0.3048);
-    r.view.widthPx = 1280, r.view.heightPx = 720;
+    r.view.widthPx = kWidth, r.view.heightPx = kHeight;
     r.lod.screenSpaceError = Pixels{errorPx};
-    r.method = CullingCase::view_frustum;
-    scene::FrameResult result = whole.draw(r, context.framebuffer());
-    std::vector<std::uint32_t> owners = whole.readNodes(true), gone;
-    std::sort(owners.begin(), owners.end());
-    for (const TileDraw& tile : result.visible.tiles)
-      if (!std::binary_search(owners.begin(), owners.end(), tile.node)) gone.push_back(tile.node);
-    partly.setTerrain(
-        std::make_shared<const Partly>(database, database->index().frame.fromGeodetic(r.eye), gone));
-    inView += result.visible.tiles.size();
-    auto up = r;
-    up.attitude.pitch = Degrees{85};
-    for (int i = -2; i < pairs; ++i) {
-      r.eye.height = r.eye.height + Metres{0.01};
-      up.eye = r.eye;
-      const double all = whole.draw(r, context.framebuffer()).cost.total;
-      result = partly.draw(r, context.framebuffer());
-      const double empty = whole.draw(up, context.framebuffer()).cost.total;
-      if (i < 0) continue;
-      frustum.push_back(all);
-      owned.push_back(result.cost.total);
-      sky.push_back(empty);
-    }
-    owning += result.visible.tiles.size();
+    r.staticLod.terrain = form;
+    r.waitForPages = true;
+    r.occlusion = OcclusionMethod::horizon;
+    r.decision.depthMap = DepthMapSize{800, 600};
+    same = floor.measure(r, report.quick() ? 4 : 16) && same;
   }
-  whole.release();
-  partly.release();
-  const PairedRatio ratio = pairedRatio(frustum, owned);
-  char what[320];
+  const std::size_t triangles = 5;
+  const PairedRatio ratio = floor.ratio(triangles);
+  char what[640];
   std::snprintf(
       what, sizeof what,
-      "Frame of nothing but the tiles that own a pixel, over %s: %zu of %zu in view; what no culling "
-      "of whole tiles can beat; ratio of pairs: 95 %% interval %.3f to %.3f; a frame of sky alone "
-      "takes %.1f ms",
-      terrain.c_str(), owning / static_cast<std::size_t>(views), inView / static_cast<std::size_t>(views),
-      ratio.low, ratio.high, experiment::quantileOf(sky, 0.5));
-  report.add({.id = "culling.frame_" + terrain + "_2000ft" + (errorPx < 1 ? "_finest" : "") + "_floor",
+      "Frame of nothing but the %.1f %% of the triangles in view that own a pixel, %s over %s%s: what "
+      "no culling can beat; 95 %% interval of the ratio %.3f to %.3f; of squares of 4 x 4 a mesh with "
+      "such a triangle %.3f, 2 x 2 %.3f, whole meshes %.3f, what the horizon leaves %.3f, sky alone "
+      "%.3f",
+      100 * floor.owners(), form == TerrainForm::patches ? "patches" : "tiles", terrain.c_str(),
+      same ? "" : " (NOT THE SAME PICTURE)", ratio.low, ratio.high, floor.ratio(4).median,
+      floor.ratio(3).median, floor.ratio(2).median, floor.ratio(1).median, floor.ratio(6).median);
+  report.add({.id = "culling.frame_" + terrain + "_2000ft" + (errorPx < 1 ? "_finest" : "") +
+                    (form == TerrainForm::patches ? "_patches" : "") + "_floor",
               .what = what,
-              .value = experiment::quantileOf(owned, 0.5),
+              .value = floor.median(triangles),
               .unit = "ms",
               .peer = "view frustum",
-              .peerValue = experiment::quantileOf(frustum, 0.5),
+              .peerValue = floor.median(0),
               .peerFrom = "run",
               .ratio = ratio.median});
 }
@@ -114,7 +139,10 @@ void floorRow(Report& report, const std::string& terrain,
 
 void floorRows(Report& report, const std::string& terrain,
                const std::shared_ptr<const terrain::Database>& database) {
-  for (const double errorPx : {2.0, 0.05}) floorRow(report, terrain, database, errorPx);
+  for (const TerrainForm form : {TerrainForm::levels, TerrainForm::patches}) {
+    if (form == TerrainForm::patches && !database->patches()) continue;
+    for (const double errorPx : {2.0, 0.05}) floorRow(report, terrain, database, form, errorPx);
+  }
 }
 
 }  // namespace trimtab::bench

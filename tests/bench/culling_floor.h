@@ -8,8 +8,9 @@
 
 namespace trimtab::bench {
 
-/// What no culling of whole tiles can beat: the frame that draws only the nodes with a pixel of the unculled
-/// picture, which it is told, beside the view frustum's; at 2,000 ft, finest levels and 2 px.
+/// What no culling can beat: the frame of nothing but the triangles that own a pixel, which an oracle tells,
+/// beside the view frustum's; also of whole meshes and of squares of them that have such a triangle. At
+/// 2,000 ft, as tiles and as patches, at 2 px and at the finest levels.
 void floorRows(Report& report, const std::string& terrain,
                const std::shared_ptr<const terrain::Database>& database);
 

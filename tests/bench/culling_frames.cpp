@@ -220,7 +220,6 @@ void rowsOf(Report& report, const std::string& name,
   if (name == "sea") return;
   frames.row(report, name, {.feet = 2000, .errorPx = 0.05});
   if (name != "mountains" && name != "everest") return;
-  floorRows(report, name, database);
   for (const OcclusionMethod method :
        {OcclusionMethod::horizon, OcclusionMethod::horizon_and_map, OcclusionMethod::cpu_map,
         OcclusionMethod::read_back, OcclusionMethod::depth_map})
@@ -242,11 +241,16 @@ GeodeticPosition placeOver(const terrain::Database& database, double east, doubl
 }
 
 void frameRows(Report& report) {
-  if (report.wants("frame_mountains")) {
-    const auto mountains = test::syntheticMountains();
-    rowsOf(report, "mountains", mountains);
-    peerRowsOf(report, "mountains", mountains);
-  }
+  const auto mountainRows = [&](const std::string& name, const auto& databaseOf) {
+    const bool frames = report.wants("frame_" + name), floor = report.wants("floor_" + name);
+    if (!frames && !floor) return;
+    const std::shared_ptr<const terrain::Database> database = databaseOf();
+    if (!database) return;
+    if (frames) rowsOf(report, name, database);
+    if (floor) floorRows(report, name, database);
+    if (frames) peerRowsOf(report, name, database);
+  };
+  mountainRows("mountains", [] { return test::syntheticMountains(); });
   const auto flat = [](double relief) {
     return std::make_shared<const test::SyntheticTerrain>(
         16, 1.0 / 1200, GeodeticPosition{Degrees{36.4}, Degrees{128.1}, Metres{0}},
@@ -255,17 +259,15 @@ void frameRows(Report& report) {
   if (report.wants("frame_sea")) rowsOf(report, "sea", flat(0));
   if (report.wants("frame_plain")) rowsOf(report, "plain", flat(5));
   const test::ScratchDir dir;
-  const auto shared = [&](const char* folder, const char* name, bool peers) {
-    if (!report.wants(std::string("frame_") + name)) return;
+  const auto shared = [&](const char* folder) -> std::shared_ptr<const terrain::Database> {
     const auto source = test::sharedDir() / "data" / folder;
-    if (!std::filesystem::exists(source)) return;
+    if (!std::filesystem::exists(source)) return nullptr;
     const auto baked = terrain::openOrBake(source, dir / "cache", {});
-    if (!baked) return;
-    rowsOf(report, name, baked.value());
-    if (peers) peerRowsOf(report, name, baked.value());
+    return baked ? baked.value() : nullptr;
   };
-  shared("dem-srtm3-everest", "everest", true);
-  shared("fg-debian-iceland-reykjanes", "iceland", false);
+  mountainRows("everest", [&] { return shared("dem-srtm3-everest"); });
+  if (report.wants("frame_iceland"))
+    if (const auto iceland = shared("fg-debian-iceland-reykjanes")) rowsOf(report, "iceland", iceland);
   if (!report.wants("frame_sample")) return;
   terrain::SampleOptions options;
   options.postM = report.quick() ? 180 : 90;
