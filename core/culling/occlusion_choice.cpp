@@ -107,8 +107,9 @@ std::size_t OcclusionChoice::best(std::span<const std::size_t> arms) const {
 }
 
 OcclusionChoice::Method OcclusionChoice::choose(const Situation& situation) {
-  if (!goesOn_ || situation.band != now_.band || !(length(situation.eye - now_.eye) <= kLeapM)) ++chapter_;
-  goesOn_ = true;
+  // A single frame without a choice, or every second one, is no such while.
+  chapter_ += situation.band != now_.band || situation.timeMs - now_.timeMs > kBelievedMs ||
+              !(length(situation.eye - now_.eye) <= kLeapM);
   now_ = situation;
   now_.methods = {};
   std::array<std::size_t, kArms> list{};
@@ -200,11 +201,12 @@ void OcclusionChoice::learn(const Outcome& outcome) {
   frameMs_ = frameMs_ > 0 ? follow(frameMs_, outcome.totalMs) : outcome.totalMs;
   inView_ = all;
   const bool trial = served_ != current_, first = before_ != served_;
+  const bool isFirstEver = !arms_[served_].known;
   learnArm(outcome);
   const double worthNow = msPerTriangle() * static_cast<double>(outcome.hidden) - outcome.occlusionMs;
   if (trial) {
     const double loss = std::max(0.0, worth(current_) - worthNow);
-    arms_[served_].purseMs -= arms_[served_].frames == 1 ? std::min(loss, 2 * frameMs_) : loss;
+    arms_[served_].purseMs -= isFirstEver ? std::min(loss, 2 * frameMs_) : loss;
     // Even for nothing it would not be better, or not at what its second frame has cost: no more of it.
     const double cost = arms_[served_].frames > 1 ? arms_[served_].costMs : 0;
     if (served_ != 0 &&

@@ -16,7 +16,7 @@ namespace trimtab {
 /// A method is worth what the triangles that it hides would cost to draw, less its own time. What a triangle
 /// costs is learnt from how the time to draw follows their number. The method in use is judged by every
 /// frame; the others, and none, by a few frames now and then: sooner where eye, view or rule have changed, at
-/// once where a band, a scheme without any of them or a leap of the eye makes what is known of little worth,
+/// once where a band, a while without any of them or a leap of the eye makes what is known of little worth,
 /// and never for more than kExploring of all time, so that in the long run a frame costs at most so much more
 /// than with the best of them.
 class OcclusionChoice {
@@ -54,10 +54,7 @@ class OcclusionChoice {
   void learn(const Outcome& outcome);
 
   /// Nothing is chosen in the frame that comes: what serves in the next one starts anew.
-  void pause() {
-    before_ = kArms;
-    goesOn_ = false;
-  }
+  void pause() { before_ = kArms; }
 
   /// Milliseconds a triangle, as far as it is known.
   double msPerTriangle() const;
@@ -104,8 +101,7 @@ class OcclusionChoice {
   std::optional<Outcome> previous_;
   std::uint64_t trials_ = 0;
   Situation now_;
-  std::uint64_t chapter_ = 0;  ///< ends with a band, a pause or a leap
-  bool goesOn_ = false;        ///< the last frame chose too
+  std::uint64_t chapter_ = 0;  ///< ends with a band, a leap, or so long without a choice as is believed
 };
 
 }  // namespace trimtab

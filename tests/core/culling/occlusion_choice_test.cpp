@@ -276,19 +276,24 @@ TEST(OcclusionChoice, triesWhatHadNoHopeAtOnceAfterABandASchemeOrALeap) {
     const char* what;
     std::uint64_t band;
     double leapM;
-    bool pauses, isOne;
+    double whileMs;
+    bool isOne;
   };
-  for (const Change& change : {Change{"band", 1, 0, false, true},
-                               {"leap", 0, 600, false, true},
-                               {"scheme", 0, 0, true, true},
-                               {"nothing", 0, 0, false, false}}) {
+  for (const Change& change : {Change{"band", 1, 0, 0, true},
+                               {"leap", 0, 600, 0, true},
+                               {"scheme", 0, 0, 1500, true},
+                               {"every second frame without a choice", 0, 0, 0, false}}) {
     OcclusionChoice choice;
     Method last;
     int served = 0;
     double clock = 0;
     for (int i = 0; i < 4000; ++i) {
       const bool later = i >= 3000;
-      if (i == 3000 && change.pauses) choice.pause();
+      if (!change.isOne || i == 3000) choice.pause();
+      if (i == 3000) {
+        EXPECT_LT(choice.trials(), 30u) << change.what;
+        clock += change.whileMs;
+      }
       const Method method = choice.choose(
           {clock, {later ? change.leapM : 0, 0, 0}, {1, 0, 0}, 0, kMethods, later ? change.band : 0});
       const auto outcome = (later ? after : before).frame(method, method != last, 180e3);
@@ -303,7 +308,7 @@ TEST(OcclusionChoice, triesWhatHadNoHopeAtOnceAfterABandASchemeOrALeap) {
 
 /// Bands that come and go, and an eye that leaps, ask for trials in every frame.
 TEST(OcclusionChoice, losesABoundedShareWhereBandsAndPlacesChange) {
-  const Machine plain{6, 6e-5, {{5, 20, 0.1}, {8, 30, 0.1}, {9, 9, 0.1}}};
+  const Machine plain{6, 6e-5, {{5, 200, 0.1}, {8, 200, 0.1}, {0.1, 200, 0}}};
   for (const int frames : {1, 7, 100}) {
     OcclusionChoice choice;
     Method last;
