@@ -13,7 +13,7 @@ namespace trimtab::terrain {
 namespace {
 
 /// So many more triangles than the budget are inserted where some are taken out again.
-constexpr double kOver = 1.16;
+constexpr double kOver = 1.3;
 /// Shares of a budget that are near enough.
 struct Near {
   double least, most;
@@ -137,16 +137,17 @@ void thin(MeshTiles& tiles, const HeightField& field, double bound, std::size_t 
 Fitted fit(MeshTiles& tiles, const HeightField& field, double bound, std::size_t most, unsigned threads) {
   // Of the squares that one post may add.
   constexpr double kFirst = 0.2, kAgain = 0.1;
+  const std::size_t total = tiles.triangles();
   std::vector<std::vector<PostSum>> sums(tiles.count());
   tiles.eachTile([&](GreedyMesh& tile, std::size_t i) {
     MeshFit one(tile.mesh(), rowsOf(field, tile), tile.sums());
     one.flipEdges(bound);
     one.moveHeights(bound);
-    one.moveAside(bound, kFirst * bound * bound);
+    // Where many are about to go, none is worth being moved aside yet.
+    if (total <= most) one.moveAside(bound, kFirst * bound * bound);
     sums[i] = std::move(one.sums());
   });
-  if (const std::size_t total = tiles.triangles(); total > most)
-    thin(tiles, field, bound, (total - most + 1) / 2, sums);
+  if (total > most) thin(tiles, field, bound, (total - most + 1) / 2, sums);
   // Again with other borders: what lay on the sides of tiles is free now.
   Fitted out = join(tiles, std::move(sums));
   eachPart(
