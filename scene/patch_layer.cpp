@@ -18,8 +18,8 @@ constexpr std::size_t kVertexBytes = sizeof(PatchVertex), kIndexBytes = sizeof(s
 constexpr std::size_t kVariants = PatchIndex::kVariants;
 constexpr auto kBlock = static_cast<std::uint32_t>(PatchLayer::kBlock);
 /// Indices are placed in units of so many, too.
-constexpr std::uint32_t kIndexBlock = 64;
-constexpr std::uint32_t kFirstBlocks = 512, kFirstIndexBlocks = 1024;
+constexpr std::uint32_t kIndexBlock = 32;
+constexpr std::uint32_t kFirstBlocks = 1024, kFirstIndexBlocks = 2048;
 
 std::uint32_t inBlocks(std::size_t count, std::uint32_t block) {
   return static_cast<std::uint32_t>((count + block - 1) / block);

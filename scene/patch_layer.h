@@ -38,7 +38,7 @@ class PatchLayer {
   void draw(std::span<const TileDraw> patches);
   /// RGBA32I, two texels a block of kBlock vertices: origin in units of 16 m and patch; first column and row
   /// of the square.
-  static constexpr int kBlock = 64;
+  static constexpr int kBlock = 32;
   unsigned slotTexture() const;
   /// RGBA8 a patch of the last `setTints`, by block.
   void setTints(std::span<const TileDraw> patches, std::span<const std::uint32_t> colours);

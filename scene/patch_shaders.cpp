@@ -27,7 +27,7 @@ flat out uint owner;
 // The node pass must cover the picture's pixels at the picture's depths, to the bit.
 invariant gl_Position;
 void main() {
-  int block = gl_VertexID / 64;
+  int block = gl_VertexID / 32;
   ivec4 slot = texelFetch(slots, block * 2);
   ivec2 square = texelFetch(slots, block * 2 + 1).xy;
 #ifdef NODE_IDS

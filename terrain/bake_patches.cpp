@@ -11,7 +11,6 @@
 
 #include "trimtab/terrain/import.h"
 #include "trimtab/terrain/page_file.h"
-#include "trimtab/terrain/patch_build.h"
 #include "trimtab/terrain/patch_store.h"
 
 namespace trimtab::terrain {
@@ -29,11 +28,11 @@ struct Measured {
   Box bounds;
   std::array<float, PatchIndex::kVariants> errorM;
   std::array<std::uint16_t, PatchIndex::kVariants> triangles;
-  std::uint16_t unused = 0;  // no byte of the file is left to chance
   PatchFacts facts;
   NormalCone cone;
 };
-static_assert(std::is_trivially_copyable_v<Measured>);
+// No byte of the file is left to chance.
+static_assert(std::is_trivially_copyable_v<Measured> && sizeof(Measured) == 36 + sizeof(PatchFacts) + 4);
 
 Finding wrong(const fs::path& file, std::string expected, std::string found) {
   return {Severity::error, file.string(), "", std::move(expected), std::move(found)};
@@ -41,7 +40,7 @@ Finding wrong(const fs::path& file, std::string expected, std::string found) {
 
 /// Posts that a page looks at: what it takes to make.
 std::uint64_t workOf(const PatchIndex& index, const PatchIndex::Page& page) {
-  const std::uint64_t side = std::uint64_t{index.squareCells(page.pair)} * PatchIndex::kPageSquares;
+  const std::uint64_t side = std::uint64_t{index.squareCells(page.pair)} * index.pageSquares();
   const auto along = [&](std::uint32_t block, std::uint32_t posts) {
     const std::uint64_t from = block * side;
     return from < posts ? std::min<std::uint64_t>(side, posts - from) : 0;
@@ -52,14 +51,13 @@ std::uint64_t workOf(const PatchIndex& index, const PatchIndex::Page& page) {
 }  // namespace
 
 PatchBake::PatchBake(const WorkFolder& work, const PostGrid& posts, const PostGeometry& geometry,
-                     double leafM)
+                     double leafM, std::uint64_t mostFine)
     : work_(work),
       posts_(posts),
       geometry_(geometry),
-      index_(makePatchIndex(posts, geometry)),
+      index_(makePatchIndex(posts, geometry, leafCellsOf(posts, mostFine))),
       tolerances_(patchTolerances(index_, leafM)) {
-  constexpr std::uint64_t kLeafPage = std::uint64_t{PatchIndex::kLeafCells * PatchIndex::kPageSquares} *
-                                      PatchIndex::kLeafCells * PatchIndex::kPageSquares;
+  constexpr std::uint64_t kLeafPage = std::uint64_t{PatchIndex::kLeafPageCells} * PatchIndex::kLeafPageCells;
   std::uint64_t open = 0, left = 0;
   for (const PatchIndex::Page& page : index_.pages) left += workOf(index_, page);
   for (std::uint32_t page = 0; page < index_.pages.size(); ++page) {
@@ -98,7 +96,7 @@ Result<Done> PatchBake::makePiece(const HeightSource& heights, std::uint32_t pie
     for (const PatchMesh& mesh : built.meshes.patches) vertices += mesh.vertices.size() + 1;
     for (std::size_t p = 0; p < built.meshes.patches.size(); ++p) {
       const PatchMesh& mesh = built.meshes.patches[p];
-      Measured m{built.bounds[p], built.errorM[p], {}, 0, built.facts[p], built.cones[p]};
+      Measured m{built.bounds[p], built.errorM[p], {}, built.facts[p], built.cones[p]};
       for (std::size_t v = 0; v < PatchIndex::kVariants; ++v)
         m.triangles[v] = static_cast<std::uint16_t>((mesh.firstIndex[v + 1] - mesh.firstIndex[v]) / 3);
       m.facts.vertices = static_cast<std::uint32_t>(mesh.vertices.size());

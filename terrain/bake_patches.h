@@ -6,10 +6,7 @@
 #include <vector>
 
 #include "trimtab/terrain/bake_work.h"
-#include "trimtab/terrain/database.h"
-#include "trimtab/terrain/height_window.h"
-#include "trimtab/terrain/patch_terrain.h"
-#include "trimtab/terrain/post_geometry.h"
+#include "trimtab/terrain/patch_build.h"
 
 namespace trimtab::terrain {
 
@@ -18,7 +15,9 @@ namespace trimtab::terrain {
 /// whoever makes it.
 class PatchBake {
  public:
-  PatchBake(const WorkFolder& work, const PostGrid& posts, const PostGeometry& geometry, double leafM);
+  /// `mostFine` as leafCellsOf takes it.
+  PatchBake(const WorkFolder& work, const PostGrid& posts, const PostGeometry& geometry, double leafM,
+            std::uint64_t mostFine = kMostFineSquares);
 
   std::uint32_t pieces() const { return static_cast<std::uint32_t>(firstPage_.size() - 1); }
   /// Those that are there.

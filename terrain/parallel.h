@@ -16,7 +16,7 @@ namespace trimtab::terrain {
 /// between items; when it says no the rest is left out and the answer is false. What the work throws first
 /// is thrown again here, once all threads have ended.
 inline bool forEachParallel(std::uint32_t count, const std::function<void(std::uint32_t)>& work,
-                            const std::function<bool(double)>& carryOn) {
+                            const std::function<bool(double)>& carryOn = {}) {
   std::atomic<std::uint32_t> next{0};
   std::atomic<bool> stop{false};
   std::mutex mutex;

@@ -23,10 +23,10 @@ class PatchesInMemory final : public PatchTerrain {
 }  // namespace
 
 std::shared_ptr<const PatchTerrain> buildPatches(const HeightSource& heights, double leafToleranceM,
-                                                 const std::function<bool(double)>& carryOn) {
+                                                 std::uint32_t leafCells) {
   const PostGeometry geometry(heights.posts());
   auto terrain = std::make_shared<PatchesInMemory>();
-  terrain->index_ = makePatchIndex(heights.posts(), geometry);
+  terrain->index_ = makePatchIndex(heights.posts(), geometry, leafCells);
   PatchIndex& index = terrain->index_;
   const std::vector<double> tolerances = patchTolerances(index, leafToleranceM);
   const auto pageCount = static_cast<std::uint32_t>(index.pages.size());
@@ -51,7 +51,7 @@ std::shared_ptr<const PatchTerrain> buildPatches(const HeightSource& heights, do
     }
     terrain->pages_[page] = std::move(built.meshes);
   };
-  if (!forEachParallel(pageCount, work, carryOn)) return nullptr;
+  forEachParallel(pageCount, work);
   finishPatchIndex(index, bounds, errorM, triangles);
   index.cones = std::move(cones);
   return terrain;

@@ -32,7 +32,7 @@ struct PackedPatch {
   std::uint32_t firstColumn, firstRow, vertices;
   std::uint32_t triangles[PatchIndex::kVariants];
 };
-static_assert(sizeof(PackedPatch) == 36);
+static_assert(sizeof(PackedPatch) == 32);
 
 struct PackedVertex {
   std::uint16_t column = 0, row = 0;  ///< from the patch's square, shifted

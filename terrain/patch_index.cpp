@@ -12,7 +12,7 @@ namespace trimtab::terrain {
 namespace {
 
 constexpr std::uint32_t kNone = PatchIndex::kNone;
-static_assert(PatchIndex::kLeafCells <= TerrainIndex::kTileCells);
+static_assert(kCoarseLeafCells <= TerrainIndex::kTileCells);
 constexpr std::uint32_t kLargestRoot = 1u << 15;  ///< columns of vertices are counted in 16 bits
 
 struct Corner {
@@ -98,9 +98,9 @@ bool reaches(const PostGrid& posts, const PostGeometry& geometry, std::uint32_t 
 
 /// Root squares are as large as floats reach. Posts of the smallest squares are rounded by PostGeometry so
 /// that they always do: its finest tiles are no smaller.
-std::uint32_t largestRoot(const PostGrid& posts, const PostGeometry& geometry) {
+std::uint32_t largestRoot(const PostGrid& posts, const PostGeometry& geometry, std::uint32_t leafCells) {
   const std::uint32_t most = std::max(posts.columns, posts.rows) - 1;
-  std::uint32_t cells = PatchIndex::kLeafCells;
+  std::uint32_t cells = leafCells;
   while (cells < most && cells < kLargestRoot) cells *= 2;
   const auto allReach = [&] {
     for (std::uint32_t row = 0; row + 1 < posts.rows; row += cells)
@@ -108,14 +108,14 @@ std::uint32_t largestRoot(const PostGrid& posts, const PostGeometry& geometry) {
         if (!reaches(posts, geometry, column, row, cells)) return false;
     return true;
   };
-  while (cells > PatchIndex::kLeafCells && !allReach()) cells /= 2;
+  while (cells > leafCells && !allReach()) cells /= 2;
   return cells;
 }
 
 }  // namespace
 
 int pairs(const PatchIndex& index) {
-  return std::countr_zero(index.rootCells) - std::countr_zero(PatchIndex::kLeafCells) + 1;
+  return std::countr_zero(index.rootCells) - std::countr_zero(index.leafCells) + 1;
 }
 
 std::uint32_t squaresAlong(const PatchIndex& index, int pair, std::uint32_t posts) {
@@ -182,7 +182,7 @@ bool acrossHypotenuse(const PatchIndex& index, const PatchPlace& place, PatchPla
 }
 
 std::vector<PatchPlace> placesOfPage(const PatchIndex& index, const PatchIndex::Page& page) {
-  constexpr std::uint32_t k = PatchIndex::kPageSquares;
+  const std::uint32_t k = index.pageSquares();
   std::vector<PatchPlace> places;
   const std::uint32_t columns = squaresAlong(index, page.pair, index.columns),
                       rows = squaresAlong(index, page.pair, index.rows), s = index.squareCells(page.pair);
@@ -197,12 +197,18 @@ std::vector<PatchPlace> placesOfPage(const PatchIndex& index, const PatchIndex::
   return places;
 }
 
-PatchIndex makePatchIndex(const PostGrid& posts, const PostGeometry& geometry) {
+std::uint32_t leafCellsOf(const PostGrid& posts, std::uint64_t mostFine) {
+  const auto squares = [](std::uint32_t along) { return (std::uint64_t{along} - 2) / kFineLeafCells + 1; };
+  return squares(posts.columns) * squares(posts.rows) <= mostFine ? kFineLeafCells : kCoarseLeafCells;
+}
+
+PatchIndex makePatchIndex(const PostGrid& posts, const PostGeometry& geometry, std::uint32_t leafCells) {
   PatchIndex index;
   index.frame = geometry.frame();
   index.columns = posts.columns;
   index.rows = posts.rows;
-  index.rootCells = largestRoot(posts, geometry);
+  index.rootCells = largestRoot(posts, geometry, leafCells);
+  index.leafCells = leafCells;
 
   // Of a pair and the one before, patches by square and part.
   std::vector<std::uint32_t> before, now;
@@ -230,7 +236,7 @@ PatchIndex makePatchIndex(const PostGrid& posts, const PostGeometry& geometry) {
   };
 
   for (int pair = 0; pair < pairs(index); ++pair) {
-    constexpr std::uint32_t k = PatchIndex::kPageSquares;
+    const std::uint32_t k = index.pageSquares();
     const std::uint32_t columns = squaresAlong(index, pair, posts.columns),
                         rows = squaresAlong(index, pair, posts.rows);
     now.assign(std::size_t{columns} * rows * kPatchParts, kNone);

@@ -11,11 +11,11 @@ namespace {
 /// As many as the half of a square of 64 cells has posts: no rough land makes a patch's indices too long, and
 /// with no tolerance at all the smallest patches still get every post.
 constexpr std::size_t kMostVertices = 65 * 66 / 2;
-static_assert(kMostVertices >= (PatchIndex::kLeafCells + 1) * (PatchIndex::kLeafCells + 2) / 2);
-/// Variants are a quarter of an octave apart and span the half octave between a depth and the one above. One
-/// more, for what neighbours force on a patch, takes nothing off a view at 1 px and 1.5 % at 2 px, for a
-/// quarter more triangles to build, store and hold.
-constexpr double kVariantOctaves = 0.25;
+static_assert(kMostVertices >= (kCoarseLeafCells + 1) * (kCoarseLeafCells + 2) / 2);
+/// Of the half octave between a depth and the one above, the coarser variant spans two thirds. A third
+/// variant, all a quarter of an octave apart, takes 2 % off a view at 1 px and 4 % at 2 px, for two fifths
+/// more triangles to build, store and hold.
+constexpr double kVariantOctaves = 1.0 / 3;
 
 /// Finds the triangles of a variant that a finer one, or none, does not have in the same place.
 void findFresh(PatchDraft::Variant& of, const PatchDraft::Variant* finer) {

@@ -28,11 +28,11 @@ PatchPoint between(PatchPoint a, PatchPoint b, std::uint32_t along) {
 }  // namespace
 
 std::uint32_t meshStride(const PatchIndex& index, int pair) {
-  return std::max(1u, index.squareCells(pair) * PatchIndex::kPageSquares / (kMostPostsASide - 1));
+  return std::max(1u, index.squareCells(pair) * index.pageSquares() / (kMostPostsASide - 1));
 }
 
 PostWindow pageWindow(const PatchIndex& index, const PatchIndex::Page& page) {
-  const std::uint32_t side = index.squareCells(page.pair) * PatchIndex::kPageSquares;
+  const std::uint32_t side = index.squareCells(page.pair) * index.pageSquares();
   const std::uint32_t column = page.column * side, row = page.row * side;
   return {column, row, std::min(side, index.columns - 1 - column) + 1,
           std::min(side, index.rows - 1 - row) + 1};

@@ -13,21 +13,21 @@ constexpr std::uint64_t kIndexKey = std::uint64_t{1} << 32, kFactsKey = kIndexKe
                         kConesKey = kIndexKey + 2;
 
 /// Of what is stored of a patch, in the index and in pages.
-constexpr std::uint64_t kVersion = 3;
+constexpr std::uint64_t kVersion = 4;
 
 /// What a file of patches was made for.
 struct GridHeader {
   std::uint64_t version = kVersion;
   PostGrid posts;
   std::uint32_t patches = 0, pages = 0;
+  std::uint32_t leafCells = 0, unused = 0;
 };
 struct Measured {
   Box bounds;
   std::array<float, PatchIndex::kVariants> errorM;
   std::array<std::uint16_t, PatchIndex::kVariants> triangles;
-  std::uint16_t unused = 0;
 };
-static_assert(sizeof(GridHeader) == 56 && sizeof(Measured) == 44 && sizeof(PatchFacts) == 48);
+static_assert(sizeof(GridHeader) == 64 && sizeof(Measured) == 36 && sizeof(PatchFacts) == 40);
 
 bool isSound(const Measured& m) {
   const Box& b = m.bounds;
@@ -69,7 +69,12 @@ class StoredPatches final : public PatchTerrain {
       return wrong("index", "version " + std::to_string(kVersion) + " (bake it again)",
                    "version " + std::to_string(header.version));
     if (!(header.posts == posts)) return wrong("index", "the grid of the manifest", "another one");
-    index_ = makePatchIndex(posts, geometry_);
+    if (header.leafCells != kFineLeafCells && header.leafCells != kCoarseLeafCells)
+      return wrong("index",
+                   "squares of " + std::to_string(kFineLeafCells) + " or " +
+                       std::to_string(kCoarseLeafCells) + " cells",
+                   std::to_string(header.leafCells));
+    index_ = makePatchIndex(posts, geometry_, header.leafCells);
     const std::size_t count = index_.size();
     if (header.patches != count || header.pages != index_.pages.size() ||
         measured->size() != sizeof header + count * sizeof(Measured))
@@ -127,6 +132,7 @@ Result<Done> finishPatchFile(PageFileWriter& writer, const PostGrid& posts, cons
   header.posts = posts;
   header.patches = static_cast<std::uint32_t>(index.size());
   header.pages = static_cast<std::uint32_t>(index.pages.size());
+  header.leafCells = index.leafCells;
   std::vector<std::byte> measured(sizeof header + index.size() * sizeof(Measured));
   std::memcpy(measured.data(), &header, sizeof header);
   for (std::size_t i = 0; i < index.size(); ++i) {

@@ -182,7 +182,9 @@ TEST_F(Paging, givesTheGpuItsMemoryBackWhenTheBudgetShrinksALot) {
 TEST_F(Paging, hasWhatTheEyeIsFlyingTo) {
   FrameRequest from = request(0.2, 0.5, 700), to = request(0.2, 0.5, 700);
   const double metres = 4500;
-  to.eye.longitude = to.eye.longitude + Degrees{metres / (111320 * std::cos(50.1 * 3.14159265 / 180))};
+  const LocalFrame& frame = patches()->index().frame;
+  const Vec3 east = frame.ecefToLocal() * eastNorthUp(from.eye.latitude, from.eye.longitude).row[0];
+  to.eye = frame.toGeodetic(frame.fromGeodetic(from.eye) + east * metres);
   std::map<bool, std::size_t> heldBack;
   for (const bool says : {true, false}) {
     Viewer viewer(slow);

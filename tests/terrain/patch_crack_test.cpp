@@ -75,11 +75,14 @@ void expectNoCracks(const char* what, const PatchIndex& index, const Pieces& pie
 
 constexpr int kMixtures = 200;
 
-void check(const char* what, const HeightGrid& grid) {
-  const WholeTerrain terrain = test::built(grid, defaultLeafToleranceM(grid.posts));
-  const Pieces pieces = test::piecesOf(terrain);
-  expectNeighboursAgree(what, terrain.index(), pieces);
-  expectNoCracks(what, terrain.index(), pieces, kMixtures);
+void check(const char* what, const HeightGrid& grid, int mixtures = kMixtures) {
+  for (const std::uint32_t leafCells : {kFineLeafCells, kCoarseLeafCells}) {
+    const WholeTerrain terrain = test::built(grid, defaultLeafToleranceM(grid.posts), leafCells);
+    ASSERT_EQ(terrain.index().leafCells, leafCells);
+    const Pieces pieces = test::piecesOf(terrain);
+    expectNeighboursAgree(what, terrain.index(), pieces);
+    expectNoCracks(what, terrain.index(), pieces, mixtures);
+  }
 }
 
 TEST(PatchCracks, noneInAnyMixtureOfEverest) {
@@ -107,12 +110,7 @@ TEST(PatchCracks, noneInAnyMixtureOfOddGrids) {
       {-180, -60, 0.05, 0.05, 700, 300},                                     // posts 5 km apart
       {179, -90, 0.1, 0.01, 201, 101},                                       // the pole, the date line
   };
-  for (const PostGrid& posts : grids) {
-    const WholeTerrain terrain = test::built(test::fractal(posts, 5), defaultLeafToleranceM(posts));
-    const Pieces pieces = test::piecesOf(terrain);
-    expectNeighboursAgree("odd grid", terrain.index(), pieces);
-    expectNoCracks("odd grid", terrain.index(), pieces, 20);
-  }
+  for (const PostGrid& posts : grids) check("odd grid", test::fractal(posts, 5), 20);
 }
 
 }  // namespace

@@ -42,12 +42,14 @@ double offAlongVertical(const PatchMesh& mesh, std::size_t variant, Vec3 post, V
   return -1;
 }
 
+constexpr std::uint32_t kLeafCells[] = {kFineLeafCells, kCoarseLeafCells};
+
 /// Holds stated errors against posts, all of small patches and some of large ones.
-void expectBound(const char* what, const HeightGrid& grid, double leafToleranceM, double tightness) {
+void expectBound(const char* what, const HeightGrid& grid, std::uint32_t leafCells, double tightness) {
   const GridHeights heights(grid);
   const PostGeometry geometry(grid.posts);
-  const PatchIndex index = makePatchIndex(grid.posts, geometry);
-  const std::vector<double> tolerances = patchTolerances(index, leafToleranceM);
+  const PatchIndex index = makePatchIndex(grid.posts, geometry, leafCells);
+  const std::vector<double> tolerances = patchTolerances(index, defaultLeafToleranceM(grid.posts));
   const Truth truth(grid, index.frame);
   std::mt19937 random(5);
   std::size_t hits = 0, misses = 0;
@@ -108,12 +110,12 @@ void expectBound(const char* what, const HeightGrid& grid, double leafToleranceM
 TEST(PatchErrors, boundTheTrueDistanceAlongTheVerticalOnEverest) {
   TRIMTAB_NEEDS_SHARED("data/dem-srtm3-everest/N27E086.hgt");
   const HeightGrid grid = test::imported("data/dem-srtm3-everest/N27E086.hgt");
-  expectBound("Everest", grid, defaultLeafToleranceM(grid.posts), 1.03);
+  for (const std::uint32_t leafCells : kLeafCells) expectBound("Everest", grid, leafCells, 1.03);
 }
 TEST(PatchErrors, boundItOnBigTujunga) {
   TRIMTAB_NEEDS_SHARED("data/dem-30m-bigtujunga/bigtujunga.tif");
   const HeightGrid grid = test::imported("data/dem-30m-bigtujunga/bigtujunga.tif");
-  expectBound("Big Tujunga", grid, defaultLeafToleranceM(grid.posts), 1.03);
+  for (const std::uint32_t leafCells : kLeafCells) expectBound("Big Tujunga", grid, leafCells, 1.03);
 }
 TEST(PatchErrors, boundItWhereTheEarthIsAwkward) {
   const auto cliff = [](std::uint32_t c, std::uint32_t r) {
@@ -132,8 +134,9 @@ TEST(PatchErrors, boundItWhereTheEarthIsAwkward) {
       {"a wide sea", {5, 55, 0.01, 0.01, 401, 301}, true},
   };
   for (const auto& at : cases)
-    expectBound(at.what, at.sea ? test::gridOf(at.posts, cliff) : test::fractal(at.posts, 9, 6000),
-                defaultLeafToleranceM(at.posts), 0);
+    for (const std::uint32_t leafCells : kLeafCells)
+      expectBound(at.what, at.sea ? test::gridOf(at.posts, cliff) : test::fractal(at.posts, 9, 6000),
+                  leafCells, 0);
 }
 
 TEST(PatchErrors, noToleranceTakesEveryPost) {
@@ -191,7 +194,7 @@ TEST(PatchPages, stopBeingMadeWheneverTheyAreToldTo) {
   const HeightGrid grid = test::fractal({10, 45, 0.001, 0.001, 300, 200}, 6);
   const GridHeights heights(grid);
   const PostGeometry geometry(grid.posts);
-  const PatchIndex index = makePatchIndex(grid.posts, geometry);
+  const PatchIndex index = makePatchIndex(grid.posts, geometry, kFineLeafCells);
   const auto tolerances = patchTolerances(index, defaultLeafToleranceM(grid.posts));
   const std::size_t patches = buildPage(index, 0, heights, geometry, tolerances).meshes.patches.size();
   std::size_t asked = 0;

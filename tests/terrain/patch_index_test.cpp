@@ -7,27 +7,60 @@ namespace trimtab::terrain {
 namespace {
 
 struct Case {
-  const char* what;
+  std::string what;
   PostGrid posts;
-};
-const Case kCases[] = {
-    {"two by two", {10, 45, 0.001, 0.001, 2, 2}},
-    {"two columns", {10, 45, 0.001, 0.001, 2, 700}},
-    {"odd", {10, 45, 0.001, 0.001, 67, 131}},
-    {"one square", {10, 45, 0.001, 0.001, 65, 65}},
-    {"one post more", {10, 45, 0.001, 0.001, 66, 66}},
-    {"a degree at 3 seconds", {86, 27, 1.0 / 1200, 1.0 / 1200, 1201, 1201}},
-    {"a ribbon", {-3, -45, 0.0003, 0.0003, 3, 5000}},
-    {"several roots", {-3, 45, 0.0009, 0.0009, 2500, 1800}},
-    {"a country", {-3, 45, 0.0003, 0.0003, 13000, 11000}},
-    {"posts 1.8 km apart", {-180, -60, 1.0 / 60, 1.0 / 60, 2000, 500}},
-    {"posts 20 km apart", {-180, -60, 0.2, 0.2, 300, 200}},
-    {"round the pole", {-10, -90, 0.1, 0.01, 201, 101}},
+  PatchIndex index;
 };
 
+/// With squares of the side that the grid has, and of the other one; of a country of its own alone.
+const std::vector<Case>& cases() {
+  static const std::vector<Case> all = [] {
+    const std::pair<const char*, PostGrid> grids[] = {
+        {"two by two", {10, 45, 0.001, 0.001, 2, 2}},
+        {"two columns", {10, 45, 0.001, 0.001, 2, 700}},
+        {"odd", {10, 45, 0.001, 0.001, 67, 131}},
+        {"one square", {10, 45, 0.001, 0.001, 65, 65}},
+        {"one post more", {10, 45, 0.001, 0.001, 66, 66}},
+        {"a degree at 3 seconds", {86, 27, 1.0 / 1200, 1.0 / 1200, 1201, 1201}},
+        {"a ribbon", {-3, -45, 0.0003, 0.0003, 3, 5000}},
+        {"several roots", {-3, 45, 0.0009, 0.0009, 2500, 1800}},
+        {"a country", {-3, 45, 0.0003, 0.0003, 13000, 11000}},
+        {"posts 1.8 km apart", {-180, -60, 1.0 / 60, 1.0 / 60, 2000, 500}},
+        {"posts 20 km apart", {-180, -60, 0.2, 0.2, 300, 200}},
+        {"round the pole", {-10, -90, 0.1, 0.01, 201, 101}},
+    };
+    std::vector<Case> made;
+    for (const auto& [what, posts] : grids)
+      for (const std::uint32_t leafCells : {kFineLeafCells, kCoarseLeafCells})
+        if (leafCells >= leafCellsOf(posts))
+          made.push_back({what + (" in squares of " + std::to_string(leafCells)), posts,
+                          makePatchIndex(posts, PostGeometry(posts), leafCells)});
+    return made;
+  }();
+  return all;
+}
+
+TEST(PatchIndex, squaresAreFineWhereThereAreFewOfThem) {
+  const auto square = [](std::uint32_t cells) {
+    return PostGrid{10, 45, 1.0 / 3600, 1.0 / 3600, cells + 1, cells + 1};
+  };
+  EXPECT_EQ(leafCellsOf(square(160), 100), kFineLeafCells);
+  EXPECT_EQ(leafCellsOf(square(161), 100), kCoarseLeafCells);
+  EXPECT_EQ(leafCellsOf(square(3600)), kFineLeafCells) << "a degree at a second";
+  EXPECT_EQ(leafCellsOf({-3, 45, 0.0003, 0.0003, 13000, 11000}), kCoarseLeafCells) << "a country";
+  // As many patches as are told of, and no more.
+  const PostGrid largest = square(kFineLeafCells * 387);
+  ASSERT_EQ(leafCellsOf(largest), kFineLeafCells);
+  ASSERT_EQ(leafCellsOf(square(kFineLeafCells * 388)), kCoarseLeafCells);
+  const PatchIndex index = makePatchIndex(largest, PostGeometry(largest), leafCellsOf(largest));
+  EXPECT_EQ(index.leafCells, kFineLeafCells);
+  EXPECT_EQ(index.squareCells(pairs(index) - 1), kFineLeafCells);
+  EXPECT_NEAR(static_cast<double>(index.size()), 1.2e6, 0.02e6);
+}
+
 TEST(PatchIndex, childrenHalveTheirParents) {
-  for (const Case& at : kCases) {
-    const PatchIndex index = makePatchIndex(at.posts, PostGeometry(at.posts));
+  for (const Case& at : cases()) {
+    const PatchIndex& index = at.index;
     const auto places = test::placesOf(index);
     ASSERT_EQ(places.size(), index.size()) << at.what;
     for (std::uint32_t p = 0; p < index.size(); ++p) {
@@ -53,8 +86,8 @@ TEST(PatchIndex, childrenHalveTheirParents) {
 }
 
 TEST(PatchIndex, everyDepthCoversThePosts) {
-  for (const Case& at : kCases) {
-    const PatchIndex index = makePatchIndex(at.posts, PostGeometry(at.posts));
+  for (const Case& at : cases()) {
+    const PatchIndex& index = at.index;
     const auto places = test::placesOf(index);
     std::vector<std::int64_t> area(static_cast<std::size_t>(2 * pairs(index)));
     for (const PatchPlace& place : places)
@@ -70,8 +103,8 @@ bool meet(const PatchEdge& a, const PatchEdge& b) {
 }
 
 TEST(PatchIndex, halvesOfADiamondShareTheirHypotenuse) {
-  for (const Case& at : kCases) {
-    const PatchIndex index = makePatchIndex(at.posts, PostGeometry(at.posts));
+  for (const Case& at : cases()) {
+    const PatchIndex& index = at.index;
     const auto places = test::placesOf(index);
     std::vector<int> seen(index.size());
     for (std::uint32_t d = 0; d < index.diamonds.size(); ++d) {
@@ -106,8 +139,8 @@ TEST(PatchIndex, halvesOfADiamondShareTheirHypotenuse) {
 }
 
 TEST(PatchIndex, pagesHoldTheirPatchesInOrder) {
-  for (const Case& at : kCases) {
-    const PatchIndex index = makePatchIndex(at.posts, PostGeometry(at.posts));
+  for (const Case& at : cases()) {
+    const PatchIndex& index = at.index;
     std::uint32_t next = 0;
     for (std::uint32_t page = 0; page < index.pages.size(); ++page) {
       ASSERT_EQ(index.pages[page].firstPatch, next);

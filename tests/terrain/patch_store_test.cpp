@@ -7,7 +7,7 @@
 
 #include "support.h"
 #include "terrain/rasters.h"
-#include "trimtab/terrain/patch_build.h"
+#include "trimtab/terrain/bake_patches.h"
 
 namespace trimtab::terrain {
 namespace {
@@ -152,56 +152,98 @@ TEST(PatchStore, neverPointsBeyondItsOwnArrays) {
   EXPECT_GT(read, 0);
 }
 
-TEST(PatchStore, opensWhatItWroteAndNothingElse) {
-  const HeightGrid grid = groundOf(300, 200, 0.0003, false);
-  const GridHeights heights(grid);
-  const PostGeometry geometry(grid.posts);
-  const auto built = buildPatches(heights, 1.0);
-  ASSERT_TRUE(built);
-  test::ScratchDir dir;
-  const auto file = dir / "patches.pages";
-  {
-    auto writer = PageFileWriter::create(file);
-    ASSERT_TRUE(writer);
-    for (std::uint32_t page = 0; page < built->index().pages.size(); ++page)
-      ASSERT_TRUE((*writer)->add(page, encodePage(*built->readPage(page), geometry)));
-    ASSERT_TRUE(finishPatchFile(**writer, grid.posts, built->index(), built->facts()));
+class PatchFile : public ::testing::TestWithParam<std::uint32_t> {
+ protected:
+  /// Of the terrain, with squares of so many cells.
+  std::shared_ptr<const PageFile> written() {
+    auto writer = PageFileWriter::create(file_);
+    for (std::uint32_t page = 0; page < built_->index().pages.size(); ++page)
+      EXPECT_TRUE((*writer)->add(page, encodePage(*built_->readPage(page), PostGeometry(grid_.posts))));
+    EXPECT_TRUE(finishPatchFile(**writer, grid_.posts, built_->index(), built_->facts()));
+    return *PageFile::open(file_);
   }
-  const auto pages = PageFile::open(file);
-  ASSERT_TRUE(pages);
-  const auto opened = openPatches(*pages, file, grid.posts);
+  /// A file of its index alone, a byte of which is another.
+  Findings refusalOf(const PageFile& pages, std::size_t at, std::byte value) const {
+    constexpr std::uint64_t kIndexKey = std::uint64_t{1} << 32;
+    const auto stored = pages.read(kIndexKey);
+    std::vector<std::byte> measured(stored->begin(), stored->end());
+    measured[at] = value;
+    const auto file = dir_ / "other.pages";
+    auto writer = PageFileWriter::create(file);
+    EXPECT_TRUE((*writer)->add(kIndexKey, measured));
+    EXPECT_TRUE((*writer)->finish());
+    return openPatches(*PageFile::open(file), file, grid_.posts).findings();
+  }
+
+  test::ScratchDir dir_;
+  std::filesystem::path file_ = dir_ / "patches.pages";
+  HeightGrid grid_ = groundOf(300, 200, 0.0003, false);
+  std::shared_ptr<const PatchTerrain> built_ = buildPatches(GridHeights(grid_), 1.0, GetParam());
+};
+INSTANTIATE_TEST_SUITE_P(LeafCells, PatchFile, ::testing::Values(kFineLeafCells, kCoarseLeafCells));
+
+TEST_P(PatchFile, isOpenedAsItWasWrittenAndAsNothingElse) {
+  const auto pages = written();
+  const auto opened = openPatches(pages, file_, grid_.posts);
   ASSERT_TRUE(opened) << toString(opened.findings());
   const PatchIndex& index = (*opened)->index();
-  EXPECT_EQ(index.errorM, built->index().errorM);
-  EXPECT_EQ(index.triangles, built->index().triangles);
+  EXPECT_EQ(index.leafCells, GetParam());
+  EXPECT_EQ(index.errorM, built_->index().errorM);
+  EXPECT_EQ(index.triangles, built_->index().triangles);
   EXPECT_EQ((*opened)->facts().size(), index.size());
   EXPECT_FALSE((*opened)->readPage(static_cast<std::uint32_t>(index.pages.size())));
   for (std::uint32_t page = 0; page < index.pages.size(); ++page) {
     ASSERT_TRUE((*opened)->readPage(page));
     EXPECT_GT((*opened)->pageBytes(page), 0u);
   }
-  PostGrid other = grid.posts;
+  PostGrid other = grid_.posts;
   other.south += 1e-9;
-  const auto refused = openPatches(*pages, file, other);
+  const auto refused = openPatches(pages, file_, other);
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.findings().front().where, file.string());
+  EXPECT_EQ(refused.findings().front().where, file_.string());
+}
 
-  constexpr std::uint64_t kIndexKey = std::uint64_t{1} << 32;
-  const auto stored = (*pages)->read(kIndexKey);
-  ASSERT_TRUE(stored);
-  std::vector<std::byte> measured(stored->begin(), stored->end());
-  measured[0] = std::byte{1};
-  const auto older = dir / "older.pages";
-  {
-    auto writer = PageFileWriter::create(older);
-    ASSERT_TRUE(writer);
-    ASSERT_TRUE((*writer)->add(kIndexKey, measured));
-    ASSERT_TRUE((*writer)->finish());
+TEST_P(PatchFile, ofAnotherVersionOrOtherSquaresIsRefused) {
+  const auto pages = written();
+  const Findings older = refusalOf(*pages, 0, std::byte{1});
+  ASSERT_FALSE(older.empty());
+  EXPECT_EQ(older.front().expected, "version 4 (bake it again)");
+  EXPECT_EQ(older.front().found, "version 1");
+  constexpr std::size_t kLeafCellsAt = 56;
+  for (const int cells : {0, 1, 8, 24, 64}) {
+    const Findings odd = refusalOf(*pages, kLeafCellsAt, std::byte(cells));
+    ASSERT_FALSE(odd.empty());
+    EXPECT_EQ(odd.front().expected, "squares of 16 or 32 cells");
+    EXPECT_EQ(odd.front().found, std::to_string(cells));
   }
-  const auto refusedVersion = openPatches(*PageFile::open(older), older, grid.posts);
-  ASSERT_FALSE(refusedVersion);
-  EXPECT_EQ(refusedVersion.findings().front().expected, "version 3 (bake it again)");
-  EXPECT_EQ(refusedVersion.findings().front().found, "version 1");
+  // Those of the other side are more or fewer than it tells of.
+  const std::uint32_t otherCells = kFineLeafCells + kCoarseLeafCells - GetParam();
+  EXPECT_FALSE(refusalOf(*pages, kLeafCellsAt, std::byte(otherCells)).empty());
+}
+
+/// Beyond the limit, here lowered to this terrain's 19 x 13 squares, by the coarser side.
+TEST(PatchBake, inPartsIsWholeAndOpensWithEitherSideOfSquares) {
+  const HeightGrid grid = groundOf(300, 200, 0.0003, false);
+  const PostGeometry geometry(grid.posts);
+  for (const std::uint64_t mostFine : {247u, 246u}) {
+    const test::ScratchDir dir;
+    const auto work = WorkFolder::open(dir / "db", "{}", WorkFolder::Use::alone);
+    ASSERT_TRUE(work) << toString(work.findings());
+    PatchBake bake(**work, grid.posts, geometry, 1.0, mostFine);
+    for (std::uint32_t part = 0; part < 2; ++part)
+      ASSERT_TRUE(bake.make(GridHeights(grid), part, 2, std::size_t{256} << 20, {}));
+    const auto file = dir / "patches.pages";
+    ASSERT_TRUE(bake.join(file, {}));
+    const auto opened = openPatches(*PageFile::open(file), file, grid.posts);
+    ASSERT_TRUE(opened) << toString(opened.findings());
+    const PatchIndex& index = (*opened)->index();
+    EXPECT_EQ(index.leafCells, mostFine == 247 ? kFineLeafCells : kCoarseLeafCells);
+    const auto whole = buildPatches(GridHeights(grid), 1.0, index.leafCells);
+    EXPECT_EQ(index.triangles, whole->index().triangles);
+    EXPECT_EQ(index.errorM, whole->index().errorM);
+    for (std::uint32_t page = 0; page < index.pages.size(); ++page)
+      EXPECT_TRUE((*opened)->readPage(page)) << page;
+  }
 }
 
 }  // namespace

@@ -42,7 +42,11 @@ WholeTerrain::WholeTerrain(std::shared_ptr<const PatchTerrain> of) : terrain(std
 }
 
 WholeTerrain built(const HeightGrid& grid, double leafToleranceM) {
-  return WholeTerrain(buildPatches(GridHeights(grid), leafToleranceM));
+  return built(grid, leafToleranceM, leafCellsOf(grid.posts));
+}
+
+WholeTerrain built(const HeightGrid& grid, double leafToleranceM, std::uint32_t leafCells) {
+  return WholeTerrain(buildPatches(GridHeights(grid), leafToleranceM, leafCells));
 }
 
 DrawnVertex drawn(const PatchMesh& mesh, std::uint32_t vertex) {

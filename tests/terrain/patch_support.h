@@ -64,6 +64,7 @@ struct WholeTerrain {
   }
 };
 WholeTerrain built(const terrain::HeightGrid& grid, double leafToleranceM);
+WholeTerrain built(const terrain::HeightGrid& grid, double leafToleranceM, std::uint32_t leafCells);
 
 /// A vertex as everybody draws it: steps of 1/256 m in the frame, and its post.
 struct DrawnVertex {

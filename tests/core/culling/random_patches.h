@@ -38,6 +38,7 @@ class RandomPatches {
     std::uint32_t number = kNone;
   };
   static constexpr std::size_t kNo = ~std::size_t{0};
+  static constexpr std::uint32_t kPageSquares = 4;
 
   RandomPatches(std::uint32_t columns, std::uint32_t rows, std::uint32_t rootCells, std::uint32_t leafCells,
                 unsigned seed)
@@ -112,7 +113,7 @@ class RandomPatches {
   /// Pages from the coarsest, patches by page, and what links them.
   void number() {
     const auto pageOf = [&](const Triangle& t) {
-      const std::uint32_t pair = t.depth / 2u, block = (index_.rootCells >> pair) * PatchIndex::kPageSquares;
+      const std::uint32_t pair = t.depth / 2u, block = (index_.rootCells >> pair) * kPageSquares;
       // Twice the coordinates of a point well inside.
       const std::uint32_t column = (t.apex.column + middle(t.a, t.b).column) / 2,
                           row = (t.apex.row + middle(t.a, t.b).row) / 2;
