@@ -25,8 +25,8 @@ class DataExtent {
   double sagM_ = 0;
 };
 
-/// From the western border eastward to the other one: longitudes of borders are wrapped, and the date line may
-/// lie between them.
+/// From the western border eastward to the other one: longitudes of borders are wrapped, and the date line
+/// may lie between them.
 Degrees widthOf(const terrain::TerrainInfo& info);
 /// A place on the ellipsoid by fractions of the terrain's extent, from its south-western corner.
 GeodeticPosition placeIn(const terrain::TerrainInfo& info, double east, double north);

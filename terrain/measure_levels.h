@@ -26,9 +26,9 @@ struct CellSlopes {
   }
 };
 
-/// Fills bounds, cones, errorM and slopeMax of an index made by makeLevels, and the slopes. All posts are looked at
-/// for every level: the errors are true maxima, plus bounds for the earth's curvature and the rounding.
-/// False: cancelled.
+/// Fills bounds, cones, errorM and slopeMax of an index made by makeLevels, and the slopes. All posts are
+/// looked at for every level: the errors are true maxima, plus bounds for the earth's curvature and the
+/// rounding. False: cancelled.
 bool measureLevels(const PostGrid& posts, std::span<const float> heights, const PostGeometry& geometry,
                    TerrainIndex& index, CellSlopes& slopes, const std::function<bool(double)>& carryOn);
 

@@ -11,8 +11,8 @@
 /// Flat arrays; the same input gives the same mesh on any machine and number of cores.
 namespace trimtab::terrain {
 
-/// Posts in memory; `z` may be any height, with the earth's curvature in it where that counts. All are finite:
-/// voids are filled before (voids.h), as no error says anything of a post without a height.
+/// Posts in memory; `z` may be any height, with the earth's curvature in it where that counts. All are
+/// finite: voids are filled before (voids.h), as no error says anything of a post without a height.
 struct HeightField {
   const float* z = nullptr;
   std::uint32_t columns = 0, rows = 0;

@@ -18,8 +18,9 @@
 /// heights.f32 heights in metres, rows from south, and heights.sums the checksums of its blocks of rows;
 /// patches.pages the error-bounded levels (patch_store.h); ground.pages colours and normals. Of grids of up
 /// to kMostTiledPosts posts also, where memory allowed: nodes.f32 eight numbers a node (box, error, slope);
-/// slopes.u8 the cells of CellSlopes; cones.u32 a NormalCone a node, which earlier bakes lack; image.rgba four bytes a post with image.sums, where there is an image.
-/// static-lod.bin the trees of static levels of detail, where the source was scenery.
+/// slopes.u8 the cells of CellSlopes; cones.u32 a NormalCone a node, which earlier bakes lack; image.rgba
+/// four bytes a post with image.sums, where there is an image. static-lod.bin the trees of static levels of
+/// detail, where the source was scenery.
 ///
 /// Version 1 has neither sums nor pages: all of a file is checked when the folder is opened.
 namespace trimtab::terrain {

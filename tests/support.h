@@ -11,8 +11,12 @@
 /// What tests share: where things are, and real data that may be absent.
 namespace trimtab::test {
 
-inline std::filesystem::path sourceDir() { return TRIMTAB_SOURCE_DIR; }
-inline std::filesystem::path program(const std::string& name) { return std::filesystem::path(TRIMTAB_BIN_DIR) / name; }
+inline std::filesystem::path sourceDir() {
+  return TRIMTAB_SOURCE_DIR;
+}
+inline std::filesystem::path program(const std::string& name) {
+  return std::filesystem::path(TRIMTAB_BIN_DIR) / name;
+}
 
 /// Real terrain, flights and captures beside the checkout (or where TRIMTAB_SHARED says).
 inline std::filesystem::path sharedDir() {
@@ -57,13 +61,15 @@ struct Ran {
 };
 inline Ran run(const std::string& command) {
   ScratchDir dir;
-  const int status = std::system(("{ " + command + "\n} >" + (dir / "out").string() + " 2>" + (dir / "err").string()).c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), readFile(dir / "out"), readFile(dir / "err")};
+  const int status = std::system(
+      ("{ " + command + "\n} >" + (dir / "out").string() + " 2>" + (dir / "err").string()).c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), readFile(dir / "out"),
+          readFile(dir / "err")};
 }
 
 }  // namespace trimtab::test
 
 /// Skips the test, saying what is absent, when real data is not beside the checkout.
-#define TRIMTAB_NEEDS_SHARED(relative)                                              \
-  if (!std::filesystem::exists(::trimtab::test::sharedDir() / (relative)))          \
+#define TRIMTAB_NEEDS_SHARED(relative)                                     \
+  if (!std::filesystem::exists(::trimtab::test::sharedDir() / (relative))) \
   GTEST_SKIP() << "needs " << (::trimtab::test::sharedDir() / (relative)).string()

@@ -50,8 +50,8 @@ class Draft : public QObject {
     std::string_view key;
     ParameterValue value;
   };
-  /// Several parameters as one undo step with a text of its own; with a token, later calls for the same keys in
-  /// the same order are part of it. Nothing is changed when one of them is refused.
+  /// Several parameters as one undo step with a text of its own; with a token, later calls for the same keys
+  /// in the same order are part of it. Nothing is changed when one of them is refused.
   Findings setValues(std::span<const KeyValue> values, const QString& undoText, MergeToken token = 0);
   /// As setValue, from typed text.
   Findings setText(std::string_view key, std::string_view text, MergeToken token = 0);

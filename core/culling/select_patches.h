@@ -34,9 +34,9 @@ struct PatchCut {
 
 /// Patches whose error at `eye` is at most maxErrorPx x lodScale in the picture where the data and the pages
 /// allow; of each the coarsest variant that is. `resident`: one a page, not 0 where it may be drawn; empty:
-/// all. The pages of the roots should be: where one is not (it cannot be read) what is drawn is as fine as the
-/// next pages, however far away, and missing where those are not there either. Independent of view direction and of culling. Costs what the cut
-/// does, whatever the size of the index.
+/// all. The pages of the roots should be: where one is not (it cannot be read) what is drawn is as fine as
+/// the next pages, however far away, and missing where those are not there either. Independent of view
+/// direction and of culling. Costs what the cut does, whatever the size of the index.
 ///
 /// To be halved are the diamonds with a patch that is not good enough at its finest, and those that these
 /// stand on; halved are those of them whose children are resident, and which stand on such only. So a page

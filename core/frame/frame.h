@@ -77,8 +77,8 @@ ViewShape viewShape(const ViewParameters& parameters, int windowWidthPx, int win
 struct FrameCost {
   double decide = 0, select = 0, occlusion = 0, cull = 0, draw = 0, gpu = 0, total = 0;
   double page = kNotMeasured;  ///< making and uploading what the view needs and the GPU lacks
-  // Parts: of `gpu` where there is a GPU, and like it of a frame or two before; else of `draw`, and known only
-  // where the frame waits after each pass.
+  // Parts: of `gpu` where there is a GPU, and like it of a frame or two before; else of `draw`, and known
+  // only where the frame waits after each pass.
   double blur = kNotMeasured, weather = kNotMeasured, symbology = kNotMeasured;
 
   static constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();

@@ -10,7 +10,8 @@ inline constexpr std::array kStaticLodRows{
         {.key = "static_lod.terrain",
          .label = "Terrain is drawn from",
          .help =
-             "Regular tiles; patches of triangles with a guaranteed error, read from disk as they are needed; "
+             "Regular tiles; patches of triangles with a guaranteed error, read from disk as they are "
+             "needed; "
              "or the static trees of document E. Only scenery has trees, and only a terrain of moderate size "
              "has tiles: the patches serve where what is chosen here is not there.",
          .source = "E"}),

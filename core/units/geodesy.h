@@ -22,8 +22,8 @@ struct Attitude {
 };
 
 Vec3 toEcef(const GeodeticPosition& position);
-/// Inverse of toEcef, to below 10 nm within 1,000 km of the surface; meant for positions farther than 1,000 km from the
-/// earth's centre. The centre itself gives the north pole.
+/// Inverse of toEcef, to below 10 nm within 1,000 km of the surface; meant for positions farther than 1,000
+/// km from the earth's centre. The centre itself gives the north pole.
 GeodeticPosition toGeodetic(Vec3 ecef);
 
 /// East, north and up at a position as the rows of a rotation from ECEF.
