@@ -130,6 +130,9 @@ void PatchLayer::Impl::clear() {
 
 bool PatchLayer::Impl::growVertices(std::uint32_t after) {
   const std::size_t before = blocks.size();
+  GLint mostTexels = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &mostTexels);
+  if (after * sizeof(SlotData) > static_cast<std::size_t>(mostTexels) * 4 * sizeof(GLint)) return false;
   if (!growBuffer(vertexBuffer, before * kBlock * kVertexBytes, std::size_t{after} * kBlock * kVertexBytes))
     return false;
   glBindVertexArray(vertexArray);

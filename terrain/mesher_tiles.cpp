@@ -119,7 +119,7 @@ void MeshTiles::refine(double tolerance) {
   onThreads(threads_, static_cast<std::uint32_t>(tiles_.size()), [&](std::uint32_t index) {
     Tile& tile = tiles_[index];
     if (!tile.taken) return;
-    if (tile.tolerance < tolerance)
+    if (!(tile.tolerance >= tolerance))
       begin(tile, tolerance);
     else
       addSides(tile, tolerance);

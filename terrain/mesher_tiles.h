@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -43,7 +44,7 @@ class MeshTiles {
     PolygonMesher::Point from, to;
     std::vector<double> key;  ///< one a post from `from` to `to`
   };
-  static constexpr double kNotBegun = -1;
+  static constexpr double kNotBegun = -HUGE_VAL;
   struct Tile {
     GreedyMesh mesh;
     bool taken = true;

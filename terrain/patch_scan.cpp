@@ -1,5 +1,7 @@
 #include "trimtab/terrain/patch_scan.h"
 
+#include <cassert>
+
 namespace trimtab::terrain {
 
 namespace {
@@ -40,6 +42,7 @@ double mostOff(const ScanVertex& a, const ScanVertex& b, const PostStrip& strip)
 
 double longEdgeError(ScanVertex a, ScanVertex b, const PostStrip& strip, std::int32_t first,
                      std::int32_t last, double worst) {
+  assert(a.x != b.x && a.y != b.y);
   if (b.y < a.y) std::swap(a, b);
   // Once the worst edges were seen, few are worth a closer look.
   if (a.y >= first && b.y <= last && mostOff(a, b, strip) <= worst) return worst;

@@ -100,7 +100,7 @@ class ScanTriangle {
   double area2_, byColumn_, byRow_, long_, low_, high_;
 };
 
-/// As edgeError, of any edge.
+/// As edgeError, of an edge along neither a row nor a column.
 double longEdgeError(ScanVertex a, ScanVertex b, const PostStrip& strip, std::int32_t first,
                      std::int32_t last, double worst);
 

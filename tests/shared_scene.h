@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
 
 #include "support.h"
 #include "trimtab/terrain/database.h"
@@ -19,6 +20,8 @@ inline Result<std::shared_ptr<const terrain::Database>> openOrBakeInTurn(
   std::filesystem::create_directories(cacheFolder, ignored);
   const auto file = cacheFolder / (source.filename().string() + ".turn");
   const int turn = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (turn < 0)
+    return Finding{Severity::error, file.string(), "", "a file that can be written", std::strerror(errno)};
   while (::flock(turn, LOCK_EX) != 0 && errno == EINTR) {
   }
   auto opened = terrain::openOrBake(source, cacheFolder, {});

@@ -108,7 +108,8 @@ std::size_t OcclusionChoice::best(std::span<const std::size_t> arms) const {
 
 OcclusionChoice::Method OcclusionChoice::choose(const Situation& situation) {
   // A single frame without a choice, or every second one, is no such while.
-  chapter_ += situation.band != now_.band || situation.timeMs - now_.timeMs > kBelievedMs ||
+  chapter_ += situation.band != now_.band ||
+              situation.timeMs - now_.timeMs > std::max(kBelievedMs, 4 * frameMs_) ||
               !(length(situation.eye - now_.eye) <= kLeapM);
   now_ = situation;
   now_.methods = {};
@@ -167,7 +168,7 @@ void OcclusionChoice::learnArm(const Outcome& outcome) {
   // What serves goes on; what is tried may cost something else altogether.
   if (isNew && served_ != current_) arm.frames = 0;
   if (arm.frames < kFirstTrialFrames) {
-    // The very first frame also makes what is kept for good; it says the least about those that follow.
+    // The first frame also makes what is kept for good; it says the least about those that follow.
     if (arm.frames == 0)
       arm.firstMs = arm.costMs = std::min(outcome.occlusionMs, kMostFirstShare * frameMs_);
     else

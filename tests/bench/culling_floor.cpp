@@ -49,7 +49,7 @@ class Floor {
     renderer_.draw(r, context_.framebuffer());
     draw(r, kWays[0]);
     const auto whole = renderer_.readPixels(kWidth, kHeight);
-    bool same = true;
+    bool same = oracle_.triangles() > 0;
     for (const Way& way : kWays) {
       if (way.what != Way::What::owners) continue;
       draw(r, way);
@@ -58,6 +58,7 @@ class Floor {
     all_ += oracle_.triangles();
     owners_ += oracle_.drawn(0);
     for (int i = -2; i < pairs; ++i) {
+      // A view that moves is selected anew; the owners stay those of where it began.
       r.eye.height = r.eye.height + Metres{0.01};
       for (std::size_t way = 0; way < kWays.size(); ++way)
         if (const double took = draw(r, kWays[way]); i >= 0) ms_[way].push_back(took);

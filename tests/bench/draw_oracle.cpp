@@ -39,7 +39,7 @@ void copyUniforms(GLuint from, GLuint to) {
     const GLint there = glGetUniformLocation(from, name), here = glGetUniformLocation(to, name);
     if (there < 0 || here < 0) continue;
     GLfloat f[16];
-    GLint n[4];
+    GLint n[16];
     switch (type) {
       case GL_FLOAT:
         glGetUniformfv(from, there, f);
@@ -52,6 +52,10 @@ void copyUniforms(GLuint from, GLuint to) {
       case GL_FLOAT_VEC3:
         glGetUniformfv(from, there, f);
         glProgramUniform3fv(to, here, 1, f);
+        break;
+      case GL_FLOAT_VEC4:
+        glGetUniformfv(from, there, f);
+        glProgramUniform4fv(to, here, 1, f);
         break;
       case GL_INT_VEC2:
         glGetUniformiv(from, there, n);

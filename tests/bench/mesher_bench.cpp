@@ -159,12 +159,12 @@ void compare(Report& report, const Land& land, std::size_t part, const Greedy& g
   const auto [seconds, seconds2, secondsTwice, theirSeconds] = leastInTurn(
       turns, std::pair{2, [&] { ours = meshField(land.field(), {.mostTriangles = most}); }},
       std::pair{2, [&] { ours2 = meshField(land.field(), {.mostTriangles = most, .threads = 2}); }},
-      std::pair{2, twice},
-      std::pair{1, [&] {
-                  left = meshopt_simplify(theirs.data(), indices.data(), indices.size(), places.data(),
-                                          posts.size(), 3 * sizeof(float), most * 3, 1.0f,
-                                          meshopt_SimplifyLockBorder, nullptr);
-                }});
+      std::pair{2, twice}, std::pair{1, [&] {
+                                       left = meshopt_simplify(theirs.data(), indices.data(), indices.size(),
+                                                               places.data(), posts.size(), 3 * sizeof(float),
+                                                               most * 3, 1.0f, meshopt_SimplifyLockBorder,
+                                                               nullptr);
+                                     }});
   theirs.resize(left);
   const Errors our = errorsOf(land, ours.vertices, ours.indices), their = errorsOf(land, posts, theirs);
   const double count = static_cast<double>(whole);

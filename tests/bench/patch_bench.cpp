@@ -73,16 +73,16 @@ void rows(Report& report, const std::string& id, const std::string& what, const 
       worst = std::max(worst, triangles / free);
     }
     report.add(ratioAtMost(
-        1.25, {.id = id + "_view" + (errorPx == 1 ? "" : "_" + std::to_string(errorPx) + "px"),
-               .what = "Triangles of views of " + what + ", " + std::to_string(errorPx) +
-                       " px at 1280 x 720, in " +
-                       std::to_string(static_cast<int>(patches / static_cast<double>(eyes.size()))) +
-                       " patches a view; worst view " + std::to_string(worst).substr(0, 4),
-               .value = ours,
-               .unit = "triangles",
-               .peer = "unconstrained greedy mesh",
-               .peerValue = theirs,
-               .peerFrom = "run"}));
+        1.25,
+        {.id = id + "_view" + (errorPx == 1 ? "" : "_" + std::to_string(errorPx) + "px"),
+         .what = "Triangles of views of " + what + ", " + std::to_string(errorPx) + " px at 1280 x 720, in " +
+                 std::to_string(static_cast<int>(patches / static_cast<double>(eyes.size()))) +
+                 " patches a view; worst view " + std::to_string(worst).substr(0, 4),
+         .value = ours,
+         .unit = "triangles",
+         .peer = "unconstrained greedy mesh",
+         .peerValue = theirs,
+         .peerFrom = "run"}));
   }
 
   // A single level has the error of its worst patch: what the peer is allowed.

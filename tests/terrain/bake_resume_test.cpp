@@ -219,12 +219,13 @@ TEST_F(ResumedBake, namesEveryPartAtWorkAndNoOther) {
   for (int i = 0; i < 3; ++i) {
     parts.push_back(start([&] {
       const auto work = WorkFolder::open(options_.output, "{}", WorkFolder::Use::part);
-      if (!work || ::write(ready[1], "r", 1) != 1) return 1;
+      if (::write(ready[1], work ? "r" : "x", 1) != 1 || !work) return 1;
       ::pause();
       return 0;
     }));
     char c = 0;
     ASSERT_EQ(::read(ready[0], &c, 1), 1);
+    ASSERT_EQ(c, 'r');
   }
   ::kill(parts[1], SIGKILL);
   EXPECT_EQ(ended(parts[1]), -SIGKILL);

@@ -199,6 +199,7 @@ TEST_P(HeightsAgainstGdal, differByNoMoreThanThePatchStates) {
   }
   EXPECT_EQ(uncovered, 0u);
   EXPECT_GT(compared, probes.size() / 2);
+  // Small patches state small errors, and posts are moved as far under any: 1 in 980 of Big Tujunga's.
   EXPECT_LE(beyond, source.inDegrees ? 0 : compared / 500);
   EXPECT_LE(moved, source.inDegrees ? 2e-3 : 30) << "the posts themselves, without patches";
   std::printf(

@@ -218,7 +218,9 @@ TEST_P(PatchFile, ofAnotherVersionOrOtherSquaresIsRefused) {
   }
   // Those of the other side are more or fewer than it tells of.
   const std::uint32_t otherCells = kFineLeafCells + kCoarseLeafCells - GetParam();
-  EXPECT_FALSE(refusalOf(*pages, kLeafCellsAt, std::byte(otherCells)).empty());
+  const Findings other = refusalOf(*pages, kLeafCellsAt, std::byte(otherCells));
+  ASSERT_FALSE(other.empty());
+  EXPECT_NE(other.front().expected.find(" patches in "), std::string::npos) << toString(other);
 }
 
 /// Beyond the limit, here lowered to this terrain's 19 x 13 squares, by the coarser side.
