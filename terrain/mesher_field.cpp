@@ -12,7 +12,9 @@ namespace trimtab::terrain {
 
 namespace {
 
-/// So many more triangles than the budget are inserted where some are taken out again.
+/// So many more triangles than the budget are inserted where some are taken out again: with 1.16 the largest
+/// error is 4 to 9 % more, with 1.4 4 to 6 % less for a tenth more time, from 1.5 on a coarse mesh gets
+/// worse.
 constexpr double kOver = 1.3;
 /// Shares of a budget that are near enough.
 struct Near {

@@ -38,36 +38,37 @@ void copyUniforms(GLuint from, GLuint to) {
     glGetActiveUniform(to, static_cast<GLuint>(i), sizeof name, nullptr, &size, &type, name);
     const GLint there = glGetUniformLocation(from, name), here = glGetUniformLocation(to, name);
     if (there < 0 || here < 0) continue;
-    GLfloat f[16];
-    GLint n[16];
+    const auto floats = [&](auto set) {
+      GLfloat v[16];
+      glGetUniformfv(from, there, v);
+      set(to, here, 1, v);
+    };
+    const auto integers = [&](auto set) {
+      GLint v[16];
+      glGetUniformiv(from, there, v);
+      set(to, here, 1, v);
+    };
     switch (type) {
       case GL_FLOAT:
-        glGetUniformfv(from, there, f);
-        glProgramUniform1fv(to, here, 1, f);
+        floats(glProgramUniform1fv);
         break;
       case GL_FLOAT_VEC2:
-        glGetUniformfv(from, there, f);
-        glProgramUniform2fv(to, here, 1, f);
+        floats(glProgramUniform2fv);
         break;
       case GL_FLOAT_VEC3:
-        glGetUniformfv(from, there, f);
-        glProgramUniform3fv(to, here, 1, f);
+        floats(glProgramUniform3fv);
         break;
       case GL_FLOAT_VEC4:
-        glGetUniformfv(from, there, f);
-        glProgramUniform4fv(to, here, 1, f);
+        floats(glProgramUniform4fv);
         break;
       case GL_INT_VEC2:
-        glGetUniformiv(from, there, n);
-        glProgramUniform2iv(to, here, 1, n);
+        integers(glProgramUniform2iv);
         break;
       case GL_INT_VEC3:
-        glGetUniformiv(from, there, n);
-        glProgramUniform3iv(to, here, 1, n);
+        integers(glProgramUniform3iv);
         break;
       default:
-        glGetUniformiv(from, there, n);
-        glProgramUniform1iv(to, here, 1, n);
+        integers(glProgramUniform1iv);  // samplers too
     }
   }
 }

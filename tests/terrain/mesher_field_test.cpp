@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <ctime>
 
 #include "mesher_check.h"
 #include "trimtab/terrain/mesher.h"
@@ -111,21 +110,6 @@ TEST(MeshField, hasTwoTrianglesAtTheLeast) {
     expectTrue(field, mesh);
     EXPECT_LE(mesh.triangles(), std::max<std::size_t>(most, 2));
   }
-}
-
-/// Looking for fewer than two would take a hundred meshes of all.
-TEST(MeshField, looksForNoFewerThanThereCanBe) {
-  const Field field = test::fractal(900, 900, 8);
-  FieldMesh mesh;
-  const auto seconds = [&](std::size_t most) {
-    const std::clock_t began = std::clock();
-    mesh = meshField(field.view(), {.mostTriangles = most});
-    return static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
-  };
-  const double two = std::min(seconds(2), seconds(2));
-  const FieldMesh least = mesh;
-  EXPECT_LE(std::min(seconds(1), seconds(1)), 3 * two);
-  expectSame(mesh, least);
 }
 
 /// Posts of which none can go, beside hills.
