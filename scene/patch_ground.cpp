@@ -77,10 +77,11 @@ void PatchGround::setTerrain(std::shared_ptr<const terrain::Database> database) 
   surfaces_.reset(patches);
   lids_.reset(patches);
   map_.setTerrain(database);
-  surfaceErrorM_.clear();
+  const std::size_t variants = any ? database->patches()->index().variants() : 1;
+  surfaceErrorM_ = VariantTable<float>(variants);
   if (!any) return;
   for (const terrain::PatchFacts& facts : database->patches()->facts())
-    surfaceErrorM_.push_back(facts.bilinearErrorM);
+    surfaceErrorM_.push_back(std::span(facts.bilinearErrorM).first(variants));
   const terrain::TerrainInfo& info = database->info();
   extent_ = DataExtent(info);
   west_ = info.southWest.longitude;

@@ -63,9 +63,9 @@ class PatchGround final : public OcclusionGround {
   const PatchCulling& patches_;
   PatchMapCulling map_;
   DataExtent extent_;
-  std::vector<std::array<float, PatchIndex::kVariants>> surfaceErrorM_;  ///< as SurfaceTree takes it
-  std::uint32_t marginColumns_ = 0, marginRows_ = 0;                     ///< posts that `inside` asks for
-  SurfacesInUse<Surface> surfaces_;                                      ///< some 10 KB each
+  VariantTable<float> surfaceErrorM_;                 ///< as SurfaceTree takes it
+  std::uint32_t marginColumns_ = 0, marginRows_ = 0;  ///< posts that `inside` asks for
+  SurfacesInUse<Surface> surfaces_;                   ///< some 10 KB each
   BoxLids lids_;
   struct Under {
     std::uint32_t node;

@@ -15,7 +15,6 @@ namespace {
 using terrain::PatchVertex;
 
 constexpr std::size_t kVertexBytes = sizeof(PatchVertex), kIndexBytes = sizeof(std::uint16_t);
-constexpr std::size_t kVariants = PatchIndex::kVariants;
 constexpr auto kBlock = static_cast<std::uint32_t>(PatchLayer::kBlock);
 /// Indices are placed in units of so many, too.
 constexpr std::uint32_t kIndexBlock = 32;
@@ -28,7 +27,7 @@ std::uint32_t inBlocks(std::size_t count, std::uint32_t block) {
 /// Where a patch's vertices and indices are, in blocks.
 struct Place {
   std::uint32_t block = 0, blocks = 0, indexBlock = 0, indexBlocks = 0;
-  std::array<std::uint32_t, kVariants + 1> firstIndex{};
+  std::array<std::uint32_t, PatchIndex::kMostVariants + 1> firstIndex{};
 };
 
 /// As shaders read it of a block: two texels of RGBA32I.

@@ -4,13 +4,13 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
-#include <cstring>
 #include <mutex>
 #include <system_error>
 #include <thread>
 
 #include "trimtab/terrain/import.h"
 #include "trimtab/terrain/page_file.h"
+#include "trimtab/terrain/patch_bytes.h"
 #include "trimtab/terrain/patch_store.h"
 
 namespace trimtab::terrain {
@@ -23,19 +23,47 @@ constexpr std::uint64_t kMeasuredKey = std::uint64_t{1} << 32;
 /// A page's buffers while it is built: heights of its rectangle and its meshes, several times.
 constexpr std::size_t kBytesAPage = std::size_t{96} << 20;
 
-/// What a piece keeps of a patch until all are there.
+/// What a piece keeps of its patches until all are there.
 struct Measured {
-  Box bounds;
-  std::array<float, PatchIndex::kVariants> errorM;
-  std::array<std::uint16_t, PatchIndex::kVariants> triangles;
-  PatchFacts facts;
-  NormalCone cone;
+  std::vector<Box> bounds;
+  VariantTable<float> errorM;
+  VariantTable<std::uint16_t> triangles;
+  std::vector<PatchFacts> facts;
+  std::vector<NormalCone> cones;
+
+  Measured(std::size_t variants, std::size_t patches)
+      : bounds(patches),
+        errorM(variants, patches),
+        triangles(variants, patches),
+        facts(patches),
+        cones(patches) {}
+  std::size_t bytes() const {
+    return bounds.size() * (sizeof(Box) + sizeof(NormalCone) + factBytes(errorM.variants()) +
+                            errorM.variants() * (sizeof(float) + sizeof(std::uint16_t)));
+  }
+  void write(PatchBytesWriter& out) const {
+    out.add(std::span(bounds));
+    out.add(errorM.values());
+    out.add(triangles.values());
+    out.add(facts, errorM.variants());
+    out.add(std::span(cones));
+  }
+  void read(PatchBytesReader& in, std::size_t first, std::size_t patches) {
+    in.take(std::span(bounds).subspan(first, patches));
+    in.take(errorM.values(first, patches));
+    in.take(triangles.values(first, patches));
+    in.take(std::span(facts).subspan(first, patches), errorM.variants());
+    in.take(std::span(cones).subspan(first, patches));
+  }
 };
-// No byte of the file is left to chance.
-static_assert(std::is_trivially_copyable_v<Measured> && sizeof(Measured) == 36 + sizeof(PatchFacts) + 4);
 
 Finding wrong(const fs::path& file, std::string expected, std::string found) {
   return {Severity::error, file.string(), "", std::move(expected), std::move(found)};
+}
+
+/// Of all pages before one, or of all.
+std::size_t patchesBefore(const PatchIndex& index, std::uint32_t page) {
+  return page < index.pages.size() ? index.pages[page].firstPatch : index.size();
 }
 
 /// Posts that a page looks at: what it takes to make.
@@ -87,27 +115,32 @@ Result<Done> PatchBake::makePiece(const HeightSource& heights, std::uint32_t pie
                                   const std::function<bool()>& carryOn) const {
   auto writer = PageFileWriter::create(pieceFile(piece));
   if (!writer) return writer.findings();
-  std::vector<Measured> all;
+  Measured all(index_.variants(),
+               patchesBefore(index_, firstPage_[piece + 1]) - patchesBefore(index_, firstPage_[piece]));
+  std::size_t next = 0;
   for (std::uint32_t page = firstPage_[piece]; page < firstPage_[piece + 1]; ++page) {
     const BuiltPage built = buildPage(index_, page, heights, geometry_, tolerances_, carryOn);
     if (!carryOn()) return cancelled("building patches");
-    const std::vector<std::byte> blob = encodePage(built.meshes, geometry_);
+    const std::vector<std::byte> blob = encodePage(built.meshes, index_, geometry_);
     std::uint64_t vertices = 0;
     for (const PatchMesh& mesh : built.meshes.patches) vertices += mesh.vertices.size() + 1;
-    for (std::size_t p = 0; p < built.meshes.patches.size(); ++p) {
+    for (std::size_t p = 0; p < built.meshes.patches.size(); ++p, ++next) {
       const PatchMesh& mesh = built.meshes.patches[p];
-      Measured m{built.bounds[p], built.errorM[p], {}, built.facts[p], built.cones[p]};
-      for (std::size_t v = 0; v < PatchIndex::kVariants; ++v)
-        m.triangles[v] = static_cast<std::uint16_t>((mesh.firstIndex[v + 1] - mesh.firstIndex[v]) / 3);
-      m.facts.vertices = static_cast<std::uint32_t>(mesh.vertices.size());
+      all.bounds[next] = built.bounds[p];
+      std::ranges::copy(built.errorM[p], all.errorM[next].begin());
+      countTriangles(mesh, all.triangles[next]);
+      all.facts[next] = built.facts[p];
+      all.facts[next].vertices = static_cast<std::uint32_t>(mesh.vertices.size());
       // Patches of a page are packed together: its bytes by their vertices.
-      m.facts.bytes = static_cast<std::uint32_t>(blob.size() * (mesh.vertices.size() + 1) / vertices);
-      all.push_back(m);
+      all.facts[next].bytes = static_cast<std::uint32_t>(blob.size() * (mesh.vertices.size() + 1) / vertices);
+      all.cones[next] = built.cones[p];
     }
     if (auto added = (*writer)->add(page, blob); !added) return added;
   }
   if (heights.failed()) return unreadable("heights");
-  if (auto added = (*writer)->add(kMeasuredKey, std::as_bytes(std::span(all))); !added) return added;
+  PatchBytesWriter measured(all.bytes());
+  all.write(measured);
+  if (auto added = (*writer)->add(kMeasuredKey, measured.bytes()); !added) return added;
   return (*writer)->finish();
 }
 
@@ -192,11 +225,7 @@ Result<Done> PatchBake::make(const HeightSource& heights, std::uint32_t part, st
 Result<Done> PatchBake::join(const fs::path& file, const Progress& progress) {
   auto writer = PageFileWriter::create(file);
   if (!writer) return writer.findings();
-  std::vector<Box> bounds;
-  std::vector<std::array<float, PatchIndex::kVariants>> errorM;
-  std::vector<std::array<std::uint16_t, PatchIndex::kVariants>> triangles;
-  std::vector<PatchFacts> facts;
-  index_.cones.clear();
+  Measured all(index_.variants(), index_.size());
   for (std::uint32_t piece = 0; piece < pieces(); ++piece) {
     if (progress && !progress(static_cast<double>(piece) / pieces(), "joining patches"))
       return cancelled("joining patches");
@@ -216,20 +245,17 @@ Result<Done> PatchBake::join(const fs::path& file, const Progress& progress) {
     }
     const auto measured = (*made)->read(kMeasuredKey);
     if (!measured) return damaged(measured.findings());
-    for (std::size_t at = 0; at + sizeof(Measured) <= measured->size(); at += sizeof(Measured)) {
-      Measured m;
-      std::memcpy(&m, measured->data() + at, sizeof m);
-      bounds.push_back(m.bounds);
-      errorM.push_back(m.errorM);
-      triangles.push_back(m.triangles);
-      facts.push_back(m.facts);
-      index_.cones.push_back(m.cone);
-    }
+    PatchBytesReader in(*measured);
+    const std::size_t first = patchesBefore(index_, firstPage_[piece]),
+                      patches = patchesBefore(index_, firstPage_[piece + 1]) - first;
+    all.read(in, first, patches);
+    if (!in.isWhole())
+      return damaged({wrong(pieceFile(piece), "what was measured of " + std::to_string(patches) + " patches",
+                            std::to_string(measured->size()) + " bytes")});
   }
-  if (facts.size() != index_.size())
-    return wrong(work_.pieces(), std::to_string(index_.size()) + " patches", std::to_string(facts.size()));
-  finishPatchIndex(index_, bounds, errorM, triangles);
-  return finishPatchFile(**writer, posts_, index_, facts);
+  finishPatchIndex(index_, std::move(all.bounds), std::move(all.errorM), std::move(all.triangles));
+  index_.cones = std::move(all.cones);
+  return finishPatchFile(**writer, posts_, index_, all.facts);
 }
 
 }  // namespace trimtab::terrain

@@ -15,7 +15,7 @@ namespace trimtab::terrain {
 
 /// To be raised with every change of the mesher, sides or tolerances: pieces that different programs made do
 /// not fit together.
-inline constexpr int kBuilderVersion = 9;
+inline constexpr int kBuilderVersion = 10;
 
 /// What the sources hold, by either import.
 struct BakeSource {

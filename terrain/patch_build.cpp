@@ -1,6 +1,7 @@
 #include "trimtab/terrain/patch_build.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "trimtab/terrain/parallel.h"
 
@@ -31,8 +32,8 @@ std::shared_ptr<const PatchTerrain> buildPatches(const HeightSource& heights, do
   const std::vector<double> tolerances = patchTolerances(index, leafToleranceM);
   const auto pageCount = static_cast<std::uint32_t>(index.pages.size());
   std::vector<Box> bounds(index.size());
-  std::vector<std::array<float, PatchIndex::kVariants>> errorM(index.size());
-  std::vector<std::array<std::uint16_t, PatchIndex::kVariants>> triangles(index.size());
+  VariantTable<float> errorM(index.variants(), index.size());
+  VariantTable<std::uint16_t> triangles(index.variants(), index.size());
   std::vector<NormalCone> cones(index.size());
   terrain->facts_.resize(index.size());
   terrain->pages_.resize(pageCount);
@@ -40,19 +41,16 @@ std::shared_ptr<const PatchTerrain> buildPatches(const HeightSource& heights, do
     BuiltPage built = buildPage(index, page, heights, geometry, tolerances);
     const auto first = static_cast<std::ptrdiff_t>(index.pages[page].firstPatch);
     std::copy(built.bounds.begin(), built.bounds.end(), bounds.begin() + first);
-    std::copy(built.errorM.begin(), built.errorM.end(), errorM.begin() + first);
+    std::ranges::copy(built.errorM.values(),
+                      errorM.values(index.pages[page].firstPatch, index.pages[page].patches).begin());
     std::copy(built.cones.begin(), built.cones.end(), cones.begin() + first);
     std::copy(built.facts.begin(), built.facts.end(), terrain->facts_.begin() + first);
-    auto out = triangles.begin() + first;
-    for (const PatchMesh& mesh : built.meshes.patches) {
-      for (std::size_t v = 0; v < PatchIndex::kVariants; ++v)
-        (*out)[v] = static_cast<std::uint16_t>((mesh.firstIndex[v + 1] - mesh.firstIndex[v]) / 3);
-      ++out;
-    }
+    std::size_t patch = index.pages[page].firstPatch;
+    for (const PatchMesh& mesh : built.meshes.patches) countTriangles(mesh, triangles[patch++]);
     terrain->pages_[page] = std::move(built.meshes);
   };
   forEachParallel(pageCount, work);
-  finishPatchIndex(index, bounds, errorM, triangles);
+  finishPatchIndex(index, std::move(bounds), std::move(errorM), std::move(triangles));
   index.cones = std::move(cones);
   return terrain;
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "trimtab/terrain/database.h"
@@ -15,12 +16,20 @@
 namespace trimtab::terrain {
 
 /// Sides of the smallest squares. With the finer a view at 2 px takes 1.34 times the triangles of an
-/// unconstrained mesh (Everest) instead of 1.52, and the index is four times as long.
+/// unconstrained mesh (Everest) instead of 1.44, and the index is four times as long.
 inline constexpr std::uint32_t kFineLeafCells = 16, kCoarseLeafCells = 32;
 /// As many as a country of 13,000 x 11,000 posts has of the coarser: 1.2 million patches.
 inline constexpr std::uint64_t kMostFineSquares = 150'000;
 /// The finer side for grids of no more than so many of its squares, else the coarser.
 std::uint32_t leafCellsOf(const PostGrid& posts, std::uint64_t mostFine = kMostFineSquares);
+
+/// Of a patch's meshes: how many, and octaves of tolerance from each to the next coarser one.
+struct PatchVariants {
+  std::size_t count;
+  double octaves;
+};
+/// By the side of the smallest squares.
+PatchVariants variantsOf(std::uint32_t leafCells);
 
 /// Patches, diamonds, pages and their links for a grid of posts; bounds, errors and triangle counts are sized
 /// and not filled.
@@ -36,7 +45,7 @@ struct BuiltPage {
   PatchPage meshes;
   std::vector<PatchFacts> facts;
   std::vector<Box> bounds;
-  std::vector<std::array<float, PatchIndex::kVariants>> errorM;
+  VariantTable<float> errorM;
   std::vector<NormalCone> cones;
 };
 /// Memory: a few times the posts of a page at no more than kMostPostsASide a side (coarser pages are meshed
@@ -47,11 +56,12 @@ BuiltPage buildPage(const PatchIndex& index, std::uint32_t page, const HeightSou
                     const PostGeometry& geometry, const std::vector<double>& tolerances,
                     const std::function<bool()>& carryOn = {});
 
+/// Triangles of each of a patch's variants.
+void countTriangles(const PatchMesh& mesh, std::span<std::uint16_t> triangles);
 /// Fills bounds, errors and triangles of the index, so that they are monotone up the tree; `facts` one a
 /// patch, `own*` as built, page by page.
-void finishPatchIndex(PatchIndex& index, const std::vector<Box>& ownBounds,
-                      const std::vector<std::array<float, PatchIndex::kVariants>>& ownErrorM,
-                      const std::vector<std::array<std::uint16_t, PatchIndex::kVariants>>& triangles);
+void finishPatchIndex(PatchIndex& index, std::vector<Box> ownBounds, VariantTable<float> ownErrorM,
+                      VariantTable<std::uint16_t> triangles);
 
 /// All of it in memory, on all cores.
 std::shared_ptr<const PatchTerrain> buildPatches(const HeightSource& heights, double leafToleranceM,

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <memory>
 #include <utility>
@@ -27,12 +28,16 @@ struct BlobHeader {
 };
 static_assert(sizeof(BlobHeader) == 44);
 
+/// Packed up to the triangles of the index's last variant.
 struct PackedPatch {
   std::int32_t origin[3];
   std::uint32_t firstColumn, firstRow, vertices;
-  std::uint32_t triangles[PatchIndex::kVariants];
+  std::uint32_t triangles[PatchIndex::kMostVariants];
 };
-static_assert(sizeof(PackedPatch) == 32);
+static_assert(sizeof(PackedPatch) == 24 + 4 * PatchIndex::kMostVariants);
+std::size_t packedPatchBytes(std::size_t variants) {
+  return offsetof(PackedPatch, triangles) + variants * sizeof(std::uint32_t);
+}
 
 struct PackedVertex {
   std::uint16_t column = 0, row = 0;  ///< from the patch's square, shifted
@@ -95,22 +100,20 @@ void append(std::vector<std::byte>& bytes, const T* data, std::size_t count) {
   bytes.insert(bytes.end(), from, from + count * sizeof(T));
 }
 
-template <class T>
-std::uint32_t appendPacked(std::vector<std::byte>& bytes, const std::vector<T>& values) {
-  if (values.empty()) return 0;
-  const std::size_t most = meshopt_encodeVertexBufferBound(values.size(), sizeof(T));
+/// So many values of `each` bytes.
+std::uint32_t appendPacked(std::vector<std::byte>& bytes, const void* values, std::size_t count,
+                           std::size_t each) {
+  if (count == 0) return 0;
+  const std::size_t most = meshopt_encodeVertexBufferBound(count, each);
   const auto packed = std::make_unique_for_overwrite<unsigned char[]>(most);
-  const std::size_t size =
-      meshopt_encodeVertexBuffer(packed.get(), most, values.data(), values.size(), sizeof(T));
+  const std::size_t size = meshopt_encodeVertexBuffer(packed.get(), most, values, count, each);
   append(bytes, packed.get(), size);
   return static_cast<std::uint32_t>(size);
 }
 
-template <class T>
-bool unpack(std::vector<T>& values, const std::byte* bytes, std::size_t size) {
-  return values.empty() ||
-         meshopt_decodeVertexBuffer(values.data(), values.size(), sizeof(T),
-                                    reinterpret_cast<const unsigned char*>(bytes), size) == 0;
+bool unpack(void* values, std::size_t count, std::size_t each, const std::byte* bytes, std::size_t size) {
+  return count == 0 || meshopt_decodeVertexBuffer(values, count, each,
+                                                  reinterpret_cast<const unsigned char*>(bytes), size) == 0;
 }
 
 /// Heirs of triangles, a bit or two each.
@@ -155,10 +158,11 @@ class HeirReader {
 
 /// Of a mesh's triangles those that are packed: all of the finest variant, and of the others what the one
 /// before does not have.
-void split(const PatchMesh& mesh, std::vector<std::uint16_t>& packed, HeirWriter& heirs) {
+void split(const PatchMesh& mesh, std::size_t variants, std::vector<std::uint16_t>& packed,
+           HeirWriter& heirs) {
   const std::uint16_t* const all = mesh.indices.data();
   packed.assign(all, all + mesh.firstIndex[1]);
-  for (std::size_t v = 1; v < PatchIndex::kVariants; ++v) {
+  for (std::size_t v = 1; v < variants; ++v) {
     const std::uint32_t end = mesh.firstIndex[v + 1];
     std::uint32_t own = mesh.firstIndex[v];
     std::size_t size = packed.size();
@@ -201,7 +205,8 @@ void reorder(std::span<const std::uint16_t> packed, std::size_t vertices, std::u
 
 }  // namespace
 
-std::vector<std::byte> encodePage(const PatchPage& page, const PostGeometry& geometry) {
+std::vector<std::byte> encodePage(const PatchPage& page, const PatchIndex& index,
+                                  const PostGeometry& geometry) {
   // Bytes must not depend on what the library's next version likes best.
   static const bool versioned = (meshopt_encodeIndexVersion(1), meshopt_encodeVertexVersion(0), true);
   static_cast<void>(versioned);
@@ -213,7 +218,8 @@ std::vector<std::byte> encodePage(const PatchPage& page, const PostGeometry& geo
     for (const PatchVertex& v : mesh.vertices) places |= v.column | std::uint32_t{v.row};
   header.postShift = static_cast<std::uint32_t>(std::countr_zero(places));
 
-  std::vector<PackedPatch> patches;
+  const std::size_t variants = index.variants(), patchBytes = packedPatchBytes(variants);
+  std::vector<std::byte> patches;
   std::vector<PackedVertex> vertices;
   std::vector<std::uint32_t> indices, goesTo;
   std::vector<std::uint16_t> packed;
@@ -225,11 +231,11 @@ std::vector<std::byte> encodePage(const PatchPage& page, const PostGeometry& geo
                       mesh.firstRow,
                       static_cast<std::uint32_t>(mesh.vertices.size()),
                       {}};
-    for (std::size_t v = 0; v < PatchIndex::kVariants; ++v)
+    for (std::size_t v = 0; v < variants; ++v)
       patch.triangles[v] = (mesh.firstIndex[v + 1] - mesh.firstIndex[v]) / 3;
-    patches.push_back(patch);
+    append(patches, reinterpret_cast<const std::byte*>(&patch), patchBytes);
     const std::size_t first = vertices.size();
-    split(mesh, packed, heirs);
+    split(mesh, variants, packed, heirs);
     reorder(packed, mesh.vertices.size(), static_cast<std::uint32_t>(first), indices, goesTo);
     vertices.resize(first + mesh.vertices.size());
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -257,8 +263,8 @@ std::vector<std::byte> encodePage(const PatchPage& page, const PostGeometry& geo
   header.indices = static_cast<std::uint32_t>(indices.size());
   header.exceptions = static_cast<std::uint32_t>(exceptions.size());
   std::vector<std::byte> bytes(sizeof header);
-  header.patchBytes = appendPacked(bytes, patches);
-  header.vertexBytes = appendPacked(bytes, vertices);
+  header.patchBytes = appendPacked(bytes, patches.data(), page.patches.size(), patchBytes);
+  header.vertexBytes = appendPacked(bytes, vertices.data(), vertices.size(), sizeof(PackedVertex));
   if (!indices.empty()) {
     const std::size_t most = meshopt_encodeIndexBufferBound(indices.size(), vertices.size());
     const auto code = std::make_unique_for_overwrite<unsigned char[]>(most);
@@ -299,14 +305,16 @@ Result<PatchPage> decodePage(std::span<const std::byte> bytes, const PatchIndex&
       header.indices / 3 > header.indexBytes)
     return wrong("counts", "no more vertices and triangles than its bytes can hold",
                  number(header.vertices) + " and " + number(header.indices / 3));
-  std::vector<PackedPatch> patches(header.patches);
+  const std::size_t variants = index.variants(), patchBytes = packedPatchBytes(variants);
+  std::vector<std::byte> patches(header.patches * patchBytes);
   std::vector<PackedVertex> vertices(header.vertices);
   std::vector<std::uint32_t> indices(header.indices);
   std::vector<Exception> exceptions(header.exceptions);
   const std::byte* from = bytes.data() + sizeof header;
-  if (!unpack(patches, from, header.patchBytes)) return wrong("patches", "packed patches", "something else");
+  if (!unpack(patches.data(), header.patches, patchBytes, from, header.patchBytes))
+    return wrong("patches", "packed patches", "something else");
   from += header.patchBytes;
-  if (!unpack(vertices, from, header.vertexBytes))
+  if (!unpack(vertices.data(), vertices.size(), sizeof(PackedVertex), from, header.vertexBytes))
     return wrong("vertices", "packed vertices", "something else");
   from += header.vertexBytes;
   if (!indices.empty() &&
@@ -319,22 +327,25 @@ Result<PatchPage> decodePage(std::span<const std::byte> bytes, const PatchIndex&
 
   PatchPage out;
   out.page = page;
-  out.patches.resize(patches.size());
+  out.patches.resize(header.patches);
   std::uint64_t firstVertex = 0, next = 0;
   auto exception = exceptions.begin();
-  for (std::size_t p = 0; p < patches.size(); ++p) {
-    const PackedPatch& patch = patches[p];
+  for (std::size_t p = 0; p < out.patches.size(); ++p) {
+    PackedPatch patch{};
+    std::memcpy(&patch, patches.data() + p * patchBytes, patchBytes);
     const std::size_t own = expected.firstPatch + p;
     PatchMesh& mesh = out.patches[p];
     std::copy_n(patch.origin, 3, mesh.origin);
     mesh.firstColumn = patch.firstColumn;
     mesh.firstRow = patch.firstRow;
-    for (std::size_t v = 0; v < PatchIndex::kVariants; ++v) {
+    for (std::size_t v = 0; v < variants; ++v) {
       if (patch.triangles[v] != index.triangles[own][v])
         return wrong("triangles of patch " + number(own), number(index.triangles[own][v]),
                      number(patch.triangles[v]));
       mesh.firstIndex[v + 1] = mesh.firstIndex[v] + 3 * patch.triangles[v];
     }
+    std::fill(mesh.firstIndex.begin() + static_cast<std::ptrdiff_t>(variants), mesh.firstIndex.end(),
+              mesh.firstIndex[variants]);
     if (patch.vertices > kMostVertices || firstVertex + patch.vertices > vertices.size())
       return wrong("patch " + number(own), "vertices that are there", number(patch.vertices));
     mesh.vertices.resize(patch.vertices);
@@ -378,7 +389,7 @@ Result<PatchPage> decodePage(std::span<const std::byte> bytes, const PatchIndex&
       return true;
     };
     bool sound = true;
-    for (std::size_t v = 0; v < PatchIndex::kVariants && sound; ++v) {
+    for (std::size_t v = 0; v < variants && sound; ++v) {
       const std::uint16_t* const end = mesh.indices.data() + mesh.firstIndex[v + 1];
       for (std::uint32_t t = 0; v > 0 && t < patch.triangles[v - 1] && sound; ++t) {
         const Heir heir = heirs.next();

@@ -14,7 +14,6 @@ namespace trimtab::terrain {
 
 namespace {
 
-constexpr std::size_t kVariants = PatchIndex::kVariants;
 constexpr std::size_t kStripPosts = std::size_t{1} << 20;
 
 struct VariantMeasure {
@@ -24,7 +23,7 @@ struct VariantMeasure {
 };
 
 struct PatchMeasure {
-  std::array<VariantMeasure, kVariants> variants;
+  std::array<VariantMeasure, PatchIndex::kMostVariants> variants;
   std::uint32_t firstRow = 0, lastRow = 0, firstColumn = 0, lastColumn = 0;
   float lowest = std::numeric_limits<float>::max(), highest = -std::numeric_limits<float>::max();
   std::uint32_t posts = 0, voids = 0;
@@ -86,7 +85,7 @@ class PageMeasure {
   void bends(const PatchDraft& draft, PatchMeasure& patch) {
     slopes_.assign(draft.vertices.size(), 0.0);
     sideways_.clear();
-    for (std::size_t v = 0; v < kVariants; ++v)
+    for (std::size_t v = 0; v < draft.variants.size(); ++v)
       draft.eachNew(v, [&](std::size_t, const std::uint32_t* c) {
         const double steep = bound_.steepness(draft, c);
         for (std::size_t k = 0; k < 3; ++k) slopes_[c[k]] = std::max(slopes_[c[k]], steep);
@@ -96,7 +95,7 @@ class PageMeasure {
     const double mostLean = bound_.leaning(steepest);
     double worst = 0;
     const double* sideways = sideways_.data();
-    for (std::size_t v = 0; v < kVariants; ++v) {
+    for (std::size_t v = 0; v < draft.variants.size(); ++v) {
       draft.eachNew(v, [&](std::size_t, const std::uint32_t* c) {
         if (*sideways++ * mostLean <= worst) return;
         const double about = std::max({slopes_[c[0]], slopes_[c[1]], slopes_[c[2]]});
@@ -240,7 +239,7 @@ class PageMeasure {
                           static_cast<std::int32_t>(draft.vertices[i].row), draft.z[i]});
     if (stride_ != 1) scanned_.assign(draft.variants[0].triangles.size() / 3, {});
     double worst = 0, bilinear = 0;
-    for (std::size_t v = 0; v < kVariants; ++v) {
+    for (std::size_t v = 0; v < draft.variants.size(); ++v) {
       for (const auto& [from, to] : newEdges(draft, v))
         bilinear = edgeError(corners_[from], corners_[to], strip, first, last, bilinear);
       if (stride_ != 1)
@@ -269,11 +268,11 @@ class PageMeasure {
       return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::max());
     };
     PatchFacts facts;
-    std::array<float, kVariants> errorM{};
+    std::array<float, PatchIndex::kMostVariants> errorM{};
     const double rise = static_cast<double>(patch.highest) - patch.lowest;
     const double most =
         bound_.most(patch.lastColumn - patch.firstColumn, patch.lastRow - patch.firstRow, rise);
-    for (std::size_t v = 0; v < kVariants; ++v) {
+    for (std::size_t v = 0; v < draft.variants.size(); ++v) {
       const VariantMeasure& variant = patch.variants[v];
       const bool measured = stride_ != 1;
       const double shown = measured ? variant.worst : draft.variants[v].worst;
@@ -294,7 +293,7 @@ class PageMeasure {
     facts.vertices = static_cast<std::uint32_t>(mesh.vertices.size());
     facts.bytes = static_cast<std::uint32_t>(mesh.vertices.size() * sizeof(PatchVertex) +
                                              mesh.indices.size() * sizeof(std::uint16_t));
-    built_.errorM.push_back(errorM);
+    built_.errorM.push_back(std::span(errorM).first(draft.variants.size()));
     built_.facts.push_back(facts);
     built_.cones.push_back(patchCone(draft, mesh));
   }

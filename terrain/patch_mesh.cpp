@@ -10,24 +10,25 @@ namespace trimtab::terrain {
 namespace {
 
 constexpr std::int64_t kStepsPerOrigin = 16 * PostGeometry::kStepsPerMetre;
-constexpr std::size_t kVariants = PatchIndex::kVariants;
 
 /// A coarser variant's triangle stands where the finer one's of the same number does: beside its
 /// neighbours.
 void addTriangles(const PatchDraft& draft, PatchMesh& mesh) {
-  for (std::size_t v = 0; v < kVariants; ++v)
+  const std::size_t variants = draft.variants.size();
+  for (std::size_t v = 0; v < PatchIndex::kMostVariants; ++v)
     mesh.firstIndex[v + 1] =
-        mesh.firstIndex[v] + static_cast<std::uint32_t>(draft.variants[v].triangles.size());
+        mesh.firstIndex[v] +
+        (v < variants ? static_cast<std::uint32_t>(draft.variants[v].triangles.size()) : 0);
   // Room for one more: what a triangle has for an heir cannot be guessed, so all are written, without a
   // branch.
-  mesh.indices.resize(mesh.firstIndex[kVariants] + std::size_t{3});
-  mesh.heirs.resize(mesh.firstIndex[kVariants - 1] / 3 + std::size_t{1});
+  mesh.indices.resize(mesh.firstIndex[variants] + std::size_t{3});
+  mesh.heirs.resize(mesh.firstIndex[variants - 1] / 3 + std::size_t{1});
   std::uint16_t* out = mesh.indices.data();
   Heir* heir = mesh.heirs.data();
-  for (std::size_t v = 0; v < kVariants; ++v) {
+  for (std::size_t v = 0; v < variants; ++v) {
     const PatchDraft::Variant& variant = draft.variants[v];
     const std::size_t count = variant.triangles.size() / 3;
-    const bool coarsest = v + 1 == kVariants;
+    const bool coarsest = v + 1 == variants;
     const Heir* const heirs = draft.variants[coarsest ? v : v + 1].heirs.data();
     for (const std::int32_t h : draft.order) {
       const auto t = static_cast<std::size_t>(h >> 2);
@@ -42,8 +43,8 @@ void addTriangles(const PatchDraft& draft, PatchMesh& mesh) {
       heir += coarsest ? 0 : is;
     }
   }
-  mesh.indices.resize(mesh.firstIndex[kVariants]);
-  mesh.heirs.resize(mesh.firstIndex[kVariants - 1] / 3);
+  mesh.indices.resize(mesh.firstIndex[variants]);
+  mesh.heirs.resize(mesh.firstIndex[variants - 1] / 3);
 }
 
 }  // namespace
@@ -101,7 +102,7 @@ PatchMesh patchMesh(const PatchIndex& index, const PostGeometry& geometry, const
 NormalCone patchCone(const PatchDraft& draft, const PatchMesh& mesh) {
   std::vector<Vec3> normals;
   normals.reserve(2 * draft.variants[0].triangles.size() / 3);
-  for (std::size_t v = 0; v < PatchIndex::kVariants; ++v)
+  for (std::size_t v = 0; v < draft.variants.size(); ++v)
     draft.eachNew(v, [&](std::size_t, const std::uint32_t* corners) {
       const auto place = [&](std::size_t corner) {
         const PatchVertex& at = mesh.vertices[corners[corner]];

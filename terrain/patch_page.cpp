@@ -12,10 +12,6 @@ namespace {
 /// with no tolerance at all the smallest patches still get every post.
 constexpr std::size_t kMostVertices = 65 * 66 / 2;
 static_assert(kMostVertices >= (kCoarseLeafCells + 1) * (kCoarseLeafCells + 2) / 2);
-/// Of the half octave between a depth and the one above, the coarser variant spans two thirds. A third
-/// variant, all a quarter of an octave apart, takes 2 % off a view at 1 px and 4 % at 2 px, for two fifths
-/// more triangles to build, store and hold.
-constexpr double kVariantOctaves = 1.0 / 3;
 
 /// Finds the triangles of a variant that a finer one, or none, does not have in the same place.
 void findFresh(PatchDraft::Variant& of, const PatchDraft::Variant* finer) {
@@ -39,7 +35,10 @@ class Drafter {
  public:
   Drafter(const PatchIndex& index, const PatchIndex::Page& page, const HeightSource& heights,
           const PostGeometry& geometry, const std::vector<double>& tolerances)
-      : index_(index), tolerances_(tolerances), field_(index, page, heights, geometry, tolerances) {}
+      : index_(index),
+        octaves_(variantsOf(index.leafCells).octaves),
+        tolerances_(tolerances),
+        field_(index, page, heights, geometry, tolerances) {}
 
   std::uint32_t stride() const { return field_.stride(); }
 
@@ -64,10 +63,12 @@ class Drafter {
     for (const PatchPoint& p : draft.vertices)
       border_.push_back({p.column - window.column, p.row - window.row});
     mesher_.begin(field_.field(), border_, draft.z);
-    for (int variant = PatchIndex::kVariants - 1; variant >= 0; --variant) {
-      mesher_.refine(tolerances_[static_cast<std::size_t>(depth)] * std::exp2(variant * kVariantOctaves),
-                     kMostVertices);
-      PatchDraft::Variant& of = draft.variants[static_cast<std::size_t>(variant)];
+    draft.variants.resize(index_.variants());
+    for (std::size_t variant = draft.variants.size(); variant-- > 0;) {
+      mesher_.refine(
+          tolerances_[static_cast<std::size_t>(depth)] * std::exp2(static_cast<double>(variant) * octaves_),
+          kMostVertices);
+      PatchDraft::Variant& of = draft.variants[variant];
       mesher_.triangles(of.triangles, &of.twins);
       if (field_.stride() != 1) continue;
       of.worst = mesher_.maxErrorM();
@@ -84,6 +85,7 @@ class Drafter {
 
  private:
   const PatchIndex& index_;
+  double octaves_;  ///< from a variant to the next
   const std::vector<double>& tolerances_;
   PageField field_;
   PolygonMesher mesher_;
@@ -106,6 +108,7 @@ BuiltPage buildPage(const PatchIndex& index, std::uint32_t page, const HeightSou
   const PatchIndex::Page& at = index.pages[page];
   const std::vector<PatchPlace> places = placesOfPage(index, at);
   BuiltPage built;
+  built.errorM = VariantTable<float>(index.variants());
   Drafter drafter(index, at, heights, geometry, tolerances);
   std::vector<PatchDraft> drafts(1);
   bool measured;

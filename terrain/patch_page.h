@@ -28,7 +28,7 @@ struct PatchDraft {
     std::vector<Heir> heirs;    ///< of the next finer variant's triangles; all others of the finest's
     double worst = 0, rms = 0;  ///< above the plane, at the posts that it was meshed on
   };
-  std::array<Variant, PatchIndex::kVariants> variants;  ///< from the finest
+  std::vector<Variant> variants;  ///< from the finest, as many as the index has
   /// Of the finest variant's triangles as they are drawn and packed: half-edges to begin from. A coarser
   /// one's are drawn in the same order, by their places among the triangles.
   std::vector<std::int32_t> order;

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "trimtab/terrain/patch_build.h"
+#include "trimtab/terrain/patch_bytes.h"
 
 namespace trimtab::terrain {
 
@@ -13,28 +14,22 @@ constexpr std::uint64_t kIndexKey = std::uint64_t{1} << 32, kFactsKey = kIndexKe
                         kConesKey = kIndexKey + 2;
 
 /// Of what is stored of a patch, in the index and in pages.
-constexpr std::uint64_t kVersion = 4;
+constexpr std::uint64_t kVersion = 5;
 
 /// What a file of patches was made for.
 struct GridHeader {
   std::uint64_t version = kVersion;
   PostGrid posts;
   std::uint32_t patches = 0, pages = 0;
-  std::uint32_t leafCells = 0, unused = 0;
+  std::uint32_t leafCells = 0, variants = 0;
 };
-struct Measured {
-  Box bounds;
-  std::array<float, PatchIndex::kVariants> errorM;
-  std::array<std::uint16_t, PatchIndex::kVariants> triangles;
-};
-static_assert(sizeof(GridHeader) == 64 && sizeof(Measured) == 36 && sizeof(PatchFacts) == 40);
+static_assert(sizeof(GridHeader) == 64);
 
-bool isSound(const Measured& m) {
-  const Box& b = m.bounds;
+bool isSound(const Box& b, std::span<const float> errorM) {
   if (!(b.minX <= b.maxX && b.minY <= b.maxY && b.minZ <= b.maxZ)) return false;
   for (const float f : {b.minX, b.minY, b.minZ, b.maxX, b.maxY, b.maxZ})
     if (!std::isfinite(f)) return false;
-  for (const float e : m.errorM)
+  for (const float e : errorM)
     if (!(e >= 0) || !std::isfinite(e)) return false;
   return true;
 }
@@ -74,29 +69,33 @@ class StoredPatches final : public PatchTerrain {
                    "squares of " + std::to_string(kFineLeafCells) + " or " +
                        std::to_string(kCoarseLeafCells) + " cells",
                    std::to_string(header.leafCells));
+    const std::size_t variants = variantsOf(header.leafCells).count;
+    if (header.variants != variants)
+      return wrong("index",
+                   std::to_string(variants) + " meshes a patch with squares of " +
+                       std::to_string(header.leafCells) + " cells",
+                   std::to_string(header.variants));
     index_ = makePatchIndex(posts, geometry_, header.leafCells);
     const std::size_t count = index_.size();
-    if (header.patches != count || header.pages != index_.pages.size() ||
-        measured->size() != sizeof header + count * sizeof(Measured))
+    PatchBytesReader in(measured->subspan(sizeof header));
+    in.take(std::span(index_.bounds));
+    in.take(index_.errorM.values(0, count));
+    in.take(index_.triangles.values(0, count));
+    if (header.patches != count || header.pages != index_.pages.size() || !in.isWhole())
       return wrong("index",
                    std::to_string(count) + " patches in " + std::to_string(index_.pages.size()) + " pages",
                    std::to_string(header.patches) + " in " + std::to_string(header.pages) + ", " +
                        std::to_string(measured->size()) + " bytes");
-    for (std::size_t i = 0; i < count; ++i) {
-      Measured m;
-      std::memcpy(&m, measured->data() + sizeof header + i * sizeof m, sizeof m);
-      if (!isSound(m)) return wrong("patch " + std::to_string(i), "bounds and errors", "no such numbers");
-      index_.bounds[i] = m.bounds;
-      index_.errorM[i] = m.errorM;
-      index_.triangles[i] = m.triangles;
-    }
+    for (std::size_t i = 0; i < count; ++i)
+      if (!isSound(index_.bounds[i], index_.errorM[i]))
+        return wrong("patch " + std::to_string(i), "bounds and errors", "no such numbers");
     const auto facts = pages_->read(kFactsKey);
     if (!facts) return facts.findings();
-    if (facts->size() != count * sizeof(PatchFacts))
-      return wrong("facts", std::to_string(count * sizeof(PatchFacts)) + " bytes",
+    if (facts->size() != count * factBytes(variants))
+      return wrong("facts", std::to_string(count * factBytes(variants)) + " bytes",
                    std::to_string(facts->size()) + " bytes");
     facts_.resize(count);
-    std::memcpy(facts_.data(), facts->data(), facts->size());
+    PatchBytesReader(*facts).take(facts_, variants);
     if (auto read = readCones(); !read) return read;
     for (std::uint32_t page = 0; page < index_.pages.size(); ++page)
       if (!pages_->has(page)) return wrong("page " + std::to_string(page), "one in the table", "nothing");
@@ -133,14 +132,18 @@ Result<Done> finishPatchFile(PageFileWriter& writer, const PostGrid& posts, cons
   header.patches = static_cast<std::uint32_t>(index.size());
   header.pages = static_cast<std::uint32_t>(index.pages.size());
   header.leafCells = index.leafCells;
-  std::vector<std::byte> measured(sizeof header + index.size() * sizeof(Measured));
-  std::memcpy(measured.data(), &header, sizeof header);
-  for (std::size_t i = 0; i < index.size(); ++i) {
-    const Measured m{index.bounds[i], index.errorM[i], index.triangles[i]};
-    std::memcpy(measured.data() + sizeof header + i * sizeof m, &m, sizeof m);
-  }
-  if (auto done = writer.add(kIndexKey, measured); !done) return done;
-  if (auto done = writer.add(kFactsKey, std::as_bytes(std::span(facts))); !done) return done;
+  header.variants = static_cast<std::uint32_t>(index.variants());
+  const std::size_t variants = index.variants();
+  PatchBytesWriter measured(
+      sizeof header + index.size() * (sizeof(Box) + variants * (sizeof(float) + sizeof(std::uint16_t))));
+  measured.add(std::span<const GridHeader>(&header, 1));
+  measured.add(std::span<const Box>(index.bounds));
+  measured.add(index.errorM.values());
+  measured.add(index.triangles.values());
+  if (auto done = writer.add(kIndexKey, measured.bytes()); !done) return done;
+  PatchBytesWriter told(facts.size() * factBytes(variants));
+  told.add(facts, variants);
+  if (auto done = writer.add(kFactsKey, told.bytes()); !done) return done;
   if (index.cones.size() == index.size())
     if (auto done = writer.add(kConesKey, std::as_bytes(std::span(index.cones))); !done) return done;
   return writer.finish();

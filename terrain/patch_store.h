@@ -18,7 +18,8 @@ namespace trimtab::terrain {
 /// exactly (what does not is listed). Vertices and triangles go through meshoptimizer's codecs: vertices are
 /// put in the order of their first use, triangles in one that is near to strips. Of a coarser variant, which
 /// has four in five of its triangles from the finer one, only the others are; bits tell where they stand.
-std::vector<std::byte> encodePage(const PatchPage& page, const PostGeometry& geometry);
+std::vector<std::byte> encodePage(const PatchPage& page, const PatchIndex& index,
+                                  const PostGeometry& geometry);
 /// The page again: the same triangles, places and normals. `where` names the bytes in findings. Whatever the
 /// bytes are, all indices of the result are good for it, and its posts are of the grid.
 Result<PatchPage> decodePage(std::span<const std::byte> bytes, const PatchIndex& index, std::uint32_t page,

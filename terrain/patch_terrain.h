@@ -32,7 +32,8 @@ struct PatchMesh {
   std::uint32_t firstColumn = 0, firstRow = 0;  ///< of the square that it lies in
   std::vector<PatchVertex> vertices;
   std::vector<std::uint16_t> indices;  ///< three a triangle, variant by variant from the finest
-  std::array<std::uint32_t, PatchIndex::kVariants + 1> firstIndex{};  ///< the last is the size
+  /// Of each variant, and the size: for the one after the last, and any beyond.
+  std::array<std::uint32_t, PatchIndex::kMostVariants + 1> firstIndex{};
   /// As built, one for each triangle of all variants but the coarsest; empty where it is not known. Triangles
   /// of a variant are in the order of those that they stand for, and what has none there comes last.
   std::vector<Heir> heirs;
@@ -40,12 +41,15 @@ struct PatchMesh {
 
 /// What is known of a patch beyond what its selection needs; errors in metres.
 struct PatchFacts {
-  std::array<float, PatchIndex::kVariants> rmsErrorM{};       ///< at the source posts
-  std::array<float, PatchIndex::kVariants> bilinearErrorM{};  ///< largest, over the source's bilinear surface
-  float lowestM = 0, highestM = 0;                            ///< of the source posts under it, heights
-  std::uint32_t bytes = 0;                                    ///< in its page
+  float lowestM = 0, highestM = 0;     ///< of the source posts under it, heights
+  std::uint32_t bytes = 0;             ///< in its page
   std::uint32_t vertices = 0;          ///< of its mesh: with its triangles, bytes in memory
   std::uint32_t posts = 0, voids = 0;  ///< under it; of them filled
+  // By variant, 0 where the index has none.
+  std::array<float, PatchIndex::kMostVariants> rmsErrorM{};       ///< at the source posts
+  std::array<float, PatchIndex::kMostVariants> bilinearErrorM{};  ///< largest, over the bilinear surface
+
+  friend bool operator==(const PatchFacts&, const PatchFacts&) = default;
 };
 
 /// A page, decoded.

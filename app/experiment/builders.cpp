@@ -56,9 +56,8 @@ struct Cut {
   std::uint64_t triangles = 0, vertices = 0;
 };
 
-void gather(const terrain::PatchMesh& mesh, int variant, const VerticalDistance& toSource, Cut& cut) {
-  const auto first = mesh.firstIndex[static_cast<std::size_t>(variant)],
-             last = mesh.firstIndex[static_cast<std::size_t>(variant) + 1];
+void gather(const terrain::PatchMesh& mesh, std::size_t variant, const VerticalDistance& toSource, Cut& cut) {
+  const auto first = mesh.firstIndex[variant], last = mesh.firstIndex[variant + 1];
   std::map<std::uint16_t, std::uint32_t> numbers;
   std::set<std::uint16_t> inside;
   const auto placed = [&](std::uint16_t v) {
@@ -130,7 +129,7 @@ std::vector<BuilderLevel> patchLevels(const terrain::Database& terrain,
   const auto meets = [&](const Box& b) {
     return b.minX <= ground.maxX && b.maxX >= ground.minX && b.minY <= ground.maxY && b.maxY >= ground.minY;
   };
-  std::map<std::uint8_t, std::array<Cut, PatchIndex::kVariants>> cuts;
+  std::map<std::uint8_t, std::array<Cut, PatchIndex::kMostVariants>> cuts;
   for (std::uint32_t p = 0; p < index.pages.size(); ++p) {
     const PatchIndex::Page& page = index.pages[p];
     const std::span<const Box> bounds(index.bounds.data() + page.firstPatch, page.patches);
@@ -140,12 +139,11 @@ std::vector<BuilderLevel> patchLevels(const terrain::Database& terrain,
     for (std::uint32_t i = 0; i < page.patches; ++i) {
       if (!meets(index.bounds[page.firstPatch + i])) continue;
       auto& of = cuts[index.depth[page.firstPatch + i]];
-      for (int v = 0; v < PatchIndex::kVariants; ++v)
-        gather(read->patches[i], v, toSource, of[static_cast<std::size_t>(v)]);
+      for (std::size_t v = 0; v < index.variants(); ++v) gather(read->patches[i], v, toSource, of[v]);
     }
   }
   for (auto& [depth, of] : cuts)
-    for (std::uint32_t v = PatchIndex::kVariants; v-- > 0;) {
+    for (auto v = static_cast<std::uint32_t>(index.variants()); v-- > 0;) {
       Cut& cut = of[v];
       if (cut.triangles == 0) continue;
       weld(cut.surface);

@@ -163,9 +163,9 @@ class Selection {
 
   std::uint8_t variantOf(std::uint32_t patch) const {
     const double distance2 = distanceSquared(index_.bounds[patch], eye_);
-    int variant = PatchIndex::kVariants - 1;
-    while (variant > 0 && tooCoarse(index_.errorM[patch][static_cast<std::size_t>(variant)], distance2))
-      --variant;
+    const std::span<const float> errors = index_.errorM[patch];
+    std::size_t variant = errors.size() - 1;
+    while (variant > 0 && tooCoarse(errors[variant], distance2)) --variant;
     return static_cast<std::uint8_t>(variant);
   }
 

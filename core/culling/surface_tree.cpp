@@ -12,15 +12,15 @@ SurfaceTree SurfaceTree::of(const TerrainIndex& index) {
   return tree;
 }
 
-SurfaceTree SurfaceTree::of(const PatchIndex& index,
-                            std::span<const std::array<float, PatchIndex::kVariants>> surfaceErrorM) {
+SurfaceTree SurfaceTree::of(const PatchIndex& index, const VariantTable<float>& surfaceErrorM) {
   SurfaceTree tree{.bounds = index.bounds, .parent = index.parent, .neighbours = {}};
   tree.children = index.children.empty() ? nullptr : index.children.front().data();
   tree.childrenEach = 2;
-  tree.errorM = index.errorM.empty() ? nullptr : index.errorM.front().data();
-  if (surfaceErrorM.size() == index.size() && !surfaceErrorM.empty())
-    tree.surfaceErrorM = surfaceErrorM.front().data();
-  tree.variants = PatchIndex::kVariants;
+  tree.errorM = index.errorM.values().data();
+  if (index.size() > 0 && surfaceErrorM.size() == index.size() &&
+      surfaceErrorM.variants() == index.variants())
+    tree.surfaceErrorM = surfaceErrorM.values().data();
+  tree.variants = index.variants();
   return tree;
 }
 

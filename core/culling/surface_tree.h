@@ -32,9 +32,8 @@ struct SurfaceTree {
   std::span<const std::array<std::uint32_t, 4>> neighbours;
 
   static SurfaceTree of(const TerrainIndex& index);
-  /// `surfaceErrorM`: one a patch, or none.
-  static SurfaceTree of(const PatchIndex& index,
-                        std::span<const std::array<float, PatchIndex::kVariants>> surfaceErrorM);
+  /// `surfaceErrorM`: of every patch, or of none.
+  static SurfaceTree of(const PatchIndex& index, const VariantTable<float>& surfaceErrorM);
 
   std::size_t size() const { return bounds.size(); }
   std::span<const std::uint32_t> childrenOf(std::uint32_t node) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "trimtab/frame/terrain_index.h"
+#include "trimtab/frame/variant_table.h"
 
 namespace trimtab {
 
@@ -20,14 +21,14 @@ namespace trimtab {
 /// end). If diamonds are halved as a whole only, and a diamond only after the patches that it halves are
 /// there, then two neighbours in any cut share a whole side: a leg of one depth is a hypotenuse of the next.
 /// Each side has one polyline, simplified once, that every patch at it uses: no cracks, at any mixture, with
-/// no skirts and nothing to stitch. Inside its three polylines a patch has kVariants meshes of rising error,
-/// and any of them fits. Measured beside right-triangle meshes of single triangles and quadtrees held to one
-/// level's difference: 1.2 times the triangles of an unconstrained mesh instead of 1.8 (1.28 with patches of
-/// twice the side: granularity costs more than borders do).
+/// no skirts and nothing to stitch. Inside its three polylines a patch has two meshes of rising error or
+/// three (its variants), and any of them fits. Measured beside right-triangle meshes of single triangles and
+/// quadtrees held to one level's difference: 1.2 times the triangles of an unconstrained mesh instead of 1.8
+/// (1.28 with patches of twice the side: granularity costs more than borders do).
 struct PatchIndex {
   static constexpr std::uint32_t kNone = 0xffffffffu;
   static constexpr std::uint32_t kLeafPageCells = 128;  ///< side of a page of the smallest squares
-  static constexpr int kVariants = 2;
+  static constexpr std::size_t kMostVariants = 3;
 
   /// Two patches about one hypotenuse. Halving it needs the two diamonds that it came from halved before:
   /// those whose children its patches are.
@@ -53,8 +54,8 @@ struct PatchIndex {
   std::vector<NormalCone> cones;
   /// Largest vertical distance at the source posts, metres, by variant from the finest: rises with the
   /// variant, and up the tree. Includes what the earth's curvature and the rounding of vertices add.
-  std::vector<std::array<float, kVariants>> errorM;
-  std::vector<std::array<std::uint16_t, kVariants>> triangles;
+  VariantTable<float> errorM;
+  VariantTable<std::uint16_t> triangles;
   std::vector<std::uint8_t> depth;
   std::vector<std::uint32_t> parent;                   ///< kNone at the roots
   std::vector<std::array<std::uint32_t, 2>> children;  ///< kNone where there is none
@@ -65,6 +66,8 @@ struct PatchIndex {
   std::vector<Page> pages;
 
   std::size_t size() const { return bounds.size(); }
+  /// Meshes of each patch, at most kMostVariants.
+  std::size_t variants() const { return errorM.variants(); }
   std::uint32_t squareCells(int pair) const { return rootCells >> pair; }
   /// A page holds the patches of so many squares, squared.
   std::uint32_t pageSquares() const { return kLeafPageCells / leafCells; }

@@ -12,6 +12,7 @@ namespace trimtab {
 /// Axis-aligned box in the terrain's local frame, metres; rounded outwards so that it holds every vertex.
 struct Box {
   float minX = 0, minY = 0, minZ = 0, maxX = 0, maxY = 0, maxZ = 0;
+  friend bool operator==(const Box&, const Box&) = default;
 };
 
 /// The levels of a terrain as flat arrays, one entry a node; meshes are not here. A quadtree of square tiles

@@ -49,7 +49,7 @@ TEST(RangeAllocator, givesPlacesThatDoNotOverlapAndStaysDense) {
   EXPECT_EQ(places.take(1), 1000u);
 }
 
-class PatchLayer : public test::SceneTest {
+class PatchLayer : public test::SceneTest, public testing::WithParamInterface<std::uint32_t> {
  protected:
   /// Every patch seen from above, each pixel its number and variant's own place: what is drawn, exactly.
   std::vector<std::uint32_t> drawn(scene::PatchLayer& layer, const std::vector<TileDraw>& patches) {
@@ -107,10 +107,12 @@ void main() { is = who; })");
 
   static constexpr int kSide = 256;
   unsigned program_ = 0;
-  std::shared_ptr<const terrain::PatchTerrain> terrain_ = test::smallPatches(1025, 1025);
+  std::shared_ptr<const terrain::PatchTerrain> terrain_ = test::smallPatches(1025, 1025, GetParam());
 };
+INSTANTIATE_TEST_SUITE_P(LeafCells, PatchLayer,
+                         testing::Values(terrain::kFineLeafCells, terrain::kCoarseLeafCells));
 
-TEST_F(PatchLayer, drawsThePagesThatAreThereWhateverCameAndWent) {
+TEST_P(PatchLayer, drawsThePagesThatAreThereWhateverCameAndWent) {
   const PatchIndex& index = terrain_->index();
   ASSERT_GT(index.pages.size(), 20u);
   std::vector<terrain::PatchPage> pages;
@@ -122,8 +124,7 @@ TEST_F(PatchLayer, drawsThePagesThatAreThereWhateverCameAndWent) {
     scene::PatchLayer layer;
     layer.setTerrain(&index);
     layer.add(page);
-    alone.push_back(
-        drawn(layer, ofPage(page.page, static_cast<std::uint8_t>(page.page % PatchIndex::kVariants))));
+    alone.push_back(drawn(layer, ofPage(page.page, static_cast<std::uint8_t>(page.page % index.variants()))));
     EXPECT_NE(alone.back(), std::vector<std::uint32_t>(alone.back().size())) << "page " << page.page;
   }
   scene::PatchLayer layer;
@@ -147,7 +148,7 @@ TEST_F(PatchLayer, drawsThePagesThatAreThereWhateverCameAndWent) {
     if (step % 100 != 0) continue;
     for (std::uint32_t p = 0; p < pages.size(); ++p)
       if (p % 5 == static_cast<std::uint32_t>(step / 100) % 5) {
-        const auto now = drawn(layer, ofPage(p, static_cast<std::uint8_t>(p % PatchIndex::kVariants)));
+        const auto now = drawn(layer, ofPage(p, static_cast<std::uint8_t>(p % index.variants())));
         ASSERT_EQ(now, there[p] ? alone[p] : std::vector<std::uint32_t>(now.size()))
             << "page " << p << " at step " << step;
       }
@@ -160,7 +161,7 @@ TEST_F(PatchLayer, drawsThePagesThatAreThereWhateverCameAndWent) {
   EXPECT_EQ(layer.reservedBytes(), 0u);
 }
 
-TEST_F(PatchLayer, keepsWhatItHasWhereThereIsNoMemoryForMore) {
+TEST_P(PatchLayer, keepsWhatItHasWhereThereIsNoMemoryForMore) {
   scene::PatchLayer layer;
   layer.setTerrain(&terrain_->index());
   ASSERT_TRUE(layer.add(terrain_->readPage(0).value()));
@@ -173,7 +174,7 @@ TEST_F(PatchLayer, keepsWhatItHasWhereThereIsNoMemoryForMore) {
   EXPECT_EQ(drawn(layer, ofPage(0, 0)), before);
 }
 
-TEST_F(PatchLayer, tintsFollowThePatch) {
+TEST_P(PatchLayer, tintsFollowThePatch) {
   const PatchIndex& index = terrain_->index();
   scene::PatchLayer layer;
   layer.setTerrain(&index);

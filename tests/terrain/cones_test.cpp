@@ -121,12 +121,14 @@ TEST(TileCones, holdEveryTriangleOfEveryTileAtAnyMixture) {
 }
 
 TEST(PatchCones, holdEveryTriangleOfEveryPatchInAnyVariant) {
-  for (const double latitude : {0.0, 45.0, -78.0}) {
+  for (const auto& [latitude, leafCells] :
+       {std::pair(0.0, kFineLeafCells), std::pair(45.0, kFineLeafCells), std::pair(-78.0, kFineLeafCells),
+        std::pair(45.0, kCoarseLeafCells)}) {
     const PostGrid posts{10, latitude, 1.0 / 1200, 1.0 / 1200, 257, 193};
     HeightGrid grid;
     grid.posts = posts;
     grid.heights = heightsOf(posts, rough);
-    const auto terrain = buildPatches(GridHeights(grid), 4);
+    const auto terrain = buildPatches(GridHeights(grid), 4, leafCells);
     const PatchIndex& index = terrain->index();
     ASSERT_EQ(index.cones.size(), index.size());
     Seen seen;

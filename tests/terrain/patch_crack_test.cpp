@@ -30,7 +30,7 @@ std::vector<DrawnVertex> borderBetween(const test::Piece& piece, PatchPoint from
 
 /// Every side of every patch, in every variant, against the other patch that may stand at it: that of its own
 /// depth across a hypotenuse, of the depth above or below across a leg.
-using Pieces = std::vector<std::array<test::Piece, PatchIndex::kVariants>>;
+using Pieces = std::vector<test::Pieces>;
 
 void expectNeighboursAgree(const char* what, const PatchIndex& index, const Pieces& pieces) {
   const auto places = test::placesOf(index);
@@ -45,7 +45,7 @@ void expectNeighboursAgree(const char* what, const PatchIndex& index, const Piec
       if (e.side == PatchEdge::kDataEdge) continue;
       std::vector<DrawnVertex> line = borderBetween(pieces[p][0], e.from, e.to);
       ASSERT_FALSE(line.empty()) << what;
-      for (std::size_t v = 1; v < PatchIndex::kVariants; ++v)
+      for (std::size_t v = 1; v < index.variants(); ++v)
         ASSERT_EQ(borderBetween(pieces[p][v], e.from, e.to), line) << what << " variant " << v;
       const bool turned = std::pair(e.to.row, e.to.column) < std::pair(e.from.row, e.from.column);
       if (turned) std::reverse(line.begin(), line.end());
@@ -79,6 +79,7 @@ void check(const char* what, const HeightGrid& grid, int mixtures = kMixtures) {
   for (const std::uint32_t leafCells : {kFineLeafCells, kCoarseLeafCells}) {
     const WholeTerrain terrain = test::built(grid, defaultLeafToleranceM(grid.posts), leafCells);
     ASSERT_EQ(terrain.index().leafCells, leafCells);
+    ASSERT_EQ(terrain.index().variants(), leafCells == kFineLeafCells ? 2u : 3u);
     const Pieces pieces = test::piecesOf(terrain);
     expectNeighboursAgree(what, terrain.index(), pieces);
     expectNoCracks(what, terrain.index(), pieces, mixtures);

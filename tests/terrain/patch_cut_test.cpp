@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <tuple>
 
 #include "../core/culling/patch_fixpoint.h"
 #include "slow_patches.h"
@@ -12,8 +13,11 @@ namespace {
 TEST(BuiltPatches, areCutAsTheSlowWayCutsThem) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> chance(0, 1);
-  for (const auto& [columns, rows] : {std::pair(1100u, 800u), std::pair(700u, 131u), std::pair(258u, 514u)}) {
-    const auto terrain = test::smallPatches(columns, rows);
+  using terrain::kCoarseLeafCells, terrain::kFineLeafCells;
+  for (const auto& [columns, rows, leafCells] :
+       {std::tuple(1100u, 800u, kFineLeafCells), std::tuple(700u, 131u, kFineLeafCells),
+        std::tuple(258u, 514u, kFineLeafCells), std::tuple(1100u, 800u, kCoarseLeafCells)}) {
+    const auto terrain = test::smallPatches(columns, rows, leafCells);
     const PatchIndex& index = terrain->index();
     Box all = index.bounds[0];
     for (const Box& b : index.bounds)

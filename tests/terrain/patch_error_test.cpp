@@ -85,7 +85,7 @@ void expectBound(const char* what, const HeightGrid& grid, std::uint32_t leafCel
           if (inside(p)) posts.push_back(p);
         }
       }
-      for (std::size_t v = 0; v < PatchIndex::kVariants; ++v) {
+      for (std::size_t v = 0; v < index.variants(); ++v) {
         double worst = 0;
         for (const PatchPoint& p : posts) {
           const Vec3 post = truth.at(p.column, p.row, 0);
@@ -139,10 +139,13 @@ TEST(PatchErrors, boundItWhereTheEarthIsAwkward) {
                   leafCells, 0);
 }
 
-TEST(PatchErrors, noToleranceTakesEveryPost) {
+class PatchErrorsOf : public ::testing::TestWithParam<std::uint32_t> {};
+INSTANTIATE_TEST_SUITE_P(EitherSide, PatchErrorsOf, ::testing::ValuesIn(kLeafCells));
+
+TEST_P(PatchErrorsOf, areNoneWithoutATolerance) {
   const PostGrid posts{10, 45, 0.001, 0.001, 70, 50};
   const HeightGrid grid = test::fractal(posts, 4);
-  const test::WholeTerrain terrain = test::built(grid, 0);
+  const test::WholeTerrain terrain = test::built(grid, 0, GetParam());
   const PatchIndex& index = terrain.index();
   for (std::uint32_t p = 0; p < index.size(); ++p) {
     if (index.children[p][0] != PatchIndex::kNone) continue;
@@ -153,22 +156,36 @@ TEST(PatchErrors, noToleranceTakesEveryPost) {
   }
 }
 
-TEST(PatchErrors, riseWithVariantAndUpTheTree) {
+TEST_P(PatchErrorsOf, riseWithVariantAndUpTheTree) {
   const PostGrid posts{10, 45, 0.001, 0.001, 400, 300};
-  const test::WholeTerrain terrain = test::built(test::fractal(posts, 4), defaultLeafToleranceM(posts));
+  const test::WholeTerrain terrain =
+      test::built(test::fractal(posts, 4), defaultLeafToleranceM(posts), GetParam());
   const PatchIndex& index = terrain.index();
+  const std::size_t variants = index.variants();
+  std::vector<std::uint64_t> triangles(variants);
   for (std::uint32_t p = 0; p < index.size(); ++p) {
-    for (std::size_t v = 1; v < PatchIndex::kVariants; ++v) {
+    const PatchFacts& facts = terrain.terrain->facts()[p];
+    for (std::size_t v = 0; v < variants; ++v) {
+      triangles[v] += index.triangles[p][v];
+      EXPECT_GE(facts.bilinearErrorM[v], facts.rmsErrorM[v]);
+      EXPECT_GT(facts.bilinearErrorM[v], 0);
+      if (v == 0) continue;
       EXPECT_LE(index.errorM[p][v - 1], index.errorM[p][v]);
       EXPECT_LE(index.triangles[p][v], index.triangles[p][v - 1]);
+      EXPECT_LE(facts.bilinearErrorM[v - 1], facts.bilinearErrorM[v]);
     }
+    for (std::size_t v = variants; v < PatchIndex::kMostVariants; ++v)
+      EXPECT_EQ(std::pair(facts.rmsErrorM[v], facts.bilinearErrorM[v]), std::pair(0.0f, 0.0f));
+    EXPECT_EQ(terrain.mesh(p).firstIndex.back(), terrain.mesh(p).indices.size());
     const std::uint32_t parent = index.parent[p];
     if (parent == PatchIndex::kNone) continue;
-    EXPECT_LE(index.errorM[p][0], index.errorM[parent][0]);
+    for (std::size_t v = 0; v < variants; ++v) EXPECT_LE(index.errorM[p][v], index.errorM[parent][v]);
     const Box &own = index.bounds[p], &up = index.bounds[parent];
     EXPECT_TRUE(own.minX >= up.minX && own.minY >= up.minY && own.minZ >= up.minZ && own.maxX <= up.maxX &&
                 own.maxY <= up.maxY && own.maxZ <= up.maxZ);
   }
+  // Each is a mesh of its own.
+  for (std::size_t v = 1; v < variants; ++v) EXPECT_LT(triangles[v], triangles[v - 1] * 19 / 20) << v;
 }
 
 TEST(PatchPages, areTheSameInAnyOrder) {

@@ -74,19 +74,18 @@ std::vector<Chosen> randomCut(const PatchIndex& index, std::mt19937& random, dou
   std::vector<Chosen> cut;
   for (std::uint32_t p = 0; p < index.size(); ++p) {
     const bool there = index.parent[p] == PatchIndex::kNone || split[index.diamond[index.parent[p]]];
-    if (there && !split[index.diamond[p]])
-      cut.push_back({p, static_cast<int>(random() % PatchIndex::kVariants)});
+    if (there && !split[index.diamond[p]]) cut.push_back({p, random() % index.variants()});
   }
   return cut;
 }
 
-std::vector<std::array<Piece, PatchIndex::kVariants>> piecesOf(const WholeTerrain& terrain) {
-  std::vector<std::array<Piece, PatchIndex::kVariants>> pieces(terrain.index().size());
+std::vector<Pieces> piecesOf(const WholeTerrain& terrain) {
+  std::vector<Pieces> pieces(terrain.index().size());
   for (std::uint32_t patch = 0; patch < pieces.size(); ++patch) {
     const PatchMesh& mesh = terrain.mesh(patch);
     std::vector<DrawnVertex> vertices;
     for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i) vertices.push_back(drawn(mesh, i));
-    for (std::size_t v = 0; v < PatchIndex::kVariants; ++v) {
+    for (std::size_t v = 0; v < terrain.index().variants(); ++v) {
       Piece& piece = pieces[patch][v];
       std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
       for (std::uint32_t i = mesh.firstIndex[v]; i < mesh.firstIndex[v + 1]; i += 3) {
@@ -111,14 +110,13 @@ std::vector<std::array<Piece, PatchIndex::kVariants>> piecesOf(const WholeTerrai
   return pieces;
 }
 
-std::string wrongWith(const PatchIndex& index,
-                      const std::vector<std::array<Piece, PatchIndex::kVariants>>& pieces,
+std::string wrongWith(const PatchIndex& index, const std::vector<Pieces>& pieces,
                       const std::vector<Chosen>& cut) {
   using Edge = std::pair<DrawnVertex, DrawnVertex>;
   std::vector<Edge> forward, back;
   std::int64_t area = 0;
   for (const Chosen& c : cut) {
-    const Piece& piece = pieces[c.patch][static_cast<std::size_t>(c.variant)];
+    const Piece& piece = pieces[c.patch][c.variant];
     if (!piece.wrong.empty()) return piece.wrong;
     area += piece.twiceArea;
     for (const auto& [a, b] : piece.border) {

@@ -77,7 +77,7 @@ DrawnVertex drawn(const terrain::PatchMesh& mesh, std::uint32_t vertex);
 /// A patch and its variant.
 struct Chosen {
   std::uint32_t patch;
-  int variant;
+  std::size_t variant;
 };
 /// A legal cut: diamonds whose parents are split are split themselves with this probability.
 std::vector<Chosen> randomCut(const PatchIndex& index, std::mt19937& random, double share);
@@ -87,11 +87,11 @@ struct Piece {
   std::int64_t twiceArea = 0;                               ///< in cells
   std::string wrong;  ///< a triangle without area or turned over, an edge with more than two triangles
 };
-std::vector<std::array<Piece, PatchIndex::kVariants>> piecesOf(const WholeTerrain& terrain);
+using Pieces = std::array<Piece, PatchIndex::kMostVariants>;  ///< of a patch, by variant
+std::vector<Pieces> piecesOf(const WholeTerrain& terrain);
 /// The first thing wrong with a cut: a wrong piece, a border edge that is not met by exactly one other the
 /// other way round (but where the posts end), an area that is not that of the posts.
-std::string wrongWith(const PatchIndex& index,
-                      const std::vector<std::array<Piece, PatchIndex::kVariants>>& pieces,
+std::string wrongWith(const PatchIndex& index, const std::vector<Pieces>& pieces,
                       const std::vector<Chosen>& cut);
 
 }  // namespace trimtab::test

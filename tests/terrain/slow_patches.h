@@ -16,7 +16,8 @@
 namespace trimtab::test {
 
 /// Hills and a plain; a post every 30 m or so.
-inline std::shared_ptr<const terrain::PatchTerrain> smallPatches(std::uint32_t columns, std::uint32_t rows) {
+inline std::shared_ptr<const terrain::PatchTerrain> smallPatches(
+    std::uint32_t columns, std::uint32_t rows, std::uint32_t leafCells = terrain::kFineLeafCells) {
   terrain::HeightGrid grid;
   grid.posts = {10, 50, 1.0 / 2400, 1.0 / 3600, columns, rows};
   for (std::uint32_t r = 0; r < rows; ++r)
@@ -27,7 +28,7 @@ inline std::shared_ptr<const terrain::PatchTerrain> smallPatches(std::uint32_t c
                                                 9 * std::sin(23 * x) * std::sin(19 * y)));
     }
   const terrain::GridHeights heights(grid);
-  return terrain::buildPatches(heights, terrain::defaultLeafToleranceM(grid.posts));
+  return terrain::buildPatches(heights, terrain::defaultLeafToleranceM(grid.posts), leafCells);
 }
 
 /// As another one, with what disks do: take their time, fail, say what was not asked for.

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <vector>
@@ -12,7 +13,11 @@ namespace trimtab {
 namespace {
 
 constexpr std::uint32_t kNone = PatchIndex::kNone, kRidge = 0, kHalf = 1, kBehind = 3;
-using Errors = std::array<float, PatchIndex::kVariants>;
+using Errors = VariantTable<float>;
+
+void fill(std::span<float> errors, float with) {
+  std::ranges::fill(errors, with);
+}
 
 /// Level ground: its height is all that matters here.
 MeshRelief plateau(float west, float east, float south, float north, float z) {
@@ -34,7 +39,7 @@ MeshRelief plateau(float west, float east, float south, float north, float z) {
   return relief;
 }
 
-class PatchRoom : public testing::Test {
+class PatchRoom : public testing::TestWithParam<std::size_t> {
  protected:
   PatchRoom() {
     index_.bounds = {{1000, -2000, 80, 1100, 2000, 100},
@@ -43,17 +48,17 @@ class PatchRoom : public testing::Test {
                      {3000, -200, 0, 3100, 200, 48}};
     index_.parent = {kNone, kRidge, kRidge, kNone};
     index_.children = {{kHalf, kHalf + 1}, {kNone, kNone}, {kNone, kNone}, {kNone, kNone}};
-    index_.errorM.assign(4, Errors{});
-    index_.errorM[kRidge].fill(0.5f);
-    index_.errorM[kHalf].fill(0.1f);
-    index_.errorM[kHalf + 1].fill(0.1f);
+    index_.errorM = Errors(GetParam(), 4);
+    fill(index_.errorM[kRidge], 0.5f);
+    fill(index_.errorM[kHalf], 0.1f);
+    fill(index_.errorM[kHalf + 1], 0.1f);
     surfaceErrorM_ = index_.errorM;
-    for (const std::uint32_t node : {kRidge, kHalf, kHalf + 1}) surfaceErrorM_[node].fill(10);
+    for (const std::uint32_t node : {kRidge, kHalf, kHalf + 1}) fill(surfaceErrorM_[node], 10);
   }
 
   /// Whether the ground behind is said to be hidden: by the ridge as a whole, and then by its halves, 8 m
   /// lower.
-  std::array<bool, 2> isHidden(std::span<const Errors> surfaceErrorM, bool takesRoom = true) {
+  std::array<bool, 2> isHidden(const Errors& surfaceErrorM, bool takesRoom = true) {
     const SurfaceTree tree = SurfaceTree::of(index_, surfaceErrorM);
     MovingHorizon moving;
     std::array<bool, 2> hidden{};
@@ -79,31 +84,36 @@ class PatchRoom : public testing::Test {
   }
 
   PatchIndex index_;
-  std::vector<Errors> surfaceErrorM_;
+  Errors surfaceErrorM_;
   std::array<MeshRelief, 4> relief_{plateau(1000, 1100, -2000, 2000, 100), plateau(1000, 1100, -2000, 0, 84),
                                     plateau(1000, 1100, 0, 2000, 84), plateau(3000, 3100, -200, 200, 48)};
   std::uint64_t carried_ = 0;
 };
 
-TEST_F(PatchRoom, isForTheSurfaceBetweenThePostsToo) {
+INSTANTIATE_TEST_SUITE_P(Variants, PatchRoom, testing::Values(2u, 3u));
+
+TEST_P(PatchRoom, isForTheSurfaceBetweenThePostsToo) {
   EXPECT_EQ(isHidden(surfaceErrorM_), (std::array{false, false}));
   EXPECT_EQ(carried_, 1u);
   // The posts alone do not say how far the halves may be below the whole.
   EXPECT_EQ(isHidden(index_.errorM), (std::array{true, true})) << "wrong, in what the test above sees";
 }
 
-TEST_F(PatchRoom, isNoneWhereErrorsAreNotKnown) {
-  EXPECT_EQ(isHidden({}), (std::array{true, false})) << "each as it is drawn";
-  EXPECT_EQ(carried_, 0u);
+TEST_P(PatchRoom, isNoneWhereErrorsAreNotKnown) {
+  // None at all, and those of another count of variants.
+  for (const Errors& none : {Errors(), Errors(5 - GetParam(), 4)}) {
+    EXPECT_EQ(isHidden(none), (std::array{true, false})) << "each as it is drawn";
+    EXPECT_EQ(carried_, 0u);
+  }
   for (const float unknown :
        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     auto errors = index_.errorM;
-    errors[kHalf].fill(unknown);
+    fill(errors[kHalf], unknown);
     EXPECT_EQ(isHidden(errors), (std::array{false, false}));
   }
 }
 
-TEST_F(PatchRoom, isNoneWhereHeightsSayTooLittle) {
+TEST_P(PatchRoom, isNoneWhereHeightsSayTooLittle) {
   EXPECT_EQ(isHidden(index_.errorM, false), (std::array{false, false}));
 }
 

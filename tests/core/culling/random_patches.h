@@ -14,8 +14,8 @@ namespace trimtab::test {
 class RandomPatches {
  public:
   static PatchIndex make(std::uint32_t columns, std::uint32_t rows, std::uint32_t rootCells,
-                         std::uint32_t leafCells, unsigned seed) {
-    RandomPatches patches(columns, rows, rootCells, leafCells, seed);
+                         std::uint32_t leafCells, std::size_t variants, unsigned seed) {
+    RandomPatches patches(columns, rows, rootCells, leafCells, variants, seed);
     patches.addRoots();
     patches.addDescendants();
     patches.number();
@@ -41,8 +41,8 @@ class RandomPatches {
   static constexpr std::uint32_t kPageSquares = 4;
 
   RandomPatches(std::uint32_t columns, std::uint32_t rows, std::uint32_t rootCells, std::uint32_t leafCells,
-                unsigned seed)
-      : leafCells_(leafCells), random_(seed) {
+                std::size_t variants, unsigned seed)
+      : leafCells_(leafCells), variants_(variants), random_(seed) {
     index_.columns = columns;
     index_.rows = rows;
     index_.rootCells = rootCells;
@@ -159,8 +159,8 @@ class RandomPatches {
     std::uniform_real_distribution<float> chance(0, 1);
     const std::size_t n = order_.size();
     index_.bounds.resize(n);
-    index_.errorM.resize(n);
-    index_.triangles.resize(n);
+    index_.errorM = VariantTable<float>(variants_, n);
+    index_.triangles = VariantTable<std::uint16_t>(variants_, n);
     for (std::size_t p = n; p-- > 0;) {
       const Triangle& t = triangles_[order_[p]];
       const auto metres = [](std::uint32_t post) { return 10 * static_cast<float>(post); };
@@ -171,7 +171,7 @@ class RandomPatches {
               metres(std::min(index_.columns - 1, std::max({t.apex.column, t.a.column, t.b.column}))),
               metres(std::min(index_.rows - 1, std::max({t.apex.row, t.a.row, t.b.row}))),
               z + 200 * chance(random_)};
-      std::array<float, PatchIndex::kVariants> error{};
+      const std::span<float> error = index_.errorM[p];
       float least = chance(random_) < 0.1f ? 0 : 0.2f * chance(random_);
       for (std::size_t v = 0; v < error.size(); ++v) {
         for (const std::uint32_t child : index_.children[p])
@@ -186,11 +186,11 @@ class RandomPatches {
           box.maxZ = std::max(box.maxZ, index_.bounds[child].maxZ);
         }
       index_.bounds[p] = box;
-      index_.errorM[p] = error;
     }
   }
 
   std::uint32_t leafCells_;
+  std::size_t variants_;
   std::mt19937 random_;
   PatchIndex index_;
   std::vector<Triangle> triangles_;
@@ -198,8 +198,8 @@ class RandomPatches {
 };
 
 inline PatchIndex randomPatches(std::uint32_t columns, std::uint32_t rows, std::uint32_t rootCells,
-                                std::uint32_t leafCells, unsigned seed) {
-  return RandomPatches::make(columns, rows, rootCells, leafCells, seed);
+                                std::uint32_t leafCells, std::size_t variants, unsigned seed) {
+  return RandomPatches::make(columns, rows, rootCells, leafCells, variants, seed);
 }
 
 }  // namespace trimtab::test
