@@ -130,7 +130,7 @@ class Job {
         bakeHeights(*work_, *source_->elevation, memory_, stage(scenery_ ? 0.1 : 0.2, scenery_ ? 0.13 : 0.3));
     if (!heights) return heights.findings();
     heights_ = *heights;
-    keep(sharesOf(*source_->elevation));
+    keep(sharesOf(source_->elevation->names(), heights_.given));
     if (heights_.outside > 0)
       findings_.push_back({Severity::note, files->front().string(), "outline",
                            scenery_ ? "tiles over the whole rectangle of the terrain"

@@ -96,10 +96,9 @@ class HeightsBake {
     baked_.posts = posts_;
     readJournal();
     if (done_ && isAsNoted()) return baked_;
-    if (!filled_) {
-      if (auto read = readBands(); !read) return read.findings();
-      if (auto filled = fill(); !filled) return filled.findings();
-    }
+    // What was written is not always on the disk after a power cut: only what agrees with its sums stays.
+    if (auto read = readBands(); !read) return read.findings();
+    if (auto filled = fill(); !filled) return filled.findings();
     if (auto summed = sumUp(); !summed) return summed.findings();
     return baked_;
   }
@@ -124,7 +123,7 @@ class HeightsBake {
       if (word == "posts") {
         next_ = 0;
         bands_.clear();
-        filling_ = filled_ = done_ = false;
+        filling_ = done_ = false;
       } else if (word == "band") {
         std::uint32_t first = 0, rows = 0;
         std::uint64_t voids = 0, outside = 0;
@@ -135,26 +134,32 @@ class HeightsBake {
           bands_.pop_back();
         }
         if (first != next_) continue;
-        bands_.push_back({first, rows, voids, outside, sum});
+        bands_.push_back({first, rows, voids, outside, sum, {}});
+        for (std::uint64_t given = 0; words >> given;) bands_.back().given.push_back(given);
         next_ = first + rows;
       } else if (word == "filling") {
         filling_ = true;
-      } else if (word == "filled") {
-        filled_ = true;
       } else if (word == "heights") {
         words >> sum;
         doneSum_ = sum;
         done_ = true;
       }
     }
-    for (const Band& band : bands_) baked_.voids += band.voids, baked_.outside += band.outside;
+    for (const Band& band : bands_) count(band);
   }
 
   struct Band {
     std::uint32_t first, rows;
     std::uint64_t voids, outside;
     std::string sum;
+    std::vector<std::uint64_t> given;  ///< as ElevationSource tells it, of these rows
   };
+  void count(const Band& band) {
+    baked_.voids += band.voids;
+    baked_.outside += band.outside;
+    baked_.given.resize(std::max(baked_.given.size(), band.given.size()));
+    for (std::size_t i = 0; i < band.given.size(); ++i) baked_.given[i] += band.given[i];
+  }
 
   /// Voids that an interrupted filling has filled in part are voids again.
   Result<Done> readVoided(std::uint32_t first, std::uint32_t rows) {
@@ -173,6 +178,7 @@ class HeightsBake {
     // Bands that are as they were noted stay; what comes after the first that is not is read again.
     next_ = 0;
     baked_.voids = baked_.outside = 0;
+    baked_.given.clear();
     for (const Band& band : bands_) {
       std::uint64_t bandSum = 0;
       for (std::uint32_t done = 0; done < band.rows;) {
@@ -188,17 +194,17 @@ class HeightsBake {
       }
       if (band.first != next_ || hexadecimal(bandSum) != band.sum) break;
       next_ += band.rows;
-      baked_.voids += band.voids;
-      baked_.outside += band.outside;
+      count(band);
     }
     std::vector<std::uint8_t> beyond(band_.size());
     while (next_ < posts_.rows) {
       if (auto told = tell(0.8 * next_ / posts_.rows, "reading heights"); !told) return told;
       const std::uint32_t rows = std::min(bandRows_, posts_.rows - next_);
-      const std::size_t count = std::size_t{rows} * posts_.columns;
+      const std::size_t posts = std::size_t{rows} * posts_.columns;
       std::fill(beyond.begin(), beyond.end(), std::uint8_t{0});
-      const std::span<float> band = std::span(band_).first(count);
-      if (auto read = source_.readRows(next_, rows, band, std::span(beyond).first(count)); !read) return read;
+      const std::span<float> band = std::span(band_).first(posts);
+      const std::vector<std::uint64_t> givenBefore = source_.given();
+      if (auto read = source_.readRows(next_, rows, band, std::span(beyond).first(posts)); !read) return read;
       std::fill(bandBits_.begin(), bandBits_.end(), std::uint8_t{0});
       std::uint64_t voids = 0, outside = 0;
       for (std::uint32_t r = 0; r < rows; ++r)
@@ -211,13 +217,14 @@ class HeightsBake {
         }
       if (auto put = heights_.write(next_, rows, band_.data()); !put) return put;
       if (auto put = voids_.write(next_, rows, bandBits_.data()); !put) return put;
+      Band made{next_, rows, voids, outside, hexadecimal(rowsSum(rows)), source_.given()};
+      for (std::size_t i = 0; i < givenBefore.size(); ++i) made.given[i] -= givenBefore[i];
       std::ostringstream line;
-      line << "band " << next_ << ' ' << rows << ' ' << hexadecimal(rowsSum(rows)) << ' ' << voids << ' '
-           << outside;
+      line << "band " << made.first << ' ' << made.rows << ' ' << made.sum << ' ' << voids << ' ' << outside;
+      for (const std::uint64_t given : made.given) line << ' ' << given;
       if (auto noted = work_.note(line.str()); !noted) return noted;
       next_ += rows;
-      baked_.voids += voids;
-      baked_.outside += outside;
+      count(made);
     }
     return Done{};
   }
@@ -230,7 +237,7 @@ class HeightsBake {
   }
 
   Result<Done> fill() {
-    if (baked_.voids + baked_.outside == 0) return work_.note("filled");
+    if (baked_.voids + baked_.outside == 0) return Done{};
     if (!filling_)
       if (auto noted = work_.note("filling"); !noted) return noted;
     VoidFill voids;
@@ -248,7 +255,7 @@ class HeightsBake {
       return !progress_ || progress_(0.8 + 0.15 * share, "filling voids");
     };
     if (auto filled = fillVoids(voids); !filled) return filled.findings();
-    return work_.note("filled");
+    return Done{};
   }
 
   /// Sums of the finished rows, and the lowest and highest.
@@ -288,8 +295,6 @@ class HeightsBake {
         writeFile(work_.database(), kHeightSumsName,
                   {reinterpret_cast<const char*>(all->data()), all->size() * sizeof(std::uint64_t)}))
       return true;
-    filling_ = true;
-    filled_ = false;
     return false;
   }
 
@@ -305,7 +310,7 @@ class HeightsBake {
   BakedHeights baked_;
   std::vector<Band> bands_;
   std::uint32_t next_ = 0;
-  bool noted_ = false, filling_ = false, filled_ = false, done_ = false;
+  bool noted_ = false, filling_ = false, done_ = false;
   std::string doneSum_;
 };
 

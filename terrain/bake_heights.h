@@ -22,6 +22,7 @@ struct BakedHeights {
   float lowest = 0, highest = 0;
   std::uint64_t voids = 0, outside = 0;  ///< filled; the second where no file reaches
   std::uint64_t sum = 0;                 ///< of heights.sums
+  std::vector<std::uint64_t> given;      ///< ElevationSource::given of all rows, whoever read them
 };
 
 /// Heights of the source, voids filled, to heights.f32 and heights.sums in the work folder's database, in

@@ -130,6 +130,8 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, con
   const bool shared = use == Use::part;
   const fs::path path = output.parent_path() / ("." + output.filename().string() + ".work");
   const fs::path lockFile = path / "lock";
+  if (std::error_code error; use == Use::join && !fs::exists(path / "recipe.json", error))
+    return wrong(path, "all parts of a bake", "none: all are missing");
   // Parts that begin at once take turns to look at the folder.
   for (int turn = 0; turn < 100; ++turn) {
     std::error_code error;

@@ -147,6 +147,8 @@ class MergedElevation final : public ElevationSource {
         std::transform(reached_.begin() + in, reached_.begin() + in + n, beyond.begin() + at,
                        [](std::uint8_t reached) { return reached == 0 ? std::uint8_t{1} : std::uint8_t{0}; });
       row += count;
+      // With its last row, so that who goes on within a chunk counts it as one who began with it does.
+      if (row % kChunkRows == 0 || row == grid_.rows) countGiven(index);
     }
     return Done{};
   }
@@ -166,15 +168,18 @@ class MergedElevation final : public ElevationSource {
       if (auto read = hold(k); !read) return read;
     }
     merged_.resize(std::size_t{kChunkRows} * grid_.columns);
-    std::vector<std::uint64_t> given(files_.size(), 0);
+    givenNow_.assign(files_.size(), 0);
     const ElevationChunk& chunk = *find(index);
-    mergeChunk(index > 0 ? find(index - 1) : nullptr, chunk, find(index + 1), merged_, given);
+    mergeChunk(index > 0 ? find(index - 1) : nullptr, chunk, find(index + 1), merged_, givenNow_);
     reached_ = chunk.reached;
     at_ = index;
-    if (!counted_[index])
-      for (std::size_t i = 0; i < given.size(); ++i) given_[i] += given[i];
-    counted_[index] = true;
     return Done{};
+  }
+
+  void countGiven(std::uint32_t index) {
+    if (counted_[index]) return;
+    for (std::size_t i = 0; i < given_.size(); ++i) given_[i] += givenNow_[i];
+    counted_[index] = true;
   }
 
   const ElevationChunk* find(std::uint32_t index) {
@@ -222,8 +227,8 @@ class MergedElevation final : public ElevationSource {
   Files files_;
   PostGrid grid_;
   std::vector<bool> near_;
-  std::vector<std::uint64_t> given_;
-  std::vector<bool> counted_;  ///< a chunk's part of `given_`
+  std::vector<std::uint64_t> given_, givenNow_;  ///< the second of the chunk in `merged_`
+  std::vector<bool> counted_;                    ///< a chunk's part of `given_`
   std::list<Held> held_;
   std::list<std::size_t> open_;
   std::vector<float> merged_;
@@ -266,10 +271,8 @@ Result<std::unique_ptr<ElevationSource>> openElevation(std::span<const fs::path>
                                                   std::move(findings));
 }
 
-Findings sharesOf(const ElevationSource& source) {
+Findings sharesOf(const std::vector<std::string>& names, const std::vector<std::uint64_t>& given) {
   constexpr std::size_t kMostTold = 24;
-  const std::vector<std::string> names = source.names();
-  const std::vector<std::uint64_t> given = source.given();
   std::uint64_t all = 0;
   for (const std::uint64_t posts : given) all += posts;
   Findings findings;

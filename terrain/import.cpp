@@ -118,7 +118,7 @@ Result<Imported> importElevation(std::span<const fs::path> sources, const Progre
   Findings findings = source.findings();
   auto grid = readAll(**source, half(progress, 0.5));
   if (!grid) return grid.findings();
-  const Findings shares = sharesOf(**source);
+  const Findings shares = sharesOf((*source)->names(), (*source)->given());
   findings.insert(findings.end(), shares.begin(), shares.end());
   Imported imported{std::move(grid).value(), 0};
   const std::uint64_t filled = fillVoids(imported.grid), outside = std::min(filled, imported.grid.outside);

@@ -34,6 +34,15 @@ bool isSound(const Box& b, std::span<const float> errorM) {
   return true;
 }
 
+/// No grid has fewer: halves of the smallest squares that lie wholly in it, quarters of those twice as wide.
+/// Told at once, so that a header that lies does not cost the index of another size.
+std::uint64_t leastPatches(const PostGrid& posts, std::uint32_t leafCells) {
+  const auto squares = [&](std::uint32_t cells) {
+    return std::uint64_t{(posts.columns - 1) / cells} * ((posts.rows - 1) / cells);
+  };
+  return 2 * squares(leafCells) + 4 * squares(2 * leafCells);
+}
+
 class StoredPatches final : public PatchTerrain {
  public:
   StoredPatches(std::shared_ptr<const PageFile> pages, std::filesystem::path file, const PostGrid& posts)
@@ -75,6 +84,11 @@ class StoredPatches final : public PatchTerrain {
                    std::to_string(variants) + " meshes a patch with squares of " +
                        std::to_string(header.leafCells) + " cells",
                    std::to_string(header.variants));
+    if (const std::uint64_t least = leastPatches(posts, header.leafCells); header.patches < least)
+      return wrong("index",
+                   "at least " + std::to_string(least) + " patches with squares of " +
+                       std::to_string(header.leafCells) + " cells",
+                   std::to_string(header.patches));
     index_ = makePatchIndex(posts, geometry_, header.leafCells);
     const std::size_t count = index_.size();
     PatchBytesReader in(measured->subspan(sizeof header));

@@ -105,6 +105,66 @@ TEST_F(ResumedBake, makesDamagedPiecesAgain) {
   expectWhole(dir_ / "db");
 }
 
+/// What a power cut leaves: lines of the journal, and rows that never came to the disk.
+TEST_F(ResumedBake, readsHeightsAgainThatNoSumBearsOut) {
+  options_.progress = [](double fraction, const std::string&) { return fraction < 0.5; };
+  ASSERT_FALSE(bake(options_));
+  options_.progress = nullptr;
+  const fs::path work = dir_ / ".db.work";
+  std::istringstream journal(test::readFile(work / "journal"));
+  std::string kept;
+  int dropped = 0;
+  for (std::string line; std::getline(journal, line);)
+    if (line.starts_with("heights "))
+      ++dropped;
+    else
+      kept += line + "\n";
+  ASSERT_EQ(dropped, 1);
+  test::writeFile(work / "journal", kept);
+  std::string rows = test::readFile(work / "database/heights.f32");
+  std::fill(rows.begin() + static_cast<std::ptrdiff_t>(rows.size() / 2), rows.end(), '\0');
+  test::writeFile(work / "database/heights.f32", rows);
+  fs::remove(work / "database/heights.sums");
+  fs::remove_all(work / "pieces");
+  const auto made = bake(options_);
+  ASSERT_TRUE(made) << toString(made.findings());
+  expectWhole(dir_ / "db");
+}
+
+TEST_F(ResumedBake, tellsWhatEachFileGaveWhoeverReadIt) {
+  // Two files side by side, in two bands.
+  options_.sources.clear();
+  for (int file = 0; file < 2; ++file) {
+    test::RasterRecipe recipe;
+    recipe.columns = 1000;
+    recipe.rows = 700;
+    recipe.north += file * recipe.rows * recipe.step;
+    recipe.value = [](int c, int r, int) { return test::roughGround(c, r); };
+    options_.sources.push_back(test::writeRaster(dir_ / ("half" + std::to_string(file) + ".tif"), recipe));
+  }
+  options_.maxError = Metres{500};
+  options_.memory = Megabytes{64};
+  const auto shares = [](const Findings& findings) {
+    std::string all;
+    for (const Finding& f : findings)
+      if (f.key == "share") all += f.found + "\n";
+    return all;
+  };
+  int bands = 0;
+  options_.progress = [&](double, const std::string& what) {
+    return what != "reading heights" || ++bands < 2;
+  };
+  ASSERT_FALSE(bake(options_));
+  options_.progress = nullptr;
+  const auto resumed = bake(options_);
+  ASSERT_TRUE(resumed) << toString(resumed.findings());
+  options_.output = dir_ / "at-once";
+  const auto atOnce = bake(options_);
+  ASSERT_TRUE(atOnce) << toString(atOnce.findings());
+  EXPECT_NE(shares(atOnce.findings()).find("50.0 %"), std::string::npos) << toString(atOnce.findings());
+  EXPECT_EQ(shares(resumed.findings()), shares(atOnce.findings()));
+}
+
 TEST_F(ResumedBake, beginsAnewWithOtherOptionsOrSources) {
   options_.progress = [](double fraction, const std::string&) { return fraction < 0.9; };
   options_.maxError = Metres{5};
@@ -119,6 +179,7 @@ TEST_F(ResumedBake, inPartsIsTheSame) {
   const auto early = bakeJoin(options_);
   ASSERT_FALSE(early);
   EXPECT_NE(toString(early.findings()).find("missing"), std::string::npos) << toString(early.findings());
+  EXPECT_FALSE(fs::exists(dir_ / ".db.work")) << "nothing is read for what is not there";
   std::vector<pid_t> children;
   for (std::uint32_t part = 1; part <= 3; ++part)
     children.push_back(start([&, part] {
@@ -233,7 +294,8 @@ TEST_F(ResumedBake, namesEveryPartAtWorkAndNoOther) {
   const std::string held = test::readFile(lock);
   const std::size_t machine = held.find(' '), program = held.find(' ', machine + 1);
   ASSERT_NE(program, std::string::npos) << held;
-  std::ofstream(lock, std::ios::app) << ::getppid() << held.substr(machine, program - machine) << " another\n";
+  std::ofstream(lock, std::ios::app) << ::getppid() << held.substr(machine, program - machine)
+                                     << " another\n";
   const auto refused = WorkFolder::open(options_.output, "{}", WorkFolder::Use::alone);
   ASSERT_FALSE(refused);
   const std::string said = toString(refused.findings());

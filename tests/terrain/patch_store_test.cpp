@@ -264,7 +264,9 @@ TEST_P(PatchFile, ofAnotherVersionOrOtherSquaresIsRefused) {
   const Findings other =
       refusalOf(*pages, {{kLeafCellsAt, otherCells}, {kVariantsAt, otherCells == kFineLeafCells ? 2 : 3}});
   ASSERT_FALSE(other.empty());
-  EXPECT_NE(other.front().expected.find(" patches in "), std::string::npos) << toString(other);
+  // More of them are known at once, without an index as large as they say.
+  const char* said = otherCells == kFineLeafCells ? " patches with squares of 16 cells" : " patches in ";
+  EXPECT_NE(other.front().expected.find(said), std::string::npos) << toString(other);
 }
 
 TEST_P(PatchFile, thatEndsEarlyOrLateIsRefused) {
