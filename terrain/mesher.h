@@ -38,8 +38,8 @@ struct FieldMesh {
 struct MeshOptions {
   double maxErrorM = 0;           ///< insertion ends where no post is further off; 0: every post counts
   std::size_t mostTriangles = 0;  ///< or at so many, two at the least; 0: no limit
-  /// Flips edges and moves vertices for a smaller RMS; of a limit's triangles, takes out and puts in. The
-  /// bound is kept.
+  /// Flips edges and moves vertices for a smaller RMS; of a limit's triangles, takes out and puts in, where
+  /// they are coarse also for a smaller largest error. The bound is kept.
   bool fitHeights = true;
   unsigned threads = 1;
 };

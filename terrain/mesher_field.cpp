@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 #include "trimtab/terrain/mesher_errors.h"
 #include "trimtab/terrain/mesher_fit.h"
@@ -13,9 +14,11 @@ namespace trimtab::terrain {
 namespace {
 
 /// So many more triangles than the budget are inserted where some are taken out again: with 1.16 the largest
-/// error is 4 to 9 % more, with 1.4 4 to 6 % less for a tenth more time, from 1.5 on a coarse mesh gets
-/// worse.
+/// error is 4 to 9 % more, with 1.4 4 to 6 % less for a tenth more time.
 constexpr double kOver = 1.3;
+/// Share of its bound that a coarse mesh is brought down to. With 0.765 it takes a tenth more time, and the
+/// largest error is 1 to 3 % less: more vertices come than can go, and the bound has to be raised again.
+constexpr double kNearer = 0.785;
 /// Shares of a budget that are near enough.
 struct Near {
   double least, most;
@@ -109,13 +112,11 @@ PostRows rowsOf(const HeightField& field, const GreedyMesh& tile) {
 }
 
 /// Takes out `excess` vertices. Tiles give as many as they have triangles; what some have not to give, others
-/// do.
-void thin(MeshTiles& tiles, const HeightField& field, double bound, std::size_t excess,
+/// do in further rounds.
+void thin(MeshTiles& tiles, const HeightField& field, double bound, std::size_t excess, int rounds,
           std::vector<std::vector<PostSum>>& sums) {
-  // The first round is nearly always the last.
-  constexpr int kRounds = 4;
   std::vector<std::uint8_t> gives(tiles.count(), 1);
-  for (int round = 0; round < kRounds && excess > 0; ++round) {
+  for (int round = 0; round < rounds && excess > 0; ++round) {
     std::vector<std::size_t> before(1, 0);
     for (std::size_t i = 0; i < tiles.count(); ++i)
       before.push_back(before.back() + (gives[i] != 0 ? tiles.tile(i).mesh().triangles.size() : 0));
@@ -135,37 +136,131 @@ void thin(MeshTiles& tiles, const HeightField& field, double bound, std::size_t 
   }
 }
 
+/// A mesh in parts with other borders than those of tiles: what lay on their sides is free there.
+class Regrouped {
+ public:
+  Regrouped(Fitted& all, const MeshTiles& tiles, const HeightField& field, unsigned threads)
+      : all_(all), field_(field), width_(tiles.width()), height_(tiles.height()), threads_(threads) {}
+
+  /// Flips edges and moves vertices, aside where the squares promise to fall by `least` of the square that
+  /// one post may add. Takes out up to `excess` vertices.
+  void fit(double bound, double least, std::size_t excess) {
+    allGive();
+    work(excess, true, [&](Triangulation& mesh, MeshFit& part, std::size_t share) {
+      part.flipEdges(bound);
+      part.moveHeights(bound, bound);
+      part.moveAside(bound, least * bound * bound);
+      return share == 0 || MeshThin(mesh, part).thin(share, bound) == share;
+    });
+  }
+  /// Takes out up to `excess` vertices, none where there were too few the last time.
+  void thin(double bound, std::size_t excess) {
+    work(excess, false, [&](Triangulation& mesh, MeshFit& part, std::size_t share) {
+      return MeshThin(mesh, part).thin(share, bound) == share;
+    });
+  }
+  void allGive() { gives_.assign(partCount(all_.mesh, width_, height_), 1); }
+
+ private:
+  /// Parts give as many as they have triangles.
+  std::size_t shareOf(const MeshPart& part, std::size_t excess) const {
+    std::size_t before = 0, total = 0;
+    for (std::size_t p = 0; p < gives_.size(); ++p) {
+      if (p == part.index) before = total;
+      if (gives_[p] != 0) total += part.first[p + 1] - part.first[p];
+    }
+    if (gives_[part.index] == 0) return 0;
+    return excess * (before + part.members.size()) / total - excess * before / total;
+  }
+
+  template <class Work>
+  void work(std::size_t excess, bool everyPart, const Work& visit) {
+    std::vector<std::uint8_t> gives = gives_;
+    const std::vector<std::int32_t> was =
+        eachPart(all_.mesh, width_, height_, threads_, [&](const MeshPart& part) {
+          const std::size_t share = shareOf(part, excess);
+          if (share == 0 && !everyPart) return;
+          std::vector<PostSum> some;
+          some.reserve(part.members.size());
+          for (const std::int32_t t : part.members) some.push_back(all_.sums[static_cast<std::size_t>(t)]);
+          MeshFit one(part.mesh, {field_.z, field_.stride, static_cast<std::int32_t>(field_.columns)},
+                      std::move(some));
+          if (!visit(part.mesh, one, share)) gives[part.index] = 0;
+          forgetBorder(part.mesh, one.sums());
+          for (std::size_t k = 0; k < one.sums().size(); ++k)
+            all_.sums[static_cast<std::size_t>(part.members[k])] = one.sums()[k];
+        });
+    gives_ = std::move(gives);
+    if (was.empty()) return;
+    for (std::size_t t = 0; t < was.size(); ++t) all_.sums[t] = all_.sums[static_cast<std::size_t>(was[t])];
+    all_.sums.resize(was.size());
+  }
+
+  Fitted& all_;
+  HeightField field_;
+  std::int32_t width_, height_;
+  unsigned threads_;
+  std::vector<std::uint8_t> gives_;
+};
+
+/// As much as a vertex is moved aside for, of the squares that one post may add.
+constexpr double kFirst = 0.2, kAgain = 0.1;
+
 /// Flips edges and moves vertices; takes out what is more than `most` triangles, where that can be done.
 Fitted fit(MeshTiles& tiles, const HeightField& field, double bound, std::size_t most, unsigned threads) {
-  // Of the squares that one post may add.
-  constexpr double kFirst = 0.2, kAgain = 0.1;
+  constexpr int kRounds = 4;  // The first is nearly always the last.
   const std::size_t total = tiles.triangles();
   std::vector<std::vector<PostSum>> sums(tiles.count());
   tiles.eachTile([&](GreedyMesh& tile, std::size_t i) {
     MeshFit one(tile.mesh(), rowsOf(field, tile), tile.sums());
     one.flipEdges(bound);
-    one.moveHeights(bound);
+    one.moveHeights(bound, bound);
     // Where many are about to go, none is worth being moved aside yet.
     if (total <= most) one.moveAside(bound, kFirst * bound * bound);
     sums[i] = std::move(one.sums());
   });
-  if (total > most) thin(tiles, field, bound, (total - most + 1) / 2, sums);
-  // Again with other borders: what lay on the sides of tiles is free now.
+  if (total > most) thin(tiles, field, bound, (total - most + 1) / 2, kRounds, sums);
   Fitted out = join(tiles, std::move(sums));
-  eachPart(
-      out.mesh, tiles.width(), tiles.height(), threads,
-      [&](Triangulation& part, std::span<const std::int32_t> members) {
-        std::vector<PostSum> some;
-        some.reserve(members.size());
-        for (const std::int32_t t : members) some.push_back(out.sums[static_cast<std::size_t>(t)]);
-        MeshFit one(part, {field.z, field.stride, static_cast<std::int32_t>(field.columns)}, std::move(some));
-        one.flipEdges(bound);
-        one.moveHeights(bound);
-        one.moveAside(bound, kAgain * bound * bound);
-        forgetBorder(part, one.sums());
-        for (std::size_t k = 0; k < members.size(); ++k)
-          out.sums[static_cast<std::size_t>(members[k])] = one.sums()[k];
-      });
+  Regrouped(out, tiles, field, threads).fit(bound, kAgain, 0);
+  return out;
+}
+
+/// The same of a mesh with more than `most` triangles, and brings the posts that are furthest off nearer:
+/// those that are beyond a lower bound where heights are fitted get vertices, and as many more go elsewhere.
+Fitted fitNearer(MeshTiles& tiles, const HeightField& field, double bound, std::size_t most,
+                 unsigned threads) {
+  // In shares of the bound: with vertices at the posts themselves nearly twice as many would come.
+  constexpr double kEase = 0.6;
+  // As kAgain, for each post of a triangle.
+  constexpr double kAside = 0.04;
+  const double posts = static_cast<double>(field.columns) * field.rows / static_cast<double>(most);
+  const double nearer = kNearer * bound;
+  std::vector<std::vector<PostSum>> sums(tiles.count());
+  tiles.eachTile([&](GreedyMesh& tile, std::size_t i) {
+    // Edges are flipped when most of what is to go has gone: now that would win nothing.
+    MeshFit one(tile.mesh(), rowsOf(field, tile), tile.sums());
+    one.moveHeights(HUGE_VAL, nearer);
+    tile.know(one.sums(), nearer);
+    tile.refine(nearer, std::numeric_limits<std::size_t>::max(), kEase * nearer);
+    sums[i] = tile.sums();
+  });
+  const auto excess = [&](std::size_t triangles) {
+    return triangles > most ? (triangles - most + 1) / 2 : 0;
+  };
+  thin(tiles, field, nearer, excess(tiles.triangles()), 1, sums);
+  Fitted out = join(tiles, std::move(sums));
+  Regrouped parts(out, tiles, field, threads);
+  parts.fit(nearer, kAside * posts, excess(out.mesh.triangles.size()));
+  // The last of them, where the bound is in the way, for as little more as will do. A part that is asked for
+  // one may have none to give, so that a few more are asked, and others after them.
+  constexpr int kAsked = 4;
+  double now = nearer;
+  for (int round = 0; out.mesh.triangles.size() > most && now < bound; ++round) {
+    now = std::min(nearer * (1 + 0.01 * round * round), bound);
+    if (round > 0) parts.allGive();
+    for (int asked = 0; asked < kAsked && out.mesh.triangles.size() > most; ++asked)
+      parts.thin(now, excess(out.mesh.triangles.size()) + most / 2048);
+  }
   return out;
 }
 
@@ -183,7 +278,11 @@ FieldMesh meshField(const HeightField& field, const MeshOptions& options) {
   const unsigned threads = std::max(options.threads, 1u);
   // A search for fewer than there can be would end nowhere.
   const std::size_t most = options.mostTriangles == 0 ? 0 : std::max<std::size_t>(options.mostTriangles, 2);
-  MeshTiles tiles(field, most, threads);
+  // It would take a quarter more time of a mesh with 5 posts a triangle, and takes none of one with 50.
+  constexpr std::size_t kCoarsePosts = 16;
+  const bool nearer =
+      options.fitHeights && most != 0 && std::size_t{field.columns} * field.rows >= kCoarsePosts * most;
+  MeshTiles tiles(field, most, nearer ? kNearer : 1, threads);
   Fitted fitted;
   const auto make = [&](double share, Near near) {
     if (most == 0)
@@ -192,7 +291,12 @@ FieldMesh meshField(const HeightField& field, const MeshOptions& options) {
       spend(tiles, field, options.maxErrorM, share * static_cast<double>(most), near);
     const double bound = std::max(options.maxErrorM, tiles.maxErrorM());
     const std::size_t keep = most == 0 ? tiles.triangles() : most;
-    fitted = options.fitHeights ? fit(tiles, field, bound, keep, threads) : unfitted(tiles);
+    if (!options.fitHeights)
+      fitted = unfitted(tiles);
+    else if (nearer && tiles.triangles() > keep)
+      fitted = fitNearer(tiles, field, bound, keep, threads);
+    else
+      fitted = fit(tiles, field, bound, keep, threads);
   };
   constexpr Near kStrictly{0.97, 1};
   if (options.fitHeights)

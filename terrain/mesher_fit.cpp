@@ -10,7 +10,7 @@ namespace {
 using Vertex = Triangulation::Vertex;
 using Triangle = Triangulation::Triangle;
 
-/// More than what rounding adds, in shares of the bound.
+/// More than what rounding adds, in shares of the least error that counts.
 constexpr double kRounding = 1e-4;
 
 }  // namespace
@@ -153,7 +153,7 @@ void MeshFit::raise(std::uint32_t v, float z) {
   mesh_.vertices[v].z = z;
 }
 
-void MeshFit::moveHeights(double bound) {
+void MeshFit::moveHeights(double bound, double own) {
   moments_.resize(mesh_.triangles.size());
   measure(0, static_cast<std::int32_t>(mesh_.triangles.size()));
   starts_ = innerStarts(mesh_);
@@ -168,13 +168,14 @@ void MeshFit::moveHeights(double bound) {
       wr += moments_[static_cast<std::size_t>(t)].wr[i];
       ww += moments_[static_cast<std::size_t>(t)].ww[i];
     });
-    raise(v, static_cast<float>(mesh_.vertices[v].z + wr / ww));
+    const double off = offAt(mesh_.vertices[v]), most = own * (1 - kRounding);
+    raise(v, static_cast<float>(mesh_.vertices[v].z + std::clamp(wr / ww, off - most, off + most)));
   }
-  keepBound(bound, before);
+  keepBound(bound, kRounding * own, before);
 }
 
 /// Where heights brought posts beyond the bound, takes them back, and then as near as the bound allows.
-void MeshFit::keepBound(double bound, std::span<const float> before) {
+void MeshFit::keepBound(double bound, double rounding, std::span<const float> before) {
   std::vector<std::int32_t> broken;
   const auto look = [&](std::int32_t t) {
     double& worst = sums_[static_cast<std::size_t>(t)].worst;
@@ -192,7 +193,7 @@ void MeshFit::keepBound(double bound, std::span<const float> before) {
     }
     // The worst is no more than if all squares were of one post, or it had moved with the corner.
     PostSum& sum = sums_[t];
-    const double most = std::min(sum.worst + moved, std::sqrt(sum.squares)) + kRounding * bound;
+    const double most = std::min(sum.worst + moved, std::sqrt(sum.squares)) + rounding;
     if (std::max(most, ends) <= bound)
       sum.worst = most;
     else

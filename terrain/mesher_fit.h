@@ -17,8 +17,8 @@ class MeshFit {
   /// `sums`: one a triangle, if known; `worst` may be more than it is.
   MeshFit(Triangulation& mesh, const PostRows& posts, std::vector<PostSum> sums);
   void flipEdges(double bound);
-  /// Vertices by height, each to the least squares about it.
-  void moveHeights(double bound);
+  /// Vertices by height, each to the least squares about it, but none further than `own` from its post.
+  void moveHeights(double bound, double own);
   /// One after the other by whole posts, where the squares promise to fall by `least` at least. After
   /// moveHeights.
   void moveAside(double bound, double least);
@@ -53,7 +53,7 @@ class MeshFit {
   bool tryFlip(std::int32_t t, int i, double bound);
   void measure(std::int32_t first, std::int32_t count);
   void raise(std::uint32_t v, float z);
-  void keepBound(double bound, std::span<const float> before);
+  void keepBound(double bound, double rounding, std::span<const float> before);
   Star starOf(std::uint32_t v) const;
   /// Whether the triangles about a vertex would stay anticlockwise with it there: only then there are posts.
   bool mayStand(std::uint32_t v, const Triangulation::Vertex& there) const;

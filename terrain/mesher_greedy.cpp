@@ -32,6 +32,20 @@ Facet facetOf(const Triangulation& mesh, std::int32_t t) {
   return out;
 }
 
+/// Of a triangle, at a place in it.
+double heightAt(const Triangulation& mesh, const Triangulation::Triangle& one, std::int32_t x,
+                std::int32_t y) {
+  double sum = 0, whole = 0;
+  for (int i = 0; i < 3; ++i) {
+    const Triangulation::Vertex &a = mesh.vertices[one.corner[Triangulation::next(i)]],
+                                &b = mesh.vertices[one.corner[Triangulation::before(i)]];
+    const auto beside = static_cast<double>(Triangulation::turn(a, b, x, y));
+    sum += beside * mesh.vertices[one.corner[i]].z;
+    whole += beside;
+  }
+  return sum / whole;
+}
+
 [[maybe_unused]] bool allFinite(const HeightField& field, std::span<const PolygonMesher::Point> border) {
   std::uint32_t west = ~0u, east = 0, south = ~0u, north = 0;
   for (const PolygonMesher::Point& p : border) {
@@ -188,7 +202,16 @@ void GreedyMesh::scanAbout(std::int32_t first) {
   } while (t != first);
 }
 
-void GreedyMesh::refine(double tolerance, std::size_t mostVertices) {
+void GreedyMesh::know(std::span<const PostSum> sums, double tolerance) {
+  assert(sums.size() == error_.size());
+  for (std::size_t t = 0; t < sums.size(); ++t) {
+    error_[t] = sums[t].worst > tolerance ? kUnknown : sums[t].worst;
+    squares_[t] = sums[t].squares;
+  }
+  unknown_ = true;
+}
+
+void GreedyMesh::refine(double tolerance, std::size_t mostVertices, double ease) {
   tolerance_ = std::max(tolerance, 0.0);
   queue_.begin(std::max(tolerance_, 0x1p-40));
   const auto count = static_cast<std::int32_t>(mesh_.triangles.size());
@@ -203,7 +226,11 @@ void GreedyMesh::refine(double tolerance, std::size_t mostVertices) {
   for (std::int32_t t; points_.size() < mostVertices && (t = queue_.top()) >= 0;) {
     const Triangulation::Triangle& one = mesh_.triangles[static_cast<std::size_t>(t)];
     const std::int32_t x = one.postX * step_, y = one.postY * step_;
-    const float z = row(one.postY)[one.postX];
+    float z = row(one.postY)[one.postX];
+    if (ease > 0) {
+      const double off = z - heightAt(mesh_, one, x, y);
+      z = static_cast<float>(z - std::clamp(off, -ease, ease));
+    }
     const auto v = static_cast<std::uint32_t>(points_.size());
     points_.push_back({static_cast<std::uint32_t>(x) + originX_, static_cast<std::uint32_t>(y) + originY_});
     mesh_.vertices.push_back({x, y, z});

@@ -28,7 +28,12 @@ class GreedyMesh {
   void begin(const HeightField& field, std::span<const Point> border, std::span<const float> borderZ = {});
   /// One more vertex of the border, on its edge that leaves `from`; before further refinement.
   std::uint32_t addBorder(std::uint32_t from, Point at);
-  void refine(double tolerance, std::size_t mostVertices);
+  /// A vertex that is inserted stays up to `ease` short of its post, but between that and the mesh: where the
+  /// mesh fits the land, a post that is too far off stands out from its neighbours.
+  void refine(double tolerance, std::size_t mostVertices, double ease = 0);
+  /// Takes note of vertices that were moved since: `sums` are those of now, one a triangle. An error above
+  /// `tolerance` may be given as more than it is: refinement measures it.
+  void know(std::span<const PostSum> sums, double tolerance);
 
   const Triangulation& mesh() const { return mesh_; }
   Triangulation& mesh() { return mesh_; }

@@ -7,16 +7,68 @@
 
 namespace trimtab::terrain {
 
-void eachPart(Triangulation& mesh, std::int32_t width, std::int32_t height, unsigned threads,
-              const std::function<void(Triangulation&, std::span<const std::int32_t>)>& work) {
-  using Triangle = Triangulation::Triangle;
-  const auto count = static_cast<std::int32_t>(mesh.triangles.size());
+namespace {
+
+constexpr std::uint32_t kDead = ~0u;
+
+struct Grid {
+  std::int32_t across, up;
+};
+Grid gridOf(const Triangulation& mesh, std::int32_t width, std::int32_t height) {
   std::int32_t right = 0, top = 0;
   for (const Triangulation::Vertex& v : mesh.vertices) {
     right = std::max(right, v.x);
     top = std::max(top, v.y);
   }
-  const std::int32_t across = (right + width / 2) / width + 1, up = (top + height / 2) / height + 1;
+  return {(right + width / 2) / width + 1, (top + height / 2) / height + 1};
+}
+
+/// Closes the gaps that dead triangles leave, and those of vertices that have lost all of theirs.
+std::vector<std::int32_t> closeGaps(Triangulation& mesh) {
+  using Triangle = Triangulation::Triangle;
+  std::vector<std::int32_t> to(mesh.triangles.size(), -1), was, vertexTo(mesh.vertices.size(), -1);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle& one = mesh.triangles[t];
+    if (one.corner[0] == kDead) continue;
+    to[t] = static_cast<std::int32_t>(was.size());
+    was.push_back(static_cast<std::int32_t>(t));
+    for (const std::uint32_t v : one.corner) vertexTo[v] = 0;
+  }
+  std::size_t vertices = 0;
+  for (std::size_t v = 0; v < vertexTo.size(); ++v) {
+    if (vertexTo[v] < 0) continue;
+    mesh.vertices[vertices] = mesh.vertices[v];
+    vertexTo[v] = static_cast<std::int32_t>(vertices++);
+  }
+  mesh.vertices.resize(vertices);
+  mesh.borderEdge.assign(vertices, -1);
+  for (std::size_t t = 0; t < was.size(); ++t) {
+    Triangle one = mesh.triangles[static_cast<std::size_t>(was[t])];
+    for (int i = 0; i < 3; ++i) {
+      const std::int32_t other = one.twin[i];
+      one.corner[i] = static_cast<std::uint32_t>(vertexTo[one.corner[i]]);
+      one.twin[i] = other < 0 ? ~static_cast<std::int32_t>(one.corner[i])
+                              : 4 * to[static_cast<std::size_t>(other >> 2)] + (other & 3);
+      if (other < 0) mesh.borderEdge[one.corner[i]] = 4 * static_cast<std::int32_t>(t) + i;
+    }
+    mesh.triangles[t] = one;
+  }
+  mesh.triangles.resize(was.size());
+  return was;
+}
+
+}  // namespace
+
+std::size_t partCount(const Triangulation& mesh, std::int32_t width, std::int32_t height) {
+  const auto [across, up] = gridOf(mesh, width, height);
+  return static_cast<std::size_t>(across) * static_cast<std::size_t>(up);
+}
+
+std::vector<std::int32_t> eachPart(Triangulation& mesh, std::int32_t width, std::int32_t height,
+                                   unsigned threads, const std::function<void(const MeshPart&)>& work) {
+  using Triangle = Triangulation::Triangle;
+  const auto count = static_cast<std::int32_t>(mesh.triangles.size());
+  const auto [across, up] = gridOf(mesh, width, height);
 
   // Triangles by part, those of a part in their order.
   std::vector<std::uint32_t> part(mesh.triangles.size()), first(static_cast<std::size_t>(across * up) + 1, 0);
@@ -81,7 +133,11 @@ void eachPart(Triangulation& mesh, std::int32_t width, std::int32_t height, unsi
         if (local.triangles[t].twin[i] < 0)
           local.borderEdge[static_cast<std::size_t>(~local.triangles[t].twin[i])] =
               4 * static_cast<std::int32_t>(t) + i;
-    if (!local.triangles.empty()) work(local, std::span(members).subspan(first[p], first[p + 1] - first[p]));
+    if (!local.triangles.empty())
+      work({local, std::span(members).subspan(first[p], first[p + 1] - first[p]), p, first});
+    for (std::uint32_t k = first[p] + static_cast<std::uint32_t>(local.triangles.size()); k < first[p + 1];
+         ++k)
+      mesh.triangles[static_cast<std::size_t>(members[k])].corner[0] = kDead;
     const auto toGlobal = [&](std::int32_t h) {
       return 4 * members[first[p] + static_cast<std::uint32_t>(h >> 2)] + (h & 3);
     };
@@ -106,6 +162,9 @@ void eachPart(Triangulation& mesh, std::int32_t width, std::int32_t height, unsi
   for (const std::vector<Cut>& of : cuts)
     for (const Cut& cut : of)
       mesh.link(cut.now, cut.twin < 0 ? cut.twin : now[static_cast<std::size_t>(cut.twin)]);
+  const bool gone = std::any_of(mesh.triangles.begin(), mesh.triangles.end(),
+                                [](const Triangle& one) { return one.corner[0] == kDead; });
+  return gone ? closeGaps(mesh) : std::vector<std::int32_t>{};
 }
 
 }  // namespace trimtab::terrain

@@ -24,14 +24,13 @@ bool MeshThin::gatherRing(std::uint32_t v) {
   return ring_.size() <= kMostAbout;
 }
 
-/// Finds the fan that passes nearest to the vertex, from areas alone.
-bool MeshThin::guess(std::uint32_t v, Removal& removal) {
+/// Finds the fan that passes nearest to the vertex and within the bound of its post, from areas alone.
+bool MeshThin::guess(std::uint32_t v, double bound, Removal& removal) {
   if (!gatherRing(v)) return false;
   const Vertex& at = mesh_.vertices[v];
   const std::size_t count = ring_.size();
-  // The ring twice round, as seen from the vertex.
-  std::int64_t x[2 * kMostAbout], y[2 * kMostAbout], beside[2 * kMostAbout], area = 0;
-  double z[2 * kMostAbout];
+  // The ring twice round, as seen from the vertex: whole numbers, and what is made of them is exact.
+  double x[2 * kMostAbout], y[2 * kMostAbout], z[2 * kMostAbout], beside[2 * kMostAbout], area = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Vertex& of = mesh_.vertices[ring_[i].vertex];
     x[i] = x[i + count] = of.x - at.x;
@@ -40,29 +39,32 @@ bool MeshThin::guess(std::uint32_t v, Removal& removal) {
   }
   const auto cross = [&](std::size_t i, std::size_t j) { return x[i] * y[j] - y[i] * x[j]; };
   for (std::size_t i = 0; i < count; ++i) area += beside[i] = beside[i + count] = cross(i, i + 1);
+  const double own = fit_.offAt(at);
   double nearest = HUGE_VAL;
   for (std::size_t a = 0; a < count; ++a) {
-    std::int64_t before = beside[a];
-    double off = HUGE_VAL;
+    double before = beside[a], off = HUGE_VAL;
+    std::size_t under = 0;
     bool open = true;
     for (std::size_t j = a + 1; j + 1 < a + count && open; ++j) {
-      const std::int64_t after = cross(a, j + 1), whole = before + beside[j] - after;
+      const double after = cross(a, j + 1), whole = before + beside[j] - after;
       open = whole > 0;
       // The first triangle of the fan beyond which the vertex does not lie.
-      if (off == HUGE_VAL && after < 0)
-        off = std::fabs((z[a] * static_cast<double>(beside[j]) - z[j] * static_cast<double>(after) +
-                         z[j + 1] * static_cast<double>(before)) /
-                        static_cast<double>(whole));
-      open = open && (off == HUGE_VAL || off < nearest);
+      if (under == 0 && after < 0) {
+        const double rise = (z[a] * beside[j] - z[j] * after + z[j + 1] * before) / whole;
+        off = std::fabs(rise);
+        under = j - a;
+        open = open && off < nearest && std::fabs(own - rise) <= bound;
+      }
       before = after;
     }
-    if (!open || off == HUGE_VAL) continue;
+    if (!open || under == 0) continue;
     nearest = off;
     removal.from = static_cast<std::uint32_t>(a);
+    removal.under = static_cast<std::uint32_t>(under);
   }
   if (nearest == HUGE_VAL) return false;
   // Squares of a pyramid so high over the triangles, and of its top.
-  removal.cost = nearest * nearest * (static_cast<double>(area) / 12 + 0.5);
+  removal.cost = nearest * nearest * (area / 12 + 0.5);
   removal.vertex = v;
   removal.stamp = stamps_[v];
   removal.exact = false;
@@ -76,11 +78,18 @@ bool MeshThin::measure(Removal& removal, double bound) {
   const double own = fit_.offAt(at);
   double cost = -own * own;
   for (const About& one : ring_) cost -= fit_.sums()[static_cast<std::size_t>(one.triangle)].squares;
-  for (std::size_t k = 1; k <= last; ++k) {
+  removal.sums = known_.size();
+  known_.resize(known_.size() + last);
+  // What breaks the bound mostly does so under the vertex.
+  for (std::size_t i = 0, k = removal.under; i < last; ++i, k = k == last ? 1 : k + 1) {
     const About &b = ring_[along(removal.from, k)], &c = ring_[along(removal.from, k + 1)];
     const bool border[3] = {k == 1 && ring_[removal.from].outer < 0, b.outer < 0, k == last && c.outer < 0};
     const PostSum sum = fit_.sumOf(from, mesh_.vertices[b.vertex], mesh_.vertices[c.vertex], border);
-    if (sum.worst > bound) return false;
+    if (sum.worst > bound) {
+      known_.resize(removal.sums);
+      return false;
+    }
+    known_[removal.sums + k - 1] = sum;
     cost += sum.squares;
   }
   removal.cost = cost;
@@ -111,7 +120,7 @@ void MeshThin::remove(const Removal& removal) {
   mesh_.link(before, end.outer);
   for (std::size_t k = 1; k <= last; ++k) {
     const std::int32_t t = ring_[along(removal.from, k)].triangle;
-    fit_.sums()[static_cast<std::size_t>(t)] = fit_.sumOf(t);
+    fit_.sums()[static_cast<std::size_t>(t)] = known_[removal.sums + k - 1];
   }
   for (const About* one : {&from, &end})
     mesh_.triangles[static_cast<std::size_t>(one->triangle)].corner[0] = kDead;
@@ -123,10 +132,11 @@ std::size_t MeshThin::thin(std::size_t most, double bound) {
     return a.cost != b.cost ? a.cost > b.cost : a.vertex > b.vertex;
   };
   stamps_.assign(mesh_.vertices.size(), 0);
+  known_.clear();
   std::vector<Removal> open;
   Removal one;
   for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v)
-    if (starts_[v] >= 0 && guess(v, one)) open.push_back(one);
+    if (starts_[v] >= 0 && guess(v, bound, one)) open.push_back(one);
   // Of guesses the worse ones are hardly ever wanted.
   std::vector<Removal> rest;
   if (const std::size_t likely = 3 * most; open.size() > likely) {
@@ -148,7 +158,7 @@ std::size_t MeshThin::thin(std::size_t most, double bound) {
     one = open.back();
     open.pop_back();
     if (one.stamp != stamps_[one.vertex]) {
-      if (!guess(one.vertex, one)) continue;
+      if (!guess(one.vertex, bound, one)) continue;
     } else if (!one.exact) {
       if (!measure(one, bound)) continue;
     } else {

@@ -24,7 +24,9 @@ class MeshThin {
   struct Removal {
     double cost = 0;  ///< growth of the sum: guessed, or `exact`
     std::uint32_t vertex = 0, stamp = 0, from = 0;
+    std::uint32_t under = 0;  ///< which triangle of the fan, from 1 on, has the vertex's post
     bool exact = false;
+    std::size_t sums = 0;  ///< where exact: of the fan's triangles, the first in known_
   };
   struct About {
     std::uint32_t vertex;
@@ -33,7 +35,7 @@ class MeshThin {
   bool gatherRing(std::uint32_t v);
   /// Triangle k of a fan, from 1 on, has this and the next corner beside the one all start from.
   std::size_t along(std::size_t from, std::size_t k) const { return (from + k) % ring_.size(); }
-  bool guess(std::uint32_t v, Removal& removal);
+  bool guess(std::uint32_t v, double bound, Removal& removal);
   bool measure(Removal& removal, double bound);
   void remove(const Removal& removal);
   void compact();
@@ -43,6 +45,7 @@ class MeshThin {
   std::vector<std::int32_t> starts_;
   std::vector<std::uint32_t> stamps_;  ///< one a vertex: how often its ring has changed
   std::vector<About> ring_;            ///< anticlockwise
+  std::vector<PostSum> known_;         ///< of fans that were measured
 };
 
 }  // namespace trimtab::terrain

@@ -30,8 +30,8 @@ void onThreads(unsigned threads, std::uint32_t count, const std::function<void(s
   for (std::thread& t : others) t.join();
 }
 
-MeshTiles::MeshTiles(const HeightField& field, std::size_t mostTriangles, unsigned threads)
-    : field_(field), threads_(threads) {
+MeshTiles::MeshTiles(const HeightField& field, std::size_t mostTriangles, double nearer, unsigned threads)
+    : field_(field), sideShare_(kSideShare * nearer), threads_(threads) {
   const auto count = [](std::uint32_t posts) {
     return std::max(1u, (posts - 1 + kTilePosts / 2) / kTilePosts);
   };
@@ -82,7 +82,7 @@ void MeshTiles::begin(Tile& tile, double tolerance) {
     for (std::int32_t i = 0; i < last; ++i) {
       // South and east run as the side does, north and west against it; the far end is the next side's.
       const std::int32_t k = s < 2 ? i : last - i;
-      if (i != 0 && !(side.key[static_cast<std::size_t>(k)] > kSideShare * tolerance)) continue;
+      if (i != 0 && !(side.key[static_cast<std::size_t>(k)] > sideShare_ * tolerance)) continue;
       const auto along = static_cast<std::uint32_t>(k);
       border.push_back(s % 2 == 0 ? PolygonMesher::Point{side.from.column + along, side.from.row}
                                   : PolygonMesher::Point{side.from.column, side.from.row + along});
@@ -102,7 +102,7 @@ void MeshTiles::addSides(Tile& tile, double tolerance) {
     const Side& side = sides_[tile.sides[s]];
     std::vector<std::int32_t>& vertex = tile.vertex[s];
     for (std::size_t k = 1; k + 1 < side.key.size(); ++k) {
-      if (!(side.key[k] > kSideShare * tolerance) || side.key[k] > kSideShare * tile.tolerance) continue;
+      if (!(side.key[k] > sideShare_ * tolerance) || side.key[k] > sideShare_ * tile.tolerance) continue;
       std::size_t from = k;
       do from = s < 2 ? from - 1 : from + 1;
       while (vertex[from] < 0);

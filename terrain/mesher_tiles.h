@@ -16,7 +16,8 @@ void onThreads(unsigned threads, std::uint32_t count, const std::function<void(s
 /// them. Caches hold a tile, and tiles need no word of each other: so it is faster even on one core.
 class MeshTiles {
  public:
-  MeshTiles(const HeightField& field, std::size_t mostTriangles, unsigned threads);
+  /// `nearer`: in shares of a tolerance, that which tiles are to be taken to when all are refined.
+  MeshTiles(const HeightField& field, std::size_t mostTriangles, double nearer, unsigned threads);
 
   /// Refines to `tolerance` the tiles that are taken. One that is finer already begins anew.
   void refine(double tolerance);
@@ -60,6 +61,7 @@ class MeshTiles {
   }
 
   HeightField field_;
+  double sideShare_;  ///< of the tolerance of tiles that of their sides
   unsigned threads_;
   std::uint32_t across_ = 1, up_ = 1;
   std::vector<std::uint32_t> columns_, rows_;  ///< of the lines between tiles
