@@ -91,7 +91,7 @@ void TerrainJob::start(const std::filesystem::path& source, const QString& what,
       post([this, result = std::move(result)] {
         running_ = false;
         if (result)
-          emit opened(result.value());
+          emit opened(result.value(), result.findings());
         else
           emit failed(result.findings());
       });

@@ -33,7 +33,8 @@ class TerrainJob : public QObject {
  signals:
   void started(const QString& what);
   void progressed(double fraction, const QString& what);
-  void opened(std::shared_ptr<const trimtab::terrain::Database> database);
+  /// With what is worth knowing of how it was opened or baked.
+  void opened(std::shared_ptr<const trimtab::terrain::Database> database, const trimtab::Findings& findings);
   void failed(const trimtab::Findings& findings);
   void cancelled();
 

@@ -108,6 +108,24 @@ TEST_F(TerrainDock, bakesWhatIsAskedForAndOpensIt) {
   EXPECT_FALSE(panel().findChild<QProgressBar*>()->isVisible());
 }
 
+TEST_F(TerrainDock, tellsWhatABakeFoundThoughItSucceeded) {
+  ASSERT_TRUE(terrain::writeSample(dir_ / "small.tif", {7, 20, 100, {}}));
+  writeFile(dir_ / "hole.asc",
+            "ncols 2\nnrows 2\nxllcenter 128.35\nyllcenter 36.63\ncellsize 0.001\nNODATA_value -9999\n"
+            "-9999 -9999\n-9999 -9999\n");
+  writeFile(dir_ / "hole.prj",
+            R"(GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],)"
+            R"(PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]])");
+  terrain::BakeOptions options;
+  options.sources = {dir_ / "small.tif", dir_ / "hole.asc"};
+  options.output = dir_ / "mine";
+  w().terrainJob().bake(options);
+  ASSERT_TRUE(waitFor([this] { return says(QStringLiteral("<b>")) && !w().terrainJob().running(); }));
+  EXPECT_TRUE(terrain::isDatabase(dir_ / "mine")) << w().messages().text().toStdString();
+  EXPECT_TRUE(w().messages().text().contains(QStringLiteral("voids alone")))
+      << w().messages().text().toStdString();
+}
+
 TEST_F(TerrainDock, keepsTheTerrainWhenABakeIsCancelledOrRefused) {
   ASSERT_TRUE(terrain::writeSample(dir_ / "large.tif", {7, 150, 60, {}}));
   terrain::BakeOptions options;
