@@ -70,6 +70,15 @@ Degrees widthOf(const terrain::TerrainInfo& info) {
   return info.postLongitude * (info.columns > 1 ? info.columns - 1.0 : 0.0);
 }
 
+terrain::PostGrid postsOf(const terrain::TerrainInfo& info) {
+  return {info.southWest.longitude.value(),
+          info.southWest.latitude.value(),
+          info.postLongitude.value(),
+          info.postLatitude.value(),
+          info.columns,
+          info.rows};
+}
+
 GeodeticPosition placeIn(const terrain::TerrainInfo& info, double east, double north) {
   return {info.southWest.latitude + (info.northEast.latitude - info.southWest.latitude) * north,
           wrapped180(info.southWest.longitude + widthOf(info) * east), Metres{0}};

@@ -2,6 +2,7 @@
 
 #include "trimtab/frame/frame.h"
 #include "trimtab/terrain/database.h"
+#include "trimtab/terrain/post_grid.h"
 
 namespace trimtab::scene {
 
@@ -28,6 +29,8 @@ class DataExtent {
 /// From the western border eastward to the other one: longitudes of borders are wrapped, and the date line
 /// may lie between them.
 Degrees widthOf(const terrain::TerrainInfo& info);
+/// Where its posts are, from what is told of it.
+terrain::PostGrid postsOf(const terrain::TerrainInfo& info);
 /// A place on the ellipsoid by fractions of the terrain's extent, from its south-western corner.
 GeodeticPosition placeIn(const terrain::TerrainInfo& info, double east, double north);
 bool liesOver(const terrain::TerrainInfo& info, const GeodeticPosition& place);

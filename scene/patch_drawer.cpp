@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "trimtab/culling/box_distance.h"
+#include "trimtab/scene/data_extent.h"
 #include "trimtab/scene/gl_api.h"
 #include "trimtab/scene/gl_report.h"
 
@@ -67,13 +68,11 @@ void PatchDrawer::plant(const Defects& defects) {
 }
 
 void PatchDrawer::updateGround() {
-  const terrain::TerrainInfo& info = database_->info();
+  const terrain::PostGrid posts = postsOf(database_->info());
   const GeodeticPosition& eye = frame_->request.eye;
-  const double east = wrapped180(eye.longitude - info.southWest.longitude).value(),
-               north = (eye.latitude - info.southWest.latitude).value();
   const std::uint64_t before = gl_->ground.bytesUploaded();
   gl_->ground.showVoids(frame_->request.overlays.voids);
-  gl_->ground.update(east / info.postLongitude.value(), north / info.postLatitude.value(),
+  gl_->ground.update(posts.columnOf(eye.longitude.value()), posts.rowOf(eye.latitude.value()),
                      frame_->request.waitForPages, kGroundBytesAFrame);
   frame_->counters.paging.failed += gl_->ground.failed();
   frame_->counters.paging.settled = frame_->counters.paging.waiting == 0 && gl_->ground.complete();

@@ -84,10 +84,7 @@ void PatchGround::setTerrain(std::shared_ptr<const terrain::Database> database) 
     surfaceErrorM_.push_back(std::span(facts.bilinearErrorM).first(variants));
   const terrain::TerrainInfo& info = database->info();
   extent_ = DataExtent(info);
-  west_ = info.southWest.longitude;
-  south_ = info.southWest.latitude;
-  postLongitude_ = info.postLongitude.value();
-  postLatitude_ = info.postLatitude.value();
+  posts_ = postsOf(info);
   const auto margin = [this](double postM) {
     return static_cast<std::uint32_t>(std::min(1e9, std::ceil(extent_.sagM() / std::max(postM, 1e-3)) + 1));
   };
@@ -213,8 +210,8 @@ bool PatchGround::mayOcclude(std::uint32_t node) {
       const GeodeticPosition place =
           index.frame.toGeodetic({(corner & 1) != 0 ? b.maxX : b.minX, (corner & 2) != 0 ? b.maxY : b.minY,
                                   (corner & 4) != 0 ? b.maxZ : b.minZ});
-      const double column = wrapped180(place.longitude - west_).value() / postLongitude_,
-                   row = (place.latitude - south_).value() / postLatitude_;
+      const double column = posts_.columnOf(place.longitude.value()),
+                   row = posts_.rowOf(place.latitude.value());
       // One more for the bulge of a meridian or parallel within the box.
       const double besideColumns = marginColumns_ + 1.0, besideRows = marginRows_ + 1.0;
       if (!(column >= besideColumns && row >= besideRows && column + besideColumns < index.columns &&

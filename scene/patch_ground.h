@@ -76,8 +76,7 @@ class PatchGround final : public OcclusionGround {
   // One a patch: 0 is not known, 1 no, 2 yes.
   std::vector<std::uint8_t> inside_;       ///< of mayOcclude
   std::vector<std::uint8_t> normalsRise_;  ///< all of its triangles' are proven to
-  Degrees west_, south_;
-  double postLongitude_ = 1, postLatitude_ = 1;
+  terrain::PostGrid posts_;
   std::vector<ReliefVertex> vertices_;
 };
 

@@ -60,8 +60,8 @@ class PatchTerrain;
 class Database {
  public:
   virtual ~Database() = default;
-  /// Opens a folder; nothing is read in proportion to the posts. Findings name file, place, expected and
-  /// found; nothing half-open is returned.
+  /// Opens a folder: reads indices, trees and a byte a cell of tiles' slopes, not heights, colours or meshes.
+  /// Findings name file, place, expected and found; nothing half-open is returned.
   static Result<std::shared_ptr<const Database>> open(const std::filesystem::path& folder);
 
   virtual const TerrainInfo& info() const = 0;

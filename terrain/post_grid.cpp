@@ -1,5 +1,7 @@
 #include "trimtab/terrain/post_grid.h"
 
+#include "trimtab/units/geodesy.h"
+
 namespace trimtab::terrain {
 
 namespace {
@@ -12,6 +14,11 @@ std::uint32_t tilesFor(std::uint32_t posts, std::uint32_t level) {
 }
 
 }  // namespace
+
+double PostGrid::columnOf(double longitudeDeg) const {
+  const double middle = longitude((columns - 1.0) / 2);
+  return (middle + wrapped180(Degrees{longitudeDeg - middle}).value() - west) / stepLongitude;
+}
 
 TerrainIndex makeLevels(const PostGrid& posts) {
   TerrainIndex index;

@@ -17,6 +17,9 @@ struct PostGrid {
   std::size_t size() const { return std::size_t{columns} * rows; }
   double longitude(double column) const { return west + column * stepLongitude; }
   double latitude(double row) const { return south + row * stepLatitude; }
+  /// Of a longitude in any turn, as near to the grid's middle as turns allow: negative west of the grid.
+  double columnOf(double longitudeDeg) const;
+  double rowOf(double latitudeDeg) const { return (latitudeDeg - south) / stepLatitude; }
 
   friend bool operator==(const PostGrid&, const PostGrid&) = default;
 };

@@ -78,6 +78,8 @@ struct Bucket {
 /// The bucket that holds a place, and the borders of one; index -1 where there is none.
 Bucket bucketAt(Degrees latitude, Degrees longitude);
 Bucket bucketOf(long index);
+/// bucketAt with borders in the turn of `longitude`: past 180 degrees where that is.
+Bucket bucketNear(Degrees latitude, Degrees longitude);
 
 /// sRGB of a material by its name: land cover in sensible colours; a name nobody knows gets a grey.
 std::array<std::uint8_t, 3> materialColour(std::string_view material);

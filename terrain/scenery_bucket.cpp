@@ -53,4 +53,13 @@ Bucket bucketAt(Degrees latitude, Degrees longitude) {
   return bucketOf((static_cast<long>(column) + 180) << 14 | static_cast<long>(row + 90) << 6 | y << 3 | x);
 }
 
+Bucket bucketNear(Degrees latitude, Degrees longitude) {
+  Bucket bucket = bucketAt(latitude, longitude);
+  if (bucket.index < 0) return bucket;
+  const Degrees turn{360 * std::round((longitude - bucket.west).value() / 360)};
+  bucket.west = bucket.west + turn;
+  bucket.east = bucket.east + turn;
+  return bucket;
+}
+
 }  // namespace trimtab::terrain

@@ -77,20 +77,12 @@ class Surroundings {
     for (double latitude = std::floor(where_.south * 8) / 8 + 1.0 / 16; latitude - 1.0 / 16 < where_.north;
          latitude += 0.125)
       for (double longitude = where_.west + 1e-7; longitude < where_.east;) {
-        const Bucket b = bucketNear(latitude, longitude);
+        const Bucket b = bucketNear(Degrees{latitude}, Degrees{longitude});
         if (b.index < 0) break;
         if (!hasScenery(b) && covers(clipped(b))) all.push_back(b);
         longitude = b.east.value() + 1e-7;
       }
     return all;
-  }
-  /// With longitudes as the grid counts them.
-  Bucket bucketNear(double latitude, double longitude) const {
-    Bucket b = bucketAt(Degrees{latitude}, Degrees{longitude});
-    const double turn = 360 * std::round((longitude - b.west.value()) / 360);
-    b.west = b.west + Degrees{turn};
-    b.east = b.east + Degrees{turn};
-    return b;
   }
   Rectangle clipped(const Bucket& b) const {
     return {std::max(b.west.value(), where_.west), std::max(b.south.value(), where_.south),
@@ -181,7 +173,7 @@ class Maker {
     std::vector<double> cuts{from};
     if (level) {
       for (double at = from + 1e-7; at < to;) {
-        const Bucket b = around_.bucketNear(line + outward * 1e-6, at);
+        const Bucket b = bucketNear(Degrees{line + outward * 1e-6}, Degrees{at});
         if (b.index < 0 || b.east.value() >= to - 1e-7) break;
         cuts.push_back(b.east.value());
         at = b.east.value() + 1e-7;
@@ -191,8 +183,8 @@ class Maker {
     std::vector<Place> all;
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
       const double middle = (cuts[i] + cuts[i + 1]) / 2;
-      const Bucket b = level ? around_.bucketNear(line + outward * 1e-6, middle)
-                             : around_.bucketNear(middle, line + outward * 1e-6);
+      const Bucket b = level ? bucketNear(Degrees{line + outward * 1e-6}, Degrees{middle})
+                             : bucketNear(Degrees{middle}, Degrees{line + outward * 1e-6});
       const bool scenery = around_.hasScenery(b);
       auto part = scenery ? sceneryStretch(level, line, cuts[i], cuts[i + 1])
                           : gridStretch(level, line, cuts[i], cuts[i + 1]);

@@ -67,7 +67,7 @@ struct StaticLodTerrain {
 
 struct StaticLodOptions {
   std::uint32_t trianglesPerNode = 2000;  ///< 1 to kMostTrianglesPerNode
-  /// As terrain::Progress: returning false cancels.
+  /// As terrain::Progress: returning false cancels. Asked node by node; a tile counts once it is done.
   std::function<bool(double fraction, const std::string& what)> progress;
   /// Roads, railways, streams and shorelines stay in a node as long as a pixel is no wider than they are
   /// where the node may first be drawn: at an RMS error of one pixel. Document E, as published, loses them at

@@ -216,13 +216,14 @@ Result<std::shared_ptr<const StaticLodTerrain>> buildStaticLod(std::span<const S
   for (const LatticeTile& tile : tiles) total += tile.triangles.size();
   std::atomic<std::uint64_t> done{0};
   std::vector<BuiltTile> built(tiles.size());
-  const auto work = [&](std::uint32_t i) {
+  const auto work = [&](std::uint32_t i, const GoesOn& goesOn) {
     LatticeTile& tile = tiles[bySize[i]];
-    done += tile.triangles.size();
     std::vector<float> lines;
     if (options.keepLines) lines = lineWidths(tile, terrain->materials);
-    built[bySize[i]] =
-        finished(tile.name, buildTree(tile, options.trianglesPerNode, std::move(lines)), colours);
+    const LodTree tree = buildTree(tile, options.trianglesPerNode, std::move(lines), goesOn);
+    if (tree.nodes.empty()) return;
+    built[bySize[i]] = finished(tile.name, tree, colours);
+    done += tile.triangles.size();
     tile = {};
   };
   const auto carryOn = [&](double) {

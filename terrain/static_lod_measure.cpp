@@ -49,9 +49,10 @@ NodeMeasure::Error NodeMeasure::of(const LodTree::Node& node) {
   return {samples ? std::sqrt(sum / static_cast<double>(samples)) : 0, largest};
 }
 
-void measureTree(const LatticeTile& tile, LodTree& tree) {
+bool measureTree(const LatticeTile& tile, LodTree& tree, const std::function<bool()>& goesOn) {
   NodeMeasure measure(tile, tree);
   for (std::uint32_t i = static_cast<std::uint32_t>(tree.nodes.size()); i-- > 0;) {
+    if (goesOn && !goesOn()) return false;
     LodTree::Node& node = tree.nodes[i];
     for (const auto& t : node.triangles)
       node.slopeMax =
@@ -66,6 +67,7 @@ void measureTree(const LatticeTile& tile, LodTree& tree) {
       node.slopeMax = std::max(node.slopeMax, tree.nodes[child].slopeMax);
     }
   }
+  return true;
 }
 
 }  // namespace trimtab::terrain

@@ -39,7 +39,7 @@ std::vector<Bucket> openSea(std::span<const SceneryMesh> tiles, const HeightSour
   std::vector<Bucket> sea;
   for (double latitude = posts.south + 1.0 / 16; latitude < north; latitude += 0.125)
     for (double longitude = posts.west + 1e-6; longitude < east;) {
-      const Bucket bucket = bucketAt(Degrees{latitude}, Degrees{longitude});
+      const Bucket bucket = bucketNear(Degrees{latitude}, Degrees{longitude});
       const double width = (bucket.east - bucket.west).value();
       if (bucket.index < 0 || !(width > 0)) break;
       if (!there.contains(std::to_string(bucket.index)) && isSea(bucket)) sea.push_back(bucket);

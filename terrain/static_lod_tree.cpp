@@ -53,7 +53,7 @@ class Builder {
     tree_.origin = {middle(low.x, high.x), middle(low.y, high.y), middle(low.z, high.z)};
   }
 
-  LodTree build() {
+  LodTree build(const std::function<bool()>& goesOn) {
     SourceSurface surface = analyse(tile_, tree_.origin);
     tree_.folded = surface.folded;
     tree_.vertices = tile_.vertices;
@@ -66,6 +66,7 @@ class Builder {
     localOf_.assign(tree_.vertices.size(), LodTree::kNone);
     kept_.resize(tree_.nodes.size());
     for (Index i = static_cast<Index>(tree_.nodes.size()); i-- > 0;) {
+      if (goesOn && !goesOn()) return {};
       if (tree_.nodes[i].children[0] == LodTree::kNone) {
         fillLeaf(tree_.nodes[i]);
       } else {
@@ -273,9 +274,10 @@ class Builder {
 
 }  // namespace
 
-LodTree buildTree(const LatticeTile& tile, std::uint32_t trianglesPerNode, std::vector<float> lineWidthM) {
-  LodTree tree = Builder(tile, trianglesPerNode, std::move(lineWidthM)).build();
-  measureTree(tile, tree);
+LodTree buildTree(const LatticeTile& tile, std::uint32_t trianglesPerNode, std::vector<float> lineWidthM,
+                  const std::function<bool()>& goesOn) {
+  LodTree tree = Builder(tile, trianglesPerNode, std::move(lineWidthM)).build(goesOn);
+  if (!measureTree(tile, tree, goesOn)) return {};
   return tree;
 }
 

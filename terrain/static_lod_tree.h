@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "trimtab/terrain/static_lod_error.h"
@@ -49,15 +50,15 @@ struct LodTree {
 
 /// Splits by upright planes across the longer side, at the median of the triangles' middles, down to leaves
 /// of n/2 to n; merges and simplifies upwards; measures. `lineWidthM`: one a vertex of the tile, to keep
-/// lines; or empty.
-LodTree buildTree(const LatticeTile& tile, std::uint32_t trianglesPerNode,
-                  std::vector<float> lineWidthM = {});
+/// lines; or empty. `goesOn` is asked once or twice a node: a tree without nodes when it says no.
+LodTree buildTree(const LatticeTile& tile, std::uint32_t trianglesPerNode, std::vector<float> lineWidthM = {},
+                  const std::function<bool()>& goesOn = {});
 
 /// Measures every node, children first. Samples are the vertices of the source triangles below the node,
 /// against the node's surface, and the node's own vertices against those triangles; each place once and all
 /// of one weight. Where the source covers ground twice the nearest sheet counts. A node's error is no less
-/// than its children's.
-void measureTree(const LatticeTile& tile, LodTree& tree);
+/// than its children's. `goesOn` is asked once a node; false when it says no.
+bool measureTree(const LatticeTile& tile, LodTree& tree, const std::function<bool()>& goesOn = {});
 
 /// The same for one node that is no leaf, without its children's share.
 class NodeMeasure {

@@ -45,7 +45,6 @@ class TiledDatabase final : public Database {
   PostGradient gradient(std::uint32_t row, std::uint32_t column) const;
   void vertexSlopes(const TilePosts& tile, std::array<std::uint8_t, kSide * kSide>& slopes) const;
   /// Column of a longitude, wrapped to the grid's side of the earth; may lie outside.
-  double columnOf(double longitudeDeg) const;
 
   Contents contents_;
   PostGeometry geometry_;
@@ -150,18 +149,11 @@ void TiledDatabase::buildTile(std::uint32_t node, TileMesh& mesh) const {
   }
 }
 
-double TiledDatabase::columnOf(double longitudeDeg) const {
-  const PostGrid& posts = contents_.posts;
-  const double middle = posts.longitude((posts.columns - 1) / 2.0);
-  const double near = middle + wrapped180(Degrees{longitudeDeg - middle}).value();
-  return (near - posts.west) / posts.stepLongitude;
-}
-
 std::optional<Metres> TiledDatabase::heightAt(Degrees latitude, Degrees longitude) const {
   const PostGrid& posts = contents_.posts;
   // Rounding must not put a point on the border outside.
   constexpr double kSlack = 1e-6;
-  double column = columnOf(longitude.value()), row = (latitude.value() - posts.south) / posts.stepLatitude;
+  double column = posts.columnOf(longitude.value()), row = posts.rowOf(latitude.value());
   if (!(column >= -kSlack && column <= posts.columns - 1 + kSlack && row >= -kSlack &&
         row <= posts.rows - 1 + kSlack))
     return {};
@@ -198,7 +190,7 @@ std::optional<Metres> TiledDatabase::highestWithin(Degrees latitude, Degrees lon
     const double wide = std::asin(std::sin(angle) / std::cos(latitude.value() * kRadian)) /
                             (posts.stepLongitude * kRadian) * 1.01 +
                         1;
-    const double column = columnOf(longitude.value());
+    const double column = posts.columnOf(longitude.value());
     const double round = 360 / posts.stepLongitude;
     if (lastColumn + 2 * wide < round) {
       if (column + wide < 0 || column - wide > lastColumn) return {};

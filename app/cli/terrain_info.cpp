@@ -152,14 +152,16 @@ void printInfo(const terrain::Database& database, bool json) {
     std::cout << "level " << level["level"] << ": " << level["columns"] << " x " << level["rows"]
               << " tiles, error " << level["error_m"].get<double>() << " m\n";
   if (!all.contains("patches")) return;
-  std::cout << "depth   patches   triangles        bytes   error m     rms m  between posts m\n";
+  // A space stands before every column, however wide its numbers are: errors of the whole earth's coarsest
+  // patches are thousands of kilometres.
+  std::cout << "depth   patches   triangles        bytes     error m       rms m  between posts m\n";
   for (const auto& depth : all["patches"])
-    std::cout << std::right << std::fixed << std::setw(5) << depth["depth"].get<int>() << std::setw(10)
-              << depth["patches"].get<std::uint64_t>() << std::setw(12)
-              << depth["triangles"].get<std::uint64_t>() << std::setw(13)
-              << depth["bytes"].get<std::uint64_t>() << std::setprecision(2) << std::setw(10)
-              << depth["error_m"].get<double>() << std::setw(10) << depth["rms_error_m"].get<double>()
-              << std::setw(17) << depth["bilinear_error_m"].get<double>() << '\n';
+    std::cout << std::right << std::fixed << std::setw(5) << depth["depth"].get<int>() << ' ' << std::setw(9)
+              << depth["patches"].get<std::uint64_t>() << ' ' << std::setw(11)
+              << depth["triangles"].get<std::uint64_t>() << ' ' << std::setw(12)
+              << depth["bytes"].get<std::uint64_t>() << std::setprecision(2) << ' ' << std::setw(11)
+              << depth["error_m"].get<double>() << ' ' << std::setw(11) << depth["rms_error_m"].get<double>()
+              << ' ' << std::setw(16) << depth["bilinear_error_m"].get<double>() << '\n';
   std::cout
       << "error: the largest at any post; rms: over all posts of the depth, not the worst patch's; between\n"
          "posts: the largest measured over the bilinear surface\n"

@@ -3,6 +3,7 @@
 
 #include <QCloseEvent>
 #include <QDockWidget>
+#include <QFileInfo>
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
@@ -165,9 +166,11 @@ void MainWindow::connectParts() {
     viewport_->setNotice(hint);
   });
   connect(&terrainJob_, &TerrainJob::opened, this,
-          [this, showJob](std::shared_ptr<const terrain::Database> database) {
+          [this, showJob](std::shared_ptr<const terrain::Database> database, const Findings& findings) {
             showJob(false);
             onTerrainOpened(std::move(database));
+            if (!findings.empty())
+              messages_->add(tr("Opened %1").arg(QFileInfo(openedTerrain_).fileName()), findings);
           });
 }
 

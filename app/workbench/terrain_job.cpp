@@ -12,11 +12,11 @@ TerrainJob::TerrainJob(QObject* parent) : QObject(parent) {}
 
 TerrainJob::~TerrainJob() {
   stop();
+  if (thread_.joinable()) thread_.join();
 }
 
 void TerrainJob::stop() {
   if (stop_) *stop_ = true;
-  if (thread_.joinable()) thread_.join();
   running_ = false;
   ++serial_;
 }
@@ -70,7 +70,11 @@ void TerrainJob::start(const std::filesystem::path& source, const QString& what,
   stop_ = std::make_shared<std::atomic<bool>>(false);
   const int serial = serial_;
   emit started(what);
-  thread_ = std::jthread([this, serial, stop = stop_, work = std::move(work)] {
+  thread_ = std::jthread([this, serial, source, stop = stop_, work = std::move(work),
+                          before = std::move(thread_)]() mutable {
+    // It may still hold the folder that this one bakes to.
+    if (before.joinable()) before.join();
+    if (*stop) return;
     const auto post = [this, serial](auto report) {
       QMetaObject::invokeMethod(
           this,
@@ -91,7 +95,7 @@ void TerrainJob::start(const std::filesystem::path& source, const QString& what,
       post([this, result = std::move(result)] {
         running_ = false;
         if (result)
-          emit opened(result.value());
+          emit opened(result.value(), result.findings());
         else
           emit failed(result.findings());
       });
@@ -99,7 +103,7 @@ void TerrainJob::start(const std::filesystem::path& source, const QString& what,
     try {
       finish(work(progress));
     } catch (const std::exception& error) {
-      finish(Finding{Severity::error, source_.string(), "", "terrain that can be read", error.what()});
+      finish(Finding{Severity::error, source.string(), "", "terrain that can be read", error.what()});
     }
   });
 }

@@ -12,7 +12,8 @@
 
 namespace trimtab::workbench {
 
-/// Opens or bakes terrain on a thread of its own. One at a time: a second start cancels the first.
+/// Opens or bakes terrain on a thread of its own. One at a time: a second start cancels the first, and begins
+/// when that has ended; nothing waits for it but the destructor.
 class TerrainJob : public QObject {
   Q_OBJECT
 
@@ -26,6 +27,9 @@ class TerrainJob : public QObject {
   void openSample();
   /// Makes a database and opens it; the same options again go on with one that was stopped.
   void bake(terrain::BakeOptions options);
+  using Work = std::function<Result<std::shared_ptr<const terrain::Database>>(const terrain::Progress&)>;
+  /// What the others do: `work` is to ask its progress whether to go on.
+  void start(const std::filesystem::path& source, const QString& what, Work work);
   void cancel();
   bool running() const { return running_; }
   const std::filesystem::path& source() const { return source_; }
@@ -33,18 +37,17 @@ class TerrainJob : public QObject {
  signals:
   void started(const QString& what);
   void progressed(double fraction, const QString& what);
-  void opened(std::shared_ptr<const trimtab::terrain::Database> database);
+  /// With what is worth knowing of how it was opened or baked.
+  void opened(std::shared_ptr<const trimtab::terrain::Database> database, const trimtab::Findings& findings);
   void failed(const trimtab::Findings& findings);
   void cancelled();
 
  private:
-  using Work = std::function<Result<std::shared_ptr<const terrain::Database>>(const terrain::Progress&)>;
-  void start(const std::filesystem::path& source, const QString& what, Work work);
   void stop();
 
   std::filesystem::path source_;
-  std::jthread thread_;
-  std::shared_ptr<std::atomic<bool>> stop_;  ///< of the running job; a job that was cancelled keeps its own
+  std::jthread thread_;                      ///< the last job's, which joins the one before it
+  std::shared_ptr<std::atomic<bool>> stop_;  ///< shared with the last job's thread; each job has another
   bool running_ = false;
   int serial_ = 0;
 };

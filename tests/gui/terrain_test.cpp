@@ -10,6 +10,10 @@
 #include <QTableView>
 #include <QTimer>
 #include <QToolButton>
+#include <atomic>
+#include <chrono>
+#include <future>
+#include <thread>
 
 #include "gui_support.h"
 #include "trimtab/views/terrain_panel.h"
@@ -108,6 +112,24 @@ TEST_F(TerrainDock, bakesWhatIsAskedForAndOpensIt) {
   EXPECT_FALSE(panel().findChild<QProgressBar*>()->isVisible());
 }
 
+TEST_F(TerrainDock, tellsWhatABakeFoundThoughItSucceeded) {
+  ASSERT_TRUE(terrain::writeSample(dir_ / "small.tif", {7, 20, 100, {}}));
+  writeFile(dir_ / "hole.asc",
+            "ncols 2\nnrows 2\nxllcenter 128.35\nyllcenter 36.63\ncellsize 0.001\nNODATA_value -9999\n"
+            "-9999 -9999\n-9999 -9999\n");
+  writeFile(dir_ / "hole.prj",
+            R"(GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],)"
+            R"(PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]])");
+  terrain::BakeOptions options;
+  options.sources = {dir_ / "small.tif", dir_ / "hole.asc"};
+  options.output = dir_ / "mine";
+  w().terrainJob().bake(options);
+  ASSERT_TRUE(waitFor([this] { return says(QStringLiteral("<b>")) && !w().terrainJob().running(); }));
+  EXPECT_TRUE(terrain::isDatabase(dir_ / "mine")) << w().messages().text().toStdString();
+  EXPECT_TRUE(w().messages().text().contains(QStringLiteral("voids alone")))
+      << w().messages().text().toStdString();
+}
+
 TEST_F(TerrainDock, keepsTheTerrainWhenABakeIsCancelledOrRefused) {
   ASSERT_TRUE(terrain::writeSample(dir_ / "large.tif", {7, 150, 60, {}}));
   terrain::BakeOptions options;
@@ -127,6 +149,53 @@ TEST_F(TerrainDock, keepsTheTerrainWhenABakeIsCancelledOrRefused) {
   EXPECT_TRUE(w().hasTerrain());
   w().viewport().invalidate();
   EXPECT_TRUE(waitFor([&] { return paints() > before; }));
+}
+
+TEST(TerrainJob, waitsForNoCancelledWorkButEndsItBeforeTheNext) {
+  using Opened = Result<std::shared_ptr<const terrain::Database>>;
+  const auto late = std::chrono::seconds(20);
+  std::promise<void> begun, go, thirdBegun;
+  std::atomic<bool> firstEnded{false}, inOrder{false}, secondBegun{false}, thirdEnded{false};
+  std::vector<std::string> told;
+  {
+    workbench::TerrainJob job;
+    QObject::connect(&job, &workbench::TerrainJob::failed, &job,
+                     [&](const Findings& findings) { told.push_back(toString(findings)); });
+    // Work that does not ask for a long time.
+    job.start("first", {}, [&](const terrain::Progress&) -> Opened {
+      begun.set_value();
+      go.get_future().wait_for(late);
+      firstEnded = true;
+      return Finding{Severity::note, "first", "", "", ""};
+    });
+    begun.get_future().wait();
+    job.cancel();
+    EXPECT_FALSE(job.running());
+    EXPECT_FALSE(firstEnded) << "cancelling waited for it";
+    job.start("second", {}, [&](const terrain::Progress& progress) -> Opened {
+      secondBegun = true;
+      inOrder = firstEnded.load();
+      return Finding{Severity::note, progress(0, "") ? "second" : "stopped", "", "", ""};
+    });
+    EXPECT_TRUE(job.running());
+    EXPECT_FALSE(firstEnded);
+    QTest::qWait(50);
+    EXPECT_FALSE(secondBegun);
+    go.set_value();
+    ASSERT_TRUE(waitFor([&] { return !job.running(); }));
+    EXPECT_TRUE(inOrder);
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_NE(told[0].find("second"), std::string::npos);
+    // Destroyed while one works: it is told to stop, and has ended.
+    job.start("third", {}, [&](const terrain::Progress& progress) -> Opened {
+      thirdBegun.set_value();
+      while (progress(0, "")) std::this_thread::yield();
+      thirdEnded = true;
+      return Finding{Severity::note, "third", "", "", ""};
+    });
+    thirdBegun.get_future().wait();
+  }
+  EXPECT_TRUE(thirdEnded);
 }
 
 }  // namespace

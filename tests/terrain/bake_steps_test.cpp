@@ -4,9 +4,11 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <fstream>
 #include <limits>
 #include <new>
+#include <thread>
 
 #include "rasters.h"
 #include "scenery_tiles.h"
@@ -37,6 +39,45 @@ TEST(Parallel, throwsWhatItsWorkThrew) {
   EXPECT_THROW(forEachParallel(
                    9, [](std::uint32_t) {}, [](double) -> bool { throw std::bad_alloc(); }),
                std::bad_alloc);
+}
+
+TEST(Parallel, stopsWorkThatAsksOnEveryThread) {
+  using Clock = std::chrono::steady_clock;
+  std::atomic<int> calls{0}, stopped{0};
+  // Asks for at most ten seconds.
+  const auto ask = [&](const GoesOn& goesOn) {
+    for (const auto start = Clock::now(); Clock::now() - start < std::chrono::seconds(10);) {
+      if (!goesOn()) {
+        ++stopped;
+        return;
+      }
+      std::this_thread::yield();
+    }
+  };
+  EXPECT_FALSE(forEachParallel(
+      9, [&](std::uint32_t, const GoesOn& goesOn) { ask(goesOn); }, [&](double) { return ++calls < 20; }));
+  EXPECT_GE(stopped, 1);
+  EXPECT_EQ(calls, 20) << "once it said no it is not asked again";
+
+  // The calling thread is done with its own while another works on.
+  if (std::thread::hardware_concurrency() < 2) return;
+  const auto caller = std::this_thread::get_id();
+  std::atomic<bool> begun{false};
+  stopped = 0;
+  const auto work = [&](std::uint32_t, const GoesOn& goesOn) {
+    if (std::this_thread::get_id() != caller) {
+      begun = true;
+      ask(goesOn);
+    } else {
+      while (!begun) std::this_thread::yield();
+    }
+  };
+  int after = 0;
+  EXPECT_FALSE(forEachParallel(2, work, [&](double share) {
+    EXPECT_LT(share, 1);
+    return ++after < 3;
+  }));
+  EXPECT_EQ(stopped, 1);
 }
 
 TEST(ReadAt, leavesNoOldErrorAtTheFilesEnd) {

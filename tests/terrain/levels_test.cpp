@@ -271,6 +271,24 @@ TEST_F(Levels, linkParentsChildrenAndNeighbours) {
   EXPECT_EQ(roots, 1u);
 }
 
+TEST(PostGrid, countsAPlacesColumnFromItsMiddle) {
+  struct Case {
+    double west, longitude, column;
+  };
+  // 43,200 columns of half a minute's arc are the whole earth; 1,201 reach over the date line.
+  for (const Case c :
+       {Case{-180, 90, 32400}, Case{-180, -179, 120}, Case{-180, 179, 43080}, Case{0, -90, 32400}}) {
+    const PostGrid whole{c.west, -90, 1 / 120.0, 1 / 120.0, 43200, 21601};
+    EXPECT_NEAR(whole.columnOf(c.longitude), c.column, 1e-6) << c.west << ' ' << c.longitude;
+  }
+  for (const Case c : {Case{175, -179, 720}, Case{175, 181, 720}, Case{-185, 181, 720}, Case{175, 174, -120},
+                       Case{175, -174, 1320}}) {
+    const PostGrid across{c.west, 10, 1 / 120.0, 1 / 120.0, 1201, 101};
+    EXPECT_NEAR(across.columnOf(c.longitude), c.column, 1e-6) << c.west << ' ' << c.longitude;
+    EXPECT_NEAR(across.rowOf(10.5), 60, 1e-9);
+  }
+}
+
 TEST(MakeLevels, givesTheSmallestGridOneTile) {
   const TerrainIndex index = makeLevels({0, 0, 1, 1, 2, 2});
   EXPECT_EQ(index.size(), 1u);

@@ -322,5 +322,24 @@ TEST(StaticLodBuild, stopsWhenTold) {
   EXPECT_FALSE(buildStaticLod(tiles, test::testFrame(), options));
 }
 
+TEST(StaticLodBuild, stopsWithinATile) {
+  const std::vector<SceneryMesh> tiles{tin("A", {})};
+  StaticLodOptions options;
+  options.trianglesPerNode = 100;
+  int asked = 0, last = 0;
+  options.progress = [&](double share, const std::string&) {
+    EXPECT_TRUE(share == 0 || share == 1) << share;
+    return ++asked != last;
+  };
+  ASSERT_TRUE(buildStaticLod(tiles, test::testFrame(), options));
+  const int whole = asked;
+  EXPECT_GT(whole, 60) << "twice a node of 63, in all";
+  for (last = 1; last <= whole; last += 7) {
+    asked = 0;
+    EXPECT_FALSE(buildStaticLod(tiles, test::testFrame(), options));
+    EXPECT_EQ(asked, last) << "it went on";
+  }
+}
+
 }  // namespace
 }  // namespace trimtab::terrain

@@ -83,6 +83,25 @@ TEST_F(OpenSea, staysInsideTheTerrain) {
   EXPECT_EQ(withOpenSea(trees, tiles, GridHeights(grid)), trees);
 }
 
+TEST_F(OpenSea, goesOnBeyondTheDateLine) {
+  for (const double turn : {0.0, -360.0}) {
+    // The middle bucket lies from 180 W on; the grid may count from either side.
+    tiles.clear();
+    for (const double longitude : {179.9, -179.6}) {
+      SceneryMesh tile;
+      tile.name = std::to_string(bucketAt(Degrees{35.55}, Degrees{longitude}).index);
+      tiles.push_back(tile);
+    }
+    grid.posts.west = 179.75 + turn;
+    const auto sea = withOpenSea(trees, tiles, GridHeights(grid));
+    ASSERT_EQ(sea->tiles.size(), 1u) << turn;
+    EXPECT_EQ(sea->tiles[0].name, "sea-" + std::to_string(bucketAt(Degrees{35.55}, Degrees{-179.9}).index));
+    grid.heights[25 * 301 + 150] = 12;
+    EXPECT_EQ(withOpenSea(trees, tiles, GridHeights(grid)), trees) << "land in the middle of the bucket";
+    grid.heights.assign(grid.posts.size(), 0.0f);
+  }
+}
+
 TEST_F(OpenSea, isWrittenAndReadAsAnyTree) {
   const test::ScratchDir dir;
   const auto sea = withOpenSea(trees, tiles, GridHeights(grid));

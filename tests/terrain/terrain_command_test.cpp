@@ -1,4 +1,6 @@
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <vector>
 
 #include "scenery_tiles.h"
 
@@ -64,6 +66,31 @@ TEST_F(TerrainCommand, bakesACountryInPartsAndChecksIt) {
   const auto damaged = test::run(cli("info " + at("db") + " --check"));
   EXPECT_EQ(damaged.exitCode, 1);
   EXPECT_NE(damaged.err.find("heights.f32: rows 0 to"), std::string::npos) << damaged.err;
+}
+
+TEST_F(TerrainCommand, keepsTheColumnsOfTheWholeEarthApart) {
+  std::string rows = "ncols 361\nnrows 181\nxllcenter -180\nyllcenter -90\ncellsize 1\n";
+  for (int i = 0; i < 361 * 181; ++i) rows += std::to_string(i * 7 % 500) + (i % 361 == 360 ? '\n' : ' ');
+  test::writeFile(dir_ / "world.asc", rows);
+  test::writeFile(dir_ / "world.prj",
+                  R"(GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],)"
+                  R"(PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]])");
+  const auto baked = test::run(cli("bake " + at("world.asc") + " -o " + at("db")));
+  ASSERT_EQ(baked.exitCode, 0) << baked.err;
+  const auto json = nlohmann::json::parse(test::run(cli("info " + at("db") + " --json")).out);
+  ASSERT_GT(json["patches"][0]["error_m"], 1e6);
+  std::istringstream table(test::run(cli("info " + at("db"))).out);
+  std::string line;
+  while (std::getline(table, line) && line.rfind("depth", 0) != 0) continue;
+  for (const auto& depth : json["patches"]) {
+    ASSERT_TRUE(std::getline(table, line));
+    std::istringstream columns(line);
+    std::vector<double> numbers;
+    for (double number = 0; columns >> number;) numbers.push_back(number);
+    ASSERT_EQ(numbers.size(), 7u) << line;
+    EXPECT_NEAR(numbers[3], depth["bytes"].get<double>(), 0.5);
+    EXPECT_NEAR(numbers[4], depth["error_m"].get<double>(), 0.01);
+  }
 }
 
 TEST_F(TerrainCommand, bakesSceneryAndTellsOfItsTrees) {
