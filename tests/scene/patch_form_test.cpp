@@ -61,6 +61,34 @@ TEST_F(PatchForm, isDrawnWhereItIsAskedForOrThereIsNothingElse) {
   }
 }
 
+/// Sea and land by turns, post by post, all round the earth: a quarter turn east of the middle it looks as it
+/// does as far west.
+TEST_F(PatchForm, hasItsFineGroundUnderTheEyeOnTerrainWiderThanHalfTheEarth) {
+  terrain::HeightGrid grid;
+  grid.posts = {-180, -2, 0.125, 0.125, 2881, 33};
+  for (std::uint32_t row = 0; row < grid.posts.rows; ++row)
+    for (std::uint32_t column = 0; column < grid.posts.columns; ++column)
+      grid.heights.push_back((row + column) % 2 ? 2000.0f : 0.0f);
+  use(std::make_shared<test::PatchedTerrain>(std::move(grid)));
+  // Of blue to red, which the sun, elsewhere in the sky, leaves as it is.
+  const auto contrast = [&](double longitude) {
+    auto r = request({Degrees{0}, Degrees{longitude}, Metres{30000}}, {Degrees{}, Degrees{-90}, Degrees{}});
+    r.staticLod.terrain = TerrainForm::patches;
+    const auto rgba = picture(r);
+    keep("wide" + std::to_string(static_cast<int>(longitude)), rgba, r.view);
+    double sum = 0, squares = 0;
+    for (std::size_t i = 0; i < rgba.size(); i += 4) {
+      const double ratio = rgba[i + 2] / std::max(1.0, static_cast<double>(rgba[i]));
+      sum += ratio;
+      squares += ratio * ratio;
+    }
+    const double count = static_cast<double>(rgba.size()) / 4;
+    return std::sqrt(squares / count - sum / count * sum / count);
+  };
+  EXPECT_GT(contrast(-90), 0.03) << "posts can be told apart";
+  EXPECT_GT(contrast(90), 0.03) << "0.01 from coarser levels";
+}
+
 TEST_F(PatchForm, isTheSameSurfaceAsTheTiles) {
   use(test::patchedMountains(true));
   std::mt19937 random(3);
