@@ -42,6 +42,15 @@ std::string thisMachine() {
   return ::gethostname(name, sizeof name - 1) == 0 && name[0] != 0 ? name : "localhost";
 }
 
+/// Whether a process of this machine lives and is what it said: a number is given to others later on.
+bool livesAs(pid_t process, const std::string& program) {
+  if (::kill(process, 0) != 0 && errno == ESRCH) return false;
+  constexpr std::size_t kMostOfName = 15;  // that the system keeps
+  std::istringstream name(textOf("/proc/" + std::to_string(process) + "/comm"));
+  std::string is;
+  return !std::getline(name, is) || is == program.substr(0, kMostOfName);
+}
+
 /// The other processes that have a lock, by what they wrote there; of this machine, those that live.
 std::string holdersOf(const fs::path& file) {
   std::set<std::string> holders;
@@ -51,8 +60,7 @@ std::string holdersOf(const fs::path& file) {
     pid_t process = 0;
     std::string machine, program;
     if (!(words >> process >> machine) || !std::getline(words >> std::ws, program)) continue;
-    if (machine == thisMachine() && (process == ::getpid() || (::kill(process, 0) != 0 && errno == ESRCH)))
-      continue;
+    if (machine == thisMachine() && (process == ::getpid() || !livesAs(process, program))) continue;
     holders.insert("process " + std::to_string(process) + " (" + program + ") on " + machine);
   }
   std::string all;

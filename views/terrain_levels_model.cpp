@@ -52,7 +52,7 @@ QString TerrainLevelsModel::text(const TerrainLevel& level, std::size_t number, 
     case kSurfaceError:
       return metres(level.surfaceErrorM);
     case kSize:
-      return level.bytes > 0 ? numberText(static_cast<double>(level.bytes) * 1e-6, 2) : QStringLiteral("–");
+      return level.bytes > 0 ? numberText(static_cast<double>(level.bytes) * 1e-3, 1) : QStringLiteral("–");
     default:
       return number < LevelsFrame::kLevels && drawn_.nodes[number] > 0
                  ? tr("%1 (%2)").arg(count(drawn_.nodes[number]), count(drawn_.triangles[number]))
@@ -91,7 +91,7 @@ QVariant TerrainLevelsModel::headerData(int section, Qt::Orientation orientation
                                          "the level")},
       {QT_TR_NOOP("Surface (m)"),
        QT_TR_NOOP("Largest vertical distance from the bilinear surface between the posts, measured")},
-      {QT_TR_NOOP("MB"), QT_TR_NOOP("On disk; – where meshes are made when they are drawn")},
+      {QT_TR_NOOP("kB"), QT_TR_NOOP("On disk; – where meshes are made when they are drawn")},
       {QT_TR_NOOP("Drawn now"), QT_TR_NOOP("Nodes in the picture, and their triangles")}};
   if (orientation != Qt::Horizontal || section < 0 || section >= kColumns) return {};
   if (role == Qt::DisplayRole) return tr(kHeadings[section].text);

@@ -211,7 +211,7 @@ TEST_F(ResumedBake, doesNotMeetAnotherOfTheSameOutput) {
   expectWhole(dir_ / "db");
 }
 
-/// Those that were killed, or have ended, are not named.
+/// Those that were killed, or have ended, are not named; nor is who has the number of one by now.
 TEST_F(ResumedBake, namesEveryPartAtWorkAndNoOther) {
   int ready[2];
   ASSERT_EQ(::pipe(ready), 0);
@@ -229,9 +229,15 @@ TEST_F(ResumedBake, namesEveryPartAtWorkAndNoOther) {
   }
   ::kill(parts[1], SIGKILL);
   EXPECT_EQ(ended(parts[1]), -SIGKILL);
+  const fs::path lock = dir_ / ".db.work/lock";
+  const std::string held = test::readFile(lock);
+  const std::size_t machine = held.find(' '), program = held.find(' ', machine + 1);
+  ASSERT_NE(program, std::string::npos) << held;
+  std::ofstream(lock, std::ios::app) << ::getppid() << held.substr(machine, program - machine) << " another\n";
   const auto refused = WorkFolder::open(options_.output, "{}", WorkFolder::Use::alone);
   ASSERT_FALSE(refused);
   const std::string said = toString(refused.findings());
+  EXPECT_EQ(said.find("another)"), std::string::npos) << said;
   const auto names = [&](pid_t part) {
     return said.find("process " + std::to_string(part) + " (") != std::string::npos;
   };
