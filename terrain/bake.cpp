@@ -112,9 +112,6 @@ class Job {
     auto work = WorkFolder::open(output_, stampedRecipe(options_, *files), use);
     if (!work) return work.findings();
     work_ = std::move(work).value();
-    if (work_->resumed() && !work_->journal().empty())
-      findings_.push_back({Severity::note, output_.string(), "", "", "goes on from an interrupted bake"});
-
     scenery_ = std::any_of(options_.sources.begin(), options_.sources.end(), isScenery);
     auto source = readSource(options_, memory_, stage(0, scenery_ ? 0.1 : 0.2));
     if (!source) return source.findings();
@@ -126,6 +123,7 @@ class Job {
       if (!stage(0.1, 0.2)(0, "waiting for the part that reads the heights")) return cancelled("waiting");
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
+    if (auto same = keepToPosts(use); !same) return same;
     auto heights =
         bakeHeights(*work_, *source_->elevation, memory_, stage(scenery_ ? 0.1 : 0.2, scenery_ ? 0.13 : 0.3));
     if (!heights) return heights.findings();
@@ -152,6 +150,22 @@ class Job {
       ground.triangles =
           &materials_.emplace(*source_->tiles, heights_.posts.longitude((heights_.posts.columns - 1) / 2.0));
     ground_ = std::make_unique<GroundBake>(*work_, std::move(ground));
+    return Done{};
+  }
+
+  /// Finished work is of these posts, or goes; not where it is parts'.
+  Result<Done> keepToPosts(WorkFolder::Use use) {
+    const PostGrid& posts = source_->elevation->posts();
+    const std::string others = workForOtherPosts(*work_, posts);
+    if (!others.empty() && use != WorkFolder::Use::alone)
+      return refused(work_->path(), "parts of one grid, here of " + inWords(posts),
+                     others +
+                         ", left as they are: bake these parts of the sources as they were, or remove the "
+                         "folder and bake all parts again");
+    if (!others.empty())
+      if (auto emptied = work_->beginAnew(); !emptied) return emptied;
+    if (work_->resumed() && !work_->journal().empty())
+      findings_.push_back({Severity::note, output_.string(), "", "", "goes on from an interrupted bake"});
     return Done{};
   }
 
@@ -403,7 +417,7 @@ Result<std::shared_ptr<const Database>> openOrBake(const fs::path& source, const
   if (!files) return files.findings();
   std::string key = "v" + std::to_string(kFormatVersion) + " b" + std::to_string(kBuilderVersion);
   if (scenery) key += " n" + std::to_string(trianglesPerNode);
-  for (const fs::path& file : *files) key += '\n' + stampOf(file);
+  for (const std::string& stamp : stampsOf(*files)) key += '\n' + stamp;
   const std::string name = nameOf(source);
   const fs::path cached = cacheFolder / (name + "-" + hexadecimal(checksum(key)));
   if (isDatabase(cached)) {

@@ -87,14 +87,22 @@ Finding otherArithmetic(const fs::path& path) {
                "those of another machine, left as they are: bake all parts on machines alike");
 }
 
-/// All but the lock.
-std::error_code empty(const fs::path& folder) {
+/// All but what is named.
+std::error_code empty(const fs::path& folder, const std::set<fs::path>& but) {
   std::error_code error;
   // What says that the rest is good goes first.
   fs::remove(folder / "recipe.json", error);
   for (const auto& entry : fs::directory_iterator(folder, error))
-    if (entry.path().filename() != "lock") fs::remove_all(entry.path(), error);
+    if (!but.contains(entry.path().filename())) fs::remove_all(entry.path(), error);
   return error;
+}
+
+Result<Done> makeFolders(const fs::path& path) {
+  std::error_code error;
+  for (const char* folder : {"database", "pieces"})
+    if (!error) fs::create_directories(path / folder, error);
+  if (error) return wrong(path, "a folder that can be written", error.message());
+  return Done{};
 }
 
 }  // namespace
@@ -150,13 +158,11 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, con
         if (fs::exists(path / "old", error) && !fs::exists(output, error))
           fs::rename(path / "old", output, error);
         if (error) return wrong(path / "old", "a database that can go back to its place", error.message());
-        error = empty(path);
+        error = empty(path, {"lock"});
         if (error) return wrong(path, "a folder that can be emptied", error.message());
         if (auto written = writeAtomically(path / "recipe.json", recipe); !written) return written.findings();
       }
-      for (const char* folder : {"database", "pieces"})
-        if (!error) fs::create_directories(path / folder, error);
-      if (error) return wrong(path, "a folder that can be written", error.message());
+      if (auto made = makeFolders(path); !made) return made.findings();
       if (!shared) return std::unique_ptr<WorkFolder>(new WorkFolder(path, std::move(lock), same));
       lock.reset();
     }
@@ -181,6 +187,17 @@ WorkFolder::~WorkFolder() {
   lock_.reset();
   const auto alone = FileLock::tryLock(path_ / "lock", false);
   if (alone && journal().empty()) fs::remove_all(path_, ignored);
+}
+
+Result<Done> WorkFolder::beginAnew() {
+  const std::string recipe = textOf(path_ / "recipe.json");
+  // What was the output before, where it could not go back, is none of this work.
+  if (const std::error_code error = empty(path_, {"lock", "heights.lock", "old"}))
+    return wrong(path_, "a folder that can be emptied", error.message());
+  if (auto made = makeFolders(path_); !made) return made;
+  if (auto written = writeAtomically(path_ / "recipe.json", recipe); !written) return written.findings();
+  resumed_ = false;
+  return Done{};
 }
 
 std::vector<std::string> WorkFolder::journal() const {

@@ -47,6 +47,9 @@ class WorkFolder {
   std::filesystem::path pieces() const { return path_ / "pieces"; }
   bool resumed() const { return resumed_; }
 
+  /// All work goes; for who has it alone.
+  Result<Done> beginAnew();
+
   /// The journal's lines, as far as they are whole.
   std::vector<std::string> journal() const;
   Result<Done> note(const std::string& line) const;
