@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <future>
 #include <thread>
 
@@ -119,7 +121,10 @@ class Job {
     source_ = std::move(source).value();
     // One process makes the heights; other parts wait for them.
     std::unique_ptr<FileLock> turn;
-    while (!(turn = FileLock::tryLock(work_->path() / "heights.lock", false))) {
+    const fs::path turnFile = work_->path() / "heights.lock";
+    while (!(turn = FileLock::tryLock(turnFile, false))) {
+      if (const int reason = errno; reason != EWOULDBLOCK)
+        return refused(turnFile, "a file that can be locked", std::strerror(reason));
       if (!stage(0.1, 0.2)(0, "waiting for the part that reads the heights")) return cancelled("waiting");
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }

@@ -112,10 +112,15 @@ std::unique_ptr<FileLock> FileLock::tryLock(const fs::path& file, bool shared) {
   if (handle < 0) return {};
   struct stat held {
   }, there{};
+  int refused =
+      ::flock(handle, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0 || ::fstat(handle, &held) != 0 ? errno : 0;
   // Whoever had it before may have removed the folder with it.
-  if (::flock(handle, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0 || ::fstat(handle, &held) != 0 ||
-      ::stat(file.c_str(), &there) != 0 || held.st_ino != there.st_ino || held.st_dev != there.st_dev) {
+  if (refused == 0 &&
+      (::stat(file.c_str(), &there) != 0 || held.st_ino != there.st_ino || held.st_dev != there.st_dev))
+    refused = EWOULDBLOCK;
+  if (refused != 0) {
     ::close(handle);
+    errno = refused;
     return {};
   }
   // For whoever is refused; without room for it the lock holds all the same.
@@ -138,14 +143,21 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, con
   const bool shared = use == Use::part;
   const fs::path path = output.parent_path() / ("." + output.filename().string() + ".work");
   const fs::path lockFile = path / "lock";
+  std::unique_ptr<FileLock> lock;
+  int refused = 0;
+  const auto takeLock = [&](bool beside) {
+    lock = FileLock::tryLock(lockFile, beside);
+    refused = lock ? 0 : errno;
+    // The folder may be gone again for a moment.
+    return lock || refused == EWOULDBLOCK || refused == ENOENT;
+  };
+  const auto noLock = [&] { return wrong(lockFile, "a file that can be locked", std::strerror(refused)); };
   // Parts that begin at once take turns to look at the folder.
   for (int turn = 0; turn < 100; ++turn) {
     std::error_code error;
     fs::create_directories(path, error);
     if (error) return wrong(path, "a folder that can be written", error.message());
-    auto lock = FileLock::tryLock(lockFile, false);
-    if (!lock && errno != EWOULDBLOCK && !fs::exists(lockFile, error) && fs::exists(path, error))
-      return wrong(lockFile, "a file that can be written", std::strerror(errno));
+    if (!takeLock(false)) return noLock();
     if (lock) {
       const std::string there = textOf(path / "recipe.json");
       const bool same = there == recipe;
@@ -167,7 +179,7 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, con
       lock.reset();
     }
     if (shared) {
-      lock = FileLock::tryLock(lockFile, true);
+      if (!takeLock(true)) return noLock();
       if (lock && textOf(path / "recipe.json") == recipe)
         return std::unique_ptr<WorkFolder>(new WorkFolder(path, std::move(lock), true));
       if (lock && sameButForArithmetic(textOf(path / "recipe.json"), recipe)) return otherArithmetic(path);
@@ -177,7 +189,7 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, con
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  return otherBake(output, lockFile, "");
+  return refused == ENOENT ? noLock() : otherBake(output, lockFile, "");
 }
 
 WorkFolder::~WorkFolder() {
