@@ -119,6 +119,10 @@ class Job {
     if (!source) return source.findings();
     keep(source.findings());
     source_ = std::move(source).value();
+    if (Findings beyond = beyondLimits(source_->elevation->posts(),
+                                       files->size() == 1 ? files->front().string() : "all files together");
+        !beyond.empty())
+      return beyond;
     // One process makes the heights; other parts wait for them.
     std::unique_ptr<FileLock> turn;
     const fs::path turnFile = work_->path() / "heights.lock";
@@ -371,6 +375,14 @@ class Job {
         !written)
       return written;
     if (!stage(0.99, 1)(1, "writing")) return cancelled(output_.string());
+    // What is there is not given up for one that cannot be opened.
+    if (auto opened = Database::open(work_->database()); !opened) {
+      Findings why = opened.findings();
+      why.push_back({Severity::error, output_.string(), "",
+                     "a database that can be opened, to take this place",
+                     "one that cannot; what was there is as it was"});
+      return why;
+    }
     // Whoever put something there meanwhile keeps it.
     if (auto may = mayTakePlace(); !may) return may;
     return work_->finish(output_);

@@ -295,12 +295,15 @@ class HeightsBake {
 
   bool isAsNoted() {
     const auto all = sums();
-    if (!all) return false;
-    baked_.sum = sumOf(all->data(), all->size() * sizeof(std::uint64_t));
-    if (hexadecimal(baked_.sum) == doneSum_ &&
-        writeFile(work_.database(), kHeightSumsName,
-                  {reinterpret_cast<const char*>(all->data()), all->size() * sizeof(std::uint64_t)}))
-      return true;
+    if (all) {
+      const std::size_t bytes = all->size() * sizeof(std::uint64_t);
+      baked_.sum = sumOf(all->data(), bytes);
+      if (hexadecimal(baked_.sum) == doneSum_ &&
+          writeFile(work_.database(), kHeightSumsName, {reinterpret_cast<const char*>(all->data()), bytes}))
+        return true;
+    } else if (all.findings().front().severity == Severity::note) {
+      return false;  // cancelled
+    }
     filling_ = true;
     filled_ = false;
     return false;
