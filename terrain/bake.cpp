@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <future>
 #include <thread>
 
@@ -112,20 +114,25 @@ class Job {
     auto work = WorkFolder::open(output_, stampedRecipe(options_, *files), use);
     if (!work) return work.findings();
     work_ = std::move(work).value();
-    if (work_->resumed() && !work_->journal().empty())
-      findings_.push_back({Severity::note, output_.string(), "", "", "goes on from an interrupted bake"});
-
     scenery_ = std::any_of(options_.sources.begin(), options_.sources.end(), isScenery);
     auto source = readSource(options_, memory_, stage(0, scenery_ ? 0.1 : 0.2));
     if (!source) return source.findings();
     keep(source.findings());
     source_ = std::move(source).value();
+    if (Findings beyond = beyondLimits(source_->elevation->posts(),
+                                       files->size() == 1 ? files->front().string() : "all files together");
+        !beyond.empty())
+      return beyond;
     // One process makes the heights; other parts wait for them.
     std::unique_ptr<FileLock> turn;
-    while (!(turn = FileLock::tryLock(work_->path() / "heights.lock", false))) {
+    const fs::path turnFile = work_->path() / "heights.lock";
+    while (!(turn = FileLock::tryLock(turnFile, false))) {
+      if (const int reason = errno; reason != EWOULDBLOCK)
+        return refused(turnFile, "a file that can be locked", std::strerror(reason));
       if (!stage(0.1, 0.2)(0, "waiting for the part that reads the heights")) return cancelled("waiting");
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
+    if (auto same = keepToPosts(use); !same) return same;
     auto heights =
         bakeHeights(*work_, *source_->elevation, memory_, stage(scenery_ ? 0.1 : 0.2, scenery_ ? 0.13 : 0.3));
     if (!heights) return heights.findings();
@@ -152,6 +159,22 @@ class Job {
       ground.triangles =
           &materials_.emplace(*source_->tiles, heights_.posts.longitude((heights_.posts.columns - 1) / 2.0));
     ground_ = std::make_unique<GroundBake>(*work_, std::move(ground));
+    return Done{};
+  }
+
+  /// Finished work is of these posts, or goes; not where it is parts'.
+  Result<Done> keepToPosts(WorkFolder::Use use) {
+    const PostGrid& posts = source_->elevation->posts();
+    const std::string others = workForOtherPosts(*work_, posts);
+    if (!others.empty() && use != WorkFolder::Use::alone)
+      return refused(work_->path(), "parts of one grid, here of " + inWords(posts),
+                     others +
+                         ", left as they are: bake these parts of the sources as they were, or remove the "
+                         "folder and bake all parts again");
+    if (!others.empty())
+      if (auto emptied = work_->beginAnew(); !emptied) return emptied;
+    if (work_->resumed() && !work_->journal().empty())
+      findings_.push_back({Severity::note, output_.string(), "", "", "goes on from an interrupted bake"});
     return Done{};
   }
 
@@ -352,6 +375,14 @@ class Job {
         !written)
       return written;
     if (!stage(0.99, 1)(1, "writing")) return cancelled(output_.string());
+    // What is there is not given up for one that cannot be opened.
+    if (auto opened = Database::open(work_->database()); !opened) {
+      Findings why = opened.findings();
+      why.push_back({Severity::error, output_.string(), "",
+                     "a database that can be opened, to take this place",
+                     "one that cannot; what was there is as it was"});
+      return why;
+    }
     // Whoever put something there meanwhile keeps it.
     if (auto may = mayTakePlace(); !may) return may;
     return work_->finish(output_);
@@ -403,7 +434,7 @@ Result<std::shared_ptr<const Database>> openOrBake(const fs::path& source, const
   if (!files) return files.findings();
   std::string key = "v" + std::to_string(kFormatVersion) + " b" + std::to_string(kBuilderVersion);
   if (scenery) key += " n" + std::to_string(trianglesPerNode);
-  for (const fs::path& file : *files) key += '\n' + stampOf(file);
+  for (const std::string& stamp : stampsOf(*files)) key += '\n' + stamp;
   const std::string name = nameOf(source);
   const fs::path cached = cacheFolder / (name + "-" + hexadecimal(checksum(key)));
   if (isDatabase(cached)) {

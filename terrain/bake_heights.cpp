@@ -5,9 +5,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <sstream>
@@ -67,6 +69,17 @@ std::string bits(double value) {
 std::string describe(const PostGrid& posts) {
   return "posts " + bits(posts.west) + " " + bits(posts.south) + " " + bits(posts.stepLongitude) + " " +
          bits(posts.stepLatitude) + " " + std::to_string(posts.columns) + " " + std::to_string(posts.rows);
+}
+/// What follows "posts" in such a line.
+PostGrid postsOf(std::istream& words) {
+  PostGrid posts;
+  for (double* value : {&posts.west, &posts.south, &posts.stepLongitude, &posts.stepLatitude}) {
+    std::uint64_t there = 0;
+    words >> std::hex >> there;
+    *value = std::bit_cast<double>(there);
+  }
+  words >> std::dec >> posts.columns >> posts.rows;
+  return posts;
 }
 std::uint64_t sumOf(const void* data, std::size_t size) {
   return checksum({static_cast<const char*>(data), size});
@@ -336,6 +349,33 @@ class GridSource final : public ElevationSource {
 Result<BakedHeights> bakeHeights(const WorkFolder& work, ElevationSource& source, std::size_t memory,
                                  const Progress& progress) {
   return HeightsBake(work, source, memory, progress).run();
+}
+
+std::string inWords(const PostGrid& posts) {
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(),
+                "%u x %u posts from latitude %.9g, longitude %.9g, every %.9g x %.9g degrees", posts.columns,
+                posts.rows, posts.south, posts.west, posts.stepLongitude, posts.stepLatitude);
+  return text.data();
+}
+
+std::string workForOtherPosts(const WorkFolder& work, const PostGrid& posts) {
+  const std::string ours = describe(posts);
+  std::string others;
+  bool other = false;
+  for (const std::string& line : work.journal()) {
+    std::istringstream words(line);
+    std::string word;
+    words >> word;
+    unsigned part = 0, parts = 0;
+    if (word == "posts") {
+      other = line != ours;
+      if (other) others += (others.empty() ? "" : "; ") + inWords(postsOf(words));
+    } else if (other && std::sscanf(line.c_str(), "ground ground-%u-of-%u", &part, &parts) == 2) {
+      others += ", part " + std::to_string(part) + " of " + std::to_string(parts);
+    }
+  }
+  return others;
 }
 
 std::unique_ptr<ElevationSource> sourceOf(const HeightGrid& grid) {

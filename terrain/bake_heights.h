@@ -30,6 +30,11 @@ struct BakedHeights {
 Result<BakedHeights> bakeHeights(const WorkFolder& work, ElevationSource& source, std::size_t memory,
                                  const Progress& progress);
 
+/// Of finished work that was made for other posts: for which, and by which parts. Empty: there is none.
+std::string workForOtherPosts(const WorkFolder& work, const PostGrid& posts);
+/// A grid's size, place and step, for people.
+std::string inWords(const PostGrid& posts);
+
 /// A grid in memory as a source.
 std::unique_ptr<ElevationSource> sourceOf(const HeightGrid& grid);
 

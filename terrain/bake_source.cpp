@@ -1,13 +1,18 @@
 #include "trimtab/terrain/bake_source.h"
 
+#include <cpl_string.h>
+#include <cpl_vsi.h>
 #include <gdal.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "trimtab/terrain/arithmetic.h"
+#include "trimtab/terrain/georeference.h"
 #include "trimtab/terrain/import.h"
+#include "trimtab/terrain/scenery.h"
 #include "trimtab/terrain/scenery_made.h"
 #include "trimtab/terrain/scenery_memory.h"
 #include "trimtab/terrain/scenery_merge.h"
@@ -142,11 +147,44 @@ Result<std::vector<fs::path>> sourceFiles(const std::vector<fs::path>& sources) 
   return all;
 }
 
+namespace {
+
+/// Place, size and time. What only GDAL reaches, such as a file in an archive, has a time in seconds.
 std::string stampOf(const fs::path& file) {
   std::error_code error;
+  if (VSIStatBufL there; !fs::exists(file, error) && VSIStatL(file.c_str(), &there) == 0)
+    return file.string() + ' ' + std::to_string(there.st_size) + ' ' + std::to_string(there.st_mtime);
   const fs::path whole = fs::weakly_canonical(file, error);
   return whole.string() + ' ' + std::to_string(fs::file_size(file, error)) + ' ' +
          std::to_string(fs::last_write_time(file, error).time_since_epoch().count());
+}
+
+/// Of a file and of all that GDAL reads with it, each of which may have such files of its own.
+void addStamps(const fs::path& file, std::set<std::string>& seen, std::vector<std::string>& stamps) {
+  std::string stamp = stampOf(file);
+  if (!seen.insert(stamp).second) return;
+  stamps.push_back(std::move(stamp));
+  if (isScenery(file)) return;
+  std::vector<fs::path> files;
+  {
+    const GdalErrors quiet;
+    const Dataset data = owned(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER));
+    if (!data) return;
+    char** const names = data->GetFileList();
+    for (char** name = names; name != nullptr && *name != nullptr; ++name) files.emplace_back(*name);
+    CSLDestroy(names);
+  }
+  for (const fs::path& other : files) addStamps(other, seen, stamps);
+}
+
+}  // namespace
+
+std::vector<std::string> stampsOf(std::span<const fs::path> files) {
+  useGdal();
+  std::set<std::string> seen;
+  std::vector<std::string> stamps;
+  for (const fs::path& file : files) addStamps(file, seen, stamps);
+  return stamps;
 }
 
 std::string recipeOf(const BakeOptions& options, const std::vector<fs::path>& files) {
@@ -158,9 +196,9 @@ std::string stampedRecipe(const BakeOptions& options, const std::vector<fs::path
   recipe["format"] = kFormatVersion;
   recipe["builder"] = kBuilderVersion;
   recipe[kArithmetic] = arithmeticOfThisMachine();
-  recipe["stamps"] = Json::array();
-  for (const fs::path& file : files) recipe["stamps"].push_back(stampOf(file));
-  if (options.imagery) recipe["stamps"].push_back(stampOf(*options.imagery));
+  std::vector<fs::path> all = files;
+  if (options.imagery) all.push_back(*options.imagery);
+  recipe["stamps"] = stampsOf(all);
   return dump(recipe);
 }
 

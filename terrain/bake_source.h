@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,8 +46,9 @@ std::string recipeOf(const BakeOptions& options, const std::vector<std::filesyst
 std::string stampedRecipe(const BakeOptions& options, const std::vector<std::filesystem::path>& files);
 /// Whether two of those differ in nothing but the machines that they were made on.
 bool sameButForArithmetic(const std::string& stampedRecipe, const std::string& other);
-/// Place, size and time.
-std::string stampOf(const std::filesystem::path& file);
+/// Place, size and time of each file, and of all that GDAL reads with it: what says where the raster is, its
+/// overviews, the rasters that a virtual one is made of.
+std::vector<std::string> stampsOf(std::span<const std::filesystem::path> files);
 
 std::string joinedNames(const std::vector<std::filesystem::path>& sources);
 std::string nameOf(const std::filesystem::path& path);

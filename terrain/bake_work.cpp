@@ -87,14 +87,22 @@ Finding otherArithmetic(const fs::path& path) {
                "those of another machine, left as they are: bake all parts on machines alike");
 }
 
-/// All but the lock.
-std::error_code empty(const fs::path& folder) {
+/// All but what is named.
+std::error_code empty(const fs::path& folder, const std::set<fs::path>& but) {
   std::error_code error;
   // What says that the rest is good goes first.
   fs::remove(folder / "recipe.json", error);
   for (const auto& entry : fs::directory_iterator(folder, error))
-    if (entry.path().filename() != "lock") fs::remove_all(entry.path(), error);
+    if (!but.contains(entry.path().filename())) fs::remove_all(entry.path(), error);
   return error;
+}
+
+Result<Done> makeFolders(const fs::path& path) {
+  std::error_code error;
+  for (const char* folder : {"database", "pieces"})
+    if (!error) fs::create_directories(path / folder, error);
+  if (error) return wrong(path, "a folder that can be written", error.message());
+  return Done{};
 }
 
 }  // namespace
@@ -104,10 +112,15 @@ std::unique_ptr<FileLock> FileLock::tryLock(const fs::path& file, bool shared) {
   if (handle < 0) return {};
   struct stat held {
   }, there{};
+  int refused =
+      ::flock(handle, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0 || ::fstat(handle, &held) != 0 ? errno : 0;
   // Whoever had it before may have removed the folder with it.
-  if (::flock(handle, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0 || ::fstat(handle, &held) != 0 ||
-      ::stat(file.c_str(), &there) != 0 || held.st_ino != there.st_ino || held.st_dev != there.st_dev) {
+  if (refused == 0 &&
+      (::stat(file.c_str(), &there) != 0 || held.st_ino != there.st_ino || held.st_dev != there.st_dev))
+    refused = EWOULDBLOCK;
+  if (refused != 0) {
     ::close(handle);
+    errno = refused;
     return {};
   }
   // For whoever is refused; without room for it the lock holds all the same.
@@ -132,14 +145,21 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, con
   const fs::path lockFile = path / "lock";
   if (std::error_code error; use == Use::join && !fs::exists(path / "recipe.json", error))
     return wrong(path, "all parts of a bake", "none: all are missing");
+  std::unique_ptr<FileLock> lock;
+  int refused = 0;
+  const auto takeLock = [&](bool beside) {
+    lock = FileLock::tryLock(lockFile, beside);
+    refused = lock ? 0 : errno;
+    // The folder may be gone again for a moment.
+    return lock || refused == EWOULDBLOCK || refused == ENOENT;
+  };
+  const auto noLock = [&] { return wrong(lockFile, "a file that can be locked", std::strerror(refused)); };
   // Parts that begin at once take turns to look at the folder.
   for (int turn = 0; turn < 100; ++turn) {
     std::error_code error;
     fs::create_directories(path, error);
     if (error) return wrong(path, "a folder that can be written", error.message());
-    auto lock = FileLock::tryLock(lockFile, false);
-    if (!lock && errno != EWOULDBLOCK && !fs::exists(lockFile, error) && fs::exists(path, error))
-      return wrong(lockFile, "a file that can be written", std::strerror(errno));
+    if (!takeLock(false)) return noLock();
     if (lock) {
       const std::string there = textOf(path / "recipe.json");
       const bool same = there == recipe;
@@ -152,18 +172,16 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, con
         if (fs::exists(path / "old", error) && !fs::exists(output, error))
           fs::rename(path / "old", output, error);
         if (error) return wrong(path / "old", "a database that can go back to its place", error.message());
-        error = empty(path);
+        error = empty(path, {"lock"});
         if (error) return wrong(path, "a folder that can be emptied", error.message());
         if (auto written = writeAtomically(path / "recipe.json", recipe); !written) return written.findings();
       }
-      for (const char* folder : {"database", "pieces"})
-        if (!error) fs::create_directories(path / folder, error);
-      if (error) return wrong(path, "a folder that can be written", error.message());
+      if (auto made = makeFolders(path); !made) return made.findings();
       if (!shared) return std::unique_ptr<WorkFolder>(new WorkFolder(path, std::move(lock), same));
       lock.reset();
     }
     if (shared) {
-      lock = FileLock::tryLock(lockFile, true);
+      if (!takeLock(true)) return noLock();
       if (lock && textOf(path / "recipe.json") == recipe)
         return std::unique_ptr<WorkFolder>(new WorkFolder(path, std::move(lock), true));
       if (lock && sameButForArithmetic(textOf(path / "recipe.json"), recipe)) return otherArithmetic(path);
@@ -173,7 +191,7 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, con
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  return otherBake(output, lockFile, "");
+  return refused == ENOENT ? noLock() : otherBake(output, lockFile, "");
 }
 
 WorkFolder::~WorkFolder() {
@@ -183,6 +201,17 @@ WorkFolder::~WorkFolder() {
   lock_.reset();
   const auto alone = FileLock::tryLock(path_ / "lock", false);
   if (alone && journal().empty()) fs::remove_all(path_, ignored);
+}
+
+Result<Done> WorkFolder::beginAnew() {
+  const std::string recipe = textOf(path_ / "recipe.json");
+  // What was the output before, where it could not go back, is none of this work.
+  if (const std::error_code error = empty(path_, {"lock", "heights.lock", "old"}))
+    return wrong(path_, "a folder that can be emptied", error.message());
+  if (auto made = makeFolders(path_); !made) return made;
+  if (auto written = writeAtomically(path_ / "recipe.json", recipe); !written) return written.findings();
+  resumed_ = false;
+  return Done{};
 }
 
 std::vector<std::string> WorkFolder::journal() const {

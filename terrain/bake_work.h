@@ -12,7 +12,8 @@ namespace trimtab::terrain {
 /// A lock on a file that ends with the process.
 class FileLock {
  public:
-  /// Null where another process has it. The file says who does, for people: a line a process.
+  /// Null where it is not to be had, with the reason in errno: EWOULDBLOCK where another process has it (or
+  /// had, and removed it meanwhile). The file says who does, for people: a line a process.
   static std::unique_ptr<FileLock> tryLock(const std::filesystem::path& file, bool shared);
   ~FileLock();
   FileLock(const FileLock&) = delete;
@@ -46,6 +47,9 @@ class WorkFolder {
   std::filesystem::path database() const { return path_ / "database"; }
   std::filesystem::path pieces() const { return path_ / "pieces"; }
   bool resumed() const { return resumed_; }
+
+  /// All work goes; for who has it alone.
+  Result<Done> beginAnew();
 
   /// The journal's lines, as far as they are whole.
   std::vector<std::string> journal() const;

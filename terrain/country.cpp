@@ -45,6 +45,18 @@ Result<Done> writeCountry(const fs::path& tif, const CountryOptions& options) {
   posts.stepLongitude = options.postM / (111320 * std::cos(kLatitude * std::numbers::pi / 180));
   posts.west = kLongitude - posts.stepLongitude * (posts.columns - 1) / 2;
   posts.south = kLatitude - posts.stepLatitude * (posts.rows - 1) / 2;
+  const double end = posts.latitude(posts.rows - 1.0), wide = posts.stepLongitude * posts.columns;
+  if (end > 90)
+    return about(Severity::error, tif, "rows",
+                 "at most " +
+                     std::to_string(static_cast<int>(2 * (90 - kLatitude) / posts.stepLatitude) + 1) +
+                     " at this distance, so that the land ends before the pole",
+                 std::to_string(posts.rows));
+  if (wide > 360)
+    return about(Severity::error, tif, "columns",
+                 "at most " + std::to_string(static_cast<int>(360 / posts.stepLongitude)) +
+                     " at this distance, so that the land goes round the earth once",
+                 std::to_string(posts.columns));
   return writeTiff(tif, posts, [&](std::uint32_t first, std::uint32_t count, std::span<float> heights) {
     const auto row = [&](std::uint32_t r) {
       float* out = &heights[std::size_t{r} * options.columns];

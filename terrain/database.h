@@ -129,7 +129,8 @@ struct SampleOptions {
 Result<Done> writeSample(const std::filesystem::path& tif, const SampleOptions& options);
 
 /// Opens a database folder as it is; bakes anything else into the cache folder first (and finds it there next
-/// time: keyed by paths, sizes and times of the sources, and for scenery by `trianglesPerNode`).
+/// time: keyed by paths, sizes and times of the sources and of the files that GDAL reads with them, and for
+/// scenery by `trianglesPerNode`).
 Result<std::shared_ptr<const Database>> openOrBake(const std::filesystem::path& source,
                                                    const std::filesystem::path& cacheFolder,
                                                    const Progress& progress,

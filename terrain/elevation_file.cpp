@@ -70,10 +70,11 @@ Result<std::unique_ptr<ElevationFile>> ElevationFile::open(const fs::path& path,
   if (!own)
     return about(Severity::error, path, "coordinate reference system", "one that PROJ can turn to WGS84",
                  errors.last("a raster that does not fit on the earth"));
-  file->own_ = *own;
+  file->own_ = upToPoles(*own);
   if (own->south < -90.001 || own->latitude(own->rows - 1) > 90.001)
     return about(Severity::error, path, "latitude", "-90 to 90",
                  std::to_string(own->south) + " to " + std::to_string(own->latitude(own->rows - 1)));
+  if (Findings beyond = beyondLimits(file->own_, path.string()); !beyond.empty()) return beyond;
   file->vertical_ = verticalOf(raster);
   if (file->vertical_.note)
     notes.push_back(about(Severity::note, path, "vertical datum", file->vertical_.note->first,

@@ -111,7 +111,7 @@ Result<PostGrid> gridOf(const Files& files, const ElevationOptions& options) {
   grid.stepLatitude = up.step;
   grid.columns = static_cast<std::uint32_t>(columns);
   grid.rows = static_cast<std::uint32_t>(rows);
-  return grid;
+  return upToPoles(grid);
 }
 
 class MergedElevation final : public ElevationSource {

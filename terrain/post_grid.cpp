@@ -1,5 +1,9 @@
 #include "trimtab/terrain/post_grid.h"
 
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
 #include "trimtab/units/geodesy.h"
 
 namespace trimtab::terrain {
@@ -18,6 +22,39 @@ std::uint32_t tilesFor(std::uint32_t posts, std::uint32_t level) {
 double PostGrid::columnOf(double longitudeDeg) const {
   const double middle = longitude((columns - 1.0) / 2);
   return (middle + wrapped180(Degrees{longitudeDeg - middle}).value() - west) / stepLongitude;
+}
+
+Findings beyondLimits(const PostGrid& posts, const std::string& where) {
+  using Limits = PostLimits;
+  const auto number = [](double value) {
+    std::array<char, 40> text{};
+    std::snprintf(text.data(), text.size(), "%.9g", value);
+    return std::string(text.data());
+  };
+  Findings findings;
+  const auto hold = [&](const char* key, const char* what, double value, double low, double high) {
+    if (!(value >= low && value <= high))
+      findings.push_back(
+          {Severity::error, where, key, what + number(low) + " to " + number(high), number(value)});
+  };
+  hold("longitude", "a westernmost post at ", posts.west, -Limits::kWest, Limits::kWest);
+  hold("latitude", "a southernmost post at ", posts.south, -90, 90);
+  hold("latitude", "a northernmost post at ", posts.latitude(posts.rows - 1.0), -90, 90 + Limits::kPastPole);
+  hold("step", "degrees of longitude from post to post ", posts.stepLongitude, Limits::kLeastStep,
+       Limits::kMostStepLongitude);
+  hold("step", "degrees of latitude from post to post ", posts.stepLatitude, Limits::kLeastStep,
+       Limits::kMostStepLatitude);
+  hold("columns", "posts from west to east ", posts.columns, 2, Limits::kMostSide);
+  hold("rows", "posts from south to north ", posts.rows, 2, Limits::kMostSide);
+  return findings;
+}
+
+PostGrid upToPoles(PostGrid posts) {
+  const double north = posts.latitude(posts.rows - 1.0);
+  if (posts.south >= -90 && north <= 90 + PostLimits::kPastPole) return posts;
+  posts.south = std::max(posts.south, -90.0);
+  posts.stepLatitude = (std::min(north, 90.0) - posts.south) / (posts.rows - 1.0);
+  return posts;
 }
 
 TerrainIndex makeLevels(const PostGrid& posts) {

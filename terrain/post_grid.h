@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "trimtab/frame/terrain_index.h"
+#include "trimtab/units/result.h"
 
 namespace trimtab::terrain {
 
@@ -23,6 +25,17 @@ struct PostGrid {
 
   friend bool operator==(const PostGrid&, const PostGrid&) = default;
 };
+
+/// What the grid of a database may be: degrees, and posts a side.
+struct PostLimits {
+  static constexpr double kWest = 540, kLeastStep = 1e-9, kMostStepLongitude = 180, kMostStepLatitude = 90;
+  static constexpr double kPastPole = 1e-6;  ///< of the northernmost row, by rounding
+  static constexpr std::uint32_t kMostSide = 1u << 20;
+};
+/// What of a grid no database can hold; `where` names its source.
+Findings beyondLimits(const PostGrid& posts, const std::string& where);
+/// Rows that go on past a pole, as rounded steps make them, end on it.
+PostGrid upToPoles(PostGrid posts);
 
 /// Heights in metres, row by row; NaN is a void until voids are filled.
 struct HeightGrid {

@@ -20,7 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint32_t kMostPosts = 1u << 20;  ///< a side
 constexpr std::size_t kNodeFloats = 8;
 
 Finding wrong(const fs::path& file, std::string key, std::string expected, std::string found) {
@@ -206,12 +205,14 @@ Result<Contents> readContents(const fs::path& folder) {
   const Reader read{file, findings};
   const Json grid = manifest.value("grid", Json::object());
   PostGrid posts;
-  posts.west = read.number(grid, "west_deg", -540, 540);
+  posts.west = read.number(grid, "west_deg", -PostLimits::kWest, PostLimits::kWest);
   posts.south = read.number(grid, "south_deg", -90, 90);
-  posts.stepLongitude = read.number(grid, "step_longitude_deg", 1e-9, 180);
-  posts.stepLatitude = read.number(grid, "step_latitude_deg", 1e-9, 90);
-  posts.columns = static_cast<std::uint32_t>(read.number(grid, "columns", 2, kMostPosts));
-  posts.rows = static_cast<std::uint32_t>(read.number(grid, "rows", 2, kMostPosts));
+  posts.stepLongitude =
+      read.number(grid, "step_longitude_deg", PostLimits::kLeastStep, PostLimits::kMostStepLongitude);
+  posts.stepLatitude =
+      read.number(grid, "step_latitude_deg", PostLimits::kLeastStep, PostLimits::kMostStepLatitude);
+  posts.columns = static_cast<std::uint32_t>(read.number(grid, "columns", 2, PostLimits::kMostSide));
+  posts.rows = static_cast<std::uint32_t>(read.number(grid, "rows", 2, PostLimits::kMostSide));
   TerrainInfo info;
   info.name = read.text(manifest, "name");
   info.source = read.text(manifest, "source");
@@ -221,7 +222,7 @@ Result<Contents> readContents(const fs::path& folder) {
   info.voidsFilled = static_cast<std::uint64_t>(read.number(manifest, "voids_filled", 0, 1e15));
   info.hasImage = manifest.contains("image") && manifest["image"] == true;
   if (manifest.contains("scenery")) info.scenery = sceneryOf(manifest["scenery"], read);
-  if (posts.latitude(posts.rows - 1) > 90 + 1e-6)
+  if (posts.latitude(posts.rows - 1) > 90 + PostLimits::kPastPole)
     findings.push_back(
         wrong(file, "grid", "rows up to latitude 90", std::to_string(posts.latitude(posts.rows - 1))));
   if (!findings.empty()) return findings;

@@ -312,6 +312,36 @@ TEST_F(ResumedBake, namesEveryPartAtWorkAndNoOther) {
   EXPECT_TRUE(WorkFolder::open(options_.output, "{}", WorkFolder::Use::alone));
 }
 
+/// Nobody has it: there is nothing to wait for.
+TEST_F(ResumedBake, saysWhyALockCannotBeHad) {
+  ASSERT_TRUE(bakePart(options_, 1, 2));
+  options_.progress = [](double, const std::string& what) {
+    return what.find("waiting") == std::string::npos;
+  };
+  for (const char* name : {"heights.lock", "lock"}) {
+    const fs::path lock = dir_ / ".db.work" / name;
+    fs::remove(lock);
+    fs::create_directory(lock);
+    for (const Findings& said : {bakePart(options_, 2, 2).findings(), bake(options_).findings()}) {
+      EXPECT_NE(toString(said).find(lock.string()), std::string::npos) << toString(said);
+      EXPECT_NE(toString(said).find("Is a directory"), std::string::npos) << toString(said);
+    }
+    fs::remove(lock);
+  }
+  ASSERT_TRUE(bake(options_));
+  expectWhole(dir_ / "db");
+}
+
+TEST_F(ResumedBake, isRefusedALockWithTheReason) {
+  const fs::path file = dir_ / "lock";
+  const auto first = FileLock::tryLock(file, false);
+  ASSERT_TRUE(first);
+  EXPECT_FALSE(FileLock::tryLock(file, true));
+  EXPECT_EQ(errno, EWOULDBLOCK);
+  EXPECT_FALSE(FileLock::tryLock(dir_ / "absent/lock", false));
+  EXPECT_EQ(errno, ENOENT);
+}
+
 TEST_F(ResumedBake, sharedByTestsWaitsForItsTurn) {
   test::RasterRecipe recipe;
   recipe.columns = recipe.rows = 900;  // more work than a bake waits for another

@@ -246,6 +246,73 @@ TEST_F(Bake, standsAPole) {
   }
 }
 
+/// Rounded steps take the last row past the pole.
+TEST_F(Bake, endsOnThePoles) {
+  test::RasterRecipe recipe;
+  recipe.step = 0.01;
+  recipe.value = [](int c, int r, int) { return test::roughGround(c, r); };
+  for (const double beyond : {0.0004, -0.0004}) {
+    recipe.north = beyond > 0 ? 90.005 + beyond : -90.005 + beyond + 65 * recipe.step;
+    options_.sources = {test::writeRaster(source_, recipe)};
+    const auto made = bake(options_);
+    ASSERT_TRUE(made) << toString(made.findings());
+    const TerrainInfo& info = (*made)->info();
+    EXPECT_EQ(info.rows, 65u);
+    const double pole = (beyond > 0 ? info.northEast : info.southWest).latitude.value(),
+                 other = (beyond > 0 ? info.southWest : info.northEast).latitude.value();
+    EXPECT_NEAR(pole, beyond > 0 ? 90 : -90, 1e-9);
+    EXPECT_NEAR(other, beyond > 0 ? 89.3604 : -89.3604, 1e-9);
+    const std::string bytes = test::readFile(dir_ / "db/heights.f32");
+    const auto* heights = reinterpret_cast<const float*>(bytes.data());
+    for (int r = 0; r < 65; ++r)
+      for (int c = 0; c < 65; ++c)
+        ASSERT_EQ(heights[(64 - r) * 65 + c], static_cast<float>(test::roughGround(c, r)));
+  }
+}
+
+/// What no database can hold is told of before the old one goes.
+TEST_F(Bake, refusesGridsThatCouldNotBeOpened) {
+  ASSERT_TRUE(bake(options_));
+  const std::string before = test::readFile(dir_ / "db/manifest.json");
+  struct Bad {
+    double west, north, step;
+    const char* said;
+  };
+  for (const Bad& bad : {Bad{5000, 50, 0.001, "-540 to 540, found 5000"}, Bad{10, 50, 1e-12, "1e-09 to 180"},
+                         Bad{10, 90.01, 0.001, "-90 to 90"}, Bad{10, -89.9, 0.01, "-90 to 90"}}) {
+    test::RasterRecipe recipe;
+    recipe.west = bad.west, recipe.north = bad.north, recipe.step = bad.step;
+    const fs::path file = test::writeRaster(dir_ / "bad.tif", recipe);
+    options_.sources = {file};
+    options_.progress = [](double, const std::string& what) { return what != "reading heights"; };
+    const auto made = bake(options_);
+    ASSERT_FALSE(made);
+    const std::string said = toString(made.findings());
+    EXPECT_NE(said.find(bad.said), std::string::npos) << said;
+    EXPECT_NE(said.find(file.string()), std::string::npos) << said;
+    EXPECT_EQ(test::readFile(dir_ / "db/manifest.json"), before);
+  }
+}
+
+TEST_F(Bake, isOpenedBeforeItTakesThePlaceOfTheOld) {
+  ASSERT_TRUE(bake(options_));
+  const std::string before = test::readFile(dir_ / "db/manifest.json");
+  options_.maxError = Metres{60};
+  options_.progress = [&](double, const std::string& what) {
+    if (what == "writing") fs::resize_file(dir_ / ".db.work/database/heights.f32", 10);
+    return true;
+  };
+  const auto made = bake(options_);
+  ASSERT_FALSE(made);
+  EXPECT_NE(toString(made.findings()).find("what was there is as it was"), std::string::npos)
+      << toString(made.findings());
+  EXPECT_EQ(test::readFile(dir_ / "db/manifest.json"), before);
+  options_.progress = nullptr;
+  const auto again = bake(options_);
+  ASSERT_TRUE(again) << toString(again.findings());
+  EXPECT_NE(test::readFile(dir_ / "db/manifest.json"), before);
+}
+
 TEST_F(Bake, onceIsEnoughForOpenOrBake) {
   const fs::path cache = dir_ / "cache";
   int asked = 0;

@@ -33,6 +33,21 @@ TEST_F(TerrainCommand, makesBakesAndDescribesASample) {
   EXPECT_NE(test::run(cli("info " + at("db"))).out.find("level 0"), std::string::npos);
 }
 
+TEST_F(TerrainCommand, countryEndsBeforeThePoleAndMeetsItselfNowhere) {
+  const std::string to = "country -o " + at("c.tif") + " --post-m 2000";
+  for (const auto& [size, said] : {std::pair{" --rows 6000 --columns 33", "rows: expected at most 5924"},
+                                   {" --rows 33 --columns 20000", "columns: expected at most 16080"}}) {
+    const auto refused = test::run(cli(to + size));
+    EXPECT_EQ(refused.exitCode, 1);
+    EXPECT_NE(refused.err.find(said), std::string::npos) << refused.err;
+    EXPECT_FALSE(std::filesystem::exists(at("c.tif")));
+  }
+  const auto made = test::run(cli(to + " --rows 5924 --columns 33"));
+  ASSERT_EQ(made.exitCode, 0) << made.err;
+  const auto baked = test::run(cli("bake " + at("c.tif") + " -o " + at("db") + " --max-error-m 500"));
+  EXPECT_EQ(baked.exitCode, 0) << baked.err;
+}
+
 TEST_F(TerrainCommand, bakesACountryInPartsAndChecksIt) {
   const auto made = test::run(cli("country -o " + at("c.tif") + " --columns 300 --rows 200"));
   ASSERT_EQ(made.exitCode, 0) << made.err;
