@@ -21,7 +21,7 @@ constexpr std::int64_t kWindow = std::int64_t{1} << 21;
 constexpr double kMostBlockBytes = 512e6;
 /// Posts that coincide within a thousandth are the same.
 constexpr double kSame = 1e-3;
-/// Finer files than this many posts to a step are averaged.
+/// An axis of a file that has more posts to a step than this is averaged along it.
 constexpr double kFiner = 1.5;
 
 OGRSpatialReference degreesOfWgs84() {
@@ -354,8 +354,8 @@ Result<Done> ElevationFile::readTile(const Rectangle& posts, std::uint32_t first
       west = std::min(west, p.x), east = std::max(east, p.x), low = std::min(low, p.y),
       high = std::max(high, p.y);
   if (west > east) return Done{};
-  const bool averages = footprintX_ > kFiner || footprintY_ > kFiner;
-  const double marginX = averages ? footprintX_ : 0, marginY = averages ? footprintY_ : 0;
+  const bool averagesX = footprintX_ > kFiner, averagesY = footprintY_ > kFiner;
+  const double marginX = averagesX ? footprintX_ : 0, marginY = averagesY ? footprintY_ : 0;
   const auto bounds = [](double from, double to, std::int64_t count) {
     const double end = static_cast<double>(count - 1);
     const auto first = static_cast<std::int64_t>(std::clamp(std::floor(from) - 2, 0.0, end)),
@@ -386,8 +386,14 @@ Result<Done> ElevationFile::readTile(const Rectangle& posts, std::uint32_t first
     for (std::uint32_t c = 0; c < posts.columns; ++c) {
       const Place& p = places_[std::size_t{r} * posts.columns + c];
       if (!nearby(p)) continue;
-      float height = averages ? meanAbout(window, p.x, p.y, footprintX_, footprintY_)
-                              : heightBetween(window, across_, down_, p.x, p.y);
+      float height = 0;
+      if (averagesX && averagesY)
+        height = meanAbout(window, p.x, p.y, footprintX_, footprintY_);
+      else if (averagesX || averagesY)
+        height =
+            meanAlong(window, averagesX, across_, down_, p.x, p.y, averagesX ? footprintX_ : footprintY_);
+      else
+        height = heightBetween(window, across_, down_, p.x, p.y);
       if (vertical_.toFile) height = static_cast<float>(height + p.lift);
       const std::size_t line = posts.row + r - firstRow;
       const auto place = static_cast<std::uint32_t>(line * grid_.columns + posts.column + c);

@@ -350,6 +350,40 @@ TEST_F(Elevation, takesVerticalDatumsToTheGeoidWherePROJCan) {
   EXPECT_EQ(notes_.find("vertical datum"), std::string::npos) << notes_;
 }
 
+TEST_F(Elevation, hasNoVoidsWhereFilesAreFinerOnOneAxisAlone) {
+  // 10 m x 40 m, and on its side.
+  auto upright = inUtm(32, 47.59, 11.9, 40, 800, 200), lying = inUtm(32, 47.59, 11.9, 10, 200, 800);
+  upright.stepEast = 10, lying.stepEast = 40;
+  // As tiles are at high latitudes: of half the posts across from one parallel on.
+  auto wide = degrees(20, 70, 1 / 3600.0, 200, 300),
+       narrow = degrees(20, 70 + 300 / 3600.0, 1 / 3600.0, 100, 300);
+  wide.stepEast = 1.5 / 3600, narrow.stepEast = 3 / 3600.0;
+  struct Case {
+    const char* name;
+    std::vector<TrueRaster> rasters;
+    double postM, finestM, coarsestM;
+  };
+  for (const Case& c :
+       {Case{"upright", {upright}, 20, 10, 40}, Case{"lying", {lying}, 20, 10, 40},
+        Case{"tiles", {wide, narrow}, 50, 16, 50}, Case{"tiles, closer", {wide, narrow}, 31, 16, 32}}) {
+    ElevationOptions options;
+    options.stepLatitude = c.postM / 111320;
+    const auto source = open(c.rasters, options);
+    ASSERT_TRUE(source) << c.name;
+    std::vector<std::uint8_t> beyond;
+    const auto heights = test::readBands(*source, 32, &beyond);
+    std::size_t voids = 0;
+    for (std::size_t i = 0; i < heights.size(); ++i)
+      if (std::isnan(heights[i]) && beyond[i] == 0) ++voids;
+    EXPECT_EQ(voids, 0u) << c.name;
+    const auto [worst, count] = error(source->posts(), heights);
+    // The middle of the posts that are averaged is up to half a post off.
+    EXPECT_LT(worst, test::bilinearLimit(c.coarsestM) + test::kSlope * c.finestM / 2) << c.name;
+    EXPECT_GT(count, heights.size() * 9 / 10) << c.name;
+    std::printf("%-14s %zu posts, worst %.3f m\n", c.name, count, worst);
+  }
+}
+
 TEST_F(Elevation, isAveragedToACoarserSpacingWhenAskedFor) {
   ElevationOptions options;
   options.stepLatitude = 0.002;
