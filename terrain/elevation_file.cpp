@@ -125,10 +125,9 @@ Result<Done> ElevationFile::lookThrough(const Progress& progress, GdalErrors& er
     }
   flipped_ = direct_ && raster_.transform[5] < 0;
   (void)errors;
-  values_.deepIsVoid = census.untagged > 0;
-  std::uint64_t untagged = census.untagged + census.impossible;
-  if (values_.deepIsVoid) untagged += census.deep;
-  heights_ = census.posts - census.voids - untagged;
+  census.judge(values_);
+  heights_ = census.heights(values_);
+  const std::uint64_t untagged = census.untagged(values_);
   if (untagged > 0)
     notes.push_back(about(Severity::note, name_, "no-data", "a tag for the value that means none",
                           std::to_string(untagged) + " posts with impossible heights, taken as voids"));
