@@ -1,5 +1,7 @@
 #include "trimtab/terrain/elevation_file.h"
 
+#include <cpl_string.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -63,6 +65,11 @@ Result<std::unique_ptr<ElevationFile>> ElevationFile::open(const fs::path& path,
     return about(Severity::error, path, "blocks", "blocks of at most 512 MB, as it is read block by block",
                  std::to_string(blockColumns) + " x " + std::to_string(blockRows) + " posts in one");
 
+  // A post may stand where the first does.
+  const double width = static_cast<double>(file->across_ - 1) * std::abs(raster.transform[1]);
+  if (raster.crs.IsGeographic() && width > 360 + std::abs(raster.transform[1]) / 2)
+    return about(Severity::error, path, "longitude", "at most 360 degrees from the first post to the last",
+                 CPLSPrintf("%.6g degrees", width));
   const auto direct = geographicPosts(raster);
   file->direct_ = direct.has_value();
   file->flipped_ = direct && raster.transform[5] < 0;
@@ -91,6 +98,20 @@ Result<std::unique_ptr<ElevationFile>> ElevationFile::open(const fs::path& path,
   errors.moveTo(notes, path.string(), Severity::warning);
   file->close();
   return Result<std::unique_ptr<ElevationFile>>(std::move(file), std::move(notes));
+}
+
+std::unique_ptr<ElevationFile> ElevationFile::turned(double degrees) const {
+  std::unique_ptr<ElevationFile> file(
+      new ElevationFile(PlacedRaster{owned(nullptr), raster_.transform, raster_.crs}));
+  file->name_ = name_;
+  file->own_ = own_;
+  file->values_ = values_;
+  file->vertical_ = vertical_;
+  file->direct_ = direct_, file->flipped_ = flipped_, file->masked_ = masked_;
+  file->across_ = across_, file->down_ = down_;
+  file->heights_ = heights_;
+  file->turn(degrees);
+  return file;
 }
 
 Result<Done> ElevationFile::lookThrough(const Progress& progress, GdalErrors& errors, Findings& notes) {

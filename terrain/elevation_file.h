@@ -34,6 +34,8 @@ class ElevationFile {
   bool isDirect() const { return direct_; }
   /// By whole turns, so that all files lie on one side of the earth.
   void turn(double degrees) { own_.west += degrees; }
+  /// The same file turned: for a grid round the earth that has parts of it at both ends.
+  std::unique_ptr<ElevationFile> turned(double degrees) const;
   std::uint64_t heights() const { return heights_; }  ///< that are no voids
 
   /// Before reading. None: no post of the grid is near it.

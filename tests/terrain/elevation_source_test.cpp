@@ -148,6 +148,78 @@ TEST_F(Elevation, isKnownAcrossTheDateLine) {
   EXPECT_GT(countAlone, 100000u);
 }
 
+TEST_F(Elevation, goesRoundTheEarthOnce) {
+  test::RasterRecipe posts, pixels, fine;
+  // Posts at whole degrees from -180 to 180, or pixels between them.
+  posts.west = -180.5, posts.north = 10.5, posts.step = 1, posts.columns = 361, posts.rows = 21;
+  pixels.west = -180, pixels.north = 10, pixels.step = 0.5, pixels.columns = 720, pixels.rows = 40;
+  fine.west = 177.95, fine.north = 4.05, fine.step = 0.1, fine.columns = 121, fine.rows = 81;
+  fine.value = [](int, int, int) { return 200.0; };
+  int count = 0;
+  for (const test::RasterRecipe& base : {posts, pixels})
+    for (const double turn : {0.0, -360.0})
+      for (const bool fineFirst : {false, true}) {
+        SCOPED_TRACE(count);
+        test::RasterRecipe moved = fine;
+        moved.west += turn;
+        const fs::path baseFile = test::writeRaster(dir_ / ("base" + std::to_string(count) + ".tif"), base),
+                       file = test::writeRaster(dir_ / ("fine" + std::to_string(count++) + ".tif"), moved);
+        const std::vector<fs::path> files = {fineFirst ? file : baseFile, fineFirst ? baseFile : file};
+        const auto opened = openElevation(files);
+        ASSERT_TRUE(opened) << toString(opened.findings());
+        ElevationSource& source = **opened;
+        const PostGrid& p = source.posts();
+        EXPECT_LE((p.columns - 1) * p.stepLongitude, 360 + 1e-9);
+        EXPECT_GE((p.columns + 1) * p.stepLongitude, 360);
+        EXPECT_GT(p.west, -180.5);
+        EXPECT_LT(p.west, -179.5);
+        const auto heights = test::readBands(source, 32);
+        // Within four degrees of the equator, and where the fine file does not give way: 181.2 to 186.8.
+        const auto middle = static_cast<std::uint32_t>(std::lround(-p.south / p.stepLatitude));
+        std::size_t led = 0;
+        for (std::uint32_t c = 0; c < p.columns; ++c) {
+          const double east = p.longitude(c) < 0 ? p.longitude(c) + 360 : p.longitude(c);
+          const float height = heights[std::size_t{middle} * p.columns + c];
+          const bool isFine = east > 177.99 && east < 190.01;
+          if (isFine) ++led;
+          ASSERT_GE(height, 100) << east;
+          ASSERT_LE(height, isFine ? 200 : 100) << east;
+          if (east > 181.3 && east < 186.7) {
+            ASSERT_EQ(height, 200) << east;
+          }
+        }
+        // One surface, where it is cut too: at the date line the fine file is two thirds of the way in.
+        const std::size_t row = std::size_t{middle} * p.columns;
+        EXPECT_NEAR(heights[row], heights[row + p.columns - 1], 5);
+        EXPECT_NEAR(heights[row + 1] - heights[row],
+                    heights[row + p.columns - 1] - heights[row + p.columns - 2], 1);
+        EXPECT_GT(heights[row], 155);
+        EXPECT_GE(led, 121u);
+        EXPECT_EQ(source.names(), (std::vector<std::string>{file.string(), baseFile.string()}));
+        ASSERT_EQ(source.given().size(), 2u);
+        // Where most is its own: from 15 posts within its border, or nearer where pixels leave the line to
+        // it.
+        EXPECT_GT(source.given()[0], 4500u);
+        EXPECT_LT(source.given()[0], 6000u);
+      }
+}
+
+TEST_F(Elevation, refusesARasterThatIsWiderThanTheEarth) {
+  test::RasterRecipe recipe;
+  recipe.west = -180.5, recipe.north = 10, recipe.step = 1, recipe.rows = 20;
+  for (const auto& [columns, opens] : {std::pair{361, true}, {362, false}, {800, false}}) {
+    recipe.columns = columns;
+    const fs::path file = test::writeRaster(dir_ / "wide.tif", recipe);
+    const auto opened = openElevation(std::span(&file, 1));
+    ASSERT_EQ(opened.ok(), opens) << columns;
+    if (opens) continue;
+    const std::string text = toString(opened.findings());
+    for (const std::string& word : {file.string(), std::string("longitude"), std::string("360 degrees"),
+                                    std::to_string(columns - 1) + " degrees"})
+      EXPECT_NE(text.find(word), std::string::npos) << text;
+  }
+}
+
 TEST_F(Elevation, isKnownAtThePole) {
   const auto source = open({degrees(20, 89.95, 0.0005, 400, 200)});
   ASSERT_TRUE(source);
