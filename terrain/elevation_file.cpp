@@ -33,6 +33,36 @@ OGRSpatialReference degreesOfWgs84() {
   return crs;
 }
 
+/// How far the CRS goes for a turn of the earth. Of a cylinder where the raster goes on beyond its edge,
+/// which shows as a place that comes back from degrees a turn away; 0 otherwise.
+double turnOf(const PlacedRaster& raster) {
+  if (raster.crs.IsGeographic()) return 360;
+  const OGRSpatialReference degrees = degreesOfWgs84();
+  const std::unique_ptr<OGRCoordinateTransformation> there(
+      OGRCreateCoordinateTransformation(&raster.crs, &degrees)),
+      back(OGRCreateCoordinateTransformation(&degrees, &raster.crs));
+  if (!there || !back) return 0;
+  const GdalErrors quiet;
+  const auto& g = raster.transform;
+  const double pixel = std::abs(g[1]), row = raster.data->GetRasterYSize() / 2.0;
+  for (const double column : {0.5, raster.data->GetRasterXSize() - 0.5}) {
+    const double x = g[0] + g[1] * column + g[2] * row, y = g[3] + g[4] * column + g[5] * row;
+    double longitude = x, latitude = y;
+    if (!there->Transform(1, &longitude, &latitude)) continue;
+    std::array<double, 3> east{}, north{};
+    std::array<int, 3> good{};
+    for (const std::size_t k : {0u, 1u, 2u})
+      east[k] = std::remainder(longitude + static_cast<double>(k) - 1, 360.0), north[k] = latitude;
+    back->Transform(3, east.data(), north.data(), nullptr, good.data());
+    if (!good[0] || !good[1] || !good[2] || std::abs(north[1] - y) > 0.01 * pixel) continue;
+    // One of the two may lie beyond the edge.
+    const double turn = 360 * std::min(std::abs(east[1] - east[0]), std::abs(east[2] - east[1])),
+                 gone = std::abs(east[1] - x), turns = std::round(gone / turn);
+    if (turns >= 1 && std::abs(gone / turns - turn) < 0.01 * pixel) return gone / turns;
+  }
+  return 0;
+}
+
 double snapped(double x) {
   const double whole = std::round(x);
   return std::abs(x - whole) < kSame ? whole : x;
@@ -65,11 +95,12 @@ Result<std::unique_ptr<ElevationFile>> ElevationFile::open(const fs::path& path,
     return about(Severity::error, path, "blocks", "blocks of at most 512 MB, as it is read block by block",
                  std::to_string(blockColumns) + " x " + std::to_string(blockRows) + " posts in one");
 
+  file->turn_ = turnOf(raster);
   // A post may stand where the first does.
-  const double width = static_cast<double>(file->across_ - 1) * std::abs(raster.transform[1]);
-  if (raster.crs.IsGeographic() && width > 360 + std::abs(raster.transform[1]) / 2)
+  const double pixel = std::abs(raster.transform[1]), width = static_cast<double>(file->across_ - 1) * pixel;
+  if (file->turn_ > 0 && width > file->turn_ + pixel / 2)
     return about(Severity::error, path, "longitude", "at most 360 degrees from the first post to the last",
-                 CPLSPrintf("%.6g degrees", width));
+                 CPLSPrintf("%.6g degrees", width / file->turn_ * 360));
   const auto direct = geographicPosts(raster);
   file->direct_ = direct.has_value();
   file->flipped_ = direct && raster.transform[5] < 0;
@@ -107,6 +138,7 @@ std::unique_ptr<ElevationFile> ElevationFile::turned(double degrees) const {
   file->own_ = own_;
   file->values_ = values_;
   file->vertical_ = vertical_;
+  file->turn_ = turn_;
   file->direct_ = direct_, file->flipped_ = flipped_, file->masked_ = masked_;
   file->across_ = across_, file->down_ = down_;
   file->heights_ = heights_;
@@ -220,13 +252,14 @@ std::vector<ElevationFile::Place> ElevationFile::exact(std::uint32_t row, std::u
   } else {
     fill();
     toFile_->Transform(static_cast<int>(count), x.data(), y.data(), nullptr, good.get());
-    const double middle = raster_.transform[0] + raster_.transform[1] * static_cast<double>(across_) / 2;
+    const double middle = raster_.transform[0] + raster_.transform[1] * static_cast<double>(across_) / 2 +
+                          raster_.transform[2] * static_cast<double>(down_) / 2;
     for (std::uint32_t i = 0; i < count; ++i) {
       if (!good[i] || !std::isfinite(x[i]) || !std::isfinite(y[i])) {
         places[i].x = places[i].y = std::nan("");
         continue;
       }
-      if (raster_.crs.IsGeographic()) x[i] = middle + std::remainder(x[i] - middle, 360.0);
+      if (turn_ > 0) x[i] = middle + std::remainder(x[i] - middle, turn_);
       places[i].x = inverse_[0] + inverse_[1] * x[i] + inverse_[2] * y[i] - 0.5;
       places[i].y = inverse_[3] + inverse_[4] * x[i] + inverse_[5] * y[i] - 0.5;
     }

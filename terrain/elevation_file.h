@@ -80,6 +80,7 @@ class ElevationFile {
   Vertical vertical_;
   std::shared_ptr<OGRCoordinateTransformation> toFile_;
   std::array<double, 6> inverse_{};  ///< CRS to pixels
+  double turn_ = 0;                  ///< of the earth, in the CRS; 0 where no place is met again after one
   bool direct_ = false, flipped_ = false, masked_ = false;
   std::int64_t across_ = 0, down_ = 0;  ///< posts of the raster
   std::uint64_t heights_ = 0;

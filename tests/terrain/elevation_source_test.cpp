@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 #include <random>
 
 #include "elevation_truth.h"
@@ -202,6 +203,39 @@ TEST_F(Elevation, goesRoundTheEarthOnce) {
         EXPECT_GT(source.given()[0], 4500u);
         EXPECT_LT(source.given()[0], 6000u);
       }
+}
+
+TEST_F(Elevation, isKnownBeyondTheEdgeOfACylinder) {
+  // On both sides of the date line, as one raster, by either edge; at the equator and far from it.
+  constexpr double kEdge = 20037508.342789244, kRadius = 6378137, kDegree = std::numbers::pi / 180;
+  for (const double side : {1.0, -1.0})
+    for (const double north : {6000.0, 6500000.0}) {
+      TrueRaster mercator{
+          "EPSG:3857",
+          [](double x, double y) {
+            return test::Degrees2{std::atan(std::sinh(y / kRadius)) / kDegree, x / kRadius / kDegree};
+          },
+          side * kEdge - 100 * 60,
+          north,
+          60,
+          200,
+          100};
+      const auto source = open({mercator});
+      ASSERT_TRUE(source);
+      const PostGrid& posts = source->posts();
+      EXPECT_NEAR((posts.columns - 1) * posts.stepLongitude, 199 * 60 / kRadius / kDegree, 0.002);
+      const auto [worst, count] = error(posts, test::readBands(*source, 32));
+      EXPECT_LT(worst, test::bilinearLimit(60));
+      EXPECT_GE(count, 199u * 99);
+      // A world and a half.
+      mercator.columns = 90, mercator.step = 2 * kEdge / 60, mercator.rows = 2, mercator.north = 1e6;
+      mercator.west = -1.5 * kEdge;
+      const fs::path wide = test::write(dir_ / "wide.tif", mercator);
+      const auto refused = openElevation(std::span(&wide, 1));
+      ASSERT_FALSE(refused);
+      EXPECT_NE(toString(refused.findings()).find("534 degrees"), std::string::npos)
+          << toString(refused.findings());
+    }
 }
 
 TEST_F(Elevation, refusesARasterThatIsWiderThanTheEarth) {
