@@ -116,6 +116,9 @@ Result<std::unique_ptr<ElevationFile>> ElevationFile::open(const fs::path& path,
   if (file->vertical_.note)
     notes.push_back(about(Severity::note, path, "vertical datum", file->vertical_.note->first,
                           file->vertical_.note->second));
+  if (file->vertical_.lost)
+    notes.push_back(about(Severity::warning, path, "vertical datum", file->vertical_.lost->first,
+                          file->vertical_.lost->second));
   file->values_ = valuesOf(band, file->vertical_.unit);
   if (file->values_.scale != 1)
     notes.push_back(about(Severity::note, path, "unit", "metres",
@@ -266,9 +269,10 @@ std::vector<ElevationFile::Place> ElevationFile::exact(std::uint32_t row, std::u
   }
   if (vertical_.toFile) {
     fill();
+    const GdalErrors quiet;
     vertical_.toFile->Transform(static_cast<int>(count), x.data(), y.data(), z.data(), good.get());
     for (std::uint32_t i = 0; i < count; ++i)
-      if (good[i] && std::isfinite(z[i])) places[i].lift = -z[i] * vertical_.unit;
+      places[i].lift = good[i] && std::isfinite(z[i]) ? -z[i] * vertical_.unit : std::nan("");
   }
   return places;
 }
@@ -342,6 +346,10 @@ void ElevationFile::findPlaces(const Rectangle& posts) {
       };
       Place& place = places_[std::size_t{r} * posts.columns + c];
       place.lift = between(&Place::lift);
+      // About the end of what PROJ knows each post by itself.
+      if (std::isnan(place.lift) && !(std::isnan(low[k].lift) && std::isnan(low[k + 1].lift) &&
+                                      std::isnan(high[k].lift) && std::isnan(high[k + 1].lift)))
+        place.lift = exact(row, column, 1, 1)[0].lift;
       if (direct_) {
         place.x = snapped((grid_.longitude(column) - own_.west) / own_.stepLongitude);
         place.y = snapped((grid_.latitude(row) - own_.south) / own_.stepLatitude);

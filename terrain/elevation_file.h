@@ -54,7 +54,7 @@ class ElevationFile {
   void close() { raster_.data.reset(); }
 
  private:
-  /// Where a post lies in the raster, and what is to be added to its height.
+  /// Where a post lies in the raster, and what is to be added to its height: NaN where PROJ does not know.
   struct Place {
     double x = 0, y = 0, lift = 0;
   };

@@ -1,6 +1,7 @@
 #include "trimtab/terrain/elevation_values.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <limits>
 #include <map>
@@ -157,22 +158,49 @@ Vertical verticalOf(const PlacedRaster& raster) {
   std::shared_ptr<OGRCoordinateTransformation> toFile(
       OGRCreateCoordinateTransformation(&geoid, &file, options));
   if (!toFile) return vertical;
-  // The raster's middle, by way of its horizontal CRS.
+  // Places all over the raster, its borders among them, by way of its horizontal CRS.
   OGRSpatialReference degrees;
   degrees.importFromEPSG(4326);
   degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   std::unique_ptr<OGRCoordinateTransformation> place(
       OGRCreateCoordinateTransformation(&raster.crs, &degrees));
+  if (!place) return vertical;
+  const GdalErrors quiet;
+  constexpr std::size_t kTries = 33;
+  std::array<double, kTries> x{}, y{}, z{};
+  std::array<int, kTries> placed{}, good{};
   const auto& g = raster.transform;
-  const double across = raster.data->GetRasterXSize() / 2.0, down = raster.data->GetRasterYSize() / 2.0;
-  double x = g[0] + g[1] * across + g[2] * down, y = g[3] + g[4] * across + g[5] * down, z = 0;
-  if (!place || !place->Transform(1, &x, &y)) return vertical;
-  if (!toFile->Transform(1, &x, &y, &z) || !std::isfinite(z)) return vertical;
+  const double right = raster.data->GetRasterXSize() - 1, bottom = raster.data->GetRasterYSize() - 1;
+  double low = std::numeric_limits<double>::max(), high = -low;
+  std::size_t tried = 0, lost = 0;
+  for (std::size_t j = 0; j < kTries; ++j) {
+    for (std::size_t i = 0; i < kTries; ++i) {
+      const double across = 0.5 + right * static_cast<double>(i) / (kTries - 1),
+                   down = 0.5 + bottom * static_cast<double>(j) / (kTries - 1);
+      x[i] = g[0] + g[1] * across + g[2] * down, y[i] = g[3] + g[4] * across + g[5] * down, z[i] = 0;
+    }
+    place->Transform(kTries, x.data(), y.data(), nullptr, placed.data());
+    for (double& longitude : x) longitude = std::remainder(longitude, 360.0);
+    toFile->Transform(kTries, x.data(), y.data(), z.data(), good.data());
+    for (std::size_t i = 0; i < kTries; ++i) {
+      if (!placed[i]) continue;
+      ++tried;
+      if (!good[i] || !std::isfinite(z[i])) {
+        ++lost;
+        continue;
+      }
+      low = std::min(low, -z[i] * vertical.unit), high = std::max(high, -z[i] * vertical.unit);
+    }
+  }
+  if (lost == tried) return vertical;
   vertical.note.reset();
-  if (std::abs(z * vertical.unit) < 1e-3) return vertical;
+  if (lost > 0)
+    vertical.lost = {expected, datum + ": PROJ has nothing for " + std::to_string(lost) + " of " +
+                                   std::to_string(tried) + " places, where heights are taken as voids"};
+  if (lost == 0 && high < 1e-3 && low > -1e-3) return vertical;
   vertical.note = {
       "heights above the EGM96 geoid",
-      datum + ": taken there by PROJ, by " + std::to_string(-z * vertical.unit) + " m in the middle"};
+      datum + ": taken there by PROJ, by " + std::to_string(low) + " to " + std::to_string(high) + " m"};
   vertical.toFile = std::move(toFile);
   return vertical;
 }

@@ -69,6 +69,8 @@ struct Vertical {
   /// From EGM96 to the file's; null where nothing is to be done, or nothing can be.
   std::shared_ptr<OGRCoordinateTransformation> toFile;
   std::optional<std::pair<std::string, std::string>> note;  ///< expected, found
+  /// The same of places in the raster for which PROJ has nothing, and which therefore have no height.
+  std::optional<std::pair<std::string, std::string>> lost;
 };
 Vertical verticalOf(const PlacedRaster& raster);
 
