@@ -1,5 +1,7 @@
 #include "trimtab/terrain/elevation_file.h"
 
+#include <cpl_string.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,7 +23,7 @@ constexpr std::int64_t kWindow = std::int64_t{1} << 21;
 constexpr double kMostBlockBytes = 512e6;
 /// Posts that coincide within a thousandth are the same.
 constexpr double kSame = 1e-3;
-/// Finer files than this many posts to a step are averaged.
+/// An axis of a file that has more posts to a step than this is averaged along it.
 constexpr double kFiner = 1.5;
 
 OGRSpatialReference degreesOfWgs84() {
@@ -29,6 +31,36 @@ OGRSpatialReference degreesOfWgs84() {
   crs.importFromEPSG(4326);
   crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   return crs;
+}
+
+/// How far the CRS goes for a turn of the earth. Of a cylinder where the raster goes on beyond its edge,
+/// which shows as a place that comes back from degrees a turn away; 0 otherwise.
+double turnOf(const PlacedRaster& raster) {
+  if (raster.crs.IsGeographic()) return 360;
+  const OGRSpatialReference degrees = degreesOfWgs84();
+  const std::unique_ptr<OGRCoordinateTransformation> there(
+      OGRCreateCoordinateTransformation(&raster.crs, &degrees)),
+      back(OGRCreateCoordinateTransformation(&degrees, &raster.crs));
+  if (!there || !back) return 0;
+  const GdalErrors quiet;
+  const auto& g = raster.transform;
+  const double pixel = std::abs(g[1]), row = raster.data->GetRasterYSize() / 2.0;
+  for (const double column : {0.5, raster.data->GetRasterXSize() - 0.5}) {
+    const double x = g[0] + g[1] * column + g[2] * row, y = g[3] + g[4] * column + g[5] * row;
+    double longitude = x, latitude = y;
+    if (!there->Transform(1, &longitude, &latitude)) continue;
+    std::array<double, 3> east{}, north{};
+    std::array<int, 3> good{};
+    for (const std::size_t k : {0u, 1u, 2u})
+      east[k] = std::remainder(longitude + static_cast<double>(k) - 1, 360.0), north[k] = latitude;
+    back->Transform(3, east.data(), north.data(), nullptr, good.data());
+    if (!good[0] || !good[1] || !good[2] || std::abs(north[1] - y) > 0.01 * pixel) continue;
+    // One of the two may lie beyond the edge.
+    const double turn = 360 * std::min(std::abs(east[1] - east[0]), std::abs(east[2] - east[1])),
+                 gone = std::abs(east[1] - x), turns = std::round(gone / turn);
+    if (turns >= 1 && std::abs(gone / turns - turn) < 0.01 * pixel) return gone / turns;
+  }
+  return 0;
 }
 
 double snapped(double x) {
@@ -63,6 +95,12 @@ Result<std::unique_ptr<ElevationFile>> ElevationFile::open(const fs::path& path,
     return about(Severity::error, path, "blocks", "blocks of at most 512 MB, as it is read block by block",
                  std::to_string(blockColumns) + " x " + std::to_string(blockRows) + " posts in one");
 
+  file->turn_ = turnOf(raster);
+  // A post may stand where the first does.
+  const double pixel = std::abs(raster.transform[1]), width = static_cast<double>(file->across_ - 1) * pixel;
+  if (file->turn_ > 0 && width > file->turn_ + pixel / 2)
+    return about(Severity::error, path, "longitude", "at most 360 degrees from the first post to the last",
+                 CPLSPrintf("%.6g degrees", width / file->turn_ * 360));
   const auto direct = geographicPosts(raster);
   file->direct_ = direct.has_value();
   file->flipped_ = direct && raster.transform[5] < 0;
@@ -79,6 +117,9 @@ Result<std::unique_ptr<ElevationFile>> ElevationFile::open(const fs::path& path,
   if (file->vertical_.note)
     notes.push_back(about(Severity::note, path, "vertical datum", file->vertical_.note->first,
                           file->vertical_.note->second));
+  if (file->vertical_.lost)
+    notes.push_back(about(Severity::warning, path, "vertical datum", file->vertical_.lost->first,
+                          file->vertical_.lost->second));
   file->values_ = valuesOf(band, file->vertical_.unit);
   if (file->values_.scale != 1)
     notes.push_back(about(Severity::note, path, "unit", "metres",
@@ -92,6 +133,21 @@ Result<std::unique_ptr<ElevationFile>> ElevationFile::open(const fs::path& path,
   errors.moveTo(notes, path.string(), Severity::warning);
   file->close();
   return Result<std::unique_ptr<ElevationFile>>(std::move(file), std::move(notes));
+}
+
+std::unique_ptr<ElevationFile> ElevationFile::turned(double degrees) const {
+  std::unique_ptr<ElevationFile> file(
+      new ElevationFile(PlacedRaster{owned(nullptr), raster_.transform, raster_.crs}));
+  file->name_ = name_;
+  file->own_ = own_;
+  file->values_ = values_;
+  file->vertical_ = vertical_;
+  file->turn_ = turn_;
+  file->direct_ = direct_, file->flipped_ = flipped_, file->masked_ = masked_;
+  file->across_ = across_, file->down_ = down_;
+  file->heights_ = heights_;
+  file->turn(degrees);
+  return file;
 }
 
 Result<Done> ElevationFile::lookThrough(const Progress& progress, GdalErrors& errors, Findings& notes) {
@@ -126,10 +182,9 @@ Result<Done> ElevationFile::lookThrough(const Progress& progress, GdalErrors& er
     }
   flipped_ = direct_ && raster_.transform[5] < 0;
   (void)errors;
-  values_.deepIsVoid = census.untagged > 0;
-  std::uint64_t untagged = census.untagged + census.impossible;
-  if (values_.deepIsVoid) untagged += census.deep;
-  heights_ = census.posts - census.voids - untagged;
+  census.judge(values_);
+  heights_ = census.heights(values_);
+  const std::uint64_t untagged = census.untagged(values_);
   if (untagged > 0)
     notes.push_back(about(Severity::note, name_, "no-data", "a tag for the value that means none",
                           std::to_string(untagged) + " posts with impossible heights, taken as voids"));
@@ -201,22 +256,24 @@ std::vector<ElevationFile::Place> ElevationFile::exact(std::uint32_t row, std::u
   } else {
     fill();
     toFile_->Transform(static_cast<int>(count), x.data(), y.data(), nullptr, good.get());
-    const double middle = raster_.transform[0] + raster_.transform[1] * static_cast<double>(across_) / 2;
+    const double middle = raster_.transform[0] + raster_.transform[1] * static_cast<double>(across_) / 2 +
+                          raster_.transform[2] * static_cast<double>(down_) / 2;
     for (std::uint32_t i = 0; i < count; ++i) {
       if (!good[i] || !std::isfinite(x[i]) || !std::isfinite(y[i])) {
         places[i].x = places[i].y = std::nan("");
         continue;
       }
-      if (raster_.crs.IsGeographic()) x[i] = middle + std::remainder(x[i] - middle, 360.0);
+      if (turn_ > 0) x[i] = middle + std::remainder(x[i] - middle, turn_);
       places[i].x = inverse_[0] + inverse_[1] * x[i] + inverse_[2] * y[i] - 0.5;
       places[i].y = inverse_[3] + inverse_[4] * x[i] + inverse_[5] * y[i] - 0.5;
     }
   }
   if (vertical_.toFile) {
     fill();
+    const GdalErrors quiet;
     vertical_.toFile->Transform(static_cast<int>(count), x.data(), y.data(), z.data(), good.get());
     for (std::uint32_t i = 0; i < count; ++i)
-      if (good[i] && std::isfinite(z[i])) places[i].lift = -z[i] * vertical_.unit;
+      places[i].lift = good[i] && std::isfinite(z[i]) ? -z[i] * vertical_.unit : std::nan("");
   }
   return places;
 }
@@ -290,6 +347,10 @@ void ElevationFile::findPlaces(const Rectangle& posts) {
       };
       Place& place = places_[std::size_t{r} * posts.columns + c];
       place.lift = between(&Place::lift);
+      // About the end of what PROJ knows each post by itself.
+      if (std::isnan(place.lift) && !(std::isnan(low[k].lift) && std::isnan(low[k + 1].lift) &&
+                                      std::isnan(high[k].lift) && std::isnan(high[k + 1].lift)))
+        place.lift = exact(row, column, 1, 1)[0].lift;
       if (direct_) {
         place.x = snapped((grid_.longitude(column) - own_.west) / own_.stepLongitude);
         place.y = snapped((grid_.latitude(row) - own_.south) / own_.stepLatitude);
@@ -355,8 +416,8 @@ Result<Done> ElevationFile::readTile(const Rectangle& posts, std::uint32_t first
       west = std::min(west, p.x), east = std::max(east, p.x), low = std::min(low, p.y),
       high = std::max(high, p.y);
   if (west > east) return Done{};
-  const bool averages = footprintX_ > kFiner || footprintY_ > kFiner;
-  const double marginX = averages ? footprintX_ : 0, marginY = averages ? footprintY_ : 0;
+  const bool averagesX = footprintX_ > kFiner, averagesY = footprintY_ > kFiner;
+  const double marginX = averagesX ? footprintX_ : 0, marginY = averagesY ? footprintY_ : 0;
   const auto bounds = [](double from, double to, std::int64_t count) {
     const double end = static_cast<double>(count - 1);
     const auto first = static_cast<std::int64_t>(std::clamp(std::floor(from) - 2, 0.0, end)),
@@ -387,8 +448,14 @@ Result<Done> ElevationFile::readTile(const Rectangle& posts, std::uint32_t first
     for (std::uint32_t c = 0; c < posts.columns; ++c) {
       const Place& p = places_[std::size_t{r} * posts.columns + c];
       if (!nearby(p)) continue;
-      float height = averages ? meanAbout(window, p.x, p.y, footprintX_, footprintY_)
-                              : heightBetween(window, across_, down_, p.x, p.y);
+      float height = 0;
+      if (averagesX && averagesY)
+        height = meanAbout(window, p.x, p.y, footprintX_, footprintY_);
+      else if (averagesX || averagesY)
+        height =
+            meanAlong(window, averagesX, across_, down_, p.x, p.y, averagesX ? footprintX_ : footprintY_);
+      else
+        height = heightBetween(window, across_, down_, p.x, p.y);
       if (vertical_.toFile) height = static_cast<float>(height + p.lift);
       const std::size_t line = posts.row + r - firstRow;
       const auto place = static_cast<std::uint32_t>(line * grid_.columns + posts.column + c);

@@ -34,6 +34,8 @@ class ElevationFile {
   bool isDirect() const { return direct_; }
   /// By whole turns, so that all files lie on one side of the earth.
   void turn(double degrees) { own_.west += degrees; }
+  /// The same file turned: for a grid round the earth that has parts of it at both ends.
+  std::unique_ptr<ElevationFile> turned(double degrees) const;
   std::uint64_t heights() const { return heights_; }  ///< that are no voids
 
   /// Before reading. None: no post of the grid is near it.
@@ -52,7 +54,7 @@ class ElevationFile {
   void close() { raster_.data.reset(); }
 
  private:
-  /// Where a post lies in the raster, and what is to be added to its height.
+  /// Where a post lies in the raster, and what is to be added to its height: NaN where PROJ does not know.
   struct Place {
     double x = 0, y = 0, lift = 0;
   };
@@ -78,6 +80,7 @@ class ElevationFile {
   Vertical vertical_;
   std::shared_ptr<OGRCoordinateTransformation> toFile_;
   std::array<double, 6> inverse_{};  ///< CRS to pixels
+  double turn_ = 0;                  ///< of the earth, in the CRS; 0 where no place is met again after one
   bool direct_ = false, flipped_ = false, masked_ = false;
   std::int64_t across_ = 0, down_ = 0;  ///< posts of the raster
   std::uint64_t heights_ = 0;

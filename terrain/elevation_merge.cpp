@@ -13,11 +13,12 @@ namespace {
 constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
 constexpr std::uint8_t kFar = kGiveWay;
 
-const ElevationLayer* layerOf(const ElevationChunk* chunk, std::size_t file) {
-  if (chunk == nullptr) return nullptr;
+std::vector<const ElevationLayer*> layersOf(const ElevationChunk* chunk, std::size_t name) {
+  std::vector<const ElevationLayer*> layers;
+  if (chunk == nullptr) return layers;
   for (const ElevationLayer& layer : chunk->layers)
-    if (layer.file == file) return &layer;
-  return nullptr;
+    if (layer.name == name) layers.push_back(&layer);
+  return layers;
 }
 
 /// How far it is from each post of a layer, up or down its column, to where the layer has nothing and another
@@ -25,13 +26,14 @@ const ElevationLayer* layerOf(const ElevationChunk* chunk, std::size_t file) {
 std::vector<std::uint8_t> upAndDown(const std::array<const ElevationChunk*, 3>& chunks,
                                     const ElevationLayer& layer, std::uint32_t first, std::uint32_t count) {
   std::vector<std::uint8_t> far(std::size_t{kChunkRows} * count, kFar);
-  std::array<const ElevationLayer*, 3> same{};
-  for (std::size_t k = 0; k < 3; ++k) same[k] = k == 1 ? &layer : layerOf(chunks[k], layer.file);
+  std::array<std::vector<const ElevationLayer*>, 3> same;
+  for (std::size_t k = 0; k < 3; ++k) same[k] = layersOf(chunks[k], layer.name);
   const auto ends = [&](std::uint32_t row, std::uint32_t column) {
     const std::size_t k = row / kChunkRows;
     const std::uint32_t r = row % kChunkRows;
     return chunks[k] != nullptr && chunks[k]->covered[std::size_t{r} * chunks[k]->columns + column] > 0 &&
-           (same[k] == nullptr || !same[k]->has(r, column));
+           std::none_of(same[k].begin(), same[k].end(),
+                        [&](const ElevationLayer* one) { return one->has(r, column); });
   };
   std::vector<std::uint8_t> distance(count, kFar);
   const auto sweep = [&](std::uint32_t row) {
@@ -90,7 +92,10 @@ void mergeContinued(const ElevationChunk& chunk, std::span<float> heights, std::
         shares.most[c.place] = c.weight, shares.leader[c.place] = layer.file;
     }
   for (std::size_t i = 0; i < heights.size(); ++i)
-    if (inside[i] != 0) heights[i] = sum[i], ++given[shares.leader[i]];
+    if (inside[i] != 0) {
+      heights[i] = sum[i];
+      if (chunk.counts(i)) ++given[shares.leader[i]];
+    }
 }
 
 }  // namespace
@@ -125,7 +130,7 @@ void mergeChunk(const ElevationChunk* below, const ElevationChunk& chunk, const 
         const std::size_t i = std::size_t{r} * chunk.columns + layer.firstColumn + c;
         if (chunk.covered[i] == 1) {
           heights[i] = own;
-          ++given[layer.file];
+          if (chunk.counts(i)) ++given[layer.file];
           continue;
         }
         if (far.empty()) far = upAndDown({below, &chunk, above}, layer, first, count);
@@ -146,7 +151,7 @@ void mergeChunk(const ElevationChunk* below, const ElevationChunk& chunk, const 
   }
   if (shares)
     for (std::size_t i = 0; i < heights.size(); ++i)
-      if (chunk.covered[i] > 1) ++given[shares->leader[i]];
+      if (chunk.covered[i] > 1 && chunk.counts(i)) ++given[shares->leader[i]];
   mergeContinued(chunk, heights, given);
 }
 

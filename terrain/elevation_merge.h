@@ -17,6 +17,7 @@ static_assert(kGiveWay <= kChunkRows);
 /// What one file has in a chunk.
 struct ElevationLayer {
   std::size_t file = 0;  ///< by its say
+  std::size_t name = 0;  ///< the same for a file and itself a turn of the earth away, which have no border
   std::uint32_t firstColumn = 0, columns = 0;
   std::vector<float> heights;  ///< kChunkRows rows
   std::vector<Continued> continued;
@@ -26,11 +27,14 @@ struct ElevationLayer {
 
 struct ElevationChunk {
   std::uint32_t columns = 0;
+  /// Columns at either end that are there for their neighbours' sake and count for nobody.
+  std::uint32_t margin = 0;
   std::vector<ElevationLayer> layers;  ///< the file with most say first
   std::vector<std::uint8_t> reached;   ///< by any file's posts or outline, kChunkRows rows
   std::vector<std::uint8_t> covered;   ///< how many have a height, at most 255
 
   void count();
+  bool counts(std::size_t post) const { return post % columns - margin < columns - 2 * margin; }
 };
 
 /// Heights of a chunk's posts, NaN where none has one, and its part of what each file gave. Neighbours: null

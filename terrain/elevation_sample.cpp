@@ -109,4 +109,22 @@ float meanAbout(const RasterWindow& window, double x, double y, double width, do
   return static_cast<float>(sum / static_cast<double>(count));
 }
 
+float meanAlong(const RasterWindow& window, bool across, std::int64_t columns, std::int64_t rows, double x,
+                double y, double size) {
+  const double place = across ? y : x;
+  const std::int64_t count = across ? rows : columns;
+  if (!isWithinAPost(place, count)) return std::numeric_limits<float>::quiet_NaN();
+  const Axis axis = axisAt(place, count);
+  std::array<double, 4> means{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (axis.weight[k] == 0) continue;
+    const auto line = static_cast<double>(axis.post + static_cast<std::int64_t>(k) - 1);
+    means[k] = static_cast<double>(across ? meanAbout(window, x, line, size, 0)
+                                          : meanAbout(window, line, y, 0, size));
+  }
+  // Level water, as between posts.
+  if (axis.weight[1] != 0 && axis.weight[2] != 0 && means[1] == means[2]) return static_cast<float>(means[1]);
+  return static_cast<float>(mixed(means, axis.weight));
+}
+
 }  // namespace trimtab::terrain

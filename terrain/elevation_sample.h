@@ -23,4 +23,10 @@ float heightBetween(const RasterWindow& window, std::int64_t across, std::int64_
 /// is there.
 float meanAbout(const RasterWindow& window, double x, double y, double width, double height);
 
+/// Across: means of the rows' posts within `size` posts about x, cubic along y as heightBetween is. Not
+/// across: means of the columns' posts about y, cubic along x. For a raster that is finer than what is asked
+/// for on one axis alone. The window must hold the four rows, or columns, about the place.
+float meanAlong(const RasterWindow& window, bool across, std::int64_t columns, std::int64_t rows, double x,
+                double y, double size);
+
 }  // namespace trimtab::terrain

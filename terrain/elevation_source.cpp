@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <list>
 #include <numeric>
@@ -26,14 +27,36 @@ constexpr std::size_t kMostOpen = 128;
 /// Read out of order, a chunk needs its neighbours; three would do for rows in order.
 constexpr std::size_t kChunksHeld = 4;
 
+/// Columns beyond a grid round the earth: as far as a border is felt.
+constexpr std::uint32_t kMargin = kGiveWay + 1;
+
 /// Steps within 1 % are alike.
 long fineness(const ElevationFile& file) {
   return std::lround(100 * std::log(file.posts().stepLatitude));
 }
 
+/// Longitudes of all files, degrees; more than a turn of them where one goes on beyond the ends of another
+/// that goes all round.
+std::pair<double, double> westAndEast(const Files& files) {
+  double west = 1e9, east = -1e9;
+  for (const auto& file : files) {
+    const PostGrid& p = file->posts();
+    west = std::min(west, p.west), east = std::max(east, p.longitude(p.columns - 1));
+  }
+  return {west, east};
+}
+bool isMoreThanATurn(const std::pair<double, double>& westAndEast) {
+  return westAndEast.second - westAndEast.first > 360 + 1e-6;
+}
+
 /// All files on one side of the earth: what is west of the widest gap between them goes on after it.
 void turnTogether(Files& files) {
-  const double first = files.front()->posts().west;
+  // One that goes all round stays as it is, and so does the first where none does.
+  const auto round = std::find_if(files.begin(), files.end(), [](const auto& file) {
+    return file->posts().columns * file->posts().stepLongitude > 360 - 1e-6;
+  });
+  const std::size_t stays = round == files.end() ? 0 : static_cast<std::size_t>(round - files.begin());
+  const double first = files[stays]->posts().west;
   std::vector<std::pair<double, double>> spans;
   for (const auto& file : files) {
     const double west = std::remainder(file->posts().west - first, 360.0);
@@ -48,8 +71,7 @@ void turnTogether(Files& files) {
     reached = std::max(reached, west + width);
   }
   if (sorted.front().first + 360 - reached >= gap) start = sorted.front().first;
-  // The first file stays where it says that it is.
-  const double turned = spans.front().first < start ? 360 : 0;
+  const double turned = spans[stays].first < start ? 360 : 0;
   for (std::size_t i = 0; i < files.size(); ++i) {
     const double west = spans[i].first + (spans[i].first < start ? 360 : 0) - turned;
     files[i]->turn(360 * std::round((first + west - files[i]->posts().west) / 360));
@@ -92,10 +114,11 @@ Result<PostGrid> gridOf(const Files& files, const ElevationOptions& options) {
     across.step *= *options.stepLatitude / up.step;
     up.step = *options.stepLatitude;
   }
-  double west = 1e9, east = -1e9, south = 1e9, north = -1e9;
+  const auto wide = westAndEast(files);
+  const double west = wide.first, east = isMoreThanATurn(wide) ? west + 360 : wide.second;
+  double south = 1e9, north = -1e9;
   for (const auto& file : files) {
     const PostGrid& p = file->posts();
-    west = std::min(west, p.west), east = std::max(east, p.longitude(p.columns - 1));
     south = std::min(south, p.south), north = std::max(north, p.latitude(p.rows - 1));
   }
   PostGrid grid;
@@ -114,23 +137,49 @@ Result<PostGrid> gridOf(const Files& files, const ElevationOptions& options) {
   return upToPoles(grid);
 }
 
+/// Where files go on beyond a grid round the earth: each turned as well, where it meets the grid's other end,
+/// and how many columns are to be merged beyond either end, so that both give the same.
+std::uint32_t turnRound(Files& files, const PostGrid& grid) {
+  if (!isMoreThanATurn(westAndEast(files))) return 0;
+  Files all;
+  for (auto& file : files) {
+    const PostGrid& p = file->posts();
+    std::vector<std::unique_ptr<ElevationFile>> again;
+    for (const double degrees : {-360.0, 360.0}) {
+      const double west = p.west + degrees, east = p.longitude(p.columns - 1) + degrees;
+      const double margin = kMargin * grid.stepLongitude + 2 * p.stepLongitude;
+      if (east + margin > grid.west && west - margin < grid.longitude(grid.columns - 1))
+        again.push_back(file->turned(degrees));
+    }
+    all.push_back(std::move(file));
+    std::move(again.begin(), again.end(), std::back_inserter(all));
+  }
+  files = std::move(all);
+  return kMargin;
+}
+
 class MergedElevation final : public ElevationSource {
  public:
-  MergedElevation(Files files, const PostGrid& grid)
+  MergedElevation(Files files, const PostGrid& grid, std::uint32_t margin)
       : files_(std::move(files)),
         grid_(grid),
-        given_(files_.size(), 0),
+        wide_(grid),
+        margin_(margin),
         counted_((grid.rows + kChunkRows - 1) / kChunkRows, false) {
-    for (auto& file : files_) near_.push_back(file->placeOn(grid_));
+    wide_.west -= margin * grid.stepLongitude;
+    wide_.columns += 2 * margin;
+    for (auto& file : files_) {
+      near_.push_back(file->placeOn(wide_));
+      // A file that was turned stands behind itself.
+      if (named_.empty() || file->name() != names_.back()) names_.push_back(file->name());
+      named_.push_back(names_.size() - 1);
+    }
+    given_.resize(names_.size(), 0);
   }
 
   const PostGrid& posts() const override { return grid_; }
   std::vector<std::uint64_t> given() const override { return given_; }
-  std::vector<std::string> names() const override {
-    std::vector<std::string> names;
-    for (const auto& file : files_) names.push_back(file->name());
-    return names;
-  }
+  std::vector<std::string> names() const override { return names_; }
 
   Result<Done> readRows(std::uint32_t first, std::uint32_t rows, std::span<float> heights,
                         std::span<std::uint8_t> beyond) override {
@@ -139,13 +188,16 @@ class MergedElevation final : public ElevationSource {
       const std::uint32_t index = row / kChunkRows, from = row % kChunkRows,
                           count = std::min(kChunkRows - from, first + rows - row);
       if (auto merged = merge(index); !merged) return merged;
-      const auto at = static_cast<std::ptrdiff_t>(std::size_t{row - first} * across);
-      const auto n = static_cast<std::ptrdiff_t>(std::size_t{count} * across),
-                 in = static_cast<std::ptrdiff_t>(std::size_t{from} * across);
-      std::copy_n(merged_.begin() + in, n, heights.begin() + at);
-      if (!beyond.empty())
-        std::transform(reached_.begin() + in, reached_.begin() + in + n, beyond.begin() + at,
-                       [](std::uint8_t reached) { return reached == 0 ? std::uint8_t{1} : std::uint8_t{0}; });
+      for (std::uint32_t r = 0; r < count; ++r) {
+        const auto at = static_cast<std::ptrdiff_t>(std::size_t{row - first + r} * across),
+                   in = static_cast<std::ptrdiff_t>(std::size_t{from + r} * wide_.columns + margin_),
+                   n = static_cast<std::ptrdiff_t>(across);
+        std::copy_n(merged_.begin() + in, n, heights.begin() + at);
+        if (!beyond.empty())
+          std::transform(
+              reached_.begin() + in, reached_.begin() + in + n, beyond.begin() + at,
+              [](std::uint8_t reached) { return reached == 0 ? std::uint8_t{1} : std::uint8_t{0}; });
+      }
       row += count;
       // With its last row, so that who goes on within a chunk counts it as one who began with it does.
       if (row % kChunkRows == 0 || row == grid_.rows) countGiven(index);
@@ -167,7 +219,7 @@ class MergedElevation final : public ElevationSource {
       if (k >= chunks) continue;
       if (auto read = hold(k); !read) return read;
     }
-    merged_.resize(std::size_t{kChunkRows} * grid_.columns);
+    merged_.resize(std::size_t{kChunkRows} * wide_.columns);
     givenNow_.assign(files_.size(), 0);
     const ElevationChunk& chunk = *find(index);
     mergeChunk(index > 0 ? find(index - 1) : nullptr, chunk, find(index + 1), merged_, givenNow_);
@@ -178,7 +230,7 @@ class MergedElevation final : public ElevationSource {
 
   void countGiven(std::uint32_t index) {
     if (counted_[index]) return;
-    for (std::size_t i = 0; i < given_.size(); ++i) given_[i] += givenNow_[i];
+    for (std::size_t i = 0; i < givenNow_.size(); ++i) given_[named_[i]] += givenNow_[i];
     counted_[index] = true;
   }
 
@@ -196,13 +248,14 @@ class MergedElevation final : public ElevationSource {
       }
     Held held{index, {}};
     ElevationChunk& chunk = held.chunk;
-    chunk.columns = grid_.columns;
-    chunk.reached.assign(std::size_t{kChunkRows} * grid_.columns, 0);
+    chunk.columns = wide_.columns;
+    chunk.margin = margin_;
+    chunk.reached.assign(std::size_t{kChunkRows} * wide_.columns, 0);
     const std::uint32_t first = index * kChunkRows, rows = std::min(kChunkRows, grid_.rows - first);
     for (std::size_t i = 0; i < files_.size(); ++i) {
       ElevationFile& file = *files_[i];
       if (!near_[i] || !file.reaches(first, rows)) continue;
-      chunk.layers.push_back({i, file.firstColumn(), file.columns(), {}, {}});
+      chunk.layers.push_back({i, named_[i], file.firstColumn(), file.columns(), {}, {}});
       ElevationLayer& layer = chunk.layers.back();
       layer.heights.resize(std::size_t{kChunkRows} * layer.columns);
       if (auto read = file.read(first, rows, layer.heights, chunk.reached, layer.continued); !read)
@@ -225,9 +278,12 @@ class MergedElevation final : public ElevationSource {
   }
 
   Files files_;
-  PostGrid grid_;
+  PostGrid grid_, wide_;  ///< wide: with the margin on either side
+  std::uint32_t margin_ = 0;
   std::vector<bool> near_;
-  std::vector<std::uint64_t> given_, givenNow_;  ///< the second of the chunk in `merged_`
+  std::vector<std::string> names_;
+  std::vector<std::size_t> named_;               ///< a file's place among the names
+  std::vector<std::uint64_t> given_, givenNow_;  ///< by name; by file, of the chunk in `merged_`
   std::vector<bool> counted_;                    ///< a chunk's part of `given_`
   std::list<Held> held_;
   std::list<std::size_t> open_;
@@ -267,8 +323,9 @@ Result<std::unique_ptr<ElevationSource>> openElevation(std::span<const fs::path>
                    [](const auto& a, const auto& b) { return fineness(*a) < fineness(*b); });
   const auto grid = gridOf(files, options);
   if (!grid) return grid.findings();
-  return Result<std::unique_ptr<ElevationSource>>(std::make_unique<MergedElevation>(std::move(files), *grid),
-                                                  std::move(findings));
+  const std::uint32_t margin = turnRound(files, *grid);
+  return Result<std::unique_ptr<ElevationSource>>(
+      std::make_unique<MergedElevation>(std::move(files), *grid, margin), std::move(findings));
 }
 
 Findings sharesOf(const std::vector<std::string>& names, const std::vector<std::uint64_t>& given) {

@@ -45,6 +45,7 @@ struct ElevationOptions {
 /// once, for its voids and for damage. Findings carry notes about what was assumed.
 ///
 /// The grid is that of the finest file that is geographic already, unless another file is finer by a tenth.
+/// Round the earth it has at most 360 degrees: its last column may stand where the first does.
 Result<std::unique_ptr<ElevationSource>> openElevation(std::span<const std::filesystem::path> sources,
                                                        const ElevationOptions& options = {});
 

@@ -1,6 +1,7 @@
 #include "trimtab/terrain/elevation_values.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <limits>
 #include <map>
@@ -36,12 +37,6 @@ std::optional<double> verticalUnit(const std::string& name) {
   return unit == kUnits.end() ? 1.0 : unit->second;
 }
 
-/// A number as it stands in the file that means a void, or its metres, which are no height anywhere and so
-/// stand for one.
-bool meansVoid(float raw, float metres) {
-  return raw == -32767 || raw == -32768 || raw == -9999 || raw == 32767 ||
-         !(metres > -15000 && metres < 40000);
-}
 float metresOf(float raw, const Values& values) {
   return static_cast<float>(raw * values.scale + values.offset);
 }
@@ -51,6 +46,15 @@ bool isDeep(float metres) {
 }
 bool isPossible(float metres) {
   return metres >= -11500 && metres <= 9500;
+}
+/// So far from any height that it stands for none.
+bool isAbsurd(float metres) {
+  return !(metres > -15000 && metres < 40000);
+}
+std::optional<std::size_t> voidNumber(float raw) {
+  const auto* const number = std::find(kVoidNumbers.begin(), kVoidNumbers.end(), raw);
+  if (number == kVoidNumbers.end()) return {};
+  return static_cast<std::size_t>(number - kVoidNumbers.begin());
 }
 float noDataOf(const Values& values) {
   return values.noData ? static_cast<float>(*values.noData) : kVoid;
@@ -79,26 +83,57 @@ Values valuesOf(GDALRasterBand& band, double crsUnit) {
 
 void Census::add(std::span<const float> raw, const Values& values) {
   const float noData = noDataOf(values);
-  posts += raw.size();
+  const bool tagged = values.noData.has_value();
+  posts_ += raw.size();
   for (const float v : raw) {
     const float metres = metresOf(v, values);
-    if (v == noData || std::isnan(v))
-      ++voids;
-    else if (meansVoid(v, metres))
-      ++untagged;
-    else if (isDeep(metres))
-      ++deep;
-    else if (!isPossible(metres))
-      ++impossible;
+    if (v == noData || std::isnan(v)) {
+      ++voids_;
+      continue;
+    }
+    if (!tagged)
+      if (const auto number = voidNumber(v)) {
+        ++numbers_[*number].posts;
+        continue;
+      }
+    if (!isPossible(metres)) {
+      ++impossible_;
+      if (isAbsurd(metres)) ++absurd_;
+      continue;
+    }
+    if (isDeep(metres)) ++deep_;
+    if (tagged) continue;
+    for (std::size_t k = 0; k < kVoidNumbers.size(); ++k)
+      if (kVoidNumbers[k] > 0 ? v >= 0.9f * kVoidNumbers[k] : v <= 0.9f * kVoidNumbers[k]) ++numbers_[k].like;
   }
+}
+
+void Census::judge(Values& values) const {
+  values.deepIsVoid = !values.noData && absurd_ > 0;
+  for (std::size_t k = 0; k < kVoidNumbers.size(); ++k) {
+    const auto& [posts, like] = numbers_[k];
+    values.isVoid[k] = posts > 0 && (like < posts || !isPossible(metresOf(kVoidNumbers[k], values)));
+    if (values.isVoid[k]) values.deepIsVoid = true;
+  }
+}
+
+std::uint64_t Census::untagged(const Values& values) const {
+  std::uint64_t untagged = impossible_ + (values.deepIsVoid ? deep_ : 0);
+  for (std::size_t k = 0; k < kVoidNumbers.size(); ++k)
+    if (values.isVoid[k] || (values.deepIsVoid && isDeep(metresOf(kVoidNumbers[k], values))))
+      untagged += numbers_[k].posts;
+  return untagged;
 }
 
 void toMetres(std::span<float> raw, const Values& values) {
   const float noData = noDataOf(values);
+  const bool numbers = std::find(values.isVoid.begin(), values.isVoid.end(), true) != values.isVoid.end();
   for (float& v : raw) {
     const float metres = metresOf(v, values);
-    const bool isVoid = v == noData || meansVoid(v, metres) || (values.deepIsVoid && isDeep(metres));
-    v = isVoid || !isPossible(metres) ? kVoid : metres;
+    bool isVoid = v == noData || !isPossible(metres) || (values.deepIsVoid && isDeep(metres));
+    if (numbers && !isVoid)
+      if (const auto number = voidNumber(v)) isVoid = values.isVoid[*number];
+    v = isVoid ? kVoid : metres;
   }
 }
 
@@ -123,22 +158,49 @@ Vertical verticalOf(const PlacedRaster& raster) {
   std::shared_ptr<OGRCoordinateTransformation> toFile(
       OGRCreateCoordinateTransformation(&geoid, &file, options));
   if (!toFile) return vertical;
-  // The raster's middle, by way of its horizontal CRS.
+  // Places all over the raster, its borders among them, by way of its horizontal CRS.
   OGRSpatialReference degrees;
   degrees.importFromEPSG(4326);
   degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   std::unique_ptr<OGRCoordinateTransformation> place(
       OGRCreateCoordinateTransformation(&raster.crs, &degrees));
+  if (!place) return vertical;
+  const GdalErrors quiet;
+  constexpr std::size_t kTries = 33;
+  std::array<double, kTries> x{}, y{}, z{};
+  std::array<int, kTries> placed{}, good{};
   const auto& g = raster.transform;
-  const double across = raster.data->GetRasterXSize() / 2.0, down = raster.data->GetRasterYSize() / 2.0;
-  double x = g[0] + g[1] * across + g[2] * down, y = g[3] + g[4] * across + g[5] * down, z = 0;
-  if (!place || !place->Transform(1, &x, &y)) return vertical;
-  if (!toFile->Transform(1, &x, &y, &z) || !std::isfinite(z)) return vertical;
+  const double right = raster.data->GetRasterXSize() - 1, bottom = raster.data->GetRasterYSize() - 1;
+  double low = std::numeric_limits<double>::max(), high = -low;
+  std::size_t tried = 0, lost = 0;
+  for (std::size_t j = 0; j < kTries; ++j) {
+    for (std::size_t i = 0; i < kTries; ++i) {
+      const double across = 0.5 + right * static_cast<double>(i) / (kTries - 1),
+                   down = 0.5 + bottom * static_cast<double>(j) / (kTries - 1);
+      x[i] = g[0] + g[1] * across + g[2] * down, y[i] = g[3] + g[4] * across + g[5] * down, z[i] = 0;
+    }
+    place->Transform(kTries, x.data(), y.data(), nullptr, placed.data());
+    for (double& longitude : x) longitude = std::remainder(longitude, 360.0);
+    toFile->Transform(kTries, x.data(), y.data(), z.data(), good.data());
+    for (std::size_t i = 0; i < kTries; ++i) {
+      if (!placed[i]) continue;
+      ++tried;
+      if (!good[i] || !std::isfinite(z[i])) {
+        ++lost;
+        continue;
+      }
+      low = std::min(low, -z[i] * vertical.unit), high = std::max(high, -z[i] * vertical.unit);
+    }
+  }
+  if (lost == tried) return vertical;
   vertical.note.reset();
-  if (std::abs(z * vertical.unit) < 1e-3) return vertical;
+  if (lost > 0)
+    vertical.lost = {expected, datum + ": PROJ has nothing for " + std::to_string(lost) + " of " +
+                                   std::to_string(tried) + " places, where heights are taken as voids"};
+  if (lost == 0 && high < 1e-3 && low > -1e-3) return vertical;
   vertical.note = {
       "heights above the EGM96 geoid",
-      datum + ": taken there by PROJ, by " + std::to_string(-z * vertical.unit) + " m in the middle"};
+      datum + ": taken there by PROJ, by " + std::to_string(low) + " to " + std::to_string(high) + " m"};
   vertical.toFile = std::move(toFile);
   return vertical;
 }

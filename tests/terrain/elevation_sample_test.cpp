@@ -56,6 +56,21 @@ TEST_F(ElevationSample, hasNoMeanWhereNoPostIs) {
   EXPECT_TRUE(std::isnan(meanAbout(window_, 2, 2, 3, -1e300)));
 }
 
+TEST_F(ElevationSample, isAMeanAlongOneAxisAndAHeightBetweenAlongTheOther) {
+  // A plane: 3 a column, 10 a row.
+  for (std::size_t i = 0; i < 30; ++i) posts_[i] = static_cast<float>(3 * (i % 6) + 10 * (i / 6));
+  for (const double other : {-0.5, 0.0, 0.3, 1.0, 2.75, 4.0, 4.5}) {
+    EXPECT_FLOAT_EQ(meanAlong(window_, true, 6, 5, 2.2, other, 3), static_cast<float>(6 + 10 * other));
+    EXPECT_FLOAT_EQ(meanAlong(window_, false, 6, 5, other, 2.2, 3), static_cast<float>(20 + 3 * other));
+  }
+  posts_[2 * 6 + 2] = posts_[2 * 6 + 3] = static_cast<float>(kNone);
+  EXPECT_TRUE(std::isnan(meanAlong(window_, true, 6, 5, 2.2, 1.5, 3))) << "most of a row that counts";
+  EXPECT_FALSE(std::isnan(meanAlong(window_, true, 6, 5, 2.2, 0.5, 3))) << "one of the outer rows";
+  for (const double away : kFarAway) EXPECT_TRUE(std::isnan(meanAlong(window_, true, 6, 5, 2, away, 3)));
+  for (const double away : {-1e19, 1e19, kInfinity, kNone})
+    EXPECT_TRUE(std::isnan(meanAlong(window_, true, 6, 5, away, 2, 3)));
+}
+
 TEST_F(ElevationSample, isTheMeanOfAllWhereTheFootprintIsHuge) {
   for (const double size : {11.0, 1e19, 1e300, kInfinity})
     EXPECT_EQ(meanAbout(window_, 2, 2, size, size), 70);

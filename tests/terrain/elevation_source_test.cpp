@@ -1,8 +1,11 @@
 #include "trimtab/terrain/elevation_source.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <numbers>
 #include <random>
 
 #include "elevation_truth.h"
@@ -146,6 +149,111 @@ TEST_F(Elevation, isKnownAcrossTheDateLine) {
   const auto [worstAlone, countAlone] = error(alone->posts(), test::readBands(*alone, 32));
   EXPECT_LT(worstAlone, test::bilinearLimit(40));
   EXPECT_GT(countAlone, 100000u);
+}
+
+TEST_F(Elevation, goesRoundTheEarthOnce) {
+  test::RasterRecipe posts, pixels, fine;
+  // Posts at whole degrees from -180 to 180, or pixels between them.
+  posts.west = -180.5, posts.north = 10.5, posts.step = 1, posts.columns = 361, posts.rows = 21;
+  pixels.west = -180, pixels.north = 10, pixels.step = 0.5, pixels.columns = 720, pixels.rows = 40;
+  fine.west = 177.95, fine.north = 4.05, fine.step = 0.1, fine.columns = 121, fine.rows = 81;
+  fine.value = [](int, int, int) { return 200.0; };
+  int count = 0;
+  for (const test::RasterRecipe& base : {posts, pixels})
+    for (const double turn : {0.0, -360.0})
+      for (const bool fineFirst : {false, true}) {
+        SCOPED_TRACE(count);
+        test::RasterRecipe moved = fine;
+        moved.west += turn;
+        const fs::path baseFile = test::writeRaster(dir_ / ("base" + std::to_string(count) + ".tif"), base),
+                       file = test::writeRaster(dir_ / ("fine" + std::to_string(count++) + ".tif"), moved);
+        const std::vector<fs::path> files = {fineFirst ? file : baseFile, fineFirst ? baseFile : file};
+        const auto opened = openElevation(files);
+        ASSERT_TRUE(opened) << toString(opened.findings());
+        ElevationSource& source = **opened;
+        const PostGrid& p = source.posts();
+        EXPECT_LE((p.columns - 1) * p.stepLongitude, 360 + 1e-9);
+        EXPECT_GE((p.columns + 1) * p.stepLongitude, 360);
+        EXPECT_GT(p.west, -180.5);
+        EXPECT_LT(p.west, -179.5);
+        const auto heights = test::readBands(source, 32);
+        // Within four degrees of the equator, and where the fine file does not give way: 181.2 to 186.8.
+        const auto middle = static_cast<std::uint32_t>(std::lround(-p.south / p.stepLatitude));
+        std::size_t led = 0;
+        for (std::uint32_t c = 0; c < p.columns; ++c) {
+          const double east = p.longitude(c) < 0 ? p.longitude(c) + 360 : p.longitude(c);
+          const float height = heights[std::size_t{middle} * p.columns + c];
+          const bool isFine = east > 177.99 && east < 190.01;
+          if (isFine) ++led;
+          ASSERT_GE(height, 100) << east;
+          ASSERT_LE(height, isFine ? 200 : 100) << east;
+          if (east > 181.3 && east < 186.7) {
+            ASSERT_EQ(height, 200) << east;
+          }
+        }
+        // One surface, where it is cut too: at the date line the fine file is two thirds of the way in.
+        const std::size_t row = std::size_t{middle} * p.columns;
+        EXPECT_NEAR(heights[row], heights[row + p.columns - 1], 5);
+        EXPECT_NEAR(heights[row + 1] - heights[row],
+                    heights[row + p.columns - 1] - heights[row + p.columns - 2], 1);
+        EXPECT_GT(heights[row], 155);
+        EXPECT_GE(led, 121u);
+        EXPECT_EQ(source.names(), (std::vector<std::string>{file.string(), baseFile.string()}));
+        ASSERT_EQ(source.given().size(), 2u);
+        // Where most is its own: from 15 posts within its border, or nearer where pixels leave the line to
+        // it.
+        EXPECT_GT(source.given()[0], 4500u);
+        EXPECT_LT(source.given()[0], 6000u);
+      }
+}
+
+TEST_F(Elevation, isKnownBeyondTheEdgeOfACylinder) {
+  // On both sides of the date line, as one raster, by either edge; at the equator and far from it.
+  constexpr double kEdge = 20037508.342789244, kRadius = 6378137, kDegree = std::numbers::pi / 180;
+  for (const double side : {1.0, -1.0})
+    for (const double north : {6000.0, 6500000.0}) {
+      TrueRaster mercator{
+          "EPSG:3857",
+          [](double x, double y) {
+            return test::Degrees2{std::atan(std::sinh(y / kRadius)) / kDegree, x / kRadius / kDegree};
+          },
+          side * kEdge - 100 * 60,
+          north,
+          60,
+          200,
+          100};
+      const auto source = open({mercator});
+      ASSERT_TRUE(source);
+      const PostGrid& posts = source->posts();
+      EXPECT_NEAR((posts.columns - 1) * posts.stepLongitude, 199 * 60 / kRadius / kDegree, 0.002);
+      const auto [worst, count] = error(posts, test::readBands(*source, 32));
+      EXPECT_LT(worst, test::bilinearLimit(60));
+      EXPECT_GE(count, 199u * 99);
+      // A world and a half.
+      mercator.columns = 90, mercator.step = 2 * kEdge / 60, mercator.rows = 2, mercator.north = 1e6;
+      mercator.west = -1.5 * kEdge;
+      const fs::path wide = test::write(dir_ / "wide.tif", mercator);
+      const auto refused = openElevation(std::span(&wide, 1));
+      ASSERT_FALSE(refused);
+      EXPECT_NE(toString(refused.findings()).find("534 degrees"), std::string::npos)
+          << toString(refused.findings());
+    }
+}
+
+TEST_F(Elevation, refusesARasterThatIsWiderThanTheEarth) {
+  test::RasterRecipe recipe;
+  recipe.west = -180.5, recipe.north = 10, recipe.step = 1, recipe.rows = 20;
+  for (const auto& [columns, opens] : {std::pair{361, true}, {362, false}, {800, false}}) {
+    recipe.columns = columns;
+    const fs::path file = test::writeRaster(dir_ / "wide.tif", recipe);
+    const auto opened = openElevation(std::span(&file, 1));
+    ASSERT_EQ(opened.ok(), opens) << columns;
+    if (opens) continue;
+    const std::string text = toString(opened.findings());
+    for (const std::string& word : {file.string(), std::string("longitude"), std::string("360 degrees"),
+                                    std::to_string(columns - 1) + " degrees"})
+      EXPECT_NE(text.find(word), std::string::npos) << text;
+  }
 }
 
 TEST_F(Elevation, isKnownAtThePole) {
@@ -348,6 +456,123 @@ TEST_F(Elevation, takesVerticalDatumsToTheGeoidWherePROJCan) {
   ellipsoid.crs = "EPSG:4326+5773";
   ASSERT_TRUE(open({ellipsoid}));
   EXPECT_EQ(notes_.find("vertical datum"), std::string::npos) << notes_;
+}
+
+/// A geoid of one's own: heights at posts 0.05 degrees apart, from the south-west.
+void writeGeoid(const fs::path& file, double west, double south, int columns, int rows,
+                const std::function<float(double longitude)>& height) {
+  std::string bytes;
+  const auto put = [&](auto value) {
+    std::array<char, sizeof value> raw;
+    std::memcpy(raw.data(), &value, sizeof value);
+    bytes.append(raw.rbegin(), raw.rend());
+  };
+  put(south), put(west), put(0.05), put(0.05), put(std::int32_t{rows}), put(std::int32_t{columns});
+  for (int r = 0; r < rows; ++r)
+    for (int c = 0; c < columns; ++c) put(height(west + 0.05 * c));
+  test::writeFile(file, bytes);
+}
+/// A raster with another vertical datum than its own.
+fs::path aboveGeoid(const fs::path& raster, const fs::path& geoid, int columns, int rows,
+                    const std::string& corner) {
+  const fs::path file = fs::path(raster).replace_extension(".vrt");
+  const std::string size = std::to_string(columns) + "\" rasterYSize=\"" + std::to_string(rows);
+  test::writeFile(file, "<VRTDataset rasterXSize=\"" + size +
+                            "\"><SRS>+proj=longlat +datum=WGS84 +geoidgrids=" + geoid.string() +
+                            " +vunits=m +no_defs</SRS><GeoTransform>" + corner +
+                            "</GeoTransform><VRTRasterBand dataType=\"Float32\" band=\"1\"><SimpleSource>"
+                            "<SourceFilename>" +
+                            raster.string() +
+                            "</SourceFilename><SourceBand>1</SourceBand></SimpleSource></VRTRasterBand>"
+                            "</VRTDataset>");
+  return file;
+}
+
+TEST_F(Elevation, hasNoHeightsWherePROJHasNothingForTheirDatum) {
+  const fs::path raster = test::write(dir_ / "a.tif", degrees(11.9, 47.6, 0.0005, 400, 400));
+  const std::string corner = "11.9, 0.0005, 0, 47.6, 0, -0.0005";
+  // Its east lies beyond the geoid.
+  writeGeoid(dir_ / "half.gtx", 11.8, 47.3, 5, 10, [](double) { return 30.0f; });
+  const fs::path half = aboveGeoid(raster, dir_ / "half.gtx", 400, 400, corner);
+  const auto source = openElevation(std::span(&half, 1));
+  ASSERT_TRUE(source) << toString(source.findings());
+  EXPECT_NE(toString(source.findings()).find("PROJ has nothing for"), std::string::npos)
+      << toString(source.findings());
+  std::vector<std::uint8_t> beyond;
+  const auto heights = test::readBands(**source, 32, &beyond);
+  const PostGrid& posts = (*source)->posts();
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    const double longitude = posts.longitude(static_cast<double>(i % posts.columns));
+    ASSERT_EQ(beyond[i], 0);
+    ASSERT_EQ(std::isnan(heights[i]), longitude > 12) << longitude;
+    if (longitude > 12) continue;
+    // EGM96 stands 46 to 48 m above the ellipsoid, the other 30 m.
+    const double lift = static_cast<double>(heights[i]) -
+                        test::trueHeight(posts.latitude(static_cast<double>(i / posts.columns)), longitude);
+    ASSERT_GT(lift, -18.5) << longitude;
+    ASSERT_LT(lift, -15.5) << longitude;
+  }
+}
+
+TEST_F(Elevation, isTakenToTheGeoidWhereTheMiddleIsOnItAlready) {
+  OGRSpatialReference geoid, ellipsoid;
+  geoid.SetFromUserInput("EPSG:4326+5773"), ellipsoid.SetFromUserInput("EPSG:4979");
+  for (OGRSpatialReference* crs : {&geoid, &ellipsoid})
+    crs->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const std::unique_ptr<OGRCoordinateTransformation> lift(
+      OGRCreateCoordinateTransformation(&geoid, &ellipsoid));
+  double x = 12, y = 47.5, egm96 = 0;
+  ASSERT_TRUE(lift && lift->Transform(1, &x, &y, &egm96));
+  // 20 m higher a tenth of a degree to the east.
+  writeGeoid(dir_ / "tilted.gtx", 11.8, 47.3, 9, 10,
+             [&](double longitude) { return static_cast<float>(egm96 + 200 * (longitude - 12)); });
+  const fs::path raster = test::write(dir_ / "a.tif", degrees(11.9, 47.6, 0.0005, 400, 400)),
+                 file =
+                     aboveGeoid(raster, dir_ / "tilted.gtx", 400, 400, "11.9, 0.0005, 0, 47.6, 0, -0.0005");
+  const auto source = openElevation(std::span(&file, 1));
+  ASSERT_TRUE(source) << toString(source.findings());
+  const auto heights = test::readBands(**source, 32);
+  const PostGrid& posts = (*source)->posts();
+  const std::size_t row = std::size_t{200} * posts.columns;
+  for (const std::uint32_t column : {0u, 399u}) {
+    const double longitude = posts.longitude(column);
+    EXPECT_NEAR(static_cast<double>(heights[row + column]) - test::trueHeight(posts.latitude(200), longitude),
+                200 * (longitude - 12), 1);
+  }
+}
+
+TEST_F(Elevation, hasNoVoidsWhereFilesAreFinerOnOneAxisAlone) {
+  // 10 m x 40 m, and on its side.
+  auto upright = inUtm(32, 47.59, 11.9, 40, 800, 200), lying = inUtm(32, 47.59, 11.9, 10, 200, 800);
+  upright.stepEast = 10, lying.stepEast = 40;
+  // As tiles are at high latitudes: of half the posts across from one parallel on.
+  auto wide = degrees(20, 70, 1 / 3600.0, 200, 300),
+       narrow = degrees(20, 70 + 300 / 3600.0, 1 / 3600.0, 100, 300);
+  wide.stepEast = 1.5 / 3600, narrow.stepEast = 3 / 3600.0;
+  struct Case {
+    const char* name;
+    std::vector<TrueRaster> rasters;
+    double postM, finestM, coarsestM;
+  };
+  for (const Case& c :
+       {Case{"upright", {upright}, 20, 10, 40}, Case{"lying", {lying}, 20, 10, 40},
+        Case{"tiles", {wide, narrow}, 50, 16, 50}, Case{"tiles, closer", {wide, narrow}, 31, 16, 32}}) {
+    ElevationOptions options;
+    options.stepLatitude = c.postM / 111320;
+    const auto source = open(c.rasters, options);
+    ASSERT_TRUE(source) << c.name;
+    std::vector<std::uint8_t> beyond;
+    const auto heights = test::readBands(*source, 32, &beyond);
+    std::size_t voids = 0;
+    for (std::size_t i = 0; i < heights.size(); ++i)
+      if (std::isnan(heights[i]) && beyond[i] == 0) ++voids;
+    EXPECT_EQ(voids, 0u) << c.name;
+    const auto [worst, count] = error(source->posts(), heights);
+    // The middle of the posts that are averaged is up to half a post off.
+    EXPECT_LT(worst, test::bilinearLimit(c.coarsestM) + test::kSlope * c.finestM / 2) << c.name;
+    EXPECT_GT(count, heights.size() * 9 / 10) << c.name;
+    std::printf("%-14s %zu posts, worst %.3f m\n", c.name, count, worst);
+  }
 }
 
 TEST_F(Elevation, isAveragedToACoarserSpacingWhenAskedFor) {

@@ -77,18 +77,20 @@ struct TrueRaster {
   double unit = 1;  ///< metres; 0.3048 is named in the file
   bool southUp = false;
   std::function<bool(double latitude, double longitude)> isVoid = {};
+  std::optional<double> stepEast = {};  ///< where that differs
 };
 inline std::filesystem::path write(const std::filesystem::path& file, const TrueRaster& raster) {
   RasterRecipe recipe;
   recipe.crs = raster.crs;
   recipe.west = raster.west, recipe.north = raster.north, recipe.step = raster.step;
+  recipe.stepEast = raster.stepEast;
   recipe.columns = raster.columns, recipe.rows = raster.rows;
   recipe.southUp = raster.southUp;
   recipe.noData = -12345;
   if (raster.unit != 1) recipe.unit = "ft";
   recipe.value = [&](int c, int r, int) {
-    const Degrees2 d =
-        raster.toDegrees(raster.west + (c + 0.5) * raster.step, raster.north - (r + 0.5) * raster.step);
+    const Degrees2 d = raster.toDegrees(raster.west + (c + 0.5) * raster.stepEast.value_or(raster.step),
+                                        raster.north - (r + 0.5) * raster.step);
     if (raster.isVoid && raster.isVoid(d.latitude, d.longitude)) return -12345.0;
     return (trueHeight(d.latitude, d.longitude) + raster.lift) / raster.unit;
   };

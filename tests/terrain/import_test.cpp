@@ -211,7 +211,7 @@ TEST_F(ImportMadeData, keepsNegativeHeightsAndSeaFloors) {
   EXPECT_EQ(extent(imported->grid).first, -3840);
 }
 
-TEST_F(ImportMadeData, takesWhatIsNoHeightByItsMetresNotByTheNumberInTheFile) {
+TEST_F(ImportMadeData, takesNumbersThatStandApartForVoidsWhateverTheirMetresAre) {
   // Mountains to 8,000 m and a sea floor, in steps of a tenth and of a hundredth of a metre.
   for (const double scale : {0.1, 0.01})
     for (const double sentinel : {-9999.0, -32768.0, 1e30}) {
@@ -227,6 +227,58 @@ TEST_F(ImportMadeData, takesWhatIsNoHeightByItsMetresNotByTheNumberInTheFile) {
       EXPECT_NEAR(at(imported->grid, 3, 64), 8000, 1e-3);
       EXPECT_NEAR(at(imported->grid, 9, 0), -10, 1e-3);
     }
+}
+
+TEST_F(ImportMadeData, keepsHeightsThatAreNumbersOtherFilesHaveForVoids) {
+  struct Case {
+    const char* name;
+    std::optional<double> noData;
+    double scale;
+    std::function<double(int, int)> metres;
+    double number;  ///< of one post
+  };
+  const auto trench = [](int c, int r) { return 200 - 167 * c - r / 8; };  // to -10,496 m
+  const auto hills = [](int c, int r) { return 300 + 0.5 * c + 0.25 * r; };
+  const Case cases[] = {
+      {"a deep sea with a tag", -32768, 1, trench, -9999},
+      {"a deep sea without a tag", {}, 1, trench, -9999},
+      {"hills in centimetres", -2147483648.0, 0.01, hills, 32767},
+      {"hills in centimetres without a tag", {}, 0.01, hills, 32767},
+      {"shallows in centimetres", -2147483648.0, 0.01, [](int c, int r) { return -c - 0.25 * r; }, -9999},
+  };
+  for (const Case& c : cases) {
+    test::RasterRecipe recipe;
+    recipe.type = GDT_Int32;
+    recipe.noData = c.noData;
+    if (c.scale != 1) recipe.scale = c.scale;
+    recipe.value = [&](int column, int row, int) {
+      return column == 60 && row == 10 ? c.number : std::round(c.metres(column, row) / c.scale);
+    };
+    const auto imported = import(recipe);
+    ASSERT_TRUE(imported) << c.name;
+    EXPECT_EQ(imported->voidsFilled, 0u) << c.name;
+    EXPECT_NEAR(at(imported->grid, 10, 60), c.number * c.scale, 1e-3) << c.name;
+    EXPECT_NEAR(at(imported->grid, 3, 64), c.metres(64, 3), c.scale) << c.name;
+    EXPECT_FALSE(speaksOf(imported.findings(), "no-data")) << c.name;
+  }
+}
+
+TEST_F(ImportMadeData, takesMoreOfANumberThanOfItsLikeForVoidsThatWereResampled) {
+  // A hole of -9999 in land, whose border was averaged.
+  test::RasterRecipe recipe;
+  recipe.value = [](int c, int r, int) {
+    const int inside = std::min({c - 20, 40 - c, r - 20, 40 - r});
+    return inside >= 2 ? -9999.0 : inside == 1 ? -9500.0 : inside == 0 ? -2300.0 : 250.0;
+  };
+  const auto imported = import(recipe);
+  ASSERT_TRUE(imported);
+  EXPECT_EQ(imported->voidsFilled, 21u * 21);
+  EXPECT_EQ(extent(imported->grid), (std::pair{250.0f, 250.0f}));
+  // As soon as the tag is there it is what counts.
+  recipe.noData = -9999;
+  const auto tagged = import(recipe);
+  ASSERT_TRUE(tagged);
+  EXPECT_EQ(tagged->voidsFilled, 17u * 17);
 }
 
 TEST_F(ImportMadeData, catchesVoidsThatNoTagNames) {
