@@ -154,6 +154,7 @@ class Job {
     GroundSources ground;
     ground.heights = file_.get();
     ground.geometry = geometry_.get();
+    ground.memory = memory_ / 2;  // patches may be made beside it
     if (options_.imagery) ground.images = {*options_.imagery};
     if (source_->tiles)
       ground.triangles =

@@ -28,7 +28,7 @@ class FileLock {
 ///
 ///   recipe.json       what is baked; another recipe empties the folder
 ///   journal           a checked line a finished step
-///   voids.bits        posts that were filled, a bit each, where there are any
+///   voids.bits        posts that were filled, a bit each
 ///   pieces/N.pages    finished pages of patches
 ///   database/         what becomes the output; heights.f32 is made in place
 class WorkFolder {

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <condition_variable>
 #include <map>
 #include <mutex>
+#include <thread>
 #include <unordered_map>
 
 #include "trimtab/terrain/ground_image.h"
@@ -25,6 +27,8 @@ using Place = GroundPlace;
 constexpr std::uint32_t kTile = GroundShape::kTile;
 /// Colours are read for this level's tiles at a time, and threads take no less.
 constexpr std::uint32_t kBlockLevel = 2;
+/// Of a block in work, with its colours and what an image is read by, and of one that waits for its turn.
+constexpr std::size_t kBytesABlock = std::size_t{32} << 20;
 
 using AddBlob = std::function<Result<Done>(std::uint64_t key, std::span<const std::byte> blob)>;
 struct Blob {
@@ -274,22 +278,34 @@ class Top {
   std::map<std::uint64_t, std::map<std::uint64_t, GroundTile>> waiting_;
 };
 
-/// Blocks of a share on all cores, into `add` in their order.
-Result<Done> buildBlocks(const Blocks& blocks, std::span<const Place> places, const AddBlob& add,
-                         const Progress& progress) {
+/// Blocks of a share on all cores, into `add` in their order. No more are begun ahead of the first that is
+/// not done than `memory` and two a core allow.
+Result<Done> buildBlocks(const Blocks& blocks, std::span<const Place> places, std::size_t memory,
+                         const AddBlob& add, const Progress& progress) {
   Top top(blocks, add);
+  const std::size_t ahead = std::clamp<std::size_t>(memory / kBytesABlock, 1,
+                                                    2 * std::max(1u, std::thread::hardware_concurrency()));
   std::mutex mutex;
+  std::condition_variable moved;
   std::map<std::uint32_t, Blocks::Built> done;
   std::uint32_t next = 0;
   Findings failed;
   std::atomic<bool> stop{false};
-  const auto work = [&](std::uint32_t i) {
+  const auto end = [&] {
+    stop = true;
+    moved.notify_all();
+  };
+  const auto make = [&](std::uint32_t i) {
+    std::unique_lock lock(mutex);
+    // Blocks are begun in their order: whoever has the first of them does not wait.
+    moved.wait(lock, [&] { return stop || i < next + ahead; });
     if (stop) return;
+    lock.unlock();
     auto built = blocks.build(places[i]);
-    const std::lock_guard lock(mutex);
+    lock.lock();
     if (!built) {
       failed.insert(failed.end(), built.findings().begin(), built.findings().end());
-      stop = true;
+      end();
       return;
     }
     done.emplace(i, std::move(built).value());
@@ -300,10 +316,24 @@ Result<Done> buildBlocks(const Blocks& blocks, std::span<const Place> places, co
       }
       done.erase(at);
     }
+    moved.notify_all();
   };
-  const bool whole = forEachParallel(static_cast<std::uint32_t>(places.size()), work, [&](double share) {
-    return !stop && (!progress || progress(share, "the ground's colours"));
-  });
+  const auto work = [&](std::uint32_t i) {
+    try {
+      make(i);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      end();
+      throw;
+    }
+  };
+  const auto carryOn = [&](double share) {
+    if (!stop && (!progress || progress(share, "the ground's colours"))) return true;
+    const std::lock_guard lock(mutex);
+    end();
+    return false;
+  };
+  const bool whole = forEachParallel(static_cast<std::uint32_t>(places.size()), work, carryOn);
   if (!failed.empty()) return failed;
   if (!whole) return cancelled("the ground's colours");
   return Done{};
@@ -355,7 +385,7 @@ Result<GroundCover> buildGroundPart(const GroundSources& sources, std::uint32_t 
   const std::vector<Place> all = (*blocks)->all();
   const auto bound = [&](std::uint32_t i) { return (*blocks)->boundary(all, all.size() * i / parts); };
   if (auto done = buildBlocks(**blocks, std::span(all).subspan(bound(part), bound(part + 1) - bound(part)),
-                              add, progress);
+                              sources.memory, add, progress);
       !done)
     return done.findings();
   GroundCover cover = (*blocks)->cover();
@@ -387,7 +417,7 @@ Result<std::shared_ptr<const GroundPyramid>> buildGroundInMemory(const GroundSou
     pyramid->blobs_.emplace(key, std::vector<std::byte>(blob.begin(), blob.end()));
     return Done{};
   };
-  if (auto done = buildBlocks(**blocks, all, add, progress); !done) return done.findings();
+  if (auto done = buildBlocks(**blocks, all, sources.memory, add, progress); !done) return done.findings();
   const Findings about = aboutCover(sources.images, (*blocks)->cover());
   notes.insert(notes.end(), about.begin(), about.end());
   for (const Finding& finding : about)

@@ -12,7 +12,8 @@
 #include "trimtab/terrain/height_window.h"
 #include "trimtab/terrain/post_geometry.h"
 
-/// Builds the ground's pyramid, block by block: memory follows the number of cores, not the size of the land.
+/// Builds the ground's pyramid, block by block: memory follows what is given and the number of cores, not the
+/// size of the land.
 namespace trimtab::terrain {
 
 class GroundTriangles;
@@ -30,6 +31,8 @@ struct GroundSources {
   /// triangles.
   std::optional<double> texelsPerPost;
   double mostTexelsPerPost = 8;
+  /// Bytes that blocks in work may take, some 32 MB each: of one at least.
+  std::size_t memory = std::size_t{512} << 20;
 };
 
 /// What images cover of the finest texels that are made.

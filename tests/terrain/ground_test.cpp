@@ -2,8 +2,13 @@
 
 #include <GeographicLib/LocalCartesian.hpp>
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <map>
+#include <mutex>
+#include <set>
+#include <thread>
 
 #include "ground_support.h"
 #include "trimtab/terrain/page_file.h"
@@ -239,6 +244,51 @@ TEST(Ground, isNotMadeOfHeightsThatCouldNotBeRead) {
   test::ScratchDir dir;
   EXPECT_FALSE(buildGroundPart(sources, 0, 1, dir / "ground", {}));
   EXPECT_TRUE(test::namesIn(dir.path()).empty());
+}
+
+/// What is done waits for the first that is not: no more of it than memory is given for.
+TEST(Ground, doesNotRunAheadOfItsSlowestBlock) {
+  struct Slow final : HeightSource {
+    explicit Slow(const HeightSource& heights) : inner(heights) {}
+    const PostGrid& posts() const override { return inner.posts(); }
+    void read(const PostWindow& window, std::uint32_t stride, std::span<float> heights) const override {
+      const std::uint32_t column = (window.column + window.columns / 2) / 1024,
+                          row = (window.row + window.rows / 2) / 1024;
+      if (column == 0 && row == 0) {
+        if (!slept.exchange(true)) {
+          std::this_thread::sleep_for(std::chrono::milliseconds(400));
+          const std::lock_guard lock(mutex);
+          ahead = begun.size();
+        }
+      } else {
+        const std::lock_guard lock(mutex);
+        begun.insert({column, row});
+      }
+      inner.read(window, stride, heights);
+    }
+    void readVoids(const PostWindow& window, std::uint32_t stride,
+                   std::span<std::uint8_t> voids) const override {
+      inner.readVoids(window, stride, voids);
+    }
+    const HeightSource& inner;
+    mutable std::atomic<bool> slept{false};
+    mutable std::mutex mutex;
+    mutable std::set<std::pair<std::uint32_t, std::uint32_t>> begun;
+    mutable std::size_t ahead = 99;
+  };
+  GroundLand land(2500, 2100);
+  GroundSources sources = land.sources();
+  sources.texelsPerPost = 1;
+  const auto whole = built(sources);
+  for (const std::size_t blocks : {1u, 2u}) {
+    const Slow slow(*land.heights);
+    sources.heights = &slow;
+    sources.memory = blocks << 25;
+    const auto made = built(sources);
+    EXPECT_EQ(slow.begun.size(), 8u);
+    EXPECT_LT(slow.ahead, blocks);
+    EXPECT_TRUE(test::readLevel(*made, 0) == test::readLevel(*whole, 0));
+  }
 }
 
 TEST(Ground, leavesNothingBehindWhereItIsCancelled) {
