@@ -162,6 +162,7 @@ Result<Done> ElevationFile::lookThrough(const Progress& progress, GdalErrors& er
       most(blockRows, std::max<std::int64_t>(1, std::min<std::int64_t>(kWindow / across_, 512)), down_);
   const std::int64_t columns = most(blockColumns, std::max<std::int64_t>(1, kWindow / rows), across_);
   Census census;
+  Room room;
   const std::string what = "reading " + fs::path(name_).filename().string();
   flipped_ = false;
   for (std::int64_t r = 0; r < down_; r += rows)
@@ -177,8 +178,8 @@ Result<Done> ElevationFile::lookThrough(const Progress& progress, GdalErrors& er
         census.leaveOut(static_cast<std::uint64_t>(w * h), values_);
         continue;
       }
-      if (auto read = readWindow(c, r, w, h); !read) return read.findings();
-      census.add(window_, values_);
+      if (auto read = readWindow(c, r, w, h, room); !read) return read.findings();
+      census.add(room.window, values_);
     }
   flipped_ = direct_ && raster_.transform[5] < 0;
   (void)errors;
@@ -204,7 +205,7 @@ Result<Done> ElevationFile::reopen() {
 
 bool ElevationFile::placeOn(const PostGrid& grid) {
   grid_ = grid;
-  // Half a post beyond its own, so that neighbours meet.
+  // A post beyond its own, so that neighbours meet; two where its posts stand askew to the grid's.
   const auto span = [](double from, double to, std::uint32_t count) {
     const double first = std::max(0.0, std::ceil(from)), last = std::min(count - 1.0, std::floor(to));
     return last < first
@@ -305,12 +306,12 @@ std::uint32_t ElevationFile::lattice() const {
   return 1;
 }
 
-void ElevationFile::findPlaces(const Rectangle& posts) {
-  places_.resize(std::size_t{posts.rows} * posts.columns);
+void ElevationFile::findPlaces(const Rectangle& posts, std::vector<Place>& places) const {
+  places.resize(std::size_t{posts.rows} * posts.columns);
   if (stride_ == 1 && direct_) {
     // Columns do not know of rows.
     const auto columns = exact(posts.row, posts.column, posts.columns, 1);
-    Place* to = places_.data();
+    Place* to = places.data();
     for (std::uint32_t r = 0; r < posts.rows; ++r, to += posts.columns) {
       const double y = exact(posts.row + r, posts.column, 1, 1)[0].y;
       for (std::uint32_t c = 0; c < posts.columns; ++c) to[c] = {columns[c].x, y, 0};
@@ -321,7 +322,7 @@ void ElevationFile::findPlaces(const Rectangle& posts) {
     for (std::uint32_t r = 0; r < posts.rows; ++r) {
       const auto row = exact(posts.row + r, posts.column, posts.columns, 1);
       std::copy(row.begin(), row.end(),
-                places_.begin() + static_cast<std::ptrdiff_t>(std::size_t{r} * posts.columns));
+                places.begin() + static_cast<std::ptrdiff_t>(std::size_t{r} * posts.columns));
     }
     return;
   }
@@ -345,7 +346,7 @@ void ElevationFile::findPlaces(const Rectangle& posts) {
         return (low[k].*member * (1 - u) + low[k + 1].*member * u) * (1 - v) +
                (high[k].*member * (1 - u) + high[k + 1].*member * u) * v;
       };
-      Place& place = places_[std::size_t{r} * posts.columns + c];
+      Place& place = places[std::size_t{r} * posts.columns + c];
       place.lift = between(&Place::lift);
       // About the end of what PROJ knows each post by itself.
       if (std::isnan(place.lift) && !(std::isnan(low[k].lift) && std::isnan(low[k + 1].lift) &&
@@ -363,33 +364,34 @@ void ElevationFile::findPlaces(const Rectangle& posts) {
 }
 
 Result<Done> ElevationFile::readWindow(std::int64_t column, std::int64_t row, std::int64_t columns,
-                                       std::int64_t rows) {
+                                       std::int64_t rows, Room& room) {
   const GdalErrors errors;
   GDALRasterBand& band = *raster_.data->GetRasterBand(1);
-  window_.resize(static_cast<std::size_t>(columns * rows));
+  room.window.resize(static_cast<std::size_t>(columns * rows));
   // Rows that come from the north are put by a line spacing that runs backwards.
   const std::int64_t first = flipped_ ? down_ - row - rows : row;
   const GSpacing line = static_cast<GSpacing>(sizeof(float)) * columns * (flipped_ ? -1 : 1);
-  float* start = window_.data() + (flipped_ ? (rows - 1) * columns : 0);
+  float* start = room.window.data() + (flipped_ ? (rows - 1) * columns : 0);
   const int x = static_cast<int>(column), y = static_cast<int>(first), w = static_cast<int>(columns),
             h = static_cast<int>(rows);
   if (band.RasterIO(GF_Read, x, y, w, h, start, w, h, GDT_Float32, sizeof(float), line, nullptr) != CE_None)
     return about(Severity::error, name_, "row " + std::to_string(y),
                  "heights of " + std::to_string(h) + " rows", errors.last("GDAL gives no reason"));
   if (!masked_) return Done{};
-  mask_.resize(window_.size());
-  std::uint8_t* last = mask_.data() + (flipped_ ? (rows - 1) * columns : 0);
+  room.mask.resize(room.window.size());
+  std::uint8_t* last = room.mask.data() + (flipped_ ? (rows - 1) * columns : 0);
   if (band.GetMaskBand()->RasterIO(GF_Read, x, y, w, h, last, w, h, GDT_Byte, 1,
                                    static_cast<GSpacing>(flipped_ ? -columns : columns), nullptr) != CE_None)
     return about(Severity::error, name_, "mask, row " + std::to_string(y), "a mask that can be read",
                  errors.last("GDAL gives no reason"));
-  for (std::size_t i = 0; i < window_.size(); ++i)
-    if (mask_[i] == 0) window_[i] = kVoid;
+  for (std::size_t i = 0; i < room.window.size(); ++i)
+    if (room.mask[i] == 0) room.window[i] = kVoid;
   return Done{};
 }
 
 Result<Done> ElevationFile::read(std::uint32_t firstRow, std::uint32_t rows, std::span<float> heights,
-                                 std::span<std::uint8_t> reached, std::vector<Continued>& continued) {
+                                 std::span<std::uint8_t> reached, std::vector<Continued>& continued,
+                                 Room& room) {
   std::fill(heights.begin(), heights.end(), kVoid);
   continued.clear();
   const std::uint32_t from = std::max(firstRow, row_), to = std::min(firstRow + rows, row_ + rows_);
@@ -398,26 +400,27 @@ Result<Done> ElevationFile::read(std::uint32_t firstRow, std::uint32_t rows, std
   const std::uint32_t tile = direct_ ? 4096 : 256;
   for (std::uint32_t c = 0; c < columns_; c += tile)
     if (auto read = readTile({from, to - from, column_ + c, std::min(tile, columns_ - c)}, firstRow, heights,
-                             reached, continued);
+                             reached, continued, room);
         !read)
       return read;
   return Done{};
 }
 
 Result<Done> ElevationFile::readTile(const Rectangle& posts, std::uint32_t firstRow, std::span<float> heights,
-                                     std::span<std::uint8_t> reached, std::vector<Continued>& continued) {
-  findPlaces(posts);
+                                     std::span<std::uint8_t> reached, std::vector<Continued>& continued,
+                                     Room& room) {
+  findPlaces(posts, room.places);
   const auto nearby = [&](const Place& p) {
     return p.x > -1 && p.y > -1 && p.x < static_cast<double>(across_) && p.y < static_cast<double>(down_);
   };
   double west = 1e18, east = -1e18, low = 1e18, high = -1e18;
-  for (const Place& p : places_)
+  for (const Place& p : room.places)
     if (nearby(p))
       west = std::min(west, p.x), east = std::max(east, p.x), low = std::min(low, p.y),
       high = std::max(high, p.y);
   if (west > east) return Done{};
   const bool averagesX = footprintX_ > kFiner, averagesY = footprintY_ > kFiner;
-  const double marginX = averagesX ? footprintX_ : 0, marginY = averagesY ? footprintY_ : 0;
+  const double marginX = averagesX ? footprintX_ / 2 : 0, marginY = averagesY ? footprintY_ / 2 : 0;
   const auto bounds = [](double from, double to, std::int64_t count) {
     const double end = static_cast<double>(count - 1);
     const auto first = static_cast<std::int64_t>(std::clamp(std::floor(from) - 2, 0.0, end)),
@@ -436,20 +439,31 @@ Result<Done> ElevationFile::readTile(const Rectangle& posts, std::uint32_t first
       one.rows = posts.rows / 2;
       two.row += one.rows, two.rows -= one.rows;
     }
-    if (auto read = readTile(one, firstRow, heights, reached, continued); !read) return read;
-    return readTile(two, firstRow, heights, reached, continued);
+    if (auto read = readTile(one, firstRow, heights, reached, continued, room); !read) return read;
+    return readTile(two, firstRow, heights, reached, continued, room);
   }
-  if (auto read = readWindow(column, row, columns, rows); !read) return read;
-  toMetres(window_, values_);
-
-  const RasterWindow window{column, row, columns, rows, window_};
+  // A post for which even that is too much: its mean by strips of rows.
+  const bool inStrips = averagesX && averagesY && columns * rows > kWindow;
+  const std::int64_t strip = inStrips ? std::max<std::int64_t>(1, kWindow / columns) : rows;
+  PostMean mean;
+  for (std::int64_t from = 0; from < rows; from += strip) {
+    const std::int64_t count = std::min(strip, rows - from);
+    if (auto read = readWindow(column, row + from, columns, count, room); !read) return read;
+    toMetres(room.window, values_);
+    if (inStrips)
+      mean.add({column, row + from, columns, count, room.window}, room.places[0].x, room.places[0].y,
+               footprintX_, footprintY_);
+  }
+  const RasterWindow window{column, row, columns, rows, room.window};
   const double lastX = static_cast<double>(across_ - 1), lastY = static_cast<double>(down_ - 1);
   for (std::uint32_t r = 0; r < posts.rows; ++r)
     for (std::uint32_t c = 0; c < posts.columns; ++c) {
-      const Place& p = places_[std::size_t{r} * posts.columns + c];
+      const Place& p = room.places[std::size_t{r} * posts.columns + c];
       if (!nearby(p)) continue;
       float height = 0;
-      if (averagesX && averagesY)
+      if (inStrips)
+        height = mean.mean();
+      else if (averagesX && averagesY)
         height = meanAbout(window, p.x, p.y, footprintX_, footprintY_);
       else if (averagesX || averagesY)
         height =

@@ -23,6 +23,17 @@ struct Continued {
 /// One file's heights at posts of a grid that is not its own.
 class ElevationFile {
  public:
+  /// Where a post lies in the raster, and what is to be added to its height: NaN where PROJ does not know.
+  struct Place {
+    double x = 0, y = 0, lift = 0;
+  };
+  /// Memory to read in, some 10 MB: one for all files, which are read one after the other.
+  struct Room {
+    std::vector<Place> places;
+    std::vector<float> window;
+    std::vector<std::uint8_t> mask;
+  };
+
   /// Opens, looks through every height once (for voids, and for damage), and closes again.
   static Result<std::unique_ptr<ElevationFile>> open(const std::filesystem::path& path,
                                                      const Progress& progress);
@@ -49,15 +60,11 @@ class ElevationFile {
   /// Rows of the grid, this file's columns of them: NaN where it has no height. `reached` is set to 1 where
   /// it could have one; it is `rows` x the grid's columns, as `Continued::place` counts.
   Result<Done> read(std::uint32_t firstRow, std::uint32_t rows, std::span<float> heights,
-                    std::span<std::uint8_t> reached, std::vector<Continued>& continued);
+                    std::span<std::uint8_t> reached, std::vector<Continued>& continued, Room& room);
   bool isOpen() const { return raster_.data != nullptr; }
   void close() { raster_.data.reset(); }
 
  private:
-  /// Where a post lies in the raster, and what is to be added to its height: NaN where PROJ does not know.
-  struct Place {
-    double x = 0, y = 0, lift = 0;
-  };
   struct Rectangle {
     std::uint32_t row, rows, column, columns;
   };
@@ -65,13 +72,14 @@ class ElevationFile {
   explicit ElevationFile(PlacedRaster raster) : raster_(std::move(raster)) {}
   Result<Done> lookThrough(const Progress& progress, GdalErrors& errors, Findings& notes);
   Result<Done> reopen();
-  void findPlaces(const Rectangle& posts);
+  void findPlaces(const Rectangle& posts, std::vector<Place>& places) const;
   std::vector<Place> exact(std::uint32_t row, std::uint32_t firstColumn, std::uint32_t count,
                            std::uint32_t stride) const;
   std::uint32_t lattice() const;
   Result<Done> readTile(const Rectangle& posts, std::uint32_t firstRow, std::span<float> heights,
-                        std::span<std::uint8_t> reached, std::vector<Continued>& continued);
-  Result<Done> readWindow(std::int64_t column, std::int64_t row, std::int64_t columns, std::int64_t rows);
+                        std::span<std::uint8_t> reached, std::vector<Continued>& continued, Room& room);
+  Result<Done> readWindow(std::int64_t column, std::int64_t row, std::int64_t columns, std::int64_t rows,
+                          Room& room);
 
   std::string name_;
   PlacedRaster raster_;
@@ -87,9 +95,6 @@ class ElevationFile {
   std::uint32_t column_ = 0, columns_ = 0, row_ = 0, rows_ = 0;
   std::uint32_t stride_ = 1;                ///< of exact places; bilinear between
   double footprintX_ = 1, footprintY_ = 1;  ///< the raster's posts to a step of the grid
-  std::vector<Place> places_;
-  std::vector<float> window_;
-  std::vector<std::uint8_t> mask_;
 };
 
 }  // namespace trimtab::terrain

@@ -87,7 +87,7 @@ float heightBetween(const RasterWindow& window, std::int64_t across, std::int64_
   return static_cast<float>(mixed(rows, row.weight));
 }
 
-float meanAbout(const RasterWindow& window, double x, double y, double width, double height) {
+void PostMean::add(const RasterWindow& window, double x, double y, double width, double height) {
   const auto range = [](double middle, double size, std::int64_t first, std::int64_t count) {
     const double before = static_cast<double>(first),
                  from = std::max(std::ceil(middle - size / 2) - before, 0.0),
@@ -97,16 +97,23 @@ float meanAbout(const RasterWindow& window, double x, double y, double width, do
   };
   const auto [left, right] = range(x, width, window.column, window.columns);
   const auto [low, high] = range(y, height, window.row, window.rows);
-  double sum = 0;
-  std::int64_t count = 0, all = 0;
   for (std::int64_t r = low; r <= high; ++r)
     for (std::int64_t c = left; c <= right; ++c) {
       const float h = window.heights[static_cast<std::size_t>(r * window.columns + c)];
-      ++all;
-      if (!std::isnan(h)) sum += static_cast<double>(h), ++count;
+      ++posts_;
+      if (!std::isnan(h)) sum_ += static_cast<double>(h), ++heights_;
     }
-  if (2 * count <= all || count == 0) return std::numeric_limits<float>::quiet_NaN();
-  return static_cast<float>(sum / static_cast<double>(count));
+}
+
+float PostMean::mean() const {
+  if (2 * heights_ <= posts_ || heights_ == 0) return std::numeric_limits<float>::quiet_NaN();
+  return static_cast<float>(sum_ / static_cast<double>(heights_));
+}
+
+float meanAbout(const RasterWindow& window, double x, double y, double width, double height) {
+  PostMean posts;
+  posts.add(window, x, y, width, height);
+  return posts.mean();
 }
 
 float meanAlong(const RasterWindow& window, bool across, std::int64_t columns, std::int64_t rows, double x,

@@ -19,6 +19,19 @@ struct RasterWindow {
 /// or y is no number. The window must hold the 4 x 4 posts about the place, as far as the raster has them.
 float heightBetween(const RasterWindow& window, std::int64_t across, std::int64_t down, double x, double y);
 
+/// A mean of posts that come in several windows, by rows.
+class PostMean {
+ public:
+  /// Those of the window's posts that lie within `width` x `height` posts about (x, y).
+  void add(const RasterWindow& window, double x, double y, double width, double height);
+  /// NaN where most are voids, or none is there.
+  float mean() const;
+
+ private:
+  double sum_ = 0;
+  std::int64_t heights_ = 0, posts_ = 0;
+};
+
 /// Mean of the window's posts within `width` x `height` posts about (x, y); NaN where most are voids, or none
 /// is there.
 float meanAbout(const RasterWindow& window, double x, double y, double width, double height);

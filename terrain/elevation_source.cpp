@@ -258,7 +258,7 @@ class MergedElevation final : public ElevationSource {
       chunk.layers.push_back({i, named_[i], file.firstColumn(), file.columns(), {}, {}});
       ElevationLayer& layer = chunk.layers.back();
       layer.heights.resize(std::size_t{kChunkRows} * layer.columns);
-      if (auto read = file.read(first, rows, layer.heights, chunk.reached, layer.continued); !read)
+      if (auto read = file.read(first, rows, layer.heights, chunk.reached, layer.continued, room_); !read)
         return read;
       keepOpen(i);
     }
@@ -285,6 +285,7 @@ class MergedElevation final : public ElevationSource {
   std::vector<std::size_t> named_;               ///< a file's place among the names
   std::vector<std::uint64_t> given_, givenNow_;  ///< by name; by file, of the chunk in `merged_`
   std::vector<bool> counted_;                    ///< a chunk's part of `given_`
+  ElevationFile::Room room_;
   std::list<Held> held_;
   std::list<std::size_t> open_;
   std::vector<float> merged_;

@@ -13,8 +13,10 @@
 
 namespace trimtab::terrain {
 
-/// Elevation of any number of files as one grid of posts, read a band at a time: memory does not follow the
-/// size of the data, and what is read does not depend on the bands.
+/// Elevation of any number of files as one grid of posts, read a band at a time, which does not change what
+/// is read. Memory follows the grid's columns (some hundred rows of them for each file that covers them), a
+/// row of the longest file's blocks, and GDAL's cache; neither the number of files nor their rows, but for
+/// what GDAL keeps of the 128 that it has open.
 ///
 /// A post that lies on a file's own is that file's height to the bit; between a file's posts the height is
 /// cubic. Of files that have a height at a post the finest leads, and of equals the first; towards a border

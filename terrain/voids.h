@@ -23,7 +23,7 @@ struct VoidFill {
   /// it was read from.
   std::function<Result<Done>(std::uint32_t first, std::uint32_t rows, std::span<const float> heights)> write;
   /// Coarser levels (a third of the heights' size) go to a nameless file here where they do not fit in
-  /// `memory`, bytes. Beside them some 40 rows are held.
+  /// `memory`, bytes. Beside them up to some 100 rows are held, where all are voids; half where few are.
   std::filesystem::path scratch = std::filesystem::temp_directory_path();
   std::size_t memory = std::size_t{64} << 20;
   std::function<bool(double fraction)> carryOn;

@@ -21,7 +21,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::vector<float> heights(std::size_t{rows} * (*file)->columns());
     std::vector<std::uint8_t> reached(std::size_t{rows} * posts.columns);
     std::vector<Continued> continued;
-    const auto read = (*file)->read(0, rows, heights, reached, continued);
+    ElevationFile::Room room;
+    const auto read = (*file)->read(0, rows, heights, reached, continued, room);
     if (!read && read.findings().empty()) std::abort();
     for (const float h : heights)
       if (!std::isnan(h) && !(std::abs(h) < 1e5f)) std::abort();

@@ -104,5 +104,50 @@ INSTANTIATE_TEST_SUITE_P(Sparse, ElevationMemory,
                                            Large{"metres", "EPSG:32652", 300000, 4300000, 30, true}),
                          [](const auto& instance) { return instance.param.name; });
 
+TEST(ElevationMemoryOfManyFiles, isThatOfOne) {
+  test::ScratchDir dir;
+  test::RasterRecipe recipe;
+  recipe.columns = 2048, recipe.rows = 1024, recipe.step = 0.0002, recipe.type = GDT_Byte;
+  std::vector<std::filesystem::path> files;
+  for (int k = 0; k < 40; ++k) {
+    recipe.north = 50 - k * recipe.rows * recipe.step;
+    files.push_back(test::writeRaster(dir / (std::to_string(k) + ".tif"), recipe));
+  }
+  const std::size_t before = peakKb(true);
+  const auto source = openElevation(files);
+  ASSERT_TRUE(source) << toString(source.findings());
+  const PostGrid& posts = (*source)->posts();
+  std::vector<float> row(posts.columns);
+  for (std::uint32_t r = 0; r < posts.rows; r += 16) {
+    ASSERT_TRUE((*source)->readRows(r, 1, row));
+    ASSERT_EQ(row[r % posts.columns], 100);
+  }
+  // 80 MB in GDAL's cache. A window of 8 MB for each file would be 320 MB more.
+  const std::size_t more = peakKb(false) - before;
+  std::printf("40 files: %zu kB of memory\n", more);
+  if (before > 0) {
+    EXPECT_LT(more, 150000u);
+  }
+}
+
+TEST(ElevationMemoryOfMeans, doesNotFollowTheDistanceOfPosts) {
+  test::ScratchDir dir;
+  const auto file = writeSparse(dir / "large.tif", "EPSG:4326", 20, 40, 0.0002);
+  const std::size_t before = peakKb(true);
+  ElevationOptions options;
+  options.stepLatitude = 1;
+  const auto source = openElevation(std::span(&file, 1), options);
+  ASSERT_TRUE(source) << toString(source.findings());
+  const PostGrid& posts = (*source)->posts();
+  std::vector<float> heights(posts.size());
+  ASSERT_TRUE((*source)->readRows(0, posts.rows, heights));
+  // A post stands for 5,000 x 5,000: 100 MB, and 400 MB with as much again about them.
+  const std::size_t more = peakKb(false) - before;
+  std::printf("means: %zu kB of memory\n", more);
+  if (before > 0) {
+    EXPECT_LT(more, 80000u);
+  }
+}
+
 }  // namespace
 }  // namespace trimtab::terrain

@@ -588,5 +588,24 @@ TEST_F(Elevation, isAveragedToACoarserSpacingWhenAskedFor) {
   EXPECT_GT(count, 6000u);
 }
 
+TEST_F(Elevation, isTheMeanOfMorePostsThanAreReadAtATime) {
+  test::RasterRecipe recipe;
+  recipe.columns = recipe.rows = 3001, recipe.step = 0.0002;
+  recipe.value = [](int c, int r, int) { return 0.1 * c + 0.25 * r; };
+  const fs::path file = test::writeRaster(dir_ / "plane.tif", recipe);
+  ElevationOptions options;
+  options.stepLatitude = 1500 * recipe.step;
+  const auto source = openElevation(std::span(&file, 1), options);
+  ASSERT_TRUE(source);
+  ASSERT_EQ(source.value()->posts().size(), 9u);
+  // Half of the box, where it ends with the raster. A post at its edge is within or is not.
+  const auto heights = test::readBands(*source.value(), 3);
+  for (const std::size_t row : {0u, 1u, 2u})
+    for (const std::size_t column : {0u, 1u, 2u}) {
+      const std::array<double, 3> middle{375, 1500, 2625};
+      EXPECT_NEAR(heights[row * 3 + column], 0.1 * middle[column] + 0.25 * middle[2 - row], 0.2);
+    }
+}
+
 }  // namespace
 }  // namespace trimtab::terrain
