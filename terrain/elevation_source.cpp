@@ -262,6 +262,7 @@ class MergedElevation final : public ElevationSource {
         return read;
       keepOpen(i);
     }
+    closeOthers(first, rows);
     chunk.count();
     if (held_.size() >= kChunksHeld) held_.pop_back();
     held_.push_front(std::move(held));
@@ -275,6 +276,16 @@ class MergedElevation final : public ElevationSource {
     if (open_.size() <= kMostOpen) return;
     files_[open_.back()]->close();
     open_.pop_back();
+  }
+
+  /// Rows are read from south to north: who has none of these will hardly be asked again, and an open file
+  /// may hold megabytes.
+  void closeOthers(std::uint32_t first, std::uint32_t rows) {
+    open_.remove_if([&](std::size_t file) {
+      if (files_[file]->reaches(first, rows)) return false;
+      files_[file]->close();
+      return true;
+    });
   }
 
   Files files_;
