@@ -51,7 +51,8 @@ struct ElevationOptions {
 Result<std::unique_ptr<ElevationSource>> openElevation(std::span<const std::filesystem::path> sources,
                                                        const ElevationOptions& options = {});
 
-/// What each of several files gave to a grid, as notes; nothing of one file alone. `given`: one a name, posts.
+/// What each of several files gave to a grid, as notes; nothing of one file alone. `given`: one a name,
+/// posts.
 Findings sharesOf(const std::vector<std::string>& names, const std::vector<std::uint64_t>& given);
 
 }  // namespace trimtab::terrain
