@@ -114,6 +114,8 @@ class Job {
     auto work = WorkFolder::open(output_, stampedRecipe(options_, *files), use);
     if (!work) return work.findings();
     work_ = std::move(work).value();
+    // Asked before other parts of the same bake come to write there.
+    goesOn_ = work_->resumed() && !work_->journal().empty();
     scenery_ = std::any_of(options_.sources.begin(), options_.sources.end(), isScenery);
     auto source = readSource(options_, memory_, stage(0, scenery_ ? 0.1 : 0.2));
     if (!source) return source.findings();
@@ -174,7 +176,7 @@ class Job {
                          "folder and bake all parts again");
     if (!others.empty())
       if (auto emptied = work_->beginAnew(); !emptied) return emptied;
-    if (work_->resumed() && !work_->journal().empty())
+    if (goesOn_ && work_->resumed())
       findings_.push_back({Severity::note, output_.string(), "", "", "goes on from an interrupted bake"});
     return Done{};
   }
@@ -396,7 +398,7 @@ class Job {
   Findings findings_;
   std::string recipe_;
   std::unique_ptr<WorkFolder> work_;
-  bool scenery_ = false, hasImage_ = false;
+  bool goesOn_ = false, scenery_ = false, hasImage_ = false;
   std::unique_ptr<BakeSource> source_;
   BakedHeights heights_;
   std::unique_ptr<FileHeights> file_;

@@ -136,7 +136,7 @@ class HeightsBake {
       if (word == "posts") {
         next_ = 0;
         bands_.clear();
-        filling_ = done_ = false;
+        done_ = false;
       } else if (word == "band") {
         std::uint32_t first = 0, rows = 0;
         std::uint64_t voids = 0, outside = 0;
@@ -150,8 +150,6 @@ class HeightsBake {
         bands_.push_back({first, rows, voids, outside, sum, {}});
         for (std::uint64_t given = 0; words >> given;) bands_.back().given.push_back(given);
         next_ = first + rows;
-      } else if (word == "filling") {
-        filling_ = true;
       } else if (word == "heights") {
         words >> sum;
         doneSum_ = sum;
@@ -200,7 +198,8 @@ class HeightsBake {
           bandSum = 0;
           break;
         }
-        if (filling_)
+        // They may have been filled in part.
+        if (band.voids + band.outside > 0)
           if (auto put = heights_.write(band.first + done, rows, band_.data()); !put) return put;
         bandSum = rowsSum(rows, bandSum);
         done += rows;
@@ -251,8 +250,6 @@ class HeightsBake {
 
   Result<Done> fill() {
     if (baked_.voids + baked_.outside == 0) return Done{};
-    if (!filling_)
-      if (auto noted = work_.note("filling"); !noted) return noted;
     VoidFill voids;
     voids.columns = posts_.columns;
     voids.rows = posts_.rows;
@@ -323,7 +320,7 @@ class HeightsBake {
   BakedHeights baked_;
   std::vector<Band> bands_;
   std::uint32_t next_ = 0;
-  bool noted_ = false, filling_ = false, done_ = false;
+  bool noted_ = false, done_ = false;
   std::string doneSum_;
 };
 

@@ -47,7 +47,7 @@ std::string stampedRecipe(const BakeOptions& options, const std::vector<std::fil
 /// Whether two of those differ in nothing but the machines that they were made on.
 bool sameButForArithmetic(const std::string& stampedRecipe, const std::string& other);
 /// Place, size and time of each file, and of all that GDAL reads with it: what says where the raster is, its
-/// overviews, the rasters that a virtual one is made of.
+/// overviews, the rasters that a virtual one is made of. Opens each; cannot be stopped.
 std::vector<std::string> stampsOf(std::span<const std::filesystem::path> files);
 
 std::string joinedNames(const std::vector<std::filesystem::path>& sources);

@@ -143,7 +143,8 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, con
   const bool shared = use == Use::part;
   const fs::path path = output.parent_path() / ("." + output.filename().string() + ".work");
   const fs::path lockFile = path / "lock";
-  if (std::error_code error; use == Use::join && !fs::exists(path / "recipe.json", error))
+  if (std::error_code error;
+      use == Use::join && !fs::exists(path / "recipe.json", error) && !fs::exists(path / "old", error))
     return wrong(path, "all parts of a bake", "none: all are missing");
   std::unique_ptr<FileLock> lock;
   int refused = 0;

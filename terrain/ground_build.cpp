@@ -295,10 +295,14 @@ Result<Done> buildBlocks(const Blocks& blocks, std::span<const Place> places, st
     stop = true;
     moved.notify_all();
   };
-  const auto make = [&](std::uint32_t i) {
+  const auto make = [&](std::uint32_t i, const GoesOn& goesOn) {
     std::unique_lock lock(mutex);
     // Blocks are begun in their order: whoever has the first of them does not wait.
-    moved.wait(lock, [&] { return stop || i < next + ahead; });
+    while (!moved.wait_for(lock, std::chrono::milliseconds(50), [&] { return stop || i < next + ahead; })) {
+      lock.unlock();
+      goesOn();
+      lock.lock();
+    }
     if (stop) return;
     lock.unlock();
     auto built = blocks.build(places[i]);
@@ -318,9 +322,9 @@ Result<Done> buildBlocks(const Blocks& blocks, std::span<const Place> places, st
     }
     moved.notify_all();
   };
-  const auto work = [&](std::uint32_t i) {
+  const auto work = [&](std::uint32_t i, const GoesOn& goesOn) {
     try {
-      make(i);
+      make(i, goesOn);
     } catch (...) {
       const std::lock_guard lock(mutex);
       end();

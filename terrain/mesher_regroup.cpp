@@ -9,8 +9,6 @@ namespace trimtab::terrain {
 
 namespace {
 
-constexpr std::uint32_t kDead = ~0u;
-
 struct Grid {
   std::int32_t across, up;
 };
@@ -29,7 +27,7 @@ std::vector<std::int32_t> closeGaps(Triangulation& mesh) {
   std::vector<std::int32_t> to(mesh.triangles.size(), -1), was, vertexTo(mesh.vertices.size(), -1);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& one = mesh.triangles[t];
-    if (one.corner[0] == kDead) continue;
+    if (one.corner[0] == Triangulation::kDead) continue;
     to[t] = static_cast<std::int32_t>(was.size());
     was.push_back(static_cast<std::int32_t>(t));
     for (const std::uint32_t v : one.corner) vertexTo[v] = 0;
@@ -137,7 +135,7 @@ std::vector<std::int32_t> eachPart(Triangulation& mesh, std::int32_t width, std:
       work({local, std::span(members).subspan(first[p], first[p + 1] - first[p]), p, first});
     for (std::uint32_t k = first[p] + static_cast<std::uint32_t>(local.triangles.size()); k < first[p + 1];
          ++k)
-      mesh.triangles[static_cast<std::size_t>(members[k])].corner[0] = kDead;
+      mesh.triangles[static_cast<std::size_t>(members[k])].corner[0] = Triangulation::kDead;
     const auto toGlobal = [&](std::int32_t h) {
       return 4 * members[first[p] + static_cast<std::uint32_t>(h >> 2)] + (h & 3);
     };
@@ -163,7 +161,7 @@ std::vector<std::int32_t> eachPart(Triangulation& mesh, std::int32_t width, std:
     for (const Cut& cut : of)
       mesh.link(cut.now, cut.twin < 0 ? cut.twin : now[static_cast<std::size_t>(cut.twin)]);
   const bool gone = std::any_of(mesh.triangles.begin(), mesh.triangles.end(),
-                                [](const Triangle& one) { return one.corner[0] == kDead; });
+                                [](const Triangle& one) { return one.corner[0] == Triangulation::kDead; });
   return gone ? closeGaps(mesh) : std::vector<std::int32_t>{};
 }
 

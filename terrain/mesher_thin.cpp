@@ -123,7 +123,7 @@ void MeshThin::remove(const Removal& removal) {
     fit_.sums()[static_cast<std::size_t>(t)] = known_[removal.sums + k - 1];
   }
   for (const About* one : {&from, &end})
-    mesh_.triangles[static_cast<std::size_t>(one->triangle)].corner[0] = kDead;
+    mesh_.triangles[static_cast<std::size_t>(one->triangle)].corner[0] = Triangulation::kDead;
   for (const About& one : ring_) ++stamps_[one.vertex];
 }
 
@@ -177,7 +177,8 @@ void MeshThin::compact() {
   std::vector<std::int32_t> to;
   std::int32_t count = 0;
   to.reserve(mesh_.triangles.size());
-  for (const Triangle& one : mesh_.triangles) to.push_back(one.corner[0] == kDead ? -1 : count++);
+  for (const Triangle& one : mesh_.triangles)
+    to.push_back(one.corner[0] == Triangulation::kDead ? -1 : count++);
   for (std::size_t t = 0; t < to.size(); ++t) {
     if (to[t] < 0) continue;
     const auto now = static_cast<std::size_t>(to[t]);

@@ -19,7 +19,6 @@ class MeshThin {
 
  private:
   static constexpr std::size_t kMostAbout = 16;  ///< triangles; a vertex with more stays
-  static constexpr std::uint32_t kDead = ~0u;
   /// Of a vertex, whose triangles become a fan from a vertex of the ring about it.
   struct Removal {
     double cost = 0;  ///< growth of the sum: guessed, or `exact`

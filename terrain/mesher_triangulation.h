@@ -21,6 +21,7 @@ struct Triangulation {
     std::int32_t twin[3];
     std::int32_t postX, postY;  ///< for whoever inserts: the post to insert next
   };
+  static constexpr std::uint32_t kDead = ~0u;  ///< corner 0 of a triangle that was taken out
 
   std::vector<Vertex> vertices;
   std::vector<Triangle> triangles;

@@ -44,7 +44,6 @@ class TiledDatabase final : public Database {
   /// Rise towards east and north a metre at a post, from the eight posts around it.
   PostGradient gradient(std::uint32_t row, std::uint32_t column) const;
   void vertexSlopes(const TilePosts& tile, std::array<std::uint8_t, kSide * kSide>& slopes) const;
-  /// Column of a longitude, wrapped to the grid's side of the earth; may lie outside.
 
   Contents contents_;
   PostGeometry geometry_;

@@ -275,7 +275,7 @@ void compare(Report& report, const Land& land, std::size_t part, const Greedy& g
 void mesherRows(Report& report) {
   std::vector<Land> lands;
   Land everest{"everest", "Everest", 0, 0, {}, {36.0, 12.817, 8e6}, {177.339, 53.074, 28e6}, 90};
-  Land tujunga{"tujunga", "Big Tujunga", 0, 0, {}, {7.5, 2.752, 8e6}, {40.6, 12.499, 28e6}, 30};
+  Land tujunga{"tujunga", "Big Tujunga", 0, 0, {}, {7.261, 2.661, 8e6}, {57.971, 12.504, 28e6}, 30};
   if (readLand(everest, "data/dem-srtm3-everest/N27E086.hgt")) lands.push_back(everest);
   if (!report.quick() && readLand(tujunga, "data/dem-30m-bigtujunga/bigtujunga.tif"))
     lands.push_back(tujunga);

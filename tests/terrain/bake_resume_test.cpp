@@ -105,30 +105,35 @@ TEST_F(ResumedBake, makesDamagedPiecesAgain) {
   expectWhole(dir_ / "db");
 }
 
-/// What a power cut leaves: lines of the journal, and rows that never came to the disk.
+/// What a power cut leaves: no sum of the heights in the journal, and bytes that never came to the disk.
 TEST_F(ResumedBake, readsHeightsAgainThatNoSumBearsOut) {
-  options_.progress = [](double fraction, const std::string&) { return fraction < 0.5; };
-  ASSERT_FALSE(bake(options_));
-  options_.progress = nullptr;
-  const fs::path work = dir_ / ".db.work";
-  std::istringstream journal(test::readFile(work / "journal"));
-  std::string kept;
-  int dropped = 0;
-  for (std::string line; std::getline(journal, line);)
-    if (line.starts_with("heights "))
-      ++dropped;
-    else
-      kept += line + "\n";
-  ASSERT_EQ(dropped, 1);
-  test::writeFile(work / "journal", kept);
-  std::string rows = test::readFile(work / "database/heights.f32");
-  std::fill(rows.begin() + static_cast<std::ptrdiff_t>(rows.size() / 2), rows.end(), '\0');
-  test::writeFile(work / "database/heights.f32", rows);
-  fs::remove(work / "database/heights.sums");
-  fs::remove_all(work / "pieces");
-  const auto made = bake(options_);
-  ASSERT_TRUE(made) << toString(made.findings());
-  expectWhole(dir_ / "db");
+  // The last quarter of the rows, or one filled void.
+  constexpr std::size_t kQuarter = 420 * 330, kVoid = sizeof(float) * (209 * 420 + 200);
+  for (const auto& [from, size] : {std::pair{3 * kQuarter, kQuarter}, {kVoid, sizeof(float)}}) {
+    options_.progress = [](double fraction, const std::string&) { return fraction < 0.5; };
+    ASSERT_FALSE(bake(options_));
+    options_.progress = nullptr;
+    const fs::path work = dir_ / ".db.work";
+    std::istringstream journal(test::readFile(work / "journal"));
+    std::string kept;
+    int dropped = 0;
+    for (std::string line; std::getline(journal, line);)
+      if (line.starts_with("heights "))
+        ++dropped;
+      else
+        kept += line + "\n";
+    ASSERT_EQ(dropped, 1);
+    test::writeFile(work / "journal", kept);
+    std::string rows = test::readFile(work / "database/heights.f32");
+    ASSERT_EQ(rows.size(), 4 * kQuarter);
+    rows.replace(from, size, size, '\0');
+    test::writeFile(work / "database/heights.f32", rows);
+    fs::remove(work / "database/heights.sums");
+    fs::remove_all(work / "pieces");
+    const auto made = bake(options_);
+    ASSERT_TRUE(made) << toString(made.findings());
+    expectWhole(dir_ / "db");
+  }
 }
 
 TEST_F(ResumedBake, tellsWhatEachFileGaveWhoeverReadIt) {
