@@ -52,7 +52,9 @@ QString TerrainLevelsModel::text(const TerrainLevel& level, std::size_t number, 
     case kSurfaceError:
       return metres(level.surfaceErrorM);
     case kSize:
-      return level.bytes > 0 ? numberText(static_cast<double>(level.bytes) * 1e-3, 1) : QStringLiteral("–");
+      return level.bytes > 0
+                 ? numberText(static_cast<double>(level.bytes) * 1e-3, level.bytes < 100'000 ? 1 : 0)
+                 : QStringLiteral("–");
     default:
       return number < LevelsFrame::kLevels && drawn_.nodes[number] > 0
                  ? tr("%1 (%2)").arg(count(drawn_.nodes[number]), count(drawn_.triangles[number]))
