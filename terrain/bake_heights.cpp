@@ -301,11 +301,9 @@ class HeightsBake {
     const auto all = sums();
     if (!all) return false;
     baked_.sum = sumOf(all->data(), all->size() * sizeof(std::uint64_t));
-    if (hexadecimal(baked_.sum) == doneSum_ &&
-        writeFile(work_.database(), kHeightSumsName,
-                  {reinterpret_cast<const char*>(all->data()), all->size() * sizeof(std::uint64_t)}))
-      return true;
-    return false;
+    return hexadecimal(baked_.sum) == doneSum_ &&
+           bool(writeFile(work_.database(), kHeightSumsName,
+                          {reinterpret_cast<const char*>(all->data()), all->size() * sizeof(std::uint64_t)}));
   }
 
   const WorkFolder& work_;

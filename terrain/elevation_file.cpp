@@ -21,52 +21,8 @@ constexpr std::int64_t kLongestSide = 500'000;
 /// Of a raster that are in memory at a time, more only where a row of them is longer.
 constexpr std::int64_t kWindow = std::int64_t{1} << 21;
 constexpr double kMostBlockBytes = 512e6;
-/// Posts that coincide within a thousandth are the same.
-constexpr double kSame = 1e-3;
 /// An axis of a file that has more posts to a step than this is averaged along it.
 constexpr double kFiner = 1.5;
-
-OGRSpatialReference degreesOfWgs84() {
-  OGRSpatialReference crs;
-  crs.importFromEPSG(4326);
-  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  return crs;
-}
-
-/// How far the CRS goes for a turn of the earth. Of a cylinder where the raster goes on beyond its edge,
-/// which shows as a place that comes back from degrees a turn away; 0 otherwise.
-double turnOf(const PlacedRaster& raster) {
-  if (raster.crs.IsGeographic()) return 360;
-  const OGRSpatialReference degrees = degreesOfWgs84();
-  const std::unique_ptr<OGRCoordinateTransformation> there(
-      OGRCreateCoordinateTransformation(&raster.crs, &degrees)),
-      back(OGRCreateCoordinateTransformation(&degrees, &raster.crs));
-  if (!there || !back) return 0;
-  const GdalErrors quiet;
-  const auto& g = raster.transform;
-  const double pixel = std::abs(g[1]), row = raster.data->GetRasterYSize() / 2.0;
-  for (const double column : {0.5, raster.data->GetRasterXSize() - 0.5}) {
-    const double x = g[0] + g[1] * column + g[2] * row, y = g[3] + g[4] * column + g[5] * row;
-    double longitude = x, latitude = y;
-    if (!there->Transform(1, &longitude, &latitude)) continue;
-    std::array<double, 3> east{}, north{};
-    std::array<int, 3> good{};
-    for (const std::size_t k : {0u, 1u, 2u})
-      east[k] = std::remainder(longitude + static_cast<double>(k) - 1, 360.0), north[k] = latitude;
-    back->Transform(3, east.data(), north.data(), nullptr, good.data());
-    if (!good[0] || !good[1] || !good[2] || std::abs(north[1] - y) > 0.01 * pixel) continue;
-    // One of the two may lie beyond the edge.
-    const double turn = 360 * std::min(std::abs(east[1] - east[0]), std::abs(east[2] - east[1])),
-                 gone = std::abs(east[1] - x), turns = std::round(gone / turn);
-    if (turns >= 1 && std::abs(gone / turns - turn) < 0.01 * pixel) return gone / turns;
-  }
-  return 0;
-}
-
-double snapped(double x) {
-  const double whole = std::round(x);
-  return std::abs(x - whole) < kSame ? whole : x;
-}
 
 }  // namespace
 
@@ -126,7 +82,7 @@ Result<std::unique_ptr<ElevationFile>> ElevationFile::open(const fs::path& path,
                           "a scale of " + std::to_string(file->values_.scale) + " m, applied"));
   const int flags = band.GetMaskFlags();
   file->masked_ = (flags & (GMF_ALL_VALID | GMF_NODATA)) == 0;
-  if (auto looked = file->lookThrough(progress, errors, notes); !looked) {
+  if (auto looked = file->lookThrough(progress, notes); !looked) {
     notes.insert(notes.end(), looked.findings().begin(), looked.findings().end());
     return notes;
   }
@@ -150,7 +106,7 @@ std::unique_ptr<ElevationFile> ElevationFile::turned(double degrees) const {
   return file;
 }
 
-Result<Done> ElevationFile::lookThrough(const Progress& progress, GdalErrors& errors, Findings& notes) {
+Result<Done> ElevationFile::lookThrough(const Progress& progress, Findings& notes) {
   GDALRasterBand& band = *raster_.data->GetRasterBand(1);
   int blockColumns = 1, blockRows = 1;
   band.GetBlockSize(&blockColumns, &blockRows);
@@ -182,7 +138,6 @@ Result<Done> ElevationFile::lookThrough(const Progress& progress, GdalErrors& er
       census.add(room.window, values_);
     }
   flipped_ = direct_ && raster_.transform[5] < 0;
-  (void)errors;
   census.judge(values_);
   heights_ = census.heights(values_);
   const std::uint64_t untagged = census.untagged(values_);
@@ -201,166 +156,6 @@ Result<Done> ElevationFile::reopen() {
   if (!raster_.data || raster_.data->GetRasterXSize() != across_ || raster_.data->GetRasterYSize() != down_)
     return about(Severity::error, name_, "", "the file as it was a moment ago", "another one, or none");
   return Done{};
-}
-
-bool ElevationFile::placeOn(const PostGrid& grid) {
-  grid_ = grid;
-  // A post beyond its own, so that neighbours meet; two where its posts stand askew to the grid's.
-  const auto span = [](double from, double to, std::uint32_t count) {
-    const double first = std::max(0.0, std::ceil(from)), last = std::min(count - 1.0, std::floor(to));
-    return last < first
-               ? std::pair<std::uint32_t, std::uint32_t>{0, 0}
-               : std::pair{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last - first) + 1};
-  };
-  const double marginX = own_.stepLongitude * (direct_ ? 1 : 2),
-               marginY = own_.stepLatitude * (direct_ ? 1 : 2);
-  std::tie(column_, columns_) =
-      span((own_.west - marginX - grid.west) / grid.stepLongitude,
-           (own_.longitude(own_.columns - 1) + marginX - grid.west) / grid.stepLongitude, grid.columns);
-  std::tie(row_, rows_) =
-      span((own_.south - marginY - grid.south) / grid.stepLatitude,
-           (own_.latitude(own_.rows - 1) + marginY - grid.south) / grid.stepLatitude, grid.rows);
-  if (columns_ == 0 || rows_ == 0) return false;
-  if (direct_) {
-    footprintX_ = grid.stepLongitude / own_.stepLongitude;
-    footprintY_ = grid.stepLatitude / own_.stepLatitude;
-    stride_ = vertical_.toFile ? 16 : 1;
-    return true;
-  }
-  const OGRSpatialReference from = degreesOfWgs84();
-  toFile_.reset(OGRCreateCoordinateTransformation(&from, &raster_.crs));
-  if (!toFile_ || !GDALInvGeoTransform(raster_.transform.data(), inverse_.data())) return false;
-  const std::uint32_t c = column_ + columns_ / 2, r = row_ + rows_ / 2;
-  const auto here = exact(r, c, 2, 1), up = exact(r + 1, c, 1, 1);
-  footprintX_ = std::max(std::abs(here[1].x - here[0].x), std::abs(up[0].x - here[0].x));
-  footprintY_ = std::max(std::abs(here[1].y - here[0].y), std::abs(up[0].y - here[0].y));
-  stride_ = lattice();
-  return true;
-}
-
-std::vector<ElevationFile::Place> ElevationFile::exact(std::uint32_t row, std::uint32_t firstColumn,
-                                                       std::uint32_t count, std::uint32_t stride) const {
-  std::vector<Place> places(count);
-  std::vector<double> x(count), y(count), z(count);
-  const double latitude = grid_.latitude(row);
-  const auto fill = [&] {
-    for (std::uint32_t i = 0; i < count; ++i)
-      x[i] = std::remainder(grid_.longitude(firstColumn + static_cast<double>(i) * stride), 360.0),
-      y[i] = latitude, z[i] = 0;
-  };
-  const std::unique_ptr<int[]> good(new int[count]);
-  if (direct_) {
-    for (std::uint32_t i = 0; i < count; ++i)
-      places[i] = {snapped((grid_.longitude(firstColumn + static_cast<double>(i) * stride) - own_.west) /
-                           own_.stepLongitude),
-                   snapped((latitude - own_.south) / own_.stepLatitude), 0};
-  } else {
-    fill();
-    toFile_->Transform(static_cast<int>(count), x.data(), y.data(), nullptr, good.get());
-    const double middle = raster_.transform[0] + raster_.transform[1] * static_cast<double>(across_) / 2 +
-                          raster_.transform[2] * static_cast<double>(down_) / 2;
-    for (std::uint32_t i = 0; i < count; ++i) {
-      if (!good[i] || !std::isfinite(x[i]) || !std::isfinite(y[i])) {
-        places[i].x = places[i].y = std::nan("");
-        continue;
-      }
-      if (turn_ > 0) x[i] = middle + std::remainder(x[i] - middle, turn_);
-      places[i].x = inverse_[0] + inverse_[1] * x[i] + inverse_[2] * y[i] - 0.5;
-      places[i].y = inverse_[3] + inverse_[4] * x[i] + inverse_[5] * y[i] - 0.5;
-    }
-  }
-  if (vertical_.toFile) {
-    fill();
-    const GdalErrors quiet;
-    vertical_.toFile->Transform(static_cast<int>(count), x.data(), y.data(), z.data(), good.get());
-    for (std::uint32_t i = 0; i < count; ++i)
-      places[i].lift = good[i] && std::isfinite(z[i]) ? -z[i] * vertical_.unit : std::nan("");
-  }
-  return places;
-}
-
-/// The widest stride of exact places whose bilinear reading is good to 1/500 of the raster's posts wherever
-/// it is tried.
-std::uint32_t ElevationFile::lattice() const {
-  constexpr std::uint32_t kTries = 12;
-  const auto reachesPole = [&](std::uint32_t stride) {
-    const double up = grid_.latitude(row_ + rows_ + stride),
-                 below = grid_.latitude(static_cast<double>(row_) - stride);
-    return up >= 90 || below <= -90;
-  };
-  for (std::uint32_t stride = 16; stride > 1; stride /= 2) {
-    if (reachesPole(stride)) continue;
-    bool good = true;
-    for (std::uint32_t j = 0; j <= kTries && good; ++j)
-      for (std::uint32_t i = 0; i <= kTries && good; ++i) {
-        const std::uint32_t row = (row_ + (rows_ - 1) * j / kTries) / stride * stride,
-                            column = (column_ + (columns_ - 1) * i / kTries) / stride * stride;
-        const auto low = exact(row, column, 2, stride), high = exact(row + stride, column, 2, stride),
-                   middle = exact(row + stride / 2, column + stride / 2, 1, 1);
-        const double x = (low[0].x + low[1].x + high[0].x + high[1].x) / 4,
-                     y = (low[0].y + low[1].y + high[0].y + high[1].y) / 4;
-        good = std::abs(x - middle[0].x) < 0.002 && std::abs(y - middle[0].y) < 0.002;
-      }
-    if (good) return stride;
-  }
-  return 1;
-}
-
-void ElevationFile::findPlaces(const Rectangle& posts, std::vector<Place>& places) const {
-  places.resize(std::size_t{posts.rows} * posts.columns);
-  if (stride_ == 1 && direct_) {
-    // Columns do not know of rows.
-    const auto columns = exact(posts.row, posts.column, posts.columns, 1);
-    Place* to = places.data();
-    for (std::uint32_t r = 0; r < posts.rows; ++r, to += posts.columns) {
-      const double y = exact(posts.row + r, posts.column, 1, 1)[0].y;
-      for (std::uint32_t c = 0; c < posts.columns; ++c) to[c] = {columns[c].x, y, 0};
-    }
-    return;
-  }
-  if (stride_ == 1) {
-    for (std::uint32_t r = 0; r < posts.rows; ++r) {
-      const auto row = exact(posts.row + r, posts.column, posts.columns, 1);
-      std::copy(row.begin(), row.end(),
-                places.begin() + static_cast<std::ptrdiff_t>(std::size_t{r} * posts.columns));
-    }
-    return;
-  }
-  const std::uint32_t firstColumn = posts.column / stride_ * stride_,
-                      count = (posts.column + posts.columns - 1) / stride_ - posts.column / stride_ + 2;
-  std::vector<Place> low, high;
-  std::uint32_t lowRow = std::numeric_limits<std::uint32_t>::max();
-  for (std::uint32_t r = 0; r < posts.rows; ++r) {
-    const std::uint32_t row = posts.row + r, from = row / stride_ * stride_;
-    if (from != lowRow) {
-      low = from == lowRow + stride_ && !high.empty() ? std::move(high)
-                                                      : exact(from, firstColumn, count, stride_);
-      high = exact(from + stride_, firstColumn, count, stride_);
-      lowRow = from;
-    }
-    const double v = static_cast<double>(row - from) / stride_;
-    for (std::uint32_t c = 0; c < posts.columns; ++c) {
-      const std::uint32_t column = posts.column + c, k = (column - firstColumn) / stride_;
-      const double u = static_cast<double>(column % stride_) / stride_;
-      const auto between = [&](double Place::*member) {
-        return (low[k].*member * (1 - u) + low[k + 1].*member * u) * (1 - v) +
-               (high[k].*member * (1 - u) + high[k + 1].*member * u) * v;
-      };
-      Place& place = places[std::size_t{r} * posts.columns + c];
-      place.lift = between(&Place::lift);
-      // About the end of what PROJ knows each post by itself.
-      if (std::isnan(place.lift) && !(std::isnan(low[k].lift) && std::isnan(low[k + 1].lift) &&
-                                      std::isnan(high[k].lift) && std::isnan(high[k + 1].lift)))
-        place.lift = exact(row, column, 1, 1)[0].lift;
-      if (direct_) {
-        place.x = snapped((grid_.longitude(column) - own_.west) / own_.stepLongitude);
-        place.y = snapped((grid_.latitude(row) - own_.south) / own_.stepLatitude);
-      } else {
-        place.x = between(&Place::x);
-        place.y = between(&Place::y);
-      }
-    }
-  }
 }
 
 Result<Done> ElevationFile::readWindow(std::int64_t column, std::int64_t row, std::int64_t columns,

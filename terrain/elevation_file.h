@@ -70,7 +70,7 @@ class ElevationFile {
   };
 
   explicit ElevationFile(PlacedRaster raster) : raster_(std::move(raster)) {}
-  Result<Done> lookThrough(const Progress& progress, GdalErrors& errors, Findings& notes);
+  Result<Done> lookThrough(const Progress& progress, Findings& notes);
   Result<Done> reopen();
   void findPlaces(const Rectangle& posts, std::vector<Place>& places) const;
   std::vector<Place> exact(std::uint32_t row, std::uint32_t firstColumn, std::uint32_t count,

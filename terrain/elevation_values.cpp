@@ -159,9 +159,7 @@ Vertical verticalOf(const PlacedRaster& raster) {
       OGRCreateCoordinateTransformation(&geoid, &file, options));
   if (!toFile) return vertical;
   // Places all over the raster, its borders among them, by way of its horizontal CRS.
-  OGRSpatialReference degrees;
-  degrees.importFromEPSG(4326);
-  degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const OGRSpatialReference degrees = degreesOfWgs84();
   std::unique_ptr<OGRCoordinateTransformation> place(
       OGRCreateCoordinateTransformation(&raster.crs, &degrees));
   if (!place) return vertical;

@@ -19,17 +19,45 @@ namespace {
 
 constexpr double kMostPosts = 4e9;
 
-OGRSpatialReference wgs84() {
+}  // namespace
+
+Dataset owned(GDALDataset* dataset) {
+  return {dataset, [](GDALDataset* d) { GDALClose(d); }};
+}
+
+OGRSpatialReference degreesOfWgs84() {
   OGRSpatialReference crs;
   crs.importFromEPSG(4326);
   crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   return crs;
 }
 
-}  // namespace
-
-Dataset owned(GDALDataset* dataset) {
-  return {dataset, [](GDALDataset* d) { GDALClose(d); }};
+double turnOf(const PlacedRaster& raster) {
+  if (raster.crs.IsGeographic()) return 360;
+  const OGRSpatialReference degrees = degreesOfWgs84();
+  const std::unique_ptr<OGRCoordinateTransformation> there(
+      OGRCreateCoordinateTransformation(&raster.crs, &degrees)),
+      back(OGRCreateCoordinateTransformation(&degrees, &raster.crs));
+  if (!there || !back) return 0;
+  const GdalErrors quiet;
+  const auto& g = raster.transform;
+  const double pixel = std::abs(g[1]), row = raster.data->GetRasterYSize() / 2.0;
+  for (const double column : {0.5, raster.data->GetRasterXSize() - 0.5}) {
+    const double x = g[0] + g[1] * column + g[2] * row, y = g[3] + g[4] * column + g[5] * row;
+    double longitude = x, latitude = y;
+    if (!there->Transform(1, &longitude, &latitude)) continue;
+    std::array<double, 3> east{}, north{};
+    std::array<int, 3> good{};
+    for (const std::size_t k : {0u, 1u, 2u})
+      east[k] = std::remainder(longitude + static_cast<double>(k) - 1, 360.0), north[k] = latitude;
+    back->Transform(3, east.data(), north.data(), nullptr, good.data());
+    if (!good[0] || !good[1] || !good[2] || std::abs(north[1] - y) > 0.01 * pixel) continue;
+    // One of the two may lie beyond the edge.
+    const double turn = 360 * std::min(std::abs(east[1] - east[0]), std::abs(east[2] - east[1])),
+                 gone = std::abs(east[1] - x), turns = std::round(gone / turn);
+    if (turns >= 1 && std::abs(gone / turns - turn) < 0.01 * pixel) return gone / turns;
+  }
+  return 0;
 }
 
 Finding about(Severity severity, const fs::path& file, std::string key, std::string expected,
@@ -51,7 +79,7 @@ std::optional<PostGrid> geographicPosts(const PlacedRaster& raster) {
   // centres.
   posts.west = g[0] + g[1] / 2;
   posts.south = g[5] < 0 ? g[3] + g[5] * (posts.rows - 0.5) : g[3] + g[5] / 2;
-  OGRSpatialReference to = wgs84();
+  OGRSpatialReference to = degreesOfWgs84();
   std::unique_ptr<OGRCoordinateTransformation> shift(OGRCreateCoordinateTransformation(&crs, &to));
   if (!shift) return {};
   for (const double across : {0.0, 0.5, 1.0})
@@ -80,7 +108,7 @@ double degreesApart(const std::array<double, 2>& a, const std::array<double, 2>&
 /// 1: the north pole lies in the raster, -1: the south pole.
 int poleIn(const PlacedRaster& raster) {
   std::array<double, 6> forward = raster.transform, inverse{};
-  const OGRSpatialReference from = wgs84();
+  const OGRSpatialReference from = degreesOfWgs84();
   const std::unique_ptr<OGRCoordinateTransformation> transform(
       OGRCreateCoordinateTransformation(&from, &raster.crs));
   if (!transform || raster.crs.IsGeographic() || !GDALInvGeoTransform(forward.data(), inverse.data()))
@@ -104,7 +132,7 @@ std::optional<PostGrid> fittingPosts(const PlacedRaster& raster) {
   const auto& g = raster.transform;
   const OGRSpatialReference& crs = raster.crs;
   GDALDataset& data = *raster.data;
-  OGRSpatialReference to = wgs84();
+  OGRSpatialReference to = degreesOfWgs84();
   std::unique_ptr<OGRCoordinateTransformation> transform(OGRCreateCoordinateTransformation(&crs, &to));
   if (!transform) return {};
   const double columns = data.GetRasterXSize(), rows = data.GetRasterYSize();
@@ -235,7 +263,7 @@ Result<PlacedRaster> openRaster(const fs::path& file, GdalErrors& errors, Raster
                           GDALOpenEx(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
                                      nullptr, nullptr, nullptr))),
                       {},
-                      wgs84()};
+                      degreesOfWgs84()};
   if (!opened.data)
     return about(Severity::error, file, "", "a raster that GDAL can read", whatItIs(file, errors));
   if (opened.data->GetRasterCount() < 1)

@@ -38,6 +38,12 @@ std::optional<PostGrid> geographicPosts(const PlacedRaster& raster);
 /// where PROJ cannot place it.
 std::optional<PostGrid> fittingPosts(const PlacedRaster& raster);
 
+/// Longitude, then latitude.
+OGRSpatialReference degreesOfWgs84();
+/// How far the CRS goes for a turn of the earth. Of a cylinder where the raster goes on beyond its edge,
+/// which shows as a place that comes back from degrees a turn away; 0 otherwise.
+double turnOf(const PlacedRaster& raster);
+
 /// The raster on a grid of posts, in memory; `more` are options of gdalwarp. Null where GDAL refuses.
 Dataset warped(GDALDataset& data, const OGRSpatialReference& crs, const PostGrid& posts,
                std::vector<std::string> more);

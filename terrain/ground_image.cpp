@@ -98,9 +98,7 @@ struct Outline {
 
 Outline outlineOf(const PlacedRaster& raster) {
   const auto& g = raster.transform;
-  OGRSpatialReference to;
-  to.importFromEPSG(4326);
-  to.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const OGRSpatialReference to = degreesOfWgs84();
   const std::unique_ptr<OGRCoordinateTransformation> transform(
       OGRCreateCoordinateTransformation(&raster.crs, &to));
   const double columns = raster.data->GetRasterXSize(), rows = raster.data->GetRasterYSize();
