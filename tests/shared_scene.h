@@ -8,7 +8,8 @@
 #include <cstring>
 
 #include "support.h"
-#include "trimtab/terrain/database.h"
+#include "trimtab/terrain/bake/cache.h"
+#include "trimtab/terrain/format/database.h"
 
 /// Baked scenes that programs of tests share.
 namespace trimtab::test {

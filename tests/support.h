@@ -11,11 +11,12 @@
 /// What tests share: where things are, and real data that may be absent.
 namespace trimtab::test {
 
-inline std::filesystem::path sourceDir() {
-  return TRIMTAB_SOURCE_DIR;
-}
+/// The root of the source tree.
+std::filesystem::path sourceDir();
+/// The folder that programs and tests are built into.
+std::filesystem::path programDir();
 inline std::filesystem::path program(const std::string& name) {
-  return std::filesystem::path(TRIMTAB_BIN_DIR) / name;
+  return programDir() / name;
 }
 
 /// Real terrain, flights and captures beside the checkout (or where TRIMTAB_SHARED says).

@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "app/harness/run.h"
+#include "app/harness/text.h"
 #include "commands.h"
 #include "progress.h"
 #include "settings.h"
-#include "trimtab/harness/run.h"
-#include "trimtab/harness/text.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/measure/trace.h"
-#include "trimtab/session/paths.h"
+#include "trimtab/terrain/bake/cache.h"
 
 namespace trimtab::cli {
 namespace {
@@ -121,7 +121,7 @@ int run(const Arguments& arguments) {
   report(faults);
   bool usable = readFlights(arguments, plan);
   usable = readPresets(arguments, plan) && usable && faults.empty();
-  const auto terrain = terrain::openOrBake(arguments.terrain, session::cacheFolder(), plan.progress);
+  const auto terrain = terrain::openOrBake(arguments.terrain, terrain::cacheFolder(), plan.progress);
   report(terrain.findings());
   if (!terrain || !usable) return kRefused;
   plan.terrain = *terrain;

@@ -4,11 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "app/experiment/experiment.h"
 #include "commands.h"
 #include "progress.h"
 #include "settings.h"
-#include "trimtab/experiment/experiment.h"
-#include "trimtab/session/paths.h"
+#include "trimtab/host/flight.h"
+#include "trimtab/terrain/bake/cache.h"
 
 namespace trimtab::cli {
 namespace {
@@ -36,7 +37,7 @@ int run(const Arguments& arguments, Run experiment) {
     usable = flight && usable;
     if (flight) setup.flight = std::move(flight).value();
   }
-  const auto terrain = terrain::openOrBake(arguments.terrain, session::cacheFolder(), setup.progress);
+  const auto terrain = terrain::openOrBake(arguments.terrain, terrain::cacheFolder(), setup.progress);
   report(terrain.findings());
   if (!terrain || !usable) return kRefused;
   setup.terrain = *terrain;

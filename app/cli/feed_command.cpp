@@ -7,8 +7,9 @@
 #include <memory>
 #include <thread>
 
+#include "app/link/link.h"
 #include "commands.h"
-#include "trimtab/link/link.h"
+#include "trimtab/host/flight.h"
 #include "trimtab/preset/preset.h"
 
 namespace trimtab::cli {
@@ -242,8 +243,8 @@ int show(const Options& options) {
   Ending ending = options.ending;
   ending.begin = Clock::now();
   EverySecond everySecond;
-  std::vector<link::ReceivedState> states;
-  std::optional<link::ReceivedState> last;
+  std::vector<ReceivedState> states;
+  std::optional<ReceivedState> last;
   bool badShown = false;
   const auto line = [&] {
     const HostStatistics statistics = (*receiver)->statistics();

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "app/harness/report.h"
+#include "app/harness/text.h"
 #include "commands.h"
-#include "trimtab/harness/report.h"
-#include "trimtab/harness/text.h"
 #include "trimtab/preset/preset.h"
 
 namespace trimtab::cli {

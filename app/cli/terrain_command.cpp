@@ -6,9 +6,11 @@
 #include "commands.h"
 #include "progress.h"
 #include "terrain_info.h"
-#include "trimtab/terrain/country.h"
-#include "trimtab/terrain/database.h"
-#include "trimtab/terrain/scenery.h"
+#include "trimtab/terrain/bake/bake.h"
+#include "trimtab/terrain/format/database.h"
+#include "trimtab/terrain/scenery/scenery.h"
+#include "trimtab/terrain/synthetic/country.h"
+#include "trimtab/terrain/synthetic/sample.h"
 
 namespace trimtab::cli {
 

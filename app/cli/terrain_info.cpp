@@ -7,10 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "trimtab/terrain/level_report.h"
-#include "trimtab/terrain/scenery.h"
-#include "trimtab/terrain/scenery_import.h"
-#include "trimtab/terrain/static_lod.h"
+#include "trimtab/terrain/format/level_report.h"
+#include "trimtab/terrain/format/static_lod_terrain.h"
+#include "trimtab/terrain/scenery/import.h"
+#include "trimtab/terrain/scenery/scenery.h"
+#include "trimtab/terrain/static_lod/static_lod.h"
 
 namespace trimtab::cli {
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "trimtab/terrain/database.h"
+#include "trimtab/terrain/format/database.h"
 
 namespace trimtab::cli {
 

@@ -1,4 +1,4 @@
-#include "trimtab/experiment/builders.h"
+#include "builders.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,10 @@
 #include <set>
 #include <span>
 
-#include "trimtab/terrain/patch_terrain.h"
-#include "trimtab/terrain/static_lod_error.h"
-#include "trimtab/terrain/static_lod_level.h"
+#include "trimtab/terrain/format/patch_terrain.h"
+#include "trimtab/terrain/format/static_lod_terrain.h"
+#include "trimtab/terrain/static_lod/error.h"
+#include "trimtab/terrain/static_lod/level.h"
 
 namespace trimtab::experiment {
 namespace {

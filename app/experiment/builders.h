@@ -3,8 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "trimtab/terrain/database.h"
-#include "trimtab/terrain/static_lod.h"
+#include "trimtab/terrain/format/database.h"
+#include "trimtab/terrain/format/static_lod_terrain.h"
+#include "trimtab/terrain/static_lod/static_lod.h"
 
 namespace trimtab::experiment {
 

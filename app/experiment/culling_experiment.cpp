@@ -2,9 +2,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "trimtab/experiment/published.h"
-#include "trimtab/experiment/stage.h"
+#include "published.h"
+#include "stage.h"
+#include "trimtab/frame/frame_request.h"
+#include "trimtab/frame/frame_result.h"
 #include "trimtab/session/session.h"
+#include "trimtab/terrain/grid/progress.h"
 
 namespace trimtab::experiment {
 namespace {
@@ -28,16 +31,16 @@ struct Sums {
 };
 
 /// What the decision sees is the named altitude; the eye stands so far above the ground.
-scene::FrameRequest requestAt(const Setup& setup, const ValidatedParameters& parameters, const Place& place,
-                              double altitudeFt) {
+FrameRequest requestAt(const Setup& setup, const ValidatedParameters& parameters, const Place& place,
+                       double altitudeFt) {
   AircraftState state;
   state.position = place.ground;
   state.position.height = Feet{altitudeFt}.as<Metres>();
   state.aboveGround = state.position.height;
   state.attitude = place.attitude;
-  session::Session session(parameters);
+  Session session(parameters);
   session.look(state);
-  scene::FrameRequest request = *session.request(0, setup.widthPx, setup.heightPx);
+  FrameRequest request = *session.request(0, setup.widthPx, setup.heightPx);
   request.eye.height = place.ground.height + Feet{altitudeFt}.as<Metres>();
   // Documents A and B draw tiles, which all four cases must have in common.
   request.staticLod.terrain = TerrainForm::levels;
@@ -99,13 +102,13 @@ Result<Report> runCulling(const Setup& setup) {
       char what[64];
       std::snprintf(what, sizeof what, "%.0f ft, view %zu of %zu", kAltitudesFt[a], p + 1, places.size());
       if (setup.progress && !setup.progress(done, what)) return cancelled();
-      scene::FrameRequest request = requestAt(setup, *parameters, places[p], kAltitudesFt[a]);
+      FrameRequest request = requestAt(setup, *parameters, places[p], kAltitudesFt[a]);
       if (a == 0) eyeFt += request.eye.height.in<Feet>() - kAltitudesFt[a];
       std::vector<std::uint8_t> unculled;
       for (std::size_t c = 0; c < kCases.size(); ++c) {
         request.method = kCases[c].method;
         request.occlusion = kCases[c].occlusion;
-        scene::FrameResult last;
+        FrameResult last;
         Sums& s = sums[a][c];
         s.ms.push_back((*stage)->medianMs(request, setup.repeats, last));
         s.triangles.push_back(double(last.visible.triangles));

@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 
-#include "trimtab/experiment/report.h"
+#include "report.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/preset/table.h"
-#include "trimtab/terrain/database.h"
+#include "trimtab/terrain/format/database.h"
 
 /// The published experiments over any terrain, flight and preset. Each needs no window; it makes a GL context
 /// of its own, current on the calling thread.

@@ -4,9 +4,12 @@
 #include <cstdio>
 #include <limits>
 
-#include "trimtab/experiment/published.h"
-#include "trimtab/experiment/stage.h"
+#include "published.h"
+#include "stage.h"
+#include "trimtab/frame/frame_request.h"
+#include "trimtab/frame/frame_result.h"
 #include "trimtab/session/session.h"
+#include "trimtab/terrain/grid/progress.h"
 
 namespace trimtab::experiment {
 namespace {
@@ -44,8 +47,8 @@ double headingAt(int frame) {
 /// `go` is asked now and then.
 bool pass(Stage& stage, const Setup& setup, const ValidatedParameters& parameters,
           const GeodeticPosition& eye, bool first, Run& run, const auto& go) {
-  session::Session session(parameters);
-  session.setTerrain(setup.terrain);
+  Session session(parameters);
+  session.setGround(setup.terrain);
   AircraftState state;
   state.position = eye;
   for (int i = 0; i < kFrames; ++i) {
@@ -54,9 +57,8 @@ bool pass(Stage& stage, const Setup& setup, const ValidatedParameters& parameter
     state.packet = static_cast<std::uint64_t>(i);
     state.head = Attitude{Degrees{headingAt(i)}, {}, {}};
     session.fly(state);
-    const std::optional<scene::FrameRequest> request =
-        session.request(state.time, setup.widthPx, setup.heightPx);
-    const scene::FrameResult result = stage.draw(*request);
+    const std::optional<FrameRequest> request = session.request(state.time, setup.widthPx, setup.heightPx);
+    const FrameResult result = stage.draw(*request);
     session.finished(result, state.time);
     const auto at = static_cast<std::size_t>(i);
     run.ms[at].push_back(result.cost.total);

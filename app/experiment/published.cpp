@@ -1,4 +1,4 @@
-#include "trimtab/experiment/published.h"
+#include "published.h"
 
 namespace trimtab::experiment {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trimtab/experiment/report.h"
+#include "report.h"
 
 /// The rows that the documents print, with the column names of their tables here.
 namespace trimtab::experiment {

@@ -1,4 +1,4 @@
-#include "trimtab/experiment/report.h"
+#include "report.h"
 
 #include <algorithm>
 #include <cmath>

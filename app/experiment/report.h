@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "trimtab/plot/plot.h"
+#include "app/plot/plot.h"
 #include "trimtab/units/result.h"
 
 /// What an experiment yields: the published rows beside ours.

@@ -1,4 +1,4 @@
-#include "trimtab/experiment/stage.h"
+#include "stage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,8 @@
 
 #include "trimtab/measure/statistics.h"
 #include "trimtab/scene/data_extent.h"
+#include "trimtab/terrain/format/database.h"
+#include "trimtab/terrain/grid/progress.h"
 
 namespace trimtab::experiment {
 namespace {
@@ -44,13 +46,13 @@ Stage::~Stage() {
   renderer_.release();
 }
 
-scene::FrameResult Stage::draw(const scene::FrameRequest& request) {
+FrameResult Stage::draw(const FrameRequest& request) {
   if (request.view.widthPx != width_ || request.view.heightPx != height_) {
     width_ = request.view.widthPx;
     height_ = request.view.heightPx;
     offscreen_->resize(width_, height_);
   }
-  scene::FrameRequest measured = request;
+  FrameRequest measured = request;
   measured.waitForPicture = true;
   measured.waitForPages = true;
   measured.reproducible = true;
@@ -61,7 +63,7 @@ void Stage::setTerrain(std::shared_ptr<const terrain::Database> terrain) {
   renderer_.setTerrain(std::move(terrain));
 }
 
-double Stage::medianMs(const scene::FrameRequest& request, int repeats, scene::FrameResult& last) {
+double Stage::medianMs(const FrameRequest& request, int repeats, FrameResult& last) {
   draw(request);
   std::vector<double> ms;
   for (int i = 0; i < std::max(repeats, 1); ++i) {
@@ -71,12 +73,12 @@ double Stage::medianMs(const scene::FrameRequest& request, int repeats, scene::F
   return quantileOf(ms, 0.5);
 }
 
-std::vector<std::uint8_t> Stage::pixels(const scene::FrameRequest& request) {
+std::vector<std::uint8_t> Stage::pixels(const FrameRequest& request) {
   draw(request);
   return shown();
 }
 
-scene::CutError Stage::cutError(const scene::FrameRequest& request) {
+scene::CutError Stage::cutError(const FrameRequest& request) {
   return scene::cutError(renderer_, request, offscreen_->framebuffer());
 }
 

@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "trimtab/experiment/experiment.h"
+#include "experiment.h"
 #include "trimtab/scene/offscreen.h"
 #include "trimtab/scene/renderer.h"
 #include "trimtab/scene/weather_cut_error.h"
+#include "trimtab/terrain/format/database.h"
+#include "trimtab/terrain/grid/progress.h"
 
 /// What all experiments stand on: a context, a renderer and places to look from.
 namespace trimtab::experiment {
@@ -20,15 +22,15 @@ class Stage {
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
-  scene::FrameResult draw(const scene::FrameRequest& request);
+  FrameResult draw(const FrameRequest& request);
   /// Also forgets what was paged in.
   void setTerrain(std::shared_ptr<const terrain::Database> terrain);
   /// Median milliseconds of `repeats` frames after one that is not counted; `last` is the last frame's
   /// result.
-  double medianMs(const scene::FrameRequest& request, int repeats, scene::FrameResult& last);
-  std::vector<std::uint8_t> pixels(const scene::FrameRequest& request);
+  double medianMs(const FrameRequest& request, int repeats, FrameResult& last);
+  std::vector<std::uint8_t> pixels(const FrameRequest& request);
   /// What the weather's far cut changes in the picture.
-  scene::CutError cutError(const scene::FrameRequest& request);
+  scene::CutError cutError(const FrameRequest& request);
   /// Of the last frame drawn, RGBA.
   std::vector<std::uint8_t> shown();
   /// Processor, cores and what draws, in one line.

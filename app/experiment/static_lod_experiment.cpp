@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "trimtab/experiment/builders.h"
-#include "trimtab/experiment/experiment.h"
-#include "trimtab/experiment/published.h"
-#include "trimtab/terrain/static_lod.h"
-#include "trimtab/terrain/static_lod_level.h"
+#include "builders.h"
+#include "experiment.h"
+#include "published.h"
+#include "trimtab/terrain/format/static_lod_terrain.h"
+#include "trimtab/terrain/static_lod/level.h"
+#include "trimtab/terrain/static_lod/static_lod.h"
 
 namespace trimtab::experiment {
 namespace {

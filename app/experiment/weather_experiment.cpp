@@ -3,10 +3,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "trimtab/experiment/published.h"
-#include "trimtab/experiment/stage.h"
+#include "published.h"
+#include "stage.h"
+#include "trimtab/frame/frame_request.h"
 #include "trimtab/scene/weather_cut_error.h"
 #include "trimtab/session/session.h"
+#include "trimtab/terrain/grid/progress.h"
 #include "trimtab/weather/calibrate.h"
 
 namespace trimtab::experiment {
@@ -39,8 +41,8 @@ class View {
     state.position = place.ground;
     state.position.height = place.ground.height + Feet{kEyeFt}.as<Metres>();
     state.attitude = place.attitude;
-    session::Session session(parameters);
-    session.setTerrain(setup.terrain);
+    Session session(parameters);
+    session.setGround(setup.terrain);
     session.look(state);
     request_ = *session.request(0, setup.widthPx, setup.heightPx);
     request_.decision.weather = {};
@@ -77,7 +79,7 @@ class View {
  private:
   Stage& stage_;
   int repeats_;
-  scene::FrameRequest request_;
+  FrameRequest request_;
 };
 
 /// The screen-space error at which so many vertices are in view, by halving; vertices fall as it grows.

@@ -1,4 +1,4 @@
-#include "trimtab/harness/decided_frames.h"
+#include "decided_frames.h"
 
 #include <algorithm>
 #include <cassert>
@@ -9,6 +9,7 @@
 #include "trimtab/measure/statistics.h"
 #include "trimtab/scene/data_extent.h"
 #include "trimtab/session/session.h"
+#include "trimtab/terrain/format/database.h"
 
 namespace trimtab::harness {
 namespace {
@@ -34,7 +35,7 @@ double decideMilliseconds(const FrameInput& input, const ValidatedParameters& pa
   return window.median();
 }
 
-bool blurs(const scene::FrameRequest& request) {
+bool blurs(const FrameRequest& request) {
   return request.decision.motion.blur.strength > 0;
 }
 
@@ -54,11 +55,11 @@ std::vector<std::size_t> sampledRows(const Flight& flight, const terrain::Databa
 std::vector<DecidedFrame> decideFrames(const Plan& plan, const Plan::NamedFlight& flight,
                                        const ValidatedParameters& parameters,
                                        const std::vector<std::size_t>& rows) {
-  session::Session session(parameters);
-  session.setTerrain(plan.terrain);
+  Session session(parameters);
+  session.setGround(plan.terrain);
   const auto& states = flight.flight.states;
   std::vector<DecidedFrame> frames;
-  std::deque<scene::FrameRequest> before;
+  std::deque<FrameRequest> before;
   auto wanted = rows.begin();
   for (std::size_t row = 0; row < states.size() && wanted != rows.end(); ++row) {
     const bool first = row == 0;

@@ -2,8 +2,9 @@
 
 #include <vector>
 
-#include "trimtab/harness/run.h"
+#include "run.h"
 #include "trimtab/scene/renderer.h"
+#include "trimtab/terrain/format/database.h"
 
 namespace trimtab::harness {
 
@@ -12,9 +13,9 @@ struct DecidedFrame {
   std::size_t row = 0;
   double timeS = 0;
   double decideMs = 0;  ///< median of some
-  scene::FrameRequest request;
+  FrameRequest request;
   /// Of the rows before, oldest first: one, or as many as may leave a trace in a blur.
-  std::vector<scene::FrameRequest> before;
+  std::vector<FrameRequest> before;
 };
 
 /// Rows evenly spread over those that lie over the terrain; all of them where there are no more than `count`.

@@ -1,4 +1,4 @@
-#include "trimtab/harness/heat_colour.h"
+#include "heat_colour.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trimtab/plot/svg.h"
+#include "app/plot/svg.h"
 
 namespace trimtab::harness {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "trimtab/harness/results.h"
-#include "trimtab/plot/plot.h"
+#include "app/plot/plot.h"
+#include "results.h"
 
 /// What the sections of the page share: names and looks of units, and numbers as text.
 namespace trimtab::harness {

@@ -1,11 +1,12 @@
 #include <cmath>
 
+#include "app/plot/svg.h"
 #include "html_sections.h"
 #include "html_style.h"
 #include "html_text.h"
-#include "trimtab/harness/report.h"
-#include "trimtab/harness/run.h"
-#include "trimtab/plot/svg.h"
+#include "report.h"
+#include "run.h"
+#include "trimtab/frame/frame_request.h"
 #include "trimtab/preset/preset.h"
 
 namespace trimtab::harness {

@@ -2,11 +2,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "app/experiment/stage.h"
+#include "app/plot/svg.h"
 #include "html_sections.h"
 #include "html_text.h"
-#include "trimtab/experiment/stage.h"
-#include "trimtab/harness/report.h"
-#include "trimtab/plot/svg.h"
+#include "report.h"
 
 namespace trimtab::harness {
 namespace {

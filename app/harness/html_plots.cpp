@@ -2,10 +2,10 @@
 #include <cmath>
 #include <limits>
 
+#include "app/experiment/stage.h"
+#include "app/plot/svg.h"
 #include "html_sections.h"
 #include "html_text.h"
-#include "trimtab/experiment/stage.h"
-#include "trimtab/plot/svg.h"
 
 namespace trimtab::harness {
 namespace {

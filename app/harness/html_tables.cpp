@@ -3,6 +3,7 @@
 
 #include "html_sections.h"
 #include "html_text.h"
+#include "trimtab/frame/frame_request.h"
 
 namespace trimtab::harness {
 namespace {

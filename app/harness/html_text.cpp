@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "trimtab/plot/svg.h"
+#include "app/plot/svg.h"
 
 namespace trimtab::harness {
 

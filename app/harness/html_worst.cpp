@@ -5,9 +5,9 @@
 #include <optional>
 #include <set>
 
+#include "app/plot/svg.h"
 #include "html_sections.h"
 #include "html_text.h"
-#include "trimtab/plot/svg.h"
 #include "trimtab/scene/offscreen.h"
 
 namespace trimtab::harness {

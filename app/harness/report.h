@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "trimtab/harness/results.h"
+#include "results.h"
 
 namespace trimtab::harness {
 

@@ -1,4 +1,4 @@
-#include "trimtab/harness/results.h"
+#include "results.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "trimtab/harness/results.h"
+#include "results.h"
 #include "trimtab/preset/json_text.h"
 #include "trimtab/preset/number.h"
 

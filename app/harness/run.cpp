@@ -1,4 +1,4 @@
-#include "trimtab/harness/run.h"
+#include "run.h"
 
 #include <algorithm>
 #include <chrono>
@@ -6,15 +6,18 @@
 #include <cstdio>
 #include <utility>
 
-#include "trimtab/experiment/stage.h"
-#include "trimtab/harness/decided_frames.h"
-#include "trimtab/harness/report.h"
-#include "trimtab/harness/skips.h"
-#include "trimtab/harness/store.h"
-#include "trimtab/harness/worst_frames.h"
+#include "app/experiment/stage.h"
+#include "decided_frames.h"
+#include "report.h"
+#include "skips.h"
+#include "store.h"
+#include "trimtab/frame/frame_request.h"
+#include "trimtab/frame/frame_result.h"
 #include "trimtab/measure/cost_stages.h"
 #include "trimtab/preset/choices.h"
 #include "trimtab/scene/error_meter.h"
+#include "trimtab/scene/gl_report.h"
+#include "worst_frames.h"
 
 namespace trimtab::harness {
 namespace {
@@ -56,7 +59,7 @@ TraceCounts countsOf(const VisibleSet& visible) {
 }
 
 /// What is drawn must not depend on what was drawn before, nor on where a run was taken up again.
-scene::FrameRequest alone(scene::FrameRequest request) {
+FrameRequest alone(FrameRequest request) {
   request.skips.littleHidden = false;
   return request;
 }
@@ -152,7 +155,7 @@ std::vector<Unit> Run::measureFrame(const std::vector<Runner>& runners, std::siz
     // What the step from the row before pages in, with nothing there but that row's.
     stage_.setTerrain(plan_.terrain);
     if (!frame.before.empty()) stage_.draw(frame.before.back());
-    const scene::FrameResult first = stage_.draw(alone(frame.request));
+    const FrameResult first = stage_.draw(alone(frame.request));
     measured.counts = countsOf(first.visible);
     measured.cost.page = first.cost.page;
     Unit unit;
@@ -166,7 +169,7 @@ std::vector<Unit> Run::measureFrame(const std::vector<Runner>& runners, std::siz
   // the work that a flight asks of it.
   const auto inFlight = [this](const DecidedFrame& frame, bool separateStages) {
     if (!frame.before.empty()) stage_.draw(frame.before.back());
-    scene::FrameRequest request = frame.request;
+    FrameRequest request = frame.request;
     request.separateStages = separateStages;
     return stage_.draw(request).cost;
   };
@@ -223,12 +226,12 @@ Findings Run::measureSkipsOf(std::size_t flight, const std::vector<Runner>& runn
     finished(drawsOfSkips() * units.size(), false);
   } else {
     held.emplace();
-    const auto draw = [this](const scene::FrameRequest& request) { return stage_.draw(request); };
+    const auto draw = [this](const FrameRequest& request) { return stage_.draw(request); };
     stage_.setTerrain(plan_.terrain);
     for (const Runner& runner : runners) {
       doing_ = "what skips save, " + runner.name.preset + ", " + runner.name.method;
       if (!goOn()) return {stopped()};
-      std::vector<scene::FrameRequest> frames;
+      std::vector<FrameRequest> frames;
       const std::size_t count = std::min(kSkipFrames, runner.frames.size());
       for (std::size_t k = 0; k < count; ++k) {
         const DecidedFrame& frame = runner.frames[(2 * k + 1) * runner.frames.size() / (2 * count)];

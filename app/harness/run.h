@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "trimtab/harness/results.h"
+#include "results.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/measure/trace.h"
 #include "trimtab/preset/table.h"
-#include "trimtab/terrain/database.h"
+#include "trimtab/terrain/format/database.h"
 
 namespace trimtab::harness {
 

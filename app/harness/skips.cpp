@@ -1,16 +1,14 @@
-#include "trimtab/harness/skips.h"
+#include "skips.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
-#include "trimtab/experiment/stage.h"
+#include "app/experiment/stage.h"
 
 namespace trimtab::harness {
 namespace {
 
-using scene::FrameRequest;
-using scene::FrameResult;
 using Counter = std::uint64_t FrameResult::*;
 
 template <Counter counter>
@@ -22,7 +20,7 @@ FrameRequest itself(const FrameRequest& request) {
   return request;
 }
 
-template <bool scene::Skips::*skip>
+template <bool Skips::*skip>
 FrameRequest without(const FrameRequest& request) {
   FrameRequest changed = request;
   changed.skips.*skip = false;
@@ -68,59 +66,59 @@ const std::vector<Skip>& skips() {
        [](const FrameRequest&, const FrameResult&, const FrameResult& after) {
          return after.visible.beyondVisibility > 0;
        },
-       without<&scene::Skips::beyondVisibility>, itself},
+       without<&Skips::beyondVisibility>, itself},
       {"occlusion test in scheme frustum",
        [](const FrameRequest& r, const FrameResult&, const FrameResult& after) {
          return r.method == CullingCase::proposed && !r.decision.depthMap && !after.visible.tiles.empty();
        },
-       without<&scene::Skips::schemeFrustum>, itself},
+       without<&Skips::schemeFrustum>, itself},
       {"levels chosen again for an eye that stands",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
          return unchanged<&FrameResult::cutsSelected>(before, after) && after.tilesInCut > 0;
        },
-       without<&scene::Skips::sameCut>, itself, true},
+       without<&Skips::sameCut>, itself, true},
       {"tiles in view chosen again for a view that stands",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
          return unchanged<&FrameResult::visibleSelected>(before, after) && after.tilesInCut > 0;
        },
-       without<&scene::Skips::sameVisible>, itself, true},
+       without<&Skips::sameVisible>, itself, true},
       {"horizon built again for an eye that stands",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
          return after.horizon && unchanged<&FrameResult::horizonsBuilt>(before, after) &&
                 unchanged<&FrameResult::horizonsLeftOut>(before, after);
        },
-       without<&scene::Skips::sameHorizon>, itself, true},
+       without<&Skips::sameHorizon>, itself, true},
       {"horizon where it hid next to nothing",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
          return !unchanged<&FrameResult::horizonsLeftOut>(before, after);
        },
-       without<&scene::Skips::littleHidden>, itself, true},
+       without<&Skips::littleHidden>, itself, true},
       {"depth map where it hid next to nothing",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
          return !unchanged<&FrameResult::mapsLeftOut>(before, after);
        },
-       without<&scene::Skips::littleHidden>, itself, true},
+       without<&Skips::littleHidden>, itself, true},
       {"tiles that the GPU holds already",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
          return after.tilesBuilt - before.tilesBuilt < after.visible.tiles.size();
        },
-       without<&scene::Skips::tilesOnGpu>, itself},
+       without<&Skips::tilesOnGpu>, itself},
       {"blur at rest",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
          return unchanged<&FrameResult::blurPasses>(before, after);
        },
-       without<&scene::Skips::blurAtRest>, itself},
+       without<&Skips::blurAtRest>, itself},
       {"precipitation in clear air",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
          return unchanged<&FrameResult::precipitationPasses>(before, after);
        },
-       without<&scene::Skips::clearAir>, itself},
+       without<&Skips::clearAir>, itself},
       {"symbols that have not changed",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
          return unchanged<&FrameResult::symbologyRedraws>(before, after) &&
                 !unchanged<&FrameResult::symbologyDraws>(before, after);
        },
-       without<&scene::Skips::sameSymbols>, itself, true},
+       without<&Skips::sameSymbols>, itself, true},
   };
   return kSkips;
 }

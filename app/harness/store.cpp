@@ -1,4 +1,4 @@
-#include "trimtab/harness/store.h"
+#include "store.h"
 
 #include <cstdio>
 #include <nlohmann/json.hpp>

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "trimtab/harness/run.h"
+#include "run.h"
 
 namespace trimtab::harness {
 

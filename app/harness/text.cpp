@@ -1,4 +1,4 @@
-#include "trimtab/harness/text.h"
+#include "text.h"
 
 #include <algorithm>
 #include <cmath>

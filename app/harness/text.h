@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "trimtab/harness/results.h"
+#include "results.h"
 
 namespace trimtab::harness {
 

@@ -1,11 +1,11 @@
-#include "trimtab/harness/worst_frames.h"
+#include "worst_frames.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <utility>
 
-#include "trimtab/harness/heat_colour.h"
+#include "heat_colour.h"
 #include "trimtab/scene/offscreen.h"
 
 namespace trimtab::harness {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "trimtab/harness/results.h"
+#include "results.h"
 #include "trimtab/scene/error_meter.h"
 
 namespace trimtab::harness {

@@ -5,6 +5,9 @@
 #include <iostream>
 #include <limits>
 #include <string>
+#include "app/link/link.h"
+#include "trimtab/host/flight.h"
+#include "trimtab/host/received_state.h"
 
 namespace trimtab::ig {
 namespace {
@@ -12,7 +15,7 @@ namespace {
 class FlightFeed : public Feed {
  public:
   explicit FlightFeed(Flight flight) : flight_(std::move(flight)) {}
-  bool advance(session::Session& session, double) override {
+  bool advance(Session& session, double) override {
     if (finished()) return false;
     session.fly(flight_.states[next_++]);
     return true;
@@ -28,7 +31,7 @@ class FlightFeed : public Feed {
 class TraceFeed : public Feed {
  public:
   explicit TraceFeed(std::vector<TraceRow> rows) : rows_(std::move(rows)) {}
-  bool advance(session::Session& session, double) override {
+  bool advance(Session& session, double) override {
     if (finished()) return false;
     session.replay(rows_[next_++]);
     return true;
@@ -45,7 +48,7 @@ class TraceFeed : public Feed {
 class RealtimeFeed : public Feed {
  public:
   explicit RealtimeFeed(Flight flight) : flight_(std::move(flight)) {}
-  bool advance(session::Session& session, double now) override {
+  bool advance(Session& session, double now) override {
     if (finished()) return false;
     if (!start_) start_ = now;
     due_.clear();
@@ -69,13 +72,13 @@ class RealtimeFeed : public Feed {
   Flight flight_;
   std::size_t next_ = 0;
   std::optional<double> start_;
-  std::vector<link::ReceivedState> due_;
+  std::vector<ReceivedState> due_;
 };
 
 class LinkFeed : public Feed {
  public:
   explicit LinkFeed(std::unique_ptr<link::Receiver> receiver) : receiver_(std::move(receiver)) {}
-  bool advance(session::Session& session, double) override {
+  bool advance(Session& session, double) override {
     states_.clear();
     receiver_->take(states_);
     session.receive(states_);
@@ -92,7 +95,7 @@ class LinkFeed : public Feed {
 
  private:
   std::unique_ptr<link::Receiver> receiver_;
-  std::vector<link::ReceivedState> states_;
+  std::vector<ReceivedState> states_;
 };
 
 bool isTraceFile(const std::filesystem::path& file) {
@@ -124,8 +127,8 @@ Result<std::unique_ptr<Feed>> openFlight(const Options& options) {
 
 }  // namespace
 
-Result<session::HeadInput> openHeadInput(const Options& options) {
-  session::HeadInput head;
+Result<HeadInput> openHeadInput(const Options& options) {
+  HeadInput head;
   if (options.head.empty()) return head;
   if (!options.listen && !options.realtime && isTraceFile(options.flight))
     return Finding{Severity::error,

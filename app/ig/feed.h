@@ -15,7 +15,7 @@ class Feed {
  public:
   virtual ~Feed() = default;
   /// Gives the session what has come or is due; whether there was anything.
-  virtual bool advance(session::Session& session, double now) = 0;
+  virtual bool advance(Session& session, double now) = 0;
   /// Seconds until something is due; infinite when only a wake-up tells.
   virtual double dueIn(double now) const = 0;
   virtual bool finished() const = 0;
@@ -28,7 +28,7 @@ class Feed {
 
 /// The head that the options name; a host's where they name none. A trace brings the head that it was decided
 /// with: naming another is refused.
-Result<session::HeadInput> openHeadInput(const Options& options);
+Result<HeadInput> openHeadInput(const Options& options);
 /// Opens the flight or the port that the options name. Findings may come with the value.
 Result<std::unique_ptr<Feed>> openFeed(const Options& options, const Wake& wake);
 

@@ -3,8 +3,12 @@
 #include <cmath>
 #include <iostream>
 
+#include "app/link/link.h"
+#include "trimtab/frame/frame_request.h"
+#include "trimtab/frame/frame_result.h"
 #include "trimtab/scene/data_extent.h"
 #include "trimtab/scene/offscreen.h"
+#include "trimtab/terrain/format/database.h"
 #include "trimtab/units/labelled.h"
 
 namespace trimtab::ig {
@@ -57,9 +61,8 @@ class Loop {
     const double now = link::now();
     double seconds = run_.feed.dueIn(now);
     if (run_.watch) seconds = std::fmin(seconds, PresetWatch::kPeriodS);
-    const session::LinkState link = run_.session.linkState(now);
-    const bool moving =
-        link == session::LinkState::live || link == session::LinkState::jumped || run_.session.blurred();
+    const LinkState link = run_.session.linkState(now);
+    const bool moving = link == LinkState::live || link == LinkState::jumped || run_.session.blurred();
     if (run_.surface.hasViewer() && moving) seconds = std::fmin(seconds, kViewerPeriodS);
     run_.wake.wait(seconds, run_.surface.eventFd());
   }
@@ -83,14 +86,14 @@ class Loop {
   }
 
   void drawFrame(double start) {
-    std::optional<scene::FrameRequest> request =
+    std::optional<FrameRequest> request =
         run_.session.request(start, run_.options.headless ? run_.options.width : run_.surface.width(),
                              run_.options.headless ? run_.options.height : run_.surface.height());
     // With nobody to wait for a frame, its picture depends on the flight alone.
     request->waitForPages = request->reproducible =
         run_.options.headless && !run_.options.realtime && !run_.options.listen;
     run_.surface.fit(request->view.widthPx, request->view.heightPx);
-    const scene::FrameResult result = run_.renderer.draw(*request, run_.surface.framebuffer());
+    const FrameResult result = run_.renderer.draw(*request, run_.surface.framebuffer());
     run_.surface.present();
     const double end = link::now();
     stages_.add(run_.session.finished(result, end));
@@ -116,7 +119,7 @@ class Loop {
 
   Summary finishedSummary() {
     writeRows(true);
-    const session::Latency& latency = run_.session.latency();
+    const Latency& latency = run_.session.latency();
     summary_.packets = run_.session.packets();
     summary_.jumps = run_.session.jumps();
     summary_.overBudget = run_.session.overBudget();
@@ -144,12 +147,12 @@ class Loop {
 
 void warmUp(const Run& run, const terrain::Database& database) {
   const terrain::TerrainInfo& info = database.info();
-  session::Session session(run.session.parameters());
+  Session session(run.session.parameters());
   AircraftState state;
   state.position = scene::placeIn(info, 0.5, 0.5);
   state.position.height = info.highest + Feet{1000}.as<Metres>();
   session.look(state);
-  scene::FrameRequest request = *session.request(0, run.options.width, run.options.height);
+  FrameRequest request = *session.request(0, run.options.width, run.options.height);
   run.surface.fit(request.view.widthPx, request.view.heightPx);
   request.decision.scheme = Scheme::frustum;
   request.decision.depthMap.reset();
@@ -169,7 +172,7 @@ Summary drawFrames(const Run& run) {
 Result<Done> takeScreenshot(const Run& run, const Summary& summary, const std::filesystem::path& file) {
   if (!summary.lastRequest)
     return Finding{Severity::error, file.string(), {}, "a picture to write", "no frame was drawn"};
-  scene::FrameRequest request = *summary.lastRequest;
+  FrameRequest request = *summary.lastRequest;
   request.waitForPages = true;
   const ViewShape& view = request.view;
   run.renderer.draw(request, run.surface.framebuffer());

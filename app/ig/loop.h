@@ -10,7 +10,11 @@
 #include "preset_watch.h"
 #include "surface.h"
 #include "trace_file.h"
+#include "trimtab/frame/frame_request.h"
 #include "trimtab/measure/statistics.h"
+#include "trimtab/scene/gl_report.h"
+#include "trimtab/scene/renderer.h"
+#include "trimtab/terrain/format/database.h"
 
 namespace trimtab::ig {
 
@@ -18,7 +22,7 @@ namespace trimtab::ig {
 struct Run {
   const Options& options;
   const Wake& wake;
-  session::Session& session;
+  Session& session;
   scene::Renderer& renderer;
   Surface& surface;
   Feed& feed;
@@ -33,8 +37,8 @@ struct Summary {
   double firstFrameTime = 0;  ///< link::now() when the first picture was finished; 0: none
   double medianFrameMs = 0, p99FrameMs = 0;
   std::array<Distribution, kCostStages.size()> stages;  ///< milliseconds, in the order of kCostStages
-  std::optional<scene::FrameRequest> lastRequest;
-  /// session::Latency's; NaN where nothing was measured.
+  std::optional<FrameRequest> lastRequest;
+  /// Latency's; NaN where nothing was measured.
   double decodedP50Ms = 0, decodedP99Ms = 0, shownP50Ms = 0, shownP99Ms = 0, everyP99Ms = 0;
 };
 

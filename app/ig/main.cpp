@@ -9,8 +9,7 @@
 
 #include "loop.h"
 #include "trimtab/scene/renderer.h"
-#include "trimtab/session/paths.h"
-#include "trimtab/terrain/database.h"
+#include "trimtab/terrain/format/database.h"
 
 namespace trimtab::ig {
 namespace {
@@ -43,15 +42,17 @@ class SummaryOutput {
   std::FILE* file_;
 };
 
-/// A signal cancels the baking.
-terrain::Progress progressOnError(const Wake& wake) {
-  return [&wake, shown = -1](double fraction, const std::string& what) mutable {
-    const int percent = static_cast<int>(fraction * 100);
-    if (percent / 10 != shown / 10 || shown < 0)
-      std::cerr << "terrain: " << percent << " % " << what << std::endl;
-    shown = percent;
-    return !wake.stop();
-  };
+/// Opens a baked database. The IG bakes nothing itself, so that it needs no GDAL.
+Result<std::shared_ptr<const terrain::Database>> openDatabase(const std::filesystem::path& folder) {
+  if (terrain::isDatabase(folder)) return terrain::Database::open(folder);
+  std::error_code error;
+  return Finding{
+      Severity::error,
+      folder.string(),
+      {},
+      "the folder of a baked terrain database; bake elevation or scenery with `trimtab-cli terrain "
+      "bake`",
+      std::filesystem::exists(folder, error) ? "something else" : "nothing"};
 }
 
 Result<Done> checkWatch(const Options& options) {
@@ -85,10 +86,9 @@ int runWith(const Options& options) {
   std::optional<PresetWatch> watch;
   if (options.watch) watch.emplace(options.preset);
   const Result<ActivePreset> preset = loadActivePreset(options.preset);
-  const Result<std::shared_ptr<const terrain::Database>> database =
-      terrain::openOrBake(options.terrain, session::cacheFolder(), progressOnError(wake));
+  const Result<std::shared_ptr<const terrain::Database>> database = openDatabase(options.terrain);
   Result<std::unique_ptr<Feed>> feed = openFeed(options, wake);
-  Result<session::HeadInput> head = openHeadInput(options);
+  Result<HeadInput> head = openHeadInput(options);
   bool usable = accepted(preset);
   usable &= accepted(database);
   usable &= accepted(feed);
@@ -113,8 +113,8 @@ int runWith(const Options& options) {
   if (gl->software) std::cerr << "note: OpenGL by software: " << gl->renderer << std::endl;
   renderer.setTerrain(*database);
 
-  session::Session session(preset->parameters);
-  session.setTerrain(*database);
+  Session session(preset->parameters);
+  session.setGround(*database);
   session.head() = std::move(head).value();
   session.keepRows(true);
   const Run run{options,

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "loop.h"
+#include "trimtab/scene/gl_report.h"
 
 namespace trimtab::ig {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <charconv>
 
+#include "link.h"
 #include "socket.h"
-#include "trimtab/link/link.h"
 
 namespace trimtab::link {
 namespace {

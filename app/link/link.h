@@ -12,6 +12,7 @@
 #include "trimtab/host/decoder.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/host/head_log.h"
+#include "trimtab/host/received_state.h"
 #include "trimtab/units/result.h"
 
 /// UDP at the edge: the one receiver and the one sender that workbench, IG and CLI share. IPv4, no GUI, no
@@ -24,12 +25,6 @@ struct Endpoint {
 };
 /// "host:port"; a bare port means 127.0.0.1.
 Result<Endpoint> parseEndpoint(const std::string& text);
-
-struct ReceivedState {
-  AircraftState state;
-  double kernelTime = 0;   ///< seconds, CLOCK_REALTIME, when the kernel had the datagram
-  double decodedTime = 0;  ///< same clock, when the state was ready
-};
 
 struct ReceiverOptions {
   std::uint16_t port = 0;  ///< 0: any free one

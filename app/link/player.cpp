@@ -10,6 +10,7 @@
 
 #include "socket.h"
 #include "trimtab/host/encoder.h"
+#include "trimtab/host/flight.h"
 
 namespace trimtab::link {
 namespace {

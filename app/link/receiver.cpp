@@ -12,6 +12,7 @@
 
 #include "socket.h"
 #include "trimtab/host/encoder.h"
+#include "trimtab/host/received_state.h"
 
 namespace trimtab::link {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "trimtab/link/link.h"
+#include "link.h"
 
 namespace trimtab::link {
 

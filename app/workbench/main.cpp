@@ -12,9 +12,9 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "gl_setup.h"
-#include "main_window.h"
-#include "options.h"
+#include "app/workbench/viewport/gl_setup.h"
+#include "app/workbench/window/main_window.h"
+#include "app/workbench/window/options.h"
 
 namespace {
 

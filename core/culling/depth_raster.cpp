@@ -41,7 +41,7 @@ inline unsigned bitsOf(I lanes) {
 }
 using W = F;
 using WI = I;
-#include "trimtab/culling/depth_raster_lanes.inl"
+#include "depth_raster_lanes.inl"
 }  // namespace
 }  // namespace portable
 
@@ -59,7 +59,7 @@ inline unsigned bitsOf(I lanes) {
 }
 using W = F;
 using WI = I;
-#include "trimtab/culling/depth_raster_lanes.inl"
+#include "depth_raster_lanes.inl"
 }  // namespace
 }  // namespace avx2
 #if defined(__clang__)
@@ -81,7 +81,7 @@ namespace {
 using avx2::bitsOf;
 using W [[gnu::vector_size(64)]] = float;
 using WI [[gnu::vector_size(64)]] = std::int32_t;
-#include "trimtab/culling/depth_raster_lanes.inl"
+#include "depth_raster_lanes.inl"
 }  // namespace
 }  // namespace avx512
 #if defined(__clang__)

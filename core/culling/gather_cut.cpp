@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "trimtab/culling/back_facing.h"
-#include "trimtab/culling/visible_walk.h"
 #include "trimtab/frame/box_union.h"
+#include "visible_walk.h"
 
 namespace trimtab {
 namespace {

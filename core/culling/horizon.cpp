@@ -1,6 +1,6 @@
 #include "trimtab/culling/horizon.h"
 
-#include "trimtab/culling/horizon_geometry.h"
+#include "horizon_geometry.h"
 
 namespace trimtab {
 

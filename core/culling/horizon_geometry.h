@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "trimtab/culling/horizon_kernels.h"
+#include "horizon_kernels.h"
 #include "trimtab/frame/terrain_index.h"
 
 /// What the parts of the horizon share.

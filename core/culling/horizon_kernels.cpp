@@ -1,10 +1,10 @@
-#include "trimtab/culling/horizon_kernels.h"
+#include "horizon_kernels.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
-#include "trimtab/culling/horizon_geometry.h"
+#include "horizon_geometry.h"
 
 #if defined(__x86_64__)
 #define TRIMTAB_X86 1

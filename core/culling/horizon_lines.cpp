@@ -1,5 +1,5 @@
+#include "horizon_geometry.h"
 #include "trimtab/culling/horizon.h"
-#include "trimtab/culling/horizon_geometry.h"
 
 /// How lines get into the profile.
 namespace trimtab {

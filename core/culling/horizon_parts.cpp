@@ -1,6 +1,6 @@
+#include "horizon_geometry.h"
+#include "horizon_kernels.h"
 #include "trimtab/culling/horizon.h"
-#include "trimtab/culling/horizon_geometry.h"
-#include "trimtab/culling/horizon_kernels.h"
 
 /// Whether a tile is wholly below the horizon.
 namespace trimtab {

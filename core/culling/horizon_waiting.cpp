@@ -1,5 +1,5 @@
+#include "horizon_geometry.h"
 #include "trimtab/culling/horizon.h"
-#include "trimtab/culling/horizon_geometry.h"
 
 /// Lines that wait until a test asks for them. What is told of them here is an estimate, which decides no
 /// more than whether they are looked at: the proof needs none of it.

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "horizon_geometry.h"
 #include "trimtab/culling/box_distance.h"
-#include "trimtab/culling/horizon_geometry.h"
 
 namespace trimtab {
 namespace {

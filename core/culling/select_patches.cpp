@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "trimtab/culling/box_distance.h"
-#include "trimtab/culling/visible_walk.h"
+#include "visible_walk.h"
 
 namespace trimtab {
 namespace {

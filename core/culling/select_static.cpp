@@ -5,7 +5,7 @@
 
 #include "trimtab/culling/box_distance.h"
 #include "trimtab/culling/frustum.h"
-#include "trimtab/culling/visible_walk.h"
+#include "visible_walk.h"
 
 namespace trimtab {
 namespace {

@@ -6,7 +6,7 @@
 #include "trimtab/culling/box_distance.h"
 #include "trimtab/culling/frustum.h"
 #include "trimtab/culling/select.h"
-#include "trimtab/culling/visible_walk.h"
+#include "visible_walk.h"
 
 namespace trimtab {
 namespace {
@@ -198,20 +198,6 @@ void removeOccluded(const TerrainIndex&, std::span<const std::uint8_t> flags, Vi
   removeFlagged(flags, visible,
                 [&](std::size_t, TileDraw tile) { visible.triangles -= tileTriangles(tile); });
   visible.vertices = tileVertices(visible.triangles, visible.tiles.size());
-}
-
-CullReason VisibleSet::reasonOf(std::uint32_t node) const {
-  if (!nodes) return CullReason::other_level;
-  const auto found = std::find(nodes->begin(), nodes->end(), node);
-  return found == nodes->end() ? CullReason::other_level
-                               : reason[static_cast<std::size_t>(found - nodes->begin())];
-}
-
-std::vector<CullReason> VisibleSet::reasons(std::size_t ofNodes) const {
-  std::vector<CullReason> all(ofNodes, CullReason::other_level);
-  for (std::size_t i = 0; nodes && i < nodes->size(); ++i)
-    if ((*nodes)[i] < ofNodes) all[(*nodes)[i]] = reason[i];
-  return all;
 }
 
 }  // namespace trimtab

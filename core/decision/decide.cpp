@@ -1,4 +1,4 @@
-#include "decide.h"
+#include "trimtab/decision/decide.h"
 
 #include <algorithm>
 #include <cmath>

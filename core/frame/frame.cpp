@@ -1,4 +1,4 @@
-#include "frame.h"
+#include "trimtab/frame/frame.h"
 
 #include <algorithm>
 #include <cmath>

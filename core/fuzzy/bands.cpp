@@ -1,4 +1,4 @@
-#include "bands.h"
+#include "trimtab/fuzzy/bands.h"
 
 namespace trimtab {
 

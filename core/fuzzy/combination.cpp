@@ -1,4 +1,4 @@
-#include "combination.h"
+#include "trimtab/fuzzy/combination.h"
 
 #include <algorithm>
 

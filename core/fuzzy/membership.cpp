@@ -1,4 +1,4 @@
-#include "membership.h"
+#include "trimtab/fuzzy/membership.h"
 
 #include <algorithm>
 #include <cmath>

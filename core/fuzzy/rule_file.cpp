@@ -1,4 +1,4 @@
-#include "rule_file.h"
+#include "trimtab/fuzzy/rule_file.h"
 
 #include <algorithm>
 

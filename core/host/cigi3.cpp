@@ -1,8 +1,8 @@
-#include "trimtab/host/cigi3.h"
+#include "cigi3.h"
 
 #include <string>
 
-#include "trimtab/host/limits.h"
+#include "limits.h"
 
 namespace trimtab::cigi3 {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <span>
 
+#include "packet_fault.h"
 #include "trimtab/frame/frame.h"
-#include "trimtab/host/packet_fault.h"
 
 /// CIGI 3.x as an image generator reads it: messages of packets `u8 id, u8 size, ...` in the sender's byte
 /// order.

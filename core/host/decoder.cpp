@@ -1,12 +1,12 @@
 #include "trimtab/host/decoder.h"
 
-#include "trimtab/host/cigi3.h"
-#include "trimtab/host/frame_order.h"
-#include "trimtab/host/limits.h"
+#include "cigi3.h"
+#include "frame_order.h"
+#include "limits.h"
+#include "native_fdm.h"
+#include "packet_fault.h"
+#include "rate_meter.h"
 #include "trimtab/host/motion.h"
-#include "trimtab/host/native_fdm.h"
-#include "trimtab/host/packet_fault.h"
-#include "trimtab/host/rate_meter.h"
 
 namespace trimtab {
 namespace {

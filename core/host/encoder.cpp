@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "trimtab/host/cigi3.h"
+#include "cigi3.h"
 
 namespace trimtab {
 namespace {

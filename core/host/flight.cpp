@@ -9,9 +9,9 @@
 #include <iterator>
 #include <map>
 
-#include "trimtab/host/cigi3.h"
+#include "cigi3.h"
+#include "flight_notes.h"
 #include "trimtab/host/decoder.h"
-#include "trimtab/host/flight_notes.h"
 #include "trimtab/host/motion.h"
 
 namespace trimtab {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <optional>
 
+#include "flight_notes.h"
+#include "limits.h"
 #include "trimtab/host/flight.h"
-#include "trimtab/host/flight_notes.h"
-#include "trimtab/host/limits.h"
 #include "trimtab/preset/number.h"
 
 namespace trimtab {

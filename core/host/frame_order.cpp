@@ -1,4 +1,4 @@
-#include "trimtab/host/frame_order.h"
+#include "frame_order.h"
 
 namespace trimtab {
 namespace {

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "trimtab/host/limits.h"
+#include "limits.h"
 
 namespace trimtab {
 namespace {

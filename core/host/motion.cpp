@@ -1,6 +1,6 @@
 #include "trimtab/host/motion.h"
 
-#include "trimtab/host/limits.h"
+#include "limits.h"
 
 namespace trimtab {
 namespace {

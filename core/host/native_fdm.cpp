@@ -1,11 +1,11 @@
-#include "trimtab/host/native_fdm.h"
+#include "native_fdm.h"
 
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "limits.h"
 #include "trimtab/host/encoder.h"
-#include "trimtab/host/limits.h"
 
 namespace trimtab {
 namespace {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <span>
 
+#include "packet_fault.h"
 #include "trimtab/frame/frame.h"
-#include "trimtab/host/packet_fault.h"
 
 /// FlightGear's native-fdm, FG_NET_FDM_VERSION 24 (src/Network/net_fdm.hxx): big-endian, no frame number, no
 /// send time.

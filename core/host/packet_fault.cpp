@@ -1,4 +1,4 @@
-#include "trimtab/host/packet_fault.h"
+#include "packet_fault.h"
 
 #include <charconv>
 

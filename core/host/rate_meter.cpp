@@ -1,4 +1,4 @@
-#include "trimtab/host/rate_meter.h"
+#include "rate_meter.h"
 
 #include <algorithm>
 #include <cmath>

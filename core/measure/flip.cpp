@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "flip_filters.h"
-#include "image_error.h"
 #include "picture_span.h"
 #include "simd_kernels.h"
+#include "trimtab/measure/image_error.h"
 
 namespace trimtab {
 namespace {

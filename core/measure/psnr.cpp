@@ -1,9 +1,9 @@
 #include <cmath>
 #include <limits>
 
-#include "image_error.h"
 #include "picture_span.h"
 #include "simd_kernels.h"
+#include "trimtab/measure/image_error.h"
 
 namespace trimtab {
 

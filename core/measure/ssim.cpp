@@ -5,9 +5,9 @@
 #include <limits>
 #include <vector>
 
-#include "image_error.h"
 #include "picture_span.h"
 #include "simd_kernels.h"
+#include "trimtab/measure/image_error.h"
 
 namespace trimtab {
 namespace {

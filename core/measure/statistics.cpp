@@ -1,4 +1,4 @@
-#include "statistics.h"
+#include "trimtab/measure/statistics.h"
 
 #include <algorithm>
 #include <cmath>

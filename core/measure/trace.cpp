@@ -1,12 +1,12 @@
-#include "trace.h"
+#include "trimtab/measure/trace.h"
 
 #include <algorithm>
 #include <iterator>
 #include <limits>
 #include <type_traits>
 
-#include "trimtab/measure/trace_cells.h"
-#include "trimtab/measure/trace_columns.h"
+#include "trace_cells.h"
+#include "trace_columns.h"
 
 namespace trimtab {
 namespace {

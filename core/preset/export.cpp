@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <array>
 
+#include "migration.h"
 #include "trimtab/preset/json_text.h"
-#include "trimtab/preset/migration.h"
 #include "trimtab/preset/number.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/preset/sealed.h"

@@ -1,4 +1,4 @@
-#include "trimtab/preset/migration.h"
+#include "migration.h"
 
 #include <algorithm>
 #include <cmath>

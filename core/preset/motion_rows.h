@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trimtab/preset/rows.h"
+#include "rows.h"
 
 /// Rows of head motion (document C).
 namespace trimtab::table {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <set>
 
+#include "migration.h"
+#include "shipped.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/json_text.h"
-#include "trimtab/preset/migration.h"
 #include "trimtab/preset/number.h"
 #include "trimtab/preset/rules.h"
 #include "trimtab/preset/sealed.h"
-#include "trimtab/preset/shipped.h"
 
 namespace trimtab {
 

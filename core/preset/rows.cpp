@@ -1,14 +1,14 @@
 #include <algorithm>
 
-#include "trimtab/preset/fuzzy_rows.h"
-#include "trimtab/preset/host_rows.h"
-#include "trimtab/preset/motion_rows.h"
+#include "fuzzy_rows.h"
+#include "host_rows.h"
+#include "motion_rows.h"
+#include "static_lod_rows.h"
+#include "symbology_rows.h"
+#include "terrain_rows.h"
 #include "trimtab/preset/rules.h"
-#include "trimtab/preset/static_lod_rows.h"
-#include "trimtab/preset/symbology_rows.h"
-#include "trimtab/preset/terrain_rows.h"
-#include "trimtab/preset/view_rows.h"
-#include "trimtab/preset/weather_rows.h"
+#include "view_rows.h"
+#include "weather_rows.h"
 
 namespace trimtab {
 

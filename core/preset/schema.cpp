@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
+#include "migration.h"
 #include "trimtab/preset/json_text.h"
-#include "trimtab/preset/migration.h"
 #include "trimtab/preset/preset.h"
 
 namespace trimtab {

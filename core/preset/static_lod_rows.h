@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trimtab/preset/rows.h"
+#include "rows.h"
 
 /// Rows of the trees of static levels of detail.
 namespace trimtab::table {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trimtab/preset/rows.h"
+#include "rows.h"
 
 /// Rows of the helmet-mounted display's symbols.
 namespace trimtab::table {

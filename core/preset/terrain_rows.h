@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trimtab/preset/rows.h"
+#include "rows.h"
 
 /// Rows of what holds for any form of terrain.
 namespace trimtab::table {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trimtab/preset/rows.h"
+#include "rows.h"
 
 /// Rows of culling, level of detail and view.
 namespace trimtab::table {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trimtab/preset/rows.h"
+#include "rows.h"
 
 /// Rows of the weather: where it comes from, what each step is, and the cut.
 namespace trimtab::table {

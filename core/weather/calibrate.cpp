@@ -1,4 +1,4 @@
-#include "calibrate.h"
+#include "trimtab/weather/calibrate.h"
 
 #include <algorithm>
 #include <cmath>

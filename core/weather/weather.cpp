@@ -1,4 +1,4 @@
-#include "weather.h"
+#include "trimtab/weather/weather.h"
 
 #include <algorithm>
 #include <array>

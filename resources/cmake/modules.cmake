@@ -25,27 +25,25 @@ endif()
 
 # trimtab_module(NAME SOURCES file... [DEPENDS target...] [PRIVATE target...])
 #
-# A folder of the tree as a static library trimtab_NAME. Its headers are included as "trimtab/NAME/file.h", by way
-# of a link in the build tree that only dependants of the target can see: a folder that includes what it does not
-# link against does not compile. That is how the layer rule is enforced.
+# A room of core/ as a static library trimtab_NAME. What others may use is in its folder include/ and is included as
+# "trimtab/MODULE/file.h"; only dependants of the target see that folder, so a room that includes what it does not link
+# against does not compile. Everything else is private and stays beside its source.
 function(trimtab_module NAME)
+  trimtab_folder(${NAME} ${ARGN})
+  target_include_directories(trimtab_${NAME} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+                                                    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+endfunction()
+
+# trimtab_folder(NAME SOURCES file... [DEPENDS target...] [PRIVATE target...])
+#
+# A folder of the programs or of the views as a static library trimtab_NAME. Headers of another folder are included by
+# their path from the root of the tree; tests/house_test.cpp checks that only folders lower down are.
+function(trimtab_folder NAME)
   cmake_parse_arguments(M "" "" "SOURCES;DEPENDS;PRIVATE" ${ARGN})
-  set(include_root ${PROJECT_BINARY_DIR}/include/${NAME})
-  file(MAKE_DIRECTORY ${include_root}/trimtab)
-  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${include_root}/trimtab/${NAME} SYMBOLIC)
-  if(M_SOURCES)
-    add_library(trimtab_${NAME} STATIC ${M_SOURCES})
-    target_include_directories(trimtab_${NAME} PUBLIC $<BUILD_INTERFACE:${include_root}>
-                                                      $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-    target_link_libraries(trimtab_${NAME} PUBLIC ${M_DEPENDS} PRIVATE $<BUILD_INTERFACE:trimtab_warnings> ${M_PRIVATE})
-    target_compile_features(trimtab_${NAME} PUBLIC cxx_std_20)
-  else()
-    add_library(trimtab_${NAME} INTERFACE)
-    target_include_directories(trimtab_${NAME} INTERFACE $<BUILD_INTERFACE:${include_root}>
-                                                         $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-    target_link_libraries(trimtab_${NAME} INTERFACE ${M_DEPENDS})
-    target_compile_features(trimtab_${NAME} INTERFACE cxx_std_20)
-  endif()
+  add_library(trimtab_${NAME} STATIC ${M_SOURCES})
+  target_include_directories(trimtab_${NAME} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(trimtab_${NAME} PUBLIC ${M_DEPENDS} PRIVATE $<BUILD_INTERFACE:trimtab_warnings> ${M_PRIVATE})
+  target_compile_features(trimtab_${NAME} PUBLIC cxx_std_20)
 endfunction()
 
 # trimtab_test(NAME SOURCES file... LIBS target... [DISPLAY] [ARGS arg...])

@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "support.h"
+#include "tests/support.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/measure/trace.h"
 

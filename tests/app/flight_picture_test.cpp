@@ -1,6 +1,11 @@
 #include "ig_support.h"
+#include "trimtab/frame/frame_request.h"
+#include "trimtab/frame/frame_result.h"
 #include "trimtab/scene/offscreen.h"
+#include "trimtab/scene/renderer.h"
 #include "trimtab/session/session.h"
+#include "trimtab/terrain/bake/bake.h"
+#include "trimtab/terrain/format/database.h"
 
 /// Flights over real terrain, as trimtab-ig draws them row by row: no hole anywhere, whatever height and
 /// speed.
@@ -62,8 +67,8 @@ void expectNoHole(const char* file) {
   scene::Renderer renderer;
   ASSERT_TRUE(renderer.initialize().usable);
   renderer.setTerrain(*baked);
-  session::Session session(defaultParameters());
-  session.setTerrain(*baked);
+  Session session(defaultParameters());
+  session.setGround(*baked);
 
   const double speeds[] = {200 / 3.6, Knots{600}.as<MetresPerSecond>().value()};
   std::uint64_t drawn = 0;
@@ -71,9 +76,9 @@ void expectNoHole(const char* file) {
     for (const double speed : speeds) {
       for (const AircraftState& state : flightOver(**baked, aboveFt, speed, 10)) {
         session.fly(state);
-        std::optional<scene::FrameRequest> request = session.request(0, kWidth, kHeight);
+        std::optional<FrameRequest> request = session.request(0, kWidth, kHeight);
         request->overlays.showHoles = true;
-        const scene::FrameResult result = renderer.draw(*request, (*offscreen)->framebuffer());
+        const FrameResult result = renderer.draw(*request, (*offscreen)->framebuffer());
         drawn += result.visible.tiles.size();
         EXPECT_EQ(holes(renderer.readPixels(kWidth, kHeight)), 0)
             << aboveFt << " ft, " << speed << " m/s, at " << state.position.latitude.value();
@@ -82,7 +87,7 @@ void expectNoHole(const char* file) {
   EXPECT_GT(drawn, 50u);
 
   // The check itself: what was culled for a look to the south leaves holes when one looks to the north.
-  std::optional<scene::FrameRequest> request = session.request(0, kWidth, kHeight);
+  std::optional<FrameRequest> request = session.request(0, kWidth, kHeight);
   request->overlays.showHoles = true;
   const LocalFrame& frame = (*baked)->index().frame;
   request->frozenEye = EyePose{frame.fromGeodetic(request->eye),

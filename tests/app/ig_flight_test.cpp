@@ -1,7 +1,8 @@
 #include <sstream>
 
-#include "csv_cells.h"
 #include "ig_support.h"
+#include "tests/csv_cells.h"
+#include "trimtab/host/flight.h"
 #include "trimtab/measure/cost_stages.h"
 
 namespace trimtab {

@@ -1,4 +1,5 @@
 #include "ig_support.h"
+#include "trimtab/host/flight.h"
 #include "trimtab/host/head_log.h"
 #include "trimtab/motion/head_motion.h"
 

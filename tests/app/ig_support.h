@@ -14,11 +14,13 @@
 #include <thread>
 #include <vector>
 
-#include "support.h"
+#include "tests/support.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/measure/trace.h"
 #include "trimtab/preset/preset.h"
-#include "trimtab/terrain/database.h"
+#include "trimtab/terrain/bake/bake.h"
+#include "trimtab/terrain/format/database.h"
+#include "trimtab/terrain/synthetic/sample.h"
 
 /// What tests of trimtab-ig share: a small terrain, presets, a flight over it, and the program as a child
 /// process.

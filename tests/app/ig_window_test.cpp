@@ -1,7 +1,8 @@
 #include <iostream>
 
+#include "app/link/link.h"
 #include "ig_support.h"
-#include "trimtab/link/link.h"
+#include "trimtab/host/flight.h"
 
 namespace trimtab {
 namespace {

@@ -5,12 +5,16 @@
 #include <random>
 #include <set>
 
-#include "patched_terrain.h"
-#include "scene_test.h"
-#include "steep_roofs.h"
-#include "synthetic_trees.h"
+#include "tests/core/scene/scene_test.h"
+#include "tests/core/scene/terrain/patched_terrain.h"
+#include "tests/core/scene/terrain/steep_roofs.h"
+#include "tests/core/scene/terrain/synthetic_trees.h"
+#include "trimtab/frame/frame_request.h"
+#include "trimtab/frame/frame_result.h"
 #include "trimtab/host/encoder.h"
+#include "trimtab/host/received_state.h"
 #include "trimtab/session/session.h"
+#include "trimtab/terrain/format/database.h"
 #include "trimtab/weather/calibrate.h"
 
 /// Every parameter has an effect: changed, it changes a decision, a picture or a count. A plot of the
@@ -81,8 +85,8 @@ class ParameterEffects : public test::SceneTest {
 
   /// Decided packet by packet; some are drawn.
   Observed fly(const ValidatedParameters& parameters) {
-    session::Session session(parameters);
-    session.setTerrain(database);
+    Session session(parameters);
+    session.setGround(database);
     Observed seen;
     const Metres highest = *database->highestWithin(database->index().frame.origin().latitude,
                                                     database->index().frame.origin().longitude, Metres{1e5});
@@ -94,13 +98,13 @@ class ParameterEffects : public test::SceneTest {
                                               std::to_string(session.decision().motion.blur.strength) +
                                               std::to_string(session.decision().motion.blur.remainingMs);
       if (i % 18 == 11) {
-        scene::FrameRequest request = *session.request(state.time, 192, 108);
+        FrameRequest request = *session.request(state.time, 192, 108);
         // The decision is the packet's; the eye stays near the ground, where there is something to see.
         const Metres ground = *database->heightAt(request.eye.latitude, request.eye.longitude);
         request.eye.height = i == 29 ? ground + Metres{20} : highest + Metres{200};
         request.attitude.pitch = Degrees{-8};
         request.waitForPages = request.reproducible = true;
-        scene::FrameResult result;
+        FrameResult result;
         seen["picture " + std::to_string(i)] = digest(picture(request, &result));
         seen["counts " + std::to_string(i)] = std::to_string(result.visible.triangles) + ' ' +
                                               (result.horizon    ? "horizon"
@@ -148,14 +152,14 @@ class ParameterEffects : public test::SceneTest {
 
   /// The same packets over a link, with a silence at the end.
   Observed listen(const ValidatedParameters& parameters) {
-    session::Session session(parameters);
+    Session session(parameters);
     HostDecoder decoder(parameters->host.protocol);
     Observed seen;
     double now = 1000;
     for (const AircraftState& state : packets(over(0.5, 0.2, 0))) {
       const std::vector<std::byte> bytes = encodeCigiHost(state, static_cast<std::uint32_t>(state.packet), 0);
       const auto decoded = decoder.accept({bytes, now, "127.0.0.1:1"});
-      if (decoded) session.receive(std::vector{link::ReceivedState{*decoded, now, now}});
+      if (decoded) session.receive(std::vector{ReceivedState{*decoded, now, now}});
       now += 1 / 60.0;
     }
     seen["bad"] = std::to_string(decoder.statistics().bad);
@@ -313,7 +317,7 @@ TEST_F(ParameterEffects, everyParameterChangesADecisionAPictureOrACount) {
 TEST_F(ParameterEffects, everyWayToHiddenGroundDoesWorkOfItsOwn) {
   use(test::syntheticMountains());
   const ParameterRow& row = *findRow("culling.occlusion");
-  const auto workOf = [](const scene::FrameResult& r) {
+  const auto workOf = [](const FrameResult& r) {
     return std::array{r.horizonsBuilt + r.horizonsMoved, r.mapsDrawnByCpu, r.mapsReadBack, r.depthMapsDrawn};
   };
   std::map<decltype(workOf({})), std::vector<std::string_view>> ways;  // by their work
@@ -321,14 +325,14 @@ TEST_F(ParameterEffects, everyWayToHiddenGroundDoesWorkOfItsOwn) {
   for (const auto& way : row.choices) {
     const auto parameters = validate(with({{"culling.occlusion", std::string(way.name)}}));
     ASSERT_TRUE(parameters) << toString(parameters.findings());
-    session::Session session(*parameters);
-    session.setTerrain(database);
-    scene::FrameResult result;
+    Session session(*parameters);
+    session.setGround(database);
+    FrameResult result;
     renderer.setTerrain(database);  // what an earlier way left is no work of this one
     picture(request(over(0.5, 0.5, 6000), {}), &result);
     auto work = workOf(result);
     session.fly(packets(over(0.5, 0.5, 0)).front());
-    scene::FrameRequest low = *session.request(0, 192, 108);
+    FrameRequest low = *session.request(0, 192, 108);
     ASSERT_TRUE(low.decision.depthMap);
     low.eye = over(0.5, 0.5, 60);
     low.attitude = {Degrees{40}, Degrees{-3}, Degrees{0}};

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "support.h"
+#include "tests/support.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/preset/sealed.h"
 

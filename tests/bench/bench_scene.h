@@ -8,12 +8,14 @@
 #include <optional>
 #include <vector>
 
+#include "app/experiment/stage.h"
 #include "row.h"
-#include "trimtab/experiment/stage.h"
 #include "trimtab/measure/paired_ratio.h"
 #include "trimtab/scene/offscreen.h"
 #include "trimtab/scene/renderer.h"
-#include "trimtab/terrain/database.h"
+#include "trimtab/terrain/bake/cache.h"
+#include "trimtab/terrain/format/database.h"
+#include "trimtab/terrain/synthetic/sample.h"
 
 /// What benchmarks of pictures share: the sample's terrain, a context, a view over it, and pairs in turn.
 namespace trimtab::bench {
@@ -66,8 +68,8 @@ class BenchScene {
   }
 
   /// Level, 2,000 ft above the ground in the middle.
-  scene::FrameRequest request() const {
-    scene::FrameRequest r;
+  FrameRequest request() const {
+    FrameRequest r;
     r.view.widthPx = kWidth, r.view.heightPx = kHeight;
     r.method = CullingCase::view_frustum;
     r.eye = {Degrees{36.63}, Degrees{128.35}, Metres{610}};
@@ -77,11 +79,11 @@ class BenchScene {
     r.attitude.pitch = Degrees{-4};
     return r;
   }
-  scene::FrameResult draw(const scene::FrameRequest& r) {
+  FrameResult draw(const FrameRequest& r) {
     offscreen_->makeCurrent();
     return renderer_.draw(r, offscreen_->framebuffer());
   }
-  double ms(const scene::FrameRequest& r) { return draw(r).cost.total; }
+  double ms(const FrameRequest& r) { return draw(r).cost.total; }
 
  private:
   std::shared_ptr<const terrain::Database> database_;

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "fuzzylite_oracle.h"
 #include "row.h"
-#include "support.h"
+#include "tests/core/fuzzy/fuzzylite_oracle.h"
+#include "tests/support.h"
 #include "trimtab/decision/decide.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/measure/trace.h"

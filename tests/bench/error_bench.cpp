@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "core/measure/flip_recorded.h"
-#include "core/measure/image_pairs.h"
+#include "core/measure/simd_kernels.h"
 #include "row.h"
+#include "tests/core/measure/flip_recorded.h"
+#include "tests/core/measure/image_pairs.h"
 #include "trimtab/measure/image_error.h"
-#include "trimtab/measure/simd_kernels.h"
 
 /// Group `error`: what FLIP, SSIM and PSNR of two pictures cost on one core, and how far FLIP lies from the
 /// reference implementation.

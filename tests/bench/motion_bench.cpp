@@ -3,11 +3,14 @@
 #include <string>
 #include <vector>
 
+#include "app/experiment/experiment.h"
 #include "bench_scene.h"
 #include "row.h"
 #include "trimtab/decision/decide.h"
-#include "trimtab/experiment/experiment.h"
+#include "trimtab/frame/frame_request.h"
+#include "trimtab/frame/frame_result.h"
 #include "trimtab/preset/table.h"
+#include "trimtab/terrain/format/database.h"
 
 /// Group `motion`: document C's controllers, what they win over its sweep, and what blur and symbols cost.
 
@@ -101,11 +104,11 @@ void sweep(Report& report, const std::shared_ptr<const terrain::Database>& terra
                               .peerFrom = "run"}));
 }
 
-scene::FrameRequest withSymbols(scene::FrameRequest r, double speedKt) {
+FrameRequest withSymbols(FrameRequest r, double speedKt) {
   TuningParameters p = *defaultParameters();
   p.symbology.enabled = true;
-  r.symbology = scene::SymbologyRequest{{r.attitude, r.attitude, Metres{1234}, Knots{speedKt}, true, {}},
-                                        scene::symbologySetup(p)};
+  r.symbology =
+      SymbologyRequest{{r.attitude, r.attitude, Metres{1234}, Knots{speedKt}, true, {}}, symbologySetup(p)};
   return r;
 }
 
@@ -137,7 +140,7 @@ void passes(Report& report, BenchScene& bench) {
   std::uint64_t first = 0, redraws = 0, draws = 0;
   for (int i = 0; i < frames + 5; ++i) {
     r.time += 1.0 / 60;
-    const scene::FrameResult result = bench.draw(withSymbols(r, 240));
+    const FrameResult result = bench.draw(withSymbols(r, 240));
     if (i == 0) first = result.symbologyRedraws, draws = result.symbologyDraws;
     redraws = result.symbologyRedraws - first;
     if (i >= 5) standing.push_back(result.cost.symbology);

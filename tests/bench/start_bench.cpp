@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "row.h"
-#include "support.h"
+#include "tests/support.h"
 #include "trimtab/host/flight.h"
 
 /// From the start of trimtab-ig to its first finished picture, and the memory it takes, beside the least that

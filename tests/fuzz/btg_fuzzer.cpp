@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "trimtab/terrain/scenery.h"
+#include "trimtab/terrain/scenery/scenery.h"
 
 /// A tile is read or refused with reasons; one that is read points nowhere but into its own arrays.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

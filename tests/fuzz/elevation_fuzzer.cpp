@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "trimtab/terrain/elevation_file.h"
+#include "core/terrain/elevation/file.h"
 
 /// A raster is read or refused with reasons; what is read is heights or voids.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,9 +1,9 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "support.h"
-#include "trimtab/terrain/database.h"
-#include "trimtab/terrain/manifest_checksum.h"
+#include "core/terrain/format/manifest_checksum.h"
+#include "tests/support.h"
+#include "trimtab/terrain/format/database.h"
 
 /// A manifest, its checksum made right so that its lies are believed, beside the files of a real database:
 /// refused with reasons, or all of it can be used.

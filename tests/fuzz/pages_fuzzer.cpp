@@ -5,8 +5,8 @@
 #include <cstring>
 #include <string>
 
-#include "trimtab/terrain/page_file.h"
-#include "trimtab/terrain/store.h"
+#include "trimtab/terrain/format/page_file.h"
+#include "trimtab/terrain/format/store.h"
 
 /// A file of pages, its checksums made right so that its lies are believed: refused with reasons, or every
 /// blob is read within the file.

@@ -7,11 +7,11 @@
 #include <QTableWidget>
 #include <cmath>
 
+#include "app/workbench/docks/error_dock.h"
+#include "app/workbench/docks/flight_dock.h"
+#include "app/workbench/viewport/split_view.h"
 #include "gui_support.h"
 #include "trimtab/preset/preset.h"
-#include "trimtab/workbench/error_dock.h"
-#include "trimtab/workbench/flight_dock.h"
-#include "trimtab/workbench/split_view.h"
 
 namespace trimtab::test {
 namespace {

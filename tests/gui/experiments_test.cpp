@@ -6,9 +6,9 @@
 #include <QTableWidget>
 #include <algorithm>
 
+#include "app/workbench/docks/experiments_dock.h"
 #include "gui_support.h"
-#include "trimtab/views/report_plot.h"
-#include "trimtab/workbench/experiments_dock.h"
+#include "views/plots/report_plot.h"
 
 namespace trimtab::test {
 namespace {

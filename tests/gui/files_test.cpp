@@ -10,8 +10,9 @@
 #include <QPushButton>
 #include <QStandardPaths>
 
+#include "app/workbench/window/notice_bar.h"
 #include "gui_support.h"
-#include "trimtab/workbench/notice_bar.h"
+#include "trimtab/terrain/synthetic/sample.h"
 
 namespace trimtab::test {
 namespace {

@@ -9,8 +9,10 @@
 #include <functional>
 #include <memory>
 
-#include "support.h"
-#include "trimtab/workbench/main_window.h"
+#include "app/workbench/window/main_window.h"
+#include "tests/support.h"
+#include "trimtab/terrain/bake/bake.h"
+#include "trimtab/terrain/synthetic/sample.h"
 
 namespace trimtab::test {
 
@@ -63,7 +65,7 @@ class Bench : public ::testing::Test {
     window.reset();
   }
   workbench::MainWindow& w() { return *window; }
-  session::Session& session() { return window->feed().session(); }
+  Session& session() { return window->feed().session(); }
   std::uint64_t paints() const { return window->viewport().paints(); }
   /// A host's link on any free port.
   std::uint16_t listen() {

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <fstream>
 
-#include "app/ig_support.h"
+#include "app/link/link.h"
 #include "gui_support.h"
+#include "tests/app/ig_support.h"
+#include "trimtab/host/flight.h"
 
 /// Everything at once: a flight over UDP with a head that sweeps and weather that changes, all docks open.
 /// A third of a minute of it by default; TRIMTAB_LONG_FLIGHT_S says otherwise (600 is the whole flight).

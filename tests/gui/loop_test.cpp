@@ -10,10 +10,12 @@
 #include <map>
 #include <thread>
 
-#include "app/ig_support.h"
+#include "app/link/link.h"
 #include "gui_support.h"
-#include "trimtab/views/curve_plot.h"
-#include "trimtab/views/membership_editor.h"
+#include "tests/app/ig_support.h"
+#include "trimtab/host/flight.h"
+#include "views/editors/membership_editor.h"
+#include "views/plots/curve_plot.h"
 
 namespace trimtab::test {
 namespace {

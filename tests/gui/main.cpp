@@ -5,8 +5,8 @@
 #include <clocale>
 #include <cstdlib>
 
-#include "support.h"
-#include "trimtab/workbench/gl_setup.h"
+#include "app/workbench/viewport/gl_setup.h"
+#include "tests/support.h"
 
 /// Settings, recovered edits and baked terrain of these tests stay in a folder of their own.
 int main(int argc, char** argv) {

@@ -7,10 +7,11 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "app/link/link.h"
 #include "gui_support.h"
 #include "trimtab/motion/head_motion.h"
-#include "trimtab/views/bar_list.h"
-#include "trimtab/views/motion_panel.h"
+#include "views/controls/bar_list.h"
+#include "views/panels/motion_panel.h"
 
 namespace trimtab::test {
 namespace {

@@ -2,10 +2,11 @@
 #include <Qt>
 #include <limits>
 
-#include "support.h"
-#include "trimtab/workbench/flight_playback.h"
-#include "trimtab/workbench/free_camera.h"
-#include "trimtab/workbench/options.h"
+#include "app/workbench/jobs/flight_playback.h"
+#include "app/workbench/viewport/free_camera.h"
+#include "app/workbench/window/options.h"
+#include "tests/support.h"
+#include "trimtab/host/flight.h"
 
 namespace trimtab {
 namespace {

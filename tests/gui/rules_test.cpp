@@ -9,13 +9,14 @@
 #include <cstdlib>
 
 #include "gui_support.h"
-#include "trimtab/views/parameter_line.h"
-#include "trimtab/views/parameter_table.h"
-#include "trimtab/views/rule_viewer.h"
-#include "trimtab/views/rules_editor.h"
-#include "trimtab/views/rules_model.h"
-#include "trimtab/views/rules_panel.h"
-#include "trimtab/views/surface_plot.h"
+#include "trimtab/host/flight.h"
+#include "views/controls/parameter_line.h"
+#include "views/controls/parameter_table.h"
+#include "views/editors/rule_viewer.h"
+#include "views/editors/rules_editor.h"
+#include "views/model/rules_model.h"
+#include "views/panels/rules_panel.h"
+#include "views/plots/surface_plot.h"
 
 namespace trimtab::test {
 namespace {

@@ -5,8 +5,9 @@
 #include <QSlider>
 
 #include "gui_support.h"
-#include "trimtab/terrain/static_lod.h"
-#include "trimtab/views/static_lod_panel.h"
+#include "trimtab/frame/frame_result.h"
+#include "trimtab/terrain/static_lod/static_lod.h"
+#include "views/panels/static_lod_panel.h"
 
 namespace trimtab::test {
 namespace {
@@ -21,7 +22,7 @@ class StaticLodDock : public Bench {
       if (label->text().contains(text)) return true;
     return false;
   }
-  const scene::FrameResult& last() { return *w().viewport().lastResult(); }
+  const FrameResult& last() { return *w().viewport().lastResult(); }
   QString legend() const { return window->viewport().overlayContents().legendTitle; }
 };
 

@@ -7,14 +7,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/workbench/viewport/symbology_editor.h"
 #include "gui_support.h"
-#include "trimtab/views/symbology_panel.h"
-#include "trimtab/workbench/symbology_editor.h"
+#include "views/panels/symbology_panel.h"
 
 namespace trimtab::test {
 namespace {
-
-using scene::Symbol;
 
 class SymbologyDock : public Bench {
  protected:

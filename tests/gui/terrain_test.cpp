@@ -15,9 +15,14 @@
 #include <future>
 #include <thread>
 
+#include "app/workbench/dialogs/bake_dialog.h"
 #include "gui_support.h"
-#include "trimtab/views/terrain_panel.h"
-#include "trimtab/workbench/bake_dialog.h"
+#include "trimtab/frame/frame_result.h"
+#include "trimtab/terrain/bake/bake.h"
+#include "trimtab/terrain/format/database.h"
+#include "trimtab/terrain/grid/progress.h"
+#include "trimtab/terrain/synthetic/sample.h"
+#include "views/panels/terrain_panel.h"
 
 namespace trimtab::test {
 namespace {
@@ -41,7 +46,7 @@ class TerrainDock : public Bench {
       if (each->defaultAction() != nullptr && each->defaultAction()->iconText().contains(text)) return each;
     return nullptr;
   }
-  const scene::FrameResult& last() { return *w().viewport().lastResult(); }
+  const FrameResult& last() { return *w().viewport().lastResult(); }
   int drawnRows() {
     const QAbstractItemModel& model = *panel().findChild<QTableView*>()->model();
     int rows = 0;

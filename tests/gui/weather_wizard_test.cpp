@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trimtab/workbench/weather_wizard.h"
+#include "app/workbench/dialogs/weather_wizard.h"
 
 #include <QDockWidget>
 #include <QListWidget>
@@ -11,7 +11,7 @@
 #include <cmath>
 
 #include "gui_support.h"
-#include "trimtab/views/weather_panel.h"
+#include "views/panels/weather_panel.h"
 
 namespace trimtab::test {
 namespace {

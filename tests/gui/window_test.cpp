@@ -12,8 +12,8 @@
 #include <QProcess>
 #include <QTimer>
 
+#include "app/workbench/docks/host_dock.h"
 #include "gui_support.h"
-#include "trimtab/workbench/host_dock.h"
 
 namespace trimtab::test {
 namespace {

@@ -5,11 +5,11 @@
 #include <random>
 #include <vector>
 
+#include "core/scene/gl/frame_buffer.h"
+#include "core/scene/gl/gl_api.h"
+#include "core/scene/gl/gl_program.h"
 #include "quad.h"
 #include "table.h"
-#include "trimtab/scene/frame_buffer.h"
-#include "trimtab/scene/gl_api.h"
-#include "trimtab/scene/gl_program.h"
 #include "trimtab/scene/offscreen.h"
 #include "trimtab/units/geodesy.h"
 

@@ -5,14 +5,14 @@
 #include <random>
 #include <vector>
 
+#include "core/host/cigi3.h"
+#include "core/host/limits.h"
+#include "core/host/native_fdm.h"
 #include "quad.h"
 #include "table.h"
 #include "trimtab/decision/decide.h"
-#include "trimtab/host/cigi3.h"
 #include "trimtab/host/decoder.h"
 #include "trimtab/host/encoder.h"
-#include "trimtab/host/limits.h"
-#include "trimtab/host/native_fdm.h"
 
 /// What hosts must not be able to do: put something that is no number into a decision or an eye.
 namespace trimtab::stress {

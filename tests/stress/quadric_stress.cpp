@@ -3,9 +3,9 @@
 #include <random>
 #include <vector>
 
+#include "core/terrain/static_lod/quadric.h"
 #include "quad.h"
 #include "table.h"
-#include "trimtab/terrain/static_lod_quadric.h"
 
 namespace trimtab::stress {
 namespace {

@@ -5,9 +5,9 @@
 #include <random>
 #include <vector>
 
-#include "core/culling/random_index.h"
 #include "quad.h"
 #include "table.h"
+#include "tests/core/culling/random_index.h"
 #include "trimtab/culling/box_arrays.h"
 #include "trimtab/culling/box_distance.h"
 #include "trimtab/culling/depth_pyramid.h"

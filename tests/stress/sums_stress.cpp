@@ -4,14 +4,14 @@
 #include <cmath>
 #include <vector>
 
+#include "core/host/frame_order.h"
+#include "core/host/rate_meter.h"
+#include "core/measure/trace_cells.h"
 #include "quad.h"
 #include "table.h"
 #include "trimtab/host/decoder.h"
 #include "trimtab/host/encoder.h"
-#include "trimtab/host/frame_order.h"
-#include "trimtab/host/rate_meter.h"
 #include "trimtab/measure/statistics.h"
-#include "trimtab/measure/trace_cells.h"
 #include "trimtab/motion/head_motion.h"
 
 /// A day at 60 Hz: 5.2 million frames, begun at 0 and at the clocks that hosts have (seconds since 1970).

@@ -11,9 +11,7 @@
 namespace trimtab::stress {
 namespace {
 
-using scene::Symbol;
 using scene::SymbologyDrawing;
-using scene::SymbologyRequest;
 
 /// Pitch at and beside the vertical, roll at half turns, headings at the wrap; or anything.
 Attitude extreme(std::mt19937_64& random) {
@@ -46,7 +44,7 @@ Pixel projected(const Attitude& a, const ViewShape& v, Quad3 d) {
 
 SymbologyRequest only(Symbol symbol) {
   SymbologyRequest r;
-  r.setup = scene::symbologySetup(TuningParameters{});
+  r.setup = symbologySetup(TuningParameters{});
   r.setup.general.enabled = true;
   for (auto& e : r.setup.element) e.show = false;
   r.setup.element[static_cast<std::size_t>(symbol)].show = true;
@@ -149,7 +147,7 @@ TEST(SymbologyStress, nothingLeavesThePicture) {
   const auto any = [&] { return odd[static_cast<std::size_t>(std::abs(unit(random)) * 8.99)]; };
   for (std::size_t i = 0; i < samples(3000); ++i) {
     SymbologyRequest r;
-    r.setup = scene::symbologySetup(TuningParameters{});
+    r.setup = symbologySetup(TuningParameters{});
     r.setup.general.enabled = true;
     r.setup.general.frame = i % 2 == 0 ? SymbologyFrame::head : SymbologyFrame::aircraft;
     for (auto& e : r.setup.element) e.show = true;

@@ -10,7 +10,7 @@
 #include <iostream>
 #include <vector>
 
-#include "support.h"
+#include "tests/support.h"
 
 namespace trimtab::stress {
 namespace {
@@ -69,7 +69,7 @@ std::string table() {
 std::filesystem::path tableFile() {
   if (const char* file = std::getenv("TRIMTAB_STRESS_TABLE")) return file;
   if (GTEST_FLAG_GET(filter) != "*") return {};
-  return std::filesystem::path(TRIMTAB_BIN_DIR).parent_path() / "stress.txt";
+  return test::programDir().parent_path() / "stress.txt";
 }
 
 class Printer : public testing::Environment {

@@ -8,7 +8,7 @@
 #include <QWidget>
 #include <string_view>
 
-#include "trimtab/views/draft.h"
+#include "views/model/draft.h"
 
 namespace trimtab::test {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trimtab/views/bands_editor.h"
+#include "views/editors/bands_editor.h"
 
 #include <QLabel>
 #include <QSignalSpy>
 #include <QTableView>
 
 #include "application.h"
-#include "trimtab/views/band_scale.h"
-#include "trimtab/views/bands_model.h"
-#include "trimtab/views/depth_map_inset.h"
-#include "trimtab/views/number_box.h"
+#include "views/controls/number_box.h"
+#include "views/editors/band_scale.h"
+#include "views/model/bands_model.h"
+#include "views/plots/depth_map_inset.h"
 
 namespace trimtab::views {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trimtab/views/culling_panel.h"
+#include "views/panels/culling_panel.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <QWheelEvent>
 #include <algorithm>
 
-#include "trimtab/views/horizon_inset.h"
-#include "trimtab/views/time_plot.h"
+#include "views/plots/horizon_inset.h"
+#include "views/plots/time_plot.h"
 
 namespace trimtab::views {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trimtab/views/decision_panel.h"
+#include "views/panels/decision_panel.h"
 
 #include <QClipboard>
 #include <QLabel>
@@ -7,8 +7,8 @@
 
 #include "application.h"
 #include "live_flight.h"
-#include "support.h"
-#include "trimtab/views/decision_log.h"
+#include "tests/support.h"
+#include "views/panels/decision_log.h"
 
 namespace trimtab::views {
 namespace {

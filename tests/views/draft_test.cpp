@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trimtab/views/draft.h"
+#include "views/model/draft.h"
 
 #include <QSignalSpy>
 #include <limits>
 
 #include "application.h"
-#include "trimtab/views/keys.h"
+#include "views/model/keys.h"
 
 namespace trimtab::views {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trimtab/views/error_plot.h"
+#include "views/plots/error_plot.h"
 
 #include <cmath>
 
 #include "application.h"
 #include "error_run_sample.h"
-#include "trimtab/views/theme.h"
+#include "views/model/theme.h"
 
 namespace trimtab::views {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "trimtab/views/error_run.h"
+#include "views/model/error_run.h"
 
 namespace trimtab::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trimtab/views/error_timeline.h"
+#include "views/plots/error_timeline.h"
 
 #include <QSignalSpy>
 #include <cmath>

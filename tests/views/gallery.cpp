@@ -13,17 +13,17 @@
 #include <ctime>
 
 #include "live_flight.h"
-#include "trimtab/views/band_scale.h"
-#include "trimtab/views/bands_editor.h"
-#include "trimtab/views/curve_plot.h"
-#include "trimtab/views/decision_panel.h"
-#include "trimtab/views/membership_editor.h"
-#include "trimtab/views/parameter_table.h"
-#include "trimtab/views/plots_panel.h"
-#include "trimtab/views/rules_editor.h"
-#include "trimtab/views/rules_panel.h"
-#include "trimtab/views/surface_plot.h"
-#include "trimtab/views/time_plot.h"
+#include "views/controls/parameter_table.h"
+#include "views/editors/band_scale.h"
+#include "views/editors/bands_editor.h"
+#include "views/editors/membership_editor.h"
+#include "views/editors/rules_editor.h"
+#include "views/panels/decision_panel.h"
+#include "views/panels/plots_panel.h"
+#include "views/panels/rules_panel.h"
+#include "views/plots/curve_plot.h"
+#include "views/plots/surface_plot.h"
+#include "views/plots/time_plot.h"
 
 // Draws every dock with live data into PNG files, for a person to look at: views_gallery DIR [dark].
 namespace {

@@ -5,7 +5,7 @@
 
 #include "trimtab/decision/decide.h"
 #include "trimtab/measure/cost_stages.h"
-#include "trimtab/views/live.h"
+#include "views/model/live.h"
 
 namespace trimtab::test {
 

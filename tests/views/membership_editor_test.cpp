@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trimtab/views/membership_editor.h"
+#include "views/editors/membership_editor.h"
 
 #include <QSignalSpy>
 #include <QTableView>
@@ -7,8 +7,8 @@
 
 #include "application.h"
 #include "live_flight.h"
-#include "trimtab/views/curve_plot.h"
-#include "trimtab/views/keys.h"
+#include "views/model/keys.h"
+#include "views/plots/curve_plot.h"
 
 namespace trimtab::views {
 namespace {

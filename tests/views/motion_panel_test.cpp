@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trimtab/views/motion_panel.h"
+#include "views/panels/motion_panel.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <QTest>
 
 #include "trimtab/motion/head_motion.h"
-#include "trimtab/views/motion_plot.h"
+#include "views/plots/motion_plot.h"
 
 namespace trimtab::views {
 namespace {

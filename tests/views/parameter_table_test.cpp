@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trimtab/views/parameter_table.h"
+#include "views/controls/parameter_table.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -10,9 +10,9 @@
 #include <set>
 
 #include "application.h"
-#include "trimtab/views/number_box.h"
-#include "trimtab/views/parameter_line.h"
-#include "trimtab/views/parameter_slider.h"
+#include "views/controls/number_box.h"
+#include "views/controls/parameter_line.h"
+#include "views/controls/parameter_slider.h"
 
 namespace trimtab::views {
 namespace {

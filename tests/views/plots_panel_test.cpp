@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trimtab/views/plots_panel.h"
+#include "views/panels/plots_panel.h"
 
 #include <QFileDialog>
 #include <QLineEdit>
@@ -9,8 +9,8 @@
 
 #include "application.h"
 #include "live_flight.h"
-#include "trimtab/views/ask_csv_file.h"
-#include "trimtab/views/time_plot.h"
+#include "views/controls/ask_csv_file.h"
+#include "views/plots/time_plot.h"
 
 namespace trimtab::views {
 namespace {

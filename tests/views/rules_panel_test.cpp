@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trimtab/views/rules_panel.h"
+#include "views/panels/rules_panel.h"
 
 #include <QAbstractItemDelegate>
 #include <QComboBox>
@@ -13,11 +13,11 @@
 #include "application.h"
 #include "live_flight.h"
 #include "trimtab/fuzzy/combination.h"
-#include "trimtab/views/parameter_line.h"
-#include "trimtab/views/parameter_table.h"
-#include "trimtab/views/rule_viewer.h"
-#include "trimtab/views/rules_editor.h"
-#include "trimtab/views/rules_model.h"
+#include "views/controls/parameter_line.h"
+#include "views/controls/parameter_table.h"
+#include "views/editors/rule_viewer.h"
+#include "views/editors/rules_editor.h"
+#include "views/model/rules_model.h"
 
 namespace trimtab::views {
 namespace {

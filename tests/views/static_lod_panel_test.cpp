@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trimtab/views/static_lod_panel.h"
+#include "views/panels/static_lod_panel.h"
 
 #include <QCheckBox>
 #include <QLabel>
@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "application.h"
-#include "support.h"
-#include "trimtab/views/choice_box.h"
+#include "tests/support.h"
+#include "views/controls/choice_box.h"
 
 namespace trimtab::views {
 namespace {

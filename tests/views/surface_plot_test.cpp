@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trimtab/views/surface_plot.h"
+#include "views/plots/surface_plot.h"
 
 #include <cmath>
 
 #include "application.h"
 #include "live_flight.h"
-#include "trimtab/views/contour.h"
+#include "views/plots/contour.h"
 
 namespace trimtab::views {
 namespace {

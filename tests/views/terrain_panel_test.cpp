@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trimtab/views/terrain_panel.h"
+#include "views/panels/terrain_panel.h"
 
 #include <QLabel>
 #include <QProgressBar>
@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "application.h"
-#include "support.h"
+#include "tests/support.h"
 
 namespace trimtab::views {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trimtab/views/trace_buffer.h"
+#include "views/model/trace_buffer.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trimtab/views/weather_panel.h"
+#include "views/panels/weather_panel.h"
 
 #include <QComboBox>
 #include <QLabel>
@@ -9,11 +9,11 @@
 #include <QTableWidget>
 
 #include "application.h"
-#include "support.h"
-#include "trimtab/views/number_box.h"
-#include "trimtab/views/parameter_line.h"
-#include "trimtab/views/parameter_slider.h"
+#include "tests/support.h"
 #include "trimtab/weather/weather.h"
+#include "views/controls/number_box.h"
+#include "views/controls/parameter_line.h"
+#include "views/controls/parameter_slider.h"
 
 namespace trimtab::views {
 namespace {

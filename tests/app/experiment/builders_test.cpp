@@ -1,11 +1,13 @@
-#include "trimtab/experiment/builders.h"
+#include "app/experiment/builders.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "support.h"
-#include "trimtab/experiment/experiment.h"
-#include "trimtab/terrain/static_lod_level.h"
+#include "app/experiment/experiment.h"
+#include "tests/support.h"
+#include "trimtab/terrain/bake/bake.h"
+#include "trimtab/terrain/format/database.h"
+#include "trimtab/terrain/static_lod/level.h"
 
 /// Both builders of levels over one tile of real scenery.
 namespace trimtab {

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "support.h"
+#include "tests/support.h"
 
 namespace trimtab {
 namespace {

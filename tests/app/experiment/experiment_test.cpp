@@ -1,11 +1,15 @@
-#include "trimtab/experiment/experiment.h"
+#include "app/experiment/experiment.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "support.h"
+#include "tests/support.h"
+#include "trimtab/host/flight.h"
 #include "trimtab/preset/preset.h"
+#include "trimtab/terrain/bake/bake.h"
+#include "trimtab/terrain/format/database.h"
+#include "trimtab/terrain/synthetic/sample.h"
 
 namespace trimtab::experiment {
 namespace {

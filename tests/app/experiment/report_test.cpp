@@ -4,9 +4,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "support.h"
-#include "trimtab/experiment/published.h"
-#include "trimtab/experiment/report.h"
+#include "app/experiment/published.h"
+#include "app/experiment/report.h"
+#include "tests/support.h"
 
 namespace trimtab::experiment {
 namespace {

@@ -6,8 +6,8 @@
 #include <map>
 #include <thread>
 
-#include "support.h"
-#include "trimtab/harness/results.h"
+#include "app/harness/results.h"
+#include "tests/support.h"
 
 namespace trimtab::harness {
 namespace {

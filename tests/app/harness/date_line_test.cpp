@@ -3,10 +3,12 @@
 #include <cmath>
 #include <set>
 
-#include "synthetic_terrain.h"
-#include "trimtab/experiment/stage.h"
-#include "trimtab/harness/decided_frames.h"
+#include "app/experiment/stage.h"
+#include "app/harness/decided_frames.h"
+#include "tests/core/scene/terrain/synthetic_terrain.h"
+#include "trimtab/host/flight.h"
 #include "trimtab/scene/data_extent.h"
+#include "trimtab/terrain/format/database.h"
 
 /// A terrain whose eastern border has a smaller longitude than its western one.
 namespace trimtab {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "route.h"
-#include "shared_scene.h"
-#include "support.h"
+#include "resources/flights/route.h"
+#include "tests/shared_scene.h"
+#include "tests/support.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/session/session.h"
@@ -84,7 +84,7 @@ TEST(RouteFlights, makeTheShippedPresetsChangeTheirBands) {
     for (const char* name : {"default", "as-published"}) {
       const Result<Preset> preset = loadPreset(name);
       ASSERT_TRUE(preset);
-      session::Session session(*validate(preset->parameters));
+      Session session(*validate(preset->parameters));
       int changes = -1;
       std::pair<Scheme, int> before{Scheme::frustum, -2};
       for (const AircraftState& state : read(generated).states) {

@@ -5,9 +5,9 @@
 #include <pugixml.hpp>
 #include <sstream>
 
+#include "app/harness/report.h"
+#include "app/harness/run.h"
 #include "report_results.h"
-#include "trimtab/harness/report.h"
-#include "trimtab/harness/run.h"
 
 namespace trimtab::harness {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "support.h"
-#include "trimtab/harness/results.h"
+#include "app/harness/results.h"
+#include "tests/support.h"
 #include "trimtab/scene/offscreen.h"
 
 /// Results as a run leaves them, made without a run.

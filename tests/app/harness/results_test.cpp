@@ -1,4 +1,4 @@
-#include "trimtab/harness/results.h"
+#include "app/harness/results.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "trimtab/harness/run.h"
+#include "app/harness/run.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,9 @@
 #include <map>
 #include <set>
 
-#include "scene_test.h"
-#include "trimtab/harness/heat_colour.h"
+#include "app/harness/heat_colour.h"
+#include "tests/core/scene/scene_test.h"
+#include "trimtab/host/flight.h"
 #include "trimtab/session/session.h"
 
 namespace trimtab::harness {
@@ -249,8 +250,8 @@ TEST(Run, replaysATraceFromTheMemoryAndCostItRecorded) {
   Plan plan = smallPlan();
   plan.presets.pop_back();
   plan.cases = {CullingCase::proposed};
-  session::Session session(plan.presets[0].parameters);
-  session.setTerrain(plan.terrain);
+  Session session(plan.presets[0].parameters);
+  session.setGround(plan.terrain);
   session.keepRows(true);
   for (const AircraftState& state : plan.flights[0].flight.states) session.fly(state, state.time);
   const auto flown = run(plan, dir / "flown");

@@ -1,4 +1,4 @@
-#include "trimtab/harness/skips.h"
+#include "app/harness/skips.h"
 
 #include <chrono>
 #include <cmath>
@@ -6,8 +6,10 @@
 #include <thread>
 #include <utility>
 
-#include "scene_test.h"
-#include "synthetic_trees.h"
+#include "tests/core/scene/scene_test.h"
+#include "tests/core/scene/terrain/synthetic_trees.h"
+#include "trimtab/frame/frame_request.h"
+#include "trimtab/frame/frame_result.h"
 #include "trimtab/preset/table.h"
 
 namespace trimtab {
@@ -16,8 +18,6 @@ namespace {
 using harness::Skip;
 using harness::skips;
 using harness::SkipSaving;
-using scene::FrameRequest;
-using scene::FrameResult;
 
 class SkipsTest : public test::SceneTest {
  protected:
@@ -34,8 +34,7 @@ class SkipsTest : public test::SceneTest {
     TuningParameters p;
     p.symbology.enabled = true;
     const Attitude level{Degrees{30}, Degrees{-2}, Degrees{0}};
-    r.symbology =
-        scene::SymbologyRequest{{level, level, Metres{1234}, Knots{240}, true, {}}, scene::symbologySetup(p)};
+    r.symbology = SymbologyRequest{{level, level, Metres{1234}, Knots{240}, true, {}}, symbologySetup(p)};
     return r;
   }
   static void foggy(FrameRequest& r) {
@@ -134,7 +133,7 @@ TEST_F(SkipsTest, areDoneWhereTheyAreSwitchedOff) {
   auto r = looking(20);
   foggy(r);
   FrameResult before, after;
-  const auto drawTwice = [&](bool scene::Skips::*skip) {
+  const auto drawTwice = [&](bool Skips::*skip) {
     auto changed = r;
     if (skip != nullptr) changed.skips.*skip = false;
     picture(changed);
@@ -152,17 +151,17 @@ TEST_F(SkipsTest, areDoneWhereTheyAreSwitchedOff) {
   EXPECT_EQ(work(), (Work{0, 0, 0, 0, 0}));
   const std::size_t tiles = after.visible.tiles.size();
   EXPECT_GT(after.visible.beyondVisibility, 0u);
-  drawTwice(&scene::Skips::sameCut);
+  drawTwice(&Skips::sameCut);
   EXPECT_EQ(work(), (Work{1, 0, 0, 0, 0}));
-  drawTwice(&scene::Skips::tilesOnGpu);
+  drawTwice(&Skips::tilesOnGpu);
   EXPECT_EQ(work(), (Work{0, tiles, 0, 0, 0}));
-  drawTwice(&scene::Skips::blurAtRest);
+  drawTwice(&Skips::blurAtRest);
   EXPECT_EQ(work(), (Work{0, 0, 1, 0, 0}));
-  drawTwice(&scene::Skips::clearAir);
+  drawTwice(&Skips::clearAir);
   EXPECT_EQ(work(), (Work{0, 0, 0, 1, 0}));
-  drawTwice(&scene::Skips::sameSymbols);
+  drawTwice(&Skips::sameSymbols);
   EXPECT_EQ(work(), (Work{0, 0, 0, 0, 1}));
-  drawTwice(&scene::Skips::beyondVisibility);
+  drawTwice(&Skips::beyondVisibility);
   EXPECT_EQ(work(), (Work{0, 0, 0, 0, 0}));
   EXPECT_EQ(after.visible.beyondVisibility, 0u);
   EXPECT_GT(after.visible.tiles.size(), tiles);

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <thread>
 
-#include "support.h"
+#include "tests/support.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/host/head_log.h"
 #include "udp_socket.h"

@@ -1,4 +1,4 @@
-#include "trimtab/link/link.h"
+#include "app/link/link.h"
 
 #include <gmock/gmock.h>
 #include <sys/resource.h>
@@ -10,8 +10,9 @@
 #include <random>
 #include <thread>
 
-#include "support.h"
+#include "tests/support.h"
 #include "trimtab/host/encoder.h"
+#include "trimtab/host/flight.h"
 #include "trimtab/host/motion.h"
 #include "udp_socket.h"
 
@@ -49,8 +50,8 @@ std::unique_ptr<link::FeedPlayer> playing(std::uint16_t port, link::PlayOptions 
 
 /// Everything received until `enough` says so, or for ten seconds.
 template <class Enough>
-std::vector<link::ReceivedState> gathered(link::Receiver& receiver, Enough enough) {
-  std::vector<link::ReceivedState> all, some;
+std::vector<ReceivedState> gathered(link::Receiver& receiver, Enough enough) {
+  std::vector<ReceivedState> all, some;
   const auto end = std::chrono::steady_clock::now() + 10s;
   do {
     std::this_thread::sleep_for(2ms);
@@ -168,7 +169,7 @@ TEST(Link, pausesSeeksLoopsAndEnds) {
   const std::uint64_t sent = player->sent();
   std::this_thread::sleep_for(50ms);
   EXPECT_EQ(player->sent(), sent);
-  std::vector<link::ReceivedState> some;
+  std::vector<ReceivedState> some;
   receiver->take(some);
   player->setSpeed(1);
   player->seek(0);
@@ -261,7 +262,7 @@ TEST(Link, keepsTheNewestWhenNobodyTakesThem) {
     while (receiver->statistics().received < i) std::this_thread::sleep_for(100us);
   }
   while (receiver->statistics().received < 5000) std::this_thread::sleep_for(1ms);
-  std::vector<link::ReceivedState> states;
+  std::vector<ReceivedState> states;
   receiver->take(states);
   ASSERT_EQ(states.size(), 4096U);
   EXPECT_EQ(receiver->dropped(), 5000U - 4096U);

@@ -1,4 +1,4 @@
-#include "trimtab/plot/plot.h"
+#include "app/plot/plot.h"
 
 #include <gmock/gmock.h>
 
@@ -6,8 +6,8 @@
 #include <limits>
 #include <pugixml.hpp>
 
-#include "support.h"
-#include "trimtab/plot/svg.h"
+#include "app/plot/svg.h"
+#include "tests/support.h"
 
 namespace trimtab::plot {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "trimtab/culling/eye_pose.h"
+#include "trimtab/frame/eye_pose.h"
 
 namespace trimtab::test {
 

@@ -1,4 +1,4 @@
-#include "circuit.h"
+#include "resources/flights/circuit.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <sstream>
 #include <vector>
 
-#include "support.h"
+#include "tests/support.h"
 #include "trimtab/decision/decide.h"
 #include "trimtab/host/flight.h"
 

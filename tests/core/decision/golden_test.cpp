@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "support.h"
+#include "tests/support.h"
 #include "trimtab/decision/decide.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/preset/preset.h"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <sstream>
 
-#include "support.h"
+#include "tests/support.h"
 #include "trimtab/fuzzy/combination.h"
 #include "trimtab/fuzzy/membership.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fuzzylite_oracle.h"
-#include "support.h"
+#include "tests/support.h"
 #include "trimtab/fuzzy/combination.h"
 #include "trimtab/fuzzy/membership.h"
 #include "trimtab/preset/rules.h"

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "host_support.h"
-#include "support.h"
+#include "tests/support.h"
 
 namespace trimtab::test {
 namespace {

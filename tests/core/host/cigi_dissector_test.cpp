@@ -2,7 +2,7 @@
 #include <map>
 
 #include "host_support.h"
-#include "support.h"
+#include "tests/support.h"
 #include "trimtab/host/flight.h"
 
 namespace trimtab::test {

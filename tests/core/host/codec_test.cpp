@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "host_support.h"
-#include "support.h"
+#include "tests/support.h"
 
 namespace trimtab::test {
 namespace {

@@ -2,7 +2,7 @@
 #include <random>
 
 #include "host_support.h"
-#include "support.h"
+#include "tests/support.h"
 #include "trimtab/host/motion.h"
 
 namespace trimtab::test {

@@ -1,9 +1,9 @@
-#include "trimtab/host/frame_order.h"
+#include "core/host/frame_order.h"
 
 #include <set>
 
 #include "host_support.h"
-#include "support.h"
+#include "tests/support.h"
 
 namespace trimtab::test {
 namespace {

@@ -1,5 +1,5 @@
 #include "host_support.h"
-#include "support.h"
+#include "tests/support.h"
 #include "trimtab/host/flight.h"
 
 namespace trimtab::test {

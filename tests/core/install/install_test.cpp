@@ -1,4 +1,4 @@
-#include "support.h"
+#include "tests/support.h"
 #include "trimtab/decision/decide.h"
 #include "trimtab/preset/preset.h"
 

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <vector>
 
+#include "core/measure/simd_kernels.h"
 #include "flip_recorded.h"
 #include "trimtab/measure/image_error.h"
-#include "trimtab/measure/simd_kernels.h"
 
 namespace trimtab {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/measure/simd_kernels.h"
 #include "image_pairs.h"
-#include "trimtab/measure/simd_kernels.h"
 
 namespace trimtab {
 namespace {

@@ -1,4 +1,4 @@
-#include "trimtab/measure/simd.h"
+#include "core/measure/simd.h"
 
 #include <gtest/gtest.h>
 

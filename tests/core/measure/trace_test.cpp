@@ -10,7 +10,7 @@
 #include <random>
 #include <sstream>
 
-#include "support.h"
+#include "tests/support.h"
 #include "trimtab/measure/cost_stages.h"
 
 namespace trimtab {

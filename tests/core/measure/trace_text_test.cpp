@@ -4,7 +4,7 @@
 #include <random>
 #include <sstream>
 
-#include "csv_cells.h"
+#include "tests/csv_cells.h"
 #include "trimtab/measure/cost_stages.h"
 #include "trimtab/measure/trace.h"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "support.h"
+#include "tests/support.h"
 #include "trimtab/host/head_log.h"
 #include "trimtab/motion/head_motion.h"
 

@@ -9,7 +9,7 @@
 #include <regex>
 
 #include "random_parameters.h"
-#include "support.h"
+#include "tests/support.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/preset/sealed.h"
 

@@ -9,8 +9,8 @@
 #include <csignal>
 #include <functional>
 
-#include "disk_order.h"
-#include "support.h"
+#include "tests/disk_order.h"
+#include "tests/support.h"
 #include "trimtab/preset/preset.h"
 
 namespace trimtab {

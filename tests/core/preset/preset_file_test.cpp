@@ -5,7 +5,7 @@
 #include <map>
 
 #include "random_parameters.h"
-#include "support.h"
+#include "tests/support.h"
 #include "trimtab/preset/preset.h"
 
 namespace trimtab {

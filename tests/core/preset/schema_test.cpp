@@ -8,7 +8,7 @@
 #include <valijson/validator.hpp>
 
 #include "random_parameters.h"
-#include "support.h"
+#include "tests/support.h"
 #include "trimtab/preset/preset.h"
 
 namespace trimtab {

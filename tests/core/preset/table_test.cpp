@@ -7,10 +7,10 @@
 #include <limits>
 #include <set>
 
+#include "core/preset/rows.h"
 #include "random_parameters.h"
-#include "support.h"
+#include "tests/support.h"
 #include "trimtab/preset/number.h"
-#include "trimtab/preset/rows.h"
 
 namespace trimtab {
 namespace {
@@ -98,7 +98,7 @@ static_assert(!table::keysAreOrderly(std::array{kScale, kScale}), "a key twice")
 
 TEST(ParameterTable, refusesToCompileWhatContradictsItself) {
   const std::string begin =
-      "#include \"trimtab/preset/rows.h\"\nusing namespace trimtab;\n"
+      "#include \"core/preset/rows.h\"\nusing namespace trimtab;\n"
       "constexpr auto r = table::row<&TuningParameters::view, &ViewParameters::nearDistance>({";
   const std::string good =
       ".key = \"view.near_m\", .label = \"l\", .help = \"h\", .hard = {0.1, 9}, .usual = {0.1, 9}});\n";

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "support.h"
+#include "tests/support.h"
 #include "trimtab/preset/table.h"
 
 namespace trimtab::test {

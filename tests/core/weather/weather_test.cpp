@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "support.h"
+#include "tests/support.h"
 #include "trimtab/decision/decide.h"
 
 namespace trimtab::test {

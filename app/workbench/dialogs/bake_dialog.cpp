@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bake_dialog.h"
+
+#include <QCheckBox>
+#include <QDialogButtonBox>
+#include <QDoubleSpinBox>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QFormLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QPushButton>
+#include <QSettings>
+#include <QShortcut>
+#include <QSpinBox>
+#include <QVBoxLayout>
+
+#include "trimtab/terrain/bake/bake.h"
+#include "trimtab/terrain/format/store.h"
+
+namespace trimtab::workbench {
+namespace {
+
+const QString kImages =
+    BakeDialog::tr("Images (*.tif *.tiff *.jp2 *.jpg *.jpeg *.png *.vrt *.img);;All files (*)");
+const QString kElevation = BakeDialog::tr(
+    "Elevation and scenery (*.tif *.tiff *.hgt *.dt0 *.dt1 *.dt2 *.img *.asc *.vrt *.zip *.btg *.btg.gz "
+    "*.stg);;All files (*)");
+
+/// A line with a button that fills it.
+QWidget* withButton(QLineEdit* line, QPushButton* button) {
+  auto* both = new QWidget;
+  auto* row = new QHBoxLayout(both);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->addWidget(line, 1);
+  row->addWidget(button);
+  return both;
+}
+
+}  // namespace
+
+BakeDialog::BakeDialog(QWidget* parent)
+    : QDialog(parent),
+      sources_(new QListWidget(this)),
+      imagery_(new QLineEdit(this)),
+      output_(new QLineEdit(this)),
+      ownError_(new QCheckBox(tr("Error of the &finest patches"), this)),
+      error_(new QDoubleSpinBox(this)),
+      memory_(new QSpinBox(this)),
+      note_(new QLabel(this)) {
+  setWindowTitle(tr("Bake a terrain database"));
+  sources_->setAccessibleName(tr("Elevation and scenery"));
+  sources_->setSelectionMode(QAbstractItemView::ExtendedSelection);
+  sources_->setToolTip(
+      tr("Files may overlap and differ in projection, datum and resolution: the finest leads where there are "
+         "several, and borders are blended. Folders stand for the files in them."));
+  sources_->setMinimumHeight(110);
+  auto* files = new QPushButton(tr("Add &files..."), this);
+  auto* folder = new QPushButton(tr("Add f&older..."), this);
+  auto* remove = new QPushButton(tr("&Remove"), this);
+  connect(files, &QPushButton::clicked, this, &BakeDialog::addFiles);
+  connect(folder, &QPushButton::clicked, this, &BakeDialog::addFolder);
+  connect(remove, &QPushButton::clicked, this, &BakeDialog::removeChosen);
+  auto* removeKey = new QShortcut(QKeySequence::Delete, sources_);
+  removeKey->setContext(Qt::WidgetShortcut);
+  connect(removeKey, &QShortcut::activated, this, &BakeDialog::removeChosen);
+  auto* sourceButtons = new QHBoxLayout;
+  sourceButtons->addWidget(files);
+  sourceButtons->addWidget(folder);
+  sourceButtons->addWidget(remove);
+  sourceButtons->addStretch(1);
+  auto* sourceColumn = new QVBoxLayout;
+  sourceColumn->addWidget(sources_, 1);
+  sourceColumn->addLayout(sourceButtons);
+
+  imagery_->setPlaceholderText(tr("none: land is coloured by height and slope"));
+  auto* browseImage = new QPushButton(tr("Br&owse..."), this);
+  connect(browseImage, &QPushButton::clicked, this, [this] {
+    const QString file = QFileDialog::getOpenFileName(this, tr("Image to drape"), {}, kImages);
+    if (!file.isEmpty()) imagery_->setText(file);
+  });
+  output_->setToolTip(tr("A new folder, or a database to be replaced once the new one is whole"));
+  auto* browseOutput = new QPushButton(tr("Bro&wse..."), this);
+  connect(browseOutput, &QPushButton::clicked, this, [this] {
+    const QString chosen = QFileDialog::getSaveFileName(this, tr("Folder of the database"), output_->text(),
+                                                        {}, nullptr, QFileDialog::DontConfirmOverwrite);
+    if (!chosen.isEmpty()) output_->setText(chosen);
+  });
+  error_->setRange(0, 1000);
+  error_->setDecimals(2);
+  error_->setSingleStep(0.1);
+  error_->setValue(1);
+  error_->setSuffix(tr(" m"));
+  error_->setToolTip(tr("Largest vertical distance from the posts; 0 keeps every post"));
+  error_->setAccessibleName(tr("Error of the finest patches"));
+  error_->setEnabled(false);
+  ownError_->setToolTip(tr("Otherwise a tenth of the distance of posts"));
+  connect(ownError_, &QCheckBox::toggled, error_, &QWidget::setEnabled);
+  memory_->setRange(128, 1 << 20);
+  memory_->setSingleStep(128);
+  memory_->setValue(static_cast<int>(terrain::BakeOptions{}.memory.value()));
+  memory_->setSuffix(tr(" MB"));
+  memory_->setToolTip(tr("Baking uses no more, however large the data are"));
+
+  auto* form = new QFormLayout;
+  form->addRow(tr("&Elevation,\nscenery"), sourceColumn);
+  qobject_cast<QLabel*>(form->labelForField(sourceColumn))->setBuddy(sources_);
+  auto* imageRow = withButton(imagery_, browseImage);
+  form->addRow(tr("&Image"), imageRow);
+  qobject_cast<QLabel*>(form->labelForField(imageRow))->setBuddy(imagery_);
+  form->addRow(ownError_, error_);
+  form->addRow(tr("&Memory"), memory_);
+  auto* outputRow = withButton(output_, browseOutput);
+  form->addRow(tr("&Database"), outputRow);
+  qobject_cast<QLabel*>(form->labelForField(outputRow))->setBuddy(output_);
+
+  note_->setWordWrap(true);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
+  bake_ = buttons->addButton(tr("&Bake"), QDialogButtonBox::AcceptRole);
+  connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  auto* column = new QVBoxLayout(this);
+  column->addLayout(form, 1);
+  column->addWidget(note_);
+  column->addWidget(buttons);
+  for (QLineEdit* line : {imagery_, output_})
+    connect(line, &QLineEdit::textChanged, this, &BakeDialog::check);
+  resize(640, sizeHint().height());
+  check();
+}
+
+void BakeDialog::addSources(const QStringList& paths) {
+  for (const QString& path : paths) {
+    const QString absolute = QFileInfo(path).absoluteFilePath();
+    if (sources_->findItems(absolute, Qt::MatchExactly).isEmpty()) sources_->addItem(absolute);
+  }
+  if (output_->text().isEmpty() && sources_->count() > 0) {
+    const QFileInfo first(sources_->item(0)->text());
+    output_->setText(first.absolutePath() + QLatin1Char('/') + first.completeBaseName() +
+                     QStringLiteral("-terrain"));
+  }
+  check();
+}
+
+void BakeDialog::addFiles() {
+  addSources(QFileDialog::getOpenFileNames(this, tr("Elevation and scenery"), {}, kElevation));
+}
+
+void BakeDialog::addFolder() {
+  const QString folder = QFileDialog::getExistingDirectory(this, tr("Folder of elevation files or scenery"));
+  if (!folder.isEmpty()) addSources({folder});
+}
+
+void BakeDialog::removeChosen() {
+  qDeleteAll(sources_->selectedItems());
+  check();
+}
+
+void BakeDialog::check() {
+  const QString output = output_->text().trimmed(), image = imagery_->text().trimmed();
+  const QFileInfo folder(output);
+  QString problem;
+  if (sources_->count() == 0)
+    problem = tr("Add at least one elevation file or folder of scenery.");
+  else if (!image.isEmpty() && !QFileInfo(image).isFile())
+    problem = tr("There is no image %1.").arg(image);
+  else if (output.isEmpty())
+    problem = tr("Name a folder for the database.");
+  else if (folder.exists() && !folder.isDir())
+    problem = tr("%1 is a file; a database is a folder.").arg(output);
+  else if (!terrain::mayReplace(output.toStdString()))
+    problem = tr("%1 holds something else, which stays as it is: name a new folder.").arg(output);
+  bake_->setEnabled(problem.isEmpty());
+  if (!problem.isEmpty())
+    note_->setText(problem);
+  else if (terrain::isDatabase(output.toStdString()))
+    note_->setText(tr("The database there is replaced once the new one is whole."));
+  else
+    note_->setText(tr("A bake that was stopped half-way goes on where its folder is named again."));
+}
+
+terrain::BakeOptions BakeDialog::options() const {
+  terrain::BakeOptions options;
+  for (int i = 0; i < sources_->count(); ++i)
+    options.sources.emplace_back(sources_->item(i)->text().toStdString());
+  if (const QString image = imagery_->text().trimmed(); !image.isEmpty())
+    options.imagery = image.toStdString();
+  if (ownError_->isChecked()) options.maxError = Metres{error_->value()};
+  options.memory = Megabytes{double(memory_->value())};
+  options.output = output_->text().trimmed().toStdString();
+  return options;
+}
+
+}  // namespace trimtab::workbench

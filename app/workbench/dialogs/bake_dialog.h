@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QDialog>
+#include <optional>
+
+#include "trimtab/terrain/bake/bake.h"
+#include "trimtab/terrain/format/database.h"
+
+class QCheckBox;
+class QDoubleSpinBox;
+class QLabel;
+class QLineEdit;
+class QListWidget;
+class QPushButton;
+class QSpinBox;
+
+namespace trimtab::workbench {
+
+/// Asks what is to be baked into a terrain database, and where to.
+class BakeDialog : public QDialog {
+  Q_OBJECT
+
+ public:
+  explicit BakeDialog(QWidget* parent = nullptr);
+
+  /// Files and folders to begin with, as from a drop.
+  void addSources(const QStringList& paths);
+  /// What is asked for; its progress is the caller's to set.
+  terrain::BakeOptions options() const;
+
+ private:
+  void addFiles();
+  void addFolder();
+  void removeChosen();
+  void check();
+
+  QListWidget* sources_;
+  QLineEdit *imagery_, *output_;
+  QCheckBox* ownError_;
+  QDoubleSpinBox* error_;
+  QSpinBox* memory_;
+  QLabel* note_;
+  QPushButton* bake_;
+};
+
+}  // namespace trimtab::workbench

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bench_dialog.h"
+
+#include <QCheckBox>
+#include <QDialogButtonBox>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QPushButton>
+#include <QRegularExpressionValidator>
+#include <QSpinBox>
+#include <QVBoxLayout>
+
+#include "trimtab/preset/preset.h"
+#include "views/model/error_run.h"
+
+namespace trimtab::workbench {
+namespace {
+
+constexpr const char* kCases[] = {"none", "view_frustum", "proposed"};
+
+}  // namespace
+
+const QString BenchChoice::kDraft = QStringLiteral("draft");
+
+BenchDialog::BenchDialog(const QString& folder, QWidget* parent)
+    : QDialog(parent),
+      presets_(new QListWidget(this)),
+      size_(new QLineEdit(BenchChoice().size, this)),
+      folder_(new QLineEdit(folder, this)),
+      frames_(new QSpinBox(this)),
+      repeats_(new QSpinBox(this)),
+      amount_(new QLabel(this)) {
+  setWindowTitle(tr("Measure presets along the flight"));
+  const auto add = [this](const QString& label, const QString& name) {
+    auto* item = new QListWidgetItem(label, presets_);
+    item->setData(Qt::UserRole, name);
+    item->setFlags(item->flags() | Qt::ItemIsUserCheckable);
+    item->setCheckState(Qt::Checked);
+  };
+  for (const std::string_view shipped : shippedPresets()) {
+    const QString name = QString::fromUtf8(shipped.data(), qsizetype(shipped.size()));
+    add(name, name);
+  }
+  add(tr("the draft, as it stands"), BenchChoice::kDraft);
+  presets_->setAccessibleName(tr("Presets"));
+  presets_->setMaximumHeight(130);
+  auto* file = new QPushButton(tr("&Add a preset..."), this);
+  connect(file, &QPushButton::clicked, this, [this, add] {
+    for (const QString& name :
+         QFileDialog::getOpenFileNames(this, tr("Add presets"), {}, tr("Presets (*.json)")))
+      add(QFileInfo(name).completeBaseName(), name);
+  });
+
+  auto* caseRow = new QHBoxLayout;
+  for (std::size_t i = 0; i < cases_.size(); ++i) {
+    cases_[i] = new QCheckBox(views::methodText(QLatin1String(kCases[i])), this);
+    cases_[i]->setChecked(BenchChoice().cases.contains(QLatin1String(kCases[i])));
+    caseRow->addWidget(cases_[i]);
+    connect(cases_[i], &QCheckBox::toggled, this, &BenchDialog::check);
+  }
+  size_->setValidator(new QRegularExpressionValidator(
+      QRegularExpression(QStringLiteral("[1-9][0-9]{1,4}x[1-9][0-9]{1,4}")), size_));
+  frames_->setRange(2, 100000);
+  frames_->setValue(BenchChoice().frames);
+  frames_->setToolTip(tr("Evenly spread over the flight"));
+  repeats_->setRange(1, 1000);
+  repeats_->setValue(BenchChoice().repeats);
+  repeats_->setToolTip(tr("Timed draws of each frame, of which the median counts"));
+  folder_->setToolTip(tr("A measurement that was stopped half-way goes on where its folder is named again"));
+  auto* browse = new QPushButton(tr("&Browse..."), this);
+  connect(browse, &QPushButton::clicked, this, [this] {
+    const QString chosen = QFileDialog::getExistingDirectory(this, tr("Folder for the results"));
+    if (!chosen.isEmpty()) folder_->setText(chosen);
+  });
+  auto* folderRow = new QHBoxLayout;
+  folderRow->addWidget(folder_, 1);
+  folderRow->addWidget(browse);
+
+  auto* form = new QFormLayout;
+  form->addRow(tr("&Presets"), presets_);
+  form->addRow({}, file);
+  form->addRow(tr("Culling cases"), caseRow);
+  form->addRow(tr("&Size (px)"), size_);
+  form->addRow(tr("&Frames"), frames_);
+  form->addRow(tr("&Repeats"), repeats_);
+  form->addRow(tr("Fol&der"), folderRow);
+  qobject_cast<QLabel*>(form->labelForField(folderRow))->setBuddy(folder_);
+
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
+  measure_ = buttons->addButton(tr("&Measure"), QDialogButtonBox::AcceptRole);
+  connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  auto* column = new QVBoxLayout(this);
+  column->addLayout(form);
+  column->addWidget(amount_);
+  column->addWidget(buttons);
+  connect(presets_, &QListWidget::itemChanged, this, &BenchDialog::check);
+  for (QSpinBox* box : {frames_, repeats_}) connect(box, &QSpinBox::valueChanged, this, &BenchDialog::check);
+  for (QLineEdit* line : {size_, folder_}) connect(line, &QLineEdit::textChanged, this, &BenchDialog::check);
+  resize(560, sizeHint().height());
+  check();
+}
+
+void BenchDialog::check() {
+  const BenchChoice chosen = choice();
+  const auto units = chosen.presets.size() * chosen.cases.size();
+  amount_->setText(tr("%L1 timed pictures of %L2 frames, and the reference of each")
+                       .arg(units * chosen.frames * chosen.repeats)
+                       .arg(units * chosen.frames));
+  measure_->setEnabled(units > 0 && size_->hasAcceptableInput() && !chosen.folder.isEmpty());
+}
+
+BenchChoice BenchDialog::choice() const {
+  BenchChoice choice;
+  choice.cases.clear();
+  for (int i = 0; i < presets_->count(); ++i)
+    if (presets_->item(i)->checkState() == Qt::Checked)
+      choice.presets << presets_->item(i)->data(Qt::UserRole).toString();
+  for (std::size_t i = 0; i < cases_.size(); ++i)
+    if (cases_[i]->isChecked()) choice.cases << QLatin1String(kCases[i]);
+  choice.size = size_->text();
+  choice.frames = frames_->value();
+  choice.repeats = repeats_->value();
+  choice.folder = folder_->text().trimmed();
+  return choice;
+}
+
+}  // namespace trimtab::workbench

@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "error_dock.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDateTime>
+#include <QDesktopServices>
+#include <QDir>
+#include <QFile>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSplitter>
+#include <QStandardPaths>
+#include <QUrl>
+#include <QVBoxLayout>
+#include <cmath>
+
+#include "views/model/error_run.h"
+#include "views/model/theme.h"
+
+namespace trimtab::workbench {
+namespace {
+
+constexpr int kControlsPx = 214;
+constexpr auto kFirstError = "flip";
+
+QString fromView(std::string_view text) {
+  return QString::fromUtf8(text.data(), qsizetype(text.size()));
+}
+
+template <class Use>
+void eachError(const Use& use) {
+  for (const harness::Quantity& quantity : harness::quantities())
+    if (quantity.kind == harness::Quantity::Kind::error) use(quantity);
+}
+
+QVector<views::ErrorRun::Error> errorList() {
+  QVector<views::ErrorRun::Error> list;
+  eachError([&](const harness::Quantity& q) {
+    list.append({fromView(q.key), fromView(q.label), fromView(q.unit), q.largerIsWorse});
+  });
+  return list;
+}
+
+QVector<double> errorsOf(const harness::MeasuredFrame& frame) {
+  QVector<double> values;
+  eachError([&](const harness::Quantity& q) { values.append(q.of(frame)); });
+  return values;
+}
+
+views::ErrorRun toView(const harness::Results& results) {
+  views::ErrorRun run{errorList(), {}};
+  for (const harness::Unit& unit : results.units) {
+    views::ErrorRun::Series s{QString::fromStdString(unit.name.flight),
+                              QString::fromStdString(unit.name.preset),
+                              QString::fromStdString(unit.name.method),
+                              {},
+                              {},
+                              QVector<QVector<double>>(run.errors.size()),
+                              {}};
+    for (const harness::MeasuredFrame& frame : unit.frames) {
+      s.timeS.append(frame.timeS);
+      s.ms.append(frame.cost.total);
+      const QVector<double> errors = errorsOf(frame);
+      for (qsizetype i = 0; i < errors.size(); ++i) s.errors[i].append(errors[i]);
+    }
+    for (const harness::WorstFrame& worst : unit.worst)
+      s.worst.append({qsizetype(worst.frame), QString::fromStdString(worst.why)});
+    run.series.append(std::move(s));
+  }
+  return run;
+}
+
+/// Where results are kept unless the person says otherwise.
+QString newFolder() {
+  return QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) + QStringLiteral("/bench/") +
+         QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd-hhmmss"));
+}
+
+}  // namespace
+
+ErrorDock::ErrorDock(views::Draft& draft, DrawThread& thread, LiveMeter::Source live, Source source,
+                     QWidget* parent)
+    : QWidget(parent),
+      draft_(draft),
+      source_(std::move(source)),
+      live_(thread, std::move(live)),
+      errors_(new QComboBox(this)),
+      flights_(new QComboBox(this)),
+      cases_(new QComboBox(this)),
+      logarithmic_(new QCheckBox(tr("Lo&g scale"), this)),
+      liveOn_(new QCheckBox(tr("Meas&ure live"), this)),
+      measure_(new QPushButton(this)),
+      open_(new QPushButton(tr("Open re&sults..."), this)),
+      report_(new QPushButton(tr("Open repor&t"), this)),
+      compare_(new QPushButton(tr("&Compare two..."), this)),
+      progress_(new QProgressBar(this)),
+      status_(new QLabel(this)),
+      liveLabel_(new QLabel(this)),
+      plot_(new views::ErrorPlot(this)),
+      timeline_(new views::ErrorTimeline(this)) {
+  const views::ErrorRun nothing{errorList(), {}};
+  for (const views::ErrorRun::Error& error : nothing.errors) errors_->addItem(titleOf(error), error.key);
+  errors_->setCurrentIndex(std::max(0, errors_->findData(QLatin1String(kFirstError))));
+  errors_->setAccessibleName(tr("Error"));
+  errors_->setToolTip(tr("Which error is drawn"));
+  flights_->setAccessibleName(tr("Flight"));
+  flights_->setToolTip(tr("Which measured flight is drawn"));
+  cases_->setAccessibleName(tr("Culling case"));
+  cases_->setToolTip(tr("Culling case along the flight"));
+  for (QComboBox* box : {errors_, flights_, cases_}) {
+    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    box->setMinimumContentsLength(6);
+  }
+  logarithmic_->setToolTip(tr("Scale of the frame time"));
+  liveOn_->setChecked(true);
+  liveOn_->setToolTip(
+      tr("About once a second the picture that is shown is drawn again beside its reference, on another "
+         "processor core, and held against it"));
+  open_->setToolTip(tr("The results.json of trimtab-cli bench"));
+  compare_->setToolTip(tr("Two presets on the frame that is shown, with the map of their differences"));
+  status_->setWordWrap(true);
+  liveLabel_->setWordWrap(true);
+  liveLabel_->setAccessibleName(tr("Live measurement"));
+  plot_->show(nothing);
+  timeline_->show(nothing);
+  arrange();
+
+  connect(errors_, &QComboBox::currentIndexChanged, this, [this](int index) {
+    plot_->showError(index);
+    timeline_->showError(index);
+    liveLabel_->setText(liveText());
+  });
+  connect(flights_, &QComboBox::currentTextChanged, this, [this](const QString& flight) {
+    plot_->showFlight(flight);
+    timeline_->showFlight(flight);
+    flights_->setToolTip(tr("Which measured flight is drawn: %1").arg(flight));
+    emit flightShown();
+  });
+  connect(cases_, &QComboBox::currentIndexChanged, this,
+          [this] { timeline_->showMethod(cases_->currentData().toString()); });
+  connect(logarithmic_, &QCheckBox::toggled, plot_, &views::ErrorPlot::setLogarithmic);
+  connect(plot_, &views::ErrorPlot::logarithmicChanged, logarithmic_, &QCheckBox::setChecked);
+  connect(liveOn_, &QCheckBox::toggled, this, [this](bool on) {
+    live_.setOn(on && seen_);
+    if (!on) restartLive();
+    liveLabel_->setText(liveText());
+  });
+  connect(measure_, &QPushButton::clicked, this, [this] { running() ? cancel() : askAndMeasure(); });
+  connect(open_, &QPushButton::clicked, this, &ErrorDock::askOpenResults);
+  connect(report_, &QPushButton::clicked, this, &ErrorDock::openReport);
+  connect(compare_, &QPushButton::clicked, this, &ErrorDock::comparisonAsked);
+  connect(timeline_, &views::ErrorTimeline::sought, this, &ErrorDock::sought);
+  connect(&live_, &LiveMeter::measured, this, &ErrorDock::onMeasured);
+  connect(&child_, &ChildRun::progressed, this, [this](int percent, const QString& what) {
+    progress_->setValue(percent);
+    status_->setText(what);
+  });
+  connect(&child_, &ChildRun::ended, this, &ErrorDock::onEnded);
+  connect(&draft_, &views::Draft::activeChanged, this, [this] {
+    showBudget();
+    live_.forget();
+  });
+  plot_->showError(errors_->currentIndex());
+  timeline_->showError(errors_->currentIndex());
+  showBudget();
+  setRunning(false);
+  showResults();
+}
+
+/// Controls in a column on the left: the dock is wide and low.
+void ErrorDock::arrange() {
+  auto* controls = new QWidget(this);
+  controls->setFixedWidth(kControlsPx);
+  auto* grid = new QGridLayout(controls);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setVerticalSpacing(3);
+  int row = 0;
+  const auto named = [&](const QString& text, QComboBox* box) {
+    auto* label = new QLabel(text, controls);
+    label->setBuddy(box);
+    grid->addWidget(label, row, 0);
+    grid->addWidget(box, row++, 1);
+  };
+  named(tr("Erro&r"), errors_);
+  named(tr("Fl&ight"), flights_);
+  named(tr("C&ase"), cases_);
+  grid->addWidget(logarithmic_, row, 0);
+  grid->addWidget(liveOn_, row++, 1);
+  grid->addWidget(measure_, row, 0);
+  grid->addWidget(open_, row++, 1);
+  grid->addWidget(report_, row, 0);
+  grid->addWidget(compare_, row++, 1);
+  grid->addWidget(progress_, row++, 0, 1, 2);
+  grid->addWidget(status_, row++, 0, 1, 2);
+  grid->addWidget(liveLabel_, row++, 0, 1, 2);
+  grid->setRowStretch(row, 1);
+
+  auto* plots = new QSplitter(Qt::Horizontal, this);
+  plots->addWidget(plot_);
+  plots->addWidget(timeline_);
+  plots->setChildrenCollapsible(false);
+  auto* all = new QHBoxLayout(this);
+  all->setContentsMargins(6, 4, 4, 4);
+  all->addWidget(controls);
+  all->addWidget(plots, 1);
+}
+
+void ErrorDock::setSeen(bool seen) {
+  seen_ = seen;
+  live_.setOn(seen && liveOn_->isChecked());
+}
+
+QString ErrorDock::flight() const {
+  return flights_->currentText();
+}
+
+void ErrorDock::painted(double time, double frameMs) {
+  live_.painted(time, frameMs);
+}
+
+void ErrorDock::restartLive() {
+  plot_->clearLive();
+  lastMeasured_.reset();
+  live_.forget();
+}
+
+void ErrorDock::followFlight(double timeS) {
+  if (seen_) timeline_->follow(timeS);
+}
+
+void ErrorDock::showBudget() {
+  const double ms = draft_.active()->measure.budget.value();
+  plot_->setBudget(ms);
+  timeline_->setBudget(ms);
+}
+
+void ErrorDock::onMeasured(const LiveMeter::Measured& measured) {
+  lastMeasured_ = measured;
+  harness::MeasuredFrame frame;
+  frame.error = measured.error;
+  plot_->showLive({measured.frameMs, errorsOf(frame)});
+  liveLabel_->setText(liveText());
+}
+
+QString ErrorDock::liveText() const {
+  if (!liveOn_->isChecked()) return tr("Live: off");
+  if (!lastMeasured_) return tr("Live: waiting for a picture");
+  harness::MeasuredFrame frame;
+  frame.error = lastMeasured_->error;
+  const int index = errors_->currentIndex();
+  const QVector<views::ErrorRun::Error> errors = errorList();
+  if (index < 0 || index >= errors.size()) return {};
+  return tr("Live: %1 %2, frame %3.\nMeasured in %4 at %L5 × %L6 px%7.")
+      .arg(errors[index].label, textOf(errors[index], errorsOf(frame)[index]),
+           views::msText(lastMeasured_->frameMs), views::msText(lastMeasured_->tookMs))
+      .arg(lastMeasured_->widthPx)
+      .arg(lastMeasured_->heightPx)
+      .arg(lastMeasured_->smaller ? tr(", smaller as it takes long") : QString());
+}
+
+void ErrorDock::setRunning(bool running) {
+  measure_->setText(running ? tr("&Cancel") : tr("&Measure..."));
+  measure_->setToolTip(
+      running ? tr("What is measured by then is kept, and the same folder goes on from there")
+              : tr("Measure presets along the open flight, or the recorded trace, over the open terrain"));
+  measure_->setAccessibleName(running ? tr("Cancel measuring") : tr("Measure presets"));
+  progress_->setVisible(running);
+  progress_->setValue(0);
+  open_->setEnabled(!running);
+}
+
+void ErrorDock::askAndMeasure() {
+  BenchDialog dialog(newFolder(), this);
+  if (dialog.exec() == QDialog::Accepted) measure(dialog.choice());
+}
+
+void ErrorDock::measure(const BenchChoice& choice) {
+  if (running()) return;
+  const std::optional<Inputs> inputs = source_(folder_.path());
+  if (!inputs) return;
+  QStringList arguments{QStringLiteral("bench"), QStringLiteral("--terrain"), inputs->terrain,
+                        QStringLiteral("--flight"), inputs->flight};
+  arguments << QStringLiteral("--preset");
+  for (const QString& preset : choice.presets)
+    arguments << (preset == BenchChoice::kDraft ? inputs->draft : preset);
+  arguments << QStringLiteral("--cases") << choice.cases.join(QLatin1Char(','))  //
+            << QStringLiteral("--size") << choice.size                           //
+            << QStringLiteral("--frames") << QString::number(choice.frames)      //
+            << QStringLiteral("--repeats") << QString::number(choice.repeats)    //
+            << QStringLiteral("-o") << choice.folder;
+  measuring_ = choice.folder + QStringLiteral("/results.json");
+  setRunning(true);
+  status_->setText(tr("Starting…"));
+  child_.start(arguments);
+}
+
+void ErrorDock::cancel() {
+  if (!running()) return;
+  status_->setText(tr("Cancelling…"));
+  child_.cancel();
+}
+
+void ErrorDock::onEnded(const ChildRun::Ended& how) {
+  setRunning(false);
+  if (how.cancelled) {
+    status_->setText(tr("Cancelled. Measured again with the same folder, it goes on."));
+    status_->setToolTip(QFileInfo(measuring_).path());
+    return emit finished(false);
+  }
+  if (!how.good) {
+    status_->setText(tr("Failed; the results before stay."));
+    emit refused(tr("The presets cannot be measured"), how.findings);
+    return emit finished(false);
+  }
+  emit finished(openResults(measuring_));
+}
+
+void ErrorDock::askOpenResults() {
+  const QString file =
+      QFileDialog::getOpenFileName(this, tr("Open results"), resultsFile_, tr("Results (*.json)"));
+  if (!file.isEmpty()) openResults(file);
+}
+
+bool ErrorDock::openResults(const QString& file) {
+  const auto refuse = [&](const Findings& findings) {
+    emit refused(tr("The results cannot be opened: %1").arg(file), findings);
+    return false;
+  };
+  QFile from(file);
+  if (!from.open(QIODevice::ReadOnly))
+    return refuse({{Severity::error,
+                    file.toStdString(),
+                    {},
+                    "a file that can be read",
+                    from.errorString().toStdString()}});
+  const QByteArray bytes = from.readAll();
+  Result<harness::Results> read = harness::parseResults(
+      std::string_view(bytes.constData(), std::size_t(bytes.size())), file.toStdString());
+  if (!read) return refuse(read.findings());
+  results_ = std::move(read).value();
+  resultsFile_ = QFileInfo(file).absoluteFilePath();
+  showResults();
+  return true;
+}
+
+void ErrorDock::showResults() {
+  report_->setEnabled(!report().isEmpty());
+  report_->setToolTip(report().isEmpty() ? tr("No report.html stands beside the results") : report());
+  const views::ErrorRun run = results_ ? toView(*results_) : views::ErrorRun{errorList(), {}};
+  plot_->show(run);
+  timeline_->show(run);
+  flights_->clear();
+  flights_->addItems(run.flights());
+  cases_->clear();
+  for (const QString& method : run.methods()) cases_->addItem(views::methodText(method), method);
+  cases_->setCurrentIndex(cases_->count() - 1);
+  flights_->setEnabled(flights_->count() > 1);
+  cases_->setEnabled(cases_->count() > 1);
+  if (results_)
+    status_->setText(tr("%1, %2 × %3 px")
+                         .arg(QString::fromStdString(results_->terrain))
+                         .arg(results_->widthPx)
+                         .arg(results_->heightPx));
+  status_->setToolTip(results_ ? tr("%1\n%2").arg(resultsFile_, QString::fromStdString(results_->machine))
+                               : QString());
+  liveLabel_->setText(liveText());
+}
+
+QString ErrorDock::report() const {
+  if (resultsFile_.isEmpty()) return {};
+  const QString file = QFileInfo(resultsFile_).path() + QStringLiteral("/report.html");
+  return QFileInfo::exists(file) ? file : QString();
+}
+
+void ErrorDock::openReport() {
+  if (const QString file = report(); !file.isEmpty()) QDesktopServices::openUrl(QUrl::fromLocalFile(file));
+}
+
+}  // namespace trimtab::workbench

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "host_dock.h"
+
+#include <QComboBox>
+#include <QFontDatabase>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QSettings>
+#include <QSpinBox>
+#include <QVBoxLayout>
+#include <cmath>
+
+#include "app/link/link.h"
+#include "views/model/draft.h"
+
+namespace trimtab::workbench {
+namespace {
+
+constexpr int kRefreshMs = 250;
+constexpr int kDefaultPort = 8004;
+constexpr auto kProtocolKey = "host.protocol";
+const QString kNone = QStringLiteral("–");
+
+QString protocolText(WireProtocol protocol) {
+  switch (protocol) {
+    case WireProtocol::native_fdm:
+      return QStringLiteral("FlightGear native-fdm v24");
+    case WireProtocol::cigi3:
+      return QStringLiteral("CIGI 3");
+    case WireProtocol::none:
+      break;
+  }
+  return kNone;
+}
+
+QString milliseconds(double ms) {
+  return std::isfinite(ms) ? QStringLiteral("%L1 ms").arg(ms, 0, 'f', 2) : kNone;
+}
+
+QString p99(const SampleWindow& samples) {
+  if (samples.size() == 0) return kNone;
+  return HostDock::tr("%1  (median %2, largest %3)")
+      .arg(milliseconds(samples.quantile(0.99)), milliseconds(samples.median()),
+           milliseconds(samples.largest()));
+}
+
+/// Of the packets that pictures show, in that run's own frames, and of all packets.
+QString pictureText(const Latency& latency) {
+  if (latency.shown.size() == 0) return kNone;
+  const double shown = latency.shown.quantile(0.99), frame = latency.frame.median();
+  return HostDock::tr("%1, %2 frames of %3  (overtaken packets too: %4)")
+      .arg(milliseconds(shown))
+      .arg(shown / frame, 0, 'f', 2)
+      .arg(milliseconds(frame), milliseconds(latency.every.quantile(0.99)));
+}
+
+/// Sixteen bytes a line with their offset.
+QString hexDump(const std::string& hex) {
+  QString digits = QString::fromStdString(hex).remove(' ');
+  QString dump;
+  for (qsizetype at = 0; at < digits.size(); at += 32) {
+    dump += QStringLiteral("%1 ").arg(at / 2, 4, 16, QLatin1Char('0'));
+    for (qsizetype i = at; i < std::min(at + 32, digits.size()); i += 2)
+      dump += QLatin1Char(' ') + digits.mid(i, 2);
+    dump += QLatin1Char('\n');
+  }
+  return dump.trimmed();
+}
+
+}  // namespace
+
+HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
+    : QWidget(parent),
+      feed_(feed),
+      draft_(draft),
+      port_(new QSpinBox(this)),
+      protocol_(new QComboBox(this)),
+      reply_(new QLineEdit(this)),
+      connect_(new QPushButton(this)),
+      firstBad_(new QPlainTextEdit(this)) {
+  auto* form = new QFormLayout;
+  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  port_->setRange(1, 65535);
+  port_->setValue(QSettings().value(QStringLiteral("host/port"), kDefaultPort).toInt());
+  port_->setAccessibleName(tr("Port"));
+  port_->setToolTip(tr("UDP port this program listens on, on every address of this machine"));
+  if (const ParameterRow* row = findRow(kProtocolKey)) {
+    for (const ChoiceOption& choice : row->choices)
+      protocol_->addItem(QString::fromUtf8(choice.label.data(), qsizetype(choice.label.size())));
+    protocol_->setToolTip(QString::fromUtf8(row->help.data(), qsizetype(row->help.size())));
+  }
+  protocol_->setAccessibleName(tr("Protocol"));
+  reply_->setPlaceholderText(tr("host:port; empty: nothing is sent"));
+  reply_->setText(QSettings().value(QStringLiteral("host/reply")).toString());
+  reply_->setToolTip(tr("Start of Frame goes there, so that a host that waits for the image generator runs"));
+  reply_->setAccessibleName(tr("Reply address"));
+  auto* portRow = new QHBoxLayout;
+  portRow->addWidget(port_, 1);
+  portRow->addWidget(connect_);
+  form->addRow(tr("&Port"), portRow);
+  qobject_cast<QLabel*>(form->labelForField(portRow))->setBuddy(port_);
+  form->addRow(tr("P&rotocol"), protocol_);
+  form->addRow(tr("Repl&y to"), reply_);
+
+  state_ = addRow(*form, tr("Link"), {});
+  detected_ = addRow(*form, tr("Speaks"), tr("Protocol found in the packets, and who sends them"));
+  rate_ = addRow(*form, tr("Rate"), tr("States a second, over the last second"));
+  jitter_ = addRow(*form, tr("Jitter"), tr("Smoothed deviation of the gaps between packets"));
+  loss_ = addRow(*form, tr("Lost"), tr("By the host's frame numbers"));
+  age_ = addRow(*form, tr("Last packet"), tr("Age of the newest packet"));
+  decoded_ = addRow(*form, tr("To decoded, p99"), tr("From the kernel's time stamp to the decoded state"));
+  picture_ = addRow(*form, tr("To picture, p99"),
+                    tr("From the kernel's time stamp to the finished picture that shows the packet"));
+  counts_ = addRow(*form, tr("Packets"), {});
+  jumps_ = addRow(*form, tr("Jumps"), tr("Position changes too large for any aircraft"));
+  weather_ =
+      addRow(*form, tr("Weather passed over"),
+             tr("Weather Control that is not drawn: of regions and entities, and of layers other than rain "
+                "and snow"));
+  bad_ = addRow(*form, tr("Bad packets"), tr("Refused; the first one is shown below"));
+  for (QLabel* wide : {picture_, counts_}) wide->setWordWrap(true);
+  firstBad_->setReadOnly(true);
+  firstBad_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
+  firstBad_->setLineWrapMode(QPlainTextEdit::NoWrap);
+  firstBad_->setMinimumHeight(90);
+  firstBad_->setAccessibleName(tr("First bad packet in hexadecimal"));
+
+  auto* content = new QWidget;
+  auto* column = new QVBoxLayout(content);
+  column->addLayout(form);
+  column->addWidget(firstBad_);
+  column->addStretch(1);
+  auto* scroll = new QScrollArea(this);
+  scroll->setWidget(content);
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(scroll);
+
+  refresh_.setInterval(kRefreshMs);
+  connect(&refresh_, &QTimer::timeout, this, &HostDock::refresh);
+  connect(connect_, &QPushButton::clicked, this, &HostDock::toggle);
+  connect(&feed_, &Feed::linkChanged, this, &HostDock::showLink);
+  connect(protocol_, &QComboBox::activated, this,
+          [this](int index) { draft_.setValue(kProtocolKey, ChoiceIndex{static_cast<std::size_t>(index)}); });
+  const auto showProtocol = [this] {
+    const ParameterValue value = draft_.value(kProtocolKey);
+    if (const auto* choice = std::get_if<ChoiceIndex>(&value))
+      protocol_->setCurrentIndex(static_cast<int>(choice->index));
+  };
+  connect(&draft_, &views::Draft::valueChanged, this, [this, showProtocol](const QString& key) {
+    if (key != QLatin1String(kProtocolKey)) return;
+    showProtocol();
+    if (feed_.receiver() != nullptr && feed_.receiver()->statistics().protocol != WireProtocol::none)
+      connectHost();
+  });
+  showProtocol();
+  showLink();
+}
+
+QLabel* HostDock::addRow(QFormLayout& form, const QString& label, const QString& toolTip) {
+  auto* value = new QLabel(kNone, this);
+  value->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  value->setToolTip(toolTip);
+  value->setAccessibleName(label);
+  value->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  form.addRow(label, value);
+  return value;
+}
+
+void HostDock::setPort(std::uint16_t port) {
+  port_->setValue(port);
+}
+
+Findings HostDock::connectHost() {
+  Feed::HostSettings settings;
+  settings.port = static_cast<std::uint16_t>(port_->value());
+  settings.protocol = draft_.active()->host.protocol;
+  if (const QString reply = reply_->text().trimmed(); !reply.isEmpty()) {
+    const Result<link::Endpoint> endpoint = link::parseEndpoint(reply.toStdString());
+    if (!endpoint) {
+      emit refused(tr("The reply address cannot be used"), endpoint.findings());
+      return endpoint.findings();
+    }
+    settings.reply = *endpoint;
+  }
+  Findings findings = feed_.openHost(settings);
+  if (!findings.empty()) {
+    emit refused(tr("Cannot listen on port %1").arg(port_->value()), findings);
+    return findings;
+  }
+  QSettings().setValue(QStringLiteral("host/port"), port_->value());
+  QSettings().setValue(QStringLiteral("host/reply"), reply_->text().trimmed());
+  emit connected(feed_.receiver()->port());
+  return {};
+}
+
+void HostDock::toggle() {
+  if (feed_.receiver() != nullptr)
+    feed_.closeHost();
+  else
+    connectHost();
+}
+
+void HostDock::showLink() {
+  const bool open = feed_.receiver() != nullptr;
+  connect_->setText(open ? tr("Dis&connect") : tr("&Connect"));
+  port_->setEnabled(!open);
+  reply_->setEnabled(!open);
+  if (open && isVisible())
+    refresh_.start();
+  else
+    refresh_.stop();
+  refresh();
+}
+
+void HostDock::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  showLink();
+}
+
+void HostDock::hideEvent(QHideEvent* event) {
+  refresh_.stop();
+  QWidget::hideEvent(event);
+}
+
+QString HostDock::stateText(double now) const {
+  if (feed_.receiver() == nullptr) return tr("not connected");
+  switch (feed_.session().linkState(now)) {
+    case LinkState::never:
+      return tr("listening on port %1, nothing yet").arg(feed_.receiver()->port());
+    case LinkState::live:
+      return tr("live");
+    case LinkState::silent:
+      return tr("SILENT for %L1 s").arg(feed_.session().packetAge(now), 0, 'f', 1);
+    case LinkState::jumped:
+      return tr("live, JUMPED just now");
+  }
+  return {};
+}
+
+void HostDock::refresh() {
+  if (!isVisible()) return;
+  const double now = link::now();
+  state_->setText(stateText(now));
+  const Session& session = feed_.session();
+  const bool any = feed_.receiver() != nullptr;
+  const HostStatistics host = any ? feed_.receiver()->statistics() : HostStatistics{};
+  const auto number = [](std::uint64_t n) { return QStringLiteral("%L1").arg(n); };
+  detected_->setText(
+      host.lastFrom.empty()
+          ? protocolText(host.protocol)
+          : tr("%1 from %2").arg(protocolText(host.protocol), QString::fromStdString(host.lastFrom)));
+  const double age = session.packetAge(now);
+  const bool live = std::isfinite(age) && age < 1;
+  rate_->setText(any && live              ? tr("%L1 Hz").arg(host.rateHz, 0, 'f', 1)
+                 : any && host.states > 0 ? tr("0 Hz")
+                                          : kNone);
+  jitter_->setText(host.states > 1 ? milliseconds(host.jitterMs) : kNone);
+  if (host.protocol == WireProtocol::native_fdm)
+    loss_->setText(tr("not carried by native-fdm"));
+  else
+    loss_->setText(host.lost ? number(*host.lost) : kNone);
+  age_->setText(any && std::isfinite(age) ? tr("%1 ago").arg(milliseconds(age * 1e3)) : kNone);
+  decoded_->setText(any ? p99(session.latency().decoded) : kNone);
+  picture_->setText(any ? pictureText(session.latency()) : kNone);
+  counts_->setText(any ? tr("%1 received, %2 states, %3 repeated, %4 out of order, %5 dropped here")
+                             .arg(number(host.received), number(host.states), number(host.repeated),
+                                  number(host.reordered), number(feed_.receiver()->dropped()))
+                       : kNone);
+  jumps_->setText(any ? number(std::max(session.jumps(), host.jumps)) : kNone);
+  weather_->setText(any ? tr("%1 of regions or entities, %2 of other layers")
+                              .arg(number(host.regionalWeather), number(host.otherLayers))
+                        : kNone);
+  bad_->setText(any ? number(host.bad) : kNone);
+  const QString dump = host.bad == 0
+                           ? QString()
+                           : QString::fromStdString(host.firstBadReason) + '\n' + hexDump(host.firstBadHex);
+  firstBad_->setVisible(!dump.isEmpty());
+  if (firstBad_->toPlainText() != dump) firstBad_->setPlainText(dump);
+}
+
+}  // namespace trimtab::workbench

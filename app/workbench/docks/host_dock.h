@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QTimer>
+#include <QWidget>
+
+#include "app/workbench/jobs/feed.h"
+
+class QComboBox;
+class QFormLayout;
+class QLabel;
+class QLineEdit;
+class QPlainTextEdit;
+class QPushButton;
+class QSpinBox;
+
+namespace trimtab::views {
+class Draft;
+}
+
+namespace trimtab::workbench {
+
+/// The link to the host: where it listens, and how healthy it is.
+class HostDock : public QWidget {
+  Q_OBJECT
+
+ public:
+  HostDock(Feed& feed, views::Draft& draft, QWidget* parent = nullptr);
+
+  void setPort(std::uint16_t port);
+  /// As the Connect button does; findings are emitted, too.
+  Findings connectHost();
+
+ signals:
+  void refused(const QString& what, const trimtab::Findings& findings);
+  void connected(std::uint16_t port);
+
+ protected:
+  void showEvent(QShowEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
+
+ private:
+  QLabel* addRow(QFormLayout& form, const QString& label, const QString& toolTip);
+  void toggle();
+  void showLink();
+  void refresh();
+  QString stateText(double now) const;
+
+  Feed& feed_;
+  views::Draft& draft_;
+  QSpinBox* port_;
+  QComboBox* protocol_;
+  QLineEdit* reply_;
+  QPushButton* connect_;
+  QLabel *state_, *detected_, *rate_, *jitter_, *loss_, *age_, *decoded_, *picture_, *counts_, *jumps_, *bad_,
+      *weather_;
+  QPlainTextEdit* firstBad_;
+  QTimer refresh_;  ///< runs only while a link is open and this can be seen
+};
+
+}  // namespace trimtab::workbench

@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "viewport.h"
+
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QOpenGLContext>
+#include <QOpenGLExtraFunctions>
+#include <QOpenGLFramebufferObject>
+#include <QOpenGLPaintDevice>
+#include <QPainter>
+#include <QScreen>
+#include <QTimer>
+#include <QWheelEvent>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "symbology_editor.h"
+#include "trimtab/terrain/format/database.h"
+
+namespace trimtab::workbench {
+namespace {
+
+constexpr qint64 kDepthMapGapMs = 100;
+constexpr GLuint kPainterArrays = 8;
+const QColor kEmptyColour(38, 42, 48);
+
+/// Where a W x H picture lies in the widget without being distorted, device pixels, origin at the lower left.
+QRect letterbox(QSize picture, QSize widget) {
+  const QSize fits = picture.scaled(widget, Qt::KeepAspectRatio);
+  return {QPoint((widget.width() - fits.width()) / 2, (widget.height() - fits.height()) / 2), fits};
+}
+
+/// OSG leaves its own state; QPainter expects the default of what it does not set itself.
+void prepareForPainter(QOpenGLExtraFunctions& gl, QSize pixels) {
+  gl.glBindVertexArray(0);
+  gl.glUseProgram(0);
+  gl.glBindSampler(0, 0);
+  // Arrays that OSG left on would be read by the painter's draws, with the painter's counts.
+  for (GLuint array = 0; array < kPainterArrays; ++array) {
+    gl.glDisableVertexAttribArray(array);
+    gl.glVertexAttribDivisor(array, 0);
+  }
+  gl.glBindBuffer(GL_ARRAY_BUFFER, 0);
+  gl.glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
+  gl.glActiveTexture(GL_TEXTURE0);
+  for (const GLenum off : {GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST, GL_STENCIL_TEST}) gl.glDisable(off);
+  gl.glStencilMask(0xff);
+  gl.glDepthMask(GL_TRUE);
+  gl.glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl.glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  gl.glViewport(0, 0, pixels.width(), pixels.height());
+}
+
+}  // namespace
+
+Viewport::Viewport(QWidget* parent) : QOpenGLWidget(parent), notice_(tr("No terrain yet")) {
+  setFocusPolicy(Qt::StrongFocus);
+  setMinimumSize(320, 200);
+  setAccessibleName(tr("Terrain view"));
+  setAttribute(Qt::WA_AcceptTouchEvents, false);
+  connect(this, &QOpenGLWidget::frameSwapped, this, [this] {
+    report();
+    if (std::exchange(again_, false)) paintAgain();
+  });
+}
+
+Viewport::~Viewport() {
+  // The context may die before or after this object: stop listening first, then free with it current.
+  if (context() != nullptr) disconnect(context(), nullptr, this, nullptr);
+  releaseGl();
+}
+
+void Viewport::initializeGL() {
+  connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, &Viewport::releaseGl, Qt::DirectConnection);
+  renderer_ = std::make_unique<scene::Renderer>();
+  gl_ = renderer_->initialize();
+  terrainChanged_ = true;
+  if (!gl_.usable) {
+    renderer_.reset();
+    setNotice(tr("This display cannot draw the terrain: %1 (%2)")
+                  .arg(QString::fromStdString(gl_.missing), QString::fromStdString(gl_.renderer)));
+    emit glFailed(QString::fromStdString(gl_.missing));
+  }
+}
+
+void Viewport::releaseGl() {
+  if (renderer_ == nullptr) return;
+  makeCurrent();
+  fixedSize_.reset();
+  unseen_.reset();
+  renderer_->release();
+  renderer_.reset();
+  doneCurrent();
+}
+
+void Viewport::setTerrain(std::shared_ptr<const terrain::Database> database) {
+  terrain_ = std::move(database);
+  terrainChanged_ = true;
+  // Its nodes are the old terrain's.
+  result_.reset();
+  invalidate();
+}
+
+void Viewport::invalidate() {
+  if (dirty_) return;
+  dirty_ = true;
+  if (isVisible()) update();
+}
+
+void Viewport::showEvent(QShowEvent* event) {
+  QOpenGLWidget::showEvent(event);
+  update();
+}
+
+void Viewport::setCameraEnabled(bool on) {
+  cameraEnabled_ = on;
+  if (!on) camera_.releaseAll();
+}
+
+void Viewport::setNotice(const QString& text) {
+  notice_ = text;
+  invalidate();
+}
+
+void Viewport::setDepthMapWanted(const QObject* who, bool wanted) {
+  if (!wanted)
+    depthMapWanted_.erase(who);
+  else if (depthMapWanted_.insert(who).second)
+    invalidate();
+}
+
+void Viewport::setPicking(bool on) {
+  picking_ = on;
+  pickAt_.reset();
+  if (on)
+    setCursor(Qt::CrossCursor);
+  else
+    unsetCursor();
+}
+
+/// Of the picture that was just drawn, which lies in the middle of the widget.
+void Viewport::readPicked(QSize picture) {
+  const QRect at = letterbox(picture, size() * devicePixelRatioF());
+  const QPointF place = *std::exchange(pickAt_, std::nullopt) * devicePixelRatioF();
+  const double across = (place.x() - at.left()) / at.width(),
+               up = (height() * devicePixelRatioF() - place.y() - at.top()) / at.height();
+  if (!(across >= 0 && across < 1 && up >= 0 && up < 1)) return;
+  const std::vector<std::uint32_t> nodes = renderer_->readNodes();
+  const std::size_t pixel =
+      static_cast<std::size_t>(up * picture.height()) * static_cast<std::size_t>(picture.width()) +
+      static_cast<std::size_t>(across * picture.width());
+  emit nodePicked(pixel < nodes.size() ? nodes[pixel] : scene::Renderer::kNoNode);
+}
+
+void Viewport::paintGL() {
+  report();
+  dirty_ = false;
+  ++paints_;
+  sincePaint_.start();
+  if (camera_.moving()) {
+    const double step = sinceMove_.isValid() ? double(sinceMove_.nsecsElapsed()) * 1e-9 : 1.0 / 60;
+    sinceMove_.start();
+    camera_.advance(step);
+    emit cameraMoved();
+  } else if (sinceMove_.isValid()) {
+    sinceMove_.invalidate();
+    emit cameraMoved();  // it stands now
+  }
+
+  const QSize pixels = size() * devicePixelRatioF();
+  std::optional<Picture> picture;
+  if (renderer_ != nullptr && terrain_ != nullptr && source_)
+    picture = source_(pixels.width(), pixels.height());
+  if (picture) {
+    picture->request.wholeHorizon = !depthMapWanted_.empty();
+    drawPicture(*picture, pixels.width(), pixels.height());
+    placePicture(*picture, pixels);
+    if (picture->hud) picture->overlay.hud = picture->hud();
+  } else {
+    QOpenGLFunctions& gl = *context()->functions();
+    gl.glClearColor(float(kEmptyColour.redF()), float(kEmptyColour.greenF()), float(kEmptyColour.blueF()), 1);
+    gl.glClear(GL_COLOR_BUFFER_BIT);
+  }
+  again_ = camera_.moving() || (picture && picture->again);
+  unreported_ = picture.has_value();
+  shownOverlay_ = picture ? std::move(picture->overlay) : OverlayContents{notice_, false, {}, {}, {}};
+  paintOverlays();
+}
+
+void Viewport::report() {
+  if (std::exchange(unreported_, false)) emit painted();
+}
+
+/// A display without vertical sync would otherwise be painted as fast as one core can.
+void Viewport::paintAgain() {
+  const double refreshHz = screen() != nullptr && screen()->refreshRate() >= 1 ? screen()->refreshRate() : 60;
+  const qint64 wait =
+      static_cast<qint64>(1000 / refreshHz) - (sincePaint_.isValid() ? sincePaint_.elapsed() : 0);
+  if (wait <= 1) return invalidate();
+  QTimer::singleShot(wait, Qt::PreciseTimer, this, &Viewport::invalidate);
+}
+
+void Viewport::drawPicture(const Picture& picture, int widthPx, int heightPx) {
+  if (terrainChanged_) {
+    renderer_->setTerrain(terrain_);
+    terrainChanged_ = false;
+  }
+  QOpenGLExtraFunctions& gl = *context()->extraFunctions();
+  const QSize wanted(picture.request.view.widthPx, picture.request.view.heightPx), have(widthPx, heightPx);
+  if (wanted == have) {
+    fixedSize_.reset();
+    result_ = renderer_->draw(picture.request, defaultFramebufferObject());
+    readDepthMap();
+  } else {
+    if (fixedSize_ == nullptr || fixedSize_->size() != wanted)
+      fixedSize_ = std::make_unique<QOpenGLFramebufferObject>(wanted);
+    result_ = renderer_->draw(picture.request, fixedSize_->handle());
+    readDepthMap();
+    gl.glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
+    gl.glDisable(GL_SCISSOR_TEST);
+    gl.glClearColor(0, 0, 0, 1);
+    gl.glClear(GL_COLOR_BUFFER_BIT);
+    const QRect to = letterbox(wanted, have);
+    gl.glBindFramebuffer(GL_READ_FRAMEBUFFER, fixedSize_->handle());
+    gl.glBlitFramebuffer(0, 0, wanted.width(), wanted.height(), to.left(), to.top(), to.left() + to.width(),
+                         to.top() + to.height(), GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  }
+  if (pickAt_) readPicked(wanted);
+  gl.glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
+}
+
+std::optional<Viewport::Measured> Viewport::measure(const FrameRequest& request) {
+  if (renderer_ == nullptr || terrain_ == nullptr) return std::nullopt;
+  makeCurrent();
+  if (std::exchange(terrainChanged_, false)) renderer_->setTerrain(terrain_);
+  const QSize size(request.view.widthPx, request.view.heightPx);
+  if (unseen_ == nullptr || unseen_->size() != size)
+    unseen_ = std::make_unique<QOpenGLFramebufferObject>(size);
+  QOpenGLFunctions& gl = *context()->functions();
+  gl.glFinish();
+  QElapsedTimer timer;
+  timer.start();
+  const FrameResult result = renderer_->draw(request, unseen_->handle());
+  gl.glFinish();
+  const double ms = double(timer.nsecsElapsed()) * 1e-6;
+  gl.glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
+  doneCurrent();
+  return Measured{ms, result.tilesBuilt};
+}
+
+void Viewport::readDepthMap() {
+  if (depthMapWanted_.empty()) return;
+  if (sinceDepthMap_.isValid() && sinceDepthMap_.elapsed() < kDepthMapGapMs) return;
+  sinceDepthMap_.start();
+  constexpr int kBearings = 720;
+  emit horizonRead(renderer_->readHorizon(kBearings));
+  const scene::Renderer::Grey grey = renderer_->readDepthMap();
+  if (grey.width <= 0 || grey.height <= 0) {
+    emit depthMapRead({});
+    return;
+  }
+  const QImage rows(grey.pixels.data(), grey.width, grey.height, grey.width, QImage::Format_Grayscale8);
+  emit depthMapRead(rows.mirrored());
+}
+
+/// On a paint device of its own: a painter on the widget itself would be led away from GL while the window is
+/// grabbed.
+void Viewport::paintOverlays() {
+  const QSize pixels = size() * devicePixelRatioF();
+  prepareForPainter(*context()->extraFunctions(), pixels);
+  QOpenGLPaintDevice device(pixels);
+  device.setDevicePixelRatio(devicePixelRatioF());
+  QPainter painter(&device);
+  painter.setFont(font());
+  paintOverlay(painter, rect(), shownOverlay_);
+  if (editor_ != nullptr) editor_->paint(painter);
+}
+
+void Viewport::setSymbologyEditor(SymbologyEditor* editor) {
+  editor_ = editor;
+  connect(editor, &SymbologyEditor::changed, this, [this] {
+    setMouseTracking(editor_->active() || pointerWanted_);
+    if (!editor_->active()) unsetCursor();
+    invalidate();
+  });
+}
+
+void Viewport::placePicture(const Picture& picture, QSize pixels) {
+  const ViewShape& view = picture.request.view;
+  const QRect at = letterbox({view.widthPx, view.heightPx}, pixels);
+  const double scale = 1 / devicePixelRatioF();
+  pictureAt_ = {at.left() * scale, (pixels.height() - at.top() - at.height()) * scale, at.width() * scale,
+                at.height() * scale};
+  if (editor_ != nullptr && editor_->active())
+    editor_->setPicture(picture.request.symbology, view, pictureAt_);
+}
+
+void Viewport::keyPressEvent(QKeyEvent* event) {
+  if (editor_ != nullptr && editor_->key(*event)) return;
+  if (!cameraEnabled_ || event->modifiers() & (Qt::ControlModifier | Qt::AltModifier) ||
+      !camera_.press(event->key()))
+    return QOpenGLWidget::keyPressEvent(event);
+  invalidate();
+}
+
+void Viewport::keyReleaseEvent(QKeyEvent* event) {
+  if (event->isAutoRepeat()) return;
+  if (!camera_.release(event->key())) QOpenGLWidget::keyReleaseEvent(event);
+}
+
+void Viewport::focusOutEvent(QFocusEvent* event) {
+  camera_.releaseAll();
+  QOpenGLWidget::focusOutEvent(event);
+}
+
+void Viewport::setPointerWanted(bool wanted) {
+  pointerWanted_ = wanted;
+  setMouseTracking(wanted || (editor_ != nullptr && editor_->active()));
+}
+
+void Viewport::mousePressEvent(QMouseEvent* event) {
+  if (editor_ != nullptr && event->button() == Qt::LeftButton && editor_->press(event->position())) {
+    setCursor(editor_->cursor(event->position()));
+    return;
+  }
+  if (picking_ && event->button() == Qt::LeftButton) {
+    pickAt_ = event->position();
+    return invalidate();
+  }
+  lastMouse_ = event->position();
+}
+
+void Viewport::mouseReleaseEvent(QMouseEvent* event) {
+  if (editor_ != nullptr && editor_->release()) setCursor(editor_->cursor(event->position()));
+}
+
+void Viewport::mouseMoveEvent(QMouseEvent* event) {
+  if (editor_ != nullptr && editor_->moveTo(event->position())) {
+    setCursor(editor_->cursor(event->position()));
+    return;
+  }
+  if (pointerWanted_ && !pictureAt_.isEmpty()) {
+    const QPointF from = (event->position() - pictureAt_.center()) * 2;
+    emit pointed({from.x() / pictureAt_.width(), -from.y() / pictureAt_.height()});
+  }
+  if (!cameraEnabled_ || picking_ || !(event->buttons() & Qt::LeftButton)) return;
+  const QPointF moved = event->position() - lastMouse_;
+  lastMouse_ = event->position();
+  // The picture follows the hand: one height of the widget turns by some 36 degrees, the shipped field of
+  // view.
+  const double degreesPerPx = 36.0 / std::max(1, height());
+  camera_.look(Degrees{-moved.x() * degreesPerPx}, Degrees{moved.y() * degreesPerPx});
+  emit cameraMoved();
+  invalidate();
+}
+
+void Viewport::wheelEvent(QWheelEvent* event) {
+  if (!cameraEnabled_) return;
+  camera_.changeSpeed(event->angleDelta().y() / 120.0);
+  invalidate();
+}
+
+}  // namespace trimtab::workbench

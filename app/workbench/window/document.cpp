@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "document.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <QCoreApplication>
+#include <QDateTime>
+#include <QDir>
+#include <QFile>
+#include <QFileInfo>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QStandardPaths>
+#include <algorithm>
+
+#include "trimtab/preset/preset.h"
+#include "views/model/draft.h"
+
+namespace trimtab::workbench {
+namespace {
+
+constexpr int kCopyAfterMs = 1500;
+/// An editor that saves in several steps is looked at once it is done.
+constexpr int kLookAfterMs = 150;
+
+QString recoveryFolder() {
+  return QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) + QStringLiteral("/recovery");
+}
+
+QString ownCopy() {
+  return QStringLiteral("%1/%2.json").arg(recoveryFolder()).arg(QCoreApplication::applicationPid());
+}
+
+/// Locked while the program that keeps the copy lives: the number of a dead program may be given anew, or
+/// stay taken until somebody asks how it ended.
+QString lockOf(const QString& copy) {
+  return copy.chopped(5) + QStringLiteral(".lock");
+}
+
+bool isKept(const QString& copy, qint64 pid) {
+  const int lock = ::open(QFile::encodeName(lockOf(copy)).constData(), O_RDWR | O_CLOEXEC);
+  if (lock < 0) return ::kill(static_cast<pid_t>(pid), 0) == 0;
+  const bool kept = ::flock(lock, LOCK_EX | LOCK_NB) != 0;
+  ::close(lock);
+  return kept;
+}
+
+bool isShipped(std::string_view name) {
+  const auto shipped = shippedPresets();
+  return std::find(shipped.begin(), shipped.end(), name) != shipped.end();
+}
+
+/// The same preset for a file in another folder: a base that is a file is named from there.
+Preset movedTo(Preset preset, const QString& folder) {
+  if (!preset.base.empty() && !isShipped(preset.base)) {
+    const QDir old(QString::fromStdString(preset.folder.string()));
+    preset.base = QDir(folder)
+                      .relativeFilePath(old.absoluteFilePath(QString::fromStdString(preset.base)))
+                      .toStdString();
+  }
+  preset.folder = folder.toStdString();
+  return preset;
+}
+
+std::string readAll(const QString& file) {
+  QFile in(file);
+  return in.open(QIODevice::ReadOnly) ? in.readAll().toStdString() : std::string();
+}
+
+}  // namespace
+
+Document::Document(views::Draft& draft, QObject* parent) : QObject(parent), draft_(draft) {
+  copySoon_.setSingleShot(true);
+  lookSoon_.setSingleShot(true);
+  connect(&copySoon_, &QTimer::timeout, this, &Document::keepCopyNow);
+  connect(&lookSoon_, &QTimer::timeout, this, &Document::checkDisk);
+  connect(&watcher_, &QFileSystemWatcher::fileChanged, this, [this] { lookSoon_.start(kLookAfterMs); });
+  connect(&draft_.undoStack(), &QUndoStack::indexChanged, this, [this] {
+    if (draft_.isDirty())
+      copySoon_.start(kCopyAfterMs);
+    else
+      dropCopy();
+  });
+}
+
+Document::~Document() {
+  if (lock_ < 0) return;
+  // What is left behind now is for the next start to offer.
+  if (!QFile::exists(ownCopy())) QFile::remove(lockOf(ownCopy()));
+  ::close(lock_);
+}
+
+QString Document::title() const {
+  if (!file_.isEmpty()) return QFileInfo(file_).fileName();
+  const std::string& name = draft_.preset().name;
+  return name.empty() ? tr("untitled") : QString::fromStdString(name);
+}
+
+Result<Done> Document::open(const QString& nameOrFile) {
+  Result<Preset> loaded = loadPreset(nameOrFile.toStdString());
+  if (!loaded) return loaded.findings();
+  draft_.load(*loaded);
+  dropCopy();
+  become(isShipped(nameOrFile.toStdString()) ? QString() : QFileInfo(nameOrFile).absoluteFilePath());
+  return {Done{}, loaded.findings()};
+}
+
+void Document::startFrom(const QString& shipped) {
+  Result<Preset> base = loadPreset(shipped.toStdString());
+  Preset fresh = base ? *base : Preset{};
+  fresh.base = base ? shipped.toStdString() : std::string();
+  fresh.name = "untitled";
+  fresh.description.clear();
+  draft_.load(fresh);
+  dropCopy();
+  become({});
+}
+
+Result<Done> Document::save(const QString& file) {
+  const QString absolute = QFileInfo(file).absoluteFilePath();
+  const Result<std::string> text = presetText(movedTo(draft_.preset(), QFileInfo(absolute).absolutePath()));
+  if (!text) return text.findings();
+  const Result<Done> written = writeAtomically(absolute.toStdString(), *text);
+  if (!written) return written.findings();
+  draft_.undoStack().setClean();
+  dropCopy();
+  become(absolute);
+  return Done{};
+}
+
+void Document::become(const QString& file) {
+  if (!watcher_.files().isEmpty()) watcher_.removePaths(watcher_.files());
+  file_ = file;
+  bytes_ = file.isEmpty() ? std::string() : readAll(file);
+  if (!file.isEmpty()) watcher_.addPath(file);
+  emit fileChanged();
+}
+
+void Document::checkDisk() {
+  if (file_.isEmpty()) return;
+  const bool gone = !QFileInfo::exists(file_);
+  // A file that was replaced has to be watched anew.
+  if (!gone && !watcher_.files().contains(file_)) watcher_.addPath(file_);
+  if (gone) return emit changedOnDisk(true);
+  std::string now = readAll(file_);
+  if (now == bytes_) return;
+  bytes_ = std::move(now);
+  emit changedOnDisk(false);
+}
+
+void Document::keepCopyNow() {
+  copySoon_.stop();
+  if (!draft_.isDirty()) return;
+  const Result<std::string> text = presetText(draft_.preset());
+  if (!text) return;
+  QDir().mkpath(recoveryFolder());
+  if (lock_ < 0) {
+    lock_ = ::open(QFile::encodeName(lockOf(ownCopy())).constData(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+      ::close(lock_);
+      lock_ = -1;
+    }
+  }
+  const QJsonObject copy{{"file", file_},
+                         {"saved_at", QDateTime::currentDateTime().toString(Qt::ISODate)},
+                         {"preset", QString::fromStdString(*text)}};
+  // A copy that cannot be written costs nothing but the copy: the next save will say what is wrong with the
+  // disk.
+  const auto ignored = writeAtomically(ownCopy().toStdString(), QJsonDocument(copy).toJson().toStdString());
+  static_cast<void>(ignored);
+}
+
+void Document::dropCopy() {
+  copySoon_.stop();
+  QFile::remove(ownCopy());
+}
+
+std::vector<Document::Recovered> Document::abandoned() {
+  std::vector<Recovered> found;
+  const QDir folder(recoveryFolder());
+  for (const QFileInfo& info : folder.entryInfoList({QStringLiteral("*.json")}, QDir::Files, QDir::Time)) {
+    bool isPid = false;
+    const qint64 pid = info.completeBaseName().toLongLong(&isPid);
+    if (!isPid || pid == QCoreApplication::applicationPid() || isKept(info.filePath(), pid)) continue;
+    const QJsonObject copy =
+        QJsonDocument::fromJson(QByteArray::fromStdString(readAll(info.filePath()))).object();
+    found.push_back(
+        {info.filePath(), copy["file"].toString(), copy["saved_at"].toString(), copy["preset"].toString()});
+  }
+  return found;
+}
+
+Result<Done> Document::recover(const Recovered& recovered) {
+  const QString where = recovered.file.isEmpty() ? recovered.copy : recovered.file;
+  Result<Preset> parsed = parsePreset(recovered.text.toStdString(), where.toStdString());
+  if (!parsed) return parsed.findings();
+  // The file as it is on disk first, so that the recovered edits are one step that can be undone.
+  const bool hasFile = !recovered.file.isEmpty() && QFileInfo::exists(recovered.file);
+  if (!hasFile || !open(recovered.file))
+    startFrom(QString::fromStdString(parsed->base.empty() ? "default" : parsed->base));
+  draft_.takeParameters(parsed->parameters, tr("Recover unsaved edits"));
+  keepCopyNow();
+  discard(recovered);
+  return {Done{}, parsed.findings()};
+}
+
+void Document::discard(const Recovered& recovered) {
+  QFile::remove(recovered.copy);
+  QFile::remove(lockOf(recovered.copy));
+}
+
+}  // namespace trimtab::workbench

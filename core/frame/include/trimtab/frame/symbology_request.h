@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "trimtab/frame/frame.h"
+#include "trimtab/preset/parameters.h"
+
+/// What the symbols of a helmet-mounted display (document C) show in one frame.
+namespace trimtab {
+
+/// In the order in which they are drawn.
+enum class Symbol : std::uint8_t {
+  pitch_ladder,
+  aircraft_reference,
+  flight_path,
+  line_of_sight,
+  heading_tape,
+  airspeed,
+  altitude
+};
+inline constexpr std::size_t kSymbols = 7;
+
+/// All that the symbols show. What is not finite is not shown.
+struct SymbologyState {
+  Attitude aircraft;
+  Attitude view;    ///< the line of sight in the world: aircraft and head
+  Metres altitude;  ///< above mean sea level
+  std::optional<Knots> speed;
+  bool groundSpeed = false;  ///< else calibrated airspeed
+  std::optional<Velocity> velocity;
+
+  friend bool operator==(const SymbologyState&, const SymbologyState&) = default;
+};
+
+/// The parameters of all symbols, `element` by Symbol.
+struct SymbologySetup {
+  SymbologyParameters general;
+  std::array<SymbolElement, kSymbols> element;
+
+  friend bool operator==(const SymbologySetup&, const SymbologySetup&) = default;
+};
+SymbologySetup symbologySetup(const TuningParameters& parameters);
+
+struct SymbologyRequest {
+  SymbologyState state;
+  SymbologySetup setup;
+
+  friend bool operator==(const SymbologyRequest&, const SymbologyRequest&) = default;
+};
+
+}  // namespace trimtab

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+/// Which nodes a frame draws, and for every node that it does not draw, why.
+namespace trimtab {
+
+enum class CullReason : std::uint8_t {
+  drawn,
+  outside_frustum,
+  occluded,           ///< proven hidden by the horizon or the depth map
+  beyond_visibility,  ///< in the frustum, but wholly beyond the weather's far distance
+  back_facing,        ///< all of its triangles face away from the eye, so that nearer ones hide them
+  other_level         ///< its ancestor or descendants stand for it
+};
+
+/// One tile of the cut. `coarser` has bits W=1, E=2, S=4, N=8 where the neighbour is one level coarser and
+/// the border uses the coarser posts.
+struct TileDraw {
+  std::uint32_t node = 0;
+  std::uint8_t coarser = 0;
+  bool bothSides = false;  ///< drawn so although the picture has no back faces; set where draws are arranged
+};
+
+/// What a view draws of a cut. It costs nothing by the size of the index: reasons stand by place in the cut.
+struct VisibleSet {
+  std::vector<TileDraw> tiles;                              ///< to draw, in the cut's order
+  std::vector<CullReason> reason;                           ///< one a tile of the cut, in order
+  std::shared_ptr<const std::vector<std::uint32_t>> nodes;  ///< of the cut, in order; may be null
+  std::size_t outsideFrustum = 0, occluded = 0, beyondVisibility = 0,
+              backFacing = 0;                 ///< tiles of the cut, by reason
+  std::uint64_t triangles = 0, vertices = 0;  ///< of the tiles drawn; degenerate triangles not counted
+
+  /// Looks through the cut: for one node that a person picked.
+  CullReason reasonOf(std::uint32_t node) const;
+  /// One a node of an index of so many: for those who look at all of them.
+  std::vector<CullReason> reasons(std::size_t ofNodes) const;
+};
+
+}  // namespace trimtab

@@ -1,0 +1,163 @@
+#include "multi_draw.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "gl_api.h"
+#include "gl_buffer.h"
+#include "trimtab/scene/gl_report.h"
+
+namespace trimtab::scene {
+namespace {
+
+std::optional<DrawWay> forced;
+
+std::size_t bytesOf(unsigned indexType) {
+  return indexType == GL_UNSIGNED_INT ? sizeof(std::uint32_t) : sizeof(std::uint16_t);
+}
+
+const void* offsetOf(std::uint32_t firstIndex, unsigned indexType) {
+  return reinterpret_cast<const void*>(firstIndex * bytesOf(indexType));
+}
+
+bool sameNodes(std::span<const TileDraw> a, std::span<const TileDraw> b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const TileDraw& x, const TileDraw& y) {
+    return x.node == y.node && x.coarser == y.coarser && x.bothSides == y.bothSides;
+  });
+}
+
+}  // namespace
+
+DrawChoice chooseDrawWay(const DrawFeatures& f) {
+  // A software rasteriser runs the commands of a buffer one by one through all of its checks: measured on
+  // llvmpipe, 0.20 us a mesh against 0.13 from arrays, and 0.22 by a call each.
+  const bool slow = f.software && f.baseVertex;
+  if (f.indirect && !slow) return {DrawWay::indirect, "one indirect multi-draw"};
+  const std::string not_indirect =
+      f.indirect ? "indirect is slower in software" : "the driver lacks indirect";
+  if (f.baseVertex) return {DrawWay::base_vertex, "one multi-draw by base vertex (" + not_indirect + ")"};
+  return {DrawWay::loop, "one draw a mesh (the driver lacks multi-draws)"};
+}
+
+DrawFeatures drawFeaturesOfContext() {
+  DrawFeatures features{.software = contextIsSoftware()};
+  GLint extensions = 0, major = 0, minor = 0;
+  glGetIntegerv(GL_MAJOR_VERSION, &major);
+  glGetIntegerv(GL_MINOR_VERSION, &minor);
+  const int version = 10 * major + minor;
+  features.indirect = version >= 43;
+  features.baseVertex = version >= 32;
+  glGetIntegerv(GL_NUM_EXTENSIONS, &extensions);
+  for (GLint i = 0; i < extensions; ++i) {
+    const auto* name = reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, static_cast<GLuint>(i)));
+    if (name == nullptr) continue;
+    features.indirect |= std::string_view(name) == "GL_ARB_multi_draw_indirect";
+    features.baseVertex |= std::string_view(name) == "GL_ARB_draw_elements_base_vertex";
+  }
+  return features;
+}
+
+DrawChoice drawChoiceOfContext() {
+  if (!forced) return chooseDrawWay(drawFeaturesOfContext());
+  DrawChoice choice = chooseDrawWay({*forced == DrawWay::indirect, *forced == DrawWay::base_vertex, false});
+  choice.reason += ", as asked for";
+  return choice;
+}
+
+ForcedDrawWay::ForcedDrawWay(DrawWay way) : before_(forced) {
+  forced = way;
+}
+
+ForcedDrawWay::~ForcedDrawWay() {
+  forced = before_;
+}
+
+MultiDraw::MultiDraw() : MultiDraw(drawChoiceOfContext().way) {}
+
+MultiDraw::MultiDraw(DrawWay way) : way_(way) {
+  if (way_ == DrawWay::indirect) glGenBuffers(1, &buffer_);
+}
+
+MultiDraw::~MultiDraw() {
+  if (buffer_ != 0) glDeleteBuffers(1, &buffer_);
+}
+
+bool MultiDraw::begin(std::span<const TileDraw> nodes, std::uint64_t places) {
+  if (places == places_ && sameNodes(nodes, nodes_)) return false;
+  nodes_.assign(nodes.begin(), nodes.end());
+  places_ = places;
+  commands_.clear();
+  bothSides_ = 0;
+  passed_ = false;
+  ++made_;
+  return true;
+}
+
+void MultiDraw::add(std::uint32_t firstIndex, std::uint32_t indices, std::uint32_t baseVertex,
+                    bool bothSides) {
+  commands_.push_back({indices, 1, firstIndex, static_cast<std::int32_t>(baseVertex),
+                       static_cast<std::uint32_t>(commands_.size())});
+  if (bothSides) bothSides_ = commands_.size();
+}
+
+void MultiDraw::draw(unsigned vertexArray, unsigned indexType, bool numbered) {
+  if (commands_.empty()) return;
+  glBindVertexArray(vertexArray);
+  const std::size_t both = bothSides_ > 0 && glIsEnabled(GL_CULL_FACE) ? bothSides_ : 0;
+  if (both > 0) {
+    glDisable(GL_CULL_FACE);
+    drawPart(indexType, numbered, 0, both);
+    glEnable(GL_CULL_FACE);
+  }
+  if (both < commands_.size()) drawPart(indexType, numbered, both, commands_.size() - both);
+  glBindVertexArray(0);
+}
+
+void MultiDraw::drawPart(unsigned indexType, bool numbered, std::size_t first, std::size_t count) {
+  if (way_ == DrawWay::indirect)
+    drawIndirect(indexType, first, count);
+  else if (way_ == DrawWay::base_vertex && !numbered)
+    drawBaseVertex(indexType, first, count);
+  else
+    drawLoop(indexType, numbered, first, count);
+}
+
+void MultiDraw::drawIndirect(unsigned indexType, std::size_t first, std::size_t count) {
+  // All of it anew, so that the driver need not wait for the frame that still reads the old.
+  if (!passed_) uploadBuffer(buffer_, commands_.data(), commands_.size() * sizeof(Command));
+  passed_ = true;
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, buffer_);
+  glMultiDrawElementsIndirect(GL_TRIANGLES, indexType, reinterpret_cast<const void*>(first * sizeof(Command)),
+                              static_cast<GLsizei>(count), 0);
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+}
+
+void MultiDraw::drawBaseVertex(unsigned indexType, std::size_t first, std::size_t count) {
+  if (!passed_) {
+    counts_.clear();
+    offsets_.clear();
+    baseVertices_.clear();
+    for (const Command& c : commands_) {
+      counts_.push_back(static_cast<std::int32_t>(c.indices));
+      offsets_.push_back(offsetOf(c.firstIndex, indexType));
+      baseVertices_.push_back(c.baseVertex);
+    }
+    passed_ = true;
+  }
+  glMultiDrawElementsBaseVertex(GL_TRIANGLES, counts_.data() + first, indexType, offsets_.data() + first,
+                                static_cast<GLsizei>(count), baseVertices_.data() + first);
+}
+
+void MultiDraw::drawLoop(unsigned indexType, bool numbered, std::size_t first, std::size_t commands) {
+  for (const Command& c : std::span(commands_).subspan(first, commands)) {
+    const auto count = static_cast<GLsizei>(c.indices);
+    const void* offset = offsetOf(c.firstIndex, indexType);
+    if (numbered)
+      glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, count, indexType, offset, 1, c.baseVertex,
+                                                    c.baseInstance);
+    else
+      glDrawElementsBaseVertex(GL_TRIANGLES, count, indexType, offset, c.baseVertex);
+  }
+}
+
+}  // namespace trimtab::scene

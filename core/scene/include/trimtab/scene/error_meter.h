@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "trimtab/scene/gl_report.h"
+#include "trimtab/scene/planted_defects.h"
+#include "trimtab/frame/frame_request.h"
+#include "trimtab/frame/frame_result.h"
+#include "trimtab/measure/frame_error.h"
+#include "trimtab/terrain/format/database.h"
+
+namespace trimtab::scene {
+
+/// The picture that a request is held against: no culling (view frustum, which a test proves equal), finest
+/// levels, no blur, no early far plane; the same eye, air, precipitation, symbols and time. What is for the
+/// engineer is not in it: no overlays, no frozen eye; static trees only where the request draws them. Of
+/// patches: an eighth of a pixel, which is as fine as a picture can tell; all pages are waited for.
+FrameRequest referenceOf(const FrameRequest& request);
+
+/// Both pictures of a measurement, RGBA, row 0 at the bottom.
+struct ErrorPictures {
+  int widthPx = 0, heightPx = 0;
+  std::vector<std::uint8_t> reference, ours;
+  std::vector<float> flip;  ///< one a pixel, 0..1: the difference map
+  FrameResult drawnReference, drawn;
+};
+
+/// Measures what a frame's picture loses. Draws with a renderer of its own into framebuffers of its own, so
+/// that whoever shows pictures in the same context is not disturbed; binds again what was bound. All calls
+/// need the context current that `initialize` was called with.
+///
+/// The same requests give the same numbers to the bit, whatever was measured before. Overlays and a frozen
+/// eye are left out of both pictures: they are for the engineer.
+class ErrorMeter {
+ public:
+  ErrorMeter();
+  ~ErrorMeter();
+  ErrorMeter(const ErrorMeter&) = delete;
+  ErrorMeter& operator=(const ErrorMeter&) = delete;
+
+  GlReport initialize();
+  void release();
+  void setTerrain(std::shared_ptr<const terrain::Database> database);
+
+  /// `before`: the frames before `request`, oldest first; the last one is that from which temporal pop is
+  /// told, which is not measured where there is none or it has another size. A blur is the picture's mix with
+  /// those before it, so what a request with blur shows is known only by them: the first of them stands for
+  /// what is left of all older ones, and with none there is no blur to see. As many as matter to a quarter of
+  /// a grey level are drawn, so more than enough may be passed.
+  ///
+  /// Draws reference and picture, each of the frame before too where pop is measured, and the nodes of the
+  /// picture with and without culling. The last few references are kept: measure the presets and cases of one
+  /// frame in turn, or frames in order. `pictures`, where not null, gets what was compared. A request without
+  /// pixels, or no context, gives a default FrameError.
+  FrameError measure(const FrameRequest& request, std::span<const FrameRequest> before,
+                     ErrorPictures* pictures);
+  FrameError measure(const FrameRequest& request, const FrameRequest* before, ErrorPictures* pictures) {
+    return measure(request, std::span(before, before ? 1u : 0u), pictures);
+  }
+  /// What the renderer that draws `request` does wrong on purpose (renderer.h); the reference stays clean.
+  void plant(const Defects& defects);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// What the geometric maximum of a request stays within as long as levels state their errors truly: what
+/// the cut may err by, seen at the picture's corner, where a pixel spans the smallest angle; and a pixel and
+/// a half for what lies between the pixels' centres, where a silhouette of either picture may be. Infinity
+/// where nothing is promised (static trees by mean error, by a fixed depth).
+double geometricBoundPx(const FrameRequest& request);
+
+/// Temporal pop of one step: by how much each channel's change lies outside of what the reference's change
+/// explains (between none and all of it), mean over red, green and blue, of 255. A picture that stands still,
+/// or follows the reference only half of the way, does not pop. All four RGBA and of one size, else NaN.
+double temporalPop(std::span<const std::uint8_t> referenceBefore, std::span<const std::uint8_t> reference,
+                   std::span<const std::uint8_t> oursBefore, std::span<const std::uint8_t> ours);
+
+}  // namespace trimtab::scene

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "trimtab/frame/visible_set.h"
+
+namespace trimtab::scene {
+
+/// The colours of the overlays, sRGB, told apart by the colour-blind too (Okabe and Ito's set).
+std::array<std::uint8_t, 3> reasonColour(CullReason reason);
+std::array<std::uint8_t, 3> levelColour(int level);
+
+}  // namespace trimtab::scene

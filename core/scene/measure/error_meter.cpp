@@ -1,0 +1,317 @@
+#include "trimtab/scene/renderer.h"
+#include "trimtab/scene/error_meter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/scene/gl/frame_buffer.h"
+#include "core/scene/gl/gl_api.h"
+#include "core/scene/passes/blur_pass.h"
+#include "core/scene/passes/node_pass.h"
+#include "trimtab/scene/planted_defects.h"
+#include "trimtab/culling/select_static.h"
+#include "trimtab/frame/frame_request.h"
+#include "trimtab/measure/geometric_error.h"
+#include "trimtab/measure/image_error.h"
+
+namespace trimtab::scene {
+namespace {
+
+/// So small that the finest level is chosen wherever levels differ at all.
+constexpr Pixels kFinest{1e-6};
+/// For patches: finest wherever a picture could tell, and not a whole country's.
+constexpr Pixels kFinestPatches{0.125};
+constexpr Megabytes kReferenceCache{8192};
+/// What is left of a picture at this weight is a quarter of a grey level.
+constexpr double kNoTrace = 1.0 / 1024;
+
+/// What both pictures leave out.
+FrameRequest withoutEngineer(const FrameRequest& request) {
+  FrameRequest r = request;
+  if (asksForTrees(request)) r.staticLod.terrain = TerrainForm::static_trees;
+  r.overlays = {};
+  r.overlays.treeDepth = request.overlays.treeDepth;
+  r.frozenEye.reset();
+  r.separateStages = false;
+  r.waitForPages = r.reproducible = true;
+  // It depends on what was drawn before, and so would the share of nodes drawn in vain.
+  r.skips.littleHidden = false;
+  return r;
+}
+
+/// The first of `frames` that has a trace in the picture of frames[last].
+std::size_t firstTraceIn(std::span<const FrameRequest> frames, std::size_t last) {
+  double weight = 1;
+  std::size_t first = last;
+  while (first > 0) {
+    const double step = frames[first].time - frames[first - 1].time;
+    const double keep = BlurPass::keptAfter(frames[first].decision.motion.blur.strength, step);
+    // A frame of the same time takes the place of the one before.
+    if (step != 0) weight *= keep;
+    if (!(weight >= kNoTrace)) break;
+    --first;
+  }
+  return first;
+}
+
+/// Pixels that a node would own which was left out.
+std::uint64_t wronglyCulled(const std::vector<std::uint32_t>& unculled, const VisibleSet& visible) {
+  std::uint64_t pixels = 0;
+  std::uint32_t last = 0;
+  for (const std::uint32_t node : unculled)
+    if (node != NodeTarget::kNone) last = std::max(last, node);
+  const std::vector<CullReason> reason = visible.reasons(last + std::size_t{1});
+  for (const std::uint32_t node : unculled)
+    pixels += node != NodeTarget::kNone && reason[node] != CullReason::drawn;
+  return pixels;
+}
+
+/// Of the nodes drawn, those that own no pixel.
+double hiddenShare(const std::vector<std::uint32_t>& nodes, const VisibleSet& visible) {
+  if (visible.tiles.empty()) return FrameError::kNotMeasured;
+  std::uint32_t last = 0;
+  for (const TileDraw& tile : visible.tiles) last = std::max(last, tile.node);
+  std::vector<std::uint8_t> owns(last + std::size_t{1});
+  for (const std::uint32_t node : nodes)
+    if (node < owns.size()) owns[node] = 1;
+  const auto hidden = std::count_if(visible.tiles.begin(), visible.tiles.end(),
+                                    [&](const TileDraw& tile) { return owns[tile.node] == 0; });
+  return static_cast<double>(hidden) / static_cast<double>(visible.tiles.size());
+}
+
+/// What the far cut takes from a picture is told by its colours, in fog: depths count up to there.
+std::vector<float> upTo(double farM, std::vector<float> distances) {
+  if (farM < WeatherDecision::kUnlimited)
+    for (float& distance : distances)
+      if (double{distance} > farM) distance = std::numeric_limits<float>::infinity();
+  return distances;
+}
+
+}  // namespace
+
+FrameRequest referenceOf(const FrameRequest& request) {
+  FrameRequest r = withoutEngineer(request);
+  r.method = CullingCase::view_frustum;
+  r.overlays.treeDepth = -1;
+  r.lod.screenSpaceError = r.staticLod.terrain == TerrainForm::patches ? kFinestPatches : kFinest;
+  r.terrain.cache = std::max(r.terrain.cache, kReferenceCache);
+  r.staticLod.error = ErrorMeasure::maximum;
+  r.staticLod.rule = StaticDistanceRule::picture;
+  r.staticLod.errorPx = kFinest;
+  r.decision.lodScale = 1;
+  r.decision.depthMap.reset();
+  r.decision.motion.blur = {};
+  r.decision.weather.farM = WeatherDecision::kUnlimited;
+  return r;
+}
+
+double geometricBoundPx(const FrameRequest& request) {
+  const ViewShape& v = request.view;
+  const double across = std::max(std::abs(v.left), std::abs(v.right)),
+               up = std::max(std::abs(v.bottom), std::abs(v.top));
+  if (request.staticLod.terrain == TerrainForm::patches && !asksForTrees(request))
+    return std::numeric_limits<double>::infinity();
+  double cutPx = request.lod.screenSpaceError.value() * request.decision.lodScale;
+  if (asksForTrees(request)) {
+    const StaticLodParameters& s = request.staticLod;
+    if (s.error != ErrorMeasure::maximum || request.overlays.treeDepth >= 0)
+      return std::numeric_limits<double>::infinity();
+    const double pixelsPerRadian = std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom));
+    cutPx = pixelsPerRadian / staticLodDistancePerError(s, request.decision.lodScale, pixelsPerRadian);
+  }
+  return cutPx * std::sqrt(1 + across * across + up * up) + 1.5;
+}
+
+double temporalPop(std::span<const std::uint8_t> referenceBefore, std::span<const std::uint8_t> reference,
+                   std::span<const std::uint8_t> oursBefore, std::span<const std::uint8_t> ours) {
+  const std::size_t bytes = ours.size();
+  if (bytes == 0 || bytes % 4 != 0 || referenceBefore.size() != bytes || reference.size() != bytes ||
+      oursBefore.size() != bytes)
+    return FrameError::kNotMeasured;
+  std::uint64_t sum = 0;
+  constexpr std::size_t kRun = 1 << 16;  // whose sum is a 32-bit integer: the loop is vector instructions
+  for (std::size_t from = 0; from < bytes; from += kRun) {
+    std::uint32_t ofRun = 0;
+    for (std::size_t i = from, end = std::min(from + kRun, bytes); i < end; ++i) {
+      const int change = ours[i] - oursBefore[i], shown = reference[i] - referenceBefore[i];
+      const int outside = std::max({change - std::max(shown, 0), std::min(shown, 0) - change, 0});
+      ofRun += i % 4 == 3 ? 0u : static_cast<std::uint32_t>(outside);
+    }
+    sum += ofRun;
+  }
+  return static_cast<double>(sum) / (static_cast<double>(bytes) / 4 * 3);
+}
+
+namespace {
+
+/// All that the picture of a reference depends on.
+struct ReferenceKey {
+  GeodeticPosition eye;
+  Attitude attitude;
+  ViewShape view;
+  WeatherDecision weather;
+  double time = 0;                   ///< only where something falls
+  std::optional<Velocity> velocity;  ///< likewise
+  std::optional<SymbologyRequest> symbology;
+  TerrainForm form = TerrainForm::levels;
+  friend bool operator==(const ReferenceKey&, const ReferenceKey&) = default;
+};
+
+ReferenceKey keyOf(const FrameRequest& r) {
+  const WeatherDecision& w = r.decision.weather;
+  ReferenceKey key{
+      r.eye, r.attitude, r.view,      {},
+      0,     {},         r.symbology, asksForTrees(r) ? TerrainForm::static_trees : r.staticLod.terrain};
+  if (w.fogged) {
+    key.weather.fogged = true;
+    key.weather.extinctionPerM = w.extinctionPerM;
+  }
+  if (w.density > 0 && w.precipitation != Precipitation::none) {
+    key.weather.precipitation = w.precipitation;
+    key.weather.density = w.density;
+    key.time = r.time;
+    key.velocity = r.velocity;
+  }
+  return key;
+}
+
+/// Enough for a frame and the one before it in two kinds of weather.
+constexpr std::size_t kKeptReferences = 4;
+
+}  // namespace
+
+struct ErrorMeter::Impl {
+  struct Reference {
+    ReferenceKey key;
+    std::vector<std::uint8_t> pixels;
+    std::vector<float> distances;
+    FrameResult drawn;
+    std::uint64_t lastUse = 0;
+  };
+
+  std::shared_ptr<const terrain::Database> database;
+  Renderer renderer;
+  FrameBuffer target;
+  Defects defects;
+  bool usable = false;
+  std::vector<std::unique_ptr<Reference>> references;
+  std::uint64_t uses = 0;
+
+  FrameResult draw(const FrameRequest& r) { return renderer.draw(r, target.id()); }
+  std::vector<std::uint8_t> pixels(const ViewShape& view) {
+    return renderer.readPixels(view.widthPx, view.heightPx);
+  }
+  const Reference& reference(const FrameRequest& request);
+  /// Asking for the form that it is drawn in.
+  FrameRequest asDrawn(FrameRequest request) const {
+    if (const auto form = formDrawn(request, database.get())) request.staticLod.terrain = *form;
+    return request;
+  }
+};
+
+/// Presets and cases are measured on one frame in turn, and it costs more than all else: the last few are
+/// kept. Stands until as many others were asked for.
+const ErrorMeter::Impl::Reference& ErrorMeter::Impl::reference(const FrameRequest& asked) {
+  const FrameRequest request = asDrawn(asked);
+  const ReferenceKey key = keyOf(request);
+  const auto found =
+      std::find_if(references.begin(), references.end(), [&](const auto& r) { return r->key == key; });
+  if (found != references.end()) {
+    (*found)->lastUse = ++uses;
+    return **found;
+  }
+  if (references.size() >= kKeptReferences)
+    references.erase(std::min_element(references.begin(), references.end(),
+                                      [](const auto& a, const auto& b) { return a->lastUse < b->lastUse; }));
+  FrameResult drawn = draw(referenceOf(request));
+  references.push_back(std::make_unique<Reference>(
+      Reference{key, pixels(request.view), renderer.readDistances(), std::move(drawn), ++uses}));
+  return *references.back();
+}
+
+ErrorMeter::ErrorMeter() : impl_(std::make_unique<Impl>()) {}
+ErrorMeter::~ErrorMeter() = default;
+
+GlReport ErrorMeter::initialize() {
+  release();
+  const GlReport report = impl_->renderer.initialize();
+  impl_->usable = report.usable;
+  return report;
+}
+
+void ErrorMeter::release() {
+  impl_->renderer.release();
+  impl_->target.release();
+  impl_->references.clear();
+  impl_->usable = false;
+}
+
+void ErrorMeter::setTerrain(std::shared_ptr<const terrain::Database> database) {
+  impl_->references.clear();
+  impl_->database = database;
+  impl_->renderer.setTerrain(std::move(database));
+}
+
+void ErrorMeter::plant(const Defects& defects) {
+  impl_->defects = defects;
+}
+
+FrameError ErrorMeter::measure(const FrameRequest& request, std::span<const FrameRequest> before,
+                               ErrorPictures* pictures) {
+  FrameError error;
+  const ViewShape& v = request.view;
+  if (!impl_->usable || v.widthPx <= 0 || v.heightPx <= 0) return error;
+  Impl& m = *impl_;
+  GLint drawn = 0, read = 0;
+  std::array<GLint, 4> viewport{};
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &drawn);
+  glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read);
+  glGetIntegerv(GL_VIEWPORT, viewport.data());
+  m.target.resize(v.widthPx, v.heightPx);
+
+  const bool pops =
+      !before.empty() && before.back().view.widthPx == v.widthPx && before.back().view.heightPx == v.heightPx;
+  m.renderer.plant({});
+  const Impl::Reference* referenceBefore = pops ? &m.reference(before.back()) : nullptr;
+  const Impl::Reference& reference = m.reference(request);
+
+  m.renderer.plant(m.defects);
+  m.renderer.forgetPictures();
+  std::vector<FrameRequest> frames;
+  for (const FrameRequest& r : before) frames.push_back(m.asDrawn(withoutEngineer(r)));
+  frames.push_back(m.asDrawn(withoutEngineer(request)));
+  const std::size_t last = frames.size() - 1;
+  std::size_t first = firstTraceIn(frames, last);
+  if (pops) first = std::min(first, firstTraceIn(frames, last - 1));
+  for (std::size_t i = first; i < last; ++i) m.draw(frames[i]);
+  std::vector<std::uint8_t> oursBefore;
+  if (pops) oursBefore = m.pixels(v);
+  FrameResult result = m.draw(frames[last]);
+  std::vector<std::uint8_t> ours = m.pixels(v);
+  const std::vector<float> distances = m.renderer.readDistances();
+  error.hiddenDrawnShare = hiddenShare(m.renderer.readNodes(), result.visible);
+  error.wronglyCulledPixels = wronglyCulled(m.renderer.readNodes(true), result.visible);
+  m.renderer.plant({});
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(drawn));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read));
+  glViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
+
+  const GeometricError geometric =
+      geometricError(upTo(request.decision.weather.farM, reference.distances), distances, v);
+  error.geometricMaxPx = geometric.maxPx;
+  error.geometricMeanPx = geometric.meanPx;
+  error.psnrDb = psnrDb(reference.pixels, ours, v.widthPx, v.heightPx);
+  error.ssim = ssimOfLuma(reference.pixels, ours, v.widthPx, v.heightPx);
+  std::vector<float> map;
+  if (pictures) map.resize(ours.size() / 4);
+  error.flip = flip(reference.pixels, ours, v.widthPx, v.heightPx, map);
+  if (pops) error.pop = temporalPop(referenceBefore->pixels, reference.pixels, oursBefore, ours);
+  if (pictures)
+    *pictures = {v.widthPx,      v.heightPx,      reference.pixels, std::move(ours),
+                 std::move(map), reference.drawn, std::move(result)};
+  return error;
+}
+
+}  // namespace trimtab::scene

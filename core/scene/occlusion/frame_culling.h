@@ -1,0 +1,86 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/scene/scene_graph.h"
+#include "core/scene/terrain/tiles/tile_ground.h"
+#include "occlusion.h"
+#include "occlusion_stage.h"
+#include "trimtab/scene/planted_defects.h"
+#include "trimtab/scene/renderer.h"
+#include "trimtab/culling/select.h"
+#include "trimtab/frame/frame_request.h"
+#include "trimtab/terrain/format/database.h"
+
+namespace trimtab::scene {
+
+class DepthReadBack;
+
+/// Depths (near / distance, row 0 at the bottom) as the greys that people look at.
+Renderer::Grey greyOf(std::span<const float> depths, int width, int height, double nearM);
+
+/// What a frame does to find the terrain's tiles that it draws: level cut, frustum, and what looks for hidden
+/// ground. Keeps what can be kept from frame to frame; needs no context, except where OcclusionPass and
+/// TileCache are passed.
+class FrameCulling {
+ public:
+  void setDatabase(std::shared_ptr<const terrain::Database> database);
+  OcclusionStage& occlusion() { return occlusion_; }
+  const OcclusionStage& occlusion() const { return occlusion_; }
+
+  // In this order, every frame.
+  /// The cut for an eye, only if it can have changed, which counts as `cutsSelected`.
+  void selectCut(const FrameRequest& request, const EyePose& eye, FrameResult& counters);
+  /// What serves, and what the horizon hides.
+  void beginOcclusion(const FrameRequest& request, FrameResult& counters);
+  /// What of the cut is in the view and not hidden: false where it is what it was in the last frame.
+  bool selectVisible(const FrameRequest& request, FrameResult& counters);
+  /// Takes out of a new visible set what the processor's map hides.
+  void removeHiddenByMap(const FrameRequest& request, FrameResult& counters);
+  /// After the visible tiles have slots: whether the GPU draws a depth map in this frame, and its view. Else
+  /// `counters.note` may say why not.
+  std::optional<DepthView> prepareOcclusion(const FrameRequest& request, const TileCache& tiles,
+                                            OcclusionPass& pass, FrameResult& counters);
+  /// Tests the visible tiles against that map and takes out what it hides.
+  void removeHidden(const TileCache& tiles, OcclusionPass& pass);
+  /// Of the current context, or null; must live until it is replaced.
+  void setReadBack(DepthReadBack* readBack) { readBack_ = readBack; }
+
+  const LevelCut& cut() const { return cut_; }
+  const VisibleSet& visible() const { return visible_; }
+  /// What may hide others in this frame.
+  const std::vector<TileDraw>& occluders() const { return occluders_; }
+  void plant(const Defects& defects);
+  /// The last frame's depth map, if one was drawn; else a picture of the last horizon, if that served.
+  Renderer::Grey readDepthMap(const OcclusionPass& pass) const;
+
+ private:
+  /// What the level cut depends on.
+  struct CutKey {
+    Vec3 eye;
+    double maxErrorPx = 0, lodScale = 0, pixelsPerRadian = 0;
+    friend bool operator==(const CutKey&, const CutKey&) = default;
+  };
+
+  std::shared_ptr<const terrain::Database> database_;
+  TileGround ground_;
+  OcclusionStage occlusion_{ground_};
+  std::optional<CutKey> cutKey_;
+  CutNumber cutNumber_;
+  LevelCut cut_;
+  VisibleSet visible_;
+  EyePose eye_;
+  std::vector<std::uint32_t> testedSlots_;
+  std::vector<TileDraw> occluders_;
+  std::vector<std::uint8_t> flags_;
+  Defects defects_;
+  DepthReadBack* readBack_ = nullptr;
+  ViewShape view_;
+  bool depthMapCurrent_ = false;  ///< the last frame drew one
+  double nearM_ = 1;              ///< of the last depth map
+};
+
+}  // namespace trimtab::scene

@@ -1,0 +1,100 @@
+#include "horizon_memory.h"
+#include "trimtab/frame/frame_request.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace trimtab::scene {
+
+int HorizonMemory::columnsFor(int depthMapWidthPx) {
+  return std::clamp(2 * depthMapWidthPx, Horizon::kLeastColumns, Horizon::kMostColumns);
+}
+
+double HorizonMemory::slackOf(const ViewShape& view, int subpixelBits) {
+  // Five steps of a pixel that has 256 of them, which leaves room for rounding; in coarser ones as many.
+  const double pixels = 0.02 * std::max(1.0, std::ldexp(1.0, 8 - subpixelBits));
+  return pixels * std::max((view.right - view.left) / view.widthPx, (view.top - view.bottom) / view.heightPx);
+}
+
+Renderer::Grey HorizonMemory::picture(const EyePose& eye, const ViewShape& view, int widthPx,
+                                      int heightPx) const {
+  constexpr std::uint8_t kCovered = 110, kOpen = 255;
+  Renderer::Grey grey{widthPx, heightPx, {}};
+  grey.pixels.reserve(static_cast<std::size_t>(widthPx) * static_cast<std::size_t>(heightPx));
+  const Mat3 toLocal = transposed(eye.axes);
+  for (int y = 0; y < heightPx; ++y)
+    for (int x = 0; x < widthPx; ++x) {
+      const double across = view.left + (view.right - view.left) * (x + 0.5) / widthPx,
+                   up = view.bottom + (view.top - view.bottom) * (y + 0.5) / heightPx;
+      grey.pixels.push_back(horizon().blocks(toLocal * Vec3{across, up, -1}) ? kCovered : kOpen);
+    }
+  return grey;
+}
+
+void HorizonMemory::clear() {
+  moving_.clear();
+  key_.reset();
+}
+
+/// Where next to nothing is hidden there is nothing to gain a little further on.
+bool HorizonMemory::hidLittleNear(const Key& key) const {
+  return key_ && hidLittle_ && key_->cut.rule == key.cut.rule &&
+         key_->settings.columns == key.settings.columns && key_->settings.raised == key.settings.raised &&
+         length(key.eye - key_->eye) < kBelievedM;
+}
+
+std::span<const std::uint8_t> HorizonMemory::hidden(OcclusionGround& ground, Vec3 eye,
+                                                    const Horizon::Settings& settings, const Skips& skips,
+                                                    bool alone) {
+  const Key key{eye, ground.cutNumber(), settings};
+  const bool samePlace = key_ == key;
+  noGraph_ = false;
+  if (!samePlace && skips.littleHidden && hidLittleNear(key)) {
+    ++leftOut_;
+    return {};
+  }
+  const std::size_t lacking = ground.makeSurfaces(eye), nodes = ground.cut().tiles.size();
+  if (!ground.isGraph()) {
+    noGraph_ = true;
+    if (lacking == 0) {
+      clear();
+      ground.forgetOthers();
+    }
+    return {};
+  }
+  // Surfaces that were made since enter the next horizon; an eye that moves begins one soon. Else one is
+  // built once twice as many are there, or half as many lack, or none.
+  const bool muchMore = 2 * lacking <= lacked_ || nodes - lacking >= 2 * (nodes - std::min(lacked_, nodes));
+  const bool grown = lacking < lacked_ &&
+                     ((samePlace && lacking == 0) || (SurfaceShare::isMany(lacked_, nodes) && muchMore));
+  if (grown) moving_.restart();
+  MovingHorizon::Frame frame;
+  frame.eye = eye;
+  frame.framesSince = static_cast<double>(frame_ - std::exchange(lastFrame_, frame_));
+  frame.cut = key.cut.cut;
+  frame.rule = key.cut.rule;
+  frame.tiles = ground.cut().tiles;
+  frame.errorOverDistance = key.cut.errorOverDistance;
+  frame.settings = settings;
+  frame.sameHorizon = skips.sameHorizon;
+  frame.incremental = !alone;
+  frame.mayOcclude = [&ground](std::uint32_t node) { return ground.mayOcclude(node); };
+  frame.takesRoom = [&ground](std::uint32_t node) { return ground.takesRoom(node); };
+  const std::uint64_t scratch = moving_.fromScratch();
+  const Horizon* const before = &horizon();
+  const auto hidden = moving_.hidden(frame, ground.tree(), [&](std::vector<HorizonTile>& tiles) {
+    lacked_ = lacking;
+    ground.fill(tiles);
+  });
+  const bool atOnce = moving_.fromScratch() != scratch;
+  number_ += atOnce || before != &horizon();
+  moved_ += !samePlace && !atOnce;
+  if (!samePlace || grown) {
+    const auto count = static_cast<std::size_t>(std::count(hidden.begin(), hidden.end(), std::uint8_t{1}));
+    hidLittle_ = isLittle(count, hidden.size()) && !SurfaceShare::isMany(lacked_, nodes);
+  }
+  key_ = key;
+  return hidden;
+}
+
+}  // namespace trimtab::scene

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene/terrain/tiles/tile_indices.h"
+#include "trimtab/scene/data_extent.h"
+#include "trimtab/culling/select.h"
+#include "trimtab/terrain/format/database.h"
+
+namespace trimtab::scene {
+
+/// Whether the proof of occlusion.h holds for an eye, and which tiles may hide others.
+class OcclusionConditions {
+ public:
+  void setDatabase(std::shared_ptr<const terrain::Database> database);
+
+  /// Why nothing may be hidden from this eye; empty when it may. Builds the tile under the eye when that has
+  /// changed.
+  std::string refusal(const LevelCut& cut, const EyePose& eye, const ViewShape& view);
+  /// False near the data's edge: a ray to such a tile might leave the terrain on its way.
+  bool mayOcclude(std::uint32_t node) const { return mayOcclude_[node] != 0; }
+
+ private:
+  struct Ground {
+    std::uint32_t node;
+    double height;  ///< z of the drawn surface, local frame
+  };
+  std::optional<Ground> groundUnder(const LevelCut& cut, Vec3 eye);
+
+  std::shared_ptr<const terrain::Database> database_;
+  std::vector<std::uint8_t> mayOcclude_;
+  TileIndices indices_ = makeTileIndices();
+  terrain::TileMesh mesh_;
+  std::uint32_t meshNode_ = TerrainIndex::kNone;
+  DataExtent extent_;
+};
+
+}  // namespace trimtab::scene

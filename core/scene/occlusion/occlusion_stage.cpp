@@ -1,0 +1,224 @@
+#include "occlusion_stage.h"
+#include "trimtab/scene/planted_defects.h"
+#include "trimtab/frame/frame_request.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace trimtab::scene {
+namespace {
+
+/// A map that hid little is not drawn again until the eye has moved by HorizonMemory::kBelievedM or turned so
+/// far.
+constexpr double kBelievedTurn = 0.05;
+
+/// A frame that lacks many surfaces says nothing about what a method is worth; so many in a row do.
+constexpr int kUnlearntFrames = 600;
+
+constexpr const char* kNothingPays = "No way to find hidden ground is worth its cost here.";
+constexpr const char* kNoGpuMap = "Patches have no depth map on the GPU; the processor draws one instead.";
+constexpr const char* kNoReadBack =
+    "A depth map cannot be read back in this GL; the processor draws one instead.";
+constexpr const char* kNoGraph =
+    "Some of this ground stands upright or hangs over, or is not known yet: there is no horizon.";
+
+/// The size that the band asks for; none where the scheme asks for no test of any kind.
+std::optional<DepthMapSize> sizeOf(const FrameRequest& request) {
+  if (request.method != CullingCase::proposed) return {};
+  if (request.decision.depthMap || request.skips.schemeFrustum) return request.decision.depthMap;
+  const Band& smallest = kDepthMapBands.span().front();
+  return DepthMapSize{smallest.widthPx, smallest.heightPx};
+}
+
+Vec3 forwardOf(const EyePose& eye) {
+  return eye.axes.row[2] * -1;
+}
+
+}  // namespace
+
+void OcclusionStage::clear() {
+  memory_.clear();
+  choice_ = {};
+  chosen_ = false;
+  serves_.reset();
+  hidden_ = {};
+  mapHid_ = false;
+  visibleKey_.reset();
+  barren_.reset();
+}
+
+void OcclusionStage::setSubpixelBits(int bits) {
+  subpixelBits_ = bits;
+  choice_ = {};
+  chosen_ = false;
+  visibleKey_.reset();
+}
+
+void OcclusionStage::plant(const Defects& defects) {
+  defects_ = defects;
+  visibleKey_.reset();
+  barren_.reset();
+}
+
+void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, GpuMaps gpu,
+                           FrameResult& counters) {
+  serves_.reset();
+  hidden_ = {};
+  chosen_ = false;
+  eye_ = eye;
+  view_ = request.view;
+  refusal_ = ground_.refusal(eye, request.view);
+  memory_.beginFrame();
+  counters.depthMap.reset();
+  counters.horizon = false;
+  counters.note.clear();
+  if (const auto size = sizeOf(request)) {
+    size_ = *size;
+    if (refusal_.empty())
+      serves_ = resolve(request, gpu, counters);
+    else
+      counters.note = refusal_;
+  }
+  if (!chosen_) choice_.pause();
+  counters.occlusion = serves_;
+  // Where counts must not depend on what came before, all surfaces are made at once.
+  const bool atOnce = request.reproducible || request.waitForPages;
+  ground_.share().begin(atOnce ? std::numeric_limits<std::size_t>::max() : SurfaceShare::kAFrame);
+  if (!horizonServes()) return;
+  // Who wants a frame that depends on none before it believes nothing of other places.
+  const bool alone = request.reproducible && !request.skips.littleHidden;
+  const std::uint64_t built = memory_.built(), moved = memory_.moved(), leftOut = memory_.leftOut();
+  hidden_ = memory_.hidden(ground_, eye.position,
+                           {.columns = HorizonMemory::columnsFor(size_.widthPx),
+                            .slack = HorizonMemory::slackOf(request.view, subpixelBits_),
+                            .raised = defects_.loweringScale < 1,
+                            .whole = request.wholeHorizon},
+                           request.skips, alone);
+  counters.horizonsBuilt += memory_.built() - built;
+  counters.horizonsMoved += memory_.moved() - moved;
+  counters.horizonsLeftOut += memory_.leftOut() - leftOut;
+  counters.horizon = !hidden_.empty();
+  if (!memory_.noGraph()) return;
+  counters.note = kNoGraph;
+  if (serves(OcclusionMethod::horizon))
+    serves_.reset();
+  else
+    serves_ = OcclusionMethod::cpu_map;
+  counters.occlusion = serves_;
+}
+
+std::optional<OcclusionMethod> OcclusionStage::resolve(const FrameRequest& request, GpuMaps gpu,
+                                                       FrameResult& counters) {
+  using enum OcclusionMethod;
+  OcclusionMethod method = request.occlusion;
+  if (method == automatic) {
+    if (!request.reproducible) return choose(counters);
+    method = horizon;
+  }
+  if ((method == depth_map && !gpu.depthMap) || (method == read_back && !gpu.readBack)) {
+    method = cpu_map;
+    counters.note = gpu.depthMap ? kNoReadBack : kNoGpuMap;
+  }
+  return method;
+}
+
+/// By cost. The maps of the GPU are no choice: on a software rasteriser the processor's own does the same for
+/// less, and on a GPU the published one waits for it.
+std::optional<OcclusionMethod> OcclusionStage::choose(FrameResult& counters) {
+  static constexpr OcclusionMethod kMethods[] = {OcclusionMethod::horizon, OcclusionMethod::horizon_and_map,
+                                                 OcclusionMethod::cpu_map};
+  const double now =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  const std::uint64_t band =
+      (static_cast<std::uint64_t>(size_.widthPx) << 32) | static_cast<std::uint32_t>(size_.heightPx);
+  chosen_ = true;
+  const auto method =
+      choice_.choose({now, eye_.position, forwardOf(eye_), ground_.cutNumber().rule, kMethods, band});
+  if (!method) {
+    ++counters.occlusionsLeftOut;
+    counters.note = kNothingPays;
+  }
+  return method;
+}
+
+bool OcclusionStage::visibleStays(const FrameRequest& request, FrameResult& counters) {
+  VisibleKey key{eye_,
+                 request.view,
+                 request.method,
+                 request.backFaces && eyeIsAboveGround(),
+                 request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited,
+                 ground_.cutNumber(),
+                 serves_,
+                 serves_ ? size_ : DepthMapSize{},
+                 hidden_.empty() ? 0 : memory_.number(),
+                 ground_.share().made()};
+  // What a map on the GPU takes out is gone from the set.
+  const bool onGpu = serves(OcclusionMethod::depth_map) || serves(OcclusionMethod::read_back);
+  const bool stays = request.skips.sameVisible && !onGpu && visibleKey_ == key;
+  visibleKey_ = key;
+  counters.visibleSelected += !stays;
+  mapHid_ = mapHid_ && stays;
+  if (mapHid_) counters.depthMap = size_;
+  return stays;
+}
+
+bool OcclusionStage::mapHidLittleNear() const {
+  if (!barren_ || barren_->method != serves_ || barren_->size != size_ ||
+      barren_->rule != ground_.cutNumber().rule)
+    return false;
+  return length(eye_.position - barren_->eye) < HorizonMemory::kBelievedM &&
+         length(forwardOf(eye_) - barren_->forward) < kBelievedTurn;
+}
+
+std::span<const std::uint8_t> OcclusionStage::hiddenByMap(const FrameRequest& request,
+                                                          const VisibleSet& visible, FrameResult& counters) {
+  if (!mapServes() || visible.tiles.empty()) return {};
+  if (request.skips.littleHidden && mapHidLittleNear()) {
+    ++counters.mapsLeftOut;
+    return {};
+  }
+  const auto flags = ground_.hiddenByMap(visible.tiles, eye_, view_, size_, defects_.loweringScale);
+  mapHid_ = true;
+  ++counters.mapsDrawnByCpu;
+  counters.depthMap = size_;
+  if (ground_.share().lacksAny())
+    visibleKey_.reset();  // the next frame's map knows more
+  else if (visibleKey_)
+    visibleKey_->surfaces = ground_.share().made();
+  const auto hidden = static_cast<std::size_t>(std::count(flags.begin(), flags.end(), std::uint8_t{1}));
+  if (HorizonMemory::isLittle(hidden, visible.tiles.size()) && !ground_.share().lacksMany())
+    barren_ = {eye_.position, forwardOf(eye_), ground_.cutNumber().rule, size_, *serves_};
+  else
+    barren_.reset();
+  return flags;
+}
+
+void OcclusionStage::finished(const FrameResult& result) {
+  if (!chosen_) return;
+  if (ground_.share().lacksMany() && ++unlearnt_ < kUnlearntFrames) return;
+  unlearnt_ = 0;
+  const auto or0 = [](double ms) { return std::isfinite(ms) ? ms : 0; };
+  const FrameCost& cost = result.cost;
+  OcclusionChoice::Outcome outcome;
+  outcome.occlusionMs = or0(cost.occlusion);
+  outcome.totalMs = cost.total - or0(cost.page);
+  // A GPU works beside; whichever takes longer is what a frame waits for.
+  outcome.drawMs = std::max(outcome.totalMs - outcome.occlusionMs, or0(cost.gpu));
+  outcome.totalMs = std::max(outcome.totalMs, or0(cost.gpu));
+  outcome.drawn = result.visible.triangles;
+  const LevelCut& cut = ground_.cut();
+  if (result.visible.occluded > 0 && result.visible.reason.size() == cut.triangles.size())
+    for (std::size_t i = 0; i < cut.triangles.size(); ++i)
+      if (result.visible.reason[i] == CullReason::occluded) outcome.hidden += cut.triangles[i];
+  choice_.learn(outcome);
+}
+
+Renderer::Grey OcclusionStage::picture() const {
+  if (mapHid_) return ground_.mapPicture();
+  if (horizon()) return memory_.picture(eye_, view_, size_.widthPx, size_.heightPx);
+  return {};
+}
+
+}  // namespace trimtab::scene

@@ -1,0 +1,75 @@
+#include "node_pass.h"
+
+#include <array>
+#include <cmath>
+
+#include "core/scene/gl/gl_api.h"
+
+namespace trimtab::scene {
+
+NodeTarget::~NodeTarget() {
+  release();
+}
+
+void NodeTarget::release() {
+  if (id_ == 0) return;
+  glDeleteFramebuffers(1, &id_);
+  for (const GLuint buffer : {nodes_, depth_}) glDeleteRenderbuffers(1, &buffer);
+  id_ = 0;
+}
+
+void NodeTarget::begin(int width, int height) {
+  if (id_ == 0 || width != width_ || height != height_) {
+    release();
+    width_ = width;
+    height_ = height;
+    const auto makeBuffer = [width, height](GLenum format) {
+      GLuint buffer = 0;
+      glGenRenderbuffers(1, &buffer);
+      glBindRenderbuffer(GL_RENDERBUFFER, buffer);
+      glRenderbufferStorage(GL_RENDERBUFFER, format, width, height);
+      return buffer;
+    };
+    nodes_ = makeBuffer(GL_R32UI);
+    depth_ = makeBuffer(GL_DEPTH_COMPONENT32F);
+    glBindRenderbuffer(GL_RENDERBUFFER, 0);
+    glGenFramebuffers(1, &id_);
+    glBindFramebuffer(GL_FRAMEBUFFER, id_);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, nodes_);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, id_);
+  glDisable(GL_SCISSOR_TEST);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  const GLuint none[4] = {kNone, 0, 0, 0};
+  glClearBufferuiv(GL_COLOR, 0, none);
+}
+
+void nearView(std::span<const TileDraw> tiles, std::span<const Box> bounds, const EyePose& eye,
+              const ViewShape& view, std::vector<TileDraw>& near) {
+  near.clear();
+  // Outward normals of the view's sides, in eye axes (right, up, backward).
+  const auto side = [](Vec3 normal) { return normalized(normal); };
+  const std::array<Vec3, 4> sides{side({-1, 0, -view.left}), side({1, 0, view.right}),
+                                  side({0, -1, -view.bottom}), side({0, 1, view.top})};
+  for (const TileDraw& tile : tiles) {
+    const Box& b = bounds[tile.node];
+    const Vec3 middle{0.5 * (double{b.minX} + b.maxX), 0.5 * (double{b.minY} + b.maxY),
+                      0.5 * (double{b.minZ} + b.maxZ)};
+    const double reach =
+        0.75 * length(Vec3{double{b.maxX} - b.minX, double{b.maxY} - b.minY, double{b.maxZ} - b.minZ});
+    const Vec3 seen = eye.axes * (middle - eye.position);
+    bool outside = seen.z > reach;
+    for (const Vec3& normal : sides) outside = outside || dot(normal, seen) > reach;
+    if (!outside) near.push_back(tile);
+  }
+}
+
+std::vector<std::uint32_t> NodeTarget::read() const {
+  std::vector<std::uint32_t> nodes(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
+  glReadPixels(0, 0, width_, height_, GL_RED_INTEGER, GL_UNSIGNED_INT, nodes.data());
+  return nodes;
+}
+
+}  // namespace trimtab::scene

@@ -1,0 +1,37 @@
+#include "weather_air.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trimtab::scene {
+namespace {
+
+/// Fog so thick that the nearest thing a view can hold is gone: exp(-100) at 1 m.
+constexpr double kThickest = 100;
+/// Thick fog and heavy precipitation are greyer than haze.
+constexpr std::array<float, 3> kGrey{0.70f, 0.72f, 0.74f};
+/// Visibility of a few kilometres is halfway between the two.
+constexpr double kGreyAtM = 1500;
+
+}  // namespace
+
+Air airOf(const WeatherDecision& weather) {
+  Air air;
+  air.colour = kHaze;
+  if (weather.fogged && weather.extinctionPerM > 0) {
+    const double extinction = std::min(weather.extinctionPerM, kThickest);
+    air.extinction = static_cast<float>(extinction);
+    const float grey = static_cast<float>(1 - std::exp(-extinction * kGreyAtM));
+    for (std::size_t i = 0; i < 3; ++i) air.colour[i] += grey * (kGrey[i] - kHaze[i]);
+    air.clear = false;
+  }
+  if (weather.farM < double{Air::kFarthest}) {
+    const double cut = std::max(weather.farM, 1e-3);
+    air.cutM = static_cast<float>(cut);
+    air.fadePerM = static_cast<float>(1 / (kCutFade * cut));
+    air.clear = false;
+  }
+  return air;
+}
+
+}  // namespace trimtab::scene

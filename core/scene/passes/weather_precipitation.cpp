@@ -1,0 +1,161 @@
+#include "weather_precipitation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <osg/BlendFunc>
+#include <osg/Depth>
+#include <osg/Notify>
+#include <osg/PointSprite>
+#include <osg/Program>
+#include <osg/Texture2D>
+#include <osgParticle/PrecipitationEffect>
+
+#include "core/scene/gl/gl_api.h"
+#include "core/scene/scene_graph.h"
+#include "core/scene/shaders/weather_shaders.h"
+#include "trimtab/frame/frame_request.h"
+
+namespace trimtab::scene {
+namespace {
+
+/// How long a drop draws its streak, seconds, and its greatest length, metres.
+constexpr double kExposureS = 1.0 / 30, kLongestStreakM = 0.8;
+
+osg::ref_ptr<osg::Program> dropProgram(const char* vertex) {
+  osg::ref_ptr<osg::Program> program = new osg::Program;
+  program->addShader(new osg::Shader(osg::Shader::VERTEX, vertex));
+  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kDropFragment));
+  return program;
+}
+
+/// The effect asks rand(); these are the same in every process. `copies` vertices stand for one particle.
+void scatter(osg::Geometry* geometry, unsigned copies) {
+  auto* vertices = static_cast<osg::Vec3Array*>(geometry->getVertexArray());
+  std::mt19937 random(20140908);
+  const auto unit = [&random] { return static_cast<float>(random() >> 8) * 0x1p-24f; };
+  for (std::size_t i = 0; i + copies <= vertices->size(); i += copies) {
+    const float x = unit(), y = unit(), z = unit();
+    for (unsigned copy = 0; copy < copies; ++copy) (*vertices)[i + copy].set(x, y, z);
+  }
+  vertices->dirty();
+}
+
+float fraction(double x) {
+  return std::isfinite(x) ? static_cast<float>(x - std::floor(x)) : 0.f;
+}
+
+osg::Vec3f toFloat(Vec3 v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+bool isFinite(Vec3 v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+}  // namespace
+
+std::optional<PrecipitationView> precipitationView(const FrameRequest& request, const LocalFrame& frame) {
+  const WeatherDecision& weather = request.decision.weather;
+  if (weather.precipitation == Precipitation::none || !(weather.density > 0)) return {};
+  PrecipitationView view{weather.precipitation, std::min(weather.density, 1.0), request.time, {}};
+  if (request.velocity) {
+    const Mat3 axes = eastNorthUp(request.eye.latitude, request.eye.longitude);
+    view.velocity = frame.ecefToLocal() * (axes.row[0] * request.velocity->east.value() +
+                                           axes.row[1] * request.velocity->north.value() -
+                                           axes.row[2] * request.velocity->down.value());
+  }
+  return view;
+}
+
+// The effect numbers cells from its position and shifts each one's fall by i * 0.43 + j * 0.64 of a period:
+// whole after 100 cells, so the eye's place may be taken modulo that many and nothing jumps.
+Vec3 latticeFromEye(Vec3 eye, Vec3 cell) {
+  return {-std::fmod(eye.x, kCellsUntilSame * cell.x), -std::fmod(eye.y, kCellsUntilSame * cell.y),
+          -std::fmod(eye.z, cell.z)};
+}
+
+struct PrecipitationNode::Impl {
+  osg::ref_ptr<osgParticle::PrecipitationEffect> effect = new osgParticle::PrecipitationEffect;
+  Precipitation kind = Precipitation::none;
+  double density = 0;
+
+  Impl() {
+    // It reports every drawable that it gives up.
+    if (osg::getNotifyLevel() == osg::NOTICE) osg::setNotifyLevel(osg::WARN);
+    effect->setNodeMask(0);
+    effect->setCullingActive(false);
+    effect->getQuadStateSet()->setAttribute(dropProgram(kDropQuadVertex));
+    effect->getLineStateSet()->setAttribute(dropProgram(kDropLineVertex));
+    effect->getPointStateSet()->setAttribute(dropProgram(kDropPointVertex));
+    effect->getPointStateSet()->removeTextureAttribute(0, osg::StateAttribute::POINTSPRITE);
+    scatter(effect->getQuadGeometry(), 4);
+    scatter(effect->getLineGeometry(), 2);
+    scatter(effect->getPointGeometry(), 1);
+
+    osg::StateSet* state = effect->getOrCreateStateSet();
+    state->removeTextureAttribute(0, osg::StateAttribute::TEXTURE);
+    // Drops are before and behind mountains, but never hide one another; the picture's alpha stays 1.
+    state->setAttributeAndModes(new osg::Depth(osg::Depth::GREATER, 0, 1, false));
+    state->setAttributeAndModes(new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE));
+    // The near plane belongs to the terrain. Whatever it is, drops before it are drawn: an effect cut off at
+    // a near plane that moves out with the far one is what document D saw, particles that shrink and vanish
+    // from the lower part of the picture.
+    state->setMode(GL_DEPTH_CLAMP, osg::StateAttribute::ON);
+  }
+
+  void shape(const PrecipitationView& falling) {
+    if (falling.kind == kind && falling.density == density) return;
+    kind = falling.kind;
+    density = falling.density;
+    const float intensity = static_cast<float>(density);
+    if (kind == Precipitation::snow)
+      effect->snow(intensity);
+    else
+      effect->rain(intensity);
+    effect->setUseFarLineSegments(kind == Precipitation::rain);
+  }
+
+  /// Lighter than ground and than fog: the effect's greys are lost before one or the other.
+  osg::Vec3 colour() const {
+    return kind == Precipitation::snow ? osg::Vec3{0.95f, 0.96f, 0.98f} : osg::Vec3{0.86f, 0.88f, 0.91f};
+  }
+};
+
+PrecipitationNode::PrecipitationNode() : impl_(std::make_unique<Impl>()) {}
+PrecipitationNode::~PrecipitationNode() = default;
+
+osg::Node* PrecipitationNode::node() const {
+  return impl_->effect.get();
+}
+
+void PrecipitationNode::set(const std::optional<PrecipitationView>& falling, const SceneView& view) {
+  osgParticle::PrecipitationEffect& effect = *impl_->effect;
+  effect.setNodeMask(falling ? ~0u : 0u);
+  if (!falling) return;
+  impl_->shape(*falling);
+
+  const osg::Vec3 cell = effect.getCellSize();
+  const double speed = std::abs(double{effect.getParticleSpeed()});
+  const Vec3 eye = isFinite(view.eye.position) ? view.eye.position : Vec3{};
+  effect.setPosition(toFloat(latticeFromEye(eye, {double{cell.x()}, double{cell.y()}, double{cell.z()}})));
+
+  Vec3 back = (isFinite(falling->velocity) ? falling->velocity : Vec3{}) + Vec3{0, 0, speed};
+  back = back * std::min(kExposureS, kLongestStreakM / std::max(length(back), 1e-3));
+  osg::StateSet* state = effect.getOrCreateStateSet();
+  const auto set = [state](const char* name, osg::Uniform::Type type, const auto& value) {
+    state->getOrCreateUniform(name, type)->set(value);
+  };
+  using Type = osg::Uniform::Type;
+  set("phase", Type::FLOAT, fraction(falling->time * speed / double{cell.z()}));
+  set("radius", Type::FLOAT, effect.getParticleSize() * 0.5f);
+  set("streak", Type::FLOAT_VEC3, toFloat(view.eye.axes * back));
+  set("pixelsPerMetre", Type::FLOAT,
+      static_cast<float>(view.shape.heightPx / (view.shape.top - view.shape.bottom)));
+  set("farM", Type::FLOAT, effect.getFarTransition());
+  set("extinction", Type::FLOAT, view.air.extinction);
+  set("dropColour", Type::FLOAT_VEC3, impl_->colour());
+}
+
+}  // namespace trimtab::scene

@@ -1,0 +1,295 @@
+#include "trimtab/scene/renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/scene/gl/frame_buffer.h"
+#include "core/scene/gl/gl_api.h"
+#include "core/scene/gl/guard_band.h"
+#include "core/scene/gl/stage_clock.h"
+#include "core/scene/passes/blur_pass.h"
+#include "core/scene/passes/lines.h"
+#include "core/scene/passes/node_pass.h"
+#include "core/scene/passes/symbology_pass.h"
+#include "core/scene/passes/weather_precipitation.h"
+#include "core/scene/terrain/patches/patch_drawer.h"
+#include "core/scene/terrain/static_trees/tree_drawer.h"
+#include "core/scene/terrain/tiles/tile_drawer.h"
+#include "scene_graph.h"
+#include "trimtab/scene/gl_report.h"
+#include "trimtab/scene/planted_defects.h"
+
+namespace trimtab::scene {
+
+std::optional<TerrainForm> formDrawn(const FrameRequest& request, const terrain::Database* database) {
+  if (!database) return {};
+  if (asksForTrees(request) && database->staticLod()) return TerrainForm::static_trees;
+  const bool tiles = database->index().size() > 0, patches = database->patches() != nullptr;
+  if (patches && (request.staticLod.terrain == TerrainForm::patches || !tiles)) return TerrainForm::patches;
+  if (tiles) return TerrainForm::levels;
+  return {};
+}
+
+struct Renderer::Impl {
+  GlReport report;
+  std::shared_ptr<const terrain::Database> database;
+  TileDrawer tiles;
+  PatchDrawer patches;
+  TreeDrawer trees;
+  TerrainDrawer* terrain = nullptr;  ///< that drew the last picture; null: no terrain
+  FrameResult counters;
+
+  ViewShape lastView;
+  std::optional<SceneView> shown;  ///< the last picture's
+  std::vector<LineVertex> lines;
+
+  /// What lives in the context, but for the terrain.
+  struct Gl {
+    explicit Gl(ScenePasses passes) : graph(std::move(passes)) {}
+    FrameBuffer frame;
+    NodeTarget nodes;
+    LineBuffer lineBuffer;
+    BlurPass blur;
+    SymbologyPass symbology;
+    StageClock clock;
+    SceneGraph graph;
+    const ViewportLimits viewports = viewportLimitsOfContext();
+  };
+  std::unique_ptr<Gl> gl;
+
+  ScenePasses passes() {
+    return {.begin = [this](unsigned) { gl->clock.lap(&FrameCost::cull); },
+            .occluders = [this](unsigned) { tiles.drawOccluders(); },
+            .reduce = [this](unsigned program) { tiles.reduce(program); },
+            .test = [this](unsigned) { removeHidden(); },
+            .surface = [this](unsigned program) { terrain->draw(program); },
+            .wire = [this](unsigned program) { terrain->drawWire(program); },
+            .numbers = [this](unsigned program) { terrain->drawNumbered(program); },
+            .treePicture = [this](unsigned program) { trees.drawPicture(program); },
+            .lines = [this](unsigned) { gl->lineBuffer.draw(lines); },
+            .beforeWeather = [this](unsigned) { gl->clock.beginPart(&FrameCost::weather); },
+            .afterWeather = [this](unsigned) { gl->clock.endPart(&FrameCost::weather); }};
+  }
+
+  std::array<TerrainDrawer*, 3> forms() { return {&tiles, &patches, &trees}; }
+  TerrainDrawer* drawerOf(TerrainForm form);
+  void removeHidden();
+  void prepare(const FrameRequest& r, FrameInProgress& frame);
+  void finishPicture(const FrameRequest& r);
+  FrameResult draw(const FrameRequest& r, unsigned fbo);
+  static void leaveContext(unsigned fbo);
+  std::vector<std::uint32_t> readNodes(bool unculled);
+};
+
+TerrainDrawer* Renderer::Impl::drawerOf(TerrainForm form) {
+  return forms()[static_cast<std::size_t>(form)];
+}
+
+void Renderer::Impl::removeHidden() {
+  tiles.removeHidden();
+  glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
+  gl->clock.lap(&FrameCost::occlusion);
+}
+
+/// What the frame is made of: eye, visible nodes, depth map.
+void Renderer::Impl::prepare(const FrameRequest& r, FrameInProgress& frame) {
+  SceneView& view = frame.view;
+  view.shape = r.view;
+  view.guardBand = guardBandOf(r.view, gl->viewports);
+  view.sky = !r.overlays.showHoles;
+  view.wireframe = r.overlays.wireframe;
+  view.tinted = r.overlays.colourByReason || r.overlays.colourByLevel;
+  const WeatherDecision& weather = r.decision.weather;
+  // What was culled is to be seen by its colour, however far it is.
+  if (!r.overlays.colourByReason) view.air = airOf(weather);
+  view.heightM = r.eye.height.value();
+  lines.clear();
+  counters.depthMap.reset();
+  counters.horizon = false;
+  counters.occlusion.reset();
+  counters.note.clear();
+  counters.patches = false;
+  counters.paging.settled = true;
+  view.form = formDrawn(r, database.get());
+  terrain = view.form ? drawerOf(*view.form) : nullptr;
+  const LocalFrame local = database ? database->index().frame : LocalFrame(r.eye);
+  if (database) {
+    view.eye = {local.fromGeodetic(r.eye), eyeAxes(local, r.eye, r.attitude)};
+    view.up = local.ecefToLocal() * eastNorthUp(r.eye.latitude, r.eye.longitude).row[2];
+  } else {
+    view.eye = {{}, eyeAxes(local, r.eye, r.attitude)};
+  }
+  if (terrain) terrain->prepare(frame);
+  view.precipitation = precipitationView(r, local);
+  // What would fall where nothing does: no drop, but the effect is run.
+  if (!view.precipitation && !r.skips.clearAir) view.precipitation.emplace();
+  counters.precipitationPasses += view.precipitation.has_value();
+  if (r.frozenEye) addFrustum(*r.frozenEye, r.view, view.eye.position, lines);
+  view.lines = !lines.empty();
+  constexpr double kEarthRadius = 6371e3;
+  view.horizonDip = std::acos(std::min(1.0, kEarthRadius / (kEarthRadius + r.eye.height.value())));
+}
+
+/// What is done to the picture once the scene is drawn; blur before the symbols, which stay sharp.
+void Renderer::Impl::finishPicture(const FrameRequest& r) {
+  const ViewShape& v = r.view;
+  const double strength = r.decision.motion.blur.strength;
+  if (strength > 0 || !r.skips.blurAtRest) {
+    gl->clock.beginPart(&FrameCost::blur);
+    if (!(strength > 0)) gl->blur.rest();
+    gl->blur.apply(gl->frame.id(), gl->frame.colourTexture(), v.widthPx, v.heightPx, strength, r.time);
+    gl->clock.endPart(&FrameCost::blur);
+    ++counters.blurPasses;
+  }
+  if (!(strength > 0)) gl->blur.rest();
+  if (r.symbology && r.symbology->setup.general.enabled) {
+    gl->clock.beginPart(&FrameCost::symbology);
+    counters.symbologyRedraws += gl->symbology.draw(*r.symbology, v, !r.skips.sameSymbols);
+    gl->clock.endPart(&FrameCost::symbology);
+    ++counters.symbologyDraws;
+  }
+}
+
+FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
+  gl->clock.start(report.software, r.separateStages, r.waitForPicture);
+  lastView = r.view;
+  SceneView view;
+  FrameInProgress frame{r, view, counters, gl->clock, lines, report.software};
+  prepare(r, frame);
+
+  gl->frame.resize(r.view.widthPx, r.view.heightPx);
+  glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
+  gl->graph.frame(view, gl->frame.id());
+  glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
+  finishPicture(r);
+
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, gl->frame.id());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, fbo);
+  glDisable(GL_SCISSOR_TEST);
+  glBlitFramebuffer(0, 0, r.view.widthPx, r.view.heightPx, 0, 0, r.view.widthPx, r.view.heightPx,
+                    GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  leaveContext(fbo);
+  shown = std::move(view);
+  counters.cost = gl->clock.finish();
+  counters.visible = terrain ? terrain->visible() : VisibleSet{};
+  counters.tilesInCut = terrain ? terrain->cut().size() : 0;
+  counters.staticLod = terrain == &trees ? trees.frame() : StaticLodFrame{};
+  if (terrain) terrain->finished(counters);
+  return counters;
+}
+
+/// What others who share the context take for granted.
+void Renderer::Impl::leaveContext(unsigned fbo) {
+  glBindFramebuffer(GL_FRAMEBUFFER, fbo);
+  glUseProgram(0);
+  glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+  for (const GLenum off : {GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND}) glDisable(off);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_TRUE);
+  glClearDepth(1);
+}
+
+std::vector<std::uint32_t> Renderer::Impl::readNodes(bool unculled) {
+  SceneView view = *shown;
+  view.nodes = true;
+  view.depth.reset();
+  view.precipitation.reset();
+  view.sky = view.wireframe = view.lines = view.treePicture = false;
+  if (terrain) counters.tilesBuilt += terrain->prepareNumbers(view, unculled);
+  GLint before = 0;
+  glGetIntegerv(GL_FRAMEBUFFER_BINDING, &before);
+  gl->nodes.begin(view.shape.widthPx, view.shape.heightPx);
+  gl->graph.frame(view, gl->nodes.id());
+  std::vector<std::uint32_t> nodes = gl->nodes.read();
+  leaveContext(static_cast<GLuint>(before));
+  return nodes;
+}
+
+Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
+Renderer::~Renderer() = default;
+
+GlReport Renderer::initialize() {
+  release();
+  impl_->report = reportContext();
+  if (impl_->report.usable) {
+    impl_->gl = std::make_unique<Impl::Gl>(impl_->passes());
+    for (TerrainDrawer* form : impl_->forms()) form->initialize();
+  }
+  return impl_->report;
+}
+
+void Renderer::release() {
+  impl_->shown.reset();
+  impl_->terrain = nullptr;
+  for (TerrainDrawer* form : impl_->forms()) form->release();
+  impl_->gl.reset();
+}
+
+void Renderer::setTerrain(std::shared_ptr<const terrain::Database> database) {
+  impl_->shown.reset();
+  impl_->terrain = nullptr;
+  impl_->database = std::move(database);
+  for (TerrainDrawer* form : impl_->forms()) form->setTerrain(impl_->database);
+}
+
+FrameResult Renderer::draw(const FrameRequest& request, unsigned fbo) {
+  const ViewShape& v = request.view;
+  if (!impl_->gl || v.widthPx <= 0 || v.heightPx <= 0) return {};
+  const double across = v.right - v.left, upward = v.top - v.bottom;
+  if (across > 0 && upward > 0 && std::isfinite(across + upward)) return impl_->draw(request, fbo);
+  // A view that is none, turned round for one, shows whatever GL makes of it: nothing is left out.
+  FrameRequest whole = request;
+  whole.method = CullingCase::none;
+  return impl_->draw(whole, fbo);
+}
+
+std::vector<float> Renderer::readDistances() {
+  if (!impl_->gl) return {};
+  return impl_->gl->frame.readDistances(impl_->lastView);
+}
+
+Renderer::Grey Renderer::readDepthMap() {
+  if (!impl_->gl || !impl_->terrain) return {};
+  return impl_->terrain->readDepthMap();
+}
+
+std::vector<float> Renderer::readHorizon(int samples) {
+  const Horizon* horizon = impl_->gl && impl_->terrain ? impl_->terrain->horizon() : nullptr;
+  if (!horizon || samples <= 0) return {};
+  std::vector<float> elevations;
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  for (int i = 0; i < samples; ++i) {
+    // Clockwise from south.
+    const double turned = 2 * std::numbers::pi * (i + 0.5) / samples;
+    const auto elevation = horizon->elevation(-std::sin(turned), -std::cos(turned));
+    elevations.push_back(elevation ? static_cast<float>(*elevation * kDegrees)
+                                   : std::numeric_limits<float>::quiet_NaN());
+  }
+  return elevations;
+}
+
+Findings Renderer::pageFailures() const {
+  return impl_->patches.failures();
+}
+
+void Renderer::plant(const Defects& defects) {
+  for (TerrainDrawer* form : impl_->forms()) form->plant(defects);
+}
+
+std::vector<std::uint32_t> Renderer::readNodes(bool unculled) {
+  if (!impl_->gl || !impl_->shown) return {};
+  return impl_->readNodes(unculled);
+}
+
+std::vector<std::uint8_t> Renderer::readPixels(int width, int height) {
+  if (impl_->gl) return impl_->gl->frame.readPixels(width, height);
+  return std::vector<std::uint8_t>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
+}
+
+void Renderer::forgetPictures() {
+  if (impl_->gl) impl_->gl->blur.rest();
+}
+
+}  // namespace trimtab::scene

@@ -1,0 +1,378 @@
+#include "patch_culling.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "page_budget.h"
+#include "patch_layer.h"
+#include "trimtab/scene/planted_defects.h"
+#include "trimtab/frame/frame_request.h"
+
+namespace trimtab::scene {
+namespace {
+
+/// What a frame may spend on taking pages in; one page is always taken.
+constexpr std::chrono::microseconds kShare{2000};
+/// What is reserved on the GPU before it is needed.
+constexpr double kMostReserved = 256e6;
+/// How far ahead the eye is looked for: several times what reading the pages of the way there takes.
+constexpr double kAheadS = 5;
+/// What is needed then is so much less urgent than what is needed now.
+constexpr float kAheadUrgency = 0.25f, kMostAheadPx = 1e6f;
+/// Needs of then are found again when the eye of then has moved by so much of the way.
+constexpr double kAheadStep = 0.08;
+
+/// What the cut depends on.
+struct CutKey {
+  Vec3 eye;
+  double maxErrorPx = 0, lodScale = 0, pixelsPerRadian = 0;
+  std::uint64_t budget = 0, heldNumber = 0;
+  bool sameRule(const CutKey& other) const {
+    return maxErrorPx == other.maxErrorPx && lodScale == other.lodScale &&
+           pixelsPerRadian == other.pixelsPerRadian;
+  }
+  friend bool operator==(const CutKey&, const CutKey&) = default;
+};
+
+struct Bytes {
+  std::vector<std::uint64_t> ofPage;  ///< on the GPU and, for who asks what hides what, as it was read
+  std::uint64_t all = 0, vertices = 0, indices = 0;
+};
+Bytes bytesOf(const terrain::PatchTerrain& terrain) {
+  const PatchIndex& index = terrain.index();
+  Bytes bytes;
+  bytes.ofPage.resize(index.pages.size());
+  for (std::size_t patch = 0; patch < index.size(); ++patch) {
+    std::size_t indices = 0;
+    for (const std::uint16_t triangles : index.triangles[patch]) indices += 3u * triangles;
+    const std::size_t vertices = terrain.facts()[patch].vertices;
+    const std::uint64_t onGpu = PatchLayer::bytesOf(vertices, indices),
+                        asRead = vertices * sizeof(terrain::PatchVertex) + indices * sizeof(std::uint16_t);
+    bytes.ofPage[index.page[patch]] += onGpu + asRead;
+    bytes.all += onGpu + asRead;
+    bytes.vertices += PatchLayer::bytesOf(vertices, 0);
+    bytes.indices += PatchLayer::bytesOf(0, indices);
+  }
+  return bytes;
+}
+
+std::uint64_t budgetOf(const FrameRequest& request) {
+  return static_cast<std::uint64_t>(std::max(request.terrain.cache.value(), 0.0) * 1e6);
+}
+
+std::uint32_t rootPagesOf(const PatchIndex& index) {
+  std::uint32_t count = 0;
+  while (count < index.pages.size() && index.pages[count].pair == 0) ++count;
+  return count;
+}
+
+}  // namespace
+
+struct PatchCulling::Impl {
+  std::shared_ptr<const terrain::PatchTerrain> terrain;
+  std::unique_ptr<terrain::Pager> pager;
+  Bytes bytes;
+  PageBudget pages;
+  std::uint64_t reservedFor = 0;           ///< largest budget that the layer has made room for
+  std::uint64_t askedFor = 0;              ///< budget of the last frame
+  std::uint64_t most = ~std::uint64_t{0};  ///< what the GPU was found to have memory for, in that budget
+  std::vector<std::shared_ptr<const terrain::PatchPage>> meshes;  ///< of the pages that are held
+  std::vector<std::uint32_t> roots;
+  std::uint64_t heldNumber = 0, dropped = 0;  ///< changes of what is held; pages given up
+  std::optional<CutKey> key;
+  CutNumber number;
+  PatchCut later;  ///< where the eye will be
+  std::optional<Vec3> laterEye;
+  std::vector<PageWant> laterWants, lacking;
+  std::vector<std::uint32_t> mustHave;
+  std::vector<std::uint8_t> hidden;
+  std::size_t waiting = 0;
+  Defects defects;
+
+  void drop(std::uint32_t page, PatchLayer& layer);
+  void makeRoom(std::uint64_t coming, PatchLayer& layer);
+  void letGo(std::uint32_t page);
+  void takeIn(std::shared_ptr<const terrain::PatchPage> page, PatchLayer& layer);
+  void takeArrivals(PatchLayer& layer);
+  void takeAll(std::span<const std::uint32_t> wanted, PatchLayer& layer);
+  void reserve(const FrameRequest& request, PatchLayer& layer);
+  bool giveBack(const FrameRequest& request, PatchLayer& layer);
+  void followLayer(PatchLayer& layer);
+  std::optional<Vec3> eyeAhead(const FrameRequest& request, Vec3 eye) const;
+  bool lookAhead(const FrameRequest& request, const CutKey& wanted);
+  void choose(const FrameRequest& request, const EyePose& eye, PatchCut& cut, FrameResult& counters);
+  void select(const CutKey& wanted, PatchCut& cut);
+  void ask();
+};
+
+PatchCulling::PatchCulling() : impl_(std::make_unique<Impl>()) {}
+PatchCulling::~PatchCulling() = default;
+
+void PatchCulling::setTerrain(std::shared_ptr<const terrain::PatchTerrain> terrain) {
+  const Defects defects = impl_->defects;
+  impl_ = std::make_unique<Impl>();
+  impl_->defects = defects;
+  cut_ = {};
+  visible_ = {};
+  if (!terrain) return;
+  Impl& m = *impl_;
+  m.terrain = std::move(terrain);
+  const std::uint32_t roots = rootPagesOf(m.terrain->index());
+  m.bytes = bytesOf(*m.terrain);
+  m.pages.reset(m.bytes.ofPage, roots);
+  m.meshes.resize(m.terrain->index().pages.size());
+  m.pager = terrain::Pager::start(m.terrain);
+  for (std::uint32_t page = 0; page < roots; ++page) {
+    m.roots.push_back(page);
+    m.lacking.push_back({page, std::numeric_limits<float>::infinity()});
+  }
+  m.pager->want(m.lacking);
+}
+
+void PatchCulling::plant(const Defects& defects) {
+  impl_->defects = defects;
+  impl_->key.reset();
+}
+
+void PatchCulling::Impl::drop(std::uint32_t page, PatchLayer& layer) {
+  layer.drop(page);
+  letGo(page);
+  ++dropped;
+}
+
+void PatchCulling::Impl::letGo(std::uint32_t page) {
+  pages.drop(page);
+  meshes[page].reset();
+  ++heldNumber;
+}
+
+void PatchCulling::Impl::makeRoom(std::uint64_t coming, PatchLayer& layer) {
+  while (const auto page = pages.toDrop(coming)) drop(*page, layer);
+}
+
+void PatchCulling::Impl::takeIn(std::shared_ptr<const terrain::PatchPage> page, PatchLayer& layer) {
+  const std::uint32_t at = page->page;
+  if (pages.holds(at)) return;
+  makeRoom(pages.bytesOf(at), layer);
+  if (!layer.add(*page)) {
+    // A little less than what is there, as places of other sizes will be asked for.
+    most = std::min(most, pages.bytes()) / 16 * 15;
+    return;
+  }
+  pages.hold(at);
+  meshes[at] = std::move(page);
+  ++heldNumber;
+}
+
+void PatchCulling::Impl::takeArrivals(PatchLayer& layer) {
+  const auto end = std::chrono::steady_clock::now() + kShare;
+  do {
+    const auto arrived = pager->takeArrived(1);
+    if (arrived.empty()) return;
+    for (const auto& page : arrived) takeIn(page, layer);
+  } while (std::chrono::steady_clock::now() < end);
+}
+
+void PatchCulling::Impl::takeAll(std::span<const std::uint32_t> wanted, PatchLayer& layer) {
+  pager->waitFor(wanted);
+  for (const auto& page : pager->takeArrived(std::numeric_limits<std::size_t>::max())) takeIn(page, layer);
+}
+
+/// What the budget may hold of this terrain, at once, unless that is very much: growing later makes a frame
+/// late.
+void PatchCulling::Impl::reserve(const FrameRequest& request, PatchLayer& layer) {
+  const std::uint64_t budget = budgetOf(request);
+  // Another budget is another try.
+  if (budget != askedFor) most = ~std::uint64_t{0};
+  askedFor = budget;
+  if (budget <= reservedFor || bytes.all == 0) return;
+  reservedFor = budget;
+  const double onGpu = static_cast<double>(bytes.vertices + bytes.indices);
+  const double share =
+      std::min({1.0, static_cast<double>(budget) / static_cast<double>(bytes.all), kMostReserved / onGpu});
+  layer.reserve(static_cast<std::size_t>(share * static_cast<double>(bytes.vertices)),
+                static_cast<std::size_t>(share * static_cast<double>(bytes.indices)));
+}
+
+/// Where the budget has shrunk a lot, the room of before is somebody else's to use. Whether pages had to go.
+bool PatchCulling::Impl::giveBack(const FrameRequest& request, PatchLayer& layer) {
+  const std::uint64_t budget = budgetOf(request);
+  if (budget >= reservedFor / 2) return false;
+  reservedFor = budget;
+  layer.setTerrain(&terrain->index());
+  const std::vector<std::uint32_t> held(pages.held().begin(), pages.held().end());
+  for (const std::uint32_t page : held)
+    if (!layer.add(*meshes[page])) letGo(page);
+  return pages.held().size() < held.size();
+}
+
+/// A layer of a new context has nothing.
+void PatchCulling::Impl::followLayer(PatchLayer& layer) {
+  if (!pages.held().empty() && !layer.has(pages.held().front())) {
+    while (!pages.held().empty()) letGo(pages.held().front());
+    reservedFor = askedFor = 0;
+  }
+  mustHave.clear();
+  for (const std::uint32_t page : roots)
+    if (!pages.holds(page) && !pager->hasFailed(page)) mustHave.push_back(page);
+  if (!mustHave.empty()) takeAll(mustHave, layer);
+}
+
+std::optional<Vec3> PatchCulling::Impl::eyeAhead(const FrameRequest& request, Vec3 eye) const {
+  // What must not depend on time does not look ahead.
+  if (!request.velocity || request.frozenEye || request.waitForPages) return {};
+  const Velocity& v = *request.velocity;
+  const Mat3 axes = eastNorthUp(request.eye.latitude, request.eye.longitude);
+  const Vec3 velocity =
+      axes.row[0] * v.east.value() + axes.row[1] * v.north.value() - axes.row[2] * v.down.value();
+  const Vec3 way = terrain->index().frame.ecefToLocal() * velocity * kAheadS;
+  if (!(length(way) > 1)) return {};
+  return eye + way;
+}
+
+/// Says whether what is needed later may have changed.
+bool PatchCulling::Impl::lookAhead(const FrameRequest& request, const CutKey& wanted) {
+  const std::optional<Vec3> ahead = eyeAhead(request, wanted.eye);
+  if (!ahead) {
+    const bool had = laterEye.has_value();
+    laterEye.reset();
+    laterWants.clear();
+    return had;
+  }
+  if (laterEye && key && key->sameRule(wanted) &&
+      length(*ahead - *laterEye) <= kAheadStep * length(*ahead - wanted.eye))
+    return false;
+  laterEye = ahead;
+  selectPatches(terrain->index(), {}, *ahead, wanted.maxErrorPx, wanted.lodScale, wanted.pixelsPerRadian,
+                later);
+  laterWants.clear();
+  for (const PageWant& want : later.wants)
+    laterWants.push_back({want.page, kAheadUrgency * std::min(want.errorPx, kMostAheadPx)});
+  return true;
+}
+
+void PatchCulling::Impl::choose(const FrameRequest& request, const EyePose& eye, PatchCut& cut,
+                                FrameResult& counters) {
+  const ViewShape& v = request.view;
+  const CutKey wanted{eye.position,
+                      request.lod.screenSpaceError.value() / defects.statedErrorScale,
+                      request.decision.lodScale,
+                      std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom)),
+                      std::min(budgetOf(request), most),
+                      heldNumber};
+  const bool newCut = key != wanted, newAim = lookAhead(request, wanted);
+  if (newCut || !request.skips.sameCut) {
+    select(wanted, cut);
+    ++counters.cutsSelected;
+  }
+  if (newCut || newAim) {
+    const bool wasShort = pages.isShort();
+    pages.aim(cut.wants, laterWants, wanted.budget);
+    // What may be drawn follows from what is wanted, and what is wanted from the eye alone.
+    if (wasShort || pages.isShort()) {
+      select(wanted, cut);
+      number.cut += !newCut;
+    }
+    ask();
+  }
+  number.errorOverDistance = wanted.maxErrorPx * wanted.lodScale / wanted.pixelsPerRadian;
+  number.cut += newCut;
+  number.rule += !key || !key->sameRule(wanted);
+  key = wanted;
+}
+
+void PatchCulling::Impl::select(const CutKey& wanted, PatchCut& cut) {
+  selectPatches(terrain->index(), pages.drawable(), wanted.eye, wanted.maxErrorPx, wanted.lodScale,
+                wanted.pixelsPerRadian, cut);
+}
+
+void PatchCulling::Impl::ask() {
+  const bool asked = !lacking.empty();
+  lacking.clear();
+  for (const PageWant& want : pages.aims())
+    if (!pages.holds(want.page)) lacking.push_back(want);
+  if (asked || !lacking.empty()) pager->want(lacking);
+}
+
+void PatchCulling::page(const FrameRequest& request, const EyePose& eye, PatchLayer& layer,
+                        FrameResult& counters) {
+  Impl& m = *impl_;
+  counters.paging = {};
+  if (!m.terrain) return;
+  m.followLayer(layer);
+  m.reserve(request, layer);
+  m.takeArrivals(layer);
+  m.choose(request, eye, cut_, counters);
+  if (request.waitForPages) {
+    m.mustHave.clear();
+    for (const PageWant& want : m.lacking) m.mustHave.push_back(want.page);
+    if (!m.mustHave.empty()) {
+      m.takeAll(m.mustHave, layer);
+      m.choose(request, eye, cut_, counters);
+    }
+  }
+  m.makeRoom(0, layer);
+  // What is not there must not be taken for ground that hides.
+  if (m.giveBack(request, layer)) m.choose(request, eye, cut_, counters);
+
+  const terrain::Pager::Counters read = m.pager->counters();
+  PagingFrame& paging = counters.paging;
+  paging.waiting = read.waiting;
+  paging.heldBack = cut_.heldBack;
+  paging.pagesRead = read.pagesRead;
+  paging.bytesRead = read.bytesRead;
+  paging.failed = read.failed;
+  paging.longestReadMs = read.longestReadMs;
+  paging.pagesDropped = m.dropped;
+  paging.bytes = m.pages.bytes();
+  paging.budgetBytes = m.key ? m.key->budget : 0;
+}
+
+void PatchCulling::selectVisible(const FrameRequest& request, const EyePose& eye,
+                                 std::span<const std::uint8_t> hidden, bool backFaces) {
+  Impl& m = *impl_;
+  if (!m.terrain) return;
+  if (m.defects.culledNode) {
+    m.hidden.assign(cut_.cut.tiles.size(), 0);
+    for (std::size_t i = 0; i < m.hidden.size(); ++i)
+      m.hidden[i] = cut_.cut.tiles[i].node == *m.defects.culledNode || (!hidden.empty() && hidden[i] != 0);
+    hidden = m.hidden;
+  }
+  selectVisiblePatches(
+      index(), cut_.cut, eye, request.view, request.method != CullingCase::none, visible_,
+      request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited, hidden,
+      backFaces);
+  for (const TileDraw& tile : visible_.tiles) visible_.vertices += m.terrain->facts()[tile.node].vertices;
+}
+
+void PatchCulling::removeHidden(std::span<const std::uint8_t> flags) {
+  if (flags.empty()) return;
+  removeOccluded(cut_.cut, flags, visible_);
+  visible_.vertices = 0;
+  for (const TileDraw& tile : visible_.tiles)
+    visible_.vertices += impl_->terrain->facts()[tile.node].vertices;
+}
+
+const terrain::PatchMesh* PatchCulling::meshOf(std::uint32_t patch) const {
+  const PatchIndex& i = index();
+  const auto& page = impl_->meshes[i.page[patch]];
+  return page ? &page->patches[patch - i.pages[i.page[patch]].firstPatch] : nullptr;
+}
+
+const PatchIndex& PatchCulling::index() const {
+  static const PatchIndex none;
+  return impl_->terrain ? impl_->terrain->index() : none;
+}
+
+const CutNumber& PatchCulling::cutNumber() const {
+  return impl_->number;
+}
+
+Findings PatchCulling::failures() const {
+  return impl_->pager ? impl_->pager->failures() : Findings{};
+}
+
+}  // namespace trimtab::scene

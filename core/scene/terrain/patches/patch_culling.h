@@ -1,0 +1,59 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/scene/occlusion/occlusion_ground.h"
+#include "trimtab/scene/planted_defects.h"
+#include "trimtab/culling/select_patches.h"
+#include "trimtab/frame/frame_request.h"
+#include "trimtab/frame/frame_result.h"
+#include "trimtab/terrain/format/pager.h"
+
+namespace trimtab::scene {
+
+class PatchLayer;
+
+/// What a frame does to find the patches that it draws, and to have them there: cut, paging within a budget,
+/// visible set. Keeps what can be kept from frame to frame.
+///
+/// What the budget does not hold of a view is drawn coarser, largest errors last; the picture that paging
+/// ends at depends on the request alone.
+class PatchCulling {
+ public:
+  PatchCulling();
+  ~PatchCulling();
+  /// Reading begins at once, with the roots. Null: none.
+  void setTerrain(std::shared_ptr<const terrain::PatchTerrain> terrain);
+  void plant(const Defects& defects);
+
+  /// Takes in what has arrived, within the frame's share; chooses the cut and asks for what it lacks, gives
+  /// up what is longest unused and over the budget. Waits for nothing but, once, the roots; with
+  /// `request.waitForPages` for all that this view can use. The context is current, and `layer` has this
+  /// terrain's index; where it has lost its pages they are read again. `eye`: whose cut it is.
+  void page(const FrameRequest& request, const EyePose& eye, PatchLayer& layer, FrameResult& counters);
+  /// What of the cut is in the view, and not hidden: one a patch of the cut, or empty. `backFaces`: what is
+  /// seen from behind only is left out.
+  void selectVisible(const FrameRequest& request, const EyePose& eye,
+                     std::span<const std::uint8_t> hidden = {}, bool backFaces = false);
+  /// Takes out of the visible set what a map hides, as removeOccluded.
+  void removeHidden(std::span<const std::uint8_t> flags);
+
+  const PatchIndex& index() const;
+  const LevelCut& cut() const { return cut_.cut; }
+  const CutNumber& cutNumber() const;
+  const VisibleSet& visible() const { return visible_; }
+  /// Null where its page is not there; good until the next `page`.
+  const terrain::PatchMesh* meshOf(std::uint32_t patch) const;
+  /// Pages that could not be read; the terrain stays coarser there.
+  Findings failures() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+  PatchCut cut_;
+  VisibleSet visible_;
+};
+
+}  // namespace trimtab::scene

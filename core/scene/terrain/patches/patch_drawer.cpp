@@ -1,0 +1,105 @@
+#include "patch_drawer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "core/scene/gl/gl_api.h"
+#include "trimtab/scene/data_extent.h"
+#include "trimtab/scene/gl_report.h"
+#include "trimtab/scene/planted_defects.h"
+#include "trimtab/culling/box_distance.h"
+#include "trimtab/frame/frame_request.h"
+
+namespace trimtab::scene {
+namespace {
+
+/// Of the ground's colours, a frame; about a millisecond.
+constexpr std::size_t kGroundBytesAFrame = 4 << 20;
+
+}  // namespace
+
+void PatchDrawer::setTerrain(std::shared_ptr<const terrain::Database> database) {
+  database_ = std::move(database);
+  terrain_ = database_ ? database_->patches() : nullptr;
+  culling_.setTerrain(terrain_);
+  hiding_.setTerrain(database_);
+  occlusion_.clear();
+  if (gl_) setGl();
+}
+
+void PatchDrawer::initialize() {
+  gl_ = std::make_unique<Gl>();
+  occlusion_.setSubpixelBits(subpixelBitsOfContext());
+  setGl();
+}
+
+void PatchDrawer::setGl() {
+  gl_->layer.setTerrain(terrain_ ? &terrain_->index() : nullptr);
+  gl_->ground.setGround(terrain_ ? database_->ground() : nullptr);
+}
+
+int PatchDrawer::levelOf(TileDraw patch) const {
+  return terrain_->index().depth[patch.node];
+}
+
+void PatchDrawer::prepare(FrameInProgress& frame) {
+  begin(frame);
+  const FrameRequest& r = frame.request;
+  const EyePose eye = r.frozenEye.value_or(frame.view.eye);
+  const std::uint64_t before = frame.counters.paging.pagesRead;
+  culling_.page(r, eye, gl_->layer, frame.counters);
+  frame.clock.lap(before != frame.counters.paging.pagesRead ? &FrameCost::page : &FrameCost::select);
+  occlusion_.begin(r, eye, {}, frame.counters);
+  frame.clock.lap(occlusion_.horizonServes() ? &FrameCost::occlusion : &FrameCost::select);
+  if (!occlusion_.visibleStays(r, frame.counters)) {
+    culling_.selectVisible(r, eye, occlusion_.hidden(), r.backFaces && occlusion_.eyeIsAboveGround());
+    frame.clock.lap(&FrameCost::select);
+    culling_.removeHidden(occlusion_.hiddenByMap(r, culling_.visible(), frame.counters));
+  }
+  frame.clock.lap(occlusion_.mapServes() ? &FrameCost::occlusion : &FrameCost::select);
+  updateGround();
+  frame.counters.patches = true;
+  frame.view.oneSided = r.backFaces && occlusion_.eyeIsAboveGround() && !r.frozenEye;
+  addBounds();
+}
+
+void PatchDrawer::plant(const Defects& defects) {
+  occlusion_.plant(defects);
+  culling_.plant(defects);
+}
+
+void PatchDrawer::updateGround() {
+  const terrain::PostGrid posts = postsOf(database_->info());
+  const GeodeticPosition& eye = frame_->request.eye;
+  const std::uint64_t before = gl_->ground.bytesUploaded();
+  gl_->ground.showVoids(frame_->request.overlays.voids);
+  gl_->ground.update(posts.columnOf(eye.longitude.value()), posts.rowOf(eye.latitude.value()),
+                     frame_->request.waitForPages, kGroundBytesAFrame);
+  frame_->counters.paging.failed += gl_->ground.failed();
+  frame_->counters.paging.settled = frame_->counters.paging.waiting == 0 && gl_->ground.complete();
+  frame_->clock.lap(before != gl_->ground.bytesUploaded() ? &FrameCost::page : &FrameCost::select);
+}
+
+Findings PatchDrawer::failures() const {
+  Findings all = culling_.failures();
+  if (gl_)
+    for (Finding& finding : gl_->ground.failures()) all.push_back(std::move(finding));
+  return all;
+}
+
+void PatchDrawer::drawNodes(unsigned program, std::span<const TileDraw> patches) {
+  const BoundSlots slots(gl_->layer.slotTexture(), gl_->layer.tintTexture());
+  glUniform2i(glGetUniformLocation(program, "eyePost"), gl_->ground.eyeColumn(), gl_->ground.eyeRow());
+  gl_->ground.bind(program);
+  gl_->layer.draw(patches);
+  gl_->ground.unbind();
+}
+
+void PatchDrawer::drawTinted(unsigned program, std::span<const TileDraw> patches,
+                             std::span<const std::uint32_t> colours) {
+  gl_->layer.setTints(patches, colours);
+  drawNodes(program, patches);
+}
+
+}  // namespace trimtab::scene

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene/occlusion/occlusion_ground.h"
+#include "core/scene/terrain/box_lids.h"
+#include "core/scene/terrain/surfaces_in_use.h"
+#include "patch_culling.h"
+#include "patch_map.h"
+#include "trimtab/scene/data_extent.h"
+
+namespace trimtab::scene {
+
+/// The terrain's patches as ground that hides and is hidden.
+class PatchGround final : public OcclusionGround {
+ public:
+  /// `patches` must live as long.
+  explicit PatchGround(const PatchCulling& patches) : patches_(patches) {}
+  /// Null: none.
+  void setTerrain(std::shared_ptr<const terrain::Database> database);
+
+  const LevelCut& cut() const override { return patches_.cut(); }
+  const CutNumber& cutNumber() const override { return patches_.cutNumber(); }
+  std::string refusal(const EyePose& eye, const ViewShape& view) override;
+  std::size_t makeSurfaces(Vec3 eye) override;
+  void fill(std::vector<HorizonTile>& tiles) override;
+  SurfaceTree tree() const override { return SurfaceTree::of(patches_.index(), surfaceErrorM_); }
+  bool mayOcclude(std::uint32_t node) override;
+  bool takesRoom(std::uint32_t node) const override;
+  void forgetOthers() override {
+    surfaces_.forgetOthers(cut());
+    lids_.forgetOthers(cut());
+  }
+  bool isGraph() override;
+  std::span<const std::uint8_t> hiddenByMap(std::span<const TileDraw> visible, const EyePose& eye,
+                                            const ViewShape& view, DepthMapSize size,
+                                            double loweringScale) override {
+    return map_.hidden(patches_, cutNumber().cut, visible, eye, {view, size, loweringScale}, share());
+  }
+  Renderer::Grey mapPicture() const override { return map_.picture(); }
+
+ private:
+  struct Surface {
+    MeshRelief relief;
+    std::uint8_t variant = 0;
+    bool inside = false;  ///< so far from the data's edge that no way to it leads over the edge
+    bool takesRoom = false;
+  };
+  /// Null where it is not made.
+  const Surface* surfaceOf(TileDraw patch) const;
+  /// Makes it where the patch's page is there: of where the eye is over, and leaves alone what `fill` gave
+  /// away.
+  const Surface* surfaceUnder(TileDraw patch);
+  void make(const terrain::PatchMesh& mesh, TileDraw patch, Surface& surface);
+  /// Whether none of its triangles stands upright or hangs over, as far as the cone of their normals tells.
+  bool normalsRise(std::uint32_t node);
+
+  const PatchCulling& patches_;
+  PatchMapCulling map_;
+  DataExtent extent_;
+  VariantTable<float> surfaceErrorM_;                 ///< as SurfaceTree takes it
+  std::uint32_t marginColumns_ = 0, marginRows_ = 0;  ///< posts that `inside` asks for
+  SurfacesInUse<Surface> surfaces_;                   ///< some 10 KB each
+  BoxLids lids_;
+  struct Under {
+    std::uint32_t node;
+    std::unique_ptr<Surface> surface;
+  };
+  std::vector<Under> under_;
+  std::optional<std::uint64_t> graphOf_;  ///< the last cut that was found to be a graph
+  // One a patch: 0 is not known, 1 no, 2 yes.
+  std::vector<std::uint8_t> inside_;       ///< of mayOcclude
+  std::vector<std::uint8_t> normalsRise_;  ///< all of its triangles' are proven to
+  terrain::PostGrid posts_;
+  std::vector<ReliefVertex> vertices_;
+};
+
+/// A patch's surface for the horizon: one of its variants.
+void makeRelief(const terrain::PatchMesh& mesh, int variant, std::vector<ReliefVertex>& vertices,
+                MeshRelief& relief);
+
+}  // namespace trimtab::scene

@@ -1,0 +1,171 @@
+#include "static_lod_culling.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trimtab/scene/planted_defects.h"
+#include "trimtab/culling/box_distance.h"
+#include "trimtab/frame/frame_request.h"
+#include "trimtab/terrain/format/static_lod_terrain.h"
+#include "trimtab/terrain/format/static_lod_terrain.h"
+
+namespace trimtab::scene {
+namespace {
+
+/// How many different vertices each node's triangles have.
+std::vector<std::uint32_t> vertexCounts(const terrain::StaticLodTerrain& terrain) {
+  std::vector<std::uint32_t> counts(terrain.index.size());
+  std::vector<std::vector<std::uint32_t>> lastUser(terrain.tiles.size());
+  for (std::size_t tile = 0; tile < lastUser.size(); ++tile)
+    lastUser[tile].assign(terrain.tiles[tile].vertices.size(), StaticLodIndex::kNone);
+  for (std::uint32_t node = 0; node < counts.size(); ++node) {
+    const std::uint32_t tile = terrain.index.nodes[node].tile;
+    const terrain::StaticLodRange range = terrain.ranges[node];
+    const std::vector<std::uint32_t>& indices = terrain.tiles[tile].indices;
+    for (std::size_t i = 3 * std::size_t{range.firstTriangle}, end = i + 3 * std::size_t{range.triangles};
+         i < end; ++i) {
+      std::uint32_t& user = lastUser[tile][indices[i]];
+      counts[node] += user != node;
+      user = node;
+    }
+  }
+  return counts;
+}
+
+/// One node in so many of the cut is near: drawn first, and what it covers is read.
+constexpr std::size_t kNearOneIn = 3;
+/// Triangles that may be hidden, below which reading the map costs more than hiding half of them saves:
+/// measured over Kansai on a software rasteriser.
+constexpr std::uint64_t kWorthHiding = 30'000;
+
+}  // namespace
+
+void StaticLodCulling::setTerrain(std::shared_ptr<const terrain::StaticLodTerrain> terrain) {
+  terrain_ = std::move(terrain);
+  parts_.setTerrain(terrain_.get());
+  cutKey_.reset();
+  visibleKey_.reset();
+  cutTiles_.clear();
+  visible_ = {};
+  vertices_ = terrain_ ? vertexCounts(*terrain_) : std::vector<std::uint32_t>{};
+}
+
+const StaticLodIndex& StaticLodCulling::index() const {
+  return terrain_->index;
+}
+
+void StaticLodCulling::select(const FrameRequest& request, const EyePose& eye, FrameResult& counters) {
+  const ViewShape& v = request.view;
+  const double pixelsPerRadian = std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom));
+  const CutKey key{eye.position, request.staticLod.error,
+                   staticLodDistancePerError(request.staticLod, request.decision.lodScale, pixelsPerRadian) *
+                       defects_.statedErrorScale,
+                   request.overlays.treeDepth};
+  if (cutKey_ != key || !request.skips.sameCut) {
+    if (key.depth >= 0)
+      selectStaticDepth(index(), key.depth, cut_);
+    else
+      selectStatic(index(), staticLodError(index(), key.error), key.distancePerError, key.eye, cut_);
+    orderByDistance(eye.position);
+    cutTiles_.clear();
+    for (const std::uint32_t node : cut_.nodes) cutTiles_.push_back({node, 0});
+    cutKey_ = key;
+    ++counters.cutsSelected;
+  }
+  const double farM =
+      request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited;
+  const VisibleKey wanted{
+      key, eye, v, request.method, request.decision.depthMap, farM, request.overlays.treePicture};
+  // Frozen, what was hidden from there stays hidden: the picture is another eye's and cannot tell.
+  if (visibleKey_ == wanted && (request.frozenEye || request.skips.sameVisible)) return;
+  visibleKey_ = wanted;
+  hiddenIsKnown_ = false;
+  ++counters.visibleSelected;
+  selectStaticVisible(index(), vertices_, cut_, eye, v, request.method != CullingCase::none, visible_, farM);
+  if (defects_.culledNode) {
+    flags_.clear();
+    for (const TileDraw& node : visible_.tiles) flags_.push_back(node.node == defects_.culledNode);
+    removeStaticOccluded(index(), vertices_, flags_, visible_);
+  }
+  visibleNear_ = static_cast<std::size_t>(
+      std::count(visible_.reason.begin(), visible_.reason.begin() + static_cast<std::ptrdiff_t>(near_),
+                 CullReason::drawn));
+}
+
+/// Puts the near part of the cut first, both parts in the trees' order.
+void StaticLodCulling::orderByDistance(Vec3 eye) {
+  near_ = cut_.nodes.size() / kNearOneIn;
+  if (near_ == 0) return;
+  distances_.clear();
+  for (const std::uint32_t node : cut_.nodes)
+    distances_.push_back(distanceSquared(index().bounds[node], eye));
+  const auto middle = distances_.begin() + static_cast<std::ptrdiff_t>(near_);
+  std::nth_element(distances_.begin(), middle, distances_.end());
+  const double limit = *middle;
+  far_.clear();
+  std::size_t kept = 0;
+  for (const std::uint32_t node : cut_.nodes)
+    if (distanceSquared(index().bounds[node], eye) < limit)
+      cut_.nodes[kept++] = node;
+    else
+      far_.push_back(node);
+  std::copy(far_.begin(), far_.end(), cut_.nodes.begin() + static_cast<std::ptrdiff_t>(kept));
+  near_ = kept;
+}
+
+/// Triangles of far nodes in view whose tops lie below the steepest line of sight to a near node's top: no
+/// others can be hidden. A guess at what a map may win, which is nothing once the eye is high.
+std::uint64_t StaticLodCulling::hideableTriangles(Vec3 eye) const {
+  double steepestNear = -1e300;
+  std::uint64_t triangles = 0;
+  for (std::size_t i = 0; i < visible_.tiles.size(); ++i) {
+    const std::uint32_t node = visible_.tiles[i].node;
+    const Box& b = index().bounds[node];
+    const double up = b.maxZ - eye.z;
+    const bool near = i < visibleNear_;
+    // Of a near node the end of its box that gives the steeper line, of a far one that which gives the
+    // flatter.
+    const double x = std::max(std::abs(b.minX - eye.x), std::abs(b.maxX - eye.x)),
+                 y = std::max(std::abs(b.minY - eye.y), std::abs(b.maxY - eye.y));
+    const double away = (up > 0) == near
+                            ? std::sqrt(distanceSquared({b.minX, b.minY, -1e9f, b.maxX, b.maxY, 1e9f}, eye))
+                            : std::hypot(x, y);
+    const double slope = up / std::max(away, 1.0);
+    if (near)
+      steepestNear = std::max(steepestNear, slope);
+    else if (slope < steepestNear)
+      triangles += index().nodes[node].triangles;
+  }
+  return triangles;
+}
+
+std::optional<DepthMapSize> StaticLodCulling::occlusion(const FrameRequest& request,
+                                                        FrameResult& counters) const {
+  counters.note.clear();
+  const std::optional<DepthMapSize>& size = request.decision.depthMap;
+  if (request.method != CullingCase::proposed || !size || request.overlays.treePicture) return {};
+  if (request.frozenEye)
+    counters.note = "What is hidden stays as it was when culling was frozen.";
+  else if (!hiddenIsKnown_ && hideableTriangles(visibleKey_->eye.position) < kWorthHiding)
+    counters.note = "Too little of the static trees can be hidden for a depth map to be worth its cost.";
+  return counters.note.empty() ? size : std::nullopt;
+}
+
+void StaticLodCulling::removeHidden(const DepthPyramid& covered) {
+  flags_.assign(visible_.tiles.size(), 0);
+  for (std::size_t i = visibleNear_; i < flags_.size(); ++i) {
+    const std::span<const Box> parts = parts_.of(visible_.tiles[i].node);
+    flags_[i] = std::all_of(parts.begin(), parts.end(), [&](const Box& part) {
+      return covered.isHidden(part, visibleKey_->eye, visibleKey_->view);
+    });
+  }
+  removeStaticOccluded(index(), vertices_, flags_, visible_);
+  hiddenIsKnown_ = true;
+}
+
+void StaticLodCulling::plant(const Defects& defects) {
+  defects_ = defects;
+  visibleKey_.reset();
+}
+
+}  // namespace trimtab::scene

@@ -1,0 +1,295 @@
+#include "static_lod_layer.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "core/scene/gl/gl_api.h"
+#include "core/scene/gl/gl_buffer.h"
+#include "trimtab/terrain/format/static_lod_terrain.h"
+#include "trimtab/terrain/format/static_lod_terrain.h"
+
+namespace trimtab::scene {
+namespace {
+
+using terrain::StaticLodVertex;
+
+constexpr auto kBlock = static_cast<std::uint32_t>(StaticLodLayer::kBlock);
+constexpr std::uint32_t kIndexBlock = 64;
+constexpr std::size_t kBlockBytes = kBlock * sizeof(StaticLodVertex) + 4 * sizeof(std::int32_t),
+                      kIndexBlockBytes = kIndexBlock * sizeof(std::uint32_t);
+
+std::uint32_t inBlocks(std::size_t count, std::uint32_t block) {
+  return static_cast<std::uint32_t>((count + block - 1) / block);
+}
+
+/// Room for `units` more: half as much again, or what is needed, where there is memory for it.
+template <class Grow>
+std::optional<std::uint32_t> takeGrowing(RangeAllocator& places, std::uint32_t units, const Grow& grow) {
+  if (const auto first = places.take(units)) return first;
+  const std::uint32_t size = places.size(), least = std::max(size + units, 4096u);
+  for (const std::uint32_t after : {std::max(least, size + size / 2), least})
+    if (grow(after)) {
+      places.growTo(after);
+      return places.take(units);
+    }
+  return {};
+}
+
+void defineAttributes() {
+  const auto attribute = [](unsigned index, int size, unsigned type, unsigned char normalise,
+                            std::size_t offset) {
+    glEnableVertexAttribArray(index);
+    glVertexAttribPointer(index, size, type, normalise, sizeof(StaticLodVertex),
+                          reinterpret_cast<const void*>(offset));
+  };
+  attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(StaticLodVertex, x));
+  attribute(1, 3, GL_BYTE, GL_TRUE, offsetof(StaticLodVertex, normal));
+  attribute(3, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(StaticLodVertex, colour));
+}
+
+template <class T>
+unsigned makeBuffer(unsigned target, const std::vector<T>& data) {
+  unsigned buffer = 0;
+  glGenBuffers(1, &buffer);
+  glBindBuffer(target, buffer);
+  glBufferData(target, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), GL_STATIC_DRAW);
+  return buffer;
+}
+
+/// Edges of a node's triangles, each once, as `first << 32 | second` with first < second; the locked apart.
+void collectEdges(const terrain::StaticLodTile& tile, const terrain::StaticLodRange& range,
+                  std::vector<std::uint64_t>& free, std::vector<std::uint64_t>& locked) {
+  for (std::size_t t = range.firstTriangle; t < std::size_t{range.firstTriangle} + range.triangles; ++t)
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::uint32_t a = tile.indices[3 * t + corner], b = tile.indices[3 * t + (corner + 1) % 3];
+      const std::uint64_t edge = std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+      (tile.locked[t] >> corner & 1 ? locked : free).push_back(edge);
+    }
+  for (std::vector<std::uint64_t>* list : {&free, &locked}) {
+    std::sort(list->begin(), list->end());
+    list->erase(std::unique(list->begin(), list->end()), list->end());
+  }
+  // An edge that one of its triangles calls locked is.
+  std::erase_if(free,
+                [&](std::uint64_t edge) { return std::binary_search(locked.begin(), locked.end(), edge); });
+}
+
+}  // namespace
+
+StaticLodLayer::StaticLodLayer(std::size_t keptBytes) : keptBytes_(keptBytes) {
+  for (GLuint* array : {&array_, &numberedArray_, &edgeArray_}) glGenVertexArrays(1, array);
+  glGenTextures(1, &slotTexture_);
+  glGenBuffers(1, &dataBuffer_);
+}
+
+StaticLodLayer::~StaticLodLayer() {
+  clear();
+  glDeleteBuffers(1, &dataBuffer_);
+  glDeleteTextures(1, &slotTexture_);
+  for (const GLuint array : {array_, numberedArray_, edgeArray_}) glDeleteVertexArrays(1, &array);
+}
+
+/// Gives the memory back: another terrain may need far less.
+void StaticLodLayer::clear() {
+  for (const Edges& edges : edges_) glDeleteBuffers(1, &edges.buffer);
+  for (GLuint* buffer : {&vertexBuffer_, &indexBuffer_, &slotBuffer_}) {
+    glDeleteBuffers(1, buffer);
+    *buffer = 0;
+  }
+  places_.clear();
+  edges_.clear();
+  blocks_.clear();
+  indexBlocks_.clear();
+  ++placesNumber_;
+}
+
+void StaticLodLayer::setTerrain(std::shared_ptr<const terrain::StaticLodTerrain> terrain) {
+  clear();
+  terrain_ = std::move(terrain);
+  if (!terrain_) return;
+  places_.resize(terrain_->tiles.size());
+  edges_.resize(terrain_->index.size());
+}
+
+std::size_t StaticLodLayer::bytes() const {
+  return blocks_.used() * kBlockBytes + indexBlocks_.used() * kIndexBlockBytes;
+}
+
+void StaticLodLayer::drop(std::uint32_t tile) {
+  Place& place = places_[tile];
+  if (place.blocks == 0) return;
+  blocks_.give(place.block, place.blocks);
+  indexBlocks_.give(place.indexBlock, place.indexBlocks);
+  place = {};
+  ++placesNumber_;
+}
+
+/// False where this frame needs all that is there.
+bool StaticLodLayer::dropOldest() {
+  std::optional<std::uint32_t> oldest;
+  for (std::uint32_t tile = 0; tile < places_.size(); ++tile)
+    if (places_[tile].blocks > 0 && places_[tile].lastUse < frame_ &&
+        (!oldest || places_[tile].lastUse < places_[*oldest].lastUse))
+      oldest = tile;
+  if (oldest) drop(*oldest);
+  return oldest.has_value();
+}
+
+/// The buffers that there are now, to all that read them.
+void StaticLodLayer::attach() {
+  for (const GLuint array : {array_, numberedArray_, edgeArray_}) {
+    glBindVertexArray(array);
+    glBindBuffer(GL_ARRAY_BUFFER, vertexBuffer_);
+    if (vertexBuffer_ != 0) defineAttributes();
+    if (array != edgeArray_) glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indexBuffer_);
+  }
+  glBindVertexArray(numberedArray_);
+  glBindBuffer(GL_ARRAY_BUFFER, dataBuffer_);
+  glEnableVertexAttribArray(4);
+  glVertexAttribIPointer(4, 1, GL_UNSIGNED_INT, sizeof(DrawData), nullptr);
+  glVertexAttribDivisor(4, 1);
+  glEnableVertexAttribArray(5);
+  glVertexAttribPointer(5, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(DrawData),
+                        reinterpret_cast<const void*>(offsetof(DrawData, tint)));
+  glVertexAttribDivisor(5, 1);
+  glBindVertexArray(0);
+  glBindBuffer(GL_ARRAY_BUFFER, 0);
+  if (slotBuffer_ != 0) attachBuffer(slotTexture_, GL_RGBA32I, slotBuffer_);
+}
+
+bool StaticLodLayer::place(Place& place) {
+  constexpr std::size_t kVertices = kBlock * sizeof(StaticLodVertex), kSlot = 4 * sizeof(std::int32_t);
+  const auto block = takeGrowing(blocks_, place.blocks, [this](std::uint32_t after) {
+    const bool grown = growBuffer(vertexBuffer_, blocks_.size() * kVertices, after * kVertices) &&
+                       growBuffer(slotBuffer_, blocks_.size() * kSlot, after * kSlot);
+    attach();
+    return grown;
+  });
+  if (!block) return false;
+  const auto indexBlock = takeGrowing(indexBlocks_, place.indexBlocks, [this](std::uint32_t after) {
+    const bool grown =
+        growBuffer(indexBuffer_, indexBlocks_.size() * kIndexBlockBytes, after * kIndexBlockBytes);
+    attach();
+    return grown;
+  });
+  if (!indexBlock) {
+    blocks_.give(*block, place.blocks);
+    return false;
+  }
+  place.block = *block;
+  place.indexBlock = *indexBlock;
+  return true;
+}
+
+bool StaticLodLayer::upload(std::uint32_t at) {
+  const terrain::StaticLodTile& source = terrain_->tiles[at];
+  Place place{.blocks = inBlocks(source.vertices.size(), kBlock),
+              .indexBlocks = inBlocks(source.indices.size(), kIndexBlock)};
+  if (place.blocks == 0 || place.indexBlocks == 0) return false;
+  const std::size_t needed = place.blocks * kBlockBytes + place.indexBlocks * kIndexBlockBytes;
+  while (bytes() + needed > keptBytes_ && dropOldest()) {
+  }
+  while (!this->place(place))
+    if (!dropOldest()) return false;
+  uploadPart(vertexBuffer_, std::size_t{place.block} * kBlock * sizeof(StaticLodVertex),
+             source.vertices.data(), source.vertices.size() * sizeof(StaticLodVertex));
+  uploadPart(indexBuffer_, place.indexBlock * kIndexBlockBytes, source.indices.data(),
+             source.indices.size() * sizeof(std::uint32_t));
+  std::vector<std::array<std::int32_t, 4>> slots(place.blocks,
+                                                 {source.origin[0], source.origin[1], source.origin[2], 0});
+  uploadPart(slotBuffer_, place.block * sizeof slots[0], slots.data(), slots.size() * sizeof slots[0]);
+  place.lastUse = frame_;
+  places_[at] = place;
+  ++placesNumber_;
+  return true;
+}
+
+std::size_t StaticLodLayer::prepare(std::span<const TileDraw> nodes, bool anew) {
+  ++frame_;
+  const auto tileOf = [this](const TileDraw& node) { return terrain_->index.nodes[node.node].tile; };
+  if (anew)
+    for (const TileDraw& node : nodes) drop(tileOf(node));
+  // First those that are there, so that none of them is given up for another of the same frame.
+  for (const TileDraw& node : nodes) places_[tileOf(node)].lastUse = frame_;
+  std::size_t uploaded = 0;
+  for (const TileDraw& node : nodes)
+    if (const std::uint32_t tile = tileOf(node); places_[tile].blocks == 0) uploaded += upload(tile);
+  return uploaded;
+}
+
+const StaticLodLayer::Place& StaticLodLayer::placeOf(std::uint32_t node) const {
+  return places_[terrain_->index.nodes[node].tile];
+}
+
+void StaticLodLayer::addCommands(MultiDraw& draw, std::span<const TileDraw> nodes) {
+  if (!draw.begin(nodes, placesNumber_)) return;
+  for (const TileDraw& node : nodes) {
+    const Place& place = placeOf(node.node);
+    const terrain::StaticLodRange range = terrain_->ranges[node.node];
+    if (place.blocks > 0)
+      draw.add(place.indexBlock * kIndexBlock + 3 * range.firstTriangle, 3 * range.triangles,
+               place.block * kBlock);
+  }
+}
+
+void StaticLodLayer::draw(std::span<const TileDraw> nodes) {
+  addCommands(surface_, nodes);
+  surface_.draw(array_, GL_UNSIGNED_INT);
+}
+
+void StaticLodLayer::drawNumbered(std::span<const TileDraw> nodes, std::span<const std::uint32_t> colours) {
+  addCommands(numbered_, nodes);
+  data_.clear();
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (placeOf(nodes[i].node).blocks > 0) data_.push_back({nodes[i].node, colours.empty() ? 0 : colours[i]});
+  uploadBuffer(dataBuffer_, data_.data(), data_.size() * sizeof(DrawData));
+  numbered_.draw(numberedArray_, GL_UNSIGNED_INT, true);
+}
+
+const StaticLodLayer::Edges& StaticLodLayer::edgesOf(std::uint32_t node) {
+  Edges& edges = edges_[node];
+  if (edges.buffer != 0) return edges;
+  std::vector<std::uint64_t> free, locked;
+  collectEdges(terrain_->tiles[terrain_->index.nodes[node].tile], terrain_->ranges[node], free, locked);
+  std::vector<std::uint32_t> indices;
+  for (const auto* list : {&free, &locked})
+    for (const std::uint64_t edge : *list) {
+      indices.push_back(static_cast<std::uint32_t>(edge >> 32));
+      indices.push_back(static_cast<std::uint32_t>(edge));
+    }
+  edges = {makeBuffer(GL_ELEMENT_ARRAY_BUFFER, indices), static_cast<int>(2 * free.size()),
+           static_cast<int>(2 * locked.size())};
+  return edges;
+}
+
+void StaticLodLayer::drawEdges(std::span<const TileDraw> nodes, bool locked) {
+  glBindVertexArray(edgeArray_);
+  for (const TileDraw& node : nodes) {
+    const Place& place = placeOf(node.node);
+    if (place.blocks == 0) continue;
+    const Edges& edges = edgesOf(node.node);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, edges.buffer);
+    const std::size_t first = locked ? static_cast<std::size_t>(edges.free) * sizeof(std::uint32_t) : 0;
+    glDrawElementsBaseVertex(GL_LINES, locked ? edges.locked : edges.free, GL_UNSIGNED_INT,
+                             reinterpret_cast<const void*>(first), static_cast<GLint>(place.block * kBlock));
+  }
+  glBindVertexArray(0);
+}
+
+void StaticLodLayer::drawPicture(unsigned program, std::span<const TileDraw> nodes) {
+  const GLint colour = glGetUniformLocation(program, "flatColour");
+  const GLint depthScale = glGetUniformLocation(program, "depthScale");
+  glUniform4f(colour, 0.84f, 0.84f, 0.84f, 1);
+  glUniform1f(depthScale, 1);
+  draw(nodes);
+  // Lines nearer than the faces they bound, and black before red: where they meet, locked shows.
+  glUniform4f(colour, 0, 0, 0, 1);
+  glUniform1f(depthScale, 1.003f);
+  drawEdges(nodes, true);
+  glUniform4f(colour, 0.85f, 0, 0, 1);
+  glUniform1f(depthScale, 1.002f);
+  drawEdges(nodes, false);
+}
+
+}  // namespace trimtab::scene

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/scene/gl/multi_draw.h"
+#include "core/scene/gl/range_allocator.h"
+#include "trimtab/culling/select.h"
+
+namespace trimtab::terrain {
+struct StaticLodTerrain;
+}
+
+namespace trimtab::scene {
+
+/// The trees' meshes on the GPU: pages of tiles in two buffers with room to reuse, a tile's vertices and the
+/// triangles of all its nodes together, uploaded when a frame first needs the tile and given up when others
+/// need the room. Where a vertex's tile lies stands in a texture buffer by gl_VertexID, in units of 16 m, so
+/// its vertices close with every other tile's to the bit (relativePosition in shaders.h).
+///
+/// All calls need the context current. Nodes are those of the terrain's index; of one tile they stand
+/// together.
+class StaticLodLayer {
+ public:
+  /// Beyond `keptBytes` the tiles that were longest unused are given up; a frame that needs more still gets
+  /// them.
+  explicit StaticLodLayer(std::size_t keptBytes = std::size_t{64} << 20);
+  ~StaticLodLayer();
+  StaticLodLayer(const StaticLodLayer&) = delete;
+  StaticLodLayer& operator=(const StaticLodLayer&) = delete;
+
+  /// Forgets all meshes.
+  void setTerrain(std::shared_ptr<const terrain::StaticLodTerrain> terrain);
+  /// Uploads the tiles that the nodes lie in, where they are not there, or all of them with `anew`. Returns
+  /// how many were. Where there is no memory for one, its nodes are not drawn.
+  std::size_t prepare(std::span<const TileDraw> nodes, bool anew = false);
+
+  /// One multi-draw, in order. The program in use reads attributes 0 position, 1 normal, 3 colour.
+  void draw(std::span<const TileDraw> nodes);
+  /// The same with each node's number and colour (RGBA8; or none) as attributes 4 and 5.
+  void drawNumbered(std::span<const TileDraw> nodes, std::span<const std::uint32_t> colours = {});
+  /// Document E's picture: faces light grey, edges red, locked edges black.
+  void drawPicture(unsigned program, std::span<const TileDraw> nodes);
+
+  static constexpr int kBlock = 64;  ///< vertices a texel of slotTexture
+  /// RGBA32I: the origin of the tile that a block of vertices is of.
+  unsigned slotTexture() const { return slotTexture_; }
+  std::size_t bytes() const;  ///< of the tiles that are there
+  bool has(std::uint32_t tile) const { return places_[tile].blocks > 0; }
+
+ private:
+  /// In blocks of vertices and of indices; none: not there.
+  struct Place {
+    std::uint32_t block = 0, blocks = 0, indexBlock = 0, indexBlocks = 0;
+    std::uint64_t lastUse = 0;
+  };
+  /// A node's edges as pairs of indices: those that may change, then the locked ones.
+  struct Edges {
+    unsigned buffer = 0;
+    int free = 0, locked = 0;  ///< indices
+  };
+  struct DrawData {
+    std::uint32_t node, tint;
+  };
+
+  void clear();
+  void drop(std::uint32_t tile);
+  bool dropOldest();
+  bool upload(std::uint32_t tile);
+  bool place(Place& place);
+  void attach();
+  const Place& placeOf(std::uint32_t node) const;
+  void addCommands(MultiDraw& draw, std::span<const TileDraw> nodes);
+  const Edges& edgesOf(std::uint32_t node);
+  void drawEdges(std::span<const TileDraw> nodes, bool locked);
+
+  std::size_t keptBytes_;
+  std::shared_ptr<const terrain::StaticLodTerrain> terrain_;
+  std::vector<Place> places_;  ///< one a tile
+  std::vector<Edges> edges_;   ///< one a node; made on first use
+  RangeAllocator blocks_, indexBlocks_;
+  std::uint64_t frame_ = 0, placesNumber_ = 1;
+  MultiDraw surface_, numbered_;
+  std::vector<DrawData> data_;
+  unsigned array_ = 0, numberedArray_ = 0, edgeArray_ = 0;
+  unsigned vertexBuffer_ = 0, indexBuffer_ = 0, slotBuffer_ = 0, slotTexture_ = 0, dataBuffer_ = 0;
+};
+
+}  // namespace trimtab::scene

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "core/scene/terrain/terrain_drawer.h"
+#include "static_lod_culling.h"
+#include "static_lod_layer.h"
+#include "static_lod_occlusion.h"
+#include "trimtab/scene/planted_defects.h"
+
+namespace trimtab::scene {
+
+/// The terrain as trees of static levels of detail.
+class TreeDrawer final : public TerrainDrawer {
+ public:
+  void setTerrain(std::shared_ptr<const terrain::Database> database) override;
+  void initialize() override;
+  void release() override { gl_.reset(); }
+  void plant(const Defects& defects) override { culling_.plant(defects); }
+
+  void prepare(FrameInProgress& frame) override;
+  /// With a depth map the near nodes, then what they leave of the far ones.
+  void draw(unsigned program) override;
+  /// Document E's picture instead.
+  void drawPicture(unsigned program);
+  void drawNumbered(unsigned program) override;
+
+  const std::vector<TileDraw>& cut() const override { return culling_.cut(); }
+  const VisibleSet& visible() const override { return culling_.visible(); }
+  StaticLodFrame frame() const { return culling_.frame(); }
+  Renderer::Grey readDepthMap() const override;
+
+ private:
+  const std::vector<Box>& bounds() const override { return culling_.index().bounds; }
+  int levelOf(TileDraw node) const override { return culling_.index().nodes[node.node].depth; }
+  std::size_t upload(std::span<const TileDraw> nodes, bool anew) override {
+    return gl_->layer.prepare(nodes, anew);
+  }
+  void drawNodes(unsigned program, std::span<const TileDraw> nodes) override;
+  void drawTinted(unsigned program, std::span<const TileDraw> nodes,
+                  std::span<const std::uint32_t> colours) override;
+  /// They stand as they are drawn: StaticLodCulling::visible.
+  void arrange(std::vector<TileDraw>&, const SceneView&) const override {}
+
+  struct Gl {
+    StaticLodLayer layer;
+    StaticLodOcclusion occlusion;
+  };
+  std::shared_ptr<const terrain::StaticLodTerrain> terrain_;
+  StaticLodCulling culling_;
+  std::unique_ptr<Gl> gl_;
+  bool mapServes_ = false;  ///< in the last frame, if only by what it hid when it was drawn
+  bool mapDrawn_ = false;   ///< in the last frame
+  double nearM_ = 1;
+};
+
+}  // namespace trimtab::scene

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/scene/gl/stage_clock.h"
+#include "core/scene/passes/lines.h"
+#include "core/scene/scene_graph.h"
+#include "trimtab/scene/planted_defects.h"
+#include "trimtab/scene/renderer.h"
+#include "trimtab/culling/horizon.h"
+#include "trimtab/frame/frame_request.h"
+
+namespace trimtab::scene {
+
+/// The frame that is being made, for whoever makes a part of it.
+struct FrameInProgress {
+  const FrameRequest& request;
+  SceneView& view;
+  FrameResult& counters;
+  StageClock& clock;
+  std::vector<LineVertex>& lines;
+  bool software;  ///< GL is this processor
+};
+
+/// The buffer textures by which the terrain's vertex shaders know whose a vertex is, bound while it lives.
+class BoundSlots {
+ public:
+  BoundSlots(unsigned slots, unsigned tints) { bind(slots, tints); }
+  ~BoundSlots() { bind(0, 0); }
+  BoundSlots(const BoundSlots&) = delete;
+  BoundSlots& operator=(const BoundSlots&) = delete;
+
+ private:
+  static void bind(unsigned slots, unsigned tints);
+};
+
+/// One form of a terrain: which of its nodes a frame draws, what of them is on the GPU, and how they are
+/// drawn. Calls with a program or a frame need the context that `initialize` was called with.
+class TerrainDrawer {
+ public:
+  virtual ~TerrainDrawer() = default;
+
+  /// Null: none. The context is current if there is one.
+  virtual void setTerrain(std::shared_ptr<const terrain::Database> database) = 0;
+  virtual void initialize() = 0;
+  virtual void release() = 0;
+  virtual void plant(const Defects& defects) = 0;
+
+  /// Chooses, with everything that is left out before it is drawn, and uploads. `frame` must live until the
+  /// frame is drawn.
+  virtual void prepare(FrameInProgress& frame) = 0;
+  /// The frame that it was called for is finished, at this cost.
+  virtual void finished(const FrameResult&) {}
+  /// The picture's surface; afterwards `visible` stands.
+  virtual void draw(unsigned program);
+  /// The same again as lines.
+  void drawWire(unsigned program);
+  /// Of the last frame; `unculled`: with what was left out of its cut, but for what is far outside the view.
+  /// Returns how many meshes had to be made for it.
+  std::size_t prepareNumbers(const SceneView& view, bool unculled);
+  /// What prepareNumbers found, each as its number.
+  virtual void drawNumbered(unsigned program) { drawNodes(program, numbered_); }
+
+  virtual const std::vector<TileDraw>& cut() const = 0;
+  virtual const VisibleSet& visible() const = 0;
+  virtual Renderer::Grey readDepthMap() const { return {}; }
+  /// That served in the last frame, or null.
+  virtual const Horizon* horizon() const { return nullptr; }
+
+ protected:
+  virtual const std::vector<Box>& bounds() const = 0;
+  /// One a node, or none.
+  virtual std::span<const NormalCone> cones() const { return {}; }
+  /// As colourByLevel shows it.
+  virtual int levelOf(TileDraw node) const = 0;
+  /// Makes sure that they are on the GPU, or makes them `anew`; returns how many were made.
+  virtual std::size_t upload(std::span<const TileDraw> nodes, bool anew) = 0;
+  virtual void drawNodes(unsigned program, std::span<const TileDraw> nodes) = 0;
+  /// Each with its colour (RGBA8).
+  virtual void drawTinted(unsigned program, std::span<const TileDraw> nodes,
+                          std::span<const std::uint32_t> colours) = 0;
+  /// Puts nodes into the order that they are drawn in: those drawn from both sides, then near ones first, as
+  /// they hide others. Which have both sides, and the order, depend on node and view alone, so what is left
+  /// out changes nothing in the rest; nodes that face away have none, as some culling cases leave them out.
+  virtual void arrange(std::vector<TileDraw>& nodes, const SceneView& view) const;
+
+  /// First of all in `prepare`.
+  void begin(FrameInProgress& frame);
+  /// With the colours that an overlay asks for.
+  void drawSurface(unsigned program, std::span<const TileDraw> nodes);
+  /// What is drawn: all of the cut where reasons are shown.
+  const std::vector<TileDraw>& shown() const;
+  /// Uploads what is shown, and counts it. Looking for what lacks a place, and finding that nothing does, is
+  /// not paging.
+  void uploadShown();
+  /// Where an overlay asks for them.
+  void addBounds();
+
+  FrameInProgress* frame_ = nullptr;
+  std::vector<TileDraw> drawn_, numbered_;
+
+ private:
+  std::vector<std::uint32_t> tints_;
+  struct Place {
+    std::uint64_t key;  ///< whether it is drawn from one side, the square of its distance, then its number
+    TileDraw node;
+  };
+  mutable std::vector<Place> places_;
+};
+
+}  // namespace trimtab::scene

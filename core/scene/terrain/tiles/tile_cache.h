@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/scene/gl/multi_draw.h"
+#include "core/scene/occlusion/occluder.h"
+#include "tile_indices.h"
+#include "trimtab/culling/select.h"
+#include "trimtab/terrain/format/database.h"
+
+namespace trimtab::scene {
+
+/// Tiles' vertices on the GPU: slots of one growing buffer, filled on first use, the longest unused given up
+/// first. Where a slot's tile lies stands in a texture buffer that shaders read by gl_VertexID, so a frame
+/// uploads nothing per tile.
+///
+/// All calls need the context current.
+class TileCache {
+ public:
+  static constexpr int kVerticesPerTile = terrain::TileMesh::kSide * terrain::TileMesh::kSide;
+  static constexpr std::uint32_t kNoSlot = 0xffffffffu;
+
+  TileCache();
+  ~TileCache();
+  TileCache(const TileCache&) = delete;
+  TileCache& operator=(const TileCache&) = delete;
+
+  /// Forgets all tiles.
+  void setDatabase(std::shared_ptr<const terrain::Database> database);
+  /// Makes sure that the tiles have slots, building those that lack one, or all of them with `anew`. Returns
+  /// how many were built. Where there is no memory for more, the longest unused are given up, and what a
+  /// frame needs beyond that has no slot.
+  std::size_t prepare(std::span<const TileDraw> tiles, bool anew = false);
+
+  /// One multi-draw of the tiles, in order; those without a slot are skipped. A program that reads attributes
+  /// 0 position, 1 normal, 2 slope, 3 colour is in use.
+  void draw(std::span<const TileDraw> tiles);
+  /// One multi-draw of the tiles' occluder meshes: attribute 0 is OccluderVertex.
+  void drawOccluders(std::span<const TileDraw> tiles);
+
+  /// RGBA32I, two texels a slot: the tile's origin in units of 16 m and its node, and OccluderLimits as the
+  /// bits of floats.
+  unsigned slotTexture() const { return slotTexture_; }
+  /// RGBA32F, 2 x kParts texels a slot: low and high corner of each part.
+  unsigned partTexture() const { return partTexture_; }
+  /// RGBA8 per slot, for the engineer's colours: `colours` in the order of `tiles`.
+  void setTints(std::span<const TileDraw> tiles, std::span<const std::uint32_t> colours);
+  unsigned tintTexture() const { return tintTexture_; }
+
+  std::uint32_t slotOf(std::uint32_t node) const { return slotOfNode_[node]; }
+  std::size_t bytes() const;
+
+ private:
+  struct Slot {
+    std::uint32_t node = TerrainIndex::kNone;
+    std::uint64_t lastUse = 0;
+  };
+  struct SlotData {
+    std::int32_t origin[4];  ///< the fourth is the node
+    OccluderLimits limits;
+  };
+
+  std::uint32_t takeSlot();
+  bool grow();
+  void fill(std::uint32_t slot, std::uint32_t node);
+
+  std::shared_ptr<const terrain::Database> database_;
+  TileIndices indices_;
+  std::vector<Slot> slots_;
+  std::vector<SlotData> slotData_;
+  std::vector<std::uint32_t> slotOfNode_;
+  std::vector<std::uint32_t> tints_;
+  MultiDraw surface_, occluders_;
+  std::uint64_t places_ = 1;  ///< changes whenever a tile comes to a slot or leaves it
+  terrain::TileMesh mesh_;
+  TileOccluder occluder_;
+  std::uint64_t frame_ = 0;
+  std::uint32_t used_ = 0;
+  unsigned vertexArray_ = 0, vertexBuffer_ = 0, indexBuffer_ = 0;
+  unsigned occluderArray_ = 0, occluderBuffer_ = 0, occluderIndexBuffer_ = 0;
+  std::uint32_t occluderIndices_ = 0;
+  unsigned slotBuffer_ = 0, slotTexture_ = 0, tintBuffer_ = 0, tintTexture_ = 0, partBuffer_ = 0,
+           partTexture_ = 0;
+};
+
+}  // namespace trimtab::scene

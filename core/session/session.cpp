@@ -1,0 +1,298 @@
+#include "trimtab/session/session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "trimtab/host/motion.h"
+#include "trimtab/motion/line_of_sight.h"
+
+namespace trimtab {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+/// Waiting kernel times are dropped beyond this, when nobody draws and nobody says so.
+constexpr std::size_t kMostWaiting = 8192;
+/// A step of the host's clock against ours that is not jitter: pause, restart, another speed.
+constexpr double kClockStepS = 0.25;
+/// Share of a packet's clock difference that is believed at once; smooths the eye against arrival jitter.
+constexpr double kClockGain = 0.05;
+/// How long a jump is shown.
+constexpr double kJumpShownS = 1;
+
+double millisecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool samePose(const AircraftState& a, const AircraftState& b) {
+  return a.position == b.position && a.attitude == b.attitude && a.head == b.head && a.view == b.view;
+}
+
+}  // namespace
+
+std::string_view toText(LinkState state) {
+  switch (state) {
+    case LinkState::never:
+      return "never";
+    case LinkState::live:
+      return "live";
+    case LinkState::silent:
+      return "silent";
+    case LinkState::jumped:
+      return "jumped";
+  }
+  return "";
+}
+
+Session::Session(const ValidatedParameters& parameters) : parameters_(parameters) {}
+
+void Session::setParameters(const ValidatedParameters& parameters) {
+  parameters_ = parameters;
+  dirty_ = true;
+  if (!current_) return;
+  current_ = FrameInput{current_->state, groundBelow(current_->state), current_->lastCost};
+  DecisionMemory copy = looking_ ? lookMemory_ : memory_;
+  decision_ = decide(*current_, parameters_, copy);
+}
+
+void Session::setGround(std::shared_ptr<const GroundHeights> ground) {
+  ground_ = std::move(ground);
+  dirty_ = true;
+}
+
+void Session::receive(std::span<const ReceivedState> states) {
+  for (const ReceivedState& received : states) {
+    latency_.decoded.add((received.decodedTime - received.kernelTime) * 1e3);
+    AircraftState state = received.state;
+    head_.apply(state, received.kernelTime);
+    follow(state, received.kernelTime);
+    decideNext(inputFor(state), received.kernelTime);
+  }
+}
+
+void Session::fly(const AircraftState& state, double now) {
+  linked_ = false;
+  AircraftState flown = state;
+  head_.apply(flown, now);
+  decideNext(inputFor(flown), kNan);
+}
+
+void Session::replay(const TraceRow& row) {
+  linked_ = false;
+  if (!replayed_) memory_ = row.before;
+  replayed_ = true;
+  FrameInput input = row.input;
+  if (!input.aboveGround && row.decision.reason != SchemeReason::altitude_unknown)
+    input.aboveGround = groundBelow(input.state);
+  decideNext(input, kNan);
+}
+
+void Session::look(const AircraftState& state) {
+  if (!looking_) lookMemory_ = {}, groundVelocity_.restart();
+  const bool stands = looking_ && state.position == current_->state.position;
+  looking_ = true;
+  linked_ = false;
+  AircraftState seen = state;
+  head_.apply(seen, state.time);
+  // A camera that stands is looked at once more, and then no more.
+  if (stands) seen.velocity = Velocity{};
+  groundVelocity_.push(seen);
+  current_ = inputFor(seen);
+  decision_ = decide(*current_, parameters_, lookMemory_);
+  blurPicturedAt_.reset();
+  dirty_ = true;
+}
+
+void Session::restart() {
+  Session fresh(parameters_);
+  fresh.ground_ = std::move(ground_);
+  fresh.head_ = std::move(head_);
+  fresh.head_.restart();
+  fresh.keepRows_ = keepRows_;
+  fresh.rows_ = std::move(rows_);
+  fresh.completeRows_ = fresh.requestedRows_ = fresh.rows_.size();
+  fresh.dirty_ = true;
+  *this = std::move(fresh);
+}
+
+/// Where the host does not say, and only if the decision wants it: a height from the terrain costs a look-up.
+std::optional<Metres> Session::groundBelow(const AircraftState& state) const {
+  if (state.aboveGround) return state.aboveGround;
+  if (parameters_->altitude.reference != AltitudeReference::above_ground || !ground_) return std::nullopt;
+  const std::optional<Metres> ground = ground_->heightAt(state.position.latitude, state.position.longitude);
+  if (!ground) return std::nullopt;
+  return state.position.height - *ground;
+}
+
+FrameInput Session::inputFor(const AircraftState& state) const {
+  return {state, groundBelow(state), lastCost_};
+}
+
+/// Link bookkeeping of one packet: clock, silence, jumps, velocity.
+void Session::follow(const AircraftState& state, double arrival) {
+  const double offset = state.time - arrival;
+  const bool first = packets_ == 0 || !linked_;
+  if (first || !(std::abs(offset - clockOffset_) <= kClockStepS))
+    clockOffset_ = offset;
+  else
+    clockOffset_ += (offset - clockOffset_) * kClockGain;
+  if (!first && current_) {
+    const double gap = std::max(arrival - lastArrival_, 0.0);
+    if (isJump(current_->state.position, state.position, gap, gap > kSilenceS)) {
+      ++jumps_;
+      lastJump_ = arrival;
+    }
+  }
+  linked_ = true;
+  lastArrival_ = arrival;
+  extrapolator_.push(state);
+}
+
+void Session::decideNext(const FrameInput& input, double kernelTime) {
+  const bool looking = std::exchange(looking_, false);
+  ++packets_;
+  const DecisionMemory before = memory_;
+  const auto start = std::chrono::steady_clock::now();
+  decision_ = decide(input, parameters_, memory_);
+  decideMs_ += millisecondsSince(start);
+  if (looking) groundVelocity_.restart();
+  groundVelocity_.push(input.state);
+  current_ = input;
+  blurPicturedAt_.reset();
+  dirty_ = true;
+  if (std::isfinite(kernelTime)) {
+    if (waiting_.size() >= kMostWaiting)
+      waiting_.erase(waiting_.begin(), waiting_.begin() + kMostWaiting / 2);
+    waiting_.push_back(kernelTime);
+  }
+  if (keepRows_) rows_.push_back({input, before, decision_, std::nullopt});
+}
+
+LinkState Session::linkState(double now) const {
+  if (lastArrival_ == 0) return LinkState::never;
+  if (now - lastArrival_ > parameters_->host.silenceAfter.in<Seconds>()) return LinkState::silent;
+  if (jumps_ > 0 && now - lastJump_ < kJumpShownS) return LinkState::jumped;
+  return LinkState::live;
+}
+
+double Session::packetAge(double now) const {
+  return lastArrival_ == 0 ? kNan : now - lastArrival_;
+}
+
+AircraftState Session::eyeState(double now) const {
+  AircraftState eye = current_->state;
+  if (linked_ && parameters_->host.extrapolate) {
+    eye = extrapolator_.at(now + clockOffset_, parameters_->host.silenceAfter.in<Seconds>());
+    eye.view = current_->state.view;
+  }
+  head_.applyToEye(eye);
+  return eye;
+}
+
+bool Session::needsPicture(double now) const {
+  if (!current_) return false;
+  if (dirty_ || blurDrawn_ || !drawnEye_) return true;
+  const bool moving = linked_ || head_.source() == HeadInput::Source::pointer;
+  return moving && !samePose(eyeState(now), *drawnEye_);
+}
+
+/// What the host does not send is derived from its positions, and labelled so.
+SymbologyState Session::symbols(const AircraftState& eye) const {
+  SymbologyState symbols;
+  symbols.aircraft = eye.attitude;
+  symbols.view = lineOfSight(eye.attitude, eye.head);
+  symbols.altitude = eye.position.height;
+  symbols.velocity = velocityOf(eye);
+  symbols.speed = eye.airspeed;
+  symbols.groundSpeed = !eye.airspeed;
+  if (!eye.airspeed && symbols.velocity)
+    symbols.speed =
+        MetresPerSecond{std::hypot(symbols.velocity->north.value(), symbols.velocity->east.value())}
+            .as<Knots>();
+  return symbols;
+}
+
+std::optional<Velocity> Session::velocityOf(const AircraftState& state) const {
+  return state.velocity ? state.velocity : groundVelocity_.velocity();
+}
+
+std::optional<FrameRequest> Session::request(double now, int windowWidthPx, int windowHeightPx) {
+  if (!current_) return std::nullopt;
+  AircraftState eye = eyeState(now);
+  FrameRequest request;
+  request.time = eye.time;
+  request.eye = eye.position;
+  request.velocity = velocityOf(eye);
+  request.attitude = lineOfSight(eye.attitude, eye.head);
+  request.view = viewShape(parameters_->view, windowWidthPx, windowHeightPx, eye.view);
+  request.decision = decision_;
+  MotionBlur& blur = request.decision.motion.blur;
+  if (blur.strength > 0) {
+    if (!blurPicturedAt_) blurPicturedAt_ = now;
+    blur.remainingMs -= std::max(now - *blurPicturedAt_, 0.0) * 1e3;
+    if (!(blur.remainingMs > 0)) blur = {};
+  }
+  blurDrawn_ = blur.strength > 0;
+  request.method = parameters_->culling.method;
+  request.occlusion = parameters_->culling.occlusion;
+  request.backFaces = parameters_->culling.backFaces;
+  request.lod = parameters_->lod;
+  request.staticLod = parameters_->staticLod;
+  request.terrain = parameters_->terrain;
+  if (parameters_->symbology.enabled)
+    request.symbology = SymbologyRequest{symbols(eye), symbologySetup(*parameters_)};
+  inPicture_.insert(inPicture_.end(), waiting_.begin(), waiting_.end());
+  waiting_.clear();
+  requestedAt_ = now;
+  requestedRows_ = rows_.size();
+  dirty_ = false;
+  drawnEye_ = std::move(eye);
+  return request;
+}
+
+FrameCost Session::finished(const FrameResult& result, double now) {
+  lastCost_ = result.cost;
+  lastCost_.decide = decideMs_;
+  lastCost_.total = result.cost.total + decideMs_;
+  overBudget_ += lastCost_.total > parameters_->measure.budget.value();
+  decideMs_ = 0;
+  if (!inPicture_.empty()) {
+    latency_.shown.add((now - inPicture_.back()) * 1e3);
+    latency_.frame.add((now - requestedAt_) * 1e3);
+  }
+  for (const double kernelTime : inPicture_) latency_.every.add((now - kernelTime) * 1e3);
+  inPicture_.clear();
+  if (requestedRows_ > completeRows_) {
+    const VisibleSet& visible = result.visible;
+    rows_[requestedRows_ - 1].frame =
+        TraceFrame{{visible.triangles, visible.vertices, visible.tiles.size(), visible.outsideFrustum,
+                    visible.occluded, visible.beyondVisibility, visible.backFacing},
+                   lastCost_};
+    completeRows_ = requestedRows_;
+  }
+  return lastCost_;
+}
+
+void Session::noPicture() {
+  waiting_.clear();
+  inPicture_.clear();
+  decideMs_ = 0;
+  completeRows_ = requestedRows_ = rows_.size();
+}
+
+void Session::keepRows(bool keep) {
+  keepRows_ = keep;
+}
+
+void Session::takeRows(std::vector<TraceRow>& rows, bool all) {
+  if (all) completeRows_ = requestedRows_ = rows_.size();
+  const auto end = rows_.begin() + static_cast<std::ptrdiff_t>(completeRows_);
+  rows.insert(rows.end(), std::make_move_iterator(rows_.begin()), std::make_move_iterator(end));
+  rows_.erase(rows_.begin(), end);
+  requestedRows_ -= completeRows_;
+  completeRows_ = 0;
+}
+
+}  // namespace trimtab

@@ -1,0 +1,428 @@
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <future>
+#include <thread>
+
+#include "ground.h"
+#include "heights.h"
+#include "patches.h"
+#include "source.h"
+#include "trimtab/terrain/bake/bake.h"
+#include "trimtab/terrain/elevation/import.h"
+#include "trimtab/terrain/format/database.h"
+#include "trimtab/terrain/format/patch_layout.h"
+#include "trimtab/terrain/format/static_lod_terrain.h"
+#include "trimtab/terrain/format/store.h"
+#include "trimtab/terrain/ground/imagery.h"
+#include "trimtab/terrain/ground/triangles.h"
+#include "trimtab/terrain/patches/build.h"
+#include "trimtab/terrain/scenery/scenery.h"
+#include "trimtab/terrain/static_lod/sea.h"
+#include "trimtab/terrain/static_lod/static_lod.h"
+#include "work.h"
+
+namespace trimtab::terrain {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Finding refused(const fs::path& where, std::string expected, std::string found) {
+  return {Severity::error, where.string(), "", std::move(expected), std::move(found)};
+}
+
+/// What is thrown for want of memory or threads, as a finding: what is done by then stays done.
+template <class Work>
+auto orFinding(const fs::path& where, const Work& work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (const std::exception& thrown) {
+    return refused(where, "memory and threads enough to bake", thrown.what());
+  }
+}
+
+/// Patches and ground are made at the same time where they may take so much, bytes.
+constexpr std::size_t kBesideBytes = std::size_t{512} << 20;
+
+/// An image over the colours of materials: those stay where it has nothing.
+void drape(std::vector<std::uint8_t> image, std::vector<std::uint8_t>& under) {
+  if (under.empty()) {
+    under = std::move(image);
+    return;
+  }
+  for (std::size_t i = 0; i + 3 < image.size(); i += 4)
+    if (image[i + 3] != 0) std::copy_n(&image[i], 4, &under[i]);
+}
+
+/// Bakes from the options to one of three ends: a database, a part of the work, a database of parts.
+class Job {
+ public:
+  explicit Job(const BakeOptions& options)
+      : options_(options),
+        output_(options.output.has_filename() ? options.output : options.output.parent_path()),
+        memory_(static_cast<std::size_t>(std::max(64.0, options.memory.value()) * 1e6)) {}
+
+  Result<std::shared_ptr<const Database>> whole(bool join) {
+    if (auto begun = begin(join ? WorkFolder::Use::join : WorkFolder::Use::alone); !begun)
+      return begun.findings();
+    if (join) {
+      if (auto there = allThere(); !there) return there.findings();
+    } else {
+      if (auto made = makePart(0, 1, true); !made) return made.findings();
+    }
+    if (auto made = finish(join); !made) return made.findings();
+    auto database = Database::open(output_);
+    if (!database) return database;
+    return Result<std::shared_ptr<const Database>>(*database, findings_);
+  }
+
+  Result<Done> part(std::uint32_t part, std::uint32_t parts) {
+    if (parts > kMostBakeParts)
+      return refused("bake", "at most " + std::to_string(kMostBakeParts) + " parts", std::to_string(parts));
+    if (part < 1 || part > parts)
+      return refused("bake", "a part from 1 to " + std::to_string(parts), std::to_string(part));
+    if (auto begun = begin(WorkFolder::Use::part); !begun) return begun.findings();
+    if (auto made = makePart(part - 1, parts, false); !made) return made.findings();
+    return Result<Done>(Done{}, findings_);
+  }
+
+ private:
+  /// Scenery's trees take three quarters of the time, where there are any.
+  Progress stage(double from, double to) const {
+    return [this, from, to](double fraction, const std::string& what) {
+      return !options_.progress ||
+             options_.progress(from + (to - from) * std::clamp(fraction, 0.0, 1.0), what);
+    };
+  }
+  void keep(const Findings& findings) { findings_.insert(findings_.end(), findings.begin(), findings.end()); }
+
+  Result<Done> mayTakePlace() const {
+    if (mayReplace(output_)) return Done{};
+    return refused(output_, "a new folder, an empty one or a terrain database with nothing beside it",
+                   "something else, left as it is");
+  }
+
+  /// Everything up to the heights in their file.
+  Result<Done> begin(WorkFolder::Use use) {
+    if (options_.sources.empty()) return refused("bake", "at least one elevation file", "none");
+    if (output_.empty()) return refused("bake", "an output folder", "none");
+    if (auto may = mayTakePlace(); !may) return may;
+    const auto files = sourceFiles(options_.sources);
+    if (!files) return files.findings();
+    recipe_ = recipeOf(options_, *files);
+    auto work = WorkFolder::open(output_, stampedRecipe(options_, *files), use);
+    if (!work) return work.findings();
+    work_ = std::move(work).value();
+    // Asked before other parts of the same bake come to write there.
+    goesOn_ = work_->resumed() && !work_->journal().empty();
+    scenery_ = std::any_of(options_.sources.begin(), options_.sources.end(), isScenery);
+    auto source = readSource(options_, memory_, stage(0, scenery_ ? 0.1 : 0.2));
+    if (!source) return source.findings();
+    keep(source.findings());
+    source_ = std::move(source).value();
+    if (Findings beyond = beyondLimits(source_->elevation->posts(),
+                                       files->size() == 1 ? files->front().string() : "all files together");
+        !beyond.empty())
+      return beyond;
+    // One process makes the heights; other parts wait for them.
+    std::unique_ptr<FileLock> turn;
+    const fs::path turnFile = work_->path() / "heights.lock";
+    while (!(turn = FileLock::tryLock(turnFile, false))) {
+      if (const int reason = errno; reason != EWOULDBLOCK)
+        return refused(turnFile, "a file that can be locked", std::strerror(reason));
+      if (!stage(0.1, 0.2)(0, "waiting for the part that reads the heights")) return cancelled("waiting");
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    if (auto same = keepToPosts(use); !same) return same;
+    auto heights =
+        bakeHeights(*work_, *source_->elevation, memory_, stage(scenery_ ? 0.1 : 0.2, scenery_ ? 0.13 : 0.3));
+    if (!heights) return heights.findings();
+    heights_ = *heights;
+    keep(sharesOf(source_->elevation->names(), heights_.given));
+    if (heights_.outside > 0)
+      findings_.push_back({Severity::note, files->front().string(), "outline",
+                           scenery_ ? "tiles over the whole rectangle of the terrain"
+                                    : "elevation over the whole rectangle of the terrain",
+                           std::to_string(heights_.outside) + " posts beyond it, continued from its edge"});
+    auto opened = FileHeights::open(*work_, heights_);
+    if (!opened) return opened.findings();
+    file_ = std::move(opened).value();
+    if (auto made = source_->makeTiles(*file_, stage(0.13, 0.15)); !made) return made;
+    geometry_ = std::make_unique<PostGeometry>(heights_.posts);
+    const double leafM =
+        options_.maxError ? options_.maxError->value() : defaultLeafToleranceM(heights_.posts);
+    patches_ = std::make_unique<PatchBake>(*work_, heights_.posts, *geometry_, leafM);
+    GroundSources ground;
+    ground.heights = file_.get();
+    ground.geometry = geometry_.get();
+    ground.memory = memory_ / 2;  // patches may be made beside it
+    if (options_.imagery) ground.images = {*options_.imagery};
+    if (source_->tiles)
+      ground.triangles =
+          &materials_.emplace(*source_->tiles, heights_.posts.longitude((heights_.posts.columns - 1) / 2.0));
+    ground_ = std::make_unique<GroundBake>(*work_, std::move(ground));
+    return Done{};
+  }
+
+  /// Finished work is of these posts, or goes; not where it is parts'.
+  Result<Done> keepToPosts(WorkFolder::Use use) {
+    const PostGrid& posts = source_->elevation->posts();
+    const std::string others = workForOtherPosts(*work_, posts);
+    if (!others.empty() && use != WorkFolder::Use::alone)
+      return refused(work_->path(), "parts of one grid, here of " + inWords(posts),
+                     others +
+                         ", left as they are: bake these parts of the sources as they were, or remove the "
+                         "folder and bake all parts again");
+    if (!others.empty())
+      if (auto emptied = work_->beginAnew(); !emptied) return emptied;
+    if (goesOn_ && work_->resumed())
+      findings_.push_back({Severity::note, output_.string(), "", "", "goes on from an interrupted bake"});
+    return Done{};
+  }
+
+  /// Asked after whatever reads heights: what could not be read is 0 m there.
+  Result<Done> allRead() const {
+    if (file_->failed()) return unreadable((work_->database() / kHeightsName).string());
+    return Done{};
+  }
+
+  /// Patches and ground of a share, and of the whole what its tiles are drawn by.
+  Result<Done> makePart(std::uint32_t part, std::uint32_t parts, bool whole) {
+    // Side by side, where memory holds both: the ground is one core's work for long, and patches, in many
+    // small pieces, take whatever time of the cores is left.
+    const bool beside = memory_ >= kBesideBytes;
+    const Progress patches = stage(scenery_ ? 0.15 : 0.3, scenery_ ? 0.2 : 0.7);
+    const Progress ground = stage(scenery_ ? 0.2 : 0.7, scenery_ ? 0.25 : 0.9);
+    std::atomic<bool> stop{false}, failed{false};
+    std::atomic<double> share{0};
+    // Only this thread tells of progress.
+    const Progress other = [&](double done, const std::string& what) {
+      share = done;
+      return beside ? !stop : ground(done, what);
+    };
+    auto made = std::async(beside ? std::launch::async : std::launch::deferred, [&]() -> Result<Done> {
+      auto done = ground_->make(part, parts, other);
+      if (done && beside && whole && tileBytes() <= memory_ / 4) done = measureTiles(other);
+      failed = !done;
+      return done;
+    });
+    // However this ends, the other thread is not left at what nobody wants.
+    const std::unique_ptr<std::atomic<bool>, void (*)(std::atomic<bool>*)> stopper(
+        &stop, [](std::atomic<bool>* flag) { *flag = true; });
+    auto result =
+        patches_->make(*file_, part, parts, beside ? memory_ / 2 : memory_,
+                       [&](double done, const std::string& what) { return !failed && patches(done, what); });
+    if (result || failed) {
+      while (made.wait_for(std::chrono::milliseconds(50)) == std::future_status::timeout)
+        if (!ground(share, "the ground's colours")) stop = true;
+      result = made.get();
+    }
+    const auto read = allRead();
+    return read ? result : read;
+  }
+
+  Result<Done> allThere() {
+    const auto there = patches_->finished();
+    const auto missing = std::count(there.begin(), there.end(), std::uint8_t{0});
+    if (missing > 0)
+      return refused(work_->path(), "all " + std::to_string(there.size()) + " pieces of the parts",
+                     std::to_string(missing) + " missing: let every part end, then join");
+    if (ground_->parts() == 0)
+      return refused(work_->path(), "the ground of all parts of one number of parts", "not all of them");
+    return Done{};
+  }
+
+  /// Of slopes of all levels, and of colours.
+  std::size_t tileBytes() const {
+    const std::size_t posts = heights_.posts.size(),
+                      images = (options_.imagery ? 1 : 0) + (source_->tiles ? 1 : 0);
+    return posts * 4 / 3 + images * posts * 4;
+  }
+  Result<Done> measureTiles(const Progress& progress) {
+    const PostGrid& posts = heights_.posts;
+    if (posts.size() > kMostTiledPosts || tileLevels_) return Done{};
+    const auto mapped = MappedFile::open(work_->database() / kHeightsName);
+    if (!mapped) return mapped.findings();
+    TerrainIndex index = makeLevels(posts);
+    CellSlopes slopes(index);
+    const std::span heights(reinterpret_cast<const float*>((*mapped)->bytes().data()), posts.size());
+    if (!measureLevels(posts, heights, *geometry_, index, slopes,
+                       [&](double f) { return progress(f, "measuring levels"); }))
+      return cancelled("measuring levels");
+    tileLevels_ = {std::move(index), std::move(slopes)};
+    return Done{};
+  }
+
+  /// Nodes, slopes and colours of tiles, where the grid has them.
+  Result<Done> makeTiles() {
+    const PostGrid& posts = heights_.posts;
+    if (posts.size() > kMostTiledPosts) return Done{};
+    const auto part = [&](double from, double to) {
+      return scenery_ ? stage(0.25 + 0.1 * from, 0.25 + 0.1 * to) : stage(0.9 + 0.08 * from, 0.9 + 0.08 * to);
+    };
+    if (tileBytes() > memory_) {
+      findings_.push_back({Severity::note, output_.string(), "tiles",
+                           std::to_string(tileBytes() / 1000000 + 1) + " MB of memory for them",
+                           std::to_string(memory_ / 1000000) + " MB: left out, patches are drawn"});
+      return Done{};
+    }
+    if (auto done = measureTiles(part(0, 0.7)); !done) return done;
+    const auto& [index, slopes] = *tileLevels_;
+    if (auto done = put(kNodesName, nodeNumbers(index)); !done) return done;
+    if (auto done = put(kSlopesName, slopes.cells); !done) return done;
+    if (auto done = put(kConesName, index.cones); !done) return done;
+    tileLevels_.reset();
+    auto colours = source_->image(part(0.7, 0.85));
+    if (!colours) return colours.findings();
+    std::vector<std::uint8_t> image = std::move(colours).value();
+    if (options_.imagery) {
+      auto read = readImagery(*options_.imagery, posts, part(0.85, 1));
+      if (!read) return read.findings();
+      drape(std::move(read).value(), image);
+    }
+    if (image.empty()) return Done{};
+    hasImage_ = true;
+    CheckedRows::Sums rows(std::size_t{posts.columns} * 4);
+    rows.add(std::as_bytes(std::span(image)));
+    const auto file =
+        writeFile(work_->database(), kImageName, {reinterpret_cast<const char*>(image.data()), image.size()});
+    if (!file) return file.findings();
+    if (auto done = put(kImageSumsName, rows.finish()); !done) return done;
+    files_.push_back({kImageName, image.size(), files_.back().sum});
+    return Done{};
+  }
+
+  template <class T>
+  Result<Done> put(const char* name, const std::vector<T>& values) {
+    const auto file = writeFile(work_->database(), name,
+                                {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+    if (!file) return file.findings();
+    files_.push_back(*file);
+    return Done{};
+  }
+  Result<Done> putPages(const char* name) {
+    const auto pages = PageFile::open(work_->database() / name);
+    if (!pages) return pages.findings();
+    files_.push_back({name, (*pages)->bytes(), (*pages)->checksum()});
+    return Done{};
+  }
+
+  Result<Done> makeTrees() {
+    if (!source_->tiles) return Done{};
+    if (source_->treesBytes > memory_) {
+      findings_.push_back({Severity::note, output_.string(), "trees",
+                           std::to_string(source_->treesBytes / 1000000 + 1) + " MB of memory for them",
+                           std::to_string(memory_ / 1000000) + " MB: left out, patches are drawn"});
+      return Done{};
+    }
+    const auto meshes = source_->tiles->takeAll();
+    if (!meshes) return meshes.findings();
+    StaticLodOptions trees;
+    trees.trianglesPerNode = options_.trianglesPerNode;
+    trees.keepLines = options_.keepLines;
+    trees.progress = stage(0.35, 0.98);
+    auto built = buildStaticLod(*meshes, geometry_->frame(), trees);
+    if (!built) return built.findings();
+    keep(built.findings());
+    const auto withSea = withOpenSea(*built, *meshes, *file_);
+    if (auto read = allRead(); !read) return read;
+    trianglesPerNode_ = withSea->trianglesPerNode;
+    const fs::path file = work_->database() / kStaticLodName;
+    if (auto written = writeStaticLod(file, *withSea); !written) return written.findings();
+    std::error_code error;
+    files_.push_back({kStaticLodName, fs::file_size(file, error), {}});
+    return Done{};
+  }
+
+  Result<Done> finish(bool join) {
+    std::error_code error;
+    // What an interrupted end left.
+    for (const auto& entry : fs::directory_iterator(work_->database(), error)) {
+      const std::string name = entry.path().filename().string();
+      if (name != kHeightsName && name != kHeightSumsName) fs::remove_all(entry.path(), error);
+    }
+    if (auto done = patches_->join(work_->database() / kPatchesName,
+                                   stage(scenery_ ? 0.25 : 0.9, scenery_ ? 0.25 : 0.9));
+        !done)
+      return done;
+    const auto ground = ground_->join(join ? ground_->parts() : 1, work_->database() / kGroundName,
+                                      stage(scenery_ ? 0.25 : 0.9, scenery_ ? 0.25 : 0.9));
+    if (!ground) return ground;
+    keep(ground.findings());
+    for (const char* name : {kPatchesName, kGroundName})
+      if (auto done = putPages(name); !done) return done;
+    const std::uint64_t bytes = std::uint64_t{heights_.posts.size()} * sizeof(float);
+    files_.push_back({kHeightsName, bytes, heights_.sum});
+    const auto sums = fs::file_size(work_->database() / kHeightSumsName, error);
+    files_.push_back({kHeightSumsName, sums, heights_.sum});
+    if (auto done = makeTiles(); !done) return done;
+    // Last: these take scenery's tiles for themselves.
+    if (auto done = makeTrees(); !done) return done;
+
+    TerrainInfo info;
+    info.name = nameOf(options_.sources.front());
+    if (options_.sources.size() > 1)
+      info.name += " and " + std::to_string(options_.sources.size() - 1) + " more";
+    info.source = joinedNames(options_.sources);
+    if (options_.imagery) info.source += ", " + options_.imagery->string();
+    info.lowest = Metres{heights_.lowest};
+    info.highest = Metres{heights_.highest};
+    info.voidsFilled = heights_.voids;
+    info.scenery = source_->scenery;
+    info.hasImage = hasImage_ || options_.imagery;
+    std::sort(files_.begin(), files_.end(),
+              [](const FileEntry& a, const FileEntry& b) { return a.name < b.name; });
+    if (auto written =
+            writeManifest(work_->database(), info, heights_.posts, files_, trianglesPerNode_, recipe_);
+        !written)
+      return written;
+    if (!stage(0.99, 1)(1, "writing")) return cancelled(output_.string());
+    // What is there is not given up for one that cannot be opened.
+    if (auto opened = Database::open(work_->database()); !opened) {
+      Findings why = opened.findings();
+      why.push_back({Severity::error, output_.string(), "",
+                     "a database that can be opened, to take this place",
+                     "one that cannot; what was there is as it was"});
+      return why;
+    }
+    // Whoever put something there meanwhile keeps it.
+    if (auto may = mayTakePlace(); !may) return may;
+    return work_->finish(output_);
+  }
+
+  const BakeOptions& options_;
+  fs::path output_;
+  std::size_t memory_;
+  RasterCacheLimit cache_{memory_ / 8};
+  Findings findings_;
+  std::string recipe_;
+  std::unique_ptr<WorkFolder> work_;
+  bool goesOn_ = false, scenery_ = false, hasImage_ = false;
+  std::unique_ptr<BakeSource> source_;
+  BakedHeights heights_;
+  std::unique_ptr<FileHeights> file_;
+  std::unique_ptr<PostGeometry> geometry_;
+  std::unique_ptr<PatchBake> patches_;
+  std::optional<SceneryGround> materials_;  ///< where the source is scenery
+  std::unique_ptr<GroundBake> ground_;
+  std::optional<std::pair<TerrainIndex, CellSlopes>> tileLevels_;  ///< once they are measured
+  std::vector<FileEntry> files_;
+  std::optional<std::uint32_t> trianglesPerNode_;
+};
+
+}  // namespace
+
+Result<std::shared_ptr<const Database>> bake(const BakeOptions& options) {
+  return orFinding(options.output, [&] { return Job(options).whole(false); });
+}
+Result<std::shared_ptr<const Database>> bakeJoin(const BakeOptions& options) {
+  return orFinding(options.output, [&] { return Job(options).whole(true); });
+}
+Result<Done> bakePart(const BakeOptions& options, std::uint32_t part, std::uint32_t parts) {
+  return orFinding(options.output, [&] { return Job(options).part(part, parts); });
+}
+
+}  // namespace trimtab::terrain

@@ -1,0 +1,278 @@
+#include "work.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <thread>
+
+#include "source.h"
+#include "trimtab/preset/file_io.h"
+#include "trimtab/preset/preset.h"
+#include "trimtab/terrain/format/store.h"
+
+namespace trimtab::terrain {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Finding wrong(const fs::path& where, std::string expected, std::string found) {
+  return {Severity::error, where.string(), "", std::move(expected), std::move(found)};
+}
+
+std::string textOf(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return in ? text.str() : std::string();
+}
+
+std::string thisMachine() {
+  char name[256] = "";
+  return ::gethostname(name, sizeof name - 1) == 0 && name[0] != 0 ? name : "localhost";
+}
+
+/// Whether a process of this machine lives and is what it said: a number is given to others later on.
+bool livesAs(pid_t process, const std::string& program) {
+  if (::kill(process, 0) != 0 && errno == ESRCH) return false;
+  constexpr std::size_t kMostOfName = 15;  // that the system keeps
+  std::istringstream name(textOf("/proc/" + std::to_string(process) + "/comm"));
+  std::string is;
+  return !std::getline(name, is) || is == program.substr(0, kMostOfName);
+}
+
+/// The other processes that have a lock, by what they wrote there; of this machine, those that live.
+std::string holdersOf(const fs::path& file) {
+  std::set<std::string> holders;
+  std::istringstream lines(textOf(file));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    pid_t process = 0;
+    std::string machine, program;
+    if (!(words >> process >> machine) || !std::getline(words >> std::ws, program)) continue;
+    if (machine == thisMachine() && (process == ::getpid() || !livesAs(process, program))) continue;
+    holders.insert("process " + std::to_string(process) + " (" + program + ") on " + machine);
+  }
+  std::string all;
+  for (const std::string& holder : holders) all += (all.empty() ? " by " : ", ") + holder;
+  return all;
+}
+
+Finding otherBake(const fs::path& output, const fs::path& lock, const std::string& also) {
+  return wrong(output, "no other bake at work on this folder" + also,
+               "one" + holdersOf(lock) + ": let it end and bake again, stop it, or name another folder");
+}
+
+/// A rename must be able to put the database there: an empty mount point looks like an empty folder.
+bool onFileSystemOfParent(const fs::path& output) {
+  const fs::path parent = output.has_parent_path() ? output.parent_path() : fs::path(".");
+  struct stat there {
+  }, beside{};
+  return ::lstat(output.c_str(), &there) != 0 || ::stat(parent.c_str(), &beside) != 0 ||
+         there.st_dev == beside.st_dev;
+}
+
+Finding otherArithmetic(const fs::path& path) {
+  return wrong(path, "parts by machines whose C library, GDAL and PROJ agree to the last bit",
+               "those of another machine, left as they are: bake all parts on machines alike");
+}
+
+/// All but what is named.
+std::error_code empty(const fs::path& folder, const std::set<fs::path>& but) {
+  std::error_code error;
+  // What says that the rest is good goes first.
+  fs::remove(folder / "recipe.json", error);
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (!but.contains(entry.path().filename())) fs::remove_all(entry.path(), error);
+  return error;
+}
+
+Result<Done> makeFolders(const fs::path& path) {
+  std::error_code error;
+  for (const char* folder : {"database", "pieces"})
+    if (!error) fs::create_directories(path / folder, error);
+  if (error) return wrong(path, "a folder that can be written", error.message());
+  return Done{};
+}
+
+}  // namespace
+
+std::unique_ptr<FileLock> FileLock::tryLock(const fs::path& file, bool shared) {
+  const int handle = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_APPEND, 0666);
+  if (handle < 0) return {};
+  struct stat held {
+  }, there{};
+  int refused =
+      ::flock(handle, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0 || ::fstat(handle, &held) != 0 ? errno : 0;
+  // Whoever had it before may have removed the folder with it.
+  if (refused == 0 &&
+      (::stat(file.c_str(), &there) != 0 || held.st_ino != there.st_ino || held.st_dev != there.st_dev))
+    refused = EWOULDBLOCK;
+  if (refused != 0) {
+    ::close(handle);
+    errno = refused;
+    return {};
+  }
+  // For whoever is refused; without room for it the lock holds all the same.
+  const std::string line =
+      std::to_string(::getpid()) + ' ' + thisMachine() + ' ' + ::program_invocation_short_name + '\n';
+  const bool told = (shared || ::ftruncate(handle, 0) == 0) && ::write(handle, line.data(), line.size()) > 0;
+  static_cast<void>(told);
+  return std::unique_ptr<FileLock>(new FileLock(handle));
+}
+
+FileLock::~FileLock() {
+  ::close(handle_);
+}
+
+Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, const std::string& recipe,
+                                                     Use use) {
+  if (!onFileSystemOfParent(output))
+    return wrong(output, "a folder on the file system of the one that holds it",
+                 "a mount point: name a folder in it");
+  const bool shared = use == Use::part;
+  const fs::path path = output.parent_path() / ("." + output.filename().string() + ".work");
+  const fs::path lockFile = path / "lock";
+  if (std::error_code error;
+      use == Use::join && !fs::exists(path / "recipe.json", error) && !fs::exists(path / "old", error))
+    return wrong(path, "all parts of a bake", "none: all are missing");
+  std::unique_ptr<FileLock> lock;
+  int refused = 0;
+  const auto takeLock = [&](bool beside) {
+    lock = FileLock::tryLock(lockFile, beside);
+    refused = lock ? 0 : errno;
+    // The folder may be gone again for a moment.
+    return lock || refused == EWOULDBLOCK || refused == ENOENT;
+  };
+  const auto noLock = [&] { return wrong(lockFile, "a file that can be locked", std::strerror(refused)); };
+  // Parts that begin at once take turns to look at the folder.
+  for (int turn = 0; turn < 100; ++turn) {
+    std::error_code error;
+    fs::create_directories(path, error);
+    if (error) return wrong(path, "a folder that can be written", error.message());
+    if (!takeLock(false)) return noLock();
+    if (lock) {
+      const std::string there = textOf(path / "recipe.json");
+      const bool same = there == recipe;
+      if (!same && use != Use::alone && sameButForArithmetic(there, recipe)) return otherArithmetic(path);
+      if (!same && use == Use::join && fs::exists(path / "recipe.json", error))
+        return wrong(path, "parts of the same sources, options and version of this program",
+                     "those of others, left as they are");
+      if (!same) {
+        // Killed between its last two steps, a bake left the old database here.
+        if (fs::exists(path / "old", error) && !fs::exists(output, error))
+          fs::rename(path / "old", output, error);
+        if (error) return wrong(path / "old", "a database that can go back to its place", error.message());
+        error = empty(path, {"lock"});
+        if (error) return wrong(path, "a folder that can be emptied", error.message());
+        if (auto written = writeAtomically(path / "recipe.json", recipe); !written) return written.findings();
+      }
+      if (auto made = makeFolders(path); !made) return made.findings();
+      if (!shared) return std::unique_ptr<WorkFolder>(new WorkFolder(path, std::move(lock), same));
+      lock.reset();
+    }
+    if (shared) {
+      if (!takeLock(true)) return noLock();
+      if (lock && textOf(path / "recipe.json") == recipe)
+        return std::unique_ptr<WorkFolder>(new WorkFolder(path, std::move(lock), true));
+      if (lock && sameButForArithmetic(textOf(path / "recipe.json"), recipe)) return otherArithmetic(path);
+      if (lock) return otherBake(output, lockFile, " with other sources or options");
+    } else if (turn >= 5) {
+      break;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return refused == ENOENT ? noLock() : otherBake(output, lockFile, "");
+}
+
+WorkFolder::~WorkFolder() {
+  std::error_code ignored;
+  if (!lock_ || !journal().empty()) return;
+  // Others may be at work on their parts.
+  lock_.reset();
+  const auto alone = FileLock::tryLock(path_ / "lock", false);
+  if (alone && journal().empty()) fs::remove_all(path_, ignored);
+}
+
+Result<Done> WorkFolder::beginAnew() {
+  const std::string recipe = textOf(path_ / "recipe.json");
+  // What was the output before, where it could not go back, is none of this work.
+  if (const std::error_code error = empty(path_, {"lock", "heights.lock", "old"}))
+    return wrong(path_, "a folder that can be emptied", error.message());
+  if (auto made = makeFolders(path_); !made) return made;
+  if (auto written = writeAtomically(path_ / "recipe.json", recipe); !written) return written.findings();
+  resumed_ = false;
+  return Done{};
+}
+
+std::vector<std::string> WorkFolder::journal() const {
+  std::vector<std::string> lines;
+  std::ifstream in(path_ / "journal");
+  for (std::string line; std::getline(in, line);) {
+    // A line that a full disk cut off may have another one behind it.
+    if (line.size() > 17 &&
+        line.substr(line.size() - 16) == hexadecimal(checksum(line.substr(0, line.size() - 17))))
+      lines.push_back(line.substr(0, line.size() - 17));
+  }
+  return lines;
+}
+
+Result<Done> WorkFolder::note(const std::string& line) const {
+  const fs::path file = path_ / "journal";
+  const std::string text = "\n" + line + " " + hexadecimal(checksum(line)) + "\n";
+  const int handle = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  const bool done =
+      handle >= 0 && ::write(handle, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  const int error = errno;
+  if (handle >= 0) ::close(handle);
+  if (!done) return wrong(file, "room to write a line", std::strerror(error));
+  return Done{};
+}
+
+Result<Done> WorkFolder::finish(const fs::path& output) {
+  // Pieces that a power cut spoils are found by their sums and made again; the database must be whole under
+  // its name.
+  std::error_code error, ignored;
+  for (const auto& entry : fs::directory_iterator(database(), error))
+    if (auto done = reachDisk(entry.path()); !done) return done;
+  if (error) return wrong(database(), "a folder that can be read", error.message());
+  if (auto done = reachDisk(database()); !done) return done;
+  const fs::path recipe = path_ / "recipe.json", spent = path_ / "recipe.spent";
+  // Killed after this, the next bake begins anew; it must not take the old database for its own.
+  fs::rename(recipe, spent, error);
+  if (error) return wrong(recipe, "a file that can be renamed", error.message());
+  const fs::path made = database(), old = path_ / "old";
+  std::string also;
+  if (fs::symlink_status(output, ignored).type() == fs::file_type::not_found) {
+    fs::rename(made, output, error);
+  } else if (::renameat2(AT_FDCWD, made.c_str(), AT_FDCWD, output.c_str(), RENAME_EXCHANGE) != 0) {
+    fs::rename(output, old, error);
+    if (!error) {
+      fs::rename(made, output, error);
+      std::error_code back;
+      if (error) fs::rename(old, output, back);
+      if (back) also = "; what was there is in " + old.string();
+    }
+  }
+  if (error) {
+    fs::rename(spent, recipe, ignored);
+    return wrong(output, "a place to put the database", error.message() + also);
+  }
+  const fs::path beside = output.has_parent_path() ? output.parent_path() : fs::path(".");
+  static_cast<void>(reachDisk(beside));
+  fs::remove_all(path_, ignored);
+  lock_.reset();
+  return Done{};
+}
+
+}  // namespace trimtab::terrain

@@ -1,0 +1,206 @@
+#include "values.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <limits>
+#include <map>
+
+namespace trimtab::terrain {
+
+namespace {
+
+constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
+
+/// Metres a unit of the band.
+std::optional<double> verticalUnit(const std::string& name) {
+  static const std::map<std::string, double> kUnits = {{"ft", 0.3048},
+                                                       {"foot", 0.3048},
+                                                       {"feet", 0.3048},
+                                                       {"international foot", 0.3048},
+                                                       {"us survey foot", 1200.0 / 3937},
+                                                       {"ftus", 1200.0 / 3937},
+                                                       {"us-ft", 1200.0 / 3937},
+                                                       {"sfoot", 1200.0 / 3937},
+                                                       {"foot_us", 1200.0 / 3937},
+                                                       {"cm", 0.01},
+                                                       {"centimetre", 0.01},
+                                                       {"centimeter", 0.01},
+                                                       {"dm", 0.1},
+                                                       {"km", 1000},
+                                                       {"yd", 0.9144},
+                                                       {"fathom", 1.8288}};
+  if (name.empty()) return {};
+  std::string lower;
+  for (const char c : name) lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const auto unit = kUnits.find(lower);
+  return unit == kUnits.end() ? 1.0 : unit->second;
+}
+
+float metresOf(float raw, const Values& values) {
+  return static_cast<float>(raw * values.scale + values.offset);
+}
+/// Deeper than any shore.
+bool isDeep(float metres) {
+  return metres < -500;
+}
+bool isPossible(float metres) {
+  return metres >= -11500 && metres <= 9500;
+}
+/// So far from any height that it stands for none.
+bool isAbsurd(float metres) {
+  return !(metres > -15000 && metres < 40000);
+}
+std::optional<std::size_t> voidNumber(float raw) {
+  const auto* const number = std::find(kVoidNumbers.begin(), kVoidNumbers.end(), raw);
+  if (number == kVoidNumbers.end()) return {};
+  return static_cast<std::size_t>(number - kVoidNumbers.begin());
+}
+float noDataOf(const Values& values) {
+  return values.noData ? static_cast<float>(*values.noData) : kVoid;
+}
+
+}  // namespace
+
+bool looksLikeImage(GDALDataset& data) {
+  GDALRasterBand* band = data.GetRasterCount() > 0 ? data.GetRasterBand(1) : nullptr;
+  return band == nullptr || (data.GetRasterCount() >= 3 && band->GetRasterDataType() == GDT_Byte) ||
+         band->GetColorTable() != nullptr;
+}
+
+Values valuesOf(GDALRasterBand& band, double crsUnit) {
+  Values values;
+  int has = 0;
+  const double noData = band.GetNoDataValue(&has);
+  if (has) values.noData = noData;
+  const double unit = verticalUnit(band.GetUnitType()).value_or(crsUnit);
+  const double scale = band.GetScale(&has);
+  values.scale = unit * (has ? scale : 1.0);
+  const double offset = band.GetOffset(&has);
+  values.offset = unit * (has ? offset : 0.0);
+  return values;
+}
+
+void Census::add(std::span<const float> raw, const Values& values) {
+  const float noData = noDataOf(values);
+  const bool tagged = values.noData.has_value();
+  posts_ += raw.size();
+  for (const float v : raw) {
+    const float metres = metresOf(v, values);
+    if (v == noData || std::isnan(v)) {
+      ++voids_;
+      continue;
+    }
+    if (!tagged)
+      if (const auto number = voidNumber(v)) {
+        ++numbers_[*number].posts;
+        continue;
+      }
+    if (!isPossible(metres)) {
+      ++impossible_;
+      if (isAbsurd(metres)) ++absurd_;
+      continue;
+    }
+    if (isDeep(metres)) ++deep_;
+    if (tagged) continue;
+    for (std::size_t k = 0; k < kVoidNumbers.size(); ++k)
+      if (kVoidNumbers[k] > 0 ? v >= 0.9f * kVoidNumbers[k] : v <= 0.9f * kVoidNumbers[k]) ++numbers_[k].like;
+  }
+}
+
+void Census::judge(Values& values) const {
+  values.deepIsVoid = !values.noData && absurd_ > 0;
+  for (std::size_t k = 0; k < kVoidNumbers.size(); ++k) {
+    const auto& [posts, like] = numbers_[k];
+    values.isVoid[k] = posts > 0 && (like < posts || !isPossible(metresOf(kVoidNumbers[k], values)));
+    if (values.isVoid[k]) values.deepIsVoid = true;
+  }
+}
+
+std::uint64_t Census::untagged(const Values& values) const {
+  std::uint64_t untagged = impossible_ + (values.deepIsVoid ? deep_ : 0);
+  for (std::size_t k = 0; k < kVoidNumbers.size(); ++k)
+    if (values.isVoid[k] || (values.deepIsVoid && isDeep(metresOf(kVoidNumbers[k], values))))
+      untagged += numbers_[k].posts;
+  return untagged;
+}
+
+void toMetres(std::span<float> raw, const Values& values) {
+  const float noData = noDataOf(values);
+  const bool numbers = std::find(values.isVoid.begin(), values.isVoid.end(), true) != values.isVoid.end();
+  for (float& v : raw) {
+    const float metres = metresOf(v, values);
+    bool isVoid = v == noData || !isPossible(metres) || (values.deepIsVoid && isDeep(metres));
+    if (numbers && !isVoid)
+      if (const auto number = voidNumber(v)) isVoid = values.isVoid[*number];
+    v = isVoid ? kVoid : metres;
+  }
+}
+
+Vertical verticalOf(const PlacedRaster& raster) {
+  Vertical vertical;
+  const OGRSpatialReference* named = raster.data->GetSpatialRef();
+  if (named == nullptr || named->IsLocal() || !(named->IsCompound() || named->GetAxesCount() == 3))
+    return vertical;
+  OGRSpatialReference file = *named, geoid;
+  file.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const char* name = file.IsCompound() ? file.GetAttrValue("COMPD_CS|VERT_CS") : nullptr;
+  const std::string datum = name ? name : "the ellipsoid";
+  if (file.IsCompound()) vertical.unit = file.GetTargetLinearUnits("COMPD_CS|VERT_CS", nullptr);
+  if (!(vertical.unit > 0)) vertical.unit = 1;
+  if (geoid.SetFromUserInput("EPSG:4326+5773") != OGRERR_NONE) return vertical;
+  geoid.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const std::string expected = "heights above the EGM96 geoid, or a datum that PROJ has a grid for";
+  vertical.note = {expected, datum + ": PROJ cannot take it there, heights kept as they are"};
+  // Ballpark steps would leave heights as they are and call that a conversion.
+  OGRCoordinateTransformationOptions options;
+  options.SetBallparkAllowed(false);
+  std::shared_ptr<OGRCoordinateTransformation> toFile(
+      OGRCreateCoordinateTransformation(&geoid, &file, options));
+  if (!toFile) return vertical;
+  // Places all over the raster, its borders among them, by way of its horizontal CRS.
+  const OGRSpatialReference degrees = degreesOfWgs84();
+  std::unique_ptr<OGRCoordinateTransformation> place(
+      OGRCreateCoordinateTransformation(&raster.crs, &degrees));
+  if (!place) return vertical;
+  const GdalErrors quiet;
+  constexpr std::size_t kTries = 33;
+  std::array<double, kTries> x{}, y{}, z{};
+  std::array<int, kTries> placed{}, good{};
+  const auto& g = raster.transform;
+  const double right = raster.data->GetRasterXSize() - 1, bottom = raster.data->GetRasterYSize() - 1;
+  double low = std::numeric_limits<double>::max(), high = -low;
+  std::size_t tried = 0, lost = 0;
+  for (std::size_t j = 0; j < kTries; ++j) {
+    for (std::size_t i = 0; i < kTries; ++i) {
+      const double across = 0.5 + right * static_cast<double>(i) / (kTries - 1),
+                   down = 0.5 + bottom * static_cast<double>(j) / (kTries - 1);
+      x[i] = g[0] + g[1] * across + g[2] * down, y[i] = g[3] + g[4] * across + g[5] * down, z[i] = 0;
+    }
+    place->Transform(kTries, x.data(), y.data(), nullptr, placed.data());
+    for (double& longitude : x) longitude = std::remainder(longitude, 360.0);
+    toFile->Transform(kTries, x.data(), y.data(), z.data(), good.data());
+    for (std::size_t i = 0; i < kTries; ++i) {
+      if (!placed[i]) continue;
+      ++tried;
+      if (!good[i] || !std::isfinite(z[i])) {
+        ++lost;
+        continue;
+      }
+      low = std::min(low, -z[i] * vertical.unit), high = std::max(high, -z[i] * vertical.unit);
+    }
+  }
+  if (lost == tried) return vertical;
+  vertical.note.reset();
+  if (lost > 0)
+    vertical.lost = {expected, datum + ": PROJ has nothing for " + std::to_string(lost) + " of " +
+                                   std::to_string(tried) + " places, where heights are taken as voids"};
+  if (lost == 0 && high < 1e-3 && low > -1e-3) return vertical;
+  vertical.note = {
+      "heights above the EGM96 geoid",
+      datum + ": taken there by PROJ, by " + std::to_string(low) + " to " + std::to_string(high) + " m"};
+  vertical.toFile = std::move(toFile);
+  return vertical;
+}
+
+}  // namespace trimtab::terrain

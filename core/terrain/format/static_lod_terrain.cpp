@@ -1,0 +1,29 @@
+#include "trimtab/terrain/format/static_lod_terrain.h"
+
+#include <algorithm>
+
+namespace trimtab::terrain {
+
+void countStaticLod(StaticLodTerrain& terrain) {
+  StaticLodCounts& counts = terrain.counts;
+  counts.levels = 0;
+  counts.faces = counts.sourceTriangles = counts.lockedMinima = 0;
+  for (const StaticLodIndex::Node& node : terrain.index.nodes)
+    counts.levels = std::max<std::uint32_t>(counts.levels, node.depth + 1u);
+  counts.facesOfLevel.assign(counts.levels, 0);
+  for (const StaticLodIndex::Node& node : terrain.index.nodes) {
+    counts.faces += node.triangles;
+    counts.lockedMinima += node.lockedMinimum;
+    const bool leaf = node.children[0] == StaticLodIndex::kNone;
+    if (leaf) counts.sourceTriangles += node.triangles;
+    for (std::uint32_t level = node.depth; level <= (leaf ? counts.levels - 1 : node.depth); ++level)
+      counts.facesOfLevel[level] += node.triangles;
+  }
+  counts.bytes = terrain.index.size() *
+                 (sizeof(StaticLodIndex::Node) + sizeof(Box) + 3 * sizeof(float) + sizeof(StaticLodRange));
+  for (const StaticLodTile& tile : terrain.tiles)
+    counts.bytes += tile.vertices.size() * sizeof(StaticLodVertex) + tile.indices.size() * 4 +
+                    tile.locked.size() + tile.material.size() * 2;
+}
+
+}  // namespace trimtab::terrain

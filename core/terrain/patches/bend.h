@@ -1,0 +1,119 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "page.h"
+
+namespace trimtab::terrain {
+
+/// What turns distances along the page's plane's normal into distances along the vertical.
+///
+/// Let a triangle have posts P_i, a post S in it, over columns and rows, the weights w_i, and let D be S less
+/// the sum of w_i P_i. Along the vertical of S the triangle's plane is off by t = D.N / up.N: with heights h,
+/// (h_S - sum w_i h_i) + D'_up - slope x D'_h, where D' is D without the difference of heights: the bend of
+/// rows and columns. The page's plane, whose normal leans by at most `lean`, shows
+/// (t + slope x D'_h) cos(lean) + D'_h sin(lean). So |t| <= shown / cos(lean) + (slope + tan(lean)) |D'_h|.
+/// The mean of the squares of the corners' distances is at most a quarter of the extent's square, so the
+/// second derivatives of a place by longitude and latitude, along the ground, bound D'_h; corners of
+/// different height add their verticals' angles. Where the vertical of S meets the triangle beside, that
+/// one's slope counts.
+class VerticalBound {
+ public:
+  /// Columns meet at a pole. Nothing that close to it is drawn apart.
+  static constexpr double kShortestM = 0.01;
+  /// Of a triangle, in columns, rows and metres.
+  struct Extent {
+    double columns, rows, rise;
+  };
+
+  VerticalBound(const PostGrid& posts, const PostGeometry& geometry, const PostWindow& window)
+      : stepLongitude_(posts.stepLongitude * kRadian),
+        stepLatitude_(posts.stepLatitude * kRadian),
+        firstRow_(window.row) {
+    for (const std::uint32_t r : {window.row, window.row + window.rows - 1}) {
+      const double latitude = posts.latitude(r) * kRadian;
+      sine_ = std::max(sine_, std::abs(std::sin(latitude)));
+      cosine_ = std::max(cosine_, std::cos(latitude));
+    }
+    if (posts.latitude(window.row) < 0 && posts.latitude(window.row + window.rows - 1) > 0) cosine_ = 1;
+    const double wide = window.columns * stepLongitude_ * cosine_, high = window.rows * stepLatitude_;
+    const double lean = std::min(1.5, 0.51 * std::hypot(wide, high) + 1e-6);
+    cosLean_ = std::cos(lean);
+    tanLean_ = std::tan(lean);
+    perMetre_.reserve(window.rows);
+    for (std::uint32_t r = window.row; r < window.row + window.rows; ++r) {
+      const double column = 1 / std::max(kShortestM, geometry.columnM(r)), row = 1 / geometry.rowM(r);
+      perMetre_.push_back({column * column, row * row});
+    }
+  }
+  double cosLean() const { return cosLean_; }
+
+  /// Square of a triangle's slope over its place; of corners in a draft.
+  double steepness(const PatchDraft& draft, const std::uint32_t* c) const {
+    const PatchPoint &p = draft.vertices[c[0]], &q = draft.vertices[c[1]], &r = draft.vertices[c[2]];
+    const auto apart = [](std::uint32_t to, std::uint32_t from) {
+      return static_cast<double>(static_cast<std::int32_t>(to - from));
+    };
+    const double bx = apart(q.column, p.column), by = apart(q.row, p.row), cx = apart(r.column, p.column),
+                 cy = apart(r.row, p.row);
+    const double z = draft.z[c[0]], bz = draft.z[c[1]] - z, cz = draft.z[c[2]] - z;
+    const double perArea = 1 / (bx * cy - by * cx);
+    const double byColumn = (bz * cy - cz * by) * perArea, byRow = (bx * cz - cx * bz) * perArea;
+    // Both steps are shortest at an end of the triangle's rows.
+    const PerMetre &first = perMetre_[std::min({p.row, q.row, r.row}) - firstRow_],
+                   &last = perMetre_[std::max({p.row, q.row, r.row}) - firstRow_];
+    return byColumn * byColumn * std::max(first.column, last.column) +
+           byRow * byRow * std::max(first.row, last.row);
+  }
+  double slope(double steepness) const { return (std::sqrt(steepness) + tanLean_) * 1.02; }
+  double leaning(double steepness) const { return slope(steepness) + tanLean_; }
+
+  static Extent extent(const PatchDraft& draft, const std::uint32_t* c) {
+    const auto of = [&](const auto& p, const auto& q, const auto& r) {
+      return static_cast<double>(std::max({p, q, r}) - std::min({p, q, r}));
+    };
+    const PatchPoint &p = draft.vertices[c[0]], &q = draft.vertices[c[1]], &r = draft.vertices[c[2]];
+    return {of(p.column, q.column, r.column), of(p.row, q.row, r.row),
+            of(draft.heights[c[0]], draft.heights[c[1]], draft.heights[c[2]])};
+  }
+  /// D'_h of a triangle.
+  double sideways(const Extent& of) const {
+    const double lon = of.columns * stepLongitude_, lat = of.rows * stepLatitude_;
+    return sideways(lon, lat, of.rise, std::sqrt(lon * cosine_ * (lon * cosine_) + lat * lat));
+  }
+  /// No less, and sooner found.
+  double atMostSideways(const Extent& of) const {
+    const double lon = of.columns * stepLongitude_, lat = of.rows * stepLatitude_;
+    return sideways(lon, lat, of.rise, lon * cosine_ + lat);
+  }
+  /// Of a patch: no surface over it is further from a post of it than its heights are apart.
+  double most(double columns, double rows, double rise) const {
+    const double lon = columns * stepLongitude_, lat = rows * stepLatitude_;
+    return rise + kFarthestM / 8 * (cosine_ * lon * lon + 2 * sine_ * lon * lat + lat * lat);
+  }
+
+ private:
+  static constexpr double kRadian = std::numbers::pi / 180;
+  /// No post is further from the earth's middle, and no radius of curvature is longer.
+  static constexpr double kFarthestM = 6.42e6;
+
+  double sideways(double lon, double lat, double rise, double angle) const {
+    return kFarthestM / 8 *
+               (cosine_ * (sine_ + angle) * lon * lon + 2 * sine_ * lon * lat + (0.011 + angle) * lat * lat) +
+           rise * angle / 2;
+  }
+
+  /// Squares of the columns and rows a metre.
+  struct PerMetre {
+    double column, row;
+  };
+  double stepLongitude_, stepLatitude_;
+  std::uint32_t firstRow_;
+  double sine_ = 0, cosine_ = 0, cosLean_ = 0, tanLean_ = 0;
+  std::vector<PerMetre> perMetre_;  ///< by row
+};
+
+}  // namespace trimtab::terrain

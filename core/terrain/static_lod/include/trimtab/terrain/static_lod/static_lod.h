@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "trimtab/terrain/format/static_lod_terrain.h"
+#include "trimtab/terrain/scenery/scenery.h"
+
+/// Static levels of detail for scenery (document E): a BSP whose leaves hold n/2 to n source triangles,
+/// merged and simplified upward to n +/- 1 a node.
+namespace trimtab::terrain {
+
+struct StaticLodOptions {
+  std::uint32_t trianglesPerNode = 2000;  ///< 1 to kMostTrianglesPerNode
+  /// As terrain::Progress: returning false cancels. Asked node by node; a tile counts once it is done.
+  std::function<bool(double fraction, const std::string& what)> progress;
+  /// Roads, railways, streams and shorelines stay in a node as long as a pixel is no wider than they are
+  /// where the node may first be drawn: at an RMS error of one pixel. Document E, as published, loses them at
+  /// the first step. Nodes may then hold more than n triangles; they state an error no less than that pixel.
+  bool keepLines = false;
+};
+
+/// Builds the trees of all tiles in `frame`; tiles in parallel. Vertices that neighbouring tiles share are
+/// joined first, so that borders stay closed between tiles too. The same input gives the same bytes on any
+/// number of cores. Refused: numbers that are not finite, places more than 1000 km from the frame's origin,
+/// tiles wider than 120 km, indices past their arrays; tiles without triangles are left out with a warning.
+Result<std::shared_ptr<const StaticLodTerrain>> buildStaticLod(std::span<const SceneryMesh> tiles,
+                                                               const LocalFrame& frame,
+                                                               const StaticLodOptions& options);
+
+/// What document E's rule allows a tile: leaves of n/2 to n triangles, every node above at n.
+struct StaticLodLimits {
+  std::uint32_t levels = 0;                     ///< at least
+  std::uint64_t leastFaces = 0, mostFaces = 0;  ///< of all levels
+};
+StaticLodLimits staticLodLimits(std::uint64_t triangles, std::uint32_t trianglesPerNode);
+
+/// One tile in document E's words, beside what its rule allows.
+struct StaticLodReport {
+  std::string tile;
+  std::uint64_t triangles = 0, faces = 0;
+  std::uint32_t trianglesPerNode = 0, levels = 0, lockedMinima = 0;
+  std::vector<std::uint64_t> facesOfLevel;   ///< as StaticLodCounts
+  std::vector<double> rmsErrorM, maxErrorM;  ///< largest of the nodes of a level
+  StaticLodLimits limits;
+};
+StaticLodReport reportStaticLod(const StaticLodTerrain& terrain, std::size_t tile);
+/// The tile whose source triangles are nearest in number; the terrain has at least one tile.
+std::size_t tileNearest(const StaticLodTerrain& terrain, std::uint64_t triangles);
+
+}  // namespace trimtab::terrain

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "trimtab/terrain/static_lod/error.h"
+#include "trimtab/terrain/static_lod/lattice.h"
+
+namespace trimtab::terrain {
+
+/// The tree of one tile with its meshes, while it is being built. Nodes in preorder: parents first.
+struct LodTree {
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  /// Depth of a vertex that every node of the tile leaves where it is.
+  static constexpr std::int8_t kFixed = -1;
+
+  struct Node {
+    std::array<std::uint32_t, 2> children{kNone, kNone};
+    std::uint32_t first = 0, last = 0;  ///< of the source triangles in `order`
+    std::uint8_t depth = 0;
+    bool lockedMinimum = false;
+    double rmsErrorM = 0, maxErrorM = 0, slopeMax = 0;
+    double lineWidthM = 0;  ///< lines as wide as this or wider were kept; it states no lesser error
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<std::uint16_t> material;
+  };
+
+  Lattice origin;  ///< whole multiples of 16 m
+  std::vector<Node> nodes;
+  std::vector<std::uint32_t> order;  ///< source triangles, leaf by leaf
+  std::vector<Lattice> vertices;     ///< the source's, then those that collapses made
+  std::vector<Vec3> normals;         ///< one a vertex, any length
+  /// One a vertex: depth of the shallowest node that it is a border of plus one, so that deeper nodes may not
+  /// move it; kFixed: no node may.
+  std::vector<std::int8_t> freeFrom;
+  std::vector<float> lineWidthM;  ///< one a vertex, as lineWidths(); empty: lines are not kept
+  std::uint64_t distinctFaces = 0, folded = 0;
+
+  /// Whether a node of that depth must leave the vertex.
+  bool locked(std::uint32_t vertex, std::uint8_t depth) const {
+    return freeFrom[vertex] == kFixed || freeFrom[vertex] < static_cast<int>(depth);
+  }
+  /// Whether it holds a line that a pixel so wide shows.
+  bool onLine(std::uint32_t vertex, double pixelM) const {
+    return vertex < lineWidthM.size() && lineWidthM[vertex] > 0 && lineWidthM[vertex] >= pixelM;
+  }
+};
+
+/// Splits by upright planes across the longer side, at the median of the triangles' middles, down to leaves
+/// of n/2 to n; merges and simplifies upwards; measures. `lineWidthM`: one a vertex of the tile, to keep
+/// lines; or empty. `goesOn` is asked once or twice a node: a tree without nodes when it says no.
+LodTree buildTree(const LatticeTile& tile, std::uint32_t trianglesPerNode, std::vector<float> lineWidthM = {},
+                  const std::function<bool()>& goesOn = {});
+
+/// Measures every node, children first. Samples are the vertices of the source triangles below the node,
+/// against the node's surface, and the node's own vertices against those triangles; each place once and all
+/// of one weight. Where the source covers ground twice the nearest sheet counts. A node's error is no less
+/// than its children's. `goesOn` is asked once a node; false when it says no.
+bool measureTree(const LatticeTile& tile, LodTree& tree, const std::function<bool()>& goesOn = {});
+
+/// The same for one node that is no leaf, without its children's share.
+class NodeMeasure {
+ public:
+  /// Both must outlive it; the tree has its `order` and may grow.
+  NodeMeasure(const LatticeTile& tile, const LodTree& tree);
+  struct Error {
+    double rmsM = 0, maxM = 0;
+  };
+  Error of(const LodTree::Node& node);
+
+ private:
+  const LatticeTile& tile_;
+  const LodTree& tree_;
+  std::vector<std::array<std::uint32_t, 3>> source_;  ///< leaf by leaf, so that a node's are one stretch
+  VerticalDistance toSource_;
+  std::vector<std::uint32_t> seen_;
+  std::uint32_t stamp_ = 0;
+};
+
+}  // namespace trimtab::terrain

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <algorithm>
+
+#include "tests/bench/row.h"
+#include "trimtab/frame/frame.h"
+#include "trimtab/terrain/format/database.h"
+
+namespace trimtab::bench {
+
+/// Whole frames of the culling cases, one after the other on the same view; and the peers that need a
+/// terrain.
+void frameRows(Report& report);
+
+/// All that the processor does to choose what to draw, beside the frame: over 64 x 64 tiles of the finest
+/// level, all of which the cut has.
+void stageRows(Report& report);
+
+/// So far above the ground at a place by fractions of the terrain's extent.
+GeodeticPosition placeOver(const terrain::Database& database, double east, double north, double aboveM);
+
+/// Of the view's finer axis.
+inline double pixelsPerRadian(const ViewShape& v) {
+  return std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom));
+}
+
+}  // namespace trimtab::bench

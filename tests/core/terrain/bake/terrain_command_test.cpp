@@ -1,0 +1,182 @@
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <vector>
+
+#include "tests/core/terrain/scenery/scenery_tiles.h"
+
+namespace trimtab {
+namespace {
+
+std::string cli(const std::string& arguments) {
+  return test::program("trimtab-cli").string() + " terrain " + arguments;
+}
+
+class TerrainCommand : public ::testing::Test {
+ protected:
+  std::string at(const char* name) const { return (dir_ / name).string(); }
+  test::ScratchDir dir_;
+};
+
+TEST_F(TerrainCommand, makesBakesAndDescribesASample) {
+  const auto sample = test::run(cli("sample -o " + at("s.tif") + " --seed 3 --size-km 20 --post-m 100"));
+  ASSERT_EQ(sample.exitCode, 0) << sample.err;
+  EXPECT_NE(sample.err.find('%'), std::string::npos);
+  const auto baked = test::run(cli("bake " + at("s.tif") + " -o " + at("db")));
+  ASSERT_EQ(baked.exitCode, 0) << baked.err;
+  const auto info = test::run(cli("info " + at("db") + " --json"));
+  ASSERT_EQ(info.exitCode, 0) << info.err;
+  const auto json = nlohmann::json::parse(info.out);
+  EXPECT_EQ(json["columns"], 201);
+  EXPECT_EQ(json["voids_filled"], 0);
+  EXPECT_EQ(json["source"], at("s.tif"));
+  EXPECT_EQ(json["levels"].back()["columns"], 1);
+  EXPECT_NE(test::run(cli("info " + at("db"))).out.find("level 0"), std::string::npos);
+}
+
+TEST_F(TerrainCommand, countryEndsBeforeThePoleAndMeetsItselfNowhere) {
+  const std::string to = "country -o " + at("c.tif") + " --post-m 2000";
+  for (const auto& [size, said] : {std::pair{" --rows 6000 --columns 33", "rows: expected at most 5924"},
+                                   {" --rows 33 --columns 20000", "columns: expected at most 16080"}}) {
+    const auto refused = test::run(cli(to + size));
+    EXPECT_EQ(refused.exitCode, 1);
+    EXPECT_NE(refused.err.find(said), std::string::npos) << refused.err;
+    EXPECT_FALSE(std::filesystem::exists(at("c.tif")));
+  }
+  const auto made = test::run(cli(to + " --rows 5924 --columns 33"));
+  ASSERT_EQ(made.exitCode, 0) << made.err;
+  const auto baked = test::run(cli("bake " + at("c.tif") + " -o " + at("db") + " --max-error-m 500"));
+  EXPECT_EQ(baked.exitCode, 0) << baked.err;
+}
+
+TEST_F(TerrainCommand, bakesACountryInPartsAndChecksIt) {
+  const auto made = test::run(cli("country -o " + at("c.tif") + " --columns 300 --rows 200"));
+  ASSERT_EQ(made.exitCode, 0) << made.err;
+  const std::string bake = "bake " + at("c.tif") + " -o " + at("db") + " --max-error-m 20 --memory-mb 128";
+  ASSERT_EQ(test::run(cli(bake + " --part 2/2")).exitCode, 0);
+  const auto early = test::run(cli(bake + " --join"));
+  EXPECT_EQ(early.exitCode, 1);
+  EXPECT_NE(early.err.find("missing"), std::string::npos) << early.err;
+  ASSERT_EQ(test::run(cli(bake + " --part 1/2")).exitCode, 0);
+  const auto joined = test::run(cli(bake + " --join"));
+  ASSERT_EQ(joined.exitCode, 0) << joined.err;
+  for (const char* part : {"3/2", "0/2", "a", "1/2x"})
+    EXPECT_EQ(test::run(cli(bake + " --part " + part)).exitCode, 2) << part;
+  const auto many = test::run(cli(bake + " --part 1/4097"));
+  EXPECT_EQ(many.exitCode, 2);
+  EXPECT_NE(many.err.find("4096"), std::string::npos) << many.err;
+  const auto info = test::run(cli("info " + at("db") + " --json"));
+  const auto json = nlohmann::json::parse(info.out);
+  ASSERT_FALSE(json["patches"].empty());
+  for (std::size_t depth = 1; depth < json["patches"].size(); ++depth)
+    EXPECT_LE(json["patches"][depth]["error_m"], json["patches"][depth - 1]["error_m"]);
+  EXPECT_NEAR(json["bytes_a_post"].get<double>(), json["bytes"].get<double>() / (300 * 200), 1e-9);
+  const auto checked = test::run(cli("info " + at("db") + " --check"));
+  EXPECT_EQ(checked.exitCode, 0) << checked.err;
+  EXPECT_NE(checked.out.find("depth"), std::string::npos);
+  EXPECT_NE(checked.out.find("every checksum holds"), std::string::npos);
+  std::string heights = test::readFile(dir_ / "db/heights.f32");
+  heights[1000] = static_cast<char>(heights[1000] ^ 1);
+  test::writeFile(dir_ / "db/heights.f32", heights);
+  EXPECT_EQ(test::run(cli("info " + at("db"))).exitCode, 0);
+  const auto damaged = test::run(cli("info " + at("db") + " --check"));
+  EXPECT_EQ(damaged.exitCode, 1);
+  EXPECT_NE(damaged.err.find("heights.f32: rows 0 to"), std::string::npos) << damaged.err;
+}
+
+TEST_F(TerrainCommand, keepsTheColumnsOfTheWholeEarthApart) {
+  std::string rows = "ncols 361\nnrows 181\nxllcenter -180\nyllcenter -90\ncellsize 1\n";
+  for (int i = 0; i < 361 * 181; ++i) rows += std::to_string(i * 7 % 500) + (i % 361 == 360 ? '\n' : ' ');
+  test::writeFile(dir_ / "world.asc", rows);
+  test::writeFile(dir_ / "world.prj",
+                  R"(GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],)"
+                  R"(PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]])");
+  const auto baked = test::run(cli("bake " + at("world.asc") + " -o " + at("db")));
+  ASSERT_EQ(baked.exitCode, 0) << baked.err;
+  const auto json = nlohmann::json::parse(test::run(cli("info " + at("db") + " --json")).out);
+  ASSERT_GT(json["patches"][0]["error_m"], 1e6);
+  std::istringstream table(test::run(cli("info " + at("db"))).out);
+  std::string line;
+  while (std::getline(table, line) && line.rfind("depth", 0) != 0) continue;
+  for (const auto& depth : json["patches"]) {
+    ASSERT_TRUE(std::getline(table, line));
+    std::istringstream columns(line);
+    std::vector<double> numbers;
+    for (double number = 0; columns >> number;) numbers.push_back(number);
+    ASSERT_EQ(numbers.size(), 7u) << line;
+    EXPECT_NEAR(numbers[3], depth["bytes"].get<double>(), 0.5);
+    EXPECT_NEAR(numbers[4], depth["error_m"].get<double>(), 0.01);
+  }
+}
+
+TEST_F(TerrainCommand, bakesSceneryAndTellsOfItsTrees) {
+  std::filesystem::create_directory(dir_ / "scenery");
+  test::TileRecipe recipe;
+  recipe.cells = 16;
+  test::writeFile(dir_ / "scenery/3072816.btg.gz", test::gzipped(test::gridTile(recipe)));
+  test::writeFile(dir_ / "scenery/3072816.stg", "OBJECT_BASE 3072816.btg\nOBJECT LOST.btg\n");
+  const auto baked =
+      test::run(cli("bake " + at("scenery") + " -o " + at("db") + " --leaf-triangles 100 --post-m 200"));
+  ASSERT_EQ(baked.exitCode, 0) << baked.err;
+  EXPECT_NE(baked.err.find("LOST.btg"), std::string::npos);
+  const auto info = test::run(cli("info " + at("db") + " --json"));
+  ASSERT_EQ(info.exitCode, 0) << info.err;
+  const auto json = nlohmann::json::parse(info.out);
+  EXPECT_EQ(json["scenery"]["tiles"], 1);
+  EXPECT_EQ(json["scenery"]["triangles_in_file"], 512);
+  EXPECT_EQ(json["scenery"]["degenerate"], 0);
+  EXPECT_EQ(json["scenery"]["missing"], nlohmann::json::array({"LOST.btg"}));
+  EXPECT_EQ(json["static_lod"]["triangles_per_node"], 100);
+  EXPECT_EQ(json["static_lod"]["source_triangles"], 512);
+  EXPECT_EQ(json["static_lod"]["levels"], json["static_lod"]["faces_of_level"].size());
+  EXPECT_EQ(json["static_lod"]["faces_of_level"].back(), 512);
+  EXPECT_EQ(json["image"], true);
+  const std::string text = test::run(cli("info " + at("db"))).out;
+  for (const char* line :
+       {"scenery.missing", "LOST.btg", "static_lod.faces_of_level", "static_lod.locked_minima"})
+    EXPECT_NE(text.find(line), std::string::npos) << line;
+}
+
+TEST_F(TerrainCommand, tellsOfSceneryThatIsNotBaked) {
+  test::writeFile(dir_ / "EDNY.btg.gz", test::gzipped(test::gridTile({})));
+  for (const std::string& path : {at("EDNY.btg.gz"), dir_.path().string()}) {
+    const auto info = test::run(cli("info " + path + " --json"));
+    ASSERT_EQ(info.exitCode, 0) << info.err;
+    const auto json = nlohmann::json::parse(info.out);
+    EXPECT_EQ(json["scenery"]["airports"], 1);
+    EXPECT_EQ(json["materials"]["Lake"], 16);
+    EXPECT_EQ(json["files"][0]["name"], "EDNY");
+    EXPECT_NEAR(json["files"][0]["west_deg"].get<double>(), 7, 1e-6);
+    EXPECT_NE(test::run(cli("info " + path)).out.find("airport EDNY: version 7, 32 triangles"),
+              std::string::npos);
+  }
+  test::writeFile(dir_ / "EDNY.btg.gz", "no tile");
+  const auto broken = test::run(cli("info " + at("EDNY.btg.gz") + " --json"));
+  EXPECT_EQ(broken.exitCode, 1);
+  EXPECT_TRUE(broken.out.empty());
+  EXPECT_NE(broken.err.find("magic number"), std::string::npos);
+}
+
+TEST_F(TerrainCommand, exitsWithOneForBadDataAndTwoForBadUsage) {
+  test::writeFile(dir_ / "noise.tif", "no raster");
+  const auto noise = test::run(cli("bake " + at("noise.tif") + " -o " + at("db")));
+  EXPECT_EQ(noise.exitCode, 1);
+  EXPECT_NE(noise.err.find("noise.tif"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "db"));
+  const auto info = test::run(cli("info " + at("nowhere") + " --json"));
+  EXPECT_EQ(info.exitCode, 1);
+  EXPECT_TRUE(info.out.empty());
+  for (const char* usage : {"", "bake", "bake x.tif", "sample", "info", "sample -o x.tif --post-m nothing",
+                            "unknown", "bake x -o y --leaf-triangles 0", "bake x -o y --post-m 0"})
+    EXPECT_EQ(test::run(cli(usage)).exitCode, 2) << usage;
+}
+
+TEST_F(TerrainCommand, stopsCleanlyWhenInterrupted) {
+  const auto stopped = test::run("exec timeout -s INT --preserve-status 0.3 " +
+                                 cli("sample -o " + at("s.tif") + " --post-m 30"));
+  EXPECT_EQ(stopped.exitCode, 1) << stopped.err;
+  EXPECT_NE(stopped.err.find("cancelled"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::is_empty(dir_.path()));
+}
+
+}  // namespace
+}  // namespace trimtab

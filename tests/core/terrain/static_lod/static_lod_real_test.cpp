@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <set>
+
+#include "static_lod_check.h"
+#include "static_lod_support.h"
+#include "tests/support.h"
+#include "trimtab/terrain/format/static_lod_terrain.h"
+
+namespace trimtab::terrain {
+namespace {
+
+struct RealStaticLod : testing::TestWithParam<const char*> {};
+
+LocalFrame frameOf(const std::vector<SceneryMesh>& tiles) {
+  Vec3 sum{};
+  double count = 0;
+  for (const SceneryMesh& tile : tiles)
+    for (const Vec3 v : tile.vertices) sum = sum + v, ++count;
+  GeodeticPosition middle = toGeodetic(sum * (1 / count));
+  middle.height = Metres{0};
+  return LocalFrame(middle);
+}
+
+/// From above; a triangle that the file has twice counts once.
+double areaOf(const SceneryMesh& mesh, const LocalFrame& frame) {
+  std::set<std::array<std::array<long, 3>, 3>> seen;
+  double area = 0;
+  for (const SceneryMesh::Triangle& t : mesh.triangles) {
+    std::array<Vec3, 3> p;
+    std::array<std::array<long, 3>, 3> rounded;
+    for (std::size_t k = 0; k < 3; ++k) {
+      p[k] = frame.fromEcef(mesh.vertices[t.vertex[k]]);
+      rounded[k] = {std::lround(p[k].x * 64), std::lround(p[k].y * 64), std::lround(p[k].z * 64)};
+    }
+    std::rotate(rounded.begin(), std::min_element(rounded.begin(), rounded.end()), rounded.end());
+    if (seen.insert(rounded).second) area += 0.5 * cross(p[1] - p[0], p[2] - p[0]).z;
+  }
+  return area;
+}
+
+TEST_P(RealStaticLod, hasNoCrackNoNewFoldAndTheSameBordersAtAllLevels) {
+  TRIMTAB_NEEDS_SHARED(std::string("data/") + GetParam());
+  const auto scenery = readScenery(test::sharedDir() / "data" / GetParam());
+  ASSERT_TRUE(scenery) << toString(scenery.findings());
+  const std::vector<SceneryMesh>& tiles = scenery->tiles;
+  const LocalFrame frame = frameOf(tiles);
+  const auto built = buildStaticLod(tiles, frame, {});
+  ASSERT_TRUE(built) << toString(built.findings());
+  const StaticLodTerrain& terrain = **built;
+  const test::PlacedTrees trees(terrain);
+  EXPECT_TRUE(trees.onLattice());
+  const test::TreeFaults faults = test::faultsOf(trees);
+  EXPECT_EQ(faults.cracks, 0u);
+  EXPECT_EQ(faults.newFolds, 0u);
+  EXPECT_EQ(faults.lostArea, 0u);  // to the last digit from leaves to root
+  EXPECT_EQ(faults.wrongLeaves, 0u);
+  EXPECT_EQ(faults.wrongNodes, 0u);
+  EXPECT_EQ(faults.wrongErrors, 0u);
+  EXPECT_EQ(faults.wrongBounds, 0u);
+  EXPECT_EQ(faults.wrongLocks, 0u);
+  EXPECT_EQ(faults.unequalNormals, 0u);
+  EXPECT_EQ(faults.distinctFaces, terrain.counts.distinctFaces);
+  EXPECT_EQ(test::openCuts(trees, 3, 5), 0);
+
+  // And from the files to the leaves.
+  ASSERT_EQ(terrain.tiles.size(), tiles.size());
+  std::uint64_t triangles = 0;
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    ASSERT_EQ(terrain.tiles[i].name, tiles[i].name);
+    triangles += tiles[i].triangles.size();
+    double area = 0;
+    for (const auto& t : trees.triangles(terrain.index.roots[i]))
+      area += static_cast<double>(trees.area(t)) / 131072;
+    const double source = areaOf(tiles[i], frame);
+    EXPECT_NEAR(area / source, 1, 1e-4) << tiles[i].name << " of " << source << " m^2";
+  }
+  EXPECT_EQ(terrain.counts.sourceTriangles + terrain.counts.degenerate + terrain.counts.repeated, triangles);
+  std::printf(
+      "%s: %zu tiles, %llu triangles, %u levels, %llu faces (%.2f times), %llu of %zu nodes are locked "
+      "minima\n",
+      GetParam(), tiles.size(), static_cast<unsigned long long>(terrain.counts.sourceTriangles),
+      terrain.counts.levels, static_cast<unsigned long long>(terrain.counts.faces),
+      static_cast<double>(terrain.counts.faces) / static_cast<double>(terrain.counts.sourceTriangles),
+      static_cast<unsigned long long>(terrain.counts.lockedMinima), terrain.index.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(Sets, RealStaticLod,
+                         testing::Values("fg-cologne", "fg-debian-hawaii-bigisland",
+                                         "fg-debian-iceland-reykjanes", "fg-kansai-e135n35"),
+                         [](const auto& set) {
+                           std::string name = set.param;
+                           std::erase_if(name,
+                                         [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
+                           return name;
+                         });
+
+TEST(StaticLodReport, comparesTheTileNearestToThePublishedOne) {
+  TRIMTAB_NEEDS_SHARED("data/fg-cologne");
+  // Of all sets the tile nearest to 30,987 triangles lies in this one or in the next.
+  constexpr std::uint64_t kPublished = 30987, kPublishedFaces = 126520;
+  std::vector<SceneryMesh> nearest;
+  for (const char* folder :
+       {"fg-cologne", "fg-debian-hawaii-bigisland", "fg-debian-iceland-reykjanes", "fg-kansai-e135n35"}) {
+    auto scenery = readScenery(test::sharedDir() / "data" / folder);
+    if (!scenery) continue;
+    for (SceneryMesh& tile : scenery.value().tiles) {
+      const auto away = [](const SceneryMesh& m) {
+        return std::abs(double(m.triangles.size()) - double(kPublished));
+      };
+      if (nearest.empty() || away(tile) < away(nearest[0])) nearest = {std::move(tile)};
+    }
+  }
+  const auto terrain = buildStaticLod(nearest, frameOf(nearest), {});
+  ASSERT_TRUE(terrain);
+  const StaticLodReport ours = reportStaticLod(**terrain, tileNearest(**terrain, kPublished));
+  const StaticLodLimits limits = staticLodLimits(kPublished, 2000);
+  EXPECT_EQ(limits.levels, 5u);  // and not 4, as published
+  EXPECT_NEAR(double(limits.leastFaces) / kPublished, 2.0, 0.04);
+  EXPECT_NEAR(double(limits.mostFaces) / kPublished, 2.9, 0.04);
+  EXPECT_LT(limits.mostFaces, kPublishedFaces);
+  std::printf("                 tile  triangles     n  levels    faces  times\n");
+  std::printf("published     3105386  %9d  2000       4  %7d   %.2f\n", 30987, 126520, 126520 / 30987.0);
+  std::printf("its rule               %9d  2000     %u  %llu to %llu   %.2f to %.2f\n", 30987, limits.levels,
+              static_cast<unsigned long long>(limits.leastFaces),
+              static_cast<unsigned long long>(limits.mostFaces), double(limits.leastFaces) / kPublished,
+              double(limits.mostFaces) / kPublished);
+  std::printf("ours       %10s  %9llu  %u       %u  %7llu   %.2f (%llu of them distinct)\n",
+              ours.tile.c_str(), static_cast<unsigned long long>(ours.triangles), ours.trianglesPerNode,
+              ours.levels, static_cast<unsigned long long>(ours.faces),
+              double(ours.faces) / double(ours.triangles),
+              static_cast<unsigned long long>((*terrain)->counts.distinctFaces));
+  EXPECT_GE(ours.levels, ours.limits.levels);
+  if (ours.lockedMinima == 0) {
+    EXPECT_GE(ours.faces, ours.limits.leastFaces);
+    EXPECT_LE(ours.faces, ours.limits.mostFaces + (*terrain)->index.size());
+  }
+}
+
+}  // namespace
+}  // namespace trimtab::terrain

@@ -1,0 +1,114 @@
+#include <fstream>
+#include <map>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "support.h"
+
+// What keeps the tree easy to take over: layers, small folders, small files. CMake's link targets say the
+// same of what they can see; private headers are included by their path, which only a reading of the includes
+// can judge.
+namespace trimtab::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder includes from itself and from folders that stand before it.
+const std::vector<std::string> kLayers{"core/units",
+                                       "core/preset",
+                                       "core/frame",
+                                       "core/host",
+                                       "core/motion",
+                                       "core/fuzzy",
+                                       "core/weather",
+                                       "core/culling",
+                                       "core/decision",
+                                       "core/measure",
+                                       "core/session",
+                                       "core/terrain/grid",
+                                       "core/terrain/format",
+                                       "core/terrain/mesh",
+                                       "core/terrain/elevation",
+                                       "core/terrain/scenery",
+                                       "core/terrain/patches",
+                                       "core/terrain/static_lod",
+                                       "core/terrain/ground",
+                                       "core/terrain/bake",
+                                       "core/terrain/synthetic",
+                                       "core/scene",
+                                       "views",
+                                       "app/link",
+                                       "app/plot",
+                                       "app/experiment",
+                                       "app/harness",
+                                       "app/cli",
+                                       "app/ig",
+                                       "app/workbench",
+                                       "resources",
+                                       "tests"};
+
+std::size_t layerOf(const std::string& path) {
+  for (std::size_t i = 0; i < kLayers.size(); ++i)
+    if (path.starts_with(kLayers[i] + "/")) return i;
+  return kLayers.size();
+}
+
+/// The file that an include names, relative to the root; empty where it is none of ours.
+std::string included(const std::string& name) {
+  if (!name.starts_with("trimtab/")) return name.find('/') == std::string::npos ? "" : name;
+  const std::string module = name.substr(8, name.rfind('/') - 8);
+  return "core/" + module + "/include/" + name;
+}
+
+std::vector<fs::path> sources() {
+  std::vector<fs::path> files;
+  for (const char* top : {"core", "views", "app", "tests"})
+    for (const auto& entry : fs::recursive_directory_iterator(sourceDir() / top)) {
+      const std::string ending = entry.path().extension();
+      if (entry.is_regular_file() &&
+          (ending == ".cpp" || ending == ".h" || ending == ".inl" || ending == ".glsl"))
+        files.push_back(fs::relative(entry.path(), sourceDir()));
+    }
+  return files;
+}
+
+TEST(House, includesOnlyFromFoldersLowerDown) {
+  const std::regex include("^#include \"([^\"]+)\"");
+  std::size_t seen = 0;
+  for (const fs::path& file : sources()) {
+    std::ifstream in(sourceDir() / file);
+    const std::size_t layer = layerOf(file.string());
+    ASSERT_LT(layer, kLayers.size()) << file << " is in no layer";
+    for (std::string line; std::getline(in, line);) {
+      std::smatch match;
+      if (!std::regex_search(line, match, include)) continue;
+      const std::string target = included(match[1]);
+      if (target.empty()) continue;
+      ++seen;
+      EXPECT_TRUE(fs::exists(sourceDir() / target))
+          << file << " includes " << match[1] << ", which is not there";
+      EXPECT_LE(layerOf(target), layer) << file << " includes " << target << " from a higher layer";
+      const bool isPrivate = target.starts_with("core/") && target.find("/include/") == std::string::npos;
+      EXPECT_TRUE(!isPrivate || layerOf(target) == layer || layer + 1 == kLayers.size())
+          << file << " includes a private header of another module: " << target;
+    }
+  }
+  EXPECT_GT(seen, 2000u) << "the test does not find the includes";
+}
+
+TEST(House, keepsFoldersAndFilesSmall) {
+  constexpr std::size_t kMostFiles = 40, kMostLines = 450;
+  std::map<std::string, std::size_t> folders;
+  for (const fs::path& file : sources()) {
+    ++folders[file.parent_path().string()];
+    std::ifstream in(sourceDir() / file);
+    std::size_t lines = 0;
+    for (std::string line; std::getline(in, line);) ++lines;
+    EXPECT_LE(lines, kMostLines) << file;
+  }
+  for (const auto& [folder, files] : folders) EXPECT_LE(files, kMostFiles) << folder;
+}
+
+}  // namespace
+}  // namespace trimtab::test

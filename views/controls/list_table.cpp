@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "list_table.h"
+
+#include <QBoxLayout>
+#include <QHeaderView>
+#include <QTableView>
+#include <QToolButton>
+
+namespace trimtab::views {
+
+void setUpListTable(QTableView& table, QAbstractItemModel* model, const QString& name,
+                    const QString& sample) {
+  table.setModel(model);
+  table.setAccessibleName(name);
+  table.setSelectionBehavior(QAbstractItemView::SelectRows);
+  table.setSelectionMode(QAbstractItemView::SingleSelection);
+  table.setTabKeyNavigation(false);
+  table.verticalHeader()->hide();
+  table.verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  table.horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+  table.horizontalHeader()->setMinimumSectionSize(table.fontMetrics().horizontalAdvance(sample) + 10);
+  table.setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  table.setMinimumWidth(model->columnCount() * table.horizontalHeader()->minimumSectionSize() + 24);
+}
+
+ListButtons::ListButtons(QWidget* parent) : QWidget(parent), row_(new QHBoxLayout(this)) {
+  row_->setContentsMargins(0, 0, 0, 0);
+  row_->addStretch(1);
+}
+
+QToolButton* ListButtons::add(const QString& text, const QString& tip) {
+  auto* button = new QToolButton;
+  button->setText(text);
+  button->setToolTip(tip);
+  button->setAccessibleName(tip);
+  button->setFocusPolicy(Qt::StrongFocus);
+  // Before the stretch, or behind it.
+  row_->insertWidget(spaced_ ? row_->count() : row_->count() - 1, button);
+  return button;
+}
+
+void ListButtons::addSpace() {
+  spaced_ = true;
+}
+
+}  // namespace trimtab::views

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+#include <span>
+#include <vector>
+
+#include "views/model/draft.h"
+
+namespace trimtab::views {
+
+class ParameterLine;
+
+/// Some parameters in a dock of their matter, as compact lines that follow the draft.
+class ParameterLines : public QWidget {
+  Q_OBJECT
+ public:
+  ParameterLines(Draft& draft, std::span<const char* const> keys);
+  /// All whose key begins so.
+  ParameterLines(Draft& draft, std::string_view prefix);
+
+ private:
+  ParameterLines(Draft& draft, const std::vector<const ParameterRow*>& rows);
+
+  std::vector<ParameterLine*> lines_;
+};
+
+}  // namespace trimtab::views

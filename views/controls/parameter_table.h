@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+#include <vector>
+
+#include "views/model/draft.h"
+
+class QComboBox;
+class QCheckBox;
+class QGridLayout;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+class QToolButton;
+
+namespace trimtab::views {
+
+class ParameterLine;
+
+/// The Preset dock: every row of the parameter table with its editor, made from the table alone.
+class ParameterTable : public QWidget {
+  Q_OBJECT
+ public:
+  explicit ParameterTable(Draft& draft, QWidget* parent = nullptr);
+
+  QLineEdit& search() { return *search_; }
+  QComboBox& tier() { return *tier_; }
+  QCheckBox& changedOnly() { return *changedOnly_; }
+  /// Null where there is no such key.
+  ParameterLine* line(std::string_view key) const;
+  std::vector<std::string_view> visibleKeys() const;
+
+ signals:
+  void editorAsked(const QString& key);  ///< the editor that a curve, bands or rules have of their own
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  struct Group {
+    QString name;
+    QToolButton* header = nullptr;
+    std::vector<ParameterLine*> lines;
+  };
+  void makeBar();
+  void makeLines(QGridLayout& grid);
+  void filter();
+  void summarise();
+  void changed(const QString& key);
+
+  Draft& draft_;
+  QLineEdit* search_;
+  QComboBox* tier_;
+  QCheckBox* changedOnly_;
+  QPushButton* resetAll_;
+  QLabel *summary_, *nothing_;
+  std::vector<Group> groups_;
+  bool compact_ = false;
+};
+
+}  // namespace trimtab::views

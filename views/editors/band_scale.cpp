@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "band_scale.h"
+
+#include <QContextMenuEvent>
+#include <QMenu>
+#include <QPainter>
+#include <algorithm>
+#include <cmath>
+
+#include "views/model/keys.h"
+#include "views/model/theme.h"
+
+namespace trimtab::views {
+
+namespace {
+constexpr double kGrabPx = 8;
+double rounded(double value) {
+  return std::round(value / kEdgeGap) * kEdgeGap;
+}
+}  // namespace
+
+BandScale::BandScale(Draft& draft, QWidget* parent)
+    : QWidget(parent), draft_(draft), throttle_(this, [this] { update(); }) {
+  setFocusPolicy(Qt::StrongFocus);
+  setMouseTracking(true);
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  setAccessibleName(tr("Depth-map bands by total membership"));
+  setAccessibleDescription(
+      tr("Tab selects a band edge, arrow keys move it (Shift: ten times as far), Insert splits a band, "
+         "Delete removes "
+         "one."));
+  connect(&draft_, &Draft::valueChanged, this, [this](const QString& key) {
+    if (key.toStdString() == key::kBands && selected_ >= static_cast<int>(bands().size))
+      select(static_cast<int>(bands().size) - 1);
+  });
+  connect(&draft_, &Draft::findingsChanged, this, qOverload<>(&QWidget::update));
+}
+
+BandList BandScale::bands() const {
+  return std::get<BandList>(draft_.value(key::kBands));
+}
+
+QSize BandScale::sizeHint() const {
+  return {360, fontMetrics().height() * 5 + 22};
+}
+QSize BandScale::minimumSizeHint() const {
+  return {200, sizeHint().height()};
+}
+
+/// The live label stands above it, the tick labels below.
+QRectF BandScale::track() const {
+  const double line = fontMetrics().height();
+  return {10, line + 10, width() - 20.0, 2.6 * line};
+}
+QPointF BandScale::pixelOf(double total) const {
+  const QRectF t = track();
+  return {t.left() + t.width() * total / BandList::kTop, t.center().y()};
+}
+double BandScale::totalAt(double x) const {
+  const QRectF t = track();
+  return std::clamp((x - t.left()) / t.width() * BandList::kTop, 0.0, BandList::kTop);
+}
+
+int BandScale::edgeAt(QPointF pixel) const {
+  const BandList list = bands();
+  int nearest = -1;
+  double best = kGrabPx;
+  if (!track().adjusted(-kGrabPx, -6, kGrabPx, 6).contains(pixel)) return -1;
+  for (std::size_t i = 0; i < list.size; ++i)
+    if (const double d = std::abs(pixelOf(list.band[i].low).x() - pixel.x()); d < best) {
+      best = d;
+      nearest = static_cast<int>(i);
+    }
+  return nearest;
+}
+
+int BandScale::bandAt(double total) const {
+  const BandList list = bands();
+  int band = -1;
+  while (band + 1 < static_cast<int>(list.size) && list.band[static_cast<std::size_t>(band + 1)].low <= total)
+    ++band;
+  return band;
+}
+
+void BandScale::showFrame(const LiveFrame& frame) {
+  total_ = frame.decision.totalMembership;
+  liveBand_ = frame.decision.band;
+  throttle_.request();
+}
+
+void BandScale::select(int index) {
+  index = std::clamp(index, -1, static_cast<int>(bands().size) - 1);
+  if (index == selected_) return;
+  selected_ = index;
+  update();
+  emit selectedChanged(index);
+}
+
+void BandScale::commit(const BandList& changed, MergeToken token) {
+  const Findings because = draft_.setValue(key::kBands, changed, token);
+  if (!because.empty()) emit refused(QString::fromStdString(toString(because)));
+}
+
+void BandScale::addBand(double low) {
+  const std::optional<InsertedBand> inserted = withBand(bands(), low);
+  if (!inserted)
+    return emit refused(tr("There is no room for another band here (at most %1).").arg(BandList::kCapacity));
+  commit(inserted->bands, 0);
+  select(static_cast<int>(inserted->index));
+}
+
+void BandScale::addBandInSelected() {
+  const BandList list = bands();
+  if (list.size == 0) return addBand(1);
+  const std::size_t at =
+      static_cast<std::size_t>(selected_ < 0 ? static_cast<int>(list.size) - 1 : selected_);
+  addBand(rounded((list.band[at].low + highOf(list, at)) / 2));
+}
+
+void BandScale::removeSelected() {
+  if (selected_ < 0) return;
+  const std::optional<BandList> removed = withoutBand(bands(), static_cast<std::size_t>(selected_));
+  if (!removed) return emit refused(tr("One band stays."));
+  commit(*removed, 0);
+}
+
+void BandScale::mousePressEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton) return;
+  const int edge = edgeAt(event->position());
+  if (edge < 0) return select(bandAt(totalAt(event->position().x())));
+  select(edge);
+  dragToken_ = draft_.newToken();
+  dragStart_ = bands();
+}
+
+void BandScale::mouseMoveEvent(QMouseEvent* event) {
+  if (dragToken_ != 0 && selected_ >= 0)
+    return commit(
+        withEdge(bands(), static_cast<std::size_t>(selected_), rounded(totalAt(event->position().x()))),
+        dragToken_);
+  setCursor(edgeAt(event->position()) >= 0 ? Qt::SplitHCursor : Qt::ArrowCursor);
+  const double total = totalAt(event->position().x());
+  const int band = bandAt(total);
+  const BandList list = bands();
+  setToolTip(band < 0 ? tr("Total membership %1: view-frustum culling alone").arg(numberText(total, 2))
+                      : tr("Total membership %1: depth map %2 × %3 px")
+                            .arg(numberText(total, 2))
+                            .arg(list.band[static_cast<std::size_t>(band)].widthPx)
+                            .arg(list.band[static_cast<std::size_t>(band)].heightPx));
+}
+
+void BandScale::mouseReleaseEvent(QMouseEvent*) {
+  dragToken_ = 0;
+}
+
+void BandScale::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton && edgeAt(event->position()) < 0 &&
+      track().contains(event->position()))
+    addBand(rounded(totalAt(event->position().x())));
+}
+
+void BandScale::contextMenuEvent(QContextMenuEvent* event) {
+  const double here = rounded(totalAt(event->pos().x()));
+  const bool byMouse = event->reason() == QContextMenuEvent::Mouse;
+  if (byMouse) select(bandAt(here));
+  QMenu menu(this);
+  menu.addAction(tr("Split band here"), this, [&] { byMouse ? addBand(here) : addBandInSelected(); });
+  menu.addAction(tr("Remove band"), this, &BandScale::removeSelected)
+      ->setEnabled(selected_ >= 0 && bands().size > 1);
+  menu.addSeparator();
+  menu.addAction(tr("Reset the bands"), this, [this] { draft_.reset(key::kBands); })
+      ->setEnabled(draft_.isChanged(key::kBands));
+  menu.exec(event->globalPos());
+}
+
+void BandScale::keyPressEvent(QKeyEvent* event) {
+  const double step = event->modifiers() & Qt::ShiftModifier ? 10 * kEdgeGap : kEdgeGap;
+  const auto nudge = [&](double by) {
+    if (selected_ < 0) return;
+    if (nudgeToken_ == 0) nudgeToken_ = draft_.newToken();
+    const std::size_t at = static_cast<std::size_t>(selected_);
+    commit(withEdge(bands(), at, rounded(bands().band[at].low + by)), nudgeToken_);
+  };
+  switch (event->key()) {
+    case Qt::Key_Left:
+    case Qt::Key_Down:
+      return nudge(-step);
+    case Qt::Key_Right:
+    case Qt::Key_Up:
+      return nudge(step);
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
+      if (selected_ >= 0) emit typingAsked();
+      return;
+    case Qt::Key_Insert:
+      return addBandInSelected();
+    case Qt::Key_Delete:
+    case Qt::Key_Backspace:
+      return removeSelected();
+    case Qt::Key_Escape:
+      if (dragToken_ == 0) return event->ignore();
+      return commit(dragStart_, std::exchange(dragToken_, 0));
+    default:
+      return QWidget::keyPressEvent(event);
+  }
+}
+
+void BandScale::keyReleaseEvent(QKeyEvent* event) {
+  if (!event->isAutoRepeat()) nudgeToken_ = 0;
+  QWidget::keyReleaseEvent(event);
+}
+
+bool BandScale::focusNextPrevChild(bool next) {
+  const int to = selected_ + (next ? 1 : -1);
+  if (to < 0 || to >= static_cast<int>(bands().size)) return QWidget::focusNextPrevChild(next);
+  select(to);
+  return true;
+}
+
+void BandScale::focusInEvent(QFocusEvent* event) {
+  if (event->reason() == Qt::TabFocusReason) select(0);
+  if (event->reason() == Qt::BacktabFocusReason) select(static_cast<int>(bands().size) - 1);
+  update();
+}
+
+void BandScale::focusOutEvent(QFocusEvent*) {
+  nudgeToken_ = 0;
+  update();
+}
+
+void BandScale::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  paintBands(painter);
+  paintEdges(painter);
+  paintLive(painter);
+  painter.end();
+  paintFocusFrame(*this);
+}
+
+void BandScale::paintBands(QPainter& painter) {
+  const BandList list = bands();
+  const QRectF t = track();
+  const QColor base = palette().color(QPalette::Base), ink = palette().color(QPalette::Text);
+  const QColor band = seriesColour(0, palette());
+  for (int i = -1; i < static_cast<int>(list.size); ++i) {
+    const double low = i < 0 ? 0 : list.band[static_cast<std::size_t>(i)].low;
+    const double high = i < 0 ? (list.size > 0 ? list.band[0].low : BandList::kTop)
+                              : highOf(list, static_cast<std::size_t>(i));
+    const QRectF cell(QPointF(pixelOf(low).x(), t.top()), QPointF(pixelOf(high).x(), t.bottom()));
+    const bool live = total_ && i == liveBand_;
+    const double depth = list.size > 0 ? 0.10 + 0.30 * (i + 1) / static_cast<double>(list.size) : 0.1;
+    painter.fillRect(cell, i < 0 ? blend(base, ink, 0.06) : blend(base, band, depth));
+    if (live)
+      painter.fillRect(QRectF(cell.left(), cell.bottom() - 4, cell.width(), 4), liveColour(palette()));
+    QString text = i < 0 ? tr("frustum")
+                         : QStringLiteral("%1×%2")
+                               .arg(list.band[static_cast<std::size_t>(i)].widthPx)
+                               .arg(list.band[static_cast<std::size_t>(i)].heightPx);
+    QFont font = this->font();
+    font.setBold(live);
+    painter.setFont(font);
+    painter.setPen(ink);
+    const QFontMetrics metrics(font);
+    if (metrics.horizontalAdvance(text) < cell.width() - 4) {
+      painter.drawText(cell, Qt::AlignCenter, text);
+    } else if (metrics.height() < cell.width()) {
+      // Narrow cells carry their text upright.
+      painter.save();
+      painter.translate(cell.center());
+      painter.rotate(-90);
+      font.setPointSizeF(font.pointSizeF() * 0.75);
+      painter.setFont(font);
+      painter.drawText(QRectF(-cell.height() / 2, -cell.width() / 2, cell.height(), cell.width()),
+                       Qt::AlignCenter, text);
+      painter.restore();
+    }
+  }
+  painter.setPen(blend(base, ink, 0.5));
+  painter.drawRect(t);
+}
+
+void BandScale::paintEdges(QPainter& painter) {
+  const BandList list = bands();
+  const QRectF t = track();
+  const QColor base = palette().color(QPalette::Base), ink = palette().color(QPalette::Text);
+  const double hysteresis = std::get<double>(draft_.value(key::kHysteresis));
+  const bool broken = draft_.isBroken() && !(draft_.findingsOf(key::kBands).empty() &&
+                                             draft_.findingsOf(key::kHysteresis).empty());
+  QColor zone = broken ? errorColour(palette()) : ink;
+  zone.setAlpha(70);
+  painter.setFont(font());
+  double lastLabel = -1e9;
+  const auto label = [&](double value, const QColor& colour) {
+    const QString text = numberText(value, 3);
+    const double width = fontMetrics().horizontalAdvance(text), x = pixelOf(value).x() - width / 2;
+    const double left = std::clamp(x, 0.0, this->width() - width);
+    if (left < lastLabel + 4) return;
+    lastLabel = left + width;
+    painter.setPen(colour);
+    painter.drawText(QPointF(left, t.bottom() + 8 + fontMetrics().ascent()), text);
+  };
+  label(0, quietColour(palette()));
+  for (std::size_t i = 0; i < list.size; ++i) {
+    const double low = list.band[i].low, x = pixelOf(low).x();
+    if (hysteresis > 0) {
+      const double left = pixelOf(std::max(0.0, low - hysteresis)).x(),
+                   right = pixelOf(std::min(BandList::kTop, low + hysteresis)).x();
+      painter.fillRect(QRectF(left, t.top(), right - left, t.height()), QBrush(zone, Qt::BDiagPattern));
+    }
+    const bool chosen = static_cast<int>(i) == selected_;
+    painter.setPen(QPen(broken ? errorColour(palette()) : ink, chosen ? 3 : 1.6));
+    painter.drawLine(QPointF(x, t.top() - 3), QPointF(x, t.bottom() + 3));
+    painter.setBrush(chosen ? palette().color(QPalette::Highlight) : base);
+    painter.setPen(QPen(ink, chosen && hasFocus() ? 2 : 1));
+    painter.drawRect(QRectF(x - 4, t.center().y() - 8, 8, 16));
+    label(low, ink);
+  }
+  label(BandList::kTop, quietColour(palette()));
+}
+
+void BandScale::paintLive(QPainter& painter) {
+  if (!total_ || !std::isfinite(*total_)) return;
+  const QRectF t = track();
+  const double x = pixelOf(std::clamp(*total_, 0.0, BandList::kTop)).x();
+  const QColor live = liveColour(palette());
+  painter.setPen(QPen(live, 2));
+  painter.drawLine(QPointF(x, t.top() - 2), QPointF(x, t.bottom()));
+  painter.setBrush(live);
+  painter.setPen(Qt::NoPen);
+  painter.drawPolygon(
+      QPolygonF({QPointF(x - 6, t.top() - 9), QPointF(x + 6, t.top() - 9), QPointF(x, t.top() - 1)}));
+  const QString text = tr("total %1").arg(numberText(*total_, 3));
+  const double width = fontMetrics().horizontalAdvance(text);
+  painter.setPen(palette().color(QPalette::WindowText));
+  painter.drawText(QPointF(std::clamp(x - width / 2, 0.0, this->width() - width), fontMetrics().ascent()),
+                   text);
+}
+
+}  // namespace trimtab::views

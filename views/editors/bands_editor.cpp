@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bands_editor.h"
+
+#include <QBoxLayout>
+#include <QLabel>
+#include <QSplitter>
+#include <QTableView>
+#include <QToolButton>
+
+#include "band_scale.h"
+#include "views/controls/choice_box.h"
+#include "views/controls/list_table.h"
+#include "views/controls/number_box.h"
+#include "views/model/bands_model.h"
+#include "views/model/keys.h"
+#include "views/model/theme.h"
+#include "views/plots/depth_map_inset.h"
+
+namespace trimtab::views {
+
+BandsEditor::BandsEditor(Draft& draft, QWidget* parent)
+    : QWidget(parent),
+      draft_(draft),
+      scale_(new BandScale(draft)),
+      model_(new BandsModel(draft, this)),
+      table_(new QTableView),
+      inset_(new DepthMapInset),
+      note_(new QLabel) {
+  QHBoxLayout* top = new QHBoxLayout;
+  NumberBox* hysteresis = new NumberBox(draft, key::kHysteresis);
+  QLabel* hysteresisLabel = new QLabel(tr("&Hysteresis ±"));
+  hysteresisLabel->setBuddy(hysteresis);
+  ChoiceBox* combination = new ChoiceBox(draft, key::kCombination);
+  QLabel* combinationLabel = new QLabel(tr("&Total is"));
+  combinationLabel->setBuddy(combination);
+  top->addWidget(combinationLabel);
+  top->addWidget(combination);
+  top->addSpacing(8);
+  top->addWidget(hysteresisLabel);
+  top->addWidget(hysteresis);
+  top->addStretch(1);
+
+  setUpListTable(*table_, model_, tr("Depth-map bands"), tr("Height (px)"));
+  table_->setMinimumHeight(fontMetrics().height() * 7);
+
+  ListButtons* buttons = new ListButtons;
+  QToolButton* const add =
+      buttons->add(tr("Split"), tr("Split the selected band (Insert, or double click in the scale)"));
+  remove_ = buttons->add(tr("Remove"), tr("Remove the selected band (Delete)"));
+  connect(add, &QToolButton::clicked, scale_, &BandScale::addBandInSelected);
+  connect(remove_, &QToolButton::clicked, scale_, &BandScale::removeSelected);
+
+  QWidget* upper = new QWidget;
+  QVBoxLayout* upperLayout = new QVBoxLayout(upper);
+  upperLayout->setContentsMargins(0, 0, 0, 0);
+  upperLayout->addLayout(top);
+  upperLayout->addWidget(scale_);
+  upperLayout->addWidget(table_, 1);
+  upperLayout->addWidget(buttons);
+  note_->setWordWrap(true);
+  note_->hide();
+  upperLayout->addWidget(note_);
+
+  QSplitter* split = new QSplitter(Qt::Vertical);
+  split->addWidget(upper);
+  split->addWidget(inset_);
+  split->setChildrenCollapsible(false);
+  split->setSizes({10, 10000});
+  QVBoxLayout* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(4, 4, 4, 4);
+  layout->addWidget(split);
+
+  throttle_ = new Throttle(this, [this] {
+    model_->setLiveBand(decision_.band);
+    if (mapDrawn_) return;
+    inset_->setReason(decision_.scheme == Scheme::frustum ? tr("No depth map: scheme is frustum")
+                                                          : tr("No depth map was drawn in the last frame"));
+  });
+  inset_->setReason(tr("No depth map yet: nothing has been drawn"));
+
+  connect(scale_, &BandScale::selectedChanged, this, [this](int index) {
+    if (index < 0)
+      table_->clearSelection();
+    else
+      table_->setCurrentIndex(model_->index(index, std::max(0, table_->currentIndex().column())));
+    showNote();
+  });
+  connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+          [this](const QModelIndex& current) {
+            if (current.isValid()) scale_->select(current.row());
+          });
+  connect(scale_, &BandScale::typingAsked, this, [this] {
+    table_->setFocus();
+    table_->edit(model_->index(scale_->selected(), BandsModel::kFrom));
+  });
+  connect(scale_, &BandScale::refused, this, &BandsEditor::say);
+  connect(model_, &BandsModel::refused, this, &BandsEditor::say);
+  connect(hysteresis, &NumberBox::refused, this, &BandsEditor::say);
+  connect(model_, &BandsModel::accepted, this, [this] { say({}); });
+  connect(&draft, &Draft::findingsChanged, this, [this] { say({}); });
+  showNote();
+}
+
+void BandsEditor::showFrame(const LiveFrame& frame) {
+  decision_ = frame.decision;
+  mapDrawn_ = frame.depthMap.has_value();
+  scale_->showFrame(frame);
+  throttle_->request();
+}
+
+void BandsEditor::showDepthMap(const QImage& image, const QString& caption) {
+  mapDrawn_ = true;
+  inset_->setPicture(image, caption);
+}
+
+void BandsEditor::clearDepthMap() {
+  mapDrawn_ = false;
+  throttle_->request();
+}
+
+void BandsEditor::say(const QString& refusal) {
+  refusal_ = refusal;
+  showNote();
+}
+
+void BandsEditor::showNote() {
+  QString text = refusal_;
+  QColor colour = errorColour(palette());
+  for (const std::string_view key : {key::kBands, key::kHysteresis}) {
+    if (!text.isEmpty()) break;
+    const Findings findings = draft_.findingsOf(key);
+    if (findings.empty()) continue;
+    text = tr("%1: expected %2; found %3.")
+               .arg(QString::fromStdString(std::string(findRow(key)->label)),
+                    QString::fromStdString(findings.front().expected),
+                    QString::fromStdString(findings.front().found));
+    if (findings.front().severity != Severity::error) colour = warningColour(palette());
+  }
+  note_->setText(text);
+  setTextColour(*note_, colour);
+  note_->setVisible(!text.isEmpty());
+  remove_->setEnabled(scale_->selected() >= 0);
+}
+
+}  // namespace trimtab::views

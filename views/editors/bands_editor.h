@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QImage>
+#include <QWidget>
+
+#include "views/model/draft.h"
+#include "views/model/live.h"
+
+class QLabel;
+class QTableView;
+class QToolButton;
+
+namespace trimtab::views {
+
+class BandScale;
+class BandsModel;
+class DepthMapInset;
+class Throttle;
+
+/// The Depth map dock: bands by draggable edges, their sizes, hysteresis, and the live depth map.
+class BandsEditor : public QWidget {
+  Q_OBJECT
+ public:
+  explicit BandsEditor(Draft& draft, QWidget* parent = nullptr);
+  BandScale& scale() { return *scale_; }
+  QTableView& table() { return *table_; }
+  void showFrame(const LiveFrame& frame);
+
+ public slots:
+  /// The live depth map; `caption` says its size, near and far.
+  void showDepthMap(const QImage& image, const QString& caption);
+  void clearDepthMap();
+
+ private:
+  void showNote();
+  void say(const QString& refusal);
+
+  Draft& draft_;
+  BandScale* scale_;
+  BandsModel* model_;
+  QTableView* table_;
+  DepthMapInset* inset_;
+  QLabel* note_;
+  QToolButton* remove_;
+  Throttle* throttle_;
+  QString refusal_;
+  FrameDecision decision_;
+  bool mapDrawn_ = false;
+};
+
+}  // namespace trimtab::views

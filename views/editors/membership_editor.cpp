@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "membership_editor.h"
+
+#include <QBoxLayout>
+#include <QLabel>
+#include <QSplitter>
+#include <QTableView>
+#include <QToolButton>
+
+#include "views/controls/choice_box.h"
+#include "views/controls/list_table.h"
+#include "views/model/curve_points_model.h"
+#include "views/model/keys.h"
+#include "views/model/theme.h"
+#include "views/plots/curve_plot.h"
+
+namespace trimtab::views {
+
+CurveEditor::CurveEditor(Draft& draft, const CurveSpec& spec, const QList<QWidget*>& extra, QWidget* parent)
+    : QWidget(parent), draft_(draft), spec_(spec), plot_(new CurvePlot(draft, spec)), table_(new QTableView) {
+  QLabel* title = new QLabel(QStringLiteral("<b>%1</b>").arg(spec.quantity));
+  ChoiceBox* reading = new ChoiceBox(draft, spec.readingKey);
+  QHBoxLayout* top = new QHBoxLayout;
+  top->addWidget(title);
+  top->addWidget(reading);
+  for (QWidget* widget : extra) top->addWidget(widget);
+  top->addStretch(0);
+
+  CurvePointsModel* model = new CurvePointsModel(draft, spec, this);
+  setUpListTable(*table_, model, tr("%1 breakpoints").arg(spec.quantity), tr("Membership "));
+
+  ListButtons* buttons = new ListButtons;
+  add_ = buttons->add(tr("Add"),
+                      tr("Add a breakpoint after the selected one (Insert, or double click in the plot)"));
+  remove_ = buttons->add(tr("Remove"), tr("Remove the selected breakpoint (Delete)"));
+  connect(add_, &QToolButton::clicked, plot_, &CurvePlot::addPointBesideSelected);
+  connect(remove_, &QToolButton::clicked, plot_, &CurvePlot::removeSelected);
+  QWidget* side = new QWidget;
+  QVBoxLayout* sideLayout = new QVBoxLayout(side);
+  sideLayout->setContentsMargins(0, 0, 0, 0);
+  sideLayout->addWidget(table_, 1);
+  sideLayout->addWidget(buttons);
+
+  QSplitter* split = new QSplitter(Qt::Horizontal);
+  split->addWidget(plot_);
+  split->addWidget(side);
+  split->setStretchFactor(0, 1);
+  split->setStretchFactor(1, 0);
+  split->setSizes({10000, side->minimumSizeHint().width()});
+  split->setChildrenCollapsible(false);
+  note_ = new QLabel;
+  note_->setWordWrap(true);
+  note_->hide();
+
+  QVBoxLayout* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(4, 4, 4, 4);
+  layout->addLayout(top);
+  layout->addWidget(split, 1);
+  layout->addWidget(note_);
+
+  connect(plot_, &CurvePlot::selectedChanged, this, [this](int index) {
+    if (index < 0)
+      table_->clearSelection();
+    else
+      table_->setCurrentIndex(table_->model()->index(index, std::max(0, table_->currentIndex().column())));
+    showNote();
+  });
+  connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+          [this](const QModelIndex& current) {
+            if (current.isValid()) plot_->select(current.row());
+          });
+  connect(plot_, &CurvePlot::typingAsked, this, [this] {
+    table_->setFocus();
+    table_->edit(table_->model()->index(plot_->selected(), 0));
+  });
+  connect(plot_, &CurvePlot::refused, this, &CurveEditor::say);
+  connect(model, &CurvePointsModel::refused, this, &CurveEditor::say);
+  connect(model, &CurvePointsModel::accepted, this, [this] { say({}); });
+  connect(&draft, &Draft::findingsChanged, this, [this] { say({}); });
+  showNote();
+}
+
+void CurveEditor::showFrame(const LiveFrame& frame) {
+  plot_->showFrame(frame);
+}
+
+void CurveEditor::say(const QString& refusal) {
+  refusal_ = refusal;
+  showNote();
+}
+
+void CurveEditor::showNote() {
+  QString text;
+  QColor colour = errorColour(palette());
+  if (!refusal_.isEmpty()) {
+    text = refusal_;
+  } else if (const Findings findings = draft_.findingsOf(spec_.key); !findings.empty()) {
+    text = tr("Expected %1; found %2.")
+               .arg(QString::fromStdString(findings.front().expected),
+                    QString::fromStdString(findings.front().found));
+    if (findings.front().severity != Severity::error) colour = warningColour(palette());
+  } else if (!spec_.usesPoints(draft_.parameters())) {
+    text = tr("This reading does not use the breakpoints. Choose another reading to edit them.");
+    colour = quietColour(palette());
+  }
+  note_->setText(text);
+  setTextColour(*note_, colour);
+  note_->setVisible(!text.isEmpty());
+  const bool editable = spec_.usesPoints(draft_.parameters());
+  add_->setEnabled(editable);
+  remove_->setEnabled(editable && plot_->selected() >= 0);
+}
+
+MembershipEditor::MembershipEditor(Draft& draft, QWidget* parent)
+    : QWidget(parent),
+      altitude_(new CurveEditor(draft, altitudeSpec(), {new ChoiceBox(draft, key::kAltitudeReference)})),
+      pitch_(new CurveEditor(draft, pitchSpec(), {})) {
+  QSplitter* split = new QSplitter(Qt::Vertical);
+  split->addWidget(altitude_);
+  split->addWidget(pitch_);
+  split->setChildrenCollapsible(false);
+  QVBoxLayout* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(split);
+}
+
+void MembershipEditor::showFrame(const LiveFrame& frame) {
+  altitude_->showFrame(frame);
+  pitch_->showFrame(frame);
+}
+
+}  // namespace trimtab::views

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+
+#include "curve_edit.h"
+#include "views/model/draft.h"
+#include "views/model/live.h"
+
+class QLabel;
+class QTableView;
+class QToolButton;
+
+namespace trimtab::views {
+
+class CurvePlot;
+
+/// One membership curve: its reading, the plot, and the breakpoints as typed values.
+class CurveEditor : public QWidget {
+  Q_OBJECT
+ public:
+  CurveEditor(Draft& draft, const CurveSpec& spec, const QList<QWidget*>& extra, QWidget* parent = nullptr);
+  CurvePlot& plot() { return *plot_; }
+  QTableView& table() { return *table_; }
+  void showFrame(const LiveFrame& frame);
+
+ private:
+  void showNote();
+  void say(const QString& refusal);
+
+  Draft& draft_;
+  CurveSpec spec_;
+  CurvePlot* plot_;
+  QTableView* table_;
+  QLabel* note_;
+  QToolButton *add_, *remove_;
+  QString refusal_;
+};
+
+/// The Memberships dock: altitude over pitch.
+class MembershipEditor : public QWidget {
+  Q_OBJECT
+ public:
+  explicit MembershipEditor(Draft& draft, QWidget* parent = nullptr);
+  CurveEditor& altitude() { return *altitude_; }
+  CurveEditor& pitch() { return *pitch_; }
+  void showFrame(const LiveFrame& frame);
+
+ private:
+  CurveEditor *altitude_, *pitch_;
+};
+
+}  // namespace trimtab::views

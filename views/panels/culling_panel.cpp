@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "culling_panel.h"
+
+#include <QAction>
+#include <QBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QToolButton>
+#include <cmath>
+
+#include "views/controls/bar_list.h"
+#include "views/controls/parameter_lines.h"
+#include "views/model/theme.h"
+#include "views/plots/depth_map_inset.h"
+#include "views/plots/horizon_inset.h"
+#include "views/plots/time_plot.h"
+
+namespace trimtab::views {
+namespace {
+
+constexpr double kStagesShownS = 20;
+constexpr const char* kKeys[] = {"culling.case", "culling.occlusion", "culling.back_faces"};
+
+QString count(std::uint64_t n) {
+  return numberText(static_cast<double>(n), 0);
+}
+
+QString metres(double m) {
+  return m < 10000 ? CullingPanel::tr("%1 m").arg(numberText(m, m < 10 ? 2 : 0))
+                   : CullingPanel::tr("%1 km").arg(numberText(m / 1000, 1));
+}
+
+/// `size`: empty, or with a comma before it.
+QString whatServes(OcclusionMethod method, const QString& size) {
+  switch (method) {
+    case OcclusionMethod::depth_map:
+      return CullingPanel::tr("The <b>depth map</b> serves%1, tested on the GPU.").arg(size);
+    case OcclusionMethod::read_back:
+      return CullingPanel::tr("The <b>depth map</b> serves%1, read back and tested by the processor.")
+          .arg(size);
+    case OcclusionMethod::cpu_map:
+      return CullingPanel::tr("A <b>depth map by the processor</b> serves%1.").arg(size);
+    case OcclusionMethod::horizon:
+      return CullingPanel::tr("The <b>horizon</b> serves: what the ground about the eye hides, all round.");
+    case OcclusionMethod::horizon_and_map:
+      return CullingPanel::tr(
+                 "The <b>horizon</b> serves, and a <b>depth map by the processor</b>%1 for "
+                 "what it leaves.")
+          .arg(size);
+    case OcclusionMethod::automatic:
+      break;
+  }
+  return {};
+}
+
+QString horizonLeftOut() {
+  return CullingPanel::tr("The horizon is left out: near here it hid next to nothing.");
+}
+
+QString textOf(const PickedNode& node) {
+  const auto row = [](const QString& name, const QString& value) {
+    return QStringLiteral("<tr><td>%1&nbsp;&nbsp;</td><td>%2</td></tr>").arg(name, value);
+  };
+  QString text = QStringLiteral("<table>");
+  text += row(
+      CullingPanel::tr("Node"),
+      CullingPanel::tr("%1 %2, level %3").arg(node.form, count(node.number), QString::number(node.level)));
+  text += row(CullingPanel::tr("Reason"), node.reason);
+  text += row(CullingPanel::tr("Triangles"), count(node.triangles));
+  text += row(CullingPanel::tr("Distance"), metres(node.distanceM));
+  text += row(CullingPanel::tr("In the picture"),
+              CullingPanel::tr("%1 × %2 px").arg(numberText(node.widthPx, 0), numberText(node.heightPx, 0)));
+  text +=
+      row(CullingPanel::tr("Stated error"),
+          CullingPanel::tr("%1, %2 px seen from here").arg(metres(node.errorM), numberText(node.errorPx, 2)));
+  return text + QStringLiteral("</table>");
+}
+
+}  // namespace
+
+CullingPanel::CullingPanel(Draft& draft, QWidget* parent)
+    : QWidget(parent),
+      draft_(draft),
+      served_(new QLabel),
+      work_(new QLabel),
+      picked_(new QLabel),
+      reasons_(new BarList),
+      map_(new DepthMapInset),
+      horizon_(new HorizonInset),
+      overlayRow_(new QHBoxLayout),
+      pick_(new QPushButton(tr("&Pick a node"))),
+      throttle_(this, [this] { refresh(); }) {
+  for (QLabel* label : {served_, work_, picked_}) label->setWordWrap(true);
+  picked_->setTextFormat(Qt::RichText);
+  picked_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  reasons_->setAccessibleName(tr("Nodes of the cut, by why they are drawn or not"));
+  pick_->setCheckable(true);
+  pick_->setToolTip(tr("Click into the picture, and read what stands there"));
+  work_->setToolTip(tr("Since the terrain was opened. Work whose result is known is left out."));
+  connect(pick_, &QPushButton::toggled, this, &CullingPanel::pickingChanged);
+  map_->setReason(tr("The depth map, or the picture as the horizon covers it, shows here while it works."));
+
+  auto* layout = layout_ = new QVBoxLayout(this);
+  layout->setContentsMargins(6, 6, 6, 6);
+  layout->addWidget(new ParameterLines(draft, kKeys));
+  layout->addLayout(overlayRow_);
+  layout->addWidget(new QLabel(tr("<b>Nodes of the cut, by reason</b>")));
+  layout->addWidget(reasons_);
+  layout->addWidget(served_);
+  layout->addWidget(horizon_, 2);
+  layout->addWidget(map_, 3);
+  layout->addWidget(work_);
+  auto* pickRow = new QHBoxLayout;
+  pickRow->addWidget(pick_);
+  pickRow->addStretch(1);
+  layout->addLayout(pickRow);
+  layout->addWidget(picked_);
+  showPicked(std::nullopt);
+  refresh();
+}
+
+void CullingPanel::showStages(const TraceBuffer& frames) {
+  stages_ = new TimePlot(frames, TimePlot::Lanes::stages);
+  stages_->setAccessibleName(tr("Stages of a frame, stacked"));
+  stages_->setToolTip(tr("What each stage of a frame takes; the Plots dock has the rest"));
+  stages_->setSpan(kStagesShownS);
+  const auto budget = [this] { stages_->setBudget(draft_.active()->measure.budget.value()); };
+  connect(&draft_, &Draft::activeChanged, this, budget);
+  budget();
+  layout_->insertWidget(layout_->indexOf(work_), stages_, 2);
+}
+
+void CullingPanel::setActions(const QList<QAction*>& overlays) {
+  for (QAction* action : overlays) {
+    auto* button = new QToolButton(this);
+    button->setDefaultAction(action);
+    button->setToolButtonStyle(Qt::ToolButtonTextOnly);
+    button->setFocusPolicy(Qt::StrongFocus);
+    overlayRow_->addWidget(button);
+  }
+  overlayRow_->addStretch(1);
+}
+
+void CullingPanel::showFrame(const LiveFrame& frame) {
+  frame_ = frame;
+  throttle_.request();
+}
+
+void CullingPanel::showMap(const QImage& image, const QString& caption) {
+  if (image.isNull())
+    map_->setReason(caption);
+  else
+    map_->setPicture(image, caption);
+}
+
+void CullingPanel::showHorizon(std::vector<float> elevationDeg, double headingDeg, double fovDeg) {
+  hasHorizon_ = !elevationDeg.empty();
+  if (hasHorizon_)
+    horizon_->setProfile(std::move(elevationDeg), headingDeg, fovDeg);
+  else
+    horizon_->setReason(whyNoHorizon());
+}
+
+QString CullingPanel::whyNoHorizon() const {
+  if (!frame_.cullingNote.empty()) return QString::fromStdString(frame_.cullingNote);
+  if (frame_.occlusion == OcclusionMethod::horizon || frame_.occlusion == OcclusionMethod::horizon_and_map)
+    return horizonLeftOut();
+  if (frame_.occlusion || frame_.depthMap) return tr("A depth map serves, not the horizon.");
+  return tr("No horizon: nothing asks for one in this frame.");
+}
+
+void CullingPanel::showPicked(std::optional<PickedNode> node) {
+  picked_->setText(node ? textOf(*node)
+                        : tr("Nothing is picked. The sky is no node; the picture must show terrain there."));
+}
+
+bool CullingPanel::picking() const {
+  return pick_->isChecked();
+}
+
+void CullingPanel::endPicking() {
+  pick_->setChecked(false);
+}
+
+QString CullingPanel::served() const {
+  const QString note = QString::fromStdString(frame_.cullingNote).toHtmlEscaped();
+  const QString size = frame_.depthMap
+                           ? tr(", %1 × %2 px").arg(frame_.depthMap->widthPx).arg(frame_.depthMap->heightPx)
+                           : QString();
+  if (frame_.occlusion) {
+    const OcclusionMethod method = *frame_.occlusion;
+    const bool both = method == OcclusionMethod::horizon_and_map;
+    QStringList sentences{whatServes(method, size)};
+    if (!note.isEmpty()) sentences << note;
+    if (!frame_.horizon && note.isEmpty() && (both || method == OcclusionMethod::horizon))
+      sentences << horizonLeftOut();
+    if (!frame_.depthMap && frame_.tilesDrawn > 0 && (both || method == OcclusionMethod::cpu_map))
+      sentences << tr("The map is left out: near here one hid next to nothing.");
+    return sentences.join(QLatin1Char(' '));
+  }
+  if (frame_.depthMap) return tr("A <b>depth map</b> of the static trees serves%1.").arg(size);
+  if (!note.isEmpty()) return tr("Nothing is looked for behind the ground.") + QLatin1Char(' ') + note;
+  if (!frame_.decision.depthMap) return tr("The decision is plain view-frustum culling in this frame.");
+  return tr("Nothing is looked for behind the ground in this case.");
+}
+
+void CullingPanel::refresh() {
+  served_->setText(served());
+  if (!hasHorizon_) horizon_->setReason(whyNoHorizon());
+  if (stages_) stages_->refresh(true);
+  const LiveFrame& f = frame_;
+  const double all = std::max<double>(1, static_cast<double>(f.tilesInCut));
+  const auto bar = [&](const QString& name, std::size_t nodes, const QString& more, int colour) {
+    return BarList::Bar{name,   static_cast<double>(nodes), all, count(nodes) + more, {},
+                        colour, f.tilesInCut == 0};
+  };
+  // The colours of the picture where it is coloured by reason, as near as the palette has them.
+  reasons_->setBars(
+      {bar(tr("drawn"), f.tilesDrawn, tr(" (%1 triangles)").arg(count(f.triangles)), 2),
+       bar(tr("outside the frustum"), f.outsideFrustum, {}, 1), bar(tr("hidden"), f.occluded, {}, 3),
+       bar(tr("beyond visibility"), f.beyondVisibility, {}, 4), bar(tr("facing away"), f.backFacing, {}, 0)});
+  work_->setText(tr("Cuts chosen %1, views %2; horizons built %3, moved along %4, left out %5; depth maps "
+                    "by GL %6, read back %7, by the processor %8, left out %9; frames in which nothing "
+                    "was worth its cost %10.")
+                     .arg(count(f.cutsSelected), count(f.visibleSelected), count(f.horizonsBuilt),
+                          count(f.horizonsMoved), count(f.horizonsLeftOut), count(f.depthMapsDrawn),
+                          count(f.mapsReadBack), count(f.mapsDrawnByCpu), count(f.mapsLeftOut),
+                          count(f.occlusionsLeftOut)));
+}
+
+}  // namespace trimtab::views

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decision_log.h"
+
+#include <QStringList>
+
+namespace trimtab::views {
+
+namespace {
+
+QString sizeText(const std::optional<DepthMapSize>& size) {
+  return size ? QStringLiteral("%1x%2").arg(size->widthPx).arg(size->heightPx) : QStringLiteral("none");
+}
+
+bool isInputAtFault(SchemeReason reason) {
+  return reason == SchemeReason::invalid_input || reason == SchemeReason::altitude_unknown ||
+         reason == SchemeReason::no_rule_fires;
+}
+
+}  // namespace
+
+bool DecisionLog::isChange(const FrameDecision& d) const {
+  if (!last_) return true;
+  const bool faults = isInputAtFault(d.reason) || isInputAtFault(last_->reason);
+  return d.scheme != last_->scheme || d.band != last_->band || d.depthMap != last_->depthMap ||
+         d.lodScale != last_->lodScale || (faults && d.reason != last_->reason);
+}
+
+void DecisionLog::append(double time, std::uint64_t packet, const FrameDecision& decision,
+                         const QString& reason) {
+  if (static_cast<int>(entries_.size()) >= kCapacity) {
+    // Many at once, so that a view does not move its rows with every line.
+    constexpr int kAtOnce = kCapacity / 10;
+    beginRemoveRows({}, 0, kAtOnce - 1);
+    entries_.erase(entries_.begin(), entries_.begin() + kAtOnce);
+    forgotten_ += kAtOnce;
+    endRemoveRows();
+  }
+  const int row = static_cast<int>(entries_.size());
+  beginInsertRows({}, row, row);
+  entries_.push_back({time, packet, decision.scheme, decision.depthMap, reason});
+  last_ = decision;
+  endInsertRows();
+}
+
+void DecisionLog::clear() {
+  beginResetModel();
+  entries_.clear();
+  forgotten_ = 0;
+  endResetModel();
+}
+
+int DecisionLog::rowCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(entries_.size());
+}
+
+QStringList DecisionLog::cells(const Entry& e) const {
+  return {QString::number(e.time, 'f', 3), QString::number(e.packet),
+          e.scheme == Scheme::dynamic ? QStringLiteral("dynamic") : QStringLiteral("frustum"),
+          sizeText(e.depthMap), e.reason};
+}
+
+QVariant DecisionLog::data(const QModelIndex& index, int role) const {
+  if (!index.isValid()) return {};
+  if (role == Qt::DisplayRole || (role == Qt::ToolTipRole && index.column() == kReason))
+    return cells(entries_[static_cast<std::size_t>(index.row())]).at(index.column());
+  if (role == Qt::TextAlignmentRole)
+    return QVariant((index.column() <= kPacket ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+  return {};
+}
+
+QVariant DecisionLog::headerData(int section, Qt::Orientation orientation, int role) const {
+  if (role == Qt::TextAlignmentRole && section == kReason) return QVariant(Qt::AlignLeft | Qt::AlignVCenter);
+  if (role != Qt::DisplayRole || orientation != Qt::Horizontal) return {};
+  const QStringList titles{tr("Time (s)"), tr("Packet"), tr("Scheme"), tr("Depth map"), tr("Reason")};
+  return titles.at(section);
+}
+
+QString DecisionLog::toText(const QList<int>& rows) const {
+  QString text = QStringLiteral("time_s\tpacket\tscheme\tdepth_map_px\treason\n");
+  for (const int row : rows)
+    if (row >= 0 && row < rowCount())
+      text += cells(entries_[static_cast<std::size_t>(row)]).join(QLatin1Char('\t')) + QLatin1Char('\n');
+  return text;
+}
+
+QString DecisionLog::toCsv() const {
+  QString text = QStringLiteral("time_s,packet,scheme,depth_map_px,reason\n");
+  for (const Entry& entry : entries_) {
+    QStringList row = cells(entry);
+    row.last() =
+        QLatin1Char('"') + row.last().replace(QLatin1Char('"'), QStringLiteral("\"\"")) + QLatin1Char('"');
+    text += row.join(QLatin1Char(',')) + QLatin1Char('\n');
+  }
+  return text;
+}
+
+}  // namespace trimtab::views

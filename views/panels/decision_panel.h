@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+
+#include "views/model/draft.h"
+#include "views/model/live.h"
+#include "views/model/throttle.h"
+
+class QLabel;
+class QTableView;
+
+namespace trimtab::views {
+
+class BarList;
+class DecisionLog;
+
+/// The Decision dock: what was decided, from what, why, and when it last changed.
+class DecisionPanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit DecisionPanel(Draft& draft, QWidget* parent = nullptr);
+  const DecisionLog& log() const { return *log_; }
+  QTableView& logView() { return *view_; }
+  void showFrame(const LiveFrame& frame);
+  /// Writes the whole log; the findings say why it could not.
+  Findings saveLog(const QString& file) const;
+
+ public slots:
+  void copyLog();  ///< the selected rows, or all where none is
+  void clearLog();
+
+ private:
+  void refresh();
+  void askAndSave();
+
+  Draft& draft_;
+  QLabel *scheme_, *reason_, *count_;
+  BarList *memberships_, *rules_;
+  DecisionLog* log_;
+  QTableView* view_;
+  LiveFrame frame_;
+  bool any_ = false;
+  Throttle throttle_;
+};
+
+}  // namespace trimtab::views

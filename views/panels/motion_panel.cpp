@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "motion_panel.h"
+
+#include <QBoxLayout>
+#include <QComboBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QPushButton>
+#include <QScrollBar>
+#include <algorithm>
+
+#include "trimtab/motion/head_motion.h"
+#include "views/controls/bar_list.h"
+#include "views/controls/parameter_lines.h"
+#include "views/model/theme.h"
+#include "views/plots/motion_plot.h"
+
+namespace trimtab::views {
+namespace {
+
+constexpr int kMostReasons = 500;
+/// The rows worth having beside what they do; the Preset dock has all.
+constexpr const char* kKeys[] = {"motion.control",          "motion.dwell",
+                                 "motion.blur_frames",      "motion.restore_frames",
+                                 "motion.blur_duration_ms", "motion.blur_strength"};
+
+QString stackText(const MotionStack& stack, double limit, bool ms, bool more) {
+  const QString of = more ? MotionPanel::tr("> %1").arg(numberText(limit, 1)) : numberText(limit, 1);
+  return ms ? MotionPanel::tr("%1 of %2 ms").arg(numberText(stack.ms, 0), of)
+            : MotionPanel::tr("%1 of %2").arg(stack.frames).arg(of);
+}
+
+}  // namespace
+
+MotionPanel::MotionPanel(Draft& draft, QWidget* parent)
+    : QWidget(parent),
+      draft_(draft),
+      source_(new QComboBox),
+      open_(new QPushButton(tr("Open &log…"))),
+      name_(new QLabel),
+      state_(new QLabel(tr("No frame has been decided yet"))),
+      sweep_(new QLineEdit(QStringLiteral("180deg/1s/2s"))),
+      bars_(new BarList),
+      plot_(new MotionPlot),
+      reasons_(new QListWidget),
+      throttle_(this, [this] { refresh(); }) {
+  source_->addItems({tr("as the host says"), tr("a recorded log"), tr("a sweep"),
+                     tr("the pointer over the picture"), tr("none: straight ahead")});
+  source_->setAccessibleName(tr("Line of sight"));
+  sweep_->setAccessibleName(tr("Sweep"));
+  sweep_->setToolTip(
+      tr("Degrees / seconds / wait: 180deg/1s/2s turns the head through 180 degrees in a second, waits two, "
+         "and turns back. A nod: in front makes it up and down."));
+  name_->setWordWrap(true);
+  state_->setWordWrap(true);
+  QFont bold = font();
+  bold.setBold(true);
+  state_->setFont(bold);
+  bars_->setAccessibleName(tr("Stacks, LOD scale and blur"));
+  reasons_->setAccessibleName(tr("Changes by head motion"));
+  reasons_->setWordWrap(true);
+  reasons_->setResizeMode(QListView::Adjust);
+  reasons_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  reasons_->setSelectionMode(QAbstractItemView::ExtendedSelection);
+  reasons_->setMinimumHeight(fontMetrics().height() * 5);
+
+  auto* top = new QHBoxLayout;
+  top->addWidget(new QLabel(tr("Line of sight")));
+  top->addWidget(source_, 1);
+  top->addWidget(sweep_, 1);
+  top->addWidget(open_);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(6, 6, 6, 6);
+  layout->addLayout(top);
+  layout->addWidget(name_);
+  layout->addWidget(state_);
+  layout->addWidget(bars_);
+  layout->addWidget(plot_, 2);
+  layout->addWidget(new QLabel(tr("<b>Changes</b>")));
+  layout->addWidget(reasons_, 1);
+  layout->addWidget(new ParameterLines(draft, kKeys));
+
+  connect(source_, &QComboBox::activated, this, [this](int source) {
+    showWidgetsOf(static_cast<Source>(source));
+    if (source == log)
+      emit openLogAsked();
+    else
+      emit sourceAsked(source);
+  });
+  connect(open_, &QPushButton::clicked, this, &MotionPanel::openLogAsked);
+  connect(sweep_, &QLineEdit::returnPressed, this, [this] { emit sourceAsked(sweep); });
+  showWidgetsOf(host);
+  refresh();
+}
+
+MotionPanel::Source MotionPanel::source() const {
+  return static_cast<Source>(source_->currentIndex());
+}
+
+QString MotionPanel::sweepText() const {
+  const QString text = sweep_->text().trimmed();
+  return text.startsWith(QLatin1String("nod:")) || text.startsWith(QLatin1String("sweep:"))
+             ? text
+             : QStringLiteral("sweep:") + text;
+}
+
+QString MotionPanel::stateText() const {
+  return state_->text();
+}
+
+void MotionPanel::setSource(Source source, const QString& name) {
+  source_->setCurrentIndex(source);
+  showWidgetsOf(source);
+  name_->setText(source == log ? name : QString());
+  name_->setVisible(source == log);
+}
+
+void MotionPanel::showWidgetsOf(Source source) {
+  open_->setVisible(source == log);
+  sweep_->setVisible(source == sweep);
+  name_->setVisible(source == log && !name_->text().isEmpty());
+}
+
+void MotionPanel::showFrame(const LiveFrame& frame) {
+  frame_ = frame;
+  any_ = true;
+  plot_->append(frame);
+  if (frame.decision.motion != noted_) {
+    noted_ = frame.decision.motion;
+    if (changesState(noted_.reason)) note(frame);
+  }
+  throttle_.request();
+}
+
+void MotionPanel::note(const LiveFrame& frame) {
+  const QScrollBar* bar = reasons_->verticalScrollBar();
+  const bool follow = bar->value() == bar->maximum();
+  reasons_->addItem(
+      tr("%1 s  %2").arg(frame.time, 0, 'f', 3).arg(QString::fromStdString(explain(frame.decision.motion))));
+  while (reasons_->count() > kMostReasons) delete reasons_->takeItem(0);
+  if (follow) reasons_->scrollToBottom();
+}
+
+void MotionPanel::refresh() {
+  const MotionDecision& m = frame_.decision.motion;
+  if (any_) {
+    if (m.reason == MotionReason::off)
+      state_->setText(tr("Head motion is off"));
+    else
+      state_->setText(tr("%1: %2 deg/s, threshold %3 deg/s")
+                          .arg(m.fast ? tr("Fast") : tr("Slow"), numberText(m.rateDegPerS, 1),
+                               numberText(m.thresholdDegPerS, 1)));
+  }
+  const auto filled = [&m](const MotionStack& stack) { return m.limitsInMs ? stack.ms : stack.frames; };
+  std::vector<BarList::Bar> bars;
+  bars.push_back({.name = tr("BlurStack"),
+                  .value = filled(m.blurStack),
+                  .top = std::max(m.blurLimit, 1.0),
+                  .text = stackText(m.blurStack, m.blurLimit, m.limitsInMs, false),
+                  .ticks = {},
+                  .colour = 5});
+  // It fires above its limit, so the bar reaches one frame farther.
+  bars.push_back({.name = tr("LODRestoreStack"),
+                  .value = filled(m.restoreStack),
+                  .top = m.restoreLimit + 1,
+                  .text = stackText(m.restoreStack, m.restoreLimit, m.limitsInMs, true),
+                  .ticks = {m.restoreLimit},
+                  .colour = 2,
+                  .quiet = m.restoreLimit <= 0});
+  bars.push_back({.name = tr("LOD scale"),
+                  .value = m.lodScale - 1,
+                  .top = std::max(3.0, m.lodScale - 1),
+                  .text = tr("× %1, level %2").arg(numberText(m.lodScale, 2)).arg(m.level),
+                  .ticks = {},
+                  .colour = 1});
+  bars.push_back({.name = tr("Blur"),
+                  .value = m.blur.remainingMs,
+                  .top = std::max(draft_.active()->motion.blurDuration.value(), m.blur.remainingMs),
+                  .text = m.blur.strength > 0
+                              ? tr("%1 ms left, strength %2")
+                                    .arg(numberText(m.blur.remainingMs, 0), numberText(m.blur.strength, 2))
+                              : tr("none"),
+                  .ticks = {},
+                  .colour = 4});
+  bars_->setBars(std::move(bars));
+  plot_->refresh();
+}
+
+}  // namespace trimtab::views

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+#include <deque>
+#include <vector>
+
+#include "views/model/draft.h"
+#include "views/model/live.h"
+#include "views/model/throttle.h"
+
+class QComboBox;
+class QLabel;
+class QLineEdit;
+class QListWidget;
+class QPushButton;
+
+namespace trimtab::views {
+
+class BarList;
+class MotionPlot;
+
+/// The Head motion dock: where the head comes from, its rate against the threshold of Eq. (1), both stacks
+/// filling against their limits, LOD scale and blur, and the reason of each change.
+class MotionPanel : public QWidget {
+  Q_OBJECT
+ public:
+  enum Source { host, log, sweep, pointer, none };
+
+  explicit MotionPanel(Draft& draft, QWidget* parent = nullptr);
+
+  void showFrame(const LiveFrame& frame);
+  /// What is in use: without signals. `name`: of a log or sweep.
+  void setSource(Source source, const QString& name);
+  Source source() const;
+  /// As `--head` takes it.
+  QString sweepText() const;
+
+  QComboBox& sourceBox() { return *source_; }
+  QLineEdit& sweepEdit() { return *sweep_; }
+  QListWidget& reasons() { return *reasons_; }
+  BarList& bars() { return *bars_; }
+  QString stateText() const;
+
+ signals:
+  void sourceAsked(int source);  ///< the person chose another one, or changed the sweep
+  void openLogAsked();
+
+ private:
+  void refresh();
+  void showWidgetsOf(Source source);
+  void note(const LiveFrame& frame);
+
+  Draft& draft_;
+  QComboBox* source_;
+  QPushButton* open_;
+  QLabel *name_, *state_;
+  QLineEdit* sweep_;
+  BarList* bars_;
+  MotionPlot* plot_;
+  QListWidget* reasons_;
+  LiveFrame frame_;
+  MotionDecision noted_;
+  bool any_ = false;
+  Throttle throttle_;
+};
+
+}  // namespace trimtab::views

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rules_panel.h"
+
+#include <QBoxLayout>
+#include <QFileDialog>
+#include <QMessageBox>
+#include <QSplitter>
+#include <algorithm>
+
+#include "trimtab/fuzzy/rule_file.h"
+#include "trimtab/preset/file_io.h"
+#include "views/editors/rule_viewer.h"
+#include "views/editors/rules_editor.h"
+
+namespace trimtab::views {
+
+namespace {
+
+Finding unknownEnding(const QString& file) {
+  return {Severity::error, file.toStdString(), "", "a file that ends in .fll or .fis", "another ending"};
+}
+
+bool anyError(const Findings& findings) {
+  return std::ranges::any_of(findings, [](const Finding& f) { return f.severity == Severity::error; });
+}
+
+QString filters() {
+  return QObject::tr("Fuzzy rules (*.fll *.fis);;FuzzyLite Language (*.fll);;MATLAB fuzzy system (*.fis)");
+}
+
+/// Findings of a file, after `done` where it was taken all the same.
+void tell(QWidget* parent, const QString& failed, const QString& done, const Findings& findings) {
+  if (findings.empty()) return;
+  const QString text = QString::fromStdString(toString(findings));
+  if (anyError(findings))
+    QMessageBox::warning(parent, failed, text);
+  else
+    QMessageBox::information(parent, done, text);
+}
+
+}  // namespace
+
+RulesPanel::RulesPanel(Draft& draft, QWidget* parent)
+    : QWidget(parent), draft_(draft), editor_(new RulesEditor(draft)), viewer_(new RuleViewer(draft)) {
+  auto* viewing = new QWidget;
+  auto* viewingLayout = new QVBoxLayout(viewing);
+  viewingLayout->setContentsMargins(6, 2, 6, 4);
+  viewingLayout->addWidget(viewer_);
+  viewingLayout->addStretch(1);
+  auto* split = new QSplitter(Qt::Vertical);
+  split->addWidget(editor_);
+  split->addWidget(viewing);
+  split->setChildrenCollapsible(false);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(split);
+  connect(editor_, &RulesEditor::importAsked, this, &RulesPanel::askAndImport);
+  connect(editor_, &RulesEditor::exportAsked, this, &RulesPanel::askAndExport);
+}
+
+void RulesPanel::showFrame(const LiveFrame& frame) {
+  viewer_->showFrame(frame);
+}
+
+Findings RulesPanel::importFile(const QString& file) {
+  const auto format = ruleFormatOf(file.toStdString());
+  if (!format) return {unknownEnding(file)};
+  const Result<std::string> text = readWhole(file.toStdString());
+  if (!text) return text.findings();
+  const Result<TuningParameters> read = readRuleFile(*text, file.toStdString(), *format, draft_.parameters());
+  if (!read) return read.findings();
+  draft_.takeParameters(*read, tr("Import Rules"));
+  return read.findings();
+}
+
+Findings RulesPanel::exportFile(const QString& file) const {
+  const auto format = ruleFormatOf(file.toStdString());
+  if (!format) return {unknownEnding(file)};
+  const Result<std::string> text = ruleFileText(*draft_.active(), draft_.preset().name, *format);
+  if (!text) return text.findings();
+  if (const auto written = writeAtomically(file.toStdString(), *text); !written) return written.findings();
+  return text.findings();
+}
+
+void RulesPanel::askAndImport() {
+  const QString file = QFileDialog::getOpenFileName(this, tr("Import Rules"), {}, filters());
+  if (file.isEmpty()) return;
+  tell(this, tr("The rules were not imported"), tr("The rules were imported"), importFile(file));
+}
+
+void RulesPanel::askAndExport() {
+  QFileDialog dialog(this, tr("Export Rules"), {}, filters());
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.setDefaultSuffix(QStringLiteral("fll"));
+  dialog.selectFile(QStringLiteral("rules.fll"));
+  if (dialog.exec() != QDialog::Accepted) return;
+  tell(this, tr("The rules were not exported"), tr("The rules were exported"),
+       exportFile(dialog.selectedFiles().constFirst()));
+}
+
+}  // namespace trimtab::views

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <qcustomplot.h>
+
+#include <optional>
+
+#include "views/editors/curve_edit.h"
+#include "views/model/draft.h"
+#include "views/model/live.h"
+#include "views/model/throttle.h"
+
+namespace trimtab::views {
+
+/// A membership curve whose breakpoints are dragged, added, removed and nudged; the live operating point
+/// rides on what the chosen reading really computes.
+class CurvePlot : public QCustomPlot {
+  Q_OBJECT
+ public:
+  CurvePlot(Draft& draft, CurveSpec spec, QWidget* parent = nullptr);
+
+  void showFrame(const LiveFrame& frame);
+  int selected() const { return selected_; }
+  /// -1: none.
+  void select(int index);
+  void addPoint(CurvePoint point);
+  /// In the middle of the selected point and the next one.
+  void addPointBesideSelected();
+  void removeSelected();
+  /// Where a breakpoint is, in this widget's coordinates.
+  QPointF pixelOf(CurvePoint point) const;
+  void fitView();
+
+  QSize sizeHint() const override { return {420, 220}; }
+  QSize minimumSizeHint() const override { return {220, 150}; }
+
+ signals:
+  void selectedChanged(int index);
+  void refused(const QString& why);
+  void typingAsked();  ///< the person wants to type the selected point's values
+
+ protected:
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void contextMenuEvent(QContextMenuEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void keyReleaseEvent(QKeyEvent* event) override;
+  bool focusNextPrevChild(bool next) override;
+  void focusInEvent(QFocusEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+  void changeEvent(QEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  void makeItems();
+  bool isAtFault() const;
+  void describe(const CurvePoints& shown);
+  void colour();
+  void redraw();
+  void redrawEffective(const CurvePoints& shown);
+  void placeLive();
+  void redrawLive();
+  void drawHover(const std::optional<QPointF>& at);
+  int pointAt(QPointF pixel) const;
+  CurvePoint valueAt(QPointF pixel) const;
+  void cancelDrag();
+  void nudge(double dx, double dy);
+  void commit(const CurvePoints& curve, MergeToken token);
+  bool editable() const;
+  CurvePoints curve() const;
+
+  Draft& draft_;
+  CurveSpec spec_;
+  int selected_ = -1;
+  MergeToken dragToken_ = 0;   ///< not 0 while a point is dragged
+  MergeToken nudgeToken_ = 0;  ///< of a key held down
+  CurvePoints dragStart_;
+  QPointF grabOffset_;
+  bool fitted_ = true;
+  bool shownAtFault_ = false;
+  std::optional<CurvePoint> live_;
+  Throttle liveThrottle_;
+
+  QCPGraph* points_ = nullptr;     ///< the straight lines between breakpoints
+  QCPGraph* effective_ = nullptr;  ///< what is computed
+  QCPGraph* handles_ = nullptr;
+  QCPGraph* chosen_ = nullptr;  ///< the selected handle
+  QCPGraph* operating_ = nullptr;
+  QCPItemText* operatingText_ = nullptr;
+  QCPItemText* hoverText_ = nullptr;
+  QCPGraph* hover_ = nullptr;
+};
+
+}  // namespace trimtab::views

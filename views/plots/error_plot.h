@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <qcustomplot.h>
+
+#include <deque>
+
+#include "views/model/error_run.h"
+
+namespace trimtab::views {
+
+/// A live measurement: the session's frame time, and errors in the order of ErrorRun::errors.
+struct LiveError {
+  double ms = 0;
+  QVector<double> errors;
+};
+
+/// Run time against error: one point a preset and case, its marker by case and its colour by preset, at the
+/// medians of its frames; whiskers from the 5th to the 95th percentile; the front that nothing beats in both;
+/// the budget; and the live session as a point that draws a fading tail. Lower left is best whatever the
+/// error: an axis on which larger is better runs the other way.
+class ErrorPlot : public QCustomPlot {
+  Q_OBJECT
+ public:
+  struct Point {
+    int series = 0;  ///< of ErrorRun::series
+    double error = 0, ms = 0;
+    double errorLow = 0, errorHigh = 0, msLow = 0, msHigh = 0;
+    bool onFront = false;
+  };
+  static constexpr std::size_t kTail = 24;
+
+  explicit ErrorPlot(QWidget* parent = nullptr);
+
+  void show(const ErrorRun& run);
+  /// Of one flight; the first where there is none of that name.
+  void showFlight(const QString& flight);
+  /// Index into ErrorRun::errors.
+  void showError(int error);
+  void setLogarithmic(bool on);
+  bool logarithmic() const { return yAxis->scaleType() == QCPAxis::stLogarithmic; }
+  void setBudget(double ms);
+  void showLive(const LiveError& live);
+  void clearLive();
+
+  const std::vector<Point>& points() const { return points_; }
+  const std::deque<LiveError>& tail() const { return tail_; }
+  int selected() const { return selected_; }
+  /// Shows the numbers of a point, -1: none; points().size() is the live one.
+  void select(int point);
+  QString selectedText() const;
+  QPointF pixelOf(const Point& point) const;
+  QPointF livePixel() const;
+  void fitView();
+
+  QSize sizeHint() const override { return {380, 220}; }
+  QSize minimumSizeHint() const override { return {200, 130}; }
+
+ signals:
+  void logarithmicChanged(bool on);
+
+ protected:
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void changeEvent(QEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  class Tail;
+  const ErrorRun::Error* error() const;
+  double liveError(const LiveError& live) const;
+  QPointF placeLive(const LiveError& live) const;
+  void compute();
+  void redraw();
+  void drawPoints();
+  void drawFront();
+  void makeLegend();
+  void fit();
+  void placeText();
+  int pointAt(QPointF pixel) const;
+
+  ErrorRun run_;
+  QString flight_;
+  int error_ = 0, selected_ = -1;
+  double budget_ = 0;
+  bool fitted_ = true;
+  std::vector<Point> points_;
+  std::deque<LiveError> tail_;  ///< newest last
+
+  Tail* liveItem_;
+  QCPItemStraightLine* budgetLine_;
+  QCPItemText *budgetText_, *hint_, *numbers_;
+};
+
+}  // namespace trimtab::views

@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "error_timeline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "views/model/theme.h"
+
+namespace trimtab::views {
+namespace {
+
+constexpr int kUnboundedPx = 100000;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kHeadRoom = 1.15;
+constexpr double kWorstPx = 9;
+constexpr std::array kPens{Qt::SolidLine, Qt::DashLine, Qt::DashDotLine, Qt::DotLine};
+
+QString timeText(double seconds) {
+  return QStringLiteral("%1 s").arg(numberText(seconds, 2));
+}
+
+}  // namespace
+
+ErrorTimeline::ErrorTimeline(QWidget* parent) : QCustomPlot(parent), cursor_(kNan) {
+  setFocusPolicy(Qt::StrongFocus);
+  setMouseTracking(true);
+  setAccessibleName(tr("Frame time and error along the flight"));
+  setAutoAddPlottableToLegend(false);
+  plotLayout()->clear();
+  plotLayout()->setRowSpacing(0);
+  auto* above = new QCPLegend;
+  plotLayout()->addElement(0, 0, above);
+  plotLayout()->setRowStretchFactor(0, 0.001);
+  above->setFillOrder(QCPLegend::foColumnsFirst);
+  above->setMargins(QMargins(4, 2, 4, 0));
+  above->setRowSpacing(0);
+  above->setColumnSpacing(6);
+  above->setIconSize(16, 12);
+  // Empty, it would bound the column.
+  above->setMaximumSize(kUnboundedPx, kUnboundedPx);
+  legend = above;
+  for (const char* name : {"cursor", "numbers"}) {
+    addLayer(QString::fromLatin1(name), nullptr, QCustomPlot::limAbove);
+    layer(QString::fromLatin1(name))->setMode(QCPLayer::lmBuffered);
+  }
+  auto* margins = new QCPMarginGroup(this);
+  for (std::size_t i = 0; i < lanes_.size(); ++i) {
+    Lane& lane = lanes_[i];
+    lane.rect = new QCPAxisRect(this, true);
+    plotLayout()->addElement(int(i) + 1, 0, lane.rect);
+    lane.rect->setMarginGroup(QCP::msLeft | QCP::msRight, margins);
+    lane.rect->setMinimumMargins(QMargins(4, 4, 8, 2));
+    for (QCPAxis* axis : {time(int(i)), value(int(i))}) {
+      axis->setSubTicks(false);
+      axis->setNumberFormat(QStringLiteral("g"));
+    }
+    time(int(i))->ticker()->setTickCount(6);
+    value(int(i))->ticker()->setTickCount(3);
+    value(int(i))->setNumberPrecision(4);
+    time(int(i))->setNumberPrecision(7);
+    lane.cursor = new QCPItemStraightLine(this);
+    lane.cursor->setLayer(QStringLiteral("cursor"));
+    lane.cursor->setClipAxisRect(lane.rect);
+    for (QCPItemPosition* point : {lane.cursor->point1, lane.cursor->point2})
+      point->setAxes(time(int(i)), value(int(i)));
+  }
+  time(0)->setTickLabels(false);
+  time(1)->setLabel(tr("Time of the flight (s)"));
+  value(0)->setLabel(tr("Frame (ms)"));
+
+  budgetLine_ = new QCPItemStraightLine(this);
+  budgetLine_->setClipAxisRect(lanes_[0].rect);
+  for (QCPItemPosition* point : {budgetLine_->point1, budgetLine_->point2}) point->setAxes(time(0), value(0));
+  const auto text = [this](const char* layerName) {
+    auto* item = new QCPItemText(this);
+    item->setLayer(QString::fromLatin1(layerName));
+    item->setClipToAxisRect(false);
+    item->position->setType(QCPItemPosition::ptAbsolute);
+    item->setPadding(QMargins(6, 3, 6, 3));
+    item->setTextAlignment(Qt::AlignLeft);
+    item->setVisible(false);
+    return item;
+  };
+  cursorText_ = text("cursor");
+  numbers_ = text("numbers");
+  hint_ = text("main");
+  hint_->position->setType(QCPItemPosition::ptAxisRectRatio);
+  hint_->position->setAxisRect(lanes_[0].rect);
+  hint_->position->setCoords(0.5, 0.5);
+  redraw();
+}
+
+bool ErrorTimeline::isShown(const ErrorRun::Series& s) const {
+  return s.flight == flight_ && s.method == method_;
+}
+
+void ErrorTimeline::show(const ErrorRun& run) {
+  run_ = run;
+  if (!run_.flights().contains(flight_)) flight_ = run_.flights().value(0);
+  if (!run_.methods().contains(method_)) method_ = run_.methods().value(run_.methods().size() - 1);
+  whole_ = {};
+  redraw();
+}
+
+void ErrorTimeline::showFlight(const QString& flight) {
+  flight_ = run_.flights().contains(flight) ? flight : run_.flights().value(0);
+  whole_ = {};
+  redraw();
+}
+
+void ErrorTimeline::showError(int error) {
+  error_ = error;
+  redraw();
+}
+
+void ErrorTimeline::showMethod(const QString& method) {
+  method_ = run_.methods().contains(method) ? method : run_.methods().value(run_.methods().size() - 1);
+  redraw();
+}
+
+void ErrorTimeline::setBudget(double ms) {
+  budget_ = ms;
+  redraw();
+}
+
+void ErrorTimeline::drawLines() {
+  const QStringList presets = run_.presets();
+  std::array<double, 2> low{0, 0}, high{0, 0};
+  times_.clear();
+  const ErrorRun::Error* error = error_ >= 0 && error_ < run_.errors.size() ? &run_.errors[error_] : nullptr;
+  bool first = true;
+  for (const ErrorRun::Series& s : run_.series) {
+    if (!isShown(s)) continue;
+    times_.insert(times_.end(), s.timeS.begin(), s.timeS.end());
+    const int preset = int(presets.indexOf(s.preset));
+    for (int lane = 0; lane < 2; ++lane) {
+      if (lane == 1 && (error == nullptr || error_ >= s.errors.size())) continue;
+      QVector<double> y = lane == 0 ? s.ms : s.errors[error_];
+      for (double& v : y) {
+        if (lane == 1) v = placeOf(*error, v);
+        if (!std::isfinite(v)) {
+          v = kNan;
+          continue;
+        }
+        if (lane == 1 && !error->largerIsWorse) low[1] = first ? v : std::min(low[1], v);
+        high[std::size_t(lane)] = lane == 1 && first ? v : std::max(high[std::size_t(lane)], v);
+        if (lane == 1) first = false;
+      }
+      QCPGraph* graph = addGraph(time(lane), value(lane));
+      graph->setData(s.timeS, y);
+      graph->setPen(QPen(presetColour(preset, palette()), 1.5, kPens[std::size_t(preset) % kPens.size()]));
+      graph->setName(s.preset);
+      if (lane == 0) graph->addToLegend();
+    }
+  }
+  std::sort(times_.begin(), times_.end());
+  times_.erase(std::unique(times_.begin(), times_.end()), times_.end());
+  if (budget_ > 0 && std::isfinite(budget_)) high[0] = std::max(high[0], budget_);
+  value(0)->setRange(0, high[0] > 0 ? high[0] * kHeadRoom : 1);
+  const double room = high[1] > low[1] ? (high[1] - low[1]) * (kHeadRoom - 1) : std::max(high[1], 1.0) * 0.1;
+  value(1)->setRange(low[1] > 0 ? low[1] - room : 0, high[1] + room);
+  value(1)->setLabel(error != nullptr ? titleOf(*error) : tr("Error"));
+  if (whole_.size() == 0 && !times_.empty()) {
+    const double margin = std::max(0.02 * (times_.back() - times_.front()), 0.5);
+    whole_ = QCPRange(times_.front() - margin, times_.back() + margin);
+    for (int lane = 0; lane < 2; ++lane) time(lane)->setRange(whole_);
+  }
+}
+
+void ErrorTimeline::drawWorst() {
+  const QStringList presets = run_.presets();
+  worst_.clear();
+  bool named = false;
+  for (int i = 0; i < run_.series.size(); ++i) {
+    const ErrorRun::Series& s = run_.series[i];
+    if (!isShown(s)) continue;
+    for (int lane = 0; lane < 2; ++lane) {
+      if (lane == 1 && error_ >= s.errors.size()) continue;
+      QVector<double> x, y;
+      for (const ErrorRun::Mark& mark : s.worst) {
+        if (mark.frame < 0 || mark.frame >= s.timeS.size()) continue;
+        const double v =
+            lane == 0 ? s.ms[mark.frame] : placeOf(run_.errors[error_], s.errors[error_][mark.frame]);
+        if (lane == 0) worst_.push_back({i, mark.frame});
+        if (!std::isfinite(v)) continue;
+        x << s.timeS[mark.frame];
+        y << v;
+      }
+      QCPGraph* marks = addGraph(time(lane), value(lane));
+      marks->setLineStyle(QCPGraph::lsNone);
+      marks->setData(x, y);
+      const QColor colour = presetColour(int(presets.indexOf(s.preset)), palette());
+      marks->setScatterStyle(
+          {QCPScatterStyle::ssTriangleInverted, QPen(errorColour(palette()), 1.4), QBrush(colour), kWorstPx});
+      if (lane == 0 && !x.isEmpty() && !named) {
+        marks->setName(tr("worst"));
+        marks->addToLegend();
+        named = true;
+      }
+    }
+  }
+  std::sort(worst_.begin(), worst_.end(), [this](const Worst& a, const Worst& b) {
+    return run_.series[a.series].timeS[a.frame] < run_.series[b.series].timeS[b.frame];
+  });
+}
+
+void ErrorTimeline::redraw() {
+  clearPlottables();
+  drawLines();
+  drawWorst();
+  legend->setVisible(legend->itemCount() > 0);
+  wrapLegend(*this);
+  applyTheme(*this);
+  legend->setBorderPen(Qt::NoPen);
+  legend->setBrush(Qt::NoBrush);
+  const QColor base = palette().color(QPalette::Base), ink = palette().color(QPalette::Text);
+  const bool hasBudget = budget_ > 0 && std::isfinite(budget_);
+  budgetLine_->setVisible(hasBudget);
+  if (hasBudget) {
+    budgetLine_->point1->setCoords(0, budget_);
+    budgetLine_->point2->setCoords(1, budget_);
+    budgetLine_->setPen(QPen(errorColour(palette()), 1.4, Qt::DashLine));
+  }
+  for (Lane& lane : lanes_) lane.cursor->setPen(QPen(liveColour(palette()), 2));
+  for (QCPItemText* text : {cursorText_, numbers_, hint_}) text->setFont(font());
+  cursorText_->setColor(base);
+  cursorText_->setBrush(liveColour(palette()));
+  numbers_->setColor(ink);
+  numbers_->setBrush(base);
+  numbers_->setPen(QPen(blend(base, ink, 0.4)));
+  hint_->setVisible(times_.empty());
+  hint_->setText(tr("Frames of a measured flight stand here."));
+  hint_->setColor(quietColour(palette()));
+  hint_->setPositionAlignment(Qt::AlignCenter);
+  const int labelWidth = QFontMetrics(font()).horizontalAdvance(QStringLiteral("00000  "));
+  for (int lane = 0; lane < 2; ++lane)
+    time(lane)->ticker()->setTickCount(std::clamp(width() / labelWidth / 2, 2, 8));
+  placeCursor();
+  replot(QCustomPlot::rpQueuedReplot);
+}
+
+void ErrorTimeline::placeCursor() {
+  const bool shown = std::isfinite(cursor_) && !times_.empty();
+  for (Lane& lane : lanes_) {
+    lane.cursor->setVisible(shown);
+    if (!shown) continue;
+    lane.cursor->point1->setCoords(cursor_, 0);
+    lane.cursor->point2->setCoords(cursor_, 1);
+  }
+  cursorText_->setVisible(shown && time()->range().contains(cursor_));
+  if (shown) {
+    cursorText_->setText(timeText(cursor_));
+    const QRect rect = lanes_[0].rect->rect();
+    const bool left = time()->coordToPixel(cursor_) > rect.center().x();
+    cursorText_->setPositionAlignment((left ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignTop);
+    cursorText_->position->setCoords(time()->coordToPixel(cursor_), rect.top());
+  }
+  setAccessibleDescription((shown ? textAt(cursor_).replace('\n', ", ") + ". " : QString()) +
+                           tr("Left and right go to the frame before and after, with Shift ten frames, Home "
+                              "and End to the ends, W to the next worst frame, plus and minus zoom."));
+}
+
+void ErrorTimeline::follow(double at) {
+  if (dragging_ || at == cursor_ || (std::isnan(at) && std::isnan(cursor_))) return;
+  cursor_ = at;
+  placeCursor();
+  layer(QStringLiteral("cursor"))->replot();
+}
+
+void ErrorTimeline::seek(double at) {
+  if (!std::isfinite(at) || times_.empty()) return;
+  cursor_ = std::clamp(at, times_.front(), times_.back());
+  const QCPRange range = time()->range();
+  if (!range.contains(cursor_))
+    for (int lane = 0; lane < 2; ++lane) time(lane)->setRange(cursor_, range.size(), Qt::AlignCenter);
+  placeCursor();
+  replot(QCustomPlot::rpQueuedReplot);
+  emit sought(cursor_);
+}
+
+QString ErrorTimeline::textAt(double at) const {
+  const auto nearest = std::min_element(
+      times_.begin(), times_.end(), [at](double a, double b) { return std::abs(a - at) < std::abs(b - at); });
+  if (nearest == times_.end() || error_ >= run_.errors.size()) return {};
+  QStringList lines{timeText(*nearest)};
+  for (const ErrorRun::Series& s : run_.series) {
+    if (!isShown(s)) continue;
+    const qsizetype frame = s.timeS.indexOf(*nearest);
+    if (frame < 0 || error_ >= s.errors.size()) continue;
+    QString line = tr("%1: %2, %3 %4")
+                       .arg(s.preset, msText(s.ms[frame]), run_.errors[error_].label,
+                            textOf(run_.errors[error_], s.errors[error_][frame]));
+    for (const ErrorRun::Mark& mark : s.worst)
+      if (mark.frame == frame && !mark.why.isEmpty()) line += tr(" (%1)").arg(mark.why);
+    lines << line;
+  }
+  return lines.join('\n');
+}
+
+void ErrorTimeline::showNumbers(double at, QPointF pixel) {
+  const QString text = times_.empty() ? QString() : textAt(at);
+  numbers_->setVisible(!text.isEmpty());
+  if (!text.isEmpty()) {
+    numbers_->setText(text);
+    const QSize size =
+        QFontMetrics(font()).boundingRect(QRect(0, 0, 4000, 4000), Qt::AlignLeft, text).size() +
+        QSize(16, 10);
+    QPointF corner(pixel.x() + 14, pixel.y() - size.height() - 8);
+    if (corner.x() + size.width() > width()) corner.setX(pixel.x() - 14 - size.width());
+    corner.setX(std::clamp(corner.x(), 2.0, std::max(2.0, double(width() - size.width() - 2))));
+    corner.setY(std::clamp(corner.y(), 2.0, std::max(2.0, double(height() - size.height() - 2))));
+    numbers_->setPositionAlignment(Qt::AlignLeft | Qt::AlignTop);
+    numbers_->position->setCoords(corner);
+  }
+  layer(QStringLiteral("numbers"))->replot();
+}
+
+QPointF ErrorTimeline::pixelOf(double at) const {
+  return {time()->coordToPixel(at), double(lanes_[0].rect->center().y())};
+}
+
+void ErrorTimeline::resizeEvent(QResizeEvent* event) {
+  QCustomPlot::resizeEvent(event);
+  redraw();
+}
+
+void ErrorTimeline::changeEvent(QEvent* event) {
+  QCustomPlot::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) redraw();
+}
+
+void ErrorTimeline::paintEvent(QPaintEvent* event) {
+  QCustomPlot::paintEvent(event);
+  paintFocusFrame(*this);
+}
+
+}  // namespace trimtab::views

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <qcustomplot.h>
+
+#include <array>
+#include <vector>
+
+#include "views/model/error_run.h"
+
+namespace trimtab::views {
+
+/// The frames of one flight along time: frame time above, error below, a line a preset in one culling case;
+/// the worst frames marked. Its cursor is where the flight stands, and takes it elsewhere when it is dragged
+/// or moved by keys.
+class ErrorTimeline : public QCustomPlot {
+  Q_OBJECT
+ public:
+  struct Worst {
+    int series = 0;
+    qsizetype frame = 0;
+  };
+
+  explicit ErrorTimeline(QWidget* parent = nullptr);
+
+  void show(const ErrorRun& run);
+  void showFlight(const QString& flight);
+  void showError(int error);
+  /// As ErrorRun spells it; the last one of the run where there is none of that name.
+  void showMethod(const QString& method);
+  void setBudget(double ms);
+
+  /// The flight's clock, seconds; NaN: no flight, no cursor. Tells nobody.
+  void follow(double time);
+  double cursorTime() const { return cursor_; }
+  /// Moves the cursor and says so.
+  void seek(double time);
+
+  QPointF pixelOf(double time) const;
+  /// In order of time.
+  const std::vector<Worst>& worst() const { return worst_; }
+  const ErrorRun& run() const { return run_; }
+
+  QSize sizeHint() const override { return {420, 220}; }
+  QSize minimumSizeHint() const override { return {220, 130}; }
+
+ signals:
+  void sought(double time);
+
+ protected:
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void changeEvent(QEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  struct Lane {
+    QCPAxisRect* rect = nullptr;
+    QCPItemStraightLine* cursor = nullptr;
+  };
+  bool isShown(const ErrorRun::Series& series) const;
+  QCPAxis* time(int lane = 0) const { return lanes_[std::size_t(lane)].rect->axis(QCPAxis::atBottom); }
+  QCPAxis* value(int lane) const { return lanes_[std::size_t(lane)].rect->axis(QCPAxis::atLeft); }
+  void redraw();
+  void drawLines();
+  void drawWorst();
+  void placeCursor();
+  void showNumbers(double atTime, QPointF pixel);
+  QString textAt(double atTime) const;
+  void stepFrames(int frames);
+  void stepWorst(int direction);
+
+  ErrorRun run_;
+  QString flight_, method_;
+  int error_ = 0;
+  double budget_ = 0, cursor_;
+  bool dragging_ = false;
+  std::vector<double> times_;  ///< of all frames shown, ascending
+  std::vector<Worst> worst_;
+  QCPRange whole_;
+
+  std::array<Lane, 2> lanes_;
+  QCPItemStraightLine* budgetLine_;
+  QCPItemText *cursorText_, *numbers_, *hint_;
+};
+
+}  // namespace trimtab::views

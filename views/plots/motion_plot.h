@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <qcustomplot.h>
+
+#include "views/model/live.h"
+
+namespace trimtab::views {
+
+/// Rate of the line of sight against its threshold, LOD scale, and the time that is blurred, over the last
+/// seconds.
+class MotionPlot : public QCustomPlot {
+  Q_OBJECT
+ public:
+  static constexpr double kSpanS = 15;
+
+  explicit MotionPlot(QWidget* parent = nullptr);
+  /// A clock that goes back empties the plot.
+  void append(const LiveFrame& frame);
+  void refresh();
+  /// The largest rate that is held, deg/s.
+  double largestRate() const;
+
+  QSize sizeHint() const override { return {320, 190}; }
+  QSize minimumSizeHint() const override { return {220, 120}; }
+
+ protected:
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void colour();
+
+  QCPGraph *rate_, *threshold_, *scale_, *blur_;
+  double last_ = 0;
+};
+
+}  // namespace trimtab::views
