@@ -1,11 +1,3 @@
-#pragma once
-
-#include "simd.h"
-#include "simd_kernels.h"
-
-namespace trimtab {
-namespace {
-
 /// 0.299 R + 0.587 G + 0.114 B, rounded, halves up: exact.
 void lumaOf(const std::uint8_t* rgba, std::size_t pixels, std::uint8_t* luma) {
   for (std::size_t i = 0; i < pixels; ++i) {
@@ -30,8 +22,8 @@ void ssimRow(const std::uint8_t* a, const std::uint8_t* b, int columns, const Ss
       sum[i] = static_cast<float>(x + y - 255);
       difference[i] = static_cast<float>(x - y);
     }
-    for (int i = count + 10; i < count + 10 + kLanes; ++i) sum[i] = difference[i] = 0;
-    for (int x = 0; x < count; x += kLanes) {
+    for (int i = count + 10; i < count + 10 + kWide; ++i) sum[i] = difference[i] = 0;
+    for (int x = 0; x < count; x += kWide) {
       const Floats sm = load(sum + x + 5), dm = load(difference + x + 5);
       const Floats ssm = sm * sm, ddm = dm * dm;
       Floats s = sm, d = dm, ss = ssm, dd = ddm;
@@ -56,7 +48,7 @@ void ssimRow(const std::uint8_t* a, const std::uint8_t* b, int columns, const Ss
 double ssimSum(const float* const* rows, std::size_t pitch, int columns, const SsimFilter& filter) {
   constexpr float kC1 = 0.01f * 255 * 0.01f * 255, kC2 = 0.03f * 255 * 0.03f * 255;
   double total = 0;
-  for (int x = 0; x < columns; x += kLanes) {
+  for (int x = 0; x < columns; x += kWide) {
     Floats mean[kSsimPlanes];
     for (std::size_t p = 0; p < kSsimPlanes; ++p) {
       const std::size_t at = p * pitch + static_cast<std::size_t>(x);
@@ -73,10 +65,7 @@ double ssimSum(const float* const* rows, std::size_t pitch, int columns, const S
     const Floats m2 = sumMean * sumMean, d2 = mean[1] * mean[1];
     const Floats ssim = ((m2 - d2 + 2 * kC1) * (sumVariance - differenceVariance + 2 * kC2)) /
                         ((m2 + d2 + 2 * kC1) * (sumVariance + differenceVariance + 2 * kC2));
-    total += sumOf(ssim, columns - x < kLanes ? columns - x : kLanes);
+    total += sumOf(ssim, columns - x < kWide ? columns - x : kWide);
   }
   return total;
 }
-
-}  // namespace
-}  // namespace trimtab

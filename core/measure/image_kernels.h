@@ -3,7 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 
-/// The inner loops of image_error.h, compiled once for each set of vector instructions.
+#include "trimtab/units/simd.h"
+
+/// The inner loops of image_error.h, compiled once per SimdLevel.
 namespace trimtab {
 
 /// One side of a filter that is symmetric or antisymmetric about its middle: `weights[1..radius]`.
@@ -66,23 +68,12 @@ struct ImageKernels {
 /// What the kernels may read and write beyond the last column, floats.
 inline constexpr int kSimdSlack = 32;
 
-enum class SimdPath { portable, avx2, avx512 };
-
-/// The kernels of a path; nullptr where this processor cannot run it.
-const ImageKernels* imageKernels(SimdPath path);
-/// The widest that this processor has, or what `useSimdPath` said.
+/// Returns the kernels of a level; the level must not be above simdLevel().
+const ImageKernels& imageKernels(SimdLevel level);
+/// Returns the kernels in use: the widest, or those of the level that `useSimdLevel` named.
 const ImageKernels& imageKernels();
-/// For tests: all calls from now on take this path. False, and nothing changes, where it cannot run.
-bool useSimdPath(SimdPath path);
-
-namespace portable {
-extern const ImageKernels kernels;
-}
-namespace avx2 {
-extern const ImageKernels kernels;
-}
-namespace avx512 {
-extern const ImageKernels kernels;
-}
+/// For tests: all calls from now on use this level. Returns false, and changes nothing, if it is above
+/// simdLevel().
+bool useSimdLevel(SimdLevel level);
 
 }  // namespace trimtab

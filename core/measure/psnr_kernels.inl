@@ -1,11 +1,4 @@
-#pragma once
-
-#include "simd.h"
-
-namespace trimtab {
-namespace {
-
-#if defined(__AVX512F__) && defined(__AVX512BW__)
+#if defined(TRIMTAB_AVX512)
 using Bytes = __m512i;
 TRIMTAB_INLINE Bytes loadBytes(const std::uint8_t* from) {
   return _mm512_loadu_si512(from);
@@ -24,7 +17,7 @@ TRIMTAB_INLINE Bytes squaresOfGreen(Bytes v) {
 TRIMTAB_INLINE Bytes sum(Bytes a, Bytes b) {
   return _mm512_add_epi32(a, b);
 }
-#elif defined(__AVX2__)
+#elif defined(TRIMTAB_AVX2)
 using Bytes = __m256i;
 TRIMTAB_INLINE Bytes loadBytes(const std::uint8_t* from) {
   return _mm256_loadu_si256(reinterpret_cast<const Bytes*>(from));
@@ -100,6 +93,3 @@ std::uint64_t squaredError(const std::uint8_t* a, const std::uint8_t* b, std::si
   return squaredErrorOneByOne(a, b, pixels);
 #endif
 }
-
-}  // namespace
-}  // namespace trimtab

@@ -1,14 +1,6 @@
-#pragma once
-
-#include "simd.h"
-#include "simd_kernels.h"
-
 // FLIP's arithmetic. The test picture is carried as its difference from the reference through every linear
 // step, and the differences of roots are taken as quotients: what is equal gives exactly 0, and what is
 // nearly equal is not lost in rounding, which the last steps (powers of 0.7 and 0.5) would magnify.
-
-namespace trimtab {
-namespace {
 
 typedef float Pixel __attribute__((vector_size(16)));
 typedef std::int32_t PixelOrder __attribute__((vector_size(16)));
@@ -155,7 +147,7 @@ template <class Reach>
 void horizontal(const float* planes, std::size_t pitch, int blocks, const FlipFilters& filters,
                 const Reach& reach, float* filtered, std::size_t blockPitch) {
   for (int block = 0; block < blocks; ++block)
-    for (int x = 0; x < kFlipBlock; x += kLanes)
+    for (int x = 0; x < kFlipBlock; x += kWide)
       horizontalBlock(planes + block * kFlipBlock + x, pitch, filters, reach,
                       filtered + static_cast<std::size_t>(block) * blockPitch + x);
 }
@@ -338,9 +330,9 @@ double errors(const float* filtered, std::size_t blockPitch, const std::size_t* 
               int columns, const FlipFilters& filters, const Reach& reach, float* error,
               std::size_t errorPitch) {
   Doubles sum{};
-  for (int x = 0; x < columns; x += kLanes) {
+  for (int x = 0; x < columns; x += kWide) {
     const float* block = filtered + static_cast<std::size_t>(x / kFlipBlock) * blockPitch + x % kFlipBlock;
-    const int count = columns - x < kLanes ? columns - x : kLanes;
+    const int count = columns - x < kWide ? columns - x : kWide;
     for (int row = 0; row < rows; row += 2) {
       const Twin found = errorOf(TwoRows<Reach>(block, rowOffset + row, filters, reach).seen(), filters);
       for (int i = 0; i < 2 && row + i < rows; ++i) {
@@ -348,7 +340,7 @@ double errors(const float* filtered, std::size_t blockPitch, const std::size_t* 
         sum += __builtin_convertvector(e, Doubles);
         if (!error) continue;
         float* to = error + static_cast<std::size_t>(row + i) * errorPitch + x;
-        if (count == kLanes)
+        if (count == kWide)
           store(to, e);
         else
           for (int lane = 0; lane < count; ++lane) to[lane] = e[lane];
@@ -356,7 +348,7 @@ double errors(const float* filtered, std::size_t blockPitch, const std::size_t* 
     }
   }
   double total = 0;
-  for (int lane = 0; lane < kLanes; ++lane) total += sum[lane];
+  for (int lane = 0; lane < kWide; ++lane) total += sum[lane];
   return total;
 }
 
@@ -367,6 +359,3 @@ double flipError(const float* filtered, std::size_t blockPitch, const std::size_
   return errors(filtered, blockPitch, rowOffset, rows, columns, filters, AnyReach(filters), error,
                 errorPitch);
 }
-
-}  // namespace
-}  // namespace trimtab

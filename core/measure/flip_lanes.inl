@@ -1,160 +1,17 @@
-#pragma once
-
-#include <cstddef>
-#include <cstdint>
-
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
-
-/// Vectors of floats, as wide as the options of the source file that includes this allow: 16 (AVX-512),
-/// 8 (AVX2 and FMA) or 4 (any machine). Everything is in an unnamed namespace, and sources that are compiled
-/// for more than any machine has include nothing else, so that no function of theirs can be linked in place
-/// of another source's.
-namespace trimtab {
-namespace {
-
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-inline constexpr int kLanes = 16;
-// g++ 12 warns of its own plain forms of some instructions (GCC bug 105593), not of those with a mask.
-inline constexpr __mmask16 kEvery = 0xffff;
-#elif defined(__AVX2__) && defined(__FMA__)
-inline constexpr int kLanes = 8;
-#else
-inline constexpr int kLanes = 4;
-#endif
-
-typedef float Floats __attribute__((vector_size(4 * kLanes)));
-typedef std::int32_t Ints __attribute__((vector_size(4 * kLanes)));
-typedef double Doubles __attribute__((vector_size(8 * kLanes)));
-typedef float UnalignedFloats __attribute__((vector_size(4 * kLanes), aligned(4), may_alias));
-
-#define TRIMTAB_INLINE [[gnu::always_inline]] inline
-
-TRIMTAB_INLINE Floats load(const float* from) {
-  return *reinterpret_cast<const UnalignedFloats*>(from);
-}
-TRIMTAB_INLINE void store(float* to, Floats v) {
-  *reinterpret_cast<UnalignedFloats*>(to) = v;
-}
-TRIMTAB_INLINE Floats all(float v) {
-  return v - Floats{};
-}
-TRIMTAB_INLINE Ints all(std::int32_t v) {
-  return v - Ints{};
-}
-TRIMTAB_INLINE Ints bitsOf(Floats v) {
-  return reinterpret_cast<Ints>(v);
-}
-TRIMTAB_INLINE Floats floatOf(Ints bits) {
-  return reinterpret_cast<Floats>(bits);
-}
-TRIMTAB_INLINE Floats toFloats(Ints v) {
-  return __builtin_convertvector(v, Floats);
-}
-TRIMTAB_INLINE Ints toInts(Floats v) {
-  return __builtin_convertvector(v, Ints);
-}
-
-/// a b + c, rounded once where the machine can.
-TRIMTAB_INLINE Floats fma(Floats a, Floats b, Floats c) {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-  return _mm512_fmadd_ps(a, b, c);
-#elif defined(__AVX2__) && defined(__FMA__)
-  return _mm256_fmadd_ps(a, b, c);
-#else
-  return a * b + c;
-#endif
-}
-/// c - a b
-TRIMTAB_INLINE Floats negatedFma(Floats a, Floats b, Floats c) {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-  return _mm512_fnmadd_ps(a, b, c);
-#elif defined(__AVX2__) && defined(__FMA__)
-  return _mm256_fnmadd_ps(a, b, c);
-#else
-  return c - a * b;
-#endif
-}
-TRIMTAB_INLINE Floats fma(float a, Floats b, Floats c) {
-  return fma(all(a), b, c);
-}
-
-TRIMTAB_INLINE Floats squareRoot(Floats v) {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-  return _mm512_maskz_sqrt_ps(kEvery, v);
-#elif defined(__AVX2__) && defined(__FMA__)
-  return _mm256_sqrt_ps(v);
-#elif defined(__SSE2__)
-  return _mm_sqrt_ps(v);
-#else
-  for (int i = 0; i < kLanes; ++i) v[i] = __builtin_sqrtf(v[i]);
-  return v;
-#endif
-}
-
-TRIMTAB_INLINE Floats smaller(Floats a, Floats b) {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-  return _mm512_maskz_min_ps(kEvery, a, b);
-#elif defined(__AVX2__) && defined(__FMA__)
-  return _mm256_min_ps(a, b);
-#elif defined(__SSE2__)
-  return _mm_min_ps(a, b);
-#else
-  return a < b ? a : b;
-#endif
-}
-TRIMTAB_INLINE Floats larger(Floats a, Floats b) {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-  return _mm512_maskz_max_ps(kEvery, a, b);
-#elif defined(__AVX2__) && defined(__FMA__)
-  return _mm256_max_ps(a, b);
-#elif defined(__SSE2__)
-  return _mm_max_ps(a, b);
-#else
-  return a > b ? a : b;
-#endif
-}
-TRIMTAB_INLINE Floats magnitude(Floats v) {
-  return floatOf(bitsOf(v) & 0x7fffffff);
-}
-
-TRIMTAB_INLINE bool any(Ints mask) {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-  return _mm512_movepi32_mask(reinterpret_cast<__m512i>(mask)) != 0;
-#elif defined(__AVX2__) && defined(__FMA__)
-  return _mm256_movemask_ps(reinterpret_cast<__m256>(mask)) != 0;
-#elif defined(__SSE2__)
-  return _mm_movemask_ps(reinterpret_cast<__m128>(mask)) != 0;
-#else
-  for (int i = 0; i < kLanes; ++i)
-    if (mask[i] != 0) return true;
-  return false;
-#endif
-}
-
-/// 1 / x to 3e-7 of it.
-TRIMTAB_INLINE Floats reciprocal(Floats x) {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-  const Floats r = _mm512_maskz_rcp14_ps(kEvery, x);
-  return fma(r, negatedFma(x, r, all(1.0f)), r);
-#else
-  return 1.0f / x;
-#endif
-}
+// What the kernels of image errors add to simd_lanes.inl: partial vectors, pairs of vectors, and roots, logarithms and powers.
 
 /// The first `count` lanes, and 0.
 TRIMTAB_INLINE Floats firstLanes(Floats v, int count) {
-  if (count == kLanes) return v;
-  for (int i = count; i < kLanes; ++i) v[i] = 0;
+  if (count == kWide) return v;
+  for (int i = count; i < kWide; ++i) v[i] = 0;
   return v;
 }
 
 /// The sum of the first `count` lanes.
-TRIMTAB_INLINE double sumOf(Floats v, int count = kLanes) {
+TRIMTAB_INLINE double sumOf(Floats v, int count = kWide) {
   const Doubles wide = __builtin_convertvector(firstLanes(v, count), Doubles);
   double sum = 0;
-  for (int i = 0; i < kLanes; ++i) sum += wide[i];
+  for (int i = 0; i < kWide; ++i) sum += wide[i];
   return sum;
 }
 
@@ -162,7 +19,7 @@ TRIMTAB_INLINE double sumOf(Floats v, int count = kLanes) {
 /// other's waits.
 struct Twin {
   Floats a, b;
-  TRIMTAB_INLINE Twin() : a{}, b{} {}
+  Twin() = default;  // implicit constructors around it are not compiled for the level
   TRIMTAB_INLINE Twin(Floats both) : a(both), b(both) {}
   TRIMTAB_INLINE Twin(float both) : Twin(all(both)) {}
   TRIMTAB_INLINE Twin(Floats first, Floats second) : a(first), b(second) {}
@@ -287,6 +144,3 @@ TRIMTAB_INLINE Twin exp2Of(Twin x) {
   series = fma(series, f, 1.0f);
   return floatOf(bitsOf(series) + (toInts(whole) << 23));
 }
-
-}  // namespace
-}  // namespace trimtab

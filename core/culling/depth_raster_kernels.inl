@@ -1,57 +1,49 @@
-// The loops of depth_raster.h, included once for each kind of processor, inside a namespace of its own: no
-// include guard, nothing included here. F and I are eight floats and eight integers, W and WI as many as the
-// processor has lanes; bitsOf tells the lanes whose sign is set.
+// The loops of depth_raster.h, for simd_levels.inl. F and I are eight floats and eight integers; a triangle's rows are
+// filled by Floats, as many texels at a time as the level has.
 
-constexpr int kWide = sizeof(W) / sizeof(float);
-
-[[gnu::always_inline]] inline F select(I condition, F yes, F no) {
-  return reinterpret_cast<F>((condition & reinterpret_cast<I>(yes)) | (~condition & reinterpret_cast<I>(no)));
+TRIMTAB_INLINE F select(I condition, F yes, F no) {
+  return choose(condition, yes, no);
 }
-[[gnu::always_inline]] inline I select(I condition, I yes, I no) {
-  return (condition & yes) | (~condition & no);
+TRIMTAB_INLINE I select(I condition, I yes, I no) {
+  return choose(condition, yes, no);
 }
-[[gnu::always_inline]] inline F least(F a, F b) {
+TRIMTAB_INLINE F least(F a, F b) {
   return select(a < b, a, b);
 }
-[[gnu::always_inline]] inline F most(F a, F b) {
+TRIMTAB_INLINE F most(F a, F b) {
   return select(a > b, a, b);
 }
-// All lanes alike: nothing is subtracted, so that a zero keeps its sign.
-[[gnu::always_inline]] inline F spread(float v) {
-  return v - F{};
+TRIMTAB_INLINE F spread(float v) {
+  return spread<F>(v);
 }
-[[gnu::always_inline]] inline I spread(std::int32_t v) {
-  return v - I{};
+TRIMTAB_INLINE I spread(std::int32_t v) {
+  return spread<I>(v);
 }
-[[gnu::always_inline]] inline W spreadW(float v) {
-  return v - W{};
+TRIMTAB_INLINE F read(const float* from) {
+  return read<F>(from);
 }
-template <class V = F>
-[[gnu::always_inline]] inline V read(const float* from) {
-  V v;
-  std::memcpy(&v, from, sizeof v);
-  return v;
+/// The lanes whose sign is set.
+TRIMTAB_INLINE unsigned bitsOf(I lanes) {
+#if defined(TRIMTAB_AVX2) || defined(TRIMTAB_AVX512)
+  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(lanes)));
+#else
+  unsigned bits = 0;
+  for (std::size_t k = 0; k < kLanes; ++k) bits |= (static_cast<unsigned>(lanes[k]) & 1u) << k;
+  return bits;
+#endif
 }
-template <class V, class T>
-[[gnu::always_inline]] inline void write(T* to, V v) {
-  static_assert(sizeof(V) == kLanes * sizeof(T));
-  std::memcpy(to, &v, sizeof v);
-}
-[[gnu::always_inline]] inline void write(std::uint8_t* to, I v) {
+TRIMTAB_INLINE void write(std::uint8_t* to, I v) {
   for (std::size_t k = 0; k < kLanes; ++k) to[k] = static_cast<std::uint8_t>(v[k]);
 }
-[[gnu::always_inline]] inline F magnitude(F v) {
-  return reinterpret_cast<F>(reinterpret_cast<I>(v) & spread(0x7fffffff));
-}
-[[gnu::always_inline]] inline F toFloat(I v) {
+TRIMTAB_INLINE F toFloat(I v) {
   return __builtin_convertvector(v, F);
 }
 /// Of a number that fits.
-[[gnu::always_inline]] inline I roundedDown(F v) {
+TRIMTAB_INLINE I roundedDown(F v) {
   const I cut = __builtin_convertvector(v, I);
   return cut + (toFloat(cut) > v);
 }
-[[gnu::always_inline]] inline F gathered(const float* from, const std::uint16_t* at) {
+TRIMTAB_INLINE F gathered(const float* from, const std::uint16_t* at) {
   return F{from[at[0]], from[at[1]], from[at[2]], from[at[3]],
            from[at[4]], from[at[5]], from[at[6]], from[at[7]]};
 }
@@ -115,67 +107,67 @@ struct Ready {
 
 /// One triangle, as many texels of a row at a time as the processor has lanes.
 struct Filler {
-  W edge[3], acrossX[3], acrossY[3], w, wX, wY;
-  WI farthest;
+  Floats edge[3], acrossX[3], acrossY[3], w, wX, wY;
+  Ints farthest;
 
-  [[gnu::always_inline]] Filler(const Ready& r, std::size_t i) {
+  TRIMTAB_INLINE Filler(const Ready& r, std::size_t i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      edge[k] = spreadW(r.edge[k][i]);
-      acrossX[k] = spreadW(r.acrossX[k][i]);
-      acrossY[k] = spreadW(r.acrossY[k][i]);
+      edge[k] = spread<Floats>(r.edge[k][i]);
+      acrossX[k] = spread<Floats>(r.acrossX[k][i]);
+      acrossY[k] = spread<Floats>(r.acrossY[k][i]);
     }
-    w = spreadW(r.w[i]);
-    wX = spreadW(r.wX[i]);
-    wY = spreadW(r.wY[i]);
-    farthest = reinterpret_cast<WI>(spreadW(r.farthest[i]));
+    w = spread<Floats>(r.w[i]);
+    wX = spread<Floats>(r.wX[i]);
+    wY = spread<Floats>(r.wY[i]);
+    farthest = reinterpret_cast<Ints>(spread<Floats>(r.farthest[i]));
   }
   /// At texels `step` to the side of the first.
-  [[gnu::always_inline]] void begin(W step) {
+  TRIMTAB_INLINE void begin(Floats step) {
     for (std::size_t k = 0; k < 3; ++k) e_[k] = edge[k] + acrossX[k] * step;
     w_ = w + wX * step;
   }
-  [[gnu::always_inline]] void row(float* texels, float above) const {
-    const W up = spreadW(above);
+  TRIMTAB_INLINE void row(float* texels, float above) const {
+    const Floats up = spread<Floats>(above);
     // By their sign bits, as whole numbers: depths are not negative either.
-    const WI out = reinterpret_cast<WI>(e_[0] + acrossY[0] * up) |
-                   reinterpret_cast<WI>(e_[1] + acrossY[1] * up) |
-                   reinterpret_cast<WI>(e_[2] + acrossY[2] * up);
-    const WI plane = reinterpret_cast<WI>(w_ + wY * up);
-    const WI depth = (plane > farthest ? plane : farthest) & ~(out >> 31);
-    WI there;
+    const Ints out = reinterpret_cast<Ints>(e_[0] + acrossY[0] * up) |
+                   reinterpret_cast<Ints>(e_[1] + acrossY[1] * up) |
+                   reinterpret_cast<Ints>(e_[2] + acrossY[2] * up);
+    const Ints plane = reinterpret_cast<Ints>(w_ + wY * up);
+    const Ints depth = (plane > farthest ? plane : farthest) & ~(out >> 31);
+    Ints there;
     std::memcpy(&there, texels, sizeof there);
     there = there > depth ? there : depth;
     std::memcpy(texels, &there, sizeof there);
   }
 
  private:
-  W e_[3], w_;
+  Floats e_[3], w_;
 };
 
 /// `kRows` are few: as many as are filled without a look at the triangle's own.
-[[gnu::always_inline]] inline void fillBlock(const Texels& to, const Ready& r, std::size_t i) {
+TRIMTAB_INLINE void fillBlock(const Texels& to, const Ready& r, std::size_t i) {
   const int x = r.x0[i] & ~(kWide - 1);
   Filler filler(r, i);
-  filler.begin(read<W>(kSteps) + spreadW(static_cast<float>(x - r.x0[i])));
+  filler.begin(read<Floats>(kSteps) + spread<Floats>(static_cast<float>(x - r.x0[i])));
   float* row = to.first + static_cast<std::ptrdiff_t>(r.y0[i]) * to.stride + x;
   for (int y = 0; y < kBlockRows; ++y)
     filler.row(row + static_cast<std::ptrdiff_t>(y) * to.stride, static_cast<float>(y));
 }
 
-[[gnu::always_inline]] inline void fill(const Texels& to, const Ready& r, std::size_t i) {
+TRIMTAB_INLINE void fill(const Texels& to, const Ready& r, std::size_t i) {
   // From a whole group of lanes on: what was stored a moment ago is read again at the same place.
   Filler filler(r, i);
   const int x0 = r.x0[i], x1 = r.x1[i], rows = r.y1[i] - r.y0[i] + 1, stride = to.stride;
   float* first = to.first + static_cast<std::ptrdiff_t>(r.y0[i]) * stride;
   for (int x = x0 & ~(kWide - 1); x <= x1; x += kWide) {
-    filler.begin(read<W>(kSteps) + spreadW(static_cast<float>(x - x0)));
+    filler.begin(read<Floats>(kSteps) + spread<Floats>(static_cast<float>(x - x0)));
     float *row = first + x, above = 0;
     for (int y = 0; y < rows; ++y, row += stride, above += 1) filler.row(row, above);
   }
 }
 
 /// Triangles of few texels, eight triangles at a time: each texel of the smallest box that holds any of them.
-[[gnu::always_inline]] inline void fillSmall(const Texels& to, const Ready& r, I small) {
+TRIMTAB_INLINE void fillSmall(const Texels& to, const Ready& r, I small) {
   const I wide = (r.x1 - r.x0) & small, high = (r.y1 - r.y0) & small;
   int width = 0, height = 0;
   for (std::size_t k = 0; k < kLanes; ++k) {
