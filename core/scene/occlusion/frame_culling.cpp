@@ -28,11 +28,9 @@ void FrameCulling::plant(const Defects& defects) {
 
 void FrameCulling::selectCut(const FrameRequest& request, const EyePose& eye, FrameResult& counters) {
   const TerrainIndex& index = database_->index();
-  const ViewShape& v = request.view;
   eye_ = eye;
   const CutKey key{eye.position, request.lod.screenSpaceError.value() / defects_.statedErrorScale,
-                   request.decision.lodScale,
-                   std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom))};
+                   request.decision.lodScale, pixelsPerRadian(request.view)};
   if (cutKey_ == key && request.skips.sameCut) return;
   selectLevels(index, key.eye, key.maxErrorPx, key.lodScale, key.pixelsPerRadian, cut_);
   cutNumber_.errorOverDistance = key.maxErrorPx * key.lodScale / key.pixelsPerRadian;
@@ -50,10 +48,9 @@ void FrameCulling::beginOcclusion(const FrameRequest& request, FrameResult& coun
 bool FrameCulling::selectVisible(const FrameRequest& request, FrameResult& counters) {
   if (occlusion_.visibleStays(request, counters)) return false;
   const TerrainIndex& index = database_->index();
-  trimtab::selectVisible(
-      index, cut_, eye_, request.view, request.method != CullingCase::none, visible_,
-      request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited,
-      occlusion_.hidden(), request.backFaces && occlusion_.eyeIsAboveGround());
+  trimtab::selectVisible(index, cut_, eye_, request.view, request.method != CullingCase::none, visible_,
+                         farCutM(request), occlusion_.hidden(),
+                         request.backFaces && occlusion_.eyeIsAboveGround());
   if (!defects_.culledNode) return true;
   flags_.clear();
   for (const TileDraw& tile : visible_.tiles) flags_.push_back(tile.node == defects_.culledNode);

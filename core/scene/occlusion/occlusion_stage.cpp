@@ -146,7 +146,7 @@ bool OcclusionStage::visibleStays(const FrameRequest& request, FrameResult& coun
                  request.view,
                  request.method,
                  request.backFaces && eyeIsAboveGround(),
-                 request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited,
+                 farCutM(request),
                  ground_.cutNumber(),
                  serves_,
                  serves_ ? size_ : DepthMapSize{},
