@@ -16,7 +16,8 @@ std::array<float, 3> toFloat(Vec3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// The farthest that the centre of any pixel of the picture is from that of the texel that it is in, texels.
+/// Returns the largest distance, texels, from the centre of a pixel of the image to the centre of its texel,
+/// along one axis.
 double farthestPixel(int map, int picture) {
   double farthest = 0;
   for (int i = 0; i < picture; ++i) {
@@ -102,7 +103,7 @@ DepthFate DepthTest::operator()(const DepthMesh& mesh, const DepthPyramid& pyram
     return DepthFate::seen;
   const depth::Projection p = at(mesh.origin);
   DepthFate fate = DepthFate::outside;
-  // The first group is the whole mesh.
+  // The first group holds the box of the whole mesh.
   for (std::size_t first = 0; first < mesh.boxes[0].size(); first += kLanes) {
     depth::Boxes boxes;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -198,7 +199,7 @@ DepthFate DepthMap::draw(const DepthMesh& mesh, const depth::Triangles& triangle
   p.farReach = mesh.farReach;
   p.farSlope = mesh.farSlope;
   p.edge = mesh.edge;
-  // Slopes are against the geodetic vertical; what is lowered goes down the frame's z.
+  // Slopes are measured against the geodetic vertical, but vertices are lowered along the frame's z.
   p.tilt = static_cast<float>(
       (std::hypot(mesh.origin.x, mesh.origin.y) +
        std::hypot(std::max(std::abs(double{mesh.boxes[0][0]}), std::abs(double{mesh.boxes[3][0]})),
@@ -220,7 +221,7 @@ void DepthMap::drawClipped(const depth::Triangles& triangles, depth::Touched& to
     double right, up, depth;
   };
   const depth::Projection& p = test_.projection_;
-  // Of the view, and a texel more all round.
+  // The view's sides, a texel further out.
   const auto side = [](float scale, float from, double texel) {
     return (texel - double{from}) / double{scale};
   };
