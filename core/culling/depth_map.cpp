@@ -57,8 +57,7 @@ void DepthMesh::setBoxes(std::span<const Box> parts) {
   }
 }
 
-void DepthTest::begin(const EyePose& eye, const ViewShape& view, int width, int height, bool whole,
-                      SimdLevel level) {
+void DepthTest::begin(const EyePose& eye, const ViewShape& view, int width, int height, SimdLevel level) {
   eye_ = eye.position;
   level_ = level;
   depth::Projection& p = projection_;
@@ -75,7 +74,7 @@ void DepthTest::begin(const EyePose& eye, const ViewShape& view, int width, int 
   const auto pad = [](int map, int picture) {
     return static_cast<float>(0.05 + 0.1 * map / std::max(1, picture));
   };
-  view_ = {width, height, pad(width, view.widthPx), pad(height, view.heightPx), whole};
+  view_ = {width, height, pad(width, view.widthPx), pad(height, view.heightPx)};
 }
 
 depth::Projection DepthTest::at(Vec3 origin) const {
@@ -131,7 +130,7 @@ void DepthMap::begin(const EyePose& eye, const ViewShape& view, const Settings& 
   settings_.width = std::max(settings.width, 0);
   settings_.height = std::max(settings.height, 0);
   const int width = settings_.width, height = settings_.height;
-  test_.begin(eye, view, width, height, false, settings.level);
+  test_.begin(eye, view, width, height, settings.level);
   nearM_ = view.nearM;
   triangles_ = 0;
   texels_ = {nullptr, depth::strideOf(width), width, height};

@@ -287,7 +287,6 @@ struct SceneGraph::Nodes {
     };
     uniforms.set("pad", Type::FLOAT_VEC2,
                  osg::Vec2f(pad(depth.widthPx, shape.widthPx), pad(depth.heightPx, shape.heightPx)));
-    uniforms.set("motion", Type::FLOAT, static_cast<float>(depth.motionM));
     uniforms.set("loweringScale", Type::FLOAT, static_cast<float>(depth.loweringScale));
     uniforms.set("shift", Type::FLOAT, static_cast<float>(depth.shiftTexels));
   }

@@ -204,7 +204,6 @@ views::LiveFrame MainWindow::liveFrame() const {
     frame.horizonsLeftOut = last->horizonsLeftOut;
     frame.depthMapsDrawn = last->depthMapsDrawn;
     frame.mapsDrawnByCpu = last->mapsDrawnByCpu;
-    frame.mapsReadBack = last->mapsReadBack;
     frame.mapsLeftOut = last->mapsLeftOut;
     frame.occlusionsLeftOut = last->occlusionsLeftOut;
     frame.patches = last->patches;

@@ -5,9 +5,8 @@
 
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/terrain/tiles/tile_cache.h"
-#include "depth_read_back.h"
-#include "trimtab/scene/planted_defects.h"
 #include "trimtab/frame/frame_request.h"
+#include "trimtab/scene/planted_defects.h"
 
 namespace trimtab::scene {
 
@@ -45,12 +44,7 @@ void FrameCulling::selectCut(const FrameRequest& request, const EyePose& eye, Fr
 }
 
 void FrameCulling::beginOcclusion(const FrameRequest& request, FrameResult& counters) {
-  occlusion_.begin(request, eye_, {.depthMap = true, .readBack = readBack_ != nullptr}, counters);
-  if (!occlusion_.serves(OcclusionMethod::read_back)) return;
-  // One that is used at once is counted when it is drawn.
-  const std::uint64_t before = readBack_->maps();
-  readBack_->begin(eye_, cut_);
-  counters.mapsReadBack += readBack_->maps() - before;
+  occlusion_.begin(request, eye_, true, counters);
 }
 
 bool FrameCulling::selectVisible(const FrameRequest& request, FrameResult& counters) {
@@ -68,11 +62,6 @@ bool FrameCulling::selectVisible(const FrameRequest& request, FrameResult& count
 }
 
 void FrameCulling::removeHiddenByMap(const FrameRequest& request, FrameResult& counters) {
-  if (occlusion_.serves(OcclusionMethod::read_back) && !readBack_->atOnce()) {
-    if (const auto flags = readBack_->hidden(visible_.tiles, eye_, request.view); !flags.empty())
-      removeOccluded(database_->index(), flags, visible_);
-    return;
-  }
   if (const auto flags = occlusion_.hiddenByMap(request, visible_, counters); !flags.empty())
     removeOccluded(database_->index(), flags, visible_);
 }
@@ -80,12 +69,7 @@ void FrameCulling::removeHiddenByMap(const FrameRequest& request, FrameResult& c
 std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& request, const TileCache& tiles,
                                                         OcclusionPass& pass, FrameResult& counters) {
   depthMapCurrent_ = false;
-  const bool readBack = occlusion_.serves(OcclusionMethod::read_back);
-  if ((!occlusion_.serves(OcclusionMethod::depth_map) && !readBack) || visible_.tiles.empty()) return {};
-  // None where all maps are still on their way.
-  const std::optional<double> motionM = readBack ? readBack_->motionForMap() : 0;
-  if (!motionM) return {};
-  view_ = request.view;
+  if (!occlusion_.serves(OcclusionMethod::depth_map) || visible_.tiles.empty()) return {};
   const DepthMapSize size = occlusion_.size();
   testedSlots_.clear();
   occluders_.clear();
@@ -111,7 +95,6 @@ std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& requ
   pass.prepare(size.widthPx, size.heightPx, testedSlots_);
   counters.depthMap = size;
   ++counters.depthMapsDrawn;
-  counters.mapsReadBack += readBack && readBack_->atOnce();
   depthMapCurrent_ = true;
   nearM_ = request.view.nearM;
   return DepthView{eye_,
@@ -120,25 +103,15 @@ std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& requ
                    OcclusionPass::kLevels,
                    static_cast<int>(testedSlots_.size()),
                    defects_.loweringScale,
-                   defects_.depthMapShiftTexels,
-                   *motionM};
+                   defects_.depthMapShiftTexels};
 }
 
 void FrameCulling::removeHidden(const TileCache& tiles, OcclusionPass& pass) {
-  if (occlusion_.serves(OcclusionMethod::read_back)) {
-    readBack_->take(pass, eye_, view_, occluders_);
-    if (!readBack_->atOnce()) return;
-    if (const auto flags = readBack_->hidden(visible_.tiles, eye_, view_); !flags.empty())
-      removeOccluded(database_->index(), flags, visible_);
-    return;
-  }
   pass.test(tiles, flags_);
   removeOccluded(database_->index(), flags_, visible_);
 }
 
 Renderer::Grey FrameCulling::readDepthMap(const OcclusionPass& pass) const {
-  if (occlusion_.serves(OcclusionMethod::read_back))
-    return readBack_->age() < 0 ? Renderer::Grey{} : readBack_->picture();
   if (!depthMapCurrent_) return occlusion_.picture();
   std::vector<float> depths;
   GLint before = 0;

@@ -9,15 +9,13 @@
 #include "core/scene/terrain/tiles/tile_ground.h"
 #include "occlusion.h"
 #include "occlusion_stage.h"
-#include "trimtab/scene/planted_defects.h"
-#include "trimtab/scene/renderer.h"
 #include "trimtab/culling/select.h"
 #include "trimtab/frame/frame_request.h"
+#include "trimtab/scene/planted_defects.h"
+#include "trimtab/scene/renderer.h"
 #include "trimtab/terrain/format/database.h"
 
 namespace trimtab::scene {
-
-class DepthReadBack;
 
 /// Depths (near / distance, row 0 at the bottom) as the greys that people look at.
 Renderer::Grey greyOf(std::span<const float> depths, int width, int height, double nearM);
@@ -46,8 +44,6 @@ class FrameCulling {
                                             OcclusionPass& pass, FrameResult& counters);
   /// Tests the visible tiles against that map and takes out what it hides.
   void removeHidden(const TileCache& tiles, OcclusionPass& pass);
-  /// Of the current context, or null; must live until it is replaced.
-  void setReadBack(DepthReadBack* readBack) { readBack_ = readBack; }
 
   const LevelCut& cut() const { return cut_; }
   const VisibleSet& visible() const { return visible_; }
@@ -77,8 +73,6 @@ class FrameCulling {
   std::vector<TileDraw> occluders_;
   std::vector<std::uint8_t> flags_;
   Defects defects_;
-  DepthReadBack* readBack_ = nullptr;
-  ViewShape view_;
   bool depthMapCurrent_ = false;  ///< the last frame drew one
   double nearM_ = 1;              ///< of the last depth map
 };

@@ -173,11 +173,4 @@ void OcclusionPass::read(std::vector<float>& depths) const {
   glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
 }
 
-void OcclusionPass::readTo(unsigned pixelBuffer) const {
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_);
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, pixelBuffer);
-  glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-}
-
 }  // namespace trimtab::scene

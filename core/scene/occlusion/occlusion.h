@@ -48,8 +48,6 @@ class OcclusionPass {
   void test(const TileCache& tiles, std::vector<std::uint8_t>& flags);
   /// Depths of the last map (near / distance), row 0 at the bottom. Leaves its framebuffer bound for reading.
   void read(std::vector<float>& depths) const;
-  /// The same into a pixel buffer, from its start, without waiting.
-  void readTo(unsigned pixelBuffer) const;
   int width() const { return width_; }
   int height() const { return height_; }
 

@@ -1,6 +1,6 @@
 #include "occlusion_stage.h"
-#include "trimtab/scene/planted_defects.h"
 #include "trimtab/frame/frame_request.h"
+#include "trimtab/scene/planted_defects.h"
 
 #include <algorithm>
 #include <chrono>
@@ -19,8 +19,6 @@ constexpr int kUnlearntFrames = 600;
 
 constexpr const char* kNothingPays = "No way to find hidden ground is worth its cost here.";
 constexpr const char* kNoGpuMap = "Patches have no depth map on the GPU; the processor draws one instead.";
-constexpr const char* kNoReadBack =
-    "A depth map cannot be read back in this GL; the processor draws one instead.";
 constexpr const char* kNoGraph =
     "Some of this ground stands upright or hangs over, or is not known yet: there is no horizon.";
 
@@ -62,7 +60,7 @@ void OcclusionStage::plant(const Defects& defects) {
   barren_.reset();
 }
 
-void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, GpuMaps gpu,
+void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, bool gpuDrawsMaps,
                            FrameResult& counters) {
   serves_.reset();
   hidden_ = {};
@@ -77,7 +75,7 @@ void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, GpuM
   if (const auto size = sizeOf(request)) {
     size_ = *size;
     if (refusal_.empty())
-      serves_ = resolve(request, gpu, counters);
+      serves_ = resolve(request, gpuDrawsMaps, counters);
     else
       counters.note = refusal_;
   }
@@ -109,7 +107,7 @@ void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, GpuM
   counters.occlusion = serves_;
 }
 
-std::optional<OcclusionMethod> OcclusionStage::resolve(const FrameRequest& request, GpuMaps gpu,
+std::optional<OcclusionMethod> OcclusionStage::resolve(const FrameRequest& request, bool gpuDrawsMaps,
                                                        FrameResult& counters) {
   using enum OcclusionMethod;
   OcclusionMethod method = request.occlusion;
@@ -117,9 +115,9 @@ std::optional<OcclusionMethod> OcclusionStage::resolve(const FrameRequest& reque
     if (!request.reproducible) return choose(counters);
     method = horizon;
   }
-  if ((method == depth_map && !gpu.depthMap) || (method == read_back && !gpu.readBack)) {
+  if (method == depth_map && !gpuDrawsMaps) {
     method = cpu_map;
-    counters.note = gpu.depthMap ? kNoReadBack : kNoGpuMap;
+    counters.note = kNoGpuMap;
   }
   return method;
 }
@@ -155,8 +153,7 @@ bool OcclusionStage::visibleStays(const FrameRequest& request, FrameResult& coun
                  hidden_.empty() ? 0 : memory_.number(),
                  ground_.share().made()};
   // What a map on the GPU takes out is gone from the set.
-  const bool onGpu = serves(OcclusionMethod::depth_map) || serves(OcclusionMethod::read_back);
-  const bool stays = request.skips.sameVisible && !onGpu && visibleKey_ == key;
+  const bool stays = request.skips.sameVisible && !serves(OcclusionMethod::depth_map) && visibleKey_ == key;
   visibleKey_ = key;
   counters.visibleSelected += !stays;
   mapHid_ = mapHid_ && stays;

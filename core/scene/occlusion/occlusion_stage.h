@@ -7,10 +7,10 @@
 
 #include "horizon_memory.h"
 #include "occlusion_ground.h"
-#include "trimtab/scene/planted_defects.h"
-#include "trimtab/scene/renderer.h"
 #include "trimtab/culling/occlusion_choice.h"
 #include "trimtab/frame/frame_request.h"
+#include "trimtab/scene/planted_defects.h"
+#include "trimtab/scene/renderer.h"
 
 namespace trimtab::scene {
 
@@ -30,12 +30,8 @@ class OcclusionStage {
   void plant(const Defects& defects);
 
   // In this order, every frame.
-  /// Which of the GPU's maps the form of the terrain can draw in this context.
-  struct GpuMaps {
-    bool depthMap = false, readBack = false;
-  };
   /// After the cut: decides what serves, and finds what the horizon hides.
-  void begin(const FrameRequest& request, const EyePose& eye, GpuMaps gpu, FrameResult& counters);
+  void begin(const FrameRequest& request, const EyePose& eye, bool gpuDrawsMaps, FrameResult& counters);
   /// One a tile of the cut, not 0 where the horizon proves it hidden; or empty.
   std::span<const std::uint8_t> hidden() const { return hidden_; }
   /// Whether the visible set of the last frame is this one's too, maps included; else it must be chosen anew,
@@ -67,7 +63,8 @@ class OcclusionStage {
   Renderer::Grey picture() const;
 
  private:
-  std::optional<OcclusionMethod> resolve(const FrameRequest& request, GpuMaps gpu, FrameResult& counters);
+  std::optional<OcclusionMethod> resolve(const FrameRequest& request, bool gpuDrawsMaps,
+                                         FrameResult& counters);
   std::optional<OcclusionMethod> choose(FrameResult& counters);
   bool mapHidLittleNear() const;
 

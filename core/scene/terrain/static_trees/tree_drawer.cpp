@@ -28,7 +28,7 @@ void TreeDrawer::prepare(FrameInProgress& frame) {
   mapServes_ = frame.counters.depthMap.has_value();
   mapDrawn_ = mapServes_ && !culling_.hiddenIsKnown();
   frame.counters.depthMapsDrawn += mapDrawn_;
-  if (mapServes_) frame.counters.occlusion = OcclusionMethod::read_back;
+  if (mapServes_) frame.counters.occlusion = OcclusionMethod::depth_map;
   nearM_ = r.view.nearM;
   frame.view.treePicture = r.overlays.treePicture;
   addBounds();

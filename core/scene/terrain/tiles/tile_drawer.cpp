@@ -1,28 +1,21 @@
 #include "tile_drawer.h"
 
 #include "core/scene/gl/gl_api.h"
-#include "trimtab/scene/gl_report.h"
 #include "trimtab/frame/frame_request.h"
+#include "trimtab/scene/gl_report.h"
 
 namespace trimtab::scene {
 
 void TileDrawer::setTerrain(std::shared_ptr<const terrain::Database> database) {
   database_ = std::move(database);
   culling_.setDatabase(database_);
-  if (!gl_) return;
-  gl_->tiles.setDatabase(database_);
-  gl_->readBack.setDatabase(database_);
+  if (gl_) gl_->tiles.setDatabase(database_);
 }
 
 void TileDrawer::initialize() {
   gl_ = std::make_unique<Gl>();
   gl_->tiles.setDatabase(database_);
-  gl_->readBack.setDatabase(database_);
   culling_.occlusion().setSubpixelBits(subpixelBitsOfContext());
-  // A software rasteriser has drawn what it was told by the time that it is asked.
-  gl_->readBack.setAtOnce(contextIsSoftware());
-  const bool reads = gl_->readBack.atOnce() || *DepthReadBack::lacks() == 0;
-  culling_.setReadBack(reads ? &gl_->readBack : nullptr);
 }
 
 void TileDrawer::prepare(FrameInProgress& frame) {
@@ -36,8 +29,7 @@ void TileDrawer::prepare(FrameInProgress& frame) {
   const bool anew = culling_.selectVisible(r, frame.counters);
   frame.clock.lap(&FrameCost::select);
   if (anew) culling_.removeHiddenByMap(r, frame.counters);
-  if (occlusion.mapServes() || occlusion.serves(OcclusionMethod::read_back))
-    frame.clock.lap(&FrameCost::occlusion);
+  if (occlusion.mapServes()) frame.clock.lap(&FrameCost::occlusion);
   uploadShown();
   frame.view.depth = culling_.prepareOcclusion(r, gl_->tiles, gl_->occlusion, frame.counters);
   frame.clock.lap(frame.view.depth ? &FrameCost::occlusion : &FrameCost::select);

@@ -18,8 +18,8 @@ namespace trimtab {
 namespace {
 
 constexpr std::array kMethods{OcclusionMethod::automatic, OcclusionMethod::depth_map,
-                              OcclusionMethod::read_back, OcclusionMethod::cpu_map,
-                              OcclusionMethod::horizon,   OcclusionMethod::horizon_and_map};
+                              OcclusionMethod::cpu_map, OcclusionMethod::horizon,
+                              OcclusionMethod::horizon_and_map};
 
 std::shared_ptr<const terrain::Database> patchedMountains() {
   static const auto terrain = [] {

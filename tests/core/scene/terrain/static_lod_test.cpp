@@ -375,7 +375,7 @@ TEST_F(StaticTrees, chooseAndReadNothingAgainForAViewThatStands) {
   EXPECT_EQ(second.visible.reason, first.visible.reason);
   EXPECT_EQ(second.note, "");
   EXPECT_TRUE(second.depthMap) << "it has its part in what is drawn";
-  EXPECT_EQ(second.occlusion, OcclusionMethod::read_back);
+  EXPECT_EQ(second.occlusion, OcclusionMethod::depth_map);
   EXPECT_EQ(renderer.readDepthMap().pixels, grey.pixels);
   r.skips.sameVisible = false;
   EXPECT_EQ(differing(before, picture(r, &second)), 0u);

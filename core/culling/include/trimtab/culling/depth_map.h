@@ -70,8 +70,7 @@ enum class DepthFate : std::uint8_t { seen = 0, hidden = 1, outside = 2 };
 /// Where a mesh's boxes are in a map's view, and whether a pyramid covers them.
 class DepthTest {
  public:
-  /// `whole`: what is not wholly in the view is not hidden, as for a map of another view than the picture's.
-  void begin(const EyePose& eye, const ViewShape& view, int width, int height, bool whole, SimdLevel level);
+  void begin(const EyePose& eye, const ViewShape& view, int width, int height, SimdLevel level);
   DepthFate operator()(const DepthMesh& mesh, const DepthPyramid& pyramid) const;
   /// Of the whole mesh's box: false where it reaches the near plane, or is outside.
   struct Rectangle {

@@ -63,7 +63,7 @@ class OcclusionChoice {
   std::uint64_t trials() const { return trials_; }  ///< frames that were drawn to learn
 
  private:
-  static constexpr std::size_t kArms = 6;  ///< none, and the methods but `automatic`
+  static constexpr std::size_t kArms = 5;  ///< none, and the methods but `automatic`
   struct Arm {
     bool known = false;
     int frames = 0;  ///< of its first trial in a chapter

@@ -33,7 +33,7 @@ struct FrameResult {
   std::uint64_t depthMapsDrawn = 0, horizonsBuilt = 0, cutsSelected = 0, tilesBuilt = 0;
   std::uint64_t horizonsLeftOut = 0;  ///< because it hid next to nothing a little way off: nothing is hidden
   std::uint64_t horizonsMoved = 0;    ///< taken along with the eye instead of being built
-  std::uint64_t mapsDrawnByCpu = 0, mapsReadBack = 0;
+  std::uint64_t mapsDrawnByCpu = 0;
   std::uint64_t mapsLeftOut = 0;        ///< of the processor, as horizons are
   std::uint64_t occlusionsLeftOut = 0;  ///< because no method was worth its cost
   std::uint64_t visibleSelected = 0;    ///< visible sets that were chosen anew
