@@ -26,9 +26,10 @@ void FrameCulling::plant(const Defects& defects) {
   occlusion_.plant(defects);
 }
 
-void FrameCulling::selectCut(const FrameRequest& request, const EyePose& eye, FrameResult& counters) {
+void FrameCulling::selectCut(const FrameRequest& request, const EyePose& eye) {
   const TerrainIndex& index = database_->index();
   eye_ = eye;
+  cutSelected_ = false;
   const CutKey key{eye.position, request.lod.screenSpaceError.value() / defects_.statedErrorScale,
                    request.decision.lodScale, pixelsPerRadian(request.view)};
   if (cutKey_ == key && request.skips.sameCut) return;
@@ -38,15 +39,15 @@ void FrameCulling::selectCut(const FrameRequest& request, const EyePose& eye, Fr
   if (cutKey_) cutKey_->eye = key.eye;
   cutNumber_.rule += cutKey_ != key;
   cutKey_ = key;
-  ++counters.cutsSelected;
+  cutSelected_ = true;
 }
 
-void FrameCulling::beginOcclusion(const FrameRequest& request, FrameResult& counters) {
-  occlusion_.begin(request, eye_, true, counters);
+void FrameCulling::beginOcclusion(const FrameRequest& request) {
+  occlusion_.begin(request, eye_, true);
 }
 
-bool FrameCulling::selectVisible(const FrameRequest& request, FrameResult& counters) {
-  if (occlusion_.visibleStays(request, counters)) return false;
+bool FrameCulling::selectVisible(const FrameRequest& request) {
+  if (occlusion_.visibleStays(request)) return false;
   const TerrainIndex& index = database_->index();
   trimtab::selectVisible(index, cut_, eye_, request.view, request.method != CullingCase::none, visible_,
                          farCutM(request), occlusion_.hidden(),
@@ -58,14 +59,15 @@ bool FrameCulling::selectVisible(const FrameRequest& request, FrameResult& count
   return true;
 }
 
-void FrameCulling::removeHiddenByMap(const FrameRequest& request, FrameResult& counters) {
-  if (const auto flags = occlusion_.hiddenByMap(request, visible_, counters); !flags.empty())
+void FrameCulling::removeHiddenByMap(const FrameRequest& request) {
+  if (const auto flags = occlusion_.hiddenByMap(request, visible_); !flags.empty())
     removeOccluded(database_->index(), flags, visible_);
 }
 
 std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& request, const TileCache& tiles,
-                                                        OcclusionPass& pass, FrameResult& counters) {
+                                                        OcclusionPass& pass) {
   depthMapCurrent_ = false;
+  mapNote_.clear();
   if (!occlusion_.serves(OcclusionMethod::depth_map) || visible_.tiles.empty()) return {};
   const DepthMapSize size = occlusion_.size();
   testedSlots_.clear();
@@ -86,12 +88,10 @@ std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& requ
       occluders_.push_back(tile);
   }
   if (occluders_.empty()) {
-    counters.note = "No tile in view may hide another: all are too far, or at the terrain's edge.";
+    mapNote_ = "No tile in view may hide another: all are too far, or at the terrain's edge.";
     return {};
   }
   pass.prepare(size.widthPx, size.heightPx, testedSlots_);
-  counters.depthMap = size;
-  ++counters.depthMapsDrawn;
   depthMapCurrent_ = true;
   nearM_ = request.view.nearM;
   return DepthView{eye_,
@@ -101,6 +101,20 @@ std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& requ
                    static_cast<int>(testedSlots_.size()),
                    defects_.loweringScale,
                    defects_.depthMapShiftTexels};
+}
+
+OcclusionResult FrameCulling::result() const {
+  OcclusionResult result = occlusion_.result();
+  if (!mapNote_.empty()) result.note = mapNote_;
+  if (depthMapCurrent_) result.depthMap = occlusion_.size();
+  return result;
+}
+
+FrameCounters FrameCulling::counters() const {
+  FrameCounters counters = occlusion_.counters();
+  counters.cutsSelected += cutSelected_;
+  counters.depthMapsDrawn += depthMapCurrent_;
+  return counters;
 }
 
 void FrameCulling::removeHidden(const TileCache& tiles, OcclusionPass& pass) {

@@ -31,17 +31,20 @@ class FrameCulling {
 
   // In this order, every frame.
   /// The cut for an eye, only if it can have changed, which counts as `cutsSelected`.
-  void selectCut(const FrameRequest& request, const EyePose& eye, FrameResult& counters);
+  void selectCut(const FrameRequest& request, const EyePose& eye);
   /// What serves, and what the horizon hides.
-  void beginOcclusion(const FrameRequest& request, FrameResult& counters);
+  void beginOcclusion(const FrameRequest& request);
   /// What of the cut is in the view and not hidden: false where it is what it was in the last frame.
-  bool selectVisible(const FrameRequest& request, FrameResult& counters);
+  bool selectVisible(const FrameRequest& request);
   /// Takes out of a new visible set what the processor's map hides.
-  void removeHiddenByMap(const FrameRequest& request, FrameResult& counters);
+  void removeHiddenByMap(const FrameRequest& request);
   /// After the visible tiles have slots: whether the GPU draws a depth map in this frame, and its view. Else
-  /// `counters.note` may say why not.
+  /// `result().note` may say why not.
   std::optional<DepthView> prepareOcclusion(const FrameRequest& request, const TileCache& tiles,
-                                            OcclusionPass& pass, FrameResult& counters);
+                                            OcclusionPass& pass);
+  /// What this frame's calls found so far, and how much work they did.
+  OcclusionResult result() const;
+  FrameCounters counters() const;
   /// Tests the visible tiles against that map and takes out what it hides.
   void removeHidden(const TileCache& tiles, OcclusionPass& pass);
 
@@ -65,6 +68,8 @@ class FrameCulling {
   TileGround ground_;
   OcclusionStage occlusion_{ground_};
   std::optional<CutKey> cutKey_;
+  bool cutSelected_ = false;  ///< in this frame
+  std::string mapNote_;       ///< why the GPU draws no depth map
   CutNumber cutNumber_;
   LevelCut cut_;
   VisibleSet visible_;

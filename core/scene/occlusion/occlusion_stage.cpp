@@ -60,8 +60,7 @@ void OcclusionStage::plant(const Defects& defects) {
   barren_.reset();
 }
 
-void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, bool gpuDrawsMaps,
-                           FrameResult& counters) {
+void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, bool gpuDrawsMaps) {
   serves_.reset();
   hidden_ = {};
   chosen_ = false;
@@ -69,18 +68,17 @@ void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, bool
   view_ = request.view;
   refusal_ = ground_.refusal(eye, request.view);
   memory_.beginFrame();
-  counters.depthMap.reset();
-  counters.horizon = false;
-  counters.note.clear();
+  result_ = {};
+  counters_ = {};
   if (const auto size = sizeOf(request)) {
     size_ = *size;
     if (refusal_.empty())
-      serves_ = resolve(request, gpuDrawsMaps, counters);
+      serves_ = resolve(request, gpuDrawsMaps);
     else
-      counters.note = refusal_;
+      result_.note = refusal_;
   }
   if (!chosen_) choice_.pause();
-  counters.occlusion = serves_;
+  result_.occlusion = serves_;
   // Where counts must not depend on what came before, all surfaces are made at once.
   const bool atOnce = request.reproducible || request.waitForPages;
   ground_.share().begin(atOnce ? std::numeric_limits<std::size_t>::max() : SurfaceShare::kAFrame);
@@ -94,37 +92,36 @@ void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, bool
                             .raised = defects_.loweringScale < 1,
                             .whole = request.wholeHorizon},
                            request.skips, alone);
-  counters.horizonsBuilt += memory_.built() - built;
-  counters.horizonsMoved += memory_.moved() - moved;
-  counters.horizonsLeftOut += memory_.leftOut() - leftOut;
-  counters.horizon = !hidden_.empty();
+  counters_.horizonsBuilt += memory_.built() - built;
+  counters_.horizonsMoved += memory_.moved() - moved;
+  counters_.horizonsLeftOut += memory_.leftOut() - leftOut;
+  result_.horizon = !hidden_.empty();
   if (!memory_.noGraph()) return;
-  counters.note = kNoGraph;
+  result_.note = kNoGraph;
   if (serves(OcclusionMethod::horizon))
     serves_.reset();
   else
     serves_ = OcclusionMethod::cpu_map;
-  counters.occlusion = serves_;
+  result_.occlusion = serves_;
 }
 
-std::optional<OcclusionMethod> OcclusionStage::resolve(const FrameRequest& request, bool gpuDrawsMaps,
-                                                       FrameResult& counters) {
+std::optional<OcclusionMethod> OcclusionStage::resolve(const FrameRequest& request, bool gpuDrawsMaps) {
   using enum OcclusionMethod;
   OcclusionMethod method = request.occlusion;
   if (method == automatic) {
-    if (!request.reproducible) return choose(counters);
+    if (!request.reproducible) return choose();
     method = horizon;
   }
   if (method == depth_map && !gpuDrawsMaps) {
     method = cpu_map;
-    counters.note = kNoGpuMap;
+    result_.note = kNoGpuMap;
   }
   return method;
 }
 
 /// By cost. The maps of the GPU are no choice: on a software rasteriser the processor's own does the same for
 /// less, and on a GPU the published one waits for it.
-std::optional<OcclusionMethod> OcclusionStage::choose(FrameResult& counters) {
+std::optional<OcclusionMethod> OcclusionStage::choose() {
   static constexpr OcclusionMethod kMethods[] = {OcclusionMethod::horizon, OcclusionMethod::horizon_and_map,
                                                  OcclusionMethod::cpu_map};
   const double now =
@@ -135,13 +132,13 @@ std::optional<OcclusionMethod> OcclusionStage::choose(FrameResult& counters) {
   const auto method =
       choice_.choose({now, eye_.position, forwardOf(eye_), ground_.cutNumber().rule, kMethods, band});
   if (!method) {
-    ++counters.occlusionsLeftOut;
-    counters.note = kNothingPays;
+    ++counters_.occlusionsLeftOut;
+    result_.note = kNothingPays;
   }
   return method;
 }
 
-bool OcclusionStage::visibleStays(const FrameRequest& request, FrameResult& counters) {
+bool OcclusionStage::visibleStays(const FrameRequest& request) {
   VisibleKey key{eye_,
                  request.view,
                  request.method,
@@ -155,9 +152,9 @@ bool OcclusionStage::visibleStays(const FrameRequest& request, FrameResult& coun
   // What a map on the GPU takes out is gone from the set.
   const bool stays = request.skips.sameVisible && !serves(OcclusionMethod::depth_map) && visibleKey_ == key;
   visibleKey_ = key;
-  counters.visibleSelected += !stays;
+  counters_.visibleSelected += !stays;
   mapHid_ = mapHid_ && stays;
-  if (mapHid_) counters.depthMap = size_;
+  if (mapHid_) result_.depthMap = size_;
   return stays;
 }
 
@@ -170,16 +167,16 @@ bool OcclusionStage::mapHidLittleNear() const {
 }
 
 std::span<const std::uint8_t> OcclusionStage::hiddenByMap(const FrameRequest& request,
-                                                          const VisibleSet& visible, FrameResult& counters) {
+                                                          const VisibleSet& visible) {
   if (!mapServes() || visible.tiles.empty()) return {};
   if (request.skips.littleHidden && mapHidLittleNear()) {
-    ++counters.mapsLeftOut;
+    ++counters_.mapsLeftOut;
     return {};
   }
   const auto flags = ground_.hiddenByMap(visible.tiles, eye_, view_, size_, defects_.loweringScale);
   mapHid_ = true;
-  ++counters.mapsDrawnByCpu;
-  counters.depthMap = size_;
+  ++counters_.mapsDrawnByCpu;
+  result_.depthMap = size_;
   if (ground_.share().lacksAny())
     visibleKey_.reset();  // the next frame's map knows more
   else if (visibleKey_)

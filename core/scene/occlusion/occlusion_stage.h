@@ -31,16 +31,18 @@ class OcclusionStage {
 
   // In this order, every frame.
   /// After the cut: decides what serves, and finds what the horizon hides.
-  void begin(const FrameRequest& request, const EyePose& eye, bool gpuDrawsMaps, FrameResult& counters);
+  void begin(const FrameRequest& request, const EyePose& eye, bool gpuDrawsMaps);
   /// One a tile of the cut, not 0 where the horizon proves it hidden; or empty.
   std::span<const std::uint8_t> hidden() const { return hidden_; }
   /// Whether the visible set of the last frame is this one's too, maps included; else it must be chosen anew,
   /// which is counted.
-  bool visibleStays(const FrameRequest& request, FrameResult& counters);
+  bool visibleStays(const FrameRequest& request);
   /// What of `visible`, which was chosen anew, the processor's map hides, as removeOccluded takes it; or
   /// empty.
-  std::span<const std::uint8_t> hiddenByMap(const FrameRequest& request, const VisibleSet& visible,
-                                            FrameResult& counters);
+  std::span<const std::uint8_t> hiddenByMap(const FrameRequest& request, const VisibleSet& visible);
+  /// What this frame's calls found so far, and how much work they did.
+  const OcclusionResult& result() const { return result_; }
+  const FrameCounters& counters() const { return counters_; }
   /// The frame is finished: what it cost is learnt from.
   void finished(const FrameResult& result);
 
@@ -63,9 +65,8 @@ class OcclusionStage {
   Renderer::Grey picture() const;
 
  private:
-  std::optional<OcclusionMethod> resolve(const FrameRequest& request, bool gpuDrawsMaps,
-                                         FrameResult& counters);
-  std::optional<OcclusionMethod> choose(FrameResult& counters);
+  std::optional<OcclusionMethod> resolve(const FrameRequest& request, bool gpuDrawsMaps);
+  std::optional<OcclusionMethod> choose();
   bool mapHidLittleNear() const;
 
   /// What the visible set depends on.
@@ -91,6 +92,8 @@ class OcclusionStage {
   };
 
   OcclusionGround& ground_;
+  OcclusionResult result_;
+  FrameCounters counters_;
   HorizonMemory memory_;
   OcclusionChoice choice_;
   bool chosen_ = false;  ///< by cost, in this frame

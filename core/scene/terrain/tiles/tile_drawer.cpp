@@ -18,23 +18,28 @@ void TileDrawer::initialize() {
   culling_.occlusion().setSubpixelBits(subpixelBitsOfContext());
 }
 
-void TileDrawer::prepare(FrameInProgress& frame) {
+PreparedTerrain TileDrawer::prepare(const FrameInProgress& frame) {
   begin(frame);
+  PreparedTerrain prepared;
   const FrameRequest& r = frame.request;
-  culling_.selectCut(r, r.frozenEye.value_or(frame.view.eye), frame.counters);
+  culling_.selectCut(r, r.frozenEye.value_or(frame.eye));
   frame.clock.lap(&FrameCost::select);
   const OcclusionStage& occlusion = culling_.occlusion();
-  culling_.beginOcclusion(r, frame.counters);
+  culling_.beginOcclusion(r);
   frame.clock.lap(occlusion.horizonServes() ? &FrameCost::occlusion : &FrameCost::select);
-  const bool anew = culling_.selectVisible(r, frame.counters);
+  const bool anew = culling_.selectVisible(r);
   frame.clock.lap(&FrameCost::select);
-  if (anew) culling_.removeHiddenByMap(r, frame.counters);
+  if (anew) culling_.removeHiddenByMap(r);
   if (occlusion.mapServes()) frame.clock.lap(&FrameCost::occlusion);
-  uploadShown();
-  frame.view.depth = culling_.prepareOcclusion(r, gl_->tiles, gl_->occlusion, frame.counters);
-  frame.clock.lap(frame.view.depth ? &FrameCost::occlusion : &FrameCost::select);
-  frame.view.oneSided = r.backFaces && occlusion.eyeIsAboveGround() && !r.frozenEye;
-  addBounds();
+  const std::size_t built = uploadShown();
+  prepared.depth = culling_.prepareOcclusion(r, gl_->tiles, gl_->occlusion);
+  frame.clock.lap(prepared.depth ? &FrameCost::occlusion : &FrameCost::select);
+  prepared.occlusion = culling_.result();
+  prepared.counters = culling_.counters();
+  prepared.counters.tilesBuilt = built;
+  prepared.oneSided = r.backFaces && occlusion.eyeIsAboveGround() && !r.frozenEye;
+  prepared.lines = tileBounds();
+  return prepared;
 }
 
 void TileDrawer::drawOccluders() {

@@ -17,7 +17,7 @@ class TileDrawer final : public TerrainDrawer {
   void release() override { gl_.reset(); }
   void plant(const Defects& defects) override { culling_.plant(defects); }
 
-  void prepare(FrameInProgress& frame) override;
+  PreparedTerrain prepare(const FrameInProgress& frame) override;
   void finished(const FrameResult& result) override { culling_.occlusion().finished(result); }
   // The depth map's passes, where `prepare` set a depth view.
   void drawOccluders();
