@@ -69,11 +69,11 @@ std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& requ
   depthMapCurrent_ = false;
   mapNote_.clear();
   if (!occlusion_.serves(OcclusionMethod::depth_map) || visible_.tiles.empty()) return {};
-  const DepthMapSize size = occlusion_.size();
+  const DepthMapSize size = occlusion_.resolution();
   testedSlots_.clear();
   occluders_.clear();
-  // Far tiles cost as much to draw as near ones and hide little: measured over Everest and Fuji, leaving out
-  // what is narrower than 48 texels costs a few percent of the hidden tiles and saves up to half of the pass.
+  // Far tiles cost as much to draw as near ones and hide little. Measured over Everest and Fuji, leaving out
+  // tiles narrower than 48 texels loses a few percent of the hidden tiles and saves up to half of the pass.
   const TerrainIndex& index = database_->index();
   const double texelsPerTangent = size.widthPx / (request.view.right - request.view.left);
   const double leastTexels = std::min(48.0, 0.12 * size.widthPx);
@@ -88,7 +88,7 @@ std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& requ
       occluders_.push_back(tile);
   }
   if (occluders_.empty()) {
-    mapNote_ = "No tile in view may hide another: all are too far, or at the terrain's edge.";
+    mapNote_ = "No tile in view may hide another: all are too far away or at the terrain's edge.";
     return {};
   }
   pass.prepare(size.widthPx, size.heightPx, testedSlots_);
@@ -106,7 +106,7 @@ std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& requ
 OcclusionResult FrameCulling::result() const {
   OcclusionResult result = occlusion_.result();
   if (!mapNote_.empty()) result.note = mapNote_;
-  if (depthMapCurrent_) result.depthMap = occlusion_.size();
+  if (depthMapCurrent_) result.depthMap = occlusion_.resolution();
   return result;
 }
 
@@ -134,7 +134,7 @@ Renderer::Grey FrameCulling::readDepthMap(const OcclusionPass& pass) const {
 
 Renderer::Grey greyOf(std::span<const float> depths, int width, int height, double nearM) {
   Renderer::Grey grey{width, height, std::vector<std::uint8_t>(depths.size(), 255)};
-  // By the logarithm of the distance: the same step is the same ratio near and far.
+  // The grey follows the logarithm of the distance, so that a step is the same ratio near and far.
   constexpr double kFrom = Renderer::Grey::kNearestM, kTo = Renderer::Grey::kFurthestM;
   for (std::size_t i = 0; i < depths.size(); ++i) {
     if (!(depths[i] > 0)) continue;

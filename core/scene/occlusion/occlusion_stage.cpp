@@ -10,20 +10,21 @@
 namespace trimtab::scene {
 namespace {
 
-/// A map that hid little is not drawn again until the eye has moved by HorizonMemory::kBelievedM or turned so
-/// far.
+/// A map that hid little is not drawn again until the eye has moved by HorizonMemory::kBelievedM or turned by
+/// this angle, radians.
 constexpr double kBelievedTurn = 0.05;
 
-/// A frame that lacks many surfaces says nothing about what a method is worth; so many in a row do.
+/// A frame for which many surfaces are missing says nothing about what a method is worth, unless so many
+/// follow each other.
 constexpr int kUnlearntFrames = 600;
 
-constexpr const char* kNothingPays = "No way to find hidden ground is worth its cost here.";
+constexpr const char* kNothingPays = "No method of finding hidden ground is worth its cost here.";
 constexpr const char* kNoGpuMap = "Patches have no depth map on the GPU; the processor draws one instead.";
 constexpr const char* kNoGraph =
-    "Some of this ground stands upright or hangs over, or is not known yet: there is no horizon.";
+    "Some of this ground is vertical or overhangs, or is not loaded yet, so there is no horizon.";
 
-/// The size that the band asks for; none where the scheme asks for no test of any kind.
-std::optional<DepthMapSize> sizeOf(const FrameRequest& request) {
+/// Returns the occlusion resolution that the band asks for; unset if the scheme asks for no occlusion test.
+std::optional<DepthMapSize> occlusionResolution(const FrameRequest& request) {
   if (request.method != CullingCase::proposed) return {};
   if (request.decision.depthMap || request.skips.schemeFrustum) return request.decision.depthMap;
   const Band& smallest = kDepthMapBands.span().front();
@@ -70,8 +71,8 @@ void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, bool
   memory_.beginFrame();
   result_ = {};
   counters_ = {};
-  if (const auto size = sizeOf(request)) {
-    size_ = *size;
+  if (const auto resolution = occlusionResolution(request)) {
+    resolution_ = *resolution;
     if (refusal_.empty())
       serves_ = resolve(request, gpuDrawsMaps);
     else
@@ -79,24 +80,25 @@ void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, bool
   }
   if (!chosen_) choice_.pause();
   result_.occlusion = serves_;
-  // Where counts must not depend on what came before, all surfaces are made at once.
+  // If counts must not depend on earlier frames, all surfaces are made at once.
   const bool atOnce = request.reproducible || request.waitForPages;
   ground_.share().begin(atOnce ? std::numeric_limits<std::size_t>::max() : SurfaceShare::kAFrame);
   if (!horizonServes()) return;
-  // Who wants a frame that depends on none before it believes nothing of other places.
+  // A frame that must not depend on earlier ones uses no horizon of another eye position.
   const bool alone = request.reproducible && !request.skips.littleHidden;
-  const std::uint64_t built = memory_.built(), moved = memory_.moved(), leftOut = memory_.leftOut();
-  hidden_ = memory_.hidden(ground_, eye.position,
-                           {.columns = HorizonMemory::columnsFor(size_.widthPx),
-                            .slack = HorizonMemory::slackOf(request.view, subpixelBits_),
-                            .raised = defects_.loweringScale < 1,
-                            .whole = request.wholeHorizon},
-                           request.skips, alone);
-  counters_.horizonsBuilt += memory_.built() - built;
-  counters_.horizonsMoved += memory_.moved() - moved;
-  counters_.horizonsLeftOut += memory_.leftOut() - leftOut;
+  const HorizonMemory::Result found =
+      memory_.find(ground_, eye.position,
+                   {.columns = HorizonMemory::columnsFor(resolution_.widthPx),
+                    .slack = HorizonMemory::slackOf(request.view, subpixelBits_),
+                    .raised = defects_.loweringScale < 1,
+                    .whole = request.wholeHorizon},
+                   request.skips, alone);
+  hidden_ = found.hidden;
+  counters_.horizonsBuilt = found.built;
+  counters_.horizonsMoved = found.moved;
+  counters_.horizonsLeftOut = found.leftOut;
   result_.horizon = !hidden_.empty();
-  if (!memory_.noGraph()) return;
+  if (!found.noGraph) return;
   result_.note = kNoGraph;
   if (serves(OcclusionMethod::horizon))
     serves_.reset();
@@ -119,15 +121,15 @@ std::optional<OcclusionMethod> OcclusionStage::resolve(const FrameRequest& reque
   return method;
 }
 
-/// By cost. The maps of the GPU are no choice: on a software rasteriser the processor's own does the same for
-/// less, and on a GPU the published one waits for it.
+/// Chooses the method by cost. The GPU's depth map is not among them: on a software rasteriser the
+/// processor's own map does the same for less, and on a GPU the frame would wait for the result.
 std::optional<OcclusionMethod> OcclusionStage::choose() {
   static constexpr OcclusionMethod kMethods[] = {OcclusionMethod::horizon, OcclusionMethod::horizon_and_map,
                                                  OcclusionMethod::cpu_map};
   const double now =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  const std::uint64_t band =
-      (static_cast<std::uint64_t>(size_.widthPx) << 32) | static_cast<std::uint32_t>(size_.heightPx);
+  const std::uint64_t band = (static_cast<std::uint64_t>(resolution_.widthPx) << 32) |
+                             static_cast<std::uint32_t>(resolution_.heightPx);
   chosen_ = true;
   const auto method =
       choice_.choose({now, eye_.position, forwardOf(eye_), ground_.cutNumber().rule, kMethods, band});
@@ -146,20 +148,20 @@ bool OcclusionStage::visibleStays(const FrameRequest& request) {
                  farCutM(request),
                  ground_.cutNumber(),
                  serves_,
-                 serves_ ? size_ : DepthMapSize{},
+                 serves_ ? resolution_ : DepthMapSize{},
                  hidden_.empty() ? 0 : memory_.number(),
                  ground_.share().made()};
-  // What a map on the GPU takes out is gone from the set.
+  // A map on the GPU removes tiles from the visible set, so that set cannot be kept.
   const bool stays = request.skips.sameVisible && !serves(OcclusionMethod::depth_map) && visibleKey_ == key;
   visibleKey_ = key;
   counters_.visibleSelected += !stays;
   mapHid_ = mapHid_ && stays;
-  if (mapHid_) result_.depthMap = size_;
+  if (mapHid_) result_.depthMap = resolution_;
   return stays;
 }
 
 bool OcclusionStage::mapHidLittleNear() const {
-  if (!barren_ || barren_->method != serves_ || barren_->size != size_ ||
+  if (!barren_ || barren_->method != serves_ || barren_->resolution != resolution_ ||
       barren_->rule != ground_.cutNumber().rule)
     return false;
   return length(eye_.position - barren_->eye) < HorizonMemory::kBelievedM &&
@@ -173,17 +175,17 @@ std::span<const std::uint8_t> OcclusionStage::hiddenByMap(const FrameRequest& re
     ++counters_.mapsLeftOut;
     return {};
   }
-  const auto flags = ground_.hiddenByMap(visible.tiles, eye_, view_, size_, defects_.loweringScale);
+  const auto flags = ground_.hiddenByMap(visible.tiles, eye_, view_, resolution_, defects_.loweringScale);
   mapHid_ = true;
   ++counters_.mapsDrawnByCpu;
-  result_.depthMap = size_;
+  result_.depthMap = resolution_;
   if (ground_.share().lacksAny())
     visibleKey_.reset();  // the next frame's map knows more
   else if (visibleKey_)
     visibleKey_->surfaces = ground_.share().made();
   const auto hidden = static_cast<std::size_t>(std::count(flags.begin(), flags.end(), std::uint8_t{1}));
   if (HorizonMemory::isLittle(hidden, visible.tiles.size()) && !ground_.share().lacksMany())
-    barren_ = {eye_.position, forwardOf(eye_), ground_.cutNumber().rule, size_, *serves_};
+    barren_ = {eye_.position, forwardOf(eye_), ground_.cutNumber().rule, resolution_, *serves_};
   else
     barren_.reset();
   return flags;
@@ -198,7 +200,7 @@ void OcclusionStage::finished(const FrameResult& result) {
   OcclusionChoice::Outcome outcome;
   outcome.occlusionMs = or0(cost.occlusion);
   outcome.totalMs = cost.total - or0(cost.page);
-  // A GPU works beside; whichever takes longer is what a frame waits for.
+  // The GPU works in parallel, and a frame waits for whichever takes longer.
   outcome.drawMs = std::max(outcome.totalMs - outcome.occlusionMs, or0(cost.gpu));
   outcome.totalMs = std::max(outcome.totalMs, or0(cost.gpu));
   outcome.drawn = result.visible.triangles;
@@ -211,7 +213,7 @@ void OcclusionStage::finished(const FrameResult& result) {
 
 Renderer::Grey OcclusionStage::picture() const {
   if (mapHid_) return ground_.mapPicture();
-  if (horizon()) return memory_.picture(eye_, view_, size_.widthPx, size_.heightPx);
+  if (horizon()) return memory_.picture(eye_, view_, resolution_.widthPx, resolution_.heightPx);
   return {};
 }
 

@@ -210,7 +210,7 @@ TEST(HorizonMemory, knowsHowFastTheEyeGoesAlsoWhereItIsNotAsked) {
     if (frame % 10 == 0) {
       selectLevels(database->index(), eye, 0.2, 1, 640, cut);
       ++number.cut;
-      memory.hidden(ground, eye, {}, {.littleHidden = false});
+      memory.find(ground, eye, {}, {.littleHidden = false});
       const EyeRoom& room = memory.horizon().room();
       EXPECT_LT(length(room.to - room.from), 30 * 5.0) << "frame " << frame;
     }
