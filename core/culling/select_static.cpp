@@ -18,7 +18,7 @@ bool isLeaf(const StaticLodIndex::Node& node) {
   return node.children[0] == StaticLodIndex::kNone;
 }
 
-/// Walks the trees from the roots; `descend` says whether a node's children stand for it.
+/// Walks the trees from the roots; `descend` says whether a node's children are drawn instead of it.
 template <class Descend>
 void walk(const StaticLodIndex& index, StaticCut& cut, const Descend& descend) {
   cut.nodes.clear();
@@ -62,8 +62,8 @@ void selectStatic(const StaticLodIndex& index, std::span<const float> error, dou
                   Vec3 eye, StaticCut& cut) {
   const double square = distancePerError * distancePerError;
   walk(index, cut, [&](std::uint32_t node) {
-    // Squares, so that an eye inside the box (distance 0) descends whenever there is any error at all; said
-    // so that an eye that is not a number does not.
+    // Both sides are squared, so that an eye inside the box (distance 0) descends for any error at all.
+    // Written so that an eye that is not a number does not descend.
     const double e = double{error[node]};
     return e * e * square > distanceSquared(index.bounds[node], eye);
   });

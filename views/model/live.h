@@ -36,8 +36,8 @@ struct LiveFrame {
   std::string cullingNote;  ///< why it is not as asked for, and what serves instead: sentences; or empty
   // So far.
   std::uint64_t cutsSelected = 0, visibleSelected = 0, horizonsBuilt = 0, horizonsMoved = 0,
-                horizonsLeftOut = 0, depthMapsDrawn = 0, mapsDrawnByCpu = 0, mapsReadBack = 0,
-                mapsLeftOut = 0, occlusionsLeftOut = 0;
+                horizonsLeftOut = 0, depthMapsDrawn = 0, mapsDrawnByCpu = 0, mapsLeftOut = 0,
+                occlusionsLeftOut = 0;
   std::optional<HostWeather> hostWeather;  ///< as the host, or the flight, says
   std::optional<Metres> hostVisibility;
 };

@@ -34,10 +34,7 @@ QString metres(double m) {
 QString whatServes(OcclusionMethod method, const QString& size) {
   switch (method) {
     case OcclusionMethod::depth_map:
-      return CullingPanel::tr("The <b>depth map</b> serves%1, tested on the GPU.").arg(size);
-    case OcclusionMethod::read_back:
-      return CullingPanel::tr("The <b>depth map</b> serves%1, read back and tested by the processor.")
-          .arg(size);
+      return CullingPanel::tr("The <b>depth map</b> that GL draws serves%1.").arg(size);
     case OcclusionMethod::cpu_map:
       return CullingPanel::tr("A <b>depth map by the processor</b> serves%1.").arg(size);
     case OcclusionMethod::horizon:
@@ -220,12 +217,11 @@ void CullingPanel::refresh() {
        bar(tr("outside the frustum"), f.outsideFrustum, {}, 1), bar(tr("hidden"), f.occluded, {}, 3),
        bar(tr("beyond visibility"), f.beyondVisibility, {}, 4), bar(tr("facing away"), f.backFacing, {}, 0)});
   work_->setText(tr("Cuts chosen %1, views %2; horizons built %3, moved along %4, left out %5; depth maps "
-                    "by GL %6, read back %7, by the processor %8, left out %9; frames in which nothing "
-                    "was worth its cost %10.")
+                    "by GL %6, by the processor %7, left out %8; frames in which nothing was worth its "
+                    "cost %9.")
                      .arg(count(f.cutsSelected), count(f.visibleSelected), count(f.horizonsBuilt),
                           count(f.horizonsMoved), count(f.horizonsLeftOut), count(f.depthMapsDrawn),
-                          count(f.mapsReadBack), count(f.mapsDrawnByCpu), count(f.mapsLeftOut),
-                          count(f.occlusionsLeftOut)));
+                          count(f.mapsDrawnByCpu), count(f.mapsLeftOut), count(f.occlusionsLeftOut)));
 }
 
 }  // namespace trimtab::views

@@ -39,7 +39,6 @@ template <>
 struct ChoicesOf<OcclusionMethod> {
   static constexpr ChoiceOption options[] = {{"auto", "Automatic (fastest here)"},
                                              {"depth_map", "Depth map (published)"},
-                                             {"read_back", "Depth map, read back"},
                                              {"cpu_map", "Depth map by the processor"},
                                              {"horizon", "Horizon"},
                                              {"horizon_and_map", "Horizon, then depth map"}};

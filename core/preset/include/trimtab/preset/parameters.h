@@ -20,7 +20,7 @@ enum class Combination { sum, twice_minimum, rules };
 /// The papers' three culling cases.
 enum class CullingCase { none, view_frustum, proposed };
 /// What proves that something is hidden, where the scheme is dynamic.
-enum class OcclusionMethod { automatic, depth_map, read_back, cpu_map, horizon, horizon_and_map };
+enum class OcclusionMethod { automatic, depth_map, cpu_map, horizon, horizon_and_map };
 /// Where field of view and near plane come from.
 enum class ViewSource { preset, host };
 enum class RenderSize { fit, fixed };
