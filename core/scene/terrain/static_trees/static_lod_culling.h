@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "static_lod_parts.h"
-#include "trimtab/scene/planted_defects.h"
 #include "trimtab/culling/depth_pyramid.h"
 #include "trimtab/culling/select_static.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
+#include "trimtab/scene/planted_defects.h"
 
 namespace trimtab::terrain {
 struct StaticLodTerrain;
@@ -58,6 +58,7 @@ class StaticLodCulling {
   std::shared_ptr<const terrain::StaticLodTerrain> terrain_;
   std::vector<std::uint32_t> vertices_;  ///< one a node
   std::optional<CutKey> cutKey_;
+  std::vector<float> errors_;  ///< of the cut's measure, one per node; empty: not made yet
   StaticCut cut_;
   std::vector<TileDraw> cutTiles_;
   std::size_t near_ = 0;  ///< of the cut

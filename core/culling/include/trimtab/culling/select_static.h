@@ -17,8 +17,10 @@ namespace trimtab {
 double staticLodDistancePerError(const StaticLodParameters& parameters, double lodScale,
                                  double pixelsPerRadian);
 
-/// The error that the distances follow, one a node.
-std::span<const float> staticLodError(const StaticLodIndex& index, ErrorMeasure measure);
+/// Returns the error that the distances follow, in metres, one per node: the vertical error of the measure or
+/// the horizontal error of material borders, whichever is larger; the vertical error alone for
+/// `as_published`.
+std::vector<float> staticLodError(const StaticLodIndex& index, ErrorMeasure measure);
 
 /// The cut through the trees: every leaf is covered by exactly one node. Independent of view direction and of
 /// culling, so that culling cannot change what a drawn node looks like.
