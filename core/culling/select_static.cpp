@@ -54,8 +54,12 @@ double staticLodDistancePerError(const StaticLodParameters& parameters, double l
   return perError / lodScale;
 }
 
-std::span<const float> staticLodError(const StaticLodIndex& index, ErrorMeasure measure) {
-  return measure == ErrorMeasure::rms ? index.rmsErrorM : index.maxErrorM;
+std::vector<float> staticLodError(const StaticLodIndex& index, ErrorMeasure measure) {
+  std::vector<float> error = measure == ErrorMeasure::maximum ? index.maxErrorM : index.rmsErrorM;
+  if (measure != ErrorMeasure::as_published)
+    std::transform(error.begin(), error.end(), index.borderErrorM.begin(), error.begin(),
+                   [](float vertical, float border) { return std::max(vertical, border); });
+  return error;
 }
 
 void selectStatic(const StaticLodIndex& index, std::span<const float> error, double distancePerError,

@@ -43,6 +43,7 @@ void StaticLodCulling::setTerrain(std::shared_ptr<const terrain::StaticLodTerrai
   terrain_ = std::move(terrain);
   parts_.setTerrain(terrain_.get());
   cutKey_.reset();
+  errors_.clear();
   visibleKey_.reset();
   cutTiles_.clear();
   visible_ = {};
@@ -64,8 +65,11 @@ FrameCounters StaticLodCulling::select(const FrameRequest& request, const EyePos
   if (cutKey_ != key || !request.skips.sameCut) {
     if (key.depth >= 0)
       selectStaticDepth(index(), key.depth, cut_);
-    else
-      selectStatic(index(), staticLodError(index(), key.error), key.distancePerError, key.eye, cut_);
+    else {
+      if (errors_.empty() || !cutKey_ || cutKey_->error != key.error)
+        errors_ = staticLodError(index(), key.error);
+      selectStatic(index(), errors_, key.distancePerError, key.eye, cut_);
+    }
     orderByDistance(eye.position);
     cutTiles_.clear();
     for (const std::uint32_t node : cut_.nodes) cutTiles_.push_back({node, 0});

@@ -59,6 +59,7 @@ class StaticLodCulling {
   std::shared_ptr<const terrain::StaticLodTerrain> terrain_;
   std::vector<std::uint32_t> vertices_;  ///< one a node
   std::optional<CutKey> cutKey_;
+  std::vector<float> errors_;  ///< of the cut's measure, one per node; empty: not made yet
   StaticCut cut_;
   std::vector<TileDraw> cutTiles_;
   std::size_t near_ = 0;  ///< of the cut

@@ -17,8 +17,10 @@ namespace trimtab {
 double staticLodDistancePerError(const StaticLodParameters& parameters, double lodScale,
                                  double pixelsPerRadian);
 
-/// Returns the error of each node, metres, by the measure that the distances follow.
-std::span<const float> staticLodError(const StaticLodIndex& index, ErrorMeasure measure);
+/// Returns the error that the distances follow, in metres, one per node: the vertical error of the measure or
+/// the horizontal error of material borders, whichever is larger; the vertical error alone for
+/// `as_published`.
+std::vector<float> staticLodError(const StaticLodIndex& index, ErrorMeasure measure);
 
 /// A cut through the trees, in which exactly one node covers each leaf. It does not depend on the view
 /// direction or on culling, so culling cannot change what a drawn node looks like.

@@ -63,7 +63,9 @@ struct ChoicesOf<StaticDistanceRule> {
 };
 template <>
 struct ChoicesOf<ErrorMeasure> {
-  static constexpr ChoiceOption options[] = {{"rms", "Root mean square"}, {"maximum", "Largest"}};
+  static constexpr ChoiceOption options[] = {{"rms", "Root mean square"},
+                                             {"maximum", "Largest"},
+                                             {"as_published", "Root mean square, as published"}};
 };
 template <>
 struct ChoicesOf<SymbologyFrame> {
