@@ -19,21 +19,23 @@ constexpr int kMostBins = 64;
 
 }  // namespace
 
-bool EyeRoom::holds(Vec3 eye) const {
+bool ValidityRegion::holds(Vec3 eye) const {
   const Vec3 along = to - from, in = eye - from;
   const double squared = dot(along, along);
   const double s = squared > 0 ? std::clamp(dot(in, along) / squared, 0.0, 1.0) : 0;
   return length(in - s * along) <= radius;
 }
 
-void Horizon::buildFor(const EyeRoom& room, std::span<const HorizonTile> tiles, const Settings& settings) {
-  begin(room, tiles, settings);
+void Horizon::buildFor(const ValidityRegion& region, std::span<const HorizonTile> tiles,
+                       const Settings& settings) {
+  begin(region, tiles, settings);
   step(std::numeric_limits<std::size_t>::max() / 2);
 }
 
-void Horizon::begin(const EyeRoom& room, std::span<const HorizonTile> tiles, const Settings& settings) {
-  room_ = room;
-  eye_ = 0.5 * (room.from + room.to);
+void Horizon::begin(const ValidityRegion& region, std::span<const HorizonTile> tiles,
+                    const Settings& settings) {
+  region_ = region;
+  eye_ = 0.5 * (region.from + region.to);
   settings_ = settings;
   kernels_ = &kernels(settings.simd);
   columns_ = std::clamp(settings.columns, kLeastColumns, kMostColumns);
@@ -53,17 +55,17 @@ void Horizon::begin(const EyeRoom& room, std::span<const HorizonTile> tiles, con
   next_ = work_ = 0;
   phase_ = Phase::done;
 
-  const Vec3 half = 0.5 * (room.to - room.from);
-  const double play = std::hypot(half.x, half.y) + std::abs(half.z) + room.radius;
+  const Vec3 half = 0.5 * (region.to - region.from);
+  const double play = std::hypot(half.x, half.y) + std::abs(half.z) + region.radius;
   // Seen from another eye of the region, a direction turns by at most half as much again.
   slack_ = static_cast<float>((play > 0 ? 3 : 2) * settings.slack + kRounding);
-  if (!isPlace(room.from) || !isPlace(room.to) || !(room.radius >= 0) || !(slack_ < 0.1f) ||
-      !(play <= kMostRoomM))
+  if (!isPlace(region.from) || !isPlace(region.to) || !(region.radius >= 0) || !(slack_ < 0.1f) ||
+      !(play <= kMostRegionM))
     return;
   leastM_ = static_cast<float>(2 * play);
   for (int side = 0; side < kSides; ++side) {
     const Turned h = turned(side, static_cast<float>(half.x), static_cast<float>(half.y));
-    const float radius = static_cast<float>(room.radius), forwards = std::abs(h.f) + radius;
+    const float radius = static_cast<float>(region.radius), forwards = std::abs(h.f) + radius;
     play_[static_cast<std::size_t>(side)] = {.along = h.f,
                                              .side = h.l,
                                              .radius = radius,

@@ -44,7 +44,7 @@ void MovingHorizon::restart() {
 }
 
 /// Returns the region around the eye's predicted path from one frame to another, counted from now.
-EyeRoom MovingHorizon::roomAhead(Vec3 eye, double firstFrame, double lastFrame) const {
+ValidityRegion MovingHorizon::regionAhead(Vec3 eye, double firstFrame, double lastFrame) const {
   const auto at = [&](double frames) { return eye + frames * step_ + 0.5 * frames * frames * turn_; };
   return {at(firstFrame), at(lastFrame),
           kBesideM + kBesideShare * lastFrame * length(step_) +
@@ -77,14 +77,15 @@ std::span<const std::uint8_t> MovingHorizon::hidden(const Frame& frame, const Su
 
   if (!frame.incremental || !frame.sameHorizon) {
     Build& build = builds_[standing_];
-    const EyeRoom room{frame.eye, frame.eye, 0};
+    const ValidityRegion region{frame.eye, frame.eye, 0};
     builds_[1 - standing_].there = false;
     isCarried_ = false;
-    const EyeRoom& last = build.horizon.room();
+    const ValidityRegion& last = build.horizon.region();
     if (frame.sameHorizon && build.there && build.cutNumber == frame.cut && build.rule == frame.rule &&
-        build.settings == frame.settings && last.from == room.from && last.to == room.to && last.radius == 0)
+        build.settings == frame.settings && last.from == region.from && last.to == region.to &&
+        last.radius == 0)
       return build.horizon.hidden();
-    begin(build, room, frame, tree, fill);
+    begin(build, region, frame, tree, fill);
     build.horizon.step(std::numeric_limits<std::size_t>::max() / 2);
     ++fromScratch_;
     return build.horizon.hidden();
@@ -96,12 +97,12 @@ std::span<const std::uint8_t> MovingHorizon::hidden(const Frame& frame, const Su
     builds_[standing_].there = false;
     standing_ = 1 - standing_;
   } else if (!holds(builds_[standing_], frame, tree)) {
-    if (coming.there && !coming.horizon.isDone() && coming.horizon.room().holds(frame.eye))
+    if (coming.there && !coming.horizon.isDone() && coming.horizon.region().holds(frame.eye))
       coming.horizon.step(std::numeric_limits<std::size_t>::max() / 2);
     else
       coming.there = false;
     if (!coming.there || !holds(coming, frame, tree)) {
-      begin(coming, roomAhead(frame.eye, 0, kFrames + kSpareFrames), frame, tree, fill);
+      begin(coming, regionAhead(frame.eye, 0, kFrames + kSpareFrames), frame, tree, fill);
       coming.horizon.step(std::numeric_limits<std::size_t>::max() / 2);
       ++fromScratch_;
       isCarried_ = false;
@@ -121,23 +122,25 @@ void MovingHorizon::prepareNext(const Frame& frame, const SurfaceTree& tree, con
   if (coming.there) {
     if (coming.horizon.isDone()) {
       // If the eye slowed down, turned or has gone past, it never reaches the region.
-      if (!coming.horizon.room().holds(roomAhead(frame.eye, kFrames, kFrames).to)) coming.there = false;
+      if (!coming.horizon.region().holds(regionAhead(frame.eye, kFrames, kFrames).to)) coming.there = false;
     } else {
       coming.horizon.step(standing.horizon.work() * 11 / (10 * kFrames) + 16);
     }
     return;
   }
-  const auto extent = [](const EyeRoom& room) { return length(room.to - room.from) + 2 * room.radius; };
-  const Vec3 then = roomAhead(frame.eye, kFrames + 1, kFrames + 1).to;
-  if (!standing.horizon.room().holds(then))
-    begin(coming, roomAhead(frame.eye, kFrames - 1, 2 * kFrames + kSpareFrames), frame, tree, fill);
-  else if (const EyeRoom here = roomAhead(frame.eye, 0, 2 * kFrames);
-           extent(standing.horizon.room()) > 8 * extent(here))
+  const auto extent = [](const ValidityRegion& region) {
+    return length(region.to - region.from) + 2 * region.radius;
+  };
+  const Vec3 then = regionAhead(frame.eye, kFrames + 1, kFrames + 1).to;
+  if (!standing.horizon.region().holds(then))
+    begin(coming, regionAhead(frame.eye, kFrames - 1, 2 * kFrames + kSpareFrames), frame, tree, fill);
+  else if (const ValidityRegion here = regionAhead(frame.eye, 0, 2 * kFrames);
+           extent(standing.horizon.region()) > 8 * extent(here))
     begin(coming, here, frame, tree, fill);  // it has slowed down, and a smaller region proves more
 }
 
-void MovingHorizon::begin(Build& build, const EyeRoom& room, const Frame& frame, const SurfaceTree& tree,
-                          const Fill& fill) {
+void MovingHorizon::begin(Build& build, const ValidityRegion& region, const Frame& frame,
+                          const SurfaceTree& tree, const Fill& fill) {
   ++built_;
   if (carriedBy_ == &build) carriedBy_ = nullptr;
   for (const TileDraw& tile : build.cut)
@@ -158,11 +161,11 @@ void MovingHorizon::begin(Build& build, const EyeRoom& room, const Frame& frame,
   if (mayChange) {
     build.eye = frame.eye;
     build.limit = frame.errorOverDistance;
-    build.reach = std::max(length(room.from - frame.eye), length(room.to - frame.eye)) + room.radius;
+    build.reach = std::max(length(region.from - frame.eye), length(region.to - frame.eye)) + region.radius;
     markChanges(build, tree);
-    giveRoom(build, frame, tree);
+    widenBounds(build, frame, tree);
   }
-  build.horizon.begin(room, build.tiles, frame.settings);
+  build.horizon.begin(region, build.tiles, frame.settings);
 }
 
 /// Returns the largest errors of any variant of a node that the LOD rule may draw while the build is valid:
@@ -218,7 +221,7 @@ void MovingHorizon::markChanges(Build& build, const SurfaceTree& tree) {
 
 /// Lowers the occluder bound and raises the test bound of every tile that may be replaced, by the error of
 /// every LOD that it may switch to.
-void MovingHorizon::giveRoom(Build& build, const Frame& frame, const SurfaceTree& tree) {
+void MovingHorizon::widenBounds(Build& build, const Frame& frame, const SurfaceTree& tree) {
   const auto changes = [&](std::uint32_t node) {
     return node != SurfaceTree::kNone && (build.mark[node] & (kMaySplit | kMayJoin)) != 0;
   };
@@ -246,19 +249,19 @@ void MovingHorizon::giveRoom(Build& build, const Frame& frame, const SurfaceTree
       if (!tree.neighbours.empty() && above != SurfaceTree::kNone) other = std::max(other, worst(above));
       tile.mayOcclude = tile.mayOcclude && mayOcclude(parent);
     }
-    const float room = kLean * (tree.surfaceError(node, tree.variantOf(build.cut[i])) + other);
-    if (!std::isfinite(room) || (frame.takesRoom && !frame.takesRoom(node))) {
+    const float margin = kLean * (tree.surfaceError(node, tree.variantOf(build.cut[i])) + other);
+    if (!std::isfinite(margin) || (frame.takesRoom && !frame.takesRoom(node))) {
       tile = {};  // hides nothing and is never hidden, so nothing is claimed about its replacement
       continue;
     }
-    tile.below = std::max(tile.below, room);
-    tile.above = std::max(tile.above, room);
+    tile.below = std::max(tile.below, margin);
+    tile.above = std::max(tile.above, margin);
   }
 }
 
 bool MovingHorizon::holds(Build& build, const Frame& frame, const SurfaceTree& tree) {
   if (!build.there || build.rule != frame.rule || build.settings != frame.settings ||
-      !build.horizon.isDone() || !build.horizon.room().holds(frame.eye) || build.mark.size() != tree.size())
+      !build.horizon.isDone() || !build.horizon.region().holds(frame.eye) || build.mark.size() != tree.size())
     return false;
   if (build.cutNumber == frame.cut && build.cut.size() == frame.tiles.size()) {
     isCarried_ = false;

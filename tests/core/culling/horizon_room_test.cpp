@@ -43,12 +43,12 @@ TEST(HorizonRoom, holdsForEveryEyeInIt) {
     const double m = ground().sideM();
     Vec3 from{m * (0.2 + 0.6 * unit(random)), m * (0.2 + 0.6 * unit(random)), 0};
     from.z = ground().sourceAt(from.x, from.y) + 40 + 200 * unit(random);
-    const EyeRoom room{from, from + Vec3{off(60), off(60), off(20)}, 8 * unit(random)};
+    const ValidityRegion region{from, from + Vec3{off(60), off(60), off(20)}, 8 * unit(random)};
     const LevelCut cut = cutAt(from);
     const std::vector<HorizonTile> tiles = ground().tiles(cut);
     horizon.build(from, tiles, {.columns = 512});
     exact += horizon.hiddenCount();
-    horizon.buildFor(room, tiles, {.columns = 512});
+    horizon.buildFor(region, tiles, {.columns = 512});
     hidden += horizon.hiddenCount();
     std::vector<std::size_t> claimed;
     for (std::size_t t = 0; t < tiles.size(); ++t)
@@ -58,8 +58,8 @@ TEST(HorizonRoom, holdsForEveryEyeInIt) {
       Vec3 beside{off(1), off(1), off(1)};
       if (k % 2 == 0) beside = beside * (1 / std::max(length(beside), 1e-9));  // on the very edge
       if (length(beside) > 1) continue;
-      const Vec3 eye = room.from + s * (room.to - room.from) + (room.radius * 0.9999) * beside;
-      ASSERT_TRUE(room.holds(eye));
+      const Vec3 eye = region.from + s * (region.to - region.from) + (region.radius * 0.9999) * beside;
+      ASSERT_TRUE(region.holds(eye));
       if (eye.z < ground().heightAt(eye.x, eye.y) + 1) continue;
       const std::size_t t = claimed[static_cast<std::size_t>(unit(random) * double(claimed.size()))];
       const Vec3 p = ground().pointOf(cut.tiles[t].node, std::round(16 * unit(random)) / 16,
@@ -71,20 +71,21 @@ TEST(HorizonRoom, holdsForEveryEyeInIt) {
   EXPECT_EQ(wrong, 0u);
   EXPECT_GT(asked, 5000u);
   EXPECT_GT(hidden, exact / 3);
-  std::printf("%zu hidden for rooms, %zu for their beginnings, %zu points asked\n", hidden, exact, asked);
+  std::printf("%zu hidden for regions, %zu for their beginnings, %zu points asked\n", hidden, exact, asked);
 }
 
 TEST(HorizonRoom, isTheSameBitByBitAndOnAnyProcessor) {
   const Vec3 eye = middle(60);
   const LevelCut cut = cutAt(eye);
   const std::vector<HorizonTile> tiles = ground().tiles(cut);
-  for (const EyeRoom& room : {EyeRoom{eye, eye, 0}, EyeRoom{eye, eye + Vec3{40, 20, 3}, 2}}) {
+  for (const ValidityRegion& region :
+       {ValidityRegion{eye, eye, 0}, ValidityRegion{eye, eye + Vec3{40, 20, 3}, 2}}) {
     Horizon whole;
-    whole.buildFor(room, tiles, {.columns = 700, .simd = SimdLevel::portable});
+    whole.buildFor(region, tiles, {.columns = 700, .simd = SimdLevel::portable});
     EXPECT_GT(whole.hiddenCount(), 20u);
     for (const SimdLevel simd : {SimdLevel::portable, SimdLevel::avx2, SimdLevel::avx512}) {
       Horizon pieces;
-      pieces.begin(room, tiles, {.columns = 700, .simd = simd});
+      pieces.begin(region, tiles, {.columns = 700, .simd = simd});
       std::size_t steps = 0;
       for (; !pieces.step(7); ++steps)
         for (std::size_t t = 0; t < tiles.size(); ++t)
@@ -102,16 +103,16 @@ TEST(HorizonRoom, ofNoPlacesHidesNothing) {
   const LevelCut cut = cutAt(eye);
   const std::vector<HorizonTile> tiles = ground().tiles(cut);
   Horizon horizon;
-  for (const EyeRoom& room :
-       {EyeRoom{eye, eye, -1}, EyeRoom{eye, eye, kNan}, EyeRoom{eye, eye, kInfinity},
-        EyeRoom{eye, eye + Vec3{kNan, 0, 0}, 1}, EyeRoom{eye, eye + Vec3{0, 0, kInfinity}, 1},
-        EyeRoom{eye, eye + Vec3{1e5, 0, 0}, 1}, EyeRoom{eye, eye, 1e30}}) {
-    horizon.buildFor(room, tiles, {});
+  for (const ValidityRegion& region :
+       {ValidityRegion{eye, eye, -1}, ValidityRegion{eye, eye, kNan}, ValidityRegion{eye, eye, kInfinity},
+        ValidityRegion{eye, eye + Vec3{kNan, 0, 0}, 1}, ValidityRegion{eye, eye + Vec3{0, 0, kInfinity}, 1},
+        ValidityRegion{eye, eye + Vec3{1e5, 0, 0}, 1}, ValidityRegion{eye, eye, 1e30}}) {
+    horizon.buildFor(region, tiles, {});
     EXPECT_EQ(horizon.hiddenCount(), 0u);
     EXPECT_EQ(horizon.hidden().size(), tiles.size());
   }
-  EXPECT_FALSE((EyeRoom{eye, eye, kNan}.holds(eye)));
-  EXPECT_FALSE((EyeRoom{eye, eye, 5}.holds({kNan, 0, 0})));
+  EXPECT_FALSE((ValidityRegion{eye, eye, kNan}.holds(eye)));
+  EXPECT_FALSE((ValidityRegion{eye, eye, 5}.holds({kNan, 0, 0})));
 }
 
 TEST(MovingHorizon, isDefinedForEyesAndTilesThatAreNone) {

@@ -30,12 +30,12 @@ struct Ridge {
     r.finish(4);
     return r;
   }
-  /// Whether p, which is flat ground, is hidden for the room.
-  bool hides(const EyeRoom& room, Vec3 p) const {
+  /// Whether p, which is flat ground, is hidden for the region.
+  bool hides(const ValidityRegion& region, Vec3 p) const {
     const TileRelief ridge = tile(atM - 100, endM - 3200, 200, 3200), end = tile(atM - 100, endM, 200, 100),
                      far = tile(p.x - 50, p.y - 50, 100, 100);
     Horizon horizon;
-    horizon.buildFor(room,
+    horizon.buildFor(region,
                      std::vector<HorizonTile>{{.relief = &ridge, .mayOcclude = true, .north = &end},
                                               {.relief = &end, .mayOcclude = true},
                                               {.relief = &far}},
@@ -50,18 +50,18 @@ struct Ridge {
   }
 };
 
-/// An eye that goes sideways looks past the end of what hides a place from the room's middle, and that end
+/// An eye that goes sideways looks past the end of what hides a place from the region's middle, and that end
 /// lies where two quarters meet.
 TEST(HorizonRoom, holdsWhereTwoQuartersMeet) {
   const Ridge ridge{.atM = 8500, .endM = 8517, .topM = 2000};
   std::size_t seen = 0;
   for (const double half : {0.0, 50.0, 165.0, 330.0, 900.0})
     for (double t = 0.9; t < 1.005; t += 0.0025) {
-      const EyeRoom room{{0, -half, 200}, {0, half, 200}, 2.5};
+      const ValidityRegion region{{0, -half, 200}, {0, half, 200}, 2.5};
       const Vec3 p{400'000, 400'000 * t, 0};
-      if (ridge.isCovered(room.from, p) && ridge.isCovered(room.to, p)) continue;
+      if (ridge.isCovered(region.from, p) && ridge.isCovered(region.to, p)) continue;
       ++seen;
-      EXPECT_FALSE(ridge.hides(room, p)) << half << " m, " << t;
+      EXPECT_FALSE(ridge.hides(region, p)) << half << " m, " << t;
     }
   EXPECT_GT(seen, 30u);
   EXPECT_TRUE(ridge.hides({{0, -50, 200}, {0, 50, 200}, 2.5}, {400'000, 380'000, 0}));

@@ -187,15 +187,15 @@ TEST(MovingHorizon, takesTheEyesStepFromAllFramesSinceItWasAsked) {
       moving.hidden({.eye = eye, .framesSince = framesSince, .cut = 1, .tiles = cut.tiles, .settings = {}},
                     tree, [&](std::vector<HorizonTile>& tiles) { tiles = ground().tiles(cut); });
     }
-    const EyeRoom& room = moving.horizon().room();
-    return length(room.to - room.from);
+    const ValidityRegion& region = moving.horizon().region();
+    return length(region.to - region.from);
   };
   EXPECT_LT(roomAfter(10), 5 * (MovingHorizon::kFrames + 2));
   EXPECT_GT(roomAfter(1), 50 * MovingHorizon::kFrames) << "in one frame";
   EXPECT_EQ(roomAfter(0), roomAfter(1));
 }
 
-// The room shrinks to where the eye is, wherever the one that was being made lies.
+// The region shrinks to where the eye is, wherever the one that was being made lies.
 TEST(MovingHorizon, givesAnEyeThatComesToRestABetterHorizon) {
   const double side = ground().sideM();
   for (int flown = 40; flown < 52; ++flown) {

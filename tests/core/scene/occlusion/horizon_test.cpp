@@ -211,8 +211,8 @@ TEST(HorizonMemory, knowsHowFastTheEyeGoesAlsoWhereItIsNotAsked) {
       selectLevels(database->index(), eye, 0.2, 1, 640, cut);
       ++number.cut;
       memory.find(ground, eye, {}, {.littleHidden = false});
-      const EyeRoom& room = memory.horizon().room();
-      EXPECT_LT(length(room.to - room.from), 30 * 5.0) << "frame " << frame;
+      const ValidityRegion& region = memory.horizon().region();
+      EXPECT_LT(length(region.to - region.from), 30 * 5.0) << "frame " << frame;
     }
     eye = eye + Vec3{5, 0, 0};
   }

@@ -33,7 +33,7 @@ struct HorizonTile {
 };
 
 /// The validity region of a horizon: all eye positions within `radius` of a segment, metres, local frame.
-struct EyeRoom {
+struct ValidityRegion {
   Vec3 from, to;
   double radius = 0;
 
@@ -52,8 +52,8 @@ struct EyeRoom {
 /// and w upwards per metre forwards. Each quarter has `columns` equal steps of t in -1..1, and the profile
 /// holds the w of the horizon in each.
 ///
-/// A horizon may hold for a whole validity region (EyeRoom) instead of one eye. Then lines are lowered and
-/// tiles are tested wider by as much as any eye of the region sees them shifted.
+/// A horizon may hold for a whole validity region (ValidityRegion) instead of one eye. Then lines are lowered
+/// and tiles are tested wider by as much as any eye of the region sees them shifted.
 ///
 /// The traps: a tile beyond the data's border, or so steep that a place has two heights, must not occlude
 /// (HorizonTile::mayOcclude). Vertices are drawn with rounding, so Settings::slack must be at least the angle
@@ -77,22 +77,22 @@ class Horizon {
   };
 
   /// Tests every tile against the ground nearer than it, for all eyes of the validity region. Nothing is
-  /// hidden if the region holds anything that is not a number or is larger than kMostRoomM.
-  void buildFor(const EyeRoom& room, std::span<const HorizonTile> tiles, const Settings& settings);
+  /// hidden if the region holds anything that is not a number or is larger than kMostRegionM.
+  void buildFor(const ValidityRegion& region, std::span<const HorizonTile> tiles, const Settings& settings);
   void build(Vec3 eye, std::span<const HorizonTile> tiles, const Settings& settings) {
     buildFor({eye, eye, 0}, tiles, settings);
   }
-  static constexpr double kMostRoomM = 1000;
+  static constexpr double kMostRegionM = 1000;
 
   /// Starts the same work to be done in steps. `tiles` and what they point to must not change until isDone().
   /// Until then hidden() may report fewer hidden tiles than in the end, never more.
-  void begin(const EyeRoom& room, std::span<const HorizonTile> tiles, const Settings& settings);
+  void begin(const ValidityRegion& region, std::span<const HorizonTile> tiles, const Settings& settings);
   /// Does some more work, in units of roughly one tile, and returns true once all is done.
   bool step(std::size_t work);
   bool isDone() const { return phase_ == Phase::done; }
   std::size_t work() const { return work_; }  ///< units of work done since begin()
 
-  const EyeRoom& room() const { return room_; }
+  const ValidityRegion& region() const { return region_; }
   /// Returns one flag per tile of the last build: 1 if it is proven hidden.
   const std::vector<std::uint8_t>& hidden() const { return hidden_; }
   std::size_t hiddenCount() const { return hiddenCount_; }
@@ -204,7 +204,7 @@ class Horizon {
   template <bool Raised>
   int reach(const float* u, const float* w, int count, int step, int beside, int& first);
 
-  EyeRoom room_;
+  ValidityRegion region_;
   Vec3 eye_;  ///< middle of the region
   std::array<Play, kSides> play_{};
   Settings settings_;

@@ -84,10 +84,10 @@ class MovingHorizon {
     bool there = false, marked = false;  ///< begun and not discarded; `mark` says what is hidden
   };
 
-  void begin(Build& build, const EyeRoom& room, const Frame& frame, const SurfaceTree& tree,
+  void begin(Build& build, const ValidityRegion& region, const Frame& frame, const SurfaceTree& tree,
              const Fill& fill);
   void markChanges(Build& build, const SurfaceTree& tree);
-  void giveRoom(Build& build, const Frame& frame, const SurfaceTree& tree);
+  void widenBounds(Build& build, const Frame& frame, const SurfaceTree& tree);
   struct Errors {
     float atPosts, anywhere;
   };
@@ -95,7 +95,7 @@ class MovingHorizon {
   /// Returns whether the build is valid for this frame. Fills verdicts_ if its cut is another.
   bool holds(Build& build, const Frame& frame, const SurfaceTree& tree);
   bool carry(Build& build, const Frame& frame, const SurfaceTree& tree);
-  EyeRoom roomAhead(Vec3 eye, double firstFrame, double lastFrame) const;
+  ValidityRegion regionAhead(Vec3 eye, double firstFrame, double lastFrame) const;
   void prepareNext(const Frame& frame, const SurfaceTree& tree, const Fill& fill);
   std::span<const std::uint8_t> verdicts(const Frame& frame);
 
