@@ -6,19 +6,18 @@
 #include <vector>
 
 #include "core/scene/scene_graph.h"
+#include "core/scene/terrain/cut_rule.h"
 #include "core/scene/terrain/tiles/tile_ground.h"
 #include "occlusion.h"
 #include "occlusion_stage.h"
 #include "trimtab/culling/select.h"
 #include "trimtab/frame/frame_request.h"
+#include "trimtab/frame/frame_result.h"
+#include "trimtab/scene/distance_image.h"
 #include "trimtab/scene/planted_defects.h"
-#include "trimtab/scene/renderer.h"
 #include "trimtab/terrain/format/database.h"
 
 namespace trimtab::scene {
-
-/// Depths (near / distance, row 0 at the bottom) as the greys that people look at.
-Renderer::Grey greyOf(std::span<const float> depths, int width, int height, double nearM);
 
 /// What a frame does to find the terrain's tiles that it draws: level cut, frustum, and what looks for hidden
 /// ground. Keeps what can be kept from frame to frame; needs no context, except where OcclusionPass and
@@ -54,13 +53,13 @@ class FrameCulling {
   const std::vector<TileDraw>& occluders() const { return occluders_; }
   void plant(const Defects& defects);
   /// The last frame's depth map, if one was drawn; else a picture of the last horizon, if that served.
-  Renderer::Grey readDepthMap(const OcclusionPass& pass) const;
+  DistanceImage readDepthMap(const OcclusionPass& pass) const;
 
  private:
   /// What the level cut depends on.
   struct CutKey {
     Vec3 eye;
-    double maxErrorPx = 0, lodScale = 0, pixelsPerRadian = 0;
+    CutRule rule;
     friend bool operator==(const CutKey&, const CutKey&) = default;
   };
 

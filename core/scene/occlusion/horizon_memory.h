@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "occlusion_ground.h"
-#include "trimtab/scene/renderer.h"
 #include "trimtab/culling/moving_horizon.h"
 #include "trimtab/culling/occlusion_choice.h"
 #include "trimtab/frame/frame_request.h"
+#include "trimtab/frame/frame_result.h"
+#include "trimtab/scene/distance_image.h"
 
 namespace trimtab::scene {
 
@@ -27,7 +28,7 @@ class HorizonMemory {
   std::span<const std::uint8_t> hidden(OcclusionGround& ground, Vec3 eye, const Horizon::Settings& settings,
                                        const Skips& skips, bool alone = false);
   /// The view as the last horizon sees it: what it covers grey, what stays open white. Row 0 at the bottom.
-  Renderer::Grey picture(const EyePose& eye, const ViewShape& view, int widthPx, int heightPx) const;
+  DistanceImage picture(const EyePose& eye, const ViewShape& view, int widthPx, int heightPx) const;
 
   /// Whether the last call had no graph to make a horizon of.
   bool noGraph() const { return noGraph_; }

@@ -7,9 +7,9 @@
 
 #include "core/scene/terrain/surfaces_in_use.h"
 #include "occlusion_conditions.h"
-#include "trimtab/scene/renderer.h"
 #include "trimtab/culling/depth_map.h"
 #include "trimtab/culling/select.h"
+#include "trimtab/scene/distance_image.h"
 #include "trimtab/terrain/format/database.h"
 
 namespace trimtab::scene {
@@ -34,7 +34,7 @@ class DepthMapCulling {
   };
   /// One an item: a DepthFate. The eye must be one that may hide (OcclusionConditions).
   std::span<const std::uint8_t> hidden(std::span<const Item> items, const EyePose& eye, const MapView& view);
-  Renderer::Grey picture() const;
+  DistanceImage picture() const;
   std::uint64_t drawn() const { return drawn_; }  ///< maps, since the start
   std::uint64_t triangles() const { return map_.triangles(); }
 
@@ -79,7 +79,7 @@ class MapCulling {
                                        const EyePose& eye, const MapView& view,
                                        const OcclusionConditions& conditions, SurfaceShare& share);
   /// The last map.
-  Renderer::Grey picture() const { return culling_.picture(); }
+  DistanceImage picture() const { return culling_.picture(); }
   std::uint64_t drawn() const { return culling_.drawn(); }
   std::uint64_t triangles() const { return culling_.triangles(); }
   std::uint64_t meshesMade() const { return meshes_.made(); }

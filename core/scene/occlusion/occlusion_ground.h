@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "core/scene/terrain/surfaces_in_use.h"
-#include "trimtab/scene/renderer.h"
 #include "trimtab/culling/horizon.h"
 #include "trimtab/culling/select.h"
 #include "trimtab/culling/surface_tree.h"
+#include "trimtab/scene/distance_image.h"
 
 namespace trimtab::scene {
 
@@ -55,7 +55,7 @@ class OcclusionGround {
   virtual std::span<const std::uint8_t> hiddenByMap(std::span<const TileDraw> visible, const EyePose& eye,
                                                     const ViewShape& view, DepthMapSize size,
                                                     double loweringScale) = 0;
-  virtual Renderer::Grey mapPicture() const = 0;
+  virtual DistanceImage mapPicture() const = 0;
 
   /// Surfaces that a frame may make.
   SurfaceShare& share() { return share_; }

@@ -143,7 +143,7 @@ bool OcclusionStage::visibleStays(const FrameRequest& request) {
                  request.view,
                  request.method,
                  request.backFaces && eyeIsAboveGround(),
-                 request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited,
+                 farCutM(request),
                  ground_.cutNumber(),
                  serves_,
                  serves_ ? size_ : DepthMapSize{},
@@ -209,7 +209,7 @@ void OcclusionStage::finished(const FrameResult& result) {
   choice_.learn(outcome);
 }
 
-Renderer::Grey OcclusionStage::picture() const {
+DistanceImage OcclusionStage::picture() const {
   if (mapHid_) return ground_.mapPicture();
   if (horizon()) return memory_.picture(eye_, view_, size_.widthPx, size_.heightPx);
   return {};

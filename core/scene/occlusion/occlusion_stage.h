@@ -9,8 +9,9 @@
 #include "occlusion_ground.h"
 #include "trimtab/culling/occlusion_choice.h"
 #include "trimtab/frame/frame_request.h"
+#include "trimtab/frame/frame_result.h"
+#include "trimtab/scene/distance_image.h"
 #include "trimtab/scene/planted_defects.h"
-#include "trimtab/scene/renderer.h"
 
 namespace trimtab::scene {
 
@@ -62,7 +63,7 @@ class OcclusionStage {
   /// That had a part in the visible set of the last frame, or null.
   const Horizon* horizon() const { return hidden_.empty() ? nullptr : &memory_.horizon(); }
   /// What the processor's map saw, or else the horizon; empty where neither had a part in the visible set.
-  Renderer::Grey picture() const;
+  DistanceImage picture() const;
 
  private:
   std::optional<OcclusionMethod> resolve(const FrameRequest& request, bool gpuDrawsMaps);

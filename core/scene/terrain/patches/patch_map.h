@@ -42,7 +42,7 @@ class PatchMapCulling {
                                        std::span<const TileDraw> visible, const EyePose& eye,
                                        const MapView& view, SurfaceShare& share);
   /// The last map.
-  Renderer::Grey picture() const { return culling_.picture(); }
+  DistanceImage picture() const { return culling_.picture(); }
   std::uint64_t drawn() const { return culling_.drawn(); }
   std::uint64_t triangles() const { return culling_.triangles(); }
 

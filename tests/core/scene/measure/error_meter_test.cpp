@@ -1,4 +1,5 @@
 #include "trimtab/scene/error_meter.h"
+#include "trimtab/scene/planted_defects.h"
 
 #include <algorithm>
 #include <cmath>
@@ -96,10 +97,10 @@ TEST_F(ErrorMeter, sharesWhatWasDrawnAndOwnsNothing) {
   const auto whole = picture(r, &result);
   std::size_t hidden = 0;
   for (const TileDraw& tile : result.visible.tiles) {
-    renderer.plant({.culledNode = tile.node});
+    plant(renderer, {.culledNode = tile.node});
     hidden += differing(whole, picture(r)) == 0;
   }
-  renderer.plant({});
+  plant(renderer, {});
   EXPECT_GT(hidden, 5u);
   EXPECT_EQ(share, static_cast<double>(hidden) / static_cast<double>(result.visible.tiles.size()));
   r.method = CullingCase::proposed;
@@ -262,9 +263,9 @@ TEST_F(ErrorMeter, repeatsExactlyInAnyOrder) {
   for (const auto& run : runs) first.push_back(measureRun(run));
   for (std::size_t i = runs.size(); i-- > 0;) EXPECT_TRUE(same(measureRun(runs[i]), first[i])) << i;
   // Nothing cached, another context's objects, defects come and gone.
-  meter.plant({.loweringScale = 0, .culledNode = 3, .statedErrorScale = 0.1});
+  plant(meter, {.loweringScale = 0, .culledNode = 3, .statedErrorScale = 0.1});
   for (const auto& run : runs) measureRun(run);
-  meter.plant({});
+  plant(meter, {});
   meter.release();
   ASSERT_TRUE(meter.initialize().usable);
   for (std::size_t i = runs.size(); i-- > 0;) EXPECT_TRUE(same(measureRun(runs[i]), first[i])) << i;

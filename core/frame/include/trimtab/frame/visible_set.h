@@ -17,12 +17,30 @@ enum class CullReason : std::uint8_t {
   other_level         ///< its ancestor or descendants stand for it
 };
 
-/// One tile of the cut. `coarser` has bits W=1, E=2, S=4, N=8 where the neighbour is one level coarser and
-/// the border uses the coarser posts.
+/// The sides of a tile whose neighbour is one LOD coarser, where the border uses the coarser posts: bits
+/// W = 1, E = 2, S = 4, N = 8.
+struct BorderMask {
+  std::uint8_t bits = 0;
+  constexpr BorderMask() = default;
+  constexpr explicit BorderMask(unsigned sides) : bits(static_cast<std::uint8_t>(sides)) {}
+  friend bool operator==(const BorderMask&, const BorderMask&) = default;
+};
+
+/// Which of a patch's triangulations is drawn; 0 is the finest.
+struct PatchVariant {
+  std::uint8_t number = 0;
+  constexpr PatchVariant() = default;
+  constexpr explicit PatchVariant(std::size_t n) : number(static_cast<std::uint8_t>(n)) {}
+  friend bool operator==(const PatchVariant&, const PatchVariant&) = default;
+};
+
+/// One node of a cut: a tile, a patch or a node of static trees.
 struct TileDraw {
   std::uint32_t node = 0;
-  std::uint8_t coarser = 0;
-  bool bothSides = false;  ///< drawn so although the picture has no back faces; set where draws are arranged
+  BorderMask border = {};     ///< of a tile; empty for the other forms
+  PatchVariant variant = {};  ///< of a patch; 0 for the other forms
+  /// Draws back faces too, although the image culls them; set when draws are arranged.
+  bool bothSides = false;
 };
 
 /// What a view draws of a cut. It costs nothing by the size of the index: reasons stand by place in the cut.

@@ -5,11 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "trimtab/scene/gl_report.h"
-#include "trimtab/scene/planted_defects.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/measure/frame_error.h"
+#include "trimtab/scene/gl_report.h"
 #include "trimtab/terrain/format/database.h"
 
 namespace trimtab::scene {
@@ -27,6 +26,8 @@ struct ErrorPictures {
   std::vector<float> flip;  ///< one a pixel, 0..1: the difference map
   FrameResult drawnReference, drawn;
 };
+
+struct Defects;
 
 /// Measures what a frame's picture loses. Draws with a renderer of its own into framebuffers of its own, so
 /// that whoever shows pictures in the same context is not disturbed; binds again what was bound. All calls
@@ -60,10 +61,9 @@ class ErrorMeter {
   FrameError measure(const FrameRequest& request, const FrameRequest* before, ErrorPictures* pictures) {
     return measure(request, std::span(before, before ? 1u : 0u), pictures);
   }
-  /// What the renderer that draws `request` does wrong on purpose (renderer.h); the reference stays clean.
-  void plant(const Defects& defects);
 
  private:
+  friend void plant(ErrorMeter& meter, const Defects& defects);  // planted_defects.h
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "trimtab/scene/gl_report.h"
-#include "trimtab/scene/planted_defects.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
+#include "trimtab/scene/distance_image.h"
+#include "trimtab/scene/gl_report.h"
 #include "trimtab/terrain/format/database.h"
 
 /// Draws a frame. The same class behind the workbench's widget, the IG's window and the surfaceless context.
@@ -18,6 +18,8 @@ namespace trimtab::scene {
 /// In which form a terrain is drawn: that which is asked for where it has it, else what there is. None where
 /// there is nothing.
 std::optional<TerrainForm> formDrawn(const FrameRequest& request, const terrain::Database* database);
+
+struct Defects;
 
 class Renderer {
  public:
@@ -41,14 +43,8 @@ class Renderer {
   /// bottom.
   std::vector<float> readDistances();
 
-  /// The last depth map as 0..1 greys by distance (0 near), row 0 at the bottom; empty when the last frame
-  /// had none.
-  struct Grey {
-    static constexpr double kNearestM = 50, kFurthestM = 200e3;  ///< black and nearly white, by the logarithm
-    int width = 0, height = 0;
-    std::vector<std::uint8_t> pixels;
-  };
-  Grey readDepthMap();
+  /// The depth map of the last frame; without pixels if it had none.
+  DistanceImage readDepthMap();
   /// The horizon that served in the last picture: elevation in degrees, evenly round from south by west,
   /// north and east of the terrain's frame; NaN where nothing bounds the sky. Empty where none served.
   std::vector<float> readHorizon(int samples);
@@ -57,8 +53,6 @@ class Renderer {
   Findings pageFailures() const;
   /// A blur accumulates from the next picture on, as if it were the first.
   void forgetPictures();
-  /// For tests only, which must be able to see the picture break.
-  void plant(const Defects& defects);
   /// For each pixel of the last picture the node that it shows, kNoNode where it is sky; row 0 at the bottom.
   /// Draws what was drawn once more: the same vertices in the same order with the same depth test. What only
   /// an overlay draws (lines, edges) is nobody's. Empty where nothing was drawn yet.
@@ -72,6 +66,7 @@ class Renderer {
   std::vector<std::uint8_t> readPixels(int width, int height);
 
  private:
+  friend void plant(Renderer& renderer, const Defects& defects);  // planted_defects.h
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
