@@ -43,18 +43,20 @@ struct TileDraw {
   bool bothSides = false;
 };
 
-/// What a view draws of a cut. It costs nothing by the size of the index: reasons stand by place in the cut.
+/// What a view draws of a cut. Its size follows the cut and not the index: reasons are stored by place in the
+/// cut.
 struct VisibleSet {
-  std::vector<TileDraw> tiles;                              ///< to draw, in the cut's order
-  std::vector<CullReason> reason;                           ///< one a tile of the cut, in order
-  std::shared_ptr<const std::vector<std::uint32_t>> nodes;  ///< of the cut, in order; may be null
+  std::vector<TileDraw> tiles;     ///< to draw, in the cut's order
+  std::vector<CullReason> reason;  ///< one per node of the cut, in order
+  std::shared_ptr<const std::vector<std::uint32_t>>
+      nodes;  ///< numbers of the cut's nodes, in order; may be null
   std::size_t outsideFrustum = 0, occluded = 0, beyondVisibility = 0,
               backFacing = 0;                 ///< tiles of the cut, by reason
   std::uint64_t triangles = 0, vertices = 0;  ///< of the tiles drawn; degenerate triangles not counted
 
-  /// Looks through the cut: for one node that a person picked.
+  /// Returns the reason of one node. It searches the cut, so use it for a node that a person picked.
   CullReason reasonOf(std::uint32_t node) const;
-  /// One a node of an index of so many: for those who look at all of them.
+  /// Returns the reason of every node of an index with so many nodes.
   std::vector<CullReason> reasons(std::size_t ofNodes) const;
 };
 
