@@ -66,7 +66,10 @@ TEST_F(ErrorMeter, theReferencesPictureIsTheUnculledOneOverRealTerrains) {
 TEST_F(ErrorMeter, findsNothingWhereNothingIsLost) {
   measureOver(test::syntheticMountains());
   auto r = lowRequest(), before = lowRequest(29.5);
-  for (auto* frame : {&r, &before}) frame->lod.screenSpaceError = Pixels{1e-6};
+  for (auto* frame : {&r, &before}) {
+    frame->lod.screenSpaceError = Pixels{1e-6};
+    frame->exactSlivers = true;  // as the meter draws
+  }
   before.time = -1.0 / 60;
   for (const CullingCase method : {CullingCase::none, CullingCase::view_frustum, CullingCase::proposed}) {
     r.method = before.method = method;
@@ -150,6 +153,7 @@ TEST_F(ErrorMeter, showsTheBlurThatTheFramesBeforeLeave) {
     r.time = 100 + i / 60.0;
     r.decision.motion.blur.strength = i == 0 ? 0 : 0.6;
     r.lod.screenSpaceError = Pixels{1e-6};
+    r.exactSlivers = true;  // as the meter draws
     frames.push_back(r);
   }
   std::vector<std::uint8_t> live;
