@@ -82,7 +82,7 @@ void selectLevels(const TerrainIndex& index, Vec3 eye, double maxErrorPx, double
     const std::uint32_t node = cut.stack.back();
     cut.stack.pop_back();
     if (!cut.split[node]) {
-      cut.tiles.push_back({node, coarserSides(index, cut, node)});
+      cut.tiles.push_back({node, BorderMask(coarserSides(index, cut, node))});
       continue;
     }
     for (std::size_t i = 4; i-- > 0;)

@@ -158,16 +158,16 @@ class Selection {
         if (!(cut_.lack[diamond] & kCounted)) ++cut_.heldBack;
         cut_.lack[diamond] |= kCounted;
       }
-      cut_.cut.tiles.push_back({patch, variantOf(patch)});
+      cut_.cut.tiles.push_back({.node = patch, .variant = variantOf(patch)});
     }
   }
 
-  std::uint8_t variantOf(std::uint32_t patch) const {
+  PatchVariant variantOf(std::uint32_t patch) const {
     const double distance2 = distanceSquared(index_.bounds[patch], eye_);
     const std::span<const float> errors = index_.errorM[patch];
     std::size_t variant = errors.size() - 1;
     while (variant > 0 && tooCoarse(errors[variant], distance2)) --variant;
-    return static_cast<std::uint8_t>(variant);
+    return PatchVariant(variant);
   }
 
   const PatchIndex& index_;
@@ -184,7 +184,7 @@ void selectPatches(const PatchIndex& index, std::span<const std::uint8_t> reside
   Selection(index, resident, eye, maxErrorPx * lodScale / pixelsPerRadian, cut).run(pixelsPerRadian);
   cut.cut.triangles.clear();
   for (const TileDraw& tile : cut.cut.tiles)
-    cut.cut.triangles.push_back(index.triangles[tile.node][tile.coarser]);
+    cut.cut.triangles.push_back(index.triangles[tile.node][tile.variant.number]);
   gatherCut(index.bounds, index.cones, cut.cut);
 }
 

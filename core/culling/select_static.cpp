@@ -97,7 +97,7 @@ void selectStaticVisible(const StaticLodIndex& index, std::span<const std::uint3
       reason = CullReason::beyond_visibility;
       ++visible.beyondVisibility;
     } else {
-      visible.tiles.push_back({node, 0});
+      visible.tiles.push_back({node});
       count(index, vertices, node, visible, true);
     }
     visible.reason.push_back(reason);

@@ -15,7 +15,7 @@ void walkCut(const LevelCut& cut, const EyePose& eye, const ViewShape& view, boo
 /// Returns the triangles of a tile. Each border that is stitched to a coarser neighbour saves 16 of them.
 inline std::uint32_t tileTriangles(TileDraw tile) {
   constexpr std::uint32_t kCells = TerrainIndex::kTileCells;
-  return 2 * kCells * kCells - static_cast<std::uint32_t>(std::popcount(tile.coarser)) * kCells / 2;
+  return 2 * kCells * kCells - static_cast<std::uint32_t>(std::popcount(tile.border.bits)) * kCells / 2;
 }
 
 /// Computes the rest of a cut from its tiles and `cut.triangles`. `cones` are the index's, or empty.

@@ -105,6 +105,7 @@ SceneView Renderer::Impl::viewOf(const FrameRequest& r) const {
   // Culled nodes are shown by their colour, however far away they are.
   if (!r.overlays.colourByReason) view.air = airOf(r.decision.weather);
   view.heightM = r.eye.height.value();
+  if (r.exactSlivers && report.software) view.gridStepsPerPixel = 1 << subpixelBitsOfContext();
   view.form = formDrawn(r, database.get());
   const LocalFrame local = database ? database->index().frame : LocalFrame(r.eye);
   view.eye.axes = eyeAxes(local, r.eye, r.attitude);
@@ -266,7 +267,7 @@ std::vector<float> Renderer::readDistances() {
   return impl_->gl->frame.readDistances(impl_->lastView);
 }
 
-Renderer::Grey Renderer::readDepthMap() {
+DistanceImage Renderer::readDepthMap() {
   if (!impl_->gl || !impl_->terrain) return {};
   return impl_->terrain->readDepthMap();
 }
@@ -290,8 +291,8 @@ Findings Renderer::pageFailures() const {
   return impl_->patches.failures();
 }
 
-void Renderer::plant(const Defects& defects) {
-  for (TerrainDrawer* form : impl_->forms()) form->plant(defects);
+void plant(Renderer& renderer, const Defects& defects) {
+  for (TerrainDrawer* form : renderer.impl_->forms()) form->plant(defects);
 }
 
 std::vector<std::uint32_t> Renderer::readNodes(bool unculled) {

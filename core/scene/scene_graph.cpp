@@ -350,6 +350,15 @@ void SceneGraph::frame(const SceneView& view, unsigned fbo) {
   uniforms.set("tinted", Type::BOOL, view.tinted);
   uniforms.set("inGuardBand", Type::FLOAT, 1.0f / static_cast<float>(view.guardBand));
   n.drawnShape = view.shape, n.guardBand = view.guardBand;
+  if (view.gridStepsPerPixel > 0) {
+    n.root->getOrCreateStateSet()->setDefine("ON_GRID");
+    const double steps = 0.5 * view.guardBand * view.gridStepsPerPixel;
+    uniforms.set("gridSteps", Type::FLOAT_VEC2,
+                 osg::Vec2f(static_cast<float>(steps * view.shape.widthPx),
+                            static_cast<float>(steps * view.shape.heightPx)));
+  } else {
+    n.root->getOrCreateStateSet()->removeDefine("ON_GRID");
+  }
   const auto show = [](Pass& pass, bool on) { pass.setNodeMask(on ? ~0u : 0u); };
   for (const TerrainForm form : kForms) {
     const Nodes::FormPasses& of = n.forms[static_cast<std::size_t>(form)];

@@ -48,6 +48,8 @@ struct SceneView {
   /// An eye over the ground and above it never sees its underside: triangles that face away are dropped,
   /// which saves a third of the frame. In every culling case, since guard_band.h says what it may change.
   bool oneSided = false;
+  /// FrameRequest::exactSlivers on a software rasteriser: the steps of its grid per pixel; else 0.
+  int gridStepsPerPixel = 0;
   bool sky = true, tinted = false, wireframe = false, lines = false;
   std::optional<TerrainForm> form;  ///< of the terrain that is drawn; none: no terrain
   bool treePicture = false;         ///< instead of the trees' surface

@@ -255,7 +255,7 @@ void Viewport::readDepthMap() {
   sinceDepthMap_.start();
   constexpr int kBearings = 720;
   emit horizonRead(renderer_->readHorizon(kBearings));
-  const scene::Renderer::Grey grey = renderer_->readDepthMap();
+  const scene::DistanceImage grey = renderer_->readDepthMap();
   if (grey.width <= 0 || grey.height <= 0) {
     emit depthMapRead({});
     return;

@@ -93,7 +93,6 @@ void MainWindow::showDepthMap(const QImage& grey) {
     bands_->clearDepthMap();
     return culling_->showMap({}, tr("Neither a depth map nor a horizon served in this frame."));
   }
-  using Grey = scene::Renderer::Grey;
   const auto& last = viewport_->lastResult();
   const bool horizon = last && last->horizon && !last->depthMap;
   const QString size = tr("%1 × %2 px").arg(grey.width()).arg(grey.height());
@@ -102,8 +101,8 @@ void MainWindow::showDepthMap(const QImage& grey) {
                               ? tr("The view as the horizon covers it, %1: grey is proven covered").arg(size)
                               : tr("Depth map %1; black %2 m, white %3 km")
                                     .arg(size)
-                                    .arg(Grey::kNearestM)
-                                    .arg(Grey::kFurthestM / 1000);
+                                    .arg(scene::DistanceImage::kNearestM)
+                                    .arg(scene::DistanceImage::kFarthestM / 1000);
   bands_->showDepthMap(grey, caption);
   culling_->showMap(grey, caption);
 }
@@ -129,7 +128,7 @@ void MainWindow::showPicked(std::uint32_t node) {
     if (node >= index.size()) return culling_->showPicked(std::nullopt);
     const auto drawn = std::find_if(last->visible.tiles.begin(), last->visible.tiles.end(),
                                     [node](const TileDraw& d) { return d.node == node; });
-    const std::size_t variant = drawn == last->visible.tiles.end() ? 0 : drawn->coarser;
+    const std::size_t variant = drawn == last->visible.tiles.end() ? 0 : drawn->variant.number;
     picked.form = tr("patch");
     picked.level = index.depth[node];
     picked.triangles = index.triangles[node][variant];

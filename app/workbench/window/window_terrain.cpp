@@ -85,7 +85,7 @@ LevelsFrame MainWindow::levelsDrawn(const FrameResult& result) const {
                               LevelsFrame::kLevels - 1);
     ++levels.nodes[level];
     levels.triangles[level] +=
-        result.patches ? patches->index().triangles[drawn.node][drawn.coarser] : kTrianglesPerTile;
+        result.patches ? patches->index().triangles[drawn.node][drawn.variant.number] : kTrianglesPerTile;
   }
   return levels;
 }

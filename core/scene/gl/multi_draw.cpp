@@ -22,7 +22,7 @@ const void* offsetOf(std::uint32_t firstIndex, unsigned indexType) {
 
 bool sameNodes(std::span<const TileDraw> a, std::span<const TileDraw> b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const TileDraw& x, const TileDraw& y) {
-    return x.node == y.node && x.coarser == y.coarser && x.bothSides == y.bothSides;
+    return x.node == y.node && x.border == y.border && x.variant == y.variant && x.bothSides == y.bothSides;
   });
 }
 

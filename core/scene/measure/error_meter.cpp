@@ -1,5 +1,5 @@
-#include "trimtab/scene/renderer.h"
 #include "trimtab/scene/error_meter.h"
+#include "trimtab/scene/renderer.h"
 
 #include <algorithm>
 #include <array>
@@ -10,11 +10,11 @@
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/passes/blur_pass.h"
 #include "core/scene/passes/node_pass.h"
-#include "trimtab/scene/planted_defects.h"
 #include "trimtab/culling/select_static.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/measure/geometric_error.h"
 #include "trimtab/measure/image_error.h"
+#include "trimtab/scene/planted_defects.h"
 
 namespace trimtab::scene {
 namespace {
@@ -35,7 +35,7 @@ FrameRequest withoutEngineer(const FrameRequest& request) {
   r.overlays.treeDepth = request.overlays.treeDepth;
   r.frozenEye.reset();
   r.separateStages = false;
-  r.waitForPages = r.reproducible = true;
+  r.waitForPages = r.reproducible = r.exactSlivers = true;
   // It depends on what was drawn before, and so would the share of nodes drawn in vain.
   r.skips.littleHidden = false;
   return r;
@@ -118,8 +118,8 @@ double geometricBoundPx(const FrameRequest& request) {
     const StaticLodParameters& s = request.staticLod;
     if (s.error != ErrorMeasure::maximum || request.overlays.treeDepth >= 0)
       return std::numeric_limits<double>::infinity();
-    const double pixelsPerRadian = std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom));
-    cutPx = pixelsPerRadian / staticLodDistancePerError(s, request.decision.lodScale, pixelsPerRadian);
+    const double scale = pixelsPerRadian(v);
+    cutPx = scale / staticLodDistancePerError(s, request.decision.lodScale, scale);
   }
   return cutPx * std::sqrt(1 + across * across + up * up) + 1.5;
 }
@@ -254,8 +254,8 @@ void ErrorMeter::setTerrain(std::shared_ptr<const terrain::Database> database) {
   impl_->renderer.setTerrain(std::move(database));
 }
 
-void ErrorMeter::plant(const Defects& defects) {
-  impl_->defects = defects;
+void plant(ErrorMeter& meter, const Defects& defects) {
+  meter.impl_->defects = defects;
 }
 
 FrameError ErrorMeter::measure(const FrameRequest& request, std::span<const FrameRequest> before,
@@ -273,11 +273,11 @@ FrameError ErrorMeter::measure(const FrameRequest& request, std::span<const Fram
 
   const bool pops =
       !before.empty() && before.back().view.widthPx == v.widthPx && before.back().view.heightPx == v.heightPx;
-  m.renderer.plant({});
+  plant(m.renderer, {});
   const Impl::Reference* referenceBefore = pops ? &m.reference(before.back()) : nullptr;
   const Impl::Reference& reference = m.reference(request);
 
-  m.renderer.plant(m.defects);
+  plant(m.renderer, m.defects);
   m.renderer.forgetPictures();
   std::vector<FrameRequest> frames;
   for (const FrameRequest& r : before) frames.push_back(m.asDrawn(withoutEngineer(r)));
@@ -293,7 +293,7 @@ FrameError ErrorMeter::measure(const FrameRequest& request, std::span<const Fram
   const std::vector<float> distances = m.renderer.readDistances();
   error.hiddenDrawnShare = hiddenShare(m.renderer.readNodes(), result.visible);
   error.wronglyCulledPixels = wronglyCulled(m.renderer.readNodes(true), result.visible);
-  m.renderer.plant({});
+  plant(m.renderer, {});
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(drawn));
   glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read));
   glViewport(viewport[0], viewport[1], viewport[2], viewport[3]);

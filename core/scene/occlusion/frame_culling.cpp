@@ -30,14 +30,12 @@ void FrameCulling::selectCut(const FrameRequest& request, const EyePose& eye) {
   const TerrainIndex& index = database_->index();
   eye_ = eye;
   cutSelected_ = false;
-  const CutKey key{eye.position, request.lod.screenSpaceError.value() / defects_.statedErrorScale,
-                   request.decision.lodScale, pixelsPerRadian(request.view)};
+  const CutKey key{eye.position, cutRuleOf(request, defects_.statedErrorScale)};
   if (cutKey_ == key && request.skips.sameCut) return;
-  selectLevels(index, key.eye, key.maxErrorPx, key.lodScale, key.pixelsPerRadian, cut_);
-  cutNumber_.errorOverDistance = key.maxErrorPx * key.lodScale / key.pixelsPerRadian;
+  selectLevels(index, key.eye, key.rule.maxErrorPx, key.rule.lodScale, key.rule.pixelsPerRadian, cut_);
+  cutNumber_.errorOverDistance = key.rule.errorOverDistance();
   cutNumber_.cut += cutKey_ != key;
-  if (cutKey_) cutKey_->eye = key.eye;
-  cutNumber_.rule += cutKey_ != key;
+  cutNumber_.rule += !cutKey_ || cutKey_->rule != key.rule;
   cutKey_ = key;
   cutSelected_ = true;
 }
@@ -122,27 +120,14 @@ void FrameCulling::removeHidden(const TileCache& tiles, OcclusionPass& pass) {
   removeOccluded(database_->index(), flags_, visible_);
 }
 
-Renderer::Grey FrameCulling::readDepthMap(const OcclusionPass& pass) const {
+DistanceImage FrameCulling::readDepthMap(const OcclusionPass& pass) const {
   if (!depthMapCurrent_) return occlusion_.picture();
   std::vector<float> depths;
   GLint before = 0;
   glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &before);
   pass.read(depths);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(before));
-  return greyOf(depths, pass.width(), pass.height(), nearM_);
-}
-
-Renderer::Grey greyOf(std::span<const float> depths, int width, int height, double nearM) {
-  Renderer::Grey grey{width, height, std::vector<std::uint8_t>(depths.size(), 255)};
-  // The grey follows the logarithm of the distance, so that a step is the same ratio near and far.
-  constexpr double kFrom = Renderer::Grey::kNearestM, kTo = Renderer::Grey::kFurthestM;
-  for (std::size_t i = 0; i < depths.size(); ++i) {
-    if (!(depths[i] > 0)) continue;
-    const double distance = std::clamp(nearM / double{depths[i]}, kFrom, kTo);
-    grey.pixels[i] =
-        static_cast<std::uint8_t>(std::lround(254 * std::log(distance / kFrom) / std::log(kTo / kFrom)));
-  }
-  return grey;
+  return distanceImage(depths, pass.width(), pass.height(), nearM_);
 }
 
 }  // namespace trimtab::scene

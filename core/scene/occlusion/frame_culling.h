@@ -6,20 +6,18 @@
 #include <vector>
 
 #include "core/scene/scene_graph.h"
+#include "core/scene/terrain/cut_rule.h"
 #include "core/scene/terrain/tiles/tile_ground.h"
 #include "occlusion.h"
 #include "occlusion_stage.h"
 #include "trimtab/culling/select.h"
 #include "trimtab/frame/frame_request.h"
+#include "trimtab/frame/frame_result.h"
+#include "trimtab/scene/distance_image.h"
 #include "trimtab/scene/planted_defects.h"
-#include "trimtab/scene/renderer.h"
 #include "trimtab/terrain/format/database.h"
 
 namespace trimtab::scene {
-
-/// Returns depths (near / distance, row 0 at the bottom) as an image: the nearer, the darker; white without
-/// ground.
-Renderer::Grey greyOf(std::span<const float> depths, int width, int height, double nearM);
 
 /// Finds the square tiles that a frame draws: the LOD cut, the view frustum, and the search for hidden
 /// ground. Keeps its results while they stay valid. Needs a GL context only in the calls that get an
@@ -57,13 +55,13 @@ class FrameCulling {
   const std::vector<TileDraw>& occluders() const { return occluders_; }
   void plant(const Defects& defects);
   /// Returns the GPU's depth map of the last frame as an image, or else OcclusionStage::picture.
-  Renderer::Grey readDepthMap(const OcclusionPass& pass) const;
+  DistanceImage readDepthMap(const OcclusionPass& pass) const;
 
  private:
   /// Everything that the LOD cut depends on.
   struct CutKey {
     Vec3 eye;
-    double maxErrorPx = 0, lodScale = 0, pixelsPerRadian = 0;
+    CutRule rule;
     friend bool operator==(const CutKey&, const CutKey&) = default;
   };
 

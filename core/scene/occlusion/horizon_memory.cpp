@@ -17,10 +17,10 @@ double HorizonMemory::slackOf(const ViewShape& view, int subpixelBits) {
   return pixels * std::max((view.right - view.left) / view.widthPx, (view.top - view.bottom) / view.heightPx);
 }
 
-Renderer::Grey HorizonMemory::picture(const EyePose& eye, const ViewShape& view, int widthPx,
-                                      int heightPx) const {
+DistanceImage HorizonMemory::picture(const EyePose& eye, const ViewShape& view, int widthPx,
+                                     int heightPx) const {
   constexpr std::uint8_t kCovered = 110, kOpen = 255;
-  Renderer::Grey grey{widthPx, heightPx, {}};
+  DistanceImage grey{widthPx, heightPx, {}};
   grey.pixels.reserve(static_cast<std::size_t>(widthPx) * static_cast<std::size_t>(heightPx));
   const Mat3 toLocal = transposed(eye.axes);
   for (int y = 0; y < heightPx; ++y)

@@ -9,7 +9,8 @@
 #include "trimtab/culling/moving_horizon.h"
 #include "trimtab/culling/occlusion_choice.h"
 #include "trimtab/frame/frame_request.h"
-#include "trimtab/scene/renderer.h"
+#include "trimtab/frame/frame_request.h"
+#include "trimtab/scene/distance_image.h"
 
 namespace trimtab::scene {
 
@@ -38,7 +39,7 @@ class HorizonMemory {
               bool alone = false);
   /// Returns the view as the last horizon sees it, row 0 at the bottom: grey where it hides, white where it
   /// does not.
-  Renderer::Grey picture(const EyePose& eye, const ViewShape& view, int widthPx, int heightPx) const;
+  DistanceImage picture(const EyePose& eye, const ViewShape& view, int widthPx, int heightPx) const;
 
   const Horizon& horizon() const { return moving_.horizon(); }
   std::uint64_t number() const { return number_; }  ///< a new number for each horizon that is used

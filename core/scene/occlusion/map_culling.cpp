@@ -83,9 +83,9 @@ std::span<const std::uint8_t> DepthMapCulling::hidden(std::span<const Item> item
   return fates_;
 }
 
-Renderer::Grey DepthMapCulling::picture() const {
+DistanceImage DepthMapCulling::picture() const {
   const DepthPyramid& pyramid = map_.pyramid();
-  return greyOf(pyramid.depths(), pyramid.width(), pyramid.height(), nearM_);
+  return distanceImage(pyramid.depths(), pyramid.width(), pyramid.height(), nearM_);
 }
 
 void MapCulling::setDatabase(std::shared_ptr<const terrain::Database> database) {

@@ -9,7 +9,7 @@
 #include "occlusion_conditions.h"
 #include "trimtab/culling/depth_map.h"
 #include "trimtab/culling/select.h"
-#include "trimtab/scene/renderer.h"
+#include "trimtab/scene/distance_image.h"
 #include "trimtab/terrain/format/database.h"
 
 namespace trimtab::scene {
@@ -38,7 +38,7 @@ class DepthMapCulling {
   /// valid until the next call. OcclusionConditions must not refuse the eye.
   std::span<const std::uint8_t> hidden(std::span<const Item> items, const EyePose& eye, const MapView& view);
   /// Returns the last map as an image in greys.
-  Renderer::Grey picture() const;
+  DistanceImage picture() const;
 
  private:
   DepthMap map_;
@@ -64,7 +64,7 @@ class MapCulling {
                                        const EyePose& eye, const MapView& view,
                                        const OcclusionConditions& conditions, SurfaceShare& share);
   /// Returns the last map as an image in greys.
-  Renderer::Grey picture() const { return culling_.picture(); }
+  DistanceImage picture() const { return culling_.picture(); }
 
  private:
   void make(std::uint32_t node);

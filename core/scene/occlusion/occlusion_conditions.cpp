@@ -58,7 +58,7 @@ std::optional<OcclusionConditions::Ground> OcclusionConditions::groundUnder(cons
       database_->buildTile(tile.node, mesh_);
       meshNode_ = tile.node;
     }
-    const TileIndices::Range range = indices_.variant[tile.coarser];
+    const TileIndices::Range range = indices_.variant[tile.border.bits];
     const auto height = heightOfMesh(mesh_, std::span(indices_.indices).subspan(range.first, range.count),
                                      eye.x - 16.0 * mesh_.origin[0], eye.y - 16.0 * mesh_.origin[1]);
     if (!height) return {};

@@ -9,7 +9,7 @@
 #include "trimtab/culling/horizon.h"
 #include "trimtab/culling/select.h"
 #include "trimtab/culling/surface_tree.h"
-#include "trimtab/scene/renderer.h"
+#include "trimtab/scene/distance_image.h"
 
 namespace trimtab::scene {
 
@@ -58,7 +58,7 @@ class OcclusionGround {
                                                     const ViewShape& view, DepthMapSize size,
                                                     double loweringScale) = 0;
   /// Returns the last of these maps as an image in greys.
-  virtual Renderer::Grey mapPicture() const = 0;
+  virtual DistanceImage mapPicture() const = 0;
 
   /// Returns the limit on surfaces made per frame.
   SurfaceShare& share() { return share_; }

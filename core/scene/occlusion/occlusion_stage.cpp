@@ -211,7 +211,7 @@ void OcclusionStage::finished(const FrameResult& result) {
   choice_.learn(outcome);
 }
 
-Renderer::Grey OcclusionStage::picture() const {
+DistanceImage OcclusionStage::picture() const {
   if (mapHid_) return ground_.mapPicture();
   if (horizon()) return memory_.picture(eye_, view_, resolution_.widthPx, resolution_.heightPx);
   return {};

@@ -9,8 +9,9 @@
 #include "occlusion_ground.h"
 #include "trimtab/culling/occlusion_choice.h"
 #include "trimtab/frame/frame_request.h"
+#include "trimtab/frame/frame_result.h"
+#include "trimtab/scene/distance_image.h"
 #include "trimtab/scene/planted_defects.h"
-#include "trimtab/scene/renderer.h"
 
 namespace trimtab::scene {
 
@@ -70,7 +71,7 @@ class OcclusionStage {
   /// Returns the horizon that shaped the visible set of the last frame, or null.
   const Horizon* horizon() const { return hidden_.empty() ? nullptr : &memory_.horizon(); }
   /// Returns the processor's map as an image, or else the horizon; empty if neither shaped the visible set.
-  Renderer::Grey picture() const;
+  DistanceImage picture() const;
 
  private:
   std::optional<OcclusionMethod> resolve(const FrameRequest& request, bool gpuDrawsMaps);

@@ -1,4 +1,5 @@
 #version 430 compatibility
+#include "on_grid.glsl"
 #include "relative_position.glsl"
 in vec3 vertexPosition;
 in vec3 vertexNormal;
@@ -35,4 +36,5 @@ void main() {
   gl_Position = gl_ModelViewProjectionMatrix * vec4(p, 1.0);
   if (wire) gl_Position.z *= 1.002;  // nearer, as depth is reversed
   gl_Position.xy *= inGuardBand;
+  gl_Position = onGrid(gl_Position);
 }

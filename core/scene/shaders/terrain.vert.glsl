@@ -1,5 +1,6 @@
 #version 430 compatibility
 #include "light.glsl"
+#include "on_grid.glsl"
 #include "relative_position.glsl"
 in vec3 vertexPosition;
 in vec3 vertexNormal;
@@ -57,4 +58,5 @@ void main() {
     gl_Position.z *= 1.002;  // nearer, as depth is reversed
   }
   gl_Position.xy *= inGuardBand;
+  gl_Position = onGrid(gl_Position);
 }

@@ -11,8 +11,9 @@
 #include "trimtab/culling/horizon.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
+#include "trimtab/scene/distance_image.h"
 #include "trimtab/scene/planted_defects.h"
-#include "trimtab/scene/renderer.h"
+#include "trimtab/terrain/format/database.h"
 
 namespace trimtab::scene {
 
@@ -78,7 +79,7 @@ class TerrainDrawer {
 
   virtual const std::vector<TileDraw>& cut() const = 0;
   virtual const VisibleSet& visible() const = 0;
-  virtual Renderer::Grey readDepthMap() const { return {}; }
+  virtual DistanceImage readDepthMap() const { return {}; }
   /// That served in the last frame, or null.
   virtual const Horizon* horizon() const { return nullptr; }
 

@@ -168,7 +168,7 @@ void levelRows(Report& report) {
       selectLevels(ground.index(), eye, errorOverDistance, 1, 1, cut);
       if (!std::equal(last.begin(), last.end(), cut.tiles.begin(), cut.tiles.end(),
                       [](const TileDraw& a, const TileDraw& b) {
-                        return a.node == b.node && a.coarser == b.coarser;
+                        return a.node == b.node && a.border == b.border;
                       })) {
         last = cut.tiles;
         ++cuts;

@@ -110,8 +110,7 @@ void selectionRow(Report& report, const terrain::PatchTerrain& patches, Vec3 eye
   PatchCut cut;
   ViewShape view;
   view.widthPx = BenchScene::kWidth, view.heightPx = BenchScene::kHeight;
-  const double perRadian =
-      std::max(view.widthPx / (view.right - view.left), view.heightPx / (view.top - view.bottom));
+  const double perRadian = pixelsPerRadian(view);
   const auto choose = [&](Vec3 at) { selectPatches(patches.index(), {}, at, 2, 1, perRadian, cut); };
   int step = 0;
   const double seconds = leastSeconds(report.quick() ? 20 : 200, [&] {

@@ -88,7 +88,7 @@ void viewRows(Report& report, const std::string& id, const std::string& what, Gr
       PatchCut cut;
       selectPatches(index, {}, at, errorPx, 1, pixelsPerRadian, cut);
       double triangles = 0;
-      for (const TileDraw& tile : cut.cut.tiles) triangles += index.triangles[tile.node][tile.coarser];
+      for (const TileDraw& tile : cut.cut.tiles) triangles += index.triangles[tile.node][tile.variant.number];
       const double free = ground.free(at, errorPx / pixelsPerRadian);
       ours += triangles;
       theirs += free;

@@ -138,7 +138,7 @@ TEST(BackFaces, areLeftOutOfACutWhereAskedForOnly) {
     }
     std::uint64_t triangles = 0;
     for (const TileDraw& tile : fronts.tiles)
-      triangles += 2048 - 16u * static_cast<unsigned>(std::popcount(tile.coarser));
+      triangles += 2048 - 16u * static_cast<unsigned>(std::popcount(tile.border.bits));
     ASSERT_EQ(fronts.triangles, triangles);
   }
   EXPECT_GT(away, 1000u);

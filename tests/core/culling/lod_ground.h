@@ -52,7 +52,7 @@ class LodGround {
   }
   void draw(const LevelCut& cut) {
     drawn_.assign(index_.size(), -1);
-    for (const TileDraw& tile : cut.tiles) drawn_[tile.node] = tile.coarser;
+    for (const TileDraw& tile : cut.tiles) drawn_[tile.node] = tile.border.bits;
   }
   std::vector<HorizonTile> tiles(const LevelCut& cut) const {
     std::vector<int> at(index_.size(), -1);

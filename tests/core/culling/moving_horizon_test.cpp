@@ -48,7 +48,7 @@ Flown fly(LodGround& ground, const Path& path, const Flight& flight, unsigned se
     if (frame == 0 || !flight.cutStands)
       selectLevels(ground.index(), eye, flight.errorOverDistance, 1, 1, cut);
     const auto same = [](const TileDraw& a, const TileDraw& b) {
-      return a.node == b.node && a.coarser == b.coarser;
+      return a.node == b.node && a.border == b.border;
     };
     if (!std::equal(last.begin(), last.end(), cut.tiles.begin(), cut.tiles.end(), same)) {
       last = cut.tiles;

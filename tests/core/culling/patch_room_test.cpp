@@ -64,8 +64,8 @@ class PatchRoom : public testing::TestWithParam<std::size_t> {
     std::array<bool, 2> hidden{};
     for (const bool halved : {false, true}) {
       const std::vector<TileDraw> cut = halved
-                                            ? std::vector<TileDraw>{{kHalf, 0}, {kHalf + 1, 0}, {kBehind, 0}}
-                                            : std::vector<TileDraw>{{kRidge, 0}, {kBehind, 0}};
+                                            ? std::vector<TileDraw>{{kHalf}, {kHalf + 1}, {kBehind}}
+                                            : std::vector<TileDraw>{{kRidge}, {kBehind}};
       const auto flags =
           moving.hidden({.eye = {0, 0, 120},
                          .cut = halved ? 2u : 1u,

@@ -82,7 +82,7 @@ TEST_P(LevelCutOf, differsByAtMostOneLevelBetweenNeighboursAndTellsWhichSideIsCo
           ASSERT_LE(std::abs(other - own), 1);
           coarser |= other > own;
         }
-        ASSERT_EQ((tile.coarser >> side & 1) != 0, coarser);
+        ASSERT_EQ((tile.border.bits >> side & 1) != 0, coarser);
         coarserSides += coarser;
       }
     }

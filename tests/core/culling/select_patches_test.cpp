@@ -116,13 +116,13 @@ TEST_P(PatchCutOf, keepsThePromisedErrorAndTheCoarsestVariantThatDoes) {
     for (const TileDraw& tile : cut.cut.tiles) {
       const auto error = index.errorM[tile.node];
       const double most = tolerance * distance(index.bounds[tile.node], eye) * (1 + 1e-12);
-      variants.insert(tile.coarser);
-      ASSERT_LT(tile.coarser, index.variants());
-      if (index.children[tile.node] != std::array{kNone, kNone} || tile.coarser > 0) {
-        ASSERT_LE(error[tile.coarser], most);
+      variants.insert(tile.variant.number);
+      ASSERT_LT(tile.variant.number, index.variants());
+      if (index.children[tile.node] != std::array{kNone, kNone} || tile.variant.number > 0) {
+        ASSERT_LE(error[tile.variant.number], most);
       }
-      if (tile.coarser + 1u < index.variants()) {
-        ASSERT_GT(error[tile.coarser + 1u], most * (1 - 1e-11)) << "a coarser one would do";
+      if (tile.variant.number + 1u < index.variants()) {
+        ASSERT_GT(error[tile.variant.number + 1u], most * (1 - 1e-11)) << "a coarser one would do";
       }
     }
   }
@@ -170,7 +170,7 @@ TEST_P(PatchCutOf, doesNotDependOnWhatWasChosenBeforeOrOnWhichTerrain) {
     ASSERT_EQ(cut.wants.size(), fresh.wants.size());
     for (std::size_t k = 0; k < fresh.cut.tiles.size(); ++k) {
       ASSERT_EQ(cut.cut.tiles[k].node, fresh.cut.tiles[k].node);
-      ASSERT_EQ(cut.cut.tiles[k].coarser, fresh.cut.tiles[k].coarser);
+      ASSERT_EQ(cut.cut.tiles[k].variant.number, fresh.cut.tiles[k].variant.number);
     }
     for (std::size_t k = 0; k < fresh.wants.size(); ++k) {
       ASSERT_EQ(cut.wants[k].page, fresh.wants[k].page);
@@ -253,7 +253,7 @@ TEST_P(PatchCutOf, isTheRootsForAnEyeThatIsNotANumberOrNotAnywhere) {
   for (const double px : {kNan, kInfinity}) {
     selectPatches(index, {}, {1000, 1000, 3000}, px, 1, kPixelsPerRadian, cut);
     EXPECT_EQ(cut.cut.tiles.size(), roots);
-    EXPECT_EQ(cut.cut.tiles[0].coarser, std::get<1>(GetParam()) - 1);
+    EXPECT_EQ(cut.cut.tiles[0].variant.number, std::get<1>(GetParam()) - 1);
   }
 }
 
@@ -300,7 +300,7 @@ TEST(PatchVisible, countsTheTrianglesOfTheVariantsThatAreDrawn) {
   EXPECT_EQ(visible.reason.size(), cut.cut.tiles.size());
   EXPECT_EQ(visible.tiles.size() + visible.occluded + visible.outsideFrustum, cut.cut.tiles.size());
   std::uint64_t triangles = 0;
-  for (const TileDraw& tile : visible.tiles) triangles += index.triangles[tile.node][tile.coarser];
+  for (const TileDraw& tile : visible.tiles) triangles += index.triangles[tile.node][tile.variant.number];
   EXPECT_EQ(visible.triangles, triangles);
   selectVisiblePatches(index, cut.cut, eye, {}, false, visible);
   EXPECT_EQ(visible.tiles.size(), cut.cut.tiles.size());

@@ -281,7 +281,7 @@ TEST(StaticFrame, gathersWhatIsDeeperThanItsLastPlace) {
   for (std::uint32_t i = 0; i < 3; ++i) {
     index.nodes[i].depth = static_cast<std::uint8_t>(20 + i);
     index.nodes[i].triangles = 10;
-    visible.tiles.push_back({i, 0});
+    visible.tiles.push_back({i});
   }
   const StaticLodFrame frame = staticLodFrame(index, visible);
   EXPECT_EQ(frame.triangles.back(), 30u);

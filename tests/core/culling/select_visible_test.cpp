@@ -157,7 +157,7 @@ TEST(VisibleSet, countsWhatItDrawsAndWhyItDoesNot) {
     if (flags[i] != 0) continue;
     EXPECT_EQ(visible.tiles[kept++].node, all.tiles[i].node) << "order is kept";
     unsigned sides = 0;
-    for (unsigned bits = all.tiles[i].coarser; bits != 0; bits &= bits - 1) ++sides;
+    for (unsigned bits = all.tiles[i].border.bits; bits != 0; bits &= bits - 1) ++sides;
     triangles += 2048 - 16 * sides;
     vertices += 1089 - 16 * sides;
   }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/scene/terrain/cut_rule.h"
 #include "page_budget.h"
 #include "patch_layer.h"
 #include "trimtab/frame/frame_request.h"
@@ -28,12 +29,8 @@ constexpr double kAheadStep = 0.08;
 /// What the cut depends on.
 struct CutKey {
   Vec3 eye;
-  double maxErrorPx = 0, lodScale = 0, pixelsPerRadian = 0;
+  CutRule rule;
   std::uint64_t budget = 0, heldNumber = 0;
-  bool sameRule(const CutKey& other) const {
-    return maxErrorPx == other.maxErrorPx && lodScale == other.lodScale &&
-           pixelsPerRadian == other.pixelsPerRadian;
-  }
   friend bool operator==(const CutKey&, const CutKey&) = default;
 };
 
@@ -243,12 +240,12 @@ bool PatchCulling::Impl::lookAhead(const FrameRequest& request, const CutKey& wa
     laterWants.clear();
     return had;
   }
-  if (laterEye && key && key->sameRule(wanted) &&
+  if (laterEye && key && key->rule == wanted.rule &&
       length(*ahead - *laterEye) <= kAheadStep * length(*ahead - wanted.eye))
     return false;
   laterEye = ahead;
-  selectPatches(terrain->index(), {}, *ahead, wanted.maxErrorPx, wanted.lodScale, wanted.pixelsPerRadian,
-                later);
+  selectPatches(terrain->index(), {}, *ahead, wanted.rule.maxErrorPx, wanted.rule.lodScale,
+                wanted.rule.pixelsPerRadian, later);
   laterWants.clear();
   for (const PageWant& want : later.wants)
     laterWants.push_back({want.page, kAheadUrgency * std::min(want.errorPx, kMostAheadPx)});
@@ -256,13 +253,8 @@ bool PatchCulling::Impl::lookAhead(const FrameRequest& request, const CutKey& wa
 }
 
 bool PatchCulling::Impl::choose(const FrameRequest& request, const EyePose& eye, PatchCut& cut) {
-  const ViewShape& v = request.view;
-  const CutKey wanted{eye.position,
-                      request.lod.screenSpaceError.value() / defects.statedErrorScale,
-                      request.decision.lodScale,
-                      std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom)),
-                      std::min(budgetOf(request), most),
-                      heldNumber};
+  const CutKey wanted{eye.position, cutRuleOf(request, defects.statedErrorScale),
+                      std::min(budgetOf(request), most), heldNumber};
   const bool newCut = key != wanted, newAim = lookAhead(request, wanted),
              selected = newCut || !request.skips.sameCut;
   if (selected) select(wanted, cut);
@@ -276,16 +268,16 @@ bool PatchCulling::Impl::choose(const FrameRequest& request, const EyePose& eye,
     }
     ask();
   }
-  number.errorOverDistance = wanted.maxErrorPx * wanted.lodScale / wanted.pixelsPerRadian;
+  number.errorOverDistance = wanted.rule.errorOverDistance();
   number.cut += newCut;
-  number.rule += !key || !key->sameRule(wanted);
+  number.rule += !key || key->rule != wanted.rule;
   key = wanted;
   return selected;
 }
 
 void PatchCulling::Impl::select(const CutKey& wanted, PatchCut& cut) {
-  selectPatches(terrain->index(), pages.drawable(), wanted.eye, wanted.maxErrorPx, wanted.lodScale,
-                wanted.pixelsPerRadian, cut);
+  selectPatches(terrain->index(), pages.drawable(), wanted.eye, wanted.rule.maxErrorPx, wanted.rule.lodScale,
+                wanted.rule.pixelsPerRadian, cut);
 }
 
 void PatchCulling::Impl::ask() {
@@ -340,10 +332,8 @@ void PatchCulling::selectVisible(const FrameRequest& request, const EyePose& eye
       m.hidden[i] = cut_.cut.tiles[i].node == *m.defects.culledNode || (!hidden.empty() && hidden[i] != 0);
     hidden = m.hidden;
   }
-  selectVisiblePatches(
-      index(), cut_.cut, eye, request.view, request.method != CullingCase::none, visible_,
-      request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited, hidden,
-      backFaces);
+  selectVisiblePatches(index(), cut_.cut, eye, request.view, request.method != CullingCase::none, visible_,
+                       farCutM(request), hidden, backFaces);
   for (const TileDraw& tile : visible_.tiles) visible_.vertices += m.terrain->facts()[tile.node].vertices;
 }
 

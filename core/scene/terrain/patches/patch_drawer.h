@@ -24,7 +24,7 @@ class PatchDrawer final : public TerrainDrawer {
 
   const std::vector<TileDraw>& cut() const override { return culling_.cut().tiles; }
   const VisibleSet& visible() const override { return culling_.visible(); }
-  Renderer::Grey readDepthMap() const override { return occlusion_.picture(); }
+  DistanceImage readDepthMap() const override { return occlusion_.picture(); }
   /// Pages of meshes and tiles of the ground.
   Findings failures() const;
   const Horizon* horizon() const override { return occlusion_.horizon(); }

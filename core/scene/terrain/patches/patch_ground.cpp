@@ -93,8 +93,8 @@ void PatchGround::setTerrain(std::shared_ptr<const terrain::Database> database) 
 }
 
 void PatchGround::make(const terrain::PatchMesh& mesh, TileDraw patch, Surface& surface) {
-  surface.variant = patch.coarser;
-  makeRelief(mesh, patch.coarser, vertices_, surface.relief);
+  surface.variant = patch.variant.number;
+  makeRelief(mesh, patch.variant.number, vertices_, surface.relief);
   // Errors are along the ellipsoid's verticals: what is so far above or below this surface along one that
   // leans is half as much again along z at most, if the surface rises no more than that beside it.
   surface.takesRoom = isGentle(surface.relief.bounds, surface.relief.origin, surface.relief.steepest);
@@ -108,7 +108,7 @@ void PatchGround::make(const terrain::PatchMesh& mesh, TileDraw patch, Surface& 
 
 const PatchGround::Surface* PatchGround::surfaceOf(TileDraw patch) const {
   const Surface* kept = surfaces_.find(patch.node);
-  return kept && kept->variant == patch.coarser ? kept : nullptr;
+  return kept && kept->variant == patch.variant.number ? kept : nullptr;
 }
 
 std::size_t PatchGround::makeSurfaces(Vec3 eye) {
@@ -126,7 +126,8 @@ std::size_t PatchGround::makeSurfaces(Vec3 eye) {
 const PatchGround::Surface* PatchGround::surfaceUnder(TileDraw patch) {
   if (const Surface* kept = surfaceOf(patch)) return kept;
   for (const Under& under : under_)
-    if (under.node == patch.node && under.surface->variant == patch.coarser) return under.surface.get();
+    if (under.node == patch.node && under.surface->variant == patch.variant.number)
+      return under.surface.get();
   const terrain::PatchMesh* mesh = patches_.meshOf(patch.node);
   if (!mesh) return nullptr;
   constexpr std::size_t kMost = 64;

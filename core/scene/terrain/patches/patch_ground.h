@@ -42,7 +42,7 @@ class PatchGround final : public OcclusionGround {
                                             double loweringScale) override {
     return map_.hidden(patches_, cutNumber().cut, visible, eye, {view, size, loweringScale}, share());
   }
-  Renderer::Grey mapPicture() const override { return map_.picture(); }
+  DistanceImage mapPicture() const override { return map_.picture(); }
 
  private:
   struct Surface {

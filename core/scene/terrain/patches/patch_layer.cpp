@@ -264,8 +264,8 @@ void PatchLayer::draw(std::span<const TileDraw> patches) {
     for (const TileDraw& patch : patches) {
       const Place* place = m.placeOf(patch.node);
       if (!place || place->blocks == 0) continue;
-      const std::uint32_t first = place->firstIndex[patch.coarser];
-      const std::uint32_t count = place->firstIndex[patch.coarser + 1u] - first;
+      const std::uint32_t first = place->firstIndex[patch.variant.number];
+      const std::uint32_t count = place->firstIndex[patch.variant.number + 1u] - first;
       if (count > 0)
         m.surface.add(place->indexBlock * kIndexBlock + first, count, place->block * kBlock, patch.bothSides);
     }

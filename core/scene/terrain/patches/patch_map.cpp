@@ -185,13 +185,13 @@ void PatchMapCulling::setTerrain(std::shared_ptr<const terrain::Database> databa
 
 const PatchSurface* PatchMapCulling::surfaceOf(TileDraw patch) const {
   const PatchSurface* kept = surfaces_.find(patch.node);
-  return kept && kept->variant == patch.coarser ? kept : nullptr;
+  return kept && kept->variant == patch.variant.number ? kept : nullptr;
 }
 
 void PatchMapCulling::make(const PatchCulling& patches, TileDraw patch) {
   const terrain::PatchMesh* mesh = patches.meshOf(patch.node);
   PatchSurface& surface = surfaces_.make(patch.node);
-  makePatchSurface(*mesh, patch.coarser, surface);
+  makePatchSurface(*mesh, patch.variant.number, surface);
   const PatchIndex& index = patches.index();
   const double beside = extent_.sagM() + double{surface.mesh.farReach};
   surface.inside = std::all_of(mesh->vertices.begin(), mesh->vertices.end(), [&](const auto& v) {
@@ -218,7 +218,8 @@ bool PatchMapCulling::takeInNeighbours(const PatchCulling& patches, Vec3 eye, Su
   for (const Place& p : places_) widest = std::max(widest, p.high - p.low);
   for (const Place& place : places_) {
     PatchSurface* surface = surfaces_.find(cut[place.patch].node);
-    if (!surface || surface->variant != cut[place.patch].coarser || surface->mesh.vertices == 0) continue;
+    if (!surface || surface->variant != cut[place.patch].variant.number || surface->mesh.vertices == 0)
+      continue;
     const Box& box = bounds[cut[place.patch].node];
     const float reach = surface->mesh.reach, far = surface->mesh.farReach;
     float around = 0, farSlope = surface->steepest;
@@ -232,7 +233,7 @@ bool PatchMapCulling::takeInNeighbours(const PatchCulling& patches, Vec3 eye, Su
       };
       if (other->patch == place.patch || !within(far)) continue;
       const PatchSurface* beside = surfaces_.find(cut[other->patch].node);
-      const bool there = beside && beside->variant == cut[other->patch].coarser;
+      const bool there = beside && beside->variant == cut[other->patch].variant.number;
       const float steepest = there ? beside->steepest : kInfinite;
       farSlope = std::max(farSlope, steepest);
       if (within(reach))
@@ -255,7 +256,8 @@ std::span<const std::uint8_t> PatchMapCulling::hidden(const PatchCulling& patche
   items_.clear();
   for (const TileDraw& patch : visible) {
     const PatchSurface* surface = surfaces_.find(patch.node);
-    if (surface && (surface->variant != patch.coarser || surface->mesh.vertices == 0)) surface = nullptr;
+    if (surface && (surface->variant != patch.variant.number || surface->mesh.vertices == 0))
+      surface = nullptr;
     items_.push_back(surface ? DepthMapCulling::Item{&surface->mesh, &surface->triangles, surface->inside}
                              : DepthMapCulling::Item{});
   }

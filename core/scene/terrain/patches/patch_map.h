@@ -42,7 +42,7 @@ class PatchMapCulling {
                                        std::span<const TileDraw> visible, const EyePose& eye,
                                        const MapView& view, SurfaceShare& share);
   /// The last map.
-  Renderer::Grey picture() const { return culling_.picture(); }
+  DistanceImage picture() const { return culling_.picture(); }
 
  private:
   const PatchSurface* surfaceOf(TileDraw patch) const;  ///< null where it is not made

@@ -57,11 +57,11 @@ const StaticLodIndex& StaticLodCulling::index() const {
 FrameCounters StaticLodCulling::select(const FrameRequest& request, const EyePose& eye) {
   FrameCounters counters;
   const ViewShape& v = request.view;
-  const double pixelsPerRadian = std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom));
-  const CutKey key{eye.position, request.staticLod.error,
-                   staticLodDistancePerError(request.staticLod, request.decision.lodScale, pixelsPerRadian) *
-                       defects_.statedErrorScale,
-                   request.overlays.treeDepth};
+  const CutKey key{
+      eye.position, request.staticLod.error,
+      staticLodDistancePerError(request.staticLod, request.decision.lodScale, pixelsPerRadian(v)) *
+          defects_.statedErrorScale,
+      request.overlays.treeDepth};
   if (cutKey_ != key || !request.skips.sameCut) {
     if (key.depth >= 0)
       selectStaticDepth(index(), key.depth, cut_);
@@ -72,12 +72,11 @@ FrameCounters StaticLodCulling::select(const FrameRequest& request, const EyePos
     }
     orderByDistance(eye.position);
     cutTiles_.clear();
-    for (const std::uint32_t node : cut_.nodes) cutTiles_.push_back({node, 0});
+    for (const std::uint32_t node : cut_.nodes) cutTiles_.push_back({node});
     cutKey_ = key;
     ++counters.cutsSelected;
   }
-  const double farM =
-      request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited;
+  const double farM = farCutM(request);
   const VisibleKey wanted{
       key, eye, v, request.method, request.decision.depthMap, farM, request.overlays.treePicture};
   // Frozen, what was hidden from there stays hidden: the picture is another eye's and cannot tell.

@@ -1,7 +1,6 @@
 #include "tree_drawer.h"
 
 #include "core/scene/gl/gl_api.h"
-#include "core/scene/occlusion/frame_culling.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
 
@@ -76,10 +75,10 @@ void TreeDrawer::drawTinted(unsigned, std::span<const TileDraw> nodes,
   gl_->layer.drawNumbered(nodes, colours);
 }
 
-Renderer::Grey TreeDrawer::readDepthMap() const {
+DistanceImage TreeDrawer::readDepthMap() const {
   const DepthPyramid& map = gl_->occlusion.pyramid();
   if (!map_ || map.width() == 0) return {};
-  return greyOf(map.depths(), map.width(), map.height(), nearM_);
+  return distanceImage(map.depths(), map.width(), map.height(), nearM_);
 }
 
 }  // namespace trimtab::scene

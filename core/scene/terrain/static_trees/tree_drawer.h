@@ -26,7 +26,7 @@ class TreeDrawer final : public TerrainDrawer {
   const std::vector<TileDraw>& cut() const override { return culling_.cut(); }
   const VisibleSet& visible() const override { return culling_.visible(); }
   StaticLodFrame frame() const { return culling_.frame(); }
-  Renderer::Grey readDepthMap() const override;
+  DistanceImage readDepthMap() const override;
 
  private:
   const std::vector<Box>& bounds() const override { return culling_.index().bounds; }

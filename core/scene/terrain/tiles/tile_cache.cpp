@@ -163,7 +163,7 @@ void TileCache::draw(std::span<const TileDraw> tiles) {
   if (surface_.begin(tiles, places_))
     for (const TileDraw& tile : tiles)
       if (const std::uint32_t slot = slotOfNode_[tile.node]; slot != kNoSlot) {
-        const TileIndices::Range range = indices_.variant[tile.coarser];
+        const TileIndices::Range range = indices_.variant[tile.border.bits];
         surface_.add(range.first, range.count, slot * kVerticesPerTile, tile.bothSides);
       }
   surface_.draw(vertexArray_, GL_UNSIGNED_SHORT);

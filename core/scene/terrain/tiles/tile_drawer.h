@@ -27,7 +27,7 @@ class TileDrawer final : public TerrainDrawer {
   const std::vector<TileDraw>& cut() const override { return culling_.cut().tiles; }
   const VisibleSet& visible() const override { return culling_.visible(); }
   const Horizon* horizon() const override { return culling_.occlusion().horizon(); }
-  Renderer::Grey readDepthMap() const override { return culling_.readDepthMap(gl_->occlusion); }
+  DistanceImage readDepthMap() const override { return culling_.readDepthMap(gl_->occlusion); }
 
  private:
   const std::vector<Box>& bounds() const override { return database_->index().bounds; }

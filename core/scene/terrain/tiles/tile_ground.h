@@ -40,7 +40,7 @@ class TileGround final : public OcclusionGround {
                                             double loweringScale) override {
     return map_.hidden(*cut_, visible, eye, {view, size, loweringScale}, conditions_, share());
   }
-  Renderer::Grey mapPicture() const override { return map_.picture(); }
+  DistanceImage mapPicture() const override { return map_.picture(); }
 
   const OcclusionConditions& conditions() const { return conditions_; }
 

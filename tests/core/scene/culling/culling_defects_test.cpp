@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "culling_truth.h"
+#include "trimtab/scene/planted_defects.h"
 #include "undrawn.h"
 
 /// That culling_views_test.cpp and its like find what is culled wrongly.
@@ -17,7 +18,7 @@ TEST_F(CullingDefects, areFoundByWhoOwnsThePixels) {
   for (const OcclusionMethod method :
        {OcclusionMethod::depth_map, OcclusionMethod::cpu_map, OcclusionMethod::horizon})
     for (const double lowering : {0.0, 1.0}) {
-      renderer.plant({.loweringScale = lowering});
+      plant(renderer, {.loweringScale = lowering});
       Tally tally;
       for (const View& view : views) compare(view, CullingCase::proposed, method, kCoarse, tally);
       EXPECT_EQ(tally.wrongNodes > 0, lowering < 1) << "method " << static_cast<int>(method);
@@ -29,7 +30,7 @@ TEST_F(CullingDefects, areFoundByWhoOwnsThePixels) {
     // The one that shows least.
     const auto least = *std::min_element(view.owners.begin(), view.owners.end(),
                                          [](auto a, auto b) { return a.second < b.second; });
-    renderer.plant({.culledNode = least.first});
+    plant(renderer, {.culledNode = least.first});
     Tally tally;
     compare(view, CullingCase::view_frustum, OcclusionMethod::horizon, kCoarse, tally);
     EXPECT_EQ(tally.wrongNodes, 1u);

@@ -7,6 +7,7 @@
 #include "tests/core/scene/scene_test.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
+#include "trimtab/scene/planted_defects.h"
 #include "trimtab/scene/renderer.h"
 
 namespace trimtab::test {
@@ -31,7 +32,7 @@ class NodeOwners : public SceneTest {
     std::size_t tried = 0;
     for (const TileDraw& tile : result.visible.tiles) {
       if (tried++ == most) break;
-      renderer.plant({.culledNode = tile.node});
+      plant(renderer, {.culledNode = tile.node});
       picture(r);
       const auto without = renderer.readDistances();
       std::size_t wrong = 0;
@@ -39,7 +40,7 @@ class NodeOwners : public SceneTest {
         wrong += (without[i] != distances[i]) != (nodes[i] == tile.node);
       EXPECT_EQ(wrong, 0u) << "node " << tile.node << " owns " << owned[tile.node];
     }
-    renderer.plant({});
+    plant(renderer, {});
   }
 };
 

@@ -3,6 +3,7 @@
 #include "core/scene/terrain/tiles/tile_indices.h"
 #include "tests/core/scene/scene_test.h"
 #include "trimtab/frame/frame_result.h"
+#include "trimtab/scene/planted_defects.h"
 #include "trimtab/terrain/format/database.h"
 
 namespace trimtab {
@@ -67,7 +68,7 @@ TEST_F(DrawOrder, ofTilesAtTheSameDepthDoesNotDependOnWhatIsLeftOut) {
                            [&](const TileDraw& other) { return other.node == tile.node + 1; });
     // Others of the list missing, one by one.
     for (std::size_t gone = 0; gone < drawn.size(); gone += 1 + drawn.size() / 6) {
-      renderer.plant({.culledNode = drawn[gone].node});
+      plant(renderer, {.culledNode = drawn[gone].node});
       picture(r);
       const auto nodes = renderer.readNodes();
       std::size_t wrong = 0;
@@ -75,7 +76,7 @@ TEST_F(DrawOrder, ofTilesAtTheSameDepthDoesNotDependOnWhatIsLeftOut) {
         wrong += nodes[p] != unculled[p] && unculled[p] != drawn[gone].node;
       EXPECT_EQ(wrong, 0u) << "view " << i << " without " << drawn[gone].node;
     }
-    renderer.plant({});
+    plant(renderer, {});
   }
   EXPECT_GT(outside, 500u);
   EXPECT_GT(twins, 200u) << "hardly any two tiles were at the same depth";

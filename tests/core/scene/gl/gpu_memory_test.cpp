@@ -13,7 +13,7 @@ class GpuMemory : public test::SceneTest {
  protected:
   static std::vector<TileDraw> tilesFrom(std::uint32_t first, std::uint32_t count) {
     std::vector<TileDraw> tiles;
-    for (std::uint32_t i = 0; i < count; ++i) tiles.push_back({first + i, 0});
+    for (std::uint32_t i = 0; i < count; ++i) tiles.push_back({first + i});
     return tiles;
   }
 };
@@ -67,7 +67,7 @@ TEST_F(GpuMemory, treesGiveUpWhatWasLongestUnused) {
   std::vector<TileDraw> roots;
   for (std::uint32_t node = 0; node < trees->index.size(); ++node)
     if (roots.empty() || trees->index.nodes[roots.back().node].tile != trees->index.nodes[node].tile)
-      roots.push_back({node, 0});
+      roots.push_back({node});
   ASSERT_GE(roots.size(), 64u);
   std::size_t all = 0;
   {

@@ -110,7 +110,7 @@ TEST_F(MultiDraw, drawsTheSamePictureOfTreesEachWay) {
 
 TEST_F(MultiDraw, makesCommandsAnewOnlyForOtherNodesOrOtherPlaces) {
   offscreen->makeCurrent();
-  std::vector<TileDraw> nodes{{1, 0}, {2, 3}, {7, 15}};
+  std::vector<TileDraw> nodes{{1}, {2, BorderMask(3)}, {7, BorderMask(15)}};
   for (const DrawWay way : kWays) {
     scene::MultiDraw draw(way);
     EXPECT_FALSE(draw.begin({}, 0)) << "nothing is what it begins with";
@@ -121,7 +121,7 @@ TEST_F(MultiDraw, makesCommandsAnewOnlyForOtherNodesOrOtherPlaces) {
     EXPECT_TRUE(draw.begin(nodes, 2));
     EXPECT_EQ(draw.size(), 0u);
     auto other = nodes;
-    other[1].coarser = 2;
+    other[1].border = BorderMask(2);
     EXPECT_TRUE(draw.begin(other, 2));
     EXPECT_TRUE(draw.begin(std::span(other).first(2), 2));
     std::swap(other[0], other[1]);
@@ -152,7 +152,7 @@ TEST_F(MultiDraw, drawsFromBothSidesWhatIsToBeAndLeavesFaceCullingAsItWas) {
   glGenQueries(1, &query);
   const auto pixels = [&](DrawWay way, bool oneSided) {
     scene::MultiDraw draw(way);
-    EXPECT_TRUE(draw.begin(std::array<TileDraw, 2>{{{1, 0}, {2, 0}}}, 1));
+    EXPECT_TRUE(draw.begin(std::array<TileDraw, 2>{{{1}, {2}}}, 1));
     draw.add(0, 3, 0, true);
     draw.add(0, 3, 0);
     (oneSided ? glEnable : glDisable)(GL_CULL_FACE);

@@ -1,4 +1,5 @@
 #include "trimtab/scene/error_meter.h"
+#include "trimtab/scene/planted_defects.h"
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +66,10 @@ TEST_F(ErrorMeter, theReferencesPictureIsTheUnculledOneOverRealTerrains) {
 TEST_F(ErrorMeter, findsNothingWhereNothingIsLost) {
   measureOver(test::syntheticMountains());
   auto r = lowRequest(), before = lowRequest(29.5);
-  for (auto* frame : {&r, &before}) frame->lod.screenSpaceError = Pixels{1e-6};
+  for (auto* frame : {&r, &before}) {
+    frame->lod.screenSpaceError = Pixels{1e-6};
+    frame->exactSlivers = true;  // as the meter draws
+  }
   before.time = -1.0 / 60;
   for (const CullingCase method : {CullingCase::none, CullingCase::view_frustum, CullingCase::proposed}) {
     r.method = before.method = method;
@@ -96,10 +100,10 @@ TEST_F(ErrorMeter, sharesWhatWasDrawnAndOwnsNothing) {
   const auto whole = picture(r, &result);
   std::size_t hidden = 0;
   for (const TileDraw& tile : result.visible.tiles) {
-    renderer.plant({.culledNode = tile.node});
+    plant(renderer, {.culledNode = tile.node});
     hidden += differing(whole, picture(r)) == 0;
   }
-  renderer.plant({});
+  plant(renderer, {});
   EXPECT_GT(hidden, 5u);
   EXPECT_EQ(share, static_cast<double>(hidden) / static_cast<double>(result.visible.tiles.size()));
   r.method = CullingCase::proposed;
@@ -149,6 +153,7 @@ TEST_F(ErrorMeter, showsTheBlurThatTheFramesBeforeLeave) {
     r.time = 100 + i / 60.0;
     r.decision.motion.blur.strength = i == 0 ? 0 : 0.6;
     r.lod.screenSpaceError = Pixels{1e-6};
+    r.exactSlivers = true;  // as the meter draws
     frames.push_back(r);
   }
   std::vector<std::uint8_t> live;
@@ -262,9 +267,9 @@ TEST_F(ErrorMeter, repeatsExactlyInAnyOrder) {
   for (const auto& run : runs) first.push_back(measureRun(run));
   for (std::size_t i = runs.size(); i-- > 0;) EXPECT_TRUE(same(measureRun(runs[i]), first[i])) << i;
   // Nothing cached, another context's objects, defects come and gone.
-  meter.plant({.loweringScale = 0, .culledNode = 3, .statedErrorScale = 0.1});
+  plant(meter, {.loweringScale = 0, .culledNode = 3, .statedErrorScale = 0.1});
   for (const auto& run : runs) measureRun(run);
-  meter.plant({});
+  plant(meter, {});
   meter.release();
   ASSERT_TRUE(meter.initialize().usable);
   for (std::size_t i = runs.size(); i-- > 0;) EXPECT_TRUE(same(measureRun(runs[i]), first[i])) << i;

@@ -4,6 +4,7 @@
 
 #include "error_meter_fixture.h"
 #include "tests/core/scene/terrain/synthetic_trees.h"
+#include "trimtab/scene/planted_defects.h"
 #include "trimtab/scene/renderer.h"
 
 namespace trimtab {
@@ -40,10 +41,10 @@ TEST_F(PlantedDefects, findsATileThatIsLeftOut) {
   for (const std::uint32_t node : renderer.readNodes())
     if (node != kNoNode) ++owned[node];
   for (const auto& [node, pixels] : owned) {
-    meter.plant({.culledNode = node});
+    plant(meter, {.culledNode = node});
     EXPECT_EQ(measure(r).wronglyCulledPixels, pixels);
   }
-  meter.plant({});
+  plant(meter, {});
   EXPECT_EQ(measure(r).wronglyCulledPixels, 0u);
 }
 
@@ -54,7 +55,7 @@ TEST_F(PlantedDefects, areNotTheReferences) {
   const auto reference = picture(scene::referenceOf(r));
   const std::uint32_t node = renderer.readNodes()[100 * kWidth + 320];
   ASSERT_NE(node, kNoNode);
-  meter.plant({.culledNode = node});
+  plant(meter, {.culledNode = node});
   scene::ErrorPictures pictures;
   EXPECT_GT(measure(r, nullptr, &pictures).wronglyCulledPixels, 0u);
   EXPECT_EQ(pictures.reference, reference);
@@ -73,7 +74,7 @@ TEST_F(PlantedDefects, findsANodeOfStaticTreesThatIsLeftOut) {
   const auto nodes = renderer.readNodes();
   const std::uint32_t node = nodes[100 * kWidth + 320];
   ASSERT_NE(node, kNoNode);
-  meter.plant({.culledNode = node});
+  plant(meter, {.culledNode = node});
   EXPECT_EQ(measure(r).wronglyCulledPixels,
             static_cast<std::uint64_t>(std::count(nodes.begin(), nodes.end(), node)));
 }
@@ -83,7 +84,7 @@ TEST_F(PlantedDefects, findsLevelsWhoseErrorIsUnderstated) {
   auto r = lowRequest();
   r.eye.height = r.eye.height + Metres{200};
   for (const double truly : {1.0, 0.05, 1.0}) {
-    meter.plant({.statedErrorScale = truly});
+    plant(meter, {.statedErrorScale = truly});
     const FrameError error = measure(r);
     EXPECT_EQ(error.geometricMaxPx > scene::geometricBoundPx(r), truly < 1) << error.geometricMaxPx;
     EXPECT_EQ(error.wronglyCulledPixels, 0u) << "levels are another matter";
@@ -97,7 +98,7 @@ TEST_F(PlantedDefects, findsADepthMapThatIsReadATexelAside) {
   r.decision.depthMap = DepthMapSize{64, 48};
   r.lod.screenSpaceError = Pixels{1e-6};
   for (const int shift : {0, 1, 0}) {
-    meter.plant({.depthMapShiftTexels = shift});
+    plant(meter, {.depthMapShiftTexels = shift});
     scene::ErrorPictures pictures;
     const FrameError error = measure(r, nullptr, &pictures);
     EXPECT_GT(pictures.drawn.visible.occluded, 20u);

@@ -5,6 +5,7 @@
 #include "tests/core/scene/culling/culling_flight.h"
 #include "tests/core/scene/terrain/patched_terrain.h"
 #include "trimtab/frame/frame_result.h"
+#include "trimtab/scene/planted_defects.h"
 
 namespace trimtab {
 namespace {
@@ -47,9 +48,9 @@ TEST_F(HorizonScene, leavesNoPixelOutOverTheSample) {
 TEST_F(HorizonScene, losesPixelsWhereLinesReachTooHigh) {
   use(test::syntheticMountains());
   constexpr std::array<DepthMapSize, 1> kCoarse{{{8, 6}}};
-  renderer.plant({.loweringScale = 0});
+  plant(renderer, {.loweringScale = 0});
   EXPECT_GT(fly(24, 1, kCoarse).differing, 0u);
-  renderer.plant({});
+  plant(renderer, {});
   EXPECT_EQ(fly(24, 1, kCoarse).differing, 0u);
 }
 

@@ -1,5 +1,6 @@
 #include "core/scene/occlusion/map_culling.h"
 #include "trimtab/frame/frame_result.h"
+#include "trimtab/scene/planted_defects.h"
 
 #include <random>
 
@@ -34,9 +35,9 @@ TEST_F(MapScene, leavesNoPixelOutOverEverest) {
 TEST_F(MapScene, losesPixelsWhereOccludersAreNotLowered) {
   use(test::syntheticMountains());
   constexpr std::array<DepthMapSize, 2> kCoarse{{{16, 12}, {24, 18}}};
-  renderer.plant({.loweringScale = 0});
+  plant(renderer, {.loweringScale = 0});
   EXPECT_GT(fly(12, 1, kCoarse).differing, 0u);
-  renderer.plant({});
+  plant(renderer, {});
   EXPECT_EQ(fly(12, 1, kCoarse).differing, 0u);
 }
 

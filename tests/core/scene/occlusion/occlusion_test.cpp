@@ -1,6 +1,7 @@
 #include <random>
 
 #include "tests/core/scene/culling/culling_flight.h"
+#include "trimtab/scene/planted_defects.h"
 
 namespace trimtab {
 namespace {
@@ -44,10 +45,10 @@ TEST_F(Occlusion, leavesNoPixelOutOverTheSample) {
 // Without this, the tests above might pass because nothing can go wrong where they look.
 TEST_F(Occlusion, losesPixelsWhenOccludersAreNotLowered) {
   use(test::syntheticMountains());
-  renderer.plant({.loweringScale = 0});
+  plant(renderer, {.loweringScale = 0});
   constexpr std::array<DepthMapSize, 2> kCoarse{{{16, 12}, {24, 18}}};
   EXPECT_GT(fly(24, 1, kCoarse).differing, 0u);
-  renderer.plant({});
+  plant(renderer, {});
   EXPECT_EQ(fly(24, 1, kCoarse).differing, 0u);
 }
 

@@ -171,7 +171,7 @@ TEST(BoxLids, stayWhileTheirNodesAreThoseOfTheCut) {
   EXPECT_EQ(lids.of(2, box)->bounds.maxZ, lid->bounds.maxZ) << "the same box";
   EXPECT_EQ(lids.of(2, box)->bounds.maxX, lid->bounds.maxX);
   LevelCut cut;
-  cut.tiles = {{1, 0}};
+  cut.tiles = {TileDraw{1}};
   lids.forgetOthers(cut);
   EXPECT_EQ(lids.of(1, box), lid);
 }

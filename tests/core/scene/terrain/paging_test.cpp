@@ -54,7 +54,7 @@ struct Viewer {
 
 std::vector<std::pair<std::uint32_t, int>> tilesOf(const LevelCut& cut) {
   std::vector<std::pair<std::uint32_t, int>> tiles;
-  for (const TileDraw& tile : cut.tiles) tiles.emplace_back(tile.node, tile.coarser);
+  for (const TileDraw& tile : cut.tiles) tiles.emplace_back(tile.node, tile.variant.number);
   return tiles;
 }
 

@@ -132,7 +132,7 @@ class PatchCracks : public test::SceneTest {
     acrossSquares_ = (posts.columns + kSquare - 1) / kSquare;
     lowered_.assign(std::size_t{acrossSquares_} * ((posts.rows + kSquare - 1) / kSquare), -1);
     for (const TileDraw& patch : drawn) {
-      const float error = terrain.patches()->facts()[patch.node].bilinearErrorM[patch.coarser];
+      const float error = terrain.patches()->facts()[patch.node].bilinearErrorM[patch.variant.number];
       // The patch's square, from its box: a little more does no harm.
       const Box& b = index.bounds[patch.node];
       double west = 1e9, east = -1e9, south = 1e9, north = -1e9;

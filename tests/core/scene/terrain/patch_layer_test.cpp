@@ -102,7 +102,8 @@ void main() { is = who; })");
   std::vector<TileDraw> ofPage(std::uint32_t page, std::uint8_t variant) const {
     const PatchIndex::Page& p = terrain_->index().pages[page];
     std::vector<TileDraw> patches;
-    for (std::uint32_t i = 0; i < p.patches; ++i) patches.push_back({p.firstPatch + i, variant});
+    for (std::uint32_t i = 0; i < p.patches; ++i)
+      patches.push_back({.node = p.firstPatch + i, .variant = PatchVariant(variant)});
     return patches;
   }
 

@@ -41,7 +41,7 @@ struct SurfaceTree {
     return {children + node * childrenEach, childrenEach};
   }
   float finestError(std::uint32_t node) const { return errorM[node * variants]; }
-  std::size_t variantOf(TileDraw tile) const { return variants > 1 ? tile.coarser : 0; }
+  std::size_t variantOf(TileDraw tile) const { return variants > 1 ? tile.variant.number : 0; }
   float errorOf(TileDraw tile) const { return errorM[tile.node * variants + variantOf(tile)]; }
   /// Returns infinity if the error is not known.
   float surfaceError(std::uint32_t node, std::size_t variant) const {

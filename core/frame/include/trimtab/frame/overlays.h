@@ -3,16 +3,15 @@
 /// What an image shows for the engineer, not for the pilot.
 namespace trimtab {
 
-/// What of the picture is for the engineer, not for the pilot.
+/// Overlays of one image.
 struct Overlays {
   bool wireframe = false, tileBounds = false, colourByLevel = false;
-  bool colourByReason =
-      false;  ///< draws what was culled too, so that it can be seen (with `frozenEye` above all)
-  /// One level of the static trees whatever the distance, 0 at the roots; -1: by distance.
+  bool colourByReason = false;  ///< also draws culled nodes; most useful with `frozenEye`
+  /// Draws this depth of the static trees at any distance, 0 is the roots; -1 selects by distance.
   int treeDepth = -1;
-  bool treePicture = false;  ///< document E's: faces light grey, edges red, locked edges black
-  bool voids = false;        ///< what was filled stands out, where patches are drawn
-  bool showHoles = false;    ///< no sky: magenta wherever no terrain is drawn
+  bool treePicture = false;  ///< document E's image: faces light grey, edges red, locked edges black
+  bool voids = false;        ///< highlights filled voids, if patches are drawn
+  bool showHoles = false;    ///< draws no sky: pixels without terrain stay magenta
   friend bool operator==(const Overlays&, const Overlays&) = default;
 };
 

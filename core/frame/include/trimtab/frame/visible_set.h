@@ -17,26 +17,46 @@ enum class CullReason : std::uint8_t {
   other_level         ///< its ancestor or descendants stand for it
 };
 
-/// One tile of the cut. `coarser` has bits W=1, E=2, S=4, N=8 where the neighbour is one level coarser and
-/// the border uses the coarser posts.
-struct TileDraw {
-  std::uint32_t node = 0;
-  std::uint8_t coarser = 0;
-  bool bothSides = false;  ///< drawn so although the picture has no back faces; set where draws are arranged
+/// The sides of a tile whose neighbour is one LOD coarser, where the border uses the coarser posts: bits
+/// W = 1, E = 2, S = 4, N = 8.
+struct BorderMask {
+  std::uint8_t bits = 0;
+  constexpr BorderMask() = default;
+  constexpr explicit BorderMask(unsigned sides) : bits(static_cast<std::uint8_t>(sides)) {}
+  friend bool operator==(const BorderMask&, const BorderMask&) = default;
 };
 
-/// What a view draws of a cut. It costs nothing by the size of the index: reasons stand by place in the cut.
+/// Which of a patch's triangulations is drawn; 0 is the finest.
+struct PatchVariant {
+  std::uint8_t number = 0;
+  constexpr PatchVariant() = default;
+  constexpr explicit PatchVariant(std::size_t n) : number(static_cast<std::uint8_t>(n)) {}
+  friend bool operator==(const PatchVariant&, const PatchVariant&) = default;
+};
+
+/// One node of a cut: a tile, a patch or a node of static trees.
+struct TileDraw {
+  std::uint32_t node = 0;
+  BorderMask border = {};     ///< of a tile; empty for the other forms
+  PatchVariant variant = {};  ///< of a patch; 0 for the other forms
+  /// Draws back faces too, although the image culls them; set when draws are arranged.
+  bool bothSides = false;
+};
+
+/// What a view draws of a cut. Its size follows the cut and not the index: reasons are stored by place in the
+/// cut.
 struct VisibleSet {
-  std::vector<TileDraw> tiles;                              ///< to draw, in the cut's order
-  std::vector<CullReason> reason;                           ///< one a tile of the cut, in order
-  std::shared_ptr<const std::vector<std::uint32_t>> nodes;  ///< of the cut, in order; may be null
+  std::vector<TileDraw> tiles;     ///< to draw, in the cut's order
+  std::vector<CullReason> reason;  ///< one per node of the cut, in order
+  std::shared_ptr<const std::vector<std::uint32_t>>
+      nodes;  ///< numbers of the cut's nodes, in order; may be null
   std::size_t outsideFrustum = 0, occluded = 0, beyondVisibility = 0,
               backFacing = 0;                 ///< tiles of the cut, by reason
   std::uint64_t triangles = 0, vertices = 0;  ///< of the tiles drawn; degenerate triangles not counted
 
-  /// Looks through the cut: for one node that a person picked.
+  /// Returns the reason of one node. It searches the cut, so use it for a node that a person picked.
   CullReason reasonOf(std::uint32_t node) const;
-  /// One a node of an index of so many: for those who look at all of them.
+  /// Returns the reason of every node of an index with so many nodes.
   std::vector<CullReason> reasons(std::size_t ofNodes) const;
 };
 

@@ -5,35 +5,36 @@
 #include <span>
 #include <vector>
 
-#include "trimtab/scene/gl_report.h"
-#include "trimtab/scene/planted_defects.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/measure/frame_error.h"
+#include "trimtab/scene/gl_report.h"
 #include "trimtab/terrain/format/database.h"
 
 namespace trimtab::scene {
 
-/// The picture that a request is held against: no culling (view frustum, which a test proves equal), finest
-/// levels, no blur, no early far plane; the same eye, air, precipitation, symbols and time. What is for the
-/// engineer is not in it: no overlays, no frozen eye; static trees only where the request draws them. Of
-/// patches: an eighth of a pixel, which is as fine as a picture can tell; all pages are waited for.
+/// Returns the request for the reference image: only frustum culling (a test proves it equal to none), the
+/// finest LODs, no blur and no far cut, with the same eye, air, precipitation, symbols and time. Overlays and
+/// a frozen eye are left out. Patches are drawn to an eighth of a pixel, which is as fine as an image can
+/// show, and the frame waits for all pages.
 FrameRequest referenceOf(const FrameRequest& request);
 
-/// Both pictures of a measurement, RGBA, row 0 at the bottom.
+/// Both images of a measurement, RGBA, row 0 at the bottom.
 struct ErrorPictures {
   int widthPx = 0, heightPx = 0;
   std::vector<std::uint8_t> reference, ours;
-  std::vector<float> flip;  ///< one a pixel, 0..1: the difference map
+  std::vector<float> flip;  ///< the difference map, 0..1 per pixel
   FrameResult drawnReference, drawn;
 };
 
-/// Measures what a frame's picture loses. Draws with a renderer of its own into framebuffers of its own, so
-/// that whoever shows pictures in the same context is not disturbed; binds again what was bound. All calls
-/// need the context current that `initialize` was called with.
+struct Defects;
+
+/// Measures how far a frame's image is from its reference. It draws with its own renderer into its own
+/// framebuffers and restores what was bound, so it disturbs nobody who draws in the same context. Every call
+/// needs the context current in which `initialize` was called.
 ///
 /// The same requests give the same numbers to the bit, whatever was measured before. Overlays and a frozen
-/// eye are left out of both pictures: they are for the engineer.
+/// eye are left out of both images, because they are for the engineer.
 class ErrorMeter {
  public:
   ErrorMeter();
@@ -51,19 +52,18 @@ class ErrorMeter {
   /// what is left of all older ones, and with none there is no blur to see. As many as matter to a quarter of
   /// a grey level are drawn, so more than enough may be passed.
   ///
-  /// Draws reference and picture, each of the frame before too where pop is measured, and the nodes of the
-  /// picture with and without culling. The last few references are kept: measure the presets and cases of one
-  /// frame in turn, or frames in order. `pictures`, where not null, gets what was compared. A request without
-  /// pixels, or no context, gives a default FrameError.
+  /// It draws the reference and the image, the same of the frame before if pop is measured, and the nodes of
+  /// the image with and without culling. The last few references are kept, so measure the presets and cases
+  /// of one frame in turn, or frames in order. `pictures`, if not null, receives what was compared. Without
+  /// pixels or a context the result is a default FrameError.
   FrameError measure(const FrameRequest& request, std::span<const FrameRequest> before,
                      ErrorPictures* pictures);
   FrameError measure(const FrameRequest& request, const FrameRequest* before, ErrorPictures* pictures) {
     return measure(request, std::span(before, before ? 1u : 0u), pictures);
   }
-  /// What the renderer that draws `request` does wrong on purpose (renderer.h); the reference stays clean.
-  void plant(const Defects& defects);
 
  private:
+  friend void plant(ErrorMeter& meter, const Defects& defects);  // planted_defects.h
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -4,20 +4,20 @@
 
 namespace trimtab::scene {
 
-/// GL text of the current context, and whether what the renderer needs is there.
+/// The current context's GL strings, and whether it has what the renderer needs.
 struct GlReport {
   std::string vendor, renderer, version;
   bool software = false;
   bool usable = false;
-  std::string missing;  ///< what is not there
-  std::string drawing;  ///< how the terrain's draws reach GL, and why so (DrawChoice in multi_draw.h)
+  std::string missing;  ///< what the renderer needs and the context lacks
+  std::string drawing;  ///< how draws reach GL, and the reason (DrawChoice in multi_draw.h)
 };
 
-/// Of the context that is current.
+/// Reports on the current context.
 GlReport reportContext();
-/// Whether GL is this processor.
+/// Returns whether the current context is a software rasteriser.
 bool contextIsSoftware();
-/// Bits of a pixel that its rasteriser keeps of a vertex's place; GL's least where it does not say.
+/// Returns how many bits of a pixel the rasteriser keeps of a vertex's position, at least GL's minimum of 4.
 int subpixelBitsOfContext();
 
 }  // namespace trimtab::scene

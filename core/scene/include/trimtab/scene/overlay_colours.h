@@ -7,7 +7,8 @@
 
 namespace trimtab::scene {
 
-/// The colours of the overlays, sRGB, told apart by the colour-blind too (Okabe and Ito's set).
+/// Return the colours of the overlays, sRGB. Colour-blind people can tell them apart too (Okabe and Ito's
+/// set).
 std::array<std::uint8_t, 3> reasonColour(CullReason reason);
 std::array<std::uint8_t, 3> levelColour(int level);
 

@@ -6,18 +6,20 @@
 #include <string>
 #include <vector>
 
-#include "trimtab/scene/gl_report.h"
-#include "trimtab/scene/planted_defects.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
+#include "trimtab/scene/distance_image.h"
+#include "trimtab/scene/gl_report.h"
 #include "trimtab/terrain/format/database.h"
 
 /// Draws a frame. The same class behind the workbench's widget, the IG's window and the surfaceless context.
 namespace trimtab::scene {
 
-/// In which form a terrain is drawn: that which is asked for where it has it, else what there is. None where
-/// there is nothing.
+/// Returns the form in which a terrain is drawn: the one that the request asks for if the terrain has it,
+/// else one that it has. Unset without a terrain, or if it has no form at all.
 std::optional<TerrainForm> formDrawn(const FrameRequest& request, const terrain::Database* database);
+
+struct Defects;
 
 class Renderer {
  public:
@@ -26,39 +28,31 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// All calls below need the context current that `initialize` was called with. No-throw; the report says
-  /// what is missing.
+  /// Every call below needs the context current in which `initialize` was called. It never throws; the report
+  /// says what the context lacks.
   GlReport initialize();
-  /// The context is going away: frees GL objects. `initialize` may be called again.
+  /// Frees the GL objects; call it before the context goes away. `initialize` may be called again.
   void release();
 
   void setTerrain(std::shared_ptr<const terrain::Database> database);
-  /// Draws into framebuffer `fbo` (0: the window's), whose size is at least the view's; leaves that
-  /// framebuffer bound.
+  /// Draws into the framebuffer `fbo` (0 is the window's), which is at least as large as the view, and leaves
+  /// it bound.
   FrameResult draw(const FrameRequest& request, unsigned fbo);
 
-  /// Metres from the eye to what the last picture shows, infinity where nothing was drawn; row 0 at the
-  /// bottom.
+  /// Returns the distance from the eye to what each pixel of the last image shows, metres; infinity where
+  /// nothing was drawn. Row 0 is at the bottom.
   std::vector<float> readDistances();
 
-  /// The last depth map as 0..1 greys by distance (0 near), row 0 at the bottom; empty when the last frame
-  /// had none.
-  struct Grey {
-    static constexpr double kNearestM = 50, kFurthestM = 200e3;  ///< black and nearly white, by the logarithm
-    int width = 0, height = 0;
-    std::vector<std::uint8_t> pixels;
-  };
-  Grey readDepthMap();
-  /// The horizon that served in the last picture: elevation in degrees, evenly round from south by west,
-  /// north and east of the terrain's frame; NaN where nothing bounds the sky. Empty where none served.
+  /// Returns the depth map of the last frame; without pixels if it had none.
+  DistanceImage readDepthMap();
+  /// Returns the horizon that the last frame used as `samples` elevations in degrees, evenly spaced clockwise
+  /// from south in the terrain's frame; NaN where nothing bounds the sky. Empty if no horizon was used.
   std::vector<float> readHorizon(int samples);
-  /// Pages of the terrain and tiles of its ground that could not be read (PagingFrame::failed counts them);
-  /// it stays coarser there.
+  /// Reports the pages of the terrain and the tiles of its ground that could not be read, where it stays
+  /// coarser; PagingFrame::failed counts them.
   Findings pageFailures() const;
-  /// A blur accumulates from the next picture on, as if it were the first.
+  /// Lets a blur accumulate anew, as if the next image were the first.
   void forgetPictures();
-  /// For tests only, which must be able to see the picture break.
-  void plant(const Defects& defects);
   /// For each pixel of the last picture the node that it shows, kNoNode where it is sky; row 0 at the bottom.
   /// Draws what was drawn once more: the same vertices in the same order with the same depth test. What only
   /// an overlay draws (lines, edges) is nobody's. Empty where nothing was drawn yet.
@@ -68,10 +62,11 @@ class Renderer {
   /// far cut takes away is still sky.
   static constexpr std::uint32_t kNoNode = 0xffffffffu;
   std::vector<std::uint32_t> readNodes(bool unculled = false);
-  /// RGBA of what `draw` left, row 0 at the bottom.
+  /// Returns RGBA of what `draw` left, row 0 at the bottom.
   std::vector<std::uint8_t> readPixels(int width, int height);
 
  private:
+  friend void plant(Renderer& renderer, const Defects& defects);  // planted_defects.h
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

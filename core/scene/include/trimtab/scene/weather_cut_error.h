@@ -1,19 +1,19 @@
 #pragma once
 
-#include "trimtab/scene/renderer.h"
 #include "trimtab/frame/frame_request.h"
+#include "trimtab/scene/renderer.h"
 
 namespace trimtab::scene {
 
-/// What the weather's far cut took from a picture: the only pass that trades pixels for time.
+/// How the weather's far cut changed an image.
 struct CutError {
-  std::size_t pixels = 0;   ///< of the picture
-  std::size_t changed = 0;  ///< in any channel
-  int largest = 0;          ///< difference of a channel, of 255
+  std::size_t pixels = 0;   ///< in the image
+  std::size_t changed = 0;  ///< pixels that differ in any channel
+  int largest = 0;          ///< largest difference of a channel, 0..255
 };
 
-/// Draws the request without its far cut and with it, and compares. Two frames, and `fbo` is left with the
-/// second: for measuring. The context is current.
+/// Draws the request without and with its far cut and compares the two images. `fbo` keeps the second one.
+/// The context must be current. For measurements: it costs two frames.
 CutError cutError(Renderer& renderer, const FrameRequest& request, unsigned fbo);
 
 }  // namespace trimtab::scene
