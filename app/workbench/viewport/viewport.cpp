@@ -210,12 +210,13 @@ void Viewport::drawPicture(const Picture& picture, int widthPx, int heightPx) {
   const QSize wanted(picture.request.view.widthPx, picture.request.view.heightPx), have(widthPx, heightPx);
   if (wanted == have) {
     fixedSize_.reset();
-    result_ = renderer_->draw(picture.request, defaultFramebufferObject());
+    result_ =
+        std::make_shared<const FrameResult>(renderer_->draw(picture.request, defaultFramebufferObject()));
     readDepthMap();
   } else {
     if (fixedSize_ == nullptr || fixedSize_->size() != wanted)
       fixedSize_ = std::make_unique<QOpenGLFramebufferObject>(wanted);
-    result_ = renderer_->draw(picture.request, fixedSize_->handle());
+    result_ = std::make_shared<const FrameResult>(renderer_->draw(picture.request, fixedSize_->handle()));
     readDepthMap();
     gl.glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
     gl.glDisable(GL_SCISSOR_TEST);

@@ -69,7 +69,8 @@ class Viewport : public QOpenGLWidget {
   const OverlayContents& overlayContents() const { return shownOverlay_; }
   const scene::GlReport& gl() const { return gl_; }
   std::uint64_t paints() const { return paints_; }
-  const std::optional<FrameResult>& lastResult() const { return result_; }
+  /// Null until the open terrain has been drawn once.
+  const std::shared_ptr<const FrameResult>& lastResult() const { return result_; }
   /// Pages of the terrain that could not be read.
   Findings pageFailures() const { return renderer_ ? renderer_->pageFailures() : Findings{}; }
 
@@ -112,7 +113,7 @@ class Viewport : public QOpenGLWidget {
   std::shared_ptr<const terrain::Database> terrain_;
   bool terrainChanged_ = false;
   scene::GlReport gl_;
-  std::optional<FrameResult> result_;
+  std::shared_ptr<const FrameResult> result_;
   FreeCamera camera_;
   SymbologyEditor* editor_ = nullptr;
   QRectF pictureAt_;  ///< where the last picture lies in the widget

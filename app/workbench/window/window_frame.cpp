@@ -174,43 +174,12 @@ void MainWindow::changeEvent(QEvent* event) {
 views::LiveFrame MainWindow::liveFrame() const {
   views::LiveFrame frame;
   frame.time = double(sinceStart_.nsecsElapsed()) * 1e-9;
-  frame.packet = feed_.session().input().state.packet;
+  frame.input = feed_.session().input();
   frame.decision = feed_.session().decision();
-  frame.hostWeather = feed_.session().input().state.weather;
-  frame.hostVisibility = feed_.session().input().state.visibility;
   frame.cost = lastCost_;
   frame.fps = fps_;
-  if (const auto& last = viewport_->lastResult()) {
-    frame.triangles = last->visible.triangles;
-    frame.vertices = last->visible.vertices;
-    frame.tilesDrawn = last->visible.tiles.size();
-    frame.tilesInCut = last->tilesInCut;
-    frame.outsideFrustum = last->visible.outsideFrustum;
-    frame.occluded = last->visible.occluded;
-    frame.beyondVisibility = last->visible.beyondVisibility;
-    frame.backFacing = last->visible.backFacing;
-    frame.depthMap = last->depthMap;
-    frame.blurPasses = last->blurPasses;
-    frame.symbologyDraws = last->symbologyDraws;
-    frame.symbologyRedraws = last->symbologyRedraws;
-    frame.staticLod = last->staticLod;
-    frame.horizon = last->horizon;
-    frame.occlusion = last->occlusion;
-    frame.cullingNote = last->note;
-    frame.cutsSelected = last->cutsSelected;
-    frame.visibleSelected = last->visibleSelected;
-    frame.horizonsBuilt = last->horizonsBuilt;
-    frame.horizonsMoved = last->horizonsMoved;
-    frame.horizonsLeftOut = last->horizonsLeftOut;
-    frame.depthMapsDrawn = last->depthMapsDrawn;
-    frame.mapsDrawnByCpu = last->mapsDrawnByCpu;
-    frame.mapsReadBack = last->mapsReadBack;
-    frame.mapsLeftOut = last->mapsLeftOut;
-    frame.occlusionsLeftOut = last->occlusionsLeftOut;
-    frame.patches = last->patches;
-    frame.levels = levels_;
-    frame.paging = last->paging;
-  }
+  frame.result = viewport_->lastResult();
+  if (frame.result) frame.levels = levels_;
   return frame;
 }
 
