@@ -15,7 +15,7 @@ namespace {
 
 class ExperimentsDock : public Bench {
  protected:
-  workbench::ExperimentsDock& dock() { return w().experiments(); }
+  workbench::ExperimentsDock& dock() { return *w().panels().experiments; }
   /// Small and short, by the dock's own fields.
   void choose(const char* command) {
     auto* which = dock().findChildren<QComboBox*>().front();

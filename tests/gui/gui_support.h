@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 
+#include "app/workbench/docks/message_panel.h"
 #include "app/workbench/window/main_window.h"
 #include "tests/support.h"
 #include "trimtab/terrain/bake/bake.h"

@@ -59,10 +59,11 @@ TEST_F(LongFlight, holdsWithHeadMotionWeatherAndAllDocksOpen) {
   for (const auto& [key, value] : {std::pair{"weather.source", "host"}, {"symbology.enabled", "true"}})
     ASSERT_TRUE(w().draft().setText(key, value).empty()) << key;
   const std::string exported = (dir / "export.json").string(), trace = (dir / "own.csv").string();
-  ASSERT_TRUE(w().exportPreset(QString::fromStdString(exported), ExportFormat::json, "test", "long flight"));
+  ASSERT_TRUE(w().controllers().document->exportTo(QString::fromStdString(exported), ExportFormat::json,
+                                                   "test", "long flight"));
   for (QDockWidget* dock : w().findChildren<QDockWidget*>()) dock->show();
   const std::uint16_t port = listen();
-  ASSERT_TRUE(w().startTrace(QString::fromStdString(trace)));
+  ASSERT_TRUE(w().controllers().trace->start(QString::fromStdString(trace)));
 
   unsigned errors = 0;
   QObject::connect(&w().viewport(), &workbench::Viewport::painted, &w(), [&] {
@@ -105,7 +106,7 @@ TEST_F(LongFlight, holdsWithHeadMotionWeatherAndAllDocksOpen) {
     if (third == 0 && double(flown.elapsed()) > seconds * 1000 / 3) third = last;
   }
   ASSERT_TRUE((*player)->finished());
-  w().stopTrace();
+  w().controllers().trace->stop();
   // Another program that takes the cores for a moment is no fault of the window's.
   EXPECT_LE(late, 2 + turn / 20) << "events that waited for more than one picture, of " << turn;
   EXPECT_EQ(errors, 0u) << "GL errors";

@@ -43,7 +43,7 @@ TEST_F(Rules, anEditedRuleDecidesTheNextFrameAndTheViewerShowsIt) {
   dock("rules").raise();
   dock("surface").raise();
   w().draft().setValue("fuzzy.combination", ChoiceIndex{2});
-  ASSERT_TRUE(w().openFlight(QString::fromStdString(sampleFlight())));
+  ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
   const double climb = climbsThrough(*readFlight(sampleFlight()), 4500);
   for (int second = 0; second < 40; second += 2) {
     w().feed().seekHere(climb + second);

@@ -26,7 +26,7 @@ class SymbologyDock : public Bench {
     panel->placeButton().click();
     ASSERT_TRUE(waitFor([&] { return box(Symbol::altitude).isValid(); }, 10000));
   }
-  workbench::SymbologyEditor& editor() { return w().symbologyEditor(); }
+  workbench::SymbologyEditor& editor() { return w().controllers().symbology->editor(); }
   QRectF box(Symbol symbol) { return editor().boxOf(static_cast<int>(symbol)); }
   double value(const char* key) { return std::get<double>(w().draft().value(key)); }
   void drag(QPoint from, QPoint to) {

@@ -128,8 +128,9 @@ TEST_F(TerrainDock, tellsWhatABakeFoundThoughItSucceeded) {
   terrain::BakeOptions options;
   options.sources = {dir_ / "small.tif", dir_ / "hole.asc"};
   options.output = dir_ / "mine";
-  w().terrainJob().bake(options);
-  ASSERT_TRUE(waitFor([this] { return says(QStringLiteral("<b>")) && !w().terrainJob().running(); }));
+  w().controllers().terrain->job().bake(options);
+  ASSERT_TRUE(
+      waitFor([this] { return says(QStringLiteral("<b>")) && !w().controllers().terrain->job().running(); }));
   EXPECT_TRUE(terrain::isDatabase(dir_ / "mine")) << w().messages().text().toStdString();
   EXPECT_TRUE(w().messages().text().contains(QStringLiteral("voids alone")))
       << w().messages().text().toStdString();
@@ -141,17 +142,17 @@ TEST_F(TerrainDock, keepsTheTerrainWhenABakeIsCancelledOrRefused) {
   options.sources = {dir_ / "large.tif"};
   options.output = dir_ / "never";
   const std::uint64_t before = paints();
-  w().terrainJob().bake(options);
+  w().controllers().terrain->job().bake(options);
   ASSERT_TRUE(waitFor([this] { return panel().findChild<QProgressBar*>()->isVisible(); }));
   for (QPushButton* each : panel().findChildren<QPushButton*>())
     if (each->text().contains(QStringLiteral("Cancel"))) each->click();
-  EXPECT_TRUE(waitFor([this] { return !w().terrainJob().running(); }));
+  EXPECT_TRUE(waitFor([this] { return !w().controllers().terrain->job().running(); }));
   EXPECT_FALSE(terrain::isDatabase(dir_ / "never"));
   writeFile(dir_ / "text.tif", "no raster");
   options.sources = {dir_ / "text.tif"};
-  w().terrainJob().bake(options);
+  w().controllers().terrain->job().bake(options);
   ASSERT_TRUE(waitFor([this] { return w().messages().text().contains(QStringLiteral("text.tif")); }));
-  EXPECT_TRUE(w().hasTerrain());
+  EXPECT_TRUE(w().controllers().terrain->database() != nullptr);
   w().viewport().invalidate();
   EXPECT_TRUE(waitFor([&] { return paints() > before; }));
 }

@@ -193,12 +193,12 @@ TEST_F(WorkbenchWindow, aPortInUseIsSaidAndTheWorkGoesOn) {
   socklen_t size = sizeof address;
   ::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size);
   const std::uint16_t taken = ntohs(address.sin_port);
-  w().hostDock().setPort(taken);
-  EXPECT_FALSE(w().hostDock().connectHost().empty());
+  w().panels().host->setPort(taken);
+  EXPECT_FALSE(w().panels().host->connectHost().empty());
   EXPECT_TRUE(w().messages().text().contains(QString::number(taken)));
   EXPECT_EQ(w().feed().receiver(), nullptr);
   ::close(socket);
-  EXPECT_TRUE(w().hostDock().connectHost().empty()) << "free again";
+  EXPECT_TRUE(w().panels().host->connectHost().empty()) << "free again";
 }
 
 TEST(WorkbenchProgram, withoutADisplayItSaysSoAndEndsWithOne) {
