@@ -62,8 +62,6 @@ FrameController::FrameController(const Workplace& workplace, const TerrainContro
   });
 }
 
-FrameController::~FrameController() = default;
-
 void FrameController::setOverlays(const Overlays& overlays) {
   overlays_ = overlays;
   at_.viewport.invalidate();

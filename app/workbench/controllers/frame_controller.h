@@ -22,7 +22,6 @@ class FrameController : public QObject {
 
  public:
   FrameController(const Workplace& workplace, const TerrainController& terrain);
-  ~FrameController() override;
 
   /// The request that the viewport drew last. Nothing until the first image.
   const std::optional<FrameRequest>& shown() const { return shown_; }

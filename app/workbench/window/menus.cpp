@@ -88,35 +88,30 @@ void Menus::makeFileMenu() {
   for (const std::string_view name : shippedPresets())
     add(fresh, {{tr("from %1").arg(fromView(name)),
                  name == "default" ? QKeySequence(QKeySequence::New) : QKeySequence(),
-                 [&document, name] { document.startFrom(fromView(name)); },
-                 {}}});
+                 [&document, name] { document.startFrom(fromView(name)); }}});
   add(file, {{tr("&Open preset..."), QKeySequence::Open, [&] { document.askOpen(); }, {}, &open}});
   addPresetMenus(file);
   add(file,
       {{tr("&Save preset"), QKeySequence::Save, [&] { document.save(); }, {}, &save},
-       {tr("Save preset &as..."), QKeySequence(tr("Ctrl+Shift+S")), [&] { document.saveAs(); }, {}},
-       {tr("&Export for an image generator..."),
-        QKeySequence(tr("Ctrl+E")),
-        [&] { document.askExport(); },
-        {},
-        &exporting},
-       {tr("&Import rules..."), {}, [this] { panels_.rules->askAndImport(); }, {}},
-       {tr("Export r&ules..."), {}, [this] { panels_.rules->askAndExport(); }, {}},
+       {tr("Save preset &as..."), tr("Ctrl+Shift+S"), [&] { document.saveAs(); }},
+       {tr("&Export for an image generator..."), tr("Ctrl+E"), [&] { document.askExport(); }, {}, &exporting},
+       {tr("&Import rules..."), {}, [this] { panels_.rules->askAndImport(); }},
+       {tr("Export r&ules..."), {}, [this] { panels_.rules->askAndExport(); }},
        {},
-       {tr("Open &terrain..."), QKeySequence(tr("Ctrl+T")), [&] { terrain.askOpenFile(); }, {}, &openTerrain},
+       {tr("Open &terrain..."), tr("Ctrl+T"), [&] { terrain.askOpenFile(); }, {}, &openTerrain},
        {tr("Open terrain &folder or database..."),
-        QKeySequence(tr("Ctrl+Shift+T")),
+        tr("Ctrl+Shift+T"),
         [&] { terrain.askOpenFolder(); },
         {},
         &openFolder},
-       {tr("&Bake a terrain database..."), QKeySequence(tr("Ctrl+B")), [&] { terrain.askBake(); },
+       {tr("&Bake a terrain database..."), tr("Ctrl+B"), [&] { terrain.askBake(); },
         tr("Turns elevation, scenery and imagery into one folder that opens at once"), &bake},
-       {tr("Open sa&mple terrain"), {}, [&] { terrain.openSample(); }, {}},
+       {tr("Open sa&mple terrain"), {}, [&] { terrain.openSample(); }},
        {},
-       {tr("Record tra&ce..."), QKeySequence(tr("Ctrl+R")), [this] { by_.trace->askOrStop(); }, {}, &trace},
-       {tr("Open measured resu&lts..."), {}, [this] { by_.errors->askOpenResults(); }, {}},
+       {tr("Record tra&ce..."), tr("Ctrl+R"), [this] { by_.trace->askOrStop(); }, {}, &trace},
+       {tr("Open measured resu&lts..."), {}, [this] { by_.errors->askOpenResults(); }},
        {},
-       {tr("&Quit"), QKeySequence(tr("Ctrl+Q")), [this] { window_.close(); }, {}}});
+       {tr("&Quit"), tr("Ctrl+Q"), [this] { window_.close(); }}});
 
   trace->setCheckable(true);
   connect(by_.trace.get(), &TraceController::recordingChanged, trace, &QAction::setChecked);
@@ -136,7 +131,7 @@ void Menus::makeFileMenu() {
 void Menus::addPresetMenus(QMenu& file) {
   QMenu& shipped = *file.addMenu(tr("Open s&hipped preset"));
   for (const std::string_view name : shippedPresets())
-    add(shipped, {{fromView(name), {}, [this, name] { by_.document->openOverEdits(fromView(name)); }, {}}});
+    add(shipped, {{fromView(name), {}, [this, name] { by_.document->openOverEdits(fromView(name)); }}});
   QMenu& recent = *file.addMenu(tr("&Recent"));
   connect(&recent, &QMenu::aboutToShow, this, [this, &recent] { fillRecentMenu(recent); });
 }
@@ -168,10 +163,10 @@ void Menus::makeEditMenu() {
   undo->setShortcut(QKeySequence::Undo);
   dress(*undo, tr("Undo"), icon(QStyle::SP_ArrowBack));
   QAction* redo = at_.draft.undoStack().createRedoAction(&window_, tr("&Redo"));
-  redo->setShortcuts({QKeySequence(tr("Ctrl+Shift+Z")), QKeySequence(tr("Ctrl+Y"))});
+  redo->setShortcuts({tr("Ctrl+Shift+Z"), tr("Ctrl+Y")});
   dress(*redo, tr("Redo"), icon(QStyle::SP_ArrowForward));
   edit.addActions({undo, redo});
-  add(edit, {{}, {tr("Reset &all parameters to the base preset"), {}, [this] { at_.draft.resetAll(); }, {}}});
+  add(edit, {{}, {tr("Reset &all parameters to the base preset"), {}, [this] { at_.draft.resetAll(); }}});
   auto* bar = window_.addToolBar(tr("Edit"));
   bar->setObjectName(QStringLiteral("edit_toolbar"));
   // The actions' texts name the step that they undo, so buttons of their own keep the toolbar's width.
@@ -187,7 +182,7 @@ void Menus::makeEditMenu() {
 
 QAction* Menus::addOverlay(QMenu& view, const QString& text, const QString& keys, bool Overlays::*flag) {
   QAction* action = nullptr;
-  add(view, {{text, QKeySequence(keys), {}, {}, &action}});
+  add(view, {{text, keys, {}, {}, &action}});
   action->setCheckable(true);
   connect(action, &QAction::toggled, this, [this, flag](bool on) { by_.culling->setOverlay(flag, on); });
   return action;
@@ -204,7 +199,7 @@ void Menus::makeViewMenu() {
   makeExclusive(byReason, byLevel);
   QAction* freeze = nullptr;
   add(view, {{tr("&Freeze culling"),
-              QKeySequence(tr("Ctrl+F")),
+              tr("Ctrl+F"),
               {},
               tr("Tiles and levels stay as they are now while the view flies on"),
               &freeze}});
@@ -213,17 +208,14 @@ void Menus::makeViewMenu() {
   connect(by_.culling.get(), &CullingController::frozenChanged, freeze, &QAction::setChecked);
   view.addSeparator();
   addCases(view);
-  add(view,
-      {{tr("&Place the camera over the terrain"),
-        QKeySequence(Qt::Key_Home),
-        [this] {
-          if (at_.feed.source() == Feed::Source::camera) by_.flight->placeCamera();
-        },
-        {}},
-       {tr("Compare &two presets..."), QKeySequence(tr("Ctrl+D")), [this] { by_.errors->compare(); }, {}},
-       {}});
+  add(view, {{tr("&Place the camera over the terrain"), Qt::Key_Home,
+              [this] {
+                if (at_.feed.source() == Feed::Source::camera) by_.flight->placeCamera();
+              }},
+             {tr("Compare &two presets..."), tr("Ctrl+D"), [this] { by_.errors->compare(); }},
+             {}});
   addDocks(view);
-  add(view, {{tr("Reset la&yout"), {}, [this] { emit layoutResetAsked(); }, {}}});
+  add(view, {{tr("Reset la&yout"), {}, [this] { emit layoutResetAsked(); }}});
   auto* bar = window_.addToolBar(tr("View"));
   bar->setObjectName(QStringLiteral("view_toolbar"));
   bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
@@ -240,7 +232,7 @@ void Menus::addCases(QMenu& view) {
   for (std::size_t i = 0; i < row->choices.size(); ++i) {
     QAction* action = nullptr;
     add(cases, {{fromView(row->choices[i].label),
-                 QKeySequence(tr("Ctrl+Alt+%1").arg(i + 1)),
+                 tr("Ctrl+Alt+%1").arg(i + 1),
                  [this, i] { at_.draft.setValue(kCaseKey, ChoiceIndex{i}); },
                  {},
                  &action}});
@@ -265,7 +257,7 @@ void Menus::addDocks(QMenu& view) {
   int number = 1;
   for (QDockWidget* each : window_.findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
     QAction* show = each->toggleViewAction();
-    show->setShortcut(QKeySequence(tr("Alt+%1").arg(number++)));
+    show->setShortcut(tr("Alt+%1").arg(number++));
     connect(show, &QAction::triggered, each, [each](bool on) {
       if (on) each->raise();
     });
@@ -276,29 +268,21 @@ void Menus::addDocks(QMenu& view) {
 void Menus::makeFlightMenu() {
   FlightController& flight = *by_.flight;
   add(*window_.menuBar()->addMenu(tr("F&light")),
-      {{tr("&Open flight..."), QKeySequence(tr("Ctrl+L")), [&] { flight.askOpen(); }, {}},
-       {tr("&Play or pause"), QKeySequence(Qt::Key_F5), [&] { flight.playOrPause(); }, {}},
-       {tr("&Back to the start"), QKeySequence(tr("Shift+F5")), [&] { flight.flightDock().stop(); }, {}},
-       {tr("&Measure presets along it..."),
-        QKeySequence(tr("Ctrl+M")),
-        [this] { by_.errors->askAndMeasure(); },
-        {}},
+      {{tr("&Open flight..."), tr("Ctrl+L"), [&] { flight.askOpen(); }},
+       {tr("&Play or pause"), Qt::Key_F5, [&] { flight.playOrPause(); }},
+       {tr("&Back to the start"), tr("Shift+F5"), [&] { flight.flightDock().stop(); }},
+       {tr("&Measure presets along it..."), tr("Ctrl+M"), [this] { by_.errors->askAndMeasure(); }},
        {},
-       {tr("&Connect or disconnect the host"),
-        QKeySequence(Qt::Key_F6),
-        [&] { flight.connectOrDisconnectHost(); },
-        {}}});
+       {tr("&Connect or disconnect the host"), Qt::Key_F6, [&] { flight.connectOrDisconnectHost(); }}});
 }
 
 void Menus::makeHelpMenu() {
   add(*window_.menuBar()->addMenu(tr("&Help")),
-      {{tr("&Keys and mouse"),
-        QKeySequence::HelpContents,
-        [this] { showKeys(&window_, *window_.menuBar()); },
-        {}},
-       {tr("&Parameter reference"), QKeySequence(tr("Shift+F1")), [this] { showReference(&window_); }, {}},
+      {{tr("&Keys and mouse"), QKeySequence::HelpContents,
+        [this] { showKeys(&window_, *window_.menuBar()); }},
+       {tr("&Parameter reference"), tr("Shift+F1"), [this] { showReference(&window_); }},
        {},
-       {tr("&About Trimtab"), {}, [this] { showAbout(&window_, at_.viewport.gl()); }, {}}});
+       {tr("&About Trimtab"), {}, [this] { showAbout(&window_, at_.viewport.gl()); }}});
 }
 
 }  // namespace trimtab::workbench

@@ -35,10 +35,10 @@ class Menus : public QObject {
  private:
   /// One line of a menu. Without a text it is a separator.
   struct Command {
-    QString text;
-    QKeySequence keys;
-    std::function<void()> run;
-    QString toolTip;
+    QString text = {};
+    QKeySequence keys = {};
+    std::function<void()> run = {};
+    QString toolTip = {};
     QAction** made = nullptr;  ///< receives the action, for a toolbar or a dock
   };
   void add(QMenu& menu, std::initializer_list<Command> commands);
