@@ -44,7 +44,7 @@ class ErrorDock : public Bench {
   }
 };
 
-/// A tiny benchmark by the program itself; made once.
+/// Runs a tiny benchmark with the program itself, once per test program.
 const QString& tinyResults() {
   static const ScratchDir dir;
   static const QString file = [] {
@@ -85,7 +85,7 @@ TEST_F(ErrorDock, aPictureThatStandsIsMeasuredOnceAndAHiddenDockMeasuresNothing)
   raise();
   ASSERT_TRUE(waitFor([&] { return measurements() > 0; }, 90000));
   ASSERT_TRUE(settle());
-  // Until one that was under way has ended.
+  // Wait until a measurement that was under way has ended.
   std::uint64_t standing = 0;
   for (int i = 0; i < 10 && (standing != measurements() || dock().live().busy()); ++i) {
     standing = measurements();
@@ -142,7 +142,7 @@ TEST_F(ErrorDock, whatNobodySawOfAStandingPictureIsMeasuredAgain) {
 
 TEST_F(ErrorDock, measuringLeavesThePictureAsItIs) {
   ASSERT_TRUE(settle());
-  // Above the line of text, which tells milliseconds.
+  // Compare only above the line of text, which shows milliseconds.
   const auto picture = [&] {
     const QImage image = w().viewport().grabFramebuffer();
     return image.copy(0, 0, image.width(), image.height() * 3 / 4);
@@ -185,7 +185,7 @@ TEST_F(ErrorDock, showsMeasuredResultsAndTheCursorTakesTheViewToTheRow) {
     EXPECT_NEAR(eye.position.height.value(), row.position.height.value(), 1e-9);
     EXPECT_EQ(w().feed().source(), workbench::Feed::Source::flight);
   }
-  // The other way round: the cursor goes with the flight.
+  // The other way round: the cursor moves with the flight.
   w().panels().flight->seek(unit.frames[2].timeS - flight.states.front().time);
   EXPECT_TRUE(
       waitFor([&] { return std::abs(dock().timeline().cursorTime() - unit.frames[2].timeS) < 1e-9; }, 10000));
@@ -290,7 +290,7 @@ class SplitViewTest : public ErrorDock {
         << w().messages().text().toStdString();
   }
   SplitView& view() { return *w().controllers().errors->splitView(); }
-  /// Both sides' pictures are of the presets chosen last.
+  /// Waits until both sides show the presets that were chosen last.
   void choose(const QString& left, const QString& right) {
     ASSERT_TRUE(view().choose(SplitView::left, left));
     ASSERT_TRUE(view().choose(SplitView::right, right));

@@ -200,7 +200,7 @@ TEST_F(WorkbenchFiles, aFileChangedByAnotherProgramIsSaidAndReloadedOnRequest) {
   EXPECT_NE(hysteresis(), 0.03) << "nothing happens unasked";
   QTest::mouseClick(reload, Qt::LeftButton);
   EXPECT_EQ(hysteresis(), 0.03);
-  // The same bytes once more and own saves are no news.
+  // Writing the same bytes again, and our own saves, must not raise the question.
   ASSERT_TRUE(writeAtomically(dir / "p.json", readFile(dir / "p.json")));
   QTest::qWait(600);
   EXPECT_EQ(noticeButton(w(), "Reload"), nullptr);

@@ -12,7 +12,7 @@
 #include "trimtab/host/flight.h"
 
 /// Everything at once: a flight over UDP with a head that sweeps and weather that changes, all docks open.
-/// A third of a minute of it by default; TRIMTAB_LONG_FLIGHT_S says otherwise (600 is the whole flight).
+/// It lasts a third of a minute unless TRIMTAB_LONG_FLIGHT_S gives other seconds (600 is the whole flight).
 namespace trimtab::test {
 namespace {
 
@@ -76,7 +76,7 @@ TEST_F(LongFlight, holdsWithHeadMotionWeatherAndAllDocksOpen) {
   options.to = {"127.0.0.1", port};
   options.protocol = WireProtocol::cigi3;
   options.speed = std::max(1.0, flight.durationS() / seconds);
-  // A recorded head where there is one; else the flight's own sweeps.
+  // Use a recorded head if there is one, else the flight's own sweeps.
   if (const auto recorded = sharedDir() / "data/headmotion-mv360/user1_euler.txt";
       std::filesystem::exists(recorded)) {
     Result<HeadLog> log = readHeadLog(recorded);

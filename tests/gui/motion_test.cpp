@@ -26,7 +26,7 @@ class Motion : public Bench {
       if (panel().reasons().item(i)->text().contains(text)) return true;
     return false;
   }
-  /// For eyes: kept where TRIMTAB_SHOTS names a folder.
+  /// Saves a screenshot to look at if TRIMTAB_SHOTS names a folder.
   void shoot(const char* name) {
     const char* folder = std::getenv("TRIMTAB_SHOTS");
     if (folder == nullptr) return;
@@ -59,7 +59,7 @@ TEST_F(Motion, thePointerOverThePictureIsTheLineOfSight) {
   emit panel().sourceAsked(MotionPanel::pointer);
   EXPECT_EQ(panel().source(), MotionPanel::pointer);
   workbench::Viewport& view = w().viewport();
-  // Not through the screen's own pointer, which a person may hold.
+  // Events are sent directly, because a person may hold the screen's own pointer.
   const auto moveTo = [&view](int x) {
     const QPointF at(x, view.height() / 2);
     QMouseEvent event(QEvent::MouseMove, at, view.mapToGlobal(at), Qt::NoButton, Qt::NoButton,

@@ -30,7 +30,7 @@ class Rules : public Bench {
     QAbstractItemModel* const model = panel().editor().table().model();
     EXPECT_TRUE(model->setData(model->index(row, column), QString::fromLatin1(text), Qt::EditRole));
   }
-  /// For eyes: kept where TRIMTAB_SHOTS names a folder.
+  /// Saves a screenshot to look at if TRIMTAB_SHOTS names a folder.
   void shoot(const char* name) {
     const char* folder = std::getenv("TRIMTAB_SHOTS");
     if (folder == nullptr) return;
