@@ -22,8 +22,8 @@ inline bool waitFor(const std::function<bool()>& condition, int limitMs = 60000)
   return QTest::qWaitFor(condition, limitMs);
 }
 
-/// The sample terrain, 60 km wide with posts 120 m apart: the shipped flight stays over it. It is baked once per
-/// test program.
+/// The sample terrain, 60 km wide with posts 120 m apart: the shipped flight stays over it. It is baked once
+/// per test program.
 inline const std::filesystem::path& sampleTerrain() {
   static const ScratchDir dir;
   static const std::filesystem::path database = [] {
