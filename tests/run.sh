@@ -28,24 +28,28 @@ cmake --build "$build" -- -k 0 >"$build/build.log" 2>&1 || { grep -E "error|FAIL
 if [ -n "${list:-}" ]; then cat "$build/tests.list"; exit 0; fi
 
 export QT_LOGGING_RULES="${QT_LOGGING_RULES:-*.debug=false}"
+rm -f "$build/stress.txt"
+
+# Runs one program, its log beside it, and leaves "STATUS SECONDS" in NAME.status.
+run_program() {
+  local name=$1 kind=$2 start=$SECONDS status=0
+  local command=("$build/bin/$name")
+  [ "$kind" = plain ] || command=(xvfb-run -a -s "-screen 0 1600x1000x24" "${command[@]}")
+  timeout 1200 "${command[@]}" >"$build/$name.log" 2>&1 </dev/null || status=$?
+  echo "$status $((SECONDS - start))" >"$build/$name.status"
+}
+
+# Adds up what a program's log says, and prints its line and its failures.
 passed=0 failed=0 skipped=0
 reasons=$build/skipped.txt
 : >"$reasons"
-rm -f "$build/stress.txt"
-while read -r name kind; do
-  [[ $name =~ $only ]] || continue
-  log=$build/$name.log
-  start=$SECONDS
-  status=0
-  if [ "$kind" = display ]; then
-    timeout 1200 xvfb-run -a -s "-screen 0 1600x1000x24" "$build/bin/$name" >"$log" 2>&1 </dev/null || status=$?
-  else
-    timeout 1200 "$build/bin/$name" >"$log" 2>&1 </dev/null || status=$?
-  fi
+report_program() {
+  local name=$1 log=$build/$1.log status seconds ok bad skip
+  read -r status seconds <"$build/$name.status"
   ok=$(grep -cE '^\[       OK \]' "$log" || true)
   bad=$(grep -cE '^\[  FAILED  \] .* \([0-9]+ ms\)$' "$log" || true)
   skip=$(grep -cE '^\[  SKIPPED \] .* \([0-9]+ ms\)$' "$log" || true)
-  # A program that crashes or is stopped says nothing of the test it died in: that is one failure more.
+  # A program that crashes or is stopped does not name the test it died in: that is one failure more.
   if [ "$status" -ne 0 ] && [ "$bad" -eq 0 ]; then
     bad=1
     echo "--- $name ended with status $status; the end of its log:"
@@ -54,8 +58,23 @@ while read -r name kind; do
   if [ "$bad" -gt 0 ]; then grep -E -B 12 '^\[  FAILED  \] .* \([0-9]+ ms\)$' "$log" | cut -c1-400 | head -80 || true; fi
   awk -v RS='\n' '/: Skipped$/ {getline reason; print reason}' "$log" >>"$reasons"
   passed=$((passed + ok)) failed=$((failed + bad)) skipped=$((skipped + skip))
-  printf '%-32s %4d passed %3d failed %3d skipped  %4d s\n' "$name" "$ok" "$bad" "$skip" $((SECONDS - start))
-done <"$build/tests.list"
+  printf '%-32s %4d passed %3d failed %3d skipped  %4d s\n' "$name" "$ok" "$bad" "$skip" "$seconds"
+}
+
+# Programs without windows share the cores; windows take their turns after them, because people's events have a pace.
+streams=$(nproc)
+for kind in plain display; do
+  [ "$kind" = plain ] || streams=1
+  names=()
+  while read -r name its_kind; do
+    [ "$its_kind" = "$kind" ] && [[ $name =~ $only ]] || continue
+    names+=("$name")
+    while [ "$(jobs -rp | wc -l)" -ge "$streams" ]; do wait -n || true; done
+    run_program "$name" "$kind" &
+  done <"$build/tests.list"
+  wait
+  for name in "${names[@]}"; do report_program "$name"; done
+done
 
 if [ "$skipped" -gt 0 ]; then
   echo "$skipped skipped, because:"

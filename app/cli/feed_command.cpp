@@ -63,6 +63,7 @@ struct Options {
   std::string flight, head, to, out, protocol = "cigi3", listenProtocol = "auto", reply, bind = "0.0.0.0";
   double rateHz = 60, speed = 1, startS = 0;
   bool loop = false;
+  bool skipBadRows = false;  ///< of the head log
   int listen = 0;
   Ending ending;
 };
@@ -86,7 +87,7 @@ int play(const Options& options) {
   }
   link::PlayOptions how;
   if (!options.head.empty()) {
-    auto head = openHead(options.head);
+    auto head = openHead(options.head, options.skipBadRows ? BadRows::leave_out : BadRows::refuse);
     report(head.findings());
     if (!head) return kRefused;
     how.head = std::move(*head);
@@ -312,6 +313,8 @@ void addFeed(CLI::App& app, int& exitCode) {
   playing->add_option("flight", options->flight, "Flight CSV, decision trace or .pcap of a host")->required();
   playing->add_option("--head", options->head,
                       "Head log, or sweep:DEG/S[/WAIT] or nod:DEG/S[/WAIT], sent as View Control (cigi3)");
+  playing->add_flag("--skip-bad-rows", options->skipBadRows,
+                    "Read the head log without the rows that cannot be used");
   playing->add_option("--to", options->to, "HOST:PORT")->required();
   playing->add_option("--protocol", options->protocol, "What to speak")
       ->required()

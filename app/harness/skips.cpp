@@ -9,11 +9,11 @@
 namespace trimtab::harness {
 namespace {
 
-using Counter = std::uint64_t FrameResult::*;
+using Counter = std::uint64_t FrameCounters::*;
 
 template <Counter counter>
 bool unchanged(const FrameResult& before, const FrameResult& after) {
-  return after.*counter == before.*counter;
+  return after.counters.*counter == before.counters.*counter;
 }
 
 FrameRequest itself(const FrameRequest& request) {
@@ -74,49 +74,49 @@ const std::vector<Skip>& skips() {
        without<&Skips::schemeFrustum>, itself},
       {"levels chosen again for an eye that stands",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
-         return unchanged<&FrameResult::cutsSelected>(before, after) && after.tilesInCut > 0;
+         return unchanged<&FrameCounters::cutsSelected>(before, after) && after.tilesInCut > 0;
        },
        without<&Skips::sameCut>, itself, true},
       {"tiles in view chosen again for a view that stands",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
-         return unchanged<&FrameResult::visibleSelected>(before, after) && after.tilesInCut > 0;
+         return unchanged<&FrameCounters::visibleSelected>(before, after) && after.tilesInCut > 0;
        },
        without<&Skips::sameVisible>, itself, true},
       {"horizon built again for an eye that stands",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
-         return after.horizon && unchanged<&FrameResult::horizonsBuilt>(before, after) &&
-                unchanged<&FrameResult::horizonsLeftOut>(before, after);
+         return after.horizon && unchanged<&FrameCounters::horizonsBuilt>(before, after) &&
+                unchanged<&FrameCounters::horizonsLeftOut>(before, after);
        },
        without<&Skips::sameHorizon>, itself, true},
       {"horizon where it hid next to nothing",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
-         return !unchanged<&FrameResult::horizonsLeftOut>(before, after);
+         return !unchanged<&FrameCounters::horizonsLeftOut>(before, after);
        },
        without<&Skips::littleHidden>, itself, true},
       {"depth map where it hid next to nothing",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
-         return !unchanged<&FrameResult::mapsLeftOut>(before, after);
+         return !unchanged<&FrameCounters::mapsLeftOut>(before, after);
        },
        without<&Skips::littleHidden>, itself, true},
       {"tiles that the GPU holds already",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
-         return after.tilesBuilt - before.tilesBuilt < after.visible.tiles.size();
+         return after.counters.tilesBuilt - before.counters.tilesBuilt < after.visible.tiles.size();
        },
        without<&Skips::tilesOnGpu>, itself},
       {"blur at rest",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
-         return unchanged<&FrameResult::blurPasses>(before, after);
+         return unchanged<&FrameCounters::blurPasses>(before, after);
        },
        without<&Skips::blurAtRest>, itself},
       {"precipitation in clear air",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
-         return unchanged<&FrameResult::precipitationPasses>(before, after);
+         return unchanged<&FrameCounters::precipitationPasses>(before, after);
        },
        without<&Skips::clearAir>, itself},
       {"symbols that have not changed",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
-         return unchanged<&FrameResult::symbologyRedraws>(before, after) &&
-                !unchanged<&FrameResult::symbologyDraws>(before, after);
+         return unchanged<&FrameCounters::symbologyRedraws>(before, after) &&
+                !unchanged<&FrameCounters::symbologyDraws>(before, after);
        },
        without<&Skips::sameSymbols>, itself, true},
   };

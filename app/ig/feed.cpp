@@ -136,7 +136,7 @@ Result<HeadInput> openHeadInput(const Options& options) {
                    {},
                    "a flight, or a trace with --realtime",
                    options.flight.string() + ", a trace that brings its heads"};
-  Result<HeadLog> log = openHead(options.head);
+  Result<HeadLog> log = openHead(options.head, options.skipBadRows ? BadRows::leave_out : BadRows::refuse);
   if (!log) return log.findings();
   Findings notes = log.findings();
   head.useLog(std::move(log).value());

@@ -102,8 +102,8 @@ class Loop {
     lastFrame_ = end;
     if (summary_.frames++ == 0) summary_.firstFrameTime = end;
     summary_.lastRequest = request;
-    summary_.depthMapsDrawn = result.depthMapsDrawn;
-    summary_.horizonsBuilt = result.horizonsBuilt;
+    summary_.depthMapsDrawn = result.counters.depthMapsDrawn;
+    summary_.horizonsBuilt = result.counters.horizonsBuilt;
     writeRows(false);
   }
 

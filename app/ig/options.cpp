@@ -48,6 +48,8 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   app.add_option(
       "--head", options.head,
       "head log, or sweep:DEG/S[/WAIT] or nod:DEG/S[/WAIT], in place of the heads of host or flight");
+  app.add_flag("--skip-bad-rows", options.skipBadRows,
+               "read the head log without the rows that cannot be used");
   app.add_flag("--headless", options.headless, "draw without a window");
   app.add_option("--size", "size of the picture, WxH")->check([&options](const std::string& text) {
     return parseSize(text, options);

@@ -18,7 +18,8 @@ struct Options {
   std::string reply;  ///< HOST:PORT, empty for none
   HostProtocol protocol = HostProtocol::automatic;
   std::filesystem::path flight;
-  std::string head;  ///< a head log, or a sweep; empty: as the states say
+  std::string head;          ///< a head log, or a sweep; empty: as the states say
+  bool skipBadRows = false;  ///< of the head log
   bool realtime = false;
   bool headless = false;
   int width = 1280, height = 720;

@@ -8,17 +8,17 @@
 namespace trimtab {
 namespace {
 
-/// By the upper six bits of each of the axis's twelve.
+/// Cells per side of the table of leans, which is indexed by the upper six of each of the axis's twelve bits.
 constexpr unsigned kCells = 64, kShift = 6;
 
-/// The most that an axis of a cell leans, steps rounded up.
+/// Returns for each cell the largest lean of an axis in it, in steps, rounded up.
 std::array<std::int16_t, kCells * kCells> leans() {
   std::array<std::int16_t, kCells * kCells> most{};
   for (std::uint32_t y = 0; y < kCells; ++y)
     for (std::uint32_t x = 0; x < kCells; ++x) {
       double angle = 0;
-      // On the octahedron's faces the lean has no maximum inside: corners tell, and the folds are cells'
-      // borders but for the outer ones, of which a cell has both sides among its corners.
+      // Inside an octahedron's face the lean has no maximum, so the corners suffice. The folds are borders of
+      // cells, except the outer ones, and a cell there has both sides among its corners.
       for (const std::uint32_t i : {0u, 1u << kShift})
         for (const std::uint32_t j : {0u, 1u << kShift}) {
           const NormalCone corner{std::min(x * (1u << kShift) + i, 4095u) |
@@ -32,7 +32,7 @@ std::array<std::int16_t, kCells * kCells> leans() {
   return most;
 }
 
-/// Half-angles by their eight bits, steps rounded down.
+/// Returns the half-angles by their eight bits, in steps, rounded down.
 std::array<std::int16_t, 256> halfAngles() {
   std::array<std::int16_t, 256> angles{};
   for (std::size_t i = 0; i < 255; ++i)
@@ -54,15 +54,15 @@ std::int16_t steepness(NormalCone cone) {
 
 bool mayFaceAway(std::int16_t steepness, const Box& box, Vec3 eye) {
   if (steepness == kNever) return false;
-  // Facing away, the way to the eye leaves the axis by a right angle and the half-angle at least, and the
-  // frame's up by that less the axis's lean: the sine of its elevation is at most that of `steepness`.
+  // If a node faces away, the direction to the eye makes at least a right angle plus the half-angle with the
+  // axis, so the sine of its elevation is at most that of `steepness`.
   const double angle = steepness / kSteepnessSteps;
   if (!(angle < std::numbers::pi / 2)) return true;
   if (!(angle > -std::numbers::pi / 2)) return false;
   const double up = eye.z - box.maxZ, x = std::max(std::abs(box.minX - eye.x), std::abs(box.maxX - eye.x)),
                y = std::max(std::abs(box.minY - eye.y), std::abs(box.maxY - eye.y)),
                z = std::max(std::abs(box.minZ - eye.z), std::abs(box.maxZ - eye.z));
-  // The lowest elevation that any place in the box sees the eye at.
+  // The lowest elevation of the eye as seen from any point of the box.
   const double across = up >= 0 ? std::sqrt(x * x + y * y + z * z) : std::sqrt(distanceSquared(box, eye));
   return !(up > across * std::sin(angle) * (1 + 1e-9) + 1e-6);
 }

@@ -5,11 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#define TRIMTAB_X86 1
-#endif
-
 namespace trimtab {
 namespace {
 
@@ -17,7 +12,6 @@ constexpr std::size_t kBlock = BoxArrays::kBlock;
 
 using CornerPlane = BlockTest::CornerPlane;
 using Planes = BlockTest::Planes;
-using BlockBits = BlockTest::Bits;
 
 Planes planesFor(const BoxArrays& boxes, const Frustum& frustum, bool far) {
   Planes planes{};
@@ -54,72 +48,10 @@ Planes planesFor(const BoxArrays& boxes, const Frustum& frustum, bool far) {
   return planes;
 }
 
-BlockBits testPortable(const Planes& planes, std::size_t first) {
-  float least[kBlock];
-  std::fill(std::begin(least), std::end(least), std::numeric_limits<float>::max());
-  for (const CornerPlane& p : planes.corner) {
-    const float *x = p.place[0] + first, *y = p.place[1] + first, *z = p.place[2] + first;
-    for (std::size_t i = 0; i < kBlock; ++i) {
-      const float sum = p.normal[0] * x[i] + (p.normal[1] * y[i] + (p.normal[2] * z[i] + p.offset));
-      least[i] = sum < least[i] ? sum : least[i];
-    }
-  }
-  BlockBits bits;
-  for (std::size_t i = 0; i < kBlock; ++i) {
-    bits.out |= std::uint64_t{least[i] < planes.out} << i;
-    bits.sure |= std::uint64_t{least[i] > planes.sure} << i;
-  }
-  return bits;
-}
-
-#if TRIMTAB_X86
-__attribute__((target("avx2,fma"))) BlockBits testAvx2(const Planes& planes, std::size_t first) {
-  BlockBits bits;
-  const __m256 out = _mm256_set1_ps(planes.out), sure = _mm256_set1_ps(planes.sure);
-  for (std::size_t i = 0; i < kBlock; i += 8) {
-    __m256 least = _mm256_set1_ps(std::numeric_limits<float>::max());
-    for (const CornerPlane& p : planes.corner) {
-      __m256 sum = _mm256_fmadd_ps(_mm256_set1_ps(p.normal[2]), _mm256_loadu_ps(p.place[2] + first + i),
-                                   _mm256_set1_ps(p.offset));
-      sum = _mm256_fmadd_ps(_mm256_set1_ps(p.normal[1]), _mm256_loadu_ps(p.place[1] + first + i), sum);
-      sum = _mm256_fmadd_ps(_mm256_set1_ps(p.normal[0]), _mm256_loadu_ps(p.place[0] + first + i), sum);
-      least = _mm256_min_ps(sum, least);
-    }
-    bits.out |=
-        std::uint64_t{static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(least, out, _CMP_LT_OQ)))}
-        << i;
-    bits.sure |=
-        std::uint64_t{static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(least, sure, _CMP_GT_OQ)))}
-        << i;
-  }
-  return bits;
-}
-
-__attribute__((target("avx512f"))) BlockBits testAvx512(const Planes& planes, std::size_t first) {
-  BlockBits bits;
-  __m512 least[kBlock / 16];
-  for (__m512& l : least) l = _mm512_set1_ps(std::numeric_limits<float>::max());
-  for (const CornerPlane& p : planes.corner) {
-    const __m512 x = _mm512_set1_ps(p.normal[0]), y = _mm512_set1_ps(p.normal[1]),
-                 z = _mm512_set1_ps(p.normal[2]), offset = _mm512_set1_ps(p.offset);
-    for (std::size_t i = 0; i < kBlock / 16; ++i) {
-      const std::size_t at = first + 16 * i;
-      __m512 sum = _mm512_fmadd_ps(z, _mm512_loadu_ps(p.place[2] + at), offset);
-      sum = _mm512_fmadd_ps(y, _mm512_loadu_ps(p.place[1] + at), sum);
-      sum = _mm512_fmadd_ps(x, _mm512_loadu_ps(p.place[0] + at), sum);
-      least[i] = _mm512_mask_min_ps(sum, 0xffff, sum, least[i]);  // without a mask g++ 12 warns
-    }
-  }
-  const __m512 out = _mm512_set1_ps(planes.out), sure = _mm512_set1_ps(planes.sure);
-  for (std::size_t i = 0; i < kBlock / 16; ++i) {
-    bits.out |= std::uint64_t{_mm512_cmp_ps_mask(least[i], out, _CMP_LT_OQ)} << 16 * i;
-    bits.sure |= std::uint64_t{_mm512_cmp_ps_mask(least[i], sure, _CMP_GT_OQ)} << 16 * i;
-  }
-  return bits;
-}
-#endif
-
 }  // namespace
+
+#define TRIMTAB_KERNELS "core/culling/box_kernels.inl"
+#include "trimtab/units/simd_levels.inl"
 
 void BoxArrays::resize(std::size_t count) {
   size_ = count;
@@ -138,20 +70,8 @@ void BoxArrays::set(std::size_t i, const Box& box) {
   }
 }
 
-SimdLevel simdLevel() {
-#if TRIMTAB_X86
-  static const SimdLevel level = __builtin_cpu_supports("avx512f") ? SimdLevel::avx512
-                                 : __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")
-                                     ? SimdLevel::avx2
-                                     : SimdLevel::portable;
-  return level;
-#else
-  return SimdLevel::portable;
-#endif
-}
-
 std::size_t blocksAhead() {
-#if TRIMTAB_X86
+#if defined(__x86_64__)
   // Six streams are more than an Intel processor looks ahead of by itself: eight blocks are 1.15 times the
   // boxes a second from memory on a Xeon, 1.5 from the last cache, 0.85 from the first two. An AMD EPYC does
   // look ahead, and being asked costs it a quarter of its speed.
@@ -167,15 +87,7 @@ BlockTest::BlockTest(const BoxArrays& boxes, const Frustum& frustum, SimdLevel l
       frustum_(frustum),
       planes_(planesFor(boxes, frustum, false)),
       farPlanes_(planesFor(boxes, frustum, true)),
-      test_(testPortable) {
-#if TRIMTAB_X86
-  level = std::min(level, simdLevel());
-  if (level == SimdLevel::avx2) test_ = testAvx2;
-  if (level == SimdLevel::avx512) test_ = testAvx512;
-#else
-  (void)level;
-#endif
-}
+      test_(TRIMTAB_PICK(level, testBlock)) {}
 
 std::uint64_t BlockTest::there(std::size_t block) const {
   const std::size_t left = boxes_.size() - block * kBlock;

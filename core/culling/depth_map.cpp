@@ -16,7 +16,8 @@ std::array<float, 3> toFloat(Vec3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// The farthest that the centre of any pixel of the picture is from that of the texel that it is in, texels.
+/// Returns the largest distance, texels, from the centre of a pixel of the image to the centre of its texel,
+/// along one axis.
 double farthestPixel(int map, int picture) {
   double farthest = 0;
   for (int i = 0; i < picture; ++i) {
@@ -57,8 +58,7 @@ void DepthMesh::setBoxes(std::span<const Box> parts) {
   }
 }
 
-void DepthTest::begin(const EyePose& eye, const ViewShape& view, int width, int height, bool whole,
-                      SimdLevel level) {
+void DepthTest::begin(const EyePose& eye, const ViewShape& view, int width, int height, SimdLevel level) {
   eye_ = eye.position;
   level_ = level;
   depth::Projection& p = projection_;
@@ -75,7 +75,7 @@ void DepthTest::begin(const EyePose& eye, const ViewShape& view, int width, int 
   const auto pad = [](int map, int picture) {
     return static_cast<float>(0.05 + 0.1 * map / std::max(1, picture));
   };
-  view_ = {width, height, pad(width, view.widthPx), pad(height, view.heightPx), whole};
+  view_ = {width, height, pad(width, view.widthPx), pad(height, view.heightPx)};
 }
 
 depth::Projection DepthTest::at(Vec3 origin) const {
@@ -103,7 +103,7 @@ DepthFate DepthTest::operator()(const DepthMesh& mesh, const DepthPyramid& pyram
     return DepthFate::seen;
   const depth::Projection p = at(mesh.origin);
   DepthFate fate = DepthFate::outside;
-  // The first group is the whole mesh.
+  // The first group holds the box of the whole mesh.
   for (std::size_t first = 0; first < mesh.boxes[0].size(); first += kLanes) {
     depth::Boxes boxes;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -131,7 +131,7 @@ void DepthMap::begin(const EyePose& eye, const ViewShape& view, const Settings& 
   settings_.width = std::max(settings.width, 0);
   settings_.height = std::max(settings.height, 0);
   const int width = settings_.width, height = settings_.height;
-  test_.begin(eye, view, width, height, false, settings.level);
+  test_.begin(eye, view, width, height, settings.level);
   nearM_ = view.nearM;
   triangles_ = 0;
   texels_ = {nullptr, depth::strideOf(width), width, height};
@@ -199,7 +199,7 @@ DepthFate DepthMap::draw(const DepthMesh& mesh, const depth::Triangles& triangle
   p.farReach = mesh.farReach;
   p.farSlope = mesh.farSlope;
   p.edge = mesh.edge;
-  // Slopes are against the geodetic vertical; what is lowered goes down the frame's z.
+  // Slopes are measured against the geodetic vertical, but vertices are lowered along the frame's z.
   p.tilt = static_cast<float>(
       (std::hypot(mesh.origin.x, mesh.origin.y) +
        std::hypot(std::max(std::abs(double{mesh.boxes[0][0]}), std::abs(double{mesh.boxes[3][0]})),
@@ -221,7 +221,7 @@ void DepthMap::drawClipped(const depth::Triangles& triangles, depth::Touched& to
     double right, up, depth;
   };
   const depth::Projection& p = test_.projection_;
-  // Of the view, and a texel more all round.
+  // The view's sides, a texel further out.
   const auto side = [](float scale, float from, double texel) {
     return (texel - double{from}) / double{scale};
   };

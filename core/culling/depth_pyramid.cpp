@@ -8,10 +8,10 @@
 namespace trimtab {
 namespace {
 
-/// Cells a side of the coarsest level, and that a rectangle is looked at in first.
+/// Cells per side of the coarsest level, and of the level at which the test of a rectangle starts.
 constexpr int kCoarsest = 8, kFirstCells = 3;
 
-/// Depths are not negative: they are in order as whole numbers too, of which compilers take several at once.
+/// Depths are not negative, so their bits compare like integers, which compilers vectorise.
 std::int32_t leastOf(const float* a, const float* b) {
   return std::min(std::bit_cast<std::int32_t>(*a), std::bit_cast<std::int32_t>(*b));
 }
@@ -104,14 +104,14 @@ bool DepthPyramid::covers(int x0, int y0, int x1, int y1, float limit) const {
 
 bool DepthPyramid::coversWithin(std::size_t level, int x0, int y0, int x1, int y1, float limit) const {
   const Level& l = levels_[level];
-  // What is behind a ridge shows over it first: from above.
+  // Whatever stands out above a ridge does so at its top, so the rows are tested from above.
   for (int y = y1 >> level; y >= y0 >> level; --y)
     for (int x = x0 >> level; x <= x1 >> level; ++x) {
       if (cells_[l.first + static_cast<std::size_t>(y) * static_cast<std::size_t>(l.width) +
                  static_cast<std::size_t>(x)] > limit)
         continue;
       if (level == 0) return false;
-      // Two levels on, if there are: of half a cell's width less is gained than it costs.
+      // Two levels finer if possible: one level at a time costs more than it saves.
       const std::size_t finer = level == 1 ? 0 : level - 2;
       const int left = x << level, right = ((x + 1) << level) - 1, bottom = y << level,
                 top = ((y + 1) << level) - 1;
@@ -124,7 +124,7 @@ bool DepthPyramid::coversWithin(std::size_t level, int x0, int y0, int x1, int y
 
 bool DepthPyramid::isHidden(const Box& box, const EyePose& eye, const ViewShape& view) const {
   const double across = view.right - view.left, upward = view.top - view.bottom;
-  // Said so that a view that is none hides nothing: turned round, without width, endless, or not a number.
+  // Written so that an invalid view hides nothing: mirrored, without width, infinite, or not a number.
   if (width_ <= 0 || height_ <= 0 || !(across > 0 && upward > 0 && std::isfinite(across + upward)))
     return false;
   double lowX = 1e300, highX = -1e300, lowY = 1e300, highY = -1e300, nearest = 1e300;
@@ -134,7 +134,7 @@ bool DepthPyramid::isHidden(const Box& box, const EyePose& eye, const ViewShape&
                    eye.position;
     const Vec3 e = eye.axes * p;
     const double z = -e.z;
-    // Said so that an eye that is not a number hides nothing.
+    // Written so that an eye that is not a number hides nothing.
     if (!(z > view.nearM * 1.01)) return false;
     nearest = std::min(nearest, z);
     lowX = std::min(lowX, e.x / z);
@@ -142,7 +142,8 @@ bool DepthPyramid::isHidden(const Box& box, const EyePose& eye, const ViewShape&
     lowY = std::min(lowY, e.y / z);
     highY = std::max(highY, e.y / z);
   }
-  // A pixel and a bit around: rasterisers snap vertices, and floats relative to the eye are a little off.
+  // Widened by a pixel and a bit, because rasterisers snap vertices and floats relative to the eye are
+  // rounded.
   const auto texels = [](double tangent, double from, double to, int map, int picture, double pad) {
     const double at = (tangent - from) / (to - from) * map + pad * (1.5 * map / picture + 0.01);
     return static_cast<int>(std::clamp(std::floor(at), 0.0, map - 1.0));

@@ -11,12 +11,13 @@ namespace {
 
 constexpr std::size_t kBlock = BoxArrays::kBlock;
 
-/// Holds all boxes added; not a number where one of them is not finite, so that nothing is told of them.
+/// The union of boxes. It is not a number if one of them is not finite, so that no test concludes anything
+/// from it.
 class BoxUnion {
  public:
   void add(const Box& b) {
     all_ = united(all_, b);
-    // 0 for numbers, not a number for all else; and min and max pass over what is not one.
+    // This is 0 for finite numbers and not a number otherwise; min and max would skip what is not a number.
     zero_ += 0 * (b.minX + b.minY + b.minZ) + 0 * (b.maxX + b.maxY + b.maxZ);
   }
   Box box() const {

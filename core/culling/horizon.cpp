@@ -9,12 +9,12 @@ using namespace horizon;
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
-/// How far directions are off by single precision from kNearest on: positions by 2^-22 of their distance and
-/// of the tile's size.
+/// Error of directions in single precision beyond kNearest, radians: positions are off by 2^-22 of their
+/// distance and of the tile's size.
 constexpr double kRounding = 1.2e-5;
-/// Beyond this a surface's numbers are no places on earth, metres.
+/// Larger coordinates, metres, are no positions on earth.
 constexpr float kMostReach = 1e8f;
-/// Bins of waiting lines, a quarter: a dozen columns each serve best, with 800.
+/// Most bins of waiting lines per quarter. With 800 columns a dozen columns per bin were fastest.
 constexpr int kMostBins = 64;
 
 }  // namespace
@@ -39,7 +39,7 @@ void Horizon::begin(const EyeRoom& room, std::span<const HorizonTile> tiles, con
   columns_ = std::clamp(settings.columns, kLeastColumns, kMostColumns);
   perT_ = 0.5f * static_cast<float>(columns_);
   profile_.assign(static_cast<std::size_t>(kSides * columns_) + 16, kNowhere);
-  reached_.resize(static_cast<std::size_t>(3 * columns_ + 16));  // and what a room asks for beside a quarter
+  reached_.resize(static_cast<std::size_t>(3 * columns_ + 16));  // and what a region needs beside a quarter
   hidden_.assign(tiles.size(), 0);
   hiddenCount_ = 0;
   tiles_ = tiles;
@@ -55,7 +55,7 @@ void Horizon::begin(const EyeRoom& room, std::span<const HorizonTile> tiles, con
 
   const Vec3 half = 0.5 * (room.to - room.from);
   const double play = std::hypot(half.x, half.y) + std::abs(half.z) + room.radius;
-  // A direction from another place of the room turns by at most half as much again.
+  // Seen from another eye of the region, a direction turns by at most half as much again.
   slack_ = static_cast<float>((play > 0 ? 3 : 2) * settings.slack + kRounding);
   if (!isPlace(room.from) || !isPlace(room.to) || !(room.radius >= 0) || !(slack_ < 0.1f) ||
       !(play <= kMostRoomM))
@@ -101,13 +101,13 @@ Horizon::Outline Horizon::outlineOf(std::uint32_t n) const {
   const auto cells = static_cast<float>(lines.side - 1);
   o.lines = static_cast<std::int16_t>(lines.lines / 2);
   o.lineTop = lines.lineTop[rows ? 0 : 1] + from[2] - tile.below;
-  // A little less, as a tile may lie a little askew.
+  // Slightly less than the exact share, because a tile may lie slightly askew.
   o.inset = 0.95f * static_cast<float>(lines.lineStep) / cells;
   o.goOn = (rows ? tile.east : tile.north) ? static_cast<float>(TileRelief::kGoOn) / cells : 0;
   return o;
 }
 
-/// Takes up some more tiles.
+/// Makes the outlines of some more tiles.
 void Horizon::outlineSome() {
   constexpr std::size_t kAhead = 8, kSome = 64;
   for (const std::size_t end = std::min(next_ + kSome, tiles_.size()); next_ < end; ++next_) {
@@ -165,7 +165,7 @@ void Horizon::test(const Outline& outline) {
   off_ = outline.off;
   beside_ = outline.beside;
   for (std::size_t bin = 0; settings_.noWaiting && bin < bins_.size(); ++bin) lookAtAll(bin);
-  // If a post stands out of the horizon then its block would, and nothing else has to be looked at.
+  // If a post stands out above the horizon its block does too, and nothing else has to be tested.
   bool hidden = isPointBlocked(outline.peak[0], outline.peak[1], outline.peak[2]);
   if (hidden && !isPrismHidden(outline)) {
     const HorizonTile& tile = tiles_[outline.tile];
@@ -173,7 +173,7 @@ void Horizon::test(const Outline& outline) {
     hidden = tile.relief ? isHidden(*tile.relief) : isHidden(*tile.mesh);
   }
   if (hidden) {
-    // Nor can its lines stand out of what hides it.
+    // Its lines cannot stand out above what hides it either.
     hidden_[outline.tile] = 1;
     ++hiddenCount_;
   } else if (outline.lines != 0) {

@@ -10,20 +10,20 @@
 #include "horizon_kernels.h"
 #include "trimtab/frame/terrain_index.h"
 
-/// What the parts of the horizon share.
+/// Constants and small functions that the parts of the horizon share.
 namespace trimtab::horizon {
 
 constexpr float kNowhere = -std::numeric_limits<float>::max();
-/// What is nearer than this in plan, metres, or than this share of its own tile's size, hides nothing and is
-/// seen: floats would leave its direction too uncertain.
+/// Ground nearer than this in plan, metres, or than this share of its own tile's size, hides nothing and is
+/// never hidden, because floats would leave its direction too uncertain.
 constexpr float kNearest = 64, kNearestShare = 0.05f;
 
-/// Distance at which a room's play is tested with the parts instead of taken off the lines, metres: there it
-/// is about a column.
+/// Tested parts are widened by the shift that the eyes of a validity region see at this distance, metres,
+/// which is about a column. Only what nearer lines are shifted by more is taken off those lines.
 constexpr float kFarM = 8000;
 
-/// Rings of distance in plan, 128 to an octave from 1 m, by the bits of the number: what is in a lower ring
-/// is nearer.
+/// Rings of distance in plan, 128 per octave from 1 m, taken from the bits of the number. Whatever is in a
+/// lower ring is nearer.
 constexpr int kRingShift = 16;
 constexpr std::uint32_t kRings = 26 * 128;
 inline std::uint32_t ringOf(float distance) {
@@ -32,7 +32,7 @@ inline std::uint32_t ringOf(float distance) {
   return std::min(ring, kRings - 1);
 }
 
-/// Forwards and sideways of a quarter: +x, +y, -x, -y.
+/// A position in plan as a quarter (+x, +y, -x, -y) sees it: forwards and sideways.
 struct Turned {
   float f, l;
 };
@@ -42,7 +42,7 @@ inline Turned turned(int side, float x, float y) {
   return {a * x + b * y, a * y - b * x};
 }
 
-/// The same of a box in plan.
+/// A box in plan as a quarter sees it.
 struct TurnedBox {
   float f0, f1, l0, l1;
 };
@@ -59,14 +59,14 @@ inline TurnedBox turned(int side, float x0, float x1, float y0, float y1) {
   }
 }
 
-/// From places as they lie from the eye.
+/// Returns how kernels read positions relative to the eye as a quarter sees them.
 inline Projection projectionOf(int side, const float* x, const float* y, const float* z, float perT = 1) {
   const bool turn = side % 2 != 0;
   return {turn ? y : x, turn ? x : y, z, side < 2 ? 1.0f : -1.0f, side == 0 || side == 3 ? 1.0f : -1.0f,
           perT};
 }
 
-/// What a box in front of the eye spans at most, and how high its top reaches.
+/// The largest span of t that a box in front of the eye covers, and the largest w of its top.
 struct BoxImage {
   float t0, t1, w;
 
@@ -78,7 +78,7 @@ struct BoxImage {
   }
 };
 
-/// Whether the quarter, and so much of t beside it, meets the box.
+/// Returns whether the box meets the quarter, widened by `beside` in t on both sides.
 inline bool meets(const TurnedBox& b, float beside = 0.01f) {
   return b.f1 > 0 && std::max({b.l0, -b.l1, 0.0f}) <= (1 + beside) * b.f1;
 }

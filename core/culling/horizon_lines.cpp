@@ -1,7 +1,7 @@
 #include "horizon_geometry.h"
 #include "trimtab/culling/horizon.h"
 
-/// How lines get into the profile.
+/// Raises the profile of the horizon to the lines of tiles.
 namespace trimtab {
 
 using namespace horizon;
@@ -30,7 +30,7 @@ Horizon::Lines Horizon::linesOf(const HorizonTile& tile, const Outline& outline)
   return l;
 }
 
-/// Takes a line in hand.
+/// Copies a line's corners, relative to the eye and lowered, into the working arrays.
 void Horizon::take(const Lines& lines, int line) {
   const auto copy = [&](const float* x, const float* y, const float* z) {
     const float left = lines.from[0], back = lines.from[1], down = lines.from[2] - lines.below;
@@ -60,8 +60,8 @@ void Horizon::take(const Lines& lines, int line) {
   }
 }
 
-/// Where all of the line in hand is nearer, by more than the depth buffer's rounding. `besideM`: no corner
-/// up to `last_` is further than that from the way between it and the first.
+/// Returns the ring within which all of the current line lies, with a margin for the depth buffer's rounding.
+/// No corner up to `last_` lies further than `besideM` beside the chord from the first to that corner.
 std::uint32_t Horizon::ringOfLine(float besideM) const {
   const auto squared = [this](int k) {
     const auto i = static_cast<std::size_t>(k);
@@ -72,13 +72,13 @@ std::uint32_t Horizon::ringOfLine(float besideM) const {
   return ringOf((std::sqrt(furthest) + besideM) * (1 + 2e-5f) + 0.02f);
 }
 
-/// Raises the profile of a quarter to the line in hand. `nearest`: corners that are nearer do not count.
+/// Raises the profile of a quarter to the current line. Corners nearer than `nearest` do not count.
 void Horizon::raiseLine(int side, float besideM, float nearest) {
   const Kernels& kernel = *kernels_;
   kernel.project(projectionOf(side, x_.data(), y_.data(), z_.data(), perT_), corners_, forward_.data(),
                  u_.data(), w_.data());
   const float *u = u_.data(), *forward = forward_.data();
-  // Mostly the line is far away and straight.
+  // Most lines are far away and straight.
   float nearestM = forward[0];
   for (int k = last_; k < corners_; ++k) nearestM = std::min(nearestM, forward[k]);
   nearestM -= besideM;
@@ -100,7 +100,7 @@ void Horizon::raiseLine(int side, float besideM, float nearest) {
   }
 }
 
-/// Corners along which u rises, or falls all along.
+/// Raises the profile to a run of corners along which u only rises, or only falls.
 void Horizon::raiseRun(int side, int from, int count, bool rises, float nearestM) {
   const Kernels& kernel = *kernels_;
   const Play& play = play_[static_cast<std::size_t>(side)];
@@ -116,10 +116,10 @@ void Horizon::raiseRun(int side, int from, int count, bool rises, float nearestM
                             ? std::min(play.across(t0), play.across(t1))
                             : 0;
     const float around = play.radius * std::sqrt(1 + std::max(t0 * t0, t1 * t1));
-    // Parts are tested wider by what the play is at their own t, which is not quite that of the line.
+    // Parts are widened by the shift at their own t, which is not quite the line's.
     const float beside =
         (most + around) * inverse * (1 + play.forwards * (1 / kFarM)) - (least + play.radius) * (1 / kFarM);
-    // Of columns to either side.
+    // The profile takes the lowest value within so many columns to either side.
     if (beside > 0) width += 2 * static_cast<int>(std::ceil(std::min(beside * 1.0001f, 2.0f) * perT_));
   }
   int first = 0;
@@ -136,16 +136,16 @@ void Horizon::raiseRun(int side, int from, int count, bool rises, float nearestM
   kernel.raise(profile_.data() + side * columns_ + first, reached, columns);
 }
 
-/// What a run of corners, `step` apart in the arrays, along which u rises, reaches in the columns that it
-/// runs through, from `beside` of them before the quarter to as many after it: fills reached_; their number,
-/// and which is the first.
+/// Fills reached_ with what a run of corners, `step` apart in the arrays and with rising u, reaches in each
+/// column that it runs through, from `beside` columns before the quarter to as many after it. Returns their
+/// number and sets `first`.
 template <bool Raised>
 int Horizon::reach(const float* u, const float* w, int count, int step, int beside, int& first) {
   const auto worse = [](float a, float b) { return Raised ? std::max(a, b) : std::min(a, b); };
   const float last = u[(count - 1) * step];
   const int begin = -beside, most = columns_ + beside;
   if (!(last >= static_cast<float>(begin)) || !(u[0] <= static_cast<float>(most))) return 0;
-  // The next column's side to be crossed.
+  // The next boundary between columns that the run crosses.
   int column = u[0] <= static_cast<float>(begin) ? begin : static_cast<int>(std::ceil(u[0]));
   first = Raised ? std::max(column - 1, begin) : column;
   float* reached = reached_.data();

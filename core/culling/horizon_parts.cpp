@@ -2,17 +2,17 @@
 #include "horizon_kernels.h"
 #include "trimtab/culling/horizon.h"
 
-/// Whether a tile is wholly below the horizon.
+/// Tests whether a tile is wholly below the horizon.
 namespace trimtab {
 
 using namespace horizon;
 
 namespace {
 
-/// Steeper directions are not looked at: what is there is seen.
+/// Directions steeper than this are not tested; whatever is there counts as seen.
 constexpr float kSteepest = 10;
 
-/// A direction that turns by `off` radians moves in t and w by at most this.
+/// Returns the most by which t and w change when a direction turns by `off` radians.
 float movedBy(float off, float w) {
   return off * 1.5f * (2.1f + w * w);
 }
@@ -20,7 +20,7 @@ float movedBy(float off, float w) {
 }  // namespace
 
 float Horizon::besideOf(float off, float z, float away) const {
-  // In plan a place is at most the root of 2 further away than forwards.
+  // The distance in plan is at most sqrt(2) times the distance forwards.
   return 0.01f + movedBy(off, std::min(kSteepest, 1.5f * z / away)) + leastM_ * (1 / kFarM);
 }
 
@@ -32,10 +32,10 @@ bool Horizon::covers(int side, float t0, float t1, float w) {
               aside = beside + (std::max(play.across(t0), play.across(t1)) + play.radius) * (1 / kFarM);
   t0 -= aside;
   t1 += aside;
-  if (t0 > 1 || t1 < -1) return true;  // another quarter's
+  if (t0 > 1 || t1 < -1) return true;  // it lies in another quarter
   const int from = columnOf(t0), to = columnOf(t1);
   const float* horizon = profile_.data() + at(side, 0);
-  // Mostly it is the first that stands out.
+  // If a column is too low it is mostly the first.
   for (int column = from; column <= to;) {
     if (!lift(side, column, limit)) return false;
     ++column;
@@ -74,7 +74,7 @@ bool Horizon::isPartHidden(const TileRelief::Part& part) {
   return true;
 }
 
-/// After the whole box was not.
+/// Tests the parts, after the whole box was not hidden.
 bool Horizon::isHidden(const TileRelief& relief) {
   for (const TileRelief::Part& part : relief.parts)
     if (!isPointBlocked(part.peak[0] + offset_[0], part.peak[1] + offset_[1], part.peak[2] + offset_[2]))

@@ -1,17 +1,17 @@
 #include "horizon_geometry.h"
 #include "trimtab/culling/horizon.h"
 
-/// Lines that wait until a test asks for them. What is told of them here is an estimate, which decides no
-/// more than whether they are looked at: the proof needs none of it.
+/// Lines that wait until a test needs them. The bounds kept here are estimates that only decide whether a
+/// line is read; the proof does not depend on them.
 namespace trimtab {
 
 using namespace horizon;
 
 namespace {
 
-/// Lines that reach above what is asked for by less than this share of its w, and less than so much, are left
-/// alone: one in five of them proves it, and they were half of all that were looked at 1,500 m above rough
-/// ground.
+/// Lines that reach above the needed w by less than this share of it, and by less than kLeastRise, are not
+/// read. One in five of them would prove it, and they were half of all lines that were read 1,500 m above
+/// rough ground.
 constexpr float kLeastShare = 0.03f, kLeastRise = 0.003f;
 
 }  // namespace
@@ -46,13 +46,13 @@ void Horizon::awaitLines(const Outline& outline) {
   }
 }
 
-/// Lines within a prism.
+/// Enters lines that lie within a prism.
 void Horizon::await(const Waiting& lines, const Prism& prism, float nearest) {
   for (int side = 0; side < kSides; ++side) {
     const TurnedBox b = turned(side, prism.x0, prism.x1, prism.y0, prism.y1);
     if (!meets(b)) continue;
     Waiting here = lines;
-    // What is too near for that may raise all.
+    // Lines that are too near to be projected may raise every column.
     int first = 0, last = columns_ - 1;
     float top = std::numeric_limits<float>::max();
     if (b.f0 > nearest) {
@@ -78,9 +78,9 @@ void Horizon::await(const Waiting& lines, const Prism& prism, float nearest) {
   }
 }
 
-/// Whether the profile is above w in a column, once lines that may raise it so far are looked at. Those that
-/// came last come first: mostly ground rises towards its crest, and what is before that need not be looked
-/// at.
+/// Returns whether the profile is above w in a column, after reading lines that may raise it so far. Reads
+/// the lines that came last first, because ground mostly rises towards its crest, and the lines before the
+/// crest are then not needed.
 bool Horizon::lift(int side, int column, float w) {
   const float& reached = profile_[at(side, column)];
   if (reached > w) return true;
@@ -104,7 +104,7 @@ bool Horizon::lift(int side, int column, float w) {
   return false;
 }
 
-/// Forgets what is done, or is no higher than all of a bin's columns are.
+/// Removes entries of a bin that are done, or that are no higher than all of the bin's columns.
 void Horizon::tidy(std::size_t number) {
   auto& bin = bins_[number];
   const int side = static_cast<int>(number) / binsEach_,
@@ -122,7 +122,7 @@ void Horizon::tidy(std::size_t number) {
   bin.resize(kept);
 }
 
-/// All that may raise a bin's columns, as far as it is nearer than the tile in hand.
+/// Reads all lines that may raise a bin's columns and are nearer than the tile being tested.
 void Horizon::lookAtAll(std::size_t number) {
   const auto& bin = bins_[number];
   const int side = static_cast<int>(number) / binsEach_,
@@ -138,7 +138,8 @@ void Horizon::lookAtAll(std::size_t number) {
   }
 }
 
-/// Puts lines into the profile, as far as they are all nearer than the tile in hand; whether any.
+/// Raises the profile to those lines that are wholly nearer than the tile being tested. Returns whether there
+/// was one.
 bool Horizon::look(Waiting& waiting, int side) {
   const Lines lines = linesOf(tiles_[waiting.tile], outlines_[waiting.tile]);
   bool any = false;

@@ -13,7 +13,7 @@ namespace {
 
 using Triangle = std::array<std::uint16_t, 3>;
 
-/// Bits of both, taking turns: what is near in both is near in the result.
+/// Interleaves the bits of both numbers (Morton order), so that what is near in both is near in the result.
 std::uint32_t interleaved(std::uint32_t a, std::uint32_t b) {
   const auto spread = [](std::uint32_t v) {
     v = (v | v << 8) & 0x00ff00ffu;
@@ -24,7 +24,7 @@ std::uint32_t interleaved(std::uint32_t a, std::uint32_t b) {
   return spread(a & 0xffffu) | spread(b & 0xffffu) << 1;
 }
 
-/// Slope and orientation, in doubles of the floats that are drawn.
+/// Updates `steepest` and `upright` by one triangle, in doubles made from the floats that are drawn.
 void judge(const ReliefVertex& a, const ReliefVertex& b, const ReliefVertex& c, MeshRelief& relief) {
   const double ux = double{b.x} - a.x, uy = double{b.y} - a.y, uz = double{b.z} - a.z;
   const double vx = double{c.x} - a.x, vy = double{c.y} - a.y, vz = double{c.z} - a.z;
@@ -81,15 +81,15 @@ void addParts(std::span<const ReliefVertex> vertices, std::vector<Triangle>& tri
   }
 }
 
-/// Where an edge meets a line of posts.
+/// A point where an edge meets a line of posts.
 struct Crossing {
   std::uint32_t line;
   double along;  ///< columns along a row, rows along a column
   float x, y, z;
 };
 
-/// Crossings of all edges with the rows (or columns) that `step` divides. An edge counts from its lower end
-/// on and without its upper one: a line through a vertex gets it from the edges above.
+/// Appends the crossings of all edges with the rows (or columns) whose number `step` divides. An edge
+/// includes its lower end but not its upper one, so a line through a vertex gets it from the edges above.
 template <bool Rows>
 void cross(std::span<const ReliefVertex> vertices, std::span<const Triangle> triangles, int step,
            std::vector<Crossing>& crossings) {
@@ -98,7 +98,7 @@ void cross(std::span<const ReliefVertex> vertices, std::span<const Triangle> tri
   for (const Triangle& t : triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const ReliefVertex *a = &vertices[t[k]], *b = &vertices[t[(k + 1) % 3]];
-      // From the same end in both triangles of an edge: then both give the same bits.
+      // Both triangles of an edge start at the same end, so both compute the same bits.
       if (across(*a) > across(*b)) std::swap(a, b);
       const int low = across(*a), high = across(*b);
       for (int line = (low + step - 1) / step * step; line < high; line += step) {
@@ -111,8 +111,8 @@ void cross(std::span<const ReliefVertex> vertices, std::span<const Triangle> tri
     }
 }
 
-/// Between two crossings that follow each other no edge is crossed: both are on one triangle. The mesh's
-/// outline is convex, so that a line meets it in one piece.
+/// Adds the lines. No edge lies between two successive crossings, so both are on one triangle. The mesh's
+/// outline is convex, so a line meets it in one piece.
 template <bool Rows>
 void addLines(std::span<const ReliefVertex> vertices, std::span<const Triangle> triangles, int step,
               MeshRelief& relief) {

@@ -12,21 +12,20 @@ namespace {
 
 constexpr std::uint8_t kThere = 1, kHidden = 2, kMaySplit = 4, kMayJoin = 8;
 
-/// How far the eye may be beside the way that it is on: metres, and shares of the way and of the turn to
-/// there.
+/// How far the eye may be beside its predicted path: metres, and shares of the path's length and of its bend.
 constexpr double kBesideM = 0.5, kBesideShare = 0.006, kTurnShare = 0.25;
-/// The turn is the mean over so many frames. Beyond this (11 g at 60 frames a second) it is none, m a frame
-/// squared.
+/// The turn is a mean over kTurnFrames frames. A larger one than kMostTurn, metres per frame squared (11 g at
+/// 60 frames per second), counts as no turn.
 constexpr double kTurnFrames = 8, kMostTurn = 0.03;
-/// A step longer than this in one frame is a jump and says nothing about the next one, metres.
+/// A longer step in one frame, metres, is a jump and predicts nothing.
 constexpr double kJumpM = 60;
-/// Frames that a room holds for beyond those in which the next is built: more would be spent idle, while the
-/// others did the more.
+/// Frames for which a validity region holds beyond those in which the next horizon is built. More of them
+/// would be idle frames, and the others would have to do more.
 constexpr double kSpareFrames = 1;
-/// Errors are along the earth's verticals, which lean from the frame's z: where a tile takes room, so little
-/// beside its slopes that a place's height changes by at most half as much again.
+/// Errors are along the earth's verticals, which lean from the frame's z. Where Frame::takesRoom is true they
+/// lean so little beside the slopes that a height changes by at most half as much again.
 constexpr float kLean = 1.5f;
-/// The rule for the levels is not taken by its letter: it may be about to change its mind.
+/// Margin on the LOD rule, because a tile close to its limit may be about to change.
 constexpr double kMargin = 0.02;
 
 }  // namespace
@@ -44,7 +43,7 @@ void MovingHorizon::restart() {
   for (Build& build : builds_) build.there = false;
 }
 
-/// The way from one frame to another, from now on.
+/// Returns the region around the eye's predicted path from one frame to another, counted from now.
 EyeRoom MovingHorizon::roomAhead(Vec3 eye, double firstFrame, double lastFrame) const {
   const auto at = [&](double frames) { return eye + frames * step_ + 0.5 * frames * frames * turn_; };
   return {at(firstFrame), at(lastFrame),
@@ -68,7 +67,7 @@ std::span<const std::uint8_t> MovingHorizon::hidden(const Frame& frame, const Su
   }
   const double share = 1 / std::max(1.0, frame.framesSince);
   const Vec3 step = moving_ ? share * (frame.eye - lastEye_) : Vec3{};
-  if (length(step) <= kJumpM) {  // after a jump, most go on as before
+  if (length(step) <= kJumpM) {  // after a jump most eyes go on as before
     const Vec3 turn = turn_ + (1 / kTurnFrames) * (share * (step - step_) - turn_);
     turn_ = length(step - step_) <= kMostTurn && length(turn) <= kMostTurn ? turn : Vec3{};
     step_ = step;
@@ -91,7 +90,7 @@ std::span<const std::uint8_t> MovingHorizon::hidden(const Frame& frame, const Su
     return build.horizon.hidden();
   }
 
-  // The newer one as soon as it holds.
+  // The newer horizon is used as soon as it is valid.
   Build& coming = builds_[1 - standing_];
   if (coming.there && coming.horizon.isDone() && holds(coming, frame, tree)) {
     builds_[standing_].there = false;
@@ -121,7 +120,7 @@ void MovingHorizon::prepareNext(const Frame& frame, const SurfaceTree& tree, con
   if (coming.there && (coming.rule != frame.rule || coming.settings != frame.settings)) coming.there = false;
   if (coming.there) {
     if (coming.horizon.isDone()) {
-      // Where the eye does not come to, since it slowed down, turned or has gone past, it would never hold.
+      // If the eye slowed down, turned or has gone past, it never reaches the region.
       if (!coming.horizon.room().holds(roomAhead(frame.eye, kFrames, kFrames).to)) coming.there = false;
     } else {
       coming.horizon.step(standing.horizon.work() * 11 / (10 * kFrames) + 16);
@@ -134,7 +133,7 @@ void MovingHorizon::prepareNext(const Frame& frame, const SurfaceTree& tree, con
     begin(coming, roomAhead(frame.eye, kFrames - 1, 2 * kFrames + kSpareFrames), frame, tree, fill);
   else if (const EyeRoom here = roomAhead(frame.eye, 0, 2 * kFrames);
            extent(standing.horizon.room()) > 8 * extent(here))
-    begin(coming, here, frame, tree, fill);  // it has slowed down: less room proves more
+    begin(coming, here, frame, tree, fill);  // it has slowed down, and a smaller region proves more
 }
 
 void MovingHorizon::begin(Build& build, const EyeRoom& room, const Frame& frame, const SurfaceTree& tree,
@@ -166,8 +165,8 @@ void MovingHorizon::begin(Build& build, const EyeRoom& room, const Frame& frame,
   build.horizon.begin(room, build.tiles, frame.settings);
 }
 
-/// The largest errors of what the rule may draw of a node while the build stands: of a patch, the coarsest
-/// variant that is good enough, else the finest.
+/// Returns the largest errors of any variant of a node that the LOD rule may draw while the build is valid:
+/// those of the coarsest variant that is good enough, or else of the finest.
 MovingHorizon::Errors MovingHorizon::worstErrors(const Build& build, const SurfaceTree& tree,
                                                  std::uint32_t node) {
   Errors worst{tree.finestError(node), tree.surfaceError(node, 0)};
@@ -182,7 +181,7 @@ MovingHorizon::Errors MovingHorizon::worstErrors(const Build& build, const Surfa
   return worst;
 }
 
-/// What the rule may take apart or join until the eye has left the room.
+/// Marks the tiles that the LOD rule may split or join before the eye has left the region.
 void MovingHorizon::markChanges(Build& build, const SurfaceTree& tree) {
   const double reach = build.reach, limit = build.limit;
   const auto distance = [&](std::uint32_t node) {
@@ -202,7 +201,7 @@ void MovingHorizon::markChanges(Build& build, const SurfaceTree& tree) {
         double{tree.finestError(parent)} * (1 - kMargin) <= limit * (distance(parent) + reach))
       build.mark[node] = static_cast<std::uint8_t>(build.mark[node] | kMayJoin);
   }
-  // A tile that is taken apart needs neighbours of its level.
+  // A tile that is split needs neighbours of its own level.
   while (!stack_.empty() && !tree.neighbours.empty()) {
     const std::uint32_t node = stack_.back();
     stack_.pop_back();
@@ -217,7 +216,8 @@ void MovingHorizon::markChanges(Build& build, const SurfaceTree& tree) {
   }
 }
 
-/// Room for all that may stand in a marked tile's place.
+/// Lowers the occluder bound and raises the test bound of every tile that may be replaced, by the error of
+/// every LOD that it may switch to.
 void MovingHorizon::giveRoom(Build& build, const Frame& frame, const SurfaceTree& tree) {
   const auto changes = [&](std::uint32_t node) {
     return node != SurfaceTree::kNone && (build.mark[node] & (kMaySplit | kMayJoin)) != 0;
@@ -231,7 +231,7 @@ void MovingHorizon::giveRoom(Build& build, const Frame& frame, const SurfaceTree
       if (changes(tree.neighbours[node][1])) tile.east = nullptr;
       if (changes(tree.neighbours[node][3])) tile.north = nullptr;
     }
-    // Of a patch, another variant may stand here; of a tile, with the border of a coarser neighbour.
+    // An unmarked patch may still switch to another variant; an unmarked tile may not.
     if (!changes(node) && tree.variants == 1) continue;
     float other = worst(node);
     if ((build.mark[node] & kMaySplit) != 0)
@@ -248,7 +248,7 @@ void MovingHorizon::giveRoom(Build& build, const Frame& frame, const SurfaceTree
     }
     const float room = kLean * (tree.surfaceError(node, tree.variantOf(build.cut[i])) + other);
     if (!std::isfinite(room) || (frame.takesRoom && !frame.takesRoom(node))) {
-      tile = {};  // hides nothing and is never hidden, so that nothing is said of what takes its place
+      tile = {};  // hides nothing and is never hidden, so nothing is claimed about its replacement
       continue;
     }
     tile.below = std::max(tile.below, room);
@@ -273,7 +273,7 @@ bool MovingHorizon::holds(Build& build, const Frame& frame, const SurfaceTree& t
   return true;
 }
 
-/// Verdicts for another cut; false where it has changed otherwise than was foreseen.
+/// Fills verdicts_ for another cut. Returns false if the cut has changed in a way that was not foreseen.
 bool MovingHorizon::carry(Build& build, const Frame& frame, const SurfaceTree& tree) {
   if (!(frame.errorOverDistance > 0) || tree.surfaceErrorM == nullptr) return false;
   for (std::size_t i = 0; i < build.cut.size() && !build.marked; ++i)

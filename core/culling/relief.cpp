@@ -56,7 +56,7 @@ void TileRelief::finish(int step) {
     top = std::max(top, *std::max_element(zs.begin(), zs.end()));
     ++lines;
   };
-  // Not the borders: beside a coarser neighbour their odd posts are not drawn.
+  // The borders are left out because beside a coarser neighbour their odd posts are not drawn.
   for (int across = step; across < side - 1; across += step) add(0, across, 1, 0);
   for (int across = step; across < side - 1; across += step) add(across, 0, 0, 1);
 

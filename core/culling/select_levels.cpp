@@ -14,15 +14,16 @@ void split(const TerrainIndex& index, std::uint32_t node, LevelCut& cut) {
   cut.splitNodes[index.level[node]].push_back(node);
 }
 
-/// Splits what the error asks for, from the roots down: only the part of the tree that is in use is visited.
+/// Splits nodes whose error is too large, from the roots down, so that only the part of the tree in use is
+/// visited.
 void splitByError(const TerrainIndex& index, Vec3 eye, double errorOverDistance, LevelCut& cut) {
   const double limit = errorOverDistance * errorOverDistance;
   while (!cut.stack.empty()) {
     const std::uint32_t node = cut.stack.back();
     cut.stack.pop_back();
     const double error = index.errorM[node];
-    // Squares of both sides, so that an eye inside the box (distance 0) splits whenever there is any error at
-    // all, and an eye that is not a number splits nothing.
+    // Both sides are squared, so that an eye inside the box (distance 0) splits a node with any error at all,
+    // and an eye that is not a number splits nothing.
     if (!(error * error > limit * distanceSquared(index.bounds[node], eye))) continue;
     split(index, node, cut);
     if (!cut.split[node]) continue;
@@ -31,9 +32,9 @@ void splitByError(const TerrainIndex& index, Vec3 eye, double errorOverDistance,
   }
 }
 
-/// A split node's children may only border leaves of the node's own level or finer: so its neighbours must be
-/// in the tree, which they are when their parents are split. From finest to coarsest, since what is added
-/// lies one level up.
+/// Splits nodes until neighbours differ by one level at most. A split node's neighbours must be in the tree,
+/// so their parents must be split. Goes from the finest level to the coarsest, because each split is added
+/// one level up.
 void restrictNeighbours(const TerrainIndex& index, LevelCut& cut) {
   for (auto& nodes : cut.splitNodes)
     for (const std::uint32_t node : nodes) {
@@ -55,7 +56,7 @@ std::uint8_t coarserSides(const TerrainIndex& index, const LevelCut& cut, std::u
 
 void pushRoots(const TerrainIndex& index, std::vector<std::uint32_t>& stack) {
   stack.clear();
-  // Nodes are ordered by level, so the roots come last.
+  // Nodes are ordered by level, so the roots are last.
   for (std::uint32_t node = static_cast<std::uint32_t>(index.size()); node-- > 0;)
     if (index.parent[node] == TerrainIndex::kNone)
       stack.push_back(node);

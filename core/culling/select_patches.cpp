@@ -11,11 +11,11 @@ namespace {
 
 constexpr std::uint32_t kNone = PatchIndex::kNone;
 
-/// What is known of a diamond that is to be halved.
+/// What is known of a diamond that should be split.
 enum Lack : std::uint8_t {
-  kOwn = 1,    ///< a page of its children is not there
-  kAny = 2,    ///< or of one that it stands on
-  kKnown = 4,  ///< kAny has been found out
+  kOwn = 1,    ///< a page of its children is not resident
+  kAny = 2,    ///< the same is true of it or of a diamond that it depends on
+  kKnown = 4,  ///< kAny has been computed
   kCounted = 8
 };
 
@@ -51,7 +51,7 @@ class Selection {
   void begin() {
     cut_.cut.tiles.clear();
     cut_.heldBack = 0;
-    // Of another terrain, of which nothing can be told from a list.
+    // Another terrain, so the lists of the last call say nothing.
     if (cut_.need.size() != index_.diamonds.size() || cut_.wantOf.size() != index_.pages.size()) {
       cut_.need.assign(index_.diamonds.size(), 0);
       cut_.lack.assign(index_.diamonds.size(), 0);
@@ -65,7 +65,7 @@ class Selection {
     cut_.stack.clear();
   }
 
-  /// Roots lie in the first pages; there are as many as squares are needed to cover the posts.
+  /// Visits the root patches, which are all in the first pages.
   template <class Visit>
   void forEachRoot(const Visit& visit) {
     for (const PatchIndex::Page& page : index_.pages) {
@@ -75,8 +75,8 @@ class Selection {
     }
   }
 
-  /// Squares of both sides, so that an eye inside the box (distance 0) asks for more whenever there is any
-  /// error at all, and an eye that is not a number never does.
+  /// Both sides are squared, so that an eye inside the box (distance 0) finds any error too coarse, and an
+  /// eye that is not a number finds none.
   bool tooCoarse(float error, double distance2) const {
     return double{error} * double{error} > limit_ * distance2;
   }
@@ -91,8 +91,8 @@ class Selection {
                                           std::numeric_limits<float>::min()));
   }
 
-  /// What a diamond stands on is needed as much as it is itself: so pages come in an order that they can be
-  /// used in.
+  /// Gives the diamonds that a diamond depends on at least its own need, so that pages are wanted in an order
+  /// in which they can be used.
   void halve(std::uint32_t diamond, float need) {
     if (diamond == kNone || cut_.need[diamond] >= need) return;
     if (cut_.need[diamond] == 0) {
@@ -118,7 +118,7 @@ class Selection {
   }
 
   bool isResident(std::uint32_t page) const { return resident_.empty() || resident_[page] != 0; }
-  /// Of the roots one that cannot be read: nothing coarser could be drawn in its stead, so what is finer is.
+  /// Returns true for a root page that is not resident. Nothing coarser can replace it, so finer pages do.
   bool isLost(std::uint32_t page) const { return index_.pages[page].pair == 0 && !isResident(page); }
 
   bool isHeldBack(std::uint32_t diamond) {
@@ -142,7 +142,8 @@ class Selection {
     }
   }
 
-  /// The part of the cut below a root, depth first, so that the order of any two patches is the index's.
+  /// Appends the part of the cut below a root, depth first, so that the order of any two patches is the
+  /// index's.
   void gather(std::uint32_t root) {
     for (cut_.stack.push_back(root); !cut_.stack.empty();) {
       const std::uint32_t patch = cut_.stack.back();

@@ -18,7 +18,7 @@ bool isLeaf(const StaticLodIndex::Node& node) {
   return node.children[0] == StaticLodIndex::kNone;
 }
 
-/// Walks the trees from the roots; `descend` says whether a node's children stand for it.
+/// Walks the trees from the roots; `descend` says whether a node's children are drawn instead of it.
 template <class Descend>
 void walk(const StaticLodIndex& index, StaticCut& cut, const Descend& descend) {
   cut.nodes.clear();
@@ -54,16 +54,20 @@ double staticLodDistancePerError(const StaticLodParameters& parameters, double l
   return perError / lodScale;
 }
 
-std::span<const float> staticLodError(const StaticLodIndex& index, ErrorMeasure measure) {
-  return measure == ErrorMeasure::rms ? index.rmsErrorM : index.maxErrorM;
+std::vector<float> staticLodError(const StaticLodIndex& index, ErrorMeasure measure) {
+  std::vector<float> error = measure == ErrorMeasure::maximum ? index.maxErrorM : index.rmsErrorM;
+  if (measure != ErrorMeasure::as_published)
+    std::transform(error.begin(), error.end(), index.borderErrorM.begin(), error.begin(),
+                   [](float vertical, float border) { return std::max(vertical, border); });
+  return error;
 }
 
 void selectStatic(const StaticLodIndex& index, std::span<const float> error, double distancePerError,
                   Vec3 eye, StaticCut& cut) {
   const double square = distancePerError * distancePerError;
   walk(index, cut, [&](std::uint32_t node) {
-    // Squares, so that an eye inside the box (distance 0) descends whenever there is any error at all; said
-    // so that an eye that is not a number does not.
+    // Both sides are squared, so that an eye inside the box (distance 0) descends for any error at all.
+    // Written so that an eye that is not a number does not descend.
     const double e = double{error[node]};
     return e * e * square > distanceSquared(index.bounds[node], eye);
   });

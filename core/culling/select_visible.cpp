@@ -14,7 +14,8 @@ namespace {
 constexpr std::size_t kBlock = BoxArrays::kBlock;
 constexpr std::uint64_t kAll = ~std::uint64_t{0};
 
-/// Each border that uses the coarser posts leaves out as many vertices as triangles.
+/// Returns the vertices of so many tiles with so many triangles. A border stitched to a coarser neighbour
+/// leaves out as many vertices as triangles.
 std::uint64_t tileVertices(std::uint64_t triangles, std::size_t tiles) {
   constexpr std::uint64_t kCells = TerrainIndex::kTileCells;
   return triangles + tiles * (kCells + 1) * (kCells + 1) - tiles * 2 * kCells * kCells;
@@ -25,7 +26,7 @@ void forEachBit(std::uint64_t bits, const Visit& visit) {
   for (; bits != 0; bits &= bits - 1) visit(static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
-/// A bit a byte that is not 0.
+/// Returns a bit for each byte, set if the byte is not 0.
 std::uint64_t bitsOf(const std::uint8_t* bytes, std::size_t count) {
   std::uint64_t bits = 0;
   std::size_t i = 0;
@@ -51,7 +52,7 @@ class Walk {
         backFaces_(backFaces && cut.cones.size() == cut.tiles.size()),
         visible_(visible) {}
 
-  /// `shown`: of the block's tiles, those in the frustum.
+  /// Adds a block's tiles. `shown` has a bit for each tile in the frustum.
   void block(std::size_t block, std::uint64_t shown) {
     const std::size_t first = block * kBlock, count = std::min(kBlock, cut_.tiles.size() - first);
     const std::uint64_t whole = count < kBlock ? (std::uint64_t{1} << count) - 1 : kAll;
@@ -80,7 +81,7 @@ class Walk {
     }
   }
 
-  /// Whole blocks that follow each other are copied at once.
+  /// Copies the pending run of whole blocks at once.
   void flush() {
     append(run_, runEnd_);
     run_ = runEnd_ = 0;
@@ -142,7 +143,7 @@ class Walk {
   std::span<const std::uint8_t> hidden_;
   bool backFaces_;
   VisibleSet& visible_;
-  std::size_t run_ = 0, runEnd_ = 0;  ///< places to be copied
+  std::size_t run_ = 0, runEnd_ = 0;  ///< the run to be copied
 };
 
 void clear(const LevelCut& cut, VisibleSet& visible) {
@@ -163,7 +164,7 @@ void walkCut(const LevelCut& cut, const EyePose& eye, const ViewShape& view, boo
   Walk walk(cut, eye, test ? farM : std::numeric_limits<double>::infinity(), hidden, test && backFaces,
             visible);
   const Frustum frustum(eye, view);
-  // The blocks' boxes first: most blocks lie outside or inside as a whole.
+  // The blocks' boxes are tested first, because most blocks are wholly outside or inside.
   const BlockTest ofBlocks(cut.blockBoxes, frustum), ofTiles(cut.boxes, frustum);
   for (std::size_t group = 0; group < ofBlocks.blocks(); ++group) {
     const std::size_t first = group * kBlock, count = std::min(kBlock, cut.blockBoxes.size() - first);

@@ -7,7 +7,7 @@ SurfaceTree SurfaceTree::of(const TerrainIndex& index) {
   tree.children = index.children.empty() ? nullptr : index.children.front().data();
   tree.childrenEach = 4;
   tree.errorM = index.errorM.data();
-  // Diagonals of every level run along the finest ones: surfaces are furthest apart at posts.
+  // Diagonals of every level run along those of the finest, so two surfaces are furthest apart at posts.
   tree.surfaceErrorM = tree.errorM;
   return tree;
 }

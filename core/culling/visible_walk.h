@@ -8,21 +8,22 @@
 
 namespace trimtab {
 
-/// What selectVisible does, whatever the nodes are. Vertices are the caller's to count.
+/// Does what selectVisible does for nodes of any kind, but does not count vertices.
 void walkCut(const LevelCut& cut, const EyePose& eye, const ViewShape& view, bool test, double farM,
              std::span<const std::uint8_t> hidden, bool backFaces, VisibleSet& visible);
 
-/// Each border that uses the coarser posts folds 16 triangles away.
+/// Returns the triangles of a tile. Each border that is stitched to a coarser neighbour saves 16 of them.
 inline std::uint32_t tileTriangles(TileDraw tile) {
   constexpr std::uint32_t kCells = TerrainIndex::kTileCells;
   return 2 * kCells * kCells - static_cast<std::uint32_t>(std::popcount(tile.coarser)) * kCells / 2;
 }
 
-/// Makes the rest of a cut from its tiles and `cut.triangles`. `cones`: the index's, or empty.
+/// Computes the rest of a cut from its tiles and `cut.triangles`. `cones` are the index's, or empty.
 void gatherCut(std::span<const Box> bounds, std::span<const NormalCone> cones, LevelCut& cut);
 
-/// Takes the nodes out of `visible` that `flags` tell of, one each in order: 1 is hidden, anything else but 0
-/// outside the frustum; those past the flags stay. `leftOut(place in the cut, node)` counts.
+/// Removes nodes from `visible` by one flag each, in order: 0 keeps the node, 1 says that it is hidden, any
+/// other value that it is outside the frustum. Nodes beyond the flags stay. Calls leftOut(place in the cut,
+/// node) for each that is removed.
 template <class LeftOut>
 void removeFlagged(std::span<const std::uint8_t> flags, VisibleSet& visible, const LeftOut& leftOut) {
   std::size_t kept = 0, place = 0;

@@ -36,6 +36,10 @@ int pixels(Pixels value) {
 
 }  // namespace
 
+double pixelsPerRadian(const ViewShape& view) {
+  return std::max(view.widthPx / (view.right - view.left), view.heightPx / (view.top - view.bottom));
+}
+
 ViewShape viewShape(const ViewParameters& parameters, int windowWidthPx, int windowHeightPx,
                     const std::optional<HostView>& host) {
   const HostView asked = parameters.source == ViewSource::host && host ? *host : HostView{};

@@ -66,8 +66,8 @@ Result<HeadLog> parseSweep(std::string_view text) {
   return log;
 }
 
-Result<HeadLog> openHead(const std::string& text) {
-  return isSweep(text) ? parseSweep(text) : readHeadLog(text);
+Result<HeadLog> openHead(const std::string& text, BadRows badRows) {
+  return isSweep(text) ? parseSweep(text) : readHeadLog(text, badRows);
 }
 
 Attitude headAt(const HeadLog& log, double timeS) {

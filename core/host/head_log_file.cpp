@@ -12,7 +12,9 @@
 namespace trimtab {
 namespace {
 
-constexpr std::size_t kMostFindings = 50;
+/// Bad rows that findings name one by one; the rest are counted.
+constexpr std::size_t kNamedRows = 10;
+constexpr double kQuarterDeg = 90 + 1e-4;
 constexpr double kLargestDeg = 1e6, kLargestS = 1e12;
 constexpr double kTurnRad = 2 * 3.14159265358979323846;
 
@@ -83,17 +85,20 @@ std::string quoted(std::string_view cell) {
 
 class Reader {
  public:
-  Reader(std::string_view text, const std::string& where) : text_(text), where_(where) {}
+  Reader(std::string_view text, const std::string& where, BadRows badRows)
+      : text_(text), where_(where), badRows_(badRows) {}
 
   Result<HeadLog> read() {
     if (!readHeader()) return findings_;
     readRows();
-    if (hasErrors()) return findings_;
-    if (rows_.empty()) return refusal("at least one row below the header", "none");
+    if (rows_.empty() && bad_ == 0) return refusal("at least one row below the header", "none");
     toDegrees();
     sort();
-    for (std::size_t angle = 0; angle < kAngles; ++angle) unwind(angle);
-    if (!pitchIsPitch()) return findings_;
+    unwind();
+    exchangeMisnamedColumns();
+    // A row beyond a quarter turn may have wound those behind it: without it they are unwound once more.
+    while (dropRowsBeyondQuarter()) unwind();
+    if (!badRowsAccepted()) return findings_;
     return finished();
   }
 
@@ -103,12 +108,10 @@ class Reader {
   struct Row {
     double time = 0;
     std::array<double, kAngles> angle{};
+    std::size_t line = 0;
+    std::array<std::string_view, kAngles> cell;  ///< as the file spells them
   };
 
-  bool hasErrors() const {
-    return std::any_of(findings_.begin(), findings_.end(),
-                       [](const Finding& f) { return f.severity == Severity::error; });
-  }
   void note(std::string text) { findings_.push_back({Severity::note, where_, "", "", std::move(text)}); }
   Findings refusal(std::string expected, std::string found) {
     findings_.push_back({Severity::error, where_, "", std::move(expected), std::move(found)});
@@ -127,21 +130,27 @@ class Reader {
 
   bool readHeader();
   void readRows();
-  bool readCell(const std::vector<std::string_view>& cells, const Column& column, double most, double& value);
+  std::string_view readCell(const std::vector<std::string_view>& cells, const Column& column, double most,
+                            double& value, bool& good);
+  void nameBadCell(std::size_t line, const std::string& column, const char* expected, std::string_view cell);
   void toDegrees();
   void sort();
-  void unwind(std::size_t angle);
-  bool withinQuarter(std::size_t angle) const;
-  bool pitchIsPitch();
+  void unwind();
+  std::size_t rowsBeyondQuarter(std::size_t angle) const;
+  void exchangeMisnamedColumns();
+  bool dropRowsBeyondQuarter();
+  bool badRowsAccepted();
   Result<HeadLog> finished();
 
   std::string_view text_;
   const std::string& where_;
-  std::size_t line_ = 0;
+  const BadRows badRows_;
+  std::size_t line_ = 0, bad_ = 0;
   Findings findings_;
   Column time_;
   double timeScale_ = 1;
   std::array<std::optional<Column>, kAngles> columns_;
+  std::size_t pitchColumn_ = kPitch;  ///< the column that holds the pitch, whatever its name
   std::vector<Row> rows_;
 };
 
@@ -174,17 +183,24 @@ bool Reader::readHeader() {
   return findings_.empty();
 }
 
-bool Reader::readCell(const std::vector<std::string_view>& cells, const Column& column, double most,
-                      double& value) {
-  std::string_view cell = column.place < cells.size() ? cells[column.place] : std::string_view{};
-  const std::string_view whole = cell;
+/// Names the cells of the first bad rows.
+void Reader::nameBadCell(std::size_t line, const std::string& column, const char* expected,
+                         std::string_view cell) {
+  if (bad_ >= kNamedRows) return;
+  const Severity severity = badRows_ == BadRows::refuse ? Severity::error : Severity::note;
+  findings_.push_back({severity, where_ + ':' + std::to_string(line), column, expected, quoted(cell)});
+}
+
+std::string_view Reader::readCell(const std::vector<std::string_view>& cells, const Column& column,
+                                  double most, double& value, bool& good) {
+  const std::string_view whole = column.place < cells.size() ? cells[column.place] : std::string_view{};
+  std::string_view cell = whole;
   if (cell.starts_with('+')) cell.remove_prefix(1);
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error == std::errc{} && end == cell.data() + cell.size() && std::abs(value) <= most) return true;
-  if (findings_.size() < kMostFindings)
-    findings_.push_back({Severity::error, where_ + ':' + std::to_string(line_), column.name,
-                         "a finite number", quoted(whole)});
-  return false;
+  const bool number = error == std::errc{} && end == cell.data() + cell.size() && std::abs(value) <= most;
+  if (!number) nameBadCell(line_, column.name, "a finite number", whole);
+  good = good && number;
+  return whole;
 }
 
 void Reader::readRows() {
@@ -194,11 +210,16 @@ void Reader::readRows() {
     if (line.empty() || line.front() == '#') continue;
     split(line, cells);
     Row row;
-    bool good = readCell(cells, time_, kLargestS, row.time);
+    row.line = line_;
+    bool good = true;
+    readCell(cells, time_, kLargestS, row.time, good);
     for (std::size_t i = 0; i < kAngles; ++i)
-      if (columns_[i]) good = readCell(cells, *columns_[i], kLargestDeg, row.angle[i]) && good;
+      if (columns_[i]) row.cell[i] = readCell(cells, *columns_[i], kLargestDeg, row.angle[i], good);
     row.time *= timeScale_;
-    if (good) rows_.push_back(row);
+    if (good)
+      rows_.push_back(row);
+    else
+      ++bad_;
   }
 }
 
@@ -239,31 +260,58 @@ void Reader::sort() {
   rows_.resize(kept);
 }
 
-void Reader::unwind(std::size_t angle) {
-  double last = 0;
-  for (Row& row : rows_) {
-    last += wrapped180(Degrees{row.angle[angle]} - Degrees{last}).value();
-    row.angle[angle] = last;
+void Reader::unwind() {
+  for (std::size_t angle = 0; angle < kAngles; ++angle) {
+    double last = 0;
+    for (Row& row : rows_) {
+      last += wrapped180(Degrees{row.angle[angle]} - Degrees{last}).value();
+      row.angle[angle] = last;
+    }
   }
 }
 
-bool Reader::withinQuarter(std::size_t angle) const {
-  return std::all_of(rows_.begin(), rows_.end(),
-                     [angle](const Row& row) { return std::abs(row.angle[angle]) <= 90 + 1e-4; });
+std::size_t Reader::rowsBeyondQuarter(std::size_t angle) const {
+  return static_cast<std::size_t>(std::count_if(rows_.begin(), rows_.end(), [angle](const Row& row) {
+    return std::abs(row.angle[angle]) > kQuarterDeg;
+  }));
 }
 
-bool Reader::pitchIsPitch() {
-  if (withinQuarter(kPitch)) return true;
+void Reader::exchangeMisnamedColumns() {
   const bool unnamed = columns_[kHeading]->unit == Unit::unknown && columns_[kPitch]->unit == Unit::unknown;
-  if (!unnamed || !withinQuarter(kHeading)) {
-    refusal("a pitch of -90 to 90 deg throughout", "the column " + columns_[kPitch]->name + " leaves it");
+  if (!unnamed || rowsBeyondQuarter(kPitch) <= rowsBeyondQuarter(kHeading)) return;
+  for (Row& row : rows_) std::swap(row.angle[kHeading], row.angle[kPitch]);
+  pitchColumn_ = kHeading;
+  findings_.push_back(
+      {Severity::warning, where_, "", "a pitch of -90 to 90 deg in column " + columns_[kPitch]->name,
+       "a column that winds further than " + columns_[kHeading]->name + ": the two are exchanged"});
+}
+
+bool Reader::dropRowsBeyondQuarter() {
+  const std::size_t before = rows_.size();
+  std::erase_if(rows_, [this](const Row& row) {
+    if (std::abs(row.angle[kPitch]) <= kQuarterDeg) return false;
+    nameBadCell(row.line, columns_[pitchColumn_]->name, "a pitch of -90 to 90 deg", row.cell[pitchColumn_]);
+    ++bad_;
+    return true;
+  });
+  return rows_.size() < before;
+}
+
+bool Reader::badRowsAccepted() {
+  if (bad_ == 0) return true;
+  const std::string all = std::to_string(rows_.size() + bad_);
+  if (bad_ > kNamedRows) note("and " + std::to_string(bad_ - kNamedRows) + " more rows like these");
+  if (badRows_ == BadRows::refuse) {
+    refusal("rows that can all be used, or leave to skip those that cannot (--skip-bad-rows)",
+            std::to_string(bad_) + " bad rows of " + all);
     return false;
   }
-  for (Row& row : rows_) std::swap(row.angle[kHeading], row.angle[kPitch]);
-  findings_.push_back({Severity::warning, where_, "",
-                       "a pitch of -90 to 90 deg in column " + columns_[kPitch]->name,
-                       "a column that winds further, while " + columns_[kHeading]->name +
-                           " does not: the two are exchanged"});
+  if (bad_ >= rows_.size()) {
+    refusal("more rows that can be used than bad ones", std::to_string(bad_) + " bad rows of " + all);
+    return false;
+  }
+  findings_.push_back({Severity::warning, where_, "", "rows that can all be used",
+                       std::to_string(bad_) + " bad rows of " + all + ": they are left out"});
   return true;
 }
 
@@ -294,17 +342,17 @@ Result<HeadLog> Reader::finished() {
 
 }  // namespace
 
-Result<HeadLog> parseHeadLog(std::string_view text, const std::string& where) {
+Result<HeadLog> parseHeadLog(std::string_view text, const std::string& where, BadRows badRows) {
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  return Reader(text, where).read();
+  return Reader(text, where, badRows).read();
 }
 
-Result<HeadLog> readHeadLog(const std::filesystem::path& file) {
+Result<HeadLog> readHeadLog(const std::filesystem::path& file, BadRows badRows) {
   std::ifstream in(file, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   if (!in.is_open() || in.bad())
     return Finding{Severity::error, file.string(), "", "a head log that can be read", "it cannot be opened"};
-  return parseHeadLog(text, file.string());
+  return parseHeadLog(text, file.string(), badRows);
 }
 
 }  // namespace trimtab

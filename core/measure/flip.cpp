@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "flip_filters.h"
+#include "image_kernels.h"
 #include "picture_span.h"
-#include "simd_kernels.h"
 #include "trimtab/measure/image_error.h"
 
 namespace trimtab {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "simd_kernels.h"
+#include "image_kernels.h"
 
 namespace trimtab {
 

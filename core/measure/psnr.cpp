@@ -1,8 +1,8 @@
 #include <cmath>
 #include <limits>
 
+#include "image_kernels.h"
 #include "picture_span.h"
-#include "simd_kernels.h"
 #include "trimtab/measure/image_error.h"
 
 namespace trimtab {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "image_kernels.h"
 #include "picture_span.h"
-#include "simd_kernels.h"
 #include "trimtab/measure/image_error.h"
 
 namespace trimtab {

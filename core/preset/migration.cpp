@@ -87,6 +87,24 @@ void fromVersion2(const TuningParameters& base, std::vector<RawParameter>& param
   parameters = std::move(kept);
 }
 
+/// A value of a choice that no version reads any more, and what replaces it. Versions up to 3 wrote such
+/// values, and a file may still have them: they are replaced whatever the file's version.
+struct WithdrawnChoice {
+  std::string_view key, value, replacement;
+};
+constexpr WithdrawnChoice kWithdrawnChoices[] = {{"culling.occlusion", "read_back", "depth_map"}};
+
+void replaceWithdrawn(std::vector<RawParameter>& parameters, Findings& notes) {
+  for (RawParameter& p : parameters)
+    for (const WithdrawnChoice& choice : kWithdrawnChoices)
+      if (p.key == choice.key && json::readString(p.value) == choice.value) {
+        p.value = '"' + std::string(choice.replacement) + '"';
+        notes.push_back({Severity::note, p.where, p.key, "a value of this version",
+                         std::string(choice.value) + ", which was withdrawn; " +
+                             std::string(choice.replacement) + " is used"});
+      }
+}
+
 /// migrations[i] brings version i + 1 to version i + 2.
 constexpr void (*kMigrations[])(const TuningParameters&, std::vector<RawParameter>&, Findings&) = {
     fromVersion1, fromVersion2};
@@ -98,6 +116,7 @@ void migrate(int fromVersion, const TuningParameters& base, std::vector<RawParam
              Findings& notes) {
   for (int version = fromVersion; version < kPresetVersion; ++version)
     kMigrations[version - 1](base, parameters, notes);
+  replaceWithdrawn(parameters, notes);
 }
 
 }  // namespace trimtab

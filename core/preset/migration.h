@@ -16,8 +16,9 @@ struct RawParameter {
   std::string key, value, where;
 };
 
-/// Brings parameters of an older format version to kPresetVersion; a note for each that was changed, an error
-/// for a value that cannot be taken over. `base` is what the file differs from.
+/// Brings the parameters of a file of version `fromVersion` to kPresetVersion, and replaces values that were
+/// withdrawn. Adds a note for each parameter that it changes, and an error for each value that it cannot
+/// convert. `base` holds the values of every parameter that the file leaves out.
 void migrate(int fromVersion, const TuningParameters& base, std::vector<RawParameter>& parameters,
              Findings& notes);
 

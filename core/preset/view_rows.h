@@ -18,14 +18,11 @@ inline constexpr std::array kViewRows{
          .help =
              "What proves that ground is hidden, where the scheme is dynamic. Automatic: whichever costs the "
              "frame least as measured on this machine, or none where it would not pay. Published depth map: "
-             "drawn and tested on the GPU. Read back: the same map, tested by the processor; on a GPU a "
-             "frame "
-             "or more later. By the processor: drawn and tested without GL. Horizon: around the eye's place, "
-             "so that a turning head leaves it as it is. Horizon, then depth map: the map for what the "
-             "horizon leaves. All draw the same picture. The band's size is the resolution of each. What "
-             "cannot serve is replaced by the next, and the dock Culling says so. Static trees have the "
-             "depth "
-             "map alone."}),
+             "drawn and tested on the GPU. By the processor: a depth map drawn and tested without GL. "
+             "Horizon: computed around the eye's position, so that it stays valid while the head turns. "
+             "Horizon, then depth map: the processor's map tests what the horizon leaves. All draw the same "
+             "image. The band's size is the resolution of each. Where the chosen method cannot be used the "
+             "dock Culling says what is used instead. Static trees always use a depth map."}),
     row<&TuningParameters::culling, &CullingParameters::backFaces>(
         {.key = "culling.back_faces",
          .label = "Leave out back faces",

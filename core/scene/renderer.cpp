@@ -39,7 +39,7 @@ struct Renderer::Impl {
   PatchDrawer patches;
   TreeDrawer trees;
   TerrainDrawer* terrain = nullptr;  ///< that drew the last picture; null: no terrain
-  FrameResult counters;
+  FrameCounters counters;            ///< since this renderer was made
 
   ViewShape lastView;
   std::optional<SceneView> shown;  ///< the last picture's
@@ -76,8 +76,9 @@ struct Renderer::Impl {
   std::array<TerrainDrawer*, 3> forms() { return {&tiles, &patches, &trees}; }
   TerrainDrawer* drawerOf(TerrainForm form);
   void removeHidden();
-  void prepare(const FrameRequest& r, FrameInProgress& frame);
-  void finishPicture(const FrameRequest& r);
+  SceneView viewOf(const FrameRequest& r) const;
+  FrameResult prepare(const FrameRequest& r, SceneView& view);
+  FrameCounters finishPicture(const FrameRequest& r);
   FrameResult draw(const FrameRequest& r, unsigned fbo);
   static void leaveContext(unsigned fbo);
   std::vector<std::uint32_t> readNodes(bool unculled);
@@ -93,47 +94,58 @@ void Renderer::Impl::removeHidden() {
   gl->clock.lap(&FrameCost::occlusion);
 }
 
-/// What the frame is made of: eye, visible nodes, depth map.
-void Renderer::Impl::prepare(const FrameRequest& r, FrameInProgress& frame) {
-  SceneView& view = frame.view;
+/// What of a frame's view follows from the request alone.
+SceneView Renderer::Impl::viewOf(const FrameRequest& r) const {
+  SceneView view;
   view.shape = r.view;
   view.guardBand = guardBandOf(r.view, gl->viewports);
   view.sky = !r.overlays.showHoles;
   view.wireframe = r.overlays.wireframe;
   view.tinted = r.overlays.colourByReason || r.overlays.colourByLevel;
-  const WeatherDecision& weather = r.decision.weather;
-  // What was culled is to be seen by its colour, however far it is.
-  if (!r.overlays.colourByReason) view.air = airOf(weather);
+  // Culled nodes are shown by their colour, however far away they are.
+  if (!r.overlays.colourByReason) view.air = airOf(r.decision.weather);
   view.heightM = r.eye.height.value();
-  lines.clear();
-  counters.depthMap.reset();
-  counters.horizon = false;
-  counters.occlusion.reset();
-  counters.note.clear();
-  counters.patches = false;
-  counters.paging.settled = true;
   view.form = formDrawn(r, database.get());
-  terrain = view.form ? drawerOf(*view.form) : nullptr;
   const LocalFrame local = database ? database->index().frame : LocalFrame(r.eye);
+  view.eye.axes = eyeAxes(local, r.eye, r.attitude);
   if (database) {
-    view.eye = {local.fromGeodetic(r.eye), eyeAxes(local, r.eye, r.attitude)};
+    view.eye.position = local.fromGeodetic(r.eye);
     view.up = local.ecefToLocal() * eastNorthUp(r.eye.latitude, r.eye.longitude).row[2];
-  } else {
-    view.eye = {{}, eyeAxes(local, r.eye, r.attitude)};
   }
-  if (terrain) terrain->prepare(frame);
   view.precipitation = precipitationView(r, local);
-  // What would fall where nothing does: no drop, but the effect is run.
+  // An effect without drops: for measuring what skips.clearAir saves.
   if (!view.precipitation && !r.skips.clearAir) view.precipitation.emplace();
-  counters.precipitationPasses += view.precipitation.has_value();
-  if (r.frozenEye) addFrustum(*r.frozenEye, r.view, view.eye.position, lines);
-  view.lines = !lines.empty();
   constexpr double kEarthRadius = 6371e3;
   view.horizonDip = std::acos(std::min(1.0, kEarthRadius / (kEarthRadius + r.eye.height.value())));
+  return view;
+}
+
+/// Lets the terrain prepare what it draws, and merges what it found into the view and the frame's result.
+FrameResult Renderer::Impl::prepare(const FrameRequest& r, SceneView& view) {
+  FrameResult result;
+  terrain = view.form ? drawerOf(*view.form) : nullptr;
+  lines.clear();
+  if (terrain) {
+    PreparedTerrain prepared =
+        terrain->prepare({r, view.eye, view.shape, view.guardBand, gl->clock, report.software});
+    static_cast<OcclusionResult&>(result) = std::move(prepared.occlusion);
+    result.paging = prepared.paging;
+    result.patches = terrain == &patches;
+    result.counters = prepared.counters;
+    view.depth = prepared.depth;
+    view.oneSided = prepared.oneSided;
+    view.treePicture = prepared.treePicture;
+    lines = std::move(prepared.lines);
+  }
+  if (r.frozenEye) addFrustum(*r.frozenEye, r.view, view.eye.position, lines);
+  view.lines = !lines.empty();
+  result.counters.precipitationPasses = view.precipitation.has_value();
+  return result;
 }
 
 /// What is done to the picture once the scene is drawn; blur before the symbols, which stay sharp.
-void Renderer::Impl::finishPicture(const FrameRequest& r) {
+FrameCounters Renderer::Impl::finishPicture(const FrameRequest& r) {
+  FrameCounters done;
   const ViewShape& v = r.view;
   const double strength = r.decision.motion.blur.strength;
   if (strength > 0 || !r.skips.blurAtRest) {
@@ -141,29 +153,29 @@ void Renderer::Impl::finishPicture(const FrameRequest& r) {
     if (!(strength > 0)) gl->blur.rest();
     gl->blur.apply(gl->frame.id(), gl->frame.colourTexture(), v.widthPx, v.heightPx, strength, r.time);
     gl->clock.endPart(&FrameCost::blur);
-    ++counters.blurPasses;
+    ++done.blurPasses;
   }
   if (!(strength > 0)) gl->blur.rest();
   if (r.symbology && r.symbology->setup.general.enabled) {
     gl->clock.beginPart(&FrameCost::symbology);
-    counters.symbologyRedraws += gl->symbology.draw(*r.symbology, v, !r.skips.sameSymbols);
+    done.symbologyRedraws += gl->symbology.draw(*r.symbology, v, !r.skips.sameSymbols);
     gl->clock.endPart(&FrameCost::symbology);
-    ++counters.symbologyDraws;
+    ++done.symbologyDraws;
   }
+  return done;
 }
 
 FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
   gl->clock.start(report.software, r.separateStages, r.waitForPicture);
   lastView = r.view;
-  SceneView view;
-  FrameInProgress frame{r, view, counters, gl->clock, lines, report.software};
-  prepare(r, frame);
+  SceneView view = viewOf(r);
+  FrameResult result = prepare(r, view);
 
   gl->frame.resize(r.view.widthPx, r.view.heightPx);
   glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
   gl->graph.frame(view, gl->frame.id());
   glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
-  finishPicture(r);
+  result.counters += finishPicture(r);
 
   glBindFramebuffer(GL_READ_FRAMEBUFFER, gl->frame.id());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, fbo);
@@ -172,12 +184,16 @@ FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
                     GL_COLOR_BUFFER_BIT, GL_NEAREST);
   leaveContext(fbo);
   shown = std::move(view);
-  counters.cost = gl->clock.finish();
-  counters.visible = terrain ? terrain->visible() : VisibleSet{};
-  counters.tilesInCut = terrain ? terrain->cut().size() : 0;
-  counters.staticLod = terrain == &trees ? trees.frame() : StaticLodFrame{};
-  if (terrain) terrain->finished(counters);
-  return counters;
+  result.cost = gl->clock.finish();
+  if (terrain) {
+    result.visible = terrain->visible();
+    result.tilesInCut = terrain->cut().size();
+    if (terrain == &trees) result.staticLod = trees.frame();
+    terrain->finished(result);
+  }
+  counters += result.counters;
+  result.counters = counters;
+  return result;
 }
 
 /// What others who share the context take for granted.
@@ -197,7 +213,7 @@ std::vector<std::uint32_t> Renderer::Impl::readNodes(bool unculled) {
   view.depth.reset();
   view.precipitation.reset();
   view.sky = view.wireframe = view.lines = view.treePicture = false;
-  if (terrain) counters.tilesBuilt += terrain->prepareNumbers(view, unculled);
+  if (terrain) counters.tilesBuilt += terrain->prepareNumbers(unculled);
   GLint before = 0;
   glGetIntegerv(GL_FRAMEBUFFER_BINDING, &before);
   gl->nodes.begin(view.shape.widthPx, view.shape.heightPx);

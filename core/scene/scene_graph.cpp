@@ -58,7 +58,7 @@ class Begin final : public osg::Camera::DrawCallback {
   ScenePasses::Call call_;
 };
 
-osg::ref_ptr<osg::Program> makeProgram(const char* vertex, const char* fragment) {
+osg::ref_ptr<osg::Program> makeProgram(const std::string& vertex, const std::string& fragment) {
   osg::ref_ptr<osg::Program> program = new osg::Program;
   program->addShader(new osg::Shader(osg::Shader::VERTEX, vertex));
   program->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragment));
@@ -69,11 +69,10 @@ osg::ref_ptr<osg::Program> makeProgram(const char* vertex, const char* fragment)
   return program;
 }
 
-Pass* addPass(osg::Group* group, ScenePasses::Call call, int order, const char* vertex,
-              const char* fragment) {
+Pass* addPass(osg::Group* group, ScenePasses::Call call, int order, const ShaderPair& shaders) {
   Pass* pass = new Pass(std::move(call));
   osg::StateSet* state = pass->getOrCreateStateSet();
-  state->setAttributeAndModes(makeProgram(vertex, fragment));
+  state->setAttributeAndModes(makeProgram(shaders.vertex, shaders.fragment));
   state->setRenderBinDetails(order, "RenderBin");
   group->addChild(pass);
   return pass;
@@ -130,7 +129,7 @@ class Uniforms {
   void set(const char* name, Type type, const Values&... values) {
     state_->getOrCreateUniform(name, type)->set(values...);
   }
-  /// In whole units of 16 m and a rest of at most 8 m: relativePosition in shaders.h says why.
+  /// In whole units of 16 m and a rest of at most 8 m: relative_position.glsl says why.
   void setEye(Vec3 p) {
     const auto whole = [](double x) { return static_cast<int>(std::lround(x / 16)); };
     const int x = whole(p.x), y = whole(p.y), z = whole(p.z);
@@ -178,23 +177,25 @@ struct SceneGraph::Nodes {
     viewer->getCamera()->setInitialDrawCallback(begin);
     for (const TerrainForm form : kForms) {
       FormPasses& of = forms[static_cast<std::size_t>(form)];
-      const TerrainShaders shaders = terrainShaders(form);
+      const ShaderPair shaders = terrainShaders(form);
       const auto inBand = [this](const ScenePasses::Call& call) -> ScenePasses::Call {
         return [this, call](unsigned program) {
           const WideViewport wide(drawnShape, guardBand);
           if (call) call(program);
         };
       };
-      of.surface = addPass(root, inBand(passes.surface), 1, shaders.vertex.c_str(), shaders.fragment.c_str());
+      of.surface = addPass(root, inBand(passes.surface), 1, shaders);
       of.surface->getStateSet()->addUniform(new osg::Uniform("wire", false));
-      of.wire = addPass(root, inBand(passes.wire), 2, shaders.vertex.c_str(), shaders.fragment.c_str());
+      of.wire = addPass(root, inBand(passes.wire), 2, shaders);
       of.wire->getStateSet()->addUniform(new osg::Uniform("wire", true));
-      of.numbers = addPass(root, inBand(passes.numbers), 1, forNodes(shaders.vertex).c_str(), kNodeFragment);
+      of.numbers = addPass(root, inBand(passes.numbers), 1, terrainShaders(form, true));
     }
-    treePicture = addPass(root, std::move(passes.treePicture), 1, kTreeFlatVertex, kLineFragment);
-    lines = addPass(root, std::move(passes.lines), 3, kLineVertex, kLineFragment);
+    treePicture =
+        addPass(root, std::move(passes.treePicture), 1, shaderPair("tree_flat.vert.glsl", "line.frag.glsl"));
+    lines = addPass(root, std::move(passes.lines), 3, shaderPair("line.vert.glsl", "line.frag.glsl"));
     sky = addPass(
-        root, [](unsigned) { glDrawArrays(GL_TRIANGLES, 0, 3); }, 4, kScreenVertex, kSkyFragment);
+        root, [](unsigned) { glDrawArrays(GL_TRIANGLES, 0, 3); }, 4,
+        shaderPair("screen.vert.glsl", "sky.frag.glsl"));
     // Where nothing was drawn depth still is 0, infinitely far.
     sky->getStateSet()->setAttributeAndModes(new osg::Depth(osg::Depth::GEQUAL, 0, 1, false));
 
@@ -249,13 +250,16 @@ struct SceneGraph::Nodes {
     uniforms.set("span", Type::INT, kTestedSpan);
     // Far sides of mountains hide next to nothing that their near sides do not: without them the pass costs
     // less than the few more tiles that are drawn.
-    addPass(depthCamera, std::move(passes.occluders), 1, kOccluderVertex, kOccluderFragment)
+    addPass(depthCamera, std::move(passes.occluders), 1,
+            shaderPair("occluder.vert.glsl", "occluder.frag.glsl"))
         ->getStateSet()
         ->setMode(GL_CULL_FACE, osg::StateAttribute::ON);
-    addPass(depthCamera, std::move(passes.reduce), 2, kScreenVertex, kReduceFragment)
+    addPass(depthCamera, std::move(passes.reduce), 2,
+            shaderPair("screen.vert.glsl", "depth_reduce.frag.glsl"))
         ->getStateSet()
         ->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
-    addPass(depthCamera, std::move(passes.test), 3, kScreenVertex, kTestFragment)
+    addPass(depthCamera, std::move(passes.test), 3,
+            shaderPair("screen.vert.glsl", "occlusion_test.frag.glsl"))
         ->getStateSet()
         ->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
     root->addChild(depthCamera);
@@ -283,7 +287,6 @@ struct SceneGraph::Nodes {
     };
     uniforms.set("pad", Type::FLOAT_VEC2,
                  osg::Vec2f(pad(depth.widthPx, shape.widthPx), pad(depth.heightPx, shape.heightPx)));
-    uniforms.set("motion", Type::FLOAT, static_cast<float>(depth.motionM));
     uniforms.set("loweringScale", Type::FLOAT, static_cast<float>(depth.loweringScale));
     uniforms.set("shift", Type::FLOAT, static_cast<float>(depth.shiftTexels));
   }

@@ -35,7 +35,6 @@ struct DepthView {
   int levels = 0, tiles = 0;
   double loweringScale = 1;  ///< less than 1 is wrong: for the test that sees the picture break
   int shiftTexels = 0;       ///< not 0 is wrong likewise: where the map is read
-  double motionM = 0;        ///< how far the eye may move until the map is used: depth_read_back.h
 };
 
 /// A frame's view as the graph's uniforms and matrices need it.

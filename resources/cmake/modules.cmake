@@ -46,14 +46,25 @@ function(trimtab_folder NAME)
   target_compile_features(trimtab_${NAME} PUBLIC cxx_std_20)
 endfunction()
 
-# trimtab_test(NAME SOURCES file... LIBS target... [DISPLAY] [ARGS arg...])
+# trimtab_test(NAME SOURCES file... LIBS target... [DISPLAY] [HEADERS_OF test])
 #
-# One GoogleTest program, build/bin/NAME, listed for tests/run.sh. DISPLAY: it needs an X server.
-# Tests find real data by trimtab_test_data() (tests/support.h), and skip with a message where there is none.
+# One GoogleTest program, build/bin/NAME, listed for tests/run.sh. DISPLAY: it needs an X server. All programs share the
+# precompiled headers of test_house, or of the test that HEADERS_OF names. Most of a test's time to build is spent on
+# headers and on optimising code that runs once, hence -O1; what is tested is compiled as users get it.
+# Tests find real data by sharedDir() (tests/support.h), and skip with a message where there is none.
 function(trimtab_test NAME)
-  cmake_parse_arguments(T "DISPLAY" "" "SOURCES;LIBS" ${ARGN})
+  cmake_parse_arguments(T "DISPLAY" "HEADERS_OF" "SOURCES;LIBS" ${ARGN})
   add_executable(${NAME} ${T_SOURCES})
   target_link_libraries(${NAME} PRIVATE ${T_LIBS} trimtab_warnings trimtab_test_support GTest::gmock GTest::gtest_main)
+  target_compile_options(${NAME} PRIVATE $<$<CONFIG:Release>:-O1>)
+  if(NOT T_HEADERS_OF)
+    set(T_HEADERS_OF test_house)
+  endif()
+  if(NAME STREQUAL T_HEADERS_OF)
+    target_precompile_headers(${NAME} PRIVATE <gmock/gmock.h> <gtest/gtest.h> <filesystem> <fstream> <functional> <random>)
+  else()
+    target_precompile_headers(${NAME} REUSE_FROM ${T_HEADERS_OF})
+  endif()
   if(T_DISPLAY)
     set_property(GLOBAL APPEND PROPERTY TRIMTAB_TESTS_LIST "${NAME} display")
   else()

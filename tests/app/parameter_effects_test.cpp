@@ -318,7 +318,8 @@ TEST_F(ParameterEffects, everyWayToHiddenGroundDoesWorkOfItsOwn) {
   use(test::syntheticMountains());
   const ParameterRow& row = *findRow("culling.occlusion");
   const auto workOf = [](const FrameResult& r) {
-    return std::array{r.horizonsBuilt + r.horizonsMoved, r.mapsDrawnByCpu, r.mapsReadBack, r.depthMapsDrawn};
+    return std::array{r.counters.horizonsBuilt + r.counters.horizonsMoved, r.counters.mapsDrawnByCpu,
+                      r.counters.depthMapsDrawn};
   };
   std::map<decltype(workOf({})), std::vector<std::string_view>> ways;  // by their work
   std::set<std::string> pictures;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/measure/simd_kernels.h"
+#include "core/measure/image_kernels.h"
 #include "row.h"
 #include "tests/core/measure/flip_recorded.h"
 #include "tests/core/measure/image_pairs.h"
@@ -124,18 +124,16 @@ void flipRows(Report& report, const Picture& reference, int repeats) {
                         .peer = "reference C++ implementation (NVlabs/flip)",
                         .peerValue = 2.8,
                         .peerFrom = "quoted"}));
-  const ImageKernels* usual = &imageKernels();
-  for (const auto& [path, name] : {std::pair{SimdPath::avx2, "AVX2"}, {SimdPath::portable, "portable"}})
-    if (imageKernels(path) != usual && useSimdPath(path))
-      report.add({.id = std::string("error.flip_speed_") + (path == SimdPath::avx2 ? "avx2" : "portable"),
+  for (const auto& [level, name] : {std::pair{SimdLevel::avx2, "AVX2"}, {SimdLevel::portable, "portable"}})
+    if (level < simdLevel() && useSimdLevel(level))
+      report.add({.id = std::string("error.flip_speed_") + (level == SimdLevel::avx2 ? "avx2" : "portable"),
                   .what = what + "no pixel equal, " + name + " instructions only",
                   .value = rate(different),
                   .unit = "Mpixel/s",
                   .peer = "reference C++ implementation (NVlabs/flip)",
                   .peerValue = 2.8,
                   .peerFrom = "quoted"});
-  for (const SimdPath path : {SimdPath::avx512, SimdPath::avx2, SimdPath::portable})
-    if (imageKernels(path) == usual) useSimdPath(path);
+  useSimdLevel(simdLevel());
 }
 
 void speedRows(Report& report) {

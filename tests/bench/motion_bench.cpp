@@ -141,10 +141,10 @@ void passes(Report& report, BenchScene& bench) {
   for (int i = 0; i < frames + 5; ++i) {
     r.time += 1.0 / 60;
     const FrameResult result = bench.draw(withSymbols(r, 240));
-    if (i == 0) first = result.symbologyRedraws, draws = result.symbologyDraws;
-    redraws = result.symbologyRedraws - first;
+    if (i == 0) first = result.counters.symbologyRedraws, draws = result.counters.symbologyDraws;
+    redraws = result.counters.symbologyRedraws - first;
     if (i >= 5) standing.push_back(result.cost.symbology);
-    if (i + 1 == frames + 5) draws = result.symbologyDraws - draws;
+    if (i + 1 == frames + 5) draws = result.counters.symbologyDraws - draws;
   }
   report.add(valueAtMost(
       0, {.id = "motion.symbols_at_rest",

@@ -67,14 +67,19 @@ TEST_F(Motion, thePointerOverThePictureIsTheLineOfSight) {
     QCoreApplication::sendEvent(&view, &event);
   };
   EXPECT_TRUE(view.hasMouseTracking());
-  // From edge to edge in half a second, as fast as events come.
-  const double start = link::now();
-  for (double t = 0; t < 0.5; t = link::now() - start) {
-    moveTo(static_cast<int>(t / 0.5 * (view.width() - 1)));
-    QTest::qWait(10);
+  // From edge to edge in half a second, as fast as events come; again where the machine was too busy to draw
+  // meanwhile.
+  const auto lowered = [this] { return saw(QStringLiteral("LOD scale lowered")); };
+  for (int sweep = 0; sweep < 20 && !lowered(); ++sweep) {
+    const double start = link::now();
+    for (double t = 0; t < 0.5; t = link::now() - start) {
+      const double across = sweep % 2 == 0 ? t / 0.5 : 1 - t / 0.5;
+      moveTo(static_cast<int>(across * (view.width() - 1)));
+      QTest::qWait(10);
+    }
   }
+  EXPECT_TRUE(lowered());
   moveTo(view.width() - 1);
-  EXPECT_TRUE(waitFor([this] { return saw(QStringLiteral("LOD scale lowered")); }));
   EXPECT_TRUE(waitFor([this] { return session().decision().motion.lodScale == 1; })) << "and is restored";
   ASSERT_TRUE(session().input().state.head);
   EXPECT_NEAR(session().input().state.head->heading.value(), 90, 1);

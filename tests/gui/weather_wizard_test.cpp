@@ -135,10 +135,10 @@ void shoot(QWidget& widget, const char* name) {
 TEST_F(WeatherOnTheBench, anEditChangesThePictureAndItsCounters) {
   ASSERT_TRUE(settle());
   const auto before = *w().viewport().lastResult();
-  EXPECT_EQ(before.precipitationPasses, 0u) << "no precipitation in clear air";
+  EXPECT_EQ(before.counters.precipitationPasses, 0u) << "no precipitation in clear air";
   w().draft().setText("weather.step", "rain_heavy");
   ASSERT_TRUE(drawnIn(Precipitation::rain));
-  EXPECT_GT(w().viewport().lastResult()->precipitationPasses, 0u);
+  EXPECT_GT(w().viewport().lastResult()->counters.precipitationPasses, 0u);
   EXPECT_LT(w().viewport().lastResult()->visible.triangles, before.visible.triangles) << "cut at 4 km";
   w().dock("weather")->raise();
   QTest::qWait(300);

@@ -51,7 +51,7 @@ TEST_F(CullingPanelTest, saysWhatServesAndWhyNotWhatWasAskedFor) {
   EXPECT_EQ(ofHorizon(), QStringLiteral("The horizon is left out: near here it hid next to nothing."));
 
   result->occlusion = OcclusionMethod::cpu_map;
-  result->mapsLeftOut = 4711;
+  result->counters.mapsLeftOut = 4711;
   EXPECT_TRUE(says(frame, QStringLiteral("The map is left out: near here one hid next to nothing.")));
   EXPECT_TRUE(says(frame, QStringLiteral("left out 4")));
   EXPECT_EQ(ofHorizon(), QStringLiteral("A depth map serves, not the horizon."));

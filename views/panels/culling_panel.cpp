@@ -34,10 +34,7 @@ QString metres(double m) {
 QString whatServes(OcclusionMethod method, const QString& size) {
   switch (method) {
     case OcclusionMethod::depth_map:
-      return CullingPanel::tr("The <b>depth map</b> serves%1, tested on the GPU.").arg(size);
-    case OcclusionMethod::read_back:
-      return CullingPanel::tr("The <b>depth map</b> serves%1, read back and tested by the processor.")
-          .arg(size);
+      return CullingPanel::tr("The <b>depth map</b> that GL draws serves%1.").arg(size);
     case OcclusionMethod::cpu_map:
       return CullingPanel::tr("A <b>depth map by the processor</b> serves%1.").arg(size);
     case OcclusionMethod::horizon:
@@ -212,6 +209,7 @@ void CullingPanel::refresh() {
   if (!hasHorizon_) horizon_->setReason(whyNoHorizon());
   if (stages_) stages_->refresh(true);
   const FrameResult& f = frame_.drawn();
+  const FrameCounters& work = f.counters;
   const double all = std::max<double>(1, static_cast<double>(f.tilesInCut));
   const auto bar = [&](const QString& name, std::size_t nodes, const QString& more, int colour) {
     return BarList::Bar{name,   static_cast<double>(nodes), all, count(nodes) + more, {},
@@ -225,12 +223,12 @@ void CullingPanel::refresh() {
        bar(tr("beyond visibility"), f.visible.beyondVisibility, {}, 4),
        bar(tr("facing away"), f.visible.backFacing, {}, 0)});
   work_->setText(tr("Cuts chosen %1, views %2; horizons built %3, moved along %4, left out %5; depth maps "
-                    "by GL %6, read back %7, by the processor %8, left out %9; frames in which nothing "
-                    "was worth its cost %10.")
-                     .arg(count(f.cutsSelected), count(f.visibleSelected), count(f.horizonsBuilt),
-                          count(f.horizonsMoved), count(f.horizonsLeftOut), count(f.depthMapsDrawn),
-                          count(f.mapsReadBack), count(f.mapsDrawnByCpu), count(f.mapsLeftOut),
-                          count(f.occlusionsLeftOut)));
+                    "by GL %6, by the processor %7, left out %8; frames in which nothing was worth its "
+                    "cost %9.")
+                     .arg(count(work.cutsSelected), count(work.visibleSelected), count(work.horizonsBuilt),
+                          count(work.horizonsMoved), count(work.horizonsLeftOut), count(work.depthMapsDrawn),
+                          count(work.mapsDrawnByCpu), count(work.mapsLeftOut),
+                          count(work.occlusionsLeftOut)));
 }
 
 }  // namespace trimtab::views

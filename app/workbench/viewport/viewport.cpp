@@ -248,7 +248,7 @@ std::optional<Viewport::Measured> Viewport::measure(const FrameRequest& request)
   const double ms = double(timer.nsecsElapsed()) * 1e-6;
   gl.glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
   doneCurrent();
-  return Measured{ms, result.tilesBuilt};
+  return Measured{ms, result.counters.tilesBuilt};
 }
 
 void Viewport::readDepthMap() {

@@ -7,10 +7,10 @@
 
 namespace trimtab::scene {
 
-unsigned makeGlProgram(const char* vertex, const char* fragment) {
+unsigned makeGlProgram(const std::string& vertex, const std::string& fragment) {
   const unsigned program = glCreateProgram();
   for (const auto& [kind, text] :
-       {std::pair{GL_VERTEX_SHADER, vertex}, std::pair{GL_FRAGMENT_SHADER, fragment}}) {
+       {std::pair{GL_VERTEX_SHADER, vertex.c_str()}, std::pair{GL_FRAGMENT_SHADER, fragment.c_str()}}) {
     const unsigned shader = glCreateShader(static_cast<GLenum>(kind));
     glShaderSource(shader, 1, &text, nullptr);
     glCompileShader(shader);

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <string>
+
 namespace trimtab::scene {
 
-/// A linked program of a vertex and a fragment shader, for passes outside the graph; 0 when the driver
-/// refuses it.
-unsigned makeGlProgram(const char* vertex, const char* fragment);
+/// Links a program for a pass outside the scene graph from the texts of its shaders. Returns 0 if the driver
+/// refuses them, and prints its log.
+unsigned makeGlProgram(const std::string& vertex, const std::string& fragment);
 
 }  // namespace trimtab::scene

@@ -5,9 +5,8 @@
 
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/terrain/tiles/tile_cache.h"
-#include "depth_read_back.h"
-#include "trimtab/scene/planted_defects.h"
 #include "trimtab/frame/frame_request.h"
+#include "trimtab/scene/planted_defects.h"
 
 namespace trimtab::scene {
 
@@ -27,13 +26,12 @@ void FrameCulling::plant(const Defects& defects) {
   occlusion_.plant(defects);
 }
 
-void FrameCulling::selectCut(const FrameRequest& request, const EyePose& eye, FrameResult& counters) {
+void FrameCulling::selectCut(const FrameRequest& request, const EyePose& eye) {
   const TerrainIndex& index = database_->index();
-  const ViewShape& v = request.view;
   eye_ = eye;
+  cutSelected_ = false;
   const CutKey key{eye.position, request.lod.screenSpaceError.value() / defects_.statedErrorScale,
-                   request.decision.lodScale,
-                   std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom))};
+                   request.decision.lodScale, pixelsPerRadian(request.view)};
   if (cutKey_ == key && request.skips.sameCut) return;
   selectLevels(index, key.eye, key.maxErrorPx, key.lodScale, key.pixelsPerRadian, cut_);
   cutNumber_.errorOverDistance = key.maxErrorPx * key.lodScale / key.pixelsPerRadian;
@@ -41,25 +39,19 @@ void FrameCulling::selectCut(const FrameRequest& request, const EyePose& eye, Fr
   if (cutKey_) cutKey_->eye = key.eye;
   cutNumber_.rule += cutKey_ != key;
   cutKey_ = key;
-  ++counters.cutsSelected;
+  cutSelected_ = true;
 }
 
-void FrameCulling::beginOcclusion(const FrameRequest& request, FrameResult& counters) {
-  occlusion_.begin(request, eye_, {.depthMap = true, .readBack = readBack_ != nullptr}, counters);
-  if (!occlusion_.serves(OcclusionMethod::read_back)) return;
-  // One that is used at once is counted when it is drawn.
-  const std::uint64_t before = readBack_->maps();
-  readBack_->begin(eye_, cut_);
-  counters.mapsReadBack += readBack_->maps() - before;
+void FrameCulling::beginOcclusion(const FrameRequest& request) {
+  occlusion_.begin(request, eye_, true);
 }
 
-bool FrameCulling::selectVisible(const FrameRequest& request, FrameResult& counters) {
-  if (occlusion_.visibleStays(request, counters)) return false;
+bool FrameCulling::selectVisible(const FrameRequest& request) {
+  if (occlusion_.visibleStays(request)) return false;
   const TerrainIndex& index = database_->index();
-  trimtab::selectVisible(
-      index, cut_, eye_, request.view, request.method != CullingCase::none, visible_,
-      request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited,
-      occlusion_.hidden(), request.backFaces && occlusion_.eyeIsAboveGround());
+  trimtab::selectVisible(index, cut_, eye_, request.view, request.method != CullingCase::none, visible_,
+                         farCutM(request), occlusion_.hidden(),
+                         request.backFaces && occlusion_.eyeIsAboveGround());
   if (!defects_.culledNode) return true;
   flags_.clear();
   for (const TileDraw& tile : visible_.tiles) flags_.push_back(tile.node == defects_.culledNode);
@@ -67,30 +59,21 @@ bool FrameCulling::selectVisible(const FrameRequest& request, FrameResult& count
   return true;
 }
 
-void FrameCulling::removeHiddenByMap(const FrameRequest& request, FrameResult& counters) {
-  if (occlusion_.serves(OcclusionMethod::read_back) && !readBack_->atOnce()) {
-    if (const auto flags = readBack_->hidden(visible_.tiles, eye_, request.view); !flags.empty())
-      removeOccluded(database_->index(), flags, visible_);
-    return;
-  }
-  if (const auto flags = occlusion_.hiddenByMap(request, visible_, counters); !flags.empty())
+void FrameCulling::removeHiddenByMap(const FrameRequest& request) {
+  if (const auto flags = occlusion_.hiddenByMap(request, visible_); !flags.empty())
     removeOccluded(database_->index(), flags, visible_);
 }
 
 std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& request, const TileCache& tiles,
-                                                        OcclusionPass& pass, FrameResult& counters) {
+                                                        OcclusionPass& pass) {
   depthMapCurrent_ = false;
-  const bool readBack = occlusion_.serves(OcclusionMethod::read_back);
-  if ((!occlusion_.serves(OcclusionMethod::depth_map) && !readBack) || visible_.tiles.empty()) return {};
-  // None where all maps are still on their way.
-  const std::optional<double> motionM = readBack ? readBack_->motionForMap() : 0;
-  if (!motionM) return {};
-  view_ = request.view;
-  const DepthMapSize size = occlusion_.size();
+  mapNote_.clear();
+  if (!occlusion_.serves(OcclusionMethod::depth_map) || visible_.tiles.empty()) return {};
+  const DepthMapSize size = occlusion_.resolution();
   testedSlots_.clear();
   occluders_.clear();
-  // Far tiles cost as much to draw as near ones and hide little: measured over Everest and Fuji, leaving out
-  // what is narrower than 48 texels costs a few percent of the hidden tiles and saves up to half of the pass.
+  // Far tiles cost as much to draw as near ones and hide little. Measured over Everest and Fuji, leaving out
+  // tiles narrower than 48 texels loses a few percent of the hidden tiles and saves up to half of the pass.
   const TerrainIndex& index = database_->index();
   const double texelsPerTangent = size.widthPx / (request.view.right - request.view.left);
   const double leastTexels = std::min(48.0, 0.12 * size.widthPx);
@@ -105,13 +88,10 @@ std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& requ
       occluders_.push_back(tile);
   }
   if (occluders_.empty()) {
-    counters.note = "No tile in view may hide another: all are too far, or at the terrain's edge.";
+    mapNote_ = "No tile in view may hide another: all are too far away or at the terrain's edge.";
     return {};
   }
   pass.prepare(size.widthPx, size.heightPx, testedSlots_);
-  counters.depthMap = size;
-  ++counters.depthMapsDrawn;
-  counters.mapsReadBack += readBack && readBack_->atOnce();
   depthMapCurrent_ = true;
   nearM_ = request.view.nearM;
   return DepthView{eye_,
@@ -120,25 +100,29 @@ std::optional<DepthView> FrameCulling::prepareOcclusion(const FrameRequest& requ
                    OcclusionPass::kLevels,
                    static_cast<int>(testedSlots_.size()),
                    defects_.loweringScale,
-                   defects_.depthMapShiftTexels,
-                   *motionM};
+                   defects_.depthMapShiftTexels};
+}
+
+OcclusionResult FrameCulling::result() const {
+  OcclusionResult result = occlusion_.result();
+  if (!mapNote_.empty()) result.note = mapNote_;
+  if (depthMapCurrent_) result.depthMap = occlusion_.resolution();
+  return result;
+}
+
+FrameCounters FrameCulling::counters() const {
+  FrameCounters counters = occlusion_.counters();
+  counters.cutsSelected += cutSelected_;
+  counters.depthMapsDrawn += depthMapCurrent_;
+  return counters;
 }
 
 void FrameCulling::removeHidden(const TileCache& tiles, OcclusionPass& pass) {
-  if (occlusion_.serves(OcclusionMethod::read_back)) {
-    readBack_->take(pass, eye_, view_, occluders_);
-    if (!readBack_->atOnce()) return;
-    if (const auto flags = readBack_->hidden(visible_.tiles, eye_, view_); !flags.empty())
-      removeOccluded(database_->index(), flags, visible_);
-    return;
-  }
   pass.test(tiles, flags_);
   removeOccluded(database_->index(), flags_, visible_);
 }
 
 Renderer::Grey FrameCulling::readDepthMap(const OcclusionPass& pass) const {
-  if (occlusion_.serves(OcclusionMethod::read_back))
-    return readBack_->age() < 0 ? Renderer::Grey{} : readBack_->picture();
   if (!depthMapCurrent_) return occlusion_.picture();
   std::vector<float> depths;
   GLint before = 0;
@@ -150,7 +134,7 @@ Renderer::Grey FrameCulling::readDepthMap(const OcclusionPass& pass) const {
 
 Renderer::Grey greyOf(std::span<const float> depths, int width, int height, double nearM) {
   Renderer::Grey grey{width, height, std::vector<std::uint8_t>(depths.size(), 255)};
-  // By the logarithm of the distance: the same step is the same ratio near and far.
+  // The grey follows the logarithm of the distance, so that a step is the same ratio near and far.
   constexpr double kFrom = Renderer::Grey::kNearestM, kTo = Renderer::Grey::kFurthestM;
   for (std::size_t i = 0; i < depths.size(); ++i) {
     if (!(depths[i] > 0)) continue;

@@ -6,12 +6,13 @@
 
 namespace trimtab::scene {
 
-int HorizonMemory::columnsFor(int depthMapWidthPx) {
-  return std::clamp(2 * depthMapWidthPx, Horizon::kLeastColumns, Horizon::kMostColumns);
+int HorizonMemory::columnsFor(int resolutionWidthPx) {
+  return std::clamp(2 * resolutionWidthPx, Horizon::kLeastColumns, Horizon::kMostColumns);
 }
 
 double HorizonMemory::slackOf(const ViewShape& view, int subpixelBits) {
-  // Five steps of a pixel that has 256 of them, which leaves room for rounding; in coarser ones as many.
+  // Five steps of a rasteriser with 256 steps per pixel, which includes a margin for rounding; as many of
+  // coarser steps.
   const double pixels = 0.02 * std::max(1.0, std::ldexp(1.0, 8 - subpixelBits));
   return pixels * std::max((view.right - view.left) / view.widthPx, (view.top - view.bottom) / view.heightPx);
 }
@@ -36,34 +37,28 @@ void HorizonMemory::clear() {
   key_.reset();
 }
 
-/// Where next to nothing is hidden there is nothing to gain a little further on.
+/// Returns true if the last horizon hid next to nothing and was built near here.
 bool HorizonMemory::hidLittleNear(const Key& key) const {
   return key_ && hidLittle_ && key_->cut.rule == key.cut.rule &&
          key_->settings.columns == key.settings.columns && key_->settings.raised == key.settings.raised &&
          length(key.eye - key_->eye) < kBelievedM;
 }
 
-std::span<const std::uint8_t> HorizonMemory::hidden(OcclusionGround& ground, Vec3 eye,
-                                                    const Horizon::Settings& settings, const Skips& skips,
-                                                    bool alone) {
+HorizonMemory::Result HorizonMemory::find(OcclusionGround& ground, Vec3 eye,
+                                          const Horizon::Settings& settings, const Skips& skips, bool alone) {
   const Key key{eye, ground.cutNumber(), settings};
   const bool samePlace = key_ == key;
-  noGraph_ = false;
-  if (!samePlace && skips.littleHidden && hidLittleNear(key)) {
-    ++leftOut_;
-    return {};
-  }
+  if (!samePlace && skips.littleHidden && hidLittleNear(key)) return {.hidden = {}, .leftOut = true};
   const std::size_t lacking = ground.makeSurfaces(eye), nodes = ground.cut().tiles.size();
   if (!ground.isGraph()) {
-    noGraph_ = true;
     if (lacking == 0) {
       clear();
       ground.forgetOthers();
     }
-    return {};
+    return {.hidden = {}, .noGraph = true};
   }
-  // Surfaces that were made since enter the next horizon; an eye that moves begins one soon. Else one is
-  // built once twice as many are there, or half as many lack, or none.
+  // Surfaces made since the last horizon enter the next one, and an eye that moves begins one soon. For an
+  // eye at rest one is built when twice as many surfaces are there, or half as many are missing, or none is.
   const bool muchMore = 2 * lacking <= lacked_ || nodes - lacking >= 2 * (nodes - std::min(lacked_, nodes));
   const bool grown = lacking < lacked_ &&
                      ((samePlace && lacking == 0) || (SurfaceShare::isMany(lacked_, nodes) && muchMore));
@@ -80,7 +75,7 @@ std::span<const std::uint8_t> HorizonMemory::hidden(OcclusionGround& ground, Vec
   frame.incremental = !alone;
   frame.mayOcclude = [&ground](std::uint32_t node) { return ground.mayOcclude(node); };
   frame.takesRoom = [&ground](std::uint32_t node) { return ground.takesRoom(node); };
-  const std::uint64_t scratch = moving_.fromScratch();
+  const std::uint64_t scratch = moving_.fromScratch(), built = moving_.built();
   const Horizon* const before = &horizon();
   const auto hidden = moving_.hidden(frame, ground.tree(), [&](std::vector<HorizonTile>& tiles) {
     lacked_ = lacking;
@@ -88,13 +83,12 @@ std::span<const std::uint8_t> HorizonMemory::hidden(OcclusionGround& ground, Vec
   });
   const bool atOnce = moving_.fromScratch() != scratch;
   number_ += atOnce || before != &horizon();
-  moved_ += !samePlace && !atOnce;
   if (!samePlace || grown) {
     const auto count = static_cast<std::size_t>(std::count(hidden.begin(), hidden.end(), std::uint8_t{1}));
     hidLittle_ = isLittle(count, hidden.size()) && !SurfaceShare::isMany(lacked_, nodes);
   }
   key_ = key;
-  return hidden;
+  return {.hidden = hidden, .moved = !samePlace && !atOnce, .built = moving_.built() - built};
 }
 
 }  // namespace trimtab::scene

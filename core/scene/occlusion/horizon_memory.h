@@ -6,46 +6,51 @@
 #include <vector>
 
 #include "occlusion_ground.h"
-#include "trimtab/scene/renderer.h"
 #include "trimtab/culling/moving_horizon.h"
 #include "trimtab/culling/occlusion_choice.h"
 #include "trimtab/frame/frame_request.h"
+#include "trimtab/scene/renderer.h"
 
 namespace trimtab::scene {
 
-/// A horizon that goes with the eye, and is left out where it would hide next to nothing.
+/// The horizon of a moving eye, which is left out where it would hide next to nothing.
 class HorizonMemory {
  public:
-  /// Forgets it.
+  /// What one frame found, and the work that it did.
+  struct Result {
+    /// One flag per tile of the cut, in its order: 1 if it is proven hidden, whatever the view direction.
+    /// Empty if the horizon was left out or cannot be built. Valid until the next call.
+    std::span<const std::uint8_t> hidden;
+    bool noGraph = false;     ///< no horizon can be built, because a place may have two heights
+    bool leftOut = false;     ///< not looked for, because near here a horizon hid next to nothing
+    bool moved = false;       ///< a horizon that was built for an earlier eye position was used
+    std::uint64_t built = 0;  ///< horizons begun in this frame
+  };
+  /// Discards the horizon.
   void clear();
-  /// In every frame, whether it is asked or not: so it knows how fast the eye goes.
+  /// Counts a frame. Call it in every frame, also without find(), so that the eye's speed is known.
   void beginFrame() { ++frame_; }
-  /// Which tiles are proven hidden from an eye that the ground does not refuse, in the cut's order, whatever
-  /// the view's direction. Empty where nothing is: also, where `skips.littleHidden`, while the eye has moved
-  /// little since next to nothing was, by the same rule for the levels. `alone`: built whole at every new
-  /// place, never taken along from another.
-  std::span<const std::uint8_t> hidden(OcclusionGround& ground, Vec3 eye, const Horizon::Settings& settings,
-                                       const Skips& skips, bool alone = false);
-  /// The view as the last horizon sees it: what it covers grey, what stays open white. Row 0 at the bottom.
+  /// Finds which tiles of the ground's cut are hidden from an eye that the ground does not refuse. With
+  /// skips.littleHidden it does nothing while the eye is within kBelievedM of where next to nothing was
+  /// hidden, under the same LOD rule. If `alone` is true a horizon is built at once at every new eye
+  /// position, so that the result depends on no earlier frame.
+  Result find(OcclusionGround& ground, Vec3 eye, const Horizon::Settings& settings, const Skips& skips,
+              bool alone = false);
+  /// Returns the view as the last horizon sees it, row 0 at the bottom: grey where it hides, white where it
+  /// does not.
   Renderer::Grey picture(const EyePose& eye, const ViewShape& view, int widthPx, int heightPx) const;
 
-  /// Whether the last call had no graph to make a horizon of.
-  bool noGraph() const { return noGraph_; }
-
   const Horizon& horizon() const { return moving_.horizon(); }
-  std::uint64_t number() const { return number_; }         ///< another one for another horizon
-  std::uint64_t built() const { return moving_.built(); }  ///< horizons, since the start
-  std::uint64_t moved() const { return moved_; }           ///< frames that an earlier one served
-  /// Calls since the start that skips.littleHidden spared.
-  std::uint64_t leftOut() const { return leftOut_; }
+  std::uint64_t number() const { return number_; }  ///< a new number for each horizon that is used
 
-  /// Where so little of all tiles is hidden, no more is believed to be for kBelievedM around.
+  /// Returns true if so little of all tiles is hidden that no more is expected within kBelievedM.
   static bool isLittle(std::size_t hidden, std::size_t of) { return hidden * 50 < of; }
   static constexpr double kBelievedM = OcclusionChoice::kBelievedM;
 
-  /// Columns of a quarter of the circle for a depth map of this width.
-  static int columnsFor(int depthMapWidthPx);
-  /// How far rasterising may shift a direction, radians, where vertices keep so many bits of a pixel.
+  /// Returns the columns per quarter of the circle for a width of the occlusion resolution (OcclusionStage).
+  static int columnsFor(int resolutionWidthPx);
+  /// Returns the angle, radians, by which a rasteriser may shift a direction if its vertices keep so many
+  /// bits of a pixel.
   static double slackOf(const ViewShape& view, int subpixelBits);
 
  private:
@@ -59,10 +64,10 @@ class HorizonMemory {
 
   MovingHorizon moving_;
   std::optional<Key> key_;
-  bool hidLittle_ = false, noGraph_ = false;
-  std::size_t lacked_ = 0;                   ///< surfaces, when a horizon was last begun
-  std::uint64_t frame_ = 0, lastFrame_ = 0;  ///< of now, and when it was last asked
-  std::uint64_t number_ = 0, moved_ = 0, leftOut_ = 0;
+  bool hidLittle_ = false;
+  std::size_t lacked_ = 0;                   ///< surfaces that were missing when a horizon was last begun
+  std::uint64_t frame_ = 0, lastFrame_ = 0;  ///< this frame, and that of the last find()
+  std::uint64_t number_ = 0;
 };
 
 }  // namespace trimtab::scene

@@ -11,9 +11,9 @@
 namespace trimtab::scene {
 namespace {
 
-/// Cells a side of a part that is tested as a box.
+/// Cells per side of a part that is tested as a box.
 constexpr int kPartCells = 4;
-/// Narrower ones hide little that others do not, and cost as much: texels.
+/// Occluders narrower than this, in texels, are not drawn: they cost as much as others and hide little more.
 constexpr double kLeastTexels = 16;
 
 }  // namespace
@@ -48,25 +48,6 @@ void makeDepthMesh(const terrain::TileMesh& mesh, float slopeMax, DepthMesh& out
   out.setBoxes(parts);
 }
 
-void TileMeshes::setDatabase(std::shared_ptr<const terrain::Database> database) {
-  database_ = std::move(database);
-  meshes_.reset(database_ ? database_->index().size() : 0);
-}
-
-const depth::Triangles& TileMeshes::triangles() {
-  static const depth::Triangles kTriangles(makeOccluderIndices());
-  return kTriangles;
-}
-
-const DepthMesh& TileMeshes::of(std::uint32_t node) {
-  if (const DepthMesh* kept = meshes_.find(node)) return *kept;
-  database_->buildTile(node, mesh_);
-  DepthMesh& mesh = meshes_.make(node);
-  makeDepthMesh(mesh_, database_->index().slopeMax[node], mesh);
-  ++made_;
-  return mesh;
-}
-
 std::span<const std::uint8_t> DepthMapCulling::hidden(std::span<const Item> items, const EyePose& eye,
                                                       const MapView& view) {
   fates_.assign(items.size(), static_cast<std::uint8_t>(DepthFate::seen));
@@ -96,7 +77,6 @@ std::span<const std::uint8_t> DepthMapCulling::hidden(std::span<const Item> item
   }
   map_.finish();
   nearM_ = view.view.nearM;
-  ++drawn_;
   for (const Place& place : places_)
     if (fates_[place.item] == static_cast<std::uint8_t>(DepthFate::seen))
       fates_[place.item] = static_cast<std::uint8_t>(map_.test(*items[place.item].mesh));
@@ -109,7 +89,13 @@ Renderer::Grey DepthMapCulling::picture() const {
 }
 
 void MapCulling::setDatabase(std::shared_ptr<const terrain::Database> database) {
-  meshes_.setDatabase(std::move(database));
+  database_ = std::move(database);
+  meshes_.reset(database_ ? database_->index().size() : 0);
+}
+
+void MapCulling::make(std::uint32_t node) {
+  database_->buildTile(node, mesh_);
+  makeDepthMesh(mesh_, database_->index().slopeMax[node], meshes_.make(node));
 }
 
 std::span<const std::uint8_t> MapCulling::hidden(const LevelCut& cut, std::span<const TileDraw> visible,
@@ -117,11 +103,12 @@ std::span<const std::uint8_t> MapCulling::hidden(const LevelCut& cut, std::span<
                                                  const OcclusionConditions& conditions, SurfaceShare& share) {
   meshes_.forgetOthers(cut);
   share.makeNearest(
-      visible, meshes_.bounds(), eye.position, [this](TileDraw tile) { return !meshes_.find(tile.node); },
-      [this](TileDraw tile) { meshes_.of(tile.node); });
+      visible, database_->index().bounds, eye.position,
+      [this](TileDraw tile) { return !meshes_.find(tile.node); }, [this](TileDraw tile) { make(tile.node); });
+  static const depth::Triangles kTriangles(makeOccluderIndices());
   items_.clear();
   for (const TileDraw& tile : visible)
-    items_.push_back({meshes_.find(tile.node), &TileMeshes::triangles(), conditions.mayOcclude(tile.node)});
+    items_.push_back({meshes_.find(tile.node), &kTriangles, conditions.mayOcclude(tile.node)});
   return culling_.hidden(items_, eye, view);
 }
 

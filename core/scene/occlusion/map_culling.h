@@ -7,36 +7,38 @@
 
 #include "core/scene/terrain/surfaces_in_use.h"
 #include "occlusion_conditions.h"
-#include "trimtab/scene/renderer.h"
 #include "trimtab/culling/depth_map.h"
 #include "trimtab/culling/select.h"
+#include "trimtab/scene/renderer.h"
 #include "trimtab/terrain/format/database.h"
 
 namespace trimtab::scene {
 
-/// What a depth map is drawn for.
+/// The view that a depth map is drawn for.
 struct MapView {
-  ViewShape view;       ///< the picture's
-  DepthMapSize size;    ///< the map's: as the band says
-  double lowering = 1;  ///< of what the proof asks for: Defects
+  ViewShape view;       ///< of the image
+  DepthMapSize size;    ///< of the map
+  double lowering = 1;  ///< DepthMap::Settings::lowering
 };
 
-/// A tile for the depth map: its occluder, and boxes of its parts as drawn.
+/// Fills `out` with what a depth map needs of a tile: its occluder (occluder.h) and the boxes of its parts as
+/// drawn. `slopeMax` is the index's for the node.
 void makeDepthMesh(const terrain::TileMesh& mesh, float slopeMax, DepthMesh& out);
 
-/// Meshes that may hide each other, nearest first, by the CPU's depth map. Needs no context.
+/// Finds which of a set of meshes hide each other, with the CPU's depth map (culling/depth_map.h). Needs no
+/// GL context.
 class DepthMapCulling {
  public:
   struct Item {
-    const DepthMesh* mesh = nullptr;  ///< null: never hidden, hides nothing
+    const DepthMesh* mesh = nullptr;  ///< if null, the item is never hidden and hides nothing
     const depth::Triangles* triangles = nullptr;
     bool mayOcclude = false;
   };
-  /// One an item: a DepthFate. The eye must be one that may hide (OcclusionConditions).
+  /// Draws the items that may occlude, nearest first, and tests all of them. Returns a DepthFate per item,
+  /// valid until the next call. OcclusionConditions must not refuse the eye.
   std::span<const std::uint8_t> hidden(std::span<const Item> items, const EyePose& eye, const MapView& view);
+  /// Returns the last map as an image in greys.
   Renderer::Grey picture() const;
-  std::uint64_t drawn() const { return drawn_; }  ///< maps, since the start
-  std::uint64_t triangles() const { return map_.triangles(); }
 
  private:
   DepthMap map_;
@@ -47,45 +49,29 @@ class DepthMapCulling {
     std::uint32_t item;
   };
   std::vector<Place> places_;
-  std::uint64_t drawn_ = 0;
 };
 
-/// Meshes of tiles for depth maps: made when they are first asked for, kept while they are in use.
-class TileMeshes {
- public:
-  void setDatabase(std::shared_ptr<const terrain::Database> database);
-  const DepthMesh* find(std::uint32_t node) const { return meshes_.find(node); }  ///< null: not made
-  /// Good until the next `forgetOthers`.
-  const DepthMesh& of(std::uint32_t node);
-  void forgetOthers(const LevelCut& cut) { meshes_.forgetOthers(cut); }
-  const std::vector<Box>& bounds() const { return database_->index().bounds; }
-  static const depth::Triangles& triangles();
-  std::uint64_t made() const { return made_; }
-
- private:
-  std::shared_ptr<const terrain::Database> database_;
-  SurfacesInUse<DepthMesh> meshes_;  ///< 8 KB each
-  std::uint64_t made_ = 0;
-  terrain::TileMesh mesh_;
-};
-
-/// The CPU's depth map over the tiles of a cut.
+/// The CPU's depth map over the tiles of a cut. Makes each tile's mesh when it is first needed and keeps it
+/// while it is in use.
 class MapCulling {
  public:
+  /// Starts with another terrain, or with none if it is null.
   void setDatabase(std::shared_ptr<const terrain::Database> database);
-  /// `visible`: those of the cut in view that are not known to be hidden. One each, in their order, as
-  /// removeOccluded takes them. The eye must be one that `conditions` do not refuse.
+  /// Tests the tiles of `visible`, which are those of the cut in view that are not known to be hidden.
+  /// Returns one flag per tile, in their order, as removeOccluded reads them. `conditions` must not refuse
+  /// the eye. Makes no more meshes than `share` allows; a tile without a mesh is kept.
   std::span<const std::uint8_t> hidden(const LevelCut& cut, std::span<const TileDraw> visible,
                                        const EyePose& eye, const MapView& view,
                                        const OcclusionConditions& conditions, SurfaceShare& share);
-  /// The last map.
+  /// Returns the last map as an image in greys.
   Renderer::Grey picture() const { return culling_.picture(); }
-  std::uint64_t drawn() const { return culling_.drawn(); }
-  std::uint64_t triangles() const { return culling_.triangles(); }
-  std::uint64_t meshesMade() const { return meshes_.made(); }
 
  private:
-  TileMeshes meshes_;
+  void make(std::uint32_t node);
+
+  std::shared_ptr<const terrain::Database> database_;
+  SurfacesInUse<DepthMesh> meshes_;  ///< 8 KB each
+  terrain::TileMesh mesh_;
   DepthMapCulling culling_;
   std::vector<DepthMapCulling::Item> items_;
 };

@@ -18,7 +18,7 @@ std::size_t at(int column, int row) {
   return static_cast<std::size_t>(row * kSide + column);
 }
 
-/// The lowest the drawn surface can be at each post: a stitched side leaves its odd posts out.
+/// Finds the lowest that the drawn surface can be at each post. A stitched side leaves its odd posts out.
 void lowestDrawn(const terrain::TileMesh& mesh, Heights& low) {
   for (std::size_t i = 0; i < kVertices; ++i) low[i] = mesh.vertices[i].z;
   for (int i = 1; i < kCells; i += 2)
@@ -31,11 +31,11 @@ void lowestDrawn(const terrain::TileMesh& mesh, Heights& low) {
     }
 }
 
-/// How far the two coarse triangles of a cell rise above the drawn surface. Triangulations are nested, so the
-/// largest difference is at a post. The cell is the 2 x 2 block at an even post; its diagonal runs SW-NE
-/// where (x + y) / 2 is even.
+/// How far the two coarse triangles of a cell rise above the drawn surface, metres. Triangulations are
+/// nested, so the largest difference is at a post. The cell is the 2 x 2 block at an even post; its diagonal
+/// runs from south-west to north-east where (x + y) / 2 is even.
 struct CellRise {
-  float lower, upper;  ///< of the triangle with the south side, and of the one with the north side
+  float lower, upper;  ///< the triangle with the south side, and the one with the north side
 };
 CellRise riseOf(const terrain::TileMesh& mesh, const Heights& low, int x, int y) {
   const auto z = [&mesh](int column, int row) { return mesh.vertices[at(column, row)].z; };
@@ -68,7 +68,7 @@ float steepestAround(const terrain::TileMesh& mesh, int x, int y) {
   return steepest;
 }
 
-/// Spacing of neighbouring posts; past the data's edge posts repeat and do not count.
+/// Spacing of neighbouring posts, metres. Beyond the data's edge posts repeat and do not count.
 struct Spacing {
   float smallest = std::numeric_limits<float>::max(), largest = 0;
 };
@@ -89,7 +89,7 @@ Spacing spacingOf(const terrain::TileMesh& mesh) {
   return {s.smallest * 0.99f, s.largest * 1.01f};
 }
 
-/// Vertex of the border, counter-clockwise from the south-west corner.
+/// Returns the index of a border vertex, counted counter-clockwise from the south-west corner.
 std::size_t onRing(int i) {
   constexpr int kEdge = kOccluderSide - 1;
   const int along = i % kEdge;
@@ -143,9 +143,9 @@ std::vector<std::uint16_t> makeOccluderIndices() {
 void makeOccluder(const terrain::TileMesh& mesh, float slopeMax, TileOccluder& occluder) {
   static_assert(kOccluderStep == 2, "riseOf looks at the 2 x 2 blocks");
   const Spacing spacing = spacingOf(mesh);
-  // Slopes of vertices hold for two posts round them (TileVertex::slope), and here are the largest of a
-  // triangle's span. The index's hold for the whole neighbouring tiles; a coarser neighbour's triangle may
-  // be 1.42 times steeper than each of the finer ones in it.
+  // Slopes of vertices hold for two posts around them (TileVertex::slope); here they are the largest in a
+  // triangle's span. The index's slope holds for all of the neighbouring tiles too, but a coarser neighbour's
+  // triangle may be 1.42 times steeper than each of the finer ones in it.
   occluder.limits = {2 * spacing.smallest, 0.5f * kCells * spacing.smallest, 1.5f * slopeMax,
                      1.5f * kOccluderStep * spacing.largest};
 
@@ -173,13 +173,13 @@ void makeOccluder(const terrain::TileMesh& mesh, float slopeMax, TileOccluder& o
       const auto i = static_cast<std::size_t>(y * kOccluderSide + x);
       const terrain::TileVertex& v = mesh.vertices[at(x * kOccluderStep, y * kOccluderStep)];
       const float slope = steepestAround(mesh, x * kOccluderStep, y * kOccluderStep);
-      // Posts are not quite on a plane grid: meridians converge and the earth is round, by less than edge^2 /
-      // R.
+      // Posts are not quite on a plane grid, because meridians converge and the earth is round. The
+      // difference is below edge^2 / R.
       const float curved = occluder.limits.edge * occluder.limits.edge / 6.3e6f * (1 + slope) + 0.01f;
       occluder.vertices[i] = {v.x, v.y, v.z - rise[i] - curved, slope};
     }
-  // Deeper than neighbours' borders can differ. What is lower still hides no more than the border over it
-  // does.
+  // Deeper than the borders of neighbours can differ. A wall that reaches lower hides no more than the border
+  // above it.
   const float depth = *std::max_element(rise.begin(), rise.end()) + 0.25f * occluder.limits.edge;
   for (int i = 0; i < kRing; ++i) {
     OccluderVertex v = occluder.vertices[onRing(i)];

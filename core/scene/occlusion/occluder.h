@@ -6,36 +6,37 @@
 
 #include "trimtab/terrain/format/database.h"
 
-/// What a tile hides, and what must be hidden for it to be left out. The proof is in occlusion.h.
+/// The lowered copy of a tile that may hide others, and the boxes that must be hidden before the tile itself
+/// may be left out. resources/docs/occlusion.md has the proof.
 namespace trimtab::scene {
 
-constexpr int kOccluderStep = 2;  ///< every so-manyth post
+constexpr int kOccluderStep = 2;  ///< an occluder uses every second post
 constexpr int kOccluderSide = TerrainIndex::kTileCells / kOccluderStep + 1;
 constexpr int kRing = 4 * (kOccluderSide - 1);
-/// The posts row by row, then the border once more, lower: a wall all round, or rays would slip through
-/// between tiles whose borders are lowered differently.
+/// First the posts row by row, then the border again, lower. That makes a wall around the tile, without which
+/// rays would pass between tiles whose borders are lowered differently.
 constexpr int kOccluderVertices = kOccluderSide * kOccluderSide + kRing;
-constexpr int kPartsPerSide =
-    4;  ///< a tile is tested as 4 x 4 boxes: one box pokes over the ridge that hides it
+/// A tile is tested as 4 x 4 boxes, because a single box would stand out above the ridge that hides the tile.
+constexpr int kPartsPerSide = 4;
 constexpr int kParts = kPartsPerSide * kPartsPerSide;
 
-/// A vertex of the tile by every second post, put so low that no point of its triangles is above the tile as
-/// drawn, whichever of its sides are stitched to coarser neighbours. `slope` bounds the drawn surface's (rise
-/// over run against the geodetic vertical) over the triangles of this vertex and for OccluderLimits::reach
-/// around them.
+/// A vertex of an occluder, metres from the tile's origin. It is so low that no point of its triangles is
+/// above the tile as drawn, whichever of the tile's sides are stitched to coarser neighbours. `slope` is an
+/// upper bound of the drawn surface's slope (rise over run against the geodetic vertical) over the triangles
+/// of this vertex and within OccluderLimits::reach of them.
 struct OccluderVertex {
   float x, y, z;
   float slope;
 };
 
 struct OccluderLimits {
-  float reach = 0;     ///< metres round a triangle that its vertices' slopes hold for
-  float farReach = 0;  ///< the same for `farSlope`
+  float reach = 0;     ///< metres around a triangle within which its vertices' slopes hold
+  float farReach = 0;  ///< metres around a triangle within which farSlope holds
   float farSlope = 0;
-  float edge = 0;  ///< a triangle's longest edge, seen from above
+  float edge = 0;  ///< longest edge of any triangle in plan, metres
 };
 
-/// Box of a part of the tile, metres from the tile's origin.
+/// The box of a part of the tile, metres from the tile's origin.
 struct PartBox {
   std::array<float, 4> low, high;  ///< x, y, z, unused
 };
@@ -46,10 +47,10 @@ struct TileOccluder {
   std::array<PartBox, kParts> parts;
 };
 
-/// Triangles of every occluder; counter-clockwise from above and from outside.
+/// Returns the triangles that all occluders share, counter-clockwise from above and from outside.
 std::vector<std::uint16_t> makeOccluderIndices();
 
-/// `slopeMax` is the index's for the node.
+/// Fills `occluder` from a tile's mesh. `slopeMax` is the index's for the node.
 void makeOccluder(const terrain::TileMesh& mesh, float slopeMax, TileOccluder& occluder);
 
 }  // namespace trimtab::scene

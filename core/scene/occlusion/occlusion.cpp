@@ -27,7 +27,8 @@ int halved(int size, int times) {
   return (size + (1 << times) - 1) >> times;
 }
 
-/// The least multiple of `block` that holds `size` in an odd number of blocks, three at least.
+/// Returns the least multiple of `block` that is at least `size` and has an odd number of blocks, three or
+/// more.
 int oddBlocks(int size, int block) {
   return block * std::max(3, (size + block - 1) / block | 1);
 }
@@ -57,16 +58,17 @@ void OcclusionPass::resizeMap(int width, int height) {
   width_ = width;
   height_ = height;
   if (width <= storedWidth_ && height <= storedHeight_) return;
-  // Storage only grows, and its sides are never powers of two: a software rasteriser compiles shaders anew
-  // for a texture whose are (half a second, measured), and the decision changes size in mid-flight.
+  // Storage only grows, and its sides are never powers of two. The decision changes the size in flight, and a
+  // software rasteriser compiles its shaders again for a texture whose sides are powers of two (half a
+  // second, measured).
   storedWidth_ = oddBlocks(std::max(width, storedWidth_), 1);
   storedHeight_ = oddBlocks(std::max(height, storedHeight_), 1);
   for (const GLuint texture : {depth_, pyramid_}) glDeleteTextures(1, &texture);
   depth_ = makeTexture();
   glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, storedWidth_, storedHeight_, 0, GL_DEPTH_COMPONENT,
                GL_FLOAT, nullptr);
-  // Sizes of texture levels round down; a pyramid that must cover every texel rounds up. So its base is a
-  // multiple of what its levels halve.
+  // Sizes of texture levels round down, but a pyramid that must cover every texel rounds up. So its base is a
+  // multiple of what its levels divide it by.
   constexpr int kBlock = 1 << (kLevels - 1);
   pyramid_ = makeTexture();
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
@@ -171,13 +173,6 @@ void OcclusionPass::read(std::vector<float>& depths) const {
   if (depths.empty()) return;
   glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_);
   glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
-}
-
-void OcclusionPass::readTo(unsigned pixelBuffer) const {
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_);
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, pixelBuffer);
-  glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
 }
 
 }  // namespace trimtab::scene

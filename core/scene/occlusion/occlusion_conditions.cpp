@@ -8,7 +8,8 @@
 namespace trimtab::scene {
 namespace {
 
-/// Height of the mesh over (x, y), metres from the tile's origin; none beside the tile.
+/// Returns the height of the mesh over (x, y), metres from the tile's origin; unset if (x, y) is beside the
+/// tile.
 std::optional<double> heightOfMesh(const terrain::TileMesh& mesh, std::span<const std::uint16_t> indices,
                                    double x, double y) {
   std::optional<double> highest;
@@ -35,8 +36,8 @@ void OcclusionConditions::setDatabase(std::shared_ptr<const terrain::Database> d
     const double tileM = TerrainIndex::kTileCells * std::ldexp(1.0, static_cast<int>(level)) *
                          std::min(info.postLatitude.value() * extent_.metresPerDegreeNorth(),
                                   info.postLongitude.value() * extent_.metresPerDegreeEast());
-    // Half a tile is how far from its own place an occluder's texel may look (OccluderLimits::farReach). One
-    // more tile to the east and north, where the last one may be empty but for a column of posts.
+    // An occluder's texel may look half a tile beyond its own place (OccluderLimits::farReach). To the east
+    // and north one more tile is left out, because the last one may hold only a single column of posts.
     const double border = std::ceil(extent_.sagM() / tileM + 0.5);
     for (std::uint32_t row = 0; row < l.rows; ++row)
       for (std::uint32_t column = 0; column < l.columns; ++column) {
@@ -63,7 +64,7 @@ std::optional<OcclusionConditions::Ground> OcclusionConditions::groundUnder(cons
     if (!height) return {};
     return Ground{tile.node, *height + 16.0 * mesh_.origin[2]};
   };
-  // Mostly it still is the tile of the last frame, whose mesh is at hand.
+  // Mostly the eye is still over the tile of the last frame, whose mesh is kept.
   const auto last = std::find_if(cut.tiles.begin(), cut.tiles.end(),
                                  [this](const TileDraw& t) { return t.node == meshNode_; });
   if (last != cut.tiles.end())

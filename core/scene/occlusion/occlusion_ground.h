@@ -6,21 +6,22 @@
 #include <vector>
 
 #include "core/scene/terrain/surfaces_in_use.h"
-#include "trimtab/scene/renderer.h"
 #include "trimtab/culling/horizon.h"
 #include "trimtab/culling/select.h"
 #include "trimtab/culling/surface_tree.h"
+#include "trimtab/scene/renderer.h"
 
 namespace trimtab::scene {
 
+/// Identifies a LOD cut.
 struct CutNumber {
-  std::uint64_t cut = 0;         ///< another one for another cut
-  std::uint64_t rule = 0;        ///< another one where not only the eye differs that it was made for
-  double errorOverDistance = 0;  ///< of that rule, as MovingHorizon takes it
+  std::uint64_t cut = 0;         ///< a new number for each new cut
+  std::uint64_t rule = 0;        ///< a new number if the cut differs by more than the eye it was selected for
+  double errorOverDistance = 0;  ///< of that rule: MovingHorizon::Frame::errorOverDistance
   friend bool operator==(const CutNumber&, const CutNumber&) = default;
 };
 
-/// The ground as an OcclusionStage sees it, whatever form it is drawn in. Needs no context.
+/// The ground as OcclusionStage sees it, in any form of the terrain: tiles or patches. Needs no GL context.
 class OcclusionGround {
  public:
   OcclusionGround() = default;
@@ -28,36 +29,38 @@ class OcclusionGround {
   OcclusionGround& operator=(const OcclusionGround&) = delete;
   virtual ~OcclusionGround() = default;
 
-  /// Of this frame.
+  /// Return the cut of this frame and its number.
   virtual const LevelCut& cut() const = 0;
   virtual const CutNumber& cutNumber() const = 0;
-  /// Why nothing may be hidden from this eye, a sentence; empty when it may.
+  /// Returns a sentence that says why nothing may be hidden from this eye, or an empty string if ground may
+  /// be.
   virtual std::string refusal(const EyePose& eye, const ViewShape& view) = 0;
-  /// Makes surfaces of the cut's nodes for `fill` and `isGraph`, within the frame's share; returns how many
-  /// lack.
+  /// Makes surfaces of the cut's nodes for `fill` and `isGraph`, no more than share() allows. Returns how
+  /// many are still missing.
   virtual std::size_t makeSurfaces(Vec3 eye) = 0;
-  /// The surfaces of the cut's nodes, in its order; where there is none of any variant, the lid of the box.
-  /// They stay as they are until the next call.
+  /// Appends the surface of each node of the cut, in its order; if a node has none, the lid of its box. They
+  /// do not change until the next call.
   virtual void fill(std::vector<HorizonTile>& tiles) = 0;
-  /// What may stand in the place of what.
+  /// Returns which surfaces may replace which.
   virtual SurfaceTree tree() const = 0;
-  /// Of any node, whether it may hide others where it is drawn.
+  /// Returns whether a node may hide others if it is drawn.
   virtual bool mayOcclude(std::uint32_t node) = 0;
-  /// Of a node of the cut, as MovingHorizon::Frame says.
+  /// Implements MovingHorizon::Frame::takesRoom for a node of the cut.
   virtual bool takesRoom(std::uint32_t node) const = 0;
-  /// Nothing that `fill` gave is in use any more.
+  /// Allows surfaces that `fill` handed out to be freed, because no horizon uses them any more.
   virtual void forgetOthers() = 0;
-  /// False where a place may have two heights, as far as is known: nothing may hide anything.
+  /// Returns false if, as far as is known, a place may have two heights. Then there is no horizon.
   virtual bool isGraph() { return true; }
 
-  // The processor's depth map.
-  /// One a tile of `visible`, as removeOccluded takes it.
+  /// Tests `visible` with the CPU's depth map of this size. Returns one flag per tile, as removeOccluded
+  /// reads them. `loweringScale` is MapView::lowering.
   virtual std::span<const std::uint8_t> hiddenByMap(std::span<const TileDraw> visible, const EyePose& eye,
                                                     const ViewShape& view, DepthMapSize size,
                                                     double loweringScale) = 0;
+  /// Returns the last of these maps as an image in greys.
   virtual Renderer::Grey mapPicture() const = 0;
 
-  /// Surfaces that a frame may make.
+  /// Returns the limit on surfaces made per frame.
   SurfaceShare& share() { return share_; }
 
  private:

@@ -1,6 +1,6 @@
 #include "occlusion_stage.h"
-#include "trimtab/scene/planted_defects.h"
 #include "trimtab/frame/frame_request.h"
+#include "trimtab/scene/planted_defects.h"
 
 #include <algorithm>
 #include <chrono>
@@ -10,22 +10,21 @@
 namespace trimtab::scene {
 namespace {
 
-/// A map that hid little is not drawn again until the eye has moved by HorizonMemory::kBelievedM or turned so
-/// far.
+/// A map that hid little is not drawn again until the eye has moved by HorizonMemory::kBelievedM or turned by
+/// this angle, radians.
 constexpr double kBelievedTurn = 0.05;
 
-/// A frame that lacks many surfaces says nothing about what a method is worth; so many in a row do.
+/// A frame for which many surfaces are missing says nothing about what a method is worth, unless so many
+/// follow each other.
 constexpr int kUnlearntFrames = 600;
 
-constexpr const char* kNothingPays = "No way to find hidden ground is worth its cost here.";
+constexpr const char* kNothingPays = "No method of finding hidden ground is worth its cost here.";
 constexpr const char* kNoGpuMap = "Patches have no depth map on the GPU; the processor draws one instead.";
-constexpr const char* kNoReadBack =
-    "A depth map cannot be read back in this GL; the processor draws one instead.";
 constexpr const char* kNoGraph =
-    "Some of this ground stands upright or hangs over, or is not known yet: there is no horizon.";
+    "Some of this ground is vertical or overhangs, or is not loaded yet, so there is no horizon.";
 
-/// The size that the band asks for; none where the scheme asks for no test of any kind.
-std::optional<DepthMapSize> sizeOf(const FrameRequest& request) {
+/// Returns the occlusion resolution that the band asks for; unset if the scheme asks for no occlusion test.
+std::optional<DepthMapSize> occlusionResolution(const FrameRequest& request) {
   if (request.method != CullingCase::proposed) return {};
   if (request.decision.depthMap || request.skips.schemeFrustum) return request.decision.depthMap;
   const Band& smallest = kDepthMapBands.span().front();
@@ -62,8 +61,7 @@ void OcclusionStage::plant(const Defects& defects) {
   barren_.reset();
 }
 
-void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, GpuMaps gpu,
-                           FrameResult& counters) {
+void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, bool gpuDrawsMaps) {
   serves_.reset();
   hidden_ = {};
   chosen_ = false;
@@ -71,101 +69,99 @@ void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, GpuM
   view_ = request.view;
   refusal_ = ground_.refusal(eye, request.view);
   memory_.beginFrame();
-  counters.depthMap.reset();
-  counters.horizon = false;
-  counters.note.clear();
-  if (const auto size = sizeOf(request)) {
-    size_ = *size;
+  result_ = {};
+  counters_ = {};
+  if (const auto resolution = occlusionResolution(request)) {
+    resolution_ = *resolution;
     if (refusal_.empty())
-      serves_ = resolve(request, gpu, counters);
+      serves_ = resolve(request, gpuDrawsMaps);
     else
-      counters.note = refusal_;
+      result_.note = refusal_;
   }
   if (!chosen_) choice_.pause();
-  counters.occlusion = serves_;
-  // Where counts must not depend on what came before, all surfaces are made at once.
+  result_.occlusion = serves_;
+  // If counts must not depend on earlier frames, all surfaces are made at once.
   const bool atOnce = request.reproducible || request.waitForPages;
   ground_.share().begin(atOnce ? std::numeric_limits<std::size_t>::max() : SurfaceShare::kAFrame);
   if (!horizonServes()) return;
-  // Who wants a frame that depends on none before it believes nothing of other places.
+  // A frame that must not depend on earlier ones uses no horizon of another eye position.
   const bool alone = request.reproducible && !request.skips.littleHidden;
-  const std::uint64_t built = memory_.built(), moved = memory_.moved(), leftOut = memory_.leftOut();
-  hidden_ = memory_.hidden(ground_, eye.position,
-                           {.columns = HorizonMemory::columnsFor(size_.widthPx),
-                            .slack = HorizonMemory::slackOf(request.view, subpixelBits_),
-                            .raised = defects_.loweringScale < 1,
-                            .whole = request.wholeHorizon},
-                           request.skips, alone);
-  counters.horizonsBuilt += memory_.built() - built;
-  counters.horizonsMoved += memory_.moved() - moved;
-  counters.horizonsLeftOut += memory_.leftOut() - leftOut;
-  counters.horizon = !hidden_.empty();
-  if (!memory_.noGraph()) return;
-  counters.note = kNoGraph;
+  const HorizonMemory::Result found =
+      memory_.find(ground_, eye.position,
+                   {.columns = HorizonMemory::columnsFor(resolution_.widthPx),
+                    .slack = HorizonMemory::slackOf(request.view, subpixelBits_),
+                    .raised = defects_.loweringScale < 1,
+                    .whole = request.wholeHorizon},
+                   request.skips, alone);
+  hidden_ = found.hidden;
+  counters_.horizonsBuilt = found.built;
+  counters_.horizonsMoved = found.moved;
+  counters_.horizonsLeftOut = found.leftOut;
+  result_.horizon = !hidden_.empty();
+  if (!found.noGraph) return;
+  result_.note = kNoGraph;
   if (serves(OcclusionMethod::horizon))
     serves_.reset();
   else
     serves_ = OcclusionMethod::cpu_map;
-  counters.occlusion = serves_;
+  result_.occlusion = serves_;
 }
 
-std::optional<OcclusionMethod> OcclusionStage::resolve(const FrameRequest& request, GpuMaps gpu,
-                                                       FrameResult& counters) {
+std::optional<OcclusionMethod> OcclusionStage::resolve(const FrameRequest& request, bool gpuDrawsMaps) {
   using enum OcclusionMethod;
   OcclusionMethod method = request.occlusion;
   if (method == automatic) {
-    if (!request.reproducible) return choose(counters);
+    if (!request.reproducible) return choose();
     method = horizon;
   }
-  if ((method == depth_map && !gpu.depthMap) || (method == read_back && !gpu.readBack)) {
+  if (method == depth_map && !gpuDrawsMaps) {
     method = cpu_map;
-    counters.note = gpu.depthMap ? kNoReadBack : kNoGpuMap;
+    result_.note = kNoGpuMap;
   }
   return method;
 }
 
-/// By cost. The maps of the GPU are no choice: on a software rasteriser the processor's own does the same for
-/// less, and on a GPU the published one waits for it.
-std::optional<OcclusionMethod> OcclusionStage::choose(FrameResult& counters) {
+/// Chooses the method by cost. The GPU's depth map is not among them: on a software rasteriser the
+/// processor's own map does the same for less, and on a GPU the frame would wait for the result.
+std::optional<OcclusionMethod> OcclusionStage::choose() {
   static constexpr OcclusionMethod kMethods[] = {OcclusionMethod::horizon, OcclusionMethod::horizon_and_map,
                                                  OcclusionMethod::cpu_map};
   const double now =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  const std::uint64_t band =
-      (static_cast<std::uint64_t>(size_.widthPx) << 32) | static_cast<std::uint32_t>(size_.heightPx);
+  const std::uint64_t band = (static_cast<std::uint64_t>(resolution_.widthPx) << 32) |
+                             static_cast<std::uint32_t>(resolution_.heightPx);
   chosen_ = true;
   const auto method =
       choice_.choose({now, eye_.position, forwardOf(eye_), ground_.cutNumber().rule, kMethods, band});
   if (!method) {
-    ++counters.occlusionsLeftOut;
-    counters.note = kNothingPays;
+    ++counters_.occlusionsLeftOut;
+    result_.note = kNothingPays;
   }
   return method;
 }
 
-bool OcclusionStage::visibleStays(const FrameRequest& request, FrameResult& counters) {
+bool OcclusionStage::visibleStays(const FrameRequest& request) {
   VisibleKey key{eye_,
                  request.view,
                  request.method,
                  request.backFaces && eyeIsAboveGround(),
-                 request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited,
+                 farCutM(request),
                  ground_.cutNumber(),
                  serves_,
-                 serves_ ? size_ : DepthMapSize{},
+                 serves_ ? resolution_ : DepthMapSize{},
                  hidden_.empty() ? 0 : memory_.number(),
                  ground_.share().made()};
-  // What a map on the GPU takes out is gone from the set.
-  const bool onGpu = serves(OcclusionMethod::depth_map) || serves(OcclusionMethod::read_back);
-  const bool stays = request.skips.sameVisible && !onGpu && visibleKey_ == key;
+  // A map on the GPU removes tiles from the visible set, so that set cannot be kept.
+  const bool stays = request.skips.sameVisible && !serves(OcclusionMethod::depth_map) && visibleKey_ == key;
   visibleKey_ = key;
-  counters.visibleSelected += !stays;
+  counters_.visibleSelected += !stays;
   mapHid_ = mapHid_ && stays;
-  if (mapHid_) counters.depthMap = size_;
+  if (mapHid_) result_.depthMap = resolution_;
   return stays;
 }
 
 bool OcclusionStage::mapHidLittleNear() const {
-  if (!barren_ || barren_->method != serves_ || barren_->size != size_ ||
+  if (!barren_ || barren_->method != serves_ || barren_->resolution != resolution_ ||
       barren_->rule != ground_.cutNumber().rule)
     return false;
   return length(eye_.position - barren_->eye) < HorizonMemory::kBelievedM &&
@@ -173,23 +169,23 @@ bool OcclusionStage::mapHidLittleNear() const {
 }
 
 std::span<const std::uint8_t> OcclusionStage::hiddenByMap(const FrameRequest& request,
-                                                          const VisibleSet& visible, FrameResult& counters) {
+                                                          const VisibleSet& visible) {
   if (!mapServes() || visible.tiles.empty()) return {};
   if (request.skips.littleHidden && mapHidLittleNear()) {
-    ++counters.mapsLeftOut;
+    ++counters_.mapsLeftOut;
     return {};
   }
-  const auto flags = ground_.hiddenByMap(visible.tiles, eye_, view_, size_, defects_.loweringScale);
+  const auto flags = ground_.hiddenByMap(visible.tiles, eye_, view_, resolution_, defects_.loweringScale);
   mapHid_ = true;
-  ++counters.mapsDrawnByCpu;
-  counters.depthMap = size_;
+  ++counters_.mapsDrawnByCpu;
+  result_.depthMap = resolution_;
   if (ground_.share().lacksAny())
     visibleKey_.reset();  // the next frame's map knows more
   else if (visibleKey_)
     visibleKey_->surfaces = ground_.share().made();
   const auto hidden = static_cast<std::size_t>(std::count(flags.begin(), flags.end(), std::uint8_t{1}));
   if (HorizonMemory::isLittle(hidden, visible.tiles.size()) && !ground_.share().lacksMany())
-    barren_ = {eye_.position, forwardOf(eye_), ground_.cutNumber().rule, size_, *serves_};
+    barren_ = {eye_.position, forwardOf(eye_), ground_.cutNumber().rule, resolution_, *serves_};
   else
     barren_.reset();
   return flags;
@@ -204,7 +200,7 @@ void OcclusionStage::finished(const FrameResult& result) {
   OcclusionChoice::Outcome outcome;
   outcome.occlusionMs = or0(cost.occlusion);
   outcome.totalMs = cost.total - or0(cost.page);
-  // A GPU works beside; whichever takes longer is what a frame waits for.
+  // The GPU works in parallel, and a frame waits for whichever takes longer.
   outcome.drawMs = std::max(outcome.totalMs - outcome.occlusionMs, or0(cost.gpu));
   outcome.totalMs = std::max(outcome.totalMs, or0(cost.gpu));
   outcome.drawn = result.visible.triangles;
@@ -217,7 +213,7 @@ void OcclusionStage::finished(const FrameResult& result) {
 
 Renderer::Grey OcclusionStage::picture() const {
   if (mapHid_) return ground_.mapPicture();
-  if (horizon()) return memory_.picture(eye_, view_, size_.widthPx, size_.heightPx);
+  if (horizon()) return memory_.picture(eye_, view_, resolution_.widthPx, resolution_.heightPx);
   return {};
 }
 

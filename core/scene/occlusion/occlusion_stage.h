@@ -7,48 +7,54 @@
 
 #include "horizon_memory.h"
 #include "occlusion_ground.h"
-#include "trimtab/scene/planted_defects.h"
-#include "trimtab/scene/renderer.h"
 #include "trimtab/culling/occlusion_choice.h"
 #include "trimtab/frame/frame_request.h"
+#include "trimtab/scene/planted_defects.h"
+#include "trimtab/scene/renderer.h"
 
 namespace trimtab::scene {
 
-/// What looks for hidden ground in a frame, and what of it the processor does: horizon and its own depth map.
-/// The same for every form of the terrain. Keeps what can be kept from frame to frame. Needs no context.
+/// The stage of a frame that looks for hidden ground: it decides which method is used, and runs the horizon
+/// and the processor's depth map. It serves tiles and patches alike and keeps its results while they stay
+/// valid. Needs no GL context; FrameCulling runs the GPU's depth map.
+///
+/// The occlusion resolution is the size in texels that the band of the decision asks for. Presets, traces and
+/// the papers call it the size of the depth map, but it sizes the horizon too: the horizon has two columns
+/// per quarter of the circle for each texel of its width, within Horizon's limits.
 class OcclusionStage {
  public:
-  /// `ground` must live as long.
+  /// `ground` must outlive the stage.
   explicit OcclusionStage(OcclusionGround& ground) : ground_(ground) {}
   OcclusionStage(const OcclusionStage&) = delete;
   OcclusionStage& operator=(const OcclusionStage&) = delete;
 
-  /// Another terrain: everything is forgotten.
+  /// Discards everything, for another terrain.
   void clear();
-  /// Of the rasteriser of a new context: what frames cost is learnt anew.
+  /// Sets the bits of a pixel that the rasteriser of a new context keeps of vertices. Costs are learnt again.
   void setSubpixelBits(int bits);
+  /// Sets deliberate errors, for tests that see the proof fail.
   void plant(const Defects& defects);
 
-  // In this order, every frame.
-  /// Which of the GPU's maps the form of the terrain can draw in this context.
-  struct GpuMaps {
-    bool depthMap = false, readBack = false;
-  };
-  /// After the cut: decides what serves, and finds what the horizon hides.
-  void begin(const FrameRequest& request, const EyePose& eye, GpuMaps gpu, FrameResult& counters);
-  /// One a tile of the cut, not 0 where the horizon proves it hidden; or empty.
+  // Call the next three in this order in every frame; hiddenByMap only if visibleStays returned false.
+  /// Decides which method is used and finds what the horizon hides. The ground must have the cut of this
+  /// frame. `gpuDrawsMaps` says whether the caller can draw the GPU's depth map; if not, the processor's
+  /// replaces it.
+  void begin(const FrameRequest& request, const EyePose& eye, bool gpuDrawsMaps);
+  /// Returns one flag per tile of the cut, not 0 if the horizon proves it hidden; or nothing.
   std::span<const std::uint8_t> hidden() const { return hidden_; }
-  /// Whether the visible set of the last frame is this one's too, maps included; else it must be chosen anew,
-  /// which is counted.
-  bool visibleStays(const FrameRequest& request, FrameResult& counters);
-  /// What of `visible`, which was chosen anew, the processor's map hides, as removeOccluded takes it; or
-  /// empty.
-  std::span<const std::uint8_t> hiddenByMap(const FrameRequest& request, const VisibleSet& visible,
-                                            FrameResult& counters);
-  /// The frame is finished: what it cost is learnt from.
+  /// Returns true if the visible set of the last frame is still right, including what a map removed.
+  /// Otherwise the caller must select it again, which is counted.
+  bool visibleStays(const FrameRequest& request);
+  /// Tests a newly selected visible set with the processor's map. Returns flags as removeOccluded reads them,
+  /// or nothing if the map is not used.
+  std::span<const std::uint8_t> hiddenByMap(const FrameRequest& request, const VisibleSet& visible);
+  /// Return what this frame's calls have found so far, and how much work they did.
+  const OcclusionResult& result() const { return result_; }
+  const FrameCounters& counters() const { return counters_; }
+  /// Learns from what the finished frame cost.
   void finished(const FrameResult& result);
 
-  /// What serves in this frame; none: nothing looks for hidden ground.
+  /// Returns the method used in this frame; unset if nothing looks for hidden ground.
   std::optional<OcclusionMethod> serves() const { return serves_; }
   bool serves(OcclusionMethod method) const { return serves_ == method; }
   bool horizonServes() const {
@@ -57,21 +63,21 @@ class OcclusionStage {
   bool mapServes() const {
     return serves(OcclusionMethod::cpu_map) || serves(OcclusionMethod::horizon_and_map);
   }
-  /// The size that the band asks for, where something serves.
-  DepthMapSize size() const { return size_; }
-  /// Whether the eye is over the ground and above it, so that no underside can be seen.
+  /// Returns the occlusion resolution of the last frame that had a method.
+  DepthMapSize resolution() const { return resolution_; }
+  /// Returns whether the eye is over the ground and above it, so that no underside can be seen.
   bool eyeIsAboveGround() const { return refusal_.empty(); }
-  /// That had a part in the visible set of the last frame, or null.
+  /// Returns the horizon that shaped the visible set of the last frame, or null.
   const Horizon* horizon() const { return hidden_.empty() ? nullptr : &memory_.horizon(); }
-  /// What the processor's map saw, or else the horizon; empty where neither had a part in the visible set.
+  /// Returns the processor's map as an image, or else the horizon; empty if neither shaped the visible set.
   Renderer::Grey picture() const;
 
  private:
-  std::optional<OcclusionMethod> resolve(const FrameRequest& request, GpuMaps gpu, FrameResult& counters);
-  std::optional<OcclusionMethod> choose(FrameResult& counters);
+  std::optional<OcclusionMethod> resolve(const FrameRequest& request, bool gpuDrawsMaps);
+  std::optional<OcclusionMethod> choose();
   bool mapHidLittleNear() const;
 
-  /// What the visible set depends on.
+  /// Everything that the visible set depends on.
   struct VisibleKey {
     EyePose eye;
     ViewShape view;
@@ -80,33 +86,35 @@ class OcclusionStage {
     double farM = 0;
     CutNumber cut;
     std::optional<OcclusionMethod> serves;
-    DepthMapSize size;
-    std::uint64_t horizon = 0;   ///< which one said what it hides; 0: none
-    std::uint64_t surfaces = 0;  ///< that were made
+    DepthMapSize resolution;
+    std::uint64_t horizon = 0;   ///< HorizonMemory::number; 0 without a horizon
+    std::uint64_t surfaces = 0;  ///< made since the start
     friend bool operator==(const VisibleKey&, const VisibleKey&) = default;
   };
-  /// Where a map hid next to nothing.
+  /// The view in which a map hid next to nothing.
   struct Barren {
     Vec3 eye, forward;
     std::uint64_t rule = 0;
-    DepthMapSize size;
+    DepthMapSize resolution;
     OcclusionMethod method;
   };
 
   OcclusionGround& ground_;
+  OcclusionResult result_;
+  FrameCounters counters_;
   HorizonMemory memory_;
   OcclusionChoice choice_;
-  bool chosen_ = false;  ///< by cost, in this frame
-  int unlearnt_ = 0;     ///< frames in a row
+  bool chosen_ = false;  ///< choice_ chose the method of this frame
+  int unlearnt_ = 0;     ///< successive frames that choice_ did not learn from
   Defects defects_;
   int subpixelBits_ = 4;
   EyePose eye_;
   ViewShape view_;
-  DepthMapSize size_;
+  DepthMapSize resolution_;
   std::string refusal_;  ///< why nothing may be hidden from the eye
   std::optional<OcclusionMethod> serves_;
   std::span<const std::uint8_t> hidden_;
-  bool mapHid_ = false;  ///< the processor's map had a part in the visible set
+  bool mapHid_ = false;  ///< the processor's map shaped the visible set
   std::optional<VisibleKey> visibleKey_;
   std::optional<Barren> barren_;
 };

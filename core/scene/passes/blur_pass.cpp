@@ -5,36 +5,16 @@
 
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/gl/gl_program.h"
+#include "core/scene/shaders/shaders.h"
 
 namespace trimtab::scene {
 namespace {
-
-const char* const kVertex = R"(#version 430 compatibility
-void main() {
-  gl_Position = vec4(vec2((gl_VertexID & 1) * 4, (gl_VertexID & 2) * 2) - 1.0, 0.0, 1.0);
-}
-)";
-
-const char* const kFragment = R"(#version 430 compatibility
-layout(binding = 0) uniform sampler2D picture;
-layout(binding = 1) uniform sampler2D before;
-uniform float keep;
-layout(location = 0) out vec4 sum;
-layout(location = 1) out vec4 shown;
-void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy);
-  vec4 now = texelFetch(picture, at, 0);
-  // What was before the first picture is nothing, not even a number.
-  sum = keep > 0.0 ? vec4(mix(now.rgb, texelFetch(before, at, 0).rgb, keep), now.a) : now;
-  shown = sum;
-}
-)";
 
 constexpr double kReferenceHz = 60, kStrongest = 0.995, kLongestS = 1;
 
 }  // namespace
 
-BlurPass::BlurPass() : program_(makeGlProgram(kVertex, kFragment)) {
+BlurPass::BlurPass() : program_(makeGlProgram(shaderText("screen.vert.glsl"), shaderText("blur.frag.glsl"))) {
   if (program_ != 0) keepUniform_ = glGetUniformLocation(program_, "keep");
   glGenVertexArrays(1, &emptyArray_);
 }

@@ -6,40 +6,17 @@
 
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/gl/gl_program.h"
+#include "core/scene/shaders/shaders.h"
 
 namespace trimtab::scene {
 namespace {
-
-const char* const kVertex = R"(#version 430 compatibility
-layout(location = 0) in vec2 pixel;
-layout(location = 1) in vec4 stroke;   // along, across, length, half width
-layout(location = 2) in vec4 vertexColour;
-uniform vec2 size;
-out vec4 place;
-out vec3 colour;
-void main() {
-  place = stroke;
-  colour = vertexColour.rgb;
-  gl_Position = vec4(pixel / size * 2.0 - 1.0, 0.0, 1.0);
-}
-)";
-
-// Coverage of a stroke with round ends, by the distance of the pixel's centre from its line.
-const char* const kFragment = R"(#version 430 compatibility
-in vec4 place;
-in vec3 colour;
-out vec4 fragment;
-void main() {
-  vec2 off = vec2(place.x - clamp(place.x, 0.0, place.z), place.y);
-  fragment = vec4(colour, clamp(place.w + 0.5 - length(off), 0.0, 1.0));
-}
-)";
 
 constexpr std::array<std::uint8_t, 3> kDark{0, 16, 8}, kBright{235, 240, 235};
 
 }  // namespace
 
-SymbologyPass::SymbologyPass() : program_(makeGlProgram(kVertex, kFragment)) {
+SymbologyPass::SymbologyPass()
+    : program_(makeGlProgram(shaderText("symbology.vert.glsl"), shaderText("symbology.frag.glsl"))) {
   if (program_ == 0) return;
   sizeUniform_ = glGetUniformLocation(program_, "size");
   glGenVertexArrays(1, &vertexArray_);

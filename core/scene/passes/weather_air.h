@@ -4,29 +4,9 @@
 
 #include "trimtab/frame/weather_decision.h"
 
-// What air leaves of a colour, for the fragment shader of whatever has a place in the world. The distance
-// comes from the fragment's own coordinates, so that it is that of the pixel and no varying is needed. Where
-// the view is cut, what lies farther is not there: the sky behind it shows, and not the tiles' outline.
-#define TRIMTAB_AIR                                                                                       \
-  "#ifdef IN_WEATHER\n"                                                                                   \
-  "uniform vec4 tangents;\n"    /* left, right, bottom, top */                                            \
-  "uniform vec2 pictureSize;\n" /* pixels */                                                              \
-  "uniform vec3 fog;\n"         /* sRGB */                                                                \
-  "uniform vec3 air;\n"         /* extinction a metre, cut distance, 1 / width of its fade */             \
-  "vec3 throughAir(vec3 colour) {\n"                                                                      \
-  "  vec2 across = mix(tangents.xz, tangents.yw, gl_FragCoord.xy / pictureSize);\n"                       \
-  "  float metres = sqrt(1.0 + dot(across, across)) / gl_FragCoord.w;\n"                                  \
-  "  if (metres > air.y) discard;\n"                                                                      \
-  "  float near = clamp((air.y - metres) * air.z, 0.0, 1.0);\n"                                           \
-  "  return mix(fog, min(colour, vec3(1.0)), exp(-air.x * metres) * near * near * (3.0 - 2.0 * near));\n" \
-  "}\n"                                                                                                   \
-  "#else\n"                                                                                               \
-  "vec3 throughAir(vec3 colour) { return colour; }\n"                                                     \
-  "#endif\n"
-
 namespace trimtab::scene {
 
-/// The air of one frame as the shaders take it.
+/// The air of one frame as air.glsl uses it.
 struct Air {
   static constexpr float kFarthest = 1e30f;
 

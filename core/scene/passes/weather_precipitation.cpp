@@ -14,7 +14,7 @@
 
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/scene_graph.h"
-#include "core/scene/shaders/weather_shaders.h"
+#include "core/scene/shaders/shaders.h"
 #include "trimtab/frame/frame_request.h"
 
 namespace trimtab::scene {
@@ -23,10 +23,10 @@ namespace {
 /// How long a drop draws its streak, seconds, and its greatest length, metres.
 constexpr double kExposureS = 1.0 / 30, kLongestStreakM = 0.8;
 
-osg::ref_ptr<osg::Program> dropProgram(const char* vertex) {
+osg::ref_ptr<osg::Program> dropProgram(const std::string& vertex) {
   osg::ref_ptr<osg::Program> program = new osg::Program;
   program->addShader(new osg::Shader(osg::Shader::VERTEX, vertex));
-  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kDropFragment));
+  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, shaderText("drop.frag.glsl")));
   return program;
 }
 
@@ -86,9 +86,9 @@ struct PrecipitationNode::Impl {
     if (osg::getNotifyLevel() == osg::NOTICE) osg::setNotifyLevel(osg::WARN);
     effect->setNodeMask(0);
     effect->setCullingActive(false);
-    effect->getQuadStateSet()->setAttribute(dropProgram(kDropQuadVertex));
-    effect->getLineStateSet()->setAttribute(dropProgram(kDropLineVertex));
-    effect->getPointStateSet()->setAttribute(dropProgram(kDropPointVertex));
+    effect->getQuadStateSet()->setAttribute(dropProgram(shaderText("drop_quad.vert.glsl")));
+    effect->getLineStateSet()->setAttribute(dropProgram(shaderText("drop_line.vert.glsl")));
+    effect->getPointStateSet()->setAttribute(dropProgram(shaderText("drop_point.vert.glsl")));
     effect->getPointStateSet()->removeTextureAttribute(0, osg::StateAttribute::POINTSPRITE);
     scatter(effect->getQuadGeometry(), 4);
     scatter(effect->getLineGeometry(), 2);

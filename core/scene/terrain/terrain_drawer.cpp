@@ -7,11 +7,11 @@
 #include "core/scene/gl/guard_band.h"
 #include "core/scene/passes/node_pass.h"
 #include "core/scene/shaders/shaders.h"
-#include "trimtab/scene/overlay_colours.h"
 #include "trimtab/culling/back_facing.h"
 #include "trimtab/culling/box_distance.h"
 #include "trimtab/culling/frustum.h"
 #include "trimtab/frame/overlays.h"
+#include "trimtab/scene/overlay_colours.h"
 
 namespace trimtab::scene {
 namespace {
@@ -31,8 +31,8 @@ void BoundSlots::bind(unsigned slots, unsigned tints) {
   glActiveTexture(GL_TEXTURE0);
 }
 
-void TerrainDrawer::begin(FrameInProgress& frame) {
-  frame_ = &frame;
+void TerrainDrawer::begin(const FrameInProgress& frame) {
+  frame_.emplace(frame);
   drawn_.clear();
   frame.clock.lap(&FrameCost::cull);
 }
@@ -41,35 +41,37 @@ const std::vector<TileDraw>& TerrainDrawer::shown() const {
   return frame_->request.overlays.colourByReason ? cut() : visible().tiles;
 }
 
-void TerrainDrawer::uploadShown() {
+std::size_t TerrainDrawer::uploadShown() {
   const std::size_t built = upload(shown(), !frame_->request.skips.tilesOnGpu);
-  frame_->counters.tilesBuilt += built;
   frame_->clock.lap(built > 0 ? &FrameCost::page : &FrameCost::select);
+  return built;
 }
 
-void TerrainDrawer::addBounds() {
+std::vector<LineVertex> TerrainDrawer::tileBounds() const {
+  std::vector<LineVertex> lines;
   if (frame_->request.overlays.tileBounds)
-    addBoxes(bounds(), cut(), visible().reason, frame_->view.eye.position, frame_->lines);
+    addBoxes(bounds(), cut(), visible().reason, frame_->eye.position, lines);
+  return lines;
 }
 
 void TerrainDrawer::draw(unsigned program) {
   drawn_ = shown();
-  arrange(drawn_, frame_->view);
+  arrange(drawn_);
   drawSurface(program, drawn_);
 }
 
-void TerrainDrawer::arrange(std::vector<TileDraw>& nodes, const SceneView& view) const {
+void TerrainDrawer::arrange(std::vector<TileDraw>& nodes) const {
   places_.clear();
-  const Frustum uncut(view.eye, withGuardBand(view.shape, view.guardBand));
+  const Frustum uncut(frame_->eye, withGuardBand(frame_->shape, frame_->guardBand));
   const std::vector<Box>& boxes = bounds();
   const std::span<const NormalCone> normals = cones();
   const auto isAway = [&](std::uint32_t node) {
-    return !normals.empty() && facesAway(normals[node], boxes[node], view.eye.position);
+    return !normals.empty() && facesAway(normals[node], boxes[node], frame_->eye.position);
   };
   // A distance is not negative: its bits are in order too, also where the eye is no place, and the first of
   // them is free.
   for (TileDraw& node : nodes) {
-    const auto distance = static_cast<float>(distanceSquared(boxes[node.node], view.eye.position));
+    const auto distance = static_cast<float>(distanceSquared(boxes[node.node], frame_->eye.position));
     node.bothSides = !uncut.holds(boxes[node.node]) && !isAway(node.node);
     places_.push_back({std::uint64_t{!node.bothSides} << 63 |
                            std::uint64_t{std::bit_cast<std::uint32_t>(distance)} << 32 | node.node,
@@ -97,13 +99,13 @@ void TerrainDrawer::drawWire(unsigned program) {
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
-std::size_t TerrainDrawer::prepareNumbers(const SceneView& view, bool unculled) {
+std::size_t TerrainDrawer::prepareNumbers(bool unculled) {
   if (!unculled) {
     numbered_ = drawn_;
     return 0;
   }
-  nearView(cut(), bounds(), view.eye, view.shape, numbered_);
-  arrange(numbered_, view);
+  nearView(cut(), bounds(), frame_->eye, frame_->shape, numbered_);
+  arrange(numbered_);
   return upload(numbered_, false);
 }
 

@@ -8,21 +8,33 @@
 #include "core/scene/gl/stage_clock.h"
 #include "core/scene/passes/lines.h"
 #include "core/scene/scene_graph.h"
-#include "trimtab/scene/planted_defects.h"
-#include "trimtab/scene/renderer.h"
 #include "trimtab/culling/horizon.h"
 #include "trimtab/frame/frame_request.h"
+#include "trimtab/frame/frame_result.h"
+#include "trimtab/scene/planted_defects.h"
+#include "trimtab/scene/renderer.h"
 
 namespace trimtab::scene {
 
-/// The frame that is being made, for whoever makes a part of it.
+/// What a drawer reads of the frame that is being made.
 struct FrameInProgress {
   const FrameRequest& request;
-  SceneView& view;
-  FrameResult& counters;
+  EyePose eye;  ///< in the terrain's frame
+  ViewShape shape;
+  int guardBand;  ///< guard_band.h
   StageClock& clock;
-  std::vector<LineVertex>& lines;
   bool software;  ///< GL is this processor
+};
+
+/// What preparing a terrain for one frame found, for the renderer to merge.
+struct PreparedTerrain {
+  OcclusionResult occlusion;
+  PagingFrame paging;
+  FrameCounters counters;          ///< of this frame
+  std::optional<DepthView> depth;  ///< the depth map that the GPU is to draw
+  bool oneSided = false;           ///< SceneView::oneSided
+  bool treePicture = false;        ///< SceneView::treePicture
+  std::vector<LineVertex> lines;   ///< overlay lines
 };
 
 /// The buffer textures by which the terrain's vertex shaders know whose a vertex is, bound while it lives.
@@ -49,9 +61,9 @@ class TerrainDrawer {
   virtual void release() = 0;
   virtual void plant(const Defects& defects) = 0;
 
-  /// Chooses, with everything that is left out before it is drawn, and uploads. `frame` must live until the
-  /// frame is drawn.
-  virtual void prepare(FrameInProgress& frame) = 0;
+  /// Selects the nodes to draw, removes those that are known to be hidden, and uploads the rest. What `frame`
+  /// refers to must live until the frame is drawn.
+  virtual PreparedTerrain prepare(const FrameInProgress& frame) = 0;
   /// The frame that it was called for is finished, at this cost.
   virtual void finished(const FrameResult&) {}
   /// The picture's surface; afterwards `visible` stands.
@@ -60,7 +72,7 @@ class TerrainDrawer {
   void drawWire(unsigned program);
   /// Of the last frame; `unculled`: with what was left out of its cut, but for what is far outside the view.
   /// Returns how many meshes had to be made for it.
-  std::size_t prepareNumbers(const SceneView& view, bool unculled);
+  std::size_t prepareNumbers(bool unculled);
   /// What prepareNumbers found, each as its number.
   virtual void drawNumbered(unsigned program) { drawNodes(program, numbered_); }
 
@@ -85,21 +97,21 @@ class TerrainDrawer {
   /// Puts nodes into the order that they are drawn in: those drawn from both sides, then near ones first, as
   /// they hide others. Which have both sides, and the order, depend on node and view alone, so what is left
   /// out changes nothing in the rest; nodes that face away have none, as some culling cases leave them out.
-  virtual void arrange(std::vector<TileDraw>& nodes, const SceneView& view) const;
+  virtual void arrange(std::vector<TileDraw>& nodes) const;
 
   /// First of all in `prepare`.
-  void begin(FrameInProgress& frame);
+  void begin(const FrameInProgress& frame);
   /// With the colours that an overlay asks for.
   void drawSurface(unsigned program, std::span<const TileDraw> nodes);
   /// What is drawn: all of the cut where reasons are shown.
   const std::vector<TileDraw>& shown() const;
-  /// Uploads what is shown, and counts it. Looking for what lacks a place, and finding that nothing does, is
-  /// not paging.
-  void uploadShown();
-  /// Where an overlay asks for them.
-  void addBounds();
+  /// Uploads what is shown and returns how many meshes were built for it. Its time counts as paging only if
+  /// any were.
+  std::size_t uploadShown();
+  /// Returns the boxes of the cut as lines if an overlay asks for them, else nothing.
+  std::vector<LineVertex> tileBounds() const;
 
-  FrameInProgress* frame_ = nullptr;
+  std::optional<FrameInProgress> frame_;
   std::vector<TileDraw> drawn_, numbered_;
 
  private:

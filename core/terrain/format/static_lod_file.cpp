@@ -9,8 +9,9 @@
 #include "trimtab/terrain/format/static_lod_terrain.h"
 #include "trimtab/terrain/format/store.h"
 
-/// magic, version, bytes of the rest, their checksum; then numbers as they are in memory, and arrays with
-/// their length in front.
+/// The file holds magic, version, number of bytes that follow, their checksum; then numbers as they are in
+/// memory, and arrays with their length in front. Version 2 added borderErrorM: without it the LOD cut cannot
+/// see that a node has lost a runway. Files of version 1 are refused and have to be baked again.
 namespace trimtab::terrain {
 
 namespace {
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 static_assert(std::endian::native == std::endian::little, "the file is little-endian");
 
 constexpr std::array<char, 8> kMagic{'T', 'R', 'I', 'M', 'T', 'R', 'E', 'E'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kHeaderBytes = 8 + 4 + 8 + 8;
 
 Finding wrong(const fs::path& file, std::string key, std::string expected, std::string found) {
@@ -116,6 +117,7 @@ void write(Writer& out, const StaticLodTerrain& terrain) {
   out.array(index.bounds);
   out.array(index.rmsErrorM);
   out.array(index.maxErrorM);
+  out.array(index.borderErrorM);
   out.array(index.slopeMax);
   out.number(std::uint64_t{terrain.tiles.size()});
   for (const StaticLodTile& tile : terrain.tiles) {
@@ -160,6 +162,7 @@ void read(Reader& in, StaticLodTerrain& terrain) {
   in.array(index.bounds);
   in.array(index.rmsErrorM);
   in.array(index.maxErrorM);
+  in.array(index.borderErrorM);
   in.array(index.slopeMax);
   terrain.tiles.resize(in.length(kLeastTileBytes));
   for (StaticLodTile& tile : terrain.tiles) {
@@ -186,7 +189,8 @@ std::string faultOf(const StaticLodTerrain& terrain) {
   if (terrain.trianglesPerNode < 1 || terrain.trianglesPerNode > kMostTrianglesPerNode)
     return "triangles a node";
   if (index.bounds.size() != nodes || !allFinite(index.rmsErrorM, nodes) ||
-      !allFinite(index.maxErrorM, nodes) || !allFinite(index.slopeMax, nodes))
+      !allFinite(index.maxErrorM, nodes) || !allFinite(index.borderErrorM, nodes) ||
+      !allFinite(index.slopeMax, nodes))
     return "numbers of nodes";
   for (const Box& b : index.bounds)
     if (!(b.minX <= b.maxX && b.minY <= b.maxY && b.minZ <= b.maxZ && std::isfinite(b.maxX - b.minX) &&

@@ -20,7 +20,7 @@ void countStaticLod(StaticLodTerrain& terrain) {
       counts.facesOfLevel[level] += node.triangles;
   }
   counts.bytes = terrain.index.size() *
-                 (sizeof(StaticLodIndex::Node) + sizeof(Box) + 3 * sizeof(float) + sizeof(StaticLodRange));
+                 (sizeof(StaticLodIndex::Node) + sizeof(Box) + 4 * sizeof(float) + sizeof(StaticLodRange));
   for (const StaticLodTile& tile : terrain.tiles)
     counts.bytes += tile.vertices.size() * sizeof(StaticLodVertex) + tile.indices.size() * 4 +
                     tile.locked.size() + tile.material.size() * 2;

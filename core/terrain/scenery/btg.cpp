@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "triangles.h"
+#include "trimtab/terrain/scenery/lines.h"
 #include "trimtab/terrain/scenery/scenery.h"
 
 namespace trimtab::terrain {
@@ -348,7 +349,7 @@ Result<SceneryMesh> BtgReader::read() {
   for (const std::string_view ending : {".gz", ".btg"})
     if (name.size() > ending.size() && name.ends_with(ending)) name.resize(name.size() - ending.size());
   mesh_.name = name;
-  mesh_.airport = !std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; });
+  mesh_.airport = isAirport(name);
 
   const auto header = take<std::uint32_t>("magic number and version");
   if (!header) return findings_;

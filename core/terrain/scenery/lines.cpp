@@ -38,4 +38,8 @@ bool isWater(std::string_view material) {
                                                  "watercourse", "intermittentlake"});
 }
 
+bool isAirport(std::string_view tile) {
+  return tile.find_first_not_of("0123456789") != std::string_view::npos;
+}
+
 }  // namespace trimtab::terrain

@@ -19,7 +19,7 @@ struct BuiltTile {
   StaticLodTile tile;
   std::vector<StaticLodIndex::Node> nodes;
   std::vector<Box> bounds;
-  std::vector<float> rmsErrorM, maxErrorM, slopeMax;
+  std::vector<float> rmsErrorM, maxErrorM, borderErrorM, slopeMax;
   std::vector<StaticLodRange> ranges;
   std::uint64_t distinctFaces = 0, folded = 0;
 };
@@ -111,6 +111,7 @@ BuiltTile finished(const std::string& name, const LodTree& tree,
     out.bounds.push_back(boxOf(tree, node));
     out.rmsErrorM.push_back(upwards(node.rmsErrorM));
     out.maxErrorM.push_back(upwards(node.maxErrorM));
+    out.borderErrorM.push_back(upwards(node.borderErrorM));
     out.slopeMax.push_back(upwards(node.slopeMax));
     const bool leaf = node.children[0] == LodTree::kNone;
     for (std::size_t t = 0; t < node.triangles.size(); ++t) {
@@ -153,6 +154,7 @@ void add(StaticLodTerrain& terrain, BuiltTile&& built) {
   append(index.bounds, built.bounds);
   append(index.rmsErrorM, built.rmsErrorM);
   append(index.maxErrorM, built.maxErrorM);
+  append(index.borderErrorM, built.borderErrorM);
   append(index.slopeMax, built.slopeMax);
   append(terrain.ranges, built.ranges);
   terrain.counts.distinctFaces += built.distinctFaces;
@@ -199,7 +201,8 @@ Result<std::shared_ptr<const StaticLodTerrain>> buildStaticLod(std::span<const S
     LatticeTile& tile = tiles[bySize[i]];
     std::vector<float> lines;
     if (options.keepLines) lines = lineWidths(tile, terrain->materials);
-    const LodTree tree = buildTree(tile, options.trianglesPerNode, std::move(lines), goesOn);
+    const LodTree tree =
+        buildTree(tile, options.trianglesPerNode, std::move(lines), terrain->materials, goesOn);
     if (tree.nodes.empty()) return;
     built[bySize[i]] = finished(tile.name, tree, colours);
     done += tile.triangles.size();

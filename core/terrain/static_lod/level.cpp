@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "edges.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
 #include "trimtab/terrain/scenery/lines.h"
 #include "trimtab/terrain/static_lod/error.h"
@@ -44,23 +45,12 @@ struct Border {
 
 std::vector<Border> bordersOf(const LatticeSurface& source, const std::vector<std::uint8_t>& line,
                               const std::vector<std::uint8_t>& water) {
-  struct Half {
-    std::uint32_t a, b, triangle;
-  };
-  std::vector<Half> halves;
-  for (std::uint32_t t = 0; t < source.triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = source.triangles[t][k], b = source.triangles[t][(k + 1) % 3];
-      halves.push_back({std::min(a, b), std::max(a, b), t});
-    }
-  std::sort(halves.begin(), halves.end(), [](const Half& s, const Half& t) {
-    return s.a != t.a ? s.a < t.a : s.b != t.b ? s.b < t.b : s.triangle < t.triangle;
-  });
   std::vector<Border> borders;
-  for (std::size_t i = 0; i + 1 < halves.size(); ++i) {
-    const Half &s = halves[i], &t = halves[i + 1];
-    if (s.a != t.a || s.b != t.b) continue;
-    const Lattice &p = source.vertices[s.a], &q = source.vertices[s.b];
+  const std::vector<EdgeUse> edges = sortedEdges(source.triangles);
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    const EdgeUse &s = edges[i], &t = edges[i + 1];
+    if (s.low != t.low || s.high != t.high) continue;
+    const Lattice &p = source.vertices[s.low], &q = source.vertices[s.high];
     const double metres =
         std::hypot(static_cast<double>(p.x) - q.x, static_cast<double>(p.y) - q.y) * Lattice::kStepM;
     const std::uint16_t left = source.material[s.triangle], right = source.material[t.triangle];
@@ -123,7 +113,7 @@ SceneryMesh sourceOf(const StaticLodTerrain& terrain, std::size_t tile) {
   LatticeSurface source = surfaceOfLevel(terrain, tile, 0xffffffffu);
   SceneryMesh mesh;
   mesh.name = terrain.tiles[tile].name;
-  mesh.airport = mesh.name.find_first_not_of("0123456789") != std::string::npos;
+  mesh.airport = isAirport(mesh.name);
   mesh.materials = terrain.materials;
   for (const Lattice& p : source.vertices) mesh.vertices.push_back(terrain.index.frame.toEcef(p.metres()));
   for (std::size_t t = 0; t < source.triangles.size(); ++t)

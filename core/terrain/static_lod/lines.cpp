@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "edges.h"
 #include "trimtab/terrain/scenery/lines.h"
 
 namespace trimtab::terrain {
@@ -15,31 +16,17 @@ namespace {
 constexpr double kWide = std::numeric_limits<double>::infinity();
 
 struct Side {
-  std::uint32_t a, b;             ///< vertices
-  std::uint32_t left, right = 0;  ///< triangles
+  std::uint32_t a, b;         ///< vertices
+  std::uint32_t left, right;  ///< triangles
 };
 
 /// Edges that two triangles share.
 std::vector<Side> sidesOf(const LatticeTile& tile) {
-  std::vector<Side> all;
-  all.reserve(tile.triangles.size() * 3);
-  for (std::uint32_t t = 0; t < tile.triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = tile.triangles[t][k], b = tile.triangles[t][(k + 1) % 3];
-      all.push_back({std::min(a, b), std::max(a, b), t, 0});
-    }
-  std::sort(all.begin(), all.end(), [](const Side& s, const Side& t) {
-    return s.a != t.a ? s.a < t.a : s.b != t.b ? s.b < t.b : s.left < t.left;
+  std::vector<Side> sides;
+  forEachEdge(sortedEdges(tile.triangles), [&](std::span<const EdgeUse> edge) {
+    if (edge.size() == 2) sides.push_back({edge[0].low, edge[0].high, edge[0].triangle, edge[1].triangle});
   });
-  std::size_t kept = 0;
-  for (std::size_t i = 0, end; i < all.size(); i = end) {
-    for (end = i; end < all.size() && all[end].a == all[i].a && all[end].b == all[i].b;) ++end;
-    if (end - i != 2) continue;
-    all[kept] = all[i];
-    all[kept++].right = all[i + 1].left;
-  }
-  all.resize(kept);
-  return all;
+  return sides;
 }
 
 /// Connected triangles of one kind, and how wide they are.
@@ -176,8 +163,7 @@ std::vector<double> shoreDetail(const LatticeTile& tile, const std::vector<Side>
 
 std::vector<float> lineWidths(const LatticeTile& tile, std::span<const std::string> materials) {
   std::vector<float> widths(tile.vertices.size(), 0);
-  // What an airport has of asphalt is no road.
-  if (tile.name.find_first_not_of("0123456789") != std::string::npos) return widths;
+  if (isAirport(tile.name)) return widths;  // its asphalt is no road
   std::vector<std::uint8_t> line, water;
   for (const std::string& material : materials) {
     line.push_back(lineFeatureOf(material) != LineFeature::none);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "borders.h"
 #include "tree.h"
 #include "trimtab/terrain/static_lod/error.h"
 
@@ -49,8 +50,10 @@ NodeMeasure::Error NodeMeasure::of(const LodTree::Node& node) {
   return {samples ? std::sqrt(sum / static_cast<double>(samples)) : 0, largest};
 }
 
-bool measureTree(const LatticeTile& tile, LodTree& tree, const std::function<bool()>& goesOn) {
+bool measureTree(const LatticeTile& tile, LodTree& tree, std::span<const std::string> materials,
+                 const std::function<bool()>& goesOn) {
   NodeMeasure measure(tile, tree);
+  const BorderMeasure borders(tile, tree, borderMaterials(tile, materials));
   for (std::uint32_t i = static_cast<std::uint32_t>(tree.nodes.size()); i-- > 0;) {
     if (goesOn && !goesOn()) return false;
     LodTree::Node& node = tree.nodes[i];
@@ -65,7 +68,9 @@ bool measureTree(const LatticeTile& tile, LodTree& tree, const std::function<boo
       node.rmsErrorM = std::max(node.rmsErrorM, tree.nodes[child].rmsErrorM);
       node.maxErrorM = std::max(node.maxErrorM, tree.nodes[child].maxErrorM);
       node.slopeMax = std::max(node.slopeMax, tree.nodes[child].slopeMax);
+      node.borderErrorM = std::max(node.borderErrorM, tree.nodes[child].borderErrorM);
     }
+    node.borderErrorM = borders.of(node, node.borderErrorM);
   }
   return true;
 }

@@ -10,8 +10,8 @@ StaticLodLimits staticLodLimits(std::uint64_t triangles, std::uint32_t triangles
   const std::uint64_t n = trianglesPerNode;
   const std::uint64_t fewest = std::max<std::uint64_t>(1, (triangles + n - 1) / n);
   const std::uint64_t most = std::max(fewest, triangles / std::max<std::uint64_t>(1, n / 2));
-  return {static_cast<std::uint32_t>(1 + std::bit_width(fewest - 1)), triangles + (fewest - 1) * n,
-          triangles + (most - 1) * n};
+  return {static_cast<std::uint32_t>(1 + std::bit_width(fewest - 1)), triangles + (fewest - 1) * (n - 1),
+          triangles + (most - 1) * (n + 1)};
 }
 
 StaticLodReport reportStaticLod(const StaticLodTerrain& terrain, std::size_t tile) {

@@ -111,6 +111,7 @@ void append(StaticLodTerrain& trees, const Bucket& bucket, std::uint16_t materia
   index.bounds.push_back(box);
   index.rmsErrorM.push_back(0);
   index.maxErrorM.push_back(0);
+  index.borderErrorM.push_back(0);
   index.slopeMax.push_back(1);
   trees.ranges.push_back({0, triangles});
   trees.counts.distinctFaces += triangles;

@@ -3,29 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "edges.h"
+
 namespace trimtab::terrain {
 
 namespace {
-
-struct Edge {
-  std::uint32_t low, high;  ///< vertices
-  std::uint32_t triangle;
-  bool forward;  ///< the triangle goes from low to high
-};
-
-std::vector<Edge> sortedEdges(const LatticeTile& tile) {
-  std::vector<Edge> edges;
-  edges.reserve(tile.triangles.size() * 3);
-  for (std::uint32_t t = 0; t < tile.triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = tile.triangles[t][k], b = tile.triangles[t][(k + 1) % 3];
-      edges.push_back({std::min(a, b), std::max(a, b), t, a < b});
-    }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    return a.low != b.low ? a.low < b.low : a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
-  });
-  return edges;
-}
 
 /// Fixes vertices whose triangles are no single closed fan, though each edge of theirs has two sides.
 void fixTouchingFans(const LatticeTile& tile, std::vector<std::uint8_t>& fixed) {
@@ -77,24 +59,21 @@ SourceSurface analyse(const LatticeTile& tile, const Lattice& origin, double bou
     for (const std::uint32_t v : t) surface.quadrics[v] += q;
   }
 
-  const std::vector<Edge> edges = sortedEdges(tile);
-  for (std::size_t i = 0, end; i < edges.size(); i = end) {
-    for (end = i; end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high;)
-      ++end;
-    const Edge& e = edges[i];
-    if (end - i != 2 || edges[i + 1].forward == e.forward) {
+  forEachEdge(sortedEdges(tile.triangles), [&](std::span<const EdgeUse> edge) {
+    const EdgeUse& e = edge[0];
+    if (edge.size() != 2 || edge[1].forward == e.forward) {
       surface.fixed[e.low] = surface.fixed[e.high] = 1;
-      continue;
+      return;
     }
-    if (tile.material[e.triangle] == tile.material[edges[i + 1].triangle]) continue;
+    if (tile.material[e.triangle] == tile.material[edge[1].triangle]) return;
     const Vec3 a = place(e.low), along = place(e.high) - a;
     const double flat = std::hypot(along.x, along.y);
-    if (!(flat > 0)) continue;
+    if (!(flat > 0)) return;
     const Quadric q =
         Quadric::plane({along.y / flat, -along.x / flat, 0}, a, boundaryWeight * 0.5 * dot(along, along));
     surface.quadrics[e.low] += q;
     surface.quadrics[e.high] += q;
-  }
+  });
   fixTouchingFans(tile, surface.fixed);
   return surface;
 }

@@ -275,9 +275,9 @@ class Builder {
 }  // namespace
 
 LodTree buildTree(const LatticeTile& tile, std::uint32_t trianglesPerNode, std::vector<float> lineWidthM,
-                  const std::function<bool()>& goesOn) {
+                  std::span<const std::string> materials, const std::function<bool()>& goesOn) {
   LodTree tree = Builder(tile, trianglesPerNode, std::move(lineWidthM)).build(goesOn);
-  if (!measureTree(tile, tree, goesOn)) return {};
+  if (!measureTree(tile, tree, materials, goesOn)) return {};
   return tree;
 }
 

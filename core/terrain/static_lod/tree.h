@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "trimtab/terrain/static_lod/error.h"
@@ -21,7 +23,9 @@ struct LodTree {
     std::uint32_t first = 0, last = 0;  ///< of the source triangles in `order`
     std::uint8_t depth = 0;
     bool lockedMinimum = false;
-    double rmsErrorM = 0, maxErrorM = 0, slopeMax = 0;
+    double rmsErrorM = 0, maxErrorM = 0;  ///< vertical
+    double borderErrorM = 0;              ///< horizontal, of the borders between materials
+    double slopeMax = 0;
     double lineWidthM = 0;  ///< lines as wide as this or wider were kept; it states no lesser error
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<std::uint16_t> material;
@@ -51,14 +55,15 @@ struct LodTree {
 /// Splits by upright planes across the longer side, at the median of the triangles' middles, down to leaves
 /// of n/2 to n; merges and simplifies upwards; measures. `lineWidthM`: one a vertex of the tile, to keep
 /// lines; or empty. `goesOn` is asked once or twice a node: a tree without nodes when it says no.
-LodTree buildTree(const LatticeTile& tile, std::uint32_t trianglesPerNode, std::vector<float> lineWidthM = {},
-                  const std::function<bool()>& goesOn = {});
+LodTree buildTree(const LatticeTile& tile, std::uint32_t trianglesPerNode, std::vector<float> lineWidthM,
+                  std::span<const std::string> materials, const std::function<bool()>& goesOn = {});
 
 /// Measures every node, children first. Samples are the vertices of the source triangles below the node,
 /// against the node's surface, and the node's own vertices against those triangles; each place once and all
 /// of one weight. Where the source covers ground twice the nearest sheet counts. A node's error is no less
 /// than its children's. `goesOn` is asked once a node; false when it says no.
-bool measureTree(const LatticeTile& tile, LodTree& tree, const std::function<bool()>& goesOn = {});
+bool measureTree(const LatticeTile& tile, LodTree& tree, std::span<const std::string> materials,
+                 const std::function<bool()>& goesOn = {});
 
 /// The same for one node that is no leaf, without its children's share.
 class NodeMeasure {

@@ -141,10 +141,11 @@ TEST_F(SkipsTest, areDoneWhereTheyAreSwitchedOff) {
     picture(changed, &after);
   };
   const auto work = [&] {
-    return std::array{after.cutsSelected - before.cutsSelected, after.tilesBuilt - before.tilesBuilt,
-                      after.blurPasses - before.blurPasses,
-                      after.precipitationPasses - before.precipitationPasses,
-                      after.symbologyRedraws - before.symbologyRedraws};
+    return std::array{after.counters.cutsSelected - before.counters.cutsSelected,
+                      after.counters.tilesBuilt - before.counters.tilesBuilt,
+                      after.counters.blurPasses - before.counters.blurPasses,
+                      after.counters.precipitationPasses - before.counters.precipitationPasses,
+                      after.counters.symbologyRedraws - before.counters.symbologyRedraws};
   };
   using Work = std::array<std::uint64_t, 5>;
   drawTwice(nullptr);
@@ -182,7 +183,7 @@ TEST_F(SkipsTest, areCountedByFrameAndMeasured) {
   std::uint64_t built = 0;
   const auto slowTiles = [&](const FrameRequest& r) {
     FrameResult result = drawFrame()(r);
-    if (std::exchange(built, result.tilesBuilt) != result.tilesBuilt)
+    if (std::exchange(built, result.counters.tilesBuilt) != result.counters.tilesBuilt)
       std::this_thread::sleep_for(std::chrono::milliseconds(kTilesMs));
     return result;
   };

@@ -266,10 +266,6 @@ void methodRows(Report& report) {
                                          .what = "The depth map's stage by the CPU, at 640 x 480 over the "
                                                  "sample",
                                          .peer = published})));
-  const Pairs reads = inTurn(pairs, cost(OcclusionMethod::read_back), cost(OcclusionMethod::depth_map));
-  report.add(ratioAtMost(1, rowOf(reads, {.id = "culling.map_read_back",
-                                          .what = "The same drawn by GL, read back and tested by the CPU",
-                                          .peer = published})));
 }
 
 }  // namespace

@@ -180,8 +180,6 @@ class Frames {
         return {};
       case OcclusionMethod::depth_map:
         return "_depth_map";
-      case OcclusionMethod::read_back:
-        return "_read_back";
       case OcclusionMethod::cpu_map:
         return "_cpu_map";
       case OcclusionMethod::horizon:
@@ -225,9 +223,8 @@ void rowsOf(Report& report, const std::string& name,
   if (name == "sea") return;
   frames.row(report, name, {.feet = 2000, .errorPx = 0.05});
   if (name != "mountains" && name != "everest") return;
-  for (const OcclusionMethod method :
-       {OcclusionMethod::horizon, OcclusionMethod::horizon_and_map, OcclusionMethod::cpu_map,
-        OcclusionMethod::read_back, OcclusionMethod::depth_map})
+  for (const OcclusionMethod method : {OcclusionMethod::horizon, OcclusionMethod::horizon_and_map,
+                                       OcclusionMethod::cpu_map, OcclusionMethod::depth_map})
     frames.row(report, name, {.feet = 2000, .method = method});
 }
 

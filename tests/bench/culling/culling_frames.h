@@ -19,9 +19,4 @@ void stageRows(Report& report);
 /// So far above the ground at a place by fractions of the terrain's extent.
 GeodeticPosition placeOver(const terrain::Database& database, double east, double north, double aboveM);
 
-/// Of the view's finer axis.
-inline double pixelsPerRadian(const ViewShape& v) {
-  return std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom));
-}
-
 }  // namespace trimtab::bench

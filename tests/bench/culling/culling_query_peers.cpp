@@ -134,7 +134,7 @@ struct QueryPeers::Impl {
     state->addUniform(new osg::Uniform("slots", scene::kSlotUnit));
     state->addUniform(new osg::Uniform("tints", scene::kTintUnit));
     // OSG culls in the terrain's frame, the vertices are relative to the eye.
-    const scene::TerrainShaders shaders = scene::terrainShaders(TerrainForm::levels);
+    const scene::ShaderPair shaders = scene::terrainShaders(TerrainForm::levels);
     const std::string vertex =
         replaced(replaced(shaders.vertex, "gl_ModelViewProjectionMatrix *", "relativeView *"),
                  "in vec3 vertexPosition;", "uniform mat4 relativeView;\nin vec3 vertexPosition;");
@@ -144,8 +144,9 @@ struct QueryPeers::Impl {
     queries->setStateSet(terrain);
     osg::ref_ptr<Call> sky = new Call({}, [](osg::State&) { glDrawArrays(GL_TRIANGLES, 0, 3); });
     osg::StateSet* far = sky->getOrCreateStateSet();
-    far->setAttributeAndModes(makeProgram(
-        replaced(scene::kScreenVertex, "- 1.0, 0.0, 1.0)", "- 1.0, 1.0, 1.0)"), scene::kSkyFragment));
+    far->setAttributeAndModes(
+        makeProgram(replaced(scene::shaderText("screen.vert.glsl"), "- 1.0, 0.0, 1.0)", "- 1.0, 1.0, 1.0)"),
+                    scene::shaderText("sky.frag.glsl").c_str()));
     far->setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0, 1, false));
     far->setRenderBinDetails(20, "RenderBin");
     for (osg::Node* child : {static_cast<osg::Node*>(plain), static_cast<osg::Node*>(nodes),

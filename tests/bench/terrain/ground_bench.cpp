@@ -4,7 +4,6 @@
 
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/gl/gl_program.h"
-#include "core/scene/shaders/patch_shaders.h"
 #include "core/scene/shaders/shaders.h"
 #include "core/scene/terrain/ground/ground_texture.h"
 #include "core/scene/terrain/ground/sun.h"
@@ -110,7 +109,7 @@ void main() {
 unsigned programOf(bool byVertex, const std::string& fragment) {
   std::string vertex = kPlain;
   if (byVertex) vertex.insert(vertex.find('\n') + 1, "#define BY_VERTEX 1\n");
-  return scene::makeGlProgram(vertex.c_str(), fragment.c_str());
+  return scene::makeGlProgram(vertex, fragment);
 }
 
 void measureDrawing(Report& report, const std::shared_ptr<const GroundPyramid>& ground) {
@@ -118,7 +117,7 @@ void measureDrawing(Report& report, const std::shared_ptr<const GroundPyramid>& 
   auto offscreen = scene::Offscreen::create(kWidth, kHeight);
   if (!offscreen) return;
   const unsigned byVertex = programOf(true, scene::terrainShaders(TerrainForm::levels).fragment);
-  const unsigned byTexel = programOf(false, scene::patchShaders().fragment);
+  const unsigned byTexel = programOf(false, scene::terrainShaders(TerrainForm::patches).fragment);
   const unsigned plain = programOf(true,
                                    "#version 430 compatibility\nin vec3 lit; out vec4 c;\n"
                                    "void main() { c = vec4(lit, 1.0); }");

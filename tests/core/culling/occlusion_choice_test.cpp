@@ -136,6 +136,24 @@ TEST(OcclusionChoice, forgivesAMethodWhatItsVeryFirstFrameMakesForGood) {
   EXPECT_GT(served, 300);
 }
 
+/// One frame in a hundred is late for reasons of its own.
+TEST(OcclusionChoice, isNotMisledByLateFrames) {
+  const Machine mountains{6, 6e-5, {{0.3, 2, 0.8}, {2, 3, 0.9}, {1.5, 1.5, 0.7}}};
+  OcclusionChoice choice;
+  Method before;
+  double clock = 0, best = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Method method = choice.choose({clock, {5.0 * i, 0, 0}, {1, 0, 0}, 0, kMethods});
+    auto outcome = mountains.frame(method, method != before, 180e3);
+    before = method;
+    clock += outcome.totalMs;
+    best += mountains.frame(OcclusionMethod::horizon, i == 0, 180e3).totalMs;
+    if (i % 100 == 50) outcome.occlusionMs += 100, outcome.totalMs += 100;
+    choice.learn(outcome);
+  }
+  EXPECT_LE(clock, 1.03 * best);
+}
+
 TEST(OcclusionChoice, takesNoneWhereNonePays) {
   for (const double share : {0.0, 0.005, 0.02}) {
     const Machine plain{10, 4e-5, {{1, 3, share}, {2, 4, share}, {2, 2, share}}};

@@ -23,6 +23,7 @@ inline StaticLodIndex randomTrees(int tiles, unsigned seed, double tileM = 8000,
     index.bounds.push_back(area);
     index.rmsErrorM.push_back(0);
     index.maxErrorM.push_back(0);
+    index.borderErrorM.push_back(0);
     index.slopeMax.push_back(1);
     if (depth == deepest || (depth > 2 && chance(random) < 0.2f)) {
       index.bounds[node].minZ = 900 * chance(random);
@@ -42,6 +43,9 @@ inline StaticLodIndex randomTrees(int tiles, unsigned seed, double tileM = 8000,
         std::max(index.rmsErrorM[a], index.rmsErrorM[b]) * (1 + chance(random)) + chance(random);
     index.maxErrorM[node] =
         std::max({index.maxErrorM[a], index.maxErrorM[b], index.rmsErrorM[node] * (2 + 3 * chance(random))});
+    // Now below, now between, now above the others, without drawing another random number.
+    index.borderErrorM[node] = std::max(
+        {index.borderErrorM[a], index.borderErrorM[b], index.rmsErrorM[node] * static_cast<float>(node % 7)});
     return node;
   };
   for (int row = 0; row < tiles; ++row)

@@ -166,8 +166,15 @@ TEST(StaticDistance, followsThePictureOrAFixedFactorAndTheScale) {
 
 TEST(StaticDistance, takesTheErrorThatIsAskedFor) {
   const StaticLodIndex index = test::randomTrees(1, 6);
-  EXPECT_EQ(staticLodError(index, ErrorMeasure::rms).data(), index.rmsErrorM.data());
-  EXPECT_EQ(staticLodError(index, ErrorMeasure::maximum).data(), index.maxErrorM.data());
+  EXPECT_EQ(staticLodError(index, ErrorMeasure::as_published), index.rmsErrorM);
+  const std::vector<float> rms = staticLodError(index, ErrorMeasure::rms),
+                           largest = staticLodError(index, ErrorMeasure::maximum);
+  ASSERT_EQ(rms.size(), index.size());
+  for (std::size_t i = 0; i < index.size(); ++i) {
+    EXPECT_EQ(rms[i], std::max(index.rmsErrorM[i], index.borderErrorM[i]));
+    EXPECT_EQ(largest[i], std::max(index.maxErrorM[i], index.borderErrorM[i]));
+  }
+  EXPECT_NE(rms, index.rmsErrorM) << "borders count";
 }
 
 class StaticVisible : public testing::Test {

@@ -99,6 +99,47 @@ TEST(HeadLog, namesWhatIsWrongWithItsPlace) {
   EXPECT_FALSE(readHeadLog("absent.txt").ok());
 }
 
+// A log by MV360's headers (yaw is the nod) with some seconds in which the tracker lost the helmet: the nod
+// leaves the quarter turn there.
+std::string logWithBadSeconds(int rows, int bad) {
+  std::string text = "timestamp viewpoint yaw pitch roll\n";
+  for (int i = 0; i < rows; ++i) {
+    const bool lost = i >= 100 && i < 100 + bad;
+    text += std::to_string(i * 0.0625) + " 0 " + (lost ? "1.7" : "0.1") + " " +
+            std::to_string(std::remainder(i * 0.05, 6.28)) + (lost ? " 1.3\n" : " 0\n");
+  }
+  return text;
+}
+
+TEST(HeadLog, namesRowColumnAndValueOfABadSecond) {
+  const Result<HeadLog> log = parseHeadLog(logWithBadSeconds(1000, 55), "user");
+  ASSERT_FALSE(log.ok());
+  const std::string told = toString(log.findings());
+  EXPECT_NE(told.find("user:102: yaw: expected a pitch of -90 to 90 deg, found \"1.7\""), std::string::npos)
+      << told;
+  EXPECT_NE(told.find("and 45 more rows"), std::string::npos) << told;
+  EXPECT_NE(told.find("--skip-bad-rows"), std::string::npos) << told;
+  EXPECT_NE(told.find("55 bad rows of 1000"), std::string::npos) << told;
+}
+
+TEST(HeadLog, leavesBadRowsOutWhenAsked) {
+  const Result<HeadLog> log = parseHeadLog(logWithBadSeconds(1000, 55), "user", BadRows::leave_out);
+  ASSERT_TRUE(log.ok()) << toString(log.findings());
+  EXPECT_EQ(log->samples.size(), 945u);
+  EXPECT_TRUE(tells(log.findings(), "55 bad rows of 1000: they are left out"));
+  for (const HeadSample& sample : log->samples) EXPECT_NEAR(sample.pitchDeg, 5.73, 0.01);
+  // The heading goes on unwinding across them: 0.05 rad a row.
+  EXPECT_NEAR(log->samples.back().headingDeg - log->samples.front().headingDeg, 999 * 0.05 * 180 / 3.14159265,
+              2);
+  const Result<HeadLog> unread =
+      parseHeadLog("t,heading,pitch\n0,0,0\n1,x,0\n2,0,0\n", "h", BadRows::leave_out);
+  ASSERT_TRUE(unread.ok());
+  EXPECT_EQ(unread->samples.size(), 2u);
+  EXPECT_FALSE(parseHeadLog(logWithBadSeconds(200, 99), "user", BadRows::leave_out).ok() &&
+               parseHeadLog("t,heading,pitch\n0,x,0\n1,x,0\n2,0,0\n", "h", BadRows::leave_out).ok())
+      << "a log that is mostly bad is no log";
+}
+
 TEST(HeadLog, survivesAnyBytes) {
   std::mt19937_64 random(3);
   std::string good = "timestamp viewpoint yaw pitch roll\n";

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/measure/simd_kernels.h"
+#include "core/measure/image_kernels.h"
 #include "flip_recorded.h"
 #include "trimtab/measure/image_error.h"
 
@@ -160,21 +160,21 @@ class Flip {
   double maximum_ = 0;
 };
 
-std::vector<SimdPath> paths() {
-  std::vector<SimdPath> available;
-  for (const SimdPath path : {SimdPath::portable, SimdPath::avx2, SimdPath::avx512})
-    if (imageKernels(path)) available.push_back(path);
+std::vector<SimdLevel> levels() {
+  std::vector<SimdLevel> available;
+  for (const SimdLevel level : {SimdLevel::portable, SimdLevel::avx2, SimdLevel::avx512})
+    if (level <= simdLevel()) available.push_back(level);
   return available;
 }
-/// Takes each path that there is, and at the end the one that was taken before.
+/// Takes each level that there is, and at the end the one that was taken before.
 template <class Check>
 void onEveryPath(const Check& check) {
-  for (const SimdPath path : paths()) {
-    useSimdPath(path);
-    SCOPED_TRACE("path " + std::to_string(static_cast<int>(path)));
+  for (const SimdLevel level : levels()) {
+    useSimdLevel(level);
+    SCOPED_TRACE("path " + std::to_string(static_cast<int>(level)));
     check();
   }
-  useSimdPath(paths().back());
+  useSimdLevel(levels().back());
 }
 
 std::vector<float> mapOf(const PicturePair& p, double pixelsPerDegree = kFlipPixelsPerDegree) {
@@ -233,7 +233,7 @@ TEST(Flip, pathsAgree) {
   const auto pairs = test::picturePairs();
   for (const PicturePair& p : pairs) {
     const bool symmetric = p.name == "lines" || p.name == "hues";
-    useSimdPath(SimdPath::portable);
+    useSimdLevel(SimdLevel::portable);
     const std::vector<float> portable = mapOf(p);
     onEveryPath([&] {
       const std::vector<float> map = mapOf(p);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/measure/simd_kernels.h"
+#include "core/measure/image_kernels.h"
 #include "image_pairs.h"
 
 namespace trimtab {
@@ -14,22 +14,22 @@ namespace {
 using test::Picture;
 using test::PicturePair;
 
-constexpr SimdPath kPaths[] = {SimdPath::portable, SimdPath::avx2, SimdPath::avx512};
+constexpr SimdLevel kLevels[] = {SimdLevel::portable, SimdLevel::avx2, SimdLevel::avx512};
 
-/// Runs `check` on every path that this machine has.
+/// Runs `check` on every level that this machine has.
 template <class Check>
 void onEveryPath(const Check& check) {
   const ImageKernels* usual = &imageKernels();
   int ran = 0;
-  for (const SimdPath path : kPaths)
-    if (useSimdPath(path)) {
-      SCOPED_TRACE("path " + std::to_string(static_cast<int>(path)));
+  for (const SimdLevel level : kLevels)
+    if (useSimdLevel(level)) {
+      SCOPED_TRACE("path " + std::to_string(static_cast<int>(level)));
       check();
       ++ran;
     }
   EXPECT_GE(ran, 1);
-  for (const SimdPath path : kPaths)
-    if (imageKernels(path) == usual) useSimdPath(path);
+  for (const SimdLevel level : kLevels)
+    if (level <= simdLevel() && &imageKernels(level) == usual) useSimdLevel(level);
 }
 
 double psnr(const PicturePair& p) {

@@ -1,4 +1,4 @@
-#include "core/measure/simd.h"
+#include "trimtab/units/simd.h"
 
 #include <gtest/gtest.h>
 
@@ -7,29 +7,54 @@
 namespace trimtab {
 namespace {
 
-// Of the vectors that this file is compiled for; that the wider ones agree is FLIP's test.
+#define TRIMTAB_KERNELS "tests/core/measure/simd_test_kernels.inl"
+#include "trimtab/units/simd_levels.inl"
 
-TEST(Simd, cubeRootKeepsItsBound) {
-  for (float x = 1e-30f; x < 1e30f; x *= 1.0003f)
-    ASSERT_NEAR(cubeRoot(x).a[0] / std::cbrt(static_cast<double>(x)), 1, 5e-7) << x;
+struct Functions {
+  float (*cubeRoot)(float), (*log2)(float), (*exp2)(float), (*reciprocal)(float);
+};
+template <class Of>
+Functions from(const Of& of) {
+  return {of.cubeRoot, of.log2, of.exp2, of.reciprocal};
 }
 
-TEST(Simd, logarithmKeepsItsBound) {
+class Simd : public testing::TestWithParam<SimdLevel> {
+ protected:
+  void SetUp() override {
+    if (GetParam() > simdLevel()) GTEST_SKIP() << "needs a processor with these instructions";
+    f = from(portable::functions);
+#if defined(__x86_64__)
+    if (GetParam() == SimdLevel::avx2) f = from(avx2::functions);
+    if (GetParam() == SimdLevel::avx512) f = from(avx512::functions);
+#endif
+  }
+  Functions f;
+};
+
+TEST_P(Simd, cubeRootKeepsItsBound) {
+  for (float x = 1e-30f; x < 1e30f; x *= 1.0003f)
+    ASSERT_NEAR(f.cubeRoot(x) / std::cbrt(static_cast<double>(x)), 1, 5e-7) << x;
+}
+
+TEST_P(Simd, logarithmKeepsItsBound) {
   for (float x = 1.2e-38f; x < 3e38f; x *= 1.0003f) {
     const double expected = std::log2(static_cast<double>(x));
-    ASSERT_NEAR(log2Of(x).b[kLanes - 1], expected, 3e-7 + std::abs(expected) * 0x1p-24) << x;
+    ASSERT_NEAR(f.log2(x), expected, 3e-7 + std::abs(expected) * 0x1p-24) << x;
   }
 }
 
-TEST(Simd, powerKeepsItsBound) {
+TEST_P(Simd, powerKeepsItsBound) {
   for (float x = -126; x < 126; x += 0.0007f)
-    ASSERT_NEAR(exp2Of(x).a[1] / std::exp2(static_cast<double>(x)), 1, 3e-7) << x;
+    ASSERT_NEAR(f.exp2(x) / std::exp2(static_cast<double>(x)), 1, 3e-7) << x;
 }
 
-TEST(Simd, reciprocalKeepsItsBound) {
+TEST_P(Simd, reciprocalKeepsItsBound) {
   for (float x = 1e-30f; x < 1e30f; x *= 1.001f)
-    ASSERT_NEAR(static_cast<double>(reciprocal(all(x))[0]) * x, 1, 3e-7) << x;
+    ASSERT_NEAR(static_cast<double>(f.reciprocal(x)) * x, 1, 3e-7) << x;
 }
+
+INSTANTIATE_TEST_SUITE_P(OfEachLevel, Simd,
+                         testing::Values(SimdLevel::portable, SimdLevel::avx2, SimdLevel::avx512));
 
 }  // namespace
 }  // namespace trimtab

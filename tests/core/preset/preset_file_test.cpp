@@ -182,6 +182,19 @@ TEST(PresetFile, readsTheFixedRulesOfVersion2) {
   EXPECT_THAT(*presetText(*preset), Not(HasSubstr("high_down_weight")));
 }
 
+TEST(PresetFile, readsAWithdrawnWayToHiddenGroundAsTheDepthMap) {
+  const auto preset = loadPreset((data() / "old/version-3-read-back.json").string());
+  ASSERT_TRUE(preset) << toString(preset.findings());
+  EXPECT_EQ(preset->parameters.culling.occlusion, OcclusionMethod::depth_map);
+  ASSERT_EQ(preset.findings().size(), 1u);
+  const Finding& note = preset.findings()[0];
+  EXPECT_EQ(note.severity, Severity::note);
+  EXPECT_EQ(note.key, "culling.occlusion");
+  EXPECT_THAT(note.where, HasSubstr("version-3-read-back.json:7"));
+  EXPECT_EQ(note.found, "read_back, which was withdrawn; depth_map is used");
+  EXPECT_THAT(*presetText(*preset), HasSubstr("\"depth_map\""));
+}
+
 std::string version2With(const std::string& parameters, const std::string& members = "") {
   std::string text = presetWith(parameters, members);
   return text.replace(text.find("\"version\": 3"), 12, "\"version\": 2");

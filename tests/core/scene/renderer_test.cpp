@@ -91,24 +91,24 @@ TEST_F(Renderer, doesNotRepeatWorkThatNothingAsksFor) {
   use(test::syntheticMountains());
   auto r = request(over(0.5, 0.5, 400), {});
   auto result = renderer.draw(r, offscreen->framebuffer());
-  EXPECT_EQ(result.cutsSelected, 1u);
-  EXPECT_GT(result.tilesBuilt, 0u);
+  EXPECT_EQ(result.counters.cutsSelected, 1u);
+  EXPECT_GT(result.counters.tilesBuilt, 0u);
   for (int i = 0; i < 5; ++i) {  // only the head turns
     r.attitude.heading = Degrees{20.0 * i};
     result = renderer.draw(r, offscreen->framebuffer());
   }
-  EXPECT_EQ(result.cutsSelected, 1u);
-  const auto built = result.tilesBuilt;
+  EXPECT_EQ(result.counters.cutsSelected, 1u);
+  const auto built = result.counters.tilesBuilt;
   result = renderer.draw(r, offscreen->framebuffer());
-  EXPECT_EQ(result.tilesBuilt, built);
+  EXPECT_EQ(result.counters.tilesBuilt, built);
   r.lod.screenSpaceError = Pixels{3};
-  EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).cutsSelected, 2u);
+  EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).counters.cutsSelected, 2u);
   r.decision.lodScale = 2;
-  EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).cutsSelected, 3u);
+  EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).counters.cutsSelected, 3u);
   r.eye.height = r.eye.height + Metres{1};
-  EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).cutsSelected, 4u);
+  EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).counters.cutsSelected, 4u);
   renderer.setTerrain(database);
-  EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).cutsSelected, 5u);
+  EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).counters.cutsSelected, 5u);
 }
 
 TEST_F(Renderer, holdsCullingStillWhileFrozen) {
@@ -121,7 +121,7 @@ TEST_F(Renderer, holdsCullingStillWhileFrozen) {
   for (int i = 1; i < 4; ++i) {
     r.eye = over(0.5 - 0.05 * i, 0.5, 2000);
     const auto frozen = renderer.draw(r, offscreen->framebuffer());
-    EXPECT_EQ(frozen.cutsSelected, live.cutsSelected);
+    EXPECT_EQ(frozen.counters.cutsSelected, live.counters.cutsSelected);
     EXPECT_EQ(frozen.visible.reason, live.visible.reason);
   }
 }

@@ -7,13 +7,7 @@
 
 namespace trimtab::scene {
 
-/// GLSL of a fragment shader, to be pasted behind its #version: `vec4 groundAt(vec2 post)`, the ground's
-/// sRGB and the light on it (core/scene/terrain/ground/sun.h) where a fragment stands; `post` counts columns
-/// and rows from the whole post that the eye is over (GroundTexture::eyeColumn, eyeRow), so that it is exact
-/// near the eye. To be called only where `groundThere`, and in uniform control flow: it takes derivatives.
-/// `float groundDetail(vec2 metres)`: noise that stands on the ground, to multiply near land with.
-extern const char* const kGroundColour;
-/// Its texture unit.
+/// Texture unit of the ground (core/scene/shaders/ground_colour.glsl).
 constexpr int kGroundUnit = 8;
 
 /// The ground's colours and light about the eye on the GPU: one layer of kSide x kSide texels a level, each

@@ -8,8 +8,8 @@
 
 #include "page_budget.h"
 #include "patch_layer.h"
-#include "trimtab/scene/planted_defects.h"
 #include "trimtab/frame/frame_request.h"
+#include "trimtab/scene/planted_defects.h"
 
 namespace trimtab::scene {
 namespace {
@@ -103,7 +103,8 @@ struct PatchCulling::Impl {
   void followLayer(PatchLayer& layer);
   std::optional<Vec3> eyeAhead(const FrameRequest& request, Vec3 eye) const;
   bool lookAhead(const FrameRequest& request, const CutKey& wanted);
-  void choose(const FrameRequest& request, const EyePose& eye, PatchCut& cut, FrameResult& counters);
+  /// Returns whether the cut was selected anew.
+  bool choose(const FrameRequest& request, const EyePose& eye, PatchCut& cut);
   void select(const CutKey& wanted, PatchCut& cut);
   void ask();
 };
@@ -254,8 +255,7 @@ bool PatchCulling::Impl::lookAhead(const FrameRequest& request, const CutKey& wa
   return true;
 }
 
-void PatchCulling::Impl::choose(const FrameRequest& request, const EyePose& eye, PatchCut& cut,
-                                FrameResult& counters) {
+bool PatchCulling::Impl::choose(const FrameRequest& request, const EyePose& eye, PatchCut& cut) {
   const ViewShape& v = request.view;
   const CutKey wanted{eye.position,
                       request.lod.screenSpaceError.value() / defects.statedErrorScale,
@@ -263,11 +263,9 @@ void PatchCulling::Impl::choose(const FrameRequest& request, const EyePose& eye,
                       std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom)),
                       std::min(budgetOf(request), most),
                       heldNumber};
-  const bool newCut = key != wanted, newAim = lookAhead(request, wanted);
-  if (newCut || !request.skips.sameCut) {
-    select(wanted, cut);
-    ++counters.cutsSelected;
-  }
+  const bool newCut = key != wanted, newAim = lookAhead(request, wanted),
+             selected = newCut || !request.skips.sameCut;
+  if (selected) select(wanted, cut);
   if (newCut || newAim) {
     const bool wasShort = pages.isShort();
     pages.aim(cut.wants, laterWants, wanted.budget);
@@ -282,6 +280,7 @@ void PatchCulling::Impl::choose(const FrameRequest& request, const EyePose& eye,
   number.cut += newCut;
   number.rule += !key || !key->sameRule(wanted);
   key = wanted;
+  return selected;
 }
 
 void PatchCulling::Impl::select(const CutKey& wanted, PatchCut& cut) {
@@ -297,29 +296,28 @@ void PatchCulling::Impl::ask() {
   if (asked || !lacking.empty()) pager->want(lacking);
 }
 
-void PatchCulling::page(const FrameRequest& request, const EyePose& eye, PatchLayer& layer,
-                        FrameResult& counters) {
+PatchCulling::Paged PatchCulling::page(const FrameRequest& request, const EyePose& eye, PatchLayer& layer) {
   Impl& m = *impl_;
-  counters.paging = {};
-  if (!m.terrain) return;
+  Paged done;
+  if (!m.terrain) return done;
   m.followLayer(layer);
   m.reserve(request, layer);
   m.takeArrivals(layer);
-  m.choose(request, eye, cut_, counters);
+  done.cutsSelected += m.choose(request, eye, cut_);
   if (request.waitForPages) {
     m.mustHave.clear();
     for (const PageWant& want : m.lacking) m.mustHave.push_back(want.page);
     if (!m.mustHave.empty()) {
       m.takeAll(m.mustHave, layer);
-      m.choose(request, eye, cut_, counters);
+      done.cutsSelected += m.choose(request, eye, cut_);
     }
   }
   m.makeRoom(0, layer);
   // What is not there must not be taken for ground that hides.
-  if (m.giveBack(request, layer)) m.choose(request, eye, cut_, counters);
+  if (m.giveBack(request, layer)) done.cutsSelected += m.choose(request, eye, cut_);
 
   const terrain::Pager::Counters read = m.pager->counters();
-  PagingFrame& paging = counters.paging;
+  PagingFrame& paging = done.paging;
   paging.waiting = read.waiting;
   paging.heldBack = cut_.heldBack;
   paging.pagesRead = read.pagesRead;
@@ -329,6 +327,7 @@ void PatchCulling::page(const FrameRequest& request, const EyePose& eye, PatchLa
   paging.pagesDropped = m.dropped;
   paging.bytes = m.pages.bytes();
   paging.budgetBytes = m.key ? m.key->budget : 0;
+  return done;
 }
 
 void PatchCulling::selectVisible(const FrameRequest& request, const EyePose& eye,

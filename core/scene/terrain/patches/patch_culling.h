@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "core/scene/occlusion/occlusion_ground.h"
-#include "trimtab/scene/planted_defects.h"
 #include "trimtab/culling/select_patches.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
+#include "trimtab/scene/planted_defects.h"
 #include "trimtab/terrain/format/pager.h"
 
 namespace trimtab::scene {
@@ -28,11 +28,15 @@ class PatchCulling {
   void setTerrain(std::shared_ptr<const terrain::PatchTerrain> terrain);
   void plant(const Defects& defects);
 
+  struct Paged {
+    PagingFrame paging;
+    std::uint64_t cutsSelected = 0;
+  };
   /// Takes in what has arrived, within the frame's share; chooses the cut and asks for what it lacks, gives
   /// up what is longest unused and over the budget. Waits for nothing but, once, the roots; with
   /// `request.waitForPages` for all that this view can use. The context is current, and `layer` has this
   /// terrain's index; where it has lost its pages they are read again. `eye`: whose cut it is.
-  void page(const FrameRequest& request, const EyePose& eye, PatchLayer& layer, FrameResult& counters);
+  Paged page(const FrameRequest& request, const EyePose& eye, PatchLayer& layer);
   /// What of the cut is in the view, and not hidden: one a patch of the cut, or empty. `backFaces`: what is
   /// seen from behind only is left out.
   void selectVisible(const FrameRequest& request, const EyePose& eye,

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <utility>
 
 #include "core/scene/gl/gl_api.h"
+#include "trimtab/culling/box_distance.h"
+#include "trimtab/frame/frame_request.h"
 #include "trimtab/scene/data_extent.h"
 #include "trimtab/scene/gl_report.h"
 #include "trimtab/scene/planted_defects.h"
-#include "trimtab/culling/box_distance.h"
-#include "trimtab/frame/frame_request.h"
 
 namespace trimtab::scene {
 namespace {
@@ -43,25 +43,30 @@ int PatchDrawer::levelOf(TileDraw patch) const {
   return terrain_->index().depth[patch.node];
 }
 
-void PatchDrawer::prepare(FrameInProgress& frame) {
+PreparedTerrain PatchDrawer::prepare(const FrameInProgress& frame) {
   begin(frame);
+  PreparedTerrain prepared;
   const FrameRequest& r = frame.request;
-  const EyePose eye = r.frozenEye.value_or(frame.view.eye);
-  const std::uint64_t before = frame.counters.paging.pagesRead;
-  culling_.page(r, eye, gl_->layer, frame.counters);
-  frame.clock.lap(before != frame.counters.paging.pagesRead ? &FrameCost::page : &FrameCost::select);
-  occlusion_.begin(r, eye, {}, frame.counters);
+  const EyePose eye = r.frozenEye.value_or(frame.eye);
+  const PatchCulling::Paged paged = culling_.page(r, eye, gl_->layer);
+  prepared.paging = paged.paging;
+  const bool read = std::exchange(pagesRead_, paged.paging.pagesRead) != paged.paging.pagesRead;
+  frame.clock.lap(read ? &FrameCost::page : &FrameCost::select);
+  occlusion_.begin(r, eye, false);
   frame.clock.lap(occlusion_.horizonServes() ? &FrameCost::occlusion : &FrameCost::select);
-  if (!occlusion_.visibleStays(r, frame.counters)) {
+  if (!occlusion_.visibleStays(r)) {
     culling_.selectVisible(r, eye, occlusion_.hidden(), r.backFaces && occlusion_.eyeIsAboveGround());
     frame.clock.lap(&FrameCost::select);
-    culling_.removeHidden(occlusion_.hiddenByMap(r, culling_.visible(), frame.counters));
+    culling_.removeHidden(occlusion_.hiddenByMap(r, culling_.visible()));
   }
   frame.clock.lap(occlusion_.mapServes() ? &FrameCost::occlusion : &FrameCost::select);
-  updateGround();
-  frame.counters.patches = true;
-  frame.view.oneSided = r.backFaces && occlusion_.eyeIsAboveGround() && !r.frozenEye;
-  addBounds();
+  updateGround(prepared.paging);
+  prepared.occlusion = occlusion_.result();
+  prepared.counters = occlusion_.counters();
+  prepared.counters.cutsSelected = paged.cutsSelected;
+  prepared.oneSided = r.backFaces && occlusion_.eyeIsAboveGround() && !r.frozenEye;
+  prepared.lines = tileBounds();
+  return prepared;
 }
 
 void PatchDrawer::plant(const Defects& defects) {
@@ -69,15 +74,15 @@ void PatchDrawer::plant(const Defects& defects) {
   culling_.plant(defects);
 }
 
-void PatchDrawer::updateGround() {
+void PatchDrawer::updateGround(PagingFrame& paging) {
   const terrain::PostGrid posts = postsOf(database_->info());
   const GeodeticPosition& eye = frame_->request.eye;
   const std::uint64_t before = gl_->ground.bytesUploaded();
   gl_->ground.showVoids(frame_->request.overlays.voids);
   gl_->ground.update(posts.columnOf(eye.longitude.value()), posts.rowOf(eye.latitude.value()),
                      frame_->request.waitForPages, kGroundBytesAFrame);
-  frame_->counters.paging.failed += gl_->ground.failed();
-  frame_->counters.paging.settled = frame_->counters.paging.waiting == 0 && gl_->ground.complete();
+  paging.failed += gl_->ground.failed();
+  paging.settled = paging.waiting == 0 && gl_->ground.complete();
   frame_->clock.lap(before != gl_->ground.bytesUploaded() ? &FrameCost::page : &FrameCost::select);
 }
 

@@ -6,8 +6,8 @@
 #include "patch_culling.h"
 #include "patch_ground.h"
 #include "patch_layer.h"
-#include "trimtab/scene/planted_defects.h"
 #include "trimtab/frame/frame_result.h"
+#include "trimtab/scene/planted_defects.h"
 
 namespace trimtab::scene {
 
@@ -19,7 +19,7 @@ class PatchDrawer final : public TerrainDrawer {
   void release() override { gl_.reset(); }
   void plant(const Defects& defects) override;
 
-  void prepare(FrameInProgress& frame) override;
+  PreparedTerrain prepare(const FrameInProgress& frame) override;
   void finished(const FrameResult& result) override { occlusion_.finished(result); }
 
   const std::vector<TileDraw>& cut() const override { return culling_.cut().tiles; }
@@ -40,7 +40,8 @@ class PatchDrawer final : public TerrainDrawer {
                   std::span<const std::uint32_t> colours) override;
 
   void setGl();
-  void updateGround();
+  /// Brings the ground's texture to the eye, and completes what paging reports.
+  void updateGround(PagingFrame& paging);
 
   struct Gl {
     PatchLayer layer;
@@ -51,6 +52,7 @@ class PatchDrawer final : public TerrainDrawer {
   PatchCulling culling_;
   PatchGround hiding_{culling_};
   OcclusionStage occlusion_{hiding_};
+  std::uint64_t pagesRead_ = 0;  ///< by the last frame
   std::unique_ptr<Gl> gl_;
 };
 

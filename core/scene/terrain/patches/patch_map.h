@@ -43,8 +43,6 @@ class PatchMapCulling {
                                        const MapView& view, SurfaceShare& share);
   /// The last map.
   Renderer::Grey picture() const { return culling_.picture(); }
-  std::uint64_t drawn() const { return culling_.drawn(); }
-  std::uint64_t triangles() const { return culling_.triangles(); }
 
  private:
   const PatchSurface* surfaceOf(TileDraw patch) const;  ///< null where it is not made

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trimtab/scene/planted_defects.h"
 #include "trimtab/culling/box_distance.h"
 #include "trimtab/frame/frame_request.h"
-#include "trimtab/terrain/format/static_lod_terrain.h"
+#include "trimtab/scene/planted_defects.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
 
 namespace trimtab::scene {
@@ -44,6 +43,7 @@ void StaticLodCulling::setTerrain(std::shared_ptr<const terrain::StaticLodTerrai
   terrain_ = std::move(terrain);
   parts_.setTerrain(terrain_.get());
   cutKey_.reset();
+  errors_.clear();
   visibleKey_.reset();
   cutTiles_.clear();
   visible_ = {};
@@ -54,7 +54,8 @@ const StaticLodIndex& StaticLodCulling::index() const {
   return terrain_->index;
 }
 
-void StaticLodCulling::select(const FrameRequest& request, const EyePose& eye, FrameResult& counters) {
+FrameCounters StaticLodCulling::select(const FrameRequest& request, const EyePose& eye) {
+  FrameCounters counters;
   const ViewShape& v = request.view;
   const double pixelsPerRadian = std::max(v.widthPx / (v.right - v.left), v.heightPx / (v.top - v.bottom));
   const CutKey key{eye.position, request.staticLod.error,
@@ -64,8 +65,11 @@ void StaticLodCulling::select(const FrameRequest& request, const EyePose& eye, F
   if (cutKey_ != key || !request.skips.sameCut) {
     if (key.depth >= 0)
       selectStaticDepth(index(), key.depth, cut_);
-    else
-      selectStatic(index(), staticLodError(index(), key.error), key.distancePerError, key.eye, cut_);
+    else {
+      if (errors_.empty() || !cutKey_ || cutKey_->error != key.error)
+        errors_ = staticLodError(index(), key.error);
+      selectStatic(index(), errors_, key.distancePerError, key.eye, cut_);
+    }
     orderByDistance(eye.position);
     cutTiles_.clear();
     for (const std::uint32_t node : cut_.nodes) cutTiles_.push_back({node, 0});
@@ -77,7 +81,7 @@ void StaticLodCulling::select(const FrameRequest& request, const EyePose& eye, F
   const VisibleKey wanted{
       key, eye, v, request.method, request.decision.depthMap, farM, request.overlays.treePicture};
   // Frozen, what was hidden from there stays hidden: the picture is another eye's and cannot tell.
-  if (visibleKey_ == wanted && (request.frozenEye || request.skips.sameVisible)) return;
+  if (visibleKey_ == wanted && (request.frozenEye || request.skips.sameVisible)) return counters;
   visibleKey_ = wanted;
   hiddenIsKnown_ = false;
   ++counters.visibleSelected;
@@ -90,6 +94,7 @@ void StaticLodCulling::select(const FrameRequest& request, const EyePose& eye, F
   visibleNear_ = static_cast<std::size_t>(
       std::count(visible_.reason.begin(), visible_.reason.begin() + static_cast<std::ptrdiff_t>(near_),
                  CullReason::drawn));
+  return counters;
 }
 
 /// Puts the near part of the cut first, both parts in the trees' order.
@@ -139,16 +144,18 @@ std::uint64_t StaticLodCulling::hideableTriangles(Vec3 eye) const {
   return triangles;
 }
 
-std::optional<DepthMapSize> StaticLodCulling::occlusion(const FrameRequest& request,
-                                                        FrameResult& counters) const {
-  counters.note.clear();
+OcclusionResult StaticLodCulling::occlusion(const FrameRequest& request) const {
+  OcclusionResult result;
   const std::optional<DepthMapSize>& size = request.decision.depthMap;
   if (request.method != CullingCase::proposed || !size || request.overlays.treePicture) return {};
   if (request.frozenEye)
-    counters.note = "What is hidden stays as it was when culling was frozen.";
+    result.note = "What is hidden stays as it was when culling was frozen.";
   else if (!hiddenIsKnown_ && hideableTriangles(visibleKey_->eye.position) < kWorthHiding)
-    counters.note = "Too little of the static trees can be hidden for a depth map to be worth its cost.";
-  return counters.note.empty() ? size : std::nullopt;
+    result.note = "Too little of the static trees can be hidden for a depth map to be worth its cost.";
+  if (!result.note.empty()) return result;
+  result.depthMap = size;
+  result.occlusion = OcclusionMethod::depth_map;
+  return result;
 }
 
 void StaticLodCulling::removeHidden(const DepthPyramid& covered) {

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "static_lod_parts.h"
-#include "trimtab/scene/planted_defects.h"
 #include "trimtab/culling/depth_pyramid.h"
 #include "trimtab/culling/select_static.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
+#include "trimtab/scene/planted_defects.h"
 
 namespace trimtab::terrain {
 struct StaticLodTerrain;
@@ -23,11 +23,12 @@ class StaticLodCulling {
  public:
   void setTerrain(std::shared_ptr<const terrain::StaticLodTerrain> terrain);
 
-  /// Cut and visible set for an eye, each only if it can have changed: `cutsSelected`, `visibleSelected`.
-  void select(const FrameRequest& request, const EyePose& eye, FrameResult& counters);
-  /// Whether the far nodes are to be held against what the near ones cover, and by a map of which size; else
-  /// `counters.note` may say why not.
-  std::optional<DepthMapSize> occlusion(const FrameRequest& request, FrameResult& counters) const;
+  /// Selects cut and visible set for an eye, each only if it can have changed, and returns how often: its
+  /// `cutsSelected` and `visibleSelected` are 0 or 1.
+  FrameCounters select(const FrameRequest& request, const EyePose& eye);
+  /// Returns the size of the depth map by which far nodes are tested against what the near ones cover;
+  /// without one, `note` may say why.
+  OcclusionResult occlusion(const FrameRequest& request) const;
   /// Takes the far nodes out that `covered` hides.
   void removeHidden(const DepthPyramid& covered);
   /// That was done for this very view: no map needs to be read again.
@@ -58,6 +59,7 @@ class StaticLodCulling {
   std::shared_ptr<const terrain::StaticLodTerrain> terrain_;
   std::vector<std::uint32_t> vertices_;  ///< one a node
   std::optional<CutKey> cutKey_;
+  std::vector<float> errors_;  ///< of the cut's measure, one per node; empty: not made yet
   StaticCut cut_;
   std::vector<TileDraw> cutTiles_;
   std::size_t near_ = 0;  ///< of the cut

@@ -18,7 +18,7 @@ namespace trimtab::scene {
 /// The trees' meshes on the GPU: pages of tiles in two buffers with room to reuse, a tile's vertices and the
 /// triangles of all its nodes together, uploaded when a frame first needs the tile and given up when others
 /// need the room. Where a vertex's tile lies stands in a texture buffer by gl_VertexID, in units of 16 m, so
-/// its vertices close with every other tile's to the bit (relativePosition in shaders.h).
+/// its vertices close with every other tile's to the bit (relative_position.glsl).
 ///
 /// All calls need the context current. Nodes are those of the terrain's index; of one tile they stand
 /// together.

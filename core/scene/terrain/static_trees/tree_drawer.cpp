@@ -18,20 +18,21 @@ void TreeDrawer::initialize() {
   gl_->layer.setTerrain(terrain_);
 }
 
-void TreeDrawer::prepare(FrameInProgress& frame) {
+PreparedTerrain TreeDrawer::prepare(const FrameInProgress& frame) {
   begin(frame);
+  PreparedTerrain prepared;
   const FrameRequest& r = frame.request;
-  culling_.select(r, r.frozenEye.value_or(frame.view.eye), frame.counters);
+  prepared.counters = culling_.select(r, r.frozenEye.value_or(frame.eye));
   frame.clock.lap(&FrameCost::select);
-  uploadShown();
-  frame.counters.depthMap = culling_.occlusion(r, frame.counters);
-  mapServes_ = frame.counters.depthMap.has_value();
-  mapDrawn_ = mapServes_ && !culling_.hiddenIsKnown();
-  frame.counters.depthMapsDrawn += mapDrawn_;
-  if (mapServes_) frame.counters.occlusion = OcclusionMethod::read_back;
+  prepared.counters.tilesBuilt = uploadShown();
+  prepared.occlusion = culling_.occlusion(r);
+  map_ = prepared.occlusion.depthMap;
+  mapDrawn_ = map_ && !culling_.hiddenIsKnown();
+  prepared.counters.depthMapsDrawn = mapDrawn_;
   nearM_ = r.view.nearM;
-  frame.view.treePicture = r.overlays.treePicture;
-  addBounds();
+  prepared.treePicture = r.overlays.treePicture;
+  prepared.lines = tileBounds();
+  return prepared;
 }
 
 void TreeDrawer::draw(unsigned program) {
@@ -44,8 +45,7 @@ void TreeDrawer::draw(unsigned program) {
     if (frame_->software) glFinish();
     frame_->clock.lap(&FrameCost::draw);
     const ViewShape& v = frame_->request.view;
-    const DepthMapSize& size = *frame_->counters.depthMap;
-    gl_->occlusion.read(v.widthPx, v.heightPx, size.widthPx, size.heightPx);
+    gl_->occlusion.read(v.widthPx, v.heightPx, map_->widthPx, map_->heightPx);
     culling_.removeHidden(gl_->occlusion.pyramid());
     frame_->clock.lap(&FrameCost::occlusion);
     drawSurface(program, byReason ? std::span(cut()) : std::span(visible).subspan(near));
@@ -78,7 +78,7 @@ void TreeDrawer::drawTinted(unsigned, std::span<const TileDraw> nodes,
 
 Renderer::Grey TreeDrawer::readDepthMap() const {
   const DepthPyramid& map = gl_->occlusion.pyramid();
-  if (!mapServes_ || map.width() == 0) return {};
+  if (!map_ || map.width() == 0) return {};
   return greyOf(map.depths(), map.width(), map.height(), nearM_);
 }
 

@@ -16,7 +16,7 @@ class TreeDrawer final : public TerrainDrawer {
   void release() override { gl_.reset(); }
   void plant(const Defects& defects) override { culling_.plant(defects); }
 
-  void prepare(FrameInProgress& frame) override;
+  PreparedTerrain prepare(const FrameInProgress& frame) override;
   /// With a depth map the near nodes, then what they leave of the far ones.
   void draw(unsigned program) override;
   /// Document E's picture instead.
@@ -38,7 +38,7 @@ class TreeDrawer final : public TerrainDrawer {
   void drawTinted(unsigned program, std::span<const TileDraw> nodes,
                   std::span<const std::uint32_t> colours) override;
   /// They stand as they are drawn: StaticLodCulling::visible.
-  void arrange(std::vector<TileDraw>&, const SceneView&) const override {}
+  void arrange(std::vector<TileDraw>&) const override {}
 
   struct Gl {
     StaticLodLayer layer;
@@ -47,8 +47,9 @@ class TreeDrawer final : public TerrainDrawer {
   std::shared_ptr<const terrain::StaticLodTerrain> terrain_;
   StaticLodCulling culling_;
   std::unique_ptr<Gl> gl_;
-  bool mapServes_ = false;  ///< in the last frame, if only by what it hid when it was drawn
-  bool mapDrawn_ = false;   ///< in the last frame
+  /// Size of the last frame's map, if only by what it hid when it was drawn.
+  std::optional<DepthMapSize> map_;
+  bool mapDrawn_ = false;  ///< in the last frame
   double nearM_ = 1;
 };
 

@@ -1,48 +1,45 @@
 #include "tile_drawer.h"
 
 #include "core/scene/gl/gl_api.h"
-#include "trimtab/scene/gl_report.h"
 #include "trimtab/frame/frame_request.h"
+#include "trimtab/scene/gl_report.h"
 
 namespace trimtab::scene {
 
 void TileDrawer::setTerrain(std::shared_ptr<const terrain::Database> database) {
   database_ = std::move(database);
   culling_.setDatabase(database_);
-  if (!gl_) return;
-  gl_->tiles.setDatabase(database_);
-  gl_->readBack.setDatabase(database_);
+  if (gl_) gl_->tiles.setDatabase(database_);
 }
 
 void TileDrawer::initialize() {
   gl_ = std::make_unique<Gl>();
   gl_->tiles.setDatabase(database_);
-  gl_->readBack.setDatabase(database_);
   culling_.occlusion().setSubpixelBits(subpixelBitsOfContext());
-  // A software rasteriser has drawn what it was told by the time that it is asked.
-  gl_->readBack.setAtOnce(contextIsSoftware());
-  const bool reads = gl_->readBack.atOnce() || *DepthReadBack::lacks() == 0;
-  culling_.setReadBack(reads ? &gl_->readBack : nullptr);
 }
 
-void TileDrawer::prepare(FrameInProgress& frame) {
+PreparedTerrain TileDrawer::prepare(const FrameInProgress& frame) {
   begin(frame);
+  PreparedTerrain prepared;
   const FrameRequest& r = frame.request;
-  culling_.selectCut(r, r.frozenEye.value_or(frame.view.eye), frame.counters);
+  culling_.selectCut(r, r.frozenEye.value_or(frame.eye));
   frame.clock.lap(&FrameCost::select);
   const OcclusionStage& occlusion = culling_.occlusion();
-  culling_.beginOcclusion(r, frame.counters);
+  culling_.beginOcclusion(r);
   frame.clock.lap(occlusion.horizonServes() ? &FrameCost::occlusion : &FrameCost::select);
-  const bool anew = culling_.selectVisible(r, frame.counters);
+  const bool anew = culling_.selectVisible(r);
   frame.clock.lap(&FrameCost::select);
-  if (anew) culling_.removeHiddenByMap(r, frame.counters);
-  if (occlusion.mapServes() || occlusion.serves(OcclusionMethod::read_back))
-    frame.clock.lap(&FrameCost::occlusion);
-  uploadShown();
-  frame.view.depth = culling_.prepareOcclusion(r, gl_->tiles, gl_->occlusion, frame.counters);
-  frame.clock.lap(frame.view.depth ? &FrameCost::occlusion : &FrameCost::select);
-  frame.view.oneSided = r.backFaces && occlusion.eyeIsAboveGround() && !r.frozenEye;
-  addBounds();
+  if (anew) culling_.removeHiddenByMap(r);
+  if (occlusion.mapServes()) frame.clock.lap(&FrameCost::occlusion);
+  const std::size_t built = uploadShown();
+  prepared.depth = culling_.prepareOcclusion(r, gl_->tiles, gl_->occlusion);
+  frame.clock.lap(prepared.depth ? &FrameCost::occlusion : &FrameCost::select);
+  prepared.occlusion = culling_.result();
+  prepared.counters = culling_.counters();
+  prepared.counters.tilesBuilt = built;
+  prepared.oneSided = r.backFaces && occlusion.eyeIsAboveGround() && !r.frozenEye;
+  prepared.lines = tileBounds();
+  return prepared;
 }
 
 void TileDrawer::drawOccluders() {

@@ -1,12 +1,11 @@
 #pragma once
 
-#include "core/scene/occlusion/depth_read_back.h"
 #include "core/scene/occlusion/frame_culling.h"
 #include "core/scene/occlusion/occlusion.h"
 #include "core/scene/terrain/terrain_drawer.h"
 #include "tile_cache.h"
-#include "trimtab/scene/planted_defects.h"
 #include "trimtab/frame/frame_result.h"
+#include "trimtab/scene/planted_defects.h"
 
 namespace trimtab::scene {
 
@@ -15,19 +14,14 @@ class TileDrawer final : public TerrainDrawer {
  public:
   void setTerrain(std::shared_ptr<const terrain::Database> database) override;
   void initialize() override;
-  void release() override {
-    culling_.setReadBack(nullptr);
-    gl_.reset();
-  }
+  void release() override { gl_.reset(); }
   void plant(const Defects& defects) override { culling_.plant(defects); }
 
-  void prepare(FrameInProgress& frame) override;
+  PreparedTerrain prepare(const FrameInProgress& frame) override;
   void finished(const FrameResult& result) override { culling_.occlusion().finished(result); }
   // The depth map's passes, where `prepare` set a depth view.
   void drawOccluders();
-  void reduce(unsigned program) {
-    if (!culling_.occlusion().serves(OcclusionMethod::read_back)) gl_->occlusion.reduce(program);
-  }
+  void reduce(unsigned program) { gl_->occlusion.reduce(program); }
   void removeHidden() { culling_.removeHidden(gl_->tiles, gl_->occlusion); }
 
   const std::vector<TileDraw>& cut() const override { return culling_.cut().tiles; }
@@ -49,7 +43,6 @@ class TileDrawer final : public TerrainDrawer {
   struct Gl {
     TileCache tiles;
     OcclusionPass occlusion;
-    DepthReadBack readBack;
   };
   std::shared_ptr<const terrain::Database> database_;
   FrameCulling culling_;

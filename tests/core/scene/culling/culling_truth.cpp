@@ -6,7 +6,6 @@
 #include <map>
 #include <optional>
 
-#include "core/scene/occlusion/depth_read_back.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/preset/choices.h"
@@ -244,17 +243,11 @@ void CullingTruth::proveFlight(const std::vector<FrameRequest>& requests, Sum& s
     sum.all.add(tally);
   };
   for (const auto& [method, name] : occlusionChoices()) follow(method, name);
-  // As on a GPU, whose maps come late.
-  for (const int lag : {1, 3}) {
-    scene::DepthReadBack::force({.lag = lag});
-    follow(OcclusionMethod::read_back, "read_back, late by " + std::to_string(lag));
-  }
-  scene::DepthReadBack::force({});
   // From nothing, surfaces made some a frame. Levels alone are the same without waiting for pages.
   if (form_ != TerrainForm::levels) return;
   for (View& view : views) view.request.waitForPages = false;
   for (const auto& [method, name] : occlusionChoices()) {
-    if (method == OcclusionMethod::depth_map || method == OcclusionMethod::read_back) continue;
+    if (method == OcclusionMethod::depth_map) continue;
     renderer.setTerrain(database);
     follow(method, std::string(name) + ", from nothing");
   }

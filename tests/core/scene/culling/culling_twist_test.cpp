@@ -53,7 +53,7 @@ TEST_F(CullingTwist, losesNothingWhileLevelsChangeInFlight) {
     std::set<std::uint32_t> drawn;
     for (const TileDraw& patch : result.visible.tiles) drawn.insert(patch.node);
     for (const auto& [node, pixels] : view.owners) wrong += !drawn.contains(node);
-    moved = result.horizonsMoved;
+    moved = result.counters.horizonsMoved;
     occluded += result.visible.occluded;
     hidden += view.hidden;
   }

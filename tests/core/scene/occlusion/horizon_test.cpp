@@ -63,21 +63,21 @@ TEST_F(HorizonScene, isNotBuiltAgainWhileOnlyTheHeadTurns) {
     r.attitude = {Degrees{31.0 * i}, Degrees{-3.0 * i}, Degrees{7.0 * i}};
     picture(r, &result);
     EXPECT_TRUE(result.horizon);
-    EXPECT_EQ(result.horizonsBuilt, 1u);
+    EXPECT_EQ(result.counters.horizonsBuilt, 1u);
   }
-  EXPECT_EQ(result.depthMapsDrawn, 0u);
+  EXPECT_EQ(result.counters.depthMapsDrawn, 0u);
   r.skips.sameHorizon = false;
   const auto skipped = picture(r, &result);
-  EXPECT_EQ(result.horizonsBuilt, 2u);
+  EXPECT_EQ(result.counters.horizonsBuilt, 2u);
   r.skips.sameHorizon = true;
   EXPECT_EQ(picture(r, &result), skipped);
-  EXPECT_EQ(result.horizonsBuilt, 2u);
+  EXPECT_EQ(result.counters.horizonsBuilt, 2u);
   r.eye.height = r.eye.height + Metres{1};
   picture(r, &result);
-  EXPECT_EQ(result.horizonsBuilt, 3u);
+  EXPECT_EQ(result.counters.horizonsBuilt, 3u);
   r.decision.depthMap = DepthMapSize{800, 600};
   picture(r, &result);
-  EXPECT_EQ(result.horizonsBuilt, 4u) << "the band sets its resolution";
+  EXPECT_EQ(result.counters.horizonsBuilt, 4u) << "the band sets its resolution";
   r.decision.depthMap.reset();
   picture(r, &result);
   EXPECT_FALSE(result.horizon);
@@ -106,11 +106,11 @@ TEST_F(HorizonScene, isNeitherBuiltNorMovedForAHeadThatTurns) {
         r.attitude = {Degrees{40 + turned}, Degrees{-3 - 0.1 * turned}, Degrees{0.05 * turned}};
         picture(r, &result);
         ASSERT_TRUE(result.horizon) << i << ' ' << result.note;
-        ASSERT_EQ(result.horizonsBuilt, first.horizonsBuilt) << i;
-        ASSERT_EQ(result.horizonsMoved, first.horizonsMoved) << i;
+        ASSERT_EQ(result.counters.horizonsBuilt, first.counters.horizonsBuilt) << i;
+        ASSERT_EQ(result.counters.horizonsMoved, first.counters.horizonsMoved) << i;
         hidden += result.visible.occluded;
       }
-      EXPECT_EQ(result.cutsSelected, first.cutsSelected);
+      EXPECT_EQ(result.counters.cutsSelected, first.counters.cutsSelected);
       EXPECT_GT(hidden, 0u) << "nothing to be seen of a horizon";
     }
 }
@@ -122,12 +122,13 @@ TEST_F(HorizonScene, isNotBuiltAgainNearWhereItHidNextToNothing) {
   r.occlusion = OcclusionMethod::horizon;
   FrameResult result;
   const auto draw = [&](std::uint64_t built, std::uint64_t leftOut, const char* what) {
-    const std::uint64_t before = result.horizonsLeftOut;
+    const std::uint64_t before = result.counters.horizonsLeftOut;
     const auto drawn = picture(r, &result);
     EXPECT_EQ(result.occlusion, OcclusionMethod::horizon) << what;
-    EXPECT_EQ(result.horizon, result.horizonsLeftOut == before) << what << ": no profile of elsewhere";
-    EXPECT_EQ(result.horizonsBuilt, built) << what;
-    EXPECT_EQ(result.horizonsLeftOut, leftOut) << what;
+    EXPECT_EQ(result.horizon, result.counters.horizonsLeftOut == before)
+        << what << ": no profile of elsewhere";
+    EXPECT_EQ(result.counters.horizonsBuilt, built) << what;
+    EXPECT_EQ(result.counters.horizonsLeftOut, leftOut) << what;
     EXPECT_EQ(renderer.readHorizon(8).empty(), !result.horizon) << what;
     EXPECT_EQ(renderer.readDepthMap().pixels.size(), result.horizon ? 320u * 240u : 0u) << what;
     auto whole = r;
@@ -155,9 +156,9 @@ TEST_F(HorizonScene, isNotBuiltAgainNearWhereItHidNextToNothing) {
   draw(3, 4, "other levels");
   r.skips.littleHidden = false;
   r.eye.height = start + Metres{75};
-  const std::uint64_t moved = result.horizonsMoved;
+  const std::uint64_t moved = result.counters.horizonsMoved;
   draw(3, 4, "5 m on, switched off");
-  EXPECT_EQ(result.horizonsMoved, moved + 1) << "the last one holds here too";
+  EXPECT_EQ(result.counters.horizonsMoved, moved + 1) << "the last one holds here too";
   // An eye that has come to rest is given a horizon of its place alone, once.
   draw(4, 4, "the same place, switched off");
   draw(4, 4, "again");
@@ -179,9 +180,9 @@ TEST_F(HorizonScene, isUsedOnceAnEyeAtRestHasABetterOne) {
       picture(r, &flying);
     }
     for (int i = 0; i < 20; ++i) picture(r, &resting);
-    const std::uint64_t selected = resting.visibleSelected;
+    const std::uint64_t selected = resting.counters.visibleSelected;
     picture(r, &resting);
-    EXPECT_EQ(resting.visibleSelected, selected) << "nothing is done any more";
+    EXPECT_EQ(resting.counters.visibleSelected, selected) << "nothing is done any more";
     auto again = r;
     again.skips.sameVisible = false;
     picture(again, &anew);
@@ -209,7 +210,7 @@ TEST(HorizonMemory, knowsHowFastTheEyeGoesAlsoWhereItIsNotAsked) {
     if (frame % 10 == 0) {
       selectLevels(database->index(), eye, 0.2, 1, 640, cut);
       ++number.cut;
-      memory.hidden(ground, eye, {}, {.littleHidden = false});
+      memory.find(ground, eye, {}, {.littleHidden = false});
       const EyeRoom& room = memory.horizon().room();
       EXPECT_LT(length(room.to - room.from), 30 * 5.0) << "frame " << frame;
     }

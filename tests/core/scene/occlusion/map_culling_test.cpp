@@ -65,7 +65,7 @@ TEST_F(MapScene, showsItsMapAsGreys) {
   use(test::syntheticMountains());
   auto r = request(over(0.5, 0.5, 400), {Degrees{20}, Degrees{-10}, Degrees{0}});
   r.decision.depthMap = DepthMapSize{320, 240};
-  for (const OcclusionMethod method : {OcclusionMethod::cpu_map, OcclusionMethod::read_back}) {
+  for (const OcclusionMethod method : {OcclusionMethod::cpu_map, OcclusionMethod::depth_map}) {
     r.occlusion = method;
     FrameResult result;
     picture(r, &result);

@@ -18,8 +18,8 @@ namespace trimtab {
 namespace {
 
 constexpr std::array kMethods{OcclusionMethod::automatic, OcclusionMethod::depth_map,
-                              OcclusionMethod::read_back, OcclusionMethod::cpu_map,
-                              OcclusionMethod::horizon,   OcclusionMethod::horizon_and_map};
+                              OcclusionMethod::cpu_map, OcclusionMethod::horizon,
+                              OcclusionMethod::horizon_and_map};
 
 std::shared_ptr<const terrain::Database> patchedMountains() {
   static const auto terrain = [] {
@@ -102,12 +102,12 @@ TEST_F(OcclusionStage, keepsTheVisibleSetWhileNothingInItCanChange) {
       FrameResult first, second, third;
       const auto drawn = picture(r, &first);
       EXPECT_EQ(picture(r, &second), drawn);
-      EXPECT_EQ(second.visibleSelected, first.visibleSelected);
-      EXPECT_EQ(second.mapsDrawnByCpu, first.mapsDrawnByCpu) << "nor is a map drawn";
+      EXPECT_EQ(second.counters.visibleSelected, first.counters.visibleSelected);
+      EXPECT_EQ(second.counters.mapsDrawnByCpu, first.counters.mapsDrawnByCpu) << "nor is a map drawn";
       EXPECT_EQ(second.visible.occluded, first.visible.occluded);
       r.skips.sameVisible = false;
       EXPECT_EQ(picture(r, &third), drawn);
-      EXPECT_EQ(third.visibleSelected, second.visibleSelected + 1);
+      EXPECT_EQ(third.counters.visibleSelected, second.counters.visibleSelected + 1);
       r.skips.sameVisible = true;
       // Whatever it depends on.
       const auto changes = [&](const char* what, auto&& change) {
@@ -116,7 +116,7 @@ TEST_F(OcclusionStage, keepsTheVisibleSetWhileNothingInItCanChange) {
         picture(r, &before);
         change(changed);
         EXPECT_EQ(lost(changed, &after), 0u) << what;
-        EXPECT_GT(after.visibleSelected, before.visibleSelected) << what;
+        EXPECT_GT(after.counters.visibleSelected, before.counters.visibleSelected) << what;
       };
       changes("a turn", [](auto& c) { c.attitude.heading = Degrees{41}; });
       changes("a roll", [](auto& c) { c.attitude.roll = Degrees{1}; });
@@ -169,9 +169,10 @@ TEST_F(OcclusionStage, drawsNoMapNearWhereOneHidNextToNothing) {
   ASSERT_LT(first.visible.occluded * 50, first.visible.tiles.size()) << "no place for this test";
   r.eye.height = r.eye.height + Metres{5};
   const auto drawn = picture(r, &second);
-  EXPECT_EQ(second.mapsDrawnByCpu, first.mapsDrawnByCpu);
-  EXPECT_EQ(second.mapsLeftOut, first.mapsLeftOut + 1);
-  EXPECT_EQ(second.occlusionsLeftOut, first.occlusionsLeftOut) << "the method is worth its cost";
+  EXPECT_EQ(second.counters.mapsDrawnByCpu, first.counters.mapsDrawnByCpu);
+  EXPECT_EQ(second.counters.mapsLeftOut, first.counters.mapsLeftOut + 1);
+  EXPECT_EQ(second.counters.occlusionsLeftOut, first.counters.occlusionsLeftOut)
+      << "the method is worth its cost";
   EXPECT_EQ(first.depthMap, r.decision.depthMap);
   EXPECT_EQ(second.occlusion, OcclusionMethod::cpu_map);
   for (int i = 0; i < 2; ++i) {
@@ -181,11 +182,12 @@ TEST_F(OcclusionStage, drawsNoMapNearWhereOneHidNextToNothing) {
   }
   r.skips.littleHidden = r.skips.sameVisible = false;
   EXPECT_EQ(picture(r, &third), drawn);
-  EXPECT_EQ(third.mapsDrawnByCpu, second.mapsDrawnByCpu + 1);
+  EXPECT_EQ(third.counters.mapsDrawnByCpu, second.counters.mapsDrawnByCpu + 1);
   r.skips.littleHidden = true;
   r.attitude.heading = Degrees{60};
   EXPECT_EQ(lost(r, &second), 0u);
-  EXPECT_EQ(second.mapsDrawnByCpu, third.mapsDrawnByCpu + 1) << "a turn ends what was believed";
+  EXPECT_EQ(second.counters.mapsDrawnByCpu, third.counters.mapsDrawnByCpu + 1)
+      << "a turn ends what was believed";
 }
 
 TEST_F(OcclusionStage, tellsOnlyOfMapsAndHorizonsOfThisPicture) {
@@ -289,9 +291,9 @@ TEST_F(OcclusionStage, countsTheSameWhenAskedToBeReproducible) {
       r.eye = over(0.4 + 0.002 * i, 0.5, i < 8 ? 60 : 3000);
       const auto result = other.draw(r, offscreen->framebuffer());
       all.insert(all.end(), {result.visible.tiles.size(), result.visible.occluded,
-                             static_cast<std::size_t>(result.horizonsBuilt),
-                             static_cast<std::size_t>(result.horizonsLeftOut),
-                             static_cast<std::size_t>(result.visibleSelected)});
+                             static_cast<std::size_t>(result.counters.horizonsBuilt),
+                             static_cast<std::size_t>(result.counters.horizonsLeftOut),
+                             static_cast<std::size_t>(result.counters.visibleSelected)});
       EXPECT_EQ(result.occlusion, OcclusionMethod::horizon);
       EXPECT_EQ(result.note, "");
       for (int k = 0; k < idle; ++k) renderer.draw(r, offscreen->framebuffer());
@@ -317,7 +319,7 @@ TEST_F(OcclusionStage, looksForNothingOverAPlainMostOfTheTime) {
     looked += result.occlusion.has_value();
   }
   EXPECT_LT(looked, kFrames / 4);
-  EXPECT_GE(result.occlusionsLeftOut, static_cast<std::uint64_t>(kFrames - looked));
+  EXPECT_GE(result.counters.occlusionsLeftOut, static_cast<std::uint64_t>(kFrames - looked));
   EXPECT_EQ(lost(r), 0u);
 }
 

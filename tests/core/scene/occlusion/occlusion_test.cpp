@@ -60,15 +60,15 @@ TEST_F(Occlusion, isSkippedWhereTheDecisionAsksForNone) {
   use(test::syntheticMountains());
   auto r = request(over(0.5, 0.5, 300), {});
   auto result = renderer.draw(r, offscreen->framebuffer());
-  EXPECT_EQ(result.depthMapsDrawn, 0u);
+  EXPECT_EQ(result.counters.depthMapsDrawn, 0u);
   EXPECT_TRUE(std::isnan(result.cost.occlusion));
   EXPECT_EQ(renderer.readDepthMap().width, 0);
   r.decision.depthMap = DepthMapSize{320, 240};
   result = renderer.draw(r, offscreen->framebuffer());
-  EXPECT_EQ(result.depthMapsDrawn, 1u);
+  EXPECT_EQ(result.counters.depthMapsDrawn, 1u);
   EXPECT_GT(result.cost.occlusion, 0);
   r.method = CullingCase::view_frustum;
-  EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).depthMapsDrawn, 1u);
+  EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).counters.depthMapsDrawn, 1u);
   EXPECT_EQ(renderer.readDepthMap().width, 0) << "an old map must not pass for this frame's";
 }
 

@@ -54,15 +54,15 @@ TEST_F(PostPasses, runNothingAtRest) {
   FrameResult result;
   const auto plain = picture(ofMountains(30, 1, 0), &result);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(differing(plain, picture(ofMountains(30, 1 + i, 0), &result)), 0u);
-  EXPECT_EQ(result.blurPasses, 0u);
-  EXPECT_EQ(result.symbologyDraws, 0u);
-  EXPECT_EQ(result.symbologyRedraws, 0u);
+  EXPECT_EQ(result.counters.blurPasses, 0u);
+  EXPECT_EQ(result.counters.symbologyDraws, 0u);
+  EXPECT_EQ(result.counters.symbologyRedraws, 0u);
   // After a blur, too, the picture at rest is the plain one.
   picture(ofMountains(60, 4, 0.8), &result);
   picture(ofMountains(45, 4.01, 0.8), &result);
-  EXPECT_EQ(result.blurPasses, 2u);
+  EXPECT_EQ(result.counters.blurPasses, 2u);
   EXPECT_EQ(differing(plain, picture(ofMountains(30, 4.02, 0), &result)), 0u);
-  EXPECT_EQ(result.blurPasses, 2u);
+  EXPECT_EQ(result.counters.blurPasses, 2u);
   EXPECT_EQ(differing(plain, picture(ofMountains(30, 4.03, 0.8))), 0u) << "a trail from before the rest";
 }
 
@@ -161,9 +161,9 @@ TEST_F(PostPasses, blurTakesAnyStrength) {
   }
   FrameResult result;
   const auto before = picture(ofMountains(30, 12, 0), &result);
-  const auto passes = result.blurPasses;
+  const auto passes = result.counters.blurPasses;
   EXPECT_EQ(differing(before, picture(ofMountains(30, 13, std::nan("")), &result)), 0u);
-  EXPECT_EQ(result.blurPasses, passes) << "no number is no strength";
+  EXPECT_EQ(result.counters.blurPasses, passes) << "no number is no strength";
 }
 
 TEST_F(PostPasses, symbolsAreMadeAnewOnlyWhenSomethingInThemChanged) {
@@ -172,16 +172,16 @@ TEST_F(PostPasses, symbolsAreMadeAnewOnlyWhenSomethingInThemChanged) {
   r.symbology = symbols();
   FrameResult result;
   const auto first = picture(r, &result);
-  EXPECT_EQ(result.symbologyRedraws, 1u);
+  EXPECT_EQ(result.counters.symbologyRedraws, 1u);
   for (int i = 0; i < 10; ++i) {
     r.symbology->state.altitude = r.symbology->state.altitude + Metres{0.05};
     EXPECT_EQ(differing(first, picture(r, &result)), 0u);
   }
-  EXPECT_EQ(result.symbologyRedraws, 1u);
-  EXPECT_EQ(result.symbologyDraws, 11u);
+  EXPECT_EQ(result.counters.symbologyRedraws, 1u);
+  EXPECT_EQ(result.counters.symbologyDraws, 11u);
   r.symbology->state.speed = Knots{260};
   EXPECT_GT(differing(first, picture(r, &result)), 10u);
-  EXPECT_EQ(result.symbologyRedraws, 2u);
+  EXPECT_EQ(result.counters.symbologyRedraws, 2u);
 }
 
 TEST_F(PostPasses, symbolsTurnedOffChangeOnlyTheirOwnPixels) {

@@ -166,16 +166,16 @@ TEST_F(Falling, isRunOnlyWhereSomethingFalls) {
   use(test::syntheticMountains());
   auto r = falling(Precipitation::none, 1);
   const auto passes = [&] { return renderer.draw(r, offscreen->framebuffer()); };
-  EXPECT_EQ(passes().precipitationPasses, 0u);
+  EXPECT_EQ(passes().counters.precipitationPasses, 0u);
   r.decision.weather.precipitation = Precipitation::rain;
   for (const double none : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
     r.decision.weather.density = none;
-    EXPECT_EQ(passes().precipitationPasses, 0u) << none;
+    EXPECT_EQ(passes().counters.precipitationPasses, 0u) << none;
   }
   r.decision.weather.density = 0.3;
-  EXPECT_EQ(passes().precipitationPasses, 1u);
-  EXPECT_EQ(passes().precipitationPasses, 2u);
-  EXPECT_EQ(passes().depthMapsDrawn, 0u);
+  EXPECT_EQ(passes().counters.precipitationPasses, 1u);
+  EXPECT_EQ(passes().counters.precipitationPasses, 2u);
+  EXPECT_EQ(passes().counters.depthMapsDrawn, 0u);
   r.decision.weather.density = 7;
   const Pixels8 most = picture(r);
   r.decision.weather.density = 1;

@@ -15,6 +15,7 @@
 
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/gl/gl_program.h"
+#include "core/scene/shaders/shaders.h"
 #include "core/scene/terrain/ground/ground_texture.h"
 #include "trimtab/scene/offscreen.h"
 #include "trimtab/terrain/ground/build.h"
@@ -107,7 +108,8 @@ class GroundOnGpu : public ::testing::Test {
     auto created = Offscreen::create(kWidth, kHeight);
     if (!created) GTEST_SKIP() << toString(created.findings());
     offscreen_ = std::move(created).value();
-    const std::string fragment = std::string("#version 430 compatibility\n") + kGroundColour + R"(
+    const std::string fragment = completeShader(R"(#version 430 compatibility
+#include "ground_colour.glsl"
       uniform vec2 first, across, up;
       uniform bool lightAlone;
       out vec4 colour;
@@ -115,13 +117,13 @@ class GroundOnGpu : public ::testing::Test {
         vec2 p = gl_FragCoord.xy;
         vec4 g = groundAt(first + across * p.x + up * p.y);
         colour = vec4(lightAlone ? vec3(g.a / 1.5) : g.rgb, 1.0);
-      })";
+      })");
     program_ = makeGlProgram(R"(#version 430 compatibility
       void main() {
         vec2 corner = vec2((gl_VertexID & 1) * 2, gl_VertexID & 2);
         gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
       })",
-                             fragment.c_str());
+                             fragment);
     ASSERT_NE(program_, 0u);
     glGenVertexArrays(1, &array_);
     texture_ = std::make_unique<GroundTexture>();

@@ -31,7 +31,9 @@ struct Viewer {
   }
   const PagingFrame& frame(const FrameRequest& request) {
     const EyePose eye{culling.index().frame.fromGeodetic(request.eye), {}};
-    culling.page(request, eye, layer, result);
+    const PatchCulling::Paged paged = culling.page(request, eye, layer);
+    result.paging = paged.paging;
+    result.counters.cutsSelected += paged.cutsSelected;
     culling.selectVisible(request, eye);
     return result.paging;
   }
@@ -239,13 +241,13 @@ TEST_F(Paging, choosesAgainOnlyWhatMayHaveChanged) {
   FrameRequest r = waiting(request(0.3, 0.4, 500));
   viewer.frame(r);
   const auto tiles = tilesOf(viewer.culling.cut());
-  const std::uint64_t chosen = viewer.result.cutsSelected;
+  const std::uint64_t chosen = viewer.result.counters.cutsSelected;
   const auto number = viewer.culling.cutNumber();
   for (int i = 0; i < 3; ++i) viewer.frame(r);
-  EXPECT_EQ(viewer.result.cutsSelected, chosen);
+  EXPECT_EQ(viewer.result.counters.cutsSelected, chosen);
   r.skips.sameCut = false;
   viewer.frame(r);
-  EXPECT_EQ(viewer.result.cutsSelected, chosen + 1);
+  EXPECT_EQ(viewer.result.counters.cutsSelected, chosen + 1);
   EXPECT_EQ(tilesOf(viewer.culling.cut()), tiles);
   EXPECT_EQ(viewer.culling.cutNumber(), number);
   r.eye.height = Metres{505};

@@ -220,20 +220,20 @@ TEST_F(StaticTrees, areUploadedOnFirstUseAndSelectedOnlyAnew) {
   use(treeMountains());
   auto r = treeRequest(over(0.5, 0.5, 300), {Degrees{0}, Degrees{-5}, Degrees{0}});
   const auto first = renderer.draw(r, offscreen->framebuffer());
-  EXPECT_GT(first.tilesBuilt, 0u);
-  EXPECT_LT(first.tilesBuilt, trees().roots.size()) << "tiles out of sight were uploaded";
-  EXPECT_EQ(first.cutsSelected, 1u);
-  EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).tilesBuilt, first.tilesBuilt);
+  EXPECT_GT(first.counters.tilesBuilt, 0u);
+  EXPECT_LT(first.counters.tilesBuilt, trees().roots.size()) << "tiles out of sight were uploaded";
+  EXPECT_EQ(first.counters.cutsSelected, 1u);
+  EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).counters.tilesBuilt, first.counters.tilesBuilt);
   r.attitude.heading = Degrees{180};  // only the head turns
   const auto turned = renderer.draw(r, offscreen->framebuffer());
-  EXPECT_EQ(turned.cutsSelected, 1u);
-  EXPECT_GT(turned.tilesBuilt, first.tilesBuilt);
+  EXPECT_EQ(turned.counters.cutsSelected, 1u);
+  EXPECT_GT(turned.counters.tilesBuilt, first.counters.tilesBuilt);
   r.decision.lodScale = 2;
-  EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).cutsSelected, 2u);
+  EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).counters.cutsSelected, 2u);
   r.eye.height = r.eye.height + Metres{1};
-  EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).cutsSelected, 3u);
+  EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).counters.cutsSelected, 3u);
   renderer.setTerrain(database);
-  EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).cutsSelected, 4u);
+  EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).counters.cutsSelected, 4u);
 }
 
 TEST_F(StaticTrees, drawTheSamePictureAfterARelease) {
@@ -351,9 +351,9 @@ TEST_F(StaticTrees, keepWhatWasHiddenWhileCullingIsFrozen) {
   for (int i = 1; i < 4; ++i) {
     r.eye = over(0.3 - 0.05 * i, 0.3, 2000);
     const auto frozen = renderer.draw(r, offscreen->framebuffer());
-    EXPECT_EQ(frozen.cutsSelected, live.cutsSelected);
+    EXPECT_EQ(frozen.counters.cutsSelected, live.counters.cutsSelected);
     EXPECT_EQ(frozen.visible.reason, live.visible.reason);
-    EXPECT_EQ(frozen.depthMapsDrawn, live.depthMapsDrawn);
+    EXPECT_EQ(frozen.counters.depthMapsDrawn, live.counters.depthMapsDrawn);
     EXPECT_NE(frozen.note, "");
     EXPECT_EQ(renderer.readDepthMap().width, 0) << "an old map must not pass for this frame's";
   }
@@ -370,24 +370,24 @@ TEST_F(StaticTrees, chooseAndReadNothingAgainForAViewThatStands) {
   const auto grey = renderer.readDepthMap();
   const auto after = picture(r, &second);
   EXPECT_EQ(differing(before, after), 0u);
-  EXPECT_EQ(second.visibleSelected, first.visibleSelected);
-  EXPECT_EQ(second.depthMapsDrawn, first.depthMapsDrawn);
+  EXPECT_EQ(second.counters.visibleSelected, first.counters.visibleSelected);
+  EXPECT_EQ(second.counters.depthMapsDrawn, first.counters.depthMapsDrawn);
   EXPECT_EQ(second.visible.reason, first.visible.reason);
   EXPECT_EQ(second.note, "");
   EXPECT_TRUE(second.depthMap) << "it has its part in what is drawn";
-  EXPECT_EQ(second.occlusion, OcclusionMethod::read_back);
+  EXPECT_EQ(second.occlusion, OcclusionMethod::depth_map);
   EXPECT_EQ(renderer.readDepthMap().pixels, grey.pixels);
   r.skips.sameVisible = false;
   EXPECT_EQ(differing(before, picture(r, &second)), 0u);
-  EXPECT_EQ(second.visibleSelected, first.visibleSelected + 1);
-  EXPECT_EQ(second.depthMapsDrawn, first.depthMapsDrawn + 1);
+  EXPECT_EQ(second.counters.visibleSelected, first.counters.visibleSelected + 1);
+  EXPECT_EQ(second.counters.depthMapsDrawn, first.counters.depthMapsDrawn + 1);
   r.skips.sameVisible = true;
   const auto changes = [&](const char* what, const auto& change) {
     auto other = r;
     change(other);
     FrameResult result;
     picture(other, &result);
-    EXPECT_EQ(result.visibleSelected, second.visibleSelected + 1) << what;
+    EXPECT_EQ(result.counters.visibleSelected, second.counters.visibleSelected + 1) << what;
     second = result;
     picture(r, &second);
   };
@@ -403,19 +403,19 @@ TEST_F(StaticTrees, readNoDepthMapWhereNoneIsAskedForOrWorthIt) {
   auto r = treeRequest(over(0.3, 0.3, 60), {Degrees{40}, Degrees{-3}, Degrees{0}});
   r.staticLod.errorPx = Pixels{0.05};
   auto result = renderer.draw(r, offscreen->framebuffer());
-  EXPECT_EQ(result.depthMapsDrawn, 0u) << "scheme frustum";
+  EXPECT_EQ(result.counters.depthMapsDrawn, 0u) << "scheme frustum";
   EXPECT_TRUE(std::isnan(result.cost.occlusion));
   r.decision.depthMap = DepthMapSize{320, 240};
   r.method = CullingCase::view_frustum;
-  EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).depthMapsDrawn, 0u);
+  EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).counters.depthMapsDrawn, 0u);
   r.method = CullingCase::proposed;
   result = renderer.draw(r, offscreen->framebuffer());
-  EXPECT_EQ(result.depthMapsDrawn, 1u);
+  EXPECT_EQ(result.counters.depthMapsDrawn, 1u);
   EXPECT_GT(result.cost.occlusion, 0);
   r.eye = over(0.3, 0.3, 9000);
   r.attitude.pitch = Degrees{-50};
   result = renderer.draw(r, offscreen->framebuffer());
-  EXPECT_EQ(result.depthMapsDrawn, 1u) << "from so high nothing can be hidden";
+  EXPECT_EQ(result.counters.depthMapsDrawn, 1u) << "from so high nothing can be hidden";
   EXPECT_NE(result.note, "");
 }
 

@@ -39,9 +39,10 @@ class Looking {
   /// One flag a tile of the cut: 1 is hidden.
   const std::vector<std::uint8_t>& frame() {
     const std::uint64_t made = ground_.share().made();
-    stage_.begin(request_, eye_, {}, result_);
-    EXPECT_EQ(result_.note, "");
-    if (stage_.visibleStays(request_, result_)) {
+    stage_.begin(request_, eye_, false);
+    EXPECT_EQ(stage_.result().note, "");
+    if (stage_.visibleStays(request_)) {
+      counters_ += stage_.counters();
       made_ = ground_.share().made() - made;
       return flags_;
     }
@@ -49,7 +50,8 @@ class Looking {
     std::copy(stage_.hidden().begin(), stage_.hidden().end(), flags_.begin());
     VisibleSet visible;
     selectVisible(index_, cut_, eye_, request_.view, true, visible, 1e30, stage_.hidden());
-    const auto byMap = stage_.hiddenByMap(request_, visible, result_);
+    const auto byMap = stage_.hiddenByMap(request_, visible);
+    counters_ += stage_.counters();
     for (std::size_t i = 0; i < byMap.size(); ++i)
       for (std::size_t k = 0; k < cut_.tiles.size(); ++k)
         if (byMap[i] == 1 && cut_.tiles[k].node == visible.tiles[i].node) flags_[k] = 1;
@@ -58,8 +60,8 @@ class Looking {
   }
   std::uint64_t made() const { return made_; }  ///< surfaces, in the last frame
   std::size_t tiles() const { return cut_.tiles.size(); }
-  std::uint64_t horizons() const { return result_.horizonsBuilt; }
-  std::uint64_t selections() const { return result_.visibleSelected; }
+  std::uint64_t horizons() const { return counters_.horizonsBuilt; }
+  std::uint64_t selections() const { return counters_.visibleSelected; }
 
  private:
   std::shared_ptr<const test::SyntheticTerrain> database_;
@@ -69,7 +71,7 @@ class Looking {
   LevelCut cut_;
   scene::CutNumber number_;
   FrameRequest request_;
-  FrameResult result_;
+  FrameCounters counters_;
   EyePose eye_;
   std::vector<std::uint8_t> flags_;
   std::uint64_t made_ = 0;

@@ -343,7 +343,8 @@ TEST(StaticLodBuild, stopsWithinATile) {
   const int nodes = static_cast<int>((*whole)->index.size());
   for (const int last : {1, 2, nodes / 2, nodes, nodes + 1, 2 * nodes}) {
     asked = 0;
-    const LodTree tree = buildTree(lattice->tiles[0], 100, {}, [&] { return ++asked < last; });
+    const LodTree tree =
+        buildTree(lattice->tiles[0], 100, {}, lattice->materials, [&] { return ++asked < last; });
     EXPECT_TRUE(tree.nodes.empty());
     EXPECT_EQ(asked, last) << "it went on";
   }

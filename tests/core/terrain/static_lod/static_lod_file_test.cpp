@@ -28,6 +28,7 @@ TEST(StaticLodFile, bringsBackWhatWasWritten) {
   EXPECT_EQ(a.index.roots, b.index.roots);
   EXPECT_EQ(a.index.rmsErrorM, b.index.rmsErrorM);
   EXPECT_EQ(a.index.maxErrorM, b.index.maxErrorM);
+  EXPECT_EQ(a.index.borderErrorM, b.index.borderErrorM);
   EXPECT_EQ(a.index.slopeMax, b.index.slopeMax);
   ASSERT_EQ(a.index.size(), b.index.size());
   EXPECT_EQ(std::memcmp(a.index.bounds.data(), b.index.bounds.data(), a.index.size() * sizeof(Box)), 0);

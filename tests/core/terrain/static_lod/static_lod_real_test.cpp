@@ -135,7 +135,27 @@ TEST(StaticLodReport, comparesTheTileNearestToThePublishedOne) {
   EXPECT_GE(ours.levels, ours.limits.levels);
   if (ours.lockedMinima == 0) {
     EXPECT_GE(ours.faces, ours.limits.leastFaces);
-    EXPECT_LE(ours.faces, ours.limits.mostFaces + (*terrain)->index.size());
+    EXPECT_LE(ours.faces, ours.limits.mostFaces);
+  }
+}
+
+TEST(StaticLodLimits, allowOneTriangleEitherSideOfN) {
+  // Four leaves of 100 at n = 100 have three nodes above them; eight of 50 have seven.
+  const StaticLodLimits limits = staticLodLimits(400, 100);
+  EXPECT_EQ(limits.levels, 3u);
+  EXPECT_EQ(limits.leastFaces, 400u + 3 * 99);
+  EXPECT_EQ(limits.mostFaces, 400u + 7 * 101);
+  // Builder and limits agree: a node that is no leaf has n - 1 to n + 1 triangles.
+  for (const std::uint32_t n : {37u, 100u, 101u, 256u}) {
+    const auto terrain = *test::built({test::tin("100", {.columns = 64, .rows = 64})}, n);
+    const StaticLodReport report = reportStaticLod(*terrain, 0);
+    for (const StaticLodIndex::Node& node : terrain->index.nodes) {
+      if (node.children[0] == StaticLodIndex::kNone || node.lockedMinimum) continue;
+      EXPECT_NEAR(double(node.triangles), n, 1);
+    }
+    if (report.lockedMinima > 0) continue;
+    EXPECT_GE(report.faces, report.limits.leastFaces);
+    EXPECT_LE(report.faces, report.limits.mostFaces);
   }
 }
 

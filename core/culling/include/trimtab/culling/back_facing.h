@@ -8,45 +8,45 @@
 #include "trimtab/frame/normal_cone.h"
 #include "trimtab/frame/terrain_index.h"
 
-/// Nodes that the eye sees from behind only.
+/// Nodes of which the eye sees only the back.
 ///
-/// When they may be left out. Let the drawn surface be the graph of heights over the data's area, without
-/// cracks, the eye above it, and let every straight line from the eye to a place on the surface stay over
-/// that area (scene/data_extent tells). A line that ends at a place p from the side that the triangle at p
-/// turns away comes from below the surface. It began above, so it went through the surface before p, from
-/// above to below: through a front face, nearer than p. What is drawn there covers p, and with p every pixel
-/// that p could own. The same proof serves GL's face culling, but for slivers that rounding turns over, of
-/// which core/scene/gl/guard_band.h tells. The far cut takes nothing from that: a nearer face is within it
-/// when p is. It fails for an eye below the surface or beyond the data, and where the near plane cuts the
-/// front face away. So the drawers ask only where their occlusion tests may hide anything.
-///
-/// Rounding. Pictures are made from vertices rounded to parts of a pixel, so that a triangle seen edge-on may
-/// turn over. kBackFacingMargin keeps nodes that have one so near its edge: what is left out is seen under
-/// more than a degree from behind by each of its triangles, wherever in its box they lie.
+/// Leaving them out changes no pixel as long as the drawn surface is a graph of heights without cracks, the
+/// eye is above it, and every straight line from the eye to the surface stays over the data's area
+/// (scene::DataExtent checks that). A line that reaches a triangle from behind comes from below the surface,
+/// so it passed through a nearer front face before, which covers it. The proof fails for an eye below the
+/// surface or beyond the data, and where the near plane cuts the front face away: ask for it only where
+/// occlusion tests may hide anything. resources/docs/occlusion.md has the derivation;
+/// core/scene/gl/guard_band.h covers slivers that rounding turns over.
 namespace trimtab {
 
-inline constexpr double kBackFacingMargin = 0.02;  ///< of a sine
+/// Sine of the angle by which every triangle of a node must turn away before the node counts as facing away.
+/// It is more than a degree, because vertices are rounded to parts of a pixel, which may turn a triangle that
+/// is seen edge-on.
+inline constexpr double kBackFacingMargin = 0.02;
 
-/// Whether every triangle whose normal is in the cone, wherever in the box it lies, shows the eye its back.
-/// False for anything that is not a number.
+/// Returns true if every triangle whose normal is in the cone shows the eye its back, wherever in the box it
+/// lies. Returns false if any argument is not a number.
 inline bool facesAway(const NormalCone& cone, const Box& b, Vec3 eye) {
   if (!cone.isKnown()) return false;
   const Vec3 low{b.minX, b.minY, b.minZ}, high{b.maxX, b.maxY, b.maxZ};
   const Vec3 axis = cone.axis(), away = eye - (low + high) * 0.5, half = (high - low) * 0.5;
-  // Of eye - p for the box's points p: the furthest along the axis, and the longest.
+  // For the vectors eye - p to all points p of the box: the largest component along the axis, then the
+  // longest.
   const double along =
       dot(away, axis) + half.x * std::abs(axis.x) + half.y * std::abs(axis.y) + half.z * std::abs(axis.z);
   if (!(along < 0)) return false;
   return along < -(length(away) + length(half)) * (cone.sine() + kBackFacingMargin);
 }
 
-/// How far a cone's axis leans from the frame's up, less the cone's half-angle, in kSteepnessSteps a radian,
-/// rounded up: an eye that sees a node from behind is lower above it than this angle.
+/// Returns how far a cone's axis leans from the frame's up direction, less the cone's half-angle, in
+/// 1/kSteepnessSteps radians, rounded up. An eye that sees a node from behind is at a lower elevation above
+/// it.
 std::int16_t steepness(NormalCone cone);
 
 inline constexpr double kSteepnessSteps = 1000;
 
-/// False where no node in the box of that steepness or less can face away: what saves asking them.
+/// Returns false if no node in the box with this steepness or less can face away. Then the nodes need no test
+/// of their own.
 bool mayFaceAway(std::int16_t steepness, const Box& box, Vec3 eye);
 
 }  // namespace trimtab

@@ -6,6 +6,7 @@
 
 #include "trimtab/culling/frustum.h"
 #include "trimtab/units/large_array.h"
+#include "trimtab/units/simd.h"
 
 namespace trimtab {
 
@@ -35,9 +36,6 @@ class BoxArrays {
   float reach_ = 0;
 };
 
-enum class SimdLevel { portable, avx2, avx512 };
-/// The best that this processor has.
-SimdLevel simdLevel();
 /// How many blocks before its turn one is asked of memory; 0 where the processor does so better by itself.
 std::size_t blocksAhead();
 

@@ -8,31 +8,32 @@
 
 namespace trimtab {
 
-/// Distances at which everything in a part of the picture is covered, and what lies behind them.
+/// A depth map with coarser levels, and the test whether a box lies behind it.
 ///
-/// The map has one depth a texel: near / view depth of the *farthest* of all pixels of the picture that the
-/// texel touches, 0 where a pixel is uncovered. So it needs nothing of the surface that covers: holes, steep
-/// walls and an eye at any place leave farther depths, or none. A box is hidden when each texel that its
-/// projection touches, and a pixel's width around, shows a depth nearer than the box's nearest point: each
-/// fragment of what lies in it would fail the depth test against what the pixel has already.
+/// Each texel holds near / view depth of the *farthest* pixel of the image that it touches, and 0 if one of
+/// them is uncovered. So nothing need be known of the surface that covers: holes, steep walls or an eye below
+/// the ground leave farther depths, or none. A box is hidden if every texel that its projection touches, and
+/// a pixel's width around, shows a depth nearer than the box's nearest point.
 class DepthPyramid {
  public:
-  /// Row 0 at the bottom, `stride` entries from row to row (0: width). What is no number counts as uncovered.
+  /// Builds the levels from depths whose row 0 is at the bottom, with `stride` entries from row to row (0
+  /// means width). A depth that is not a number counts as uncovered.
   void build(std::span<const float> depths, int width, int height, int stride = 0);
-  /// The map of a picture of any size: the farthest pixel that each texel touches.
+  /// Builds the map of an image of any size: each texel gets the farthest pixel that it touches.
   void buildFromPicture(std::span<const float> picture, int pictureWidth, int pictureHeight, int width,
                         int height);
 
-  /// False unless proven; false for a box that reaches the near plane. Margins cover float rounding in the
-  /// picture. `view` has the picture's size, which need not be a multiple of the map's.
+  /// Returns true only if the box is proven hidden; false for a box that reaches the near plane. Margins
+  /// cover float rounding in the image. `view` has the image's size, which need not be a multiple of the
+  /// map's.
   bool isHidden(const Box& box, const EyePose& eye, const ViewShape& view) const;
-  /// Whether each texel from (x0, y0) to (x1, y1), which are in the map, is nearer than `limit`, near over
-  /// depth. From coarse to fine, so that it ends where the answer is known.
+  /// Returns true if every texel from (x0, y0) to (x1, y1), both inside the map, is nearer than `limit`,
+  /// which is near / depth. Looks at coarse levels first and stops as soon as the answer is known.
   bool covers(int x0, int y0, int x1, int y1, float limit) const;
 
   int width() const { return width_; }
   int height() const { return height_; }
-  /// As given to `build`.
+  /// Returns the finest level, as it was given to `build`.
   std::span<const float> depths() const;
 
  private:

@@ -9,7 +9,8 @@
 
 namespace trimtab {
 
-/// A view's near, left, right, bottom and top planes, and the one test that all that is drawn goes through.
+/// The near, left, right, bottom and top planes of a view, and the tests of boxes against them. There is no
+/// far plane.
 class Frustum {
  public:
   Frustum(const EyePose& eye, const ViewShape& view) : eye_(eye.position) {
@@ -27,15 +28,15 @@ class Frustum {
   Vec3 eye() const { return eye_; }
   const std::array<Plane, 5>& planes() const { return planes_; }
 
-  /// False only when no point of the box can be in the picture.
+  /// Returns false only if no point of the box can be in the image.
   bool mayShow(const Box& b) const {
     return eachPlane(b, [](double middle, double reach, double offset, double margin) {
-      // Said so that a plane that is not a number drops nothing.
+      // Written so that a plane that is not a number drops nothing.
       return !(middle + reach < offset - margin);
     });
   }
 
-  /// True only when every point of the box is within all planes: GL cuts no triangle there.
+  /// Returns true only if every point of the box is inside all planes, so that GL clips no triangle there.
   bool holds(const Box& b) const {
     return eachPlane(b, [](double middle, double reach, double offset, double margin) {
       return middle - reach > offset + margin;
@@ -50,7 +51,7 @@ class Frustum {
                         eye_;
     const Vec3 half{0.5 * (double{b.maxX} - b.minX), 0.5 * (double{b.maxY} - b.minY),
                     0.5 * (double{b.maxZ} - b.minZ)};
-    // Vertices are drawn from floats relative to the eye: wrong by less than 1e-6 of their distance.
+    // Vertices are drawn from floats relative to the eye, whose error is below 1e-6 of their distance.
     const double margin = 1e-3 + 1e-6 * (std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z) +
                                          half.x + half.y + half.z);
     for (const Plane& plane : planes_) {

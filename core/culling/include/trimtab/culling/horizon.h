@@ -17,55 +17,22 @@ namespace horizon {
 struct Kernels;
 }
 
-/// What the ground around an eye hides, in every direction at once: so a head that turns rebuilds nothing.
-///
-/// The proof. S is the terrain as drawn this frame: continuous over its footprint, one height (by the frame's
-/// z) over each place; the eye E is above it. The frame is an isometry of the earth, so the earth's curvature
-/// is in S, and rays are straight. Seen from E, a direction is (1, t, w) by one of four quarters: t sideways
-/// and w upwards for each metre forwards. Rays of the same t lie in a vertical half-plane, and "nearer" along
-/// any of them is nearer in plan.
-///
-/// Let P be a point of S at (t, wP), and consider a ray of the same t with w < wP, where all of the way to P
-/// in plan is over the footprint. Under P, the ray is below S; at E it was above it; so it meets S before it
-/// is under P, and shows nothing that is further in plan than P. Straight edges of S have straight images in
-/// (t, w). A line of edges that runs through a whole column [t0, t1] therefore reaches, for every t of the
-/// column, at least the least w of its corners and of where it crosses the column's sides. That, the greatest
-/// over the lines that are wholly nearer than a place, is the horizon there: rays of the column below it have
-/// ended before. Nothing of this asks that a line lies on S: it may lie under it; nor that all lines are
-/// looked at: so those that no tile's test asks for wait, and most need never be.
-///
-/// A tile lies inside the box of its posts, and in finer steps inside those of blocks of its posts. It is
-/// hidden when each part of it is below the horizon, by the part's largest w, in each column that the part
-/// touches. What the ray of a visible pixel meets first is never left out: a hidden tile's rays have met
-/// something strictly nearer. A pixel therefore keeps its fragment.
-///
-/// Drawn vertices are off by rounding and by the rasteriser's sub-pixels, less than `slack` (radians). If all
-/// directions within `slack` of one end at S, then it ends at S as it is drawn, since that is as continuous;
-/// parts are tested with twice that all around. Lines of a tile beyond the data's border, or so steep that
-/// one place may have two heights, must not be used: HorizonTile::mayOcclude.
-///
-/// For all eyes of a room. Directions stay those from one place E; let the eye be at e = E + d. The way from
-/// e to P passes, where it has gone all but the share k of it, X = P + k (e - P). If X is F forwards of E,
-/// its direction from E differs from P's by k (dl - t df) / F sideways and k (dz - w df) / F upwards: P
-/// itself does not move, and what is nearer by no more than what is between. So the way to P in plan is led
-/// to the far side of a line at a place of the line whose t is within |dl - t df| / (F - |df|) of P's, and is
-/// under the line there if P's w is less than the line's there by |dz - w df| / (F - |df|). Lines are lowered
-/// by the latter; of the former, all count `kFarM` away and their columns' values are the least within what
-/// is left of it, while parts are tested wider by the rest, in every quarter that they then reach.
+/// A tile (or patch) of the drawn surface, as the horizon tests it.
 struct HorizonTile {
-  const TileRelief* relief = nullptr;  ///< a regular tile; without it and `mesh` never hidden, hides nothing
+  /// A regular grid of posts. A tile with neither this nor `mesh` hides nothing and is never hidden.
+  const TileRelief* relief = nullptr;
   bool mayOcclude = false;
-  /// Neighbours whose lines go on where this tile's end, or null: drawn at the same level, and may occlude. A
-  /// column that a border lies in is not lost then.
+  /// Neighbours whose lines continue this tile's lines, or null. They must be drawn at the same level and may
+  /// occlude. With them the column of directions that contains the common border is not lost.
   const TileRelief *east = nullptr, *north = nullptr;
   const MeshRelief* mesh = nullptr;  ///< instead of `relief`: any triangles
-  /// How much lower and higher than this the surface may be drawn here while the horizon is in use, metres.
+  /// How much lower and higher than given the surface may be drawn here while the horizon is in use, metres.
   float below = 0, above = 0;
 
   const Relief* surface() const { return relief ? static_cast<const Relief*>(relief) : mesh; }
 };
 
-/// Places of the eye that one horizon holds for: what is within `radius` of a segment.
+/// The validity region of a horizon: all eye positions within `radius` of a segment, metres, local frame.
 struct EyeRoom {
   Vec3 from, to;
   double radius = 0;
@@ -73,69 +40,87 @@ struct EyeRoom {
   bool holds(Vec3 eye) const;
 };
 
+/// What the ground around an eye hides, in every direction at once, so that it stays valid while the head
+/// turns.
+///
+/// A tile is hidden if each of its parts is below the horizon: the highest line of ground that is wholly
+/// nearer, in every direction of the plan that the part spans. resources/docs/occlusion.md, The horizon, has
+/// the proof and the margins. It holds for the surface S as drawn in this frame, if S has one height over
+/// each place (along the local frame's z) and no cracks, and if the eye is above it.
+///
+/// Directions are split into four quarters: +x, +y, -x, -y. In a quarter a direction is (1, t, w): t sideways
+/// and w upwards per metre forwards. Each quarter has `columns` equal steps of t in -1..1, and the profile
+/// holds the w of the horizon in each.
+///
+/// A horizon may hold for a whole validity region (EyeRoom) instead of one eye. Then lines are lowered and
+/// tiles are tested wider by as much as any eye of the region sees them shifted.
+///
+/// The traps: a tile beyond the data's border, or so steep that a place has two heights, must not occlude
+/// (HorizonTile::mayOcclude). Vertices are drawn with rounding, so Settings::slack must be at least the angle
+/// by which the rasteriser may move them.
 class Horizon {
  public:
   static constexpr int kSides = 4;
-  static constexpr int kLeastColumns = 16, kMostColumns = 8192;  ///< a quarter
+  static constexpr int kLeastColumns = 16, kMostColumns = 8192;  ///< per quarter
 
   struct Settings {
-    int columns = 1024;   ///< of each quarter of the circle; clamped
-    double slack = 1e-5;  ///< radians
-    /// Wrong: lines reach as high as the highest of a column, and a room as far as its middle. For tests that
-    /// see it fail.
+    int columns = 1024;   ///< per quarter; clamped to the limits above
+    double slack = 1e-5;  ///< angle by which drawing may shift a vertex, radians
+    /// Deliberate errors, for tests that see the proof fail: `raised` gives each column its highest point,
+    /// `still` treats the validity region as its middle.
     bool raised = false, still = false;
-    bool whole = false;      ///< the profile is as high as all lines prove, not as high as tiles asked
-    bool noWaiting = false;  ///< lines are looked at before a tile asks for them: for tests that compare
-    SimdLevel simd = SimdLevel::avx512;  ///< at most; the result is the same
+    bool whole = false;      ///< compute the complete profile, not only what the tiles' tests needed
+    bool noWaiting = false;  ///< read all lines before a tile needs them; for tests that compare
+    SimdLevel simd = SimdLevel::avx512;  ///< the highest level to use; results are equal at all levels
 
     friend bool operator==(const Settings&, const Settings&) = default;
   };
 
-  /// Tests all tiles against what is nearer, for all eyes of the room. What is not a number, or a room larger
-  /// than kMostRoomM, hides nothing.
+  /// Tests every tile against the ground nearer than it, for all eyes of the validity region. Nothing is
+  /// hidden if the region holds anything that is not a number or is larger than kMostRoomM.
   void buildFor(const EyeRoom& room, std::span<const HorizonTile> tiles, const Settings& settings);
   void build(Vec3 eye, std::span<const HorizonTile> tiles, const Settings& settings) {
     buildFor({eye, eye, 0}, tiles, settings);
   }
   static constexpr double kMostRoomM = 1000;
 
-  /// The same bit by bit: `tiles` and what they point to stay as they are until it is done. Until then
-  /// hidden() may say less than in the end, never more.
+  /// Starts the same work to be done in steps. `tiles` and what they point to must not change until isDone().
+  /// Until then hidden() may report fewer hidden tiles than in the end, never more.
   void begin(const EyeRoom& room, std::span<const HorizonTile> tiles, const Settings& settings);
-  /// `work`: roughly tiles. Whether it is done.
+  /// Does some more work, in units of roughly one tile, and returns true once all is done.
   bool step(std::size_t work);
   bool isDone() const { return phase_ == Phase::done; }
-  std::size_t work() const { return work_; }  ///< since begin()
+  std::size_t work() const { return work_; }  ///< units of work done since begin()
 
   const EyeRoom& room() const { return room_; }
-  /// One a tile of the last build: 1 is proven hidden.
+  /// Returns one flag per tile of the last build: 1 if it is proven hidden.
   const std::vector<std::uint8_t>& hidden() const { return hidden_; }
   std::size_t hiddenCount() const { return hiddenCount_; }
-  /// From +x by +y, -x and -y: the w of each column; very low where there is none. All of the horizon where
-  /// Settings::whole.
+  /// Returns the w of each column, the quarters +x, +y, -x, -y in turn; a column without ground has the
+  /// lowest float. It is as high as the tiles' tests needed, and complete only with Settings::whole.
   std::span<const float> profile() const {
     return std::span(profile_).first(static_cast<std::size_t>(kSides * columns_));
   }
   int columns() const { return columns_; }
-  /// Elevation in radians in a direction of the plan, as far as the profile proves; none where nothing bounds
-  /// the sky.
+  /// Returns the elevation of the profile in a direction of the plan, radians; unset if the profile has no
+  /// ground there.
   std::optional<double> elevation(double x, double y) const;
-  /// Whether a ray of this direction ends at the ground, as far as the profile proves.
+  /// Returns true if the profile proves that a ray in this direction ends at the ground.
   bool blocks(Vec3 direction) const;
 
  private:
-  /// Lines that no tile has asked for yet: some of a tile's, in a quarter.
+  /// Lines of one tile in one quarter that are not in the profile yet, because no test needed them.
   struct Waiting {
-    std::uint32_t tile, ring;  ///< the next is nearer than what is further out, as far as is known
-    int line, count, step;     ///< the next, how many are left, and from one to the next
+    std::uint32_t tile, ring;  ///< ring: all of the next line is nearer than the rings beyond this one
+    int line, count, step;     ///< the next line, how many are left, and the step to the one after
   };
-  /// Of a bin, which is a few columns of the profile that follow each other: who waits to raise them.
+  /// An entry of a bin (a few adjacent columns of the profile): waiting lines that may raise its columns.
   struct Raiser {
-    float top, topSoFar;       ///< to this at most; the most of all in the bin up to this one
-    std::int16_t first, last;  ///< columns, of other bins too
+    float top, topSoFar;       ///< the highest w they may reach; the highest of this and all entries before
+    std::int16_t first, last;  ///< columns that they may raise, also beyond this bin
     std::uint32_t waiting;
   };
-  /// In plan, and up to the top, metres from the eye.
+  /// A rectangle in plan with a top, metres relative to the eye.
   struct Prism {
     float x0, x1, y0, y1, top;
   };
@@ -143,40 +128,41 @@ class Horizon {
     return {box.minX + from[0], box.maxX + from[0], box.minY + from[1], box.maxY + from[1],
             box.maxZ + from[2]};
   }
-  /// What most tiles are judged by, so that they are not looked at themselves: one line of the cache.
+  /// The summary of a tile by which most tiles are judged without a look at their relief; one cache line.
   struct alignas(64) Outline : Prism {
     std::array<float, 3> peak;
-    float nearest, off;  ///< least distance at which it counts; how far directions to it may be off
-    float beside;        ///< by how much of t, for all eyes, it may reach into another quarter
+    float nearest, off;  ///< least distance at which it counts; angle by which directions to it may be off
+    float beside;        ///< by how much of t it may reach into another quarter, for any eye of the region
     std::uint32_t tile;
-    // Of a regular tile's lines that run across the line of sight: their highest corner; how far the
-    // outermost are from the borders, and how far they go on beyond, in shares of its size.
+    // For a regular tile's lines that run across the line of sight: their highest corner; how far the
+    // outermost are from the borders, and how far they continue beyond, both as shares of the tile's size.
     float lineTop, inset, goOn;
     std::uint16_t ring;
-    std::int16_t lines;  ///< how many; of a mesh -1, where it may occlude
+    std::int16_t lines;  ///< their number; -1 for a mesh that may occlude
   };
   static_assert(sizeof(Outline) == 64);
-  /// A tile's lines; of a regular one, those that run across the line of sight, and how they go on.
+  /// A tile's lines; of a regular tile, those that run across the line of sight and their continuation.
   struct Lines {
-    const MeshRelief* mesh;  ///< or else:
+    const MeshRelief* mesh;  ///< if null, xyz and goOn are used
     const float *xyz, *goOn;
-    std::array<float, 3> from, goOnFrom;  ///< their origins, from the eye
+    std::array<float, 3> from, goOnFrom;  ///< their origins relative to the eye
     float besideM, below, nearest;
     int side;
   };
-  /// How far the eye may be from the middle of its room, by a quarter.
+  /// How far the eye may be from the middle of the validity region, as one quarter sees it, metres.
   struct Play {
-    float along, side, radius;  ///< of the segment, forwards and sideways; around it
-    float forwards, upwards;    ///< at most
+    float along, side, radius;  ///< half the segment forwards and sideways; the radius around it
+    float forwards, upwards;    ///< largest offsets
 
-    /// How far the eye may be beside a way of this t, times its length's share forwards.
+    /// Returns the largest offset beside a line of sight with this t, per unit of its forward component.
     float across(float t) const { return std::abs(side - t * along); }
   };
 
   void outlineSome();
   void sortTiles();
   Outline outlineOf(std::uint32_t tile) const;
-  /// Lines along the line of sight hide next to nothing that the others do not.
+  /// Returns whether rows rather than columns run across the line of sight. The others hide next to nothing
+  /// more.
   static bool runsInRows(const Prism& p) { return std::abs(p.y0 + p.y1) >= std::abs(p.x0 + p.x1); }
   Lines linesOf(const HorizonTile& tile, const Outline& outline) const;
   void testNext();
@@ -190,14 +176,14 @@ class Horizon {
   bool isPartHidden(const TileRelief::Part& part);
   bool isPartHidden(const MeshRelief& relief, const MeshRelief::Part& part);
   bool covers(int side, float t0, float t1, float w);
-  /// What covers() widens by at most, of a tile so far away whose surface lies within so much of the eye's
-  /// height; nothing that it leaves to another quarter may be left out there.
+  /// Returns by how much of t covers() widens a tile at most, from its distance and its height relative to
+  /// the eye. The test in the neighbouring quarter must reach as far.
   float besideOf(float off, float z, float away) const;
-  /// The nearest in the quarter.
+  /// Returns the column of the quarter that is nearest to t.
   int columnOf(float t) const {
     return std::min(static_cast<int>((std::clamp(t, -1.0f, 1.0f) + 1) * perT_), columns_ - 1);
   }
-  /// A direction of the plan: its column of the profile, and how far forwards the place is.
+  /// A position in plan: the column of the profile in its direction, and how far forwards it is.
   struct Place {
     int side, column;
     float forwards;
@@ -219,40 +205,40 @@ class Horizon {
   int reach(const float* u, const float* w, int count, int step, int beside, int& first);
 
   EyeRoom room_;
-  Vec3 eye_;  ///< its middle
+  Vec3 eye_;  ///< middle of the region
   std::array<Play, kSides> play_{};
   Settings settings_;
   const horizon::Kernels* kernels_ = nullptr;
   int columns_ = 0;
-  float perT_ = 0;  ///< columns a unit of t
+  float perT_ = 0;  ///< columns per unit of t
   float slack_ = 0, leastM_ = 0;
   std::span<const HorizonTile> tiles_;
-  /// Outlines of all tiles, the test of each, nearest first, and then what still waits, bin by bin, where
-  /// Settings::whole.
+  /// First the outlines of all tiles, then the test of each, nearest first, and last, with Settings::whole,
+  /// the lines that still wait, bin by bin.
   enum class Phase : std::uint8_t { outline, test, finish, done } phase_ = Phase::done;
-  std::size_t next_ = 0;  ///< of the phase
+  std::size_t next_ = 0;  ///< item of the phase
   std::size_t work_ = 0;
-  std::uint32_t ring_ = 0;  ///< of the tile in hand
+  std::uint32_t ring_ = 0;  ///< of the tile being tested
 
-  /// Corners of a line.
   static constexpr int kMostCorners = MeshRelief::kMostCorners;
   static_assert(kMostCorners >= TileRelief::kMostPosts + TileRelief::kGoOn);
-  /// The line in hand, from the eye, and its image in a quarter; after the corner `last_` its neighbour's.
+  /// The corners of the current line relative to the eye, and their image in a quarter. Corners after `last_`
+  /// are the neighbouring tile's.
   alignas(64) std::array<float, kMostCorners + 16> x_, y_, z_, forward_, u_, w_;
   int last_ = 0, corners_ = 0;
   std::vector<float> reached_;
-  // Of the tile in hand: its origin from the eye, and what its outline says.
+  // Of the tile being tested: its origin relative to the eye, and values from its outline.
   std::array<float, 3> offset_{};
   float nearest_ = 0, off_ = 0, beside_ = 0;
-  std::vector<float> profile_;  ///< kSides * columns_, and 16 that are read but never matter
+  std::vector<float> profile_;  ///< kSides * columns_, and 16 more that kernels read without effect
   std::vector<std::uint8_t> hidden_;
   std::size_t hiddenCount_ = 0;
-  std::vector<std::uint32_t> firstOfRing_, order_;  ///< tiles by how near their nearest point is
+  std::vector<std::uint32_t> firstOfRing_, order_;  ///< tiles by the distance of their nearest point
   std::vector<Outline> outlines_;
   std::vector<Waiting> waiting_;
   std::vector<std::vector<Raiser>> bins_;  ///< kSides * binsEach_
-  int binsEach_ = 0, binShift_ = 0;        ///< 1 << binShift_ columns each
-  std::vector<float> awaited_;             ///< kSides * columns_: nothing that waits there is higher
+  int binsEach_ = 0, binShift_ = 0;        ///< each has 1 << binShift_ columns
+  std::vector<float> awaited_;             ///< kSides * columns_: the highest w that waiting lines may reach
 };
 
 }  // namespace trimtab

@@ -11,55 +11,63 @@
 
 namespace trimtab {
 
-/// The horizon of an eye that moves, at a small part of a build's cost a frame. One horizon stands, for a
-/// room around the way that the eye is on; meanwhile the next one is built for the room after it, some of it
-/// each frame. Where the eye went elsewhere, one is built at once: hidden tiles are proven in every frame.
+/// The horizon of an eye that moves, at a small part of a full build's cost per frame.
 ///
-/// Levels change while a horizon stands. When its build begins, each tile that the rule for the levels may
-/// take apart, or join, before the eye has left the room is marked, and its surface is given room downwards
-/// (as an occluder) and upwards (when tested) for all that may stand there: both are within their stated
-/// errors of the same source. A tile that is drawn in its stead later takes over its verdict; several that
-/// were joined are hidden if all were. A change that was not foreseen ends the horizon.
+/// One horizon is in use; its validity region lies around the predicted path of the eye. Meanwhile the next
+/// horizon is built for the region after that, a share of it in each frame. If the eye goes elsewhere, a
+/// horizon is built at once, so that every frame has a valid one.
+///
+/// The LOD cut may change while a horizon is in use. When the build of a horizon begins, every tile that the
+/// LOD rule may split or join before the eye has left the validity region is marked, and its occluder bound
+/// is lowered and its test bound raised by the error of every LOD that it may switch to. A tile that is drawn
+/// in its place later inherits the verdict; a tile that replaces several is hidden if all of them were. A
+/// change that was not foreseen ends the horizon. resources/docs/occlusion.md, The moving horizon, has the
+/// proof.
+///
+/// Not thread-safe. hidden() must be called for every frame that uses the horizon, in the order of the
+/// frames.
 class MovingHorizon {
  public:
   struct Frame {
     Vec3 eye;
-    double framesSince = 1;  ///< that the eye took from where it was at the last call; at least 1
-    std::uint64_t cut = 0;   ///< another one for another cut
-    std::uint64_t rule = 0;  ///< another one where not only the eye differs that the cut was made for
+    double framesSince = 1;  ///< frames since the last call, at least 1
+    std::uint64_t cut = 0;   ///< a new number for each new cut
+    std::uint64_t rule = 0;  ///< a new number if the cut differs by more than the eye it was selected for
     std::span<const TileDraw> tiles;  ///< the whole cut
-    /// As in selectLevels: maxErrorPx * lodScale / pixelsPerRadian. Where it is not known, 0, any other cut
-    /// ends the horizon.
+    /// maxErrorPx * lodScale / pixelsPerRadian, as in selectLevels. If it is 0 (not known), any new cut ends
+    /// the horizon.
     double errorOverDistance = 0;
     Horizon::Settings settings;
-    bool sameHorizon = true;  ///< false: from scratch in every frame
-    bool incremental = true;  ///< false: from scratch at every new place
-    /// Of any node, whether it may occlude where it is drawn; not there: all do.
+    bool sameHorizon = true;  ///< if false, a horizon is built in every frame
+    bool incremental = true;  ///< if false, a horizon is built at once at every new eye position
+    /// Returns whether a node may occlude if it is drawn. If unset, every node may.
     std::function<bool(std::uint32_t node)> mayOcclude = {};
-    /// Of a node of the cut, whether all that may stand in its place is within the sum of both errors, half
-    /// as much again for how far verticals lean, above and below it; not there: all are.
+    /// Returns whether every surface that may replace a node of the cut lies within 1.5 times the sum of both
+    /// errors of it, above and below. If unset, every node's replacement does.
     std::function<bool(std::uint32_t node)> takesRoom = {};
   };
-  /// Appends one tile for each of the frame's, in order. What they point to must stay as it is until the next
-  /// fill, or clear().
+  /// Appends one HorizonTile for each tile of the frame, in order. What they point to must not change until
+  /// the next fill or clear().
   using Fill = std::function<void(std::vector<HorizonTile>&)>;
 
-  /// One a tile of the frame, in order: 1 is proven hidden. All 0 for an eye that is not a number. Holds
-  /// until the next call. An index that moved or changed needs clear() first.
+  /// Returns one flag per tile of the frame, in order: 1 if it is proven hidden. All are 0 if the eye is not
+  /// a number. The result is valid until the next call. Call clear() first if the index behind `tree` has
+  /// changed.
   std::span<const std::uint8_t> hidden(const Frame& frame, const SurfaceTree& tree, const Fill& fill);
-  /// Forgets all.
+  /// Discards all horizons and the eye's motion.
   void clear();
-  /// The surfaces tell more than before: the next horizon is built at once. The eye's way is still known.
+  /// Discards the horizons because more surfaces are known, so that the next call builds one at once. The
+  /// eye's motion is kept.
   void restart();
 
-  /// The one that stands.
+  /// Returns the horizon in use.
   const Horizon& horizon() const { return builds_[standing_].horizon; }
-  std::uint64_t built() const { return built_; }              ///< horizons begun, since the start
-  std::uint64_t fromScratch() const { return fromScratch_; }  ///< of them in a single frame
-  std::uint64_t carried() const { return carried_; }          ///< frames with verdicts of another cut
+  std::uint64_t built() const { return built_; }              ///< horizons begun since the start
+  std::uint64_t fromScratch() const { return fromScratch_; }  ///< of these, built in a single frame
+  std::uint64_t carried() const { return carried_; }          ///< frames that used verdicts of another cut
 
-  /// Frames that a horizon is built in, after the one in which it is begun: with the spare one, all in which
-  /// the one before it serves, so that all cost alike.
+  /// The number of frames in which a horizon is built, after the one that begins it. With a spare frame these
+  /// are all frames in which the horizon before it is used, so that all frames cost alike.
   static constexpr int kFrames = 10;
 
  private:
@@ -67,13 +75,13 @@ class MovingHorizon {
     Horizon horizon;
     std::vector<HorizonTile> tiles;
     std::vector<TileDraw> cut;
-    std::vector<std::uint8_t> mark;  ///< one a node
+    std::vector<std::uint8_t> mark;  ///< one per node
     std::uint64_t cutNumber = 0, rule = 0;
     Horizon::Settings settings;
-    // Of the rule for the levels, when the build began: the eye, and how far it may come from there.
+    // For the LOD rule when the build began: the eye, its limit, and how far the eye may go from there.
     Vec3 eye;
     double limit = 0, reach = 0;
-    bool there = false, marked = false;  ///< marked: what is hidden is in `mark`
+    bool there = false, marked = false;  ///< begun and not discarded; `mark` says what is hidden
   };
 
   void begin(Build& build, const EyeRoom& room, const Frame& frame, const SurfaceTree& tree,
@@ -84,7 +92,7 @@ class MovingHorizon {
     float atPosts, anywhere;
   };
   static Errors worstErrors(const Build& build, const SurfaceTree& tree, std::uint32_t node);
-  /// Whether the build holds in this frame; fills in verdicts_ where its cut is another.
+  /// Returns whether the build is valid for this frame. Fills verdicts_ if its cut is another.
   bool holds(Build& build, const Frame& frame, const SurfaceTree& tree);
   bool carry(Build& build, const Frame& frame, const SurfaceTree& tree);
   EyeRoom roomAhead(Vec3 eye, double firstFrame, double lastFrame) const;
@@ -92,12 +100,12 @@ class MovingHorizon {
   std::span<const std::uint8_t> verdicts(const Frame& frame);
 
   std::array<Build, 2> builds_;
-  std::size_t standing_ = 0;
-  bool moving_ = false;         ///< last eye and step are known
-  Vec3 lastEye_, step_, turn_;  ///< metres a frame, and a frame squared
+  std::size_t standing_ = 0;    ///< the build in use
+  bool moving_ = false;         ///< lastEye_ is known
+  Vec3 lastEye_, step_, turn_;  ///< step_ in metres per frame, turn_ per frame squared
   std::vector<std::uint8_t> verdicts_;
   bool isCarried_ = false;
-  const Build* carriedBy_ = nullptr;  ///< whose verdicts_ are, for the cut carriedTo_
+  const Build* carriedBy_ = nullptr;  ///< the build that verdicts_ are of, for the cut carriedTo_
   std::uint64_t carriedTo_ = 0;
   std::vector<std::uint32_t> stack_;
   std::uint64_t built_ = 0, fromScratch_ = 0, carried_ = 0;

@@ -10,98 +10,104 @@
 
 namespace trimtab {
 
-/// Which method looks for hidden ground, by what each has cost and saved so far on this machine, or none
-/// where none pays. Whatever is chosen, the picture is the same.
+/// Chooses which method looks for hidden ground, or none, from what each has cost and saved on this machine
+/// so far. The choice never changes the image, only what it costs. resources/docs/occlusion.md derives the
+/// rule.
 ///
-/// A method is worth what the triangles that it hides would cost to draw, less its own time. What a triangle
-/// costs is learnt from how the time to draw follows their number. The method in use is judged by every
-/// frame; the others, and none, by a few frames now and then: sooner where eye, view or rule have changed, at
-/// once where a band, a while without any of them or a leap of the eye makes what is known of little worth,
-/// and never for more than kExploring of all time, so that in the long run a frame costs at most so much more
-/// than with the best of them.
+/// A method is worth the time that drawing its hidden triangles would take, less its own time. The time per
+/// triangle is learnt from how the time to draw changes with the number of triangles. Every frame measures
+/// the method in use. The others are tried for a frame or two when they are due, and only while their
+/// exploration budget covers the expected loss, so that in the long run a frame costs at most kExploring more
+/// than with the best method. Not thread-safe.
 class OcclusionChoice {
  public:
-  static constexpr double kExploring = 0.01;  ///< share of all time that may be lost to trying methods
-  // Having been found worth less than another one is believed at most so long; found again and again, up to
-  // kMostPatience times as long.
-  static constexpr double kBelievedMs = 1000, kBelievedM = 50, kBelievedTurn = 0.1;  ///< the last: radians
-  static constexpr double kMostPatience = 4;
-  /// And what could not win so much as its own cost, as far as is known: so many times as long again,
-  /// whatever the rule.
-  static constexpr double kHopelessPatience = 8;
-  /// An eye that goes further in one frame than that could reach has leapt.
-  static constexpr double kLeapM = kHopelessPatience * kBelievedM;
+  /// Share of all frame time that trials may lose. A flight whose every frame asks for trials loses no more.
+  static constexpr double kExploring = 0.01;
+  /// A method that was found to be worth less than another is due again after this time (ms), this way of the
+  /// eye (m) or this turn of the view (radians). An eye that flies, turns or rests can each uncover ground
+  /// for which another method is better.
+  static constexpr double kBelievedMs = 1000, kBelievedM = 50, kBelievedTurn = 0.1;
+  /// The three limits above double with every trial that finds the same, up to this factor. They are this
+  /// much larger again for a method that could not win its own cost. Without it trials took twice as many
+  /// frames.
+  static constexpr double kMostPatience = 6;
+  /// An eye that moves further than this (m) in one frame was put elsewhere: everything is tried again.
+  static constexpr double kLeapM = kMostPatience * kBelievedM;
 
-  using Method = std::optional<OcclusionMethod>;  ///< none: nothing looks
+  using Method = std::optional<OcclusionMethod>;  ///< unset: nothing looks for hidden ground
 
   struct Situation {
-    double timeMs = 0;                         ///< of a clock that never goes back
-    Vec3 eye, forward;                         ///< place and direction of view, in one frame
-    std::uint64_t rule = 0;                    ///< another one where parameters or levels differ
-    std::span<const OcclusionMethod> methods;  ///< that can serve; what is likely to be best first
-    std::uint64_t band = 0;                    ///< another one where the methods themselves differ
+    double timeMs = 0;       ///< from a clock that never goes back
+    Vec3 eye, forward;       ///< position and view direction, both in one frame of reference
+    std::uint64_t rule = 0;  ///< a new number when parameters or the terrain change
+    std::span<const OcclusionMethod> methods;  ///< those that can be used; read during the call only
+    std::uint64_t band = 0;                    ///< a new number when the resolution of the methods changes
   };
-  /// For the frame that comes.
+  /// Returns the method for the next frame.
   Method choose(const Situation& situation);
 
   struct Outcome {
-    double occlusionMs = 0;  ///< what looking took; 0 where nothing looked
-    double drawMs = 0;       ///< all of the frame that grows with what is drawn
+    double occlusionMs = 0;  ///< time spent looking for hidden ground; 0 if nothing looked
+    double drawMs = 0;       ///< all time of the frame that grows with what is drawn
     double totalMs = 0;
     std::uint64_t drawn = 0, hidden = 0;  ///< triangles in view
   };
-  /// What that frame came to. Numbers that are not finite are not learnt from.
+  /// Reports what the frame after the last `choose` cost. Ignores an outcome with a time that is not finite.
   void learn(const Outcome& outcome);
 
-  /// Nothing is chosen in the frame that comes: what serves in the next one starts anew.
+  /// Reports that the next frame is drawn without a choice. The method used after it pays its start again.
   void pause() { before_ = kArms; }
 
-  /// Milliseconds a triangle, as far as it is known.
+  /// Returns the estimated milliseconds that drawing a triangle takes; 0 before the first frame.
   double msPerTriangle() const;
-  /// Milliseconds a frame that a method is thought to be worth; 0 for none, and for what was never tried.
+  /// Returns the milliseconds per frame that a method is thought to save; 0 for none and for an untried one.
   double worthMs(Method method) const;
-  std::uint64_t trials() const { return trials_; }  ///< frames that were drawn to learn
+  /// Returns the number of frames so far that were drawn to try a method.
+  std::uint64_t trials() const { return trials_; }
 
  private:
-  static constexpr std::size_t kArms = 6;  ///< none, and the methods but `automatic`
+  static constexpr std::size_t kArms = 5;  ///< arm 0 is none; the others are the methods but `automatic`
+  /// What is known of a method.
   struct Arm {
-    bool known = false;
-    int frames = 0;  ///< of its first trial in a chapter
-    std::uint64_t chapter = 0;
-    double costMs = 0;   ///< a frame in a row
-    double firstMs = 0;  ///< the first frame of a row
-    double share = 0;    ///< of the triangles in view that it hides
-    Situation last;      ///< when it was in use
-    double purseMs = 0;  ///< what may be lost to trying it
+    bool known = false, canServe = false;
+    int frames = 0;             ///< of its trial in this chapter; counts to 2
+    std::uint64_t chapter = 0;  ///< in which it was last used
+    double costMs = 0;          ///< per frame while it goes on
+    double firstMs = 0;         ///< for the frame that starts it
+    double share = 0;           ///< of the triangles in view that it hides
+    Situation last;             ///< in which it was last used
+    double budgetMs = 0;        ///< what trials of it may lose
     double patience = 1;
-    bool canServe = false;
   };
   static std::size_t armOf(Method method);
   static Method methodOf(std::size_t arm);
   double worth(std::size_t arm) const;
   double startMs(std::size_t arm) const;
+  /// Returns true if the arm would be no better than the current one even if it hid a good part of the rest.
   bool isHopeless(std::size_t arm) const;
-  /// Whether it was never tried, or not since what it is worth may have changed for good.
+  /// Returns true if the arm was not used in this chapter.
   bool isNew(std::size_t arm) const { return !arms_[arm].known || arms_[arm].chapter != chapter_; }
   bool isDue(std::size_t arm, const Situation& now) const;
   double lossOfTrying(std::size_t arm) const;
-  std::size_t best(std::span<const std::size_t> arms) const;
+  std::size_t best() const;
   void learnTriangleCost(const Outcome& outcome);
   void learnArm(const Outcome& outcome);
 
   std::array<Arm, kArms> arms_;
-  std::size_t current_ = 0;          ///< what serves but for trials
-  std::size_t served_ = 0;           ///< in the frame in hand
-  std::size_t before_ = kArms;       ///< in the frame before it
-  int trialLeft_ = 0;                ///< frames
-  double frameMs_ = 0, inView_ = 0;  ///< of late: a frame's time and triangles
-  // How the time to draw follows the triangles: sums over pairs of frames, the older the less.
-  double squares_ = 0, products_ = 0;
-  double guessMs_ = 0, mostMs_ = 0;  ///< a triangle, before anything is known, and at most
+  std::size_t current_ = 0;          ///< in use except for trials
+  std::size_t served_ = 0;           ///< in the frame being drawn
+  std::size_t before_ = kArms;       ///< in the frame before it; kArms: none was chosen
+  int trialLeft_ = 0;                ///< frames that the trial in progress goes on for
+  double frameMs_ = 0, inView_ = 0;  ///< recent mean of a frame's time; triangles in view in the last frame
+  double squares_ = 0,
+         products_ = 0;              ///< decaying sums over pairs of frames: the slope of time over triangles
+  double guessMs_ = 0, mostMs_ = 0;  ///< per triangle: the first guess, and the upper limit
   std::optional<Outcome> previous_;
   std::uint64_t trials_ = 0;
   Situation now_;
-  std::uint64_t chapter_ = 0;  ///< ends with a band, a leap, or so long without a choice as is believed
+  /// Ends when the band changes, the eye leaps, or nothing was chosen for kBelievedMs. Everything is new in
+  /// the next one.
+  std::uint64_t chapter_ = 0;
 };
 
 }  // namespace trimtab

@@ -9,52 +9,53 @@
 
 namespace trimtab {
 
-/// What the horizon first asks of any surface.
+/// What the horizon reads first of any surface.
 struct Relief {
-  Vec3 origin;  ///< of all that follows, local frame
-  Box bounds;   ///< metres
-  /// No coordinate is further from 0; below 0: not known, hides nothing and is never hidden.
+  Vec3 origin;  ///< metres, local frame; all other coordinates are relative to it
+  Box bounds;
+  /// Largest absolute coordinate. Negative if the surface is not known: it hides nothing and is never hidden.
   float reach = -1;
   std::array<float, 3> peak{};  ///< the highest vertex
 };
 
-/// How far from the way between its ends a line leads, metres.
+/// Returns an upper bound of how far a line's corners lie beside its chord in plan, metres.
 float furthestBeside(std::span<const float> x, std::span<const float> y);
 
-/// A tile's drawn surface as the horizon reads it, made once a tile.
+/// A tile's drawn surface in the form that the horizon reads: a square of posts, rows from the south. Made
+/// once per tile.
 ///
-/// A square of posts, rows from south. What is drawn between them may be any triangles whose corners are
-/// posts of one block of kBlockCells x kBlockCells cells; but along a line of even row or column inside the
-/// tile, all edges from post to post are drawn.
+/// Each triangle's corners must be posts of one block of kBlockCells x kBlockCells cells, and along every
+/// even row and column inside the tile all edges from post to post must be drawn.
 struct TileRelief : Relief {
   static constexpr int kBlockCells = 2;
-  static constexpr int kPartCells = 8;  ///< cells a side of a part, which is tried as a box before its blocks
-  static constexpr int kMostPosts = 65;  ///< of a side: a larger tile is not known
-  static constexpr int kGoOn = 2;        ///< corners of a line that the one before it may go on with
+  static constexpr int kPartCells = 8;   ///< cells per side of a part, tested as a box before its blocks
+  static constexpr int kMostPosts = 65;  ///< per side; a larger tile counts as not known
+  static constexpr int kGoOn =
+      2;  ///< corners with which a line continues its western or southern neighbour's
 
-  // What most tiles need of all this stands together.
+  // The members that most tests read come first and together.
   int side = 0;                    ///< posts
-  int lines = 0;                   ///< that may hide what is behind them: rows of posts, then as many columns
-  int lineStep = 1;                ///< posts from one to the next
+  int lines = 0;                   ///< lines of posts that may hide others: rows, then as many columns
+  int lineStep = 1;                ///< posts from one line to the next
   std::array<float, 2> lineTop{};  ///< the highest corner of the rows, and of the columns
-  float besideM = 0;               ///< no corner of a line is further from the way between its ends, in plan
-  std::vector<float> lineXyz;      ///< of each line all x, all y, all z
-  std::vector<float> goOn;         ///< of each line x, y and z of kGoOn corners after its first
+  float besideM = 0;               ///< furthest that a line's corner lies beside its chord in plan, metres
+  std::vector<float> lineXyz;      ///< for each line all x, then all y, then all z
+  std::vector<float> goOn;         ///< for each line x, y, z of the kGoOn corners after its first
 
-  /// A square of kPartCells x kPartCells cells, less beside the last borders.
+  /// A square of kPartCells x kPartCells cells, fewer at the last borders.
   struct Part {
     static constexpr int kMostBlocks = (kPartCells / kBlockCells) * (kPartCells / kBlockCells);
-    /// Boxes of its blocks, the highest first; after the last that one again.
+    /// Boxes of its blocks, the highest first, padded with the last one.
     alignas(64) std::array<float, kMostBlocks> minX, maxX, minY, maxY, top;
     int blocks;
     Box box;
     std::array<float, 3> peak;  ///< its highest post
   };
   std::vector<Part> parts;     ///< the highest first
-  std::vector<float> x, y, z;  ///< side * side, metres; read by `finish` alone, and of no use after it
+  std::vector<float> x, y, z;  ///< side * side, metres; only `finish` reads them
 
-  /// Completes the rest from side, x, y and z. `step`: from one line to the next, posts, even. A surface that
-  /// is not all of finite numbers is not known.
+  /// Computes everything else from side, x, y and z. `step` is the number of posts from one line to the next
+  /// and must be even. If a coordinate is not finite the surface counts as not known.
   void finish(int step);
 };
 

@@ -68,6 +68,10 @@ struct ViewShape {
   friend bool operator==(const ViewShape&, const ViewShape&) = default;
 };
 
+/// Returns the pixels that an angle of one radian covers at the image's centre, along the finer of the two
+/// axes. Screen-space error in pixels is geometric error over distance, times this.
+double pixelsPerRadian(const ViewShape& view);
+
 /// The shape of a view from parameters, the window's size (for RenderSize::fit) and what the host asked for.
 ViewShape viewShape(const ViewParameters& parameters, int windowWidthPx, int windowHeightPx,
                     const std::optional<HostView>& host);

@@ -65,6 +65,12 @@ struct FrameRequest {
   Skips skips;
 };
 
+/// Returns the distance from the eye, metres, beyond which this frame draws no terrain: the weather's far
+/// cut. Infinite if the weather sets none, or if Skips::beyondVisibility is off.
+inline double farCutM(const FrameRequest& request) {
+  return request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited;
+}
+
 /// Whether a terrain that has static trees is drawn from them.
 inline bool asksForTrees(const FrameRequest& request) {
   return request.staticLod.terrain == TerrainForm::static_trees || request.overlays.treeDepth >= 0 ||

@@ -14,29 +14,45 @@
 /// What drawing one image did, and what it cost.
 namespace trimtab {
 
-struct FrameResult {
+/// How often each kind of work was done. A stage returns what it did in one frame; FrameResult::counters is
+/// the sum since the renderer was made.
+struct FrameCounters {
+  std::uint64_t precipitationPasses = 0, blurPasses = 0, symbologyDraws = 0;
+  std::uint64_t symbologyRedraws = 0;  ///< draws whose symbols had changed
+  std::uint64_t cutsSelected = 0, visibleSelected = 0, tilesBuilt = 0;
+  std::uint64_t depthMapsDrawn = 0;  ///< by the GPU
+  std::uint64_t mapsDrawnByCpu = 0;  ///< depth maps that the processor drew
+  std::uint64_t mapsLeftOut = 0;     ///< of these not drawn, because near here one hid next to nothing
+  std::uint64_t horizonsBuilt = 0;
+  std::uint64_t horizonsMoved = 0;      ///< moved along with the eye instead of being built
+  std::uint64_t horizonsLeftOut = 0;    ///< not built, because near here one hid next to nothing
+  std::uint64_t occlusionsLeftOut = 0;  ///< frames without occlusion, because no method was worth its cost
+
+  FrameCounters& operator+=(const FrameCounters& other);
+  friend bool operator==(const FrameCounters&, const FrameCounters&) = default;
+};
+
+/// What looked for hidden ground in one frame, and what came of it.
+struct OcclusionResult {
+  std::optional<DepthMapSize> depthMap;  ///< size of the depth map that shaped `visible`; unset if none did
+  bool horizon = false;                  ///< a horizon shaped `visible`
+  /// The method in use, never `automatic`; unset if nothing looks for hidden ground. The method may still
+  /// leave out its horizon or map, because near here it hid next to nothing.
+  std::optional<OcclusionMethod> occlusion;
+  /// Sentences that say why occlusion was not used as the request asked, and what is used instead; else
+  /// empty.
+  std::string note;
+};
+
+/// Everything but `counters` belongs to this frame alone.
+struct FrameResult : OcclusionResult {
   VisibleSet visible;
-  FrameCost cost;  ///< milliseconds; gpu is NaN where there is no timer query yet
+  FrameCost cost;  ///< milliseconds; `gpu` is NaN until the first timer query has returned
   std::size_t tilesInCut = 0;
   bool patches = false;  ///< the nodes of `visible` are patches
   PagingFrame paging;
-  StaticLodFrame staticLod;              ///< where `drawn`, the nodes of `visible` are the trees'
-  std::optional<DepthMapSize> depthMap;  ///< of the map that had a part in `visible`; none: none had
-  bool horizon = false;                  ///< one had a part in `visible`
-  /// What looks for hidden ground in this frame; none: nothing does. Never `automatic`. It may leave out its
-  /// horizon or map, as one hid next to nothing near here.
-  std::optional<OcclusionMethod> occlusion;
-  /// Why occlusion was not used as asked for, and what serves instead: sentences; empty otherwise.
-  std::string note;
-  // Counters of work that was skipped or done, since the renderer was made.
-  std::uint64_t precipitationPasses = 0, blurPasses = 0, symbologyDraws = 0, symbologyRedraws = 0;
-  std::uint64_t depthMapsDrawn = 0, horizonsBuilt = 0, cutsSelected = 0, tilesBuilt = 0;
-  std::uint64_t horizonsLeftOut = 0;  ///< because it hid next to nothing a little way off: nothing is hidden
-  std::uint64_t horizonsMoved = 0;    ///< taken along with the eye instead of being built
-  std::uint64_t mapsDrawnByCpu = 0, mapsReadBack = 0;
-  std::uint64_t mapsLeftOut = 0;        ///< of the processor, as horizons are
-  std::uint64_t occlusionsLeftOut = 0;  ///< because no method was worth its cost
-  std::uint64_t visibleSelected = 0;    ///< visible sets that were chosen anew
+  StaticLodFrame staticLod;  ///< if `drawn`, the nodes of `visible` are nodes of the static trees
+  FrameCounters counters;
 };
 
 }  // namespace trimtab

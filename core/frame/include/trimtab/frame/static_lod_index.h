@@ -28,7 +28,9 @@ struct StaticLodIndex {
   std::vector<Box> bounds;       ///< of everything this node or any descendant draws, local frame
   std::vector<float> rmsErrorM;  ///< vertical, against the source triangles below; monotone up the tree
   std::vector<float> maxErrorM;  ///< likewise the largest
-  std::vector<float> slopeMax;   ///< steepest triangle of this node or a descendant, rise over run
+  /// How far borders of materials move sideways on airports, roads, railways and streams; monotone too.
+  std::vector<float> borderErrorM;
+  std::vector<float> slopeMax;  ///< steepest triangle of this node or a descendant, rise over run
 
   std::size_t size() const { return nodes.size(); }
 };

@@ -32,22 +32,32 @@ struct HeadLog {
 /// The gap that a recorded log is read with.
 inline constexpr double kHeadLogGapS = 0.25;
 
-/// Columns by name, separated by commas, semicolons or blanks: a time (time_s, timestamp, time_ms ..),
-/// heading (head_heading_deg, heading, yaw ..), pitch, and roll if there is one. A name says its unit by _deg
-/// or _rad, else the whole log is radians when no angle leaves a turn, degrees otherwise. Where names carry
-/// no unit and the column called pitch winds beyond a quarter turn while the one called yaw does not, the two
-/// are exchanged: MV360's logs are so. Rows out of order are sorted, of rows with one time the last counts;
-/// findings tell of all this and of gaps.
-Result<HeadLog> readHeadLog(const std::filesystem::path& file);
-Result<HeadLog> parseHeadLog(std::string_view text, const std::string& where);
+/// What a reader does with rows that it cannot use.
+enum class BadRows {
+  refuse,    ///< the log is refused; findings name the first of them by line, column and value, and count the
+             ///< rest
+  leave_out  ///< the log is read without them, and a warning counts them; refused if they are the greater
+             ///< part
+};
+
+/// Reads a head log. Columns are found by name and separated by commas, semicolons or blanks: a time (time_s,
+/// timestamp, time_ms ..), heading (head_heading_deg, heading, yaw ..), pitch, and roll if there is one. A
+/// name gives its unit by _deg or _rad; without one, the whole log is radians if no angle leaves a turn, else
+/// degrees. If names carry no unit and the column named pitch winds beyond a quarter turn in more rows than
+/// the one named yaw, the two are exchanged: the headers of MV360's logs are wrong so. A row is bad if a cell
+/// is no finite number or if its pitch lies beyond a quarter turn. Rows out of order are sorted; of rows with
+/// one time the last counts. Findings report all of this, and gaps.
+Result<HeadLog> readHeadLog(const std::filesystem::path& file, BadRows badRows = BadRows::refuse);
+Result<HeadLog> parseHeadLog(std::string_view text, const std::string& where,
+                             BadRows badRows = BadRows::refuse);
 
 /// "sweep:DEG/S[/WAIT]" turns the head through so many degrees, half to either side of straight ahead, in so
 /// many seconds, waits (2 s), turns back, waits, and so on; the first wait comes first. "nod:DEG/S[/WAIT]"
 /// does it up and down. Units may be written: "sweep:180deg/1s/2s".
 Result<HeadLog> parseSweep(std::string_view text);
 bool isSweep(std::string_view text);
-/// What `--head` takes: a sweep, else a file.
-Result<HeadLog> openHead(const std::string& text);
+/// Opens what `--head` names: a sweep, else a file.
+Result<HeadLog> openHead(const std::string& text, BadRows badRows = BadRows::refuse);
 
 /// The head so many seconds into the log, between samples by interpolation; heading in -180..180. Time that
 /// is not a number counts as the beginning.

@@ -39,7 +39,6 @@ template <>
 struct ChoicesOf<OcclusionMethod> {
   static constexpr ChoiceOption options[] = {{"auto", "Automatic (fastest here)"},
                                              {"depth_map", "Depth map (published)"},
-                                             {"read_back", "Depth map, read back"},
                                              {"cpu_map", "Depth map by the processor"},
                                              {"horizon", "Horizon"},
                                              {"horizon_and_map", "Horizon, then depth map"}};
@@ -64,7 +63,9 @@ struct ChoicesOf<StaticDistanceRule> {
 };
 template <>
 struct ChoicesOf<ErrorMeasure> {
-  static constexpr ChoiceOption options[] = {{"rms", "Root mean square"}, {"maximum", "Largest"}};
+  static constexpr ChoiceOption options[] = {{"rms", "Root mean square"},
+                                             {"maximum", "Largest"},
+                                             {"as_published", "Root mean square, as published"}};
 };
 template <>
 struct ChoicesOf<SymbologyFrame> {

@@ -20,7 +20,7 @@ enum class Combination { sum, twice_minimum, rules };
 /// The papers' three culling cases.
 enum class CullingCase { none, view_frustum, proposed };
 /// What proves that something is hidden, where the scheme is dynamic.
-enum class OcclusionMethod { automatic, depth_map, read_back, cpu_map, horizon, horizon_and_map };
+enum class OcclusionMethod { automatic, depth_map, cpu_map, horizon, horizon_and_map };
 /// Where field of view and near plane come from.
 enum class ViewSource { preset, host };
 enum class RenderSize { fit, fixed };
@@ -29,7 +29,7 @@ enum class RenderSize { fit, fixed };
 enum class TerrainForm { levels, patches, static_trees };
 /// How a tree node's error becomes its minimum viewer distance.
 enum class StaticDistanceRule { picture, factor };
-enum class ErrorMeasure { rms, maximum };
+enum class ErrorMeasure { rms, maximum, as_published };
 enum class HostProtocol { automatic, native_fdm, cigi3 };
 /// The columns of document C's results: before, with the mechanism, and with LOD scale restoration.
 enum class MotionControl { off, lod_scale_and_blur, with_restoration };

@@ -32,11 +32,14 @@ Result<std::shared_ptr<const StaticLodTerrain>> buildStaticLod(std::span<const S
                                                                const LocalFrame& frame,
                                                                const StaticLodOptions& options);
 
-/// What document E's rule allows a tile: leaves of n/2 to n triangles, every node above at n.
+/// What document E's rule allows a tile: leaves of n/2 to n triangles, and n - 1 to n + 1 in every node
+/// above. One collapse removes two triangles, so the builder stops at n or n + 1.
 struct StaticLodLimits {
-  std::uint32_t levels = 0;                     ///< at least
-  std::uint64_t leastFaces = 0, mostFaces = 0;  ///< of all levels
+  std::uint32_t levels = 0;                     ///< the fewest
+  std::uint64_t leastFaces = 0, mostFaces = 0;  ///< sums over all nodes
 };
+/// Returns the limits of a tile of so many source triangles. Nodes that are locked minima, and nodes that
+/// keep lines, may exceed them.
 StaticLodLimits staticLodLimits(std::uint64_t triangles, std::uint32_t trianglesPerNode);
 
 /// One tile in document E's words, beside what its rule allows.

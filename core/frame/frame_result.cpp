@@ -1,0 +1,16 @@
+#include "trimtab/frame/frame_result.h"
+
+namespace trimtab {
+
+FrameCounters& FrameCounters::operator+=(const FrameCounters& other) {
+  for (const auto counter :
+       {&FrameCounters::precipitationPasses, &FrameCounters::blurPasses, &FrameCounters::symbologyDraws,
+        &FrameCounters::symbologyRedraws, &FrameCounters::cutsSelected, &FrameCounters::visibleSelected,
+        &FrameCounters::tilesBuilt, &FrameCounters::depthMapsDrawn, &FrameCounters::mapsDrawnByCpu,
+        &FrameCounters::mapsLeftOut, &FrameCounters::horizonsBuilt, &FrameCounters::horizonsMoved,
+        &FrameCounters::horizonsLeftOut, &FrameCounters::occlusionsLeftOut})
+    this->*counter += other.*counter;
+  return *this;
+}
+
+}  // namespace trimtab

@@ -1,2 +1,0 @@
-#define TRIMTAB_KERNELS avx2
-#include "simd_all.h"

@@ -1,2 +1,0 @@
-#define TRIMTAB_KERNELS portable
-#include "simd_all.h"

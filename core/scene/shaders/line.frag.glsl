@@ -1,0 +1,4 @@
+#version 430 compatibility
+in vec4 colour;
+out vec4 fragment;
+void main() { fragment = colour; }

@@ -1,0 +1,10 @@
+#version 430 compatibility
+// Writes which node a pixel shows. Where the weather's far cut discards a fragment, no node is written.
+#pragma import_defines(IN_WEATHER)
+#include "air.glsl"
+flat in uint owner;
+out uint node;
+void main() {
+  throughAir(vec3(0.0));
+  node = owner;
+}

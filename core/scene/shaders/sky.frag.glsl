@@ -1,0 +1,25 @@
+#version 430 compatibility
+#pragma import_defines(IN_WEATHER)
+#ifdef IN_WEATHER
+uniform vec3 fog;          // sRGB
+uniform vec3 air;          // x: extinction per metre
+uniform vec2 fogDepth;     // metres up to clear air, metres down to the ground
+#endif
+in vec3 direction;
+uniform vec3 upInEye;
+uniform vec3 haze;
+uniform float dip;         // sine of the dip of the earth's horizon
+out vec4 fragment;
+void main() {
+  // This is a rational ramp without trigonometry, because a software rasteriser pays for every pixel.
+  float elevation = dot(direction, upInEye) * inversesqrt(dot(direction, direction)) + dip;
+  float above = max(elevation, 0.0) * 3.0;
+  vec3 sky = mix(haze, vec3(0.20, 0.40, 0.72), above / (above + 0.6));
+  vec3 colour = mix(haze * 0.94, sky, clamp(elevation * 200.0 + 0.5, 0.0, 1.0));
+#ifdef IN_WEATHER
+  // A level ray has no end in fog, so at the horizon sky and ground both show fog alone.
+  float metres = (elevation > 0.0 ? fogDepth.x : fogDepth.y) / max(abs(elevation), 1e-5);
+  colour = mix(fog, colour, exp(-air.x * metres));
+#endif
+  fragment = vec4(colour, 1.0);
+}

@@ -1,0 +1,60 @@
+#version 430 compatibility
+#include "light.glsl"
+#include "relative_position.glsl"
+in vec3 vertexPosition;
+in vec3 vertexNormal;
+in vec4 vertexColour;
+uniform float hazeDistance;
+uniform bool tinted;
+uniform bool wire;
+uniform float inGuardBand;
+#ifdef STATIC_TREE
+layout(location = 5) in vec4 treeTint;
+#else
+uniform samplerBuffer tints;
+#endif
+out vec3 lit;
+out float clearness;       // share of `lit` that haze leaves
+out vec2 ground;           // groundMetres
+#ifdef NODE_IDS
+#ifdef STATIC_TREE
+layout(location = 4) in uint treeNode;
+#endif
+flat out uint owner;
+#endif
+// The node pass must cover the same pixels at the same depths as the image, to the bit.
+invariant gl_Position;
+void main() {
+#ifdef STATIC_TREE
+  ivec4 slot = texelFetch(slots, gl_VertexID / TREE_BLOCK);
+#else
+  int tile = gl_VertexID / TILE_VERTICES;
+  ivec4 slot = texelFetch(slots, tile * 2);
+#endif
+#ifdef NODE_IDS
+#ifdef STATIC_TREE
+  owner = treeNode;
+#else
+  owner = uint(slot.w);
+#endif
+#endif
+  vec3 p = relativePosition(vertexPosition, slot);
+  float light = lightOn(vertexNormal);
+  lit = min(vertexColour.rgb * light * 1.15, vec3(1.0));
+  if (tinted) {
+#ifdef STATIC_TREE
+    vec4 tint = treeTint;
+#else
+    vec4 tint = texelFetch(tints, tile);
+#endif
+    lit = mix(lit, tint.rgb * (0.25 + 0.75 * light), tint.a);
+  }
+  clearness = exp(-length(p) / hazeDistance);
+  ground = groundMetres(vertexPosition, slot);
+  gl_Position = gl_ModelViewProjectionMatrix * vec4(p, 1.0);
+  if (wire) {
+    lit = vec3(0.05, 0.05, 0.08);
+    gl_Position.z *= 1.002;  // nearer, as depth is reversed
+  }
+  gl_Position.xy *= inGuardBand;
+}

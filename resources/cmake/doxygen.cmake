@@ -1,0 +1,18 @@
+# `cmake --build build --target doc` makes the pages of the public headers in build/doc (package doxygen). A warning is an
+# error, so a comment that names what is no longer there does not stay.
+find_package(Doxygen QUIET)
+if(DOXYGEN_FOUND)
+  set(DOXYGEN_PROJECT_NAME Trimtab)
+  set(DOXYGEN_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/doc)
+  set(DOXYGEN_FILE_PATTERNS *.h)
+  set(DOXYGEN_EXTRACT_ALL YES)
+  set(DOXYGEN_JAVADOC_AUTOBRIEF YES)
+  set(DOXYGEN_GENERATE_LATEX NO)
+  set(DOXYGEN_HAVE_DOT NO)
+  set(DOXYGEN_QUIET YES)
+  set(DOXYGEN_WARN_AS_ERROR FAIL_ON_WARNINGS)
+  set(DOXYGEN_MACRO_EXPANSION YES)
+  set(DOXYGEN_STRIP_FROM_PATH ${PROJECT_SOURCE_DIR})
+  file(GLOB public_headers LIST_DIRECTORIES true ${PROJECT_SOURCE_DIR}/core/*/include ${PROJECT_SOURCE_DIR}/core/terrain/*/include)
+  doxygen_add_docs(doc ${public_headers} COMMENT "Pages of the public headers")
+endif()
