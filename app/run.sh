@@ -23,7 +23,7 @@ done
 bash resources/install-packages.sh
 echo "building (log: build/run.log)"
 mkdir -p build
-{ cmake --preset release && cmake --build build --target trimtab trimtab-cli; } >build/run.log 2>&1 ||
+{ cmake --preset release && cmake --build build --target trimtab trimtab-cli trimtab-ig; } >build/run.log 2>&1 ||
   { grep -E "error|FAILED|CMake Error" build/run.log | head -40 >&2; echo "the build failed: see build/run.log" >&2; exit 1; }
 
 if [ -z "$terrain" ]; then

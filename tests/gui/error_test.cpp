@@ -20,7 +20,7 @@ using workbench::SplitView;
 
 class ErrorDock : public Bench {
  protected:
-  workbench::ErrorDock& dock() { return w().errors(); }
+  workbench::ErrorDock& dock() { return w().controllers().errors->dock(); }
   void raise() {
     w().dock("errors")->show();
     w().dock("errors")->raise();
@@ -44,7 +44,7 @@ class ErrorDock : public Bench {
   }
 };
 
-/// A tiny benchmark by the program itself; made once.
+/// Runs a tiny benchmark with the program itself, once per test program.
 const QString& tinyResults() {
   static const ScratchDir dir;
   static const QString file = [] {
@@ -85,7 +85,7 @@ TEST_F(ErrorDock, aPictureThatStandsIsMeasuredOnceAndAHiddenDockMeasuresNothing)
   raise();
   ASSERT_TRUE(waitFor([&] { return measurements() > 0; }, 90000));
   ASSERT_TRUE(settle());
-  // Until one that was under way has ended.
+  // Wait until a measurement that was under way has ended.
   std::uint64_t standing = 0;
   for (int i = 0; i < 10 && (standing != measurements() || dock().live().busy()); ++i) {
     standing = measurements();
@@ -142,7 +142,7 @@ TEST_F(ErrorDock, whatNobodySawOfAStandingPictureIsMeasuredAgain) {
 
 TEST_F(ErrorDock, measuringLeavesThePictureAsItIs) {
   ASSERT_TRUE(settle());
-  // Above the line of text, which tells milliseconds.
+  // Compare only above the line of text, which shows milliseconds.
   const auto picture = [&] {
     const QImage image = w().viewport().grabFramebuffer();
     return image.copy(0, 0, image.width(), image.height() * 3 / 4);
@@ -158,7 +158,7 @@ TEST_F(ErrorDock, measuringLeavesThePictureAsItIs) {
 
 TEST_F(ErrorDock, showsMeasuredResultsAndTheCursorTakesTheViewToTheRow) {
   ASSERT_FALSE(tinyResults().isEmpty());
-  ASSERT_TRUE(w().openFlight(QString::fromStdString(sampleFlight())));
+  ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
   raise();
   dock().liveSwitch().setChecked(false);
   ASSERT_TRUE(dock().openResults(tinyResults())) << w().messages().text().toStdString();
@@ -185,38 +185,38 @@ TEST_F(ErrorDock, showsMeasuredResultsAndTheCursorTakesTheViewToTheRow) {
     EXPECT_NEAR(eye.position.height.value(), row.position.height.value(), 1e-9);
     EXPECT_EQ(w().feed().source(), workbench::Feed::Source::flight);
   }
-  // The other way round: the cursor goes with the flight.
-  w().flightDock().seek(unit.frames[2].timeS - flight.states.front().time);
+  // The other way round: the cursor moves with the flight.
+  w().panels().flight->seek(unit.frames[2].timeS - flight.states.front().time);
   EXPECT_TRUE(
       waitFor([&] { return std::abs(dock().timeline().cursorTime() - unit.frames[2].timeS) < 1e-9; }, 10000));
 }
 
 TEST_F(ErrorDock, resultsOfAnotherFlightLeaveTheOpenOneWhereItIs) {
-  ASSERT_TRUE(
-      w().openFlight(QString::fromStdString((sourceDir() / "resources/flights/kansai-valley.csv").string())));
+  ASSERT_TRUE(w().controllers().flight->open(
+      QString::fromStdString((sourceDir() / "resources/flights/kansai-valley.csv").string())));
   raise();
   dock().liveSwitch().setChecked(false);
   ASSERT_TRUE(dock().openResults(tinyResults()));
-  w().flightDock().seek(2);
+  w().panels().flight->seek(2);
   dock().timeline().setFocus();
   for (const int key : {Qt::Key_Home, Qt::Key_Right, Qt::Key_Right})
     QTest::keyClick(&dock().timeline(), Qt::Key(key));
-  EXPECT_EQ(w().flightDock().position(), 2);
+  EXPECT_EQ(w().panels().flight->position(), 2);
   const QString said = w().messages().text();
-  EXPECT_EQ(said.count("kansai-valley.csv is open, which is another"), 1) << said.toStdString();
+  EXPECT_EQ(said.count("but the flight kansai-valley.csv is open"), 1) << said.toStdString();
   EXPECT_TRUE(said.contains("yecheon-circuit"));
 }
 
 TEST_F(ErrorDock, aRecordedTraceIsMeasuredWithTheCostThatItRecorded) {
-  ASSERT_TRUE(w().openFlight(QString::fromStdString(sampleFlight())));
+  ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
   const ScratchDir dir;
   const QString trace = QString::fromStdString((dir / "own trace.csv").string());
-  ASSERT_TRUE(w().startTrace(trace));
-  w().flightDock().play();
+  ASSERT_TRUE(w().controllers().trace->start(trace));
+  w().panels().flight->play();
   QTest::qWait(1500);
-  w().flightDock().pause();
-  w().stopTrace();
-  ASSERT_TRUE(w().openFlight(trace)) << w().messages().text().toStdString();
+  w().panels().flight->pause();
+  w().controllers().trace->stop();
+  ASSERT_TRUE(w().controllers().flight->open(trace)) << w().messages().text().toStdString();
   raise();
   dock().liveSwitch().setChecked(false);
   workbench::BenchChoice choice;
@@ -236,11 +236,11 @@ TEST_F(ErrorDock, aRecordedTraceIsMeasuredWithTheCostThatItRecorded) {
   EXPECT_TRUE(QFileInfo::exists(trace));
   QTest::keyClick(&dock().timeline(), Qt::Key_Home);
   QTest::keyClick(&dock().timeline(), Qt::Key_Right);
-  EXPECT_FALSE(w().messages().text().contains("which is another"));
+  EXPECT_FALSE(w().messages().text().contains("but the flight"));
 }
 
 TEST_F(ErrorDock, measuresPresetsAndTheDraftAsAProgramOfItsOwn) {
-  ASSERT_TRUE(w().openFlight(QString::fromStdString(sampleFlight())));
+  ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
   raise();
   dock().liveSwitch().setChecked(false);
   ASSERT_TRUE(w().draft().setText("lod.screen_space_error_px", "48").empty());
@@ -285,19 +285,19 @@ class SplitViewTest : public ErrorDock {
   void SetUp() override {
     ErrorDock::SetUp();
     if (HasFatalFailure()) return;
-    w().showSplitView();
+    w().controllers().errors->compare();
     ASSERT_TRUE(waitFor([&] { return view().comparisons() > 0; }, 120000))
         << w().messages().text().toStdString();
   }
-  SplitView& view() { return *w().splitView(); }
-  /// Both sides' pictures are of the presets chosen last.
+  SplitView& view() { return *w().controllers().errors->splitView(); }
+  /// Waits until both sides show the presets that were chosen last.
   void choose(const QString& left, const QString& right) {
     ASSERT_TRUE(view().choose(SplitView::left, left));
     ASSERT_TRUE(view().choose(SplitView::right, right));
     ASSERT_TRUE(waitFor([&] { return view().upToDate(); }, 120000));
   }
   QImage black() const {
-    QImage image = window->splitView()->heatMap().map();
+    QImage image = window->controllers().errors->splitView()->heatMap().map();
     image.fill(Qt::black);
     return image;
   }

@@ -15,8 +15,8 @@ namespace {
 
 class ExperimentsDock : public Bench {
  protected:
-  workbench::ExperimentsDock& dock() { return w().experiments(); }
-  /// Small and short, by the dock's own fields.
+  workbench::ExperimentsDock& dock() { return *w().panels().experiments; }
+  /// Asks for a small and short run through the dock's own fields.
   void choose(const char* command) {
     auto* which = dock().findChildren<QComboBox*>().front();
     which->setCurrentIndex(which->findData(QLatin1String(command)));
@@ -44,7 +44,7 @@ TEST_F(ExperimentsDock, showsThePublishedRowsBesideOurs) {
   EXPECT_EQ(dock().report()->measured.rows.size(), 16u);
   const QList<QTableWidget*> tables = dock().findChildren<QTableWidget*>();
   ASSERT_EQ(tables.size(), 2);
-  // Twelve are published, and ours has a case more.
+  // Twelve rows are published, and ours has one case more.
   EXPECT_EQ(std::min(tables[0]->rowCount(), tables[1]->rowCount()), 12);
   EXPECT_EQ(std::max(tables[0]->rowCount(), tables[1]->rowCount()), 16);
   for (const QTableWidget* table : tables) {

@@ -74,14 +74,15 @@ TEST_F(WorkbenchFiles, badFilesDroppedAreSaidAndChangeNothing) {
     const int messages = w().messages().count();
     if (c.name.ends_with(".json")) answer(QMessageBox::Discard);
     drop(dir / c.name);
-    ASSERT_TRUE(waitFor([&] { return w().messages().count() > messages && !w().terrainJob().running(); }))
-        << c.name;
+    ASSERT_TRUE(waitFor([&] {
+      return w().messages().count() > messages && !w().controllers().terrain->job().running();
+    })) << c.name;
     EXPECT_TRUE(w().messages().text().contains(QString::fromStdString(c.says))) << c.name;
     EXPECT_TRUE(differences(before, w().draft().parameters()).empty()) << c.name;
     EXPECT_TRUE(w().draft().isDirty()) << c.name;
     EXPECT_EQ(w().draft().undoStack().count(), 1) << c.name;
     EXPECT_EQ(w().windowTitle(), title) << c.name;
-    EXPECT_TRUE(w().hasTerrain());
+    EXPECT_TRUE(w().controllers().terrain->database() != nullptr);
     EXPECT_EQ(session().decision(), decision) << c.name;
     EXPECT_FALSE(w().feed().playback().loaded()) << c.name;
   }
@@ -90,7 +91,7 @@ TEST_F(WorkbenchFiles, badFilesDroppedAreSaidAndChangeNothing) {
 TEST_F(WorkbenchFiles, goodFilesDroppedAreOpened) {
   writeFile(dir / "mine.json", exportText(defaultParameters(), "mine", {}, ExportFormat::json));
   drop(dir / "mine.json");
-  EXPECT_EQ(w().document().title(), "mine.json");
+  EXPECT_EQ(w().controllers().document->document().title(), "mine.json");
   drop(sampleFlight());
   EXPECT_TRUE(w().feed().playback().loaded());
   ASSERT_TRUE(terrain::writeSample(dir / "other.tif", {2, 12, 120, {}}));
@@ -108,7 +109,7 @@ TEST_F(WorkbenchFiles, saveUndoAndTheDirtyMarkAgree) {
   w().draft().undoStack().undo();
   EXPECT_FALSE(w().isWindowModified());
   w().draft().undoStack().redo();
-  ASSERT_TRUE(w().savePreset(path(dir / "p.json")));
+  ASSERT_TRUE(w().controllers().document->saveTo(path(dir / "p.json")));
   EXPECT_FALSE(w().isWindowModified());
   EXPECT_TRUE(w().windowTitle().contains("p.json"));
   const auto saved = loadPreset((dir / "p.json").string());
@@ -120,10 +121,10 @@ TEST_F(WorkbenchFiles, saveUndoAndTheDirtyMarkAgree) {
 
 TEST_F(WorkbenchFiles, aSaveThatFailsKeepsTheEditsAndTheOldFile) {
   edit();
-  EXPECT_FALSE(w().savePreset(path(dir / "no" / "such" / "p.json")));
+  EXPECT_FALSE(w().controllers().document->saveTo(path(dir / "no" / "such" / "p.json")));
   EXPECT_TRUE(w().draft().isDirty());
   EXPECT_TRUE(w().messages().text().contains("cannot be saved"));
-  EXPECT_FALSE(w().exportPreset("/proc/nowhere/e.json", ExportFormat::json, {}, {}));
+  EXPECT_FALSE(w().controllers().document->exportTo("/proc/nowhere/e.json", ExportFormat::json, {}, {}));
 }
 
 TEST_F(WorkbenchFiles, asksBeforeEditsAreLost) {
@@ -132,7 +133,7 @@ TEST_F(WorkbenchFiles, asksBeforeEditsAreLost) {
   EXPECT_FALSE(w().close());
   EXPECT_TRUE(w().isVisible());
   EXPECT_EQ(hysteresis(), 0.04);
-  ASSERT_TRUE(w().savePreset(path(dir / "p.json")));
+  ASSERT_TRUE(w().controllers().document->saveTo(path(dir / "p.json")));
   w().draft().undoStack().undo();
   answer(QMessageBox::Save);
   EXPECT_TRUE(w().close());
@@ -142,7 +143,7 @@ TEST_F(WorkbenchFiles, asksBeforeEditsAreLost) {
 
 TEST_F(WorkbenchFiles, editsOfAProgramThatDiedAreOfferedAndComeBackAsOneStep) {
   edit();
-  w().document().keepCopyNow();
+  w().controllers().document->document().keepCopyNow();
   const QDir folder(QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) + "/recovery");
   const QString own = folder.filePath(QString::number(QCoreApplication::applicationPid()) + ".json");
   ASSERT_TRUE(QFile::exists(own));
@@ -150,7 +151,7 @@ TEST_F(WorkbenchFiles, editsOfAProgramThatDiedAreOfferedAndComeBackAsOneStep) {
   if (dead == 0) ::_exit(0);
   ::waitpid(dead, nullptr, 0);
   ASSERT_TRUE(QFile::copy(own, folder.filePath(QString::number(dead) + ".json")));
-  w().document().dropCopy();
+  w().controllers().document->document().dropCopy();
   EXPECT_FALSE(QFile::exists(own));
   w().draft().undoStack().setClean();
   window.reset();
@@ -169,7 +170,7 @@ TEST_F(WorkbenchFiles, editsOfAProgramThatDiedAreOfferedAndComeBackAsOneStep) {
 
 TEST_F(WorkbenchFiles, editsAreOfferedByWhoHoldsTheirLockAndNotByWhoHasTheNumber) {
   edit();
-  w().document().keepCopyNow();
+  w().controllers().document->document().keepCopyNow();
   const QDir folder(QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) + "/recovery");
   const QString own = folder.filePath(QString::number(QCoreApplication::applicationPid()));
   const QString other = folder.filePath(QString::number(::getppid()));  // lives, and is no workbench
@@ -184,13 +185,13 @@ TEST_F(WorkbenchFiles, editsAreOfferedByWhoHoldsTheirLockAndNotByWhoHasTheNumber
   workbench::Document::discard(left[0]);
   EXPECT_FALSE(QFile::exists(other + ".json") || QFile::exists(other + ".lock"));
   w().draft().undoStack().setClean();
-  w().document().dropCopy();
+  w().controllers().document->document().dropCopy();
   window.reset();
   EXPECT_FALSE(QFile::exists(own + ".lock"));
 }
 
 TEST_F(WorkbenchFiles, aFileChangedByAnotherProgramIsSaidAndReloadedOnRequest) {
-  ASSERT_TRUE(w().savePreset(path(dir / "p.json")));
+  ASSERT_TRUE(w().controllers().document->saveTo(path(dir / "p.json")));
   Preset other;
   other.parameters.scheme.hysteresis = Membership{0.03};
   ASSERT_TRUE(writeAtomically(dir / "p.json", *presetText(other)));
@@ -199,12 +200,12 @@ TEST_F(WorkbenchFiles, aFileChangedByAnotherProgramIsSaidAndReloadedOnRequest) {
   EXPECT_NE(hysteresis(), 0.03) << "nothing happens unasked";
   QTest::mouseClick(reload, Qt::LeftButton);
   EXPECT_EQ(hysteresis(), 0.03);
-  // The same bytes once more and own saves are no news.
+  // Writing the same bytes again, and our own saves, must not raise the question.
   ASSERT_TRUE(writeAtomically(dir / "p.json", readFile(dir / "p.json")));
   QTest::qWait(600);
   EXPECT_EQ(noticeButton(w(), "Reload"), nullptr);
   edit();
-  ASSERT_TRUE(w().savePreset(path(dir / "p.json")));
+  ASSERT_TRUE(w().controllers().document->saveTo(path(dir / "p.json")));
   QTest::qWait(400);
   EXPECT_EQ(noticeButton(w(), "Reload"), nullptr);
 }
@@ -212,13 +213,13 @@ TEST_F(WorkbenchFiles, aFileChangedByAnotherProgramIsSaidAndReloadedOnRequest) {
 TEST_F(WorkbenchFiles, bakingCanBeCancelledAndTheOldTerrainStays) {
   ASSERT_TRUE(terrain::writeSample(dir / "big.tif", {5, 60, 60, {}}));
   const QString title = w().windowTitle();
-  w().openTerrain(path(dir / "big.tif"));
-  EXPECT_TRUE(w().terrainJob().running());
-  w().terrainJob().cancel();
-  EXPECT_FALSE(w().terrainJob().running());
+  w().controllers().terrain->open(path(dir / "big.tif"));
+  EXPECT_TRUE(w().controllers().terrain->job().running());
+  w().controllers().terrain->job().cancel();
+  EXPECT_FALSE(w().controllers().terrain->job().running());
   EXPECT_TRUE(w().messages().text().contains("Cancelled"));
   EXPECT_EQ(w().windowTitle(), title);
-  EXPECT_TRUE(w().hasTerrain());
+  EXPECT_TRUE(w().controllers().terrain->database() != nullptr);
 }
 
 }  // namespace

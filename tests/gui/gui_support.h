@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 
+#include "app/workbench/docks/message_panel.h"
 #include "app/workbench/window/main_window.h"
 #include "tests/support.h"
 #include "trimtab/terrain/bake/bake.h"
@@ -16,12 +17,13 @@
 
 namespace trimtab::test {
 
-/// Runs the event loop until the condition holds; the limit is for what will never hold.
+/// Runs the event loop until the condition holds. Returns false if it does not hold within the limit.
 inline bool waitFor(const std::function<bool()>& condition, int limitMs = 60000) {
   return QTest::qWaitFor(condition, limitMs);
 }
 
-/// The sample terrain, 60 km of it at 120 m: the flight that ships stays over it. Made once a program.
+/// The sample terrain, 60 km wide with posts 120 m apart: the shipped flight stays over it. It is baked once
+/// per test program.
 inline const std::filesystem::path& sampleTerrain() {
   static const ScratchDir dir;
   static const std::filesystem::path database = [] {
@@ -41,14 +43,14 @@ inline std::string sampleFlight() {
   return (sourceDir() / "resources/flights/yecheon-circuit.csv").string();
 }
 
-/// Seconds into the flight when it first climbs through an altitude.
+/// Returns the seconds into the flight at which it first climbs through an altitude.
 inline double climbsThrough(const Flight& flight, double altitudeFt) {
   for (const AircraftState& state : flight.states)
     if (state.position.height.in<Feet>() >= altitudeFt) return state.time - flight.states.front().time;
   return 0;
 }
 
-/// The real window with the sample terrain and its first picture drawn.
+/// A test with the real window, the sample terrain open and its first image drawn.
 class Bench : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -57,7 +59,7 @@ class Bench : public ::testing::Test {
     options.terrain = QString::fromStdString(sampleTerrain().string());
     options.window = QSize(1400, 900);
     window->start(options);
-    ASSERT_TRUE(waitFor([this] { return window->viewport().lastResult().has_value(); }))
+    ASSERT_TRUE(waitFor([this] { return window->viewport().lastResult() != nullptr; }))
         << window->messages().text().toStdString();
   }
   void TearDown() override {
@@ -67,7 +69,7 @@ class Bench : public ::testing::Test {
   workbench::MainWindow& w() { return *window; }
   Session& session() { return window->feed().session(); }
   std::uint64_t paints() const { return window->viewport().paints(); }
-  /// A host's link on any free port.
+  /// Opens a link for a host on any free port and returns the port.
   std::uint16_t listen() {
     const Findings findings = window->feed().openHost({});
     EXPECT_TRUE(findings.empty()) << toString(findings);

@@ -12,7 +12,7 @@
 #include "trimtab/host/flight.h"
 
 /// Everything at once: a flight over UDP with a head that sweeps and weather that changes, all docks open.
-/// A third of a minute of it by default; TRIMTAB_LONG_FLIGHT_S says otherwise (600 is the whole flight).
+/// It lasts a third of a minute unless TRIMTAB_LONG_FLIGHT_S gives other seconds (600 is the whole flight).
 namespace trimtab::test {
 namespace {
 
@@ -59,10 +59,11 @@ TEST_F(LongFlight, holdsWithHeadMotionWeatherAndAllDocksOpen) {
   for (const auto& [key, value] : {std::pair{"weather.source", "host"}, {"symbology.enabled", "true"}})
     ASSERT_TRUE(w().draft().setText(key, value).empty()) << key;
   const std::string exported = (dir / "export.json").string(), trace = (dir / "own.csv").string();
-  ASSERT_TRUE(w().exportPreset(QString::fromStdString(exported), ExportFormat::json, "test", "long flight"));
+  ASSERT_TRUE(w().controllers().document->exportTo(QString::fromStdString(exported), ExportFormat::json,
+                                                   "test", "long flight"));
   for (QDockWidget* dock : w().findChildren<QDockWidget*>()) dock->show();
   const std::uint16_t port = listen();
-  ASSERT_TRUE(w().startTrace(QString::fromStdString(trace)));
+  ASSERT_TRUE(w().controllers().trace->start(QString::fromStdString(trace)));
 
   unsigned errors = 0;
   QObject::connect(&w().viewport(), &workbench::Viewport::painted, &w(), [&] {
@@ -75,7 +76,7 @@ TEST_F(LongFlight, holdsWithHeadMotionWeatherAndAllDocksOpen) {
   options.to = {"127.0.0.1", port};
   options.protocol = WireProtocol::cigi3;
   options.speed = std::max(1.0, flight.durationS() / seconds);
-  // A recorded head where there is one; else the flight's own sweeps.
+  // Use a recorded head if there is one, else the flight's own sweeps.
   if (const auto recorded = sharedDir() / "data/headmotion-mv360/user1_euler.txt";
       std::filesystem::exists(recorded)) {
     Result<HeadLog> log = readHeadLog(recorded);
@@ -105,7 +106,7 @@ TEST_F(LongFlight, holdsWithHeadMotionWeatherAndAllDocksOpen) {
     if (third == 0 && double(flown.elapsed()) > seconds * 1000 / 3) third = last;
   }
   ASSERT_TRUE((*player)->finished());
-  w().stopTrace();
+  w().controllers().trace->stop();
   // Another program that takes the cores for a moment is no fault of the window's.
   EXPECT_LE(late, 2 + turn / 20) << "events that waited for more than one picture, of " << turn;
   EXPECT_EQ(errors, 0u) << "GL errors";

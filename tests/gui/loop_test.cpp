@@ -147,14 +147,14 @@ TEST_F(WorkbenchLoop, theImageGeneratorDecidesAlikeFromTheExportAndReplaysTheTra
   ScratchDir dir;
   ASSERT_TRUE(
       w().draft().setText("fuzzy.altitude.curve_ft", "3900:1 4600:0.35 6000:0.3 7000:0.1 8000:0").empty());
-  ASSERT_TRUE(w().exportPreset(QString::fromStdString((dir / "export.json").string()), ExportFormat::json,
-                               "test", "loop"));
+  ASSERT_TRUE(w().controllers().document->exportTo(QString::fromStdString((dir / "export.json").string()),
+                                                   ExportFormat::json, "test", "loop"));
   IgProcess ig({"--preset", (dir / "export.json").string(), "--terrain", sampleTerrain().string(), "--listen",
                 "0", "--headless", "--size", "320x200", "--trace", (dir / "ig.csv").string()});
   const std::uint16_t igPort = ig.port();
   ASSERT_NE(igPort, 0) << ig.err();
   const std::uint16_t ownPort = listen();
-  ASSERT_TRUE(w().startTrace(QString::fromStdString((dir / "own.csv").string())));
+  ASSERT_TRUE(w().controllers().trace->start(QString::fromStdString((dir / "own.csv").string())));
   {
     Tee tee(ownPort, igPort);
     // Through every band in some seconds: climb, cruise and descent at many times their speed.
@@ -163,7 +163,7 @@ TEST_F(WorkbenchLoop, theImageGeneratorDecidesAlikeFromTheExportAndReplaysTheTra
     ASSERT_TRUE(waitFor([&] { return session().packets() >= host->sent() * 9 / 10; }));
   }
   ASSERT_TRUE(settle());
-  w().stopTrace();
+  w().controllers().trace->stop();
   ig.signal(SIGTERM);
   ASSERT_EQ(ig.end(), 0) << ig.err();
 
@@ -222,8 +222,7 @@ TEST_F(WorkbenchLoop, aHostThatFallsSilentIsSaidAndCostsNothing) {
 }
 
 TEST_F(WorkbenchLoop, aFlightPlaysHereAndPausesAndScrubs) {
-  ASSERT_TRUE(w().openFlight(QString::fromStdString(sampleFlight())));
-  w().flightDock();
+  ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
   w().feed().seekHere(climb(6000));
   EXPECT_NEAR(session().decision().altitudeFt, 6000, 60);
   w().feed().playHere();

@@ -26,7 +26,7 @@ class Motion : public Bench {
       if (panel().reasons().item(i)->text().contains(text)) return true;
     return false;
   }
-  /// For eyes: kept where TRIMTAB_SHOTS names a folder.
+  /// Saves a screenshot to look at if TRIMTAB_SHOTS names a folder.
   void shoot(const char* name) {
     const char* folder = std::getenv("TRIMTAB_SHOTS");
     if (folder == nullptr) return;
@@ -59,7 +59,7 @@ TEST_F(Motion, thePointerOverThePictureIsTheLineOfSight) {
   emit panel().sourceAsked(MotionPanel::pointer);
   EXPECT_EQ(panel().source(), MotionPanel::pointer);
   workbench::Viewport& view = w().viewport();
-  // Not through the screen's own pointer, which a person may hold.
+  // Events are sent directly, because a person may hold the screen's own pointer.
   const auto moveTo = [&view](int x) {
     const QPointF at(x, view.height() / 2);
     QMouseEvent event(QEvent::MouseMove, at, view.mapToGlobal(at), Qt::NoButton, Qt::NoButton,
@@ -91,9 +91,9 @@ TEST_F(Motion, aLogBeginsWithTheFlight) {
   std::string text = "time_s,head_heading_deg,head_pitch_deg\n";
   for (int i = 0; i < 6000; ++i) text += std::to_string(i * 0.1) + "," + std::to_string(i * 0.5) + ",0\n";
   writeFile(dir / "head.csv", text);
-  ASSERT_TRUE(w().openFlight(QString::fromStdString(sampleFlight())));
+  ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
   w().feed().seekHere(30);
-  ASSERT_TRUE(w().openHead(QString::fromStdString((dir / "head.csv").string())));
+  ASSERT_TRUE(w().controllers().head->open(QString::fromStdString((dir / "head.csv").string())));
   EXPECT_EQ(panel().source(), MotionPanel::log);
   w().feed().playHere();
   ASSERT_TRUE(waitFor([this] { return w().feed().playback().position() > 30.3; }));
@@ -104,7 +104,7 @@ TEST_F(Motion, aLogBeginsWithTheFlight) {
 }
 
 TEST_F(Motion, aBadLogChangesNothingAndIsExplained) {
-  EXPECT_FALSE(w().openHead(QStringLiteral("sweep:fast")));
+  EXPECT_FALSE(w().controllers().head->open(QStringLiteral("sweep:fast")));
   EXPECT_EQ(panel().source(), MotionPanel::host);
   EXPECT_TRUE(w().messages().text().contains(QStringLiteral("sweep:DEGREES/SECONDS")));
 }

@@ -30,7 +30,7 @@ class Rules : public Bench {
     QAbstractItemModel* const model = panel().editor().table().model();
     EXPECT_TRUE(model->setData(model->index(row, column), QString::fromLatin1(text), Qt::EditRole));
   }
-  /// For eyes: kept where TRIMTAB_SHOTS names a folder.
+  /// Saves a screenshot to look at if TRIMTAB_SHOTS names a folder.
   void shoot(const char* name) {
     const char* folder = std::getenv("TRIMTAB_SHOTS");
     if (folder == nullptr) return;
@@ -43,7 +43,7 @@ TEST_F(Rules, anEditedRuleDecidesTheNextFrameAndTheViewerShowsIt) {
   dock("rules").raise();
   dock("surface").raise();
   w().draft().setValue("fuzzy.combination", ChoiceIndex{2});
-  ASSERT_TRUE(w().openFlight(QString::fromStdString(sampleFlight())));
+  ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
   const double climb = climbsThrough(*readFlight(sampleFlight()), 4500);
   for (int second = 0; second < 40; second += 2) {
     w().feed().seekHere(climb + second);

@@ -30,7 +30,8 @@ TEST_F(StaticLodDock, tellsOfTreesAndDrawsThemByDistanceByLevelAndAsDocumentEsPi
   TRIMTAB_NEEDS_SHARED("data/fg-cologne/3056410.btg");
   w().dock(QStringLiteral("static_lod"))->raise();
   EXPECT_TRUE(says(QStringLiteral(".btg.gz"))) << "the sample terrain has no trees";
-  w().openTerrain(QString::fromStdString((sharedDir() / "data/fg-cologne/3056410.btg").string()));
+  w().controllers().terrain->open(
+      QString::fromStdString((sharedDir() / "data/fg-cologne/3056410.btg").string()));
   ASSERT_TRUE(waitFor([this] { return !says(QStringLiteral(".btg.gz")); }))
       << w().messages().text().toStdString();
   ASSERT_TRUE(waitFor([this] { return says(QStringLiteral("tiled levels are drawn")); }));

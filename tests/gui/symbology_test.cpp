@@ -26,7 +26,7 @@ class SymbologyDock : public Bench {
     panel->placeButton().click();
     ASSERT_TRUE(waitFor([&] { return box(Symbol::altitude).isValid(); }, 10000));
   }
-  workbench::SymbologyEditor& editor() { return w().symbologyEditor(); }
+  workbench::SymbologyEditor& editor() { return w().controllers().symbology->editor(); }
   QRectF box(Symbol symbol) { return editor().boxOf(static_cast<int>(symbol)); }
   double value(const char* key) { return std::get<double>(w().draft().value(key)); }
   void drag(QPoint from, QPoint to) {
@@ -60,7 +60,7 @@ TEST_F(SymbologyDock, movesASymbolByDraggingItAsOneUndoStep) {
   EXPECT_NEAR(value("symbology.altitude.x"), x - 120.0 / width, 0.002);
   EXPECT_NEAR(value("symbology.altitude.y"), y - 80.0 / (width / shape), 0.002);
   EXPECT_EQ(w().viewport().camera().attitude(), looked) << "the camera is not turned by it";
-  // And the picture follows.
+  // The image follows.
   ASSERT_TRUE(
       waitFor([&] { return std::abs(box(Symbol::altitude).center().x() - (before.center().x() - 60)) < 2; }));
   EXPECT_NEAR(box(Symbol::altitude).center().y(), before.center().y() + 40, 2);
@@ -95,7 +95,7 @@ TEST_F(SymbologyDock, movesTheChosenSymbolByArrowKeysUntilEscape) {
   QTest::keyClick(&w().viewport(), Qt::Key_Escape);
   EXPECT_FALSE(editor().active());
   EXPECT_FALSE(panel->placeButton().isChecked());
-  // The mouse is the camera's again.
+  // The mouse moves the camera again.
   const Attitude looked = w().viewport().camera().attitude();
   const QPoint middle = w().viewport().rect().center();
   drag(middle, middle + QPoint(30, 0));

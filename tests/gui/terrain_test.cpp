@@ -67,7 +67,7 @@ TEST_F(TerrainDock, showsTheLevelsThatThePictureIsMadeOf) {
   ASSERT_TRUE(waitFor([this] { return drawnRows() > 0; }));
   EXPECT_TRUE(says(QStringLiteral("posts")));
   const int rows = drawnRows();
-  // Coarser: fewer levels are drawn, and the button of the dock is the menu's.
+  // At a coarser setting fewer levels are drawn; the dock's button is the menu's command.
   ASSERT_TRUE(w().draft().setText("lod.screen_space_error_px", "200").empty());
   ASSERT_TRUE(waitFor([&] { return drawnRows() > 0 && drawnRows() < rows; })) << drawnRows();
   QToolButton* wire = button(QStringLiteral("Wireframe"));
@@ -89,7 +89,7 @@ TEST_F(TerrainDock, drawsPatchesWhereThePresetSaysSo) {
 
 TEST_F(TerrainDock, bakesWhatIsAskedForAndOpensIt) {
   ASSERT_TRUE(terrain::writeSample(dir_ / "small.tif", {7, 20, 100, {}}));
-  // A manifest of another program's, that a bake leaves as it is.
+  // Another program's manifest, which a bake must leave as it is.
   std::filesystem::create_directories(dir_ / "foreign");
   writeFile(dir_ / "foreign" / "manifest.json", R"({"name": "a web page"})");
   bool refusedWithout = false, refusedForeign = false, acceptedWith = false;
@@ -128,8 +128,9 @@ TEST_F(TerrainDock, tellsWhatABakeFoundThoughItSucceeded) {
   terrain::BakeOptions options;
   options.sources = {dir_ / "small.tif", dir_ / "hole.asc"};
   options.output = dir_ / "mine";
-  w().terrainJob().bake(options);
-  ASSERT_TRUE(waitFor([this] { return says(QStringLiteral("<b>")) && !w().terrainJob().running(); }));
+  w().controllers().terrain->job().bake(options);
+  ASSERT_TRUE(
+      waitFor([this] { return says(QStringLiteral("<b>")) && !w().controllers().terrain->job().running(); }));
   EXPECT_TRUE(terrain::isDatabase(dir_ / "mine")) << w().messages().text().toStdString();
   EXPECT_TRUE(w().messages().text().contains(QStringLiteral("voids alone")))
       << w().messages().text().toStdString();
@@ -141,17 +142,17 @@ TEST_F(TerrainDock, keepsTheTerrainWhenABakeIsCancelledOrRefused) {
   options.sources = {dir_ / "large.tif"};
   options.output = dir_ / "never";
   const std::uint64_t before = paints();
-  w().terrainJob().bake(options);
+  w().controllers().terrain->job().bake(options);
   ASSERT_TRUE(waitFor([this] { return panel().findChild<QProgressBar*>()->isVisible(); }));
   for (QPushButton* each : panel().findChildren<QPushButton*>())
     if (each->text().contains(QStringLiteral("Cancel"))) each->click();
-  EXPECT_TRUE(waitFor([this] { return !w().terrainJob().running(); }));
+  EXPECT_TRUE(waitFor([this] { return !w().controllers().terrain->job().running(); }));
   EXPECT_FALSE(terrain::isDatabase(dir_ / "never"));
   writeFile(dir_ / "text.tif", "no raster");
   options.sources = {dir_ / "text.tif"};
-  w().terrainJob().bake(options);
+  w().controllers().terrain->job().bake(options);
   ASSERT_TRUE(waitFor([this] { return w().messages().text().contains(QStringLiteral("text.tif")); }));
-  EXPECT_TRUE(w().hasTerrain());
+  EXPECT_TRUE(w().controllers().terrain->database() != nullptr);
   w().viewport().invalidate();
   EXPECT_TRUE(waitFor([&] { return paints() > before; }));
 }
@@ -166,7 +167,7 @@ TEST(TerrainJob, waitsForNoCancelledWorkButEndsItBeforeTheNext) {
     workbench::TerrainJob job;
     QObject::connect(&job, &workbench::TerrainJob::failed, &job,
                      [&](const Findings& findings) { told.push_back(toString(findings)); });
-    // Work that does not ask for a long time.
+    // This work does not ask for a long time whether to go on.
     job.start("first", {}, [&](const terrain::Progress&) -> Opened {
       begun.set_value();
       go.get_future().wait_for(late);
@@ -191,7 +192,7 @@ TEST(TerrainJob, waitsForNoCancelledWorkButEndsItBeforeTheNext) {
     EXPECT_TRUE(inOrder);
     ASSERT_EQ(told.size(), 1u);
     EXPECT_NE(told[0].find("second"), std::string::npos);
-    // Destroyed while one works: it is told to stop, and has ended.
+    // Destroying it while a job runs stops the job and waits for its end.
     job.start("third", {}, [&](const terrain::Progress& progress) -> Opened {
       thirdBegun.set_value();
       while (progress(0, "")) std::this_thread::yield();

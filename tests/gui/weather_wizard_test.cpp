@@ -19,7 +19,7 @@ namespace {
 using workbench::WeatherStage;
 using workbench::WeatherWizard;
 
-/// A machine on paper: 12 ms in clear air of which the terrain to 50 km costs 10, and particles.
+/// An invented machine: 12 ms in clear air, of which the terrain up to 50 km costs 10 ms, and particles.
 WeatherStage paper(double particlesMs, std::function<void(const WeatherDecision&)> drawn = {}) {
   WeatherStage stage;
   stage.farthestM = 50000;
@@ -126,7 +126,7 @@ class WeatherOnTheBench : public Bench {
   }
 };
 
-/// Saved where TRIMTAB_SHOTS names a folder, to be looked at.
+/// Saves a screenshot to look at if TRIMTAB_SHOTS names a folder.
 void shoot(QWidget& widget, const char* name) {
   const QString folder = qEnvironmentVariable("TRIMTAB_SHOTS");
   if (!folder.isEmpty()) widget.grab().save(folder + "/" + name + ".png");

@@ -10,10 +10,13 @@
 #include <QLabel>
 #include <QMenuBar>
 #include <QProcess>
+#include <QPushButton>
 #include <QTimer>
+#include <algorithm>
 
 #include "app/workbench/docks/host_dock.h"
 #include "gui_support.h"
+#include "views/panels/culling_panel.h"
 
 namespace trimtab::test {
 namespace {
@@ -24,7 +27,7 @@ double cpuSeconds() {
   return double(t.tv_sec) + double(t.tv_nsec) * 1e-9;
 }
 
-/// The event loop alone, without a test's own polling.
+/// Runs the event loop alone, without the polling that a test does.
 void idle(int ms) {
   QEventLoop loop;
   QTimer::singleShot(ms, &loop, &QEventLoop::quit);
@@ -116,6 +119,42 @@ TEST_F(WorkbenchWindow, theCullingCaseIsSwitchedLiveAndCanBeUndone) {
   EXPECT_EQ(triangles(), fewest);
 }
 
+TEST_F(WorkbenchWindow, aClickDescribesThePickedNodeAndEndsPicking) {
+  ASSERT_TRUE(settle());
+  auto& panel = *w().panels().culling;
+  const auto says = [&panel](const QString& text) {
+    const auto labels = panel.findChildren<QLabel*>();
+    return std::any_of(labels.begin(), labels.end(),
+                       [&text](const QLabel* label) { return label->text().contains(text); });
+  };
+  const auto pickAt = [&](double down) {
+    for (QPushButton* button : panel.findChildren<QPushButton*>())
+      if (button->text().contains("Pick")) button->click();
+    ASSERT_TRUE(panel.picking());
+    workbench::Viewport& view = w().viewport();
+    QTest::mouseClick(&view, Qt::LeftButton, {}, QPoint(view.width() / 2, int(view.height() * down)));
+    EXPECT_TRUE(waitFor([&] { return !panel.picking(); }));
+  };
+  pickAt(0.75);
+  EXPECT_TRUE(says("Stated error")) << "the ground is below the middle";
+  EXPECT_TRUE(says("drawn"));
+  pickAt(0.1);
+  EXPECT_TRUE(says("Nothing is picked")) << "the sky is no node";
+}
+
+TEST_F(WorkbenchWindow, theTraceCommandIsCheckedWhileATraceIsRecorded) {
+  const ScratchDir dir;
+  QAction* const record = command(w(), "Record trace");
+  auto& trace = *w().controllers().trace;
+  EXPECT_FALSE(trace.start("/proc/nowhere/trace.csv"));
+  EXPECT_FALSE(record->isChecked());
+  ASSERT_TRUE(trace.start(QString::fromStdString((dir / "trace.csv").string())));
+  EXPECT_TRUE(record->isChecked());
+  record->trigger();
+  EXPECT_FALSE(record->isChecked());
+  EXPECT_TRUE(trace.recorded().endsWith("trace.csv"));
+}
+
 TEST_F(WorkbenchWindow, mouseAndKeysFlyTheCameraWhileNoHostDoes) {
   ASSERT_TRUE(settle());
   workbench::Viewport& view = w().viewport();
@@ -193,12 +232,12 @@ TEST_F(WorkbenchWindow, aPortInUseIsSaidAndTheWorkGoesOn) {
   socklen_t size = sizeof address;
   ::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size);
   const std::uint16_t taken = ntohs(address.sin_port);
-  w().hostDock().setPort(taken);
-  EXPECT_FALSE(w().hostDock().connectHost().empty());
+  w().panels().host->setPort(taken);
+  EXPECT_FALSE(w().panels().host->connectHost().empty());
   EXPECT_TRUE(w().messages().text().contains(QString::number(taken)));
   EXPECT_EQ(w().feed().receiver(), nullptr);
   ::close(socket);
-  EXPECT_TRUE(w().hostDock().connectHost().empty()) << "free again";
+  EXPECT_TRUE(w().panels().host->connectHost().empty()) << "free again";
 }
 
 TEST(WorkbenchProgram, withoutADisplayItSaysSoAndEndsWithOne) {

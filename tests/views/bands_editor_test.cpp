@@ -122,7 +122,9 @@ TEST_F(BandsEditorTest, theInsetSaysWhyThereIsNoDepthMap) {
   QImage map(32, 24, QImage::Format_Grayscale8);
   map.fill(90);
   frame.decision.scheme = Scheme::dynamic;
-  frame.depthMap = DepthMapSize{32, 24};
+  FrameResult result;
+  result.depthMap = DepthMapSize{32, 24};
+  frame.result = std::make_shared<const FrameResult>(result);
   editor_.showFrame(frame);
   editor_.showDepthMap(map, "32 × 24 px, near 1 m, far 5 km");
   EXPECT_TRUE(

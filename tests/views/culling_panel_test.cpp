@@ -7,6 +7,7 @@
 #include <QTest>
 #include <QWheelEvent>
 #include <algorithm>
+#include <memory>
 
 #include "views/plots/horizon_inset.h"
 #include "views/plots/time_plot.h"
@@ -35,29 +36,31 @@ class CullingPanelTest : public ::testing::Test {
 
 TEST_F(CullingPanelTest, saysWhatServesAndWhyNotWhatWasAskedFor) {
   LiveFrame frame;
-  frame.tilesDrawn = 10;
+  const auto result = std::make_shared<FrameResult>();
+  frame.result = result;
+  result->visible.tiles.resize(10);
   frame.decision.depthMap = DepthMapSize{800, 600};
-  frame.cullingNote = "The eye is under the ground.";
+  result->note = "The eye is under the ground.";
   EXPECT_TRUE(
       says(frame, QStringLiteral("Nothing is looked for behind the ground. The eye is under the ground.")));
   EXPECT_EQ(ofHorizon(), QStringLiteral("The eye is under the ground."));
 
-  frame.cullingNote.clear();
-  frame.occlusion = OcclusionMethod::horizon;
+  result->note.clear();
+  result->occlusion = OcclusionMethod::horizon;
   EXPECT_TRUE(says(frame, QStringLiteral("The horizon is left out: near here it hid next to nothing.")));
   EXPECT_EQ(ofHorizon(), QStringLiteral("The horizon is left out: near here it hid next to nothing."));
 
-  frame.occlusion = OcclusionMethod::cpu_map;
-  frame.mapsLeftOut = 4711;
+  result->occlusion = OcclusionMethod::cpu_map;
+  result->counters.mapsLeftOut = 4711;
   EXPECT_TRUE(says(frame, QStringLiteral("The map is left out: near here one hid next to nothing.")));
   EXPECT_TRUE(says(frame, QStringLiteral("left out 4")));
   EXPECT_EQ(ofHorizon(), QStringLiteral("A depth map serves, not the horizon."));
-  frame.depthMap = DepthMapSize{400, 300};
+  result->depthMap = DepthMapSize{400, 300};
   EXPECT_TRUE(says(frame, QStringLiteral("serves, 400 × 300 px."))) << "the map's size, not the band's";
 
-  frame.occlusion.reset();
+  result->occlusion.reset();
   EXPECT_TRUE(says(frame, QStringLiteral("of the static trees serves, 400")));
-  frame.depthMap.reset();
+  result->depthMap.reset();
   frame.decision.depthMap.reset();
   EXPECT_TRUE(says(frame, QStringLiteral("plain view-frustum culling")));
   EXPECT_EQ(ofHorizon(), QStringLiteral("No horizon: nothing asks for one in this frame."));

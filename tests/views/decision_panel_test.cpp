@@ -20,7 +20,7 @@ class DecisionPanelTest : public testing::Test {
   void fly(double altitudeFt, double pitchDeg = 0) {
     LiveFrame frame;
     frame.time = 0.5 * static_cast<double>(packet_);
-    frame.packet = packet_++;
+    frame.input.state.packet = packet_++;
     frame.decision = decide(test::inputAt(altitudeFt, pitchDeg), draft_.active(), memory_);
     panel_.showFrame(frame);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 
 #include "trimtab/decision/decide.h"
 #include "trimtab/measure/cost_stages.h"
@@ -25,7 +26,7 @@ class LiveFlight {
     const double t = startS_ + static_cast<double>(frame_) / hz_;
     views::LiveFrame f;
     f.time = t;
-    f.packet = frame_++;
+    f.input.state.packet = frame_++;
     f.decision =
         decide(inputAt(6200 - 3400 * std::cos(t * 0.06), 14 * std::sin(t * 0.35) - 3), parameters, memory_);
     const double size =
@@ -43,13 +44,16 @@ class LiveFlight {
       if (stage.kind == StageKind::of_frame && std::isfinite(f.cost.*stage.ms))
         f.cost.total += f.cost.*stage.ms;
     f.fps = 1000 / f.cost.total;
-    f.triangles = static_cast<std::uint64_t>(900e3 - 350e3 * size + 30e3 * ripple);
-    f.vertices = f.triangles / 2;
-    f.tilesInCut = 1024;
-    f.outsideFrustum = 620;
-    f.occluded = static_cast<std::size_t>(180 * size);
-    f.tilesDrawn = f.tilesInCut - f.outsideFrustum - f.occluded;
-    f.depthMap = f.decision.depthMap;
+    const auto result = std::make_shared<FrameResult>();
+    VisibleSet& visible = result->visible;
+    visible.triangles = static_cast<std::uint64_t>(900e3 - 350e3 * size + 30e3 * ripple);
+    visible.vertices = visible.triangles / 2;
+    result->tilesInCut = 1024;
+    visible.outsideFrustum = 620;
+    visible.occluded = static_cast<std::size_t>(180 * size);
+    visible.tiles.resize(result->tilesInCut - visible.outsideFrustum - visible.occluded);
+    result->depthMap = f.decision.depthMap;
+    f.result = result;
     return f;
   }
 

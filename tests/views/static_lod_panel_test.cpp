@@ -80,10 +80,12 @@ TEST_F(StaticLodPanelTest, showsWhatIsDrawnOfEachLevel) {
   panel_.setTrees(someTrees());
   EXPECT_TRUE(says(QStringLiteral("tiled levels are drawn")));
   LiveFrame frame;
-  frame.staticLod.drawn = true;
-  frame.staticLod.triangles[1] = 2345;
-  frame.staticLod.triangles[3] = 10000;
-  frame.staticLod.nodes[1] = 2;
+  const auto result = std::make_shared<FrameResult>();
+  frame.result = result;
+  result->staticLod.drawn = true;
+  result->staticLod.triangles[1] = 2345;
+  result->staticLod.triangles[3] = 10000;
+  result->staticLod.nodes[1] = 2;
   panel_.showFrame(frame);
   EXPECT_TRUE(test::eventually([&] { return says(QStringLiteral("12,345 triangles in 2 nodes")); }));
   bool bars = false;

@@ -82,7 +82,9 @@ TEST_F(TerrainPanelTest, showsTheLevelsOfWhatIsDrawn) {
   EXPECT_EQ(cell(1, 3), QStringLiteral("12.3"));
   EXPECT_TRUE(table().isColumnHidden(4)) << "of tiles no rms is known";
   LiveFrame frame;
-  frame.patches = true;
+  const auto result = std::make_shared<FrameResult>();
+  frame.result = result;
+  result->patches = true;
   frame.levels.nodes[2] = 5;
   frame.levels.triangles[2] = 2345;
   show(frame);
@@ -97,23 +99,25 @@ TEST_F(TerrainPanelTest, showsTheLevelsOfWhatIsDrawn) {
 TEST_F(TerrainPanelTest, saysWhatPagingLacks) {
   panel_.setTerrain(someTerrain());
   LiveFrame frame;
-  frame.patches = true;
-  frame.paging = {.waiting = 7,
-                  .heldBack = 12,
-                  .pagesRead = 40,
-                  .bytesRead = 9'000'000,
-                  .bytes = 30'000'000,
-                  .budgetBytes = 512'000'000,
-                  .longestReadMs = 3.25};
+  const auto result = std::make_shared<FrameResult>();
+  frame.result = result;
+  result->patches = true;
+  result->paging = {.waiting = 7,
+                    .heldBack = 12,
+                    .pagesRead = 40,
+                    .bytesRead = 9'000'000,
+                    .bytes = 30'000'000,
+                    .budgetBytes = 512'000'000,
+                    .longestReadMs = 3.25};
   show(frame);
   for (const char* text : {"30 MB of 512 MB", "40 pages", "12 pairs", "7 more pages"})
     EXPECT_TRUE(says(QString::fromUtf8(text))) << text;
-  frame.paging.waiting = 0;
-  frame.paging.failed = 3;
+  result->paging.waiting = 0;
+  result->paging.failed = 3;
   show(frame);
   EXPECT_TRUE(says(QStringLiteral("holds no more")));
   EXPECT_TRUE(says(QStringLiteral("3 pages cannot be read")));
-  frame.paging.heldBack = frame.paging.failed = 0;
+  result->paging.heldBack = result->paging.failed = 0;
   show(frame);
   EXPECT_FALSE(says(QStringLiteral("coarser than asked")));
 }

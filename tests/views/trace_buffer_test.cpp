@@ -15,7 +15,7 @@ namespace {
 LiveFrame frameAt(double time, double ms, std::uint64_t packet = 0) {
   LiveFrame frame;
   frame.time = time;
-  frame.packet = packet;
+  frame.input.state.packet = packet;
   frame.cost.total = ms;
   return frame;
 }
@@ -99,7 +99,9 @@ TEST(TraceBuffer, csvHoldsExactlyTheFramesOfTheRange) {
     LiveFrame frame =
         frameAt(i * 0.1, i % 2 == 0 ? 0.1 + i : std::nan(""), static_cast<std::uint64_t>(1000 + i));
     frame.decision.totalMembership = 0.6;
-    frame.triangles = 123456;
+    FrameResult result;
+    result.visible.triangles = 123456;
+    frame.result = std::make_shared<const FrameResult>(result);
     frame.cost.symbology = 0.25;
     frame.decision.motion.rateDegPerS = 75.5;
     frame.decision.lodScale = 2;

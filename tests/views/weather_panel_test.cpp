@@ -24,8 +24,7 @@ class WeatherPanelTest : public testing::Test {
   void fly(const AircraftState& state = {}) {
     LiveFrame frame;
     frame.decision.weather = decideWeather(state, *draft_.active());
-    frame.hostWeather = state.weather;
-    frame.hostVisibility = state.visibility;
+    frame.input.state = state;
     panel_.showFrame(frame);
   }
   bool says(const QString& text) {

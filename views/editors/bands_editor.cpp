@@ -103,7 +103,7 @@ BandsEditor::BandsEditor(Draft& draft, QWidget* parent)
 
 void BandsEditor::showFrame(const LiveFrame& frame) {
   decision_ = frame.decision;
-  mapDrawn_ = frame.depthMap.has_value();
+  mapDrawn_ = frame.drawn().depthMap.has_value();
   scale_->showFrame(frame);
   throttle_->request();
 }

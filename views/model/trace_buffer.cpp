@@ -82,9 +82,10 @@ void TraceBuffer::append(const LiveFrame& frame) {
   }
   const std::size_t at = count_ % capacity_, block = at / kBlock;
   times_[at] = now;
-  packets_[at] = frame.packet;
+  packets_[at] = frame.input.state.packet;
   const FrameDecision& d = frame.decision;
   const FrameCost& cost = frame.cost;
+  const std::optional<DepthMapSize>& depthMap = frame.drawn().depthMap;
   const auto measuredOr0 = [](double ms) { return std::isfinite(ms) ? ms : 0.0; };
   const double selectTop = measuredOr0(cost.decide) + measuredOr0(cost.select);
   const double pageTop = selectTop + measuredOr0(cost.page);
@@ -92,13 +93,13 @@ void TraceBuffer::append(const LiveFrame& frame) {
   const double measured[kTraces]{d.altitudeMembership,
                                  d.pitchMembership,
                                  d.totalMembership,
-                                 static_cast<double>(frame.triangles),
+                                 static_cast<double>(frame.drawn().visible.triangles),
                                  cost.total,
                                  frame.fps,
                                  cost.cull,
                                  cost.draw,
                                  cost.gpu,
-                                 frame.depthMap ? frame.depthMap->widthPx : 0.0,
+                                 depthMap ? depthMap->widthPx : 0.0,
                                  d.motion.rateDegPerS,
                                  d.lodScale,
                                  cost.select,

@@ -159,10 +159,11 @@ void CullingPanel::showHorizon(std::vector<float> elevationDeg, double headingDe
 }
 
 QString CullingPanel::whyNoHorizon() const {
-  if (!frame_.cullingNote.empty()) return QString::fromStdString(frame_.cullingNote);
-  if (frame_.occlusion == OcclusionMethod::horizon || frame_.occlusion == OcclusionMethod::horizon_and_map)
+  if (!frame_.drawn().note.empty()) return QString::fromStdString(frame_.drawn().note);
+  if (frame_.drawn().occlusion == OcclusionMethod::horizon ||
+      frame_.drawn().occlusion == OcclusionMethod::horizon_and_map)
     return horizonLeftOut();
-  if (frame_.occlusion || frame_.depthMap) return tr("A depth map serves, not the horizon.");
+  if (frame_.drawn().occlusion || frame_.drawn().depthMap) return tr("A depth map serves, not the horizon.");
   return tr("No horizon: nothing asks for one in this frame.");
 }
 
@@ -180,22 +181,24 @@ void CullingPanel::endPicking() {
 }
 
 QString CullingPanel::served() const {
-  const QString note = QString::fromStdString(frame_.cullingNote).toHtmlEscaped();
-  const QString size = frame_.depthMap
-                           ? tr(", %1 × %2 px").arg(frame_.depthMap->widthPx).arg(frame_.depthMap->heightPx)
-                           : QString();
-  if (frame_.occlusion) {
-    const OcclusionMethod method = *frame_.occlusion;
+  const QString note = QString::fromStdString(frame_.drawn().note).toHtmlEscaped();
+  const QString size =
+      frame_.drawn().depthMap
+          ? tr(", %1 × %2 px").arg(frame_.drawn().depthMap->widthPx).arg(frame_.drawn().depthMap->heightPx)
+          : QString();
+  if (frame_.drawn().occlusion) {
+    const OcclusionMethod method = *frame_.drawn().occlusion;
     const bool both = method == OcclusionMethod::horizon_and_map;
     QStringList sentences{whatServes(method, size)};
     if (!note.isEmpty()) sentences << note;
-    if (!frame_.horizon && note.isEmpty() && (both || method == OcclusionMethod::horizon))
+    if (!frame_.drawn().horizon && note.isEmpty() && (both || method == OcclusionMethod::horizon))
       sentences << horizonLeftOut();
-    if (!frame_.depthMap && frame_.tilesDrawn > 0 && (both || method == OcclusionMethod::cpu_map))
+    if (!frame_.drawn().depthMap && !frame_.drawn().visible.tiles.empty() &&
+        (both || method == OcclusionMethod::cpu_map))
       sentences << tr("The map is left out: near here one hid next to nothing.");
     return sentences.join(QLatin1Char(' '));
   }
-  if (frame_.depthMap) return tr("A <b>depth map</b> of the static trees serves%1.").arg(size);
+  if (frame_.drawn().depthMap) return tr("A <b>depth map</b> of the static trees serves%1.").arg(size);
   if (!note.isEmpty()) return tr("Nothing is looked for behind the ground.") + QLatin1Char(' ') + note;
   if (!frame_.decision.depthMap) return tr("The decision is plain view-frustum culling in this frame.");
   return tr("Nothing is looked for behind the ground in this case.");
@@ -205,7 +208,8 @@ void CullingPanel::refresh() {
   served_->setText(served());
   if (!hasHorizon_) horizon_->setReason(whyNoHorizon());
   if (stages_) stages_->refresh(true);
-  const LiveFrame& f = frame_;
+  const FrameResult& f = frame_.drawn();
+  const FrameCounters& work = f.counters;
   const double all = std::max<double>(1, static_cast<double>(f.tilesInCut));
   const auto bar = [&](const QString& name, std::size_t nodes, const QString& more, int colour) {
     return BarList::Bar{name,   static_cast<double>(nodes), all, count(nodes) + more, {},
@@ -213,15 +217,18 @@ void CullingPanel::refresh() {
   };
   // The colours of the picture where it is coloured by reason, as near as the palette has them.
   reasons_->setBars(
-      {bar(tr("drawn"), f.tilesDrawn, tr(" (%1 triangles)").arg(count(f.triangles)), 2),
-       bar(tr("outside the frustum"), f.outsideFrustum, {}, 1), bar(tr("hidden"), f.occluded, {}, 3),
-       bar(tr("beyond visibility"), f.beyondVisibility, {}, 4), bar(tr("facing away"), f.backFacing, {}, 0)});
+      {bar(tr("drawn"), f.visible.tiles.size(), tr(" (%1 triangles)").arg(count(f.visible.triangles)), 2),
+       bar(tr("outside the frustum"), f.visible.outsideFrustum, {}, 1),
+       bar(tr("hidden"), f.visible.occluded, {}, 3),
+       bar(tr("beyond visibility"), f.visible.beyondVisibility, {}, 4),
+       bar(tr("facing away"), f.visible.backFacing, {}, 0)});
   work_->setText(tr("Cuts chosen %1, views %2; horizons built %3, moved along %4, left out %5; depth maps "
                     "by GL %6, by the processor %7, left out %8; frames in which nothing was worth its "
                     "cost %9.")
-                     .arg(count(f.cutsSelected), count(f.visibleSelected), count(f.horizonsBuilt),
-                          count(f.horizonsMoved), count(f.horizonsLeftOut), count(f.depthMapsDrawn),
-                          count(f.mapsDrawnByCpu), count(f.mapsLeftOut), count(f.occlusionsLeftOut)));
+                     .arg(count(work.cutsSelected), count(work.visibleSelected), count(work.horizonsBuilt),
+                          count(work.horizonsMoved), count(work.horizonsLeftOut), count(work.depthMapsDrawn),
+                          count(work.mapsDrawnByCpu), count(work.mapsLeftOut),
+                          count(work.occlusionsLeftOut)));
 }
 
 }  // namespace trimtab::views

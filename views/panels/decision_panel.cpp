@@ -119,7 +119,7 @@ void DecisionPanel::showFrame(const LiveFrame& frame) {
   if (log_->isChange(frame.decision)) {
     // Scheme and depth map have columns of their own.
     const QString reason = QString::fromStdString(explain(frame.decision, draft_.active()));
-    log_->append(frame.time, frame.packet, frame.decision,
+    log_->append(frame.time, frame.input.state.packet, frame.decision,
                  reason.mid(reason.indexOf(QStringLiteral(": ")) + 1).trimmed());
   }
   throttle_.request();

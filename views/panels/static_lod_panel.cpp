@@ -158,7 +158,7 @@ void StaticLodPanel::refresh() {
         "folder with .stg or .btg.gz files. It is built into trees once and kept."));
     return;
   }
-  const StaticLodFrame& now = frame_.staticLod;
+  const StaticLodFrame& now = frame_.drawn().staticLod;
   std::uint64_t drawn = 0, nodes = 0;
   for (std::size_t d = 0; d < StaticLodFrame::kDepths; ++d) drawn += now.triangles[d], nodes += now.nodes[d];
   state_->setText(

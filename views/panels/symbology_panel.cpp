@@ -56,8 +56,8 @@ SymbologyPanel::SymbologyPanel(Draft& draft, QWidget* parent)
       table_(new QWidget),
       throttle_(this, [this] {
         counts_->setText(tr("Drawn in %L1 pictures, made anew %L2 times")
-                             .arg(frame_.symbologyDraws)
-                             .arg(frame_.symbologyRedraws));
+                             .arg(frame_.drawn().counters.symbologyDraws)
+                             .arg(frame_.drawn().counters.symbologyRedraws));
       }) {
   place_->setCheckable(true);
   place_->setToolTip(

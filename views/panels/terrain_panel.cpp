@@ -161,7 +161,7 @@ void TerrainPanel::refresh() {
   table_->setVisible(terrain_.has_value());
   drawn_->setVisible(terrain_.has_value());
   if (!terrain_) return paging_->hide();
-  const bool patches = frame_.patches || terrain_->tiles.empty();
+  const bool patches = frame_.drawn().patches || terrain_->tiles.empty();
   const std::vector<TerrainLevel>& levels = patches ? terrain_->patches : terrain_->tiles;
   if (shownPatches_ != patches) {
     levels_->setLevels(levels, !patches);
@@ -173,13 +173,13 @@ void TerrainPanel::refresh() {
     shownPatches_ = patches;
   }
   levels_->setDrawn(frame_.levels);
-  drawn_->setText(frame_.staticLod.drawn ? tr("The static trees are drawn, not these levels.")
+  drawn_->setText(frame_.drawn().staticLod.drawn ? tr("The static trees are drawn, not these levels.")
                   : patches
                       ? tr("<b>Patches</b> of triangles, the error bounded in every one; they fit at any "
                            "mixture of levels.")
                       : tr("<b>Tiles</b> of regular posts, 32 × 32 cells each."));
   paging_->setVisible(patches);
-  const PagingFrame& p = frame_.paging;
+  const PagingFrame& p = frame_.drawn().paging;
   QString text =
       tr("In memory %1 of %2; read %3 pages, %4; longest read %5 ms.")
           .arg(megabytes(p.bytes), megabytes(p.budgetBytes), numberText(static_cast<double>(p.pagesRead), 0),

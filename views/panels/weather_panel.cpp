@@ -75,17 +75,16 @@ QString ratioText(double ratio) {
   return numberText(ratio, 7);
 }
 
-QString hostText(const LiveFrame& frame) {
+QString hostText(const AircraftState& state) {
   QStringList said;
-  if (frame.hostWeather) {
-    const HostWeather& w = *frame.hostWeather;
+  if (state.weather) {
+    const HostWeather& w = *state.weather;
     said << (w.precipitation == Precipitation::none
                  ? QObject::tr("nothing falls")
                  : QObject::tr("%1 of severity %2").arg(fromView(toText(w.precipitation))).arg(w.severity));
     if (w.visibility) said << QObject::tr("%1 in it").arg(distanceText(w.visibility->value()));
   }
-  if (frame.hostVisibility)
-    said << QObject::tr("visibility %1").arg(distanceText(frame.hostVisibility->value()));
+  if (state.visibility) said << QObject::tr("visibility %1").arg(distanceText(state.visibility->value()));
   return said.isEmpty() ? QObject::tr("nothing of weather") : said.join(QStringLiteral(", "));
 }
 
@@ -270,10 +269,10 @@ void WeatherPanel::refresh() {
   density_->setText(numberText(d.density, 3));
   ratio_->setText(std::isfinite(d.farM) ? ratioText(d.nearFarRatio) : tr("no cut"));
   far_->setText(distanceText(d.farM));
-  cut_->setText(
-      tr("%1 of %2 tiles")
-          .arg(numberText(double(frame_.beyondVisibility), 0), numberText(double(frame_.tilesInCut), 0)));
-  host_->setText(hostText(frame_));
+  cut_->setText(tr("%1 of %2 tiles")
+                    .arg(numberText(double(frame_.drawn().visible.beyondVisibility), 0),
+                         numberText(double(frame_.drawn().tilesInCut), 0)));
+  host_->setText(hostText(frame_.input.state));
 }
 
 }  // namespace trimtab::views

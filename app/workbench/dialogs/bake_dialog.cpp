@@ -53,8 +53,8 @@ BakeDialog::BakeDialog(QWidget* parent)
   sources_->setAccessibleName(tr("Elevation and scenery"));
   sources_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   sources_->setToolTip(
-      tr("Files may overlap and differ in projection, datum and resolution: the finest leads where there are "
-         "several, and borders are blended. Folders stand for the files in them."));
+      tr("Files may overlap and may differ in projection, datum and resolution. Where several overlap, the "
+         "finest one is used, and borders are blended. A folder adds all files in it."));
   sources_->setMinimumHeight(110);
   auto* files = new QPushButton(tr("Add &files..."), this);
   auto* folder = new QPushButton(tr("Add f&older..."), this);
@@ -80,7 +80,7 @@ BakeDialog::BakeDialog(QWidget* parent)
     const QString file = QFileDialog::getOpenFileName(this, tr("Image to drape"), {}, kImages);
     if (!file.isEmpty()) imagery_->setText(file);
   });
-  output_->setToolTip(tr("A new folder, or a database to be replaced once the new one is whole"));
+  output_->setToolTip(tr("A new folder, or a database that is replaced once the new one is complete"));
   auto* browseOutput = new QPushButton(tr("Bro&wse..."), this);
   connect(browseOutput, &QPushButton::clicked, this, [this] {
     const QString chosen = QFileDialog::getSaveFileName(this, tr("Folder of the database"), output_->text(),
@@ -95,13 +95,13 @@ BakeDialog::BakeDialog(QWidget* parent)
   error_->setToolTip(tr("Largest vertical distance from the posts; 0 keeps every post"));
   error_->setAccessibleName(tr("Error of the finest patches"));
   error_->setEnabled(false);
-  ownError_->setToolTip(tr("Otherwise a tenth of the distance of posts"));
+  ownError_->setToolTip(tr("If this is off, a tenth of the distance between posts is used"));
   connect(ownError_, &QCheckBox::toggled, error_, &QWidget::setEnabled);
   memory_->setRange(128, 1 << 20);
   memory_->setSingleStep(128);
   memory_->setValue(static_cast<int>(terrain::BakeOptions{}.memory.value()));
   memory_->setSuffix(tr(" MB"));
-  memory_->setToolTip(tr("Baking uses no more, however large the data are"));
+  memory_->setToolTip(tr("Baking uses no more memory than this, however large the data are"));
 
   auto* form = new QFormLayout;
   form->addRow(tr("&Elevation,\nscenery"), sourceColumn);
@@ -170,14 +170,14 @@ void BakeDialog::check() {
   else if (folder.exists() && !folder.isDir())
     problem = tr("%1 is a file; a database is a folder.").arg(output);
   else if (!terrain::mayReplace(output.toStdString()))
-    problem = tr("%1 holds something else, which stays as it is: name a new folder.").arg(output);
+    problem = tr("%1 holds other files, which are left alone: name a new folder.").arg(output);
   bake_->setEnabled(problem.isEmpty());
   if (!problem.isEmpty())
     note_->setText(problem);
   else if (terrain::isDatabase(output.toStdString()))
-    note_->setText(tr("The database there is replaced once the new one is whole."));
+    note_->setText(tr("The database there is replaced once the new one is complete."));
   else
-    note_->setText(tr("A bake that was stopped half-way goes on where its folder is named again."));
+    note_->setText(tr("To resume a bake that was stopped, name its folder again."));
 }
 
 terrain::BakeOptions BakeDialog::options() const {

@@ -17,16 +17,16 @@ class QSpinBox;
 
 namespace trimtab::workbench {
 
-/// Asks what is to be baked into a terrain database, and where to.
+/// Asks what to bake into a terrain database, and into which folder.
 class BakeDialog : public QDialog {
   Q_OBJECT
 
  public:
   explicit BakeDialog(QWidget* parent = nullptr);
 
-  /// Files and folders to begin with, as from a drop.
+  /// Adds files and folders to the list of sources.
   void addSources(const QStringList& paths);
-  /// What is asked for; its progress is the caller's to set.
+  /// Returns what the person asked for. The caller sets how progress is reported.
   terrain::BakeOptions options() const;
 
  private:

@@ -46,7 +46,7 @@ BenchDialog::BenchDialog(const QString& folder, QWidget* parent)
     const QString name = QString::fromUtf8(shipped.data(), qsizetype(shipped.size()));
     add(name, name);
   }
-  add(tr("the draft, as it stands"), BenchChoice::kDraft);
+  add(tr("the draft, as it is now"), BenchChoice::kDraft);
   presets_->setAccessibleName(tr("Presets"));
   presets_->setMaximumHeight(130);
   auto* file = new QPushButton(tr("&Add a preset..."), this);
@@ -67,11 +67,11 @@ BenchDialog::BenchDialog(const QString& folder, QWidget* parent)
       QRegularExpression(QStringLiteral("[1-9][0-9]{1,4}x[1-9][0-9]{1,4}")), size_));
   frames_->setRange(2, 100000);
   frames_->setValue(BenchChoice().frames);
-  frames_->setToolTip(tr("Evenly spread over the flight"));
+  frames_->setToolTip(tr("The frames are spread evenly over the flight"));
   repeats_->setRange(1, 1000);
   repeats_->setValue(BenchChoice().repeats);
-  repeats_->setToolTip(tr("Timed draws of each frame, of which the median counts"));
-  folder_->setToolTip(tr("A measurement that was stopped half-way goes on where its folder is named again"));
+  repeats_->setToolTip(tr("How often each frame is drawn and timed; the median counts"));
+  folder_->setToolTip(tr("To resume a measurement that was stopped, name its folder again"));
   auto* browse = new QPushButton(tr("&Browse..."), this);
   connect(browse, &QPushButton::clicked, this, [this] {
     const QString chosen = QFileDialog::getExistingDirectory(this, tr("Folder for the results"));
@@ -109,7 +109,7 @@ BenchDialog::BenchDialog(const QString& folder, QWidget* parent)
 void BenchDialog::check() {
   const BenchChoice chosen = choice();
   const auto units = chosen.presets.size() * chosen.cases.size();
-  amount_->setText(tr("%L1 timed pictures of %L2 frames, and the reference of each")
+  amount_->setText(tr("%L1 timed images of %L2 frames, and a reference image of each")
                        .arg(units * chosen.frames * chosen.repeats)
                        .arg(units * chosen.frames));
   measure_->setEnabled(units > 0 && size_->hasAcceptableInput() && !chosen.folder.isEmpty());

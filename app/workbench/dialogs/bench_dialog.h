@@ -14,18 +14,18 @@ class QSpinBox;
 
 namespace trimtab::workbench {
 
-/// What `trimtab-cli bench` is to measure.
+/// What `trimtab-cli bench` should measure.
 struct BenchChoice {
-  static const QString kDraft;  ///< stands among the presets for the preset as it is being edited
+  static const QString kDraft;  ///< the name that means the preset that is being edited
 
   QStringList presets;  ///< shipped names, files, or kDraft
   QStringList cases{QStringLiteral("view_frustum"), QStringLiteral("proposed")};
   QString size = QStringLiteral("1280x720");
   int frames = 60, repeats = 5;
-  QString folder;  ///< of the results; one that was stopped half-way goes on
+  QString folder;  ///< for the results; a measurement that was stopped there is resumed
 };
 
-/// Asks for it.
+/// Asks a person what to measure.
 class BenchDialog : public QDialog {
   Q_OBJECT
 

@@ -3,6 +3,7 @@
 
 #include <QComboBox>
 #include <QDialogButtonBox>
+#include <QFileInfo>
 #include <QFormLayout>
 #include <QLineEdit>
 #include <QPlainTextEdit>
@@ -65,6 +66,13 @@ QString ExportDialog::suffix() const {
 
 QString ExportDialog::fileFilter() const {
   return QStringLiteral("%1 (*.%2)").arg(format_->currentText(), suffix());
+}
+
+ExportFormat exportFormatOf(const QString& file) {
+  const QString ending = QFileInfo(file).suffix().toLower();
+  return ending == QLatin1String("xml")   ? ExportFormat::xml
+         : ending == QLatin1String("ini") ? ExportFormat::ini
+                                          : ExportFormat::json;
 }
 
 }  // namespace trimtab::workbench

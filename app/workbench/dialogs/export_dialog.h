@@ -11,8 +11,8 @@ class QPlainTextEdit;
 
 namespace trimtab::workbench {
 
-/// Asks for what goes into an export beside the parameters: format, author, comment. The author is
-/// remembered.
+/// Asks for what an export contains beside the parameters: format, author and comment. The author is
+/// remembered in the user's settings.
 class ExportDialog : public QDialog {
   Q_OBJECT
 
@@ -30,7 +30,7 @@ class ExportDialog : public QDialog {
   QPlainTextEdit* comment_;
 };
 
-/// By the file's ending; JSON where it is neither .xml nor .ini.
+/// Returns the format by the file's ending: JSON unless it is .xml or .ini.
 ExportFormat exportFormatOf(const QString& file);
 
 }  // namespace trimtab::workbench

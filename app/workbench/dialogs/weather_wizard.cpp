@@ -92,10 +92,9 @@ WeatherWizard::WeatherWizard(views::Draft& draft, WeatherStage stage, QWidget* p
       plot_(new views::ReportPlot(this)) {
   setWindowTitle(tr("Calibrate weather"));
   auto* intro = new QLabel(
-      tr("Draws the view as it stands in clear air and in each weather step, without the cut and with the "
-         "strongest one that removes nothing visible. Where the cut wins more than the weather costs, the "
-         "far "
-         "plane is pushed out until both match.\n%1")
+      tr("Draws the current view in clear air and in each weather step, without the cut and with the "
+         "strongest cut that removes nothing visible. Where the cut saves more than the weather costs, "
+         "the far plane is moved out until both match.\n%1")
           .arg(stage_.conditions),
       this);
   intro->setWordWrap(true);
@@ -111,7 +110,7 @@ WeatherWizard::WeatherWizard(views::Draft& draft, WeatherStage stage, QWidget* p
   frames_->setRange(1, 99);
   frames_->setValue(5);
   frames_->setSuffix(tr(" frames"));
-  frames_->setToolTip(tr("Frames a measurement, whose median counts; more where other programs run"));
+  frames_->setToolTip(tr("Frames per measurement; their median counts. Choose more if other programs run"));
   auto* framesLabel = new QLabel(tr("&Median of"), this);
   framesLabel->setBuddy(frames_);
 
@@ -157,7 +156,7 @@ WeatherWizard::WeatherWizard(views::Draft& draft, WeatherStage stage, QWidget* p
   write_->setAutoDefault(false);
   close_->setAutoDefault(false);
   write_->setToolTip(
-      tr("Far planes, and densities where the cut is not enough, as one step that can be undone"));
+      tr("Writes the far planes, and densities where the cut is not enough, as one step that can be undone"));
   connect(run_, &QPushButton::clicked, this, [this] { running_ ? cancel() : start(); });
   connect(write_, &QPushButton::clicked, this, &WeatherWizard::write);
   connect(close_, &QPushButton::clicked, this, &WeatherWizard::reject);
@@ -240,12 +239,12 @@ void WeatherWizard::start() {
   showPlot();
   setRunning(false);
   if (failed_)
-    status_->setText(tr("Nothing can be drawn any more: the steps above are measured, the others are not."));
+    status_->setText(tr("Nothing can be drawn any more: only the steps above are measured."));
   else if (cancelled_)
     status_->setText(tr("Cancelled: %1 of %2 steps are measured.").arg(results_.size()).arg(chosen.size()));
   else
     status_->setText(chosen.empty() ? tr("No step is chosen.")
-                                    : tr("Done. The preset is as it was until you write."));
+                                    : tr("Done. The preset is unchanged until you write."));
   if (closing_) QDialog::reject();
 }
 
@@ -294,7 +293,7 @@ void WeatherWizard::write() {
   TuningParameters parameters = draft_.parameters();
   for (const StepCalibration& result : results_) apply(result, parameters);
   draft_.takeParameters(parameters, tr("Calibrate Weather"));
-  status_->setText(tr("Written: one step that Edit > Undo takes back."));
+  status_->setText(tr("Written as one step, which Edit > Undo reverts."));
 }
 
 void WeatherWizard::reject() {

@@ -22,35 +22,36 @@ class ReportPlot;
 
 namespace trimtab::workbench {
 
-/// What the wizard measures with: the picture at hand, drawn again and again.
+/// What the wizard measures with: the current view, drawn again and again.
 struct WeatherStage {
   struct Frame {
-    double ms = 0;  ///< until the picture was finished
+    double ms = 0;  ///< until the image was finished
     std::uint64_t tilesBuilt =
         0;  ///< since the renderer was made: a picture that builds tiles does not count
   };
-  /// Draws the picture with this weather; none where nothing can be drawn any more.
+  /// Draws the view in this weather. Returns nothing if it cannot be drawn any more.
   std::function<std::optional<Frame>(const WeatherDecision&)> draw;
   double farthestM = 0;  ///< from the eye to the terrain's farthest corner
-  QString conditions;    ///< what is drawn, how large, by what
+  QString conditions;    ///< says what is drawn, at which size and by which renderer
 };
 
-/// Document D's calibration on this machine: what each weather step costs, what the cut wins back, and the
-/// far plane and density at which both match, written into the draft as one undo step. Measures on the main
-/// thread a picture at a time; between two pictures the window answers.
+/// Runs document D's calibration on this machine. It measures what each weather step costs and what the cut
+/// saves, and finds the far plane and the density at which both match; these are written into the draft as
+/// one undo step. It measures on the main thread, one image at a time; between two images the window
+/// responds.
 class WeatherWizard : public QDialog {
   Q_OBJECT
 
  public:
   WeatherWizard(views::Draft& draft, WeatherStage stage, QWidget* parent = nullptr);
 
-  /// Measures the chosen steps; returns when all are done or somebody cancelled.
+  /// Measures the chosen steps. Returns when all are done, or when the person cancels.
   void start();
   void cancel() { cancelled_ = true; }
   bool running() const { return running_; }
-  /// Of the steps that were measured to their end.
+  /// Returns the results of the steps that were measured completely.
   const std::vector<StepCalibration>& results() const { return results_; }
-  /// The results into the draft.
+  /// Writes the results into the draft.
   void write();
 
   void reject() override;

@@ -108,22 +108,22 @@ ErrorDock::ErrorDock(views::Draft& draft, DrawThread& thread, LiveMeter::Source 
   for (const views::ErrorRun::Error& error : nothing.errors) errors_->addItem(titleOf(error), error.key);
   errors_->setCurrentIndex(std::max(0, errors_->findData(QLatin1String(kFirstError))));
   errors_->setAccessibleName(tr("Error"));
-  errors_->setToolTip(tr("Which error is drawn"));
+  errors_->setToolTip(tr("Error that the plots show"));
   flights_->setAccessibleName(tr("Flight"));
-  flights_->setToolTip(tr("Which measured flight is drawn"));
+  flights_->setToolTip(tr("Measured flight that the plots show"));
   cases_->setAccessibleName(tr("Culling case"));
   cases_->setToolTip(tr("Culling case along the flight"));
   for (QComboBox* box : {errors_, flights_, cases_}) {
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     box->setMinimumContentsLength(6);
   }
-  logarithmic_->setToolTip(tr("Scale of the frame time"));
+  logarithmic_->setToolTip(tr("Shows the frame time on a logarithmic scale"));
   liveOn_->setChecked(true);
   liveOn_->setToolTip(
-      tr("About once a second the picture that is shown is drawn again beside its reference, on another "
-         "processor core, and held against it"));
-  open_->setToolTip(tr("The results.json of trimtab-cli bench"));
-  compare_->setToolTip(tr("Two presets on the frame that is shown, with the map of their differences"));
+      tr("About once a second, draws the current image and its reference again on another processor "
+         "core, and compares them"));
+  open_->setToolTip(tr("Opens the results.json that trimtab-cli bench writes"));
+  compare_->setToolTip(tr("Shows two presets on the current frame, with a map of their differences"));
   status_->setWordWrap(true);
   liveLabel_->setWordWrap(true);
   liveLabel_->setAccessibleName(tr("Live measurement"));
@@ -139,7 +139,7 @@ ErrorDock::ErrorDock(views::Draft& draft, DrawThread& thread, LiveMeter::Source 
   connect(flights_, &QComboBox::currentTextChanged, this, [this](const QString& flight) {
     plot_->showFlight(flight);
     timeline_->showFlight(flight);
-    flights_->setToolTip(tr("Which measured flight is drawn: %1").arg(flight));
+    flights_->setToolTip(tr("Measured flight that the plots show: %1").arg(flight));
     emit flightShown();
   });
   connect(cases_, &QComboBox::currentIndexChanged, this,
@@ -250,7 +250,7 @@ void ErrorDock::onMeasured(const LiveMeter::Measured& measured) {
 
 QString ErrorDock::liveText() const {
   if (!liveOn_->isChecked()) return tr("Live: off");
-  if (!lastMeasured_) return tr("Live: waiting for a picture");
+  if (!lastMeasured_) return tr("Live: waiting for an image");
   harness::MeasuredFrame frame;
   frame.error = lastMeasured_->error;
   const int index = errors_->currentIndex();
@@ -261,13 +261,13 @@ QString ErrorDock::liveText() const {
            views::msText(lastMeasured_->frameMs), views::msText(lastMeasured_->tookMs))
       .arg(lastMeasured_->widthPx)
       .arg(lastMeasured_->heightPx)
-      .arg(lastMeasured_->smaller ? tr(", smaller as it takes long") : QString());
+      .arg(lastMeasured_->smaller ? tr(", smaller because it takes long") : QString());
 }
 
 void ErrorDock::setRunning(bool running) {
   measure_->setText(running ? tr("&Cancel") : tr("&Measure..."));
   measure_->setToolTip(
-      running ? tr("What is measured by then is kept, and the same folder goes on from there")
+      running ? tr("What has been measured is kept; measuring into the same folder resumes")
               : tr("Measure presets along the open flight, or the recorded trace, over the open terrain"));
   measure_->setAccessibleName(running ? tr("Cancel measuring") : tr("Measure presets"));
   progress_->setVisible(running);
@@ -309,12 +309,12 @@ void ErrorDock::cancel() {
 void ErrorDock::onEnded(const ChildRun::Ended& how) {
   setRunning(false);
   if (how.cancelled) {
-    status_->setText(tr("Cancelled. Measured again with the same folder, it goes on."));
+    status_->setText(tr("Cancelled. Measure into the same folder again to resume."));
     status_->setToolTip(QFileInfo(measuring_).path());
     return emit finished(false);
   }
   if (!how.good) {
-    status_->setText(tr("Failed; the results before stay."));
+    status_->setText(tr("Failed; the earlier results are kept."));
     emit refused(tr("The presets cannot be measured"), how.findings);
     return emit finished(false);
   }
@@ -351,7 +351,7 @@ bool ErrorDock::openResults(const QString& file) {
 
 void ErrorDock::showResults() {
   report_->setEnabled(!report().isEmpty());
-  report_->setToolTip(report().isEmpty() ? tr("No report.html stands beside the results") : report());
+  report_->setToolTip(report().isEmpty() ? tr("There is no report.html beside the results") : report());
   const views::ErrorRun run = results_ ? toView(*results_) : views::ErrorRun{errorList(), {}};
   plot_->show(run);
   timeline_->show(run);

@@ -22,29 +22,31 @@ class QPushButton;
 
 namespace trimtab::workbench {
 
-/// Run time against error: the presets as a benchmark measured them and the live session among them, and the
-/// frames of the flight along time, whose cursor is the flight's.
+/// Shows run time against error: presets as a benchmark measured them, with the live session among them, and
+/// the measured frames along the flight, with a cursor that moves with the flight.
 class ErrorDock : public QWidget {
   Q_OBJECT
 
  public:
-  /// What a benchmark runs over, as files; what is only in memory is written into the folder.
+  /// The files that a benchmark runs over. What exists only in memory is written into the folder first.
   struct Inputs {
     QString terrain, flight, draft;
   };
-  /// None: said already why not.
+  /// Returns nothing if a run is impossible, after reporting why.
   using Source = std::function<std::optional<Inputs>(const QString& folder)>;
 
   ErrorDock(views::Draft& draft, DrawThread& thread, LiveMeter::Source live, Source source,
             QWidget* parent = nullptr);
 
-  /// Whether a person can see it. Qt calls a dock behind other tabs visible.
+  /// Sets whether a person can see it. It cannot find out itself, because Qt calls a dock behind other tabs
+  /// visible.
   void setSeen(bool seen);
-  /// The viewport painted a picture; `time` in seconds.
+  /// Call this after the viewport has painted. `time` is in seconds.
   void painted(double time, double frameMs);
-  /// What was live is no longer comparable: another terrain, or a pause.
+  /// Forgets what was measured live, because it can no longer be compared: another terrain was opened, or
+  /// live measuring paused.
   void restartLive();
-  /// Where the flight stands on its own clock, s; NaN: none flies.
+  /// Moves the cursor to this time on the flight's own clock, seconds. NaN hides it, because nothing flies.
   void followFlight(double timeS);
 
   void askAndMeasure();
@@ -54,9 +56,9 @@ class ErrorDock : public QWidget {
   void askOpenResults();
   bool openResults(const QString& file);
   const std::optional<harness::Results>& results() const { return results_; }
-  /// The measured flight that is drawn; empty: none.
+  /// Returns the measured flight that is shown; empty if none is.
   QString flight() const;
-  /// Beside the results; empty: none.
+  /// Returns the report.html beside the results; empty if there is none.
   QString report() const;
   void openReport();
 
@@ -71,8 +73,8 @@ class ErrorDock : public QWidget {
  signals:
   void finished(bool good);
   void refused(const QString& what, const trimtab::Findings& findings);
-  void sought(double timeS);  ///< the person moved the cursor of the flight
-  void flightShown();         ///< another measured flight is drawn, or the same of other results
+  void sought(double timeS);  ///< the person moved the cursor to this time of the flight
+  void flightShown();         ///< another measured flight is shown, or other results of the same
   void comparisonAsked();
 
  private:
@@ -88,7 +90,7 @@ class ErrorDock : public QWidget {
   LiveMeter live_;
   ChildRun child_;
   QTemporaryDir folder_;
-  QString resultsFile_;  ///< of what is shown, or to be shown once it is measured
+  QString resultsFile_;  ///< what is shown, or will be shown once it is measured
   QString measuring_;
   std::optional<harness::Results> results_;
   std::optional<LiveMeter::Measured> lastMeasured_;

@@ -103,12 +103,12 @@ ExperimentsDock::ExperimentsDock(Source source, QWidget* parent)
   size_->setValidator(new QRegularExpressionValidator(
       QRegularExpression(QStringLiteral("[1-9][0-9]{1,4}x[1-9][0-9]{1,4}")), size_));
   size_->setMaximumWidth(90);
-  size_->setToolTip(tr("Render size, px: smaller is quicker; ratios compare at one size only"));
+  size_->setToolTip(tr("Render size in pixels. Smaller is faster; compare ratios at one size only"));
   repeats_->setRange(1, 100);
   repeats_->setValue(3);
   repeats_->setSuffix(tr(" frames"));
-  repeats_->setToolTip(tr("Frames a view whose median counts"));
-  repeats_->setAccessibleName(tr("Frames a view"));
+  repeats_->setToolTip(tr("Frames per view; their median counts"));
+  repeats_->setAccessibleName(tr("Frames per view"));
   notes_->setReadOnly(true);
   machine_->setWordWrap(true);
   status_->setWordWrap(true);
@@ -172,8 +172,8 @@ void ExperimentsDock::setRunning(bool running) {
     input->setEnabled(!running);
   if (!running && !report_)
     status_->setText(
-        tr("Runs over the open terrain, the loaded flight and the preset "
-           "as it stands, on this machine. Other work disturbs it."));
+        tr("Runs over the open terrain, the open flight and the current preset, on this machine. Other "
+           "programs disturb the times."));
 }
 
 void ExperimentsDock::run() {
@@ -206,7 +206,7 @@ void ExperimentsDock::onEnded(const ChildRun::Ended& how) {
   setRunning(false);
   const QString name = which_->currentText();
   if (how.cancelled) {
-    status_->setText(tr("Cancelled; the results before stay."));
+    status_->setText(tr("Cancelled; the earlier results are kept."));
     emit finished(false);
     return;
   }
@@ -221,7 +221,7 @@ void ExperimentsDock::onEnded(const ChildRun::Ended& how) {
     }
   }
   if (!findings.empty()) {
-    status_->setText(tr("Failed; the results before stay."));
+    status_->setText(tr("Failed; the earlier results are kept."));
     emit refused(tr("The experiment failed"), findings);
     emit finished(false);
     return;

@@ -24,18 +24,19 @@ class ReportPlot;
 
 namespace trimtab::workbench {
 
-/// What an experiment is to run over, as files.
+/// The files that an experiment runs over.
 struct ExperimentInputs {
   QString terrain, flight, preset;  ///< the flight may be empty
 };
 
-/// Runs the published experiments over the terrain, flight and preset at hand, and shows their rows beside
-/// ours. They run as a program of their own: the picture here goes on, and cancelling is sure.
+/// Runs the published experiments over the open terrain, flight and preset, and shows the published rows
+/// beside the measured ones. They run as a program of their own, so the viewport goes on and cancelling
+/// always works.
 class ExperimentsDock : public QWidget {
   Q_OBJECT
 
  public:
-  /// Writes what is only in memory into the folder; none: no terrain is open.
+  /// Writes what exists only in memory into the folder. Returns nothing if no terrain is open.
   using Source = std::function<std::optional<ExperimentInputs>(const QString& folder)>;
 
   explicit ExperimentsDock(Source source, QWidget* parent = nullptr);

@@ -70,8 +70,8 @@ FlightDock::FlightDock(Feed& feed, QWidget* parent)
   speed_->setPrefix(QStringLiteral("× "));
   speed_->setAccessibleName(tr("Speed"));
   via_->addItems({tr("here, without a network"), tr("over UDP, CIGI 3.3"), tr("over UDP, native-fdm")});
-  via_->setToolTip(
-      tr("Over UDP the flight takes the way of a real host, into the port that the Host dock listens on"));
+  via_->setToolTip(tr(
+      "Over UDP the flight is sent like a real host's packets, to the port that the Host dock listens on"));
   auto* form = new QFormLayout;
   auto* speedRow = new QHBoxLayout;
   speedRow->addWidget(speed_, 1);

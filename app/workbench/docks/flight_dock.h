@@ -16,23 +16,25 @@ class QSlider;
 
 namespace trimtab::workbench {
 
-/// Plays a flight: here, or over real UDP into this program's own port.
+/// Plays a flight, either inside this program or over real UDP into this program's own port.
 class FlightDock : public QWidget {
   Q_OBJECT
 
  public:
   explicit FlightDock(Feed& feed, QWidget* parent = nullptr);
 
+  /// Returns what was wrong with the file. An error among the findings means that it was not opened.
   Findings open(const QString& file);
-  /// Where the open flight was read from; empty: nowhere, or the file is no longer the one that was read.
+  /// Returns the file that the open flight was read from; empty if there is none, or if the file has changed
+  /// since.
   QString file() const;
   void play();
   void pause();
   void stop();  ///< pauses and returns to the start
   bool playing() const;
-  /// Takes the flight to a place, seconds from its start, whether it plays or not.
+  /// Moves the flight to this many seconds from its start, whether it plays or not.
   void seek(double position);
-  /// Where it is; over UDP what was sent last.
+  /// Returns seconds from the flight's start; over UDP, the state that was sent last.
   double position() const;
 
  signals:
@@ -57,9 +59,9 @@ class FlightDock : public QWidget {
   QCheckBox* loop_;
   QComboBox* via_;
   QString file_;
-  QDateTime fileOf_;  ///< when it was written last, as it was read
+  QDateTime fileOf_;  ///< the file's time stamp when it was read
   bool udpPaused_ = false;
-  QTimer refresh_;  ///< runs only while a flight plays and this can be seen
+  QTimer refresh_;  ///< runs only while a flight plays and the dock is visible
 };
 
 }  // namespace trimtab::workbench

@@ -97,7 +97,7 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
   protocol_->setAccessibleName(tr("Protocol"));
   reply_->setPlaceholderText(tr("host:port; empty: nothing is sent"));
   reply_->setText(QSettings().value(QStringLiteral("host/reply")).toString());
-  reply_->setToolTip(tr("Start of Frame goes there, so that a host that waits for the image generator runs"));
+  reply_->setToolTip(tr("Start of Frame is sent there, for a host that waits for its image generator"));
   reply_->setAccessibleName(tr("Reply address"));
   auto* portRow = new QHBoxLayout;
   portRow->addWidget(port_, 1);
@@ -109,20 +109,20 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
 
   state_ = addRow(*form, tr("Link"), {});
   detected_ = addRow(*form, tr("Speaks"), tr("Protocol found in the packets, and who sends them"));
-  rate_ = addRow(*form, tr("Rate"), tr("States a second, over the last second"));
+  rate_ = addRow(*form, tr("Rate"), tr("States per second, over the last second"));
   jitter_ = addRow(*form, tr("Jitter"), tr("Smoothed deviation of the gaps between packets"));
-  loss_ = addRow(*form, tr("Lost"), tr("By the host's frame numbers"));
+  loss_ = addRow(*form, tr("Lost"), tr("Packets that are missing in the host's frame numbers"));
   age_ = addRow(*form, tr("Last packet"), tr("Age of the newest packet"));
   decoded_ = addRow(*form, tr("To decoded, p99"), tr("From the kernel's time stamp to the decoded state"));
-  picture_ = addRow(*form, tr("To picture, p99"),
-                    tr("From the kernel's time stamp to the finished picture that shows the packet"));
+  picture_ = addRow(*form, tr("To image, p99"),
+                    tr("From the kernel's time stamp to the finished image that shows the packet"));
   counts_ = addRow(*form, tr("Packets"), {});
   jumps_ = addRow(*form, tr("Jumps"), tr("Position changes too large for any aircraft"));
   weather_ =
-      addRow(*form, tr("Weather passed over"),
-             tr("Weather Control that is not drawn: of regions and entities, and of layers other than rain "
-                "and snow"));
-  bad_ = addRow(*form, tr("Bad packets"), tr("Refused; the first one is shown below"));
+      addRow(*form, tr("Weather ignored"),
+             tr("Weather Control packets that are not drawn: for regions, for entities, and for layers other "
+                "than rain and snow"));
+  bad_ = addRow(*form, tr("Bad packets"), tr("Packets that were refused; the first one is shown below"));
   for (QLabel* wide : {picture_, counts_}) wide->setWordWrap(true);
   firstBad_->setReadOnly(true);
   firstBad_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
@@ -275,7 +275,7 @@ void HostDock::refresh() {
                                   number(host.reordered), number(feed_.receiver()->dropped()))
                        : kNone);
   jumps_->setText(any ? number(std::max(session.jumps(), host.jumps)) : kNone);
-  weather_->setText(any ? tr("%1 of regions or entities, %2 of other layers")
+  weather_->setText(any ? tr("%1 for regions or entities, %2 for other layers")
                               .arg(number(host.regionalWeather), number(host.otherLayers))
                         : kNone);
   bad_->setText(any ? number(host.bad) : kNone);

@@ -20,7 +20,7 @@ class Draft;
 
 namespace trimtab::workbench {
 
-/// The link to the host: where it listens, and how healthy it is.
+/// Opens and closes the link to the host, and shows how healthy it is.
 class HostDock : public QWidget {
   Q_OBJECT
 
@@ -28,7 +28,7 @@ class HostDock : public QWidget {
   HostDock(Feed& feed, views::Draft& draft, QWidget* parent = nullptr);
 
   void setPort(std::uint16_t port);
-  /// As the Connect button does; findings are emitted, too.
+  /// Does what the Connect button does. Returns what went wrong, and emits it as `refused` too.
   Findings connectHost();
 
  signals:
@@ -55,7 +55,7 @@ class HostDock : public QWidget {
   QLabel *state_, *detected_, *rate_, *jitter_, *loss_, *age_, *decoded_, *picture_, *counts_, *jumps_, *bad_,
       *weather_;
   QPlainTextEdit* firstBad_;
-  QTimer refresh_;  ///< runs only while a link is open and this can be seen
+  QTimer refresh_;  ///< runs only while a link is open and the dock is visible
 };
 
 }  // namespace trimtab::workbench

@@ -9,7 +9,8 @@
 
 namespace trimtab::workbench {
 
-/// Long work of `trimtab-cli` as a program of its own: the picture here goes on, and cancelling is sure.
+/// Runs `trimtab-cli` as a program of its own for long work, so that the viewport goes on and cancelling
+/// always works.
 class ChildRun : public QObject {
   Q_OBJECT
 
@@ -17,13 +18,13 @@ class ChildRun : public QObject {
   struct Ended {
     bool cancelled = false, good = false;
     QByteArray output;  ///< its standard output
-    Findings findings;  ///< why it is not good; empty where it was cancelled
+    Findings findings;  ///< why it failed; empty if it was cancelled
   };
 
   explicit ChildRun(QObject* parent = nullptr);
   ~ChildRun() override;
 
-  /// Without effect while one runs.
+  /// Does nothing while a run is under way.
   void start(const QStringList& arguments);
   void cancel();
   bool running() const { return process_.state() != QProcess::NotRunning; }

@@ -11,10 +11,10 @@ namespace trimtab::workbench {
 namespace {
 
 constexpr double kLookPeriodS = 1.0 / 60;
-/// After a longer stop of the program, states go on from now.
+/// After a longer stall of the program, states continue from now instead of catching up.
 constexpr double kLongestBurstS = 1;
 
-/// Whether `b`, decided after `a`, changed nothing that a log of changes should hold.
+/// Whether `b`, decided after `a`, changes nothing that belongs in a log of changes.
 bool sameChoice(const FrameDecision& a, const FrameDecision& b) {
   return a.scheme == b.scheme && a.band == b.band && a.depthMap == b.depthMap &&
          !changesState(b.motion.reason);
@@ -42,7 +42,7 @@ Findings Feed::openHost(const HostSettings& settings) {
   options.wake = [this] {
     if (!wakePosted_.exchange(true)) QMetaObject::invokeMethod(this, &Feed::wake, Qt::QueuedConnection);
   };
-  // The same port can only be opened again once the old link has let go of it.
+  // The same port can be opened again only after the old link has closed it.
   if (receiver_ && receiver_->port() == settings.port) closeHost();
   auto opened = link::Receiver::open(options);
   if (!opened) return opened.findings();
@@ -135,7 +135,7 @@ void Feed::look(const FreeCamera& camera) {
   camera_->position = camera.position();
   camera_->attitude = camera.attitude();
   const double now = link::now();
-  // Where the head moves, the camera's place is taken along with its next state.
+  // While the head moves, the next state of the 60 per second carries the camera's new place.
   if (!session_.hasState() || !session_.head().moves(now)) lookAt(now);
   emit statesArrived();
 }
@@ -195,7 +195,7 @@ void Feed::advance(double now) {
     received_.clear();
     receiver_->take(received_);
     if (!received_.empty()) setSource(Source::host);
-    // One at a time: the log misses no change between two pictures.
+    // States are decided one at a time, so that the log misses no change between two images.
     for (const ReceivedState& state : received_) {
       session_.receive({&state, 1});
       noteDecision();
@@ -232,7 +232,7 @@ bool Feed::movesOnItsOwn(double now) const {
   if (source_ == Source::camera)
     return (camera_ && session_.head().moves(now)) || (session_.hasState() && session_.needsPicture(now));
   if (session_.blurred()) return true;
-  // A little ahead: directly after a picture of `now` nothing has moved yet.
+  // Ask a little ahead: directly after an image of `now` nothing has moved yet.
   return source_ == Source::host && session_.linkState(now) != LinkState::silent &&
          session_.needsPicture(now + 0.02);
 }

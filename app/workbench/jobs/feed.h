@@ -16,8 +16,9 @@
 
 namespace trimtab::workbench {
 
-/// Who moves the aircraft: a host, a flight played here, or the person at the mouse. One session decides over
-/// them all.
+/// Feeds the session with states of the aircraft, from a host, from a flight that is played here, or from the
+/// free camera. One session decides for all of them. Everything runs on the main thread but the host's
+/// receiver, which only wakes it.
 class Feed : public QObject {
   Q_OBJECT
 
@@ -29,7 +30,8 @@ class Feed : public QObject {
 
   Session& session() { return session_; }
   const Session& session() const { return session_; }
-  /// A host counts from its first packet; until then the camera is free.
+  /// Who moves the aircraft now. An open link counts as a host from its first packet on; until then the
+  /// camera is free.
   Source source() const { return source_; }
 
   struct HostSettings {
@@ -37,48 +39,50 @@ class Feed : public QObject {
     HostProtocol protocol = HostProtocol::automatic;
     std::optional<link::Endpoint> reply;
   };
-  /// Listens, in place of any link before. Errors leave that one as it was, unless both want the same port.
+  /// Listens for a host; an earlier link is closed. If that fails, the earlier link stays open, unless both
+  /// use the same port. Returns what went wrong.
   Findings openHost(const HostSettings& settings);
   void closeHost();
   const link::Receiver* receiver() const { return receiver_.get(); }
 
   FlightPlayback& playback() { return playback_; }
   void loadFlight(Flight flight);
-  /// Plays here; the host's link is closed first.
+  /// Plays the flight in this program. The host's link is closed first.
   void playHere();
   void pauseHere();
   void seekHere(double position);
-  /// Sends the flight to the port that is listened on (one is opened where none is).
+  /// Sends the flight over UDP to the port that this program listens on; opens one if there is none.
   Findings playOverUdp(WireProtocol protocol, double speed, bool loop, double position);
   void stopUdp();
   link::FeedPlayer* udpPlayer() const { return udp_.get(); }
 
-  // The head of the one who looks, in place of a host's. A log begins with the flight, or with the next
-  // state. While a log or the pointer moves it under a free camera, states come 60 a second.
+  // A head that replaces the host's. A log starts with the flight, or with the next state. While a log or the
+  // pointer moves the head under a free camera, there are 60 states per second.
   using Head = HeadInput::Source;
   void useHead(Head source);
   void useHeadLog(HeadLog log);
   /// See HeadInput::point.
   void point(double right, double up);
 
-  /// The free camera moved. Without effect while a host or a flight moves the aircraft.
+  /// Call this when the free camera has moved. Does nothing while a host or a flight moves the aircraft.
   void look(const FreeCamera& camera);
-  /// Takes what has come since the last call and decides each state, in order.
+  /// Decides every state that has arrived since the last call, in order.
   void advance(double now);
-  /// Whether pictures must go on without any further event: a flight plays, or the eye is extrapolated.
+  /// Whether images must follow without a further event, because a flight plays or the eye is extrapolated.
   bool movesOnItsOwn(double now) const;
-  /// Pictures are not drawn (hidden window): nothing waits for one.
+  /// Set to false while no image is drawn because the window is hidden: then nothing waits for one.
   void setPicturesDrawn(bool drawn) { picturesDrawn_ = drawn; }
 
  signals:
-  void statesArrived();  ///< a picture would differ
-  /// Scheme, band or size is another than a state ago, or head motion changed something; the session has it.
+  void statesArrived();  ///< a new image would differ from the last one
+  /// The scheme, the band or the depth map's size has changed since the last state, or head motion has
+  /// changed something. The session holds the new decision.
   void decisionChanged();
   void sourceChanged();
   void linkChanged();  ///< opened, closed, first packet, silent, live again
   void jumped();
-  void headChanged();    ///< another source of the line of sight
-  void flightChanged();  ///< another flight, or it started, stopped, ended
+  void headChanged();    ///< the line of sight has another source
+  void flightChanged();  ///< another flight was opened, or it started, stopped or ended
 
  private:
   void wake();
@@ -103,7 +107,8 @@ class Feed : public QObject {
   std::atomic<bool> wakePosted_ = false;
   HostSettings settings_;
   std::unique_ptr<link::FeedPlayer> udp_;
-  std::unique_ptr<link::Receiver> receiver_;  ///< last: its thread calls wake() until it is gone
+  std::unique_ptr<link::Receiver>
+      receiver_;  ///< last member, destroyed first: its thread calls wake() until then
 };
 
 }  // namespace trimtab::workbench

@@ -7,8 +7,8 @@
 
 namespace trimtab::workbench {
 
-/// A flight flown in this program, without a network: states on a grid of 60 a second of flight time, so that
-/// what is decided does not depend on how fast pictures are drawn.
+/// Plays a flight inside this program, without a network. It yields 60 states per second of flight time, so
+/// that decisions do not depend on how fast images are drawn.
 class FlightPlayback {
  public:
   static constexpr double kRateHz = 60;
@@ -22,17 +22,17 @@ class FlightPlayback {
   double speed() const { return speed_; }
   bool playing() const { return playing_; }
 
-  /// Starts over when the flight is at its end. `now` is any clock in seconds.
+  /// Starts to play; from the beginning if the flight is at its end. `now` is any clock in seconds.
   void play(double now);
   void pause() { playing_ = false; }
   void setSpeed(double speed) { speed_ = speed; }
   void setLoop(bool loop) { loop_ = loop; }
   void seek(double position);
 
-  /// Appends every state of the grid passed since the last call. After a stall of more than half a second the
-  /// flight goes on from where it was. A flight that ends and does not loop stops playing.
+  /// Appends every state that was passed since the last call. After a stall of more than half a second the
+  /// flight continues from where it was. A flight that ends and does not loop stops playing.
   void advance(double now, std::vector<AircraftState>& states);
-  /// The state on the grid at or before `position`; its packet number counts from 1 at the start.
+  /// Returns the state at or before `position`. Packet numbers count from 1 at the start of the flight.
   AircraftState current() const;
 
  private:

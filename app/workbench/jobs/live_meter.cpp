@@ -14,13 +14,13 @@ namespace trimtab::workbench {
 namespace {
 
 constexpr int kFirstMs = 100, kPeriodMs = 1000, kRetryMs = 200;
-/// Measuring takes at most one part in so many of the time.
+/// Measuring takes at most one part in this many of the time.
 constexpr int kMostOfTime = 4;
 constexpr double kLongestMs = 400, kQuickMs = 100;
 constexpr int kSmallest = 4;
 constexpr double kWindowS = 1;
 
-/// Whether one preset's picture of one is also the other's: what moves by itself (rain) does not count.
+/// Whether both requests of one preset give the same image, apart from what moves by itself, such as rain.
 bool samePicture(const FrameRequest& a, const FrameRequest& b) {
   return a.eye == b.eye && a.attitude == b.attitude && a.view == b.view && a.decision == b.decision &&
          a.method == b.method;

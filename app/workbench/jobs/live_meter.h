@@ -14,22 +14,22 @@
 
 namespace trimtab::workbench {
 
-/// Measures what the session's picture loses, about once a second, and only where the picture is another than
-/// the one measured last. At rest and switched off it costs nothing.
+/// Measures the error of the session's image about once a second, and only if the image has changed since the
+/// last measurement. It costs nothing while the view is at rest or while it is switched off.
 class LiveMeter : public QObject {
   Q_OBJECT
 
  public:
   struct Frame {
     FrameRequest request;
-    std::vector<FrameRequest> before;  ///< pictures before it, oldest first: for pop and blur
+    std::vector<FrameRequest> before;  ///< requests of earlier images, oldest first: for pop and blur
   };
   struct Measured {
     FrameError error;
-    double frameMs = 0;  ///< median of the last second's pictures
+    double frameMs = 0;  ///< median over the images of the last second
     double tookMs = 0;
     int widthPx = 0, heightPx = 0;
-    bool smaller = false;  ///< than the picture: a full measurement takes too long
+    bool smaller = false;  ///< than the image, because measuring at full size takes too long
   };
   using Source = std::function<std::optional<Frame>()>;
 
@@ -37,9 +37,10 @@ class LiveMeter : public QObject {
 
   void setOn(bool on);
   bool isOn() const { return on_; }
-  /// A picture was painted; `time` in seconds.
+  /// Call this after each image. `time` is in seconds.
   void painted(double time, double frameMs);
-  /// Another preset or terrain: the same view is another picture, and what is under way is of the old one.
+  /// Call this after another preset or terrain was chosen: the same view gives another image now, and a
+  /// measurement that is under way is dropped.
   void forget();
   bool busy() const { return busy_; }
   std::uint64_t measurements() const { return measurements_; }
@@ -56,16 +57,16 @@ class LiveMeter : public QObject {
   Source source_;
   QTimer timer_;
   std::deque<std::pair<double, double>> recent_;  ///< time, frame ms
-  std::optional<Frame> last_;                     ///< what was measured
-  int shrink_ = 1;                                ///< sizes are divided by it
+  std::optional<Frame> last_;                     ///< the frame that was measured last
+  int shrink_ = 1;                                ///< width and height are divided by this
   QElapsedTimer sinceLast_;
-  int gapMs_ = 0;  ///< from one measurement's begin to the next one's
+  int gapMs_ = 0;  ///< from the start of one measurement to the start of the next
   bool on_ = false, changed_ = false, busy_ = false;
-  std::uint64_t measurements_ = 0, generation_ = 0;  ///< results of an earlier generation are dropped
+  std::uint64_t measurements_ = 0, generation_ = 0;  ///< a result of an earlier generation is dropped
 };
 
-/// The request without what is drawn for the engineer, at a size `shrink` times smaller: the picture that the
-/// pilot would get.
+/// Returns a request for the image that the pilot would see: without what is drawn for the engineer, and
+/// `shrink` times smaller in width and height.
 FrameRequest pilotsPicture(FrameRequest request, int shrink);
 
 }  // namespace trimtab::workbench

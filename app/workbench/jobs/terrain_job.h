@@ -14,8 +14,8 @@
 
 namespace trimtab::workbench {
 
-/// Opens or bakes terrain on a thread of its own. One at a time: a second start cancels the first, and begins
-/// when that has ended; nothing waits for it but the destructor.
+/// Opens or bakes terrain on a thread of its own, one terrain at a time. A second start cancels the first,
+/// and begins when that has ended. Only the destructor waits for a thread.
 class TerrainJob : public QObject {
   Q_OBJECT
 
@@ -23,14 +23,14 @@ class TerrainJob : public QObject {
   explicit TerrainJob(QObject* parent = nullptr);
   ~TerrainJob() override;
 
-  /// Elevation file, folder of them, or database.
+  /// Opens an elevation file, a folder of them, or a database.
   void open(const std::filesystem::path& source);
-  /// The embedded default terrain, made and baked once for a user.
+  /// Opens the built-in sample terrain. It is made and baked once per user.
   void openSample();
-  /// Makes a database and opens it; the same options again go on with one that was stopped.
+  /// Bakes a database and opens it. The same options again resume a bake that was stopped.
   void bake(terrain::BakeOptions options);
   using Work = std::function<Result<std::shared_ptr<const terrain::Database>>(const terrain::Progress&)>;
-  /// What the others do: `work` is to ask its progress whether to go on.
+  /// Runs `work` like the functions above. It must ask its progress now and then whether to go on.
   void start(const std::filesystem::path& source, const QString& what, Work work);
   void cancel();
   bool running() const { return running_; }
@@ -39,7 +39,7 @@ class TerrainJob : public QObject {
  signals:
   void started(const QString& what);
   void progressed(double fraction, const QString& what);
-  /// With what is worth knowing of how it was opened or baked.
+  /// The findings are what is worth knowing about how it was opened or baked.
   void opened(std::shared_ptr<const trimtab::terrain::Database> database, const trimtab::Findings& findings);
   void failed(const trimtab::Findings& findings);
   void cancelled();
@@ -48,8 +48,8 @@ class TerrainJob : public QObject {
   void stop();
 
   std::filesystem::path source_;
-  std::jthread thread_;                      ///< the last job's, which joins the one before it
-  std::shared_ptr<std::atomic<bool>> stop_;  ///< shared with the last job's thread; each job has another
+  std::jthread thread_;                      ///< the last job's; it joins the thread before it
+  std::shared_ptr<std::atomic<bool>> stop_;  ///< shared with the last job's thread; each job has its own
   bool running_ = false;
   int serial_ = 0;
 };

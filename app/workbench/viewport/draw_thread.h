@@ -12,28 +12,28 @@
 
 namespace trimtab::workbench {
 
-/// A thread with a GL context of its own, without a window, in which pictures are drawn and measured while
-/// the viewport's go on: measuring takes many times as long as the picture that is measured, and nobody who
-/// flies should see it. It steps back where the processor is short.
+/// Draws and measures images on a thread with a GL context of its own and no window. Measuring takes many
+/// times as long as drawing, and nobody who flies should notice it: where the processor is short, the thread
+/// lets the viewport go first.
 class DrawThread : public QObject {
   Q_OBJECT
 
  public:
   explicit DrawThread(QObject* parent = nullptr);
-  /// Waits for the work at hand.
+  /// Waits for the work that is running.
   ~DrawThread() override;
 
-  /// Holds for all work asked for later.
+  /// Applies to all work that is requested later.
   void setTerrain(std::shared_ptr<const terrain::Database> terrain);
-  /// `work` runs there, in turn; then `done` here, unless `receiver` is gone by then. Neither is called where
-  /// no context can be made.
+  /// Queues `work` to run on that thread, and then `done` on this one, unless `receiver` is gone by then.
+  /// Neither is called if no context can be made.
   void run(std::function<void(scene::ErrorMeter&)> work, QObject* receiver, std::function<void()> done);
   bool usable() const { return missing_.empty(); }
-  /// Why no context can be made; empty while none was needed or it was made.
+  /// Returns why no context can be made; empty if it was made, or was not needed yet.
   const Findings& missing() const { return missing_; }
 
  signals:
-  /// No context can be made, told once.
+  /// No context can be made. Emitted once.
   void failed(const trimtab::Findings& findings);
 
  private:
@@ -41,7 +41,7 @@ class DrawThread : public QObject {
 
   QThread thread_;
   QObject* worker_;
-  std::unique_ptr<Inside> inside_;  ///< of the thread's alone while it runs
+  std::unique_ptr<Inside> inside_;  ///< used by the thread alone while it runs
   Findings missing_;
 };
 

@@ -7,7 +7,7 @@
 
 namespace trimtab::workbench {
 
-/// An eye flown by hand when no host and no flight moves it.
+/// An eye that a person moves with mouse and keys while no host and no flight moves it.
 class FreeCamera {
  public:
   void place(const GeodeticPosition& position, const Attitude& attitude);
@@ -17,16 +17,16 @@ class FreeCamera {
 
   /// Turns the view; pitch stops at straight up and down.
   void look(Degrees heading, Degrees pitch);
-  /// One notch is a quarter faster; backwards when negative.
+  /// Makes the camera a quarter faster per notch; slower if negative.
   void changeSpeed(double notches);
 
-  /// True when the key is one that moves the camera.
+  /// Returns true if the key is one that moves the camera.
   bool press(int key);
   bool release(int key);
   void releaseAll() { held_.clear(); }
   bool moving() const { return !held_.isEmpty(); }
-  /// Moves by the keys held for so many seconds; a step is cut at a quarter of a second so that a stall does
-  /// not leap.
+  /// Moves by the keys that are held, for this many seconds. A step is cut at a quarter of a second, so that
+  /// the camera does not leap after a stall.
   void advance(double seconds);
 
  private:

@@ -5,12 +5,12 @@
 
 namespace trimtab::workbench {
 
-/// Before QApplication: the surface format that OSG's GL2 build needs, and contexts that survive a floating
-/// dock.
+/// Sets the surface format that OSG's GL2 build needs, and contexts that survive a floating dock. Call it
+/// before QApplication is made.
 void prepareGl();
-/// After it: empty, or what is wrong with the display's OpenGL.
+/// Returns what is wrong with the display's OpenGL; empty if nothing is. Call it after QApplication is made.
 QString checkGl();
-/// Names under which settings and recovered edits are kept.
+/// Sets the names under which settings and recovered edits are kept.
 void nameApplication();
 
 }  // namespace trimtab::workbench

@@ -35,7 +35,7 @@ void HeatMap::show(const QImage& map, double mean, double largest) {
   largest_ = largest;
   setAccessibleDescription(
       map.isNull()
-          ? tr("Nothing is compared yet")
+          ? tr("Nothing has been compared yet")
           : tr("FLIP, mean %1, largest %2").arg(views::numberText(mean, 4), views::numberText(largest, 3)));
   update();
 }
@@ -49,7 +49,7 @@ void HeatMap::paintEvent(QPaintEvent*) {
   const QColor ink = palette().color(QPalette::Text);
   painter.setPen(ink);
   if (map_.isNull()) {
-    painter.drawText(area, Qt::AlignCenter | Qt::TextWordWrap, tr("The difference stands here."));
+    painter.drawText(area, Qt::AlignCenter | Qt::TextWordWrap, tr("The difference appears here."));
   } else {
     painter.setRenderHint(QPainter::SmoothPixmapTransform);
     QRect to({}, map_.size().scaled(area.size(), Qt::KeepAspectRatio));

@@ -7,17 +7,17 @@
 
 namespace trimtab::workbench {
 
-/// In the colours of the report's pictures. Row 0 of the errors is the lowest.
+/// Makes an image of errors in the colours of the report's images. Row 0 of the errors is the lowest.
 QImage heatImage(std::span<const float> errors, int width, int height);
 
-/// A map of errors with its legend.
+/// Shows a map of errors with its legend.
 class HeatMap : public QWidget {
   Q_OBJECT
 
  public:
   explicit HeatMap(QWidget* parent = nullptr);
 
-  /// An empty image: nothing is known yet.
+  /// An empty image means that nothing has been compared yet.
   void show(const QImage& map, double mean, double largest);
   const QImage& map() const { return map_; }
   double largest() const { return largest_; }

@@ -39,7 +39,7 @@ void paintFreezeBanner(QPainter& painter, const QRect& area) {
   const QFont font = scaled(painter.font(), 1.2);
   const QFontMetrics metrics(font);
   const QString text =
-      QObject::tr("CULLING FROZEN - the view flies on, tiles stay as they were (Ctrl+F thaws)");
+      QObject::tr("CULLING FROZEN - the view flies on, tiles stay as they were (Ctrl+F ends it)");
   const QString fits = metrics.elidedText(text, Qt::ElideRight, area.width() - 4 * kMargin);
   QRect plate(0, 0, metrics.horizontalAdvance(fits) + 4 * kMargin, metrics.height() + 2 * kMargin);
   plate.moveTo(area.center().x() - plate.width() / 2, area.top() + kMargin);

@@ -16,13 +16,13 @@ struct LegendEntry {
   friend bool operator==(const LegendEntry&, const LegendEntry&) = default;
 };
 
-/// What is painted over the picture for the engineer, not for the pilot.
+/// What is painted over the image for the engineer. The pilot never sees it.
 struct OverlayContents {
-  QString notice;  ///< in the middle, instead of a picture
+  QString notice;  ///< shown in the middle, instead of an image
   bool frozen = false;
   QString legendTitle;
-  QList<LegendEntry> legend;  ///< each has a shape of its own, so that it reads without colour
-  QString hud;                ///< one line at the foot
+  QList<LegendEntry> legend;  ///< each entry has a shape of its own, so that it can be read without colour
+  QString hud;                ///< one line at the foot of the image
   friend bool operator==(const OverlayContents&, const OverlayContents&) = default;
 };
 

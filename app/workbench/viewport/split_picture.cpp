@@ -70,7 +70,7 @@ void SplitPicture::paintEvent(QPaintEvent*) {
   if (pictures_[0].isNull() || pictures_[1].isNull()) {
     painter.setPen(palette().color(QPalette::Text));
     painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap,
-                     tr("The pictures stand here as soon as they are drawn."));
+                     tr("The images appear here as soon as they are drawn."));
     return views::paintFocusFrame(*this);
   }
   painter.setRenderHint(QPainter::SmoothPixmapTransform);

@@ -7,8 +7,8 @@
 
 namespace trimtab::workbench {
 
-/// Two pictures of one view: in one picture with a divider that is dragged or moved by keys, or beside each
-/// other.
+/// Shows two images of one view: either as one image with a divider that a person drags or moves by keys, or
+/// side by side.
 class SplitPicture : public QWidget {
   Q_OBJECT
 
@@ -19,7 +19,7 @@ class SplitPicture : public QWidget {
   void setNames(const QString& left, const QString& right);
   void setBeside(bool beside);
   const QImage& picture(int side) const { return pictures_[std::size_t(side)]; }
-  /// Share of the picture's width that shows the left one.
+  /// The share of the width that shows the left image.
   double divider() const { return divider_; }
   void setDivider(double share);
 

@@ -87,8 +87,8 @@ SplitView::SplitView(DrawThread& thread, views::Draft& draft, Source source, QWi
   setWindowTitle(tr("Compare two presets – Trimtab"));
   setObjectName(QStringLiteral("split_view"));
   choices_ = {makeChoice(left, kDraft), makeChoice(right, kReference)};
-  form_->addItems({tr("one picture, divided"), tr("beside each other")});
-  form_->setAccessibleName(tr("How the pictures stand"));
+  form_->addItems({tr("one image, divided"), tr("side by side")});
+  form_->setAccessibleName(tr("Arrangement of the images"));
 
   auto* top = new QHBoxLayout;
   const auto add = [&](const QString& text, QComboBox* box) {
@@ -112,8 +112,8 @@ SplitView::SplitView(DrawThread& thread, views::Draft& draft, Source source, QWi
   numbers_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   numbers_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   numbers_->setToolTip(
-      tr("The first two rows are held against the reference, the third holds the right picture "
-         "against the left one"));
+      tr("The first two rows compare with the reference; the third row compares the right image "
+         "with the left one"));
   status_->setWordWrap(true);
 
   auto* middle = new QSplitter(Qt::Horizontal, this);
@@ -322,7 +322,7 @@ void SplitView::fill(const Work& work) {
     put(side, trianglesColumn, QLocale().toString(qulonglong(drawn.visible.triangles)));
     put(side, msColumn, views::numberText(drawn.cost.total, 1));
   }
-  names << tr("Right against left");
+  names << tr("Right compared with left");
   errors(2, work.flip, work.ssim, work.psnr);
   const auto ratio = [&](double a, double b) {
     return a > 0 && b > 0 ? QStringLiteral("× %1").arg(views::numberText(b / a, 2)) : QStringLiteral("–");

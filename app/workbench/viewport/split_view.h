@@ -26,9 +26,9 @@ class QTableWidget;
 
 namespace trimtab::workbench {
 
-/// Two presets on the frame that the viewport shows: both pictures, where and how much they differ, and what
-/// each costs. Each preset decides for itself, along the states that were shown while the window was open.
-/// Drawn on the measuring thread; follows while it is visible.
+/// Compares two presets on the frame that the viewport shows: both images, where and how much they differ,
+/// and what each costs. Each preset decides for itself, along the states that were shown while the window was
+/// open. The images are drawn on the measuring thread, and only while the window is visible.
 class SplitView : public QWidget {
   Q_OBJECT
 
@@ -44,13 +44,13 @@ class SplitView : public QWidget {
   SplitView(DrawThread& thread, views::Draft& draft, Source source, QWidget* parent = nullptr);
 
   void setTerrain(std::shared_ptr<const terrain::Database> terrain);
-  /// The viewport painted.
+  /// Call this after the viewport has painted.
   void painted();
-  /// `name`: a shipped preset's, a file's, `kDraft` or `kReference`. False: it cannot be read.
+  /// `name` is a shipped preset, a file, `kDraft` or `kReference`. Returns false if it cannot be read.
   bool choose(Side side, const QString& name);
   static const QString kDraft, kReference;
 
-  /// What is shown is of the frame and the presets at hand.
+  /// Whether the window shows the current frame with the current presets.
   bool upToDate() const { return !changed_ && !busy_; }
   bool busy() const { return busy_; }
   const QLabel& status() const { return *status_; }
@@ -70,9 +70,9 @@ class SplitView : public QWidget {
  private:
   struct Chosen {
     QString name, label;
-    std::optional<ValidatedParameters> parameters;  ///< none: the reference
+    std::optional<ValidatedParameters> parameters;  ///< nothing: this side is the reference
     std::unique_ptr<Session> session;
-    std::deque<FrameRequest> recent;  ///< of the pictures shown, newest last; a blur mixes them
+    std::deque<FrameRequest> recent;  ///< requests of the images shown, newest last; a blur mixes them
   };
   struct Work;
 
@@ -96,10 +96,10 @@ class SplitView : public QWidget {
   std::optional<Frame> last_;
   QTimer timer_;
   QElapsedTimer sinceLast_;
-  int gapMs_ = 0;  ///< from one comparison's begin to the next one's
+  int gapMs_ = 0;  ///< from the start of one comparison to the start of the next
   int shrink_ = 1;
   bool changed_ = false, busy_ = false;
-  std::uint64_t comparisons_ = 0, generation_ = 0;  ///< results of an earlier generation are dropped
+  std::uint64_t comparisons_ = 0, generation_ = 0;  ///< a result of an earlier generation is dropped
 
   std::array<QComboBox*, 2> choices_;
   QComboBox* form_;

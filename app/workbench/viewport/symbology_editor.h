@@ -15,8 +15,8 @@ class QPainter;
 
 namespace trimtab::workbench {
 
-/// Places symbols with mouse and keys in the picture. One undo step a drag, or a key held down. Positions are
-/// the widget's.
+/// Lets a person place symbols in the image with mouse and keys. A drag is one undo step, and so is a key
+/// that is held down. Positions are in the widget's coordinates.
 class SymbologyEditor : public QObject {
   Q_OBJECT
  public:
@@ -24,14 +24,14 @@ class SymbologyEditor : public QObject {
 
   void setActive(bool on);
   bool active() const { return active_; }
-  /// What is on the display and where. Without symbols there is nothing to take hold of.
+  /// Sets which symbols are on the display and where. Without symbols nothing can be dragged.
   void setPicture(const std::optional<SymbologyRequest>& symbols, const ViewShape& view, const QRectF& place);
   void select(int symbol);
   int selected() const { return selected_; }
-  /// Empty where nothing of it is in the picture.
+  /// Returns the box round a symbol; empty if no part of it is in the image.
   QRectF boxOf(int symbol) const;
 
-  /// True when the event was for a symbol.
+  /// These return true if the event was meant for a symbol.
   bool press(QPointF at);
   bool moveTo(QPointF at);
   bool release();
@@ -40,16 +40,16 @@ class SymbologyEditor : public QObject {
   void paint(QPainter& painter) const;
 
  signals:
-  void changed();  ///< paint again
+  void changed();  ///< the viewport must paint again
   void selectionChanged(int symbol);
-  void ended();  ///< by Esc
+  void ended();  ///< the person pressed Esc
 
  private:
   struct Drag {
     int symbol = 0;
     bool resizes = false;
     QPointF from;
-    double x = 0, y = 0, size = 1;  ///< when it began
+    double x = 0, y = 0, size = 1;  ///< of the symbol when the drag began
     QPointF middle;
     views::MergeToken token = 0;
   };

@@ -25,13 +25,14 @@ constexpr qint64 kDepthMapGapMs = 100;
 constexpr GLuint kPainterArrays = 8;
 const QColor kEmptyColour(38, 42, 48);
 
-/// Where a W x H picture lies in the widget without being distorted, device pixels, origin at the lower left.
+/// Returns where an image lies in the widget without being distorted. Device pixels, origin at the lower
+/// left.
 QRect letterbox(QSize picture, QSize widget) {
   const QSize fits = picture.scaled(widget, Qt::KeepAspectRatio);
   return {QPoint((widget.width() - fits.width()) / 2, (widget.height() - fits.height()) / 2), fits};
 }
 
-/// OSG leaves its own state; QPainter expects the default of what it does not set itself.
+/// OSG leaves its own GL state behind, but QPainter expects the default of what it does not set itself.
 void prepareForPainter(QOpenGLExtraFunctions& gl, QSize pixels) {
   gl.glBindVertexArray(0);
   gl.glUseProgram(0);
@@ -97,7 +98,7 @@ void Viewport::releaseGl() {
 void Viewport::setTerrain(std::shared_ptr<const terrain::Database> database) {
   terrain_ = std::move(database);
   terrainChanged_ = true;
-  // Its nodes are the old terrain's.
+  // Its nodes belong to the old terrain.
   result_.reset();
   invalidate();
 }
@@ -139,7 +140,7 @@ void Viewport::setPicking(bool on) {
     unsetCursor();
 }
 
-/// Of the picture that was just drawn, which lies in the middle of the widget.
+/// Reads which node owns the clicked pixel of the image that was just drawn.
 void Viewport::readPicked(QSize picture) {
   const QRect at = letterbox(picture, size() * devicePixelRatioF());
   const QPointF place = *std::exchange(pickAt_, std::nullopt) * devicePixelRatioF();
@@ -210,12 +211,13 @@ void Viewport::drawPicture(const Picture& picture, int widthPx, int heightPx) {
   const QSize wanted(picture.request.view.widthPx, picture.request.view.heightPx), have(widthPx, heightPx);
   if (wanted == have) {
     fixedSize_.reset();
-    result_ = renderer_->draw(picture.request, defaultFramebufferObject());
+    result_ =
+        std::make_shared<const FrameResult>(renderer_->draw(picture.request, defaultFramebufferObject()));
     readDepthMap();
   } else {
     if (fixedSize_ == nullptr || fixedSize_->size() != wanted)
       fixedSize_ = std::make_unique<QOpenGLFramebufferObject>(wanted);
-    result_ = renderer_->draw(picture.request, fixedSize_->handle());
+    result_ = std::make_shared<const FrameResult>(renderer_->draw(picture.request, fixedSize_->handle()));
     readDepthMap();
     gl.glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
     gl.glDisable(GL_SCISSOR_TEST);
@@ -264,8 +266,8 @@ void Viewport::readDepthMap() {
   emit depthMapRead(rows.mirrored());
 }
 
-/// On a paint device of its own: a painter on the widget itself would be led away from GL while the window is
-/// grabbed.
+/// Paints on a device of its own: while the window is grabbed, Qt redirects a painter on the widget itself
+/// away from GL.
 void Viewport::paintOverlays() {
   const QSize pixels = size() * devicePixelRatioF();
   prepareForPainter(*context()->extraFunctions(), pixels);
@@ -347,8 +349,8 @@ void Viewport::mouseMoveEvent(QMouseEvent* event) {
   if (!cameraEnabled_ || picking_ || !(event->buttons() & Qt::LeftButton)) return;
   const QPointF moved = event->position() - lastMouse_;
   lastMouse_ = event->position();
-  // The picture follows the hand: one height of the widget turns by some 36 degrees, the shipped field of
-  // view.
+  // The image follows the mouse: dragging over the height of the widget turns by 36 degrees, which is the
+  // shipped field of view.
   const double degreesPerPx = 36.0 / std::max(1, height());
   camera_.look(Degrees{-moved.x() * degreesPerPx}, Degrees{moved.y() * degreesPerPx});
   emit cameraMoved();

@@ -22,16 +22,17 @@ namespace trimtab::workbench {
 
 class SymbologyEditor;
 
-/// What the next picture is made of; asked for once in each paint.
+/// What the next image is made of. The viewport asks for it once per paint.
 struct Picture {
   FrameRequest request;
   OverlayContents overlay;
-  std::function<QString()> hud;  ///< asked for once the picture is drawn and `lastResult` is its own
-  bool again = false;            ///< something moves on its own: paint again as soon as the display takes it
+  std::function<QString()> hud;  ///< called once the image is drawn; `lastResult` is its result by then
+  bool again = false;            ///< something moves on its own: paint again as soon as the display is ready
 };
 
-/// The terrain through scene::Renderer. Paints on demand only: `invalidate` any number of times gives one
-/// paint, and nothing is painted while hidden. Without terrain it says how to open some.
+/// Shows the terrain that scene::Renderer draws. It paints on demand only: any number of calls of
+/// `invalidate` give one paint, and nothing is painted while it is hidden. Without terrain it says how to
+/// open some.
 class Viewport : public QOpenGLWidget {
   Q_OBJECT
 
@@ -48,39 +49,42 @@ class Viewport : public QOpenGLWidget {
   /// Mouse and keys move the camera only while this is on.
   void setCameraEnabled(bool on);
   bool cameraEnabled() const { return cameraEnabled_; }
-  /// While it is active it has the mouse and the keys first.
+  /// While the editor is active, it receives mouse and keys first.
   void setSymbologyEditor(SymbologyEditor* editor);
-  /// From now on `pointed` tells where in the picture the pointer is, pressed or not.
+  /// While this is on, `pointed` reports where in the image the pointer is, whether a button is pressed or
+  /// not.
   void setPointerWanted(bool wanted);
-  /// Shown instead of a picture, until there is one.
+  /// Sets the text that is shown until there is an image.
   void setNotice(const QString& text);
   struct Measured {
-    double ms = 0;  ///< until the picture was finished
+    double ms = 0;  ///< until the image was finished
     std::uint64_t tilesBuilt = 0;
   };
-  /// Draws a picture that nobody sees. None without terrain or a context that can draw it.
+  /// Draws an image that nobody sees and times it. Returns nothing without terrain, or without a GL context
+  /// that can draw it.
   std::optional<Measured> measure(const FrameRequest& request);
-  /// From now on `depthMapRead` tells each depth map that was drawn, and `horizonRead` each horizon that
-  /// served, at most ten a second. `who` may stop wanting it without another's map.
+  /// While anybody wants it, `depthMapRead` reports the depth maps that were drawn, and `horizonRead` the
+  /// horizons that were used, at most ten per second. Each `who` is counted on its own.
   void setDepthMapWanted(const QObject* who, bool wanted);
-  /// Until a node is picked, or it is called off: a click tells `nodePicked`.
+  /// While this is on, a click emits `nodePicked` instead of turning the camera.
   void setPicking(bool on);
 
   const OverlayContents& overlayContents() const { return shownOverlay_; }
   const scene::GlReport& gl() const { return gl_; }
   std::uint64_t paints() const { return paints_; }
-  const std::optional<FrameResult>& lastResult() const { return result_; }
-  /// Pages of the terrain that could not be read.
+  /// Null until the open terrain has been drawn once.
+  const std::shared_ptr<const FrameResult>& lastResult() const { return result_; }
+  /// Returns the pages of the terrain that could not be read.
   Findings pageFailures() const { return renderer_ ? renderer_->pageFailures() : Findings{}; }
 
  signals:
   void cameraMoved();
-  void pointed(QPointF place);  ///< -1..1 to the right and up, of the picture's edges
-  void painted();               ///< the picture is on the display; `lastResult` is new
+  void pointed(QPointF place);  ///< -1..1 from edge to edge of the image, to the right and up
+  void painted();               ///< the image is on the display; `lastResult` is new
   void depthMapRead(const QImage& grey);
-  /// Empty where none served.
+  /// Elevation angles all round, degrees; empty if no horizon was used.
   void horizonRead(const std::vector<float>& elevationDeg);
-  void nodePicked(std::uint32_t node);  ///< scene::Renderer::kNoNode: the sky
+  void nodePicked(std::uint32_t node);  ///< scene::Renderer::kNoNode if the sky was picked
   void glFailed(const QString& why);
 
  protected:
@@ -112,17 +116,17 @@ class Viewport : public QOpenGLWidget {
   std::shared_ptr<const terrain::Database> terrain_;
   bool terrainChanged_ = false;
   scene::GlReport gl_;
-  std::optional<FrameResult> result_;
+  std::shared_ptr<const FrameResult> result_;
   FreeCamera camera_;
   SymbologyEditor* editor_ = nullptr;
-  QRectF pictureAt_;  ///< where the last picture lies in the widget
+  QRectF pictureAt_;  ///< where the last image lies in the widget
   bool cameraEnabled_ = true, dirty_ = false, again_ = false, pointerWanted_ = false, picking_ = false;
   std::set<const QObject*> depthMapWanted_;
-  std::optional<QPointF> pickAt_;  ///< in the widget, where the next picture tells
+  std::optional<QPointF> pickAt_;  ///< in the widget: where the next image is asked for its node
   QPointF lastMouse_;
   QString notice_;
   QElapsedTimer sinceMove_, sinceDepthMap_, sincePaint_;
-  bool unreported_ = false;  ///< `painted` is due
+  bool unreported_ = false;  ///< `painted` has not been emitted for the last image
   std::uint64_t paints_ = 0;
 };
 

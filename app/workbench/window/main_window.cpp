@@ -2,42 +2,71 @@
 #include "main_window.h"
 
 #include <QCloseEvent>
+#include <QCoreApplication>
 #include <QDockWidget>
+#include <QDragEnterEvent>
+#include <QDropEvent>
 #include <QFileInfo>
 #include <QLabel>
-#include <QProgressBar>
-#include <QPushButton>
-#include <QScreen>
+#include <QMimeData>
 #include <QSettings>
 #include <QStatusBar>
+#include <QTabWidget>
+#include <QTimer>
 #include <QVBoxLayout>
+#include <cstdio>
 
+#include "app/workbench/docks/dock_of.h"
+#include "app/workbench/docks/error_dock.h"
 #include "app/workbench/docks/experiments_dock.h"
 #include "app/workbench/docks/flight_dock.h"
 #include "app/workbench/docks/host_dock.h"
-#include "app/workbench/viewport/split_view.h"
+#include "app/workbench/docks/message_panel.h"
+#include "job_bar.h"
+#include "menus.h"
 #include "notice_bar.h"
-#include "trimtab/terrain/format/database.h"
-#include "views/editors/bands_editor.h"
 #include "views/panels/plots_panel.h"
+#include "views/panels/static_lod_panel.h"
 #include "views/plots/time_plot.h"
 
 namespace trimtab::workbench {
 namespace {
 
-/// Raised when docks come or go, so that an old layout is not forced on new docks.
+/// Raise it when docks come or go, so that no old layout is forced on new docks.
 constexpr int kLayoutVersion = 3;
+constexpr int kSavedMs = 4000, kHintMs = 8000;
 const QString kSpanKey = QStringLiteral("plots/span_s");
+const QString kGeometryKey = QStringLiteral("window/geometry"), kStateKey = QStringLiteral("window/state");
 
 }  // namespace
 
 MainWindow::MainWindow() {
-  sinceStart_.start();
   setObjectName(QStringLiteral("trimtab"));
   setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks | GroupedDragging);
   setAcceptDrops(true);
   setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
+  makeMiddle();
+  panels_ = makePanels(docks_, draft_, feed_);
+  makeControllers();
+  makeStatusBar();
+  makeMenus();
+  connectParts();
+  restoreLayout();
+  updateTitle();
+}
 
+MainWindow::~MainWindow() {
+  // Docks and viewport use the members, so they go first. Meanwhile nothing may call into a controller whose
+  // docks are gone.
+  controllers_.trace->stop();
+  feed_.disconnect();
+  viewport_->disconnect();
+  viewport_->setSource({});
+  qDeleteAll(findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly));
+  delete takeCentralWidget();
+}
+
+void MainWindow::makeMiddle() {
   auto* middle = new QWidget(this);
   auto* column = new QVBoxLayout(middle);
   column->setContentsMargins(0, 0, 0, 0);
@@ -47,144 +76,186 @@ MainWindow::MainWindow() {
   column->addWidget(notices_);
   column->addWidget(viewport_, 1);
   setCentralWidget(middle);
+}
 
-  makeDocks();
-  makeStatusBar();
-  makeMenus();
-  connectParts();
-  arrangeDocks();
+void MainWindow::makeControllers() {
+  const Workplace at{draft_, feed_, *viewport_, *panels_.messages, *this};
+  Controllers& c = controllers_;
+  c.document = std::make_unique<DocumentController>(at, *notices_);
+  c.terrain = std::make_unique<TerrainController>(at, *panels_.terrain, *panels_.staticLod);
+  c.frame = std::make_unique<FrameController>(at, *c.terrain);
+  c.culling = std::make_unique<CullingController>(at, *c.frame, *c.terrain, *panels_.culling, *panels_.bands);
+  c.flight = std::make_unique<FlightController>(at, *c.frame, *c.terrain, *panels_.flight, *panels_.host);
+  c.head = std::make_unique<HeadController>(at, *panels_.motion);
+  c.symbology = std::make_unique<SymbologyController>(at, *panels_.symbology);
+  c.weather = std::make_unique<WeatherController>(at, *c.frame, *c.terrain, *panels_.weather);
+  c.trace = std::make_unique<TraceController>(at, *c.frame);
+  c.inputs = std::make_unique<RunInputs>(at, c.document->document(), *c.terrain, *panels_.flight);
+  c.errors = std::make_unique<ErrorsController>(
+      at, measuring_, ErrorsController::Neighbours{*c.frame, *c.terrain, *c.flight, *c.trace, *c.inputs});
+
+  using enum DockLayout::Place;
+  const auto inputs = [this](const QString& folder) { return controllers_.inputs->write(folder); };
+  panels_.experiments = docks_.add("experiments", tr("Experiments"), foot, new ExperimentsDock(inputs));
+  docks_.add("errors", tr("Run time against error"), foot, &c.errors->dock());
+  c.errors->attach();
+}
+
+void MainWindow::makeStatusBar() {
+  auto* source = new QLabel(this);
+  statusBar()->addPermanentWidget(new JobBar(controllers_.terrain->job(), this));
+  statusBar()->addPermanentWidget(source);
+  connect(controllers_.flight.get(), &FlightController::sourceTextChanged, source, &QLabel::setText);
+  connect(controllers_.document.get(), &DocumentController::saved, this,
+          [this](const QString& file) { statusBar()->showMessage(tr("Saved %1").arg(file), kSavedMs); });
+  connect(controllers_.errors.get(), &ErrorsController::hint, this,
+          [this](const QString& text) { statusBar()->showMessage(text, kHintMs); });
+}
+
+void MainWindow::makeMenus() {
+  const Workplace at{draft_, feed_, *viewport_, *panels_.messages, *this};
+  auto* menus = new Menus(*this, at, controllers_, panels_);
+  connect(menus, &Menus::layoutResetAsked, this, &MainWindow::resetLayout);
+}
+
+void MainWindow::connectParts() {
+  const Controllers& c = controllers_;
+  connect(c.frame.get(), &FrameController::frameShown, this,
+          [this](const views::LiveFrame& frame) { docks_.showFrame(frame); });
+  connect(c.frame.get(), &FrameController::painted, this, &MainWindow::takeScreenshotSoon);
+  connect(c.terrain.get(), &TerrainController::opened, this, [this] {
+    controllers_.document->setTerrainName(
+        QString::fromStdString(controllers_.terrain->database()->info().name));
+    updateTitle();
+  });
+  connect(panels_.staticLod, &views::StaticLodPanel::overlayChanged, c.culling.get(),
+          &CullingController::setTreeOverlay);
+  connect(&draft_, &views::Draft::dirtyChanged, this, &MainWindow::updateTitle);
+  connect(&c.document->document(), &Document::fileChanged, this, &MainWindow::updateTitle);
+
+  MessagePanel* const messages = panels_.messages;
+  connect(messages, &MessagePanel::errorAdded, messages, [messages] { raiseDock(*messages); });
+  connect(panels_.host, &HostDock::refused, messages, &MessagePanel::add);
+  connect(panels_.flight, &FlightDock::refused, messages, &MessagePanel::add);
+  connect(panels_.experiments, &ExperimentsDock::refused, messages, &MessagePanel::add);
+}
+
+void MainWindow::restoreLayout() {
+  docks_.arrange();
   resize(1600, 1000);
   defaultLayout_ = saveState(kLayoutVersion);
   const QSettings settings;
-  restoreGeometry(settings.value(QStringLiteral("window/geometry")).toByteArray());
-  restoreState(settings.value(QStringLiteral("window/state")).toByteArray(), kLayoutVersion);
-  if (const double span = settings.value(kSpanKey).toDouble(); span > 0) plots_->setSpan(span);
-  updateTitle();
-}
-
-MainWindow::~MainWindow() {
-  // Docks and viewport use the draft and the feed, which are members: they go first, and report to nobody.
-  disconnect(&feed_, nullptr, this, nullptr);
-  disconnect(&terrainJob_, nullptr, this, nullptr);
-  disconnect(viewport_, nullptr, this, nullptr);
-  viewport_->setSource({});
-  stopTrace();
-  delete split_;
-  qDeleteAll(findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly));
-  delete takeCentralWidget();
+  restoreGeometry(settings.value(kGeometryKey).toByteArray());
+  restoreState(settings.value(kStateKey).toByteArray(), kLayoutVersion);
+  if (const double span = settings.value(kSpanKey).toDouble(); span > 0) panels_.plots->setSpan(span);
 }
 
 void MainWindow::resetLayout() {
   restoreState(defaultLayout_, kLayoutVersion);
-  arrangeDocks();
+  docks_.arrange();
 }
 
-void MainWindow::makeStatusBar() {
-  sourceLabel_ = new QLabel(this);
-  jobLabel_ = new QLabel(this);
-  jobBar_ = new QProgressBar(this);
-  jobBar_->setMaximumWidth(220);
-  jobBar_->setRange(0, 100);
-  jobCancel_ = new QPushButton(tr("Cancel"), this);
-  connect(jobCancel_, &QPushButton::clicked, &terrainJob_, &TerrainJob::cancel);
-  statusBar()->addPermanentWidget(jobLabel_);
-  statusBar()->addPermanentWidget(jobBar_);
-  statusBar()->addPermanentWidget(jobCancel_);
-  statusBar()->addPermanentWidget(sourceLabel_);
-  for (QWidget* part :
-       {static_cast<QWidget*>(jobLabel_), static_cast<QWidget*>(jobBar_), static_cast<QWidget*>(jobCancel_)})
-    part->hide();
+void MainWindow::updateTitle() {
+  const auto& terrain = controllers_.terrain->database();
+  const QString over =
+      terrain ? QStringLiteral(" – ") + QString::fromStdString(terrain->info().name) : QString();
+  setWindowTitle(controllers_.document->document().title() + QStringLiteral("[*]") + over +
+                 QStringLiteral(" – Trimtab"));
+  setWindowModified(draft_.isDirty());
 }
 
-void MainWindow::connectParts() {
-  viewport_->setSource([this](int widthPx, int heightPx) { return picture(widthPx, heightPx); });
-  connect(viewport_, &Viewport::painted, this, &MainWindow::onPainted);
-  connect(viewport_, &Viewport::cameraMoved, this, [this] { feed_.look(viewport_->camera()); });
-  connect(viewport_, &Viewport::glFailed, this, [this](const QString& why) {
-    messages_->add(tr("The terrain cannot be drawn"),
-                   {{Severity::error, "OpenGL", "", "what the renderer needs", why.toStdString()}});
-  });
+void MainWindow::openAny(const QString& path) {
+  const QFileInfo info(path);
+  const QString ending = info.suffix().toLower();
+  if (info.isFile() && info.fileName() == QLatin1String("results.json"))
+    controllers_.errors->openResults(path);
+  else if (info.isFile() && ending == QLatin1String("json"))
+    controllers_.document->openOverEdits(path);
+  else if (info.isFile() && (ending == QLatin1String("csv") || ending == QLatin1String("pcap")))
+    controllers_.flight->open(path);
+  else
+    controllers_.terrain->open(path);
+}
 
-  connect(&feed_, &Feed::statesArrived, viewport_, &Viewport::invalidate);
-  connect(&feed_, &Feed::decisionChanged, this, &MainWindow::onDecision);
-  connect(&feed_, &Feed::sourceChanged, this, &MainWindow::onSource);
-  connect(&feed_, &Feed::linkChanged, this, &MainWindow::onLink);
-  connect(&feed_, &Feed::flightChanged, this, [this] {
-    onSource();
-    viewport_->invalidate();
-  });
-  connect(&feed_, &Feed::jumped, this, [this] {
-    messages_->note(
-        tr("The host moved the aircraft farther than it can fly (jump %L1)").arg(feed_.session().jumps()));
-  });
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls()) event->acceptProposedAction();
+}
 
-  connect(&draft_, &views::Draft::activeChanged, this, [this] {
-    feed_.session().setParameters(draft_.active());
-    onDecision();
-    viewport_->invalidate();
-  });
-  connect(&draft_, &views::Draft::dirtyChanged, this, &MainWindow::updateTitle);
-  connect(&document_, &Document::fileChanged, this, &MainWindow::updateTitle);
-  connect(&document_, &Document::changedOnDisk, this, &MainWindow::onChangedOnDisk);
+void MainWindow::dropEvent(QDropEvent* event) {
+  for (const QUrl& url : event->mimeData()->urls()) {
+    if (url.isLocalFile())
+      openAny(url.toLocalFile());
+    else
+      messages().add(
+          tr("Only files of this machine can be dropped"),
+          {{Severity::error, url.toString().toStdString(), "", "a local file", url.scheme().toStdString()}});
+  }
+  event->acceptProposedAction();
+}
 
-  connect(messages_, &MessagePanel::errorAdded, this, [this] {
-    dock(QStringLiteral("messages"))->show();
-    dock(QStringLiteral("messages"))->raise();
-  });
-  const auto refused = [this](const QString& what, const Findings& findings) {
-    messages_->add(what, findings);
-  };
-  connect(hostDock_, &HostDock::refused, this, refused);
-  connect(flightDock_, &FlightDock::refused, this, refused);
-  connect(experiments_, &ExperimentsDock::refused, this, refused);
-  connect(flightDock_, &FlightDock::openRequested, this, &MainWindow::askOpenFlight);
-
-  const auto showJob = [this](bool on) {
-    jobLabel_->setVisible(on);
-    jobBar_->setVisible(on);
-    jobCancel_->setVisible(on);
-  };
-  connect(&terrainJob_, &TerrainJob::started, this, [this, showJob](const QString& what) {
-    jobLabel_->setText(what);
-    jobBar_->setValue(0);
-    showJob(true);
-    if (!terrain_) viewport_->setNotice(tr("%1...").arg(what));
-  });
-  connect(&terrainJob_, &TerrainJob::progressed, this, [this](double fraction, const QString& what) {
-    jobBar_->setValue(static_cast<int>(fraction * 100));
-    if (!what.isEmpty()) jobLabel_->setText(what);
-  });
-  const QString hint =
-      tr("No terrain is open.\nFile > Open terrain, or drop an elevation file or a folder here.");
-  connect(&terrainJob_, &TerrainJob::cancelled, this, [this, showJob, hint] {
-    showJob(false);
-    messages_->note(tr("Cancelled: the terrain stays as it was"));
-    viewport_->setNotice(hint);
-  });
-  connect(&terrainJob_, &TerrainJob::failed, this, [this, showJob, hint](const Findings& findings) {
-    showJob(false);
-    messages_->add(tr("The terrain cannot be opened"), findings);
-    viewport_->setNotice(hint);
-  });
-  connect(&terrainJob_, &TerrainJob::opened, this,
-          [this, showJob](std::shared_ptr<const terrain::Database> database, const Findings& findings) {
-            showJob(false);
-            onTerrainOpened(std::move(database));
-            if (!findings.empty())
-              messages_->add(tr("Opened %1").arg(QFileInfo(openedTerrain_).fileName()), findings);
-          });
+void MainWindow::changeEvent(QEvent* event) {
+  QMainWindow::changeEvent(event);
+  if (event->type() == QEvent::WindowStateChange) feed_.setPicturesDrawn(!isMinimized());
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (!mayLoseEdits()) return event->ignore();
-  document_.dropCopy();
+  if (!controllers_.document->mayLoseEdits()) return event->ignore();
+  controllers_.document->document().dropCopy();
   QSettings settings;
-  settings.setValue(QStringLiteral("window/geometry"), saveGeometry());
-  settings.setValue(QStringLiteral("window/state"), saveState(kLayoutVersion));
-  settings.setValue(kSpanKey, plots_->plot().span());
-  stopTrace();
+  settings.setValue(kGeometryKey, saveGeometry());
+  settings.setValue(kStateKey, saveState(kLayoutVersion));
+  settings.setValue(kSpanKey, panels_.plots->plot().span());
+  controllers_.trace->stop();
   feed_.closeHost();
   event->accept();
+}
+
+void MainWindow::start(const Options& options) {
+  const Controllers& c = controllers_;
+  options_ = options;
+  screenshotDue_ = options.afterS >= 0 && !options.screenshot.isEmpty();
+  if (options.window) resize(*options.window);
+  show();
+  viewport_->setFocus();
+  if (!options.preset.isEmpty()) c.document->open(options.preset);
+  if (options.terrain.isEmpty())
+    c.terrain->openSample();
+  else
+    c.terrain->open(options.terrain);
+  if (!options.flight.isEmpty() && c.flight->open(options.flight)) panels_.flight->play();
+  if (!options.head.isEmpty()) c.head->open(options.head);
+  if (options.listenPort) {
+    panels_.host->setPort(*options.listenPort);
+    panels_.host->connectHost();
+  }
+  if (options.screenshot.isEmpty()) {
+    if (!options.exportFile.isEmpty())
+      c.document->exportTo(options.exportFile, exportFormatOf(options.exportFile), {}, {});
+    c.document->offerRecovery();
+  }
+}
+
+void MainWindow::takeScreenshotSoon() {
+  if (!screenshotDue_) return;
+  screenshotDue_ = false;
+  QTimer::singleShot(static_cast<int>(options_.afterS * 1000), this, &MainWindow::takeScreenshot);
+}
+
+void MainWindow::takeScreenshot() {
+  bool good = grab().save(options_.screenshot);
+  if (!good)
+    std::fprintf(stderr, "trimtab: the screenshot cannot be saved: %s\n", qPrintable(options_.screenshot));
+  if (!options_.exportFile.isEmpty())
+    good =
+        controllers_.document->exportTo(options_.exportFile, exportFormatOf(options_.exportFile), {}, {}) &&
+        good;
+  keepUnsavedEdits();
+  QCoreApplication::exit(good ? 0 : 1);
+}
+
+void MainWindow::keepUnsavedEdits() {
+  controllers_.document->document().keepCopyNow();
+  controllers_.trace->stop();
 }
 
 }  // namespace trimtab::workbench

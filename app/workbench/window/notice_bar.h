@@ -12,8 +12,8 @@ class QPushButton;
 
 namespace trimtab::workbench {
 
-/// A question above the viewport that does not stop the work: recovered edits, a file changed on disk. One at
-/// a time; further ones wait.
+/// Asks a question above the viewport without stopping the work: whether to recover edits, or to reload a
+/// file that changed on disk. It shows one question at a time; further ones wait.
 class NoticeBar : public QFrame {
   Q_OBJECT
 
@@ -24,7 +24,7 @@ class NoticeBar : public QFrame {
   };
 
   explicit NoticeBar(QWidget* parent = nullptr);
-  /// `id` names the question: asking it again replaces it. The bar goes away with any answer.
+  /// Asks a question. `id` names it: asking again under the same name replaces it. Any answer closes it.
   void ask(const QString& id, const QString& text, std::vector<Answer> answers);
   void withdraw(const QString& id);
 

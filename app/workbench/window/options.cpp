@@ -27,14 +27,16 @@ Parsed parseOptions(const QStringList& arguments) {
   const QCommandLineOption terrain(
       "terrain", "Open this terrain: an elevation file, a folder, scenery or a database.", "DB");
   const QCommandLineOption listen("listen", "Listen for a host on this UDP port.", "PORT");
-  const QCommandLineOption fly("fly", "Play this flight here.", "FLIGHT");
+  const QCommandLineOption fly("fly", "Play this flight in the workbench.", "FLIGHT");
   const QCommandLineOption head(
       "head", "Line of sight: a head log, or sweep:DEG/S[/WAIT] or nod:DEG/S[/WAIT].", "LOG");
-  const QCommandLineOption screenshot("screenshot", "Save a picture of the whole window and end.", "OUT.png");
-  const QCommandLineOption after("after-s", "So many seconds after the first picture of the terrain.", "S",
-                                 "0");
+  const QCommandLineOption screenshot("screenshot", "Save a screenshot of the whole window and end.",
+                                      "OUT.png");
+  const QCommandLineOption after(
+      "after-s", "Take the screenshot this many seconds after the first image of the terrain.", "S", "0");
   const QCommandLineOption exportTo(
-      "export", "Write an export (.json, .xml or .ini), with the screenshot if there is one.", "OUT");
+      "export", "Write an export (.json, .xml or .ini), together with the screenshot if there is one.",
+      "OUT");
   const QCommandLineOption size("size", "Size of the window.", "WxH");
   parser.addOptions({help, version, preset, terrain, listen, fly, head, screenshot, after, exportTo, size});
 

@@ -11,23 +11,24 @@ namespace trimtab::workbench {
 
 /// What the command line asks for.
 struct Options {
-  QString preset;   ///< file or shipped name; empty: "default"
-  QString terrain;  ///< file, folder or database; empty: the sample
+  QString preset;   ///< a file or the name of a shipped preset; empty: "default"
+  QString terrain;  ///< an elevation file, a folder or a database; empty: the sample
   std::optional<std::uint16_t> listenPort;
-  QString head;        ///< a head log, or a sweep
-  QString flight;      ///< played here from the first picture on
-  QString screenshot;  ///< of the whole window; the program ends then
-  QString exportFile;  ///< written when the screenshot is, else at once; format by its ending
-  double afterS = 0;   ///< seconds from the first picture
+  QString head;        ///< a head log, or a sweep such as sweep:60
+  QString flight;      ///< played in this program from the start
+  QString screenshot;  ///< the file for an image of the whole window; the program ends after it
+  QString exportFile;  ///< written with the screenshot, or at once without one; its ending gives the format
+  double afterS = 0;   ///< seconds from the first image to the screenshot
   std::optional<QSize> window;
 };
 
-/// Options, or an exit code after the text was printed (help, version, wrong usage).
+/// The options; or an exit code if the program must end, because help, the version or a usage error was
+/// printed.
 struct Parsed {
   Options options;
   std::optional<int> exitCode;
 };
-/// Without a QApplication: help and version need no display.
+/// Parses the command line. It needs no QApplication, because help and version work without a display.
 Parsed parseOptions(const QStringList& arguments);
 
 }  // namespace trimtab::workbench

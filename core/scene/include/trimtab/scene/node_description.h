@@ -2,29 +2,33 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/terrain/format/database.h"
 
+/// What a person wants to know about one node of the terrain that they picked in the image.
 namespace trimtab::scene {
 
-/// What an engineer asks about one node of a frame.
 struct NodeDescription {
-  TerrainForm form = TerrainForm::levels;
-  int level = 0;  ///< of tiles 0 is the finest; of patches and static trees the depth, 0 at the root
-  std::uint32_t triangles = 0;
-  double errorM = 0;     ///< geometric error of what is drawn of it
-  double errorPx = 0;    ///< the same at `distanceM`, at the centre of the image
-  double distanceM = 0;  ///< from the eye to the nearest place of `bounds`
-  Box bounds;            ///< in the terrain's frame
+  std::string_view form;             ///< "tile", "patch" or "tree node"
+  int level = 0;                     ///< 0 is the finest tile; for patches and tree nodes it is the depth
+  std::uint64_t triangles = 0;       ///< of its mesh: for a patch that is drawn, of the variant drawn
+  double errorM = 0;                 ///< largest vertical distance from the source posts that the mesh states
+  double distanceM = 0;              ///< from the eye to the nearest point of its bounding box
+  double errorPx = 0;                ///< `errorM` seen at that distance, but not nearer than the near plane
+  double widthPx = 0, heightPx = 0;  ///< of its bounding box in the image, cut off at the image's edges
   CullReason reason = CullReason::other_level;
 };
 
-/// Describes a node by its number in the form that `drawn` was drawn in, for example one that
-/// Renderer::readNodes returned. Returns nothing if that form has no such node. Its cost grows with the size
-/// of the cut.
-std::optional<NodeDescription> describeNode(const terrain::Database& database, const FrameRequest& request,
-                                            const FrameResult& drawn, std::uint32_t node);
+/// Describes a node of the frame that `request` and `result` belong to. Returns nothing if the terrain has no
+/// such node: `node` may be Renderer::kNoNode, and an old result may belong to another terrain.
+/// Searches the frame's cut once, so it is meant for one picked node, not for all of them.
+std::optional<NodeDescription> describeNode(std::uint32_t node, const terrain::Database& database,
+                                            const FrameRequest& request, const FrameResult& result);
+
+/// Says in words why a node is drawn or left out, for example "outside the frustum".
+std::string_view inWords(CullReason reason);
 
 }  // namespace trimtab::scene

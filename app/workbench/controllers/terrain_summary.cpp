@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <QFileInfo>
+#include "terrain_summary.h"
+
 #include <algorithm>
 
-#include "app/workbench/dialogs/bake_dialog.h"
-#include "main_window.h"
-#include "trimtab/frame/frame_result.h"
-#include "trimtab/terrain/bake/bake.h"
-#include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/format/level_report.h"
-#include "views/panels/terrain_panel.h"
+#include "trimtab/terrain/format/patch_terrain.h"
+#include "trimtab/terrain/format/static_lod_terrain.h"
 
-// The Terrain dock: what it says of the terrain, and baking.
 namespace trimtab::workbench {
 namespace {
 
@@ -20,6 +16,8 @@ std::vector<views::TerrainLevel> levelsFrom(const std::vector<terrain::LevelRepo
     levels.push_back({r.nodes, r.triangles, r.bytes, r.maxErrorM, r.rmsErrorM, r.bilinearErrorM});
   return levels;
 }
+
+}  // namespace
 
 views::TerrainSummary summaryOf(const terrain::Database& database) {
   const terrain::TerrainInfo& info = database.info();
@@ -43,39 +41,28 @@ views::TerrainSummary summaryOf(const terrain::Database& database) {
   return summary;
 }
 
-}  // namespace
-
-views::TerrainPanel* MainWindow::makeTerrainPanel() {
-  auto* panel = new views::TerrainPanel(draft_);
-  connect(panel, &views::TerrainPanel::cancelAsked, &terrainJob_, &TerrainJob::cancel);
-  connect(&terrainJob_, &TerrainJob::started, panel,
-          [panel](const QString& what) { panel->showJob(0, what); });
-  connect(&terrainJob_, &TerrainJob::progressed, panel, &views::TerrainPanel::showJob);
-  connect(&terrainJob_, &TerrainJob::opened, panel, &views::TerrainPanel::endJob);
-  connect(&terrainJob_, &TerrainJob::failed, panel, &views::TerrainPanel::endJob);
-  connect(&terrainJob_, &TerrainJob::cancelled, panel, &views::TerrainPanel::endJob);
-  return panel;
+std::optional<views::StaticLodSummary> treesOf(const terrain::Database& database) {
+  const auto trees = database.staticLod();
+  if (!trees) return std::nullopt;
+  const terrain::StaticLodCounts& c = trees->counts;
+  return views::StaticLodSummary{.trianglesPerNode = trees->trianglesPerNode,
+                                 .levels = c.levels,
+                                 .tiles = trees->tiles.size(),
+                                 .nodes = trees->index.size(),
+                                 .sourceTriangles = c.sourceTriangles,
+                                 .faces = c.faces,
+                                 .distinctFaces = c.distinctFaces,
+                                 .lockedMinima = c.lockedMinima,
+                                 .bytes = c.bytes,
+                                 .facesOfLevel = c.facesOfLevel};
 }
 
-void MainWindow::showTerrain() {
-  terrainPanel_->setTerrain(summaryOf(*terrain_));
-}
-
-void MainWindow::askBake(const QStringList& sources) {
-  BakeDialog dialog(this);
-  dialog.addSources(sources);
-  if (dialog.exec() != QDialog::Accepted) return;
-  terrain::BakeOptions options = dialog.options();
-  terrainSource_ = QFileInfo(QString::fromStdString(options.output.string())).absoluteFilePath();
-  terrainJob_.bake(std::move(options));
-}
-
-LevelsFrame MainWindow::levelsDrawn(const FrameResult& result) const {
+LevelsFrame levelsDrawn(const FrameResult& result, const terrain::Database& database) {
   LevelsFrame levels;
-  if (!terrain_ || result.staticLod.drawn) return levels;
-  const auto patches = terrain_->patches();
+  if (result.staticLod.drawn) return levels;
+  const auto patches = database.patches();
   if (result.patches && !patches) return levels;
-  const TerrainIndex& tiles = terrain_->index();
+  const TerrainIndex& tiles = database.index();
   const std::size_t known = result.patches ? patches->index().size() : tiles.size();
   constexpr std::uint64_t kTrianglesPerTile = 2 * TerrainIndex::kTileCells * TerrainIndex::kTileCells;
   for (const TileDraw& drawn : result.visible.tiles) {

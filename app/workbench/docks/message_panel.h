@@ -9,20 +9,20 @@ class QTreeWidget;
 
 namespace trimtab::workbench {
 
-/// What went wrong or is worth knowing, newest first: time, what was tried, and every finding with file,
-/// place, expected and found. Rows can be copied.
+/// Lists what went wrong or is worth knowing, the newest first: the time, what was tried, and every finding
+/// with its file and place, what was expected and what was found. Rows can be copied.
 class MessagePanel : public QWidget {
   Q_OBJECT
 
  public:
   explicit MessagePanel(QWidget* parent = nullptr);
 
-  /// One line without details.
+  /// Adds one line without details.
   void note(const QString& headline);
-  /// A headline and its findings below it.
+  /// Adds a headline with its findings below it.
   void add(const QString& headline, const Findings& findings);
   int count() const;
-  QString text() const;  ///< all of it, as copied
+  QString text() const;  ///< everything, in the form in which it is copied
 
  signals:
   void errorAdded();

@@ -23,7 +23,7 @@ namespace trimtab::workbench {
 namespace {
 
 constexpr int kCopyAfterMs = 1500;
-/// An editor that saves in several steps is looked at once it is done.
+/// Some editors save in several steps: the file is read once they are done.
 constexpr int kLookAfterMs = 150;
 
 QString recoveryFolder() {
@@ -34,8 +34,9 @@ QString ownCopy() {
   return QStringLiteral("%1/%2.json").arg(recoveryFolder()).arg(QCoreApplication::applicationPid());
 }
 
-/// Locked while the program that keeps the copy lives: the number of a dead program may be given anew, or
-/// stay taken until somebody asks how it ended.
+/// The lock is held while the program that keeps the copy lives. Its process number alone says too little:
+/// the system may give a dead program's number to another one, or keep it in use until its parent asks how it
+/// ended.
 QString lockOf(const QString& copy) {
   return copy.chopped(5) + QStringLiteral(".lock");
 }
@@ -53,7 +54,8 @@ bool isShipped(std::string_view name) {
   return std::find(shipped.begin(), shipped.end(), name) != shipped.end();
 }
 
-/// The same preset for a file in another folder: a base that is a file is named from there.
+/// Returns the same preset for a file in another folder: if its base is a file, its path is made relative to
+/// that folder.
 Preset movedTo(Preset preset, const QString& folder) {
   if (!preset.base.empty() && !isShipped(preset.base)) {
     const QDir old(QString::fromStdString(preset.folder.string()));
@@ -88,7 +90,7 @@ Document::Document(views::Draft& draft, QObject* parent) : QObject(parent), draf
 
 Document::~Document() {
   if (lock_ < 0) return;
-  // What is left behind now is for the next start to offer.
+  // A copy that is left now is offered at the next start.
   if (!QFile::exists(ownCopy())) QFile::remove(lockOf(ownCopy()));
   ::close(lock_);
 }
@@ -142,7 +144,7 @@ void Document::become(const QString& file) {
 void Document::checkDisk() {
   if (file_.isEmpty()) return;
   const bool gone = !QFileInfo::exists(file_);
-  // A file that was replaced has to be watched anew.
+  // A file that was replaced must be watched again.
   if (!gone && !watcher_.files().contains(file_)) watcher_.addPath(file_);
   if (gone) return emit changedOnDisk(true);
   std::string now = readAll(file_);
@@ -167,7 +169,7 @@ void Document::keepCopyNow() {
   const QJsonObject copy{{"file", file_},
                          {"saved_at", QDateTime::currentDateTime().toString(Qt::ISODate)},
                          {"preset", QString::fromStdString(*text)}};
-  // A copy that cannot be written costs nothing but the copy: the next save will say what is wrong with the
+  // If the copy cannot be written, only the copy is lost: the next save will report what is wrong with the
   // disk.
   const auto ignored = writeAtomically(ownCopy().toStdString(), QJsonDocument(copy).toJson().toStdString());
   static_cast<void>(ignored);

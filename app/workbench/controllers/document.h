@@ -16,8 +16,8 @@ class Draft;
 
 namespace trimtab::workbench {
 
-/// The preset file behind the draft: open, save, watch, and keep a copy of unsaved edits in case the program
-/// dies.
+/// The preset file behind the draft. It opens, saves and watches the file, and keeps a copy of unsaved edits
+/// in case the program crashes.
 class Document : public QObject {
   Q_OBJECT
 
@@ -25,12 +25,12 @@ class Document : public QObject {
   explicit Document(views::Draft& draft, QObject* parent = nullptr);
   ~Document() override;
 
-  /// Empty while it was never saved.
+  /// The preset's file; empty if it was never saved.
   const QString& file() const { return file_; }
-  /// File name or preset name, for the title bar.
+  /// The file's name, or the preset's name if there is no file: for the title bar.
   QString title() const;
 
-  /// A file that cannot be read leaves everything as it was. Findings come with success, too: warnings, and
+  /// Opens a shipped preset or a file. Failure changes nothing. Success can carry findings too: warnings, and
   /// broken rules, which the draft shows.
   Result<Done> open(const QString& nameOrFile);
   void startFrom(const QString& shipped);
@@ -38,22 +38,22 @@ class Document : public QObject {
   Result<Done> reload() { return open(file_); }
 
   struct Recovered {
-    QString copy;  ///< the file the edits are kept in
-    QString file;  ///< of the preset; empty where it had none
+    QString copy;  ///< the file that holds the edits
+    QString file;  ///< the preset's own file; empty if it had none
     QString savedAt;
     QString text;
   };
-  /// Edits that programs left which are no longer running.
+  /// Returns the edits that were left behind by programs which no longer run.
   static std::vector<Recovered> abandoned();
   Result<Done> recover(const Recovered& recovered);
   static void discard(const Recovered& recovered);
   /// Writes the copy at once instead of some seconds after an edit.
   void keepCopyNow();
-  /// The draft was given up on purpose.
+  /// Removes the copy, because the person discarded the edits.
   void dropCopy();
 
  signals:
-  void fileChanged();  ///< file() or title() is another
+  void fileChanged();  ///< file() or title() has changed
   void changedOnDisk(bool gone);
 
  private:
@@ -62,10 +62,10 @@ class Document : public QObject {
 
   views::Draft& draft_;
   QString file_;
-  std::string bytes_;  ///< as last read or written
+  std::string bytes_;  ///< the file's content as it was last read or written
   QFileSystemWatcher watcher_;
   QTimer copySoon_, lookSoon_;
-  int lock_ = -1;  ///< held from the first copy on
+  int lock_ = -1;  ///< a file lock, held from the first copy on; -1: none
 };
 
 }  // namespace trimtab::workbench

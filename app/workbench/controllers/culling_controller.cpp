@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "culling_controller.h"
+
+#include <QDockWidget>
+#include <algorithm>
+#include <cmath>
+
+#include "app/workbench/docks/dock_of.h"
+#include "app/workbench/viewport/viewport.h"
+#include "frame_controller.h"
+#include "terrain_controller.h"
+#include "trimtab/scene/node_description.h"
+#include "trimtab/scene/renderer.h"
+#include "views/editors/bands_editor.h"
+#include "views/panels/culling_panel.h"
+
+namespace trimtab::workbench {
+namespace {
+
+constexpr double kDegreesPerRadian = 57.29577951308232;
+
+QString fromView(std::string_view text) {
+  return QString::fromUtf8(text.data(), qsizetype(text.size()));
+}
+
+bool isWhiteAllOver(const QImage& grey) {
+  for (int y = 0; y < grey.height(); ++y) {
+    const uchar* const row = grey.constScanLine(y);
+    if (std::any_of(row, row + grey.width(), [](uchar pixel) { return pixel != 255; })) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+CullingController::CullingController(const Workplace& workplace, FrameController& frame,
+                                     const TerrainController& terrain, views::CullingPanel& panel,
+                                     views::BandsEditor& bands)
+    : at_(workplace), frame_(frame), terrain_(terrain), panel_(panel), bands_(bands) {
+  connect(&panel_, &views::CullingPanel::pickingChanged, &at_.viewport, &Viewport::setPicking);
+  connect(&at_.viewport, &Viewport::nodePicked, this, &CullingController::showPicked);
+  connect(&at_.viewport, &Viewport::depthMapRead, this, &CullingController::showDepthMap);
+  connect(&at_.viewport, &Viewport::horizonRead, this, &CullingController::showHorizon);
+  connect(&terrain_, &TerrainController::opened, this, [this] { setFrozen(false); });
+  readMapWhileSeen(bands_);
+  readMapWhileSeen(panel_);
+}
+
+/// Reading a map back from GL costs time, so it is read only while a dock shows it.
+void CullingController::readMapWhileSeen(const QWidget& content) {
+  QDockWidget* const dock = dockOf(content);
+  connect(dock, &QDockWidget::visibilityChanged, &at_.viewport,
+          [&viewport = at_.viewport, dock](bool visible) { viewport.setDepthMapWanted(dock, visible); });
+}
+
+void CullingController::setOverlay(bool Overlays::*flag, bool on) {
+  Overlays overlays = frame_.overlays();
+  overlays.*flag = on;
+  frame_.setOverlays(overlays);
+}
+
+void CullingController::setTreeOverlay(int depth, bool picture) {
+  Overlays overlays = frame_.overlays();
+  overlays.treeDepth = depth;
+  overlays.treePicture = picture;
+  frame_.setOverlays(overlays);
+}
+
+void CullingController::setFrozen(bool frozen) {
+  const auto& shown = frame_.shown();
+  if (frozen && shown && terrain_.database()) {
+    const LocalFrame& local = terrain_.database()->index().frame;
+    frame_.setFrozenEye(EyePose{local.fromGeodetic(shown->eye), eyeAxes(local, shown->eye, shown->attitude)});
+  } else {
+    frame_.setFrozenEye(std::nullopt);
+  }
+  emit frozenChanged(frozen);
+}
+
+void CullingController::showHorizon(const std::vector<float>& elevationDeg) {
+  if (!frame_.shown()) return;
+  const ViewShape& view = frame_.shown()->view;
+  panel_.showHorizon(elevationDeg, frame_.shown()->attitude.heading.value(),
+                     (std::atan(view.right) - std::atan(view.left)) * kDegreesPerRadian);
+}
+
+void CullingController::showDepthMap(const QImage& grey) {
+  if (grey.isNull()) {
+    bands_.clearDepthMap();
+    return panel_.showMap({}, tr("Neither a depth map nor a horizon was used in this frame."));
+  }
+  using Grey = scene::Renderer::Grey;
+  const auto& last = at_.viewport.lastResult();
+  const bool horizon = last && last->horizon && !last->depthMap;
+  const QString size = tr("%1 × %2 px").arg(grey.width()).arg(grey.height());
+  const QString caption =
+      isWhiteAllOver(grey) ? tr("%1: nothing in this view is covered").arg(size)
+      : horizon            ? tr("What the horizon covers of the view, %1: grey is proven covered").arg(size)
+                           : tr("Depth map %1; black %2 m, white %3 km")
+                      .arg(size)
+                      .arg(Grey::kNearestM)
+                      .arg(Grey::kFurthestM / 1000);
+  bands_.showDepthMap(grey, caption);
+  panel_.showMap(grey, caption);
+}
+
+void CullingController::showPicked(std::uint32_t node) {
+  panel_.endPicking();
+  const auto& last = at_.viewport.lastResult();
+  if (!terrain_.database() || !last || !frame_.shown()) return panel_.showPicked(std::nullopt);
+  const auto found = scene::describeNode(node, *terrain_.database(), *frame_.shown(), *last);
+  if (!found) return panel_.showPicked(std::nullopt);
+  panel_.showPicked(views::PickedNode{.form = fromView(found->form),
+                                      .number = node,
+                                      .level = found->level,
+                                      .triangles = found->triangles,
+                                      .errorM = found->errorM,
+                                      .distanceM = found->distanceM,
+                                      .errorPx = found->errorPx,
+                                      .widthPx = found->widthPx,
+                                      .heightPx = found->heightPx,
+                                      .reason = fromView(scene::inWords(found->reason))});
+}
+
+}  // namespace trimtab::workbench

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QImage>
+#include <QObject>
+#include <cstdint>
+#include <vector>
+
+#include "trimtab/frame/overlays.h"
+#include "workplace.h"
+
+class QDockWidget;
+
+namespace trimtab::views {
+class BandsEditor;
+class CullingPanel;
+}  // namespace trimtab::views
+
+namespace trimtab::workbench {
+
+class FrameController;
+class TerrainController;
+
+/// Shows what culling does: overlays in the image, frozen culling, what the occlusion method saw, and what a
+/// picked node is.
+class CullingController : public QObject {
+  Q_OBJECT
+
+ public:
+  CullingController(const Workplace& workplace, FrameController& frame, const TerrainController& terrain,
+                    views::CullingPanel& panel, views::BandsEditor& bands);
+
+  void setOverlay(bool Overlays::*flag, bool on);
+  /// Static trees: draws one level by itself (-1: each node by its distance), and document E's picture.
+  void setTreeOverlay(int depth, bool picture);
+  /// While frozen, culling and levels of detail keep to the view of this moment. Opening another terrain
+  /// ends it.
+  void setFrozen(bool frozen);
+
+ signals:
+  void frozenChanged(bool frozen);
+
+ private:
+  void readMapWhileSeen(const QWidget& content);
+  void showDepthMap(const QImage& grey);
+  void showHorizon(const std::vector<float>& elevationDeg);
+  void showPicked(std::uint32_t node);
+
+  Workplace at_;
+  FrameController& frame_;
+  const TerrainController& terrain_;
+  views::CullingPanel& panel_;
+  views::BandsEditor& bands_;
+};
+
+}  // namespace trimtab::workbench

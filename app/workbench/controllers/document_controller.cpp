@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "document_controller.h"
+
+#include <QDateTime>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMessageBox>
+
+#include "app/workbench/docks/message_panel.h"
+#include "app/workbench/window/notice_bar.h"
+#include "recent_files.h"
+#include "trimtab/preset/file_io.h"
+#include "trimtab/preset/preset.h"
+#include "views/model/draft.h"
+
+namespace trimtab::workbench {
+namespace {
+
+const QString kDiskNotice = QStringLiteral("disk");
+
+QString presetFilter() {
+  return DocumentController::tr("Presets (*.json);;All files (*)");
+}
+
+}  // namespace
+
+DocumentController::DocumentController(const Workplace& workplace, NoticeBar& notices)
+    : at_(workplace), notices_(notices), document_(workplace.draft) {
+  connect(&document_, &Document::changedOnDisk, this, &DocumentController::onChangedOnDisk);
+}
+
+bool DocumentController::open(const QString& nameOrFile) {
+  const Result<Done> opened = document_.open(nameOrFile);
+  if (!opened) {
+    at_.messages.add(tr("The preset cannot be opened: %1").arg(nameOrFile), opened.findings());
+    return false;
+  }
+  if (!opened.findings().empty()) at_.messages.add(tr("Opened %1").arg(nameOrFile), opened.findings());
+  if (!document_.file().isEmpty()) rememberRecent(QStringLiteral("preset"), document_.file());
+  return true;
+}
+
+void DocumentController::openOverEdits(const QString& nameOrFile) {
+  if (mayLoseEdits()) open(nameOrFile);
+}
+
+void DocumentController::startFrom(const QString& shipped) {
+  if (mayLoseEdits()) document_.startFrom(shipped);
+}
+
+void DocumentController::askOpen() {
+  if (!mayLoseEdits()) return;
+  const QString file =
+      QFileDialog::getOpenFileName(&at_.window, tr("Open preset"), document_.file(), presetFilter());
+  if (!file.isEmpty()) open(file);
+}
+
+bool DocumentController::saveTo(const QString& file) {
+  const Result<Done> saved = document_.save(file);
+  if (!saved) {
+    at_.messages.add(tr("The preset cannot be saved: %1").arg(file), saved.findings());
+    return false;
+  }
+  notices_.withdraw(kDiskNotice);
+  rememberRecent(QStringLiteral("preset"), document_.file());
+  emit this->saved(document_.file());
+  return true;
+}
+
+bool DocumentController::save() {
+  return document_.file().isEmpty() ? saveAs() : saveTo(document_.file());
+}
+
+bool DocumentController::saveAs() {
+  QFileDialog dialog(&at_.window, tr("Save preset"), document_.file(), presetFilter());
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.setDefaultSuffix(QStringLiteral("json"));
+  return dialog.exec() == QDialog::Accepted && saveTo(dialog.selectedFiles().constFirst());
+}
+
+bool DocumentController::mayLoseEdits() {
+  if (!at_.draft.isDirty()) return true;
+  QMessageBox box(QMessageBox::Question, tr("Trimtab"), tr("Save the changes to %1?").arg(document_.title()),
+                  QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &at_.window);
+  box.setInformativeText(tr("They are lost if you do not save them."));
+  box.setDefaultButton(QMessageBox::Save);
+  switch (box.exec()) {
+    case QMessageBox::Save:
+      return save();
+    case QMessageBox::Discard:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool DocumentController::exportTo(const QString& file, ExportFormat format, const QString& author,
+                                  const QString& comment) {
+  if (at_.draft.isBroken()) {
+    at_.messages.add(tr("Nothing is exported while the preset breaks a rule"), at_.draft.findings());
+    return false;
+  }
+  Provenance provenance;
+  provenance.author = author.toStdString();
+  provenance.created = QDateTime::currentDateTimeUtc().toString(Qt::ISODate).toStdString();
+  provenance.program = "trimtab " TRIMTAB_VERSION;
+  provenance.terrain = terrainName_.toStdString();
+  provenance.comment = comment.toStdString();
+  const QString name =
+      document_.file().isEmpty() ? document_.title() : QFileInfo(document_.file()).completeBaseName();
+  const std::string text = exportText(at_.draft.active(), name.toStdString(), provenance, format);
+  const QString absolute = QFileInfo(file).absoluteFilePath();
+  if (const Result<Done> written = writeAtomically(absolute.toStdString(), text); !written) {
+    at_.messages.add(tr("The export cannot be written: %1").arg(file), written.findings());
+    return false;
+  }
+  at_.messages.note(tr("Exported to %1").arg(absolute));
+  return true;
+}
+
+void DocumentController::askExport() {
+  ExportDialog dialog(&at_.window);
+  if (dialog.exec() != QDialog::Accepted) return;
+  QFileDialog files(&at_.window, tr("Export preset"), {}, dialog.fileFilter());
+  files.setAcceptMode(QFileDialog::AcceptSave);
+  files.setDefaultSuffix(dialog.suffix());
+  if (files.exec() == QDialog::Accepted)
+    exportTo(files.selectedFiles().constFirst(), dialog.format(), dialog.author(), dialog.comment());
+}
+
+void DocumentController::offerRecovery() {
+  for (const Document::Recovered& found : Document::abandoned()) {
+    const QString what = found.file.isEmpty() ? tr("a new preset") : QFileInfo(found.file).fileName();
+    notices_.ask(found.copy, tr("Unsaved edits of %1 from %2 were left behind.").arg(what, found.savedAt),
+                 {{tr("&Recover"),
+                   [this, found] {
+                     if (!mayLoseEdits()) return offerRecovery();
+                     if (const Result<Done> back = document_.recover(found); !back)
+                       at_.messages.add(tr("The edits cannot be recovered"), back.findings());
+                   }},
+                  {tr("&Discard"), [found] { Document::discard(found); }},
+                  {tr("&Later"), {}}});
+  }
+}
+
+void DocumentController::onChangedOnDisk(bool gone) {
+  const QString name = QFileInfo(document_.file()).fileName();
+  if (gone)
+    return notices_.ask(kDiskNotice, tr("%1 is gone from the disk. Your edits are still here.").arg(name),
+                        {{tr("&Save it again"), [this] { save(); }}, {tr("&Dismiss"), {}}});
+  notices_.ask(kDiskNotice, tr("%1 was changed on disk by another program.").arg(name),
+               {{at_.draft.isDirty() ? tr("&Reload and lose edits") : tr("&Reload"),
+                 [this] { open(document_.file()); }},
+                {tr("&Keep mine"), {}}});
+}
+
+}  // namespace trimtab::workbench

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QObject>
+#include <QString>
+
+#include "app/workbench/dialogs/export_dialog.h"
+#include "document.h"
+#include "workplace.h"
+
+namespace trimtab::workbench {
+
+class NoticeBar;
+
+/// Opens, saves and exports the preset, and sees to it that no edit is lost unasked. Failures are reported in
+/// the Messages dock and change nothing.
+class DocumentController : public QObject {
+  Q_OBJECT
+
+ public:
+  DocumentController(const Workplace& workplace, NoticeBar& notices);
+
+  Document& document() { return document_; }
+
+  /// Opens a shipped preset by its name, or a file. Returns false if it cannot be read.
+  bool open(const QString& nameOrFile);
+  bool saveTo(const QString& file);
+  /// Saves to the preset's own file; asks for one if it has none. Returns false if nothing was saved.
+  bool save();
+  bool saveAs();
+  /// Writes the active parameters for an image generator. Returns false while the draft breaks a rule, or if
+  /// the file cannot be written.
+  bool exportTo(const QString& file, ExportFormat format, const QString& author, const QString& comment);
+  /// The terrain that an export names as the one it was tuned over.
+  void setTerrainName(const QString& name) { terrainName_ = name; }
+
+  // These ask first whether unsaved edits may be lost.
+  void askOpen();
+  void openOverEdits(const QString& nameOrFile);
+  void startFrom(const QString& shipped);
+  void askExport();
+  /// Asks what to do with unsaved edits. Returns false if the person cancels, or if saving fails.
+  bool mayLoseEdits();
+  /// Offers the edits that programs left behind which ended without saving.
+  void offerRecovery();
+
+ signals:
+  void saved(const QString& file);
+
+ private:
+  void onChangedOnDisk(bool gone);
+
+  Workplace at_;
+  NoticeBar& notices_;
+  Document document_;
+  QString terrainName_;
+};
+
+}  // namespace trimtab::workbench

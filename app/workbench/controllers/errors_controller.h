@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <deque>
+#include <optional>
+
+#include "app/workbench/docks/error_dock.h"
+#include "app/workbench/viewport/draw_thread.h"
+#include "run_inputs.h"
+#include "trimtab/frame/frame_request.h"
+#include "workplace.h"
+
+namespace trimtab::workbench {
+
+class FlightController;
+class FrameController;
+class SplitView;
+class TerrainController;
+class TraceController;
+
+/// Run time against error: measures the live session, runs benchmarks along the flight, keeps the cursor of
+/// the results and the flight together, and compares two presets.
+class ErrorsController : public QObject {
+  Q_OBJECT
+
+ public:
+  struct Neighbours {
+    const FrameController& frame;
+    const TerrainController& terrain;
+    FlightController& flight;
+    const TraceController& trace;
+    const RunInputs& inputs;
+  };
+  ErrorsController(const Workplace& workplace, DrawThread& measuring, const Neighbours& neighbours);
+  ~ErrorsController() override;
+
+  /// The window docks it after the controllers are made; call `attach` then.
+  ErrorDock& dock() { return *dock_; }
+  /// Follows whether a person can see the dock: nothing is measured live while nobody does.
+  void attach();
+  void askOpenResults();
+  void askAndMeasure();
+  bool openResults(const QString& file);
+  /// Opens the window in which two presets draw the same frame.
+  void compare();
+  /// Null until `compare` was called.
+  SplitView* splitView() const { return split_; }
+
+ signals:
+  /// A short hint for the status bar.
+  void hint(const QString& text);
+
+ private:
+  std::optional<ErrorDock::Inputs> benchInputs(const QString& folder);
+  void remember(const FrameRequest& before);
+  void onPainted();
+  void onTerrainOpened();
+  void followFlight();
+  void seekFlight(double timeS);
+  QString whyNotMeasured() const;
+
+  Workplace at_;
+  DrawThread& measuring_;
+  Neighbours by_;
+  std::deque<FrameRequest> shownBefore_;  ///< while errors are measured live; oldest first
+  QString hinted_;                        ///< what `seekFlight` reported last
+  ErrorDock* dock_;
+  SplitView* split_ = nullptr;
+};
+
+}  // namespace trimtab::workbench

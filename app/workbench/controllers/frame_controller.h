@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QElapsedTimer>
+#include <QObject>
+#include <limits>
+#include <optional>
+
+#include "app/workbench/viewport/viewport.h"
+#include "trimtab/frame/frame_request.h"
+#include "trimtab/frame/overlays.h"
+#include "views/model/live.h"
+#include "workplace.h"
+
+namespace trimtab::workbench {
+
+class TerrainController;
+
+/// Asks the session for each image that the viewport draws, and shows every frame to the docks.
+class FrameController : public QObject {
+  Q_OBJECT
+
+ public:
+  FrameController(const Workplace& workplace, const TerrainController& terrain);
+
+  /// The request that the viewport drew last. Nothing until the first image.
+  const std::optional<FrameRequest>& shown() const { return shown_; }
+  /// What the last image cost.
+  const FrameCost& lastCost() const { return lastCost_; }
+  /// Seconds since the window was made: the clock of LiveFrame::time.
+  double clock() const { return double(sinceStart_.nsecsElapsed()) * 1e-9; }
+
+  const Overlays& overlays() const { return overlays_; }
+  void setOverlays(const Overlays& overlays);
+  /// Culling and levels of detail keep to this eye while the view moves on. Nothing: they follow the view.
+  void setFrozenEye(const std::optional<EyePose>& eye);
+
+ signals:
+  /// A new image is about to be asked for; `before` is the request that it replaces.
+  void replaced(const trimtab::FrameRequest& before);
+  /// A new frame for the docks: after each image, and between two images when the decision changes.
+  void frameShown(const trimtab::views::LiveFrame& frame);
+  /// An image is on the display and its cost is known. Emitted after `frameShown`.
+  void painted();
+
+ private:
+  std::optional<Picture> picture(int widthPx, int heightPx);
+  QString hud(const AircraftState& eye) const;
+  void onPainted();
+  void onDecision();
+  views::LiveFrame liveFrame() const;
+
+  Workplace at_;
+  const TerrainController& terrain_;
+  Overlays overlays_;
+  std::optional<EyePose> frozenEye_;
+  std::optional<FrameRequest> shown_;
+  FrameCost lastCost_;
+  LevelsFrame levels_;  ///< of the last image
+  QElapsedTimer sinceImage_, sinceStart_;
+  double fps_ = std::numeric_limits<double>::quiet_NaN();
+};
+
+}  // namespace trimtab::workbench

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QObject>
+#include <QString>
+
+#include "workplace.h"
+
+namespace trimtab::views {
+class MotionPanel;
+}
+
+namespace trimtab::workbench {
+
+/// Chooses where the line of sight comes from: the host, a head log, a sweep, or the mouse pointer.
+class HeadController : public QObject {
+  Q_OBJECT
+
+ public:
+  HeadController(const Workplace& workplace, views::MotionPanel& panel);
+
+  /// Opens a head log, or a sweep in the form that `--head` accepts. Returns false and reports in the
+  /// Messages dock if it cannot be used; the line of sight stays as it was.
+  bool open(const QString& fileOrSweep);
+
+ private:
+  void askOpen();
+  void use(int source);
+  void showSource();
+
+  Workplace at_;
+  views::MotionPanel& panel_;
+};
+
+}  // namespace trimtab::workbench

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QString>
+#include <QStringList>
+
+namespace trimtab::workbench {
+
+/// The files that were opened lately, kept in the user's settings. `kind` is "preset", "terrain" or "flight".
+void rememberRecent(const QString& kind, const QString& path);
+/// Returns at most eight paths, the newest first. Files that are gone by now are among them.
+QStringList recentFiles(const QString& kind);
+
+}  // namespace trimtab::workbench

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run_inputs.h"
+
+#include <QObject>
+
+#include "app/workbench/docks/flight_dock.h"
+#include "app/workbench/docks/message_panel.h"
+#include "app/workbench/jobs/feed.h"
+#include "document.h"
+#include "terrain_controller.h"
+#include "trimtab/preset/file_io.h"
+#include "trimtab/preset/preset.h"
+#include "views/model/draft.h"
+
+namespace trimtab::workbench {
+
+RunInputs::RunInputs(const Workplace& workplace, const Document& document, const TerrainController& terrain,
+                     const FlightDock& flight)
+    : at_(workplace), document_(document), terrain_(terrain), flight_(flight) {}
+
+bool RunInputs::write(const QString& file, const std::string& text) const {
+  const auto written = writeAtomically(file.toStdString(), text);
+  if (!written) at_.messages.add(QObject::tr("The experiment's input cannot be written"), written.findings());
+  return written.ok();
+}
+
+std::optional<ExperimentInputs> RunInputs::write(const QString& folder) const {
+  if (!terrain_.database()) return std::nullopt;
+  ExperimentInputs inputs{terrain_.openedFrom(), {}, folder + "/preset.json"};
+  const std::string name = document_.title().toStdString();
+  if (!write(inputs.preset, exportText(at_.draft.active(), name, {}, ExportFormat::json)))
+    return std::nullopt;
+  if (const Flight& flight = at_.feed.playback().flight(); !flight.states.empty()) {
+    // The file holds more than the states: a trace has its cost, and a capture what CSV has no columns for.
+    inputs.flight = flight_.file();
+    if (!inputs.flight.isEmpty()) return inputs;
+    inputs.flight = folder + "/flight.csv";
+    if (!write(inputs.flight, flightCsv(flight))) return std::nullopt;
+  }
+  return inputs;
+}
+
+}  // namespace trimtab::workbench

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "terrain_controller.h"
+
+#include <QFileDialog>
+#include <QFileInfo>
+
+#include "app/workbench/dialogs/bake_dialog.h"
+#include "app/workbench/docks/message_panel.h"
+#include "app/workbench/jobs/feed.h"
+#include "app/workbench/viewport/viewport.h"
+#include "recent_files.h"
+#include "terrain_summary.h"
+#include "trimtab/terrain/bake/bake.h"
+
+namespace trimtab::workbench {
+
+TerrainController::TerrainController(const Workplace& workplace, views::TerrainPanel& panel,
+                                     views::StaticLodPanel& trees)
+    : at_(workplace), panel_(panel), trees_(trees) {
+  connectJob();
+  connect(&at_.viewport, &Viewport::painted, this, &TerrainController::reportDamage);
+}
+
+void TerrainController::connectJob() {
+  using Panel = views::TerrainPanel;
+  connect(&panel_, &Panel::cancelAsked, &job_, &TerrainJob::cancel);
+  connect(&job_, &TerrainJob::started, this, [this](const QString& what) {
+    panel_.showJob(0, what);
+    if (!database_) at_.viewport.setNotice(tr("%1...").arg(what));
+  });
+  connect(&job_, &TerrainJob::progressed, &panel_, &Panel::showJob);
+  connect(&job_, &TerrainJob::cancelled, &panel_, &Panel::endJob);
+  connect(&job_, &TerrainJob::opened, &panel_, &Panel::endJob);
+  connect(&job_, &TerrainJob::failed, &panel_, &Panel::endJob);
+
+  const QString hint =
+      tr("No terrain is open.\nFile > Open terrain, or drop an elevation file or a folder here.");
+  connect(&job_, &TerrainJob::cancelled, this, [this, hint] {
+    at_.messages.note(tr("Cancelled: the terrain is unchanged"));
+    at_.viewport.setNotice(hint);
+  });
+  connect(&job_, &TerrainJob::failed, this, [this, hint](const Findings& findings) {
+    at_.messages.add(tr("The terrain cannot be opened"), findings);
+    at_.viewport.setNotice(hint);
+  });
+  connect(&job_, &TerrainJob::opened, this, &TerrainController::use);
+}
+
+void TerrainController::open(const QString& source) {
+  asked_ = QFileInfo(source).absoluteFilePath();
+  job_.open(asked_.toStdString());
+}
+
+void TerrainController::openSample() {
+  asked_.clear();
+  job_.openSample();
+}
+
+void TerrainController::askOpenFile() {
+  const QString picked = QFileDialog::getOpenFileName(
+      &at_.window, tr("Open terrain"), {},
+      tr("Elevation and scenery (*.tif *.tiff *.hgt *.dt0 *.dt1 *.dt2 *.img *.zip *.btg *.btg.gz *.stg);;"
+         "All files (*)"));
+  if (!picked.isEmpty()) open(picked);
+}
+
+void TerrainController::askOpenFolder() {
+  const QString picked = QFileDialog::getExistingDirectory(
+      &at_.window, tr("Open a folder of elevation files or scenery, or a database"));
+  if (!picked.isEmpty()) open(picked);
+}
+
+void TerrainController::askBake() {
+  BakeDialog dialog(&at_.window);
+  if (dialog.exec() != QDialog::Accepted) return;
+  terrain::BakeOptions options = dialog.options();
+  asked_ = QFileInfo(QString::fromStdString(options.output.string())).absoluteFilePath();
+  job_.bake(std::move(options));
+}
+
+void TerrainController::use(std::shared_ptr<const terrain::Database> database, const Findings& findings) {
+  database_ = std::move(database);
+  openedFrom_ = QString::fromStdString(job_.source().string());
+  if (!asked_.isEmpty()) rememberRecent(QStringLiteral("terrain"), asked_);
+  const terrain::TerrainInfo& info = database_->info();
+  at_.messages.note(tr("Terrain %1: %L2 × %L3 posts, %L4 to %L5 m, %L6 voids filled")
+                        .arg(QString::fromStdString(info.name))
+                        .arg(info.columns)
+                        .arg(info.rows)
+                        .arg(info.lowest.value(), 0, 'f', 0)
+                        .arg(info.highest.value(), 0, 'f', 0)
+                        .arg(info.voidsFilled));
+  at_.feed.session().setGround(database_);
+  at_.viewport.setTerrain(database_);
+  trees_.setTrees(treesOf(*database_));
+  panel_.setTerrain(summaryOf(*database_));
+  pagesReported_ = damageReported_ = 0;
+  emit opened();
+  if (!findings.empty()) at_.messages.add(tr("Opened %1").arg(QFileInfo(openedFrom_).fileName()), findings);
+}
+
+/// Damage shows only while its place is read, so it is looked for after each image.
+void TerrainController::reportDamage() {
+  if (!database_ || !at_.viewport.lastResult()) return;
+  if (const std::uint64_t failed = at_.viewport.lastResult()->paging.failed; failed != pagesReported_) {
+    if (failed > pagesReported_)
+      at_.messages.add(tr("The terrain stays coarser where its pages cannot be read"),
+                       at_.viewport.pageFailures());
+    pagesReported_ = failed;
+  }
+  if (const Findings damage = database_->damage(); damage.size() != damageReported_) {
+    at_.messages.add(tr("Some heights of the terrain are damaged; its lowest ground is drawn in their place"),
+                     damage);
+    damageReported_ = damage.size();
+  }
+}
+
+}  // namespace trimtab::workbench

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "job_bar.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+
+#include "app/workbench/jobs/terrain_job.h"
+
+namespace trimtab::workbench {
+
+JobBar::JobBar(TerrainJob& job, QWidget* parent)
+    : QWidget(parent), what_(new QLabel), progress_(new QProgressBar) {
+  progress_->setMaximumWidth(220);
+  progress_->setRange(0, 100);
+  auto* cancel = new QPushButton(tr("Cancel"));
+  auto* layout = new QHBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  for (QWidget* part :
+       {static_cast<QWidget*>(what_), static_cast<QWidget*>(progress_), static_cast<QWidget*>(cancel)})
+    layout->addWidget(part);
+  hide();
+  connect(cancel, &QPushButton::clicked, &job, &TerrainJob::cancel);
+  connect(&job, &TerrainJob::started, this, [this](const QString& what) {
+    what_->setText(what);
+    progress_->setValue(0);
+    show();
+  });
+  connect(&job, &TerrainJob::progressed, this, [this](double fraction, const QString& what) {
+    progress_->setValue(static_cast<int>(fraction * 100));
+    if (!what.isEmpty()) what_->setText(what);
+  });
+  connect(&job, &TerrainJob::cancelled, this, &QWidget::hide);
+  connect(&job, &TerrainJob::failed, this, &QWidget::hide);
+  connect(&job, &TerrainJob::opened, this, &QWidget::hide);
+}
+
+}  // namespace trimtab::workbench

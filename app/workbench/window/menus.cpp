@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "menus.h"
+
+#include <QAction>
+#include <QActionGroup>
+#include <QDockWidget>
+#include <QFileInfo>
+#include <QMainWindow>
+#include <QMenu>
+#include <QMenuBar>
+#include <QStyle>
+#include <QToolBar>
+
+#include "app/workbench/controllers/controllers.h"
+#include "app/workbench/controllers/recent_files.h"
+#include "app/workbench/docks/flight_dock.h"
+#include "app/workbench/jobs/feed.h"
+#include "app/workbench/viewport/viewport.h"
+#include "help.h"
+#include "trimtab/preset/preset.h"
+#include "trimtab/preset/table.h"
+#include "views/model/draft.h"
+#include "views/panels/culling_panel.h"
+#include "views/panels/rules_panel.h"
+#include "views/panels/terrain_panel.h"
+
+namespace trimtab::workbench {
+namespace {
+
+constexpr auto kCaseKey = "culling.case";
+
+QString fromView(std::string_view text) {
+  return QString::fromUtf8(text.data(), qsizetype(text.size()));
+}
+
+/// Gives an action the short text and the icon that it has in a toolbar.
+void dress(QAction& action, const QString& iconText, const QIcon& icon = {}) {
+  action.setIconText(iconText);
+  if (!icon.isNull()) action.setIcon(icon);
+}
+
+/// A tile has one colour only: either action switches the other off.
+void makeExclusive(QAction* one, QAction* other) {
+  const auto link = [](QAction* on, QAction* off) {
+    QObject::connect(on, &QAction::toggled, off, [off](bool checked) {
+      if (checked) off->setChecked(false);
+    });
+  };
+  link(one, other);
+  link(other, one);
+}
+
+}  // namespace
+
+Menus::Menus(QMainWindow& window, const Workplace& workplace, const Controllers& controllers,
+             const Panels& panels)
+    : QObject(&window), window_(window), at_(workplace), by_(controllers), panels_(panels) {
+  makeFileMenu();
+  makeEditMenu();
+  makeViewMenu();
+  makeFlightMenu();
+  makeHelpMenu();
+}
+
+void Menus::add(QMenu& menu, std::initializer_list<Command> commands) {
+  for (const Command& command : commands) {
+    if (command.text.isEmpty()) {
+      menu.addSeparator();
+      continue;
+    }
+    QAction* const action = menu.addAction(command.text);
+    action->setShortcut(command.keys);
+    if (!command.toolTip.isEmpty()) action->setToolTip(command.toolTip);
+    if (command.run) connect(action, &QAction::triggered, this, command.run);
+    if (command.made != nullptr) *command.made = action;
+  }
+}
+
+void Menus::makeFileMenu() {
+  QMenu& file = *window_.menuBar()->addMenu(tr("&File"));
+  const auto icon = [this](QStyle::StandardPixmap which) { return window_.style()->standardIcon(which); };
+  DocumentController& document = *by_.document;
+  TerrainController& terrain = *by_.terrain;
+  QAction *open = nullptr, *save = nullptr, *exporting = nullptr, *openTerrain = nullptr,
+          *openFolder = nullptr, *bake = nullptr, *trace = nullptr;
+
+  QMenu& fresh = *file.addMenu(icon(QStyle::SP_FileIcon), tr("&New preset"));
+  for (const std::string_view name : shippedPresets())
+    add(fresh, {{tr("from %1").arg(fromView(name)),
+                 name == "default" ? QKeySequence(QKeySequence::New) : QKeySequence(),
+                 [&document, name] { document.startFrom(fromView(name)); }}});
+  add(file, {{tr("&Open preset..."), QKeySequence::Open, [&] { document.askOpen(); }, {}, &open}});
+  addPresetMenus(file);
+  add(file,
+      {{tr("&Save preset"), QKeySequence::Save, [&] { document.save(); }, {}, &save},
+       {tr("Save preset &as..."), tr("Ctrl+Shift+S"), [&] { document.saveAs(); }},
+       {tr("&Export for an image generator..."), tr("Ctrl+E"), [&] { document.askExport(); }, {}, &exporting},
+       {tr("&Import rules..."), {}, [this] { panels_.rules->askAndImport(); }},
+       {tr("Export r&ules..."), {}, [this] { panels_.rules->askAndExport(); }},
+       {},
+       {tr("Open &terrain..."), tr("Ctrl+T"), [&] { terrain.askOpenFile(); }, {}, &openTerrain},
+       {tr("Open terrain &folder or database..."),
+        tr("Ctrl+Shift+T"),
+        [&] { terrain.askOpenFolder(); },
+        {},
+        &openFolder},
+       {tr("&Bake a terrain database..."), tr("Ctrl+B"), [&] { terrain.askBake(); },
+        tr("Turns elevation, scenery and imagery into one folder that opens at once"), &bake},
+       {tr("Open sa&mple terrain"), {}, [&] { terrain.openSample(); }},
+       {},
+       {tr("Record tra&ce..."), tr("Ctrl+R"), [this] { by_.trace->askOrStop(); }, {}, &trace},
+       {tr("Open measured resu&lts..."), {}, [this] { by_.errors->askOpenResults(); }},
+       {},
+       {tr("&Quit"), tr("Ctrl+Q"), [this] { window_.close(); }}});
+
+  trace->setCheckable(true);
+  connect(by_.trace.get(), &TraceController::recordingChanged, trace, &QAction::setChecked);
+  dress(*open, tr("Open preset"), icon(QStyle::SP_DialogOpenButton));
+  dress(*save, tr("Save"), icon(QStyle::SP_DialogSaveButton));
+  dress(*exporting, tr("Export"), icon(QStyle::SP_ArrowUp));
+  dress(*openTerrain, tr("Open terrain"), icon(QStyle::SP_DirOpenIcon));
+  dress(*openFolder, tr("Open folder"));
+  dress(*bake, tr("Bake..."));
+  auto* bar = window_.addToolBar(tr("File"));
+  bar->setObjectName(QStringLiteral("file_toolbar"));
+  bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  bar->addActions({open, save, exporting, openTerrain});
+  terrainActions_ = {openTerrain, openFolder, bake};
+}
+
+void Menus::addPresetMenus(QMenu& file) {
+  QMenu& shipped = *file.addMenu(tr("Open s&hipped preset"));
+  for (const std::string_view name : shippedPresets())
+    add(shipped, {{fromView(name), {}, [this, name] { by_.document->openOverEdits(fromView(name)); }}});
+  QMenu& recent = *file.addMenu(tr("&Recent"));
+  connect(&recent, &QMenu::aboutToShow, this, [this, &recent] { fillRecentMenu(recent); });
+}
+
+void Menus::fillRecentMenu(QMenu& recent) {
+  recent.clear();
+  const auto addKind = [this, &recent](const QString& kind, const QString& title,
+                                       const std::function<void(const QString&)>& open) {
+    const QStringList paths = recentFiles(kind);
+    if (!paths.isEmpty()) recent.addSection(title);
+    for (const QString& path : paths) {
+      QAction* made = nullptr;
+      add(recent, {{QFileInfo(path).fileName(), {}, [open, path] { open(path); }, path, &made}});
+      made->setEnabled(QFileInfo::exists(path));
+    }
+  };
+  addKind(QStringLiteral("preset"), tr("Presets"),
+          [this](const QString& path) { by_.document->openOverEdits(path); });
+  addKind(QStringLiteral("terrain"), tr("Terrain"), [this](const QString& path) { by_.terrain->open(path); });
+  addKind(QStringLiteral("flight"), tr("Flights"), [this](const QString& path) { by_.flight->open(path); });
+  if (recent.isEmpty()) recent.addAction(tr("nothing yet"))->setEnabled(false);
+  recent.setToolTipsVisible(true);
+}
+
+void Menus::makeEditMenu() {
+  QMenu& edit = *window_.menuBar()->addMenu(tr("&Edit"));
+  const auto icon = [this](QStyle::StandardPixmap which) { return window_.style()->standardIcon(which); };
+  QAction* undo = at_.draft.undoStack().createUndoAction(&window_, tr("&Undo"));
+  undo->setShortcut(QKeySequence::Undo);
+  dress(*undo, tr("Undo"), icon(QStyle::SP_ArrowBack));
+  QAction* redo = at_.draft.undoStack().createRedoAction(&window_, tr("&Redo"));
+  redo->setShortcuts({tr("Ctrl+Shift+Z"), tr("Ctrl+Y")});
+  dress(*redo, tr("Redo"), icon(QStyle::SP_ArrowForward));
+  edit.addActions({undo, redo});
+  add(edit, {{}, {tr("Reset &all parameters to the base preset"), {}, [this] { at_.draft.resetAll(); }}});
+  auto* bar = window_.addToolBar(tr("Edit"));
+  bar->setObjectName(QStringLiteral("edit_toolbar"));
+  // The actions' texts name the step that they undo, so buttons of their own keep the toolbar's width.
+  for (QAction* action : {undo, redo}) {
+    auto* button = new QAction(action->icon(), action->iconText(), &window_);
+    button->setEnabled(action->isEnabled());
+    connect(action, &QAction::enabledChanged, button, &QAction::setEnabled);
+    connect(action, &QAction::changed, button, [button, action] { button->setToolTip(action->toolTip()); });
+    connect(button, &QAction::triggered, action, &QAction::trigger);
+    bar->addAction(button);
+  }
+}
+
+QAction* Menus::addOverlay(QMenu& view, const QString& text, const QString& keys, bool Overlays::*flag) {
+  QAction* action = nullptr;
+  add(view, {{text, keys, {}, {}, &action}});
+  action->setCheckable(true);
+  connect(action, &QAction::toggled, this, [this, flag](bool on) { by_.culling->setOverlay(flag, on); });
+  return action;
+}
+
+void Menus::makeViewMenu() {
+  QMenu& view = *window_.menuBar()->addMenu(tr("&View"));
+  QAction* wireframe = addOverlay(view, tr("&Wireframe"), tr("Ctrl+1"), &Overlays::wireframe);
+  QAction* bounds = addOverlay(view, tr("Tile &bounds"), tr("Ctrl+2"), &Overlays::tileBounds);
+  QAction* byReason = addOverlay(view, tr("Colour by &reason"), tr("Ctrl+3"), &Overlays::colourByReason);
+  QAction* byLevel = addOverlay(view, tr("Colour by &level"), tr("Ctrl+4"), &Overlays::colourByLevel);
+  QAction* voids = addOverlay(view, tr("Filled &voids"), tr("Ctrl+5"), &Overlays::voids);
+  voids->setToolTip(tr("Highlights posts that the sources leave open; visible where patches are drawn"));
+  makeExclusive(byReason, byLevel);
+  QAction* freeze = nullptr;
+  add(view, {{tr("&Freeze culling"),
+              tr("Ctrl+F"),
+              {},
+              tr("Tiles and levels stay as they are now while the view flies on"),
+              &freeze}});
+  freeze->setCheckable(true);
+  connect(freeze, &QAction::toggled, by_.culling.get(), &CullingController::setFrozen);
+  connect(by_.culling.get(), &CullingController::frozenChanged, freeze, &QAction::setChecked);
+  view.addSeparator();
+  addCases(view);
+  add(view, {{tr("&Place the camera over the terrain"), Qt::Key_Home,
+              [this] {
+                if (at_.feed.source() == Feed::Source::camera) by_.flight->placeCamera();
+              }},
+             {tr("Compare &two presets..."), tr("Ctrl+D"), [this] { by_.errors->compare(); }},
+             {}});
+  addDocks(view);
+  add(view, {{tr("Reset la&yout"), {}, [this] { emit layoutResetAsked(); }}});
+  auto* bar = window_.addToolBar(tr("View"));
+  bar->setObjectName(QStringLiteral("view_toolbar"));
+  bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
+  bar->addActions({wireframe, bounds, byReason, byLevel, freeze});
+  panels_.terrain->setActions(terrainActions_, {byLevel, wireframe, bounds, voids});
+  panels_.culling->setActions({byReason, bounds, freeze});
+}
+
+void Menus::addCases(QMenu& view) {
+  QMenu& cases = *view.addMenu(tr("&Culling case"));
+  const ParameterRow* const row = findRow(kCaseKey);
+  if (row == nullptr) return;
+  auto* group = new QActionGroup(this);
+  for (std::size_t i = 0; i < row->choices.size(); ++i) {
+    QAction* action = nullptr;
+    add(cases, {{fromView(row->choices[i].label),
+                 tr("Ctrl+Alt+%1").arg(i + 1),
+                 [this, i] { at_.draft.setValue(kCaseKey, ChoiceIndex{i}); },
+                 {},
+                 &action}});
+    action->setCheckable(true);
+    group->addAction(action);
+  }
+  const auto showCase = [this, group] {
+    const ParameterValue value = at_.draft.value(kCaseKey);
+    const auto* choice = std::get_if<ChoiceIndex>(&value);
+    const QList<QAction*> actions = group->actions();
+    if (choice != nullptr && choice->index < std::size_t(actions.size()))
+      actions[qsizetype(choice->index)]->setChecked(true);
+  };
+  connect(&at_.draft, &views::Draft::valueChanged, this, [showCase](const QString& key) {
+    if (key == QLatin1String(kCaseKey)) showCase();
+  });
+  showCase();
+}
+
+void Menus::addDocks(QMenu& view) {
+  QMenu& docks = *view.addMenu(tr("&Docks"));
+  int number = 1;
+  for (QDockWidget* each : window_.findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
+    QAction* show = each->toggleViewAction();
+    show->setShortcut(tr("Alt+%1").arg(number++));
+    connect(show, &QAction::triggered, each, [each](bool on) {
+      if (on) each->raise();
+    });
+    docks.addAction(show);
+  }
+}
+
+void Menus::makeFlightMenu() {
+  FlightController& flight = *by_.flight;
+  add(*window_.menuBar()->addMenu(tr("F&light")),
+      {{tr("&Open flight..."), tr("Ctrl+L"), [&] { flight.askOpen(); }},
+       {tr("&Play or pause"), Qt::Key_F5, [&] { flight.playOrPause(); }},
+       {tr("&Back to the start"), tr("Shift+F5"), [&] { flight.flightDock().stop(); }},
+       {tr("&Measure presets along it..."), tr("Ctrl+M"), [this] { by_.errors->askAndMeasure(); }},
+       {},
+       {tr("&Connect or disconnect the host"), Qt::Key_F6, [&] { flight.connectOrDisconnectHost(); }}});
+}
+
+void Menus::makeHelpMenu() {
+  add(*window_.menuBar()->addMenu(tr("&Help")),
+      {{tr("&Keys and mouse"), QKeySequence::HelpContents,
+        [this] { showKeys(&window_, *window_.menuBar()); }},
+       {tr("&Parameter reference"), tr("Shift+F1"), [this] { showReference(&window_); }},
+       {},
+       {tr("&About Trimtab"), {}, [this] { showAbout(&window_, at_.viewport.gl()); }}});
+}
+
+}  // namespace trimtab::workbench

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace trimtab::views {
+class BandsEditor;
+class CullingPanel;
+class Draft;
+class MotionPanel;
+class PlotsPanel;
+class RulesPanel;
+class StaticLodPanel;
+class SymbologyPanel;
+class TerrainPanel;
+class WeatherPanel;
+}  // namespace trimtab::views
+
+namespace trimtab::workbench {
+
+class DockLayout;
+class ExperimentsDock;
+class Feed;
+class FlightDock;
+class HostDock;
+class MessagePanel;
+
+/// The contents of those docks that the window and its controllers use. The docks own them.
+struct Panels {
+  views::BandsEditor* bands = nullptr;
+  views::CullingPanel* culling = nullptr;
+  views::RulesPanel* rules = nullptr;
+  views::TerrainPanel* terrain = nullptr;
+  views::StaticLodPanel* staticLod = nullptr;
+  views::WeatherPanel* weather = nullptr;
+  views::SymbologyPanel* symbology = nullptr;
+  views::MotionPanel* motion = nullptr;
+  HostDock* host = nullptr;
+  FlightDock* flight = nullptr;
+  views::PlotsPanel* plots = nullptr;
+  MessagePanel* messages = nullptr;
+  ExperimentsDock* experiments = nullptr;  ///< made by the window, because it needs controllers
+};
+
+/// Makes every dock but Experiments and Run time against error, which need controllers.
+Panels makePanels(DockLayout& docks, views::Draft& draft, Feed& feed);
+
+}  // namespace trimtab::workbench
