@@ -7,6 +7,7 @@
 #include <span>
 
 #include "manifest_checksum.h"
+#include "trimtab/preset/number.h"
 #include "trimtab/terrain/format/ground_pyramid.h"
 #include "trimtab/terrain/format/patch_store.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
@@ -224,7 +225,7 @@ Result<Contents> readContents(const fs::path& folder) {
   if (manifest.contains("scenery")) info.scenery = sceneryOf(manifest["scenery"], read);
   if (posts.latitude(posts.rows - 1) > 90 + PostLimits::kPastPole)
     findings.push_back(
-        wrong(file, "grid", "rows up to latitude 90", std::to_string(posts.latitude(posts.rows - 1))));
+        wrong(file, "grid", "rows up to latitude 90", numberText(posts.latitude(posts.rows - 1), 9)));
   if (!findings.empty()) return findings;
 
   const bool old = version == 1;
