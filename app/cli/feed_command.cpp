@@ -10,6 +10,7 @@
 #include "app/link/link.h"
 #include "commands.h"
 #include "trimtab/host/flight.h"
+#include "trimtab/preset/number.h"
 #include "trimtab/preset/preset.h"
 
 namespace trimtab::cli {
@@ -224,7 +225,7 @@ int record(const Options& options) {
   if (datagrams.empty()) {
     report(
         {{Severity::error, options.out, "", "datagrams of a host on port " + own.substr(own.rfind(':') + 1),
-          "none in " + std::to_string(ending.elapsed()) + " s; nothing written"}});
+          "none in " + numberText(ending.elapsed(), 3) + " s; nothing written"}});
     return kRefused;
   }
   const auto written = writeRecording(options.out, datagrams);

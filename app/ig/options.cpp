@@ -30,7 +30,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   app.set_version_flag("--version", TRIMTAB_VERSION);
   app.add_option("--preset", options.preset, "exported preset, edited preset, or a shipped one's name")
       ->required();
-  app.add_option("--terrain", options.terrain, "baked database, or elevation or scenery to bake first")
+  app.add_option("--terrain", options.terrain, "baked terrain database; 'trimtab-cli terrain bake' makes one")
       ->required();
   const std::map<std::string, HostProtocol> protocols{{"auto", HostProtocol::automatic},
                                                       {"native-fdm", HostProtocol::native_fdm},

@@ -14,6 +14,12 @@ std::string numberText(double value) {
   return {text, end.ptr};
 }
 
+std::string numberText(double value, int digits) {
+  char text[64];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits);
+  return numberText(readNumber({text, static_cast<std::size_t>(end.ptr - text)}).value_or(value));
+}
+
 std::optional<double> readNumber(std::string_view text) {
   double value = 0;
   const char* const end = text.data() + text.size();

@@ -14,8 +14,8 @@
 #include "tests/support.h"
 #include "trimtab/host/flight.h"
 
-/// From the start of trimtab-ig to its first finished picture, and the memory it takes, beside the least that
-/// any program must do to get there.
+/// Measures the time from the start of trimtab-ig to its first finished image, and its peak memory, against a
+/// program that does only what every image generator must do to get there.
 namespace trimtab::bench {
 namespace {
 
@@ -68,6 +68,7 @@ void keepLeast(Start& least, double seconds, double peakMiB) {
 
 int measure(Report& report) {
   const test::ScratchDir dir;
+  // Mesa keeps compiled shaders below this folder: the first run of all meets none.
   ::setenv("XDG_CACHE_HOME", (dir / "cache").c_str(), 1);
   const std::string cli = test::program("trimtab-cli").string(), ig = test::program("trimtab-ig").string();
   const std::string tif = (dir / "sample.tif").string(), database = (dir / "database").string();
@@ -86,11 +87,11 @@ int measure(Report& report) {
     return nlohmann::json::parse(child.out)["first_frame_unix_s"].get<double>() - child.started;
   };
 
-  // As a newcomer meets it: no sample, nothing baked.
+  // What a newcomer waits for: the sample is made, then baked, and trimtab-ig opens the database.
   const Child sample = run({cli, "terrain", "sample", "-o", tif}, dir.path());
-  const Child fresh = firstFrame(tif);
-  const double freshSeconds = sample.ended - sample.started + timeOf(fresh);
-  run({cli, "terrain", "bake", tif, "-o", database}, dir.path());
+  const Child bake = run({cli, "terrain", "bake", tif, "-o", database}, dir.path());
+  const Child first = firstFrame(database);
+  const double freshSeconds = (sample.ended - sample.started) + (bake.ended - bake.started) + timeOf(first);
 
   // The first run of each warms the page cache and is not counted.
   Start baked, limit;
@@ -104,18 +105,17 @@ int measure(Report& report) {
   const std::string peer = "a program that opens the same kind of context and reads the database's bytes";
   report.add(ratioAtMost(
       10, {"start.baked",
-           "seconds from the start of trimtab-ig to its first finished picture, 100 km of terrain baked",
+           "seconds from the start of trimtab-ig to its first finished image, 100 km of terrain baked",
            baked.seconds, "s", peer, limit.seconds, "run"}));
   report.add(ratioAtMost(3, {"start.baked_memory", "peak memory of that run", baked.peakMiB, "MiB", peer,
                              limit.peakMiB, "run"}));
   report.add(valueAtMost(
-      60,
-      {"start.sample", "seconds to the first finished picture when the sample has to be made and baked first",
-       freshSeconds, "s", "the same with the terrain baked", baked.seconds, "run"}));
+      60, {"start.sample", "seconds to make the sample, bake it and draw the first image of trimtab-ig",
+           freshSeconds, "s", "the same with the terrain baked", baked.seconds, "run"}));
   report.add(valueAtMost(
-      1024, {"start.sample_memory", "peak memory of that: the larger of making and of baking and drawing",
-             std::max(sample.peakMiB, fresh.peakMiB), "MiB", "the same with the terrain baked", baked.peakMiB,
-             "run"}));
+      1024, {"start.sample_memory", "peak memory of that: the largest of making, baking and drawing",
+             std::max({sample.peakMiB, bake.peakMiB, first.peakMiB}), "MiB",
+             "the same with the terrain baked", baked.peakMiB, "run"}));
   return report.finish();
 }
 

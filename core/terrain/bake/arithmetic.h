@@ -4,9 +4,9 @@
 
 namespace trimtab::terrain {
 
-/// A sum over what this machine's C library makes of some thousands of numbers, and which GDAL and PROJ it
-/// has. Where it differs a bake may differ in the last bits: a library's sines, powers and logarithms are not
-/// the same to the bit in every version, nor with every processor.
+/// Returns a checksum of this machine's arithmetic: some thousands of results of its C library, and the
+/// versions of GDAL and PROJ. Machines with different checksums may bake databases that differ in the last
+/// bits, because sines, powers and logarithms vary with library and processor.
 std::string arithmeticOfThisMachine();
 
 }  // namespace trimtab::terrain

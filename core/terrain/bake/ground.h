@@ -11,22 +11,23 @@
 
 namespace trimtab::terrain {
 
-/// The colours of a bake's ground, made in shares: each a file of its own, whole or not there.
+/// Makes the ground pyramid of a bake in shares. Each share is a file that is either complete or absent.
 class GroundBake {
  public:
-  /// What these point to must outlive it.
+  /// `work`, and what `sources` points to, must outlive this object.
   GroundBake(const WorkFolder& work, GroundSources sources) : work_(work), sources_(std::move(sources)) {}
 
-  /// Makes a share (counted from 0), unless it is there. The journal is told what images cover of it.
+  /// Makes a share (`part` counts from 0) unless it exists, and notes in the journal how many of its texels
+  /// each image covers.
   Result<Done> make(std::uint32_t part, std::uint32_t parts, const Progress& progress) const;
-  /// Of how many shares all are there, the least such number; 0: none.
+  /// Returns the smallest number of shares for which every share exists; 0 if there is none.
   std::uint32_t parts() const;
-  /// Puts so many shares into one file. Findings tell of the images, whoever made the shares.
+  /// Joins `parts` shares to one file. Findings report images that leave ground uncovered.
   Result<Done> join(std::uint32_t parts, const std::filesystem::path& file, const Progress& progress) const;
 
  private:
   std::filesystem::path shareFile(std::uint32_t part, std::uint32_t parts) const;
-  /// By the names of the shares' files, as the journal has them.
+  /// Reads the covers of all shares from the journal; the key is the name of the share's file.
   std::map<std::string, GroundCover> covers() const;
 
   const WorkFolder& work_;

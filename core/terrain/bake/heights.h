@@ -13,32 +13,33 @@
 
 namespace trimtab::terrain {
 
-/// Of the work folder, a bit a post.
+/// File of the work folder: one bit per post, set where a void was filled.
 inline constexpr const char* kVoidsName = "voids.bits";
 
-/// What is known of the heights of a bake once they are in their file.
+/// What a bake knows about its heights once they are in their file.
 struct BakedHeights {
   PostGrid posts;
   float lowest = 0, highest = 0;
-  std::uint64_t voids = 0, outside = 0;  ///< filled; the second where no file reaches
-  std::uint64_t sum = 0;                 ///< of heights.sums
-  std::vector<std::uint64_t> given;      ///< ElevationSource::given of all rows, whoever read them
+  std::uint64_t voids = 0, outside = 0;  ///< posts filled; `outside`: those of them that no source reaches
+  std::uint64_t sum = 0;                 ///< checksum of heights.sums
+  std::vector<std::uint64_t> given;      ///< ElevationSource::given over all rows, also those of earlier runs
 };
 
-/// Heights of the source, voids filled, to heights.f32 and heights.sums in the work folder's database, in
-/// bands that `memory` bytes allow; goes on where an earlier bake was interrupted.
+/// Writes the source's heights, with voids filled, to heights.f32 and heights.sums in the work folder's
+/// database. Works in bands that fit `memory` bytes, and continues where an earlier bake was interrupted.
 Result<BakedHeights> bakeHeights(const WorkFolder& work, ElevationSource& source, std::size_t memory,
                                  const Progress& progress);
 
-/// Of finished work that was made for other posts: for which, and by which parts. Empty: there is none.
+/// Describes finished work that was made for a different grid: which grid, and which parts. Empty if none is.
 std::string workForOtherPosts(const WorkFolder& work, const PostGrid& posts);
-/// A grid's size, place and step, for people.
+/// Describes a grid's size, place and post spacing in words.
 std::string inWords(const PostGrid& posts);
 
-/// A grid in memory as a source.
+/// Makes an elevation source of a grid in memory, which must outlive it.
 std::unique_ptr<ElevationSource> sourceOf(const HeightGrid& grid);
 
-/// Reads windows of the file, and mapping none of it: what was read does not count as this process's memory.
+/// Reads windows of the baked heights with pread. The file is not mapped, so that its pages do not count as
+/// memory of this process.
 class FileHeights final : public HeightSource {
  public:
   static Result<std::unique_ptr<FileHeights>> open(const WorkFolder& work, const BakedHeights& heights);
@@ -55,7 +56,7 @@ class FileHeights final : public HeightSource {
  private:
   FileHeights(const PostGrid& posts, int heights, int voids) : posts_(posts), file_(heights), voids_(voids) {}
   PostGrid posts_;
-  int file_, voids_;  ///< the second negative without voids
+  int file_, voids_;  ///< descriptors; `voids_` is negative if there were no voids
   mutable std::atomic<bool> failed_{false};
 };
 

@@ -12,23 +12,24 @@
 
 namespace trimtab::terrain {
 
-/// The pages of a grid's patches, made in pieces: runs of pages about equally much work, less towards the
-/// end, the coarsest and longest first. A piece is a file of its own, whole or not there, and the same
-/// whoever makes it.
+/// Makes the pages of a grid's patches in pieces. A piece is a run of pages; pieces need about the same work,
+/// less towards the end, and the coarsest and longest come first so that threads finish together. Each piece
+/// is a file that is either complete or absent, and its bytes do not depend on who makes it.
 class PatchBake {
  public:
-  /// `mostFine` as leafCellsOf takes it.
+  /// `leafM`: largest vertical error of the finest patches, metres. `mostFine`: see leafCellsOf. `work`,
+  /// `posts` and `geometry` must outlive this object.
   PatchBake(const WorkFolder& work, const PostGrid& posts, const PostGeometry& geometry, double leafM,
             std::uint64_t mostFine = kMostFineSquares);
 
   std::uint32_t pieces() const { return static_cast<std::uint32_t>(firstPage_.size() - 1); }
-  /// Those that are there.
+  /// Returns one flag per piece: 1 if its file exists.
   std::vector<std::uint8_t> finished() const;
-  /// Makes what is missing of every `parts`-th piece from `part` (counted from 0), on as many threads as
-  /// `memory` bytes allow.
+  /// Makes the missing pieces among `part`, `part` + `parts`, ... (`part` counts from 0), on as many threads
+  /// as `memory` bytes allow.
   Result<Done> make(const HeightSource& heights, std::uint32_t part, std::uint32_t parts, std::size_t memory,
                     const Progress& progress) const;
-  /// Puts all of them into one file.
+  /// Joins all pieces to one file.
   Result<Done> join(const std::filesystem::path& file, const Progress& progress);
 
  private:
@@ -41,7 +42,7 @@ class PatchBake {
   const PostGeometry& geometry_;
   PatchIndex index_;
   std::vector<double> tolerances_;
-  std::vector<std::uint32_t> firstPage_;  ///< of each piece; the last is their number
+  std::vector<std::uint32_t> firstPage_;  ///< one per piece, then the number of pages
 };
 
 }  // namespace trimtab::terrain

@@ -16,47 +16,49 @@
 
 namespace trimtab::terrain {
 
-/// To be raised with every change of the mesher, sides or tolerances: pieces that different programs made do
-/// not fit together.
+/// Raise this with every change of the mesher, the patch sides or the tolerances: pieces that different
+/// versions made do not fit together.
 inline constexpr int kBuilderVersion = 10;
 
-/// What the sources hold, by either import.
+/// The opened sources of a bake: elevation, scenery, or scenery with elevation beside it.
 struct BakeSource {
   std::optional<SceneryCounts> scenery;
-  std::unique_ptr<SceneryCatalogue> tiles;  ///< of scenery; null without
-  std::uint64_t treesBytes = 0;             ///< that making their trees will take
+  std::unique_ptr<SceneryCatalogue> tiles;  ///< null if no source is scenery
+  std::uint64_t treesBytes = 0;             ///< memory that building the static LOD will need
   std::unique_ptr<ElevationSource> elevation;
-  const SceneryHeights* heights = nullptr;  ///< the same, where it is scenery
-  std::optional<Rectangle> between;         ///< what elevation has, where it lies beside scenery
+  const SceneryHeights* heights = nullptr;  ///< `elevation` itself if a source is scenery, else null
+  std::optional<Rectangle> between;         ///< area of the elevation beside scenery, degrees
 
-  /// Scenery's colours at its posts, RGBA; empty without scenery.
+  /// Returns the scenery's colour at each post, RGBA; empty if no source is scenery.
   Result<std::vector<std::uint8_t>> image(const Progress& progress) const;
-  /// Those between scenery's, of the heights of both; `baked` must live as long as tiles are asked for.
+  /// Makes tiles of `baked` where elevation has land and scenery has no tile. `baked` must outlive `tiles`.
   Result<Done> makeTiles(const HeightSource& baked, const Progress& progress);
 };
 
-/// `memory`: bytes that it may take.
+/// Opens the sources; `memory`: most bytes that they may use.
 Result<std::unique_ptr<BakeSource>> readSource(const BakeOptions& options, std::size_t memory,
                                                const Progress& progress);
 
-/// Every file of the sources.
+/// Lists every file of the sources; folders are searched.
 Result<std::vector<std::filesystem::path>> sourceFiles(const std::vector<std::filesystem::path>& sources);
 
-/// What a database is made from, a JSON object: of the options, those that change a byte of it.
+/// Returns a JSON object of all that determines a database's bytes: source files, and the options that
+/// matter.
 std::string recipeOf(const BakeOptions& options, const std::vector<std::filesystem::path>& files);
-/// The same with places and times and what the machine's arithmetic is: another one begins a bake anew.
+/// Returns recipeOf with the stamps of the files and the machine's arithmetic. A bake continues unfinished
+/// work only if its stamped recipe is the same.
 std::string stampedRecipe(const BakeOptions& options, const std::vector<std::filesystem::path>& files);
-/// Whether two of those differ in nothing but the machines that they were made on.
+/// Tells whether two stamped recipes differ in the machine's arithmetic alone.
 bool sameButForArithmetic(const std::string& stampedRecipe, const std::string& other);
-/// Place, size and time of each file, and of all that GDAL reads with it: what says where the raster is, its
-/// overviews, the rasters that a virtual one is made of. Opens each; cannot be stopped.
+/// Returns path, size and time of each file and of every file that GDAL reads with it, such as georeferences,
+/// overviews and the parts of a virtual raster. Opens each file, and cannot be cancelled.
 std::vector<std::string> stampsOf(std::span<const std::filesystem::path> files);
 
 std::string joinedNames(const std::vector<std::filesystem::path>& sources);
 std::string nameOf(const std::filesystem::path& path);
 
-/// GDAL keeps no more than so much of the rasters that it reads, bytes, while this lives: its own limit is a
-/// share of the machine's memory.
+/// Limits GDAL's block cache to `bytes` while this object lives. GDAL's own limit is a share of the machine's
+/// memory, which would break the memory limit of a bake.
 class RasterCacheLimit {
  public:
   explicit RasterCacheLimit(std::size_t bytes);

@@ -9,11 +9,11 @@
 
 namespace trimtab::terrain {
 
-/// A lock on a file that ends with the process.
+/// A lock on a file. The system releases it when the process ends.
 class FileLock {
  public:
-  /// Null where it is not to be had, with the reason in errno: EWOULDBLOCK where another process has it (or
-  /// had, and removed it meanwhile). The file says who does, for people: a line a process.
+  /// Returns null if the lock is unavailable; errno has the reason: EWOULDBLOCK if another process holds it,
+  /// or held it and removed the file meanwhile. The file names its holders, one line per process.
   static std::unique_ptr<FileLock> tryLock(const std::filesystem::path& file, bool shared);
   ~FileLock();
   FileLock(const FileLock&) = delete;
@@ -24,21 +24,23 @@ class FileLock {
   int handle_;
 };
 
-/// Where an unfinished bake keeps what it has: ".NAME.work" beside the output.
+/// The folder of an unfinished bake: ".NAME.work" beside the output.
 ///
-///   recipe.json       what is baked; another recipe empties the folder
-///   journal           a checked line a finished step
-///   voids.bits        posts that were filled, a bit each
+///   recipe.json       the stamped recipe; another recipe empties the folder
+///   journal           one line with a checksum per finished step
+///   voids.bits        one bit per post, set where a void was filled
 ///   pieces/N.pages    finished pages of patches
 ///   database/         what becomes the output; heights.f32 is made in place
 class WorkFolder {
  public:
-  /// Alone, alone to put together what is there, or beside others that work on parts of the same.
+  /// `alone`: no other process may use the folder. `join`: the same, to join finished parts. `part`: other
+  /// processes may bake parts at the same time.
   enum class Use { alone, join, part };
-  /// Work of another recipe goes, but not when it is to be joined. Refuses an output that is a mount point.
+  /// Opens or makes the folder. Removes work of another recipe, except for `join`, which is then refused.
+  /// Refuses an output that is a mount point, because a folder cannot be renamed onto it.
   static Result<std::unique_ptr<WorkFolder>> open(const std::filesystem::path& output,
                                                   const std::string& recipe, Use use);
-  /// Goes where nothing is done yet.
+  /// Removes the folder if no step has finished.
   ~WorkFolder();
   WorkFolder(const WorkFolder&) = delete;
   WorkFolder& operator=(const WorkFolder&) = delete;
@@ -48,15 +50,15 @@ class WorkFolder {
   std::filesystem::path pieces() const { return path_ / "pieces"; }
   bool resumed() const { return resumed_; }
 
-  /// All work goes; for who has it alone.
+  /// Removes all work. The caller must have opened the folder for `alone` or `join`.
   Result<Done> beginAnew();
 
-  /// The journal's lines, as far as they are whole.
+  /// Returns the journal's lines whose checksums are right.
   std::vector<std::string> journal() const;
   Result<Done> note(const std::string& line) const;
 
-  /// database/ takes the output's place, and the rest goes. What was there before, a database or an empty
-  /// folder, goes too. Where that fails both are as they were, and the next bake goes on from here.
+  /// Renames database/ to `output`, replacing a database or an empty folder there, and removes the work
+  /// folder. If that fails, both stay as they were and the next bake continues from here.
   Result<Done> finish(const std::filesystem::path& output);
 
  private:

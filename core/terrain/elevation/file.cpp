@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sample.h"
+#include "trimtab/preset/number.h"
 #include "trimtab/terrain/elevation/import.h"
 #include "trimtab/terrain/grid/progress.h"
 
@@ -57,7 +58,7 @@ Result<std::unique_ptr<ElevationFile>> ElevationFile::open(const fs::path& path,
   const double pixel = std::abs(raster.transform[1]), width = static_cast<double>(file->across_ - 1) * pixel;
   if (file->turn_ > 0 && width > file->turn_ + pixel / 2)
     return about(Severity::error, path, "longitude", "at most 360 degrees from the first post to the last",
-                 CPLSPrintf("%.6g degrees", width / file->turn_ * 360));
+                 numberText(width / file->turn_ * 360, 6) + " degrees");
   const auto direct = geographicPosts(raster);
   file->direct_ = direct.has_value();
   file->flipped_ = direct && raster.transform[5] < 0;
@@ -68,7 +69,7 @@ Result<std::unique_ptr<ElevationFile>> ElevationFile::open(const fs::path& path,
   file->own_ = upToPoles(*own);
   if (own->south < -90.001 || own->latitude(own->rows - 1) > 90.001)
     return about(Severity::error, path, "latitude", "-90 to 90",
-                 std::to_string(own->south) + " to " + std::to_string(own->latitude(own->rows - 1)));
+                 numberText(own->south, 9) + " to " + numberText(own->latitude(own->rows - 1), 9));
   if (Findings beyond = beyondLimits(file->own_, path.string()); !beyond.empty()) return beyond;
   file->vertical_ = verticalOf(raster);
   if (file->vertical_.note)
@@ -80,7 +81,7 @@ Result<std::unique_ptr<ElevationFile>> ElevationFile::open(const fs::path& path,
   file->values_ = valuesOf(band, file->vertical_.unit);
   if (file->values_.scale != 1)
     notes.push_back(about(Severity::note, path, "unit", "metres",
-                          "a scale of " + std::to_string(file->values_.scale) + " m, applied"));
+                          "a scale of " + numberText(file->values_.scale, 9) + " m, applied"));
   const int flags = band.GetMaskFlags();
   file->masked_ = (flags & (GMF_ALL_VALID | GMF_NODATA)) == 0;
   if (auto looked = file->lookThrough(progress, notes); !looked) {

@@ -12,44 +12,47 @@
 
 namespace trimtab::terrain {
 
-/// A height up to a post beyond where a raster's posts end, for posts between two rasters that stand side by
-/// side. `weight` falls to 0 at a post's distance.
+/// A height extrapolated up to one post beyond a raster's last post, for posts between two adjacent rasters.
+/// `weight` falls to 0 at a distance of one post.
 struct Continued {
-  std::uint32_t place = 0;  ///< in the rows that were asked for
+  std::uint32_t place = 0;  ///< index of the post in the rows being read
   float height = 0, weight = 0;
   bool inside = false;  ///< within the outline of the raster's pixels
 };
 
-/// One file's heights at posts of a grid that is not its own.
+/// Heights of one file, resampled at the posts of another grid.
 class ElevationFile {
  public:
-  /// Where a post lies in the raster, and what is to be added to its height: NaN where PROJ does not know.
+  /// Where a post lies in the raster, in the raster's posts, and the offset of its vertical datum, metres. A
+  /// coordinate or offset that PROJ cannot compute is NaN.
   struct Place {
     double x = 0, y = 0, lift = 0;
   };
-  /// Memory to read in, some 10 MB: one for all files, which are read one after the other.
+  /// Buffers for reading, some 10 MB. All files share one, because they are read one after the other.
   struct Room {
     std::vector<Place> places;
     std::vector<float> window;
     std::vector<std::uint8_t> mask;
   };
 
-  /// Opens, looks through every height once (for voids, and for damage), and closes again.
+  /// Opens the file, reads every height once to find voids and damage, and closes it again.
   static Result<std::unique_ptr<ElevationFile>> open(const std::filesystem::path& path,
                                                      const Progress& progress);
 
   const std::string& name() const { return name_; }
-  /// Its posts as they would be alone.
+  /// Returns the grid that the file would have by itself.
   const PostGrid& posts() const { return own_; }
-  /// Upright and in degrees of WGS84: its posts are used as they are.
+  /// Tells whether the raster is north up in degrees of WGS84, so that its posts can be used as they are.
   bool isDirect() const { return direct_; }
-  /// By whole turns, so that all files lie on one side of the earth.
+  /// Shifts the longitudes by whole turns, so that all files lie on one side of the earth.
   void turn(double degrees) { own_.west += degrees; }
-  /// The same file turned: for a grid round the earth that has parts of it at both ends.
+  /// Returns the same file shifted by `degrees`, for a grid round the earth that has parts of it at both
+  /// ends.
   std::unique_ptr<ElevationFile> turned(double degrees) const;
-  std::uint64_t heights() const { return heights_; }  ///< that are no voids
+  std::uint64_t heights() const { return heights_; }  ///< posts that are no voids
 
-  /// Before reading. None: no post of the grid is near it.
+  /// Sets the grid whose posts read() yields; call it before reading. Returns false if no post of the grid is
+  /// near the file.
   bool placeOn(const PostGrid& grid);
   std::uint32_t firstColumn() const { return column_; }
   std::uint32_t columns() const { return columns_; }
@@ -57,8 +60,9 @@ class ElevationFile {
     return firstRow < row_ + rows_ && row_ < firstRow + rows;
   }
 
-  /// Rows of the grid, this file's columns of them: NaN where it has no height. `reached` is set to 1 where
-  /// it could have one; it is `rows` x the grid's columns, as `Continued::place` counts.
+  /// Reads rows of the grid, only the columns firstColumn() to firstColumn() + columns(): metres, NaN where
+  /// the file has no height. Sets `reached` to 1 at posts inside the raster; `reached` has `rows` x the
+  /// grid's columns, and Continued::place is an index into it.
   Result<Done> read(std::uint32_t firstRow, std::uint32_t rows, std::span<float> heights,
                     std::span<std::uint8_t> reached, std::vector<Continued>& continued, Room& room);
   bool isOpen() const { return raster_.data != nullptr; }

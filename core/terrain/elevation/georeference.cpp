@@ -9,6 +9,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "trimtab/preset/number.h"
 #include "values.h"
 
 namespace trimtab::terrain {
@@ -292,7 +293,7 @@ Result<PlacedRaster> openRaster(const fs::path& file, GdalErrors& errors, Raster
     if (!onEarth(g[0], g[3]) || !onEarth(east, south))
       return about(Severity::error, file, "coordinate reference system",
                    "one, or degrees of longitude and latitude",
-                   "none, and an origin of " + std::to_string(g[0]) + ", " + std::to_string(g[3]));
+                   "none, and an origin of " + numberText(g[0], 9) + ", " + numberText(g[3], 9));
     notes.push_back(
         about(Severity::note, file, "coordinate reference system", "one", "none: taken as WGS84 degrees"));
   }

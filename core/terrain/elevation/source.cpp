@@ -11,6 +11,7 @@
 
 #include "file.h"
 #include "merge.h"
+#include "trimtab/preset/number.h"
 #include "trimtab/terrain/elevation/import.h"
 
 namespace trimtab::terrain {
@@ -127,7 +128,7 @@ Result<PostGrid> gridOf(const Files& files, const ElevationOptions& options) {
   if (!(columns * rows <= kMostPosts) || std::max(columns, rows) > kLongestSide || columns < 2 || rows < 2)
     return Finding{Severity::error, "all files together", "size",
                    "2 x 2 to 4 thousand million posts at the finest spacing, at most half a million a side",
-                   CPLSPrintf("%.0f x %.0f", columns, rows)};
+                   numberText(columns) + " x " + numberText(rows)};
   grid.west = left;
   grid.south = low;
   grid.stepLongitude = across.step;

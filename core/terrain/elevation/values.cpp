@@ -6,6 +6,8 @@
 #include <limits>
 #include <map>
 
+#include "trimtab/preset/number.h"
+
 namespace trimtab::terrain {
 
 namespace {
@@ -198,7 +200,7 @@ Vertical verticalOf(const PlacedRaster& raster) {
   if (lost == 0 && high < 1e-3 && low > -1e-3) return vertical;
   vertical.note = {
       "heights above the EGM96 geoid",
-      datum + ": taken there by PROJ, by " + std::to_string(low) + " to " + std::to_string(high) + " m"};
+      datum + ": taken there by PROJ, by " + numberText(low, 5) + " to " + numberText(high, 5) + " m"};
   vertical.toFile = std::move(toFile);
   return vertical;
 }

@@ -10,13 +10,13 @@
 
 #include "trimtab/terrain/elevation/georeference.h"
 
-/// What the numbers of a raster mean.
+/// Converts the numbers of a raster to metres above the EGM96 geoid.
 namespace trimtab::terrain {
 
-/// Whether a raster is a picture and not heights.
+/// Tells whether a raster is an image rather than heights.
 bool looksLikeImage(GDALDataset& data);
 
-/// Numbers that stand for voids in files whose band names no number for them.
+/// Numbers that mark voids in files whose band names no no-data value.
 inline constexpr std::array<float, 4> kVoidNumbers = {-32768, -32767, -9999, 32767};
 
 struct Values {
@@ -29,14 +29,14 @@ struct Values {
   bool deepIsVoid = false;
 };
 
-/// By the band's tags; `crsUnit`: metres a unit of the vertical CRS, for a band that names no unit.
+/// Reads the band's tags. `crsUnit`: metres per unit of the vertical CRS, used if the band names no unit.
 Values valuesOf(GDALRasterBand& band, double crsUnit);
 
-/// What a look through a file finds.
+/// Statistics of all numbers of a file, from which its void numbers are recognised.
 class Census {
  public:
   void add(std::span<const float> raw, const Values& values);
-  /// Posts of a block that is not in the file: it reads as the no-data value, or as 0.
+  /// Counts the posts of a block that the file does not store; it reads as the no-data value, or as 0.
   void leaveOut(std::uint64_t count, const Values& values) {
     posts_ += count, voids_ += values.noData ? count : 0;
   }
@@ -59,17 +59,17 @@ class Census {
   std::uint64_t absurd_ = 0;      ///< of these, what no mistake in a height makes
 };
 
-/// Numbers to metres, voids to NaN.
+/// Converts numbers to metres, and voids to NaN, in place.
 void toMetres(std::span<float> raw, const Values& values);
 
-/// How a file's heights are taken to heights above the EGM96 geoid, which is what files without a vertical
-/// datum are taken to hold.
+/// How a file's heights are converted to heights above the EGM96 geoid. Files without a vertical datum are
+/// assumed to have such heights already.
 struct Vertical {
   double unit = 1;  ///< metres a unit of the vertical CRS
-  /// From EGM96 to the file's; null where nothing is to be done, or nothing can be.
+  /// Transforms from EGM96 to the file's datum; null if no conversion is needed, or none is possible.
   std::shared_ptr<OGRCoordinateTransformation> toFile;
   std::optional<std::pair<std::string, std::string>> note;  ///< expected, found
-  /// The same of places in the raster for which PROJ has nothing, and which therefore have no height.
+  /// The same for places that PROJ cannot convert; their posts become voids.
   std::optional<std::pair<std::string, std::string>> lost;
 };
 Vertical verticalOf(const PlacedRaster& raster);

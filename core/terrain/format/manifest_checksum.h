@@ -5,7 +5,8 @@
 
 namespace trimtab::terrain {
 
-/// Where a manifest's own checksum stands in its text, or npos: it is over every byte but these sixteen.
+/// Returns where the 16 digits of the manifest's own checksum begin in its text, or npos. The checksum covers
+/// every byte except these digits.
 std::size_t manifestChecksumPlace(const std::string& text);
 std::string manifestChecksum(const std::string& text, std::size_t place);
 

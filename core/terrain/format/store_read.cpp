@@ -2,11 +2,12 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <span>
 
 #include "manifest_checksum.h"
+#include "trimtab/preset/file_io.h"
+#include "trimtab/preset/number.h"
 #include "trimtab/terrain/format/ground_pyramid.h"
 #include "trimtab/terrain/format/patch_store.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
@@ -27,13 +28,6 @@ Finding wrong(const fs::path& file, std::string key, std::string expected, std::
 }
 std::string bytesText(std::uint64_t bytes) {
   return std::to_string(bytes) + " bytes";
-}
-
-Result<std::string> readWhole(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return wrong(file, "", "a readable file", std::strerror(errno));
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  return text;
 }
 
 /// Numbers of a JSON object with what is wrong with them.
@@ -224,7 +218,7 @@ Result<Contents> readContents(const fs::path& folder) {
   if (manifest.contains("scenery")) info.scenery = sceneryOf(manifest["scenery"], read);
   if (posts.latitude(posts.rows - 1) > 90 + PostLimits::kPastPole)
     findings.push_back(
-        wrong(file, "grid", "rows up to latitude 90", std::to_string(posts.latitude(posts.rows - 1))));
+        wrong(file, "grid", "rows up to latitude 90", numberText(posts.latitude(posts.rows - 1), 9)));
   if (!findings.empty()) return findings;
 
   const bool old = version == 1;

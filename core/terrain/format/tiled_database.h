@@ -6,7 +6,7 @@
 
 namespace trimtab::terrain {
 
-/// A database over contents that are complete; fills what of its info follows from the grid.
+/// Makes a database of complete contents; fills in the part of its info that follows from the grid.
 std::shared_ptr<const Database> makeDatabase(Contents contents);
 
 }  // namespace trimtab::terrain

@@ -1,9 +1,8 @@
 #include "trimtab/terrain/grid/post_grid.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
+#include "trimtab/preset/number.h"
 #include "trimtab/units/geodesy.h"
 
 namespace trimtab::terrain {
@@ -26,11 +25,7 @@ double PostGrid::columnOf(double longitudeDeg) const {
 
 Findings beyondLimits(const PostGrid& posts, const std::string& where) {
   using Limits = PostLimits;
-  const auto number = [](double value) {
-    std::array<char, 40> text{};
-    std::snprintf(text.data(), text.size(), "%.9g", value);
-    return std::string(text.data());
-  };
+  const auto number = [](double value) { return numberText(value, 9); };
   Findings findings;
   const auto hold = [&](const char* key, const char* what, double value, double low, double high) {
     if (!(value >= low && value <= high))

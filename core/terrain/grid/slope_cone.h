@@ -8,8 +8,8 @@
 
 namespace trimtab::terrain {
 
-/// The narrowest cone about the middle of their bounds that holds the upward normals of surfaces given by how
-/// much they rise towards east and north a metre.
+/// The narrowest cone that contains the upward normals of all added surfaces, with its axis at the middle of
+/// their slopes' bounds. Slopes are rise over run.
 class SlopeCone {
  public:
   SlopeCone() { slopes_.reserve(2200); }  // all triangles of a tile
@@ -27,7 +27,7 @@ class SlopeCone {
     add(north, southWestNorthEast ? west : east);
   }
   std::pair<double, double> middle() const { return {(low_[0] + high_[0]) / 2, (low_[1] + high_[1]) / 2}; }
-  /// Radians, about the normal of `middle`; a right angle and more where there is nothing.
+  /// Returns the cone's half angle, radians; 2, more than a right angle, if nothing was added.
   double halfAngle() const {
     if (slopes_.empty()) return 2;
     const auto [x, y] = middle();

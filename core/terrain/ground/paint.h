@@ -10,27 +10,26 @@
 
 namespace trimtab::terrain {
 
-/// Texels of level 0 that are coloured together.
+/// A rectangle of texels of level 0 that is painted at once.
 struct GroundWindow {
   std::uint32_t column = 0, row = 0, columns = 0, rows = 0;
 };
 
-/// Paints the ground's triangles: what lies in the middle of a texel gives its colour, later ones on top.
-/// Lines (roads, railways, streams) are a texel wide where they are narrower, so that none breaks; and in
-/// coarser levels too, as strong as half a texel of them is wide: they fade once they are narrower than that,
-/// as half a picture element does.
+/// Paints triangles: the last one that contains the middle of a texel gives its colour. Lines (roads,
+/// railways, streams) are drawn at least one texel wide at every level, so that none is interrupted. At
+/// coarser levels a line narrower than half a texel is blended in proportion to its width, so that it fades.
 class GroundPaint {
  public:
-  /// `side`: texels of level 0 of a block.
+  /// `side`: side of a block in texels of level 0.
   GroundPaint(const PostGrid& posts, const GroundShape& shape, std::uint32_t side)
       : posts_(posts), shape_(shape), side_(side) {}
 
-  /// All that a block's triangles may reach, lines as wide as its coarsest level makes them.
+  /// Returns the area whose triangles can affect a block, including lines widened at its coarsest level.
   Rectangle degreesOf(std::uint32_t blockColumn, std::uint32_t blockRow) const;
-  /// Over RGBA of a window of level 0: what is painted gets alpha 255.
+  /// Paints over RGBA of a window of level 0; painted texels get alpha 255.
   void paint(std::span<const GroundTriangle> triangles, const GroundWindow& window,
              std::span<std::uint8_t> rgba) const;
-  /// Lines alone, over a tile of a level; `covered(texel of the tile)` are left as they are.
+  /// Paints lines alone, over a tile of a level. Texels with `covered` other than 0 stay unchanged.
   void paintLines(std::span<const GroundTriangle> triangles, std::uint32_t level, std::uint32_t tileColumn,
                   std::uint32_t tileRow, std::span<const std::uint8_t> covered, GroundTile& tile) const;
 
@@ -38,7 +37,7 @@ class GroundPaint {
   struct Corner {
     double x, y;
   };
-  /// In texels of a level.
+  /// Returns the corners in texels of a level.
   std::array<Corner, 3> cornersOf(const GroundTriangle& triangle, double scale) const;
 
   PostGrid posts_;

@@ -9,8 +9,8 @@
 
 namespace trimtab::terrain {
 
-/// A tile of the finest level, one or more texels a post. `rgba`: colours of its texels where alpha is not
-/// 0, rows of `line` texels; elsewhere land cover gives them.
+/// Makes a tile of the finest level, with one or more texels per post. `rgba`: colours in rows of `line`
+/// texels; where alpha is 0, land cover gives the colour.
 GroundTile groundTexels(const HeightSource& heights, const PostGeometry& geometry, double texelsPerPost,
                         std::uint32_t tileColumn, std::uint32_t tileRow, GroundTileSize size,
                         std::span<const std::uint8_t> rgba, std::size_t line);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "triangles.h"
+#include "trimtab/preset/number.h"
 #include "trimtab/terrain/scenery/lines.h"
 #include "trimtab/terrain/scenery/scenery.h"
 
@@ -259,7 +260,7 @@ bool BtgReader::readElement(const Object& object, std::string_view block, std::s
       const double distance = length(centre);
       if (!(distance > 6e6 && distance < 7e6) || !(radius >= 0 && radius < 1e7f)) {
         refuse(offset, "bounding sphere", "a centre 6,000 to 7,000 km from the earth's, a radius in metres",
-               std::to_string(distance / 1000) + " km, radius " + std::to_string(radius) + " m");
+               numberText(distance / 1000, 6) + " km, radius " + numberText(radius, 6) + " m");
         return false;
       }
       centre_ = centre;
@@ -339,7 +340,7 @@ bool BtgReader::placeVertices() {
   if (bad > 0)
     refuse(verticesAt_ + 12 * firstBad, "vertex " + std::to_string(firstBad),
            "a place within 300 km of the tile's centre and on the earth",
-           std::to_string(length(mesh_.vertices[firstBad])) + " m from the earth's centre" +
+           numberText(length(mesh_.vertices[firstBad]), 8) + " m from the earth's centre" +
                (bad > 1 ? ", and " + std::to_string(bad - 1) + " more like it" : ""));
   return bad == 0;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "trimtab/preset/number.h"
 #include "trimtab/terrain/elevation/import.h"
 #include "trimtab/terrain/grid/progress.h"
 
@@ -69,7 +70,7 @@ Result<PostGrid> postsOver(const Rectangle& r, std::optional<Metres> distance) {
   if (!(step > 0) || !(columns * rows <= kMostPosts) || !(std::max(columns, rows) <= kMostSide))
     return Finding{Severity::error, "scenery", "size",
                    "at most 400 million posts, and 1,048,576 a side, at the distance wanted",
-                   std::to_string(columns * rows) + " posts, " + std::to_string(step) + " m apart"};
+                   numberText(columns * rows) + " posts, " + numberText(step, 6) + " m apart"};
   PostGrid posts;
   posts.west = r.west;
   posts.south = r.south;

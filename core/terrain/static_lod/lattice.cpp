@@ -5,6 +5,8 @@
 #include <map>
 #include <unordered_map>
 
+#include "trimtab/preset/number.h"
+
 namespace trimtab::terrain {
 
 namespace {
@@ -33,7 +35,7 @@ Findings faultsOf(const SceneryMesh& mesh, const LocalFrame& frame) {
     const Vec3 v = mesh.vertices[i];
     const Vec3 p = frame.fromEcef(v);
     const std::string key = "vertex " + std::to_string(i);
-    const std::string found = std::to_string(v.x) + " " + std::to_string(v.y) + " " + std::to_string(v.z);
+    const std::string found = numberText(v.x, 9) + " " + numberText(v.y, 9) + " " + numberText(v.z, 9);
     if (!(length(p) <= kReachM)) {
       fault(key, "a place within 1000 km of the terrain's middle", found);
       continue;
@@ -42,7 +44,7 @@ Findings faultsOf(const SceneryMesh& mesh, const LocalFrame& frame) {
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   if (const Vec3 size = high - low; std::max({size.x, size.y, size.z}) > 2 * kTileReachM)
-    fault("", "a tile of at most 120 km", std::to_string(std::max({size.x, size.y, size.z}) / 1000) + " km");
+    fault("", "a tile of at most 120 km", numberText(std::max({size.x, size.y, size.z}) / 1000, 4) + " km");
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (const std::uint32_t v : mesh.triangles[t].vertex)
       if (v >= mesh.vertices.size())

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "landscape.h"
+#include "trimtab/preset/number.h"
 #include "trimtab/terrain/elevation/georeference.h"
 #include "trimtab/terrain/elevation/write_tiff.h"
 #include "trimtab/terrain/grid/parallel.h"
@@ -38,7 +39,7 @@ Result<Done> writeCountry(const fs::path& tif, const CountryOptions& options) {
     return about(Severity::error, tif, "posts", "33 to " + std::to_string(kMostSide) + " a side",
                  std::to_string(options.columns) + " x " + std::to_string(options.rows));
   if (!(options.postM >= 1 && options.postM <= 2000))
-    return about(Severity::error, tif, "distance of posts", "1 to 2000 m", std::to_string(options.postM));
+    return about(Severity::error, tif, "distance of posts", "1 to 2000 m", numberText(options.postM) + " m");
   PostGrid posts;
   posts.columns = options.columns, posts.rows = options.rows;
   posts.stepLatitude = options.postM / 110980;

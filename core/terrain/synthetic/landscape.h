@@ -7,12 +7,12 @@
 
 namespace trimtab::terrain {
 
-/// A square of ground, heights in metres, rows from south; 0 is the sea.
+/// A square of terrain: heights in metres, rows from south, 0 at the sea.
 struct Landscape {
   std::uint32_t side = 0;
   double cellM = 0;
   std::vector<float> heights;
-  std::vector<float> drainedM2;  ///< ground that drains through a cell
+  std::vector<float> drainedM2;  ///< area that drains through a cell
 };
 
 struct LandscapeShape {
@@ -21,14 +21,16 @@ struct LandscapeShape {
   std::uint32_t seed = 1;
 };
 
-/// Uplift against rivers: two ranges, a basin in the middle, a coast in the east; every cell drains to the
-/// sea. The heights are those of the process, not yet of any country. Empty when `carryOn` says no.
+/// Simulates uplift and river erosion: two ranges, a basin in the middle, a coast in the east; every cell
+/// drains to the sea. The heights are not yet scaled to a real range. Returns no heights if `carryOn` returns
+/// false.
 Landscape erodedLandscape(const LandscapeShape& shape, const std::function<bool(double)>& carryOn);
 
-/// Cuts through whatever keeps a cell from draining to the sea, and finds anew what drains where.
+/// Cuts outlets so that every cell drains to the sea, and recomputes the drained areas.
 void carveHollows(Landscape& land);
 
-/// -1..1, smooth, from a seed: sum of octaves, each twice as fine and half as high.
+/// Returns smooth noise, -1 to 1: a sum of octaves, each with half the wavelength and amplitude of the one
+/// before.
 double fractalNoise(double x, double y, int octaves, std::uint32_t seed);
 
 }  // namespace trimtab::terrain

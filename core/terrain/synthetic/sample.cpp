@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "landscape.h"
+#include "trimtab/preset/number.h"
 #include "trimtab/terrain/elevation/import.h"
 #include "trimtab/terrain/elevation/write_tiff.h"
 #include "trimtab/terrain/grid/post_geometry.h"
@@ -108,10 +109,9 @@ Result<Done> writeSample(const fs::path& tif, const SampleOptions& options) {
   const double sizeM = options.sizeKm * 1000;
   const double side = std::round(sizeM / options.postM) + 1;
   if (!(options.sizeKm >= 5 && options.sizeKm <= 1000))
-    return Finding{Severity::error, tif.string(), "size", "5 to 1000 km",
-                   std::to_string(options.sizeKm) + " km"};
+    return Finding{Severity::error, tif.string(), "size", "5 to 1000 km", numberText(options.sizeKm) + " km"};
   if (!(options.postM > 0) || !(side >= 33 && side <= kMostSide))
-    return Finding{Severity::error, tif.string(), "posts", "33 to 12000 a side", std::to_string(side)};
+    return Finding{Severity::error, tif.string(), "posts", "33 to 12000 a side", numberText(side)};
 
   const LandscapeShape shape{static_cast<std::uint32_t>(side), options.postM, options.seed};
   Landscape land = erodedLandscape(

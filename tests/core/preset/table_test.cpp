@@ -159,6 +159,11 @@ TEST(ParameterText, isPlainAndShort) {
   EXPECT_EQ(numberText(-0.0), "-0");
   EXPECT_EQ(numberText(1e-6), "1e-06");
   EXPECT_EQ(numberText(1e300), "1e+300");
+  EXPECT_EQ(numberText(23313556755.0), "23313556755");
+  EXPECT_EQ(numberText(23313556755.0, 3), "23300000000");
+  EXPECT_EQ(numberText(-7.25 / 3, 4), "-2.417");
+  EXPECT_EQ(numberText(90, 6), "90");
+  EXPECT_EQ(numberText(std::nan(""), 4), "nan");
   const TuningParameters defaults;
   EXPECT_EQ(toText(rowOf("fuzzy.altitude.curve_ft"), rowOf("fuzzy.altitude.curve_ft").get(defaults)),
             "4000:1 5000:0.6 6000:0.3 7000:0.1 8000:0");

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <random>
+#include <regex>
 
 #include "scenery_grid.h"
 #include "scenery_tiles.h"
@@ -64,6 +65,11 @@ TEST(SceneryPosts, reachFromBorderToBorderAndKeepTheDistance) {
   for (const double bad : {1e-3, 0.0, -5.0, std::nan("")})
     EXPECT_FALSE(terrain::sceneryPosts(meshes, Metres{bad})) << bad;
   EXPECT_FALSE(terrain::sceneryPosts({}, {}));
+  // A tile of some 18 x 14 km.
+  const auto fineBeyond = terrain::sceneryPosts(meshes, Metres{0.1});
+  ASSERT_FALSE(fineBeyond);
+  EXPECT_TRUE(std::regex_match(fineBeyond.findings()[0].found, std::regex("[0-9]{11} posts, 0.1 m apart")))
+      << toString(fineBeyond.findings());
 }
 
 TEST(Rasterised, isTheHighestSurfaceAtEachPost) {

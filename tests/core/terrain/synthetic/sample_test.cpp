@@ -121,6 +121,11 @@ TEST_F(Sample, leavesNothingWhenCancelledAndRefusesNonsense) {
     bad.postM = post;
     EXPECT_FALSE(writeSample(dir_ / "sample.tif", bad)) << size << " " << post;
   }
+  SampleOptions bad;
+  bad.postM = 5;
+  EXPECT_EQ(writeSample(dir_ / "sample.tif", bad).findings()[0].found, "20001");
+  bad.sizeKm = 4.5;
+  EXPECT_EQ(writeSample(dir_ / "sample.tif", bad).findings()[0].found, "4.5 km");
   const auto nowhere = writeSample("/nonexistent/sample.tif", small(1));
   ASSERT_FALSE(nowhere);
   EXPECT_NE(toString(nowhere.findings()).find("/nonexistent/sample.tif"), std::string::npos);

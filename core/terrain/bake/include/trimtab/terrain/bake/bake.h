@@ -10,35 +10,37 @@
 #include "trimtab/terrain/grid/progress.h"
 #include "trimtab/units/quantity.h"
 
-/// Elevation or scenery in, database out.
+/// Bakes elevation or FlightGear scenery to a terrain database (resources/docs/terrain-format.md).
 namespace trimtab::terrain {
 
 struct BakeOptions {
-  std::vector<std::filesystem::path> sources;  ///< elevation files or folders of them; or scenery
+  std::vector<std::filesystem::path> sources;  ///< elevation files, folders of them, or scenery
   std::optional<std::filesystem::path> imagery;
-  std::uint32_t trianglesPerNode = 2000;  ///< of the static levels of detail, where the source is scenery
-  bool keepLines = false;      ///< roads, streams and shorelines stay in them while a pixel shows them
-  std::optional<Metres> post;  ///< distance of posts; else by the scenery's size, or the finest file's
-  /// Vertical error of the finest patches at the posts; else defaultLeafToleranceM
-  /// (trimtab/terrain/patches/build.h). 0: exact.
+  std::uint32_t trianglesPerNode = 2000;  ///< of the static LOD, if a source is scenery
+  bool keepLines = false;  ///< the static LOD keeps roads, streams and shorelines while they cover a pixel
+  std::optional<Metres>
+      post;  ///< post spacing; if unset, the finest file's, or one that suits the scenery's size
+  /// Largest vertical error of the finest patches at the posts; 0 keeps every post exact. If unset,
+  /// defaultLeafToleranceM applies (trimtab/terrain/patches/build.h).
   std::optional<Metres> maxError;
-  /// Most that baking may use. A database whose tiles, or whose scenery's trees, would take more is made
-  /// without them, and drawn from patches.
+  /// Most memory that baking may use. Tiles or static LOD that would need more are left out, with a finding;
+  /// such a database is drawn from patches.
   Megabytes memory{1024};
   std::filesystem::path output;
   Progress progress;
 };
-/// Elevation, or scenery with its trees of static levels of detail, to a database: written to a folder beside
-/// `output` (".NAME.work") that takes its name when complete. Interrupted, that folder stays, and the same
-/// options go on from it to the same bytes; other sources or options begin anew. One at a time: findings say
-/// so.
+/// Bakes the sources and opens the database. The bake works in a folder beside `output` (".NAME.work") and
+/// renames its result to `output` when it is complete. If a bake is interrupted, the folder stays: the same
+/// sources and options continue from it and yield the same bytes, others begin anew. Only one bake of an
+/// output may run at a time; a second one is refused and names the process that runs.
 Result<std::shared_ptr<const Database>> bake(const BakeOptions& options);
+
 inline constexpr std::uint32_t kMostBakeParts = 4096;
-/// One of `parts` shares of the same work (part from 1; at most kMostBakeParts), for several processes, or
-/// machines that share the output's folder: they may work at once. Memory, progress and number of parts may
-/// differ.
+/// Bakes one of `parts` shares (`part` counts from 1, `parts` is at most kMostBakeParts). Several processes,
+/// or machines that share the output's folder, may each bake a share at the same time; their memory, progress
+/// and `parts` may differ. Call bakeJoin when all shares are done.
 Result<Done> bakePart(const BakeOptions& options, std::uint32_t part, std::uint32_t parts);
-/// Makes the database of what the parts made, if it is all there.
+/// Joins the shares to a database, the same bytes as bake(). Refuses, with their number, if any are missing.
 Result<std::shared_ptr<const Database>> bakeJoin(const BakeOptions& options);
 
 }  // namespace trimtab::terrain

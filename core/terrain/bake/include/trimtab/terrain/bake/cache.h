@@ -9,13 +9,13 @@
 
 namespace trimtab::terrain {
 
-/// Where terrain that a program was given as elevation is baked to: $XDG_CACHE_HOME/trimtab/terrain,
-/// else ~/.cache/trimtab/terrain, else the same in the folder for temporary files.
+/// Returns the folder for databases that openOrBake bakes: $XDG_CACHE_HOME/trimtab/terrain, else
+/// ~/.cache/trimtab/terrain, else trimtab/terrain in the folder for temporary files.
 std::filesystem::path cacheFolder();
 
-/// Opens a database folder as it is; bakes anything else into the cache folder first (and finds it there next
-/// time: keyed by paths, sizes and times of the sources and of the files that GDAL reads with them, and for
-/// scenery by `trianglesPerNode`).
+/// Opens `source` if it is a database. Otherwise bakes it into `cacheFolder` and opens the result, or opens
+/// what an earlier call baked there. The cache key covers path, size and time of every source file and of
+/// every file that GDAL reads with it, and `trianglesPerNode` if the source is scenery.
 Result<std::shared_ptr<const Database>> openOrBake(const std::filesystem::path& source,
                                                    const std::filesystem::path& cacheFolder,
                                                    const Progress& progress,

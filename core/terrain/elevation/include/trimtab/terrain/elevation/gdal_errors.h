@@ -6,7 +6,7 @@
 
 namespace trimtab::terrain {
 
-/// While it lives, what GDAL says on this thread is kept instead of printed.
+/// Collects GDAL's messages of this thread, instead of printing them, while this object lives.
 class GdalErrors {
  public:
   GdalErrors();
@@ -14,11 +14,12 @@ class GdalErrors {
   GdalErrors(const GdalErrors&) = delete;
   GdalErrors& operator=(const GdalErrors&) = delete;
 
-  /// The last thing it complained of, or `otherwise`.
+  /// Returns GDAL's last message, or `otherwise` if there is none.
   std::string last(const std::string& otherwise) const;
-  /// Whether it complained of more than what it only warns of.
+  /// Tells whether GDAL reported an error, not only warnings.
   bool any() const;
-  /// All of it as findings about a file, each text once: `worst` for what GDAL calls errors.
+  /// Appends all messages as findings about `where`, each text once, and forgets them. GDAL's errors get the
+  /// severity `worst`.
   void moveTo(Findings& findings, const std::string& where, Severity worst);
 
  private:
@@ -30,7 +31,7 @@ class GdalErrors {
   friend struct GdalErrorsAccess;
 };
 
-/// Registers GDAL's drivers, once, and bounds its cache.
+/// Registers GDAL's drivers, once per process, and limits its block cache.
 void useGdal();
 
 }  // namespace trimtab::terrain

@@ -13,7 +13,7 @@
 #include "trimtab/terrain/elevation/gdal_errors.h"
 #include "trimtab/terrain/grid/post_grid.h"
 
-/// Rasters and where they are. GDAL's types: for the importing .cpp files of this folder only.
+/// Rasters and their georeferences. Uses GDAL's types: include this in .cpp files that import only.
 namespace trimtab::terrain {
 
 using Dataset = std::unique_ptr<GDALDataset, void (*)(GDALDataset*)>;
@@ -25,29 +25,33 @@ struct PlacedRaster {
   OGRSpatialReference crs;            ///< horizontal; axes as easting, northing or longitude, latitude
 };
 
-/// What a raster is opened for: pictures are refused as heights.
+/// What a raster is opened for; `heights` refuses images.
 enum class RasterKind { any, heights };
-/// Opens a raster and finds out where it is; without a CRS, degrees are taken as WGS84, with a note.
+/// Opens a raster and reads its georeference. If it names no CRS, degrees are assumed to be WGS84, with a
+/// note.
 Result<PlacedRaster> openRaster(const std::filesystem::path& file, GdalErrors& errors,
                                 RasterKind kind = RasterKind::any);
 
-/// The posts of a raster that is already geographic, upright and within some 2 m of WGS84; none when it must
-/// be warped.
+/// Returns the posts of a raster that is in degrees, north up and within some 2 m of WGS84; none if the
+/// raster has to be warped.
 std::optional<PostGrid> geographicPosts(const PlacedRaster& raster);
-/// Posts of the raster's own spacing inside its outline, or around it where it stands too far askew; none
-/// where PROJ cannot place it.
+/// Returns posts with the raster's spacing that lie inside its outline, or around it if it is rotated too
+/// far; none if PROJ cannot place it.
 std::optional<PostGrid> fittingPosts(const PlacedRaster& raster);
 
-/// Longitude, then latitude.
+/// Returns WGS84 in degrees, with the axes longitude, latitude.
 OGRSpatialReference degreesOfWgs84();
-/// How far the CRS goes for a turn of the earth. Of a cylinder where the raster goes on beyond its edge,
-/// which shows as a place that comes back from degrees a turn away; 0 otherwise.
+/// Returns the extent of the CRS for one turn of the earth, in its units, if the CRS is cylindrical and the
+/// raster extends beyond its edge, so that a place transformed to degrees and back is a turn away; otherwise
+/// 0.
 double turnOf(const PlacedRaster& raster);
 
-/// The raster on a grid of posts, in memory; `more` are options of gdalwarp. Null where GDAL refuses.
+/// Warps the raster onto a grid of posts, in memory; `more` has further options of gdalwarp. Returns null if
+/// GDAL fails.
 Dataset warped(GDALDataset& data, const OGRSpatialReference& crs, const PostGrid& posts,
                std::vector<std::string> more);
 
+/// Makes a finding about a file.
 Finding about(Severity severity, const std::filesystem::path& file, std::string key, std::string expected,
               std::string found);
 

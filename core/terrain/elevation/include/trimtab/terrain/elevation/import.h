@@ -14,14 +14,14 @@ struct Imported {
   std::uint64_t voidsFilled = 0;
 };
 
-/// Files as they are given, folders as the rasters inside them (images left out), sorted.
+/// Lists files as they are given, and for a folder the rasters inside it without images, sorted.
 Result<std::vector<std::filesystem::path>> elevationFiles(std::span<const std::filesystem::path> sources);
 
-/// What openElevation reads, in memory, with voids filled. Findings carry notes about what was assumed, and
-/// GDAL's own words.
+/// Reads all of openElevation's grid into memory and fills its voids. Findings include notes about what was
+/// assumed, and GDAL's messages.
 Result<Imported> importElevation(std::span<const std::filesystem::path> sources, const Progress& progress);
 
-/// One file, with its voids as NaN.
+/// Reads one file into memory; voids are NaN.
 Result<HeightGrid> readElevation(const std::filesystem::path& file, const Progress& progress);
 
 }  // namespace trimtab::terrain

@@ -13,46 +13,48 @@
 
 namespace trimtab::terrain {
 
-/// Elevation of any number of files as one grid of posts, read a band at a time, which does not change what
-/// is read. Memory follows the grid's columns (some hundred rows of them for each file that covers them), a
-/// row of the longest file's blocks, and GDAL's cache; neither the number of files nor their rows, but for
-/// what GDAL keeps of the 128 that it has open.
+/// Elevation of any number of files as one grid of posts, read a band of rows at a time. The heights do not
+/// depend on the size of the bands. Memory grows with the grid's columns (some hundred rows for each file
+/// that covers them), a row of the longest file's blocks, and GDAL's cache. It does not grow with the number
+/// of files or their rows, except for what GDAL keeps of the at most 128 files that are open.
 ///
-/// A post that lies on a file's own is that file's height to the bit; between a file's posts the height is
-/// cubic. Of files that have a height at a post the finest leads, and of equals the first; towards a border
-/// where another file goes on, or a void that it fills, the leading file gives way over 32 posts, so that
-/// there is no step.
+/// A post that coincides with a file's post has that file's height to the bit; between a file's posts the
+/// height is interpolated cubically. If several files have a height at a post, the finest is used, among
+/// equals the first. Within 32 posts of its border, or of a void that another file fills, it is blended with
+/// that file, so that there is no step.
 class ElevationSource {
  public:
   virtual ~ElevationSource() = default;
   virtual const PostGrid& posts() const = 0;
-  /// Rows [first, first + rows) of the merged grid, NaN where no file has a height. `beyond`, where wanted:
-  /// 1 where no file reaches (about a raster that stands askew), 0 at voids. One thread at a time; rows in
-  /// order are read once.
+  /// Reads rows [first, first + rows) of the merged grid, metres, NaN where no file has a height. If `beyond`
+  /// is not empty, it gets 1 where no file reaches (the corners around a rotated raster) and 0 elsewhere,
+  /// also at voids. Only one thread may call this at a time. Read the rows in order: then each is read from
+  /// disk once.
   virtual Result<Done> readRows(std::uint32_t first, std::uint32_t rows, std::span<float> heights,
                                 std::span<std::uint8_t> beyond = {}) = 0;
-  /// Names of the files, in order of their say.
+  /// Returns the names of the files; an earlier file has precedence.
   virtual std::vector<std::string> names() const = 0;
-  /// Of the rows read so far, the posts that each of them gave, or gave most of.
+  /// Returns, for each name, how many posts of the rows read so far have their height, or most of it, from
+  /// it.
   virtual std::vector<std::uint64_t> given() const = 0;
 };
 
 struct ElevationOptions {
-  /// Distance of posts, degrees of latitude; else that of the finest file. A file that is finer is averaged.
+  /// Post spacing, degrees of latitude; if unset, that of the finest file. Finer files are averaged.
   std::optional<double> stepLatitude;
   Progress progress;
 };
 
-/// Opens what importElevation reads, and says of every file that it cannot use why. Each file is read through
-/// once, for its voids and for damage. Findings carry notes about what was assumed.
+/// Opens elevation files, or folders of them. Reports every file that cannot be used, with the reason. Reads
+/// each file through once, for its voids and for damage. Findings include notes about what was assumed.
 ///
-/// The grid is that of the finest file that is geographic already, unless another file is finer by a tenth.
-/// Round the earth it has at most 360 degrees: its last column may stand where the first does.
+/// The grid is that of the finest file in degrees of WGS84, unless another file is finer by a tenth. A grid
+/// round the earth spans at most 360 degrees: its last column may coincide with the first.
 Result<std::unique_ptr<ElevationSource>> openElevation(std::span<const std::filesystem::path> sources,
                                                        const ElevationOptions& options = {});
 
-/// What each of several files gave to a grid, as notes; nothing of one file alone. `given`: one a name,
-/// posts.
+/// Reports as notes which share of the posts each file gave; nothing if there is only one file. `given`:
+/// posts, one count per name.
 Findings sharesOf(const std::vector<std::string>& names, const std::vector<std::uint64_t>& given);
 
 }  // namespace trimtab::terrain

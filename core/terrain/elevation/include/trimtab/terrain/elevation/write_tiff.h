@@ -9,11 +9,12 @@
 
 namespace trimtab::terrain {
 
-/// Fills the heights, metres, of `count` rows from row `first` on, counted from the north; false cancels.
+/// Fills in the heights, metres, of `count` rows from row `first` on, counted from the north. Returning false
+/// cancels.
 using TiffRows = std::function<bool(std::uint32_t first, std::uint32_t count, std::span<float> heights)>;
 
-/// Heights on WGS84 posts as a tiled GeoTIFF, some rows in memory at a time. The file appears when it is
-/// whole; cancelled or refused, nothing is left of it.
+/// Writes heights on WGS84 posts as a tiled GeoTIFF, a few rows at a time. The file appears under its name
+/// when it is complete; if writing fails or is cancelled, no file is left.
 Result<Done> writeTiff(const std::filesystem::path& tif, const PostGrid& posts, const TiffRows& rows);
 
 }  // namespace trimtab::terrain

@@ -15,13 +15,13 @@
 
 namespace trimtab::terrain {
 
-/// Rows of equal size in a mapped file, with a checksum a block of them: compared when a block is first
-/// touched, so that opening costs nothing by the size of the file.
+/// Rows of equal size in a mapped file. Each block of rows has a checksum, which is checked when a row of the
+/// block is first read, so that opening takes the same time for any size of file.
 class CheckedRows {
  public:
-  /// How many rows make a block: about a quarter of a megabyte.
+  /// Returns how many rows make a block of about a quarter of a megabyte.
   static std::uint32_t rowsPerBlock(std::size_t rowBytes);
-  /// Checksums of rows that are at hand, block by block; `rows` come in order, any number at a time.
+  /// Computes the checksums of all blocks. Add the rows in order, any number at a time, then call finish().
   class Sums {
    public:
     explicit Sums(std::size_t rowBytes) : rowBytes_(rowBytes), perBlock_(rowsPerBlock(rowBytes)) {}
@@ -35,21 +35,21 @@ class CheckedRows {
     std::vector<std::uint64_t> sums_;
   };
 
-  /// Whether the bytes of a block mean something; empty: any do.
+  /// Tells whether the bytes of a block are valid values; if empty, all bytes are.
   using Sound = std::function<bool(std::span<const std::byte>)>;
-  /// `sums` empty: not checked. The size must be right.
+  /// `sums`: one per block; if empty, nothing is checked. The file must have `rowBytes` x `rows` bytes.
   CheckedRows(std::shared_ptr<const MappedFile> mapped, std::size_t rowBytes, std::uint32_t rows,
               std::vector<std::uint64_t> sums, Sound sound);
 
   std::uint32_t rows() const { return rows_; }
-  /// Null where its block is damaged. Thread-safe.
+  /// Returns a row, or null if its block is damaged. Thread-safe.
   const std::byte* row(std::uint32_t row) const {
     if (!isGood(row / perBlock_)) return nullptr;
     return mapped_->bytes().data() + std::size_t{row} * rowBytes_;
   }
-  /// Touches every block.
+  /// Checks every block.
   void checkAll() const;
-  /// What was found so far: at most so many as a person reads.
+  /// Returns the damage found so far, at most 20 findings. Thread-safe.
   Findings damage() const;
 
  private:

@@ -10,11 +10,13 @@
 #include "trimtab/frame/terrain_index.h"
 #include "trimtab/units/result.h"
 
-/// A baked terrain: heights by level and an index, in one folder; opened read-only by any number of programs.
+/// A baked terrain database: a folder that any number of programs may open read-only at the same time.
+/// Format: resources/docs/terrain-format.md.
 namespace trimtab::terrain {
 
-/// A vertex as the renderer uploads it. Position: local frame, relative to the tile's origin, a multiple of
-/// 1/256 m. Shared posts have the same position in every tile and level to the bit, so borders close exactly.
+/// A vertex as the renderer uploads it. The position is in the local frame, metres relative to the tile's
+/// origin, a multiple of 1/256 m. A post has the same position, to the bit, in every tile and level, so that
+/// borders have no cracks.
 struct TileVertex {
   float x, y, z;
   std::int8_t normal[3];  ///< local frame, x 127
@@ -24,21 +26,21 @@ struct TileVertex {
 };
 static_assert(sizeof(TileVertex) == 20);
 
-/// (kTileCells + 1)^2 vertices, rows from south, and where the tile is.
+/// The (kTileCells + 1)^2 vertices of a tile, rows from south, and its origin.
 struct TileMesh {
   static constexpr int kSide = TerrainIndex::kTileCells + 1;
   std::int32_t origin[3];            ///< multiples of 16 m in the local frame: metres = origin * 16
   std::vector<TileVertex> vertices;  ///< kSide * kSide
 };
 
-/// What FlightGear scenery holds; triangles are those that are drawn, without the degenerate.
+/// Contents of FlightGear scenery. `triangles` counts those that are drawn, without the degenerate ones.
 struct SceneryCounts {
   std::uint32_t tiles = 0, airports = 0;
   std::uint64_t trianglesInFile = 0, degenerate = 0, triangles = 0;
-  std::vector<std::string> missing;  ///< listed, but not there
+  std::vector<std::string> missing;  ///< files that an .stg file lists, but that do not exist
 };
 
-/// What a terrain is, for `terrain info` and the title bar.
+/// Facts about a terrain, for `terrain info` and the title bar.
 struct TerrainInfo {
   std::string name, source;
   GeodeticPosition southWest, northEast;
@@ -47,41 +49,43 @@ struct TerrainInfo {
   Metres lowest, highest;
   std::uint64_t voidsFilled = 0;
   std::uint64_t bytes = 0;
-  std::string checksum;  ///< of the database, over what it was made from and every file; hexadecimal
+  std::string checksum;  ///< over the recipe and every file of the database; hexadecimal
   bool hasImage = false;
-  std::optional<SceneryCounts> scenery;  ///< where that was the source
+  std::optional<SceneryCounts> scenery;  ///< unset if no source was scenery
 };
 
 struct StaticLodTerrain;
 class GroundPyramid;
 class PatchTerrain;
 
+/// An open database. All functions are const and thread-safe.
 class Database : public GroundHeights {
  public:
-  /// Opens a folder: reads indices, trees and a byte a cell of tiles' slopes, not heights, colours or meshes.
-  /// Findings name file, place, expected and found; nothing half-open is returned.
+  /// Opens a folder. Reads the indices, the static LOD and the slopes of tiles (a byte per cell); heights,
+  /// colours and meshes are mapped or paged later. On failure returns findings with file, place, expected and
+  /// found.
   static Result<std::shared_ptr<const Database>> open(const std::filesystem::path& folder);
 
   virtual const TerrainInfo& info() const = 0;
   virtual const TerrainIndex& index() const = 0;
-  /// Builds a node's vertices. Thread-safe; about 0.1 ms. The mesh's storage is reused.
+  /// Builds a node's vertices; about 0.1 ms. Reuses the storage of `mesh`.
   virtual void buildTile(std::uint32_t node, TileMesh& mesh) const = 0;
-  /// The trees of static levels of detail, in the index's frame; null where the source was no scenery.
+  /// Returns the static LOD, in the index's frame; null if no source was scenery.
   virtual std::shared_ptr<const StaticLodTerrain> staticLod() const { return nullptr; }
-  /// The error-bounded levels, in the index's frame; null in a database of an older version.
+  /// Returns the error-bounded patches, in the index's frame; null in a database of version 1.
   virtual std::shared_ptr<const PatchTerrain> patches() const { return nullptr; }
-  /// Colours and normals of the ground; null in a database of an older version.
+  /// Returns colours and normals of the ground; null in a database of version 1.
   virtual std::shared_ptr<const GroundPyramid> ground() const { return nullptr; }
-  /// Highest post within a distance, or none when no post is that near.
+  /// Returns the height of the highest post within `radius`, or none if no post is that near.
   virtual std::optional<Metres> highestWithin(Degrees latitude, Degrees longitude, Metres radius) const = 0;
-  /// Large files are checked where they are first touched: what was found to be damaged. There, no height is
-  /// told and the lowest is drawn.
+  /// Returns the damage found so far; large files are checked as they are read. In a damaged block heights
+  /// are unknown, and the terrain's lowest height is drawn.
   virtual Findings damage() const { return {}; }
-  /// Reads all of it, and what is wrong with it.
+  /// Reads the whole database and returns all damage.
   virtual Findings checkAll() const { return {}; }
 };
 
-/// Whether a folder is a database, by its name for the manifest alone.
+/// Tells whether a folder has a manifest. It does not read the manifest.
 bool isDatabase(const std::filesystem::path& folder);
 
 }  // namespace trimtab::terrain

@@ -11,21 +11,22 @@
 #include "trimtab/terrain/grid/post_grid.h"
 #include "trimtab/units/result.h"
 
-/// Colour and normal of the ground as pictures of halving resolution, in tiles: independent of the levels of
-/// the surface, so that land keeps its look when its mesh gets coarser.
+/// Colours and normals of the ground as a pyramid of images, each with half the resolution of the one before,
+/// in tiles. They do not depend on the LOD of the mesh, so that the ground looks the same when its mesh gets
+/// coarser.
 namespace trimtab::terrain {
 
 /// A texel: sRGB, and the normal of the finest surface there (local frame, x and y x 127; z is up).
 struct GroundTexel {
   std::uint8_t red, green, blue;
-  std::uint8_t voids;  ///< 255: a void that was filled; coarser levels say what share
+  std::uint8_t voids;  ///< share of the texel that was a void and was filled; 255: all of it
   std::int8_t normalX, normalY;
   friend bool operator==(const GroundTexel&, const GroundTexel&) = default;
 };
 static_assert(sizeof(GroundTexel) == 6);
 
 /// Level 0 is the finest: `texelsPerPost` (a power of two, may be less than 1) texels from a post to the
-/// next. A texel of level 0 stands on post (c, r) / texelsPerPost, so pictures on the posts' own grid keep
+/// next. A texel of level 0 stands on post (c, r) / texelsPerPost, so an image on the posts' own grid keeps
 /// every pixel; with less than one a post it is the mean of the posts from there on. Each level halves the
 /// one before, to a single tile: a texel is the mean of two by two, those past the border being the last.
 struct GroundShape {
@@ -44,6 +45,7 @@ struct GroundShape {
   friend bool operator==(const GroundShape&, const GroundShape&) = default;
 };
 
+/// Returns the pyramid's levels for a grid of posts.
 GroundShape makeGroundShape(const PostGrid& posts, double texelsPerPost);
 
 using GroundTile = std::vector<GroundTexel>;  ///< kTile x kTile, rows from south
@@ -52,8 +54,8 @@ class GroundPyramid {
  public:
   virtual ~GroundPyramid() = default;
   virtual const GroundShape& shape() const = 0;
-  /// kTile x kTile texels, rows from south; past the last row or column the last is repeated. Waits for the
-  /// disk. Thread-safe.
+  /// Reads a tile of kTile x kTile texels, rows from south; beyond the level's border the last row or column
+  /// is repeated. Reports a damaged tile. Waits for the disk. Thread-safe.
   virtual Result<GroundTile> readTile(std::uint32_t level, std::uint32_t column, std::uint32_t row) const = 0;
 };
 
@@ -61,7 +63,7 @@ class GroundPyramid {
 Result<std::shared_ptr<const GroundPyramid>> openGround(const std::filesystem::path& file,
                                                         const PostGrid& posts);
 
-/// How tiles stand in a page file.
+/// Returns the key of a tile in the page file.
 constexpr std::uint64_t groundKey(std::uint32_t level, std::uint32_t column, std::uint32_t row) {
   return (std::uint64_t{level} << 56) | (std::uint64_t{row} << 28) | column;
 }
@@ -71,15 +73,15 @@ Result<GroundTile> unpackGroundTile(std::span<const std::byte> blob);
 std::vector<std::byte> packGroundShape(const GroundShape& shape);
 Result<GroundShape> unpackGroundShape(std::span<const std::byte> blob);
 
-/// Texels of a tile inside its level; the rest of it repeats the last of them.
+/// The texels of a tile that lie inside its level; the rest repeat the last row and column.
 struct GroundTileSize {
   std::uint32_t columns = 0, rows = 0;
 };
 GroundTileSize sizeOfGroundTile(const GroundShape::Level& level, std::uint32_t column, std::uint32_t row);
 void padGroundTile(GroundTile& tile, GroundTileSize size);
 
-/// The tile above four, from the south-west one on, null where there is none. Colours are averaged in linear
-/// light, normals as vectors.
+/// Makes the coarser tile above four tiles, given from the south-west on; a tile beyond the border is null.
+/// Colours are averaged in linear light, normals as vectors.
 GroundTile halvedGround(const std::array<const GroundTile*, 4>& below, GroundTileSize size);
 
 }  // namespace trimtab::terrain

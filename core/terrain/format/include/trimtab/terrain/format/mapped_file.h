@@ -9,8 +9,9 @@
 
 namespace trimtab::terrain {
 
-/// A file in memory, read-only and shared by all who map it; the disk is read where it is touched. Whoever
-/// shortens a mapped file ends its readers: files of a database are replaced as a whole, never changed.
+/// A read-only memory map of a file; the system reads the disk when bytes are first accessed. If a file is
+/// truncated while it is mapped, its readers are killed by SIGBUS: replace files of a database, never change
+/// them.
 class MappedFile {
  public:
   static Result<std::shared_ptr<const MappedFile>> open(const std::filesystem::path& file);
@@ -20,9 +21,9 @@ class MappedFile {
 
   const std::filesystem::path& file() const { return file_; }
   std::span<const std::byte> bytes() const { return bytes_; }
-  /// Asks the system to begin reading these bytes.
+  /// Asks the system to start reading these bytes, and returns at once.
   void fetch(std::size_t at, std::size_t size) const;
-  /// These bytes need not be in memory any longer; they are read again where they are touched again.
+  /// Lets the system drop these bytes from memory; they are read again when they are accessed.
   void forget(std::size_t at, std::size_t size) const;
 
  private:

@@ -14,16 +14,8 @@
 #include "trimtab/terrain/grid/measure_levels.h"
 #include "trimtab/terrain/grid/post_grid.h"
 
-/// The files of a database folder: manifest.json names and checks the others, which are little-endian.
-///
-/// heights.f32 heights in metres, rows from south, and heights.sums the checksums of its blocks of rows;
-/// patches.pages the error-bounded levels (patch_store.h); ground.pages colours and normals. Of grids of up
-/// to kMostTiledPosts posts also, where memory allowed: nodes.f32 eight numbers a node (box, error, slope);
-/// slopes.u8 the cells of CellSlopes; cones.u32 a NormalCone a node, which earlier bakes lack; image.rgba
-/// four bytes a post with image.sums, where there is an image. static-lod.bin the trees of static levels of
-/// detail, where the source was scenery.
-///
-/// Version 1 has neither sums nor pages: all of a file is checked when the folder is opened.
+/// Reads and writes the files of a database folder. resources/docs/terrain-format.md describes them: the
+/// manifest names all others with their sizes and checksums.
 namespace trimtab::terrain {
 
 inline constexpr int kFormatVersion = 2;
@@ -41,31 +33,32 @@ inline constexpr const char* kStaticLodName = "static-lod.bin";
 /// Larger grids are drawn from patches only.
 inline constexpr std::size_t kMostTiledPosts = std::size_t{1} << 26;
 
-/// Whether a bake may take a folder's place: there is nothing, or an empty folder, or a database of ours (a
-/// damaged one may be baked again) with nothing beside it.
+/// Tells whether a bake may replace a folder: it does not exist, or is empty, or holds the files of a
+/// database, possibly damaged, and nothing else.
 bool mayReplace(const std::filesystem::path& folder);
 
-/// All that a database holds; what is large is mapped, not read.
+/// The contents of a database. Large files are mapped, not read.
 struct Contents {
   TerrainInfo info;
   PostGrid posts;
   std::shared_ptr<const CheckedRows> heights;
-  std::shared_ptr<const CheckedRows> image;  ///< RGBA a post; null without an image, and without tiles
-  TerrainIndex index;                        ///< empty where there are no tiles
+  std::shared_ptr<const CheckedRows> image;  ///< RGBA per post; null if there is no image, or no tiles
+  TerrainIndex index;                        ///< empty if there are no tiles
   CellSlopes slopes;
-  std::shared_ptr<const StaticLodTerrain> staticLod;  ///< null where the source was no scenery
-  std::shared_ptr<const PatchTerrain> patches;        ///< these two null in version 1
+  std::shared_ptr<const StaticLodTerrain> staticLod;  ///< null if no source was scenery
+  std::shared_ptr<const PatchTerrain> patches;        ///< null in version 1, as is `ground`
   std::shared_ptr<const GroundPyramid> ground;
-  std::vector<std::shared_ptr<const PageFile>> pageFiles;  ///< behind them
+  std::vector<std::shared_ptr<const PageFile>> pageFiles;  ///< the files of `patches` and `ground`
 };
 
-/// Four interleaved FNV-1a sums over 64-bit words, the last one filled up with zeros, then folded with the
-/// size.
+/// Returns the checksum that all files use: four interleaved FNV-1a sums over 64-bit words, the last word
+/// padded with zeros, then folded with the size. It is our own because it is part of the file format.
 std::uint64_t checksum(std::string_view bytes);
+/// Returns 16 lower-case hexadecimal digits.
 std::string hexadecimal(std::uint64_t value);
 
-/// A file as the manifest names it. `sum`: of its bytes; of rows that have sums, of those; of a page file,
-/// its own.
+/// A file as the manifest lists it. `sum` is the checksum of its bytes; for rows whose checksums are in a
+/// file of their own, that of the latter; for a page file, the checksum in its header.
 struct FileEntry {
   std::string name;
   std::uint64_t bytes = 0;
@@ -73,14 +66,17 @@ struct FileEntry {
 };
 Result<FileEntry> writeFile(const std::filesystem::path& folder, const std::string& name,
                             std::string_view bytes);
+/// Returns the contents of nodes.f32: box, error and slope of each node.
 std::vector<float> nodeNumbers(const TerrainIndex& index);
 
-/// Of `info` what does not follow from the grid. `recipe`: a JSON object, what it was made from.
+/// Writes manifest.json. Of `info`, only what does not follow from the grid is used. `recipe`: a JSON object
+/// that says what the database was made from.
 Result<Done> writeManifest(const std::filesystem::path& folder, const TerrainInfo& info,
                            const PostGrid& posts, const std::vector<FileEntry>& files,
                            std::optional<std::uint32_t> trianglesPerNode, const std::string& recipe);
-/// Checks the manifest, the sizes of all files and what is read whole: sizes before anything is allocated by
-/// them.
+/// Opens a database folder. Checks the manifest, the sizes of all files, and the checksums of files that are
+/// read whole. A size is checked before memory is allocated for it, so that a damaged manifest cannot exhaust
+/// memory.
 Result<Contents> readContents(const std::filesystem::path& folder);
 
 }  // namespace trimtab::terrain

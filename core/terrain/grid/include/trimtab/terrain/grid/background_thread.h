@@ -4,8 +4,8 @@
 
 namespace trimtab::terrain {
 
-/// From now on the calling thread gives way to those that draw: where all of them want a core it gets a tenth
-/// of what one of them gets. Linux keeps this by thread.
+/// Lowers the priority of the calling thread below that of threads that draw: if all want a core, it gets
+/// about a tenth of a drawing thread's time. Linux keeps this value per thread.
 inline void giveWayToPictures() {
   constexpr int kTenth = 10;
   ::setpriority(PRIO_PROCESS, 0, ::getpriority(PRIO_PROCESS, 0) + kTenth);

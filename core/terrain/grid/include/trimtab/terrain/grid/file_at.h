@@ -8,7 +8,9 @@
 
 namespace trimtab::terrain {
 
-/// All of it, or false with errno set: to 0 at the file's end.
+/// Reads `size` bytes from offset `at`. Returns false, with errno set, if that fails; errno is 0 at the end
+/// of the file. Several threads may use one descriptor, which streams, with their single position, do not
+/// allow.
 inline bool readAt(int file, std::uint64_t at, void* data, std::size_t size) {
   char* to = static_cast<char*>(data);
   while (size > 0) {
@@ -20,6 +22,7 @@ inline bool readAt(int file, std::uint64_t at, void* data, std::size_t size) {
   }
   return true;
 }
+/// Writes `size` bytes at offset `at`. Returns false, with errno set, if that fails.
 inline bool writeAt(int file, std::uint64_t at, const void* data, std::size_t size) {
   const char* from = static_cast<const char*>(data);
   while (size > 0) {

@@ -9,8 +9,9 @@
 
 namespace trimtab::terrain {
 
-/// Bilinear, degrees; of what corners there are where some are void; NaN where all are or it lies outside.
-/// `at(row, column)`: the post's height, NaN at voids.
+/// Returns the bilinear height at a place in degrees. If some of the four posts are voids, the others are
+/// used; returns NaN if all are voids or the place is outside the grid. `at(row, column)` returns a post's
+/// height, NaN at voids.
 template <class At>
 double heightOf(const PostGrid& posts, double longitude, double latitude, const At& at) {
   // Places on the grid's own border, computed another way, may be a rounding beyond it.

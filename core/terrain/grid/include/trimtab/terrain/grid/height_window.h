@@ -14,26 +14,27 @@ struct PostWindow {
   friend bool operator==(const PostWindow&, const PostWindow&) = default;
 };
 
-/// Heights of a grid that need not be in memory. Thread-safe; no voids are left in them.
+/// Heights of a grid that may be on disk, metres, with all voids filled. Thread-safe.
 class HeightSource {
  public:
   virtual ~HeightSource() = default;
   virtual const PostGrid& posts() const = 0;
-  /// Every `stride`-th post of the window, from its first, row by row; as many as fit.
+  /// Reads every `stride`-th post of the window, from its first, row by row; see strided() for how many.
+  /// `heights` must have that size.
   virtual void read(const PostWindow& window, std::uint32_t stride, std::span<float> heights) const = 0;
-  /// 1 where a post was a void and filled; the same order.
+  /// Reads, in the same order, 1 where a post was a void and was filled, else 0.
   virtual void readVoids(const PostWindow& window, std::uint32_t stride,
                          std::span<std::uint8_t> voids) const = 0;
-  /// Whether a read failed, ever: what it gave is 0 m, and nothing made of it may be kept.
+  /// Tells whether any read has failed. Failed reads yield 0 m, so discard everything made from this source.
   virtual bool failed() const { return false; }
 };
 
-/// How many a read gives along one side.
+/// Returns how many of `count` posts a read with `stride` yields along one side.
 constexpr std::uint32_t strided(std::uint32_t count, std::uint32_t stride) {
   return count == 0 ? 0 : (count - 1) / stride + 1;
 }
 
-/// Heights that are in memory; the grid must outlive it. `voids`: one a post, or empty.
+/// Heights in memory; `grid` and `voids` must outlive this object. `voids`: one per post, or empty.
 class GridHeights final : public HeightSource {
  public:
   explicit GridHeights(const HeightGrid& grid, std::span<const std::uint8_t> voids = {})

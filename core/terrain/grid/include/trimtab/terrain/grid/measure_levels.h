@@ -9,9 +9,9 @@
 
 namespace trimtab::terrain {
 
-/// Steepest triangle of each cell of each level, with either kind of border, 16 steps a unit, rounded up, 255
-/// for more. A level has kTileCells x its tiles in columns and rows, row by row; levels follow each other
-/// from the finest.
+/// Slope of the steepest triangle in each cell of each level, whichever way the cell is triangulated: rise
+/// over run x 16, rounded up, at most 255. The cells of a level are stored row by row, kTileCells per tile
+/// and side; levels follow each other from the finest.
 struct CellSlopes {
   static constexpr double kStepsPerUnit = 16;
 
@@ -26,9 +26,9 @@ struct CellSlopes {
   }
 };
 
-/// Fills bounds, cones, errorM and slopeMax of an index made by makeLevels, and the slopes. All posts are
-/// looked at for every level: the errors are true maxima, plus bounds for the earth's curvature and the
-/// rounding. False: cancelled.
+/// Fills in bounds, cones, errorM and slopeMax of an index made by makeLevels, and the slopes. Every level is
+/// compared with all posts, so that errors are true maxima, plus bounds for the earth's curvature and for
+/// rounding. Returns false if `carryOn` cancelled it.
 bool measureLevels(const PostGrid& posts, std::span<const float> heights, const PostGeometry& geometry,
                    TerrainIndex& index, CellSlopes& slopes, const std::function<bool(double)>& carryOn);
 

@@ -15,13 +15,13 @@
 
 namespace trimtab::terrain {
 
-/// Asked within long work, on any thread: when it says no, the rest is left out and so is what is half done.
+/// Long work calls this now and then, on any thread; if it returns false, the work stops and is discarded.
 using GoesOn = std::function<bool()>;
 
-/// Calls `work(i, goesOn)` for 0 <= i < count on all cores. `carryOn(share done)` is asked on the calling
-/// thread: between items, when work there asks `goesOn`, and while others still work. When it says no the
-/// rest is left out and the answer is false. What the work throws first is thrown again here, once all
-/// threads have ended.
+/// Calls `work(i, goesOn)` for 0 <= i < count on up to 16 cores, and returns when all calls have ended. Calls
+/// `carryOn(fraction done)` on the calling thread: between items, when its work calls `goesOn`, and while it
+/// waits for others. If `carryOn` returns false, the remaining items are skipped and the result is false. The
+/// first exception of `work` is rethrown after all threads have ended.
 inline bool forEachParallel(std::uint32_t count,
                             const std::function<void(std::uint32_t, const GoesOn&)>& work,
                             const std::function<bool(double)>& carryOn = {}) {
@@ -89,7 +89,7 @@ inline bool forEachParallel(std::uint32_t count,
   return !stop;
 }
 
-/// The same for work that is short and does not ask.
+/// The same for short work that does not check for cancellation.
 template <class Work>
 requires std::is_invocable_v<const Work&, std::uint32_t>
 bool forEachParallel(std::uint32_t count, const Work& work, const std::function<bool(double)>& carryOn = {}) {

@@ -9,12 +9,12 @@
 
 namespace trimtab::terrain {
 
-/// True WGS84 positions of posts in the terrain's local frame, from tables by row and by column.
+/// Computes exact WGS84 positions of posts in the terrain's local frame, from tables per row and column.
 class PostGeometry {
  public:
-  /// Steps of the lattice a metre: positions are whole numbers of them.
+  /// Positions are whole multiples of 1/kStepsPerMetre m.
   static constexpr std::int64_t kStepsPerMetre = 256;
-  /// Vertices are floats relative to an origin: 2^24 steps is as far as a float counts.
+  /// Largest distance of a vertex from its tile's origin, metres: a float counts up to 2^24 steps exactly.
   static constexpr double kReachM = 65536.0 - 64.0;
 
   struct Lattice {
@@ -24,20 +24,21 @@ class PostGeometry {
   explicit PostGeometry(const PostGrid& posts);
 
   const LocalFrame& frame() const { return frame_; }
-  /// A post's place, the same for every tile and level that uses it. Posts of levels whose tiles are too wide
-  /// for floats in 1/256 m are rounded to a wider step, in the finer levels too.
+  /// Returns a post's position, the same for every tile and level that uses it. Posts of levels whose tiles
+  /// are too wide for floats in 1/256 m are rounded to a wider step, in the finer levels too.
   Lattice lattice(std::uint32_t row, std::uint32_t column, double height) const;
-  /// ECEF of a post at height 0.
+  /// Returns the ECEF position of a post at height 0.
   Vec3 onEllipsoid(std::uint32_t row, std::uint32_t column) const;
-  /// Upward normal in the local frame of a surface that rises by `east` and `north` a metre there.
+  /// Returns the upward normal, in the local frame, of a surface with the slopes `east` and `north` (rise
+  /// over run).
   Vec3 normal(std::uint32_t row, std::uint32_t column, double east, double north) const;
-  /// Metres from a column to the next at a row, at height 0.
+  /// Returns the distance of adjacent columns at a row, metres, at height 0.
   double columnM(std::uint32_t row) const { return rows_[row].radius * stepLongitudeRad_; }
-  /// Metres from a row to the next, at height 0; `row` may be the last (the step on beyond it).
+  /// Returns the distance from `row` to the next row, metres, at height 0; `row` may be the last one.
   double rowM(std::uint32_t row) const { return rows_[row].meridianRadius * stepLatitudeRad_; }
-  /// Bound on how far a triangle of a level strays from the curved earth under it, metres.
+  /// Returns a bound on the distance between a triangle of a level and the curved earth below it, metres.
   double sagM(std::uint32_t level) const;
-  /// Bound on the distance of a lattice position from the true one, metres.
+  /// Returns a bound on the rounding error of lattice(), metres.
   double roundingM() const;
 
  private:

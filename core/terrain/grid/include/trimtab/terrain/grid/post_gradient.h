@@ -8,18 +8,18 @@
 
 namespace trimtab::terrain {
 
-/// Rise a metre eastwards and northwards.
+/// Slopes towards east and north, rise over run.
 struct PostGradient {
   double east = 0, north = 0;
 };
 
-/// A component of a unit vector in 127ths, to the nearest.
+/// Returns a component of a unit vector x 127, rounded.
 inline std::int8_t byteOf(double component) {
   return static_cast<std::int8_t>(static_cast<int>(component * 127 + 127.5) - 127);
 }
 
-/// At a post, from the eight about it, the nearest of them twice; at the last rows and columns from those
-/// that are there. `height(row, column)`: metres.
+/// Returns the slopes at a post from its eight neighbours, with the four nearest weighted twice; at the
+/// grid's border, from those that exist. `height(row, column)` returns metres.
 template <class Height>
 PostGradient gradientAt(const PostGrid& posts, const PostGeometry& geometry, std::uint32_t row,
                         std::uint32_t column, const Height& height) {

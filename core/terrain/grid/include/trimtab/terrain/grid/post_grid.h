@@ -9,8 +9,8 @@
 
 namespace trimtab::terrain {
 
-/// Where the posts of a regular WGS84 grid are: degrees, rows from south, columns from west. Longitudes do
-/// not wrap: a grid across the date line goes on past 180.
+/// The posts of a regular WGS84 grid: degrees, rows from south, columns from west. Longitudes do not wrap: a
+/// grid across the date line continues beyond 180 degrees.
 struct PostGrid {
   double west = 0, south = 0;  ///< of post (0, 0)
   double stepLongitude = 0, stepLatitude = 0;
@@ -19,34 +19,36 @@ struct PostGrid {
   std::size_t size() const { return std::size_t{columns} * rows; }
   double longitude(double column) const { return west + column * stepLongitude; }
   double latitude(double row) const { return south + row * stepLatitude; }
-  /// Of a longitude in any turn, as near to the grid's middle as turns allow: negative west of the grid.
+  /// Returns the column of a longitude, which is first shifted by whole turns to be nearest to the grid's
+  /// middle; negative west of the grid.
   double columnOf(double longitudeDeg) const;
   double rowOf(double latitudeDeg) const { return (latitudeDeg - south) / stepLatitude; }
 
   friend bool operator==(const PostGrid&, const PostGrid&) = default;
 };
 
-/// What the grid of a database may be: degrees, and posts a side.
+/// Limits of a database's grid: degrees, and posts per side.
 struct PostLimits {
   static constexpr double kWest = 540, kLeastStep = 1e-9, kMostStepLongitude = 180, kMostStepLatitude = 90;
-  static constexpr double kPastPole = 1e-6;  ///< of the northernmost row, by rounding
+  static constexpr double kPastPole =
+      1e-6;  ///< how far rounding may put the northernmost row beyond the pole
   static constexpr std::uint32_t kMostSide = 1u << 20;
 };
-/// What of a grid no database can hold; `where` names its source.
+/// Reports what in a grid exceeds PostLimits; `where` names its source.
 Findings beyondLimits(const PostGrid& posts, const std::string& where);
-/// Rows that go on past a pole, as rounded steps make them, end on it.
+/// Returns the grid with its rows ending at the poles, if rounded steps took them beyond.
 PostGrid upToPoles(PostGrid posts);
 
 /// Heights in metres, row by row; NaN is a void until voids are filled.
 struct HeightGrid {
   PostGrid posts;
   std::vector<float> heights;
-  std::uint64_t outside = 0;  ///< voids that no source reaches: the corners about a raster that stands askew
+  std::uint64_t outside = 0;  ///< voids that no source reaches: the corners around a rotated raster
   std::vector<std::uint8_t>
-      image;  ///< RGBA a post, alpha 0 where the image has nothing; empty without an image
+      image;  ///< RGBA per post, alpha 0 where the image has no colour; empty if there is no image
 };
 
-/// The levels and their links for a grid of posts; bounds, errors and slopes are sized but not measured.
+/// Makes the levels and links of the tiles of a grid; bounds, errors and slopes are allocated, not measured.
 TerrainIndex makeLevels(const PostGrid& posts);
 
 /// The posts of a tile: vertex (i, j) is post (row(j), column(i)).

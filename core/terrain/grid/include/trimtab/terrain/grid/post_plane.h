@@ -9,9 +9,9 @@ namespace trimtab::terrain {
 
 /// Heights of posts above the plane that touches the ellipsoid at one of them.
 ///
-/// They are linear in place, so that a triangle of posts in space is, but for the bend of rows and columns
-/// sideways, the triangle of their heights over columns and rows: what a mesher measures with them has the
-/// earth's curvature in it.
+/// These heights are linear in space. A triangle of posts in space is therefore also a triangle of their
+/// heights over columns and rows, apart from the sideways bend of rows and columns, and an error that a
+/// mesher measures with them includes the earth's curvature.
 class PostPlane {
  public:
   PostPlane(const PostGeometry& geometry, std::uint32_t column, std::uint32_t row);
@@ -20,7 +20,7 @@ class PostPlane {
     const PostGeometry::Row& r = geometry_.rows_[row];
     return along(r, height, across(column));
   }
-  /// Of `heights` at every `stride`-th column from `column`, of one row.
+  /// Computes the heights above the plane of one row, at every `stride`-th column from `column`, into `out`.
   void row(std::uint32_t column, std::uint32_t row, std::uint32_t stride, std::span<const float> heights,
            float* out);
 
@@ -36,7 +36,7 @@ class PostPlane {
   double out_, north_, cosine_,
       sine_;  ///< the plane's normal: from the axis, along it; where its meridian is
   double base_;
-  std::vector<double> across_;  ///< of the columns asked for last
+  std::vector<double> across_;  ///< of the columns of the last call
   std::uint32_t firstColumn_ = 0, stride_ = 0;
 };
 

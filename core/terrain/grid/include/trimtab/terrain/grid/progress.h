@@ -7,15 +7,16 @@
 
 namespace trimtab::terrain {
 
-/// Told now and then; returning false cancels. `fraction` is 0..1.
+/// Called now and then with the fraction done, 0 to 1; returning false cancels.
 using Progress = std::function<bool(double fraction, const std::string& what)>;
 
-/// Of a longer work's progress, from one share of it to another; `progress` must outlive it.
+/// Returns the progress of one stage, which covers the fractions `from` to `to` of the whole. `progress` must
+/// outlive it.
 Progress stageOf(const Progress& progress, double from, double to);
 
-/// What a cancelled step yields.
+/// Returns the finding of a cancelled step.
 Finding cancelled(const std::string& what);
-/// Nothing made of it is kept.
+/// Returns the finding for a source that could not be read; what was made from it is discarded.
 Finding unreadable(const std::string& what);
 
 }  // namespace trimtab::terrain

@@ -4,11 +4,11 @@
 
 namespace trimtab::terrain {
 
-/// Degrees; longitudes on one side of the earth.
+/// An area in degrees. Longitudes do not wrap.
 struct Rectangle {
   double west = 0, south = 0, east = 0, north = 0;
 
-  /// To which places are added.
+  /// Returns an empty rectangle, to which places can be added.
   static constexpr Rectangle none() { return {1e9, 1e9, -1e9, -1e9}; }
   bool empty() const { return west > east; }
   void add(double longitude, double latitude) {

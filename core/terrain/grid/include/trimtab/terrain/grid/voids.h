@@ -10,25 +10,26 @@
 
 namespace trimtab::terrain {
 
-/// Replaces NaN by a smooth surface through the heights around it (a membrane), and counts them. All void:
-/// sea, 0 m.
+/// Replaces NaN by a smooth surface (a membrane) through the heights around each void, and returns how many
+/// posts were filled. If all posts are voids, they become 0 m.
 std::uint64_t fillVoids(HeightGrid& grid);
 
-/// The same over heights that are kept elsewhere, to the bit, however wide a void is.
+/// The same for heights that are not in memory, with the same result to the bit for voids of any width.
 struct VoidFill {
   std::uint32_t columns = 0, rows = 0;
-  /// Rows [first, first + rows). Asked for twice, each time from the first row to the last.
+  /// Reads rows [first, first + rows). All rows are read twice, each time from the first to the last.
   std::function<Result<Done>(std::uint32_t first, std::uint32_t rows, std::span<float> heights)> read;
-  /// Rows that had voids, filled, in order; each after it was read for the last time, so that it may go where
-  /// it was read from.
+  /// Receives rows that had voids, now filled, in order. A row is written after it was read for the last
+  /// time, so that it may overwrite its source.
   std::function<Result<Done>(std::uint32_t first, std::uint32_t rows, std::span<const float> heights)> write;
-  /// Coarser levels (a third of the heights' size) go to a nameless file here where they do not fit in
-  /// `memory`, bytes. Beside them up to some 100 rows are held, where all are voids; half where few are.
+  /// Coarser levels, a third of the heights' size, go to an unnamed file in this folder if they do not fit in
+  /// `memory` bytes. Up to some 100 rows more are held in memory if all posts are voids, half of that if few
+  /// are.
   std::filesystem::path scratch = std::filesystem::temp_directory_path();
   std::size_t memory = std::size_t{64} << 20;
   std::function<bool(double fraction)> carryOn;
 };
-/// How many were filled.
+/// Returns how many posts were filled.
 Result<std::uint64_t> fillVoids(const VoidFill& fill);
 
 }  // namespace trimtab::terrain

@@ -12,49 +12,50 @@
 #include "trimtab/terrain/grid/post_geometry.h"
 #include "trimtab/terrain/grid/progress.h"
 
-/// Builds the ground's pyramid, block by block: memory follows what is given and the number of cores, not the
-/// size of the land.
+/// Builds the pyramid of ground colours and normals, block by block. Memory depends on GroundSources::memory
+/// and the number of cores, not on the size of the terrain. Format: resources/docs/terrain-format.md.
 namespace trimtab::terrain {
 
 class GroundTriangles;
 
-/// What the ground's look is made from. Where no image has a colour the triangles' materials give it, and
-/// where there are none of those the land cover that height, slope and latitude suggest.
+/// What the ground is coloured from: images first; where none has a colour, the materials of the triangles;
+/// and where there are none either, land cover by height, slope and latitude.
 struct GroundSources {
   const HeightSource* heights = nullptr;
   const PostGeometry* geometry = nullptr;
-  /// Any raster that GDAL reads with bytes of red, green and blue, of grey, or of a palette, in any CRS; the
-  /// first that has something at a place gives its colour.
+  /// Rasters that GDAL reads, in any CRS, with bytes of red, green and blue, of grey, or of a palette. Where
+  /// images overlap, the first one that has a colour is used.
   std::vector<std::filesystem::path> images;
   const GroundTriangles* triangles = nullptr;
-  /// A power of two, 1/64 to 64. Without: as fine as the finest image, from 1 to `mostTexelsPerPost`; 2 for
-  /// triangles.
+  /// A power of two, 1/64 to 64. If unset, as fine as the finest image, from 1 to `mostTexelsPerPost`; 2 if
+  /// there are triangles.
   std::optional<double> texelsPerPost;
   double mostTexelsPerPost = 8;
-  /// Bytes that blocks in work may take, some 32 MB each: of one at least.
+  /// Most bytes for the blocks in work, some 32 MB each; one block is always allowed.
   std::size_t memory = std::size_t{512} << 20;
 };
 
-/// What images cover of the finest texels that are made.
+/// How many of the finest texels each image covers.
 struct GroundCover {
   std::uint64_t texels = 0;            ///< of the whole ground
-  std::vector<std::uint64_t> covered;  ///< one an image: of the whole, or of a share
+  std::vector<std::uint64_t> covered;  ///< one count per image, for the whole ground or for a share
 };
-/// Tells of images that leave ground without; an error where one covers none.
+/// Reports images that leave ground uncovered; it is an error if an image covers none.
 Findings aboutCover(std::span<const std::filesystem::path> images, const GroundCover& cover);
 
-/// Into a page file that openGround opens. The bytes depend on the sources alone.
+/// Builds a page file that openGround reads. Its bytes depend on the sources alone.
 Result<Done> buildGround(const GroundSources& sources, const std::filesystem::path& file,
                          const Progress& progress);
 
-/// The i-th of so many shares, for several processes or machines; joined, the same bytes as buildGround's.
+/// Builds share `part` (from 0) of `parts`, for several processes or machines. Joined, the shares have the
+/// same bytes as buildGround's file.
 Result<GroundCover> buildGroundPart(const GroundSources& sources, std::uint32_t part, std::uint32_t parts,
                                     const std::filesystem::path& file, const Progress& progress);
-/// Removes a part that turns out damaged, and says so.
+/// Joins all shares to one file. A damaged share is removed and reported.
 Result<Done> joinGround(std::span<const std::filesystem::path> parts, const std::filesystem::path& file,
                         const Progress& progress);
 
-/// All of it in memory.
+/// Builds the whole pyramid in memory.
 Result<std::shared_ptr<const GroundPyramid>> buildGroundInMemory(const GroundSources& sources,
                                                                  const Progress& progress = {});
 

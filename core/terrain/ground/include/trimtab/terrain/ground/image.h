@@ -9,18 +9,19 @@
 
 namespace trimtab::terrain {
 
-/// A georeferenced picture, read a window at a time. Safe to use by many threads.
+/// A georeferenced image, read a window at a time. Thread-safe.
 class GroundImage {
  public:
-  /// Findings carry notes about what was assumed.
+  /// Opens an image. Findings include notes about what was assumed.
   static Result<std::unique_ptr<GroundImage>> open(const std::filesystem::path& file);
   virtual ~GroundImage() = default;
 
-  /// Degrees of latitude from a pixel to the next, in its middle.
+  /// Returns the distance of pixels in the middle of the image, degrees of latitude.
   virtual double stepDegrees() const = 0;
-  /// Whether any of it can lie on these posts.
+  /// Tells whether the image may cover any of these posts.
   virtual bool touches(const PostGrid& posts) const = 0;
-  /// RGBA a post, rows from south; alpha 0 where the picture has nothing. Posts may lie past 180 degrees.
+  /// Returns RGBA per post, rows from south; alpha is 0 where the image has no colour. Longitudes of posts
+  /// may exceed 180 degrees.
   virtual Result<std::vector<std::uint8_t>> read(const PostGrid& posts) const = 0;
 };
 

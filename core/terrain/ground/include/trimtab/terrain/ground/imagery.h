@@ -9,7 +9,7 @@
 
 namespace trimtab::terrain {
 
-/// RGBA at each post from a georeferenced raster; alpha 0 where it has nothing.
+/// Reads a georeferenced image at each post: RGBA, rows from south; alpha is 0 where it has no colour.
 Result<std::vector<std::uint8_t>> readImagery(const std::filesystem::path& file, const PostGrid& posts,
                                               const Progress& progress);
 

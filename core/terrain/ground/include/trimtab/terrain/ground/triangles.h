@@ -17,18 +17,19 @@ struct GroundTriangle {
   LineFeature line = LineFeature::none;
 };
 
-/// Triangles to paint the ground with, wherever they are kept.
+/// A source of triangles to paint the ground with.
 class GroundTriangles {
  public:
   virtual ~GroundTriangles() = default;
-  /// At least those that reach into a rectangle, those that belong on top last. Many threads at once.
+  /// Returns all triangles that overlap a rectangle, and perhaps others; later ones are painted on top.
+  /// Thread-safe.
   virtual Result<std::vector<GroundTriangle>> over(const Rectangle& degrees) const = 0;
 };
 
-/// Those of scenery: areas, lines, airports, paint on pavement, the last on top.
+/// The triangles of scenery: areas, lines, airports, markings on pavement; later ones are painted on top.
 class SceneryGround final : public GroundTriangles {
  public:
-  /// The catalogue must outlive it. Longitudes are those within half a turn of `nearLongitude`.
+  /// The catalogue must outlive this object. Longitudes are within half a turn of `nearLongitude`, degrees.
   SceneryGround(const SceneryCatalogue& scenery, double nearLongitude)
       : scenery_(scenery), turn_(scenery.turnTo(nearLongitude)) {}
   Result<std::vector<GroundTriangle>> over(const Rectangle& degrees) const override;

@@ -13,8 +13,9 @@ struct CountryOptions {
   double postM = 30;
   Progress progress;
 };
-/// Rough land with mountains, plains and sea of a country's size, as a tiled GeoTIFF, band by band: to try
-/// large terrain with. Cheap rather than true: no rivers run in it, as they do in the sample's.
+/// Writes terrain of a country's size, with mountains, plains and sea, as a tiled GeoTIFF, for tests of large
+/// terrain. Works band by band. Unlike the sample's terrain it has no rivers, because they need the whole
+/// grid.
 Result<Done> writeCountry(const std::filesystem::path& tif, const CountryOptions& options);
 
 }  // namespace trimtab::terrain

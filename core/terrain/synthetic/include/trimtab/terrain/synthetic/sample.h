@@ -14,8 +14,8 @@ struct SampleOptions {
   double postM = 60;
   Progress progress;
 };
-/// The embedded default terrain: mountains, valleys, rivers and a coast around 36.63 N 128.35 E, as a
-/// GeoTIFF.
+/// Writes the built-in default terrain as a GeoTIFF: mountains, valleys, rivers and a coast around 36.63 N
+/// 128.35 E. The same options give the same bytes.
 Result<Done> writeSample(const std::filesystem::path& tif, const SampleOptions& options);
 
 }  // namespace trimtab::terrain
