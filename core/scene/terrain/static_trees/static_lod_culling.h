@@ -17,26 +17,27 @@ struct StaticLodTerrain;
 
 namespace trimtab::scene {
 
-/// What a frame does to find the nodes of the static trees that it draws. Keeps what can be kept from frame
-/// to frame; needs no context.
+/// Finds the nodes of the static trees that a frame draws. It reuses the last frame's cut and visible set if
+/// nothing that they depend on has changed. It needs no GL context.
 class StaticLodCulling {
  public:
   void setTerrain(std::shared_ptr<const terrain::StaticLodTerrain> terrain);
 
-  /// Cut and visible set for an eye, each only if it can have changed: `cutsSelected`, `visibleSelected`.
+  /// Selects the cut and the visible set for an eye, each only if it can have changed; counts both in
+  /// `counters.cutsSelected` and `counters.visibleSelected`.
   void select(const FrameRequest& request, const EyePose& eye, FrameResult& counters);
-  /// Whether the far nodes are to be held against what the near ones cover, and by a map of which size; else
-  /// `counters.note` may say why not.
+  /// Returns the size of the depth map with which far nodes are tested against near ones; null if they are
+  /// not tested, and then `counters.note` may say why.
   std::optional<DepthMapSize> occlusion(const FrameRequest& request, FrameResult& counters) const;
-  /// Takes the far nodes out that `covered` hides.
+  /// Removes the far nodes that `covered` hides from the visible set.
   void removeHidden(const DepthPyramid& covered);
-  /// That was done for this very view: no map needs to be read again.
+  /// Reports whether removeHidden() ran for this view, so that no map needs to be read again.
   bool hiddenIsKnown() const { return hiddenIsKnown_; }
 
   const StaticLodIndex& index() const;
   const std::vector<TileDraw>& cut() const { return cutTiles_; }
-  /// The near nodes first, the far ones after them: in every culling case and view direction, because where
-  /// two triangles have the same depth, the first one shows.
+  /// Lists near nodes before far ones, in every culling case and view direction: where two triangles have the
+  /// same depth, the first one drawn shows, so the order must not change the image.
   const VisibleSet& visible() const { return visible_; }
   std::size_t visibleNear() const { return visibleNear_; }
   void plant(const Defects& defects);
