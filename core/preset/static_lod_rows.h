@@ -19,8 +19,8 @@ inline constexpr std::array kStaticLodRows{
         {.key = "static_lod.error",
          .label = "Error of a node",
          .help = "Which error against the source sets a node's minimum viewer distance. The largest vertical "
-                 "error keeps every ridge and draws more. Both count how far material borders of airports, "
-                 "roads and streams move sideways. As published is document E's literal form: vertical error "
+                 "error keeps every ridge and draws more. Both count how far material borders of airports "
+                 "move sideways. As published is document E's literal form: vertical error "
                  "alone, so flat airports lose their runways.",
          .source = "E: root mean square error"}),
     row<&TuningParameters::staticLod, &StaticLodParameters::rule>(

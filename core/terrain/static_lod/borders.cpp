@@ -52,10 +52,7 @@ void raise(double& worst, const Segment& line, const SegmentGrid& to, const Vani
 }  // namespace
 
 std::vector<std::uint8_t> borderMaterials(const LatticeTile& tile, std::span<const std::string> materials) {
-  std::vector<std::uint8_t> counts;
-  for (const std::string& material : materials)
-    counts.push_back(isAirport(tile.name) || lineFeatureOf(material) != LineFeature::none);
-  return counts;
+  return std::vector<std::uint8_t>(materials.size(), isAirport(tile.name));
 }
 
 BorderMeasure::BorderMeasure(const LatticeTile& tile, const LodTree& tree,

@@ -54,14 +54,16 @@ struct LodTree {
 
 /// Splits by upright planes across the longer side, at the median of the triangles' middles, down to leaves
 /// of n/2 to n; merges and simplifies upwards; measures. `lineWidthM`: one a vertex of the tile, to keep
-/// lines; or empty. `goesOn` is asked once or twice a node: a tree without nodes when it says no.
+/// lines; or empty. `goesOn` is called once or twice per node; if it returns false, the
+/// result is a tree without nodes.
 LodTree buildTree(const LatticeTile& tile, std::uint32_t trianglesPerNode, std::vector<float> lineWidthM,
                   std::span<const std::string> materials, const std::function<bool()>& goesOn = {});
 
-/// Measures every node, children first. Samples are the vertices of the source triangles below the node,
-/// against the node's surface, and the node's own vertices against those triangles; each place once and all
-/// of one weight. Where the source covers ground twice the nearest sheet counts. A node's error is no less
-/// than its children's. `goesOn` is asked once a node; false when it says no.
+/// Measures the errors of every node, children first. Vertical errors compare the vertices of the source
+/// triangles below the node with the node's surface, and the node's vertices with those triangles; each place
+/// counts once and with the same weight. If the source covers ground twice, the nearest sheet counts.
+/// Border errors are BorderMeasure's. No error is less than a child's. Calls `goesOn` once per node and
+/// returns false if it does.
 bool measureTree(const LatticeTile& tile, LodTree& tree, std::span<const std::string> materials,
                  const std::function<bool()>& goesOn = {});
 

@@ -17,27 +17,27 @@ struct StaticLodTerrain;
 
 namespace trimtab::scene {
 
-/// What a frame does to find the nodes of the static trees that it draws. Keeps what can be kept from frame
-/// to frame; needs no context.
+/// Finds the nodes of the static trees that a frame draws. It reuses the last frame's cut and visible set if
+/// nothing that they depend on has changed. It needs no GL context.
 class StaticLodCulling {
  public:
   void setTerrain(std::shared_ptr<const terrain::StaticLodTerrain> terrain);
 
-  /// Selects cut and visible set for an eye, each only if it can have changed, and returns how often: its
-  /// `cutsSelected` and `visibleSelected` are 0 or 1.
+  /// Selects the cut and the visible set for an eye, each only if it can have changed, and returns how often
+  /// it did: `cutsSelected` and `visibleSelected` are 0 or 1.
   FrameCounters select(const FrameRequest& request, const EyePose& eye);
-  /// Returns the size of the depth map by which far nodes are tested against what the near ones cover;
-  /// without one, `note` may say why.
+  /// Returns the size of the depth map with which far nodes are tested against near ones. If they are not
+  /// tested, the result has no size and its `note` may say why.
   OcclusionResult occlusion(const FrameRequest& request) const;
-  /// Takes the far nodes out that `covered` hides.
+  /// Removes the far nodes that `covered` hides from the visible set.
   void removeHidden(const DepthPyramid& covered);
-  /// That was done for this very view: no map needs to be read again.
+  /// Reports whether removeHidden() ran for this view, so that no map needs to be read again.
   bool hiddenIsKnown() const { return hiddenIsKnown_; }
 
   const StaticLodIndex& index() const;
   const std::vector<TileDraw>& cut() const { return cutTiles_; }
-  /// The near nodes first, the far ones after them: in every culling case and view direction, because where
-  /// two triangles have the same depth, the first one shows.
+  /// Lists near nodes before far ones, in every culling case and view direction: where two triangles have the
+  /// same depth, the first one drawn shows, so the order must not change the image.
   const VisibleSet& visible() const { return visible_; }
   std::size_t visibleNear() const { return visibleNear_; }
   void plant(const Defects& defects);

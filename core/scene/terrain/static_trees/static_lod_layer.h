@@ -24,8 +24,8 @@ namespace trimtab::scene {
 /// together.
 class StaticLodLayer {
  public:
-  /// Beyond `keptBytes` the tiles that were longest unused are given up; a frame that needs more still gets
-  /// them.
+  /// Releases the tiles unused for longest once the meshes exceed `keptBytes`; a frame that needs more than
+  /// that still gets all of its tiles.
   explicit StaticLodLayer(std::size_t keptBytes = std::size_t{64} << 20);
   ~StaticLodLayer();
   StaticLodLayer(const StaticLodLayer&) = delete;
@@ -33,8 +33,8 @@ class StaticLodLayer {
 
   /// Forgets all meshes.
   void setTerrain(std::shared_ptr<const terrain::StaticLodTerrain> terrain);
-  /// Uploads the tiles that the nodes lie in, where they are not there, or all of them with `anew`. Returns
-  /// how many were. Where there is no memory for one, its nodes are not drawn.
+  /// Uploads the tiles of the nodes that are not on the GPU yet, or all of them with `anew`. Returns the
+  /// number of tiles uploaded. Nodes of a tile for which there is no memory are not drawn.
   std::size_t prepare(std::span<const TileDraw> nodes, bool anew = false);
 
   /// One multi-draw, in order. The program in use reads attributes 0 position, 1 normal, 3 colour.

@@ -12,14 +12,14 @@ struct StaticLodTerrain;
 
 namespace trimtab::scene {
 
-/// Boxes of the parts of a node's own triangles, in the terrain's frame: one box of all of it would poke over
-/// the ridge that hides it. Made when a node is first asked for.
+/// Gives boxes of the parts of a node's own triangles, in the terrain's frame. One box of the whole node
+/// would stick out above the ridge that hides it. Boxes are made when a node is first asked for.
 class StaticLodParts {
  public:
   static constexpr std::size_t kPerSide = 4;  ///< parts seen from above
 
   void setTerrain(const terrain::StaticLodTerrain* terrain);
-  /// Rounded outwards; parts without triangles are left out.
+  /// Returns the boxes, rounded outwards, without parts that have no triangles.
   std::span<const Box> of(std::uint32_t node);
 
  private:

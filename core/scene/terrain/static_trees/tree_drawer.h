@@ -8,7 +8,7 @@
 
 namespace trimtab::scene {
 
-/// The terrain as trees of static levels of detail.
+/// Draws the terrain as trees of static levels of detail.
 class TreeDrawer final : public TerrainDrawer {
  public:
   void setTerrain(std::shared_ptr<const terrain::Database> database) override;
@@ -17,9 +17,10 @@ class TreeDrawer final : public TerrainDrawer {
   void plant(const Defects& defects) override { culling_.plant(defects); }
 
   PreparedTerrain prepare(const FrameInProgress& frame) override;
-  /// With a depth map the near nodes, then what they leave of the far ones.
+  /// Draws all visible nodes. With a depth map it draws the near ones, then the far ones that they do not
+  /// hide.
   void draw(unsigned program) override;
-  /// Document E's picture instead.
+  /// Draws document E's picture instead: faces grey, edges red, locked edges black.
   void drawPicture(unsigned program);
   void drawNumbered(unsigned program) override;
 
@@ -37,7 +38,7 @@ class TreeDrawer final : public TerrainDrawer {
   void drawNodes(unsigned program, std::span<const TileDraw> nodes) override;
   void drawTinted(unsigned program, std::span<const TileDraw> nodes,
                   std::span<const std::uint32_t> colours) override;
-  /// They stand as they are drawn: StaticLodCulling::visible.
+  /// Does nothing: the nodes are in drawing order already (StaticLodCulling::visible).
   void arrange(std::vector<TileDraw>&) const override {}
 
   struct Gl {

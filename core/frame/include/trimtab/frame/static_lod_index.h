@@ -28,7 +28,7 @@ struct StaticLodIndex {
   std::vector<Box> bounds;       ///< of everything this node or any descendant draws, local frame
   std::vector<float> rmsErrorM;  ///< vertical, against the source triangles below; monotone up the tree
   std::vector<float> maxErrorM;  ///< likewise the largest
-  /// How far borders of materials move sideways on airports, roads, railways and streams; monotone too.
+  /// How far borders of materials move sideways on airports, 0 elsewhere; monotone too.
   std::vector<float> borderErrorM;
   std::vector<float> slopeMax;  ///< steepest triangle of this node or a descendant, rise over run
 

@@ -10,17 +10,17 @@
 
 namespace trimtab::terrain {
 
-/// Answers how far above or below a surface a place is. Triangles that stand upright are left out.
+/// Measures how far above or below a surface a place lies. Upright triangles are left out.
 class VerticalDistance {
  public:
   /// The arrays must outlive it.
   VerticalDistance(std::span<const Lattice> vertices,
                    std::span<const std::array<std::uint32_t, 3>> triangles);
 
-  /// Smallest vertical distance to those of the triangles [first, last) that lie above or below `p`, their
-  /// borders included (exactly); none where there is none.
+  /// Returns the smallest vertical distance in metres to those of the triangles [first, last) that lie above
+  /// or below `p`, their borders included exactly; null if there is none.
   std::optional<double> metres(const Lattice& p, std::uint32_t first, std::uint32_t last) const;
-  /// A triangle above or below `p`, the first where there are several; none where there is none.
+  /// Returns the first triangle above or below `p`; null if there is none.
   std::optional<std::uint32_t> at(const Lattice& p) const;
 
  private:

@@ -10,8 +10,8 @@
 
 namespace trimtab::terrain {
 
-/// A place in the terrain's local frame in steps of 1/256 m. Whole numbers, so that which side of a line a
-/// vertex lies on has one answer.
+/// A place in the terrain's local frame in steps of 1/256 m. They are whole numbers, so that the side of a
+/// line on which a vertex lies is computed exactly.
 struct Lattice {
   static constexpr double kStepM = 1.0 / 256;
   std::int32_t x = 0, y = 0, z = 0;
@@ -21,13 +21,13 @@ struct Lattice {
   Vec3 metres() const { return {x * kStepM, y * kStepM, z * kStepM}; }
 };
 
-/// Twice the area of the triangle as seen from above, in square steps; positive when anticlockwise. Exact
-/// within 4,000 km.
+/// Returns twice the area of the triangle seen from above, in square steps; positive if it is anticlockwise.
+/// Exact within 4,000 km.
 constexpr std::int64_t orientation(const Lattice& a, const Lattice& b, const Lattice& c) {
   return (std::int64_t{b.x} - a.x) * (std::int64_t{c.y} - a.y) -
          (std::int64_t{b.y} - a.y) * (std::int64_t{c.x} - a.x);
 }
-/// Rise over run of a triangle; kVerticalSlope where it stands upright or hangs over.
+/// Returns rise over run of a triangle; kVerticalSlope if it stands upright or hangs over.
 double slopeOf(const Lattice& a, const Lattice& b, const Lattice& c);
 inline constexpr double kVerticalSlope = 1e6;
 

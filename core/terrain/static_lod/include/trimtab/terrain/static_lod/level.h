@@ -16,21 +16,22 @@ struct LatticeSurface {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::uint16_t> material;  ///< one a triangle
 };
-/// What is drawn of a tile at a level, the root's being 0; leaves above it with it, so that the deepest is
-/// the source.
+/// Returns what is drawn of a tile at a level; 0 is the root. It includes the leaves above that level, so
+/// that the deepest level is the source.
 LatticeSurface surfaceOfLevel(const StaticLodTerrain& terrain, std::size_t tile, std::uint32_t level);
-/// Levels of one tile.
+/// Returns the number of levels of one tile.
 std::uint32_t levelsOf(const StaticLodTerrain& terrain, std::size_t tile);
-/// Memory of a level's nodes: vertices and indices as they are uploaded.
+/// Returns the bytes of a level's nodes: vertices and indices as they are uploaded.
 std::uint64_t bytesOfLevel(const StaticLodTerrain& terrain, std::size_t tile, std::uint32_t level);
 
-/// A tile's source again, so that trees can be built from it in another way: on the lattice already, so the
-/// same trees come out.
+/// Returns a tile's source mesh, so that trees can be built from it with other options. Its vertices lie on
+/// the lattice already, so the same options give the same trees.
 SceneryMesh sourceOf(const StaticLodTerrain& terrain, std::size_t tile);
 
-/// How much of a tile's lines a level still shows, by length, metres: roads, railways and streams by the
-/// border of their triangles, where such a triangle covers the middle of the source's; shorelines where there
-/// is water on the one side and land on the other, at the middles of the source's triangles.
+/// States how much of a tile's lines a level still shows, by length in metres. A border edge of a road,
+/// railway or stream counts if such a triangle is drawn at the middle of the source's triangle; an edge of a
+/// shoreline counts if water is drawn at the middle of its water triangle and land at that of its land
+/// triangle.
 struct LineShare {
   double lineM = 0, lineLeftM = 0;
   double shoreM = 0, shoreLeftM = 0;

@@ -10,10 +10,10 @@
 
 namespace trimtab::terrain {
 
-/// Scenery has no tiles for the open sea. One tree of a single node for each bucket that has no tile and
-/// whose posts all lie at sea level: `trees` itself where there is none such. An apron runs under the
-/// neighbours, whose borders on the sea are long straight edges and so dip below it. The counts take the sea
-/// in.
+/// Adds the open sea, for which scenery has no tiles: a tree of a single node for each bucket that has no
+/// tile and whose posts all lie at sea level. Returns `trees` itself if there is no such bucket. An apron
+/// runs under the neighbours, because their borders on the sea are long straight edges that dip below it. The
+/// counts include the sea.
 std::shared_ptr<const StaticLodTerrain> withOpenSea(std::shared_ptr<const StaticLodTerrain> trees,
                                                     std::span<const SceneryMesh> tiles,
                                                     const HeightSource& heights);

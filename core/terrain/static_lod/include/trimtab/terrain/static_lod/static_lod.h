@@ -16,18 +16,20 @@ namespace trimtab::terrain {
 
 struct StaticLodOptions {
   std::uint32_t trianglesPerNode = 2000;  ///< 1 to kMostTrianglesPerNode
-  /// As terrain::Progress: returning false cancels. Asked node by node; a tile counts once it is done.
+  /// Reports progress; returning false cancels. It is called after each node; `fraction` counts whole tiles.
   std::function<bool(double fraction, const std::string& what)> progress;
-  /// Roads, railways, streams and shorelines stay in a node as long as a pixel is no wider than they are
-  /// where the node may first be drawn: at an RMS error of one pixel. Document E, as published, loses them at
-  /// the first step. Nodes may then hold more than n triangles; they state an error no less than that pixel.
+  /// Keeps roads, railways, streams and shorelines in a node while they are at least a pixel wide at the
+  /// distance where the node may first be drawn (RMS error of one pixel). Document E, as published, loses
+  /// them at the first step. Nodes may then hold more than n triangles, and state at least that pixel's width
+  /// as their error.
   bool keepLines = false;
 };
 
-/// Builds the trees of all tiles in `frame`; tiles in parallel. Vertices that neighbouring tiles share are
-/// joined first, so that borders stay closed between tiles too. The same input gives the same bytes on any
-/// number of cores. Refused: numbers that are not finite, places more than 1000 km from the frame's origin,
-/// tiles wider than 120 km, indices past their arrays; tiles without triangles are left out with a warning.
+/// Builds the trees of all tiles in `frame`, several tiles at a time. It first joins vertices that
+/// neighbouring tiles share, so that borders stay closed between tiles too. The same input gives the same
+/// bytes on any number of cores. It refuses numbers that are not finite, places more than 1000 km from the
+/// frame's origin, tiles wider than 120 km and indices past their arrays. It leaves out tiles without
+/// triangles, with a warning.
 Result<std::shared_ptr<const StaticLodTerrain>> buildStaticLod(std::span<const SceneryMesh> tiles,
                                                                const LocalFrame& frame,
                                                                const StaticLodOptions& options);
@@ -42,7 +44,7 @@ struct StaticLodLimits {
 /// keep lines, may exceed them.
 StaticLodLimits staticLodLimits(std::uint64_t triangles, std::uint32_t trianglesPerNode);
 
-/// One tile in document E's words, beside what its rule allows.
+/// Describes one tile in document E's terms, beside what its rule allows.
 struct StaticLodReport {
   std::string tile;
   std::uint64_t triangles = 0, faces = 0;
@@ -52,7 +54,7 @@ struct StaticLodReport {
   StaticLodLimits limits;
 };
 StaticLodReport reportStaticLod(const StaticLodTerrain& terrain, std::size_t tile);
-/// The tile whose source triangles are nearest in number; the terrain has at least one tile.
+/// Returns the tile whose number of source triangles is nearest; the terrain must have at least one tile.
 std::size_t tileNearest(const StaticLodTerrain& terrain, std::uint64_t triangles);
 
 }  // namespace trimtab::terrain
