@@ -9,6 +9,7 @@
 #include "app/workbench/viewport/viewport.h"
 #include "frame_controller.h"
 #include "terrain_controller.h"
+#include "trimtab/scene/distance_image.h"
 #include "trimtab/scene/node_description.h"
 #include "trimtab/scene/renderer.h"
 #include "views/editors/bands_editor.h"
@@ -89,17 +90,16 @@ void CullingController::showDepthMap(const QImage& grey) {
     bands_.clearDepthMap();
     return panel_.showMap({}, tr("Neither a depth map nor a horizon was used in this frame."));
   }
-  using Grey = scene::Renderer::Grey;
   const auto& last = at_.viewport.lastResult();
   const bool horizon = last && last->horizon && !last->depthMap;
   const QString size = tr("%1 × %2 px").arg(grey.width()).arg(grey.height());
   const QString caption =
       isWhiteAllOver(grey) ? tr("%1: nothing in this view is covered").arg(size)
       : horizon            ? tr("What the horizon covers of the view, %1: grey is proven covered").arg(size)
-                           : tr("Depth map %1; black %2 m, white %3 km")
+                           : tr("Depth map %1: black is at %2 m, white at %3 km")
                       .arg(size)
-                      .arg(Grey::kNearestM)
-                      .arg(Grey::kFurthestM / 1000);
+                      .arg(scene::DistanceImage::kNearestM)
+                      .arg(scene::DistanceImage::kFarthestM / 1000);
   bands_.showDepthMap(grey, caption);
   panel_.showMap(grey, caption);
 }

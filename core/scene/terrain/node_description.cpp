@@ -29,7 +29,7 @@ std::optional<Described> ofPatch(std::uint32_t node, const PatchIndex& index, co
   if (node >= index.size()) return std::nullopt;
   const auto drawn = std::find_if(visible.tiles.begin(), visible.tiles.end(),
                                   [node](const TileDraw& d) { return d.node == node; });
-  const std::size_t variant = drawn == visible.tiles.end() ? 0 : drawn->coarser;
+  const std::size_t variant = drawn == visible.tiles.end() ? 0 : drawn->variant.number;
   return Described{{.form = "patch",
                     .level = index.depth[node],
                     .triangles = index.triangles[node][variant],

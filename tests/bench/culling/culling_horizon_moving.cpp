@@ -49,7 +49,7 @@ struct StandingCut {
       index.errorM.push_back(0);
       index.parent.push_back(kNone);
       index.children.push_back({kNone, kNone, kNone, kNone});
-      tiles.push_back({i, 0});
+      tiles.push_back({.node = i});
     }
     index.neighbours = index.children;
   }

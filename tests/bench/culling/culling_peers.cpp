@@ -33,7 +33,7 @@ class AllTiles final : public osg::Drawable {
     setUseDisplayList(false);
     setSupportsDisplayList(false);
     setCullingActive(false);
-    for (std::uint32_t i = 0; 3 * i < vertices.size(); ++i) tiles_.push_back({i, 0});
+    for (std::uint32_t i = 0; 3 * i < vertices.size(); ++i) tiles_.push_back({.node = i});
     const std::uint16_t indices[3] = {0, 1, 2};
     glGenVertexArrays(1, &array_);
     glBindVertexArray(array_);

@@ -260,7 +260,7 @@ TEST(MovingHorizon, holdsOnTheBentEarthFarFromTheFramesOrigin) {
     index.errorM.push_back(0);
     index.parent.push_back(kNone);
     index.children.push_back({kNone, kNone, kNone, kNone});
-    draws.push_back({i, 0});
+    draws.push_back({.node = i});
   }
   index.neighbours = index.children;
   const SurfaceTree tree = SurfaceTree::of(index);
