@@ -8,7 +8,6 @@
 #include "commands.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
-#include "trimtab/preset/sealed.h"
 #include "trimtab/units/labelled.h"
 
 namespace trimtab::cli {
@@ -44,26 +43,11 @@ Json toJson(const Findings& findings) {
   return list;
 }
 
-/// XML and INI exports are for other programs; of them only the checksum can be held against the text.
-bool isForeignExport(const std::string& text) {
-  const std::size_t begin = std::min(text.find_first_not_of(" \t\r\n"), text.size());
-  return text.compare(begin, 5, "<?xml") == 0 || text.compare(begin, 1, ";") == 0 ||
-         text.compare(begin, 8, "[export]") == 0;
-}
-
-Findings checkFile(const std::string& file) {
-  const auto shipped = shippedPresets();
-  if (std::find(shipped.begin(), shipped.end(), file) != shipped.end()) return loadPreset(file).findings();
-  const auto text = readWhole(file);
-  if (!text) return text.findings();
-  return isForeignExport(*text) ? checkSeal(*text, file).findings() : parsePreset(*text, file).findings();
-}
-
 int check(const Options& options) {
   bool good = true;
   Json files = Json::array();
   for (const std::string& file : options.files) {
-    const Findings findings = checkFile(file);
+    const Findings findings = loadPreset(file).findings();
     const bool fileIsGood = !anyError(findings);
     good = good && fileIsGood;
     if (options.json) {

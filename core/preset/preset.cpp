@@ -4,6 +4,7 @@
 #include <set>
 
 #include "migration.h"
+#include "preset_text.h"
 #include "shipped.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/json_text.h"
@@ -51,6 +52,24 @@ std::string expectedKey(std::string_view unknown) {
   return "a parameter of this version" + (nearest.empty() ? "" : " (" + std::string(nearest) + "?)");
 }
 
+Result<PresetText> readJsonPreset(std::string_view text, const std::string& where) {
+  if (const auto syntax = json::checkSyntax(text, where); !syntax) return syntax.findings();
+  const std::size_t begin = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+  const std::string_view top = text.substr(begin);
+  if (!json::isObject(top))
+    return Finding{Severity::error, json::place(where, text, begin), "", "an object",
+                   std::string(top.substr(0, 20))};
+  PresetText file;
+  for (const json::Member& member : json::members(top, text)) {
+    file.members.push_back({member.key, std::string(member.value), json::place(where, text, member.at)});
+    if (member.key != "parameters") continue;
+    for (const json::Member& parameter : json::members(member.value, text))
+      file.parameters.push_back(
+          {parameter.key, std::string(parameter.value), json::place(where, text, parameter.at)});
+  }
+  return file;
+}
+
 /// One reading of one file: what was found so far, and where.
 class Reader {
  public:
@@ -60,48 +79,54 @@ class Reader {
   }
 
   Result<Preset> read() {
-    if (const auto syntax = json::checkSyntax(text_, where_); !syntax) return syntax.findings();
-    const std::size_t begin = std::min(text_.find_first_not_of(" \t\r\n"), text_.size());
-    if (!json::isObject(text_.substr(begin)))
-      refuse(begin, "", "an object", std::string(text_.substr(begin, 20)));
-    for (json::Member& member : json::members(text_.substr(begin), text_)) {
-      if (!top_.emplace(member.key, member).second)
-        refuse(member.at, member.key, "each member once", "it a second time");
-    }
+    const bool isXml = looksLikeXml(text_), isIni = looksLikeIni(text_);
+    isJson_ = !isXml && !isIni;
+    Result<PresetText> file = isXml   ? readXmlExport(text_, where_)
+                              : isIni ? readIniExport(text_, where_)
+                                      : readJsonPreset(text_, where_);
+    if (!file) return file.findings();
+    for (const RawParameter& member : file->members)
+      if (const auto [at, isNew] = top_.emplace(member.key, member); !isNew)
+        refuse(member.where, member.key, "each member once", "it a second time");
     if (anyError(findings_) || !readFormat()) return findings_;
     if (isExport_ && !sealHolds()) return findings_;
     const int version = readVersion();
     if (version == 0) return findings_;
     readTexts();
     readBase();
-    readParameters(version);
+    readParameters(version, std::move(file.value().parameters));
     if (anyError(findings_)) return findings_;
     for (Finding& f : ruleFindings(preset_.parameters)) addPlaced(std::move(f));
     return {std::move(preset_), std::move(findings_)};
   }
 
  private:
-  void refuse(std::size_t at, std::string key, std::string expected, std::string found) {
-    findings_.push_back({Severity::error, json::place(where_, text_, at), std::move(key), std::move(expected),
-                         std::move(found)});
+  void refuse(std::string where, std::string key, std::string expected, std::string found) {
+    findings_.push_back(
+        {Severity::error, std::move(where), std::move(key), std::move(expected), std::move(found)});
+  }
+  /// Refuses a member, or what should be there.
+  void refuseMember(const std::string& key, std::string expected) {
+    const RawParameter* const found = member(key);
+    refuse(found ? found->where : json::place(where_, text_, 0), key, std::move(expected),
+           found ? found->value.substr(0, 80) : "none");
   }
   void addPlaced(Finding f) {
     const auto at = places_.find(f.key);
     f.where = at == places_.end() ? where_ : at->second;
     findings_.push_back(std::move(f));
   }
-  const json::Member* member(const std::string& key) const {
+  const RawParameter* member(const std::string& key) const {
     const auto at = top_.find(key);
     return at == top_.end() ? nullptr : &at->second;
   }
 
   bool readFormat() {
-    const json::Member* const format = member("format");
+    const RawParameter* const format = member("format");
     const auto name = format ? json::readString(format->value) : std::nullopt;
     isExport_ = name == "trimtab-export";
     if (isExport_ || name == "trimtab-preset") return true;
-    refuse(format ? format->at : 0, "format", "\"trimtab-preset\" or \"trimtab-export\"",
-           format ? std::string(format->value.substr(0, 60)) : "none");
+    refuseMember("format", "\"trimtab-preset\" or \"trimtab-export\"");
     return false;
   }
 
@@ -111,22 +136,19 @@ class Reader {
       findings_.insert(findings_.end(), seal.findings().begin(), seal.findings().end());
       return false;
     }
-    const json::Member* const checksum = member("checksum");
+    const RawParameter* const checksum = member("checksum");
     if (checksum && json::readString(checksum->value) == *seal) return true;
-    refuse(checksum ? checksum->at : 0, "checksum", *seal,
-           checksum ? std::string(checksum->value.substr(0, 80)) : "none");
+    refuseMember("checksum", *seal);
     return false;
   }
 
   /// 0 where the file's version cannot be read.
   int readVersion() {
-    const json::Member* const version = member("version");
+    const RawParameter* const version = member("version");
     const auto number = version ? readNumber(version->value) : std::nullopt;
     for (int v = 1; v <= kPresetVersion; ++v)
       if (number == v) return v;
-    refuse(version ? version->at : 0, "version",
-           "a format version from 1 to " + std::to_string(kPresetVersion),
-           version ? std::string(version->value.substr(0, 60)) : "none");
+    refuseMember("version", "a format version from 1 to " + std::to_string(kPresetVersion));
     return 0;
   }
 
@@ -134,12 +156,12 @@ class Reader {
     for (const auto& [key, target] : {std::pair<std::string, std::string*>{"name", &preset_.name},
                                       {"description", &preset_.description},
                                       {"base", &preset_.base}})
-      if (const json::Member* const text = member(key)) {
+      if (const RawParameter* const text = member(key)) {
         const auto value = json::readString(text->value);
         if (value)
           *target = *value;
         else
-          refuse(text->at, key, "text", std::string(text->value.substr(0, 60)));
+          refuseMember(key, "text");
       }
     for (const auto& [key, value] : top_) {
       static const std::set<std::string> known{"format",      "version",    "name",       "base",
@@ -150,7 +172,7 @@ class Reader {
 
   void readBase() {
     if (isExport_ || preset_.base.empty()) return;
-    const std::size_t at = member("base")->at;
+    const std::string& at = member("base")->where;
     if (depth_ >= kLongestBaseChain)
       return refuse(at, "base",
                     "at most " + std::to_string(kLongestBaseChain) + " presets based on each other",
@@ -167,14 +189,9 @@ class Reader {
     findings_.insert(findings_.end(), base.findings().begin(), base.findings().end());
   }
 
-  void readParameters(int version) {
-    const json::Member* const all = member("parameters");
-    if (!all || !json::isObject(all->value))
-      return refuse(all ? all->at : 0, "parameters", "an object",
-                    all ? std::string(all->value.substr(0, 60)) : "none");
-    std::vector<RawParameter> raw;
-    for (const json::Member& m : json::members(all->value, text_))
-      raw.push_back({m.key, std::string(m.value), json::place(where_, text_, m.at)});
+  void readParameters(int version, std::vector<RawParameter> raw) {
+    const RawParameter* const all = member("parameters");
+    if (isJson_ && (!all || !json::isObject(all->value))) return refuseMember("parameters", "an object");
     migrate(version, preset_.parameters, raw, findings_);
     for (const RawParameter& parameter : raw) readParameter(parameter);
     for (const ParameterRow& row : parameterRows())
@@ -209,8 +226,8 @@ class Reader {
   std::string_view text_;
   std::string where_;
   int depth_;
-  bool isExport_ = false;
-  std::map<std::string, json::Member> top_;
+  bool isExport_ = false, isJson_ = true;
+  std::map<std::string, RawParameter> top_;
   std::map<std::string, std::string> places_;  ///< parameter -> file and line
   Preset preset_;
   Findings findings_;
@@ -240,8 +257,8 @@ Result<Preset> loadPreset(const std::string& nameOrFile) {
   return load(nameOrFile, {}, 0);
 }
 
-Result<Preset> parsePreset(std::string_view json, const std::string& where) {
-  return Reader(json, where, std::filesystem::path(where).parent_path(), 0).read();
+Result<Preset> parsePreset(std::string_view text, const std::string& where) {
+  return Reader(text, where, std::filesystem::path(where).parent_path(), 0).read();
 }
 
 Result<TuningParameters> baseParameters(const Preset& preset) {

@@ -67,6 +67,12 @@ TEST_P(GoldenDecisions, ofTheSampleFlightStandAsTheyWere) {
       test::sourceDir() / "tests/golden" / (std::string("yecheon-circuit.") + GetParam().name + ".txt");
   if (std::getenv("TRIMTAB_UPDATE_GOLDEN")) test::writeFile(file, log);
   EXPECT_EQ(log, test::readFile(file)) << file;
+
+  for (const ExportFormat format : {ExportFormat::json, ExportFormat::xml, ExportFormat::ini}) {
+    const Result<Preset> read = parsePreset(exportText(*valid, "golden", {}, format), "export");
+    ASSERT_TRUE(read.ok()) << toString(read.findings());
+    EXPECT_EQ(log, decisionLog(*flight, *validate(read->parameters))) << "from an export";
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Presets, GoldenDecisions, testing::ValuesIn(kCases),

@@ -33,11 +33,11 @@ enum class ExportFormat { json, xml, ini };
 /// Names of the presets that ship: "default", "as-published", "as-printed". They are compiled in.
 std::vector<std::string_view> shippedPresets();
 
-/// Reads an edited preset or an export (told apart by content); a shipped preset's name is taken too.
-/// Findings name file, line where JSON breaks, key, expected and found; a damaged export (checksum) is
-/// refused.
+/// Reads an edited preset (JSON) or an export (JSON, PropertyList XML or INI), told apart by content, or a
+/// shipped preset by its name. Findings name file, line, key, expected and found. An export whose checksum
+/// does not hold is refused, as is one with a document type, deep nesting or an encoding other than UTF-8.
 Result<Preset> loadPreset(const std::string& nameOrFile);
-Result<Preset> parsePreset(std::string_view json, const std::string& where);
+Result<Preset> parsePreset(std::string_view text, const std::string& where);
 
 /// What the preset starts from: its base's parameters, or the defaults.
 Result<TuningParameters> baseParameters(const Preset& preset);
