@@ -3,17 +3,22 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <random>
 
+#include "trimtab/fuzzy/membership.h"
 #include "trimtab/preset/parameters.h"
 
 namespace trimtab {
 namespace {
 
 const BandList kPublished = SchemeParameters{}.bands;
+
+/// The least that is surely more than rounding.
+constexpr double kBelow = 1e-11;
 
 /// Table 2 of documents A and B (published/depth_map_bands.csv): high, low, width, height.
 struct PrintedBand {
@@ -25,7 +30,7 @@ constexpr PrintedBand kTable[] = {
 
 TEST(Bands, reproduceThePublishedSizesOverEachHalfOpenRange) {
   for (const PrintedBand& row : kTable) {
-    for (const double total : {row.low, (row.low + row.high) / 2, std::nextafter(row.high, 0.0)}) {
+    for (const double total : {row.low, (row.low + row.high) / 2, row.high - kBelow}) {
       const int band = bandOf(kPublished, total);
       ASSERT_GE(band, 0) << total;
       EXPECT_EQ(kPublished.band[static_cast<std::size_t>(band)], (Band{row.low, row.width, row.height}))
@@ -33,8 +38,48 @@ TEST(Bands, reproduceThePublishedSizesOverEachHalfOpenRange) {
     }
   }
   EXPECT_EQ(bandOf(kPublished, 2.0), 3) << "the top band is closed";
-  EXPECT_EQ(bandOf(kPublished, std::nextafter(0.1, 0.0)), -1);
+  EXPECT_EQ(bandOf(kPublished, 0.1 - kBelow), -1);
   EXPECT_EQ(bandOf(kPublished, 0), -1);
+}
+
+/// Every altitude and pitch of the published table's spacing, against the same sum in whole numbers:
+/// thousandths of altitude membership and sixtieths of pitch membership, so that no edge is missed or met by
+/// rounding.
+TEST(Bands, putATotalOnAnEdgeIntoTheBandAbove) {
+  constexpr int kWhole = 3000;  // a total of 1
+  int onAnEdge = 0;
+  for (int ft = 3000; ft <= 30000; ft += 10) {
+    int thousandths = ft <= 4000 ? 1000 : ft >= 8000 ? 0 : -1;
+    for (const auto& [from, top, fall] :
+         {std::array{4000, 1000, 4}, {5000, 600, 3}, {6000, 300, 2}, {7000, 100, 1}})
+      if (ft > from && ft <= from + 1000) thousandths = top - fall * (ft - from) / 10;
+    for (int degrees = -40; degrees <= 40; ++degrees) {
+      const int sixtieths = std::clamp(30 - degrees, 0, 60);
+      const int total = 3 * thousandths + 50 * sixtieths;
+      int band = -1;
+      for (const int low : {kWhole / 10, kWhole / 2, kWhole, 3 * kWhole / 2}) {
+        band += total >= low;
+        onAnEdge += total == low;
+      }
+      const double sum = altitudeMembership({}, ft) + pitchMembership({}, degrees);
+      ASSERT_EQ(bandOf(kPublished, sum), band) << ft << " ft, " << degrees << " degrees: " << sum;
+    }
+  }
+  EXPECT_GT(onAnEdge, 4000);
+  EXPECT_EQ(bandOf(kPublished, 0.09999999999999998), 0) << "30,000 ft, 24 degrees";
+}
+
+TEST(Bands, putNoTotalBelowAnEdgeIntoTheBandAbove) {
+  for (const Band& band : kPublished.span()) {
+    const int above = bandOf(kPublished, band.low);
+    EXPECT_EQ(bandOf(kPublished, band.low - kBelow), above - 1);
+    EXPECT_EQ(bandOf(kPublished, std::nextafter(band.low, 2)), above);
+    EXPECT_EQ(bandOf(kPublished, std::nextafter(band.low, 0)), above) << "rounding";
+  }
+  BandList tiny;
+  tiny.size = 1;
+  tiny.band[0] = {1e-13, 16, 16};
+  EXPECT_EQ(bandOf(tiny, 0), -1);
 }
 
 TEST(Bands, putNothingIntoABandThatIsNotANumberOrWhereThereAreNone) {
@@ -53,13 +98,13 @@ TEST(Hysteresis, isAPlainLookUpTheFirstTime) {
 
 TEST(Hysteresis, movesUpAtTheEdgePlusItAndDownBelowTheEdgeMinusIt) {
   const double h = 0.0625, up = 0.5 + h, down = 0.5 - h;  // exact in binary
-  EXPECT_EQ(nextBand(kPublished, h, std::nextafter(up, 0), 0).band, 0);
-  EXPECT_TRUE(nextBand(kPublished, h, std::nextafter(up, 0), 0).held);
+  EXPECT_EQ(nextBand(kPublished, h, up - kBelow, 0).band, 0);
+  EXPECT_TRUE(nextBand(kPublished, h, up - kBelow, 0).held);
   EXPECT_EQ(nextBand(kPublished, h, up, 0).band, 1);
   EXPECT_FALSE(nextBand(kPublished, h, up, 0).held);
   EXPECT_EQ(nextBand(kPublished, h, down, 1).band, 1);
   EXPECT_TRUE(nextBand(kPublished, h, down, 1).held);
-  EXPECT_EQ(nextBand(kPublished, h, std::nextafter(down, 0), 1).band, 0);
+  EXPECT_EQ(nextBand(kPublished, h, down - kBelow, 1).band, 0);
 }
 
 TEST(Hysteresis, holdsFrustumAsItHoldsABand) {

@@ -6,8 +6,9 @@
 
 namespace trimtab {
 
-/// The band of a total membership by plain look-up: half-open [low, high), the top one closed; -1 below the
-/// first.
+/// Returns the band of a total membership by plain look-up: half-open [low, high), the top one closed; -1 below
+/// the first, and for NaN. A total that misses an edge by rounding alone (1e-12) is on the edge and belongs to the
+/// band above it.
 int bandOf(const BandList& bands, double total);
 
 struct BandChoice {
