@@ -124,7 +124,11 @@ constexpr std::string_view kSources =
     "* B: C. Lee, S. Kang, K. Kim: Dynamic Culling Scheme Based on Altitude for Real-Time Rendering System "
     "(in Korean, 2015)\n"
     "* C: J. H. Lim, C. J. Lee, K. H. Kim, K. Kim: Preventing Rendering Speed Degradation for Helmet Mounted "
-    "Display Simulation\n";
+    "Display Simulation\n"
+    "* D: Y. Cha, J. Kim, K. Kim: Adaptive Culling Mechanism for Weather Phenomena Effect in Flight Simulator "
+    "(in Korean, 2014)\n"
+    "* E: World Custom Scenery Project: Creating better scenery, Static Level-of-Detail for FlightGear (the "
+    "page names no author)\n";
 
 }  // namespace
 
