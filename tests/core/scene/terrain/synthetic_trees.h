@@ -108,6 +108,7 @@ class TreeTerrain final : public terrain::Database {
       index.bounds.push_back(kNoBox);
       index.rmsErrorM.push_back(0);
       index.maxErrorM.push_back(0);
+      index.borderErrorM.push_back(0);
       index.slopeMax.push_back(1e3f);
       const auto first = static_cast<std::uint32_t>(tile.indices.size() / 3);
       const bool leaf = r.x1 - r.x0 <= kLeafCells && r.y1 - r.y0 <= kLeafCells;
