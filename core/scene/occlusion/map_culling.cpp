@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "frame_culling.h"
 #include "occluder.h"
 #include "trimtab/frame/box_union.h"
 

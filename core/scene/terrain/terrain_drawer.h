@@ -17,6 +17,8 @@
 
 namespace trimtab::scene {
 
+class OcclusionStage;
+
 /// What a drawer reads of the frame that is being made.
 struct FrameInProgress {
   const FrameRequest& request;
@@ -106,6 +108,9 @@ class TerrainDrawer {
   void drawSurface(unsigned program, std::span<const TileDraw> nodes);
   /// What is drawn: all of the cut where reasons are shown.
   const std::vector<TileDraw>& shown() const;
+  /// Finds what of a cut is visible to an eye for which `stage` has begun. Returns false if that cannot have
+  /// changed. Does not count vertices.
+  bool findVisible(OcclusionStage& stage, const LevelCut& cut, VisibleSet& visible);
   /// Uploads what is shown and returns how many meshes were built for it. Its time counts as paging only if
   /// any were.
   std::size_t uploadShown();

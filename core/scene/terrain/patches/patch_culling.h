@@ -15,11 +15,11 @@ namespace trimtab::scene {
 
 class PatchLayer;
 
-/// What a frame does to find the patches that it draws, and to have them there: cut, paging within a budget,
-/// visible set. Keeps what can be kept from frame to frame.
+/// Selects the cut of patches for an eye and pages in what it needs within a budget of bytes. Keeps what can
+/// be kept from frame to frame.
 ///
-/// What the budget does not hold of a view is drawn coarser, largest errors last; the picture that paging
-/// ends at depends on the request alone.
+/// What the budget does not hold is drawn coarser, so that the largest errors are removed first. The image
+/// that paging ends with depends on the request alone.
 class PatchCulling {
  public:
   PatchCulling();
@@ -37,17 +37,9 @@ class PatchCulling {
   /// `request.waitForPages` for all that this view can use. The context is current, and `layer` has this
   /// terrain's index; where it has lost its pages they are read again. `eye`: whose cut it is.
   Paged page(const FrameRequest& request, const EyePose& eye, PatchLayer& layer);
-  /// What of the cut is in the view, and not hidden: one a patch of the cut, or empty. `backFaces`: what is
-  /// seen from behind only is left out.
-  void selectVisible(const FrameRequest& request, const EyePose& eye,
-                     std::span<const std::uint8_t> hidden = {}, bool backFaces = false);
-  /// Takes out of the visible set what a map hides, as removeOccluded.
-  void removeHidden(std::span<const std::uint8_t> flags);
-
   const PatchIndex& index() const;
   const LevelCut& cut() const { return cut_.cut; }
   const CutNumber& cutNumber() const;
-  const VisibleSet& visible() const { return visible_; }
   /// Null where its page is not there; good until the next `page`.
   const terrain::PatchMesh* meshOf(std::uint32_t patch) const;
   /// Pages that could not be read; the terrain stays coarser there.
@@ -57,7 +49,6 @@ class PatchCulling {
   struct Impl;
   std::unique_ptr<Impl> impl_;
   PatchCut cut_;
-  VisibleSet visible_;
 };
 
 }  // namespace trimtab::scene

@@ -23,7 +23,7 @@ class PatchDrawer final : public TerrainDrawer {
   void finished(const FrameResult& result) override { occlusion_.finished(result); }
 
   const std::vector<TileDraw>& cut() const override { return culling_.cut().tiles; }
-  const VisibleSet& visible() const override { return culling_.visible(); }
+  const VisibleSet& visible() const override { return visible_; }
   DistanceImage readDepthMap() const override { return occlusion_.picture(); }
   /// Pages of meshes and tiles of the ground.
   Findings failures() const;
@@ -52,6 +52,7 @@ class PatchDrawer final : public TerrainDrawer {
   PatchCulling culling_;
   PatchGround hiding_{culling_};
   OcclusionStage occlusion_{hiding_};
+  VisibleSet visible_;
   std::uint64_t pagesRead_ = 0;  ///< by the last frame
   std::unique_ptr<Gl> gl_;
 };

@@ -68,12 +68,6 @@ class ErrorMeter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// What the geometric maximum of a request stays within as long as levels state their errors truly: what
-/// the cut may err by, seen at the picture's corner, where a pixel spans the smallest angle; and a pixel and
-/// a half for what lies between the pixels' centres, where a silhouette of either picture may be. Infinity
-/// where nothing is promised (static trees by mean error, by a fixed depth).
-double geometricBoundPx(const FrameRequest& request);
-
 /// Temporal pop of one step: by how much each channel's change lies outside of what the reference's change
 /// explains (between none and all of it), mean over red, green and blue, of 255. A picture that stands still,
 /// or follows the reference only half of the way, does not pop. All four RGBA and of one size, else NaN.
