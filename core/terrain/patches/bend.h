@@ -43,8 +43,11 @@ class VerticalBound {
     const double lean = std::min(1.5, 0.51 * std::hypot(wide, high) + 1e-6);
     cosLean_ = std::cos(lean);
     tanLean_ = std::tan(lean);
+    const double equator = std::clamp(-posts.south / posts.stepLatitude, 0.0, posts.rows - 1.0);
+    equator_ = static_cast<std::uint32_t>(std::lround(equator));
     perMetre_.reserve(window.rows);
     for (std::uint32_t r = window.row; r < window.row + window.rows; ++r) {
+      cosines_.push_back(std::cos(posts.latitude(r) * kRadian));
       const double column = 1 / std::max(kShortestM, geometry.columnM(r)), row = 1 / geometry.rowM(r);
       perMetre_.push_back({column * column, row * row});
     }
@@ -89,10 +92,16 @@ class VerticalBound {
     const double lon = of.columns * stepLongitude_, lat = of.rows * stepLatitude_;
     return sideways(lon, lat, of.rise, lon * cosine_ + lat);
   }
-  /// Of a patch: no surface over it is further from a post of it than its heights are apart.
-  double most(double columns, double rows, double rise) const {
-    const double lon = columns * stepLongitude_, lat = rows * stepLatitude_;
-    return rise + kFarthestM / 8 * (cosine_ * lon * lon + 2 * sine_ * lon * lat + lat * lat);
+  /// Returns how far a triangle's plane may lie below the curved earth through its corners, metres. On a
+  /// sphere of radius R the point Q = sum w_i P_i has |Q|^2 = R^2 - sum w_i w_j |P_i - P_j|^2 over pairs i <
+  /// j, and that sum is at most R^2 x / 4, where x is the square of the extent.
+  double sagM(const PatchDraft& draft, const std::uint32_t* c, const Extent& of) const {
+    const auto [south, north] =
+        std::minmax({draft.vertices[c[0]].row, draft.vertices[c[1]].row, draft.vertices[c[2]].row});
+    const double cosine = cosines_[std::clamp(equator_, south, north) - firstRow_];
+    const double wide = of.columns * stepLongitude_ * cosine, high = of.rows * stepLatitude_;
+    const double eighth = std::min(0.5, (wide * wide + high * high) / 8);
+    return kFarthestM * eighth / (1 - eighth);
   }
 
  private:
@@ -112,8 +121,10 @@ class VerticalBound {
   };
   double stepLongitude_, stepLatitude_;
   std::uint32_t firstRow_;
+  std::uint32_t equator_ = 0;  ///< the row nearest to it
   double sine_ = 0, cosine_ = 0, cosLean_ = 0, tanLean_ = 0;
-  std::vector<PerMetre> perMetre_;  ///< by row
+  std::vector<PerMetre> perMetre_;  ///< by row of the window
+  std::vector<double> cosines_;     ///< of the latitude, by row of the window
 };
 
 }  // namespace trimtab::terrain
