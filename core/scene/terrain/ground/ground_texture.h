@@ -40,7 +40,6 @@ class GroundTexture {
   void unbind() const;
 
   std::size_t bytes() const;  ///< of textures and of tiles kept
-  std::uint64_t tilesRead() const;
   std::uint64_t bytesUploaded() const;
   bool complete() const;  ///< nothing that can be read is missing around the eye
   /// Returns how many tiles could not be read; the next coarser level shows there.

@@ -45,7 +45,6 @@ class GroundTiles {
   /// Sets what the thread reads, the most urgent first.
   void want(std::vector<Tile> tiles);
 
-  std::uint64_t read() const;
   std::size_t bytes() const;
   std::size_t failed() const;  ///< tiles; none is tried again
   /// Returns the first failures.
@@ -72,7 +71,6 @@ class GroundTiles {
   std::unordered_map<std::uint64_t, Entry> entries_;
   std::list<std::uint64_t> uses_;  ///< last used first
   std::size_t untaken_ = 0;
-  std::uint64_t read_ = 0;
   std::unordered_set<std::uint64_t> failed_;
   Findings failures_;
   bool stop_ = false;
