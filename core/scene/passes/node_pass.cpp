@@ -1,7 +1,6 @@
 #include "node_pass.h"
 
 #include <array>
-#include <cmath>
 
 #include "core/scene/gl/gl_api.h"
 

@@ -89,7 +89,8 @@ TRIMTAB_WIDEST std::uint64_t readAbreast(const Sides& sides, std::size_t boxes, 
 
 std::size_t keptBy(const BlockTest& test) {
   std::size_t kept = 0;
-  test.all([&](std::size_t, std::uint64_t bits) { kept += static_cast<std::size_t>(std::popcount(bits)); });
+  for (std::size_t block = 0; block < test.blocks(); ++block)
+    kept += static_cast<std::size_t>(std::popcount(test(block)));
   return kept;
 }
 

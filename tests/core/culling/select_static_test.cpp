@@ -122,7 +122,7 @@ TEST_P(StaticCutOf, drawsInAnOrderThatDependsOnTheTreesAlone) {
 
 INSTANTIATE_TEST_SUITE_P(Trees, StaticCutOf, testing::Range(1u, 6u));
 
-TEST(StaticCut, isTheRootsForAnEyeThatIsNotANumber) {
+TEST(StaticCuts, isTheRootsForAnEyeThatIsNotANumber) {
   const StaticLodIndex index = test::randomTrees(2, 3);
   LevelCut cut;
   for (const Vec3 eye : {Vec3{kNan, 0, 0}, Vec3{0, kNan, 0}, Vec3{0, 0, kNan}, Vec3{kNan, kNan, kNan},
@@ -134,7 +134,7 @@ TEST(StaticCut, isTheRootsForAnEyeThatIsNotANumber) {
   EXPECT_EQ((*cut.nodes), index.roots);
 }
 
-TEST(StaticCut, isEmptyWithoutTreesAndWholeAtTheGroundWithoutALimit) {
+TEST(StaticCuts, isEmptyWithoutTreesAndWholeAtTheGroundWithoutALimit) {
   LevelCut cut;
   selectStatic({}, {}, 1000, {}, cut);
   EXPECT_TRUE((*cut.nodes).empty());
@@ -144,7 +144,7 @@ TEST(StaticCut, isEmptyWithoutTreesAndWholeAtTheGroundWithoutALimit) {
     EXPECT_EQ(index.nodes[node].children[0], StaticLodIndex::kNone);
 }
 
-TEST(StaticCut, standsStillWhileOnlyTheErrorIsZero) {
+TEST(StaticCuts, standsStillWhileOnlyTheErrorIsZero) {
   // A lagoon: every level is exact, so the root is drawn even from inside its box.
   StaticLodIndex index = test::randomTrees(1, 5);
   std::fill(index.rmsErrorM.begin(), index.rmsErrorM.end(), 0.0f);

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <span>
-#include <vector>
 
 #include "core/scene/occlusion/occlusion_ground.h"
 #include "trimtab/culling/select_patches.h"
@@ -24,7 +22,7 @@ class PatchCulling {
  public:
   PatchCulling();
   ~PatchCulling();
-  /// Reading begins at once, with the roots. Null: none.
+  /// Starts with another terrain and begins to read its roots, or with none if it is null.
   void setTerrain(std::shared_ptr<const terrain::PatchTerrain> terrain);
   void plant(const Defects& defects);
 
@@ -32,17 +30,18 @@ class PatchCulling {
     PagingFrame paging;
     std::uint64_t cutsSelected = 0;
   };
-  /// Takes in what has arrived, within the frame's share; chooses the cut and asks for what it lacks, gives
-  /// up what is longest unused and over the budget. Waits for nothing but, once, the roots; with
-  /// `request.waitForPages` for all that this view can use. The context is current, and `layer` has this
-  /// terrain's index; where it has lost its pages they are read again. `eye`: whose cut it is.
+  /// Takes in pages that have arrived, within the frame's share; selects the cut of `eye`, asks for the
+  /// pages that it lacks, and drops those that are over the budget and were unused for longest. It waits
+  /// only for the roots, once, or with `request.waitForPages` for every page that this view can use. The
+  /// context must be current, and `layer` must have this terrain's index; pages that it has lost are read
+  /// again.
   Paged page(const FrameRequest& request, const EyePose& eye, PatchLayer& layer);
   const PatchIndex& index() const;
   const LevelCut& cut() const { return cut_.cut; }
   const CutNumber& cutNumber() const;
-  /// Null where its page is not there; good until the next `page`.
+  /// Returns a patch's mesh, valid until the next `page`; null if its page is not there.
   const terrain::PatchMesh* meshOf(std::uint32_t patch) const;
-  /// Pages that could not be read; the terrain stays coarser there.
+  /// Returns the pages that could not be read; the terrain stays coarser there.
   Findings failures() const;
 
  private:

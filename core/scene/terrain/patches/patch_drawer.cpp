@@ -1,11 +1,8 @@
 #include "patch_drawer.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/scene/gl/gl_api.h"
-#include "trimtab/culling/box_distance.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/scene/data_extent.h"
 #include "trimtab/scene/gl_report.h"

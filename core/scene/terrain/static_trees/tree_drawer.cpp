@@ -2,7 +2,6 @@
 
 #include "core/scene/gl/gl_api.h"
 #include "trimtab/frame/frame_request.h"
-#include "trimtab/terrain/format/static_lod_terrain.h"
 
 namespace trimtab::scene {
 
