@@ -9,22 +9,20 @@
 
 namespace trimtab::terrain {
 
-/// What turns distances along the page's plane's normal into distances along the vertical.
+/// Turns errors along the normal of the page's plane into bounds of errors along the vertical.
 ///
-/// Let a triangle have posts P_i, a post S in it, over columns and rows, the weights w_i, and let D be S less
-/// the sum of w_i P_i. Along the vertical of S the triangle's plane is off by t = D.N / up.N: with heights h,
-/// (h_S - sum w_i h_i) + D'_up - slope x D'_h, where D' is D without the difference of heights: the bend of
-/// rows and columns. The page's plane, whose normal leans by at most `lean`, shows
-/// (t + slope x D'_h) cos(lean) + D'_h sin(lean). So |t| <= shown / cos(lean) + (slope + tan(lean)) |D'_h|.
-/// The mean of the squares of the corners' distances is at most a quarter of the extent's square, so the
-/// second derivatives of a place by longitude and latitude, along the ground, bound D'_h; corners of
-/// different height add their verticals' angles. Where the vertical of S meets the triangle beside, that
-/// one's slope counts.
+/// Let a triangle have the corners P_i, and let S be a post in it with weights w_i over columns and rows. D =
+/// S - sum w_i P_i would be vertical if rows and columns were straight; its sideways part is D_h. The plane
+/// of the page, whose normal leans by at most `lean`, shows an error of (t + slope * D_h) cos(lean) + D_h
+/// sin(lean), where t is the error along the vertical of S. So |t| <= shown / cos(lean) + (slope + tan(lean))
+/// |D_h|. resources/docs/levels-of-detail.md derives it ("The error that a patch states"). If the vertical of
+/// S meets the triangle beside, the slope of that one counts; callers pass the steepest triangle around a
+/// vertex.
 class VerticalBound {
  public:
-  /// Columns meet at a pole. Nothing that close to it is drawn apart.
+  /// Columns meet at a pole. Posts closer together than this are not told apart.
   static constexpr double kShortestM = 0.01;
-  /// Of a triangle, in columns, rows and metres.
+  /// The size of a triangle in columns, rows and metres of height.
   struct Extent {
     double columns, rows, rise;
   };
@@ -54,7 +52,7 @@ class VerticalBound {
   }
   double cosLean() const { return cosLean_; }
 
-  /// Square of a triangle's slope over its place; of corners in a draft.
+  /// Returns the square of the slope of the triangle with corners `c` of a draft, rise over run.
   double steepness(const PatchDraft& draft, const std::uint32_t* c) const {
     const PatchPoint &p = draft.vertices[c[0]], &q = draft.vertices[c[1]], &r = draft.vertices[c[2]];
     const auto apart = [](std::uint32_t to, std::uint32_t from) {
@@ -82,12 +80,12 @@ class VerticalBound {
     return {of(p.column, q.column, r.column), of(p.row, q.row, r.row),
             of(draft.heights[c[0]], draft.heights[c[1]], draft.heights[c[2]])};
   }
-  /// D'_h of a triangle.
+  /// Returns a bound on |D_h| in a triangle, metres.
   double sideways(const Extent& of) const {
     const double lon = of.columns * stepLongitude_, lat = of.rows * stepLatitude_;
     return sideways(lon, lat, of.rise, std::sqrt(lon * cosine_ * (lon * cosine_) + lat * lat));
   }
-  /// No less, and sooner found.
+  /// Returns a larger bound that is quicker to compute.
   double atMostSideways(const Extent& of) const {
     const double lon = of.columns * stepLongitude_, lat = of.rows * stepLatitude_;
     return sideways(lon, lat, of.rise, lon * cosine_ + lat);
@@ -106,7 +104,7 @@ class VerticalBound {
 
  private:
   static constexpr double kRadian = std::numbers::pi / 180;
-  /// No post is further from the earth's middle, and no radius of curvature is longer.
+  /// No post is farther from the centre of the earth, and no radius of curvature is longer.
   static constexpr double kFarthestM = 6.42e6;
 
   double sideways(double lon, double lat, double rise, double angle) const {
@@ -115,7 +113,7 @@ class VerticalBound {
            rise * angle / 2;
   }
 
-  /// Squares of the columns and rows a metre.
+  /// Columns and rows per metre, squared.
   struct PerMetre {
     double column, row;
   };
