@@ -19,13 +19,12 @@ class Plot : public QCustomPlot {
   /// With Keyboard::used, Tab reaches the plot, and the plot shows when it has the focus.
   Plot(const QString& accessibleName, Keyboard keyboard, QWidget* parent);
 
-  /// Sets every colour and font anew and draws again. The plot calls it when its palette or font changes.
+  /// Applies all colours and fonts and draws again. Called when the palette or font changes.
   virtual void restyle() = 0;
-  /// Draws what depends on the size. The plot calls it after each change of its size; the axes themselves
-  /// are drawn in any case.
+  /// Draws what depends on the size. Called after each change of size; the axes are drawn in any case.
   virtual void resized() {}
-  /// Scales the visible range; a factor below 1 shows less. The plot calls it for the keys plus and minus.
-  /// Returns false if keys do not zoom this plot.
+  /// Scales the visible range; a factor below 1 shows less. Called for the keys plus and minus. Returns false
+  /// if keys do not zoom this plot.
   virtual bool zoomByKey(double /*factor*/) { return false; }
 
   /// Calls zoomByKey() for plus and minus, and leaves any other key to QCustomPlot.
@@ -43,14 +42,14 @@ class Plot : public QCustomPlot {
   /// Replaces the legend by one above the plot, whose entries fill rows. Only entries that are added by hand
   /// appear in it.
   void addLegendAbove();
-  /// Shows the legend above the plot if it has entries, in as many columns as its longest name permits.
+  /// Shows the legend above the plot if it has entries, wrapped to the width of the plot.
   void arrangeLegendAbove();
-  /// Colours of the theme for all axes, and no frame around the legend above the plot.
+  /// Applies the colours of the theme to all axes and removes the frame of the legend above the plot.
   void applyThemeWithLegendAbove();
 
   /// Returns a hidden text whose position is in pixels of this widget and which no axis rect clips.
   QCPItemText* addReadout(const char* layerName, const QMargins& padding);
-  /// Puts a readout of several lines beside a place, inside the widget.
+  /// Shows a text of several lines beside a point in pixels, moved so that it stays inside the widget.
   void placeReadout(QCPItemText& readout, const QString& text, QPointF beside) const;
   /// Returns a straight line that this axis rect clips and whose coordinates are those of its axes.
   QCPItemStraightLine* addLine(const char* layerName, QCPAxisRect* rect);
