@@ -49,8 +49,6 @@ QString textOf(const ErrorRun::Error& error, double value);
 QString msText(double ms);
 /// Of the preset with this place in ErrorRun::presets(); never the live point's colour.
 QColor presetColour(int preset, const QPalette& palette);
-/// As many entries of the legend side by side as its longest name leaves room for.
-void wrapLegend(QCustomPlot& plot);
 /// A culling case as choices spell it: "view_frustum" is "view frustum".
 QString methodText(const QString& method);
 
