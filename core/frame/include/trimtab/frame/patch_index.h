@@ -67,10 +67,10 @@ struct PatchIndex {
   std::vector<Page> pages;
 
   std::size_t size() const { return bounds.size(); }
-  /// Returns the number of meshes of each patch, at most kMostVariants.
+  /// Returns how many meshes each patch has, at most kMostVariants.
   std::size_t variants() const { return errorM.variants(); }
   std::uint32_t squareCells(int pair) const { return rootCells >> pair; }
-  /// Returns the side of a page in squares: a page holds the patches of its square.
+  /// Returns how many squares a page has along each side.
   std::uint32_t pageSquares() const { return kLeafPageCells / leafCells; }
 };
 

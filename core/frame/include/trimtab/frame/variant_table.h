@@ -11,7 +11,7 @@ template <class T>
 class VariantTable {
  public:
   VariantTable() = default;  ///< one variant, no patches
-  /// `variants` > 0.
+  /// `variants` must not be 0.
   explicit VariantTable(std::size_t variants, std::size_t patches = 0)
       : variants_(variants), values_(variants * patches) {}
 
