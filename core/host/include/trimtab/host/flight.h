@@ -42,7 +42,7 @@ struct CapturedDatagram {
 };
 Result<std::vector<CapturedDatagram>> readPcap(const std::filesystem::path& file);
 Result<std::vector<CapturedDatagram>> parsePcap(std::string_view bytes, const std::string& where);
-/// Returns a classic little-endian pcap file with microseconds and raw IPv4, which any dissector reads.
+/// Writes a classic little-endian pcap file with microseconds and raw IPv4, which any dissector reads.
 Result<Done> writePcap(const std::filesystem::path& file, std::span<const CapturedDatagram> datagrams);
 
 /// Returns the flight of the busiest host among the datagrams, from 0 s on, timed by the host's time stamps
