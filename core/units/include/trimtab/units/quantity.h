@@ -95,7 +95,8 @@ class Quantity {
   /// Returns the bare number, in this quantity's own unit.
   constexpr double value() const { return value_; }
 
-  /// Returns the same amount as another quantity type of the same dimension, or as a number in its unit.
+  /// Returns the amount as a number in the unit of `To` (in), or as a `To` (as). `To` must have the same
+  /// dimension.
   template <class To>
   constexpr double in() const {
     return as<To>().value();
