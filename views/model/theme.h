@@ -5,6 +5,7 @@
 #include <QPalette>
 #include <QString>
 #include <optional>
+#include <string_view>
 
 class QCustomPlot;
 class QWidget;
@@ -38,6 +39,10 @@ void applyTheme(QCustomPlot& plot);
 QString numberText(double value, int decimals);
 /// Returns the shortest text that reads back to the same value, in plain digits unless that would be long.
 QString exactText(double value);
+/// Returns text of the library, which is UTF-8, as Qt has it.
+inline QString fromView(std::string_view text) {
+  return QString::fromUtf8(text.data(), qsizetype(text.size()));
+}
 /// Reads a number in the person's locale or in that of C, with or without `unit` after it. Returns nothing if
 /// it is no finite number.
 std::optional<double> parseNumber(const QString& text, const QString& unit);
