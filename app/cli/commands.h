@@ -5,14 +5,14 @@
 
 #include "trimtab/units/result.h"
 
-/// The commands of trimtab-cli: one file each, each adds itself to the program and sets `exitCode` when it
-/// runs.
+/// The commands of trimtab-cli, one file each. Each function adds its command to the program; the command
+/// sets `exitCode` when it runs.
 namespace trimtab::cli {
 
 inline constexpr int kDone = 0, kRefused = 1, kUsage = 2;
 
 void addPreset(CLI::App& app, int& exitCode);
-/// Of `preset`.
+/// Adds the subcommand `fuzzy` to `preset`.
 void addFuzzy(CLI::App& preset, int& exitCode);
 void addDecide(CLI::App& app, int& exitCode);
 void addTerrain(CLI::App& app, int& exitCode);
@@ -21,7 +21,7 @@ void addBench(CLI::App& app, int& exitCode);
 void addResults(CLI::App& app, int& exitCode);
 void addExperiment(CLI::App& app, int& exitCode);
 
-/// Findings on standard error, one a line, with their severity.
+/// Prints findings on standard error, one per line, with their severity.
 void report(const Findings& findings);
 
 }  // namespace trimtab::cli

@@ -6,7 +6,8 @@
 
 namespace trimtab::cli {
 
-/// SIGINT asks the work to stop instead of ending the program, so that nothing half-made is left.
+/// While it exists, SIGINT asks the work to stop instead of ending the program, so that no half-written file
+/// is left.
 class Interruptible {
  public:
   Interruptible();
@@ -18,7 +19,8 @@ class Interruptible {
   void (*before_)(int);
 };
 
-/// Progress as lines on standard error, at most a few a second; false once interrupted.
+/// Returns a function that prints progress on standard error, at most a few lines per second. It returns
+/// false once SIGINT has come.
 std::function<bool(double fraction, const std::string& what)> progressLines();
 
 }  // namespace trimtab::cli

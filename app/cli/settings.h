@@ -8,11 +8,12 @@
 
 namespace trimtab::cli {
 
-/// A preset's parameters after `--set key=value`s, valid; what is wrong goes to standard error.
+/// Returns the valid parameters of a preset with every `--set key=value` applied. On an error, prints the
+/// findings on standard error and returns nothing.
 std::optional<ValidatedParameters> parametersFor(const std::string& preset,
                                                  const std::vector<std::string>& settings);
 
-/// "1280x720"; each 16 to 16384 pixels.
+/// Reads a size in pixels such as "1280x720". Returns false unless both sides are 16 to 16384.
 bool parseSize(const std::string& text, int& width, int& height);
 
 }  // namespace trimtab::cli

@@ -6,11 +6,11 @@
 
 namespace trimtab::cli {
 
-/// What a terrain database holds, on standard output: lines, or one JSON document.
+/// Prints on standard output what a terrain database holds, as lines or as one JSON document.
 void printInfo(const terrain::Database& database, bool json);
 
-/// The same of scenery that is not baked: a tile, a list or a folder. Findings on standard error; the exit
-/// code.
+/// Prints the same for scenery that is not baked: a tile, a list or a folder. Findings go to standard error.
+/// Returns the exit code.
 int printSceneryInfo(const std::filesystem::path& path, bool json);
 
 }  // namespace trimtab::cli

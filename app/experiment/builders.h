@@ -9,30 +9,32 @@
 
 namespace trimtab::experiment {
 
-/// A surface held against the source triangles of a tile: vertical distances, metres, of the source's
-/// vertices from it and of its vertices from the source, each place once and all of one weight.
+/// The error of a surface against the source triangles of a tile: vertical distances in metres of the
+/// source's vertices from the surface and of its vertices from the source. Each place counts once, with equal
+/// weight.
 struct SurfaceError {
   std::uint64_t triangles = 0, bytes = 0;  ///< over the tile's ground; vertices and indices as uploaded
   double rmsM = 0, maxM = 0;
 };
 
-/// One level of document E's tree; or all patches of one depth in one variant.
+/// One level of the tree of document E, or all patches of one depth and variant.
 struct BuilderLevel {
-  std::uint32_t level = 0;  ///< of the tree, the root's 0; or the depth
+  std::uint32_t level = 0;  ///< level of the tree (0 is the root), or depth of the patches
   std::uint32_t variant = 0;
   SurfaceError error;
 };
 std::vector<BuilderLevel> treeLevels(const terrain::StaticLodTerrain& trees, std::size_t tile);
-/// Coarsest first; nothing where a page cannot be read. Depths that give the tile no triangle are left out.
+/// Returns the levels of patches, coarsest first, without depths that have no triangle in the tile. Empty if
+/// a page cannot be read.
 std::vector<BuilderLevel> patchLevels(const terrain::Database& terrain,
                                       const terrain::StaticLodTerrain& trees, std::size_t tile);
-/// What posts alone lose: the source's vertices against the bilinear surface of the database's posts.
+/// Returns what posts alone lose: the error of the bilinear surface of the posts at the source's vertices.
 SurfaceError postsError(const terrain::Database& terrain, const terrain::StaticLodTerrain& trees,
                         std::size_t tile);
 
-/// Of `levels` the one with the most triangles that has no more than so many; null: none has.
+/// Returns the level with the most triangles, but no more than `triangles`. Null if there is none.
 const BuilderLevel* ofNoMoreTriangles(const std::vector<BuilderLevel>& levels, std::uint64_t triangles);
-/// The one with the fewest triangles and no greater RMS; null: none has.
+/// Returns the level with the fewest triangles whose RMS error is at most `rmsM` metres. Null if none.
 const BuilderLevel* ofNoGreaterRms(const std::vector<BuilderLevel>& levels, double rmsM);
 
 }  // namespace trimtab::experiment

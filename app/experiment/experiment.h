@@ -18,19 +18,19 @@ namespace trimtab::experiment {
 struct Setup {
   std::shared_ptr<const terrain::Database> terrain;
   std::string terrainName;
-  std::optional<Flight> flight;  ///< places to look from; without one the experiment chooses them
+  std::optional<Flight> flight;  ///< the places to look from; if unset, the experiment chooses them
   TuningParameters parameters;
   std::string presetName;
   int widthPx = 1280, heightPx = 720;
-  int repeats = 3;  ///< frames a view whose median counts
-  /// Told now and then; returning false cancels.
+  int repeats = 3;  ///< frames per view, of which the median counts
+  /// Called now and then; returning false cancels.
   std::function<bool(double fraction, const std::string& what)> progress;
 };
 
 /// Documents A and B: none, view frustum and proposed (by the depth map) at 2,000 to 8,000 ft, and the fourth
 /// case *ours*: the same decision, served by the horizon. All draw tiles. The named altitude feeds the
-/// decision; the eye stands so far above the highest ground within 2 km. Triangles and vertices are means
-/// over the views, milliseconds medians. Every picture is compared with the unculled one.
+/// decision; the eye is that far above the highest ground within 2 km. Triangles and vertices are means
+/// over the views, milliseconds medians. Every image is compared with the unculled one.
 Result<Report> runCulling(const Setup& setup);
 
 /// Document C: 180 degrees in one second at 200 frames a second, as it was, with LOD scale and blur, and with

@@ -9,17 +9,17 @@
 #include "app/plot/plot.h"
 #include "trimtab/units/result.h"
 
-/// What an experiment yields: the published rows beside ours.
+/// The result of an experiment: the published rows beside the measured ones.
 namespace trimtab::experiment {
 
-/// Empty where a row has nothing to say in a column.
+/// A cell of a table; empty if the row has no value in that column.
 using Cell = std::variant<std::monostate, double, std::string>;
 
 struct Table {
   std::vector<std::string> columns;
   std::vector<std::vector<Cell>> rows;  ///< each as long as `columns`
 
-  /// The number in a column by its name; NaN where there is none.
+  /// Returns the number in a column by its name; NaN if the cell has none.
   double number(std::size_t row, std::string_view column) const;
   std::string text(std::size_t row, std::string_view column) const;
 };
@@ -31,21 +31,21 @@ using plot::toSvg;
 struct Report {
   std::string name;     ///< "culling"
   std::string source;   ///< "A, B: comparison of culling"
-  std::string machine;  ///< processor, cores, what draws
+  std::string machine;  ///< processor, cores and renderer
   Table published, measured;
-  std::vector<std::string> notes;  ///< conditions, and where ours disagrees and why
+  std::vector<std::string> notes;  ///< conditions, and where and why measured rows differ
   std::vector<Plot> plots;
 };
 
-/// `{published: [..], measured: [..], machine, notes}`: each row an object by column names.
+/// Returns `{published: [..], measured: [..], machine, notes}`, each row an object keyed by column names.
 std::string toJson(const Report& report);
-/// Both tables with aligned columns, and the notes.
+/// Returns both tables with aligned columns, and the notes.
 std::string toText(const Report& report);
 std::string toCsv(const Table& table);
-/// NAME.json, NAME-published.csv, NAME-measured.csv and an SVG a plot, each written atomically.
+/// Writes NAME.json, NAME-published.csv, NAME-measured.csv and one SVG per plot, each atomically.
 Result<Done> writeReport(const std::filesystem::path& folder, const Report& report);
 
-/// The numbers of a report's JSON, for whoever runs the command and shows its tables.
+/// Reads the tables of a report from its JSON, for a program that runs the command and shows them.
 Result<Report> parseReport(std::string_view json, const std::string& where);
 
 }  // namespace trimtab::experiment

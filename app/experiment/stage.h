@@ -12,7 +12,7 @@
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/grid/progress.h"
 
-/// What all experiments stand on: a context, a renderer and places to look from.
+/// What all experiments share: a GL context, a renderer and places to look from.
 namespace trimtab::experiment {
 
 class Stage {
@@ -23,17 +23,17 @@ class Stage {
   Stage& operator=(const Stage&) = delete;
 
   FrameResult draw(const FrameRequest& request);
-  /// Also forgets what was paged in.
+  /// Replaces the terrain and discards pages of the former one.
   void setTerrain(std::shared_ptr<const terrain::Database> terrain);
-  /// Median milliseconds of `repeats` frames after one that is not counted; `last` is the last frame's
-  /// result.
+  /// Returns the median milliseconds of `repeats` frames, after one frame that is not counted. `last`
+  /// receives the result of the last frame.
   double medianMs(const FrameRequest& request, int repeats, FrameResult& last);
   std::vector<std::uint8_t> pixels(const FrameRequest& request);
-  /// What the weather's far cut changes in the picture.
+  /// Returns what the far cut of the weather changes in the image.
   scene::CutError cutError(const FrameRequest& request);
-  /// Of the last frame drawn, RGBA.
+  /// Returns the RGBA pixels of the last frame drawn.
   std::vector<std::uint8_t> shown();
-  /// Processor, cores and what draws, in one line.
+  /// Returns processor, cores and renderer in one line.
   std::string machine() const;
 
  private:
@@ -44,25 +44,26 @@ class Stage {
   int width_ = 0, height_ = 0;
 };
 
-/// A place and where the nose points; its height is the highest ground within 2 km.
+/// A place and the attitude of the aircraft; its height is the highest ground within 2 km.
 struct Place {
   GeodeticPosition ground;
   Attitude attitude;
 };
 
-/// Along the flight at even times, or without one five places of the terrain times four headings, level.
+/// Returns places along the flight at even times. Without a flight: five places of the terrain with four
+/// level headings each.
 std::vector<Place> placesOf(const Setup& setup, std::size_t count);
 
-/// The pixels of two pictures that differ in any channel.
+/// Returns how many pixels of two images differ in any channel.
 std::size_t differingPixels(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b);
 
 double meanOf(const std::vector<double>& values);
-/// Nearest rank; sorts.
+/// Returns the quantile by nearest rank.
 double quantileOf(std::vector<double> values, double fraction);
 
-/// The finding that says that no place of the flight lies over the terrain.
+/// Returns the finding that no place of the flight is above the terrain.
 Finding notOverTerrain(const Setup& setup);
-/// The finding that says a person asked to stop.
+/// Returns the finding that the user cancelled.
 Finding cancelled();
 
 }  // namespace trimtab::experiment

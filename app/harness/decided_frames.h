@@ -8,21 +8,21 @@
 
 namespace trimtab::harness {
 
-/// A sampled row of a flight as one preset and case would have it drawn.
+/// A sampled row of a flight, decided for one preset and one case.
 struct DecidedFrame {
   std::size_t row = 0;
   double timeS = 0;
-  double decideMs = 0;  ///< median of some
+  double decideMs = 0;  ///< median of several decisions
   FrameRequest request;
-  /// Of the rows before, oldest first: one, or as many as may leave a trace in a blur.
+  /// Requests of the rows before, oldest first: one, or as many as can affect a blur.
   std::vector<FrameRequest> before;
 };
 
-/// Rows evenly spread over those that lie over the terrain; all of them where there are no more than `count`.
+/// Returns `count` rows spread evenly over those above the terrain, or all of these if there are fewer.
 std::vector<std::size_t> sampledRows(const Flight& flight, const terrain::Database& terrain,
                                      std::size_t count);
-/// Decides every row of the flight in order and keeps the requests of `rows`, which ascend. Time is the
-/// rows', never a clock's.
+/// Decides every row of the flight in order and keeps the requests of `rows`, which must ascend. Time
+/// comes from the rows, never from a clock.
 std::vector<DecidedFrame> decideFrames(const Plan& plan, const Plan::NamedFlight& flight,
                                        const ValidatedParameters& parameters,
                                        const std::vector<std::size_t>& rows);

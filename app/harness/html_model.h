@@ -7,11 +7,11 @@
 #include "app/plot/plot.h"
 #include "results.h"
 
-/// What the sections of the page share: names and looks of units, and numbers as text.
+/// What the sections of the HTML page share: names and looks of units, and numbers as text.
 namespace trimtab::harness {
 
-/// Results by flight, preset and case, each in the order of its first unit. A preset is a colour, a case a
-/// shape or a dash, on the whole page.
+/// Gives results by flight, preset and case, each in the order of its first unit. On the whole page a preset
+/// has one colour and a case one shape or dash.
 class ReportModel {
  public:
   explicit ReportModel(const Results& results);
@@ -23,30 +23,30 @@ class ReportModel {
   const Unit* unit(const std::string& flight, const std::string& preset, const std::string& method) const;
   int presetLook(const std::string& preset) const;
   int caseLook(const std::string& method) const;
-  /// Colours (and dashes, where lines join cases) of presets and shapes of cases.
+  /// Returns the entries of a legend: colours (and dashes) of presets, shapes of cases.
   std::vector<plot::Key> keys() const;
   const Summary& summary(const Unit& unit, const Quantity& quantity) const;
-  /// Whether any frame of any unit has it.
+  /// Reports whether any frame of any unit has the quantity.
   bool measured(const Quantity& quantity) const;
-  /// The number that stands for a unit: the mean, or where frames without a finite one spoil it, the median.
+  /// Returns the number that represents a unit: the mean, or the median if the mean is not finite.
   double centre(const Unit& unit, const Quantity& quantity) const;
 
  private:
   mutable std::map<std::pair<const Unit*, const Quantity*>, Summary> summaries_;
 };
 
-/// "view_frustum" as people read it.
+/// Returns the name of a case for people to read, such as "view frustum" for "view_frustum".
 std::string caseText(const std::string& method);
-/// "preset · case".
+/// Returns "preset · case".
 std::string unitText(const UnitName& name);
-/// Three digits that count, whole numbers in groups of three; nothing for NaN.
+/// Returns three significant digits, or a whole number in groups of three digits. Empty for NaN.
 std::string numberText(double value, const Quantity& quantity);
 std::string roundedText(double value);
 std::string wholeText(double value);
-/// What is too short to matter is told as such.
+/// Returns milliseconds, and says so if a time is too short to matter.
 std::string msText(double value);
 std::string ratioText(double value);
-/// "frame time (ms)".
+/// Returns a label with its unit, such as "frame time (ms)".
 std::string axisText(const Quantity& quantity);
 std::vector<double> finiteOf(const Unit& unit, const Quantity& quantity);
 

@@ -6,14 +6,14 @@
 
 #include "html_model.h"
 
-/// The page, section by section. A section that has nothing to show says so.
+/// The sections of the HTML page. A section that has nothing to show says so.
 namespace trimtab::harness {
 
-/// The frame times and errors of a flight's units as points, with the front that none of them beats in both.
+/// Plots the frame times and errors of a flight's units as points, with the Pareto front.
 plot::Plot paretoOf(const ReportModel& model, const std::string& flight, const Quantity& error);
-/// What frame time is held against: errors that were measured, FLIP first.
+/// Returns the errors that frame time is plotted against: those that were measured, FLIP first.
 std::vector<const Quantity*> paretoErrors(const ReportModel& model);
-/// Indices of the points that no other beats in both; from the smallest x.
+/// Returns the indices of the points that no other point beats in both coordinates, by ascending x.
 std::vector<std::size_t> frontOf(const std::vector<double>& x, const std::vector<double>& y);
 
 std::string headSection(const ReportModel& model);
@@ -25,7 +25,7 @@ std::string skipsSection(const ReportModel& model);
 std::string comparisonSection(const ReportModel& model);
 std::string worstSection(const ReportModel& model, const std::filesystem::path& folder);
 
-/// Colours of presets and shapes of cases, once for many plots.
+/// Returns one legend for many plots: colours of presets and shapes of cases.
 std::string legend(const std::vector<plot::Key>& keys);
 
 }  // namespace trimtab::harness

@@ -2,7 +2,8 @@
 
 namespace trimtab::harness {
 
-/// Colours by variables, so that dark screens and paper each have theirs. No `<` and no `&`: the page is XML.
+/// The style sheet. Colours are variables, so that dark screens and paper have their own. It must contain no
+/// `<` and no `&`, because the page is XML.
 inline constexpr const char* kStyle = R"css(
 :root{--ground:#fff;--ink:#1b1f24;--quiet:#5c6470;--line:#d5d9de;--band:#f4f6f8;--good:#00714f;--bad:#fff;
 --badground:#b3261e;--slow:#a84300;--link:#0058a8}

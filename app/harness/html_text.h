@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-/// The pieces that the page is written with. It is XML as well as HTML, so that anything can read it.
+/// Writes the elements of the HTML page. The page is valid XML too, so that any XML reader can parse it.
 namespace trimtab::harness {
 
 struct HtmlColumn {
@@ -19,7 +19,7 @@ class HtmlTable {
   explicit HtmlTable(std::string caption, std::vector<HtmlColumn> columns);
   void row();
   void text(std::string_view words);
-  /// `words` is what people read; `value` what the column is sorted by; `more` stands small beneath.
+  /// Adds a cell that shows `words`, with `more` in small print below. The column is sorted by `value`.
   void number(double value, std::string_view words, std::string_view more = {}, const char* cls = "");
   void blank();
   std::string take();
@@ -33,9 +33,9 @@ class HtmlTable {
 std::string paragraph(std::string_view text, const char* cls = "");
 std::string section(const char* id, std::string_view title, std::string_view body);
 std::string base64(std::string_view bytes);
-/// "1 frame", "2 frames".
+/// Returns a count with its noun: "1 frame", "2 frames".
 std::string counted(std::size_t count, std::string_view what);
-/// "1.2 MB".
+/// Returns a size for people to read, such as "1.2 MB".
 std::string sizeText(std::size_t bytes);
 
 }  // namespace trimtab::harness

@@ -7,10 +7,11 @@
 
 namespace trimtab::harness {
 
-/// Frame time against error as a picture of its own: two errors for one flight or two, FLIP alone for more.
+/// Returns an SVG of frame time against error. It shows two errors for up to two flights, FLIP alone for
+/// more.
 std::string paretoPlot(const Results& results);
 
-/// report.html and pareto.svg, each written atomically.
+/// Writes report.html and pareto.svg into `folder`, each atomically.
 Result<Done> writeReport(const Results& results, const std::filesystem::path& folder);
 
 }  // namespace trimtab::harness

@@ -14,7 +14,7 @@
 #include "trimtab/measure/trace.h"
 #include "trimtab/units/result.h"
 
-/// What `trimtab-cli bench` measures: run time against error, over flights x presets x cases.
+/// What `trimtab-cli bench` measures: run time against error over flights, presets and cases.
 namespace trimtab::harness {
 
 /// One preset in one culling case along one flight.
@@ -24,32 +24,32 @@ struct UnitName {
   friend bool operator==(const UnitName&, const UnitName&) = default;
 };
 
-/// One frame of a unit. `cost` is the medians of its repeats; errors and counts repeat exactly.
+/// One frame of a unit. `cost` has the medians of its repeats; errors and counts are equal in all repeats.
 struct MeasuredFrame {
   std::size_t row = 0;  ///< of the flight
   double timeS = 0;     ///< of the flight's clock
   FrameCost cost;
   TraceCounts counts;
   FrameError error;
-  /// `cost.total` of each repeat in the order drawn: the n-th repeats of all units of a flight were drawn one
-  /// after the other.
+  /// `cost.total` of each repeat in the order drawn, in milliseconds. The n-th repeats of all units of a
+  /// flight were drawn one after the other.
   std::vector<double> repeatsMs;
 };
 
-/// A worst frame of a unit, as files beside the results.
+/// A worst frame of a unit; its images are files beside the results.
 struct WorstFrame {
   std::size_t frame = 0;                    ///< index into Unit::frames
   std::string why;                          ///< "largest FLIP", "longest frame", ...
   std::string reference, ours, difference;  ///< PNG files by name
 };
 
-/// Work that frames left out because its result was known, and what leaving it out saved: milliseconds a
-/// frame, by switching the skip off and measuring in pairs.
+/// Work that frames skipped because its result was known, and what that saved per frame, measured in pairs
+/// with the skip on and off.
 struct SkipSaving {
   std::string name;                                           ///< "blur at rest"
   std::uint64_t skipped = 0;                                  ///< frames that skipped it
-  std::uint64_t frames = 0;                                   ///< of so many
-  double savedMs = std::numeric_limits<double>::quiet_NaN();  ///< median; NaN: never skipped
+  std::uint64_t frames = 0;                                   ///< frames that were examined
+  double savedMs = std::numeric_limits<double>::quiet_NaN();  ///< median per frame; NaN: not measured
   PairedRatio ratio;                                          ///< frame without the skip over frame with it
 };
 
@@ -77,14 +77,14 @@ struct Results {
   std::vector<std::string> notes;  ///< conditions
 };
 
-/// One pair a frame, the median of the ratios of its repeats, so that what pairs share (the machine's mood)
-/// cancels out, and frames, not repeats, are what the interval counts.
+/// Returns the ratio of frame times b over a. Each frame counts once, by the median ratio of its repeats:
+/// disturbances that both share cancel, and the interval does not grow narrower by repeating a frame.
 PairedRatio frameTimeRatio(const Unit& a, const Unit& b);
-/// Within each flight: every preset against the first one in the same case, every other case against
+/// Compares within each flight every preset with the first one in the same case, and every other case with
 /// view_frustum in the same preset.
 std::vector<Comparison> compareUnits(const std::vector<Unit>& units);
 
-/// A number of a frame by which frames are told apart: a column of the CSV, an axis of a plot.
+/// A number that each frame has: a column of the CSV, an axis of a plot.
 struct Quantity {
   enum class Kind { cost, count, error };
 
@@ -94,28 +94,28 @@ struct Quantity {
   Kind kind = Kind::cost;
   double (*of)(const MeasuredFrame&) = nullptr;
   void (*set)(MeasuredFrame&, double) = nullptr;
-  bool whole = false;  ///< a whole number that is never absent; others may be NaN
+  bool whole = false;  ///< an integer that is always present; other quantities may be NaN
   bool largerIsWorse = true;
-  StageKind stage = StageKind::of_frame;  ///< of a cost: which of them sum to the frame (cost_stages.h)
+  StageKind stage = StageKind::of_frame;  ///< for costs: which of them sum to the frame (cost_stages.h)
 };
-/// All of them, in the order of the CSV: the frame, its stages as cost_stages.h lists them, counts, errors. A
-/// mechanism that adds a count or an error adds a line there and nowhere else.
+/// Returns all quantities in the order of the CSV: the frame, its stages in the order of cost_stages.h,
+/// counts, errors. A mechanism that adds a count or an error adds a row here and nowhere else.
 const std::vector<Quantity>& quantities();
 const Quantity* quantityOf(std::string_view key);
 
-/// NaN where no frame has the quantity. For one of which smaller is worse (PSNR, SSIM) the percentiles are
-/// taken from the other end: p95 is what 95 % of the frames reach, `worst` the smallest.
+/// A quantity over the frames of a unit; NaN if no frame has it. If smaller is worse (PSNR, SSIM),
+/// percentiles count from the other end: 95 % of the frames reach p95, and `worst` is the smallest value.
 struct Summary {
   double median = 0, mean = 0, p95 = 0, p99 = 0, worst = 0;
 };
 Summary summarise(const Unit& unit, const Quantity& quantity);
 
-/// The whole document; numbers read back bit for bit, NaN and infinity as strings.
+/// Returns the results as JSON. Numbers read back bit for bit; NaN and infinity are strings.
 std::string toJson(const Results& results);
-/// Every offence with its place in the document; members and columns this version does not know are passed
-/// over.
+/// Reads what toJson wrote, or reports every error with its place in the document. Unknown members and
+/// columns are ignored.
 Result<Results> parseResults(std::string_view json, const std::string& where);
-/// One row a frame of all units.
+/// Returns CSV with one row per frame of all units.
 std::string toCsv(const Results& results);
 
 }  // namespace trimtab::harness

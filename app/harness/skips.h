@@ -9,30 +9,30 @@
 #include "results.h"
 #include "trimtab/scene/renderer.h"
 
-/// What the work that frames leave out would have cost.
+/// Measures what the work that frames skip would have cost.
 namespace trimtab::harness {
 
-/// Draws one frame and returns when its picture is finished: its time is taken around the call.
+/// Draws one frame and returns when its image is finished; the call itself is timed.
 using DrawFrame = std::function<FrameResult(const FrameRequest&)>;
 
-/// Work that may be left out, and how a measurement does it nevertheless.
+/// Work that a frame may skip, and how to make the frame do it nevertheless.
 struct Skip {
   std::string_view name;  ///< as in SkipSaving
-  /// Whether the frame left it out; `before` and `after` are the results of the frame before and of this one.
+  /// Reports whether the frame skipped the work; `before` is the result of the frame before, `after` of this.
   bool (*left)(const FrameRequest& request, const FrameResult& before, const FrameResult& after);
-  /// The same frame with the work done. The picture is the same, to the bit.
+  /// Returns the same frame with the work done. Its image is identical to the bit.
   FrameRequest (*done)(const FrameRequest& request);
-  /// The same frame with it left out: the request itself, but where the work is part of something larger.
+  /// Returns the same frame with the work skipped: usually the request itself.
   FrameRequest (*leftOut)(const FrameRequest& request);
-  bool needsFrameBefore = false;  ///< left out only because of what the frame before did
+  bool needsFrameBefore = false;  ///< skipped only because of what the frame before did
 };
-/// All that there are; a mechanism that adds a skip adds a line there and nowhere else.
+/// Returns all skips. A mechanism that adds a skip adds a row to this table and nowhere else.
 const std::vector<Skip>& skips();
 
-/// For each skip: how many of `frames`, drawn in order, left the work out, and what that saved, measured on
-/// at most `kMostMeasured` of them, `repeats` times each, the frame without the skip and the frame with it
-/// taking turns. `goOn` is asked between frames; once it says no, what is not measured yet stays NaN.
-/// `pairs`: each two frames are one to measure and, first, the one before it.
+/// Reports for each skip how many of `frames`, drawn in order, skipped the work, and what that saved. The
+/// saving is measured on at most `kMostMeasured` frames, `repeats` times each, alternating between the frame
+/// with and without the skip. `goOn` is called between frames; once it returns false, savings not measured
+/// yet stay NaN. With `pairs`, `frames` holds pairs: the frame before, then the frame to measure.
 std::vector<SkipSaving> measureSkips(const DrawFrame& draw, std::span<const FrameRequest> frames,
                                      std::size_t repeats, const std::function<bool()>& goOn = {},
                                      bool pairs = false);

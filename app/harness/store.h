@@ -10,23 +10,23 @@
 
 namespace trimtab::harness {
 
-/// A run's folder: the plan it belongs to and what was measured so far, a file a sampled frame of a flight.
+/// The folder of a run: its plan and what was measured so far, one file per sampled frame of a flight.
 class Store {
  public:
-  /// Makes the folder where there is none. Refused where it holds another plan (with what differs) or
-  /// something else by a name that the run would write.
+  /// Makes the folder if it is missing. Fails if the folder holds another plan (saying what differs), or
+  /// something else under a name that the run would write.
   static Result<Store> open(const std::filesystem::path& folder, const Plan& plan,
                             const std::string& machine);
 
-  /// All units of a flight with one frame each; none where it was not measured yet, or is not whole.
+  /// Returns all units of a flight with one frame each, or nothing if it is not measured completely.
   std::optional<std::vector<Unit>> frame(std::size_t flight, std::size_t row) const;
   Result<Done> writeFrame(std::size_t flight, std::size_t row, std::vector<Unit> units) const;
-  /// All units of a flight without frames, with what their skips saved.
+  /// Returns all units of a flight without frames, with what their skips saved.
   std::optional<std::vector<Unit>> skips(std::size_t flight) const;
   Result<Done> writeSkips(std::size_t flight, std::vector<Unit> units) const;
-  /// Atomically; where it fails `needs` tells the room.
+  /// Writes a file atomically. If that fails, the findings include those of `needs`.
   Result<Done> write(const std::string& name, const std::string& bytes) const;
-  /// The findings of a write into the folder that failed, and how much room it needed and there is.
+  /// Adds to the findings of a failed write how much disk space it needed and how much is free.
   Findings needs(Findings findings, std::size_t bytes) const;
 
   const std::filesystem::path& folder() const { return folder_; }

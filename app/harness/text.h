@@ -6,7 +6,7 @@
 
 namespace trimtab::harness {
 
-/// For a terminal: a line a unit, the ratios with their intervals, a line a skip.
+/// Returns text for a terminal: one line per unit, the ratios with their intervals, one line per skip.
 std::string toText(const Results& results);
 
 }  // namespace trimtab::harness

@@ -9,13 +9,14 @@
 
 namespace trimtab::harness {
 
-/// A unit's worst frames, without pictures: largest FLIP, largest geometric error, longest frame; one that is
-/// the worst in several ways is there once. What no frame has an error of is left out.
+/// Returns at most `most` worst frames of a unit, without images: largest FLIP, largest geometric error,
+/// longest frame. A frame that is worst in several ways appears once; an error that no frame has is skipped.
 std::vector<WorstFrame> worstFrames(const Unit& unit, std::size_t number, std::size_t most);
 
-/// The names of a worst frame's pictures: the unit's number, and letters, digits, '-' and '_' of its name.
+/// Names the image files of a worst frame after the unit's number and the letters, digits, '-' and '_' of
+/// its name.
 void namePictures(WorstFrame& worst, const Unit& unit, std::size_t number);
-/// Reference, ours and FLIP's map as PNG into `folder`.
+/// Writes the reference, our image and the FLIP map as PNG files into `folder`.
 Result<Done> writePictures(const WorstFrame& worst, const scene::ErrorPictures& pictures,
                            const std::filesystem::path& folder);
 

@@ -10,24 +10,24 @@
 
 namespace trimtab::ig {
 
-/// Where states come from.
+/// The source of states: a flight or a host.
 class Feed {
  public:
   virtual ~Feed() = default;
-  /// Gives the session what has come or is due; whether there was anything.
+  /// Passes states that arrived or are due to the session. Reports whether there were any.
   virtual bool advance(Session& session, double now) = 0;
-  /// Seconds until something is due; infinite when only a wake-up tells.
+  /// Returns the seconds until a state is due; infinite if only a wake-up announces it.
   virtual double dueIn(double now) const = 0;
   virtual bool finished() const = 0;
-  /// Everything stands ready for what comes: says so where someone may wait for it.
+  /// Called once everything is ready for states; announces it to anyone who may wait.
   virtual void ready() const {}
-  /// Health of the link; none for a flight.
+  /// Returns the statistics of the link; nothing for a flight.
   virtual std::optional<HostStatistics> statistics() const { return std::nullopt; }
   virtual std::uint64_t dropped() const { return 0; }
 };
 
-/// The head that the options name; a host's where they name none. A trace brings the head that it was decided
-/// with: naming another is refused.
+/// Opens the head that the options name, or the host's if they name none. Fails for a trace if the options
+/// name a head, because a trace contains the head that it was decided with.
 Result<HeadInput> openHeadInput(const Options& options);
 /// Opens the flight or the port that the options name. Findings may come with the value.
 Result<std::unique_ptr<Feed>> openFeed(const Options& options, const Wake& wake);

@@ -18,7 +18,7 @@
 
 namespace trimtab::ig {
 
-/// All that a run needs, opened and checked.
+/// Everything that a run needs, opened and checked.
 struct Run {
   const Options& options;
   const Wake& wake;
@@ -27,39 +27,39 @@ struct Run {
   Surface& surface;
   Feed& feed;
   TraceFile* trace = nullptr;
-  PresetWatch* watch = nullptr;  ///< made before the preset was loaded, so that no change is missed
+  PresetWatch* watch = nullptr;  ///< made before the preset is loaded, so that no change is missed
 };
 
 struct Summary {
   std::uint64_t frames = 0, packets = 0, decisionChanges = 0, jumps = 0, presetReloads = 0,
                 presetsRefused = 0;
   std::uint64_t depthMapsDrawn = 0, horizonsBuilt = 0, overBudget = 0;
-  double firstFrameTime = 0;  ///< link::now() when the first picture was finished; 0: none
+  double firstFrameTime = 0;  ///< link::now() when the first image was finished; 0: none
   double medianFrameMs = 0, p99FrameMs = 0;
   std::array<Distribution, kCostStages.size()> stages;  ///< milliseconds, in the order of kCostStages
   std::optional<FrameRequest> lastRequest;
-  /// Latency's; NaN where nothing was measured.
+  /// Percentiles of latency; NaN if nothing was measured.
   double decodedP50Ms = 0, decodedP99Ms = 0, shownP50Ms = 0, shownP99Ms = 0, everyP99Ms = 0;
 };
 
-/// Draws the terrain's middle once without and once with each band's depth map, not counted: shaders are
-/// compiled and memory is there before the first packet comes.
+/// Draws the centre of the terrain once without and once with the depth map of each band, so that shaders are
+/// compiled and memory is allocated before the first packet arrives. These frames are not counted.
 void warmUp(const Run& run, const terrain::Database& database);
 
 /// Draws until the feed ends, enough frames are drawn, the window closes or a signal comes. Sleeps between
 /// packets.
 Summary drawFrames(const Run& run);
 
-/// Draws the last picture again, as after a swap of buffers its pixels are not defined, and writes it.
+/// Draws the last image again and writes it: after a swap of buffers its pixels are undefined.
 Result<Done> takeScreenshot(const Run& run, const Summary& summary, const std::filesystem::path& file);
 
-/// One line for people.
+/// Returns the summary in one line for people.
 std::string summaryLine(const Summary& summary, const Feed& feed);
-/// One JSON document.
+/// Returns the summary as one JSON document.
 std::string summaryJson(const Summary& summary, const Feed& feed, const Options& options,
                         const scene::GlReport& gl);
 
-/// Findings on standard error, one a line, with their severity.
+/// Prints findings on standard error, one per line, with their severity.
 void report(const Findings& findings);
 
 }  // namespace trimtab::ig

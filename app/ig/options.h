@@ -18,8 +18,8 @@ struct Options {
   std::string reply;  ///< HOST:PORT, empty for none
   HostProtocol protocol = HostProtocol::automatic;
   std::filesystem::path flight;
-  std::string head;          ///< a head log, or a sweep; empty: as the states say
-  bool skipBadRows = false;  ///< of the head log
+  std::string head;          ///< a head log or a sweep; empty: the head in the states
+  bool skipBadRows = false;  ///< ignore unusable rows of the head log
   bool realtime = false;
   bool headless = false;
   int width = 1280, height = 720;
@@ -29,7 +29,8 @@ struct Options {
   bool json = false;
 };
 
-/// None when the program is to end with `exitCode` (help, version, wrong usage: all said).
+/// Reads the command line. Returns nothing if the program must end with `exitCode`: after help, version or
+/// wrong usage, whose text is already printed.
 std::optional<Options> parseOptions(int argc, char** argv, int& exitCode);
 
 }  // namespace trimtab::ig

@@ -14,18 +14,17 @@ struct ActivePreset {
   std::string name;
   ValidatedParameters parameters;
 };
-/// Findings tell what is wrong, or what is odd about a preset that is right.
+/// Loads and checks a preset. Findings are its errors, or the warnings about a valid preset.
 Result<ActivePreset> loadActivePreset(const std::string& nameOrFile);
 
-/// Tells when a file is another one than before: by inode, size and time, so that both a rename over it and a
-/// rewrite in place are seen.
+/// Notices a changed file by its inode, size and time, so that both replacing and rewriting it are seen.
 class PresetWatch {
  public:
   static constexpr double kPeriodS = 0.2;
 
   explicit PresetWatch(std::string file);
-  /// The changed file's preset, or why it is refused; none when nothing changed, or it is not there at the
-  /// moment.
+  /// Returns the preset of the changed file, or why it is refused. Returns nothing if nothing changed or the
+  /// file is missing at the moment.
   std::optional<Result<ActivePreset>> poll();
 
  private:

@@ -6,21 +6,21 @@
 
 namespace trimtab::ig {
 
-/// What is drawn on: a window, or a framebuffer without a window system. Its GL context is current.
+/// The target of drawing: a window, or a framebuffer without a window system. Its GL context is current.
 class Surface {
  public:
   virtual ~Surface() = default;
   virtual unsigned framebuffer() const = 0;
   virtual int width() const = 0;
   virtual int height() const = 0;
-  /// Makes room for a picture of this size.
+  /// Resizes the framebuffer for an image of this size in pixels.
   virtual void fit(int width, int height) = 0;
-  /// Returns when the picture is finished (and, in a window, shown).
+  /// Waits until the image is finished and, in a window, shown.
   virtual void present() = 0;
-  /// False when the user closed the window. Exposure and a new size set `stale`: the picture has to be drawn
-  /// again.
+  /// Handles pending events. Returns false if the user closed the window. Sets `stale` if the image must be
+  /// drawn again, after exposure or a change of size.
   virtual bool handleEvents(bool& stale) = 0;
-  /// Becomes readable when there are events; -1 when there never are.
+  /// Returns a descriptor that becomes readable if there are events; -1 if there never are any.
   virtual int eventFd() const = 0;
   virtual bool hasViewer() const = 0;
 };

@@ -8,8 +8,8 @@
 
 namespace trimtab::ig {
 
-/// A trace that appears under its name when it is complete; until then, and after a crash, its rows are in
-/// `FILE.part`.
+/// Writes a trace that appears under its name once it is complete. Until then, and after a crash, its rows
+/// are in `FILE.part`.
 class TraceFile {
  public:
   static Result<TraceFile> open(const std::filesystem::path& file);

@@ -4,7 +4,7 @@
 
 namespace trimtab::ig {
 
-/// What ends the main thread's sleep: a packet, a signal. SIGINT and SIGTERM set `stop` from construction on.
+/// Ends the sleep of the main thread on a packet or a signal. While it exists, SIGINT and SIGTERM set `stop`.
 class Wake {
  public:
   Wake();
@@ -12,9 +12,9 @@ class Wake {
   Wake(const Wake&) = delete;
   Wake& operator=(const Wake&) = delete;
 
-  /// From any thread, and from a signal handler.
+  /// Ends the sleep. May be called from any thread and from a signal handler.
   void post() const;
-  /// Sleeps until `post`, until `otherFd` (none: -1) can be read, or for `seconds` (negative or infinite: no
+  /// Sleeps until `post`, until `otherFd` is readable (-1: none), or for `seconds` (negative or infinite: no
   /// limit).
   void wait(double seconds, int otherFd) const;
   bool stop() const;

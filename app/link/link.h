@@ -15,56 +15,56 @@
 #include "trimtab/host/received_state.h"
 #include "trimtab/units/result.h"
 
-/// UDP at the edge: the one receiver and the one sender that workbench, IG and CLI share. IPv4, no GUI, no
-/// GL.
+/// The UDP receiver and the UDP sender that workbench, IG and command line share. IPv4 only.
 namespace trimtab::link {
 
 struct Endpoint {
   std::string address = "127.0.0.1";
   std::uint16_t port = 0;
 };
-/// "host:port"; a bare port means 127.0.0.1.
+/// Reads "host:port"; a port alone means 127.0.0.1.
 Result<Endpoint> parseEndpoint(const std::string& text);
 
 struct ReceiverOptions {
-  std::uint16_t port = 0;  ///< 0: any free one
+  std::uint16_t port = 0;  ///< 0: any free port
   std::string bindAddress = "0.0.0.0";
   HostProtocol protocol = HostProtocol::automatic;
-  std::optional<Endpoint> reply;  ///< Start of Frame goes there at `replyRateHz`
+  std::optional<Endpoint> reply;  ///< where Start of Frame is sent, `replyRateHz` times per second
   double replyRateHz = 60;        ///< 0.001..10000
-  /// Called on the receiver's thread after each state was queued: a place to post an event, nothing more.
+  /// Called on the receiver's thread after each state was queued. It must return at once: post an event.
   std::function<void()> wake;
 };
 
-/// Receives and decodes on a thread of its own; states wait in a bounded queue (oldest dropped and counted).
+/// Receives and decodes on a thread of its own. States wait in a bounded queue; if it is full, the oldest is
+/// dropped and counted.
 class Receiver {
  public:
-  /// Fails when the port is taken, naming it.
+  /// Opens the socket and starts the thread. Fails if the port is in use, and names it.
   static Result<std::unique_ptr<Receiver>> open(const ReceiverOptions& options);
   virtual ~Receiver() = default;  ///< stops the thread and closes the socket
 
   virtual std::uint16_t port() const = 0;
-  /// All states since the last call, in order of arrival.
+  /// Returns in `states` all states since the last call, in order of arrival.
   virtual void take(std::vector<ReceivedState>& states) = 0;
   virtual HostStatistics statistics() const = 0;
   virtual std::uint64_t dropped() const = 0;
-  /// Copies every datagram from now on (for recording); null ends it. Called on the receiver's thread.
+  /// Passes every datagram from now on to `tap`, on the receiver's thread, for recording. Null ends this.
   virtual void tap(std::function<void(const Datagram&)> tap) = 0;
 };
 
-/// Current CLOCK_REALTIME in seconds.
+/// Returns CLOCK_REALTIME in seconds.
 double now();
 
 struct PlayOptions {
   Endpoint to;
   WireProtocol protocol = WireProtocol::cigi3;
-  /// States are interpolated at this rate, 0.001..10000; 0: send the flight's rows as they are, at their
-  /// times.
+  /// States are interpolated at this rate, 0.001 to 10000 Hz. If 0, the flight's rows are sent as they are,
+  /// at their times.
   double rateHz = 60;
   double speed = 1;  ///< 0.001..1000
   bool loop = false;
   double startS = 0;  ///< seconds into the flight
-  /// In place of the flight's own heads, on the flight's clock; native-fdm carries none, and refuses it.
+  /// Replaces the head of the flight, on the flight's clock. native-fdm carries no head and refuses it.
   std::optional<HeadLog> head{};
 };
 /// Sends a flight over UDP on the flight's own clock, from its own thread.
@@ -73,7 +73,7 @@ class FeedPlayer {
   static Result<std::unique_ptr<FeedPlayer>> start(Flight flight, const PlayOptions& options);
   virtual ~FeedPlayer() = default;  ///< stops
   virtual void pause(bool paused) = 0;
-  /// A speed that `PlayOptions` does not allow changes nothing.
+  /// Sets the speed. A value outside the range of `PlayOptions::speed` is ignored.
   virtual void setSpeed(double speed) = 0;
   virtual void setLoop(bool loop) = 0;
   virtual void seek(double timeS) = 0;

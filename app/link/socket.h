@@ -10,7 +10,7 @@
 
 namespace trimtab::link {
 
-/// A file descriptor that is closed once.
+/// Owns a file descriptor and closes it.
 class Descriptor {
  public:
   explicit Descriptor(int fd = -1) : fd_(fd) {}
@@ -28,10 +28,10 @@ class Descriptor {
   int fd_;
 };
 
-/// An IPv4 address, or a name looked up (may wait for a name server).
+/// Returns the IPv4 address of an endpoint. A host name is looked up, which may wait for a name server.
 Result<sockaddr_in> resolve(const Endpoint& endpoint);
 std::string addressText(const sockaddr_in& address);
-/// The calling thread before others where the system lets us; without the right to, it stays as it is.
+/// Raises the priority of the calling thread if the system permits it; otherwise changes nothing.
 void raisePriority();
 
 }  // namespace trimtab::link

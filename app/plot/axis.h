@@ -10,22 +10,22 @@ struct Tick {
   std::string text;
 };
 
-/// Values to places along an axis, 0..1, at round ends. On a logarithmic axis values of 0 and below stand in
-/// a band before the first tick.
+/// Maps values to places along an axis, from 0 to 1, with round ends. On a logarithmic axis, values of 0 and
+/// below are in a band before the first tick.
 class Axis {
  public:
   Axis() : Axis(even(0, 1, true)) {}
-  /// Round steps, about `steps` of them. `fromZero`: 0 is on it.
+  /// Makes an axis with about `steps` round steps. With `fromZero`, it includes 0.
   static Axis even(double low, double high, bool fromZero, int steps = 5);
-  /// Ends where told, round steps between.
+  /// Makes an axis with exactly these ends and round steps between.
   static Axis exactly(double low, double high);
   static Axis categories(std::size_t count);
-  /// `low` above 0.
+  /// Makes a logarithmic axis; `low` must be above 0. With `zero`, it has a band for values of 0 and below.
   static Axis logarithmic(double low, double high, bool zero);
-  /// Fit for `values`, of which not all need to be finite.
+  /// Makes an axis that fits `values`; values that are not finite are ignored.
   static Axis of(const std::vector<double>& values, bool logarithmic, bool fromZero, int steps = 5);
 
-  /// Leaves a part of the length free at its ends, so that marks do not stand on the frame.
+  /// Leaves a fraction of the length free at each end, so that marks do not touch the frame.
   void widen(double atLow, double atHigh);
 
   double at(double value) const;

@@ -11,9 +11,9 @@
 
 namespace trimtab::plot {
 
-constexpr std::size_t kMarkedPoints = 24;  ///< so few points of a line are marked one by one
+constexpr std::size_t kMarkedPoints = 24;  ///< a line with at most so many points marks each
 
-/// A plot being drawn: frame, title, axis names and legend are alike for all kinds.
+/// Draws one plot; frame, title, axis labels and legend are the same for all kinds.
 class Drawing {
  public:
   virtual ~Drawing() = default;
@@ -25,9 +25,9 @@ class Drawing {
  protected:
   Drawing(const Plot& plot, double textPx) : plot_(plot), svg_(textPx), height_(plot.heightPx) {}
 
-  /// Draws what stands around the axes and leaves their box in left_, top_, right_, bottom_.
+  /// Draws everything around the axes and stores their box in left_, top_, right_, bottom_.
   void layOut(const Axis& y);
-  /// Title and legend; returns where the plot may begin.
+  /// Draws title and legend; returns the y at which the plot may begin.
   double drawHead();
   void drawXLabel(double y);
   int look(std::size_t series) const {
@@ -43,7 +43,7 @@ class Drawing {
 std::unique_ptr<Drawing> makePlainDrawing(const Plot& plot, double textPx);
 std::unique_ptr<Drawing> makeRowsDrawing(const Plot& plot, double textPx);
 
-/// A legend from `x` to `right`, its first line at `y`; returns the last line's y.
+/// Draws a legend from `x` to `right` with its first line at `y`; returns the y of its last line.
 double drawLegend(Svg& svg, const std::vector<Key>& keys, double x, double right, double y);
 
 }  // namespace trimtab::plot

@@ -70,18 +70,6 @@ void BoxArrays::set(std::size_t i, const Box& box) {
   }
 }
 
-std::size_t blocksAhead() {
-#if defined(__x86_64__)
-  // Six streams are more than an Intel processor looks ahead of by itself: eight blocks are 1.15 times the
-  // boxes a second from memory on a Xeon, 1.5 from the last cache, 0.85 from the first two. An AMD EPYC does
-  // look ahead, and being asked costs it a quarter of its speed.
-  static const std::size_t blocks = __builtin_cpu_is("intel") ? 8 : 0;
-  return blocks;
-#else
-  return 0;
-#endif
-}
-
 BlockTest::BlockTest(const BoxArrays& boxes, const Frustum& frustum, SimdLevel level)
     : boxes_(boxes),
       frustum_(frustum),

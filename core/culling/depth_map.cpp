@@ -58,9 +58,9 @@ void DepthMesh::setBoxes(std::span<const Box> parts) {
   }
 }
 
-void DepthTest::begin(const EyePose& eye, const ViewShape& view, int width, int height, SimdLevel level) {
+void DepthMap::setProjection(const EyePose& eye, const ViewShape& view) {
+  const int width = settings_.width, height = settings_.height;
   eye_ = eye.position;
-  level_ = level;
   depth::Projection& p = projection_;
   p = {};
   p.right = toFloat(eye.axes.row[0]);
@@ -78,46 +78,38 @@ void DepthTest::begin(const EyePose& eye, const ViewShape& view, int width, int 
   view_ = {width, height, pad(width, view.widthPx), pad(height, view.heightPx)};
 }
 
-depth::Projection DepthTest::at(Vec3 origin) const {
+depth::Projection DepthMap::projectionAt(Vec3 origin) const {
   depth::Projection p = projection_;
   p.offset = toFloat(origin - eye_);
   return p;
 }
 
-DepthFate DepthTest::rectangle(const DepthMesh& mesh, Rectangle& out) const {
-  if (mesh.boxes[0].empty()) return DepthFate::seen;
+depth::Rectangles DepthMap::rectangles(const depth::Projection& projection, const DepthMesh& mesh,
+                                       std::size_t first) const {
   depth::Boxes boxes;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    boxes.low[axis] = mesh.boxes[axis].data();
-    boxes.high[axis] = mesh.boxes[axis + 3].data();
+    boxes.low[axis] = mesh.boxes[axis].data() + first;
+    boxes.high[axis] = mesh.boxes[axis + 3].data() + first;
   }
   depth::Rectangles r;
-  depth::rectangles(at(mesh.origin), view_, boxes, r, level_);
-  if (r.x0[0] == depth::Rectangles::kOutside) return DepthFate::outside;
-  out = {r.x0[0], r.y0[0], r.x1[0], r.y1[0], r.limit[0]};
-  return DepthFate::seen;
+  depth::rectangles(projection, view_, boxes, r, settings_.level);
+  return r;
 }
 
-DepthFate DepthTest::operator()(const DepthMesh& mesh, const DepthPyramid& pyramid) const {
-  if (pyramid.width() != view_.width || pyramid.height() != view_.height || view_.width <= 0)
+DepthFate DepthMap::test(const DepthMesh& mesh) const {
+  if (pyramid_.width() != view_.width || pyramid_.height() != view_.height || view_.width <= 0)
     return DepthFate::seen;
-  const depth::Projection p = at(mesh.origin);
+  const depth::Projection p = projectionAt(mesh.origin);
   DepthFate fate = DepthFate::outside;
   // The first group holds the box of the whole mesh.
   for (std::size_t first = 0; first < mesh.boxes[0].size(); first += kLanes) {
-    depth::Boxes boxes;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      boxes.low[axis] = mesh.boxes[axis].data() + first;
-      boxes.high[axis] = mesh.boxes[axis + 3].data() + first;
-    }
-    depth::Rectangles r;
-    depth::rectangles(p, view_, boxes, r, level_);
+    const depth::Rectangles r = rectangles(p, mesh, first);
     for (std::size_t i = 0; i < (first == 0 ? 1 : kLanes); ++i) {
       if (r.x0[i] == depth::Rectangles::kOutside) {
         if (first == 0) return DepthFate::outside;
         continue;
       }
-      const bool hidden = r.x0[i] >= 0 && pyramid.covers(r.x0[i], r.y0[i], r.x1[i], r.y1[i], r.limit[i]);
+      const bool hidden = r.x0[i] >= 0 && pyramid_.covers(r.x0[i], r.y0[i], r.x1[i], r.y1[i], r.limit[i]);
       if (first == 0 && hidden) return DepthFate::hidden;
       if (first != 0 && !hidden) return DepthFate::seen;
       if (first != 0) fate = DepthFate::hidden;
@@ -131,7 +123,7 @@ void DepthMap::begin(const EyePose& eye, const ViewShape& view, const Settings& 
   settings_.width = std::max(settings.width, 0);
   settings_.height = std::max(settings.height, 0);
   const int width = settings_.width, height = settings_.height;
-  test_.begin(eye, view, width, height, settings.level);
+  setProjection(eye, view);
   nearM_ = view.nearM;
   triangles_ = 0;
   texels_ = {nullptr, depth::strideOf(width), width, height};
@@ -156,7 +148,7 @@ void DepthMap::begin(const EyePose& eye, const ViewShape& view, const Settings& 
   }
 }
 
-bool DepthMap::covers(const DepthTest::Rectangle& r) {
+bool DepthMap::covers(const Rectangle& r) {
   for (int by = r.y1 / kBlock; by >= r.y0 / kBlock; --by)
     for (int bx = r.x0 / kBlock; bx <= r.x1 / kBlock; ++bx) {
       float& farthest = farthest_[static_cast<std::size_t>(by * blocksAcross_ + bx)];
@@ -187,11 +179,12 @@ void DepthMap::touch(const depth::Touched& touched) {
 
 DepthFate DepthMap::draw(const DepthMesh& mesh, const depth::Triangles& triangles) {
   if (cells_.empty() || mesh.vertices == 0) return DepthFate::seen;
-  DepthTest::Rectangle r{};
-  if (test_.rectangle(mesh, r) == DepthFate::outside) return DepthFate::outside;
-  if (r.x0 >= 0 && covers(r)) return DepthFate::hidden;
-
-  depth::Projection p = test_.at(mesh.origin);
+  depth::Projection p = projectionAt(mesh.origin);
+  if (!mesh.boxes[0].empty()) {
+    const depth::Rectangles r = rectangles(p, mesh, 0);
+    if (r.x0[0] == depth::Rectangles::kOutside) return DepthFate::outside;
+    if (r.x0[0] >= 0 && covers({r.x0[0], r.y0[0], r.x1[0], r.y1[0], r.limit[0]})) return DepthFate::hidden;
+  }
   p.down = down_;
   p.aside = aside_;
   p.lowering = static_cast<float>(settings_.lowering);
@@ -220,7 +213,7 @@ void DepthMap::drawClipped(const depth::Triangles& triangles, depth::Touched& to
   struct Corner {
     double right, up, depth;
   };
-  const depth::Projection& p = test_.projection_;
+  const depth::Projection& p = projection_;
   // The view's sides, a texel further out.
   const auto side = [](float scale, float from, double texel) {
     return (texel - double{from}) / double{scale};

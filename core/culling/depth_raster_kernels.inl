@@ -1,5 +1,5 @@
-// The loops of depth_raster.h, for simd_levels.inl. F and I are eight floats and eight integers; a triangle's rows are
-// filled by Floats, as many texels at a time as the level has.
+// The loops of depth_raster.h, for simd_levels.inl. F and I are eight floats and eight integers; a triangle's
+// rows are filled by Floats, as many texels at a time as the level has.
 
 TRIMTAB_INLINE F select(I condition, F yes, F no) {
   return choose(condition, yes, no);
@@ -130,8 +130,8 @@ struct Filler {
     const Floats up = spread<Floats>(above);
     // By their sign bits, as whole numbers: depths are not negative either.
     const Ints out = reinterpret_cast<Ints>(e_[0] + acrossY[0] * up) |
-                   reinterpret_cast<Ints>(e_[1] + acrossY[1] * up) |
-                   reinterpret_cast<Ints>(e_[2] + acrossY[2] * up);
+                     reinterpret_cast<Ints>(e_[1] + acrossY[1] * up) |
+                     reinterpret_cast<Ints>(e_[2] + acrossY[2] * up);
     const Ints plane = reinterpret_cast<Ints>(w_ + wY * up);
     const Ints depth = (plane > farthest ? plane : farthest) & ~(out >> 31);
     Ints there;
@@ -312,7 +312,6 @@ void rectangleLanes(const Projection& p, const BoxView& view, const Boxes& boxes
   const F width = spread(static_cast<float>(view.width)), height = spread(static_cast<float>(view.height)),
           zero = spread(0.0f), one = spread(1.0f);
   const I outside = seen & ((highX < zero) | (highY < zero) | (lowX > width) | (lowY > height));
-  if (view.whole) seen &= (lowX >= zero) & (lowY >= zero) & (highX <= width) & (highY <= height);
   const auto texel = [&](F at, F size) { return roundedDown(least(most(at, zero), size - one)); };
   const I x0 = texel(lowX, width);
   write(out.x0.data(),

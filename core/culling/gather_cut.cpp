@@ -1,15 +1,21 @@
 #include <algorithm>
-#include <cmath>
+#include <bit>
 #include <limits>
 
+#include "gather_cut.h"
 #include "trimtab/culling/back_facing.h"
 #include "trimtab/frame/box_union.h"
-#include "visible_walk.h"
 
 namespace trimtab {
 namespace {
 
 constexpr std::size_t kBlock = BoxArrays::kBlock;
+
+/// Returns the triangles of a tile. Each border that is stitched to a coarser neighbour saves 16 of them.
+std::uint32_t tileTriangles(TileDraw tile) {
+  constexpr std::uint32_t kCells = TerrainIndex::kTileCells;
+  return 2 * kCells * kCells - static_cast<std::uint32_t>(std::popcount(tile.border.bits)) * kCells / 2;
+}
 
 /// The union of boxes. It is not a number if one of them is not finite, so that no test concludes anything
 /// from it.

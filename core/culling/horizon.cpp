@@ -52,8 +52,8 @@ void Horizon::begin(const ValidityRegion& region, std::span<const HorizonTile> t
   for (auto& bin : bins_) bin.clear();
   waiting_.clear();
   awaited_.assign(profile_.size(), kNowhere);
-  next_ = work_ = 0;
-  phase_ = Phase::done;
+  progress_.next = progress_.work = 0;
+  progress_.phase = Phase::done;
 
   const Vec3 half = 0.5 * (region.to - region.from);
   const double play = std::hypot(half.x, half.y) + std::abs(half.z) + region.radius;
@@ -75,7 +75,7 @@ void Horizon::begin(const ValidityRegion& region, std::span<const HorizonTile> t
   }
   outlines_.resize(tiles.size());
   firstOfRing_.assign(kRings + 1, 0);
-  if (!tiles.empty()) phase_ = Phase::outline;
+  if (!tiles.empty()) progress_.phase = Phase::outline;
 }
 
 Horizon::Outline Horizon::outlineOf(std::uint32_t n) const {
@@ -112,29 +112,32 @@ Horizon::Outline Horizon::outlineOf(std::uint32_t n) const {
 /// Makes the outlines of some more tiles.
 void Horizon::outlineSome() {
   constexpr std::size_t kAhead = 8, kSome = 64;
-  for (const std::size_t end = std::min(next_ + kSome, tiles_.size()); next_ < end; ++next_) {
-    if (next_ + kAhead < tiles_.size()) {
-      const void* ahead = tiles_[next_ + kAhead].surface();
+  for (const std::size_t end = std::min(progress_.next + kSome, tiles_.size()); progress_.next < end;
+       ++progress_.next) {
+    if (progress_.next + kAhead < tiles_.size()) {
+      const void* ahead = tiles_[progress_.next + kAhead].surface();
       __builtin_prefetch(ahead);
       __builtin_prefetch(static_cast<const char*>(ahead) + 64);
     }
-    const Outline& outline = outlines_[next_] = outlineOf(static_cast<std::uint32_t>(next_));
+    const Outline& outline = outlines_[progress_.next] =
+        outlineOf(static_cast<std::uint32_t>(progress_.next));
     ++firstOfRing_[std::size_t{outline.ring} + 1];
   }
-  work_ += kSome / 8;
-  if (next_ == tiles_.size()) sortTiles();
+  progress_.work += kSome / 8;
+  if (progress_.next == tiles_.size()) sortTiles();
 }
 
 void Horizon::sortTiles() {
   for (std::uint32_t ring = 0; ring < kRings; ++ring) firstOfRing_[ring + 1] += firstOfRing_[ring];
   order_.resize(tiles_.size());
   for (std::uint32_t i = 0; i < tiles_.size(); ++i) order_[firstOfRing_[outlines_[i].ring]++] = i;
-  phase_ = Phase::test;
-  next_ = 0;
+  progress_.phase = Phase::test;
+  progress_.next = 0;
 }
 
 bool Horizon::step(std::size_t work) {
-  for (const std::size_t end = work_ + work; !isDone() && work_ < end;) switch (phase_) {
+  for (const std::size_t end = progress_.work + work; !isDone() && progress_.work < end;)
+    switch (progress_.phase) {
       case Phase::outline:
         outlineSome();
         break;
@@ -142,27 +145,27 @@ bool Horizon::step(std::size_t work) {
         testNext();
         break;
       default:
-        lookAtAll(next_);
-        ++work_;
-        if (++next_ == bins_.size()) phase_ = Phase::done;
+        lookAtAll(progress_.next);
+        ++progress_.work;
+        if (++progress_.next == bins_.size()) progress_.phase = Phase::done;
     }
   return isDone();
 }
 
 void Horizon::testNext() {
-  if (constexpr std::size_t kAhead = 8; next_ + kAhead < order_.size())
-    __builtin_prefetch(&outlines_[order_[next_ + kAhead]]);
-  const Outline& outline = outlines_[order_[next_]];
-  ++work_;
+  if (constexpr std::size_t kAhead = 8; progress_.next + kAhead < order_.size())
+    __builtin_prefetch(&outlines_[order_[progress_.next + kAhead]]);
+  const Outline& outline = outlines_[order_[progress_.next]];
+  ++progress_.work;
   if (outline.tile != kNone) test(outline);
-  if (++next_ < order_.size()) return;
-  phase_ = settings_.whole ? Phase::finish : Phase::done;
-  next_ = 0;
-  ring_ = kRings;
+  if (++progress_.next < order_.size()) return;
+  progress_.phase = settings_.whole ? Phase::finish : Phase::done;
+  progress_.next = 0;
+  progress_.ring = kRings;
 }
 
 void Horizon::test(const Outline& outline) {
-  ring_ = outline.ring;
+  progress_.ring = outline.ring;
   nearest_ = outline.nearest;
   off_ = outline.off;
   beside_ = outline.beside;

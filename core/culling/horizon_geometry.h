@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "horizon_kernels.h"
-#include "trimtab/frame/terrain_index.h"
 
 /// Constants and small functions that the parts of the horizon share.
 namespace trimtab::horizon {

@@ -79,7 +79,7 @@ bool Horizon::isHidden(const TileRelief& relief) {
   for (const TileRelief::Part& part : relief.parts)
     if (!isPointBlocked(part.peak[0] + offset_[0], part.peak[1] + offset_[1], part.peak[2] + offset_[2]))
       return false;
-  work_ += relief.parts.size();
+  progress_.work += relief.parts.size();
   for (const TileRelief::Part& part : relief.parts)
     if (!isBoxHidden(part.box) && !isPartHidden(part)) return false;
   return true;
@@ -117,7 +117,7 @@ bool Horizon::isHidden(const MeshRelief& relief) {
                         relief.z[peak] + offset_[2]))
       return false;
   }
-  work_ += relief.parts.size();
+  progress_.work += relief.parts.size();
   for (const MeshRelief::Part& part : relief.parts)
     if (!isBoxHidden(part.box) && !isPartHidden(relief, part)) return false;
   return true;

@@ -95,7 +95,7 @@ bool Horizon::lift(int side, int column, float w) {
     const Raiser& raiser = bin[k];
     if (!(raiser.top > worth && raiser.first <= column && column <= raiser.last)) continue;
     Waiting& lines = waiting_[raiser.waiting];
-    if (lines.count > 0 && lines.ring < ring_) any = look(lines, side) || any;
+    if (lines.count > 0 && lines.ring < progress_.ring) any = look(lines, side) || any;
     if (lines.count > 0) stays = std::max(stays, raiser.top);
   }
   if (any) tidy(number);
@@ -132,7 +132,7 @@ void Horizon::lookAtAll(std::size_t number) {
   for (std::size_t k = bin.size(); k-- > 0;) {
     const Raiser& raiser = bin[k];
     Waiting& lines = waiting_[raiser.waiting];
-    if (lines.count == 0 || lines.ring >= ring_) continue;
+    if (lines.count == 0 || lines.ring >= progress_.ring) continue;
     const int from = std::max(first, int{raiser.first}), count = std::min(last, int{raiser.last}) - from + 1;
     if (kernel.firstNotAbove(profile_.data() + at(side, from), count, raiser.top) < count) look(lines, side);
   }
@@ -146,8 +146,8 @@ bool Horizon::look(Waiting& waiting, int side) {
   for (; waiting.count > 0; --waiting.count, waiting.line += waiting.step) {
     take(lines, waiting.line);
     waiting.ring = ringOfLine(lines.besideM);
-    if (waiting.ring >= ring_) break;
-    ++work_;
+    if (waiting.ring >= progress_.ring) break;
+    ++progress_.work;
     raiseLine(side, lines.besideM, lines.nearest);
     any = true;
   }

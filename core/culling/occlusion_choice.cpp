@@ -49,10 +49,6 @@ double OcclusionChoice::worth(std::size_t arm) const {
   return arm == 0 || !a.known ? 0 : msPerTriangle() * a.share * inView_ - a.costMs;
 }
 
-double OcclusionChoice::worthMs(Method method) const {
-  return worth(armOf(method));
-}
-
 double OcclusionChoice::startMs(std::size_t arm) const {
   return std::max(0.0, arms_[arm].firstMs - arms_[arm].costMs);
 }

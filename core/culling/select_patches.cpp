@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gather_cut.h"
 #include "trimtab/culling/box_distance.h"
-#include "visible_walk.h"
 
 namespace trimtab {
 namespace {
@@ -186,12 +186,6 @@ void selectPatches(const PatchIndex& index, std::span<const std::uint8_t> reside
   for (const TileDraw& tile : cut.cut.tiles)
     cut.cut.triangles.push_back(index.triangles[tile.node][tile.variant.number]);
   gatherCut(index.bounds, index.cones, cut.cut);
-}
-
-void selectVisiblePatches(const PatchIndex&, const LevelCut& cut, const EyePose& eye, const ViewShape& view,
-                          bool test, VisibleSet& visible, double farM, std::span<const std::uint8_t> hidden,
-                          bool backFaces) {
-  walkCut(cut, eye, view, test, farM, hidden, backFaces, visible);
 }
 
 }  // namespace trimtab

@@ -6,7 +6,6 @@
 #include "trimtab/culling/box_distance.h"
 #include "trimtab/culling/frustum.h"
 #include "trimtab/culling/select.h"
-#include "visible_walk.h"
 
 namespace trimtab {
 namespace {
@@ -14,11 +13,8 @@ namespace {
 constexpr std::size_t kBlock = BoxArrays::kBlock;
 constexpr std::uint64_t kAll = ~std::uint64_t{0};
 
-/// Returns the vertices of so many tiles with so many triangles. A border stitched to a coarser neighbour
-/// leaves out as many vertices as triangles.
-std::uint64_t tileVertices(std::uint64_t triangles, std::size_t tiles) {
-  constexpr std::uint64_t kCells = TerrainIndex::kTileCells;
-  return triangles + tiles * (kCells + 1) * (kCells + 1) - tiles * 2 * kCells * kCells;
+std::uint64_t firstBits(std::size_t count) {
+  return count < 64 ? (std::uint64_t{1} << count) - 1 : kAll;
 }
 
 template <class Visit>
@@ -42,20 +38,19 @@ std::uint64_t bitsOf(const std::uint8_t* bytes, std::size_t count) {
 
 class Walk {
  public:
-  Walk(const LevelCut& cut, const EyePose& eye, double farM, std::span<const std::uint8_t> hidden,
-       bool backFaces, VisibleSet& visible)
+  Walk(const LevelCut& cut, const VisibleQuery& query, VisibleSet& visible)
       : cut_(cut),
-        eye_(eye.position),
-        farM_(farM),
-        reach_(std::max(farM, 0.0)),
-        hidden_(hidden.size() >= cut.tiles.size() ? hidden : std::span<const std::uint8_t>{}),
-        backFaces_(backFaces && cut.cones.size() == cut.tiles.size()),
+        eye_(query.eye.position),
+        farM_(query.cull ? query.farM : std::numeric_limits<double>::infinity()),
+        reach_(std::max(farM_, 0.0)),
+        hidden_(query.hidden.size() >= cut.tiles.size() ? query.hidden : std::span<const std::uint8_t>{}),
+        backFaces_(query.cull && query.backFaces && cut.cones.size() == cut.tiles.size()),
         visible_(visible) {}
 
   /// Adds a block's tiles. `shown` has a bit for each tile in the frustum.
   void block(std::size_t block, std::uint64_t shown) {
     const std::size_t first = block * kBlock, count = std::min(kBlock, cut_.tiles.size() - first);
-    const std::uint64_t whole = count < kBlock ? (std::uint64_t{1} << count) - 1 : kAll;
+    const std::uint64_t whole = firstBits(count);
     visible_.outsideFrustum -= static_cast<std::size_t>(std::popcount(shown));
     if (farM_ < std::numeric_limits<double>::infinity())
       take(CullReason::beyond_visibility, visible_.beyondVisibility, first, shown, beyond(block, shown));
@@ -77,7 +72,7 @@ class Walk {
       const auto from = static_cast<unsigned>(std::countr_zero(shown)),
                  length = static_cast<unsigned>(std::countr_one(shown >> from));
       append(first + from, first + from + length);
-      shown &= ~(length == kBlock ? kAll : ((std::uint64_t{1} << length) - 1) << from);
+      shown &= ~(firstBits(length) << from);
     }
   }
 
@@ -156,49 +151,47 @@ void clear(const LevelCut& cut, VisibleSet& visible) {
 
 }  // namespace
 
-void walkCut(const LevelCut& cut, const EyePose& eye, const ViewShape& view, bool test, double farM,
-             std::span<const std::uint8_t> hidden, bool backFaces, VisibleSet& visible) {
+void selectVisible(const LevelCut& cut, const VisibleQuery& query, VisibleSet& visible) {
   clear(cut, visible);
   visible.outsideFrustum = cut.tiles.size();
   visible.reason.assign(cut.tiles.size(), CullReason::outside_frustum);
-  Walk walk(cut, eye, test ? farM : std::numeric_limits<double>::infinity(), hidden, test && backFaces,
-            visible);
-  const Frustum frustum(eye, view);
+  Walk walk(cut, query, visible);
+  const Frustum frustum(query.eye, query.view);
   // The blocks' boxes are tested first, because most blocks are wholly outside or inside.
   const BlockTest ofBlocks(cut.blockBoxes, frustum), ofTiles(cut.boxes, frustum);
   for (std::size_t group = 0; group < ofBlocks.blocks(); ++group) {
     const std::size_t first = group * kBlock, count = std::min(kBlock, cut.blockBoxes.size() - first);
-    const std::uint64_t some = test             ? ofBlocks(group)
-                               : count < kBlock ? (std::uint64_t{1} << count) - 1
-                                                : kAll,
-                        all = test ? ofBlocks.wholly(group) : some;
+    const std::uint64_t some = query.cull ? ofBlocks(group) : firstBits(count),
+                        all = query.cull ? ofBlocks.wholly(group) : some;
     forEachBit(some, [&](std::size_t i) {
-      const std::size_t tiles = std::min(kBlock, cut.tiles.size() - (first + i) * kBlock);
       const bool inside = (all >> i & 1) != 0;
-      walk.block(first + i, !inside           ? ofTiles(first + i)
-                            : tiles == kBlock ? kAll
-                                              : (std::uint64_t{1} << tiles) - 1);
+      const std::size_t tiles = std::min(kBlock, cut.tiles.size() - (first + i) * kBlock);
+      walk.block(first + i, inside ? firstBits(tiles) : ofTiles(first + i));
     });
   }
   walk.flush();
 }
 
-void selectVisible(const TerrainIndex&, const LevelCut& cut, const EyePose& eye, const ViewShape& view,
-                   bool test, VisibleSet& visible, double farM, std::span<const std::uint8_t> hidden,
-                   bool backFaces) {
-  walkCut(cut, eye, view, test, farM, hidden, backFaces, visible);
-  visible.vertices = tileVertices(visible.triangles, visible.tiles.size());
-}
-
 void removeOccluded(const LevelCut& cut, std::span<const std::uint8_t> flags, VisibleSet& visible) {
-  removeFlagged(flags, visible,
-                [&](std::size_t place, TileDraw) { visible.triangles -= cut.triangles[place]; });
+  std::size_t kept = 0, place = 0;
+  for (std::size_t i = 0; i < visible.tiles.size(); ++i, ++place) {
+    while (visible.reason[place] != CullReason::drawn) ++place;
+    if (i >= flags.size() || flags[i] == 0) {
+      visible.tiles[kept++] = visible.tiles[i];
+      continue;
+    }
+    const bool hidden = flags[i] == 1;
+    visible.reason[place] = hidden ? CullReason::occluded : CullReason::outside_frustum;
+    ++(hidden ? visible.occluded : visible.outsideFrustum);
+    visible.triangles -= cut.triangles[place];
+  }
+  visible.tiles.resize(kept);
 }
 
-void removeOccluded(const TerrainIndex&, std::span<const std::uint8_t> flags, VisibleSet& visible) {
-  removeFlagged(flags, visible,
-                [&](std::size_t, TileDraw tile) { visible.triangles -= tileTriangles(tile); });
-  visible.vertices = tileVertices(visible.triangles, visible.tiles.size());
+std::uint64_t tileVertices(const VisibleSet& visible) {
+  // A border stitched to a coarser neighbour leaves out as many vertices as triangles.
+  constexpr std::uint64_t kCells = TerrainIndex::kTileCells;
+  return visible.triangles + visible.tiles.size() * ((kCells + 1) * (kCells + 1) - 2 * kCells * kCells);
 }
 
 }  // namespace trimtab

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -11,30 +10,30 @@
 
 namespace trimtab::scene {
 
-/// What the graph calls back to, in the order of a frame; raw GL is allowed inside. Each gets the program in
+/// What the graph calls, in the order of a frame; raw GL is allowed inside. Each call gets the program in
 /// use.
 struct ScenePasses {
   using Call = std::function<void(unsigned program)>;
-  Call begin;      ///< OSG's cull is done, nothing is drawn yet
-  Call occluders;  ///< into the depth map
-  Call reduce;     ///< the depth map's pyramid
-  Call test;       ///< tiles against the depth map; afterwards the visible set stands
+  Call begin;      ///< OSG's cull is done and nothing is drawn yet
+  Call occluders;  ///< draws into the depth map
+  Call reduce;     ///< builds the depth map's pyramid
+  Call test;       ///< tests tiles against the depth map; completes the visible set
   // Of the form that the view names, with its shaders.
   Call surface;
   Call wire;                         ///< the same again as lines
-  Call numbers;                      ///< the same again, for which node each pixel shows
+  Call numbers;                      ///< the same again, as the number of the node
   Call treePicture;                  ///< document E's picture of static trees
   Call lines;                        ///< overlay lines
-  Call beforeWeather, afterWeather;  ///< around what falls, where something does
+  Call beforeWeather, afterWeather;  ///< around precipitation, if there is any
 };
 
-/// The depth map's side of a frame.
+/// The view of the depth map that GL draws.
 struct DepthView {
   EyePose eye;  ///< the main view's, or the frozen one
   int widthPx = 0, heightPx = 0;
   int levels = 0, tiles = 0;
-  double loweringScale = 1;  ///< less than 1 is wrong: for the test that sees the picture break
-  int shiftTexels = 0;       ///< not 0 is wrong likewise: where the map is read
+  double loweringScale = 1;  ///< less than 1 is wrong; tests see the image break
+  int shiftTexels = 0;       ///< not 0 is wrong likewise
 };
 
 /// A frame's view as the graph's uniforms and matrices need it.
@@ -45,32 +44,32 @@ struct SceneView {
   ViewShape shape;
   int guardBand = 1;  ///< guard_band.h
   std::optional<DepthView> depth;
-  /// An eye over the ground and above it never sees its underside: triangles that face away are dropped,
-  /// which saves a third of the frame. In every culling case, since guard_band.h says what it may change.
+  /// Drops triangles that face away, which saves a third of the frame, because an eye above the ground never
+  /// sees its underside. This holds in every culling case; guard_band.h says what it may change.
   bool oneSided = false;
   /// FrameRequest::exactSlivers on a software rasteriser: the steps of its grid per pixel; else 0.
   int gridStepsPerPixel = 0;
   bool sky = true, tinted = false, wireframe = false, lines = false;
-  std::optional<TerrainForm> form;  ///< of the terrain that is drawn; none: no terrain
-  bool treePicture = false;         ///< instead of the trees' surface
-  /// The node pass instead of a picture: nothing but terrain, as numbers; the framebuffer's colour was
-  /// cleared by whoever made it.
+  std::optional<TerrainForm> form;  ///< of the terrain that is drawn; unset without terrain
+  bool treePicture = false;         ///< drawn instead of the trees' surface
+  /// Draws the node pass instead of an image: terrain as numbers, and nothing else. The caller has cleared
+  /// the framebuffer's colour.
   bool nodes = false;
   Air air;
   double heightM = 0;  ///< of the eye above mean sea level
   std::optional<PrecipitationView> precipitation;
 };
 
-/// The OSG side of the renderer: viewer, cameras, state and shaders. Drawing itself is in the passes.
+/// The OSG side of the renderer: viewer, cameras, state and shaders. The passes do the drawing.
 class SceneGraph {
  public:
   explicit SceneGraph(ScenePasses passes);
-  /// The context is current: frees OSG's GL objects.
+  /// Frees OSG's GL objects; the context must be current.
   ~SceneGraph();
   SceneGraph(const SceneGraph&) = delete;
   SceneGraph& operator=(const SceneGraph&) = delete;
 
-  /// One frame into the framebuffer that is bound, which is `fbo`.
+  /// Draws one frame into the framebuffer that is bound, which is `fbo`.
   void frame(const SceneView& view, unsigned fbo);
 
  private:

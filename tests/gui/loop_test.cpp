@@ -201,6 +201,52 @@ TEST_F(WorkbenchLoop, theImageGeneratorDecidesAlikeFromTheExportAndReplaysTheTra
   }
 }
 
+/// The follower is built as its users build: from its own folder, against nothing but an installed library.
+TEST_F(WorkbenchLoop, aProgramOutsideTheTreeWritesTheTraceOfTheWorkbench) {
+  ScratchDir dir;
+  const std::string prefix = (dir / "prefix").string(), build = (dir / "build").string();
+  const Ran built = run("cmake --install " TRIMTAB_BUILD_DIR " --component core --prefix " + prefix +
+                        " && cmake -S " + (sourceDir() / "tests/core/install/follower").string() + " -B " +
+                        build + " -G Ninja -DCMAKE_PREFIX_PATH=" + prefix + " && cmake --build " + build);
+  ASSERT_EQ(built.exitCode, 0) << built.out << built.err;
+  ASSERT_TRUE(w().draft().setText("fuzzy.hysteresis", "0.02").empty());
+  ASSERT_TRUE(w().controllers().document->exportTo(QString::fromStdString((dir / "export.json").string()),
+                                                   ExportFormat::json, "test", "follower"));
+  QProcess follower;
+  follower.start(QString::fromStdString(build + "/follower"),
+                 {QString::fromStdString((dir / "export.json").string()),
+                  QString::fromStdString((dir / "theirs.csv").string())});
+  ASSERT_TRUE(waitFor([&] { return follower.canReadLine(); }))
+      << follower.readAllStandardError().toStdString();
+  const std::uint16_t theirPort = follower.readLine().trimmed().toUShort(), ownPort = listen();
+  ASSERT_TRUE(w().controllers().trace->start(QString::fromStdString((dir / "own.csv").string())));
+  {
+    Tee tee(ownPort, theirPort);
+    const auto host = play(tee.port(), climb(3500), 40);
+    ASSERT_TRUE(waitFor([&] { return host->finished(); }));
+  }
+  ASSERT_TRUE(waitFor([&] { return follower.state() == QProcess::NotRunning; }));
+  ASSERT_EQ(follower.exitCode(), 0) << follower.readAllStandardError().toStdString();
+  w().controllers().trace->stop();
+
+  const auto own = readTrace(dir / "own.csv"), theirs = readTrace(dir / "theirs.csv");
+  ASSERT_TRUE(own && theirs) << toString(own.findings()) << toString(theirs.findings());
+  std::map<std::uint64_t, const TraceRow*> byPacket;
+  for (const TraceRow& row : *theirs) byPacket[row.input.state.packet] = &row;
+  std::size_t joined = 0;
+  for (const TraceRow& row : *own) {
+    const auto match = byPacket.find(row.input.state.packet);
+    if (match == byPacket.end()) continue;
+    ++joined;
+    ASSERT_EQ(row.decision, match->second->decision) << "packet " << row.input.state.packet;
+    ASSERT_EQ(row.before, match->second->before) << "packet " << row.input.state.packet;
+    ASSERT_EQ(row.input.state.position, match->second->input.state.position);
+    ASSERT_EQ(row.input.state.attitude, match->second->input.state.attitude);
+  }
+  EXPECT_GT(joined, 300u);
+  EXPECT_GE(joined * 10, own->size() * 9) << "both heard nearly all";
+}
+
 TEST_F(WorkbenchLoop, aHostThatFallsSilentIsSaidAndCostsNothing) {
   {
     const auto host = play(listen(), climb(4500));

@@ -7,8 +7,8 @@ class QWidget;
 
 namespace trimtab::views {
 
-/// Where to write; a name without an ending gets .csv, and a file that exists is asked about under that name.
-/// Empty when the question was cancelled.
+/// Asks for a file to write. A name without an ending gets .csv before it is checked whether the file exists.
+/// Returns an empty text if the person cancels.
 QString askCsvFile(QWidget* parent, const QString& title, const QString& proposal);
 
 }  // namespace trimtab::views

@@ -7,7 +7,7 @@
 
 namespace trimtab::views {
 
-/// Named values as horizontal bars, one a line.
+/// Shows named values as horizontal bars, one per line.
 class BarList : public QWidget {
   Q_OBJECT
  public:
@@ -16,9 +16,9 @@ class BarList : public QWidget {
     double value = 0;
     double top = 1;
     QString text;               ///< beside the bar
-    std::vector<double> ticks;  ///< places worth seeing, such as band edges
-    int colour = 0;             ///< of seriesColour
-    bool quiet = false;         ///< computed, but not used now
+    std::vector<double> ticks;  ///< marks, such as band edges
+    int colour = 0;             ///< index for seriesColour
+    bool quiet = false;         ///< drawn grey: computed, but not in use
     friend bool operator==(const Bar&, const Bar&) = default;
   };
 

@@ -7,18 +7,12 @@
 
 namespace trimtab::views {
 
-namespace {
-QString text(std::string_view s) {
-  return QString::fromUtf8(s.data(), static_cast<qsizetype>(s.size()));
-}
-}  // namespace
-
 ChoiceBox::ChoiceBox(Draft& draft, std::string_view key, QWidget* parent) : QComboBox(parent) {
   const ParameterRow* row = findRow(key);
   Q_ASSERT(row && row->kind == Kind::choice);
-  for (const ChoiceOption& option : row->choices) addItem(text(option.label));
+  for (const ChoiceOption& option : row->choices) addItem(fromView(option.label));
   setFocusPolicy(Qt::StrongFocus);
-  setAccessibleName(text(row->label));
+  setAccessibleName(fromView(row->label));
   setToolTip(helpText(*row));
   setSizeAdjustPolicy(QComboBox::AdjustToContents);
   setMinimumContentsLength(8);
@@ -44,9 +38,9 @@ void ChoiceBox::wheelEvent(QWheelEvent* event) {
 
 QString helpText(const ParameterRow& row) {
   QString html = QStringLiteral("<p><b>%1</b></p><p>%2</p>")
-                     .arg(text(row.label).toHtmlEscaped(), text(row.help).toHtmlEscaped());
-  if (!row.source.empty()) html += QObject::tr("<p>Source: %1</p>").arg(text(row.source).toHtmlEscaped());
-  const QString unit = row.unit.empty() ? QString() : QStringLiteral(" ") + text(row.unit);
+                     .arg(fromView(row.label).toHtmlEscaped(), fromView(row.help).toHtmlEscaped());
+  if (!row.source.empty()) html += QObject::tr("<p>Source: %1</p>").arg(fromView(row.source).toHtmlEscaped());
+  const QString unit = row.unit.empty() ? QString() : QStringLiteral(" ") + fromView(row.unit);
   const auto range = [&](const Range& r) {
     return QObject::tr("%1 to %2%3").arg(numberText(r.low, 9), numberText(r.high, 9), unit);
   };
@@ -56,7 +50,7 @@ QString helpText(const ParameterRow& row) {
       html += QObject::tr("; usual: %1").arg(range(row.usual));
     html += QStringLiteral("</p>");
   }
-  html += QStringLiteral("<p><code>%1</code></p>").arg(text(row.key));
+  html += QStringLiteral("<p><code>%1</code></p>").arg(fromView(row.key));
   return html;
 }
 

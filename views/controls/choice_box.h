@@ -7,7 +7,7 @@
 
 namespace trimtab::views {
 
-/// A combo box of a choice parameter. The wheel does not change it unless it has the focus.
+/// A combo box for a choice parameter. The wheel changes it only while it has the focus.
 class ChoiceBox : public QComboBox {
   Q_OBJECT
  public:
@@ -17,7 +17,7 @@ class ChoiceBox : public QComboBox {
   void wheelEvent(QWheelEvent* event) override;
 };
 
-/// Tool tip of a row: help, source and range, as rich text.
+/// Returns the tool tip of a row as rich text: help, source and range.
 QString helpText(const ParameterRow& row);
 
 }  // namespace trimtab::views

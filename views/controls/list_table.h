@@ -11,17 +11,17 @@ class QToolButton;
 
 namespace trimtab::views {
 
-/// The table of a short list that an editor edits by typing: one row is selected, columns share the width and
-/// are at least as wide as `sample`. Tab leaves the table.
+/// A table for a short list that is edited by typing. One row is selected; columns share the width and are at
+/// least as wide as `sample`. Tab leaves the table.
 void setUpListTable(QTableView& table, QAbstractItemModel* model, const QString& name, const QString& sample);
 
-/// The buttons below such a table, in a row.
+/// A row of buttons below such a table.
 class ListButtons : public QWidget {
  public:
   explicit ListButtons(QWidget* parent = nullptr);
-  /// `tip` says what it does and its key; it is the accessible name too.
+  /// Adds a button. `tip` says what it does and its key, and is its accessible name too.
   QToolButton* add(const QString& text, const QString& tip);
-  /// What follows stands at the other end.
+  /// Puts the following buttons at the other end.
   void addSpace();
 
  private:

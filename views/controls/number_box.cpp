@@ -13,10 +13,6 @@ namespace trimtab::views {
 
 namespace {
 
-QString fromView(std::string_view s) {
-  return QString::fromUtf8(s.data(), static_cast<qsizetype>(s.size()));
-}
-
 /// Text in the person's locale as the table's C locale text.
 std::string inC(const QString& typed) {
   QString text = typed.trimmed();

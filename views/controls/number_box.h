@@ -7,9 +7,9 @@
 
 namespace trimtab::views {
 
-/// A spin box of a scalar parameter: limits, step, decimals and unit from its row. Reads what the table
-/// reads, so "1200 m" becomes feet; writes one undo step when the typing is done. The wheel does nothing
-/// without the focus.
+/// A spin box for a scalar parameter, with limits, step, decimals and unit from its row. It reads what the
+/// table reads, so that "1200 m" becomes feet, and writes one undo step when the person has finished typing.
+/// The wheel changes it only while it has the focus.
 class NumberBox : public QDoubleSpinBox {
   Q_OBJECT
  public:
@@ -36,7 +36,7 @@ class NumberBox : public QDoubleSpinBox {
 
   Draft& draft_;
   const ParameterRow* row_;
-  MergeToken stepToken_ = 0;  ///< of an arrow held down, or the wheel turned on
+  MergeToken stepToken_ = 0;  ///< joins the steps while an arrow is held down or the wheel is turned
 };
 
 }  // namespace trimtab::views

@@ -18,10 +18,6 @@ namespace trimtab::views {
 
 namespace {
 
-QString fromView(std::string_view s) {
-  return QString::fromUtf8(s.data(), static_cast<qsizetype>(s.size()));
-}
-
 QString valueText(const ParameterRow& row, const ParameterValue& value) {
   switch (row.kind) {
     case Kind::flag:

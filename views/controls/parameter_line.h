@@ -14,12 +14,12 @@ class QWidget;
 
 namespace trimtab::views {
 
-/// One row of the parameter panel: changed mark and label, editor by kind, default, reset, and what is wrong
-/// with it.
+/// One row of a parameter panel: changed mark and label, editor for its kind, default, reset button and
+/// findings.
 class ParameterLine : public QObject {
   Q_OBJECT
  public:
-  /// Fills two grid rows from `gridRow` on; its widgets belong to the grid's widget.
+  /// Fills two rows of the grid from `gridRow` on. Its widgets belong to the grid's widget.
   ParameterLine(Draft& draft, const ParameterRow& row, QGridLayout& grid, int gridRow);
 
   const ParameterRow& row() const { return row_; }
@@ -28,14 +28,14 @@ class ParameterLine : public QObject {
   QString problem() const;
   bool matches(const QString& search) const;
   void setVisible(bool visible);
-  /// In a narrow dock the default is left to the tool tips.
+  /// In a compact line, for a narrow dock, only the tool tips show the default.
   void setCompact(bool compact);
   bool isVisible() const { return visible_; }
   void refresh();
   void clearRefusal() { refusal_.clear(); }
 
  signals:
-  void editorAsked(const QString& key);  ///< of a curve, bands or rules
+  void editorAsked(const QString& key);  ///< the person wants the editor of a curve, bands or rules
 
  private:
   QWidget* makeEditor();
@@ -44,7 +44,8 @@ class ParameterLine : public QObject {
   Draft& draft_;
   const ParameterRow& row_;
   QLabel *label_, *default_, *problem_;
-  QWidget *editor_, *field_;  ///< the editor itself; what stands in the grid (editor and slider or button)
+  QWidget *editor_,
+      *field_;  ///< the editor, and the widget in the grid that holds it and its slider or button
   QToolButton* reset_;
   QString refusal_;
   struct State {

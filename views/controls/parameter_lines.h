@@ -11,12 +11,12 @@ namespace trimtab::views {
 
 class ParameterLine;
 
-/// Some parameters in a dock of their matter, as compact lines that follow the draft.
+/// Compact lines for some parameters in a dock, which follow the draft.
 class ParameterLines : public QWidget {
   Q_OBJECT
  public:
   ParameterLines(Draft& draft, std::span<const char* const> keys);
-  /// All whose key begins so.
+  /// Adds all parameters whose key begins so.
   ParameterLines(Draft& draft, std::string_view prefix);
 
  private:

@@ -26,9 +26,7 @@ ParameterSlider::ParameterSlider(Draft& draft, std::string_view key, QWidget* pa
                     : std::clamp(static_cast<int>(std::ceil(kPositions / steps)), 1, kPositions / 10));
   setFocusPolicy(Qt::StrongFocus);
   setMinimumWidth(40);
-  setAccessibleName(
-      tr("%1, slider")
-          .arg(QString::fromUtf8(row_->label.data(), static_cast<qsizetype>(row_->label.size()))));
+  setAccessibleName(tr("%1, slider").arg(fromView(row_->label)));
   setToolTip(helpText(*row_));
   read();
   connect(&draft_, &Draft::valueChanged, this, [this](const QString& changed) {

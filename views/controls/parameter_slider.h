@@ -7,7 +7,7 @@
 
 namespace trimtab::views {
 
-/// A slider over a row's usual range, exponential where the row says so. One undo step a drag.
+/// A slider over a row's usual range, exponential if the row says so. A drag is one undo step.
 class ParameterSlider : public QSlider {
   Q_OBJECT
  public:

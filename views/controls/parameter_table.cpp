@@ -21,7 +21,7 @@ namespace {
 
 QString groupOf(std::string_view key) {
   const std::string_view first = key.substr(0, key.find('.'));
-  QString name = QString::fromUtf8(first.data(), static_cast<qsizetype>(first.size()));
+  QString name = fromView(first);
   if (name == QStringLiteral("fuzzy")) return QObject::tr("Fuzzy decision");
   if (name == QStringLiteral("lod")) return QObject::tr("Level of detail");
   if (!name.isEmpty()) name[0] = name[0].toUpper();

@@ -18,7 +18,7 @@ namespace trimtab::views {
 
 class ParameterLine;
 
-/// The Preset dock: every row of the parameter table with its editor, made from the table alone.
+/// The Preset dock: every parameter with its editor, made from the table alone.
 class ParameterTable : public QWidget {
   Q_OBJECT
  public:
@@ -27,12 +27,12 @@ class ParameterTable : public QWidget {
   QLineEdit& search() { return *search_; }
   QComboBox& tier() { return *tier_; }
   QCheckBox& changedOnly() { return *changedOnly_; }
-  /// Null where there is no such key.
+  /// Returns the line of a key; null if there is none.
   ParameterLine* line(std::string_view key) const;
   std::vector<std::string_view> visibleKeys() const;
 
  signals:
-  void editorAsked(const QString& key);  ///< the editor that a curve, bands or rules have of their own
+  void editorAsked(const QString& key);  ///< the person wants the editor of a curve, bands or rules
 
  protected:
   void resizeEvent(QResizeEvent* event) override;

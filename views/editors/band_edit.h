@@ -7,22 +7,22 @@
 
 namespace trimtab::views {
 
-/// Smallest distance between band edges, and from the scale's ends: what the editors show and type.
+/// The smallest distance between band edges, and from the scale's ends: the last digit that editors show.
 inline constexpr double kEdgeGap = 0.01;
 
-/// Where the lower edge of a band may lie: between its neighbours' edges, within the scale.
+/// Returns where the lower edge of a band may lie: between its neighbours' edges, within the scale.
 Range freeEdgeRange(const BandList& bands, std::size_t index);
 BandList withEdge(const BandList& bands, std::size_t index, double low);
 struct InsertedBand {
   BandList bands;
   std::size_t index = 0;
 };
-/// A band from `low` up, with the size of the band that it splits. None: the list is full or there is no
-/// room.
+/// Returns the bands with a new one from `low` up, which has the size of the band that it splits; nothing if
+/// the list is full or there is no room.
 std::optional<InsertedBand> withBand(const BandList& bands, double low);
-/// None: one band must stay.
+/// Returns the bands without one; nothing if it is the only one.
 std::optional<BandList> withoutBand(const BandList& bands, std::size_t index);
-/// The upper edge of a band; the scale's top for the last.
+/// Returns the upper edge of a band; the scale's top for the last.
 double highOf(const BandList& bands, std::size_t index);
 
 }  // namespace trimtab::views

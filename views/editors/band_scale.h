@@ -10,8 +10,8 @@
 
 namespace trimtab::views {
 
-/// The scale of the total membership, 0 to 2, cut into bands: edges are dragged or nudged, hysteresis is
-/// shaded on both sides of each, and the live total rides along.
+/// The scale of the total membership, 0 to 2, with its bands. Edges are dragged or moved by keys; the
+/// hysteresis is shaded on both sides of each edge, and the live total is marked.
 class BandScale : public QWidget {
   Q_OBJECT
  public:
@@ -21,10 +21,10 @@ class BandScale : public QWidget {
   int selected() const { return selected_; }
   void select(int index);
   void addBand(double low);
-  /// In the middle of the selected band.
+  /// Adds a band in the middle of the selected one.
   void addBandInSelected();
   void removeSelected();
-  /// Where a total lies, in this widget's coordinates.
+  /// Returns where a total lies, in this widget's coordinates.
   QPointF pixelOf(double total) const;
 
   QSize sizeHint() const override;

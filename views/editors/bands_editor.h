@@ -18,7 +18,7 @@ class BandsModel;
 class DepthMapInset;
 class Throttle;
 
-/// The Depth map dock: bands by draggable edges, their sizes, hysteresis, and the live depth map.
+/// The Depth map dock: bands with edges to drag, their sizes, the hysteresis, and the live depth map.
 class BandsEditor : public QWidget {
   Q_OBJECT
  public:
@@ -28,7 +28,7 @@ class BandsEditor : public QWidget {
   void showFrame(const LiveFrame& frame);
 
  public slots:
-  /// The live depth map; `caption` says its size, near and far.
+  /// Shows the live depth map; `caption` says its size and what black and white mean.
   void showDepthMap(const QImage& image, const QString& caption);
   void clearDepthMap();
 

@@ -15,7 +15,7 @@ namespace trimtab::views {
 
 class CurvePlot;
 
-/// One membership curve: its reading, the plot, and the breakpoints as typed values.
+/// Edits one membership curve: its reading, the plot, and a table of the breakpoints.
 class CurveEditor : public QWidget {
   Q_OBJECT
  public:
@@ -37,7 +37,7 @@ class CurveEditor : public QWidget {
   QString refusal_;
 };
 
-/// The Memberships dock: altitude over pitch.
+/// The Memberships dock: the curve of altitude above that of pitch.
 class MembershipEditor : public QWidget {
   Q_OBJECT
  public:

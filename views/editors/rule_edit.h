@@ -9,22 +9,23 @@
 
 namespace trimtab::views {
 
-/// As people read the conditions, in the enumerations' order: "Any", "Low", "High".
+/// Returns the conditions as people read them, in the enumerations' order: "Any", "Low", "High".
 QStringList altitudeConditions();
 QStringList pitchConditions();
-/// "Low, nose down"; "Always" for a rule without conditions.
+/// Returns the conditions of a rule, such as "Low, nose down"; "Always" for a rule without any.
 QString ruleLabel(const FuzzyRule& rule);
 
 struct InsertedRule {
   RuleList rules;
   std::size_t index = 0;
 };
-/// A rule behind `after` (none: at the end). None: the list is full.
+/// Returns the list with a rule inserted behind `after`, or at the end without it; nothing if the list is
+/// full.
 std::optional<InsertedRule> withRule(const RuleList& rules, std::optional<std::size_t> after,
                                      const FuzzyRule& rule);
-/// None: one rule must stay.
+/// Returns the list without one rule; nothing if it is the only one.
 std::optional<RuleList> withoutRule(const RuleList& rules, std::size_t index);
-/// The rule one place up (-1) or down (+1). None: it is at that end.
+/// Returns the list with a rule moved up (-1) or down (+1) by one; nothing if it is at that end.
 std::optional<RuleList> withRuleMoved(const RuleList& rules, std::size_t index, int by);
 
 }  // namespace trimtab::views

@@ -9,15 +9,16 @@
 
 namespace trimtab::views {
 
-/// Eq. (2) at work in the last frame: of each rule its conditions' memberships, how far it fires (mu), its
-/// part of the weights (lambda mu) and its output, and the total that comes of them. By the memberships of
-/// the frame and the active rules, whatever the combination.
+/// Shows Eq. (2) for the last frame: for each rule its conditions' memberships, how far it fires (mu), its
+/// share of the weights (lambda mu) and its output, and the total. It uses the frame's memberships and the
+/// active rules, whatever the combination.
 class RuleViewer : public QWidget {
   Q_OBJECT
  public:
   explicit RuleViewer(Draft& draft, QWidget* parent = nullptr);
   void showFrame(const LiveFrame& frame);
-  /// What is drawn, a line each: "Low, nose down: 1.000, 0.500, fires 0.500, counts 0.500, output 2".
+  /// Returns what is drawn, one line per rule: "Low, nose down: 1.000, 0.500, fires 0.500, counts 0.500,
+  /// output 2".
   QStringList lines() const;
 
   QSize sizeHint() const override;

@@ -15,15 +15,15 @@ namespace trimtab::views {
 
 class RulesModel;
 
-/// The rule base of Eq. (2): conditions by combo boxes, weight and output typed, rules added, copied, removed
-/// and moved. Each is one undo step.
+/// Edits the rule base of Eq. (2): conditions in combo boxes, weight and output typed; rules are added,
+/// copied, removed and moved. Each edit is one undo step.
 class RulesEditor : public QWidget {
   Q_OBJECT
  public:
   explicit RulesEditor(Draft& draft, QWidget* parent = nullptr);
   QTableView& table() { return *table_; }
   QString note() const;
-  /// Index of the selected rule; -1: none.
+  /// Returns the index of the selected rule; -1 for none.
   int selected() const;
 
  public slots:

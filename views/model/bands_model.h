@@ -7,7 +7,7 @@
 
 namespace trimtab::views {
 
-/// The depth-map bands as typed values: lower edge, upper edge (the next band's, read only), width and
+/// The bands as a table of typed values: lower edge, upper edge (that of the next band, read only), width and
 /// height.
 class BandsModel : public RowsModel {
   Q_OBJECT
@@ -20,7 +20,7 @@ class BandsModel : public RowsModel {
   QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
   Qt::ItemFlags flags(const QModelIndex& index) const override;
   bool setData(const QModelIndex& index, const QVariant& value, int role) override;
-  /// The band of the last decision, shown bold; -1: none.
+  /// Shows the band of the last decision in bold; -1 for none.
   void setLiveBand(int band);
 
  signals:

@@ -7,7 +7,7 @@
 
 namespace trimtab::views {
 
-/// The breakpoints of a curve as typed values: one row a point, x and membership.
+/// The breakpoints of a curve as a table of typed values: one row per point, with x and membership.
 class CurvePointsModel : public RowsModel {
   Q_OBJECT
  public:
@@ -17,7 +17,8 @@ class CurvePointsModel : public RowsModel {
   QVariant data(const QModelIndex& index, int role) const override;
   QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
   Qt::ItemFlags flags(const QModelIndex& index) const override;
-  /// Refuses what is not a number, or lies beyond a neighbour or 0..1; `refused` says why.
+  /// Refuses a text that is no number, and a value beyond a neighbour or outside 0..1; emits `refused` with
+  /// the reason.
   bool setData(const QModelIndex& index, const QVariant& value, int role) override;
 
  signals:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draft.h"
+#include "views/model/theme.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +9,6 @@
 namespace trimtab::views {
 
 namespace {
-
-QString text(std::string_view s) {
-  return QString::fromUtf8(s.data(), static_cast<qsizetype>(s.size()));
-}
 
 std::string rangeText(const ParameterRow& row) {
   std::string said = "a number from ";
@@ -112,7 +109,7 @@ Findings Draft::setValue(std::string_view key, const ParameterValue& value, Merg
   Q_ASSERT(before.index() == value.index());
   if (Findings refused = refusals(*row, value); !refused.empty()) return refused;
   if (before != value)
-    stack_.push(new Edit(*this, {{row, before, value}}, tr("Change %1").arg(text(row->label)), token));
+    stack_.push(new Edit(*this, {{row, before, value}}, tr("Change %1").arg(fromView(row->label)), token));
   return {};
 }
 
@@ -143,7 +140,7 @@ void Draft::reset(std::string_view key) {
   Q_ASSERT(row);
   const ParameterValue before = row->get(preset_.parameters), after = row->get(baseline_);
   if (before != after)
-    stack_.push(new Edit(*this, {{row, before, after}}, tr("Reset %1").arg(text(row->label)), 0));
+    stack_.push(new Edit(*this, {{row, before, after}}, tr("Reset %1").arg(fromView(row->label)), 0));
 }
 
 void Draft::resetAll() {
@@ -200,7 +197,7 @@ void Draft::check() {
 
 void Draft::announce(std::span<const ParameterRow* const> rows) {
   const bool moved = activeMoved_;
-  for (const ParameterRow* row : rows) emit valueChanged(text(row->key));
+  for (const ParameterRow* row : rows) emit valueChanged(fromView(row->key));
   emit findingsChanged();
   if (moved) emit activeChanged();
 }

@@ -14,12 +14,12 @@
 
 namespace trimtab::views {
 
-/// Groups edits that are one step to the person who makes them: all edits of one drag carry the same token
-/// and undo together. 0 never merges.
+/// Groups edits that are one step for the person: all edits of one drag have the same token and are undone
+/// together. Edits with 0 are never merged.
 using MergeToken = int;
 
-/// The preset being edited. Every edit goes through its undo stack and one validator; what runs is
-/// `active()`, the last draft that passed. Main thread only.
+/// The preset that is being edited. Every edit goes through its undo stack and one validator. `active()`, the
+/// last draft that passed, is what runs. Use it on the main thread only.
 class Draft : public QObject {
   Q_OBJECT
  public:
@@ -27,14 +27,14 @@ class Draft : public QObject {
 
   const Preset& preset() const { return preset_; }
   const TuningParameters& parameters() const { return preset_.parameters; }
-  /// What a reset goes back to: the base preset's values, or the defaults where it names none that can be
-  /// read.
+  /// Returns what a reset goes back to: the values of the base preset, or the defaults if it has none that
+  /// can be read.
   const TuningParameters& baseline() const { return baseline_; }
   const ValidatedParameters& active() const { return active_; }
-  /// True while the draft breaks a rule, so that `active()` lags behind it.
+  /// Reports whether the draft breaks a rule, so that `active()` is an earlier one.
   bool isBroken() const { return broken_; }
   const Findings& findings() const { return findings_; }
-  /// Of one key, errors first.
+  /// Returns the findings of one key, errors first.
   Findings findingsOf(std::string_view key) const;
   QUndoStack& undoStack() { return stack_; }
   bool isDirty() const { return !stack_.isClean(); }
@@ -42,26 +42,27 @@ class Draft : public QObject {
   ParameterValue value(std::string_view key) const;
   bool isChanged(std::string_view key) const;
 
-  /// One undo step ("Change Hysteresis"), or part of the step that has the same token and key. Returning to
-  /// the value a token started from takes the whole step away. A number that is not finite or outside its
-  /// row's hard range is refused, with the reason; broken rules are accepted and found in `findings()`.
+  /// Sets a value as one undo step ("Change Hysteresis"), or as part of the step with the same token and key.
+  /// Returning to the value at which a token began removes the whole step. A number that is not finite or
+  /// outside its row's hard range is refused with the reason; a broken rule is accepted and is among
+  /// `findings()`.
   Findings setValue(std::string_view key, const ParameterValue& value, MergeToken token = 0);
   struct KeyValue {
     std::string_view key;
     ParameterValue value;
   };
-  /// Several parameters as one undo step with a text of its own; with a token, later calls for the same keys
-  /// in the same order are part of it. Nothing is changed when one of them is refused.
+  /// Sets several parameters as one undo step with a text of its own. With a token, later calls for the same
+  /// keys in the same order are part of it. If one value is refused, nothing is changed.
   Findings setValues(std::span<const KeyValue> values, const QString& undoText, MergeToken token = 0);
-  /// As setValue, from typed text.
+  /// Does what setValue does, with typed text.
   Findings setText(std::string_view key, std::string_view text, MergeToken token = 0);
   void reset(std::string_view key);
   void resetAll();
-  /// Another preset's values as one undo step; name, base and file stay.
+  /// Takes over another preset's values as one undo step; name, base and file stay.
   void takeParameters(const TuningParameters& parameters, const QString& undoText);
-  /// Starts over with `preset`: the undo stack is emptied and clean.
+  /// Starts over with another preset and an empty, clean undo stack.
   void load(const Preset& preset);
-  /// Name and description are not parameters: no undo step, no dirty mark.
+  /// Sets name and description, which are no parameters: this is no undo step and marks nothing as changed.
   void describe(const std::string& name, const std::string& description);
 
   MergeToken newToken() { return ++lastToken_; }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "error_run.h"
 
-#include <qcustomplot.h>
-
 #include <QCoreApplication>
 #include <algorithm>
 #include <cmath>
@@ -13,7 +11,6 @@ namespace trimtab::views {
 namespace {
 
 constexpr int kDigits = 3, kMostDecimals = 6;
-constexpr int kLegendEntryMarginPx = 8;
 
 QStringList distinct(const QVector<ErrorRun::Series>& series, QString ErrorRun::Series::*name) {
   QStringList names;
@@ -60,17 +57,6 @@ QString msText(double ms) {
 
 QColor presetColour(int preset, const QPalette& palette) {
   return seriesColour(preset > 0 ? preset + 1 : 0, palette);
-}
-
-void wrapLegend(QCustomPlot& plot) {
-  const QFontMetrics metrics(plot.font());
-  int widest = 0;
-  for (int i = 0; i < plot.legend->itemCount(); ++i)
-    if (auto* item = qobject_cast<QCPPlottableLegendItem*>(plot.legend->item(i)))
-      widest = std::max(widest, metrics.horizontalAdvance(item->plottable()->name()));
-  const int entry = widest + plot.legend->iconSize().width() + plot.legend->iconTextPadding() +
-                    plot.legend->columnSpacing() + kLegendEntryMarginPx;
-  plot.legend->setWrap(std::max(plot.legend->itemCount() > 3 ? 2 : 1, plot.width() / entry));
 }
 
 QString methodText(const QString& method) {

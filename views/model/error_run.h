@@ -11,47 +11,46 @@ class QPalette;
 
 namespace trimtab::views {
 
-/// What a benchmark measured, as the plots of run time against error see it.
+/// What a benchmark measured, in the form that the plots of run time against error use.
 struct ErrorRun {
   struct Error {
-    QString key, label, unit;  ///< unit empty: a pure number
+    QString key, label, unit;  ///< the unit is empty for a pure number
     bool largerIsWorse = true;
   };
   struct Mark {
     qsizetype frame = 0;  ///< index into the series
     QString why;
   };
-  /// One preset in one culling case along one flight; all vectors have one entry a frame.
+  /// One preset in one culling case along one flight; all vectors have one entry per frame.
   struct Series {
     QString flight, preset, method;
     QVector<double> timeS, ms;
-    QVector<QVector<double>> errors;  ///< by ErrorRun::errors, then by frame; NaN: not measured
+    QVector<QVector<double>> errors;  ///< by ErrorRun::errors, then by frame; NaN if not measured
     QVector<Mark> worst;
   };
   QVector<Error> errors;
   QVector<Series> series;
 
   QStringList flights() const;
-  /// In the order of their first series, which is the order of their colours.
+  /// Returns the presets in the order of their first series, which is the order of their colours.
   QStringList presets() const;
   QStringList methods() const;
 };
 
-/// Pictures that are equal have a PSNR that no axis holds: they are drawn here.
+/// Where equal images are drawn, whose PSNR is infinite.
 inline constexpr double kEqualDb = 100;
-/// The place of an error on an axis: infinity where larger is better is kEqualDb.
+/// Returns the place of an error on an axis: kEqualDb for an infinity of an error for which larger is better.
 double placeOf(const ErrorRun::Error& error, double value);
 
-/// Label with unit, for axes and choices.
+/// Returns the label with the unit, for axes and choices.
 QString titleOf(const ErrorRun::Error& error);
-/// Value with unit to three digits; "equal" for what has no difference to measure, "–" for NaN.
+/// Returns the value with its unit to three digits; "equal" if there is no difference, "–" for NaN.
 QString textOf(const ErrorRun::Error& error, double value);
 QString msText(double ms);
-/// Of the preset with this place in ErrorRun::presets(); never the live point's colour.
+/// Returns the colour of the preset with this place in ErrorRun::presets(), which is never that of the live
+/// point.
 QColor presetColour(int preset, const QPalette& palette);
-/// As many entries of the legend side by side as its longest name leaves room for.
-void wrapLegend(QCustomPlot& plot);
-/// A culling case as choices spell it: "view_frustum" is "view frustum".
+/// Returns a culling case as people read it: "view frustum" for "view_frustum".
 QString methodText(const QString& method);
 
 }  // namespace trimtab::views

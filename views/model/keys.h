@@ -17,7 +17,7 @@ inline constexpr std::string_view kCombination = "fuzzy.combination";
 inline constexpr std::string_view kRules = "fuzzy.rules";
 inline constexpr std::string_view kBudget = "measure.budget_ms";
 
-/// Whether a dock edits this row by more than its text.
+/// Reports whether this row has an editor of its own in a dock.
 constexpr bool hasEditor(std::string_view key) {
   return key == kAltitudeCurve || key == kPitchCurve || key == kBands || key == kRules;
 }

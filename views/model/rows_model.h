@@ -5,14 +5,15 @@
 
 namespace trimtab::views {
 
-/// A table whose rows come and go at its end, so that a selection survives a drag that changes their number.
+/// A table that adds and removes rows at its end, so that a selection survives a drag that changes their
+/// number.
 class RowsModel : public QAbstractTableModel {
  public:
   using QAbstractTableModel::QAbstractTableModel;
   int rowCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : rows_; }
 
  protected:
-  /// The table has `now` rows and any of their cells may have changed.
+  /// Announces that the table has `now` rows, of which any cell may have changed.
   void refreshRows(int now) {
     if (now > rows_) {
       beginInsertRows({}, rows_, now - 1);

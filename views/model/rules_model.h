@@ -6,14 +6,15 @@
 
 namespace trimtab::views {
 
-/// The rule base as a table: conditions (an index into conditionsOf() as the edit role), weight, output.
+/// The rule base as a table: conditions, weight and output. The edit role of a condition is an index into
+/// conditionsOf().
 class RulesModel : public RowsModel {
   Q_OBJECT
  public:
   enum Column { kAltitude, kPitch, kWeight, kOutput, kColumns };
   explicit RulesModel(Draft& draft, QObject* parent = nullptr);
 
-  /// What a condition's column offers; empty for the others.
+  /// Returns what the column of a condition offers; empty for other columns.
   static QStringList conditionsOf(int column);
 
   int columnCount(const QModelIndex& = {}) const override { return kColumns; }

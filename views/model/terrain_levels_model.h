@@ -7,14 +7,14 @@
 
 namespace trimtab::views {
 
-/// The levels of a terrain as a table, and how many nodes of each the last picture drew.
+/// The levels of a terrain as a table, with how many nodes of each the last image drew.
 class TerrainLevelsModel : public RowsModel {
   Q_OBJECT
  public:
   enum Column { kLevel, kNodes, kTriangles, kMaxError, kRmsError, kSurfaceError, kSize, kDrawn, kColumns };
   using RowsModel::RowsModel;
 
-  /// `finestFirst`: level 0 is the finest, as of tiles.
+  /// `finestFirst` says that level 0 is the finest, as it is for tiles.
   void setLevels(std::vector<TerrainLevel> levels, bool finestFirst);
   void setDrawn(const LevelsFrame& drawn);
 

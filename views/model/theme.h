@@ -5,43 +5,49 @@
 #include <QPalette>
 #include <QString>
 #include <optional>
+#include <string_view>
 
 class QCustomPlot;
 class QWidget;
 
-/// Colours and number texts that all docks share. Colours follow the palette, so dark mode works, and are
-/// told apart by the colour blind (Okabe and Ito's set); plots add shapes and dashes.
+/// Colours and number texts that all docks share. The colours follow the palette, so that dark mode works,
+/// and colour-blind people can tell them apart (Okabe and Ito's set); plots add shapes and dashes.
 namespace trimtab::views {
 
 bool isDark(const QPalette& palette);
-/// 0..6: blue, orange, green, purple, sky, vermilion, yellow.
+/// Returns the colour of series 0..6: blue, orange, green, purple, sky, vermilion, yellow.
 QColor seriesColour(int index, const QPalette& palette);
 QColor liveColour(const QPalette& palette);
 QColor errorColour(const QPalette& palette);
 QColor warningColour(const QPalette& palette);
-/// Text that matters less; still readable.
+/// Returns a colour for text that matters less and is still readable.
 QColor quietColour(const QPalette& palette);
-/// `amount` of `over` on `under`, 0..1.
+/// Returns `under` with a share `amount`, 0..1, of `over` on it.
 QColor blend(const QColor& under, const QColor& over, double amount);
 
-/// What a focused widget that paints itself draws last.
+/// Draws the focus frame of a widget that paints itself; call it last.
 void paintFocusFrame(QWidget& widget);
 
-/// By palette, which is cheaper than a style sheet.
+/// Sets the text colour by the palette, which is cheaper than a style sheet.
 void setTextColour(QWidget& widget, const QColor& colour);
 
-/// Palette colours and font on every axis, label, grid and legend of a plot.
+/// Gives every axis, label, grid and legend of a plot the colours of the palette and the font.
 void applyTheme(QCustomPlot& plot);
 
-/// Shortest text of a number to at most `decimals`, in the person's locale: 4,000 or 0.35.
+/// Returns the shortest text of a number with at most `decimals` decimals, in the person's locale: 4,000 or
+/// 0.35.
 QString numberText(double value, int decimals);
-/// The shortest that reads back the same value; plain digits unless that would be long.
+/// Returns the shortest text that reads back to the same value, in plain digits unless that would be long.
 QString exactText(double value);
-/// The number in a text of the person's locale or of C, with or without `unit` after it. None: not a finite
-/// number.
+/// Returns text of the library, which is UTF-8, as Qt has it.
+inline QString fromView(std::string_view text) {
+  return QString::fromUtf8(text.data(), qsizetype(text.size()));
+}
+/// Reads a number in the person's locale or in that of C, with or without `unit` after it. Returns nothing if
+/// it is no finite number.
 std::optional<double> parseNumber(const QString& text, const QString& unit);
 
-/// The round number (1, 2 or 5 times a power of ten) nearest below `value`.
+/// Returns the largest round number (1, 2 or 5 times a power of ten) that is not above `value`.
 double roundStep(double value);
 
 }  // namespace trimtab::views

@@ -12,7 +12,7 @@
 
 namespace trimtab::views {
 
-/// What the plots record of every frame.
+/// The values that the plots record for every frame.
 enum class Trace : std::uint8_t {
   altitude_membership,
   pitch_membership,
@@ -32,7 +32,7 @@ enum class Trace : std::uint8_t {
   blur_ms,
   weather_ms,
   symbology_ms,
-  // Upper edges in the stack of stages; not in the CSV.
+  // Upper edges in the stack of stages, which the CSV does not have.
   select_top_ms,
   page_top_ms,
   occlusion_top_ms,
@@ -41,9 +41,9 @@ enum class Trace : std::uint8_t {
 };
 inline constexpr std::size_t kTraces = static_cast<std::size_t>(Trace::count_);
 inline constexpr std::size_t kCsvTraces = static_cast<std::size_t>(Trace::select_top_ms);
-std::string_view traceName(Trace trace);  ///< as the CSV spells it
+std::string_view traceName(Trace trace);  ///< the name of its column in the CSV
 
-/// The stages that sum to a frame, from the foot of the stack up; the lowest edge also holds the decision.
+/// The stages that sum to a frame, from the bottom of the stack up; the lowest one includes the decision.
 struct StackedStage {
   Trace stage, top;
 };
@@ -53,43 +53,44 @@ inline constexpr std::array<StackedStage, 5> kStack{{{Trace::select_ms, Trace::s
                                                      {Trace::cull_ms, Trace::cull_top_ms},
                                                      {Trace::draw_ms, Trace::frame_ms}}};
 
-/// The last frames in flat rings that never allocate after construction, with the extremes of each block
-/// kept, so that a long stretch is drawn at the cost of the columns on the screen. Frames have absolute
-/// numbers from 0 on; the oldest are overwritten.
+/// Keeps the newest frames in flat rings that allocate only when they are made. It also keeps the extremes of
+/// each block of frames, so that drawing a long stretch costs as much as the columns on the screen. Frames
+/// have absolute numbers from 0 on; the oldest are overwritten.
 class TraceBuffer {
  public:
   static constexpr std::size_t kBlock = 64;
-  /// Ten minutes at 400 frames a second, an hour at 66; 25 MB.
+  /// Enough for ten minutes at 400 frames per second, or an hour at 66; 25 MB.
   static constexpr std::size_t kCapacity = 240'000 / kBlock * kBlock;
 
   explicit TraceBuffer(std::size_t capacity = kCapacity);
 
-  /// A clock that goes back (a flight that starts over) is taken on from the last frame: time in here never
-  /// falls.
+  /// Adds a frame. If the clock goes back, as when a flight starts over, its time goes on from the last
+  /// frame, so that times never fall.
   void append(const LiveFrame& frame);
   void clear();
 
-  std::uint64_t begin() const;                  ///< oldest frame that is still held
+  std::uint64_t begin() const;                  ///< the oldest frame that is kept
   std::uint64_t end() const { return count_; }  ///< one past the newest
   bool empty() const { return count_ == 0; }
   double time(std::uint64_t frame) const { return times_[frame % capacity_]; }
   std::uint64_t packet(std::uint64_t frame) const { return packets_[frame % capacity_]; }
   float value(Trace trace, std::uint64_t frame) const { return values_[index(trace)][frame % capacity_]; }
-  /// First frame at or after `time`; end() where there is none.
+  /// Returns the first frame at or after `time`; end() if there is none.
   std::uint64_t atOrAfter(double time) const;
-  /// The frame nearest in time; the buffer must not be empty.
+  /// Returns the frame nearest in time. The buffer must not be empty.
   std::uint64_t nearest(double time) const;
 
   struct Column {
     double time = 0;
-    float low = 0, high = 0;  ///< both NaN where nothing was measured
+    float low = 0, high = 0;  ///< both NaN if nothing was measured
   };
-  /// Extremes over the frames from `from` up to `to`, in about `columns` pieces of equal count.
+  /// Returns the extremes over the frames from `from` up to `to`, in about `columns` pieces of equally many
+  /// frames.
   void columns(Trace trace, std::uint64_t from, std::uint64_t to, std::size_t columns,
                std::vector<Column>& out) const;
 
-  /// Frames with from <= time <= to as CSV in the C locale, shortest digits that read back; not measured is
-  /// empty.
+  /// Returns the frames with from <= time <= to as CSV in the C locale, with the fewest digits that read
+  /// back. A value that was not measured is empty.
   std::string csv(double from, double to) const;
 
  private:
@@ -101,7 +102,7 @@ class TraceBuffer {
   std::vector<double> times_;
   std::vector<std::uint64_t> packets_;
   std::array<std::vector<float>, kTraces> values_;
-  std::array<std::vector<float>, kTraces> blockLow_, blockHigh_;  ///< of complete and running blocks
+  std::array<std::vector<float>, kTraces> blockLow_, blockHigh_;  ///< of complete blocks and the current one
 };
 
 }  // namespace trimtab::views

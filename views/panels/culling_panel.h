@@ -24,35 +24,35 @@ class HorizonInset;
 class TimePlot;
 class TraceBuffer;
 
-/// A node that was picked in the picture.
+/// A node that was picked in the image.
 struct PickedNode {
-  QString form;  ///< "patch", "tile", "tree node"
+  QString form;  ///< "patch", "tile" or "tree node"
   std::uint32_t number = 0;
   int level = 0;
   std::uint64_t triangles = 0;
   double errorM = 0, distanceM = 0,
-         errorPx = 0;                ///< stated error, nearest point of its box, error seen there
-  double widthPx = 0, heightPx = 0;  ///< of its box in the picture
+         errorPx = 0;  ///< stated error, distance of the nearest point of its box, error in the image there
+  double widthPx = 0, heightPx = 0;  ///< of its box in the image
   QString reason;
 };
 
-/// The Culling dock: which case and method work, how much each reason leaves out, what the method sees, and
+/// The Culling dock: the case and the method in use, how much each reason culls, what the method sees, and
 /// what a picked node is.
 class CullingPanel : public QWidget {
   Q_OBJECT
  public:
   explicit CullingPanel(Draft& draft, QWidget* parent = nullptr);
 
-  /// What a frame's stages take, from a recording of frames that outlives this.
+  /// Sets the recording of frames from which it shows the times of the stages. It must outlive this panel.
   void showStages(const TraceBuffer& frames);
-  /// The menus' overlays as buttons.
+  /// Shows the overlays of the menus as buttons.
   void setActions(const QList<QAction*>& overlays);
   void showFrame(const LiveFrame& frame);
-  /// What the method in use saw: null with the reason in `caption`.
+  /// Shows what the method in use saw; if the image is null, `caption` says why.
   void showMap(const QImage& image, const QString& caption);
-  /// As HorizonInset::setProfile; empty: there is none.
+  /// Shows the horizon as HorizonInset::setProfile does; empty if there is none.
   void showHorizon(std::vector<float> elevationDeg, double headingDeg, double fovDeg);
-  /// None: the sky was picked, or nothing is.
+  /// Shows the picked node; nothing if the sky was picked, or nothing.
   void showPicked(std::optional<PickedNode> node);
   bool picking() const;
   void endPicking();

@@ -10,9 +10,9 @@
 
 namespace trimtab::views {
 
-/// Every *change* of decision with its time and reason: newest last, bounded, the oldest forgotten. Held by
-/// hysteresis or not is no change; another scheme, band, depth-map size or LOD scale is, and so is input that
-/// stops making sense.
+/// Records every change of the decision with its time and reason, the newest last; the oldest are dropped
+/// beyond a limit. Another scheme, band, depth map size or LOD scale is a change, and so is input that
+/// becomes invalid. Being held by hysteresis is none.
 class DecisionLog : public QAbstractTableModel {
   Q_OBJECT
  public:
@@ -21,7 +21,7 @@ class DecisionLog : public QAbstractTableModel {
 
   using QAbstractTableModel::QAbstractTableModel;
 
-  /// Whether `decision` differs from the last one: then, and only then, a reason has to be made for `append`.
+  /// Reports whether `decision` is a change, so that a reason need be made for `append` only then.
   bool isChange(const FrameDecision& decision) const;
   void append(double time, std::uint64_t packet, const FrameDecision& decision, const QString& reason);
   void clear();
@@ -32,7 +32,8 @@ class DecisionLog : public QAbstractTableModel {
   QVariant data(const QModelIndex& index, int role) const override;
   QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
 
-  /// Rows as text in the C locale, with a header line: tabs between (for the clipboard) or CSV.
+  /// Returns rows as text in the C locale with a header line, separated by tabs (for the clipboard) or as
+  /// CSV.
   QString toText(const QList<int>& rows) const;
   QString toCsv() const;
 

@@ -15,7 +15,7 @@ namespace trimtab::views {
 class BarList;
 class DecisionLog;
 
-/// The Decision dock: what was decided, from what, why, and when it last changed.
+/// The Decision dock: what was decided, from what and why, and a log of changes.
 class DecisionPanel : public QWidget {
   Q_OBJECT
  public:
@@ -23,11 +23,11 @@ class DecisionPanel : public QWidget {
   const DecisionLog& log() const { return *log_; }
   QTableView& logView() { return *view_; }
   void showFrame(const LiveFrame& frame);
-  /// Writes the whole log; the findings say why it could not.
+  /// Writes the whole log to a file. The findings say why it failed.
   Findings saveLog(const QString& file) const;
 
  public slots:
-  void copyLog();  ///< the selected rows, or all where none is
+  void copyLog();  ///< copies the selected rows, or all if none is selected
   void clearLog();
 
  private:

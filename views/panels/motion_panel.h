@@ -20,8 +20,8 @@ namespace trimtab::views {
 class BarList;
 class MotionPlot;
 
-/// The Head motion dock: where the head comes from, its rate against the threshold of Eq. (1), both stacks
-/// filling against their limits, LOD scale and blur, and the reason of each change.
+/// The Head motion dock: where the head comes from, its rate and the threshold of Eq. (1), both stacks and
+/// their limits, LOD scale and blur, and the reason of each change.
 class MotionPanel : public QWidget {
   Q_OBJECT
  public:
@@ -30,10 +30,10 @@ class MotionPanel : public QWidget {
   explicit MotionPanel(Draft& draft, QWidget* parent = nullptr);
 
   void showFrame(const LiveFrame& frame);
-  /// What is in use: without signals. `name`: of a log or sweep.
+  /// Shows the source in use, without emitting signals. `name` is that of a log or sweep.
   void setSource(Source source, const QString& name);
   Source source() const;
-  /// As `--head` takes it.
+  /// Returns the sweep as `--head` accepts it.
   QString sweepText() const;
 
   QComboBox& sourceBox() { return *source_; }
@@ -43,7 +43,7 @@ class MotionPanel : public QWidget {
   QString stateText() const;
 
  signals:
-  void sourceAsked(int source);  ///< the person chose another one, or changed the sweep
+  void sourceAsked(int source);  ///< the person chose another source, or changed the sweep
   void openLogAsked();
 
  private:

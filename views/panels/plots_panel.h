@@ -17,8 +17,8 @@ namespace trimtab::views {
 class TimePlot;
 class TraceGraph;
 
-/// The Plots dock. Every frame is recorded, hidden or paused; the picture follows the newest frame until it
-/// is paused, panned or zoomed.
+/// The Plots dock. Every frame is recorded, also while the dock is hidden or paused. The plots follow the
+/// newest frame until they are paused, panned or zoomed.
 class PlotsPanel : public QWidget {
   Q_OBJECT
  public:
@@ -32,9 +32,9 @@ class PlotsPanel : public QWidget {
   void setPaused(bool paused);
   void setFollowing(bool following);
   void setCursors(bool on);
-  /// Seconds shown; the nearest of those that the panel offers.
+  /// Sets how many seconds are shown, to the nearest that the panel offers.
   void setSpan(double seconds);
-  /// Every recorded frame of the shown range, in the C locale.
+  /// Writes every recorded frame of the shown range to a file, in the C locale.
   QString visibleRangeCsv() const;
   Findings saveCsv(const QString& file) const;
   void clear();

@@ -11,7 +11,7 @@ namespace trimtab::views {
 class RulesEditor;
 class RuleViewer;
 
-/// The Rules dock: the rule base to edit, and below it what each rule does in the last frame.
+/// The Rules dock: the rule base, and below it what each rule does in the last frame.
 class RulesPanel : public QWidget {
   Q_OBJECT
  public:
@@ -20,9 +20,11 @@ class RulesPanel : public QWidget {
   RuleViewer& viewer() { return *viewer_; }
   void showFrame(const LiveFrame& frame);
 
-  /// Rules and curves of a .fll or .fis file as one undo step; what was wrong with it, or worth knowing.
+  /// Takes over rules and curves of a .fll or .fis file as one undo step. Returns what was wrong with it, or
+  /// worth knowing.
   Findings importFile(const QString& file);
-  /// The active parameters' rules and curves; the findings say why not, or what the file cannot say.
+  /// Writes the rules and curves of the active parameters. The findings say why it failed, or what the file
+  /// cannot express.
   Findings exportFile(const QString& file) const;
 
  public slots:

@@ -18,31 +18,30 @@ namespace trimtab::views {
 
 class BarList;
 
-/// What the dock says of a terrain's trees.
+/// What the dock shows about a terrain's static trees.
 struct StaticLodSummary {
   std::uint32_t trianglesPerNode = 0, levels = 0;
   std::size_t tiles = 0, nodes = 0;
   std::uint64_t sourceTriangles = 0, faces = 0, distinctFaces = 0, lockedMinima = 0, bytes = 0;
-  std::vector<std::uint64_t> facesOfLevel;  ///< root first
+  std::vector<std::uint64_t> facesOfLevel;  ///< from the root
 };
 
-/// Document E's example, as published/static_lod.csv has it.
+/// The published figures of document E's example.
 struct PublishedStaticLod {
   std::uint64_t triangles = 30987, trianglesPerNode = 2000, levels = 4, faces = 126520;
 };
 
-/// The Static LOD dock: what the trees are, what of them is drawn now, and document E's picture with its
-/// levels.
+/// The Static LOD dock: the trees, what of them is drawn now, and document E's picture with its levels.
 class StaticLodPanel : public QWidget {
   Q_OBJECT
  public:
   explicit StaticLodPanel(Draft& draft, QWidget* parent = nullptr);
 
-  /// None: the terrain has no trees, and the dock says how to get some.
+  /// Shows the trees of a terrain. If it has none, the dock says how to get some.
   void setTrees(std::optional<StaticLodSummary> trees);
   void showFrame(const LiveFrame& frame);
 
-  /// The level that is shown by itself, 0 at the roots; -1: each node by its distance.
+  /// Returns the level that is drawn by itself, 0 at the roots; -1 if each node is drawn by its distance.
   int depth() const;
   bool picture() const;
 

@@ -13,13 +13,10 @@
 
 #include "views/controls/choice_box.h"
 #include "views/controls/number_box.h"
+#include "views/model/theme.h"
 
 namespace trimtab::views {
 namespace {
-
-QString text(std::string_view s) {
-  return QString::fromUtf8(s.data(), static_cast<qsizetype>(s.size()));
-}
 
 const ParameterRow& rowOf(std::string_view key) {
   const ParameterRow* row = findRow(key);
@@ -34,7 +31,7 @@ std::string_view keyOf(std::string_view prefix, const char* field) {
 
 QCheckBox* flagBox(Draft& draft, std::string_view key) {
   const ParameterRow& row = rowOf(key);
-  auto* box = new QCheckBox(text(row.label));
+  auto* box = new QCheckBox(fromView(row.label));
   box->setToolTip(helpText(row));
   QObject::connect(box, &QCheckBox::toggled, box, [&draft, &row](bool on) { draft.setValue(row.key, on); });
   return box;
@@ -74,7 +71,7 @@ SymbologyPanel::SymbologyPanel(Draft& draft, QWidget* parent)
   column->addLayout(top);
   auto* form = new QFormLayout;
   const auto add = [&](std::string_view key, QWidget* editor) {
-    form->addRow(text(rowOf(key).label), editor);
+    form->addRow(fromView(rowOf(key).label), editor);
   };
   add("symbology.frame", new ChoiceBox(draft, "symbology.frame"));
   add("symbology.line_width_px", new NumberBox(draft, "symbology.line_width_px"));

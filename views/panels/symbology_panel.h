@@ -14,13 +14,13 @@ class QPushButton;
 
 namespace trimtab::views {
 
-/// The Symbology dock: which symbols of the helmet display are shown, their colour, place and size, and the
-/// switch for placing them with the mouse in the picture.
+/// The Symbology dock: which symbols of the helmet display are shown, with colour, place and size, and the
+/// switch for placing them in the image with the mouse.
 class SymbologyPanel : public QWidget {
   Q_OBJECT
  public:
   static constexpr int kSymbols = 7;
-  /// "symbology.pitch_ladder" and so on, in the order of the rows and of Symbol.
+  /// Returns "symbology.pitch_ladder" and so on, in the order of the rows and of Symbol.
   static const std::array<std::string_view, kSymbols> kPrefixes;
 
   explicit SymbologyPanel(Draft& draft, QWidget* parent = nullptr);
@@ -30,7 +30,7 @@ class SymbologyPanel : public QWidget {
   QCheckBox& showBox(int symbol) { return *show_[static_cast<std::size_t>(symbol)]; }
 
  public slots:
-  /// Marks a row; -1: none.
+  /// Marks a row; -1 for none.
   void setSelected(int symbol);
 
  signals:

@@ -21,35 +21,36 @@ namespace trimtab::views {
 
 class TerrainLevelsModel;
 
-/// One level of what is drawn: of tiles 0 is the finest, of patches (their depth) the coarsest.
+/// One level of a terrain: 0 is the finest level of tiles, but the coarsest depth of patches.
 struct TerrainLevel {
-  std::uint64_t nodes = 0, triangles = 0;  ///< of all nodes, each by its finest mesh
-  std::uint64_t bytes = 0;                 ///< on disk; 0: made when it is drawn
-  double maxErrorM = 0, rmsErrorM = 0;     ///< at the posts: the largest, and over all. NaN: not measured
-  double surfaceErrorM = 0;                ///< largest over the surface between the posts; NaN likewise
+  std::uint64_t nodes = 0, triangles = 0;  ///< triangles of the finest meshes of all nodes
+  std::uint64_t bytes = 0;                 ///< on disk; 0 if it is made when it is drawn
+  double maxErrorM = 0, rmsErrorM = 0;     ///< at the posts; NaN if not measured
+  double surfaceErrorM = 0;                ///< the worst between the posts; NaN if not measured
 };
 
-/// What the dock says of a terrain.
+/// What the dock shows about a terrain.
 struct TerrainSummary {
   QString name, source;
   std::uint64_t columns = 0, rows = 0, voidsFilled = 0, bytes = 0;
-  double postM = 0;  ///< distance of posts, north
+  double postM = 0;  ///< distance of posts along a meridian
   double lowestM = 0, highestM = 0, southDeg = 0, westDeg = 0, northDeg = 0, eastDeg = 0;
-  std::vector<TerrainLevel> tiles, patches;  ///< empty where it has none
+  std::vector<TerrainLevel> tiles, patches;  ///< empty if it has none
 };
 
-/// The Terrain dock: opening and baking, what the terrain is, its levels and their errors, and what of them
-/// is drawn now.
+/// The Terrain dock: buttons for opening and baking, the terrain, its levels with their errors, and what of
+/// them is drawn now.
 class TerrainPanel : public QWidget {
   Q_OBJECT
  public:
   explicit TerrainPanel(Draft& draft, QWidget* parent = nullptr);
 
-  /// Buttons for what the menus do: opening and baking in the first row, how levels are shown in the second.
+  /// Adds buttons for commands of the menus: opening and baking in the first row, how levels are shown in the
+  /// second.
   void setActions(const QList<QAction*>& files, const QList<QAction*>& overlays);
-  /// None: no terrain yet.
+  /// Shows a terrain; nothing if none is open.
   void setTerrain(std::optional<TerrainSummary> terrain);
-  /// Long work: its share done, or that it is over.
+  /// Shows which share of a long work is done, or that it has ended.
   void showJob(double fraction, const QString& what);
   void endJob();
   void showFrame(const LiveFrame& frame);
@@ -69,7 +70,7 @@ class TerrainPanel : public QWidget {
   TerrainLevelsModel* levels_;
   QTableView* table_;
   std::optional<TerrainSummary> terrain_;
-  std::optional<bool> shownPatches_;  ///< whose levels the table has
+  std::optional<bool> shownPatches_;  ///< whether the table has the levels of patches; unset if it is empty
   LiveFrame frame_;
   Throttle throttle_;
 };

@@ -31,10 +31,6 @@ constexpr std::string_view kKeys[] = {"weather.source",
                                       "weather.fixed_ratio",
                                       "weather.severity_density"};
 
-QString fromView(std::string_view s) {
-  return QString::fromUtf8(s.data(), static_cast<qsizetype>(s.size()));
-}
-
 std::string_view stepName(WeatherStep step) {
   return table::ChoicesOf<WeatherStep>::options[static_cast<std::size_t>(step)].name;
 }

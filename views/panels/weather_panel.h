@@ -18,15 +18,15 @@ namespace trimtab::views {
 
 class ParameterLine;
 
-/// The Weather dock: what falls and how far one sees, what is cut and why, what each step means, and the way
-/// to the calibration.
+/// The Weather dock: what falls and how far one sees, what is cut and why, what each weather step means, and
+/// the button for the calibration.
 class WeatherPanel : public QWidget {
   Q_OBJECT
  public:
   explicit WeatherPanel(Draft& draft, QWidget* parent = nullptr);
   void showFrame(const LiveFrame& frame);
 
-  /// Of the step with this key in the draft; null for those that are not in sight.
+  /// Returns the line of a parameter; null if it is not shown.
   ParameterLine* line(std::string_view key) const;
   QTableWidget& steps() { return *steps_; }
   QPushButton& calibrateButton() { return *calibrate_; }
@@ -54,7 +54,7 @@ class WeatherPanel : public QWidget {
   Throttle throttle_;
 };
 
-/// "12,500 m (6.75 NM)"; "unlimited" where nothing limits it.
+/// Returns a distance as text, such as "12,500 m (6.75 NM)"; "unlimited" for infinity.
 QString distanceText(double metres);
 
 }  // namespace trimtab::views

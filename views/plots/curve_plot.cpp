@@ -10,16 +10,13 @@
 namespace trimtab::views {
 
 CurvePlot::CurvePlot(Draft& draft, CurveSpec spec, QWidget* parent)
-    : QCustomPlot(parent),
+    : Plot(tr("%1 membership curve").arg(spec.quantity), Keyboard::used, parent),
       draft_(draft),
       spec_(std::move(spec)),
       liveThrottle_(this, [this] { redrawLive(); }) {
-  setFocusPolicy(Qt::StrongFocus);
-  setMouseTracking(true);
-  setAccessibleName(tr("%1 membership curve").arg(spec_.quantity));
   makeItems();
-  colour();
   fitView();
+  restyle();
   connect(&draft_, &Draft::valueChanged, this, [this](const QString& key) {
     // Readings and offsets of the same quantity bend the computed curve too.
     const qsizetype dot = static_cast<qsizetype>(spec_.key.rfind('.'));
@@ -35,17 +32,14 @@ CurvePlot::CurvePlot(Draft& draft, CurveSpec spec, QWidget* parent)
 
 void CurvePlot::makeItems() {
   // The operating point and the hover value move on layers of their own, without a replot of the rest.
-  for (const char* name : {"live", "hover"}) {
-    addLayer(QString::fromLatin1(name), nullptr, QCustomPlot::limAbove);
-    layer(QString::fromLatin1(name))->setMode(QCPLayer::lmBuffered);
-  }
+  addOverlays({"live", "hover"});
   xAxis->setLabel(tr("%1 (%2)").arg(spec_.quantity, spec_.unit));
   yAxis->setLabel(tr("Membership"));
   yAxis->setRange(-0.06, 1.1);
   xAxis->setNumberFormat(QStringLiteral("f"));
   xAxis->setNumberPrecision(0);
   axisRect()->setRangeZoom(Qt::Horizontal);
-  axisRect()->setRangeZoomFactor(0.85);
+  axisRect()->setRangeZoomFactor(kWheelZoom);
   setInteraction(QCP::iRangeZoom);
   axisRect()->setupFullAxesBox();
   connect(this, &QCustomPlot::mouseWheel, this, [this] { fitted_ = false; });
@@ -66,20 +60,11 @@ void CurvePlot::makeItems() {
   operating_->setLineStyle(QCPGraph::lsNone);
   operating_->setLayer(QStringLiteral("live"));
   for (QCPGraph* g : {handles_, chosen_, operating_, hover_}) g->setAdaptiveSampling(false);
-  const auto makeText = [this](const char* layerName) {
-    QCPItemText* item = new QCPItemText(this);
-    item->setLayer(QString::fromLatin1(layerName));
-    item->position->setType(QCPItemPosition::ptAbsolute);
-    item->setPadding(QMargins(4, 2, 4, 2));
-    item->setClipToAxisRect(false);
-    item->setVisible(false);
-    return item;
-  };
-  operatingText_ = makeText("live");
-  hoverText_ = makeText("hover");
+  operatingText_ = addReadout("live", QMargins(4, 2, 4, 2));
+  hoverText_ = addReadout("hover", QMargins(4, 2, 4, 2));
 }
 
-void CurvePlot::colour() {
+void CurvePlot::restyle() {
   applyTheme(*this);
   const QPalette& p = palette();
   const QColor base = p.color(QPalette::Base), curve = seriesColour(0, p), live = liveColour(p);
@@ -99,6 +84,7 @@ void CurvePlot::colour() {
   operatingText_->setPen(QPen(live));
   hoverText_->setColor(p.color(QPalette::Text));
   hoverText_->setPen(QPen(blend(base, p.color(QPalette::Text), 0.4)));
+  redraw();
 }
 
 CurvePoints CurvePlot::curve() const {
@@ -250,24 +236,6 @@ void CurvePlot::drawHover(const std::optional<QPointF>& at) {
 
 QPointF CurvePlot::pixelOf(CurvePoint point) const {
   return {xAxis->coordToPixel(point.x), yAxis->coordToPixel(point.y)};
-}
-
-void CurvePlot::resizeEvent(QResizeEvent* event) {
-  QCustomPlot::resizeEvent(event);
-  redraw();
-}
-
-void CurvePlot::paintEvent(QPaintEvent* event) {
-  QCustomPlot::paintEvent(event);
-  paintFocusFrame(*this);
-}
-
-void CurvePlot::changeEvent(QEvent* event) {
-  QCustomPlot::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) {
-    colour();
-    redraw();
-  }
 }
 
 }  // namespace trimtab::views

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <qcustomplot.h>
-
 #include <optional>
 
+#include "plot.h"
 #include "views/editors/curve_edit.h"
 #include "views/model/draft.h"
 #include "views/model/live.h"
@@ -14,7 +13,7 @@ namespace trimtab::views {
 
 /// A membership curve whose breakpoints are dragged, added, removed and nudged; the live operating point
 /// rides on what the chosen reading really computes.
-class CurvePlot : public QCustomPlot {
+class CurvePlot : public Plot {
   Q_OBJECT
  public:
   CurvePlot(Draft& draft, CurveSpec spec, QWidget* parent = nullptr);
@@ -50,16 +49,14 @@ class CurvePlot : public QCustomPlot {
   bool focusNextPrevChild(bool next) override;
   void focusInEvent(QFocusEvent* event) override;
   void focusOutEvent(QFocusEvent* event) override;
-  void resizeEvent(QResizeEvent* event) override;
   void leaveEvent(QEvent* event) override;
-  void changeEvent(QEvent* event) override;
-  void paintEvent(QPaintEvent* event) override;
+  void restyle() override;
+  void resized() override { redraw(); }
 
  private:
   void makeItems();
   bool isAtFault() const;
   void describe(const CurvePoints& shown);
-  void colour();
   void redraw();
   void redrawEffective(const CurvePoints& shown);
   void placeLive();

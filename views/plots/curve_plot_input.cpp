@@ -59,7 +59,6 @@ void CurvePlot::commit(const CurvePoints& changed, MergeToken token) {
 }
 
 void CurvePlot::mousePressEvent(QMouseEvent* event) {
-  setFocus(Qt::MouseFocusReason);
   const int hit = pointAt(event->position());
   if (event->button() == Qt::LeftButton && hit >= 0 && editable()) {
     select(hit);
@@ -70,7 +69,7 @@ void CurvePlot::mousePressEvent(QMouseEvent* event) {
     return;
   }
   if (event->button() == Qt::LeftButton && hit < 0) select(-1);
-  QCustomPlot::mousePressEvent(event);
+  Plot::mousePressEvent(event);
 }
 
 void CurvePlot::mouseMoveEvent(QMouseEvent* event) {
@@ -89,7 +88,7 @@ void CurvePlot::mouseMoveEvent(QMouseEvent* event) {
   }
   setCursor(pointAt(event->position()) >= 0 && editable() ? Qt::OpenHandCursor : Qt::ArrowCursor);
   drawHover(event->position());
-  QCustomPlot::mouseMoveEvent(event);
+  Plot::mouseMoveEvent(event);
 }
 
 void CurvePlot::mouseReleaseEvent(QMouseEvent* event) {
@@ -98,7 +97,7 @@ void CurvePlot::mouseReleaseEvent(QMouseEvent* event) {
     setCursor(Qt::OpenHandCursor);
     return;
   }
-  QCustomPlot::mouseReleaseEvent(event);
+  Plot::mouseReleaseEvent(event);
 }
 
 void CurvePlot::mouseDoubleClickEvent(QMouseEvent* event) {
@@ -177,20 +176,19 @@ void CurvePlot::keyPressEvent(QKeyEvent* event) {
     case Qt::Key_End:
       return select(static_cast<int>(curve().size) - 1);
     default:
-      return QCustomPlot::keyPressEvent(event);
+      return Plot::keyPressEvent(event);
   }
 }
 
 void CurvePlot::keyReleaseEvent(QKeyEvent* event) {
   // A key held down is one undo step.
   if (!event->isAutoRepeat()) nudgeToken_ = 0;
-  QCustomPlot::keyReleaseEvent(event);
+  Plot::keyReleaseEvent(event);
 }
 
 bool CurvePlot::focusNextPrevChild(bool next) {
   const int to = selected_ + (next ? 1 : -1);
-  if (!editable() || to < 0 || to >= static_cast<int>(curve().size))
-    return QCustomPlot::focusNextPrevChild(next);
+  if (!editable() || to < 0 || to >= static_cast<int>(curve().size)) return Plot::focusNextPrevChild(next);
   select(to);
   return true;
 }
@@ -198,19 +196,17 @@ bool CurvePlot::focusNextPrevChild(bool next) {
 void CurvePlot::focusInEvent(QFocusEvent* event) {
   if (event->reason() == Qt::TabFocusReason) select(0);
   if (event->reason() == Qt::BacktabFocusReason) select(static_cast<int>(curve().size) - 1);
-  QCustomPlot::focusInEvent(event);
-  update();
+  Plot::focusInEvent(event);
 }
 
 void CurvePlot::focusOutEvent(QFocusEvent* event) {
   nudgeToken_ = 0;
-  QCustomPlot::focusOutEvent(event);
-  update();
+  Plot::focusOutEvent(event);
 }
 
 void CurvePlot::leaveEvent(QEvent* event) {
   drawHover(std::nullopt);
-  QCustomPlot::leaveEvent(event);
+  Plot::leaveEvent(event);
 }
 
 void CurvePlot::contextMenuEvent(QContextMenuEvent* event) {

@@ -11,7 +11,6 @@
 namespace trimtab::views {
 namespace {
 
-constexpr int kUnboundedPx = 100000;
 constexpr double kMarkerPx = 10, kLiveMarkerPx = 15;
 constexpr double kRoom = 0.08;
 constexpr int kRoomForHintPx = 170;
@@ -54,13 +53,10 @@ class ErrorPlot::Tail : public QCPAbstractItem {
   ErrorPlot& plot_;
 };
 
-ErrorPlot::ErrorPlot(QWidget* parent) : QCustomPlot(parent) {
-  setFocusPolicy(Qt::StrongFocus);
-  setMouseTracking(true);
-  setAccessibleName(tr("Frame time against error"));
+ErrorPlot::ErrorPlot(QWidget* parent) : Plot(tr("Frame time against error"), Keyboard::used, parent) {
   setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
   axisRect()->setupFullAxesBox();
-  axisRect()->setRangeZoomFactor(0.85);
+  axisRect()->setRangeZoomFactor(kWheelZoom);
   connect(this, &QCustomPlot::mouseWheel, this, [this] { fitted_ = false; });
   yAxis->setLabel(tr("Frame time (ms)"));
   yAxis->setNumberFormat(QStringLiteral("g"));
@@ -68,25 +64,13 @@ ErrorPlot::ErrorPlot(QWidget* parent) : QCustomPlot(parent) {
   xAxis->setNumberPrecision(3);
   yAxis->setNumberPrecision(4);
 
-  auto* above = new QCPLegend;
-  plotLayout()->insertRow(0);
-  plotLayout()->addElement(0, 0, above);
-  plotLayout()->setRowStretchFactor(0, 0.001);
-  above->setFillOrder(QCPLegend::foColumnsFirst);
-  above->setMargins(QMargins(4, 2, 4, 0));
-  above->setRowSpacing(0);
-  above->setColumnSpacing(6);
-  above->setIconSize(16, 12);
-  // Empty, it would bound the column.
-  above->setMaximumSize(kUnboundedPx, kUnboundedPx);
-  legend = above;
-  setAutoAddPlottableToLegend(false);
+  addLegendAbove();
 
   addLayer(QStringLiteral("live"), nullptr, QCustomPlot::limAbove);
   addLayer(QStringLiteral("numbers"), nullptr, QCustomPlot::limAbove);
   liveItem_ = new Tail(*this);
   liveItem_->setLayer(QStringLiteral("live"));
-  budgetLine_ = new QCPItemStraightLine(this);
+  budgetLine_ = addLine("main", axisRect());
   budgetText_ = new QCPItemText(this);
   budgetText_->position->setTypeX(QCPItemPosition::ptAxisRectRatio);
   budgetText_->setPositionAlignment(Qt::AlignRight | Qt::AlignBottom);
@@ -94,12 +78,7 @@ ErrorPlot::ErrorPlot(QWidget* parent) : QCustomPlot(parent) {
   hint_->position->setType(QCPItemPosition::ptAxisRectRatio);
   hint_->position->setCoords(0.5, 0.5);
   hint_->setPositionAlignment(Qt::AlignCenter);
-  numbers_ = new QCPItemText(this);
-  numbers_->setLayer(QStringLiteral("numbers"));
-  numbers_->setClipToAxisRect(false);
-  numbers_->position->setType(QCPItemPosition::ptAbsolute);
-  numbers_->setTextAlignment(Qt::AlignLeft);
-  numbers_->setPadding(QMargins(6, 4, 6, 4));
+  numbers_ = addReadout("numbers", QMargins(6, 4, 6, 4));
   redraw();
 }
 
@@ -139,7 +118,7 @@ void ErrorPlot::setLogarithmic(bool on) {
 }
 
 void ErrorPlot::setBudget(double ms) {
-  budget_ = ms;
+  budget_ = std::isfinite(ms) ? ms : 0;
   redraw();
 }
 
@@ -258,8 +237,7 @@ void ErrorPlot::makeLegend() {
   if (!tail_.empty())
     add(tr("live"), {QCPScatterStyle::ssDiamond, QPen(base, 1), QBrush(liveColour(palette())), kMarkerPx},
         Qt::NoPen);
-  legend->setVisible(legend->itemCount() > 0);
-  wrapLegend(*this);
+  arrangeLegendAbove();
 }
 
 void ErrorPlot::fit() {
@@ -278,7 +256,7 @@ void ErrorPlot::fit() {
     hold(p.errorHigh, p.msHigh);
   }
   for (const LiveError& live : tail_) hold(liveError(live), live.ms);
-  if (budget_ > 0 && std::isfinite(budget_)) {
+  if (budget_ > 0) {
     low = std::min(low, budget_);
     high = std::max(high, budget_);
   }
@@ -313,17 +291,14 @@ void ErrorPlot::redraw() {
   drawPoints();
   makeLegend();
   if (fitted_) fit();
-  applyTheme(*this);
-  legend->setBorderPen(Qt::NoPen);
-  legend->setBrush(Qt::NoBrush);
+  applyThemeWithLegendAbove();
 
   const QColor over = errorColour(palette());
-  const bool hasBudget = budget_ > 0 && std::isfinite(budget_);
+  const bool hasBudget = budget_ > 0;
   budgetLine_->setVisible(hasBudget);
   budgetText_->setVisible(hasBudget);
   if (hasBudget) {
-    budgetLine_->point1->setCoords(0, budget_);
-    budgetLine_->point2->setCoords(1, budget_);
+    putHorizontal(*budgetLine_, budget_);
     budgetLine_->setPen(QPen(over, 1.4, Qt::DashLine));
     budgetText_->position->setCoords(0.99, budget_);
     budgetText_->setText(tr("budget %1").arg(msText(budget_)));
@@ -341,21 +316,6 @@ void ErrorPlot::redraw() {
   if (!logarithmic()) yAxis->ticker()->setTickCount(std::clamp(height() / (3 * metrics.height()), 2, 6));
   placeText();
   replot(QCustomPlot::rpQueuedReplot);
-}
-
-void ErrorPlot::resizeEvent(QResizeEvent* event) {
-  QCustomPlot::resizeEvent(event);
-  redraw();
-}
-
-void ErrorPlot::changeEvent(QEvent* event) {
-  QCustomPlot::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) redraw();
-}
-
-void ErrorPlot::paintEvent(QPaintEvent* event) {
-  QCustomPlot::paintEvent(event);
-  paintFocusFrame(*this);
 }
 
 }  // namespace trimtab::views

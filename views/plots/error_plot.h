@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <qcustomplot.h>
-
 #include <deque>
 
+#include "plot.h"
 #include "views/model/error_run.h"
 
 namespace trimtab::views {
@@ -19,7 +18,7 @@ struct LiveError {
 /// medians of its frames; whiskers from the 5th to the 95th percentile; the front that nothing beats in both;
 /// the budget; and the live session as a point that draws a fading tail. Lower left is best whatever the
 /// error: an axis on which larger is better runs the other way.
-class ErrorPlot : public QCustomPlot {
+class ErrorPlot : public Plot {
   Q_OBJECT
  public:
   struct Point {
@@ -60,16 +59,13 @@ class ErrorPlot : public QCustomPlot {
   void logarithmicChanged(bool on);
 
  protected:
-  void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void leaveEvent(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
-  void focusInEvent(QFocusEvent* event) override;
-  void focusOutEvent(QFocusEvent* event) override;
-  void resizeEvent(QResizeEvent* event) override;
-  void changeEvent(QEvent* event) override;
-  void paintEvent(QPaintEvent* event) override;
+  void restyle() override { redraw(); }
+  void resized() override { redraw(); }
+  bool zoomByKey(double factor) override;
 
  private:
   class Tail;

@@ -26,17 +26,12 @@ int ErrorPlot::pointAt(QPointF pixel) const {
   return nearest;
 }
 
-void ErrorPlot::mousePressEvent(QMouseEvent* event) {
-  setFocus(Qt::MouseFocusReason);
-  QCustomPlot::mousePressEvent(event);
-}
-
 void ErrorPlot::mouseMoveEvent(QMouseEvent* event) {
   if (event->buttons() & Qt::LeftButton)
     fitted_ = false;
   else
     select(pointAt(event->position()));
-  QCustomPlot::mouseMoveEvent(event);
+  Plot::mouseMoveEvent(event);
 }
 
 void ErrorPlot::mouseDoubleClickEvent(QMouseEvent* event) {
@@ -46,17 +41,19 @@ void ErrorPlot::mouseDoubleClickEvent(QMouseEvent* event) {
 
 void ErrorPlot::leaveEvent(QEvent* event) {
   select(-1);
-  QCustomPlot::leaveEvent(event);
+  Plot::leaveEvent(event);
+}
+
+bool ErrorPlot::zoomByKey(double factor) {
+  fitted_ = false;
+  xAxis->scaleRange(factor);
+  yAxis->scaleRange(factor);
+  redraw();
+  return true;
 }
 
 void ErrorPlot::keyPressEvent(QKeyEvent* event) {
   const int count = int(points_.size()) + (tail_.empty() ? 0 : 1);
-  const auto zoom = [this](double factor) {
-    fitted_ = false;
-    xAxis->scaleRange(factor);
-    yAxis->scaleRange(factor);
-    redraw();
-  };
   switch (event->key()) {
     case Qt::Key_Right:
       return select(count == 0 ? -1 : (selected_ + 1) % count);
@@ -68,24 +65,9 @@ void ErrorPlot::keyPressEvent(QKeyEvent* event) {
       return setLogarithmic(!logarithmic());
     case Qt::Key_F:
       return fitView();
-    case Qt::Key_Plus:
-    case Qt::Key_Equal:
-      return zoom(0.8);
-    case Qt::Key_Minus:
-      return zoom(1.25);
     default:
-      return QCustomPlot::keyPressEvent(event);
+      return Plot::keyPressEvent(event);
   }
-}
-
-void ErrorPlot::focusInEvent(QFocusEvent* event) {
-  QCustomPlot::focusInEvent(event);
-  update();
-}
-
-void ErrorPlot::focusOutEvent(QFocusEvent* event) {
-  QCustomPlot::focusOutEvent(event);
-  update();
 }
 
 }  // namespace trimtab::views

@@ -36,23 +36,9 @@ void ErrorPlot::placeText() {
                            tr("Left and right choose a point, L switches the scale of the frame time, F "
                               "fits the view, plus and minus zoom."));
   if (text.isEmpty()) return;
-  const QColor base = palette().color(QPalette::Base), ink = palette().color(QPalette::Text);
   const bool live = selected_ == int(points_.size());
-  const QPointF at = live ? livePixel() : pixelOf(points_[std::size_t(selected_)]);
-  numbers_->setText(text);
-  numbers_->setFont(font());
-  numbers_->setColor(ink);
-  numbers_->setBrush(base);
-  numbers_->setPen(QPen(live ? liveColour(palette()) : blend(base, ink, 0.4)));
-  // Beside the point, inside the widget.
-  const QSize size =
-      QFontMetrics(font()).boundingRect(QRect(0, 0, 4000, 4000), Qt::AlignLeft, text).size() + QSize(14, 10);
-  QPointF corner(at.x() + 12, at.y() - size.height() - 6);
-  if (corner.x() + size.width() > width()) corner.setX(at.x() - 12 - size.width());
-  corner.setX(std::clamp(corner.x(), 2.0, std::max(2.0, double(width() - size.width() - 2))));
-  corner.setY(std::clamp(corner.y(), 2.0, std::max(2.0, double(height() - size.height() - 2))));
-  numbers_->setPositionAlignment(Qt::AlignLeft | Qt::AlignTop);
-  numbers_->position->setCoords(corner);
+  placeReadout(*numbers_, text, live ? livePixel() : pixelOf(points_[std::size_t(selected_)]));
+  if (live) numbers_->setPen(QPen(liveColour(palette())));
 }
 
 void ErrorPlot::select(int point) {

@@ -10,7 +10,6 @@
 namespace trimtab::views {
 namespace {
 
-constexpr int kUnboundedPx = 100000;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kHeadRoom = 1.15;
 constexpr double kWorstPx = 9;
@@ -22,28 +21,12 @@ QString timeText(double seconds) {
 
 }  // namespace
 
-ErrorTimeline::ErrorTimeline(QWidget* parent) : QCustomPlot(parent), cursor_(kNan) {
-  setFocusPolicy(Qt::StrongFocus);
-  setMouseTracking(true);
-  setAccessibleName(tr("Frame time and error along the flight"));
-  setAutoAddPlottableToLegend(false);
+ErrorTimeline::ErrorTimeline(QWidget* parent)
+    : Plot(tr("Frame time and error along the flight"), Keyboard::used, parent), cursor_(kNan) {
   plotLayout()->clear();
   plotLayout()->setRowSpacing(0);
-  auto* above = new QCPLegend;
-  plotLayout()->addElement(0, 0, above);
-  plotLayout()->setRowStretchFactor(0, 0.001);
-  above->setFillOrder(QCPLegend::foColumnsFirst);
-  above->setMargins(QMargins(4, 2, 4, 0));
-  above->setRowSpacing(0);
-  above->setColumnSpacing(6);
-  above->setIconSize(16, 12);
-  // Empty, it would bound the column.
-  above->setMaximumSize(kUnboundedPx, kUnboundedPx);
-  legend = above;
-  for (const char* name : {"cursor", "numbers"}) {
-    addLayer(QString::fromLatin1(name), nullptr, QCustomPlot::limAbove);
-    layer(QString::fromLatin1(name))->setMode(QCPLayer::lmBuffered);
-  }
+  addLegendAbove();
+  addOverlays({"cursor", "numbers"});
   auto* margins = new QCPMarginGroup(this);
   for (std::size_t i = 0; i < lanes_.size(); ++i) {
     Lane& lane = lanes_[i];
@@ -59,32 +42,17 @@ ErrorTimeline::ErrorTimeline(QWidget* parent) : QCustomPlot(parent), cursor_(kNa
     value(int(i))->ticker()->setTickCount(3);
     value(int(i))->setNumberPrecision(4);
     time(int(i))->setNumberPrecision(7);
-    lane.cursor = new QCPItemStraightLine(this);
-    lane.cursor->setLayer(QStringLiteral("cursor"));
-    lane.cursor->setClipAxisRect(lane.rect);
-    for (QCPItemPosition* point : {lane.cursor->point1, lane.cursor->point2})
-      point->setAxes(time(int(i)), value(int(i)));
+    lane.cursor = addLine("cursor", lane.rect);
   }
   time(0)->setTickLabels(false);
   time(1)->setLabel(tr("Time of the flight (s)"));
   value(0)->setLabel(tr("Frame (ms)"));
 
-  budgetLine_ = new QCPItemStraightLine(this);
-  budgetLine_->setClipAxisRect(lanes_[0].rect);
-  for (QCPItemPosition* point : {budgetLine_->point1, budgetLine_->point2}) point->setAxes(time(0), value(0));
-  const auto text = [this](const char* layerName) {
-    auto* item = new QCPItemText(this);
-    item->setLayer(QString::fromLatin1(layerName));
-    item->setClipToAxisRect(false);
-    item->position->setType(QCPItemPosition::ptAbsolute);
-    item->setPadding(QMargins(6, 3, 6, 3));
-    item->setTextAlignment(Qt::AlignLeft);
-    item->setVisible(false);
-    return item;
-  };
-  cursorText_ = text("cursor");
-  numbers_ = text("numbers");
-  hint_ = text("main");
+  budgetLine_ = addLine("main", lanes_[0].rect);
+  const QMargins padding(6, 3, 6, 3);
+  cursorText_ = addReadout("cursor", padding);
+  numbers_ = addReadout("numbers", padding);
+  hint_ = addReadout("main", padding);
   hint_->position->setType(QCPItemPosition::ptAxisRectRatio);
   hint_->position->setAxisRect(lanes_[0].rect);
   hint_->position->setCoords(0.5, 0.5);
@@ -120,7 +88,7 @@ void ErrorTimeline::showMethod(const QString& method) {
 }
 
 void ErrorTimeline::setBudget(double ms) {
-  budget_ = ms;
+  budget_ = std::isfinite(ms) ? ms : 0;
   redraw();
 }
 
@@ -156,7 +124,7 @@ void ErrorTimeline::drawLines() {
   }
   std::sort(times_.begin(), times_.end());
   times_.erase(std::unique(times_.begin(), times_.end()), times_.end());
-  if (budget_ > 0 && std::isfinite(budget_)) high[0] = std::max(high[0], budget_);
+  if (budget_ > 0) high[0] = std::max(high[0], budget_);
   value(0)->setRange(0, high[0] > 0 ? high[0] * kHeadRoom : 1);
   const double room = high[1] > low[1] ? (high[1] - low[1]) * (kHeadRoom - 1) : std::max(high[1], 1.0) * 0.1;
   value(1)->setRange(low[1] > 0 ? low[1] - room : 0, high[1] + room);
@@ -209,26 +177,15 @@ void ErrorTimeline::redraw() {
   clearPlottables();
   drawLines();
   drawWorst();
-  legend->setVisible(legend->itemCount() > 0);
-  wrapLegend(*this);
-  applyTheme(*this);
-  legend->setBorderPen(Qt::NoPen);
-  legend->setBrush(Qt::NoBrush);
-  const QColor base = palette().color(QPalette::Base), ink = palette().color(QPalette::Text);
-  const bool hasBudget = budget_ > 0 && std::isfinite(budget_);
-  budgetLine_->setVisible(hasBudget);
-  if (hasBudget) {
-    budgetLine_->point1->setCoords(0, budget_);
-    budgetLine_->point2->setCoords(1, budget_);
-    budgetLine_->setPen(QPen(errorColour(palette()), 1.4, Qt::DashLine));
-  }
+  arrangeLegendAbove();
+  applyThemeWithLegendAbove();
+  budgetLine_->setVisible(budget_ > 0);
+  putHorizontal(*budgetLine_, budget_);
+  budgetLine_->setPen(QPen(errorColour(palette()), 1.4, Qt::DashLine));
   for (Lane& lane : lanes_) lane.cursor->setPen(QPen(liveColour(palette()), 2));
-  for (QCPItemText* text : {cursorText_, numbers_, hint_}) text->setFont(font());
-  cursorText_->setColor(base);
+  for (QCPItemText* text : {cursorText_, hint_}) text->setFont(font());
+  cursorText_->setColor(palette().color(QPalette::Base));
   cursorText_->setBrush(liveColour(palette()));
-  numbers_->setColor(ink);
-  numbers_->setBrush(base);
-  numbers_->setPen(QPen(blend(base, ink, 0.4)));
   hint_->setVisible(times_.empty());
   hint_->setText(tr("Frames of a measured flight stand here."));
   hint_->setColor(quietColour(palette()));
@@ -244,9 +201,7 @@ void ErrorTimeline::placeCursor() {
   const bool shown = std::isfinite(cursor_) && !times_.empty();
   for (Lane& lane : lanes_) {
     lane.cursor->setVisible(shown);
-    if (!shown) continue;
-    lane.cursor->point1->setCoords(cursor_, 0);
-    lane.cursor->point2->setCoords(cursor_, 1);
+    if (shown) putVertical(*lane.cursor, cursor_);
   }
   cursorText_->setVisible(shown && time()->range().contains(cursor_));
   if (shown) {
@@ -301,38 +256,12 @@ QString ErrorTimeline::textAt(double at) const {
 void ErrorTimeline::showNumbers(double at, QPointF pixel) {
   const QString text = times_.empty() ? QString() : textAt(at);
   numbers_->setVisible(!text.isEmpty());
-  if (!text.isEmpty()) {
-    numbers_->setText(text);
-    const QSize size =
-        QFontMetrics(font()).boundingRect(QRect(0, 0, 4000, 4000), Qt::AlignLeft, text).size() +
-        QSize(16, 10);
-    QPointF corner(pixel.x() + 14, pixel.y() - size.height() - 8);
-    if (corner.x() + size.width() > width()) corner.setX(pixel.x() - 14 - size.width());
-    corner.setX(std::clamp(corner.x(), 2.0, std::max(2.0, double(width() - size.width() - 2))));
-    corner.setY(std::clamp(corner.y(), 2.0, std::max(2.0, double(height() - size.height() - 2))));
-    numbers_->setPositionAlignment(Qt::AlignLeft | Qt::AlignTop);
-    numbers_->position->setCoords(corner);
-  }
+  if (!text.isEmpty()) placeReadout(*numbers_, text, pixel);
   layer(QStringLiteral("numbers"))->replot();
 }
 
 QPointF ErrorTimeline::pixelOf(double at) const {
   return {time()->coordToPixel(at), double(lanes_[0].rect->center().y())};
-}
-
-void ErrorTimeline::resizeEvent(QResizeEvent* event) {
-  QCustomPlot::resizeEvent(event);
-  redraw();
-}
-
-void ErrorTimeline::changeEvent(QEvent* event) {
-  QCustomPlot::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) redraw();
-}
-
-void ErrorTimeline::paintEvent(QPaintEvent* event) {
-  QCustomPlot::paintEvent(event);
-  paintFocusFrame(*this);
 }
 
 }  // namespace trimtab::views

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <qcustomplot.h>
-
 #include <array>
 #include <vector>
 
+#include "plot.h"
 #include "views/model/error_run.h"
 
 namespace trimtab::views {
@@ -13,7 +12,7 @@ namespace trimtab::views {
 /// The frames of one flight along time: frame time above, error below, a line a preset in one culling case;
 /// the worst frames marked. Its cursor is where the flight stands, and takes it elsewhere when it is dragged
 /// or moved by keys.
-class ErrorTimeline : public QCustomPlot {
+class ErrorTimeline : public Plot {
   Q_OBJECT
  public:
   struct Worst {
@@ -54,11 +53,9 @@ class ErrorTimeline : public QCustomPlot {
   void wheelEvent(QWheelEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void leaveEvent(QEvent* event) override;
-  void focusInEvent(QFocusEvent* event) override;
-  void focusOutEvent(QFocusEvent* event) override;
-  void resizeEvent(QResizeEvent* event) override;
-  void changeEvent(QEvent* event) override;
-  void paintEvent(QPaintEvent* event) override;
+  void restyle() override { redraw(); }
+  void resized() override { redraw(); }
+  bool zoomByKey(double factor) override;
 
  private:
   struct Lane {

@@ -40,7 +40,6 @@ void ErrorTimeline::stepWorst(int direction) {
 }
 
 void ErrorTimeline::mousePressEvent(QMouseEvent* event) {
-  setFocus(Qt::MouseFocusReason);
   if (event->button() != Qt::LeftButton) return;
   dragging_ = true;
   seek(time()->pixelToCoord(event->position().x()));
@@ -59,7 +58,7 @@ void ErrorTimeline::mouseReleaseEvent(QMouseEvent*) {
 void ErrorTimeline::wheelEvent(QWheelEvent* event) {
   const QCPRange range = time()->range();
   const double anchor = time()->pixelToCoord(event->position().x());
-  const double factor = std::pow(0.85, event->angleDelta().y() / 120.0);
+  const double factor = wheelFactor(*event);
   if (range.size() * factor < kShortestSpanS || whole_.size() == 0) return event->accept();
   const QCPRange zoomed =
       QCPRange(anchor - (anchor - range.lower) * factor, anchor + (range.upper - anchor) * factor)
@@ -70,14 +69,16 @@ void ErrorTimeline::wheelEvent(QWheelEvent* event) {
   event->accept();
 }
 
+bool ErrorTimeline::zoomByKey(double factor) {
+  const double middle = time()->range().contains(cursor_) ? cursor_ : time()->range().center();
+  for (int lane = 0; lane < 2; ++lane) time(lane)->scaleRange(factor, middle);
+  placeCursor();
+  replot(QCustomPlot::rpQueuedReplot);
+  return true;
+}
+
 void ErrorTimeline::keyPressEvent(QKeyEvent* event) {
   const int frames = event->modifiers() & Qt::ShiftModifier ? kPageFrames : 1;
-  const auto zoom = [this](double factor) {
-    const double middle = time()->range().contains(cursor_) ? cursor_ : time()->range().center();
-    for (int lane = 0; lane < 2; ++lane) time(lane)->scaleRange(factor, middle);
-    placeCursor();
-    replot(QCustomPlot::rpQueuedReplot);
-  };
   switch (event->key()) {
     case Qt::Key_Left:
       return stepFrames(-frames);
@@ -93,13 +94,8 @@ void ErrorTimeline::keyPressEvent(QKeyEvent* event) {
       return times_.empty() ? void() : seek(times_.back());
     case Qt::Key_W:
       return stepWorst(event->modifiers() & Qt::ShiftModifier ? -1 : 1);
-    case Qt::Key_Plus:
-    case Qt::Key_Equal:
-      return zoom(0.8);
-    case Qt::Key_Minus:
-      return zoom(1.25);
     default:
-      return QCustomPlot::keyPressEvent(event);
+      return Plot::keyPressEvent(event);
   }
 }
 
@@ -107,16 +103,6 @@ void ErrorTimeline::leaveEvent(QEvent* event) {
   numbers_->setVisible(false);
   layer(QStringLiteral("numbers"))->replot();
   QCustomPlot::leaveEvent(event);
-}
-
-void ErrorTimeline::focusInEvent(QFocusEvent* event) {
-  QCustomPlot::focusInEvent(event);
-  update();
-}
-
-void ErrorTimeline::focusOutEvent(QFocusEvent* event) {
-  QCustomPlot::focusOutEvent(event);
-  update();
 }
 
 }  // namespace trimtab::views

@@ -7,8 +7,7 @@
 
 namespace trimtab::views {
 
-MotionPlot::MotionPlot(QWidget* parent) : QCustomPlot(parent) {
-  setAccessibleName(tr("Head motion over time"));
+MotionPlot::MotionPlot(QWidget* parent) : Plot(tr("Head motion over time"), Keyboard::ignored, parent) {
   setPlottingHints(QCP::phFastPolylines | QCP::phCacheLabels);
   setNotAntialiasedElements(QCP::aeAxes | QCP::aeGrid | QCP::aeFills);
   xAxis->setLabel(tr("Time (s)"));
@@ -34,7 +33,7 @@ MotionPlot::MotionPlot(QWidget* parent) : QCustomPlot(parent) {
   legend->setMargins(QMargins(4, 1, 4, 1));
   legend->setIconSize(22, 10);
   axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignLeft | Qt::AlignTop);
-  colour();
+  restyle();
 }
 
 void MotionPlot::append(const LiveFrame& frame) {
@@ -68,7 +67,7 @@ void MotionPlot::refresh() {
   replot(QCustomPlot::rpQueuedReplot);
 }
 
-void MotionPlot::colour() {
+void MotionPlot::restyle() {
   applyTheme(*this);
   rate_->setPen(QPen(seriesColour(0, palette()), 1.5));
   threshold_->setPen(QPen(errorColour(palette()), 1.5, Qt::DashLine));
@@ -77,12 +76,6 @@ void MotionPlot::colour() {
   shade.setAlpha(60);
   blur_->setPen(Qt::NoPen);
   blur_->setBrush(shade);
-}
-
-void MotionPlot::changeEvent(QEvent* event) {
-  QCustomPlot::changeEvent(event);
-  if (event->type() != QEvent::PaletteChange && event->type() != QEvent::FontChange) return;
-  colour();
   replot(QCustomPlot::rpQueuedReplot);
 }
 

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <qcustomplot.h>
-
+#include "plot.h"
 #include "views/model/live.h"
 
 namespace trimtab::views {
 
 /// Rate of the line of sight against its threshold, LOD scale, and the time that is blurred, over the last
 /// seconds.
-class MotionPlot : public QCustomPlot {
+class MotionPlot : public Plot {
   Q_OBJECT
  public:
   static constexpr double kSpanS = 15;
@@ -25,11 +24,9 @@ class MotionPlot : public QCustomPlot {
   QSize minimumSizeHint() const override { return {220, 120}; }
 
  protected:
-  void changeEvent(QEvent* event) override;
+  void restyle() override;
 
  private:
-  void colour();
-
   QCPGraph *rate_, *threshold_, *scale_, *blur_;
   double last_ = 0;
 };

@@ -4,9 +4,8 @@
 #include <QString>
 #include <QStringList>
 #include <QVector>
-#include <QWidget>
 
-class QCustomPlot;
+#include "plot.h"
 
 namespace trimtab::views {
 
@@ -22,22 +21,20 @@ struct ReportPlotData {
 };
 
 /// One plot of a report that is finished: nothing in it moves.
-class ReportPlot : public QWidget {
+class ReportPlot : public Plot {
   Q_OBJECT
  public:
   explicit ReportPlot(QWidget* parent = nullptr);
   void show(const ReportPlotData& report);
   void clear();
-  QCustomPlot& plot() { return *plot_; }
 
  protected:
-  void changeEvent(QEvent* event) override;
+  void restyle() override { show(data_); }
 
  private:
   void addLines();
   void addBars();
 
-  QCustomPlot* plot_;
   ReportPlotData data_;
 };
 

@@ -58,15 +58,13 @@ QCPRange pitchRange(const PitchParameters& p) {
 }  // namespace
 
 SurfacePlot::SurfacePlot(Draft& draft, QWidget* parent)
-    : QCustomPlot(parent),
+    : Plot(tr("Total membership over altitude and pitch"), Keyboard::ignored, parent),
       draft_(draft),
       surfaceThrottle_(this, [this] { compute(); }),
       liveThrottle_(this, [this] { showLive(); }) {
-  setAccessibleName(tr("Total membership over altitude and pitch"));
-  setMouseTracking(true);
   setMinimumSize(260, 200);
   makePlottables();
-  colour();
+  restyle();
   fitView();
   connect(&draft_, &Draft::activeChanged, this, [this] {
     if (!sameSurface(shown_, *draft_.active())) surfaceThrottle_.request();
@@ -85,10 +83,7 @@ SurfacePlot::SurfacePlot(Draft& draft, QWidget* parent)
 }
 
 void SurfacePlot::makePlottables() {
-  for (const char* name : {"live", "hover"}) {
-    addLayer(QString::fromLatin1(name), nullptr, QCustomPlot::limAbove);
-    layer(QString::fromLatin1(name))->setMode(QCPLayer::lmBuffered);
-  }
+  addOverlays({"live", "hover"});
   xAxis->setLabel(tr("Altitude (ft)"));
   yAxis->setLabel(tr("Pitch (°), nose up positive"));
   xAxis->setNumberFormat(QStringLiteral("f"));
@@ -138,7 +133,7 @@ void SurfacePlot::makePlottables() {
   hover_->setVisible(false);
 }
 
-void SurfacePlot::colour() {
+void SurfacePlot::restyle() {
   applyTheme(*this);
   scale_->axis()->setLabelColor(palette().color(QPalette::Text));
   scale_->axis()->setTickLabelColor(palette().color(QPalette::Text));
@@ -147,14 +142,7 @@ void SurfacePlot::colour() {
   hover_->setColor(palette().color(QPalette::ToolTipText));
   hover_->setBrush(palette().color(QPalette::ToolTipBase));
   hover_->setFont(font());
-}
-
-void SurfacePlot::changeEvent(QEvent* event) {
-  QCustomPlot::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) {
-    colour();
-    replot(rpQueuedReplot);
-  }
+  replot(QCustomPlot::rpQueuedReplot);
 }
 
 void SurfacePlot::fitView() {

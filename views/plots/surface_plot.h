@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <qcustomplot.h>
-
 #include <vector>
 
+#include "plot.h"
 #include "views/model/draft.h"
 #include "views/model/live.h"
 #include "views/model/throttle.h"
@@ -15,7 +14,7 @@ namespace trimtab::views {
 /// the flight's track and the last frame's place on it. Of the active parameters, whatever their combination
 /// and readings; computed anew only when one of them or the view changes. Drag and wheel move the view,
 /// double click fits it.
-class SurfacePlot : public QCustomPlot {
+class SurfacePlot : public Plot {
   Q_OBJECT
  public:
   explicit SurfacePlot(Draft& draft, QWidget* parent = nullptr);
@@ -37,11 +36,10 @@ class SurfacePlot : public QCustomPlot {
  protected:
   void mouseMoveEvent(QMouseEvent* event) override;
   void leaveEvent(QEvent* event) override;
-  void changeEvent(QEvent* event) override;
+  void restyle() override;
 
  private:
   void makePlottables();
-  void colour();
   void compute();
   void drawEdges(const std::vector<double>& totals);
   void showLive();

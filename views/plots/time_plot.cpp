@@ -18,24 +18,21 @@ constexpr double kMostOverUsual = 4;
 }  // namespace
 
 TimePlot::TimePlot(const TraceBuffer& buffer, Lanes lanes, QWidget* parent)
-    : QCustomPlot(parent), buffer_(buffer), firstLane_(lanes == Lanes::all ? 0 : kStageLane) {
-  setFocusPolicy(Qt::StrongFocus);
-  setMouseTracking(true);
-  setAccessibleName(tr("Live plots"));
+    : Plot(tr("Live plots"), Keyboard::used, parent),
+      buffer_(buffer),
+      firstLane_(lanes == Lanes::all ? 0 : kStageLane) {
   setAccessibleDescription(
       tr("Space pauses, F follows, plus and minus zoom, the arrow keys move the view, or with cursors shown "
          "the cursor "
          "chosen by A or B."));
   setNoAntialiasingOnDrag(true);
+  setAutoAddPlottableToLegend(false);
   setPlottingHints(QCP::phFastPolylines | QCP::phCacheLabels);
   setNotAntialiasedElements(QCP::aeAxes | QCP::aeGrid | QCP::aeSubGrid | QCP::aePlottables | QCP::aeFills);
   // Pan and zoom are made here, so that zooming keeps the newest frame at the edge while it is followed.
   plotLayout()->clear();
   plotLayout()->setRowSpacing(2);
-  for (const char* name : {"cursors", "tracker"}) {
-    addLayer(QString::fromLatin1(name));
-    layer(QString::fromLatin1(name))->setMode(QCPLayer::lmBuffered);
-  }
+  addOverlays({"cursors", "tracker"});
   if (firstLane_ == 0) {
     makeLane(tr("Membership"), 2.6, false);
     makeLane(tr("Triangles (k)"), 0, false);
@@ -83,8 +80,8 @@ TimePlot::TimePlot(const TraceBuffer& buffer, Lanes lanes, QWidget* parent)
   }
   for (QCPMarginGroup*& group : columnMargins_) group = new QCPMarginGroup(this);
   arrange();
-  colour();
   setShown(0, span_);
+  restyle();
 }
 
 void TimePlot::makeLane(const QString& title, double fixedTop, bool budget) {
@@ -108,15 +105,8 @@ void TimePlot::makeLane(const QString& title, double fixedTop, bool budget) {
   lane.legend->setFillOrder(QCPLayoutGrid::foColumnsFirst);
   lane.legend->setMargins(QMargins(4, 1, 4, 1));
   lane.legend->setIconSize(22, 10);
-  const auto line = [&](const char* layerName) {
-    QCPItemStraightLine* item = new QCPItemStraightLine(this);
-    item->setLayer(QString::fromLatin1(layerName));
-    item->setClipAxisRect(lane.rect);
-    for (QCPItemPosition* point : {item->point1, item->point2}) point->setAxes(time, left);
-    return item;
-  };
   if (budget) {
-    lane.budget = line("main");
+    lane.budget = addLine("main", lane.rect);
     for (QCPItemText** text : {&lane.budgetText, &lane.longest}) {
       *text = new QCPItemText(this);
       (*text)->setClipAxisRect(lane.rect);
@@ -129,10 +119,10 @@ void TimePlot::makeLane(const QString& title, double fixedTop, bool budget) {
     lane.longest->setPositionAlignment(Qt::AlignRight | Qt::AlignTop);
   }
   for (QCPItemStraightLine*& cursor : lane.cursor) {
-    cursor = line("cursors");
+    cursor = addLine("cursors", lane.rect);
     cursor->setVisible(false);
   }
-  lane.tracker = line("tracker");
+  lane.tracker = addLine("tracker", lane.rect);
   lane.tracker->setVisible(false);
   lanes_.push_back(lane);
 }
@@ -158,8 +148,7 @@ void TimePlot::arrange() {
 
 void TimePlot::resizeEvent(QResizeEvent* event) {
   arrange();
-  QCustomPlot::resizeEvent(event);
-  draw();
+  Plot::resizeEvent(event);
 }
 
 void TimePlot::addTrace(std::size_t lane, TraceGraph::Look look, const QString& right) {
@@ -174,7 +163,6 @@ void TimePlot::addTrace(std::size_t lane, TraceGraph::Look look, const QString& 
     value->ticker()->setTickCount(3);
     value->setLabel(right);
   }
-  setAutoAddPlottableToLegend(false);
   TraceGraph* graph = new TraceGraph(rect->axis(QCPAxis::atBottom), value, std::move(look));
   // The stages' lane says their unit, and its legend has many entries.
   if (lane == kStageLane) graph->setName(graph->look().name);
@@ -182,7 +170,7 @@ void TimePlot::addTrace(std::size_t lane, TraceGraph::Look look, const QString& 
   traces_.push_back(graph);
 }
 
-void TimePlot::colour() {
+void TimePlot::restyle() {
   applyTheme(*this);
   const QPalette& p = palette();
   const QColor ink = p.color(QPalette::Text), base = p.color(QPalette::Base);
@@ -210,14 +198,14 @@ void TimePlot::colour() {
     text->setBrush(ink);
     text->setFont(font());
   }
+  draw();
 }
 
 void TimePlot::setBudget(double ms) {
   budget_ = ms;
   for (Lane& lane : lanes_)
     if (lane.budget) {
-      lane.budget->point1->setCoords(0, ms);
-      lane.budget->point2->setCoords(1, ms);
+      putHorizontal(*lane.budget, ms);
       lane.budgetText->setText(tr("budget %1 ms").arg(numberText(ms, 2)));
       lane.budgetText->position->setCoords(0.995, ms);
     }
@@ -327,9 +315,7 @@ void TimePlot::placeCursors() {
   for (std::size_t i = 0; i < 2; ++i) {
     for (Lane& lane : lanes_) {
       lane.cursor[i]->setVisible(hasCursors());
-      if (!cursors_) continue;
-      lane.cursor[i]->point1->setCoords((*cursors_)[i], 0);
-      lane.cursor[i]->point2->setCoords((*cursors_)[i], 1);
+      if (cursors_) putVertical(*lane.cursor[i], (*cursors_)[i]);
     }
     cursorText_[i]->setVisible(hasCursors());
     if (cursors_) cursorText_[i]->position->setCoords((*cursors_)[i], 1);
@@ -338,19 +324,6 @@ void TimePlot::placeCursors() {
 
 QPointF TimePlot::pixelOfTime(double time) const {
   return {timeAxis()->coordToPixel(time), static_cast<double>(lanes_.front().rect->center().y())};
-}
-
-void TimePlot::paintEvent(QPaintEvent* event) {
-  QCustomPlot::paintEvent(event);
-  paintFocusFrame(*this);
-}
-
-void TimePlot::changeEvent(QEvent* event) {
-  QCustomPlot::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) {
-    colour();
-    draw();
-  }
 }
 
 }  // namespace trimtab::views

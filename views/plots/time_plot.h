@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <qcustomplot.h>
-
 #include <array>
 #include <optional>
 #include <vector>
 
+#include "plot.h"
 #include "trace_graph.h"
 
 namespace trimtab::views {
 
 /// Four lanes against one time axis: memberships, triangles, frame time and rate, and the stages of a frame
 /// stacked; a budget line, two cursors and a tracker. It draws what a TraceBuffer holds and owns no data.
-class TimePlot : public QCustomPlot {
+class TimePlot : public Plot {
   Q_OBJECT
  public:
   enum class Lanes { all, stages };  ///< stages alone: how a dock of another matter shows what it costs
@@ -51,12 +50,11 @@ class TimePlot : public QCustomPlot {
   void mouseReleaseEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
-  void focusInEvent(QFocusEvent* event) override;
-  void focusOutEvent(QFocusEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void leaveEvent(QEvent* event) override;
-  void changeEvent(QEvent* event) override;
-  void paintEvent(QPaintEvent* event) override;
+  void restyle() override;
+  void resized() override { draw(); }
+  bool zoomByKey(double factor) override;
 
  private:
   struct Lane {
@@ -73,7 +71,6 @@ class TimePlot : public QCustomPlot {
   void makeLane(const QString& title, double fixedTop, bool budget);
   /// With `right`, what its axis on the right is called.
   void addTrace(std::size_t lane, TraceGraph::Look look, const QString& right = {});
-  void colour();
   QCPAxis* timeAxis() const { return lanes_.front().rect->axis(QCPAxis::atBottom); }
   void draw();
   /// Where the axis of times ends; says the longest where that is beyond.

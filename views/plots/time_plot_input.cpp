@@ -30,7 +30,6 @@ void TimePlot::zoom(double factor, double anchor) {
 }
 
 void TimePlot::mousePressEvent(QMouseEvent* event) {
-  setFocus(Qt::MouseFocusReason);
   if (event->button() != Qt::LeftButton) return;
   draggedCursor_ = cursorAt(event->position());
   if (draggedCursor_ >= 0)
@@ -57,8 +56,7 @@ void TimePlot::mouseMoveEvent(QMouseEvent* event) {
   }
   for (Lane& lane : lanes_) {
     lane.tracker->setVisible(true);
-    lane.tracker->point1->setCoords(time, 0);
-    lane.tracker->point2->setCoords(time, 1);
+    putVertical(*lane.tracker, time);
   }
   layer(QStringLiteral("tracker"))->replot();
   emit tracked(time);
@@ -72,8 +70,13 @@ void TimePlot::mouseReleaseEvent(QMouseEvent*) {
 void TimePlot::wheelEvent(QWheelEvent* event) {
   // In a dock of another matter, which scrolls, the wheel is the dock's until the plot was clicked.
   if (firstLane_ != 0 && !hasFocus()) return event->ignore();
-  zoom(std::pow(0.85, event->angleDelta().y() / 120.0), timeAxis()->pixelToCoord(event->position().x()));
+  zoom(wheelFactor(*event), timeAxis()->pixelToCoord(event->position().x()));
   event->accept();
+}
+
+bool TimePlot::zoomByKey(double factor) {
+  zoom(factor, shown().center());
+  return true;
 }
 
 void TimePlot::keyPressEvent(QKeyEvent* event) {
@@ -92,11 +95,6 @@ void TimePlot::keyPressEvent(QKeyEvent* event) {
       return move(-step);
     case Qt::Key_Right:
       return move(step);
-    case Qt::Key_Plus:
-    case Qt::Key_Equal:
-      return zoom(0.8, shown().center());
-    case Qt::Key_Minus:
-      return zoom(1.25, shown().center());
     case Qt::Key_A:
       keyCursor_ = 0;
       return;
@@ -109,18 +107,8 @@ void TimePlot::keyPressEvent(QKeyEvent* event) {
     case Qt::Key_End:
       return emit followAsked();
     default:
-      return QCustomPlot::keyPressEvent(event);
+      return Plot::keyPressEvent(event);
   }
-}
-
-void TimePlot::focusInEvent(QFocusEvent* event) {
-  QCustomPlot::focusInEvent(event);
-  update();
-}
-
-void TimePlot::focusOutEvent(QFocusEvent* event) {
-  QCustomPlot::focusOutEvent(event);
-  update();
 }
 
 void TimePlot::leaveEvent(QEvent* event) {

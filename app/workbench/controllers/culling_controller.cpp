@@ -13,16 +13,13 @@
 #include "trimtab/scene/node_description.h"
 #include "trimtab/scene/renderer.h"
 #include "views/editors/bands_editor.h"
+#include "views/model/theme.h"
 #include "views/panels/culling_panel.h"
 
 namespace trimtab::workbench {
 namespace {
 
 constexpr double kDegreesPerRadian = 57.29577951308232;
-
-QString fromView(std::string_view text) {
-  return QString::fromUtf8(text.data(), qsizetype(text.size()));
-}
 
 bool isWhiteAllOver(const QImage& grey) {
   for (int y = 0; y < grey.height(); ++y) {
@@ -110,7 +107,7 @@ void CullingController::showPicked(std::uint32_t node) {
   if (!terrain_.database() || !last || !frame_.shown()) return panel_.showPicked(std::nullopt);
   const auto found = scene::describeNode(node, *terrain_.database(), *frame_.shown(), *last);
   if (!found) return panel_.showPicked(std::nullopt);
-  panel_.showPicked(views::PickedNode{.form = fromView(found->form),
+  panel_.showPicked(views::PickedNode{.form = views::fromView(found->form),
                                       .number = node,
                                       .level = found->level,
                                       .triangles = found->triangles,
@@ -119,7 +116,7 @@ void CullingController::showPicked(std::uint32_t node) {
                                       .errorPx = found->errorPx,
                                       .widthPx = found->widthPx,
                                       .heightPx = found->heightPx,
-                                      .reason = fromView(scene::inWords(found->reason))});
+                                      .reason = views::fromView(scene::inWords(found->reason))});
 }
 
 }  // namespace trimtab::workbench

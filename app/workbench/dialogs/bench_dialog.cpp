@@ -17,6 +17,7 @@
 
 #include "trimtab/preset/preset.h"
 #include "views/model/error_run.h"
+#include "views/model/theme.h"
 
 namespace trimtab::workbench {
 namespace {
@@ -43,7 +44,7 @@ BenchDialog::BenchDialog(const QString& folder, QWidget* parent)
     item->setCheckState(Qt::Checked);
   };
   for (const std::string_view shipped : shippedPresets()) {
-    const QString name = QString::fromUtf8(shipped.data(), qsizetype(shipped.size()));
+    const QString name = views::fromView(shipped);
     add(name, name);
   }
   add(tr("the draft, as it is now"), BenchChoice::kDraft);

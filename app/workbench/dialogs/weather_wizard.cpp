@@ -43,7 +43,7 @@ enum Column {
 
 QString stepLabel(WeatherStep step) {
   const std::string_view label = findRow("weather.step")->choices[static_cast<std::size_t>(step)].label;
-  return QString::fromUtf8(label.data(), static_cast<qsizetype>(label.size()));
+  return views::fromView(label);
 }
 
 QString ms(double value) {
@@ -55,7 +55,7 @@ QString fps(double milliseconds) {
 
 QString outcomeText(const StepCalibration& c) {
   const std::string_view text = toText(c.outcome);
-  QString said = QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
+  QString said = views::fromView(text);
   if (c.outcome == CalibrationOutcome::cut_not_enough && c.density > 0)
     said = WeatherWizard::tr("Costs more than any cut can win (%1 of %2 ms): density %3 fits")
                .arg(ms(c.strongestGainMs()), ms(c.lossMs()), views::numberText(c.density, 3));

@@ -29,10 +29,6 @@ namespace {
 constexpr int kControlsPx = 214;
 constexpr auto kFirstError = "flip";
 
-QString fromView(std::string_view text) {
-  return QString::fromUtf8(text.data(), qsizetype(text.size()));
-}
-
 template <class Use>
 void eachError(const Use& use) {
   for (const harness::Quantity& quantity : harness::quantities())
@@ -42,7 +38,7 @@ void eachError(const Use& use) {
 QVector<views::ErrorRun::Error> errorList() {
   QVector<views::ErrorRun::Error> list;
   eachError([&](const harness::Quantity& q) {
-    list.append({fromView(q.key), fromView(q.label), fromView(q.unit), q.largerIsWorse});
+    list.append({views::fromView(q.key), views::fromView(q.label), views::fromView(q.unit), q.largerIsWorse});
   });
   return list;
 }

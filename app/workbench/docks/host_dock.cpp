@@ -17,6 +17,7 @@
 
 #include "app/link/link.h"
 #include "views/model/draft.h"
+#include "views/model/theme.h"
 
 namespace trimtab::workbench {
 namespace {
@@ -90,9 +91,8 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
   port_->setAccessibleName(tr("Port"));
   port_->setToolTip(tr("UDP port this program listens on, on every address of this machine"));
   if (const ParameterRow* row = findRow(kProtocolKey)) {
-    for (const ChoiceOption& choice : row->choices)
-      protocol_->addItem(QString::fromUtf8(choice.label.data(), qsizetype(choice.label.size())));
-    protocol_->setToolTip(QString::fromUtf8(row->help.data(), qsizetype(row->help.size())));
+    for (const ChoiceOption& choice : row->choices) protocol_->addItem(views::fromView(choice.label));
+    protocol_->setToolTip(views::fromView(row->help));
   }
   protocol_->setAccessibleName(tr("Protocol"));
   reply_->setPlaceholderText(tr("host:port; empty: nothing is sent"));

@@ -5,6 +5,7 @@
 
 #include "split_view.h"
 #include "trimtab/preset/preset.h"
+#include "views/model/theme.h"
 
 // Which presets the split view compares.
 namespace trimtab::workbench {
@@ -18,7 +19,7 @@ QComboBox* SplitView::makeChoice(Side side, const QString& name) {
   auto* box = new QComboBox(this);
   box->addItem(tr("the draft"), kDraft);
   for (const std::string_view shipped : shippedPresets()) {
-    const QString text = QString::fromUtf8(shipped.data(), qsizetype(shipped.size()));
+    const QString text = views::fromView(shipped);
     box->addItem(text, text);
   }
   box->addItem(tr("reference"), kReference);

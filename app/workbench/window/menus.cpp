@@ -20,6 +20,7 @@
 #include "trimtab/preset/preset.h"
 #include "trimtab/preset/table.h"
 #include "views/model/draft.h"
+#include "views/model/theme.h"
 #include "views/panels/culling_panel.h"
 #include "views/panels/rules_panel.h"
 #include "views/panels/terrain_panel.h"
@@ -28,10 +29,6 @@ namespace trimtab::workbench {
 namespace {
 
 constexpr auto kCaseKey = "culling.case";
-
-QString fromView(std::string_view text) {
-  return QString::fromUtf8(text.data(), qsizetype(text.size()));
-}
 
 /// Gives an action the short text and the icon that it has in a toolbar.
 void dress(QAction& action, const QString& iconText, const QIcon& icon = {}) {
@@ -86,9 +83,9 @@ void Menus::makeFileMenu() {
 
   QMenu& fresh = *file.addMenu(icon(QStyle::SP_FileIcon), tr("&New preset"));
   for (const std::string_view name : shippedPresets())
-    add(fresh, {{tr("from %1").arg(fromView(name)),
+    add(fresh, {{tr("from %1").arg(views::fromView(name)),
                  name == "default" ? QKeySequence(QKeySequence::New) : QKeySequence(),
-                 [&document, name] { document.startFrom(fromView(name)); }}});
+                 [&document, name] { document.startFrom(views::fromView(name)); }}});
   add(file, {{tr("&Open preset..."), QKeySequence::Open, [&] { document.askOpen(); }, {}, &open}});
   addPresetMenus(file);
   add(file,
@@ -131,7 +128,8 @@ void Menus::makeFileMenu() {
 void Menus::addPresetMenus(QMenu& file) {
   QMenu& shipped = *file.addMenu(tr("Open s&hipped preset"));
   for (const std::string_view name : shippedPresets())
-    add(shipped, {{fromView(name), {}, [this, name] { by_.document->openOverEdits(fromView(name)); }}});
+    add(shipped,
+        {{views::fromView(name), {}, [this, name] { by_.document->openOverEdits(views::fromView(name)); }}});
   QMenu& recent = *file.addMenu(tr("&Recent"));
   connect(&recent, &QMenu::aboutToShow, this, [this, &recent] { fillRecentMenu(recent); });
 }
@@ -231,7 +229,7 @@ void Menus::addCases(QMenu& view) {
   auto* group = new QActionGroup(this);
   for (std::size_t i = 0; i < row->choices.size(); ++i) {
     QAction* action = nullptr;
-    add(cases, {{fromView(row->choices[i].label),
+    add(cases, {{views::fromView(row->choices[i].label),
                  tr("Ctrl+Alt+%1").arg(i + 1),
                  [this, i] { at_.draft.setValue(kCaseKey, ChoiceIndex{i}); },
                  {},

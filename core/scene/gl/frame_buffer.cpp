@@ -79,7 +79,7 @@ void FrameBuffer::resize(int width, int height) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     return texture;
   };
-  colour_ = makeTexture(GL_RGBA8);
+  colour_ = makeTexture(format_ == Colour::rgba8 ? GL_RGBA8 : GL_R32UI);
   depth_ = makeTexture(GL_DEPTH_COMPONENT32F);
   glBindTexture(GL_TEXTURE_2D, 0);
   glBindFramebuffer(GL_FRAMEBUFFER, id_);

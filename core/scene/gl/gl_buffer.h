@@ -2,13 +2,13 @@
 
 #include <cstddef>
 
-/// Buffers of the current context; each call leaves nothing bound but what it says.
+/// Buffers of the current context. No call leaves anything bound.
 namespace trimtab::scene {
 
-/// A buffer of `after` bytes in place of `buffer` (0: none yet), whose first `before` bytes it keeps.
-/// False where there is no memory for it: `buffer` is as it was.
+/// Replaces `buffer` (0 if there is none yet) by one of `after` bytes and keeps its first `before` bytes.
+/// Returns false and leaves it as it was if there is no memory for that.
 bool growBuffer(unsigned& buffer, std::size_t before, std::size_t after);
-/// For tests: while it lives, there is no memory for a buffer that grows beyond so many bytes.
+/// While it lives, there is no memory for a buffer that grows beyond so many bytes. For tests.
 class ScarceMemory {
  public:
   explicit ScarceMemory(std::size_t mostBytes);
@@ -19,10 +19,11 @@ class ScarceMemory {
  private:
   std::size_t before_;
 };
-/// All of it, anew.
+/// Replaces the content of a buffer.
 void uploadBuffer(unsigned buffer, const void* data, std::size_t bytes);
+/// Replaces a part of a buffer's content.
 void uploadPart(unsigned buffer, std::size_t offset, const void* data, std::size_t bytes);
-/// Makes `buffer` what a buffer texture reads.
+/// Makes a buffer texture read `buffer`.
 void attachBuffer(unsigned texture, unsigned format, unsigned buffer);
 
 }  // namespace trimtab::scene

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 
 #include "gl_api.h"
 #include "multi_draw.h"

@@ -6,8 +6,8 @@
 
 namespace trimtab::scene {
 
-/// GPU milliseconds of a frame's spans from time stamps, read some frames later: it never waits. Spans may
-/// lie in one another. The context is current for all of its life.
+/// Measures spans of a frame on the GPU by time stamps, which it reads some frames later without waiting.
+/// Spans may lie in one another. The context must be current for all of its life.
 class GpuTimer {
  public:
   explicit GpuTimer(std::size_t spans);
@@ -19,9 +19,10 @@ class GpuTimer {
   void begin(std::size_t span);
   void end(std::size_t span);
   void endFrame();
-  /// Of the newest frame whose stamps have arrived; NaN where it had no such span, and before the first.
+  /// Returns the milliseconds of a span in the newest frame whose stamps have arrived; NaN if that frame had
+  /// no such span, and before the first.
   double milliseconds(std::size_t span) const { return milliseconds_[span]; }
-  /// Takes up what has arrived; each frame does so as it begins.
+  /// Reads the stamps that have arrived; beginFrame() calls it.
   void collect();
 
  private:

@@ -1,7 +1,5 @@
 #include "guard_band.h"
 
-#include <algorithm>
-
 #include "gl_api.h"
 #include "trimtab/scene/gl_report.h"
 

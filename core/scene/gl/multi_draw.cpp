@@ -1,7 +1,7 @@
 #include "multi_draw.h"
 
 #include <algorithm>
-#include <string_view>
+#include <array>
 
 #include "gl_api.h"
 #include "gl_buffer.h"
@@ -28,40 +28,14 @@ bool sameNodes(std::span<const TileDraw> a, std::span<const TileDraw> b) {
 
 }  // namespace
 
-DrawChoice chooseDrawWay(const DrawFeatures& f) {
+DrawChoice drawChoiceOfContext() {
   // A software rasteriser runs the commands of a buffer one by one through all of its checks: measured on
   // llvmpipe, 0.20 us a mesh against 0.13 from arrays, and 0.22 by a call each.
-  const bool slow = f.software && f.baseVertex;
-  if (f.indirect && !slow) return {DrawWay::indirect, "one indirect multi-draw"};
-  const std::string not_indirect =
-      f.indirect ? "indirect is slower in software" : "the driver lacks indirect";
-  if (f.baseVertex) return {DrawWay::base_vertex, "one multi-draw by base vertex (" + not_indirect + ")"};
-  return {DrawWay::loop, "one draw a mesh (the driver lacks multi-draws)"};
-}
-
-DrawFeatures drawFeaturesOfContext() {
-  DrawFeatures features{.software = contextIsSoftware()};
-  GLint extensions = 0, major = 0, minor = 0;
-  glGetIntegerv(GL_MAJOR_VERSION, &major);
-  glGetIntegerv(GL_MINOR_VERSION, &minor);
-  const int version = 10 * major + minor;
-  features.indirect = version >= 43;
-  features.baseVertex = version >= 32;
-  glGetIntegerv(GL_NUM_EXTENSIONS, &extensions);
-  for (GLint i = 0; i < extensions; ++i) {
-    const auto* name = reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, static_cast<GLuint>(i)));
-    if (name == nullptr) continue;
-    features.indirect |= std::string_view(name) == "GL_ARB_multi_draw_indirect";
-    features.baseVertex |= std::string_view(name) == "GL_ARB_draw_elements_base_vertex";
-  }
-  return features;
-}
-
-DrawChoice drawChoiceOfContext() {
-  if (!forced) return chooseDrawWay(drawFeaturesOfContext());
-  DrawChoice choice = chooseDrawWay({*forced == DrawWay::indirect, *forced == DrawWay::base_vertex, false});
-  choice.reason += ", as asked for";
-  return choice;
+  constexpr std::array kReasons{"one indirect multi-draw",
+                                "one multi-draw by base vertex (indirect is slower in software)",
+                                "one draw per mesh"};
+  const DrawWay way = forced.value_or(contextIsSoftware() ? DrawWay::base_vertex : DrawWay::indirect);
+  return {way, std::string(kReasons[static_cast<std::size_t>(way)]) + (forced ? ", as asked for" : "")};
 }
 
 ForcedDrawWay::ForcedDrawWay(DrawWay way) : before_(forced) {

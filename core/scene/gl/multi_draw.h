@@ -10,29 +10,22 @@
 
 namespace trimtab::scene {
 
-/// How the draws of many meshes that share their buffers reach GL. All draw the same triangles in the same
-/// order.
+/// How the draws of many meshes that share their buffers reach GL. All ways draw the same triangles in the
+/// same order.
 enum class DrawWay : std::uint8_t {
   indirect,     ///< one call; the commands are in a buffer of the GPU
   base_vertex,  ///< one call; the commands are in arrays of this program
-  loop          ///< one call a mesh
+  loop          ///< one call per mesh
 };
 
-struct DrawFeatures {
-  bool indirect = false, baseVertex = false;  ///< glMultiDrawElementsIndirect, glMultiDrawElementsBaseVertex
-  bool software = false;                      ///< GL is this processor
-};
 struct DrawChoice {
   DrawWay way = DrawWay::loop;
-  std::string reason;  ///< for people: the way, and why not the one before it
+  std::string reason;  ///< for people: the way, and why
 };
-DrawChoice chooseDrawWay(const DrawFeatures& features);
-
-/// Of the context that is current.
-DrawFeatures drawFeaturesOfContext();
+/// Returns the best way for the current context, which has GL 4.5 and so has all of them.
 DrawChoice drawChoiceOfContext();
 
-/// For tests and measurements: while it lives, whoever asks for a context's choice gets this way.
+/// While it lives, drawChoiceOfContext() returns this way. For tests and measurements.
 class ForcedDrawWay {
  public:
   explicit ForcedDrawWay(DrawWay way);
@@ -44,10 +37,9 @@ class ForcedDrawWay {
   std::optional<DrawWay> before_;
 };
 
-/// The draws of one list of meshes in one pair of buffers. Commands are made once and kept while the list and
-/// the meshes' places stay what they are: a frame like the last one makes none, and uploads none.
-///
-/// All calls need the context current that it was made in.
+/// Draws one list of meshes that share a pair of buffers. Keeps the commands while the list and the meshes'
+/// places stay what they are, so a frame like the last one makes and uploads none. Every call needs the
+/// context current that it was made in.
 class MultiDraw {
  public:
   MultiDraw();
@@ -56,22 +48,22 @@ class MultiDraw {
   MultiDraw(const MultiDraw&) = delete;
   MultiDraw& operator=(const MultiDraw&) = delete;
 
-  /// False where the commands are those of these nodes already. True: they are forgotten, and to be added
-  /// anew. `places` is a number that changes whenever a mesh's place may have; never 0.
+  /// Returns false if the commands are those of these nodes already. Otherwise forgets them, and the caller
+  /// must add them. `places` is a number, never 0, that changes whenever a mesh's place may have changed.
   bool begin(std::span<const TileDraw> nodes, std::uint64_t places);
-  /// In the order in which they are to be drawn, which has those of `bothSides` first: they are drawn without
-  /// GL's face culling. Offsets and sizes in indices and vertices.
+  /// Adds a mesh, in the order of drawing. Those of `bothSides`, which are drawn without GL's face culling,
+  /// must come first. Offsets and sizes count indices and vertices.
   void add(std::uint32_t firstIndex, std::uint32_t indices, std::uint32_t baseVertex, bool bothSides = false);
-  /// Triangles of the array's element buffer, whose indices are `indexType` (GL_UNSIGNED_SHORT or _INT). With
-  /// `numbered`, attributes that advance by instance are read at the command's number among those added;
-  /// glMultiDrawElementsBaseVertex cannot, so a loop takes its place.
+  /// Draws triangles of the array's element buffer, whose indices are `indexType` (GL_UNSIGNED_SHORT or
+  /// _INT). With `numbered`, attributes that advance by instance are read at the command's number among those
+  /// added; glMultiDrawElementsBaseVertex cannot do that, so a loop replaces it.
   void draw(unsigned vertexArray, unsigned indexType, bool numbered = false);
 
   std::size_t size() const { return commands_.size(); }
   std::uint64_t made() const { return made_; }  ///< how often commands were made
 
  private:
-  /// As glMultiDrawElementsIndirect reads it.
+  /// The layout that glMultiDrawElementsIndirect reads.
   struct Command {
     std::uint32_t indices, instances, firstIndex;
     std::int32_t baseVertex;

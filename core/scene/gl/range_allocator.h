@@ -6,14 +6,14 @@
 
 namespace trimtab::scene {
 
-/// Places in a buffer that grows, in units of the caller's. The lowest place that is large enough is given,
-/// and places given back join their neighbours: so what is small and comes and goes stays dense.
+/// Gives out places in a buffer that grows, in units of the caller's. It gives the lowest place that is
+/// large enough, and places given back join their neighbours, so small things that come and go stay dense.
 class RangeAllocator {
  public:
-  /// None where nothing that large is free: grow first.
+  /// Returns the first unit of a place; unset if none so large is free, so that the caller must grow first.
   std::optional<std::uint32_t> take(std::uint32_t units);
   void give(std::uint32_t first, std::uint32_t units);
-  /// To so many units in all; never less than there are.
+  /// Grows to so many units in all. Never shrinks.
   void growTo(std::uint32_t units);
   void clear() { *this = {}; }
 

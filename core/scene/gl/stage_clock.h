@@ -7,23 +7,23 @@
 
 namespace trimtab::scene {
 
-/// Where a frame's time goes. Whatever passes between two calls belongs to one stage, so that the stages sum
-/// to the total (but for the wait that a measurement asks of a GPU); a stage that no call names was not run
-/// and stays NaN. The context is current for all of its life.
+/// Divides a frame's time among stages. All time between two calls belongs to one stage, so the stages sum
+/// to the total, except for the wait that a measurement asks of a GPU. A stage that no call names was not
+/// run and stays NaN. The context must be current for all of its life.
 class StageClock {
  public:
   StageClock();
 
-  /// `software`: the GPU is this processor, whose work shows up in the stage that waits for it.
-  /// `separate`: it is waited for at both ends of each part.
-  /// `wait`: the total ends with the GPU's work, and the GPU's figures are this frame's.
+  /// Starts a frame. `software` says that GL runs on this processor, whose work shows in the stage that
+  /// waits for it. `separate` waits for it at both ends of each part. With `wait` the total ends with the
+  /// GPU's work, and the GPU's figures are of this frame.
   void start(bool software, bool separate, bool wait);
-  /// What passed since the last call belongs to `stage`, of the frame.
+  /// Adds the time since the last call to a stage of the frame.
   void lap(CostField stage);
-  /// What passed so far belongs to `draw`; what passes up to `endPart` to `draw` and to that part of it.
+  /// Adds the time so far to `draw`, and the time until `endPart` to `draw` and to that part of it.
   void beginPart(CostField part);
   void endPart(CostField part);
-  /// The picture is finished, or as far as a GPU lets the processor know. Rests are `draw`'s.
+  /// Ends the frame and returns its cost; the rest of the time belongs to `draw`.
   FrameCost finish();
 
  private:

@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
 #include "core/scene/gl/frame_buffer.h"
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/passes/blur_pass.h"
 #include "core/scene/passes/node_pass.h"
-#include "trimtab/culling/select_static.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/measure/geometric_error.h"
 #include "trimtab/measure/image_error.h"
@@ -105,23 +103,6 @@ FrameRequest referenceOf(const FrameRequest& request) {
   r.decision.motion.blur = {};
   r.decision.weather.farM = WeatherDecision::kUnlimited;
   return r;
-}
-
-double geometricBoundPx(const FrameRequest& request) {
-  const ViewShape& v = request.view;
-  const double across = std::max(std::abs(v.left), std::abs(v.right)),
-               up = std::max(std::abs(v.bottom), std::abs(v.top));
-  if (request.staticLod.terrain == TerrainForm::patches && !asksForTrees(request))
-    return std::numeric_limits<double>::infinity();
-  double cutPx = request.lod.screenSpaceError.value() * request.decision.lodScale;
-  if (asksForTrees(request)) {
-    const StaticLodParameters& s = request.staticLod;
-    if (s.error != ErrorMeasure::maximum || request.overlays.treeDepth >= 0)
-      return std::numeric_limits<double>::infinity();
-    const double scale = pixelsPerRadian(v);
-    cutPx = scale / staticLodDistancePerError(s, request.decision.lodScale, scale);
-  }
-  return cutPx * std::sqrt(1 + across * across + up * up) + 1.5;
 }
 
 double temporalPop(std::span<const std::uint8_t> referenceBefore, std::span<const std::uint8_t> reference,

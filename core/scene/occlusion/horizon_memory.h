@@ -3,12 +3,10 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "occlusion_ground.h"
 #include "trimtab/culling/moving_horizon.h"
 #include "trimtab/culling/occlusion_choice.h"
-#include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/scene/distance_image.h"
 

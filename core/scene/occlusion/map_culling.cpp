@@ -4,9 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "frame_culling.h"
 #include "occluder.h"
-#include "trimtab/frame/box_union.h"
 
 namespace trimtab::scene {
 namespace {
@@ -33,18 +31,11 @@ void makeDepthMesh(const terrain::TileMesh& mesh, float slopeMax, DepthMesh& out
   out.farSlope = occluder.limits.farSlope;
   out.edge = occluder.limits.edge;
 
-  constexpr int kSide = terrain::TileMesh::kSide, kAcross = (kSide - 1) / kPartCells;
+  constexpr int kAcross = TerrainIndex::kTileCells / kPartCells;
   std::array<Box, kAcross * kAcross> parts;
-  for (int part = 0; part < kAcross * kAcross; ++part) {
-    const int x0 = part % kAcross * kPartCells, y0 = part / kAcross * kPartCells;
-    Box box = kNoBox;
-    for (int y = y0; y <= y0 + kPartCells; ++y)
-      for (int x = x0; x <= x0 + kPartCells; ++x) {
-        const terrain::TileVertex& v = mesh.vertices[static_cast<std::size_t>(y * kSide + x)];
-        box = united(box, v.x, v.y, v.z);
-      }
-    parts[static_cast<std::size_t>(part)] = box;
-  }
+  for (int part = 0; part < kAcross * kAcross; ++part)
+    parts[static_cast<std::size_t>(part)] =
+        boxOfCells(mesh, part % kAcross * kPartCells, part / kAcross * kPartCells, kPartCells);
   out.setBoxes(parts);
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/scene/terrain/tiles/tile_indices.h"
+#include "trimtab/frame/box_union.h"
 
 namespace trimtab::scene {
 namespace {
@@ -110,22 +111,23 @@ void makeParts(const terrain::TileMesh& mesh, TileOccluder& occluder) {
   constexpr int kPartCells = kCells / kPartsPerSide;
   for (int part = 0; part < kParts; ++part) {
     const int x0 = part % kPartsPerSide * kPartCells, y0 = part / kPartsPerSide * kPartCells;
-    PartBox& box = occluder.parts[static_cast<std::size_t>(part)];
-    box.low = {1e30f, 1e30f, 1e30f, 0};
-    box.high = {-1e30f, -1e30f, -1e30f, 0};
-    for (int y = y0; y <= y0 + kPartCells; ++y)
-      for (int x = x0; x <= x0 + kPartCells; ++x) {
-        const terrain::TileVertex& v = mesh.vertices[at(x, y)];
-        const std::array<float, 3> p{v.x, v.y, v.z};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          box.low[axis] = std::min(box.low[axis], p[axis]);
-          box.high[axis] = std::max(box.high[axis], p[axis]);
-        }
-      }
+    const Box b = boxOfCells(mesh, x0, y0, kPartCells);
+    occluder.parts[static_cast<std::size_t>(part)] = {{b.minX, b.minY, b.minZ, 0},
+                                                      {b.maxX, b.maxY, b.maxZ, 0}};
   }
 }
 
 }  // namespace
+
+Box boxOfCells(const terrain::TileMesh& mesh, int x0, int y0, int cells) {
+  Box box = kNoBox;
+  for (int y = y0; y <= y0 + cells; ++y)
+    for (int x = x0; x <= x0 + cells; ++x) {
+      const terrain::TileVertex& v = mesh.vertices[at(x, y)];
+      box = united(box, v.x, v.y, v.z);
+    }
+  return box;
+}
 
 std::vector<std::uint16_t> makeOccluderIndices() {
   std::vector<std::uint16_t> indices = makeCoarseIndices(kOccluderStep);

@@ -1,7 +1,6 @@
 #include "occlusion.h"
 
 #include <algorithm>
-#include <array>
 
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/shaders/shaders.h"

@@ -211,6 +211,23 @@ void OcclusionStage::finished(const FrameResult& result) {
   choice_.learn(outcome);
 }
 
+VisibleQuery OcclusionStage::query(const FrameRequest& request) {
+  VisibleQuery query{.eye = eye_,
+                     .view = request.view,
+                     .cull = request.method != CullingCase::none,
+                     .farM = farCutM(request),
+                     .hidden = hidden_,
+                     .backFaces = request.backFaces && eyeIsAboveGround()};
+  if (!defects_.culledNode) return query;
+  const std::vector<TileDraw>& tiles = ground_.cut().tiles;
+  planted_.assign(tiles.size(), 0);
+  std::copy(hidden_.begin(), hidden_.end(), planted_.begin());
+  for (std::size_t i = 0; i < tiles.size(); ++i)
+    if (tiles[i].node == *defects_.culledNode) planted_[i] = 1;
+  query.hidden = planted_;
+  return query;
+}
+
 DistanceImage OcclusionStage::picture() const {
   if (mapHid_) return ground_.mapPicture();
   if (horizon()) return memory_.picture(eye_, view_, resolution_.widthPx, resolution_.heightPx);

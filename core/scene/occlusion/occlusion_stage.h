@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "horizon_memory.h"
 #include "occlusion_ground.h"
@@ -17,7 +18,7 @@ namespace trimtab::scene {
 
 /// The stage of a frame that looks for hidden ground: it decides which method is used, and runs the horizon
 /// and the processor's depth map. It serves tiles and patches alike and keeps its results while they stay
-/// valid. Needs no GL context; FrameCulling runs the GPU's depth map.
+/// valid. Needs no GL context; TileDrawer runs the GPU's depth map.
 ///
 /// The occlusion resolution is the size in texels that the band of the decision asks for. Presets, traces and
 /// the papers call it the size of the depth map, but it sizes the horizon too: the horizon has two columns
@@ -36,13 +37,15 @@ class OcclusionStage {
   /// Sets deliberate errors, for tests that see the proof fail.
   void plant(const Defects& defects);
 
-  // Call the next three in this order in every frame; hiddenByMap only if visibleStays returned false.
+  // Call these in this order in every frame; query and hiddenByMap only if visibleStays returned false.
   /// Decides which method is used and finds what the horizon hides. The ground must have the cut of this
   /// frame. `gpuDrawsMaps` says whether the caller can draw the GPU's depth map; if not, the processor's
   /// replaces it.
   void begin(const FrameRequest& request, const EyePose& eye, bool gpuDrawsMaps);
   /// Returns one flag per tile of the cut, not 0 if the horizon proves it hidden; or nothing.
   std::span<const std::uint8_t> hidden() const { return hidden_; }
+  /// Returns the query that selects what of the ground's cut is visible.
+  VisibleQuery query(const FrameRequest& request);
   /// Returns true if the visible set of the last frame is still right, including what a map removed.
   /// Otherwise the caller must select it again, which is counted.
   bool visibleStays(const FrameRequest& request);
@@ -108,6 +111,7 @@ class OcclusionStage {
   bool chosen_ = false;  ///< choice_ chose the method of this frame
   int unlearnt_ = 0;     ///< successive frames that choice_ did not learn from
   Defects defects_;
+  std::vector<std::uint8_t> planted_;  ///< hidden_ and the node that is culled by mistake
   int subpixelBits_ = 4;
   EyePose eye_;
   ViewShape view_;

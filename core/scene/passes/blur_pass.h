@@ -5,12 +5,12 @@
 namespace trimtab::scene {
 
 /// Document C's blur: an afterimage that builds up over frames ("BlurAccumulator applies the afterimage
-/// effect"), not a softening of one picture. Its authors used OpenSceneGraph, whose own motion blur keeps a
-/// share of the accumulated picture that falls exponentially with time; so does this, without the
-/// accumulation buffer, which contexts no longer have: two float targets take turns.
+/// effect"), which does not soften a single image. Like OpenSceneGraph's own motion blur, which its authors
+/// used, it keeps a share of the accumulated image that falls exponentially with time. Contexts no longer
+/// have an accumulation buffer, so two float targets take turns.
 ///
-/// Each picture stands for the time since the one before, so a trail has one length at any frame rate. Memory
-/// is taken at the first blurred frame. The context is current for all of its life.
+/// Each image stands for the time since the one before, so a trail has one length at any frame rate. It
+/// takes memory at the first blurred frame. The context must be current for all of its life.
 class BlurPass {
  public:
   BlurPass();
@@ -18,15 +18,15 @@ class BlurPass {
   BlurPass(const BlurPass&) = delete;
   BlurPass& operator=(const BlurPass&) = delete;
 
-  /// Replaces the picture of framebuffer `fbo`, whose colour is `texture`, by its mix with what came before.
-  /// `strength` is the share of the accumulated picture that is left after 1/60 s; `time` in seconds. The
-  /// first picture after a rest, after a step back or of more than a second, or of another size is left as it
-  /// is; one of the same time takes the last one's place.
+  /// Replaces the image of framebuffer `fbo`, whose colour is `texture`, by its mix with those before.
+  /// `strength` is the share of the accumulated image that is left after 1/60 s; `time` is in seconds. The
+  /// first image after a rest, after a step back or of more than a second, or of another size stays as it
+  /// is; one of the same time replaces the last one.
   void apply(unsigned fbo, unsigned texture, int width, int height, double strength, double time);
-  /// Share of the accumulated picture that is left in the one `step` seconds later; 0: that one is a first
-  /// picture.
+  /// Returns the share of the accumulated image that is left `step` seconds later; 0 if that one is a first
+  /// image.
   static double keptAfter(double strength, double step);
-  /// Nothing accumulates: the next picture is a first one.
+  /// Makes the next image a first one.
   void rest() { fresh_ = true; }
 
  private:

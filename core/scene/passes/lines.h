@@ -14,14 +14,14 @@ struct LineVertex {
   std::array<std::uint8_t, 4> colour;
 };
 
-/// Boxes of the tiles, as pairs of points; a reason a tile.
+/// Appends the edges of the tiles' boxes as pairs of points, in the colour of each tile's reason.
 void addBoxes(std::span<const Box> bounds, std::span<const TileDraw> tiles,
               std::span<const CullReason> reason, Vec3 eye, std::vector<LineVertex>& lines);
-/// Edges of a view pyramid that stands at `frozen`, seen from `eye`.
+/// Appends the edges of the view pyramid at `frozen`, seen from `eye`.
 void addFrustum(const EyePose& frozen, const ViewShape& view, Vec3 eye, std::vector<LineVertex>& lines);
 
-/// Lines on the GPU. The context is current; a program that reads attributes 0 position and 3 colour is in
-/// use.
+/// Draws lines. The context must be current, with a program in use that reads attributes 0 position and 3
+/// colour.
 class LineBuffer {
  public:
   LineBuffer();

@@ -1,44 +1,14 @@
 #include "node_pass.h"
 
 #include <array>
-#include <cmath>
 
 #include "core/scene/gl/gl_api.h"
 
 namespace trimtab::scene {
 
-NodeTarget::~NodeTarget() {
-  release();
-}
-
-void NodeTarget::release() {
-  if (id_ == 0) return;
-  glDeleteFramebuffers(1, &id_);
-  for (const GLuint buffer : {nodes_, depth_}) glDeleteRenderbuffers(1, &buffer);
-  id_ = 0;
-}
-
 void NodeTarget::begin(int width, int height) {
-  if (id_ == 0 || width != width_ || height != height_) {
-    release();
-    width_ = width;
-    height_ = height;
-    const auto makeBuffer = [width, height](GLenum format) {
-      GLuint buffer = 0;
-      glGenRenderbuffers(1, &buffer);
-      glBindRenderbuffer(GL_RENDERBUFFER, buffer);
-      glRenderbufferStorage(GL_RENDERBUFFER, format, width, height);
-      return buffer;
-    };
-    nodes_ = makeBuffer(GL_R32UI);
-    depth_ = makeBuffer(GL_DEPTH_COMPONENT32F);
-    glBindRenderbuffer(GL_RENDERBUFFER, 0);
-    glGenFramebuffers(1, &id_);
-    glBindFramebuffer(GL_FRAMEBUFFER, id_);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, nodes_);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
-  }
-  glBindFramebuffer(GL_FRAMEBUFFER, id_);
+  frame_.resize(width, height);
+  glBindFramebuffer(GL_FRAMEBUFFER, frame_.id());
   glDisable(GL_SCISSOR_TEST);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   const GLuint none[4] = {kNone, 0, 0, 0};
@@ -66,9 +36,10 @@ void nearView(std::span<const TileDraw> tiles, std::span<const Box> bounds, cons
 }
 
 std::vector<std::uint32_t> NodeTarget::read() const {
-  std::vector<std::uint32_t> nodes(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
-  glReadPixels(0, 0, width_, height_, GL_RED_INTEGER, GL_UNSIGNED_INT, nodes.data());
+  std::vector<std::uint32_t> nodes(static_cast<std::size_t>(frame_.width()) *
+                                   static_cast<std::size_t>(frame_.height()));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_.id());
+  glReadPixels(0, 0, frame_.width(), frame_.height(), GL_RED_INTEGER, GL_UNSIGNED_INT, nodes.data());
   return nodes;
 }
 

@@ -18,27 +18,30 @@ struct Extent {
   double left, bottom, right, top;
 };
 
-/// Draws lines of sheets into the picture: projects, clips to the picture, and keeps each symbol's box.
+/// Draws lines of sheets into the image: projects them, clips them to the image, and keeps each symbol's
+/// box.
 class Canvas {
  public:
   Canvas(const ViewShape& view, double marginPx, SymbologyDrawing& drawing);
 
-  /// What is drawn next belongs to `symbol` and is moved by fractions of half the picture.
+  /// Makes what is drawn next belong to `symbol` and moves it by fractions of half the image.
   void begin(Symbol symbol, double moveX = 0, double moveY = 0);
   void line(const Sheet& sheet, double a0, double b0, double a1, double b1);
   void circle(const Sheet& sheet, double a, double b, double radius);
   void rectangle(const Sheet& sheet, const Extent& e);
-  /// Text whose middle is at (a, b); `height` of a capital in units of the sheet.
+  /// Draws text whose middle is at (a, b). `height` is that of a capital, in units of the sheet.
   void text(const Sheet& sheet, double a, double b, double height, std::string_view text);
   static double widthOf(std::string_view text, double height);
 
-  /// The picture itself: unit 1 is half its height, around the fractions x, y (-1..1) of the picture.
+  /// Returns a sheet in the image's plane: unit 1 is half the image's height; x and y place its origin by
+  /// fractions (-1 to 1) of the image.
   Sheet picture(double x, double y) const;
-  /// Half the picture's height as a tangent.
+  /// Returns half the image's height as a tangent.
   double tangentPerUnit() const { return 0.5 * (view_.top - view_.bottom); }
-  /// Pixels of a direction; false behind the eye.
+  /// Computes the pixels of a direction; returns false if it is behind the eye.
   bool project(Vec3 direction, double& x, double& y) const;
-  /// Whether a direction is that near to the picture's middle, moved as the symbol is; in half heights.
+  /// Reports whether a direction, moved as the symbol is, lies within `reach` (in half heights) of the
+  /// image's middle.
   bool isCentral(Vec3 direction, double reach) const;
 
  private:

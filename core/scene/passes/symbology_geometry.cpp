@@ -303,25 +303,16 @@ void drawSymbology(const SymbologyRequest& request, const ViewShape& view, Symbo
 }
 
 std::array<std::uint8_t, 3> symbolColour(SymbolColour colour) {
-  switch (colour) {
-    case SymbolColour::green:
-      return {64, 255, 96};
-    case SymbolColour::white:
-      return {255, 255, 255};
-    case SymbolColour::amber:
-      return {255, 176, 32};
-    case SymbolColour::cyan:
-      return {64, 240, 255};
-    case SymbolColour::magenta:
-      return {255, 96, 255};
-    case SymbolColour::red:
-      return {255, 56, 48};
-    case SymbolColour::yellow:
-      return {255, 240, 48};
-    case SymbolColour::black:
-      return {0, 0, 0};
-  }
-  return {255, 255, 255};
+  constexpr std::array<std::array<std::uint8_t, 3>, 8> kColours{{{64, 255, 96},
+                                                                 {255, 255, 255},
+                                                                 {255, 176, 32},
+                                                                 {64, 240, 255},
+                                                                 {255, 96, 255},
+                                                                 {255, 56, 48},
+                                                                 {255, 240, 48},
+                                                                 {0, 0, 0}}};
+  static_assert(static_cast<std::size_t>(SymbolColour::black) + 1 == kColours.size());
+  return kColours[static_cast<std::size_t>(colour)];
 }
 
 }  // namespace trimtab::scene

@@ -1,6 +1,5 @@
 #include "symbology_pass.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 

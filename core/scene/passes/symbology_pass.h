@@ -7,8 +7,8 @@
 
 namespace trimtab::scene {
 
-/// Symbols over the picture: one draw call a frame, its triangles made again only when something in them has
-/// changed. The context is current for all of its life.
+/// Draws symbols over the image with one draw call per frame. Makes their triangles only if something in
+/// them has changed. The context must be current for all of its life.
 class SymbologyPass {
  public:
   SymbologyPass();
@@ -16,7 +16,8 @@ class SymbologyPass {
   SymbologyPass(const SymbologyPass&) = delete;
   SymbologyPass& operator=(const SymbologyPass&) = delete;
 
-  /// Into the framebuffer that is bound. True when the triangles were made anew, which `anew` demands.
+  /// Draws into the framebuffer that is bound. Returns true if the triangles were made, which `anew`
+  /// demands.
   bool draw(const SymbologyRequest& request, const ViewShape& view, bool anew = false);
 
  private:

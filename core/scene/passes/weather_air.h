@@ -10,25 +10,26 @@ namespace trimtab::scene {
 struct Air {
   static constexpr float kFarthest = 1e30f;
 
-  bool clear = true;       ///< the shaders of clear weather are used: not a bit of today's picture changes
-  float extinction = 0;    ///< a metre
-  float cutM = kFarthest;  ///< from the eye; nothing beyond
-  float fadePerM = 1;      ///< 1 / metres before the cut over which what is left of a colour goes to 0
+  bool clear = true;              ///< uses the shaders of clear weather
+  float extinction = 0;           ///< per metre
+  float cutM = kFarthest;         ///< from the eye; nothing is drawn beyond
+  float fadePerM = 1;             ///< 1 / the metres before the cut in which colours fade
   std::array<float, 3> colour{};  ///< of fog, sRGB
 
   friend bool operator==(const Air&, const Air&) = default;
 };
 
-/// Haze of clear air, sRGB: the colour of the horizon, and of fog that is thin.
+/// Haze of clear air, sRGB: the colour of the horizon and of thin fog.
 inline constexpr std::array<float, 3> kHaze{0.74f, 0.80f, 0.86f};
-/// Fog reaches so far above the eye. No terrain stands higher above an eye that it can be seen from, so the
-/// sky behind a mountain that the cut takes away is at least as deep in fog as the mountain was.
+/// Fog reaches this far above the eye, metres. No terrain that the eye can see stands higher above it, so
+/// the sky behind a mountain that the cut takes away is at least as deep in fog as the mountain was.
 inline constexpr double kFogTopM = 5000;
-/// The part of the visible distance before the cut in which the rest of a colour fades.
+/// The part of the visible distance before the cut in which colours fade to the fog.
 inline constexpr double kCutFade = 0.15;
 
-/// Any decision gives air that can be drawn. An extinction that is no number or negative is no fog, an
-/// infinite one hides everything; a far distance that is no number cuts nothing, one below 0 everything.
+/// Returns the air of a decision; any decision gives air that can be drawn. An extinction that is negative
+/// or not a number means no fog, an infinite one hides everything; a far distance that is not a number cuts
+/// nothing, one below 0 everything.
 Air airOf(const WeatherDecision& weather);
 
 }  // namespace trimtab::scene

@@ -5,7 +5,6 @@
 
 #include "trimtab/culling/select.h"
 #include "trimtab/frame/frame_request.h"
-#include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/weather_decision.h"
 
 namespace osg {
@@ -16,29 +15,29 @@ namespace trimtab::scene {
 
 struct SceneView;
 
-/// What falls in one frame. Only where something does: a density of 0 has no view.
+/// What falls in one frame. Without density there is no such view.
 struct PrecipitationView {
   Precipitation kind = Precipitation::rain;
   double density = 0;  ///< 0..1, the intensity of osgParticle::PrecipitationEffect
-  double time = 0;     ///< seconds; where each drop is, is a function of it and of the place alone
-  Vec3 velocity;       ///< of the eye, metres a second in the local frame: drops streak along it
+  double time = 0;     ///< seconds; the place of each drop depends on it alone
+  Vec3 velocity;       ///< of the eye, metres per second in the local frame; drops streak along it
 };
 
-/// None where nothing falls.
+/// Returns the view of what falls; unset if nothing does.
 std::optional<PrecipitationView> precipitationView(const FrameRequest& request, const LocalFrame& frame);
 
-/// Where the corner of a cell stands as seen from the eye: cells stand still in the world. The effect gives
-/// each cell a pattern by its number, which repeats after kCellsUntilSame along x and y and each cell along
-/// z.
+/// Returns where the corner of a cell is, relative to the eye; cells stand still in the world. The effect
+/// gives each cell a pattern by its number, which repeats after kCellsUntilSame cells along x and y and
+/// after each cell along z.
 Vec3 latticeFromEye(Vec3 eye, Vec3 cell);
 inline constexpr double kCellsUntilSame = 100;
 
-/// osgParticle::PrecipitationEffect under our conventions: reversed depth, an eye at the origin, a picture
-/// that depends on its request alone. The effect chooses the cells around the eye and draws each; cells stand
-/// still in the world, and the shaders are ours.
+/// Draws osgParticle::PrecipitationEffect under our conventions: reversed depth, an eye at the origin, and
+/// an image that depends on its request alone. The effect chooses the cells around the eye and draws each;
+/// the shaders are ours.
 class PrecipitationNode {
  public:
-  static constexpr int kFirstBin = 10, kLastBin = 12;  ///< render bins it draws in: points, lines, quads
+  static constexpr int kFirstBin = 10, kLastBin = 12;  ///< its render bins: points, lines, quads
 
   PrecipitationNode();
   ~PrecipitationNode();

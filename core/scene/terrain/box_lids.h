@@ -8,13 +8,13 @@
 
 namespace trimtab::scene {
 
-/// What stands for nodes whose surfaces are not made yet: the lids of their boxes. Nothing of a node, or of
-/// what is below it in the tree, is higher over any place than its lid: what hides that hides them. A lid
+/// Makes lids of boxes, which stand for nodes whose surfaces are not made yet. No part of a node, or of what
+/// is below it in the tree, is higher over any place than its lid, so what hides the lid hides them. A lid
 /// itself hides nothing.
 class BoxLids {
  public:
   void reset(std::size_t nodes) { lids_.reset(nodes); }
-  /// Good until the next `forgetOthers`.
+  /// Returns the lid of a node's box, valid until the next `forgetOthers`.
   const MeshRelief* of(std::uint32_t node, const Box& box) {
     if (const MeshRelief* made = lids_.find(node)) return made;
     MeshRelief& lid = lids_.make(node);

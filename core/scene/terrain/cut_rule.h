@@ -9,7 +9,7 @@ namespace trimtab::scene {
 struct CutRule {
   double maxErrorPx = 0, lodScale = 0, pixelsPerRadian = 0;
 
-  /// The geometric error that the rule accepts per metre of distance.
+  /// Returns the geometric error that the rule accepts per metre of distance.
   double errorOverDistance() const { return maxErrorPx * lodScale / pixelsPerRadian; }
   friend bool operator==(const CutRule&, const CutRule&) = default;
 };

@@ -1,6 +1,7 @@
 #include "trimtab/scene/node_description.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "trimtab/culling/box_distance.h"
@@ -85,31 +86,22 @@ std::optional<NodeDescription> describeNode(std::uint32_t node, const terrain::D
   const LocalFrame& frame = database.index().frame;
   const EyePose eye{frame.fromGeodetic(request.eye), eyeAxes(frame, request.eye, request.attitude)};
   const ViewShape& view = request.view;
-  const double pixelsPerRadian =
-      std::max(view.widthPx / (view.right - view.left), view.heightPx / (view.top - view.bottom));
   found.distanceM = std::sqrt(distanceSquared(described->box, eye.position));
-  found.errorPx = found.errorM / std::max(found.distanceM, view.nearM) * pixelsPerRadian;
+  found.errorPx = found.errorM / std::max(found.distanceM, view.nearM) * pixelsPerRadian(view);
   measureInImage(described->box, eye, view, found);
   found.reason = result.visible.reasonOf(node);
   return found;
 }
 
 std::string_view inWords(CullReason reason) {
-  switch (reason) {
-    case CullReason::drawn:
-      return "drawn";
-    case CullReason::outside_frustum:
-      return "outside the frustum";
-    case CullReason::occluded:
-      return "hidden by ground in front of it";
-    case CullReason::beyond_visibility:
-      return "beyond visibility";
-    case CullReason::back_facing:
-      return "all of it faces away";
-    case CullReason::other_level:
-      break;
-  }
-  return "another level is drawn in its place";
+  constexpr std::array<std::string_view, 6> kWords{"drawn",
+                                                   "outside the frustum",
+                                                   "hidden by ground in front of it",
+                                                   "beyond visibility",
+                                                   "all of it faces away",
+                                                   "another level is drawn in its place"};
+  static_assert(static_cast<std::size_t>(CullReason::other_level) + 1 == kWords.size());
+  return kWords[static_cast<std::size_t>(reason)];
 }
 
 }  // namespace trimtab::scene

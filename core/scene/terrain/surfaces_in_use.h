@@ -12,8 +12,8 @@
 
 namespace trimtab::scene {
 
-/// What is known of a node's surface, made when it is first needed. Those of nodes that are in no cut any
-/// more stay until there are more than kKept of them; then all of them go.
+/// Keeps what is known of nodes' surfaces, each made when it is first needed. Surfaces of nodes that are in
+/// no cut any more stay until there are more than kKept of them; then all of them go.
 template <class Surface>
 class SurfacesInUse {
  public:
@@ -25,9 +25,9 @@ class SurfacesInUse {
     surfaces_.resize(nodes);
     count_ = 0;
   }
-  /// Null where it was not made yet.
+  /// Returns the surface of a node; null if it was not made yet.
   Surface* find(std::uint32_t node) const { return surfaces_[node].get(); }
-  /// A new one; what was there before is kept until `forgetOthers`.
+  /// Makes a new surface for a node. The one before it is kept until `forgetOthers`.
   Surface& make(std::uint32_t node) {
     if (surfaces_[node])
       replaced_.push_back(std::move(surfaces_[node]));
@@ -36,7 +36,7 @@ class SurfacesInUse {
     surfaces_[node] = std::make_unique<Surface>();
     return *surfaces_[node];
   }
-  /// Frees what was replaced, and once there are too many, what is not in the cut.
+  /// Frees what was replaced and, once there are too many, what is not in the cut.
   void forgetOthers(const LevelCut& cut) {
     replaced_.clear();
     if (count_ <= kKept + cut.tiles.size()) return;
@@ -54,18 +54,18 @@ class SurfacesInUse {
   std::size_t count_ = 0;
 };
 
-/// How many surfaces a frame makes at most: a number and no time, so that runs can be repeated. What is not
-/// made yet hides nothing, and is hidden by its box alone.
+/// Limits how many surfaces a frame makes. The limit is a number and not a time, so that runs can be
+/// repeated. A node without a surface hides nothing, and is hidden by its box alone.
 class SurfaceShare {
  public:
-  /// About a millisecond: 0.1 ms each on a desktop of 2023.
+  /// About a millisecond of work: 0.1 ms each on a desktop of 2023.
   static constexpr std::size_t kAFrame = 8;
 
   void begin(std::size_t most) {
     left_ = most;
     lacksAny_ = lacksMany_ = false;
   }
-  /// Makes what lacks of `nodes`, nearest first; returns how many still lack.
+  /// Makes the surfaces that `nodes` lack, nearest first, and returns how many still lack one.
   template <class Lacks, class Make>
   std::size_t makeNearest(std::span<const TileDraw> nodes, const std::vector<Box>& bounds, Vec3 eye,
                           const Lacks& lacks, const Make& make) {
@@ -81,7 +81,7 @@ class SurfaceShare {
     lacksMany_ = lacksMany_ || isMany(later, nodes.size());
     return later;
   }
-  /// Whether what is known of the ground says little about what it would hide.
+  /// Reports whether so many surfaces are missing that little is known of what the ground hides.
   static bool isMany(std::size_t lacking, std::size_t of) { return lacking * 8 > of; }
   // After any makeNearest of this frame.
   bool lacksAny() const { return lacksAny_; }

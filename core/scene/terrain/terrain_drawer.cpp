@@ -5,6 +5,7 @@
 
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/gl/guard_band.h"
+#include "core/scene/occlusion/occlusion_stage.h"
 #include "core/scene/passes/node_pass.h"
 #include "core/scene/shaders/shaders.h"
 #include "trimtab/culling/back_facing.h"
@@ -39,6 +40,17 @@ void TerrainDrawer::begin(const FrameInProgress& frame) {
 
 const std::vector<TileDraw>& TerrainDrawer::shown() const {
   return frame_->request.overlays.colourByReason ? cut() : visible().tiles;
+}
+
+bool TerrainDrawer::findVisible(OcclusionStage& stage, const LevelCut& cut, VisibleSet& visible) {
+  const FrameRequest& r = frame_->request;
+  const bool anew = !stage.visibleStays(r);
+  if (anew) selectVisible(cut, stage.query(r), visible);
+  frame_->clock.lap(&FrameCost::select);
+  if (anew)
+    if (const auto flags = stage.hiddenByMap(r, visible); !flags.empty()) removeOccluded(cut, flags, visible);
+  if (stage.mapServes()) frame_->clock.lap(&FrameCost::occlusion);
+  return anew;
 }
 
 std::size_t TerrainDrawer::uploadShown() {

@@ -17,6 +17,8 @@
 
 namespace trimtab::scene {
 
+class OcclusionStage;
+
 /// What a drawer reads of the frame that is being made.
 struct FrameInProgress {
   const FrameRequest& request;
@@ -38,7 +40,8 @@ struct PreparedTerrain {
   std::vector<LineVertex> lines;   ///< overlay lines
 };
 
-/// The buffer textures by which the terrain's vertex shaders know whose a vertex is, bound while it lives.
+/// Binds, while it lives, the buffer textures that tell the terrain's vertex shaders which node a vertex
+/// belongs to.
 class BoundSlots {
  public:
   BoundSlots(unsigned slots, unsigned tints) { bind(slots, tints); }
@@ -50,13 +53,13 @@ class BoundSlots {
   static void bind(unsigned slots, unsigned tints);
 };
 
-/// One form of a terrain: which of its nodes a frame draws, what of them is on the GPU, and how they are
-/// drawn. Calls with a program or a frame need the context that `initialize` was called with.
+/// One form of a terrain: which of its nodes a frame draws, which of them are on the GPU, and how they are
+/// drawn. Calls with a program or a frame need the context current that `initialize` was called in.
 class TerrainDrawer {
  public:
   virtual ~TerrainDrawer() = default;
 
-  /// Null: none. The context is current if there is one.
+  /// Starts with another terrain, or with none if it is null. If there is a context, it must be current.
   virtual void setTerrain(std::shared_ptr<const terrain::Database> database) = 0;
   virtual void initialize() = 0;
   virtual void release() = 0;
@@ -65,47 +68,51 @@ class TerrainDrawer {
   /// Selects the nodes to draw, removes those that are known to be hidden, and uploads the rest. What `frame`
   /// refers to must live until the frame is drawn.
   virtual PreparedTerrain prepare(const FrameInProgress& frame) = 0;
-  /// The frame that it was called for is finished, at this cost.
+  /// Reports what the finished frame cost.
   virtual void finished(const FrameResult&) {}
-  /// The picture's surface; afterwards `visible` stands.
+  /// Draws the image's surface. Afterwards `visible` is complete.
   virtual void draw(unsigned program);
-  /// The same again as lines.
+  /// Draws the same again as lines.
   void drawWire(unsigned program);
-  /// Of the last frame; `unculled`: with what was left out of its cut, but for what is far outside the view.
-  /// Returns how many meshes had to be made for it.
+  /// Prepares the nodes that drawNumbered draws: those of the last frame or, if `unculled`, also those that
+  /// were left out of its cut, except for what is far outside the view. Returns how many meshes had to be
+  /// made.
   std::size_t prepareNumbers(bool unculled);
-  /// What prepareNumbers found, each as its number.
+  /// Draws what prepareNumbers found, each node as its number.
   virtual void drawNumbered(unsigned program) { drawNodes(program, numbered_); }
 
   virtual const std::vector<TileDraw>& cut() const = 0;
   virtual const VisibleSet& visible() const = 0;
   virtual DistanceImage readDepthMap() const { return {}; }
-  /// That served in the last frame, or null.
+  /// Returns the horizon that the last frame used, or null.
   virtual const Horizon* horizon() const { return nullptr; }
 
  protected:
   virtual const std::vector<Box>& bounds() const = 0;
-  /// One a node, or none.
+  /// Returns one normal cone per node, or nothing.
   virtual std::span<const NormalCone> cones() const { return {}; }
-  /// As colourByLevel shows it.
+  /// Returns the level that the overlay colourByLevel shows.
   virtual int levelOf(TileDraw node) const = 0;
-  /// Makes sure that they are on the GPU, or makes them `anew`; returns how many were made.
+  /// Makes sure that the nodes are on the GPU, or makes them `anew`; returns how many were made.
   virtual std::size_t upload(std::span<const TileDraw> nodes, bool anew) = 0;
   virtual void drawNodes(unsigned program, std::span<const TileDraw> nodes) = 0;
-  /// Each with its colour (RGBA8).
+  /// Draws each node with its colour (RGBA8).
   virtual void drawTinted(unsigned program, std::span<const TileDraw> nodes,
                           std::span<const std::uint32_t> colours) = 0;
-  /// Puts nodes into the order that they are drawn in: those drawn from both sides, then near ones first, as
-  /// they hide others. Which have both sides, and the order, depend on node and view alone, so what is left
-  /// out changes nothing in the rest; nodes that face away have none, as some culling cases leave them out.
+  /// Sorts nodes into the order of drawing: those drawn from both sides first, then by distance, because
+  /// near ones hide others. Both depend on node and view alone, so leaving one out changes nothing in the
+  /// rest. Nodes that face away are not drawn from both sides, as some culling cases leave them out.
   virtual void arrange(std::vector<TileDraw>& nodes) const;
 
-  /// First of all in `prepare`.
+  /// Call it first of all in `prepare`.
   void begin(const FrameInProgress& frame);
-  /// With the colours that an overlay asks for.
+  /// Draws nodes with the colours that an overlay asks for.
   void drawSurface(unsigned program, std::span<const TileDraw> nodes);
-  /// What is drawn: all of the cut where reasons are shown.
+  /// Returns what is drawn: the visible nodes, or all of the cut if reasons are shown.
   const std::vector<TileDraw>& shown() const;
+  /// Finds what of a cut is visible to an eye for which `stage` has begun. Returns false if that cannot have
+  /// changed. Does not count vertices.
+  bool findVisible(OcclusionStage& stage, const LevelCut& cut, VisibleSet& visible);
   /// Uploads what is shown and returns how many meshes were built for it. Its time counts as paging only if
   /// any were.
   std::size_t uploadShown();

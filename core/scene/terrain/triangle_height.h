@@ -4,8 +4,8 @@
 
 namespace trimtab::scene {
 
-/// Height over (x, y) of a triangle whose corners have x, y and z, anticlockwise from above; none beside it.
-/// Neighbours leave no gap between them.
+/// Returns the height over (x, y) of a triangle whose corners have x, y and z, anticlockwise from above;
+/// unset beside it. Neighbouring triangles leave no gap between them.
 template <class Corner>
 std::optional<double> heightOver(const Corner& a, const Corner& b, const Corner& c, double x, double y) {
   const auto area = [](double px, double py, double qx, double qy) { return px * qy - py * qx; };

@@ -7,11 +7,12 @@
 
 namespace trimtab::terrain {
 
-/// Triangles by falling error, eight buckets an octave: lists through flat arrays, no order within a bucket
-/// but that of insertion, last first. Greedy insertion loses nothing by it and no heap has to be kept.
+/// Orders triangles by falling error in eight buckets per octave, as lists through flat arrays. Within a
+/// bucket the last one put comes first. Greedy insertion gives as good a mesh as with an exact order, and no
+/// heap has to be kept.
 class ErrorQueue {
  public:
-  /// Empties it for errors from `least` up; what is smaller shares the lowest bucket.
+  /// Empties the queue. Errors below `least` share the lowest bucket.
   void begin(double least) {
     base_ = keyOf(least);
     heads_.assign(kBuckets, -1);
@@ -30,7 +31,7 @@ class ErrorQueue {
     head = t;
     top_ = std::max(top_, bucket);
   }
-  /// Of a triangle that may not be there.
+  /// Removes a triangle; does nothing if it is not in the queue.
   void remove(std::int32_t t) {
     if (static_cast<std::size_t>(t) >= links_.size()) return;
     Link& link = links_[static_cast<std::size_t>(t)];
@@ -42,7 +43,7 @@ class ErrorQueue {
     if (link.next >= 0) links_[static_cast<std::size_t>(link.next)].before = link.before;
     link.bucket = -1;
   }
-  /// One of the worst, which stays; -1: none is left.
+  /// Returns a triangle of the worst bucket and keeps it; -1 if the queue is empty.
   std::int32_t top() {
     while (top_ >= 0 && heads_[static_cast<std::size_t>(top_)] < 0) --top_;
     return top_ < 0 ? -1 : heads_[static_cast<std::size_t>(top_)];

@@ -1,13 +1,17 @@
-#include "side.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "greedy.h"
+#include "trimtab/terrain/mesh/mesher.h"
+#include "trimtab/terrain/mesh/scan.h"
 
 namespace trimtab::terrain {
 
+namespace {
+
+/// Finds a key for each of `steps` + 1 posts in a line, `stride` floats from one to the next. At any
+/// tolerance not below `least`, the posts whose key is greater keep all others within it. A line is split at
+/// its worst post, and so are its parts. The ends, and posts that no such tolerance needs, have the key 0.
 void sideKeys(const float* z, std::ptrdiff_t stride, std::uint32_t steps, double least,
               std::vector<double>& keys) {
   struct Part {
@@ -36,6 +40,8 @@ void sideKeys(const float* z, std::ptrdiff_t stride, std::uint32_t steps, double
     parts.push_back({split, b, keys[split]});
   }
 }
+
+}  // namespace
 
 void simplifySide(const HeightField& field, PolygonMesher::Point from, PolygonMesher::Point to,
                   double tolerance, std::vector<PolygonMesher::Point>& polyline) {

@@ -9,22 +9,20 @@
 
 namespace trimtab::terrain {
 
-/// What turns distances along the page's plane's normal into distances along the vertical.
+/// Turns errors along the normal of the page's plane into bounds of errors along the vertical.
 ///
-/// Let a triangle have posts P_i, a post S in it, over columns and rows, the weights w_i, and let D be S less
-/// the sum of w_i P_i. Along the vertical of S the triangle's plane is off by t = D.N / up.N: with heights h,
-/// (h_S - sum w_i h_i) + D'_up - slope x D'_h, where D' is D without the difference of heights: the bend of
-/// rows and columns. The page's plane, whose normal leans by at most `lean`, shows
-/// (t + slope x D'_h) cos(lean) + D'_h sin(lean). So |t| <= shown / cos(lean) + (slope + tan(lean)) |D'_h|.
-/// The mean of the squares of the corners' distances is at most a quarter of the extent's square, so the
-/// second derivatives of a place by longitude and latitude, along the ground, bound D'_h; corners of
-/// different height add their verticals' angles. Where the vertical of S meets the triangle beside, that
-/// one's slope counts.
+/// Let a triangle have the corners P_i, and let S be a post in it with weights w_i over columns and rows. D =
+/// S - sum w_i P_i would be vertical if rows and columns were straight; its sideways part is D_h. The plane
+/// of the page, whose normal leans by at most `lean`, shows an error of (t + slope * D_h) cos(lean) + D_h
+/// sin(lean), where t is the error along the vertical of S. So |t| <= shown / cos(lean) + (slope + tan(lean))
+/// |D_h|. resources/docs/levels-of-detail.md derives it ("The error that a patch states"). If the vertical of
+/// S meets the triangle beside, the slope of that one counts; callers pass the steepest triangle around a
+/// vertex.
 class VerticalBound {
  public:
-  /// Columns meet at a pole. Nothing that close to it is drawn apart.
+  /// Columns meet at a pole. Posts closer together than this are not told apart.
   static constexpr double kShortestM = 0.01;
-  /// Of a triangle, in columns, rows and metres.
+  /// The size of a triangle in columns, rows and metres of height.
   struct Extent {
     double columns, rows, rise;
   };
@@ -43,15 +41,18 @@ class VerticalBound {
     const double lean = std::min(1.5, 0.51 * std::hypot(wide, high) + 1e-6);
     cosLean_ = std::cos(lean);
     tanLean_ = std::tan(lean);
+    const double equator = std::clamp(-posts.south / posts.stepLatitude, 0.0, posts.rows - 1.0);
+    equator_ = static_cast<std::uint32_t>(std::lround(equator));
     perMetre_.reserve(window.rows);
     for (std::uint32_t r = window.row; r < window.row + window.rows; ++r) {
+      cosines_.push_back(std::cos(posts.latitude(r) * kRadian));
       const double column = 1 / std::max(kShortestM, geometry.columnM(r)), row = 1 / geometry.rowM(r);
       perMetre_.push_back({column * column, row * row});
     }
   }
   double cosLean() const { return cosLean_; }
 
-  /// Square of a triangle's slope over its place; of corners in a draft.
+  /// Returns the square of the slope of the triangle with corners `c` of a draft, rise over run.
   double steepness(const PatchDraft& draft, const std::uint32_t* c) const {
     const PatchPoint &p = draft.vertices[c[0]], &q = draft.vertices[c[1]], &r = draft.vertices[c[2]];
     const auto apart = [](std::uint32_t to, std::uint32_t from) {
@@ -79,25 +80,31 @@ class VerticalBound {
     return {of(p.column, q.column, r.column), of(p.row, q.row, r.row),
             of(draft.heights[c[0]], draft.heights[c[1]], draft.heights[c[2]])};
   }
-  /// D'_h of a triangle.
+  /// Returns a bound on |D_h| in a triangle, metres.
   double sideways(const Extent& of) const {
     const double lon = of.columns * stepLongitude_, lat = of.rows * stepLatitude_;
     return sideways(lon, lat, of.rise, std::sqrt(lon * cosine_ * (lon * cosine_) + lat * lat));
   }
-  /// No less, and sooner found.
+  /// Returns a larger bound that is quicker to compute.
   double atMostSideways(const Extent& of) const {
     const double lon = of.columns * stepLongitude_, lat = of.rows * stepLatitude_;
     return sideways(lon, lat, of.rise, lon * cosine_ + lat);
   }
-  /// Of a patch: no surface over it is further from a post of it than its heights are apart.
-  double most(double columns, double rows, double rise) const {
-    const double lon = columns * stepLongitude_, lat = rows * stepLatitude_;
-    return rise + kFarthestM / 8 * (cosine_ * lon * lon + 2 * sine_ * lon * lat + lat * lat);
+  /// Returns how far a triangle's plane may lie below the curved earth through its corners, metres. On a
+  /// sphere of radius R the point Q = sum w_i P_i has |Q|^2 = R^2 - sum w_i w_j |P_i - P_j|^2 over pairs i <
+  /// j, and that sum is at most R^2 x / 4, where x is the square of the extent.
+  double sagM(const PatchDraft& draft, const std::uint32_t* c, const Extent& of) const {
+    const auto [south, north] =
+        std::minmax({draft.vertices[c[0]].row, draft.vertices[c[1]].row, draft.vertices[c[2]].row});
+    const double cosine = cosines_[std::clamp(equator_, south, north) - firstRow_];
+    const double wide = of.columns * stepLongitude_ * cosine, high = of.rows * stepLatitude_;
+    const double eighth = std::min(0.5, (wide * wide + high * high) / 8);
+    return kFarthestM * eighth / (1 - eighth);
   }
 
  private:
   static constexpr double kRadian = std::numbers::pi / 180;
-  /// No post is further from the earth's middle, and no radius of curvature is longer.
+  /// No post is farther from the centre of the earth, and no radius of curvature is longer.
   static constexpr double kFarthestM = 6.42e6;
 
   double sideways(double lon, double lat, double rise, double angle) const {
@@ -106,14 +113,16 @@ class VerticalBound {
            rise * angle / 2;
   }
 
-  /// Squares of the columns and rows a metre.
+  /// Columns and rows per metre, squared.
   struct PerMetre {
     double column, row;
   };
   double stepLongitude_, stepLatitude_;
   std::uint32_t firstRow_;
+  std::uint32_t equator_ = 0;  ///< the row nearest to it
   double sine_ = 0, cosine_ = 0, cosLean_ = 0, tanLean_ = 0;
-  std::vector<PerMetre> perMetre_;  ///< by row
+  std::vector<PerMetre> perMetre_;  ///< by row of the window
+  std::vector<double> cosines_;     ///< of the latitude, by row of the window
 };
 
 }  // namespace trimtab::terrain

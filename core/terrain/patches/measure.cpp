@@ -15,11 +15,14 @@ namespace trimtab::terrain {
 namespace {
 
 constexpr std::size_t kStripPosts = std::size_t{1} << 20;
+/// What heights as floats may be off by.
+constexpr double kFloatM = 0.002;
 
 struct VariantMeasure {
   double worst = 0, bilinear = 0, squares = 0;
   std::uint64_t posts = 0;
   double bend = 0;
+  double sag = 0;  ///< how far below the curved earth its triangles may lie
 };
 
 struct PatchMeasure {
@@ -27,7 +30,7 @@ struct PatchMeasure {
   std::uint32_t firstRow = 0, lastRow = 0, firstColumn = 0, lastColumn = 0;
   float lowest = std::numeric_limits<float>::max(), highest = -std::numeric_limits<float>::max();
   std::uint32_t posts = 0, voids = 0;
-  double rounding = 0;
+  double rounding = 0;  ///< of vertices moved to the lattice, along the steepest slope
 };
 
 class PageMeasure {
@@ -85,12 +88,17 @@ class PageMeasure {
   void bends(const PatchDraft& draft, PatchMeasure& patch) {
     slopes_.assign(draft.vertices.size(), 0.0);
     sideways_.clear();
-    for (std::size_t v = 0; v < draft.variants.size(); ++v)
+    double sag = 0;
+    for (std::size_t v = 0; v < draft.variants.size(); ++v) {
       draft.eachNew(v, [&](std::size_t, const std::uint32_t* c) {
         const double steep = bound_.steepness(draft, c);
         for (std::size_t k = 0; k < 3; ++k) slopes_[c[k]] = std::max(slopes_[c[k]], steep);
-        sideways_.push_back(bound_.atMostSideways(bound_.extent(draft, c)));
+        const VerticalBound::Extent extent = bound_.extent(draft, c);
+        sideways_.push_back(bound_.atMostSideways(extent));
+        sag = std::max(sag, bound_.sagM(draft, c, extent));
       });
+      patch.variants[v].sag = sag;
+    }
     const double steepest = *std::max_element(slopes_.begin(), slopes_.end());
     const double mostLean = bound_.leaning(steepest);
     double worst = 0;
@@ -103,9 +111,8 @@ class PageMeasure {
       });
       patch.variants[v].bend = worst;
     }
-    // Vertices are moved to the lattice; the rest is for heights as floats.
     const double slope = bound_.slope(steepest);
-    patch.rounding = geometry_.roundingM() * std::sqrt(1 + slope * slope) + 0.002;
+    patch.rounding = geometry_.roundingM() * std::sqrt(1 + slope * slope) + kFloatM;
   }
 
   /// Rows of the strip, with those before and after where there are some.
@@ -270,15 +277,17 @@ class PageMeasure {
     PatchFacts facts;
     std::array<float, PatchIndex::kMostVariants> errorM{};
     const double rise = static_cast<double>(patch.highest) - patch.lowest;
-    const double most =
-        bound_.most(patch.lastColumn - patch.firstColumn, patch.lastRow - patch.firstRow, rise);
     for (std::size_t v = 0; v < draft.variants.size(); ++v) {
       const VariantMeasure& variant = patch.variants[v];
       const bool measured = stride_ != 1;
       const double shown = measured ? variant.worst : draft.variants[v].worst;
-      const double worst = std::min(shown / bound_.cosLean() + variant.bend, most) + patch.rounding,
-                   between =
-                       std::min(variant.bilinear / bound_.cosLean() + variant.bend, most) + patch.rounding;
+      // A post and the surface above or below it lie between the lowest and the highest post of the patch,
+      // but for the sag of triangles and the lattice that vertices are moved to.
+      const double most = rise + variant.sag + geometry_.roundingM() + kFloatM;
+      const auto stated = [&](double shownM) {
+        return std::min(shownM / bound_.cosLean() + variant.bend + patch.rounding, most);
+      };
+      const double worst = stated(shown), between = stated(variant.bilinear);
       errorM[v] = up(worst);
       facts.bilinearErrorM[v] = up(std::max(worst, between));
       facts.rmsErrorM[v] = static_cast<float>(

@@ -11,16 +11,16 @@ namespace {
 
 constexpr std::int64_t kStepsPerOrigin = 16 * PostGeometry::kStepsPerMetre;
 
-/// A coarser variant's triangle stands where the finer one's of the same number does: beside its
-/// neighbours.
+/// Orders the triangles of a coarser variant like those of the finer one with the same numbers, so that
+/// neighbours stay together.
 void addTriangles(const PatchDraft& draft, PatchMesh& mesh) {
   const std::size_t variants = draft.variants.size();
   for (std::size_t v = 0; v < PatchIndex::kMostVariants; ++v)
     mesh.firstIndex[v + 1] =
         mesh.firstIndex[v] +
         (v < variants ? static_cast<std::uint32_t>(draft.variants[v].triangles.size()) : 0);
-  // Room for one more: what a triangle has for an heir cannot be guessed, so all are written, without a
-  // branch.
+  // There is room for one more, because every triangle is written whether it is kept or not: that needs no
+  // branch, which could not be predicted.
   mesh.indices.resize(mesh.firstIndex[variants] + std::size_t{3});
   mesh.heirs.resize(mesh.firstIndex[variants - 1] / 3 + std::size_t{1});
   std::uint16_t* out = mesh.indices.data();
@@ -88,7 +88,7 @@ PatchMesh patchMesh(const PatchIndex& index, const PostGeometry& geometry, const
     mesh.vertices.push_back(v);
   }
   addTriangles(draft, mesh);
-  // The next floats outwards: a float need not hold a place that far from the frame's origin.
+  // The box is rounded outwards, because a float may not hold a place that far from the frame's origin.
   const auto metres = [](std::int64_t steps) {
     return static_cast<float>(static_cast<double>(steps) / PostGeometry::kStepsPerMetre);
   };
@@ -109,7 +109,7 @@ NormalCone patchCone(const PatchDraft& draft, const PatchMesh& mesh) {
         return Vec3{at.x, at.y, at.z};
       };
       const Vec3 a = place(0), normal = cross(place(1) - a, place(2) - a);
-      // One without an area draws nothing.
+      // A triangle without an area draws nothing.
       if (const double area = dot(normal, normal); area != 0)
         normals.push_back(normal * (1 / std::sqrt(area)));
     });

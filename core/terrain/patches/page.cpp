@@ -9,8 +9,8 @@ namespace trimtab::terrain {
 
 namespace {
 
-/// As many as the half of a square of 64 cells has posts: no rough land makes a patch's indices too long, and
-/// with no tolerance at all the smallest patches still get every post.
+/// The number of posts in half a square of 64 cells. With this limit no rough land makes a patch's indices
+/// too long, and the smallest patches still get every post at a tolerance of 0.
 constexpr std::size_t kMostVertices = 65 * 66 / 2;
 static_assert(kMostVertices >= (kCoarseLeafCells + 1) * (kCoarseLeafCells + 2) / 2);
 
@@ -31,7 +31,7 @@ void findFresh(PatchDraft::Variant& of, const PatchDraft::Variant* finer) {
   of.fresh.resize(count);
 }
 
-/// Patches of a page, one by one.
+/// Makes the drafts of a page's patches, one at a time.
 class Drafter {
  public:
   Drafter(const PatchIndex& index, const PatchIndex::Page& page, const HeightSource& heights,
@@ -86,7 +86,7 @@ class Drafter {
 
  private:
   const PatchIndex& index_;
-  double octaves_;  ///< from a variant to the next
+  double octaves_;  ///< between the tolerances of two variants
   const std::vector<double>& tolerances_;
   PageField field_;
   PolygonMesher mesher_;

@@ -6,9 +6,9 @@ namespace trimtab::terrain {
 
 namespace {
 
-/// No less than what an edge of the strip, its lower end first, is off: by the most that it is where it
-/// crosses rows and columns, and the most that it can bend between. Which of the two it crosses next cannot
-/// be guessed, so each are taken for themselves.
+/// Returns an upper bound on the distance of an edge, its lower end first: the largest distance where it
+/// crosses rows and columns, plus the most that it can bend between. Whether it crosses a row or a column
+/// next cannot be predicted, so rows and columns are visited separately.
 double mostOff(const ScanVertex& a, const ScanVertex& b, const PostStrip& strip) {
   const std::int32_t sign = a.x < b.x ? 1 : -1, wide = sign * (b.x - a.x), high = b.y - a.y;
   const auto stride = static_cast<std::ptrdiff_t>(strip.stride);
@@ -44,7 +44,7 @@ double longEdgeError(ScanVertex a, ScanVertex b, const PostStrip& strip, std::in
                      std::int32_t last, double worst) {
   assert(a.x != b.x && a.y != b.y);
   if (b.y < a.y) std::swap(a, b);
-  // Once the worst edges were seen, few are worth a closer look.
+  // Once the worst edges have been measured, few need a closer look.
   if (a.y >= first && b.y <= last && mostOff(a, b, strip) <= worst) return worst;
   const std::int32_t low = std::max(a.y, first), high = std::min(b.y, last);
   const std::int32_t sign = a.x < b.x ? 1 : -1;

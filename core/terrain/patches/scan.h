@@ -5,15 +5,15 @@
 #include <cstdint>
 #include <utility>
 
-/// Triangles over the rows of a strip of posts.
+/// Measures triangles and edges against the rows of a strip of posts.
 namespace trimtab::terrain {
 
 struct ScanVertex {
-  std::int32_t x, y;  ///< post
+  std::int32_t x, y;  ///< column and row of the post
   double z;
 };
 
-/// Rows in memory: post (x, y) is at z[(y - firstRow) * stride + (x - firstColumn)].
+/// Rows of posts in memory: post (x, y) is at z[(y - firstRow) * stride + (x - firstColumn)].
 struct PostStrip {
   const float* z = nullptr;
   std::size_t stride = 0;
@@ -23,14 +23,14 @@ struct PostStrip {
   }
 };
 
-/// What a triangle is off from the posts of some of its rows.
+/// The errors of a triangle at the posts of some of its rows.
 struct ScanResult {
-  double worst = 0;    ///< at posts in it and on its edges
-  double squares = 0;  ///< over the posts that belong to it: left and lower edges do
+  double worst = 0;    ///< at the posts in it and on its edges
+  double squares = 0;  ///< sum over the posts that belong to it; those on left and lower edges do
   std::uint32_t posts = 0;
 };
 
-/// A triangle with area; its plane over columns and rows.
+/// A triangle that has an area, and its plane over columns and rows.
 class ScanTriangle {
  public:
   ScanTriangle(const ScanVertex& a, const ScanVertex& b, const ScanVertex& c) : v_{a, b, c} {
@@ -51,10 +51,11 @@ class ScanTriangle {
   std::int32_t lastRow() const { return v_[2].y; }
   double byColumn() const { return byColumn_; }
   double byRow() const { return byRow_; }
-  /// Twice its area in cells.
+  /// Returns twice its area, in cells.
   double area2() const { return std::fabs(area2_); }
 
-  /// Rows first to last, both within the triangle's; squares only of rows below `squaresEnd`.
+  /// Adds the errors in rows `first` to `last`, both within the triangle, to `result`; squares only of rows
+  /// below `squaresEnd`.
   void scan(const PostStrip& strip, std::int32_t first, std::int32_t last, std::int32_t squaresEnd,
             ScanResult& result) const {
     double worst = 0, squares = 0;
@@ -100,12 +101,12 @@ class ScanTriangle {
   double area2_, byColumn_, byRow_, long_, low_, high_;
 };
 
-/// As edgeError, of an edge along neither a row nor a column.
+/// Does what edgeError does, for an edge along neither a row nor a column.
 double longEdgeError(ScanVertex a, ScanVertex b, const PostStrip& strip, std::int32_t first,
                      std::int32_t last, double worst);
 
-/// The largest of `worst` and what an edge is off within a cell, where the difference is a parabola: from e0
-/// to e1, bent so that its second difference is 2 * bend.
+/// Returns the larger of `worst` and the largest difference along an edge within one cell. There the
+/// difference is a parabola from e0 to e1 whose second difference is 2 * bend.
 inline double bentError(double e0, double e1, double bend, double worst) {
   worst = std::max(worst, std::fabs(e1));
   if (std::max(std::fabs(e0), std::fabs(e1)) + std::fabs(bend) / 4 <= worst) return worst;
@@ -114,17 +115,17 @@ inline double bentError(double e0, double e1, double bend, double worst) {
                               : worst;
 }
 
-/// Largest distance of an edge of a mesh, from a post to another, from the bilinear surface of the posts, in
-/// rows of cells `first` to `last` - 1, or `worst` if that is more.
+/// Returns the larger of `worst` and the largest distance between an edge, which leads from post to post, and
+/// the bilinear surface of the posts, in the rows of cells `first` to `last` - 1.
 ///
-/// Within a cell the difference along the edge is a parabola. Over a whole mesh the largest is at a post or
-/// on an edge, as a plane less a bilinear surface is a saddle; along rows and columns it is at posts.
+/// Over a whole mesh the largest distance is at a post or on an edge, because a plane minus a bilinear
+/// surface is a saddle. Along rows and columns it is at posts, so those edges are skipped.
 inline double edgeError(const ScanVertex& p, const ScanVertex& q, const PostStrip& strip, std::int32_t first,
                         std::int32_t last, double worst) {
   const ScanVertex &a = q.y < p.y ? q : p, &b = q.y < p.y ? p : q;
   const std::int32_t dx = b.x - a.x, dy = b.y - a.y;
   if (dx == 0 || dy == 0) return worst;
-  // Short ones, of which fine meshes are made, without a loop.
+  // Fine meshes are made of short edges: these need no loop.
   const std::int32_t wide = std::abs(dx), cells = wide + dy;
   if (cells > 3 || a.y < first || b.y > last) return longEdgeError(a, b, strip, first, last, worst);
   const std::int32_t step = dx < 0 ? -1 : 1;

@@ -17,7 +17,7 @@ std::uint32_t length(PatchPoint a, PatchPoint b) {
   return std::max(apart(a.column, b.column), apart(a.row, b.row));
 }
 
-/// So far along a line that runs along a row, a column or a diagonal.
+/// Returns the post that is so many steps along a row, a column or a diagonal.
 PatchPoint between(PatchPoint a, PatchPoint b, std::uint32_t along) {
   const auto moved = [&](std::uint32_t p, std::uint32_t q) {
     return p < q ? p + along : p > q ? p - along : p;
@@ -72,7 +72,7 @@ float PageField::height(PatchPoint p) const {
 
 std::vector<PatchPoint> PageField::simplified(PatchPoint from, PatchPoint to, std::uint32_t step,
                                               double tolerance) {
-  // Where the posts end, ends need not lie at a step: those parts have no posts between to choose from.
+  // Where the posts end, an end need not lie at a step; those parts have no posts between to choose from.
   const std::uint32_t all = length(from, to);
   const bool byRow = from.row != to.row;
   const std::uint32_t start = byRow ? from.row : from.column;
@@ -109,7 +109,8 @@ std::vector<PatchPoint> PageField::side(const PatchEdge& edge, int depth) {
     line = make(depth, depth / 2);
   } else {
     auto& known = sides_[{static_cast<std::uint32_t>(edge.side), from.column, from.row, to.column, to.row}];
-    // A diagonal is a leg in the page of larger squares, and simplified at that page's posts.
+    // A diagonal is a leg of the patches in the page of larger squares, so it is simplified at that page's
+    // posts.
     const int side = edge.side;
     if (known.empty()) known = make(side, side % 2 == 0 && side > 0 ? side / 2 - 1 : side / 2);
     line = known;

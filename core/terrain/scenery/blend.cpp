@@ -10,11 +10,11 @@ namespace trimtab::terrain {
 
 namespace {
 
-/// Posts that a difference is spread over.
+/// How many posts a difference fades out over.
 constexpr std::uint8_t kBandPosts = 32;
 constexpr std::uint32_t kSweeps = 150;
 constexpr double kOverRelaxation = 1.8;
-/// Posts that are read together: what overlaps a band of rows is looked through for each.
+/// How many posts are read together. For each band of rows all tiles that overlap it are searched.
 constexpr std::size_t kTogether = std::size_t{1} << 19;
 
 // Away from the nearest post of scenery, in posts, 0 on its border; or:
@@ -32,7 +32,7 @@ double BlendedRows::elevationAt(std::uint32_t number, std::uint32_t column) cons
       [&](std::uint32_t r, std::uint32_t c) { return elevationRows_[r - firstElevationRow_][c]; });
 }
 
-/// What a row's posts lie between, and lets go of what lies south of the row before it.
+/// Reads the rows of elevation around a row of posts, and releases those south of the previous row.
 Result<Done> BlendedRows::readElevation(std::uint32_t number) {
   const PostGrid& posts = elevation_->posts();
   const auto rowAt = [&](std::int64_t of) {
@@ -44,7 +44,7 @@ Result<Done> BlendedRows::readElevation(std::uint32_t number) {
                      first = rowAt(std::int64_t{number} - 1) - 1;
   while (!elevationRows_.empty() && firstElevationRow_ < first)
     elevationRows_.pop_front(), ++firstElevationRow_;
-  // Rows that nobody asks for are not read.
+  // Rows that are not needed are not read.
   if (elevationRows_.empty())
     firstElevationRow_ = static_cast<std::uint32_t>(std::clamp<std::int64_t>(first, 0, posts.rows));
   while (firstElevationRow_ + std::int64_t(elevationRows_.size()) <= last) {
@@ -60,7 +60,7 @@ Result<Done> BlendedRows::readElevation(std::uint32_t number) {
   return Done{};
 }
 
-/// Some rows more, and elevation at their posts that are void.
+/// Reads some more rows of scenery, and fills their void posts from elevation.
 Result<Done> BlendedRows::readScenery() {
   const PostGrid& posts = scenery_.posts();
   const std::size_t columns = posts.columns;
@@ -91,7 +91,7 @@ Result<Done> BlendedRows::readScenery() {
   return Done{};
 }
 
-/// What scenery differs by from elevation is known where they meet. The row after it has been read.
+/// Computes the difference between scenery and elevation where they meet. The next row must have been read.
 void BlendedRows::findBorder(std::uint32_t number) {
   bordered_ = number + 1;
   Row& own = row(number);
@@ -111,7 +111,7 @@ void BlendedRows::findBorder(std::uint32_t number) {
   }
 }
 
-/// Distances from the border, of the rows that nothing further north can be nearer to.
+/// Computes distances from the border in the rows that nothing farther north can be nearer to.
 void BlendedRows::spread() {
   const std::uint32_t all = scenery_.posts().rows, columns = scenery_.posts().columns;
   const std::uint32_t end =
@@ -125,7 +125,7 @@ void BlendedRows::spread() {
   for (std::uint32_t r = first; r < bordered_; ++r)
     for (std::uint32_t c = 0; c < columns; ++c) {
       std::uint8_t& away = row(r).away[c];
-      // What was told of them when less of the north was known.
+      // These were set when less of the north was known.
       if (r >= spread_ && isElevations(away)) away = kFar;
       if (away < kFar) fronts[away].push_back({r, c});
     }
@@ -150,7 +150,7 @@ void BlendedRows::spread() {
   }
 }
 
-/// One sweep over a row's band.
+/// Smooths a row's band once.
 void BlendedRows::relax(std::uint32_t number) {
   Row& own = row(number);
   if (own.band.empty()) return;
@@ -174,9 +174,9 @@ void BlendedRows::relax(std::uint32_t number) {
   }
 }
 
-/// A sweep takes from the row south of it what this sweep left there, and from the north what the one before
-/// did: as row by row through the whole grid, again and again. So one row can begin its first sweep while
-/// the one before it has its second, and all of them together need no more rows than there are sweeps.
+/// A sweep uses what it left in the row to the south, and what the previous sweep left in the row to the
+/// north, as if the whole grid were swept row by row, again and again. So one row can have its first sweep
+/// while the row before it has its second, and no more rows than sweeps are held in memory.
 Result<Done> BlendedRows::advance() {
   const std::uint32_t all = scenery_.posts().rows;
   while (spread_ < all && spread_ <= relaxing_) {
@@ -201,7 +201,7 @@ Result<Done> BlendedRows::read(std::uint32_t first, std::uint32_t rows, std::spa
   for (std::uint32_t number = first; number < first + rows; ++number) {
     while (finished_ <= number) {
       if (auto advanced = advance(); !advanced) return advanced;
-      // The one before those that are not finished is beside one of them.
+      // The row before the unfinished ones is still needed by the first of them.
       while (firstRow_ + 1 < finished_ && firstRow_ < number) rows_.pop_front(), ++firstRow_;
     }
     const Row& own = row(number);

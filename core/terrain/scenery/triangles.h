@@ -4,8 +4,8 @@
 
 namespace trimtab::terrain {
 
-/// Drops triangles two of whose vertices are one place under two numbers, and turns the whole mesh where most
-/// of it faces down. Single slivers that face down stay: turned, they would break the order of their
+/// Drops triangles with two vertices at one place, and turns the whole mesh over if most of it faces down.
+/// Single slivers that face down stay as they are, because turning them would break the order of their
 /// neighbours' edges.
 void tidyTriangles(SceneryMesh& mesh);
 

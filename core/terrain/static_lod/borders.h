@@ -11,9 +11,8 @@
 
 namespace trimtab::terrain {
 
-/// Returns one flag per material: whether its borders count. On an airport all do, elsewhere none. If roads
-/// counted too, a view of Cologne from 300 m would draw 267,486 triangles instead of 33,848; --keep-lines
-/// keeps roads at a lower cost.
+/// Returns one flag per material: whether its borders count. On an airport all do, elsewhere none; roads are
+/// for --keep-lines to keep.
 std::vector<std::uint8_t> borderMaterials(const LatticeTile& tile, std::span<const std::string> materials);
 
 /// Measures how far a node moves the borders of materials sideways. On flat ground simplification can move

@@ -5,6 +5,7 @@
 
 #include "lines.h"
 #include "tree.h"
+#include "trimtab/frame/box_union.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
 #include "trimtab/terrain/grid/parallel.h"
 #include "trimtab/terrain/static_lod/lattice.h"
@@ -42,10 +43,6 @@ Box boxOf(const LodTree& tree, const LodTree::Node& node) {
     }
   return {downwards(low.x), downwards(low.y), downwards(low.z),
           upwards(high.x),  upwards(high.y),  upwards(high.z)};
-}
-Box joined(const Box& a, const Box& b) {
-  return {std::min(a.minX, b.minX), std::min(a.minY, b.minY), std::min(a.minZ, b.minZ),
-          std::max(a.maxX, b.maxX), std::max(a.maxY, b.maxY), std::max(a.maxZ, b.maxZ)};
 }
 
 /// Vertices as drawn: one for each material that a vertex has triangles of, in the order of their first use.
@@ -131,7 +128,7 @@ BuiltTile finished(const std::string& name, const LodTree& tree,
   }
   for (std::size_t i = out.nodes.size(); i-- > 0;)
     for (const std::uint32_t child : out.nodes[i].children)
-      if (child != StaticLodIndex::kNone) out.bounds[i] = joined(out.bounds[i], out.bounds[child]);
+      if (child != StaticLodIndex::kNone) out.bounds[i] = united(out.bounds[i], out.bounds[child]);
   return out;
 }
 

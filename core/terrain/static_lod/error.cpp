@@ -91,32 +91,41 @@ void VerticalDistance::forEachCell(std::uint32_t triangle, const Visit& visit) c
   }
 }
 
-std::optional<double> VerticalDistance::metres(const Lattice& p, std::uint32_t first,
-                                               std::uint32_t last) const {
+/// Calls visit(triangle, distance in steps) for those of the triangles [first, last) that lie above or below
+/// a place, until it returns false.
+template <class Visit>
+void VerticalDistance::forEachOver(const Lattice& p, std::uint32_t first, std::uint32_t last,
+                                   const Visit& visit) const {
   const std::int64_t x = std::int64_t{p.x} - minX_, y = std::int64_t{p.y} - minY_;
-  if (x < 0 || y < 0 || x / cell_ >= columns_ || y / cell_ >= rows_) return std::nullopt;
+  if (x < 0 || y < 0 || x / cell_ >= columns_ || y / cell_ >= rows_) return;
   const std::size_t cell = static_cast<std::size_t>(y / cell_ * columns_ + x / cell_);
-  std::optional<double> nearest;
   for (std::uint32_t i = firstOfCell_[cell]; i < firstOfCell_[cell + 1]; ++i) {
     const std::uint32_t t = inCell_[i];
     if (t < first || t >= last) continue;
     const auto& corners = triangles_[t];
     const auto d = distance(vertices_[corners[0]], vertices_[corners[1]], vertices_[corners[2]], p);
-    if (d && (!nearest || *d < *nearest)) nearest = d;
+    if (d && !visit(t, *d)) return;
   }
+}
+
+std::optional<double> VerticalDistance::metres(const Lattice& p, std::uint32_t first,
+                                               std::uint32_t last) const {
+  std::optional<double> nearest;
+  forEachOver(p, first, last, [&](std::uint32_t, double d) {
+    if (!nearest || d < *nearest) nearest = d;
+    return true;
+  });
   if (nearest) *nearest *= Lattice::kStepM;
   return nearest;
 }
 
 std::optional<std::uint32_t> VerticalDistance::at(const Lattice& p) const {
-  const std::int64_t x = std::int64_t{p.x} - minX_, y = std::int64_t{p.y} - minY_;
-  if (x < 0 || y < 0 || x / cell_ >= columns_ || y / cell_ >= rows_) return std::nullopt;
-  const std::size_t cell = static_cast<std::size_t>(y / cell_ * columns_ + x / cell_);
-  for (std::uint32_t i = firstOfCell_[cell]; i < firstOfCell_[cell + 1]; ++i) {
-    const auto& corners = triangles_[inCell_[i]];
-    if (distance(vertices_[corners[0]], vertices_[corners[1]], vertices_[corners[2]], p)) return inCell_[i];
-  }
-  return std::nullopt;
+  std::optional<std::uint32_t> found;
+  forEachOver(p, 0, std::numeric_limits<std::uint32_t>::max(), [&](std::uint32_t t, double) {
+    found = t;
+    return false;
+  });
+  return found;
 }
 
 }  // namespace trimtab::terrain

@@ -5,6 +5,7 @@
 #include <map>
 #include <unordered_map>
 
+#include "edges.h"
 #include "trimtab/preset/number.h"
 
 namespace trimtab::terrain {
@@ -114,19 +115,10 @@ void weld(LatticeTile& tile, LatticeTiles& counts) {
 
 /// One entry a vertex: it ends an edge that one triangle alone uses, or more than two.
 std::vector<std::uint8_t> openVertices(const LatticeTile& tile) {
-  std::vector<std::uint64_t> edges;
-  edges.reserve(tile.triangles.size() * 3);
-  for (const auto& t : tile.triangles)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint64_t a = t[k], b = t[(k + 1) % 3];
-      edges.push_back(std::min(a, b) << 32 | std::max(a, b));
-    }
-  std::sort(edges.begin(), edges.end());
   std::vector<std::uint8_t> open(tile.vertices.size());
-  for (std::size_t i = 0, end; i < edges.size(); i = end) {
-    for (end = i; end < edges.size() && edges[end] == edges[i];) ++end;
-    if (end - i != 2) open[edges[i] >> 32] = open[edges[i] & 0xffffffffu] = 1;
-  }
+  forEachEdge(sortedEdges(tile.triangles), [&](std::span<const EdgeUse> edge) {
+    if (edge.size() != 2) open[edge[0].low] = open[edge[0].high] = 1;
+  });
   return open;
 }
 

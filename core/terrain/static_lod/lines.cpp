@@ -1,7 +1,6 @@
 #include "lines.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "trimtab/units/linear.h"
@@ -14,7 +13,7 @@ struct Quadric {
   double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
   double bx = 0, by = 0, bz = 0, c = 0;
 
-  /// The plane through `point` with a unit normal.
+  /// Returns the quadric of the plane through `point` with a unit normal.
   static Quadric plane(Vec3 normal, Vec3 point, double weight) {
     const double d = -dot(normal, point);
     const Vec3 w = weight * normal;
@@ -38,13 +37,13 @@ struct Quadric {
   Vec3 times(Vec3 v) const {
     return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z, xz * v.x + yz * v.y + zz * v.z};
   }
-  /// Never below zero.
+  /// Returns the sum at a place, never below zero.
   double at(Vec3 v) const { return std::max(0.0, dot(v, times(v)) + 2 * dot({bx, by, bz}, v) + c); }
-  /// The sum of the planes' weights.
+  /// Returns the sum of the planes' weights.
   double weight() const { return xx + yy + zz; }
 
-  /// Where the sum is least; none where the planes leave a line or a plane of such places. `near` is any
-  /// place close by: it keeps the digits.
+  /// Returns where the sum is least; unset if that is a line or a plane. `near` is any place close by, which
+  /// keeps digits.
   std::optional<Vec3> least(Vec3 near) const {
     const Vec3 slope = times(near) + Vec3{bx, by, bz};
     const double cxx = yy * zz - yz * yz, cxy = xz * yz - xy * zz, cxz = xy * yz - xz * yy;
@@ -58,7 +57,7 @@ struct Quadric {
                        k * (cxy * slope.x + cyy * slope.y + cyz * slope.z),
                        k * (cxz * slope.x + cyz * slope.y + czz * slope.z)};
   }
-  /// Where the sum is least between two places.
+  /// Returns where the sum is least between two places.
   Vec3 leastBetween(Vec3 from, Vec3 to) const {
     const Vec3 along = to - from;
     const double curve = dot(along, times(along));

@@ -2,6 +2,7 @@
 #include <bit>
 
 #include "trimtab/terrain/format/static_lod_terrain.h"
+#include "trimtab/terrain/static_lod/level.h"
 #include "trimtab/terrain/static_lod/static_lod.h"
 
 namespace trimtab::terrain {
@@ -19,8 +20,7 @@ StaticLodReport reportStaticLod(const StaticLodTerrain& terrain, std::size_t til
   StaticLodReport report;
   report.tile = terrain.tiles[tile].name;
   report.trianglesPerNode = terrain.trianglesPerNode;
-  for (const StaticLodIndex::Node& node : index.nodes)
-    if (node.tile == tile) report.levels = std::max<std::uint32_t>(report.levels, node.depth + 1u);
+  report.levels = levelsOf(terrain, tile);
   report.facesOfLevel.assign(report.levels, 0);
   report.rmsErrorM.assign(report.levels, 0);
   report.maxErrorM.assign(report.levels, 0);

@@ -1,4 +1,5 @@
 #include "trimtab/terrain/static_lod/sea.h"
+#include "trimtab/frame/box_union.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
 
 #include <algorithm>
@@ -70,7 +71,7 @@ void append(StaticLodTerrain& trees, const Bucket& bucket, std::uint16_t materia
   for (std::size_t i = 0; i < 3; ++i) tile.origin[i] = static_cast<std::int32_t>(std::floor(m[i] / 16));
   const auto colour = materialColour("Ocean");
   constexpr float kFar = std::numeric_limits<float>::infinity();
-  Box box{kFar, kFar, kFar, -kFar, -kFar, -kFar};
+  Box box = kNoBox;
   for (int row = 0; row < kPoints; ++row)
     for (int column = 0; column < kPoints; ++column) {
       const Vec3 p = place(column, row);
@@ -87,9 +88,7 @@ void append(StaticLodTerrain& trees, const Bucket& bucket, std::uint16_t materia
                                {colour[0], colour[1], colour[2], 255}});
       const auto down = [](double v) { return std::nextafter(static_cast<float>(v), -kFar); };
       const auto upwards = [](double v) { return std::nextafter(static_cast<float>(v), kFar); };
-      box = {std::min(box.minX, down(at.x)),    std::min(box.minY, down(at.y)),
-             std::min(box.minZ, down(at.z)),    std::max(box.maxX, upwards(at.x)),
-             std::max(box.maxY, upwards(at.y)), std::max(box.maxZ, upwards(at.z))};
+      box = united(box, {down(at.x), down(at.y), down(at.z), upwards(at.x), upwards(at.y), upwards(at.z)});
     }
   for (int row = 0; row + 1 < kPoints; ++row)
     for (int column = 0; column + 1 < kPoints; ++column) {

@@ -8,18 +8,18 @@
 
 namespace trimtab::terrain {
 
-/// What simplification must know of a tile's source: where it may not touch it, and what each vertex stands
-/// for.
+/// What simplification must know of a tile's source: where it may not touch it, and the quadric of each
+/// vertex.
 struct SourceSurface {
-  std::vector<std::uint8_t> fixed;  ///< one a vertex: on a border of the tile or a hole, shared with another
+  std::vector<std::uint8_t> fixed;  ///< per vertex: on a border of the tile or a hole, shared with another
                                     ///< tile, at a fold, an upright triangle, or where surfaces meet
-  std::vector<Quadric> quadrics;    ///< one a vertex, about `origin`
+  std::vector<Quadric> quadrics;    ///< per vertex, about `origin`
   std::uint64_t folded = 0;         ///< triangles that stand upright or face down
 };
 
-/// Area-weighted planes of the triangles, a third to each corner, and, at edges between materials, an upright
-/// plane through the edge: a metre sideways there counts as `boundaryWeight` m^2 on a square of the edge's
-/// length.
+/// Makes it from area-weighted planes of the triangles, a third to each corner, and, at edges between
+/// materials, an upright plane through the edge: a metre sideways there counts as `boundaryWeight` m^2 on a
+/// square of the edge's length.
 SourceSurface analyse(const LatticeTile& tile, const Lattice& origin, double boundaryWeight = 0.02);
 
 }  // namespace trimtab::terrain

@@ -12,10 +12,10 @@
 
 namespace trimtab::terrain {
 
-/// The tree of one tile with its meshes, while it is being built. Nodes in preorder: parents first.
+/// The tree of one tile with its meshes, while it is built. Parents come before their children.
 struct LodTree {
   static constexpr std::uint32_t kNone = 0xffffffffu;
-  /// Depth of a vertex that every node of the tile leaves where it is.
+  /// The `freeFrom` of a vertex that no node of the tile may move.
   static constexpr std::int8_t kFixed = -1;
 
   struct Node {
@@ -35,27 +35,27 @@ struct LodTree {
   std::vector<Node> nodes;
   std::vector<std::uint32_t> order;  ///< source triangles, leaf by leaf
   std::vector<Lattice> vertices;     ///< the source's, then those that collapses made
-  std::vector<Vec3> normals;         ///< one a vertex, any length
-  /// One a vertex: depth of the shallowest node that it is a border of plus one, so that deeper nodes may not
-  /// move it; kFixed: no node may.
+  std::vector<Vec3> normals;         ///< per vertex, of any length
+  /// Per vertex: one more than the depth of the shallowest node whose border it is on, because deeper nodes
+  /// may not move it; or kFixed.
   std::vector<std::int8_t> freeFrom;
-  std::vector<float> lineWidthM;  ///< one a vertex, as lineWidths(); empty: lines are not kept
+  std::vector<float> lineWidthM;  ///< per vertex, as lineWidths(); empty if lines are not kept
   std::uint64_t distinctFaces = 0, folded = 0;
 
-  /// Whether a node of that depth must leave the vertex.
+  /// Reports whether a node of that depth must leave the vertex where it is.
   bool locked(std::uint32_t vertex, std::uint8_t depth) const {
     return freeFrom[vertex] == kFixed || freeFrom[vertex] < static_cast<int>(depth);
   }
-  /// Whether it holds a line that a pixel so wide shows.
+  /// Reports whether the vertex is on a line that a pixel of this width shows.
   bool onLine(std::uint32_t vertex, double pixelM) const {
     return vertex < lineWidthM.size() && lineWidthM[vertex] > 0 && lineWidthM[vertex] >= pixelM;
   }
 };
 
-/// Splits by upright planes across the longer side, at the median of the triangles' middles, down to leaves
-/// of n/2 to n; merges and simplifies upwards; measures. `lineWidthM`: one a vertex of the tile, to keep
-/// lines; or empty. `goesOn` is called once or twice per node; if it returns false, the
-/// result is a tree without nodes.
+/// Builds and measures a tile's tree. Splits by upright planes across the longer side, at the median of the
+/// triangles' middles, down to leaves of n/2 to n triangles; then merges and simplifies upwards.
+/// `lineWidthM` has one width per vertex of the tile, to keep lines, or is empty. Calls `goesOn` once or
+/// twice per node; if that returns false, the result is a tree without nodes.
 LodTree buildTree(const LatticeTile& tile, std::uint32_t trianglesPerNode, std::vector<float> lineWidthM,
                   std::span<const std::string> materials, const std::function<bool()>& goesOn = {});
 
@@ -67,10 +67,10 @@ LodTree buildTree(const LatticeTile& tile, std::uint32_t trianglesPerNode, std::
 bool measureTree(const LatticeTile& tile, LodTree& tree, std::span<const std::string> materials,
                  const std::function<bool()>& goesOn = {});
 
-/// The same for one node that is no leaf, without its children's share.
+/// Measures the vertical errors of single nodes that are no leaves, without their children's share.
 class NodeMeasure {
  public:
-  /// Both must outlive it; the tree has its `order` and may grow.
+  /// Both must outlive it. The tree must have its `order`, and may grow.
   NodeMeasure(const LatticeTile& tile, const LodTree& tree);
   struct Error {
     double rmsM = 0, maxM = 0;

@@ -89,7 +89,8 @@ TRIMTAB_WIDEST std::uint64_t readAbreast(const Sides& sides, std::size_t boxes, 
 
 std::size_t keptBy(const BlockTest& test) {
   std::size_t kept = 0;
-  test.all([&](std::size_t, std::uint64_t bits) { kept += static_cast<std::size_t>(std::popcount(bits)); });
+  for (std::size_t block = 0; block < test.blocks(); ++block)
+    kept += static_cast<std::size_t>(std::popcount(test(block)));
   return kept;
 }
 
@@ -167,7 +168,7 @@ void selectionRows(Report& report) {
   for (const View& v : views) {
     const ViewShape shape;
     const auto [ours, theirs] =
-        leastInTurn(5, std::pair{10, [&] { selectVisible(index, cut, v.eye, shape, true, visible); }},
+        leastInTurn(5, std::pair{10, [&] { selectVisible(cut, {.eye = v.eye, .view = shape}, visible); }},
                     std::pair{3, [&] { keep(osg.cull(v.eye, shape)); }});
     std::vector<std::uint32_t> kept = osg.kept();
     std::sort(kept.begin(), kept.end());
@@ -202,7 +203,7 @@ void selectionRows(Report& report) {
   double heading = 0;
   const double turned = leastSeconds(100, [&] {
     heading += 3.3;
-    selectVisible(small, cut, {{64e3, 30e3, 1500}, axesOf(heading, -3)}, {}, true, visible);
+    selectVisible(cut, {.eye = {{64e3, 30e3, 1500}, axesOf(heading, -3)}}, visible);
   });
   report.add(valueAtMost(50, {.id = "culling.selection_turned",
                               .what = "Selecting of 6,400 tiles after the head has turned",

@@ -70,7 +70,7 @@ void lodRows(Report& report, const std::string& name,
     const EyePose eye{index.frame.fromGeodetic(at), eyeAxes(index.frame, at, attitude)};
     const auto select = [&] {
       selectLevels(index, eye.position, kErrorPx, 1, scale, cut);
-      selectVisible(index, cut, eye, view, true, visible);
+      selectVisible(cut, {.eye = eye, .view = view}, visible);
     };
     std::size_t kept = 0;
     const auto [least, theirLeast] =

@@ -213,7 +213,7 @@ struct QueryPeers::Impl {
   /// In two passes, and exact: what is not drawn has a box of which no pixel passed.
   void drawByQueries(osg::State& state) {
     const TerrainIndex& index = database->index();
-    selectVisible(index, cut, eye, view, true, inView);
+    selectVisible(cut, {.eye = eye, .view = view}, inView);
     now.clear();
     for (const TileDraw& tile : inView.tiles)
       if (seen[tile.node]) now.push_back(tile);

@@ -4,7 +4,8 @@
 
 namespace trimtab::bench {
 
-/// Meshes of height fields beside meshoptimizer's of as many triangles, and hmm's.
+/// Measures meshes of height fields, made to hmm's largest error, beside hmm's and beside meshoptimizer's
+/// with as many triangles.
 void mesherRows(Report& report);
 
 }  // namespace trimtab::bench

@@ -126,8 +126,8 @@ TEST(BackFaces, areLeftOutOfACutWhereAskedForOnly) {
     const Vec3 forward = anyDirection(random), right = normalized(cross(forward, anyDirection(random)));
     const EyePose eye{{32000.0 * view / 200, 16000, 500.0 + 20 * view},
                       {{right, cross(right, forward), -forward}}};
-    selectVisible(index, cut, eye, {}, true, both);
-    selectVisible(index, cut, eye, {}, true, fronts, std::numeric_limits<double>::infinity(), {}, true);
+    selectVisible(cut, {.eye = eye}, both);
+    selectVisible(cut, {.eye = eye, .backFaces = true}, fronts);
     EXPECT_EQ(both.backFacing, 0u);
     ASSERT_EQ(both.tiles.size(), fronts.tiles.size() + fronts.backFacing);
     away += fronts.backFacing;
@@ -142,7 +142,7 @@ TEST(BackFaces, areLeftOutOfACutWhereAskedForOnly) {
     ASSERT_EQ(fronts.triangles, triangles);
   }
   EXPECT_GT(away, 1000u);
-  selectVisible(index, cut, {}, {}, false, fronts, 1e9, {}, true);
+  selectVisible(cut, {.cull = false, .farM = 1e9, .backFaces = true}, fronts);
   EXPECT_EQ(fronts.tiles.size(), cut.tiles.size()) << "culling case none";
 }
 

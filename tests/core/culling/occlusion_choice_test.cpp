@@ -357,8 +357,6 @@ TEST(OcclusionChoice, choosesAmongWhatCanServe) {
   }
   EXPECT_EQ(choice.choose({9000, {}, {1, 0, 0}, 0, one}), OcclusionMethod::cpu_map);
   EXPECT_EQ(choice.choose({9001, {}, {1, 0, 0}, 0, {}}), Method{}) << "it cannot serve here";
-  EXPECT_GT(choice.worthMs(OcclusionMethod::cpu_map), 0);
-  EXPECT_EQ(choice.worthMs({}), 0);
 }
 
 TEST(OcclusionChoice, learnsNothingFromWhatIsNotANumber) {

@@ -29,7 +29,7 @@ LevelCut cutOf(const TerrainIndex& index) {
 /// The set is exactly what the double-precision test keeps, box by box.
 void expectExact(const LevelCut& cut, const TerrainIndex& index, const EyePose& eye, const ViewShape& view) {
   VisibleSet visible;
-  selectVisible(index, cut, eye, view, true, visible, std::numeric_limits<double>::infinity(), {}, true);
+  selectVisible(cut, {.eye = eye, .view = view, .backFaces = true}, visible);
   const Frustum frustum(eye, view);
   std::size_t shown = 0;
   for (std::size_t i = 0; i < cut.tiles.size(); ++i) {
@@ -56,7 +56,7 @@ TEST(DegenerateSelection, boxesThatAreInfiniteOrNoNumbersAreNeverLeftOut) {
     expectExact(cut, index, eye, {});
     expectExact(cut, index, {{16000, 12000, 900}, kNorth}, {});
     VisibleSet visible;
-    selectVisible(index, cut, {{16000, 12000, 900}, kNorth}, {}, true, visible, 4000);
+    selectVisible(cut, {.eye = {{16000, 12000, 900}, kNorth}, .farM = 4000}, visible);
     if (std::isnan(bad.minX) && std::isnan(bad.maxZ)) {
       for (const std::size_t place : places) EXPECT_EQ(visible.reason[place], CullReason::drawn);
     }
@@ -80,7 +80,7 @@ TEST(DegenerateSelection, viewsWithoutWidthOrAttitudeKeepWhatTheyMayShow) {
   noNear.nearM = kNan;
   for (const ViewShape& view : {slit, point, none, half, noNear}) expectExact(cut, index, eye, view);
   VisibleSet visible;
-  selectVisible(index, cut, eye, point, true, visible);
+  selectVisible(cut, {.eye = eye, .view = point}, visible);
   EXPECT_GT(visible.tiles.size(), 0u) << "what the line of sight goes through";
   for (std::size_t bad = 0; bad < 3; ++bad) {
     EyePose lost = eye;
@@ -88,7 +88,8 @@ TEST(DegenerateSelection, viewsWithoutWidthOrAttitudeKeepWhatTheyMayShow) {
     expectExact(cut, index, lost, {});
   }
   const Vec3 no{kNan, kNan, kNan};
-  selectVisible(index, cut, {{16000, 12000, 900}, Mat3{{no, no, no}}}, {}, true, visible, kNan, {}, true);
+  selectVisible(cut, {.eye = {{16000, 12000, 900}, Mat3{{no, no, no}}}, .farM = kNan, .backFaces = true},
+                visible);
   EXPECT_EQ(visible.tiles.size(), cut.tiles.size());
   const double far = std::numeric_limits<double>::infinity();
   expectExact(cut, index, {{far, 0, 0}, kNorth}, {});
@@ -104,7 +105,7 @@ TEST(DegenerateSelection, anEyeInABoxOrStraightUpOrDownSeesIt) {
                       0.5 * (double{b.minZ} + b.maxZ)};
     for (const Mat3& axes : {kNorth, kDown, kUp}) {
       expectExact(cut, index, {inside, axes}, {});
-      selectVisible(index, cut, {inside, axes}, {}, true, visible, 0.0);
+      selectVisible(cut, {.eye = {inside, axes}, .farM = 0.0}, visible);
       EXPECT_EQ(visible.reason[i], CullReason::drawn);
     }
   }
@@ -113,18 +114,18 @@ TEST(DegenerateSelection, anEyeInABoxOrStraightUpOrDownSeesIt) {
 TEST(DegenerateSelection, emptyCutsAndCutsOfOneTileAreSelected) {
   VisibleSet visible;
   LevelCut cut;
-  selectVisible({}, cut, {}, {}, true, visible);
+  selectVisible(cut, {}, visible);
   EXPECT_TRUE(visible.tiles.empty());
   EXPECT_EQ(visible.reasonOf(0), CullReason::other_level);
   gather(TerrainIndex{}, cut);
-  selectVisible({}, cut, {}, {}, true, visible, 100, {}, true);
+  selectVisible(cut, {.farM = 100, .backFaces = true}, visible);
   EXPECT_TRUE(visible.tiles.empty());
   EXPECT_EQ(visible.reasons(2), std::vector<CullReason>(2, CullReason::other_level));
   for (const std::uint32_t n : {1u, 2u, 8u}) {
     const TerrainIndex index = test::randomIndex(n, 8);
     const LevelCut some = cutOf(index);
     expectExact(some, index, {{500, -2000, 600}, kNorth}, {});
-    selectVisible(index, some, {{500, -2000, 600}, kNorth}, {}, true, visible);
+    selectVisible(some, {.eye = {{500, -2000, 600}, kNorth}}, visible);
     EXPECT_FALSE(visible.tiles.empty());
   }
 }
@@ -134,11 +135,11 @@ TEST(VisibleSet, tellsReasonsOfItsOwnCutWhenTheCutGoesOn) {
   const TerrainIndex index = test::randomIndex(16, 2);
   LevelCut cut = cutOf(index);
   VisibleSet visible;
-  selectVisible(index, cut, {{8000, 2000, 900}, kNorth}, {}, true, visible);
+  selectVisible(cut, {.eye = {{8000, 2000, 900}, kNorth}}, visible);
   const std::vector<CullReason> before = visible.reasons(index.size());
   const VisibleSet kept = visible;
   selectLevels(index, {1e6, 1e6, 5e5}, 100, 1, 1100, cut);
-  selectVisible(index, cut, {{8000, 2000, 900}, kNorth}, {}, true, visible);
+  selectVisible(cut, {.eye = {{8000, 2000, 900}, kNorth}}, visible);
   EXPECT_EQ(kept.reasons(index.size()), before);
   EXPECT_NE(visible.reasons(index.size()), before);
 }

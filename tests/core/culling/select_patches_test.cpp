@@ -294,7 +294,7 @@ TEST(PatchVisible, countsTheTrianglesOfTheVariantsThatAreDrawn) {
   VisibleSet visible;
   std::vector<std::uint8_t> hidden(cut.cut.tiles.size());
   for (std::size_t i = 0; i < hidden.size(); i += 5) hidden[i] = 1;
-  selectVisiblePatches(index, cut.cut, eye, {}, true, visible, 1e9, hidden);
+  selectVisible(cut.cut, {.eye = eye, .farM = 1e9, .hidden = hidden}, visible);
   EXPECT_GT(visible.tiles.size(), 3u);
   EXPECT_GT(visible.occluded, 0u);
   EXPECT_EQ(visible.reason.size(), cut.cut.tiles.size());
@@ -302,7 +302,7 @@ TEST(PatchVisible, countsTheTrianglesOfTheVariantsThatAreDrawn) {
   std::uint64_t triangles = 0;
   for (const TileDraw& tile : visible.tiles) triangles += index.triangles[tile.node][tile.variant.number];
   EXPECT_EQ(visible.triangles, triangles);
-  selectVisiblePatches(index, cut.cut, eye, {}, false, visible);
+  selectVisible(cut.cut, {.eye = eye, .cull = false}, visible);
   EXPECT_EQ(visible.tiles.size(), cut.cut.tiles.size());
 }
 

@@ -21,7 +21,7 @@ class StaticCutOf : public testing::TestWithParam<unsigned> {
  protected:
   StaticLodIndex index = test::randomTrees(3, GetParam());
   std::mt19937 random{GetParam() * 7919 + 1};
-  StaticCut cut;
+  LevelCut cut;
 
   Vec3 randomEye() {
     std::uniform_real_distribution<double> place(-8000, 32000), height(0, 9000);
@@ -48,8 +48,8 @@ TEST_P(StaticCutOf, isWhatARecursionByTheRuleOfDocumentEDraws) {
     selectStatic(index, index.rmsErrorM, perError, eye, cut);
     std::vector<std::uint32_t> expected;
     for (const std::uint32_t root : index.roots) collect(root, eye, perError, expected);
-    ASSERT_EQ(cut.nodes, expected);
-    sizes.insert(cut.nodes.size());
+    ASSERT_EQ((*cut.nodes), expected);
+    sizes.insert((*cut.nodes).size());
   }
   EXPECT_GT(sizes.size(), 20u) << "the cuts hardly differed";
 }
@@ -60,12 +60,12 @@ TEST_P(StaticCutOf, coversEveryLeafExactlyOnce) {
       selectStatic(index, i % 2 ? index.rmsErrorM : index.maxErrorM, 100 * (1 + i), randomEye(), cut);
     else
       selectStaticDepth(index, i - 30, cut);
-    for (const std::uint32_t node : i < 30 ? std::vector<std::uint32_t>{} : cut.nodes)
+    for (const std::uint32_t node : i < 30 ? std::vector<std::uint32_t>{} : (*cut.nodes))
       ASSERT_TRUE(
           index.nodes[node].depth == i - 30 ||
           (index.nodes[node].depth < i - 30 && index.nodes[node].children[0] == StaticLodIndex::kNone));
     std::vector<int> covered(index.size());
-    for (const std::uint32_t node : cut.nodes) ++covered[node];
+    for (const std::uint32_t node : (*cut.nodes)) ++covered[node];
     // Children stand after their parents, so one pass hands every cover down.
     std::size_t leaves = 0;
     for (std::size_t node = 0; node < index.size(); ++node) {
@@ -83,7 +83,7 @@ TEST_P(StaticCutOf, coversEveryLeafExactlyOnce) {
 
 TEST_P(StaticCutOf, neverGetsFinerAsTheViewerGoesUpAndAway) {
   const auto depthOver = [this](std::uint32_t leaf) {
-    for (const std::uint32_t node : cut.nodes) {
+    for (const std::uint32_t node : (*cut.nodes)) {
       const Box &b = index.bounds[node], &l = index.bounds[leaf];
       if (index.nodes[node].tile == index.nodes[leaf].tile && b.minX <= l.minX && b.maxX >= l.maxX &&
           b.minY <= l.minY && b.maxY >= l.maxY)
@@ -106,50 +106,51 @@ TEST_P(StaticCutOf, neverGetsFinerAsTheViewerGoesUpAndAway) {
       last[i] = depth;
     }
   }
-  EXPECT_EQ(cut.nodes, index.roots) << "from so far only roots are left";
+  EXPECT_EQ((*cut.nodes), index.roots) << "from so far only roots are left";
   EXPECT_GT(steps, 100);
 }
 
 TEST_P(StaticCutOf, drawsInAnOrderThatDependsOnTheTreesAlone) {
-  StaticCut again;
+  LevelCut again;
   for (int i = 0; i < 20; ++i) {
     selectStatic(index, index.rmsErrorM, 900, randomEye(), cut);
     selectStatic(index, index.rmsErrorM, 900, randomEye(), again);
-    ASSERT_TRUE(std::is_sorted(cut.nodes.begin(), cut.nodes.end())) << "as these trees were grown";
-    ASSERT_TRUE(std::is_sorted(again.nodes.begin(), again.nodes.end()));
+    ASSERT_TRUE(std::is_sorted((*cut.nodes).begin(), (*cut.nodes).end())) << "as these trees were grown";
+    ASSERT_TRUE(std::is_sorted((*again.nodes).begin(), (*again.nodes).end()));
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Trees, StaticCutOf, testing::Range(1u, 6u));
 
-TEST(StaticCut, isTheRootsForAnEyeThatIsNotANumber) {
+TEST(StaticCuts, isTheRootsForAnEyeThatIsNotANumber) {
   const StaticLodIndex index = test::randomTrees(2, 3);
-  StaticCut cut;
+  LevelCut cut;
   for (const Vec3 eye : {Vec3{kNan, 0, 0}, Vec3{0, kNan, 0}, Vec3{0, 0, kNan}, Vec3{kNan, kNan, kNan},
                          Vec3{0, -std::numeric_limits<double>::infinity(), 0}}) {
     selectStatic(index, index.rmsErrorM, 1e9, eye, cut);
-    EXPECT_EQ(cut.nodes, index.roots);
+    EXPECT_EQ((*cut.nodes), index.roots);
   }
   selectStatic(index, index.rmsErrorM, kNan, {8000, 8000, 500}, cut);
-  EXPECT_EQ(cut.nodes, index.roots);
+  EXPECT_EQ((*cut.nodes), index.roots);
 }
 
-TEST(StaticCut, isEmptyWithoutTreesAndWholeAtTheGroundWithoutALimit) {
-  StaticCut cut;
+TEST(StaticCuts, isEmptyWithoutTreesAndWholeAtTheGroundWithoutALimit) {
+  LevelCut cut;
   selectStatic({}, {}, 1000, {}, cut);
-  EXPECT_TRUE(cut.nodes.empty());
+  EXPECT_TRUE((*cut.nodes).empty());
   const StaticLodIndex index = test::randomTrees(2, 4);
   selectStatic(index, index.rmsErrorM, 1e12, {8000, 8000, 500}, cut);
-  for (const std::uint32_t node : cut.nodes) EXPECT_EQ(index.nodes[node].children[0], StaticLodIndex::kNone);
+  for (const std::uint32_t node : (*cut.nodes))
+    EXPECT_EQ(index.nodes[node].children[0], StaticLodIndex::kNone);
 }
 
-TEST(StaticCut, standsStillWhileOnlyTheErrorIsZero) {
+TEST(StaticCuts, standsStillWhileOnlyTheErrorIsZero) {
   // A lagoon: every level is exact, so the root is drawn even from inside its box.
   StaticLodIndex index = test::randomTrees(1, 5);
   std::fill(index.rmsErrorM.begin(), index.rmsErrorM.end(), 0.0f);
-  StaticCut cut;
+  LevelCut cut;
   selectStatic(index, index.rmsErrorM, 1e9, {4000, 4000, 100}, cut);
-  EXPECT_EQ(cut.nodes, index.roots);
+  EXPECT_EQ((*cut.nodes), index.roots);
 }
 
 TEST(StaticDistance, followsThePictureOrAFixedFactorAndTheScale) {
@@ -179,14 +180,10 @@ TEST(StaticDistance, takesTheErrorThatIsAskedFor) {
 
 class StaticVisible : public testing::Test {
  protected:
-  StaticVisible() {
-    selectStatic(index, index.rmsErrorM, 3000, eye.position, cut);
-    for (std::uint32_t i = 0; i < index.size(); ++i) vertices.push_back(i * 3 + 1);
-  }
+  StaticVisible() { selectStatic(index, index.rmsErrorM, 3000, eye.position, cut); }
   StaticLodIndex index = test::randomTrees(3, 21);
-  std::vector<std::uint32_t> vertices;
   EyePose eye{{12000, 4000, 1500}, axesOf(20, -5)};
-  StaticCut cut;
+  LevelCut cut;
   VisibleSet visible;
 };
 
@@ -195,9 +192,9 @@ TEST_F(StaticVisible, neverDropsANodeWithAPointInThePicture) {
   std::size_t dropped = 0;
   for (int i = 0; i < 200; ++i) {
     eye.axes = axesOf(i * 1.9, i % 40 - 30);
-    selectStaticVisible(index, vertices, cut, eye, view, true, visible);
-    for (std::size_t place = 0; place < cut.nodes.size(); ++place) {
-      const std::uint32_t node = cut.nodes[place];
+    selectVisible(cut, {.eye = eye, .view = view}, visible);
+    for (std::size_t place = 0; place < (*cut.nodes).size(); ++place) {
+      const std::uint32_t node = (*cut.nodes)[place];
       ASSERT_EQ(visible.reasonOf(node), visible.reason[place]);
       if (visible.reason[place] != CullReason::outside_frustum) continue;
       ++dropped;
@@ -217,21 +214,21 @@ TEST_F(StaticVisible, neverDropsANodeWithAPointInThePicture) {
 }
 
 TEST_F(StaticVisible, drawsTheWholeCutWithoutATestAndForAnEyeThatIsNotANumber) {
-  selectStaticVisible(index, vertices, cut, eye, {}, false, visible);
-  EXPECT_EQ(visible.tiles.size(), cut.nodes.size());
+  selectVisible(cut, {.eye = eye, .cull = false}, visible);
+  EXPECT_EQ(visible.tiles.size(), (*cut.nodes).size());
   eye.position.x = kNan;
-  selectStaticVisible(index, vertices, cut, eye, {}, true, visible);
-  EXPECT_EQ(visible.tiles.size(), cut.nodes.size());
+  selectVisible(cut, {.eye = eye}, visible);
+  EXPECT_EQ(visible.tiles.size(), (*cut.nodes).size());
 }
 
 TEST_F(StaticVisible, leavesOutWhatIsBeyondTheWeathersFarDistance) {
-  selectStaticVisible(index, vertices, cut, eye, {}, true, visible);
+  selectVisible(cut, {.eye = eye}, visible);
   const std::size_t inView = visible.tiles.size();
   constexpr double kFar = 6000;
-  selectStaticVisible(index, vertices, cut, eye, {}, true, visible, kFar);
+  selectVisible(cut, {.eye = eye, .farM = kFar}, visible);
   EXPECT_GT(visible.beyondVisibility, 5u);
   EXPECT_EQ(visible.tiles.size() + visible.beyondVisibility, inView);
-  for (const std::uint32_t node : cut.nodes) {
+  for (const std::uint32_t node : (*cut.nodes)) {
     const Box& b = index.bounds[node];
     const Vec3 nearest{std::clamp(eye.position.x, double{b.minX}, double{b.maxX}),
                        std::clamp(eye.position.y, double{b.minY}, double{b.maxY}),
@@ -243,14 +240,14 @@ TEST_F(StaticVisible, leavesOutWhatIsBeyondTheWeathersFarDistance) {
 }
 
 TEST_F(StaticVisible, countsWhatIsDrawnAndWhyTheRestIsNot) {
-  selectStaticVisible(index, vertices, cut, eye, {}, true, visible);
+  selectVisible(cut, {.eye = eye}, visible);
   const VisibleSet all = visible;
   ASSERT_GT(all.tiles.size(), 10u);
   ASSERT_GT(all.outsideFrustum, 10u);
   std::vector<std::uint8_t> flags(all.tiles.size());
   for (std::size_t i = 0; i < flags.size(); i += 3) flags[i] = 1;
-  removeStaticOccluded(index, vertices, flags, visible);
-  std::uint64_t triangles = 0, points = 0;
+  removeOccluded(cut, flags, visible);
+  std::uint64_t triangles = 0;
   std::vector<std::uint32_t> expected;
   for (std::size_t i = 0; i < flags.size(); ++i) {
     const std::uint32_t node = all.tiles[i].node;
@@ -258,13 +255,11 @@ TEST_F(StaticVisible, countsWhatIsDrawnAndWhyTheRestIsNot) {
     if (flags[i]) continue;
     expected.push_back(node);
     triangles += index.nodes[node].triangles;
-    points += vertices[node];
   }
   ASSERT_EQ(visible.tiles.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(visible.tiles[i].node, expected[i]);
   EXPECT_EQ(visible.triangles, triangles);
-  EXPECT_EQ(visible.vertices, points);
-  EXPECT_EQ(visible.tiles.size() + visible.occluded + visible.outsideFrustum, cut.nodes.size());
+  EXPECT_EQ(visible.tiles.size() + visible.occluded + visible.outsideFrustum, (*cut.nodes).size());
 
   const StaticLodFrame frame = staticLodFrame(index, visible);
   std::uint64_t byDepth = 0, nodes = 0;

@@ -307,9 +307,6 @@ void GroundTexture::unbind() const {
 std::size_t GroundTexture::bytes() const {
   return impl_->levels.size() * kSide * kSide * 4 + (impl_->tiles ? impl_->tiles->bytes() : 0);
 }
-std::uint64_t GroundTexture::tilesRead() const {
-  return impl_->tiles ? impl_->tiles->read() : 0;
-}
 std::uint64_t GroundTexture::bytesUploaded() const {
   return impl_->uploaded;
 }

@@ -10,11 +10,11 @@ namespace trimtab::scene {
 /// Texture unit of the ground (core/scene/shaders/ground_colour.glsl).
 constexpr int kGroundUnit = 8;
 
-/// The ground's colours and light about the eye on the GPU: one layer of kSide x kSide texels a level, each
-/// centred at the eye and filled as it moves on (a clip map); a level that is not filled yet is shown by the
-/// next coarser one. One texture for the whole terrain, whatever its size.
+/// Keeps the ground's colours and light around the eye on the GPU: one layer of kSide x kSide texels per
+/// level, each centred at the eye and filled as it moves on (a clip map). The next coarser level shows where
+/// one is not filled yet. One texture serves a terrain of any size.
 ///
-/// All calls but the constructor need the context current.
+/// All calls except the constructor need the context current.
 class GroundTexture {
  public:
   static constexpr int kSide = 1024;
@@ -26,12 +26,13 @@ class GroundTexture {
   GroundTexture& operator=(const GroundTexture&) = delete;
 
   void setGround(std::shared_ptr<const terrain::GroundPyramid> ground);
-  /// Voids that were filled stand out. Changing it reads everything anew.
+  /// Makes voids that were filled stand out. A change reads everything again.
   void showVoids(bool show);
-  /// The eye is over post (column, row); `wait`: all that is missing is read now, for pictures that must not
-  /// depend on time. Otherwise tiles are read by a thread and at most `mostBytes` uploaded.
+  /// Fills the texture for an eye over post (column, row). With `wait`, reads all that is missing now, for
+  /// images that must not depend on time; otherwise a thread reads tiles, and at most `mostBytes` are
+  /// uploaded.
   void update(double column, double row, bool wait, std::size_t mostBytes);
-  /// What `groundAt` counts posts from.
+  /// Return the post from which `groundAt` (ground_colour.glsl) counts.
   std::int32_t eyeColumn() const;
   std::int32_t eyeRow() const;
   /// Binds the textures and sets the uniforms of the program in use.
@@ -39,10 +40,9 @@ class GroundTexture {
   void unbind() const;
 
   std::size_t bytes() const;  ///< of textures and of tiles kept
-  std::uint64_t tilesRead() const;
   std::uint64_t bytesUploaded() const;
-  bool complete() const;  ///< nothing that can be read is missing about the eye
-  /// Tiles that could not be read; the next coarser level is shown there.
+  bool complete() const;  ///< nothing that can be read is missing around the eye
+  /// Returns how many tiles could not be read; the next coarser level shows there.
   std::size_t failed() const;
   Findings failures() const;
 

@@ -112,7 +112,6 @@ std::shared_ptr<const GroundPixels> GroundTiles::fromCoarser(const Tile& tile) {
 }
 
 void GroundTiles::keep(std::uint64_t key, std::shared_ptr<const GroundPixels> pixels, bool taken) {
-  ++read_;
   if (entries_.contains(key)) return;
   uses_.push_front(key);
   entries_[key] = {std::move(pixels), uses_.begin(), taken};
@@ -178,11 +177,6 @@ void GroundTiles::run() {
     lock.lock();
     keep(tile.key(), std::move(pixels), false);
   }
-}
-
-std::uint64_t GroundTiles::read() const {
-  const std::lock_guard lock(mutex_);
-  return read_;
 }
 
 std::size_t GroundTiles::bytes() const {

@@ -5,7 +5,6 @@
 #include <list>
 #include <memory>
 #include <mutex>
-#include <span>
 #include <thread>
 #include <unordered_map>
 #include <unordered_set>
@@ -18,15 +17,16 @@ namespace trimtab::scene {
 /// A tile as the texture has it: sRGB, and in alpha the light on it as a share of kMostLight.
 using GroundPixels = std::vector<std::uint32_t>;
 
-/// sRGB of filled voids where they are shown.
+/// The colour, sRGB, of filled voids if they are shown.
 inline constexpr std::uint8_t kVoidColour[3] = {204, 121, 167};
 
 GroundPixels litGround(const terrain::GroundTile& tile, bool showVoids);
 
-/// Tiles of the ground, read ahead on a thread of their own; those last used are kept.
+/// Reads tiles of the ground ahead on a thread of its own and keeps those last used. All calls may come from
+/// any thread.
 class GroundTiles {
  public:
-  /// 256 KB each: the borders of a dozen levels, and what is on its way.
+  /// Tiles of 256 KB: the borders of a dozen levels, and those on their way.
   static constexpr std::size_t kKept = 96;
 
   GroundTiles(std::shared_ptr<const terrain::GroundPyramid> ground, bool showVoids);
@@ -38,17 +38,16 @@ class GroundTiles {
     std::uint32_t level = 0, column = 0, row = 0;
     std::uint64_t key() const { return terrain::groundKey(level, column, row); }
   };
-  /// Null while it is not there. One that cannot be read is there as the level above shows it.
+  /// Returns a tile; null while it is not read. A tile that cannot be read is made from the level above.
   std::shared_ptr<const GroundPixels> find(const Tile& tile);
-  /// Reads it now, where it is not there.
+  /// Returns a tile, and reads it now if necessary.
   std::shared_ptr<const GroundPixels> readNow(const Tile& tile);
-  /// What the thread is to read, the most urgent first, in place of what it was to.
+  /// Sets what the thread reads, the most urgent first.
   void want(std::vector<Tile> tiles);
 
-  std::uint64_t read() const;
   std::size_t bytes() const;
   std::size_t failed() const;  ///< tiles; none is tried again
-  /// The first failures.
+  /// Returns the first failures.
   Findings failures() const;
 
  private:
@@ -72,7 +71,6 @@ class GroundTiles {
   std::unordered_map<std::uint64_t, Entry> entries_;
   std::list<std::uint64_t> uses_;  ///< last used first
   std::size_t untaken_ = 0;
-  std::uint64_t read_ = 0;
   std::unordered_set<std::uint64_t> failed_;
   Findings failures_;
   bool stop_ = false;

@@ -9,21 +9,22 @@
 
 namespace trimtab::scene {
 
-/// Which pages are to be held within a budget of bytes, and which have to go for others. What is to be held
+/// Decides which pages are held within a budget of bytes, and which must go for others. What should be held
 /// depends on the view and the budget, never on what was held before.
 class PageBudget {
  public:
-  /// `bytes` of each page when it is held; nothing is. `rootPages`: the first so many are held whatever they
-  /// cost.
+  /// Starts with no page held. `bytes` has what each page takes when it is held. The first `rootPages` pages
+  /// are held whatever they cost.
   void reset(std::vector<std::uint64_t> bytes, std::uint32_t rootPages);
 
-  /// `now` is what a view has a use for, `later` what it will: of each, the pages without which the error is
-  /// largest, as far as the budget reaches. Where `now` does not fit, nothing is left for `later`.
+  /// Sets the pages to be held: those that a view needs `now`, and those that it will need `later`. Of each,
+  /// the pages without which the error is largest come first, as far as the budget reaches. If `now` does
+  /// not fit, nothing is left for `later`.
   void aim(std::span<const PageWant> now, std::span<const PageWant> later, std::uint64_t budget);
-  /// In order of their error, `later` after `now`.
+  /// Returns them in order of their error, `later` after `now`.
   std::span<const PageWant> aims() const { return aims_; }
   bool isAimedAt(std::uint32_t page) const { return aimed_[page] == aimNumber_; }
-  /// The budget does not hold all that the view has a use for.
+  /// Reports whether the budget is too small for all that the view needs now.
   bool isShort() const { return short_; }
 
   void hold(std::uint32_t page);
@@ -32,10 +33,10 @@ class PageBudget {
   std::span<const std::uint32_t> held() const { return list_; }
   std::uint64_t bytes() const { return bytes_; }
   std::uint64_t bytesOf(std::uint32_t page) const { return bytesOf_[page]; }
-  /// Not 0 where a page is held and is part of what is aimed at for now: what a cut may be made of.
+  /// Returns one flag per page, not 0 if the page is held and needed now: what a cut may be made of.
   std::span<const std::uint8_t> drawable();
-  /// The page that has been out of use for longest, if one has to go before `coming` bytes more fit; none
-  /// also when all that is held is aimed at.
+  /// Returns the page that was unused for longest, if one must go before `coming` more bytes fit; unset if
+  /// none must, or if all held pages are needed.
   std::optional<std::uint32_t> toDrop(std::uint64_t coming) const;
 
  private:
@@ -44,7 +45,7 @@ class PageBudget {
   std::uint64_t budget_ = 0, bytes_ = 0;
   std::vector<std::uint8_t> held_, drawable_;
   std::vector<std::uint32_t> list_, drawableList_;
-  std::vector<std::uint32_t> aimed_;  ///< number of the last aim that a page was in: when it was last of use
+  std::vector<std::uint32_t> aimed_;  ///< number of the last aim that had the page
   std::uint32_t aimNumber_ = 0;
   std::vector<PageWant> aims_, sorted_;
   std::size_t aimsNow_ = 0;

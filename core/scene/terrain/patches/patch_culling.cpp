@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -85,7 +84,6 @@ struct PatchCulling::Impl {
   std::optional<Vec3> laterEye;
   std::vector<PageWant> laterWants, lacking;
   std::vector<std::uint32_t> mustHave;
-  std::vector<std::uint8_t> hidden;
   std::size_t waiting = 0;
   Defects defects;
 
@@ -114,7 +112,6 @@ void PatchCulling::setTerrain(std::shared_ptr<const terrain::PatchTerrain> terra
   impl_ = std::make_unique<Impl>();
   impl_->defects = defects;
   cut_ = {};
-  visible_ = {};
   if (!terrain) return;
   Impl& m = *impl_;
   m.terrain = std::move(terrain);
@@ -320,29 +317,6 @@ PatchCulling::Paged PatchCulling::page(const FrameRequest& request, const EyePos
   paging.bytes = m.pages.bytes();
   paging.budgetBytes = m.key ? m.key->budget : 0;
   return done;
-}
-
-void PatchCulling::selectVisible(const FrameRequest& request, const EyePose& eye,
-                                 std::span<const std::uint8_t> hidden, bool backFaces) {
-  Impl& m = *impl_;
-  if (!m.terrain) return;
-  if (m.defects.culledNode) {
-    m.hidden.assign(cut_.cut.tiles.size(), 0);
-    for (std::size_t i = 0; i < m.hidden.size(); ++i)
-      m.hidden[i] = cut_.cut.tiles[i].node == *m.defects.culledNode || (!hidden.empty() && hidden[i] != 0);
-    hidden = m.hidden;
-  }
-  selectVisiblePatches(index(), cut_.cut, eye, request.view, request.method != CullingCase::none, visible_,
-                       farCutM(request), hidden, backFaces);
-  for (const TileDraw& tile : visible_.tiles) visible_.vertices += m.terrain->facts()[tile.node].vertices;
-}
-
-void PatchCulling::removeHidden(std::span<const std::uint8_t> flags) {
-  if (flags.empty()) return;
-  removeOccluded(cut_.cut, flags, visible_);
-  visible_.vertices = 0;
-  for (const TileDraw& tile : visible_.tiles)
-    visible_.vertices += impl_->terrain->facts()[tile.node].vertices;
 }
 
 const terrain::PatchMesh* PatchCulling::meshOf(std::uint32_t patch) const {

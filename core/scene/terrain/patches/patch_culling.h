@@ -1,8 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <span>
-#include <vector>
 
 #include "core/scene/occlusion/occlusion_ground.h"
 #include "trimtab/culling/select_patches.h"
@@ -15,16 +13,16 @@ namespace trimtab::scene {
 
 class PatchLayer;
 
-/// What a frame does to find the patches that it draws, and to have them there: cut, paging within a budget,
-/// visible set. Keeps what can be kept from frame to frame.
+/// Selects the cut of patches for an eye and pages in what it needs within a budget of bytes. Keeps what can
+/// be kept from frame to frame.
 ///
-/// What the budget does not hold of a view is drawn coarser, largest errors last; the picture that paging
-/// ends at depends on the request alone.
+/// What the budget does not hold is drawn coarser, so that the largest errors are removed first. The image
+/// that paging ends with depends on the request alone.
 class PatchCulling {
  public:
   PatchCulling();
   ~PatchCulling();
-  /// Reading begins at once, with the roots. Null: none.
+  /// Starts with another terrain and begins to read its roots, or with none if it is null.
   void setTerrain(std::shared_ptr<const terrain::PatchTerrain> terrain);
   void plant(const Defects& defects);
 
@@ -32,32 +30,24 @@ class PatchCulling {
     PagingFrame paging;
     std::uint64_t cutsSelected = 0;
   };
-  /// Takes in what has arrived, within the frame's share; chooses the cut and asks for what it lacks, gives
-  /// up what is longest unused and over the budget. Waits for nothing but, once, the roots; with
-  /// `request.waitForPages` for all that this view can use. The context is current, and `layer` has this
-  /// terrain's index; where it has lost its pages they are read again. `eye`: whose cut it is.
+  /// Takes in pages that have arrived, within the frame's share; selects the cut of `eye`, asks for the
+  /// pages that it lacks, and drops those that are over the budget and were unused for longest. It waits
+  /// only for the roots, once, or with `request.waitForPages` for every page that this view can use. The
+  /// context must be current, and `layer` must have this terrain's index; pages that it has lost are read
+  /// again.
   Paged page(const FrameRequest& request, const EyePose& eye, PatchLayer& layer);
-  /// What of the cut is in the view, and not hidden: one a patch of the cut, or empty. `backFaces`: what is
-  /// seen from behind only is left out.
-  void selectVisible(const FrameRequest& request, const EyePose& eye,
-                     std::span<const std::uint8_t> hidden = {}, bool backFaces = false);
-  /// Takes out of the visible set what a map hides, as removeOccluded.
-  void removeHidden(std::span<const std::uint8_t> flags);
-
   const PatchIndex& index() const;
   const LevelCut& cut() const { return cut_.cut; }
   const CutNumber& cutNumber() const;
-  const VisibleSet& visible() const { return visible_; }
-  /// Null where its page is not there; good until the next `page`.
+  /// Returns a patch's mesh, valid until the next `page`; null if its page is not there.
   const terrain::PatchMesh* meshOf(std::uint32_t patch) const;
-  /// Pages that could not be read; the terrain stays coarser there.
+  /// Returns the pages that could not be read; the terrain stays coarser there.
   Findings failures() const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
   PatchCut cut_;
-  VisibleSet visible_;
 };
 
 }  // namespace trimtab::scene

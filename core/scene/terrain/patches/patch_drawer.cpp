@@ -1,11 +1,8 @@
 #include "patch_drawer.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/scene/gl/gl_api.h"
-#include "trimtab/culling/box_distance.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/scene/data_extent.h"
 #include "trimtab/scene/gl_report.h"
@@ -25,6 +22,7 @@ void PatchDrawer::setTerrain(std::shared_ptr<const terrain::Database> database) 
   culling_.setTerrain(terrain_);
   hiding_.setTerrain(database_);
   occlusion_.clear();
+  visible_ = {};
   if (gl_) setGl();
 }
 
@@ -54,12 +52,10 @@ PreparedTerrain PatchDrawer::prepare(const FrameInProgress& frame) {
   frame.clock.lap(read ? &FrameCost::page : &FrameCost::select);
   occlusion_.begin(r, eye, false);
   frame.clock.lap(occlusion_.horizonServes() ? &FrameCost::occlusion : &FrameCost::select);
-  if (!occlusion_.visibleStays(r)) {
-    culling_.selectVisible(r, eye, occlusion_.hidden(), r.backFaces && occlusion_.eyeIsAboveGround());
-    frame.clock.lap(&FrameCost::select);
-    culling_.removeHidden(occlusion_.hiddenByMap(r, culling_.visible()));
+  if (findVisible(occlusion_, culling_.cut(), visible_)) {
+    visible_.vertices = 0;
+    for (const TileDraw& patch : visible_.tiles) visible_.vertices += terrain_->facts()[patch.node].vertices;
   }
-  frame.clock.lap(occlusion_.mapServes() ? &FrameCost::occlusion : &FrameCost::select);
   updateGround(prepared.paging);
   prepared.occlusion = occlusion_.result();
   prepared.counters = occlusion_.counters();

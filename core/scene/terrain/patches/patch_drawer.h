@@ -11,7 +11,7 @@
 
 namespace trimtab::scene {
 
-/// The terrain as error-bounded patches, paged, in the ground's own colours and light.
+/// Draws the terrain as error-bounded patches, paged, in the ground's own colours and light.
 class PatchDrawer final : public TerrainDrawer {
  public:
   void setTerrain(std::shared_ptr<const terrain::Database> database) override;
@@ -23,9 +23,9 @@ class PatchDrawer final : public TerrainDrawer {
   void finished(const FrameResult& result) override { occlusion_.finished(result); }
 
   const std::vector<TileDraw>& cut() const override { return culling_.cut().tiles; }
-  const VisibleSet& visible() const override { return culling_.visible(); }
+  const VisibleSet& visible() const override { return visible_; }
   DistanceImage readDepthMap() const override { return occlusion_.picture(); }
-  /// Pages of meshes and tiles of the ground.
+  /// Returns the pages of meshes and the tiles of the ground that could not be read.
   Findings failures() const;
   const Horizon* horizon() const override { return occlusion_.horizon(); }
 
@@ -33,14 +33,14 @@ class PatchDrawer final : public TerrainDrawer {
   const std::vector<Box>& bounds() const override { return terrain_->index().bounds; }
   std::span<const NormalCone> cones() const override { return terrain_->index().cones; }
   int levelOf(TileDraw patch) const override;
-  /// They are: what is not on the GPU is in no cut.
+  /// Does nothing: what is not on the GPU is in no cut.
   std::size_t upload(std::span<const TileDraw>, bool) override { return 0; }
   void drawNodes(unsigned program, std::span<const TileDraw> patches) override;
   void drawTinted(unsigned program, std::span<const TileDraw> patches,
                   std::span<const std::uint32_t> colours) override;
 
   void setGl();
-  /// Brings the ground's texture to the eye, and completes what paging reports.
+  /// Moves the ground's texture to the eye, and completes what paging reports.
   void updateGround(PagingFrame& paging);
 
   struct Gl {
@@ -52,7 +52,8 @@ class PatchDrawer final : public TerrainDrawer {
   PatchCulling culling_;
   PatchGround hiding_{culling_};
   OcclusionStage occlusion_{hiding_};
-  std::uint64_t pagesRead_ = 0;  ///< by the last frame
+  VisibleSet visible_;
+  std::uint64_t pagesRead_ = 0;  ///< up to the last frame
   std::unique_ptr<Gl> gl_;
 };
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -19,9 +18,9 @@ namespace trimtab::scene {
 /// The terrain's patches as ground that hides and is hidden.
 class PatchGround final : public OcclusionGround {
  public:
-  /// `patches` must live as long.
+  /// `patches` must outlive it.
   explicit PatchGround(const PatchCulling& patches) : patches_(patches) {}
-  /// Null: none.
+  /// Starts with another terrain, or with none if it is null.
   void setTerrain(std::shared_ptr<const terrain::Database> database);
 
   const LevelCut& cut() const override { return patches_.cut(); }
@@ -48,23 +47,24 @@ class PatchGround final : public OcclusionGround {
   struct Surface {
     MeshRelief relief;
     std::uint8_t variant = 0;
-    bool inside = false;  ///< so far from the data's edge that no way to it leads over the edge
+    bool inside = false;  ///< so far inside the data that no ray to it leaves the data
     bool takesRoom = false;
   };
-  /// Null where it is not made.
+  /// Returns the surface of a patch; null if it is not made.
   const Surface* surfaceOf(TileDraw patch) const;
-  /// Makes it where the patch's page is there: of where the eye is over, and leaves alone what `fill` gave
-  /// away.
+  /// Returns the surface under the eye, and makes it if the patch's page is there; null otherwise. Leaves
+  /// alone what `fill` gave away.
   const Surface* surfaceUnder(TileDraw patch);
   void make(const terrain::PatchMesh& mesh, TileDraw patch, Surface& surface);
-  /// Whether none of its triangles stands upright or hangs over, as far as the cone of their normals tells.
+  /// Reports whether the cone of a patch's normals proves that none of its triangles stands upright or hangs
+  /// over.
   bool normalsRise(std::uint32_t node);
 
   const PatchCulling& patches_;
   PatchMapCulling map_;
   DataExtent extent_;
-  VariantTable<float> surfaceErrorM_;                 ///< as SurfaceTree takes it
-  std::uint32_t marginColumns_ = 0, marginRows_ = 0;  ///< posts that `inside` asks for
+  VariantTable<float> surfaceErrorM_;                 ///< what SurfaceTree reads
+  std::uint32_t marginColumns_ = 0, marginRows_ = 0;  ///< posts beside a patch that `inside` needs
   SurfacesInUse<Surface> surfaces_;                   ///< some 10 KB each
   BoxLids lids_;
   struct Under {
@@ -73,14 +73,14 @@ class PatchGround final : public OcclusionGround {
   };
   std::vector<Under> under_;
   std::optional<std::uint64_t> graphOf_;  ///< the last cut that was found to be a graph
-  // One a patch: 0 is not known, 1 no, 2 yes.
+  // Per patch: 0 unknown, 1 no, 2 yes.
   std::vector<std::uint8_t> inside_;       ///< of mayOcclude
-  std::vector<std::uint8_t> normalsRise_;  ///< all of its triangles' are proven to
+  std::vector<std::uint8_t> normalsRise_;  ///< for all of its triangles, proven
   terrain::PostGrid posts_;
   std::vector<ReliefVertex> vertices_;
 };
 
-/// A patch's surface for the horizon: one of its variants.
+/// Fills `relief` with one variant of a patch, as a surface for the horizon.
 void makeRelief(const terrain::PatchMesh& mesh, int variant, std::vector<ReliefVertex>& vertices,
                 MeshRelief& relief);
 

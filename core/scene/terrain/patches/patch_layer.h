@@ -1,18 +1,18 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
-#include "trimtab/culling/select.h"
+#include "core/scene/gl/mesh_pool.h"
+#include "core/scene/gl/multi_draw.h"
 #include "trimtab/terrain/format/patch_terrain.h"
 
 namespace trimtab::scene {
 
-/// Patches' meshes on the GPU: pages in two buffers with room to reuse, drawn by one multi-draw. Where a
-/// patch lies stands in a texture buffer that shaders read by gl_VertexID, so a frame uploads nothing per
-/// patch.
+/// Keeps the meshes of pages of patches on the GPU and draws them with one multi-draw. Shaders read where a
+/// patch lies from a buffer texture by gl_VertexID, so a frame uploads nothing per patch.
 ///
 /// All calls need the context current.
 class PatchLayer {
@@ -22,36 +22,48 @@ class PatchLayer {
   PatchLayer(const PatchLayer&) = delete;
   PatchLayer& operator=(const PatchLayer&) = delete;
 
-  /// Forgets all pages; null: none.
+  /// Forgets all pages. `index` must outlive their use; null for no terrain.
   void setTerrain(const PatchIndex* index);
-  /// Room for pages with so many bytes of vertices and of indices, so that adding them moves nothing that is
-  /// there: what is moved makes a frame late. Where there is no memory for that,
-  /// there is the room that there was.
-  void reserve(std::size_t vertexBytes, std::size_t indexBytes);
-  /// False where there is no memory for it: it is not there, and what was still is.
+  /// Makes room for pages with so many bytes of vertices and of indices, so that adding them moves nothing
+  /// that is there, which would make a frame late. Without memory for that, the room stays as it is.
+  void reserve(std::size_t vertexBytes, std::size_t indexBytes) { pool_.reserve(vertexBytes, indexBytes); }
+  /// Adds a page. Returns false and leaves everything else as it was if there is no memory for it.
   bool add(const terrain::PatchPage& page);
   void drop(std::uint32_t page);
-  bool has(std::uint32_t page) const;
+  bool has(std::uint32_t page) const { return !pages_[page].empty(); }
 
-  /// One multi-draw, in order: node is a patch, `coarser` its variant. Attributes 0 position, 1 normal, 2 the
-  /// post (column, row) in its square. Patches whose page is not there are left out.
+  /// Draws patches in order. The program in use reads attributes 0 position, 1 normal, 2 the post (column,
+  /// row) in its square. Patches whose page is not there are left out.
   void draw(std::span<const TileDraw> patches);
-  /// RGBA32I, two texels a block of kBlock vertices: origin in units of 16 m and patch; first column and row
-  /// of the square.
+  /// RGBA32I, two texels per block of kBlock vertices: origin in units of 16 m and patch; first column and
+  /// row of the square.
   static constexpr int kBlock = 32;
-  unsigned slotTexture() const;
-  /// RGBA8 a patch of the last `setTints`, by block.
+  unsigned slotTexture() const { return pool_.slotTexture(); }
+  /// Sets the colours (RGBA8) that `tintTexture` has by block.
   void setTints(std::span<const TileDraw> patches, std::span<const std::uint32_t> colours);
-  unsigned tintTexture() const;
+  unsigned tintTexture() const { return tintTexture_; }
 
-  /// What a patch takes.
+  /// Returns the bytes that a patch takes.
   static std::size_t bytesOf(std::size_t vertices, std::size_t indices);
-  std::size_t bytes() const;          ///< of the pages that are there
-  std::size_t reservedBytes() const;  ///< of the buffers
+  std::size_t bytes() const { return pool_.bytes(); }                  ///< of the pages that are there
+  std::size_t reservedBytes() const { return pool_.reservedBytes(); }  ///< of the buffers
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  struct Mesh {
+    MeshPool::Place place;
+    std::array<std::uint32_t, PatchIndex::kMostVariants + 1> firstIndex{};
+  };
+  void attach();
+  const Mesh* meshOf(std::uint32_t patch) const;
+  bool put(const terrain::PatchMesh& mesh, std::uint32_t patch, Mesh& kept);
+
+  const PatchIndex* index_ = nullptr;
+  std::vector<std::vector<Mesh>> pages_;  ///< the patches of each page; empty: not there
+  MeshPool pool_;
+  MultiDraw surface_;
+  std::vector<std::uint32_t> tints_;
+  std::uint64_t placesNumber_ = 1;  ///< changes whenever a page comes or goes
+  unsigned vertexArray_ = 0, tintBuffer_ = 0, tintTexture_ = 0;
 };
 
 }  // namespace trimtab::scene

@@ -12,42 +12,42 @@
 
 namespace trimtab::scene {
 
-/// A patch as drawn, for the CPU's depth map: its own triangles, and walls down from its border, so that no
-/// ray slips through where neighbours are lowered differently.
+/// A patch for the CPU's depth map: its own triangles, and walls down from its border, so that no ray slips
+/// through where neighbours are lowered differently.
 ///
-/// How steep the drawn surface is near a vertex is known for the patch alone, by squares of `mesh.reach`.
-/// Nearer its border than that, the neighbours' slopes count, whatever they are in this cut.
+/// The patch alone tells how steep the drawn surface is near a vertex, by squares of `mesh.reach`. Nearer to
+/// its border than that, the slopes of its neighbours in this cut count too.
 struct PatchSurface {
   DepthMesh mesh;
   depth::Triangles triangles;
   std::uint8_t variant = 0;
-  bool inside = false;                     ///< so far from the data's edge that it may hide others
-  std::vector<float> slope;                ///< as of the patch alone
-  std::vector<std::uint32_t> border;       ///< vertices whose slope neighbours have a part in
+  bool inside = false;                     ///< so far inside the data that it may hide others
+  std::vector<float> slope;                ///< of the patch alone
+  std::vector<std::uint32_t> border;       ///< vertices whose slope depends on neighbours
   float steepest = 0, borderSteepest = 0;  ///< of all, and within `reach` of the border; infinite: no graph
-  float around = -1;                       ///< of the neighbours, that mesh.slope has taken in
+  float around = -1;                       ///< the neighbours' slope in mesh.slope
 };
 
 void makePatchSurface(const terrain::PatchMesh& mesh, int variant, PatchSurface& out);
 
-/// The CPU's depth map over the patches of a cut. Needs no context.
+/// The CPU's depth map over the patches of a cut. Needs no GL context.
 class PatchMapCulling {
  public:
-  /// Null: none.
+  /// Starts with another terrain, or with none if it is null.
   void setTerrain(std::shared_ptr<const terrain::Database> database);
-  /// `visible`: those of the cut in view that are not known to be hidden. One each, in their order, as
-  /// removeOccluded takes them. `cut`: another number for another cut. The eye must be one that
-  /// PatchGround::refusal lets pass.
+  /// Tests the patches of `visible`, which are those of the cut in view that are not known to be hidden.
+  /// Returns one flag per patch, in their order, as removeOccluded reads them. `cut` is a new number for
+  /// each cut. PatchGround::refusal must not refuse the eye.
   std::span<const std::uint8_t> hidden(const PatchCulling& patches, std::uint64_t cut,
                                        std::span<const TileDraw> visible, const EyePose& eye,
                                        const MapView& view, SurfaceShare& share);
-  /// The last map.
+  /// Returns the last map as an image in greys.
   DistanceImage picture() const { return culling_.picture(); }
 
  private:
-  const PatchSurface* surfaceOf(TileDraw patch) const;  ///< null where it is not made
+  const PatchSurface* surfaceOf(TileDraw patch) const;  ///< null if it is not made
   void make(const PatchCulling& patches, TileDraw patch);
-  /// Whether all that can be made is there.
+  /// Raises slopes by those of neighbours. Returns whether all surfaces that can be made are there.
   bool takeInNeighbours(const PatchCulling& patches, Vec3 eye, SurfaceShare& share);
 
   DataExtent extent_;

@@ -45,7 +45,7 @@ void StaticLodCulling::setTerrain(std::shared_ptr<const terrain::StaticLodTerrai
   cutKey_.reset();
   errors_.clear();
   visibleKey_.reset();
-  cutTiles_.clear();
+  cut_.tiles.clear();
   visible_ = {};
   vertices_ = terrain_ ? vertexCounts(*terrain_) : std::vector<std::uint32_t>{};
 }
@@ -71,8 +71,6 @@ FrameCounters StaticLodCulling::select(const FrameRequest& request, const EyePos
       selectStatic(index(), errors_, key.distancePerError, key.eye, cut_);
     }
     orderByDistance(eye.position);
-    cutTiles_.clear();
-    for (const std::uint32_t node : cut_.nodes) cutTiles_.push_back({node});
     cutKey_ = key;
     ++counters.cutsSelected;
   }
@@ -84,12 +82,14 @@ FrameCounters StaticLodCulling::select(const FrameRequest& request, const EyePos
   visibleKey_ = wanted;
   hiddenIsKnown_ = false;
   ++counters.visibleSelected;
-  selectStaticVisible(index(), vertices_, cut_, eye, v, request.method != CullingCase::none, visible_, farM);
+  selectVisible(cut_, {.eye = eye, .view = v, .cull = request.method != CullingCase::none, .farM = farM},
+                visible_);
   if (defects_.culledNode) {
     flags_.clear();
     for (const TileDraw& node : visible_.tiles) flags_.push_back(node.node == defects_.culledNode);
-    removeStaticOccluded(index(), vertices_, flags_, visible_);
+    removeOccluded(cut_, flags_, visible_);
   }
+  countVertices();
   visibleNear_ = static_cast<std::size_t>(
       std::count(visible_.reason.begin(), visible_.reason.begin() + static_cast<std::ptrdiff_t>(near_),
                  CullReason::drawn));
@@ -98,23 +98,24 @@ FrameCounters StaticLodCulling::select(const FrameRequest& request, const EyePos
 
 /// Puts the near part of the cut first, both parts in the trees' order.
 void StaticLodCulling::orderByDistance(Vec3 eye) {
-  near_ = cut_.nodes.size() / kNearOneIn;
+  std::vector<TileDraw>& nodes = cut_.tiles;
+  near_ = nodes.size() / kNearOneIn;
   if (near_ == 0) return;
   distances_.clear();
-  for (const std::uint32_t node : cut_.nodes)
-    distances_.push_back(distanceSquared(index().bounds[node], eye));
+  for (const TileDraw& node : nodes) distances_.push_back(distanceSquared(index().bounds[node.node], eye));
   const auto middle = distances_.begin() + static_cast<std::ptrdiff_t>(near_);
   std::nth_element(distances_.begin(), middle, distances_.end());
   const double limit = *middle;
   far_.clear();
   std::size_t kept = 0;
-  for (const std::uint32_t node : cut_.nodes)
-    if (distanceSquared(index().bounds[node], eye) < limit)
-      cut_.nodes[kept++] = node;
+  for (const TileDraw& node : nodes)
+    if (distanceSquared(index().bounds[node.node], eye) < limit)
+      nodes[kept++] = node;
     else
       far_.push_back(node);
-  std::copy(far_.begin(), far_.end(), cut_.nodes.begin() + static_cast<std::ptrdiff_t>(kept));
+  std::copy(far_.begin(), far_.end(), nodes.begin() + static_cast<std::ptrdiff_t>(kept));
   near_ = kept;
+  gather(index(), cut_);
 }
 
 /// Triangles of far nodes in view whose tops lie below the steepest line of sight to a near node's top: no
@@ -165,8 +166,14 @@ void StaticLodCulling::removeHidden(const DepthPyramid& covered) {
       return covered.isHidden(part, visibleKey_->eye, visibleKey_->view);
     });
   }
-  removeStaticOccluded(index(), vertices_, flags_, visible_);
+  removeOccluded(cut_, flags_, visible_);
+  countVertices();
   hiddenIsKnown_ = true;
+}
+
+void StaticLodCulling::countVertices() {
+  visible_.vertices = 0;
+  for (const TileDraw& node : visible_.tiles) visible_.vertices += vertices_[node.node];
 }
 
 void StaticLodCulling::plant(const Defects& defects) {

@@ -35,7 +35,7 @@ class StaticLodCulling {
   bool hiddenIsKnown() const { return hiddenIsKnown_; }
 
   const StaticLodIndex& index() const;
-  const std::vector<TileDraw>& cut() const { return cutTiles_; }
+  const std::vector<TileDraw>& cut() const { return cut_.tiles; }
   /// Lists near nodes before far ones, in every culling case and view direction: where two triangles have the
   /// same depth, the first one drawn shows, so the order must not change the image.
   const VisibleSet& visible() const { return visible_; }
@@ -45,6 +45,7 @@ class StaticLodCulling {
 
  private:
   void orderByDistance(Vec3 eye);
+  void countVertices();
   std::uint64_t hideableTriangles(Vec3 eye) const;
 
   /// What the cut depends on.
@@ -60,8 +61,7 @@ class StaticLodCulling {
   std::vector<std::uint32_t> vertices_;  ///< one a node
   std::optional<CutKey> cutKey_;
   std::vector<float> errors_;  ///< of the cut's measure, one per node; empty: not made yet
-  StaticCut cut_;
-  std::vector<TileDraw> cutTiles_;
+  LevelCut cut_;
   std::size_t near_ = 0;  ///< of the cut
   VisibleSet visible_;
   std::size_t visibleNear_ = 0;
@@ -80,7 +80,7 @@ class StaticLodCulling {
   bool hiddenIsKnown_ = false;
   StaticLodParts parts_;
   std::vector<double> distances_;
-  std::vector<std::uint32_t> far_;
+  std::vector<TileDraw> far_;
   std::vector<std::uint8_t> flags_;
   Defects defects_;
 };

@@ -7,46 +7,24 @@
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/gl/gl_buffer.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
-#include "trimtab/terrain/format/static_lod_terrain.h"
 
 namespace trimtab::scene {
 namespace {
 
 using terrain::StaticLodVertex;
 
-constexpr auto kBlock = static_cast<std::uint32_t>(StaticLodLayer::kBlock);
-constexpr std::uint32_t kIndexBlock = 64;
-constexpr std::size_t kBlockBytes = kBlock * sizeof(StaticLodVertex) + 4 * sizeof(std::int32_t),
-                      kIndexBlockBytes = kIndexBlock * sizeof(std::uint32_t);
-
-std::uint32_t inBlocks(std::size_t count, std::uint32_t block) {
-  return static_cast<std::uint32_t>((count + block - 1) / block);
-}
-
-/// Room for `units` more: half as much again, or what is needed, where there is memory for it.
-template <class Grow>
-std::optional<std::uint32_t> takeGrowing(RangeAllocator& places, std::uint32_t units, const Grow& grow) {
-  if (const auto first = places.take(units)) return first;
-  const std::uint32_t size = places.size(), least = std::max(size + units, 4096u);
-  for (const std::uint32_t after : {std::max(least, size + size / 2), least})
-    if (grow(after)) {
-      places.growTo(after);
-      return places.take(units);
-    }
-  return {};
-}
-
-void defineAttributes() {
-  const auto attribute = [](unsigned index, int size, unsigned type, unsigned char normalise,
-                            std::size_t offset) {
-    glEnableVertexAttribArray(index);
-    glVertexAttribPointer(index, size, type, normalise, sizeof(StaticLodVertex),
-                          reinterpret_cast<const void*>(offset));
-  };
-  attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(StaticLodVertex, x));
-  attribute(1, 3, GL_BYTE, GL_TRUE, offsetof(StaticLodVertex, normal));
-  attribute(3, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(StaticLodVertex, colour));
-}
+constexpr MeshPool::Layout kLayout{.vertexBytes = sizeof(StaticLodVertex),
+                                   .indexBytes = sizeof(std::uint32_t),
+                                   .slotBytes = 4 * sizeof(std::int32_t),
+                                   .block = StaticLodLayer::kBlock,
+                                   .indexBlock = 64,
+                                   .leastBlocks = 4096,
+                                   .leastIndexBlocks = 4096,
+                                   .growth = 1.5};
+constexpr std::array kAttributes{
+    VertexAttribute{0, 3, GL_FLOAT, false, offsetof(StaticLodVertex, x)},
+    VertexAttribute{1, 3, GL_BYTE, true, offsetof(StaticLodVertex, normal)},
+    VertexAttribute{3, 4, GL_UNSIGNED_BYTE, true, offsetof(StaticLodVertex, colour)}};
 
 template <class T>
 unsigned makeBuffer(unsigned target, const std::vector<T>& data) {
@@ -77,55 +55,35 @@ void collectEdges(const terrain::StaticLodTile& tile, const terrain::StaticLodRa
 
 }  // namespace
 
-StaticLodLayer::StaticLodLayer(std::size_t keptBytes) : keptBytes_(keptBytes) {
+StaticLodLayer::StaticLodLayer(std::size_t keptBytes)
+    : keptBytes_(keptBytes), pool_(kLayout, [this] { attach(); }) {
   for (GLuint* array : {&array_, &numberedArray_, &edgeArray_}) glGenVertexArrays(1, array);
-  glGenTextures(1, &slotTexture_);
   glGenBuffers(1, &dataBuffer_);
 }
 
 StaticLodLayer::~StaticLodLayer() {
-  clear();
+  for (const Edges& edges : edges_) glDeleteBuffers(1, &edges.buffer);
   glDeleteBuffers(1, &dataBuffer_);
-  glDeleteTextures(1, &slotTexture_);
   for (const GLuint array : {array_, numberedArray_, edgeArray_}) glDeleteVertexArrays(1, &array);
 }
 
-/// Gives the memory back: another terrain may need far less.
-void StaticLodLayer::clear() {
-  for (const Edges& edges : edges_) glDeleteBuffers(1, &edges.buffer);
-  for (GLuint* buffer : {&vertexBuffer_, &indexBuffer_, &slotBuffer_}) {
-    glDeleteBuffers(1, buffer);
-    *buffer = 0;
-  }
-  places_.clear();
-  edges_.clear();
-  blocks_.clear();
-  indexBlocks_.clear();
-  ++placesNumber_;
-}
-
 void StaticLodLayer::setTerrain(std::shared_ptr<const terrain::StaticLodTerrain> terrain) {
-  clear();
+  for (const Edges& edges : edges_) glDeleteBuffers(1, &edges.buffer);
   terrain_ = std::move(terrain);
-  if (!terrain_) return;
-  places_.resize(terrain_->tiles.size());
-  edges_.resize(terrain_->index.size());
-}
-
-std::size_t StaticLodLayer::bytes() const {
-  return blocks_.used() * kBlockBytes + indexBlocks_.used() * kIndexBlockBytes;
+  places_.assign(terrain_ ? terrain_->tiles.size() : 0, {});
+  edges_.assign(terrain_ ? terrain_->index.size() : 0, {});
+  pool_.clear();
+  ++placesNumber_;
 }
 
 void StaticLodLayer::drop(std::uint32_t tile) {
-  Place& place = places_[tile];
-  if (place.blocks == 0) return;
-  blocks_.give(place.block, place.blocks);
-  indexBlocks_.give(place.indexBlock, place.indexBlocks);
-  place = {};
+  if (places_[tile].blocks == 0) return;
+  pool_.give(places_[tile]);
+  places_[tile] = {};
   ++placesNumber_;
 }
 
-/// False where this frame needs all that is there.
+/// Returns false if this frame needs all that is there.
 bool StaticLodLayer::dropOldest() {
   std::optional<std::uint32_t> oldest;
   for (std::uint32_t tile = 0; tile < places_.size(); ++tile)
@@ -136,13 +94,12 @@ bool StaticLodLayer::dropOldest() {
   return oldest.has_value();
 }
 
-/// The buffers that there are now, to all that read them.
 void StaticLodLayer::attach() {
   for (const GLuint array : {array_, numberedArray_, edgeArray_}) {
     glBindVertexArray(array);
-    glBindBuffer(GL_ARRAY_BUFFER, vertexBuffer_);
-    if (vertexBuffer_ != 0) defineAttributes();
-    if (array != edgeArray_) glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indexBuffer_);
+    glBindBuffer(GL_ARRAY_BUFFER, pool_.vertexBuffer());
+    if (pool_.vertexBuffer() != 0) defineAttributes(kAttributes, sizeof(StaticLodVertex));
+    if (array != edgeArray_) glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, pool_.indexBuffer());
   }
   glBindVertexArray(numberedArray_);
   glBindBuffer(GL_ARRAY_BUFFER, dataBuffer_);
@@ -155,52 +112,23 @@ void StaticLodLayer::attach() {
   glVertexAttribDivisor(5, 1);
   glBindVertexArray(0);
   glBindBuffer(GL_ARRAY_BUFFER, 0);
-  if (slotBuffer_ != 0) attachBuffer(slotTexture_, GL_RGBA32I, slotBuffer_);
-}
-
-bool StaticLodLayer::place(Place& place) {
-  constexpr std::size_t kVertices = kBlock * sizeof(StaticLodVertex), kSlot = 4 * sizeof(std::int32_t);
-  const auto block = takeGrowing(blocks_, place.blocks, [this](std::uint32_t after) {
-    const bool grown = growBuffer(vertexBuffer_, blocks_.size() * kVertices, after * kVertices) &&
-                       growBuffer(slotBuffer_, blocks_.size() * kSlot, after * kSlot);
-    attach();
-    return grown;
-  });
-  if (!block) return false;
-  const auto indexBlock = takeGrowing(indexBlocks_, place.indexBlocks, [this](std::uint32_t after) {
-    const bool grown =
-        growBuffer(indexBuffer_, indexBlocks_.size() * kIndexBlockBytes, after * kIndexBlockBytes);
-    attach();
-    return grown;
-  });
-  if (!indexBlock) {
-    blocks_.give(*block, place.blocks);
-    return false;
-  }
-  place.block = *block;
-  place.indexBlock = *indexBlock;
-  return true;
 }
 
 bool StaticLodLayer::upload(std::uint32_t at) {
   const terrain::StaticLodTile& source = terrain_->tiles[at];
-  Place place{.blocks = inBlocks(source.vertices.size(), kBlock),
-              .indexBlocks = inBlocks(source.indices.size(), kIndexBlock)};
-  if (place.blocks == 0 || place.indexBlocks == 0) return false;
-  const std::size_t needed = place.blocks * kBlockBytes + place.indexBlocks * kIndexBlockBytes;
+  const std::size_t vertices = source.vertices.size(), indices = source.indices.size();
+  if (vertices == 0 || indices == 0) return false;
+  const std::size_t needed = kLayout.bytes(kLayout.blocksOf(vertices), kLayout.indexBlocksOf(indices));
   while (bytes() + needed > keptBytes_ && dropOldest()) {
   }
-  while (!this->place(place))
+  std::optional<MeshPool::Place> place;
+  while (!(place = pool_.take(vertices, indices)))
     if (!dropOldest()) return false;
-  uploadPart(vertexBuffer_, std::size_t{place.block} * kBlock * sizeof(StaticLodVertex),
-             source.vertices.data(), source.vertices.size() * sizeof(StaticLodVertex));
-  uploadPart(indexBuffer_, place.indexBlock * kIndexBlockBytes, source.indices.data(),
-             source.indices.size() * sizeof(std::uint32_t));
-  std::vector<std::array<std::int32_t, 4>> slots(place.blocks,
-                                                 {source.origin[0], source.origin[1], source.origin[2], 0});
-  uploadPart(slotBuffer_, place.block * sizeof slots[0], slots.data(), slots.size() * sizeof slots[0]);
-  place.lastUse = frame_;
-  places_[at] = place;
+  const std::array<std::int32_t, 4> slot{source.origin[0], source.origin[1], source.origin[2], 0};
+  pool_.put(*place, std::as_bytes(std::span(source.vertices)), std::as_bytes(std::span(source.indices)),
+            std::as_bytes(std::span(slot)));
+  pool_.send();
+  places_[at] = {*place, frame_};
   ++placesNumber_;
   return true;
 }
@@ -228,8 +156,8 @@ void StaticLodLayer::addCommands(MultiDraw& draw, std::span<const TileDraw> node
     const Place& place = placeOf(node.node);
     const terrain::StaticLodRange range = terrain_->ranges[node.node];
     if (place.blocks > 0)
-      draw.add(place.indexBlock * kIndexBlock + 3 * range.firstTriangle, 3 * range.triangles,
-               place.block * kBlock);
+      draw.add(place.indexBlock * kLayout.indexBlock + 3 * range.firstTriangle, 3 * range.triangles,
+               place.block * kLayout.block);
   }
 }
 
@@ -272,7 +200,8 @@ void StaticLodLayer::drawEdges(std::span<const TileDraw> nodes, bool locked) {
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, edges.buffer);
     const std::size_t first = locked ? static_cast<std::size_t>(edges.free) * sizeof(std::uint32_t) : 0;
     glDrawElementsBaseVertex(GL_LINES, locked ? edges.locked : edges.free, GL_UNSIGNED_INT,
-                             reinterpret_cast<const void*>(first), static_cast<GLint>(place.block * kBlock));
+                             reinterpret_cast<const void*>(first),
+                             static_cast<GLint>(place.block * kLayout.block));
   }
   glBindVertexArray(0);
 }

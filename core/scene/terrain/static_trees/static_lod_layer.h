@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "core/scene/gl/mesh_pool.h"
 #include "core/scene/gl/multi_draw.h"
-#include "core/scene/gl/range_allocator.h"
 #include "trimtab/culling/select.h"
 
 namespace trimtab::terrain {
@@ -46,14 +46,12 @@ class StaticLodLayer {
 
   static constexpr int kBlock = 64;  ///< vertices a texel of slotTexture
   /// RGBA32I: the origin of the tile that a block of vertices is of.
-  unsigned slotTexture() const { return slotTexture_; }
-  std::size_t bytes() const;  ///< of the tiles that are there
+  unsigned slotTexture() const { return pool_.slotTexture(); }
+  std::size_t bytes() const { return pool_.bytes(); }  ///< of the tiles that are there
   bool has(std::uint32_t tile) const { return places_[tile].blocks > 0; }
 
  private:
-  /// In blocks of vertices and of indices; none: not there.
-  struct Place {
-    std::uint32_t block = 0, blocks = 0, indexBlock = 0, indexBlocks = 0;
+  struct Place : MeshPool::Place {
     std::uint64_t lastUse = 0;
   };
   /// A node's edges as pairs of indices: those that may change, then the locked ones.
@@ -65,11 +63,9 @@ class StaticLodLayer {
     std::uint32_t node, tint;
   };
 
-  void clear();
   void drop(std::uint32_t tile);
   bool dropOldest();
   bool upload(std::uint32_t tile);
-  bool place(Place& place);
   void attach();
   const Place& placeOf(std::uint32_t node) const;
   void addCommands(MultiDraw& draw, std::span<const TileDraw> nodes);
@@ -80,12 +76,12 @@ class StaticLodLayer {
   std::shared_ptr<const terrain::StaticLodTerrain> terrain_;
   std::vector<Place> places_;  ///< one a tile
   std::vector<Edges> edges_;   ///< one a node; made on first use
-  RangeAllocator blocks_, indexBlocks_;
+  MeshPool pool_;
   std::uint64_t frame_ = 0, placesNumber_ = 1;
   MultiDraw surface_, numbered_;
   std::vector<DrawData> data_;
   unsigned array_ = 0, numberedArray_ = 0, edgeArray_ = 0;
-  unsigned vertexBuffer_ = 0, indexBuffer_ = 0, slotBuffer_ = 0, slotTexture_ = 0, dataBuffer_ = 0;
+  unsigned dataBuffer_ = 0;
 };
 
 }  // namespace trimtab::scene

@@ -7,7 +7,6 @@
 
 #include "trimtab/frame/box_union.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
-#include "trimtab/terrain/format/static_lod_terrain.h"
 
 namespace trimtab::scene {
 namespace {

@@ -2,7 +2,6 @@
 
 #include "core/scene/gl/gl_api.h"
 #include "trimtab/frame/frame_request.h"
-#include "trimtab/terrain/format/static_lod_terrain.h"
 
 namespace trimtab::scene {
 
@@ -43,15 +42,22 @@ void TreeDrawer::draw(unsigned program) {
     // Reading waits for the near nodes: a software rasteriser's time for them is not the map's.
     if (frame_->software) glFinish();
     frame_->clock.lap(&FrameCost::draw);
-    const ViewShape& v = frame_->request.view;
-    gl_->occlusion.read(v.widthPx, v.heightPx, map_->widthPx, map_->heightPx);
-    culling_.removeHidden(gl_->occlusion.pyramid());
+    readMap();
     frame_->clock.lap(&FrameCost::occlusion);
     drawSurface(program, byReason ? std::span(cut()) : std::span(visible).subspan(near));
     drawn_ = shown();
   } else {
     TerrainDrawer::draw(program);
   }
+}
+
+void TreeDrawer::readMap() {
+  const ViewShape& v = frame_->request.view;
+  depths_.resize(static_cast<std::size_t>(v.widthPx) * static_cast<std::size_t>(v.heightPx));
+  // The processor reduces it: on a software rasteriser, a shader costs several times as much.
+  glReadPixels(0, 0, v.widthPx, v.heightPx, GL_DEPTH_COMPONENT, GL_FLOAT, depths_.data());
+  pyramid_.buildFromPicture(depths_, v.widthPx, v.heightPx, map_->widthPx, map_->heightPx);
+  culling_.removeHidden(pyramid_);
 }
 
 void TreeDrawer::drawPicture(unsigned program) {
@@ -76,9 +82,8 @@ void TreeDrawer::drawTinted(unsigned, std::span<const TileDraw> nodes,
 }
 
 DistanceImage TreeDrawer::readDepthMap() const {
-  const DepthPyramid& map = gl_->occlusion.pyramid();
-  if (!map_ || map.width() == 0) return {};
-  return distanceImage(map.depths(), map.width(), map.height(), nearM_);
+  if (!map_ || pyramid_.width() == 0) return {};
+  return distanceImage(pyramid_.depths(), pyramid_.width(), pyramid_.height(), nearM_);
 }
 
 }  // namespace trimtab::scene

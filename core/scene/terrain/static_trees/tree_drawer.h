@@ -3,7 +3,7 @@
 #include "core/scene/terrain/terrain_drawer.h"
 #include "static_lod_culling.h"
 #include "static_lod_layer.h"
-#include "static_lod_occlusion.h"
+#include "trimtab/culling/depth_pyramid.h"
 #include "trimtab/scene/planted_defects.h"
 
 namespace trimtab::scene {
@@ -43,11 +43,19 @@ class TreeDrawer final : public TerrainDrawer {
 
   struct Gl {
     StaticLodLayer layer;
-    StaticLodOcclusion occlusion;
   };
   std::shared_ptr<const terrain::StaticLodTerrain> terrain_;
   StaticLodCulling culling_;
   std::unique_ptr<Gl> gl_;
+  /// Finds the far nodes that the near ones, which are drawn, hide. Blocks until they are drawn.
+  ///
+  /// The occluders of occlusion.h need a surface without holes and with a bounded slope; scenery promises
+  /// neither. The image's own depths need neither: each texel of the map is the farthest depth of all pixels
+  /// that it touches (depth_pyramid.h), so what lies behind it would fail the depth test in all of them.
+  void readMap();
+
+  std::vector<float> depths_;
+  DepthPyramid pyramid_;  ///< the last map
   /// Size of the last frame's map, if only by what it hid when it was drawn.
   std::optional<DepthMapSize> map_;
   bool mapDrawn_ = false;  ///< in the last frame

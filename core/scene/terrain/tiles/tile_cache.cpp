@@ -6,6 +6,7 @@
 
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/gl/gl_buffer.h"
+#include "core/scene/gl/mesh_pool.h"
 
 namespace trimtab::scene {
 namespace {
@@ -19,19 +20,11 @@ constexpr std::size_t kSlotBytes = TileCache::kVerticesPerTile * kVertexBytes;
 constexpr std::size_t kOccluderBytes = kOccluderVertices * sizeof(OccluderVertex);
 constexpr std::size_t kPartBytes = kParts * sizeof(PartBox);
 
-void defineAttributes() {
-  const auto attribute = [](unsigned index, int size, unsigned type, unsigned char normalise,
-                            std::size_t offset) {
-    glEnableVertexAttribArray(index);
-    glVertexAttribPointer(index, size, type, normalise, static_cast<int>(kVertexBytes),
-                          reinterpret_cast<const void*>(offset));
-  };
-  using terrain::TileVertex;
-  attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(TileVertex, x));
-  attribute(1, 3, GL_BYTE, GL_TRUE, offsetof(TileVertex, normal));
-  attribute(2, 1, GL_UNSIGNED_BYTE, GL_FALSE, offsetof(TileVertex, slope));
-  attribute(3, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(TileVertex, colour));
-}
+using terrain::TileVertex;
+constexpr std::array kAttributes{VertexAttribute{0, 3, GL_FLOAT, false, offsetof(TileVertex, x)},
+                                 VertexAttribute{1, 3, GL_BYTE, true, offsetof(TileVertex, normal)},
+                                 VertexAttribute{2, 1, GL_UNSIGNED_BYTE, false, offsetof(TileVertex, slope)},
+                                 VertexAttribute{3, 4, GL_UNSIGNED_BYTE, true, offsetof(TileVertex, colour)}};
 
 /// A vertex array with its own index buffer.
 GLuint makeArray(const std::vector<std::uint16_t>& indices, GLuint& indexBuffer) {
@@ -88,7 +81,7 @@ bool TileCache::grow() {
   // Some may have been replaced even so.
   glBindVertexArray(vertexArray_);
   glBindBuffer(GL_ARRAY_BUFFER, vertexBuffer_);
-  defineAttributes();
+  defineAttributes(kAttributes, kVertexBytes);
   glBindVertexArray(occluderArray_);
   glBindBuffer(GL_ARRAY_BUFFER, occluderBuffer_);
   glEnableVertexAttribArray(0);

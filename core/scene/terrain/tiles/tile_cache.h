@@ -13,9 +13,9 @@
 
 namespace trimtab::scene {
 
-/// Tiles' vertices on the GPU: slots of one growing buffer, filled on first use, the longest unused given up
-/// first. Where a slot's tile lies stands in a texture buffer that shaders read by gl_VertexID, so a frame
-/// uploads nothing per tile.
+/// Keeps tiles' vertices on the GPU: slots of one growing buffer, filled on first use; the slot that was
+/// unused for longest is given up first. Shaders read where a slot's tile lies from a buffer texture by
+/// gl_VertexID, so a frame uploads nothing per tile.
 ///
 /// All calls need the context current.
 class TileCache {
@@ -30,15 +30,15 @@ class TileCache {
 
   /// Forgets all tiles.
   void setDatabase(std::shared_ptr<const terrain::Database> database);
-  /// Makes sure that the tiles have slots, building those that lack one, or all of them with `anew`. Returns
-  /// how many were built. Where there is no memory for more, the longest unused are given up, and what a
-  /// frame needs beyond that has no slot.
+  /// Makes sure that the tiles have slots: builds those that lack one, or all of them with `anew`, and
+  /// returns how many were built. Without memory for more, the slots that were unused for longest are given
+  /// up, and tiles beyond that have none.
   std::size_t prepare(std::span<const TileDraw> tiles, bool anew = false);
 
-  /// One multi-draw of the tiles, in order; those without a slot are skipped. A program that reads attributes
-  /// 0 position, 1 normal, 2 slope, 3 colour is in use.
+  /// Draws tiles in order; those without a slot are skipped. The program in use reads attributes 0 position,
+  /// 1 normal, 2 slope, 3 colour.
   void draw(std::span<const TileDraw> tiles);
-  /// One multi-draw of the tiles' occluder meshes: attribute 0 is OccluderVertex.
+  /// Draws the tiles' occluder meshes: attribute 0 is OccluderVertex.
   void drawOccluders(std::span<const TileDraw> tiles);
 
   /// RGBA32I, two texels a slot: the tile's origin in units of 16 m and its node, and OccluderLimits as the
@@ -46,7 +46,7 @@ class TileCache {
   unsigned slotTexture() const { return slotTexture_; }
   /// RGBA32F, 2 x kParts texels a slot: low and high corner of each part.
   unsigned partTexture() const { return partTexture_; }
-  /// RGBA8 per slot, for the engineer's colours: `colours` in the order of `tiles`.
+  /// Sets the colours (RGBA8) that `tintTexture` has by slot; `colours` are in the order of `tiles`.
   void setTints(std::span<const TileDraw> tiles, std::span<const std::uint32_t> colours);
   unsigned tintTexture() const { return tintTexture_; }
 
@@ -74,7 +74,7 @@ class TileCache {
   std::vector<std::uint32_t> slotOfNode_;
   std::vector<std::uint32_t> tints_;
   MultiDraw surface_, occluders_;
-  std::uint64_t places_ = 1;  ///< changes whenever a tile comes to a slot or leaves it
+  std::uint64_t places_ = 1;  ///< changes whenever a slot gets or loses a tile
   terrain::TileMesh mesh_;
   TileOccluder occluder_;
   std::uint64_t frame_ = 0;

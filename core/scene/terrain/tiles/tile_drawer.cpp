@@ -1,5 +1,7 @@
 #include "tile_drawer.h"
 
+#include <algorithm>
+
 #include "core/scene/gl/gl_api.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/scene/gl_report.h"
@@ -8,44 +10,109 @@ namespace trimtab::scene {
 
 void TileDrawer::setTerrain(std::shared_ptr<const terrain::Database> database) {
   database_ = std::move(database);
-  culling_.setDatabase(database_);
+  cutKey_.reset();
+  cut_.tiles.clear();
+  ++cutNumber_.cut;
+  ground_.setDatabase(database_);
+  ground_.setCut(cut_, cutNumber_);
+  occlusion_.clear();
+  mapDrawn_ = false;
   if (gl_) gl_->tiles.setDatabase(database_);
 }
 
 void TileDrawer::initialize() {
   gl_ = std::make_unique<Gl>();
   gl_->tiles.setDatabase(database_);
-  culling_.occlusion().setSubpixelBits(subpixelBitsOfContext());
+  occlusion_.setSubpixelBits(subpixelBitsOfContext());
+}
+
+void TileDrawer::plant(const Defects& defects) {
+  defects_ = defects;
+  occlusion_.plant(defects);
 }
 
 PreparedTerrain TileDrawer::prepare(const FrameInProgress& frame) {
   begin(frame);
   PreparedTerrain prepared;
   const FrameRequest& r = frame.request;
-  culling_.selectCut(r, r.frozenEye.value_or(frame.eye));
+  eye_ = r.frozenEye.value_or(frame.eye);
+  const bool cutSelected = selectCut(r);
   frame.clock.lap(&FrameCost::select);
-  const OcclusionStage& occlusion = culling_.occlusion();
-  culling_.beginOcclusion(r);
-  frame.clock.lap(occlusion.horizonServes() ? &FrameCost::occlusion : &FrameCost::select);
-  const bool anew = culling_.selectVisible(r);
-  frame.clock.lap(&FrameCost::select);
-  if (anew) culling_.removeHiddenByMap(r);
-  if (occlusion.mapServes()) frame.clock.lap(&FrameCost::occlusion);
+  occlusion_.begin(r, eye_, true);
+  frame.clock.lap(occlusion_.horizonServes() ? &FrameCost::occlusion : &FrameCost::select);
+  if (findVisible(occlusion_, cut_, visible_)) visible_.vertices = tileVertices(visible_);
   const std::size_t built = uploadShown();
-  prepared.depth = culling_.prepareOcclusion(r, gl_->tiles, gl_->occlusion);
-  frame.clock.lap(prepared.depth ? &FrameCost::occlusion : &FrameCost::select);
-  prepared.occlusion = culling_.result();
-  prepared.counters = culling_.counters();
+  prepared.occlusion = occlusion_.result();
+  prepared.depth = prepareDepthMap(r, prepared.occlusion.note);
+  mapDrawn_ = prepared.depth.has_value();
+  nearM_ = r.view.nearM;
+  frame.clock.lap(mapDrawn_ ? &FrameCost::occlusion : &FrameCost::select);
+  if (mapDrawn_) prepared.occlusion.depthMap = occlusion_.resolution();
+  prepared.counters = occlusion_.counters();
+  prepared.counters.cutsSelected += cutSelected;
+  prepared.counters.depthMapsDrawn += mapDrawn_;
   prepared.counters.tilesBuilt = built;
-  prepared.oneSided = r.backFaces && occlusion.eyeIsAboveGround() && !r.frozenEye;
+  prepared.oneSided = r.backFaces && occlusion_.eyeIsAboveGround() && !r.frozenEye;
   prepared.lines = tileBounds();
   return prepared;
+}
+
+bool TileDrawer::selectCut(const FrameRequest& request) {
+  const CutKey key{eye_.position, cutRuleOf(request, defects_.statedErrorScale)};
+  if (cutKey_ == key && request.skips.sameCut) return false;
+  selectLevels(database_->index(), key.eye, key.rule.maxErrorPx, key.rule.lodScale, key.rule.pixelsPerRadian,
+               cut_);
+  cutNumber_.errorOverDistance = key.rule.errorOverDistance();
+  cutNumber_.cut += cutKey_ != key;
+  cutNumber_.rule += !cutKey_ || cutKey_->rule != key.rule;
+  cutKey_ = key;
+  return true;
+}
+
+std::optional<DepthView> TileDrawer::prepareDepthMap(const FrameRequest& request, std::string& note) {
+  if (!occlusion_.serves(OcclusionMethod::depth_map) || visible_.tiles.empty()) return {};
+  const DepthMapSize size = occlusion_.resolution();
+  testedSlots_.clear();
+  occluders_.clear();
+  // Far tiles cost as much to draw as near ones and hide little. Measured over Everest and Fuji, leaving out
+  // tiles narrower than 48 texels loses a few percent of the hidden tiles and saves up to half of the pass.
+  const TerrainIndex& index = database_->index();
+  const double texelsPerTangent = size.widthPx / (request.view.right - request.view.left);
+  const double leastTexels = std::min(48.0, 0.12 * size.widthPx);
+  const auto texelsAcross = [&](const Box& b) {
+    const Vec3 middle{0.5 * (double{b.minX} + b.maxX), 0.5 * (double{b.minY} + b.maxY),
+                      0.5 * (double{b.minZ} + b.maxZ)};
+    return (double{b.maxX} - b.minX) * texelsPerTangent / length(middle - eye_.position);
+  };
+  for (const TileDraw& tile : visible_.tiles) {
+    testedSlots_.push_back(gl_->tiles.slotOf(tile.node));
+    if (ground_.conditions().mayOcclude(tile.node) && texelsAcross(index.bounds[tile.node]) >= leastTexels)
+      occluders_.push_back(tile);
+  }
+  if (occluders_.empty()) {
+    note = "No tile in view may hide another: all are too far away or at the terrain's edge.";
+    return {};
+  }
+  gl_->occlusion.prepare(size.widthPx, size.heightPx, testedSlots_);
+  return DepthView{eye_,
+                   size.widthPx,
+                   size.heightPx,
+                   OcclusionPass::kLevels,
+                   static_cast<int>(testedSlots_.size()),
+                   defects_.loweringScale,
+                   defects_.depthMapShiftTexels};
+}
+
+void TileDrawer::removeHidden() {
+  gl_->occlusion.test(gl_->tiles, flags_);
+  removeOccluded(cut_, flags_, visible_);
+  visible_.vertices = tileVertices(visible_);
 }
 
 void TileDrawer::drawOccluders() {
   gl_->occlusion.beginDepth();
   const BoundSlots slots(gl_->tiles.slotTexture(), gl_->tiles.tintTexture());
-  gl_->tiles.drawOccluders(culling_.occluders());
+  gl_->tiles.drawOccluders(occluders_);
 }
 
 void TileDrawer::drawNodes(unsigned, std::span<const TileDraw> nodes) {
@@ -57,6 +124,16 @@ void TileDrawer::drawTinted(unsigned program, std::span<const TileDraw> nodes,
                             std::span<const std::uint32_t> colours) {
   gl_->tiles.setTints(nodes, colours);
   drawNodes(program, nodes);
+}
+
+DistanceImage TileDrawer::readDepthMap() const {
+  if (!mapDrawn_) return occlusion_.picture();
+  std::vector<float> depths;
+  GLint before = 0;
+  glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &before);
+  gl_->occlusion.read(depths);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(before));
+  return distanceImage(depths, gl_->occlusion.width(), gl_->occlusion.height(), nearM_);
 }
 
 }  // namespace trimtab::scene

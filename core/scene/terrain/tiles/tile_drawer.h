@@ -1,33 +1,36 @@
 #pragma once
 
-#include "core/scene/occlusion/frame_culling.h"
 #include "core/scene/occlusion/occlusion.h"
+#include "core/scene/occlusion/occlusion_stage.h"
+#include "core/scene/terrain/cut_rule.h"
 #include "core/scene/terrain/terrain_drawer.h"
 #include "tile_cache.h"
+#include "tile_ground.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/scene/planted_defects.h"
 
 namespace trimtab::scene {
 
-/// The terrain as levels of square tiles, with the horizon or a depth map of their own.
+/// Draws the terrain as levels of square tiles, and the GPU's depth map that finds hidden ones among them.
 class TileDrawer final : public TerrainDrawer {
  public:
   void setTerrain(std::shared_ptr<const terrain::Database> database) override;
   void initialize() override;
   void release() override { gl_.reset(); }
-  void plant(const Defects& defects) override { culling_.plant(defects); }
+  void plant(const Defects& defects) override;
 
   PreparedTerrain prepare(const FrameInProgress& frame) override;
-  void finished(const FrameResult& result) override { culling_.occlusion().finished(result); }
-  // The depth map's passes, where `prepare` set a depth view.
+  void finished(const FrameResult& result) override { occlusion_.finished(result); }
+  // The depth map's passes, if `prepare` set a depth view.
   void drawOccluders();
   void reduce(unsigned program) { gl_->occlusion.reduce(program); }
-  void removeHidden() { culling_.removeHidden(gl_->tiles, gl_->occlusion); }
+  /// Tests the visible tiles against that map, waits for the result, and removes what it hides.
+  void removeHidden();
 
-  const std::vector<TileDraw>& cut() const override { return culling_.cut().tiles; }
-  const VisibleSet& visible() const override { return culling_.visible(); }
-  const Horizon* horizon() const override { return culling_.occlusion().horizon(); }
-  DistanceImage readDepthMap() const override { return culling_.readDepthMap(gl_->occlusion); }
+  const std::vector<TileDraw>& cut() const override { return cut_.tiles; }
+  const VisibleSet& visible() const override { return visible_; }
+  const Horizon* horizon() const override { return occlusion_.horizon(); }
+  DistanceImage readDepthMap() const override;
 
  private:
   const std::vector<Box>& bounds() const override { return database_->index().bounds; }
@@ -39,13 +42,36 @@ class TileDrawer final : public TerrainDrawer {
   void drawNodes(unsigned program, std::span<const TileDraw> nodes) override;
   void drawTinted(unsigned program, std::span<const TileDraw> nodes,
                   std::span<const std::uint32_t> colours) override;
+  /// Selects the cut if anything that it depends on has changed, and returns whether it did.
+  bool selectCut(const FrameRequest& request);
+  /// Returns the view of the depth map that the GPU must draw; unset if it draws none, and then `note` may
+  /// say why. The visible tiles must have slots.
+  std::optional<DepthView> prepareDepthMap(const FrameRequest& request, std::string& note);
 
   struct Gl {
     TileCache tiles;
     OcclusionPass occlusion;
   };
+  /// Everything that the LOD cut depends on.
+  struct CutKey {
+    Vec3 eye;
+    CutRule rule;
+    friend bool operator==(const CutKey&, const CutKey&) = default;
+  };
   std::shared_ptr<const terrain::Database> database_;
-  FrameCulling culling_;
+  TileGround ground_;
+  OcclusionStage occlusion_{ground_};
+  std::optional<CutKey> cutKey_;
+  CutNumber cutNumber_;
+  LevelCut cut_;
+  VisibleSet visible_;
+  EyePose eye_;
+  std::vector<std::uint32_t> testedSlots_;
+  std::vector<TileDraw> occluders_;  ///< drawn into the GPU's depth map
+  std::vector<std::uint8_t> flags_;
+  Defects defects_;
+  bool mapDrawn_ = false;  ///< by the GPU, in the last frame
+  double nearM_ = 1;       ///< of the last frame
   std::unique_ptr<Gl> gl_;
 };
 

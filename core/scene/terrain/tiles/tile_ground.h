@@ -18,7 +18,7 @@ namespace trimtab::scene {
 class TileGround final : public OcclusionGround {
  public:
   void setDatabase(std::shared_ptr<const terrain::Database> database);
-  /// Of this frame; both must live until the next one.
+  /// Sets the cut of this frame; both must live until the next one.
   void setCut(const LevelCut& cut, const CutNumber& number) { cut_ = &cut, number_ = &number; }
 
   const LevelCut& cut() const override { return *cut_; }
@@ -50,15 +50,15 @@ class TileGround final : public OcclusionGround {
   MapCulling map_;
   const LevelCut* cut_ = nullptr;
   const CutNumber* number_ = nullptr;
-  std::vector<std::uint8_t> upright_;    ///< one a node: no place there has two heights
-  std::vector<std::uint8_t> takesRoom_;  ///< one a node
+  std::vector<std::uint8_t> upright_;    ///< per node: no place there has two heights
+  std::vector<std::uint8_t> takesRoom_;  ///< per node
   SurfacesInUse<TileRelief> relief_;     ///< 15 KB each
   BoxLids lids_;
-  std::vector<std::uint8_t> inCut_;  ///< one a node, all 0 but in `fill`
+  std::vector<std::uint8_t> inCut_;  ///< per node, all 0 except during `fill`
   terrain::TileMesh mesh_;
 };
 
-/// A tile's surface for the horizon.
+/// Fills `relief` with a tile's surface for the horizon.
 void makeRelief(const terrain::TileMesh& mesh, TileRelief& relief);
 
 }  // namespace trimtab::scene

@@ -15,24 +15,6 @@ namespace {
 using scene::DrawWay;
 constexpr std::array kWays{DrawWay::indirect, DrawWay::base_vertex, DrawWay::loop};
 
-TEST(DrawChoice, isTheBestThatTheContextHasAndSaysWhy) {
-  struct Case {
-    scene::DrawFeatures features;
-    DrawWay way;
-    std::string said;
-  };
-  for (const Case& c : {Case{{true, true, false}, DrawWay::indirect, "one indirect multi-draw"},
-                        Case{{true, true, true}, DrawWay::base_vertex, "indirect is slower in software"},
-                        Case{{true, false, true}, DrawWay::indirect, "one indirect multi-draw"},
-                        Case{{false, true, false}, DrawWay::base_vertex, "the driver lacks indirect"},
-                        Case{{false, true, true}, DrawWay::base_vertex, "the driver lacks indirect"},
-                        Case{{false, false, false}, DrawWay::loop, "the driver lacks multi-draws"}}) {
-    const scene::DrawChoice choice = chooseDrawWay(c.features);
-    EXPECT_EQ(choice.way, c.way) << c.said;
-    EXPECT_NE(choice.reason.find(c.said), std::string::npos) << choice.reason;
-  }
-}
-
 class MultiDraw : public test::SceneTest {
  protected:
   /// Views of all kinds in every form that the terrain has, with each overlay that draws in another way.

@@ -4,11 +4,33 @@
 #include <random>
 
 #include "tests/core/scene/scene_test.h"
+#include "trimtab/culling/select_static.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/scene/error_meter.h"
 #include "trimtab/terrain/format/database.h"
 
 namespace trimtab::test {
+
+/// Returns the limit, in pixels, of the geometric error of a request as long as LODs state their errors
+/// truly: what the cut may err by, seen at the image's corner, where a pixel spans the smallest angle, and a
+/// pixel and a half for silhouettes, which may lie between the pixels' centres. Infinite where nothing is
+/// promised (patches; static trees by mean error or by a fixed depth).
+inline double geometricBoundPx(const FrameRequest& request) {
+  const ViewShape& v = request.view;
+  const double across = std::max(std::abs(v.left), std::abs(v.right)),
+               up = std::max(std::abs(v.bottom), std::abs(v.top));
+  if (request.staticLod.terrain == TerrainForm::patches && !asksForTrees(request))
+    return std::numeric_limits<double>::infinity();
+  double cutPx = request.lod.screenSpaceError.value() * request.decision.lodScale;
+  if (asksForTrees(request)) {
+    const StaticLodParameters& s = request.staticLod;
+    if (s.error != ErrorMeasure::maximum || request.overlays.treeDepth >= 0)
+      return std::numeric_limits<double>::infinity();
+    const double scale = pixelsPerRadian(v);
+    cutPx = scale / staticLodDistancePerError(s, request.decision.lodScale, scale);
+  }
+  return cutPx * std::sqrt(1 + across * across + up * up) + 1.5;
+}
 
 /// A meter beside the renderer, in its context.
 class ErrorMeterTest : public SceneTest {

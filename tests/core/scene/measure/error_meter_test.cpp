@@ -27,9 +27,9 @@ class ErrorMeter : public test::ErrorMeterTest {
       r.decision.lodScale = lodScale;
       const FrameError error = measure(r);
       EXPECT_EQ(error.wronglyCulledPixels, 0u) << "view " << i;
-      EXPECT_LE(error.geometricMaxPx, scene::geometricBoundPx(r)) << "view " << i;
+      EXPECT_LE(error.geometricMaxPx, test::geometricBoundPx(r)) << "view " << i;
       largest = std::max(largest, error.geometricMaxPx);
-      share = std::max(share, error.geometricMaxPx / scene::geometricBoundPx(r));
+      share = std::max(share, error.geometricMaxPx / test::geometricBoundPx(r));
     }
     std::printf("at %g px x %g: largest %.2f px, %.0f %% of the bound\n", boundPx, lodScale, largest,
                 100 * share);

@@ -86,7 +86,7 @@ TEST_F(PlantedDefects, findsLevelsWhoseErrorIsUnderstated) {
   for (const double truly : {1.0, 0.05, 1.0}) {
     plant(meter, {.statedErrorScale = truly});
     const FrameError error = measure(r);
-    EXPECT_EQ(error.geometricMaxPx > scene::geometricBoundPx(r), truly < 1) << error.geometricMaxPx;
+    EXPECT_EQ(error.geometricMaxPx > test::geometricBoundPx(r), truly < 1) << error.geometricMaxPx;
     EXPECT_EQ(error.wronglyCulledPixels, 0u) << "levels are another matter";
   }
 }

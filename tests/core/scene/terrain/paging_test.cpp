@@ -34,7 +34,6 @@ struct Viewer {
     const PatchCulling::Paged paged = culling.page(request, eye, layer);
     result.paging = paged.paging;
     result.counters.cutsSelected += paged.cutsSelected;
-    culling.selectVisible(request, eye);
     return result.paging;
   }
   /// Frames until nothing is on its way any more.

@@ -49,7 +49,8 @@ class Looking {
     flags_.assign(cut_.tiles.size(), 0);
     std::copy(stage_.hidden().begin(), stage_.hidden().end(), flags_.begin());
     VisibleSet visible;
-    selectVisible(index_, cut_, eye_, request_.view, true, visible, 1e30, stage_.hidden());
+    selectVisible(cut_, {.eye = eye_, .view = request_.view, .farM = 1e30, .hidden = stage_.hidden()},
+                  visible);
     const auto byMap = stage_.hiddenByMap(request_, visible);
     counters_ += stage_.counters();
     for (std::size_t i = 0; i < byMap.size(); ++i)

@@ -78,25 +78,14 @@ MeshFacts checkMesh(const terrain::HeightField& field, const std::vector<Point>&
   for (const auto& [edge, count] : edges)
     if (!edges.contains({edge.second, edge.first})) rim.insert(edge);
   std::int64_t wanted = 0;
-  if (border.empty()) {
-    wanted = 2 * (std::int64_t{field.columns} - 1) * (std::int64_t{field.rows} - 1);
-    for (const auto& [from, to] : rim) {
-      const Point &a = vertices[from], &b = vertices[to];
-      const bool onRim = (a.column == b.column && (a.column == 0 || a.column + 1 == field.columns)) ||
-                         (a.row == b.row && (a.row == 0 || a.row + 1 == field.rows));
-      if (!onRim) wrong("hole at " + name(a));
-    }
-  } else {
-    const auto n = static_cast<std::uint32_t>(border.size());
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const std::uint32_t j = (i + 1) % n;
-      if (!(vertices[i] == border[i])) wrong("border vertex moved: " + name(border[i]));
-      if (!rim.contains({i, j})) wrong("border edge lost at " + name(border[i]));
-      wanted +=
-          std::int64_t{border[i].column} * border[j].row - std::int64_t{border[j].column} * border[i].row;
-    }
-    if (rim.size() != n) wrong("border edges: " + std::to_string(rim.size()));
+  const auto n = static_cast<std::uint32_t>(border.size());
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t j = (i + 1) % n;
+    if (!(vertices[i] == border[i])) wrong("border vertex moved: " + name(border[i]));
+    if (!rim.contains({i, j})) wrong("border edge lost at " + name(border[i]));
+    wanted += std::int64_t{border[i].column} * border[j].row - std::int64_t{border[j].column} * border[i].row;
   }
+  if (rim.size() != n) wrong("border edges: " + std::to_string(rim.size()));
   if (area != wanted) wrong("area " + std::to_string(area) + " instead of " + std::to_string(wanted));
   std::set<std::pair<std::uint32_t, std::uint32_t>> places;
   for (const Point& p : vertices)
@@ -128,10 +117,7 @@ MeshFacts checkMesh(const terrain::HeightField& field, const std::vector<Point>&
   }
   double sum = 0;
   for (std::size_t at = 0; at < count; ++at) {
-    if (touched[at] == 0) {
-      if (border.empty()) wrong("post not covered: " + std::to_string(at));
-      continue;
-    }
+    if (touched[at] == 0) continue;
     if (at / field.columns % step != 0 || at % field.columns % step != 0) continue;
     ++facts.posts;
     sum += off[at] * off[at];
@@ -148,16 +134,6 @@ MeshFacts checkMesh(const terrain::HeightField& field, const std::vector<Point>&
   std::vector<float> z;
   for (const Point& p : mesher.vertices()) z.push_back(field.at(p.column, p.row));
   return checkMesh(field, border, mesher.vertices(), z, indices);
-}
-
-MeshFacts checkMesh(const terrain::HeightField& field, const terrain::FieldMesh& mesh) {
-  std::vector<Point> vertices;
-  std::vector<float> z;
-  for (const terrain::MeshVertex& v : mesh.vertices) {
-    vertices.push_back({v.column, v.row});
-    z.push_back(v.z);
-  }
-  return checkMesh(field, {}, vertices, z, mesh.indices);
 }
 
 }  // namespace trimtab::test

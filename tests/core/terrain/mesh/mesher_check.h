@@ -29,13 +29,11 @@ struct MeshFacts {
   double maxM = 0, rmsM = 0;
   std::uint64_t posts = 0;
 };
-/// Errors are those at every `step`-th post. `border`: the polygon, anticlockwise, every vertex; empty: any
-/// polyline around the whole field will do.
+/// Errors are those at every `step`-th post. `border` has every vertex of the polygon, anticlockwise.
 MeshFacts checkMesh(const terrain::HeightField& field, const std::vector<Point>& border,
                     const std::vector<Point>& vertices, const std::vector<float>& z,
                     const std::vector<std::uint32_t>& indices, std::uint32_t step = 1);
 MeshFacts checkMesh(const terrain::HeightField& field, const std::vector<Point>& border,
                     const terrain::PolygonMesher& mesher);
-MeshFacts checkMesh(const terrain::HeightField& field, const terrain::FieldMesh& mesh);
 
 }  // namespace trimtab::test

@@ -108,6 +108,45 @@ void expectBound(const char* what, const HeightGrid& grid, std::uint32_t leafCel
   }
 }
 
+/// No post can be farther from a patch's surface than its posts differ in height, plus the sag of its
+/// triangles below the curved earth: a chord triangle with edges up to e metres sags by at most e^2 / 6R.
+/// Coasts of ice that rise within one post once made large patches state far more.
+TEST(PatchErrors, neverExceedReliefAndSagOfAnIceCap) {
+  for (const PostGrid& posts : {PostGrid{-50, 60, 0.25, 0.1, 121, 131}, PostGrid{-60, 40, 0.2, 0.2, 141, 101},
+                                PostGrid{-20, 63.5, 0.01, 0.005, 401, 401}})
+    for (const std::uint32_t leafCells : kLeafCells) {
+      const HeightGrid grid = test::gridOf(posts, [&](std::uint32_t c, std::uint32_t r) {
+        const double x = 2.0 * c / posts.columns - 1, y = 2.0 * r / posts.rows - 1, d = x * x + y * y;
+        return d >= 0.8 ? 0.0 : 3673 * std::sqrt(1 - d);
+      });
+      const PostGeometry geometry(grid.posts);
+      const PatchIndex index = makePatchIndex(grid.posts, geometry, leafCells);
+      for (std::uint32_t page = 0; page < index.pages.size(); ++page) {
+        const BuiltPage built = buildPage(index, page, GridHeights(grid), geometry,
+                                          patchTolerances(index, defaultLeafToleranceM(posts)));
+        const auto places = placesOfPage(index, index.pages[page]);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+          const PatchMesh& mesh = built.meshes.patches[i];
+          const auto place = [&](std::uint32_t v) {
+            return Vec3{mesh.vertices[v].x, mesh.vertices[v].y, mesh.vertices[v].z};
+          };
+          double longest = 0;
+          for (std::size_t v = 0; v < index.variants(); ++v) {
+            for (std::uint32_t k = mesh.firstIndex[v]; k < mesh.firstIndex[v + 1]; k += 3)
+              for (std::uint32_t e = 0; e < 3; ++e) {
+                const Vec3 edge = place(mesh.indices[k + e]) - place(mesh.indices[k + (e + 1) % 3]);
+                longest = std::max(longest, dot(edge, edge));
+              }
+            const double relief = double{built.facts[i].highestM} - built.facts[i].lowestM;
+            EXPECT_LE(built.errorM[i][v], relief + 2 * longest / (6 * 6.35e6) + 1)
+                << posts.south << " degrees, depth " << places[i].depth() << " variant " << v << " relief "
+                << relief << " sag " << longest / (6 * 6.35e6);
+          }
+        }
+      }
+    }
+}
+
 TEST(PatchErrors, boundTheTrueDistanceAlongTheVerticalOnEverest) {
   TRIMTAB_NEEDS_SHARED("data/dem-srtm3-everest/N27E086.hgt");
   const HeightGrid grid = test::imported("data/dem-srtm3-everest/N27E086.hgt");

@@ -100,18 +100,18 @@ Drawn fromAKilometre(const StaticLodTerrain& terrain, std::size_t tile, ErrorMea
   const StaticLodIndex& index = terrain.index;
   const Box& box = index.bounds[index.roots[tile]];
   const Vec3 eye{(box.minX + box.maxX) / 2.0, (box.minY + box.maxY) / 2.0, box.maxZ + 1000.0};
-  StaticCut cut, source;
+  LevelCut cut, source;
   selectStatic(index, staticLodError(index, measure), 1000, eye, cut);
   selectStaticDepth(index, 255, source);
-  const Shape is = shapeOf(terrain, tile, cut.nodes, wanted),
-              was = shapeOf(terrain, tile, source.nodes, wanted);
+  const Shape is = shapeOf(terrain, tile, *cut.nodes, wanted),
+              was = shapeOf(terrain, tile, *source.nodes, wanted);
   // An outline further away may be off by more metres: it is off by as many pixels.
   const Vec3 origin{terrain.tiles[tile].origin[0] * 16.0, terrain.tiles[tile].origin[1] * 16.0, 0};
   const auto pixels = [&](double x, double y) {
     return 1000 / std::hypot(origin.x + x - eye.x, origin.y + y - eye.y, 1000.0);
   };
   Drawn drawn{std::max(farthest(is, was, pixels), farthest(was, is, pixels)), is.area / was.area, 0};
-  for (const std::uint32_t node : cut.nodes)
+  for (const std::uint32_t node : *cut.nodes)
     if (index.nodes[node].tile == tile) drawn.triangles += index.nodes[node].triangles;
   return drawn;
 }
@@ -154,16 +154,16 @@ TEST(StaticLodBorders, ofAFlatAirportStayWithinAPixel) {
 TEST(StaticLodBorders, errorOfEveryNodeHoldsWhatItDraws) {
   const auto terrain = *test::built({flatAirport()}, 400);
   const StaticLodIndex& index = terrain->index;
-  StaticCut cut, source;
+  LevelCut cut, source;
   selectStaticDepth(index, 255, source);
   for (int depth = 0; depth < 4; ++depth) {
     selectStaticDepth(index, depth, cut);
     float stated = 0;
-    for (const std::uint32_t node : cut.nodes) stated = std::max(stated, index.borderErrorM[node]);
+    for (const std::uint32_t node : *cut.nodes) stated = std::max(stated, index.borderErrorM[node]);
     for (const std::vector<std::uint8_t>& wanted :
          {std::vector<std::uint8_t>{1, 0, 0, 0}, {0, 1, 0, 1}, {0, 0, 1, 0}}) {
-      const Shape is = shapeOf(*terrain, 0, cut.nodes, wanted),
-                  was = shapeOf(*terrain, 0, source.nodes, wanted);
+      const Shape is = shapeOf(*terrain, 0, *cut.nodes, wanted),
+                  was = shapeOf(*terrain, 0, *source.nodes, wanted);
       EXPECT_LE(farthest(is, was), stated) << "depth " << depth;
     }
   }

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "trimtab/frame/normal_cone.h"
 #include "trimtab/frame/terrain_index.h"

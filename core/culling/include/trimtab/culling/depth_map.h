@@ -50,30 +50,6 @@ struct DepthMesh {
 
 enum class DepthFate : std::uint8_t { seen = 0, hidden = 1, outside = 2 };
 
-/// Projects the boxes of meshes into a map's view and tests them against the map's pyramid.
-class DepthTest {
- public:
-  void begin(const EyePose& eye, const ViewShape& view, int width, int height, SimdLevel level);
-  DepthFate operator()(const DepthMesh& mesh, const DepthPyramid& pyramid) const;
-  /// Texels that a box covers, and near / distance of its nearest point.
-  struct Rectangle {
-    int x0, y0, x1, y1;
-    float limit;
-  };
-  /// Finds the rectangle of the whole mesh's box. Returns `outside` if it is outside the view, else `seen`;
-  /// x0 is negative if the box reaches the near plane.
-  DepthFate rectangle(const DepthMesh& mesh, Rectangle& out) const;
-
- private:
-  friend class DepthMap;
-  depth::Projection at(Vec3 origin) const;
-
-  Vec3 eye_;
-  depth::Projection projection_;
-  depth::BoxView view_;
-  SimdLevel level_ = SimdLevel::portable;
-};
-
 class DepthMap {
  public:
   struct Settings {
@@ -90,17 +66,29 @@ class DepthMap {
   /// Builds the pyramid that `test` reads.
   void finish();
   /// Returns whether a mesh is hidden, outside the view, or possibly seen. Call it after `finish`.
-  DepthFate test(const DepthMesh& mesh) const { return test_(mesh, pyramid_); }
+  DepthFate test(const DepthMesh& mesh) const;
   const DepthPyramid& pyramid() const { return pyramid_; }
   std::uint64_t triangles() const { return triangles_; }  ///< in the meshes drawn since `begin`
 
  private:
-  bool covers(const DepthTest::Rectangle& r);
+  /// Texels that a box covers, and near / distance of its nearest point.
+  struct Rectangle {
+    int x0, y0, x1, y1;
+    float limit;
+  };
+  /// Returns the rectangles of eight of a mesh's boxes, from `first` on.
+  depth::Rectangles rectangles(const depth::Projection& projection, const DepthMesh& mesh,
+                               std::size_t first) const;
+  void setProjection(const EyePose& eye, const ViewShape& view);
+  depth::Projection projectionAt(Vec3 origin) const;
+  bool covers(const Rectangle& r);
   void drawClipped(const depth::Triangles& triangles, depth::Touched& touched);
   void touch(const depth::Touched& touched);
 
-  DepthTest test_;
   Settings settings_;
+  Vec3 eye_;
+  depth::Projection projection_;
+  depth::BoxView view_;
   double nearM_ = 1;
   std::array<float, 2> down_{}, aside_{};
   depth::Texels texels_;

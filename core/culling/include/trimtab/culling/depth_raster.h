@@ -96,7 +96,6 @@ struct Boxes {
 struct BoxView {
   int width = 0, height = 0;
   float padX = 0, padY = 0;
-  bool whole = false;  ///< a box that is not wholly in the view counts as in front
 };
 
 void project(const Projection& projection, const Vertices& vertices, Seen& seen, SimdLevel level);

@@ -89,8 +89,8 @@ class Horizon {
   void begin(const ValidityRegion& region, std::span<const HorizonTile> tiles, const Settings& settings);
   /// Does some more work, in units of roughly one tile, and returns true once all is done.
   bool step(std::size_t work);
-  bool isDone() const { return phase_ == Phase::done; }
-  std::size_t work() const { return work_; }  ///< units of work done since begin()
+  bool isDone() const { return progress_.phase == Phase::done; }
+  std::size_t work() const { return progress_.work; }  ///< units of work done since begin()
 
   const ValidityRegion& region() const { return region_; }
   /// Returns one flag per tile of the last build: 1 if it is proven hidden.
@@ -215,10 +215,13 @@ class Horizon {
   std::span<const HorizonTile> tiles_;
   /// First the outlines of all tiles, then the test of each, nearest first, and last, with Settings::whole,
   /// the lines that still wait, bin by bin.
-  enum class Phase : std::uint8_t { outline, test, finish, done } phase_ = Phase::done;
-  std::size_t next_ = 0;  ///< item of the phase
-  std::size_t work_ = 0;
-  std::uint32_t ring_ = 0;  ///< of the tile being tested
+  enum class Phase : std::uint8_t { outline, test, finish, done };
+  struct Progress {
+    Phase phase = Phase::done;
+    std::size_t next = 0;  ///< item of the phase
+    std::size_t work = 0;
+    std::uint32_t ring = 0;  ///< of the tile being tested
+  } progress_;
 
   static constexpr int kMostCorners = MeshRelief::kMostCorners;
   static_assert(kMostCorners >= TileRelief::kMostPosts + TileRelief::kGoOn);

@@ -60,8 +60,6 @@ class OcclusionChoice {
 
   /// Returns the estimated milliseconds that drawing a triangle takes; 0 before the first frame.
   double msPerTriangle() const;
-  /// Returns the milliseconds per frame that a method is thought to save; 0 for none and for an untried one.
-  double worthMs(Method method) const;
   /// Returns the number of frames so far that were drawn to try a method.
   std::uint64_t trials() const { return trials_; }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -13,15 +12,15 @@
 #include "trimtab/frame/terrain_index.h"
 #include "trimtab/frame/visible_set.h"
 
-/// Selects the tiles that a frame draws and their levels, and records for every other tile why it is not
+/// Selects the nodes that a frame draws and their levels, and records for every other node why it is not
 /// drawn. resources/docs/levels-of-detail.md explains the error measure.
 namespace trimtab {
 
-/// A LOD cut: the tiles that together cover the terrain once, each at its level, for one eye position. It
-/// does not depend on the view direction or on culling, so culling cannot change what a drawn tile looks
-/// like. Neighbouring tiles differ by at most one level.
+/// A LOD cut: the tiles, patches or nodes of static trees that together cover the terrain once, each at its
+/// level, for one eye position. It does not depend on the view direction or on culling, so culling cannot
+/// change what a drawn node looks like. Neighbouring tiles differ by at most one level.
 struct LevelCut {
-  std::vector<TileDraw> tiles;  ///< the order depends on the terrain only
+  std::vector<TileDraw> tiles;  ///< selectors choose an order that depends on the terrain only
 
   // What selectVisible reads beside the tiles; `gather` computes it.
   BoxArrays boxes;                                    ///< bounds of each tile
@@ -47,21 +46,29 @@ void selectLevels(const TerrainIndex& index, Vec3 eye, double maxErrorPx, double
 /// Computes the rest of a cut from its tiles. selectLevels calls it.
 void gather(const TerrainIndex& index, LevelCut& cut);
 
-/// Fills `visible` with the tiles of the cut that are inside the view frustum (its far plane is infinite) and
-/// not wholly beyond the sphere of radius `farM` around the eye. Never drops a tile that owns a pixel within
-/// `farM`. Document D moves the far plane instead; with a sphere a turn of the head does not move the far
-/// cut, and fog depends on the same distance. If `test` is false the whole cut is drawn (culling case
-/// *none*). `hidden` is empty or has one flag per tile of the cut, not 0 if the tile is proven hidden.
-/// `backFaces` also leaves out tiles all of whose triangles face away; back_facing.h says when that is
-/// allowed.
-void selectVisible(const TerrainIndex& index, const LevelCut& cut, const EyePose& eye, const ViewShape& view,
-                   bool test, VisibleSet& visible, double farM = std::numeric_limits<double>::infinity(),
-                   std::span<const std::uint8_t> hidden = {}, bool backFaces = false);
+/// What selectVisible tests the nodes of a cut against.
+struct VisibleQuery {
+  EyePose eye = {};
+  ViewShape view = {};
+  bool cull = true;  ///< false draws the whole cut but for `hidden` (culling case *none*)
+  /// Nodes wholly beyond the sphere of this radius around the eye are left out, metres. Document D moves the
+  /// far plane instead; with a sphere a turn of the head does not move the far cut, and fog depends on the
+  /// same distance.
+  double farM = std::numeric_limits<double>::infinity();
+  std::span<const std::uint8_t> hidden = {};  ///< one flag per node of the cut, not 0 if hidden; or empty
+  /// Leaves out nodes all of whose triangles face away; back_facing.h says when that is allowed.
+  bool backFaces = false;
+};
 
-/// Removes tiles from `visible.tiles` by one flag per tile, in order: 0 keeps it, 1 says it is proven hidden,
-/// 2 that it is proven outside the view. The caller must update `visible.vertices`.
+/// Fills `visible` with the nodes of a cut, of any form of the terrain, that pass the query; the frustum's
+/// far plane is infinite. Never drops a node that owns a pixel within `farM`. Does not count vertices.
+void selectVisible(const LevelCut& cut, const VisibleQuery& query, VisibleSet& visible);
+
+/// Removes nodes from `visible` by one flag per node of `visible.tiles`, in order: 0 keeps it, 1 says it is
+/// proven hidden, 2 that it is proven outside the view. Nodes beyond the flags stay. Does not count vertices.
 void removeOccluded(const LevelCut& cut, std::span<const std::uint8_t> flags, VisibleSet& visible);
-/// Does the same for square tiles and updates `visible.vertices`.
-void removeOccluded(const TerrainIndex& index, std::span<const std::uint8_t> flags, VisibleSet& visible);
+
+/// Returns the vertices of a visible set of square tiles.
+std::uint64_t tileVertices(const VisibleSet& visible);
 
 }  // namespace trimtab

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -44,12 +43,5 @@ struct PatchCut {
 /// on is split. So one more resident page never makes any part of the image coarser.
 void selectPatches(const PatchIndex& index, std::span<const std::uint8_t> resident, Vec3 eye,
                    double maxErrorPx, double lodScale, double pixelsPerRadian, PatchCut& cut);
-
-/// Does what selectVisible does, for the patches of a cut. Does not count vertices, which the index does not
-/// know.
-void selectVisiblePatches(const PatchIndex& index, const LevelCut& cut, const EyePose& eye,
-                          const ViewShape& view, bool test, VisibleSet& visible,
-                          double farM = std::numeric_limits<double>::infinity(),
-                          std::span<const std::uint8_t> hidden = {}, bool backFaces = false);
 
 }  // namespace trimtab

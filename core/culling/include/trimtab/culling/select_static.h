@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -22,31 +21,16 @@ double staticLodDistancePerError(const StaticLodParameters& parameters, double l
 /// `as_published`.
 std::vector<float> staticLodError(const StaticLodIndex& index, ErrorMeasure measure);
 
-/// A cut through the trees, in which exactly one node covers each leaf. It does not depend on the view
-/// direction or on culling, so culling cannot change what a drawn node looks like.
-struct StaticCut {
-  std::vector<std::uint32_t> nodes;  ///< the order depends on the trees only
-  std::vector<std::uint32_t> stack;  ///< working storage, kept so that a frame allocates nothing
-};
-
-/// Fills `cut` from the roots down: a node is drawn if the eye is at least error * distancePerError from its
-/// box, else its children are tested; leaves are drawn at any distance. An eye that is not a number gets the
-/// roots.
+/// Fills `cut` with exactly one node for each leaf, from the roots down: a node is drawn if the eye is at
+/// least error * distancePerError from its box, else its children are tested; leaves are drawn at any
+/// distance. An eye that is not a number gets the roots. `cut` has no normal cones: the proof of
+/// back_facing.h needs a surface without holes and folds, and scenery promises neither.
 void selectStatic(const StaticLodIndex& index, std::span<const float> error, double distancePerError,
-                  Vec3 eye, StaticCut& cut);
+                  Vec3 eye, LevelCut& cut);
 /// Fills `cut` with one level of all trees at any distance: nodes of `depth`, and leaves above it.
-void selectStaticDepth(const StaticLodIndex& index, int depth, StaticCut& cut);
-
-/// Does what selectVisible does, for the nodes of a cut through the trees. `vertices` holds the number of
-/// vertices of each node. No node is left out because it shows its back: the proof of back_facing.h needs a
-/// surface without holes and folds, and scenery promises neither.
-void selectStaticVisible(const StaticLodIndex& index, std::span<const std::uint32_t> vertices,
-                         const StaticCut& cut, const EyePose& eye, const ViewShape& view, bool test,
-                         VisibleSet& visible, double farM = std::numeric_limits<double>::infinity());
-/// Does what removeOccluded does: one flag per node of `visible.tiles`, in order; 1 says that it is proven
-/// hidden.
-void removeStaticOccluded(const StaticLodIndex& index, std::span<const std::uint32_t> vertices,
-                          std::span<const std::uint8_t> flags, VisibleSet& visible);
+void selectStaticDepth(const StaticLodIndex& index, int depth, LevelCut& cut);
+/// Computes the rest of a cut from its tiles. The two selectors call it.
+void gather(const StaticLodIndex& index, LevelCut& cut);
 
 /// Returns the nodes and triangles that are drawn, by depth in the trees.
 StaticLodFrame staticLodFrame(const StaticLodIndex& index, const VisibleSet& visible);

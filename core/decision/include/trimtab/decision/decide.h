@@ -8,21 +8,21 @@
 
 namespace trimtab {
 
-/// What one decision remembers for the next: hysteresis, stacks. A default one makes the first decision a
-/// plain look-up.
+/// What one decision remembers for the next: the band, for the hysteresis, and the stacks of head motion.
+/// With a default memory the first decision is a plain look-up.
 struct DecisionMemory {
-  std::optional<int> band;  ///< of the last decision; -1 is *frustum*
+  std::optional<int> band;  ///< of the last decision; -1 is the scheme *frustum*
   MotionMemory motion{};
 
   friend bool operator==(const DecisionMemory&, const DecisionMemory&) = default;
 };
 
-/// Memberships, scheme, depth-map size and what head motion asks for, for one packet state, with the reason
-/// of each. Pure but for `memory`; no allocation. Bit-exact on replay. An altitude or pitch that is not a
-/// number gives *frustum*; each part that meets such input leaves its own memory as it was.
+/// Decides one state: memberships, scheme and depth map size, head motion and weather, each with its reason.
+/// It is pure except for `memory`, allocates nothing, and gives the same bits on replay. An altitude or pitch
+/// that is not a number gives *frustum*; a part that gets such input leaves its own memory unchanged.
 FrameDecision decide(const FrameInput& input, const ValidatedParameters& parameters, DecisionMemory& memory);
 
-/// The decision in words and numbers, for the log and the dock: one line.
+/// Returns the decision in words and numbers, on one line, for the log and the dock.
 std::string explain(const FrameDecision& decision, const ValidatedParameters& parameters);
 
 }  // namespace trimtab

@@ -7,18 +7,18 @@
 
 namespace trimtab {
 
-/// Holds nothing: united with another box it is that one.
+/// The empty box: united with another box it gives that box.
 inline constexpr Box kNoBox{std::numeric_limits<float>::infinity(),  std::numeric_limits<float>::infinity(),
                             std::numeric_limits<float>::infinity(),  -std::numeric_limits<float>::infinity(),
                             -std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
 
-/// The least box that holds both; what is not a number in `b` is passed over.
+/// Returns the smallest box that holds both. Bounds of `b` that are not numbers are ignored.
 inline Box united(const Box& a, const Box& b) {
   return {std::min(a.minX, b.minX), std::min(a.minY, b.minY), std::min(a.minZ, b.minZ),
           std::max(a.maxX, b.maxX), std::max(a.maxY, b.maxY), std::max(a.maxZ, b.maxZ)};
 }
 
-/// The same of a place.
+/// Returns the smallest box that holds the box and a place.
 inline Box united(const Box& a, float x, float y, float z) {
   return united(a, {x, y, z, x, y, z});
 }

@@ -4,7 +4,7 @@
 
 namespace trimtab {
 
-/// Eye in the terrain's local frame.
+/// Where the eye is and how it is turned, in the terrain's local frame.
 struct EyePose {
   Vec3 position;  ///< metres, local frame
   Mat3 axes;      ///< rows: right, up, backward (OpenGL eye axes) in the local frame

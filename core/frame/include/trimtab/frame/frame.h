@@ -11,10 +11,11 @@
 #include "trimtab/preset/parameters.h"
 #include "trimtab/units/geodesy.h"
 
-/// The nouns of a frame, in the order it meets them: state, input, decision, visible set, cost.
+/// What a frame passes on, in order: state, view, cost, input, decision.
 namespace trimtab {
 
-/// Half-angles of a view that a host asks for (CIGI View Definition); left and bottom negative, degrees.
+/// The half-angles of a view that a host asks for (CIGI View Definition), degrees; left and bottom are
+/// negative.
 struct HostView {
   std::optional<Metres> nearDistance;
   std::optional<Degrees> left, right, bottom, top;
@@ -22,8 +23,8 @@ struct HostView {
   friend bool operator==(const HostView&, const HostView&) = default;
 };
 
-/// Precipitation as a host orders it (CIGI Weather Control, layers 4 and 5, global scope). Present once the
-/// host has spoken of either layer; holds until it says otherwise.
+/// Precipitation that a host asks for (CIGI Weather Control, layers 4 and 5, global scope). A state has it
+/// once the host has set either layer, until the host changes it.
 struct HostWeather {
   static constexpr int kMostSevere = 5;
 
@@ -34,32 +35,33 @@ struct HostWeather {
   friend bool operator==(const HostWeather&, const HostWeather&) = default;
 };
 
-/// Over the ground, by the local horizon.
+/// Velocity over the ground in the local horizon's axes.
 struct Velocity {
   MetresPerSecond north, east, down;
 
   friend bool operator==(const Velocity&, const Velocity&) = default;
 };
 
-/// What one packet (or one row of a flight) says of the aircraft.
+/// What one packet, or one row of a flight, says about the aircraft.
 struct AircraftState {
-  double time = 0;  ///< seconds on the host's clock; arrival time where the host sends none
+  double time = 0;  ///< seconds on the host's clock; the arrival time if the host sends none
   std::uint64_t packet =
-      0;  ///< host frame number where there is one, else a running count: joins two receivers
+      0;  ///< the host's frame number, else a running count; the same in two receivers of one host
   GeodeticPosition position;
   Attitude attitude;
-  std::optional<Metres> aboveGround;  ///< as the host says; without it the terrain is asked
+  std::optional<Metres> aboveGround;  ///< from the host; if unset, the terrain is asked
   std::optional<Attitude> head;       ///< line of sight relative to the aircraft
   std::optional<Metres> visibility;   ///< of the whole atmosphere
   std::optional<HostWeather> weather;
   std::optional<HostView> view;
   std::optional<Knots> airspeed;     ///< calibrated; CIGI has none
-  std::optional<Velocity> velocity;  ///< as the host says; without it successive positions tell
+  std::optional<Velocity> velocity;  ///< from the host; if unset, it is computed from successive positions
 
   friend bool operator==(const AircraftState&, const AircraftState&) = default;
 };
 
-/// The perspective a frame is drawn with. Tangents of the half-angles; left and bottom negative.
+/// The perspective of an image: tangents of the half-angles (left and bottom are negative), size and near
+/// plane.
 struct ViewShape {
   int widthPx = 1280, heightPx = 720;
   double left = -0.57735, right = 0.57735, bottom = -0.32492, top = 0.32492;
@@ -72,17 +74,18 @@ struct ViewShape {
 /// axes. Screen-space error in pixels is geometric error over distance, times this.
 double pixelsPerRadian(const ViewShape& view);
 
-/// The shape of a view from parameters, the window's size (for RenderSize::fit) and what the host asked for.
+/// Returns the shape of a view from the parameters, the window's size (for RenderSize::fit) and the view that
+/// the host asks for.
 ViewShape viewShape(const ViewParameters& parameters, int windowWidthPx, int windowHeightPx,
                     const std::optional<HostView>& host);
 
-/// A frame's stages, milliseconds on real clocks; NaN where a stage was not run or cannot be measured.
-/// cost_stages.h says which of them sum to `total`.
+/// The time of each stage of a frame, milliseconds on real clocks; NaN if a stage was not run or cannot be
+/// measured. cost_stages.h says which stages sum to `total`.
 struct FrameCost {
   double decide = 0, select = 0, occlusion = 0, cull = 0, draw = 0, gpu = 0, total = 0;
-  double page = kNotMeasured;  ///< making and uploading what the view needs and the GPU lacks
-  // Parts: of `gpu` where there is a GPU, and like it of a frame or two before; else of `draw`, and known
-  // only where the frame waits after each pass.
+  double page = kNotMeasured;  ///< making and uploading what the GPU lacks
+  // Parts of `gpu`, and like it of a frame or two before. Without a GPU they are parts of `draw`, known only
+  // if the frame waits after each pass.
   double blur = kNotMeasured, weather = kNotMeasured, symbology = kNotMeasured;
 
   static constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
@@ -96,14 +99,14 @@ struct FrameInput {
 
 enum class Scheme { frustum, dynamic };
 
-/// Why a scheme and size were chosen. `explain` (core/decision) makes a sentence of it.
+/// Why a scheme and size were chosen; explain() in core/decision makes a sentence of it.
 enum class SchemeReason {
   below_first_band,    ///< total under the lowest edge: view frustum alone
   in_band,             ///< the band that holds the total
   held_by_hysteresis,  ///< the total left the band by less than the hysteresis
   no_rule_fires,       ///< the rule base yields nothing
   invalid_input,       ///< altitude or pitch is not a finite number: frustum
-  altitude_unknown     ///< above ground was asked for, and nobody knows the ground
+  altitude_unknown     ///< the preset asks for the height above ground, and neither host nor terrain knows it
 };
 
 struct DepthMapSize {
@@ -117,10 +120,10 @@ struct FrameDecision {
   double altitudeMembership = 0, pitchMembership = 0, totalMembership = 0;
   RuleFiring ruleFiring;
   Scheme scheme = Scheme::frustum;
-  int band = -1;                         ///< index into the bands; -1: below all
-  std::optional<DepthMapSize> depthMap;  ///< none: no occlusion test of any kind
+  int band = -1;                         ///< index into the bands; -1 if the total is below all of them
+  std::optional<DepthMapSize> depthMap;  ///< if unset, no occlusion test of any kind
   SchemeReason reason = SchemeReason::below_first_band;
-  double lodScale = 1;  ///< the preset's times head motion's; 1 is full detail, larger is coarser
+  double lodScale = 1;  ///< the preset's times that of head motion; 1 is full detail, larger is coarser
   MotionDecision motion;
   WeatherDecision weather;
 

@@ -9,7 +9,7 @@
 #include "trimtab/frame/symbology_request.h"
 #include "trimtab/preset/parameters.h"
 
-/// What a renderer is asked to draw: everything that one image depends on.
+/// The request for one image.
 namespace trimtab {
 
 /// Work that a frame skips because its result is known. False does the work all the same, which changes no
@@ -49,19 +49,19 @@ struct FrameRequest {
   /// Symbols over the image, never blurred; if unset, the pass is not run.
   std::optional<SymbologyRequest> symbology;
   /// Waits after each pass, so that FrameCost separates blur, weather and symbology on a software rasteriser
-  /// too. It costs time: for measurements.
+  /// too. It costs time, so use it for measurements.
   bool separateStages = false;
-  /// The total of FrameCost holds the GPU's work too, and `gpu` and the parts are of this very frame: waits
-  /// for the picture. For measurements; a software rasteriser is always waited for.
+  /// Waits for the image, so that the total of FrameCost includes the GPU's work, and `gpu` and its parts
+  /// belong to this frame. Use it for measurements. A software rasteriser is always waited for.
   bool waitForPicture = false;
-  /// What this view asks of the disk is waited for, so that the picture depends on the request alone. For
-  /// measurements and comparisons; else no frame waits, and what is not there yet is drawn coarser.
+  /// Waits for the pages that this view needs, so that the image depends on the request alone. Use it for
+  /// measurements and comparisons. If false, no frame waits, and what has not been read yet is drawn coarser.
   bool waitForPages = false;
-  /// What is counted depends on the requests alone, and on no clock: OcclusionMethod::automatic is the
-  /// horizon.
+  /// Makes OcclusionMethod::automatic use the horizon, so that counts depend on the requests alone and not on
+  /// a clock.
   bool reproducible = false;
-  /// readHorizon, and readDepthMap where a horizon serves, tell all that it proves, not only as much as a
-  /// tile's test asked for. Costs a twentieth of the horizon.
+  /// Makes readHorizon, and readDepthMap if a horizon is in use, report all that the horizon proves, not only
+  /// what tests asked for. It costs a twentieth of the horizon.
   bool wholeHorizon = false;
   /// Rounds vertices to the rasteriser's grid before it interpolates, so that on a software rasteriser no
   /// sliver shows a wrong colour or depth: without it 3 of 692 images of 960 x 540 had such a pixel, over
@@ -77,7 +77,7 @@ inline double farCutM(const FrameRequest& request) {
   return request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited;
 }
 
-/// Returns whether the request wants static trees, if the terrain has them.
+/// Reports whether the request asks for static trees, if the terrain has them.
 inline bool asksForTrees(const FrameRequest& request) {
   return request.staticLod.terrain == TerrainForm::static_trees || request.overlays.treeDepth >= 0 ||
          request.overlays.treePicture;

@@ -6,12 +6,13 @@
 
 namespace trimtab {
 
-/// Answers how high the ground is, for decisions by height above ground where the host does not send that
-/// height.
+/// Reports the height of the ground. A session asks it if the preset decides by height above ground and the
+/// host does not send that height.
 class GroundHeights {
  public:
   virtual ~GroundHeights() = default;
-  /// Height of the finest surface (bilinear between posts); none outside the data. Thread-safe.
+  /// Returns the height of the finest surface above mean sea level, bilinear between posts; nothing outside
+  /// the data. May be called from any thread.
   virtual std::optional<Metres> heightAt(Degrees latitude, Degrees longitude) const = 0;
 };
 

@@ -4,16 +4,16 @@
 
 namespace trimtab {
 
-/// What the optimizer of document C did with a frame. Only the names after `fast` change anything.
+/// What the optimizer of document C did with a state. Only the names after `fast` change anything.
 enum class MotionReason {
   off,
   first_frame,    ///< nothing to compare with yet
-  invalid_input,  ///< time or line of sight is not a finite number: passed over, memory as it was
-  same_time,      ///< no time has gone by: passed over; a change counts in the next step
-  slow,           ///< at most Eq. (1)'s share of the field of view
-  fast,           ///< more than that
+  invalid_input,  ///< time or line of sight is not a finite number: the state is ignored
+  same_time,      ///< no time has passed: the state is ignored, and a change counts in the next step
+  slow,           ///< the change is at most the threshold of Eq. (1)
+  fast,           ///< the change exceeds it
   time_back,      ///< the host's clock went back: full detail, no blur, empty stacks
-  gap,            ///< too long a step to know the motion in it: empty stacks
+  gap,            ///< the step is too long to know the motion in it: empty stacks
   lowered,        ///< BlurStack fired: one level coarser, blur started
   lowest,         ///< BlurStack fired at the coarsest level: blur started
   raised,         ///< LODRestoreStack fired: one level finer, blur stopped
@@ -21,7 +21,7 @@ enum class MotionReason {
   blur_ended      ///< the blur's time ran out
 };
 
-/// Frames of one kind in a row, with their time and the angle they turned through.
+/// Counts frames of one kind in a row, with their time and the angle that they turned through.
 struct MotionStack {
   std::uint32_t frames = 0;
   double ms = 0;
@@ -31,27 +31,28 @@ struct MotionStack {
 };
 
 struct MotionBlur {
-  /// Share of the picture before that is left in it after 1/60 s, 0 (no blur, no pass) to 1; after t seconds
-  /// strength^(60 t), so that a trail has the same length at any frame rate.
+  /// The share of the previous image that is left after 1/60 s, 0 (no blur, no pass) to 1. After t seconds it
+  /// is strength^(60 t), so that a trail has the same length at any frame rate.
   double strength = 0;
-  double remainingMs = 0;  ///< on the clock of the states; 0 when there is none
+  double remainingMs = 0;  ///< on the clock of the states; 0 without blur
 
   friend bool operator==(const MotionBlur&, const MotionBlur&) = default;
 };
 
-/// Document C's optimizer after one state. Stacks are as they are left: empty in the frame they fired in.
+/// What document C's optimizer decided for one state. Stacks are as the state leaves them: empty after they
+/// fired.
 struct MotionDecision {
   MotionReason reason = MotionReason::off;
   bool fast = false;
-  double rateDegPerS = 0;       ///< of the line of sight, the larger of heading and pitch
-  double thresholdDegPerS = 0;  ///< Eq. (1): one such field of view a second
+  double rateDegPerS = 0;       ///< of the line of sight: the larger of the rates of heading and pitch
+  double thresholdDegPerS = 0;  ///< Eq. (1): one field of view per second
   MotionStack blurStack, restoreStack;
-  /// At `blurLimit` BlurStack fires, above `restoreLimit` LODRestoreStack does; frames or, where
-  /// `limitsInMs`, milliseconds.
+  /// BlurStack fires at `blurLimit`, LODRestoreStack above `restoreLimit`; in frames, or in milliseconds if
+  /// `limitsInMs`.
   double blurLimit = 0, restoreLimit = 0;
   bool limitsInMs = false;
-  std::uint32_t level = 0;  ///< steps away from full detail
-  double lodScale = 1;      ///< by motion alone; FrameDecision::lodScale holds it times the preset's
+  std::uint32_t level = 0;  ///< steps from full detail
+  double lodScale = 1;      ///< of head motion alone; FrameDecision::lodScale is this times the preset's
   MotionBlur blur;
 
   friend bool operator==(const MotionDecision&, const MotionDecision&) = default;
@@ -59,7 +60,7 @@ struct MotionDecision {
 
 /// What the optimizer remembers between states.
 struct MotionMemory {
-  bool known = false;  ///< whether the three below are of a state
+  bool known = false;  ///< whether the next three hold a state's values
   double timeS = 0, headingDeg = 0, pitchDeg = 0;
   MotionStack blurStack, restoreStack;
   std::uint32_t level = 0;

@@ -9,8 +9,8 @@
 
 namespace trimtab {
 
-/// How far each rule of the preset's list fires (mu), in its order; whatever the combination. Places beyond
-/// `count` hold nothing and are neither set nor copied: every decision has one of these.
+/// How far each rule of the preset's list fires (mu), in the list's order, whatever the combination. Entries
+/// beyond `count` are neither set nor copied, because every decision has one of these.
 struct RuleFiring {
   std::array<double, RuleList::kCapacity> mu;
   std::size_t count = 0;

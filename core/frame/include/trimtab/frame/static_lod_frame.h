@@ -6,11 +6,11 @@
 
 namespace trimtab {
 
-/// What a frame drew of the trees of static levels of detail, by a node's depth in its tree (0 at the root).
+/// What a frame drew of the static trees, by a node's depth in its tree (0 at the root).
 struct StaticLodFrame {
-  static constexpr std::size_t kDepths = 16;  ///< the last one stands for all below it too
+  static constexpr std::size_t kDepths = 16;  ///< the last one counts all deeper nodes too
 
-  bool drawn = false;  ///< the trees stood for the terrain; otherwise everything else is zero
+  bool drawn = false;  ///< whether the trees were the terrain; if not, everything else is zero
   std::array<std::uint64_t, kDepths> triangles{};
   std::array<std::uint32_t, kDepths> nodes{};
 

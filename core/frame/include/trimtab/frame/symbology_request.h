@@ -11,7 +11,7 @@
 /// What the symbols of a helmet-mounted display (document C) show in one frame.
 namespace trimtab {
 
-/// In the order in which they are drawn.
+/// The symbols, in the order in which they are drawn.
 enum class Symbol : std::uint8_t {
   pitch_ladder,
   aircraft_reference,
@@ -23,19 +23,19 @@ enum class Symbol : std::uint8_t {
 };
 inline constexpr std::size_t kSymbols = 7;
 
-/// All that the symbols show. What is not finite is not shown.
+/// The values that the symbols show. A value that is not finite is not shown.
 struct SymbologyState {
   Attitude aircraft;
   Attitude view;    ///< the line of sight in the world: aircraft and head
   Metres altitude;  ///< above mean sea level
   std::optional<Knots> speed;
-  bool groundSpeed = false;  ///< else calibrated airspeed
+  bool groundSpeed = false;  ///< if false, the speed is calibrated airspeed
   std::optional<Velocity> velocity;
 
   friend bool operator==(const SymbologyState&, const SymbologyState&) = default;
 };
 
-/// The parameters of all symbols, `element` by Symbol.
+/// The parameters of all symbols; `element` is indexed by Symbol.
 struct SymbologySetup {
   SymbologyParameters general;
   std::array<SymbolElement, kSymbols> element;

@@ -4,25 +4,25 @@
 #include <cstddef>
 #include <cstdint>
 
-/// What a frame drew of the terrain's levels, and what reading them from disk did.
+/// What a frame drew of each level, and the state of paging.
 namespace trimtab {
 
-/// By level: of tiles 0 is the finest, of patches (their depth) the coarsest.
+/// Counts by level: 0 is the finest level of tiles, but the coarsest depth of patches.
 struct LevelsFrame {
   static constexpr std::size_t kLevels = 40;
   std::array<std::uint32_t, kLevels> nodes{};
   std::array<std::uint64_t, kLevels> triangles{};
 };
 
-/// Counters since the terrain was set.
+/// The state of paging; counters run since the terrain was set.
 struct PagingFrame {
-  std::size_t waiting = 0;   ///< pages on their way, those for what lies ahead included
-  std::size_t heldBack = 0;  ///< diamonds drawn coarser than asked for, for want of them
+  std::size_t waiting = 0;   ///< pages that are wanted and not read yet, those ahead of the view included
+  std::size_t heldBack = 0;  ///< diamonds drawn coarser than wanted, because a page is missing
   std::uint64_t pagesRead = 0, pagesDropped = 0, bytesRead = 0;
-  std::uint64_t failed = 0;                  ///< pages that could not be read: drawn coarser for good
-  std::uint64_t bytes = 0, budgetBytes = 0;  ///< held now, and allowed
+  std::uint64_t failed = 0;                  ///< pages that could not be read; they stay coarser
+  std::uint64_t bytes = 0, budgetBytes = 0;  ///< memory in use, and allowed
   double longestReadMs = 0;
-  bool settled = true;  ///< the same view drawn again would show nothing more
+  bool settled = true;  ///< whether drawing the same view again would show the same
 };
 
 }  // namespace trimtab

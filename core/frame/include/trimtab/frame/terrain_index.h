@@ -9,15 +9,15 @@
 
 namespace trimtab {
 
-/// Axis-aligned box in the terrain's local frame, metres; rounded outwards so that it holds every vertex.
+/// An axis-aligned box in the terrain's local frame, metres, rounded outwards so that it holds every vertex.
 struct Box {
   float minX = 0, minY = 0, minZ = 0, maxX = 0, maxY = 0, maxZ = 0;
   friend bool operator==(const Box&, const Box&) = default;
 };
 
-/// The levels of a terrain as flat arrays, one entry a node; meshes are not here. A quadtree of square tiles
-/// of kTileCells x kTileCells cells: level 0 is the finest, node arrays are ordered by level, rows from
-/// south, columns from west.
+/// The tiles of a terrain as flat arrays with one entry per node, without their meshes: a quadtree of tiles
+/// of kTileCells x kTileCells cells. Level 0 is the finest. Nodes are ordered by level, then by row from the
+/// south, then by column from the west.
 struct TerrainIndex {
   static constexpr int kTileCells = 32;
   static constexpr std::uint32_t kNone = 0xffffffffu;
@@ -31,10 +31,10 @@ struct TerrainIndex {
   LocalFrame frame;
   std::vector<Level> levels;  ///< from finest to the single root (or a few roots)
 
-  // One entry a node.
+  // One entry per node.
   std::vector<Box> bounds;  ///< of everything this node or any descendant may draw
-  /// Of every triangle that this node draws itself, at any mixture of its neighbours' levels; empty where
-  /// they are not known.
+  /// Cones of the normals of all triangles that a node itself draws, whatever its neighbours' levels; empty
+  /// if they are unknown.
   std::vector<NormalCone> cones;
   std::vector<float>
       errorM;  ///< largest vertical distance to the source posts below it; monotone up the tree

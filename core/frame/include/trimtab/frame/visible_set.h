@@ -14,7 +14,7 @@ enum class CullReason : std::uint8_t {
   occluded,           ///< proven hidden by the horizon or the depth map
   beyond_visibility,  ///< in the frustum, but wholly beyond the weather's far distance
   back_facing,        ///< all of its triangles face away from the eye, so that nearer ones hide them
-  other_level         ///< its ancestor or descendants stand for it
+  other_level         ///< an ancestor or descendants are drawn instead
 };
 
 /// The sides of a tile whose neighbour is one LOD coarser, where the border uses the coarser posts: bits

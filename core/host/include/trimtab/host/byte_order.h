@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-/// Numbers at byte offsets of a packet, in the packet's byte order.
+/// Reads and writes numbers at byte offsets of a packet, in the packet's byte order.
 namespace trimtab {
 
 enum class ByteOrder { big, little };
@@ -21,7 +21,8 @@ using Bits = std::conditional_t<
     N == 1, std::uint8_t,
     std::conditional_t<N == 2, std::uint16_t, std::conditional_t<N == 4, std::uint32_t, std::uint64_t>>>;
 
-/// The caller has checked that `offset + sizeof(T)` lies inside.
+/// Returns the number at `offset`. The caller must have checked that `offset + sizeof(T)` lies inside the
+/// bytes.
 template <class T>
 T get(std::span<const std::byte> bytes, std::size_t offset, ByteOrder order) {
   using U = Bits<sizeof(T)>;
@@ -33,6 +34,7 @@ T get(std::span<const std::byte> bytes, std::size_t offset, ByteOrder order) {
   return std::bit_cast<T>(static_cast<U>(bits));
 }
 
+/// Writes a number at `offset`, which the caller must have checked likewise.
 template <class T>
 void put(std::span<std::byte> bytes, std::size_t offset, ByteOrder order, T value) {
   const std::uint64_t bits = std::bit_cast<Bits<sizeof(T)>>(value);

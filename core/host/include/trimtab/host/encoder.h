@@ -7,18 +7,18 @@
 #include "trimtab/frame/frame.h"
 #include "trimtab/host/byte_order.h"
 
-/// What we send: a host's packets for `feed play`, an IG's Start of Frame for synchronous hosts. Layouts are
-/// in the .cpp beside each writer.
+/// Encodes what is sent: a host's packets for `feed play`, and an IG's Start of Frame for synchronous hosts.
+/// The layouts are in encoder.cpp beside each writer.
 namespace trimtab {
 
-/// FlightGear native-fdm version 24, 408 bytes.
+/// Returns a FlightGear native-fdm packet of version 24, 408 bytes.
 std::vector<std::byte> encodeNativeFdm(const AircraftState& state);
-/// One CIGI 3.3 message: IG Control, Entity Control of the ownship, View Control where there is a head,
-/// View Definition where there is a view, Atmosphere Control where there is a visibility, Weather Control of
-/// the rain and the snow layer where there is a weather.
+/// Returns one CIGI 3.3 message: IG Control and Entity Control of the ownship; View Control if the state has
+/// a head, View Definition if it has a view, Atmosphere Control if it has a visibility, Weather Control of
+/// the rain and the snow layer if it has weather.
 std::vector<std::byte> encodeCigiHost(const AircraftState& state, std::uint32_t frame,
                                       std::uint32_t lastIgFrame, ByteOrder order = ByteOrder::big);
-/// CIGI 3.3 Start of Frame, 24 bytes.
+/// Returns a CIGI 3.3 Start of Frame, 24 bytes.
 std::vector<std::byte> encodeCigiStartOfFrame(std::uint32_t igFrame, std::uint32_t lastHostFrame,
                                               double timeS, ByteOrder order = ByteOrder::big);
 

@@ -8,12 +8,13 @@
 
 namespace trimtab {
 
-/// Velocity over the ground from successive states, for hosts that send positions alone.
+/// Computes the velocity over the ground from successive states, for hosts that send positions only.
 class GroundVelocity {
  public:
-  /// States in the order of their times; starts over after a jump, a silence, or a time that is not later.
+  /// Adds a state. It starts over after a jump, a silence, or a state that is not later than the last one.
   void push(const AircraftState& state);
-  /// As of the last state, over about a quarter of a second before it; none before the second state.
+  /// Returns the mean velocity over about the last quarter of a second up to the last state; nothing before
+  /// the second state.
   std::optional<Velocity> velocity() const { return velocity_; }
   void restart() { count_ = 0, velocity_.reset(); }
 

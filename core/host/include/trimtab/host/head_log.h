@@ -9,10 +9,10 @@
 #include "trimtab/units/geodesy.h"
 #include "trimtab/units/result.h"
 
-/// The pilot's head over time: recorded, or a scripted sweep.
+/// The motion of the pilot's head over time: a recording or a scripted sweep.
 namespace trimtab {
 
-/// Degrees; heading is unwound (it may pass 180 and 360), pitch within a quarter turn.
+/// Angles in degrees. The heading is unwound, so it may pass 180 and 360; the pitch lies within -90 to 90.
 struct HeadSample {
   double timeS = 0, headingDeg = 0, pitchDeg = 0, rollDeg = 0;
 
@@ -22,14 +22,14 @@ struct HeadSample {
 struct HeadLog {
   std::string name;
   std::vector<HeadSample> samples;  ///< times rise from 0
-  bool repeats = false;             ///< begins again at its end; else the last sample is held
-  /// In a longer step between samples the one before is held: nothing says how the head moved.
+  bool repeats = false;             ///< whether it begins again at its end; if not, the last sample is held
+  /// In a longer step between samples the earlier one is held, because nothing says how the head moved.
   double gapS = std::numeric_limits<double>::infinity();
 
   double durationS() const { return samples.empty() ? 0 : samples.back().timeS; }
 };
 
-/// The gap that a recorded log is read with.
+/// The longest gap, in seconds, over which a recorded log is interpolated.
 inline constexpr double kHeadLogGapS = 0.25;
 
 /// What a reader does with rows that it cannot use.
@@ -51,16 +51,16 @@ Result<HeadLog> readHeadLog(const std::filesystem::path& file, BadRows badRows =
 Result<HeadLog> parseHeadLog(std::string_view text, const std::string& where,
                              BadRows badRows = BadRows::refuse);
 
-/// "sweep:DEG/S[/WAIT]" turns the head through so many degrees, half to either side of straight ahead, in so
-/// many seconds, waits (2 s), turns back, waits, and so on; the first wait comes first. "nod:DEG/S[/WAIT]"
-/// does it up and down. Units may be written: "sweep:180deg/1s/2s".
+/// Parses a scripted sweep. "sweep:DEG/S[/WAIT]" waits (2 s by default), turns the head through so many
+/// degrees, half to either side of straight ahead, in so many seconds, waits, turns back, and so on.
+/// "nod:DEG/S[/WAIT]" does the same up and down. Units may be written: "sweep:180deg/1s/2s".
 Result<HeadLog> parseSweep(std::string_view text);
 bool isSweep(std::string_view text);
-/// Opens what `--head` names: a sweep, else a file.
+/// Opens a sweep or, if the text is none, a log file.
 Result<HeadLog> openHead(const std::string& text, BadRows badRows = BadRows::refuse);
 
-/// The head so many seconds into the log, between samples by interpolation; heading in -180..180. Time that
-/// is not a number counts as the beginning.
+/// Returns the head so many seconds into the log, interpolated between samples, heading in -180..180. A time
+/// that is not a number counts as the beginning.
 Attitude headAt(const HeadLog& log, double timeS);
 
 }  // namespace trimtab

@@ -4,21 +4,21 @@
 
 #include "trimtab/frame/frame.h"
 
-/// The stages of a frame's cost: the one list that clocks, statistics, traces and plots share. A new stage is
-/// a field of FrameCost and a line here.
+/// The list of a frame's stages that clocks, statistics, traces and plots share. A new stage is a field of
+/// FrameCost and a line here.
 namespace trimtab {
 
 /// One field of FrameCost.
 using CostField = double FrameCost::*;
 
-/// Where a stage's time is counted: stages of the frame sum to `total`, parts are counted in another stage as
-/// well, and what runs beside is counted nowhere else (a GPU works while the processor goes on).
+/// Where a stage's time counts: stages of the frame sum to `total`; parts are counted in another stage as
+/// well; what runs beside, such as the GPU while the processor goes on, is counted nowhere else.
 enum class StageKind { of_frame, part, beside, total };
 
 struct CostStage {
   const char* name;        ///< as people read it
-  const char* column;      ///< as traces spell it, of the frame
-  const char* lastColumn;  ///< of the frame before, which the decision is given
+  const char* column;      ///< the column in traces of this frame's time
+  const char* lastColumn;  ///< the column of the previous frame's time, which is part of the decision's input
   CostField ms;
   StageKind kind;
 };

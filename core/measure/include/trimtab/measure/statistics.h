@@ -8,8 +8,8 @@
 
 namespace trimtab {
 
-/// The last so many samples of one quantity and their order statistics. Values that are not finite (a stage
-/// that was not run) are not samples.
+/// Keeps the newest samples of one quantity and computes their order statistics. Values that are not finite,
+/// as of a stage that was not run, are not samples.
 class SampleWindow {
  public:
   explicit SampleWindow(std::size_t capacity);
@@ -17,12 +17,12 @@ class SampleWindow {
   void clear();
   std::size_t size() const { return size_; }
   std::size_t capacity() const { return ring_.size(); }
-  /// The newest sample; NaN where there is none, as for everything below.
+  /// Returns the newest sample. This and all functions below return NaN if there is no sample.
   double last() const;
   double mean() const;
   double largest() const;
-  /// Nearest rank: the smallest sample that at least `fraction` of the samples do not exceed; 0 gives the
-  /// smallest.
+  /// Returns the quantile by nearest rank: the smallest sample that at least `fraction` of the samples do not
+  /// exceed; the smallest of all for 0.
   double quantile(double fraction) const;
   double median() const { return quantile(0.5); }
 
@@ -37,7 +37,7 @@ struct Distribution {
   std::size_t samples = 0;
 };
 
-/// Frame costs by stage over the last so many frames. No allocation after construction.
+/// Keeps frame costs by stage over the newest frames. It allocates only when it is made.
 class FrameStatistics {
  public:
   explicit FrameStatistics(std::size_t frames = 600);

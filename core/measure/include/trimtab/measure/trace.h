@@ -12,9 +12,9 @@
 #include "trimtab/frame/frame.h"
 #include "trimtab/units/result.h"
 
-/// The decision trace: a CSV with one row a decided packet. Its first columns are those of a flight, so that
-/// a trace flies again; every number reads back bit for bit, so that what was decided can be decided again
-/// and compared exactly.
+/// Writes and reads decision traces: CSV with one row per decided packet. The first columns are those of a
+/// flight, so that a trace can be flown again. Every number reads back bit for bit, so that a row can be
+/// decided again and compared exactly.
 namespace trimtab {
 
 /// What a frame drew and left out.
@@ -26,13 +26,13 @@ struct TraceCounts {
   friend bool operator==(const TraceCounts&, const TraceCounts&) = default;
 };
 
-/// The frame that showed a decision. A packet that another one overtook before it was drawn has none.
+/// The frame that showed a decision. A packet that another one overtook before the image has none.
 struct TraceFrame {
   TraceCounts counts;
   FrameCost cost;
 };
 
-/// `input.aboveGround` is the height above ground that the decision used; the reader gives it to
+/// One decision. `input.aboveGround` is the height above ground that it used; the reader puts it into
 /// `input.state` too, so that a replay does not ask the terrain. `before` is the memory that decide() was
 /// called with.
 struct TraceRow {
@@ -42,13 +42,13 @@ struct TraceRow {
   std::optional<TraceFrame> frame;
 };
 
-/// The column names, comma-separated, without a line end.
+/// Returns the column names, separated by commas, without a line end.
 std::string traceHeader();
-/// Appends one line with its line end. Allocates only what `text` needs to grow.
+/// Appends one row with its line end. It allocates only what `text` needs to grow.
 void appendTraceRow(std::string& text, const TraceRow& row);
 
-/// Writes rows to a file as they come; what was written stays when the program dies. `close` tells whether
-/// all of it reached the disk.
+/// Writes rows to a file one by one; what was written stays if the program dies. `close` reports whether all
+/// of it reached the disk.
 class TraceWriter {
  public:
   static Result<TraceWriter> open(const std::filesystem::path& file);
@@ -62,24 +62,25 @@ class TraceWriter {
   std::string line_;
 };
 
-/// Columns by name, in any order; columns this version does not know are passed over. Every bad cell is a
-/// finding with its line and column (at most 50 are listed).
+/// Reads a trace. Columns are found by name, in any order, and unknown ones are ignored. Every bad cell is a
+/// finding with its line and column; at most 50 are listed.
 Result<std::vector<TraceRow>> readTrace(const std::filesystem::path& file);
 Result<std::vector<TraceRow>> parseTrace(std::string_view text, const std::string& where);
-/// Whether a text's first line is a trace's header: told from a flight's by its columns `packet` and
-/// `total_membership`.
+/// Reports whether the first line of a text is the header of a trace; unlike a flight's it has the columns
+/// `packet` and `total_membership`.
 bool isTrace(std::string_view text);
 
-/// A row whose decision comes out differently when it is decided again.
+/// A row that is decided differently when it is decided again.
 struct TraceDifference {
   std::size_t row = 0;
   FrameDecision recorded, decided;
 };
-/// Decides every row again from the memory it was decided with; exact comparison. Empty when all agree.
+/// Decides every row again from the memory that it was decided with, and compares exactly. Returns the rows
+/// that differ.
 std::vector<TraceDifference> decideAgain(const std::vector<TraceRow>& trace,
                                          const ValidatedParameters& parameters);
 
-/// Names as trace, command line and docks spell them.
+/// Return the names as traces, the command line and docks spell them.
 std::string_view toText(Scheme scheme);
 std::string_view toText(SchemeReason reason);
 

@@ -6,27 +6,29 @@
 #include "trimtab/frame/frame.h"
 #include "trimtab/frame/motion_decision.h"
 
-/// Head motion (document C, section 3): movement of the field of view by Eq. (1), BlurStack and
+/// Decides head motion (document C, section 3): movement of the field of view by Eq. (1), BlurStack and
 /// LODRestoreStack, the steps of the LOD scale, and the blur.
 ///
-/// A frame is a state: decisions follow the host's clock, not the pictures. Where states come unevenly, Eq.
-/// (1)'s average of frames a second is the step's own: fast means more than the field of view a second. Turns
-/// count the short way round, so a sweep of more than 180 degrees between two states looks slower than it is.
+/// A frame is a state here: decisions follow the host's clock, not the images. The average frame rate of Eq.
+/// (1) is that of the step between two states, so that fast means more than the field of view per second
+/// however unevenly states arrive. Turns count the short way round, so a turn of more than 180 degrees
+/// between two states looks slower than it is.
 namespace trimtab {
 
-/// One state after the other. Pure but for `memory`; no allocation. With MotionControl::off the memory is
-/// emptied and the decision is a default one.
+/// Decides one state after the other. It is pure except for `memory` and allocates nothing. With
+/// MotionControl::off it empties the memory and returns a default decision.
 MotionDecision decideMotion(const AircraftState& state, const MotionParameters& parameters,
                             MotionMemory& memory);
 
-/// LOD scale so many steps away from full detail; `level` is lowered to the coarsest one there is.
+/// Returns the LOD scale so many steps from full detail. Lowers `level` to the coarsest level if it is
+/// beyond.
 double motionLodScale(const MotionParameters& parameters, std::uint32_t& level);
 
-/// As files and docks spell it; empty past the last one.
+/// Returns the reason as files and docks spell it; empty past the last one.
 std::string_view toText(MotionReason reason);
-/// Whether level or blur changed, or what was counted was thrown away.
+/// Reports whether level or blur changed, or the stacks were emptied.
 bool changesState(MotionReason reason);
-/// The decision in words and numbers: one line.
+/// Returns the decision in words and numbers, on one line.
 std::string explain(const MotionDecision& decision);
 
 }  // namespace trimtab

@@ -6,8 +6,9 @@
 
 namespace trimtab {
 
-/// Where the pilot looks, in the world: the head's attitude is relative to the aircraft's axes. Exactly the
-/// aircraft's without a head, or with one that looks straight ahead. Straight up or down, roll is taken as 0.
+/// Returns where the pilot looks, as an attitude in the world; the head's attitude is relative to the
+/// aircraft's axes. Without a head, or with one that looks straight ahead, it is exactly the aircraft's.
+/// Straight up or down the roll is 0.
 Attitude lineOfSight(const Attitude& aircraft, const std::optional<Attitude>& head);
 
 }  // namespace trimtab

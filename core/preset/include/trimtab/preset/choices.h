@@ -2,10 +2,11 @@
 
 #include "trimtab/preset/table.h"
 
-/// How files spell and people read the options of each enumeration in parameters.h, in its order.
+/// The options of each enumeration in parameters.h, in its order: how files spell them and how people read
+/// them.
 namespace trimtab::table {
 
-/// Specialised for each enumeration, with an array `options`.
+/// Each enumeration has a specialisation with an array `options`.
 template <class E>
 struct ChoicesOf;
 

@@ -17,9 +17,9 @@ struct CurvePoint {
   friend constexpr bool operator==(const CurvePoint&, const CurvePoint&) = default;
 };
 
-/// A piecewise linear membership function: up to kCapacity points with rising x. Flat, so that parameters
-/// stay one block of memory that copies without allocating. Validation, not this type, refuses falling x and
-/// fewer than two points.
+/// A piecewise linear membership function: up to kCapacity points with rising x. It is a flat array, so that
+/// parameters are one block of memory that is copied without allocating. Validation, not this type, refuses
+/// falling x and fewer than two points.
 struct CurvePoints {
   static constexpr std::size_t kCapacity = 32;
 
@@ -40,15 +40,15 @@ struct CurvePoints {
   }
 };
 
-/// CurvePoints whose x is a quantity of type X.
+/// Curve points whose x is a quantity of type X.
 template <class X>
 struct Curve : CurvePoints {
   using Argument = X;
   using CurvePoints::CurvePoints;
 };
 
-/// One depth-map size: serves total memberships from `low` up to the next band's low, half-open; the last one
-/// up to and including kTop.
+/// One resolution of occlusion, for total memberships from `low` up to, but not including, the next band's
+/// low. The last band includes kTop.
 struct Band {
   double low = 0;
   int widthPx = 0;
@@ -57,7 +57,7 @@ struct Band {
   friend constexpr bool operator==(const Band&, const Band&) = default;
 };
 
-/// Bands by rising low; below the first no depth map is made (scheme *frustum*).
+/// Bands in order of rising `low`. Below the first nothing looks for hidden ground (scheme *frustum*).
 struct BandList {
   static constexpr std::size_t kCapacity = 16;
   static constexpr double kTop = 2.0;  ///< the largest total membership (documents A and B, Table 2)

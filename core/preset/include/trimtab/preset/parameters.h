@@ -5,27 +5,26 @@
 #include "trimtab/preset/symbology_parameters.h"
 #include "trimtab/units/quantity.h"
 
-/// Every number an engineer tunes. A field here is the only home of its default; its row in rows.cpp is the
-/// only home of everything else (key, label, range, help). Adding a parameter: field, row, use, test.
+/// Every number that an engineer tunes. The field is the only home of its default, and its row (rows.cpp) of
+/// everything else: key, label, range, help. To add a parameter, add field, row, use and test.
 namespace trimtab {
 
 /// How altitude becomes a membership (documents A and B, Table 1 and Eq. 1; they contradict each other).
 enum class AltitudeReading { table, equation_a, equation_b };
-/// Which altitude feeds the decision.
+/// Which altitude the decision uses.
 enum class AltitudeReference { mean_sea_level, above_ground };
 /// How pitch becomes a membership: the line, or the rounded step that reproduces Table 1.
 enum class PitchReading { linear, rounded_step };
 /// How the two memberships become the total on the scale 0..2.
 enum class Combination { sum, twice_minimum, rules };
-/// The papers' three culling cases.
+/// The three culling cases of documents A and B.
 enum class CullingCase { none, view_frustum, proposed };
-/// What proves that something is hidden, where the scheme is dynamic.
+/// What looks for hidden ground if the scheme is dynamic.
 enum class OcclusionMethod { automatic, depth_map, cpu_map, horizon, horizon_and_map };
-/// Where field of view and near plane come from.
+/// Where the field of view and the near plane come from.
 enum class ViewSource { preset, host };
 enum class RenderSize { fit, fixed };
-/// What stands for the terrain: its regular tiled levels, its error-bounded patches, or the trees of document
-/// E where it has them.
+/// The form in which the terrain is drawn: tiles, patches, or the static trees of document E if it has them.
 enum class TerrainForm { levels, patches, static_trees };
 /// How a tree node's error becomes its minimum viewer distance.
 enum class StaticDistanceRule { picture, factor };
@@ -33,30 +32,31 @@ enum class ErrorMeasure { rms, maximum, as_published };
 enum class HostProtocol { automatic, native_fdm, cigi3 };
 /// The columns of document C's results: before, with the mechanism, and with LOD scale restoration.
 enum class MotionControl { off, lod_scale_and_blur, with_restoration };
-/// Whose heading and pitch are watched: those of the view in the world, or of the head against the aircraft.
+/// Whose heading and pitch count: those of the view in the world, or of the head relative to the aircraft.
 enum class MotionReference { line_of_sight, head };
-/// How long a run of fast or slow frames has to be.
+/// In what the length of a run of fast or slow frames is measured.
 enum class MotionDwell { frames, milliseconds };
-/// Who says what falls and how far one sees.
+/// Who sets precipitation and visibility.
 enum class WeatherSource { preset, host };
 /// Document D's densities of rain and snow.
 enum class WeatherStep { clear, rain_light, rain_medium, rain_heavy, snow_light, snow_medium, snow_heavy };
-/// Whether visibility is the step's share of the clear-day distance or one typed number.
+/// Whether the visibility is the step's share of the clear-day distance or a typed number.
 enum class VisibilitySource { steps, typed };
-/// How the far plane is set (document D, Table 1's two columns): not at all, by one ratio for all weather, by
-/// Eq. (1).
+/// How the far plane is set (document D, the two columns of Table 1): not at all, by one ratio for all
+/// weather, or by Eq. (1).
 enum class RatioMode { off, fixed, adaptive };
 
-// Defaults that are lists. As constants, because g++ 12 takes a list inside a member's initialiser for
-// uninitialised.
+// Defaults that are lists. They are constants because g++ 12 warns that a list inside a member's initialiser
+// is uninitialised.
 inline constexpr Curve<Feet> kAltitudeCurve{{4000, 1.0}, {5000, 0.6}, {6000, 0.3}, {7000, 0.1}, {8000, 0.0}};
 inline constexpr Curve<Degrees> kPitchCurve{{-30, 1.0}, {30, 0.0}};
 inline constexpr BandList kDepthMapBands{{0.1, 320, 240}, {0.5, 400, 300}, {1.0, 640, 480}, {1.5, 800, 600}};
 
-/// CIGI counts severities from 0, least severe, to 5: an enabled layer of severity 0 is not nothing.
+/// CIGI counts severities from 0, the least severe, to 5. An enabled layer of severity 0 still has
+/// precipitation.
 inline constexpr Curve<Ratio> kSeverityDensity{{0, 0.1}, {1, 0.25}, {3, 0.5}, {5, 1.0}};
 
-/// Four rules whose outputs are what the bands of the sum suggest for these corners.
+/// Four rules, whose outputs are what the bands of the sum suggest for these corners.
 inline constexpr RuleList kRuleBase{{AltitudeCondition::low, PitchCondition::nose_down, 1, 2},
                                     {AltitudeCondition::low, PitchCondition::nose_up, 1, 1},
                                     {AltitudeCondition::high, PitchCondition::nose_down, 1, 0.5},
@@ -88,7 +88,7 @@ struct SchemeParameters {
 struct CullingParameters {
   CullingCase method = CullingCase::proposed;
   OcclusionMethod occlusion = OcclusionMethod::automatic;
-  bool backFaces = true;  ///< what shows only its back is left out
+  bool backFaces = true;  ///< culls nodes that face away from the eye
 };
 
 struct LodParameters {
@@ -96,18 +96,18 @@ struct LodParameters {
   Ratio scale{1};  ///< 1 is full detail, larger is coarser
 };
 
-/// The terrain that is read while it is flown over.
+/// Terrain that is read from disk while it is flown over.
 struct TerrainParameters {
   Megabytes cache{512};
 };
 
-/// Trees of static levels of detail (document E).
+/// Static LOD trees (document E).
 struct StaticLodParameters {
   TerrainForm terrain = TerrainForm::levels;
   ErrorMeasure error = ErrorMeasure::rms;
   StaticDistanceRule rule = StaticDistanceRule::picture;
   Pixels errorPx{1};             ///< used by `picture`
-  Ratio distancePerError{1000};  ///< metres of distance a metre of error; used by `factor`
+  Ratio distancePerError{1000};  ///< metres of distance per metre of error; used by `factor`
 };
 
 struct ViewParameters {
@@ -131,7 +131,7 @@ struct WeatherParameters {
   RatioMode ratioMode = RatioMode::adaptive;
   Ratio fixedRatio{5e-5};
   Metres defaultNear{1};  ///< of Eq. (1)
-  Ratio tolerance{0.05};  ///< of calibration: gain and loss match within this share of a clear frame
+  Ratio tolerance{0.05};  ///< within which calibration matches gain and loss, as a share of a clear frame
   Curve<Ratio> severityDensity = kSeverityDensity;
 };
 
@@ -139,23 +139,23 @@ struct WeatherParameters {
 struct WeatherStepParameters {
   Ratio visibilityShare{1};  ///< of the clear-day distance
   Ratio density{1};          ///< particle intensity, 0..1
-  Ratio farStretch{1};       ///< far plane over visibility; 1 cuts most, calibration finds it
+  Ratio farStretch{1};       ///< far plane over visibility; 1 cuts most, and calibration finds it
 };
 
 struct HostParameters {
   HostProtocol protocol = HostProtocol::automatic;
-  bool extrapolate = true;         ///< move the eye between packets; decisions never are
-  Milliseconds silenceAfter{500};  ///< no packet for so long: the host is silent
+  bool extrapolate = true;         ///< moves the eye on between packets; decisions are never extrapolated
+  Milliseconds silenceAfter{500};  ///< without a packet for so long the host is silent
 };
 
 /// Head motion (document C).
 struct MotionParameters {
   MotionControl control = MotionControl::with_restoration;
   MotionReference reference = MotionReference::line_of_sight;
-  Degrees leftFov{30}, rightFov{30};  ///< Eq. (1); their own, not the projection's
+  Degrees leftFov{30}, rightFov{30};  ///< of Eq. (1), not of the projection
   MotionDwell dwell = MotionDwell::frames;
-  Ratio blurFrames{10};    ///< BlurStack fires at so many
-  Ratio restoreFrames{5};  ///< LODRestoreStack fires above so many
+  Ratio blurFrames{10};    ///< BlurStack fires at so many frames
+  Ratio restoreFrames{5};  ///< LODRestoreStack fires above so many frames
   Milliseconds blurDwell{100}, restoreDwell{50};
   Ratio lodStep{2};
   Ratio lodMaximum{4};
@@ -165,7 +165,7 @@ struct MotionParameters {
 };
 
 struct MeasureParameters {
-  Milliseconds budget{16.7};  ///< a frame's work time that the plots draw as a line
+  Milliseconds budget{16.7};  ///< the work time that a frame may take; the plots draw it as a line
 };
 
 struct TuningParameters {

@@ -8,55 +8,59 @@
 
 #include "trimtab/preset/table.h"
 
-/// Preset files: what an engineer edits (differences from a base), and exports (complete, with provenance and
-/// checksum).
+/// Reads and writes preset files: presets that an engineer edits (differences from a base), and exports
+/// (complete, with provenance and checksum).
 namespace trimtab {
 
-/// A preset being edited. Keys this version does not know are kept as JSON text and written back.
+/// A preset that is edited. Keys that this version does not know are kept as JSON text and written back.
 struct Preset {
   std::string name;
-  std::string base;  ///< a shipped preset's name or a file beside this one; empty: the defaults
+  std::string base;  ///< a shipped preset's name or a file beside this one; if empty, the defaults
   std::string description;
   TuningParameters parameters;
   std::map<std::string, std::string> unknown;         ///< parameter key -> its JSON text
   std::map<std::string, std::string> unknownMembers;  ///< the same for members beside "parameters"
-  std::filesystem::path folder;  ///< where a base that is a file is looked up; empty: the working folder
+  std::filesystem::path folder;  ///< where the file of a base is looked up; if empty, the working folder
 };
 
-/// Who made an export, when, with what.
+/// Who made an export, when and with what.
 struct Provenance {
   std::string author, created, program, terrain, comment;  ///< created: ISO 8601 UTC
 };
 
 enum class ExportFormat { json, xml, ini };
 
-/// Names of the presets that ship: "default", "as-published", "as-printed". They are compiled in.
+/// Returns the names of the presets that ship, which are compiled in: "default", "as-published",
+/// "as-printed".
 std::vector<std::string_view> shippedPresets();
 
-/// Reads an edited preset (JSON) or an export (JSON, PropertyList XML or INI), told apart by content, or a
-/// shipped preset by its name. Findings name file, line, key, expected and found. An export whose checksum
-/// does not hold is refused, as is one with a document type, deep nesting or an encoding other than UTF-8.
+/// Reads a preset (JSON) or an export (JSON, PropertyList XML or INI), told apart by content, or a shipped
+/// preset by its name. Findings name file, line, key, expected and found. An export whose checksum does not
+/// hold is refused, as is one with a document type, deep nesting or an encoding other than UTF-8. A broken
+/// rule between parameters is an error among the findings, but the preset is returned, so that it can be
+/// edited: validate() is what decides whether it runs.
 Result<Preset> loadPreset(const std::string& nameOrFile);
 Result<Preset> parsePreset(std::string_view text, const std::string& where);
 
-/// What the preset starts from: its base's parameters, or the defaults.
+/// Returns the parameters that a preset starts from: those of its base, or the defaults.
 Result<TuningParameters> baseParameters(const Preset& preset);
-/// JSON with only the differences from the base, in the table's order.
+/// Returns the preset as JSON with only the differences from its base, in the table's order.
 Result<std::string> presetText(const Preset& preset);
-/// Every parameter resolved, provenance and checksum over every byte but its own value.
+/// Returns an export: every parameter, the provenance, and a checksum over every byte but its own value.
 std::string exportText(const ValidatedParameters& parameters, const std::string& name,
                        const Provenance& provenance, ExportFormat format);
-/// Where differences lie, key by key, as text in the table's order.
+/// One parameter that differs, with both values as text.
 struct Difference {
   std::string key, left, right;
 };
 std::vector<Difference> differences(const TuningParameters& left, const TuningParameters& right);
 
-/// The published JSON schema of preset files, and the reference page (Markdown), from the table.
+/// Return the JSON schema of preset files and the reference page (Markdown), made from the table.
 std::string presetSchema();
 std::string parameterReference();
 
-/// Writes beside the target and renames: the old file or the new one, never half of either.
+/// Writes a file beside the target and renames it, so that there is the old file or the new one, never half
+/// of either.
 Result<Done> writeAtomically(const std::filesystem::path& file, std::string_view bytes);
 
 }  // namespace trimtab

@@ -10,13 +10,14 @@
 
 namespace trimtab {
 
-/// What a rule asks of altitude and pitch: the membership (`low`, `nose_down`), its complement to 1 (`high`,
-/// `nose_up`), or nothing. `any` comes first, so that a rule that names no condition has none.
+/// The condition of a rule on altitude or pitch: the membership (`low`, `nose_down`), its complement to 1
+/// (`high`, `nose_up`), or none
+/// (`any`, which comes first, so that it is the default).
 enum class AltitudeCondition { any, low, high };
 enum class PitchCondition { any, nose_down, nose_up };
 
-/// One rule of Eq. (2): it fires with the smallest of its conditions, and asks for `output` with that times
-/// `weight`. A further input is a further condition, whose first value is `any`.
+/// One rule of Eq. (2): it fires with the smallest of its conditions' memberships, and its `output` counts
+/// with that times `weight`.
 struct FuzzyRule {
   AltitudeCondition altitude = AltitudeCondition::any;
   PitchCondition pitch = PitchCondition::any;
@@ -47,19 +48,19 @@ struct RuleList {
   }
 };
 
-/// How files and explanations spell the conditions, in the enumerations' order.
+/// The conditions as files and explanations spell them, in the enumerations' order.
 inline constexpr std::array<std::string_view, 3> kAltitudeConditions{"any", "low", "high"};
 inline constexpr std::array<std::string_view, 3> kPitchConditions{"any", "down", "up"};
 
-/// "low" of AltitudeCondition::low; "?" of what is none.
+/// Returns the name of a condition, such as "low"; "?" for a number that is none.
 std::string_view nameOf(AltitudeCondition condition);
 std::string_view nameOf(PitchCondition condition);
-/// "low-down", "high", "any": what the rule asks, with `joint` between.
+/// Returns the conditions of a rule with `joint` between them: "low-down", "high" or "any".
 std::string conditionsText(const FuzzyRule& rule, std::string_view joint);
-/// "low&down*1=2": conditions, weight, output.
+/// Returns a rule as text: conditions, weight and output, such as "low&down*1=2".
 std::string ruleText(const FuzzyRule& rule);
-/// The inverse; false, with `rule` unspecified, where the text is none. Numbers are finite; ranges are
-/// validate()'s.
+/// Is the inverse. Returns false, with `rule` unspecified, if the text is no rule with finite numbers;
+/// validate() checks ranges.
 bool readRule(std::string_view text, FuzzyRule& rule);
 
 }  // namespace trimtab

@@ -7,8 +7,8 @@
 #include "trimtab/preset/parameters.h"
 #include "trimtab/preset/table.h"
 
-/// What must hold inside a curve, band list or rule base and between parameters. Constant expressions, so
-/// that the compiler holds the defaults to them.
+/// What must hold inside a curve, a band list or a rule base, and between parameters. These are constant
+/// expressions, so that the compiler checks the defaults.
 namespace trimtab {
 
 constexpr bool isFinite(double value) {
@@ -17,8 +17,8 @@ constexpr bool isFinite(double value) {
 
 enum class CurveFlaw { none, count, not_a_number, outside_x, outside_y, falling, triple };
 
-/// The first flaw and the point that has it. Two points may share an x (a step, on which the later one
-/// counts).
+/// Returns the first flaw and the point that has it. Two points may share an x: a step, at which the later
+/// one counts.
 struct CurveCheck {
   CurveFlaw flaw = CurveFlaw::none;
   std::size_t at = 0;
@@ -78,7 +78,7 @@ constexpr RuleCheck checkRules(const RuleList& rules, Range weight) {
   return {};
 }
 
-/// The narrowest band, the last one up to the scale's top.
+/// Returns the width of the narrowest band; the last one ends at the scale's top.
 constexpr double narrowestBand(const BandList& bands) {
   double narrowest = BandList::kTop;
   for (std::size_t i = 0; i < bands.size; ++i) {
@@ -91,7 +91,7 @@ constexpr double narrowestBand(const BandList& bands) {
 constexpr bool hysteresisLeavesBands(const TuningParameters& p) {
   return 2 * p.scheme.hysteresis.value() < narrowestBand(p.scheme.bands);
 }
-/// Else the total would have to fall below 0 for the scheme to become *frustum* again.
+/// If it did not hold, the total would have to fall below 0 for the scheme to become *frustum* again.
 constexpr bool hysteresisLeavesFrustum(const TuningParameters& p) {
   return p.scheme.bands.size == 0 || p.scheme.hysteresis.value() < p.scheme.bands.band[0].low;
 }
@@ -106,16 +106,17 @@ constexpr bool someRuleCounts(const TuningParameters& p) {
   return false;
 }
 
-/// Else every frame that moves at all would be fast.
+/// If it did not hold, every frame that moves at all would be fast.
 constexpr bool someFieldOfViewIsLeft(const TuningParameters& p) {
   return (p.motion.leftFov + p.motion.rightFov).value() > 0;
 }
 
-/// What validate() says of each value by itself, and of values together (which need finite values in range).
+/// Return what validate() finds wrong with each value by itself, and with values together (which must be
+/// finite and in range).
 Findings rangeFindings(const TuningParameters& parameters);
 Findings ruleFindings(const TuningParameters& parameters);
 
-/// What each rule demands, in a sentence, and the parameter that its finding names.
+/// What a rule demands, as a sentence, and the parameter that its finding names.
 struct RuleText {
   std::string_view key, text;
 };

@@ -5,16 +5,16 @@
 
 #include "trimtab/units/result.h"
 
-/// An export's checksum: "sha256:" and 64 digits, over every byte of the file but those digits. It is the
-/// last of that form in the file, whatever the format.
+/// Makes and checks an export's checksum: "sha256:" and 64 digits, over every byte of the file but those
+/// digits. It is the last text of that form in the file, whatever the format.
 namespace trimtab {
 
-/// What stands in for the digits until seal() is called.
+/// Returns the checksum with zeros, for a text that sealed() completes.
 std::string checksumBlank();
-/// The text with its last checksumBlank() (or checksum) made true.
+/// Returns the text with its last checksum replaced by the right one.
 std::string sealed(std::string text);
-/// The checksum that a text carries, "sha256:...", and whether it is true; findings say what was expected and
-/// found.
+/// Returns the checksum of a text, "sha256:...", if it is right; otherwise findings with the expected and the
+/// found one.
 Result<std::string> checkSeal(std::string_view text, const std::string& where);
 
 }  // namespace trimtab

@@ -8,11 +8,11 @@
 
 namespace trimtab {
 
-/// SHA-256 (FIPS 180-4) of bytes that arrive in pieces.
+/// Computes SHA-256 (FIPS 180-4) of bytes that are added in pieces.
 class Sha256 {
  public:
   void add(std::string_view bytes);
-  /// 64 lower-case hexadecimal digits. Ends the sum: nothing may be added afterwards.
+  /// Returns 64 lower-case hexadecimal digits. Nothing may be added afterwards.
   std::string hex();
 
  private:

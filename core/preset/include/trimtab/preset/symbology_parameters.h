@@ -4,7 +4,7 @@
 
 namespace trimtab {
 
-/// What symbols without a place in the world (tape, readouts) are fixed to.
+/// To what symbols without a place in the world (tape, readouts) are fixed.
 enum class SymbologyFrame { head, aircraft };
 enum class SymbolColour { green, white, amber, cyan, magenta, red, yellow, black };
 
@@ -12,7 +12,7 @@ struct SymbologyParameters {
   bool enabled = false;
   SymbologyFrame frame = SymbologyFrame::head;
   Pixels lineWidth{1.8};
-  Pixels outline{1.2};  ///< dark rim round every line; 0: none
+  Pixels outline{1.2};  ///< dark rim around every line; 0 for none
 
   friend constexpr bool operator==(const SymbologyParameters&, const SymbologyParameters&) = default;
 };
@@ -21,7 +21,7 @@ struct SymbologyParameters {
 struct SymbolElement {
   bool show = true;
   SymbolColour colour = SymbolColour::green;
-  Ratio x{0}, y{0};  ///< fractions of half the picture
+  Ratio x{0}, y{0};  ///< fractions of half the image
   Ratio size{1};
 
   friend constexpr bool operator==(const SymbolElement&, const SymbolElement&) = default;

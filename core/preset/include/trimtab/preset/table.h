@@ -18,10 +18,10 @@ struct Range {
 
 enum class Kind { scalar, flag, choice, curve, bands, rules };
 enum class Tier { basic, advanced };
-/// What has to be done again when the parameter changes.
+/// From when on a changed parameter counts.
 enum class Effect { next_frame, resize, host };
 
-/// A row's value whatever its kind: scalar, flag, index into the row's choices, curve, bands, rules.
+/// A value of any row: scalar, flag, index into the row's choices, curve, bands or rules.
 struct ChoiceIndex {
   std::size_t index = 0;
   friend constexpr bool operator==(ChoiceIndex, ChoiceIndex) = default;
@@ -37,9 +37,9 @@ struct ParameterRow {
   std::string_view key;     ///< "fuzzy.hysteresis"; ends in the unit's suffix
   std::string_view label;   ///< a few words, no unit
   std::string_view help;    ///< what it does and what to watch; never the default or the range
-  std::string_view source;  ///< document and equation or table; empty where it is ours
-  Range hard;               ///< refused outside (a curve's x; a band's width and height; a rule's weight)
-  Range usual;              ///< a slider's travel; a warning outside
+  std::string_view source;  ///< document and equation or table; empty if it is ours
+  Range hard;   ///< values outside are refused (a curve's x; a band's width and height; a rule's weight)
+  Range usual;  ///< a slider's travel; values outside give a warning
   double step = 1;
   int decimals = 0;
   Tier tier = Tier::basic;
@@ -47,27 +47,28 @@ struct ParameterRow {
   bool logarithmic = false;  ///< a slider should be exponential
   bool whole = false;        ///< only whole numbers
   Kind kind = Kind::scalar;
-  std::string_view unit;  ///< symbol; of x for a curve
+  std::string_view unit;  ///< its symbol; that of x for a curve
   std::span<const ChoiceOption> choices;
   ParameterValue (*get)(const TuningParameters&) = nullptr;
   void (*set)(TuningParameters&, const ParameterValue&) = nullptr;  ///< the value must have the row's kind
 };
 
-/// All rows, in the order people should read them (grouped by the first part of the key).
+/// Returns all rows in reading order, grouped by the first part of the key.
 std::span<const ParameterRow> parameterRows();
-/// Null where there is no such key (old names of renamed keys are found by migration, not here).
+/// Returns the row with a key; null if there is none. Migration, not this function, finds old names of
+/// renamed keys.
 const ParameterRow* findRow(std::string_view key);
 
-/// A value as text: C locale, shortest form that reads back bit for bit; a choice by its name; a curve as
-/// "4000:1 5000:0.6"; bands as "0.1:320x240 0.5:400x300"; rules as "low&down*1=2 high*0.5=0".
+/// Returns a value as text in the C locale: a number in the shortest form that reads back bit for bit, a
+/// choice by its name, a curve as "4000:1 5000:0.6", bands as "0.1:320x240 0.5:400x300", rules as
+/// "low&down*1=2 high*0.5=0".
 std::string toText(const ParameterRow& row, const ParameterValue& value);
-/// The inverse; findings say what was expected. A scalar may carry a unit ("4000 ft"), which is converted to
-/// the row's when both measure the same thing. Refuses what is no finite number; ranges and rules are
-/// validate()'s.
+/// Is the inverse; findings say what was expected. A scalar may have a unit ("4000 ft"), which is converted
+/// to the row's if both have the same dimension. It refuses numbers that are not finite; validate() checks
+/// ranges and rules.
 Result<ParameterValue> parseValue(const ParameterRow& row, std::string_view text);
 
-/// Parameters that passed every rule. There is no other way to get one, so unchecked numbers do not reach
-/// decide().
+/// Parameters that passed every rule. Only validate() makes them, so unchecked numbers do not reach decide().
 class ValidatedParameters {
  public:
   const TuningParameters& operator*() const { return parameters_; }
@@ -79,10 +80,10 @@ class ValidatedParameters {
   TuningParameters parameters_;
 };
 
-/// Every broken range and rule as an error, every value outside its usual range as a warning (with the
-/// value). Rules are asked once every range holds. Does not allocate while nothing is wrong.
+/// Validates parameters. Every broken range and rule is an error, every value outside its usual range a
+/// warning. Rules are checked only if every range holds. It allocates nothing if nothing is wrong.
 Result<ValidatedParameters> validate(const TuningParameters& parameters);
-/// The defaults, validated.
+/// Returns the defaults, validated.
 ValidatedParameters defaultParameters();
 
 }  // namespace trimtab

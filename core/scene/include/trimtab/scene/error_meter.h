@@ -46,11 +46,11 @@ class ErrorMeter {
   void release();
   void setTerrain(std::shared_ptr<const terrain::Database> database);
 
-  /// `before`: the frames before `request`, oldest first; the last one is that from which temporal pop is
-  /// told, which is not measured where there is none or it has another size. A blur is the picture's mix with
-  /// those before it, so what a request with blur shows is known only by them: the first of them stands for
-  /// what is left of all older ones, and with none there is no blur to see. As many as matter to a quarter of
-  /// a grey level are drawn, so more than enough may be passed.
+  /// Measures a frame. `before` holds the frames before it, oldest first. Temporal pop is measured against
+  /// the last of them; it is not measured without one, or if that has another size. A blur mixes an image
+  /// with those before it, so only they tell what a request with blur shows: the first of them stands for
+  /// all older ones, and without any there is no blur. As many are drawn as matter to a quarter of a grey
+  /// level, so more than enough may be passed.
   ///
   /// It draws the reference and the image, the same of the frame before if pop is measured, and the nodes of
   /// the image with and without culling. The last few references are kept, so measure the presets and cases
@@ -68,15 +68,10 @@ class ErrorMeter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// What the geometric maximum of a request stays within as long as levels state their errors truly: what
-/// the cut may err by, seen at the picture's corner, where a pixel spans the smallest angle; and a pixel and
-/// a half for what lies between the pixels' centres, where a silhouette of either picture may be. Infinity
-/// where nothing is promised (static trees by mean error, by a fixed depth).
-double geometricBoundPx(const FrameRequest& request);
-
-/// Temporal pop of one step: by how much each channel's change lies outside of what the reference's change
-/// explains (between none and all of it), mean over red, green and blue, of 255. A picture that stands still,
-/// or follows the reference only half of the way, does not pop. All four RGBA and of one size, else NaN.
+/// Returns the temporal pop of one step: by how much the change of each channel lies outside of what the
+/// reference's change explains (from none to all of it), as a mean over red, green and blue, of 255. An
+/// image that stands still, or follows the reference half of the way, does not pop. Returns NaN unless all
+/// four are RGBA of one size.
 double temporalPop(std::span<const std::uint8_t> referenceBefore, std::span<const std::uint8_t> reference,
                    std::span<const std::uint8_t> oursBefore, std::span<const std::uint8_t> ours);
 

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "trimtab/frame/frame_request.h"
@@ -53,13 +52,13 @@ class Renderer {
   Findings pageFailures() const;
   /// Lets a blur accumulate anew, as if the next image were the first.
   void forgetPictures();
-  /// For each pixel of the last picture the node that it shows, kNoNode where it is sky; row 0 at the bottom.
-  /// Draws what was drawn once more: the same vertices in the same order with the same depth test. What only
-  /// an overlay draws (lines, edges) is nobody's. Empty where nothing was drawn yet.
+  /// Returns for each pixel of the last image the node that it shows, or kNoNode where it is sky; row 0 at
+  /// the bottom. Empty if nothing was drawn yet. Draws the same vertices once more, in the same order with
+  /// the same depth test. What only an overlay draws (lines, edges) belongs to no node.
   ///
-  /// `unculled`: which node it would show if nothing of the same levels had been left out, as in the picture
-  /// of CullingCase::none (but for what is far outside the view: nearView in node_pass.h); what the weather's
-  /// far cut takes away is still sky.
+  /// With `unculled`, returns which node would show if nothing of the same levels had been left out, as in
+  /// the image of CullingCase::none, except for what is far outside the view (nearView in node_pass.h). What
+  /// the weather's far cut takes away is still sky.
   static constexpr std::uint32_t kNoNode = 0xffffffffu;
   std::vector<std::uint32_t> readNodes(bool unculled = false);
   /// Returns RGBA of what `draw` left, row 0 at the bottom.

@@ -20,103 +20,108 @@
 #include "trimtab/preset/table.h"
 #include "trimtab/session/head_input.h"
 
-/// From packet states to pictures: what IG and workbench do alike, so that they decide alike. No GUI, no GL,
-/// no clock of its own: the caller passes `now` (link::now()). One thread.
+/// Turns states into decisions and requests for images. An image generator and the workbench both use it, so
+/// that they decide alike. It has no window, no GL and no clock of its own: the caller passes `now`, in
+/// seconds of CLOCK_REALTIME.
 namespace trimtab {
 
 enum class LinkState {
   never,  ///< no packet yet
   live,
-  silent,  ///< no packet for host.silence_after_ms: the eye stands still
+  silent,  ///< no packet for host.silence_after_ms, so the eye stays where it is
   jumped   ///< live, and within the last second the aircraft was moved farther than it can fly
 };
 std::string_view toText(LinkState state);
 
-/// Milliseconds over the newest packets.
+/// Latencies of the newest packets and images, milliseconds.
 struct Latency {
-  SampleWindow decoded{4096};  ///< kernel time stamp to decoded state
-  SampleWindow shown{4096};    ///< kernel time stamp of the packet that a picture shows, to that picture
-  /// Also of the packets that a newer one overtook: to the picture that shows the newer one.
+  SampleWindow decoded{4096};  ///< from the kernel's time stamp to the decoded state
+  SampleWindow shown{
+      4096};  ///< from the kernel's time stamp of the packet that an image shows, to that image
+  /// As `shown`, also for packets that a newer one overtook: to the image that shows the newer one.
   SampleWindow every{4096};
-  SampleWindow frame{4096};  ///< from the request of a picture that shows a packet to its end
+  SampleWindow frame{4096};  ///< from the request of an image that shows a packet to its end
 };
 
 class Session {
  public:
   explicit Session(const ValidatedParameters& parameters);
 
-  /// Holds from the next packet on; the current picture's decision is made again, without a trace of it (see
-  /// `decision`).
+  /// Sets the parameters for the next packet on. The current state is decided again for the image, without a
+  /// trace row and without changing the memory (see `decision`).
   void setParameters(const ValidatedParameters& parameters);
   const ValidatedParameters& parameters() const { return parameters_; }
-  /// Asked for the ground where the host does not tell the height above it. May be null.
+  /// Sets what is asked for the height of the ground if the host does not send the height above it. May be
+  /// null.
   void setGround(std::shared_ptr<const GroundHeights> ground);
 
-  // Where states come from. Each call decides exactly once for each state, in order.
+  // Where states come from. Each call decides each of its states exactly once, in order.
 
-  /// Packets, in order of arrival.
+  /// Receives packets, in order of arrival.
   void receive(std::span<const ReceivedState> states);
-  /// A row of a flight that is drawn row by row: no link, no extrapolation. `now` places it among the
-  /// pointer's events.
+  /// Receives a row of a flight that is drawn row by row, without a link and without extrapolation. `now`
+  /// places it among the pointer's events.
   void fly(const AircraftState& state, double now = std::numeric_limits<double>::quiet_NaN());
-  /// A row of a trace: decides from exactly the recorded input. The first one brings the memory it was
+  /// Decides a row of a trace from exactly the recorded input. The first row also sets the memory that it was
   /// decided with.
   void replay(const TraceRow& row);
-  /// A free camera's state, whose time is `now`: decided with a memory of its own; no packet, no trace row,
-  /// no link.
+  /// Receives the state of a free camera, whose time is `now`. It is decided with a memory of its own and
+  /// counts neither as a packet nor as a trace row.
   void look(const AircraftState& state);
-  /// Forgets states, memory, link and latencies: a new host, a new flight.
+  /// Forgets states, memory, link and latencies, for a new host or a new flight.
   void restart();
 
-  /// Whose head it is: applies to every state but those of a trace, which bring the head they were decided
-  /// with.
+  /// Returns where the head comes from. It applies to every state except rows of a trace, which have the head
+  /// that they were decided with.
   HeadInput& head() { return head_; }
   const HeadInput& head() const { return head_; }
 
-  // What there is now.
+  // The current state.
 
   bool hasState() const { return current_.has_value(); }
-  /// What the last decision was made from. Only with `hasState`.
+  /// Returns what the last decision was made from. Call it only if `hasState`.
   const FrameInput& input() const { return *current_; }
-  /// The last packet's decision; after `setParameters` what an equal packet would be decided to now.
+  /// Returns the decision for the last packet; after `setParameters`, the decision that an equal packet would
+  /// get now.
   const FrameDecision& decision() const { return decision_; }
-  /// Memory as the next packet will meet it.
+  /// Returns the memory that the next packet will be decided with.
   const DecisionMemory& memory() const { return memory_; }
   LinkState linkState(double now) const;
-  /// Seconds since the last packet came; NaN before the first.
+  /// Returns the seconds since the last packet arrived; NaN before the first.
   double packetAge(double now) const;
   std::uint64_t packets() const { return packets_; }
   std::uint64_t jumps() const { return jumps_; }
   const Latency& latency() const { return latency_; }
 
-  // Pictures.
+  // Images.
 
-  /// Whether a picture drawn at `now` would differ from the last one asked for: a packet, an edit, the eye
-  /// moves on between packets, or a blur has not run out. False when the host is silent and nothing was
-  /// edited.
+  /// Reports whether an image at `now` would differ from the last one requested: because of a packet, an
+  /// edit, an eye that moves on between packets, or a blur that has not ended. False while the host is silent
+  /// and nothing is edited.
   bool needsPicture(double now) const;
-  /// Whether the last picture asked for was blurred: one more is due, though nothing else moves.
+  /// Reports whether the last image requested was blurred. One more is due then, even if nothing else moves.
   bool blurred() const { return blurDrawn_; }
-  /// The state that the eye has at `now`: between packets it moves on along the recent velocity. Only with
-  /// `hasState`.
+  /// Returns the state of the eye at `now`: between packets it moves on along the recent velocity. Call it
+  /// only if `hasState`.
   AircraftState eyeState(double now) const;
-  /// The picture of `now`. None before the first state. Packets decided until here count as shown by it. A
-  /// blur's remaining time runs on from the first picture of its decision.
+  /// Returns the request for the image of `now`; nothing before the first state. Packets decided so far count
+  /// as shown by it. The remaining time of a blur runs from the first image of its decision.
   std::optional<FrameRequest> request(double now, int windowWidthPx, int windowHeightPx);
-  /// The requested picture is finished: completes rows, latency and the cost that the next decision is given.
-  /// `cost.decide` is filled in here. Returns the completed cost.
+  /// Call this when the requested image is finished. It completes trace rows, latencies and the cost that the
+  /// next input holds, and returns that cost with `decide` filled in.
   FrameCost finished(const FrameResult& result, double now);
-  /// Finished pictures whose work took longer than measure.budget_ms.
+  /// Returns how many finished images took longer to make than measure.budget_ms.
   std::uint64_t overBudget() const { return overBudget_; }
-  /// No picture is drawn of what has arrived (hidden window): rows and latencies do not wait for one.
+  /// Call this if no image will show what has arrived, as while a window is hidden. Rows and latencies then
+  /// do not wait for one.
   void noPicture();
 
   // Trace.
 
-  /// Rows are made only while this is on.
+  /// Sets whether trace rows are made.
   void keepRows(bool keep);
-  /// Appends the rows that are complete, in order; at the end (`all`) also those that no picture has shown
-  /// yet.
+  /// Moves the complete rows to the end of `rows`, in order. With `all`, for the end of a trace, also those
+  /// that no image has shown yet.
   void takeRows(std::vector<TraceRow>& rows, bool all = false);
 
  private:
@@ -134,18 +139,18 @@ class Session {
   std::optional<FrameInput> current_;
   FrameDecision decision_;
   FrameCost lastCost_;
-  double decideMs_ = 0;  ///< spent since the last picture
+  double decideMs_ = 0;  ///< spent since the last image
   std::uint64_t overBudget_ = 0;
   bool looking_ = false;
   bool replayed_ = false;
 
   HeadInput head_;
-  std::optional<double> blurPicturedAt_;  ///< of the first picture of the last decision
+  std::optional<double> blurPicturedAt_;  ///< when the first image of the last decision was requested
   bool blurDrawn_ = false;
 
   GroundVelocity groundVelocity_;
   Extrapolator extrapolator_;
-  bool linked_ = false;     ///< states come from a live link: the eye may be extrapolated
+  bool linked_ = false;     ///< states come from a live link, so the eye may be extrapolated
   double clockOffset_ = 0;  ///< host clock minus ours
   double lastArrival_ = 0, lastJump_ = 0;
   std::uint64_t packets_ = 0, jumps_ = 0;
@@ -153,7 +158,8 @@ class Session {
 
   bool dirty_ = false;
   std::optional<AircraftState> drawnEye_;
-  std::vector<double> waiting_, inPicture_;  ///< kernel times
+  std::vector<double> waiting_,
+      inPicture_;  ///< kernel times of packets that no image, or the requested one, shows
   double requestedAt_ = 0;
   bool keepRows_ = false;
   std::vector<TraceRow> rows_;

@@ -3,18 +3,20 @@
 #include "trimtab/units/linear.h"
 #include "trimtab/units/quantity.h"
 
-/// WGS84: geodetic <-> earth-centred earth-fixed (ECEF) <-> a local frame, and angles that wrap.
+/// Converts WGS84 geodetic positions to earth-centred, earth-fixed (ECEF) places and to a local frame, and
+/// back; wraps angles.
 namespace trimtab {
 
 struct GeodeticPosition {
   Degrees latitude, longitude;  ///< WGS84 geodetic; longitude -180..180
-  Metres height;  ///< placed as ellipsoid height; hosts' and terrains' mean sea level heights are used alike
+  Metres height;  ///< used as height above the ellipsoid; heights above sea level of hosts and terrain are
+                  ///< used alike
 
   friend bool operator==(const GeodeticPosition&, const GeodeticPosition&) = default;
 };
 
-/// Aircraft or view attitude: heading true, clockwise from north; pitch nose up positive; roll right wing
-/// down positive.
+/// The attitude of an aircraft or a view: true heading, clockwise from north; pitch, nose up positive; roll,
+/// right wing down positive.
 struct Attitude {
   Degrees heading, pitch, roll;
 
@@ -22,14 +24,14 @@ struct Attitude {
 };
 
 Vec3 toEcef(const GeodeticPosition& position);
-/// Inverse of toEcef, to below 10 nm within 1,000 km of the surface; meant for positions farther than 1,000
-/// km from the earth's centre. The centre itself gives the north pole.
+/// Is the inverse of toEcef, to below 10 nm within 1,000 km of the surface. Use it for places farther than
+/// 1,000 km from the earth's centre; the centre itself gives the north pole.
 GeodeticPosition toGeodetic(Vec3 ecef);
 
-/// East, north and up at a position as the rows of a rotation from ECEF.
+/// Returns east, north and up at a position, as the rows of a rotation from ECEF.
 Mat3 eastNorthUp(Degrees latitude, Degrees longitude);
 
-/// The frame a terrain lives in: metres east (x), north (y) and up (z) of its origin, by an isometry of ECEF:
+/// The frame of a terrain: metres east (x), north (y) and up (z) of its origin. It is an isometry of ECEF, so
 /// the earth stays curved in it.
 class LocalFrame {
  public:
@@ -48,13 +50,13 @@ class LocalFrame {
   Mat3 rotation_;
 };
 
-/// Rotation from `frame` to the eye's axes, x right, y up, -z forward (OpenGL's), for an attitude at a
-/// position.
+/// Returns the rotation from `frame` to the axes of an eye with an attitude at a position: x right, y up, -z
+/// forward, as OpenGL's.
 Mat3 eyeAxes(const LocalFrame& frame, const GeodeticPosition& position, const Attitude& attitude);
 
-/// The same direction in -180..180; NaN and infinities come back as NaN.
+/// Returns the same direction in -180..180; NaN for NaN and infinities.
 Degrees wrapped180(Degrees angle);
-/// The same direction in 0..360.
+/// Returns the same direction in 0..360.
 Degrees wrapped360(Degrees angle);
 
 }  // namespace trimtab

@@ -7,11 +7,11 @@
 
 namespace trimtab {
 
-/// "error", "warning" or "note".
+/// Returns "error", "warning" or "note".
 std::string_view label(Severity severity);
 
-/// Findings as programs print them on a terminal: "error: where: key: expected ..., found ...", each on a
-/// line of its own.
+/// Returns findings as programs print them on a terminal: "error: where: key: expected ..., found ...", one
+/// per line.
 std::string labelled(const Findings& findings);
 
 }  // namespace trimtab

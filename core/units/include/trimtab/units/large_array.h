@@ -5,9 +5,9 @@
 
 namespace trimtab {
 
-/// Memory that begins at a cache line. From 2 MiB on it asks the system for huge pages, and no two of
-/// kLargeColours asked for in turn begin at the same place of a page: arrays of one length can be read
-/// abreast at the memory's speed.
+/// Allocates memory that begins at a cache line. From 2 MiB on it asks the system for huge pages, and any
+/// kLargeColours arrays allocated in turn begin at different places of a page, so that arrays of one length
+/// can be read together at the memory's speed.
 void* allocateLarge(std::size_t bytes);
 void freeLarge(void* memory, std::size_t bytes);
 inline constexpr std::size_t kLargeColours = 8;

@@ -5,7 +5,7 @@
 
 namespace trimtab {
 
-/// Three doubles: metres where a position is meant, unit length where a direction is.
+/// Three doubles: a position in metres, or a direction of unit length.
 struct Vec3 {
   double x = 0, y = 0, z = 0;
 
@@ -30,7 +30,7 @@ inline Vec3 normalized(Vec3 a) {
   return a * (1 / length(a));
 }
 
-/// A rotation; rows are the axes of the target frame written in the source frame, so `m * v` goes source ->
+/// A rotation. Its rows are the axes of the target frame in the source frame, so `m * v` goes from source to
 /// target.
 struct Mat3 {
   std::array<Vec3, 3> row{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};

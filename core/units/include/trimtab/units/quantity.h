@@ -5,7 +5,8 @@
 #include <string_view>
 #include <type_traits>
 
-/// Numbers that carry their unit in the type: `Feet{4000}`, and named again on the way out: `h.in<Metres>()`.
+/// Numbers with their unit in the type: `Feet{4000}`. The unit is named again on the way out:
+/// `h.in<Metres>()`.
 namespace trimtab {
 
 namespace unit {
@@ -75,7 +76,7 @@ struct Ratio {
   static constexpr double size = 1.0;
   static constexpr std::string_view symbol = "", suffix = "";
 };
-/// Fuzzy degree of membership; 0..1 for one input, 0..2 for the sum of two.
+/// A fuzzy degree of membership: 0..1 for one input, 0..2 for the sum of two.
 struct Degree01 {
   using Dimension = Dimensionless;
   static constexpr double size = 1.0;
@@ -91,10 +92,11 @@ class Quantity {
   constexpr Quantity() = default;
   explicit constexpr Quantity(double value) : value_(value) {}
 
-  /// The bare number, in this quantity's own unit.
+  /// Returns the bare number, in this quantity's own unit.
   constexpr double value() const { return value_; }
 
-  /// The same amount as another quantity type or in another unit of the same dimension.
+  /// Returns the amount as a number in the unit of `To` (in), or as a `To` (as). `To` must have the same
+  /// dimension.
   template <class To>
   constexpr double in() const {
     return as<To>().value();

@@ -9,13 +9,12 @@ namespace trimtab {
 
 enum class Severity { note, warning, error };
 
-/// One thing that is wrong (or worth knowing) about data that came from outside: a preset, a packet, a
-/// terrain file.
+/// One thing that is wrong, or worth knowing, about data from outside: a preset, a packet, a terrain file.
 struct Finding {
   Severity severity = Severity::error;
   std::string
       where;  ///< file, with line or byte offset where there is one: "a.json:12", "udp 127.0.0.1:5500 #14"
-  std::string key;       ///< parameter key or field name; empty when the whole file is meant
+  std::string key;       ///< parameter key or field name; empty if it is about the whole file
   std::string expected;  ///< what would have been right, with its unit
   std::string found;     ///< what was there
 
@@ -24,12 +23,11 @@ struct Finding {
 
 using Findings = std::vector<Finding>;
 
-/// "where: key: expected ..., found ..." in one line, for terminals and message boxes.
+/// Returns "where: key: expected ..., found ..." on one line, for terminals and message boxes.
 std::string toString(const Finding& finding);
 std::string toString(const Findings& findings);
 
-/// A value, or the reasons why there is none: all of them, not the first. A value may come with notes and
-/// warnings.
+/// A value, or all the reasons why there is none. A value may come with notes and warnings.
 template <class T>
 class [[nodiscard]] Result {
  public:
@@ -52,7 +50,7 @@ class [[nodiscard]] Result {
   Findings findings_;
 };
 
-/// For work that yields nothing but success.
+/// The value of work that yields nothing but success.
 struct Done {};
 
 }  // namespace trimtab

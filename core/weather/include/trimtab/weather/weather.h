@@ -5,42 +5,44 @@
 
 #include "trimtab/frame/frame.h"
 
-/// Weather of a frame: what falls, how far one sees, where the far plane stands (document D).
+/// Decides the weather of a frame: what falls, how far one sees, where the far plane is (document D).
 namespace trimtab {
 
-/// Precipitation and visibility of `state` under `parameters`, and the far plane by Eq. (1). Pure; no
-/// allocation; the same bits on every replay. A host's visibility that is no number above 0 counts as none;
-/// one outside 10 m .. 1,000 km as the nearest of the two, infinity as unlimited.
+/// Decides precipitation and visibility of a state, and the far plane by Eq. (1). It is pure, allocates
+/// nothing and gives the same bits on every replay. A host's visibility counts only if it is a number above
+/// 0; it is clamped to 10 m .. 1,000 km, and infinity is unlimited.
 WeatherDecision decideWeather(const AircraftState& state, const TuningParameters& parameters);
 
-/// Far plane and ratio for a visibility that `decision` holds already, by mode: what decideWeather does last,
-/// and what calibration varies. `stretch` (at least 1) counts in the adaptive mode only.
+/// Sets far plane and ratio of a decision that already holds its visibility, by the mode of the parameters.
+/// decideWeather does this last, and the calibration varies it. `stretch` (at least 1) counts in the adaptive
+/// mode only.
 void setFarPlane(WeatherDecision& decision, const WeatherParameters& parameters, double stretch);
 
-/// -ln(threshold) / visibility, 1/m. 0 for an unlimited visibility; the arguments are otherwise above 0.
+/// Returns the extinction -ln(threshold) / visibility, 1/m; 0 for an unlimited visibility. Both arguments
+/// must be above 0.
 ///
-/// The threshold is the contrast that is left at the visibility. 0.02 (the default) is Koschmieder's visual
-/// range, what an observer can just tell from the sky: a cut there removes what nobody could see, which is
-/// what Eq. (1) promises. The 0.05 of the meteorological optical range (what transmissometers and METAR
-/// report) would leave 13 of 255 levels at the cut.
+/// The threshold is the contrast that is left at the visibility. The default of 0.02 is Koschmieder's visual
+/// range, at which an observer can just tell an object from the sky, so that a cut there removes nothing
+/// visible, as Eq. (1) promises. The 0.05 of the meteorological optical range (which transmissometers and
+/// METAR report) would leave 13 of 255 levels at the cut.
 double extinction(double visibilityM, double contrastThreshold);
 
-/// What falls in a step.
+/// Returns what falls in a weather step.
 Precipitation precipitationOf(WeatherStep step);
-/// The step's own group; null for clear.
+/// Returns the parameters of a step; null for clear weather.
 const WeatherStepParameters* stepParameters(const TuningParameters& parameters, WeatherStep step);
 WeatherStepParameters* stepParameters(TuningParameters& parameters, WeatherStep step);
-/// Where the preset puts the visibility of a step, metres: typed, or the step's share of the clear-day
-/// distance.
+/// Returns the visibility that the preset gives a step, metres: the typed one, or the step's share of the
+/// clear-day distance.
 double stepVisibilityM(const TuningParameters& parameters, WeatherStep step);
 
-/// The step's parameters at a density between those of light, medium and heavy: on straight lines, from clear
-/// weather (all of the clear-day distance, no stretch) at 0 on; held beyond the densest. What a host's
-/// severity is drawn with.
+/// Returns the parameters of a step at a density between those of light, medium and heavy, along straight
+/// lines that begin at clear weather (the whole clear-day distance, no stretch) at 0, and constant beyond the
+/// densest. A host's severity is drawn with it.
 WeatherStepParameters stepParametersAt(const TuningParameters& parameters, Precipitation precipitation,
                                        double density);
 
-/// The decision in words and numbers: one line.
+/// Returns the decision in words and numbers, on one line.
 std::string explain(const WeatherDecision& decision);
 
 }  // namespace trimtab

@@ -19,18 +19,19 @@ namespace trimtab::terrain {
 /// A texel: sRGB, and the normal of the finest surface there (local frame, x and y x 127; z is up).
 struct GroundTexel {
   std::uint8_t red, green, blue;
-  std::uint8_t voids;  ///< share of the texel that was a void and was filled; 255: all of it
+  std::uint8_t voids;  ///< the share of the texel that was a filled void; 255 is all of it
   std::int8_t normalX, normalY;
   friend bool operator==(const GroundTexel&, const GroundTexel&) = default;
 };
 static_assert(sizeof(GroundTexel) == 6);
 
-/// Level 0 is the finest: `texelsPerPost` (a power of two, may be less than 1) texels from a post to the
-/// next. A texel of level 0 stands on post (c, r) / texelsPerPost, so an image on the posts' own grid keeps
-/// every pixel; with less than one a post it is the mean of the posts from there on. Each level halves the
-/// one before, to a single tile: a texel is the mean of two by two, those past the border being the last.
+/// The levels of a pyramid. Level 0 is the finest, with `texelsPerPost` texels (a power of two, which may be
+/// less than 1) from a post to the next. Texel (c, r) of level 0 lies on post (c, r) / texelsPerPost, so an
+/// image on the posts' own grid keeps every pixel; with less than one texel per post it is the mean of the
+/// posts from there on. Each level has half the resolution of the previous one, down to a single tile: a
+/// texel is the mean of two by two, where those past the border repeat the last one.
 struct GroundShape {
-  static constexpr std::uint32_t kTile = 256;  ///< texels a side
+  static constexpr std::uint32_t kTile = 256;  ///< texels per side
   struct Level {
     std::uint32_t columns = 0, rows = 0;  ///< texels
     std::uint32_t tileColumns() const { return (columns + kTile - 1) / kTile; }
@@ -40,7 +41,8 @@ struct GroundShape {
   double texelsPerPost = 1;
   std::vector<Level> levels;
 
-  /// Where a post is among the texels of level 0, texel c reaching from c to c + 1; level l is this by 2^-l.
+  /// Returns the place of a post among the texels of level 0, where texel c reaches from c to c + 1. For
+  /// level l multiply by 2^-l.
   double texelOf(double post) const { return post * texelsPerPost + 0.5 * std::min(1.0, texelsPerPost); }
   friend bool operator==(const GroundShape&, const GroundShape&) = default;
 };
@@ -54,8 +56,8 @@ class GroundPyramid {
  public:
   virtual ~GroundPyramid() = default;
   virtual const GroundShape& shape() const = 0;
-  /// Reads a tile of kTile x kTile texels, rows from south; beyond the level's border the last row or column
-  /// is repeated. Reports a damaged tile. Waits for the disk. Thread-safe.
+  /// Reads a tile of kTile x kTile texels, rows from the south. Beyond the level's border the last row or
+  /// column is repeated. It fails for a damaged tile, waits for the disk, and is safe on any thread.
   virtual Result<GroundTile> readTile(std::uint32_t level, std::uint32_t column, std::uint32_t row) const = 0;
 };
 

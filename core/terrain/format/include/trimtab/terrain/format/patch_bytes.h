@@ -8,10 +8,11 @@
 
 #include "trimtab/terrain/format/patch_terrain.h"
 
-/// What is known of patches as bytes, kind by kind; of every variant that there is, and of no other.
+/// Writes and reads what is known about patches as bytes, one kind after the other, for exactly as many
+/// variants as there are.
 namespace trimtab::terrain {
 
-/// Facts up to those by variant, of which there may be fewer than PatchFacts has room for.
+/// The bytes of PatchFacts before the values per variant, of which there may be fewer than PatchFacts holds.
 inline constexpr std::size_t kPlainFactBytes = offsetof(PatchFacts, rmsErrorM);
 static_assert(kPlainFactBytes == 24 &&
               sizeof(PatchFacts) == kPlainFactBytes + 2 * PatchIndex::kMostVariants * sizeof(float));
@@ -21,7 +22,7 @@ constexpr std::size_t factBytes(std::size_t variants) {
 
 class PatchBytesWriter {
  public:
-  /// So many bytes will come: no room is taken for more.
+  /// Reserves memory for so many bytes.
   explicit PatchBytesWriter(std::size_t bytes) { bytes_.reserve(bytes); }
 
   template <class T>
@@ -46,7 +47,7 @@ class PatchBytesWriter {
   std::vector<std::byte> bytes_;
 };
 
-/// The same again, in the order in which it was written. What is beyond the end is left as it was.
+/// Reads it again in the order in which it was written. A value beyond the end is left unchanged.
 class PatchBytesReader {
  public:
   explicit PatchBytesReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -63,7 +64,7 @@ class PatchBytesReader {
       take(of.bilinearErrorM.data(), variants * sizeof(float));
     }
   }
-  /// Whether there was as much as was taken, and no more.
+  /// Reports whether all bytes were read, and none was missing.
   bool isWhole() const { return enough_ && bytes_.empty(); }
 
  private:

@@ -9,14 +9,14 @@
 #include "trimtab/frame/static_lod_index.h"
 #include "trimtab/units/result.h"
 
-/// The trees of static levels of detail (document E) as a renderer reads them.
+/// The static LOD trees of document E as a renderer reads them.
 namespace trimtab::terrain {
 
-/// As the renderer uploads it. Position relative to the tile's origin, a multiple of 1/256 m: a vertex that
-/// nodes or tiles share is the same to the bit in all of them.
+/// A vertex as the renderer uploads it. Its position is relative to the tile's origin, in multiples of 1/256
+/// m; a vertex that nodes or tiles share is the same to the bit in all of them.
 struct StaticLodVertex {
   float x, y, z;
-  std::int8_t normal[3];  ///< local frame, x 127
+  std::int8_t normal[3];  ///< 127 times the normal, local frame
   std::uint8_t unused = 0;
   std::uint8_t colour[4];  ///< sRGB of the material
 };
@@ -27,25 +27,27 @@ struct StaticLodTile {
   std::string name;
   std::int32_t origin[3] = {};  ///< multiples of 16 m in the local frame: metres = origin * 16
   std::vector<StaticLodVertex> vertices;
-  std::vector<std::uint32_t> indices;  ///< three a triangle
-  std::vector<std::uint8_t> locked;  ///< one a triangle: bit i, the edge from corner i to i+1 may not change
-  std::vector<std::uint16_t> material;  ///< one a triangle
+  std::vector<std::uint32_t> indices;  ///< three per triangle
+  std::vector<std::uint8_t>
+      locked;  ///< per triangle: bit i says that the edge from corner i to i+1 may not change
+  std::vector<std::uint16_t> material;  ///< per triangle
 };
 
-/// Where a node's triangles lie in its tile.
+/// The triangles of a node, in its tile.
 struct StaticLodRange {
   std::uint32_t firstTriangle = 0, triangles = 0;
 };
 
 struct StaticLodCounts {
-  std::uint32_t levels = 0;                                         ///< of the deepest tile
-  std::uint64_t sourceTriangles = 0, faces = 0, distinctFaces = 0;  ///< faces of all nodes; same face once
+  std::uint32_t levels = 0;  ///< of the deepest tile
+  std::uint64_t sourceTriangles = 0, faces = 0,
+                distinctFaces = 0;  ///< the last counts faces that nodes share once
   std::vector<std::uint64_t>
-      facesOfLevel;  ///< by depth, root first; a leaf above the deepest level counts in all below
+      facesOfLevel;  ///< by depth from the root; a leaf above the deepest level counts in all below it
   std::uint64_t lockedMinima = 0;    ///< nodes that could not reach n
-  std::uint64_t joinedVertices = 0;  ///< of tiles' borders, found again in a neighbour
-  std::uint64_t degenerate = 0;      ///< source triangles dropped: they repeat a vertex on the lattice
-  std::uint64_t repeated = 0;        ///< source triangles dropped: another one has the same corners
+  std::uint64_t joinedVertices = 0;  ///< vertices on borders of tiles that a neighbour has too
+  std::uint64_t degenerate = 0;      ///< source triangles dropped because they repeat a vertex on the lattice
+  std::uint64_t repeated = 0;        ///< source triangles dropped because another one has the same corners
   std::uint64_t folded = 0;          ///< source triangles kept that stand upright or face down
   std::uint64_t bytes = 0;           ///< of all arrays
 };
@@ -56,15 +58,16 @@ struct StaticLodTerrain {
   std::uint32_t trianglesPerNode = 2000;  ///< n
   StaticLodIndex index;
   std::vector<StaticLodTile> tiles;
-  std::vector<StaticLodRange> ranges;  ///< one a node of the index
+  std::vector<StaticLodRange> ranges;  ///< one per node of the index
   std::vector<std::string> materials;
   StaticLodCounts counts;
 };
 
-/// Makes those of the counts that follow from the index and the arrays.
+/// Computes the counts that follow from the index and the arrays.
 void countStaticLod(StaticLodTerrain& terrain);
 
-/// One little-endian file with a checksum, written atomically; reading checks sizes before it allocates.
+/// Write and read one little-endian file with a checksum. Writing is atomic; reading checks sizes before it
+/// allocates.
 Result<Done> writeStaticLod(const std::filesystem::path& file, const StaticLodTerrain& terrain);
 Result<std::shared_ptr<const StaticLodTerrain>> readStaticLod(const std::filesystem::path& file);
 

@@ -7,9 +7,9 @@
 
 #include "trimtab/terrain/mesh/scan.h"
 
-/// Posts of a triangle four at a time. The same source is compiled for wide registers and for narrow ones;
-/// what is added up is added lane by lane, and the lanes in one order, so that every machine makes the same
-/// mesh.
+/// Visits the posts of a triangle four at a time. The same source is compiled for wide registers and for
+/// narrow ones. Sums are formed lane by lane, and the lanes are added in one order, so that every machine
+/// makes the same mesh to the bit.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(TRIMTAB_PLAIN_LANES) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define TRIMTAB_LANES [[gnu::target_clones("avx2", "default")]]
@@ -24,26 +24,28 @@ using Lanes = double __attribute__((vector_size(32)));
 using LaneFloats = float __attribute__((vector_size(16)));
 using LaneMask = std::int64_t __attribute__((vector_size(32)));
 
-/// Heights under a mesh, from its origin.
+/// Heights under a mesh, counted from the mesh's origin.
 struct PostRows {
   const float* z;
   std::size_t stride;
-  std::int32_t columns;  ///< that may be read
+  std::int32_t columns;  ///< how many posts of a row may be read
   const float* row(std::int32_t y) const { return z + static_cast<std::size_t>(y) * stride; }
 };
 
-/// Adds up lanes, or takes the largest, always in the same order.
+/// Returns the sum of the lanes, always added in the same order.
 TRIMTAB_INLINE double sumOfLanes(const Lanes& v) {
   return (v[0] + v[2]) + (v[1] + v[3]);
 }
+/// Returns the largest lane.
 TRIMTAB_INLINE double mostOfLanes(const Lanes& v) {
   return std::max(std::max(v[0], v[2]), std::max(v[1], v[3]));
 }
+/// Writes the absolute value of each lane into `out`.
 TRIMTAB_INLINE void absoluteLanes(const Lanes& v, Lanes& out) {
   out = reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(v) & INT64_MAX);
 }
 
-/// The least and the greatest of heights.
+/// Finds the lowest and the highest of many heights.
 class LaneRange {
  public:
   LaneRange(float low, float high) : low_(LaneFloats{} + low), high_(LaneFloats{} + high) {}
@@ -66,9 +68,9 @@ class LaneRange {
   LaneFloats low_, high_;
 };
 
-/// Calls `four(off, weight, x, y)` for the posts that forEachRow visits (at step 1): how far each is above
-/// the triangle, and the shares of the corners in the triangle's height there; all are 0 in lanes that are no
-/// such post. Lane k is post (x + k, y). `everyRow` as there.
+/// Calls `four(off, x, y)` for the posts that forEachRow visits at step 1. Lane k of `off` is how far post (x
+/// + k, y) lies above the triangle, metres; it is 0 if that post is not one to visit. `everyRow` is as in
+/// forEachRow.
 template <class Four>
 TRIMTAB_INLINE void forEachFour(const Triangulation::Vertex* const corner[3], const bool isBorder[3],
                                 const PostRows& posts, const Four& four, std::int32_t everyRow = 1) {
@@ -126,14 +128,7 @@ TRIMTAB_INLINE void forEachFour(const Triangulation::Vertex* const corner[3], co
         Lanes z;
         load(row, z);
         const Lanes off = z - (zLess + (e2 * toB + e0 * toC));
-        const auto share = [&](const Lanes& e, const Edge& of, Lanes& out) __attribute__((always_inline)) {
-          out = reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>((e + of.less) * perArea) & in);
-        };
-        Lanes shares[3];
-        share(e1, bc, shares[0]);
-        share(e2, ca, shares[1]);
-        share(e0, ab, shares[2]);
-        four(reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(off) & in), shares, first, y);
+        four(reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(off) & in), first, y);
         e0 += ab.up;
         e1 += bc.up;
         e2 += ca.up;
@@ -142,14 +137,10 @@ TRIMTAB_INLINE void forEachFour(const Triangulation::Vertex* const corner[3], co
     return;
   }
 
-  const double slope[3] = {(b.y - c.y) * perArea, (c.y - a.y) * perArea, (a.y - b.y) * perArea};
   forEachRow(
       corner, isBorder, 1,
       [&](const FacetRow& r) __attribute__((always_inline)) {
         const float* const row = posts.row(r.y);
-        const double start[3] = {static_cast<double>(Triangulation::turn(b, c, r.first, r.y)) * perArea,
-                                 static_cast<double>(Triangulation::turn(c, a, r.first, r.y)) * perArea,
-                                 static_cast<double>(Triangulation::turn(a, b, r.first, r.y)) * perArea};
         for (std::int32_t x = r.first; x <= r.last; x += kLanes) {
           Lanes z;
           if (x + kLanes <= posts.columns) {
@@ -162,10 +153,7 @@ TRIMTAB_INLINE void forEachFour(const Triangulation::Vertex* const corner[3], co
           const Lanes along = kCount + static_cast<double>(x - r.first);
           const LaneMask in = along <= static_cast<double>(r.last - r.first);
           const Lanes off = z - (r.z + r.slope * along);
-          Lanes shares[3];
-          for (int k = 0; k < 3; ++k)
-            shares[k] = reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(start[k] + slope[k] * along) & in);
-          four(reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(off) & in), shares, x, r.y);
+          four(reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(off) & in), x, r.y);
         }
       },
       everyRow);

@@ -6,13 +6,13 @@
 
 namespace trimtab::terrain {
 
-/// Puts triangles into an order in which each shares an edge with one shortly before, so that they pack well:
-/// nearly as well as in the order of meshopt_optimizeVertexCacheStrip, in a tenth of its time. Keeps its
-/// storage from mesh to mesh.
+/// Orders triangles so that each shares an edge with one shortly before it. They then pack nearly as well as
+/// in the order of meshopt_optimizeVertexCacheStrip, which takes ten times as long. Keeps its storage from
+/// mesh to mesh.
 class TriangleOrder {
  public:
-  /// `twins`: of PolygonMesher, three a triangle. `order`: of each triangle the half-edge from which it is to
-  /// be drawn.
+  /// `twins` are those of PolygonMesher::triangles, three per triangle. Fills `order` with one half-edge per
+  /// triangle, in drawing order: the triangle is to be drawn from the corner that the half-edge leaves.
   void order(std::span<const std::int32_t> twins, std::vector<std::int32_t>& order);
 
  private:

@@ -10,19 +10,25 @@ namespace trimtab::terrain {
 
 #define TRIMTAB_INLINE [[gnu::always_inline]] inline
 
-/// Heights of a triangle along the rows of posts in it.
+/// Returns the difference of a post from a facet, or 0 if it is no more than rounding of heights as large as
+/// `scale`, so that planes are flat.
+inline double roundedError(double difference, double scale) {
+  return difference <= scale * 0x1p-38 ? 0.0 : difference;
+}
+
+/// Heights of a triangle along one row of the posts in it.
 struct FacetRow {
   std::int32_t y, first, last;  ///< posts of the row, both ends included, counted in posts of the field
   double z, slope;              ///< height at the first, and its growth from post to post
 };
 
-/// Visits the posts of a triangle row by row. Each post of a mesh belongs to one triangle: an edge belongs to
-/// the triangle on its right or above it. Posts that are corners, and posts on edges that `isBorder`, are
-/// left out. `row` gets a FacetRow. Posts lie at every `step`-th place. Of their rows every `everyRow`-th is
-/// visited.
+/// Visits the posts of a triangle row by row and calls `row(FacetRow)` for each row. Every post of a mesh
+/// belongs to one triangle: an edge belongs to the triangle on its right or above it. Corners are left out,
+/// and so are posts on edges that `isBorder` names. Posts lie at every `step`-th place; only every
+/// `everyRow`-th of their rows is visited.
 ///
-/// Ends of rows are found in floating point and are exact: a crossing that is no integer is 1 / (rows of the
-/// triangle) away from one, 2^-15 at least, and the error is below 2^-30.
+/// The ends of rows are computed in floating point and are exact: a crossing that is no integer is at least
+/// 1 / (rows of the triangle), 2^-15 or more, away from one, and the error is below 2^-30.
 template <class Row>
 TRIMTAB_INLINE void forEachRow(const Triangulation::Vertex* const corner[3], const bool isBorder[3],
                                std::int32_t step, const Row& row, std::int32_t everyRow = 1) {

@@ -10,12 +10,14 @@
 #include "trimtab/terrain/grid/height_window.h"
 #include "trimtab/terrain/grid/post_geometry.h"
 
-/// Builds error-bounded levels (core/frame/include/trimtab/frame/patch_index.h says what they are and why
-/// they close), a page at a time, from the posts alone: pages can be built in any order, by many threads or
-/// machines.
+/// Builds patches with a guaranteed vertical error, one page at a time, from the posts alone. Pages can be
+/// built in any order, by several threads or machines, with the same result to the byte.
+/// trimtab/frame/patch_index.h says what patches are; resources/docs/levels-of-detail.md ("Patches") says why
+/// they fit without cracks.
 namespace trimtab::terrain {
 
-/// A page and what was measured of its own patches; errors and bounds of descendants are not in them yet.
+/// A page and what was measured on its patches, one entry per patch. finishPatchIndex() later raises errors
+/// and bounds by those of the descendants.
 struct BuiltPage {
   PatchPage meshes;
   std::vector<PatchFacts> facts;
@@ -23,15 +25,18 @@ struct BuiltPage {
   VariantTable<float> errorM;
   std::vector<NormalCone> cones;
 };
-/// Memory: a few times the posts of a page at no more than kMostPostsASide a side (coarser pages are meshed
-/// on every so-manyth post, and measured on all of them, strip by strip). `carryOn` is asked between patches
-/// and between strips; when it says no, what comes back has no patches.
+/// A page with more posts a side than this is meshed on every 2nd, 4th, ... post, and measured on all of
+/// them.
 inline constexpr std::uint32_t kMostPostsASide = 1025;
+/// Meshes and measures one page. `tolerances` are the allowed errors in metres by depth (patchTolerances).
+/// The memory needed is a few times the posts that the page is meshed on, because it is measured strip by
+/// strip. `carryOn` is asked between patches and between strips; if it returns false, the result has no
+/// patches.
 BuiltPage buildPage(const PatchIndex& index, std::uint32_t page, const HeightSource& heights,
                     const PostGeometry& geometry, const std::vector<double>& tolerances,
                     const std::function<bool()>& carryOn = {});
 
-/// All of it in memory, on all cores.
+/// Builds all pages in memory, on all cores. `leafToleranceM` is the allowed error of the smallest patches.
 std::shared_ptr<const PatchTerrain> buildPatches(const HeightSource& heights, double leafToleranceM,
                                                  std::uint32_t leafCells);
 inline std::shared_ptr<const PatchTerrain> buildPatches(const HeightSource& heights, double leafToleranceM) {

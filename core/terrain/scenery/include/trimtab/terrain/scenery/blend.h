@@ -11,29 +11,30 @@
 
 namespace trimtab::terrain {
 
-/// Rows of scenery, and at posts that no triangle covers the heights of elevation, bilinear between its
-/// posts. Around what is scenery's the difference to it is spread over 32 posts (a membrane), so that there
-/// is no step. What is read does not depend on how it is asked for; some 180 rows are in memory, and 2^20
-/// posts more.
+/// Reads rows of heights from scenery, and from elevation at the posts that no triangle covers. Elevation is
+/// bilinear between its own posts. Around the scenery its difference from the elevation fades out over 32
+/// posts, like a membrane, so that no step is left. The result does not depend on the order of the calls.
+/// About 180 rows and 2^20 posts are held in memory.
 class BlendedRows {
  public:
   /// The raster must outlive it.
   BlendedRows(const SceneryRaster& scenery, std::unique_ptr<ElevationSource> elevation)
       : scenery_(scenery), elevation_(std::move(elevation)) {}
 
-  /// Rows [first, first + rows), NaN where neither has a height; `reached`, one a post: 1 where a tile's
-  /// rectangle or elevation reaches. Rows in order are made once; for an earlier one all is made again.
+  /// Fills `heights` with rows [first, first + rows), NaN at posts where neither source has a height, and
+  /// `reached` with 1 at posts inside a tile's rectangle or the elevation. Rows that are read in order are
+  /// computed once; reading an earlier row starts again from the first one.
   Result<Done> read(std::uint32_t first, std::uint32_t rows, std::span<float> heights,
                     std::span<std::uint8_t> reached);
 
  private:
   struct Row {
-    std::vector<float> heights, difference;  ///< from elevation; empty where nothing is blended
+    std::vector<float> heights, difference;  ///< scenery minus elevation; empty if nothing is blended
     std::vector<std::uint8_t> away, reached;
-    std::vector<std::uint32_t> band;  ///< columns that the difference is spread over
+    std::vector<std::uint32_t> band;  ///< columns over which the difference fades out
   };
   Row& row(std::uint32_t number) { return rows_[number - firstRow_]; }
-  /// Null where there is none, or it has been let go.
+  /// Returns the next row to the north (1) or south (-1); null if there is none or it has been released.
   const Row* beside(std::uint32_t number, int north) {
     const std::uint32_t at = number - firstRow_ + static_cast<std::uint32_t>(north);
     return at < rows_.size() ? &rows_[at] : nullptr;
@@ -48,11 +49,11 @@ class BlendedRows {
 
   const SceneryRaster& scenery_;
   std::unique_ptr<ElevationSource> elevation_;
-  std::deque<std::vector<float>> elevationRows_;  ///< those in hand
+  std::deque<std::vector<float>> elevationRows_;  ///< from firstElevationRow_ on
   std::uint32_t firstElevationRow_ = 0;
   std::deque<Row> rows_;
   std::uint32_t firstRow_ = 0;
-  // Rows from the south that each step has done.
+  // How many rows from the south each step has done.
   std::uint32_t read_ = 0, bordered_ = 0, spread_ = 0, relaxing_ = 0, finished_ = 0;
 };
 

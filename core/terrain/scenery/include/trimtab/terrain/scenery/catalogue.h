@@ -15,46 +15,45 @@
 
 namespace trimtab::terrain {
 
-/// A tile or airport and where its vertices are.
+/// A tile or airport with the places of its vertices.
 struct PlacedMesh {
   SceneryMesh mesh;
-  std::vector<Vec3> places;  ///< longitude, latitude (degrees) and height (metres), one a vertex
+  std::vector<Vec3> places;  ///< per vertex: longitude and latitude in degrees, height in metres
 };
 
-/// All tiles of some scenery. Those that came from files are read again when they are needed, and those that
-/// can be made again are: as many stay in memory as it was given.
+/// All tiles of some scenery. It keeps as many in memory as its budget allows, and reads or makes the others
+/// again when they are needed.
 class SceneryCatalogue {
  public:
   struct Tile {
-    std::filesystem::path file;         ///< empty: it was not read from one
-    std::function<SceneryMesh()> make;  ///< the same again; neither: it stays in memory
+    std::filesystem::path file;         ///< empty if it was not read from a file
+    std::function<SceneryMesh()> make;  ///< makes it again; a tile with neither stays in memory
     std::string name;
     bool airport = false;
-    Rectangle extent = Rectangle::none();  ///< of its triangles
+    Rectangle extent = Rectangle::none();  ///< of its triangles, degrees
   };
 
-  /// Reads all of the sources once, and counts. A tile that two of them hold counts once. Refused where one
-  /// is broken: ground that it leaves out would look like sea or like a plain. `memory`: bytes that tiles may
-  /// take.
+  /// Reads all sources once, and counts. A tile that two sources hold counts once. Fails if a tile is broken,
+  /// because ground that is left out would look like sea or like a plain. Tiles may use `memory` bytes.
   static Result<std::unique_ptr<SceneryCatalogue>> open(std::span<const std::filesystem::path> sources,
                                                         std::size_t memory, const Progress& progress);
-  /// Of tiles that stay in memory; a vector of them is a catalogue where one is asked for.
+  /// Makes a catalogue of tiles that stay in memory.
   SceneryCatalogue(std::vector<SceneryMesh> meshes = {});
 
-  /// `again`, where it can be made again: the same, on any thread.
+  /// Adds a tile. `again`, if given, must make the same tile, on any thread.
   void add(SceneryMesh mesh, std::function<SceneryMesh()> again = {}) {
     enter({}, std::move(again), std::move(mesh));
   }
   const std::vector<Tile>& tiles() const { return tiles_; }
   const SceneryCounts& counts() const { return counts_; }
-  /// Of all tiles.
+  /// Returns the rectangle of all tiles, degrees.
   Rectangle extent() const;
-  /// Turns, in degrees, that take this catalogue's longitudes next to one.
+  /// Returns the multiple of 360 degrees that brings this catalogue's longitudes nearest to `longitude`.
   double turnTo(double longitude) const;
 
-  /// Any thread.
+  /// Returns a tile, read or made again if it is not in memory. Safe on any thread.
   Result<std::shared_ptr<const PlacedMesh>> mesh(std::size_t tile) const;
-  /// All of them, in their order; the catalogue's own copies are gone then.
+  /// Moves all tiles out, in order; the catalogue holds none afterwards.
   Result<std::vector<SceneryMesh>> takeAll();
 
  private:
@@ -70,12 +69,12 @@ class SceneryCatalogue {
 
   std::vector<Tile> tiles_;
   SceneryCounts counts_;
-  double reference_ = 0;  ///< longitudes lie within half a turn of it
+  double reference_ = 0;  ///< all longitudes lie within 180 degrees of it
   bool hasReference_ = false;
   std::size_t memory_ = 0;
   mutable std::mutex mutex_;
-  mutable std::vector<Slot> slots_;  ///< one a tile
-  mutable std::size_t bytes_ = 0;    ///< of those that need not stay
+  mutable std::vector<Slot> slots_;  ///< per tile
+  mutable std::size_t bytes_ = 0;    ///< of tiles that may be released
   mutable std::uint64_t use_ = 0;
 };
 

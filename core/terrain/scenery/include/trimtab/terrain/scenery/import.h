@@ -14,18 +14,21 @@
 
 namespace trimtab::terrain {
 
-/// Posts from the south-west to the north-east corner of what the triangles cover, both included. Without a
-/// distance: 30 m, and up to 60 m where that keeps the grid at about six million posts.
+/// Returns a grid of posts from the south-west to the north-east corner of what the triangles cover, both
+/// included. Without a distance the posts are 30 m apart, or up to 60 m if that keeps the grid at about six
+/// million posts.
 Result<PostGrid> sceneryPosts(const SceneryCatalogue& scenery, std::optional<Metres> distance);
-/// Posts over a rectangle of degrees, its corners included; without a distance as above.
+/// Returns a grid of posts over a rectangle in degrees, its corners included. Without a distance as above.
 Result<PostGrid> postsOver(const Rectangle& degrees, std::optional<Metres> distance);
 
-/// Rows of a SceneryRaster: memory follows the catalogue's, not the size of the land. What lies in no tile's
-/// rectangle is open sea, at 0 m, where its borders are, with a note; the rest of it is `beyond`. With
-/// elevation, where there is one, at the posts that no triangle covers (BlendedRows).
+/// Scenery as a source of heights by rows (SceneryRaster). Its memory follows that of the catalogue, not the
+/// size of the land. Posts in no tile's rectangle are open sea at 0 m if tiles around them are at sea level
+/// (OpenSea), with a note; the others are `beyond`. With elevation, posts that no triangle covers have its
+/// heights (BlendedRows).
 class SceneryHeights final : public ElevationSource {
  public:
-  /// Looks through all rows for open sea where tiles leave any out. The catalogue must outlive it.
+  /// Reads all rows once to find open sea, unless tiles reach every post. The catalogue must outlive the
+  /// result.
   static Result<std::unique_ptr<SceneryHeights>> open(const SceneryCatalogue& scenery, const PostGrid& posts,
                                                       const Progress& progress,
                                                       std::unique_ptr<ElevationSource> elevation = nullptr);
@@ -35,7 +38,7 @@ class SceneryHeights final : public ElevationSource {
                         std::span<std::uint8_t> beyond = {}) override;
   std::vector<std::string> names() const override { return {}; }
   std::vector<std::uint64_t> given() const override { return {}; }
-  /// Colours of all posts, RGBA, alpha 0 where there are none: elevation has none.
+  /// Returns the colours of all posts, RGBA. Alpha is 0 where there is no scenery: elevation has no colours.
   Result<std::vector<std::uint8_t>> image(const Progress& progress) const;
 
  private:
@@ -50,11 +53,11 @@ class SceneryHeights final : public ElevationSource {
 
   SceneryRaster raster_;
   std::optional<BlendedRows> blended_;
-  std::optional<OpenSea> sea_;  ///< none: tiles reach every post
+  std::optional<OpenSea> sea_;  ///< empty if tiles reach every post
   std::vector<std::uint8_t> reached_;
 };
 
-/// What the files of some scenery hold.
+/// Counts what the files of some scenery hold.
 SceneryCounts countsOf(const Scenery& scenery);
 
 }  // namespace trimtab::terrain

@@ -5,12 +5,15 @@
 
 namespace trimtab::terrain {
 
-/// What scenery draws as long thin triangles, by its material.
+/// Line features, which scenery draws as long thin triangles.
 enum class LineFeature : std::uint8_t { none, road, railway, stream };
+/// Returns which line feature a material is. Airports use the same materials, so do not ask for their
+/// triangles.
 LineFeature lineFeatureOf(std::string_view material);
-/// Areas of open water: sea, lakes, broad rivers. Their borders with anything else are shorelines.
+/// Reports whether a material is open water: sea, lakes, broad rivers. Its borders with other materials are
+/// shorelines.
 bool isWater(std::string_view material);
-/// Returns whether a tile of this name is an airport ("EDNY"). Names of other tiles are all digits.
+/// Reports whether a tile of this name is an airport ("EDNY"). Names of other tiles are all digits.
 bool isAirport(std::string_view tile);
 
 }  // namespace trimtab::terrain

@@ -7,12 +7,12 @@
 
 namespace trimtab::terrain {
 
-/// Adds tiles of `heights` for the buckets in `where` that have none, so that trees of scenery go on there:
-/// named after their buckets, meshed to a fifteenth of the posts' distance. At a tile of scenery a made one
-/// has that tile's own border vertices, none more and none less, and with its like it shares what both
-/// compute from the line between them: no open edge but at the rim of `where`. Buckets that the grid has
-/// nothing but sea level for are made of "Ocean", all else of "Default". They are made again when they are
-/// needed and did not stay in the catalogue's memory: `heights` must live as long as it is asked.
+/// Adds tiles made of `heights` for the buckets in the rectangle `where` (degrees) that have none, so that
+/// static trees cover them too. A made tile has its bucket's number as its name and an error of at most a
+/// fifteenth of the posts' distance. At a tile of scenery it has exactly that tile's border vertices. Between
+/// two made tiles both compute the same vertices from the line between them. So no edge is open but at the
+/// rim of `where`. A bucket that is all at sea level is made of "Ocean", any other of "Default". Tiles are
+/// made again when the catalogue needs them, so `heights` must outlive it.
 Result<Done> makeTiles(SceneryCatalogue& scenery, const HeightSource& heights, const Rectangle& where,
                        const Progress& progress);
 

@@ -6,10 +6,10 @@
 
 namespace trimtab::terrain {
 
-/// Bytes that scenery's files take at their highest where all of them are in memory and trees are made of
-/// them: by their sizes as unzipped.
+/// Estimates the peak memory, in bytes, of baking static trees from these scenery files with all of them in
+/// memory, from their unzipped sizes.
 std::uint64_t sceneryBytes(std::span<const std::filesystem::path> files);
-/// And what tiles made between them add, by their triangles.
+/// Estimates what made tiles (makeTiles) with so many triangles add to it, bytes.
 std::uint64_t madeTilesBytes(std::uint64_t triangles);
 
 }  // namespace trimtab::terrain

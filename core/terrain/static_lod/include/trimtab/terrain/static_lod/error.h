@@ -26,6 +26,8 @@ class VerticalDistance {
  private:
   template <class Visit>
   void forEachCell(std::uint32_t triangle, const Visit& visit) const;
+  template <class Visit>
+  void forEachOver(const Lattice& p, std::uint32_t first, std::uint32_t last, const Visit& visit) const;
 
   std::span<const Lattice> vertices_;
   std::span<const std::array<std::uint32_t, 3>> triangles_;

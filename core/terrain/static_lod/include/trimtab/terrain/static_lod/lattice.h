@@ -35,10 +35,10 @@ inline constexpr double kVerticalSlope = 1e6;
 struct LatticeTile {
   std::string name;
   std::vector<Lattice> vertices;
-  std::vector<std::uint8_t> shared;  ///< one a vertex: another tile has it too
-  std::vector<Vec3> normals;         ///< one a vertex: sum over the triangles of all tiles, by area
+  std::vector<std::uint8_t> shared;  ///< per vertex: another tile has it too
+  std::vector<Vec3> normals;         ///< per vertex: sum over the triangles of all tiles, by area
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint16_t> material;  ///< one a triangle, of LatticeTiles::materials
+  std::vector<std::uint16_t> material;  ///< per triangle, of LatticeTiles::materials
 };
 
 struct LatticeTiles {

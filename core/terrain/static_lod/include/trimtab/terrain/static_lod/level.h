@@ -14,7 +14,7 @@ namespace trimtab::terrain {
 struct LatticeSurface {
   std::vector<Lattice> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint16_t> material;  ///< one a triangle
+  std::vector<std::uint16_t> material;  ///< per triangle
 };
 /// Returns what is drawn of a tile at a level; 0 is the root. It includes the leaves above that level, so
 /// that the deepest level is the source.
@@ -38,6 +38,7 @@ struct LineShare {
   double ofLines() const { return lineM > 0 ? lineLeftM / lineM : 1; }
   double ofShores() const { return shoreM > 0 ? shoreLeftM / shoreM : 1; }
 };
-std::vector<LineShare> lineShares(const StaticLodTerrain& terrain, std::size_t tile);  ///< one a level
+/// Returns them level by level.
+std::vector<LineShare> lineShares(const StaticLodTerrain& terrain, std::size_t tile);
 
 }  // namespace trimtab::terrain

@@ -1,19 +1,23 @@
-#include "greedy.h"
+#include "trimtab/terrain/mesh/mesher.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
+#include "queue.h"
 #include "trimtab/terrain/mesh/lanes.h"
+#include "trimtab/terrain/mesh/triangulation.h"
 
 namespace trimtab::terrain {
 
 namespace {
 
-/// In a triangle of so many rows every so-manyth is enough to find a post to insert: its posts soon lie in
-/// others.
+/// In a triangle of at least kTall rows, every kEveryRow-th row is enough to find a post to insert: its posts
+/// soon lie in other triangles.
 constexpr std::int32_t kTall = 16, kEveryRow = 4;
+constexpr double kUnknown = -1;
 
 struct Facet {
   const Triangulation::Vertex* corner[3];
@@ -32,20 +36,6 @@ Facet facetOf(const Triangulation& mesh, std::int32_t t) {
   return out;
 }
 
-/// Of a triangle, at a place in it.
-double heightAt(const Triangulation& mesh, const Triangulation::Triangle& one, std::int32_t x,
-                std::int32_t y) {
-  double sum = 0, whole = 0;
-  for (int i = 0; i < 3; ++i) {
-    const Triangulation::Vertex &a = mesh.vertices[one.corner[Triangulation::next(i)]],
-                                &b = mesh.vertices[one.corner[Triangulation::before(i)]];
-    const auto beside = static_cast<double>(Triangulation::turn(a, b, x, y));
-    sum += beside * mesh.vertices[one.corner[i]].z;
-    whole += beside;
-  }
-  return sum / whole;
-}
-
 [[maybe_unused]] bool allFinite(const HeightField& field, std::span<const PolygonMesher::Point> border) {
   std::uint32_t west = ~0u, east = 0, south = ~0u, north = 0;
   for (const PolygonMesher::Point& p : border) {
@@ -58,10 +48,60 @@ double heightAt(const Triangulation& mesh, const Triangulation::Triangle& one, s
   return true;
 }
 
+/// Over some posts.
+struct PostSum {
+  double squares = 0, worst = 0;
+};
+
 }  // namespace
 
-void GreedyMesh::begin(const HeightField& field, std::span<const Point> border,
-                       std::span<const float> borderZ) {
+/// Places are counted from `origin`, the least place of the border.
+struct PolygonMesher::Impl {
+  void begin(const HeightField& field, std::span<const Point> border, std::span<const float> borderZ);
+  void refine(double tolerance, std::size_t mostVertices);
+  double maxErrorM() const;
+  double rmsErrorM() const;
+  std::uint64_t posts() const;
+
+  Triangulation mesh_;
+  std::vector<Point> points_;
+
+ private:
+  /// Of one triangle: its worst post, and the sum of the squares of all errors.
+  struct Scan {
+    double worst = 0, squares = 0;
+    std::int32_t x = 0, y = 0;
+  };
+  static Scan scanPosts(const Triangulation::Vertex* const corner[3], const bool border[3],
+                        const PostRows& posts, std::int32_t everyRow);
+  Scan scanSteps(const Triangulation::Vertex* const corner[3], const bool border[3]) const;
+  /// Looks at all posts of triangle t, or only at so many as show that one is beyond the tolerance.
+  void scan(std::int32_t t, bool all);
+  void scanAbout(std::int32_t t);
+  const float* row(std::int32_t y) const { return z_ + static_cast<std::size_t>(y) * stride_; }
+  template <class Visit>
+  void eachBorderPost(const Visit& visit) const;
+  template <class Visit>
+  void eachInnerPost(const Visit& visit) const;
+  const PostSum& border() const;
+  std::uint64_t countPosts() const;
+
+  ErrorQueue queue_;
+  std::vector<double> error_;    ///< worst error at the posts of each triangle
+  std::vector<double> squares_;  ///< their sum per triangle; kUnknown if only some rows were looked at
+  const float* z_ = nullptr;     ///< the height at the origin
+  std::size_t stride_ = 0;
+  std::uint32_t originX_ = 0, originY_ = 0;
+  std::int32_t step_ = 1, columns_ = 0;
+  double tolerance_ = 0;
+  bool unknown_ = false;  ///< some errors are kUnknown
+  // Refinement changes neither, so they are computed once.
+  mutable std::optional<PostSum> border_;
+  mutable std::uint64_t posts_ = 0;
+};
+
+void PolygonMesher::Impl::begin(const HeightField& field, std::span<const Point> border,
+                                std::span<const float> borderZ) {
   assert(border.size() >= 3 && (borderZ.empty() || borderZ.size() == border.size()));
   originX_ = originY_ = ~0u;
   for (const Point& p : border) {
@@ -92,43 +132,22 @@ void GreedyMesh::begin(const HeightField& field, std::span<const Point> border,
   unknown_ = true;
 }
 
-std::uint32_t GreedyMesh::addBorder(std::uint32_t from, Point at) {
-  const auto v = static_cast<std::uint32_t>(points_.size());
-  const auto x = static_cast<std::int32_t>(at.column - originX_),
-             y = static_cast<std::int32_t>(at.row - originY_);
-  border_.reset();
-  points_.push_back(at);
-  mesh_.vertices.push_back({x, y, row(y / step_)[x / step_]});
-  mesh_.splitBorder(from, v);
-  error_.resize(mesh_.triangles.size());
-  squares_.resize(mesh_.triangles.size());
-  // All that changed is about v, from one side of it on the border to the other.
-  std::int32_t h = 4 * (mesh_.borderEdge[v] >> 2) + 2;
-  while (h >= 0) {
-    error_[static_cast<std::size_t>(h >> 2)] = kUnknown;
-    h = mesh_.triangles[static_cast<std::size_t>(h >> 2)].twin[1];
-  }
-  unknown_ = true;
-  return v;
-}
-
-TRIMTAB_LANES GreedyMesh::Scan GreedyMesh::scanPosts(const Triangulation::Vertex* const corner[3],
-                                                     const bool border[3], const PostRows& posts,
-                                                     std::int32_t everyRow) {
+TRIMTAB_LANES PolygonMesher::Impl::Scan PolygonMesher::Impl::scanPosts(
+    const Triangulation::Vertex* const corner[3], const bool border[3], const PostRows& posts,
+    std::int32_t everyRow) {
   // Places as one number: row times kPlaces + column.
   constexpr std::int64_t kPlaces = std::int64_t{1} << 20;
   Lanes worst{}, place{}, squares{};
   forEachFour(
       corner, border, posts,
-      [&](const Lanes& off, const Lanes(&)[3], std::int32_t x, std::int32_t y)
-          __attribute__((always_inline)) {
-            Lanes size;
-            absoluteLanes(off, size);
-            const LaneMask more = size > worst;
-            worst = more ? size : worst;
-            place = more ? Lanes{} + static_cast<double>(y * kPlaces + x) : place;
-            squares += off * off;
-          },
+      [&](const Lanes& off, std::int32_t x, std::int32_t y) __attribute__((always_inline)) {
+        Lanes size;
+        absoluteLanes(off, size);
+        const LaneMask more = size > worst;
+        worst = more ? size : worst;
+        place = more ? Lanes{} + static_cast<double>(y * kPlaces + x) : place;
+        squares += off * off;
+      },
       everyRow);
   const double most = mostOfLanes(worst);
   const LaneMask is = worst == Lanes{} + most;
@@ -139,8 +158,8 @@ TRIMTAB_LANES GreedyMesh::Scan GreedyMesh::scanPosts(const Triangulation::Vertex
           static_cast<std::int32_t>(at / kPlaces)};
 }
 
-GreedyMesh::Scan GreedyMesh::scanSteps(const Triangulation::Vertex* const corner[3],
-                                       const bool border[3]) const {
+PolygonMesher::Impl::Scan PolygonMesher::Impl::scanSteps(const Triangulation::Vertex* const corner[3],
+                                                         const bool border[3]) const {
   Scan scan;
   forEachRow(corner, border, step_, [&](const FacetRow& r) {
     const float* const z = row(r.y);
@@ -159,7 +178,7 @@ GreedyMesh::Scan GreedyMesh::scanSteps(const Triangulation::Vertex* const corner
   return scan;
 }
 
-void GreedyMesh::scan(std::int32_t t, bool all) {
+void PolygonMesher::Impl::scan(std::int32_t t, bool all) {
   const Facet facet = facetOf(mesh_, t);
   if (step_ == 1 &&
       Triangulation::turn(*facet.corner[0], *facet.corner[1], facet.corner[2]->x, facet.corner[2]->y) == 1) {
@@ -193,7 +212,7 @@ void GreedyMesh::scan(std::int32_t t, bool all) {
   if (worst > tolerance_) queue_.put(t, worst);
 }
 
-void GreedyMesh::scanAbout(std::int32_t first) {
+void PolygonMesher::Impl::scanAbout(std::int32_t first) {
   std::int32_t t = first;
   do {
     queue_.remove(t);
@@ -202,16 +221,7 @@ void GreedyMesh::scanAbout(std::int32_t first) {
   } while (t != first);
 }
 
-void GreedyMesh::know(std::span<const PostSum> sums, double tolerance) {
-  assert(sums.size() == error_.size());
-  for (std::size_t t = 0; t < sums.size(); ++t) {
-    error_[t] = sums[t].worst > tolerance ? kUnknown : sums[t].worst;
-    squares_[t] = sums[t].squares;
-  }
-  unknown_ = true;
-}
-
-void GreedyMesh::refine(double tolerance, std::size_t mostVertices, double ease) {
+void PolygonMesher::Impl::refine(double tolerance, std::size_t mostVertices) {
   tolerance_ = std::max(tolerance, 0.0);
   queue_.begin(std::max(tolerance_, 0x1p-40));
   const auto count = static_cast<std::int32_t>(mesh_.triangles.size());
@@ -226,11 +236,7 @@ void GreedyMesh::refine(double tolerance, std::size_t mostVertices, double ease)
   for (std::int32_t t; points_.size() < mostVertices && (t = queue_.top()) >= 0;) {
     const Triangulation::Triangle& one = mesh_.triangles[static_cast<std::size_t>(t)];
     const std::int32_t x = one.postX * step_, y = one.postY * step_;
-    float z = row(one.postY)[one.postX];
-    if (ease > 0) {
-      const double off = z - heightAt(mesh_, one, x, y);
-      z = static_cast<float>(z - std::clamp(off, -ease, ease));
-    }
+    const float z = row(one.postY)[one.postX];
     const auto v = static_cast<std::uint32_t>(points_.size());
     points_.push_back({static_cast<std::uint32_t>(x) + originX_, static_cast<std::uint32_t>(y) + originY_});
     mesh_.vertices.push_back({x, y, z});
@@ -245,7 +251,7 @@ void GreedyMesh::refine(double tolerance, std::size_t mostVertices, double ease)
 }
 
 template <class Visit>
-void GreedyMesh::eachBorderPost(const Visit& visit) const {
+void PolygonMesher::Impl::eachBorderPost(const Visit& visit) const {
   for (std::size_t v = 0; v < mesh_.borderEdge.size(); ++v) {
     const std::int32_t h = mesh_.borderEdge[v];
     if (h < 0) continue;
@@ -264,7 +270,7 @@ void GreedyMesh::eachBorderPost(const Visit& visit) const {
   }
 }
 
-const PostSum& GreedyMesh::border() const {
+const PostSum& PolygonMesher::Impl::border() const {
   if (!border_) {
     border_.emplace();
     eachBorderPost([&](double off) {
@@ -275,19 +281,19 @@ const PostSum& GreedyMesh::border() const {
   return *border_;
 }
 
-double GreedyMesh::maxErrorM() const {
+double PolygonMesher::Impl::maxErrorM() const {
   double worst = border().worst;
   if (!unknown_) {
     for (const double error : error_) worst = std::max(worst, error);
     return worst;
   }
-  GreedyMesh copy(*this);
+  Impl copy(*this);
   copy.refine(HUGE_VAL, 0);
   return std::max(worst, copy.maxErrorM());
 }
 
 template <class Visit>
-void GreedyMesh::eachInnerPost(const Visit& visit) const {
+void PolygonMesher::Impl::eachInnerPost(const Visit& visit) const {
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh_.triangles.size()); ++t) {
     const Facet facet = facetOf(mesh_, t);
     forEachRow(facet.corner, facet.border, step_, [&](const FacetRow& r) {
@@ -302,9 +308,9 @@ void GreedyMesh::eachInnerPost(const Visit& visit) const {
   }
 }
 
-double GreedyMesh::rmsErrorM() const {
+double PolygonMesher::Impl::rmsErrorM() const {
   if (unknown_) {
-    GreedyMesh copy(*this);
+    Impl copy(*this);
     copy.refine(HUGE_VAL, 0);
     return copy.rmsErrorM();
   }
@@ -313,12 +319,12 @@ double GreedyMesh::rmsErrorM() const {
   return std::sqrt(sum / static_cast<double>(std::max<std::uint64_t>(posts(), 1)));
 }
 
-std::uint64_t GreedyMesh::posts() const {
+std::uint64_t PolygonMesher::Impl::posts() const {
   if (posts_ == 0) posts_ = countPosts();
   return posts_;
 }
 
-std::uint64_t GreedyMesh::countPosts() const {
+std::uint64_t PolygonMesher::Impl::countPosts() const {
   if (step_ != 1) {
     std::uint64_t count = 0;
     const auto add = [&](double) { ++count; };
@@ -339,6 +345,37 @@ std::uint64_t GreedyMesh::countPosts() const {
     border += std::gcd(b.x - a.x, b.y - a.y);
   }
   return static_cast<std::uint64_t>((area + border + 2) / 2);
+}
+
+PolygonMesher::PolygonMesher() : impl_(std::make_unique<Impl>()) {}
+PolygonMesher::~PolygonMesher() = default;
+
+void PolygonMesher::begin(const HeightField& field, std::span<const Point> border,
+                          std::span<const float> borderZ) {
+  impl_->begin(field, border, borderZ);
+}
+void PolygonMesher::refine(double tolerance, std::size_t mostVertices) {
+  impl_->refine(tolerance, mostVertices);
+}
+const std::vector<PolygonMesher::Point>& PolygonMesher::vertices() const {
+  return impl_->points_;
+}
+void PolygonMesher::triangles(std::vector<std::uint32_t>& indices, std::vector<std::int32_t>* twins) const {
+  const std::vector<Triangulation::Triangle>& all = impl_->mesh_.triangles;
+  indices.resize(all.size() * 3);
+  for (std::size_t t = 0; t < all.size(); ++t) std::copy_n(all[t].corner, 3, &indices[3 * t]);
+  if (twins == nullptr) return;
+  twins->resize(all.size() * 3);
+  for (std::size_t t = 0; t < all.size(); ++t) std::copy_n(all[t].twin, 3, &(*twins)[3 * t]);
+}
+double PolygonMesher::maxErrorM() const {
+  return impl_->maxErrorM();
+}
+double PolygonMesher::rmsErrorM() const {
+  return impl_->rmsErrorM();
+}
+std::uint32_t PolygonMesher::posts() const {
+  return static_cast<std::uint32_t>(impl_->posts());
 }
 
 }  // namespace trimtab::terrain

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "views/model/theme.h"
+
+namespace trimtab::views {
+namespace {
+
+constexpr int kUnboundedPx = 100000;
+constexpr int kLegendEntryMarginPx = 8;
+
+}  // namespace
+
+Plot::Plot(const QString& accessibleName, Keyboard keyboard, QWidget* parent) : QCustomPlot(parent) {
+  setAccessibleName(accessibleName);
+  setFocusPolicy(keyboard == Keyboard::used ? Qt::StrongFocus : Qt::ClickFocus);
+  setMouseTracking(true);
+}
+
+void Plot::keyPressEvent(QKeyEvent* event) {
+  const bool in = event->key() == Qt::Key_Plus || event->key() == Qt::Key_Equal;
+  if ((in || event->key() == Qt::Key_Minus) && zoomByKey(in ? 0.8 : 1.25)) return;
+  QCustomPlot::keyPressEvent(event);
+}
+
+void Plot::resizeEvent(QResizeEvent* event) {
+  QCustomPlot::resizeEvent(event);
+  resized();
+}
+
+void Plot::changeEvent(QEvent* event) {
+  QCustomPlot::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) restyle();
+}
+
+void Plot::paintEvent(QPaintEvent* event) {
+  QCustomPlot::paintEvent(event);
+  if (focusPolicy() == Qt::StrongFocus) paintFocusFrame(*this);
+}
+
+double Plot::wheelFactor(const QWheelEvent& event) {
+  return std::pow(kWheelZoom, event.angleDelta().y() / 120.0);
+}
+
+void Plot::addOverlays(std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    addLayer(QString::fromLatin1(name), nullptr, QCustomPlot::limAbove);
+    layer(QString::fromLatin1(name))->setMode(QCPLayer::lmBuffered);
+  }
+}
+
+void Plot::addLegendAbove() {
+  auto* above = new QCPLegend;
+  plotLayout()->insertRow(0);
+  plotLayout()->addElement(0, 0, above);
+  plotLayout()->setRowStretchFactor(0, 0.001);
+  above->setFillOrder(QCPLegend::foColumnsFirst);
+  above->setMargins(QMargins(4, 2, 4, 0));
+  above->setRowSpacing(0);
+  above->setColumnSpacing(6);
+  above->setIconSize(16, 12);
+  // Without a maximum of its own, an empty legend would limit the width of the whole column.
+  above->setMaximumSize(kUnboundedPx, kUnboundedPx);
+  legend = above;
+  setAutoAddPlottableToLegend(false);
+}
+
+void Plot::arrangeLegendAbove() {
+  legend->setVisible(legend->itemCount() > 0);
+  const QFontMetrics metrics(font());
+  int widest = 0;
+  for (int i = 0; i < legend->itemCount(); ++i)
+    if (auto* item = qobject_cast<QCPPlottableLegendItem*>(legend->item(i)))
+      widest = std::max(widest, metrics.horizontalAdvance(item->plottable()->name()));
+  const int entry = widest + legend->iconSize().width() + legend->iconTextPadding() +
+                    legend->columnSpacing() + kLegendEntryMarginPx;
+  legend->setWrap(std::max(legend->itemCount() > 3 ? 2 : 1, width() / entry));
+}
+
+void Plot::applyThemeWithLegendAbove() {
+  applyTheme(*this);
+  legend->setBorderPen(Qt::NoPen);
+  legend->setBrush(Qt::NoBrush);
+}
+
+QCPItemText* Plot::addReadout(const char* layerName, const QMargins& padding) {
+  auto* text = new QCPItemText(this);
+  text->setLayer(QString::fromLatin1(layerName));
+  text->setClipToAxisRect(false);
+  text->position->setType(QCPItemPosition::ptAbsolute);
+  text->setPadding(padding);
+  text->setTextAlignment(Qt::AlignLeft);
+  text->setVisible(false);
+  return text;
+}
+
+void Plot::placeReadout(QCPItemText& readout, const QString& text, QPointF beside) const {
+  const QColor base = palette().color(QPalette::Base), ink = palette().color(QPalette::Text);
+  readout.setText(text);
+  readout.setFont(font());
+  readout.setColor(ink);
+  readout.setBrush(base);
+  readout.setPen(QPen(blend(base, ink, 0.4)));
+  const QSize size =
+      QFontMetrics(font()).boundingRect(QRect(0, 0, 4000, 4000), Qt::AlignLeft, text).size() + QSize(14, 10);
+  QPointF corner(beside.x() + 12, beside.y() - size.height() - 6);
+  if (corner.x() + size.width() > width()) corner.setX(beside.x() - 12 - size.width());
+  corner.setX(std::clamp(corner.x(), 2.0, std::max(2.0, double(width() - size.width() - 2))));
+  corner.setY(std::clamp(corner.y(), 2.0, std::max(2.0, double(height() - size.height() - 2))));
+  readout.setPositionAlignment(Qt::AlignLeft | Qt::AlignTop);
+  readout.position->setCoords(corner);
+}
+
+QCPItemStraightLine* Plot::addLine(const char* layerName, QCPAxisRect* rect) {
+  auto* line = new QCPItemStraightLine(this);
+  line->setLayer(QString::fromLatin1(layerName));
+  line->setClipAxisRect(rect);
+  for (QCPItemPosition* point : {line->point1, line->point2})
+    point->setAxes(rect->axis(QCPAxis::atBottom), rect->axis(QCPAxis::atLeft));
+  return line;
+}
+
+void Plot::putVertical(QCPItemStraightLine& line, double key) {
+  line.point1->setCoords(key, 0);
+  line.point2->setCoords(key, 1);
+}
+
+void Plot::putHorizontal(QCPItemStraightLine& line, double value) {
+  line.point1->setCoords(0, value);
+  line.point2->setCoords(1, value);
+}
+
+}  // namespace trimtab::views

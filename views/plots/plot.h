@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <qcustomplot.h>
+
+#include <initializer_list>
+
+namespace trimtab::views {
+
+/// What all plots of the workbench share: their name for assistive technology, the colours and fonts of the
+/// theme, the focus frame, zooming by wheel and keys, overlays that move without a replot of the rest, and
+/// the items from which budgets, cursors and readouts are made. Lives in the GUI thread.
+class Plot : public QCustomPlot {
+  Q_OBJECT
+ public:
+  enum class Keyboard { ignored, used };
+
+ protected:
+  /// With Keyboard::used, Tab reaches the plot, and the plot shows when it has the focus.
+  Plot(const QString& accessibleName, Keyboard keyboard, QWidget* parent);
+
+  /// Applies all colours and fonts and draws again. Called when the palette or font changes.
+  virtual void restyle() = 0;
+  /// Draws what depends on the size. Called after each change of size; the axes are drawn in any case.
+  virtual void resized() {}
+  /// Scales the visible range; a factor below 1 shows less. Called for the keys plus and minus. Returns false
+  /// if keys do not zoom this plot.
+  virtual bool zoomByKey(double /*factor*/) { return false; }
+
+  /// Calls zoomByKey() for plus and minus, and leaves any other key to QCustomPlot.
+  void keyPressEvent(QKeyEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void changeEvent(QEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
+
+  /// How much the wheel scales a range per notch.
+  static constexpr double kWheelZoom = 0.85;
+  static double wheelFactor(const QWheelEvent& event);
+
+  /// Adds layers above all others, lowest first, each of which can be replotted on its own.
+  void addOverlays(std::initializer_list<const char*> names);
+  /// Replaces the legend by one above the plot, whose entries fill rows. Only entries that are added by hand
+  /// appear in it.
+  void addLegendAbove();
+  /// Shows the legend above the plot if it has entries, wrapped to the width of the plot.
+  void arrangeLegendAbove();
+  /// Applies the colours of the theme to all axes and removes the frame of the legend above the plot.
+  void applyThemeWithLegendAbove();
+
+  /// Returns a hidden text whose position is in pixels of this widget and which no axis rect clips.
+  QCPItemText* addReadout(const char* layerName, const QMargins& padding);
+  /// Shows a text of several lines beside a point in pixels, moved so that it stays inside the widget.
+  void placeReadout(QCPItemText& readout, const QString& text, QPointF beside) const;
+  /// Returns a straight line that this axis rect clips and whose coordinates are those of its axes.
+  QCPItemStraightLine* addLine(const char* layerName, QCPAxisRect* rect);
+  static void putVertical(QCPItemStraightLine& line, double key);
+  static void putHorizontal(QCPItemStraightLine& line, double value);
+};
+
+}  // namespace trimtab::views
