@@ -12,6 +12,7 @@
 #include "app/workbench/docks/message_panel.h"
 #include "app/workbench/window/main_window.h"
 #include "tests/support.h"
+#include "trimtab/frame/frame_result.h"
 #include "trimtab/terrain/bake/bake.h"
 #include "trimtab/terrain/synthetic/sample.h"
 
@@ -67,6 +68,12 @@ class Bench : public ::testing::Test {
     window.reset();
   }
   workbench::MainWindow& w() { return *window; }
+  /// The result of the newest image, or an empty one while a terrain just opened has no image yet.
+  const FrameResult& last() const {
+    static const FrameResult none;
+    const auto& result = window->viewport().lastResult();
+    return result != nullptr ? *result : none;
+  }
   Session& session() { return window->feed().session(); }
   std::uint64_t paints() const { return window->viewport().paints(); }
   /// Opens a link for a host on any free port and returns the port.

@@ -22,7 +22,6 @@ class StaticLodDock : public Bench {
       if (label->text().contains(text)) return true;
     return false;
   }
-  const FrameResult& last() { return *w().viewport().lastResult(); }
   QString legend() const { return window->viewport().overlayContents().legendTitle; }
 };
 

@@ -105,16 +105,16 @@ TEST_F(SymbologyDock, movesTheChosenSymbolByArrowKeysUntilEscape) {
 TEST_F(SymbologyDock, makesNothingAnewAtRest) {
   panel->placeButton().click();
   ASSERT_TRUE(settle());
-  const auto before = w().viewport().lastResult()->counters.symbologyRedraws;
+  const auto before = last().counters.symbologyRedraws;
   EXPECT_GT(before, 0u);
   for (int i = 0; i < 5; ++i) {
     const auto painted = paints();
     w().viewport().invalidate();
     ASSERT_TRUE(waitFor([&] { return paints() > painted; }));
   }
-  EXPECT_EQ(w().viewport().lastResult()->counters.symbologyRedraws, before);
+  EXPECT_EQ(last().counters.symbologyRedraws, before);
   panel->showBox(static_cast<int>(Symbol::airspeed)).click();
-  ASSERT_TRUE(waitFor([&] { return w().viewport().lastResult()->counters.symbologyRedraws == before + 1; }));
+  ASSERT_TRUE(waitFor([&] { return last().counters.symbologyRedraws == before + 1; }));
 }
 
 }  // namespace

@@ -46,7 +46,6 @@ class TerrainDock : public Bench {
       if (each->defaultAction() != nullptr && each->defaultAction()->iconText().contains(text)) return each;
     return nullptr;
   }
-  const FrameResult& last() { return *w().viewport().lastResult(); }
   int drawnRows() {
     const QAbstractItemModel& model = *panel().findChild<QTableView*>()->model();
     int rows = 0;

@@ -134,12 +134,12 @@ void shoot(QWidget& widget, const char* name) {
 
 TEST_F(WeatherOnTheBench, anEditChangesThePictureAndItsCounters) {
   ASSERT_TRUE(settle());
-  const auto before = *w().viewport().lastResult();
+  const auto before = last();
   EXPECT_EQ(before.counters.precipitationPasses, 0u) << "no precipitation in clear air";
   w().draft().setText("weather.step", "rain_heavy");
   ASSERT_TRUE(drawnIn(Precipitation::rain));
-  EXPECT_GT(w().viewport().lastResult()->counters.precipitationPasses, 0u);
-  EXPECT_LT(w().viewport().lastResult()->visible.triangles, before.visible.triangles) << "cut at 4 km";
+  EXPECT_GT(last().counters.precipitationPasses, 0u);
+  EXPECT_LT(last().visible.triangles, before.visible.triangles) << "cut at 4 km";
   w().dock("weather")->raise();
   QTest::qWait(300);
   shoot(w(), "weather-rain-heavy");
@@ -149,7 +149,7 @@ TEST_F(WeatherOnTheBench, anEditChangesThePictureAndItsCounters) {
   shoot(w(), "weather-snow-medium");
   w().draft().setText("weather.step", "clear");
   ASSERT_TRUE(drawnIn(Precipitation::none));
-  EXPECT_EQ(w().viewport().lastResult()->visible.triangles, before.visible.triangles);
+  EXPECT_EQ(last().visible.triangles, before.visible.triangles);
 }
 
 TEST_F(WeatherOnTheBench, theWizardMeasuresThePictureAtHand) {

@@ -87,7 +87,7 @@ TEST_F(WorkbenchWindow, manyChangesMakeOnePaintAndHiddenNone) {
 
 TEST_F(WorkbenchWindow, frozenCullingKeepsItsTilesWhileTheViewFliesOnAndSaysSo) {
   ASSERT_TRUE(settle());
-  const auto drawn = [&] { return w().viewport().lastResult()->visible.reason; };
+  const auto drawn = [&] { return last().visible.reason; };
   const auto before = drawn();
   command(w(), "Freeze culling")->trigger();
   ASSERT_TRUE(settle());
@@ -105,7 +105,7 @@ TEST_F(WorkbenchWindow, frozenCullingKeepsItsTilesWhileTheViewFliesOnAndSaysSo) 
 TEST_F(WorkbenchWindow, theCullingCaseIsSwitchedLiveAndCanBeUndone) {
   ASSERT_TRUE(settle());
   const QImage proposed = w().viewport().grabFramebuffer();
-  const auto triangles = [&] { return w().viewport().lastResult()->visible.triangles; };
+  const auto triangles = [&] { return last().visible.triangles; };
   const auto fewest = triangles();
   QAction* none = command(w(), "No culling");
   ASSERT_NE(none, nullptr);
@@ -113,7 +113,7 @@ TEST_F(WorkbenchWindow, theCullingCaseIsSwitchedLiveAndCanBeUndone) {
   EXPECT_EQ(w().draft().parameters().culling.method, CullingCase::none);
   ASSERT_TRUE(settle());
   EXPECT_GT(triangles(), fewest);
-  EXPECT_EQ(w().viewport().lastResult()->visible.outsideFrustum, 0u);
+  EXPECT_EQ(last().visible.outsideFrustum, 0u);
   w().draft().undoStack().undo();
   ASSERT_TRUE(settle());
   EXPECT_EQ(triangles(), fewest);
@@ -205,7 +205,7 @@ TEST_F(WorkbenchWindow, aWindowOfAnotherShapeDoesNotStretchThePicture) {
 
 TEST_F(WorkbenchWindow, floatingADockKeepsThePictureAndResetLayoutBringsItBack) {
   ASSERT_TRUE(settle());
-  const std::size_t tiles = w().viewport().lastResult()->visible.tiles.size();
+  const std::size_t tiles = last().visible.tiles.size();
   for (const char* name :
        {"memberships", "depth_map", "decision", "host", "flight", "plots", "preset", "messages", "history"}) {
     QDockWidget* dock = w().dock(name);
@@ -214,7 +214,7 @@ TEST_F(WorkbenchWindow, floatingADockKeepsThePictureAndResetLayoutBringsItBack) 
     dock->setFloating(true);
   }
   ASSERT_TRUE(settle());
-  EXPECT_GT(w().viewport().lastResult()->visible.tiles.size(), tiles / 4);
+  EXPECT_GT(last().visible.tiles.size(), tiles / 4);
   const QImage picture = w().viewport().grabFramebuffer();
   EXPECT_NE(picture.pixelColor(picture.width() / 2, 5),
             picture.pixelColor(picture.width() / 2, picture.height() - 60));
