@@ -62,7 +62,7 @@ class Loop {
     double seconds = run_.feed.dueIn(now);
     if (run_.watch) seconds = std::fmin(seconds, PresetWatch::kPeriodS);
     const LinkState link = run_.session.linkState(now);
-    const bool moving = link == LinkState::live || link == LinkState::jumped || run_.session.blurred();
+    const bool moving = link == LinkState::live || link == LinkState::jumped || run_.session.unsettled();
     if (run_.surface.hasViewer() && moving) seconds = std::fmin(seconds, kViewerPeriodS);
     run_.wake.wait(seconds, run_.surface.eventFd());
   }

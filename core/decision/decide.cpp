@@ -116,7 +116,7 @@ FrameDecision decide(const FrameInput& input, const ValidatedParameters& paramet
   // it.
   FrameDecision decision{.ruleFiring = {},
                          .depthMap = {},
-                         .motion = decideMotion(input.state, parameters->motion, memory.motion),
+                         .motion = decideMotion(input.state, parameters->motion, memory.motion, input.drawn),
                          .weather = decideWeather(input.state, *parameters)};
   decideScheme(input, parameters, memory, decision);
   decision.lodScale = parameters->lod.scale.value() * decision.motion.lodScale;

@@ -127,6 +127,8 @@ void forEachColumn(F& f, const Visit& visit) {
   forEachMotionMemory(f.row.before.motion, visit);
   auto& last = f.row.input.lastCost;
   for (const CostStage& stage : kCostStages) visit(stage.lastColumn, Cell::optional, last.*stage.ms);
+  visit("drawn_fps", Cell::optional, f.row.input.drawn.framesPerS);
+  visit("drawn_vertices", Cell::optional, f.row.input.drawn.vertices);
 
   auto& d = f.row.decision;
   visit("decision_altitude_ft", Cell::required, d.altitudeFt);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "trimtab/motion/line_of_sight.h"
 
@@ -53,13 +54,30 @@ bool restoreStackIsFull(const MotionStack& stack, const MotionParameters& p) {
                                         : stack.ms > p.restoreDwell.value() + kTimeSlackMs;
 }
 
+/// The average rate of images that Eq. (1) divides by; unset if frames are states or the rate is not known.
+std::optional<double> drawnPerS(const MotionParameters& p, const DrawnLoad& drawn) {
+  if (p.frames != MotionFrames::drawn || !drawn.framesPerS) return std::nullopt;
+  return std::isfinite(*drawn.framesPerS) && *drawn.framesPerS > 0 ? drawn.framesPerS : std::nullopt;
+}
+
+/// Whether time and vertices ask for a coarser level. What is unknown asks for it.
+bool asksForCoarser(const MotionParameters& p, const DrawnLoad& drawn) {
+  if (p.frames != MotionFrames::drawn) return true;
+  const double ms = p.lodOverTime.value(), vertices = p.lodOverVertices.value();
+  const std::optional<double> rate = drawnPerS(p, drawn);
+  if (ms > 0 && rate && 1e3 / *rate <= ms) return false;
+  return !(vertices > 0 && drawn.vertices && static_cast<double>(*drawn.vertices) <= vertices);
+}
+
 /// A fast frame: on BlurStack; full, it lowers the level and starts the blur.
-MotionReason fastFrame(const MotionParameters& p, double ms, double changeDeg, MotionMemory& memory) {
+MotionReason fastFrame(const MotionParameters& p, double ms, double changeDeg, const DrawnLoad& drawn,
+                       MotionMemory& memory) {
   memory.restoreStack = {};
   push(memory.blurStack, ms, changeDeg);
   if (!blurStackIsFull(memory.blurStack, p)) return MotionReason::fast;
   memory.blurStack = {};
   memory.blurRemainingMs = p.blurDuration.value();
+  if (!asksForCoarser(p, drawn)) return MotionReason::kept;
   std::uint32_t lower = memory.level + 1;
   motionLodScale(p, lower);
   if (lower == memory.level) return MotionReason::lowest;
@@ -87,7 +105,7 @@ MotionReason slowFrame(const MotionParameters& p, double ms, double changeDeg, M
 }
 
 MotionReason nextFrame(const AircraftState& state, const MotionParameters& p, MotionMemory& memory,
-                       MotionDecision& decision) {
+                       const DrawnLoad& drawn, MotionDecision& decision) {
   const Direction now = directionOf(state, p.reference);
   if (!std::isfinite(state.time) || !std::isfinite(now.headingDeg) || !std::isfinite(now.pitchDeg))
     return MotionReason::invalid_input;
@@ -109,10 +127,11 @@ MotionReason nextFrame(const AircraftState& state, const MotionParameters& p, Mo
     memory.blurStack = memory.restoreStack = {};
     return MotionReason::gap;
   }
-  decision.rateDegPerS = change / seconds;
+  const std::optional<double> average = drawnPerS(p, drawn);
+  decision.rateDegPerS = average ? change * *average : change / seconds;
   decision.fast = decision.rateDegPerS > decision.thresholdDegPerS * (1 + kRateSlack);
   const MotionReason reason =
-      decision.fast ? fastFrame(p, ms, change, memory) : slowFrame(p, ms, change, memory);
+      decision.fast ? fastFrame(p, ms, change, drawn, memory) : slowFrame(p, ms, change, memory);
   const bool ended = blurred && memory.blurRemainingMs == 0;
   return ended && !changesState(reason) ? MotionReason::blur_ended : reason;
 }
@@ -127,7 +146,8 @@ double motionLodScale(const MotionParameters& parameters, std::uint32_t& level) 
   return std::min(scale, parameters.lodMaximum.value());
 }
 
-MotionDecision decideMotion(const AircraftState& state, const MotionParameters& p, MotionMemory& memory) {
+MotionDecision decideMotion(const AircraftState& state, const MotionParameters& p, MotionMemory& memory,
+                            const DrawnLoad& drawn) {
   MotionDecision decision;
   if (p.control == MotionControl::off) {
     memory = {};
@@ -140,7 +160,7 @@ MotionDecision decideMotion(const AircraftState& state, const MotionParameters& 
   if (p.control == MotionControl::with_restoration)
     decision.restoreLimit = inFrames ? p.restoreFrames.value() : p.restoreDwell.value();
 
-  decision.reason = nextFrame(state, p, memory, decision);
+  decision.reason = nextFrame(state, p, memory, drawn, decision);
   decision.lodScale = motionLodScale(p, memory.level);
   decision.level = memory.level;
   decision.blurStack = memory.blurStack;
@@ -172,6 +192,8 @@ std::string_view toText(MotionReason reason) {
       return "lowered";
     case MotionReason::lowest:
       return "lowest";
+    case MotionReason::kept:
+      return "kept";
     case MotionReason::raised:
       return "raised";
     case MotionReason::blur_stopped:
@@ -217,6 +239,10 @@ std::string explain(const MotionDecision& d) {
     case MotionReason::lowest:
       return write("fast for %g %s (", d.blurLimit, unit) + rate +
              write("): LOD scale stays at its largest, %g, blur for %.0f ms", d.lodScale, d.blur.remainingMs);
+    case MotionReason::kept:
+      return write("fast for %g %s (", d.blurLimit, unit) + rate +
+             write("): LOD scale stays at %g because of the load, blur for %.0f ms", d.lodScale,
+                   d.blur.remainingMs);
     case MotionReason::raised:
       return write("slow for more than %g %s (", d.restoreLimit, unit) + rate +
              write("): LOD scale raised to %g, no blur", d.lodScale);

@@ -12,6 +12,13 @@ inline constexpr std::array kMotionRows{
          .help = "Coarser levels and blur while the line of sight turns fast. Without restoration nothing "
                  "raises the level of detail again; the blur then ends by its duration alone.",
          .source = "C: section 3, Figures 7 to 9"}),
+    row<&TuningParameters::motion, &MotionParameters::frames>(
+        {.key = "motion.frames",
+         .label = "A frame is",
+         .help = "Document C's optimizer receives vertices and frame rate: it counts images, and its "
+                 "threshold divides by their average rate. Counting the host's states instead gives the "
+                 "same decisions on every machine, but a slow host then needs longer to fill a stack.",
+         .source = "C: section 3.2, Figure 3"}),
     row<&TuningParameters::motion, &MotionParameters::reference>(
         {.key = "motion.reference",
          .label = "Motion of",
@@ -77,6 +84,26 @@ inline constexpr std::array kMotionRows{
          .hard = {0, 10000},
          .usual = {0, 1000},
          .step = 10}),
+    row<&TuningParameters::motion, &MotionParameters::lodOverTime>(
+        {.key = "motion.lod_over_ms",
+         .label = "Coarser over",
+         .help = "If frames are images: fast motion lowers the level of detail only while the average frame "
+                 "takes longer than this; the blur starts anyway. 0 sets no such condition.",
+         .source = "C: section 5, LOD scale according to FPS",
+         .hard = {0, 1000},
+         .usual = {0, 50},
+         .step = 0.1,
+         .decimals = 1}),
+    row<&TuningParameters::motion, &MotionParameters::lodOverVertices>(
+        {.key = "motion.lod_over_vertices",
+         .label = "Coarser over vertices",
+         .help = "If frames are images: fast motion lowers the level of detail only while the last image "
+                 "had more vertices than this; the blur starts anyway. 0 sets no such condition.",
+         .source = "C: section 3.2, Figure 3",
+         .hard = {0, 1e9},
+         .usual = {0, 1e6},
+         .step = 1000,
+         .whole = true}),
     row<&TuningParameters::motion, &MotionParameters::lodStep>(
         {.key = "motion.lod_step",
          .label = "LOD scale step",

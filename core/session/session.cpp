@@ -52,9 +52,9 @@ void Session::setParameters(const ValidatedParameters& parameters) {
   parameters_ = parameters;
   dirty_ = true;
   if (!current_) return;
-  current_ = FrameInput{current_->state, groundBelow(current_->state), current_->lastCost};
+  decided_.aboveGround = groundBelow(decided_.state);
   DecisionMemory copy = looking_ ? lookMemory_ : memory_;
-  decision_ = decide(*current_, parameters_, copy);
+  decision_ = decide(decided_, parameters_, copy);
 }
 
 void Session::setGround(std::shared_ptr<const GroundHeights> ground) {
@@ -68,7 +68,10 @@ void Session::receive(std::span<const ReceivedState> states) {
     AircraftState state = received.state;
     head_.apply(state, received.kernelTime);
     follow(state, received.kernelTime);
-    decideNext(inputFor(state), received.kernelTime);
+    if (decidesImages())
+      arrive(state, received.kernelTime);
+    else
+      decideNext(inputFor(state), received.kernelTime);
   }
 }
 
@@ -99,8 +102,8 @@ void Session::look(const AircraftState& state) {
   // A camera that stands is looked at once more, and then no more.
   if (stands) seen.velocity = Velocity{};
   groundVelocity_.push(seen);
-  current_ = inputFor(seen);
-  decision_ = decide(*current_, parameters_, lookMemory_);
+  current_ = decided_ = inputFor(seen);
+  decision_ = decide(decided_, parameters_, lookMemory_);
   blurPicturedAt_.reset();
   dirty_ = true;
 }
@@ -127,7 +130,13 @@ std::optional<Metres> Session::groundBelow(const AircraftState& state) const {
 }
 
 FrameInput Session::inputFor(const AircraftState& state) const {
-  return {state, groundBelow(state), lastCost_};
+  FrameInput input{state, groundBelow(state), lastCost_, {}};
+  // The rows of a flight are its images whatever the clock says, so that they are decided alike anywhere.
+  if (parameters_->motion.frames == MotionFrames::drawn) {
+    input.drawn.vertices = lastVertices_;
+    if (linked_ || looking_) input.drawn.framesPerS = imageRate_.perS();
+  }
+  return input;
 }
 
 /// Link bookkeeping of one packet: clock, silence, jumps, velocity.
@@ -159,15 +168,49 @@ void Session::decideNext(const FrameInput& input, double kernelTime) {
   decideMs_ += millisecondsSince(start);
   if (looking) groundVelocity_.restart();
   groundVelocity_.push(input.state);
-  current_ = input;
+  current_ = decided_ = input;
   blurPicturedAt_.reset();
   dirty_ = true;
-  if (std::isfinite(kernelTime)) {
-    if (waiting_.size() >= kMostWaiting)
-      waiting_.erase(waiting_.begin(), waiting_.begin() + kMostWaiting / 2);
-    waiting_.push_back(kernelTime);
-  }
+  wait(kernelTime);
   if (keepRows_) rows_.push_back({input, before, decision_, std::nullopt});
+}
+
+/// Remembers a packet that no image shows yet.
+void Session::wait(double kernelTime) {
+  if (!std::isfinite(kernelTime)) return;
+  if (waiting_.size() >= kMostWaiting) waiting_.erase(waiting_.begin(), waiting_.begin() + kMostWaiting / 2);
+  waiting_.push_back(kernelTime);
+}
+
+/// Whether an image's own state is decided instead of each state that arrives.
+bool Session::decidesImages() const {
+  return linked_ && parameters_->motion.control != MotionControl::off &&
+         parameters_->motion.frames == MotionFrames::drawn;
+}
+
+/// A state that only moves the eye on.
+void Session::arrive(const AircraftState& state, double kernelTime) {
+  if (std::exchange(looking_, false)) groundVelocity_.restart();
+  const bool first = packets_++ == 0;
+  groundVelocity_.push(state);
+  current_ = inputFor(state);
+  if (first) decided_ = *current_;
+  dirty_ = true;
+  wait(kernelTime);
+}
+
+/// Decides what an image at `now` shows. Its time goes on even where the eye stands, so that an image of a
+/// head that rests is a slow frame.
+void Session::decideImage(double now) {
+  AircraftState eye = eyeState(now);
+  eye.time = now + clockOffset_;
+  const DecisionMemory before = memory_;
+  const auto start = std::chrono::steady_clock::now();
+  decided_ = inputFor(eye);
+  decision_ = decide(decided_, parameters_, memory_);
+  decideMs_ += millisecondsSince(start);
+  blurPicturedAt_.reset();
+  if (keepRows_) rows_.push_back({decided_, before, decision_, std::nullopt});
 }
 
 LinkState Session::linkState(double now) const {
@@ -191,9 +234,17 @@ AircraftState Session::eyeState(double now) const {
   return eye;
 }
 
+bool Session::unsettled() const {
+  if (blurDrawn_) return true;
+  if (!decidesImages()) return false;
+  // An image that does not differ is a slow frame: it empties BlurStack and fills LODRestoreStack.
+  const bool restores = parameters_->motion.control == MotionControl::with_restoration;
+  return memory_.motion.blurStack.frames > 0 || (restores && memory_.motion.level > 0);
+}
+
 bool Session::needsPicture(double now) const {
   if (!current_) return false;
-  if (dirty_ || blurDrawn_ || !drawnEye_) return true;
+  if (dirty_ || unsettled() || !drawnEye_) return true;
   const bool moving = linked_ || head_.source() == HeadInput::Source::pointer;
   return moving && !samePose(eyeState(now), *drawnEye_);
 }
@@ -220,6 +271,8 @@ std::optional<Velocity> Session::velocityOf(const AircraftState& state) const {
 
 std::optional<FrameRequest> Session::request(double now, int windowWidthPx, int windowHeightPx) {
   if (!current_) return std::nullopt;
+  imageRate_.add(now);
+  if (decidesImages()) decideImage(now);
   AircraftState eye = eyeState(now);
   FrameRequest request;
   request.time = eye.time;
@@ -256,6 +309,7 @@ FrameCost Session::finished(const FrameResult& result, double now) {
   lastCost_ = result.cost;
   lastCost_.decide = decideMs_;
   lastCost_.total = result.cost.total + decideMs_;
+  lastVertices_ = result.visible.vertices;
   overBudget_ += lastCost_.total > parameters_->measure.budget.value();
   decideMs_ = 0;
   if (!inPicture_.empty()) {
@@ -276,6 +330,7 @@ FrameCost Session::finished(const FrameResult& result, double now) {
 }
 
 void Session::noPicture() {
+  if (decidesImages()) decideImage(lastArrival_);
   waiting_.clear();
   inPicture_.clear();
   decideMs_ = 0;

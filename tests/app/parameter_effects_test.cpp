@@ -13,6 +13,7 @@
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/host/encoder.h"
 #include "trimtab/host/received_state.h"
+#include "trimtab/motion/head_motion.h"
 #include "trimtab/session/session.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/weather/calibrate.h"
@@ -171,6 +172,24 @@ class ParameterEffects : public test::SceneTest {
     return seen;
   }
 
+  /// Drawn twice for each packet, with 40,000 vertices in each image.
+  Observed listenAndDraw(const ValidatedParameters& parameters) {
+    Session session(parameters);
+    Observed seen;
+    double now = 1000;
+    for (const AircraftState& state : packets(over(0.5, 0.2, 0))) {
+      session.receive(std::vector{ReceivedState{state, now, now}});
+      for (int image = 0; image < 2; ++image, now += 1 / 120.0) {
+        FrameResult result;
+        result.visible.vertices = 40000;
+        const auto request = session.request(now, 192, 108);
+        seen["decision " + std::to_string(now)] = explain(request->decision.motion);
+        session.finished(result, now + 1e-3);
+      }
+    }
+    return seen;
+  }
+
   /// Document D's calibration on a cost that rises with the far plane and the density.
   static Observed calibrate(const ValidatedParameters& parameters) {
     Observed seen;
@@ -251,6 +270,10 @@ TEST_F(ParameterEffects, everyParameterChangesADecisionAPictureOrACount) {
       {"motion.",
        {{"motion.blur_frames", "3"}, {"motion.left_fov_deg", "30"}, {"motion.right_fov_deg", "30"}}},
       {"motion.", {{"motion.dwell", "milliseconds"}, {"motion.blur_dwell_ms", "50"}}},
+      {"motion.frames", {}, &ParameterEffects::listenAndDraw},
+      {"motion.lod_over",
+       {{"motion.frames", "drawn"}, {"motion.left_fov_deg", "15"}},
+       &ParameterEffects::listenAndDraw},
       {"static_lod.", {{"static_lod.terrain", "static_trees"}}},
       {"static_lod.", {{"static_lod.terrain", "static_trees"}, {"static_lod.rule", "factor"}}},
       {"terrain.",

@@ -21,9 +21,9 @@ namespace {
 
 constexpr int kMostReasons = 500;
 /// The rows worth having beside what they do; the Preset dock has all.
-constexpr const char* kKeys[] = {"motion.control",          "motion.dwell",
-                                 "motion.blur_frames",      "motion.restore_frames",
-                                 "motion.blur_duration_ms", "motion.blur_strength"};
+constexpr const char* kKeys[] = {"motion.control",      "motion.frames",         "motion.dwell",
+                                 "motion.blur_frames",  "motion.restore_frames", "motion.blur_duration_ms",
+                                 "motion.blur_strength"};
 
 QString stackText(const MotionStack& stack, double limit, bool ms, bool more) {
   const QString of = more ? MotionPanel::tr("> %1").arg(numberText(limit, 1)) : numberText(limit, 1);

@@ -231,7 +231,7 @@ bool Feed::movesOnItsOwn(double now) const {
   if (source_ == Source::flight) return playback_.playing() || session_.needsPicture(now);
   if (source_ == Source::camera)
     return (camera_ && session_.head().moves(now)) || (session_.hasState() && session_.needsPicture(now));
-  if (session_.blurred()) return true;
+  if (session_.unsettled()) return true;
   // Ask a little ahead: directly after an image of `now` nothing has moved yet.
   return source_ == Source::host && session_.linkState(now) != LinkState::silent &&
          session_.needsPicture(now + 0.02);

@@ -95,6 +95,7 @@ TraceRow anyRow(std::mt19937_64& random) {
     maybe(state.view->nearDistance);
   }
   for (const CostStage& stage : kCostStages) row.input.lastCost.*stage.ms = number();
+  if (random() % 2) row.input.drawn = {number(), random()};
   if (random() % 2) row.before.band = static_cast<int>(random() % 17) - 1;
   FrameDecision& d = row.decision;
   for (double* value :
@@ -125,6 +126,7 @@ void expectSame(const TraceRow& a, const TraceRow& b) {
   EXPECT_EQ(a.input.aboveGround, b.input.aboveGround);
   for (const CostStage& stage : kCostStages)
     EXPECT_TRUE(sameBits(a.input.lastCost.*stage.ms, b.input.lastCost.*stage.ms)) << stage.name;
+  EXPECT_EQ(a.input.drawn, b.input.drawn);
   EXPECT_EQ(a.before, b.before);
   EXPECT_EQ(a.decision, b.decision);
   ASSERT_EQ(a.frame.has_value(), b.frame.has_value());

@@ -282,7 +282,8 @@ TEST(ShippedPresets, differWhereTheirNamesSay) {
       keys("default", "as-published"),
       (std::vector<std::string>{"fuzzy.pitch.reading linear rounded_step", "fuzzy.hysteresis 0.05 0",
                                 "culling.occlusion auto depth_map", "static_lod.terrain levels static_trees",
-                                "static_lod.error rms as_published", "symbology.enabled false true"}));
+                                "static_lod.error rms as_published", "motion.frames host_states drawn",
+                                "symbology.enabled false true"}));
   EXPECT_EQ(keys("as-published", "as-printed"),
             std::vector<std::string>{"fuzzy.altitude.reading table equation_a"});
 }

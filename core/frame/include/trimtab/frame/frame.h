@@ -95,6 +95,7 @@ struct FrameInput {
   AircraftState state;
   std::optional<Metres> aboveGround;  ///< what decide() uses for AltitudeReference::above_ground
   FrameCost lastCost;
+  DrawnLoad drawn{};  ///< set only for MotionFrames::drawn
 };
 
 enum class Scheme { frustum, dynamic };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 namespace trimtab {
 
@@ -16,9 +17,19 @@ enum class MotionReason {
   gap,            ///< the step is too long to know the motion in it: empty stacks
   lowered,        ///< BlurStack fired: one level coarser, blur started
   lowest,         ///< BlurStack fired at the coarsest level: blur started
+  kept,           ///< BlurStack fired, but the load asks for no coarser level: blur started
   raised,         ///< LODRestoreStack fired: one level finer, blur stopped
   blur_stopped,   ///< LODRestoreStack fired at full detail: blur stopped
   blur_ended      ///< the blur's time ran out
+};
+
+/// What document C's optimizer receives beside the state (section 3.2: "information about vertices and
+/// FPS"). A part that is unset is unknown.
+struct DrawnLoad {
+  std::optional<double> framesPerS;       ///< average of recent images
+  std::optional<std::uint64_t> vertices;  ///< in view in the last image
+
+  friend bool operator==(const DrawnLoad&, const DrawnLoad&) = default;
 };
 
 /// Counts frames of one kind in a row, with their time and the angle that they turned through.

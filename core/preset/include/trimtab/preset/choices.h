@@ -94,6 +94,11 @@ struct ChoicesOf<MotionReference> {
                                              {"head", "Head against aircraft"}};
 };
 template <>
+struct ChoicesOf<MotionFrames> {
+  static constexpr ChoiceOption options[] = {{"host_states", "States of the host"},
+                                             {"drawn", "Images drawn"}};
+};
+template <>
 struct ChoicesOf<MotionDwell> {
   static constexpr ChoiceOption options[] = {{"frames", "Frames"}, {"milliseconds", "Milliseconds"}};
 };

@@ -34,6 +34,8 @@ enum class HostProtocol { automatic, native_fdm, cigi3 };
 enum class MotionControl { off, lod_scale_and_blur, with_restoration };
 /// Whose heading and pitch count: those of the view in the world, or of the head relative to the aircraft.
 enum class MotionReference { line_of_sight, head };
+/// What counts as a frame of document C: a state that the host sends, or an image that is drawn.
+enum class MotionFrames { host_states, drawn };
 /// In what the length of a run of fast or slow frames is measured.
 enum class MotionDwell { frames, milliseconds };
 /// Who sets precipitation and visibility.
@@ -151,12 +153,17 @@ struct HostParameters {
 /// Head motion (document C).
 struct MotionParameters {
   MotionControl control = MotionControl::with_restoration;
+  MotionFrames frames = MotionFrames::host_states;
   MotionReference reference = MotionReference::line_of_sight;
   Degrees leftFov{30}, rightFov{30};  ///< of Eq. (1), not of the projection
   MotionDwell dwell = MotionDwell::frames;
   Ratio blurFrames{10};    ///< BlurStack fires at so many frames
   Ratio restoreFrames{5};  ///< LODRestoreStack fires above so many frames
   Milliseconds blurDwell{100}, restoreDwell{50};
+  /// With MotionFrames::drawn, BlurStack lowers the level only while the average frame takes longer than
+  /// `lodOverTime` and more than `lodOverVertices` are in view.
+  Milliseconds lodOverTime{0};
+  Ratio lodOverVertices{0};
   Ratio lodStep{2};
   Ratio lodMaximum{4};
   Milliseconds blurDuration{400};

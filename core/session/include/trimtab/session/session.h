@@ -19,6 +19,7 @@
 #include "trimtab/measure/trace.h"
 #include "trimtab/preset/table.h"
 #include "trimtab/session/head_input.h"
+#include "trimtab/session/image_rate.h"
 
 /// Turns states into decisions and requests for images. An image generator and the workbench both use it, so
 /// that they decide alike. It has no window, no GL and no clock of its own: the caller passes `now`, in
@@ -57,7 +58,8 @@ class Session {
 
   // Where states come from. Each call decides each of its states exactly once, in order.
 
-  /// Receives packets, in order of arrival.
+  /// Receives packets, in order of arrival. If head motion counts images (MotionFrames::drawn), states only
+  /// move the eye, and `request` decides the state that it draws.
   void receive(std::span<const ReceivedState> states);
   /// Receives a row of a flight that is drawn row by row, without a link and without extrapolation. `now`
   /// places it among the pointer's events.
@@ -79,8 +81,9 @@ class Session {
   // The current state.
 
   bool hasState() const { return current_.has_value(); }
-  /// Returns what the last decision was made from. Call it only if `hasState`.
-  const FrameInput& input() const { return *current_; }
+  /// Returns what the last decision was made from; before the first decision, the newest state. Call it only
+  /// if `hasState`.
+  const FrameInput& input() const { return decided_; }
   /// Returns the decision for the last packet; after `setParameters`, the decision that an equal packet would
   /// get now.
   const FrameDecision& decision() const { return decision_; }
@@ -99,13 +102,14 @@ class Session {
   /// edit, an eye that moves on between packets, or a blur that has not ended. False while the host is silent
   /// and nothing is edited.
   bool needsPicture(double now) const;
-  /// Reports whether the last image requested was blurred. One more is due then, even if nothing else moves.
-  bool blurred() const { return blurDrawn_; }
+  /// Reports whether images are due even if nothing moves: the last one was blurred, or head motion counts
+  /// images and has yet to see that the eye rests.
+  bool unsettled() const;
   /// Returns the state of the eye at `now`: between packets it moves on along the recent velocity. Call it
   /// only if `hasState`.
   AircraftState eyeState(double now) const;
-  /// Returns the request for the image of `now`; nothing before the first state. Packets decided so far count
-  /// as shown by it. The remaining time of a blur runs from the first image of its decision.
+  /// Returns the request for the image of `now`; nothing before the first state. Packets received so far
+  /// count as shown by it. The remaining time of a blur runs from the first image of its decision.
   std::optional<FrameRequest> request(double now, int windowWidthPx, int windowHeightPx);
   /// Call this when the requested image is finished. It completes trace rows, latencies and the cost that the
   /// next input holds, and returns that cost with `decide` filled in.
@@ -113,7 +117,7 @@ class Session {
   /// Returns how many finished images took longer to make than measure.budget_ms.
   std::uint64_t overBudget() const { return overBudget_; }
   /// Call this if no image will show what has arrived, as while a window is hidden. Rows and latencies then
-  /// do not wait for one.
+  /// do not wait for one. It counts as an image where images are decided.
   void noPicture();
 
   // Trace.
@@ -126,6 +130,10 @@ class Session {
 
  private:
   void decideNext(const FrameInput& input, double kernelTime);
+  void wait(double kernelTime);
+  void arrive(const AircraftState& state, double kernelTime);
+  bool decidesImages() const;
+  void decideImage(double now);
   FrameInput inputFor(const AircraftState& state) const;
   std::optional<Metres> groundBelow(const AircraftState& state) const;
   void follow(const AircraftState& state, double arrival);
@@ -136,8 +144,11 @@ class Session {
   std::shared_ptr<const GroundHeights> ground_;
 
   DecisionMemory memory_, lookMemory_;
-  std::optional<FrameInput> current_;
+  std::optional<FrameInput> current_;  ///< of the newest state
+  FrameInput decided_;                 ///< of the last decision
   FrameDecision decision_;
+  ImageRate imageRate_;
+  std::optional<std::uint64_t> lastVertices_;  ///< of the last finished image
   FrameCost lastCost_;
   double decideMs_ = 0;  ///< spent since the last image
   std::uint64_t overBudget_ = 0;
