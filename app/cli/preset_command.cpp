@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "settings.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/units/labelled.h"
@@ -70,30 +71,6 @@ std::string timestamp() {
   char text[sizeof "-2147483648-12-31T23:59:59Z"];
   if (!gmtime_r(&now, &utc) || std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc) == 0) return "";
   return text;
-}
-
-/// Applies "key=value" texts; every one that cannot be applied is a finding.
-Findings applySettings(const std::vector<std::string>& settings, TuningParameters& parameters) {
-  Findings findings;
-  for (const std::string& setting : settings) {
-    const std::size_t equals = setting.find('=');
-    const ParameterRow* const row = findRow(setting.substr(0, equals));
-    if (equals == std::string::npos || !row) {
-      findings.push_back(
-          {Severity::error, "--set", "", "key=value with a key of `preset reference`", setting});
-      continue;
-    }
-    const auto value = parseValue(*row, setting.substr(equals + 1));
-    if (value) {
-      row->set(parameters, *value);
-      continue;
-    }
-    for (Finding f : value.findings()) {
-      f.where = "--set";
-      findings.push_back(std::move(f));
-    }
-  }
-  return findings;
 }
 
 int writeOut(const std::string& output, const std::string& text) {

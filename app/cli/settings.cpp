@@ -6,8 +6,6 @@
 #include "trimtab/preset/preset.h"
 
 namespace trimtab::cli {
-namespace {
-
 Findings applySettings(const std::vector<std::string>& settings, TuningParameters& parameters) {
   Findings findings;
   for (const std::string& setting : settings) {
@@ -15,7 +13,7 @@ Findings applySettings(const std::vector<std::string>& settings, TuningParameter
     const ParameterRow* row = findRow(std::string_view(setting).substr(0, equals));
     if (equals == std::string::npos || !row) {
       findings.push_back(
-          {Severity::error, "--set", "", "KEY=VALUE with a key of the parameter table", setting});
+          {Severity::error, "--set", "", "key=value with a key of `preset reference`", setting});
       continue;
     }
     const Result<ParameterValue> value = parseValue(*row, std::string_view(setting).substr(equals + 1));
@@ -29,8 +27,6 @@ Findings applySettings(const std::vector<std::string>& settings, TuningParameter
   }
   return findings;
 }
-
-}  // namespace
 
 bool parseSize(const std::string& text, int& width, int& height) {
   char after = 0;

@@ -8,6 +8,9 @@
 
 namespace trimtab::cli {
 
+/// Applies the texts "key=value" of `--set`. Each one that cannot be applied is a finding.
+Findings applySettings(const std::vector<std::string>& settings, TuningParameters& parameters);
+
 /// Returns the valid parameters of a preset with every `--set key=value` applied. On an error, prints the
 /// findings on standard error and returns nothing.
 std::optional<ValidatedParameters> parametersFor(const std::string& preset,

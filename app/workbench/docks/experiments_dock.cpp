@@ -33,6 +33,8 @@ constexpr Named kExperiments[] = {
     {"culling", QT_TRANSLATE_NOOP("ExperimentsDock", "Culling: none, view frustum, proposed (A, B)")},
     {"head-motion", QT_TRANSLATE_NOOP("ExperimentsDock", "Head motion: a sweep of 180° in 1 s (C)")},
     {"weather", QT_TRANSLATE_NOOP("ExperimentsDock", "Weather: fixed and adaptive ratio (D)")},
+    {"weather-protocol",
+     QT_TRANSLATE_NOOP("ExperimentsDock", "Weather: one ratio at several vertex counts (D)")},
     {"static-lod", QT_TRANSLATE_NOOP("ExperimentsDock", "Static LOD: faces by level (E)")},
 };
 

@@ -39,6 +39,30 @@ TEST(ExperimentCommand, printsOneDocumentAndWritesTablesAndPlots) {
     EXPECT_GT(test::readFile((dir / "out") / name).size(), 100u) << name;
 }
 
+TEST(WeatherCommand, writesTheCalibratedStepIntoAPreset) {
+  const test::ScratchDir dir;
+  const std::string cli = test::program("trimtab-cli").string(), tif = (dir / "sample.tif").string(),
+                    database = (dir / "db").string(), preset = (dir / "tuned.json").string();
+  ASSERT_EQ(test::run(cli + " terrain sample --size-km 6 -o " + tif).exitCode, 0);
+  ASSERT_EQ(test::run(cli + " terrain bake " + tif + " -o " + database).exitCode, 0);
+  const std::string command =
+      cli + " weather calibrate --terrain " + database + " --size 160x90 --repeats 1 --step rain_heavy";
+  const test::Ran ran = test::run(command + " --json -o " + preset);
+  ASSERT_EQ(ran.exitCode, 0) << ran.err;
+  const json document = json::parse(ran.out);
+  ASSERT_EQ(document.at("steps").size(), 1u);
+  const json& step = document.at("steps")[0];
+  EXPECT_EQ(step.at("step"), "rain_heavy");
+  EXPECT_FALSE(step.at("trials").empty());
+  const json written = json::parse(test::readFile(preset)).at("parameters");
+  for (const auto& [key, value] : written.items()) EXPECT_THAT(key, HasSubstr("weather.")) << value;
+  const test::Ran refused = test::run(command + " --vertices 1e9 -o " + (dir / "none.json").string());
+  EXPECT_EQ(refused.exitCode, 1);
+  EXPECT_THAT(refused.err, HasSubstr("--vertices"));
+  EXPECT_FALSE(std::filesystem::exists(dir / "none.json"));
+  EXPECT_EQ(test::run(command + " --step fog").exitCode, 2);
+}
+
 TEST(ExperimentCommand, tellsAllThatIsWrongWithItsInput) {
   const test::Ran ran =
       experimentBy("weather --terrain /nowhere --size 10x --preset nope --flight /none.csv");

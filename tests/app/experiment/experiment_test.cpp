@@ -98,8 +98,41 @@ TEST_F(Experiment, headMotionLowersTheLevelInTheSweepAndRestoresItOnlyWhenAsked)
   EXPECT_GT(rows.number(difference, "with_restoration"), 0) << "the price is told";
 }
 
+TEST_F(Experiment, theWeatherProtocolAppliesARatioWhereItWasNotCalibrated) {
+  const auto report = runWeatherProtocol(setup());
+  ASSERT_TRUE(report) << toString(report.findings());
+  const Table& rows = report->measured;
+  ASSERT_EQ(rows.rows.size(), 24u);
+  for (std::size_t row = 0; row < 24; ++row) {
+    EXPECT_EQ(rows.number(row, "calibrated_at"), row < 18 ? 140000 : 100000);
+    EXPECT_EQ(rows.number(row, "applied_at"), row < 6 || row >= 18 ? 140000 : row < 12 ? 120000 : 100000);
+    const double ratio = rows.number(row, "frame_ms_ratio");
+    EXPECT_NEAR(ratio, rows.number(row, "fps_clear") / rows.number(row, "fps"), 1e-6 * ratio);
+    EXPECT_EQ(rows.text(row, "result"), ratio > 1.05 ? "falls short" : ratio < 0.95 ? "over-frame" : "holds");
+    // A ratio is applied as it was calibrated.
+    if (row >= 6 && row < 18) {
+      EXPECT_EQ(rows.number(row, "far_km"), rows.number(row % 6, "far_km"));
+      EXPECT_EQ(rows.number(row, "particles"), rows.number(row % 6, "particles"));
+    }
+  }
+}
+
+TEST_F(Experiment, calibratesWeatherOnOneView) {
+  WeatherCalibration wanted{{WeatherStep::snow_light}, {}, 2};
+  const auto calibrated = calibrateWeather(setup(), wanted);
+  ASSERT_TRUE(calibrated) << toString(calibrated.findings());
+  ASSERT_EQ(calibrated->steps.size(), 1u);
+  EXPECT_EQ(calibrated->steps[0].step, WeatherStep::snow_light);
+  EXPECT_EQ(calibrated->steps[0].visibilityM, 10000);
+  EXPECT_GT(calibrated->vertices, 0);
+  wanted.vertices = 1e9;
+  const auto refused = calibrateWeather(setup(), wanted);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(toString(refused.findings()), HasSubstr("vertices in view"));
+}
+
 TEST_F(Experiment, stopsWhereItIsTold) {
-  for (const auto& run : {&runCulling, &runHeadMotion, &runWeather}) {
+  for (const auto& run : {&runCulling, &runHeadMotion, &runWeather, &runWeatherProtocol}) {
     int told = 0;
     experiment::Setup asked = setup();
     asked.progress = [&](double fraction, const std::string& what) {
@@ -127,7 +160,7 @@ TEST_F(Experiment, aFlightThatIsNotOverTheTerrainIsToldSo) {
   flight.states.resize(2);
   flight.states[1].time = 10;
   asked.flight = flight;
-  for (const auto& run : {&runCulling, &runHeadMotion, &runWeather}) {
+  for (const auto& run : {&runCulling, &runHeadMotion, &runWeather, &runWeatherProtocol}) {
     const auto report = run(asked);
     ASSERT_FALSE(report);
     EXPECT_THAT(toString(report.findings()), HasSubstr("no place lies over it"));

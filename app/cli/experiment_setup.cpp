@@ -1,0 +1,46 @@
+#include "experiment_setup.h"
+
+#include "commands.h"
+#include "progress.h"
+#include "settings.h"
+#include "trimtab/host/flight.h"
+#include "trimtab/terrain/bake/cache.h"
+
+namespace trimtab::cli {
+
+void SetupArguments::addTo(CLI::App& command) {
+  command.add_option("--terrain", terrain, "Database, or elevation to bake")->required();
+  command.add_option("--flight", flight, "Places to look from; without it the terrain's own");
+  command.add_option("--preset", preset, "Preset or export")->capture_default_str();
+  command.add_option("--set", settings, "KEY=VALUE on top of the preset; may be repeated");
+  command.add_option("--size", size, "Render size")->capture_default_str();
+  command.add_option("--repeats", repeats, "Frames a view whose median counts")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100));
+}
+
+std::optional<experiment::Setup> setupFrom(const SetupArguments& arguments) {
+  experiment::Setup setup;
+  setup.progress = progressLines();
+  bool usable = parseSize(arguments.size, setup.widthPx, setup.heightPx);
+  if (!usable) report({{Severity::error, "--size", {}, "WIDTHxHEIGHT, each 16 to 16384 px", arguments.size}});
+  const std::optional<ValidatedParameters> parameters = parametersFor(arguments.preset, arguments.settings);
+  usable = parameters && usable;
+  if (!arguments.flight.empty()) {
+    Result<Flight> flight = readFlight(arguments.flight);
+    report(flight.findings());
+    usable = flight && usable;
+    if (flight) setup.flight = std::move(flight).value();
+  }
+  const auto terrain = terrain::openOrBake(arguments.terrain, terrain::cacheFolder(), setup.progress);
+  report(terrain.findings());
+  if (!terrain || !usable) return std::nullopt;
+  setup.terrain = *terrain;
+  setup.terrainName = setup.terrain->info().name;
+  setup.parameters = **parameters;
+  setup.presetName = arguments.preset;
+  setup.repeats = arguments.repeats;
+  return setup;
+}
+
+}  // namespace trimtab::cli

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/experiment/experiment.h"
+
+namespace trimtab::cli {
+
+/// The options that say what an experiment runs on.
+struct SetupArguments {
+  std::string terrain, flight, preset = "default", size = "1280x720";
+  std::vector<std::string> settings;
+  int repeats = 3;
+
+  void addTo(CLI::App& command);
+};
+
+/// Opens terrain, flight and preset. On an error, prints all findings on standard error and returns nothing.
+std::optional<experiment::Setup> setupFrom(const SetupArguments& arguments);
+
+}  // namespace trimtab::cli

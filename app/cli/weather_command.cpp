@@ -1,0 +1,125 @@
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "experiment_setup.h"
+#include "progress.h"
+#include "trimtab/preset/number.h"
+#include "trimtab/preset/preset.h"
+
+namespace trimtab::cli {
+namespace {
+
+struct Arguments {
+  SetupArguments setup;
+  std::vector<std::string> steps;
+  double vertices = 0;
+  std::string output;
+  bool json = false;
+};
+
+std::string nameOf(WeatherStep step) {
+  return std::string(findRow("weather.step")->choices[static_cast<std::size_t>(step)].name);
+}
+
+/// The steps that `--step` names, or all but clear.
+std::vector<WeatherStep> stepsOf(const std::vector<std::string>& names) {
+  std::vector<WeatherStep> steps;
+  for (int i = int(WeatherStep::rain_light); i <= int(WeatherStep::snow_heavy); ++i) {
+    const auto step = static_cast<WeatherStep>(i);
+    if (names.empty() || std::find(names.begin(), names.end(), nameOf(step)) != names.end())
+      steps.push_back(step);
+  }
+  return steps;
+}
+
+void print(const experiment::CalibratedWeather& calibrated) {
+  std::printf("%.0f vertices in view in clear air\n", calibrated.vertices);
+  std::printf("%-12s %9s %9s %12s %10s %8s %10s %8s  %s\n", "step", "clear ms", "uncut ms", "strongest ms",
+              "matched ms", "far km", "ratio", "density", "outcome");
+  for (const StepCalibration& c : calibrated.steps)
+    std::printf("%-12s %9.2f %9.2f %12.2f %10.2f %8.2f %10.3g %8.3g  %s%s\n", nameOf(c.step).c_str(),
+                c.clearMs, c.uncutMs, c.strongestMs, c.matchedMs, c.farM / 1000, c.nearFarRatio, c.density,
+                std::string(toText(c.outcome)).c_str(),
+                c.drifted ? "; the machine was busy, measure again" : "");
+}
+
+void printJson(const experiment::CalibratedWeather& calibrated) {
+  nlohmann::ordered_json steps = nlohmann::ordered_json::array();
+  for (const StepCalibration& c : calibrated.steps) {
+    nlohmann::ordered_json trials = nlohmann::ordered_json::array();
+    for (const CalibrationTrial& t : c.trials)
+      trials.push_back({{"far_m", t.farM}, {"density", t.density}, {"ms", t.ms}});
+    steps.push_back({{"step", nameOf(c.step)},
+                     {"outcome", toText(c.outcome)},
+                     {"clear_ms", c.clearMs},
+                     {"uncut_ms", c.uncutMs},
+                     {"strongest_ms", c.strongestMs},
+                     {"matched_ms", c.matchedMs},
+                     {"visibility_m", c.visibilityM},
+                     {"far_m", c.farM},
+                     {"near_far_ratio", c.nearFarRatio},
+                     {"density", c.density},
+                     {"drifted", c.drifted},
+                     {"trials", trials}});
+  }
+  std::cout << nlohmann::ordered_json{{"vertices", calibrated.vertices}, {"steps", steps}}.dump(2) << '\n';
+}
+
+int calibrate(const Arguments& arguments) {
+  const Interruptible guard;
+  const auto loaded = loadPreset(arguments.setup.preset);
+  const std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
+  if (!loaded || !setup) return kRefused;
+  experiment::WeatherCalibration wanted{stepsOf(arguments.steps), {}};
+  if (arguments.vertices > 0) wanted.vertices = arguments.vertices;
+  const auto calibrated = experiment::calibrateWeather(*setup, wanted);
+  report(calibrated.findings());
+  if (!calibrated) return kRefused;
+  if (arguments.json)
+    printJson(*calibrated);
+  else
+    print(*calibrated);
+  if (arguments.output.empty()) return kDone;
+
+  Preset preset = *loaded;
+  preset.parameters = setup->parameters;
+  for (const StepCalibration& step : calibrated->steps)
+    if (step.outcome != CalibrationOutcome::not_a_number) apply(step, preset.parameters);
+  const Result<std::string> text = presetText(preset);
+  report(text.findings());
+  if (!text) return kRefused;
+  const auto written = writeAtomically(arguments.output, *text);
+  report(written.findings());
+  return written ? kDone : kRefused;
+}
+
+}  // namespace
+
+void addWeather(CLI::App& app, int& exitCode) {
+  CLI::App* const group = app.add_subcommand("weather", "Calibrate what falls (document D)");
+  group->require_subcommand(1);
+  CLI::App* const command = group->add_subcommand("calibrate",
+                                                  "Measure what each weather step costs and what the far cut "
+                                                  "saves, and move the far plane out until both "
+                                                  "match");
+  const auto arguments = std::make_shared<Arguments>();
+  arguments->setup.addTo(*command);
+  std::vector<std::string> names;
+  for (const WeatherStep step : stepsOf({})) names.push_back(nameOf(step));
+  command->add_option("--step", arguments->steps, "Step to calibrate; may be repeated; without it all six")
+      ->check(CLI::IsMember(names));
+  command
+      ->add_option("--vertices", arguments->vertices,
+                   "Vertices in view, reached by the screen-space error; without it those of the preset")
+      ->check(CLI::PositiveNumber);
+  command->add_option("-o,--output", arguments->output, "Preset file that receives far planes and densities");
+  command->add_flag("--json", arguments->json, "One JSON document on standard output");
+  command->callback([arguments, &exitCode] { exitCode = calibrate(*arguments); });
+}
+
+}  // namespace trimtab::cli

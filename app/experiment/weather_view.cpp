@@ -1,0 +1,115 @@
+#include "weather_view.h"
+
+#include <cmath>
+
+#include "trimtab/frame/frame_result.h"
+#include "trimtab/session/session.h"
+
+namespace trimtab::experiment {
+namespace {
+
+/// Particles fall as time goes on: frames are this far apart.
+constexpr double kFrameS = 1.0 / 60;
+
+}  // namespace
+
+WeatherView::WeatherView(Stage& stage, const Setup& setup, const ValidatedParameters& parameters,
+                         const Place& place)
+    : stage_(stage), repeats_(setup.repeats) {
+  AircraftState state;
+  state.position = place.ground;
+  state.position.height = place.ground.height + Feet{kEyeFt}.as<Metres>();
+  state.attitude = place.attitude;
+  Session session(parameters);
+  session.setGround(setup.terrain);
+  session.look(state);
+  request_ = *session.request(0, setup.widthPx, setup.heightPx);
+  request_.decision.weather = {};
+}
+
+void WeatherView::setError(double px) {
+  request_.lod.screenSpaceError = Pixels{px};
+  request_.staticLod.errorPx = Pixels{px};
+}
+
+double WeatherView::vertices() {
+  request_.decision.weather = {};
+  return double(stage_.draw(request_).visible.vertices);
+}
+
+/// By halving: vertices fall as the error grows.
+double WeatherView::reach(double vertices, double& reached) {
+  double fine = std::log(0.05), coarse = std::log(64.0), error = 0;
+  for (int i = 0; i < 24; ++i) {
+    error = std::exp((fine + coarse) / 2);
+    setError(error);
+    reached = this->vertices();
+    if (std::abs(reached / vertices - 1) < kWithin / 10) break;
+    (reached > vertices ? fine : coarse) = std::log(error);
+  }
+  return error;
+}
+
+double WeatherView::ms(const WeatherDecision& weather) {
+  request_.decision.weather = weather;
+  std::vector<double> ms;
+  // What was just built, compiled or grown is no frame's cost.
+  constexpr int kUncounted = 3;
+  for (int i = 0; i < kUncounted + repeats_; ++i) {
+    request_.time += kFrameS;
+    const double total = stage_.draw(request_).cost.total;
+    if (i >= kUncounted) ms.push_back(total);
+  }
+  return quantileOf(ms, 0.5);
+}
+
+scene::CutError WeatherView::cutError(const WeatherDecision& weather) {
+  request_.decision.weather = weather;
+  return stage_.cutError(request_);
+}
+
+std::optional<StepCalibration> calibrateOn(WeatherView& view, const Setup& setup,
+                                           const TuningParameters& parameters, WeatherStep step,
+                                           int mostTrials, const std::function<bool()>& go) {
+  CalibrationSettings settings;
+  settings.tolerance = parameters.weather.tolerance.value();
+  settings.repeats = 1;  // a view's measurement is a median already
+  settings.mostTrials = mostTrials;
+  settings.farthestM = farthestM(setup);
+  return calibrateStep(
+      step, parameters,
+      [&](const WeatherDecision& weather) -> std::optional<double> {
+        if (!go()) return std::nullopt;
+        return view.ms(weather);
+      },
+      settings);
+}
+
+bool costsTooMuch(const StepCalibration& found) {
+  return found.outcome == CalibrationOutcome::cut_not_enough ||
+         found.outcome == CalibrationOutcome::fog_not_enough;
+}
+
+TuningParameters tunedBy(const StepCalibration& found, const TuningParameters& parameters) {
+  TuningParameters tuned = parameters;
+  if (costsTooMuch(found))
+    stepParameters(tuned, found.step)->farStretch = Ratio{1};
+  else
+    apply(found, tuned);
+  return tuned;
+}
+
+double farthestM(const Setup& setup) {
+  const terrain::TerrainInfo& info = setup.terrain->info();
+  return length(toEcef(info.northEast) - toEcef(info.southWest));
+}
+
+WeatherDecision weatherOf(const TuningParameters& parameters, WeatherStep step, RatioMode mode) {
+  TuningParameters changed = parameters;
+  changed.weather.source = WeatherSource::preset;
+  changed.weather.step = step;
+  changed.weather.ratioMode = mode;
+  return decideWeather({}, changed);
+}
+
+}  // namespace trimtab::experiment

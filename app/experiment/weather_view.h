@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "stage.h"
+#include "trimtab/frame/frame_request.h"
+#include "trimtab/weather/calibrate.h"
+#include "trimtab/weather/weather.h"
+
+/// What the experiments of document D share: a view whose weather and vertices are set, and the rows of its
+/// table.
+namespace trimtab::experiment {
+
+/// Rain or snow, with its steps by density.
+struct Fall {
+  const char* name;
+  std::array<WeatherStep, 4> steps;
+};
+inline constexpr std::array<const char*, 4> kDensities{"clear", "light", "medium", "heavy"};
+inline constexpr std::array<Fall, 2> kFalls{
+    {{"rain",
+      {WeatherStep::clear, WeatherStep::rain_light, WeatherStep::rain_medium, WeatherStep::rain_heavy}},
+     {"snow",
+      {WeatherStep::clear, WeatherStep::snow_light, WeatherStep::snow_medium, WeatherStep::snow_heavy}}}};
+
+/// A view from 2,000 ft above the highest ground around a place.
+class WeatherView {
+ public:
+  static constexpr double kEyeFt = 2000;
+  /// The vertices in view are reached within this share.
+  static constexpr double kWithin = 0.05;
+
+  WeatherView(Stage& stage, const Setup& setup, const ValidatedParameters& parameters, const Place& place);
+
+  /// Sets the screen-space error, in pixels, at which so many vertices are in view in clear air, and returns
+  /// it. `reached` receives the vertices that the terrain gives there.
+  double reach(double vertices, double& reached);
+  /// Sets the screen-space error of tiled levels and of static trees, in pixels.
+  void setError(double px);
+  /// Returns the median time of a frame with this weather, milliseconds.
+  double ms(const WeatherDecision& weather);
+  /// Returns the vertices in view in clear air.
+  double vertices();
+  /// Returns what the far cut of the weather changes in the image.
+  scene::CutError cutError(const WeatherDecision& weather);
+
+ private:
+  Stage& stage_;
+  int repeats_;
+  FrameRequest request_;
+};
+
+/// Calibrates one step of the preset on the view (document D's steps 1 to 4); nothing if `go` returns false.
+std::optional<StepCalibration> calibrateOn(WeatherView& view, const Setup& setup,
+                                           const TuningParameters& parameters, WeatherStep step,
+                                           int mostTrials, const std::function<bool()>& go);
+/// Reports whether no cut wins back what falls.
+bool costsTooMuch(const StepCalibration& found);
+/// Returns the parameters with the calibrated far plane; where no cut is enough, with the strongest one at
+/// the preset's density.
+TuningParameters tunedBy(const StepCalibration& found, const TuningParameters& parameters);
+
+/// Returns the length of the terrain from corner to corner, metres: a cut there cuts nothing.
+double farthestM(const Setup& setup);
+
+/// Returns the decision for a weather step of the preset.
+WeatherDecision weatherOf(const TuningParameters& parameters, WeatherStep step, RatioMode mode);
+
+}  // namespace trimtab::experiment
