@@ -47,6 +47,8 @@ void addExperiment(CLI::App& app, int& exitCode) {
                  &experiment::runCulling},
            Named{"head-motion", "A sweep of 180 degrees in a second (document C)",
                  &experiment::runHeadMotion},
+           Named{"head-motion-varying", "Turns and nods of varying speed (document C, Figures 9 and 10)",
+                 &experiment::runHeadMotionVarying},
            Named{"weather", "Three vertex counts, four densities; fixed ratio and adaptive (document D)",
                  &experiment::runWeather},
            Named{"weather-protocol", "One ratio at several vertex counts, as published (document D)",
@@ -57,6 +59,10 @@ void addExperiment(CLI::App& app, int& exitCode) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = group->add_subcommand(named.name, named.what);
     arguments->setup.addTo(*command);
+    if (std::string_view(named.name).starts_with("head-motion"))
+      command->add_option("--host-rate", arguments->setup.hostRateHz, "Host states a second")
+          ->capture_default_str()
+          ->check(CLI::Range(1, 1000));
     command->add_option("-o,--output", arguments->output, "Folder for JSON, CSV and plots");
     command->add_flag("--json", arguments->json, "One JSON document on standard output");
     command->callback([arguments, run = named.run, &exitCode] { exitCode = cli::run(*arguments, run); });

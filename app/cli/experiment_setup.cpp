@@ -40,6 +40,7 @@ std::optional<experiment::Setup> setupFrom(const SetupArguments& arguments) {
   setup.parameters = **parameters;
   setup.presetName = arguments.preset;
   setup.repeats = arguments.repeats;
+  setup.hostRateHz = arguments.hostRateHz;
   return setup;
 }
 

@@ -14,6 +14,7 @@ struct SetupArguments {
   std::string terrain, flight, preset = "default", size = "1280x720";
   std::vector<std::string> settings;
   int repeats = 3;
+  double hostRateHz = 200;
 
   void addTo(CLI::App& command);
 };

@@ -107,7 +107,8 @@ TEST_F(PlotsPanelTest, cursorsReadFramesAndTheirDifference) {
               {11, Trace::select_ms, 1, 1e-3},
               {12, Trace::gpu_ms, 1, 1e-3},
               {16, Trace::head_rate_degps, 1, 0.1},
-              {17, Trace::lod_scale, 1, 1e-2}};
+              {17, Trace::lod_scale, 1, 1e-2},
+              {18, Trace::vertices, 1e-3, 0.01}};
   for (const auto& [row, trace, scale, tolerance] : rows) {
     const double at = buffer.value(trace, a) * scale, bt = buffer.value(trace, b) * scale;
     const auto number = [&](int column) { return QLocale().toDouble(readout(row, column)); };

@@ -101,6 +101,7 @@ TEST(TraceBuffer, csvHoldsExactlyTheFramesOfTheRange) {
     frame.decision.totalMembership = 0.6;
     FrameResult result;
     result.visible.triangles = 123456;
+    result.visible.vertices = 65432;
     frame.result = std::make_shared<const FrameResult>(result);
     frame.cost.symbology = 0.25;
     frame.decision.motion.rateDegPerS = 75.5;
@@ -114,13 +115,14 @@ TEST(TraceBuffer, csvHoldsExactlyTheFramesOfTheRange) {
             "time_s,packet,altitude_membership,pitch_membership,total_membership,triangles,frame_ms,fps,cull_"
             "ms,draw_ms,"
             "gpu_ms,depth_map_width_px,head_rate_degps,lod_scale,select_ms,page_ms,occlusion_ms,blur_ms,"
-            "weather_ms,symbology_ms");
+            "weather_ms,symbology_ms,vertices");
   int frame = 21;
   while (std::getline(lines, line)) {
     std::istringstream cells(line);
     std::vector<std::string> cell;
     for (std::string text; std::getline(cells, text, ',');) cell.push_back(text);
-    ASSERT_EQ(cell.size(), 20u);
+    ASSERT_EQ(cell.size(), 21u);
+    EXPECT_EQ(cell[20], "65432");
     EXPECT_EQ(cell[15], "") << "no page was made";
     EXPECT_EQ(cell[19], "0.25");
     EXPECT_EQ(cell[12], "75.5");

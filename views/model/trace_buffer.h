@@ -32,6 +32,7 @@ enum class Trace : std::uint8_t {
   blur_ms,
   weather_ms,
   symbology_ms,
+  vertices,
   // Upper edges in the stack of stages, which the CSV does not have.
   select_top_ms,
   page_top_ms,

@@ -35,7 +35,7 @@ TimePlot::TimePlot(const TraceBuffer& buffer, Lanes lanes, QWidget* parent)
   addOverlays({"cursors", "tracker"});
   if (firstLane_ == 0) {
     makeLane(tr("Membership"), 2.6, false);
-    makeLane(tr("Triangles (k)"), 0, false);
+    makeLane(tr("Triangles, vertices (k)"), 0, false);
     makeLane(tr("Frame (ms)"), 0, true);
   }
   makeLane(tr("Stages (ms)"), 0, true);
@@ -67,6 +67,7 @@ TimePlot::TimePlot(const TraceBuffer& buffer, Lanes lanes, QWidget* parent)
            tr("deg/s"));
   addTrace(1, {Trace::lod_scale, tr("LOD scale"), tr("right"), 1, S::ssNone, Qt::DashLine, 1, 2},
            tr("LOD scale"));
+  addTrace(1, {Trace::vertices, tr("vertices"), QStringLiteral("k"), 2, S::ssSquare, Qt::DotLine, 1e-3, 1});
   for (std::size_t i = 0; i < 2; ++i) {
     cursorText_[i] = new QCPItemText(this);
     cursorText_[i]->setLayer(QStringLiteral("cursors"));

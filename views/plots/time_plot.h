@@ -10,8 +10,9 @@
 
 namespace trimtab::views {
 
-/// Four lanes against one time axis: memberships, triangles, frame time and rate, and the stages of a frame
-/// stacked; a budget line, two cursors and a tracker. It draws what a TraceBuffer holds and owns no data.
+/// Four lanes against one time axis: memberships, triangles and vertices, frame time and rate, and the stages
+/// of a frame stacked; a budget line, two cursors and a tracker. It draws what a TraceBuffer holds and owns
+/// no data.
 class TimePlot : public Plot {
   Q_OBJECT
  public:

@@ -32,6 +32,8 @@ struct Named {
 constexpr Named kExperiments[] = {
     {"culling", QT_TRANSLATE_NOOP("ExperimentsDock", "Culling: none, view frustum, proposed (A, B)")},
     {"head-motion", QT_TRANSLATE_NOOP("ExperimentsDock", "Head motion: a sweep of 180° in 1 s (C)")},
+    {"head-motion-varying",
+     QT_TRANSLATE_NOOP("ExperimentsDock", "Head motion: turns and nods of varying speed (C)")},
     {"weather", QT_TRANSLATE_NOOP("ExperimentsDock", "Weather: fixed and adaptive ratio (D)")},
     {"weather-protocol",
      QT_TRANSLATE_NOOP("ExperimentsDock", "Weather: one ratio at several vertex counts (D)")},

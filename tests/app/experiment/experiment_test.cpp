@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/support.h"
@@ -88,6 +89,11 @@ TEST_F(Experiment, headMotionLowersTheLevelInTheSweepAndRestoresItOnlyWhenAsked)
   const std::size_t sweep = rowOf("vertices_in_sweep"), end = rowOf("lod_scale_end"),
                     most = rowOf("lod_scale_max");
   EXPECT_LT(rows.number(sweep, "lod_scale_and_blur"), rows.number(sweep, "before"));
+  const std::size_t all = rowOf("vertices_in_view");
+  for (const char* mode : {"before", "lod_scale_and_blur", "with_restoration"}) {
+    EXPECT_GT(rows.number(all, mode), rows.number(sweep, mode) / 4) << "means of the same images";
+    EXPECT_LT(rows.number(all, mode), rows.number(sweep, mode) * 4);
+  }
   EXPECT_EQ(rows.number(sweep, "with_restoration"), rows.number(sweep, "lod_scale_and_blur"));
   EXPECT_EQ(rows.number(most, "before"), 1);
   EXPECT_GT(rows.number(most, "with_restoration"), 1);
@@ -96,6 +102,47 @@ TEST_F(Experiment, headMotionLowersTheLevelInTheSweepAndRestoresItOnlyWhenAsked)
   const std::size_t difference = rowOf("mean_difference_of_255");
   EXPECT_EQ(rows.number(difference, "before"), 0);
   EXPECT_GT(rows.number(difference, "with_restoration"), 0) << "the price is told";
+}
+
+TEST_F(Experiment, aHostOfAnyRateIsMetInTheSweepWhereImagesAreCounted) {
+  for (const double rate : {10.0, 60.0}) {
+    experiment::Setup asked = setup();
+    asked.hostRateHz = rate;
+    asked.parameters.motion.frames = MotionFrames::drawn;
+    const auto report = runHeadMotion(asked);
+    ASSERT_TRUE(report) << toString(report.findings());
+    const Table& rows = report->measured;
+    for (std::size_t row = 0; row < rows.rows.size(); ++row) {
+      const std::string quantity = rows.text(row, "quantity");
+      if (quantity != "lod_scale_max" && quantity != "lod_scale_end") continue;
+      EXPECT_EQ(rows.number(row, "with_restoration"), quantity == "lod_scale_max" ? 4 : 1) << rate;
+    }
+  }
+}
+
+TEST_F(Experiment, varyingMotionTurnsAndNodsAndIsRestored) {
+  const auto report = runHeadMotionVarying(setup());
+  ASSERT_TRUE(report) << toString(report.findings());
+  const Plot& motion = report->plots[0];
+  const auto range = [&](std::size_t series) {
+    const auto [low, high] =
+        std::minmax_element(motion.series[series].y.begin(), motion.series[series].y.end());
+    return std::pair(*low, *high);
+  };
+  EXPECT_NEAR(range(0).second, 174, 1e-9) << "up to 180 degrees of heading";
+  EXPECT_NEAR(range(1).first, -90, 1e-9);
+  EXPECT_NEAR(range(1).second, 90, 1e-9);
+  EXPECT_NEAR(motion.series[1].y.back(), 0, 1e-9);
+  const Table& rows = report->measured;
+  bool seen = false;
+  for (std::size_t row = 0; row < rows.rows.size(); ++row) {
+    if (rows.text(row, "quantity") != "level_changes") continue;
+    seen = true;
+    EXPECT_EQ(rows.number(row, "before"), 0);
+    EXPECT_EQ(rows.number(row, "lod_scale_and_blur"), 2);
+    EXPECT_GT(rows.number(row, "with_restoration"), 4);
+  }
+  EXPECT_TRUE(seen);
 }
 
 TEST_F(Experiment, theWeatherProtocolAppliesARatioWhereItWasNotCalibrated) {
@@ -132,7 +179,8 @@ TEST_F(Experiment, calibratesWeatherOnOneView) {
 }
 
 TEST_F(Experiment, stopsWhereItIsTold) {
-  for (const auto& run : {&runCulling, &runHeadMotion, &runWeather, &runWeatherProtocol}) {
+  for (const auto& run :
+       {&runCulling, &runHeadMotion, &runHeadMotionVarying, &runWeather, &runWeatherProtocol}) {
     int told = 0;
     experiment::Setup asked = setup();
     asked.progress = [&](double fraction, const std::string& what) {

@@ -1,0 +1,120 @@
+#include "head_motion_run.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "trimtab/frame/frame_request.h"
+#include "trimtab/frame/frame_result.h"
+#include "trimtab/host/received_state.h"
+#include "trimtab/session/session.h"
+#include "trimtab/terrain/grid/progress.h"
+
+namespace trimtab::experiment {
+namespace {
+
+constexpr double kEyeFt = 2000;
+/// Images between two questions whether to go on.
+constexpr int kAsked = 40;
+
+/// One pass through the profile; the first pass also counts and keeps pictures. Returns false if `go` does.
+bool pass(Stage& stage, const Setup& setup, const ValidatedParameters& parameters,
+          const GeodeticPosition& eye, const HeadProfile& profile, const std::function<bool(int)>& kept,
+          bool first, MotionRun& run, const auto& go) {
+  Session session(parameters);
+  session.setGround(setup.terrain);
+  AircraftState state;
+  state.position = eye;
+  const int images = profile.images();
+  run.ms.resize(std::size_t(images));
+  for (int i = 0; i < images; ++i) {
+    if (i % kAsked == 0 && !go(double(i) / images)) return false;
+    const double now = double(i) / kImagesPerS;
+    // The slack puts the states of a host as fast as the images into their images.
+    for (; double(state.packet) / setup.hostRateHz <= now + 1e-9; ++state.packet) {
+      state.time = double(state.packet) / setup.hostRateHz;
+      state.head = profile.at(state.time);
+      session.receive(std::vector{ReceivedState{state, state.time, state.time}});
+    }
+    const std::optional<FrameRequest> request = session.request(now, setup.widthPx, setup.heightPx);
+    const FrameResult result = stage.draw(*request);
+    session.finished(result, now);
+    run.ms[std::size_t(i)].push_back(result.cost.total);
+    if (!first) continue;
+    run.vertices.push_back(double(result.visible.vertices));
+    run.lodScale.push_back(request->decision.motion.lodScale);
+    run.blur.push_back(request->decision.motion.blur.strength);
+    if (kept(i)) run.pictures.push_back(stage.shown());
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<double> MotionRun::medians() const {
+  std::vector<double> result;
+  for (const auto& repeats : ms) result.push_back(quantileOf(repeats, 0.5));
+  return result;
+}
+
+Result<MotionRuns> flyHead(Stage& stage, const Setup& setup, const HeadProfile& profile,
+                           const std::function<bool(int image)>& kept, const std::string& what) {
+  std::vector<ValidatedParameters> parameters;
+  for (const MotionMode& mode : kMotionModes) {
+    TuningParameters changed = setup.parameters;
+    changed.motion.control = mode.control;
+    const Result<ValidatedParameters> valid = validate(changed);
+    if (!valid) return valid.findings();
+    parameters.push_back(*valid);
+  }
+  const std::vector<Place> places = placesOf(setup, 1);
+  if (places.empty()) return notOverTerrain(setup);
+  GeodeticPosition eye = places[0].ground;
+  eye.height = eye.height + Feet{kEyeFt}.as<Metres>();
+
+  MotionRuns runs;
+  const int passes = std::max(setup.repeats, 1);
+  for (int r = 0; r < passes; ++r)
+    for (std::size_t m = 0; m < kMotionModes.size(); ++m) {
+      char text[120];
+      std::snprintf(text, sizeof text, "%s %d of %d, %s", what.c_str(), r + 1, passes, kMotionModes[m].name);
+      const auto go = [&](double part) {
+        return !setup.progress ||
+               setup.progress((r + (double(m) + part) / kMotionModes.size()) / passes, text);
+      };
+      if (r == 0 && m == 0) {
+        MotionRun warm;
+        if (!pass(stage, setup, parameters[m], eye, profile, kept, false, warm,
+                  [&](double) { return go(0); }))
+          return cancelled();
+      }
+      if (!pass(stage, setup, parameters[m], eye, profile, kept, r == 0, runs[m], go)) return cancelled();
+    }
+  return runs;
+}
+
+std::vector<TerrainForm> formsOf(const Setup& setup) {
+  std::vector<TerrainForm> forms{setup.parameters.staticLod.terrain};
+  const auto add = [&](TerrainForm form) {
+    if (std::find(forms.begin(), forms.end(), form) == forms.end()) forms.push_back(form);
+  };
+  add(TerrainForm::levels);
+  if (setup.terrain->staticLod() != nullptr) add(TerrainForm::static_trees);
+  return forms;
+}
+
+std::string nameOf(TerrainForm form) {
+  return std::string(findRow("static_lod.terrain")->choices[static_cast<std::size_t>(form)].name);
+}
+
+Plot motionPlot(const std::string& file, const std::string& title, const std::string& label,
+                const MotionRuns& runs, const std::function<std::vector<double>(const MotionRun&)>& values) {
+  Plot plot{file, title, "time (s)", label, {}, {}};
+  for (std::size_t m = 0; m < kMotionModes.size(); ++m) {
+    Series series{kMotionModes[m].name, {}, values(runs[m])};
+    for (std::size_t i = 0; i < series.y.size(); ++i) series.x.push_back(double(i) / kImagesPerS);
+    plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+}  // namespace trimtab::experiment

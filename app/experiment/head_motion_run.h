@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "stage.h"
+
+/// What the experiments of document C share: a head that is moved over a place, in each mode of the
+/// optimizer.
+namespace trimtab::experiment {
+
+/// Images a second of an experiment's own clock; what an image takes to draw does not slow the head.
+inline constexpr int kImagesPerS = 200;
+
+struct MotionMode {
+  MotionControl control;
+  const char* name;
+};
+inline constexpr std::array<MotionMode, 3> kMotionModes{
+    {{MotionControl::off, "before"},
+     {MotionControl::lod_scale_and_blur, "lod_scale_and_blur"},
+     {MotionControl::with_restoration, "with_restoration"}}};
+
+/// How a head moves: its attitude relative to the aircraft at each second from 0 on.
+struct HeadProfile {
+  double seconds = 0;
+  std::function<Attitude(double seconds)> at;
+  int images() const { return int(std::lround(seconds * kImagesPerS)); }
+};
+
+/// What one mode drew, by image.
+struct MotionRun {
+  std::vector<std::vector<double>> ms;  ///< by image, one for each pass
+  std::vector<double> vertices, lodScale, blur;
+  std::vector<std::vector<std::uint8_t>> pictures;  ///< RGBA, of the images that `kept` names
+
+  /// Returns the median of the passes, by image.
+  std::vector<double> medians() const;
+};
+using MotionRuns = std::array<MotionRun, kMotionModes.size()>;
+
+/// Flies the profile in all modes, `setup.repeats` times in turns, so that a slow spell of the machine meets
+/// all of them. The eye stands 2,000 ft above the highest ground around the experiment's place, and the host
+/// sends `setup.hostRateHz` states a second. `kept` names the images whose pixels are kept.
+Result<MotionRuns> flyHead(Stage& stage, const Setup& setup, const HeadProfile& profile,
+                           const std::function<bool(int image)>& kept, const std::string& what);
+
+/// Returns the forms of the terrain that an experiment compares: the preset's own, then tiled levels and
+/// static trees as far as the database has them.
+std::vector<TerrainForm> formsOf(const Setup& setup);
+std::string nameOf(TerrainForm form);
+
+/// Returns one line for each mode over the profile's time.
+Plot motionPlot(const std::string& file, const std::string& title, const std::string& label,
+                const MotionRuns& runs, const std::function<std::vector<double>(const MotionRun&)>& values);
+
+}  // namespace trimtab::experiment
