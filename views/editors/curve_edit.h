@@ -11,39 +11,46 @@
 
 namespace trimtab::views {
 
-/// What the editors need to know about a membership curve.
+/// Describes a membership curve to its editors: points of x, in `unit`, and membership, 0 to 1, that are
+/// joined by straight lines.
 struct CurveSpec {
-  std::string_view key;
-  std::string_view readingKey;
-  QString quantity;  ///< such as "Altitude"
-  QString unit;      ///< such as "ft"
-  int decimals = 0;  ///< of x
-  Range view;        ///< the range of x that the plot always shows
-  /// Returns the membership that decide() computes for x.
+  std::string_view key;         ///< of the parameter that holds the points
+  std::string_view readingKey;  ///< of the parameter that chooses how the published curve is read
+  QString quantity;             ///< such as "Altitude"
+  QString unit;                 ///< such as "ft"
+  int decimals = 0;             ///< decimals of x that the editors show
+  Range view;                   ///< the range of x, in `unit`, that the plot always shows
+  /// Returns the membership that trimtab::decide() computes for x, in `unit`.
   double (*evaluate)(const TuningParameters&, double x) = nullptr;
+  /// Return what the last decision used: x in `unit`, and its membership.
   double (*liveX)(const FrameDecision&) = nullptr;
   double (*liveY)(const FrameDecision&) = nullptr;
-  /// Reports whether the chosen reading uses the points at all.
+  /// Reports whether the reading that the parameters choose uses the points; the printed equations do not use
+  /// all of them.
   bool (*usesPoints)(const TuningParameters&) = nullptr;
 };
+/// Return the curves of documents A and B: membership by altitude in feet, and by pitch in degrees.
 CurveSpec altitudeSpec();
 CurveSpec pitchSpec();
 
-/// Returns the smallest distance between neighbours' x: one unit of the last decimal shown.
+/// Returns the smallest distance in x that the editors leave between two neighbouring points: one unit of the
+/// last decimal shown.
 double pointGap(const CurveSpec& spec);
 
-/// Returns where x of a point may lie: strictly between its neighbours, within the row's hard range.
+/// Returns the range into which the x of a point may be moved: a gap (pointGap) away from both neighbours and
+/// inside the hard range of the parameter.
 Range freeRange(const CurvePoints& curve, std::size_t index, const CurveSpec& spec);
-/// Returns the curve with one point moved as near to `to` as its neighbours and 0..1 allow.
+/// Returns the curve with one point moved to `to`, or as near to it as freeRange allows in x and 0 to 1 in
+/// membership.
 CurvePoints withMoved(const CurvePoints& curve, std::size_t index, CurvePoint to, const CurveSpec& spec);
 struct Inserted {
   CurvePoints curve;
-  std::size_t index = 0;
+  std::size_t index = 0;  ///< of the new point
 };
-/// Returns the curve with one point more; nothing if the curve is full or there is no room between the
-/// neighbours.
+/// Returns the curve with `point` added, moved into the free range between its neighbours. Returns nullopt if
+/// the curve holds as many points as it can, or if there is no room between the neighbours.
 std::optional<Inserted> withInserted(const CurvePoints& curve, CurvePoint point, const CurveSpec& spec);
-/// Returns the curve without one point; nothing if only two are left.
+/// Returns the curve without one point. Returns nullopt if the curve has only two points.
 std::optional<CurvePoints> withRemoved(const CurvePoints& curve, std::size_t index);
 
 }  // namespace trimtab::views

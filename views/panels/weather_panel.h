@@ -3,6 +3,7 @@
 
 #include <QWidget>
 #include <array>
+#include <string_view>
 #include <vector>
 
 #include "views/model/draft.h"
@@ -18,22 +19,26 @@ namespace trimtab::views {
 
 class ParameterLine;
 
-/// The Weather dock: what falls and how far one sees, what is cut and why, what each weather step means, and
-/// the button for the calibration.
+/// Shows the weather of document D in the dock *Weather*: the precipitation and the visibility, the far plane
+/// beyond which nothing is drawn with the reason for it, a table of the weather steps (light, medium and
+/// heavy rain and snow), and a button that opens the calibration of those steps.
 class WeatherPanel : public QWidget {
   Q_OBJECT
  public:
+  /// `draft` holds the parameters that are edited; it must outlive the panel.
   explicit WeatherPanel(Draft& draft, QWidget* parent = nullptr);
+  /// Shows the newest frame, a few times a second at most.
   void showFrame(const LiveFrame& frame);
 
-  /// Returns the line of a parameter; null if it is not shown.
+  /// Returns the line in which a parameter is edited; null if the panel has none for that key.
   ParameterLine* line(std::string_view key) const;
   QTableWidget& steps() { return *steps_; }
   QPushButton& calibrateButton() { return *calibrate_; }
+  /// Returns the text that says why the far plane is where it is.
   QString reason() const;
 
  signals:
-  void calibrationAsked();
+  void calibrationAsked();  ///< the button was pressed
 
  private:
   void makeLines(QGridLayout& grid);
@@ -54,7 +59,7 @@ class WeatherPanel : public QWidget {
   Throttle throttle_;
 };
 
-/// Returns a distance as text, such as "12,500 m (6.75 NM)"; "unlimited" for infinity.
+/// Returns a distance as text in the locale's form, such as "12,500 m (6.75 NM)"; "unlimited" for infinity.
 QString distanceText(double metres);
 
 }  // namespace trimtab::views

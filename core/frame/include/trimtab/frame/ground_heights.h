@@ -6,13 +6,14 @@
 
 namespace trimtab {
 
-/// Reports the height of the ground. A session asks it if the preset decides by height above ground and the
-/// host does not send that height.
+/// Reports the height of the terrain. A session asks for it if the preset derives the altitude membership
+/// from the height above ground (fuzzy.altitude.reference) and the host does not send that height.
 class GroundHeights {
  public:
   virtual ~GroundHeights() = default;
-  /// Returns the height of the finest surface above mean sea level, bilinear between posts; nothing outside
-  /// the data. May be called from any thread.
+  /// Returns the height above mean sea level at a place (WGS 84, east positive, longitudes of any turn). It
+  /// is interpolated bilinearly between the nearest samples of the most detailed surface. Returns nullopt
+  /// where there are no data. Several threads may call it at once; it does not wait for the disk.
   virtual std::optional<Metres> heightAt(Degrees latitude, Degrees longitude) const = 0;
 };
 

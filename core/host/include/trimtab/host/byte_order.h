@@ -9,20 +9,22 @@
 #include <type_traits>
 #include <vector>
 
-/// Reads and writes numbers at byte offsets of a packet, in the packet's byte order.
 namespace trimtab {
 
 enum class ByteOrder { big, little };
 
+/// Functions that read and write numbers at any byte offset of a packet, in the packet's byte order. T is an
+/// integer or a floating-point type of 1, 2, 4 or 8 bytes.
 namespace wire {
 
+/// The unsigned integer of N bytes.
 template <std::size_t N>
 using Bits = std::conditional_t<
     N == 1, std::uint8_t,
     std::conditional_t<N == 2, std::uint16_t, std::conditional_t<N == 4, std::uint32_t, std::uint64_t>>>;
 
-/// Returns the number at `offset`. The caller must have checked that `offset + sizeof(T)` lies inside the
-/// bytes.
+/// Returns the number whose first byte is at `offset`. The caller must have checked that
+/// `offset + sizeof(T) <= bytes.size()`; else the behaviour is undefined.
 template <class T>
 T get(std::span<const std::byte> bytes, std::size_t offset, ByteOrder order) {
   using U = Bits<sizeof(T)>;
@@ -34,7 +36,8 @@ T get(std::span<const std::byte> bytes, std::size_t offset, ByteOrder order) {
   return std::bit_cast<T>(static_cast<U>(bits));
 }
 
-/// Writes a number at `offset`, which the caller must have checked likewise.
+/// Writes a number from `offset` on. The caller must have checked that `offset + sizeof(T) <= bytes.size()`;
+/// else the behaviour is undefined.
 template <class T>
 void put(std::span<std::byte> bytes, std::size_t offset, ByteOrder order, T value) {
   const std::uint64_t bits = std::bit_cast<Bits<sizeof(T)>>(value);

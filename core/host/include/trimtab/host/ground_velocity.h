@@ -8,19 +8,24 @@
 
 namespace trimtab {
 
-/// Computes the velocity over the ground from successive states, for hosts that send positions only.
+/// Computes an aircraft's velocity relative to the earth from the positions of successive states, for hosts
+/// that send no velocity.
 class GroundVelocity {
  public:
-  /// Adds a state. It starts over after a jump, a silence, or a state that is not later than the last one.
+  /// Adds a state; `state.time` is the host's clock, in seconds. A state to which no aircraft can have flown
+  /// (isJump), one that comes more than kSilenceS after the last, and one that is not later than it, forget
+  /// all earlier states and become the first.
   void push(const AircraftState& state);
-  /// Returns the mean velocity over about the last quarter of a second up to the last state; nothing before
-  /// the second state.
+  /// Returns the mean velocity (north, east and down) between the last state and the one a quarter of a
+  /// second before it: the state just before that if states are farther apart, and the oldest of 32 if they
+  /// are denser. Returns nullopt until two states without a restart between them are known.
   std::optional<Velocity> velocity() const { return velocity_; }
+  /// Forgets all states.
   void restart() { count_ = 0, velocity_.reset(); }
 
  private:
   struct Place {
-    double time = 0;
+    double time = 0;  ///< seconds on the host's clock
     Vec3 ecef;
   };
   std::array<Place, 32> places_;  ///< oldest first
