@@ -121,6 +121,12 @@ int exportPreset(Options options) {
   if (!validated) return kRefused;
   options.provenance.created = timestamp();
   options.provenance.program = "trimtab-cli " TRIMTAB_VERSION;
+  if (const std::string note = machineNote(**validated); !note.empty()) {
+    report({{Severity::note, options.left, "culling.occlusion",
+             "a method by name, as --set culling.occlusion=horizon, to do alike on every machine", "auto"}});
+    std::string& comment = options.provenance.comment;
+    comment += (comment.empty() ? "" : " ") + note;
+  }
   const std::string name =
       preset->name.empty() ? std::filesystem::path(options.left).stem().string() : preset->name;
   return writeOut(options.output, exportText(*validated, name, options.provenance, exportFormat(options)));

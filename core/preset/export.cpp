@@ -189,6 +189,12 @@ std::string asIni(const TuningParameters& parameters, const std::string& name, c
 
 }  // namespace
 
+std::string machineNote(const TuningParameters& parameters) {
+  if (parameters.culling.occlusion != OcclusionMethod::automatic) return {};
+  return "culling.occlusion is auto: which method hides ground, and so what a frame costs, depends on the "
+         "machine.";
+}
+
 std::string exportText(const ValidatedParameters& parameters, const std::string& name,
                        const Provenance& provenance, ExportFormat format) {
   switch (format) {

@@ -126,7 +126,7 @@ TEST(PresetCommand, exportsByTheFilesEndingAndWarnsOfAnother) {
   const test::ScratchDir dir;
   const auto begins = [&dir](const std::string& name) { return test::readFile(dir / name).substr(0, 1); };
   const auto exported = [&dir](const std::string& name, const std::string& options = "") {
-    const Ran ran = preset("export default " + options + " -o " + (dir / name).string());
+    const Ran ran = preset("export as-published " + options + " -o " + (dir / name).string());
     EXPECT_EQ(ran.exitCode, 0) << ran.err;
     return ran.err;
   };
@@ -160,6 +160,18 @@ TEST(PresetCommand, leavesTheOldExportWhenItRefuses) {
   EXPECT_THAT(preset("export default -o /dev/full").err, HasSubstr("/dev/full: expected room"));
   EXPECT_EQ(preset("export default -o /dev/full").exitCode, 1);
   EXPECT_EQ(preset("export default -o " + (dir / "no/e.json").string()).exitCode, 1);
+}
+
+TEST(PresetCommand, saysInAnExportWhatDependsOnTheMachine) {
+  const test::ScratchDir dir;
+  const std::string file = (dir / "e.json").string();
+  const test::Ran ran = preset("export default -o " + file + " --comment Mine. --terrain Kansai");
+  ASSERT_EQ(ran.exitCode, 0) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("note: default: culling.occlusion: expected a method by name"));
+  EXPECT_THAT(test::readFile(file), HasSubstr("Mine. culling.occlusion is auto"));
+  const test::Ran pinned = preset("export default -o " + file + " --set culling.occlusion=horizon");
+  EXPECT_EQ(pinned.err, "");
+  EXPECT_THAT(test::readFile(file), ::testing::Not(HasSubstr("is auto")));
 }
 
 TEST(PresetCommand, repairsABrokenRuleBySet) {

@@ -127,6 +127,24 @@ TEST_F(WorkbenchFiles, aSaveThatFailsKeepsTheEditsAndTheOldFile) {
   EXPECT_FALSE(w().controllers().document->exportTo("/proc/nowhere/e.json", ExportFormat::json, {}, {}));
 }
 
+TEST_F(WorkbenchFiles, anExportNamesItsTerrainAndWhatDependsOnTheMachine) {
+  const auto provenance = [&](std::optional<OcclusionMethod> pinned) {
+    EXPECT_TRUE(w().controllers().document->exportTo(path(dir / "e.json"), ExportFormat::json, "me", "Mine.",
+                                                     pinned));
+    return readFile(dir / "e.json");
+  };
+  const std::string automatic = provenance({});
+  EXPECT_NE(automatic.find("\"terrain\": \"" + w().controllers().terrain->database()->info().name + '"'),
+            std::string::npos)
+      << automatic.substr(0, 500);
+  EXPECT_NE(automatic.find("\"comment\": \"Mine. culling.occlusion is auto"), std::string::npos);
+  const std::string pinned = provenance(OcclusionMethod::horizon);
+  EXPECT_NE(pinned.find("\"comment\": \"Mine.\""), std::string::npos);
+  EXPECT_NE(pinned.find("\"culling.occlusion\": \"horizon\""), std::string::npos);
+  EXPECT_EQ(w().draft().parameters().culling.occlusion, OcclusionMethod::automatic) << "the draft stays";
+  EXPECT_TRUE(loadPreset((dir / "e.json").string()));
+}
+
 TEST_F(WorkbenchFiles, asksBeforeEditsAreLost) {
   edit();
   answer(QMessageBox::Cancel);

@@ -7,8 +7,10 @@
 #include <QMessageBox>
 
 #include "app/workbench/docks/message_panel.h"
+#include "app/workbench/viewport/viewport.h"
 #include "app/workbench/window/notice_bar.h"
 #include "recent_files.h"
+#include "trimtab/frame/frame_result.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
 #include "views/model/draft.h"
@@ -95,7 +97,7 @@ bool DocumentController::mayLoseEdits() {
 }
 
 bool DocumentController::exportTo(const QString& file, ExportFormat format, const QString& author,
-                                  const QString& comment) {
+                                  const QString& comment, std::optional<OcclusionMethod> pinned) {
   if (at_.draft.isBroken()) {
     at_.messages.add(tr("Nothing is exported while the preset breaks a rule"), at_.draft.findings());
     return false;
@@ -105,10 +107,13 @@ bool DocumentController::exportTo(const QString& file, ExportFormat format, cons
   provenance.created = QDateTime::currentDateTimeUtc().toString(Qt::ISODate).toStdString();
   provenance.program = "trimtab " TRIMTAB_VERSION;
   provenance.terrain = terrainName_.toStdString();
-  provenance.comment = comment.toStdString();
+  TuningParameters parameters = *at_.draft.active();
+  if (pinned) parameters.culling.occlusion = *pinned;
+  const std::string note = machineNote(parameters);
+  provenance.comment = comment.toStdString() + (comment.isEmpty() || note.empty() ? "" : " ") + note;
   const QString name =
       document_.file().isEmpty() ? document_.title() : QFileInfo(document_.file()).completeBaseName();
-  const std::string text = exportText(at_.draft.active(), name.toStdString(), provenance, format);
+  const std::string text = exportText(*validate(parameters), name.toStdString(), provenance, format);
   const QString absolute = QFileInfo(file).absoluteFilePath();
   if (const Result<Done> written = writeAtomically(absolute.toStdString(), text); !written) {
     at_.messages.add(tr("The export cannot be written: %1").arg(file), written.findings());
@@ -119,13 +124,17 @@ bool DocumentController::exportTo(const QString& file, ExportFormat format, cons
 }
 
 void DocumentController::askExport() {
-  ExportDialog dialog(&at_.window);
+  std::optional<OcclusionMethod> chosen;
+  if (at_.draft.active()->culling.occlusion == OcclusionMethod::automatic)
+    if (const auto& last = at_.viewport.lastResult()) chosen = last->occlusion;
+  ExportDialog dialog(chosen, &at_.window);
   if (dialog.exec() != QDialog::Accepted) return;
   QFileDialog files(&at_.window, tr("Export preset"), {}, dialog.fileFilter());
   files.setAcceptMode(QFileDialog::AcceptSave);
   files.setDefaultSuffix(dialog.suffix());
   if (files.exec() == QDialog::Accepted)
-    exportTo(files.selectedFiles().constFirst(), dialog.format(), dialog.author(), dialog.comment());
+    exportTo(files.selectedFiles().constFirst(), dialog.format(), dialog.author(), dialog.comment(),
+             dialog.pinned());
 }
 
 void DocumentController::offerRecovery() {

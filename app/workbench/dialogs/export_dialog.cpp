@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "export_dialog.h"
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QFileInfo>
@@ -9,6 +10,8 @@
 #include <QPlainTextEdit>
 #include <QSettings>
 
+#include "views/model/theme.h"
+
 namespace trimtab::workbench {
 namespace {
 
@@ -16,11 +19,13 @@ const QString kAuthorKey = QStringLiteral("export/author");
 
 }  // namespace
 
-ExportDialog::ExportDialog(QWidget* parent)
+ExportDialog::ExportDialog(std::optional<OcclusionMethod> chosen, QWidget* parent)
     : QDialog(parent),
       format_(new QComboBox(this)),
       author_(new QLineEdit(this)),
-      comment_(new QPlainTextEdit(this)) {
+      comment_(new QPlainTextEdit(this)),
+      chosen_(chosen),
+      pin_(new QCheckBox(this)) {
   setWindowTitle(tr("Export preset"));
   format_->addItem(tr("JSON"), int(ExportFormat::json));
   format_->addItem(tr("FlightGear property list (XML)"), int(ExportFormat::xml));
@@ -39,6 +44,16 @@ ExportDialog::ExportDialog(QWidget* parent)
   form->addRow(tr("&Format"), format_);
   form->addRow(tr("&Author"), author_);
   form->addRow(tr("Co&mment"), comment_);
+  form->addRow(pin_);
+  pin_->setVisible(chosen_.has_value());
+  if (chosen_) {
+    const ParameterRow& row = *findRow("culling.occlusion");
+    pin_->setText(tr("&Pin hidden ground to “%1”")
+                      .arg(views::fromView(row.choices[static_cast<std::size_t>(*chosen_)].label)));
+    pin_->setToolTip(
+        tr("The automatic choice depends on the machine: each measures which method costs least. "
+           "Pinned, the image generator uses what this machine uses in the current view."));
+  }
   form->addRow(buttons);
 }
 
@@ -50,6 +65,10 @@ QString ExportDialog::author() const {
 }
 QString ExportDialog::comment() const {
   return comment_->toPlainText().trimmed();
+}
+
+std::optional<OcclusionMethod> ExportDialog::pinned() const {
+  return pin_->isChecked() ? chosen_ : std::nullopt;
 }
 
 QString ExportDialog::suffix() const {

@@ -2,25 +2,31 @@
 #pragma once
 
 #include <QDialog>
+#include <optional>
 
 #include "trimtab/preset/preset.h"
 
+class QCheckBox;
 class QComboBox;
 class QLineEdit;
 class QPlainTextEdit;
 
 namespace trimtab::workbench {
 
-/// Asks for what an export contains beside the parameters: format, author and comment. The author is
-/// remembered in the user's settings.
+/// Asks for what an export contains beside the parameters: format, author and comment, and whether what the
+/// automatic choice of hidden ground chose here is pinned. The author is remembered in the user's settings.
 class ExportDialog : public QDialog {
   Q_OBJECT
 
  public:
-  explicit ExportDialog(QWidget* parent = nullptr);
+  /// `chosen` is what the automatic choice uses in the current view; unset if the choice is not automatic, or if
+  /// no method pays there.
+  explicit ExportDialog(std::optional<OcclusionMethod> chosen, QWidget* parent = nullptr);
   ExportFormat format() const;
   QString author() const;
   QString comment() const;
+  /// Returns the method to write in place of the automatic choice; unset if that stays.
+  std::optional<OcclusionMethod> pinned() const;
   QString suffix() const;
   QString fileFilter() const;
 
@@ -28,6 +34,8 @@ class ExportDialog : public QDialog {
   QComboBox* format_;
   QLineEdit* author_;
   QPlainTextEdit* comment_;
+  std::optional<OcclusionMethod> chosen_;
+  QCheckBox* pin_;
 };
 
 /// Returns the format by the file's ending: JSON unless it is .xml or .ini.

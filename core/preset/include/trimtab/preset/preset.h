@@ -30,6 +30,11 @@ struct Provenance {
 
 enum class ExportFormat { json, xml, ini };
 
+/// Returns what an export should tell of parameters whose effect depends on the machine, as one sentence;
+/// empty if there is nothing. `culling.occlusion` = auto is one: which method serves is measured by each
+/// machine.
+std::string machineNote(const TuningParameters& parameters);
+
 /// Returns the names of the presets that ship, which are compiled in: "default", "as-published",
 /// "as-printed".
 std::vector<std::string_view> shippedPresets();

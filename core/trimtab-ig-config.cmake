@@ -1,0 +1,8 @@
+include(CMakeFindDependencyMacro)
+set(OpenGL_GL_PREFERENCE GLVND)
+find_dependency(trimtab-core)
+find_dependency(nlohmann_json)
+find_dependency(OpenGL COMPONENTS OpenGL EGL)
+find_dependency(Threads)
+find_dependency(ZLIB)
+include(${CMAKE_CURRENT_LIST_DIR}/trimtab-ig-targets.cmake)
