@@ -143,6 +143,11 @@ class ParameterEffects : public test::SceneTest {
     return flyOver(roofs, parameters);
   }
 
+  Observed flyOverTexture(const ValidatedParameters& parameters) {
+    static const auto textured = test::patchedMountains(true);
+    return flyOver(textured, parameters);
+  }
+
   Observed flyOver(std::shared_ptr<const terrain::Database> terrain, const ValidatedParameters& parameters) {
     const auto before = database;
     use(std::move(terrain));
@@ -270,6 +275,9 @@ TEST_F(ParameterEffects, everyParameterChangesADecisionAPictureOrACount) {
       {"motion.",
        {{"motion.blur_frames", "3"}, {"motion.left_fov_deg", "30"}, {"motion.right_fov_deg", "30"}}},
       {"motion.", {{"motion.dwell", "milliseconds"}, {"motion.blur_dwell_ms", "50"}}},
+      {"lod.texture",
+       {{"static_lod.terrain", "patches"}, {"lod.scale", "4"}},
+       &ParameterEffects::flyOverTexture},
       {"motion.frames", {}, &ParameterEffects::listenAndDraw},
       {"motion.lod_over",
        {{"motion.frames", "drawn"}, {"motion.left_fov_deg", "15"}},

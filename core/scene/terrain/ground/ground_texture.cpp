@@ -279,7 +279,7 @@ std::int32_t GroundTexture::eyeRow() const {
   return impl_->eyeRow;
 }
 
-void GroundTexture::bind(unsigned program) const {
+void GroundTexture::bind(unsigned program, double coarser) const {
   const Impl& my = *impl_;
   const auto uniform = [&](const char* name) { return glGetUniformLocation(program, name); };
   glUniform1i(uniform("groundThere"), my.tiles ? 1 : 0);
@@ -293,6 +293,7 @@ void GroundTexture::bind(unsigned program) const {
   glUniform1f(uniform("groundReach"), static_cast<float>(1 / std::max(my.reach, 1e-3)));
   glUniform1f(uniform("groundFinest"), static_cast<float>(my.finest));
   glUniform1f(uniform("groundWhole"), static_cast<float>(my.whole));
+  glUniform1f(uniform("groundCoarser"), static_cast<float>(std::log2(std::max(coarser, 1.0))));
   glActiveTexture(GL_TEXTURE0 + kGroundUnit);
   glBindTexture(GL_TEXTURE_2D_ARRAY, my.texture);
   glActiveTexture(GL_TEXTURE0);

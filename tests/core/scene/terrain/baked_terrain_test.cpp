@@ -62,6 +62,30 @@ TEST_F(BakedScene, cullsAcrossTheDateLineAsAnywhere) {
   EXPECT_GT(hidden, 20u);
 }
 
+TEST_F(BakedScene, theGroundsTextureShrinksWithTheLodScaleOnlyWhereAsked) {
+  bakeAt(10);
+  auto r = patches(0.5, 0.5, 900, {Degrees{40}, Degrees{-40}, Degrees{}});
+  const auto drawn = [&](double scale, bool texture) {
+    r.decision.lodScale = scale;
+    r.lod.screenSpaceError = Pixels{2 / scale};  // the same triangles at any scale
+    r.lod.texture = texture;
+    return picture(r);
+  };
+  // How much neighbouring pixels differ: a coarser texture is smoother.
+  const auto contrast = [&](const std::vector<std::uint8_t>& rgba) {
+    double sum = 0;
+    for (std::size_t i = 4; i < rgba.size(); ++i) sum += std::abs(int{rgba[i]} - int{rgba[i - 4]});
+    return sum;
+  };
+  const auto fine = drawn(1, false);
+  EXPECT_EQ(differing(drawn(1, true), fine), 0u) << "full detail";
+  EXPECT_EQ(differing(drawn(4, false), fine), 0u) << "geometry alone follows the scale";
+  const auto half = drawn(2, true), quarter = drawn(4, true);
+  EXPECT_GT(differing(half, fine), 1000u);
+  EXPECT_LT(contrast(half), 0.98 * contrast(fine));
+  EXPECT_LT(contrast(quarter), 0.98 * contrast(half));
+}
+
 TEST_F(BakedScene, damagedGroundIsShownCoarserAndToldOf) {
   bakeAt(10);
   const auto r = patches(0.5, 0.5, 900, {Degrees{40}, Degrees{-40}, Degrees{}});

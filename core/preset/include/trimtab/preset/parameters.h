@@ -95,7 +95,8 @@ struct CullingParameters {
 
 struct LodParameters {
   Pixels screenSpaceError{2};
-  Ratio scale{1};  ///< 1 is full detail, larger is coarser
+  Ratio scale{1};        ///< 1 is full detail, larger is coarser
+  bool texture = false;  ///< the ground's texture shrinks with the LOD scale too
 };
 
 /// Terrain that is read from disk while it is flown over.
