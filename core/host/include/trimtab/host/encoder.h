@@ -21,7 +21,7 @@ std::vector<std::byte> encodeCigiHost(const AircraftState& state, std::uint32_t 
                                       std::uint32_t lastIgFrame, ByteOrder order = ByteOrder::big);
 /// Returns the CIGI 3.3 packets that make these symbols: surfaces, definitions, and one Symbol Control each,
 /// parents first. They follow the message of encodeCigiHost. Points and circles beyond what a packet holds
-/// (29 and 9), and text beyond 242 characters, are left out.
+/// (29 and 9), and text beyond 235 bytes, are left out.
 std::vector<std::byte> encodeCigiSymbols(const HostSymbols& symbols, ByteOrder order = ByteOrder::big);
 /// Returns a small set of symbols as a host might send it, for demonstrations and tests: a radar scope whose
 /// sweep turns with the time, two contacts, a waypoint and a flashing weapon cue.
