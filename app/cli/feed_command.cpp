@@ -65,6 +65,7 @@ struct Options {
   double rateHz = 60, speed = 1, startS = 0;
   bool loop = false;
   bool skipBadRows = false;  ///< of the head log
+  bool symbols = false;
   int listen = 0;
   Ending ending;
 };
@@ -98,6 +99,7 @@ int play(const Options& options) {
   how.rateHz = options.rateHz;
   how.speed = options.speed;
   how.loop = options.loop;
+  how.symbols = options.symbols;
   how.startS = options.startS;
   auto player = link::FeedPlayer::start(std::move(*flight), how);
   if (!player) {
@@ -165,10 +167,14 @@ std::string health(const HostStatistics& s) {
   append("jumps", s.jumps);
   append("regional-weather", s.regionalWeather);
   append("other-weather-layers", s.otherLayers);
+  append("symbol-packets", s.symbolPackets);
+  append("refused-symbols", s.refusedSymbols);
   return line;
 }
 
 void printFirstBad(const HostStatistics& s) {
+  if (!s.firstSymbolReason.empty())
+    std::fprintf(stderr, "first refused symbol packet: %s\n", s.firstSymbolReason.c_str());
   if (s.firstBadReason.empty()) return;
   std::fprintf(stderr, "first bad datagram: %s\n  %s\n", s.firstBadReason.c_str(), s.firstBadHex.c_str());
 }
@@ -263,7 +269,7 @@ int show(const Options& options) {
     }
     std::puts(text.c_str());
     std::fflush(stdout);
-    if (!badShown && !statistics.firstBadReason.empty()) {
+    if (!badShown && !(statistics.firstBadReason.empty() && statistics.firstSymbolReason.empty())) {
       printFirstBad(statistics);
       badShown = true;
     }
@@ -329,6 +335,8 @@ void addFeed(CLI::App& app, int& exitCode) {
   playing->add_option("--start-s", options->startS, "Seconds into the flight to begin at")
       ->check(CLI::NonNegativeNumber);
   playing->add_flag("--loop", options->loop, "Begin again at the end");
+  playing->add_flag("--symbols", options->symbols,
+                    "Send a small set of radar, weapon and navigation symbols, too (cigi3)");
   addEnding(playing, *options);
   run(playing, play);
 

@@ -75,6 +75,9 @@ std::string summaryJson(const Summary& s, const Feed& feed, const Options& optio
     json["host"] = {
         {"received", host->received}, {"states", host->states},       {"bad", host->bad},
         {"repeated", host->repeated}, {"reordered", host->reordered}, {"dropped", feed.dropped()}};
+    json["host"]["symbol_packets"] = host->symbolPackets;
+    json["host"]["refused_symbols"] = host->refusedSymbols;
+    if (host->refusedSymbols > 0) json["host"]["first_refused_symbol"] = host->firstSymbolReason;
     json["host"]["lost"] = host->lost ? nlohmann::ordered_json(*host->lost) : nlohmann::ordered_json();
     if (host->bad > 0)
       json["host"]["first_bad"] = {{"reason", host->firstBadReason}, {"hex", host->firstBadHex}};

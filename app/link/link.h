@@ -66,6 +66,8 @@ struct PlayOptions {
   double startS = 0;  ///< seconds into the flight
   /// Replaces the head of the flight, on the flight's clock. native-fdm carries no head and refuses it.
   std::optional<HeadLog> head{};
+  /// Sends a small set of symbols with every packet; see exampleSymbols. native-fdm refuses it.
+  bool symbols = false;
 };
 /// Sends a flight over UDP on the flight's own clock, from its own thread.
 class FeedPlayer {

@@ -32,6 +32,7 @@ class UdpPlayer final : public FeedPlayer {
         protocol_(options.protocol),
         rateHz_(options.rateHz),
         head_(options.head),
+        symbols_(options.symbols),
         speed_(options.speed),
         loop_(options.loop),
         epoch_(now()) {
@@ -103,6 +104,7 @@ class UdpPlayer final : public FeedPlayer {
   const WireProtocol protocol_;
   const double rateHz_;
   const std::optional<HeadLog> head_;
+  const bool symbols_;
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
@@ -124,8 +126,12 @@ void UdpPlayer::send(AircraftState state, double flightS, Clock::duration elapse
   // The host's clock runs on through pauses and loops, as a simulator's does.
   state.time = std::chrono::duration<double>(elapsed).count();
   if (protocol_ == WireProtocol::native_fdm) state.time += epoch_;
-  const auto bytes =
+  auto bytes =
       protocol_ == WireProtocol::native_fdm ? encodeNativeFdm(state) : encodeCigiHost(state, ++frame_, 0);
+  if (symbols_) {
+    const auto packets = encodeCigiSymbols(exampleSymbols(state.time));
+    bytes.insert(bytes.end(), packets.begin(), packets.end());
+  }
   // Nobody there (ECONNREFUSED) is no reason to stop: a host sends whether it is heard or not. It is told of
   // the packet before and in place of this one, which is sent once more: someone may listen by now.
   const auto attempt = [&] {
@@ -220,6 +226,8 @@ Result<std::unique_ptr<FeedPlayer>> FeedPlayer::start(Flight flight, const PlayO
   if (options.protocol == WireProtocol::none) refuse("protocol", "native-fdm or cigi3", "none");
   if (options.head && options.protocol == WireProtocol::native_fdm)
     refuse("head", "cigi3, whose View Control carries a head", "native-fdm, which has none");
+  if (options.symbols && options.protocol == WireProtocol::native_fdm)
+    refuse("symbols", "cigi3, whose packets define symbols", "native-fdm, which has none");
   const auto address = resolve(options.to);
   if (!address) errors.insert(errors.end(), address.findings().begin(), address.findings().end());
   if (!errors.empty()) return errors;

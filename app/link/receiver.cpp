@@ -173,7 +173,7 @@ void UdpReceiver::accept(std::span<const std::byte> bytes, double kernelTime) {
     const std::lock_guard lock(mutex_);
     statistics_ = decoder_.statistics();
     if (state) {
-      const ReceivedState received{*state, kernelTime, decodedTime};
+      const ReceivedState received{*state, kernelTime, decodedTime, decoder_.symbols()};
       if (queue_.size() < kQueue) {
         queue_.push_back(received);
       } else {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "limits.h"
+#include "symbol_packets.h"
 
 namespace trimtab::cigi3 {
 namespace {
@@ -142,6 +143,13 @@ void readWeatherControl(Packet& p, Session& session, Message& message) {
   (layer == kRainLayer ? session.rain : session.snow) = heard;
 }
 
+/// A symbol packet that is refused costs its message nothing else: the ownship must fly on.
+void readSymbols(std::span<const std::byte> bytes, std::size_t at, SymbolEdit& symbols, Message& message) {
+  std::optional<PacketFault> fault = symbols.apply(bytes, at, message.order);
+  ++(fault ? message.refusedSymbols : message.symbolPackets);
+  if (fault && !message.symbolFault) message.symbolFault = std::move(fault);
+}
+
 /// The size a packet that we read must have; 0 for all others.
 std::size_t sizeOf(std::uint8_t id) {
   switch (id) {
@@ -183,6 +191,7 @@ Message parse(std::span<const std::byte> bytes, Session& session) {
   message.fault = readIgControl(bytes, message);
   if (message.fault) return message;
 
+  SymbolEdit symbols(session.symbols);
   for (std::size_t at = byteAt(bytes, 1); at < bytes.size();) {
     const std::size_t left = bytes.size() - at;
     const std::size_t size = left >= 2 ? byteAt(bytes, at + 1) : 0;
@@ -208,8 +217,12 @@ Message parse(std::span<const std::byte> bytes, Session& session) {
       if (!message.fault) message.fault = packet.read.fault();
       if (message.fault) return message;
     }
+    if (isSymbolPacket(id)) readSymbols(bytes, at, symbols, message);
     at += size;
   }
+  // A host may define all its symbols again in every message: what is equal stays the same store.
+  const auto& after = symbols.symbols();
+  if (!session.symbols || (after != session.symbols && *after != *session.symbols)) session.symbols = after;
   return message;
 }
 

@@ -2,11 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 
 #include "packet_fault.h"
 #include "trimtab/frame/frame.h"
+#include "trimtab/frame/host_symbols.h"
 
 /// CIGI 3.x as an image generator reads it: messages of packets `u8 id, u8 size, ...` in the sender's byte
 /// order.
@@ -49,6 +51,7 @@ struct Session {
   std::optional<Layer> rain, snow;
   std::optional<HostView> view;
   std::optional<std::uint16_t> definedView;
+  std::shared_ptr<const HostSymbols> symbols;  ///< null before the first is defined
 
   /// Of two enabled layers the more severe one falls, of equal ones the snow. None before either was heard
   /// of.
@@ -63,6 +66,9 @@ struct Message {
   std::optional<PacketFault> cutAt;    ///< packets from here on were dropped; those before count
   int regionalWeather = 0;             ///< Weather Control of a region or an entity: passed over
   int otherLayers = 0;                 ///< Weather Control of a layer that is not rain or snow: passed over
+  int symbolPackets = 0;               ///< applied
+  int refusedSymbols = 0;              ///< symbol packets that were left out
+  std::optional<PacketFault> symbolFault;  ///< of the first of them
 };
 
 /// The byte order that the first packet's magic tells, when this looks like CIGI 3 at all.

@@ -182,6 +182,10 @@ std::optional<AircraftState> HostDecoder::Link::acceptCigi(const Datagram& datag
   session = candidate;
   statistics.regionalWeather += static_cast<std::uint64_t>(message.regionalWeather);
   statistics.otherLayers += static_cast<std::uint64_t>(message.otherLayers);
+  statistics.symbolPackets += static_cast<std::uint64_t>(message.symbolPackets);
+  statistics.refusedSymbols += static_cast<std::uint64_t>(message.refusedSymbols);
+  if (message.symbolFault && statistics.firstSymbolReason.empty())
+    statistics.firstSymbolReason = toString(*message.symbolFault);
   hostOrder = message.order;
 
   const auto hostTime = message.ticks ? clock.advance(*message.ticks) : std::nullopt;
@@ -235,6 +239,9 @@ const HostStatistics& HostDecoder::statistics() const {
 }
 double HostDecoder::rateAt(double now) const {
   return link_->meter.rateAt(now);
+}
+std::shared_ptr<const HostSymbols> HostDecoder::symbols() const {
+  return link_->session.symbols;
 }
 std::optional<std::uint32_t> HostDecoder::lastHostFrame() const {
   return link_->order.last();

@@ -3,35 +3,12 @@
 #include <cmath>
 
 #include "cigi3.h"
+#include "packet_writer.h"
 
 namespace trimtab {
 namespace {
 
 constexpr std::uint8_t kMajor = 3, kHostMinor = 3, kIgMinor = 2;
-
-class Writer {
- public:
-  explicit Writer(ByteOrder order) : order_(order) {}
-
-  /// Appends a zeroed packet; offsets of `put` count from its start.
-  void begin(std::uint8_t id, std::size_t size) {
-    start_ = bytes_.size();
-    bytes_.resize(start_ + size);
-    put(0, id);
-    put(1, static_cast<std::uint8_t>(size));
-  }
-  template <class T>
-  void put(std::size_t offset, T value) {
-    wire::put<T>(bytes_, start_ + offset, order_, value);
-  }
-  void putFloat(std::size_t offset, double value) { put(offset, static_cast<float>(value)); }
-  std::vector<std::byte> take() { return std::move(bytes_); }
-
- private:
-  ByteOrder order_;
-  std::size_t start_ = 0;
-  std::vector<std::byte> bytes_;
-};
 
 std::uint32_t ticks(double timeS) {
   if (!std::isfinite(timeS)) return 0;
@@ -39,11 +16,7 @@ std::uint32_t ticks(double timeS) {
   return static_cast<std::uint32_t>(wrapped < 0 ? wrapped + 4294967296.0 : wrapped);
 }
 
-constexpr std::uint8_t bits(unsigned value) {
-  return static_cast<std::uint8_t>(value);
-}
-
-void putEntityControl(Writer& w, const AircraftState& state) {
+void putEntityControl(PacketWriter& w, const AircraftState& state) {
   constexpr unsigned kActive = 1;
   w.begin(cigi3::kEntityControl, cigi3::kEntityControlSize);
   w.put(2, cigi3::kOwnship);
@@ -57,7 +30,7 @@ void putEntityControl(Writer& w, const AircraftState& state) {
   w.put(40, state.position.height.value());
 }
 
-void putViewControl(Writer& w, const Attitude& head) {
+void putViewControl(PacketWriter& w, const Attitude& head) {
   constexpr unsigned kRollPitchYaw = 0x38;
   w.begin(cigi3::kViewControl, cigi3::kViewControlSize);
   w.put(5, bits(kRollPitchYaw));
@@ -67,7 +40,7 @@ void putViewControl(Writer& w, const Attitude& head) {
   w.putFloat(28, head.heading.value());
 }
 
-void putViewDefinition(Writer& w, const HostView& view) {
+void putViewDefinition(PacketWriter& w, const HostView& view) {
   w.begin(cigi3::kViewDefinition, cigi3::kViewDefinitionSize);
   unsigned enabled = 0;
   const auto put = [&](unsigned bit, std::size_t offset, const auto& value) {
@@ -83,7 +56,7 @@ void putViewDefinition(Writer& w, const HostView& view) {
   w.put(5, bits(enabled));
 }
 
-void putAtmosphereControl(Writer& w, Metres visibility) {
+void putAtmosphereControl(PacketWriter& w, Metres visibility) {
   w.begin(cigi3::kAtmosphereControl, cigi3::kAtmosphereControlSize);
   w.put(2, bits(1));  // atmospheric model on
   w.putFloat(4, 15);  // standard atmosphere at sea level
@@ -92,7 +65,7 @@ void putAtmosphereControl(Writer& w, Metres visibility) {
 }
 
 /// One layer of global scope.
-void putWeatherControl(Writer& w, std::uint8_t layer, bool enabled, const HostWeather& weather) {
+void putWeatherControl(PacketWriter& w, std::uint8_t layer, bool enabled, const HostWeather& weather) {
   w.begin(cigi3::kWeatherControl, cigi3::kWeatherControlSize);
   w.put(4, layer);
   if (!enabled) return;
@@ -107,7 +80,7 @@ void putWeatherControl(Writer& w, std::uint8_t layer, bool enabled, const HostWe
 std::vector<std::byte> encodeCigiHost(const AircraftState& state, std::uint32_t frame,
                                       std::uint32_t lastIgFrame, ByteOrder order) {
   constexpr unsigned kOperate = 1, kTimestampValid = 4;
-  Writer w(order);
+  PacketWriter w(order);
   w.begin(cigi3::kIgControl, cigi3::kIgControlSize);
   w.put(2, kMajor);
   w.put(4, bits(kOperate | kTimestampValid | (kHostMinor << 4U)));
@@ -131,7 +104,7 @@ std::vector<std::byte> encodeCigiHost(const AircraftState& state, std::uint32_t 
 std::vector<std::byte> encodeCigiStartOfFrame(std::uint32_t igFrame, std::uint32_t lastHostFrame,
                                               double timeS, ByteOrder order) {
   constexpr unsigned kOperate = 1, kTimestampValid = 4;
-  Writer w(order);
+  PacketWriter w(order);
   w.begin(cigi3::kStartOfFrame, cigi3::kStartOfFrameSize);
   w.put(2, kMajor);
   w.put(5, bits(kOperate | kTimestampValid | (kIgMinor << 4U)));

@@ -76,6 +76,10 @@ inline constexpr std::string_view kWorldPlace =
     "0 is where the world says; anything else moves the symbol away from there, by fractions of half the "
     "picture, right and up positive.";
 
+inline constexpr std::string_view kHostPlace =
+    "0 is where the host puts its symbols; anything else moves all of them away from there, by fractions of "
+    "half the picture, right and up positive.";
+
 inline constexpr auto kSymbologyRows = joined(
     std::array{
         row<&TuningParameters::symbology, &SymbologyParameters::enabled>(
@@ -133,6 +137,14 @@ inline constexpr auto kSymbologyRows = joined(
         "GS.",
         kFreePlace),
     symbolRows<&TuningParameters::symbolAltitude, "symbology.altitude", "Altitude">(
-        "Height above mean sea level, to 10 ft.", kFreePlace));
+        "Height above mean sea level, to 10 ft.", kFreePlace),
+    symbolRows<&TuningParameters::symbolHost, "symbology.host", "Symbols of the host">(
+        "Draws the radar, weapon and navigation symbols that a CIGI host defines, over all others.",
+        kHostPlace),
+    std::array{row<&TuningParameters::symbology, &SymbologyParameters::recolourHost>(
+        {.key = "symbology.host.recolour",
+         .label = "Symbols of the host: this colour",
+         .help = "Draws all symbols of the host in the colour that is set here. If off, each has the colour "
+                 "that the host sends."})});
 
 }  // namespace trimtab::table

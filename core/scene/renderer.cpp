@@ -159,7 +159,9 @@ FrameCounters Renderer::Impl::finishPicture(const FrameRequest& r) {
   if (!(strength > 0)) gl->blur.rest();
   if (r.symbology && r.symbology->setup.general.enabled) {
     gl->clock.beginPart(&FrameCost::symbology);
-    done.symbologyRedraws += gl->symbology.draw(*r.symbology, v, !r.skips.sameSymbols);
+    const bool redrawn = gl->symbology.draw(*r.symbology, v, !r.skips.sameSymbols);
+    done.symbologyRedraws += redrawn;
+    if (redrawn) done.hostSymbolsLeftOut += gl->symbology.hostSymbolsLeftOut();
     gl->clock.endPart(&FrameCost::symbology);
     ++done.symbologyDraws;
   }

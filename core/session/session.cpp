@@ -62,12 +62,19 @@ void Session::setGround(std::shared_ptr<const GroundHeights> ground) {
   dirty_ = true;
 }
 
+/// States no longer come from a live link.
+void Session::unlink() {
+  linked_ = false;
+  hostSymbols_.reset();
+}
+
 void Session::receive(std::span<const ReceivedState> states) {
   for (const ReceivedState& received : states) {
     latency_.decoded.add((received.decodedTime - received.kernelTime) * 1e3);
     AircraftState state = received.state;
     head_.apply(state, received.kernelTime);
     follow(state, received.kernelTime);
+    hostSymbols_ = received.symbols;
     if (decidesImages())
       arrive(state, received.kernelTime);
     else
@@ -76,14 +83,14 @@ void Session::receive(std::span<const ReceivedState> states) {
 }
 
 void Session::fly(const AircraftState& state, double now) {
-  linked_ = false;
+  unlink();
   AircraftState flown = state;
   head_.apply(flown, now);
   decideNext(inputFor(flown), kNan);
 }
 
 void Session::replay(const TraceRow& row) {
-  linked_ = false;
+  unlink();
   if (!replayed_) memory_ = row.before;
   replayed_ = true;
   FrameInput input = row.input;
@@ -96,7 +103,7 @@ void Session::look(const AircraftState& state) {
   if (!looking_) lookMemory_ = {}, groundVelocity_.restart();
   const bool stands = looking_ && state.position == current_->state.position;
   looking_ = true;
-  linked_ = false;
+  unlink();
   AircraftState seen = state;
   head_.apply(seen, state.time);
   // A camera that stands is looked at once more, and then no more.
@@ -246,7 +253,15 @@ bool Session::needsPicture(double now) const {
   if (!current_) return false;
   if (dirty_ || unsettled() || !drawnEye_) return true;
   const bool moving = linked_ || head_.source() == HeadInput::Source::pointer;
-  return moving && !samePose(eyeState(now), *drawnEye_);
+  if (!moving) return false;
+  const AircraftState eye = eyeState(now);
+  return !samePose(eye, *drawnEye_) || darkAt(eye.time) != drawnDark_;
+}
+
+/// The symbols of the host that an image at `time` does not show, because they flash.
+std::vector<std::uint16_t> Session::darkAt(double time) const {
+  if (!hostSymbols_ || !parameters_->symbology.enabled || !parameters_->symbolHost.show) return {};
+  return darkSymbols(*hostSymbols_, time);
 }
 
 /// What the host does not send is derived from its positions, and labelled so.
@@ -294,8 +309,10 @@ std::optional<FrameRequest> Session::request(double now, int windowWidthPx, int 
   request.lod = parameters_->lod;
   request.staticLod = parameters_->staticLod;
   request.terrain = parameters_->terrain;
+  drawnDark_ = darkAt(eye.time);
   if (parameters_->symbology.enabled)
-    request.symbology = SymbologyRequest{symbols(eye), symbologySetup(*parameters_)};
+    request.symbology =
+        SymbologyRequest{symbols(eye), symbologySetup(*parameters_), hostSymbols_, drawnDark_};
   inPicture_.insert(inPicture_.end(), waiting_.begin(), waiting_.end());
   waiting_.clear();
   requestedAt_ = now;

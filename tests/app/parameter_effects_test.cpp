@@ -105,6 +105,8 @@ class ParameterEffects : public test::SceneTest {
         request.eye.height = i == 29 ? ground + Metres{20} : highest + Metres{200};
         request.attitude.pitch = Degrees{-8};
         request.waitForPages = request.reproducible = true;
+        static const auto kHostSymbols = std::make_shared<const HostSymbols>(exampleSymbols(0));
+        if (request.symbology) request.symbology->host = kHostSymbols;
         FrameResult result;
         seen["picture " + std::to_string(i)] = digest(picture(request, &result));
         seen["counts " + std::to_string(i)] = std::to_string(result.visible.triangles) + ' ' +
@@ -289,6 +291,7 @@ TEST_F(ParameterEffects, everyParameterChangesADecisionAPictureOrACount) {
        &ParameterEffects::flyOverPatches},
       {"culling.back", {}, &ParameterEffects::flyOverRoofs},
       {"symbology. symbol", {{"symbology.enabled", "true"}}},
+      {"symbology.host.", {{"symbology.enabled", "true"}, {"symbology.host.recolour", "true"}}},
       {"weather.haze weather.clear weather.contrast weather.ratio weather.default",
        {{"weather.haze", "true"}, {"weather.clear_visibility_m", "5000"}}},
       {"weather.rain_light.", {{"weather.step", "rain_light"}, {"weather.clear_visibility_m", "8000"}}},

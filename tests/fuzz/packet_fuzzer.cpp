@@ -5,7 +5,7 @@
 #include "trimtab/host/encoder.h"
 
 /// A datagram is good or bad, never both; a state it yields is finite, in range, and survives being sent
-/// again.
+/// again, and so do its symbols.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trimtab;
   HostDecoder decoder, again;
@@ -17,7 +17,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const GeodeticPosition& p = state->position;
   if (!(std::abs(p.latitude.value()) <= 90 && std::abs(p.longitude.value()) <= 180)) std::abort();
   if (!std::isfinite(p.height.value()) || !(std::abs(state->attitude.pitch.value()) <= 90)) std::abort();
-  const auto sent = again.accept({encodeCigiHost(*state, 1, 0), 1, "fuzz"});
+  auto message = encodeCigiHost(*state, 1, 0);
+  const auto symbols = decoder.symbols();
+  if (symbols) {
+    const auto packets = encodeCigiSymbols(*symbols);
+    message.insert(message.end(), packets.begin(), packets.end());
+  }
+  const auto sent = again.accept({message, 1, "fuzz"});
   if (!sent || sent->position != p) std::abort();
+  if (symbols && (again.statistics().refusedSymbols > 0 || *again.symbols() != *symbols)) std::abort();
   return 0;
 }

@@ -40,14 +40,16 @@ QCheckBox* flagBox(Draft& draft, std::string_view key) {
 }  // namespace
 
 const std::array<std::string_view, SymbologyPanel::kSymbols> SymbologyPanel::kPrefixes{
-    "symbology.pitch_ladder",  "symbology.aircraft_reference", "symbology.flight_path",
-    "symbology.line_of_sight", "symbology.heading_tape",       "symbology.airspeed",
-    "symbology.altitude"};
+    "symbology.pitch_ladder", "symbology.aircraft_reference",
+    "symbology.flight_path",  "symbology.line_of_sight",
+    "symbology.heading_tape", "symbology.airspeed",
+    "symbology.altitude",     "symbology.host"};
 
 SymbologyPanel::SymbologyPanel(Draft& draft, QWidget* parent)
     : QWidget(parent),
       draft_(draft),
       enabled_(flagBox(draft, "symbology.enabled")),
+      recolour_(flagBox(draft, "symbology.host.recolour")),
       place_(new QPushButton(tr("&Place in view"))),
       counts_(new QLabel),
       table_(new QWidget),
@@ -76,6 +78,7 @@ SymbologyPanel::SymbologyPanel(Draft& draft, QWidget* parent)
   add("symbology.frame", new ChoiceBox(draft, "symbology.frame"));
   add("symbology.line_width_px", new NumberBox(draft, "symbology.line_width_px"));
   add("symbology.outline_px", new NumberBox(draft, "symbology.outline_px"));
+  form->addRow(recolour_);
   column->addLayout(form);
 
   auto* grid = new QGridLayout(table_);
@@ -114,6 +117,7 @@ void SymbologyPanel::readFlags() {
     box->setChecked(std::get<bool>(draft_.value(key)));
   };
   set(enabled_, "symbology.enabled");
+  set(recolour_, "symbology.host.recolour");
   for (std::size_t i = 0; i < kPrefixes.size(); ++i) set(show_[i], keyOf(kPrefixes[i], ".show"));
   const bool on = enabled_->isChecked();
   table_->setEnabled(on);

@@ -19,7 +19,7 @@ namespace trimtab::views {
 class SymbologyPanel : public QWidget {
   Q_OBJECT
  public:
-  static constexpr int kSymbols = 7;
+  static constexpr int kSymbols = 8;
   /// Returns "symbology.pitch_ladder" and so on, in the order of the rows and of Symbol.
   static const std::array<std::string_view, kSymbols> kPrefixes;
 
@@ -43,6 +43,7 @@ class SymbologyPanel : public QWidget {
 
   Draft& draft_;
   QCheckBox* enabled_;
+  QCheckBox* recolour_;
   QPushButton* place_;
   QLabel* counts_;
   QWidget* table_;

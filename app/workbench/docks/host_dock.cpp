@@ -278,9 +278,11 @@ void HostDock::refresh() {
   weather_->setText(any ? tr("%1 for regions or entities, %2 for other layers")
                               .arg(number(host.regionalWeather), number(host.otherLayers))
                         : kNone);
-  bad_->setText(any ? number(host.bad) : kNone);
+  const QString symbols =
+      host.refusedSymbols > 0 ? tr(", %1 symbol packets").arg(number(host.refusedSymbols)) : QString();
+  bad_->setText(any ? number(host.bad) + symbols : kNone);
   const QString dump = host.bad == 0
-                           ? QString()
+                           ? QString::fromStdString(host.firstSymbolReason)
                            : QString::fromStdString(host.firstBadReason) + '\n' + hexDump(host.firstBadHex);
   firstBad_->setVisible(!dump.isEmpty());
   if (firstBad_->toPlainText() != dump) firstBad_->setPlainText(dump);

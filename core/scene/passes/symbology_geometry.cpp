@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "host_symbol_marks.h"
 #include "symbology_canvas.h"
 
 namespace trimtab::scene {
@@ -274,6 +275,10 @@ SymbologyRequest quantised(const SymbologyRequest& request, const ViewShape& vie
   q.state.altitude = Feet{rounded(request.state.altitude.in<Feet>(), 10)}.as<Metres>();
   if (q.state.speed) q.state.speed = Knots{std::round(q.state.speed->value()) + 0.0};
   const auto shows = [&](Symbol s) { return q.setup.element[static_cast<std::size_t>(s)].show; };
+  if (!shows(Symbol::host)) {
+    q.host.reset();
+    q.dark.clear();
+  }
   if (!shows(Symbol::altitude)) q.state.altitude = {};
   if (!shows(Symbol::airspeed)) q.state.speed.reset();
   if (!shows(Symbol::flight_path)) q.state.velocity.reset();
@@ -297,9 +302,12 @@ SymbologyRequest quantised(const SymbologyRequest& request, const ViewShape& vie
 void drawSymbology(const SymbologyRequest& request, const ViewShape& view, SymbologyDrawing& drawing) {
   drawing.strokes.clear();
   drawing.box.fill({});
+  drawing.marks.clear();
+  drawing.hostSymbolsLeftOut = 0;
   if (!request.setup.general.enabled || view.widthPx <= 0 || view.heightPx <= 0) return;
-  if (!isKnown(request.state.aircraft) || !isKnown(request.state.view)) return;
-  Drawer(request, view, drawing).drawAll();
+  if (isKnown(request.state.aircraft) && isKnown(request.state.view))
+    Drawer(request, view, drawing).drawAll();
+  drawHostSymbols(request, view, drawing);
 }
 
 std::array<std::uint8_t, 3> symbolColour(SymbolColour colour) {

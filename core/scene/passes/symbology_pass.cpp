@@ -10,7 +10,11 @@
 namespace trimtab::scene {
 namespace {
 
-constexpr std::array<std::uint8_t, 3> kDark{0, 16, 8}, kBright{235, 240, 235};
+constexpr std::array<std::uint8_t, 4> kDark{0, 16, 8, 255}, kBright{235, 240, 235, 255};
+
+std::array<std::uint8_t, 4> opaque(std::array<std::uint8_t, 3> rgb) {
+  return {rgb[0], rgb[1], rgb[2], 255};
+}
 
 }  // namespace
 
@@ -26,7 +30,7 @@ SymbologyPass::SymbologyPass()
   const auto at = [](std::size_t offset) { return reinterpret_cast<const void*>(offset); };
   glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, kStride, at(offsetof(Vertex, x)));
   glVertexAttribPointer(1, 4, GL_FLOAT, GL_FALSE, kStride, at(offsetof(Vertex, along)));
-  glVertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, kStride, at(offsetof(Vertex, colour)));
+  glVertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, kStride, at(offsetof(Vertex, rgba)));
   for (const GLuint attribute : {0u, 1u, 2u}) glEnableVertexAttribArray(attribute);
   glBindVertexArray(0);
   glBindBuffer(GL_ARRAY_BUFFER, 0);
@@ -38,7 +42,7 @@ SymbologyPass::~SymbologyPass() {
   if (program_ != 0) glDeleteProgram(program_);
 }
 
-void SymbologyPass::add(const SymbolStroke& s, float halfWidth, std::array<std::uint8_t, 3> colour) {
+void SymbologyPass::add(const SymbolStroke& s, float halfWidth, std::array<std::uint8_t, 4> rgba) {
   const float dx = s.x1 - s.x0, dy = s.y1 - s.y0, length = std::hypot(dx, dy);
   const float ux = length > 0 ? dx / length : 1, uy = length > 0 ? dy / length : 0;
   const float reach = halfWidth + 1;  // the feather's half pixel, and that of the pixel's centre
@@ -49,11 +53,20 @@ void SymbologyPass::add(const SymbolStroke& s, float halfWidth, std::array<std::
                   across,
                   length,
                   halfWidth,
-                  {colour[0], colour[1], colour[2], 255}};
+                  {rgba[0], rgba[1], rgba[2], rgba[3]}};
   };
   const Vertex a = vertex(-reach, -reach), b = vertex(length + reach, -reach),
                c = vertex(length + reach, reach), d = vertex(-reach, reach);
   vertices_.insert(vertices_.end(), {a, b, c, a, c, d});
+}
+
+void SymbologyPass::add(const HostMark& m) {
+  if (m.halfWidth != HostMark::kFilled)
+    return add(SymbolStroke{m.x[0], m.y[0], m.x[1], m.y[1], Symbol::host}, m.halfWidth, m.rgba);
+  // All of it lies within the width of a stroke of no length, so that it is covered whole.
+  constexpr float kWhole = 1e6F;
+  for (int i = 0; i < 3; ++i)
+    vertices_.push_back({m.x[i], m.y[i], 0, 0, 0, kWhole, {m.rgba[0], m.rgba[1], m.rgba[2], m.rgba[3]}});
 }
 
 void SymbologyPass::rebuild() {
@@ -72,9 +85,10 @@ void SymbologyPass::rebuild() {
     if (rim > half)
       for (std::size_t i = from; i < to; ++i)
         add(strokes[i], rim, colour == SymbolColour::black ? kBright : kDark);
-    for (std::size_t i = from; i < to; ++i) add(strokes[i], half, symbolColour(colour));
+    for (std::size_t i = from; i < to; ++i) add(strokes[i], half, opaque(symbolColour(colour)));
     from = to;
   }
+  for (const HostMark& mark : drawing_.marks) add(mark);
   glBindBuffer(GL_ARRAY_BUFFER, buffer_);
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices_.size() * sizeof(Vertex)), vertices_.data(),
                GL_DYNAMIC_DRAW);

@@ -19,16 +19,19 @@ class SymbologyPass {
   /// Draws into the framebuffer that is bound. Returns true if the triangles were made, which `anew`
   /// demands.
   bool draw(const SymbologyRequest& request, const ViewShape& view, bool anew = false);
+  /// Returns how many of the host's symbols the triangles lack; see FrameCounters.
+  std::size_t hostSymbolsLeftOut() const { return drawing_.hostSymbolsLeftOut; }
 
  private:
   struct Vertex {
     float x, y;               ///< pixels
     float along, across;      ///< pixels from the stroke's start, and from its line
     float length, halfWidth;  ///< of the stroke
-    std::uint8_t colour[4];
+    std::uint8_t rgba[4];
   };
   void rebuild();
-  void add(const SymbolStroke& stroke, float halfWidth, std::array<std::uint8_t, 3> colour);
+  void add(const SymbolStroke& stroke, float halfWidth, std::array<std::uint8_t, 4> rgba);
+  void add(const HostMark& mark);
 
   std::optional<SymbologyRequest> shown_;
   ViewShape view_;

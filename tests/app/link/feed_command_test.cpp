@@ -6,6 +6,8 @@
 #include <thread>
 
 #include "tests/support.h"
+#include "trimtab/host/decoder.h"
+#include "trimtab/host/encoder.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/host/head_log.h"
 #include "udp_socket.h"
@@ -121,6 +123,33 @@ TEST(FeedCommand, sendsAHeadAsViewControl) {
   EXPECT_EQ(fdm.exitCode, 1);
   EXPECT_NE(fdm.err.find("View Control"), std::string::npos) << fdm.err;
   EXPECT_EQ(run(play + " --protocol cigi3 --head absent.csv").exitCode, 1);
+}
+
+TEST(FeedCommand, sendsSymbolsWithEachPacket) {
+  ScratchDir dir;
+  const std::string port = freePort();
+  Background recorder({program("trimtab-cli").string(), "feed", "record", "--listen", port, "-o",
+                       (dir / "out.pcap").string()},
+                      dir / "err");
+  waitFor(dir / "err", "listening");
+  const std::string play = cli() + " feed play '" + aFlight(dir) + "' --to " + port;
+  EXPECT_EQ(run(play + " --protocol cigi3 --rate-hz 50 --symbols").exitCode, 0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // the last packets, under load
+  EXPECT_EQ(recorder.end(SIGINT), 0) << readFile(dir / "err");
+  EXPECT_NE(readFile(dir / "err").find("symbol-packets"), std::string::npos) << readFile(dir / "err");
+  const auto datagrams = readPcap(dir / "out.pcap");
+  ASSERT_TRUE(datagrams) << toString(datagrams.findings());
+  HostDecoder decoder;
+  for (const CapturedDatagram& d : *datagrams) {
+    const auto state = decoder.accept({d.bytes, d.time, d.from});
+    ASSERT_TRUE(state && decoder.symbols());
+    EXPECT_EQ(*decoder.symbols(), exampleSymbols(state->time));
+  }
+  EXPECT_EQ(decoder.statistics().refusedSymbols, 0U) << decoder.statistics().firstSymbolReason;
+
+  const Ran fdm = run(play + " --protocol native-fdm --symbols");
+  EXPECT_EQ(fdm.exitCode, 1);
+  EXPECT_NE(fdm.err.find("whose packets define symbols"), std::string::npos) << fdm.err;
 }
 
 TEST(FeedCommand, showsALineASecond) {

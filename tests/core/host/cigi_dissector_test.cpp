@@ -164,6 +164,104 @@ TEST_P(SentCigi, weatherIsReadByTheDissectorFieldByField) {
   }
 }
 
+/// The dissector's own readings differ from the standard in two places, which are left out here: it takes the
+/// source type of a clone from another bit, and shows one bit of a line's primitive type.
+TEST_P(SentCigi, symbolsAreReadByTheDissectorFieldByField) {
+  HostSymbols symbols;
+  symbols.surfaces = {{513, 0.125F, 0.75F, 0.25F, 0.875F, -4, 5.5F, -6, 7.25F}};
+  HostShape text, circles, lines;
+  text.kind = HostShapeKind::text;
+  text.alignment = 7;
+  text.orientation = 3;
+  text.fontSize = 2.5F;
+  text.text = "RDR 7";
+  circles.kind = HostShapeKind::circles;
+  circles.filled = true;
+  circles.lineWidth = 0.5F;
+  circles.arcs = {{1, 2, 3, 0.25F, 45, 90}, {-1, -2, 4, 0, 0, 360}};
+  lines.primitive = HostPrimitive::line_loop;
+  lines.lineWidth = 0.75F;
+  lines.points = {{1, 2}, {-3, 4.5F}, {5, -6}};
+  for (const HostShape& shape : {text, circles, lines}) {
+    HostSymbol s;
+    s.id = static_cast<std::uint16_t>(300 + symbols.symbols.size());
+    s.shape = std::make_shared<const HostShape>(shape);
+    symbols.symbols.push_back(s);
+  }
+  HostSymbol& last = symbols.symbols.back();
+  last.parent = 300;
+  last.surface = 513;
+  last.visible = last.attached = last.inheritsColour = true;
+  last.layer = 9;
+  last.dutyPercent = 60;
+  last.flashPeriodS = 1.25F;
+  last.u = -2.5F;
+  last.v = 3.5F;
+  last.rotationDeg = 33;
+  last.scaleU = 2;
+  last.scaleV = 0.5F;
+  last.rgba = {10, 20, 30, 40};
+  auto bytes = encodeCigiHost(aState(), 7, 0, GetParam());
+  const auto packets = encodeCigiSymbols(symbols, GetParam());
+  bytes.insert(bytes.end(), packets.begin(), packets.end());
+  const std::map<std::string, double> expected{{"cigi.symbl_srfc_def.surface_id", 513},
+                                               {"cigi.symbl_srfc_def.surface_state", 0},
+                                               {"cigi.symbl_srfc_def.attach_type", 1},
+                                               {"cigi.symbl_srfc_def.billboard", 0},
+                                               {"cigi.symbl_srfc_def.xoff_left", 0.125},
+                                               {"cigi.symbl_srfc_def.yoff_right", 0.75},
+                                               {"cigi.symbl_srfc_def.zoff_top", 0.875},
+                                               {"cigi.symbl_srfc_def.yaw_bottom", 0.25},
+                                               {"cigi.symbl_srfc_def.min_u", -4},
+                                               {"cigi.symbl_srfc_def.max_u", 5.5},
+                                               {"cigi.symbl_srfc_def.min_v", -6},
+                                               {"cigi.symbl_srfc_def.max_v", 7.25},
+                                               {"cigi.symbol_text_def.symbol_id", 300},
+                                               {"cigi.symbol_text_def.alignment", 7},
+                                               {"cigi.symbol_text_def.orientation", 3},
+                                               {"cigi.symbol_text_def.font_size", 2.5},
+                                               {"cigi.symbol_circle_def.symbol_id", 301},
+                                               {"cigi.symbl_circle_def.drawing_style", 1},
+                                               {"cigi.symbol_circle_def.stipple_pattern", 0xffff},
+                                               {"cigi.symbol_circle_def.line_width", 0.5},
+                                               {"cigi.symbol_circle_def.center_u1", 1},
+                                               {"cigi.symbol_circle_def.center_v1", 2},
+                                               {"cigi.symbol_circle_def.radius1", 3},
+                                               {"cigi.symbol_circle_def.inner_radius1", 0.25},
+                                               {"cigi.symbol_circle_def.start_angle1", 45},
+                                               {"cigi.symbol_circle_def.end_angle1", 90},
+                                               {"cigi.symbol_circle_def.radius2", 4},
+                                               {"cigi.symbol_line_def.symbol_id", 302},
+                                               {"cigi.symbol_line_def.stipple_pattern", 0xffff},
+                                               {"cigi.symbol_line_def.line_width", 0.75},
+                                               {"cigi.symbol_line_def.vertex_u1", 1},
+                                               {"cigi.symbol_line_def.vertex_v1", 2},
+                                               {"cigi.symbol_line_def.vertex_u3", 5},
+                                               {"cigi.symbol_line_def.vertex_v3", -6},
+                                               {"cigi.symbol_control.symbol_id", 302},
+                                               {"cigi.symbol_control.symbol_state", 1},
+                                               {"cigi.symbol_control.attach_state", 1},
+                                               {"cigi.symbol_control.flash_control", 0},
+                                               {"cigi.symbol_control.inherit_color", 1},
+                                               {"cigi.symbol_control.parent_symbol_id", 300},
+                                               {"cigi.symbol_control.surface_id", 513},
+                                               {"cigi.symbol_control.layer", 9},
+                                               {"cigi.symbol_control.flash_duty_cycle", 60},
+                                               {"cigi.symbol_control.flash_period", 1.25},
+                                               {"cigi.symbol_control.position_u", -2.5},
+                                               {"cigi.symbol_control.position_v", 3.5},
+                                               {"cigi.symbol_control.rotation", 33},
+                                               {"cigi.symbol_control.red", 10},
+                                               {"cigi.symbol_control.green", 20},
+                                               {"cigi.symbol_control.blue", 30},
+                                               {"cigi.symbol_control.alpha", 40},
+                                               {"cigi.symbol_control.scale_u", 2},
+                                               {"cigi.symbol_control.scale_v", 0.5}};
+  const auto rows = dissected({{1e9, "127.0.0.1:40000", "127.0.0.1:8004", bytes}}, names(expected), 'l');
+  ASSERT_EQ(rows.size(), 1U);
+  expectFields(rows[0], expected);
+}
+
 TEST_P(SentCigi, startOfFrameIsReadByTheDissector) {
   const CapturedDatagram sent{1e9, "127.0.0.1:8004", "127.0.0.1:8005",
                               encodeCigiStartOfFrame(4294967295U, 123456, 42949.0, GetParam())};

@@ -73,6 +73,49 @@ TEST(SessionSymbols, showAHeadThatIsTurned) {
   EXPECT_NEAR(symbols.view.heading.value(), 130, 0.1);
 }
 
+/// A symbol that is visible in the first half of each second.
+std::shared_ptr<const HostSymbols> flashing() {
+  HostSymbol symbol;
+  symbol.id = 5;
+  symbol.visible = true;
+  symbol.dutyPercent = 50;
+  symbol.flashPeriodS = 1;
+  symbol.shape = std::make_shared<const HostShape>();
+  return std::make_shared<const HostSymbols>(HostSymbols{{}, {symbol}});
+}
+
+TEST(SessionSymbols, ofTheHostAreThoseOfTheLastPacketAndOfNoOtherSource) {
+  Session session(withSymbols());
+  const auto symbols = flashing();
+  const std::vector<ReceivedState> packets{{flying(0), 100, 100, nullptr},
+                                           {flying(1), 100.02, 100.02, symbols}};
+  session.receive(packets);
+  EXPECT_EQ(session.request(100.02, 640, 360)->symbology->host, symbols);
+  session.look(flying(2));
+  EXPECT_EQ(session.request(100.1, 640, 360)->symbology->host, nullptr) << "a free camera has none";
+  session.receive(packets);
+  session.fly(flying(2));
+  EXPECT_EQ(session.request(100.1, 640, 360)->symbology->host, nullptr) << "nor has a flight";
+}
+
+TEST(SessionSymbols, ofTheHostAskForAnImageWhenTheyFlash) {
+  TuningParameters p;
+  p.symbology.enabled = true;
+  for (const bool shown : {true, false}) {
+    p.symbolHost.show = shown;
+    Session session(*validate(p));
+    AircraftState rests = flying(0);  // at 50 s on the host's clock
+    for (int i = 0; i < 20; ++i, rests.time += 0.02)
+      session.receive(std::vector{ReceivedState{rests, 100 + i * 0.02, 100 + i * 0.02, flashing()}});
+    EXPECT_TRUE(session.request(100.4, 640, 360)->symbology->dark.empty());
+    EXPECT_FALSE(session.needsPicture(100.45));
+    EXPECT_EQ(session.needsPicture(100.55), shown) << "dark from 50.5 s on";
+    const auto dark = session.request(100.55, 640, 360)->symbology->dark;
+    EXPECT_EQ(dark, shown ? std::vector<std::uint16_t>{5} : std::vector<std::uint16_t>{});
+    EXPECT_FALSE(session.needsPicture(100.6));
+  }
+}
+
 TEST(SessionSymbols, haveNoSpeedWhileTheCameraStands) {
   Session session(withSymbols());
   for (int i = 0; i < 30; ++i) session.look(flying(i));

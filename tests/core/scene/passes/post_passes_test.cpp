@@ -40,7 +40,30 @@ class PostPasses : public SceneTest {
     p.symbology.enabled = true;
     const Attitude a{Degrees{30}, Degrees{-2}, Degrees{5}};
     const Velocity v{MetresPerSecond{100}, MetresPerSecond{60}, MetresPerSecond{2}};
-    return {{a, a, Metres{1234}, Knots{240}, true, v}, symbologySetup(p)};
+    return {{a, a, Metres{1234}, Knots{240}, true, v}, symbologySetup(p), hostSymbols()};
+  }
+  /// A cross in the lower left quarter of the image, and a translucent triangle in the upper right one.
+  static const std::shared_ptr<const HostSymbols>& hostSymbols() {
+    static const std::shared_ptr<const HostSymbols> all = [] {
+      HostShape cross, triangle;
+      cross.primitive = HostPrimitive::lines;
+      cross.lineWidth = 0.1F;
+      cross.points = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+      triangle.primitive = HostPrimitive::triangles;
+      triangle.points = {{-0.5F, -0.5F}, {0.5F, -0.5F}, {0, 0.5F}};
+      HostSymbols symbols;
+      symbols.surfaces = {{1, 0, 0.5F, 0, 0.5F, -1, 1, -1, 1}, {2, 0.5F, 1, 0.5F, 1, -1, 1, -1, 1}};
+      for (const HostShape& shape : {cross, triangle}) {
+        HostSymbol s;
+        s.id = s.surface = static_cast<std::uint16_t>(symbols.symbols.size() + 1);
+        s.visible = true;
+        s.rgba = {255, 0, 255, static_cast<std::uint8_t>(s.id == 1 ? 255 : 128)};
+        s.shape = std::make_shared<const HostShape>(shape);
+        symbols.symbols.push_back(s);
+      }
+      return std::make_shared<const HostSymbols>(symbols);
+    }();
+    return all;
   }
   static int difference(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
     int most = 0;
@@ -211,6 +234,50 @@ TEST_F(PostPasses, symbolsTurnedOffChangeOnlyTheirOwnPixels) {
   }
   all.symbology->setup.general.enabled = false;
   EXPECT_EQ(differing(plain, picture(all)), 0u);
+}
+
+TEST_F(PostPasses, symbolsOfAHostHaveTheirPlaceColourAndAlpha) {
+  auto r = uniform(1, 0);
+  const auto plain = picture(r);
+  r.symbology = symbols();
+  for (std::size_t i = 0; i < kSymbols; ++i)
+    r.symbology->setup.element[i].show = i == static_cast<std::size_t>(Symbol::host);
+  FrameResult result;
+  const auto drawn = picture(r, &result);
+  const auto pixel = [&](const std::vector<std::uint8_t>& p, int x, int y) {
+    const std::size_t at = (static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x)) * 4;
+    return std::array<int, 3>{p[at], p[at + 1], p[at + 2]};
+  };
+  const std::array<int, 3> magenta{255, 0, 255};
+  const int left = kWidth / 4, right = kWidth * 3 / 4, low = kHeight / 4, high = kHeight * 3 / 4;
+  EXPECT_EQ(pixel(drawn, left, low), magenta);
+  EXPECT_EQ(pixel(drawn, left + 50, low), magenta);
+  EXPECT_EQ(pixel(drawn, left + 50, low + 20), pixel(plain, left + 50, low + 20)) << "between the lines";
+  const auto under = pixel(plain, right, high), through = pixel(drawn, right, high);
+  for (std::size_t c = 0; c < 3; ++c)
+    EXPECT_NEAR(through[c], under[c] + (magenta[c] - under[c]) * 128 / 255.0, 1.5)
+        << "half of it shines through";
+  EXPECT_EQ(pixel(drawn, right, low), pixel(plain, right, low));
+  EXPECT_EQ(result.counters.hostSymbolsLeftOut, 0u);
+
+  const std::uint64_t redraws = result.counters.symbologyRedraws;
+  picture(r, &result);
+  EXPECT_EQ(result.counters.symbologyRedraws, redraws) << "the same store";
+  auto changed = std::make_shared<HostSymbols>(*hostSymbols());
+  changed->symbols[0].rgba = {0, 0, 255, 255};
+  changed->symbols[1].surface = 9;
+  r.symbology->host = changed;
+  const auto blue = picture(r, &result);
+  EXPECT_EQ(result.counters.symbologyRedraws, redraws + 1);
+  EXPECT_EQ(result.counters.hostSymbolsLeftOut, 1u) << "there is no surface 9";
+  EXPECT_EQ(pixel(blue, left, low), (std::array<int, 3>{0, 0, 255}));
+  EXPECT_EQ(pixel(blue, right, high), under);
+  r.symbology->setup.general.recolourHost = true;
+  r.symbology->setup.element[static_cast<std::size_t>(Symbol::host)].colour = SymbolColour::red;
+  const auto red = scene::symbolColour(SymbolColour::red);
+  EXPECT_EQ(pixel(picture(r), left, low), (std::array<int, 3>{red[0], red[1], red[2]}));
+  r.symbology->setup.element[static_cast<std::size_t>(Symbol::host)].show = false;
+  EXPECT_EQ(differing(plain, picture(r)), 0u);
 }
 
 TEST_F(PostPasses, symbolsStaySharpInABlur) {

@@ -18,7 +18,9 @@ namespace trimtab {
 /// the sum since the renderer was made.
 struct FrameCounters {
   std::uint64_t precipitationPasses = 0, blurPasses = 0, symbologyDraws = 0;
-  std::uint64_t symbologyRedraws = 0;  ///< draws whose symbols had changed
+  std::uint64_t symbologyRedraws = 0;    ///< draws whose symbols had changed
+  std::uint64_t hostSymbolsLeftOut = 0;  ///< not drawn in a redraw, because they have no surface, too many
+                                         ///< ancestors, or too many strokes
   std::uint64_t cutsSelected = 0, visibleSelected = 0, tilesBuilt = 0;
   std::uint64_t depthMapsDrawn = 0;  ///< by the GPU
   std::uint64_t mapsDrawnByCpu = 0;  ///< depth maps that the processor drew

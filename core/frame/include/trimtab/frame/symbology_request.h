@@ -3,9 +3,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "trimtab/frame/frame.h"
+#include "trimtab/frame/host_symbols.h"
 #include "trimtab/preset/parameters.h"
 
 /// What the symbols of a helmet-mounted display (document C) show in one frame.
@@ -19,9 +22,10 @@ enum class Symbol : std::uint8_t {
   line_of_sight,
   heading_tape,
   airspeed,
-  altitude
+  altitude,
+  host  ///< all symbols that the host sends
 };
-inline constexpr std::size_t kSymbols = 7;
+inline constexpr std::size_t kSymbols = 8;
 
 /// The values that the symbols show. A value that is not finite is not shown.
 struct SymbologyState {
@@ -47,6 +51,10 @@ SymbologySetup symbologySetup(const TuningParameters& parameters);
 struct SymbologyRequest {
   SymbologyState state;
   SymbologySetup setup;
+  /// The symbols that the host sends; null if there are none. They are compared by the pointer: a host's
+  /// store that changes becomes another one.
+  std::shared_ptr<const HostSymbols> host{};
+  std::vector<std::uint16_t> dark{};  ///< ids of host symbols in the dark part of their flash, ascending
 
   friend bool operator==(const SymbologyRequest&, const SymbologyRequest&) = default;
 };

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "trimtab/frame/frame.h"
+#include "trimtab/frame/host_symbols.h"
 #include "trimtab/host/byte_order.h"
 
 /// Decodes a host's datagrams to aircraft states. It sees bytes, addresses and times only; sockets are in
@@ -47,8 +48,12 @@ struct HostStatistics {
       0;  ///< position changes too large for any aircraft, or of more than a kilometre across a silence
   std::uint64_t regionalWeather = 0;  ///< CIGI Weather Control of a region or an entity, which is ignored
   std::uint64_t otherLayers =
-      0;                       ///< CIGI Weather Control of a layer other than rain and snow, which is ignored
-  std::uint64_t silences = 0;  ///< gaps of more than two seconds between good datagrams
+      0;  ///< CIGI Weather Control of a layer other than rain and snow, which is ignored
+  std::uint64_t symbolPackets = 0;  ///< CIGI packets that defined or controlled symbols
+  std::uint64_t refusedSymbols =
+      0;  ///< CIGI symbol packets that were left out; the rest of their message counts
+  std::string firstSymbolReason;  ///< of the first one: byte offset, expected, found
+  std::uint64_t silences = 0;     ///< gaps of more than two seconds between good datagrams
 };
 
 /// Decodes datagrams in order of arrival. Bad ones are counted and never thrown. Use it on one thread at a
@@ -67,6 +72,9 @@ class HostDecoder {
   const HostStatistics& statistics() const;
   /// Returns the good datagrams in the last second before `now`, which falls to 0 when the host falls silent.
   double rateAt(double now) const;
+  /// Returns the symbols that the host has defined so far; null if none. A change makes another store, so
+  /// equal pointers mean equal symbols. They last until they are destroyed or the host starts anew.
+  std::shared_ptr<const HostSymbols> symbols() const;
   /// Return the frame number and the byte order of the last CIGI message, if there was one, for the echo in a
   /// Start of Frame.
   std::optional<std::uint32_t> lastHostFrame() const;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "trimtab/frame/frame.h"
+#include "trimtab/frame/host_symbols.h"
 #include "trimtab/host/byte_order.h"
 
 /// Encodes what is sent: a host's packets for `feed play`, and an IG's Start of Frame for synchronous hosts.
@@ -18,6 +19,13 @@ std::vector<std::byte> encodeNativeFdm(const AircraftState& state);
 /// the rain and the snow layer if it has weather.
 std::vector<std::byte> encodeCigiHost(const AircraftState& state, std::uint32_t frame,
                                       std::uint32_t lastIgFrame, ByteOrder order = ByteOrder::big);
+/// Returns the CIGI 3.3 packets that make these symbols: surfaces, definitions, and one Symbol Control each,
+/// parents first. They follow the message of encodeCigiHost. Points and circles beyond what a packet holds
+/// (29 and 9), and text beyond 235 bytes, are left out.
+std::vector<std::byte> encodeCigiSymbols(const HostSymbols& symbols, ByteOrder order = ByteOrder::big);
+/// Returns a small set of symbols as a host might send it, for demonstrations and tests: a radar scope whose
+/// sweep turns with the time, two contacts, a waypoint and a flashing weapon cue.
+HostSymbols exampleSymbols(double timeS);
 /// Returns a CIGI 3.3 Start of Frame, 24 bytes.
 std::vector<std::byte> encodeCigiStartOfFrame(std::uint32_t igFrame, std::uint32_t lastHostFrame,
                                               double timeS, ByteOrder order = ByteOrder::big);

@@ -201,6 +201,7 @@ struct TuningParameters {
   SymbolElement symbolHeadingTape{.y = Ratio{0.78}};
   SymbolElement symbolAirspeed{.x = Ratio{-0.6}, .y = Ratio{0.1}};
   SymbolElement symbolAltitude{.x = Ratio{0.6}, .y = Ratio{0.1}};
+  SymbolElement symbolHost;
   HostParameters host;
   MeasureParameters measure;
 };

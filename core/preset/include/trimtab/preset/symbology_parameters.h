@@ -13,6 +13,8 @@ struct SymbologyParameters {
   SymbologyFrame frame = SymbologyFrame::head;
   Pixels lineWidth{1.8};
   Pixels outline{1.2};  ///< dark rim around every line; 0 for none
+  /// Draws the host's symbols in the preset's colour and not in those that the host sends.
+  bool recolourHost = false;
 
   friend constexpr bool operator==(const SymbologyParameters&, const SymbologyParameters&) = default;
 };

@@ -17,6 +17,15 @@ struct SymbolStroke {
   Symbol symbol;
 };
 
+/// A line or a filled triangle of a host's symbol, in pixels of the image. It has no rim.
+struct HostMark {
+  static constexpr float kFilled = -1;
+
+  float x[3], y[3];     ///< the line's ends and then its end again, or the triangle's corners
+  float halfWidth = 0;  ///< of the line; kFilled for a triangle
+  std::array<std::uint8_t, 4> rgba{};
+};
+
 /// The box of what is visible of a symbol; empty (left > right) if nothing is.
 struct SymbolBox {
   float left = 1, bottom = 1, right = 0, top = 0;
@@ -24,7 +33,12 @@ struct SymbolBox {
 };
 
 struct SymbologyDrawing {
-  std::vector<SymbolStroke> strokes;  ///< symbol by symbol in the order of Symbol
+  /// A host's symbols become at most so many marks. A symbol that would exceed it is left out.
+  static constexpr std::size_t kMostMarks = 60000;
+
+  std::vector<SymbolStroke> strokes;   ///< symbol by symbol in the order of Symbol; none of Symbol::host
+  std::vector<HostMark> marks;         ///< of Symbol::host, in the order in which they are drawn
+  std::size_t hostSymbolsLeftOut = 0;  ///< see FrameCounters
   std::array<SymbolBox, kSymbols> box;
 };
 

@@ -137,8 +137,10 @@ class Session {
   FrameInput inputFor(const AircraftState& state) const;
   std::optional<Metres> groundBelow(const AircraftState& state) const;
   void follow(const AircraftState& state, double arrival);
+  void unlink();
   SymbologyState symbols(const AircraftState& eye) const;
   std::optional<Velocity> velocityOf(const AircraftState& state) const;
+  std::vector<std::uint16_t> darkAt(double time) const;
 
   ValidatedParameters parameters_;
   std::shared_ptr<const GroundHeights> ground_;
@@ -166,6 +168,9 @@ class Session {
   double lastArrival_ = 0, lastJump_ = 0;
   std::uint64_t packets_ = 0, jumps_ = 0;
   Latency latency_;
+
+  std::shared_ptr<const HostSymbols> hostSymbols_;  ///< of the live link; null for any other source
+  std::vector<std::uint16_t> drawnDark_;            ///< its dark symbols in the last image requested
 
   bool dirty_ = false;
   std::optional<AircraftState> drawnEye_;
