@@ -56,9 +56,10 @@ inline constexpr std::array kViewRows{
     row<&TuningParameters::lod, &LodParameters::texture>(
         {.key = "lod.texture",
          .label = "Texture follows the scale",
-         .help = "The texture of the ground shrinks with the LOD scale, the preset's and that of head motion: at "
-                 "scale 2 a texel covers two pixels instead of one. Patches alone have a texture; tiles and "
-                 "static trees are coloured by vertex.",
+         .help = "The texture of the ground shrinks with the LOD scale, the preset's and that of head "
+                 "motion: scale "
+                 "2 halves its width and height. Patches alone have a texture; tiles and static trees are "
+                 "coloured by vertex.",
          .source = "C: section 1, the LOD technique reduces texture size"}),
     row<&TuningParameters::view, &ViewParameters::source>(
         {.key = "view.source",

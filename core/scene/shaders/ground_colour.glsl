@@ -14,7 +14,7 @@ uniform bool groundThere;
 uniform vec2 groundOrigin;       // texel of the post under the eye
 uniform float groundTexelsPerPost, groundShift;
 uniform float groundReach, groundFinest, groundWhole, groundLast;
-uniform float groundCoarser;  // levels by which the LOD scale shrinks the texture
+uniform float groundCoarser;  // levels by which the LOD scale shrinks the texture, also where it is magnified
 
 float roughLog2(float x) { return float(floatBitsToInt(x)) * (1.0 / 8388608.0) - 127.0; }
 
@@ -24,12 +24,12 @@ vec4 groundAt(vec2 post) {
   // At a grazing angle the footprint is long and narrow. The level lies between what its two sides ask for,
   // so that the ground neither blurs nor shimmers much.
   float area = abs(across.x * up.y - across.y * up.x);
-  float wanted = groundCoarser + 0.5 * roughLog2(max(area, max(dot(across, across), dot(up, up)) * (1.0 / 16.0)));
+  float wanted = 0.5 * roughLog2(max(area, max(dot(across, across), dot(up, up)) * (1.0 / 16.0)));
   vec2 off = abs(texel);
   float away = roughLog2(max(off.x, off.y) * groundReach);
   float ended = floor(away);
   float there = ended + 1.0 + max((away - ended - 0.7) * (1.0 / 0.3), 0.0);
-  float level = clamp(max(wanted, min(there, groundWhole)), groundFinest, groundLast);
+  float level = min(max(max(wanted, min(there, groundWhole)), groundFinest) + groundCoarser, groundLast);
   float fine = floor(level);
   vec2 place = (texel + groundOrigin) * intBitsToFloat((127 - GROUND_SIDE_BITS - int(fine)) << 23);  // 2^-fine / side
   vec4 ground = mix(texture(groundTexels, vec3(place, fine)), texture(groundTexels, vec3(place * 0.5, fine + 1.0)), level - fine);

@@ -35,8 +35,8 @@ class GroundTexture {
   /// Return the post from which `groundAt` (ground_colour.glsl) counts.
   std::int32_t eyeColumn() const;
   std::int32_t eyeRow() const;
-  /// Binds the textures and sets the uniforms of the program in use. The texture is `coarser` times as coarse as
-  /// the image asks for, 1 or more.
+  /// Binds the textures and sets the uniforms of the program in use. The texture has 1 / `coarser` of the
+  /// width and height that the image asks for or the data have; `coarser` is 1 or more.
   void bind(unsigned program, double coarser = 1) const;
   void unbind() const;
 
