@@ -147,6 +147,8 @@ Result<std::unique_ptr<Feed>> openFeed(const Options& options, const Wake& wake)
   if (!options.listen) return openFlight(options);
   link::ReceiverOptions receiver;
   receiver.port = *options.listen;
+  receiver.bindAddress = options.bindAddress;
+  receiver.group = options.group;
   receiver.protocol = options.protocol;
   receiver.wake = [&wake] { wake.post(); };
   if (!options.reply.empty()) {

@@ -37,6 +37,10 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
                                                       {"cigi3", HostProtocol::cigi3}};
   auto* listen =
       app.add_option("--listen", options.listen, "UDP port of the host's packets; 0: any free one");
+  app.add_option("--bind", options.bindAddress, "address of the interface to listen on; 0.0.0.0: every one")
+      ->needs(listen)
+      ->capture_default_str();
+  app.add_option("--group", options.group, "multicast group to join on that interface")->needs(listen);
   app.add_option("--reply", options.reply, "HOST:PORT that gets a Start of Frame for each frame's time")
       ->needs(listen);
   app.add_option("--protocol", options.protocol, "auto, native-fdm or cigi3")

@@ -26,8 +26,9 @@ struct Endpoint {
 Result<Endpoint> parseEndpoint(const std::string& text);
 
 struct ReceiverOptions {
-  std::uint16_t port = 0;  ///< 0: any free port
-  std::string bindAddress = "0.0.0.0";
+  std::uint16_t port = 0;               ///< 0: any free port
+  std::string bindAddress = "0.0.0.0";  ///< the interface's address; 0.0.0.0: every interface
+  std::string group{};                  ///< a multicast group to join there, or empty
   HostProtocol protocol = HostProtocol::automatic;
   std::optional<Endpoint> reply;  ///< where Start of Frame is sent, `replyRateHz` times per second
   double replyRateHz = 60;        ///< 0.001..10000

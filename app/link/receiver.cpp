@@ -1,3 +1,4 @@
+#include <arpa/inet.h>
 #include <fcntl.h>
 #include <poll.h>
 #include <pthread.h>
@@ -208,6 +209,21 @@ void raisePriority() {
   static_cast<void>(::pthread_setschedparam(::pthread_self(), SCHED_RR, &lowest));
 }
 
+/// Joins a group on one interface, and takes datagrams of groups that this socket joined only.
+static Result<Done> join(int socket, const std::string& group, const in_addr& onInterface,
+                         const std::string& where) {
+  ip_mreq request{};
+  request.imr_interface = onInterface;
+  const bool read = inet_pton(AF_INET, group.c_str(), &request.imr_multiaddr) == 1;
+  if (!read || !IN_MULTICAST(ntohl(request.imr_multiaddr.s_addr)))
+    return Finding{Severity::error, where, "", "a multicast group, 224.0.0.0 to 239.255.255.255", group};
+  const int off = 0;
+  ::setsockopt(socket, IPPROTO_IP, IP_MULTICAST_ALL, &off, sizeof off);
+  if (::setsockopt(socket, IPPROTO_IP, IP_ADD_MEMBERSHIP, &request, sizeof request) != 0)
+    return Finding{Severity::error, where, "", "to join the group " + group, std::strerror(errno)};
+  return Done{};
+}
+
 Result<std::unique_ptr<Receiver>> Receiver::open(const ReceiverOptions& options) {
   const std::string where = "udp " + options.bindAddress + ':' + std::to_string(options.port);
   const auto failure = [&where](const std::string& expected, const std::string& found) {
@@ -229,8 +245,17 @@ Result<std::unique_ptr<Receiver>> Receiver::open(const ReceiverOptions& options)
   const int on = 1, room = 4 << 20;
   ::setsockopt(socket.get(), SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
   ::setsockopt(socket.get(), SOL_SOCKET, SO_RCVBUF, &room, sizeof room);
-  // No SO_REUSEADDR: two receivers on one port would share its datagrams, and neither would know.
   sockaddr_in address = *own;
+  if (options.group.empty()) {
+    // No SO_REUSEADDR: two receivers on one port would share its datagrams, and neither would know.
+  } else {
+    // Each member of a group gets every datagram. They are addressed to the group, so a socket that is bound
+    // to the interface's own address would get none.
+    ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+    address.sin_addr.s_addr = htonl(INADDR_ANY);
+    const Result<Done> joined = join(socket.get(), options.group, own->sin_addr, where);
+    if (!joined) return joined.findings();
+  }
   if (::bind(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
     const std::string port = std::to_string(options.port);
     if (errno == EADDRINUSE) return failure("a free port", "port " + port + " is taken by another program");

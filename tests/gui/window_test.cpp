@@ -5,9 +5,11 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <QComboBox>
 #include <QDockWidget>
 #include <QEventLoop>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMenuBar>
 #include <QProcess>
 #include <QPushButton>
@@ -238,6 +240,42 @@ TEST_F(WorkbenchWindow, aPortInUseIsSaidAndTheWorkGoesOn) {
   EXPECT_EQ(w().feed().receiver(), nullptr);
   ::close(socket);
   EXPECT_TRUE(w().panels().host->connectHost().empty()) << "free again";
+}
+
+TEST_F(WorkbenchWindow, theHostDockListensOnTheInterfaceAndTheGroupThatAreChosen) {
+  auto& dock = *w().panels().host;
+  const auto field = [&](const char* name) -> QLineEdit* {
+    for (QLineEdit* each : dock.findChildren<QLineEdit*>())
+      if (each->accessibleName() == QLatin1String(name)) return each;
+    return nullptr;
+  };
+  QComboBox* interfaces = nullptr;
+  for (QComboBox* each : dock.findChildren<QComboBox*>())
+    if (each->accessibleName() == QLatin1String("Interface")) interfaces = each;
+  ASSERT_NE(interfaces, nullptr);
+  const int loopback = interfaces->findData(QStringLiteral("127.0.0.1"));
+  ASSERT_GT(loopback, 0) << "every machine has it";
+  EXPECT_EQ(interfaces->itemData(0), QStringLiteral("0.0.0.0"));
+  interfaces->setCurrentIndex(loopback);
+  field("Multicast group")->setText(QStringLiteral("10.1.2.3"));
+  EXPECT_FALSE(dock.connectHost().empty());
+  EXPECT_TRUE(w().messages().text().contains(QStringLiteral("10.1.2.3")));
+  field("Multicast group")->setText(QStringLiteral("239.255.42.77"));
+  EXPECT_TRUE(dock.connectHost().empty()) << w().messages().text().toStdString();
+  EXPECT_FALSE(interfaces->isEnabled()) << "while the link is open";
+  w().feed().closeHost();
+
+  // A name is looked up without waiting for it.
+  field("Reply address")->setText(QStringLiteral("localhost:4001"));
+  emit field("Reply address")->editingFinished();
+  EXPECT_TRUE(waitFor([&] {
+    for (const QLabel* label : dock.findChildren<QLabel*>())
+      if (label->text() == QStringLiteral("localhost is 127.0.0.1")) return true;
+    return false;
+  }));
+  for (const char* each : {"Multicast group", "Reply address"}) field(each)->clear();
+  interfaces->setCurrentIndex(0);
+  EXPECT_TRUE(dock.connectHost().empty());  // remembers what the next tests begin with
 }
 
 TEST(WorkbenchProgram, withoutADisplayItSaysSoAndEndsWithOne) {

@@ -5,8 +5,10 @@
 #include <QFontDatabase>
 #include <QFormLayout>
 #include <QHBoxLayout>
+#include <QHostInfo>
 #include <QLabel>
 #include <QLineEdit>
+#include <QNetworkInterface>
 #include <QPlainTextEdit>
 #include <QPushButton>
 #include <QScrollArea>
@@ -23,6 +25,7 @@ namespace trimtab::workbench {
 namespace {
 
 constexpr int kRefreshMs = 250;
+const QString kEvery = QStringLiteral("0.0.0.0");
 constexpr int kDefaultPort = 8004;
 constexpr auto kProtocolKey = "host.protocol";
 const QString kNone = QStringLiteral("–");
@@ -80,8 +83,11 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
       feed_(feed),
       draft_(draft),
       port_(new QSpinBox(this)),
+      interface_(new QComboBox(this)),
       protocol_(new QComboBox(this)),
+      group_(new QLineEdit(this)),
       reply_(new QLineEdit(this)),
+      found_(new QLabel(this)),
       connect_(new QPushButton(this)),
       firstBad_(new QPlainTextEdit(this)) {
   auto* form = new QFormLayout;
@@ -89,7 +95,14 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
   port_->setRange(1, 65535);
   port_->setValue(QSettings().value(QStringLiteral("host/port"), kDefaultPort).toInt());
   port_->setAccessibleName(tr("Port"));
-  port_->setToolTip(tr("UDP port this program listens on, on every address of this machine"));
+  port_->setToolTip(tr("UDP port this program listens on"));
+  interface_->setAccessibleName(tr("Interface"));
+  interface_->setToolTip(tr("The network interface that this program listens on, and joins a group on"));
+  showInterfaces();
+  group_->setPlaceholderText(tr("224.0.0.0 to 239.255.255.255; empty: none"));
+  group_->setText(QSettings().value(QStringLiteral("host/group")).toString());
+  group_->setToolTip(tr("A multicast group that the host sends to. Several programs may listen to one"));
+  group_->setAccessibleName(tr("Multicast group"));
   if (const ParameterRow* row = findRow(kProtocolKey)) {
     for (const ChoiceOption& choice : row->choices) protocol_->addItem(views::fromView(choice.label));
     protocol_->setToolTip(views::fromView(row->help));
@@ -104,8 +117,15 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
   portRow->addWidget(connect_);
   form->addRow(tr("&Port"), portRow);
   qobject_cast<QLabel*>(form->labelForField(portRow))->setBuddy(port_);
+  form->addRow(tr("&Interface"), interface_);
+  form->addRow(tr("&Group"), group_);
   form->addRow(tr("P&rotocol"), protocol_);
   form->addRow(tr("Repl&y to"), reply_);
+  form->addRow(QString(), found_);
+  found_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  found_->setAccessibleName(tr("Address of the reply's host"));
+  connect(reply_, &QLineEdit::editingFinished, this, &HostDock::lookUp);
+  lookUp();
 
   state_ = addRow(*form, tr("Link"), {});
   detected_ = addRow(*form, tr("Speaks"), tr("Protocol found in the packets, and who sends them"));
@@ -178,9 +198,46 @@ void HostDock::setPort(std::uint16_t port) {
   port_->setValue(port);
 }
 
+/// Every IPv4 address of this machine, with its interface's name; the one chosen last stays chosen.
+void HostDock::showInterfaces() {
+  const QString chosen = interface_->count() > 0
+                             ? interface_->currentData().toString()
+                             : QSettings().value(QStringLiteral("host/interface"), kEvery).toString();
+  interface_->clear();
+  interface_->addItem(tr("every one (%1)").arg(kEvery), kEvery);
+  for (const QNetworkInterface& each : QNetworkInterface::allInterfaces()) {
+    if (!each.flags().testFlag(QNetworkInterface::IsUp)) continue;
+    for (const QNetworkAddressEntry& entry : each.addressEntries())
+      if (entry.ip().protocol() == QAbstractSocket::IPv4Protocol)
+        interface_->addItem(QStringLiteral("%1 (%2)").arg(each.humanReadableName(), entry.ip().toString()),
+                            entry.ip().toString());
+  }
+  interface_->setCurrentIndex(std::max(0, interface_->findData(chosen)));
+}
+
+void HostDock::lookUp() {
+  const auto endpoint = link::parseEndpoint(reply_->text().trimmed().toStdString());
+  const QString name = endpoint ? QString::fromStdString(endpoint->address) : QString();
+  if (name == foundName_) return;
+  foundName_ = name;
+  foundHost_ = QHostAddress(name);
+  found_->setVisible(!name.isEmpty() && foundHost_.isNull());
+  if (!found_->isVisibleTo(this)) return;
+  found_->setText(tr("Looking up %1 …").arg(name));
+  QHostInfo::lookupHost(name, this, [this, name](const QHostInfo& host) {
+    if (name != foundName_) return;
+    for (const QHostAddress& address : host.addresses())
+      if (foundHost_.isNull() && address.protocol() == QAbstractSocket::IPv4Protocol) foundHost_ = address;
+    found_->setText(foundHost_.isNull() ? tr("%1: %2").arg(name, host.errorString())
+                                        : tr("%1 is %2").arg(name, foundHost_.toString()));
+  });
+}
+
 Findings HostDock::connectHost() {
   Feed::HostSettings settings;
   settings.port = static_cast<std::uint16_t>(port_->value());
+  settings.bindAddress = interface_->currentData().toString().toStdString();
+  settings.group = group_->text().trimmed().toStdString();
   settings.protocol = draft_.active()->host.protocol;
   if (const QString reply = reply_->text().trimmed(); !reply.isEmpty()) {
     const Result<link::Endpoint> endpoint = link::parseEndpoint(reply.toStdString());
@@ -189,6 +246,8 @@ Findings HostDock::connectHost() {
       return endpoint.findings();
     }
     settings.reply = *endpoint;
+    lookUp();
+    if (!foundHost_.isNull()) settings.reply->address = foundHost_.toString().toStdString();
   }
   Findings findings = feed_.openHost(settings);
   if (!findings.empty()) {
@@ -197,6 +256,8 @@ Findings HostDock::connectHost() {
   }
   QSettings().setValue(QStringLiteral("host/port"), port_->value());
   QSettings().setValue(QStringLiteral("host/reply"), reply_->text().trimmed());
+  QSettings().setValue(QStringLiteral("host/group"), group_->text().trimmed());
+  QSettings().setValue(QStringLiteral("host/interface"), interface_->currentData());
   emit connected(feed_.receiver()->port());
   return {};
 }
@@ -212,7 +273,9 @@ void HostDock::showLink() {
   const bool open = feed_.receiver() != nullptr;
   connect_->setText(open ? tr("Dis&connect") : tr("&Connect"));
   port_->setEnabled(!open);
-  reply_->setEnabled(!open);
+  for (QWidget* field :
+       {static_cast<QWidget*>(interface_), static_cast<QWidget*>(group_), static_cast<QWidget*>(reply_)})
+    field->setEnabled(!open);
   if (open && isVisible())
     refresh_.start();
   else
@@ -222,6 +285,7 @@ void HostDock::showLink() {
 
 void HostDock::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
+  if (feed_.receiver() == nullptr) showInterfaces();
   showLink();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QHostAddress>
 #include <QTimer>
 #include <QWidget>
 
@@ -41,6 +42,9 @@ class HostDock : public QWidget {
 
  private:
   QLabel* addRow(QFormLayout& form, const QString& label, const QString& toolTip);
+  void showInterfaces();
+  /// Asks for the address of the host to reply to, so that connecting does not wait for a name server.
+  void lookUp();
   void toggle();
   void showLink();
   void refresh();
@@ -49,8 +53,11 @@ class HostDock : public QWidget {
   Feed& feed_;
   views::Draft& draft_;
   QSpinBox* port_;
-  QComboBox* protocol_;
-  QLineEdit* reply_;
+  QComboBox *interface_, *protocol_;
+  QLineEdit *group_, *reply_;
+  QLabel* found_;           ///< what the look-up of the reply's host found
+  QString foundName_;       ///< the name that was looked up
+  QHostAddress foundHost_;  ///< its address; null if there is none
   QPushButton* connect_;
   QLabel *state_, *detected_, *rate_, *jitter_, *loss_, *age_, *decoded_, *picture_, *counts_, *jumps_, *bad_,
       *weather_;

@@ -37,6 +37,8 @@ Feed::~Feed() {
 Findings Feed::openHost(const HostSettings& settings) {
   link::ReceiverOptions options;
   options.port = settings.port;
+  options.bindAddress = settings.bindAddress;
+  options.group = settings.group;
   options.protocol = settings.protocol;
   options.reply = settings.reply;
   options.wake = [this] {
@@ -110,7 +112,8 @@ Findings Feed::playOverUdp(WireProtocol protocol, double speed, bool loop, doubl
   if (!receiver_)
     if (Findings refused = openHost(settings_); !refused.empty()) return refused;
   link::PlayOptions options;
-  options.to = {"127.0.0.1", receiver_->port()};
+  const bool anywhere = settings_.bindAddress == "0.0.0.0" || !settings_.group.empty();
+  options.to = {anywhere ? "127.0.0.1" : settings_.bindAddress, receiver_->port()};
   options.protocol = protocol;
   options.speed = speed;
   options.loop = loop;

@@ -1,11 +1,14 @@
 #include "app/link/link.h"
 
+#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <iostream>
 #include <random>
 #include <thread>
@@ -20,6 +23,25 @@ namespace trimtab::test {
 namespace {
 
 using namespace std::chrono_literals;
+
+/// Sends the host's state of one frame to an address, from the loopback interface.
+void sendOnLoopback(const std::string& address, std::uint16_t port, std::uint32_t frame = 1) {
+  const int socket = ::socket(AF_INET, SOCK_DGRAM, 0);
+  in_addr loopback{htonl(INADDR_LOOPBACK)};
+  ::setsockopt(socket, IPPROTO_IP, IP_MULTICAST_IF, &loopback, sizeof loopback);
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_port = htons(port);
+  ASSERT_EQ(inet_pton(AF_INET, address.c_str(), &to.sin_addr), 1);
+  AircraftState state;
+  state.position = {Degrees{36.6}, Degrees{128.3}, Metres{1500}};
+  const auto bytes = encodeCigiHost(state, frame, 0);
+  EXPECT_EQ(
+      ::sendto(socket, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof to),
+      static_cast<ssize_t>(bytes.size()))
+      << std::strerror(errno);
+  ::close(socket);
+}
 
 /// Ten minutes of a gentle turn, ten rows a second.
 Flight aFlight() {
@@ -74,6 +96,43 @@ struct Protocol {
   WireProtocol wire;
   const char* name;
 };
+
+TEST(Link, joinsAMulticastGroupOnTheInterfaceThatIsNamed) {
+  link::ReceiverOptions options;
+  options.bindAddress = "127.0.0.1";
+  options.group = "239.255.42.99";
+  const auto receiver = opened(options);
+  options.port = receiver->port();
+  const auto second = opened(options);
+  sendOnLoopback(options.group, receiver->port());
+  const auto one = [](const auto& states) { return !states.empty(); };
+  EXPECT_EQ(gathered(*receiver, one).size(), 1u);
+  EXPECT_EQ(gathered(*second, one).size(), 1u) << "each member of a group gets every datagram";
+  sendOnLoopback("239.255.42.98", receiver->port(), 2);
+  sendOnLoopback(options.group, receiver->port(), 3);
+  EXPECT_EQ(gathered(*receiver, one).size(), 1u) << "of its own group only";
+}
+
+TEST(Link, listensOnTheInterfaceThatIsNamed) {
+  link::ReceiverOptions options;
+  options.bindAddress = "127.0.0.2";
+  const auto receiver = opened(options);
+  sendOnLoopback("127.0.0.1", receiver->port(), 1);
+  sendOnLoopback("127.0.0.2", receiver->port(), 2);
+  EXPECT_EQ(gathered(*receiver, [](const auto& states) { return !states.empty(); }).size(), 1u);
+}
+
+TEST(Link, refusesAGroupThatIsNone) {
+  for (const char* group : {"10.0.0.1", "240.0.0.1", "all", "239.1.2"}) {
+    link::ReceiverOptions options;
+    options.group = group;
+    const auto refused = link::Receiver::open(options);
+    ASSERT_FALSE(refused) << group;
+    EXPECT_THAT(
+        toString(refused.findings()),
+        ::testing::HasSubstr(std::string("a multicast group, 224.0.0.0 to 239.255.255.255, found ") + group));
+  }
+}
 
 TEST(Link, carriesAFlightAt60HzWithoutLoss) {
   for (const Protocol& protocol :
