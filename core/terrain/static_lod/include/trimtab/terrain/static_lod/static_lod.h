@@ -34,20 +34,37 @@ Result<std::shared_ptr<const StaticLodTerrain>> buildStaticLod(std::span<const S
                                                                const LocalFrame& frame,
                                                                const StaticLodOptions& options);
 
-/// What document E's rule allows a tile: leaves of n/2 to n triangles, and n - 1 to n + 1 in every node
-/// above. One collapse removes two triangles, so the builder stops at n or n + 1.
+/// What n may say about leaves. Document E states n = 2000 for its example, but not which of the two it is.
+enum class LeafReading {
+  atMost,   ///< leaves hold n/2 to n triangles, as the builder splits
+  atLeast,  ///< leaves hold n to 2n triangles
+};
+
+/// What document E's rule allows a tile: leaves as the reading says, and n - 1 to n + 1 triangles in every
+/// node above. One collapse removes two triangles, so the builder stops at n or n + 1.
 struct StaticLodLimits {
   std::uint32_t levels = 0;                     ///< the fewest
   std::uint64_t leastFaces = 0, mostFaces = 0;  ///< sums over all nodes
 };
 /// Returns the limits of a tile of so many source triangles. Nodes that are locked minima, and nodes that
 /// keep lines, may exceed them.
-StaticLodLimits staticLodLimits(std::uint64_t triangles, std::uint32_t trianglesPerNode);
+StaticLodLimits staticLodLimits(std::uint64_t triangles, std::uint32_t trianglesPerNode,
+                                LeafReading reading = LeafReading::atMost);
+
+/// What the builder's splits at the median give under a reading: every split halves, so that the tree is
+/// complete.
+struct HalvedTree {
+  std::uint64_t leaves = 1, largestLeaf = 0;
+  std::uint32_t levels = 1;  ///< roots and leaves included, as document E counts
+  std::uint64_t faces = 0;   ///< of all nodes, if every node above the leaves holds n
+};
+HalvedTree halvedTree(std::uint64_t triangles, std::uint32_t trianglesPerNode, LeafReading reading);
 
 /// Describes one tile in document E's terms, beside what its rule allows.
 struct StaticLodReport {
   std::string tile;
   std::uint64_t triangles = 0, faces = 0;
+  std::uint64_t distinctFaces = 0;  ///< as `faces`, but a face that several nodes have counts once
   std::uint32_t trianglesPerNode = 0, levels = 0, lockedMinima = 0;
   std::vector<std::uint64_t> facesOfLevel;   ///< as StaticLodCounts
   std::vector<double> rmsErrorM, maxErrorM;  ///< largest of the nodes of a level
