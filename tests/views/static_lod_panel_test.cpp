@@ -53,7 +53,7 @@ TEST_F(StaticLodPanelTest, saysHowToGetTreesWhereThereAreNone) {
 
 TEST_F(StaticLodPanelTest, showsTheTerrainBesideThePublishedRow) {
   panel_.setTrees(someTrees());
-  for (const char* text : {"30,987", "126,520", "4.08", "40,000", "90,000", "2.25"})
+  for (const char* text : {"30,987", "126,520", "4.08", "40,000", "100,000", "90,000", "2.25"})
     EXPECT_TRUE(says(QString::fromLatin1(text))) << text;
 }
 

@@ -36,12 +36,13 @@ QString comparison(const StaticLodSummary& ours) {
   text += row({}, StaticLodPanel::tr("<b>Document E</b>"), StaticLodPanel::tr("<b>This terrain</b>"));
   text += row(StaticLodPanel::tr("Tiles"), QStringLiteral("1"), count(ours.tiles));
   text += row(StaticLodPanel::tr("Triangles"), count(published.triangles), count(ours.sourceTriangles));
-  text += row(StaticLodPanel::tr("n, a node at most"), count(published.trianglesPerNode),
-              count(ours.trianglesPerNode));
+  text +=
+      row(StaticLodPanel::tr("n, a node"), count(published.trianglesPerNode), count(ours.trianglesPerNode));
   text += row(StaticLodPanel::tr("Levels"), count(published.levels), count(ours.levels));
-  text += row(StaticLodPanel::tr("Different faces of all levels"), count(published.faces),
-              count(ours.distinctFaces));
-  text += row(StaticLodPanel::tr("Faces a triangle"), ratio(published.faces, published.triangles),
+  text += row(StaticLodPanel::tr("Faces of all nodes"), QStringLiteral("-"), count(ours.faces));
+  text +=
+      row(StaticLodPanel::tr("Different ones of these"), count(published.faces), count(ours.distinctFaces));
+  text += row(StaticLodPanel::tr("Different faces a triangle"), ratio(published.faces, published.triangles),
               ratio(ours.distinctFaces, ours.sourceTriangles));
   text += row(StaticLodPanel::tr("Nodes, and locked above n"), QStringLiteral("-"),
               StaticLodPanel::tr("%1, %2").arg(count(ours.nodes), count(ours.lockedMinima)));
@@ -66,9 +67,10 @@ StaticLodPanel::StaticLodPanel(Draft& draft, QWidget* parent)
   for (QLabel* label : {state_, level_}) label->setWordWrap(true);
   table_->setTextFormat(Qt::RichText);
   table_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
-  table_->setToolTip(
-      tr("Document E's example cannot come from its own rule: leaves of at most n need at least 16 of them, "
-         "so 5 levels, and all levels together then make 2.0 to 2.9 times the triangles."));
+  table_->setToolTip(tr(
+      "A face that several nodes have is one different face. Document E does not say whether n is the most "
+      "or the least of a leaf. For its example n as the most makes 16 leaves and 5 levels, and n as the "
+      "least makes 8 leaves and the published 4. Trees here use n as the most."));
   drawn_->setAccessibleName(tr("Triangles drawn, by level"));
   slider_->setAccessibleName(tr("Level, from the roots to the leaves"));
   slider_->setPageStep(1);

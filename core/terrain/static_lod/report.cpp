@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <utility>
+#include <vector>
 
 #include "trimtab/terrain/format/static_lod_terrain.h"
 #include "trimtab/terrain/static_lod/level.h"
@@ -7,12 +10,56 @@
 
 namespace trimtab::terrain {
 
-StaticLodLimits staticLodLimits(std::uint64_t triangles, std::uint32_t trianglesPerNode) {
+namespace {
+
+/// The triangles that a leaf may hold.
+struct LeafRange {
+  std::uint64_t least, most;
+};
+LeafRange leafRange(std::uint64_t n, LeafReading reading) {
+  if (reading == LeafReading::atLeast) return {n, 2 * n};
+  return {std::max<std::uint64_t>(1, n / 2), n};
+}
+
+/// Counts by place, because a vertex is stored once a material, and a collapse may put a new vertex where an
+/// older one was.
+std::uint64_t distinctFaces(const StaticLodTile& tile) {
+  using Place = std::array<float, 3>;
+  std::vector<std::pair<std::array<Place, 3>, std::uint16_t>> faces;
+  faces.reserve(tile.material.size());
+  for (std::size_t t = 0; t < tile.material.size(); ++t) {
+    std::array<Place, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const StaticLodVertex& v = tile.vertices[tile.indices[3 * t + k]];
+      corners[k] = {v.x, v.y, v.z};
+    }
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    faces.push_back({corners, tile.material[t]});
+  }
+  std::sort(faces.begin(), faces.end());
+  return static_cast<std::uint64_t>(std::unique(faces.begin(), faces.end()) - faces.begin());
+}
+
+}  // namespace
+
+StaticLodLimits staticLodLimits(std::uint64_t triangles, std::uint32_t trianglesPerNode,
+                                LeafReading reading) {
   const std::uint64_t n = trianglesPerNode;
-  const std::uint64_t fewest = std::max<std::uint64_t>(1, (triangles + n - 1) / n);
-  const std::uint64_t most = std::max(fewest, triangles / std::max<std::uint64_t>(1, n / 2));
+  const LeafRange leaf = leafRange(n, reading);
+  const std::uint64_t fewest = std::max<std::uint64_t>(1, (triangles + leaf.most - 1) / leaf.most);
+  const std::uint64_t most = std::max(fewest, triangles / leaf.least);
   return {static_cast<std::uint32_t>(1 + std::bit_width(fewest - 1)), triangles + (fewest - 1) * (n - 1),
           triangles + (most - 1) * (n + 1)};
+}
+
+HalvedTree halvedTree(std::uint64_t triangles, std::uint32_t trianglesPerNode, LeafReading reading) {
+  HalvedTree tree{1, triangles, 1, triangles};
+  // A half of 2 m + 1 triangles is m + 1 at most.
+  for (const std::uint64_t most = leafRange(trianglesPerNode, reading).most; tree.largestLeaf > most;
+       ++tree.levels)
+    tree.largestLeaf -= tree.largestLeaf / 2, tree.leaves *= 2;
+  tree.faces += (tree.leaves - 1) * trianglesPerNode;
+  return tree;
 }
 
 StaticLodReport reportStaticLod(const StaticLodTerrain& terrain, std::size_t tile) {
@@ -36,6 +83,7 @@ StaticLodReport reportStaticLod(const StaticLodTerrain& terrain, std::size_t til
     for (std::uint32_t level = node.depth; level <= (leaf ? report.levels - 1 : node.depth); ++level)
       report.facesOfLevel[level] += node.triangles;
   }
+  report.distinctFaces = distinctFaces(terrain.tiles[tile]);
   report.limits = staticLodLimits(report.triangles, report.trianglesPerNode);
   return report;
 }

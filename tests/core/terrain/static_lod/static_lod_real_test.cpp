@@ -117,10 +117,25 @@ TEST(StaticLodReport, comparesTheTileNearestToThePublishedOne) {
   ASSERT_TRUE(terrain);
   const StaticLodReport ours = reportStaticLod(**terrain, tileNearest(**terrain, kPublished));
   const StaticLodLimits limits = staticLodLimits(kPublished, 2000);
-  EXPECT_EQ(limits.levels, 5u);  // and not 4, as published
+  EXPECT_EQ(limits.levels, 5u);
+  // With n as the least of a leaf, eight leaves of 3,874 at most make the published 4 levels.
+  EXPECT_EQ(staticLodLimits(kPublished, 2000, LeafReading::atLeast).levels, 4u);
+  const HalvedTree most = halvedTree(kPublished, 2000, LeafReading::atMost);
+  EXPECT_EQ(most.leaves, 16u);
+  EXPECT_EQ(most.largestLeaf, 1937u);
+  EXPECT_EQ(most.levels, 5u);
+  EXPECT_EQ(most.faces, kPublished + 15u * 2000);
+  const HalvedTree least = halvedTree(kPublished, 2000, LeafReading::atLeast);
+  EXPECT_EQ(least.leaves, 8u);
+  EXPECT_EQ(least.largestLeaf, 3874u);
+  EXPECT_EQ(least.levels, 4u);
+  EXPECT_EQ(least.faces, kPublished + 7u * 2000);
+  // The published faces are beyond both.
+  EXPECT_LT(staticLodLimits(kPublished, 2000, LeafReading::atLeast).mostFaces, kPublishedFaces);
   EXPECT_NEAR(double(limits.leastFaces) / kPublished, 2.0, 0.04);
   EXPECT_NEAR(double(limits.mostFaces) / kPublished, 2.9, 0.04);
   EXPECT_LT(limits.mostFaces, kPublishedFaces);
+  EXPECT_EQ(ours.distinctFaces, (*terrain)->counts.distinctFaces);
   std::printf("                 tile  triangles     n  levels    faces  times\n");
   std::printf("published     3105386  %9d  2000       4  %7d   %.2f\n", 30987, 126520, 126520 / 30987.0);
   std::printf("its rule               %9d  2000     %u  %llu to %llu   %.2f to %.2f\n", 30987, limits.levels,
@@ -137,6 +152,36 @@ TEST(StaticLodReport, comparesTheTileNearestToThePublishedOne) {
     EXPECT_GE(ours.faces, ours.limits.leastFaces);
     EXPECT_LE(ours.faces, ours.limits.mostFaces);
   }
+}
+
+TEST(StaticLodLimits, readNAsTheMostOrTheLeastOfALeaf) {
+  for (const LeafReading reading : {LeafReading::atMost, LeafReading::atLeast}) {
+    const HalvedTree one = halvedTree(100, 100, reading);
+    EXPECT_EQ(one.leaves, 1u);
+    EXPECT_EQ(one.levels, 1u);
+    EXPECT_EQ(one.faces, 100u);
+  }
+  // 401 triangles: leaves of 51 at most are needed for n = 100 at most, and 101 are no leaf of it.
+  const HalvedTree most = halvedTree(401, 100, LeafReading::atMost);
+  EXPECT_EQ(most.leaves, 8u);
+  EXPECT_EQ(most.largestLeaf, 51u);
+  const HalvedTree least = halvedTree(401, 100, LeafReading::atLeast);
+  EXPECT_EQ(least.leaves, 4u);
+  EXPECT_EQ(least.largestLeaf, 101u);
+  EXPECT_EQ(least.levels, 3u);
+  // The builder splits as the first reading says.
+  const auto terrain = *test::built({test::tin("100", {.columns = 64, .rows = 64})}, 100);
+  const StaticLodReport report = reportStaticLod(*terrain, 0);
+  EXPECT_EQ(report.levels, halvedTree(report.triangles, 100, LeafReading::atMost).levels);
+  EXPECT_EQ(report.distinctFaces, terrain->counts.distinctFaces);
+  EXPECT_LT(report.distinctFaces, report.faces);
+  // A face stays the same whichever of its corners comes first.
+  StaticLodTerrain turned = *terrain;
+  std::vector<std::uint32_t>& indices = turned.tiles[0].indices;
+  for (std::size_t t = 0; t + 6 <= indices.size(); t += 6)
+    std::rotate(indices.begin() + std::ptrdiff_t(t), indices.begin() + std::ptrdiff_t(t + 1),
+                indices.begin() + std::ptrdiff_t(t + 3));
+  EXPECT_EQ(reportStaticLod(turned, 0).distinctFaces, report.distinctFaces);
 }
 
 TEST(StaticLodLimits, allowOneTriangleEitherSideOfN) {

@@ -39,20 +39,37 @@ Result<std::shared_ptr<const StaticLodTerrain>> buildStaticLod(std::span<const S
                                                                const LocalFrame& frame,
                                                                const StaticLodOptions& options);
 
-/// The numbers that document E's rule allows a tile whose leaves hold n/2 to n triangles and whose nodes
-/// above hold n - 1 to n + 1.
+/// What n may say about leaves. Document E states n = 2000 for its example, but not which of the two it is.
+enum class LeafReading {
+  atMost,   ///< leaves hold n/2 to n triangles, as the builder splits
+  atLeast,  ///< leaves hold n to 2n triangles
+};
+
+/// The numbers that document E's rule allows a tile: leaves as the reading says, and n - 1 to n + 1 triangles
+/// in every node above. One collapse removes two triangles, so the builder stops at n or n + 1.
 struct StaticLodLimits {
   std::uint32_t levels = 0;                     ///< the fewest levels, root and leaves included
   std::uint64_t leastFaces = 0, mostFaces = 0;  ///< sums of the triangles of all nodes, leaves included
 };
 /// Returns the limits of a tile of `triangles` source triangles. A tile may exceed them if it has nodes that
 /// cannot be simplified to n because all their vertices are locked (lockedMinima), or nodes that keep lines.
-StaticLodLimits staticLodLimits(std::uint64_t triangles, std::uint32_t trianglesPerNode);
+StaticLodLimits staticLodLimits(std::uint64_t triangles, std::uint32_t trianglesPerNode,
+                                LeafReading reading = LeafReading::atMost);
+
+/// What the builder's splits at the median give under a reading: every split halves, so that the tree is
+/// complete.
+struct HalvedTree {
+  std::uint64_t leaves = 1, largestLeaf = 0;
+  std::uint32_t levels = 1;  ///< roots and leaves included, as document E counts
+  std::uint64_t faces = 0;   ///< of all nodes, if every node above the leaves holds n
+};
+HalvedTree halvedTree(std::uint64_t triangles, std::uint32_t trianglesPerNode, LeafReading reading);
 
 /// One tile in the terms of document E's table, and what the document's rule allows the tile.
 struct StaticLodReport {
   std::string tile;  ///< its name
   std::uint64_t triangles = 0, faces = 0;
+  std::uint64_t distinctFaces = 0;  ///< as `faces`, but a face that several nodes have counts once
   std::uint32_t trianglesPerNode = 0, levels = 0, lockedMinima = 0;
   std::vector<std::uint64_t> facesOfLevel;   ///< by level, the root's first
   std::vector<double> rmsErrorM, maxErrorM;  ///< by level: the largest that a node states, metres
