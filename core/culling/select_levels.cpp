@@ -16,15 +16,12 @@ void split(const TerrainIndex& index, std::uint32_t node, LevelCut& cut) {
 
 /// Splits nodes whose error is too large, from the roots down, so that only the part of the tree in use is
 /// visited.
-void splitByError(const TerrainIndex& index, Vec3 eye, double errorOverDistance, LevelCut& cut) {
-  const double limit = errorOverDistance * errorOverDistance;
+void splitByError(const TerrainIndex& index, Vec3 eye, const CutRule& rule, LevelCut& cut) {
+  const double limit = rule.limit();
   while (!cut.stack.empty()) {
     const std::uint32_t node = cut.stack.back();
     cut.stack.pop_back();
-    const double error = index.errorM[node];
-    // Both sides are squared, so that an eye inside the box (distance 0) splits a node with any error at all,
-    // and an eye that is not a number splits nothing.
-    if (!(error * error > limit * distanceSquared(index.bounds[node], eye))) continue;
+    if (!rule.isTooCoarse(index.errorM[node], distanceSquared(index.bounds[node], eye), limit)) continue;
     split(index, node, cut);
     if (!cut.split[node]) continue;
     for (const std::uint32_t child : index.children[node])
@@ -66,15 +63,14 @@ void pushRoots(const TerrainIndex& index, std::vector<std::uint32_t>& stack) {
 
 }  // namespace
 
-void selectLevels(const TerrainIndex& index, Vec3 eye, double maxErrorPx, double lodScale,
-                  double pixelsPerRadian, LevelCut& cut) {
+void selectLevels(const TerrainIndex& index, Vec3 eye, const CutRule& rule, LevelCut& cut) {
   cut.tiles.clear();
   cut.split.assign(index.size(), 0);
   cut.splitNodes.resize(index.levels.size());
   for (auto& nodes : cut.splitNodes) nodes.clear();
 
   pushRoots(index, cut.stack);
-  splitByError(index, eye, maxErrorPx * lodScale / pixelsPerRadian, cut);
+  splitByError(index, eye, rule, cut);
   restrictNeighbours(index, cut);
 
   pushRoots(index, cut.stack);

@@ -21,15 +21,11 @@ enum Lack : std::uint8_t {
 
 class Selection {
  public:
-  Selection(const PatchIndex& index, std::span<const std::uint8_t> resident, Vec3 eye,
-            double errorOverDistance, PatchCut& cut)
-      : index_(index),
-        resident_(resident),
-        eye_(eye),
-        limit_(errorOverDistance * errorOverDistance),
-        cut_(cut) {}
+  Selection(const PatchIndex& index, std::span<const std::uint8_t> resident, Vec3 eye, const CutRule& rule,
+            PatchCut& cut)
+      : index_(index), resident_(resident), eye_(eye), rule_(rule), limit_(rule.limit()), cut_(cut) {}
 
-  void run(double pixelsPerRadian) {
+  void run() {
     begin();
     forEachRoot([&](std::uint32_t patch) { cut_.stack.push_back(patch); });
     while (!cut_.stack.empty()) {
@@ -44,7 +40,7 @@ class Selection {
     for (const std::uint32_t diamond : cut_.splitList)
       forEachChild(diamond, [&](std::uint32_t child) { wantPage(index_.page[child], cut_.need[diamond]); });
     for (PageWant& want : cut_.wants)
-      want.errorPx = static_cast<float>(std::sqrt(want.errorPx) * pixelsPerRadian);
+      want.errorPx = static_cast<float>(std::sqrt(want.errorPx) * rule_.pixelsPerRadian);
   }
 
  private:
@@ -75,10 +71,8 @@ class Selection {
     }
   }
 
-  /// Both sides are squared, so that an eye inside the box (distance 0) finds any error too coarse, and an
-  /// eye that is not a number finds none.
   bool tooCoarse(float error, double distance2) const {
-    return double{error} * double{error} > limit_ * distance2;
+    return rule_.isTooCoarse(double{error}, distance2, limit_);
   }
 
   void ask(std::uint32_t patch) {
@@ -173,6 +167,7 @@ class Selection {
   const PatchIndex& index_;
   std::span<const std::uint8_t> resident_;
   Vec3 eye_;
+  const CutRule& rule_;
   double limit_;
   PatchCut& cut_;
 };
@@ -180,8 +175,8 @@ class Selection {
 }  // namespace
 
 void selectPatches(const PatchIndex& index, std::span<const std::uint8_t> resident, Vec3 eye,
-                   double maxErrorPx, double lodScale, double pixelsPerRadian, PatchCut& cut) {
-  Selection(index, resident, eye, maxErrorPx * lodScale / pixelsPerRadian, cut).run(pixelsPerRadian);
+                   const CutRule& rule, PatchCut& cut) {
+  Selection(index, resident, eye, rule, cut).run();
   cut.cut.triangles.clear();
   for (const TileDraw& tile : cut.cut.tiles)
     cut.cut.triangles.push_back(index.triangles[tile.node][tile.variant.number]);

@@ -53,14 +53,15 @@ std::vector<float> staticLodError(const StaticLodIndex& index, ErrorMeasure meas
   return error;
 }
 
-void selectStatic(const StaticLodIndex& index, std::span<const float> error, double distancePerError,
+void selectStatic(const StaticLodIndex& index, std::span<const float> error, const StaticLodRule& rule,
                   Vec3 eye, LevelCut& cut) {
-  const double square = distancePerError * distancePerError;
+  const double square = rule.distancePerError * rule.distancePerError;
   walk(index, cut, [&](std::uint32_t node) {
     // Both sides are squared, so that an eye inside the box (distance 0) descends for any error at all.
     // Written so that an eye that is not a number does not descend.
     const double e = double{error[node]};
-    return e * e * square > distanceSquared(index.bounds[node], eye);
+    return spreadSquared(e * e * square, rule.spread, rule.spreadFromM) >
+           distanceSquared(index.bounds[node], eye);
   });
 }
 

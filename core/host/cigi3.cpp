@@ -1,5 +1,6 @@
 #include "cigi3.h"
 
+#include <cmath>
 #include <string>
 
 #include "limits.h"
@@ -115,9 +116,27 @@ void readViewDefinition(Packet& p, Session& session) {
   session.view = shape;
 }
 
+/// The wind at offsets 36 of Weather Control and 12 of Atmosphere Control: horizontal speed, vertical speed,
+/// direction. CIGI 3.3 does not say whether the direction is where the wind blows from or to; we take
+/// aviation's *from*. It changes nothing but how drops drift, so a wind that is no wind is passed over
+/// instead of refusing its message.
+std::optional<Wind> windAt(const Packet& p, std::size_t offset) {
+  constexpr double kFastest = 200;  // m/s; no storm on Earth reaches it
+  const double speed = p.raw<float>(offset), up = p.raw<float>(offset + 4), from = p.raw<float>(offset + 8);
+  const bool isWind =
+      std::abs(speed) <= kFastest && std::abs(up) <= kFastest && std::abs(from) <= limits::kTurn;
+  if (!isWind) return std::nullopt;
+  return Wind{MetresPerSecond{speed}, wrapped360(Degrees{from}), MetresPerSecond{up}};
+}
+
+bool isCalm(const Wind& wind) {
+  return wind.speed.value() == 0 && wind.up.value() == 0;
+}
+
 void readAtmosphereControl(Packet& p, Session& session) {
   const double visibility = p.number<float>(8, "global visibility", 0, limits::kVisibility, "m");
   session.visibility = visibility > 0 ? std::optional(Metres{visibility}) : std::nullopt;
+  session.atmosphereWind = windAt(p, 12);
 }
 
 void readWeatherControl(Packet& p, Session& session, Message& message) {
@@ -139,6 +158,8 @@ void readWeatherControl(Packet& p, Session& session, Message& message) {
       message.fault = PacketFault{p.start + 7, "severity", "0..5", std::to_string(heard.severity)};
     const double visibility = p.number<float>(12, "layer visibility", 0, limits::kVisibility, "m");
     if (visibility > 0) heard.visibility = Metres{visibility};
+    heard.wind = windAt(p, 36);
+    if (heard.wind && isCalm(*heard.wind)) heard.wind.reset();
   }
   (layer == kRainLayer ? session.rain : session.snow) = heard;
 }
@@ -177,6 +198,13 @@ std::optional<HostWeather> Session::weather() const {
     return HostWeather{Precipitation::snow, snow->severity, snow->visibility};
   if (rains) return HostWeather{Precipitation::rain, rain->severity, rain->visibility};
   return HostWeather{};
+}
+
+std::optional<Wind> Session::wind() const {
+  const std::optional<HostWeather> falls = weather();
+  const std::optional<Layer>& layer = falls && falls->precipitation == Precipitation::snow ? snow : rain;
+  const bool inLayer = falls && falls->precipitation != Precipitation::none && layer && layer->wind;
+  return inLayer ? layer->wind : atmosphereWind;
 }
 
 std::optional<ByteOrder> byteOrder(std::span<const std::byte> bytes) {

@@ -39,6 +39,7 @@ struct Layer {
   bool enabled = false;
   int severity = 0;
   std::optional<Metres> visibility;
+  std::optional<Wind> wind;  ///< unset if calm
 };
 
 /// What the packets of a session add up to: a packet that is not sent again keeps its effect.
@@ -48,6 +49,7 @@ struct Session {
   std::optional<Attitude> head;
   std::optional<std::uint16_t> headView;  ///< the view whose eyepoint is followed: the first one seen
   std::optional<Metres> visibility;
+  std::optional<Wind> atmosphereWind;
   std::optional<Layer> rain, snow;
   std::optional<HostView> view;
   std::optional<std::uint16_t> definedView;
@@ -56,6 +58,8 @@ struct Session {
   /// Of two enabled layers the more severe one falls, of equal ones the snow. None before either was heard
   /// of.
   std::optional<HostWeather> weather() const;
+  /// The wind in the layer that falls, unless it is calm there, else that of the atmosphere.
+  std::optional<Wind> wind() const;
 };
 
 struct Message {

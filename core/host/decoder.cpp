@@ -207,6 +207,7 @@ std::optional<AircraftState> HostDecoder::Link::acceptCigi(const Datagram& datag
   state.head = session.head;
   state.visibility = session.visibility;
   state.weather = session.weather();
+  state.wind = session.wind();
   state.view = session.view;
   return finish(state, gap, silence);
 }

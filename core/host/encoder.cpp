@@ -56,16 +56,25 @@ void putViewDefinition(PacketWriter& w, const HostView& view) {
   w.put(5, bits(enabled));
 }
 
-void putAtmosphereControl(PacketWriter& w, Metres visibility) {
+void putWind(PacketWriter& w, std::size_t offset, const std::optional<Wind>& wind) {
+  if (!wind) return;
+  w.putFloat(offset, wind->speed.value());
+  w.putFloat(offset + 4, wind->up.value());
+  w.putFloat(offset + 8, wind->from.value());
+}
+
+void putAtmosphereControl(PacketWriter& w, Metres visibility, const std::optional<Wind>& wind) {
   w.begin(cigi3::kAtmosphereControl, cigi3::kAtmosphereControlSize);
   w.put(2, bits(1));  // atmospheric model on
   w.putFloat(4, 15);  // standard atmosphere at sea level
   w.putFloat(8, visibility.value());
+  putWind(w, 12, wind);
   w.putFloat(24, 1013.25);
 }
 
 /// One layer of global scope.
-void putWeatherControl(PacketWriter& w, std::uint8_t layer, bool enabled, const HostWeather& weather) {
+void putWeatherControl(PacketWriter& w, std::uint8_t layer, bool enabled, const HostWeather& weather,
+                       const std::optional<Wind>& wind) {
   w.begin(cigi3::kWeatherControl, cigi3::kWeatherControlSize);
   w.put(4, layer);
   if (!enabled) return;
@@ -73,6 +82,7 @@ void putWeatherControl(PacketWriter& w, std::uint8_t layer, bool enabled, const 
   w.put(7, bits(static_cast<unsigned>(weather.severity) << 2U));
   if (weather.visibility) w.putFloat(12, weather.visibility->value());
   w.putFloat(20, 100);  // coverage
+  putWind(w, 36, wind);
 }
 
 }  // namespace
@@ -91,12 +101,12 @@ std::vector<std::byte> encodeCigiHost(const AircraftState& state, std::uint32_t 
   putEntityControl(w, state);
   if (state.head) putViewControl(w, *state.head);
   if (state.view) putViewDefinition(w, *state.view);
-  if (state.visibility) putAtmosphereControl(w, *state.visibility);
+  if (state.visibility) putAtmosphereControl(w, *state.visibility, state.wind);
   if (state.weather) {
     // Both, so that the one that fell before stops.
     const Precipitation falls = state.weather->precipitation;
-    putWeatherControl(w, cigi3::kRainLayer, falls == Precipitation::rain, *state.weather);
-    putWeatherControl(w, cigi3::kSnowLayer, falls == Precipitation::snow, *state.weather);
+    putWeatherControl(w, cigi3::kRainLayer, falls == Precipitation::rain, *state.weather, state.wind);
+    putWeatherControl(w, cigi3::kSnowLayer, falls == Precipitation::snow, *state.weather, state.wind);
   }
   return w.take();
 }

@@ -29,6 +29,9 @@ enum Column : std::size_t {
   kPrecipitation,
   kSeverity,
   kLayerVisibility,
+  kWindSpeed,
+  kWindFrom,
+  kWindUp,
   kViewNear,
   kViewLeft,
   kViewRight,
@@ -63,6 +66,9 @@ constexpr std::array<ColumnRule, kColumns> kRules{{
     {"precipitation", 0, 0, false},  // none, rain or snow
     {"precipitation_severity", 0, HostWeather::kMostSevere, false},
     {"precipitation_visibility_m", 0, limits::kVisibility, false},
+    {"wind_speed_mps", 0, 200, false},
+    {"wind_from_deg", -360, 360, false},
+    {"wind_up_mps", -200, 200, false},
     {"view_near_m", 1e-6, limits::kHighest, false},
     {"view_left_deg", -kHalf, kHalf, false},
     {"view_right_deg", -kHalf, kHalf, false},
@@ -253,6 +259,10 @@ void Parser::readRow(std::string_view line) {
   optional(kAboveGround, state.aboveGround);
   optional(kVisibility, state.visibility);
   state.weather = weather();
+  if (const auto speed = cell(kWindSpeed)) {
+    const double from = cell(kWindFrom).value_or(0), up = cell(kWindUp).value_or(0);
+    state.wind = Wind{MetresPerSecond{*speed}, wrapped360(Degrees{from}), MetresPerSecond{up}};
+  }
   HostView view;
   optional(kViewNear, view.nearDistance);
   optional(kViewLeft, view.left);
@@ -320,7 +330,8 @@ Result<Flight> parseFlightCsv(std::string_view text, const std::string& where, d
 }
 
 std::string flightCsv(const Flight& flight) {
-  bool packets = false, heads = false, grounds = false, visibilities = false, weathers = false, views = false;
+  bool packets = false, heads = false, grounds = false, visibilities = false, weathers = false, views = false,
+       winds = false;
   for (std::size_t i = 0; i < flight.states.size(); ++i) {
     const AircraftState& s = flight.states[i];
     packets |= s.packet != i;
@@ -328,6 +339,7 @@ std::string flightCsv(const Flight& flight) {
     grounds |= s.aboveGround.has_value();
     visibilities |= s.visibility.has_value();
     weathers |= s.weather.has_value();
+    winds |= s.wind.has_value();
     views |= s.view.has_value();
   }
   std::string text = "time_s,latitude_deg,longitude_deg,altitude_ft,pitch_deg,roll_deg,heading_deg,height_m";
@@ -336,6 +348,7 @@ std::string flightCsv(const Flight& flight) {
   if (grounds) text += ",above_ground_m";
   if (visibilities) text += ",visibility_m";
   if (weathers) text += ",precipitation,precipitation_severity,precipitation_visibility_m";
+  if (winds) text += ",wind_speed_mps,wind_from_deg,wind_up_mps";
   if (views) text += ",view_near_m,view_left_deg,view_right_deg,view_bottom_deg,view_top_deg";
   text += '\n';
   text.reserve(text.size() + flight.states.size() * 160);
@@ -361,6 +374,11 @@ std::string flightCsv(const Flight& flight) {
       if (s.weather) text += toText(s.weather->precipitation);
       append(text, s.weather ? std::optional(double(s.weather->severity)) : std::nullopt);
       append(text, s.weather ? s.weather->visibility : std::nullopt);
+    }
+    if (winds) {
+      append(text, s.wind ? std::optional(s.wind->speed) : std::nullopt);
+      append(text, s.wind ? std::optional(s.wind->from) : std::nullopt);
+      append(text, s.wind ? std::optional(s.wind->up) : std::nullopt);
     }
     if (views) {
       const HostView view = s.view.value_or(HostView{});

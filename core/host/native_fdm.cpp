@@ -79,6 +79,7 @@ std::optional<PacketFault> parse(std::span<const std::byte> bytes, AircraftState
   state.airspeed = airspeedOf(read);
   state.velocity = velocityOf(read);
   state.weather.reset();
+  state.wind.reset();
   state.head.reset();
   state.view.reset();
   return std::nullopt;

@@ -5,28 +5,6 @@
 /// Rows of the helmet-mounted display's symbols.
 namespace trimtab::table {
 
-/// Text that a key is put together from.
-template <std::size_t N>
-struct Literal {
-  char text[N]{};
-  consteval Literal(const char (&from)[N]) {
-    for (std::size_t i = 0; i < N; ++i) text[i] = from[i];
-  }
-};
-
-template <Literal A, Literal B>
-struct Concatenated {
-  static constexpr std::size_t kSize = sizeof(A.text) + sizeof(B.text) - 2;
-  static constexpr auto kText = [] {
-    std::array<char, kSize> all{};
-    std::size_t next = 0;
-    for (std::size_t i = 0; i + 1 < sizeof(A.text); ++i) all[next++] = A.text[i];
-    for (std::size_t i = 0; i + 1 < sizeof(B.text); ++i) all[next++] = B.text[i];
-    return all;
-  }();
-  static constexpr std::string_view kView{kText.data(), kSize};
-};
-
 /// The five rows of one symbol. `placeHelp` says what x and y mean for it.
 template <auto Group, Literal Name, Literal Label>
 consteval std::array<CheckedRow, 5> symbolRows(std::string_view whatItShows, std::string_view placeHelp) {

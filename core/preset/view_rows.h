@@ -53,6 +53,29 @@ inline constexpr std::array kViewRows{
          .step = 0.25,
          .decimals = 2,
          .logarithmic = true}),
+    row<&TuningParameters::lod, &LodParameters::spread>(
+        {.key = "lod.level_spread",
+         .label = "Distance between levels",
+         .help = "Spreads the distances at which levels follow one another: a level that the allowed error "
+                 "would draw from d on is drawn from D (d / D)^spread on, where D is the distance that keeps "
+                 "its level. 1 leaves the distances; less draws them together, so that what is far is drawn "
+                 "coarser and what is near finer; more draws them apart.",
+         .source = "C: LOD level selector",
+         .hard = {0.25, 4},
+         .usual = {0.5, 2},
+         .step = 0.05,
+         .decimals = 2,
+         .logarithmic = true}),
+    row<&TuningParameters::lod, &LodParameters::spreadFrom>(
+        {.key = "lod.level_spread_from_m",
+         .label = "Distance that keeps its level",
+         .help = "The distance at which the spread of levels changes nothing.",
+         .source = "C: LOD level selector",
+         .hard = {1, 1e6},
+         .usual = {100, 100e3},
+         .step = 100,
+         .decimals = 0,
+         .logarithmic = true}),
     row<&TuningParameters::lod, &LodParameters::texture>(
         {.key = "lod.texture",
          .label = "Texture follows the scale",

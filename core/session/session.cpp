@@ -8,6 +8,7 @@
 
 #include "trimtab/host/motion.h"
 #include "trimtab/motion/line_of_sight.h"
+#include "trimtab/weather/weather.h"
 
 namespace trimtab {
 namespace {
@@ -293,6 +294,9 @@ std::optional<FrameRequest> Session::request(double now, int windowWidthPx, int 
   request.time = eye.time;
   request.eye = eye.position;
   request.velocity = velocityOf(eye);
+  request.wind = windOf(eye, parameters_->weather);
+  airDrift_.advance(eye.time, eye.position, request.wind);
+  request.airDrift = airDrift_.metres();
   request.attitude = lineOfSight(eye.attitude, eye.head);
   request.view = viewShape(parameters_->view, windowWidthPx, windowHeightPx, eye.view);
   request.decision = decision_;
@@ -309,6 +313,8 @@ std::optional<FrameRequest> Session::request(double now, int windowWidthPx, int 
   request.lod = parameters_->lod;
   request.staticLod = parameters_->staticLod;
   request.terrain = parameters_->terrain;
+  request.rain = parameters_->rainLook;
+  request.snow = parameters_->snowLook;
   drawnDark_ = darkAt(eye.time);
   if (parameters_->symbology.enabled)
     request.symbology =

@@ -234,6 +234,11 @@ WeatherDecision decideWeather(const AircraftState& state, const TuningParameters
   return decision;
 }
 
+Wind windOf(const AircraftState& state, const WeatherParameters& parameters) {
+  if (parameters.source == WeatherSource::host && state.wind) return *state.wind;
+  return {parameters.windSpeed, parameters.windFrom, {}};
+}
+
 std::string explain(const WeatherDecision& d) {
   std::string text =
       d.precipitation == Precipitation::none

@@ -186,7 +186,7 @@ TEST(SelectionStress, levelsSplitWhereTheirErrorIsTooLarge) {
                                    : Vec3{away * 0.6, away * 0.8, -size * dice.unit()};
     const Quad exact = distanceTwin(box, eye);
     const TerrainIndex index = oneSplit(box, error);
-    selectLevels(index, eye, pixels, scale, perRadian, cut);
+    selectLevels(index, eye, {pixels, scale, perRadian}, cut);
     const bool split = cut.tiles.size() == 4, wanted = exact < limit;
     tie.see(split == wanted ? 0 : toDouble(fabsq(exact / limit - 1)), [&] { return digits(away); });
   }
@@ -221,14 +221,14 @@ TEST(SelectionStress, staticNodesSplitWhereTheViewerIsTooNear) {
     const Vec3 eye = dice.one(0.5) ? Vec3{away, -size * dice.unit(), 0}
                                    : Vec3{away * 0.6, away * 0.8, -size * dice.unit()};
     const std::vector<float> errors{error, 0, 0};
-    selectStatic(index, errors, staticLodDistancePerError(p, scale, perRadian), eye, cut);
+    selectStatic(index, errors, {staticLodDistancePerError(p, scale, perRadian)}, eye, cut);
     const Quad exact = distanceTwin(box, eye);
     const bool split = cut.tiles.size() == 2, wanted = exact < limit;
     tie.see(split == wanted ? 0 : toDouble(fabsq(exact / limit - 1)), [&] { return digits(away); });
     if (i % 1000 != 0) continue;
     const Vec3 nowhere{std::nan(""), 0, 0};
-    selectStatic(index, errors, 1000, nowhere, cut);
-    selectLevels(oneSplit(box, error), nowhere, 2, 1, 1000, levels);
+    selectStatic(index, errors, {1000}, nowhere, cut);
+    selectLevels(oneSplit(box, error), nowhere, {2, 1, 1000}, levels);
     broken.require(*cut.nodes == std::vector<std::uint32_t>{0} && levels.tiles.size() == 1);
   }
 }

@@ -29,7 +29,9 @@ constexpr std::string_view kKeys[] = {"weather.source",
                                       "weather.haze",
                                       "weather.ratio_mode",
                                       "weather.fixed_ratio",
-                                      "weather.severity_density"};
+                                      "weather.severity_density",
+                                      "weather.wind_speed_mps",
+                                      "weather.wind_from_deg"};
 
 std::string_view stepName(WeatherStep step) {
   return table::ChoicesOf<WeatherStep>::options[static_cast<std::size_t>(step)].name;
@@ -51,6 +53,10 @@ bool isWanted(std::string_view key, const TuningParameters& p) {
   if (key == "weather.haze") return !typed && w.step == WeatherStep::clear;
   if (key == "weather.fixed_ratio") return w.ratioMode == RatioMode::fixed;
   if (key == "weather.severity_density") return w.source == WeatherSource::host;
+  const Precipitation falls = precipitationOf(w.step);
+  if (key.starts_with("weather.rain.")) return falls == Precipitation::rain;
+  if (key.starts_with("weather.snow.")) return falls == Precipitation::snow;
+  if (key.starts_with("weather.wind_from")) return w.windSpeed.value() > 0;
   for (const std::string_view always : kKeys)
     if (key == always) return true;
   if (!key.starts_with(groupPrefix(w.step))) return false;
@@ -80,6 +86,9 @@ QString hostText(const AircraftState& state) {
                  : QObject::tr("%1 of severity %2").arg(fromView(toText(w.precipitation))).arg(w.severity));
     if (w.visibility) said << QObject::tr("%1 in it").arg(distanceText(w.visibility->value()));
   }
+  if (state.wind)
+    said << QObject::tr("wind from %1 degrees at %2 m/s")
+                .arg(numberText(state.wind->from.value(), 0), numberText(state.wind->speed.value(), 1));
   if (state.visibility) said << QObject::tr("visibility %1").arg(distanceText(state.visibility->value()));
   return said.isEmpty() ? QObject::tr("nothing of weather") : said.join(QStringLiteral(", "));
 }

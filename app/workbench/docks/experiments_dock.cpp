@@ -31,6 +31,7 @@ struct Named {
 };
 constexpr Named kExperiments[] = {
     {"culling", QT_TRANSLATE_NOOP("ExperimentsDock", "Culling: none, view frustum, proposed (A, B)")},
+    {"culling-per-node", QT_TRANSLATE_NOOP("ExperimentsDock", "Culling: decided by frame or by node (A)")},
     {"head-motion", QT_TRANSLATE_NOOP("ExperimentsDock", "Head motion: a sweep of 180° in 1 s (C)")},
     {"head-motion-varying",
      QT_TRANSLATE_NOOP("ExperimentsDock", "Head motion: turns and nods of varying speed (C)")},

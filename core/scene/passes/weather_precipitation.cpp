@@ -59,14 +59,17 @@ bool isFinite(Vec3 v) {
 std::optional<PrecipitationView> precipitationView(const FrameRequest& request, const LocalFrame& frame) {
   const WeatherDecision& weather = request.decision.weather;
   if (weather.precipitation == Precipitation::none || !(weather.density > 0)) return {};
-  PrecipitationView view{weather.precipitation, std::min(weather.density, 1.0), request.time, {}};
-  if (request.velocity) {
-    const Mat3 axes = eastNorthUp(request.eye.latitude, request.eye.longitude);
-    view.velocity = frame.ecefToLocal() * (axes.row[0] * request.velocity->east.value() +
-                                           axes.row[1] * request.velocity->north.value() -
-                                           axes.row[2] * request.velocity->down.value());
-  }
-  return view;
+  Vec3 eye;
+  if (request.velocity)
+    eye = {request.velocity->east.value(), request.velocity->north.value(), -request.velocity->down.value()};
+  const Mat3 toEarth = transposed(eastNorthUp(request.eye.latitude, request.eye.longitude));
+  return PrecipitationView{
+      .kind = weather.precipitation,
+      .density = std::min(weather.density, 1.0),
+      .time = request.time,
+      .velocity = frame.ecefToLocal() * (toEarth * (eye - eastNorthUp(request.wind))),
+      .airDrift = frame.ecefToLocal() * request.airDrift,
+      .look = weather.precipitation == Precipitation::snow ? request.snow : request.rain};
 }
 
 // The effect numbers cells from its position and shifts each one's fall by i * 0.43 + j * 0.64 of a period:
@@ -116,11 +119,6 @@ struct PrecipitationNode::Impl {
       effect->rain(intensity);
     effect->setUseFarLineSegments(kind == Precipitation::rain);
   }
-
-  /// Lighter than ground and than fog: the effect's greys are lost before one or the other.
-  osg::Vec3 colour() const {
-    return kind == Precipitation::snow ? osg::Vec3{0.95f, 0.96f, 0.98f} : osg::Vec3{0.86f, 0.88f, 0.91f};
-  }
 };
 
 PrecipitationNode::PrecipitationNode() : impl_(std::make_unique<Impl>()) {}
@@ -137,8 +135,11 @@ void PrecipitationNode::set(const std::optional<PrecipitationView>& falling, con
   impl_->shape(*falling);
 
   const osg::Vec3 cell = effect.getCellSize();
-  const double speed = std::abs(double{effect.getParticleSpeed()});
-  const Vec3 eye = isFinite(view.eye.position) ? view.eye.position : Vec3{};
+  const PrecipitationLook& look = falling->look;
+  const double speed = std::abs(double{effect.getParticleSpeed()}) * look.fallSpeed.value();
+  // Cells stand still in the air, which the wind carries.
+  const Vec3 inAir = view.eye.position - falling->airDrift;
+  const Vec3 eye = isFinite(inAir) ? inAir : Vec3{};
   effect.setPosition(toFloat(latticeFromEye(eye, {double{cell.x()}, double{cell.y()}, double{cell.z()}})));
 
   Vec3 back = (isFinite(falling->velocity) ? falling->velocity : Vec3{}) + Vec3{0, 0, speed};
@@ -149,13 +150,13 @@ void PrecipitationNode::set(const std::optional<PrecipitationView>& falling, con
   };
   using Type = osg::Uniform::Type;
   set("phase", Type::FLOAT, fraction(falling->time * speed / double{cell.z()}));
-  set("radius", Type::FLOAT, effect.getParticleSize() * 0.5f);
+  set("radius", Type::FLOAT, effect.getParticleSize() * 0.5f * static_cast<float>(look.size.value()));
   set("streak", Type::FLOAT_VEC3, toFloat(view.eye.axes * back));
   set("pixelsPerMetre", Type::FLOAT,
       static_cast<float>(view.shape.heightPx / (view.shape.top - view.shape.bottom)));
   set("farM", Type::FLOAT, effect.getFarTransition());
   set("extinction", Type::FLOAT, view.air.extinction);
-  set("dropColour", Type::FLOAT_VEC3, impl_->colour());
+  set("dropColour", Type::FLOAT_VEC3, toFloat({look.red.value(), look.green.value(), look.blue.value()}));
 }
 
 }  // namespace trimtab::scene

@@ -20,7 +20,9 @@ struct PrecipitationView {
   Precipitation kind = Precipitation::rain;
   double density = 0;  ///< 0..1, the intensity of osgParticle::PrecipitationEffect
   double time = 0;     ///< seconds; the place of each drop depends on it alone
-  Vec3 velocity;       ///< of the eye, metres per second in the local frame; drops streak along it
+  Vec3 velocity;  ///< of the eye through the air, metres per second in the local frame; drops streak along it
+  Vec3 airDrift;  ///< how far the wind has carried the air, metres in the local frame
+  PrecipitationLook look{};
 };
 
 /// Returns the view of what falls; unset if nothing does.

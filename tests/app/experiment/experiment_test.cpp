@@ -104,6 +104,22 @@ TEST_F(Experiment, headMotionLowersTheLevelInTheSweepAndRestoresItOnlyWhenAsked)
   EXPECT_GT(rows.number(difference, "with_restoration"), 0) << "the price is told";
 }
 
+TEST_F(Experiment, aDecisionForEachNodeTestsFewerNodesAndChangesNoPixel) {
+  const auto report = runCullingPerNode(setup());
+  ASSERT_TRUE(report) << toString(report.findings());
+  const Table& rows = report->measured;
+  ASSERT_EQ(rows.rows.size(), 16u);
+  for (std::size_t row = 0; row < rows.rows.size(); row += 2) {
+    EXPECT_EQ(rows.text(row, "decision"), "frame");
+    EXPECT_EQ(rows.text(row + 1, "decision"), "node");
+    EXPECT_EQ(rows.number(row, "differing_pixels"), 0) << row;
+    EXPECT_EQ(rows.number(row + 1, "differing_pixels"), 0) << row;
+    EXPECT_GT(rows.number(row, "frame_ms"), 0);
+    // The eye is higher above the sea than above the ground, so the frame never asks for the larger map.
+    EXPECT_GE(rows.number(row + 1, "map_texels"), rows.number(row, "map_texels")) << row;
+  }
+}
+
 TEST_F(Experiment, aHostOfAnyRateIsMetInTheSweepWhereImagesAreCounted) {
   for (const double rate : {10.0, 60.0}) {
     experiment::Setup asked = setup();
@@ -179,8 +195,8 @@ TEST_F(Experiment, calibratesWeatherOnOneView) {
 }
 
 TEST_F(Experiment, stopsWhereItIsTold) {
-  for (const auto& run :
-       {&runCulling, &runHeadMotion, &runHeadMotionVarying, &runWeather, &runWeatherProtocol}) {
+  for (const auto& run : {&runCulling, &runCullingPerNode, &runHeadMotion, &runHeadMotionVarying, &runWeather,
+                          &runWeatherProtocol}) {
     int told = 0;
     experiment::Setup asked = setup();
     asked.progress = [&](double fraction, const std::string& what) {

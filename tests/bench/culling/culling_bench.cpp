@@ -154,7 +154,7 @@ bool isOutside(const Box& b, const EyePose& eye, const ViewShape& v) {
 void selectionRows(Report& report) {
   const TerrainIndex index = test::randomIndex(256, 3);
   LevelCut cut;
-  selectLevels(index, {128e3, 128e3, 500}, 1e-6, 1, 1100, cut);
+  selectLevels(index, {128e3, 128e3, 500}, {1e-6, 1, 1100}, cut);
   OsgQuadtree osg(index);
   VisibleSet visible;
   struct View {
@@ -197,7 +197,7 @@ void selectionRows(Report& report) {
   }
   // What is left when only the head turns: the same cut, another view.
   const TerrainIndex small = test::randomIndex(128, 4);
-  selectLevels(small, {64e3, 64e3, 500}, 1e-6, 1, 1100, cut);
+  selectLevels(small, {64e3, 64e3, 500}, {1e-6, 1, 1100}, cut);
   cut.tiles.resize(6400);
   gather(small, cut);
   double heading = 0;

@@ -165,7 +165,7 @@ void levelRows(Report& report) {
       if (frame == 0) moving.clear();
       if (frame == 5) firstBuilt = moving.fromScratch();
       const Vec3 eye = from + (kStepM * frame) * forward + Vec3{0, 0, highest + aboveM};
-      selectLevels(ground.index(), eye, errorOverDistance, 1, 1, cut);
+      selectLevels(ground.index(), eye, {errorOverDistance, 1, 1}, cut);
       if (!std::equal(last.begin(), last.end(), cut.tiles.begin(), cut.tiles.end(),
                       [](const TileDraw& a, const TileDraw& b) {
                         return a.node == b.node && a.border == b.border;

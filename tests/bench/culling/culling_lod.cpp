@@ -69,7 +69,7 @@ void lodRows(Report& report, const std::string& name,
     const Attitude attitude{Degrees{heading(random)}, Degrees{-5}, Degrees{0}};
     const EyePose eye{index.frame.fromGeodetic(at), eyeAxes(index.frame, at, attitude)};
     const auto select = [&] {
-      selectLevels(index, eye.position, kErrorPx, 1, scale, cut);
+      selectLevels(index, eye.position, {kErrorPx, 1, scale}, cut);
       selectVisible(cut, {.eye = eye, .view = view}, visible);
     };
     std::size_t kept = 0;

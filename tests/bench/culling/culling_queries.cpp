@@ -103,7 +103,7 @@ class Queries {
     const TerrainIndex& index = database_->index();
     const ViewShape v = r.view;
     LevelCut cut;
-    selectLevels(index, poseOf(r).position, kErrorPx, 1, pixelsPerRadian(v), cut);
+    selectLevels(index, poseOf(r).position, {kErrorPx, 1, pixelsPerRadian(v)}, cut);
     const Mat3 up = index.frame.ecefToLocal() * eastNorthUp(r.eye.latitude, r.eye.longitude);
     peers_.begin(cut, up.row[2], r.eye.height.value());
     // All know by then what they saw, and have their tiles.

@@ -111,7 +111,7 @@ void selectionRow(Report& report, const terrain::PatchTerrain& patches, Vec3 eye
   ViewShape view;
   view.widthPx = BenchScene::kWidth, view.heightPx = BenchScene::kHeight;
   const double perRadian = pixelsPerRadian(view);
-  const auto choose = [&](Vec3 at) { selectPatches(patches.index(), {}, at, 2, 1, perRadian, cut); };
+  const auto choose = [&](Vec3 at) { selectPatches(patches.index(), {}, at, {2, 1, perRadian}, cut); };
   int step = 0;
   const double seconds = leastSeconds(report.quick() ? 20 : 200, [&] {
     choose(eye + Vec3{10.0 * ++step, 0, 0});

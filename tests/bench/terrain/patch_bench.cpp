@@ -86,7 +86,7 @@ void viewRows(Report& report, const std::string& id, const std::string& what, Gr
       const Vec3 at = ground.place(static_cast<std::uint32_t>(eye.column * ground.posts().columns),
                                    static_cast<std::uint32_t>(eye.row * ground.posts().rows), eye.aboveM);
       PatchCut cut;
-      selectPatches(index, {}, at, errorPx, 1, pixelsPerRadian, cut);
+      selectPatches(index, {}, at, {double(errorPx), 1, pixelsPerRadian}, cut);
       double triangles = 0;
       for (const TileDraw& tile : cut.cut.tiles) triangles += index.triangles[tile.node][tile.variant.number];
       const double free = ground.free(at, errorPx / pixelsPerRadian);

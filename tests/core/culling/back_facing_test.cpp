@@ -119,7 +119,7 @@ TEST(BackFaces, areLeftOutOfACutWhereAskedForOnly) {
   for (std::size_t i = 0; i < index.size(); ++i)
     index.cones.push_back(NormalCone::of(about(normalized({0.9, 0, 0.5}), 0.3, random, 10)));
   LevelCut cut;
-  selectLevels(index, {16000, 16000, 500}, 0.1, 1, 1100, cut);
+  selectLevels(index, {16000, 16000, 500}, {0.1, 1, 1100}, cut);
   VisibleSet both, fronts;
   std::size_t away = 0;
   for (int view = 0; view < 200; ++view) {

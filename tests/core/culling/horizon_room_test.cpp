@@ -23,7 +23,7 @@ LodGround& ground() {
 
 LevelCut cutAt(Vec3 eye) {
   LevelCut cut;
-  selectLevels(ground().index(), eye, 0.004, 1, 1, cut);
+  selectLevels(ground().index(), eye, {0.004, 1, 1}, cut);
   ground().draw(cut);
   return cut;
 }

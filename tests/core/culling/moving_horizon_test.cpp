@@ -46,7 +46,7 @@ Flown fly(LodGround& ground, const Path& path, const Flight& flight, unsigned se
     Vec3 eye = path(frame);
     eye.z += highest;
     if (frame == 0 || !flight.cutStands)
-      selectLevels(ground.index(), eye, flight.errorOverDistance, 1, 1, cut);
+      selectLevels(ground.index(), eye, {flight.errorOverDistance, 1, 1}, cut);
     const auto same = [](const TileDraw& a, const TileDraw& b) {
       return a.node == b.node && a.border == b.border;
     };
@@ -183,7 +183,7 @@ TEST(MovingHorizon, takesTheEyesStepFromAllFramesSinceItWasAsked) {
     MovingHorizon moving;
     for (int call = 0; call < 3; ++call) {
       const Vec3 eye{0.3 * side + 50 * call, 0.4 * side, 900};
-      if (call == 0) selectLevels(ground().index(), eye, 0.004, 1, 1, cut);
+      if (call == 0) selectLevels(ground().index(), eye, {0.004, 1, 1}, cut);
       moving.hidden({.eye = eye, .framesSince = framesSince, .cut = 1, .tiles = cut.tiles, .settings = {}},
                     tree, [&](std::vector<HorizonTile>& tiles) { tiles = ground().tiles(cut); });
     }

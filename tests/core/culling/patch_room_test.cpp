@@ -63,9 +63,8 @@ class PatchRoom : public testing::TestWithParam<std::size_t> {
     MovingHorizon moving;
     std::array<bool, 2> hidden{};
     for (const bool halved : {false, true}) {
-      const std::vector<TileDraw> cut = halved
-                                            ? std::vector<TileDraw>{{kHalf}, {kHalf + 1}, {kBehind}}
-                                            : std::vector<TileDraw>{{kRidge}, {kBehind}};
+      const std::vector<TileDraw> cut = halved ? std::vector<TileDraw>{{kHalf}, {kHalf + 1}, {kBehind}}
+                                               : std::vector<TileDraw>{{kRidge}, {kBehind}};
       const auto flags =
           moving.hidden({.eye = {0, 0, 120},
                          .cut = halved ? 2u : 1u,

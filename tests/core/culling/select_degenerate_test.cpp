@@ -22,7 +22,7 @@ constexpr Mat3 kUp{{Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, -1}}};
 
 LevelCut cutOf(const TerrainIndex& index) {
   LevelCut cut;
-  selectLevels(index, {16000, 16000, 500}, 1e-6, 1, 1100, cut);
+  selectLevels(index, {16000, 16000, 500}, {1e-6, 1, 1100}, cut);
   return cut;
 }
 
@@ -138,7 +138,7 @@ TEST(VisibleSet, tellsReasonsOfItsOwnCutWhenTheCutGoesOn) {
   selectVisible(cut, {.eye = {{8000, 2000, 900}, kNorth}}, visible);
   const std::vector<CullReason> before = visible.reasons(index.size());
   const VisibleSet kept = visible;
-  selectLevels(index, {1e6, 1e6, 5e5}, 100, 1, 1100, cut);
+  selectLevels(index, {1e6, 1e6, 5e5}, {100, 1, 1100}, cut);
   selectVisible(cut, {.eye = {{8000, 2000, 900}, kNorth}}, visible);
   EXPECT_EQ(kept.reasons(index.size()), before);
   EXPECT_NE(visible.reasons(index.size()), before);

@@ -56,7 +56,7 @@ class LevelCutOf : public testing::TestWithParam<unsigned> {
 TEST_P(LevelCutOf, coversEveryFinestTileExactlyOnce) {
   LevelCut cut;
   for (int i = 0; i < 40; ++i) {
-    selectLevels(index, randomEye(), 2, 1 + i % 3, kPixelsPerRadian, cut);
+    selectLevels(index, randomEye(), {2, 1.0 + i % 3, kPixelsPerRadian}, cut);
     const Grid grid = gridOf(index, cut);
     for (const int n : grid.covered) ASSERT_EQ(n, 1);
   }
@@ -66,7 +66,7 @@ TEST_P(LevelCutOf, differsByAtMostOneLevelBetweenNeighboursAndTellsWhichSideIsCo
   LevelCut cut;
   int coarserSides = 0;
   for (int i = 0; i < 40; ++i) {
-    selectLevels(index, randomEye(), 1, 1, kPixelsPerRadian, cut);
+    selectLevels(index, randomEye(), {1, 1, kPixelsPerRadian}, cut);
     const Grid grid = gridOf(index, cut);
     for (const TileDraw& tile : cut.tiles) {
       const Square s = squareOf(index, tile.node);
@@ -95,7 +95,7 @@ TEST_P(LevelCutOf, holdsTheErrorWhereTheDataAllow) {
   for (int i = 0; i < 40; ++i) {
     const Vec3 eye = randomEye();
     const double limit = 0.5 + 0.25 * i, scale = 1 + i % 4;
-    selectLevels(index, eye, limit, scale, kPixelsPerRadian, cut);
+    selectLevels(index, eye, {limit, scale, kPixelsPerRadian}, cut);
     for (const TileDraw& tile : cut.tiles) {
       if (index.level[tile.node] == 0) continue;
       const Box& b = index.bounds[tile.node];
@@ -108,12 +108,52 @@ TEST_P(LevelCutOf, holdsTheErrorWhereTheDataAllow) {
   }
 }
 
+TEST_P(LevelCutOf, takesDistancesApartOrTogetherByTheSpread) {
+  // The twin has the errors that give the spread distances without a spread.
+  LevelCut cut, expected, plain;
+  std::size_t changed = 0;
+  for (const double spread : {0.5, 0.8, 1.5, 3.0}) {
+    const double limit = 0.4 * 1.5, from = 2000;
+    TerrainIndex twin = index;
+    for (float& error : twin.errorM) {
+      const double distance = double{error} * kPixelsPerRadian / limit;
+      error = static_cast<float>(from * std::pow(distance / from, spread) * limit / kPixelsPerRadian);
+    }
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 eye = randomEye();
+      selectLevels(index, eye, {0.4, 1.5, kPixelsPerRadian, spread, from}, cut);
+      selectLevels(twin, eye, {0.4, 1.5, kPixelsPerRadian}, expected);
+      selectLevels(index, eye, {0.4, 1.5, kPixelsPerRadian}, plain);
+      ASSERT_EQ(*cut.nodes, *expected.nodes) << spread;
+      changed += *cut.nodes != *plain.nodes;
+    }
+  }
+  EXPECT_GT(changed, 40u);
+}
+
+TEST(CutRule, spreadKeepsOneDistanceAndTheLimits) {
+  const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double spread : {0.25, 0.5, 1.0, 2.0, 4.0}) {
+    EXPECT_NEAR(spreadSquared(5000.0 * 5000, spread, 5000), 5000.0 * 5000, 1e-6);
+    EXPECT_NEAR(std::sqrt(spreadSquared(4e8, spread, 5000)), 5000 * std::pow(4, spread), 1e-6);
+    EXPECT_EQ(spreadSquared(0, spread, 5000), 0);
+    EXPECT_EQ(spreadSquared(inf, spread, 5000), inf);
+    EXPECT_TRUE(std::isnan(spreadSquared(nan, spread, 5000)));
+    const CutRule rule{2, 1, 1000, spread, 5000};
+    EXPECT_TRUE(rule.isTooCoarse(1e-6, 0, rule.limit())) << "an eye inside the box";
+    EXPECT_FALSE(rule.isTooCoarse(0, 0, rule.limit()));
+    EXPECT_FALSE(rule.isTooCoarse(1e6, nan, rule.limit()));
+    EXPECT_FALSE(rule.isTooCoarse(1e6, inf, rule.limit()));
+    EXPECT_EQ(rule.errorOverDistance(), spread == 1 ? 0.002 : 0);
+  }
+}
+
 TEST_P(LevelCutOf, drawsInAnOrderThatDependsOnTheTerrainAlone) {
   LevelCut first, second;
   std::map<std::uint32_t, std::size_t> place;
   for (int i = 0; i < 20; ++i) {
-    selectLevels(index, randomEye(), 2, 1, kPixelsPerRadian, first);
-    selectLevels(index, randomEye(), 2, 1, kPixelsPerRadian, second);
+    selectLevels(index, randomEye(), {2, 1, kPixelsPerRadian}, first);
+    selectLevels(index, randomEye(), {2, 1, kPixelsPerRadian}, second);
     place.clear();
     for (std::size_t k = 0; k < first.tiles.size(); ++k) place[first.tiles[k].node] = k;
     std::size_t last = 0;
@@ -132,7 +172,7 @@ TEST(LevelCut, isTheRootAloneForAnEyeThatIsNotANumber) {
   LevelCut cut;
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    selectLevels(index, {bad, 0, 0}, 2, 1, kPixelsPerRadian, cut);
+    selectLevels(index, {bad, 0, 0}, {2, 1, kPixelsPerRadian}, cut);
     ASSERT_EQ(cut.tiles.size(), 1u);
     EXPECT_EQ(index.parent[cut.tiles[0].node], TerrainIndex::kNone);
   }
@@ -143,12 +183,12 @@ TEST(LevelCut, isCoarserForALargerScaleAndEmptyForAnEmptyTerrain) {
   LevelCut cut;
   std::size_t last = index.size();
   for (const double scale : {1.0, 2.0, 4.0, 8.0, 64.0}) {
-    selectLevels(index, {16000, 16000, 1500}, 1, scale, kPixelsPerRadian, cut);
+    selectLevels(index, {16000, 16000, 1500}, {1, scale, kPixelsPerRadian}, cut);
     EXPECT_LE(cut.tiles.size(), last);
     last = cut.tiles.size();
   }
   EXPECT_LT(last, 200u);
-  selectLevels(TerrainIndex{}, {}, 1, 1, 1, cut);
+  selectLevels(TerrainIndex{}, {}, {1, 1, 1}, cut);
   EXPECT_TRUE(cut.tiles.empty());
 }
 

@@ -65,7 +65,7 @@ TEST_P(PatchCutOf, isTheSmallestThatSatisfiesEveryoneWithThePagesThatAreThere) {
     const Vec3 eye = randomEye();
     const double px = 1 * std::pow(1.12, i % 30), scale = i % 7 == 0 ? 4 : 1;
     const auto resident = i % 3 == 0 ? std::vector<std::uint8_t>{} : randomPages(i % 3 == 1 ? 0.9 : 0.5);
-    selectPatches(index, resident, eye, px, scale, kPixelsPerRadian, cut);
+    selectPatches(index, resident, eye, {px, scale, kPixelsPerRadian}, cut);
     const Fixpoint expected(index, resident, eye, px * scale / kPixelsPerRadian);
     ASSERT_EQ(drawn(), expected.drawn);
     ASSERT_EQ(cut.heldBack, expected.heldBack);
@@ -82,7 +82,7 @@ TEST_P(PatchCutOf, isTheSmallestThatSatisfiesEveryoneWithThePagesThatAreThere) {
 TEST_P(PatchCutOf, coversEverythingOnceAndNeighboursShareWholeSides) {
   for (int i = 0; i < 30; ++i) {
     const auto resident = randomPages(0.7);
-    selectPatches(index, resident, randomEye(), 4, 1, kPixelsPerRadian, cut);
+    selectPatches(index, resident, randomEye(), {4, 1, kPixelsPerRadian}, cut);
     std::vector<int> covered(index.size());
     for (const TileDraw& tile : cut.cut.tiles) {
       ++covered[tile.node];
@@ -110,12 +110,13 @@ TEST_P(PatchCutOf, keepsThePromisedErrorAndTheCoarsestVariantThatDoes) {
   std::set<int> variants;
   for (int i = 0; i < 40; ++i) {
     const Vec3 eye = randomEye();
-    const double tolerance = 3.0 / kPixelsPerRadian;
-    selectPatches(index, {}, eye, 3, 1, kPixelsPerRadian, cut);
+    const double tolerance = 3.0 / kPixelsPerRadian, spread = i % 4 == 1 ? 0.6 : i % 4 == 3 ? 1.7 : 1;
+    selectPatches(index, {}, eye, {3, 1, kPixelsPerRadian, spread, 1500}, cut);
     EXPECT_EQ(cut.heldBack, 0u);
     for (const TileDraw& tile : cut.cut.tiles) {
       const auto error = index.errorM[tile.node];
-      const double most = tolerance * distance(index.bounds[tile.node], eye) * (1 + 1e-12);
+      const double far = distance(index.bounds[tile.node], eye);
+      const double most = tolerance * 1500 * std::pow(far / 1500, 1 / spread) * (1 + 1e-12);
       variants.insert(tile.variant.number);
       ASSERT_LT(tile.variant.number, index.variants());
       if (index.children[tile.node] != std::array{kNone, kNone} || tile.variant.number > 0) {
@@ -133,7 +134,7 @@ TEST_P(PatchCutOf, saysWhatThePictureLacksInPixelsCoarsePagesFirst) {
   const auto resident = randomPages(0.5);
   for (int i = 0; i < 20; ++i) {
     const Vec3 eye = randomEye();
-    selectPatches(index, resident, eye, 2, 1, kPixelsPerRadian, cut);
+    selectPatches(index, resident, eye, {2, 1, kPixelsPerRadian}, cut);
     std::vector<float> error(index.pages.size(), -1);
     for (const PageWant& want : cut.wants) error[want.page] = want.errorPx;
     const Fixpoint expected(index, resident, eye, 2 / kPixelsPerRadian);
@@ -161,10 +162,10 @@ TEST_P(PatchCutOf, doesNotDependOnWhatWasChosenBeforeOrOnWhichTerrain) {
   for (int i = 0; i < 30; ++i) {
     const Vec3 eye = randomEye();
     const auto resident = randomPages(0.8);
-    if (i % 5 == 0) selectPatches(other, {}, eye, 1, 1, kPixelsPerRadian, cut);
-    selectPatches(index, resident, eye, 3, 1, kPixelsPerRadian, cut);
+    if (i % 5 == 0) selectPatches(other, {}, eye, {1, 1, kPixelsPerRadian}, cut);
+    selectPatches(index, resident, eye, {3, 1, kPixelsPerRadian}, cut);
     PatchCut fresh;
-    selectPatches(index, resident, eye, 3, 1, kPixelsPerRadian, fresh);
+    selectPatches(index, resident, eye, {3, 1, kPixelsPerRadian}, fresh);
     ASSERT_EQ(cut.cut.tiles.size(), fresh.cut.tiles.size());
     ASSERT_EQ(cut.heldBack, fresh.heldBack);
     ASSERT_EQ(cut.wants.size(), fresh.wants.size());
@@ -183,7 +184,7 @@ TEST_P(PatchCutOf, isDrawnInAnOrderThatIsTheIndexsOwn) {
   // Any two patches stand in the same order in all cuts: so no order is ever met the other way round.
   std::set<std::pair<std::uint32_t, std::uint32_t>> before;
   for (int i = 0; i < 10; ++i) {
-    selectPatches(index, {}, randomEye(), 10, 1, kPixelsPerRadian, cut);
+    selectPatches(index, {}, randomEye(), {10, 1, kPixelsPerRadian}, cut);
     for (std::size_t a = 0; a < cut.cut.tiles.size(); ++a)
       for (std::size_t b = a + 1; b < std::min(a + 20, cut.cut.tiles.size()); ++b) {
         const auto pair = std::pair(cut.cut.tiles[a].node, cut.cut.tiles[b].node);
@@ -197,13 +198,13 @@ TEST_P(PatchCutOf, neverGetsCoarserAnywhereByAPageMore) {
   for (int i = 0; i < 20; ++i) {
     const Vec3 eye = randomEye();
     auto resident = randomPages(0.5);
-    selectPatches(index, resident, eye, 2, 1, kPixelsPerRadian, cut);
+    selectPatches(index, resident, eye, {2, 1, kPixelsPerRadian}, cut);
     std::vector<char> covered(index.size());
     for (const TileDraw& tile : cut.cut.tiles) covered[tile.node] = 1;
     for (std::size_t p = 0; p < index.size(); ++p)
       if (index.parent[p] != kNone && covered[index.parent[p]]) covered[p] = 1;
     for (int more = 0; more < 5; ++more) resident[random() % resident.size()] = 1;
-    selectPatches(index, resident, eye, 2, 1, kPixelsPerRadian, cut);
+    selectPatches(index, resident, eye, {2, 1, kPixelsPerRadian}, cut);
     for (const TileDraw& tile : cut.cut.tiles) ASSERT_TRUE(covered[tile.node]);
   }
 }
@@ -217,7 +218,7 @@ TEST_P(PatchCutOf, isFinerWhereAPageOfRootsIsLost) {
     std::vector<std::uint8_t> resident(index.pages.size(), 1);
     resident[roots[random() % roots.size()]] = 0;
     const Vec3 eye = randomEye();
-    selectPatches(index, resident, eye, 4, 1, kPixelsPerRadian, cut);
+    selectPatches(index, resident, eye, {4, 1, kPixelsPerRadian}, cut);
     const auto nodes = drawn();
     std::size_t lost = 0;
     for (const std::uint32_t node : nodes) {
@@ -247,18 +248,18 @@ TEST_P(PatchCutOf, isTheRootsForAnEyeThatIsNotANumberOrNotAnywhere) {
   for (const double bad : {kNan, kInfinity, -kInfinity, 1e300})
     for (const Vec3 eye : {Vec3{bad, 0, 0}, Vec3{0, bad, 0}, Vec3{0, 0, bad}, Vec3{bad, bad, bad}})
       for (const double px : {2.0, 0.0}) {
-        selectPatches(index, {}, eye, px, 1, kPixelsPerRadian, cut);
+        selectPatches(index, {}, eye, {px, 1, kPixelsPerRadian}, cut);
         ASSERT_EQ(cut.cut.tiles.size(), roots);
       }
   for (const double px : {kNan, kInfinity}) {
-    selectPatches(index, {}, {1000, 1000, 3000}, px, 1, kPixelsPerRadian, cut);
+    selectPatches(index, {}, {1000, 1000, 3000}, {px, 1, kPixelsPerRadian}, cut);
     EXPECT_EQ(cut.cut.tiles.size(), roots);
     EXPECT_EQ(cut.cut.tiles[0].variant.number, std::get<1>(GetParam()) - 1);
   }
 }
 
 TEST_P(PatchCutOf, isWholeWithoutATolerance) {
-  selectPatches(index, {}, {1000, 1000, 30000}, 0, 1, kPixelsPerRadian, cut);
+  selectPatches(index, {}, {1000, 1000, 30000}, {0, 1, kPixelsPerRadian}, cut);
   const Fixpoint expected(index, {}, {1000, 1000, 30000}, 0);
   EXPECT_EQ(drawn(), expected.drawn);
   EXPECT_GT(drawn().size(), index.size() / 3);
@@ -268,8 +269,8 @@ TEST_P(PatchCutOf, halvesAroundAnEyeThatIsInside) {
   for (std::uint32_t leaf = static_cast<std::uint32_t>(index.size()) - 1; leaf > index.size() - 20; --leaf) {
     if (!(index.errorM[leaf][0] > 0) || index.children[leaf] != std::array{kNone, kNone}) continue;
     const Box& b = index.bounds[leaf];
-    selectPatches(index, {}, {0.5 * (b.minX + b.maxX), 0.5 * (b.minY + b.maxY), 0.5 * (b.minZ + b.maxZ)}, 1e9,
-                  1, kPixelsPerRadian, cut);
+    selectPatches(index, {}, {0.5 * (b.minX + b.maxX), 0.5 * (b.minY + b.maxY), 0.5 * (b.minZ + b.maxZ)},
+                  {1e9, 1, kPixelsPerRadian}, cut);
     const auto nodes = drawn();
     EXPECT_TRUE(std::binary_search(nodes.begin(), nodes.end(), leaf));
   }
@@ -281,7 +282,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, PatchCutOf,
 
 TEST(PatchCut, isEmptyWithoutPatches) {
   PatchCut cut;
-  selectPatches({}, {}, {}, 1, 1, kPixelsPerRadian, cut);
+  selectPatches({}, {}, {}, {1, 1, kPixelsPerRadian}, cut);
   EXPECT_TRUE(cut.cut.tiles.empty());
   EXPECT_TRUE(cut.wants.empty());
 }
@@ -290,7 +291,7 @@ TEST(PatchVisible, countsTheTrianglesOfTheVariantsThatAreDrawn) {
   const PatchIndex index = test::randomPatches(900, 700, 512, 16, 3, 3);
   PatchCut cut;
   EyePose eye{{3000, 3000, 1500}, {}};
-  selectPatches(index, {}, eye.position, 4, 1, kPixelsPerRadian, cut);
+  selectPatches(index, {}, eye.position, {4, 1, kPixelsPerRadian}, cut);
   VisibleSet visible;
   std::vector<std::uint8_t> hidden(cut.cut.tiles.size());
   for (std::size_t i = 0; i < hidden.size(); i += 5) hidden[i] = 1;

@@ -27,16 +27,17 @@ class StaticCutOf : public testing::TestWithParam<unsigned> {
     std::uniform_real_distribution<double> place(-8000, 32000), height(0, 9000);
     return {place(random), place(random), height(random)};
   }
-  void collect(std::uint32_t node, Vec3 eye, double perError, std::vector<std::uint32_t>& drawn) const {
+  void collect(std::uint32_t node, Vec3 eye, double perError, std::vector<std::uint32_t>& drawn,
+               double spread = 1) const {
     const Box& b = index.bounds[node];
     const Vec3 nearest{std::clamp(eye.x, double{b.minX}, double{b.maxX}),
                        std::clamp(eye.y, double{b.minY}, double{b.maxY}),
                        std::clamp(eye.z, double{b.minZ}, double{b.maxZ})};
     const auto& children = index.nodes[node].children;
     if (children[0] == StaticLodIndex::kNone ||
-        length(eye - nearest) >= double{index.rmsErrorM[node]} * perError)
+        length(eye - nearest) >= 3000 * std::pow(double{index.rmsErrorM[node]} * perError / 3000, spread))
       return drawn.push_back(node);
-    for (const std::uint32_t child : children) collect(child, eye, perError, drawn);
+    for (const std::uint32_t child : children) collect(child, eye, perError, drawn, spread);
   }
 };
 
@@ -45,7 +46,7 @@ TEST_P(StaticCutOf, isWhatARecursionByTheRuleOfDocumentEDraws) {
   for (int i = 0; i < 60; ++i) {
     const Vec3 eye = randomEye();
     const double perError = 20 * std::pow(1.1, i);
-    selectStatic(index, index.rmsErrorM, perError, eye, cut);
+    selectStatic(index, index.rmsErrorM, {perError}, eye, cut);
     std::vector<std::uint32_t> expected;
     for (const std::uint32_t root : index.roots) collect(root, eye, perError, expected);
     ASSERT_EQ((*cut.nodes), expected);
@@ -54,10 +55,21 @@ TEST_P(StaticCutOf, isWhatARecursionByTheRuleOfDocumentEDraws) {
   EXPECT_GT(sizes.size(), 20u) << "the cuts hardly differed";
 }
 
+TEST_P(StaticCutOf, spreadsItsDistancesAsTheRuleSays) {
+  for (const double spread : {0.5, 1.4, 2.5})
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 eye = randomEye();
+      selectStatic(index, index.rmsErrorM, {500, spread, 3000}, eye, cut);
+      std::vector<std::uint32_t> expected;
+      for (const std::uint32_t root : index.roots) collect(root, eye, 500, expected, spread);
+      ASSERT_EQ((*cut.nodes), expected) << spread;
+    }
+}
+
 TEST_P(StaticCutOf, coversEveryLeafExactlyOnce) {
   for (int i = 0; i < 40; ++i) {
     if (i < 30)
-      selectStatic(index, i % 2 ? index.rmsErrorM : index.maxErrorM, 100 * (1 + i), randomEye(), cut);
+      selectStatic(index, i % 2 ? index.rmsErrorM : index.maxErrorM, {100.0 * (1 + i)}, randomEye(), cut);
     else
       selectStaticDepth(index, i - 30, cut);
     for (const std::uint32_t node : i < 30 ? std::vector<std::uint32_t>{} : (*cut.nodes))
@@ -97,7 +109,7 @@ TEST_P(StaticCutOf, neverGetsFinerAsTheViewerGoesUpAndAway) {
   std::vector<int> last(leaves.size(), 1000);
   int steps = 0;
   for (double height = 1500; height < 2e6; height *= 2) {
-    selectStatic(index, index.rmsErrorM, 1500, {12000, 12000, height}, cut);
+    selectStatic(index, index.rmsErrorM, {1500}, {12000, 12000, height}, cut);
     for (std::size_t i = 0; i < leaves.size(); ++i) {
       const int depth = depthOver(leaves[i]);
       ASSERT_GE(depth, 0);
@@ -113,8 +125,8 @@ TEST_P(StaticCutOf, neverGetsFinerAsTheViewerGoesUpAndAway) {
 TEST_P(StaticCutOf, drawsInAnOrderThatDependsOnTheTreesAlone) {
   LevelCut again;
   for (int i = 0; i < 20; ++i) {
-    selectStatic(index, index.rmsErrorM, 900, randomEye(), cut);
-    selectStatic(index, index.rmsErrorM, 900, randomEye(), again);
+    selectStatic(index, index.rmsErrorM, {900}, randomEye(), cut);
+    selectStatic(index, index.rmsErrorM, {900}, randomEye(), again);
     ASSERT_TRUE(std::is_sorted((*cut.nodes).begin(), (*cut.nodes).end())) << "as these trees were grown";
     ASSERT_TRUE(std::is_sorted((*again.nodes).begin(), (*again.nodes).end()));
   }
@@ -127,19 +139,19 @@ TEST(StaticCuts, isTheRootsForAnEyeThatIsNotANumber) {
   LevelCut cut;
   for (const Vec3 eye : {Vec3{kNan, 0, 0}, Vec3{0, kNan, 0}, Vec3{0, 0, kNan}, Vec3{kNan, kNan, kNan},
                          Vec3{0, -std::numeric_limits<double>::infinity(), 0}}) {
-    selectStatic(index, index.rmsErrorM, 1e9, eye, cut);
+    selectStatic(index, index.rmsErrorM, {1e9}, eye, cut);
     EXPECT_EQ((*cut.nodes), index.roots);
   }
-  selectStatic(index, index.rmsErrorM, kNan, {8000, 8000, 500}, cut);
+  selectStatic(index, index.rmsErrorM, {kNan}, {8000, 8000, 500}, cut);
   EXPECT_EQ((*cut.nodes), index.roots);
 }
 
 TEST(StaticCuts, isEmptyWithoutTreesAndWholeAtTheGroundWithoutALimit) {
   LevelCut cut;
-  selectStatic({}, {}, 1000, {}, cut);
+  selectStatic({}, {}, {1000}, {}, cut);
   EXPECT_TRUE((*cut.nodes).empty());
   const StaticLodIndex index = test::randomTrees(2, 4);
-  selectStatic(index, index.rmsErrorM, 1e12, {8000, 8000, 500}, cut);
+  selectStatic(index, index.rmsErrorM, {1e12}, {8000, 8000, 500}, cut);
   for (const std::uint32_t node : (*cut.nodes))
     EXPECT_EQ(index.nodes[node].children[0], StaticLodIndex::kNone);
 }
@@ -149,7 +161,7 @@ TEST(StaticCuts, standsStillWhileOnlyTheErrorIsZero) {
   StaticLodIndex index = test::randomTrees(1, 5);
   std::fill(index.rmsErrorM.begin(), index.rmsErrorM.end(), 0.0f);
   LevelCut cut;
-  selectStatic(index, index.rmsErrorM, 1e9, {4000, 4000, 100}, cut);
+  selectStatic(index, index.rmsErrorM, {1e9}, {4000, 4000, 100}, cut);
   EXPECT_EQ((*cut.nodes), index.roots);
 }
 
@@ -180,7 +192,7 @@ TEST(StaticDistance, takesTheErrorThatIsAskedFor) {
 
 class StaticVisible : public testing::Test {
  protected:
-  StaticVisible() { selectStatic(index, index.rmsErrorM, 3000, eye.position, cut); }
+  StaticVisible() { selectStatic(index, index.rmsErrorM, {3000}, eye.position, cut); }
   StaticLodIndex index = test::randomTrees(3, 21);
   EyePose eye{{12000, 4000, 1500}, axesOf(20, -5)};
   LevelCut cut;

@@ -23,7 +23,7 @@ bool isInPicture(Vec3 p, const EyePose& eye, const ViewShape& v) {
 
 LevelCut wholeCut(const TerrainIndex& index) {
   LevelCut cut;
-  selectLevels(index, {16000, 16000, 500}, 0.1, 1, 1100, cut);
+  selectLevels(index, {16000, 16000, 500}, {0.1, 1, 1100}, cut);
   return cut;
 }
 

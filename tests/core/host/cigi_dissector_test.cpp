@@ -70,6 +70,7 @@ TEST_P(SentCigi, isReadByTheDissectorFieldByField) {
     s.attitude = {Degrees{9.0 * i}, Degrees{-80.5 + 4.0 * i}, Degrees{-170.0 + 8.5 * i}};
     s.head = Attitude{Degrees{-150.0 + 7.5 * i}, Degrees{-60.25 + 3.0 * i}, Degrees{0.5 * i}};
     s.visibility = Metres{50.0 + 800.0 * i};
+    s.wind = Wind{MetresPerSecond{0.5 * i}, Degrees{5.0 * i}, MetresPerSecond{-0.125 * i}};
     s.view = HostView{Metres{0.25 + i}, Degrees{-10.5 - i}, Degrees{11.25 + i}, Degrees{-12.75 - i},
                       Degrees{13.5 + i}};
     const std::uint32_t frame = 4294967290U + i;
@@ -115,6 +116,9 @@ TEST_P(SentCigi, isReadByTheDissectorFieldByField) {
         {"cigi.view_def.bottom", s.view->bottom->value()},
         {"cigi.atmosphere_control.atmospheric_model_enable", 1},
         {"cigi.atmosphere_control.visibility_range", s.visibility->value()},
+        {"cigi.atmosphere_control.horiz_wind", s.wind->speed.value()},
+        {"cigi.atmosphere_control.vert_wind", s.wind->up.value()},
+        {"cigi.atmosphere_control.wind_direction", s.wind->from.value()},
         {"cigi.atmosphere_control.air_temp", 15},
         {"cigi.atmosphere_control.barometric_pressure", 1013.25},
     });
@@ -134,11 +138,13 @@ TEST_P(SentCigi, weatherIsReadByTheDissectorFieldByField) {
     AircraftState s = aState();
     s.weather = HostWeather{static_cast<Precipitation>(i % 3), i / 3, std::nullopt};
     if (i % 2 == 0) s.weather->visibility = Metres{250.5 * (i + 1)};
+    if (i % 4 != 3) s.wind = Wind{MetresPerSecond{1.5 * i}, Degrees{20.0 * i}, MetresPerSecond{0.25 * i - 1}};
     datagrams.push_back({1e9 + i, "127.0.0.1:40000", "127.0.0.1:8004",
                          encodeCigiHost(s, static_cast<std::uint32_t>(i), 0, GetParam())});
     const auto layer = [&](double id, Precipitation kind) {
       const bool falls = s.weather->precipitation == kind;
       const double visibility = s.weather->visibility.value_or(Metres{0}).value();
+      const Wind wind = falls && s.wind ? *s.wind : Wind{};
       return std::map<std::string, double>{{"cigi.weather_control.layer_id", id},
                                            {"cigi.weather_control.entity_region_id", 0},
                                            {"cigi.weather_control.scope", 0},
@@ -148,6 +154,9 @@ TEST_P(SentCigi, weatherIsReadByTheDissectorFieldByField) {
                                            {"cigi.weather_control.random_winds_enable", 0},
                                            {"cigi.weather_control.random_lightning_enable", 0},
                                            {"cigi.weather_control.coverage", falls ? 100 : 0},
+                                           {"cigi.weather_control.horiz_wind", wind.speed.value()},
+                                           {"cigi.weather_control.vert_wind", wind.up.value()},
+                                           {"cigi.weather_control.wind_direction", wind.from.value()},
                                            {"cigi.weather_control.visibility_range", falls ? visibility : 0}};
     };
     rain.push_back(layer(4, Precipitation::rain));

@@ -89,6 +89,41 @@ TEST_P(WeatherControl, ofRegionsEntitiesAndOtherLayersIsCountedAndPassedOver) {
   EXPECT_EQ(decoder_.statistics().bad, 0U);
 }
 
+TEST_P(WeatherControl, tellsTheWindOfTheLayerThatFallsElseOfTheAtmosphere) {
+  const Wind west{MetresPerSecond{12}, Degrees{270}, MetresPerSecond{-0.5}},
+      north{MetresPerSecond{30}, Degrees{0}, MetresPerSecond{0}};
+  const auto heard = [&](const std::optional<HostWeather>& weather, std::optional<Metres> visibility,
+                         const std::optional<Wind>& wind) {
+    AircraftState s = withWeather(weather);
+    s.visibility = visibility;
+    s.wind = wind;
+    s.time += 0.02 * ++frame_;
+    const auto state = feed(decoder_, encodeCigiHost(s, frame_, 0, GetParam()), 100 + 0.02 * frame_);
+    EXPECT_TRUE(state) << decoder_.statistics().firstBadReason;
+    return state ? state->wind : std::nullopt;
+  };
+  const HostWeather snow{Precipitation::snow, 5, std::nullopt};
+  EXPECT_FALSE(heard(std::nullopt, std::nullopt, west)) << "no packet holds it";
+  EXPECT_EQ(heard(std::nullopt, Metres{9000}, west), west);
+  EXPECT_EQ(heard(snow, std::nullopt, north), north) << "in the layer";
+  EXPECT_EQ(heard(snow, std::nullopt, std::nullopt), west) << "calm in the layer";
+  EXPECT_EQ(heard(HostWeather{}, std::nullopt, north), west) << "nothing falls";
+}
+
+TEST_P(WeatherControl, ofAWindThatIsNoneIsPassedOver) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const auto& [offset, value] : {std::pair{36, nan}, std::pair{36, 201.F}, std::pair{40, -201.F},
+                                      std::pair{44, 361.F}, std::pair{44, nan}}) {
+    auto bytes = message(HostWeather{Precipitation::snow, 5, Metres{10}});
+    wire::put(bytes, kSnowAt + 36, GetParam(), 20.F);
+    wire::put(bytes, kSnowAt + static_cast<std::size_t>(offset), GetParam(), value);
+    const auto state = feed(decoder_, bytes, 100 + 0.02 * frame_);
+    ASSERT_TRUE(state) << decoder_.statistics().firstBadReason;
+    EXPECT_FALSE(state->wind) << offset << ' ' << value;
+    EXPECT_TRUE(state->weather);
+  }
+}
+
 TEST_P(WeatherControl, thatIsSwitchedOffIsNotRead) {
   auto bytes = message(HostWeather{});
   bytes[kRainAt + 7] = std::byte{7U << 2U};

@@ -227,6 +227,32 @@ TEST(HostWeather, ofSeverityOutsideItsScaleIsHeldToIt) {
   EXPECT_EQ(d.density, 0);
 }
 
+TEST(Weather, hasThePresetsWindUntilAHostSendsOne) {
+  TuningParameters p;
+  p.weather.windSpeed = MetresPerSecond{8};
+  p.weather.windFrom = Degrees{90};
+  AircraftState state;
+  state.wind = Wind{MetresPerSecond{20}, Degrees{180}, MetresPerSecond{2}};
+  const Wind presets{MetresPerSecond{8}, Degrees{90}, MetresPerSecond{0}};
+  EXPECT_EQ(windOf(state, p.weather), presets);
+  p.weather.source = WeatherSource::host;
+  EXPECT_EQ(windOf(state, p.weather), *state.wind);
+  EXPECT_EQ(windOf(AircraftState{}, p.weather), presets);
+}
+
+TEST(Wind, blowsAwayFromWhereItComes) {
+  const auto blows = [](double speed, double from, double up) {
+    return eastNorthUp(Wind{MetresPerSecond{speed}, Degrees{from}, MetresPerSecond{up}});
+  };
+  struct Case {
+    double from, east, north;
+  };
+  for (const auto& [from, east, north] :
+       {Case{0, 0, -10}, Case{90, -10, 0}, Case{180, 0, 10}, Case{270, 10, 0}, Case{360, 0, -10},
+        Case{225, std::sqrt(50.0), std::sqrt(50.0)}})
+    EXPECT_LT(length(blows(10, from, 3) - Vec3{east, north, 3}), 1e-12) << from;
+}
+
 TEST(StepParameters, betweenStepsLieOnLines) {
   TuningParameters p;
   p.rainLight.farStretch = Ratio{3};

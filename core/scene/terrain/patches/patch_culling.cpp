@@ -5,9 +5,9 @@
 #include <limits>
 #include <optional>
 
-#include "core/scene/terrain/cut_rule.h"
 #include "page_budget.h"
 #include "patch_layer.h"
+#include "trimtab/culling/cut_rule.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/scene/planted_defects.h"
 
@@ -241,8 +241,7 @@ bool PatchCulling::Impl::lookAhead(const FrameRequest& request, const CutKey& wa
       length(*ahead - *laterEye) <= kAheadStep * length(*ahead - wanted.eye))
     return false;
   laterEye = ahead;
-  selectPatches(terrain->index(), {}, *ahead, wanted.rule.maxErrorPx, wanted.rule.lodScale,
-                wanted.rule.pixelsPerRadian, later);
+  selectPatches(terrain->index(), {}, *ahead, wanted.rule, later);
   laterWants.clear();
   for (const PageWant& want : later.wants)
     laterWants.push_back({want.page, kAheadUrgency * std::min(want.errorPx, kMostAheadPx)});
@@ -273,8 +272,7 @@ bool PatchCulling::Impl::choose(const FrameRequest& request, const EyePose& eye,
 }
 
 void PatchCulling::Impl::select(const CutKey& wanted, PatchCut& cut) {
-  selectPatches(terrain->index(), pages.drawable(), wanted.eye, wanted.rule.maxErrorPx, wanted.rule.lodScale,
-                wanted.rule.pixelsPerRadian, cut);
+  selectPatches(terrain->index(), pages.drawable(), wanted.eye, wanted.rule, cut);
 }
 
 void PatchCulling::Impl::ask() {

@@ -58,9 +58,11 @@ FrameCounters StaticLodCulling::select(const FrameRequest& request, const EyePos
   FrameCounters counters;
   const ViewShape& v = request.view;
   const CutKey key{
-      eye.position, request.staticLod.error,
-      staticLodDistancePerError(request.staticLod, request.decision.lodScale, pixelsPerRadian(v)) *
-          defects_.statedErrorScale,
+      eye.position,
+      request.staticLod.error,
+      {staticLodDistancePerError(request.staticLod, request.decision.lodScale, pixelsPerRadian(v)) *
+           defects_.statedErrorScale,
+       request.lod.spread.value(), request.lod.spreadFrom.value()},
       request.overlays.treeDepth};
   if (cutKey_ != key || !request.skips.sameCut) {
     if (key.depth >= 0)
@@ -68,15 +70,21 @@ FrameCounters StaticLodCulling::select(const FrameRequest& request, const EyePos
     else {
       if (errors_.empty() || !cutKey_ || cutKey_->error != key.error)
         errors_ = staticLodError(index(), key.error);
-      selectStatic(index(), errors_, key.distancePerError, key.eye, cut_);
+      selectStatic(index(), errors_, key.rule, key.eye, cut_);
     }
     orderByDistance(eye.position);
     cutKey_ = key;
     ++counters.cutsSelected;
   }
   const double farM = farCutM(request);
-  const VisibleKey wanted{
-      key, eye, v, request.method, request.decision.depthMap, farM, request.overlays.treePicture};
+  const VisibleKey wanted{key,
+                          eye,
+                          v,
+                          request.method,
+                          request.decision.depthMap,
+                          farM,
+                          request.overlays.treePicture,
+                          request.testedWithinM};
   // Frozen, what was hidden from there stays hidden: the picture is another eye's and cannot tell.
   if (visibleKey_ == wanted && (request.frozenEye || request.skips.sameVisible)) return counters;
   visibleKey_ = wanted;
@@ -160,7 +168,10 @@ OcclusionResult StaticLodCulling::occlusion(const FrameRequest& request) const {
 
 void StaticLodCulling::removeHidden(const DepthPyramid& covered) {
   flags_.assign(visible_.tiles.size(), 0);
+  const double within2 = visibleKey_->testedWithinM * visibleKey_->testedWithinM;
   for (std::size_t i = visibleNear_; i < flags_.size(); ++i) {
+    if (!(distanceSquared(index().bounds[visible_.tiles[i].node], visibleKey_->eye.position) < within2))
+      continue;
     const std::span<const Box> parts = parts_.of(visible_.tiles[i].node);
     flags_[i] = std::all_of(parts.begin(), parts.end(), [&](const Box& part) {
       return covered.isHidden(part, visibleKey_->eye, visibleKey_->view);

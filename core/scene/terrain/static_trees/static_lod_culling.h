@@ -52,7 +52,7 @@ class StaticLodCulling {
   struct CutKey {
     Vec3 eye;
     ErrorMeasure error = ErrorMeasure::rms;
-    double distancePerError = 0;
+    StaticLodRule rule;
     int depth = -1;
     friend bool operator==(const CutKey&, const CutKey&) = default;
   };
@@ -74,6 +74,7 @@ class StaticLodCulling {
     std::optional<DepthMapSize> map;
     double farM = 0;
     bool picture = false;
+    double testedWithinM = 0;
     friend bool operator==(const VisibleKey&, const VisibleKey&) = default;
   };
   std::optional<VisibleKey> visibleKey_;

@@ -1,8 +1,10 @@
 #include "tile_drawer.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/scene/gl/gl_api.h"
+#include "trimtab/culling/box_distance.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/scene/gl_report.h"
 
@@ -46,6 +48,7 @@ PreparedTerrain TileDrawer::prepare(const FrameInProgress& frame) {
   prepared.depth = prepareDepthMap(r, prepared.occlusion.note);
   mapDrawn_ = prepared.depth.has_value();
   nearM_ = r.view.nearM;
+  testedWithinM_ = r.testedWithinM;
   frame.clock.lap(mapDrawn_ ? &FrameCost::occlusion : &FrameCost::select);
   if (mapDrawn_) prepared.occlusion.depthMap = occlusion_.resolution();
   prepared.counters = occlusion_.counters();
@@ -60,8 +63,7 @@ PreparedTerrain TileDrawer::prepare(const FrameInProgress& frame) {
 bool TileDrawer::selectCut(const FrameRequest& request) {
   const CutKey key{eye_.position, cutRuleOf(request, defects_.statedErrorScale)};
   if (cutKey_ == key && request.skips.sameCut) return false;
-  selectLevels(database_->index(), key.eye, key.rule.maxErrorPx, key.rule.lodScale, key.rule.pixelsPerRadian,
-               cut_);
+  selectLevels(database_->index(), key.eye, key.rule, cut_);
   cutNumber_.errorOverDistance = key.rule.errorOverDistance();
   cutNumber_.cut += cutKey_ != key;
   cutNumber_.rule += !cutKey_ || cutKey_->rule != key.rule;
@@ -105,6 +107,10 @@ std::optional<DepthView> TileDrawer::prepareDepthMap(const FrameRequest& request
 
 void TileDrawer::removeHidden() {
   gl_->occlusion.test(gl_->tiles, flags_);
+  if (const double within2 = testedWithinM_ * testedWithinM_; std::isfinite(within2))
+    for (std::size_t i = 0; i < flags_.size(); ++i)
+      if (!(distanceSquared(database_->index().bounds[visible_.tiles[i].node], eye_.position) < within2))
+        flags_[i] = 0;
   removeOccluded(cut_, flags_, visible_);
   visible_.vertices = tileVertices(visible_);
 }

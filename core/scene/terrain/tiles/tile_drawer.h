@@ -2,10 +2,10 @@
 
 #include "core/scene/occlusion/occlusion.h"
 #include "core/scene/occlusion/occlusion_stage.h"
-#include "core/scene/terrain/cut_rule.h"
 #include "core/scene/terrain/terrain_drawer.h"
 #include "tile_cache.h"
 #include "tile_ground.h"
+#include "trimtab/culling/cut_rule.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/scene/planted_defects.h"
 
@@ -70,8 +70,9 @@ class TileDrawer final : public TerrainDrawer {
   std::vector<TileDraw> occluders_;  ///< drawn into the GPU's depth map
   std::vector<std::uint8_t> flags_;
   Defects defects_;
-  bool mapDrawn_ = false;  ///< by the GPU, in the last frame
-  double nearM_ = 1;       ///< of the last frame
+  bool mapDrawn_ = false;     ///< by the GPU, in the last frame
+  double nearM_ = 1;          ///< of the last frame
+  double testedWithinM_ = 0;  ///< of this frame
   std::unique_ptr<Gl> gl_;
 };
 

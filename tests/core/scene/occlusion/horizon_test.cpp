@@ -209,7 +209,7 @@ TEST(HorizonMemory, knowsHowFastTheEyeGoesAlsoWhereItIsNotAsked) {
   for (int frame = 0; frame <= 100; ++frame) {
     memory.beginFrame();
     if (frame % 10 == 0) {
-      selectLevels(database->index(), eye, 0.2, 1, 640, cut);
+      selectLevels(database->index(), eye, {0.2, 1, 640}, cut);
       ++number.cut;
       memory.find(ground, eye, {}, {.littleHidden = false});
       const ValidityRegion& region = memory.horizon().region();

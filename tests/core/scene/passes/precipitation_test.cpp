@@ -162,6 +162,49 @@ TEST_F(Falling, streaksAlongTheEyesWay) {
   EXPECT_EQ(differing(still, picture(r)), 0u);
 }
 
+TEST_F(Falling, streaksByTheEyesWayThroughTheAir) {
+  use(test::syntheticMountains());
+  auto r = falling(Precipitation::rain, 0.6);
+  const Pixels8 still = picture(r);
+  // West wind of 20 m/s: air that moves east.
+  r.wind = {MetresPerSecond{20}, Degrees{270}, MetresPerSecond{1}};
+  EXPECT_GT(differing(still, picture(r)), 1000u);
+  r.velocity = Velocity{MetresPerSecond{0}, MetresPerSecond{20}, MetresPerSecond{-1}};
+  EXPECT_LT(differing(still, picture(r)), 10u) << "an eye that drifts along sees rain fall straight down";
+}
+
+TEST_F(Falling, looksAsThePresetSays) {
+  use(test::syntheticMountains());
+  const auto changed = [&](const Pixels8& a, const Pixels8& b, std::size_t channel) {
+    std::size_t n = 0;
+    for (std::size_t i = channel; i < a.size(); i += 4) n += a[i] != b[i];
+    return n;
+  };
+  for (const Precipitation kind : kKinds) {
+    auto r = falling(kind, 0.6);
+    const auto look = [kind](FrameRequest& of) -> PrecipitationLook& {
+      return kind == Precipitation::rain ? of.rain : of.snow;
+    };
+    const Pixels8 before = picture(r), without = picture(dry(r));
+    auto red = r;
+    look(red).red = Ratio{0.2};
+    EXPECT_GT(changed(before, picture(red), 0), 1000u);
+    EXPECT_EQ(changed(before, picture(red), 1), 0u);
+    EXPECT_EQ(changed(before, picture(red), 2), 0u);
+    auto large = r;
+    look(large).size = Ratio{3};
+    const auto strength = [&](const Pixels8& p) {
+      double sum = 0;
+      for (std::size_t i = 0; i < p.size(); ++i) sum += std::abs(double{1} * p[i] - without[i]);
+      return sum;
+    };
+    EXPECT_GT(strength(picture(large)), 1.5 * strength(before));
+    auto fast = r;
+    look(fast).fallSpeed = Ratio{2};
+    EXPECT_GT(differing(before, picture(fast)), 1000u);
+  }
+}
+
 TEST_F(Falling, isRunOnlyWhereSomethingFalls) {
   use(test::syntheticMountains());
   auto r = falling(Precipitation::none, 1);
@@ -228,13 +271,12 @@ TEST(PrecipitationLattice, standsStillInTheWorld) {
 }
 
 /// Where every flake is, by what the effect and the shaders promise: cells of a lattice that stands in the
-/// world, a pattern that is the same in each but for its own shift, falling.
-TEST_F(Falling, isWhereTheWorldsLatticeSaysFromAnyEye) {
+/// air, a pattern that is the same in each but for its own shift, falling.
+TEST_F(Falling, isWhereTheAirsLatticeSaysFromAnyEye) {
   use(test::syntheticMountains());
   constexpr double kDensity = 0.06;
   // osgParticle::PrecipitationEffect::snow(intensity).
   const Vec3 cell{5 / (0.25 + kDensity), 5 / (0.25 + kDensity), 5};
-  const double speed = 0.75 + 0.25 * kDensity;
   const int count = static_cast<int>(kDensity * 8.2 * cell.x * cell.y * cell.z);
   std::vector<Vec3> pattern;
   std::mt19937 random(20140908);
@@ -245,13 +287,22 @@ TEST_F(Falling, isWhereTheWorldsLatticeSaysFromAnyEye) {
   }
   const auto wrapped = [](double x) { return x - std::floor(x); };
 
-  for (const auto& [east, north] : {std::pair{0.5, 0.5}, std::pair{0.31, 0.64}, std::pair{0.77, 0.22}}) {
+  struct Case {
+    double east, north, fallSpeed;
+    Vec3 drift;
+  };
+  for (const auto& [east, north, fallSpeed, drift] :
+       {Case{0.5, 0.5, 1, {}}, Case{0.31, 0.64, 1, {}}, Case{0.77, 0.22, 1, {}}, Case{0.5, 0.5, 3, {}},
+        Case{0.4, 0.6, 1, {-1234.5, 777.25, 3.5}}}) {
+    const double speed = (0.75 + 0.25 * kDensity) * fallSpeed;
     auto r = falling(Precipitation::snow, kDensity, 3000);
     r.eye = over(east, north, 3000);
     r.attitude = {Degrees{123}, Degrees{4}, Degrees{0}};
+    r.snow.fallSpeed = Ratio{fallSpeed};
+    r.airDrift = transposed(database->index().frame.ecefToLocal()) * drift;
     const Pixels8 snow = picture(r), without = picture(dry(r));
     const LocalFrame& frame = database->index().frame;
-    const Vec3 eye = frame.fromGeodetic(r.eye);
+    const Vec3 inWorld = frame.fromGeodetic(r.eye), eye = inWorld - drift;
     const Mat3 axes = eyeAxes(frame, r.eye, r.attitude);
     const auto low = [&](double e, double size) { return std::floor(e / size) * size; };
     std::size_t expected = 0, found = 0, white = 0;

@@ -32,7 +32,7 @@ class Looking {
         database_->heightAt(request_.eye.latitude, request_.eye.longitude).value() + Metres{80};
     eye_ = {index_.frame.fromGeodetic(request_.eye),
             eyeAxes(index_.frame, request_.eye, {Degrees{45}, Degrees{-3}, Degrees{0}})};
-    selectLevels(index_, eye_.position, 0.2, 1, 640, cut_);
+    selectLevels(index_, eye_.position, {0.2, 1, 640}, cut_);
     number_ = {1, 1, 0.2 / 640};
   }
 

@@ -34,7 +34,7 @@ TEST(BuiltPatches, areCutAsTheSlowWayCutsThem) {
         for (std::size_t page = 0; page < resident.size(); ++page)
           resident[page] = index.pages[page].pair == 0 || chance(random) < 0.7;
       const double px = 0.3 * std::pow(1.2, i % 20);
-      selectPatches(index, resident, eye, px, 1, 1100, cut);
+      selectPatches(index, resident, eye, {px, 1, 1100}, cut);
       const test::PatchFixpoint expected(index, resident, eye, px / 1100);
       std::vector<std::uint32_t> drawn;
       for (const TileDraw& tile : cut.cut.tiles) drawn.push_back(tile.node);

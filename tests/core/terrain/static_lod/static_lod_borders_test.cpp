@@ -101,7 +101,7 @@ Drawn fromAKilometre(const StaticLodTerrain& terrain, std::size_t tile, ErrorMea
   const Box& box = index.bounds[index.roots[tile]];
   const Vec3 eye{(box.minX + box.maxX) / 2.0, (box.minY + box.maxY) / 2.0, box.maxZ + 1000.0};
   LevelCut cut, source;
-  selectStatic(index, staticLodError(index, measure), 1000, eye, cut);
+  selectStatic(index, staticLodError(index, measure), {1000}, eye, cut);
   selectStaticDepth(index, 255, source);
   const Shape is = shapeOf(terrain, tile, *cut.nodes, wanted),
               was = shapeOf(terrain, tile, *source.nodes, wanted);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "trimtab/culling/box_arrays.h"
+#include "trimtab/culling/cut_rule.h"
 #include "trimtab/frame/eye_pose.h"
 #include "trimtab/frame/frame.h"
 #include "trimtab/frame/terrain_index.h"
@@ -37,11 +38,9 @@ struct LevelCut {
   std::vector<std::uint32_t> stack;
 };
 
-/// Fills `cut` with tiles whose screen-space error at `eye` is at most maxErrorPx * lodScale where the data
-/// allow it, restricted so that neighbours differ by one level at most. `pixelsPerRadian` is
-/// pixelsPerRadian(view).
-void selectLevels(const TerrainIndex& index, Vec3 eye, double maxErrorPx, double lodScale,
-                  double pixelsPerRadian, LevelCut& cut);
+/// Fills `cut` with tiles whose screen-space error at `eye` is what the rule accepts where the data allow it,
+/// restricted so that neighbours differ by one level at most.
+void selectLevels(const TerrainIndex& index, Vec3 eye, const CutRule& rule, LevelCut& cut);
 
 /// Computes the rest of a cut from its tiles. selectLevels calls it.
 void gather(const TerrainIndex& index, LevelCut& cut);

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "trimtab/culling/cut_rule.h"
 #include "trimtab/culling/select.h"
 #include "trimtab/frame/patch_index.h"
 
@@ -31,8 +32,8 @@ struct PatchCut {
   std::vector<std::uint32_t> stack, wantOf;
 };
 
-/// Fills `cut` with patches whose screen-space error at `eye` is at most maxErrorPx * lodScale where the data
-/// and the resident pages allow it; each patch in its coarsest variant that is good enough. `resident` has
+/// Fills `cut` with patches whose screen-space error at `eye` is what the rule accepts where the data and the
+/// resident pages allow it; each patch in its coarsest variant that is good enough. `resident` has
 /// one flag per page, not 0 if the page may be drawn; empty means all. If a root page is missing because it
 /// cannot be read, the next finer pages are drawn in its place at any distance, and nothing where these are
 /// missing too. The cut does not depend on the view direction or on culling. The cost grows with the cut, not
@@ -42,6 +43,6 @@ struct PatchCut {
 /// depends on it should be split. It is split if its children are resident and every diamond that it depends
 /// on is split. So one more resident page never makes any part of the image coarser.
 void selectPatches(const PatchIndex& index, std::span<const std::uint8_t> resident, Vec3 eye,
-                   double maxErrorPx, double lodScale, double pixelsPerRadian, PatchCut& cut);
+                   const CutRule& rule, PatchCut& cut);
 
 }  // namespace trimtab

@@ -21,11 +21,18 @@ double staticLodDistancePerError(const StaticLodParameters& parameters, double l
 /// `as_published`.
 std::vector<float> staticLodError(const StaticLodIndex& index, ErrorMeasure measure);
 
+/// How distances follow from errors.
+struct StaticLodRule {
+  double distancePerError = 0;            ///< of staticLodDistancePerError
+  double spread = 1, spreadFromM = 5000;  ///< LodParameters
+  friend bool operator==(const StaticLodRule&, const StaticLodRule&) = default;
+};
+
 /// Fills `cut` with exactly one node for each leaf, from the roots down: a node is drawn if the eye is at
-/// least error * distancePerError from its box, else its children are tested; leaves are drawn at any
-/// distance. An eye that is not a number gets the roots. `cut` has no normal cones: the proof of
-/// back_facing.h needs a surface without holes and folds, and scenery promises neither.
-void selectStatic(const StaticLodIndex& index, std::span<const float> error, double distancePerError,
+/// least error * distancePerError from its box, spread as the rule says, else its children are tested; leaves
+/// are drawn at any distance. An eye that is not a number gets the roots. `cut` has no normal cones: the
+/// proof of back_facing.h needs a surface without holes and folds, and scenery promises neither.
+void selectStatic(const StaticLodIndex& index, std::span<const float> error, const StaticLodRule& rule,
                   Vec3 eye, LevelCut& cut);
 /// Fills `cut` with one level of all trees at any distance: nodes of `depth`, and leaves above it.
 void selectStaticDepth(const StaticLodIndex& index, int depth, LevelCut& cut);

@@ -53,6 +53,7 @@ struct AircraftState {
   std::optional<Attitude> head;       ///< line of sight relative to the aircraft
   std::optional<Metres> visibility;   ///< of the whole atmosphere
   std::optional<HostWeather> weather;
+  std::optional<Wind> wind;
   std::optional<HostView> view;
   std::optional<Knots> airspeed;     ///< calibrated; CIGI has none
   std::optional<Velocity> velocity;  ///< from the host; if unset, it is computed from successive positions

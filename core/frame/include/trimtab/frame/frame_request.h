@@ -33,13 +33,21 @@ struct FrameRequest {
   double time = 0;  ///< seconds on the host's clock; precipitation and blur follow it
   GeodeticPosition eye;
   std::optional<Velocity> velocity;  ///< of the eye; precipitation streaks along it
-  Attitude attitude;                 ///< of the view: aircraft, or aircraft and head
-  ViewShape view;                    ///< perspective, and the image's size
+  Wind wind;                         ///< precipitation streaks against it too
+  /// How far the wind has carried the air since the session began, metres, in earth-centred axes;
+  /// precipitation drifts with it.
+  Vec3 airDrift;
+  PrecipitationLook rain = kRainLook, snow = kSnowLook;
+  Attitude attitude;  ///< of the view: aircraft, or aircraft and head
+  ViewShape view;     ///< perspective, and the image's size
   FrameDecision decision;
   CullingCase method = CullingCase::proposed;
   OcclusionMethod occlusion =
       OcclusionMethod::depth_map;  ///< of levels and patches; static trees have their own
-  bool backFaces = true;           ///< culls nodes that face away from the eye, except in CullingCase::none
+  /// Of tiles and static trees, only nodes nearer than this are left out if a GPU's depth map hides them,
+  /// metres: for the experiment that decides for each node.
+  double testedWithinM = WeatherDecision::kUnlimited;
+  bool backFaces = true;  ///< culls nodes that face away from the eye, except in CullingCase::none
   LodParameters lod;
   StaticLodParameters staticLod;
   TerrainParameters terrain;

@@ -6,6 +6,9 @@
 #include <limits>
 #include <string_view>
 
+#include "trimtab/preset/parameters.h"
+#include "trimtab/units/linear.h"
+
 /// What the weather of a frame is decided to be: the noun between core/weather, which decides it, and the
 /// passes that draw it.
 namespace trimtab {
@@ -32,6 +35,17 @@ enum class FarReason : std::uint8_t {
   visible,   ///< Eq. (1) of document D: at the visibility
   stretched  ///< Eq. (1) with the far plane pushed out until gain and loss match
 };
+
+/// Moving air.
+struct Wind {
+  MetresPerSecond speed;  ///< horizontal
+  Degrees from;           ///< where it comes from, clockwise from true north
+  MetresPerSecond up;     ///< positive where the air rises
+
+  friend bool operator==(const Wind&, const Wind&) = default;
+};
+/// Returns the air's velocity, metres per second toward east, north and up.
+Vec3 eastNorthUp(const Wind& wind);
 
 /// A default one is clear weather with nothing cut, which is also what the preset `default` decides.
 ///

@@ -16,7 +16,8 @@ namespace trimtab {
 std::vector<std::byte> encodeNativeFdm(const AircraftState& state);
 /// Returns one CIGI 3.3 message: IG Control and Entity Control of the ownship; View Control if the state has
 /// a head, View Definition if it has a view, Atmosphere Control if it has a visibility, Weather Control of
-/// the rain and the snow layer if it has weather.
+/// the rain and the snow layer if it has weather. The wind is in Atmosphere Control and in the layer that
+/// falls, so a state with neither loses it.
 std::vector<std::byte> encodeCigiHost(const AircraftState& state, std::uint32_t frame,
                                       std::uint32_t lastIgFrame, ByteOrder order = ByteOrder::big);
 /// Returns the CIGI 3.3 packets that make these symbols: surfaces, definitions, and one Symbol Control each,

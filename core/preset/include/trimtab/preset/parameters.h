@@ -95,7 +95,11 @@ struct CullingParameters {
 
 struct LodParameters {
   Pixels screenSpaceError{2};
-  Ratio scale{1};        ///< 1 is full detail, larger is coarser
+  Ratio scale{1};  ///< 1 is full detail, larger is coarser
+  /// The distances at which levels follow one another are `spreadFrom * (d / spreadFrom)^spread`, where d is
+  /// the distance that the allowed error alone gives: 1 leaves them, less draws them together.
+  Ratio spread{1};
+  Metres spreadFrom{5000};
   bool texture = false;  ///< the ground's texture shrinks with the LOD scale too
 };
 
@@ -136,6 +140,8 @@ struct WeatherParameters {
   Metres defaultNear{1};  ///< of Eq. (1)
   Ratio tolerance{0.05};  ///< within which calibration matches gain and loss, as a share of a clear frame
   Curve<Ratio> severityDensity = kSeverityDensity;
+  MetresPerSecond windSpeed{0};  ///< what falls drifts with it
+  Degrees windFrom{270};         ///< where it comes from, clockwise from true north
 };
 
 /// One density of rain or snow.
@@ -144,6 +150,17 @@ struct WeatherStepParameters {
   Ratio density{1};          ///< particle intensity, 0..1
   Ratio farStretch{1};       ///< far plane over visibility; 1 cuts most, and calibration finds it
 };
+
+/// What a kind of precipitation looks like at any density.
+struct PrecipitationLook {
+  Ratio size{1}, fallSpeed{1};      ///< multiples of what osgParticle::PrecipitationEffect gives the density
+  Ratio red{1}, green{1}, blue{1};  ///< 0..1
+
+  friend constexpr bool operator==(const PrecipitationLook&, const PrecipitationLook&) = default;
+};
+/// Lighter than ground and than fog: the effect's own greys are lost before one or the other.
+inline constexpr PrecipitationLook kRainLook{.red = Ratio{0.86}, .green = Ratio{0.88}, .blue = Ratio{0.91}};
+inline constexpr PrecipitationLook kSnowLook{.red = Ratio{0.95}, .green = Ratio{0.96}, .blue = Ratio{0.98}};
 
 struct HostParameters {
   HostProtocol protocol = HostProtocol::automatic;
@@ -192,6 +209,7 @@ struct TuningParameters {
   WeatherStepParameters snowLight{Ratio{0.25}, Ratio{0.25}};
   WeatherStepParameters snowMedium{Ratio{0.1}, Ratio{0.5}};
   WeatherStepParameters snowHeavy{Ratio{0.04}, Ratio{1}};
+  PrecipitationLook rainLook = kRainLook, snowLook = kSnowLook;
   MotionParameters motion;
   SymbologyParameters symbology;
   SymbolElement symbolPitchLadder;

@@ -18,6 +18,7 @@
 #include "trimtab/measure/statistics.h"
 #include "trimtab/measure/trace.h"
 #include "trimtab/preset/table.h"
+#include "trimtab/session/air_drift.h"
 #include "trimtab/session/head_input.h"
 #include "trimtab/session/image_rate.h"
 
@@ -160,6 +161,7 @@ class Session {
   HeadInput head_;
   std::optional<double> blurPicturedAt_;  ///< when the first image of the last decision was requested
   bool blurDrawn_ = false;
+  AirDrift airDrift_;  ///< up to the last image requested
 
   GroundVelocity groundVelocity_;
   Extrapolator extrapolator_;

@@ -42,6 +42,10 @@ double stepVisibilityM(const TuningParameters& parameters, WeatherStep step);
 WeatherStepParameters stepParametersAt(const TuningParameters& parameters, Precipitation precipitation,
                                        double density);
 
+/// Returns the wind that carries what falls: the host's, or the preset's if the weather comes from the preset
+/// or the host has not sent a wind.
+Wind windOf(const AircraftState& state, const WeatherParameters& parameters);
+
 /// Returns the decision in words and numbers, on one line.
 std::string explain(const WeatherDecision& decision);
 

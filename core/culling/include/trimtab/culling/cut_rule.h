@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cmath>
+
+#include "trimtab/frame/frame_request.h"
+
+namespace trimtab {
+
+/// Where LodParameters::spread moves the distance at which a node is exchanged for its children. Takes and
+/// returns squares of metres. 0 stays 0 and infinity stays infinity.
+inline double spreadSquared(double distance2, double spread, double fromM) {
+  if (spread == 1) return distance2;
+  const double from2 = fromM * fromM;
+  return from2 * std::pow(distance2 / from2, spread);
+}
+
+/// What a cut by screen-space error depends on apart from the eye: a cut may be kept as long as neither its
+/// rule nor its eye changes.
+struct CutRule {
+  double maxErrorPx = 0, lodScale = 1, pixelsPerRadian = 0;
+  double spread = 1, spreadFromM = 5000;  ///< LodParameters
+
+  /// Returns the geometric error that the rule accepts per metre of distance; 0 if a spread makes that depend
+  /// on the distance.
+  double errorOverDistance() const { return spread == 1 ? perDistance() : 0; }
+  /// Returns the square of what is accepted per metre before the spread; isTooCoarse takes it.
+  double limit() const { return perDistance() * perDistance(); }
+  /// Reports whether an error (metres) is too large at a squared distance. An eye inside the box (distance 0)
+  /// finds any error too large, and an eye that is not a number finds none.
+  bool isTooCoarse(double error, double distance2, double limit) const {
+    if (spread == 1) return error * error > limit * distance2;
+    return spreadSquared(error * error / limit, spread, spreadFromM) > distance2;
+  }
+  friend bool operator==(const CutRule&, const CutRule&) = default;
+
+ private:
+  double perDistance() const { return maxErrorPx * lodScale / pixelsPerRadian; }
+};
+
+/// Returns the rule that a request asks for. `statedErrorScale` is 1 unless a test plants a defect.
+inline CutRule cutRuleOf(const FrameRequest& request, double statedErrorScale) {
+  return {request.lod.screenSpaceError.value() / statedErrorScale, request.decision.lodScale,
+          pixelsPerRadian(request.view), request.lod.spread.value(), request.lod.spreadFrom.value()};
+}
+
+}  // namespace trimtab
