@@ -1,20 +1,22 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, makes the sample terrain, and starts the workbench with a simulated host that flies
 # over it. Without a display it runs for some 20 s on a virtual one and leaves a screenshot and an exported preset in out/.
-# Options: --terrain DB (instead of the sample), --preset P, --port PORT (default: a free one), --no-host
+# Options: --imagery (drapes a picture of 10 m over the sample), --terrain DB (instead of the sample), --preset P,
+# --port PORT (default: a free one), --no-host
 set -euo pipefail
 here=$PWD
 cd "$(dirname "$0")/.."
 export LC_NUMERIC=C
 
-terrain= preset=default port= host=yes
-usage() { sed -n '2,4s/^# //p' app/run.sh; }
+terrain= preset=default port= host=yes imagery=
+usage() { sed -n '2,5s/^# //p' app/run.sh; }
 while [ $# -gt 0 ]; do
   case $1 in
     --terrain) terrain=$(cd "$here" && realpath "$2"); shift 2 ;;
     --preset) preset=$2; [ ! -e "$here/$2" ] || preset=$(cd "$here" && realpath "$2"); shift 2 ;;
     --port) port=$2; shift 2 ;;
     --no-host) host=no; shift ;;
+    --imagery) imagery=yes; shift ;;
     -h|--help) usage; exit 0 ;;
     *) usage >&2; exit 2 ;;
   esac
@@ -27,13 +29,18 @@ mkdir -p build
   { grep -E "error|FAILED|CMake Error" build/run.log | head -40 >&2; echo "the build failed: see build/run.log" >&2; exit 1; }
 
 if [ -z "$terrain" ]; then
-  terrain=build/sample/terrain
+  terrain=build/sample/terrain${imagery:+-imagery}
   # One that another version baked is made again.
   if ! build/bin/trimtab-cli terrain info "$terrain" >/dev/null 2>&1; then
     echo "making the sample terrain in build/sample (once)"
     mkdir -p build/sample
     [ -f build/sample/sample.tif ] || build/bin/trimtab-cli terrain sample -o build/sample/sample.tif >build/sample/log 2>&1
-    build/bin/trimtab-cli terrain bake build/sample/sample.tif -o "$terrain" >>build/sample/log 2>&1
+    drape=()
+    if [ -n "$imagery" ]; then
+      drape=(--imagery build/sample/picture.tif)
+      [ -f "${drape[1]}" ] || build/bin/trimtab-cli terrain picture build/sample/sample.tif -o "${drape[1]}" >>build/sample/log 2>&1
+    fi
+    build/bin/trimtab-cli terrain bake build/sample/sample.tif "${drape[@]}" -o "$terrain" >>build/sample/log 2>&1
   fi
 fi
 

@@ -10,6 +10,7 @@
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/scenery/scenery.h"
 #include "trimtab/terrain/synthetic/country.h"
+#include "trimtab/terrain/synthetic/land_picture.h"
 #include "trimtab/terrain/synthetic/sample.h"
 
 namespace trimtab::cli {
@@ -64,6 +65,34 @@ void addTerrain(CLI::App& app, int& exitCode) {
     const Interruptible guard;
     country->options.progress = progressLines();
     const auto done = terrain::writeCountry(country->output, country->options);
+    report(done.findings());
+    exitCode = done ? kDone : kRefused;
+  });
+
+  struct PictureArguments {
+    std::string elevation, output;
+    terrain::LandPictureOptions options;
+  };
+  auto picture = std::make_shared<PictureArguments>();
+  CLI::App* makePicture = group->add_subcommand(
+      "picture", "Paint a picture of the ground from elevation as a GeoTIFF: fields, roads, woods, water");
+  makePicture
+      ->add_option("elevation", picture->elevation,
+                   "One raster in WGS84 degrees, as sample and country write")
+      ->required();
+  makePicture->add_option("-o,--output", picture->output, "GeoTIFF to write, for terrain bake --imagery")
+      ->required();
+  makePicture->add_option("--seed", picture->options.seed, "The same seed gives the same picture")
+      ->capture_default_str();
+  makePicture
+      ->add_option("--pixel-m", picture->options.pixelM,
+                   "Size of pixels, metres; the nearest whole part of the distance of posts is taken")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 2000.0));
+  makePicture->callback([picture, &exitCode] {
+    const Interruptible guard;
+    picture->options.progress = progressLines();
+    const auto done = terrain::writeLandPicture(picture->elevation, picture->output, picture->options);
     report(done.findings());
     exitCode = done ? kDone : kRefused;
   });

@@ -8,16 +8,10 @@
 namespace trimtab::experiment {
 
 Result<CalibratedWeather> calibrateWeather(const Setup& setup, const WeatherCalibration& wanted) {
-  TuningParameters plain = setup.parameters;
-  plain.motion.control = MotionControl::off;
-  const Result<ValidatedParameters> parameters = validate(plain);
-  if (!parameters) return parameters.findings();
-  auto stage = Stage::open(setup);
-  if (!stage) return stage.findings();
-  const std::vector<Place> places = placesOf(setup, 1);
-  if (places.empty()) return notOverTerrain(setup);
+  const auto opened = WeatherView::open(setup);
+  if (!opened) return opened.findings();
+  WeatherView& view = **opened;
 
-  WeatherView view(**stage, setup, *parameters, places[0]);
   CalibratedWeather calibrated;
   calibrated.vertices = view.vertices();
   if (wanted.vertices) {
@@ -30,7 +24,7 @@ Result<CalibratedWeather> calibrateWeather(const Setup& setup, const WeatherCali
   for (const WeatherStep step : wanted.steps) {
     const std::string what(findRow("weather.step")->choices[static_cast<std::size_t>(step)].label);
     const double fraction = double(calibrated.steps.size()) / double(wanted.steps.size());
-    const auto found = calibrateOn(view, setup, plain, step, wanted.mostTrials,
+    const auto found = calibrateOn(view, setup, view.preset(), step, wanted.mostTrials,
                                    [&] { return !setup.progress || setup.progress(fraction, what); });
     if (!found) return cancelled();
     calibrated.steps.push_back(*found);

@@ -37,17 +37,11 @@ Plot plotOf(const Table& table, const char* fall) {
 }  // namespace
 
 Result<Report> runWeather(const Setup& setup) {
-  TuningParameters plain = setup.parameters;
-  plain.motion.control = MotionControl::off;
-  const Result<ValidatedParameters> parameters = validate(plain);
-  if (!parameters) return parameters.findings();
-  auto stage = Stage::open(setup);
-  if (!stage) return stage.findings();
-  const std::vector<Place> places = placesOf(setup, 1);
-  if (places.empty()) return notOverTerrain(setup);
+  const auto opened = WeatherView::open(setup);
+  if (!opened) return opened.findings();
+  WeatherView& view = **opened;
 
-  Report report{"weather", "D: frame rates with weather", (*stage)->machine(), publishedWeather(), {}, {},
-                {}};
+  Report report{"weather", "D: frame rates with weather", view.machine(), publishedWeather(), {}, {}, {}};
   report.measured.columns = {"vertices",
                              "precipitation",
                              "density",
@@ -62,7 +56,6 @@ Result<Report> runWeather(const Setup& setup) {
                              "cut_changed_pixels",
                              "cut_largest_of_255",
                              "outcome"};
-  WeatherView view(**stage, setup, *parameters, places[0]);
   const double runs = double(kVertices.size() * kFalls.size() * kDensities.size());
   double done = 0;
   for (const double wanted : kVertices) {
@@ -89,14 +82,14 @@ Result<Report> runWeather(const Setup& setup) {
           continue;
         }
         const WeatherStep step = fall.steps[d];
-        const double fixedMs = view.ms(weatherOf(plain, step, RatioMode::fixed));
-        const auto found = calibrateOn(view, setup, plain, step, kMostTrials,
+        const double fixedMs = view.ms(weatherOf(view.preset(), step, RatioMode::fixed));
+        const auto found = calibrateOn(view, setup, view.preset(), step, kMostTrials,
                                        [&] { return !setup.progress || setup.progress(done / runs, what); });
         if (!found) return cancelled();
         // Where no cut wins back what falls, the strongest cut at the preset's density is what the mode can
         // do.
         const double ms = costsTooMuch(*found) ? found->strongestMs : found->matchedMs;
-        const WeatherDecision weather = weatherOf(tunedBy(*found, plain), step, RatioMode::adaptive);
+        const WeatherDecision weather = weatherOf(tunedBy(*found, view.preset()), step, RatioMode::adaptive);
         const scene::CutError lost = view.cutError(weather);
         report.measured.rows.push_back({reached, fall.name, kDensities[d], 1000 / fixedMs, 1000 / ms,
                                         found->uncutMs, ms, ms / found->clearMs, weather.farM / 1000,
@@ -111,7 +104,7 @@ Result<Report> runWeather(const Setup& setup) {
       "screen-space error. Fixed ratio: %.3g. Adaptive: calibrated for each row to the clear frame's time, "
       "within %.0f %%.",
       setup.terrainName.c_str(), setup.presetName.c_str(), setup.widthPx, setup.heightPx, WeatherView::kEyeFt,
-      plain.weather.fixedRatio.value(), plain.weather.tolerance.value() * 100);
+      view.preset().weather.fixedRatio.value(), view.preset().weather.tolerance.value() * 100);
   report.notes.insert(report.notes.begin(), text);
   report.notes.push_back(
       "frame_ms_ratio is to the clear frame measured just before. Where the outcome says that the cut is not "

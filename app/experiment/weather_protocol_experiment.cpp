@@ -47,18 +47,13 @@ Plot plotOf(const Table& table) {
 }  // namespace
 
 Result<Report> runWeatherProtocol(const Setup& setup) {
-  TuningParameters plain = setup.parameters;
-  plain.motion.control = MotionControl::off;
-  const Result<ValidatedParameters> parameters = validate(plain);
-  if (!parameters) return parameters.findings();
-  auto stage = Stage::open(setup);
-  if (!stage) return stage.findings();
-  const std::vector<Place> places = placesOf(setup, 1);
-  if (places.empty()) return notOverTerrain(setup);
+  const auto opened = WeatherView::open(setup);
+  if (!opened) return opened.findings();
+  WeatherView& view = **opened;
 
   Report report{"weather-protocol",
                 "D: one ratio at several vertex counts",
-                (*stage)->machine(),
+                view.machine(),
                 publishedWeather(),
                 {},
                 {},
@@ -66,7 +61,6 @@ Result<Report> runWeatherProtocol(const Setup& setup) {
   report.measured.columns = {"calibrated_at", "applied_at",     "vertices", "precipitation",
                              "density",       "particles",      "far_km",   "fps_clear",
                              "fps",           "frame_ms_ratio", "result",   "calibration"};
-  WeatherView view(**stage, setup, *parameters, places[0]);
   const double runs = 12 + 24;  // calibrations, and rows
   double done = 0;
   char what[120];
@@ -95,12 +89,12 @@ Result<Report> runWeatherProtocol(const Setup& setup) {
         std::snprintf(what, sizeof what, "calibrating %s %s at %.0f vertices", kDensities[d], fall.name,
                       vertices);
         view.setError(views[vertices].first);
-        const auto found = calibrateOn(view, setup, plain, fall.steps[d], kMostTrials, go);
+        const auto found = calibrateOn(view, setup, view.preset(), fall.steps[d], kMostTrials, go);
         if (!found) return cancelled();
         calibrations[{vertices, fall.steps[d]}] = *found;
       }
 
-  const double tolerance = plain.weather.tolerance.value();
+  const double tolerance = view.preset().weather.tolerance.value();
   for (const Trial& trial : kTrials)
     for (const Fall& fall : kFalls)
       for (std::size_t d = 1; d < kDensities.size(); ++d, ++done) {
@@ -109,7 +103,7 @@ Result<Report> runWeatherProtocol(const Setup& setup) {
         if (!go()) return cancelled();
         const StepCalibration& found = calibrations[{trial.calibratedAt, fall.steps[d]}];
         // Where no cut is enough, the density that fits is part of the calibration.
-        TuningParameters tuned = plain;
+        TuningParameters tuned = view.preset();
         apply(found, tuned);
         const WeatherDecision weather = weatherOf(tuned, fall.steps[d], RatioMode::adaptive);
         view.setError(views[trial.appliedAt].first);

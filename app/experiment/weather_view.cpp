@@ -13,18 +13,30 @@ constexpr double kFrameS = 1.0 / 60;
 
 }  // namespace
 
-WeatherView::WeatherView(Stage& stage, const Setup& setup, const ValidatedParameters& parameters,
-                         const Place& place)
-    : stage_(stage), repeats_(setup.repeats) {
+Result<std::unique_ptr<WeatherView>> WeatherView::open(const Setup& setup) {
+  std::unique_ptr<WeatherView> view(new WeatherView);
+  view->preset_ = setup.parameters;
+  view->preset_.motion.control = MotionControl::off;
+  const Result<ValidatedParameters> parameters = validate(view->preset_);
+  if (!parameters) return parameters.findings();
+  auto stage = Stage::open(setup);
+  if (!stage) return stage.findings();
+  const std::vector<Place> places = placesOf(setup, 1);
+  if (places.empty()) return notOverTerrain(setup);
+  view->stage_ = std::move(*stage);
+  view->repeats_ = setup.repeats;
+
+  const Place& place = places[0];
   AircraftState state;
   state.position = place.ground;
   state.position.height = place.ground.height + Feet{kEyeFt}.as<Metres>();
   state.attitude = place.attitude;
-  Session session(parameters);
+  Session session(*parameters);
   session.setGround(setup.terrain);
   session.look(state);
-  request_ = *session.request(0, setup.widthPx, setup.heightPx);
-  request_.decision.weather = {};
+  view->request_ = *session.request(0, setup.widthPx, setup.heightPx);
+  view->request_.decision.weather = {};
+  return view;
 }
 
 void WeatherView::setError(double px) {
@@ -34,7 +46,7 @@ void WeatherView::setError(double px) {
 
 double WeatherView::vertices() {
   request_.decision.weather = {};
-  return double(stage_.draw(request_).visible.vertices);
+  return double(stage_->draw(request_).visible.vertices);
 }
 
 /// By halving: vertices fall as the error grows.
@@ -57,7 +69,7 @@ double WeatherView::ms(const WeatherDecision& weather) {
   constexpr int kUncounted = 3;
   for (int i = 0; i < kUncounted + repeats_; ++i) {
     request_.time += kFrameS;
-    const double total = stage_.draw(request_).cost.total;
+    const double total = stage_->draw(request_).cost.total;
     if (i >= kUncounted) ms.push_back(total);
   }
   return quantileOf(ms, 0.5);
@@ -65,7 +77,7 @@ double WeatherView::ms(const WeatherDecision& weather) {
 
 scene::CutError WeatherView::cutError(const WeatherDecision& weather) {
   request_.decision.weather = weather;
-  return stage_.cutError(request_);
+  return stage_->cutError(request_);
 }
 
 std::optional<StepCalibration> calibrateOn(WeatherView& view, const Setup& setup,

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "stage.h"
@@ -26,14 +28,19 @@ inline constexpr std::array<Fall, 2> kFalls{
      {"snow",
       {WeatherStep::clear, WeatherStep::snow_light, WeatherStep::snow_medium, WeatherStep::snow_heavy}}}};
 
-/// A view from 2,000 ft above the highest ground around a place.
+/// A view from 2,000 ft above the highest ground around the experiment's place, of the preset without head
+/// motion.
 class WeatherView {
  public:
   static constexpr double kEyeFt = 2000;
   /// The vertices in view are reached within this share.
   static constexpr double kWithin = 0.05;
 
-  WeatherView(Stage& stage, const Setup& setup, const ValidatedParameters& parameters, const Place& place);
+  static Result<std::unique_ptr<WeatherView>> open(const Setup& setup);
+
+  /// Returns the preset without head motion.
+  const TuningParameters& preset() const { return preset_; }
+  std::string machine() const { return stage_->machine(); }
 
   /// Sets the screen-space error, in pixels, at which so many vertices are in view in clear air, and returns
   /// it. `reached` receives the vertices that the terrain gives there.
@@ -48,8 +55,11 @@ class WeatherView {
   scene::CutError cutError(const WeatherDecision& weather);
 
  private:
-  Stage& stage_;
-  int repeats_;
+  WeatherView() = default;
+
+  TuningParameters preset_;
+  std::unique_ptr<Stage> stage_;
+  int repeats_ = 1;
   FrameRequest request_;
 };
 

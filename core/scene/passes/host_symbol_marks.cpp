@@ -8,6 +8,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "clip_line.h"
 #include "stroke_font.h"
 
 namespace trimtab::scene {
@@ -37,10 +38,6 @@ struct Affine {
   }
   /// How much it stretches lengths, in the mean of both axes.
   double stretch() const { return std::sqrt(std::abs(right.x * up.y - right.y * up.x)); }
-};
-
-struct Rectangle {
-  double left, bottom, right, top;
 };
 
 Affine placeOf(const HostSymbol& s) {
@@ -142,22 +139,11 @@ void Marker::add(const HostMark& mark) {
   drawing_.marks.push_back(mark);
 }
 
-/// Liang and Barsky's clipping.
 void Marker::line(Point from, Point to) {
   const double dx = to.x - from.x, dy = to.y - from.y;
-  double first = 0, last = 1;
-  const auto clip = [&](double rate, double room) {
-    if (rate == 0) return room >= 0;
-    const double t = room / rate;
-    if (rate < 0)
-      first = std::max(first, t);
-    else
-      last = std::min(last, t);
-    return first <= last;
-  };
-  if (!clip(-dx, from.x - clip_.left) || !clip(dx, clip_.right - from.x) ||
-      !clip(-dy, from.y - clip_.bottom) || !clip(dy, clip_.top - from.y))
-    return;
+  const auto part = partInside(clip_, from.x, from.y, dx, dy);
+  if (!part) return;
+  const auto [first, last] = *part;
   const auto x = [&](double t) { return static_cast<float>(from.x + t * dx); };
   const auto y = [&](double t) { return static_cast<float>(from.y + t * dy); };
   add({{x(first), x(last), x(last)}, {y(first), y(last), y(last)}, static_cast<float>(halfWidth_), rgba_});

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "clip_line.h"
 #include "stroke_font.h"
 
 namespace trimtab::scene {
@@ -45,22 +46,12 @@ void Canvas::line(const Sheet& sheet, double a0, double b0, double a1, double b1
   if (project(from, x0, y0) && project(to, x1, y1)) add(x0, y0, x1, y1);
 }
 
-/// Liang and Barsky's clipping, in doubles: ends of a line that passes the eye are far outside.
 void Canvas::add(double x0, double y0, double x1, double y1) {
   const double dx = x1 - x0, dy = y1 - y0;
-  double first = 0, last = 1;
-  const auto clip = [&](double rate, double room) {
-    if (rate == 0) return room >= 0;
-    const double t = room / rate;
-    if (rate < 0)
-      first = std::max(first, t);
-    else
-      last = std::min(last, t);
-    return first <= last;
-  };
-  if (!clip(-dx, x0 + margin_) || !clip(dx, view_.widthPx + margin_ - x0) || !clip(-dy, y0 + margin_) ||
-      !clip(dy, view_.heightPx + margin_ - y0))
-    return;
+  const auto part =
+      partInside({-margin_, -margin_, view_.widthPx + margin_, view_.heightPx + margin_}, x0, y0, dx, dy);
+  if (!part) return;
+  const auto [first, last] = *part;
   const SymbolStroke s{static_cast<float>(x0 + first * dx), static_cast<float>(y0 + first * dy),
                        static_cast<float>(x0 + last * dx), static_cast<float>(y0 + last * dy), symbol_};
   drawing_.strokes.push_back(s);

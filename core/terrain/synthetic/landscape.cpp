@@ -8,11 +8,7 @@
 
 namespace trimtab::terrain {
 
-namespace {
-
-constexpr std::uint32_t kNone = 0xffffffffu;
-
-double lattice(std::int32_t x, std::int32_t y, std::uint32_t seed) {
+double latticeNoise(std::int32_t x, std::int32_t y, std::uint32_t seed) {
   std::uint32_t h = static_cast<std::uint32_t>(x) * 0x9e3779b1u ^
                     static_cast<std::uint32_t>(y) * 0x85ebca77u ^ seed * 0xc2b2ae3du;
   h = (h ^ (h >> 15)) * 0x2c1b3c6du;
@@ -21,13 +17,17 @@ double lattice(std::int32_t x, std::int32_t y, std::uint32_t seed) {
   return h / 2147483647.5 - 1;
 }
 
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffu;
+
 double smoothNoise(double x, double y, std::uint32_t seed) {
   const double fx = std::floor(x), fy = std::floor(y);
   const auto i = static_cast<std::int32_t>(fx), j = static_cast<std::int32_t>(fy);
   const auto ease = [](double t) { return t * t * t * (t * (t * 6 - 15) + 10); };
   const double u = ease(x - fx), v = ease(y - fy);
-  const double south = lattice(i, j, seed) * (1 - u) + lattice(i + 1, j, seed) * u;
-  const double north = lattice(i, j + 1, seed) * (1 - u) + lattice(i + 1, j + 1, seed) * u;
+  const double south = latticeNoise(i, j, seed) * (1 - u) + latticeNoise(i + 1, j, seed) * u;
+  const double north = latticeNoise(i, j + 1, seed) * (1 - u) + latticeNoise(i + 1, j + 1, seed) * u;
   return south * (1 - v) + north * v;
 }
 
@@ -115,7 +115,8 @@ class Process {
         if (!land_[i]) continue;
         const double scale = (coarse.side_ - 1.0) / (side_ - 1.0);
         const double rough =
-            0.06 * cellM_ * lattice(static_cast<std::int32_t>(c), static_cast<std::int32_t>(r), seed + 51);
+            0.06 * cellM_ *
+            latticeNoise(static_cast<std::int32_t>(c), static_cast<std::int32_t>(r), seed + 51);
         heights[i] = static_cast<float>(std::max(0.05, coarse.between(r * scale, c * scale) + rough));
       }
   }
@@ -208,7 +209,7 @@ class Process {
           for (std::int32_t c = 0; c < width; ++c) {
             const std::uint32_t cell = at * side_ + static_cast<std::uint32_t>(c);
             if (!land_[cell]) continue;
-            const double diagonal = 1 / (1.41421356 + 0.35 * lattice(c, r, turn_));
+            const double diagonal = 1 / (1.41421356 + 0.35 * latticeNoise(c, r, turn_));
             double best = 0;
             for (std::int32_t row = std::max(0, r - 1); row <= std::min(width - 1, r + 1); ++row)
               for (std::int32_t column = std::max(0, c - 1); column <= std::min(width - 1, c + 1); ++column) {

@@ -29,6 +29,9 @@ Landscape erodedLandscape(const LandscapeShape& shape, const std::function<bool(
 /// Cuts outlets so that every cell drains to the sea, and recomputes the drained areas.
 void carveHollows(Landscape& land);
 
+/// Returns a number by chance for a place of a lattice, -1 to 1.
+double latticeNoise(std::int32_t x, std::int32_t y, std::uint32_t seed);
+
 /// Returns smooth noise, -1 to 1: a sum of octaves, each with half the wavelength and amplitude of the one
 /// before.
 double fractalNoise(double x, double y, int octaves, std::uint32_t seed);
