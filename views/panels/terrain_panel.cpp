@@ -20,6 +20,7 @@ namespace trimtab::views {
 namespace {
 
 constexpr const char* kKeys[] = {"static_lod.terrain", "lod.screen_space_error_px", "lod.scale",
+                                 "lod.level_spread",   "lod.level_spread_from_m",   "lod.texture",
                                  "terrain.cache_mb"};
 
 QString megabytes(std::uint64_t bytes) {

@@ -11,8 +11,9 @@ namespace trimtab {
 /// what falls on from where it is.
 class AirDrift {
  public:
-  /// Adds the wind at `eye` over the time since the last call, in seconds. Time that goes back, or on by more
-  /// than 10 s, adds nothing.
+  /// Adds the wind at `eye` over the time, in seconds, since the latest time so far. Time that goes back by
+  /// up to 10 s, as that of an extrapolated eye may when a packet corrects it, is waited for; a longer step
+  /// either way begins anew and adds nothing.
   void advance(double time, const GeodeticPosition& eye, const Wind& wind);
   /// Returns the sum, metres in earth-centred axes.
   Vec3 metres() const { return metres_; }
