@@ -16,6 +16,8 @@ void addPreset(CLI::App& app, int& exitCode);
 void addFuzzy(CLI::App& preset, int& exitCode);
 void addDecide(CLI::App& app, int& exitCode);
 void addTerrain(CLI::App& app, int& exitCode);
+/// Adds the subcommand `export` to `terrain`.
+void addTerrainExport(CLI::App& terrain, int& exitCode);
 void addFeed(CLI::App& app, int& exitCode);
 void addBench(CLI::App& app, int& exitCode);
 void addResults(CLI::App& app, int& exitCode);

@@ -204,6 +204,8 @@ void addTerrain(CLI::App& app, int& exitCode) {
     if (!damage.empty()) exitCode = kRefused;
     if (damage.empty() && !info->json) std::cout << "every checksum holds\n";
   });
+
+  addTerrainExport(*group, exitCode);
 }
 
 }  // namespace trimtab::cli

@@ -66,6 +66,13 @@ std::vector<Border> bordersOf(const LatticeSurface& source, const std::vector<st
 
 }  // namespace
 
+std::vector<std::uint32_t> nodesOfLevel(const StaticLodTerrain& terrain, std::size_t tile,
+                                        std::uint32_t level) {
+  std::vector<std::uint32_t> nodes;
+  forEachNode(terrain, tile, level, [&](std::uint32_t node) { nodes.push_back(node); });
+  return nodes;
+}
+
 LatticeSurface surfaceOfLevel(const StaticLodTerrain& terrain, std::size_t tile, std::uint32_t level) {
   const StaticLodTile& from = terrain.tiles[tile];
   LatticeSurface surface;

@@ -134,6 +134,27 @@ TEST_F(TerrainCommand, bakesSceneryAndTellsOfItsTrees) {
   for (const char* line :
        {"scenery.missing", "LOST.btg", "static_lod.faces_of_level", "static_lod.locked_minima"})
     EXPECT_NE(text.find(line), std::string::npos) << line;
+
+  const std::string write = "export btg " + at("db") + " -o " + at("out") + " --level ";
+  const auto refused = test::run(cli(write + "9"));
+  EXPECT_EQ(refused.exitCode, 1);
+  EXPECT_NE(refused.err.find("level: expected 0 to"), std::string::npos) << refused.err;
+  const auto written = test::run(cli(write + "0"));
+  ASSERT_EQ(written.exitCode, 0) << written.err;
+  EXPECT_NE(written.out.find("level 0: 1 tiles, 0 airports, 1 lists"), std::string::npos) << written.out;
+  EXPECT_EQ(test::readFile(dir_ / "out/Terrain/e000n50/e007n50/3072816.stg"), "OBJECT_BASE 3072816.btg\n");
+  const auto again = test::run(cli(write + "0"));
+  EXPECT_EQ(again.exitCode, 1);
+  EXPECT_NE(again.err.find("one that holds something"), std::string::npos) << again.err;
+}
+
+TEST_F(TerrainCommand, exportsOnlyWhatWasScenery) {
+  ASSERT_EQ(test::run(cli("sample -o " + at("s.tif") + " --size-km 6")).exitCode, 0);
+  ASSERT_EQ(test::run(cli("bake " + at("s.tif") + " -o " + at("db"))).exitCode, 0);
+  const auto refused = test::run(cli("export btg " + at("db") + " --level 0 -o " + at("out")));
+  EXPECT_EQ(refused.exitCode, 1);
+  EXPECT_NE(refused.err.find("expected a database baked from scenery"), std::string::npos) << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(at("out")));
 }
 
 TEST_F(TerrainCommand, tellsOfSceneryThatIsNotBaked) {

@@ -16,6 +16,9 @@ struct LatticeSurface {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::uint16_t> material;  ///< per triangle
 };
+/// Returns the nodes that a tile draws at a level; 0 is the root. It includes the leaves above that level.
+std::vector<std::uint32_t> nodesOfLevel(const StaticLodTerrain& terrain, std::size_t tile,
+                                        std::uint32_t level);
 /// Returns what is drawn of a tile at a level; 0 is the root. It includes the leaves above that level, so
 /// that the deepest level is the source.
 LatticeSurface surfaceOfLevel(const StaticLodTerrain& terrain, std::size_t tile, std::uint32_t level);
