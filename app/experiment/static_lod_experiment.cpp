@@ -5,6 +5,7 @@
 #include "experiment.h"
 #include "published.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
+#include "trimtab/terrain/static_lod/fans.h"
 #include "trimtab/terrain/static_lod/level.h"
 #include "trimtab/terrain/static_lod/static_lod.h"
 
@@ -72,11 +73,14 @@ Result<Report> runStaticLod(const Setup& setup) {
                 {},
                 {},
                 {}};
-  report.measured.columns = {"quantity",    "value", "permitted_least", "permitted_most", "rms_error_m",
-                             "max_error_m", "bytes", "lines_share",     "shores_share"};
+  report.measured.columns = {
+      "quantity",          "value",   "permitted_least", "permitted_most", "rms_error_m",
+      "max_error_m",       "bytes",   "lines_share",     "shores_share",   "triangles_per_strip",
+      "triangles_per_fan", "acmr_16", "acmr_32"};
   const auto row = [&](std::string quantity, double value, Cell least = {}, Cell most = {}, Cell rms = {},
                        Cell max = {}, Cell bytes = {}, Cell lines = {}, Cell shores = {}) {
     report.measured.rows.push_back({std::move(quantity), value, least, most, rms, max, bytes, lines, shores});
+    report.measured.rows.back().resize(report.measured.columns.size());
   };
   row("triangles_original", number(tile.triangles));
   row("n", number(tile.trianglesPerNode));
@@ -108,6 +112,14 @@ Result<Report> runStaticLod(const Setup& setup) {
   for (const BuilderLevel& level : levels) {
     const std::string name = "_level_" + std::to_string(level.level);
     surface("tree" + name, level.error);
+    const terrain::FanStatistics fans =
+        terrain::fanStatistics(*trees, nearest, static_cast<std::uint32_t>(level.level));
+    std::vector<Cell>& cells = report.measured.rows.back();
+    const std::size_t firstOfFans = cells.size() - 4;
+    cells[firstOfFans] = fans.trianglesPerStrip();
+    cells[firstOfFans + 1] = fans.trianglesPerFan();
+    cells[firstOfFans + 2] = fans.acmr16();
+    cells[firstOfFans + 3] = fans.acmr32();
     if (const auto* same = ofNoMoreTriangles(patches, level.error.triangles))
       surface("patches_no_more_triangles" + name, same->error);
     if (const auto* same = ofNoGreaterRms(patches, level.error.rmsM); same && level.error.rmsM > 0)
@@ -163,6 +175,11 @@ Result<Report> runStaticLod(const Setup& setup) {
   report.notes.push_back(
       "Errors of both builders are vertical distances to the tile's source triangles, both ways: the "
       "source's vertices from the surface and the surface's from the source.");
+  report.notes.push_back(
+      "Strips and fans are greedy, end with their node, and keep materials apart; acmr_16 and acmr_32 are "
+      "the "
+      "vertices transformed per triangle with a FIFO cache of 16 and 32, empty at the start of each node, in "
+      "the order that is stored.");
   if (patches.empty())
     report.notes.push_back("The database has no patches: bake it again to compare both builders.");
   return report;

@@ -84,6 +84,8 @@ TEST_F(Builders, areInTheExperimentsTable) {
   EXPECT_GT(report->measured.number(rowOf("posts_alone"), "rms_error_m"), 0);
   EXPECT_GT(report->measured.number(rowOf("lines_kept_level_4"), "lines_share"),
             report->measured.number(rowOf("lines_as_published_level_4"), "lines_share"));
+  for (const char* column : {"triangles_per_strip", "triangles_per_fan", "acmr_16", "acmr_32"})
+    EXPECT_GT(report->measured.number(rowOf("tree_level_0"), column), 1) << column;
   const auto parsed = experiment::parseReport(experiment::toJson(*report), "json");
   ASSERT_TRUE(parsed);
   EXPECT_EQ(parsed->measured.rows.size(), report->measured.rows.size());
