@@ -101,7 +101,7 @@ void addTerrain(CLI::App& app, int& exitCode) {
     std::vector<std::string> sources;
     std::string output, imagery;
     std::uint32_t leafTriangles = terrain::BakeOptions{}.trianglesPerNode;
-    bool keepLines = false;
+    bool keepLines = false, keepTexture = false;
     double postM = 0, memoryMb = terrain::BakeOptions{}.memory.value();
     std::optional<double> maxErrorM;
     std::string part;
@@ -125,6 +125,9 @@ void addTerrain(CLI::App& app, int& exitCode) {
   makeBake->add_flag("--keep-lines", bake->keepLines,
                      "Keep roads, railways, streams and shorelines in the static levels of detail while a "
                      "pixel shows them (scenery)");
+  makeBake->add_flag("--keep-texture", bake->keepTexture,
+                     "Keep the texture coordinates of the files in the static levels of detail, for export "
+                     "(scenery)");
   makeBake
       ->add_option("--post-m", bake->postM,
                    "Distance of posts. Without it scenery takes 30 to 60 by its size, elevation that of the "
@@ -152,6 +155,7 @@ void addTerrain(CLI::App& app, int& exitCode) {
     if (!bake->imagery.empty()) options.imagery = bake->imagery;
     options.trianglesPerNode = bake->leafTriangles;
     options.keepLines = bake->keepLines;
+    options.keepTexture = bake->keepTexture;
     if (bake->postM > 0) options.post = Metres{bake->postM};
     if (bake->maxErrorM) options.maxError = Metres{*bake->maxErrorM};
     options.memory = Megabytes{bake->memoryMb};

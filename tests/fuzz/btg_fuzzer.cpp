@@ -15,10 +15,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!unzipped) return 0;
     bytes = *unzipped;
   }
-  const auto mesh = terrain::parseBtg(bytes, "fuzz");
+  const auto mesh = terrain::parseBtg(bytes, "fuzz", true);
   if (!mesh && mesh.findings().empty()) std::abort();
   if (!mesh) return 0;
   if (mesh->trianglesInFile != mesh->degenerate + mesh->triangles.size()) std::abort();
+  if (!mesh->texture.empty() && mesh->texture.size() != mesh->triangles.size()) std::abort();
   for (const auto& t : mesh->triangles)
     for (const std::uint32_t v : t.vertex)
       if (v >= mesh->vertices.size() || t.material >= mesh->materials.size()) std::abort();

@@ -312,13 +312,17 @@ class Job {
 
   Result<Done> makeTrees() {
     if (!source_->tiles) return Done{};
-    if (source_->treesBytes > memory_) {
+    // Texture coordinates of the source, of the trees and of the triangles that are being simplified.
+    constexpr std::uint64_t kTextureBytes = 100;
+    std::uint64_t treesBytes = source_->treesBytes;
+    if (options_.keepTexture) treesBytes += kTextureBytes * source_->tiles->counts().triangles;
+    if (treesBytes > memory_) {
       findings_.push_back({Severity::note, output_.string(), "trees",
-                           std::to_string(source_->treesBytes / 1000000 + 1) + " MB of memory for them",
+                           std::to_string(treesBytes / 1000000 + 1) + " MB of memory for them",
                            std::to_string(memory_ / 1000000) + " MB: left out, patches are drawn"});
       return Done{};
     }
-    const auto meshes = source_->tiles->takeAll();
+    const auto meshes = source_->tiles->takeAll(options_.keepTexture);
     if (!meshes) return meshes.findings();
     StaticLodOptions trees;
     trees.trianglesPerNode = options_.trianglesPerNode;

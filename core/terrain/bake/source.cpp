@@ -42,6 +42,7 @@ Json recipeJson(const BakeOptions& options, const std::vector<fs::path>& files) 
   recipe["post_m"] = options.post ? Json(options.post->value()) : Json();
   recipe["triangles_per_node"] = options.trianglesPerNode;
   if (options.keepLines) recipe["keep_lines"] = true;
+  if (options.keepTexture) recipe["keep_texture"] = true;
   return recipe;
 }
 

@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -11,7 +12,8 @@
 
 /// The file holds magic, version, number of bytes that follow, their checksum; then numbers as they are in
 /// memory, and arrays with their length in front. Version 2 added borderErrorM: without it the LOD cut cannot
-/// see that a node has lost a runway. Files of version 1 are refused and have to be baked again.
+/// see that a node has lost a runway. Files of version 1 are refused and have to be baked again. Version 3
+/// adds texture coordinates to each tile; it is written only if a tile has some.
 namespace trimtab::terrain {
 
 namespace {
@@ -21,7 +23,7 @@ namespace fs = std::filesystem;
 static_assert(std::endian::native == std::endian::little, "the file is little-endian");
 
 constexpr std::array<char, 8> kMagic{'T', 'R', 'I', 'M', 'T', 'R', 'E', 'E'};
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 2, kTexturedVersion = 3;
 constexpr std::size_t kHeaderBytes = 8 + 4 + 8 + 8;
 
 Finding wrong(const fs::path& file, std::string key, std::string expected, std::string found) {
@@ -38,7 +40,8 @@ class Writer {
   template <class T>
   void array(const std::vector<T>& values) {
     static_assert(std::has_unique_object_representations_v<T> || std::is_same_v<T, float> ||
-                  std::is_same_v<T, Box> || std::is_same_v<T, StaticLodVertex>);
+                  std::is_same_v<T, Box> || std::is_same_v<T, std::array<float, 2>> ||
+                  std::is_same_v<T, StaticLodVertex>);
     number(std::uint64_t{values.size()});
     bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
   }
@@ -93,7 +96,12 @@ class Reader {
   bool failed_ = false;
 };
 
-void write(Writer& out, const StaticLodTerrain& terrain) {
+bool isTextured(const StaticLodTerrain& terrain) {
+  return std::any_of(terrain.tiles.begin(), terrain.tiles.end(),
+                     [](const StaticLodTile& tile) { return !tile.texture.empty(); });
+}
+
+void write(Writer& out, const StaticLodTerrain& terrain, bool textured) {
   const StaticLodIndex& index = terrain.index;
   const GeodeticPosition& origin = index.frame.origin();
   out.number(terrain.trianglesPerNode);
@@ -127,10 +135,11 @@ void write(Writer& out, const StaticLodTerrain& terrain) {
     out.array(tile.indices);
     out.array(tile.locked);
     out.array(tile.material);
+    if (textured) out.array(tile.texture);
   }
 }
 
-void read(Reader& in, StaticLodTerrain& terrain) {
+void read(Reader& in, StaticLodTerrain& terrain, bool textured) {
   constexpr std::size_t kNodeBytes = 22, kLeastTileBytes = 52;
   StaticLodIndex& index = terrain.index;
   in.number(terrain.trianglesPerNode);
@@ -172,6 +181,7 @@ void read(Reader& in, StaticLodTerrain& terrain) {
     in.array(tile.indices);
     in.array(tile.locked);
     in.array(tile.material);
+    if (textured) in.array(tile.texture);
   }
 }
 
@@ -199,6 +209,9 @@ std::string faultOf(const StaticLodTerrain& terrain) {
   for (const StaticLodTile& tile : terrain.tiles) {
     const std::size_t triangles = tile.material.size();
     if (tile.indices.size() != 3 * triangles || tile.locked.size() != triangles) return "arrays of a tile";
+    if (!tile.texture.empty() && tile.texture.size() != tile.vertices.size()) return "texture coordinates";
+    for (const auto& [u, v] : tile.texture)
+      if (!std::isfinite(u) || !std::isfinite(v)) return "texture coordinates";
     for (const std::uint32_t i : tile.indices)
       if (i >= tile.vertices.size()) return "indices";
     for (const std::uint16_t m : tile.material)
@@ -238,10 +251,11 @@ std::string faultOf(const StaticLodTerrain& terrain) {
 
 Result<Done> writeStaticLod(const fs::path& file, const StaticLodTerrain& terrain) {
   Writer body;
-  write(body, terrain);
+  const bool textured = isTextured(terrain);
+  write(body, terrain, textured);
   Writer header;
   header.bytes.assign(kMagic.data(), kMagic.size());
-  header.number(kVersion);
+  header.number(textured ? kTexturedVersion : kVersion);
   header.number(std::uint64_t{body.bytes.size()});
   header.number(checksum(body.bytes));
 
@@ -278,9 +292,11 @@ Result<std::shared_ptr<const StaticLodTerrain>> readStaticLod(const fs::path& fi
   std::memcpy(&version, &header[8], 4);
   std::memcpy(&bodySize, &header[12], 8);
   std::memcpy(&sum, &header[20], 8);
-  if (version != kVersion)
-    return wrong(file, "version", std::to_string(kVersion) + " (bake the sources again)",
-                 std::to_string(version));
+  if (version != kVersion && version != kTexturedVersion)
+    return wrong(
+        file, "version",
+        std::to_string(kVersion) + " or " + std::to_string(kTexturedVersion) + " (bake the sources again)",
+        std::to_string(version));
   if (bodySize != size - kHeaderBytes)
     return wrong(file, "size", std::to_string(bodySize) + " bytes after the header",
                  std::to_string(size - kHeaderBytes) + " bytes");
@@ -292,7 +308,7 @@ Result<std::shared_ptr<const StaticLodTerrain>> readStaticLod(const fs::path& fi
 
   auto terrain = std::make_shared<StaticLodTerrain>();
   Reader reader(body);
-  read(reader, *terrain);
+  read(reader, *terrain, version == kTexturedVersion);
   if (reader.failed() || !reader.atEnd())
     return wrong(file, "", "arrays that end with the file",
                  reader.failed() ? "one past its end" : "bytes left over");

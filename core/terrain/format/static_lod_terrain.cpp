@@ -23,7 +23,7 @@ void countStaticLod(StaticLodTerrain& terrain) {
                  (sizeof(StaticLodIndex::Node) + sizeof(Box) + 4 * sizeof(float) + sizeof(StaticLodRange));
   for (const StaticLodTile& tile : terrain.tiles)
     counts.bytes += tile.vertices.size() * sizeof(StaticLodVertex) + tile.indices.size() * 4 +
-                    tile.locked.size() + tile.material.size() * 2;
+                    tile.locked.size() + tile.material.size() * 2 + tile.texture.size() * 8;
 }
 
 }  // namespace trimtab::terrain

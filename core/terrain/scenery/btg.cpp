@@ -37,12 +37,19 @@ enum Kind : std::uint8_t {
   kFans = 12
 };
 enum PropertyKind : std::uint8_t { kMaterial = 0, kIndexTypes = 1, kVertexAttributes = 2 };
-enum IndexMask : std::uint32_t { kVertexIndex = 1, kNormalIndex = 2, kColourIndex = 4, kAllIndices = 0x7f };
+enum IndexMask : std::uint32_t {
+  kVertexIndex = 1,
+  kNormalIndex = 2,
+  kColourIndex = 4,
+  kTextureIndex = 8,
+  kAllIndices = 0x7f
+};
 
 /// A number read past the end says so by making the reader fail; all that follows is not read.
 class BtgReader {
  public:
-  BtgReader(std::string_view bytes, const std::string& where) : bytes_(bytes), where_(where) {}
+  BtgReader(std::string_view bytes, const std::string& where, bool withTexture)
+      : bytes_(bytes), where_(where), withTexture_(withTexture) {}
 
   Result<SceneryMesh> read();
 
@@ -97,14 +104,16 @@ class BtgReader {
   bool readProperty(Object& object);
   bool readElement(const Object& object, std::string_view block, std::size_t offset);
   bool readIndices(const Object& object, std::string_view block, std::size_t offset);
-  void addTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint16_t material);
+  using Corners = std::array<std::uint32_t, 3>;
+  void addTriangle(const Corners& vertex, const Corners& texture, std::uint16_t material);
+  bool placeTexture();
   std::optional<std::uint16_t> materialOf(std::string_view name, std::size_t offset);
   bool placeVertices();
 
   std::string_view bytes_;
   std::string where_, object_;
   std::size_t at_ = 0;
-  bool wide_ = false, failed_ = false;
+  bool withTexture_, wide_ = false, failed_ = false;
   Findings findings_;
   SceneryMesh mesh_;
   std::map<std::string, std::uint16_t, std::less<>> materials_;
@@ -112,6 +121,9 @@ class BtgReader {
   std::vector<std::array<float, 3>> offsets_;  ///< of vertices from the centre
   std::size_t verticesAt_ = 0;
   std::size_t normals_ = 0, colours_ = 0, texCoords_ = 0;
+  static constexpr std::uint32_t kNoTexture = 0xffffffffu;
+  std::vector<TexturePlace> texturePlaces_;  ///< if asked for
+  std::vector<Corners> textureCorners_;      ///< per triangle, of texturePlaces_ or kNoTexture; if asked for
   /// Largest index of each column of the masks, and where it stands: arrays may follow the triangles.
   struct Highest {
     std::uint32_t index = 0;
@@ -171,12 +183,15 @@ bool BtgReader::readProperty(Object& object) {
   return true;
 }
 
-void BtgReader::addTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint16_t material) {
+void BtgReader::addTriangle(const Corners& vertex, const Corners& texture, std::uint16_t material) {
   ++mesh_.trianglesInFile;
-  if (a == b || b == c || c == a)
+  const auto [a, b, c] = vertex;
+  if (a == b || b == c || c == a) {
     ++mesh_.degenerate;
-  else
-    mesh_.triangles.push_back({{a, b, c}, material});
+    return;
+  }
+  mesh_.triangles.push_back({vertex, material});
+  if (withTexture_) textureCorners_.push_back(texture);
 }
 
 bool BtgReader::readIndices(const Object& object, std::string_view block, std::size_t offset) {
@@ -216,18 +231,21 @@ bool BtgReader::readIndices(const Object& object, std::string_view block, std::s
         highest = {index, offset + 4 + i * stride + column * width, true};
     ++column;
   }
+  const bool textured = (object.indexMask & kTextureIndex) != 0;
+  const auto textureColumn = static_cast<std::size_t>(std::popcount(object.indexMask & (kTextureIndex - 1)));
+  const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+    const auto texture = [&](std::size_t row) { return textured ? at(row, textureColumn) : kNoTexture; };
+    addTriangle({at(a, 0), at(b, 0), at(c, 0)}, {texture(a), texture(b), texture(c)}, object.material);
+  };
   switch (object.kind) {
     case kTriangles:
-      for (std::size_t i = 0; i + 2 < count; i += 3)
-        addTriangle(at(i, 0), at(i + 1, 0), at(i + 2, 0), object.material);
+      for (std::size_t i = 0; i + 2 < count; i += 3) add(i, i + 1, i + 2);
       break;
     case kStrips:
-      for (std::size_t i = 0; i + 2 < count; ++i)
-        addTriangle(at(i, 0), at(i + 1 + i % 2, 0), at(i + 2 - i % 2, 0), object.material);
+      for (std::size_t i = 0; i + 2 < count; ++i) add(i, i + 1 + i % 2, i + 2 - i % 2);
       break;
     case kFans:
-      for (std::size_t i = 1; i + 1 < count; ++i)
-        addTriangle(at(0, 0), at(i, 0), at(i + 1, 0), object.material);
+      for (std::size_t i = 1; i + 1 < count; ++i) add(0, i, i + 1);
       break;
     default:
       break;
@@ -278,7 +296,13 @@ bool BtgReader::readElement(const Object& object, std::string_view block, std::s
     case kNormals:
       return whole(3, normals_);
     case kTexCoords:
-      return whole(8, texCoords_);
+      if (!whole(8, texCoords_)) return false;
+      if (withTexture_ && !block.empty()) {
+        const std::size_t before = texturePlaces_.size();
+        texturePlaces_.resize(texCoords_);
+        std::memcpy(texturePlaces_.data() + before, block.data(), block.size());
+      }
+      return true;
     case kColours:
       return whole(16, colours_);
     case kPoints:
@@ -345,6 +369,22 @@ bool BtgReader::placeVertices() {
   return bad == 0;
 }
 
+bool BtgReader::placeTexture() {
+  if (texturePlaces_.empty()) return true;
+  for (std::size_t i = 0; i < texturePlaces_.size(); ++i)
+    if (const auto [u, v] = texturePlaces_[i]; !std::isfinite(u) || !std::isfinite(v)) {
+      refuse(bytes_.size(), "texture coordinates " + std::to_string(i), "finite numbers",
+             numberText(u, 6) + " " + numberText(v, 6));
+      return false;
+    }
+  mesh_.texture.resize(textureCorners_.size());
+  for (std::size_t t = 0; t < textureCorners_.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const std::uint32_t at = textureCorners_[t][k]; at != kNoTexture)
+        mesh_.texture[t][k] = texturePlaces_[at];
+  return true;
+}
+
 Result<SceneryMesh> BtgReader::read() {
   std::string name = std::filesystem::path(where_).filename().string();
   for (const std::string_view ending : {".gz", ".btg"})
@@ -374,15 +414,15 @@ Result<SceneryMesh> BtgReader::read() {
   object_.clear();
   if (at_ < bytes_.size())
     warn(at_, "", "the end of the file", std::to_string(bytes_.size() - at_) + " bytes more");
-  if (!placeVertices()) return findings_;
+  if (!placeVertices() || !placeTexture()) return findings_;
   tidyTriangles(mesh_);
   return Result<SceneryMesh>(std::move(mesh_), std::move(findings_));
 }
 
 }  // namespace
 
-Result<SceneryMesh> parseBtg(std::string_view bytes, const std::string& where) {
-  return BtgReader(bytes, where).read();
+Result<SceneryMesh> parseBtg(std::string_view bytes, const std::string& where, bool withTexture) {
+  return BtgReader(bytes, where, withTexture).read();
 }
 
 }  // namespace trimtab::terrain

@@ -143,9 +143,9 @@ void SceneryCatalogue::keep(std::size_t tile, std::shared_ptr<PlacedMesh> mesh) 
   slots_[tile] = {std::move(mesh), bytes, ++use_};
 }
 
-Result<SceneryMesh> SceneryCatalogue::again(const Tile& tile) const {
+Result<SceneryMesh> SceneryCatalogue::again(const Tile& tile, bool withTexture) const {
   if (tile.make) return tile.make();
-  auto read = readBtg(tile.file);
+  auto read = readBtg(tile.file, withTexture);
   if (read) (*read).airport = tile.airport;
   return read;
 }
@@ -165,17 +165,19 @@ Result<std::shared_ptr<const PlacedMesh>> SceneryCatalogue::mesh(std::size_t til
   return std::shared_ptr<const PlacedMesh>(std::move(made));
 }
 
-Result<std::vector<SceneryMesh>> SceneryCatalogue::takeAll() {
+Result<std::vector<SceneryMesh>> SceneryCatalogue::takeAll(bool withTexture) {
   std::vector<SceneryMesh> all;
   all.reserve(tiles_.size());
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
-    if (slots_[i].mesh) {
+    if (slots_[i].mesh && !(withTexture && !tiles_[i].file.empty())) {
       all.push_back(std::move(slots_[i].mesh->mesh));
       bytes_ -= slots_[i].bytes;
       slots_[i] = {};
       continue;
     }
-    auto own = again(tiles_[i]);
+    bytes_ -= slots_[i].bytes;
+    slots_[i] = {};
+    auto own = again(tiles_[i], withTexture);
     if (!own) return own.findings();
     all.push_back(std::move(own).value());
   }

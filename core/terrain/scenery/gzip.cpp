@@ -74,7 +74,7 @@ Result<std::string> gunzip(std::string_view bytes, const std::string& where) {
   return out;
 }
 
-Result<SceneryMesh> readBtg(const fs::path& file) {
+Result<SceneryMesh> readBtg(const fs::path& file, bool withTexture) {
   std::error_code error;
   const auto status = fs::status(file, error);
   if (!fs::is_regular_file(status))
@@ -87,10 +87,10 @@ Result<SceneryMesh> readBtg(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   in.read(bytes.data(), static_cast<std::streamsize>(size));
   if (!in) return wrong(file.string(), "", "a readable file", std::strerror(errno));
-  if (!isGzip(bytes)) return parseBtg(bytes, file.string());
+  if (!isGzip(bytes)) return parseBtg(bytes, file.string(), withTexture);
   const auto unzipped = gunzip(bytes, file.string());
   if (!unzipped) return unzipped.findings();
-  return parseBtg(*unzipped, file.string());
+  return parseBtg(*unzipped, file.string(), withTexture);
 }
 
 }  // namespace trimtab::terrain

@@ -8,12 +8,16 @@ namespace trimtab::terrain {
 void tidyTriangles(SceneryMesh& mesh) {
   const std::vector<Vec3>& v = mesh.vertices;
   std::vector<SceneryMesh::Triangle>& all = mesh.triangles;
-  const auto kept = std::remove_if(all.begin(), all.end(), [&](const SceneryMesh::Triangle& t) {
-    const auto [a, b, c] = t.vertex;
-    return v[a] == v[b] || v[b] == v[c] || v[c] == v[a];
-  });
-  mesh.degenerate += static_cast<std::uint64_t>(all.end() - kept);
-  all.erase(kept, all.end());
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto [a, b, c] = all[i].vertex;
+    if (v[a] == v[b] || v[b] == v[c] || v[c] == v[a]) continue;
+    if (!mesh.texture.empty()) mesh.texture[kept] = mesh.texture[i];
+    all[kept++] = all[i];
+  }
+  mesh.degenerate += all.size() - kept;
+  all.resize(kept);
+  if (!mesh.texture.empty()) mesh.texture.resize(kept);
   double up = 0, down = 0;
   std::uint64_t facingUp = 0;
   for (const SceneryMesh::Triangle& t : all) {
@@ -31,6 +35,7 @@ void tidyTriangles(SceneryMesh& mesh) {
   }
   if (down <= up) return;
   for (SceneryMesh::Triangle& t : all) std::swap(t.vertex[1], t.vertex[2]);
+  for (TextureCorners& corners : mesh.texture) std::swap(corners[1], corners[2]);
   mesh.facingDown = facingUp;
 }
 

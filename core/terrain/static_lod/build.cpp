@@ -45,15 +45,17 @@ Box boxOf(const LodTree& tree, const LodTree::Node& node) {
           upwards(high.x),  upwards(high.y),  upwards(high.z)};
 }
 
-/// Vertices as drawn: one for each material that a vertex has triangles of, in the order of their first use.
+/// Vertices as drawn: one for each material, and each place in the texture, that a vertex has triangles of,
+/// in the order of their first use.
 class VertexTable {
  public:
   VertexTable(const LodTree& tree, std::span<const std::array<std::uint8_t, 3>> colours, StaticLodTile& tile)
       : tree_(tree), colours_(colours), tile_(tile), first_(tree.vertices.size(), LodTree::kNone) {}
 
-  std::uint32_t number(std::uint32_t vertex, std::uint16_t material) {
+  std::uint32_t number(std::uint32_t vertex, std::uint16_t material, const TexturePlace* texture) {
     for (std::uint32_t i = first_[vertex]; i != LodTree::kNone; i = next_[i])
-      if (material_[i] == material) return i;
+      if (material_[i] == material && (!texture || tile_.texture[i] == *texture)) return i;
+    if (texture) tile_.texture.push_back(*texture);
     const std::uint32_t number = static_cast<std::uint32_t>(tile_.vertices.size());
     next_.push_back(first_[vertex]);
     material_.push_back(material);
@@ -115,7 +117,8 @@ BuiltTile finished(const std::string& name, const LodTree& tree,
       const std::uint16_t material = node.material[t];
       std::array<bool, 3> locked{};
       for (std::size_t k = 0; k < 3; ++k) {
-        out.tile.indices.push_back(table.number(node.triangles[t][k], material));
+        out.tile.indices.push_back(table.number(node.triangles[t][k], material,
+                                                node.texture.empty() ? nullptr : &node.texture[t][k]));
         locked[k] = tree.locked(node.triangles[t][k], node.depth) ||
                     (!leaf && tree.onLine(node.triangles[t][k], node.lineWidthM));
       }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "texture.h"
+
 namespace trimtab::terrain {
 
 namespace {
@@ -216,6 +218,7 @@ class Collapser {
     const std::uint32_t kept = keepsV ? v : u, gone = keepsV ? u : v;
     const auto& fanKept = keepsV ? fanV_ : fanU_;
     const auto& fanGone = keepsV ? fanU_ : fanV_;
+    if (!patch_.texture.empty()) collapseTexture(u, v, placed);
     for (const std::uint32_t c : fanKept)
       for (const std::uint32_t x : patch_.triangles[c / 3])
         if (x == gone) {
@@ -240,6 +243,21 @@ class Collapser {
     ++version_[kept];
     ++version_[gone];
     offerAround(kept);
+  }
+
+  void collapseTexture(std::uint32_t u, std::uint32_t v, const Placed& placed) {
+    wedgeCorners_.clear();
+    wedgePlaces_.clear();
+    for (const auto* fan : {&fanU_, &fanV_})
+      for (const std::uint32_t c : *fan) {
+        const auto& t = patch_.triangles[c / 3];
+        const bool second = fan == &fanV_;
+        wedgeCorners_.push_back({c, second, std::find(t.begin(), t.end(), second ? u : v) != t.end()});
+        wedgePlaces_.push_back({places_[t[0]], places_[t[1]], places_[t[2]]});
+      }
+    std::optional<bool> end;
+    if (placed.end != kNone) end = placed.end == v;
+    wedges_.run(wedgeCorners_, end, metres(placed.at), wedgePlaces_, patch_.texture);
   }
 
   void offerAround(std::uint32_t centre) {
@@ -279,6 +297,9 @@ class Collapser {
   std::uint32_t stamp_ = 0;
   std::vector<Candidate> heap_;
   std::vector<std::uint32_t> fanU_, fanV_, ring_, outerRing_;
+  std::vector<WedgeCorner> wedgeCorners_;
+  std::vector<std::array<Vec3, 3>> wedgePlaces_;  ///< per wedge corner: those of its triangle
+  WedgeCollapse wedges_;
 };
 
 }  // namespace

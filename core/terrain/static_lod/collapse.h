@@ -22,6 +22,7 @@ struct Patch {
   Lattice origin;
   std::vector<Vertex> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<TextureCorners> texture;  ///< per triangle; empty if there is none
 };
 
 /// Collapses edges, least quadric error first, until at most `target` + 1 triangles are left. Returns false
@@ -29,7 +30,8 @@ struct Patch {
 /// those are updated in place.
 ///
 /// Every vertex that is not locked needs a closed fan of triangles that face up; the caller must lock the
-/// others. Collapses that would turn a triangle over or upright, make it much thinner than those it
+/// others. Corners of triangles that are left get the texture coordinates of
+/// their new places. Collapses that would turn a triangle over or upright, make it much thinner than those it
 /// replaces, or join surfaces at a vertex (link condition) are left out, so what the patch covers, seen from
 /// above, stays covered exactly once.
 bool collapseEdges(Patch& patch, std::size_t target, std::vector<std::uint8_t>& alive);

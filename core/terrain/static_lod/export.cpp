@@ -94,16 +94,18 @@ BtgSurface btgOfLevel(const StaticLodTerrain& terrain, std::size_t tile, std::ui
   SceneryMesh& mesh = surface.mesh;
   mesh.name = from.name;
   mesh.materials = terrain.materials;
-  // The tree has a vertex for each material; the tile needs one for each place.
-  std::map<std::array<float, 3>, std::uint32_t> numbers;
+  // The tree has a vertex for each material; the tile needs one for each place, there and in the texture.
+  std::map<std::array<float, 5>, std::uint32_t> numbers;
   for (const std::uint32_t node : nodesOfLevel(terrain, tile, level)) {
     const StaticLodRange range = terrain.ranges[node];
     for (std::uint32_t t = range.firstTriangle; t < range.firstTriangle + range.triangles; ++t) {
       SceneryMesh::Triangle triangle{{}, from.material[t]};
       for (std::size_t k = 0; k < 3; ++k) {
-        const StaticLodVertex& v = from.vertices[from.indices[std::size_t{t} * 3 + k]];
-        const auto [at, isNew] =
-            numbers.try_emplace({v.x, v.y, v.z}, static_cast<std::uint32_t>(mesh.vertices.size()));
+        const std::uint32_t number = from.indices[std::size_t{t} * 3 + k];
+        const StaticLodVertex& v = from.vertices[number];
+        const TexturePlace texture = from.texture.empty() ? TexturePlace{} : from.texture[number];
+        const auto [at, isNew] = numbers.try_emplace({v.x, v.y, v.z, texture[0], texture[1]},
+                                                     static_cast<std::uint32_t>(mesh.vertices.size()));
         triangle.vertex[k] = at->second;
         if (!isNew) continue;
         const Vec3 local{v.x + 16.0 * from.origin[0], v.y + 16.0 * from.origin[1],
@@ -111,11 +113,12 @@ BtgSurface btgOfLevel(const StaticLodTerrain& terrain, std::size_t tile, std::ui
         const Vec3 normal{v.normal[0] / 127.0, v.normal[1] / 127.0, v.normal[2] / 127.0};
         mesh.vertices.push_back(frame.toEcef(local));
         surface.normals.push_back(toEarth * normal);
+        if (!from.texture.empty()) surface.texture.push_back(texture);
       }
       mesh.triangles.push_back(triangle);
     }
   }
-  if (!mesh.vertices.empty()) surface.texture = textureByPlace(mesh.vertices);
+  if (!mesh.vertices.empty() && from.texture.empty()) surface.texture = textureByPlace(mesh.vertices);
   return surface;
 }
 

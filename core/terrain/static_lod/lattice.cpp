@@ -55,6 +55,9 @@ Findings faultsOf(const SceneryMesh& mesh, const LocalFrame& frame) {
       fault("triangle " + std::to_string(t), "materials below " + std::to_string(mesh.materials.size()),
             std::to_string(mesh.triangles[t].material));
   }
+  if (!mesh.texture.empty() && mesh.texture.size() != mesh.triangles.size())
+    fault("texture", std::to_string(mesh.triangles.size()) + " triangles",
+          std::to_string(mesh.texture.size()));
   return findings;
 }
 
@@ -107,10 +110,12 @@ void weld(LatticeTile& tile, LatticeTiles& counts) {
   for (std::size_t i = 0; i < drop.size(); ++i)
     if (!drop[i]) {
       tile.triangles[kept] = tile.triangles[i];
+      if (!tile.texture.empty()) tile.texture[kept] = tile.texture[i];
       tile.material[kept++] = tile.material[i];
     }
   tile.triangles.resize(kept);
   tile.material.resize(kept);
+  if (!tile.texture.empty()) tile.texture.resize(kept);
 }
 
 /// One entry a vertex: it ends an edge that one triangle alone uses, or more than two.
@@ -207,6 +212,7 @@ Result<LatticeTiles> toLattice(std::span<const SceneryMesh> meshes, const LocalF
     LatticeTile tile;
     tile.name = mesh.name;
     tile.vertices = positionsOf(mesh, frame);
+    tile.texture = mesh.texture;
     for (const SceneryMesh::Triangle& t : mesh.triangles) {
       const std::string& name = mesh.materials[t.material];
       const auto [found, isNew] = materials.try_emplace(name, materials.size());

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "edges.h"
+#include "texture.h"
 
 namespace trimtab::terrain {
 
@@ -65,7 +66,7 @@ SourceSurface analyse(const LatticeTile& tile, const Lattice& origin, double bou
       surface.fixed[e.low] = surface.fixed[e.high] = 1;
       return;
     }
-    if (tile.material[e.triangle] == tile.material[edge[1].triangle]) return;
+    if (tile.material[e.triangle] == tile.material[edge[1].triangle] && !isSeam(tile, e, edge[1])) return;
     const Vec3 a = place(e.low), along = place(e.high) - a;
     const double flat = std::hypot(along.x, along.y);
     if (!(flat > 0)) return;
@@ -74,6 +75,7 @@ SourceSurface analyse(const LatticeTile& tile, const Lattice& origin, double bou
     surface.quadrics[e.low] += q;
     surface.quadrics[e.high] += q;
   });
+  addTextureQuadrics(tile, origin, boundaryWeight, surface.quadrics);
   fixTouchingFans(tile, surface.fixed);
   return surface;
 }

@@ -18,8 +18,9 @@ struct SourceSurface {
 };
 
 /// Makes it from area-weighted planes of the triangles, a third to each corner, and, at edges between
-/// materials, an upright plane through the edge: a metre sideways there counts as `boundaryWeight` m^2 on a
-/// square of the edge's length.
+/// materials and at seams of the texture, an upright plane through the edge: a metre sideways there counts as
+/// `boundaryWeight` m^2 on a square of the edge's length. With texture coordinates, addTextureQuadrics() adds
+/// its terms.
 SourceSurface analyse(const LatticeTile& tile, const Lattice& origin, double boundaryWeight = 0.02);
 
 }  // namespace trimtab::terrain

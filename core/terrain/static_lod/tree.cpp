@@ -150,6 +150,7 @@ class Builder {
     for (Index i = leaf.first; i < leaf.last; ++i) {
       leaf.triangles.push_back(tile_.triangles[tree_.order[i]]);
       leaf.material.push_back(tile_.material[tree_.order[i]]);
+      if (!tile_.texture.empty()) leaf.texture.push_back(tile_.texture[tree_.order[i]]);
     }
     for (const auto& t : leaf.triangles)
       for (const Index v : t)
@@ -176,6 +177,8 @@ class Builder {
       }
       for (const auto& t : tree_.nodes[child].triangles)
         patch.triangles.push_back({localOf_[t[0]], localOf_[t[1]], localOf_[t[2]]});
+      const auto& texture = tree_.nodes[child].texture;
+      patch.texture.insert(patch.texture.end(), texture.begin(), texture.end());
       node.material.insert(node.material.end(), tree_.nodes[child].material.begin(),
                            tree_.nodes[child].material.end());
       kept_[child] = {};
@@ -196,6 +199,7 @@ class Builder {
     if (high > low) {
       const auto again = [&](double pixelM) {
         node.triangles.clear();
+        node.texture.clear();
         node.material = material;
         kept_[static_cast<std::size_t>(&node - tree_.nodes.data())].clear();
         tree_.vertices.resize(vertices);
@@ -257,6 +261,7 @@ class Builder {
       const auto& corners = patch.triangles[t];
       node.triangles.push_back(
           {patch.vertices[corners[0]].id, patch.vertices[corners[1]].id, patch.vertices[corners[2]].id});
+      if (!patch.texture.empty()) node.texture.push_back(patch.texture[t]);
       node.material[left++] = node.material[t];
     }
     node.material.resize(left);

@@ -29,6 +29,7 @@ struct LodTree {
     double lineWidthM = 0;  ///< lines as wide as this or wider were kept; it states no lesser error
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<std::uint16_t> material;
+    std::vector<TextureCorners> texture;  ///< per triangle; empty if the tile has none
   };
 
   Lattice origin;  ///< whole multiples of 16 m

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <vector>
@@ -146,6 +147,29 @@ TEST_F(TerrainCommand, bakesSceneryAndTellsOfItsTrees) {
   const auto again = test::run(cli(write + "0"));
   EXPECT_EQ(again.exitCode, 1);
   EXPECT_NE(again.err.find("one that holds something"), std::string::npos) << again.err;
+}
+
+TEST_F(TerrainCommand, keepsTheTextureOfSceneryIfAskedTo) {
+  TRIMTAB_NEEDS_SHARED("data/fg-cologne");
+  const std::string airport =
+      (test::sharedDir() / "data/fg-cologne/Terrain/e000n50/e007n50/EDKB.btg.gz").string();
+  for (const bool keep : {false, true}) {
+    const std::string db = at(keep ? "kept" : "plain"), out = at(keep ? "kept-out" : "plain-out");
+    const auto baked = test::run(cli("bake " + airport + " -o " + db + (keep ? " --keep-texture" : "")));
+    ASSERT_EQ(baked.exitCode, 0) << baked.err;
+    ASSERT_EQ(test::run(cli("export btg " + db + " --level 9 -o " + out)).exitCode, 1);
+    ASSERT_EQ(test::run(cli("export btg " + db + " --level 1 -o " + out)).exitCode, 0);
+    const auto read = terrain::readBtg(out + "/Terrain/e000n50/e007n50/EDKB.btg.gz", true);
+    ASSERT_TRUE(read) << toString(read.findings());
+    float widest = 0;
+    for (const auto& corners : read->texture)
+      for (const auto& at : corners) widest = std::max(widest, std::abs(at[0]));
+    // Markings along the runway reach 210; kilometres within a degree 70 at most.
+    if (keep)
+      EXPECT_GT(widest, 200);
+    else
+      EXPECT_LT(widest, 71);
+  }
 }
 
 TEST_F(TerrainCommand, exportsOnlyWhatWasScenery) {

@@ -17,7 +17,8 @@ struct BakeOptions {
   std::vector<std::filesystem::path> sources;  ///< elevation files, folders of them, or scenery
   std::optional<std::filesystem::path> imagery;
   std::uint32_t trianglesPerNode = 2000;  ///< of the static LOD, if a source is scenery
-  bool keepLines = false;  ///< the static LOD keeps roads, streams and shorelines while they cover a pixel
+  bool keepLines = false;    ///< the static LOD keeps roads, streams and shorelines while they cover a pixel
+  bool keepTexture = false;  ///< the static LOD keeps the scenery's texture coordinates
   std::optional<Metres>
       post;  ///< post spacing; if unset, the finest file's, or one that suits the scenery's size
   /// Largest vertical error of the finest patches at the posts; 0 keeps every post exact. If unset,

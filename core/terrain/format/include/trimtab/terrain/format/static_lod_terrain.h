@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -31,6 +32,8 @@ struct StaticLodTile {
   std::vector<std::uint8_t>
       locked;  ///< per triangle: bit i says that the edge from corner i to i+1 may not change
   std::vector<std::uint16_t> material;  ///< per triangle
+  /// Texture coordinates as FlightGear's, per vertex; empty unless they were kept.
+  std::vector<std::array<float, 2>> texture;
 };
 
 /// The triangles of a node, in its tile.

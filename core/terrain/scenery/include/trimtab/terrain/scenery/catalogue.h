@@ -53,8 +53,9 @@ class SceneryCatalogue {
 
   /// Returns a tile, read or made again if it is not in memory. Safe on any thread.
   Result<std::shared_ptr<const PlacedMesh>> mesh(std::size_t tile) const;
-  /// Moves all tiles out, in order; the catalogue holds none afterwards.
-  Result<std::vector<SceneryMesh>> takeAll();
+  /// Moves all tiles out, in order; the catalogue holds none afterwards. With texture coordinates, tiles of
+  /// files are read again for them.
+  Result<std::vector<SceneryMesh>> takeAll(bool withTexture = false);
 
  private:
   struct Slot {
@@ -64,7 +65,7 @@ class SceneryCatalogue {
   };
   PlacedMesh placed(SceneryMesh mesh) const;
   void enter(std::filesystem::path file, std::function<SceneryMesh()> make, SceneryMesh mesh);
-  Result<SceneryMesh> again(const Tile& tile) const;
+  Result<SceneryMesh> again(const Tile& tile, bool withTexture = false) const;
   void keep(std::size_t tile, std::shared_ptr<PlacedMesh> mesh) const;
 
   std::vector<Tile> tiles_;

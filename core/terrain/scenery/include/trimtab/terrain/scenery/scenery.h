@@ -15,6 +15,10 @@
 /// (`.stg`).
 namespace trimtab::terrain {
 
+/// Texture coordinates, and those of a triangle's corners.
+using TexturePlace = std::array<float, 2>;
+using TextureCorners = std::array<TexturePlace, 3>;
+
 /// One tile or airport, with the triangles of the file's triangle lists, strips and fans. They are
 /// anticlockwise from above, except slivers that fold back in the file. Triangles that repeat a vertex, by
 /// number or by place, are dropped and counted.
@@ -29,6 +33,7 @@ struct SceneryMesh {
   std::vector<Vec3> vertices;          ///< earth-centred (ECEF), metres
   std::vector<std::string> materials;  ///< as the file spells them
   std::vector<Triangle> triangles;
+  std::vector<TextureCorners> texture;  ///< per triangle; empty unless asked for and in the file
   int version = 0;
   std::uint64_t trianglesInFile = 0, degenerate = 0;  ///< the first includes the second
   std::uint64_t facingDown = 0;                       ///< slivers that fold back, among the triangles
@@ -39,10 +44,10 @@ using SceneryProgress = std::function<bool(double fraction, const std::string& w
 
 /// Reads a tile, zipped or not, as its first bytes say. Fails if the file ends early, points past its arrays
 /// or has vertices off the earth; the finding names the offset in the unzipped bytes, what was expected and
-/// what was found.
-Result<SceneryMesh> readBtg(const std::filesystem::path& file);
+/// what was found. Reads texture coordinates only if asked to.
+Result<SceneryMesh> readBtg(const std::filesystem::path& file, bool withTexture = false);
 /// Parses the unzipped bytes of a tile. `where` is the file's path, which also gives the mesh its name.
-Result<SceneryMesh> parseBtg(std::string_view bytes, const std::string& where);
+Result<SceneryMesh> parseBtg(std::string_view bytes, const std::string& where, bool withTexture = false);
 /// Unpacks all members of a gzip file and checks their sums. Fails beyond 256 MiB.
 Result<std::string> gunzip(std::string_view bytes, const std::string& where);
 

@@ -11,7 +11,7 @@
 namespace trimtab::terrain {
 
 /// Returns what is drawn of a tile at a level, as surfaceOfLevel() has it, as a tile of scenery. Normals are
-/// those of the tree. Texture coordinates are textureByPlace(), because trees store none.
+/// those of the tree. Texture coordinates are the tree's if it has some, else textureByPlace().
 BtgSurface btgOfLevel(const StaticLodTerrain& terrain, std::size_t tile, std::uint32_t level);
 
 struct SceneryExport {

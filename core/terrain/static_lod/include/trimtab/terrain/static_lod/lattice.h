@@ -39,6 +39,7 @@ struct LatticeTile {
   std::vector<Vec3> normals;         ///< per vertex: sum over the triangles of all tiles, by area
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::uint16_t> material;  ///< per triangle, of LatticeTiles::materials
+  std::vector<TextureCorners> texture;  ///< per triangle; empty if the source has none
 };
 
 struct LatticeTiles {
