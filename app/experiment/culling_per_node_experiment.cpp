@@ -48,6 +48,21 @@ double testedWithinFt(const std::function<FrameDecision(double feet)>& decide) {
   return tested;
 }
 
+/// Bars of one column for each loop.
+Plot barsOf(const char* file, const char* title, const char* label, const Table& table, const char* column) {
+  Plot plot{file, title, "terrain, pitch, altitude", label, {}, {}};
+  for (const char* loop : kLoops) plot.series.push_back({loop, {}, {}});
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const std::size_t loop = row % kLoops.size();
+    plot.series[loop].y.push_back(table.number(row, column));
+    char text[64];
+    std::snprintf(text, sizeof text, "%s, %.0f deg, %.0f ft", table.text(row, "terrain").c_str(),
+                  table.number(row, "pitch_deg"), table.number(row, "altitude_ft"));
+    if (loop == 0) plot.categories.push_back(text);
+  }
+  return plot;
+}
+
 struct Sums {
   std::vector<double> ms, triangles, texels;
   double differing = 0, frames = 0;
@@ -129,6 +144,10 @@ Result<Report> runCullingPerNode(const Setup& setup) {
                   "maps_drawn counts the views in which a depth map shaped the picture; differing_pixels "
                   "compares with view "
                   "frustum culling."};
+  report.plots = {barsOf("culling-per-node-frame-ms", "Frame time, decided by frame and by node",
+                         "frame time (ms)", report.measured, "frame_ms"),
+                  barsOf("culling-per-node-triangles", "Triangles, decided by frame and by node", "triangles",
+                         report.measured, "triangles")};
   return report;
 }
 

@@ -118,6 +118,9 @@ TEST_F(Experiment, aDecisionForEachNodeTestsFewerNodesAndChangesNoPixel) {
     // The eye is higher above the sea than above the ground, so the frame never asks for the larger map.
     EXPECT_GE(rows.number(row + 1, "map_texels"), rows.number(row, "map_texels")) << row;
   }
+  ASSERT_EQ(report->plots.size(), 2u);
+  EXPECT_EQ(report->plots[1].categories.size(), 8u);
+  for (const auto& series : report->plots[1].series) EXPECT_EQ(series.y.size(), 8u);
 }
 
 TEST_F(Experiment, aHostOfAnyRateIsMetInTheSweepWhereImagesAreCounted) {
