@@ -101,6 +101,7 @@ SceneView Renderer::Impl::viewOf(const FrameRequest& r) const {
   view.guardBand = guardBandOf(r.view, gl->viewports);
   view.sky = !r.overlays.showHoles;
   view.wireframe = r.overlays.wireframe;
+  view.textureSquares = r.overlays.textureSquares;
   view.tinted = r.overlays.colourByReason || r.overlays.colourByLevel;
   // Culled nodes are shown by their colour, however far away they are.
   if (!r.overlays.colourByReason) view.air = airOf(r.decision.weather);

@@ -348,6 +348,7 @@ void SceneGraph::frame(const SceneView& view, unsigned fbo) {
   uniforms.set("tangents", Type::FLOAT_VEC4, tangentsOf(view.shape));
   uniforms.set("dip", Type::FLOAT, static_cast<float>(view.horizonDip));
   uniforms.set("tinted", Type::BOOL, view.tinted);
+  uniforms.set("textureSquares", Type::BOOL, view.textureSquares);
   uniforms.set("inGuardBand", Type::FLOAT, 1.0f / static_cast<float>(view.guardBand));
   n.drawnShape = view.shape, n.guardBand = view.guardBand;
   if (view.gridStepsPerPixel > 0) {

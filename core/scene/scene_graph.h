@@ -52,6 +52,7 @@ struct SceneView {
   bool sky = true, tinted = false, wireframe = false, lines = false;
   std::optional<TerrainForm> form;  ///< of the terrain that is drawn; unset without terrain
   bool treePicture = false;         ///< drawn instead of the trees' surface
+  bool textureSquares = false;      ///< Overlays::textureSquares
   /// Draws the node pass instead of an image: terrain as numbers, and nothing else. The caller has cleared
   /// the framebuffer's colour.
   bool nodes = false;

@@ -46,6 +46,8 @@ Legend legendOf(const FrameRequest& request, bool patches, const terrain::Databa
   const Overlays& overlays = request.overlays;
   const auto trees = terrain.staticLod();
   if (overlays.treePicture && trees) return {QObject::tr("Document E's picture"), treePictureLegend()};
+  if (overlays.textureSquares && trees && !terrain::hasTexture(*trees))
+    return {QObject::tr("This terrain kept no texture coordinates: bake it with --keep-texture"), {}};
   if (overlays.colourByReason) return {QObject::tr("Why a tile is drawn or not"), reasonLegend()};
   if (!overlays.colourByLevel) return {};
   if (trees && asksForTrees(request))

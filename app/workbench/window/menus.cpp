@@ -194,6 +194,10 @@ void Menus::makeViewMenu() {
   QAction* byLevel = addOverlay(view, tr("Colour by &level"), tr("Ctrl+4"), &Overlays::colourByLevel);
   QAction* voids = addOverlay(view, tr("Filled &voids"), tr("Ctrl+5"), &Overlays::voids);
   voids->setToolTip(tr("Highlights posts that the sources leave open; visible where patches are drawn"));
+  QAction* squares = addOverlay(view, tr("Te&xture squares"), tr("Ctrl+6"), &Overlays::textureSquares);
+  squares->setToolTip(tr(
+      "Draws static trees with squares of an eighth of a texture, so that one sees how textures lie on each\n"
+      "level; needs a terrain baked from scenery with --keep-texture"));
   makeExclusive(byReason, byLevel);
   QAction* freeze = nullptr;
   add(view, {{tr("&Freeze culling"),
@@ -218,7 +222,7 @@ void Menus::makeViewMenu() {
   bar->setObjectName(QStringLiteral("view_toolbar"));
   bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
   bar->addActions({wireframe, bounds, byReason, byLevel, freeze});
-  panels_.terrain->setActions(terrainActions_, {byLevel, wireframe, bounds, voids});
+  panels_.terrain->setActions(terrainActions_, {byLevel, wireframe, bounds, voids, squares});
   panels_.culling->setActions({byReason, bounds, freeze});
 }
 

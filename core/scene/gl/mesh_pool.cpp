@@ -55,7 +55,8 @@ MeshPool::~MeshPool() {
   glDeleteTextures(1, &slotTexture_);
 }
 
-void MeshPool::clear() {
+void MeshPool::clear(const Layout& layout) {
+  layout_ = layout;
   for (Buffer* b : {&vertices_, &indices_, &slots_}) {
     glDeleteBuffers(1, &b->buffer);
     *b = {};

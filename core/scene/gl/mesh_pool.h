@@ -52,8 +52,9 @@ class MeshPool {
   MeshPool(const MeshPool&) = delete;
   MeshPool& operator=(const MeshPool&) = delete;
 
-  /// Gives all memory back.
-  void clear();
+  /// Gives all memory back; the next mesh has this layout.
+  void clear(const Layout& layout);
+  void clear() { clear(layout_); }
   /// Makes room for so many bytes of vertices and of indices. Without memory for that, the room stays.
   void reserve(std::size_t vertexBytes, std::size_t indexBytes);
   /// Returns a place for a mesh; unset if there is no memory for it, or if it is empty.

@@ -78,7 +78,8 @@ ShaderPair terrainShaders(TerrainForm form, bool nodes) {
   return {shaderText(patches ? "patch.vert.glsl" : "terrain.vert.glsl", defines),
           shaderText(nodes     ? "node.frag.glsl"
                      : patches ? "patch.frag.glsl"
-                               : "terrain.frag.glsl")};
+                               : "terrain.frag.glsl",
+                     defines)};
 }
 
 }  // namespace trimtab::scene

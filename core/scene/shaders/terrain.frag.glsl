@@ -7,9 +7,18 @@ in float clearness;
 in vec2 ground;
 uniform vec3 haze;         // sRGB
 uniform bool wire;
+#ifdef STATIC_TREE
+#include "texture_squares.glsl"
+in vec2 inTexture;
+uniform bool textureSquares;
+#endif
 out vec4 fragment;
 
 void main() {
   float detail = wire ? 0.0 : groundDetail(ground);
-  fragment = vec4(throughAir(mix(haze, lit * (1.0 + detail), clearness)), 1.0);
+  vec3 shown = lit * (1.0 + detail);
+#ifdef STATIC_TREE
+  if (textureSquares && !wire) shown *= textureSquare(inTexture);
+#endif
+  fragment = vec4(throughAir(mix(haze, shown, clearness)), 1.0);
 }

@@ -10,6 +10,7 @@ uniform bool tinted;
 uniform bool wire;
 uniform float inGuardBand;
 #ifdef STATIC_TREE
+layout(location = 2) in vec2 treeTexture;
 layout(location = 5) in vec4 treeTint;
 #else
 uniform samplerBuffer tints;
@@ -17,6 +18,9 @@ uniform samplerBuffer tints;
 out vec3 lit;
 out float clearness;       // share of `lit` that haze leaves
 out vec2 ground;           // groundMetres
+#ifdef STATIC_TREE
+out vec2 inTexture;        // in units of the material's texture
+#endif
 #ifdef NODE_IDS
 #ifdef STATIC_TREE
 layout(location = 4) in uint treeNode;
@@ -28,6 +32,7 @@ invariant gl_Position;
 void main() {
 #ifdef STATIC_TREE
   ivec4 slot = texelFetch(slots, gl_VertexID / TREE_BLOCK);
+  inTexture = treeTexture;
 #else
   int tile = gl_VertexID / TILE_VERTICES;
   ivec4 slot = texelFetch(slots, tile * 2);

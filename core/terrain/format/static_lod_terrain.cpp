@@ -4,6 +4,11 @@
 
 namespace trimtab::terrain {
 
+bool hasTexture(const StaticLodTerrain& terrain) {
+  return std::any_of(terrain.tiles.begin(), terrain.tiles.end(),
+                     [](const StaticLodTile& tile) { return !tile.texture.empty(); });
+}
+
 void countStaticLod(StaticLodTerrain& terrain) {
   StaticLodCounts& counts = terrain.counts;
   counts.levels = 0;

@@ -73,6 +73,14 @@ class SceneTest : public testing::Test {
     return opened.value();
   }
 
+  /// Returns the pixel that shows a point of the terrain.
+  static std::pair<int, int> projected(const FrameRequest& r, const LocalFrame& frame, Vec3 p) {
+    const Vec3 e = eyeAxes(frame, r.eye, r.attitude) * (p - frame.fromGeodetic(r.eye));
+    const ViewShape& v = r.view;
+    return {static_cast<int>(std::floor((e.x / -e.z - v.left) / (v.right - v.left) * v.widthPx)),
+            static_cast<int>(std::floor((e.y / -e.z - v.bottom) / (v.top - v.bottom) * v.heightPx))};
+  }
+
   FrameRequest request(const GeodeticPosition& eye, const Attitude& attitude) const {
     FrameRequest r;
     r.eye = eye;

@@ -13,6 +13,12 @@ namespace {
 
 using terrain::StaticLodVertex;
 
+/// A vertex of a terrain that has texture coordinates. Only such a terrain pays for them.
+struct TexturedVertex {
+  StaticLodVertex plain;
+  std::array<float, 2> texture;
+};
+
 constexpr MeshPool::Layout kLayout{.vertexBytes = sizeof(StaticLodVertex),
                                    .indexBytes = sizeof(std::uint32_t),
                                    .slotBytes = 4 * sizeof(std::int32_t),
@@ -21,10 +27,19 @@ constexpr MeshPool::Layout kLayout{.vertexBytes = sizeof(StaticLodVertex),
                                    .leastBlocks = 4096,
                                    .leastIndexBlocks = 4096,
                                    .growth = 1.5};
+
+MeshPool::Layout layoutFor(bool textured) {
+  MeshPool::Layout layout = kLayout;
+  if (textured) layout.vertexBytes = sizeof(TexturedVertex);
+  return layout;
+}
+
 constexpr std::array kAttributes{
     VertexAttribute{0, 3, GL_FLOAT, false, offsetof(StaticLodVertex, x)},
     VertexAttribute{1, 3, GL_BYTE, true, offsetof(StaticLodVertex, normal)},
     VertexAttribute{3, 4, GL_UNSIGNED_BYTE, true, offsetof(StaticLodVertex, colour)}};
+
+constexpr std::array kTexture{VertexAttribute{2, 2, GL_FLOAT, false, offsetof(TexturedVertex, texture)}};
 
 template <class T>
 unsigned makeBuffer(unsigned target, const std::vector<T>& data) {
@@ -72,7 +87,8 @@ void StaticLodLayer::setTerrain(std::shared_ptr<const terrain::StaticLodTerrain>
   terrain_ = std::move(terrain);
   places_.assign(terrain_ ? terrain_->tiles.size() : 0, {});
   edges_.assign(terrain_ ? terrain_->index.size() : 0, {});
-  pool_.clear();
+  textured_ = terrain_ && terrain::hasTexture(*terrain_);
+  pool_.clear(layoutFor(textured_));
   ++placesNumber_;
 }
 
@@ -98,7 +114,12 @@ void StaticLodLayer::attach() {
   for (const GLuint array : {array_, numberedArray_, edgeArray_}) {
     glBindVertexArray(array);
     glBindBuffer(GL_ARRAY_BUFFER, pool_.vertexBuffer());
-    if (pool_.vertexBuffer() != 0) defineAttributes(kAttributes, sizeof(StaticLodVertex));
+    glDisableVertexAttribArray(kTexture[0].index);
+    if (pool_.vertexBuffer() != 0) {
+      const std::size_t bytes = layoutFor(textured_).vertexBytes;
+      defineAttributes(kAttributes, bytes);
+      if (textured_) defineAttributes(kTexture, bytes);
+    }
     if (array != edgeArray_) glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, pool_.indexBuffer());
   }
   glBindVertexArray(numberedArray_);
@@ -118,15 +139,24 @@ bool StaticLodLayer::upload(std::uint32_t at) {
   const terrain::StaticLodTile& source = terrain_->tiles[at];
   const std::size_t vertices = source.vertices.size(), indices = source.indices.size();
   if (vertices == 0 || indices == 0) return false;
-  const std::size_t needed = kLayout.bytes(kLayout.blocksOf(vertices), kLayout.indexBlocksOf(indices));
+  const MeshPool::Layout layout = layoutFor(textured_);
+  const std::size_t needed = layout.bytes(layout.blocksOf(vertices), layout.indexBlocksOf(indices));
   while (bytes() + needed > keptBytes_ && dropOldest()) {
   }
   std::optional<MeshPool::Place> place;
   while (!(place = pool_.take(vertices, indices)))
     if (!dropOldest()) return false;
   const std::array<std::int32_t, 4> slot{source.origin[0], source.origin[1], source.origin[2], 0};
-  pool_.put(*place, std::as_bytes(std::span(source.vertices)), std::as_bytes(std::span(source.indices)),
-            std::as_bytes(std::span(slot)));
+  std::vector<TexturedVertex> withTexture;
+  if (textured_) {
+    withTexture.reserve(vertices);
+    for (std::size_t i = 0; i < vertices; ++i)
+      withTexture.push_back(
+          {source.vertices[i], source.texture.empty() ? std::array{0.0f, 0.0f} : source.texture[i]});
+  }
+  pool_.put(*place,
+            textured_ ? std::as_bytes(std::span(withTexture)) : std::as_bytes(std::span(source.vertices)),
+            std::as_bytes(std::span(source.indices)), std::as_bytes(std::span(slot)));
   pool_.send();
   places_[at] = {*place, frame_};
   ++placesNumber_;

@@ -37,7 +37,8 @@ class StaticLodLayer {
   /// number of tiles uploaded. Nodes of a tile for which there is no memory are not drawn.
   std::size_t prepare(std::span<const TileDraw> nodes, bool anew = false);
 
-  /// One multi-draw, in order. The program in use reads attributes 0 position, 1 normal, 3 colour.
+  /// One multi-draw, in order. The program in use reads attributes 0 position, 1 normal, 2 texture
+  /// coordinates (0 where the terrain kept none), 3 colour.
   void draw(std::span<const TileDraw> nodes);
   /// The same with each node's number and colour (RGBA8; or none) as attributes 4 and 5.
   void drawNumbered(std::span<const TileDraw> nodes, std::span<const std::uint32_t> colours = {});
@@ -74,6 +75,7 @@ class StaticLodLayer {
 
   std::size_t keptBytes_;
   std::shared_ptr<const terrain::StaticLodTerrain> terrain_;
+  bool textured_ = false;      ///< the terrain has texture coordinates, which are attribute 2 then
   std::vector<Place> places_;  ///< one a tile
   std::vector<Edges> edges_;   ///< one a node; made on first use
   MeshPool pool_;

@@ -273,14 +273,6 @@ TEST_F(StaticTrees, showEachLevelByItself) {
   }
 }
 
-/// Where a point of the terrain is in the picture.
-std::pair<int, int> projected(const FrameRequest& r, const LocalFrame& frame, Vec3 p) {
-  const Vec3 e = eyeAxes(frame, r.eye, r.attitude) * (p - frame.fromGeodetic(r.eye));
-  const ViewShape& v = r.view;
-  return {static_cast<int>(std::floor((e.x / -e.z - v.left) / (v.right - v.left) * v.widthPx)),
-          static_cast<int>(std::floor((e.y / -e.z - v.bottom) / (v.top - v.bottom) * v.heightPx))};
-}
-
 TEST_F(StaticTrees, showDocumentEsPictureInGreyRedAndBlack) {
   use(treeMountains());
   const test::SyntheticTerrain& ground = treeMountains()->surface();

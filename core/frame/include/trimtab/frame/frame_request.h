@@ -88,7 +88,7 @@ inline double farCutM(const FrameRequest& request) {
 /// Reports whether the request asks for static trees, if the terrain has them.
 inline bool asksForTrees(const FrameRequest& request) {
   return request.staticLod.terrain == TerrainForm::static_trees || request.overlays.treeDepth >= 0 ||
-         request.overlays.treePicture;
+         request.overlays.treePicture || request.overlays.textureSquares;
 }
 
 }  // namespace trimtab

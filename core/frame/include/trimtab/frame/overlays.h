@@ -10,8 +10,10 @@ struct Overlays {
   /// Draws this depth of the static trees at any distance, 0 is the roots; -1 selects by distance.
   int treeDepth = -1;
   bool treePicture = false;  ///< document E's image: faces light grey, edges red, locked edges black
-  bool voids = false;        ///< highlights filled voids, if patches are drawn
-  bool showHoles = false;    ///< draws no sky: pixels without terrain stay magenta
+  /// Lays squares of an eighth of a texture over static trees that kept their texture coordinates.
+  bool textureSquares = false;
+  bool voids = false;      ///< highlights filled voids, if patches are drawn
+  bool showHoles = false;  ///< draws no sky: pixels without terrain stay magenta
   friend bool operator==(const Overlays&, const Overlays&) = default;
 };
 

@@ -66,6 +66,9 @@ struct StaticLodTerrain {
   StaticLodCounts counts;
 };
 
+/// Reports whether any tile kept its texture coordinates.
+bool hasTexture(const StaticLodTerrain& terrain);
+
 /// Computes the counts that follow from the index and the arrays.
 void countStaticLod(StaticLodTerrain& terrain);
 
