@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "policy_bench.h"
 #include "row.h"
 #include "tests/core/fuzzy/fuzzylite_oracle.h"
 #include "tests/support.h"
@@ -264,6 +265,7 @@ int main(int argc, char** argv) {
   const std::vector<FrameInput> inputs = bench::inputsOf(*flight);
   if (report.wants("speed")) bench::speed(report, inputs);
   if (report.wants("rules")) bench::rulesAgainstFuzzylite(report);
+  if (report.wants("policy")) bench::policies(report);
   if (report.wants("trace")) bench::traceSpeed(report, inputs);
   if (report.wants("exactness")) bench::exactness(report, inputs);
   return report.finish();

@@ -186,9 +186,12 @@ std::optional<double> fuzzyliteNanoseconds(const Grid& grid, int runs) {
   // Its benchmark reads the outputs that it expects from the same file.
   evaluate(dir, inputs(kAltitude, kPitch) + equationOutput(kRuleBase) + kRuleBlock + equationRules(kRuleBase),
            grid, error);
-  if (!error.empty()) return std::nullopt;
+  return error.empty() ? benchmarkNanoseconds(dir.path(), grid.size(), runs) : std::nullopt;
+}
+
+std::optional<double> benchmarkNanoseconds(const std::filesystem::path& dir, std::size_t rows, int runs) {
   const Ran ran =
-      run("cd " + dir.path().string() + " && fuzzylite benchmark engine.fll out.fld " + std::to_string(runs));
+      run("cd " + dir.string() + " && fuzzylite benchmark engine.fll out.fld " + std::to_string(runs));
   // Two lines, tab-separated: names and values; t1, t2 ... are nanoseconds for all evaluations of a run.
   std::istringstream lines(ran.out);
   std::string names, values;
@@ -199,7 +202,7 @@ std::optional<double> fuzzyliteNanoseconds(const Grid& grid, int runs) {
   std::optional<double> least;
   while (std::getline(nameCells, name, '\t') && std::getline(valueCells, value, '\t')) {
     if (name.size() < 2 || name[0] != 't' || name[1] < '0' || name[1] > '9') continue;
-    const double each = std::strtod(value.c_str(), nullptr) / static_cast<double>(grid.size());
+    const double each = std::strtod(value.c_str(), nullptr) / static_cast<double>(rows);
     least = least ? std::min(*least, each) : each;
   }
   return least;

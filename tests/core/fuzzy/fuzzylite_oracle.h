@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,5 +41,9 @@ FuzzyResult byUs(const AltitudeParameters& altitude, const PitchParameters& pitc
 /// Nanoseconds that fuzzylite says it takes to evaluate the four rules of Eq. (2) once: its own benchmark
 /// over the grid, the least of `runs`.
 std::optional<double> fuzzyliteNanoseconds(const Grid& grid, int runs);
+
+/// Returns fuzzylite's own measure of one evaluation, the least of `runs`, over the rows of out.fld in `dir`
+/// by engine.fll in it; nothing if it fails.
+std::optional<double> benchmarkNanoseconds(const std::filesystem::path& dir, std::size_t rows, int runs);
 
 }  // namespace trimtab::test

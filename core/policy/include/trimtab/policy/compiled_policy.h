@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "trimtab/policy/policy.h"
+
+namespace trimtab {
+
+/// What a policy decides from one set of signals.
+struct PolicyDecision {
+  LeverValues target;              ///< NaN where no rule fires that sets the lever
+  std::uint32_t unknownAsked = 0;  ///< bit s: an enabled rule asks for signal s, which nobody knows
+  std::vector<double> membership;  ///< of each term; NaN if its signal is unknown
+  std::vector<double> firing;      ///< of each rule: membership of its condition times its weight, 0..1
+};
+
+/// A policy as flat arrays, made once for each edit. A decision looks nothing up by name and, with a
+/// PolicyDecision that was used before, allocates nothing.
+class CompiledPolicy {
+ public:
+  CompiledPolicy() = default;
+
+  /// Computes each lever as the weighted mean of the settings of the rules that fire, sum(w u) / sum(w), w
+  /// being the rule's firing: Takagi-Sugeno of order zero, Eq. (2) of documents A and B for each lever by
+  /// itself. The result is never outside the settings that it is the mean of. A rule that asks for an unknown
+  /// signal does not fire, whatever else its condition says.
+  void decide(const SignalValues& signals, PolicyDecision& decision) const;
+
+  std::size_t terms() const { return terms_.size(); }
+  std::size_t rules() const { return rules_.size(); }
+  bool moves(Lever lever) const { return levers_ >> static_cast<unsigned>(lever) & 1; }
+
+  /// Returns the share of a rule in a lever's value, 0..1; 0 if it has none.
+  double share(std::size_t rule, Lever lever, const PolicyDecision& decision) const;
+
+ private:
+  friend class PolicyCompiler;
+
+  struct Term {
+    TermShape shape;
+    std::uint8_t signal;
+    std::uint16_t count;  ///< of numbers
+    std::uint32_t first;  ///< in numbers_
+  };
+  /// A step of a condition in postfix order.
+  enum class Op : std::uint8_t { term, one, both, either, invert, very, somewhat, extremely, seldom };
+  struct Step {
+    Op op;
+    std::uint16_t term;
+  };
+  struct Rule {
+    std::uint32_t firstStep, steps, firstSetting, settings;
+    std::uint32_t signals;  ///< bit s: the condition asks for signal s
+    double weight;          ///< 0 if the rule is switched off
+  };
+
+  double conditionOf(const Rule& rule, const double* memberships) const;
+
+  PolicyNorm norm_ = PolicyNorm::minimum;
+  std::vector<Term> terms_;
+  std::vector<double> numbers_;
+  std::vector<Step> steps_;
+  std::vector<Rule> rules_;
+  std::vector<LeverSetting> settings_;
+  std::uint32_t levers_ = 0;
+};
+
+/// Checks and compiles a policy. Fails with every finding, each at "WHERE: terms.SIGNAL.NAME" or "WHERE:
+/// rules.N" (from 1): shapes with a wrong count of numbers, falling or no width, not-a-number; terms that
+/// stand twice; conditions with unknown words; settings outside a lever's hard range or none; weights outside
+/// 0..1; more than the limits of policy.h.
+Result<CompiledPolicy> compile(const Policy& policy, const std::string& where);
+
+}  // namespace trimtab

@@ -1,0 +1,117 @@
+#include <algorithm>
+
+#include "condition.h"
+#include "membership_at.h"
+#include "trimtab/policy/compiled_policy.h"
+#include "trimtab/preset/number.h"
+
+namespace trimtab {
+
+class PolicyCompiler {
+ public:
+  PolicyCompiler(const Policy& policy, const std::string& where) : policy_(policy), where_(where) {}
+
+  Result<CompiledPolicy> run() {
+    limit("terms", policy_.terms.size(), kMostPolicyTerms);
+    limit("rules", policy_.rules.size(), kMostPolicyRules);
+    if (!findings_.empty()) return findings_;
+    out_.norm_ = policy_.norm;
+    for (const PolicyTerm& term : policy_.terms) addTerm(term);
+    for (std::size_t i = 0; i < policy_.rules.size(); ++i)
+      addRule(policy_.rules[i], "rules." + std::to_string(i + 1));
+    if (!findings_.empty()) return findings_;
+    return std::move(out_);
+  }
+
+ private:
+  void refuse(std::string key, std::string expected, std::string found) {
+    findings_.push_back({Severity::error, where_, std::move(key), std::move(expected),
+                         found.empty() ? "nothing" : found.substr(0, 80)});
+  }
+  void limit(const char* key, std::size_t count, std::size_t most) {
+    if (count > most) refuse(key, "at most " + std::to_string(most), std::to_string(count));
+  }
+
+  std::optional<std::size_t> findTerm(Signal signal, std::string_view name) const {
+    for (std::size_t i = 0; i < out_.terms_.size(); ++i)
+      if (policy_.terms[i].signal == signal && policy_.terms[i].name == name) return i;
+    return std::nullopt;
+  }
+
+  void addTerm(const PolicyTerm& term) {
+    const std::string key = "terms." + std::string(rowOf(term.signal).key) + "." + term.name.substr(0, 40);
+    if (!isTermName(term.name))
+      refuse(key, "a name of at most 40 letters, digits and _ that is no word of rules", term.name);
+    if (findTerm(term.signal, term.name)) refuse(key, "a name that stands once", term.name);
+    if (const auto flaw = flawOf(term)) refuse(key, flaw->expected, flaw->found);
+    const std::size_t count = std::min(term.numbers.size(), kMostTermNumbers);
+    out_.terms_.push_back({term.shape, static_cast<std::uint8_t>(term.signal),
+                           static_cast<std::uint16_t>(count),
+                           static_cast<std::uint32_t>(out_.numbers_.size())});
+    out_.numbers_.insert(out_.numbers_.end(), term.numbers.begin(),
+                         term.numbers.begin() + static_cast<std::ptrdiff_t>(count));
+  }
+
+  void addRule(const PolicyRule& rule, const std::string& key) {
+    CompiledPolicy::Rule made{};
+    made.firstStep = static_cast<std::uint32_t>(out_.steps_.size());
+    made.firstSetting = static_cast<std::uint32_t>(out_.settings_.size());
+    made.settings = static_cast<std::uint32_t>(rule.settings.size());
+    made.weight = rule.enabled ? rule.weight : 0;
+    const auto steps = readCondition(rule.condition, where_, key);
+    if (steps)
+      for (const ConditionStep& step : *steps) addStep(step, key, made);
+    else
+      findings_.insert(findings_.end(), steps.findings().begin(), steps.findings().end());
+    made.steps = static_cast<std::uint32_t>(out_.steps_.size()) - made.firstStep;
+    if (!(rule.weight >= 0 && rule.weight <= 1)) refuse(key, "a weight from 0 to 1", numberText(rule.weight));
+    if (rule.settings.empty()) refuse(key, "at least one lever", "");
+    for (const LeverSetting& setting : rule.settings) {
+      const LeverRow& row = rowOf(setting.lever);
+      if (!(setting.value >= row.hard.low && setting.value <= row.hard.high))
+        refuse(
+            key,
+            std::string(row.key) + " from " + numberText(row.hard.low) + " to " + numberText(row.hard.high),
+            numberText(setting.value));
+      if (made.weight > 0) out_.levers_ |= 1u << static_cast<unsigned>(setting.lever);
+    }
+    out_.settings_.insert(out_.settings_.end(), rule.settings.begin(), rule.settings.end());
+    out_.rules_.push_back(made);
+  }
+
+  void addStep(const ConditionStep& step, const std::string& key, CompiledPolicy::Rule& rule) {
+    using Op = CompiledPolicy::Op;
+    constexpr Op kOps[] = {Op::term, Op::both,     Op::either,    Op::invert,
+                           Op::very, Op::somewhat, Op::extremely, Op::seldom};
+    if (step.kind != ConditionStep::Kind::proposition) {
+      out_.steps_.push_back({kOps[static_cast<std::size_t>(step.kind)], 0});
+      return;
+    }
+    if (step.term == "any") {
+      out_.steps_.push_back({Op::one, 0});
+      return;
+    }
+    const auto term = findTerm(step.signal, step.term);
+    if (!term) return refuse(key, termsOf(step.signal), std::string(step.term));
+    out_.steps_.push_back({Op::term, static_cast<std::uint16_t>(*term)});
+    rule.signals |= 1u << static_cast<unsigned>(step.signal);
+  }
+
+  std::string termsOf(Signal signal) const {
+    std::string names;
+    for (const PolicyTerm& term : policy_.terms)
+      if (term.signal == signal) names += (names.empty() ? ": " : ", ") + term.name;
+    return "a term of " + std::string(rowOf(signal).key) + (names.empty() ? ", which has none" : names);
+  }
+
+  const Policy& policy_;
+  const std::string& where_;
+  CompiledPolicy out_;
+  Findings findings_;
+};
+
+Result<CompiledPolicy> compile(const Policy& policy, const std::string& where) {
+  return PolicyCompiler(policy, where).run();
+}
+
+}  // namespace trimtab

@@ -1,0 +1,94 @@
+#include "trimtab/policy/signal_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trimtab/motion/line_of_sight.h"
+
+namespace trimtab {
+namespace {
+
+constexpr double kLongestGapS = 1, kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// The direction of an attitude: east, north, up.
+Vec3 directionOf(const Attitude& a) {
+  const double heading = a.heading.in<Radians>(), pitch = a.pitch.in<Radians>();
+  return {std::sin(heading) * std::cos(pitch), std::cos(heading) * std::cos(pitch), std::sin(pitch)};
+}
+
+/// The angle between two directions, degrees; exact for small angles too.
+double degreesBetween(Vec3 a, Vec3 b) {
+  return Radians{std::atan2(length(cross(a, b)), dot(a, b))}.as<Degrees>().value();
+}
+
+double finiteOr(double value, double otherwise) {
+  return std::isfinite(value) ? value : otherwise;
+}
+
+}  // namespace
+
+void SignalTracker::filter(Signal signal, double value, double dt) {
+  double& kept = values_[signal];
+  const double tau = rowOf(signal).filterS;
+  // By the time between states, so that the filter is the same for any host's rate.
+  if (std::isnan(value) || std::isnan(kept) || !(tau > 0))
+    kept = value;
+  else
+    kept += (value - kept) * -std::expm1(-dt / tau);
+}
+
+void SignalTracker::push(const AircraftState& state, std::optional<Metres> aboveGround,
+                         const std::optional<Velocity>& velocity, const WeatherDecision& weather) {
+  const double dt = time_ ? state.time - *time_ : kUnknown;
+  const bool follows = dt > 0 && dt <= kLongestGapS;
+  if (dt == 0) return;  // the same moment again
+
+  values_[Signal::altitude] = finiteOr(state.position.height.in<Feet>(), kUnknown);
+  values_[Signal::above_ground] = aboveGround ? finiteOr(aboveGround->in<Feet>(), kUnknown) : kUnknown;
+  values_[Signal::pitch] = finiteOr(state.attitude.pitch.value(), kUnknown);
+  const double roll = std::remainder(state.attitude.roll.value(), 360.0);
+  values_[Signal::roll] = finiteOr(std::abs(roll), kUnknown);
+  double speed = kUnknown, climb = kUnknown;
+  if (velocity) {
+    const double north = velocity->north.value(), east = velocity->east.value(),
+                 down = velocity->down.value();
+    speed = MetresPerSecond{std::sqrt(north * north + east * east + down * down)}.as<Knots>().value();
+    climb = -Metres{down}.in<Feet>() * 60;
+  }
+  if (state.airspeed) speed = state.airspeed->value();
+  const double filterStep = follows ? dt : std::numeric_limits<double>::infinity();
+  filter(Signal::speed, finiteOr(speed, kUnknown), filterStep);
+  filter(Signal::climb, finiteOr(climb, kUnknown), filterStep);
+  values_[Signal::visibility] = std::min(weather.visibilityM, rowOf(Signal::visibility).range.high);
+  values_[Signal::precipitation] = weather.density;
+
+  const Vec3 sight = directionOf(lineOfSight(state.attitude, state.head));
+  const Vec3 head = state.head ? directionOf(*state.head) : Vec3{};
+  const bool bothHeads = hasHead_ && state.head;
+  if (!follows) values_[Signal::sight_rate] = values_[Signal::head_rate] = kUnknown;
+  if (!state.head) values_[Signal::head_rate] = kUnknown;
+  if (follows) {
+    filter(Signal::sight_rate, finiteOr(degreesBetween(sight_, sight) / dt, kUnknown), dt);
+    if (bothHeads) filter(Signal::head_rate, finiteOr(degreesBetween(head_, head) / dt, kUnknown), dt);
+  }
+  sight_ = sight;
+  head_ = head;
+  hasHead_ = state.head.has_value();
+  if (std::isfinite(state.time))
+    time_ = state.time;
+  else
+    time_.reset();
+}
+
+void SignalTracker::finished(double workMs, double budgetMs, std::uint64_t triangles) {
+  values_[Signal::triangles] = static_cast<double>(triangles);
+  if (!(workMs > 0 && budgetMs > 0 && std::isfinite(workMs) && std::isfinite(budgetMs))) return;
+  loads_[loadCount_++ % loads_.size()] = workMs / budgetMs;
+  std::array<double, 9> sorted = loads_;
+  const std::size_t count = std::min(loadCount_, sorted.size());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<std::ptrdiff_t>(count));
+  values_[Signal::load] = *middle;
+}
+
+}  // namespace trimtab

@@ -1,0 +1,156 @@
+#include "trimtab/policy/signal_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace trimtab {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(),
+                 kInf = std::numeric_limits<double>::infinity();
+
+AircraftState stateAt(double time, double headingDeg = 0, double pitchDeg = 0) {
+  AircraftState state;
+  state.time = time;
+  state.position = {Degrees{36}, Degrees{128}, Metres{304.8}};
+  state.attitude = {Degrees{headingDeg}, Degrees{pitchDeg}, Degrees{0}};
+  return state;
+}
+
+void push(SignalTracker& tracker, const AircraftState& state) {
+  tracker.push(state, std::nullopt, std::nullopt, {});
+}
+
+TEST(SignalTracker, knowsOfOneStateWhatNeedsNoOther) {
+  SignalTracker tracker;
+  for (const SignalRow& row : kSignalRows) EXPECT_TRUE(std::isnan(tracker.values()[row.signal])) << row.key;
+  AircraftState state = stateAt(5, 0, -3);
+  state.attitude.roll = Degrees{-30};
+  WeatherDecision weather;
+  weather.visibilityM = 1500;
+  weather.density = 0.25;
+  tracker.push(state, Metres{30.48},
+               Velocity{MetresPerSecond{30}, MetresPerSecond{40}, MetresPerSecond{-5.08}}, weather);
+  const SignalValues& v = tracker.values();
+  EXPECT_DOUBLE_EQ(v[Signal::altitude], 1000);
+  EXPECT_DOUBLE_EQ(v[Signal::above_ground], 100);
+  EXPECT_EQ(v[Signal::pitch], -3);
+  EXPECT_EQ(v[Signal::roll], 30);
+  EXPECT_NEAR(v[Signal::speed], std::sqrt(2525.8064) / 0.514444444, 1e-6);
+  EXPECT_NEAR(v[Signal::climb], 1000, 1e-9);
+  EXPECT_EQ(v[Signal::visibility], 1500);
+  EXPECT_EQ(v[Signal::precipitation], 0.25);
+  EXPECT_TRUE(std::isnan(v[Signal::sight_rate]));
+  EXPECT_TRUE(std::isnan(v[Signal::load]));
+  state.time = 5.1;
+  state.airspeed = Knots{99};
+  for (int i = 0; i < 100; ++i) {
+    tracker.push(state, std::nullopt, std::nullopt, weather);
+    state.time += 0.1;
+  }
+  EXPECT_NEAR(v[Signal::speed], 99, 1e-6) << "the airspeed comes first";
+  EXPECT_TRUE(std::isnan(v[Signal::climb]));
+  EXPECT_TRUE(std::isnan(v[Signal::above_ground]));
+}
+
+TEST(SignalTracker, measuresATurnOfAnyRateThroughNorthAndWithIrregularSteps) {
+  std::mt19937 random(19);
+  std::uniform_real_distribution<double> step(0.002, 0.1);
+  for (const double rate : {0.5, 3.0, 90.0, 180.0, -180.0, 720.0}) {
+    SignalTracker tracker;
+    double t = 1.7e9;  // a clock of the epoch
+    for (int i = 0; i < 400; ++i, t += step(random))
+      push(tracker, stateAt(t, std::fmod(350 + rate * (t - 1.7e9), 360.0)));
+    EXPECT_NEAR(tracker.values()[Signal::sight_rate], std::abs(rate), 1e-3 * std::abs(rate)) << rate;
+  }
+}
+
+TEST(SignalTracker, separatesTheHeadFromTheAircraft) {
+  SignalTracker tracker;
+  for (int i = 0; i < 200; ++i) {
+    const double t = 0.005 * i;
+    AircraftState state = stateAt(t, 20 * t);
+    state.head = Attitude{Degrees{160 * t}, Degrees{0}, Degrees{0}};
+    push(tracker, state);
+  }
+  EXPECT_NEAR(tracker.values()[Signal::head_rate], 160, 0.01);
+  EXPECT_NEAR(tracker.values()[Signal::sight_rate], 180, 0.01);
+  AircraftState without = stateAt(1.0, 20);
+  push(tracker, without);
+  EXPECT_TRUE(std::isnan(tracker.values()[Signal::head_rate]));
+}
+
+TEST(SignalTracker, reachesAStepAlikeAtAnyHostRate) {
+  const double tau = rowOf(Signal::speed).filterS;
+  for (const double hz : {5.0, 10.0, 60.0, 500.0}) {
+    SignalTracker tracker;
+    AircraftState state = stateAt(0);
+    state.airspeed = Knots{100};
+    push(tracker, state);
+    state.airspeed = Knots{200};
+    const int steps = static_cast<int>(std::lround(tau * hz));
+    for (int i = 1; i <= steps; ++i) {
+      state.time = i / hz;
+      push(tracker, state);
+    }
+    EXPECT_NEAR(tracker.values()[Signal::speed], 200 - 100 * std::exp(-steps / hz / tau), 1e-9) << hz;
+  }
+}
+
+TEST(SignalTracker, beginsAnewAfterAGapAndWhereTimeGoesBack) {
+  for (const double next : {12.5, 3.0, kNaN, kInf}) {
+    SignalTracker tracker;
+    push(tracker, stateAt(10, 0));
+    push(tracker, stateAt(10.1, 10));
+    EXPECT_NEAR(tracker.values()[Signal::sight_rate], 100, 1e-6);
+    push(tracker, stateAt(next, 180));
+    EXPECT_TRUE(std::isnan(tracker.values()[Signal::sight_rate])) << next;
+    const double base = std::isfinite(next) ? next : 20;
+    push(tracker, stateAt(base + 0.1, 181));
+    push(tracker, stateAt(base + 0.2, 182));
+    EXPECT_NEAR(tracker.values()[Signal::sight_rate], 10, 1e-6) << next;
+  }
+}
+
+TEST(SignalTracker, ignoresTheSameMomentTwice) {
+  SignalTracker tracker;
+  push(tracker, stateAt(1, 0));
+  push(tracker, stateAt(1.1, 1));
+  const double before = tracker.values()[Signal::sight_rate];
+  push(tracker, stateAt(1.1, 90));
+  EXPECT_EQ(tracker.values()[Signal::sight_rate], before);
+}
+
+TEST(SignalTracker, callsWhatIsNotANumberUnknownAndRecovers) {
+  SignalTracker tracker;
+  push(tracker, stateAt(1));
+  AircraftState bad = stateAt(1.1, kNaN, kNaN);
+  bad.position.height = Metres{kInf};
+  bad.airspeed = Knots{kNaN};
+  push(tracker, bad);
+  for (const Signal s : {Signal::altitude, Signal::pitch, Signal::speed, Signal::sight_rate})
+    EXPECT_TRUE(std::isnan(tracker.values()[s])) << rowOf(s).key;
+  push(tracker, stateAt(1.2, 5));
+  push(tracker, stateAt(1.3, 6));
+  EXPECT_NEAR(tracker.values()[Signal::sight_rate], 10, 1e-6);
+  EXPECT_DOUBLE_EQ(tracker.values()[Signal::altitude], 1000);
+}
+
+TEST(SignalTracker, takesTheMedianLoadSoThatASpikeDrivesNothing) {
+  SignalTracker tracker;
+  for (int i = 0; i < 9; ++i) tracker.finished(8, 16, 1000);
+  EXPECT_EQ(tracker.values()[Signal::load], 0.5);
+  tracker.finished(500, 16, 2000);
+  EXPECT_EQ(tracker.values()[Signal::load], 0.5);
+  EXPECT_EQ(tracker.values()[Signal::triangles], 2000);
+  for (const double work : {0.0, -1.0, kNaN, kInf}) tracker.finished(work, 16, 1);
+  for (const double budget : {0.0, -1.0, kNaN, kInf}) tracker.finished(8, budget, 1);
+  EXPECT_EQ(tracker.values()[Signal::load], 0.5);
+  for (int i = 0; i < 5; ++i) tracker.finished(32, 16, 1);
+  EXPECT_EQ(tracker.values()[Signal::load], 2) << "load that lasts counts";
+}
+
+}  // namespace
+}  // namespace trimtab
