@@ -7,47 +7,69 @@
 
 namespace trimtab {
 
+template <PolicyNorm kNorm>
 double CompiledPolicy::conditionOf(const Rule& rule, const double* memberships) const {
-  double stack[kMostConditionParts];
-  double* top = stack - 1;  // the compiler allows no more steps than places
+  const auto both = [](double a, double b) { return kNorm == PolicyNorm::minimum ? std::min(a, b) : a * b; };
+  const auto either = [](double a, double b) {
+    return kNorm == PolicyNorm::minimum ? std::max(a, b) : a + b - a * b;
+  };
+  double below[kMostConditionParts];  // the compiler allows no more steps than places
+  std::size_t depth = 0;
+  double top = 0;
   for (const Step step : std::span(steps_).subspan(rule.firstStep, rule.steps)) switch (step.op) {
-      case Op::term:
-        *++top = memberships[step.term];
+      case Op::push:
+        below[depth++] = top;
+        [[fallthrough]];
+      case Op::first:
+        top = memberships[step.term];
         break;
-      case Op::one:
-        *++top = 1;
+      case Op::both_term:
+        top = both(top, memberships[step.term]);
         break;
-      case Op::both: {
-        const double b = *top--;
-        *top = norm_ == PolicyNorm::minimum ? std::min(*top, b) : *top * b;
+      case Op::either_term:
+        top = either(top, memberships[step.term]);
         break;
-      }
-      case Op::either: {
-        const double b = *top--;
-        *top = norm_ == PolicyNorm::minimum ? std::max(*top, b) : *top + b - *top * b;
+      case Op::both:
+        top = both(below[--depth], top);
         break;
-      }
+      case Op::either:
+        top = either(below[--depth], top);
+        break;
       case Op::invert:
-        *top = 1 - *top;
+        top = 1 - top;
         break;
       case Op::very:
-        *top *= *top;
+        top *= top;
         break;
       case Op::somewhat:
-        *top = std::sqrt(*top);
+        top = std::sqrt(top);
         break;
       case Op::extremely:
-        *top = *top <= 0.5 ? 2 * *top * *top : 1 - 2 * (1 - *top) * (1 - *top);
+        top = top <= 0.5 ? 2 * top * top : 1 - 2 * (1 - top) * (1 - top);
         break;
       case Op::seldom:
-        *top = *top <= 0.5 ? std::sqrt(0.5 * *top) : 1 - std::sqrt(0.5 * (1 - *top));
+        top = top <= 0.5 ? std::sqrt(0.5 * top) : 1 - std::sqrt(0.5 * (1 - top));
         break;
     }
-  return *top;
+  return top;
+}
+
+template <PolicyNorm kNorm>
+void CompiledPolicy::fireRules(std::uint32_t unknown, PolicyDecision& decision) const {
+  for (std::size_t r = 0; r < rules_.size(); ++r) {
+    const Rule& rule = rules_[r];
+    double& firing = decision.firing[r];
+    firing = 0;
+    if (!(rule.weight > 0)) continue;
+    if (const std::uint32_t asked = rule.signals & unknown)
+      decision.unknownAsked |= asked;
+    else
+      firing = rule.weight * conditionOf<kNorm>(rule, decision.membership.data());
+  }
 }
 
 void CompiledPolicy::decide(const SignalValues& signals, PolicyDecision& decision) const {
-  decision.membership.resize(terms_.size());
+  decision.membership.resize(terms_.size() + 1);
   decision.firing.resize(rules_.size());
   std::array<double, kSignals> x;
   std::uint32_t unknown = 0;
@@ -63,43 +85,31 @@ void CompiledPolicy::decide(const SignalValues& signals, PolicyDecision& decisio
             ? std::numeric_limits<double>::quiet_NaN()
             : membershipAt(term.shape, std::span(numbers_).subspan(term.first, term.count), x[term.signal]);
   }
-  std::array<double, kLevers> sum{}, weight{}, least, most;
-  least.fill(std::numeric_limits<double>::infinity());
-  most.fill(-std::numeric_limits<double>::infinity());
+  decision.membership.back() = 1;
   decision.unknownAsked = 0;
-  for (std::size_t r = 0; r < rules_.size(); ++r) {
-    const Rule& rule = rules_[r];
-    decision.firing[r] = 0;
-    if (!(rule.weight > 0)) continue;
-    if (const std::uint32_t asked = rule.signals & unknown) {
-      decision.unknownAsked |= asked;
-      continue;
+  norm_ == PolicyNorm::minimum ? fireRules<PolicyNorm::minimum>(unknown, decision)
+                               : fireRules<PolicyNorm::product>(unknown, decision);
+
+  for (std::size_t l = 0; l < kLevers; ++l) {
+    double sum = 0, weight = 0, least = std::numeric_limits<double>::infinity(), most = -least;
+    for (const Setting& setting : settingsOf(l)) {
+      const double w = decision.firing[setting.rule];
+      sum += w * setting.value;
+      weight += w;
+      least = w > 0 ? std::min(least, setting.value) : least;
+      most = w > 0 ? std::max(most, setting.value) : most;
     }
-    const double w = rule.weight * conditionOf(rule, decision.membership.data());
-    decision.firing[r] = w;
-    if (!(w > 0)) continue;
-    for (const LeverSetting& setting : std::span(settings_).subspan(rule.firstSetting, rule.settings)) {
-      const auto l = static_cast<std::size_t>(setting.lever);
-      sum[l] += w * setting.value;
-      weight[l] += w;
-      least[l] = std::min(least[l], setting.value);
-      most[l] = std::max(most[l], setting.value);
-    }
+    decision.target.value[l] =
+        weight > 0 ? std::clamp(sum / weight, least, most) : std::numeric_limits<double>::quiet_NaN();
   }
-  for (std::size_t l = 0; l < kLevers; ++l)
-    decision.target.value[l] = weight[l] > 0 ? std::clamp(sum[l] / weight[l], least[l], most[l])
-                                             : std::numeric_limits<double>::quiet_NaN();
 }
 
 double CompiledPolicy::share(std::size_t rule, Lever lever, const PolicyDecision& decision) const {
   double all = 0, own = 0;
-  for (std::size_t r = 0; r < rules_.size(); ++r)
-    for (const LeverSetting& setting :
-         std::span(settings_).subspan(rules_[r].firstSetting, rules_[r].settings))
-      if (setting.lever == lever) {
-        all += decision.firing[r];
-        if (r == rule) own += decision.firing[r];
-      }
+  for (const Setting& setting : settingsOf(static_cast<std::size_t>(lever))) {
+    all += decision.firing[setting.rule];
+    if (setting.rule == rule) own += decision.firing[setting.rule];
+  }
   return all > 0 ? own / all : 0;
 }
 

@@ -19,6 +19,7 @@ class PolicyCompiler {
     for (const PolicyTerm& term : policy_.terms) addTerm(term);
     for (std::size_t i = 0; i < policy_.rules.size(); ++i)
       addRule(policy_.rules[i], "rules." + std::to_string(i + 1));
+    addSettings();
     if (!findings_.empty()) return findings_;
     return std::move(out_);
   }
@@ -55,8 +56,6 @@ class PolicyCompiler {
   void addRule(const PolicyRule& rule, const std::string& key) {
     CompiledPolicy::Rule made{};
     made.firstStep = static_cast<std::uint32_t>(out_.steps_.size());
-    made.firstSetting = static_cast<std::uint32_t>(out_.settings_.size());
-    made.settings = static_cast<std::uint32_t>(rule.settings.size());
     made.weight = rule.enabled ? rule.weight : 0;
     const auto steps = readCondition(rule.condition, where_, key);
     if (steps)
@@ -75,26 +74,41 @@ class PolicyCompiler {
             numberText(setting.value));
       if (made.weight > 0) out_.levers_ |= 1u << static_cast<unsigned>(setting.lever);
     }
-    out_.settings_.insert(out_.settings_.end(), rule.settings.begin(), rule.settings.end());
     out_.rules_.push_back(made);
+  }
+
+  void addSettings() {
+    for (std::size_t l = 0; l < kLevers; ++l) {
+      for (std::size_t r = 0; r < policy_.rules.size(); ++r)
+        for (const LeverSetting& setting : policy_.rules[r].settings)
+          if (static_cast<std::size_t>(setting.lever) == l)
+            out_.settings_.push_back({static_cast<std::uint32_t>(r), setting.value});
+      out_.firstSetting_[l + 1] = static_cast<std::uint32_t>(out_.settings_.size());
+    }
   }
 
   void addStep(const ConditionStep& step, const std::string& key, CompiledPolicy::Rule& rule) {
     using Op = CompiledPolicy::Op;
-    constexpr Op kOps[] = {Op::term, Op::both,     Op::either,    Op::invert,
+    constexpr Op kOps[] = {Op::push, Op::both,     Op::either,    Op::invert,
                            Op::very, Op::somewhat, Op::extremely, Op::seldom};
+    const bool both = step.kind == ConditionStep::Kind::both;
     if (step.kind != ConditionStep::Kind::proposition) {
-      out_.steps_.push_back({kOps[static_cast<std::size_t>(step.kind)], 0});
+      // With a term right before it, a connective needs no stack.
+      if ((both || step.kind == ConditionStep::Kind::either) && out_.steps_.back().op == Op::push)
+        out_.steps_.back().op = both ? Op::both_term : Op::either_term;
+      else
+        out_.steps_.push_back({kOps[static_cast<std::size_t>(step.kind)], 0});
       return;
     }
-    if (step.term == "any") {
-      out_.steps_.push_back({Op::one, 0});
-      return;
+    std::size_t term = policy_.terms.size();
+    if (step.term != "any") {
+      const auto found = findTerm(step.signal, step.term);
+      if (!found) refuse(key, termsOf(step.signal), std::string(step.term));
+      term = found.value_or(term);
+      rule.signals |= 1u << static_cast<unsigned>(step.signal);
     }
-    const auto term = findTerm(step.signal, step.term);
-    if (!term) return refuse(key, termsOf(step.signal), std::string(step.term));
-    out_.steps_.push_back({Op::term, static_cast<std::uint16_t>(*term)});
-    rule.signals |= 1u << static_cast<unsigned>(step.signal);
+    const bool first = out_.steps_.size() == rule.firstStep;
+    out_.steps_.push_back({first ? Op::first : Op::push, static_cast<std::uint16_t>(term)});
   }
 
   std::string termsOf(Signal signal) const {

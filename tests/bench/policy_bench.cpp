@@ -1,6 +1,7 @@
 #include "policy_bench.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/core/fuzzy/fuzzylite_oracle.h"
 #include "tests/core/policy/policy_oracle.h"
@@ -9,6 +10,24 @@
 #include "trimtab/policy/policy_file.h"
 
 namespace trimtab::bench {
+namespace {
+
+/// Signals that change smoothly, as a flight's do: straight lines between random places.
+std::vector<SignalValues> flight(std::mt19937_64& random, const Policy& policy, std::size_t states) {
+  constexpr std::size_t kLeg = 100;
+  std::vector<SignalValues> signals;
+  SignalValues from = test::randomSignals(random, policy), to = from;
+  for (std::size_t i = 0; i < states; ++i) {
+    if (i % kLeg == 0) from = to, to = test::randomSignals(random, policy);
+    SignalValues now;
+    for (std::size_t s = 0; s < kSignals; ++s)
+      now.value[s] = std::lerp(from.value[s], to.value[s], static_cast<double>(i % kLeg) / kLeg);
+    signals.push_back(now);
+  }
+  return signals;
+}
+
+}  // namespace
 
 void policies(Report& report) {
   // The median policy of several: a random one may be all exponentials, or have none.
@@ -20,8 +39,7 @@ void policies(Report& report) {
     const auto compiled = compile(policy, "bench");
     const auto fll = toFuzzyLite(policy, "bench");
     if (!compiled || !fll) return;
-    std::vector<SignalValues> states;
-    for (std::size_t k = 0; k < kStates; ++k) states.push_back(test::randomSignals(random, policy));
+    const std::vector<SignalValues> states = flight(random, policy, kStates);
     PolicyDecision decision;
     const double mine = leastSeconds(report.quick() ? 20 : 100, [&] {
       for (const SignalValues& state : states) {

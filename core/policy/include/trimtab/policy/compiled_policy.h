@@ -12,7 +12,7 @@ namespace trimtab {
 struct PolicyDecision {
   LeverValues target;              ///< NaN where no rule fires that sets the lever
   std::uint32_t unknownAsked = 0;  ///< bit s: an enabled rule asks for signal s, which nobody knows
-  std::vector<double> membership;  ///< of each term; NaN if its signal is unknown
+  std::vector<double> membership;  ///< of each term, NaN if its signal is unknown; then a 1 for `any`
   std::vector<double> firing;      ///< of each rule: membership of its condition times its weight, 0..1
 };
 
@@ -44,26 +44,54 @@ class CompiledPolicy {
     std::uint16_t count;  ///< of numbers
     std::uint32_t first;  ///< in numbers_
   };
-  /// A step of a condition in postfix order.
-  enum class Op : std::uint8_t { term, one, both, either, invert, very, somewhat, extremely, seldom };
+  /// A step of a condition in postfix order. The value on top of the stack is kept in a register: `push`
+  /// saves it below before it takes the term, and `both_term` combines it with the term without a stack,
+  /// which is what most conditions need.
+  enum class Op : std::uint8_t {
+    first,
+    push,
+    both,
+    either,
+    invert,
+    very,
+    somewhat,
+    extremely,
+    seldom,
+    both_term,
+    either_term
+  };
   struct Step {
     Op op;
-    std::uint16_t term;
+    std::uint16_t term;  ///< the number of terms stands for `any`, whose membership is 1
   };
   struct Rule {
-    std::uint32_t firstStep, steps, firstSetting, settings;
+    std::uint32_t firstStep, steps;
     std::uint32_t signals;  ///< bit s: the condition asks for signal s
     double weight;          ///< 0 if the rule is switched off
   };
 
+  /// What a rule gives a lever.
+  struct Setting {
+    std::uint32_t rule;
+    double value;
+  };
+
+  std::span<const Setting> settingsOf(std::size_t lever) const {
+    return std::span(settings_).subspan(firstSetting_[lever],
+                                        firstSetting_[lever + 1] - firstSetting_[lever]);
+  }
+  template <PolicyNorm>
   double conditionOf(const Rule& rule, const double* memberships) const;
+  template <PolicyNorm>
+  void fireRules(std::uint32_t unknown, PolicyDecision& decision) const;
 
   PolicyNorm norm_ = PolicyNorm::minimum;
   std::vector<Term> terms_;
   std::vector<double> numbers_;
   std::vector<Step> steps_;
   std::vector<Rule> rules_;
-  std::vector<LeverSetting> settings_;
+  std::vector<Setting> settings_;  ///< lever by lever
+  std::array<std::uint32_t, kLevers + 1> firstSetting_{};
   std::uint32_t levers_ = 0;
 };
 
