@@ -16,12 +16,12 @@ namespace fs = std::filesystem;
 
 /// A folder includes from itself and from folders that stand before it.
 const std::vector<std::string> kLayers{"core/units",
+                                       "core/policy",
                                        "core/preset",
                                        "core/frame",
                                        "core/host",
                                        "core/motion",
                                        "core/fuzzy",
-                                       "core/policy",
                                        "core/weather",
                                        "core/culling",
                                        "core/decision",

@@ -13,7 +13,8 @@
 #include "trimtab/decision/decide.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/measure/trace.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/session/session.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab::cli {
 namespace {
@@ -34,9 +35,15 @@ struct Decided {
   std::optional<std::size_t> asRecorded;
 };
 
-void decideRow(TraceRow& row, const ValidatedParameters& parameters, DecisionMemory& memory) {
-  row.before = memory;
-  row.decision = decide(row.input, parameters, memory);
+/// Decides as an IG does. `feed` gives the session one state.
+template <class Feed>
+TraceRow decidedRow(Session& session, const Feed& feed) {
+  TraceRow row;
+  row.before = session.memory();
+  feed();
+  row.input = session.input();
+  row.decision = session.decision();
+  return row;
 }
 
 /// The altitude is the one that the preset's reference asks for, unless the height above ground is given
@@ -58,15 +65,12 @@ Result<Decided> decideOne(const Options& options, const ValidatedParameters& par
   check("--above-ground-ft", options.aboveGroundFt, -kHighestFt, kHighestFt, "ft");
   if (!findings.empty()) return findings;
 
-  TraceRow row;
-  AircraftState& state = row.input.state;
+  AircraftState state;
   state.position.height = Feet{*options.altitudeFt}.as<Metres>();
   state.attitude = {Degrees{options.headingDeg}, Degrees{*options.pitchDeg}, Degrees{options.rollDeg}};
   state.aboveGround = Feet{options.aboveGroundFt.value_or(*options.altitudeFt)}.as<Metres>();
-  row.input.aboveGround = state.aboveGround;
-  DecisionMemory memory;
-  decideRow(row, parameters, memory);
-  return Decided{{row}, std::nullopt};
+  Session session(parameters);
+  return Decided{{decidedRow(session, [&] { session.fly(state); })}, std::nullopt};
 }
 
 /// Whether a file begins as a trace of ours; a file that cannot be read is readFlight's to refuse.
@@ -81,12 +85,13 @@ Result<Decided> decideTrace(const std::string& file, const ValidatedParameters& 
   Result<std::vector<TraceRow>> trace = readTrace(file);
   if (!trace) return trace.findings();
   Decided decided{std::move(*trace), 0};
-  DecisionMemory memory;
-  if (!decided.rows.empty()) memory = decided.rows.front().before;
+  Session session(parameters);
   for (TraceRow& row : decided.rows) {
-    const FrameDecision recorded = row.decision;
-    decideRow(row, parameters, memory);
-    if (row.decision == recorded) ++*decided.asRecorded;
+    const TraceRow recorded = row;
+    row = decidedRow(session, [&] { session.replay(recorded); });
+    if (&row == &decided.rows.front()) row.before = recorded.before;
+    row.frame = recorded.frame;
+    if (row.decision == recorded.decision) ++*decided.asRecorded;
   }
   return Result<Decided>(std::move(decided), trace.findings());
 }
@@ -97,14 +102,9 @@ Result<Decided> decideFlight(const std::string& file, const ValidatedParameters&
   if (!flight) return flight.findings();
   Decided decided;
   decided.rows.reserve(flight->states.size());
-  DecisionMemory memory;
-  for (const AircraftState& state : flight->states) {
-    TraceRow row;
-    row.input.state = state;
-    row.input.aboveGround = state.aboveGround;
-    decideRow(row, parameters, memory);
-    decided.rows.push_back(row);
-  }
+  Session session(parameters);
+  for (const AircraftState& state : flight->states)
+    decided.rows.push_back(decidedRow(session, [&] { session.fly(state, state.time); }));
   return Result<Decided>(std::move(decided), flight.findings());
 }
 

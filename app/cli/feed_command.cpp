@@ -10,7 +10,7 @@
 #include "app/link/link.h"
 #include "commands.h"
 #include "trimtab/host/flight.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 #include "trimtab/preset/preset.h"
 
 namespace trimtab::cli {

@@ -3,7 +3,7 @@
 
 #include "commands.h"
 #include "progress.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/static_lod/export.h"
 

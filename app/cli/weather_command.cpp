@@ -8,7 +8,7 @@
 #include "commands.h"
 #include "experiment_setup.h"
 #include "progress.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 #include "trimtab/preset/preset.h"
 
 namespace trimtab::cli {

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "stage.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 #include "trimtab/terrain/grid/progress.h"
 #include "weather_view.h"
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab::harness {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "results.h"
 #include "trimtab/preset/json_text.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab::harness {
 namespace {

@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "trimtab/preset/file_io.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/preset/sha256.h"
 

@@ -8,6 +8,7 @@
 #include "trimtab/fuzzy/combination.h"
 #include "trimtab/fuzzy/membership.h"
 #include "trimtab/motion/head_motion.h"
+#include "trimtab/policy/compiled_policy.h"
 #include "trimtab/weather/weather.h"
 
 namespace trimtab {
@@ -62,24 +63,39 @@ const char* combinationText(Combination combination) {
   return "";
 }
 
+/// What the policy sets: ", policy: LOD scale 2, far distance 0.8 x visible distance; height above ground
+/// unknown".
+std::string policyText(const PolicyOutcome& policy) {
+  std::string text;
+  for (const LeverRow& row : kLeverRows)
+    if (policy.moves(row.lever))
+      text += formatted("%s%s %.4g%s%s", text.empty() ? "; policy: " : ", ", std::string(row.label).c_str(),
+                        policy[row.lever], row.unit.empty() ? "" : " ", std::string(row.unit).c_str());
+  for (const SignalRow& row : kSignalRows)
+    if (policy.unknownAsked >> static_cast<unsigned>(row.signal) & 1)
+      text += formatted("; %s unknown", std::string(row.label).c_str());
+  return text;
+}
+
 std::string outcomeText(const FrameDecision& d) {
   if (d.scheme == Scheme::frustum || !d.depthMap) return "frustum, no depth map";
   return formatted("dynamic, depth map %d x %d", d.depthMap->widthPx, d.depthMap->heightPx);
 }
 
-/// Documents A and B: which scheme, and how large a depth map.
-void decideScheme(const FrameInput& input, const ValidatedParameters& parameters, DecisionMemory& memory,
-                  FrameDecision& decision) {
+/// Documents A and B: the memberships and their total; nothing, with a reason, if the state does not give
+/// them.
+std::optional<TotalMembership> decideTotal(const FrameInput& input, const ValidatedParameters& parameters,
+                                           FrameDecision& decision) {
   const bool aboveGround = parameters->altitude.reference == AltitudeReference::above_ground;
   if (aboveGround && !input.aboveGround) {
     decision.reason = SchemeReason::altitude_unknown;
-    return;
+    return std::nullopt;
   }
   const double altitude = toFeet(aboveGround ? *input.aboveGround : input.state.position.height);
   const double pitch = input.state.attitude.pitch.value();
   if (!std::isfinite(altitude) || !std::isfinite(pitch)) {
     decision.reason = SchemeReason::invalid_input;
-    return;
+    return std::nullopt;
   }
 
   decision.altitudeFt = altitude;
@@ -88,10 +104,14 @@ void decideScheme(const FrameInput& input, const ValidatedParameters& parameters
   decision.pitchMembership = pitchMembership(parameters->pitch, pitch);
   const RuleList& rules = parameters->scheme.rules;
   fireRules(rules, decision.altitudeMembership, decision.pitchMembership, decision.ruleFiring);
-  const TotalMembership total = combine(parameters->scheme.combination, rules, decision.ruleFiring,
-                                        decision.altitudeMembership, decision.pitchMembership);
-  decision.totalMembership = total.total;
+  return combine(parameters->scheme.combination, rules, decision.ruleFiring, decision.altitudeMembership,
+                 decision.pitchMembership);
+}
 
+/// Documents A and B: which scheme, and how large a depth map.
+void decideScheme(const TotalMembership& total, const ValidatedParameters& parameters, DecisionMemory& memory,
+                  FrameDecision& decision) {
+  decision.totalMembership = total.total;
   const BandList& bands = parameters->scheme.bands;
   const BandChoice choice = nextBand(bands, parameters->scheme.hysteresis.value(), total.total, memory.band);
   memory.band = choice.band;
@@ -109,6 +129,20 @@ void decideScheme(const FrameInput& input, const ValidatedParameters& parameters
     decision.reason = choice.band >= 0 ? SchemeReason::in_band : SchemeReason::below_first_band;
 }
 
+/// The levers of the preset's policy. `total` is what the occlusion rests at where no rule sets it.
+PolicyOutcome followPolicy(const CompiledPolicy& policy, const FrameInput& input,
+                           const ValidatedParameters& parameters, double total, DecisionMemory& memory) {
+  thread_local PolicyDecision decision;  // kept, so that a decision allocates nothing
+  policy.decide(input.signalValues, decision);
+  LeverValues neutral;
+  for (const LeverRow& row : kLeverRows) neutral[row.lever] = row.neutral;
+  neutral[Lever::occlusion] = total;
+  neutral[Lever::screen_space_error] = parameters->lod.screenSpaceError.value();
+  neutral[Lever::lod_scale] = parameters->lod.scale.value();
+  return {memory.levers.follow(input.state.time, decision.target, neutral).value, policy.levers(),
+          decision.unknownAsked};
+}
+
 }  // namespace
 
 FrameDecision decide(const FrameInput& input, const ValidatedParameters& parameters, DecisionMemory& memory) {
@@ -117,9 +151,17 @@ FrameDecision decide(const FrameInput& input, const ValidatedParameters& paramet
   FrameDecision decision{.ruleFiring = {},
                          .depthMap = {},
                          .motion = decideMotion(input.state, parameters->motion, memory.motion, input.drawn),
-                         .weather = decideWeather(input.state, *parameters)};
-  decideScheme(input, parameters, memory, decision);
-  decision.lodScale = parameters->lod.scale.value() * decision.motion.lodScale;
+                         .weather = decideWeather(input.state, *parameters),
+                         .policy = {}};
+  std::optional<TotalMembership> total = decideTotal(input, parameters, decision);
+  double lodScale = parameters->lod.scale.value();
+  if (const CompiledPolicy* policy = parameters.policy()) {
+    decision.policy = followPolicy(*policy, input, parameters, total ? total->total : 0, memory);
+    if (decision.policy.moves(Lever::lod_scale)) lodScale = decision.policy[Lever::lod_scale];
+    if (total && decision.policy.moves(Lever::occlusion)) *total = {decision.policy[Lever::occlusion], true};
+  }
+  if (total) decideScheme(*total, parameters, memory, decision);
+  decision.lodScale = lodScale * decision.motion.lodScale;
   return decision;
 }
 
@@ -156,7 +198,7 @@ std::string explain(const FrameDecision& d, const ValidatedParameters& parameter
     case SchemeReason::altitude_unknown:
       break;
   }
-  return text;
+  return text + policyText(d.policy);
 }
 
 }  // namespace trimtab

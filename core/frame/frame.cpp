@@ -40,6 +40,15 @@ double pixelsPerRadian(const ViewShape& view) {
   return std::max(view.widthPx / (view.right - view.left), view.heightPx / (view.top - view.bottom));
 }
 
+ViewShape scaledShape(ViewShape view, double scale) {
+  if (!(scale > 0 && scale < 1)) return view;
+  // Even numbers have a middle between two pixels, which a guard band needs.
+  const auto scaled = [scale](int size) { return std::max(2 * static_cast<int>(std::lround(size * scale / 2)), 2); };
+  view.widthPx = scaled(view.widthPx);
+  view.heightPx = scaled(view.heightPx);
+  return view;
+}
+
 ViewShape viewShape(const ViewParameters& parameters, int windowWidthPx, int windowHeightPx,
                     const std::optional<HostView>& host) {
   const HostView asked = parameters.source == ViewSource::host && host ? *host : HostView{};

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "fuzzy_system.h"
-#include "trimtab/preset/number.h"
 #include "trimtab/preset/table.h"
+#include "trimtab/units/number.h"
 
 // MATLAB's fuzzy inference system as text, with the membership functions that fuzzylite adds to it.
 namespace trimtab::fuzzy_system {

@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "fuzzy_system.h"
-#include "trimtab/preset/number.h"
 #include "trimtab/preset/table.h"
+#include "trimtab/units/number.h"
 
 // FuzzyLite Language, version 6.
 namespace trimtab::fuzzy_system {

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "trimtab/fuzzy/membership.h"
-#include "trimtab/preset/number.h"
 #include "trimtab/preset/rules.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab::fuzzy_system {
 

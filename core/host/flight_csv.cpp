@@ -6,7 +6,7 @@
 #include "flight_notes.h"
 #include "limits.h"
 #include "trimtab/host/flight.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab {
 namespace {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
+#include <string>
 #include <type_traits>
 
 #include "trimtab/measure/cost_stages.h"
@@ -15,6 +17,15 @@ namespace trimtab::trace {
 /// Whether a cell may be empty; cells of the frame are all empty where no frame showed the decision. Columns
 /// that are `former` are read, but not written.
 enum class Cell { required, optional, frame, former };
+
+/// What a policy was given, what its levers were before, and what it set. The cells of a preset without a
+/// policy are empty, and so is the cell of a signal that nobody knows.
+struct FlatPolicy {
+  std::array<std::optional<double>, kSignals> signals;
+  std::array<std::optional<double>, kLevers> before, levers;
+  std::optional<double> timeBefore;
+  std::optional<std::uint32_t> movingBefore, moved, unknownAsked;
+};
 
 /// A row as a flat list of cells. Groups that may be absent as a whole have a flag that their first cell
 /// decides.
@@ -31,6 +42,7 @@ struct Flat {
   DepthMapSize depthMap;
   std::optional<int> depthMapWidth, depthMapHeight;
   std::array<std::optional<double>, 4> formerFiring;
+  FlatPolicy policy;
   TraceFrame frame;
   bool hasFrame = false;
 };
@@ -91,6 +103,41 @@ void forEachWeatherColumn(Decision& w, const Visit& visit) {
   visit("weather_far_reason", Cell::optional, w.farReason);
 }
 
+/// The columns of a policy: a name for each signal and lever.
+struct PolicyColumns {
+  std::array<std::string, kSignals> signals;
+  std::array<std::string, kLevers> before, levers;
+};
+inline const PolicyColumns& policyColumns() {
+  static const PolicyColumns columns = [] {
+    PolicyColumns c;
+    for (const SignalRow& row : kSignalRows) c.signals[indexOf(row.signal)] = "signal_" + std::string(row.key);
+    for (const LeverRow& row : kLeverRows) {
+      c.levers[indexOf(row.lever)] = "lever_" + std::string(row.key);
+      c.before[indexOf(row.lever)] = c.levers[indexOf(row.lever)] + "_before";
+    }
+    return c;
+  }();
+  return columns;
+}
+
+template <class Policy, class Visit>
+void forEachPolicyInput(Policy& p, const Visit& visit) {
+  const PolicyColumns& columns = policyColumns();
+  for (std::size_t s = 0; s < kSignals; ++s) visit(columns.signals[s].c_str(), Cell::optional, p.signals[s]);
+  for (std::size_t l = 0; l < kLevers; ++l) visit(columns.before[l].c_str(), Cell::optional, p.before[l]);
+  visit("levers_time_before_s", Cell::optional, p.timeBefore);
+  visit("levers_moving_before", Cell::optional, p.movingBefore);
+}
+
+template <class Policy, class Visit>
+void forEachPolicyColumn(Policy& p, const Visit& visit) {
+  const PolicyColumns& columns = policyColumns();
+  for (std::size_t l = 0; l < kLevers; ++l) visit(columns.levers[l].c_str(), Cell::optional, p.levers[l]);
+  visit("levers_set", Cell::optional, p.moved);
+  visit("signals_unknown", Cell::optional, p.unknownAsked);
+}
+
 /// Calls `visit(name, cell, value)` for each column in the file's order: the one list that header, writer
 /// and reader share.
 template <class F, class Visit>
@@ -129,6 +176,7 @@ void forEachColumn(F& f, const Visit& visit) {
   for (const CostStage& stage : kCostStages) visit(stage.lastColumn, Cell::optional, last.*stage.ms);
   visit("drawn_fps", Cell::optional, f.row.input.drawn.framesPerS);
   visit("drawn_vertices", Cell::optional, f.row.input.drawn.vertices);
+  forEachPolicyInput(f.policy, visit);
 
   auto& d = f.row.decision;
   visit("decision_altitude_ft", Cell::required, d.altitudeFt);
@@ -150,6 +198,7 @@ void forEachColumn(F& f, const Visit& visit) {
   visit("lod_scale", Cell::required, d.lodScale);
   forEachMotionColumn(d.motion, visit);
   forEachWeatherColumn(d.weather, visit);
+  forEachPolicyColumn(f.policy, visit);
 
   visit("triangles", Cell::frame, f.frame.counts.triangles);
   visit("vertices", Cell::frame, f.frame.counts.vertices);
@@ -162,9 +211,42 @@ void forEachColumn(F& f, const Visit& visit) {
   for (const CostStage& stage : kCostStages) visit(stage.column, Cell::frame, cost.*stage.ms);
 }
 
+inline FlatPolicy flattenPolicy(const TraceRow& row) {
+  FlatPolicy p;
+  for (std::size_t s = 0; s < kSignals; ++s)
+    if (const double value = row.input.signalValues.value[s]; !std::isnan(value)) p.signals[s] = value;
+  if (const LeverDrive::State& before = row.before.levers.state(); before.begun) {
+    for (std::size_t l = 0; l < kLevers; ++l) p.before[l] = before.values.value[l];
+    p.timeBefore = before.timeS;
+    p.movingBefore = before.moving;
+  }
+  if (const PolicyOutcome& set = row.decision.policy; set != PolicyOutcome{}) {
+    for (std::size_t l = 0; l < kLevers; ++l) p.levers[l] = set.value[l];
+    p.moved = set.moved;
+    p.unknownAsked = set.unknownAsked;
+  }
+  return p;
+}
+
+inline void unflattenPolicy(const FlatPolicy& p, TraceRow& row) {
+  for (std::size_t s = 0; s < kSignals; ++s)
+    if (p.signals[s]) row.input.signalValues.value[s] = *p.signals[s];
+  if (p.timeBefore) {
+    LeverDrive::State before{.timeS = *p.timeBefore, .begun = true};
+    before.moving = p.movingBefore.value_or(0);
+    for (std::size_t l = 0; l < kLevers; ++l) before.values.value[l] = p.before[l].value_or(0);
+    row.before.levers = LeverDrive(before);
+  }
+  PolicyOutcome& set = row.decision.policy;
+  for (std::size_t l = 0; l < kLevers; ++l) set.value[l] = p.levers[l].value_or(0);
+  set.moved = p.moved.value_or(0);
+  set.unknownAsked = p.unknownAsked.value_or(0);
+}
+
 inline Flat flatten(const TraceRow& row) {
   Flat f;
   f.row = row;
+  f.policy = flattenPolicy(row);
   const AircraftState& state = row.input.state;
   f.height = state.position.height;
   f.altitude = Feet{f.height.value() / unit::Foot::size};
@@ -211,6 +293,7 @@ inline TraceRow unflatten(Flat& f) {
   if (firing.count == 0)
     for (const std::optional<double>& mu : f.formerFiring)
       if (mu) firing.mu[firing.count++] = *mu;
+  unflattenPolicy(f.policy, f.row);
   if (f.hasFrame) f.row.frame = f.frame;
   return f.row;
 }

@@ -61,22 +61,22 @@ void CompiledPolicy::fireRules(std::uint32_t unknown, PolicyDecision& decision) 
     double& firing = decision.firing[r];
     firing = 0;
     if (!(rule.weight > 0)) continue;
-    if (const std::uint32_t asked = rule.signals & unknown)
-      decision.unknownAsked |= asked;
+    if (const std::uint32_t missing = rule.asked & unknown)
+      decision.unknownAsked |= missing;
     else
       firing = rule.weight * conditionOf<kNorm>(rule, decision.membership.data());
   }
 }
 
-void CompiledPolicy::decide(const SignalValues& signals, PolicyDecision& decision) const {
+void CompiledPolicy::decide(const SignalValues& flight, PolicyDecision& decision) const {
   decision.membership.resize(terms_.size() + 1);
   decision.firing.resize(rules_.size());
   std::array<double, kSignals> x;
   std::uint32_t unknown = 0;
   for (std::size_t s = 0; s < kSignals; ++s) {
-    const bool known = !std::isnan(signals.value[s]);
+    const bool known = !std::isnan(flight.value[s]);
     unknown |= known ? 0 : 1u << s;
-    x[s] = std::clamp(signals.value[s], kSignalRows[s].range.low, kSignalRows[s].range.high);
+    x[s] = std::clamp(flight.value[s], kSignalRows[s].range.low, kSignalRows[s].range.high);
   }
   for (std::size_t t = 0; t < terms_.size(); ++t) {
     const Term& term = terms_[t];

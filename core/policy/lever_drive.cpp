@@ -22,27 +22,25 @@ double moved(const LeverRow& row, double from, double to, double by) {
 }  // namespace
 
 const LeverValues& LeverDrive::follow(double time, const LeverValues& targets, const LeverValues& neutral) {
-  const double step = begun_ && std::isfinite(time) ? std::min(time - time_, kLongestStepS) : 0;
+  State& s = state_;
+  const double step = s.begun && std::isfinite(time) ? std::min(time - s.timeS, kLongestStepS) : 0;
   for (std::size_t l = 0; l < kLevers; ++l) {
     const LeverRow& row = kLeverRows[l];
+    const std::uint32_t bit = 1u << l;
     const double wanted = std::isnan(targets.value[l]) ? neutral.value[l] : targets.value[l];
     const double target = std::clamp(wanted, row.hard.low, row.hard.high);
-    double& value = values_.value[l];
-    if (!begun_) {
+    double& value = s.values.value[l];
+    if (!s.begun) {
       value = target;
       continue;
     }
-    if (distance(row, value, target) > row.deadBand) moving_[l] = true;
-    if (!moving_[l] || !(step > 0)) continue;
+    if (distance(row, value, target) > row.deadBand) s.moving |= bit;
+    if (!(s.moving & bit) || !(step > 0)) continue;
     value = moved(row, value, target, row.ratePerS * step);
-    moving_[l] = value != target;
+    if (value == target) s.moving &= ~bit;
   }
-  if (std::isfinite(time)) time_ = time, begun_ = true;
-  return values_;
-}
-
-void LeverDrive::restart() {
-  *this = {};
+  if (std::isfinite(time)) s.timeS = time, s.begun = true;
+  return s.values;
 }
 
 }  // namespace trimtab

@@ -3,7 +3,7 @@
 #include "condition.h"
 #include "membership_at.h"
 #include "trimtab/policy/compiled_policy.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab {
 
@@ -74,6 +74,7 @@ class PolicyCompiler {
             numberText(setting.value));
       if (made.weight > 0) out_.levers_ |= 1u << static_cast<unsigned>(setting.lever);
     }
+    if (made.weight > 0) out_.signals_ |= made.asked;
     out_.rules_.push_back(made);
   }
 
@@ -105,7 +106,7 @@ class PolicyCompiler {
       const auto found = findTerm(step.signal, step.term);
       if (!found) refuse(key, termsOf(step.signal), std::string(step.term));
       term = found.value_or(term);
-      rule.signals |= 1u << static_cast<unsigned>(step.signal);
+      rule.asked |= 1u << static_cast<unsigned>(step.signal);
     }
     const bool first = out_.steps_.size() == rule.firstStep;
     out_.steps_.push_back({first ? Op::first : Op::push, static_cast<std::uint16_t>(term)});

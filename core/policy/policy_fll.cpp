@@ -5,7 +5,7 @@
 #include "condition.h"
 #include "trimtab/policy/compiled_policy.h"
 #include "trimtab/policy/policy_file.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 #include "words.h"
 
 namespace trimtab {

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "trimtab/policy/policy.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 #include "words.h"
 
 namespace trimtab {

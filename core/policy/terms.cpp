@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "membership_at.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab {
 namespace {

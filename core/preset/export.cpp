@@ -3,9 +3,9 @@
 
 #include "migration.h"
 #include "trimtab/preset/json_text.h"
-#include "trimtab/preset/number.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/preset/sealed.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab {
 
@@ -107,7 +107,8 @@ class PropertyList {
 void addProperty(PropertyList& list, const ParameterRow& row, const ParameterValue& value) {
   const std::size_t dot = row.key.rfind('.');
   const std::string name(row.key.substr(dot + 1));
-  if (row.kind == Kind::curve || row.kind == Kind::bands || row.kind == Kind::rules)
+  if (row.kind == Kind::curve || row.kind == Kind::bands || row.kind == Kind::rules ||
+      row.kind == Kind::lines)
     list.enter(row.key);
   else
     list.enter(row.key.substr(0, dot));
@@ -136,6 +137,10 @@ void addProperty(PropertyList& list, const ParameterRow& row, const ParameterVal
                       {"pitch", "string", std::string(nameOf(r.pitch))},
                       {"weight", "double", numberText(r.weight)},
                       {"output", "double", numberText(r.output)}});
+      return;
+    case Kind::lines:
+      for (std::size_t n = 0; const std::string& text : std::get<TextLines>(value).line)
+        list.indexed("line", n++, {{"text", "string", text}});
       return;
   }
 }

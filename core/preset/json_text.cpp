@@ -5,7 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab::json {
 
@@ -202,6 +202,17 @@ Result<ParameterValue> readRules(std::string_view value) {
   return ParameterValue{rules};
 }
 
+Result<ParameterValue> readLines(std::string_view value) {
+  if (value.empty() || value.front() != '[') return unlike("a list of lines", value);
+  TextLines lines;
+  for (const std::string_view part : elements(value)) {
+    const auto line = readString(part);
+    if (!line) return unlike("a string as line " + std::to_string(lines.line.size() + 1), part);
+    lines.line.push_back(*line);
+  }
+  return ParameterValue{std::move(lines)};
+}
+
 std::string choiceNames(const ParameterRow& row) {
   std::string names;
   for (const ChoiceOption& option : row.choices)
@@ -292,6 +303,10 @@ std::string valueText(const ParameterRow& row, const ParameterValue& value) {
                 member("pitch", nameOf(r.pitch)) + "\"weight\": " + numberText(r.weight) +
                 ", \"output\": " + numberText(r.output) + "}";
       break;
+    case Kind::lines:
+      for (const std::string& line : std::get<TextLines>(value).line)
+        text += (text.empty() ? "" : ", ") + stringText(line);
+      break;
   }
   return "[" + text + "]";
 }
@@ -318,6 +333,8 @@ Result<ParameterValue> readValue(const ParameterRow& row, std::string_view value
       return readBands(value);
     case Kind::rules:
       return readRules(value);
+    case Kind::lines:
+      return readLines(value);
   }
   return unlike("a value", value);
 }

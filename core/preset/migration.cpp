@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "trimtab/preset/json_text.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab {
 

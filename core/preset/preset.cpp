@@ -8,9 +8,9 @@
 #include "shipped.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/json_text.h"
-#include "trimtab/preset/number.h"
 #include "trimtab/preset/rules.h"
 #include "trimtab/preset/sealed.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab {
 

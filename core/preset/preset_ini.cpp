@@ -2,7 +2,7 @@
 
 #include "preset_text.h"
 #include "trimtab/preset/json_text.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab {
 

@@ -1,6 +1,6 @@
-#include "trimtab/preset/number.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/preset/rules.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab {
 
@@ -83,6 +83,9 @@ std::string describe(const ParameterRow& row) {
                rangeText(row.hard, row.unit) + ", outputs " + rangeText({0, BandList::kTop}, ""));
       item("usual", "weights " + rangeText(row.usual, row.unit));
       break;
+    case Kind::lines:
+      item("accepted", "lines of text; on one line ` | ` stands between them");
+      break;
   }
   item("takes effect with", std::string(effectText(row.effect)));
   if (!row.source.empty()) item("source", std::string(row.source));
@@ -125,7 +128,8 @@ constexpr std::string_view kSources =
     "(in Korean, 2015)\n"
     "* C: J. H. Lim, C. J. Lee, K. H. Kim, K. Kim: Preventing Rendering Speed Degradation for Helmet Mounted "
     "Display Simulation\n"
-    "* D: Y. Cha, J. Kim, K. Kim: Adaptive Culling Mechanism for Weather Phenomena Effect in Flight Simulator "
+    "* D: Y. Cha, J. Kim, K. Kim: Adaptive Culling Mechanism for Weather Phenomena Effect in Flight "
+    "Simulator "
     "(in Korean, 2014)\n"
     "* E: World Custom Scenery Project: Creating better scenery, Static Level-of-Detail for FlightGear (the "
     "page names no author)\n";

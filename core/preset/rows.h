@@ -76,6 +76,11 @@ struct FieldKind<RuleList> {
   using Unit = unit::Ratio;
   static constexpr Kind kind = Kind::rules;
 };
+template <>
+struct FieldKind<TextLines> {
+  using Unit = unit::Ratio;
+  static constexpr Kind kind = Kind::lines;
+};
 template <class E>
 requires std::is_enum_v<E>
 struct FieldKind<E> {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <optional>
 
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab {
 

@@ -70,6 +70,8 @@ Json valueSchema(const ParameterRow& row) {
       rule["additionalProperties"] = false;
       return {{"type", "array"}, {"minItems", 1}, {"maxItems", RuleList::kCapacity}, {"items", rule}};
     }
+    case Kind::lines:
+      return {{"type", "array"}, {"items", {{"type", "string"}}}};
   }
   return {};
 }

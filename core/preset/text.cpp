@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "trimtab/preset/number.h"
 #include "trimtab/preset/table.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab {
 
@@ -138,6 +138,18 @@ Result<ParameterValue> parseRules(const ParameterRow& row, std::string_view text
   return ParameterValue{rules};
 }
 
+/// Empty lines mean nothing.
+ParameterValue parseLines(std::string_view text) {
+  TextLines lines;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('|'), text.size());
+    if (const std::string_view line = trimmed(text.substr(0, end)); !line.empty())
+      lines.line.emplace_back(line);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
 }  // namespace
 
 std::string toText(const ParameterRow& row, const ParameterValue& value) {
@@ -169,6 +181,12 @@ std::string toText(const ParameterRow& row, const ParameterValue& value) {
         text += (text.empty() ? "" : " ") + ruleText(r);
       return text;
     }
+    case Kind::lines: {
+      std::string text;
+      for (const std::string& line : std::get<TextLines>(value).line)
+        text += (text.empty() ? "" : " | ") + line;
+      return text;
+    }
   }
   return {};
 }
@@ -187,6 +205,8 @@ Result<ParameterValue> parseValue(const ParameterRow& row, std::string_view text
       return parseBands(row, text);
     case Kind::rules:
       return parseRules(row, text);
+    case Kind::lines:
+      return parseLines(text);
   }
   return refused(row, "a value", text);
 }

@@ -2,9 +2,11 @@
 #include <array>
 #include <cmath>
 
-#include "trimtab/preset/number.h"
+#include "trimtab/policy/compiled_policy.h"
+#include "trimtab/preset/policy_lines.h"
 #include "trimtab/preset/rules.h"
 #include "trimtab/preset/table.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab {
 
@@ -157,6 +159,8 @@ void checkRow(const ParameterRow& row, const TuningParameters& parameters, Findi
       return checkBandsRow(row, std::get<BandList>(value), findings);
     case Kind::rules:
       return checkRulesRow(row, std::get<RuleList>(value), findings);
+    case Kind::lines:
+      return;  // checkedPolicy() looks at all lines together
   }
 }
 
@@ -228,6 +232,24 @@ std::vector<RuleText> ruleTexts() {
   return texts;
 }
 
+/// Compiles the policy; every finding has a key of the table and says which term or rule it is about.
+Result<CompiledPolicy> checkedPolicy(const PolicyParameters& parameters) {
+  const auto policy = policyOf(parameters);
+  if (!policy) return policy.findings();
+  auto compiled = compile(*policy, "");
+  if (compiled) return compiled;
+  Findings findings;
+  for (const Finding& f : compiled.findings()) {
+    // compile() names "terms.SIGNAL.NAME" or "rules.N".
+    const std::size_t dot = f.key.find('.');
+    const bool rule = f.key.starts_with("rules");
+    const std::string place =
+        dot == std::string::npos ? "" : (rule ? " in rule " : " in term ") + f.key.substr(dot + 1);
+    findings.push_back({f.severity, "", rule ? "policy.rules" : "policy.terms", f.expected, f.found + place});
+  }
+  return findings;
+}
+
 Result<ValidatedParameters> validate(const TuningParameters& parameters) {
   Findings findings = rangeFindings(parameters);
   const auto isError = [](const Finding& f) { return f.severity == Severity::error; };
@@ -235,7 +257,17 @@ Result<ValidatedParameters> validate(const TuningParameters& parameters) {
   Findings broken = ruleFindings(parameters);
   findings.insert(findings.end(), broken.begin(), broken.end());
   if (!broken.empty()) return findings;
-  return {ValidatedParameters(parameters), std::move(findings)};
+  std::shared_ptr<const CompiledPolicy> policy;
+  if (!(parameters.policy == PolicyParameters{})) {
+    // A policy that is switched off is checked too, so that switching it on cannot fail.
+    auto compiled = checkedPolicy(parameters.policy);
+    if (!compiled) {
+      findings.insert(findings.end(), compiled.findings().begin(), compiled.findings().end());
+      return findings;
+    }
+    if (parameters.policy.enabled) policy = std::make_shared<const CompiledPolicy>(*std::move(compiled));
+  }
+  return {ValidatedParameters(parameters, std::move(policy)), std::move(findings)};
 }
 
 ValidatedParameters defaultParameters() {

@@ -41,7 +41,7 @@ struct Renderer::Impl {
   TerrainDrawer* terrain = nullptr;  ///< that drew the last picture; null: no terrain
   FrameCounters counters;            ///< since this renderer was made
 
-  ViewShape lastView;
+  ViewShape lastView, lastScene;   ///< the last image's, and the size at which its scene was drawn
   std::optional<SceneView> shown;  ///< the last picture's
   std::vector<LineVertex> lines;
 
@@ -49,6 +49,7 @@ struct Renderer::Impl {
   struct Gl {
     explicit Gl(ScenePasses passes) : graph(std::move(passes)) {}
     FrameBuffer frame;
+    FrameBuffer small;  ///< the scene before it is scaled up, if the request asks for that
     NodeTarget nodes;
     LineBuffer lineBuffer;
     BlurPass blur;
@@ -78,7 +79,10 @@ struct Renderer::Impl {
   void removeHidden();
   SceneView viewOf(const FrameRequest& r) const;
   FrameResult prepare(const FrameRequest& r, SceneView& view);
-  FrameCounters finishPicture(const FrameRequest& r);
+  const FrameBuffer& scene() const { return lastScene == lastView ? gl->frame : gl->small; }
+  FrameCounters blurScene(const FrameRequest& r);
+  void scaleUp();
+  FrameCounters drawSymbols(const FrameRequest& r);
   FrameResult draw(const FrameRequest& r, unsigned fbo);
   static void leaveContext(unsigned fbo);
   std::vector<std::uint32_t> readNodes(bool unculled);
@@ -90,7 +94,7 @@ TerrainDrawer* Renderer::Impl::drawerOf(TerrainForm form) {
 
 void Renderer::Impl::removeHidden() {
   tiles.removeHidden();
-  glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
+  glBindFramebuffer(GL_FRAMEBUFFER, scene().id());
   gl->clock.lap(&FrameCost::occlusion);
 }
 
@@ -145,41 +149,74 @@ FrameResult Renderer::Impl::prepare(const FrameRequest& r, SceneView& view) {
   return result;
 }
 
-/// What is done to the picture once the scene is drawn; blur before the symbols, which stay sharp.
-FrameCounters Renderer::Impl::finishPicture(const FrameRequest& r) {
+/// Blurs the scene, before it is scaled up, so that blur and scene cost the same number of pixels.
+FrameCounters Renderer::Impl::blurScene(const FrameRequest& r) {
   FrameCounters done;
-  const ViewShape& v = r.view;
   const double strength = r.decision.motion.blur.strength;
   if (strength > 0 || !r.skips.blurAtRest) {
     gl->clock.beginPart(&FrameCost::blur);
     if (!(strength > 0)) gl->blur.rest();
-    gl->blur.apply(gl->frame.id(), gl->frame.colourTexture(), v.widthPx, v.heightPx, strength, r.time);
+    gl->blur.apply(scene().id(), scene().colourTexture(), lastScene.widthPx, lastScene.heightPx, strength,
+                   r.time);
     gl->clock.endPart(&FrameCost::blur);
     ++done.blurPasses;
   }
   if (!(strength > 0)) gl->blur.rest();
-  if (r.symbology && r.symbology->setup.general.enabled) {
-    gl->clock.beginPart(&FrameCost::symbology);
-    const bool redrawn = gl->symbology.draw(*r.symbology, v, !r.skips.sameSymbols);
-    done.symbologyRedraws += redrawn;
-    if (redrawn) done.hostSymbolsLeftOut += gl->symbology.hostSymbolsLeftOut();
-    gl->clock.endPart(&FrameCost::symbology);
-    ++done.symbologyDraws;
-  }
   return done;
+}
+
+/// Fills the image with the scene. Between pixels its colours are interpolated.
+void Renderer::Impl::scaleUp() {
+  if (&scene() == &gl->frame) return;
+  gl->frame.resize(lastView.widthPx, lastView.heightPx);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, gl->small.id());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, gl->frame.id());
+  glDisable(GL_SCISSOR_TEST);
+  glBlitFramebuffer(0, 0, lastScene.widthPx, lastScene.heightPx, 0, 0, lastView.widthPx, lastView.heightPx,
+                    GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
+}
+
+/// The symbols are drawn last, at the image's size, so that they stay sharp.
+FrameCounters Renderer::Impl::drawSymbols(const FrameRequest& r) {
+  FrameCounters done;
+  if (!r.symbology || !r.symbology->setup.general.enabled) return done;
+  gl->clock.beginPart(&FrameCost::symbology);
+  const bool redrawn = gl->symbology.draw(*r.symbology, r.view, !r.skips.sameSymbols);
+  done.symbologyRedraws += redrawn;
+  if (redrawn) done.hostSymbolsLeftOut += gl->symbology.hostSymbolsLeftOut();
+  gl->clock.endPart(&FrameCost::symbology);
+  ++done.symbologyDraws;
+  return done;
+}
+
+/// Returns the request for a scene of `size`, whose errors still count the image's pixels.
+FrameRequest atSize(FrameRequest request, const ViewShape& size) {
+  const double scale = pixelsPerRadian(size) / pixelsPerRadian(request.view);
+  request.view = size;
+  request.lod.screenSpaceError = Pixels{request.lod.screenSpaceError.value() * scale};
+  request.staticLod.errorPx = Pixels{request.staticLod.errorPx.value() * scale};
+  return request;
 }
 
 FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
   gl->clock.start(report.software, r.separateStages, r.waitForPicture);
   lastView = r.view;
-  SceneView view = viewOf(r);
-  FrameResult result = prepare(r, view);
+  lastScene = scaledShape(r.view, r.renderScale);
+  std::optional<FrameRequest> smaller;
+  if (lastScene != lastView) smaller = atSize(r, lastScene);
+  const FrameRequest& drawn = smaller ? *smaller : r;
+  SceneView view = viewOf(drawn);
+  FrameResult result = prepare(drawn, view);
 
-  gl->frame.resize(r.view.widthPx, r.view.heightPx);
-  glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
-  gl->graph.frame(view, gl->frame.id());
-  glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
-  result.counters += finishPicture(r);
+  FrameBuffer& target = smaller ? gl->small : gl->frame;
+  target.resize(lastScene.widthPx, lastScene.heightPx);
+  glBindFramebuffer(GL_FRAMEBUFFER, target.id());
+  gl->graph.frame(view, target.id());
+  glBindFramebuffer(GL_FRAMEBUFFER, target.id());
+  result.counters += blurScene(r);
+  scaleUp();
+  result.counters += drawSymbols(r);
 
   glBindFramebuffer(GL_READ_FRAMEBUFFER, gl->frame.id());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, fbo);
@@ -214,13 +251,15 @@ void Renderer::Impl::leaveContext(unsigned fbo) {
 std::vector<std::uint32_t> Renderer::Impl::readNodes(bool unculled) {
   SceneView view = *shown;
   view.nodes = true;
+  view.shape = lastView;
+  view.guardBand = guardBandOf(lastView, gl->viewports);
   view.depth.reset();
   view.precipitation.reset();
   view.sky = view.wireframe = view.lines = view.treePicture = false;
   if (terrain) counters.tilesBuilt += terrain->prepareNumbers(unculled);
   GLint before = 0;
   glGetIntegerv(GL_FRAMEBUFFER_BINDING, &before);
-  gl->nodes.begin(view.shape.widthPx, view.shape.heightPx);
+  gl->nodes.begin(lastView.widthPx, lastView.heightPx);
   gl->graph.frame(view, gl->nodes.id());
   std::vector<std::uint32_t> nodes = gl->nodes.read();
   leaveContext(static_cast<GLuint>(before));
@@ -267,7 +306,7 @@ FrameResult Renderer::draw(const FrameRequest& request, unsigned fbo) {
 
 std::vector<float> Renderer::readDistances() {
   if (!impl_->gl) return {};
-  return impl_->gl->frame.readDistances(impl_->lastView);
+  return impl_->scene().readDistances(impl_->lastScene, impl_->lastView);
 }
 
 DistanceImage Renderer::readDepthMap() {

@@ -8,6 +8,8 @@
 
 #include "trimtab/host/motion.h"
 #include "trimtab/motion/line_of_sight.h"
+#include "trimtab/policy/compiled_policy.h"
+#include "trimtab/session/lever_request.h"
 #include "trimtab/weather/weather.h"
 
 namespace trimtab {
@@ -25,6 +27,12 @@ constexpr double kJumpShownS = 1;
 
 double millisecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// A row of a trace has its signals, which depend on measured times: they are decided as they were.
+bool replaysSignals(const FrameInput& input) {
+  return std::any_of(input.signalValues.value.begin(), input.signalValues.value.end(),
+                     [](double value) { return !std::isnan(value); });
 }
 
 bool samePose(const AircraftState& a, const AircraftState& b) {
@@ -52,8 +60,11 @@ Session::Session(const ValidatedParameters& parameters) : parameters_(parameters
 void Session::setParameters(const ValidatedParameters& parameters) {
   parameters_ = parameters;
   dirty_ = true;
+  memory_.levers.restart();
+  lookMemory_.levers.restart();
   if (!current_) return;
   decided_.aboveGround = groundBelow(decided_.state);
+  trackSignals(decided_);
   DecisionMemory copy = looking_ ? lookMemory_ : memory_;
   decision_ = decide(decided_, parameters_, copy);
 }
@@ -101,7 +112,7 @@ void Session::replay(const TraceRow& row) {
 }
 
 void Session::look(const AircraftState& state) {
-  if (!looking_) lookMemory_ = {}, groundVelocity_.restart();
+  if (!looking_) lookMemory_ = {}, groundVelocity_.restart(), signals_.restart();
   const bool stands = looking_ && state.position == current_->state.position;
   looking_ = true;
   unlink();
@@ -111,6 +122,7 @@ void Session::look(const AircraftState& state) {
   if (stands) seen.velocity = Velocity{};
   groundVelocity_.push(seen);
   current_ = decided_ = inputFor(seen);
+  trackSignals(decided_);
   decision_ = decide(decided_, parameters_, lookMemory_);
   blurPicturedAt_.reset();
   dirty_ = true;
@@ -131,20 +143,31 @@ void Session::restart() {
 /// Where the host does not say, and only if the decision wants it: a height from the terrain costs a look-up.
 std::optional<Metres> Session::groundBelow(const AircraftState& state) const {
   if (state.aboveGround) return state.aboveGround;
-  if (parameters_->altitude.reference != AltitudeReference::above_ground || !ground_) return std::nullopt;
+  const CompiledPolicy* const policy = parameters_.policy();
+  const bool asked = parameters_->altitude.reference == AltitudeReference::above_ground ||
+                     (policy != nullptr && policy->asks(Signal::above_ground));
+  if (!asked || !ground_) return std::nullopt;
   const std::optional<Metres> ground = ground_->heightAt(state.position.latitude, state.position.longitude);
   if (!ground) return std::nullopt;
   return state.position.height - *ground;
 }
 
 FrameInput Session::inputFor(const AircraftState& state) const {
-  FrameInput input{state, groundBelow(state), lastCost_, {}};
+  FrameInput input{state, groundBelow(state), lastCost_, {}, {}};
   // The rows of a flight are its images whatever the clock says, so that they are decided alike anywhere.
   if (parameters_->motion.frames == MotionFrames::drawn) {
     input.drawn.vertices = lastVertices_;
     if (linked_ || looking_) input.drawn.framesPerS = imageRate_.perS();
   }
   return input;
+}
+
+/// Derives the signals of the policy, if there is one, from the state that is about to be decided.
+void Session::trackSignals(FrameInput& input) {
+  if (parameters_.policy() == nullptr) return;
+  signals_.push(input.state, input.aboveGround, velocityOf(input.state),
+                decideWeather(input.state, *parameters_));
+  input.signalValues = signals_.values();
 }
 
 /// Link bookkeeping of one packet: clock, silence, jumps, velocity.
@@ -167,11 +190,13 @@ void Session::follow(const AircraftState& state, double arrival) {
   extrapolator_.push(state);
 }
 
-void Session::decideNext(const FrameInput& input, double kernelTime) {
+void Session::decideNext(FrameInput input, double kernelTime) {
   const bool looking = std::exchange(looking_, false);
   ++packets_;
   const DecisionMemory before = memory_;
   const auto start = std::chrono::steady_clock::now();
+  if (looking) signals_.restart();
+  if (!replaysSignals(input)) trackSignals(input);
   decision_ = decide(input, parameters_, memory_);
   decideMs_ += millisecondsSince(start);
   if (looking) groundVelocity_.restart();
@@ -215,6 +240,7 @@ void Session::decideImage(double now) {
   const DecisionMemory before = memory_;
   const auto start = std::chrono::steady_clock::now();
   decided_ = inputFor(eye);
+  trackSignals(decided_);
   decision_ = decide(decided_, parameters_, memory_);
   decideMs_ += millisecondsSince(start);
   blurPicturedAt_.reset();
@@ -313,6 +339,7 @@ std::optional<FrameRequest> Session::request(double now, int windowWidthPx, int 
   request.lod = parameters_->lod;
   request.staticLod = parameters_->staticLod;
   request.terrain = parameters_->terrain;
+  applyLevers(request.decision.policy, request);
   request.rain = parameters_->rainLook;
   request.snow = parameters_->snowLook;
   drawnDark_ = darkAt(eye.time);
@@ -333,6 +360,7 @@ FrameCost Session::finished(const FrameResult& result, double now) {
   lastCost_.decide = decideMs_;
   lastCost_.total = result.cost.total + decideMs_;
   lastVertices_ = result.visible.vertices;
+  signals_.finished(lastCost_.total, parameters_->measure.budget.value(), result.visible.triangles);
   overBudget_ += lastCost_.total > parameters_->measure.budget.value();
   decideMs_ = 0;
   if (!inPicture_.empty()) {

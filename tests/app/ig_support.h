@@ -162,7 +162,7 @@ inline std::vector<FrameDecision> decided(const std::vector<TraceRow>& rows,
   DecisionMemory memory;
   std::vector<FrameDecision> decisions;
   for (const TraceRow& row : rows)
-    decisions.push_back(decide({row.input.state, row.input.aboveGround, {}}, parameters, memory));
+    decisions.push_back(decide({row.input.state, row.input.aboveGround, {}, {}, {}}, parameters, memory));
   return decisions;
 }
 

@@ -253,6 +253,15 @@ std::vector<ParameterValue> otherValues(const ParameterRow& row, const Parameter
       values.emplace_back(rules);
       break;
     }
+    case Kind::lines: {
+      TextLines lines = std::get<TextLines>(now);
+      for (std::string& line : lines.line)
+        for (const auto& [from, to] : {std::pair{" and ", " or "}, std::pair{"2000", "9000"}})
+          if (const std::size_t at = line.find(from); at != std::string::npos)
+            line.replace(at, std::string(from).size(), to);
+      values.emplace_back(lines);
+      break;
+    }
   }
   return values;
 }
@@ -278,6 +287,11 @@ TEST_F(ParameterEffects, everyParameterChangesADecisionAPictureOrACount) {
        {{"motion.blur_frames", "3"}, {"motion.left_fov_deg", "30"}, {"motion.right_fov_deg", "30"}}},
       {"motion.", {{"motion.dwell", "milliseconds"}, {"motion.blur_dwell_ms", "50"}}},
       {"lod.level_spread", {{"lod.level_spread", "0.6"}, {"lod.scale", "4"}}},
+      {"policy.",
+       {{"policy.enabled", "true"},
+        {"policy.terms", "altitude low = ramp 2000 0 | pitch up = ramp -30 30"},
+        {"policy.rules",
+         "if altitude is low and pitch is up then lod_scale = 4 | if altitude is any then lod_scale = 1"}}},
       {"lod.texture",
        {{"static_lod.terrain", "patches"}, {"lod.scale", "4"}},
        &ParameterEffects::flyOverTexture},

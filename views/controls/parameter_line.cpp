@@ -30,6 +30,8 @@ QString valueText(const ParameterRow& row, const ParameterValue& value) {
       return QObject::tr("%1 bands").arg(std::get<BandList>(value).size);
     case Kind::rules:
       return QObject::tr("%1 rules").arg(std::get<RuleList>(value).size);
+    case Kind::lines:
+      return QObject::tr("%1 lines").arg(std::get<TextLines>(value).line.size());
     case Kind::scalar:
       break;
   }
@@ -120,6 +122,7 @@ QWidget* ParameterLine::makeEditor() {
     case Kind::curve:
     case Kind::bands:
     case Kind::rules:
+    case Kind::lines:
       break;
   }
   QLineEdit* line = new QLineEdit;

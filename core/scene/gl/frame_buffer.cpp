@@ -40,20 +40,26 @@ class Reading {
 
 }  // namespace
 
-std::vector<float> FrameBuffer::readDistances(const ViewShape& v) const {
-  std::vector<float> distances(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+std::vector<float> FrameBuffer::readDistances(const ViewShape& view, const ViewShape& v) const {
+  std::vector<float> depths(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   {
     const Reading reading(id_);
-    glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, distances.data());
+    glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
   }
+  const auto covering = [](int i, int pixels, int of) {
+    return static_cast<std::size_t>((2 * std::int64_t{i} + 1) * of / (2 * std::int64_t{pixels}));
+  };
+  std::vector<float> distances(static_cast<std::size_t>(v.widthPx) * static_cast<std::size_t>(v.heightPx));
   std::size_t i = 0;
-  for (int y = 0; y < height_; ++y)
-    for (int x = 0; x < width_; ++x, ++i) {
+  for (int y = 0; y < v.heightPx; ++y) {
+    const float* row = depths.data() + covering(y, v.heightPx, view.heightPx) * static_cast<std::size_t>(width_);
+    for (int x = 0; x < v.widthPx; ++x, ++i) {
       const double across = v.left + (v.right - v.left) * (x + 0.5) / v.widthPx;
       const double up = v.bottom + (v.top - v.bottom) * (y + 0.5) / v.heightPx;
-      distances[i] =
-          static_cast<float>(v.nearM / double{distances[i]} * std::sqrt(1 + across * across + up * up));
+      distances[i] = static_cast<float>(v.nearM / double{row[covering(x, v.widthPx, view.widthPx)]} *
+                                        std::sqrt(1 + across * across + up * up));
     }
+  }
   return distances;
 }
 

@@ -22,8 +22,9 @@ class FrameBuffer {
   unsigned id() const { return id_; }
   unsigned colourTexture() const { return colour_; }
   /// Returns metres from the eye of a view that fills it, row 0 at the bottom; infinity where nothing was
-  /// drawn.
-  std::vector<float> readDistances(const ViewShape& view) const;
+  /// drawn. `pixels` is the same view at the size that is returned: each of its pixels has the depth of the
+  /// pixel here that covers its middle.
+  std::vector<float> readDistances(const ViewShape& view, const ViewShape& pixels) const;
   /// Returns RGBA of the lower left corner, row 0 at the bottom. Needs Colour::rgba8.
   std::vector<std::uint8_t> readPixels(int width, int height) const;
   int width() const { return width_; }

@@ -103,6 +103,7 @@ FrameRequest referenceOf(const FrameRequest& request) {
   r.decision.depthMap.reset();
   r.decision.motion.blur = {};
   r.decision.weather.farM = WeatherDecision::kUnlimited;
+  r.renderScale = r.particleShare = 1;
   return r;
 }
 

@@ -22,6 +22,8 @@ namespace {
 
 /// How long a drop draws its streak, seconds, and its greatest length, metres.
 constexpr double kExposureS = 1.0 / 30, kLongestStreakM = 0.8;
+/// The effect lays its cells out anew for each density, so the share that a policy moves goes in steps.
+constexpr double kShareSteps = 32;
 
 osg::ref_ptr<osg::Program> dropProgram(const std::string& vertex) {
   osg::ref_ptr<osg::Program> program = new osg::Program;
@@ -58,7 +60,8 @@ bool isFinite(Vec3 v) {
 
 std::optional<PrecipitationView> precipitationView(const FrameRequest& request, const LocalFrame& frame) {
   const WeatherDecision& weather = request.decision.weather;
-  if (weather.precipitation == Precipitation::none || !(weather.density > 0)) return {};
+  if (weather.precipitation == Precipitation::none || !(weather.density > 0 && request.particleShare > 0))
+    return {};
   Vec3 eye;
   if (request.velocity)
     eye = {request.velocity->east.value(), request.velocity->north.value(), -request.velocity->down.value()};
@@ -66,6 +69,7 @@ std::optional<PrecipitationView> precipitationView(const FrameRequest& request, 
   return PrecipitationView{
       .kind = weather.precipitation,
       .density = std::min(weather.density, 1.0),
+      .share = std::max(std::round(request.particleShare * kShareSteps), 1.0) / kShareSteps,
       .time = request.time,
       .velocity = frame.ecefToLocal() * (toEarth * (eye - eastNorthUp(request.wind))),
       .airDrift = frame.ecefToLocal() * request.airDrift,
@@ -82,7 +86,7 @@ Vec3 latticeFromEye(Vec3 eye, Vec3 cell) {
 struct PrecipitationNode::Impl {
   osg::ref_ptr<osgParticle::PrecipitationEffect> effect = new osgParticle::PrecipitationEffect;
   Precipitation kind = Precipitation::none;
-  double density = 0;
+  double density = 0, share = 1;
 
   Impl() {
     // It reports every drawable that it gives up.
@@ -109,14 +113,16 @@ struct PrecipitationNode::Impl {
   }
 
   void shape(const PrecipitationView& falling) {
-    if (falling.kind == kind && falling.density == density) return;
+    if (falling.kind == kind && falling.density == density && falling.share == share) return;
     kind = falling.kind;
     density = falling.density;
+    share = falling.share;
     const float intensity = static_cast<float>(density);
     if (kind == Precipitation::snow)
       effect->snow(intensity);
     else
       effect->rain(intensity);
+    effect->setMaximumParticleDensity(effect->getMaximumParticleDensity() * static_cast<float>(share));
     effect->setUseFarLineSegments(kind == Precipitation::rain);
   }
 };

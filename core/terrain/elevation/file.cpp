@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "sample.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 #include "trimtab/terrain/elevation/import.h"
 #include "trimtab/terrain/grid/progress.h"
 

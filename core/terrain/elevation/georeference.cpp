@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 #include "values.h"
 
 namespace trimtab::terrain {

@@ -11,7 +11,7 @@
 
 #include "file.h"
 #include "merge.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 #include "trimtab/terrain/elevation/import.h"
 
 namespace trimtab::terrain {

@@ -7,7 +7,7 @@
 
 #include "manifest_checksum.h"
 #include "trimtab/preset/file_io.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 #include "trimtab/terrain/format/ground_pyramid.h"
 #include "trimtab/terrain/format/patch_store.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"

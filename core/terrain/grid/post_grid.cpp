@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 #include "trimtab/units/geodesy.h"
 
 namespace trimtab::terrain {

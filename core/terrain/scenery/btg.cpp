@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "triangles.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 #include "trimtab/terrain/scenery/lines.h"
 #include "trimtab/terrain/scenery/scenery.h"
 

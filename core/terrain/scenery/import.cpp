@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 #include "trimtab/terrain/elevation/import.h"
 #include "trimtab/terrain/grid/progress.h"
 

@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 #include "edges.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab::terrain {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "landscape.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 #include "trimtab/terrain/elevation/georeference.h"
 #include "trimtab/terrain/elevation/write_tiff.h"
 #include "trimtab/terrain/grid/parallel.h"

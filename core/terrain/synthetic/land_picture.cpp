@@ -7,7 +7,7 @@
 #include <span>
 
 #include "landscape.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 #include "trimtab/terrain/elevation/georeference.h"
 #include "trimtab/terrain/elevation/write_tiff.h"
 #include "trimtab/terrain/grid/parallel.h"

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "landscape.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 #include "trimtab/terrain/elevation/import.h"
 #include "trimtab/terrain/elevation/write_tiff.h"
 #include "trimtab/terrain/grid/post_geometry.h"

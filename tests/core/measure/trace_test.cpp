@@ -65,6 +65,22 @@ void anyWeather(std::mt19937_64& random, WeatherDecision& weather) {
   weather.farReason = static_cast<FarReason>(random() % 5);
 }
 
+void anyPolicy(std::mt19937_64& random, TraceRow& row) {
+  for (double& value : row.input.signalValues.value)
+    if (random() % 2) value = anyDouble(random);
+  if (random() % 2) {
+    LeverDrive::State before{.moving = static_cast<std::uint32_t>(random()), .timeS = anyDouble(random), .begun = true};
+    for (double& value : before.values.value) value = anyDouble(random);
+    row.before.levers = LeverDrive(before);
+  }
+  if (random() % 2) {
+    PolicyOutcome& set = row.decision.policy;
+    for (double& value : set.value) value = anyDouble(random);
+    set.moved = static_cast<std::uint32_t>(random());
+    set.unknownAsked = static_cast<std::uint32_t>(random());
+  }
+}
+
 TraceRow anyRow(std::mt19937_64& random) {
   const auto number = [&random] { return anyDouble(random); };
   const auto maybe = [&random, &number]<class T>(std::optional<T>& value) {
@@ -111,6 +127,7 @@ TraceRow anyRow(std::mt19937_64& random) {
   d.lodScale = number();
   anyMotion(random, row.before, d);
   anyWeather(random, d.weather);
+  anyPolicy(random, row);
   if (random() % 2) {
     row.frame = TraceFrame{{random(), random(), random(), random(), random(), random(), random()}, {}};
     for (const CostStage& stage : kCostStages) row.frame->cost.*stage.ms = random() % 8 ? number() : kNan;
@@ -127,6 +144,10 @@ void expectSame(const TraceRow& a, const TraceRow& b) {
   for (const CostStage& stage : kCostStages)
     EXPECT_TRUE(sameBits(a.input.lastCost.*stage.ms, b.input.lastCost.*stage.ms)) << stage.name;
   EXPECT_EQ(a.input.drawn, b.input.drawn);
+  for (std::size_t i = 0; i < kSignals; ++i) {
+    const double x = a.input.signalValues.value[i], y = b.input.signalValues.value[i];
+    EXPECT_TRUE((std::isnan(x) && std::isnan(y)) || sameBits(x, y)) << kSignalRows[i].key;
+  }
   EXPECT_EQ(a.before, b.before);
   EXPECT_EQ(a.decision, b.decision);
   ASSERT_EQ(a.frame.has_value(), b.frame.has_value());

@@ -5,7 +5,7 @@
 
 #include "tests/core/fuzzy/fuzzylite_oracle.h"
 #include "tests/support.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab::test {
 namespace {

@@ -77,6 +77,8 @@ std::vector<std::string> wordsOf(const ParameterRow& row, const ParameterValue& 
       words.emplace_back(kPitch[static_cast<std::size_t>(r.pitch)]);
       number(r.weight), number(r.output);
     }
+  if (const auto* v = std::get_if<TextLines>(&value))
+    for (const std::string& line : v->line) words.emplace_back(line);
   return words;
 }
 
@@ -206,6 +208,15 @@ TEST(Export, hasEveryKeyAndValueInIni) {
         std::replace_if(
             text.begin(), text.end(), [](char c) { return c == ':' || c == 'x'; }, ' ');
       if (row.kind == Kind::rules) text = rulesAsWords(text);
+      if (row.kind == Kind::lines) {
+        std::string lines;
+        for (const std::string& line : wordsOf(row, row.get(parameters)))
+          lines += (lines.empty() ? "" : " | ") + line;
+        for (std::size_t at = 0; (at = lines.find('\\', at)) != std::string::npos; at += 2)
+          lines.insert(at, 1, '\\');
+        EXPECT_EQ(text, lines) << row.key;
+        continue;
+      }
       std::istringstream parts(text);
       std::vector<std::string> words;
       for (std::string part; parts >> part;) words.push_back(wordOf(part));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "trimtab/preset/table.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab::test {
 
@@ -65,6 +66,17 @@ class RandomParameters {
                                       static_cast<PitchCondition>(below(3)),
                                       between(row.hard.low, row.hard.high), between(0, BandList::kTop)};
         return rules;
+      }
+      case Kind::lines: {
+        TextLines lines;
+        const bool terms = row.key == "policy.terms";
+        for (std::size_t i = 0, count = below(5); i < count; ++i)
+          lines.line.push_back(terms ? "speed t" + std::to_string(i) + " = ramp " +
+                                           numberText(between(0, 500)) + " " + numberText(between(501, 1500))
+                                     : "if speed is any then lod_scale = " + numberText(between(1, 16)) +
+                                           " with " + numberText(between(0, 1)) +
+                                           " # \"h\u00f6her\" & <2>; a\\b 'c'");
+        return lines;
       }
     }
     return 0.0;

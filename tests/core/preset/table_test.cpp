@@ -10,7 +10,7 @@
 #include "core/preset/rows.h"
 #include "random_parameters.h"
 #include "tests/support.h"
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab {
 namespace {

@@ -91,7 +91,7 @@ TEST(Session, decidesOnceForEachPacketInOrderWithOneMemory) {
   for (std::size_t i = 0; i < states.size(); ++i) {
     EXPECT_EQ(rows[i].input.state, states[i]);
     EXPECT_EQ(rows[i].before, memory);
-    ASSERT_EQ(rows[i].decision, decide({states[i], std::nullopt, {}}, parameters, memory)) << i;
+    ASSERT_EQ(rows[i].decision, decide({states[i], std::nullopt, {}, {}, {}}, parameters, memory)) << i;
     held += rows[i].decision.reason == SchemeReason::held_by_hysteresis;
   }
   EXPECT_GT(held, 0) << "the states must meet hysteresis, or order would not matter";

@@ -36,7 +36,7 @@ TEST(Weather, ofTheDefaultPresetIsClearWithNothingCut) {
   AircraftState hostSpeaks = saying(HostWeather{Precipitation::snow, 5, {}}, Metres{300});
   EXPECT_EQ(decideWeather(hostSpeaks, *defaultParameters()), WeatherDecision{});
   DecisionMemory memory;
-  EXPECT_EQ(decide({hostSpeaks, {}, {}}, defaultParameters(), memory).weather, WeatherDecision{});
+  EXPECT_EQ(decide({hostSpeaks, {}, {}, {}, {}}, defaultParameters(), memory).weather, WeatherDecision{});
 }
 
 TEST(Weather, isDecidedThoughTheAircraftIsNowhere) {
@@ -44,7 +44,7 @@ TEST(Weather, isDecidedThoughTheAircraftIsNowhere) {
   state.attitude.pitch = Degrees{kNaN};
   DecisionMemory memory;
   const ValidatedParameters parameters = validate(inStep(WeatherStep::rain_heavy)).value();
-  EXPECT_EQ(decide({state, {}, {}}, parameters, memory).weather.precipitation, Precipitation::rain);
+  EXPECT_EQ(decide({state, {}, {}, {}, {}}, parameters, memory).weather.precipitation, Precipitation::rain);
 }
 
 TEST(Weather, leavesTheContrastThresholdAtTheVisibility) {

@@ -4,15 +4,18 @@
 #include <string>
 
 #include "trimtab/frame/frame.h"
+#include "trimtab/policy/lever_drive.h"
 #include "trimtab/preset/table.h"
 
 namespace trimtab {
 
-/// What one decision remembers for the next: the band, for the hysteresis, and the stacks of head motion.
+/// What one decision remembers for the next: the band, for the hysteresis, the stacks of head motion, and
+/// where the levers are.
 /// With a default memory the first decision is a plain look-up.
 struct DecisionMemory {
   std::optional<int> band;  ///< of the last decision; -1 is the scheme *frustum*
   MotionMemory motion{};
+  LeverDrive levers{};
 
   friend bool operator==(const DecisionMemory&, const DecisionMemory&) = default;
 };

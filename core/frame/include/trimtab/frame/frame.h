@@ -6,8 +6,10 @@
 #include <optional>
 
 #include "trimtab/frame/motion_decision.h"
+#include "trimtab/frame/policy_outcome.h"
 #include "trimtab/frame/rule_firing.h"
 #include "trimtab/frame/weather_decision.h"
+#include "trimtab/policy/signals.h"
 #include "trimtab/preset/parameters.h"
 #include "trimtab/units/geodesy.h"
 
@@ -75,6 +77,10 @@ struct ViewShape {
 /// axes. Screen-space error in pixels is geometric error over distance, times this.
 double pixelsPerRadian(const ViewShape& view);
 
+/// Returns the same perspective at `scale` times the width and height, rounded to even numbers of pixels.
+/// A scale that is not between 0 and 1 counts as 1, which changes nothing.
+ViewShape scaledShape(ViewShape view, double scale);
+
 /// Returns the shape of a view from the parameters, the window's size (for RenderSize::fit) and the view that
 /// the host asks for.
 ViewShape viewShape(const ViewParameters& parameters, int windowWidthPx, int windowHeightPx,
@@ -96,7 +102,8 @@ struct FrameInput {
   AircraftState state;
   std::optional<Metres> aboveGround;  ///< what decide() uses for AltitudeReference::above_ground
   FrameCost lastCost;
-  DrawnLoad drawn{};  ///< set only for MotionFrames::drawn
+  DrawnLoad drawn{};     ///< set only for MotionFrames::drawn
+  SignalValues signalValues;  ///< set only if the preset has a policy
 };
 
 enum class Scheme { frustum, dynamic };
@@ -128,6 +135,7 @@ struct FrameDecision {
   double lodScale = 1;  ///< the preset's times that of head motion; 1 is full detail, larger is coarser
   MotionDecision motion;
   WeatherDecision weather;
+  PolicyOutcome policy;
 
   friend bool operator==(const FrameDecision&, const FrameDecision&) = default;
 };

@@ -40,6 +40,10 @@ struct FrameRequest {
   PrecipitationLook rain = kRainLook, snow = kSnowLook;
   Attitude attitude;  ///< of the view: aircraft, or aircraft and head
   ViewShape view;     ///< perspective, and the image's size
+  /// The part of the image's width and height at which the scene is drawn before it is scaled up; symbols are
+  /// drawn at the image's size. Errors in pixels still count the image's pixels.
+  double renderScale = 1;
+  double particleShare = 1;  ///< the share of the drops and flakes of the weather that is drawn
   FrameDecision decision;
   CullingCase method = CullingCase::proposed;
   OcclusionMethod occlusion =

@@ -26,11 +26,15 @@ class CompiledPolicy {
   /// being the rule's firing: Takagi-Sugeno of order zero, Eq. (2) of documents A and B for each lever by
   /// itself. The result is never outside the settings that it is the mean of. A rule that asks for an unknown
   /// signal does not fire, whatever else its condition says.
-  void decide(const SignalValues& signals, PolicyDecision& decision) const;
+  void decide(const SignalValues& flight, PolicyDecision& decision) const;
 
   std::size_t terms() const { return terms_.size(); }
   std::size_t rules() const { return rules_.size(); }
+  /// Reports whether a rule that is switched on and has a weight sets the lever; as a bit for each lever.
   bool moves(Lever lever) const { return levers_ >> static_cast<unsigned>(lever) & 1; }
+  std::uint32_t levers() const { return levers_; }
+  /// Reports whether such a rule asks for the signal.
+  bool asks(Signal signal) const { return signals_ >> static_cast<unsigned>(signal) & 1; }
 
   /// Returns the share of a rule in a lever's value, 0..1; 0 if it has none.
   double share(std::size_t rule, Lever lever, const PolicyDecision& decision) const;
@@ -66,7 +70,7 @@ class CompiledPolicy {
   };
   struct Rule {
     std::uint32_t firstStep, steps;
-    std::uint32_t signals;  ///< bit s: the condition asks for signal s
+    std::uint32_t asked;  ///< bit s: the condition asks for signal s
     double weight;          ///< 0 if the rule is switched off
   };
 
@@ -92,7 +96,7 @@ class CompiledPolicy {
   std::vector<Rule> rules_;
   std::vector<Setting> settings_;  ///< lever by lever
   std::array<std::uint32_t, kLevers + 1> firstSetting_{};
-  std::uint32_t levers_ = 0;
+  std::uint32_t levers_ = 0, signals_ = 0;
 };
 
 /// Checks and compiles a policy. Fails with every finding, each at "WHERE: terms.SIGNAL.NAME" or "WHERE:

@@ -11,19 +11,33 @@ namespace trimtab {
 /// to rest within (range / rate) seconds: no rule base can make it cycle unless the signals themselves do.
 class LeverDrive {
  public:
+  /// Everything that a step depends on, for traces.
+  struct State {
+    LeverValues values = LeverValues::all(0);
+    std::uint32_t moving = 0;  ///< bit l: lever l is on its way to a target
+    double timeS = 0;          ///< of the last step
+    bool begun = false;        ///< whether a step has set the values
+
+    friend bool operator==(const State&, const State&) = default;
+  };
+
+  LeverDrive() = default;
+  explicit LeverDrive(const State& state) : state_(state) {}
+
   /// Moves on to `time`, in seconds on the clock of the states, and returns the new values. A target that is
   /// NaN stands for `neutral`, which must be a number within the hard range. The first call, and one after
   /// restart(), takes the targets at once. No lever moves if the time stands, goes back or is not a number;
   /// a gap counts as a quarter of a second at most.
   const LeverValues& follow(double time, const LeverValues& targets, const LeverValues& neutral);
-  const LeverValues& values() const { return values_; }
-  void restart();
+  const LeverValues& values() const { return state_.values; }
+  const State& state() const { return state_; }
+  /// Makes the next step take its targets at once.
+  void restart() { state_ = {}; }
+
+  friend bool operator==(const LeverDrive&, const LeverDrive&) = default;
 
  private:
-  LeverValues values_;
-  std::array<bool, kLevers> moving_{};
-  double time_ = 0;
-  bool begun_ = false;
+  State state_;
 };
 
 }  // namespace trimtab

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "trimtab/preset/table.h"
+#include "trimtab/units/range.h"
 
 /// The outputs of a policy: what the rules of a preset may set in each image.
 namespace trimtab {
@@ -136,6 +136,9 @@ inline constexpr std::array kLeverRows{
 };
 inline constexpr std::size_t kLevers = kLeverRows.size();
 
+constexpr std::size_t indexOf(Lever lever) {
+  return static_cast<std::size_t>(lever);
+}
 /// Returns the row of a lever.
 constexpr const LeverRow& rowOf(Lever lever) {
   return kLeverRows[static_cast<std::size_t>(lever)];
@@ -152,8 +155,14 @@ struct LeverValues {
   std::array<double, kLevers> value;
 
   constexpr LeverValues() { value.fill(std::numeric_limits<double>::quiet_NaN()); }
+  static constexpr LeverValues all(double number) {
+    LeverValues values;
+    values.value.fill(number);
+    return values;
+  }
   constexpr double& operator[](Lever l) { return value[static_cast<std::size_t>(l)]; }
   constexpr double operator[](Lever l) const { return value[static_cast<std::size_t>(l)]; }
+  friend bool operator==(const LeverValues&, const LeverValues&) = default;
 };
 
 namespace detail {

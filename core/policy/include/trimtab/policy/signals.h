@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "trimtab/preset/table.h"
+#include "trimtab/units/range.h"
 
 /// The inputs of a policy: what is known about the flight, the view and the load of recent images.
 namespace trimtab {
@@ -138,6 +138,9 @@ inline constexpr std::array kSignalRows{
 };
 inline constexpr std::size_t kSignals = kSignalRows.size();
 
+constexpr std::size_t indexOf(Signal signal) {
+  return static_cast<std::size_t>(signal);
+}
 /// Returns the row of a signal.
 constexpr const SignalRow& rowOf(Signal signal) {
   return kSignalRows[static_cast<std::size_t>(signal)];

@@ -32,6 +32,11 @@ struct ChoicesOf<Combination> {
       {"sum", "Sum"}, {"twice_minimum", "Twice the smaller"}, {"rules", "Rule base"}};
 };
 template <>
+struct ChoicesOf<PolicyNorm> {
+  static constexpr ChoiceOption options[] = {{"minimum", "Minimum, maximum"},
+                                             {"product", "Product, algebraic sum"}};
+};
+template <>
 struct ChoicesOf<CullingCase> {
   static constexpr ChoiceOption options[] = {
       {"none", "No culling"}, {"view_frustum", "View frustum"}, {"proposed", "Proposed (adaptive)"}};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "trimtab/policy/policy.h"
 #include "trimtab/preset/curve.h"
 #include "trimtab/preset/rule_list.h"
 #include "trimtab/preset/symbology_parameters.h"
@@ -189,6 +190,24 @@ struct MotionParameters {
   Milliseconds gap{250};
 };
 
+/// Lines of text, as the terms and rules of a policy are.
+struct TextLines {
+  std::vector<std::string> line;
+
+  friend bool operator==(const TextLines&, const TextLines&) = default;
+};
+
+/// Fuzzy rules that set levers (trimtab/policy/policy.h). policy_lines.h reads the lines.
+struct PolicyParameters {
+  bool enabled = false;
+  PolicyNorm norm = PolicyNorm::minimum;
+  TextLines terms;  ///< "above_ground low = ramp 2000 1000"
+  TextLines
+      rules;  ///< "if above_ground is low then lod_scale = 2 with 0.5 # reason"; "off " before it if off
+
+  friend bool operator==(const PolicyParameters&, const PolicyParameters&) = default;
+};
+
 struct MeasureParameters {
   Milliseconds budget{16.7};  ///< the work time that a frame may take; the plots draw it as a line
 };
@@ -220,6 +239,7 @@ struct TuningParameters {
   SymbolElement symbolAirspeed{.x = Ratio{-0.6}, .y = Ratio{0.1}};
   SymbolElement symbolAltitude{.x = Ratio{0.6}, .y = Ratio{0.1}};
   SymbolElement symbolHost;
+  PolicyParameters policy;
   HostParameters host;
   MeasureParameters measure;
 };

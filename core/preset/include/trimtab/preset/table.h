@@ -1,32 +1,32 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <variant>
 
 #include "trimtab/preset/parameters.h"
+#include "trimtab/units/range.h"
 #include "trimtab/units/result.h"
 
 /// The parameter table: one row for each field of TuningParameters, checked by the compiler. Panels, files,
 /// the command line, undo text, validation and the reference page all derive from it.
 namespace trimtab {
 
-struct Range {
-  double low = 0, high = 0;
-};
+class CompiledPolicy;
 
-enum class Kind { scalar, flag, choice, curve, bands, rules };
+enum class Kind { scalar, flag, choice, curve, bands, rules, lines };
 enum class Tier { basic, advanced };
 /// From when on a changed parameter counts.
 enum class Effect { next_frame, resize, host };
 
-/// A value of any row: scalar, flag, index into the row's choices, curve, bands or rules.
+/// A value of any row: scalar, flag, index into the row's choices, curve, bands, rules or lines of text.
 struct ChoiceIndex {
   std::size_t index = 0;
   friend constexpr bool operator==(ChoiceIndex, ChoiceIndex) = default;
 };
-using ParameterValue = std::variant<double, bool, ChoiceIndex, CurvePoints, BandList, RuleList>;
+using ParameterValue = std::variant<double, bool, ChoiceIndex, CurvePoints, BandList, RuleList, TextLines>;
 
 struct ChoiceOption {
   std::string_view name;   ///< as files spell it
@@ -61,7 +61,7 @@ const ParameterRow* findRow(std::string_view key);
 
 /// Returns a value as text in the C locale: a number in the shortest form that reads back bit for bit, a
 /// choice by its name, a curve as "4000:1 5000:0.6", bands as "0.1:320x240 0.5:400x300", rules as
-/// "low&down*1=2 high*0.5=0".
+/// "low&down*1=2 high*0.5=0", lines with " | " between.
 std::string toText(const ParameterRow& row, const ParameterValue& value);
 /// Is the inverse; findings say what was expected. A scalar may have a unit ("4000 ft"), which is converted
 /// to the row's if both have the same dimension. It refuses numbers that are not finite; validate() checks
@@ -73,15 +73,20 @@ class ValidatedParameters {
  public:
   const TuningParameters& operator*() const { return parameters_; }
   const TuningParameters* operator->() const { return &parameters_; }
+  /// Returns the policy that the parameters hold, compiled; null if it is switched off.
+  const CompiledPolicy* policy() const { return policy_.get(); }
 
  private:
   friend Result<ValidatedParameters> validate(const TuningParameters&);
-  explicit ValidatedParameters(const TuningParameters& p) : parameters_(p) {}
+  ValidatedParameters(const TuningParameters& p, std::shared_ptr<const CompiledPolicy> policy)
+      : parameters_(p), policy_(std::move(policy)) {}
   TuningParameters parameters_;
+  std::shared_ptr<const CompiledPolicy> policy_;  ///< shared by copies: it never changes
 };
 
 /// Validates parameters. Every broken range and rule is an error, every value outside its usual range a
-/// warning. Rules are checked only if every range holds. It allocates nothing if nothing is wrong.
+/// warning. Rules are checked only if every range holds. It allocates nothing if nothing is wrong, except for
+/// a policy, which it compiles if it is switched on.
 Result<ValidatedParameters> validate(const TuningParameters& parameters);
 /// Returns the defaults, validated.
 ValidatedParameters defaultParameters();

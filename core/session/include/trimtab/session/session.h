@@ -21,6 +21,7 @@
 #include "trimtab/session/air_drift.h"
 #include "trimtab/session/head_input.h"
 #include "trimtab/session/image_rate.h"
+#include "trimtab/session/signal_tracker.h"
 
 /// Turns states into decisions and requests for images. An image generator and the workbench both use it, so
 /// that they decide alike. It has no window, no GL and no clock of its own: the caller passes `now`, in
@@ -50,7 +51,8 @@ class Session {
   explicit Session(const ValidatedParameters& parameters);
 
   /// Sets the parameters for the next packet on. The current state is decided again for the image, without a
-  /// trace row and without changing the memory (see `decision`).
+  /// trace row and without changing the memory (see `decision`), except that the policy's levers take their
+  /// new targets at once.
   void setParameters(const ValidatedParameters& parameters);
   const ValidatedParameters& parameters() const { return parameters_; }
   /// Sets what is asked for the height of the ground if the host does not send the height above it. May be
@@ -130,12 +132,13 @@ class Session {
   void takeRows(std::vector<TraceRow>& rows, bool all = false);
 
  private:
-  void decideNext(const FrameInput& input, double kernelTime);
+  void decideNext(FrameInput input, double kernelTime);
   void wait(double kernelTime);
   void arrive(const AircraftState& state, double kernelTime);
   bool decidesImages() const;
   void decideImage(double now);
   FrameInput inputFor(const AircraftState& state) const;
+  void trackSignals(FrameInput& input);
   std::optional<Metres> groundBelow(const AircraftState& state) const;
   void follow(const AircraftState& state, double arrival);
   void unlink();
@@ -163,6 +166,7 @@ class Session {
   bool blurDrawn_ = false;
   AirDrift airDrift_;  ///< up to the last image requested
 
+  SignalTracker signals_;  ///< pushed only if the preset has a policy
   GroundVelocity groundVelocity_;
   Extrapolator extrapolator_;
   bool linked_ = false;     ///< states come from a live link, so the eye may be extrapolated

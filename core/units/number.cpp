@@ -1,4 +1,4 @@
-#include "trimtab/preset/number.h"
+#include "trimtab/units/number.h"
 
 #include <charconv>
 #include <cmath>

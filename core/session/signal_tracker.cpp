@@ -1,4 +1,4 @@
-#include "trimtab/policy/signal_tracker.h"
+#include "trimtab/session/signal_tracker.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,10 @@
+#pragma once
+
+namespace trimtab {
+
+/// From `low` to `high`, both included.
+struct Range {
+  double low = 0, high = 0;
+};
+
+}  // namespace trimtab
