@@ -11,7 +11,7 @@
 #include "trimtab/frame/host_symbols.h"
 #include "trimtab/preset/parameters.h"
 
-/// What the symbols of a helmet-mounted display (document C) show in one frame.
+/// Describes what the symbols of a helmet-mounted display (document C) show in one frame.
 namespace trimtab {
 
 /// The symbols, in the order in which they are drawn.
@@ -27,7 +27,9 @@ enum class Symbol : std::uint8_t {
 };
 inline constexpr std::size_t kSymbols = 8;
 
-/// The values that the symbols show. A value that is not finite is not shown.
+/// The values that the symbols show. If an attitude is not finite, no symbol is drawn but the host's. An
+/// altitude or a speed that is not known or not finite shows as dashes. Without a velocity, or with one that
+/// is not finite or about 0, there is no flight path marker.
 struct SymbologyState {
   Attitude aircraft;
   Attitude view;    ///< the line of sight in the world: aircraft and head
@@ -46,13 +48,15 @@ struct SymbologySetup {
 
   friend bool operator==(const SymbologySetup&, const SymbologySetup&) = default;
 };
+/// Collects the parameters of the symbols from those of a preset.
 SymbologySetup symbologySetup(const TuningParameters& parameters);
 
+/// Everything that the symbols of one image depend on, apart from the view.
 struct SymbologyRequest {
   SymbologyState state;
   SymbologySetup setup;
-  /// The symbols that the host sends; null if there are none. They are compared by the pointer: a host's
-  /// store that changes becomes another one.
+  /// The symbols that the host sends; null if there are none. Two requests with equal symbols differ if the
+  /// pointers do. So pass a new object for every change, and the same one as long as nothing changes.
   std::shared_ptr<const HostSymbols> host{};
   std::vector<std::uint16_t> dark{};  ///< ids of host symbols in the dark part of their flash, ascending
 

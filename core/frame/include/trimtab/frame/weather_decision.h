@@ -9,31 +9,32 @@
 #include "trimtab/preset/parameters.h"
 #include "trimtab/units/linear.h"
 
-/// What the weather of a frame is decided to be: the noun between core/weather, which decides it, and the
-/// passes that draw it.
+/// Holds what the weather of a frame is decided to be. core/weather decides it, and the renderer's passes
+/// draw it.
 namespace trimtab {
 
 enum class Precipitation : std::uint8_t { none, rain, snow };
 
-/// Where precipitation and visibility come from.
+/// Says where precipitation and visibility come from. Names in quotes are fields of WeatherParameters.
 enum class WeatherReason : std::uint8_t {
-  clear,               ///< nothing falls, nothing limits the view
-  haze,                ///< nothing falls; the preset's clear-day distance
-  step,                ///< the preset's step and its visibility
-  typed,               ///< the preset's step, the typed visibility
-  host,                ///< what the host said
-  host_said_nothing,   ///< the host was asked and has not spoken of weather yet: the preset's step
-  invalid_visibility,  ///< the host's visibility is no number above 0: that of the preset
-  visibility_limited   ///< the host's visibility lies outside what can be drawn: the nearest that can
+  clear,               ///< nothing falls, and nothing limits the view
+  haze,                ///< nothing falls, and the visibility is the preset's `clearVisibility`
+  step,                ///< both come from the preset's `step`
+  typed,               ///< the preset's `step` says what falls; the visibility is its `typedVisibility`
+  host,                ///< the host said both, or only what falls, for which the preset has a visibility
+  host_said_nothing,   ///< the host has not spoken of weather yet, so both come from the preset's `step`
+  invalid_visibility,  ///< the host's visibility is no number above 0, so it is the preset's for what the
+                       ///< host says falls
+  visibility_limited   ///< the host's visibility is clamped to the range that can be drawn
 };
 
-/// Why the far plane is where it is.
+/// Says why the far plane is where it is.
 enum class FarReason : std::uint8_t {
   off,       ///< the ratio mode is off
-  clear,     ///< no fog would hide the cut
-  fixed,     ///< the preset's fixed ratio
-  visible,   ///< Eq. (1) of document D: at the visibility
-  stretched  ///< Eq. (1) with the far plane pushed out until gain and loss match
+  clear,     ///< nothing is cut, because no fog would hide the edge
+  fixed,     ///< the preset's `fixedRatio` sets it
+  visible,   ///< it lies at the visibility, by Eq. (1) of document D
+  stretched  ///< it lies farther, by the `farStretch` of what falls, which a calibration finds
 };
 
 /// Moving air.
@@ -47,28 +48,31 @@ struct Wind {
 /// Returns the air's velocity, metres per second toward east, north and up.
 Vec3 eastNorthUp(const Wind& wind);
 
-/// A default one is clear weather with nothing cut, which is also what the preset `default` decides.
+/// A default decision is clear weather with nothing cut, which is also what the preset `default` decides.
 ///
 /// Fog is exponential: of an object's own colour exp(-extinctionPerM * distance) is left. At `visibilityM`
-/// that is the contrast threshold (0.02 by default: 5 of 255 levels), not 0: a pass that cuts there has to
-/// lead the rest to the fog's colour before `farM`.
+/// that share is the contrast threshold (WeatherParameters) and not 0. So a pass that cuts there must fade
+/// colours to the fog's before `farM`, or an edge shows.
 struct WeatherDecision {
   static constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
   Precipitation precipitation = Precipitation::none;
   double density = 0;               ///< particle intensity, 0..1; 0 when nothing falls
-  bool fogged = false;              ///< false: draw without fog, whatever the numbers below say
-  double visibilityM = kUnlimited;  ///< from the eye, not along the view's axis
+  bool fogged = false;              ///< if false, draw without fog, whatever visibility and extinction say
+  double visibilityM = kUnlimited;  ///< distance from the eye, not depth along the view's axis
   double extinctionPerM = 0;        ///< -ln(contrast threshold) / visibilityM
-  double nearFarRatio = 0;          ///< 0 while nothing is cut
-  double farM = kUnlimited;         ///< default near / nearFarRatio; nothing farther from the eye is drawn
+  double nearFarRatio = 0;          ///< WeatherParameters::defaultNear / farM; 0 while nothing is cut
+  /// Nothing farther from the eye is drawn. In a frame request a policy may have multiplied it (applyLevers);
+  /// nearFarRatio then still has the old distance.
+  double farM = kUnlimited;
   WeatherReason reason = WeatherReason::clear;
   FarReason farReason = FarReason::clear;
 
   friend bool operator==(const WeatherDecision&, const WeatherDecision&) = default;
 };
 
-/// Names as trace, command line and docks spell them; nothing past the last one.
+/// These return the name that traces, the command line and the workbench show, and an empty one for a value
+/// outside the enumeration.
 constexpr std::string_view toText(Precipitation precipitation) {
   constexpr std::string_view kNames[] = {"none", "rain", "snow"};
   const auto at = static_cast<std::size_t>(precipitation);

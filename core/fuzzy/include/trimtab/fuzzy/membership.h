@@ -2,22 +2,26 @@
 
 #include "trimtab/preset/parameters.h"
 
-/// Computes the memberships of the flight state, each 0..1 (documents A and B, Table 1 and Eq. 1). NaN gives
-/// NaN, and an infinity gives the value at the curve's end.
+/// Computes the memberships of the flight state, each 0..1 (documents A and B, Table 1 and Eq. 1). NaN and a
+/// curve without points give NaN. The cost grows with the points of the curve, and nothing is allocated.
 namespace trimtab {
 
 /// Returns the value of the curve at x: the straight line between neighbouring points, constant beyond the
-/// ends. It is exact at every point and never outside its neighbours' values. Points with the same x are a
-/// step; x itself has the value of the last one. A curve without points gives NaN.
+/// ends and to infinity. It is exact at every point, never outside its neighbours' values, and not clamped.
+/// The points must be in order of x. Points with the same x are a step; x itself has the value of the last
+/// one.
 double curveValue(const CurvePoints& curve, double x);
 
-/// Returns the membership of an altitude in the reading that the parameters choose. In the equation readings
-/// the curve's points are the phases, and altitudes from `maximum` up give 0. Eq. 1 as document B prints it
-/// divides by the phase's membership; the result is 0 if that is 0.
+/// Returns the membership of an altitude, by the method that `AltitudeParameters::reading` names: 1 is low.
+/// For the equations each point of the curve begins a phase of Eq. 1, with the membership of that point.
+/// Altitudes below the first point have its membership, those above the last point have that of the last, and
+/// those from `maximum` up have 0. `equation_b` divides by the phase's membership, as document B prints it;
+/// the result is 0 if that is 0.
 double altitudeMembership(const AltitudeParameters& parameters, double altitudeFt);
 
 /// Returns the membership of a pitch, nose up positive: 1 is nose down, where terrain fills the view.
-/// `rounded_step` is not monotone around level flight.
+/// `PitchReading::rounded_step` ignores the curve, and it is not monotone: just above level flight it can be
+/// larger than just below. With a step of 0 it gives NaN for an infinite pitch.
 double pitchMembership(const PitchParameters& parameters, double pitchDeg);
 
 }  // namespace trimtab

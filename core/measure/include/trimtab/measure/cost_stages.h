@@ -4,25 +4,29 @@
 
 #include "trimtab/frame/frame.h"
 
-/// The list of a frame's stages that clocks, statistics, traces and plots share. A new stage is a field of
-/// FrameCost and a line here.
+/// Lists the stages of a frame once, for clocks, statistics, traces and plots. To add a stage, add a field to
+/// FrameCost and a line to kCostStages.
 namespace trimtab {
 
 /// One field of FrameCost.
 using CostField = double FrameCost::*;
 
-/// Where a stage's time counts: stages of the frame sum to `total`; parts are counted in another stage as
-/// well; what runs beside, such as the GPU while the processor goes on, is counted nowhere else.
+/// Says how a stage's time adds up. The stages `of_frame` sum to `total`, and one that was not measured (NaN)
+/// counts as 0 there. A `part` lies within `gpu`, or within `draw` if GL runs on the processor, so whoever
+/// adds it counts it twice. A stage `beside` is the GPU's time, which passes while the processor goes on, so
+/// it is in no sum. If the renderer waits for the GPU to end an image, `total` includes that wait and exceeds
+/// the sum.
 enum class StageKind { of_frame, part, beside, total };
 
 struct CostStage {
-  const char* name;        ///< as people read it
-  const char* column;      ///< the column in traces of this frame's time
-  const char* lastColumn;  ///< the column of the previous frame's time, which is part of the decision's input
-  CostField ms;
+  const char* name;        ///< the name in plots and reports, and the key in summaries
+  const char* column;      ///< the column of a trace with this frame's time
+  const char* lastColumn;  ///< the one with the previous frame's time, which is an input of the decision
+  CostField ms;            ///< the field that holds the stage's time, milliseconds
   StageKind kind;
 };
 
+/// Holds every field of FrameCost once, in the order of a trace's columns.
 inline constexpr std::array kCostStages{
     CostStage{"decide", "decide_ms", "last_decide_ms", &FrameCost::decide, StageKind::of_frame},
     CostStage{"select", "select_ms", "last_select_ms", &FrameCost::select, StageKind::of_frame},
