@@ -81,7 +81,7 @@ std::string stageTable(const ReportModel& model) {
   const auto stages = stagesOf(model);
   for (const Quantity* q : stages)
     columns.push_back({std::string(q->label),
-                       q->stage == StageKind::part     ? "part of draw"
+                       q->stage == StageKind::part     ? "part of the drawing"
                        : q->stage == StageKind::beside ? "beside the frame"
                                                        : "ms",
                        "median, beneath p95 and p99, of the frames that ran it"});

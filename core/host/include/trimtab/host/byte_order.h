@@ -1,13 +1,11 @@
 #pragma once
 
 #include <bit>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <span>
 #include <type_traits>
-#include <vector>
 
 namespace trimtab {
 
