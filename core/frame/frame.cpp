@@ -43,7 +43,9 @@ double pixelsPerRadian(const ViewShape& view) {
 ViewShape scaledShape(ViewShape view, double scale) {
   if (!(scale > 0 && scale < 1)) return view;
   // Even numbers have a middle between two pixels, which a guard band needs.
-  const auto scaled = [scale](int size) { return std::max(2 * static_cast<int>(std::lround(size * scale / 2)), 2); };
+  const auto scaled = [scale](int size) {
+    return std::max(2 * static_cast<int>(std::lround(size * scale / 2)), 2);
+  };
   view.widthPx = scaled(view.widthPx);
   view.heightPx = scaled(view.heightPx);
   return view;

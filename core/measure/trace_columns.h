@@ -111,7 +111,8 @@ struct PolicyColumns {
 inline const PolicyColumns& policyColumns() {
   static const PolicyColumns columns = [] {
     PolicyColumns c;
-    for (const SignalRow& row : kSignalRows) c.signals[indexOf(row.signal)] = "signal_" + std::string(row.key);
+    for (const SignalRow& row : kSignalRows)
+      c.signals[indexOf(row.signal)] = "signal_" + std::string(row.key);
     for (const LeverRow& row : kLeverRows) {
       c.levers[indexOf(row.lever)] = "lever_" + std::string(row.key);
       c.before[indexOf(row.lever)] = c.levers[indexOf(row.lever)] + "_before";

@@ -52,7 +52,8 @@ std::vector<float> FrameBuffer::readDistances(const ViewShape& view, const ViewS
   std::vector<float> distances(static_cast<std::size_t>(v.widthPx) * static_cast<std::size_t>(v.heightPx));
   std::size_t i = 0;
   for (int y = 0; y < v.heightPx; ++y) {
-    const float* row = depths.data() + covering(y, v.heightPx, view.heightPx) * static_cast<std::size_t>(width_);
+    const float* row =
+        depths.data() + covering(y, v.heightPx, view.heightPx) * static_cast<std::size_t>(width_);
     for (int x = 0; x < v.widthPx; ++x, ++i) {
       const double across = v.left + (v.right - v.left) * (x + 0.5) / v.widthPx;
       const double up = v.bottom + (v.top - v.bottom) * (y + 0.5) / v.heightPx;

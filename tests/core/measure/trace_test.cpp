@@ -69,7 +69,8 @@ void anyPolicy(std::mt19937_64& random, TraceRow& row) {
   for (double& value : row.input.signalValues.value)
     if (random() % 2) value = anyDouble(random);
   if (random() % 2) {
-    LeverDrive::State before{.moving = static_cast<std::uint32_t>(random()), .timeS = anyDouble(random), .begun = true};
+    LeverDrive::State before{
+        .moving = static_cast<std::uint32_t>(random()), .timeS = anyDouble(random), .begun = true};
     for (double& value : before.values.value) value = anyDouble(random);
     row.before.levers = LeverDrive(before);
   }

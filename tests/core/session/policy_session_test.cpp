@@ -149,12 +149,23 @@ TEST(PolicySession, survivesWhatHostsSend) {
     for (int field = 0; field < 6; ++field) {
       AircraftState state = stateAt(time += 0.016, 5000);
       switch (field) {
-        case 0: state.position.height = Metres{value}; break;
-        case 1: state.attitude.pitch = Degrees{value}; break;
-        case 2: state.attitude.roll = Degrees{value}; break;
-        case 3: state.attitude.heading = Degrees{value}; break;
-        case 4: state.airspeed = Knots{value}; break;
-        default: state.velocity = Velocity{MetresPerSecond{value}, MetresPerSecond{value}, MetresPerSecond{value}};
+        case 0:
+          state.position.height = Metres{value};
+          break;
+        case 1:
+          state.attitude.pitch = Degrees{value};
+          break;
+        case 2:
+          state.attitude.roll = Degrees{value};
+          break;
+        case 3:
+          state.attitude.heading = Degrees{value};
+          break;
+        case 4:
+          state.airspeed = Knots{value};
+          break;
+        default:
+          state.velocity = Velocity{MetresPerSecond{value}, MetresPerSecond{value}, MetresPerSecond{value}};
       }
       session.fly(state);
       for (const LeverRow& row : kLeverRows) {

@@ -28,7 +28,8 @@ TEST(ScaledShape, keepsThePerspectiveAndEvenSizes) {
   EXPECT_EQ(scaledShape(whole, 1), whole);
   EXPECT_EQ(scaledShape(whole, 0.5), (ViewShape{.widthPx = 640, .heightPx = 360}));
   EXPECT_EQ(scaledShape({.widthPx = 1, .heightPx = 1}, 0.25), (ViewShape{.widthPx = 2, .heightPx = 2}));
-  for (const double scale : {0.0, -1.0, 1.5, HUGE_VAL, std::nan("")}) EXPECT_EQ(scaledShape(whole, scale), whole);
+  for (const double scale : {0.0, -1.0, 1.5, HUGE_VAL, std::nan("")})
+    EXPECT_EQ(scaledShape(whole, scale), whole);
 }
 
 TEST_F(RenderScale, ofOneIsTheImageItself) {
@@ -72,15 +73,29 @@ TEST_F(RenderScale, neitherSelectsOtherLevelsNorLeavesATrace) {
   EXPECT_EQ(differing(plain, picture(ofMountains(1))), 0u);
 }
 
+TEST_F(RenderScale, cullingChangesNoPixelOfIt) {
+  for (const double scale : {0.3, 0.5, 0.71}) {
+    auto unculled = ofMountains(scale), culled = ofMountains(scale);
+    unculled.method = CullingCase::none;
+    culled.decision.scheme = Scheme::dynamic;
+    culled.decision.depthMap = DepthMapSize{640, 480};
+    for (const OcclusionMethod method : {OcclusionMethod::depth_map, OcclusionMethod::horizon}) {
+      culled.occlusion = method;
+      EXPECT_EQ(differing(picture(unculled), picture(culled)), 0u) << scale;
+    }
+  }
+}
+
 TEST_F(RenderScale, leavesSymbolsSharp) {
   auto plain = ofMountains(1), scaled = ofMountains(0.5), bare = ofMountains(0.5);
   TuningParameters p;
   p.symbology.enabled = true;
   const Attitude a{Degrees{30}, Degrees{-2}, Degrees{5}};
-  plain.symbology = scaled.symbology = SymbologyRequest{
-      {a, a, Metres{1234}, Knots{240}, true, Velocity{MetresPerSecond{100}, MetresPerSecond{60}, MetresPerSecond{2}}},
-      symbologySetup(p),
-      {}};
+  plain.symbology = scaled.symbology =
+      SymbologyRequest{{a, a, Metres{1234}, Knots{240}, true,
+                        Velocity{MetresPerSecond{100}, MetresPerSecond{60}, MetresPerSecond{2}}},
+                       symbologySetup(p),
+                       {}};
   const auto withSymbols = picture(scaled), without = picture(bare), sharp = picture(plain);
   std::size_t symbolPixels = 0, other = 0;
   for (std::size_t i = 0; i < sharp.size(); i += 4) {
@@ -112,7 +127,8 @@ TEST_F(RenderScale, countsAsErrorAndDrawsNothingThatIsHidden) {
   scene::ErrorMeter meter;
   ASSERT_TRUE(meter.initialize().usable);
   meter.setTerrain(database);
-  const auto plain = meter.measure(ofMountains(1)), scaled = meter.measure(ofMountains(0.5));
+  const auto plain = meter.measure(ofMountains(1), nullptr, nullptr),
+             scaled = meter.measure(ofMountains(0.5), nullptr, nullptr);
   EXPECT_GT(scaled.flip, plain.flip + 0.005);
   EXPECT_EQ(scaled.wronglyCulledPixels, 0u);
   meter.release();

@@ -71,7 +71,7 @@ class CompiledPolicy {
   struct Rule {
     std::uint32_t firstStep, steps;
     std::uint32_t asked;  ///< bit s: the condition asks for signal s
-    double weight;          ///< 0 if the rule is switched off
+    double weight;        ///< 0 if the rule is switched off
   };
 
   /// What a rule gives a lever.
