@@ -122,7 +122,9 @@ Json toJson(const TraceRow& row, const ValidatedParameters& parameters) {
           {"rule_firing", std::move(firing)},
           {"scheme", toText(d.scheme)},
           {"band", d.band},
-          {"depth_map_px", d.depthMap ? Json{d.depthMap->widthPx, d.depthMap->heightPx} : Json(nullptr)},
+          {"depth_map_px", d.occlusionResolution
+                               ? Json{d.occlusionResolution->widthPx, d.occlusionResolution->heightPx}
+                               : Json(nullptr)},
           {"lod_scale", d.lodScale},
           {"reason", toText(d.reason)},
           {"explanation", explain(d, parameters)}};

@@ -40,11 +40,11 @@ FrameRequest requestFor(const Setup& setup, const ValidatedParameters& parameter
 
 /// The distance up to which the rule base, asked with a distance for the altitude, wants nodes tested, feet.
 double testedWithinFt(const std::function<FrameDecision(double feet)>& decide) {
-  if (!decide(0).depthMap) return 0;
-  if (decide(kFarthestFt).depthMap) return kFarthestFt;
+  if (!decide(0).occlusionResolution) return 0;
+  if (decide(kFarthestFt).occlusionResolution) return kFarthestFt;
   double tested = 0, untested = kFarthestFt;
   while (untested - tested > 1)
-    (decide((tested + untested) / 2).depthMap ? tested : untested) = (tested + untested) / 2;
+    (decide((tested + untested) / 2).occlusionResolution ? tested : untested) = (tested + untested) / 2;
   return tested;
 }
 
@@ -116,7 +116,7 @@ Result<Report> runCullingPerNode(const Setup& setup) {
             Sums& s = sums[loop];
             s.ms.push_back((*stage)->medianMs(request, setup.repeats, last));
             s.triangles.push_back(double(last.visible.triangles));
-            const DepthMapSize map = last.depthMap.value_or(DepthMapSize{});
+            const OcclusionResolution map = last.depthMap.value_or(OcclusionResolution{});
             s.texels.push_back(double(map.widthPx) * map.heightPx);
             s.frames += last.depthMap.has_value();
             s.differing += double(differingPixels(unculled, (*stage)->pixels(request)));

@@ -69,7 +69,8 @@ const std::vector<Skip>& skips() {
        without<&Skips::beyondVisibility>, itself},
       {"occlusion test in scheme frustum",
        [](const FrameRequest& r, const FrameResult&, const FrameResult& after) {
-         return r.method == CullingCase::proposed && !r.decision.depthMap && !after.visible.tiles.empty();
+         return r.method == CullingCase::proposed && !r.decision.occlusionResolution &&
+                !after.visible.tiles.empty();
        },
        without<&Skips::schemeFrustum>, itself},
       {"levels chosen again for an eye that stands",

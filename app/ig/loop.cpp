@@ -155,11 +155,11 @@ void warmUp(const Run& run, const terrain::Database& database) {
   FrameRequest request = *session.request(0, run.options.width, run.options.height);
   run.surface.fit(request.view.widthPx, request.view.heightPx);
   request.decision.scheme = Scheme::frustum;
-  request.decision.depthMap.reset();
+  request.decision.occlusionResolution.reset();
   run.renderer.draw(request, run.surface.framebuffer());
   request.decision.scheme = Scheme::dynamic;
   for (const Band& band : run.session.parameters()->scheme.bands.span()) {
-    request.decision.depthMap = DepthMapSize{band.widthPx, band.heightPx};
+    request.decision.occlusionResolution = OcclusionResolution{band.widthPx, band.heightPx};
     run.renderer.draw(request, run.surface.framebuffer());
   }
   run.surface.present();

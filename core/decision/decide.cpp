@@ -78,8 +78,9 @@ std::string policyText(const PolicyOutcome& policy) {
 }
 
 std::string outcomeText(const FrameDecision& d) {
-  if (d.scheme == Scheme::frustum || !d.depthMap) return "frustum, no depth map";
-  return formatted("dynamic, depth map %d x %d", d.depthMap->widthPx, d.depthMap->heightPx);
+  if (d.scheme == Scheme::frustum || !d.occlusionResolution) return "frustum, no depth map";
+  return formatted("dynamic, depth map %d x %d", d.occlusionResolution->widthPx,
+                   d.occlusionResolution->heightPx);
 }
 
 /// Documents A and B: the memberships and their total; nothing, with a reason, if the state does not give
@@ -119,7 +120,7 @@ void decideScheme(const TotalMembership& total, const ValidatedParameters& param
   if (choice.band >= 0) {
     const Band& band = bands.band[static_cast<std::size_t>(choice.band)];
     decision.scheme = Scheme::dynamic;
-    decision.depthMap = DepthMapSize{band.widthPx, band.heightPx};
+    decision.occlusionResolution = OcclusionResolution{band.widthPx, band.heightPx};
   }
   if (!total.anyFires)
     decision.reason = SchemeReason::no_rule_fires;
@@ -149,7 +150,7 @@ FrameDecision decide(const FrameInput& input, const ValidatedParameters& paramet
   // Made in place: copying what was just written in smaller pieces takes the processor longer than deciding
   // it.
   FrameDecision decision{.ruleFiring = {},
-                         .depthMap = {},
+                         .occlusionResolution = {},
                          .motion = decideMotion(input.state, parameters->motion, memory.motion, input.drawn),
                          .weather = decideWeather(input.state, *parameters),
                          .policy = {}};

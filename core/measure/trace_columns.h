@@ -39,7 +39,6 @@ struct Flat {
   std::optional<Precipitation> precipitation;
   std::optional<int> severity;
   std::optional<Metres> layerVisibility;
-  DepthMapSize depthMap;
   std::optional<int> depthMapWidth, depthMapHeight;
   std::array<std::optional<double>, 4> formerFiring;
   FlatPolicy policy;
@@ -268,9 +267,9 @@ inline Flat flatten(const TraceRow& row) {
     f.severity = state.weather->severity;
     f.layerVisibility = state.weather->visibility;
   }
-  if (row.decision.depthMap) {
-    f.depthMapWidth = row.decision.depthMap->widthPx;
-    f.depthMapHeight = row.decision.depthMap->heightPx;
+  if (row.decision.occlusionResolution) {
+    f.depthMapWidth = row.decision.occlusionResolution->widthPx;
+    f.depthMapHeight = row.decision.occlusionResolution->heightPx;
   }
   f.hasFrame = row.frame.has_value();
   if (row.frame) f.frame = *row.frame;
@@ -289,7 +288,7 @@ inline TraceRow unflatten(Flat& f) {
   if (f.precipitation)
     state.weather = HostWeather{*f.precipitation, f.severity.value_or(0), f.layerVisibility};
   if (f.depthMapWidth && f.depthMapHeight)
-    f.row.decision.depthMap = DepthMapSize{*f.depthMapWidth, *f.depthMapHeight};
+    f.row.decision.occlusionResolution = OcclusionResolution{*f.depthMapWidth, *f.depthMapHeight};
   RuleFiring& firing = f.row.decision.ruleFiring;
   if (firing.count == 0)
     for (const std::optional<double>& mu : f.formerFiring)

@@ -388,7 +388,7 @@ TEST_F(ParameterEffects, everyWayToHiddenGroundDoesWorkOfItsOwn) {
     auto work = workOf(result);
     session.fly(packets(over(0.5, 0.5, 0)).front());
     FrameRequest low = *session.request(0, 192, 108);
-    ASSERT_TRUE(low.decision.depthMap);
+    ASSERT_TRUE(low.decision.occlusionResolution);
     low.eye = over(0.5, 0.5, 60);
     low.attitude = {Degrees{40}, Degrees{-3}, Degrees{0}};
     low.waitForPages = low.reproducible = true;

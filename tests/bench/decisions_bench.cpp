@@ -102,7 +102,7 @@ Sums decideAll(const std::vector<FrameInput>& inputs, const ValidatedParameters&
   for (const FrameInput& input : inputs) {
     const FrameDecision d = decide(input, parameters, memory);
     sums.total += d.totalMembership;
-    sums.width += d.depthMap ? d.depthMap->widthPx : 0;
+    sums.width += d.occlusionResolution ? d.occlusionResolution->widthPx : 0;
   }
   return sums;
 }

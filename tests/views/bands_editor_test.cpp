@@ -123,7 +123,7 @@ TEST_F(BandsEditorTest, theInsetSaysWhyThereIsNoDepthMap) {
   map.fill(90);
   frame.decision.scheme = Scheme::dynamic;
   FrameResult result;
-  result.depthMap = DepthMapSize{32, 24};
+  result.depthMap = OcclusionResolution{32, 24};
   frame.result = std::make_shared<const FrameResult>(result);
   editor_.showFrame(frame);
   editor_.showDepthMap(map, "32 × 24 px, near 1 m, far 5 km");

@@ -39,7 +39,7 @@ TEST_F(CullingPanelTest, saysWhatServesAndWhyNotWhatWasAskedFor) {
   const auto result = std::make_shared<FrameResult>();
   frame.result = result;
   result->visible.tiles.resize(10);
-  frame.decision.depthMap = DepthMapSize{800, 600};
+  frame.decision.occlusionResolution = OcclusionResolution{800, 600};
   result->note = "The eye is under the ground.";
   EXPECT_TRUE(
       says(frame, QStringLiteral("Nothing is looked for behind the ground. The eye is under the ground.")));
@@ -55,13 +55,13 @@ TEST_F(CullingPanelTest, saysWhatServesAndWhyNotWhatWasAskedFor) {
   EXPECT_TRUE(says(frame, QStringLiteral("The map is left out: near here one hid next to nothing.")));
   EXPECT_TRUE(says(frame, QStringLiteral("left out 4")));
   EXPECT_EQ(ofHorizon(), QStringLiteral("A depth map serves, not the horizon."));
-  result->depthMap = DepthMapSize{400, 300};
+  result->depthMap = OcclusionResolution{400, 300};
   EXPECT_TRUE(says(frame, QStringLiteral("serves, 400 × 300 px."))) << "the map's size, not the band's";
 
   result->occlusion.reset();
   EXPECT_TRUE(says(frame, QStringLiteral("of the static trees serves, 400")));
   result->depthMap.reset();
-  frame.decision.depthMap.reset();
+  frame.decision.occlusionResolution.reset();
   EXPECT_TRUE(says(frame, QStringLiteral("plain view-frustum culling")));
   EXPECT_EQ(ofHorizon(), QStringLiteral("No horizon: nothing asks for one in this frame."));
 }

@@ -29,8 +29,9 @@ class LiveFlight {
     f.input.state.packet = frame_++;
     f.decision =
         decide(inputAt(6200 - 3400 * std::cos(t * 0.06), 14 * std::sin(t * 0.35) - 3), parameters, memory_);
-    const double size =
-        f.decision.depthMap ? f.decision.depthMap->widthPx * f.decision.depthMap->heightPx / 480e3 : 0;
+    const double size = f.decision.occlusionResolution ? f.decision.occlusionResolution->widthPx *
+                                                             f.decision.occlusionResolution->heightPx / 480e3
+                                                       : 0;
     const double ripple = std::sin(t * 37.1) * std::sin(t * 11.3);
     f.cost = {.decide = 0.01,
               .select = 0.3,
@@ -52,7 +53,7 @@ class LiveFlight {
     visible.outsideFrustum = 620;
     visible.occluded = static_cast<std::size_t>(180 * size);
     visible.tiles.resize(result->tilesInCut - visible.outsideFrustum - visible.occluded);
-    result->depthMap = f.decision.depthMap;
+    result->depthMap = f.decision.occlusionResolution;
     f.result = result;
     return f;
   }

@@ -86,7 +86,7 @@ void TraceBuffer::append(const LiveFrame& frame) {
   packets_[at] = frame.input.state.packet;
   const FrameDecision& d = frame.decision;
   const FrameCost& cost = frame.cost;
-  const std::optional<DepthMapSize>& depthMap = frame.drawn().depthMap;
+  const std::optional<OcclusionResolution>& depthMap = frame.drawn().depthMap;
   const auto measuredOr0 = [](double ms) { return std::isfinite(ms) ? ms : 0.0; };
   const double selectTop = measuredOr0(cost.decide) + measuredOr0(cost.select);
   const double pageTop = selectTop + measuredOr0(cost.page);

@@ -200,7 +200,8 @@ QString CullingPanel::served() const {
   }
   if (frame_.drawn().depthMap) return tr("A <b>depth map</b> of the static trees serves%1.").arg(size);
   if (!note.isEmpty()) return tr("Nothing is looked for behind the ground.") + QLatin1Char(' ') + note;
-  if (!frame_.decision.depthMap) return tr("The decision is plain view-frustum culling in this frame.");
+  if (!frame_.decision.occlusionResolution)
+    return tr("The decision is plain view-frustum culling in this frame.");
   return tr("Nothing is looked for behind the ground in this case.");
 }
 

@@ -7,7 +7,7 @@ namespace trimtab::views {
 
 namespace {
 
-QString sizeText(const std::optional<DepthMapSize>& size) {
+QString sizeText(const std::optional<OcclusionResolution>& size) {
   return size ? QStringLiteral("%1x%2").arg(size->widthPx).arg(size->heightPx) : QStringLiteral("none");
 }
 
@@ -21,8 +21,9 @@ bool isInputAtFault(SchemeReason reason) {
 bool DecisionLog::isChange(const FrameDecision& d) const {
   if (!last_) return true;
   const bool faults = isInputAtFault(d.reason) || isInputAtFault(last_->reason);
-  return d.scheme != last_->scheme || d.band != last_->band || d.depthMap != last_->depthMap ||
-         d.lodScale != last_->lodScale || (faults && d.reason != last_->reason);
+  return d.scheme != last_->scheme || d.band != last_->band ||
+         d.occlusionResolution != last_->occlusionResolution || d.lodScale != last_->lodScale ||
+         (faults && d.reason != last_->reason);
 }
 
 void DecisionLog::append(double time, std::uint64_t packet, const FrameDecision& decision,
@@ -37,7 +38,7 @@ void DecisionLog::append(double time, std::uint64_t packet, const FrameDecision&
   }
   const int row = static_cast<int>(entries_.size());
   beginInsertRows({}, row, row);
-  entries_.push_back({time, packet, decision.scheme, decision.depthMap, reason});
+  entries_.push_back({time, packet, decision.scheme, decision.occlusionResolution, reason});
   last_ = decision;
   endInsertRows();
 }
@@ -56,7 +57,7 @@ int DecisionLog::rowCount(const QModelIndex& parent) const {
 QStringList DecisionLog::cells(const Entry& e) const {
   return {QString::number(e.time, 'f', 3), QString::number(e.packet),
           e.scheme == Scheme::dynamic ? QStringLiteral("dynamic") : QStringLiteral("frustum"),
-          sizeText(e.depthMap), e.reason};
+          sizeText(e.resolution), e.reason};
 }
 
 QVariant DecisionLog::data(const QModelIndex& index, int role) const {

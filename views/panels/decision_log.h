@@ -42,7 +42,7 @@ class DecisionLog : public QAbstractTableModel {
     double time = 0;
     std::uint64_t packet = 0;
     Scheme scheme = Scheme::frustum;
-    std::optional<DepthMapSize> depthMap;
+    std::optional<OcclusionResolution> resolution;
     QString reason;
   };
   QStringList cells(const Entry& entry) const;

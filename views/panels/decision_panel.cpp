@@ -129,10 +129,11 @@ void DecisionPanel::refresh() {
   const FrameDecision& d = frame_.decision;
   const TuningParameters& p = *draft_.active();
   if (any_) {
-    scheme_->setText(
-        d.scheme == Scheme::frustum ? tr("Frustum: view-frustum culling alone")
-        : d.depthMap ? tr("Dynamic: depth map %1 × %2 px").arg(d.depthMap->widthPx).arg(d.depthMap->heightPx)
-                     : tr("Dynamic"));
+    scheme_->setText(d.scheme == Scheme::frustum ? tr("Frustum: view-frustum culling alone")
+                     : d.occlusionResolution     ? tr("Dynamic: depth map %1 × %2 px")
+                                                   .arg(d.occlusionResolution->widthPx)
+                                                   .arg(d.occlusionResolution->heightPx)
+                                             : tr("Dynamic"));
     reason_->setText(QString::fromStdString(explain(d, draft_.active())));
   }
   std::vector<double> edges;

@@ -16,7 +16,7 @@ constexpr double kLongestBurstS = 1;
 
 /// Whether `b`, decided after `a`, changes nothing that belongs in a log of changes.
 bool sameChoice(const FrameDecision& a, const FrameDecision& b) {
-  return a.scheme == b.scheme && a.band == b.band && a.depthMap == b.depthMap &&
+  return a.scheme == b.scheme && a.band == b.band && a.occlusionResolution == b.occlusionResolution &&
          !changesState(b.motion.reason);
 }
 

@@ -100,7 +100,7 @@ FrameRequest referenceOf(const FrameRequest& request) {
   r.staticLod.errorPx = kFinest;
   r.decision.lodScale = 1;
   r.lod.spread = Ratio{1};
-  r.decision.depthMap.reset();
+  r.decision.occlusionResolution.reset();
   r.decision.motion.blur = {};
   r.decision.weather.farM = WeatherDecision::kUnlimited;
   r.renderScale = r.particleShare = 1;

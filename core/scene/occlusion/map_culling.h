@@ -16,9 +16,9 @@ namespace trimtab::scene {
 
 /// The view that a depth map is drawn for.
 struct MapView {
-  ViewShape view;       ///< of the image
-  DepthMapSize size;    ///< of the map
-  double lowering = 1;  ///< DepthMap::Settings::lowering
+  ViewShape view;            ///< of the image
+  OcclusionResolution size;  ///< of the map
+  double lowering = 1;       ///< DepthMap::Settings::lowering
 };
 
 /// Fills `out` with what a depth map needs of a tile: its occluder (occluder.h) and the boxes of its parts as

@@ -55,7 +55,7 @@ class OcclusionGround {
   /// Tests `visible` with the CPU's depth map of this size. Returns one flag per tile, as removeOccluded
   /// reads them. `loweringScale` is MapView::lowering.
   virtual std::span<const std::uint8_t> hiddenByMap(std::span<const TileDraw> visible, const EyePose& eye,
-                                                    const ViewShape& view, DepthMapSize size,
+                                                    const ViewShape& view, OcclusionResolution size,
                                                     double loweringScale) = 0;
   /// Returns the last of these maps as an image in greys.
   virtual DistanceImage mapPicture() const = 0;

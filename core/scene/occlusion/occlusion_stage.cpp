@@ -24,11 +24,12 @@ constexpr const char* kNoGraph =
     "Some of this ground is vertical or overhangs, or is not loaded yet, so there is no horizon.";
 
 /// Returns the occlusion resolution that the band asks for; unset if the scheme asks for no occlusion test.
-std::optional<DepthMapSize> occlusionResolution(const FrameRequest& request) {
+std::optional<OcclusionResolution> occlusionResolution(const FrameRequest& request) {
   if (request.method != CullingCase::proposed) return {};
-  if (request.decision.depthMap || request.skips.schemeFrustum) return request.decision.depthMap;
+  if (request.decision.occlusionResolution || request.skips.schemeFrustum)
+    return request.decision.occlusionResolution;
   const Band& smallest = kDepthMapBands.span().front();
-  return DepthMapSize{smallest.widthPx, smallest.heightPx};
+  return OcclusionResolution{smallest.widthPx, smallest.heightPx};
 }
 
 Vec3 forwardOf(const EyePose& eye) {
@@ -148,7 +149,7 @@ bool OcclusionStage::visibleStays(const FrameRequest& request) {
                  farCutM(request),
                  ground_.cutNumber(),
                  serves_,
-                 serves_ ? resolution_ : DepthMapSize{},
+                 serves_ ? resolution_ : OcclusionResolution{},
                  hidden_.empty() ? 0 : memory_.number(),
                  ground_.share().made()};
   // A map on the GPU removes tiles from the visible set, so that set cannot be kept.

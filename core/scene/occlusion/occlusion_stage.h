@@ -68,7 +68,7 @@ class OcclusionStage {
     return serves(OcclusionMethod::cpu_map) || serves(OcclusionMethod::horizon_and_map);
   }
   /// Returns the occlusion resolution of the last frame that had a method.
-  DepthMapSize resolution() const { return resolution_; }
+  OcclusionResolution resolution() const { return resolution_; }
   /// Returns whether the eye is over the ground and above it, so that no underside can be seen.
   bool eyeIsAboveGround() const { return refusal_.empty(); }
   /// Returns the horizon that shaped the visible set of the last frame, or null.
@@ -90,7 +90,7 @@ class OcclusionStage {
     double farM = 0;
     CutNumber cut;
     std::optional<OcclusionMethod> serves;
-    DepthMapSize resolution;
+    OcclusionResolution resolution;
     std::uint64_t horizon = 0;   ///< HorizonMemory::number; 0 without a horizon
     std::uint64_t surfaces = 0;  ///< made since the start
     friend bool operator==(const VisibleKey&, const VisibleKey&) = default;
@@ -99,7 +99,7 @@ class OcclusionStage {
   struct Barren {
     Vec3 eye, forward;
     std::uint64_t rule = 0;
-    DepthMapSize resolution;
+    OcclusionResolution resolution;
     OcclusionMethod method;
   };
 
@@ -115,7 +115,7 @@ class OcclusionStage {
   int subpixelBits_ = 4;
   EyePose eye_;
   ViewShape view_;
-  DepthMapSize resolution_;
+  OcclusionResolution resolution_;
   std::string refusal_;  ///< why nothing may be hidden from the eye
   std::optional<OcclusionMethod> serves_;
   std::span<const std::uint8_t> hidden_;

@@ -62,17 +62,17 @@ TEST_F(SkipsTest, changeNoPixelWhetherTheirWorkIsDoneOrNot) {
       {"scheme frustum", [](FrameRequest&) {}},
       {"depth map",
        [](FrameRequest& r) {
-         r.decision.depthMap = DepthMapSize{400, 300};
+         r.decision.occlusionResolution = OcclusionResolution{400, 300};
        }},
       {"horizon",
        [](FrameRequest& r) {
-         r.decision.depthMap = DepthMapSize{400, 300};
+         r.decision.occlusionResolution = OcclusionResolution{400, 300};
          r.occlusion = OcclusionMethod::horizon;
        }},
       {"climb high above, horizon",
        [](FrameRequest& r) {
          r.eye.height = r.eye.height + Metres{3000};
-         r.decision.depthMap = DepthMapSize{400, 300};
+         r.decision.occlusionResolution = OcclusionResolution{400, 300};
          r.occlusion = OcclusionMethod::horizon;
        },
        20},
@@ -81,7 +81,7 @@ TEST_F(SkipsTest, changeNoPixelWhetherTheirWorkIsDoneOrNot) {
        [](FrameRequest& r) {
          r.eye.height = r.eye.height + Metres{6000};
          r.attitude.pitch = Degrees{-50};
-         r.decision.depthMap = DepthMapSize{400, 300};
+         r.decision.occlusionResolution = OcclusionResolution{400, 300};
          r.occlusion = OcclusionMethod::cpu_map;
        },
        20, 0},
@@ -89,7 +89,7 @@ TEST_F(SkipsTest, changeNoPixelWhetherTheirWorkIsDoneOrNot) {
       {"fog, depth map",
        [](FrameRequest& r) {
          foggy(r);
-         r.decision.depthMap = DepthMapSize{400, 300};
+         r.decision.occlusionResolution = OcclusionResolution{400, 300};
        }},
       {"trees", [](FrameRequest& r) { r.staticLod.terrain = TerrainForm::static_trees; }},
       {"trees in fog",
@@ -102,7 +102,7 @@ TEST_F(SkipsTest, changeNoPixelWhetherTheirWorkIsDoneOrNot) {
   double heading = 0;  // where something is hidden
   for (FrameResult result; heading < 360; heading += 15) {
     auto r = looking(heading);
-    r.decision.depthMap = DepthMapSize{400, 300};
+    r.decision.occlusionResolution = OcclusionResolution{400, 300};
     picture(r, &result);
     if (result.visible.occluded > 0) break;
   }
@@ -178,7 +178,7 @@ TEST_F(SkipsTest, areCountedByFrameAndMeasured) {
   frames[4].decision.weather.precipitation = Precipitation::rain;
   frames[4].decision.weather.density = 0.5;
   frames[4].decision.motion.blur.strength = 0.5;
-  frames[2].decision.depthMap = DepthMapSize{400, 300};
+  frames[2].decision.occlusionResolution = OcclusionResolution{400, 300};
   // A frame that makes tiles takes long here, so that no machine hides which of the two it is.
   std::uint64_t built = 0;
   const auto slowTiles = [&](const FrameRequest& r) {

@@ -112,7 +112,7 @@ void floorRow(Report& report, const std::string& terrain,
     r.staticLod.terrain = form;
     r.waitForPages = true;
     r.occlusion = OcclusionMethod::horizon;
-    r.decision.depthMap = DepthMapSize{800, 600};
+    r.decision.occlusionResolution = OcclusionResolution{800, 600};
     same = floor.measure(r, report.quick() ? 4 : 16) && same;
   }
   const std::size_t triangles = 5;

@@ -67,7 +67,8 @@ class Frames {
       r.waitForPages = true;
       r.lod.screenSpaceError = Pixels{flight.errorPx};
       // The band of level flight below 4,000 ft, and above 8,000 ft.
-      r.decision.depthMap = flight.feet < 4000 ? DepthMapSize{800, 600} : DepthMapSize{320, 240};
+      r.decision.occlusionResolution =
+          flight.feet < 4000 ? OcclusionResolution{800, 600} : OcclusionResolution{320, 240};
       int pairs = leastPairs;
       double warmMs = 0;
       for (int i = -warmUp; i < pairs; ++i) {
@@ -133,7 +134,7 @@ class Frames {
     r.occlusion = method;
     r.waitForPages = true;
     r.lod.screenSpaceError = Pixels{0.05};
-    r.decision.depthMap = DepthMapSize{800, 600};
+    r.decision.occlusionResolution = OcclusionResolution{800, 600};
     const int frames = report.quick() ? 8 : 24, warmUp = 8;
     std::vector<double> stage, total;
     std::size_t cut = 0, looked = 0;

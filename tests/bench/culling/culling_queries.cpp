@@ -59,7 +59,8 @@ class Queries {
       r.reproducible = true;
       r.lod.screenSpaceError = Pixels{kErrorPx};
       // The band of level flight below 4,000 ft, and above 8,000 ft.
-      r.decision.depthMap = feet < 4000 ? DepthMapSize{800, 600} : DepthMapSize{320, 240};
+      r.decision.occlusionResolution =
+          feet < 4000 ? OcclusionResolution{800, 600} : OcclusionResolution{320, 240};
       measure(r, report.quick() ? 2 : 4);
     }
     const std::string at = "_" + terrain + "_" + std::to_string(static_cast<int>(feet)) + "ft";

@@ -103,7 +103,8 @@ TEST(Decide, reproducesEveryPublishedRowAsPublished) {
       for (const PrintedBand& b : kBands)
         if (d.totalMembership >= b.low && (d.totalMembership < b.high || b.high == 2.0)) band = &b;
       ASSERT_EQ(d.scheme, band ? Scheme::dynamic : Scheme::frustum);
-      ASSERT_EQ(d.depthMap, band ? std::optional(DepthMapSize{band->width, band->height}) : std::nullopt);
+      ASSERT_EQ(d.occlusionResolution,
+                band ? std::optional(OcclusionResolution{band->width, band->height}) : std::nullopt);
     }
   }
 }
@@ -130,9 +131,9 @@ TEST(Decide, asPrintedMissesThePublishedAltitudesInOneRow) {
 
 TEST(Decide, restsOnABandEdgeInPublishedLevelFlight) {
   EXPECT_EQ(first(flying(3000, 0), asPublished()).totalMembership, 1.5);
-  EXPECT_EQ(first(flying(3000, 0), asPublished()).depthMap, (DepthMapSize{800, 600}));
+  EXPECT_EQ(first(flying(3000, 0), asPublished()).occlusionResolution, (OcclusionResolution{800, 600}));
   EXPECT_EQ(first(flying(9000, 0), asPublished()).totalMembership, 0.5);
-  EXPECT_EQ(first(flying(9000, 0), asPublished()).depthMap, (DepthMapSize{400, 300}));
+  EXPECT_EQ(first(flying(9000, 0), asPublished()).occlusionResolution, (OcclusionResolution{400, 300}));
 }
 
 TEST(Decide, takesWholeFeetAsWholeFeet) {
@@ -149,7 +150,7 @@ TEST(Decide, usesTheHeightAboveGroundWhereAskedAndSaysWhenNobodyKnowsIt) {
   FrameDecision d = first(input, valid(p));
   EXPECT_EQ(d.scheme, Scheme::frustum);
   EXPECT_EQ(d.reason, SchemeReason::altitude_unknown);
-  EXPECT_FALSE(d.depthMap);
+  EXPECT_FALSE(d.occlusionResolution);
   input.aboveGround = Feet{5000}.as<Metres>();
   d = first(input, valid(p));
   EXPECT_EQ(d.altitudeFt, 5000);
@@ -170,7 +171,7 @@ TEST(Decide, refusesWhatIsNotANumberAndLeavesTheMemoryAlone) {
     const FrameDecision d = decide(flying(altitude, pitch), p, memory);
     EXPECT_EQ(d.reason, SchemeReason::invalid_input);
     EXPECT_EQ(d.scheme, Scheme::frustum);
-    EXPECT_FALSE(d.depthMap);
+    EXPECT_FALSE(d.occlusionResolution);
     EXPECT_EQ(memory.band, 2);
     EXPECT_TRUE(std::isfinite(d.altitudeFt) && std::isfinite(d.pitchDeg) && std::isfinite(d.totalMembership));
   }

@@ -123,7 +123,8 @@ TraceRow anyRow(std::mt19937_64& random) {
   d.scheme = random() % 2 ? Scheme::dynamic : Scheme::frustum;
   d.band = static_cast<int>(random() % 17) - 1;
   if (random() % 2)
-    d.depthMap = DepthMapSize{static_cast<int>(random() % 4096), static_cast<int>(random() % 4096)};
+    d.occlusionResolution =
+        OcclusionResolution{static_cast<int>(random() % 4096), static_cast<int>(random() % 4096)};
   d.reason = static_cast<SchemeReason>(random() % 6);
   d.lodScale = number();
   anyMotion(random, row.before, d);

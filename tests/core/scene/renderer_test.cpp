@@ -28,7 +28,7 @@ class Renderer : public SceneTest {
         r.overlays.showHoles = true;
         r.lod.screenSpaceError = Pixels{error};
         r.method = CullingCase::proposed;
-        r.decision.depthMap = DepthMapSize{320, 240};
+        r.decision.occlusionResolution = OcclusionResolution{320, 240};
         FrameResult result;
         EXPECT_EQ(magenta(picture(r, &result)), 0u) << above << " m, " << error << " px";
         for (const TileDraw& tile : result.visible.tiles) levels.insert(database->index().level[tile.node]);
@@ -114,7 +114,7 @@ TEST_F(Renderer, doesNotRepeatWorkThatNothingAsksFor) {
 TEST_F(Renderer, holdsCullingStillWhileFrozen) {
   use(test::syntheticMountains());
   auto r = request(over(0.5, 0.5, 300), {Degrees{40}, Degrees{-5}, Degrees{0}});
-  r.decision.depthMap = DepthMapSize{320, 240};
+  r.decision.occlusionResolution = OcclusionResolution{320, 240};
   const auto live = renderer.draw(r, offscreen->framebuffer());
   r.frozenEye = EyePose{database->index().frame.fromGeodetic(r.eye),
                         eyeAxes(database->index().frame, r.eye, r.attitude)};
@@ -129,7 +129,7 @@ TEST_F(Renderer, holdsCullingStillWhileFrozen) {
 TEST_F(Renderer, paintsEachOverlay) {
   use(test::syntheticMountains());
   auto r = request(over(0.5, 0.5, 600), {Degrees{40}, Degrees{-15}, Degrees{0}});
-  r.decision.depthMap = DepthMapSize{320, 240};
+  r.decision.occlusionResolution = OcclusionResolution{320, 240};
   paintEachOverlay(r);
 }
 
@@ -140,7 +140,7 @@ TEST_F(Renderer, readsDepthByReversedConvention) {
       [](int c, int r) { return 0.1 * ((c * 7 + r * 13) % 3); }));
   for (const double above : {400.0, 1000.0, 4000.0}) {
     auto r = request(over(0.5, 0.5, above), {Degrees{0}, Degrees{-45}, Degrees{0}});
-    r.decision.depthMap = DepthMapSize{641, 481};
+    r.decision.occlusionResolution = OcclusionResolution{641, 481};
     r.lod.screenSpaceError = Pixels{0.001};
     ASSERT_TRUE(renderer.draw(r, offscreen->framebuffer()).depthMap.has_value());
     const auto grey = renderer.readDepthMap();
@@ -152,7 +152,7 @@ TEST_F(Renderer, readsDepthByReversedConvention) {
 TEST_F(Renderer, measuresItsStages) {
   use(test::syntheticMountains());
   auto r = request(over(0.5, 0.5, 400), {});
-  r.decision.depthMap = DepthMapSize{320, 240};
+  r.decision.occlusionResolution = OcclusionResolution{320, 240};
   FrameResult result;
   for (int i = 0; i < 6; ++i) result = renderer.draw(r, offscreen->framebuffer());
   const FrameCost& c = result.cost;

@@ -37,7 +37,7 @@ class PatchGround final : public OcclusionGround {
   }
   bool isGraph() override;
   std::span<const std::uint8_t> hiddenByMap(std::span<const TileDraw> visible, const EyePose& eye,
-                                            const ViewShape& view, DepthMapSize size,
+                                            const ViewShape& view, OcclusionResolution size,
                                             double loweringScale) override {
     return map_.hidden(patches_, cutNumber().cut, visible, eye, {view, size, loweringScale}, share());
   }

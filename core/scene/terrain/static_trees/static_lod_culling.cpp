@@ -81,7 +81,7 @@ FrameCounters StaticLodCulling::select(const FrameRequest& request, const EyePos
                           eye,
                           v,
                           request.method,
-                          request.decision.depthMap,
+                          request.decision.occlusionResolution,
                           farM,
                           request.overlays.treePicture,
                           request.testedWithinM};
@@ -154,7 +154,7 @@ std::uint64_t StaticLodCulling::hideableTriangles(Vec3 eye) const {
 
 OcclusionResult StaticLodCulling::occlusion(const FrameRequest& request) const {
   OcclusionResult result;
-  const std::optional<DepthMapSize>& size = request.decision.depthMap;
+  const std::optional<OcclusionResolution>& size = request.decision.occlusionResolution;
   if (request.method != CullingCase::proposed || !size || request.overlays.treePicture) return {};
   if (request.frozenEye)
     result.note = "What is hidden stays as it was when culling was frozen.";

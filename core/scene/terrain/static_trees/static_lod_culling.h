@@ -71,7 +71,7 @@ class StaticLodCulling {
     EyePose eye;
     ViewShape view;
     CullingCase method = CullingCase::proposed;
-    std::optional<DepthMapSize> map;
+    std::optional<OcclusionResolution> map;
     double farM = 0;
     bool picture = false;
     double testedWithinM = 0;

@@ -57,7 +57,7 @@ class TreeDrawer final : public TerrainDrawer {
   std::vector<float> depths_;
   DepthPyramid pyramid_;  ///< the last map
   /// Size of the last frame's map, if only by what it hid when it was drawn.
-  std::optional<DepthMapSize> map_;
+  std::optional<OcclusionResolution> map_;
   bool mapDrawn_ = false;  ///< in the last frame
   double nearM_ = 1;
 };

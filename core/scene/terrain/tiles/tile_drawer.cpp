@@ -73,7 +73,7 @@ bool TileDrawer::selectCut(const FrameRequest& request) {
 
 std::optional<DepthView> TileDrawer::prepareDepthMap(const FrameRequest& request, std::string& note) {
   if (!occlusion_.serves(OcclusionMethod::depth_map) || visible_.tiles.empty()) return {};
-  const DepthMapSize size = occlusion_.resolution();
+  const OcclusionResolution size = occlusion_.resolution();
   testedSlots_.clear();
   occluders_.clear();
   // Far tiles cost as much to draw as near ones and hide little. Measured over Everest and Fuji, leaving out

@@ -36,7 +36,7 @@ class TileGround final : public OcclusionGround {
     lids_.forgetOthers(*cut_);
   }
   std::span<const std::uint8_t> hiddenByMap(std::span<const TileDraw> visible, const EyePose& eye,
-                                            const ViewShape& view, DepthMapSize size,
+                                            const ViewShape& view, OcclusionResolution size,
                                             double loweringScale) override {
     return map_.hidden(*cut_, visible, eye, {view, size, loweringScale}, conditions_, share());
   }

@@ -12,7 +12,7 @@ using CullingDefects = test::CullingTruth;
 
 TEST_F(CullingDefects, areFoundByWhoOwnsThePixels) {
   use(test::syntheticMountains());
-  constexpr DepthMapSize kCoarse{8, 6};
+  constexpr OcclusionResolution kCoarse{8, 6};
   std::vector<View> views;
   for (const auto& r : anyViews(48, 1)) views.push_back(truthOf(r, false));
   for (const OcclusionMethod method :
@@ -45,7 +45,7 @@ TEST_F(CullingDefects, areSoughtInTheSetsOfDrawnFrames) {
   use(test::syntheticMountains());
   std::size_t occluded = 0;
   for (auto& r : anyViews(48, 2)) {
-    r.decision.depthMap = kBands[1];
+    r.decision.occlusionResolution = kBands[1];
     for (const auto& choice : test::occlusionChoices()) {
       if (choice.method == OcclusionMethod::automatic) continue;
       r.occlusion = choice.method;

@@ -15,7 +15,7 @@ namespace trimtab::test {
 /// Flies the three culling cases over a terrain: their pictures must be equal, whatever proves tiles hidden.
 class CullingFlight : public SceneTest {
  protected:
-  static constexpr std::array<DepthMapSize, 6> kSizes{
+  static constexpr std::array<OcclusionResolution, 6> kSizes{
       {{64, 48}, {320, 240}, {400, 300}, {640, 480}, {800, 600}, {33, 77}}};
 
   struct Tally {
@@ -26,9 +26,9 @@ class CullingFlight : public SceneTest {
 
   CullingFlight(OcclusionMethod method, double lowestM) : method_(method), lowestM_(lowestM) {}
 
-  void compare(FrameRequest r, DepthMapSize size, Tally& tally) {
+  void compare(FrameRequest r, OcclusionResolution size, Tally& tally) {
     FrameResult frustum, proposed;
-    r.decision.depthMap = size;
+    r.decision.occlusionResolution = size;
     r.occlusion = method_;
     r.method = CullingCase::none;
     const auto whole = picture(r);
@@ -51,7 +51,7 @@ class CullingFlight : public SceneTest {
   }
 
   /// Flights along valleys and above, any attitude, every size; lopsided and narrow views too.
-  Tally fly(int views, unsigned seed, std::span<const DepthMapSize> sizes = kSizes) {
+  Tally fly(int views, unsigned seed, std::span<const OcclusionResolution> sizes = kSizes) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> place(0.15, 0.85), unit(0, 1);
     Tally tally;
@@ -77,7 +77,7 @@ class CullingFlight : public SceneTest {
   void expectReasons() {
     const auto note = [this](const GeodeticPosition& eye) {
       auto r = request(eye, {Degrees{270}, Degrees{-5}, Degrees{0}});
-      r.decision.depthMap = DepthMapSize{320, 240};
+      r.decision.occlusionResolution = OcclusionResolution{320, 240};
       r.occlusion = method_;
       const auto result = renderer.draw(r, offscreen->framebuffer());
       EXPECT_EQ(method_ == OcclusionMethod::horizon ? result.horizon : result.depthMap.has_value(),

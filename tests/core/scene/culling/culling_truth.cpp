@@ -85,7 +85,7 @@ CullingTruth::View CullingTruth::truthOf(const FrameRequest& r, bool withPicture
   view.request = r;
   FrameRequest whole = r;
   whole.method = CullingCase::none;
-  whole.decision.depthMap.reset();
+  whole.decision.occlusionResolution.reset();
   FrameResult result = draw(whole, withPicture);
   view.cut = result.visible.tiles.size();
   EXPECT_EQ(view.cut + result.visible.beyondVisibility, result.tilesInCut) << describe(r);
@@ -118,7 +118,7 @@ CullingTruth::View CullingTruth::truthOf(const FrameRequest& r, bool withPicture
   FrameRequest frustum = r;
   frustum.method = CullingCase::view_frustum;
   frustum.backFaces = false;
-  frustum.decision.depthMap.reset();
+  frustum.decision.occlusionResolution.reset();
   result = draw(frustum, false);
   view.frustum = view.hidden = result.visible.tiles.size();
   const auto drawn = nodesOf(result.visible);
@@ -132,12 +132,12 @@ FrameResult CullingTruth::draw(const FrameRequest& r, bool wholly) {
   return renderer.draw(r, offscreen->framebuffer());
 }
 
-void CullingTruth::compare(const View& view, CullingCase culling, OcclusionMethod method, DepthMapSize band,
-                           Tally& tally, bool wholly) {
+void CullingTruth::compare(const View& view, CullingCase culling, OcclusionMethod method,
+                           OcclusionResolution band, Tally& tally, bool wholly) {
   FrameRequest r = view.request;
   r.method = culling;
   r.occlusion = method;
-  r.decision.depthMap = band;
+  r.decision.occlusionResolution = band;
   const auto result = draw(r, wholly);
   const auto drawn = nodesOf(result.visible);
   std::size_t nodes = 0, pixels = 0;

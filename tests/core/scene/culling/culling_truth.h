@@ -28,7 +28,7 @@ std::vector<OcclusionChoice> occlusionChoices();
 class CullingTruth : public SceneTest {
  protected:
   /// The sizes of the published bands, and an odd one; no picture has any of them.
-  static constexpr std::array<DepthMapSize, 5> kBands{
+  static constexpr std::array<OcclusionResolution, 5> kBands{
       {{320, 240}, {400, 300}, {640, 480}, {800, 600}, {333, 251}}};
 
   using Owners = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  ///< nodes and their pixels, by node
@@ -75,8 +75,8 @@ class CullingTruth : public SceneTest {
   View truthOf(const FrameRequest& request, bool withPicture, bool bothSides = false);
   /// Adds what a method finds. `wholly`: with all that a frame does, and its picture where the view has one;
   /// else only its visible set is made, and maps of the GPU.
-  void compare(const View& view, CullingCase culling, OcclusionMethod method, DepthMapSize band, Tally& tally,
-               bool wholly = true);
+  void compare(const View& view, CullingCase culling, OcclusionMethod method, OcclusionResolution band,
+               Tally& tally, bool wholly = true);
 
   FrameResult draw(const FrameRequest& request, bool wholly);
   static std::vector<std::uint32_t> nodesOf(const VisibleSet& visible);  ///< sorted

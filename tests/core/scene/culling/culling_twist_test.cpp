@@ -48,7 +48,7 @@ TEST_F(CullingTwist, losesNothingWhileLevelsChangeInFlight) {
     cut = view.cut;
     r.method = CullingCase::proposed;
     r.occlusion = OcclusionMethod::horizon;
-    r.decision.depthMap = DepthMapSize{400, 300};
+    r.decision.occlusionResolution = OcclusionResolution{400, 300};
     const auto result = renderer.draw(r, offscreen->framebuffer());
     std::set<std::uint32_t> drawn;
     for (const TileDraw& patch : result.visible.tiles) drawn.insert(patch.node);

@@ -81,7 +81,7 @@ std::shared_ptr<const terrain::Database> ofPosts(int posts) {
 
 class DegenerateViews : public test::CullingTruth {
  protected:
-  static constexpr DepthMapSize kBand{320, 240};
+  static constexpr OcclusionResolution kBand{320, 240};
 
   struct Case {
     std::string name;
@@ -173,7 +173,7 @@ class DegenerateViews : public test::CullingTruth {
         auto r = whole;
         r.method = culling;
         r.occlusion = method;
-        r.decision.depthMap = kBand;
+        r.decision.occlusionResolution = kBand;
         ASSERT_EQ(differing(unculled, picture(r)), 0u) << how;
         ASSERT_EQ(renderer.readNodes(), nodes) << how;
       };
@@ -182,7 +182,7 @@ class DegenerateViews : public test::CullingTruth {
       // Nothing of it stays behind, whatever is kept from frame to frame.
       auto after = good;
       after.staticLod.terrain = form;
-      after.decision.depthMap = kBand;
+      after.decision.occlusionResolution = kBand;
       for (const OcclusionMethod method : {OcclusionMethod::automatic, OcclusionMethod::horizon}) {
         after.occlusion = method;
         const auto again = picture(after);
@@ -259,7 +259,7 @@ TEST_F(DegenerateViews, ofNoTerrainAreSky) {
     for (const auto& choice : test::occlusionChoices()) {
       auto r = request;
       r.occlusion = choice.method;
-      r.decision.depthMap = kBand;
+      r.decision.occlusionResolution = kBand;
       FrameResult result;
       picture(r, &result);
       ASSERT_TRUE(result.visible.tiles.empty()) << name;

@@ -53,7 +53,7 @@ class ErrorMeterTest : public SceneTest {
   /// Low in the mountains, where much is hidden.
   FrameRequest lowRequest(double heading = 30) const {
     auto r = request(over(0.45, 0.4, 130), {Degrees{heading}, Degrees{-5}, Degrees{}});
-    r.decision.depthMap = DepthMapSize{320, 240};
+    r.decision.occlusionResolution = OcclusionResolution{320, 240};
     return r;
   }
   /// A view along a flight of views that look anywhere, most of them low.
@@ -63,7 +63,7 @@ class ErrorMeterTest : public SceneTest {
     auto r = request(over(east, place(random), above),
                      {Degrees{360 * unit(random)}, Degrees{-25 + 30 * unit(random)},
                       Degrees{unit(random) < 0.3 ? 360 * unit(random) : 0}});
-    r.decision.depthMap = DepthMapSize{320, 240};
+    r.decision.occlusionResolution = OcclusionResolution{320, 240};
     return r;
   }
   FrameError measure(const FrameRequest& r, const FrameRequest* before = nullptr,

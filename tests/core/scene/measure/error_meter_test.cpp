@@ -284,7 +284,7 @@ TEST_F(ErrorMeter, repeatsExactlyWhereAHorizonHidesLittle) {
     auto r = request(over(0.45, 0.4, 2100 - 40.0 * i), {Degrees{30}, Degrees{-5}, {}});
     r.view.widthPx = 160, r.view.heightPx = 80;
     r.view.left = -2, r.view.right = 2, r.view.bottom = -1, r.view.top = 1;
-    r.decision.depthMap = DepthMapSize{320, 240};
+    r.decision.occlusionResolution = OcclusionResolution{320, 240};
     r.occlusion = OcclusionMethod::horizon;
     r.lod.screenSpaceError = Pixels{0.02};
     requests.push_back(r);

@@ -95,7 +95,7 @@ TEST_F(PlantedDefects, findsADepthMapThatIsReadATexelAside) {
   measureOver(terrainOf(twoRidges));
   // On its side, so that aside is down: what the near ridge hides reaches a texel higher.
   auto r = request(over(0.5, 0.06, 60), {Degrees{}, Degrees{}, Degrees{90}});
-  r.decision.depthMap = DepthMapSize{64, 48};
+  r.decision.occlusionResolution = OcclusionResolution{64, 48};
   r.lod.screenSpaceError = Pixels{1e-6};
   for (const int shift : {0, 1, 0}) {
     plant(meter, {.depthMapShiftTexels = shift});

@@ -19,7 +19,7 @@ class StageCost : public SceneTest {
   /// Everything that a frame can be made to do.
   FrameRequest whole(double time) const {
     auto r = bare(time);
-    r.decision.depthMap = DepthMapSize{320, 240};
+    r.decision.occlusionResolution = OcclusionResolution{320, 240};
     r.decision.weather.precipitation = Precipitation::rain;
     r.decision.weather.density = 0.8;
     r.decision.motion.blur.strength = 0.8;
@@ -83,7 +83,8 @@ TEST_F(StageCost, isNotMeasuredWhereAStageIsNotRun) {
     void (*without)(FrameRequest&);
   } kCases[] = {
       {"all tiles are there", &FrameCost::page, [](FrameRequest&) {}},
-      {"scheme frustum", &FrameCost::occlusion, [](FrameRequest& r) { r.decision.depthMap.reset(); }},
+      {"scheme frustum", &FrameCost::occlusion,
+       [](FrameRequest& r) { r.decision.occlusionResolution.reset(); }},
       {"at rest", &FrameCost::blur, [](FrameRequest& r) { r.decision.motion.blur.strength = 0; }},
       {"clear air", &FrameCost::weather,
        [](FrameRequest& r) { r.decision.weather.precipitation = Precipitation::none; }},

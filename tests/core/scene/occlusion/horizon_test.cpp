@@ -47,7 +47,7 @@ TEST_F(HorizonScene, leavesNoPixelOutOverTheSample) {
 // Without this, the tests above might pass because nothing can go wrong where they look.
 TEST_F(HorizonScene, losesPixelsWhereLinesReachTooHigh) {
   use(test::syntheticMountains());
-  constexpr std::array<DepthMapSize, 1> kCoarse{{{8, 6}}};
+  constexpr std::array<OcclusionResolution, 1> kCoarse{{{8, 6}}};
   plant(renderer, {.loweringScale = 0});
   EXPECT_GT(fly(24, 1, kCoarse).differing, 0u);
   plant(renderer, {});
@@ -57,7 +57,7 @@ TEST_F(HorizonScene, losesPixelsWhereLinesReachTooHigh) {
 TEST_F(HorizonScene, isNotBuiltAgainWhileOnlyTheHeadTurns) {
   use(test::syntheticMountains());
   auto r = request(over(0.5, 0.5, 200), {});
-  r.decision.depthMap = DepthMapSize{320, 240};
+  r.decision.occlusionResolution = OcclusionResolution{320, 240};
   r.occlusion = OcclusionMethod::horizon;
   FrameResult result;
   for (int i = 0; i < 12; ++i) {
@@ -76,10 +76,10 @@ TEST_F(HorizonScene, isNotBuiltAgainWhileOnlyTheHeadTurns) {
   r.eye.height = r.eye.height + Metres{1};
   picture(r, &result);
   EXPECT_EQ(result.counters.horizonsBuilt, 3u);
-  r.decision.depthMap = DepthMapSize{800, 600};
+  r.decision.occlusionResolution = OcclusionResolution{800, 600};
   picture(r, &result);
   EXPECT_EQ(result.counters.horizonsBuilt, 4u) << "the band sets its resolution";
-  r.decision.depthMap.reset();
+  r.decision.occlusionResolution.reset();
   picture(r, &result);
   EXPECT_FALSE(result.horizon);
   EXPECT_TRUE(std::isnan(result.cost.occlusion));
@@ -95,7 +95,7 @@ TEST_F(HorizonScene, isNeitherBuiltNorMovedForAHeadThatTurns) {
       else
         use(test::syntheticMountains());
       auto r = request(over(0.44, 0.5, 60), {Degrees{40}, Degrees{-3}, Degrees{0}});
-      r.decision.depthMap = DepthMapSize{320, 240};
+      r.decision.occlusionResolution = OcclusionResolution{320, 240};
       r.occlusion = method;
       r.lod.screenSpaceError = Pixels{0.5};
       r.reproducible = r.waitForPages = true;
@@ -119,7 +119,7 @@ TEST_F(HorizonScene, isNeitherBuiltNorMovedForAHeadThatTurns) {
 TEST_F(HorizonScene, isNotBuiltAgainNearWhereItHidNextToNothing) {
   use(test::syntheticMountains());
   auto r = request(over(0.5, 0.5, 3000), {Degrees{40}, Degrees{-15}, {}});
-  r.decision.depthMap = DepthMapSize{320, 240};
+  r.decision.occlusionResolution = OcclusionResolution{320, 240};
   r.occlusion = OcclusionMethod::horizon;
   FrameResult result;
   const auto draw = [&](std::uint64_t built, std::uint64_t leftOut, const char* what) {
@@ -168,7 +168,7 @@ TEST_F(HorizonScene, isNotBuiltAgainNearWhereItHidNextToNothing) {
 TEST_F(HorizonScene, isUsedOnceAnEyeAtRestHasABetterOne) {
   use(test::syntheticMountains());
   auto r = request({}, {Degrees{40}, Degrees{-10}, Degrees{0}});
-  r.decision.depthMap = DepthMapSize{320, 240};
+  r.decision.occlusionResolution = OcclusionResolution{320, 240};
   r.occlusion = OcclusionMethod::horizon;
   r.lod.screenSpaceError = Pixels{0.1};
   r.skips.littleHidden = false;
@@ -239,7 +239,7 @@ TEST_F(HorizonScene, hidesMoreAtTheSizeOfAHigherBand) {
       auto r = request(over(0.3 + 0.05 * i, 0.6 - 0.04 * i, 120), {Degrees{45.0 * i}, Degrees{-3}, {}});
       r.lod.screenSpaceError = Pixels{0.25};
       r.occlusion = OcclusionMethod::horizon;
-      r.decision.depthMap = DepthMapSize{kWidths[k], kWidths[k] * 3 / 4};
+      r.decision.occlusionResolution = OcclusionResolution{kWidths[k], kWidths[k] * 3 / 4};
       FrameResult result;
       picture(r, &result);
       occluded[k] += result.visible.occluded;

@@ -34,7 +34,7 @@ TEST_F(MapScene, leavesNoPixelOutOverEverest) {
 // Without this, the tests above might pass because nothing can go wrong where they look.
 TEST_F(MapScene, losesPixelsWhereOccludersAreNotLowered) {
   use(test::syntheticMountains());
-  constexpr std::array<DepthMapSize, 2> kCoarse{{{16, 12}, {24, 18}}};
+  constexpr std::array<OcclusionResolution, 2> kCoarse{{{16, 12}, {24, 18}}};
   plant(renderer, {.loweringScale = 0});
   EXPECT_GT(fly(12, 1, kCoarse).differing, 0u);
   plant(renderer, {});
@@ -65,7 +65,7 @@ TEST_F(MapScene, leavesNoPixelOfPatchesOut) {
 TEST_F(MapScene, showsItsMapAsGreys) {
   use(test::syntheticMountains());
   auto r = request(over(0.5, 0.5, 400), {Degrees{20}, Degrees{-10}, Degrees{0}});
-  r.decision.depthMap = DepthMapSize{320, 240};
+  r.decision.occlusionResolution = OcclusionResolution{320, 240};
   for (const OcclusionMethod method : {OcclusionMethod::cpu_map, OcclusionMethod::depth_map}) {
     r.occlusion = method;
     FrameResult result;

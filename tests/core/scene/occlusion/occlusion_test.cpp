@@ -46,7 +46,7 @@ TEST_F(Occlusion, leavesNoPixelOutOverTheSample) {
 TEST_F(Occlusion, losesPixelsWhenOccludersAreNotLowered) {
   use(test::syntheticMountains());
   plant(renderer, {.loweringScale = 0});
-  constexpr std::array<DepthMapSize, 2> kCoarse{{{16, 12}, {24, 18}}};
+  constexpr std::array<OcclusionResolution, 2> kCoarse{{{16, 12}, {24, 18}}};
   EXPECT_GT(fly(24, 1, kCoarse).differing, 0u);
   plant(renderer, {});
   EXPECT_EQ(fly(24, 1, kCoarse).differing, 0u);
@@ -64,7 +64,7 @@ TEST_F(Occlusion, isSkippedWhereTheDecisionAsksForNone) {
   EXPECT_EQ(result.counters.depthMapsDrawn, 0u);
   EXPECT_TRUE(std::isnan(result.cost.occlusion));
   EXPECT_EQ(renderer.readDepthMap().width, 0);
-  r.decision.depthMap = DepthMapSize{320, 240};
+  r.decision.occlusionResolution = OcclusionResolution{320, 240};
   result = renderer.draw(r, offscreen->framebuffer());
   EXPECT_EQ(result.counters.depthMapsDrawn, 1u);
   EXPECT_GT(result.cost.occlusion, 0);
@@ -76,7 +76,7 @@ TEST_F(Occlusion, isSkippedWhereTheDecisionAsksForNone) {
 TEST_F(Occlusion, showsItsDepthMapAsGreys) {
   use(test::syntheticMountains());
   auto r = request(over(0.5, 0.5, 400), {Degrees{20}, Degrees{-10}, Degrees{0}});
-  r.decision.depthMap = DepthMapSize{320, 240};
+  r.decision.occlusionResolution = OcclusionResolution{320, 240};
   ASSERT_TRUE(renderer.draw(r, offscreen->framebuffer()).depthMap.has_value());
   const auto grey = renderer.readDepthMap();
   ASSERT_EQ(grey.width, 320);

@@ -38,7 +38,7 @@ TEST_F(NodePass, withoutCullingIsThePictureWithoutCulling) {
   for (int i = 0; i < 8; ++i) {
     auto r = request(over(place(random), place(random), 60 + 1500 * unit(random)),
                      {Degrees{360 * unit(random)}, Degrees{-50 * unit(random)}, Degrees{360 * unit(random)}});
-    r.decision.depthMap = DepthMapSize{320, 240};
+    r.decision.occlusionResolution = OcclusionResolution{320, 240};
     picture(r);
     const auto unculled = renderer.readNodes(true);
     r.method = CullingCase::none;

@@ -85,7 +85,7 @@ TEST_F(Falling, leavesNothingBehindWhenItStops) {
   for (const Precipitation kind : kKinds) {
     auto r = falling(kind, 0.5);
     r.method = CullingCase::proposed;
-    r.decision.depthMap = DepthMapSize{320, 240};
+    r.decision.occlusionResolution = OcclusionResolution{320, 240};
     r.overlays.tileBounds = true;
     const Pixels8 before = picture(dry(r));
     const Pixels8 wet = picture(r);
@@ -111,7 +111,7 @@ TEST_F(Falling, hidesNothingFromTheDepthMapAndDrawsNoDepth) {
     for (int i = 0; i < 4; ++i) {
       auto r = falling(kind, 0.7, 60 + 200 * i);
       r.attitude.heading = Degrees{70.0 * i};
-      r.decision.depthMap = DepthMapSize{400, 300};
+      r.decision.occlusionResolution = OcclusionResolution{400, 300};
       picture(dry(r));
       const auto metres = renderer.readDistances();
       const Pixels8 frustum = picture(r);

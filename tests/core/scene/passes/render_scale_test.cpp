@@ -78,7 +78,7 @@ TEST_F(RenderScale, cullingChangesNoPixelOfIt) {
     auto unculled = ofMountains(scale), culled = ofMountains(scale);
     unculled.method = CullingCase::none;
     culled.decision.scheme = Scheme::dynamic;
-    culled.decision.depthMap = DepthMapSize{640, 480};
+    culled.decision.occlusionResolution = OcclusionResolution{640, 480};
     for (const OcclusionMethod method : {OcclusionMethod::depth_map, OcclusionMethod::horizon}) {
       culled.occlusion = method;
       EXPECT_EQ(differing(picture(unculled), picture(culled)), 0u) << scale;

@@ -152,7 +152,7 @@ TEST_F(Weather, leavesNothingBehindInClearAir) {
   use(test::syntheticMountains());
   auto r = level(400);
   r.method = CullingCase::proposed;
-  r.decision.depthMap = DepthMapSize{320, 240};
+  r.decision.occlusionResolution = OcclusionResolution{320, 240};
   const Pixels8 clear = picture(r);
   for (const double visibility : {50.0, 9000.0}) {
     auto foggy = r;
@@ -168,7 +168,7 @@ TEST_F(Weather, isTheSamePictureInAllThreeCullingCases) {
   for (int i = 0; i < 12; ++i) {
     auto r =
         request(over(0.3 + 0.03 * i, 0.4, 60 + 90 * i), {Degrees{31.0 * i}, Degrees{-6}, Degrees{5.0 * i}});
-    r.decision.depthMap = DepthMapSize{400, 300};
+    r.decision.occlusionResolution = OcclusionResolution{400, 300};
     const double farM = 6000 + 1500 * i;
     r.decision.weather = fog(farM, farM);
     r.method = CullingCase::none;

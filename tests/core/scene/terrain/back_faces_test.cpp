@@ -40,7 +40,7 @@ class BackFaces : public test::SceneTest {
     r.staticLod.terrain = database->patches() ? TerrainForm::patches : TerrainForm::levels;
     r.lod.screenSpaceError = Pixels{4};
     r.waitForPages = r.reproducible = true;
-    r.decision.depthMap = DepthMapSize{320, 240};
+    r.decision.occlusionResolution = OcclusionResolution{320, 240};
     r.method = method;
     FrameResult on, off;
     const auto fronts = picture(r, &on);

@@ -33,7 +33,7 @@ class BakedScene : public test::SceneTest {
     auto r = request(over(east, north, aboveM), attitude);
     r.staticLod.terrain = TerrainForm::patches;
     r.waitForPages = true;
-    r.decision.depthMap = DepthMapSize{320, 240};
+    r.decision.occlusionResolution = OcclusionResolution{320, 240};
     r.occlusion = OcclusionMethod::horizon;
     return r;
   }

@@ -102,7 +102,7 @@ class PatchCracks : public test::SceneTest {
       r.overlays.showHoles = true;
       r.lod.screenSpaceError = Pixels{0.3 * std::pow(100, unit(random))};
       r.decision.lodScale = std::pow(8, unit(random));
-      r.decision.depthMap = DepthMapSize{160, 120};
+      r.decision.occlusionResolution = OcclusionResolution{160, 120};
       r.method = i % 3 == 0   ? CullingCase::none
                  : i % 3 == 1 ? CullingCase::view_frustum
                               : CullingCase::proposed;

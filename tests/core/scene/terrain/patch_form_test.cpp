@@ -16,7 +16,7 @@ class PatchForm : public test::NodeOwners {
     auto r = request(over(east, north, aboveM), attitude);
     r.staticLod.terrain = TerrainForm::patches;
     r.waitForPages = true;
-    r.decision.depthMap = DepthMapSize{320, 240};
+    r.decision.occlusionResolution = OcclusionResolution{320, 240};
     return r;
   }
   /// Views of all kinds: near the ground and high, level and steep, rolled.

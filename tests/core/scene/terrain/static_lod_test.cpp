@@ -53,7 +53,7 @@ class StaticTrees : public SceneTest {
                                                       Degrees{i % 3 ? 0 : 360 * unit(random)}});
       if (i % 6 == 5) r.view.left = -0.2, r.view.right = 0.9, r.view.bottom = -0.6, r.view.top = 0.1;
       r.staticLod.errorPx = Pixels{i % 4 ? finestPx : 16 * finestPx};
-      r.decision.depthMap = DepthMapSize{i % 4 < 2 ? 320 : 800, i % 4 < 2 ? 240 : 600};
+      r.decision.occlusionResolution = OcclusionResolution{i % 4 < 2 ? 320 : 800, i % 4 < 2 ? 240 : 600};
       FrameResult result;
       r.method = CullingCase::none;
       const auto whole = picture(r, &result);
@@ -331,7 +331,7 @@ TEST_F(StaticTrees, keepWhatWasHiddenWhileCullingIsFrozen) {
   use(treeMountains());
   auto r = treeRequest(over(0.3, 0.3, 60), {Degrees{40}, Degrees{-3}, Degrees{0}});
   r.staticLod.errorPx = Pixels{0.05};
-  r.decision.depthMap = DepthMapSize{320, 240};
+  r.decision.occlusionResolution = OcclusionResolution{320, 240};
   const auto live = renderer.draw(r, offscreen->framebuffer());
   ASSERT_GT(live.visible.occluded, 5u);
   const auto grey = renderer.readDepthMap();
@@ -355,7 +355,7 @@ TEST_F(StaticTrees, chooseAndReadNothingAgainForAViewThatStands) {
   use(treeMountains());
   auto r = treeRequest(over(0.3, 0.3, 60), {Degrees{40}, Degrees{-3}, Degrees{0}});
   r.staticLod.errorPx = Pixels{0.05};
-  r.decision.depthMap = DepthMapSize{320, 240};
+  r.decision.occlusionResolution = OcclusionResolution{320, 240};
   FrameResult first, second;
   const auto before = picture(r, &first);
   ASSERT_GT(first.visible.occluded, 5u);
@@ -385,7 +385,9 @@ TEST_F(StaticTrees, chooseAndReadNothingAgainForAViewThatStands) {
   };
   changes("a head that turns", [](auto& c) { c.attitude.heading = Degrees{41}; });
   changes("another case", [](auto& c) { c.method = CullingCase::view_frustum; });
-  changes("another size of the map", [](auto& c) { c.decision.depthMap = DepthMapSize{160, 120}; });
+  changes("another size of the map", [](auto& c) {
+    c.decision.occlusionResolution = OcclusionResolution{160, 120};
+  });
   changes("coarser levels", [](auto& c) { c.decision.lodScale = 3; });
   changes("weather", [](auto& c) { c.decision.weather.farM = 2000; });
 }
@@ -397,7 +399,7 @@ TEST_F(StaticTrees, readNoDepthMapWhereNoneIsAskedForOrWorthIt) {
   auto result = renderer.draw(r, offscreen->framebuffer());
   EXPECT_EQ(result.counters.depthMapsDrawn, 0u) << "scheme frustum";
   EXPECT_TRUE(std::isnan(result.cost.occlusion));
-  r.decision.depthMap = DepthMapSize{320, 240};
+  r.decision.occlusionResolution = OcclusionResolution{320, 240};
   r.method = CullingCase::view_frustum;
   EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).counters.depthMapsDrawn, 0u);
   r.method = CullingCase::proposed;

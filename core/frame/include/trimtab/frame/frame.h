@@ -102,7 +102,7 @@ struct FrameInput {
   AircraftState state;
   std::optional<Metres> aboveGround;  ///< what decide() uses for AltitudeReference::above_ground
   FrameCost lastCost;
-  DrawnLoad drawn{};     ///< set only for MotionFrames::drawn
+  DrawnLoad drawn{};          ///< set only for MotionFrames::drawn
   SignalValues signalValues;  ///< set only if the preset has a policy
 };
 
@@ -118,9 +118,11 @@ enum class SchemeReason {
   altitude_unknown     ///< the preset asks for the height above ground, and neither host nor terrain knows it
 };
 
-struct DepthMapSize {
+/// How finely a frame looks for hidden ground, as a size in pixels: that of the depth map if one is drawn, or
+/// the texels over the view from which the columns of a horizon follow.
+struct OcclusionResolution {
   int widthPx = 0, heightPx = 0;
-  friend bool operator==(const DepthMapSize&, const DepthMapSize&) = default;
+  friend bool operator==(const OcclusionResolution&, const OcclusionResolution&) = default;
 };
 
 struct FrameDecision {
@@ -129,8 +131,8 @@ struct FrameDecision {
   double altitudeMembership = 0, pitchMembership = 0, totalMembership = 0;
   RuleFiring ruleFiring;
   Scheme scheme = Scheme::frustum;
-  int band = -1;                         ///< index into the bands; -1 if the total is below all of them
-  std::optional<DepthMapSize> depthMap;  ///< if unset, no occlusion test of any kind
+  int band = -1;  ///< index into the bands; -1 if the total is below all of them
+  std::optional<OcclusionResolution> occlusionResolution;  ///< if unset, no occlusion test of any kind
   SchemeReason reason = SchemeReason::below_first_band;
   double lodScale = 1;  ///< the preset's times that of head motion; 1 is full detail, larger is coarser
   MotionDecision motion;

@@ -36,8 +36,9 @@ struct FrameCounters {
 
 /// What looked for hidden ground in one frame, and what came of it.
 struct OcclusionResult {
-  std::optional<DepthMapSize> depthMap;  ///< size of the depth map that shaped `visible`; unset if none did
-  bool horizon = false;                  ///< a horizon shaped `visible`
+  std::optional<OcclusionResolution>
+      depthMap;          ///< size of the depth map that shaped `visible`; unset if none did
+  bool horizon = false;  ///< a horizon shaped `visible`
   /// The method in use, never `automatic`; unset if nothing looks for hidden ground. The method may still
   /// leave out its horizon or map, because near here it hid next to nothing.
   std::optional<OcclusionMethod> occlusion;

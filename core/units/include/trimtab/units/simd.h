@@ -16,8 +16,9 @@
 /// Everything in between is in an unnamed namespace and always inlined, so that no code for one level can be
 /// linked in place of another's.
 ///
-/// Google Highway's form of the frustum test has 0.98 to 1.00 of this form's speed and the same bits; it
-/// would bring every IG that links the library a dependency for what these two files do.
+/// Google Highway's form gives the same bits. Of this form's speed, the frustum test reaches 0.98 to 1.00 with
+/// it, and FLIP 0.94 to 1.03 with the version in Debian 12, but a quarter on processors without SSSE3. FLIP's
+/// files would lose a fifth of their lines, and every IG that links the library would gain a dependency.
 namespace trimtab {
 
 enum class SimdLevel { portable, avx2, avx512 };
