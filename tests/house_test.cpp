@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cpp_outline.h"
 #include "support.h"
 
 // What keeps the tree easy to take over: layers, small folders, small files. CMake's link targets say the
@@ -109,6 +110,67 @@ TEST(House, keepsFoldersAndFilesSmall) {
     EXPECT_LE(lines, kMostLines) << file;
   }
   for (const auto& [folder, files] : folders) EXPECT_LE(files, kMostFiles) << folder;
+}
+
+TEST(House, keepsClassesAndArgumentListsShort) {
+  constexpr std::size_t kMostMembers = 40, kMostArguments = 9;
+  std::size_t classes = 0, functions = 0;
+  for (const fs::path& file : sources()) {
+    if (file.extension() == ".glsl") continue;
+    const CppOutline outline(readFile(sourceDir() / file));
+    EXPECT_TRUE(outline.complete()) << file;
+    for (const Declared& a : outline.classes())
+      EXPECT_LE(a.count, kMostMembers) << file.string() << ':' << a.line << ": members of " << a.name;
+    for (const Declared& a : outline.functions())
+      EXPECT_LE(a.count, kMostArguments) << file.string() << ':' << a.line << ": arguments of " << a.name;
+    classes += outline.classes().size();
+    functions += outline.functions().size();
+  }
+  EXPECT_GT(classes, 1000u) << "the test does not find the classes";
+  EXPECT_GT(functions, 5000u) << "the test does not find the functions";
+}
+
+std::string namesAndCounts(const std::vector<Declared>& declared) {
+  std::string text;
+  for (const Declared& a : declared)
+    text += std::to_string(a.line) + ": " + a.name + ": " + std::to_string(a.count) + '\n';
+  return text;
+}
+
+TEST(CppOutline, countsDataMembersAndArguments) {
+  const CppOutline outline(R"--(
+namespace a { extern "C" { int c(void*); } }
+template <class T, class U = int>
+class Box : public Base<T, 3>, private Other {
+  Q_OBJECT
+ public:
+  explicit Box(std::map<int, int> m, int n = f(1, 2)) : Base<T, 3>(n), x_{n}, m_(m, 3) { int notAMember; }
+  bool operator()(int a, const std::function<void(int, int)>& f) const noexcept { return a < 3; }
+  Box& operator=(const Box&) = default;
+  static constexpr int kNone = 1'000;  // int commented;
+  enum class Kind { one, two };
+  using Map = std::map<int, int>;
+  friend class Friend;
+  struct Inner { int a, b = 2; std::array<float, 2> c{{1, 2}}; };
+  struct { int d; } unnamed_;
+
+ private:
+  std::function<void(int, int)> call_ = [](int a, int b) { return; };
+  Map<int, int> m_{{1, 2}, {3, 4}}, other_;
+  int x_ : 3;
+  alignas(64) std::atomic<int> y_{f('"', "}")};
+};
+#define IGNORED(a, b) \\
+  struct {
+const int kValues[] = {1, 2};
+auto last(int a, int b, int c) -> Box<int> { return R"(})"; }
+)--");
+  EXPECT_TRUE(outline.complete());
+  EXPECT_EQ(namesAndCounts(outline.classes()),
+            "14: struct Inner: 3\n15: struct: 1\n4: template class Box : public Base private Other: 6\n");
+  EXPECT_EQ(namesAndCounts(outline.functions()),
+            "2: int c: 1\n7: explicit Box: 2\n8: bool operator const noexcept: 2\n"
+            "9: Box & operator =: 1\n26: auto last -> Box: 3\n");
 }
 
 }  // namespace

@@ -49,6 +49,14 @@ TEST_F(InstalledIg, hasTheProgramThatOpensADatabase) {
   EXPECT_EQ(ran.exitCode, 0) << ran.err;
 }
 
+TEST_F(InstalledIg, programLoadsNeitherGdalNorQt) {
+  const Ran ran = run("ldd " + prefix() + "/bin/trimtab-ig");
+  EXPECT_EQ(ran.exitCode, 0) << ran.err;
+  EXPECT_NE(ran.out.find("libosg.so"), std::string::npos) << "ldd lists no libraries: " << ran.out;
+  for (const char* library : {"libgdal", "libQt"})
+    EXPECT_EQ(ran.out.find(library), std::string::npos) << library << " in " << ran.out;
+}
+
 TEST_F(InstalledIg, hasThePresetsTheirSchemaAndItsLicence) {
   for (const char* file : {"share/trimtab/presets/default.json", "share/trimtab/presets/preset.schema.json",
                            "share/doc/trimtab/LICENSE.MIT"})
