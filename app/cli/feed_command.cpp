@@ -7,11 +7,12 @@
 #include <memory>
 #include <thread>
 
+#include "app/link/head_option.h"
 #include "app/link/link.h"
 #include "commands.h"
 #include "trimtab/host/flight.h"
-#include "trimtab/units/number.h"
 #include "trimtab/preset/preset.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab::cli {
 namespace {
@@ -89,7 +90,7 @@ int play(const Options& options) {
   }
   link::PlayOptions how;
   if (!options.head.empty()) {
-    auto head = openHead(options.head, options.skipBadRows ? BadRows::leave_out : BadRows::refuse);
+    auto head = link::openHeadOption(options.head, options.skipBadRows);
     report(head.findings());
     if (!head) return kRefused;
     how.head = std::move(*head);

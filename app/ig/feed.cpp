@@ -5,6 +5,7 @@
 #include <iostream>
 #include <limits>
 #include <string>
+#include "app/link/head_option.h"
 #include "app/link/link.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/host/received_state.h"
@@ -136,7 +137,7 @@ Result<HeadInput> openHeadInput(const Options& options) {
                    {},
                    "a flight, or a trace with --realtime",
                    options.flight.string() + ", a trace that brings its heads"};
-  Result<HeadLog> log = openHead(options.head, options.skipBadRows ? BadRows::leave_out : BadRows::refuse);
+  Result<HeadLog> log = link::openHeadOption(options.head, options.skipBadRows);
   if (!log) return log.findings();
   Findings notes = log.findings();
   head.useLog(std::move(log).value());

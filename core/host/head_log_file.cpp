@@ -302,8 +302,7 @@ bool Reader::badRowsAccepted() {
   const std::string all = std::to_string(rows_.size() + bad_);
   if (bad_ > kNamedRows) note("and " + std::to_string(bad_ - kNamedRows) + " more rows like these");
   if (badRows_ == BadRows::refuse) {
-    refusal("rows that can all be used, or leave to skip those that cannot (--skip-bad-rows)",
-            std::to_string(bad_) + " bad rows of " + all);
+    refusal("rows that can all be used", std::to_string(bad_) + " bad rows of " + all);
     return false;
   }
   if (bad_ >= rows_.size()) {
@@ -319,6 +318,7 @@ Result<HeadLog> Reader::finished() {
   HeadLog log;
   log.name = std::filesystem::path(where_).filename().string();
   log.gapS = kHeadLogGapS;
+  log.rowsLeftOut = bad_;
   double longest = 0;
   std::size_t gaps = 0;
   for (const Row& row : rows_) {

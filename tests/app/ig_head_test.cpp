@@ -83,6 +83,18 @@ TEST_F(IgHead, flysARecordedHead) {
   EXPECT_TRUE(rowsOf("trace.csv").at(30).input.state.head);
 }
 
+TEST_F(IgHead, saysWhichOptionLeavesBadRowsOut) {
+  writeFlight(4);
+  test::writeFile(dir_ / "head.csv", "time_s,heading_deg,pitch_deg\n0,0,0\n1,0,95\n2,0,0\n");
+  const std::string log = (dir_ / "head.csv").string();
+  IgProcess refused = fly("flight.csv", "trace.csv", {"--head", log});
+  EXPECT_EQ(refused.end(), 1);
+  EXPECT_NE(refused.err().find("--skip-bad-rows"), std::string::npos) << refused.err();
+  EXPECT_NE(refused.err().find("leaves 1 rows out"), std::string::npos) << refused.err();
+  IgProcess flown = fly("flight.csv", "trace.csv", {"--head", log, "--skip-bad-rows"});
+  EXPECT_EQ(flown.end(), 0) << flown.err();
+}
+
 TEST_F(IgHead, refusesABadHeadAndOneBesideATrace) {
   writeFlight(4);
   for (const std::string head : {"sweep:180", "absent.txt"}) {

@@ -3,6 +3,7 @@
 #include <QDockWidget>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QMessageBox>
 #include <QMouseEvent>
 #include <cmath>
 #include <cstdlib>
@@ -103,10 +104,45 @@ TEST_F(Motion, aLogBeginsWithTheFlight) {
               std::remainder((state.time - w().feed().playback().flight().beginS()) * 5, 360), 1e-6);
 }
 
+TEST_F(Motion, rowsThatCannotBeUsedAreLeftOutWhereOneAgrees) {
+  ScratchDir dir;
+  std::string text = "time_s,head_heading_deg,head_pitch_deg\n";
+  for (int i = 0; i < 100; ++i)
+    text += std::to_string(i * 0.1) + "," + std::to_string(i) + (i >= 50 && i < 55 ? ",95\n" : ",0\n");
+  writeFile(dir / "head.csv", text);
+  const QString file = QString::fromStdString((dir / "head.csv").string());
+  const auto question = [this] { return w().findChild<QMessageBox*>(QStringLiteral("badRows")); };
+
+  EXPECT_FALSE(w().controllers().head->open(file));
+  EXPECT_EQ(panel().source(), MotionPanel::host);
+  ASSERT_NE(question(), nullptr);
+  EXPECT_EQ(question()->text(), QStringLiteral("5 rows of head.csv cannot be used."));
+  const QString rows = question()->informativeText();
+  EXPECT_TRUE(
+      rows.contains(QStringLiteral("head.csv:52: head_pitch_deg: expected a pitch of -90 to 90 deg")));
+  EXPECT_FALSE((rows + w().messages().text()).contains(QStringLiteral("--"))) << rows.toStdString();
+  question()->button(QMessageBox::Cancel)->click();
+  ASSERT_TRUE(waitFor([&] { return question() == nullptr; }));
+  EXPECT_EQ(panel().source(), MotionPanel::host);
+
+  EXPECT_FALSE(w().controllers().head->open(file));
+  ASSERT_NE(question(), nullptr);
+  for (QAbstractButton* button : question()->buttons())
+    if (button->text().remove(QLatin1Char('&')) == QStringLiteral("Leave 5 rows out")) {
+      button->click();
+      break;
+    }
+  EXPECT_EQ(panel().source(), MotionPanel::log);
+  EXPECT_EQ(session().head().log().samples.size(), 95u);
+  EXPECT_TRUE(w().messages().text().contains(QStringLiteral("5 bad rows of 100: they are left out")));
+}
+
 TEST_F(Motion, aBadLogChangesNothingAndIsExplained) {
   EXPECT_FALSE(w().controllers().head->open(QStringLiteral("sweep:fast")));
   EXPECT_EQ(panel().source(), MotionPanel::host);
   EXPECT_TRUE(w().messages().text().contains(QStringLiteral("sweep:DEGREES/SECONDS")));
+  EXPECT_EQ(w().findChild<QMessageBox*>(QStringLiteral("badRows")), nullptr)
+      << "there are no rows to leave out";
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QMessageBox>
+#include <QPushButton>
 
 #include "app/workbench/docks/message_panel.h"
 #include "app/workbench/jobs/feed.h"
@@ -12,6 +14,10 @@
 namespace trimtab::workbench {
 
 using Panel = views::MotionPanel;
+
+namespace {
+constexpr int kRowsInQuestion = 3;  ///< bad rows that the question names
+}
 
 HeadController::HeadController(const Workplace& workplace, Panel& panel) : at_(workplace), panel_(panel) {
   connect(&panel_, &Panel::openLogAsked, this, &HeadController::askOpen);
@@ -62,12 +68,42 @@ bool HeadController::open(const QString& fileOrSweep) {
     at_.messages.add(tr("The line of sight is unchanged: %1 cannot be used").arg(fileOrSweep),
                      head.findings());
     showSource();
+    offerTheOtherRows(fileOrSweep, head.findings());
     return false;
   }
-  if (!head.findings().empty())
-    at_.messages.add(tr("Head log %1").arg(QFileInfo(fileOrSweep).fileName()), head.findings());
-  at_.feed.useHeadLog(std::move(head).value());
+  useLog(std::move(head), fileOrSweep);
   return true;
+}
+
+void HeadController::useLog(Result<HeadLog> log, const QString& file) {
+  if (!log.findings().empty())
+    at_.messages.add(tr("Head log %1").arg(QFileInfo(file).fileName()), log.findings());
+  at_.feed.useHeadLog(std::move(log).value());
+}
+
+void HeadController::offerTheOtherRows(const QString& file, const Findings& refusal) {
+  Result<HeadLog> rest = openHead(file.toStdString(), BadRows::leave_out);
+  if (!rest) return;
+  const auto rows = static_cast<int>(rest->rowsLeftOut);
+  QStringList named;
+  for (const Finding& finding : refusal)
+    if (!finding.key.empty() && named.size() < kRowsInQuestion)
+      named << QString::fromStdString(toString(finding));
+  if (rows > named.size()) named << tr("The Messages dock lists more of them.");
+
+  const QString name = QFileInfo(file).fileName();
+  auto* box = new QMessageBox(QMessageBox::Question, tr("Head log"),
+                              rows == 1 ? tr("1 row of %1 cannot be used.").arg(name)
+                                        : tr("%L1 rows of %2 cannot be used.").arg(rows).arg(name),
+                              QMessageBox::Cancel, &at_.window);
+  box->setObjectName(QStringLiteral("badRows"));
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  box->setInformativeText(named.join(QLatin1Char('\n')));
+  const QAbstractButton* leave = box->addButton(
+      rows == 1 ? tr("Leave 1 row out") : tr("Leave %L1 rows out").arg(rows), QMessageBox::AcceptRole);
+  connect(leave, &QAbstractButton::clicked, this,
+          [this, file, log = std::move(rest)]() mutable { useLog(std::move(log), file); });
+  box->open();
 }
 
 void HeadController::askOpen() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -25,6 +26,7 @@ struct HeadLog {
   bool repeats = false;             ///< whether it begins again at its end; if not, the last sample is held
   /// In a longer step between samples the earlier one is held, because nothing says how the head moved.
   double gapS = std::numeric_limits<double>::infinity();
+  std::size_t rowsLeftOut = 0;  ///< rows of the file that could not be used
 
   double durationS() const { return samples.empty() ? 0 : samples.back().timeS; }
 };
