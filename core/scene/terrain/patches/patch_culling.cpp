@@ -25,12 +25,11 @@ constexpr float kAheadUrgency = 0.25f, kMostAheadPx = 1e6f;
 /// Needs of then are found again when the eye of then has moved by so much of the way.
 constexpr double kAheadStep = 0.08;
 
-/// What the cut depends on.
-struct CutKey {
-  Vec3 eye;
-  CutRule rule;
+/// What the cut depends on: what is asked for, and what of it is held.
+struct PagedCutKey {
+  CutKey cut;
   std::uint64_t budget = 0, heldNumber = 0;
-  friend bool operator==(const CutKey&, const CutKey&) = default;
+  friend bool operator==(const PagedCutKey&, const PagedCutKey&) = default;
 };
 
 struct Bytes {
@@ -78,7 +77,7 @@ struct PatchCulling::Impl {
   std::vector<std::shared_ptr<const terrain::PatchPage>> meshes;  ///< of the pages that are held
   std::vector<std::uint32_t> roots;
   std::uint64_t heldNumber = 0, dropped = 0;  ///< changes of what is held; pages given up
-  std::optional<CutKey> key;
+  std::optional<PagedCutKey> key;
   CutNumber number;
   PatchCut later;  ///< where the eye will be
   std::optional<Vec3> laterEye;
@@ -237,7 +236,7 @@ bool PatchCulling::Impl::lookAhead(const FrameRequest& request, const CutKey& wa
     laterWants.clear();
     return had;
   }
-  if (laterEye && key && key->rule == wanted.rule &&
+  if (laterEye && key && key->cut.rule == wanted.rule &&
       length(*ahead - *laterEye) <= kAheadStep * length(*ahead - wanted.eye))
     return false;
   laterEye = ahead;
@@ -249,24 +248,24 @@ bool PatchCulling::Impl::lookAhead(const FrameRequest& request, const CutKey& wa
 }
 
 bool PatchCulling::Impl::choose(const FrameRequest& request, const EyePose& eye, PatchCut& cut) {
-  const CutKey wanted{eye.position, cutRuleOf(request, defects.statedErrorScale),
-                      std::min(budgetOf(request), most), heldNumber};
-  const bool newCut = key != wanted, newAim = lookAhead(request, wanted),
+  const PagedCutKey wanted{cutKeyOf(request, eye.position, defects.statedErrorScale),
+                           std::min(budgetOf(request), most), heldNumber};
+  const bool newCut = key != wanted, newAim = lookAhead(request, wanted.cut),
              selected = newCut || !request.skips.sameCut;
-  if (selected) select(wanted, cut);
+  if (selected) select(wanted.cut, cut);
   if (newCut || newAim) {
     const bool wasShort = pages.isShort();
     pages.aim(cut.wants, laterWants, wanted.budget);
     // What may be drawn follows from what is wanted, and what is wanted from the eye alone.
     if (wasShort || pages.isShort()) {
-      select(wanted, cut);
+      select(wanted.cut, cut);
       number.cut += !newCut;
     }
     ask();
   }
-  number.errorOverDistance = wanted.rule.errorOverDistance();
+  number.errorOverDistance = wanted.cut.rule.errorOverDistance();
   number.cut += newCut;
-  number.rule += !key || key->rule != wanted.rule;
+  number.rule += !key || key->cut.rule != wanted.cut.rule;
   key = wanted;
   return selected;
 }

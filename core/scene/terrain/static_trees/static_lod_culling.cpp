@@ -57,7 +57,7 @@ const StaticLodIndex& StaticLodCulling::index() const {
 FrameCounters StaticLodCulling::select(const FrameRequest& request, const EyePose& eye) {
   FrameCounters counters;
   const ViewShape& v = request.view;
-  const CutKey key{
+  const TreeCutKey key{
       eye.position,
       request.staticLod.error,
       {staticLodDistancePerError(request.staticLod, request.decision.lodScale, pixelsPerRadian(v)) *

@@ -48,18 +48,19 @@ class StaticLodCulling {
   void countVertices();
   std::uint64_t hideableTriangles(Vec3 eye) const;
 
-  /// What the cut depends on.
-  struct CutKey {
+  /// What the cut depends on. It is not the CutKey of tiles and patches: the rule is document E's, and the
+  /// cut may be one level of all trees.
+  struct TreeCutKey {
     Vec3 eye;
     ErrorMeasure error = ErrorMeasure::rms;
     StaticLodRule rule;
     int depth = -1;
-    friend bool operator==(const CutKey&, const CutKey&) = default;
+    friend bool operator==(const TreeCutKey&, const TreeCutKey&) = default;
   };
 
   std::shared_ptr<const terrain::StaticLodTerrain> terrain_;
   std::vector<std::uint32_t> vertices_;  ///< one a node
-  std::optional<CutKey> cutKey_;
+  std::optional<TreeCutKey> cutKey_;
   std::vector<float> errors_;  ///< of the cut's measure, one per node; empty: not made yet
   LevelCut cut_;
   std::size_t near_ = 0;  ///< of the cut
@@ -67,7 +68,7 @@ class StaticLodCulling {
   std::size_t visibleNear_ = 0;
   /// What the visible set depends on, hidden nodes included.
   struct VisibleKey {
-    CutKey cut;
+    TreeCutKey cut;
     EyePose eye;
     ViewShape view;
     CullingCase method = CullingCase::proposed;

@@ -61,7 +61,7 @@ PreparedTerrain TileDrawer::prepare(const FrameInProgress& frame) {
 }
 
 bool TileDrawer::selectCut(const FrameRequest& request) {
-  const CutKey key{eye_.position, cutRuleOf(request, defects_.statedErrorScale)};
+  const CutKey key = cutKeyOf(request, eye_.position, defects_.statedErrorScale);
   if (cutKey_ == key && request.skips.sameCut) return false;
   selectLevels(database_->index(), key.eye, key.rule, cut_);
   cutNumber_.errorOverDistance = key.rule.errorOverDistance();

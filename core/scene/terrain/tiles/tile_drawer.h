@@ -52,12 +52,6 @@ class TileDrawer final : public TerrainDrawer {
     TileCache tiles;
     OcclusionPass occlusion;
   };
-  /// Everything that the LOD cut depends on.
-  struct CutKey {
-    Vec3 eye;
-    CutRule rule;
-    friend bool operator==(const CutKey&, const CutKey&) = default;
-  };
   std::shared_ptr<const terrain::Database> database_;
   TileGround ground_;
   OcclusionStage occlusion_{ground_};

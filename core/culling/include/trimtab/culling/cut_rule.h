@@ -14,8 +14,7 @@ inline double spreadSquared(double distance2, double spread, double fromM) {
   return from2 * std::pow(distance2 / from2, spread);
 }
 
-/// What a cut by screen-space error depends on apart from the eye: a cut may be kept as long as neither its
-/// rule nor its eye changes.
+/// How a cut by screen-space error follows from the geometric errors of nodes and their distances.
 struct CutRule {
   double maxErrorPx = 0, lodScale = 1, pixelsPerRadian = 0;
   double spread = 1, spreadFromM = 5000;  ///< LodParameters
@@ -37,10 +36,20 @@ struct CutRule {
   double perDistance() const { return maxErrorPx * lodScale / pixelsPerRadian; }
 };
 
-/// Returns the rule that a request asks for. `statedErrorScale` is 1 unless a test plants a defect.
-inline CutRule cutRuleOf(const FrameRequest& request, double statedErrorScale) {
-  return {request.lod.screenSpaceError.value() / statedErrorScale, request.decision.lodScale,
-          pixelsPerRadian(request.view), request.lod.spread.value(), request.lod.spreadFrom.value()};
+/// What a cut of tiles or of patches depends on. As long as the key stays the same, the cut may be kept; a
+/// cut of patches depends on the pages that are held, too. Static trees have a key of their own, because
+/// their rule is document E's: a distance per metre of error, by a measure of error that the key names.
+struct CutKey {
+  Vec3 eye;
+  CutRule rule;
+  friend bool operator==(const CutKey&, const CutKey&) = default;
+};
+
+/// Returns the key of what a request asks for. `statedErrorScale` is 1 unless a test plants a defect.
+inline CutKey cutKeyOf(const FrameRequest& request, Vec3 eye, double statedErrorScale) {
+  return {eye,
+          {request.lod.screenSpaceError.value() / statedErrorScale, request.decision.lodScale,
+           pixelsPerRadian(request.view), request.lod.spread.value(), request.lod.spreadFrom.value()}};
 }
 
 }  // namespace trimtab
