@@ -1,4 +1,9 @@
 #include <array>
+#include <cmath>
+#include <iomanip>
+#include <random>
+#include <string>
+#include <vector>
 
 #include "error_meter_fixture.h"
 
@@ -53,6 +58,65 @@ TEST_F(Slivers, wouldShowWrongColoursOtherwise) {
   }
   EXPECT_GT(wrong, 0u) << "these views no longer test anything: look for others";
 }
+
+/// Low views over scenery, in every form of the terrain that its database has: 2 a form, and with
+/// TRIMTAB_SOAK=N in the environment 2 N. A pixel that is black, or a geometric error that no surface
+/// explains, is a sliver's.
+class SliversOver : public Slivers, public testing::WithParamInterface<const char*> {
+ protected:
+  static std::size_t blackPixels(const std::vector<std::uint8_t>& pixels) {
+    std::size_t black = 0;
+    for (std::size_t i = 0; i < pixels.size(); i += 4)
+      black += pixels[i] == 0 && pixels[i + 1] == 0 && pixels[i + 2] == 0;
+    return black;
+  }
+  std::vector<TerrainForm> forms() const {
+    std::vector<TerrainForm> forms{TerrainForm::levels};
+    if (database->patches()) forms.push_back(TerrainForm::patches);
+    if (database->staticLod()) forms.push_back(TerrainForm::static_trees);
+    return forms;
+  }
+  FrameRequest lowView(std::mt19937& random, TerrainForm form) const {
+    std::uniform_real_distribution<double> place(0.1, 0.9), unit(0, 1);
+    const double east = place(random), north = place(random), aboveM = 20 * std::pow(20.0, unit(random));
+    FrameRequest r = request(over(east, north, aboveM),
+                             {Degrees{360 * unit(random)}, Degrees{-12 + 14 * unit(random)}, Degrees{0}});
+    r.view.widthPx = kWide, r.view.heightPx = kHigh;
+    r.staticLod.terrain = form;
+    r.staticLod.error = ErrorMeasure::maximum;
+    r.lod.screenSpaceError = r.staticLod.errorPx = Pixels{2};
+    return r;
+  }
+  void prove(const FrameRequest& r) {
+    SCOPED_TRACE(testing::Message() << std::setprecision(17) << "form "
+                                    << static_cast<int>(r.staticLod.terrain) << " from "
+                                    << r.eye.latitude.value() << ' ' << r.eye.longitude.value() << ' '
+                                    << r.eye.height.value() << ' ' << r.attitude.heading.value() << ' '
+                                    << r.attitude.pitch.value());
+    scene::ErrorPictures pictures;
+    const FrameError finest = measure(scene::referenceOf(r), nullptr, &pictures);
+    EXPECT_EQ(blackPixels(pictures.reference), 0u) << "in the reference";
+    EXPECT_EQ(finest.geometricMaxPx, 0) << "of the reference from itself";
+    const FrameError error = measure(r, nullptr, &pictures);
+    EXPECT_EQ(blackPixels(pictures.ours), 0u) << "in the image";
+    EXPECT_EQ(error.wronglyCulledPixels, 0u);
+    EXPECT_LE(error.geometricMaxPx, geometricBoundPx(r));
+  }
+};
+
+TEST_P(SliversOver, noPixelIsBlackAndNoErrorIsUnreal) {
+  const std::string folder = GetParam();
+  TRIMTAB_NEEDS_SHARED("data/" + folder);
+  offscreen->resize(kWide, kHigh);
+  measureOver(bakeShared(folder));
+  ASSERT_TRUE(database);
+  std::mt19937 random(17);
+  for (int i = 0; i < 2 * soak(); ++i)
+    for (const TerrainForm form : forms()) prove(lowView(random, form));
+}
+INSTANTIATE_TEST_SUITE_P(Sceneries, SliversOver,
+                         testing::Values("fg-debian-hawaii-bigisland", "fg-kansai-e135n35",
+                                         "fg-debian-iceland-reykjanes"));
 
 }  // namespace
 }  // namespace trimtab::test
