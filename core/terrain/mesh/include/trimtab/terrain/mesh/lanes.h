@@ -10,6 +10,12 @@
 /// Visits the posts of a triangle four at a time. The same source is compiled for wide registers and for
 /// narrow ones. Sums are formed lane by lane, and the lanes are added in one order, so that every machine
 /// makes the same mesh to the bit.
+///
+/// The mesher does not use trimtab/units/simd.h, because the number of lanes there is that of the processor's
+/// registers. A rounded sum of errors depends on how many lanes share it; with 4 on one machine and 8 on
+/// another, two parts of a bake would differ where two posts have nearly the same error. Here the compiler's
+/// vector types fix four lanes of doubles, and a processor with narrower registers computes the same four in
+/// two steps.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(TRIMTAB_PLAIN_LANES) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define TRIMTAB_LANES [[gnu::target_clones("avx2", "default")]]
