@@ -49,12 +49,6 @@ void MotionPlot::append(const LiveFrame& frame) {
   for (QCPGraph* graph : {rate_, threshold_, scale_, blur_}) graph->data()->removeBefore(time - kSpanS);
 }
 
-double MotionPlot::largestRate() const {
-  double largest = 0;
-  for (const QCPGraphData& point : *rate_->data()) largest = std::max(largest, point.value);
-  return largest;
-}
-
 void MotionPlot::refresh() {
   double top = 0, scale = 1;
   for (const QCPGraph* graph : {rate_, threshold_})

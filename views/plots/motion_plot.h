@@ -17,8 +17,6 @@ class MotionPlot : public Plot {
   /// A clock that goes back empties the plot.
   void append(const LiveFrame& frame);
   void refresh();
-  /// The largest rate that is held, deg/s.
-  double largestRate() const;
 
   QSize sizeHint() const override { return {320, 190}; }
   QSize minimumSizeHint() const override { return {220, 120}; }

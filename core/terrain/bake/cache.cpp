@@ -5,7 +5,7 @@
 #include "source.h"
 #include "trimtab/terrain/bake/bake.h"
 #include "trimtab/terrain/bake/cache.h"
-#include "trimtab/terrain/elevation/import.h"
+#include "trimtab/terrain/elevation/files.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/format/store.h"
 #include "trimtab/terrain/scenery/scenery.h"

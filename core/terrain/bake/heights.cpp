@@ -14,10 +14,10 @@
 #include <limits>
 #include <sstream>
 
-#include "trimtab/terrain/elevation/import.h"
 #include "trimtab/terrain/format/checked_rows.h"
 #include "trimtab/terrain/format/store.h"
 #include "trimtab/terrain/grid/file_at.h"
+#include "trimtab/terrain/grid/post_grid.h"
 #include "trimtab/terrain/grid/progress.h"
 #include "trimtab/terrain/grid/voids.h"
 

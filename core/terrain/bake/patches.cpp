@@ -8,11 +8,11 @@
 #include <system_error>
 #include <thread>
 
-#include "trimtab/terrain/elevation/import.h"
 #include "trimtab/terrain/format/page_file.h"
 #include "trimtab/terrain/format/patch_bytes.h"
 #include "trimtab/terrain/format/patch_layout.h"
 #include "trimtab/terrain/format/patch_store.h"
+#include "trimtab/terrain/grid/post_grid.h"
 #include "trimtab/terrain/grid/progress.h"
 
 namespace trimtab::terrain {

@@ -11,8 +11,8 @@
 
 #include "arithmetic.h"
 #include "trimtab/terrain/bake/bake.h"
+#include "trimtab/terrain/elevation/files.h"
 #include "trimtab/terrain/elevation/georeference.h"
-#include "trimtab/terrain/elevation/import.h"
 #include "trimtab/terrain/format/store.h"
 #include "trimtab/terrain/grid/progress.h"
 #include "trimtab/terrain/scenery/made.h"

@@ -7,9 +7,8 @@
 #include <limits>
 
 #include "sample.h"
-#include "trimtab/units/number.h"
-#include "trimtab/terrain/elevation/import.h"
 #include "trimtab/terrain/grid/progress.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab::terrain {
 

@@ -11,8 +11,8 @@
 
 #include "file.h"
 #include "merge.h"
+#include "trimtab/terrain/elevation/files.h"
 #include "trimtab/units/number.h"
-#include "trimtab/terrain/elevation/import.h"
 
 namespace trimtab::terrain {
 

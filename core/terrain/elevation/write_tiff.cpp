@@ -10,7 +10,7 @@
 
 #include "trimtab/preset/file_io.h"
 #include "trimtab/terrain/elevation/georeference.h"
-#include "trimtab/terrain/elevation/import.h"
+#include "trimtab/terrain/grid/post_grid.h"
 #include "trimtab/terrain/grid/progress.h"
 
 namespace trimtab::terrain {

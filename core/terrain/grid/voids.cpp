@@ -330,24 +330,4 @@ Result<std::uint64_t> fillVoids(const VoidFill& fill) {
   return count;
 }
 
-std::uint64_t fillVoids(HeightGrid& grid) {
-  const std::size_t across = grid.posts.columns;
-  VoidFill fill;
-  fill.columns = grid.posts.columns;
-  fill.rows = grid.posts.rows;
-  fill.memory = grid.heights.size() * sizeof(float);
-  fill.read = [&](std::uint32_t first, std::uint32_t rows, std::span<float> heights) -> Result<Done> {
-    std::copy_n(grid.heights.begin() + static_cast<std::ptrdiff_t>(first * across), rows * across,
-                heights.begin());
-    return Done{};
-  };
-  fill.write = [&](std::uint32_t first, std::uint32_t, std::span<const float> heights) -> Result<Done> {
-    std::copy(heights.begin(), heights.end(),
-              grid.heights.begin() + static_cast<std::ptrdiff_t>(first * across));
-    return Done{};
-  };
-  const auto filled = fillVoids(fill);
-  return filled ? *filled : 0;
-}
-
 }  // namespace trimtab::terrain

@@ -7,14 +7,13 @@
 #include <map>
 #include <mutex>
 #include <thread>
-#include <unordered_map>
 
 #include "paint.h"
 #include "texels.h"
 #include "tree.h"
-#include "trimtab/terrain/elevation/import.h"
 #include "trimtab/terrain/format/page_file.h"
 #include "trimtab/terrain/grid/parallel.h"
+#include "trimtab/terrain/grid/post_grid.h"
 #include "trimtab/terrain/grid/progress.h"
 #include "trimtab/terrain/ground/image.h"
 
@@ -71,7 +70,6 @@ class Blocks {
   const GroundShape& shape() const { return shape_; }
   const std::vector<GroundShape::Level>& levels() const { return levels_; }
   std::uint32_t skipped() const { return skipped_; }
-  std::uint32_t blockLevel() const { return blockLevel_; }
 
   /// All blocks in the order of their tiles in a file.
   std::vector<Place> all() const {
@@ -344,22 +342,6 @@ Result<Done> buildBlocks(const Blocks& blocks, std::span<const Place> places, st
   return Done{};
 }
 
-class MemoryPyramid final : public GroundPyramid {
- public:
-  explicit MemoryPyramid(GroundShape shape) : shape_(std::move(shape)) {}
-  const GroundShape& shape() const override { return shape_; }
-  Result<GroundTile> readTile(std::uint32_t level, std::uint32_t column, std::uint32_t row) const override {
-    const auto found = blobs_.find(groundKey(level, column, row));
-    if (found == blobs_.end())
-      return Finding{Severity::error, "ground", "tile", "one of the ground's tiles", "another"};
-    return unpackGroundTile(found->second);
-  }
-  std::unordered_map<std::uint64_t, std::vector<std::byte>> blobs_;
-
- private:
-  GroundShape shape_;
-};
-
 }  // namespace
 
 Findings aboutCover(std::span<const fs::path> images, const GroundCover& cover) {
@@ -409,25 +391,6 @@ Result<Done> buildGround(const GroundSources& sources, const fs::path& file, con
   const auto made = buildGroundPart(sources, 0, 1, file, progress);
   if (!made) return made.findings();
   return Result<Done>(Done{}, made.findings());
-}
-
-Result<std::shared_ptr<const GroundPyramid>> buildGroundInMemory(const GroundSources& sources,
-                                                                 const Progress& progress) {
-  auto blocks = Blocks::make(sources);
-  if (!blocks) return blocks.findings();
-  Findings notes = blocks.findings();
-  auto pyramid = std::make_shared<MemoryPyramid>((*blocks)->shape());
-  const std::vector<Place> all = (*blocks)->all();
-  const AddBlob add = [&](std::uint64_t key, std::span<const std::byte> blob) -> Result<Done> {
-    pyramid->blobs_.emplace(key, std::vector<std::byte>(blob.begin(), blob.end()));
-    return Done{};
-  };
-  if (auto done = buildBlocks(**blocks, all, sources.memory, add, progress); !done) return done.findings();
-  const Findings about = aboutCover(sources.images, (*blocks)->cover());
-  notes.insert(notes.end(), about.begin(), about.end());
-  for (const Finding& finding : about)
-    if (finding.severity == Severity::error) return notes;
-  return Result<std::shared_ptr<const GroundPyramid>>(std::move(pyramid), std::move(notes));
 }
 
 }  // namespace trimtab::terrain

@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <mutex>
 
-#include "trimtab/terrain/elevation/import.h"
 #include "trimtab/terrain/grid/parallel.h"
+#include "trimtab/terrain/grid/post_grid.h"
+#include "trimtab/terrain/grid/progress.h"
 #include "trimtab/terrain/ground/image.h"
 #include "trimtab/terrain/ground/imagery.h"
 

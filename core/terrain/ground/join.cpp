@@ -2,7 +2,6 @@
 
 #include "texels.h"
 #include "tree.h"
-#include "trimtab/terrain/elevation/import.h"
 #include "trimtab/terrain/format/page_file.h"
 #include "trimtab/terrain/grid/progress.h"
 #include "trimtab/terrain/ground/build.h"

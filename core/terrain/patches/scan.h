@@ -39,10 +39,10 @@ class ScanTriangle {
     if (v_[1].y < v_[0].y) std::swap(v_[0], v_[1]);
     const double bx = v_[1].x - v_[0].x, by = v_[1].y - v_[0].y, cx = v_[2].x - v_[0].x,
                  cy = v_[2].y - v_[0].y;
-    area2_ = bx * cy - by * cx;
+    const double area2 = bx * cy - by * cx;
     const double bz = v_[1].z - v_[0].z, cz = v_[2].z - v_[0].z;
-    byColumn_ = (bz * cy - cz * by) / area2_;
-    byRow_ = (bx * cz - cx * bz) / area2_;
+    byColumn_ = (bz * cy - cz * by) / area2;
+    byRow_ = (bx * cz - cx * bz) / area2;
     long_ = cx / cy;
     low_ = by > 0 ? bx / by : 0;
     high_ = cy > by ? (cx - bx) / (cy - by) : 0;
@@ -51,8 +51,6 @@ class ScanTriangle {
   std::int32_t lastRow() const { return v_[2].y; }
   double byColumn() const { return byColumn_; }
   double byRow() const { return byRow_; }
-  /// Returns twice its area, in cells.
-  double area2() const { return std::fabs(area2_); }
 
   /// Adds the errors in rows `first` to `last`, both within the triangle, to `result`; squares only of rows
   /// below `squaresEnd`.
@@ -98,7 +96,7 @@ class ScanTriangle {
   }
 
   ScanVertex v_[3];
-  double area2_, byColumn_, byRow_, long_, low_, high_;
+  double byColumn_, byRow_, long_, low_, high_;
 };
 
 /// Does what edgeError does, for an edge along neither a row nor a column.

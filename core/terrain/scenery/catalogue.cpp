@@ -4,7 +4,6 @@
 #include <cmath>
 #include <set>
 
-#include "trimtab/terrain/elevation/import.h"
 #include "trimtab/terrain/grid/parallel.h"
 #include "trimtab/terrain/grid/progress.h"
 

@@ -5,9 +5,9 @@
 #include <limits>
 #include <numbers>
 
-#include "trimtab/units/number.h"
-#include "trimtab/terrain/elevation/import.h"
+#include "trimtab/terrain/grid/post_grid.h"
 #include "trimtab/terrain/grid/progress.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab::terrain {
 

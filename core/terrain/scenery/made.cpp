@@ -8,9 +8,9 @@
 #include <set>
 #include <string>
 
-#include "trimtab/terrain/elevation/import.h"
 #include "trimtab/terrain/grid/grid_height.h"
 #include "trimtab/terrain/grid/parallel.h"
+#include "trimtab/terrain/grid/post_grid.h"
 #include "trimtab/terrain/grid/progress.h"
 #include "trimtab/terrain/mesh/mesher.h"
 

@@ -2,11 +2,12 @@
 #include <cmath>
 
 #include "landscape.h"
-#include "trimtab/units/number.h"
-#include "trimtab/terrain/elevation/import.h"
 #include "trimtab/terrain/elevation/write_tiff.h"
 #include "trimtab/terrain/grid/post_geometry.h"
+#include "trimtab/terrain/grid/post_grid.h"
+#include "trimtab/terrain/grid/progress.h"
 #include "trimtab/terrain/synthetic/sample.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab::terrain {
 

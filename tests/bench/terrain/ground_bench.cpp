@@ -8,6 +8,7 @@
 #include "core/scene/terrain/ground/ground_texture.h"
 #include "core/scene/terrain/ground/sun.h"
 #include "tests/bench/row.h"
+#include "tests/core/terrain/ground/build_and_open.h"
 #include "tests/support.h"
 #include "trimtab/scene/offscreen.h"
 #include "trimtab/terrain/ground/build.h"
@@ -198,7 +199,7 @@ int main(int argc, char** argv) {
   Report report(argc, argv);
   const Land land(report.quick() ? 2049 : 4097);
   measureBuilding(report, land);
-  const auto ground = buildGroundInMemory(land.sources());
+  const auto ground = test::buildAndOpenGround(land.sources());
   if (ground) measureDrawing(report, *ground);
   return report.finish();
 }

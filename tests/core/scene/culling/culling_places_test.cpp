@@ -2,7 +2,7 @@
 
 #include "culling_truth.h"
 #include "tests/core/terrain/elevation/rasters.h"
-#include "trimtab/terrain/elevation/import.h"
+#include "tests/core/terrain/elevation/read_elevation.h"
 
 /// As culling_views_test.cpp, with the heights around Everest where the earth's coordinates are odd.
 namespace trimtab {
@@ -13,7 +13,7 @@ class CullingPlaces : public test::CullingTruth {
   /// 401 x 401 posts around Everest, elsewhere on the earth, as wide there as they are here.
   void useEverestAt(double west, double south) {
     const auto file = test::sharedDir() / "data/dem-srtm3-everest/N27E086.hgt";
-    const auto whole = terrain::readElevation(file, {});
+    const auto whole = test::readElevation(file);
     ASSERT_TRUE(whole) << toString(whole.findings());
     test::RasterRecipe recipe;
     recipe.columns = recipe.rows = 401;

@@ -6,9 +6,9 @@
 
 #include "patched_terrain.h"
 #include "tests/core/scene/scene_test.h"
+#include "tests/core/terrain/elevation/read_elevation.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
-#include "trimtab/terrain/elevation/import.h"
 
 namespace trimtab {
 namespace {
@@ -265,7 +265,7 @@ class PatchCracks : public test::SceneTest {
 
   static std::shared_ptr<PatchedTerrain> imported(const std::string& folder) {
     const std::filesystem::path source = test::sharedDir() / "data" / folder;
-    auto grid = terrain::importElevation(std::span(&source, 1), {});
+    auto grid = test::importElevation(std::span(&source, 1));
     if (!grid) {
       ADD_FAILURE() << toString(grid.findings());
       return nullptr;

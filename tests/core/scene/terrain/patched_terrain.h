@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "synthetic_terrain.h"
+#include "tests/core/terrain/ground/build_and_open.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/format/patch_layout.h"
 #include "trimtab/terrain/ground/build.h"
@@ -36,7 +37,7 @@ class PatchedTerrain final : public terrain::Database {
     terrain::GroundSources sources;
     sources.heights = &heights;
     sources.geometry = &geometry;
-    ground_ = terrain::buildGroundInMemory(sources).value();
+    ground_ = buildAndOpenGround(sources).value();
   }
 
   /// The same with other patches in place of its own.

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "rasters.h"
-#include "trimtab/terrain/elevation/import.h"
+#include "tests/core/terrain/elevation/read_elevation.h"
 #include "trimtab/terrain/format/patch_layout.h"
 #include "trimtab/terrain/patches/build.h"
 
@@ -160,7 +160,7 @@ TEST_P(HeightsAgainstGdal, differByNoMoreThanThePatchStates) {
   const std::string name = std::string("data/") + source.file;
   TRIMTAB_NEEDS_SHARED(name);
   const fs::path file = test::sharedDir() / name;
-  const auto imported = importElevation(std::span(&file, 1), nullptr);
+  const auto imported = test::importElevation(std::span(&file, 1));
   ASSERT_TRUE(imported);
   const PostGrid& posts = imported->grid.posts;
   const GridHeights heights(imported->grid);

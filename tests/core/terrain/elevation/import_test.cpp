@@ -1,4 +1,4 @@
-#include "trimtab/terrain/elevation/import.h"
+#include "tests/core/terrain/elevation/read_elevation.h"
 
 #include <GeographicLib/UTMUPS.hpp>
 
@@ -13,9 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Result<Imported> importOne(const fs::path& file) {
+Result<test::Imported> importOne(const fs::path& file) {
   const std::vector<fs::path> sources{file};
-  return importElevation(sources, nullptr);
+  return test::importElevation(sources);
 }
 float at(const HeightGrid& grid, std::uint32_t rowFromNorth, std::uint32_t column) {
   return grid.heights[std::size_t{grid.posts.rows - 1 - rowFromNorth} * grid.posts.columns + column];
@@ -167,7 +167,7 @@ TEST(ImportElevation, readsNad83AsItStands) {
 
 class ImportMadeData : public ::testing::Test {
  protected:
-  Result<Imported> import(const test::RasterRecipe& recipe) {
+  Result<test::Imported> import(const test::RasterRecipe& recipe) {
     return importOne(test::writeRaster(dir_ / "made.tif", recipe));
   }
   test::ScratchDir dir_;
@@ -405,7 +405,7 @@ TEST_F(ImportMadeData, listsAllBadFilesNotTheFirst) {
   test::writeFile(dir_ / "a.tif", "x");
   test::writeFile(dir_ / "b.tif", "y");
   const std::vector<fs::path> sources{dir_ / "a.tif", dir_ / "b.tif"};
-  const auto imported = importElevation(sources, nullptr);
+  const auto imported = test::importElevation(sources);
   ASSERT_FALSE(imported);
   EXPECT_TRUE(speaksOf(imported.findings(), "a.tif"));
   EXPECT_TRUE(speaksOf(imported.findings(), "b.tif"));

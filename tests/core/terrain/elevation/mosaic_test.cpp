@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "rasters.h"
-#include "trimtab/terrain/elevation/import.h"
+#include "tests/core/terrain/elevation/read_elevation.h"
 
 namespace trimtab::terrain {
 namespace {
@@ -19,11 +19,11 @@ test::RasterRecipe part(int column, int row, int columns, int rows) {
 
 class Mosaic : public ::testing::Test {
  protected:
-  Result<Imported> join(const std::vector<test::RasterRecipe>& recipes) {
+  Result<test::Imported> join(const std::vector<test::RasterRecipe>& recipes) {
     std::vector<std::filesystem::path> files;
     for (const auto& recipe : recipes)
       files.push_back(test::writeRaster(dir_ / (std::to_string(files.size()) + ".tif"), recipe));
-    return importElevation(files, nullptr);
+    return test::importElevation(files);
   }
   test::ScratchDir dir_;
 };
@@ -128,7 +128,7 @@ TEST_F(Mosaic, readsAFolderAndLeavesImagesOut) {
   std::filesystem::create_directory(dir_ / "more");
   test::writeRaster(dir_.path() / "more/b.tif", part(50, 0, 50, 80));
   const std::vector<std::filesystem::path> folder{dir_.path()};
-  const auto joined = importElevation(folder, nullptr);
+  const auto joined = test::importElevation(folder);
   ASSERT_TRUE(joined) << toString(joined.findings());
   EXPECT_EQ(joined->grid.posts.columns, 100u);
 }

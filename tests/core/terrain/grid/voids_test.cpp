@@ -8,6 +8,8 @@
 #include <functional>
 #include <limits>
 
+#include "tests/core/terrain/grid/fill_grid.h"
+
 namespace trimtab::terrain {
 namespace {
 
@@ -23,7 +25,7 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 TEST(FillVoids, leavesGroundWithoutVoidsAlone) {
   HeightGrid grid = plane(40, 30);
   const auto before = grid.heights;
-  EXPECT_EQ(fillVoids(grid), 0u);
+  EXPECT_EQ(test::fillVoids(grid), 0u);
   EXPECT_EQ(grid.heights, before);
 }
 
@@ -33,7 +35,7 @@ TEST(FillVoids, continuesASlopeThroughAHole) {
   std::uint64_t made = 0;
   for (std::uint32_t r = 30; r < 62; ++r)
     for (std::uint32_t c = 40; c < 75; ++c) grid.heights[r * 120 + c] = kNaN, ++made;
-  EXPECT_EQ(fillVoids(grid), made);
+  EXPECT_EQ(test::fillVoids(grid), made);
   // A plane is its own membrane; the rest of the sweeps may be a few metres of the 135 m across the hole.
   for (std::size_t i = 0; i < whole.size(); ++i) ASSERT_NEAR(grid.heights[i], whole[i], 4) << i;
 }
@@ -45,7 +47,7 @@ TEST(FillVoids, staysWithinTheHeightsAround) {
   float low = 1e9f, high = -1e9f;
   for (const float h : grid.heights)
     if (!std::isnan(h)) low = std::min(low, h), high = std::max(high, h);
-  EXPECT_GT(fillVoids(grid), 4000u);
+  EXPECT_GT(test::fillVoids(grid), 4000u);
   for (const float h : grid.heights) {
     ASSERT_GE(h, low);
     ASSERT_LE(h, high);
@@ -55,7 +57,7 @@ TEST(FillVoids, staysWithinTheHeightsAround) {
 TEST(FillVoids, makesSeaOfNothing) {
   HeightGrid grid = plane(9, 7);
   std::fill(grid.heights.begin(), grid.heights.end(), kNaN);
-  EXPECT_EQ(fillVoids(grid), 63u);
+  EXPECT_EQ(test::fillVoids(grid), 63u);
   for (const float h : grid.heights) EXPECT_EQ(h, 0);
 }
 
@@ -63,7 +65,7 @@ TEST(FillVoids, fillsFromASinglePost) {
   HeightGrid grid = plane(33, 65);
   std::fill(grid.heights.begin(), grid.heights.end(), kNaN);
   grid.heights[700] = 42;
-  EXPECT_EQ(fillVoids(grid), 33u * 65 - 1);
+  EXPECT_EQ(test::fillVoids(grid), 33u * 65 - 1);
   for (const float h : grid.heights) ASSERT_NEAR(h, 42, 1e-3);
 }
 
@@ -162,7 +164,7 @@ TEST(FillVoids, isTheWholeMembraneToTheBitWhateverTheShape) {
     EXPECT_EQ(*filled, voids) << shape.name;
     EXPECT_EQ(kept, expected) << shape.name;
     EXPECT_LE(written, shape.rows);
-    EXPECT_EQ(fillVoids(grid), voids);
+    EXPECT_EQ(test::fillVoids(grid), voids);
     EXPECT_EQ(grid.heights, expected) << shape.name;
   }
 }

@@ -1,7 +1,8 @@
 #include <cmath>
 
 #include "ground_support.h"
-#include "trimtab/terrain/elevation/import.h"
+#include "tests/core/terrain/elevation/read_elevation.h"
+#include "tests/core/terrain/ground/build_and_open.h"
 #include "trimtab/terrain/ground/image.h"
 
 namespace trimtab::terrain {
@@ -93,7 +94,7 @@ int expectDraped(const GroundPyramid& pyramid, const PostGrid& posts, const fs::
 class GroundImages : public ::testing::Test {
  protected:
   static std::shared_ptr<const GroundPyramid> draped(const GroundSources& sources) {
-    const auto pyramid = buildGroundInMemory(sources);
+    const auto pyramid = test::buildAndOpenGround(sources);
     EXPECT_TRUE(pyramid) << toString(pyramid.findings());
     return pyramid ? *pyramid : nullptr;
   }
@@ -273,7 +274,7 @@ TEST_F(GroundImages, withoutAPlaceOnEarthAreRefused) {
   const auto refusal = [&](const fs::path& file) {
     GroundSources sources = land.sources();
     sources.images = {file};
-    const auto pyramid = buildGroundInMemory(sources);
+    const auto pyramid = test::buildAndOpenGround(sources);
     EXPECT_FALSE(pyramid) << file;
     return toString(pyramid.findings());
   };
@@ -305,7 +306,7 @@ TEST_F(GroundImages, withoutAPlaceOnEarthAreRefused) {
 /// Elevation of a file as land to drape on.
 std::unique_ptr<GroundLand> landOf(const fs::path& file) {
   const std::vector<fs::path> sources{file};
-  auto imported = importElevation(sources, {});
+  auto imported = test::importElevation(sources);
   EXPECT_TRUE(imported) << toString(imported.findings());
   if (!imported) return nullptr;
   auto land = std::make_unique<GroundLand>((*imported).grid.posts);
@@ -343,7 +344,7 @@ TEST_F(GroundImages, ofTheWholeEarthNeedAPlaceAndThenLieOnIt) {
   GroundLand land(500, 500, 85, 25, 0.02);
   GroundSources sources = land.sources();
   sources.images = {test::sharedDir() / "data/imagery-global/earth-blue-marble.jpg"};
-  const auto refused = buildGroundInMemory(sources);
+  const auto refused = test::buildAndOpenGround(sources);
   ASSERT_FALSE(refused);
   EXPECT_NE(toString(refused.findings()).find("georeference"), std::string::npos);
   fs::copy_file(sources.images[0], dir_ / "earth.jpg");

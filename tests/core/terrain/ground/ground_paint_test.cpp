@@ -5,6 +5,7 @@
 #include <set>
 
 #include "ground_support.h"
+#include "tests/core/terrain/ground/build_and_open.h"
 
 namespace trimtab::terrain {
 namespace {
@@ -60,7 +61,7 @@ std::shared_ptr<const GroundPyramid> painted(GroundLand& land, std::span<const G
   const Everywhere all(triangles);
   sources.triangles = &all;
   sources.texelsPerPost = texels;
-  auto pyramid = buildGroundInMemory(sources);
+  auto pyramid = test::buildAndOpenGround(sources);
   EXPECT_TRUE(pyramid) << toString(pyramid.findings());
   return pyramid ? *pyramid : nullptr;
 }
@@ -179,7 +180,7 @@ TEST(GroundPaint, imagesLieOverMaterials) {
   const Everywhere all(triangles);
   sources.triangles = &all;
   sources.texelsPerPost = 1;
-  const auto pyramid = buildGroundInMemory(sources);
+  const auto pyramid = test::buildAndOpenGround(sources);
   ASSERT_TRUE(pyramid);
   for (std::uint32_t l = 0; l < 2; ++l) {
     const Picture level = test::readLevel(**pyramid, l);

@@ -1,3 +1,4 @@
+#include "tests/core/terrain/ground/build_and_open.h"
 #include "trimtab/terrain/format/ground_pyramid.h"
 
 #include <GeographicLib/LocalCartesian.hpp>
@@ -58,7 +59,7 @@ void expectHalved(const Picture& fine, const Picture& coarse) {
 }
 
 std::shared_ptr<const GroundPyramid> built(const GroundSources& sources) {
-  auto pyramid = buildGroundInMemory(sources);
+  auto pyramid = test::buildAndOpenGround(sources);
   EXPECT_TRUE(pyramid) << toString(pyramid.findings());
   return pyramid ? *pyramid : nullptr;
 }

@@ -33,7 +33,7 @@ HeightGrid fractal(const PostGrid& posts, unsigned seed, double reliefM, double 
 
 HeightGrid imported(const std::string& file) {
   const std::vector<std::filesystem::path> sources{sharedDir() / file};
-  auto read = importElevation(sources, {});
+  auto read = importElevation(sources);
   return read ? std::move((*read).grid) : HeightGrid{};
 }
 

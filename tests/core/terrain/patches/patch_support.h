@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "tests/core/terrain/elevation/read_elevation.h"
 #include "tests/support.h"
-#include "trimtab/terrain/elevation/import.h"
 #include "trimtab/terrain/format/patch_shape.h"
 #include "trimtab/terrain/patches/build.h"
 

@@ -8,7 +8,7 @@
 #include "core/terrain/bake/heights.h"
 #include "scenery_grid.h"
 #include "scenery_tiles.h"
-#include "trimtab/terrain/grid/voids.h"
+#include "tests/core/terrain/grid/fill_grid.h"
 #include "trimtab/terrain/scenery/import.h"
 #include "trimtab/terrain/scenery/made.h"
 #include "trimtab/terrain/static_lod/lattice.h"
@@ -120,7 +120,7 @@ Result<Merged> merged(terrain::Scenery scenery, const HeightGrid& elevation, std
   all.grid.posts = *posts;
   all.grid.heights.resize(posts->size());
   if (auto read = (*heights)->readRows(0, posts->rows, all.grid.heights); !read) return read.findings();
-  terrain::fillVoids(all.grid);
+  test::fillVoids(all.grid);
   const terrain::GridHeights baked(all.grid);
   const auto where = terrain::elevationsPart(*posts, elevation.posts);
   if (auto made = terrain::makeTiles(tiles, baked, where, {}); !made) return made.findings();

@@ -3,7 +3,7 @@
 #include <set>
 
 #include "tests/core/terrain/elevation/rasters.h"
-#include "trimtab/terrain/elevation/import.h"
+#include "tests/core/terrain/elevation/read_elevation.h"
 #include "trimtab/terrain/ground/imagery.h"
 #include "trimtab/terrain/synthetic/sample.h"
 
@@ -31,7 +31,7 @@ class LandPicture : public ::testing::Test {
   Seen paint(const LandPictureOptions& options) {
     const auto done = writeLandPicture(land_, picture_, options);
     EXPECT_TRUE(done) << toString(done.findings());
-    auto land = readElevation(land_, nullptr);
+    auto land = test::readElevation(land_);
     EXPECT_TRUE(land) << toString(land.findings());
     auto seen = readImagery(picture_, land->posts, nullptr);
     EXPECT_TRUE(seen) << toString(seen.findings());

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "tests/core/terrain/elevation/rasters.h"
-#include "trimtab/terrain/elevation/import.h"
+#include "tests/core/terrain/elevation/read_elevation.h"
 #include "trimtab/terrain/synthetic/sample.h"
 
 namespace trimtab::terrain {
@@ -13,7 +13,7 @@ class Sample : public ::testing::Test {
   HeightGrid make(const SampleOptions& options) {
     const auto done = writeSample(dir_ / "sample.tif", options);
     EXPECT_TRUE(done) << toString(done.findings());
-    auto grid = readElevation(dir_ / "sample.tif", nullptr);
+    auto grid = test::readElevation(dir_ / "sample.tif");
     EXPECT_TRUE(grid) << toString(grid.findings());
     return grid ? std::move(grid).value() : HeightGrid{};
   }

@@ -10,11 +10,7 @@
 
 namespace trimtab::terrain {
 
-/// Replaces NaN by a smooth surface (a membrane) through the heights around each void, and returns how many
-/// posts were filled. If all posts are voids, they become 0 m.
-std::uint64_t fillVoids(HeightGrid& grid);
-
-/// The same for heights that are not in memory, with the same result to the bit for voids of any width.
+/// Heights whose voids are filled. They need not be in memory.
 struct VoidFill {
   std::uint32_t columns = 0, rows = 0;
   /// Reads rows [first, first + rows). All rows are read twice, each time from the first to the last.
@@ -29,7 +25,8 @@ struct VoidFill {
   std::size_t memory = std::size_t{64} << 20;
   std::function<bool(double fraction)> carryOn;
 };
-/// Returns how many posts were filled.
+/// Replaces NaN by a smooth surface (a membrane) through the heights around each void, and returns how many
+/// posts were filled. If all posts are voids, they become 0 m. The result does not depend on `memory`.
 Result<std::uint64_t> fillVoids(const VoidFill& fill);
 
 }  // namespace trimtab::terrain

@@ -55,8 +55,4 @@ Result<GroundCover> buildGroundPart(const GroundSources& sources, std::uint32_t 
 Result<Done> joinGround(std::span<const std::filesystem::path> parts, const std::filesystem::path& file,
                         const Progress& progress);
 
-/// Builds the whole pyramid in memory.
-Result<std::shared_ptr<const GroundPyramid>> buildGroundInMemory(const GroundSources& sources,
-                                                                 const Progress& progress = {});
-
 }  // namespace trimtab::terrain
