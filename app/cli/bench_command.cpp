@@ -59,13 +59,6 @@ std::string nameOf(const std::string& text, const std::vector<Named>& others) {
   return stem.empty() ? text : stem;
 }
 
-bool isTraceFile(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string header;
-  std::getline(in, header);
-  return isTrace(header);
-}
-
 bool readFlights(const Arguments& arguments, harness::Plan& plan) {
   bool usable = true;
   for (const std::string& file : arguments.flights) {

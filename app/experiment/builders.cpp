@@ -9,6 +9,7 @@
 #include "trimtab/terrain/format/patch_terrain.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
 #include "trimtab/terrain/static_lod/error.h"
+#include "trimtab/terrain/static_lod/lattice.h"
 #include "trimtab/terrain/static_lod/level.h"
 
 namespace trimtab::experiment {
@@ -88,20 +89,6 @@ void gather(const terrain::PatchMesh& mesh, std::size_t variant, const VerticalD
   cut.vertices += inside.size();
 }
 
-/// Each place once: patches share their borders.
-void weld(LatticeSurface& surface) {
-  std::map<Lattice, std::uint32_t> numbers;
-  std::vector<Lattice> vertices;
-  for (auto& t : surface.triangles)
-    for (std::uint32_t& v : t) {
-      const auto [at, isNew] =
-          numbers.try_emplace(surface.vertices[v], static_cast<std::uint32_t>(vertices.size()));
-      if (isNew) vertices.push_back(surface.vertices[v]);
-      v = at->second;
-    }
-  surface.vertices = std::move(vertices);
-}
-
 }  // namespace
 
 std::vector<BuilderLevel> treeLevels(const terrain::StaticLodTerrain& trees, std::size_t tile) {
@@ -147,7 +134,7 @@ std::vector<BuilderLevel> patchLevels(const terrain::Database& terrain,
     for (auto v = static_cast<std::uint32_t>(index.variants()); v-- > 0;) {
       Cut& cut = of[v];
       if (cut.triangles == 0) continue;
-      weld(cut.surface);
+      terrain::weld(cut.surface.vertices, cut.surface.triangles);  // patches share their borders
       BuilderLevel& one = all.emplace_back(BuilderLevel{depth, v, against(source, toSource, cut.surface)});
       one.error.triangles = cut.triangles;
       one.error.bytes =

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bars.h"
 #include "published.h"
 #include "stage.h"
 #include "trimtab/frame/frame_request.h"
@@ -48,39 +49,33 @@ FrameRequest requestAt(const Setup& setup, const ValidatedParameters& parameters
   return request;
 }
 
-Plot barsOf(const char* file, const char* title, const char* yLabel, const Table& table, const char* column) {
+Plot casesOf(const char* file, const char* title, const char* yLabel, const Table& table,
+             const char* column) {
   Plot plot{file, title, "altitude (ft)", yLabel, {}, {}};
   for (const double altitude : kAltitudesFt) {
     char text[16];
     std::snprintf(text, sizeof text, "%.0f", altitude);
     plot.categories.push_back(text);
   }
-  for (const Case& c : kCases) {
-    Series series{c.name, {}, {}};
-    for (std::size_t row = 0; row < table.rows.size(); ++row)
-      if (table.text(row, "case") == c.name) series.y.push_back(table.number(row, column));
-    plot.series.push_back(std::move(series));
-  }
+  for (const Case& c : kCases) plot.series.push_back(barsOf(c.name, table, column, "case", c.name));
   return plot;
 }
 
 /// Triangles of each case as a share of the plain case's, published and ours.
 Plot sharesOf(const Table& published, const Table& measured) {
-  Plot plot = barsOf("culling-triangles", "Triangles drawn, as a share of the unculled scene", "share",
-                     measured, "triangles");
+  Plot plot = casesOf("culling-triangles", "Triangles drawn, as a share of the unculled scene", "share",
+                      measured, "triangles");
   plot.series.clear();
-  for (const auto& [table, whose] : {std::pair{&published, "published"}, std::pair{&measured, "measured"}})
+  for (const auto& [table, whose] : {std::pair{&published, "published"}, std::pair{&measured, "measured"}}) {
+    const Series plain = barsOf("none", *table, "triangles", "case", "none");
     for (std::size_t c = 1; c < kCases.size(); ++c) {
-      Series series{std::string(kCases[c].name) + ", " + whose, {}, {}};
-      std::vector<double> plain;
-      for (std::size_t row = 0; row < table->rows.size(); ++row) {
-        if (table->text(row, "case") == "none") plain.push_back(table->number(row, "triangles"));
-        if (table->text(row, "case") == kCases[c].name)
-          series.y.push_back(table->number(row, "triangles") / plain[series.y.size()]);
-      }
+      const std::string name = kCases[c].name;
+      Series series = barsOf(name + ", " + whose, *table, "triangles", "case", name);
+      for (std::size_t i = 0; i < series.y.size(); ++i) series.y[i] /= plain.y[i];
       if (series.y.empty()) continue;  // ours is not published
       plot.series.push_back(std::move(series));
     }
+  }
   return plot;
 }
 
@@ -147,7 +142,7 @@ Result<Report> runCulling(const Setup& setup) {
       "Proposed is as published, with a depth map; ours is the same decision with a horizon about the eye."};
   report.plots = {
       sharesOf(report.published, report.measured),
-      barsOf("culling-frame-ms", "Frame time, measured", "frame time (ms)", report.measured, "frame_ms")};
+      casesOf("culling-frame-ms", "Frame time, measured", "frame time (ms)", report.measured, "frame_ms")};
   return report;
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bars.h"
 #include "head_motion_run.h"
 #include "stage.h"
 #include "trimtab/frame/frame_request.h"
@@ -49,16 +50,14 @@ double testedWithinFt(const std::function<FrameDecision(double feet)>& decide) {
 }
 
 /// Bars of one column for each loop.
-Plot barsOf(const char* file, const char* title, const char* label, const Table& table, const char* column) {
+Plot loopsOf(const char* file, const char* title, const char* label, const Table& table, const char* column) {
   Plot plot{file, title, "terrain, pitch, altitude", label, {}, {}};
-  for (const char* loop : kLoops) plot.series.push_back({loop, {}, {}});
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    const std::size_t loop = row % kLoops.size();
-    plot.series[loop].y.push_back(table.number(row, column));
+  for (const char* loop : kLoops) plot.series.push_back(barsOf(loop, table, column, "decision", loop));
+  for (std::size_t row = 0; row < table.rows.size(); row += kLoops.size()) {
     char text[64];
     std::snprintf(text, sizeof text, "%s, %.0f deg, %.0f ft", table.text(row, "terrain").c_str(),
                   table.number(row, "pitch_deg"), table.number(row, "altitude_ft"));
-    if (loop == 0) plot.categories.push_back(text);
+    plot.categories.push_back(text);
   }
   return plot;
 }
@@ -144,10 +143,10 @@ Result<Report> runCullingPerNode(const Setup& setup) {
                   "maps_drawn counts the views in which a depth map shaped the picture; differing_pixels "
                   "compares with view "
                   "frustum culling."};
-  report.plots = {barsOf("culling-per-node-frame-ms", "Frame time, decided by frame and by node",
-                         "frame time (ms)", report.measured, "frame_ms"),
-                  barsOf("culling-per-node-triangles", "Triangles, decided by frame and by node", "triangles",
-                         report.measured, "triangles")};
+  report.plots = {loopsOf("culling-per-node-frame-ms", "Frame time, decided by frame and by node",
+                          "frame time (ms)", report.measured, "frame_ms"),
+                  loopsOf("culling-per-node-triangles", "Triangles, decided by frame and by node",
+                          "triangles", report.measured, "triangles")};
   return report;
 }
 

@@ -49,9 +49,7 @@ int dwellEnds(const MotionRun& run) {
 int addRows(Table& table, const std::string& form, const MotionRuns& runs) {
   const int from = std::min(dwellEnds(runs[1]), kStill + kSweep - 1), to = kStill + kSweep;
   const auto row = [&](const char* quantity, const auto& valueOf) {
-    std::vector<Cell> cells{form, std::string(quantity)};
-    for (const MotionRun& run : runs) cells.emplace_back(valueOf(run));
-    table.rows.push_back(std::move(cells));
+    addRow(table, form, quantity, runs, valueOf);
   };
   const auto slowest = [&](const MotionRun& r) { return 1000 / quantileOf(part(r.medians(), from, to), 1); };
   row("fps_max", [](const MotionRun& r) { return 1000 / quantileOf(r.medians(), 0); });
@@ -92,7 +90,7 @@ Result<Report> runHeadMotion(const Setup& setup) {
   auto stage = Stage::open(setup);
   if (!stage) return stage.findings();
   Report report{"head-motion", "C: results", (*stage)->machine(), publishedHeadMotion(), {}, {}, {}};
-  report.measured.columns = {"terrain", "quantity", "before", "lod_scale_and_blur", "with_restoration"};
+  report.measured.columns = motionColumns();
   const auto kept = [](int i) { return i >= kStill && i < kStill + kSweep && (i - kStill) % kCompared == 0; };
   for (const TerrainForm form : formsOf(setup)) {
     const std::string name = nameOf(form);

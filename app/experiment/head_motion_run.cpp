@@ -106,6 +106,19 @@ std::string nameOf(TerrainForm form) {
   return std::string(findRow("static_lod.terrain")->choices[static_cast<std::size_t>(form)].name);
 }
 
+std::vector<std::string> motionColumns() {
+  std::vector<std::string> columns{"terrain", "quantity"};
+  for (const MotionMode& mode : kMotionModes) columns.emplace_back(mode.name);
+  return columns;
+}
+
+void addRow(Table& table, const std::string& form, const char* quantity, const MotionRuns& runs,
+            const std::function<double(const MotionRun&)>& valueOf) {
+  std::vector<Cell> cells{form, std::string(quantity)};
+  for (const MotionRun& run : runs) cells.emplace_back(valueOf(run));
+  table.rows.push_back(std::move(cells));
+}
+
 Plot motionPlot(const std::string& file, const std::string& title, const std::string& label,
                 const MotionRuns& runs, const std::function<std::vector<double>(const MotionRun&)>& values) {
   Plot plot{file, title, "time (s)", label, {}, {}};

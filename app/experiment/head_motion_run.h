@@ -54,6 +54,12 @@ Result<MotionRuns> flyHead(Stage& stage, const Setup& setup, const HeadProfile& 
 std::vector<TerrainForm> formsOf(const Setup& setup);
 std::string nameOf(TerrainForm form);
 
+/// Returns the columns of the tables of these experiments: what was measured over what, and each mode.
+std::vector<std::string> motionColumns();
+/// Adds a row of one quantity.
+void addRow(Table& table, const std::string& form, const char* quantity, const MotionRuns& runs,
+            const std::function<double(const MotionRun&)>& valueOf);
+
 /// Returns one line for each mode over the profile's time.
 Plot motionPlot(const std::string& file, const std::string& title, const std::string& label,
                 const MotionRuns& runs, const std::function<std::vector<double>(const MotionRun&)>& values);

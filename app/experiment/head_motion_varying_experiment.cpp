@@ -64,9 +64,7 @@ double changes(const std::vector<double>& values) {
 
 void addRows(Table& table, const std::string& form, const MotionRuns& runs) {
   const auto row = [&](const char* quantity, const auto& valueOf) {
-    std::vector<Cell> cells{form, std::string(quantity)};
-    for (const MotionRun& run : runs) cells.emplace_back(valueOf(run));
-    table.rows.push_back(std::move(cells));
+    addRow(table, form, quantity, runs, valueOf);
   };
   row("fps_max", [](const MotionRun& r) { return 1000 / quantileOf(r.medians(), 0); });
   row("fps_min", [](const MotionRun& r) { return 1000 / quantileOf(r.medians(), 1); });
@@ -105,7 +103,7 @@ Result<Report> runHeadMotionVarying(const Setup& setup) {
   // Figure 10's counts are printed in the text; Figure 9 has no numbers.
   report.published = {{"quantity", "before", "lod_scale_and_blur", "with_restoration"},
                       {{"vertices_mean", 44000.0, 31000.0, 36000.0}}};
-  report.measured.columns = {"terrain", "quantity", "before", "lod_scale_and_blur", "with_restoration"};
+  report.measured.columns = motionColumns();
   report.plots.push_back(motionOf(profile));
   for (const TerrainForm form : formsOf(setup)) {
     const std::string name = nameOf(form);

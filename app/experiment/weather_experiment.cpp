@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bars.h"
 #include "published.h"
 #include "stage.h"
 #include "trimtab/scene/weather_cut_error.h"
@@ -21,15 +22,14 @@ Plot plotOf(const Table& table, const char* fall) {
             "vertices in view, density",
             "frame rate (1/s)",
             {},
-            {{"fixed ratio", {}, {}}, {"adaptive", {}, {}}}};
+            {barsOf("fixed ratio", table, "fps_fixed_ratio", "precipitation", fall),
+             barsOf("adaptive", table, "fps_adaptive", "precipitation", fall)}};
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     if (table.text(row, "precipitation") != fall) continue;
     char text[48];
     std::snprintf(text, sizeof text, "%.0fk %s", table.number(row, "vertices") / 1000,
                   table.text(row, "density").c_str());
     plot.categories.push_back(text);
-    plot.series[0].y.push_back(table.number(row, "fps_fixed_ratio"));
-    plot.series[1].y.push_back(table.number(row, "fps_adaptive"));
   }
   return plot;
 }

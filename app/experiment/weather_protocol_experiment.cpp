@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <map>
 
+#include "bars.h"
 #include "published.h"
 #include "stage.h"
 #include "trimtab/terrain/grid/progress.h"
@@ -32,14 +33,13 @@ Plot plotOf(const Table& table) {
             "calibrated at > applied at, precipitation, density",
             "frame time over that of the clear frame",
             {},
-            {{"with the ratio", {}, {}}}};
+            {barsOf("with the ratio", table, "frame_ms_ratio")}};
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     char text[80];
     std::snprintf(text, sizeof text, "%.0fk > %.0fk %s %s", table.number(row, "calibrated_at") / 1000,
                   table.number(row, "applied_at") / 1000, table.text(row, "precipitation").c_str(),
                   table.text(row, "density").c_str());
     plot.categories.push_back(text);
-    plot.series[0].y.push_back(table.number(row, "frame_ms_ratio"));
   }
   return plot;
 }

@@ -1,7 +1,6 @@
 #include "feed.h"
 
 #include <algorithm>
-#include <fstream>
 #include <iostream>
 #include <limits>
 #include <string>
@@ -98,14 +97,6 @@ class LinkFeed : public Feed {
   std::unique_ptr<link::Receiver> receiver_;
   std::vector<ReceivedState> states_;
 };
-
-bool isTraceFile(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string start(8192, '\0');
-  in.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(in.gcount()));
-  return isTrace(start);
-}
 
 Result<std::unique_ptr<Feed>> openFlight(const Options& options) {
   const auto empty = [&options] {

@@ -1,6 +1,7 @@
 #include "trimtab/measure/trace.h"
 
 #include <algorithm>
+#include <fstream>
 #include <iterator>
 #include <limits>
 #include <type_traits>
@@ -169,6 +170,13 @@ bool isTrace(std::string_view text) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
   return has("packet") && has("total_membership");
+}
+
+bool isTraceFile(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string header;
+  std::getline(in, header);
+  return isTrace(header);
 }
 
 Result<std::vector<TraceRow>> parseTrace(std::string_view text, const std::string& where) {

@@ -75,19 +75,8 @@ std::vector<Lattice> positionsOf(const SceneryMesh& mesh, const LocalFrame& fram
 
 /// Gives vertices of one place one number, drops triangles that this or the file made degenerate, and those
 /// that say the same again.
-void weld(LatticeTile& tile, LatticeTiles& counts) {
-  std::unordered_map<Lattice, std::uint32_t, LatticeHash> number;
-  number.reserve(tile.vertices.size());
-  std::vector<Lattice> vertices;
-  for (auto& t : tile.triangles)
-    for (std::uint32_t& v : t) {
-      const auto [found, isNew] =
-          number.try_emplace(tile.vertices[v], static_cast<std::uint32_t>(vertices.size()));
-      if (isNew) vertices.push_back(tile.vertices[v]);
-      v = found->second;
-    }
-  tile.vertices = std::move(vertices);
-
+void weldTile(LatticeTile& tile, LatticeTiles& counts) {
+  weld(tile.vertices, tile.triangles);
   std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> turned;  // smallest corner first
   for (std::uint32_t i = 0; i < tile.triangles.size(); ++i) {
     std::array<std::uint32_t, 3> t = tile.triangles[i];
@@ -193,6 +182,19 @@ void addNormals(LatticeTile& tile) {
 
 }  // namespace
 
+void weld(std::vector<Lattice>& vertices, std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  std::unordered_map<Lattice, std::uint32_t, LatticeHash> number;
+  number.reserve(vertices.size());
+  std::vector<Lattice> welded;
+  for (auto& t : triangles)
+    for (std::uint32_t& v : t) {
+      const auto [found, isNew] = number.try_emplace(vertices[v], static_cast<std::uint32_t>(welded.size()));
+      if (isNew) welded.push_back(vertices[v]);
+      v = found->second;
+    }
+  vertices = std::move(welded);
+}
+
 double slopeOf(const Lattice& a, const Lattice& b, const Lattice& c) {
   const Vec3 n = cross(b.metres() - a.metres(), c.metres() - a.metres());
   if (!(n.z > 0)) return kVerticalSlope;
@@ -223,7 +225,7 @@ Result<LatticeTiles> toLattice(std::span<const SceneryMesh> meshes, const LocalF
     if (materials.size() > 0xffff)
       return Finding{Severity::error, mesh.name, "materials", "at most 65535",
                      std::to_string(materials.size())};
-    weld(tile, all);
+    weldTile(tile, all);
     if (tile.triangles.empty()) {
       findings.push_back({Severity::warning, mesh.name, "triangles", "at least one", "none"});
       continue;
@@ -231,7 +233,7 @@ Result<LatticeTiles> toLattice(std::span<const SceneryMesh> meshes, const LocalF
     const std::vector<std::uint8_t> open = openVertices(tile);
     for (std::size_t i = 0; i < open.size(); ++i)
       if (open[i]) tile.vertices[i] = places.near(tile.vertices[i]).at;
-    weld(tile, all);
+    weldTile(tile, all);
     if (!tile.triangles.empty()) all.tiles.push_back(std::move(tile));
   }
   if (all.tiles.empty()) {

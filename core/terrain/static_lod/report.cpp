@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "faces.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
 #include "trimtab/terrain/static_lod/level.h"
 #include "trimtab/terrain/static_lod/static_lod.h"
@@ -21,23 +22,15 @@ LeafRange leafRange(std::uint64_t n, LeafReading reading) {
   return {std::max<std::uint64_t>(1, n / 2), n};
 }
 
-/// Counts by place, because a vertex is stored once a material, and a collapse may put a new vertex where an
-/// older one was.
 std::uint64_t distinctFaces(const StaticLodTile& tile) {
-  using Place = std::array<float, 3>;
-  std::vector<std::pair<std::array<Place, 3>, std::uint16_t>> faces;
-  faces.reserve(tile.material.size());
-  for (std::size_t t = 0; t < tile.material.size(); ++t) {
-    std::array<Place, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const StaticLodVertex& v = tile.vertices[tile.indices[3 * t + k]];
-      corners[k] = {v.x, v.y, v.z};
-    }
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    faces.push_back({corners, tile.material[t]});
-  }
-  std::sort(faces.begin(), faces.end());
-  return static_cast<std::uint64_t>(std::unique(faces.begin(), faces.end()) - faces.begin());
+  FaceCount<std::array<float, 3>> faces;
+  const auto place = [&](std::size_t i) {
+    const StaticLodVertex& v = tile.vertices[tile.indices[i]];
+    return std::array<float, 3>{v.x, v.y, v.z};
+  };
+  for (std::size_t t = 0; t < tile.material.size(); ++t)
+    faces.add({place(3 * t), place(3 * t + 1), place(3 * t + 2)}, tile.material[t]);
+  return faces.distinct();
 }
 
 }  // namespace

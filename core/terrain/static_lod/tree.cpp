@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "collapse.h"
+#include "faces.h"
 #include "surface.h"
 
 namespace trimtab::terrain {
@@ -18,23 +19,14 @@ using Index = std::uint32_t;
 
 /// Faces that several nodes have count once.
 std::uint64_t distinctFaces(const LodTree& tree) {
-  struct Face {  // by place: a vertex may come to lie where one was before
-    std::array<Lattice, 3> corners;
-    std::uint16_t material;
-    auto operator<=>(const Face&) const = default;
-  };
-  std::vector<Face> faces;
+  FaceCount<Lattice> faces;
   for (const LodTree::Node& node : tree.nodes)
     for (std::size_t t = 0; t < node.triangles.size(); ++t) {
       const auto& corners = node.triangles[t];
-      Face face{{tree.vertices[corners[0]], tree.vertices[corners[1]], tree.vertices[corners[2]]},
-                node.material[t]};
-      std::rotate(face.corners.begin(), std::min_element(face.corners.begin(), face.corners.end()),
-                  face.corners.end());
-      faces.push_back(face);
+      faces.add({tree.vertices[corners[0]], tree.vertices[corners[1]], tree.vertices[corners[2]]},
+                node.material[t]);
     }
-  std::sort(faces.begin(), faces.end());
-  return static_cast<std::uint64_t>(std::unique(faces.begin(), faces.end()) - faces.begin());
+  return faces.distinct();
 }
 
 class Builder {

@@ -69,6 +69,8 @@ Result<std::vector<TraceRow>> parseTrace(std::string_view text, const std::strin
 /// Reports whether the first line of a text is the header of a trace; unlike a flight's it has the columns
 /// `packet` and `total_membership`.
 bool isTrace(std::string_view text);
+/// Reports the same of a file; false if it cannot be read.
+bool isTraceFile(const std::filesystem::path& file);
 
 /// A row that is decided differently when it is decided again.
 struct TraceDifference {

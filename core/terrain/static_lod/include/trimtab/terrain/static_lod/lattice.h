@@ -31,6 +31,9 @@ constexpr std::int64_t orientation(const Lattice& a, const Lattice& b, const Lat
 double slopeOf(const Lattice& a, const Lattice& b, const Lattice& c);
 inline constexpr double kVerticalSlope = 1e6;
 
+/// Gives all vertices of one place one number, in the order in which triangles first name them.
+void weld(std::vector<Lattice>& vertices, std::vector<std::array<std::uint32_t, 3>>& triangles);
+
 /// A tile's triangles on the lattice, every vertex once.
 struct LatticeTile {
   std::string name;
