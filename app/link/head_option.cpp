@@ -9,8 +9,9 @@ Result<HeadLog> openHeadOption(const std::string& head, bool skipBadRows) {
   const Result<HeadLog> rest = openHead(head, BadRows::leave_out);
   if (!rest) return log;
   Findings findings = log.findings();
-  findings.push_back({Severity::note, head, "--skip-bad-rows", "the option, to use the other rows",
-                      "not given: it leaves " + std::to_string(rest->rowsLeftOut) + " rows out"});
+  const std::string rows = std::to_string(rest->rowsLeftOut) + (rest->rowsLeftOut == 1 ? " row" : " rows");
+  findings.push_back(
+      {Severity::note, head, "--skip-bad-rows", "this option, to leave " + rows + " out", "none"});
   return findings;
 }
 

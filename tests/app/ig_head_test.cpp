@@ -90,7 +90,7 @@ TEST_F(IgHead, saysWhichOptionLeavesBadRowsOut) {
   IgProcess refused = fly("flight.csv", "trace.csv", {"--head", log});
   EXPECT_EQ(refused.end(), 1);
   EXPECT_NE(refused.err().find("--skip-bad-rows"), std::string::npos) << refused.err();
-  EXPECT_NE(refused.err().find("leaves 1 rows out"), std::string::npos) << refused.err();
+  EXPECT_NE(refused.err().find("to leave 1 row out"), std::string::npos) << refused.err();
   IgProcess flown = fly("flight.csv", "trace.csv", {"--head", log, "--skip-bad-rows"});
   EXPECT_EQ(flown.end(), 0) << flown.err();
 }
