@@ -17,14 +17,19 @@
 #include "views/model/rules_model.h"
 #include "views/panels/rules_panel.h"
 #include "views/plots/surface_plot.h"
+#include "views/policy/policy_panel.h"
+#include "views/policy/scheme_page.h"
+#include "views/policy/signals_list.h"
 
 namespace trimtab::test {
 namespace {
 
 class Rules : public Bench {
  protected:
-  views::RulesPanel& panel() { return *w().findChild<views::RulesPanel*>(); }
-  views::SurfacePlot& surface() { return *w().findChild<views::SurfacePlot*>(); }
+  views::PolicyPanel& policy() { return *w().panels().policy; }
+  views::SchemePage& scheme() { return *policy().parts().scheme; }
+  views::RulesPanel& panel() { return scheme().rules(); }
+  views::SurfacePlot& surface() { return scheme().surface(); }
   QDockWidget& dock(const char* name) { return *w().dock(QString::fromLatin1(name)); }
   void type(int row, int column, const char* text) {
     QAbstractItemModel* const model = panel().editor().table().model();
@@ -40,8 +45,8 @@ class Rules : public Bench {
 };
 
 TEST_F(Rules, anEditedRuleDecidesTheNextFrameAndTheViewerShowsIt) {
-  dock("rules").raise();
-  dock("surface").raise();
+  dock("policy").raise();
+  policy().showEditorOf("fuzzy.rules");
   w().draft().setValue("fuzzy.combination", ChoiceIndex{2});
   ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
   const double climb = climbsThrough(*readFlight(sampleFlight()), 4500);
@@ -56,7 +61,7 @@ TEST_F(Rules, anEditedRuleDecidesTheNextFrameAndTheViewerShowsIt) {
   EXPECT_TRUE(waitFor([this] { return std::abs(session().decision().totalMembership - 0.75) < 1e-12; }));
   EXPECT_TRUE(waitFor([this] { return panel().viewer().lines().last() == QStringLiteral("Total 0.750"); }));
   shoot("rules");
-  dock("surface").raise();
+  scheme().showSurface();
   shoot("surface");
   w().draft().undoStack().undo();
   EXPECT_EQ(w().draft().parameters().scheme.rules.rule[3].output, 0);
@@ -65,12 +70,14 @@ TEST_F(Rules, anEditedRuleDecidesTheNextFrameAndTheViewerShowsIt) {
 TEST_F(Rules, thePresetDockLeadsToTheEditorOfAList) {
   auto* const parameters = w().findChild<views::ParameterTable*>();
   dock("preset").raise();
-  for (const auto& [key, name] : {std::pair{"fuzzy.rules", "rules"},
+  for (const auto& [key, name] : {std::pair{"fuzzy.rules", "policy"},
                                   {"fuzzy.bands_px", "depth_map"},
-                                  {"fuzzy.pitch.curve_deg", "memberships"}}) {
+                                  {"fuzzy.pitch.curve_deg", "policy"},
+                                  {"policy.terms", "policy"}}) {
     parameters->line(key)->editor()->parentWidget()->findChild<QToolButton*>()->click();
     EXPECT_TRUE(waitFor([&] { return !dock(name).visibleRegion().isEmpty(); })) << key;
   }
+  EXPECT_TRUE(policy().parts().signalsList->chosen()) << "policy.terms leads to a signal's terms";
 }
 
 TEST_F(Rules, filesComeAndGo) {

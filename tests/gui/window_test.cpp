@@ -209,7 +209,7 @@ TEST_F(WorkbenchWindow, floatingADockKeepsThePictureAndResetLayoutBringsItBack) 
   ASSERT_TRUE(settle());
   const std::size_t tiles = last().visible.tiles.size();
   for (const char* name :
-       {"memberships", "depth_map", "decision", "host", "flight", "plots", "preset", "messages", "history"}) {
+       {"policy", "depth_map", "decision", "host", "flight", "plots", "preset", "messages", "history"}) {
     QDockWidget* dock = w().dock(name);
     ASSERT_NE(dock, nullptr) << name;
     ASSERT_NE(command(w(), dock->windowTitle()), nullptr) << name << " is in the View menu";
@@ -222,8 +222,8 @@ TEST_F(WorkbenchWindow, floatingADockKeepsThePictureAndResetLayoutBringsItBack) 
             picture.pixelColor(picture.width() / 2, picture.height() - 60));
   w().resetLayout();
   ASSERT_TRUE(settle());
-  EXPECT_FALSE(w().dock("memberships")->isFloating());
-  EXPECT_TRUE(w().dock("memberships")->isVisible());
+  EXPECT_FALSE(w().dock("policy")->isFloating());
+  EXPECT_TRUE(w().dock("policy")->isVisible());
 }
 
 TEST_F(WorkbenchWindow, aPortInUseIsSaidAndTheWorkGoesOn) {

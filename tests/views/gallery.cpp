@@ -5,6 +5,7 @@
 #include <QFontDatabase>
 #include <QMouseEvent>
 #include <QStyleFactory>
+#include <QTabWidget>
 #include <QThread>
 #include <QTimer>
 #include <array>
@@ -13,6 +14,7 @@
 #include <ctime>
 
 #include "live_flight.h"
+#include "policy/policy_flight.h"
 #include "views/controls/parameter_table.h"
 #include "views/editors/band_scale.h"
 #include "views/editors/bands_editor.h"
@@ -24,6 +26,9 @@
 #include "views/plots/curve_plot.h"
 #include "views/plots/surface_plot.h"
 #include "views/plots/time_plot.h"
+#include "views/policy/policy_panel.h"
+#include "views/policy/signals_list.h"
+#include "views/policy/term_plot.h"
 
 // Draws every dock with live data into PNG files, for a person to look at: views_gallery DIR [dark].
 namespace {
@@ -119,6 +124,34 @@ void shoot(QWidget& widget, const QSize& size, const QString& file) {
   std::printf("%s\n", qPrintable(file));
 }
 
+/// The Policy dock: empty, with forty rules on every page, and small.
+void shootPolicy(const QDir& dir) {
+  Draft draft;
+  PolicyPanel panel(draft);
+  shoot(panel, {572, 520}, dir.filePath(QStringLiteral("policy_empty.png")));
+  test::setLargePolicy(draft);
+  panel.parts().signalsList->choose(Signal::speed);
+  panel.parts().plot->select(13, 1);
+  test::PolicyFlight flight;
+  const auto fly = [&](int frames) {
+    for (int i = 0; i < frames; ++i) {
+      panel.showFrame(flight.next(draft.active()));
+      settle(2);
+    }
+  };
+  fly(900);
+  for (int tab = 0; tab < panel.parts().tabs->count(); ++tab) {
+    panel.parts().tabs->setCurrentIndex(tab);
+    fly(10);
+    settle(500);
+    shoot(panel, {572, 720}, dir.filePath(QStringLiteral("policy_%1.png").arg(tab)));
+  }
+  panel.parts().tabs->setCurrentIndex(1);
+  shoot(panel, {460, 380}, dir.filePath(QStringLiteral("narrow_policy.png")));
+  draft.setText("policy.terms", "above_ground low = ramp 2000 1000 | speed fast = ramp 400 400");
+  shoot(panel, {572, 720}, dir.filePath(QStringLiteral("policy_broken.png")));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -129,6 +162,7 @@ int main(int argc, char** argv) {
   if (argc > 2) app.setPalette(darkPalette());
   const QDir dir(QString::fromLocal8Bit(argv[1]));
   dir.mkpath(QStringLiteral("."));
+  shootPolicy(dir);
 
   Draft draft;
   test::LiveFlight flight(14);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cividis.h"
 #include "contour.h"
 #include "trimtab/fuzzy/bands.h"
 #include "trimtab/fuzzy/combination.h"
@@ -20,18 +21,6 @@ namespace {
 constexpr int kColumns = 241, kRows = 161;
 constexpr std::size_t kLongestTrack = 4000;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-/// Cividis: even in lightness, and the same to those who cannot tell red from green.
-QCPColorGradient cividis() {
-  QCPColorGradient gradient;
-  gradient.clearColorStops();
-  static constexpr int kStops[][3] = {{0, 32, 77},     {49, 68, 107},   {102, 105, 112},
-                                      {149, 143, 120}, {203, 186, 105}, {255, 234, 70}};
-  for (std::size_t i = 0; i < std::size(kStops); ++i)
-    gradient.setColorStopAt(static_cast<double>(i) / (std::size(kStops) - 1),
-                            QColor(kStops[i][0], kStops[i][1], kStops[i][2]));
-  return gradient;
-}
 
 /// Whether two sets of parameters have the same surface and bands.
 bool sameSurface(const TuningParameters& a, const TuningParameters& b) {

@@ -44,7 +44,14 @@ void showKeys(QWidget* parent, const QMenuBar& menus) {
       "## Run time against error\n\n| Keys | What they do |\n|---|---|\n"
       "| left, right | in the plot the point before or after; along the flight the frame, with Shift ten |\n"
       "| L, F | logarithmic frame time; fit the view |\n| W, Shift+W | next and previous worst frame |\n"
-      "| plus, minus | zoom |\n\n## Commands\n\n| Keys | What they do |\n|---|---|\n");
+      "| plus, minus | zoom |\n\n"
+      "## Policy\n\n| Keys | What they do |\n|---|---|\n"
+      "| Tab, Shift+Tab | next and previous point of the term |\n| Page Up, Page Down | other terms |\n"
+      "| arrow keys | move the point, with Shift ten times as far |\n"
+      "| Enter | type the term's numbers |\n| Insert, Delete | add and remove a point, a term, a rule |\n"
+      "| Ctrl+C, Ctrl+V | copy a shape to another term |\n| Ctrl+D | duplicate a term or rule |\n"
+      "| F2, Space | edit a cell, switch a rule on or off |\n| Alt+Up, Alt+Down | move a rule |\n\n"
+      "## Commands\n\n| Keys | What they do |\n|---|---|\n");
   for (const QMenu* menu : menus.findChildren<QMenu*>())
     for (const QAction* action : menu->actions()) {
       if (action->shortcut().isEmpty()) continue;

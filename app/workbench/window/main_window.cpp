@@ -33,7 +33,7 @@ namespace trimtab::workbench {
 namespace {
 
 /// Raise it when docks come or go, so that no old layout is forced on new docks.
-constexpr int kLayoutVersion = 3;
+constexpr int kLayoutVersion = 4;
 constexpr int kSavedMs = 4000, kHintMs = 8000;
 const QString kSpanKey = QStringLiteral("plots/span_s");
 const QString kGeometryKey = QStringLiteral("window/geometry"), kStateKey = QStringLiteral("window/state");

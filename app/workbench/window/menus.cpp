@@ -24,6 +24,8 @@
 #include "views/panels/culling_panel.h"
 #include "views/panels/rules_panel.h"
 #include "views/panels/terrain_panel.h"
+#include "views/policy/policy_panel.h"
+#include "views/policy/scheme_page.h"
 
 namespace trimtab::workbench {
 namespace {
@@ -92,8 +94,22 @@ void Menus::makeFileMenu() {
       {{tr("&Save preset"), QKeySequence::Save, [&] { document.save(); }, {}, &save},
        {tr("Save preset &as..."), tr("Ctrl+Shift+S"), [&] { document.saveAs(); }},
        {tr("&Export for an image generator..."), tr("Ctrl+E"), [&] { document.askExport(); }, {}, &exporting},
-       {tr("&Import rules..."), {}, [this] { panels_.rules->askAndImport(); }},
-       {tr("Export r&ules..."), {}, [this] { panels_.rules->askAndExport(); }},
+       {tr("&Import rules..."),
+        {},
+        [this] { panels_.policy->parts().scheme->rules().askAndImport(); },
+        tr("Curves and rules of documents A and B")},
+       {tr("Export r&ules..."),
+        {},
+        [this] { panels_.policy->parts().scheme->rules().askAndExport(); },
+        tr("Curves and rules of documents A and B")},
+       {tr("Import polic&y..."),
+        {},
+        [this] { panels_.policy->askAndImport(); },
+        tr("Terms and rules that set the levers")},
+       {tr("Export poli&cy..."),
+        {},
+        [this] { panels_.policy->askAndExport(); },
+        tr("Terms and rules that set the levers")},
        {},
        {tr("Open &terrain..."), tr("Ctrl+T"), [&] { terrain.askOpenFile(); }, {}, &openTerrain},
        {tr("Open terrain &folder or database..."),

@@ -12,19 +12,17 @@
 #include "dock_layout.h"
 #include "views/controls/parameter_table.h"
 #include "views/editors/bands_editor.h"
-#include "views/editors/membership_editor.h"
 #include "views/model/draft.h"
 #include "views/model/keys.h"
 #include "views/panels/culling_panel.h"
 #include "views/panels/decision_panel.h"
 #include "views/panels/motion_panel.h"
 #include "views/panels/plots_panel.h"
-#include "views/panels/rules_panel.h"
 #include "views/panels/static_lod_panel.h"
 #include "views/panels/symbology_panel.h"
 #include "views/panels/terrain_panel.h"
 #include "views/panels/weather_panel.h"
-#include "views/plots/surface_plot.h"
+#include "views/policy/policy_panel.h"
 
 namespace trimtab::workbench {
 namespace {
@@ -37,16 +35,18 @@ QUndoView* makeHistory(views::Draft& draft) {
 }
 
 /// Some parameters have an editor of their own in another dock.
-void connectEditors(const views::ParameterTable& parameters, const QWidget& rules, const QWidget& bands,
-                    const QWidget& memberships) {
+void connectEditors(const views::ParameterTable& parameters, views::PolicyPanel& policy,
+                    const QWidget& bands) {
   QObject::connect(&parameters, &views::ParameterTable::editorAsked, &parameters,
-                   [&rules, &bands, &memberships](const QString& key) {
+                   [&policy, &bands](const QString& key) {
                      const std::string name = key.toStdString();
-                     const QWidget& editor = name == views::key::kRules   ? rules
-                                             : name == views::key::kBands ? bands
-                                                                          : memberships;
-                     raiseDock(editor);
-                     dockOf(editor)->widget()->setFocus();
+                     if (name == views::key::kBands) {
+                       raiseDock(bands);
+                       dockOf(bands)->widget()->setFocus();
+                       return;
+                     }
+                     raiseDock(policy);
+                     policy.showEditorOf(name);
                    });
 }
 
@@ -56,17 +56,15 @@ Panels makePanels(DockLayout& docks, views::Draft& draft, Feed& feed) {
   using enum DockLayout::Place;
   const auto tr = [](const char* text) { return QObject::tr(text); };
   Panels panels;
-  auto* memberships = docks.add("memberships", tr("Memberships"), edit, new views::MembershipEditor(draft));
+  panels.policy = docks.add("policy", tr("Policy"), edit, new views::PolicyPanel(draft));
   panels.bands = docks.add("depth_map", tr("Depth map"), edit, new views::BandsEditor(draft));
   panels.culling = docks.add("culling", tr("Culling"), edit, new views::CullingPanel(draft));
-  panels.rules = docks.add("rules", tr("Rules"), edit, new views::RulesPanel(draft));
   panels.terrain = docks.add("terrain", tr("Terrain"), edit, new views::TerrainPanel(draft));
   panels.staticLod = docks.add("static_lod", tr("Static LOD"), edit, new views::StaticLodPanel(draft));
   panels.weather = docks.add("weather", tr("Weather"), edit, new views::WeatherPanel(draft));
   panels.symbology = docks.add("symbology", tr("Symbology"), edit, new views::SymbologyPanel(draft));
   auto* parameters = docks.add("preset", tr("Preset"), edit, new views::ParameterTable(draft));
   docks.add("decision", tr("Decision"), effect, new views::DecisionPanel(draft));
-  docks.add("surface", tr("Surface"), effect, new views::SurfacePlot(draft));
   panels.motion = docks.add("motion", tr("Head motion"), effect, new views::MotionPanel(draft));
   panels.host = docks.add("host", tr("Host"), effect, new HostDock(feed, draft));
   panels.flight = docks.add("flight", tr("Flight"), effect, new FlightDock(feed));
@@ -74,7 +72,7 @@ Panels makePanels(DockLayout& docks, views::Draft& draft, Feed& feed) {
   panels.messages = docks.add("messages", tr("Messages"), foot, new MessagePanel);
   docks.add("history", tr("History"), foot, makeHistory(draft));
   panels.culling->showStages(panels.plots->buffer());
-  connectEditors(*parameters, *panels.rules, *panels.bands, *memberships);
+  connectEditors(*parameters, *panels.policy, *panels.bands);
   return panels;
 }
 

@@ -7,7 +7,7 @@ class CullingPanel;
 class Draft;
 class MotionPanel;
 class PlotsPanel;
-class RulesPanel;
+class PolicyPanel;
 class StaticLodPanel;
 class SymbologyPanel;
 class TerrainPanel;
@@ -25,9 +25,9 @@ class MessagePanel;
 
 /// The contents of those docks that the window and its controllers use. The docks own them.
 struct Panels {
+  views::PolicyPanel* policy = nullptr;
   views::BandsEditor* bands = nullptr;
   views::CullingPanel* culling = nullptr;
-  views::RulesPanel* rules = nullptr;
   views::TerrainPanel* terrain = nullptr;
   views::StaticLodPanel* staticLod = nullptr;
   views::WeatherPanel* weather = nullptr;

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QStyledItemDelegate>
+#include <functional>
+
+namespace trimtab::views {
+
+/// Edits a cell as text and keeps what was typed while it is refused: Enter does not close the editor, and a
+/// cell that was left with a refused text offers it again the next time.
+class KeptTextCell : public QStyledItemDelegate {
+  Q_OBJECT
+ public:
+  /// `check` returns why a text is refused; empty if it is taken.
+  using Check = std::function<QString(const QModelIndex&, const QString&)>;
+
+  KeptTextCell(Check check, QObject* parent) : QStyledItemDelegate(parent), check_(std::move(check)) {}
+
+  QWidget* createEditor(QWidget* parent, const QStyleOptionViewItem& option,
+                        const QModelIndex& index) const override;
+  void setEditorData(QWidget* editor, const QModelIndex& index) const override;
+  void setModelData(QWidget* editor, QAbstractItemModel* model, const QModelIndex& index) const override;
+
+ signals:
+  void refused(const QString& why) const;
+  void accepted() const;
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  Check check_;
+  /// What was typed last and refused, and into which cell that had which text.
+  mutable QPersistentModelIndex keptFor_;
+  mutable QString kept_, keptOver_;
+  mutable QPersistentModelIndex editing_;
+};
+
+}  // namespace trimtab::views

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lever_surface.h"
+
+#include <QAction>
+#include <QBoxLayout>
+#include <QComboBox>
+#include <QLabel>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "term_edit.h"
+#include "trimtab/preset/policy_lines.h"
+#include "views/model/theme.h"
+#include "views/plots/cividis.h"
+
+namespace trimtab::views {
+namespace {
+
+// Some four milliseconds to compute for 40 rules; the picture interpolates between.
+constexpr int kColumns = 121, kRows = 81, kSurfaceMs = 200;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+/// Another signal that moves by less than this part of its range leaves the surface as it is.
+constexpr double kSteady = 0.01;
+
+double at(const QCPRange& range, int i, int count) {
+  return range.lower + range.size() * i / (count - 1);
+}
+
+QString axisText(Signal signal) {
+  return fromView(rowOf(signal).label) + inParentheses(rowOf(signal).unit);
+}
+
+}  // namespace
+
+LeverSurface::LeverSurface(Draft& draft, const PolicyTrack& track, QWidget* parent)
+    : Plot(tr("A lever over two signals"), Keyboard::ignored, parent),
+      draft_(draft),
+      track_(track),
+      throttle_(
+          this, [this] { compute(); }, kSurfaceMs) {
+  makePlottables();
+  restyle();
+  connect(&draft_, &Draft::activeChanged, this, [this] {
+    const auto policy = policyOf(draft_.active()->policy);
+    if (!policy || *policy == policy_) return;
+    throttle_.request();
+  });
+  connect(&draft_, &Draft::loaded, this, &LeverSurface::fitView);
+  for (QCPAxis* const axis : {xAxis, yAxis})
+    connect(axis, qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, [this] { throttle_.request(); });
+  connect(this, &QCustomPlot::mouseDoubleClick, this, &LeverSurface::fitView);
+  auto* fit = new QAction(tr("Fit"), this);
+  connect(fit, &QAction::triggered, this, &LeverSurface::fitView);
+  addAction(fit);
+  setContextMenuPolicy(Qt::ActionsContextMenu);
+  fitView();
+}
+
+void LeverSurface::makePlottables() {
+  addOverlays({"live", "hover"});
+  for (QCPAxis* const axis : {xAxis, yAxis}) {
+    axis->setNumberFormat(QStringLiteral("gb"));
+    axis->setNumberPrecision(6);
+    axis->ticker()->setTickCount(4);
+  }
+  setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
+  axisRect()->setupFullAxesBox();
+  map_ = new QCPColorMap(xAxis, yAxis);
+  map_->setTightBoundary(true);
+  QCPColorGradient gradient = cividis();
+  gradient.setNanHandling(QCPColorGradient::nhTransparent);
+  map_->setGradient(gradient);
+  scale_ = new QCPColorScale(this);
+  scale_->setGradient(gradient);
+  scale_->setBarWidth(12);
+  scale_->setRangeDrag(false);
+  scale_->setRangeZoom(false);
+  plotLayout()->addElement(0, 1, scale_);
+  auto* margins = new QCPMarginGroup(this);
+  axisRect()->setMarginGroup(QCP::msTop | QCP::msBottom, margins);
+  scale_->setMarginGroup(QCP::msTop | QCP::msBottom, margins);
+  const auto curve = [this](const QColor& ink, double width) {
+    auto* made = new QCPCurve(xAxis, yAxis);
+    made->setLayer(QStringLiteral("live"));
+    made->setPen(QPen(ink, width, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+    return made;
+  };
+  trackHalo_ = curve(Qt::white, 4);
+  trackLine_ = curve(QColor(213, 94, 0), 2);
+  live_ = addGraph();
+  live_->setLayer(QStringLiteral("live"));
+  live_->setLineStyle(QCPGraph::lsNone);
+  live_->setScatterStyle({QCPScatterStyle::ssCircle, QPen(Qt::black, 2), QBrush(Qt::white), 11});
+  hover_ = addReadout("hover", QMargins(5, 3, 5, 3));
+  empty_ = new QCPItemText(this);
+  empty_->position->setType(QCPItemPosition::ptAxisRectRatio);
+  empty_->position->setCoords(0.5, 0.5);
+  empty_->setTextAlignment(Qt::AlignCenter);
+}
+
+void LeverSurface::restyle() {
+  applyTheme(*this);
+  const QColor ink = palette().color(QPalette::Text);
+  scale_->axis()->setLabelColor(ink);
+  scale_->axis()->setTickLabelColor(ink);
+  scale_->axis()->setTickLabelFont(font());
+  scale_->axis()->setLabelFont(font());
+  empty_->setColor(quietColour(palette()));
+  empty_->setFont(font());
+  replot(rpQueuedReplot);
+}
+
+void LeverSurface::choose(Lever lever, Signal x, Signal y) {
+  lever_ = lever;
+  x_ = x;
+  y_ = y;
+  drawnTrack_ = 0;
+  fitView();
+}
+
+void LeverSurface::fitView() {
+  const auto policy = policyOf(draft_.active()->policy);
+  const std::vector<PolicyTerm> terms = policy ? policy->terms : std::vector<PolicyTerm>{};
+  const Range x = viewOf(x_, terms), y = viewOf(y_, terms);
+  xAxis->setRange(x.low, x.high);
+  yAxis->setRange(y.low, y.high);
+  throttle_.request();
+}
+
+void LeverSurface::compute() {
+  ++computed_;
+  const auto policy = policyOf(draft_.active()->policy);
+  policy_ = policy ? *policy : Policy{};
+  if (const auto compiled = compile(policy_, "")) compiled_ = *compiled;
+  around_ = flight_;
+  for (const SignalRow& row : kSignalRows)
+    if (std::isnan(around_[row.signal])) {
+      const Range view = viewOf(row.signal, policy_.terms);
+      around_[row.signal] = (view.low + view.high) / 2;
+    }
+  xAxis->setLabel(axisText(x_));
+  yAxis->setLabel(axisText(y_));
+  scale_->axis()->setLabel(fromView(rowOf(lever_).label) + inParentheses(rowOf(lever_).unit));
+  const QCPRange x = xAxis->range(), y = yAxis->range();
+  QCPColorMapData& cells = *map_->data();
+  if (cells.keySize() != kColumns || cells.valueSize() != kRows) cells.setSize(kColumns, kRows);
+  cells.setRange(x, y);
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  PolicyDecision decision;
+  SignalValues place = around_;
+  for (int r = 0; r < kRows; ++r) {
+    place[y_] = at(y, r, kRows);
+    for (int c = 0; c < kColumns; ++c) {
+      place[x_] = at(x, c, kColumns);
+      compiled_.decide(place, decision);
+      const double target = decision.target[lever_];
+      cells.setCell(c, r, target);
+      if (std::isnan(target)) continue;
+      least = std::min(least, target);
+      most = std::max(most, target);
+    }
+  }
+  const Range usual = rowOf(lever_).usual;
+  const bool any = least <= most;
+  // The usual range, so that two surfaces compare; wider where the rules are.
+  const QCPRange values(any ? std::min(least, usual.low) : usual.low,
+                        any ? std::max(most, usual.high) : usual.high);
+  map_->setDataRange(values);
+  scale_->setDataRange(values);
+  empty_->setVisible(!any);
+  empty_->setText(compiled_.moves(lever_) ? tr("No rule for this lever fires here.")
+                                          : tr("No rule sets %1.").arg(fromView(rowOf(lever_).label)));
+  drawLive();
+  replot(rpQueuedReplot);
+}
+
+double LeverSurface::targetAt(double x, double y) const {
+  if (!xAxis->range().contains(x) || !yAxis->range().contains(y)) return kNan;
+  SignalValues place = around_;
+  place[x_] = x;
+  place[y_] = y;
+  PolicyDecision decision;
+  compiled_.decide(place, decision);
+  return decision.target[lever_];
+}
+
+void LeverSurface::showLive(const PolicyLive& live) {
+  if (live.decided) flight_ = live.flight;
+  const bool moved = std::any_of(kSignalRows.begin(), kSignalRows.end(), [&](const SignalRow& row) {
+    if (row.signal == x_ || row.signal == y_ || !compiled_.asks(row.signal)) return false;
+    const Range view = viewOf(row.signal, policy_.terms);
+    return std::abs(flight_[row.signal] - around_[row.signal]) > kSteady * (view.high - view.low);
+  });
+  if (moved) throttle_.request();
+  if (!isVisible() || drawnTrack_ == track_.revision()) return;
+  drawLive();
+  layer(QStringLiteral("live"))->replot();
+}
+
+void LeverSurface::drawLive() {
+  drawnTrack_ = track_.revision();
+  QVector<QCPCurveData> points;
+  for (const PolicyTrack::Sample& sample : track_.samples())
+    points << QCPCurveData(double(points.size()), sample.flight[x_], sample.flight[y_]);
+  for (QCPCurve* curve : {trackHalo_, trackLine_}) curve->data()->set(points, true);
+  if (std::isfinite(flight_[x_]) && std::isfinite(flight_[y_]))
+    live_->setData({flight_[x_]}, {flight_[y_]});
+  else
+    live_->data()->clear();
+}
+
+void LeverSurface::mouseMoveEvent(QMouseEvent* event) {
+  Plot::mouseMoveEvent(event);
+  const double x = xAxis->pixelToCoord(event->position().x()), y = yAxis->pixelToCoord(event->position().y());
+  const bool shown = axisRect()->rect().contains(event->position().toPoint());
+  hover_->setVisible(shown);
+  if (shown) {
+    const double target = targetAt(x, y);
+    placeReadout(*hover_,
+                 QStringLiteral("%1, %2\n%3")
+                     .arg(signalText(x_, x), signalText(y_, y),
+                          std::isnan(target) ? tr("no rule fires: neutral")
+                                             : fromView(rowOf(lever_).label) + QStringLiteral(" ") +
+                                                   leverText(lever_, target)),
+                 event->position());
+  }
+  layer(QStringLiteral("hover"))->replot();
+}
+
+void LeverSurface::leaveEvent(QEvent* event) {
+  Plot::leaveEvent(event);
+  hover_->setVisible(false);
+  layer(QStringLiteral("hover"))->replot();
+}
+
+SurfacePage::SurfacePage(Draft& draft, const PolicyTrack& track, QWidget* parent)
+    : QWidget(parent),
+      surface_(new LeverSurface(draft, track)),
+      lever_(new QComboBox),
+      x_(new QComboBox),
+      y_(new QComboBox) {
+  for (const LeverRow& row : kLeverRows) lever_->addItem(fromView(row.label));
+  for (const SignalRow& row : kSignalRows)
+    for (QComboBox* box : {x_, y_}) box->addItem(fromView(row.label));
+  lever_->setCurrentIndex(static_cast<int>(Lever::screen_space_error));
+  x_->setCurrentIndex(static_cast<int>(Signal::above_ground));
+  y_->setCurrentIndex(static_cast<int>(Signal::speed));
+  auto* top = new QHBoxLayout;
+  const auto add = [&](QComboBox* box, const QString& label, const QString& name) {
+    auto* text = new QLabel(label);
+    text->setBuddy(box);
+    box->setAccessibleName(name);
+    box->setToolTip(name);
+    box->setMinimumContentsLength(8);
+    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    top->addWidget(text);
+    top->addWidget(box, 1);
+    connect(box, &QComboBox::currentIndexChanged, this, &SurfacePage::choose);
+  };
+  add(lever_, tr("Lever"), tr("Lever whose target is shown"));
+  add(x_, tr("over"), tr("Signal to the right"));
+  add(y_, tr("and"), tr("Signal upward"));
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(4, 4, 4, 4);
+  layout->setSpacing(4);
+  layout->addLayout(top);
+  layout->addWidget(surface_, 1);
+}
+
+void SurfacePage::choose() {
+  surface_->choose(static_cast<Lever>(lever_->currentIndex()), static_cast<Signal>(x_->currentIndex()),
+                   static_cast<Signal>(y_->currentIndex()));
+}
+
+}  // namespace trimtab::views

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "policy_panel.h"
+
+#include <QBoxLayout>
+#include <QFileDialog>
+#include <QLabel>
+#include <QMenu>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QSplitter>
+#include <QStackedWidget>
+#include <QTabWidget>
+#include <algorithm>
+#include <array>
+
+#include "findings_page.h"
+#include "lever_surface.h"
+#include "levers_view.h"
+#include "policy_files.h"
+#include "rules_page.h"
+#include "scheme_page.h"
+#include "shares_view.h"
+#include "signals_list.h"
+#include "term_plot.h"
+#include "terms_page.h"
+#include "trimtab/preset/policy_lines.h"
+#include "views/controls/parameter_lines.h"
+#include "views/model/keys.h"
+#include "views/model/theme.h"
+
+namespace trimtab::views {
+namespace {
+
+/// A review takes some milliseconds: it follows a drag two or three times a second.
+constexpr int kReviewMs = 400;
+
+void tell(QWidget* parent, const QString& failed, const QString& done, const Findings& findings) {
+  if (findings.empty()) return;
+  const QString text = QString::fromStdString(toString(findings));
+  const bool error =
+      std::ranges::any_of(findings, [](const Finding& f) { return f.severity == Severity::error; });
+  error ? QMessageBox::warning(parent, failed, text) : QMessageBox::information(parent, done, text);
+}
+
+}  // namespace
+
+PolicyPanel::PolicyPanel(Draft& draft, QWidget* parent)
+    : QWidget(parent),
+      draft_(draft),
+      policy_(new PolicyDraft(draft, this)),
+      right_(new QStackedWidget),
+      split_(new QSplitter(Qt::Vertical)),
+      head_(makeHead()),
+      empty_(makeEmptyState()),
+      note_(new QLabel),
+      throttle_(this, [this] { refresh(); }),
+      reviewThrottle_(
+          this, [this] { parts_.findings->refresh(); }, kReviewMs) {
+  parts_.signalsList = new SignalsList(*policy_);
+  parts_.scheme = new SchemePage(draft);
+  parts_.plot = new TermPlot(*policy_, track_);
+  right_->addWidget(parts_.scheme);
+  right_->addWidget(parts_.plot);
+  auto* upper = new QSplitter(Qt::Horizontal);
+  upper->addWidget(parts_.signalsList);
+  upper->addWidget(right_);
+  upper->setStretchFactor(1, 1);
+  upper->setSizes({parts_.signalsList->minimumWidth(), 10000});
+  makeTabs();
+  split_->addWidget(upper);
+  split_->addWidget(parts_.tabs);
+  split_->setStretchFactor(0, 3);
+  split_->setStretchFactor(1, 2);
+  split_->setChildrenCollapsible(false);
+  note_->setWordWrap(true);
+  note_->hide();
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(4, 4, 4, 2);
+  layout->setSpacing(4);
+  layout->addWidget(head_);
+  layout->addWidget(empty_);
+  layout->addWidget(note_);
+  layout->addWidget(split_, 1);
+
+  connect(parts_.signalsList, &SignalsList::chosenChanged, this, &PolicyPanel::choose);
+  connect(policy_, &PolicyDraft::termsChanged, this, &PolicyPanel::showState);
+  connect(policy_, &PolicyDraft::rulesChanged, this, &PolicyPanel::showState);
+  connect(&draft_, &Draft::findingsChanged, this, [this] {
+    showState();
+    reviewThrottle_.request();
+  });
+  connect(&draft_, &Draft::activeChanged, this, [this] {
+    if (any_) throttle_.request();
+  });
+  connect(&draft_, &Draft::loaded, this, [this] { track_.clear(); });
+  choose();
+  reviewThrottle_.request();
+}
+
+QWidget* PolicyPanel::makeHead() {
+  static constexpr std::array kKeys{key::kPolicyEnabled.data(), key::kPolicyNorm.data()};
+  auto* lines = new ParameterLines(draft_, kKeys);
+  lines->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+  return lines;
+}
+
+QWidget* PolicyPanel::makeEmptyState() {
+  auto* box = new QWidget;
+  auto* text = new QLabel(tr(
+      "A policy is a set of rules that let the flight set the levers, such as “if above_ground is low then "
+      "screen_space_error = 4”. This preset has none."));
+  text->setWordWrap(true);
+  auto* start = new QPushButton(tr("Start from…"));
+  start->setToolTip(tr("Take over the policy of a preset that ships"));
+  auto* menu = new QMenu(start);
+  connect(menu, &QMenu::aboutToShow, this, [this, menu] { fillStartMenu(*menu); });
+  start->setMenu(menu);
+  auto* add = new QPushButton(tr("Add a term"));
+  add->setToolTip(tr("Begin with what a rule may call low, fast or steep"));
+  connect(add, &QPushButton::clicked, this, &PolicyPanel::addFirstTerm);
+  auto* load = new QPushButton(tr("Import…"));
+  load->setToolTip(tr("Take a policy from a file of a fuzzy-logic tool"));
+  connect(load, &QPushButton::clicked, this, &PolicyPanel::askAndImport);
+  auto* row = new QHBoxLayout;
+  for (QPushButton* button : {start, add, load}) {
+    button->setAutoDefault(false);
+    row->addWidget(button);
+  }
+  row->addStretch(1);
+  auto* layout = new QVBoxLayout(box);
+  layout->setContentsMargins(2, 0, 2, 0);
+  layout->setSpacing(4);
+  layout->addWidget(text);
+  layout->addLayout(row);
+  return box;
+}
+
+void PolicyPanel::fillStartMenu(QMenu& menu) {
+  menu.clear();
+  for (const std::string_view name : shippedPresets()) {
+    const auto preset = loadPreset(std::string(name));
+    const auto policy = preset ? policyOf(preset->parameters.policy) : Result<Policy>(Policy{});
+    if (!policy || policy->empty()) continue;
+    QAction* action = menu.addAction(fromView(name), this, [this, taken = *policy, name] {
+      policy_->replace(taken, tr("Start from %1").arg(fromView(name)));
+    });
+    action->setToolTip(QString::fromStdString(preset->description));
+  }
+  menu.setToolTipsVisible(true);
+  if (menu.isEmpty()) menu.addAction(tr("no preset that ships has a policy"))->setEnabled(false);
+}
+
+void PolicyPanel::makeTabs() {
+  Parts& p = parts_;
+  p.tabs = new QTabWidget;
+  p.tabs->setDocumentMode(true);
+  p.terms = new TermsPage(*policy_, *p.plot);
+  p.rules = new RulesPage(*policy_);
+  p.levers = new LeversView;
+  p.shares = new SharesView;
+  p.surface = new SurfacePage(draft_, track_);
+  p.findings = new FindingsPage(*policy_);
+  auto* levers = new QScrollArea;
+  levers->setFrameShape(QFrame::NoFrame);
+  levers->setWidgetResizable(true);
+  levers->setWidget(p.levers);
+  p.tabs->addTab(p.terms, tr("Terms"));
+  p.tabs->addTab(p.rules, tr("Rules"));
+  p.tabs->addTab(levers, tr("Levers"));
+  p.tabs->addTab(p.shares, tr("Shares"));
+  p.tabs->addTab(p.surface, tr("Surface"));
+  p.tabs->addTab(p.findings, tr("Findings"));
+  p.tabs->setTabToolTip(2, tr("Where the levers are, and which rules put them there"));
+  p.tabs->setTabToolTip(3, tr("How far each rule fires, and its share in each lever"));
+  p.tabs->setTabToolTip(4, tr("A lever over two signals"));
+  p.tabs->setTabToolTip(5, tr("What is allowed and probably not meant"));
+  connect(p.plot, &TermPlot::typingAsked, this, [this] {
+    parts_.tabs->setCurrentWidget(parts_.terms);
+    parts_.terms->typeNumbers();
+  });
+  connect(p.plot, &TermPlot::refused, this, [this] { parts_.tabs->setCurrentWidget(parts_.terms); });
+  connect(p.rules, &RulesPage::importAsked, this, &PolicyPanel::askAndImport);
+  connect(p.rules, &RulesPage::exportAsked, this, &PolicyPanel::askAndExport);
+  connect(p.findings, &FindingsPage::ruleAsked, this, &PolicyPanel::showRule);
+  connect(p.findings, &FindingsPage::termAsked, this, &PolicyPanel::showTerm);
+  connect(p.findings, &FindingsPage::countChanged, this, [this](int count) {
+    parts_.tabs->setTabText(5, count == 0 ? tr("Findings") : tr("Findings (%1)").arg(count));
+  });
+}
+
+void PolicyPanel::choose() {
+  const auto signal = parts_.signalsList->chosen();
+  if (signal) {
+    parts_.terms->setSignal(*signal);
+    parts_.rules->setSignal(*signal);
+    right_->setCurrentWidget(parts_.plot);
+  } else {
+    right_->setCurrentWidget(parts_.scheme);
+  }
+  showState();
+  if (any_) throttle_.request();
+}
+
+std::optional<Signal> PolicyPanel::firstWithTerms() const {
+  for (const SignalRow& row : kSignalRows)
+    if (!policy_->termsOf(row.signal).empty()) return row.signal;
+  return std::nullopt;
+}
+
+void PolicyPanel::showState() {
+  const bool empty = policy_->empty();
+  // Who opens, imports or begins a policy wants to see it.
+  if (std::exchange(wasEmpty_, empty) && !empty && !parts_.signalsList->chosen())
+    parts_.signalsList->choose(firstWithTerms());
+  head_->setVisible(!empty || draft_.parameters().policy.enabled);
+  empty_->setVisible(empty);
+  parts_.tabs->setVisible(!empty && parts_.signalsList->chosen().has_value());
+  const bool broken =
+      !draft_.findingsOf(key::kPolicyTerms).empty() || !draft_.findingsOf(key::kPolicyRules).empty();
+  note_->setText(tr("The policy does not hold: the last valid one keeps running. See Findings."));
+  note_->setVisible(broken);
+  setTextColour(*note_, errorColour(palette()));
+}
+
+void PolicyPanel::addFirstTerm() {
+  if (!parts_.signalsList->chosen()) parts_.signalsList->choose(Signal::above_ground);
+  parts_.terms->addTerm();
+  parts_.tabs->setCurrentWidget(parts_.terms);
+  parts_.plot->setFocus();
+}
+
+void PolicyPanel::showFrame(const LiveFrame& frame) {
+  frame_ = frame;
+  any_ = true;
+  if (draft_.active().policy() != nullptr) track_.push(frame.time, frame.input.signalValues);
+  parts_.scheme->showFrame(frame);
+  throttle_.request();
+}
+
+PolicyLive PolicyPanel::liveOf(const LiveFrame& frame) const {
+  PolicyLive live;
+  live.compiled = draft_.active().policy();
+  if (const auto policy = policyOf(draft_.active()->policy)) live.policy = *policy;
+  live.decided = any_ && live.compiled != nullptr;
+  live.matches = !draft_.isBroken();
+  if (!live.decided) return live;
+  live.flight = frame.input.signalValues;
+  live.outcome = frame.decision.policy;
+  live.compiled->decide(live.flight, live.decision);
+  return live;
+}
+
+void PolicyPanel::refresh() {
+  const PolicyLive live = liveOf(frame_);
+  parts_.signalsList->showLive(live);
+  if (!parts_.signalsList->chosen()) return;
+  parts_.plot->showLive(live);
+  parts_.terms->showLive(live);
+  parts_.rules->showLive(live);
+  parts_.levers->showLive(live);
+  parts_.shares->showLive(live);
+  parts_.surface->showLive(live);
+}
+
+void PolicyPanel::showEditorOf(std::string_view key) {
+  if (key == key::kPolicyTerms || key == key::kPolicyRules) {
+    if (!parts_.signalsList->chosen())
+      parts_.signalsList->choose(firstWithTerms().value_or(Signal::above_ground));
+    const bool rules = key == key::kPolicyRules;
+    parts_.tabs->setCurrentWidget(rules ? static_cast<QWidget*>(parts_.rules) : parts_.terms);
+    (rules ? static_cast<QWidget*>(&parts_.rules->table()) : parts_.plot)->setFocus();
+    return;
+  }
+  parts_.signalsList->choose(std::nullopt);
+  key == key::kRules ? parts_.scheme->showRules() : parts_.scheme->showMemberships();
+  parts_.scheme->setFocus();
+}
+
+void PolicyPanel::showRule(int line) {
+  parts_.tabs->setCurrentWidget(parts_.rules);
+  parts_.rules->select(line);
+  parts_.rules->table().setFocus();
+}
+
+void PolicyPanel::showTerm(int line) {
+  const auto& term = policy_->terms()[static_cast<std::size_t>(line)].term;
+  if (!term) return;
+  parts_.signalsList->choose(term->signal);
+  parts_.tabs->setCurrentWidget(parts_.terms);
+  parts_.plot->select(line, 0);
+  parts_.plot->setFocus();
+}
+
+Findings PolicyPanel::importFile(const QString& file) {
+  const Result<Policy> policy = readPolicyFile(file);
+  if (policy) policy_->replace(*policy, tr("Import Policy"));
+  return policy.findings();
+}
+
+Findings PolicyPanel::exportFile(const QString& file) const {
+  const auto policy = policyOf(draft_.active()->policy);
+  return policy ? writePolicyFile(file, *policy, draft_.preset().name) : policy.findings();
+}
+
+void PolicyPanel::askAndImport() {
+  const QString file = QFileDialog::getOpenFileName(this, tr("Import Policy"), {}, policyFileFilters());
+  if (file.isEmpty()) return;
+  tell(this, tr("The policy was not imported"), tr("The policy was imported"), importFile(file));
+}
+
+void PolicyPanel::askAndExport() {
+  QFileDialog dialog(this, tr("Export Policy"), {}, policyFileFilters());
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.setDefaultSuffix(QStringLiteral("fll"));
+  dialog.selectFile(QStringLiteral("policy.fll"));
+  if (dialog.exec() != QDialog::Accepted) return;
+  tell(this, tr("The policy was not exported"), tr("The policy was exported"),
+       exportFile(dialog.selectedFiles().constFirst()));
+}
+
+}  // namespace trimtab::views

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+#include <string_view>
+
+#include "policy_draft.h"
+#include "policy_live.h"
+#include "views/model/live.h"
+#include "views/model/throttle.h"
+
+class QLabel;
+class QMenu;
+class QSplitter;
+class QStackedWidget;
+class QTabWidget;
+
+namespace trimtab::views {
+
+class FindingsPage;
+class LeversView;
+class RulesPage;
+class SchemePage;
+class SharesView;
+class SignalsList;
+class SurfacePage;
+class TermPlot;
+class TermsPage;
+
+/// The Policy dock: the signals on the left, the chosen one's terms beside them, and below what follows from
+/// them. The first entry of the list is the scheme of documents A and B, with its own curves and rules.
+class PolicyPanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit PolicyPanel(Draft& draft, QWidget* parent = nullptr);
+
+  /// What the dock is made of, for those that lead to a part of it.
+  struct Parts {
+    SignalsList* signalsList = nullptr;
+    SchemePage* scheme = nullptr;
+    TermPlot* plot = nullptr;
+    QTabWidget* tabs = nullptr;
+    TermsPage* terms = nullptr;
+    RulesPage* rules = nullptr;
+    LeversView* levers = nullptr;
+    SharesView* shares = nullptr;
+    SurfacePage* surface = nullptr;
+    FindingsPage* findings = nullptr;
+  };
+  const Parts& parts() const { return parts_; }
+  PolicyDraft& policy() { return *policy_; }
+
+  void showFrame(const LiveFrame& frame);
+  /// Shows the editor of a parameter: a curve or the rules of the scheme, or the terms or rules of the
+  /// policy.
+  void showEditorOf(std::string_view key);
+  /// Shows a rule, or a term with its signal.
+  void showRule(int line);
+  void showTerm(int line);
+
+  /// Takes over a policy from a file as one undo step. Returns what was wrong with it, or worth knowing.
+  Findings importFile(const QString& file);
+  /// Writes the policy that runs. The findings say why it failed.
+  Findings exportFile(const QString& file) const;
+
+ public slots:
+  void askAndImport();
+  void askAndExport();
+
+ private:
+  void makeTabs();
+  QWidget* makeHead();
+  QWidget* makeEmptyState();
+  void fillStartMenu(QMenu& menu);
+  void choose();
+  void showState();
+  std::optional<Signal> firstWithTerms() const;
+  void addFirstTerm();
+  PolicyLive liveOf(const LiveFrame& frame) const;
+  void refresh();
+
+  Draft& draft_;
+  PolicyDraft* policy_;
+  PolicyTrack track_;
+  LiveFrame frame_;
+  bool any_ = false, wasEmpty_ = true;
+  Parts parts_;
+  QStackedWidget* right_;
+  QSplitter* split_;
+  QWidget *head_, *empty_;
+  QLabel* note_;
+  Throttle throttle_, reviewThrottle_;
+};
+
+}  // namespace trimtab::views

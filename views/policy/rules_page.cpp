@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rules_page.h"
+
+#include <QAction>
+#include <QBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QToolButton>
+#include <algorithm>
+
+#include "bar_cell.h"
+#include "kept_text_cell.h"
+#include "policy_rules_model.h"
+#include "views/controls/list_table.h"
+#include "views/model/keys.h"
+#include "views/model/theme.h"
+
+namespace trimtab::views {
+
+RulesPage::RulesPage(PolicyDraft& policy, QWidget* parent)
+    : QWidget(parent),
+      policy_(policy),
+      model_(new PolicyRulesModel(policy, this)),
+      table_(new QTableView),
+      note_(new QLabel) {
+  makeTable();
+  auto* buttons = new ListButtons;
+  add_ = buttons->add(tr("Add"), tr("Add a rule after the selected one (Insert)"));
+  duplicate_ = buttons->add(tr("Duplicate"), tr("Add a copy of the selected rule (Ctrl+D)"));
+  remove_ = buttons->add(tr("Remove"), tr("Remove the selected rule (Delete)"));
+  up_ = buttons->add(tr("Up"), tr("Move the selected rule up (Alt+Up)"));
+  down_ = buttons->add(tr("Down"), tr("Move the selected rule down (Alt+Down)"));
+  buttons->addSpace();
+  QToolButton* const load =
+      buttons->add(tr("Import…"), tr("Take a policy from a file of a fuzzy-logic tool"));
+  QToolButton* const save = buttons->add(tr("Export…"), tr("Write the policy that runs to such a file"));
+  connect(load, &QToolButton::clicked, this, &RulesPage::importAsked);
+  connect(save, &QToolButton::clicked, this, &RulesPage::exportAsked);
+  note_->setWordWrap(true);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(4, 4, 4, 4);
+  layout->setSpacing(4);
+  layout->addWidget(table_, 1);
+  layout->addWidget(buttons);
+  layout->addWidget(note_);
+  makeActions();
+  connect(model_, &PolicyRulesModel::moved, this, &RulesPage::select);
+  connect(&policy_.draft(), &Draft::findingsChanged, this, [this] { showNote(); });
+  connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this, &RulesPage::showNote);
+  showNote();
+}
+
+void RulesPage::makeTable() {
+  setUpListTable(*table_, model_, tr("Rules of the policy"), tr("00.0"));
+  const auto width = [this](const char* sample) {
+    return fontMetrics().horizontalAdvance(QLatin1String(sample)) + 14;
+  };
+  QHeaderView* const columns = table_->horizontalHeader();
+  columns->setMinimumSectionSize(width("On"));
+  columns->setSectionResizeMode(QHeaderView::Interactive);
+  columns->setSectionResizeMode(PolicyRulesModel::kReason, QHeaderView::Stretch);
+  columns->resizeSection(PolicyRulesModel::kOn, width("On"));
+  columns->resizeSection(PolicyRulesModel::kCondition, width("above_ground is low and speed"));
+  columns->resizeSection(PolicyRulesModel::kSettings, width("screen_space_error = 4"));
+  columns->resizeSection(PolicyRulesModel::kWeight, width("Weight"));
+  columns->resizeSection(PolicyRulesModel::kFires, width("0.00 0.0"));
+  table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAsNeeded);
+  table_->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
+  table_->setMinimumWidth(width("above_ground is low and speed is fast 0.00"));
+  table_->setMinimumHeight(fontMetrics().height() * 4);
+  table_->setWordWrap(false);
+  QHeaderView* const lines = table_->verticalHeader();
+  lines->show();
+  lines->setSectionResizeMode(QHeaderView::Fixed);
+  lines->setMinimumSectionSize(fontMetrics().height() + 4);
+  lines->setDefaultSectionSize(fontMetrics().height() + 6);
+  table_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed |
+                          QAbstractItemView::AnyKeyPressed);
+  table_->setDragDropMode(QAbstractItemView::InternalMove);
+  table_->setDragDropOverwriteMode(false);
+  table_->setDropIndicatorShown(true);
+  table_->setDragEnabled(true);
+  auto* text = new KeptTextCell(
+      [this](const QModelIndex& index, const QString& typed) { return model_->refusal(index, typed); },
+      table_);
+  connect(text, &KeptTextCell::refused, this, &RulesPage::say);
+  connect(text, &KeptTextCell::accepted, this, [this] { say({}); });
+  for (const int column : {PolicyRulesModel::kCondition, PolicyRulesModel::kSettings,
+                           PolicyRulesModel::kWeight, PolicyRulesModel::kReason})
+    table_->setItemDelegateForColumn(column, text);
+  table_->setItemDelegateForColumn(PolicyRulesModel::kFires, new BarCell(table_));
+}
+
+void RulesPage::makeActions() {
+  const auto action = [this](QToolButton* button, const QKeySequence& keys, auto act) {
+    auto* a = new QAction(button->text(), table_);
+    a->setShortcut(keys);
+    a->setShortcutContext(Qt::WidgetShortcut);
+    table_->addAction(a);
+    connect(a, &QAction::triggered, this, act);
+    connect(button, &QToolButton::clicked, this, act);
+  };
+  action(add_, Qt::Key_Insert, [this] { addRule(); });
+  action(duplicate_, Qt::CTRL | Qt::Key_D, [this] { duplicateRule(); });
+  action(remove_, Qt::Key_Delete, [this] { removeRule(); });
+  action(up_, Qt::ALT | Qt::Key_Up, [this] { moveRule(-1); });
+  action(down_, Qt::ALT | Qt::Key_Down, [this] { moveRule(1); });
+  table_->setContextMenuPolicy(Qt::ActionsContextMenu);
+}
+
+int RulesPage::selected() const {
+  return table_->currentIndex().isValid() ? table_->currentIndex().row() : -1;
+}
+
+void RulesPage::select(int line) {
+  if (line < 0 || line >= model_->rowCount()) return;
+  const int column = std::max(int(PolicyRulesModel::kCondition), table_->currentIndex().column());
+  table_->setCurrentIndex(model_->index(line, column));
+  table_->scrollTo(model_->index(line, column));
+}
+
+void RulesPage::showLive(const PolicyLive& live) {
+  model_->showLive(live);
+}
+
+/// A rule that asks for what the person looks at.
+PolicyRule RulesPage::newRule() const {
+  PolicyRule rule;
+  Signal signal = signal_;
+  std::string term = "any";
+  const auto terms = policy_.termsOf(signal);
+  if (!terms.empty()) term = policy_.terms()[terms.front()].term->name;
+  rule.condition = std::string(rowOf(signal).key) + " is " + term;
+  rule.settings = {{Lever::screen_space_error, 4}};
+  return rule;
+}
+
+void RulesPage::addRule() {
+  if (policy_.rules().size() >= kMostPolicyRules)
+    return say(tr("A policy has at most %1 rules.").arg(kMostPolicyRules));
+  const int at = selected() < 0 ? model_->rowCount() : selected() + 1;
+  policy_.insertRule(static_cast<std::size_t>(at), newRule(), tr("Add Rule"));
+  select(at);
+  say({});
+}
+
+void RulesPage::duplicateRule() {
+  const int at = selected();
+  if (at < 0 || !policy_.rules()[static_cast<std::size_t>(at)].rule) return;
+  if (policy_.rules().size() >= kMostPolicyRules)
+    return say(tr("A policy has at most %1 rules.").arg(kMostPolicyRules));
+  policy_.insertRule(static_cast<std::size_t>(at) + 1, *policy_.rules()[static_cast<std::size_t>(at)].rule,
+                     tr("Duplicate Rule"));
+  select(at + 1);
+  say({});
+}
+
+void RulesPage::removeRule() {
+  const int at = selected();
+  if (at < 0) return;
+  policy_.removeRule(static_cast<std::size_t>(at));
+  select(std::min(at, model_->rowCount() - 1));
+  say({});
+}
+
+void RulesPage::moveRule(int by) {
+  const int at = selected(), to = at + by;
+  if (at < 0 || to < 0 || to >= model_->rowCount()) return;
+  policy_.moveRule(static_cast<std::size_t>(at), static_cast<std::size_t>(to));
+  select(to);
+}
+
+QString RulesPage::note() const {
+  return note_->isHidden() ? QString() : note_->text();
+}
+
+void RulesPage::say(const QString& refusal) {
+  refusal_ = refusal;
+  showNote();
+}
+
+void RulesPage::showNote() {
+  QString text = refusal_;
+  if (text.isEmpty()) text = sentences(policy_.draft().findingsOf(key::kPolicyRules));
+  note_->setText(text);
+  setTextColour(*note_, errorColour(palette()));
+  note_->setVisible(!text.isEmpty());
+  const int at = selected(), count = model_->rowCount();
+  duplicate_->setEnabled(at >= 0);
+  remove_->setEnabled(at >= 0);
+  up_->setEnabled(at > 0);
+  down_->setEnabled(at >= 0 && at + 1 < count);
+}
+
+}  // namespace trimtab::views

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QTableView>
+#include <QWidget>
+
+#include "policy_draft.h"
+#include "policy_live.h"
+
+class QLabel;
+class QToolButton;
+
+namespace trimtab::views {
+
+class PolicyRulesModel;
+
+/// The rules of the policy to edit, with buttons. Each edit is one undo step.
+class RulesPage : public QWidget {
+  Q_OBJECT
+ public:
+  explicit RulesPage(PolicyDraft& policy, QWidget* parent = nullptr);
+  QTableView& table() { return *table_; }
+  void showLive(const PolicyLive& live);
+  QString note() const;
+  /// Returns the selected line; -1 for none.
+  int selected() const;
+  void select(int line);
+  /// Sets the signal that a new rule asks for.
+  void setSignal(Signal signal) { signal_ = signal; }
+
+ public slots:
+  void addRule();
+  void duplicateRule();
+  void removeRule();
+  void moveRule(int by);
+
+ signals:
+  void importAsked();
+  void exportAsked();
+
+ private:
+  void makeTable();
+  void makeActions();
+  void say(const QString& refusal);
+  void showNote();
+  PolicyRule newRule() const;
+
+  PolicyDraft& policy_;
+  PolicyRulesModel* model_;
+  QTableView* table_;
+  QLabel* note_;
+  QToolButton *add_, *duplicate_, *remove_, *up_, *down_;
+  Signal signal_ = Signal::above_ground;
+  QString refusal_;
+};
+
+}  // namespace trimtab::views

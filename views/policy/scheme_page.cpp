@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scheme_page.h"
+
+#include <QScrollArea>
+
+#include "views/editors/membership_editor.h"
+#include "views/panels/rules_panel.h"
+#include "views/plots/surface_plot.h"
+
+namespace trimtab::views {
+namespace {
+
+/// Curves above each other ask for more height than a small window has.
+QScrollArea* scrollable(QWidget* content) {
+  auto* area = new QScrollArea;
+  area->setFrameShape(QFrame::NoFrame);
+  area->setWidgetResizable(true);
+  area->setWidget(content);
+  return area;
+}
+
+}  // namespace
+
+SchemePage::SchemePage(Draft& draft, QWidget* parent)
+    : QTabWidget(parent),
+      memberships_(new MembershipEditor(draft)),
+      rules_(new RulesPanel(draft)),
+      surface_(new SurfacePlot(draft)) {
+  setDocumentMode(true);
+  addTab(scrollable(memberships_), tr("Memberships"));
+  addTab(scrollable(rules_), tr("Rules"));
+  addTab(surface_, tr("Surface"));
+  setTabToolTip(0, tr("Altitude and pitch curves of documents A and B"));
+  setTabToolTip(1, tr("The rule base of Eq. (2), and what each rule does now"));
+  setTabToolTip(2, tr("The total membership over altitude and pitch"));
+}
+
+void SchemePage::showFrame(const LiveFrame& frame) {
+  memberships_->showFrame(frame);
+  rules_->showFrame(frame);
+  surface_->showFrame(frame);
+}
+
+void SchemePage::showMemberships() {
+  setCurrentIndex(0);
+}
+void SchemePage::showRules() {
+  setCurrentIndex(1);
+}
+void SchemePage::showSurface() {
+  setCurrentIndex(2);
+}
+
+}  // namespace trimtab::views

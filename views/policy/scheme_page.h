@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QTabWidget>
+
+#include "views/model/draft.h"
+#include "views/model/live.h"
+
+namespace trimtab::views {
+
+class MembershipEditor;
+class RulesPanel;
+class SurfacePlot;
+
+/// The scheme of documents A and B: its curves, its rules and its surface.
+class SchemePage : public QTabWidget {
+  Q_OBJECT
+ public:
+  explicit SchemePage(Draft& draft, QWidget* parent = nullptr);
+  MembershipEditor& memberships() { return *memberships_; }
+  RulesPanel& rules() { return *rules_; }
+  SurfacePlot& surface() { return *surface_; }
+  void showFrame(const LiveFrame& frame);
+  void showMemberships();
+  void showRules();
+  void showSurface();
+
+ private:
+  MembershipEditor* memberships_;
+  RulesPanel* rules_;
+  SurfacePlot* surface_;
+};
+
+}  // namespace trimtab::views

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QApplication>
+#include <QClipboard>
+#include <QContextMenuEvent>
+#include <QMenu>
+#include <cmath>
+
+#include "term_plot.h"
+#include "views/model/theme.h"
+
+/// TermPlot's mouse and keyboard.
+namespace trimtab::views {
+namespace {
+
+constexpr double kGrabPx = 10, kCurvePx = 7, kSnapPx = 6;
+constexpr double kMembershipStep = 0.01;
+
+}  // namespace
+
+void TermPlot::select(int term, int handle) {
+  if (termAt(term) == nullptr) term = -1;
+  if (term < 0) handle = -1;
+  if (term == term_ && handle == handle_) return;
+  term_ = term;
+  handle_ = handle;
+  drawCurves();
+  drawPoints();
+  emit selectedChanged(term_, handle_);
+}
+
+int TermPlot::handleAt(QPointF pixel) const {
+  int nearest = -1;
+  double best = kGrabPx;
+  const std::vector<TermHandle> points = handles();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const QPointF d = pixelOf(points[i].x, points[i].y) - pixel;
+    const double distance = std::hypot(d.x(), d.y());
+    // At equal distance the selected one wins: it is drawn on top.
+    if (distance < best || (distance == best && static_cast<int>(i) == handle_)) {
+      best = distance;
+      nearest = static_cast<int>(i);
+    }
+  }
+  return nearest;
+}
+
+int TermPlot::curveAt(QPointF pixel) const {
+  int nearest = -1;
+  double best = kCurvePx;
+  for (const std::size_t line : policy_.termsOf(signal_)) {
+    const PolicyTerm& term = *policy_.terms()[line].term;
+    if (!isSound(term)) continue;
+    // Steep flanks are hit from the side.
+    for (double dx = -kCurvePx; dx <= kCurvePx; dx += 1) {
+      const double y = membershipOf(term, xAxis->pixelToCoord(pixel.x() + dx));
+      const double distance = std::hypot(dx, yAxis->coordToPixel(y) - pixel.y());
+      if (distance < best) {
+        best = distance;
+        nearest = static_cast<int>(line);
+      }
+    }
+  }
+  return nearest;
+}
+
+double TermPlot::snapped(double x, bool toOthers) const {
+  if (toOthers)
+    for (const std::size_t line : policy_.termsOf(signal_)) {
+      if (static_cast<int>(line) == term_) continue;
+      for (const TermHandle& other : handlesOf(*policy_.terms()[line].term, view()))
+        if (!other.open && std::abs(xAxis->coordToPixel(other.x) - xAxis->coordToPixel(x)) < kSnapPx)
+          return other.x;
+    }
+  // As round as the screen can show: no drag ends at 4987.3341 ft.
+  return roundedTo(x, roundStep(xAxis->range().size() / std::max(1, axisRect()->width())));
+}
+
+void TermPlot::moveTo(double x, double y, MergeToken token) {
+  const PolicyTerm* term = termAt(term_);
+  if (term == nullptr || handle_ < 0) return;
+  const double gap = roundStep(xAxis->range().size() / 2000);
+  const PolicyTerm moved =
+      withHandleAt(*term, static_cast<std::size_t>(handle_), x, std::clamp(y, 0.0, 1.0), gap);
+  if (moved == *term) return;
+  policy_.putTerm(static_cast<std::size_t>(term_), moved,
+                  tr("Move %1").arg(QString::fromStdString(term->name)), token);
+  emit dragged();
+}
+
+void TermPlot::mousePressEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton) return Plot::mousePressEvent(event);
+  int hit = handleAt(event->position());
+  if (hit < 0) {
+    const int curve = curveAt(event->position());
+    select(curve, -1);
+    hit = curve >= 0 ? handleAt(event->position()) : -1;
+  }
+  if (hit < 0) return Plot::mousePressEvent(event);
+  select(term_, hit);
+  const TermHandle at = handles()[static_cast<std::size_t>(hit)];
+  drag_ = {policy_.draft().newToken(), *termAt(term_), pixelOf(at.x, at.y) - event->position()};
+  setCursor(Qt::ClosedHandCursor);
+}
+
+void TermPlot::mouseMoveEvent(QMouseEvent* event) {
+  if (drag_.token != 0 && handle_ >= 0) {
+    const QPointF to = event->position() + drag_.offset;
+    const std::vector<TermHandle> from = handlesOf(drag_.start, view());
+    double x = snapped(xAxis->pixelToCoord(to.x()), !(event->modifiers() & Qt::AltModifier));
+    double y = roundedTo(yAxis->pixelToCoord(to.y()), kMembershipStep);
+    if (event->modifiers() & Qt::ShiftModifier && handle_ < static_cast<int>(from.size())) {
+      // Shift keeps to the axis along which the drag has gone farther.
+      const TermHandle& start = from[static_cast<std::size_t>(handle_)];
+      const QPointF gone = to - pixelOf(start.x, start.y);
+      (std::abs(gone.x()) > std::abs(gone.y()) ? y : x) =
+          std::abs(gone.x()) > std::abs(gone.y()) ? start.y : start.x;
+    }
+    moveTo(x, y, drag_.token);
+    say(event->position());
+    return;
+  }
+  setCursor(handleAt(event->position()) >= 0  ? Qt::OpenHandCursor
+            : curveAt(event->position()) >= 0 ? Qt::PointingHandCursor
+                                              : Qt::ArrowCursor);
+  say(event->position());
+  Plot::mouseMoveEvent(event);
+}
+
+void TermPlot::mouseReleaseEvent(QMouseEvent* event) {
+  if (drag_.token != 0 && event->button() == Qt::LeftButton) {
+    drag_ = {};
+    setCursor(Qt::OpenHandCursor);
+    return;
+  }
+  Plot::mouseReleaseEvent(event);
+}
+
+void TermPlot::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton || !axisRect()->rect().contains(event->position().toPoint())) return;
+  if (handleAt(event->position()) >= 0) return emit typingAsked();
+  const PolicyTerm* term = termAt(term_);
+  if (term == nullptr || term->shape != TermShape::points) return fitView();
+  insertPoint(snapped(xAxis->pixelToCoord(event->position().x()), false),
+              roundedTo(yAxis->pixelToCoord(event->position().y()), kMembershipStep));
+}
+
+void TermPlot::cancelDrag() {
+  const Move drag = std::exchange(drag_, {});
+  policy_.putTerm(static_cast<std::size_t>(term_), drag.start, QString(), drag.token);
+  setCursor(Qt::ArrowCursor);
+}
+
+void TermPlot::insertPoint(double x, double y) {
+  const PolicyTerm* term = termAt(term_);
+  if (term == nullptr) return emit addAsked();
+  const auto inserted = withPoint(*term, x, y);
+  if (!inserted)
+    return emit refused(term->shape == TermShape::points
+                            ? tr("There is no room for another point here.")
+                            : tr("Only the shape “points” takes more points; choose it in Terms."));
+  policy_.putTerm(static_cast<std::size_t>(term_), inserted->term, tr("Add Point"));
+  select(term_, static_cast<int>(inserted->handle));
+}
+
+void TermPlot::removePoint() {
+  const PolicyTerm* term = termAt(term_);
+  if (term == nullptr) return;
+  if (handle_ < 0) return emit removeAsked();
+  const auto removed = withoutPoint(*term, static_cast<std::size_t>(handle_));
+  if (!removed)
+    return emit refused(term->shape == TermShape::points ? tr("Two points stay.")
+                                                         : tr("The points of this shape belong together."));
+  policy_.putTerm(static_cast<std::size_t>(term_), *removed, tr("Remove Point"));
+}
+
+void TermPlot::nudge(double dx, double dy) {
+  const std::vector<TermHandle> points = handles();
+  if (handle_ < 0 || handle_ >= static_cast<int>(points.size())) return;
+  const TermHandle& at = points[static_cast<std::size_t>(handle_)];
+  if (nudge_.token == 0) nudge_.token = policy_.draft().newToken();
+  const double step = nudgeStep(view()) / 100;
+  moveTo(at.movesX ? roundedTo(at.x + dx, step) : at.x, roundedTo(at.y + dy, 1e-6), nudge_.token);
+}
+
+void TermPlot::stepTerm(int by) {
+  const std::vector<std::size_t> lines = policy_.termsOf(signal_);
+  if (lines.empty()) return;
+  const auto at = std::find(lines.begin(), lines.end(), static_cast<std::size_t>(std::max(term_, 0)));
+  const auto count = static_cast<std::ptrdiff_t>(lines.size());
+  const std::ptrdiff_t next = at == lines.end() ? 0 : ((at - lines.begin()) + by + count) % count;
+  select(static_cast<int>(lines[static_cast<std::size_t>(next)]), 0);
+}
+
+void TermPlot::keyPressEvent(QKeyEvent* event) {
+  const double times = event->modifiers() & Qt::ShiftModifier ? 10 : 1;
+  const double step = nudgeStep(view()) * times / 10;
+  if (event->matches(QKeySequence::Copy)) return copyShape();
+  if (event->matches(QKeySequence::Paste)) return pasteShape();
+  switch (event->key()) {
+    case Qt::Key_Escape:
+      return drag_.token != 0 ? cancelDrag() : event->ignore();
+    case Qt::Key_Left:
+      return nudge(-step, 0);
+    case Qt::Key_Right:
+      return nudge(step, 0);
+    case Qt::Key_Up:
+      return nudge(0, kMembershipStep * times);
+    case Qt::Key_Down:
+      return nudge(0, -kMembershipStep * times);
+    case Qt::Key_PageUp:
+      return stepTerm(-1);
+    case Qt::Key_PageDown:
+      return stepTerm(1);
+    case Qt::Key_Insert: {
+      const std::vector<TermHandle> points = handles();
+      if (points.size() < 2) return insertPoint(xAxis->range().center(), 0.5);
+      const std::size_t left = std::min(static_cast<std::size_t>(std::max(handle_, 0)), points.size() - 2);
+      return insertPoint((points[left].x + points[left + 1].x) / 2,
+                         (points[left].y + points[left + 1].y) / 2);
+    }
+    case Qt::Key_Delete:
+    case Qt::Key_Backspace:
+      return removePoint();
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
+      if (term_ >= 0) emit typingAsked();
+      return;
+    case Qt::Key_Home:
+      return select(term_, 0);
+    case Qt::Key_End:
+      return select(term_, static_cast<int>(handles().size()) - 1);
+    case Qt::Key_F:
+      return fitView();
+    default:
+      return Plot::keyPressEvent(event);
+  }
+}
+
+void TermPlot::keyReleaseEvent(QKeyEvent* event) {
+  // A key held down is one undo step.
+  if (!event->isAutoRepeat()) nudge_ = {};
+  Plot::keyReleaseEvent(event);
+}
+
+bool TermPlot::focusNextPrevChild(bool next) {
+  const int to = handle_ + (next ? 1 : -1);
+  if (term_ < 0 || to < 0 || to >= static_cast<int>(handles().size())) return Plot::focusNextPrevChild(next);
+  select(term_, to);
+  return true;
+}
+
+void TermPlot::focusOutEvent(QFocusEvent* event) {
+  nudge_ = {};
+  Plot::focusOutEvent(event);
+}
+
+void TermPlot::leaveEvent(QEvent* event) {
+  say(std::nullopt);
+  Plot::leaveEvent(event);
+}
+
+void TermPlot::say(const std::optional<QPointF>& at) {
+  const bool shown = at && axisRect()->rect().contains(at->toPoint());
+  if (!shown && !parts_.readout->visible()) return;
+  parts_.readout->setVisible(shown);
+  if (shown) {
+    const std::vector<TermHandle> points = handles();
+    const int grabbed = drag_.token != 0 ? handle_ : handleAt(*at);
+    QString text;
+    double x = xAxis->pixelToCoord(at->x());
+    if (grabbed >= 0 && grabbed < static_cast<int>(points.size())) {
+      const TermHandle& handle = points[static_cast<std::size_t>(grabbed)];
+      x = handle.x;
+      text = handle.name + QStringLiteral(": ");
+    }
+    text += signalText(signal_, x);
+    for (const std::size_t line : policy_.termsOf(signal_)) {
+      const PolicyTerm& term = *policy_.terms()[line].term;
+      if (!isSound(term)) continue;
+      const double mu = membershipOf(term, x);
+      if (mu >= 0.005 || static_cast<int>(line) == term_)
+        text += QStringLiteral("\n%1 %2").arg(QString::fromStdString(term.name), QString::number(mu, 'f', 2));
+    }
+    placeReadout(*parts_.readout, text, *at);
+  }
+  layer(QStringLiteral("hover"))->replot();
+}
+
+void TermPlot::copyShape() {
+  if (const PolicyTerm* term = termAt(term_))
+    QApplication::clipboard()->setText(QString::fromStdString(shapeText(*term)));
+}
+
+void TermPlot::pasteShape() {
+  const PolicyTerm* term = termAt(term_);
+  if (term == nullptr) return emit refused(tr("Select the term that is to get the shape."));
+  auto shape = readShape(QApplication::clipboard()->text().toStdString(), "");
+  if (!shape) return emit refused(tr("The clipboard holds no shape. ") + sentences(shape.findings()));
+  PolicyTerm changed = *term;
+  changed.shape = shape->shape;
+  changed.numbers = shape->numbers;
+  if (const Findings wrong = policy_.check(changed, static_cast<std::size_t>(term_)); !wrong.empty())
+    return emit refused(sentences(wrong));
+  policy_.putTerm(static_cast<std::size_t>(term_), changed, tr("Paste Shape"));
+}
+
+void TermPlot::contextMenuEvent(QContextMenuEvent* event) {
+  if (event->reason() == QContextMenuEvent::Mouse && curveAt(event->pos()) >= 0 && handleAt(event->pos()) < 0)
+    select(curveAt(event->pos()));
+  QMenu menu(this);
+  const auto add = [&](const QString& text, auto act, bool enabled) {
+    menu.addAction(text, this, act)->setEnabled(enabled);
+  };
+  const PolicyTerm* term = termAt(term_);
+  add(
+      tr("Add term"), [this] { emit addAsked(); }, true);
+  add(
+      tr("Remove term"), [this] { emit removeAsked(); }, term != nullptr);
+  add(
+      tr("Copy shape"), [this] { copyShape(); }, term != nullptr);
+  add(
+      tr("Paste shape"), [this] { pasteShape(); }, term != nullptr);
+  const bool points = term != nullptr && term->shape == TermShape::points;
+  const QPointF at = event->pos();
+  add(
+      tr("Add point"),
+      [this, at] {
+        insertPoint(snapped(xAxis->pixelToCoord(at.x()), false),
+                    roundedTo(yAxis->pixelToCoord(at.y()), kMembershipStep));
+      },
+      points);
+  add(
+      tr("Remove point"), [this] { removePoint(); }, points && handle_ >= 0);
+  menu.addSeparator();
+  add(
+      tr("Show all terms"), [this] { fitView(); }, true);
+  menu.exec(event->globalPos());
+}
+
+}  // namespace trimtab::views
