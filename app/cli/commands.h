@@ -12,7 +12,7 @@ namespace trimtab::cli {
 inline constexpr int kDone = 0, kRefused = 1, kUsage = 2;
 
 void addPreset(CLI::App& app, int& exitCode);
-/// Adds the subcommand `fuzzy` to `preset`.
+/// Adds the subcommands `fuzzy` and `policy` to `preset`.
 void addFuzzy(CLI::App& preset, int& exitCode);
 void addDecide(CLI::App& app, int& exitCode);
 void addTerrain(CLI::App& app, int& exitCode);

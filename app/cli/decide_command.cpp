@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -13,6 +14,8 @@
 #include "trimtab/decision/decide.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/measure/trace.h"
+#include "trimtab/policy/compiled_policy.h"
+#include "trimtab/preset/policy_lines.h"
 #include "trimtab/session/session.h"
 #include "trimtab/units/number.h"
 
@@ -108,6 +111,60 @@ Result<Decided> decideFlight(const std::string& file, const ValidatedParameters&
   return Result<Decided>(std::move(decided), flight.findings());
 }
 
+/// A rule that fires, and its share in each lever that it sets.
+struct FiredRule {
+  std::size_t rule = 0;  ///< from 0
+  double firing = 0;
+  std::vector<std::pair<Lever, double>> shares;
+};
+
+std::vector<FiredRule> firedRules(const TraceRow& row, const CompiledPolicy& policy) {
+  PolicyDecision decision;
+  policy.decide(row.input.signalValues, decision);
+  std::vector<FiredRule> fired;
+  for (std::size_t i = 0; i < decision.firing.size(); ++i) {
+    if (!(decision.firing[i] > 0)) continue;
+    FiredRule rule{i, decision.firing[i], {}};
+    for (const LeverRow& lever : kLeverRows)
+      if (const double share = policy.share(i, lever.lever, decision); share > 0)
+        rule.shares.emplace_back(lever.lever, share);
+    fired.push_back(std::move(rule));
+  }
+  return fired;
+}
+
+/// What the policy made of the signals; null without one. Rules have their numbers, from 1.
+Json policyJson(const TraceRow& row, const CompiledPolicy* policy) {
+  if (policy == nullptr) return nullptr;
+  const PolicyOutcome& outcome = row.decision.policy;
+  Json levers = Json::object(), signals = Json::object(), unknown = Json::array(), rules = Json::array();
+  for (const LeverRow& lever : kLeverRows)
+    if (outcome.moves(lever.lever)) levers[std::string(lever.key)] = outcome[lever.lever];
+  for (const SignalRow& signal : kSignalRows) {
+    const double value = row.input.signalValues[signal.signal];
+    signals[std::string(signal.key)] = std::isnan(value) ? Json(nullptr) : Json(value);
+    if (outcome.unknownAsked >> indexOf(signal.signal) & 1) unknown.push_back(signal.key);
+  }
+  for (const FiredRule& fired : firedRules(row, *policy)) {
+    Json shares = Json::object();
+    for (const auto& [lever, share] : fired.shares) shares[std::string(rowOf(lever).key)] = share;
+    rules.push_back({{"rule", fired.rule + 1}, {"firing", fired.firing}, {"shares", std::move(shares)}});
+  }
+  return {{"levers", std::move(levers)},
+          {"signals", std::move(signals)},
+          {"unknown_asked", std::move(unknown)},
+          {"rules", std::move(rules)}};
+}
+
+/// The policy's rules as text; none if it is switched off.
+std::vector<std::string> ruleTexts(const ValidatedParameters& parameters) {
+  std::vector<std::string> texts;
+  const auto policy = policyOf(parameters->policy);
+  if (parameters.policy() != nullptr && policy)
+    for (const PolicyRule& rule : policy->rules) texts.push_back(ruleText(rule));
+  return texts;
+}
+
 Json toJson(const TraceRow& row, const ValidatedParameters& parameters) {
   const FrameDecision& d = row.decision;
   Json firing = Json::array();
@@ -127,6 +184,7 @@ Json toJson(const TraceRow& row, const ValidatedParameters& parameters) {
                                : Json(nullptr)},
           {"lod_scale", d.lodScale},
           {"reason", toText(d.reason)},
+          {"policy", policyJson(row, parameters.policy())},
           {"explanation", explain(d, parameters)}};
 }
 
@@ -142,7 +200,9 @@ std::size_t changes(const std::vector<TraceRow>& rows) {
 
 void printJson(const Options& options, const Decided& decided, const ValidatedParameters& parameters) {
   if (options.flight.empty()) {
-    std::cout << toJson(decided.rows.front(), parameters).dump(2) << '\n';
+    Json document = toJson(decided.rows.front(), parameters);
+    document["policy_rules"] = ruleTexts(parameters);
+    std::cout << document.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
     return;
   }
   Json list = Json::array();
@@ -156,6 +216,7 @@ void printJson(const Options& options, const Decided& decided, const ValidatedPa
                 {"rows", decided.rows.size()},
                 {"changes", changes(decided.rows)},
                 {"as_recorded", decided.asRecorded ? Json(*decided.asRecorded) : Json(nullptr)},
+                {"policy_rules", ruleTexts(parameters)},
                 {"decisions", std::move(list)}};
   std::cout << document.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
 }
@@ -167,9 +228,24 @@ void printCsv(const Decided& decided) {
   std::cout << text;
 }
 
+/// "  rule 2 fires 0.500 (LOD scale 40 %): if ..."
+void printFiredRules(const TraceRow& row, const ValidatedParameters& parameters) {
+  if (parameters.policy() == nullptr) return;
+  const std::vector<std::string> texts = ruleTexts(parameters);
+  for (const FiredRule& fired : firedRules(row, *parameters.policy())) {
+    std::string shares;
+    for (const auto& [lever, share] : fired.shares)
+      shares += (shares.empty() ? "" : ", ") + std::string(rowOf(lever).label) + " " +
+                numberText(100 * share, 3) + " %";
+    std::cout << "  rule " << fired.rule + 1 << " fires " << numberText(fired.firing, 3) << " (" << shares
+              << "): " << texts[fired.rule] << '\n';
+  }
+}
+
 void printText(const Options& options, const Decided& decided, const ValidatedParameters& parameters) {
   if (options.flight.empty()) {
     std::cout << explain(decided.rows.front().decision, parameters) << '\n';
+    printFiredRules(decided.rows.front(), parameters);
     return;
   }
   const FrameDecision* last = nullptr;
@@ -220,8 +296,16 @@ void addDecide(CLI::App& app, int& exitCode) {
                       "Roll, right wing down positive; recorded, not decided by");
   command->add_option("--heading-deg", options->headingDeg, "Heading; recorded, not decided by");
   command->add_option("--set", options->settings, "KEY=VALUE: one parameter, whatever the preset says");
-  CLI::Option* json = command->add_flag("--json", options->json, "One JSON document");
-  CLI::Option* csv = command->add_flag("--csv", options->csv, "A decision trace, which flies again");
+  CLI::Option* json = command->add_flag(
+      "--json", options->json,
+      "One JSON document. With a policy each decision has `policy`: the value of each lever that rules set, "
+      "the signals (null if nobody knows them), the unknown ones that rules ask for, and the rules that "
+      "fire, "
+      "by their number in `policy_rules`, with their share in each lever");
+  CLI::Option* csv = command->add_flag(
+      "--csv", options->csv,
+      "A decision trace, which flies again; with a policy it has columns of signals and levers. Which rules "
+      "fire follows from the signals: decide the trace with --json");
   altitude->needs(pitch);
   pitch->needs(altitude);
   ground->needs(altitude);

@@ -6,7 +6,9 @@
 #include "commands.h"
 #include "settings.h"
 #include "trimtab/fuzzy/rule_file.h"
+#include "trimtab/policy/policy_file.h"
 #include "trimtab/preset/file_io.h"
+#include "trimtab/preset/policy_lines.h"
 #include "trimtab/preset/preset.h"
 
 namespace trimtab::cli {
@@ -17,6 +19,34 @@ struct Options {
   std::string preset = "default", file, output, format;
   std::vector<std::string> settings;
 };
+
+/// A part of the parameters that fuzzy-logic tools know too.
+struct Part {
+  Result<std::string> (*text)(const TuningParameters&, const std::string& name, RuleFormat);
+  Result<TuningParameters> (*read)(std::string_view text, const std::string& where, RuleFormat,
+                                   const TuningParameters& onto);
+};
+constexpr Part kRules{ruleFileText, readRuleFile};
+
+Result<std::string> policyText(const TuningParameters& parameters, const std::string& name,
+                               RuleFormat format) {
+  const auto policy = policyOf(parameters.policy);
+  if (!policy) return policy.findings();
+  if (policy->rules.empty())
+    return Finding{Severity::error, name, "policy.rules", "at least one rule", "none"};
+  return policyFileText(*policy, name, format);
+}
+
+Result<TuningParameters> readPolicy(std::string_view text, const std::string& where, RuleFormat format,
+                                    const TuningParameters& onto) {
+  const auto policy = readPolicyFile(text, where, format);
+  if (!policy) return policy.findings();
+  TuningParameters parameters = onto;
+  parameters.policy = policyLines(*policy);
+  parameters.policy.enabled = true;
+  return parameters;
+}
+constexpr Part kPolicy{policyText, readPolicy};
 
 /// By --format, else by the file's ending.
 std::optional<RuleFormat> formatOf(const Options& options, const std::string& file) {
@@ -37,18 +67,18 @@ int writeOut(const std::string& output, const std::string& text) {
   return written ? kDone : kRefused;
 }
 
-int exportRules(const Options& options) {
+int exportPart(const Part& part, const Options& options) {
   const auto format = formatOf(options, options.output);
   if (!format) return kUsage;
   const auto parameters = parametersFor(options.preset, options.settings);
   if (!parameters) return kRefused;
   const auto preset = loadPreset(options.preset);
-  const auto text = ruleFileText(**parameters, preset ? preset->name : std::string(), *format);
+  const auto text = part.text(**parameters, preset ? preset->name : std::string(), *format);
   report(text.findings());
   return text ? writeOut(options.output, *text) : kRefused;
 }
 
-int importRules(const Options& options) {
+int importPart(const Part& part, const Options& options) {
   const auto format = formatOf(options, options.file);
   if (!format) return kUsage;
   const auto base = loadPreset(options.preset);
@@ -56,7 +86,7 @@ int importRules(const Options& options) {
   report(base.findings());
   report(text.findings());
   if (!base || !text) return kRefused;
-  const auto read = readRuleFile(*text, options.file, *format, base->parameters);
+  const auto read = part.read(*text, options.file, *format, base->parameters);
   report(read.findings());
   if (!read) return kRefused;
   Preset preset;
@@ -70,12 +100,9 @@ int importRules(const Options& options) {
   return written ? writeOut(options.output, *written) : kRefused;
 }
 
-}  // namespace
-
-void addFuzzy(CLI::App& preset, int& exitCode) {
+void addPart(CLI::App& preset, int& exitCode, const char* name, const char* what, const Part& part) {
   const auto options = std::make_shared<Options>();
-  CLI::App* const fuzzy = preset.add_subcommand(
-      "fuzzy", "Exchange rules and membership curves with fuzzy-logic tools (.fll, .fis)");
+  CLI::App* const fuzzy = preset.add_subcommand(name, what);
   fuzzy->require_subcommand(1);
   const auto formatOption = [options](CLI::App* command) {
     command->add_option("--format", options->format, "fll or fis, where the file's ending does not say it")
@@ -90,7 +117,7 @@ void addFuzzy(CLI::App& preset, int& exitCode) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   formatOption(exporting);
-  exporting->callback([&exitCode, options] { exitCode = exportRules(*options); });
+  exporting->callback([&exitCode, options, part] { exitCode = exportPart(part, *options); });
 
   CLI::App* const importing =
       fuzzy->add_subcommand("import", "Make a preset of them; everything else from --base");
@@ -99,7 +126,18 @@ void addFuzzy(CLI::App& preset, int& exitCode) {
       ->default_str("default");
   importing->add_option("-o,--output", options->output, "Preset to write; - for standard output")->required();
   formatOption(importing);
-  importing->callback([&exitCode, options] { exitCode = importRules(*options); });
+  importing->callback([&exitCode, options, part] { exitCode = importPart(part, *options); });
+}
+
+}  // namespace
+
+void addFuzzy(CLI::App& preset, int& exitCode) {
+  addPart(preset, exitCode, "fuzzy",
+          "Exchange rules and membership curves with fuzzy-logic tools (.fll, .fis)", kRules);
+  addPart(preset, exitCode, "policy",
+          "Exchange the policy with fuzzy-logic tools (.fll, .fis): each signal that has terms is an input, "
+          "each lever that a rule sets an output; the preset of an import has its policy switched on",
+          kPolicy);
 }
 
 }  // namespace trimtab::cli

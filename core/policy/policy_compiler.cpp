@@ -65,15 +65,19 @@ class PolicyCompiler {
     made.steps = static_cast<std::uint32_t>(out_.steps_.size()) - made.firstStep;
     if (!(rule.weight >= 0 && rule.weight <= 1)) refuse(key, "a weight from 0 to 1", numberText(rule.weight));
     if (rule.settings.empty()) refuse(key, "at least one lever", "");
+    std::uint32_t set = 0;
     for (const LeverSetting& setting : rule.settings) {
       const LeverRow& row = rowOf(setting.lever);
+      const std::uint32_t bit = 1u << static_cast<unsigned>(setting.lever);
+      if (set & bit) refuse(key, "each lever once", std::string(row.key));
+      set |= bit;
       if (!(setting.value >= row.hard.low && setting.value <= row.hard.high))
         refuse(
             key,
             std::string(row.key) + " from " + numberText(row.hard.low) + " to " + numberText(row.hard.high),
             numberText(setting.value));
-      if (made.weight > 0) out_.levers_ |= 1u << static_cast<unsigned>(setting.lever);
     }
+    if (made.weight > 0) out_.levers_ |= set;
     if (made.weight > 0) out_.signals_ |= made.asked;
     out_.rules_.push_back(made);
   }

@@ -36,10 +36,7 @@ Result<PolicyRule> readPolicyRule(std::string_view text, const std::string& wher
   if (then == words.end() || then == words.begin() + 1)
     return refusal(where, "rule", "a condition between if and then", text);
   PolicyRule rule;
-  for (auto word = words.begin() + 1; word != then; ++word) {
-    const bool tight = rule.condition.empty() || rule.condition.back() == '(' || *word == ")";
-    rule.condition += (tight ? "" : " ") + std::string(*word);
-  }
+  rule.condition = joinedWords(words.begin() + 1, then);
   std::size_t at = static_cast<std::size_t>(then - words.begin());
   do {
     const auto lever = leverNamed(wordAt(++at));

@@ -27,4 +27,15 @@ inline std::vector<std::string_view> policyWords(std::string_view text) {
   return words;
 }
 
+/// Is the inverse: words with a blank between, but none inside of parentheses.
+template <class Iterator>
+std::string joinedWords(Iterator begin, Iterator end) {
+  std::string text;
+  for (; begin != end; ++begin) {
+    const bool tight = text.empty() || text.back() == '(' || *begin == ")";
+    text += (tight ? "" : " ") + std::string(*begin);
+  }
+  return text;
+}
+
 }  // namespace trimtab

@@ -180,8 +180,10 @@ std::string oneLine(std::string_view text) {
 
 std::string asIni(const TuningParameters& parameters, const std::string& name, const Provenance& provenance) {
   std::string text =
-      "; Curves are x:y points, bands low:WIDTHxHEIGHT, rules conditions*weight=output; units are in the "
-      "keys. In texts \\n, \\r, \\t and \\\\ are escapes.\n"
+      "; Curves are x:y points, bands low:WIDTHxHEIGHT, rules conditions*weight=output; lines of a policy "
+      "are "
+      "separated by |, and \\| and \\\\ in them are escapes; units are in the keys. In texts \\n, \\r, \\t "
+      "and \\\\ are escapes.\n"
       "[export]\nformat = trimtab-export\nversion = " +
       std::to_string(kPresetVersion) + "\nname = " + oneLine(name) + "\n\n[provenance]\n";
   for (const auto& [key, value] : fieldsOf(provenance))

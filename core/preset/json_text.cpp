@@ -208,7 +208,8 @@ Result<ParameterValue> readLines(std::string_view value) {
   for (const std::string_view part : elements(value)) {
     const auto line = readString(part);
     if (!line) return unlike("a string as line " + std::to_string(lines.line.size() + 1), part);
-    lines.line.push_back(*line);
+    const std::size_t begin = std::min(line->find_first_not_of(' '), line->size());
+    lines.line.push_back(line->substr(begin, line->find_last_not_of(' ') + 1 - begin));
   }
   return ParameterValue{std::move(lines)};
 }

@@ -61,8 +61,8 @@ void readRule(std::string_view line, std::size_t index, Policy& policy, Findings
 /// Reasons stay on their line, whatever somebody typed.
 std::string oneLine(std::string text) {
   for (char& c : text)
-    if (c == '\n' || c == '\r' || c == '|') c = ' ';
-  return text;
+    if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = ' ';
+  return std::string(trimmed(text));
 }
 
 }  // namespace
@@ -86,9 +86,11 @@ PolicyParameters policyLines(const Policy& policy, PolicyParameters onto) {
   for (const PolicyTerm& term : policy.terms)
     onto.terms.line.push_back(std::string(rowOf(term.signal).key) + " " + term.name + " = " +
                               shapeText(term));
-  for (const PolicyRule& rule : policy.rules)
+  for (const PolicyRule& rule : policy.rules) {
+    const std::string reason = oneLine(rule.reason);
     onto.rules.line.push_back((rule.enabled ? "" : std::string(kOff)) + ruleText(rule) +
-                              (rule.reason.empty() ? "" : " # " + oneLine(rule.reason)));
+                              (reason.empty() ? "" : " # " + reason));
+  }
   return onto;
 }
 

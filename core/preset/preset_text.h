@@ -31,4 +31,7 @@ Result<PresetText> readIniExport(std::string_view text, const std::string& where
 /// decides: a parameter of this version has its own form; anything else is a number or a string.
 Result<std::string> jsonOf(const std::string& key, std::string_view plain);
 
+/// Returns a line of TextLines so that ` | ` may stand between it and others.
+std::string lineAsText(std::string_view line);
+
 }  // namespace trimtab

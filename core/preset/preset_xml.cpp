@@ -17,7 +17,7 @@ std::string wordOf(const pugi::xml_node& element) {
   const auto leaf = [&element](const char* child) { return std::string(element.child_value(child)); };
   if (name == "point") return leaf("x") + ":" + leaf("y");
   if (name == "band") return leaf("low") + ":" + leaf("width") + "x" + leaf("height");
-  if (name == "line") return leaf("text");
+  if (name == "line") return lineAsText(leaf("text"));
   if (name != "rule") return "?";
   const std::string altitude = leaf("altitude"), pitch = leaf("pitch");
   const std::string conditions = pitch == "any"      ? altitude

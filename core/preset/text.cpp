@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "preset_text.h"
 #include "trimtab/preset/table.h"
 #include "trimtab/units/number.h"
 
@@ -138,19 +139,34 @@ Result<ParameterValue> parseRules(const ParameterRow& row, std::string_view text
   return ParameterValue{rules};
 }
 
-/// Empty lines mean nothing.
+/// Between lines is a | or the end of a line; \| and \\ are those characters. Empty lines mean nothing.
 ParameterValue parseLines(std::string_view text) {
   TextLines lines;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('|'), text.size());
-    if (const std::string_view line = trimmed(text.substr(0, end)); !line.empty())
-      lines.line.emplace_back(line);
-    text.remove_prefix(std::min(end + 1, text.size()));
+  std::string line;
+  const auto add = [&] {
+    if (const std::string_view content = trimmed(line); !content.empty()) lines.line.emplace_back(content);
+    line.clear();
+  };
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool escape = text[i] == '\\' && i + 1 < text.size() && (text[i + 1] == '|' || text[i + 1] == '\\');
+    if (escape)
+      line += text[++i];
+    else if (text[i] == '|' || text[i] == '\n')
+      add();
+    else
+      line += text[i];
   }
+  add();
   return lines;
 }
 
 }  // namespace
+
+std::string lineAsText(std::string_view line) {
+  std::string text;
+  for (const char c : line) text += (c == '|' || c == '\\' ? "\\" : "") + std::string(1, c);
+  return text;
+}
 
 std::string toText(const ParameterRow& row, const ParameterValue& value) {
   switch (row.kind) {
@@ -184,7 +200,7 @@ std::string toText(const ParameterRow& row, const ParameterValue& value) {
     case Kind::lines: {
       std::string text;
       for (const std::string& line : std::get<TextLines>(value).line)
-        text += (text.empty() ? "" : " | ") + line;
+        text += (text.empty() ? "" : " | ") + lineAsText(line);
       return text;
     }
   }

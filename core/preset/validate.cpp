@@ -32,6 +32,26 @@ bool outside(double value, Range range) {
   return !(value >= range.low && value <= range.high);
 }
 
+/// Reports whether text is well-formed UTF-8: no lone or missing continuation, no longer form than needed, no
+/// surrogate, nothing beyond U+10FFFF.
+bool isUtf8(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const auto byte = [&](std::size_t i) {
+      return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0u;
+    };
+    const unsigned lead = byte(0);
+    const std::size_t more = lead < 0x80 ? 0 : lead < 0xe0 ? 1 : lead < 0xf0 ? 2 : 3;
+    if (more > 0 && (lead < 0xc2 || lead > 0xf4)) return false;
+    for (std::size_t i = 1; i <= more; ++i)
+      if ((byte(i) & 0xc0) != 0x80) return false;
+    if ((lead == 0xe0 && byte(1) < 0xa0) || (lead == 0xed && byte(1) > 0x9f) ||
+        (lead == 0xf0 && byte(1) < 0x90) || (lead == 0xf4 && byte(1) > 0x8f))
+      return false;
+    at += more + 1;
+  }
+  return true;
+}
+
 void checkScalar(const ParameterRow& row, double value, Findings& findings) {
   if (!std::isfinite(value) || outside(value, row.hard))
     findings.push_back(
@@ -140,6 +160,27 @@ void checkRulesRow(const ParameterRow& row, const RuleList& rules, Findings& fin
                                  numberText(rules.rule[i].weight) + inRule(i, rules.rule[i])));
 }
 
+/// Exports write the lines as they are, so that nothing in one may break its file.
+void checkLinesRow(const ParameterRow& row, const TextLines& lines, Findings& findings) {
+  constexpr std::size_t kMostLines = kMostPolicyRules, kLongestLine = 20000;
+  const auto error = [&](std::string expected, std::string found) {
+    findings.push_back(finding(Severity::error, row, std::move(expected), std::move(found)));
+  };
+  if (lines.line.size() > kMostLines)
+    return error("at most " + std::to_string(kMostLines) + " lines", std::to_string(lines.line.size()));
+  for (std::size_t i = 0; i < lines.line.size(); ++i) {
+    const std::string& line = lines.line[i];
+    const bool control = std::any_of(line.begin(), line.end(),
+                                     [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7f; });
+    if (line.size() > kLongestLine)
+      error("lines of at most " + std::to_string(kLongestLine) + " characters",
+            std::to_string(line.size()) + " in line " + numberOf(i));
+    else if (control || !isUtf8(line))
+      error("text in UTF-8 without control characters",
+            std::string(control ? "a control character" : "other bytes") + " in line " + numberOf(i));
+  }
+}
+
 void checkRow(const ParameterRow& row, const TuningParameters& parameters, Findings& findings) {
   const ParameterValue value = row.get(parameters);
   switch (row.kind) {
@@ -160,7 +201,7 @@ void checkRow(const ParameterRow& row, const TuningParameters& parameters, Findi
     case Kind::rules:
       return checkRulesRow(row, std::get<RuleList>(value), findings);
     case Kind::lines:
-      return;  // checkedPolicy() looks at all lines together
+      return checkLinesRow(row, std::get<TextLines>(value), findings);
   }
 }
 
@@ -209,29 +250,6 @@ constexpr std::array kRules{
         [](const TuningParameters&) { return std::string("0 deg for both"); }},
 };
 
-}  // namespace
-
-Findings rangeFindings(const TuningParameters& parameters) {
-  Findings findings;
-  for (const ParameterRow& row : parameterRows()) checkRow(row, parameters, findings);
-  return findings;
-}
-
-Findings ruleFindings(const TuningParameters& parameters) {
-  Findings findings;
-  for (const Rule& rule : kRules)
-    if (!rule.holds(parameters))
-      findings.push_back(
-          {Severity::error, "", std::string(rule.key), rule.expected(parameters), rule.found(parameters)});
-  return findings;
-}
-
-std::vector<RuleText> ruleTexts() {
-  std::vector<RuleText> texts;
-  for (const Rule& rule : kRules) texts.push_back({rule.key, rule.text});
-  return texts;
-}
-
 /// Compiles the policy; every finding has a key of the table and says which term or rule it is about.
 Result<CompiledPolicy> checkedPolicy(const PolicyParameters& parameters) {
   const auto policy = policyOf(parameters);
@@ -250,6 +268,32 @@ Result<CompiledPolicy> checkedPolicy(const PolicyParameters& parameters) {
   return findings;
 }
 
+}  // namespace
+
+Findings rangeFindings(const TuningParameters& parameters) {
+  Findings findings;
+  for (const ParameterRow& row : parameterRows()) checkRow(row, parameters, findings);
+  return findings;
+}
+
+Findings ruleFindings(const TuningParameters& parameters) {
+  Findings findings;
+  for (const Rule& rule : kRules)
+    if (!rule.holds(parameters))
+      findings.push_back(
+          {Severity::error, "", std::string(rule.key), rule.expected(parameters), rule.found(parameters)});
+  // A policy that is switched off is checked too, so that switching it on cannot fail.
+  const Findings policy = checkedPolicy(parameters.policy).findings();
+  findings.insert(findings.end(), policy.begin(), policy.end());
+  return findings;
+}
+
+std::vector<RuleText> ruleTexts() {
+  std::vector<RuleText> texts;
+  for (const Rule& rule : kRules) texts.push_back({rule.key, rule.text});
+  return texts;
+}
+
 Result<ValidatedParameters> validate(const TuningParameters& parameters) {
   Findings findings = rangeFindings(parameters);
   const auto isError = [](const Finding& f) { return f.severity == Severity::error; };
@@ -258,15 +302,8 @@ Result<ValidatedParameters> validate(const TuningParameters& parameters) {
   findings.insert(findings.end(), broken.begin(), broken.end());
   if (!broken.empty()) return findings;
   std::shared_ptr<const CompiledPolicy> policy;
-  if (!(parameters.policy == PolicyParameters{})) {
-    // A policy that is switched off is checked too, so that switching it on cannot fail.
-    auto compiled = checkedPolicy(parameters.policy);
-    if (!compiled) {
-      findings.insert(findings.end(), compiled.findings().begin(), compiled.findings().end());
-      return findings;
-    }
-    if (parameters.policy.enabled) policy = std::make_shared<const CompiledPolicy>(*std::move(compiled));
-  }
+  if (parameters.policy.enabled)
+    policy = std::make_shared<const CompiledPolicy>(checkedPolicy(parameters.policy).value());
   return {ValidatedParameters(parameters, std::move(policy)), std::move(findings)};
 }
 

@@ -56,6 +56,57 @@ TEST(DecideCommand, decidesTheHeightAboveGroundWhereThePresetAsksForIt) {
   EXPECT_THAT(decideBy(above).out, HasSubstr("20000 ft above ground gives 0.000"));
 }
 
+const std::string kPolicy =
+    " --set 'policy.terms=altitude low = ramp 2000 1000 | load high = ramp 0.5 1'"
+    " --set 'policy.rules=if altitude is low then lod_scale = 4 | if altitude is not low then "
+    "lod_scale = 2, render_scale = 1 with 0.5 | if load is high then lod_scale = 8'"
+    " --set policy.enabled=true ";
+
+TEST(DecideCommand, saysWhatThePolicyMadeOfWhichSignals) {
+  const Ran ran = decideBy("--altitude-ft 1500 --pitch-deg -3 --json" + kPolicy);
+  ASSERT_EQ(ran.exitCode, 0) << ran.err;
+  const json document = json::parse(ran.out), policy = document.at("policy");
+  EXPECT_NEAR(policy.at("signals").at("above_ground").get<double>(), 1500, 1e-9);
+  EXPECT_NEAR(policy.at("signals").at("pitch").get<double>(), -3, 1e-9);
+  EXPECT_TRUE(policy.at("signals").at("load").is_null());
+  EXPECT_EQ(policy.at("unknown_asked"), json::array({"load"}));
+  EXPECT_EQ(policy.at("levers").size(), 2u) << "no rule names another";
+  EXPECT_NEAR(policy.at("levers").at("lod_scale").get<double>(), (0.5 * 4 + 0.25 * 2) / 0.75, 1e-9);
+  EXPECT_EQ(policy.at("levers").at("render_scale"), 1.0);
+  const json& rules = policy.at("rules");
+  ASSERT_EQ(rules.size(), 2u) << "the third asks for the load, which nobody knows";
+  EXPECT_EQ(rules[1].at("rule"), 2);
+  EXPECT_NEAR(rules[1].at("firing").get<double>(), 0.25, 1e-9);
+  EXPECT_NEAR(rules[1].at("shares").at("lod_scale").get<double>(), 1. / 3, 1e-9);
+  EXPECT_EQ(rules[1].at("shares").at("render_scale"), 1.0);
+  EXPECT_EQ(document.at("policy_rules")[1],
+            "if altitude is not low then lod_scale = 2, render_scale = 1 with 0.5");
+  EXPECT_THAT(decideBy("--altitude-ft 1500 --pitch-deg -3" + kPolicy).out,
+              HasSubstr("  rule 2 fires 0.25 (LOD scale 33.3 %, Render scale 100 %): if altitude"));
+  const json without = json::parse(decideBy("--altitude-ft 1500 --pitch-deg -3 --json").out);
+  EXPECT_TRUE(without.at("policy").is_null());
+  EXPECT_TRUE(without.at("policy_rules").empty());
+}
+
+TEST(DecideCommand, saysTheSameOfARowOfItsOwnTrace) {
+  const test::ScratchDir dir;
+  const Ran first = decideBy("--flight " + kFlight + " --csv" + kPolicy);
+  ASSERT_EQ(first.exitCode, 0) << first.err;
+  test::writeFile(dir / "trace.csv", first.out);
+  const json flown = json::parse(decideBy("--flight " + kFlight + " --json" + kPolicy).out),
+             again =
+                 json::parse(decideBy("--flight " + (dir / "trace.csv").string() + " --json" + kPolicy).out);
+  ASSERT_EQ(flown.at("decisions").size(), again.at("decisions").size());
+  std::set<std::size_t> fired;
+  for (std::size_t i = 0; i < flown.at("decisions").size(); ++i) {
+    const json& policy = flown.at("decisions")[i].at("policy");
+    ASSERT_EQ(policy, again.at("decisions")[i].at("policy")) << i;
+    fired.insert(policy.at("rules").size());
+  }
+  EXPECT_EQ(again.at("as_recorded"), again.at("rows"));
+  EXPECT_TRUE(fired.contains(1)) << "somewhere it flies";
+}
+
 TEST(DecideCommand, decidesAFlightRowByRow) {
   const Ran ran = decideBy("--flight " + kFlight + " --json");
   ASSERT_EQ(ran.exitCode, 0) << ran.err;

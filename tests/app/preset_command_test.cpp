@@ -77,6 +77,42 @@ TEST(PresetCommand, givesRulesToFuzzyToolsAndTakesThemBack) {
   }
 }
 
+const std::string kPolicy =
+    " --set 'policy.terms=above_ground low = ramp 2000 500 | speed fast = sigmoid 300 0.05'"
+    " --set 'policy.rules=if above_ground is low and speed is not fast then lod_scale = 2, render_scale = "
+    "0.75 with 0.5 # why | off if speed is any then lod_scale = 1' --set policy.enabled=true ";
+
+TEST(PresetCommand, givesPoliciesToFuzzyToolsAndTakesThemBack) {
+  const test::ScratchDir dir;
+  const std::string whole = (dir / "p.json").string();
+  ASSERT_EQ(preset("export default -o " + whole + kPolicy).exitCode, 0);
+  const auto policy = loadPreset(whole)->parameters.policy;
+  ASSERT_EQ(policy.rules.line.size(), 2u);
+  for (const std::string ending : {"fll", "fis"}) {
+    const std::string rules = (dir / ("r." + ending)).string(), made = (dir / (ending + ".json")).string();
+    const Ran exported = preset("policy export " + whole + " -o " + rules);
+    ASSERT_EQ(exported.exitCode, 0) << exported.err;
+    EXPECT_EQ(exported.err, "");
+    EXPECT_EQ(preset("policy export default -o - --format " + ending + kPolicy).out, test::readFile(rules));
+    const Ran imported = preset("policy import " + rules + " --base as-published -o " + made);
+    ASSERT_EQ(imported.exitCode, 0) << imported.err;
+    const auto loaded = loadPreset(made);
+    ASSERT_TRUE(loaded) << toString(loaded.findings());
+    EXPECT_EQ(loaded->parameters.policy, policy);
+    EXPECT_EQ(loaded->base, "as-published");
+    EXPECT_EQ(loaded->parameters.scheme.hysteresis.value(), 0);
+  }
+  EXPECT_THAT(preset("policy export default -o - --format fll").err,
+              HasSubstr("error: default: policy.rules: expected at least one rule, found none"));
+  const Ran mixed = preset("policy export default -o - --format fis" + kPolicy +
+                           "--set 'policy.rules=if speed is fast or speed is not fast then lod_scale = 2'");
+  EXPECT_EQ(mixed.exitCode, 1);
+  EXPECT_THAT(mixed.err, HasSubstr("error: default: rules.1: expected each input once, found speed twice"));
+  test::writeFile(dir / "bad.fis", "[System]\nType='mamdani'\n");
+  EXPECT_THAT(preset("policy import " + (dir / "bad.fis").string() + " -o -").err,
+              HasSubstr("bad.fis:2: Type: expected 'sugeno', found mamdani"));
+}
+
 TEST(PresetCommand, refusesRuleFilesWithLineExpectedAndFound) {
   const test::ScratchDir dir;
   const std::string file = (dir / "r.fll").string();

@@ -71,6 +71,13 @@ TEST(RuleFile, readsBackEveryNumberOfBothLanguages) {
   }
 }
 
+TEST(RuleFile, isWrittenAsItWasWhenTheseFilesWereKept) {
+  for (const Language& language : kLanguages)
+    EXPECT_EQ(
+        *ruleFileText({}, "default", language.format),
+        test::readFile(test::sourceDir() / "tests/data/rules" / (std::string("default.") + language.ending)));
+}
+
 TEST(RuleFile, keepsEverythingElseOfThePresetItIsTakenInto) {
   TuningParameters onto;
   onto.scheme.hysteresis = Membership{0.01};
@@ -251,7 +258,8 @@ constexpr Mistake kFuzzyLite[] = {
     {"activation: General", "activation: Highest 1", "f:31: activation: expected General"},
     {"default: 0", "default: 1", "f:20: default: expected 0 or nan"},
     {"  enabled: true", "  enabled: false", "f:3: enabled: expected true, found false"},
-    {"is low and pitch", "is low or pitch", "f:32: rule: expected \"and\" or \"then\", found or"},
+    {"is low and pitch", "is low or pitch",
+     "f:32: rule: expected disjunction: Maximum, found \"or\" without disjunction"},
     {"is low and pitch", "is very low and pitch",
      "f:32: rule: expected not, any or a term (low, high), found very"},
     {"if altitude is low and pitch", "if speed is low and pitch",
@@ -259,6 +267,8 @@ constexpr Mistake kFuzzyLite[] = {
     {"low and pitch is down", "low and altitude is high", "f:32: rule: expected each input at most once"},
     {"is u1 with 1", "is u9 with 1", "f:32: rule: expected a term (u1, u2, u3, u4), found u9"},
     {"is u1 with 1", "is u1 with -1", "f: fuzzy.rules: expected weights of 0 to 1000"},
+    {"is u1 with 1", "is u1 and total is u2", "f:32: rule: expected one term of the output, found several"},
+    {"lock-range: false", "lock-range: true", "f:2: lock-range: expected false, found true"},
     {"is u1 with 1", "is u1 with", "f:32: rule: expected a weight, found the end of the line"},
     {"Constant 2", "Linear 2 1 0", "f:22: term u1: expected Constant with one number, found Linear"},
     {"Constant 2", "Constant 2.5", "f: fuzzy.rules: expected outputs of 0 to 2"},
@@ -280,18 +290,18 @@ TEST(RuleFile, refusesWhatItCannotDoWithLineExpectedAndFound) {
 
 constexpr Mistake kMatlab[] = {
     {"Type='sugeno'", "Type='mamdani'", "f:3: Type: expected 'sugeno', found mamdani"},
-    {"AndMethod='min'", "AndMethod='prod'", "f:8: AndMethod: expected 'min', found prod"},
+    {"AndMethod='min'", "AndMethod='prod'", "f:8: conjunction: expected Minimum, found AlgebraicProduct"},
     {"DefuzzMethod='wtaver'", "DefuzzMethod='wtsum'", "f:12: DefuzzMethod: expected 'wtaver', found wtsum"},
-    {"'low':'discretemf'", "'low':'gaussmf'", "f:18: MF1: expected discretemf, rampmf"},
+    {"'low':'discretemf'", "'low':'gaussmf'", "f:18: term low: expected straight lines: Discrete"},
     {"[4000 1", "[4000 x", "f:18: MF1: expected numbers"},
     {"[-30 1 30 0]", "-30 1 30 0", "f:25: MF1: expected 'name':'shape',[numbers]"},
     {"\n1 1, 1 (1) : 1", "\n3 1, 1 (1) : 1",
      "f:38: Rules: expected the number of a term of altitude, found 3"},
     {"\n1 1, 1 (1) : 1", "\n1 1, 7 (1) : 1", "f:38: Rules: expected the number of a term of total, found 7"},
-    {"\n1 1, 1 (1) : 1", "\n1 1, 1 (1) : 2", "f:38: Rules: expected 1, the conjunction, found 2"},
+    {"\n1 1, 1 (1) : 1", "\n1 1, 1 (1) : 2", "f:38: rule: expected \"and\" or \"then\", found or"},
     {"\n1 1, 1 (1) : 1", "\n1 1 1, 1 (1) : 1", "f:38: Rules: expected terms of inputs"},
     {"\n1 1, 1 (1) : 1", "\n1.05 1, 1 (1) : 1",
-     "f:38: Rules: expected the number of a term of altitude, found 1.05"},
+     "f:38: rule: expected not, any or a term (low, high), found somewhat"},
     {"[Rules]", "[Rule]", "f:37: Rule: expected [System], [Input1], [Output1] or [Rules]"},
 };
 
@@ -334,12 +344,6 @@ TEST(RuleFile, isRefusedOrReadWhateverByteIsWrong) {
       }
     }
   }
-}
-
-TEST(RuleFile, isKnownByItsEnding) {
-  EXPECT_EQ(ruleFormatOf("a/b.fll"), RuleFormat::fuzzylite);
-  EXPECT_EQ(ruleFormatOf("b.fis"), RuleFormat::matlab);
-  EXPECT_FALSE(ruleFormatOf("b.json"));
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -13,131 +15,168 @@
 namespace trimtab {
 namespace {
 
-constexpr double kAgreement = 1e-9;
+struct Language {
+  RuleFormat format;
+  const char* ending;
+};
+constexpr Language kLanguages[] = {{RuleFormat::fuzzylite, "fll"}, {RuleFormat::matlab, "fis"}};
 
-/// fuzzylite takes firings up to 1e-6 for 0. Returns what its weighted average of our firings then is; our
-/// own value differs from it by no more than those firings can make.
-double withoutTinyFirings(const Policy& policy, const PolicyDecision& ours, Lever lever) {
-  double sum = 0, weight = 0, tiny = 0;
-  for (std::size_t r = 0; r < policy.rules.size(); ++r)
-    for (const LeverSetting& s : policy.rules[r].settings)
-      if (s.lever == lever) {
-        const double w = ours.firing[r];
-        (w > 1e-6 ? weight : tiny) += w;
-        if (w > 1e-6) sum += w * s.value;
-      }
-  const Range range = rowOf(lever).hard;
-  if (weight > 0) {
-    EXPECT_NEAR(ours.target[lever], sum / weight, (range.high - range.low) * tiny / weight + 1e-12);
-  }
-  return sum / weight;
+Policy randomPolicyFor(RuleFormat format, std::mt19937_64& random) {
+  return test::randomPolicy(random, {.signals = 1 + random() % 8,
+                                     .terms = 8 + random() % 17,
+                                     .rules = 2 + random() % 40,
+                                     .levers = 1 + random() % 7,
+                                     .numeric = format == RuleFormat::matlab});
 }
 
-/// Compares over random signals; returns the largest difference, of numbers of the size of 1.
-double differenceFromFuzzylite(const Policy& policy, std::mt19937_64& random, int points) {
-  const auto compiled = compile(policy, "test");
-  EXPECT_TRUE(compiled) << toString(compiled.findings());
-  const auto fll = toFuzzyLite(policy, "test policy");
-  EXPECT_TRUE(fll) << toString(fll.findings());
-  if (!compiled || !fll) return HUGE_VAL;
-  std::vector<SignalValues> rows;
-  for (int i = 0; i < points; ++i) rows.push_back(test::randomSignals(random, policy));
-  std::string error;
-  const auto theirs = test::byFuzzylite(*fll, rows, error);
-  EXPECT_EQ(error, "") << *fll;
-  double worst = 0;
-  PolicyDecision ours;
-  for (std::size_t i = 0; i < theirs.size(); ++i) {
-    compiled->decide(rows[i], ours);
+/// Terms are sorted by signal, and groups are negated otherwise, so that decisions tell whether all is there.
+void expectSameDecisions(const Policy& read, const Policy& policy, std::mt19937_64& random,
+                         double tolerance) {
+  const auto a = compile(policy, "a"), b = compile(read, "b");
+  ASSERT_TRUE(a && b) << toString(b.findings());
+  PolicyDecision ofA, ofB;
+  for (int k = 0; k < 50; ++k) {
+    const SignalValues signals = test::randomSignals(random, policy);
+    a->decide(signals, ofA);
+    b->decide(signals, ofB);
+    for (std::size_t r = 0; r < policy.rules.size(); ++r)
+      ASSERT_NEAR(ofA.firing[r], ofB.firing[r], tolerance) << policy.rules[r].condition;
     for (const LeverRow& row : kLeverRows) {
-      if (!compiled->moves(row.lever)) continue;
-      const double a = withoutTinyFirings(policy, ours, row.lever), b = theirs[i][row.lever];
-      if (std::isnan(a) && std::isnan(b)) continue;
-      const double difference = std::isnan(a) || std::isnan(b) ? HUGE_VAL : std::abs(a - b);
-      worst = std::max(worst, difference);
-      EXPECT_LE(difference, kAgreement) << row.key << ": " << a << " against " << b << "\n" << *fll;
-      if (!(difference <= kAgreement)) return worst;
+      double firing = 0;  // rounding alone may make rules fire that do not
+      for (std::size_t r = 0; r < policy.rules.size(); ++r)
+        for (const LeverSetting& setting : policy.rules[r].settings)
+          if (setting.lever == row.lever) firing += ofA.firing[r];
+      if (firing > 0.01) {
+        ASSERT_NEAR(ofA.target[row.lever], ofB.target[row.lever], 1e4 * tolerance) << row.key;
+      }
     }
   }
-  return worst;
 }
 
-TEST(PolicyFile, agreesWithFuzzyliteOver200RandomRuleBases) {
+TEST(PolicyFile, agreesWithFuzzyliteOver200RandomRuleBasesInEachLanguage) {
   if (!test::fuzzylitePresent()) GTEST_SKIP() << "needs the fuzzylite program";
   std::mt19937_64 random(11);
-  double worst = 0;
-  for (int i = 0; i < 200 && !HasFailure(); ++i)
-    worst = std::max(worst, differenceFromFuzzylite(test::randomPolicy(random, {.signals = 1 + random() % 8,
-                                                                                .terms = 8 + random() % 17,
-                                                                                .rules = 1 + random() % 40,
-                                                                                .levers = 1 + random() % 7}),
-                                                    random, 500));
-  std::printf("fuzzylite: 200 rule bases of 500 points, largest difference %.2g\n", worst);
+  for (const Language& language : kLanguages) {
+    double worst = 0;
+    for (int i = 0; i < 200 && !HasFailure(); ++i)
+      worst = std::max(worst, test::differenceFromFuzzylite(randomPolicyFor(language.format, random),
+                                                            language.format, random, 500));
+    std::printf("fuzzylite by %s: 200 rule bases of 500 points, largest difference %.2g\n", language.ending,
+                worst);
+  }
 }
 
-TEST(PolicyFile, comesBackFromItsOwnLanguage) {
+TEST(PolicyFile, comesBackFromBothLanguages) {
   std::mt19937_64 random(13);
-  for (int i = 0; i < 100; ++i) {
-    Policy policy = test::randomPolicy(random, {});
-    policy.rules[0].enabled = false;
-    policy.rules[1].reason = "Low and fast: the ground rushes by";
-    const auto text = toFuzzyLite(policy, "p");
-    ASSERT_TRUE(text) << toString(text.findings());
-    const auto read = readFuzzyLite(*text, "p.fll");
-    ASSERT_TRUE(read) << toString(read.findings()) << *text;
-    EXPECT_EQ(read->norm, policy.norm);
-    EXPECT_EQ(read->terms.size(), policy.terms.size());
-    ASSERT_EQ(read->rules.size(), policy.rules.size());
-    EXPECT_FALSE(read->rules[0].enabled);
-    EXPECT_EQ(read->rules[1].reason, policy.rules[1].reason);
-    // Terms are sorted by signal and groups are negated otherwise, so that decisions tell whether all is
-    // there.
-    const auto a = compile(policy, "a"), b = compile(*read, "b");
-    ASSERT_TRUE(a && b);
-    PolicyDecision ofA, ofB;
-    for (int k = 0; k < 50; ++k) {
-      const SignalValues signals = test::randomSignals(random, policy);
-      a->decide(signals, ofA);
-      b->decide(signals, ofB);
-      for (std::size_t r = 0; r < policy.rules.size(); ++r)
-        ASSERT_NEAR(ofA.firing[r], ofB.firing[r], 1e-12) << *text;
+  for (const Language& language : kLanguages)
+    for (int i = 0; i < 100; ++i) {
+      Policy policy = randomPolicyFor(language.format, random);
+      policy.rules[0].enabled = false;
+      policy.rules[0].reason = "not yet # rule: if % 'quoted' caf\xc3\xa9";
+      policy.rules[1].reason = "Low and fast:\nthe ground rushes by";
+      const auto text = policyFileText(policy, "p", language.format);
+      ASSERT_TRUE(text) << toString(text.findings());
+      const auto read = readPolicyFile(*text, "p", language.format);
+      ASSERT_TRUE(read) << toString(read.findings()) << *text;
+      EXPECT_EQ(read->norm, policy.norm);
+      ASSERT_EQ(read->rules.size(), policy.rules.size());
+      for (std::size_t r = 0; r < policy.rules.size(); ++r) {
+        EXPECT_EQ(read->rules[r].enabled, policy.rules[r].enabled);
+        EXPECT_EQ(read->rules[r].weight, policy.rules[r].weight);
+        EXPECT_TRUE(std::is_permutation(read->rules[r].settings.begin(), read->rules[r].settings.end(),
+                                        policy.rules[r].settings.begin(), policy.rules[r].settings.end()));
+      }
+      EXPECT_EQ(read->rules[0].reason, policy.rules[0].reason);
+      EXPECT_EQ(read->rules[1].reason, "Low and fast: the ground rushes by");
+      EXPECT_TRUE(std::is_permutation(read->terms.begin(), read->terms.end(), policy.terms.begin(),
+                                      policy.terms.end()));
+      expectSameDecisions(*read, policy, random, 1e-12);
+      EXPECT_EQ(*policyFileText(*read, "p", language.format), *text) << "the second time to the byte";
     }
-    EXPECT_EQ(*toFuzzyLite(*read, "p"), *text) << "the second time to the byte";
-  }
 }
 
-TEST(PolicyFile, refusesWhatAPolicyCannotSayWithItsLine) {
-  const std::string good =
-      "Engine: e\nInputVariable: speed\n  term: fast Ramp 100 200\nOutputVariable: lod_scale\n  default: "
-      "nan\n"
-      "  term: coarse Constant 4\nRuleBlock: r\n  conjunction: Minimum\n  rule: if speed is fast then "
-      "lod_scale is coarse\n";
-  ASSERT_TRUE(readFuzzyLite(good, "e.fll"));
-  struct Bad {
-    const char *from, *to, *place, *found;
+TEST(PolicyFile, isReadAfterFuzzyliteHasConvertedIt) {
+  if (!test::fuzzylitePresent()) GTEST_SKIP() << "needs the fuzzylite program";
+  std::mt19937_64 random(14);
+  for (const Language& from : kLanguages)
+    for (const Language& to : kLanguages)
+      for (int i = 0; i < 20; ++i) {
+        const bool numeric = from.format == RuleFormat::matlab || to.format == RuleFormat::matlab;
+        const Policy policy = randomPolicyFor(numeric ? RuleFormat::matlab : RuleFormat::fuzzylite, random);
+        const std::string text =
+            test::convertedByFuzzylite(*policyFileText(policy, "p", from.format), from.ending, to.ending);
+        ASSERT_NE(text, "");
+        const auto read = readPolicyFile(text, "p", to.format);
+        ASSERT_TRUE(read) << toString(read.findings()) << text;
+        ASSERT_EQ(read->rules.size(), policy.rules.size());
+        expectSameDecisions(*read, policy, random, 1e-6);
+      }
+}
+
+TEST(PolicyFile, isWrittenAsPeopleWouldWriteIt) {
+  Policy policy;
+  policy.terms = {{Signal::speed, "fast", TermShape::ramp, {100, 200}},
+                  {Signal::speed, "middle", TermShape::gaussian, {150, 20}},
+                  {Signal::roll, "steep", TermShape::bell, {60, 10, 2}},
+                  {Signal::roll, "step", TermShape::points, {10, 0, 10, 1}}};
+  policy.rules = {{"not (speed is very fast or roll is steep)", {{Lever::lod_scale, 4}}, 0.5, true, "why"},
+                  {"roll is any", {{Lever::render_scale, 1}, {Lever::lod_scale, 2}}, 1, false, ""}};
+  const auto fll = toFuzzyLite(policy, "low & fast");
+  ASSERT_TRUE(fll) << toString(fll.findings());
+  EXPECT_NE(fll->find("Engine: low___fast\n"), std::string::npos);
+  EXPECT_NE(fll->find("  term: step Discrete 9.999999999999991 0 10 1\n"), std::string::npos) << *fll;
+  EXPECT_NE(
+      fll->find("  rule: if speed is not very fast and roll is not steep then lod_scale is v2 with 0.5"
+                "  # why\n  # rule: if roll is any then render_scale is v1 and lod_scale is v1 with 1\n"),
+      std::string::npos)
+      << *fll;
+  const auto fis = toMatlab(policy, "low & fast");
+  ASSERT_TRUE(fis) << toString(fis.findings());
+  EXPECT_NE(fis->find("MF2='middle':'gaussmf',[20 150]\n"), std::string::npos) << *fis;
+  EXPECT_NE(fis->find("MF1='steep':'gbellmf',[10 2 60]\n"), std::string::npos) << *fis;
+  EXPECT_NE(fis->find("[Rules]\n% reason: why\n-1 -1.2, 2 0 (0.5) : 1\n% rule: 0.99 0, 1 1 (1) : 1\n"),
+            std::string::npos)
+      << *fis;
+}
+
+TEST(PolicyFile, refusesTheRulesThatNumbersCannotSayOneByOne) {
+  Policy policy;
+  policy.terms = {{Signal::speed, "fast", TermShape::ramp, {100, 200}},
+                  {Signal::speed, "slow", TermShape::ramp, {200, 100}},
+                  {Signal::roll, "steep", TermShape::ramp, {20, 60}},
+                  {Signal::pitch, "up", TermShape::ramp, {0, 20}}};
+  const auto rule = [&policy](const char* condition) {
+    policy.rules.push_back({condition, {{Lever::lod_scale, 4}}, 1, true, ""});
   };
-  for (const Bad& bad :
-       {Bad{"speed\n  term", "pressure\n  term", "e.fll:2", "pressure"},
-        Bad{"Ramp", "Cosine", "e.fll:3", "Cosine"}, Bad{"100 200", "100 x", "e.fll:3", "x"},
-        Bad{"100 200", "100 100", "e.fll", "100 100"},
-        Bad{"lod_scale\n  def", "colour\n  def", "e.fll:4", "colour"},
-        Bad{"default: nan", "default: 0", "e.fll:5", "0"},
-        Bad{"Constant 4", "Linear 4 5", "e.fll:6", "Linear"},
-        Bad{"Minimum", "DrasticProduct", "e.fll:8", "DrasticProduct"},
-        Bad{"is coarse", "is fine", "e.fll:9", "fine"}, Bad{"is fast", "is slow", "e.fll", "slow"},
-        Bad{"Engine: e", "Engine e", "e.fll:1", "Engine e"}}) {
-    std::string text = good;
-    const std::size_t at = text.find(bad.from);
-    ASSERT_NE(at, std::string::npos);
-    text.replace(at, std::string(bad.from).size(), bad.to);
-    const auto read = readFuzzyLite(text, "e.fll");
-    ASSERT_FALSE(read) << text;
-    const std::string said = toString(read.findings());
-    EXPECT_NE(said.find(bad.place), std::string::npos) << said;
-    EXPECT_NE(said.find(bad.found), std::string::npos) << said;
-  }
-  for (const char* text : {"", "RuleBlock: a\nRuleBlock: b\n", "\0\xff\x01"})
-    EXPECT_FALSE(readFuzzyLite(text, "e.fll"));
+  rule("speed is fast and roll is steep or pitch is up");
+  rule("speed is fast and (roll is steep or pitch is up)");
+  rule("speed is fast or speed is slow");
+  rule("speed is very somewhat fast");
+  rule("speed is very not fast");
+  rule("speed is very any");
+  rule("speed is fast and not (roll is steep and pitch is up)");
+  rule("speed is fast and not (roll is steep or pitch is up)");  // De Morgan makes one connective of it
+  const auto text = toMatlab(policy, "p");
+  ASSERT_FALSE(text);
+  EXPECT_EQ(
+      toString(text.findings()),
+      "p: rules.1: expected \"and\" alone, or \"or\" alone, found a group in parentheses\n"
+      "p: rules.2: expected \"and\" alone, or \"or\" alone, found a group in parentheses\n"
+      "p: rules.3: expected each input once, found speed twice\n"
+      "p: rules.4: expected no hedges, or not, or one of very, somewhat, extremely and seldom, with not "
+      "before it, found very somewhat fast\n"
+      "p: rules.5: expected no hedges, or not, or one of very, somewhat, extremely and seldom, with not "
+      "before it, found very not fast\n"
+      "p: rules.6: expected no hedges, or not, or one of very, somewhat, extremely and seldom, with not "
+      "before it, found very any\n"
+      "p: rules.7: expected \"and\" alone, or \"or\" alone, found a group in parentheses");
+  EXPECT_TRUE(toFuzzyLite(policy, "p")) << "which has words for all of them";
+}
+
+TEST(PolicyFile, isKnownByItsEnding) {
+  EXPECT_EQ(ruleFormatOf("a/b.fll"), RuleFormat::fuzzylite);
+  EXPECT_EQ(ruleFormatOf("b.fis"), RuleFormat::matlab);
+  EXPECT_FALSE(ruleFormatOf("b.json"));
 }
 
 }  // namespace

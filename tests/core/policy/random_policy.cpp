@@ -30,8 +30,10 @@ class Maker {
     const std::size_t firstLever = below(kLevers);
     for (std::size_t r = 0; r < size_.rules; ++r) {
       PolicyRule rule;
-      rule.condition = condition(policy, 0);
+      rule.condition = size_.numeric ? numericCondition(policy) : condition(policy, 0);
       rule.weight = below(3) == 0 ? unit() : 1;
+      // fuzzylite keeps no more decimals of a weight than it is told to write, 12.
+      if (size_.numeric) rule.weight = std::round(rule.weight * 1e9) / 1e9;
       for (std::size_t l = 0, levers = 1 + below(std::min<std::size_t>(2, size_.levers)); l < levers; ++l) {
         const LeverRow& row = kLeverRows[(firstLever + (r + l) % size_.levers) % kLevers];
         rule.settings.push_back({row.lever, std::lerp(row.hard.low, row.hard.high, unit())});
@@ -99,6 +101,24 @@ class Maker {
         text += proposition(policy);
     }
     return text;
+  }
+
+  /// Each signal once, by one connective, perhaps as a negated group.
+  std::string numericCondition(const Policy& policy) {
+    static constexpr const char* kHedges[] = {"",        "",          "not ",       "very ",    "somewhat ",
+                                              "seldom ", "not very ", "very very ", "not not ", "extremely "};
+    const char* const connective = below(2) == 0 ? " and " : " or ";
+    std::uint32_t named = 0;
+    std::string text;
+    for (std::size_t parts = 1 + below(4); parts > 0; --parts) {
+      const PolicyTerm& term = policy.terms[below(policy.terms.size())];
+      const std::uint32_t bit = 1u << indexOf(term.signal);
+      if (named & bit) continue;
+      named |= bit;
+      text += (text.empty() ? "" : connective) + std::string(rowOf(term.signal).key) + " is " +
+              (below(10) == 0 ? "any" : kHedges[below(std::size(kHedges))] + term.name);
+    }
+    return below(4) == 0 ? "not (" + text + ")" : text;
   }
 
   std::mt19937_64& random_;

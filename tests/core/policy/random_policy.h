@@ -8,6 +8,7 @@ namespace trimtab::test {
 
 struct PolicySize {
   std::size_t signals = 4, terms = 12, rules = 20, levers = 4;
+  bool numeric = false;  ///< only rules that MATLAB's language can say
 };
 
 /// A policy with terms of every shape and rules with every connective, hedge and group, all of which compile.

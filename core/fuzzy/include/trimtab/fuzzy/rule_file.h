@@ -1,10 +1,9 @@
 #pragma once
 
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 
+#include "trimtab/policy/fuzzy_system.h"
 #include "trimtab/preset/parameters.h"
 #include "trimtab/units/result.h"
 
@@ -12,11 +11,6 @@
 /// computes, with the inputs altitude (ft) and pitch (deg) and a Takagi-Sugeno output total, the weighted
 /// average of constants. Bands and hysteresis are not part of either language.
 namespace trimtab {
-
-enum class RuleFormat { fuzzylite, matlab };
-
-/// Returns the language by the file's ending, .fll or .fis.
-std::optional<RuleFormat> ruleFormatOf(const std::filesystem::path& file);
 
 /// Returns the text of a file. Fails for readings that are not lines between points (the printed equations).
 /// Warns about what the file cannot express: the rounded step's 0.5 at level flight itself and, in MATLAB's

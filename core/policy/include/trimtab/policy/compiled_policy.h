@@ -101,8 +101,8 @@ class CompiledPolicy {
 
 /// Checks and compiles a policy. Fails with every finding, each at "WHERE: terms.SIGNAL.NAME" or "WHERE:
 /// rules.N" (from 1): shapes with a wrong count of numbers, falling or no width, not-a-number; terms that
-/// stand twice; conditions with unknown words; settings outside a lever's hard range or none; weights outside
-/// 0..1; more than the limits of policy.h.
+/// stand twice; conditions with unknown words; settings outside a lever's hard range, none, or two of one lever; weights
+/// outside 0..1; more than the limits of policy.h.
 Result<CompiledPolicy> compile(const Policy& policy, const std::string& where);
 
 }  // namespace trimtab

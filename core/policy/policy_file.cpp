@@ -1,0 +1,218 @@
+#include "trimtab/policy/policy_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "condition.h"
+#include "trimtab/policy/compiled_policy.h"
+#include "trimtab/units/number.h"
+#include "words.h"
+
+namespace trimtab {
+namespace {
+
+using fuzzy_system::System;
+
+/// As fuzzylite spells the shapes, in the enumeration's order.
+constexpr std::array<std::string_view, kTermShapes.size()> kShapes{
+    "Discrete", "Triangle", "Trapezoid", "Ramp", "Gaussian", "Bell", "Sigmoid"};
+
+struct Norms {
+  std::string_view conjunction, disjunction;
+};
+constexpr Norms kMinimum{"Minimum", "Maximum"}, kProduct{"AlgebraicProduct", "AlgebraicSum"};
+
+// --- From a policy ---
+
+/// Each signal that has terms or that a rule names, as `any` may be asked of a signal without terms.
+void addInputs(const Policy& policy, System& system) {
+  for (const SignalRow& row : kSignalRows) {
+    fuzzy_system::Variable input{std::string(row.key), row.range, true, {}, "", {}, ""};
+    for (const PolicyTerm& term : policy.terms) {
+      if (term.signal != row.signal) continue;
+      input.terms.push_back(
+          {term.name, std::string(kShapes[static_cast<std::size_t>(term.shape)]), term.numbers, ""});
+      if (term.shape == TermShape::points) fuzzy_system::moveStepsApart(input.terms.back().numbers);
+    }
+    const bool named = std::any_of(policy.rules.begin(), policy.rules.end(), [&row](const PolicyRule& rule) {
+      const auto words = policyWords(rule.condition);
+      return std::find(words.begin(), words.end(), row.key) != words.end();
+    });
+    if (named || !input.terms.empty()) system.inputs.push_back(std::move(input));
+  }
+}
+
+/// Each lever that a rule sets; the distinct values that rules give it are its terms v1, v2 ..., rising.
+void addOutputs(const Policy& policy, System& system) {
+  for (const LeverRow& row : kLeverRows) {
+    std::vector<double> values;
+    for (const PolicyRule& rule : policy.rules)
+      for (const LeverSetting& setting : rule.settings)
+        if (setting.lever == row.lever) values.push_back(setting.value);
+    if (values.empty()) continue;
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    fuzzy_system::Variable output;
+    output.name = row.key;
+    output.range = row.hard;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      output.terms.push_back({"v" + std::to_string(i + 1), "Constant", {values[i]}, ""});
+    system.outputs.push_back(std::move(output));
+  }
+}
+
+fuzzy_system::Rule ruleOf(const PolicyRule& rule, const System& system) {
+  // compile() has read it, so that it can be read.
+  fuzzy_system::Rule made{withSingleTermsNegated(*readCondition(rule.condition, "", "")),
+                          {},
+                          rule.weight,
+                          rule.enabled,
+                          rule.reason,
+                          ""};
+  for (const LeverSetting& setting : rule.settings) {
+    const std::size_t output = fuzzy_system::indexOf(system.outputs, rowOf(setting.lever).key);
+    const auto& terms = system.outputs[output].terms;
+    const auto term = std::find_if(terms.begin(), terms.end(), [&](const fuzzy_system::Term& each) {
+      return each.numbers[0] == setting.value;
+    });
+    made.conclusions.push_back({output, static_cast<std::size_t>(term - terms.begin())});
+  }
+  return made;
+}
+
+// --- To a policy ---
+
+class Translation {
+ public:
+  Translation(const System& system, const std::string& where) : system_(system), where_(where) {}
+
+  Result<Policy> run() {
+    for (const fuzzy_system::Variable& input : system_.inputs) addTerms(input);
+    for (const fuzzy_system::Variable& output : system_.outputs) checkOutput(output);
+    setNorm();
+    if (findings_.empty())
+      for (const fuzzy_system::Rule& rule : system_.rules) addRule(rule);
+    if (policy_.rules.empty() && findings_.empty()) refuse(where_, "rule", "at least one rule", "none");
+    if (!findings_.empty()) return findings_;
+    const auto compiled = compile(policy_, where_);
+    if (compiled) return std::move(policy_);
+    findings_ = compiled.findings();
+    for (Finding& f : findings_) f.where = placeOf(f.key);
+    return findings_;
+  }
+
+ private:
+  void refuse(std::string where, std::string key, std::string expected, std::string found) {
+    findings_.push_back(
+        {Severity::error, std::move(where), std::move(key), std::move(expected), found.substr(0, 80)});
+  }
+
+  void addTerms(const fuzzy_system::Variable& input) {
+    const auto signal = signalNamed(input.name);
+    if (!signal) return refuse(input.where, "input", "the key of a signal", input.name);
+    const Range range = rowOf(*signal).range;
+    if (input.lockRange && (input.range.low != range.low || input.range.high != range.high))
+      refuse(input.where, "input " + input.name,
+             "the range " + numberText(range.low) + " " + numberText(range.high) + ", or lock-range: false",
+             numberText(input.range.low) + " " + numberText(input.range.high));
+    for (const fuzzy_system::Term& term : input.terms) {
+      const auto shape = std::find(kShapes.begin(), kShapes.end(), term.shape);
+      if (shape == kShapes.end()) {
+        refuse(term.where, "term " + term.name.substr(0, 40), "a shape that a policy has", term.shape);
+        continue;
+      }
+      policy_.terms.push_back(
+          {*signal, term.name, static_cast<TermShape>(shape - kShapes.begin()), term.numbers});
+      if (policy_.terms.back().shape == TermShape::points)
+        fuzzy_system::moveStepsTogether(policy_.terms.back().numbers);
+      termPlaces_.push_back(term.where);
+    }
+  }
+
+  void checkOutput(const fuzzy_system::Variable& output) {
+    if (!leverNamed(output.name)) refuse(output.where, "output", "the key of a lever", output.name);
+    if (!std::isnan(output.unfired))
+      refuse(output.unfiredWhere, "default", "nan: a lever that no rule sets is neutral",
+             numberText(output.unfired));
+    for (const fuzzy_system::Term& term : output.terms)
+      if (term.shape != "Constant" || term.numbers.size() != 1)
+        refuse(term.where, "term " + term.name.substr(0, 40), "Constant with one number",
+               term.shape + " of " + std::to_string(term.numbers.size()) + " numbers");
+  }
+
+  void setNorm() {
+    const auto& both = system_.conjunction;
+    const auto& either = system_.disjunction;
+    const auto isNone = [](const fuzzy_system::Setting& norm) {
+      return norm.value.empty() || norm.value == "none";
+    };
+    policy_.norm = both.value == kProduct.conjunction || either.value == kProduct.disjunction
+                       ? PolicyNorm::product
+                       : PolicyNorm::minimum;
+    const Norms norms = policy_.norm == PolicyNorm::product ? kProduct : kMinimum;
+    const auto check = [&](const fuzzy_system::Setting& norm, const char* key, std::string_view wanted) {
+      if (!isNone(norm) && norm.value != wanted)
+        refuse(norm.where, key,
+               "Minimum with Maximum, or AlgebraicProduct with AlgebraicSum (min with max, prod with probor)",
+               norm.value);
+    };
+    check(both, "conjunction", norms.conjunction);
+    check(either, "disjunction", norms.disjunction);
+  }
+
+  void addRule(const fuzzy_system::Rule& rule) {
+    PolicyRule made{rule.condition, {}, rule.weight, rule.enabled, rule.reason};
+    for (const fuzzy_system::Conclusion& conclusion : rule.conclusions) {
+      const auto& output = system_.outputs[conclusion.output];
+      made.settings.push_back({*leverNamed(output.name), output.terms[conclusion.term].numbers[0]});
+    }
+    policy_.rules.push_back(std::move(made));
+  }
+
+  /// The line of what compile() names "terms.SIGNAL.NAME" or "rules.N".
+  std::string placeOf(const std::string& key) const {
+    constexpr std::string_view kRules = "rules.";
+    if (key.starts_with(kRules))
+      return system_.rules[static_cast<std::size_t>(std::stoul(key.substr(kRules.size()))) - 1].where;
+    for (std::size_t i = 0; i < policy_.terms.size(); ++i) {
+      const PolicyTerm& term = policy_.terms[i];
+      if (key == "terms." + std::string(rowOf(term.signal).key) + "." + term.name.substr(0, 40))
+        return termPlaces_[i];
+    }
+    return where_;
+  }
+
+  const System& system_;
+  const std::string& where_;
+  Policy policy_;
+  std::vector<std::string> termPlaces_;
+  Findings findings_;
+};
+
+}  // namespace
+
+Result<std::string> policyFileText(const Policy& policy, const std::string& name, RuleFormat format) {
+  if (const auto compiled = compile(policy, name); !compiled) return compiled.findings();
+  const Norms norms = policy.norm == PolicyNorm::product ? kProduct : kMinimum;
+  System system;
+  system.name = fuzzy_system::engineName(name, "policy");
+  system.conjunction.value = norms.conjunction;
+  system.disjunction.value = norms.disjunction;
+  addInputs(policy, system);
+  addOutputs(policy, system);
+  for (const PolicyRule& rule : policy.rules) system.rules.push_back(ruleOf(rule, system));
+  auto text = fuzzy_system::systemText(system, format);
+  if (text) return text;
+  Findings findings = text.findings();
+  for (Finding& f : findings) f.where = name;
+  return findings;
+}
+
+Result<Policy> readPolicyFile(std::string_view text, const std::string& where, RuleFormat format) {
+  const auto system = fuzzy_system::readSystem(text, where, format);
+  if (!system) return system.findings();
+  return Translation(*system, where).run();
+}
+
+}  // namespace trimtab
