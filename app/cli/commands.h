@@ -22,6 +22,7 @@ void addFeed(CLI::App& app, int& exitCode);
 void addBench(CLI::App& app, int& exitCode);
 void addResults(CLI::App& app, int& exitCode);
 void addExperiment(CLI::App& app, int& exitCode);
+void addLeverage(CLI::App& app, int& exitCode);
 void addWeather(CLI::App& app, int& exitCode);
 
 /// Prints findings on standard error, one per line, with their severity.

@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   trimtab::cli::addBench(app, exitCode);
   trimtab::cli::addResults(app, exitCode);
   trimtab::cli::addExperiment(app, exitCode);
+  trimtab::cli::addLeverage(app, exitCode);
   trimtab::cli::addWeather(app, exitCode);
   try {
     app.parse(argc, argv);

@@ -25,6 +25,7 @@ struct Setup {
   std::string presetName;
   int widthPx = 1280, heightPx = 720;
   int repeats = 3;          ///< frames per view, of which the median counts
+  std::size_t frames = 24;  ///< moments of the flight, for leverage
   double hostRateHz = 200;  ///< states a second, for the experiments on head motion
   /// Called now and then; returning false cancels.
   std::function<bool(double fraction, const std::string& what)> progress;

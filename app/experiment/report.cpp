@@ -156,8 +156,11 @@ Result<Report> parseReport(std::string_view text, const std::string& where) {
 }
 
 std::string toText(const Report& report) {
-  std::string text = report.name + " (" + report.source + ")\n" + report.machine + "\n\npublished\n";
-  appendTable(text, report.published);
+  std::string text = report.name + " (" + report.source + ")\n" + report.machine + '\n';
+  if (!report.published.rows.empty()) {
+    text += "\npublished\n";
+    appendTable(text, report.published);
+  }
   text += "\nmeasured\n";
   appendTable(text, report.measured);
   if (!report.notes.empty()) text += '\n';
@@ -197,7 +200,8 @@ Result<Done> writeReport(const std::filesystem::path& folder, const Report& repo
     return done.ok();
   };
   bool good = write(report.name + ".json", toJson(report));
-  good = write(report.name + "-published.csv", toCsv(report.published)) && good;
+  if (!report.published.rows.empty())
+    good = write(report.name + "-published.csv", toCsv(report.published)) && good;
   good = write(report.name + "-measured.csv", toCsv(report.measured)) && good;
   for (const Plot& plot : report.plots) good = write(plot.file + ".svg", toSvg(plot)) && good;
   if (!good) return findings;

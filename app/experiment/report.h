@@ -29,10 +29,10 @@ using plot::Series;
 using plot::toSvg;
 
 struct Report {
-  std::string name;     ///< "culling"
-  std::string source;   ///< "A, B: comparison of culling"
-  std::string machine;  ///< processor, cores and renderer
-  Table published, measured;
+  std::string name;                ///< "culling"
+  std::string source;              ///< "A, B: comparison of culling"
+  std::string machine;             ///< processor, cores and renderer
+  Table published, measured;       ///< published is empty for what no document has
   std::vector<std::string> notes;  ///< conditions, and where and why measured rows differ
   std::vector<Plot> plots;
 };

@@ -104,7 +104,8 @@ class RowsDrawing : public Drawing {
       const std::string hint = i < series.hints.size() ? series.hints[i] : std::string();
       if (!std::isfinite(value)) continue;
       if (series.draw == Series::Draw::line) {
-        const double from = px(sum), width = px(sum + value) - from;
+        // A negative value is a bar to the left.
+        const double from = px(std::min(sum, sum + value)), width = px(std::max(sum, sum + value)) - from;
         svg_.bar(from, y - bar / 2, width > 2 ? width - 0.7 : width, bar, look(s), hint);
         sum += value;
       } else {

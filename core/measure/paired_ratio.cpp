@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 namespace trimtab {
@@ -43,6 +44,26 @@ PairedRatio pairedRatio(std::span<const double> a, std::span<const double> b) {
   const std::size_t cut = medianIntervalCut(n);
   result.low = cut > 0 ? ratios[cut - 1] : 0;
   result.high = cut > 0 ? ratios[n - cut] : std::numeric_limits<double>::infinity();
+  return result;
+}
+
+PairedDifference pairedDifference(std::span<const double> a, std::span<const double> b) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+    if (std::isfinite(a[i]) && std::isfinite(b[i])) differences.push_back(b[i] - a[i]);
+  const std::size_t n = differences.size();
+  if (n == 0) {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    return {kNan, kNan, kNan, 0};
+  }
+  std::sort(differences.begin(), differences.end());
+  PairedDifference result;
+  result.median = std::midpoint(differences[(n - 1) / 2], differences[n / 2]);
+  result.pairs = n;
+  const std::size_t cut = medianIntervalCut(n);
+  result.low = cut > 0 ? differences[cut - 1] : -kInfinity;
+  result.high = cut > 0 ? differences[n - cut] : kInfinity;
   return result;
 }
 

@@ -10,6 +10,6 @@ struct ShippedPreset {
 };
 
 /// The files of presets/, in the order people choose from.
-extern const std::array<ShippedPreset, 3> kShippedPresets;
+extern const std::array<ShippedPreset, 7> kShippedPresets;
 
 }  // namespace trimtab

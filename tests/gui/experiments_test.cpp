@@ -6,6 +6,7 @@
 #include <QTableWidget>
 #include <algorithm>
 
+#include "app/workbench/controllers/flight_controller.h"
 #include "app/workbench/docks/experiments_dock.h"
 #include "gui_support.h"
 #include "views/plots/report_plot.h"
@@ -75,6 +76,19 @@ TEST_F(ExperimentsDock, runsOverThePresetAsItStandsAndKeepsTheResultsWhenCancell
   ASSERT_TRUE(waitFor([&] { return ended; }, 20000));
   EXPECT_FALSE(dock().running());
   EXPECT_EQ(dock().report()->name, "culling");
+}
+
+TEST_F(ExperimentsDock, showsWhatEachLeverIsWorthInTheFlight) {
+  ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
+  choose("leverage");
+  ASSERT_TRUE(runToEnd()) << w().messages().text().toStdString();
+  ASSERT_TRUE(dock().report());
+  EXPECT_EQ(dock().report()->name, "leverage");
+  EXPECT_EQ(dock().report()->measured.rows.size(), 7u);
+  EXPECT_EQ(dock().report()->plots.size(), 2u);
+  const QList<QTableWidget*> tables = dock().findChildren<QTableWidget*>();
+  EXPECT_EQ(std::max(tables[0]->rowCount(), tables[1]->rowCount()), 7);
+  EXPECT_EQ(std::min(tables[0]->rowCount(), tables[1]->rowCount()), 0) << "no document has published it";
 }
 
 TEST_F(ExperimentsDock, saysWhyAnExperimentFailed) {

@@ -70,7 +70,7 @@ void ReportPlot::addBars() {
     names->addTick(i + 1, QString(data_.categories[i]).replace(QLatin1Char(' '), QLatin1Char('\n')));
   xAxis->setTicker(names);
   auto* group = new QCPBarsGroup(this);
-  double largest = 0;
+  double smallest = 0, largest = 0;
   for (int i = 0; i < data_.series.size(); ++i) {
     const ReportPlotData::Series& s = data_.series[i];
     auto* bars = new QCPBars(xAxis, yAxis);
@@ -84,10 +84,11 @@ void ReportPlot::addBars() {
       if (!std::isfinite(s.y[k])) continue;
       bars->addData(k + 1, s.y[k]);
       largest = std::max(largest, s.y[k]);
+      smallest = std::min(smallest, s.y[k]);
     }
   }
   xAxis->setRange(0.4, double(data_.categories.size()) + 0.6);
-  yAxis->setRange(0, largest > 0 ? largest * kHeadRoom : 1);
+  yAxis->setRange(smallest * kHeadRoom, largest > 0 ? largest * kHeadRoom : 1);
 }
 
 }  // namespace trimtab::views

@@ -20,6 +20,7 @@
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "app/experiment/leverage.h"
 #include "views/model/theme.h"
 #include "views/plots/report_plot.h"
 
@@ -29,6 +30,7 @@ namespace {
 struct Named {
   const char *command, *label;
 };
+constexpr char kLeverage[] = "leverage";
 constexpr Named kExperiments[] = {
     {"culling", QT_TRANSLATE_NOOP("ExperimentsDock", "Culling: none, view frustum, proposed (A, B)")},
     {"culling-per-node", QT_TRANSLATE_NOOP("ExperimentsDock", "Culling: decided by frame or by node (A)")},
@@ -39,6 +41,7 @@ constexpr Named kExperiments[] = {
     {"weather-protocol",
      QT_TRANSLATE_NOOP("ExperimentsDock", "Weather: one ratio at several vertex counts (D)")},
     {"static-lod", QT_TRANSLATE_NOOP("ExperimentsDock", "Static LOD: faces by level (E)")},
+    {kLeverage, QT_TRANSLATE_NOOP("ExperimentsDock", "Leverage: what each lever is worth in this flight")},
 };
 
 QTableWidget* makeTable(const QString& name, QWidget* parent) {
@@ -69,6 +72,14 @@ void fill(QTableWidget& table, const experiment::Table& from) {
     }
   }
   table.resizeColumnsToContents();
+}
+
+/// Reads what the command printed.
+Result<experiment::Report> reportIn(std::string_view json, bool leverage) {
+  if (!leverage) return experiment::parseReport(json, "trimtab-cli");
+  const Result<experiment::Leverage> read = experiment::parseLeverage(json, "trimtab-cli");
+  if (!read) return read.findings();
+  return experiment::toReport(*read);
 }
 
 views::ReportPlotData toView(const experiment::Plot& plot) {
@@ -189,12 +200,18 @@ void ExperimentsDock::run() {
                  {{Severity::error, "Experiments", {}, "an open terrain", "none"}});
     return;
   }
-  QStringList arguments{QStringLiteral("experiment"), which_->currentData().toString(),
-                        QStringLiteral("--terrain"),  inputs->terrain,
-                        QStringLiteral("--preset"),   inputs->preset,
-                        QStringLiteral("--size"),     size_->text(),
-                        QStringLiteral("--repeats"),  QString::number(repeats_->value()),
-                        QStringLiteral("--json")};
+  const QString command = which_->currentData().toString();
+  const bool leverage = command == QLatin1String(kLeverage);
+  if (leverage && inputs->flight.isEmpty()) {
+    emit refused(tr("The experiment cannot be started"),
+                 {{Severity::error, "Experiments", {}, "an open flight for leverage", "none"}});
+    return;
+  }
+  QStringList arguments;
+  if (!leverage) arguments << QStringLiteral("experiment");
+  arguments << command << QStringLiteral("--terrain") << inputs->terrain << QStringLiteral("--preset")
+            << inputs->preset << QStringLiteral("--size") << size_->text() << QStringLiteral("--repeats")
+            << QString::number(repeats_->value()) << QStringLiteral("--json");
   if (!inputs->flight.isEmpty()) arguments << QStringLiteral("--flight") << inputs->flight;
   setRunning(true);
   status_->setText(tr("Starting…"));
@@ -217,8 +234,9 @@ void ExperimentsDock::onEnded(const ChildRun::Ended& how) {
   }
   Findings findings = how.findings;
   if (how.good) {
-    Result<experiment::Report> report = experiment::parseReport(
-        std::string_view(how.output.constData(), std::size_t(how.output.size())), "trimtab-cli");
+    Result<experiment::Report> report =
+        reportIn(std::string_view(how.output.constData(), std::size_t(how.output.size())),
+                 which_->currentData().toString() == QLatin1String(kLeverage));
     findings = report.findings();
     if (report) {
       findings.clear();  // notes
@@ -238,6 +256,8 @@ void ExperimentsDock::onEnded(const ChildRun::Ended& how) {
 
 void ExperimentsDock::show(const experiment::Report& report) {
   fill(*published_, report.published);
+  // No document has published leverage.
+  published_->parentWidget()->setVisible(!report.published.rows.empty());
   fill(*measured_, report.measured);
   machine_->setText(QString::fromStdString(report.machine));
   QStringList notes;

@@ -30,8 +30,8 @@ struct ExperimentInputs {
 };
 
 /// Runs the published experiments over the open terrain, flight and preset, and shows the published rows
-/// beside the measured ones. They run as a program of their own, so the viewport goes on and cancelling
-/// always works.
+/// beside the measured ones; leverage, which no document has, alone. They run as a program of their own, so
+/// the viewport goes on and cancelling always works.
 class ExperimentsDock : public QWidget {
   Q_OBJECT
 

@@ -22,7 +22,7 @@ Parsed parseOptions(const QStringList& arguments) {
       "Tune culling and level of detail while you watch terrain, decisions and cost.");
   const QCommandLineOption help({"h", "help"}, "Show this text.");
   const QCommandLineOption version({"v", "version"}, "Show the version.");
-  const QCommandLineOption preset("preset", "Open this preset: a file, or default, as-published, as-printed.",
+  const QCommandLineOption preset("preset", "Open this preset: a file, or the name of a shipped preset.",
                                   "P");
   const QCommandLineOption terrain(
       "terrain", "Open this terrain: an elevation file, a folder, scenery or a database.", "DB");

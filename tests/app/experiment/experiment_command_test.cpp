@@ -63,6 +63,33 @@ TEST(WeatherCommand, writesTheCalibratedStepIntoAPreset) {
   EXPECT_EQ(test::run(command + " --step fog").exitCode, 2);
 }
 
+TEST(LeverageCommand, printsOneDocumentAndWritesTableAndPicture) {
+  const test::ScratchDir dir;
+  const std::string cli = test::program("trimtab-cli").string(), tif = (dir / "sample.tif").string(),
+                    database = (dir / "db").string(), out = (dir / "out").string();
+  ASSERT_EQ(test::run(cli + " terrain sample --size-km 20 -o " + tif).exitCode, 0);
+  ASSERT_EQ(test::run(cli + " terrain bake " + tif + " -o " + database).exitCode, 0);
+  const std::string command =
+      cli + " leverage --terrain " + database + " --size 64x48 --repeats 1 --frames 2";
+  const test::Ran ran = test::run(command + " --json -o " + out + " --flight " +
+                                  (test::sourceDir() / "resources/flights/yecheon-circuit.csv").string());
+  ASSERT_EQ(ran.exitCode, 0) << ran.err;
+  const json document = json::parse(ran.out);
+  EXPECT_EQ(document.at("leverage").size(), 7u);
+  for (const char* key : {"machine", "flight", "terrain", "preset"})
+    EXPECT_TRUE(document.at(key).is_string()) << key;
+  EXPECT_EQ(document.at("frames"), 2);
+  EXPECT_EQ(document.at("flight"), "yecheon-circuit");
+  EXPECT_EQ(json::parse(test::readFile(dir / "out" / "leverage.json")), document);
+  for (const char* name : {"leverage.csv", "leverage.svg"})
+    EXPECT_GT(test::readFile(dir / "out" / name).size(), 100u) << name;
+  EXPECT_THAT(ran.err, HasSubstr(" % Render scale"));
+  EXPECT_EQ(test::run(command).exitCode, 2) << "no flight is wrong usage";
+  const test::Ran refused = test::run(command + " --flight /none.csv");
+  EXPECT_EQ(refused.exitCode, 1);
+  EXPECT_THAT(refused.err, HasSubstr("/none.csv"));
+}
+
 TEST(ExperimentCommand, tellsAllThatIsWrongWithItsInput) {
   const test::Ran ran =
       experimentBy("weather --terrain /nowhere --size 10x --preset nope --flight /none.csv");

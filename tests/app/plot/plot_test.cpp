@@ -138,6 +138,17 @@ TEST(Rows, barsOfARowStandEndToEndAndInProportion) {
   EXPECT_GT(bars[3].y, bars[0].y + bars[0].height);
 }
 
+TEST(Rows, aNegativeValueIsABarToTheLeftOfZero) {
+  Plot plot{"f", "t", "ms", "", {"a", "b"}, {{"won", {}, {2, -1}}}};
+  plot.kind = Plot::Kind::rows;
+  plot.legend = false;
+  const auto bars = barsOf(parsed(toSvg(plot)));
+  ASSERT_EQ(bars.size(), 2u);
+  EXPECT_GT(bars[1].width, 0);
+  EXPECT_NEAR(bars[1].x + bars[1].width, bars[0].x, 1);
+  EXPECT_NEAR(bars[0].width / bars[1].width, 2, 0.03);
+}
+
 TEST(Rows, anIntervalWithoutEndRunsToTheEdge) {
   Plot plot{"f", "t", "ratio", "", {"a"}, {{"r", {}, {1.1}, Series::Draw::points}}};
   plot.kind = Plot::Kind::rows;

@@ -102,5 +102,22 @@ TEST(PairedRatio, isSureOfNothingBelowSixPairs) {
   EXPECT_EQ(ratio.high, kInfinity);
 }
 
+TEST(PairedDifference, isTheMedianOfTheDifferencesWithItsInterval) {
+  const std::vector<double> a{10, 10, 10, 10, 10, 10, kNan, 10}, b{11, 12, 13, 14, 15, 16, 17, kInfinity};
+  const PairedDifference six = pairedDifference(a, b);
+  EXPECT_EQ(six.pairs, 6u) << "what is not finite does not count";
+  EXPECT_EQ(six.median, 3.5);
+  EXPECT_EQ(six.low, 1);
+  EXPECT_EQ(six.high, 6);
+  const PairedDifference back = pairedDifference(b, a);
+  EXPECT_EQ(back.median, -3.5);
+  EXPECT_EQ(back.low, -6);
+  const PairedDifference five = pairedDifference(std::span(a).first(5), b);
+  EXPECT_EQ(five.median, 3);
+  EXPECT_EQ(five.low, -kInfinity);
+  EXPECT_EQ(five.high, kInfinity);
+  EXPECT_TRUE(std::isnan(pairedDifference({}, {}).median));
+}
+
 }  // namespace
 }  // namespace trimtab

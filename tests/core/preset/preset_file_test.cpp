@@ -257,7 +257,8 @@ TEST(PresetFile, readsAnExportOfVersion2) {
 
 TEST(ShippedPresets, areWhatTheyWouldBeSavedAs) {
   const auto names = shippedPresets();
-  EXPECT_EQ(names, (std::vector<std::string_view>{"default", "as-published", "as-printed"}));
+  EXPECT_EQ(names, (std::vector<std::string_view>{"default", "as-published", "as-printed", "low-level",
+                                                   "approach", "helmet-search", "high-cruise"}));
   for (const std::string_view name : names) {
     const auto preset = loadPreset(std::string(name));
     ASSERT_TRUE(preset) << toString(preset.findings());

@@ -36,7 +36,7 @@ enum class ExportFormat { json, xml, ini };
 std::string machineNote(const TuningParameters& parameters);
 
 /// Returns the names of the presets that ship, which are compiled in: "default", "as-published",
-/// "as-printed".
+/// "as-printed" and those with a policy.
 std::vector<std::string_view> shippedPresets();
 
 /// Reads a preset (JSON) or an export (JSON, PropertyList XML or INI), told apart by content, or a shipped

@@ -1,0 +1,57 @@
+#include "app/experiment/leverage.h"
+
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "commands.h"
+#include "experiment_setup.h"
+#include "progress.h"
+
+namespace trimtab::cli {
+namespace {
+
+struct Arguments {
+  SetupArguments setup;
+  std::size_t frames = 24;
+  std::string output;
+  bool json = false;
+};
+
+int run(const Arguments& arguments) {
+  const Interruptible guard;
+  std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
+  if (!setup) return kRefused;
+  setup->frames = arguments.frames;
+  const Result<experiment::Leverage> done = experiment::measureLeverage(*setup);
+  report(done.findings());
+  if (!done) return kRefused;
+  std::cout << (arguments.json ? toJson(*done) : toText(toReport(*done)));
+  if (arguments.output.empty()) return kDone;
+  const auto written = writeLeverage(arguments.output, *done);
+  report(written.findings());
+  return written ? kDone : kRefused;
+}
+
+}  // namespace
+
+void addLeverage(CLI::App& app, int& exitCode) {
+  CLI::App* command = app.add_subcommand(
+      "leverage", "What each lever of a policy is worth here: milliseconds won against image lost");
+  command->footer(
+      "Each lever goes from one end of its usual range to the other with all others at rest. A lever that "
+      "has "
+      "nothing to do in the flight is measured under the condition that it is for, which its row names.");
+  auto arguments = std::make_shared<Arguments>();
+  arguments->setup.addTo(*command);
+  command->get_option("--flight")->required()->description("The flight");
+  command->add_option("--frames", arguments->frames, "Frames of the flight, evenly spread")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 10000));
+  command->add_option("-o,--output", arguments->output,
+                      "Folder for leverage.json, leverage.csv and leverage.svg");
+  command->add_flag("--json", arguments->json, "One JSON document on standard output");
+  command->callback([arguments, &exitCode] { exitCode = cli::run(*arguments); });
+}
+
+}  // namespace trimtab::cli
