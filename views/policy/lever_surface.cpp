@@ -44,11 +44,14 @@ LeverSurface::LeverSurface(Draft& draft, const PolicyTrack& track, QWidget* pare
   connect(&draft_, &Draft::activeChanged, this, [this] {
     const auto policy = policyOf(draft_.active()->policy);
     if (!policy || *policy == policy_) return;
+    if (fitted_ && policy->terms != policy_.terms) fitView();
     throttle_.request();
   });
   connect(&draft_, &Draft::loaded, this, &LeverSurface::fitView);
   for (QCPAxis* const axis : {xAxis, yAxis})
     connect(axis, qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, [this] { throttle_.request(); });
+  connect(this, &QCustomPlot::mouseWheel, this, [this] { fitted_ = false; });
+  connect(this, &QCustomPlot::mousePress, this, [this] { fitted_ = false; });
   connect(this, &QCustomPlot::mouseDoubleClick, this, &LeverSurface::fitView);
   auto* fit = new QAction(tr("Fit"), this);
   connect(fit, &QAction::triggered, this, &LeverSurface::fitView);
@@ -120,6 +123,7 @@ void LeverSurface::choose(Lever lever, Signal x, Signal y) {
 }
 
 void LeverSurface::fitView() {
+  fitted_ = true;
   const auto policy = policyOf(draft_.active()->policy);
   const std::vector<PolicyTerm> terms = policy ? policy->terms : std::vector<PolicyTerm>{};
   const Range x = viewOf(x_, terms), y = viewOf(y_, terms);
@@ -141,7 +145,8 @@ void LeverSurface::compute() {
     }
   xAxis->setLabel(axisText(x_));
   yAxis->setLabel(axisText(y_));
-  scale_->axis()->setLabel(fromView(rowOf(lever_).label) + inParentheses(rowOf(lever_).unit));
+  // The combo box above names the lever.
+  scale_->axis()->setLabel(fromView(rowOf(lever_).unit));
   const QCPRange x = xAxis->range(), y = yAxis->range();
   QCPColorMapData& cells = *map_->data();
   if (cells.keySize() != kColumns || cells.valueSize() != kRows) cells.setSize(kColumns, kRows);

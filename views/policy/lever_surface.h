@@ -56,6 +56,7 @@ class LeverSurface : public Plot {
   QCPItemText *hover_ = nullptr, *empty_ = nullptr;
   std::uint64_t drawnTrack_ = 0;
   int computed_ = 0;
+  bool fitted_ = true;  ///< the view follows the terms until a person moves it
   Throttle throttle_;
 };
 

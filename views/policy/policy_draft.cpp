@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "trimtab/policy/compiled_policy.h"
 #include "trimtab/policy/condition_terms.h"
@@ -29,10 +30,12 @@ bool isSound(const PolicyTerm& term) {
 }
 
 QString sentences(const Findings& findings) {
+  constexpr std::size_t kMost = 2;
   QStringList said;
-  for (const Finding& f : findings)
+  for (const Finding& f : std::span(findings).first(std::min(kMost, findings.size())))
     said << QObject::tr("Expected %1; found %2.")
                 .arg(QString::fromStdString(f.expected), QString::fromStdString(f.found));
+  if (findings.size() > kMost) said << QObject::tr("%1 more.").arg(findings.size() - kMost);
   return said.join(QLatin1Char(' '));
 }
 

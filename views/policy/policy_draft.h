@@ -73,7 +73,8 @@ class PolicyDraft : public QObject {
 
 /// Reports whether a term by itself compiles, so that its membership can be computed.
 bool isSound(const PolicyTerm& term);
-/// Returns findings of compile() or of policy files as sentences.
+/// Returns findings of compile() or of policy files as sentences: the first ones, and how many more there
+/// are.
 QString sentences(const Findings& findings);
 
 }  // namespace trimtab::views

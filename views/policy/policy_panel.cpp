@@ -50,6 +50,7 @@ PolicyPanel::PolicyPanel(Draft& draft, QWidget* parent)
       draft_(draft),
       policy_(new PolicyDraft(draft, this)),
       right_(new QStackedWidget),
+      upper_(new QSplitter(Qt::Horizontal)),
       split_(new QSplitter(Qt::Vertical)),
       head_(makeHead()),
       empty_(makeEmptyState()),
@@ -62,13 +63,12 @@ PolicyPanel::PolicyPanel(Draft& draft, QWidget* parent)
   parts_.plot = new TermPlot(*policy_, track_);
   right_->addWidget(parts_.scheme);
   right_->addWidget(parts_.plot);
-  auto* upper = new QSplitter(Qt::Horizontal);
-  upper->addWidget(parts_.signalsList);
-  upper->addWidget(right_);
-  upper->setStretchFactor(1, 1);
-  upper->setSizes({parts_.signalsList->minimumWidth(), 10000});
+  upper_->addWidget(parts_.signalsList);
+  upper_->addWidget(right_);
+  upper_->setStretchFactor(1, 1);
+  upper_->setChildrenCollapsible(false);
   makeTabs();
-  split_->addWidget(upper);
+  split_->addWidget(upper_);
   split_->addWidget(parts_.tabs);
   split_->setStretchFactor(0, 3);
   split_->setStretchFactor(1, 2);
@@ -197,6 +197,12 @@ void PolicyPanel::choose() {
     right_->setCurrentWidget(parts_.plot);
   } else {
     right_->setCurrentWidget(parts_.scheme);
+  }
+  // The curves of the scheme stand beside their tables and need the room of the values.
+  const bool narrower = std::exchange(schemeShown_, !signal) != !signal;
+  if (narrower) {
+    parts_.signalsList->showValues(signal.has_value());
+    upper_->setSizes({signal ? parts_.signalsList->wholeWidth() : parts_.signalsList->minimumWidth(), 10000});
   }
   showState();
   if (any_) throttle_.request();

@@ -83,10 +83,10 @@ class PolicyPanel : public QWidget {
   PolicyDraft* policy_;
   PolicyTrack track_;
   LiveFrame frame_;
-  bool any_ = false, wasEmpty_ = true;
+  bool any_ = false, wasEmpty_ = true, schemeShown_ = false;
   Parts parts_;
   QStackedWidget* right_;
-  QSplitter* split_;
+  QSplitter *upper_, *split_;
   QWidget *head_, *empty_;
   QLabel* note_;
   Throttle throttle_, reviewThrottle_;

@@ -5,6 +5,7 @@
 #include <QBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QScrollBar>
 #include <QToolButton>
 #include <algorithm>
 
@@ -58,7 +59,6 @@ void RulesPage::makeTable() {
   QHeaderView* const columns = table_->horizontalHeader();
   columns->setMinimumSectionSize(width("On"));
   columns->setSectionResizeMode(QHeaderView::Interactive);
-  columns->setSectionResizeMode(PolicyRulesModel::kReason, QHeaderView::Stretch);
   columns->resizeSection(PolicyRulesModel::kOn, width("On"));
   columns->resizeSection(PolicyRulesModel::kCondition, width("above_ground is low and speed"));
   columns->resizeSection(PolicyRulesModel::kSettings, width("screen_space_error = 4"));
@@ -89,6 +89,16 @@ void RulesPage::makeTable() {
                            PolicyRulesModel::kWeight, PolicyRulesModel::kReason})
     table_->setItemDelegateForColumn(column, text);
   table_->setItemDelegateForColumn(PolicyRulesModel::kFires, new BarCell(table_));
+}
+
+/// The reason takes what the other columns leave, and stays wide enough to be read.
+void RulesPage::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  int others =
+      table_->verticalHeader()->sizeHint().width() + table_->verticalScrollBar()->sizeHint().width() + 4;
+  for (int column = 0; column < PolicyRulesModel::kReason; ++column) others += table_->columnWidth(column);
+  const int least = fontMetrics().horizontalAdvance(QStringLiteral("detail that speed hides from the eye"));
+  table_->setColumnWidth(PolicyRulesModel::kReason, std::max(least, table_->width() - others));
 }
 
 void RulesPage::makeActions() {

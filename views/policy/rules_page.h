@@ -38,6 +38,9 @@ class RulesPage : public QWidget {
   void importAsked();
   void exportAsked();
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
   void makeTable();
   void makeActions();

@@ -2,6 +2,7 @@
 #include "signals_list.h"
 
 #include <QHeaderView>
+#include <algorithm>
 #include <cmath>
 
 #include "views/model/theme.h"
@@ -124,10 +125,17 @@ SignalsList::SignalsList(PolicyDraft& policy, QWidget* parent)
   horizontalHeader()->setSectionResizeMode(SignalsModel::kValue, QHeaderView::Fixed);
   setColumnWidth(SignalsModel::kValue, fontMetrics().horizontalAdvance(QStringLiteral("00,000 ft/min")) + 4);
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("● Height above gr 00,000 ft/min")) + 8);
+  setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("● Height above")) + 12);
   setMinimumHeight(fontMetrics().height() * 5);
   choose(std::nullopt);
   connect(selectionModel(), &QItemSelectionModel::currentRowChanged, this, &SignalsList::chosenChanged);
+}
+
+int SignalsList::wholeWidth() const {
+  int names = 0;
+  for (const SignalRow& row : kSignalRows)
+    names = std::max(names, fontMetrics().horizontalAdvance(QStringLiteral("● ") + fromView(row.label)));
+  return names + 16 + (isColumnHidden(SignalsModel::kValue) ? 0 : columnWidth(SignalsModel::kValue));
 }
 
 std::optional<Signal> SignalsList::chosen() const {

@@ -47,6 +47,9 @@ class SignalsList : public QTableView {
   /// Returns the chosen signal; nothing for the scheme.
   std::optional<Signal> chosen() const;
   void choose(std::optional<Signal> signal);
+  /// Returns the width that shows every name and value whole; of the names alone if values are hidden.
+  int wholeWidth() const;
+  void showValues(bool shown) { setColumnHidden(SignalsModel::kValue, !shown); }
 
  signals:
   void chosenChanged();

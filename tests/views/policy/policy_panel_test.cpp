@@ -66,7 +66,7 @@ class PolicyPanelTest : public testing::Test {
 TEST_F(PolicyPanelTest, withoutAPolicyItSaysWhatOneIsAndStartsOne) {
   const auto button = [&](const char* text) -> QPushButton* {
     for (auto* each : panel_.findChildren<QPushButton*>())
-      if (each->text() == QLatin1String(text)) return each;
+      if (each->text() == QString::fromUtf8(text)) return each;
     return nullptr;
   };
   QPushButton* add = button("Add a term");

@@ -50,7 +50,7 @@ TEST_F(TermPlotTest, everyPointOfEveryShapeIsDraggedInOneStepAndUndone) {
         "ramp 1000 2000", "gaussian 1500 400", "bell 1500 400 2", "sigmoid 1500 0.004"}) {
     draft_.setValue("policy.terms",
                     TextLines{{std::string("above_ground low = ") + shape,
-                               "above_ground high = ramp 6000 7000", "speed fast = ramp 200 400"}});
+                               "above_ground high = ramp 3000 3500", "speed fast = ramp 200 400"}});
     plot().select(0);
     for (std::size_t i = 0; i < plot().handles().size(); ++i) {
       const std::string before = line(0);
