@@ -89,6 +89,7 @@ PolicyPanel::PolicyPanel(Draft& draft, QWidget* parent)
   connect(&draft_, &Draft::findingsChanged, this, [this] {
     showState();
     reviewThrottle_.request();
+    if (any_) throttle_.request();  // firings are those of the draft's rules only while it holds
   });
   connect(&draft_, &Draft::activeChanged, this, [this] {
     if (any_) throttle_.request();

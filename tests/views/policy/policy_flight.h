@@ -58,7 +58,8 @@ inline void setLargePolicy(views::Draft& draft) {
     std::string rule = i == 17 ? "off if " : "if ";
     rule += std::string(kRows[a].signal) + " is " + kNames[i % 3] + (i % 5 == 0 ? " or " : " and ") +
             (i % 7 == 0 ? "not " : "") + kRows[b].signal + " is " + (i % 4 == 1 ? "very " : "") +
-            kNames[(i / 3) % 3] + " then " + kLevers[lever] + " = " + std::to_string(kValues[lever][(i / 6) % 3]);
+            kNames[(i / 3) % 3] + " then " + kLevers[lever] + " = " +
+            std::to_string(kValues[lever][(i / 6) % 3]);
     if (i % 4 == 0)
       rule +=
           std::string(", ") + kLevers[(lever + 1) % 6] + " = " + std::to_string(kValues[(lever + 1) % 6][1]);
