@@ -14,7 +14,7 @@
 #include <ctime>
 
 #include "live_flight.h"
-#include "policy/policy_flight.h"
+#include "tests/views/policy/policy_flight.h"
 #include "views/controls/parameter_table.h"
 #include "views/editors/band_scale.h"
 #include "views/editors/bands_editor.h"

@@ -21,6 +21,7 @@ struct Language {
 };
 constexpr Language kLanguages[] = {
     {"fll", QT_TRANSLATE_NOOP("QObject", "FuzzyLite Language"), &toFuzzyLite, &readFuzzyLite},
+    {"fis", QT_TRANSLATE_NOOP("QObject", "MATLAB fuzzy inference system"), &toMatlab, &readMatlab},
 };
 
 const Language* languageOf(const QString& file) {
