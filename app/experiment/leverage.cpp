@@ -55,7 +55,7 @@ Moment momentAt(const Setup& setup, const ValidatedParameters& parameters, doubl
       const std::size_t kept = std::min<std::size_t>(before.size(), traces ? kLongestTrace : 1);
       moment.before.assign(before.end() - static_cast<std::ptrdiff_t>(kept), before.end());
       moment.request = std::move(request);
-      moment.signals = session.input().signalValues;
+      moment.signalValues = session.input().signalValues;
       break;
     }
     if (draw && i <= kDrawnBefore) session.finished(draw(request), state.time);

@@ -56,7 +56,7 @@ FrameRequest withLever(FrameRequest request, Lever lever, double value, const Tu
 struct Moment {
   FrameRequest request;
   std::vector<FrameRequest> before;
-  SignalValues signals;  ///< what the policy was given; unknown without one
+  SignalValues signalValues;  ///< what the policy was given; unknown without one
 };
 /// How the images that lead up to a moment are drawn.
 using DrawImage = std::function<FrameResult(const FrameRequest&)>;
