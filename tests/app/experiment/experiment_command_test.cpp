@@ -79,7 +79,7 @@ TEST(LeverageCommand, printsOneDocumentAndWritesTableAndPicture) {
   for (const char* key : {"machine", "flight", "terrain", "preset"})
     EXPECT_TRUE(document.at(key).is_string()) << key;
   EXPECT_EQ(document.at("frames"), 2);
-  EXPECT_EQ(document.at("flight"), "yecheon-circuit");
+  EXPECT_EQ(document.at("flight"), "yecheon-circuit.csv");
   EXPECT_EQ(json::parse(test::readFile(dir / "out" / "leverage.json")), document);
   for (const char* name : {"leverage.csv", "leverage.svg"})
     EXPECT_GT(test::readFile(dir / "out" / name).size(), 100u) << name;
