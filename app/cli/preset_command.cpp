@@ -83,7 +83,7 @@ int writeOut(const std::string& output, const std::string& text) {
   return written ? kDone : kRefused;
 }
 
-/// By --format, else by the file's ending, else JSON; an ending that says something else is warned of.
+/// Uses --format, else the file's ending, else JSON, and warns if the ending says something else.
 ExportFormat exportFormat(const Options& options) {
   const std::string ending =
       options.output == "-" ? "" : std::filesystem::path(options.output).extension().string();

@@ -49,7 +49,7 @@ double WeatherView::vertices() {
   return double(stage_->draw(request_).visible.vertices);
 }
 
-/// By halving: vertices fall as the error grows.
+/// Halves the interval, because vertices fall as the error grows.
 double WeatherView::reach(double vertices, double& reached) {
   double fine = std::log(0.05), coarse = std::log(64.0), error = 0;
   for (int i = 0; i < 24; ++i) {

@@ -85,7 +85,7 @@ class UdpReceiver final : public Receiver {
   Clock::duration replyPeriod_;
   std::function<void()> wake_;
 
-  // Of the receiver's thread alone.
+  // Only the receiver's thread uses these.
   HostDecoder decoder_;
   std::array<std::byte, 65536> buffer_;
   sockaddr_in sender_{};

@@ -75,7 +75,7 @@ bool isBare(const Key& key) {
   return key.colour < 0 && key.shape < 0 && !key.line;
 }
 
-/// Of the text's size, about as wide as common sans-serif fonts draw it.
+/// Returns the width as a share of the text's size, about that of common sans-serif fonts.
 double characterWidth(std::string_view character) {
   const char c = character.size() == 1 ? character[0] : 'n';
   if (std::string_view("ijl.,:;'|! ftrI()[]-").find(c) != std::string_view::npos) return 0.4;

@@ -38,7 +38,7 @@ TRIMTAB_INLINE void write(std::uint8_t* to, I v) {
 TRIMTAB_INLINE F toFloat(I v) {
   return __builtin_convertvector(v, F);
 }
-/// Of a number that fits.
+/// The number must fit into a whole one.
 TRIMTAB_INLINE I roundedDown(F v) {
   const I cut = __builtin_convertvector(v, I);
   return cut + (toFloat(cut) > v);
@@ -128,7 +128,8 @@ struct Filler {
   }
   TRIMTAB_INLINE void row(float* texels, float above) const {
     const Floats up = spread<Floats>(above);
-    // By their sign bits, as whole numbers: depths are not negative either.
+    // Sign bits are compared as those of whole numbers, which is right because depths are not negative
+    // either.
     const Ints out = reinterpret_cast<Ints>(e_[0] + acrossY[0] * up) |
                      reinterpret_cast<Ints>(e_[1] + acrossY[1] * up) |
                      reinterpret_cast<Ints>(e_[2] + acrossY[2] * up);
@@ -255,7 +256,7 @@ void drawLanes(const Texels& to, const Seen& seen, const Triangles& triangles, T
     const F wrong = (magnitude(wX) + magnitude(wY)) * spread(kOutsideEdge) +
                     (near - far) * spread(kRounding) * thin * (one + thin);
     const F w = w0 + wX * (cx - x0) + wY * (cy - y0) - wrong;
-    // Of a plane that is not of numbers, or nearly upright, nothing but its vertices is believed.
+    // A plane that is not of numbers, or is nearly upright, counts by its vertices alone.
     const I flat = (magnitude(wX) < one) & (magnitude(wY) < one) & (magnitude(w) < spread(kGuard * 2));
     r.w = select(flat, w, -one);
     r.wX = reinterpret_cast<F>(reinterpret_cast<I>(wX) & flat);

@@ -55,8 +55,8 @@ struct Session {
   std::optional<std::uint16_t> definedView;
   std::shared_ptr<const HostSymbols> symbols;  ///< null before the first is defined
 
-  /// Of two enabled layers the more severe one falls, of equal ones the snow. None before either was heard
-  /// of.
+  /// Returns what falls: the more severe of two enabled layers, or the snow if they are equal. It is unset
+  /// until the host has sent either.
   std::optional<HostWeather> weather() const;
   /// The wind in the layer that falls, unless it is calm there, else that of the atmosphere.
   std::optional<Wind> wind() const;

@@ -14,7 +14,7 @@ namespace trimtab::native_fdm {
 inline constexpr std::size_t kSize = 408;
 inline constexpr std::uint32_t kVersion = 24;
 
-/// By length and version alone: what automatic detection asks.
+/// Compares length and version alone, for automatic detection.
 bool matches(std::span<const std::byte> bytes);
 /// Fills all but time and packet; `state` is only meant to be used when there is no fault.
 std::optional<PacketFault> parse(std::span<const std::byte> bytes, AircraftState& state);

@@ -55,7 +55,7 @@ int blocksFor(int columns) {
 
 /// FLIP of a strip of columns, a few rows at a time from the top. A row is converted to opponent colours and
 /// filtered along the row when a window first needs it, and the result kept in a ring, block by block, so
-/// that the vertical pass over a block reads what the nearest cache holds. Where the pictures are equal
+/// that the vertical pass over a block reads what the nearest cache holds. Where the images are equal
 /// within the filters' reach, nothing is computed: the error is 0.
 class Strip {
  public:
@@ -74,7 +74,7 @@ class Strip {
         rows_(static_cast<std::size_t>(slots_)),
         rowOffset_(static_cast<std::size_t>(2 * radius_ + kRows)) {}
 
-  /// Adds the errors of all rows; they are written to `map`, of the picture's width, unless it is null.
+  /// Adds the errors of all rows; they are written to `map`, of the image's width, unless it is null.
   double sum(float* map) {
     double total = 0;
     int entered = 0;
@@ -161,7 +161,7 @@ class Strip {
     float* middle = planes_.data() + lead_;
     kernels.flipConvert(pictures_.reference + 4 * at(row, from), pictures_.test + 4 * at(row, from),
                         to - from, flipTable(), middle + (from - first), pitch_);
-    // Beyond the picture its border repeats.
+    // Beyond the image its border repeats.
     for (std::size_t p = 0; p < kFlipPlanes; ++p) {
       float* plane = middle + p * pitch_;
       std::fill(plane - radius_, plane + (from - first), plane[from - first]);

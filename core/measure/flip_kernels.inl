@@ -1,4 +1,4 @@
-// FLIP's arithmetic. The test picture is carried as its difference from the reference through every linear
+// FLIP's arithmetic. The test image is carried as its difference from the reference through every linear
 // step, and the differences of roots are taken as quotients: what is equal gives exactly 0, and what is
 // nearly equal is not lost in rounding, which the last steps (powers of 0.7 and 0.5) would magnify.
 
@@ -164,7 +164,7 @@ void flipHorizontal(const float* planes, std::size_t pitch, int blocks, const Fl
 struct BothRows {
   Twin r, d;
 };
-/// What the filters leave of the two pictures at the pixels of two rows.
+/// What the filters leave of the two images at the pixels of two rows.
 struct Seen {
   BothRows luminance, redGreen, blueYellow;
   BothRows edgeX, edgeY, pointX, pointY;

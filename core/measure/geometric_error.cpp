@@ -21,7 +21,7 @@ constexpr float kMuch = 1e30f;
 struct Lattice {
   int width, height, window;
   float pixel;  ///< tangent of the finer axis' pixel: the unit of the result
-  float slant;  ///< a line r pixels aside in the picture is no nearer than r times this
+  float slant;  ///< a line r pixels aside in the image is no nearer than r times this
   float stepX, stepY;
   std::vector<float> across, up;
 
@@ -47,7 +47,7 @@ struct Lattice {
   std::size_t at(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   }
-  /// To the picture's edge, in pixels of the result.
+  /// To the image's edge, in pixels of the result.
   float toEdge(int x, int y) const {
     const auto least = [](int i, int count) { return static_cast<float>(std::min(i, count - 1 - i)) + 0.5f; };
     return std::min(least(x, width) * stepX, least(y, height) * stepY) / pixel;
@@ -85,7 +85,7 @@ inline float toOwnLine(float g, float r0, float r1, float along, float step, flo
 }
 
 /// For pixels 1 to width - 2 of a row that is not the first or last: square of the distance to the four lines
-/// that end in the same pixel of the other picture. Nothing branches, so that it is vector instructions.
+/// that end in the same pixel of the other image. Nothing branches, so that it is vector instructions.
 void toOwnLines(const float* own, const float* other, int width, const float* across, float up, float stepX,
                 float stepY, float* square) {
   for (int x = 1; x + 1 < width; ++x) {

@@ -26,20 +26,20 @@ struct FlipFilters {
 
 /// Columns that FLIP's filtered planes keep together.
 inline constexpr int kFlipBlock = 16;
-/// Planes of a row of pixels: the reference's three channels, then how far the test picture's lie from them.
+/// Planes of a row of pixels: the reference's three channels, then how far the test image's lie from them.
 inline constexpr int kFlipPlanes = 6;
 /// Planes after the horizontal pass, of the reference and then of the difference: luminance, red-green,
 /// blue-yellow twice, and gauss, edge and point of luminance.
 inline constexpr int kFlipFilteredPlanes = 14;
 /// One row of one block.
 inline constexpr std::size_t kFlipBlockRow = kFlipFilteredPlanes * kFlipBlock;
-/// By channel, byte, and then luminance, red-green, blue-yellow (the fourth is 0).
+/// The indices are the channel, the byte, and one of luminance, red-green, blue-yellow (the fourth is 0).
 using FlipTable = float[3][256][4];
 
 struct SsimFilter {
   float weights[6] = {};  ///< from the middle outwards
 };
-/// Planes after SSIM's horizontal pass: sum and difference of the two pictures, and the squares of both.
+/// Planes after SSIM's horizontal pass: sum and difference of the two images, and the squares of both.
 inline constexpr int kSsimPlanes = 4;
 
 struct ImageKernels {

@@ -21,7 +21,7 @@ std::size_t medianIntervalCut(std::size_t n) {
   double tail = 0;
   for (std::size_t fewer = 0; fewer < n; ++fewer) {
     const double k = static_cast<double>(fewer);
-    // By logarithms: 2^-n is no double from 1,075 pairs on.
+    // The sum uses logarithms, because 2^-n is no double from 1,075 pairs on.
     tail += std::exp(std::lgamma(count + 1) - std::lgamma(k + 1) - std::lgamma(count - k + 1) -
                      count * std::numbers::ln2);
     if (tail > kEachTail) return fewer;

@@ -7,7 +7,7 @@ void lumaOf(const std::uint8_t* rgba, std::size_t pixels, std::uint8_t* luma) {
   }
 }
 
-// Sum and difference of the pictures instead of the pictures: where they are nearly equal, what is left of
+// Sum and difference of the images instead of the images: where they are nearly equal, what is left of
 // 1 - SSIM is then all in the difference, and does not drown in the rounding of the sum. Weighted is how far
 // each pair of pixels lies from the middle one (w (l + r - 2 m), the middle's own weight is the rest of 1),
 // so that a flat window has a variance of exactly 0.

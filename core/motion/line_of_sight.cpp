@@ -22,8 +22,9 @@ Attitude lineOfSight(const Attitude& aircraft, const std::optional<Attitude>& he
   const Mat3 m = bodyToWorld(aircraft) * bodyToWorld(*head);
   const auto degrees = [](double radians) { return Radians{radians}.as<Degrees>(); };
   const double down = m.row[2].x;
-  // By the level part as well: an arcsine alone loses half its digits near the vertical. Roll against the
-  // level axis of that heading: there both are uncertain, what they make together is not.
+  // Pitch uses the level part as well, because an arcsine alone loses half its digits near the vertical. Roll
+  // is counted from the level axis of that heading: both are uncertain there, but not what they make
+  // together.
   const double level = std::sqrt(m.row[0].x * m.row[0].x + m.row[1].x * m.row[1].x);
   // Straight up or down, heading and roll turn about one axis.
   if (level < 1e-12)

@@ -38,11 +38,11 @@ struct Renderer::Impl {
   TileDrawer tiles;
   PatchDrawer patches;
   TreeDrawer trees;
-  TerrainDrawer* terrain = nullptr;  ///< that drew the last picture; null: no terrain
+  TerrainDrawer* terrain = nullptr;  ///< that drew the last image; null: no terrain
   FrameCounters counters;            ///< since this renderer was made
 
   ViewShape lastView, lastScene;   ///< the last image's, and the size at which its scene was drawn
-  std::optional<SceneView> shown;  ///< the last picture's
+  std::optional<SceneView> shown;  ///< the last image's
   std::vector<LineVertex> lines;
 
   /// What lives in the context, but for the terrain.

@@ -141,7 +141,7 @@ class Uniforms {
   osg::StateSet* state_;
 };
 
-/// How far the corner of a picture element is from its centre, at distance 1.
+/// How far the corner of a pixel is from its centre, at distance 1.
 double halfDiagonal(const ViewShape& v, int widthPx, int heightPx) {
   return 0.5 * std::hypot((v.right - v.left) / widthPx, (v.top - v.bottom) / heightPx);
 }
@@ -278,7 +278,7 @@ struct SceneGraph::Nodes {
     uniforms.set("mapSize", Type::INT_VEC2, depth.widthPx, depth.heightPx);
     uniforms.set("levels", Type::INT, depth.levels);
     uniforms.set("count", Type::INT, depth.tiles);
-    // Rasterisers snap vertices to a fraction of a pixel, in the picture and in the map: a tenth covers both.
+    // Rasterisers snap vertices to a fraction of a pixel, in the image and in the map: a tenth covers both.
     const double texel = halfDiagonal(shape, depth.widthPx, depth.heightPx);
     const double pixel = halfDiagonal(shape, shape.widthPx, shape.heightPx);
     uniforms.set("texelReach", Type::FLOAT, static_cast<float>(texel * 1.04 + pixel * 0.1));

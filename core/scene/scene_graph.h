@@ -18,11 +18,11 @@ struct ScenePasses {
   Call occluders;  ///< draws into the depth map
   Call reduce;     ///< builds the depth map's pyramid
   Call test;       ///< tests tiles against the depth map; completes the visible set
-  // Of the form that the view names, with its shaders.
+  // These draw the form of the terrain that the view names, with its shaders.
   Call surface;
   Call wire;                         ///< the same again as lines
   Call numbers;                      ///< the same again, as the number of the node
-  Call treePicture;                  ///< document E's picture of static trees
+  Call treePicture;                  ///< document E's image of static trees
   Call lines;                        ///< overlay lines
   Call beforeWeather, afterWeather;  ///< around precipitation, if there is any
 };

@@ -30,7 +30,7 @@ double finiteOr(double value, double otherwise) {
 void SignalTracker::filter(Signal signal, double value, double dt) {
   double& kept = values_[signal];
   const double tau = rowOf(signal).filterS;
-  // By the time between states, so that the filter is the same for any host's rate.
+  // The step follows the time between states, so that the filter is the same for any host's rate.
   if (std::isnan(value) || std::isnan(kept) || !(tau > 0))
     kept = value;
   else

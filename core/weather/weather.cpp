@@ -177,8 +177,8 @@ WeatherStepParameters stepParametersAt(const TuningParameters& parameters, Preci
   WeatherStepParameters below;
   below.density = Ratio{0};
   if (precipitation == Precipitation::none || !(density > 0)) return below;
-  // Of two steps with one density the later one counts, as on a curve; a step that is less dense than the one
-  // before it is passed over.
+  // If two steps have one density, the later one counts, as on a curve. A step that is less dense than the
+  // one before it is passed over.
   for (const WeatherStepParameters& step : stepsOf(parameters, precipitation)) {
     const double from = below.density.value(), to = step.density.value();
     if (density < to) {

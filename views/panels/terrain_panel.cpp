@@ -167,7 +167,7 @@ void TerrainPanel::refresh() {
   if (shownPatches_ != patches) {
     levels_->setLevels(levels, !patches);
     table_->setFixedHeight(static_cast<int>(levels.size() + 1) * (table_->fontMetrics().height() + 6) + 12);
-    // Of tiles neither is known.
+    // These columns are known of patches only.
     for (const int column :
          {TerrainLevelsModel::kRmsError, TerrainLevelsModel::kSurfaceError, TerrainLevelsModel::kSize})
       table_->setColumnHidden(column, !patches);

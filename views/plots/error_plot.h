@@ -32,7 +32,7 @@ class ErrorPlot : public Plot {
   explicit ErrorPlot(QWidget* parent = nullptr);
 
   void show(const ErrorRun& run);
-  /// Of one flight; the first where there is none of that name.
+  /// Shows one flight, or the first if none has that name.
   void showFlight(const QString& flight);
   /// Index into ErrorRun::errors.
   void showError(int error);

@@ -53,7 +53,7 @@ QString p99(const SampleWindow& samples) {
            milliseconds(samples.largest()));
 }
 
-/// Of the packets that pictures show, in that run's own frames, and of all packets.
+/// Says the latency of the packets that images show, in that run's own frames, and of all packets.
 QString pictureText(const Latency& latency) {
   if (latency.shown.size() == 0) return kNone;
   const double shown = latency.shown.quantile(0.99), frame = latency.frame.median();

@@ -8,7 +8,7 @@ namespace trimtab::workbench {
 namespace {
 
 constexpr double kLongestStepS = 0.5;
-/// Of a step: a row of the flight that stands on the grid is on it, however its time was rounded.
+/// A row within this part of a step from the grid is on it, however its time was rounded.
 constexpr double kRounding = 1e-6;
 
 }  // namespace

@@ -19,13 +19,13 @@ namespace {
 
 /// So small that the finest level is chosen wherever levels differ at all.
 constexpr Pixels kFinest{1e-6};
-/// For patches: finest wherever a picture could tell, and not a whole country's.
+/// For patches: finest wherever an image could tell, and not a whole country's.
 constexpr Pixels kFinestPatches{0.125};
 constexpr Megabytes kReferenceCache{8192};
-/// What is left of a picture at this weight is a quarter of a grey level.
+/// What is left of an image at this weight is a quarter of a grey level.
 constexpr double kNoTrace = 1.0 / 1024;
 
-/// What both pictures leave out.
+/// What both images leave out.
 FrameRequest withoutEngineer(const FrameRequest& request) {
   FrameRequest r = request;
   if (asksForTrees(request)) r.staticLod.terrain = TerrainForm::static_trees;
@@ -39,7 +39,7 @@ FrameRequest withoutEngineer(const FrameRequest& request) {
   return r;
 }
 
-/// The first of `frames` that has a trace in the picture of frames[last].
+/// The first of `frames` that has a trace in the image of frames[last].
 std::size_t firstTraceIn(std::span<const FrameRequest> frames, std::size_t last) {
   double weight = 1;
   std::size_t first = last;
@@ -66,7 +66,7 @@ std::uint64_t wronglyCulled(const std::vector<std::uint32_t>& unculled, const Vi
   return pixels;
 }
 
-/// Of the nodes drawn, those that own no pixel.
+/// Returns the share of the nodes drawn that own no pixel.
 double hiddenShare(const std::vector<std::uint32_t>& nodes, const VisibleSet& visible) {
   if (visible.tiles.empty()) return FrameError::kNotMeasured;
   std::uint32_t last = 0;
@@ -79,7 +79,7 @@ double hiddenShare(const std::vector<std::uint32_t>& nodes, const VisibleSet& vi
   return static_cast<double>(hidden) / static_cast<double>(visible.tiles.size());
 }
 
-/// What the far cut takes from a picture is told by its colours, in fog: depths count up to there.
+/// What the far cut takes from an image is told by its colours, in fog: depths count up to there.
 std::vector<float> upTo(double farM, std::vector<float> distances) {
   if (farM < WeatherDecision::kUnlimited)
     for (float& distance : distances)
@@ -129,7 +129,7 @@ double temporalPop(std::span<const std::uint8_t> referenceBefore, std::span<cons
 
 namespace {
 
-/// All that the picture of a reference depends on.
+/// All that the image of a reference depends on.
 struct ReferenceKey {
   GeodeticPosition eye;
   Attitude attitude;

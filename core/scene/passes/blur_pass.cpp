@@ -38,13 +38,13 @@ void BlurPass::resize(int width, int height) {
   if (width == 0) return;
   glGenTextures(2, texture_.data());
   glGenFramebuffers(2, frame_.data());
-  // Written along with the sum: converting one picture into the other afterwards took longer than the mix.
+  // Written along with the sum: converting one image into the other afterwards took longer than the mix.
   glGenTextures(1, &shown_);
   glBindTexture(GL_TEXTURE_2D, shown_);
   glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA8, width, height);
   for (std::size_t i = 0; i < 2; ++i) {
     glBindTexture(GL_TEXTURE_2D, texture_[i]);
-    // 32 bits: at 450 pictures a second a long trail moves by less than half floats can tell apart, and would
+    // 32 bits: at 450 images a second a long trail moves by less than half floats can tell apart, and would
     // stand still several grey levels before its end.
     glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA32F, width, height);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -94,7 +94,7 @@ void BlurPass::apply(unsigned fbo, unsigned texture, int width, int height, doub
   glBindTexture(GL_TEXTURE_2D, 0);
   glActiveTexture(GL_TEXTURE0);
 
-  // A first picture is the picture: nothing to bring back.
+  // A first image is the result: nothing to bring back.
   if (keep_ > 0) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_[newest_]);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, fbo);

@@ -37,7 +37,7 @@ class BlurPass {
   std::array<unsigned, 2> texture_{}, frame_{};
   unsigned shown_ = 0;  ///< 8 bits a colour
   int width_ = 0, height_ = 0;
-  std::size_t newest_ = 0;  ///< the target that holds the accumulated picture
+  std::size_t newest_ = 0;  ///< the target that holds the accumulated image
   double time_ = 0, keep_ = 0;
   bool fresh_ = true;
 };

@@ -7,7 +7,7 @@ namespace trimtab::scene {
 
 DistanceImage distanceImage(std::span<const float> depths, int width, int height, double nearM) {
   DistanceImage image{width, height, std::vector<std::uint8_t>(depths.size(), 255)};
-  // By the logarithm of the distance: the same step is the same ratio near and far.
+  // Grey follows the logarithm of the distance, so that one step is the same ratio near and far.
   constexpr double kFrom = DistanceImage::kNearestM, kTo = DistanceImage::kFarthestM;
   for (std::size_t i = 0; i < depths.size(); ++i) {
     if (!(depths[i] > 0)) continue;

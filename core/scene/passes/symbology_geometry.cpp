@@ -14,8 +14,8 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 /// Slower than this an aircraft flies nowhere: noise of positions would throw the marker about.
 constexpr double kSlowestMps = 1;
-constexpr double kText = 0.055, kSmallText = 0.042;  ///< heights, half pictures
-/// Bars farther from the picture's middle would lie under the tape: half pictures.
+constexpr double kText = 0.055, kSmallText = 0.042;  ///< heights, half images
+/// Bars farther from the image's middle would lie under the tape: half images.
 constexpr double kLadderReach = 0.62;
 constexpr double kFurthest = 1e9;  ///< readouts beyond are not finite numbers that anyone means
 
@@ -64,15 +64,15 @@ class Drawer {
   bool onAircraft() const { return setup_.general.frame == SymbologyFrame::aircraft; }
   double size(Symbol symbol) const { return element(symbol).size.value(); }
 
-  /// A sheet around a direction of the world, upright in the picture, unit as of the picture's middle.
+  /// A sheet around a direction of the world, upright in the image, unit as of the image's middle.
   Sheet around(Vec3 direction, double scale) const {
     const double unit = canvas_.tangentPerUnit() * scale;
     Vec3 right = cross(direction, Vec3{0, 1, 0});
-    // A direction along the picture's own upward axis is far outside.
+    // A direction along the image's own upward axis is far outside.
     right = length(right) > 1e-9 ? normalized(right) : Vec3{1, 0, 0};
     return {direction, right * unit, cross(right, direction) * unit};
   }
-  /// A sheet in the picture, or in the picture as it is when the head looks straight ahead.
+  /// A sheet in the image, or in the image as it is when the head looks straight ahead.
   Sheet placed(Symbol symbol) const {
     const SymbolElement& e = element(symbol);
     Sheet sheet = canvas_.picture(e.x.value(), e.y.value());

@@ -108,7 +108,7 @@ bool SymbologyPass::draw(const SymbologyRequest& request, const ViewShape& view,
   glViewport(0, 0, view.widthPx, view.heightPx);
   for (const GLenum off : {GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST}) glDisable(off);
   glEnable(GL_BLEND);
-  // The picture's alpha is not ours to change: windows are composed by it.
+  // The image's alpha is not ours to change: windows are composed by it.
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
   glUseProgram(program_);
   glUniform2f(sizeUniform_, static_cast<float>(view.widthPx), static_cast<float>(view.heightPx));

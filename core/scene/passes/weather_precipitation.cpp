@@ -103,12 +103,12 @@ struct PrecipitationNode::Impl {
 
     osg::StateSet* state = effect->getOrCreateStateSet();
     state->removeTextureAttribute(0, osg::StateAttribute::TEXTURE);
-    // Drops are before and behind mountains, but never hide one another; the picture's alpha stays 1.
+    // Drops are before and behind mountains, but never hide one another; the image's alpha stays 1.
     state->setAttributeAndModes(new osg::Depth(osg::Depth::GREATER, 0, 1, false));
     state->setAttributeAndModes(new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE));
     // The near plane belongs to the terrain. Whatever it is, drops before it are drawn: an effect cut off at
     // a near plane that moves out with the far one is what document D saw, particles that shrink and vanish
-    // from the lower part of the picture.
+    // from the lower part of the image.
     state->setMode(GL_DEPTH_CLAMP, osg::StateAttribute::ON);
   }
 

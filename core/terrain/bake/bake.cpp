@@ -236,7 +236,7 @@ class Job {
     return Done{};
   }
 
-  /// Of slopes of all levels, and of colours.
+  /// The slopes of all levels, and the colours, take so many bytes.
   std::size_t tileBytes() const {
     const std::size_t posts = heights_.posts.size(),
                       images = (options_.imagery ? 1 : 0) + (source_->tiles ? 1 : 0);

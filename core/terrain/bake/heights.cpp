@@ -242,7 +242,8 @@ class HeightsBake {
     return Done{};
   }
 
-  /// Of the band in hand, row by row, so that it does not depend on how many rows are looked at together.
+  /// Sums the current band row by row, so that the sum does not depend on how many rows are looked at
+  /// together.
   std::uint64_t rowsSum(std::uint32_t rows, std::uint64_t sum = 0) const {
     for (std::uint32_t r = 0; r < rows; ++r)
       sum = std::rotl(sum, 1) ^ sumOf(&band_[std::size_t{r} * posts_.columns], rowBytes_);

@@ -63,7 +63,7 @@ Finding wrong(const fs::path& file, std::string expected, std::string found) {
   return {Severity::error, file.string(), "", std::move(expected), std::move(found)};
 }
 
-/// Of all pages before one, or of all.
+/// Counts the patches of all pages before one; of all pages if there is none of that number.
 std::size_t patchesBefore(const PatchIndex& index, std::uint32_t page) {
   return page < index.pages.size() ? index.pages[page].firstPatch : index.size();
 }

@@ -24,7 +24,7 @@ namespace trimtab::terrain {
 
 namespace {
 
-/// Of latitude, on the sphere of equal volume.
+/// A degree of latitude has so many metres on the sphere of equal volume.
 constexpr double kMetresADegree = 111195;
 constexpr const char* kArithmetic = "arithmetic";
 
@@ -162,7 +162,7 @@ std::string stampOf(const fs::path& file) {
          std::to_string(fs::last_write_time(file, error).time_since_epoch().count());
 }
 
-/// Of a file and of all that GDAL reads with it, each of which may have such files of its own.
+/// Adds the stamps of a file and of all files that GDAL reads with it; each may have such files of its own.
 void addStamps(const fs::path& file, std::set<std::string>& seen, std::vector<std::string>& stamps) {
   std::string stamp = stampOf(file);
   if (!seen.insert(stamp).second) return;

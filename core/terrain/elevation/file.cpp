@@ -19,7 +19,7 @@ namespace {
 constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
 constexpr double kMostPosts = 4e9;
 constexpr std::int64_t kLongestSide = 500'000;
-/// Of a raster that are in memory at a time, more only where a row of them is longer.
+/// So many posts of a raster are in memory at a time, and more only if one row is longer.
 constexpr std::int64_t kWindow = std::int64_t{1} << 21;
 constexpr double kMostBlockBytes = 512e6;
 /// An axis of a file that has more posts to a step than this is averaged along it.

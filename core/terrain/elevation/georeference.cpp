@@ -231,7 +231,7 @@ Dataset warped(GDALDataset& data, const OGRSpatialReference& crs, const PostGrid
 
 namespace {
 
-/// Of a file that is no raster, in a person's words.
+/// Says in a person's words what a file is that is no raster.
 std::string whatItIs(const fs::path& file, const GdalErrors& errors) {
   const std::string reason = errors.last("GDAL gives no reason");
   const bool unknown = reason.find("not recognized") != std::string::npos;

@@ -23,7 +23,7 @@ bool isWithinAPost(double x, std::int64_t count) {
   return x >= -1 && x <= static_cast<double>(count);
 }
 
-/// Of a place within a post.
+/// Returns the posts about a place on one axis and their weights.
 Axis axisAt(double x, std::int64_t count) {
   Axis axis;
   axis.post = std::max(std::min(static_cast<std::int64_t>(std::floor(x)), count - 2), std::int64_t{0});

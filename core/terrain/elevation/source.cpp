@@ -84,7 +84,8 @@ struct Lattice {
   double step = 0, from = 0;
 };
 
-/// Of the finest file; of a geographic one where that is about as fine, so that its posts stay as they are.
+/// Uses the lattice of the finest file, or of a geographic one that is about as fine, so that its posts stay
+/// as they are.
 template <class Step, class From>
 Lattice latticeOf(const Files& files, Step step, From from) {
   const ElevationFile* finest = nullptr;

@@ -116,7 +116,7 @@ bool unpack(void* values, std::size_t count, std::size_t each, const std::byte* 
                                                   reinterpret_cast<const unsigned char*>(bytes), size) == 0;
 }
 
-/// Heirs of triangles, a bit or two each.
+/// Writes which triangles are inherited, a bit or two each.
 class HeirWriter {
  public:
   void add(Heir heir) {
@@ -156,8 +156,8 @@ class HeirReader {
   std::size_t next_ = 0;
 };
 
-/// Of a mesh's triangles those that are packed: all of the finest variant, and of the others what the one
-/// before does not have.
+/// Lists the triangles that are packed: all of the finest variant, and of each other variant those that the
+/// one before does not have.
 void split(const PatchMesh& mesh, std::size_t variants, std::vector<std::uint16_t>& packed,
            HeirWriter& heirs) {
   const std::uint16_t* const all = mesh.indices.data();
@@ -170,7 +170,7 @@ void split(const PatchMesh& mesh, std::size_t variants, std::vector<std::uint16_
     for (std::uint32_t t = mesh.firstIndex[v - 1] / 3; t < mesh.firstIndex[v] / 3; ++t) {
       const Heir heir = mesh.heirs.empty() ? Heir::none : mesh.heirs[t];
       heirs.add(heir);
-      // What a triangle has for an heir cannot be guessed: without a branch.
+      // The processor cannot predict whether a triangle is inherited, so there is no branch.
       const std::uint16_t* const from = all + std::min(own, end - 3);
       for (std::size_t k = 0; k < 3; ++k) packed[size + k] = from[k];
       size += std::size_t{3} * (heir == Heir::other);

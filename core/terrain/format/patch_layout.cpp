@@ -222,7 +222,7 @@ PatchIndex makePatchIndex(const PostGrid& posts, const PostGeometry& geometry, s
   index.rootCells = largestRoot(posts, geometry, leafCells);
   index.leafCells = leafCells;
 
-  // Of a pair and the one before, patches by square and part.
+  // These list the patches of a pair and of the one before, by square and part.
   std::vector<std::uint32_t> before, now;
   std::uint32_t columnsBefore = 0;
   const auto makeDiamonds = [&](std::uint32_t first, const std::vector<PatchPlace>& places, int half) {

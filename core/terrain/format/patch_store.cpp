@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint64_t kIndexKey = std::uint64_t{1} << 32, kFactsKey = kIndexKey + 1,
                         kConesKey = kIndexKey + 2;
 
-/// Of what is stored of a patch, in the index and in pages.
+/// This version counts the forms of what the index and the pages store of a patch.
 constexpr std::uint64_t kVersion = 5;
 
 /// What a file of patches was made for.

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 static_assert(std::endian::native == std::endian::little, "the files are little-endian");
 
-/// By the beginning of its manifest, and by the names of its files.
+/// A folder is a database's own if its manifest begins so and its files have these names only.
 bool holdsNothingElse(const std::filesystem::path& folder) {
   constexpr std::array<std::string_view, 11> kNames = {
       kManifestName, kHeightsName, kHeightSumsName, kImageName,  kImageSumsName, kNodesName,

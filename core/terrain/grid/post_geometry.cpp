@@ -56,7 +56,7 @@ PostGeometry::PostGeometry(const PostGrid& posts)
   }
 }
 
-/// By the coarsest level that has the post; the last row and column are in all of them.
+/// The coarsest level that has the post decides; the last row and column are in all levels.
 int PostGeometry::shiftOf(std::uint32_t row, std::uint32_t column) const {
   const bool lastRow = row + 1 == rows_.size(), lastColumn = column + 1 == columns_.size();
   if ((!lastRow && (row & unshifted_) != 0) || (!lastColumn && (column & unshifted_) != 0)) return 0;

@@ -16,7 +16,7 @@ namespace trimtab::terrain {
 
 namespace {
 
-/// Of relaxation at each level: coarse levels know far neighbours, fine ones smooth.
+/// Each level is relaxed so often: coarse levels know far neighbours, fine ones smooth.
 constexpr std::uint32_t kSweeps = 12;
 constexpr std::uint32_t kBand = 32;
 

@@ -27,7 +27,7 @@ using Place = GroundPlace;
 constexpr std::uint32_t kTile = GroundShape::kTile;
 /// Colours are read for this level's tiles at a time, and threads take no less.
 constexpr std::uint32_t kBlockLevel = 2;
-/// Of a block in work, with its colours and what an image is read by, and of one that waits for its turn.
+/// A block takes so much while it is made, with its colours and the windows of images, or waits for its turn.
 constexpr std::size_t kBytesABlock = std::size_t{32} << 20;
 
 using AddBlob = std::function<Result<Done>(std::uint64_t key, std::span<const std::byte> blob)>;

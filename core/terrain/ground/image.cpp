@@ -109,7 +109,7 @@ Outline outlineOf(const PlacedRaster& raster) {
     if (!transform || !transform->Transform(1, &at[0], &at[1]) || !std::isfinite(at[0]) ||
         !std::isfinite(at[1]))
       return false;
-    // Of degrees only the datum has changed: a raster across 180 goes on.
+    // Where the raster is in degrees only the datum has changed, so one across 180 continues.
     if (geographic) at[0] = before + std::remainder(at[0] - before, 360.0);
     return true;
   };
@@ -174,8 +174,8 @@ class File final : public GroundImage {
   }
 
  private:
-  /// By how many degrees posts are to be turned about the earth to meet the picture; several, where they
-  /// meet both of its ends.
+  /// Returns by how many degrees posts must be turned about the earth to meet the image: several turns if
+  /// they meet both of its ends.
   std::vector<double> turns(const PostGrid& posts) const {
     if (!outline_.known) return {0.0};
     const double west = posts.longitude(-0.5), east = posts.longitude(posts.columns - 0.5),

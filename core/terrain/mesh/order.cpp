@@ -11,7 +11,7 @@ namespace {
 
 /// As many half-edges as the packing of triangles looks back on.
 constexpr std::uint32_t kRecent = 16;
-/// Of these the best is sought; older ones are taken as they come.
+/// The best of so many is sought; older ones are used as they come.
 constexpr std::uint32_t kSought = 3;
 /// In place of a number of neighbours.
 constexpr std::uint8_t kDone = 4;

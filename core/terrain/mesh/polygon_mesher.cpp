@@ -67,7 +67,7 @@ struct PolygonMesher::Impl {
   std::vector<Point> points_;
 
  private:
-  /// Of one triangle: its worst post, and the sum of the squares of all errors.
+  /// A triangle's worst post, and the sum of the squares of all its errors.
   struct Scan {
     double worst = 0, squares = 0;
     std::int32_t x = 0, y = 0;

@@ -184,7 +184,7 @@ class PageMeasure {
     patch.highest = heights.high();
   }
 
-  /// Of the finest surface: the same for a post in whatever patch.
+  /// Writes the normals of the finest surface, so that a post has the same normal in every patch.
   void normals(const PatchDraft& draft, PatchMesh& mesh) {
     for (std::size_t i = 0; i < draft.vertices.size(); ++i) {
       const PatchPoint p = draft.vertices[i];

@@ -79,8 +79,8 @@ class PageField {
   std::uint32_t stride_, columns_, rows_;
   PostPlane plane_;
   std::vector<float> raw_, z_;
-  /// By depth and ends, the lesser end first. The depth counts because where the posts end, sides of two
-  /// depths can have the same ends.
+  /// The key is the depth and the two ends, the lesser end first. The depth is part of it because sides of
+  /// two depths can have the same ends where the posts end.
   std::map<std::array<std::uint32_t, 5>, std::vector<PatchPoint>> sides_;
   std::vector<float> strip_;
 };

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kMostFailures = 20;
 /// Where not even the coarsest level can be read.
 constexpr std::uint32_t kNothingKnown = 0xaa808080u;
-/// Tiles that the thread may be ahead of the picture.
+/// Tiles that the thread may be ahead of the image.
 constexpr std::size_t kMostUntaken = GroundTiles::kKept / 2;
 
 /// Light as a byte, by both components of a normal.

@@ -78,7 +78,7 @@ std::optional<std::uint32_t> PageBudget::toDrop(std::uint64_t coming) const {
   std::optional<std::uint32_t> oldest;
   for (const std::uint32_t page : list_) {
     if (isAimedAt(page) || page < rootPages_) continue;
-    // Of those that went out of use together the finest go first.
+    // If several went out of use together, the finest go first.
     if (!oldest || aimed_[page] < aimed_[*oldest] || (aimed_[page] == aimed_[*oldest] && page > *oldest))
       oldest = page;
   }

@@ -11,7 +11,7 @@
 namespace trimtab::scene {
 namespace {
 
-/// Of the ground's colours, a frame; about a millisecond.
+/// A frame uploads at most so much of the ground's colours, which takes about a millisecond.
 constexpr std::size_t kGroundBytesAFrame = 4 << 20;
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 constexpr int kLinesASide = 8;
 /// Patches so near in plan share the ground under the near plane, metres.
 constexpr float kBesideM = 20;
-/// Of a normal's z, where MeshRelief does not take its triangle for upright.
+/// MeshRelief treats a triangle as upright if the z of its normal is less than this.
 constexpr double kLeastRise = 1 / MeshRelief::kSteepest;
 
 bool isOver(const Box& b, float x, float y, float beside = 0) {
@@ -168,7 +168,7 @@ void PatchGround::fill(std::vector<HorizonTile>& tiles) {
   }
 }
 
-/// Of a patch without a surface by the cone of its normals.
+/// A patch without a surface is judged by the cone of its normals.
 bool PatchGround::takesRoom(std::uint32_t node) const {
   if (const Surface* surface = surfaces_.find(node)) return surface->takesRoom;
   const PatchIndex& index = patches_.index();
@@ -200,7 +200,7 @@ bool PatchGround::isGraph() {
   return graph;
 }
 
-/// By the box of the node and of all below it.
+/// The boxes of the node and of all nodes below it decide.
 bool PatchGround::mayOcclude(std::uint32_t node) {
   std::uint8_t& known = inside_[node];
   if (known == 0) {

@@ -213,7 +213,7 @@ bool PatchMapCulling::takeInNeighbours(const PatchCulling& patches, Vec3 eye, Su
   for (std::uint32_t i = 0; i < cut.size(); ++i)
     places_.push_back({bounds[cut[i].node].minX, bounds[cut[i].node].maxX, i});
   std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) { return a.low < b.low; });
-  // Of those to the west only the widest can reach as far as this: how wide that is.
+  // A place farther west reaches this one only if it is wide enough, so the widest one limits the search.
   float widest = 0;
   for (const Place& p : places_) widest = std::max(widest, p.high - p.low);
   for (const Place& place : places_) {

@@ -85,7 +85,7 @@ FrameCounters StaticLodCulling::select(const FrameRequest& request, const EyePos
                           farM,
                           request.overlays.treePicture,
                           request.testedWithinM};
-  // Frozen, what was hidden from there stays hidden: the picture is another eye's and cannot tell.
+  // Frozen, what was hidden from there stays hidden: the image is another eye's and cannot tell.
   if (visibleKey_ == wanted && (request.frozenEye || request.skips.sameVisible)) return counters;
   visibleKey_ = wanted;
   hiddenIsKnown_ = false;
@@ -136,8 +136,8 @@ std::uint64_t StaticLodCulling::hideableTriangles(Vec3 eye) const {
     const Box& b = index().bounds[node];
     const double up = b.maxZ - eye.z;
     const bool near = i < visibleNear_;
-    // Of a near node the end of its box that gives the steeper line, of a far one that which gives the
-    // flatter.
+    // The end of a near node's box is the one that gives the steeper line; of a far node's box it is the one
+    // that gives the flatter.
     const double x = std::max(std::abs(b.minX - eye.x), std::abs(b.maxX - eye.x)),
                  y = std::max(std::abs(b.minY - eye.y), std::abs(b.maxY - eye.y));
     const double away = (up > 0) == near

@@ -42,7 +42,7 @@ class StaticLodLayer {
   void draw(std::span<const TileDraw> nodes);
   /// The same with each node's number and colour (RGBA8; or none) as attributes 4 and 5.
   void drawNumbered(std::span<const TileDraw> nodes, std::span<const std::uint32_t> colours = {});
-  /// Document E's picture: faces light grey, edges red, locked edges black.
+  /// Document E's image: faces light grey, edges red, locked edges black.
   void drawPicture(unsigned program, std::span<const TileDraw> nodes);
 
   static constexpr int kBlock = 64;  ///< vertices a texel of slotTexture

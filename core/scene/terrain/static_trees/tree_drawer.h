@@ -20,7 +20,7 @@ class TreeDrawer final : public TerrainDrawer {
   /// Draws all visible nodes. With a depth map it draws the near ones, then the far ones that they do not
   /// hide.
   void draw(unsigned program) override;
-  /// Draws document E's picture instead: faces grey, edges red, locked edges black.
+  /// Draws document E's image instead: faces grey, edges red, locked edges black.
   void drawPicture(unsigned program);
   void drawNumbered(unsigned program) override;
 

@@ -230,7 +230,7 @@ class Horizon {
   alignas(64) std::array<float, kMostCorners + 16> x_, y_, z_, forward_, u_, w_;
   int last_ = 0, corners_ = 0;
   std::vector<float> reached_;
-  // Of the tile being tested: its origin relative to the eye, and values from its outline.
+  // The tile being tested has this origin relative to the eye, and these values from its outline.
   std::array<float, 3> offset_{};
   float nearest_ = 0, off_ = 0, beside_ = 0;
   std::vector<float> profile_;  ///< kSides * columns_, and 16 more that kernels read without effect

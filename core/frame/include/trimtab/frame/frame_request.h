@@ -48,8 +48,8 @@ struct FrameRequest {
   CullingCase method = CullingCase::proposed;
   OcclusionMethod occlusion =
       OcclusionMethod::depth_map;  ///< of levels and patches; static trees have their own
-  /// Of tiles and static trees, only nodes nearer than this are left out if a GPU's depth map hides them,
-  /// metres: for the experiment that decides for each node.
+  /// Distance, metres, within which a GPU's depth map may hide tiles and nodes of static trees; farther ones
+  /// are drawn. It serves the experiment that decides for each node.
   double testedWithinM = WeatherDecision::kUnlimited;
   bool backFaces = true;  ///< culls nodes that face away from the eye, except in CullingCase::none
   LodParameters lod;

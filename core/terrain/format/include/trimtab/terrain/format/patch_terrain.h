@@ -23,7 +23,8 @@ struct PatchVertex {
 };
 static_assert(sizeof(PatchVertex) == 20);
 
-/// What a variant has where the next finer one has a triangle.
+/// What a variant has where the next finer one has a triangle: nothing there, the same triangle (it is
+/// inherited), or another one in its place.
 enum class Heir : std::uint8_t { none, same, other };
 
 /// The meshes of one patch: vertices for all variants, the border's first, and each variant's triangles,
