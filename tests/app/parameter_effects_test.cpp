@@ -289,7 +289,7 @@ TEST_F(ParameterEffects, everyParameterChangesADecisionAPictureOrACount) {
       {"lod.level_spread", {{"lod.level_spread", "0.6"}, {"lod.scale", "4"}}},
       {"policy.",
        {{"policy.enabled", "true"},
-        {"policy.terms", "altitude low = ramp 2000 0 | pitch up = ramp -30 30"},
+        {"policy.terms", "altitude low = ramp 30000 -2000 | pitch up = ramp -90 90"},
         {"policy.rules",
          "if altitude is low and pitch is up then lod_scale = 4 | if altitude is any then lod_scale = 1"}}},
       {"lod.texture",
