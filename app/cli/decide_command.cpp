@@ -1,6 +1,5 @@
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <iterator>
 #include <memory>
@@ -74,14 +73,6 @@ Result<Decided> decideOne(const Options& options, const ValidatedParameters& par
   state.aboveGround = Feet{options.aboveGroundFt.value_or(*options.altitudeFt)}.as<Metres>();
   Session session(parameters);
   return Decided{{decidedRow(session, [&] { session.fly(state); })}, std::nullopt};
-}
-
-/// Whether a file begins as a trace of ours; a file that cannot be read is readFlight's to refuse.
-bool isTraceFile(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string header;
-  std::getline(in, header);
-  return isTrace(header);
 }
 
 Result<Decided> decideTrace(const std::string& file, const ValidatedParameters& parameters) {

@@ -92,9 +92,11 @@ PolicyPanel::PolicyPanel(Draft& draft, QWidget* parent)
     if (any_) throttle_.request();  // firings are those of the draft's rules only while it holds
   });
   connect(&draft_, &Draft::activeChanged, this, [this] {
+    readActive();
     if (any_) throttle_.request();
   });
   connect(&draft_, &Draft::loaded, this, [this] { track_.clear(); });
+  readActive();
   choose();
   reviewThrottle_.request();
 }
@@ -245,29 +247,29 @@ void PolicyPanel::showFrame(const LiveFrame& frame) {
   throttle_.request();
 }
 
-PolicyLive PolicyPanel::liveOf(const LiveFrame& frame) const {
-  PolicyLive live;
-  live.compiled = draft_.active().policy();
-  if (const auto policy = policyOf(draft_.active()->policy)) live.policy = *policy;
-  live.decided = any_ && live.compiled != nullptr;
-  live.matches = !draft_.isBroken();
-  if (!live.decided) return live;
-  live.flight = frame.input.signalValues;
-  live.outcome = frame.decision.policy;
-  live.compiled->decide(live.flight, live.decision);
-  return live;
+/// Reads the active policy once for each change of it; frames only decide it.
+void PolicyPanel::readActive() {
+  const auto policy = policyOf(draft_.active()->policy);
+  live_.policy = policy ? *policy : Policy{};
 }
 
 void PolicyPanel::refresh() {
-  const PolicyLive live = liveOf(frame_);
-  parts_.signalsList->showLive(live);
+  live_.compiled = draft_.active().policy();
+  live_.decided = any_ && live_.compiled != nullptr;
+  live_.matches = !draft_.isBroken();
+  if (live_.decided) {
+    live_.flight = frame_.input.signalValues;
+    live_.outcome = frame_.decision.policy;
+    live_.compiled->decide(live_.flight, live_.decision);
+  }
+  parts_.signalsList->showLive(live_);
   if (!parts_.signalsList->chosen()) return;
-  parts_.plot->showLive(live);
-  parts_.terms->showLive(live);
-  parts_.rules->showLive(live);
-  parts_.levers->showLive(live);
-  parts_.shares->showLive(live);
-  parts_.surface->showLive(live);
+  parts_.plot->showLive(live_);
+  parts_.terms->showLive(live_);
+  parts_.rules->showLive(live_);
+  parts_.levers->showLive(live_);
+  parts_.shares->showLive(live_);
+  parts_.surface->showLive(live_);
 }
 
 void PolicyPanel::showEditorOf(std::string_view key) {

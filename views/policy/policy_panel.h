@@ -76,13 +76,14 @@ class PolicyPanel : public QWidget {
   void showState();
   std::optional<Signal> firstWithTerms() const;
   void addFirstTerm();
-  PolicyLive liveOf(const LiveFrame& frame) const;
+  void readActive();
   void refresh();
 
   Draft& draft_;
   PolicyDraft* policy_;
   PolicyTrack track_;
   LiveFrame frame_;
+  PolicyLive live_;
   bool any_ = false, wasEmpty_ = true, schemeShown_ = false;
   Parts parts_;
   QStackedWidget* right_;

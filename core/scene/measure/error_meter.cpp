@@ -22,7 +22,7 @@ constexpr Pixels kFinest{1e-6};
 /// For patches: finest wherever an image could tell, and not a whole country's.
 constexpr Pixels kFinestPatches{0.125};
 constexpr Megabytes kReferenceCache{8192};
-/// What is left of an image at this weight is a quarter of a grey level.
+/// An earlier image at this weight is a quarter of a grey level of the mix.
 constexpr double kNoTrace = 1.0 / 1024;
 
 /// What both images leave out.
@@ -79,7 +79,7 @@ double hiddenShare(const std::vector<std::uint32_t>& nodes, const VisibleSet& vi
   return static_cast<double>(hidden) / static_cast<double>(visible.tiles.size());
 }
 
-/// What the far cut takes from an image is told by its colours, in fog: depths count up to there.
+/// Returns the distances up to the far cut. What the cut takes from an image shows in its colours, as fog.
 std::vector<float> upTo(double farM, std::vector<float> distances) {
   if (farM < WeatherDecision::kUnlimited)
     for (float& distance : distances)

@@ -32,7 +32,7 @@ class Maker {
       PolicyRule rule;
       rule.condition = size_.numeric ? numericCondition(policy) : condition(policy, 0);
       rule.weight = below(3) == 0 ? unit() : 1;
-      // fuzzylite keeps no more decimals of a weight than it is told to write, 12.
+      // fuzzylite rounds the weights that it reads to the decimals that it writes, which are 12.
       if (size_.numeric) rule.weight = std::round(rule.weight * 1e9) / 1e9;
       for (std::size_t l = 0, levers = 1 + below(std::min<std::size_t>(2, size_.levers)); l < levers; ++l) {
         const LeverRow& row = kLeverRows[(firstLever + (r + l) % size_.levers) % kLevers];
