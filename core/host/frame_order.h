@@ -5,20 +5,20 @@
 
 namespace trimtab {
 
-/// Order and loss from a host's frame numbers, which wrap at 2^32.
+/// Tracks order and loss of a host's 32-bit frame numbers.
 class FrameOrder {
  public:
   enum class Verdict {
-    next,       ///< newer than all before; what lies between is lost until it turns up
+    next,       ///< newer than all before; skipped numbers are lost until they arrive
     repeated,   ///< seen before
     reordered,  ///< older than one already seen, but new
     restarted   ///< the host counts anew
   };
-  /// `mayRestart`: the sender changed or was silent, so an older number means a new count at once.
+  /// If `mayRestart` (other sender, or silence), any older number restarts; else one 64 back does.
   Verdict accept(std::uint32_t frame, bool mayRestart);
   std::optional<std::uint32_t> last() const { return last_; }
   std::uint64_t lost() const { return lost_; }
-  /// Frames from the one before the last `next` to it: 1 without loss.
+  /// Returns how far ahead the last `next` was: 1 without loss.
   std::uint32_t step() const { return step_; }
 
  private:

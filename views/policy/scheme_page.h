@@ -12,7 +12,7 @@ class MembershipEditor;
 class RulesPanel;
 class SurfacePlot;
 
-/// The scheme of documents A and B: its curves, its rules and its surface.
+/// Shows the scheme of documents A and B in tabs. `draft` must outlive it.
 class SchemePage : public QTabWidget {
   Q_OBJECT
  public:

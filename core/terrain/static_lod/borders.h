@@ -11,24 +11,24 @@
 
 namespace trimtab::terrain {
 
-/// Returns one flag per material: whether its borders count. On an airport all do, elsewhere none; roads are
-/// for --keep-lines to keep.
+/// Returns one flag per material: whether its borders count. On an airport (a name that is no number)
+/// all do, else none.
 std::vector<std::uint8_t> borderMaterials(const LatticeTile& tile, std::span<const std::string> materials);
 
 /// Measures how far a node moves the borders of materials sideways. On flat ground simplification can move
 /// them any distance without any vertical error.
 class BorderMeasure {
  public:
-  /// `tile` and `tree` must outlive it. `counts` has one flag per material (borderMaterials).
+  /// `tree` must outlive it. `counts` has one flag per material (borderMaterials).
   BorderMeasure(const LatticeTile& tile, const LodTree& tree, std::span<const std::uint8_t> counts);
 
   /// Returns the node's horizontal border error in metres, but no less than `atLeastM`, which saves time.
   ///
   /// The error is the largest distance from a drawn border of a material to the source's border of the same
   /// material, and back. Where a material has vanished, its error is the radius of the largest circle that
-  /// fits between its borders: a strip of 2 m that is gone costs 1 m, whatever its length. Distances to
-  /// borders exceed the true maximum by at most an eighth or 0.1 m; circles are sampled every 0.5 m, or
-  /// every quarter of the error found so far.
+  /// fits between its borders: a strip of 2 m that is gone costs 1 m. Distances to borders exceed the true
+  /// maximum by at most an eighth, or 0.1 m if that is more; circles are sampled every 0.5 m, or every
+  /// quarter of the error so far.
   double of(const LodTree::Node& node, double atLeastM) const;
 
  private:

@@ -27,8 +27,8 @@ class OcclusionChoice {
   /// eye (m) or this turn of the view (radians). An eye that flies, turns or rests can each uncover ground
   /// for which another method is better.
   static constexpr double kBelievedMs = 1000, kBelievedM = 50, kBelievedTurn = 0.1;
-  /// The three limits above double with every trial that finds the same, up to this factor. They are this
-  /// much larger again for a method that could not win its own cost. Without it trials took twice as many
+  /// The three limits above double with every trial that finds the same, up to this factor. It multiplies
+  /// them again for a method that costs more than it could save. Without the factor trials took twice the
   /// frames.
   static constexpr double kMostPatience = 6;
   /// An eye that moves further than this (m) in one frame was put elsewhere: everything is tried again.
@@ -55,10 +55,10 @@ class OcclusionChoice {
   /// Reports what the frame after the last `choose` cost. Ignores an outcome with a time that is not finite.
   void learn(const Outcome& outcome);
 
-  /// Reports that the next frame is drawn without a choice. The method used after it pays its start again.
+  /// Reports that the next frame is drawn without a choice. The frame after it counts as a method's start.
   void pause() { before_ = kArms; }
 
-  /// Returns the estimated milliseconds that drawing a triangle takes; 0 before the first frame.
+  /// Returns the estimated milliseconds per triangle; 0 if the last frame had none in view.
   double msPerTriangle() const;
   /// Returns the number of frames so far that were drawn to try a method.
   std::uint64_t trials() const { return trials_; }

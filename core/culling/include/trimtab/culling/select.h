@@ -30,9 +30,9 @@ struct LevelCut {
   std::vector<std::uint64_t> blockTriangles;          ///< drawn for each block
   std::vector<NormalCone> cones;                      ///< of each tile; empty if the index has none
   std::vector<std::int16_t> blockSteepness;           ///< largest steepness (back_facing.h) in each block
-  std::shared_ptr<std::vector<std::uint32_t>> nodes;  ///< shared with visible sets, so never changed
+  std::shared_ptr<std::vector<std::uint32_t>> nodes;  ///< a new list while a visible set holds it
 
-  // Working storage of selectLevels, kept so that a frame allocates nothing.
+  // Working storage of selectLevels, kept from frame to frame.
   std::vector<std::uint8_t> split;                     ///< one per node: 1 if its children are drawn instead
   std::vector<std::vector<std::uint32_t>> splitNodes;  ///< by level
   std::vector<std::uint32_t> stack;
@@ -54,13 +54,13 @@ struct VisibleQuery {
   /// far plane instead; with a sphere a turn of the head does not move the far cut, and fog depends on the
   /// same distance.
   double farM = std::numeric_limits<double>::infinity();
-  std::span<const std::uint8_t> hidden = {};  ///< one flag per node of the cut, not 0 if hidden; or empty
+  std::span<const std::uint8_t> hidden = {};  ///< a flag per node, not 0 if hidden; fewer are ignored
   /// Leaves out nodes all of whose triangles face away; back_facing.h says when that is allowed.
   bool backFaces = false;
 };
 
-/// Fills `visible` with the nodes of a cut, of any form of the terrain, that pass the query; the frustum's
-/// far plane is infinite. Never drops a node that owns a pixel within `farM`. Does not count vertices.
+/// Fills `visible` with the nodes of any cut that pass the query; the frustum has no far plane. It keeps
+/// every node that owns a pixel within `farM`, and does not count vertices.
 void selectVisible(const LevelCut& cut, const VisibleQuery& query, VisibleSet& visible);
 
 /// Removes nodes from `visible` by one flag per node of `visible.tiles`, in order: 0 keeps it, 1 says it is

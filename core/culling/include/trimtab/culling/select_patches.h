@@ -27,7 +27,7 @@ struct PatchCut {
   std::vector<PageWant> wants;
   std::size_t heldBack = 0;  ///< diamonds of the cut that should be split but wait for a page
 
-  // Working storage of selectPatches, kept so that a frame allocates nothing.
+  // Working storage of selectPatches, kept from frame to frame.
   std::vector<float> need;                   ///< one per diamond: (error / distance) squared; 0: not to split
   std::vector<std::uint8_t> lack;            ///< one per diamond: flags of what it waits for
   std::vector<std::uint32_t> splitList;      ///< diamonds that should be split

@@ -12,7 +12,7 @@
 
 namespace trimtab {
 
-/// Says which surfaces may replace which: the levels of an index in one form for tiles and for patches. It
+/// Says which surfaces may replace which. It describes the levels of an index of tiles or of patches. It
 /// refers to the index, and for patches to `surfaceErrorM` as well, so both must outlive it unchanged. No
 /// function checks the number of a node.
 struct SurfaceTree {

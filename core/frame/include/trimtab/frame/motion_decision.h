@@ -5,7 +5,7 @@
 
 namespace trimtab {
 
-/// What the optimizer of document C did with a state. Only the names after `fast` change anything.
+/// Says what the optimizer did with a state. After `fast`, level, blur or both stacks changed.
 enum class MotionReason {
   off,
   first_frame,    ///< nothing to compare with yet

@@ -27,8 +27,8 @@ enum class Symbol : std::uint8_t {
 };
 inline constexpr std::size_t kSymbols = 8;
 
-/// The values that the symbols show. If an attitude is not finite, no symbol is drawn but the host's. An
-/// altitude or a speed that is not known or not finite shows as dashes. Without a velocity, or with one that
+/// The values that the symbols show. If an attitude is not finite, only the host's symbols are drawn. A
+/// speed that is unset, and a value that is not finite, show as dashes. Without a velocity, or with one that
 /// is not finite or about 0, there is no flight path marker.
 struct SymbologyState {
   Attitude aircraft;

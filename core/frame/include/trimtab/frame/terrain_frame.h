@@ -16,12 +16,12 @@ struct LevelsFrame {
 
 /// The state of paging; counters run since the terrain was set.
 struct PagingFrame {
-  std::size_t waiting = 0;   ///< pages that are wanted and not read yet, those ahead of the view included
+  std::size_t waiting = 0;   ///< wanted pages that are neither taken nor failed, those ahead included
   std::size_t heldBack = 0;  ///< diamonds drawn coarser than wanted, because a page is missing
   std::uint64_t pagesRead = 0, pagesDropped = 0, bytesRead = 0;
-  std::uint64_t failed = 0;                  ///< pages that could not be read; they stay coarser
+  std::uint64_t failed = 0;                  ///< pages that could not be read; ground is coarser
   std::uint64_t bytes = 0, budgetBytes = 0;  ///< memory in use, and allowed
-  double longestReadMs = 0;
+  double longestReadMs = 0;                  ///< of one page
   bool settled = true;  ///< whether drawing the same view again would show the same
 };
 

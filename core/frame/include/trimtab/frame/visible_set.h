@@ -39,7 +39,7 @@ struct TileDraw {
   std::uint32_t node = 0;
   BorderMask border = {};     ///< of a tile; empty for the other forms
   PatchVariant variant = {};  ///< of a patch; 0 for the other forms
-  /// Draws back faces too, although the image culls them; set when draws are arranged.
+  /// The drawer sets it: back faces are drawn too, although the image culls them.
   bool bothSides = false;
 };
 
@@ -54,9 +54,9 @@ struct VisibleSet {
               backFacing = 0;                 ///< tiles of the cut, by reason
   std::uint64_t triangles = 0, vertices = 0;  ///< of the tiles drawn; degenerate triangles not counted
 
-  /// Returns the reason of one node. It searches the cut, so use it for a node that a person picked.
+  /// Returns the reason of a node, or other_level if the cut lacks it. It searches the whole cut.
   CullReason reasonOf(std::uint32_t node) const;
-  /// Returns the reason of every node of an index with so many nodes.
+  /// Returns the reasons of all `ofNodes` nodes of an index.
   std::vector<CullReason> reasons(std::size_t ofNodes) const;
 };
 

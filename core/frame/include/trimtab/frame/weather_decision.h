@@ -21,7 +21,7 @@ enum class WeatherReason : std::uint8_t {
   haze,                ///< nothing falls, and the visibility is the preset's `clearVisibility`
   step,                ///< both come from the preset's `step`
   typed,               ///< the preset's `step` says what falls; the visibility is its `typedVisibility`
-  host,                ///< the host said both, or only what falls, for which the preset has a visibility
+  host,                ///< the host said it; if it said only what falls, the preset has the visibility
   host_said_nothing,   ///< the host has not spoken of weather yet, so both come from the preset's `step`
   invalid_visibility,  ///< the host's visibility is no number above 0, so it is the preset's for what the
                        ///< host says falls

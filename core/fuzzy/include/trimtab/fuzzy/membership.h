@@ -13,10 +13,10 @@ namespace trimtab {
 double curveValue(const CurvePoints& curve, double x);
 
 /// Returns the membership of an altitude, by the method that `AltitudeParameters::reading` names: 1 is low.
-/// For the equations each point of the curve begins a phase of Eq. 1, with the membership of that point.
-/// Altitudes below the first point have its membership, those above the last point have that of the last, and
-/// those from `maximum` up have 0. `equation_b` divides by the phase's membership, as document B prints it;
-/// the result is 0 if that is 0.
+/// `table` is the curve itself. For the equations each point begins a phase of Eq. 1, with the membership of
+/// that point. By an equation, altitudes from `maximum` up have 0, and those beyond an end of the curve have
+/// its membership. `equation_b` divides by the phase's membership, as document B prints it; the result is 0
+/// if that is 0.
 double altitudeMembership(const AltitudeParameters& parameters, double altitudeFt);
 
 /// Returns the membership of a pitch, nose up positive: 1 is nose down, where terrain fills the view.

@@ -65,20 +65,21 @@ class HostDecoder {
   HostDecoder(HostDecoder&&) noexcept;
   HostDecoder& operator=(HostDecoder&&) noexcept;
 
-  /// Returns the state that a datagram carries; nothing if it is bad, repeated, reordered, or carries no
-  /// ownship yet.
+  /// Returns a datagram's state; nothing if it is bad, repeated, reordered, not ready, or carries no ownship
+  /// yet.
   std::optional<AircraftState> accept(const Datagram& datagram);
-  /// Returns the health of the link. `rateHz` is that at the last good datagram; see rateAt().
+  /// Returns the link's health, valid until reset(). `rateHz` is as of the last good datagram.
   const HostStatistics& statistics() const;
-  /// Returns the good datagrams in the last second before `now`, which falls to 0 when the host falls silent.
+  /// Returns the rate of the good datagrams in the second before `now`, Hz. It is 0 a second after the last.
   double rateAt(double now) const;
-  /// Returns the symbols that the host has defined so far; null if none. A change makes another store, so
-  /// equal pointers mean equal symbols. They last until they are destroyed or the host starts anew.
+  /// Returns the symbols that the host has defined so far; null if none. A change makes another object, so
+  /// equal pointers mean equal symbols. A symbol lasts until the host destroys it or restarts.
   std::shared_ptr<const HostSymbols> symbols() const;
-  /// Return the frame number and the byte order of the last CIGI message, if there was one, for the echo in a
-  /// Start of Frame.
+  /// These return the frame number and byte order of the newest CIGI message for a Start of Frame; at first
+  /// nothing and big.
   std::optional<std::uint32_t> lastHostFrame() const;
   ByteOrder hostOrder() const;
+  /// Forgets everything but the protocol that was asked for.
   void reset();
 
  private:
@@ -90,6 +91,7 @@ class HostDecoder {
 /// are.
 class Extrapolator {
  public:
+  /// Adds a state; one with the time of the last one replaces it.
   void push(const AircraftState& state);
   /// Returns the state moved on to `time`, on the clock of the states (map the wall clock by the last
   /// packet's arrival), but by `limitS` seconds at most. Returns the last state unchanged if `limitS` is 0,

@@ -30,7 +30,7 @@ double motionLodScale(const MotionParameters& parameters, std::uint32_t& level);
 
 /// Returns the reason as files and docks spell it; empty past the last one.
 std::string_view toText(MotionReason reason);
-/// Reports whether level or blur changed, or the stacks were emptied.
+/// Reports if level or blur changed, or both stacks were emptied.
 bool changesState(MotionReason reason);
 /// Returns the decision in words and numbers, on one line.
 std::string explain(const MotionDecision& decision);

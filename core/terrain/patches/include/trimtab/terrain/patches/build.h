@@ -27,8 +27,7 @@ struct BuiltPage {
   VariantTable<float> errorM;
   std::vector<NormalCone> cones;
 };
-/// A page with more posts a side than this is meshed on every 2nd, 4th, ... post, and measured on all of
-/// them.
+/// A page with more posts a side than this is meshed on every 2nd, 4th, ... of them, and measured on all.
 inline constexpr std::uint32_t kMostPostsASide = 1025;
 /// Meshes and measures one page. `index` is that of makePatchIndex() for the posts of `heights` and needs no
 /// measured values yet; `geometry` is that of the same posts.
