@@ -152,7 +152,7 @@ FrameDecision decide(const FrameInput& input, const ValidatedParameters& paramet
   FrameDecision decision{.ruleFiring = {},
                          .occlusionResolution = {},
                          .motion = decideMotion(input.state, parameters->motion, memory.motion, input.drawn),
-                         .weather = decideWeather(input.state, *parameters),
+                         .weather = decideWeather(input.state, *parameters, input.highestGround),
                          .policy = {}};
   std::optional<TotalMembership> total = decideTotal(input, parameters, decision);
   double lodScale = parameters->lod.scale.value();

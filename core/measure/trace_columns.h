@@ -96,6 +96,8 @@ void forEachWeatherColumn(Decision& w, const Visit& visit) {
   visit("weather_fogged", Cell::optional, w.fogged);
   visit("weather_visibility_m", Cell::optional, w.visibilityM);
   visit("weather_extinction_per_m", Cell::optional, w.extinctionPerM);
+  visit("weather_layer_top_m", Cell::optional, w.layerTopM);
+  visit("weather_safe_far_m", Cell::optional, w.safeFarM);
   visit("weather_near_far_ratio", Cell::optional, w.nearFarRatio);
   visit("weather_far_m", Cell::optional, w.farM);
   visit("weather_reason", Cell::optional, w.reason);
@@ -156,6 +158,7 @@ void forEachColumn(F& f, const Visit& visit) {
   visit("packet", Cell::required, state.packet);
   visit("height_m", Cell::required, f.height);
   visit("above_ground_m", Cell::optional, f.row.input.aboveGround);
+  visit("highest_ground_m", Cell::optional, f.row.input.highestGround);
   visit("head_roll_deg", Cell::optional, f.headRoll);
   visit("visibility_m", Cell::optional, state.visibility);
   visit("airspeed_kt", Cell::optional, state.airspeed);

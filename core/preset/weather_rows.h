@@ -139,13 +139,29 @@ inline constexpr auto kWeatherRows = joined(
              .help =
                  "Draw haze of the clear-day visibility while nothing falls, and let the adaptive ratio cut "
                  "there."}),
+        row<&TuningParameters::weather, &WeatherParameters::air>(
+            {.key = "weather.air",
+             .label = "Air",
+             .help =
+                 "Whether the fog has one extinction everywhere, or is a layer of haze under a top in which "
+                 "the visibility is the meteorological optical range (5 % of the contrast is left)."}),
+        row<&TuningParameters::weather, &WeatherParameters::layerTop>(
+            {.key = "weather.layer_top_m",
+             .label = "Top of the haze",
+             .help =
+                 "Height above mean sea level up to which the haze layer reaches. The air above is clear.",
+             .hard = {-500, 100e3},
+             .usual = {0, 10e3},
+             .step = 100,
+             .decimals = 1}),
         row<&TuningParameters::weather, &WeatherParameters::contrastThreshold>(
             {.key = "weather.contrast_threshold",
              .label = "Contrast at visibility",
              .help =
                  "What is left of an object's contrast at the visibility, from which the fog's extinction "
                  "follows. "
-                 "0.02 is Koschmieder's visual range, 0.05 the meteorological optical range.",
+                 "0.02 is Koschmieder's visual range, 0.05 the meteorological optical range. The haze layer "
+                 "always has 0.05.",
              .hard = {0.001, 0.5},
              .usual = {0.005, 0.1},
              .step = 0.005,

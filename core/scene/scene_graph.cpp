@@ -141,6 +141,14 @@ class Uniforms {
   osg::StateSet* state_;
 };
 
+/// Chooses the shaders that are compiled with a `#define` or without it.
+void define(osg::StateSet* state, const char* name, bool on) {
+  if (on)
+    state->setDefine(name);
+  else
+    state->removeDefine(name);
+}
+
 /// How far the corner of a pixel is from its centre, at distance 1.
 double halfDiagonal(const ViewShape& v, int widthPx, int heightPx) {
   return 0.5 * std::hypot((v.right - v.left) / widthPx, (v.top - v.bottom) / heightPx);
@@ -311,23 +319,26 @@ struct SceneGraph::Nodes {
   }
 };
 
-/// Clear weather has shaders of its own, which know nothing of fog: nothing is paid for it, and no bit
-/// changes.
+/// Clear weather has shaders of its own, which know nothing of fog, and so have fog without a cut and fog
+/// that is not a layer: nothing is paid for what the air is not.
 void SceneGraph::setAir(const SceneView& view) {
   osg::StateSet* state = nodes_->root->getOrCreateStateSet();
-  if (view.air.clear) {
-    state->removeDefine("IN_WEATHER");
-    return;
-  }
-  state->setDefine("IN_WEATHER");
-  Uniforms uniforms(state);
   const Air& air = view.air;
-  uniforms.set("pictureSize", Type::FLOAT_VEC2,
-               osg::Vec2f(static_cast<float>(view.shape.widthPx), static_cast<float>(view.shape.heightPx)));
+  define(state, "IN_WEATHER", !air.clear);
+  define(state, "AIR_CUT", !air.clear && air.cutM < Air::kFarthest);
+  define(state, "AIR_LAYER", !air.clear && air.layered);
+  if (air.clear) return;
+  Uniforms uniforms(state);
   uniforms.set("fog", Type::FLOAT_VEC3, osg::Vec3f(air.colour[0], air.colour[1], air.colour[2]));
   uniforms.set("air", Type::FLOAT_VEC3, osg::Vec3f(air.extinction, air.cutM, air.fadePerM));
   uniforms.set("fogDepth", Type::FLOAT_VEC2,
                osg::Vec2f(static_cast<float>(kFogTopM), static_cast<float>(std::max(view.heightM, 1.0))));
+  if (!air.layered) return;
+  const LayerRoots roots = layerRoots(view.heightM, double{air.topM});
+  uniforms.set("upInFrame", Type::FLOAT_VEC3, toFloat(view.up));
+  uniforms.set("layer", Type::FLOAT_VEC2,
+               osg::Vec2f(static_cast<float>(roots.fromCentre), static_cast<float>(roots.top)));
+  uniforms.set("lowest", Type::FLOAT, static_cast<float>(roots.lowest));
 }
 
 SceneGraph::SceneGraph(ScenePasses passes) : nodes_(std::make_unique<Nodes>(passes)) {}
@@ -351,14 +362,12 @@ void SceneGraph::frame(const SceneView& view, unsigned fbo) {
   uniforms.set("textureSquares", Type::BOOL, view.textureSquares);
   uniforms.set("inGuardBand", Type::FLOAT, 1.0f / static_cast<float>(view.guardBand));
   n.drawnShape = view.shape, n.guardBand = view.guardBand;
+  define(n.root->getOrCreateStateSet(), "ON_GRID", view.gridStepsPerPixel > 0);
   if (view.gridStepsPerPixel > 0) {
-    n.root->getOrCreateStateSet()->setDefine("ON_GRID");
     const double steps = 0.5 * view.guardBand * view.gridStepsPerPixel;
     uniforms.set("gridSteps", Type::FLOAT_VEC2,
                  osg::Vec2f(static_cast<float>(steps * view.shape.widthPx),
                             static_cast<float>(steps * view.shape.heightPx)));
-  } else {
-    n.root->getOrCreateStateSet()->removeDefine("ON_GRID");
   }
   const auto show = [](Pass& pass, bool on) { pass.setNodeMask(on ? ~0u : 0u); };
   for (const TerrainForm form : kForms) {

@@ -64,6 +64,7 @@ void Session::setParameters(const ValidatedParameters& parameters) {
   lookMemory_.levers.restart();
   if (!current_) return;
   decided_.aboveGround = groundBelow(decided_.state);
+  decided_.highestGround = highestGround();
   trackSignals(decided_);
   DecisionMemory copy = looking_ ? lookMemory_ : memory_;
   decision_ = decide(decided_, parameters_, copy);
@@ -152,8 +153,14 @@ std::optional<Metres> Session::groundBelow(const AircraftState& state) const {
   return state.position.height - *ground;
 }
 
+/// Only if the decision wants it, so that traces of other presets do not depend on the terrain.
+std::optional<Metres> Session::highestGround() const {
+  if (parameters_->weather.air != AirModel::layer || !ground_) return std::nullopt;
+  return ground_->highest();
+}
+
 FrameInput Session::inputFor(const AircraftState& state) const {
-  FrameInput input{state, groundBelow(state), lastCost_, {}, {}};
+  FrameInput input{state, groundBelow(state), lastCost_, {}, {}, highestGround()};
   // The rows of a flight are its images whatever the clock says, so that they are decided alike anywhere.
   if (parameters_->motion.frames == MotionFrames::drawn) {
     input.drawn.vertices = lastVertices_;

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "trimtab/fuzzy/membership.h"
+#include "trimtab/weather/haze_layer.h"
 
 namespace trimtab {
 namespace {
@@ -44,9 +45,26 @@ bool saysSomethingInvalid(const AircraftState& state) {
 }
 
 void setVisibility(WeatherDecision& d, const WeatherParameters& p, double visibilityM) {
+  const bool layer = p.air == AirModel::layer;
   d.visibilityM = visibilityM;
-  d.extinctionPerM = extinction(visibilityM, p.contrastThreshold.value());
+  d.extinctionPerM = extinction(visibilityM, layer ? kOpticalRangeContrast : p.contrastThreshold.value());
   d.fogged = d.extinctionPerM > 0;
+  if (layer && d.fogged) d.layerTopM = p.layerTop.value();
+}
+
+bool isLayer(const WeatherDecision& d) {
+  return d.layerTopM < WeatherDecision::kUnlimited;
+}
+
+/// The adaptive ratio in a layer of haze: nothing that can be seen is cut, and a calibration may push the far
+/// plane out from there.
+void setSafeFarPlane(WeatherDecision& d, const WeatherParameters& p, double stretch) {
+  const double pushedM = stretch > 1 ? d.visibilityM * stretch : 0;
+  d.farM = std::max(d.safeFarM, pushedM);
+  d.nearFarRatio = p.defaultNear.value() / d.farM;
+  d.farReason = std::isinf(d.farM)     ? FarReason::unbounded
+                : pushedM > d.safeFarM ? FarReason::stretched
+                                       : FarReason::safe;
 }
 
 /// Clear weather by the preset: no fog unless haze is wanted.
@@ -141,6 +159,10 @@ std::string_view sentence(FarReason reason) {
       return "at the visibility";
     case FarReason::stretched:
       return "pushed out until gain and loss match";
+    case FarReason::safe:
+      return "where nothing can be seen any more";
+    case FarReason::unbounded:
+      return "something may be seen at any distance";
   }
   return "";
 }
@@ -204,6 +226,10 @@ void setFarPlane(WeatherDecision& d, const WeatherParameters& p, double stretch)
     d.farReason = FarReason::clear;
     return;
   }
+  if (isLayer(d) && p.ratioMode == RatioMode::adaptive) {
+    setSafeFarPlane(d, p, stretch);
+    return;
+  }
   const double near = p.defaultNear.value();
   if (p.ratioMode == RatioMode::fixed) {
     d.farReason = FarReason::fixed;
@@ -215,7 +241,8 @@ void setFarPlane(WeatherDecision& d, const WeatherParameters& p, double stretch)
   d.farM = near / d.nearFarRatio;
 }
 
-WeatherDecision decideWeather(const AircraftState& state, const TuningParameters& parameters) {
+WeatherDecision decideWeather(const AircraftState& state, const TuningParameters& parameters,
+                              std::optional<Metres> highestGround) {
   WeatherDecision decision;
   double stretch = 1;
   if (parameters.weather.source == WeatherSource::preset) {
@@ -230,6 +257,9 @@ WeatherDecision decideWeather(const AircraftState& state, const TuningParameters
     decision.precipitation = Precipitation::none;
     decision.density = 0;
   }
+  if (isLayer(decision))
+    decision.safeFarM = safeFarM(decision.extinctionPerM, decision.layerTopM, state.position.height.value(),
+                                 highestGround ? highestGround->value() : kHighestGroundM);
   setFarPlane(decision, parameters.weather, stretch);
   return decision;
 }
@@ -245,6 +275,7 @@ std::string explain(const WeatherDecision& d) {
           ? std::string("nothing falls")
           : formatted("%s of density %.3g", std::string(toText(d.precipitation)).c_str(), d.density);
   text += d.fogged ? formatted(", visibility %.0f m", d.visibilityM) : ", no fog";
+  if (isLayer(d)) text += formatted(" in haze up to %.0f m", d.layerTopM);
   text += ": " + std::string(sentence(d.reason));
   if (std::isfinite(d.farM))
     text += formatted("; far plane at %.0f m, ratio %.3g: ", d.farM, d.nearFarRatio);

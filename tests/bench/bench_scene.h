@@ -83,6 +83,7 @@ class BenchScene {
     offscreen_->makeCurrent();
     return renderer_.draw(r, offscreen_->framebuffer());
   }
+  std::optional<Metres> highestGround() const { return database_ ? database_->highest() : std::nullopt; }
   double ms(const FrameRequest& r) { return draw(r).cost.total; }
 
  private:

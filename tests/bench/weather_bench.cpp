@@ -83,6 +83,19 @@ WeatherDecision decided(WeatherStep step, RatioMode mode) {
   return decideWeather({}, p);
 }
 
+/// A layer of haze with all ground in it, seen from the benchmarks' eye.
+WeatherDecision hazed(const BenchScene& bench, RatioMode mode) {
+  TuningParameters p = *defaultParameters();
+  p.weather.air = AirModel::layer;
+  p.weather.layerTop = Metres{3000};
+  p.weather.visibilityFrom = VisibilitySource::typed;
+  p.weather.typedVisibility = Metres{8000};
+  p.weather.ratioMode = mode;
+  AircraftState state;
+  state.position = bench.request().eye;
+  return decideWeather(state, p, bench.highestGround());
+}
+
 void frames(Report& report, BenchScene& bench) {
   const int pairs = report.quick() ? 9 : 31;
   const auto frame = [&](const WeatherDecision& weather) {
@@ -101,6 +114,16 @@ void frames(Report& report, BenchScene& bench) {
   report.add(ratioAtMost(1.1, rowOf(foggy, {.id = "weather.fog",
                                             .what = "a frame in fog, nothing cut and nothing falling",
                                             .peer = "the same frame in clear air"})));
+  const WeatherDecision whole = hazed(bench, RatioMode::off), cut = hazed(bench, RatioMode::adaptive);
+  const Pairs layered = inTurn(pairs, frame(whole), frame({}));
+  report.add(ratioAtMost(1.1, rowOf(layered, {.id = "weather.haze_layer",
+                                              .what = "a frame in a layer of haze, nothing cut",
+                                              .peer = "the same frame in clear air"})));
+  const Pairs safe = inTurn(pairs, frame(cut), frame(whole));
+  report.add(ratioAtMost(1, rowOf(safe, {.id = "weather.safe_cut",
+                                         .what = "a frame in haze of 8 km, cut at the safe far distance of " +
+                                                 std::to_string(static_cast<int>(cut.farM)) + " m",
+                                         .peer = "the same frame without the cut"})));
   for (const auto& [name, step] : {std::pair{"rain_light", WeatherStep::rain_light},
                                    {"rain_medium", WeatherStep::rain_medium},
                                    {"rain_heavy", WeatherStep::rain_heavy}}) {

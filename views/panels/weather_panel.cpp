@@ -27,6 +27,8 @@ constexpr std::string_view kKeys[] = {"weather.source",
                                       "weather.typed_visibility_m",
                                       "weather.clear_visibility_m",
                                       "weather.haze",
+                                      "weather.air",
+                                      "weather.layer_top_m",
                                       "weather.ratio_mode",
                                       "weather.fixed_ratio",
                                       "weather.severity_density",
@@ -51,6 +53,7 @@ bool isWanted(std::string_view key, const TuningParameters& p) {
   if (key == "weather.typed_visibility_m") return typed;
   if (key == "weather.clear_visibility_m") return !typed;
   if (key == "weather.haze") return !typed && w.step == WeatherStep::clear;
+  if (key == "weather.layer_top_m") return w.air == AirModel::layer;
   if (key == "weather.fixed_ratio") return w.ratioMode == RatioMode::fixed;
   if (key == "weather.severity_density") return w.source == WeatherSource::host;
   const Precipitation falls = precipitationOf(w.step);

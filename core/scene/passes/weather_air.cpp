@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trimtab/weather/haze_layer.h"
+
 namespace trimtab::scene {
 namespace {
 
@@ -10,6 +12,10 @@ namespace {
 constexpr double kThickest = 100;
 /// Thick fog and heavy precipitation are greyer than haze.
 constexpr std::array<float, 3> kGrey{0.70f, 0.72f, 0.74f};
+/// Per metre; the fade is over within less than single precision resolves.
+constexpr float kNoFade = 1e6f;
+/// The shore of the Dead Sea lies 430 m below mean sea level.
+constexpr double kLowestGroundM = -500;
 /// Visibility of a few kilometres is halfway between the two.
 constexpr double kGreyAtM = 1500;
 
@@ -24,14 +30,25 @@ Air airOf(const WeatherDecision& weather) {
     const float grey = static_cast<float>(1 - std::exp(-extinction * kGreyAtM));
     for (std::size_t i = 0; i < 3; ++i) air.colour[i] += grey * (kGrey[i] - kHaze[i]);
     air.clear = false;
+    air.layered = weather.layerTopM < WeatherDecision::kUnlimited;
+    if (air.layered) air.topM = static_cast<float>(weather.layerTopM);
   }
   if (weather.farM < double{Air::kFarthest}) {
     const double cut = std::max(weather.farM, 1e-3);
     air.cutM = static_cast<float>(cut);
-    air.fadePerM = static_cast<float>(1 / (kCutFade * cut));
+    // Nothing is left to fade at a safe cut, and what fades before it could be seen.
+    const bool safe = air.layered && weather.farM >= weather.safeFarM;
+    air.fadePerM = safe ? kNoFade : static_cast<float>(1 / (kCutFade * cut));
     air.clear = false;
   }
   return air;
+}
+
+LayerRoots layerRoots(double eyeM, double topM) {
+  const auto lessThan = [eyeM](double sphereM) {
+    return (eyeM - sphereM) * (2 * kEarthRadiusM + eyeM + sphereM);
+  };
+  return {kEarthRadiusM + eyeM, lessThan(topM), lessThan(std::min(kLowestGroundM, eyeM - 1))};
 }
 
 }  // namespace trimtab::scene

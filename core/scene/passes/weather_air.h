@@ -14,6 +14,8 @@ struct Air {
   float extinction = 0;           ///< per metre
   float cutM = kFarthest;         ///< from the eye; nothing is drawn beyond
   float fadePerM = 1;             ///< 1 / the metres before the cut in which colours fade
+  bool layered = false;           ///< only below `topM` there is fog
+  float topM = 0;                 ///< above mean sea level
   std::array<float, 3> colour{};  ///< of fog, sRGB
 
   friend bool operator==(const Air&, const Air&) = default;
@@ -31,5 +33,14 @@ inline constexpr double kCutFade = 0.15;
 /// or not a number means no fog, an infinite one hides everything; a far distance that is not a number cuts
 /// nothing, one below 0 everything.
 Air airOf(const WeatherDecision& weather);
+
+/// What haze_layer.glsl and sky.frag.glsl need to know of a layer, from the heights of the eye and of its
+/// top, metres above mean sea level.
+struct LayerRoots {
+  double fromCentre = 0;  ///< of the earth to the eye
+  double top = 0;         ///< the square of that, less the square of the layer's radius
+  double lowest = 0;      ///< the same for a sphere below all ground and below the eye
+};
+LayerRoots layerRoots(double eyeM, double topM);
 
 }  // namespace trimtab::scene

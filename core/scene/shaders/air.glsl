@@ -1,18 +1,32 @@
-// What air leaves of a colour, for the fragment shader of everything that has a place in the world. The
-// distance comes from gl_FragCoord, so it is that of the pixel and needs no varying. Beyond the weather's far
-// cut the fragment is discarded: the sky shows there, and not the outline of the tiles.
+// What air leaves of a colour, for the fragment shader of everything that has a place in the world: first the
+// haze of clear air, then in weather its fog. Beyond the weather's far cut the fragment is discarded: the sky
+// shows there, and not the outline of the tiles. Only a frame that is cut has the `discard`. The distance comes
+// from a varying, because on a software rasteriser gl_FragCoord costs twice as much as the whole fog.
+uniform vec3 haze;  // sRGB
 #ifdef IN_WEATHER
-uniform vec4 tangents;  // left, right, bottom, top
-uniform vec2 pictureSize;  // pixels
 uniform vec3 fog;  // sRGB
 uniform vec3 air;  // extinction per metre, cut distance, 1 / width of its fade
-vec3 throughAir(vec3 colour) {
-  vec2 across = mix(tangents.xz, tangents.yw, gl_FragCoord.xy / pictureSize);
-  float metres = sqrt(1.0 + dot(across, across)) / gl_FragCoord.w;
+#ifdef AIR_LAYER
+#include "haze_layer.glsl"
+uniform vec3 upInFrame;
+float metresInFog(vec3 fromEye, float metres) { return lengthInLayer(dot(fromEye, upInFrame) / metres, metres); }
+#else
+float metresInFog(vec3 fromEye, float metres) { return metres; }
+#endif
+#endif
+
+// `clearness` is the share of the colour that clear air's haze leaves; `fromEye` is in metres.
+vec3 throughAir(vec3 colour, float clearness, vec3 fromEye) {
+  vec3 shown = mix(haze, colour, clearness);
+#ifdef IN_WEATHER
+  float metres = length(fromEye);
+  float left = exp(-air.x * metresInFog(fromEye, metres));
+#ifdef AIR_CUT
   if (metres > air.y) discard;
   float near = clamp((air.y - metres) * air.z, 0.0, 1.0);
-  return mix(fog, min(colour, vec3(1.0)), exp(-air.x * metres) * near * near * (3.0 - 2.0 * near));
-}
-#else
-vec3 throughAir(vec3 colour) { return colour; }
+  left *= near * near * (3.0 - 2.0 * near);
 #endif
+  shown = mix(fog, min(shown, vec3(1.0)), left);
+#endif
+  return shown;
+}

@@ -1,5 +1,5 @@
 #version 430 compatibility
-#pragma import_defines(IN_WEATHER)
+#pragma import_defines(IN_WEATHER, AIR_CUT, AIR_LAYER)
 #include "air.glsl"
 #include "ground_colour.glsl"
 #include "light.glsl"
@@ -8,7 +8,6 @@ in vec3 upward;
 in vec2 post;
 in vec2 ground;
 flat in vec4 tint;
-uniform vec3 haze;         // sRGB
 uniform float hazeDistance;
 uniform bool wire;
 out vec4 fragment;
@@ -28,5 +27,5 @@ void main() {
     lit = min(colour * light * 1.15, vec3(1.0));
     lit = mix(lit, tint.rgb * (0.25 + 0.75 * light), tint.a) * (1.0 + detail);
   }
-  fragment = vec4(throughAir(mix(haze, lit, exp(-length(relative) / hazeDistance))), 1.0);
+  fragment = vec4(throughAir(lit, exp(-length(relative) / hazeDistance), relative), 1.0);
 }

@@ -1,11 +1,11 @@
 #version 430 compatibility
-#pragma import_defines(IN_WEATHER)
+#pragma import_defines(IN_WEATHER, AIR_CUT, AIR_LAYER)
 #include "air.glsl"
 #include "ground_noise.glsl"
 in vec3 lit;
 in float clearness;
+in vec3 relative;
 in vec2 ground;
-uniform vec3 haze;         // sRGB
 uniform bool wire;
 #ifdef STATIC_TREE
 #include "texture_squares.glsl"
@@ -20,5 +20,5 @@ void main() {
 #ifdef STATIC_TREE
   if (textureSquares && !wire) shown *= textureSquare(inTexture);
 #endif
-  fragment = vec4(throughAir(mix(haze, shown, clearness)), 1.0);
+  fragment = vec4(throughAir(shown, clearness, relative), 1.0);
 }

@@ -17,6 +17,7 @@ uniform samplerBuffer tints;
 #endif
 out vec3 lit;
 out float clearness;       // share of `lit` that haze leaves
+out vec3 relative;         // metres from the eye
 out vec2 ground;           // groundMetres
 #ifdef STATIC_TREE
 out vec2 inTexture;        // in units of the material's texture
@@ -55,6 +56,7 @@ void main() {
 #endif
     lit = mix(lit, tint.rgb * (0.25 + 0.75 * light), tint.a);
   }
+  relative = p;
   clearness = exp(-length(p) / hazeDistance);
   ground = groundMetres(vertexPosition, slot);
   gl_Position = gl_ModelViewProjectionMatrix * vec4(p, 1.0);

@@ -77,11 +77,12 @@ constexpr const char* kPlain = R"(#version 430 compatibility
 uniform ivec2 eyePost;
 uniform vec2 eyeAt;
 const float kHeight = 600.0, kPost = 30.0;
+out vec3 relative;
 #ifdef BY_VERTEX
 out vec3 lit;
 out float clearness;
 #else
-out vec3 relative, upward;
+out vec3 upward;
 out vec2 post;
 flat out vec4 tint;
 #endif
@@ -90,11 +91,11 @@ void main() {
   vec2 corner = vec2((gl_VertexID & 1) * 2, gl_VertexID & 2);
   // A triangle on the plain that covers the picture: x 12 km, y from 0.5 km away to 24 km.
   vec3 p = vec3(mix(-12000.0, 12000.0 * 3.0, corner.x * 0.5), mix(400.0, 60000.0, corner.y * 0.5), -kHeight);
+  relative = p;
 #ifdef BY_VERTEX
   lit = vec3(0.4, 0.5, 0.3);
   clearness = exp(-length(p) / 110e3);
 #else
-  relative = p;
   upward = vec3(0.0, 0.0, 1.0);
   post = p.xy / kPost;
   tint = vec4(0.0);

@@ -58,11 +58,11 @@ void anyMotion(std::mt19937_64& random, DecisionMemory& before, FrameDecision& d
 void anyWeather(std::mt19937_64& random, WeatherDecision& weather) {
   weather.precipitation = static_cast<Precipitation>(random() % 3);
   weather.fogged = random() % 2;
-  for (double* value : {&weather.density, &weather.visibilityM, &weather.extinctionPerM,
-                        &weather.nearFarRatio, &weather.farM})
+  for (double* value : {&weather.density, &weather.visibilityM, &weather.extinctionPerM, &weather.layerTopM,
+                        &weather.safeFarM, &weather.nearFarRatio, &weather.farM})
     *value = random() % 4 ? anyDouble(random) : WeatherDecision::kUnlimited;
   weather.reason = static_cast<WeatherReason>(random() % 8);
-  weather.farReason = static_cast<FarReason>(random() % 5);
+  weather.farReason = static_cast<FarReason>(random() % 7);
 }
 
 void anyPolicy(std::mt19937_64& random, TraceRow& row) {
@@ -94,6 +94,7 @@ TraceRow anyRow(std::mt19937_64& random) {
   state.position = {Degrees{number()}, Degrees{number()}, Metres{number()}};
   state.attitude = {Degrees{number()}, Degrees{number()}, Degrees{number()}};
   maybe(row.input.aboveGround);
+  maybe(row.input.highestGround);
   state.aboveGround = row.input.aboveGround;
   maybe(state.visibility);
   maybe(state.airspeed);

@@ -49,6 +49,8 @@ class SyntheticTerrain final : public terrain::Database {
         position_[at(column, row)] = {lattice(p.x), lattice(p.y), lattice(p.z)};
         height_[at(column, row)] = h;
       }
+    const auto [low, high] = std::minmax_element(height_.begin(), height_.end());
+    info_.lowest = Metres{*low}, info_.highest = Metres{*high};
     makeIndex(tiles);
     tiles_.resize(index_.size());
   }

@@ -104,6 +104,9 @@ struct FrameInput {
   FrameCost lastCost;
   DrawnLoad drawn{};          ///< set only for MotionFrames::drawn
   SignalValues signalValues;  ///< set only if the preset has a policy
+  /// Height above mean sea level that no ground exceeds; set only for AirModel::layer, if the terrain knows
+  /// it.
+  std::optional<Metres> highestGround{};
 };
 
 enum class Scheme { frustum, dynamic };

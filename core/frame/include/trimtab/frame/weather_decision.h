@@ -30,11 +30,13 @@ enum class WeatherReason : std::uint8_t {
 
 /// Says why the far plane is where it is.
 enum class FarReason : std::uint8_t {
-  off,       ///< the ratio mode is off
-  clear,     ///< nothing is cut, because no fog would hide the edge
-  fixed,     ///< the preset's `fixedRatio` sets it
-  visible,   ///< it lies at the visibility, by Eq. (1) of document D
-  stretched  ///< it lies farther, by the `farStretch` of what falls, which a calibration finds
+  off,        ///< the ratio mode is off
+  clear,      ///< nothing is cut, because no fog would hide the edge
+  fixed,      ///< the preset's `fixedRatio` sets it
+  visible,    ///< it lies at the visibility, by Eq. (1) of document D
+  stretched,  ///< it lies farther, by the `farStretch` of what falls, which a calibration finds
+  safe,       ///< it lies where nothing can be seen any more: at `safeFarM`
+  unbounded   ///< there is none, because something may be seen through the air at any distance
 };
 
 /// Moving air.
@@ -52,7 +54,7 @@ Vec3 eastNorthUp(const Wind& wind);
 ///
 /// Fog is exponential: of an object's own colour exp(-extinctionPerM * distance) is left. At `visibilityM`
 /// that share is the contrast threshold (WeatherParameters) and not 0. So a pass that cuts there must fade
-/// colours to the fog's before `farM`, or an edge shows.
+/// colours to the fog's before `farM`, or an edge shows, unless `farM` is at least `safeFarM`.
 struct WeatherDecision {
   static constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
@@ -61,7 +63,11 @@ struct WeatherDecision {
   bool fogged = false;              ///< if false, draw without fog, whatever visibility and extinction say
   double visibilityM = kUnlimited;  ///< distance from the eye, not depth along the view's axis
   double extinctionPerM = 0;        ///< -ln(contrast threshold) / visibilityM
-  double nearFarRatio = 0;          ///< WeatherParameters::defaultNear / farM; 0 while nothing is cut
+  double layerTopM = kUnlimited;    ///< above mean sea level; only below it there is fog
+  /// Beyond it no channel of any pixel can differ by more than 1/255 (safeFarM in weather.h); unlimited where
+  /// something may be seen at any distance, and in document D's fog, which does not use it.
+  double safeFarM = kUnlimited;
+  double nearFarRatio = 0;  ///< WeatherParameters::defaultNear / farM; 0 while nothing is cut
   /// Nothing farther from the eye is drawn. In a frame request a policy may have multiplied it (applyLevers);
   /// nearFarRatio then still has the old distance.
   double farM = kUnlimited;
@@ -91,7 +97,8 @@ constexpr std::string_view toText(WeatherReason reason) {
   return at < std::size(kNames) ? kNames[at] : std::string_view{};
 }
 constexpr std::string_view toText(FarReason reason) {
-  constexpr std::string_view kNames[] = {"off", "clear", "fixed", "visible", "stretched"};
+  constexpr std::string_view kNames[] = {"off",       "clear", "fixed",    "visible",
+                                         "stretched", "safe",  "unbounded"};
   const auto at = static_cast<std::size_t>(reason);
   return at < std::size(kNames) ? kNames[at] : std::string_view{};
 }

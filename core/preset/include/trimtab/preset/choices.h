@@ -123,6 +123,11 @@ struct ChoicesOf<VisibilitySource> {
   static constexpr ChoiceOption options[] = {{"steps", "The weather step"}, {"typed", "Typed"}};
 };
 template <>
+struct ChoicesOf<AirModel> {
+  static constexpr ChoiceOption options[] = {{"uniform", "Fog as in document D"},
+                                             {"layer", "Haze layer (optical range)"}};
+};
+template <>
 struct ChoicesOf<RatioMode> {
   static constexpr ChoiceOption options[] = {
       {"off", "No cut"}, {"fixed", "Fixed ratio"}, {"adaptive", "By visibility (adaptive)"}};

@@ -45,8 +45,11 @@ enum class WeatherSource { preset, host };
 enum class WeatherStep { clear, rain_light, rain_medium, rain_heavy, snow_light, snow_medium, snow_heavy };
 /// Whether the visibility is the step's share of the clear-day distance or a typed number.
 enum class VisibilitySource { steps, typed };
+/// What hides the distance: document D's fog, whose extinction is the same everywhere, or a layer of haze
+/// under a top, whose extinction follows from the meteorological optical range.
+enum class AirModel { uniform, layer };
 /// How the far plane is set (document D, the two columns of Table 1): not at all, by one ratio for all
-/// weather, or by Eq. (1).
+/// weather, or by Eq. (1). In a layer of haze the last is the safe far distance.
 enum class RatioMode { off, fixed, adaptive };
 
 // Defaults that are lists. They are constants because g++ 12 warns that a list inside a member's initialiser
@@ -134,8 +137,10 @@ struct WeatherParameters {
   VisibilitySource visibilityFrom = VisibilitySource::steps;
   Metres typedVisibility{10000};
   Metres clearVisibility{40000};
-  bool haze = false;              ///< fog of the clear-day distance while nothing falls
-  Ratio contrastThreshold{0.02};  ///< contrast left at the visibility
+  bool haze = false;  ///< fog of the clear-day distance while nothing falls
+  AirModel air = AirModel::uniform;
+  Metres layerTop{2000};          ///< of the haze, above mean sea level; above it the air is clear
+  Ratio contrastThreshold{0.02};  ///< contrast left at the visibility in AirModel::uniform
   RatioMode ratioMode = RatioMode::adaptive;
   Ratio fixedRatio{5e-5};
   Metres defaultNear{1};  ///< of Eq. (1)

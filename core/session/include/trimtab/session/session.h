@@ -140,6 +140,7 @@ class Session {
   FrameInput inputFor(const AircraftState& state) const;
   void trackSignals(FrameInput& input);
   std::optional<Metres> groundBelow(const AircraftState& state) const;
+  std::optional<Metres> highestGround() const;
   void follow(const AircraftState& state, double arrival);
   void unlink();
   SymbologyState symbols(const AircraftState& eye) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "trimtab/frame/frame.h"
@@ -11,11 +12,14 @@ namespace trimtab {
 /// Decides precipitation and visibility of a state, and the far plane by Eq. (1). It is pure, allocates
 /// nothing and gives the same bits on every replay. A host's visibility counts only if it is a number above
 /// 0; it is clamped to 10 m .. 1,000 km, and infinity is unlimited.
-WeatherDecision decideWeather(const AircraftState& state, const TuningParameters& parameters);
+/// `highestGround` makes the safe far distance of a layer of haze nearer; if unset, kHighestGroundM is
+/// assumed.
+WeatherDecision decideWeather(const AircraftState& state, const TuningParameters& parameters,
+                              std::optional<Metres> highestGround = {});
 
-/// Sets far plane and ratio of a decision that already holds its visibility, by the mode of the parameters.
-/// decideWeather does this last, and the calibration varies it. `stretch` (at least 1) counts in the adaptive
-/// mode only.
+/// Sets far plane and ratio of a decision that already holds its visibility and safe far distance, by the
+/// mode of the parameters. decideWeather does this last, and the calibration varies it. `stretch` (at least
+/// 1) counts in the adaptive mode only.
 void setFarPlane(WeatherDecision& decision, const WeatherParameters& parameters, double stretch);
 
 /// Returns the extinction -ln(threshold) / visibility, 1/m; 0 for an unlimited visibility. Both arguments

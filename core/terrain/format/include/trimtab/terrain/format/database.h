@@ -67,6 +67,7 @@ class Database : public GroundHeights {
   static Result<std::shared_ptr<const Database>> open(const std::filesystem::path& folder);
 
   virtual const TerrainInfo& info() const = 0;
+  std::optional<Metres> highest() const override { return info().highest; }
   virtual const TerrainIndex& index() const = 0;
   /// Builds a node's vertices; about 0.1 ms. Reuses the storage of `mesh`.
   virtual void buildTile(std::uint32_t node, TileMesh& mesh) const = 0;
