@@ -47,7 +47,7 @@ struct Renderer::Impl {
 
   /// What lives in the context, but for the terrain.
   struct Gl {
-    explicit Gl(ScenePasses passes) : graph(std::move(passes)) {}
+    Gl(ScenePasses passes, bool software) : blur(software), graph(std::move(passes)) {}
     FrameBuffer frame;
     FrameBuffer small;  ///< the scene before it is scaled up, if the request asks for that
     NodeTarget nodes;
@@ -273,7 +273,7 @@ GlReport Renderer::initialize() {
   release();
   impl_->report = reportContext();
   if (impl_->report.usable) {
-    impl_->gl = std::make_unique<Impl::Gl>(impl_->passes());
+    impl_->gl = std::make_unique<Impl::Gl>(impl_->passes(), impl_->report.software);
     for (TerrainDrawer* form : impl_->forms()) form->initialize();
   }
   return impl_->report;

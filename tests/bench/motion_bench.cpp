@@ -127,7 +127,7 @@ void passes(Report& report, BenchScene& bench) {
     blur.push_back(cost.blur);
     frame.push_back(cost.total);
   }
-  report.add(ratioAtMost(0.2, {.id = "motion.blur",
+  report.add(ratioAtMost(0.1, {.id = "motion.blur",
                                .what = "blur pass of a turning head's frame, 1280 x 720",
                                .value = experiment::quantileOf(blur, 0.5),
                                .unit = "ms",

@@ -12,9 +12,20 @@ namespace {
 
 constexpr double kReferenceHz = 60, kStrongest = 0.995, kLongestS = 1;
 
+/// Mixes `pixels` with `before` into `sum` and into themselves.
+void mix(const float* before, float keep, float* sum, std::uint8_t* pixels, std::size_t count) {
+  const float take = 1 - keep;
+  for (std::size_t i = 0; i < count; ++i) {
+    sum[i] = before[i] * keep + static_cast<float>(pixels[i]) * take;
+    pixels[i] = static_cast<std::uint8_t>(static_cast<int>(sum[i] + 0.5f));
+  }
+}
+
 }  // namespace
 
-BlurPass::BlurPass() : program_(makeGlProgram(shaderText("screen.vert.glsl"), shaderText("blur.frag.glsl"))) {
+BlurPass::BlurPass(bool softwareRasteriser) : software_(softwareRasteriser) {
+  if (software_) return;
+  program_ = makeGlProgram(shaderText("screen.vert.glsl"), shaderText("blur.frag.glsl"));
   if (program_ != 0) keepUniform_ = glGetUniformLocation(program_, "keep");
   glGenVertexArrays(1, &emptyArray_);
 }
@@ -27,7 +38,7 @@ BlurPass::~BlurPass() {
 
 void BlurPass::resize(int width, int height) {
   if (width == width_ && height == height_) return;
-  if (width_ > 0) {
+  if (width_ > 0 && !software_) {
     glDeleteFramebuffers(2, frame_.data());
     glDeleteTextures(2, texture_.data());
     glDeleteTextures(1, &shown_);
@@ -35,18 +46,28 @@ void BlurPass::resize(int width, int height) {
   width_ = width;
   height_ = height;
   fresh_ = true;
-  if (width == 0) return;
+  const std::size_t values =
+      std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  if (software_) {
+    for (std::vector<float>& sum : sum_) sum.resize(values);
+    pixels_.resize(values);
+  } else if (width > 0) {
+    makeTargets();
+  }
+}
+
+void BlurPass::makeTargets() {
   glGenTextures(2, texture_.data());
   glGenFramebuffers(2, frame_.data());
   // Written along with the sum: converting one image into the other afterwards took longer than the mix.
   glGenTextures(1, &shown_);
   glBindTexture(GL_TEXTURE_2D, shown_);
-  glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA8, width, height);
+  glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA8, width_, height_);
   for (std::size_t i = 0; i < 2; ++i) {
     glBindTexture(GL_TEXTURE_2D, texture_[i]);
     // 32 bits: at 450 images a second a long trail moves by less than half floats can tell apart, and would
     // stand still several grey levels before its end.
-    glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA32F, width, height);
+    glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA32F, width_, height_);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, frame_[i]);
@@ -65,7 +86,7 @@ double BlurPass::keptAfter(double strength, double step) {
 }
 
 void BlurPass::apply(unsigned fbo, unsigned texture, int width, int height, double strength, double time) {
-  if (program_ == 0) return;
+  if (!software_ && program_ == 0) return;
   resize(width, height);
   const double step = time - time_;
   const bool again = step == 0 && !fresh_;
@@ -75,9 +96,32 @@ void BlurPass::apply(unsigned fbo, unsigned texture, int width, int height, doub
   }
   time_ = time;
   fresh_ = false;
+  if (software_)
+    mixOnCpu(fbo, texture);
+  else
+    mixOnGpu(fbo, texture);
+  glBindFramebuffer(GL_FRAMEBUFFER, fbo);
+}
 
+void BlurPass::mixOnCpu(unsigned fbo, unsigned texture) {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, fbo);
+  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
+  std::vector<float>& sum = sum_[newest_];
+  // A first image is the result.
+  if (!(keep_ > 0)) {
+    std::copy(pixels_.begin(), pixels_.end(), sum.begin());
+    return;
+  }
+  mix(sum_[1 - newest_].data(), static_cast<float>(keep_), sum.data(), pixels_.data(), pixels_.size());
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, texture);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
+  glBindTexture(GL_TEXTURE_2D, 0);
+}
+
+void BlurPass::mixOnGpu(unsigned fbo, unsigned texture) {
   for (const GLenum off : {GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST, GL_BLEND}) glDisable(off);
-  glViewport(0, 0, width, height);
+  glViewport(0, 0, width_, height_);
   glBindFramebuffer(GL_FRAMEBUFFER, frame_[newest_]);
   glUseProgram(program_);
   glUniform1f(keepUniform_, static_cast<float>(keep_));
@@ -98,9 +142,8 @@ void BlurPass::apply(unsigned fbo, unsigned texture, int width, int height, doub
   if (keep_ > 0) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_[newest_]);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, fbo);
-    glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   }
-  glBindFramebuffer(GL_FRAMEBUFFER, fbo);
 }
 
 }  // namespace trimtab::scene
