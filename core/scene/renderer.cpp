@@ -112,6 +112,7 @@ SceneView Renderer::Impl::viewOf(const FrameRequest& r) const {
   view.heightM = r.eye.height.value();
   if (r.exactSlivers && report.software) view.gridStepsPerPixel = 1 << subpixelBitsOfContext();
   view.form = formDrawn(r, database.get());
+  view.groundTexture = database && database->ground();
   const LocalFrame local = database ? database->index().frame : LocalFrame(r.eye);
   view.eye.axes = eyeAxes(local, r.eye, r.attitude);
   if (database) {

@@ -18,7 +18,8 @@
 namespace trimtab::scene {
 namespace {
 
-constexpr float kHazeDistance = 110e3f;
+/// Of clear air: a colour is a third after 110 km.
+constexpr float kHazePerMetre = 1 / 110e3f;
 /// Texels a side of the pyramid's level that a box is held against: more see more hidden, and cost more.
 constexpr int kTestedSpan = 8;
 
@@ -193,9 +194,8 @@ struct SceneGraph::Nodes {
         };
       };
       of.surface = addPass(root, inBand(passes.surface), 1, shaders);
-      of.surface->getStateSet()->addUniform(new osg::Uniform("wire", false));
       of.wire = addPass(root, inBand(passes.wire), 2, shaders);
-      of.wire->getStateSet()->addUniform(new osg::Uniform("wire", true));
+      of.wire->getStateSet()->setDefine("WIRE");
       of.numbers = addPass(root, inBand(passes.numbers), 1, terrainShaders(form, true));
     }
     treePicture =
@@ -235,7 +235,7 @@ struct SceneGraph::Nodes {
     Uniforms uniforms(state);
     uniforms.set("sun", Type::FLOAT_VEC3, toFloat(normalized(kTowardsSun)));
     uniforms.set("haze", Type::FLOAT_VEC3, osg::Vec3f(kHaze[0], kHaze[1], kHaze[2]));
-    uniforms.set("hazeDistance", Type::FLOAT, kHazeDistance);
+    uniforms.set("hazePerMetre", Type::FLOAT, kHazePerMetre);
     uniforms.set("slots", Type::INT, kSlotUnit);
     uniforms.set("tints", Type::INT, kTintUnit);
   }
@@ -358,11 +358,13 @@ void SceneGraph::frame(const SceneView& view, unsigned fbo) {
   uniforms.set("upInEye", Type::FLOAT_VEC3, toFloat(view.eye.axes * view.up));
   uniforms.set("tangents", Type::FLOAT_VEC4, tangentsOf(view.shape));
   uniforms.set("dip", Type::FLOAT, static_cast<float>(view.horizonDip));
-  uniforms.set("tinted", Type::BOOL, view.tinted);
   uniforms.set("textureSquares", Type::BOOL, view.textureSquares);
   uniforms.set("inGuardBand", Type::FLOAT, 1.0f / static_cast<float>(view.guardBand));
   n.drawnShape = view.shape, n.guardBand = view.guardBand;
-  define(n.root->getOrCreateStateSet(), "ON_GRID", view.gridStepsPerPixel > 0);
+  osg::StateSet* state = n.root->getOrCreateStateSet();
+  define(state, "GROUND_TEXTURE", view.groundTexture);
+  define(state, "TINTED", view.tinted);
+  define(state, "ON_GRID", view.gridStepsPerPixel > 0);
   if (view.gridStepsPerPixel > 0) {
     const double steps = 0.5 * view.guardBand * view.gridStepsPerPixel;
     uniforms.set("gridSteps", Type::FLOAT_VEC2,

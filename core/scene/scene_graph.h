@@ -51,6 +51,7 @@ struct SceneView {
   int gridStepsPerPixel = 0;
   bool sky = true, tinted = false, wireframe = false, lines = false;
   std::optional<TerrainForm> form;  ///< of the terrain that is drawn; unset without terrain
+  bool groundTexture = false;       ///< the terrain has colours of the ground, which patches show
   bool treePicture = false;         ///< drawn instead of the trees' surface
   bool textureSquares = false;      ///< Overlays::textureSquares
   /// Draws the node pass instead of an image: terrain as numbers, and nothing else. The caller has cleared

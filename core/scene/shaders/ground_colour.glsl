@@ -1,22 +1,22 @@
 // `vec4 groundAt(vec2 post)` returns the ground's sRGB colour and the light on it. `post` counts columns and
 // rows from the post under the eye, so that it is exact near the eye. Call it in uniform control flow, because
-// it uses derivatives, and only where `groundThere`.
+// it uses derivatives.
 //
 // Layers are tori: texel (c, r) of a level is at (c, r) modulo the side, so all levels share one origin.
 //
 // The level drawn is the coarser of what the footprint asks for and what is loaded. Level l reaches
 // 2^l / groundReach texels of level 0 from the eye, and blends into the next level over the last 15 % of that.
-// Both use a logarithm read from the bits of a float, with an error below a tenth, because a software
-// rasteriser pays for every instruction: with a separate reach per level this cost twice as much.
+// The bits of a positive float, read as an integer, are its logarithm times 2^23 plus kBias, with an error below
+// a tenth. Levels keep that form, because a software rasteriser pays for every instruction: as floats they took
+// a twelfth of the whole shader, and with a separate reach per level it cost twice as much.
 #include "ground_noise.glsl"
 uniform sampler2DArray groundTexels;
-uniform bool groundThere;
 uniform vec2 groundOrigin;       // texel of the post under the eye
 uniform float groundTexelsPerPost, groundShift;
-uniform float groundReach, groundFinest, groundWhole, groundLast;
-uniform float groundCoarser;  // levels by which the LOD scale shrinks the texture, also where it is magnified
-
-float roughLog2(float x) { return float(floatBitsToInt(x)) * (1.0 / 8388608.0) - 127.0; }
+uniform float groundReach;
+uniform int groundFinest, groundWhole, groundLast;  // levels times 2^23 plus kBias
+uniform int groundCoarser;  // levels times 2^23, by which the LOD scale shrinks the texture, also where it is magnified
+const int kOneLevel = 1 << 23, kBias = 127 << 23;
 
 vec4 groundAt(vec2 post) {
   vec2 texel = post * groundTexelsPerPost + groundShift;
@@ -24,14 +24,17 @@ vec4 groundAt(vec2 post) {
   // At a grazing angle the footprint is long and narrow. The level lies between what its two sides ask for,
   // so that the ground neither blurs nor shimmers much.
   float area = abs(across.x * up.y - across.y * up.x);
-  float wanted = 0.5 * roughLog2(max(area, max(dot(across, across), dot(up, up)) * (1.0 / 16.0)));
+  float square = max(area, max(dot(across, across), dot(up, up)) * (1.0 / 16.0));
+  int wanted = (floatBitsToInt(square) >> 1) + (kBias >> 1);
   vec2 off = abs(texel);
-  float away = roughLog2(max(off.x, off.y) * groundReach);
-  float ended = floor(away);
-  float there = ended + 1.0 + max((away - ended - 0.7) * (1.0 / 0.3), 0.0);
-  float level = min(max(max(wanted, min(there, groundWhole)), groundFinest) + groundCoarser, groundLast);
-  float fine = floor(level);
-  vec2 place = (texel + groundOrigin) * intBitsToFloat((127 - GROUND_SIDE_BITS - int(fine)) << 23);  // 2^-fine / side
-  vec4 ground = mix(texture(groundTexels, vec3(place, fine)), texture(groundTexels, vec3(place * 0.5, fine + 1.0)), level - fine);
+  int away = floatBitsToInt(max(off.x, off.y) * groundReach);
+  int over = away & (kOneLevel - 1);
+  int there = away - over + kOneLevel + max(over - kOneLevel / 10 * 7, 0) / 3 * 10;
+  int level = min(max(max(wanted, min(there, groundWhole)), groundFinest) + groundCoarser, groundLast);
+  int fine = level >> 23;
+  vec2 place = (texel + groundOrigin) * intBitsToFloat(2 * kBias - (GROUND_SIDE_BITS << 23) - (fine << 23));  // 2^-fine / side
+  float layer = float(fine - 127);
+  float part = float(level & (kOneLevel - 1)) * (1.0 / float(kOneLevel));
+  vec4 ground = mix(texture(groundTexels, vec3(place, layer)), texture(groundTexels, vec3(place * 0.5, layer + 1.0)), part);
   return ground * vec4(1.0, 1.0, 1.0, MOST_LIGHT);
 }

@@ -1,19 +1,20 @@
 #version 430 compatibility
+#pragma import_defines(TINTED, WIRE)
 #include "on_grid.glsl"
 #include "relative_position.glsl"
 in vec3 vertexPosition;
 in vec3 vertexNormal;
 in vec2 vertexPost;
-uniform samplerBuffer tints;
-uniform bool tinted;
-uniform bool wire;
 uniform float inGuardBand;
 uniform ivec2 eyePost;     // column and row of the post under the eye
 out vec3 relative;         // metres from the eye
 out vec3 upward;
 out vec2 post;             // columns and rows from eyePost
 out vec2 ground;           // groundMetres
+#ifdef TINTED
+uniform samplerBuffer tints;
 flat out vec4 tint;
+#endif
 #ifdef NODE_IDS
 flat out uint owner;
 #endif
@@ -32,9 +33,13 @@ void main() {
   // Subtract whole numbers first: floats cannot tell the posts of a large terrain apart.
   post = vec2(square - eyePost) + vertexPost;
   ground = groundMetres(vertexPosition, slot);
-  tint = tinted ? texelFetch(tints, block) : vec4(0.0);
+#ifdef TINTED
+  tint = texelFetch(tints, block);
+#endif
   gl_Position = gl_ModelViewProjectionMatrix * vec4(p, 1.0);
-  if (wire) gl_Position.z *= 1.002;  // nearer, as depth is reversed
+#ifdef WIRE
+  gl_Position.z *= 1.002;  // nearer, as depth is reversed
+#endif
   gl_Position.xy *= inGuardBand;
   gl_Position = onGrid(gl_Position);
 }

@@ -1,12 +1,11 @@
 #version 430 compatibility
-#pragma import_defines(IN_WEATHER, AIR_CUT, AIR_LAYER)
+#pragma import_defines(IN_WEATHER, AIR_CUT, AIR_LAYER, WIRE)
 #include "air.glsl"
 #include "ground_noise.glsl"
 in vec3 lit;
 in float clearness;
 in vec3 relative;
 in vec2 ground;
-uniform bool wire;
 #ifdef STATIC_TREE
 #include "texture_squares.glsl"
 in vec2 inTexture;
@@ -15,10 +14,13 @@ uniform bool textureSquares;
 out vec4 fragment;
 
 void main() {
-  float detail = wire ? 0.0 : groundDetail(ground);
-  vec3 shown = lit * (1.0 + detail);
+#ifdef WIRE
+  vec3 shown = lit;
+#else
+  vec3 shown = lit * (1.0 + groundDetail(ground));
 #ifdef STATIC_TREE
-  if (textureSquares && !wire) shown *= textureSquare(inTexture);
+  if (textureSquares) shown *= textureSquare(inTexture);
+#endif
 #endif
   fragment = vec4(throughAir(shown, clearness, relative), 1.0);
 }

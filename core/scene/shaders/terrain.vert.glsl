@@ -1,13 +1,12 @@
 #version 430 compatibility
+#pragma import_defines(TINTED, WIRE)
 #include "light.glsl"
 #include "on_grid.glsl"
 #include "relative_position.glsl"
 in vec3 vertexPosition;
 in vec3 vertexNormal;
 in vec4 vertexColour;
-uniform float hazeDistance;
-uniform bool tinted;
-uniform bool wire;
+uniform float hazePerMetre;
 uniform float inGuardBand;
 #ifdef STATIC_TREE
 layout(location = 2) in vec2 treeTexture;
@@ -48,22 +47,22 @@ void main() {
   vec3 p = relativePosition(vertexPosition, slot);
   float light = lightOn(vertexNormal);
   lit = min(vertexColour.rgb * light * 1.15, vec3(1.0));
-  if (tinted) {
+#ifdef TINTED
 #ifdef STATIC_TREE
-    vec4 tint = treeTint;
+  vec4 tint = treeTint;
 #else
-    vec4 tint = texelFetch(tints, tile);
+  vec4 tint = texelFetch(tints, tile);
 #endif
-    lit = mix(lit, tint.rgb * (0.25 + 0.75 * light), tint.a);
-  }
+  lit = mix(lit, tint.rgb * (0.25 + 0.75 * light), tint.a);
+#endif
   relative = p;
-  clearness = exp(-length(p) / hazeDistance);
+  clearness = exp(-length(p) * hazePerMetre);
   ground = groundMetres(vertexPosition, slot);
   gl_Position = gl_ModelViewProjectionMatrix * vec4(p, 1.0);
-  if (wire) {
-    lit = vec3(0.05, 0.05, 0.08);
-    gl_Position.z *= 1.002;  // nearer, as depth is reversed
-  }
+#ifdef WIRE
+  lit = vec3(0.05, 0.05, 0.08);
+  gl_Position.z *= 1.002;  // nearer, as depth is reversed
+#endif
   gl_Position.xy *= inGuardBand;
   gl_Position = onGrid(gl_Position);
 }

@@ -282,18 +282,22 @@ std::int32_t GroundTexture::eyeRow() const {
 void GroundTexture::bind(unsigned program, double coarser) const {
   const Impl& my = *impl_;
   const auto uniform = [&](const char* name) { return glGetUniformLocation(program, name); };
-  glUniform1i(uniform("groundThere"), my.tiles ? 1 : 0);
   glUniform1i(uniform("groundTexels"), kGroundUnit);
   if (!my.tiles) return;
+  // ground_colour.glsl has levels as the bits of floats.
+  const auto setLevel = [&](const char* name, double level) {
+    glUniform1i(uniform(name), static_cast<int>(std::lround(std::ldexp(level, 23))));
+  };
+  constexpr double kBias = 127;
   const double texels = my.ground->shape().texelsPerPost;
   glUniform2f(uniform("groundOrigin"), static_cast<float>(my.originColumn), static_cast<float>(my.originRow));
   glUniform1f(uniform("groundTexelsPerPost"), static_cast<float>(texels));
   glUniform1f(uniform("groundShift"), static_cast<float>(my.ground->shape().texelOf(0)));
-  glUniform1f(uniform("groundLast"), static_cast<float>(my.levels.size() - 1));
+  setLevel("groundLast", static_cast<double>(my.levels.size() - 1) + kBias);
   glUniform1f(uniform("groundReach"), static_cast<float>(1 / std::max(my.reach, 1e-3)));
-  glUniform1f(uniform("groundFinest"), static_cast<float>(my.finest));
-  glUniform1f(uniform("groundWhole"), static_cast<float>(my.whole));
-  glUniform1f(uniform("groundCoarser"), static_cast<float>(std::log2(std::max(coarser, 1.0))));
+  setLevel("groundFinest", static_cast<double>(my.finest) + kBias);
+  setLevel("groundWhole", static_cast<double>(my.whole) + kBias);
+  setLevel("groundCoarser", std::log2(std::max(coarser, 1.0)));
   glActiveTexture(GL_TEXTURE0 + kGroundUnit);
   glBindTexture(GL_TEXTURE_2D_ARRAY, my.texture);
   glActiveTexture(GL_TEXTURE0);
