@@ -167,8 +167,10 @@ std::optional<AircraftState> HostDecoder::Link::acceptCigi(const Datagram& datag
   const bool otherSender = !statistics.lastFrom.empty() && statistics.lastFrom != datagram.from;
   const auto verdict = order.accept(message.frame, silence || otherSender);
   statistics.lost = order.lost();
-  if (verdict == FrameOrder::Verdict::repeated || verdict == FrameOrder::Verdict::reordered) {
-    ++(verdict == FrameOrder::Verdict::repeated ? statistics.repeated : statistics.reordered);
+  statistics.implausible = order.implausible();
+  if (verdict != FrameOrder::Verdict::next && verdict != FrameOrder::Verdict::restarted) {
+    statistics.repeated += verdict == FrameOrder::Verdict::repeated;
+    statistics.reordered += verdict == FrameOrder::Verdict::reordered;
     heard(datagram, WireProtocol::cigi3, silence);
     return std::nullopt;
   }

@@ -67,6 +67,7 @@ void appendLinkNotes(const HostStatistics& s, const std::string& where, Findings
   count(s.truncated, "messages with a broken tail; the first bad datagram: " + s.firstBadReason,
         Severity::warning);
   count(s.notReady, "datagrams below -1000 ft: the simulator was not ready; dropped");
+  count(s.implausible, "frames with an implausible number, passed over");
   count(s.lost.value_or(0), "frames lost, by their numbers");
   count(s.repeated, "repeated frames, passed over");
   count(s.reordered, "late frames, passed over");

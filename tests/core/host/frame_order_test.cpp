@@ -51,13 +51,17 @@ TEST(FrameOrder, agreesWithASetOfAllFramesSeen) {
 TEST(FrameOrder, seesAHostThatCountsAnew) {
   FrameOrder far;
   for (std::uint32_t f = 9000; f < 9100; ++f) far.accept(f, false);
-  EXPECT_EQ(far.accept(0, false), Verdict::restarted);
-  EXPECT_EQ(far.accept(1, false), Verdict::next);
+  EXPECT_EQ(far.accept(0, false), Verdict::implausible);
+  EXPECT_EQ(far.accept(1, false), Verdict::restarted) << "the second one confirms it";
+  EXPECT_EQ(far.accept(2, false), Verdict::next);
   EXPECT_EQ(far.lost(), 0U);
+  EXPECT_EQ(far.implausible(), 0U);
 
   FrameOrder ahead;
   ahead.accept(5, false);
-  EXPECT_EQ(ahead.accept(2000000000, false), Verdict::restarted);
+  EXPECT_EQ(ahead.accept(2000000000, false), Verdict::implausible);
+  EXPECT_EQ(ahead.accept(2000000000, false), Verdict::repeated) << "a copy of it confirms nothing";
+  EXPECT_EQ(ahead.accept(2000000003, false), Verdict::restarted);
   EXPECT_EQ(ahead.lost(), 0U);
 
   FrameOrder soon;  // within the window of late packets
@@ -70,6 +74,48 @@ TEST(FrameOrder, seesAHostThatCountsAnew) {
   FrameOrder after;  // a pause or another sender says so at once
   for (std::uint32_t i = 0; i < 30; ++i) after.accept(i, false);
   EXPECT_EQ(after.accept(3, true), Verdict::restarted);
+}
+
+TEST(FrameOrder, takesADamagedNumberForNoLossAndNoRestart) {
+  // Every single bit of the number flipped in transit, now and then.
+  FrameOrder order;
+  std::uint64_t next = 0, far = 0;
+  for (std::uint32_t f = 1000; f < 20000; ++f) {
+    const std::uint32_t bit = f / 100 % 32, damaged = f ^ (1U << bit);
+    const bool flips = f % 100 == 50 && bit >= 7;
+    const auto verdict = order.accept(flips ? damaged : f, false);
+    next += verdict == Verdict::next;
+    far += verdict == Verdict::implausible;
+    ASSERT_NE(verdict, Verdict::restarted) << f;
+  }
+  EXPECT_EQ(far, order.implausible());
+  EXPECT_GT(far, 100U);
+  EXPECT_EQ(order.lost(), far) << "the number of each was lost, and no other";
+  EXPECT_EQ(next, 19000 - far);
+}
+
+TEST(FrameOrder, countsALongOutageAsLossOnceTheNextFrameConfirmsIt) {
+  FrameOrder order;
+  for (std::uint32_t f = 1; f <= 100; ++f) order.accept(f, false);
+  EXPECT_EQ(order.accept(301, false), Verdict::implausible);
+  EXPECT_EQ(order.accept(302, false), Verdict::next);
+  EXPECT_EQ(order.lost(), 200U) << "101 to 300";
+  EXPECT_EQ(order.implausible(), 0U);
+  FrameOrder silent;
+  for (std::uint32_t f = 1; f <= 100; ++f) silent.accept(f, false);
+  EXPECT_EQ(silent.accept(301, true), Verdict::next) << "a silence makes it plausible";
+  EXPECT_EQ(silent.lost(), 200U);
+}
+
+TEST(FrameOrder, decidesNoPacketThatIsVeryLate) {
+  FrameOrder order;
+  for (std::uint32_t f = 1; f <= 1000; ++f) {
+    ASSERT_NE(order.accept(f, false), Verdict::restarted);
+    if (f % 100 == 0) {
+      EXPECT_EQ(order.accept(f - 90, false), Verdict::implausible) << f;
+    }
+  }
+  EXPECT_EQ(order.lost(), 0U);
 }
 
 TEST(FrameOrder, reachesTheStatistics) {
@@ -86,6 +132,10 @@ TEST(FrameOrder, reachesTheStatistics) {
   EXPECT_EQ(st.reordered, 1U);
   EXPECT_EQ(st.lost, 2U);  // 14 and 15; 12 came late
   EXPECT_EQ(st.restarts, 0U);
+  EXPECT_FALSE(feed(decoder, encodeCigiHost(s, 17 | 1U << 20, 0), t += 0.02));
+  EXPECT_TRUE(feed(decoder, encodeCigiHost(s, 18, 0), t += 0.02));
+  EXPECT_EQ(st.implausible, 1U);
+  EXPECT_EQ(st.lost, 3U);
   feed(decoder, encodeCigiHost(s, 1, 0), t + 0.02, "127.0.0.1:9999");
   EXPECT_EQ(st.restarts, 1U);
 }

@@ -25,7 +25,7 @@ struct Datagram {
 enum class WireProtocol { none, native_fdm, cigi3 };
 
 /// The health of a link, as the Host dock shows it. Counters only grow, except `lost`, which a late packet
-/// lowers again.
+/// lowers again, and `implausible`, which the second packet of a new count lowers.
 struct HostStatistics {
   WireProtocol protocol = WireProtocol::none;
   std::uint64_t received = 0;  ///< datagrams
@@ -35,7 +35,8 @@ struct HostStatistics {
       0;                       ///< CIGI messages whose tail was dropped at a packet of size 0 or past the end
   std::uint64_t notReady = 0;  ///< states below -1,000 ft: the simulator has not placed its aircraft yet
   std::uint64_t repeated = 0;  ///< with the same frame number again
-  std::uint64_t reordered = 0;        ///< with an older frame number than one already seen
+  std::uint64_t reordered = 0;        ///< late: with an older frame number than one already seen; not decided
+  std::uint64_t implausible = 0;      ///< with a frame number far from all others; not decided
   std::uint64_t restarts = 0;         ///< how often the host, or another one, began to count frames anew
   std::optional<std::uint64_t> lost;  ///< by frame numbers; unset if the protocol has none (native-fdm)
   double rateHz = 0;                  ///< over the last second
@@ -65,8 +66,8 @@ class HostDecoder {
   HostDecoder(HostDecoder&&) noexcept;
   HostDecoder& operator=(HostDecoder&&) noexcept;
 
-  /// Returns a datagram's state; nothing if it is bad, repeated, reordered, not ready, or carries no ownship
-  /// yet.
+  /// Returns a datagram's state; nothing if it is bad, repeated, late, implausible, not ready, or carries no
+  /// ownship yet.
   std::optional<AircraftState> accept(const Datagram& datagram);
   /// Returns the link's health, valid until reset(). `rateHz` is as of the last good datagram.
   const HostStatistics& statistics() const;
