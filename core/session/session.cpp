@@ -18,10 +18,6 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// Waiting kernel times are dropped beyond this, when nobody draws and nobody says so.
 constexpr std::size_t kMostWaiting = 8192;
-/// A step of the host's clock against ours that is not jitter: pause, restart, another speed.
-constexpr double kClockStepS = 0.25;
-/// Share of a packet's clock difference that is believed at once; smooths the eye against arrival jitter.
-constexpr double kClockGain = 0.05;
 /// How long a jump is shown.
 constexpr double kJumpShownS = 1;
 
@@ -179,12 +175,9 @@ void Session::trackSignals(FrameInput& input) {
 
 /// Link bookkeeping of one packet: clock, silence, jumps, velocity.
 void Session::follow(const AircraftState& state, double arrival) {
-  const double offset = state.time - arrival;
   const bool first = packets_ == 0 || !linked_;
-  if (first || !(std::abs(offset - clockOffset_) <= kClockStepS))
-    clockOffset_ = offset;
-  else
-    clockOffset_ += (offset - clockOffset_) * kClockGain;
+  if (first) hostClock_.restart();
+  hostClock_.follow(state.time, arrival);
   if (!first && current_) {
     const double gap = std::max(arrival - lastArrival_, 0.0);
     if (isJump(current_->state.position, state.position, gap, gap > kSilenceS)) {
@@ -243,7 +236,7 @@ void Session::arrive(const AircraftState& state, double kernelTime) {
 /// head that rests is a slow frame.
 void Session::decideImage(double now) {
   AircraftState eye = eyeState(now);
-  eye.time = now + clockOffset_;
+  eye.time = hostClock_.hostTime(now);
   const DecisionMemory before = memory_;
   const auto start = std::chrono::steady_clock::now();
   decided_ = inputFor(eye);
@@ -268,7 +261,7 @@ double Session::packetAge(double now) const {
 AircraftState Session::eyeState(double now) const {
   AircraftState eye = current_->state;
   if (linked_ && parameters_->host.extrapolate) {
-    eye = extrapolator_.at(now + clockOffset_, parameters_->host.silenceAfter.in<Seconds>());
+    eye = extrapolator_.at(hostClock_.hostTime(now), parameters_->host.silenceAfter.in<Seconds>());
     eye.view = current_->state.view;
   }
   head_.applyToEye(eye);

@@ -3,6 +3,7 @@
 
 #include "host_support.h"
 #include "tests/support.h"
+#include "trimtab/host/host_clock_offset.h"
 #include "trimtab/host/motion.h"
 
 namespace trimtab::test {
@@ -28,6 +29,20 @@ const Place kPlaces[] = {
     {"date line", {Degrees{-17}, Degrees{179.9999}, Metres{1500}}, {-5, -250, 0}},
     {"pole", {Degrees{89.9999}, Degrees{10}, Metres{3000}}, {-200, -150, 0}},
 };
+
+TEST(HostClockOffset, followsAClockWithJitterAndTakesOverOneThatSteps) {
+  HostClockOffset offset;
+  EXPECT_EQ(offset.hostTime(7), 7) << "nothing is known yet";
+  offset.follow(1000, 50);
+  EXPECT_EQ(offset.hostTime(50.5), 1000.5);
+  for (int i = 1; i < 200; ++i) {
+    const double late = i % 2 == 0 ? 0.002 : 0.004;
+    offset.follow(1000 + i / 60.0, 50 + i / 60.0 + late);
+    EXPECT_NEAR(offset.hostTime(50 + i / 60.0), 1000 + i / 60.0, 0.0041);
+  }
+  offset.follow(3, 60);
+  EXPECT_EQ(offset.hostTime(60), 3) << "a host that begins anew";
+}
 
 TEST(Extrapolator, goesOnAtConstantVelocityAndTurnRate) {
   for (const Place& place : kPlaces) {

@@ -94,8 +94,8 @@ class Extrapolator {
  public:
   /// Adds a state; one with the time of the last one replaces it.
   void push(const AircraftState& state);
-  /// Returns the state moved on to `time`, on the clock of the states (map the wall clock by the last
-  /// packet's arrival), but by `limitS` seconds at most. Returns the last state unchanged if `limitS` is 0,
+  /// Returns the state moved on to `time`, on the clock of the states (HostClockOffset maps the
+  /// wall clock to it), but by `limitS` seconds at most. Returns the last state unchanged if `limitS` is 0,
   /// if `time` is not after it, or if its motion is unknown: at the first state, after a jump or a silence,
   /// and when the host's clock went back.
   AircraftState at(double time, double limitS) const;

@@ -14,6 +14,7 @@
 #include "trimtab/frame/ground_heights.h"
 #include "trimtab/host/decoder.h"
 #include "trimtab/host/ground_velocity.h"
+#include "trimtab/host/host_clock_offset.h"
 #include "trimtab/host/received_state.h"
 #include "trimtab/measure/statistics.h"
 #include "trimtab/measure/trace.h"
@@ -170,8 +171,8 @@ class Session {
   SignalTracker signals_;  ///< pushed only if the preset has a policy
   GroundVelocity groundVelocity_;
   Extrapolator extrapolator_;
-  bool linked_ = false;     ///< states come from a live link, so the eye may be extrapolated
-  double clockOffset_ = 0;  ///< host clock minus ours
+  bool linked_ = false;  ///< states come from a live link, so the eye may be extrapolated
+  HostClockOffset hostClock_;
   double lastArrival_ = 0, lastJump_ = 0;
   std::uint64_t packets_ = 0, jumps_ = 0;
   Latency latency_;
