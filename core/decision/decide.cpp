@@ -88,11 +88,14 @@ std::string outcomeText(const FrameDecision& d) {
 std::optional<TotalMembership> decideTotal(const FrameInput& input, const ValidatedParameters& parameters,
                                            FrameDecision& decision) {
   const bool aboveGround = parameters->altitude.reference == AltitudeReference::above_ground;
-  if (aboveGround && !input.aboveGround) {
+  const std::optional<Metres> height = !aboveGround        ? std::optional(input.state.position.height)
+                                       : input.aboveGround ? input.aboveGround
+                                                           : input.state.aboveGround;
+  if (!height) {
     decision.reason = SchemeReason::altitude_unknown;
     return std::nullopt;
   }
-  const double altitude = toFeet(aboveGround ? *input.aboveGround : input.state.position.height);
+  const double altitude = toFeet(*height);
   const double pitch = input.state.attitude.pitch.value();
   if (!std::isfinite(altitude) || !std::isfinite(pitch)) {
     decision.reason = SchemeReason::invalid_input;

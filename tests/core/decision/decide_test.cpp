@@ -156,6 +156,9 @@ TEST(Decide, usesTheHeightAboveGroundWhereAskedAndSaysWhenNobodyKnowsIt) {
   EXPECT_EQ(d.altitudeFt, 5000);
   EXPECT_EQ(d.altitudeMembership, 0.6);
   EXPECT_EQ(first(input, defaultParameters()).altitudeFt, 20000);
+  FrameInput fromHost = flying(20000, 0);
+  fromHost.state.aboveGround = Feet{5000}.as<Metres>();
+  EXPECT_EQ(first(fromHost, valid(p)).altitudeFt, 5000) << "what the host says of the state holds as well";
 }
 
 TEST(Decide, refusesWhatIsNotANumberAndLeavesTheMemoryAlone) {

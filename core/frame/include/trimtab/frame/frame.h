@@ -100,7 +100,7 @@ struct FrameCost {
 
 struct FrameInput {
   AircraftState state;
-  std::optional<Metres> aboveGround;  ///< what decide() uses for AltitudeReference::above_ground
+  std::optional<Metres> aboveGround;  ///< for AltitudeReference::above_ground; if unset, that of `state`
   FrameCost lastCost;
   DrawnLoad drawn{};          ///< set only for MotionFrames::drawn
   SignalValues signalValues;  ///< set only if the preset has a policy
