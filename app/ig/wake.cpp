@@ -3,16 +3,29 @@
 #include <poll.h>
 #include <signal.h>
 #include <sys/eventfd.h>
+#include <time.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 
 namespace trimtab::ig {
 namespace {
 
+/// timeout(1) and a terminal that closes send their signal to the process and to its group: two signals
+/// within this time are one request.
+constexpr std::int64_t kSameRequestMs = 1000;
+
 std::atomic<bool> stopped{false};
 std::atomic<int> signalFd{-1};
+std::atomic<std::int64_t> askedAtMs{0};
+
+std::int64_t nowMs() {
+  timespec t{};
+  ::clock_gettime(CLOCK_MONOTONIC, &t);
+  return std::int64_t{t.tv_sec} * 1000 + t.tv_nsec / 1000000;
+}
 
 void postTo(int fd) {
   const std::uint64_t one = 1;
@@ -20,21 +33,38 @@ void postTo(int fd) {
   [[maybe_unused]] const auto written = ::write(fd, &one, sizeof one);
 }
 
-void onSignal(int) {
-  stopped = true;
+/// The first request ends the loop, so that the trace is finished and the screenshot written; another one
+/// ends the program at once.
+void onSignal(int number) {
+  const std::int64_t now = nowMs();
+  if (stopped.exchange(true)) {
+    if (now - askedAtMs <= kSameRequestMs) return;
+    ::signal(number, SIG_DFL);
+    ::raise(number);
+    return;
+  }
+  askedAtMs = now;
   postTo(signalFd);
+}
+
+void catchSignals() {
+  struct sigaction action {};
+  action.sa_handler = onSignal;
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+  struct sigaction before {};
+  ::sigaction(SIGHUP, nullptr, &before);
+  // nohup has the signal ignored, and means it.
+  if (before.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);
 }
 
 }  // namespace
 
 Wake::Wake() : fd_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
   signalFd = fd_;
-  struct sigaction action {};
-  action.sa_handler = onSignal;
-  // A second signal ends the program at once.
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
+  catchSignals();
+  // Whoever reads our output may leave; the trace and the screenshot are written all the same.
+  ::signal(SIGPIPE, SIG_IGN);
 }
 
 Wake::~Wake() {

@@ -4,7 +4,8 @@
 
 namespace trimtab::ig {
 
-/// Ends the sleep of the main thread on a packet or a signal. While it exists, SIGINT and SIGTERM set `stop`.
+/// Ends the sleep of the main thread on a packet or a signal. While it exists, SIGINT, SIGTERM and
+/// SIGHUP set `stop`; a second signal more than a second later ends the program at once.
 class Wake {
  public:
   Wake();
