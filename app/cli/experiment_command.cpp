@@ -22,10 +22,10 @@ using Run = Result<experiment::Report> (*)(const experiment::Setup&);
 int run(const Arguments& arguments, Run experiment) {
   const Interruptible guard;
   const std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
-  if (!setup) return kRefused;
+  if (!setup || !mayWriteTo(arguments.output)) return kRefused;
   const Result<experiment::Report> done = experiment(*setup);
   report(done.findings());
-  if (!done) return kRefused;
+  if (!done || isDamaged(*setup)) return kRefused;
   std::cout << (arguments.json ? toJson(*done) : toText(*done));
   if (arguments.output.empty()) return kDone;
   const auto written = writeReport(arguments.output, *done);

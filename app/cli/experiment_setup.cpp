@@ -4,7 +4,9 @@
 #include "progress.h"
 #include "settings.h"
 #include "trimtab/host/flight.h"
+#include "trimtab/preset/file_io.h"
 #include "trimtab/terrain/bake/cache.h"
+#include "trimtab/terrain/format/database.h"
 
 namespace trimtab::cli {
 
@@ -42,6 +44,19 @@ std::optional<experiment::Setup> setupFrom(const SetupArguments& arguments) {
   setup.repeats = arguments.repeats;
   setup.hostRateHz = arguments.hostRateHz;
   return setup;
+}
+
+bool mayWriteTo(const std::string& folder) {
+  if (folder.empty()) return true;
+  const auto writable = makeWritable(folder);
+  report(writable.findings());
+  return writable.ok();
+}
+
+bool isDamaged(const experiment::Setup& setup) {
+  const Findings damage = setup.terrain->damage();
+  report(damage);
+  return !damage.empty();
 }
 
 }  // namespace trimtab::cli

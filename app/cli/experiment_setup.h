@@ -22,4 +22,9 @@ struct SetupArguments {
 /// Opens terrain, flight and preset. On an error, prints all findings on standard error and returns nothing.
 std::optional<experiment::Setup> setupFrom(const SetupArguments& arguments);
 
+/// Sees, before the work, that a folder can take its results. Prints what is wrong. An empty name is none.
+bool mayWriteTo(const std::string& folder);
+/// Prints the damage of the terrain that the work met: images of what is not there are no measurement.
+bool isDamaged(const experiment::Setup& setup);
+
 }  // namespace trimtab::cli

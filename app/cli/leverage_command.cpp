@@ -21,11 +21,11 @@ struct Arguments {
 int run(const Arguments& arguments) {
   const Interruptible guard;
   std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
-  if (!setup) return kRefused;
+  if (!setup || !mayWriteTo(arguments.output)) return kRefused;
   setup->frames = arguments.frames;
   const Result<experiment::Leverage> done = experiment::measureLeverage(*setup);
   report(done.findings());
-  if (!done) return kRefused;
+  if (!done || isDamaged(*setup)) return kRefused;
   std::cout << (arguments.json ? toJson(*done) : toText(toReport(*done)));
   if (arguments.output.empty()) return kDone;
   const auto written = writeLeverage(arguments.output, *done);

@@ -8,8 +8,9 @@
 #include "commands.h"
 #include "experiment_setup.h"
 #include "progress.h"
-#include "trimtab/units/number.h"
+#include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab::cli {
 namespace {
@@ -75,11 +76,15 @@ int calibrate(const Arguments& arguments) {
   const auto loaded = loadPreset(arguments.setup.preset);
   const std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
   if (!loaded || !setup) return kRefused;
+  if (!arguments.output.empty()) {
+    const std::filesystem::path folder = std::filesystem::absolute(arguments.output).parent_path();
+    if (const auto writable = canWriteIn(folder); !writable) return report(writable.findings()), kRefused;
+  }
   experiment::WeatherCalibration wanted{stepsOf(arguments.steps), {}};
   if (arguments.vertices > 0) wanted.vertices = arguments.vertices;
   const auto calibrated = experiment::calibrateWeather(*setup, wanted);
   report(calibrated.findings());
-  if (!calibrated) return kRefused;
+  if (!calibrated || isDamaged(*setup)) return kRefused;
   if (arguments.json)
     printJson(*calibrated);
   else

@@ -1,18 +1,15 @@
 #include "trimtab/host/flight.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <map>
 
 #include "cigi3.h"
 #include "flight_notes.h"
 #include "trimtab/host/decoder.h"
 #include "trimtab/host/motion.h"
+#include "trimtab/preset/file_io.h"
 
 namespace trimtab {
 namespace {
@@ -67,10 +64,10 @@ void appendLinkNotes(const HostStatistics& s, const std::string& where, Findings
   count(s.truncated, "messages with a broken tail; the first bad datagram: " + s.firstBadReason,
         Severity::warning);
   count(s.notReady, "datagrams below -1000 ft: the simulator was not ready; dropped");
-  count(s.implausible, "frames with an implausible number, passed over");
   count(s.lost.value_or(0), "frames lost, by their numbers");
   count(s.repeated, "repeated frames, passed over");
   count(s.reordered, "late frames, passed over");
+  count(s.implausible, "frames with an implausible number, passed over");
   count(s.restarts, "restarts of the host's frame count");
 }
 
@@ -159,19 +156,15 @@ Result<Flight> flightFromDatagrams(std::span<const CapturedDatagram> datagrams, 
 
 Result<Flight> readFlight(const std::filesystem::path& file, double defaultStepS) {
   const std::string where = file.string();
-  std::error_code failed;
-  if (std::filesystem::is_directory(file, failed))
-    return Finding{Severity::error, where, "", "a flight", "a folder"};
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return Finding{Severity::error, where, "", "a readable file", std::strerror(errno)};
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  if (in.bad()) return Finding{Severity::error, where, "", "a readable file", std::strerror(errno)};
+  const Result<std::string> read = readWhole(file, kLargestRecording);
+  if (!read) return read.findings();
+  const std::string& bytes = *read;
   const auto begins = [&bytes](std::string_view magic) {
     return std::string_view(bytes).substr(0, 4) == magic;
   };
   const bool capture = begins("\xa1\xb2\xc3\xd4") || begins("\xd4\xc3\xb2\xa1") ||
                        begins("\xa1\xb2\x3c\x4d") || begins("\x4d\x3c\xb2\xa1") || begins("\x0a\x0d\x0d\x0a");
-  const auto read = [&]() -> Result<Flight> {
+  const auto parse = [&]() -> Result<Flight> {
     if (!capture) return parseFlightCsv(bytes, where, defaultStepS);
     const auto datagrams = parsePcap(bytes, where);
     if (!datagrams) return datagrams.findings();
@@ -181,7 +174,7 @@ Result<Flight> readFlight(const std::filesystem::path& file, double defaultStepS
     if (!flight) return findings;
     return {std::move(*flight), std::move(findings)};
   };
-  auto flight = read();
+  auto flight = parse();
   if (flight) (*flight).name = file.filename().string();
   return flight;
 }

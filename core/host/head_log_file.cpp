@@ -3,11 +3,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <optional>
 
 #include "trimtab/host/head_log.h"
+#include "trimtab/preset/file_io.h"
 
 namespace trimtab {
 namespace {
@@ -348,11 +347,9 @@ Result<HeadLog> parseHeadLog(std::string_view text, const std::string& where, Ba
 }
 
 Result<HeadLog> readHeadLog(const std::filesystem::path& file, BadRows badRows) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (!in.is_open() || in.bad())
-    return Finding{Severity::error, file.string(), "", "a head log that can be read", "it cannot be opened"};
-  return parseHeadLog(text, file.string(), badRows);
+  const Result<std::string> text = readWhole(file, kLargestRecording);
+  if (!text) return text.findings();
+  return parseHeadLog(*text, file.string(), badRows);
 }
 
 }  // namespace trimtab

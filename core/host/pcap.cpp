@@ -3,14 +3,15 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <iterator>
+#include <system_error>
+#include <utility>
 
 #include "trimtab/host/byte_order.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/preset/preset.h"
 
 namespace trimtab {
+#include "trimtab/preset/file_io.h"
 namespace {
 
 constexpr std::size_t kFileHeader = 24, kRecordHeader = 16;
@@ -167,10 +168,9 @@ Result<std::vector<CapturedDatagram>> parsePcap(std::string_view text, const std
 }
 
 Result<std::vector<CapturedDatagram>> readPcap(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return Finding{Severity::error, file.string(), "", "a readable file", std::strerror(errno)};
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  return parsePcap(bytes, file.string());
+  const Result<std::string> bytes = readWhole(file, kLargestRecording);
+  if (!bytes) return bytes.findings();
+  return parsePcap(*bytes, file.string());
 }
 
 namespace {

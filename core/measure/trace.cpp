@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <type_traits>
 
 #include "trace_cells.h"
 #include "trace_columns.h"
+#include "trimtab/preset/file_io.h"
 
 namespace trimtab {
 namespace {
@@ -173,6 +173,9 @@ bool isTrace(std::string_view text) {
 }
 
 bool isTraceFile(const std::filesystem::path& file) {
+  std::error_code error;
+  // What a pipe holds could not be read again, and a device may have no line end.
+  if (!std::filesystem::is_regular_file(file, error)) return false;
   std::ifstream in(file, std::ios::binary);
   std::string header;
   std::getline(in, header);
@@ -214,11 +217,9 @@ Result<std::vector<TraceRow>> parseTrace(std::string_view text, const std::strin
 }
 
 Result<std::vector<TraceRow>> readTrace(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (!in.is_open() || in.bad())
-    return Finding{Severity::error, file.string(), "", "a trace that can be read", "it cannot be opened"};
-  return parseTrace(text, file.string());
+  const Result<std::string> text = readWhole(file, kLargestRecording);
+  if (!text) return text.findings();
+  return parseTrace(*text, file.string());
 }
 
 std::vector<TraceDifference> decideAgain(const std::vector<TraceRow>& trace,

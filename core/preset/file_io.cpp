@@ -1,12 +1,19 @@
 #include "trimtab/preset/file_io.h"
 
 #include <fcntl.h>
+#include <poll.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <chrono>
+#include <cstdint>
 #include <cstdlib>
+#include <optional>
 #include <system_error>
+#include <vector>
 
 #include "trimtab/preset/preset.h"
 
@@ -15,7 +22,6 @@ namespace trimtab {
 namespace {
 
 constexpr const char* kWritable = "room and permission to write it";
-constexpr std::size_t kLargestFile = std::size_t{16} << 20;
 
 Finding refused(const std::filesystem::path& file, std::string expected, int error) {
   return {Severity::error, file.string(), "", std::move(expected), std::generic_category().message(error)};
@@ -39,6 +45,32 @@ class Descriptor {
  private:
   int fd_;
 };
+
+/// A pipe or a device may never end: neither its bytes nor the wait for them may be endless.
+class Stream {
+ public:
+  explicit Stream(int fd) : polled_{fd, POLLIN, 0} {}
+  /// Whether there is something to read, or the end.
+  bool ready() {
+    constexpr int kNextMs = 1000;
+    constexpr auto kAll = std::chrono::seconds(5);
+    int ready = 0;
+    while (Clock::now() - begin_ < kAll && (ready = ::poll(&polled_, 1, kNextMs)) < 0 && errno == EINTR) {
+    }
+    return ready > 0;
+  }
+  static constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  pollfd polled_;
+  Clock::time_point begin_ = Clock::now();
+};
+
+std::string sizeText(std::size_t bytes) {
+  constexpr std::size_t kMiB = std::size_t{1} << 20;
+  return std::to_string(bytes / kMiB) + " MiB";
+}
 
 bool writeAll(int fd, std::string_view bytes) {
   while (!bytes.empty()) {
@@ -73,6 +105,37 @@ mode_t modeOf(const std::filesystem::path& file) {
   return 0666 & ~mask;
 }
 
+/// The beginning of the names that writeAtomically() gives to unfinished files of a target.
+std::string unfinishedPrefix(const std::filesystem::path& target) {
+  return "." + target.filename().string() + ".trimtab-";
+}
+
+/// Makes an unfinished file beside the target and locks it, so that litter is known from work in hand.
+/// Whoever clears litter away may have taken the file for it before it was locked; then another one is made.
+int createUnfinished(const std::filesystem::path& folder, const std::string& prefix, std::string& name) {
+  for (;;) {
+    name = (folder / (prefix + "XXXXXX")).string();
+    const int fd = ::mkostemp(name.data(), O_CLOEXEC);
+    struct stat about {};
+    // Where a file system has no locks, nothing is cleared away.
+    if (fd < 0 || ::flock(fd, LOCK_EX) != 0 || ::fstat(fd, &about) != 0 || about.st_nlink > 0) return fd;
+    ::close(fd);
+  }
+}
+
+/// Removes what programs that were killed left beside the target.
+void clearLitter(const std::filesystem::path& folder, const std::string& prefix) {
+  std::error_code failed;
+  for (std::filesystem::directory_iterator entry(folder, failed), end; !failed && entry != end;
+       entry.increment(failed)) {
+    const std::string name = entry->path().filename().string();
+    constexpr std::size_t kRandom = 6;
+    if (name.size() != prefix.size() + kRandom || !name.starts_with(prefix)) continue;
+    const Descriptor there(::open(entry->path().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+    if (there.isOpen() && ::flock(there.get(), LOCK_EX | LOCK_NB) == 0) ::unlink(entry->path().c_str());
+  }
+}
+
 /// For a pipe or device there is nothing to keep, and renaming over it would destroy it.
 Result<Done> writeInPlace(const std::filesystem::path& file, std::string_view bytes) {
   Descriptor out(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
@@ -82,23 +145,38 @@ Result<Done> writeInPlace(const std::filesystem::path& file, std::string_view by
 
 }  // namespace
 
-Result<std::string> readWhole(const std::filesystem::path& file) {
+Result<std::string> readWhole(const std::filesystem::path& file, std::size_t mostBytes) {
   const std::string expected = "a readable file";
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored))
     return Finding{Severity::error, file.string(), "", expected, "a folder"};
-  Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  // Without O_NONBLOCK a FIFO would wait for a writer that may never come.
+  Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (!in.isOpen()) return refused(file, expected, errno);
+  struct stat about {};
+  if (::fstat(in.get(), &about) != 0) return refused(file, expected, errno);
+  std::optional<Stream> stream;
+  if (!S_ISREG(about.st_mode)) {
+    stream.emplace(in.get());
+    mostBytes = std::min(mostBytes, Stream::kMostBytes);
+  }
+  const auto tooLarge = [&] {
+    return Finding{Severity::error, file.string(), "", "at most " + sizeText(mostBytes), "more"};
+  };
+  if (static_cast<std::uint64_t>(about.st_size) > mostBytes) return tooLarge();
   std::string bytes;
-  char block[1 << 16];
+  bytes.reserve(static_cast<std::size_t>(about.st_size));
+  std::vector<char> block(std::size_t{1} << 16);
   for (;;) {
-    const ssize_t count = ::read(in.get(), block, sizeof block);
-    if (count < 0 && errno == EINTR) continue;
+    if (stream && !stream->ready())
+      return Finding{Severity::error, file.string(), "", "a file, or a pipe that ends",
+                     "one that is open after a second without a byte, or after five seconds"};
+    const ssize_t count = ::read(in.get(), block.data(), block.size());
+    if (count < 0 && (errno == EINTR || (stream && errno == EAGAIN))) continue;
     if (count < 0) return refused(file, expected, errno);
     if (count == 0) return bytes;
-    bytes.append(block, static_cast<std::size_t>(count));
-    if (bytes.size() > kLargestFile)
-      return Finding{Severity::error, file.string(), "", "at most 16 MiB", "more"};
+    bytes.append(block.data(), static_cast<std::size_t>(count));
+    if (bytes.size() > mostBytes) return tooLarge();
   }
 }
 
@@ -116,9 +194,13 @@ Result<Done> writeAtomically(const std::filesystem::path& file, std::string_view
     return refused(file, kWritable, errno);
 
   const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
-  std::string beside = (folder / ("." + target.filename().string() + ".XXXXXX")).string();
-  Descriptor out(::mkostemp(beside.data(), O_CLOEXEC));
+  const std::string prefix = unfinishedPrefix(target);
+  clearLitter(folder, prefix);
+  std::string beside;
+  Descriptor out(createUnfinished(folder, prefix, beside));
   if (!out.isOpen()) return refused(file, "a folder that can be written, " + folder.string(), errno);
+  // The lock lasts until the file has its name.
+  const Descriptor lock(::fcntl(out.get(), F_DUPFD_CLOEXEC, 0));
   // By the descriptor that is held: the file's mode may forbid to open it for reading.
   if (!writeAll(out.get(), bytes) || ::fchmod(out.get(), modeOf(target)) != 0 || !flushed(out.get()) ||
       !out.close()) {
@@ -136,6 +218,21 @@ Result<Done> reachDisk(const std::filesystem::path& fileOrFolder) {
   if (!opened.isOpen() || !flushed(opened.get()))
     return refused(fileOrFolder, "to be written to the disk", errno);
   return Done{};
+}
+
+Result<Done> canWriteIn(const std::filesystem::path& folder) {
+  std::string name;
+  const Descriptor made(createUnfinished(folder, ".trimtab-", name));
+  if (!made.isOpen()) return refused(folder, "a folder that can be written", errno);
+  ::unlink(name.c_str());
+  return Done{};
+}
+
+Result<Done> makeWritable(const std::filesystem::path& folder) {
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed) return refused(folder, "a folder that can be written", failed.value());
+  return canWriteIn(folder);
 }
 
 Result<Done> putInPlace(const std::filesystem::path& unfinished, const std::filesystem::path& file) {

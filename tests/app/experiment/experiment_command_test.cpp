@@ -22,6 +22,13 @@ TEST(ExperimentCommand, printsOneDocumentAndWritesTablesAndPlots) {
   ASSERT_EQ(
       test::run(test::program("trimtab-cli").string() + " terrain bake " + tif + " -o " + database).exitCode,
       0);
+  test::writeFile(dir / "file", "");
+  const test::Ran nowhere = experimentBy("culling --terrain " + database + " --size 64x48 --repeats 1 -o " +
+                                         (dir / "file/out").string());
+  EXPECT_EQ(nowhere.exitCode, 1);
+  EXPECT_THAT(nowhere.err, HasSubstr("file/out: expected a folder that can be written"));
+  EXPECT_EQ(nowhere.out, "");
+  EXPECT_THAT(nowhere.err, ::testing::Not(HasSubstr(" % "))) << "before the work, not after it";
   const std::string out = (dir / "out").string();
   const test::Ran ran =
       experimentBy("culling --terrain " + database + " --size 64x48 --repeats 1 --json -o " + out +

@@ -1,13 +1,17 @@
 #include "trimtab/preset/file_io.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <fstream>
 #include <functional>
+#include <thread>
 
 #include "tests/disk_order.h"
 #include "tests/support.h"
@@ -156,6 +160,80 @@ TEST(WriteAtomically, replacesAFileThatMayBeWrittenButNotRead) {
   ::chmod((dir / "a").c_str(), 0600);
   EXPECT_EQ(test::readFile(dir / "a"), "new");
   EXPECT_EQ(filesIn(dir.path()), 1u);
+}
+
+TEST(WriteAtomically, clearsAwayWhatAKilledProgramLeftAndNothingElse) {
+  const ScratchDir dir;
+  test::writeFile(dir / ".a.trimtab-q1W2e3", "left by a program that was killed");
+  const char* const others[] = {".a.Xy12Zz", ".b.trimtab-q1W2e3", ".a.trimtab-longer1", "a.trimtab-q1W2e3"};
+  for (const char* name : others) test::writeFile(dir / name, "of others");
+  test::writeFile(dir / ".a.trimtab-atwork", "of a program that is still writing");
+  const int atWork = ::open((dir / ".a.trimtab-atwork").c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_EQ(::flock(atWork, LOCK_EX), 0);
+  ASSERT_TRUE(writeAtomically(dir / "a", "new"));
+  EXPECT_FALSE(std::filesystem::exists(dir / ".a.trimtab-q1W2e3"));
+  for (const char* name : others) EXPECT_TRUE(std::filesystem::exists(dir / name)) << name;
+  EXPECT_TRUE(std::filesystem::exists(dir / ".a.trimtab-atwork"));
+  ::close(atWork);
+  ASSERT_TRUE(writeAtomically(dir / "a", "newer"));
+  EXPECT_FALSE(std::filesystem::exists(dir / ".a.trimtab-atwork"));
+}
+
+TEST(WriteAtomically, byManyAtOnceLeavesOneOfTheirTexts) {
+  const ScratchDir dir;
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; ++t)
+    threads.emplace_back([&, t] {
+      for (int i = 0; i < 50; ++i) EXPECT_TRUE(writeAtomically(dir / "a", std::string(1000, char('a' + t))));
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(test::readFile(dir / "a").size(), 1000u);
+  EXPECT_EQ(filesIn(dir.path()), 1u);
+}
+
+TEST(ReadWhole, waitsForNoPipeThatNobodyFillsOrEnds) {
+  const ScratchDir dir;
+  ASSERT_EQ(::mkfifo((dir / "pipe").c_str(), 0600), 0);
+  EXPECT_THAT(toString(readWhole(dir / "pipe").findings()), HasSubstr("a pipe that ends"));
+  const int held = ::open((dir / "pipe").c_str(), O_RDWR | O_CLOEXEC);
+  EXPECT_EQ(::write(held, "half", 4), 4);
+  EXPECT_THAT(toString(readWhole(dir / "pipe").findings()), HasSubstr("a pipe that ends"));
+  ::close(held);
+}
+
+TEST(ReadWhole, readsAPipeThatEnds) {
+  const ScratchDir dir;
+  ASSERT_EQ(::mkfifo((dir / "pipe").c_str(), 0600), 0);
+  std::thread writer([&] { std::ofstream(dir / "pipe") << std::string(300000, 'x'); });
+  const auto read = readWhole(dir / "pipe");
+  writer.join();
+  ASSERT_TRUE(read) << toString(read.findings());
+  EXPECT_EQ(read->size(), 300000u);
+}
+
+TEST(ReadWhole, refusesWhatIsTooLargeBeforeItReadsIt) {
+  const ScratchDir dir;
+  test::writeFile(dir / "large", "");
+  std::filesystem::resize_file(dir / "large", std::uintmax_t{1} << 40);
+  EXPECT_THAT(toString(readWhole(dir / "large").findings()), HasSubstr("at most 16 MiB"));
+  EXPECT_THAT(toString(readWhole("/dev/zero", kLargestRecording).findings()), HasSubstr("at most 64 MiB"));
+}
+
+TEST(CanWriteIn, leavesNothingAndSaysWhyNot) {
+  const ScratchDir dir;
+  EXPECT_TRUE(canWriteIn(dir.path()));
+  EXPECT_TRUE(makeWritable(dir / "a/b"));
+  EXPECT_TRUE(std::filesystem::is_empty(dir / "a/b"));
+  EXPECT_THAT(toString(canWriteIn(dir / "none").findings()), HasSubstr("No such file"));
+  test::writeFile(dir / "file", "");
+  EXPECT_FALSE(makeWritable(dir / "file/a"));
+  EXPECT_TRUE(holdsInChild([&] {
+    ::chmod(dir.path().c_str(), 0555);
+    constexpr uid_t kNobody = 65534;
+    if (::geteuid() == 0 && ::setuid(kNobody) != 0) return false;
+    return !canWriteIn(dir.path()) && !makeWritable(dir / "new");
+  }));
+  ::chmod(dir.path().c_str(), 0755);
 }
 
 TEST(ReadWhole, readsBytesAndRefusesTheRest) {

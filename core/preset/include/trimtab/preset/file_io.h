@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
@@ -7,8 +8,18 @@
 
 namespace trimtab {
 
-/// Returns every byte of a file or a pipe, at most 16 MiB. Fails for a folder.
-Result<std::string> readWhole(const std::filesystem::path& file);
+/// Returns every byte of a file, or of a pipe or device that ends: at most `mostBytes`, and at most 64 MiB of
+/// what is no file. Fails for a folder, and for a pipe that is open after a second without a byte or after
+/// five seconds.
+Result<std::string> readWhole(const std::filesystem::path& file,
+                              std::size_t mostBytes = std::size_t{16} << 20);
+/// What a flight, a trace, a head log or a capture may have: they are read whole.
+inline constexpr std::size_t kLargestRecording = std::size_t{4} << 30;
+
+/// Sees that files can be made in a folder, before long work whose result goes there.
+Result<Done> canWriteIn(const std::filesystem::path& folder);
+/// The same for a folder that is made where there is none.
+Result<Done> makeWritable(const std::filesystem::path& folder);
 
 /// Writes the bytes of a file, or the names in a folder, to the disk before it returns.
 Result<Done> reachDisk(const std::filesystem::path& fileOrFolder);
