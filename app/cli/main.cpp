@@ -1,3 +1,6 @@
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <iostream>
 
 #include "commands.h"
@@ -9,6 +12,19 @@ void report(const Findings& findings) {
   std::cerr << labelled(findings);
 }
 
+namespace {
+
+/// A program that reads our output must not take half of it for all. `exitCode` is that of the command.
+int finished(int exitCode) {
+  std::cout.flush();
+  const int error = std::fflush(stdout) != 0 ? errno : 0;
+  if (std::cout && error == 0 && std::ferror(stdout) == 0) return exitCode;
+  report({{Severity::error, "standard output", "", "to be written to the end",
+           error != 0 ? std::strerror(error) : "a write that failed"}});
+  return exitCode == kDone ? kRefused : exitCode;
+}
+
+}  // namespace
 }  // namespace trimtab::cli
 
 int main(int argc, char** argv) {
@@ -28,10 +44,10 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? trimtab::cli::kDone : trimtab::cli::kUsage;
+    return trimtab::cli::finished(app.exit(error) == 0 ? trimtab::cli::kDone : trimtab::cli::kUsage);
   } catch (const std::exception& error) {
     std::cerr << "error: " << error.what() << '\n';
-    return trimtab::cli::kRefused;
+    return trimtab::cli::finished(trimtab::cli::kRefused);
   }
-  return exitCode;
+  return trimtab::cli::finished(exitCode);
 }

@@ -1,6 +1,8 @@
 #include "options.h"
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
 #include <map>
 
 namespace trimtab::ig {
@@ -75,3 +77,5 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
 }
 
 }  // namespace trimtab::ig
+    // Help or version that a full disk took.
+    if (exitCode == kDone && (std::fflush(stdout) != 0 || !std::cout)) exitCode = kRefused;

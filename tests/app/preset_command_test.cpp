@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -208,6 +209,30 @@ TEST(PresetCommand, saysInAnExportWhatDependsOnTheMachine) {
   const test::Ran pinned = preset("export default -o " + file + " --set culling.occlusion=horizon");
   EXPECT_EQ(pinned.err, "");
   EXPECT_THAT(test::readFile(file), ::testing::Not(HasSubstr("is auto")));
+}
+
+TEST(PresetCommand, waitsForNoPipeThatNobodyFills) {
+  const test::ScratchDir dir;
+  const std::string pipe = (dir / "pipe").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string& command :
+       {"check " + pipe, "diff default " + pipe, "policy import " + pipe + " --format fll -o -"}) {
+    const Ran ran = test::run("timeout 20 " + test::program("trimtab-cli").string() + " preset " + command);
+    EXPECT_EQ(ran.exitCode, 1) << command;
+    EXPECT_THAT(ran.err, HasSubstr("a pipe that ends")) << command;
+  }
+}
+
+TEST(PresetCommand, saysWhenStandardOutputIsFull) {
+  const std::string cli = test::program("trimtab-cli").string();
+  for (const char* command :
+       {"preset check default", "preset check --json default", "preset diff default as-published",
+        "preset schema", "preset export default -o -", "preset --help", "--version",
+        "decide --altitude-ft 5000 --pitch-deg 0"}) {
+    const Ran ran = test::run("( " + cli + " " + command + " >/dev/full )");
+    EXPECT_EQ(ran.exitCode, 1) << command << '\n' << ran.err;
+    EXPECT_THAT(ran.err, HasSubstr("standard output: expected to be written to the end")) << command;
+  }
 }
 
 TEST(PresetCommand, repairsABrokenRuleBySet) {

@@ -75,6 +75,9 @@ TEST_F(TerrainCommand, bakesACountryInPartsAndChecksIt) {
   EXPECT_EQ(checked.exitCode, 0) << checked.err;
   EXPECT_NE(checked.out.find("depth"), std::string::npos);
   EXPECT_NE(checked.out.find("every checksum holds"), std::string::npos);
+  const auto full = test::run("( " + cli("info " + at("db")) + " >/dev/full )");
+  EXPECT_EQ(full.exitCode, 1);
+  EXPECT_NE(full.err.find("standard output"), std::string::npos) << full.err;
   std::string heights = test::readFile(dir_ / "db/heights.f32");
   heights[1000] = static_cast<char>(heights[1000] ^ 1);
   test::writeFile(dir_ / "db/heights.f32", heights);
