@@ -8,6 +8,7 @@
 
 #include "ground.h"
 #include "heights.h"
+#include "mapped_heights.h"
 #include "patches.h"
 #include "source.h"
 #include "trimtab/terrain/bake/bake.h"
@@ -245,12 +246,11 @@ class Job {
   Result<Done> measureTiles(const Progress& progress) {
     const PostGrid& posts = heights_.posts;
     if (posts.size() > kMostTiledPosts || tileLevels_) return Done{};
-    const auto mapped = MappedFile::open(work_->database() / kHeightsName);
-    if (!mapped) return mapped.findings();
+    const auto heights = MappedHeights::open(work_->database() / kHeightsName, posts.size());
+    if (!heights) return heights.findings();
     TerrainIndex index = makeLevels(posts);
     CellSlopes slopes(index);
-    const std::span heights(reinterpret_cast<const float*>((*mapped)->bytes().data()), posts.size());
-    if (!measureLevels(posts, heights, *geometry_, index, slopes,
+    if (!measureLevels(posts, (*heights).span(), *geometry_, index, slopes,
                        [&](double f) { return progress(f, "measuring levels"); }))
       return cancelled("measuring levels");
     tileLevels_ = {std::move(index), std::move(slopes)};

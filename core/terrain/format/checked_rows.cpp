@@ -45,41 +45,74 @@ std::vector<std::uint64_t> CheckedRows::Sums::finish() {
   return std::move(sums_);
 }
 
-CheckedRows::CheckedRows(std::shared_ptr<const MappedFile> mapped, std::size_t rowBytes, std::uint32_t rows,
-                         std::vector<std::uint64_t> sums, Sound sound)
-    : mapped_(std::move(mapped)),
+CheckedRows::CheckedRows(std::shared_ptr<const StoredFile> file, std::size_t rowBytes, std::uint32_t rows,
+                         std::vector<std::uint64_t> sums, Sound sound, std::size_t mostBytes)
+    : file_(std::move(file)),
       rowBytes_(rowBytes),
       rows_(rows),
       perBlock_(rowsPerBlock(rowBytes)),
       sums_(std::move(sums)),
       sound_(std::move(sound)),
-      states_(new std::atomic<std::uint8_t>[rows / perBlock_ + 1]) {
-  for (std::uint32_t b = 0; b <= rows / perBlock_; ++b) states_[b] = sums_.empty() ? kGood : kUnknown;
+      mostBlocks_(std::max<std::size_t>(1, mostBytes / (perBlock_ * std::max<std::size_t>(1, rowBytes)))),
+      slots_(sums_.size()) {}
+
+std::shared_ptr<const CheckedRows::Block> CheckedRows::readBlock(std::uint32_t number,
+                                                                 Findings& findings) const {
+  const std::uint32_t first = number * perBlock_, last = std::min(first + perBlock_, rows_);
+  const std::uint64_t at = std::uint64_t{first} * rowBytes_;
+  auto block = std::make_shared<Block>(std::size_t{last - first} * rowBytes_);
+  const auto damaged = [&](const std::string& expected, const std::string& found) {
+    findings.push_back({Severity::error, file_->file().string(),
+                        "rows " + std::to_string(first) + " to " + std::to_string(last - 1) + " at byte " +
+                            std::to_string(at),
+                        expected, found});
+    return nullptr;
+  };
+  if (const auto read = file_->read(at, *block); !read)
+    return damaged(read.findings()[0].expected, read.findings()[0].found);
+  if (const std::uint64_t sum = sumOf(*block); sum != sums_[number])
+    return damaged("checksum " + hexadecimal(sums_[number]), hexadecimal(sum));
+  if (sound_ && !sound_(*block)) return damaged("heights within those of the manifest", "others");
+  return block;
 }
 
-bool CheckedRows::check(std::uint32_t block) const {
-  const std::uint32_t first = block * perBlock_, last = std::min(first + perBlock_, rows_);
-  const std::size_t at = std::size_t{first} * rowBytes_, size = std::size_t{last - first} * rowBytes_;
-  mapped_->fetch(at, size);
-  const auto bytes = mapped_->bytes().subspan(at, size);
-  const std::uint64_t sum = sumOf(bytes);
-  const bool right = sum == sums_[block], good = right && (!sound_ || sound_(bytes));
-  // Another thread may have come to the same answer.
-  if (states_[block].exchange(good ? kGood : kBad, std::memory_order_acq_rel) == kUnknown && !good) {
+std::shared_ptr<const CheckedRows::Block> CheckedRows::block(std::uint32_t number) const {
+  {
     const std::lock_guard lock(mutex_);
-    if (damage_.size() < kMostFindings)
-      damage_.push_back(
-          {Severity::error, mapped_->file().string(),
-           "rows " + std::to_string(first) + " to " + std::to_string(last - 1) + " at byte " +
-               std::to_string(at),
-           right ? "heights within those of the manifest" : "checksum " + hexadecimal(sums_[block]),
-           right ? "others" : hexadecimal(sum)});
+    const Slot& slot = slots_[number];
+    if (slot.block || slot.damaged) return slot.block;
   }
-  return good;
+  Findings findings;
+  auto block = readBlock(number, findings);
+  const std::lock_guard lock(mutex_);
+  Slot& slot = slots_[number];
+  // Another thread may have come to an answer meanwhile.
+  if (slot.block || slot.damaged) return slot.block;
+  slot = {block, !block};
+  if (!block) {
+    if (damage_.size() < kMostFindings) damage_.insert(damage_.end(), findings.begin(), findings.end());
+    return nullptr;
+  }
+  inMemory_.push_back(number);
+  if (inMemory_.size() > mostBlocks_) {
+    slots_[inMemory_.front()].block.reset();
+    inMemory_.pop_front();
+  }
+  return block;
 }
 
 void CheckedRows::checkAll() const {
-  for (std::uint32_t row = 0; row < rows_; row += perBlock_) isGood(row / perBlock_);
+  for (std::uint32_t number = 0; number < slots_.size(); ++number) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (slots_[number].damaged) continue;
+    }
+    Findings findings;
+    if (readBlock(number, findings)) continue;
+    const std::lock_guard lock(mutex_);
+    slots_[number] = {nullptr, true};
+    if (damage_.size() < kMostFindings) damage_.insert(damage_.end(), findings.begin(), findings.end());
+  }
 }
 
 Findings CheckedRows::damage() const {

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "trimtab/terrain/format/page_file.h"
-
 namespace trimtab::terrain {
 
 namespace {
@@ -264,9 +262,14 @@ Result<GroundShape> unpackGroundShape(std::span<const std::byte> blob) {
 }
 
 Result<std::shared_ptr<const GroundPyramid>> openGround(const fs::path& path, const PostGrid& posts) {
-  const auto opened = PageFile::open(path);
+  auto opened = PageFile::open(path);
   if (!opened) return opened.findings();
-  const PageFile& file = **opened;
+  return openGround(std::move(opened).value(), path, posts);
+}
+
+Result<std::shared_ptr<const GroundPyramid>> openGround(std::shared_ptr<const PageFile> pages,
+                                                        const fs::path& path, const PostGrid& posts) {
+  const PageFile& file = *pages;
   const auto blob = file.read(kGroundShapeKey);
   if (!blob) return blob.findings();
   auto shape = unpackGroundShape(*blob);
@@ -284,7 +287,7 @@ Result<std::shared_ptr<const GroundPyramid>> openGround(const fs::path& path, co
                         "none at level " + std::to_string(l) + ", tile " + std::to_string(c) + ", " +
                             std::to_string(r));
   return Result<std::shared_ptr<const GroundPyramid>>(
-      std::make_shared<FilePyramid>(*opened, path, std::move(shape).value()));
+      std::make_shared<FilePyramid>(std::move(pages), path, std::move(shape).value()));
 }
 
 }  // namespace trimtab::terrain

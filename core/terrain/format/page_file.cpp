@@ -11,8 +11,8 @@
 #include <mutex>
 #include <string>
 
-#include "trimtab/terrain/format/mapped_file.h"
 #include "trimtab/terrain/format/store.h"
+#include "trimtab/terrain/format/stored_file.h"
 
 namespace trimtab::terrain {
 
@@ -50,10 +50,10 @@ std::string bytesText(std::uint64_t bytes) {
   return std::to_string(bytes) + " bytes";
 }
 
-class MappedPages final : public PageFile {
+class StoredPages final : public PageFile {
  public:
-  MappedPages(std::shared_ptr<const MappedFile> mapped, const Header& header, std::vector<Entry> entries)
-      : mapped_(std::move(mapped)), header_(header), entries_(std::move(entries)) {}
+  StoredPages(std::shared_ptr<const StoredFile> stored, const Header& header, std::vector<Entry> entries)
+      : stored_(std::move(stored)), header_(header), entries_(std::move(entries)) {}
 
   std::size_t size() const override { return entries_.size(); }
   std::uint64_t bytes() const override { return header_.fileBytes; }
@@ -63,23 +63,21 @@ class MappedPages final : public PageFile {
     const Entry* entry = find(key);
     return entry ? entry->bytes : 0;
   }
-  Result<std::span<const std::byte>> read(std::uint64_t key) const override {
+  Result<std::vector<std::byte>> read(std::uint64_t key) const override {
     const Entry* entry = find(key);
-    if (!entry) return wrong(mapped_->file(), "blob " + std::to_string(key), "one of this key", "nothing");
-    mapped_->fetch(entry->at, entry->bytes);
-    const auto blob = mapped_->bytes().subspan(entry->at, entry->bytes);
-    if (const std::uint64_t sum = terrain::checksum(textOf(blob.data(), blob.size())); sum != entry->sum)
-      return wrong(mapped_->file(), "blob " + std::to_string(key) + " at byte " + std::to_string(entry->at),
-                   "checksum " + hexadecimal(entry->sum), hexadecimal(sum));
+    if (!entry) return wrong(stored_->file(), "blob " + std::to_string(key), "one of this key", "nothing");
+    auto blob = readChecked(*entry);
+    if (!blob) keep(blob.findings());
     return blob;
   }
-  void forget(std::uint64_t key) const override {
-    if (const Entry* entry = find(key)) mapped_->forget(entry->at, entry->bytes);
+  Findings damage() const override {
+    const std::lock_guard lock(mutex_);
+    return damage_;
   }
   Result<Done> checkAll() const override {
     Findings findings;
     for (const Entry& entry : entries_) {
-      const auto blob = read(entry.key);
+      const auto blob = readChecked(entry);
       findings.insert(findings.end(), blob.findings().begin(), blob.findings().end());
     }
     if (!findings.empty()) return findings;
@@ -93,9 +91,28 @@ class MappedPages final : public PageFile {
     return at != entries_.end() && at->key == key ? &*at : nullptr;
   }
 
-  std::shared_ptr<const MappedFile> mapped_;
+  Result<std::vector<std::byte>> readChecked(const Entry& entry) const {
+    std::vector<std::byte> blob(entry.bytes);
+    if (const auto done = stored_->read(entry.at, blob); !done) return done.findings();
+    const std::uint64_t sum = terrain::checksum(textOf(blob.data(), blob.size()));
+    if (sum == entry.sum) return blob;
+    return wrong(stored_->file(),
+                 "blob " + std::to_string(entry.key) + " at byte " + std::to_string(entry.at),
+                 "checksum " + hexadecimal(entry.sum), hexadecimal(sum));
+  }
+  void keep(const Findings& findings) const {
+    constexpr std::size_t kMost = 20;
+    const std::lock_guard lock(mutex_);
+    for (const Finding& finding : findings)
+      if (damage_.size() < kMost && std::find(damage_.begin(), damage_.end(), finding) == damage_.end())
+        damage_.push_back(finding);
+  }
+
+  std::shared_ptr<const StoredFile> stored_;
   Header header_;
   std::vector<Entry> entries_;
+  mutable std::mutex mutex_;
+  mutable Findings damage_;
 };
 
 class FileWriter final : public PageFileWriter {
@@ -171,34 +188,34 @@ class FileWriter final : public PageFileWriter {
 }  // namespace
 
 Result<std::shared_ptr<const PageFile>> PageFile::open(const fs::path& file) {
-  auto opened = MappedFile::open(file);
+  auto opened = StoredFile::open(file);
   if (!opened) return opened.findings();
-  const std::shared_ptr<const MappedFile> mapped = *opened;
-  const auto bytes = mapped->bytes();
+  const std::shared_ptr<const StoredFile> stored = *opened;
+  const std::uint64_t size = stored->size();
   Header header;
-  if (bytes.size() < sizeof header)
-    return wrong(file, "size", "a header of " + bytesText(sizeof header), bytesText(bytes.size()));
-  std::memcpy(&header, bytes.data(), sizeof header);
+  if (size < sizeof header)
+    return wrong(file, "size", "a header of " + bytesText(sizeof header), bytesText(size));
+  if (const auto read = stored->read(0, std::as_writable_bytes(std::span(&header, 1))); !read)
+    return read.findings();
   if (header.magic != kMagic) return wrong(file, "header", "a file of pages", "something else");
   if (header.version != kVersion)
     return wrong(file, "version", std::to_string(kVersion) + " (bake the sources again)",
                  std::to_string(header.version));
   if (const std::uint64_t sum = sumOf(header); sum != header.sum)
     return wrong(file, "header's checksum", hexadecimal(header.sum), hexadecimal(sum));
-  if (header.fileBytes != bytes.size())
-    return wrong(file, "size", bytesText(header.fileBytes), bytesText(bytes.size()));
-  if (header.tableAt < sizeof header || header.tableAt > bytes.size() ||
-      header.count != (bytes.size() - header.tableAt) / sizeof(Entry) ||
-      (bytes.size() - header.tableAt) % sizeof(Entry) != 0)
+  if (header.fileBytes != size) return wrong(file, "size", bytesText(header.fileBytes), bytesText(size));
+  if (header.tableAt < sizeof header || header.tableAt > size ||
+      header.count != (size - header.tableAt) / sizeof(Entry) || (size - header.tableAt) % sizeof(Entry) != 0)
     return wrong(
         file, "table",
         std::to_string(header.count) + " entries from byte " + std::to_string(header.tableAt) + " to the end",
-        bytesText(bytes.size()));
-  const auto table = bytes.subspan(header.tableAt);
-  if (const std::uint64_t sum = terrain::checksum(textOf(table.data(), table.size())); sum != header.tableSum)
-    return wrong(file, "table's checksum", hexadecimal(header.tableSum), hexadecimal(sum));
+        bytesText(size));
   std::vector<Entry> entries(header.count);
-  if (!table.empty()) std::memcpy(entries.data(), table.data(), table.size());
+  if (const auto read = stored->read(header.tableAt, std::as_writable_bytes(std::span(entries))); !read)
+    return read.findings();
+  if (const std::uint64_t sum = terrain::checksum(textOf(entries.data(), entries.size() * sizeof(Entry)));
+      sum != header.tableSum)
+    return wrong(file, "table's checksum", hexadecimal(header.tableSum), hexadecimal(sum));
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Entry& e = entries[i];
     if (i > 0 && e.key <= entries[i - 1].key)
@@ -209,7 +226,7 @@ Result<std::shared_ptr<const PageFile>> PageFile::open(const fs::path& file) {
                    "a blob before byte " + std::to_string(header.tableAt),
                    bytesText(e.bytes) + " from byte " + std::to_string(e.at));
   }
-  return std::shared_ptr<const PageFile>(std::make_shared<MappedPages>(mapped, header, std::move(entries)));
+  return std::shared_ptr<const PageFile>(std::make_shared<StoredPages>(stored, header, std::move(entries)));
 }
 
 Result<std::unique_ptr<PageFileWriter>> PageFileWriter::create(const fs::path& file) {

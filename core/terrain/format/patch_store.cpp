@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <span>
 
 #include "trimtab/terrain/format/patch_bytes.h"
 #include "trimtab/terrain/format/patch_layout.h"
@@ -98,7 +99,8 @@ class StoredPatches final : public PatchTerrain {
                    std::to_string(header.patches));
     index_ = makePatchIndex(posts, geometry_, header.leafCells);
     const std::size_t count = index_.size();
-    PatchBytesReader in(measured->subspan(sizeof header));
+    const std::span<const std::byte> bytes(*measured);
+    PatchBytesReader in(bytes.subspan(sizeof header));
     in.take(std::span(index_.bounds));
     in.take(index_.errorM.values(0, count));
     in.take(index_.triangles.values(0, count));

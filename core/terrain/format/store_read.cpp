@@ -7,12 +7,12 @@
 
 #include "manifest_checksum.h"
 #include "trimtab/preset/file_io.h"
-#include "trimtab/units/number.h"
 #include "trimtab/terrain/format/ground_pyramid.h"
 #include "trimtab/terrain/format/patch_store.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
 #include "trimtab/terrain/format/store.h"
 #include "trimtab/terrain/grid/post_geometry.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab::terrain {
 
@@ -91,16 +91,21 @@ struct Files {
   Findings findings = {};
   std::uint64_t bytes = 0;
 
-  /// Maps it, if its size is right.
-  std::shared_ptr<const MappedFile> map(const char* name, std::uint64_t expected) {
-    const auto mapped = MappedFile::open(folder / name);
-    findings.insert(findings.end(), mapped.findings().begin(), mapped.findings().end());
-    if (!mapped) return {};
-    const std::uint64_t size = (*mapped)->bytes().size();
-    bytes += size;
-    if (size == expected) return *mapped;
-    findings.push_back(wrong(folder / name, "size", bytesText(expected), bytesText(size)));
+  /// Opens it, if its size is right.
+  std::shared_ptr<const StoredFile> open(const char* name, std::uint64_t expected) {
+    const auto stored = StoredFile::open(folder / name);
+    findings.insert(findings.end(), stored.findings().begin(), stored.findings().end());
+    if (!stored) return {};
+    bytes += (*stored)->size();
+    if ((*stored)->size() == expected) return *stored;
+    findings.push_back(wrong(folder / name, "size", bytesText(expected), bytesText((*stored)->size())));
     return {};
+  }
+  /// Reads all of it into `into`, if it is what the manifest says.
+  bool whole(const StoredFile& stored, const char* name, std::span<std::byte> into) {
+    const auto read = stored.read(0, into);
+    findings.insert(findings.end(), read.findings().begin(), read.findings().end());
+    return read && compare(name, checksum({reinterpret_cast<const char*>(into.data()), into.size()}));
   }
   bool compare(const char* name, std::uint64_t sum) {
     const Json entry = entries.is_object() ? entries.value(name, Json()) : Json();
@@ -114,33 +119,35 @@ struct Files {
   }
   template <class T>
   std::vector<T> array(const char* name, std::size_t count) {
-    const auto mapped = map(name, std::uint64_t{count} * sizeof(T));
-    if (!mapped) return {};
-    const auto all = mapped->bytes();
-    if (!compare(name, checksum({reinterpret_cast<const char*>(all.data()), all.size()}))) return {};
+    const auto stored = open(name, std::uint64_t{count} * sizeof(T));
+    if (!stored) return {};
     std::vector<T> values(count);
-    if (count > 0) std::memcpy(values.data(), all.data(), all.size());
+    if (!whole(*stored, name, std::as_writable_bytes(std::span(values)))) return {};
     return values;
   }
-  /// Rows with their sums beside them; null sums: of version 1, checked now.
+  /// Rows with their sums beside them. `sums` is null for version 1, which has none: all is read now, and the
+  /// sums are made, so that what is read later is what was compared.
   std::shared_ptr<const CheckedRows> rows(const char* name, const char* sums, std::size_t rowBytes,
                                           std::uint32_t count, CheckedRows::Sound sound) {
-    const auto mapped = map(name, std::uint64_t{rowBytes} * count);
-    if (!mapped) return {};
-    const auto all = mapped->bytes();
+    const auto stored = open(name, std::uint64_t{rowBytes} * count);
+    if (!stored) return {};
+    const std::uint32_t perBlock = CheckedRows::rowsPerBlock(rowBytes);
     std::vector<std::uint64_t> values;
     if (sums) {
-      const std::uint32_t perBlock = CheckedRows::rowsPerBlock(rowBytes);
       values = array<std::uint64_t>(sums, (count + perBlock - 1) / perBlock);
       if (values.empty()) return {};
     } else {
-      if (!compare(name, checksum({reinterpret_cast<const char*>(all.data()), all.size()}))) return {};
+      std::vector<std::byte> all(stored->size());
+      if (!whole(*stored, name, all)) return {};
       if (sound && !sound(all)) {
         findings.push_back(wrong(folder / name, "heights", "those between the manifest's limits", "others"));
         return {};
       }
+      CheckedRows::Sums made(rowBytes);
+      made.add(all);
+      values = made.finish();
     }
-    return std::make_shared<CheckedRows>(mapped, rowBytes, count, std::move(values), std::move(sound));
+    return std::make_shared<CheckedRows>(stored, rowBytes, count, std::move(values), std::move(sound));
   }
   std::shared_ptr<const PageFile> pages(const char* name) {
     const auto opened = PageFile::open(folder / name);
@@ -260,7 +267,7 @@ Result<Contents> readContents(const fs::path& folder) {
       contents.pageFiles.push_back(pages);
     }
     if (const auto pages = files.pages(kGroundName)) {
-      auto ground = openGround(folder / kGroundName, posts);
+      auto ground = openGround(pages, folder / kGroundName, posts);
       files.findings.insert(files.findings.end(), ground.findings().begin(), ground.findings().end());
       if (ground) contents.ground = *ground;
       contents.pageFiles.push_back(pages);

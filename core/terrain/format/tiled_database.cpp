@@ -37,22 +37,24 @@ class TiledDatabase final : public Database {
   Findings checkAll() const override;
 
  private:
+  using Rows = CheckedRows::Reader;
+  Findings rowDamage() const;
   /// The lowest of all where the file is damaged.
-  double height(std::uint32_t row, std::uint32_t column) const {
-    const auto* heights = reinterpret_cast<const float*>(contents_.heights->row(row));
+  double height(Rows& rows, std::uint32_t row, std::uint32_t column) const {
+    const auto* heights = reinterpret_cast<const float*>(rows.row(row));
     return heights ? double{heights[column]} : contents_.info.lowest.value();
   }
   /// Rise towards east and north a metre at a post, from the eight posts around it.
-  PostGradient gradient(std::uint32_t row, std::uint32_t column) const;
+  PostGradient gradient(Rows& rows, std::uint32_t row, std::uint32_t column) const;
   void vertexSlopes(const TilePosts& tile, std::array<std::uint8_t, kSide * kSide>& slopes) const;
 
   Contents contents_;
   PostGeometry geometry_;
 };
 
-PostGradient TiledDatabase::gradient(std::uint32_t row, std::uint32_t column) const {
+PostGradient TiledDatabase::gradient(Rows& rows, std::uint32_t row, std::uint32_t column) const {
   return gradientAt(contents_.posts, geometry_, row, column,
-                    [&](std::uint32_t r, std::uint32_t c) { return height(r, c); });
+                    [&](std::uint32_t r, std::uint32_t c) { return height(rows, r, c); });
 }
 
 void TiledDatabase::vertexSlopes(const TilePosts& tile,
@@ -114,19 +116,22 @@ void TiledDatabase::buildTile(std::uint32_t node, TileMesh& mesh) const {
   std::array<std::uint8_t, kSide * kSide> slopes;
   vertexSlopes(tile, slopes);
   mesh.vertices.resize(kSide * kSide);
+  Rows heights(*contents_.heights);
+  std::optional<Rows> image;
+  if (contents_.image) image.emplace(*contents_.image);
   std::size_t at = 0;
   for (std::uint32_t j = 0; j < kSide; ++j) {
     const std::uint32_t row = tile.row(j);
     const double latitude = posts.latitude(row);
     for (std::uint32_t i = 0; i < kSide; ++i, ++at) {
       const std::uint32_t column = tile.column(i);
-      const double h = height(row, column);
+      const double h = height(heights, row, column);
       const PostGeometry::Lattice p = geometry_.lattice(row, column, h);
       TileVertex& v = mesh.vertices[at];
       v.x = static_cast<float>(p.x - x0) * kStep;
       v.y = static_cast<float>(p.y - y0) * kStep;
       v.z = static_cast<float>(p.z - z0) * kStep;
-      const auto [east, north] = gradient(row, column);
+      const auto [east, north] = gradient(heights, row, column);
       const Vec3 n = geometry_.normal(row, column, east, north);
       const auto byte = [](double c) {
         return static_cast<std::int8_t>(static_cast<int>(c * 127 + 127.5) - 127);
@@ -135,11 +140,11 @@ void TiledDatabase::buildTile(std::uint32_t node, TileMesh& mesh) const {
       v.normal[1] = byte(n.y);
       v.normal[2] = byte(n.z);
       v.slope = slopes[at];
-      const std::byte* colours = contents_.image ? contents_.image->row(row) : nullptr;
-      const auto* image =
+      const std::byte* colours = image ? image->row(row) : nullptr;
+      const auto* draped =
           colours ? reinterpret_cast<const std::uint8_t*>(colours + std::size_t{column} * 4) : nullptr;
-      if (image && image[3] != 0) {
-        std::copy_n(image, 3, v.colour);
+      if (draped && draped[3] != 0) {
+        std::copy_n(draped, 3, v.colour);
       } else {
         const auto colour = landCover(h, std::sqrt(east * east + north * north), latitude, row, column);
         std::copy_n(colour.data(), 3, v.colour);
@@ -161,10 +166,11 @@ std::optional<Metres> TiledDatabase::heightAt(Degrees latitude, Degrees longitud
   row = std::clamp(row, 0.0, posts.rows - 1.0);
   const auto c = std::min(static_cast<std::uint32_t>(column), posts.columns - 2);
   const auto r = std::min(static_cast<std::uint32_t>(row), posts.rows - 2);
-  if (!contents_.heights->row(r) || !contents_.heights->row(r + 1)) return {};
+  Rows rows(*contents_.heights);
+  if (!rows.row(r) || !rows.row(r + 1)) return {};
   const double u = column - c, v = row - r;
-  const double south = height(r, c) * (1 - u) + height(r, c + 1) * u;
-  const double north = height(r + 1, c) * (1 - u) + height(r + 1, c + 1) * u;
+  const double south = height(rows, r, c) * (1 - u) + height(rows, r, c + 1) * u;
+  const double north = height(rows, r + 1, c) * (1 - u) + height(rows, r + 1, c + 1) * u;
   return Metres{south * (1 - v) + north * v};
 }
 
@@ -198,36 +204,41 @@ std::optional<Metres> TiledDatabase::highestWithin(Degrees latitude, Degrees lon
       c1 = std::clamp(std::ceil(column + wide), 0.0, lastColumn);
     }
   }
+  Rows rows(*contents_.heights);
   std::optional<Metres> highest;
   for (std::uint32_t j = r0; j <= r1; ++j) {
     // No height is better than one that misses a hill.
-    if (!contents_.heights->row(j)) return {};
+    if (!rows.row(j)) return {};
     for (auto i = static_cast<std::uint32_t>(c0); i <= static_cast<std::uint32_t>(c1); ++i) {
-      if (highest && height(j, i) <= highest->value()) continue;
+      if (highest && height(rows, j, i) <= highest->value()) continue;
       const Vec3 d = geometry_.onEllipsoid(j, i) - centre;
-      if (dot(d, d) <= chord * chord) highest = Metres{height(j, i)};
+      if (dot(d, d) <= chord * chord) highest = Metres{height(rows, j, i)};
     }
   }
   return highest;
 }
 
-Findings TiledDatabase::damage() const {
+void append(Findings& all, const Findings& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+Findings TiledDatabase::rowDamage() const {
   Findings findings = contents_.heights->damage();
-  if (contents_.image) {
-    const Findings more = contents_.image->damage();
-    findings.insert(findings.end(), more.begin(), more.end());
-  }
+  if (contents_.image) append(findings, contents_.image->damage());
+  return findings;
+}
+
+Findings TiledDatabase::damage() const {
+  Findings findings = rowDamage();
+  for (const auto& pages : contents_.pageFiles) append(findings, pages->damage());
   return findings;
 }
 
 Findings TiledDatabase::checkAll() const {
   contents_.heights->checkAll();
   if (contents_.image) contents_.image->checkAll();
-  Findings findings = damage();
-  for (const auto& pages : contents_.pageFiles) {
-    const auto checked = pages->checkAll();
-    findings.insert(findings.end(), checked.findings().begin(), checked.findings().end());
-  }
+  Findings findings = rowDamage();
+  for (const auto& pages : contents_.pageFiles) append(findings, pages->checkAll().findings());
   return findings;
 }
 

@@ -86,11 +86,9 @@ Result<Done> joinGround(std::span<const std::filesystem::path> parts, const fs::
       if (place.level > 0)
         for (const GroundPlace& child : tilesBelow(shape->levels, place))
           if (auto joined = join(child, false); !joined) return joined;
-      const auto bytes = (*part)->read(key);
+      auto bytes = (*part)->read(key);
       if (!bytes) return damaged(parts[static_cast<std::size_t>(part - files.begin())], bytes.findings());
-      blob.assign(bytes->begin(), bytes->end());
-      // Else all of the ground would be in memory at the end.
-      (*part)->forget(key);
+      blob = std::move(bytes).value();
       if (wanted) tile = unpackGroundTile(blob);
       if (!tile) return tile;
     }

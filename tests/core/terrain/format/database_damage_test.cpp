@@ -1,4 +1,5 @@
 #include "tests/core/terrain/bake/bake_support.h"
+#include "trimtab/terrain/format/store.h"
 
 /// What a damaged database says.
 namespace trimtab::terrain {
@@ -16,8 +17,6 @@ TEST_F(DamagedDatabase, findsAFlippedByteInAnyFile) {
       const std::size_t at = whole.size() * static_cast<std::size_t>(k) / 40;
       std::string damaged = whole;
       damaged[at] = static_cast<char>(damaged[at] ^ (1 << k % 8));
-      // As another file: those that are mapped must not change under their readers.
-      fs::remove(file);
       test::writeFile(file, damaged);
       const auto opened = Database::open(dir_ / "db");
       if (opened) useAll(**opened);
@@ -58,6 +57,59 @@ TEST_F(DamagedDatabase, tellsNoHeightWhereItsRowsAreDamaged) {
   EXPECT_EQ(damage[0].where, file.string());
   EXPECT_NE(damage[0].key.find("rows 0 to"), std::string::npos);
   EXPECT_NE(damage[0].expected.find("checksum"), std::string::npos);
+}
+
+/// What a copy over an open database does: it cuts a file short and then fills it again.
+TEST_F(DamagedDatabase, cutShortWhileItIsOpenIsDamageAndNoCrash) {
+  ASSERT_TRUE(bake(options_));
+  const fs::path folder = dir_ / "db";
+  for (const std::uintmax_t left : {std::uintmax_t{0}, std::uintmax_t{5000}}) {
+    const fs::path copy = dir_ / ("cut-" + std::to_string(left));
+    fs::copy(folder, copy);
+    const auto opened = Database::open(copy);
+    ASSERT_TRUE(opened) << toString(opened.findings());
+    for (const char* name : {kHeightsName, kPatchesName, kGroundName}) fs::resize_file(copy / name, left);
+    useAll(**opened);
+    const GeodeticPosition at = (*opened)->info().northEast;
+    EXPECT_FALSE((*opened)->heightAt(at.latitude, at.longitude));
+    const std::string damage = toString((*opened)->damage());
+    EXPECT_NE(damage.find("cut short"), std::string::npos) << damage;
+    EXPECT_NE(damage.find(kHeightsName), std::string::npos) << damage;
+    const std::string all = toString((*opened)->checkAll());
+    for (const char* name : {kHeightsName, kPatchesName, kGroundName})
+      EXPECT_NE(all.find(name), std::string::npos) << all;
+  }
+}
+
+/// Rows that left memory are checked again, as their file may have changed.
+TEST_F(DamagedDatabase, keepsNoMoreRowsThanItMayAndChecksThemWhenTheyComeBack) {
+  constexpr std::uint32_t kRows = 4096;
+  constexpr std::size_t kRowBytes = 1024;
+  const std::uint32_t perBlock = CheckedRows::rowsPerBlock(kRowBytes);
+  std::vector<std::byte> bytes(kRows * kRowBytes);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::byte>(i / kRowBytes * 7 + i);
+  const auto write = [&] {
+    test::writeFile(dir_ / "rows", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  };
+  write();
+  CheckedRows::Sums sums(kRowBytes);
+  sums.add(bytes);
+  const auto file = StoredFile::open(dir_ / "rows");
+  ASSERT_TRUE(file);
+  const CheckedRows rows(*file, kRowBytes, kRows, sums.finish(), {}, 2 * perBlock * kRowBytes);
+  const auto isWhole = [&](std::uint32_t row) {
+    CheckedRows::Reader reader(rows);
+    const std::byte* at = reader.row(row);
+    return at && std::equal(at, at + kRowBytes, &bytes[row * kRowBytes]);
+  };
+  for (std::uint32_t row = 0; row < kRows; row += 37) EXPECT_TRUE(isWhole(row)) << row;
+  bytes[0] ^= std::byte{1};
+  write();
+  EXPECT_FALSE(isWhole(1)) << "the first block had left memory";
+  EXPECT_TRUE(isWhole(kRows - 1));
+  ASSERT_EQ(rows.damage().size(), 1u);
+  rows.checkAll();
+  EXPECT_EQ(rows.damage().size(), 1u) << "damage is told once";
 }
 
 TEST_F(DamagedDatabase, refusesATruncatedLongerOrAbsentFile) {

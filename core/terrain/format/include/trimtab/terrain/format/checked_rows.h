@@ -1,22 +1,22 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <span>
 #include <vector>
 
-#include "trimtab/terrain/format/mapped_file.h"
+#include "trimtab/terrain/format/stored_file.h"
 
 namespace trimtab::terrain {
 
-/// Rows of equal size in a mapped file. Each block of rows has a checksum, which is checked when a row of the
-/// block is first read, so that opening takes the same time for any size of file.
+/// Rows of equal size in a file. Each block of rows has a checksum, which is checked when the block is read,
+/// so that opening takes the same time for any size of file. Blocks stay in memory up to a limit; beyond it
+/// the one that was read first is dropped, and is checked again if it is read again.
 class CheckedRows {
  public:
   /// Returns how many rows make a block of about a quarter of a megabyte.
@@ -37,36 +37,61 @@ class CheckedRows {
 
   /// Tells whether the bytes of a block are valid values; if empty, all bytes are.
   using Sound = std::function<bool(std::span<const std::byte>)>;
-  /// `sums`: one per block; if empty, nothing is checked. The file must have `rowBytes` x `rows` bytes.
-  CheckedRows(std::shared_ptr<const MappedFile> mapped, std::size_t rowBytes, std::uint32_t rows,
-              std::vector<std::uint64_t> sums, Sound sound);
+  static constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+  /// `sums`: one per block. The file must have `rowBytes` x `rows` bytes. `mostBytes`: how much stays in
+  /// memory.
+  CheckedRows(std::shared_ptr<const StoredFile> file, std::size_t rowBytes, std::uint32_t rows,
+              std::vector<std::uint64_t> sums, Sound sound, std::size_t mostBytes = kMostBytes);
+
+  /// Reads rows; for one thread. It keeps the last blocks that it used, so that neighbouring rows cost
+  /// nothing.
+  class Reader {
+   public:
+    explicit Reader(const CheckedRows& rows) : rows_(rows) {}
+    /// Returns a row, which is valid until the next call, or null if its block is damaged.
+    const std::byte* row(std::uint32_t row) {
+      const std::uint32_t number = row / rows_.perBlock_;
+      Held& held = held_[number % held_.size()];
+      if (held.number != number) held = {number, rows_.block(number)};
+      if (!held.block) return nullptr;
+      return held.block->data() + std::size_t{row - number * rows_.perBlock_} * rows_.rowBytes_;
+    }
+
+   private:
+    struct Held {
+      std::uint32_t number = ~0u;
+      std::shared_ptr<const std::vector<std::byte>> block;
+    };
+    const CheckedRows& rows_;
+    std::array<Held, 4> held_;
+  };
 
   std::uint32_t rows() const { return rows_; }
-  /// Returns a row, or null if its block is damaged. Thread-safe.
-  const std::byte* row(std::uint32_t row) const {
-    if (!isGood(row / perBlock_)) return nullptr;
-    return mapped_->bytes().data() + std::size_t{row} * rowBytes_;
-  }
-  /// Checks every block.
+  /// Checks every block that was not found damaged before.
   void checkAll() const;
   /// Returns the damage found so far, at most 20 findings. Thread-safe.
   Findings damage() const;
 
  private:
-  bool isGood(std::uint32_t block) const {
-    const std::uint8_t state = states_[block].load(std::memory_order_acquire);
-    return state == kGood || (state == kUnknown && check(block));
-  }
-  bool check(std::uint32_t block) const;
+  using Block = std::vector<std::byte>;
+  struct Slot {
+    std::shared_ptr<const Block> block;
+    bool damaged = false;
+  };
+  /// Null if the block is damaged. Thread-safe.
+  std::shared_ptr<const Block> block(std::uint32_t number) const;
+  /// Reads and checks; null if the bytes are not what was written, which is then a finding.
+  std::shared_ptr<const Block> readBlock(std::uint32_t number, Findings& findings) const;
 
-  static constexpr std::uint8_t kUnknown = 0, kGood = 1, kBad = 2;
-  std::shared_ptr<const MappedFile> mapped_;
+  std::shared_ptr<const StoredFile> file_;
   std::size_t rowBytes_;
   std::uint32_t rows_, perBlock_;
   std::vector<std::uint64_t> sums_;
   Sound sound_;
-  std::unique_ptr<std::atomic<std::uint8_t>[]> states_;
+  std::size_t mostBlocks_;
   mutable std::mutex mutex_;
+  mutable std::vector<Slot> slots_;
+  mutable std::deque<std::uint32_t> inMemory_;  ///< in the order in which they were read
   mutable Findings damage_;
 };
 

@@ -62,8 +62,8 @@ class PatchTerrain;
 class Database : public GroundHeights {
  public:
   /// Opens a folder. Reads the indices, the static LOD and the slopes of tiles (a byte per cell); heights,
-  /// colours and meshes are mapped or paged later. On failure returns findings with file, place, expected and
-  /// found.
+  /// colours and meshes are read when they are used. On failure returns findings with file, place, expected
+  /// and found.
   static Result<std::shared_ptr<const Database>> open(const std::filesystem::path& folder);
 
   virtual const TerrainInfo& info() const = 0;
@@ -80,7 +80,7 @@ class Database : public GroundHeights {
   /// Returns the height of the highest post within `radius`, or none if no post is that near.
   virtual std::optional<Metres> highestWithin(Degrees latitude, Degrees longitude, Metres radius) const = 0;
   /// Returns the damage found so far; large files are checked as they are read. In a damaged block heights
-  /// are unknown, and the terrain's lowest height is drawn.
+  /// are unknown, and the terrain's lowest height is drawn; where a page is damaged, a coarser form is.
   virtual Findings damage() const { return {}; }
   /// Reads the whole database and returns all damage.
   virtual Findings checkAll() const { return {}; }

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "trimtab/terrain/format/page_file.h"
 #include "trimtab/terrain/grid/post_grid.h"
 #include "trimtab/units/result.h"
 
@@ -63,6 +64,10 @@ class GroundPyramid {
 
 /// Opens what buildGround wrote (trimtab/terrain/ground/build.h) for these posts.
 Result<std::shared_ptr<const GroundPyramid>> openGround(const std::filesystem::path& file,
+                                                        const PostGrid& posts);
+/// The same from a page file that is open; `file` is its name for messages.
+Result<std::shared_ptr<const GroundPyramid>> openGround(std::shared_ptr<const PageFile> pages,
+                                                        const std::filesystem::path& file,
                                                         const PostGrid& posts);
 
 /// Returns the key of a tile in the page file.

@@ -12,13 +12,12 @@
 ///
 /// The file has a header, blobs that begin at multiples of 16 bytes, and a table, ordered by key, with key,
 /// place, size and checksum of each. The header has the place and the checksum of the table, and its own
-/// checksum. All numbers are little-endian. Readers map the file, so that any number of programs share one
-/// copy in memory.
+/// checksum. All numbers are little-endian.
 namespace trimtab::terrain {
 
 class PageFile {
  public:
-  /// Maps a file and checks its header and table. Blobs are checked when they are read.
+  /// Opens a file and checks its header and table. Blobs are checked when they are read.
   static Result<std::shared_ptr<const PageFile>> open(const std::filesystem::path& file);
   virtual ~PageFile() = default;
 
@@ -28,11 +27,11 @@ class PageFile {
   virtual std::uint64_t checksum() const = 0;
   virtual bool has(std::uint64_t key) const = 0;
   virtual std::uint64_t bytesOf(std::uint64_t key) const = 0;  ///< 0 if there is no such blob
-  /// Returns a blob after comparing its checksum; valid as long as this object. It waits for the disk. Safe
-  /// on any thread.
-  virtual Result<std::span<const std::byte>> read(std::uint64_t key) const = 0;
-  /// Lets the system drop a blob from memory. What `read` returned stays valid.
-  virtual void forget(std::uint64_t key) const = 0;
+  /// Returns a copy of a blob after comparing its checksum. It waits for the disk. Safe on any thread.
+  virtual Result<std::vector<std::byte>> read(std::uint64_t key) const = 0;
+  /// Returns the blobs that could not be read so far, or were not what was written; at most 20. Safe on any
+  /// thread.
+  virtual Findings damage() const = 0;
   /// Compares the checksum of every blob.
   virtual Result<Done> checkAll() const = 0;
 };

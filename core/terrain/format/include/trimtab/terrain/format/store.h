@@ -37,7 +37,7 @@ inline constexpr std::size_t kMostTiledPosts = std::size_t{1} << 26;
 /// database, possibly damaged, and nothing else.
 bool mayReplace(const std::filesystem::path& folder);
 
-/// The contents of a database. Large files are mapped, not read.
+/// The contents of a database. Large files are read where they are used.
 struct Contents {
   TerrainInfo info;
   PostGrid posts;
