@@ -323,6 +323,8 @@ Result<Results> Run::all() {
   if (!failed.empty()) return failed;
   for (std::size_t flight = 0; flight < plan_.flights.size(); ++flight)
     if (failed = measureFlight(flight, results); !failed.empty()) return failed;
+  // Images of what the terrain did not hold are no measurement.
+  if (failed = plan_.terrain->damage(); !failed.empty()) return failed;
   results.comparisons = compareUnits(results.units);
   if (const auto done = store_.write("frames.csv", toCsv(results)); !done) return done.findings();
   if (const auto done = store_.write("results.json", toJson(results)); !done) return done.findings();

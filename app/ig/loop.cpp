@@ -96,6 +96,7 @@ class Loop {
     const FrameResult result = run_.renderer.draw(*request, run_.surface.framebuffer());
     run_.surface.present();
     const double end = link::now();
+    run_.damage.look(result.paging.failed);
     stages_.add(run_.session.finished(result, end));
     const double ms = (end - start) * 1e3;
     frameMs_.add(ms);
@@ -175,7 +176,7 @@ Result<Done> takeScreenshot(const Run& run, const Summary& summary, const std::f
   FrameRequest request = *summary.lastRequest;
   request.waitForPages = true;
   const ViewShape& view = request.view;
-  run.renderer.draw(request, run.surface.framebuffer());
+  run.damage.look(run.renderer.draw(request, run.surface.framebuffer()).paging.failed);
   return scene::writePng(file, run.renderer.readPixels(view.widthPx, view.heightPx), view.widthPx,
                          view.heightPx);
 }

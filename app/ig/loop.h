@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "damage.h"
 #include "feed.h"
 #include "preset_watch.h"
 #include "surface.h"
@@ -26,6 +27,7 @@ struct Run {
   scene::Renderer& renderer;
   Surface& surface;
   Feed& feed;
+  Damage& damage;
   TraceFile* trace = nullptr;
   PresetWatch* watch = nullptr;  ///< made before the preset is loaded, so that no change is missed
 };
@@ -33,6 +35,7 @@ struct Run {
 struct Summary {
   std::uint64_t frames = 0, packets = 0, decisionChanges = 0, jumps = 0, presetReloads = 0,
                 presetsRefused = 0;
+  std::uint64_t damagedPlaces = 0;  ///< of the terrain, that were read for an image
   std::uint64_t depthMapsDrawn = 0, horizonsBuilt = 0, overBudget = 0;
   double firstFrameTime = 0;  ///< link::now() when the first image was finished; 0: none
   double medianFrameMs = 0, p99FrameMs = 0;

@@ -117,24 +117,30 @@ int runWith(const Options& options) {
   session.setGround(*database);
   session.head() = std::move(head).value();
   session.keepRows(true);
+  Damage damage(**database, renderer);
   const Run run{options,
                 wake,
                 session,
                 renderer,
                 **surface,
                 **feed,
+                damage,
                 trace ? &*trace : nullptr,
                 watch ? &*watch : nullptr};
   if (options.listen || options.realtime) warmUp(run, **database);
-  const Summary summary = drawFrames(run);
+  Summary summary = drawFrames(run);
 
   bool written = true;
   if (trace) written &= accepted(trace->finish());
   if (!options.screenshot.empty()) written &= accepted(takeScreenshot(run, summary, options.screenshot));
+  summary.damagedPlaces = damage.places();
   written &= accepted(
       output.print(options.json ? summaryJson(summary, **feed, options, *gl) : summaryLine(summary, **feed)));
   renderer.release();
-  return written ? kDone : kRefused;
+  if (summary.damagedPlaces > 0)
+    std::cerr << "error: the images show less than " << options.terrain.string()
+              << " held: bake it again, or restore it from a copy" << std::endl;
+  return written && summary.damagedPlaces == 0 ? kDone : kRefused;
 }
 
 }  // namespace

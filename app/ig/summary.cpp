@@ -45,6 +45,7 @@ std::string summaryLine(const Summary& s, const Feed& feed) {
 std::string summaryJson(const Summary& s, const Feed& feed, const Options& options,
                         const scene::GlReport& gl) {
   nlohmann::ordered_json json;
+  if (s.damagedPlaces > 0) text += "; terrain damaged in " + std::to_string(s.damagedPlaces) + " places";
   json["frames"] = s.frames;
   json["packets"] = s.packets;
   json["decision_changes"] = s.decisionChanges;
@@ -60,6 +61,7 @@ std::string summaryJson(const Summary& s, const Feed& feed, const Options& optio
   json["frame_p99_ms"] = number(s.p99FrameMs);
   for (std::size_t i = 0; i < kCostStages.size(); ++i) {
     const Distribution& stage = s.stages[i];
+  json["damaged_places"] = s.damagedPlaces;
     json["stages_ms"][kCostStages[i].name] = {{"median", number(stage.median)},
                                               {"p95", number(stage.p95)},
                                               {"p99", number(stage.p99)},

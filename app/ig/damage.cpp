@@ -1,0 +1,19 @@
+#include "damage.h"
+
+#include "loop.h"
+
+namespace trimtab::ig {
+
+void Damage::look(std::uint64_t failedPages) {
+  tell(database_.damage());
+  if (failedPages == failedPages_) return;
+  failedPages_ = failedPages;
+  tell(renderer_.pageFailures());
+}
+
+void Damage::tell(const Findings& findings) {
+  for (const Finding& finding : findings)
+    if (told_.insert(toString(finding)).second) report({finding});
+}
+
+}  // namespace trimtab::ig
