@@ -77,7 +77,8 @@ class RealtimeFeed : public Feed {
 
 class LinkFeed : public Feed {
  public:
-  explicit LinkFeed(std::unique_ptr<link::Receiver> receiver) : receiver_(std::move(receiver)) {}
+  LinkFeed(std::unique_ptr<link::Receiver> receiver, std::string address)
+      : receiver_(std::move(receiver)), address_(std::move(address)) {}
   bool advance(Session& session, double) override {
     states_.clear();
     receiver_->take(states_);
@@ -88,13 +89,17 @@ class LinkFeed : public Feed {
   bool finished() const override { return false; }
   void ready() const override {
     // In one piece, for whoever waits for the line.
-    std::cerr << "listening on UDP port " + std::to_string(receiver_->port()) + "\n" << std::flush;
+    std::cerr << "listening on UDP port " + std::to_string(receiver_->port()) + " of " + address_ +
+                     ", sender: " + receiver_->senders().allowed + "\n"
+              << std::flush;
   }
   std::optional<HostStatistics> statistics() const override { return receiver_->statistics(); }
+  std::optional<link::Senders> senders() const override { return receiver_->senders(); }
   std::uint64_t dropped() const override { return receiver_->dropped(); }
 
  private:
   std::unique_ptr<link::Receiver> receiver_;
+  std::string address_;  ///< that it is bound to
   std::vector<ReceivedState> states_;
 };
 
@@ -141,6 +146,7 @@ Result<std::unique_ptr<Feed>> openFeed(const Options& options, const Wake& wake)
   receiver.port = *options.listen;
   receiver.bindAddress = options.bindAddress;
   receiver.group = options.group;
+  receiver.sender = options.sender;
   receiver.protocol = options.protocol;
   receiver.wake = [&wake] { wake.post(); };
   if (!options.reply.empty()) {
@@ -151,7 +157,7 @@ Result<std::unique_ptr<Feed>> openFeed(const Options& options, const Wake& wake)
   Result<std::unique_ptr<link::Receiver>> opened = link::Receiver::open(receiver);
   if (!opened) return opened.findings();
   Findings notes = opened.findings();
-  return {std::make_unique<LinkFeed>(std::move(opened).value()), std::move(notes)};
+  return {std::make_unique<LinkFeed>(std::move(opened).value(), options.bindAddress), std::move(notes)};
 }
 
 }  // namespace trimtab::ig

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/link/link.h"
 #include "options.h"
 #include "trimtab/session/session.h"
 #include "wake.h"
@@ -23,6 +24,7 @@ class Feed {
   virtual void ready() const {}
   /// Returns the statistics of the link; nothing for a flight.
   virtual std::optional<HostStatistics> statistics() const { return std::nullopt; }
+  virtual std::optional<link::Senders> senders() const { return std::nullopt; }
   virtual std::uint64_t dropped() const { return 0; }
 };
 

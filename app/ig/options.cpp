@@ -39,10 +39,17 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
                                                       {"cigi3", HostProtocol::cigi3}};
   auto* listen =
       app.add_option("--listen", options.listen, "UDP port of the host's packets; 0: any free one");
-  app.add_option("--bind", options.bindAddress, "address of the interface to listen on; 0.0.0.0: every one")
+  app.add_option(
+         "--bind", options.bindAddress,
+         "address of the interface to listen on; without it only this machine can send; 0.0.0.0: every one")
       ->needs(listen)
       ->capture_default_str();
   app.add_option("--group", options.group, "multicast group to join on that interface")->needs(listen);
+  app.add_option(
+         "--from", options.sender,
+         "who may send: any, first (the first one to send a good packet, from then on), or an address")
+      ->needs(listen)
+      ->capture_default_str();
   app.add_option("--reply", options.reply, "HOST:PORT that gets a Start of Frame for each frame's time")
       ->needs(listen);
   app.add_option("--protocol", options.protocol, "auto, native-fdm or cigi3")
@@ -71,11 +78,11 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
     if (!options.listen && options.flight.empty()) throw CLI::RequiredError("--listen or --flight");
   } catch (const CLI::ParseError& error) {
     exitCode = app.exit(error) == 0 ? kDone : kUsage;
+    // Help or version that a full disk took.
+    if (exitCode == kDone && (std::fflush(stdout) != 0 || !std::cout)) exitCode = kRefused;
     return std::nullopt;
   }
   return options;
 }
 
 }  // namespace trimtab::ig
-    // Help or version that a full disk took.
-    if (exitCode == kDone && (std::fflush(stdout) != 0 || !std::cout)) exitCode = kRefused;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "app/link/link.h"
 #include "trimtab/preset/parameters.h"
 
 namespace trimtab::ig {
@@ -15,8 +16,9 @@ struct Options {
   std::string preset;  ///< a file, or a shipped preset's name
   std::filesystem::path terrain;
   std::optional<std::uint16_t> listen;
-  std::string bindAddress = "0.0.0.0", group;  ///< of the port that is listened on
-  std::string reply;                           ///< HOST:PORT, empty for none
+  std::string bindAddress = link::kOwnMachine, group;  ///< of the port that is listened on
+  std::string sender = link::kAnyone;                  ///< see link::ReceiverOptions::sender
+  std::string reply;                                   ///< HOST:PORT, empty for none
   HostProtocol protocol = HostProtocol::automatic;
   std::filesystem::path flight;
   std::string head;          ///< a head log or a sweep; empty: the head in the states

@@ -31,6 +31,13 @@ std::string summaryLine(const Summary& s, const Feed& feed) {
   std::string text = std::to_string(s.frames) + " frames, " + std::to_string(s.packets) + " packets";
   if (const std::optional<HostStatistics> host = feed.statistics()) {
     text += ", lost " + (host->lost ? std::to_string(*host->lost) : std::string("unknown"));
+    const auto append = [&text](const char* name, std::uint64_t count) {
+      if (count > 0) text += std::string(", ") + name + ' ' + std::to_string(count);
+    };
+    append("late", host->reordered);
+    append("repeated", host->repeated);
+    append("implausible", host->implausible);
+    if (const auto senders = feed.senders()) append("of refused senders", senders->refused);
     text += ", bad " + std::to_string(host->bad) + ", dropped " + std::to_string(feed.dropped());
     text += "; kernel to decoded p99 " + milliseconds(s.decodedP99Ms);
   }
@@ -38,6 +45,7 @@ std::string summaryLine(const Summary& s, const Feed& feed) {
     text += "; packet to finished picture p99 " + milliseconds(s.shownP99Ms) + " (" +
             shortNumber(s.shownP99Ms / s.medianFrameMs) +
             " frames; overtaken packets too: " + milliseconds(s.everyP99Ms) + ")";
+  if (s.damagedPlaces > 0) text += "; terrain damaged in " + std::to_string(s.damagedPlaces) + " places";
   return text + "; frame median " + milliseconds(s.medianFrameMs) + ", p99 " + milliseconds(s.p99FrameMs) +
          ", " + std::to_string(s.overBudget) + " over budget";
 }
@@ -45,7 +53,6 @@ std::string summaryLine(const Summary& s, const Feed& feed) {
 std::string summaryJson(const Summary& s, const Feed& feed, const Options& options,
                         const scene::GlReport& gl) {
   nlohmann::ordered_json json;
-  if (s.damagedPlaces > 0) text += "; terrain damaged in " + std::to_string(s.damagedPlaces) + " places";
   json["frames"] = s.frames;
   json["packets"] = s.packets;
   json["decision_changes"] = s.decisionChanges;
@@ -54,6 +61,7 @@ std::string summaryJson(const Summary& s, const Feed& feed, const Options& optio
   json["horizons_built"] = s.horizonsBuilt;
   json["over_budget"] = s.overBudget;
   json["preset_reloads"] = s.presetReloads;
+  json["damaged_places"] = s.damagedPlaces;
   json["presets_refused"] = s.presetsRefused;
   json["first_frame_unix_s"] =
       s.firstFrameTime > 0 ? nlohmann::ordered_json(s.firstFrameTime) : nlohmann::ordered_json();
@@ -61,7 +69,6 @@ std::string summaryJson(const Summary& s, const Feed& feed, const Options& optio
   json["frame_p99_ms"] = number(s.p99FrameMs);
   for (std::size_t i = 0; i < kCostStages.size(); ++i) {
     const Distribution& stage = s.stages[i];
-  json["damaged_places"] = s.damagedPlaces;
     json["stages_ms"][kCostStages[i].name] = {{"median", number(stage.median)},
                                               {"p95", number(stage.p95)},
                                               {"p99", number(stage.p99)},
@@ -77,6 +84,12 @@ std::string summaryJson(const Summary& s, const Feed& feed, const Options& optio
     json["host"] = {
         {"received", host->received}, {"states", host->states},       {"bad", host->bad},
         {"repeated", host->repeated}, {"reordered", host->reordered}, {"dropped", feed.dropped()}};
+    json["host"]["implausible"] = host->implausible;
+    if (const auto senders = feed.senders()) {
+      json["host"]["sender"] = senders->allowed;
+      json["host"]["refused_senders"] = senders->refused;
+      if (senders->refused > 0) json["host"]["last_refused_sender"] = senders->lastRefused;
+    }
     json["host"]["symbol_packets"] = host->symbolPackets;
     json["host"]["refused_symbols"] = host->refusedSymbols;
     if (host->refusedSymbols > 0) json["host"]["first_refused_symbol"] = host->firstSymbolReason;

@@ -25,10 +25,24 @@ struct Endpoint {
 /// Reads "host:port"; a port alone means 127.0.0.1.
 Result<Endpoint> parseEndpoint(const std::string& text);
 
+/// Unless told otherwise, nobody on the network reaches a receiver.
+inline constexpr const char *kOwnMachine = "127.0.0.1", *kAnyone = "any", *kFirst = "first";
+
+/// Who may send to a receiver, and who tried without being allowed.
+struct Senders {
+  std::string allowed;        ///< an address, kAnyone, or kFirst before the first
+  std::uint64_t refused = 0;  ///< datagrams
+  std::string lastRefused;    ///< "192.168.1.7:5500"; empty if none was
+};
+
 struct ReceiverOptions {
-  std::uint16_t port = 0;               ///< 0: any free port
-  std::string bindAddress = "0.0.0.0";  ///< the interface's address; 0.0.0.0: every interface
-  std::string group{};                  ///< a multicast group to join there, or empty
+  std::uint16_t port = 0;                 ///< 0: any free port
+  std::string bindAddress = kOwnMachine;  ///< the interface's address; 0.0.0.0: every interface
+  std::string group{};                    ///< a multicast group to join there, or empty
+  /// Who may send: kAnyone, kFirst (the address of the first good datagram is held from then on), or the
+  /// address or name of a host. The datagrams of others are counted and thrown away. The port of the sender
+  /// does not matter.
+  std::string sender = kAnyone;
   HostProtocol protocol = HostProtocol::automatic;
   std::optional<Endpoint> reply;  ///< where Start of Frame is sent, `replyRateHz` times per second
   double replyRateHz = 60;        ///< 0.001..10000
@@ -40,7 +54,8 @@ struct ReceiverOptions {
 /// dropped and counted.
 class Receiver {
  public:
-  /// Opens the socket and starts the thread. Fails if the port is in use, and names it.
+  /// Opens the socket and starts the thread. Fails if the port is in use, and names it. Looking up a name may
+  /// wait for a name server.
   static Result<std::unique_ptr<Receiver>> open(const ReceiverOptions& options);
   virtual ~Receiver() = default;  ///< stops the thread and closes the socket
 
@@ -48,8 +63,10 @@ class Receiver {
   /// Returns in `states` all states since the last call, in order of arrival.
   virtual void take(std::vector<ReceivedState>& states) = 0;
   virtual HostStatistics statistics() const = 0;
+  virtual Senders senders() const = 0;
   virtual std::uint64_t dropped() const = 0;
-  /// Passes every datagram from now on to `tap`, on the receiver's thread, for recording. Null ends this.
+  /// Passes every datagram of an allowed sender from now on to `tap`, on the receiver's thread, for
+  /// recording. Null ends this.
   virtual void tap(std::function<void(const Datagram&)> tap) = 0;
 };
 

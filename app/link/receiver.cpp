@@ -26,10 +26,43 @@ double seconds(const timespec& t) {
   return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec) * 1e-9;
 }
 
+/// Lets through whom the options allow.
+class Gate {
+ public:
+  Gate(const std::string& allowed, std::optional<in_addr> address, std::optional<in_addr> group)
+      : address_(address), group_(group) {
+    senders_.allowed = allowed;
+  }
+  /// `to`: where the datagram was addressed to.
+  bool isOpenTo(const sockaddr_in& sender, const in_addr& to) {
+    // A member of a group is bound to every interface, and listens to no one who addresses it directly from
+    // elsewhere.
+    constexpr std::uint32_t kLoopback = 127;
+    const bool addressed = !group_ || to.s_addr == group_->s_addr || ntohl(to.s_addr) >> 24U == kLoopback;
+    if (addressed && (!address_ || address_->s_addr == sender.sin_addr.s_addr)) return true;
+    ++senders_.refused;
+    senders_.lastRefused = addressText(sender);
+    return false;
+  }
+  /// A stray datagram that means nothing must not shut the host out, so only good ones count.
+  void heardGood(const sockaddr_in& sender) {
+    if (address_ || senders_.allowed != kFirst) return;
+    address_ = sender.sin_addr;
+    senders_.allowed = addressText(sender);
+    senders_.allowed.erase(senders_.allowed.rfind(':'));
+  }
+  const Senders& senders() const { return senders_; }
+
+ private:
+  std::optional<in_addr> address_;  ///< the only one that is allowed
+  std::optional<in_addr> group_;
+  Senders senders_;
+};
+
 class UdpReceiver final : public Receiver {
  public:
   UdpReceiver(Descriptor socket, Descriptor stop, std::uint16_t port, const ReceiverOptions& options,
-              std::optional<sockaddr_in> reply)
+              std::optional<sockaddr_in> reply, Gate gate)
       : socket_(std::move(socket)),
         stop_(std::move(stop)),
         port_(port),
@@ -37,7 +70,8 @@ class UdpReceiver final : public Receiver {
         replyPeriod_(std::chrono::duration_cast<Clock::duration>(
             std::chrono::duration<double>(1 / options.replyRateHz))),
         wake_(options.wake),
-        decoder_(options.protocol) {
+        decoder_(options.protocol),
+        gate_(std::move(gate)) {
     queue_.reserve(kQueue);
     thread_ = std::thread([this] { run(); });
   }
@@ -63,6 +97,10 @@ class UdpReceiver final : public Receiver {
     HostStatistics statistics = statistics_;
     statistics.rateHz = now() - statistics.lastArrival < 1 ? statistics.rateHz : 0;
     return statistics;
+  }
+  Senders senders() const override {
+    const std::lock_guard lock(mutex_);
+    return gate_.senders();
   }
   std::uint64_t dropped() const override {
     const std::lock_guard lock(mutex_);
@@ -100,6 +138,7 @@ class UdpReceiver final : public Receiver {
   std::size_t oldest_ = 0;
   std::uint64_t dropped_ = 0;
   HostStatistics statistics_;
+  Gate gate_;
 
   std::thread thread_;
 };
@@ -134,7 +173,7 @@ void UdpReceiver::run() {
 }
 
 bool UdpReceiver::receiveOne() {
-  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(timespec))> control;
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(in_pktinfo))> control;
   sockaddr_in sender{};
   iovec data{buffer_.data(), buffer_.size()};
   msghdr message{};
@@ -147,11 +186,21 @@ bool UdpReceiver::receiveOne() {
   const ssize_t length = ::recvmsg(socket_.get(), &message, MSG_DONTWAIT);
   if (length < 0) return errno == EINTR;
   double kernelTime = 0;
+  in_addr to{};
   for (cmsghdr* c = CMSG_FIRSTHDR(&message); c; c = CMSG_NXTHDR(&message, c)) {
+    if (c->cmsg_level == IPPROTO_IP && c->cmsg_type == IP_PKTINFO) {
+      in_pktinfo info{};
+      std::memcpy(&info, CMSG_DATA(c), sizeof info);
+      to = info.ipi_addr;
+    }
     if (c->cmsg_level != SOL_SOCKET || c->cmsg_type != SCM_TIMESTAMPNS) continue;
     timespec stamp{};
     std::memcpy(&stamp, CMSG_DATA(c), sizeof stamp);
     kernelTime = seconds(stamp);
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    if (!gate_.isOpenTo(sender, to)) return true;
   }
   if (sender.sin_addr.s_addr != sender_.sin_addr.s_addr || sender.sin_port != sender_.sin_port ||
       from_.empty()) {
@@ -172,7 +221,9 @@ void UdpReceiver::accept(std::span<const std::byte> bytes, double kernelTime) {
   }
   {
     const std::lock_guard lock(mutex_);
-    statistics_ = decoder_.statistics();
+    const HostStatistics& now = decoder_.statistics();
+    if (now.bad == statistics_.bad) gate_.heardGood(sender_);
+    statistics_ = now;
     if (state) {
       const ReceivedState received{*state, kernelTime, decodedTime, decoder_.symbols()};
       if (queue_.size() < kQueue) {
@@ -239,6 +290,12 @@ Result<std::unique_ptr<Receiver>> Receiver::open(const ReceiverOptions& options)
     if (!resolved) return resolved.findings();
     reply = *resolved;
   }
+  std::optional<in_addr> only;
+  if (options.sender != kAnyone && options.sender != kFirst) {
+    const auto resolved = resolve({options.sender, 0});
+    if (!resolved) return resolved.findings();
+    only = resolved->sin_addr;
+  }
   Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   Descriptor stop(::eventfd(0, EFD_CLOEXEC));
   if (socket.get() < 0 || stop.get() < 0) return failure("a UDP socket", std::strerror(errno));
@@ -246,6 +303,7 @@ Result<std::unique_ptr<Receiver>> Receiver::open(const ReceiverOptions& options)
   ::setsockopt(socket.get(), SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
   ::setsockopt(socket.get(), SOL_SOCKET, SO_RCVBUF, &room, sizeof room);
   sockaddr_in address = *own;
+  std::optional<in_addr> group;
   if (options.group.empty()) {
     // No SO_REUSEADDR: two receivers on one port would share its datagrams, and neither would know.
   } else {
@@ -255,6 +313,9 @@ Result<std::unique_ptr<Receiver>> Receiver::open(const ReceiverOptions& options)
     address.sin_addr.s_addr = htonl(INADDR_ANY);
     const Result<Done> joined = join(socket.get(), options.group, own->sin_addr, where);
     if (!joined) return joined.findings();
+    group.emplace();
+    static_cast<void>(inet_pton(AF_INET, options.group.c_str(), &*group));
+    ::setsockopt(socket.get(), IPPROTO_IP, IP_PKTINFO, &on, sizeof on);
   }
   if (::bind(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
     const std::string port = std::to_string(options.port);
@@ -264,7 +325,8 @@ Result<std::unique_ptr<Receiver>> Receiver::open(const ReceiverOptions& options)
   socklen_t size = sizeof address;
   ::getsockname(socket.get(), reinterpret_cast<sockaddr*>(&address), &size);
   return std::unique_ptr<Receiver>(std::make_unique<UdpReceiver>(std::move(socket), std::move(stop),
-                                                                 ntohs(address.sin_port), options, reply));
+                                                                 ntohs(address.sin_port), options, reply,
+                                                                 Gate(options.sender, only, group)));
 }
 
 }  // namespace trimtab::link
