@@ -1,3 +1,6 @@
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -8,10 +11,10 @@
 
 #include "trimtab/host/byte_order.h"
 #include "trimtab/host/flight.h"
+#include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
 
 namespace trimtab {
-#include "trimtab/preset/file_io.h"
 namespace {
 
 constexpr std::size_t kFileHeader = 24, kRecordHeader = 16;
@@ -231,24 +234,93 @@ void appendRecord(std::vector<std::byte>& out, const CapturedDatagram& datagram)
   std::copy(datagram.bytes.begin(), datagram.bytes.end(), ip.begin() + kIpHeader + kUdpHeader);
 }
 
-}  // namespace
-
-Result<Done> writePcap(const std::filesystem::path& file, std::span<const CapturedDatagram> datagrams) {
+std::vector<std::byte> fileHeader() {
   constexpr std::uint32_t kMagic = 0xa1b2c3d4;
-  constexpr std::size_t kLongestPayload = 65507;
   std::vector<std::byte> out(kFileHeader);
   wire::put(out, 0, ByteOrder::little, kMagic);
   wire::put(out, 4, ByteOrder::little, std::uint16_t{2});
   wire::put(out, 6, ByteOrder::little, std::uint16_t{4});
   wire::put(out, 16, ByteOrder::little, kLongestRecord);
   wire::put(out, 20, ByteOrder::little, std::uint32_t{kRaw});
+  return out;
+}
+
+Result<Done> appendRecords(std::vector<std::byte>& out, const std::filesystem::path& file,
+                           std::span<const CapturedDatagram> datagrams) {
+  constexpr std::size_t kLongestPayload = 65507;
   for (const CapturedDatagram& datagram : datagrams) {
     if (datagram.bytes.size() > kLongestPayload)
       return Finding{Severity::error, file.string(), "datagram", "at most 65507 bytes",
                      std::to_string(datagram.bytes.size())};
     appendRecord(out, datagram);
   }
+  return Done{};
+}
+
+Finding unwritable(const std::filesystem::path& file, int error) {
+  return {Severity::error, file.string(), "", "room and permission to write it",
+          std::generic_category().message(error)};
+}
+
+/// Returns 0 or the error number.
+int writeAll(int handle, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(handle, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return count < 0 ? errno : ENOSPC;
+    bytes = bytes.subspan(static_cast<std::size_t>(count));
+  }
+  return 0;
+}
+
+}  // namespace
+
+Result<Done> writePcap(const std::filesystem::path& file, std::span<const CapturedDatagram> datagrams) {
+  std::vector<std::byte> out = fileHeader();
+  if (auto done = appendRecords(out, file, datagrams); !done) return done;
   return writeAtomically(file, {reinterpret_cast<const char*>(out.data()), out.size()});
+}
+
+Result<PcapWriter> PcapWriter::open(const std::filesystem::path& file) {
+  const int handle = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (handle < 0) return unwritable(file, errno);
+  PcapWriter writer(file, handle);
+  const std::vector<std::byte> header = fileHeader();
+  if (const int error = writeAll(handle, header); error != 0) return unwritable(file, error);
+  writer.bytes_ = header.size();
+  return writer;
+}
+
+PcapWriter::PcapWriter(PcapWriter&& other) noexcept
+    : file_(std::move(other.file_)),
+      handle_(std::exchange(other.handle_, -1)),
+      bytes_(other.bytes_),
+      size_(other.size_) {}
+
+PcapWriter::~PcapWriter() {
+  if (handle_ >= 0) ::close(handle_);
+}
+
+Result<Done> PcapWriter::add(std::span<const CapturedDatagram> datagrams) {
+  std::vector<std::byte> out;
+  if (auto done = appendRecords(out, file_, datagrams); !done) return done;
+  if (const int error = writeAll(handle_, out); error != 0) {
+    // A part of a record would be read as one that was cut short.
+    const auto end = static_cast<off_t>(bytes_);
+    if (::ftruncate(handle_, end) == 0) static_cast<void>(::lseek(handle_, end, SEEK_SET));
+    return unwritable(file_, error);
+  }
+  bytes_ += out.size();
+  size_ += datagrams.size();
+  return Done{};
+}
+
+Result<Done> PcapWriter::close() {
+  const bool good = ::fsync(handle_) == 0 || errno == EINVAL;
+  const int error = errno;
+  const bool closed = ::close(std::exchange(handle_, -1)) == 0;
+  if (good && closed) return Done{};
+  return unwritable(file_, good ? errno : error);
 }
 
 }  // namespace trimtab

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <functional>
 #include <thread>
 
 #include "tests/support.h"
@@ -96,6 +97,67 @@ TEST(FeedCommand, recordsWhatItPlaysAndTheRecordingPlaysAgain) {
     const auto second = readFlight(dir / "again.csv");
     ASSERT_TRUE(second) << toString(second.findings());
     EXPECT_GE(second->states.size(), 50U);
+  }
+}
+
+TEST(FeedCommand, losesNoRecordingHoweverItIsStopped) {
+  const std::pair<const char*, int> cases[] = {
+      {"out.csv", SIGTERM}, {"out.csv", SIGHUP}, {"out.csv", SIGKILL}, {"out.pcap", SIGKILL}};
+  for (const auto& [name, signal] : cases) {
+    SCOPED_TRACE(name + std::string(" ") + std::to_string(signal));
+    ScratchDir dir;
+    const std::string out = (dir / name).string(), port = freePort();
+    Background recorder({program("trimtab-cli").string(), "feed", "record", "--listen", port, "-o", out},
+                        dir / "err");
+    waitFor(dir / "err", "listening");
+    const Ran played = run(cli() + " feed play " + aFlight(dir) + " --to " + port +
+                           " --protocol cigi3 --rate-hz 0 --speed 5");
+    EXPECT_EQ(played.exitCode, 0) << played.err;
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // the last packets, under load
+    const bool killed = signal == SIGKILL;
+    EXPECT_EQ(recorder.end(signal), killed ? 128 + SIGKILL : 0) << readFile(dir / "err");
+    EXPECT_EQ(std::filesystem::exists(out), !killed);
+    EXPECT_EQ(std::filesystem::exists(out + ".part"), killed);
+    const auto flight = readFlight(killed ? out + ".part" : out);
+    ASSERT_TRUE(flight) << toString(flight.findings());
+    EXPECT_EQ(flight->states.size(), 20U);
+    if (!killed) continue;
+    const Ran again = run(cli() + " feed record --listen " + freePort() + " --seconds 0.1 -o " + out);
+    EXPECT_EQ(again.exitCode, 1);
+    EXPECT_NE(again.err.find("plays as it is"), std::string::npos) << again.err;
+    EXPECT_TRUE(readFlight(out + ".part")) << "still there";
+  }
+}
+
+TEST(FeedCommand, keepsWhatItRecordedBeforeTheDiskWasFull) {
+  ScratchDir dir;
+  const std::string port = freePort(), out = (dir / "out.csv").string();
+  // A limit on the size of files does what a full disk does.
+  Background recorder(
+      {"/bin/bash", "-c",
+       "trap '' XFSZ; ulimit -f 8; exec " + cli() + " feed record --listen " + port + " -o " + out},
+      dir / "err");
+  waitFor(dir / "err", "listening");
+  run(cli() + " feed play " + aFlight(dir) + " --to " + port + " --protocol cigi3 --rate-hz 100");
+  EXPECT_EQ(recorder.end(), 1) << "it ends by itself";
+  EXPECT_NE(readFile(dir / "err").find("datagrams are kept there"), std::string::npos)
+      << readFile(dir / "err");
+  const auto flight = readFlight(out + ".part");
+  ASSERT_TRUE(flight) << toString(flight.findings());
+  EXPECT_GT(flight->states.size(), 20U);
+  EXPECT_LT(flight->states.size(), 191U);
+}
+
+TEST(FeedCommand, refusesATargetBeforeItListens) {
+  ScratchDir dir;
+  std::filesystem::create_directory(dir / "folder");
+  writeFile(dir / "file", "");
+  for (const std::string& target : {(dir / "folder").string(), (dir / "file/out.pcap").string(),
+                                    std::string("/dev/full"), std::string("/proc/out.pcap")}) {
+    const Ran ran = run(cli() + " feed record --listen " + freePort() + " --seconds 0.1 -o " + target);
+    EXPECT_EQ(ran.exitCode, 1) << target;
+    EXPECT_EQ(ran.err.find("listening"), std::string::npos) << target << '\n' << ran.err;
+    EXPECT_NE(ran.err.find(target), std::string::npos) << ran.err;
   }
 }
 

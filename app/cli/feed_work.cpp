@@ -1,0 +1,99 @@
+#include "feed_work.h"
+
+#include <csignal>
+#include <cstdio>
+#include <thread>
+
+namespace trimtab::cli {
+namespace {
+
+volatile std::sig_atomic_t stopped = 0;
+
+const char* protocolText(WireProtocol protocol) {
+  switch (protocol) {
+    case WireProtocol::native_fdm:
+      return "native-fdm";
+    case WireProtocol::cigi3:
+      return "cigi3";
+    case WireProtocol::none:
+      break;
+  }
+  return "no host";
+}
+
+}  // namespace
+
+void catchStop() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { stopped = 1; };
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+  struct sigaction before {};
+  ::sigaction(SIGHUP, nullptr, &before);
+  // nohup has the signal ignored, and means it.
+  if (before.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);
+}
+
+bool isStopped() {
+  return stopped != 0;
+}
+
+void nap() {
+  std::this_thread::sleep_for(std::chrono::milliseconds(5));
+}
+
+Result<std::unique_ptr<link::Receiver>> openReceiver(const FeedOptions& options) {
+  link::ReceiverOptions how;
+  how.port = static_cast<std::uint16_t>(options.listen);
+  how.bindAddress = options.bind;
+  how.sender = options.from;
+  how.protocol = options.listenProtocol == "native-fdm" ? HostProtocol::native_fdm
+                 : options.listenProtocol == "cigi3"    ? HostProtocol::cigi3
+                                                        : HostProtocol::automatic;
+  if (!options.reply.empty()) {
+    const auto reply = link::parseEndpoint(options.reply);
+    if (!reply) return reply.findings();
+    how.reply = *reply;
+  }
+  return link::Receiver::open(how);
+}
+
+void sayListening(const FeedOptions& options, const link::Receiver& receiver) {
+  std::fprintf(stderr, "listening on port %u of %s, sender: %s\n", static_cast<unsigned>(receiver.port()),
+               options.bind.c_str(), receiver.senders().allowed.c_str());
+}
+
+std::string health(const HostStatistics& s, const link::Senders& senders) {
+  char text[256];
+  std::snprintf(text, sizeof text, "%s %.2f Hz jitter %.3f ms lost %s bad %llu", protocolText(s.protocol),
+                s.rateHz, s.jitterMs, s.lost ? std::to_string(*s.lost).c_str() : "n/a",
+                static_cast<unsigned long long>(s.bad));
+  std::string line = text;
+  const auto append = [&line](const char* name, std::uint64_t count) {
+    if (count > 0) line += std::string(" ") + name + ' ' + std::to_string(count);
+  };
+  append("truncated", s.truncated);
+  append("not-ready", s.notReady);
+  append("repeated", s.repeated);
+  append("late", s.reordered);
+  append("implausible", s.implausible);
+  append("restarts", s.restarts);
+  append("silences", s.silences);
+  append("jumps", s.jumps);
+  append("regional-weather", s.regionalWeather);
+  append("other-weather-layers", s.otherLayers);
+  append("symbol-packets", s.symbolPackets);
+  append("refused-symbols", s.refusedSymbols);
+  append("of-refused-senders", senders.refused);
+  if (senders.refused > 0) line += " last " + senders.lastRefused;
+  return line;
+}
+
+void printFirstBad(const HostStatistics& s) {
+  if (!s.firstSymbolReason.empty())
+    std::fprintf(stderr, "first refused symbol packet: %s\n", s.firstSymbolReason.c_str());
+  if (s.firstBadReason.empty()) return;
+  std::fprintf(stderr, "first bad datagram: %s\n  %s\n", s.firstBadReason.c_str(), s.firstBadHex.c_str());
+}
+
+}  // namespace trimtab::cli
