@@ -68,6 +68,23 @@ class Job {
         memory_(static_cast<std::size_t>(std::max(64.0, options.memory.value()) * 1e6)) {}
 
   Result<std::shared_ptr<const Database>> whole(bool join) {
+    auto made = makeWhole(join);
+    return made ? made : withRest(made.findings());
+  }
+
+  Result<Done> part(std::uint32_t part, std::uint32_t parts) {
+    auto made = makeOnePart(part, parts);
+    return made ? made : withRest(made.findings());
+  }
+
+ private:
+  /// Names the work that is kept when a bake ends early: it may be what fills the disk.
+  Findings withRest(Findings why) const {
+    if (work_ && !work_->journal().empty()) why.push_back(work_->kept());
+    return why;
+  }
+
+  Result<std::shared_ptr<const Database>> makeWhole(bool join) {
     if (auto begun = begin(join ? WorkFolder::Use::join : WorkFolder::Use::alone); !begun)
       return begun.findings();
     if (join) {
@@ -81,7 +98,7 @@ class Job {
     return Result<std::shared_ptr<const Database>>(*database, findings_);
   }
 
-  Result<Done> part(std::uint32_t part, std::uint32_t parts) {
+  Result<Done> makeOnePart(std::uint32_t part, std::uint32_t parts) {
     if (parts > kMostBakeParts)
       return refused("bake", "at most " + std::to_string(kMostBakeParts) + " parts", std::to_string(parts));
     if (part < 1 || part > parts)
@@ -91,7 +108,6 @@ class Job {
     return Result<Done>(Done{}, findings_);
   }
 
- private:
   /// Scenery's trees take three quarters of the time, where there are any.
   Progress stage(double from, double to) const {
     return [this, from, to](double fraction, const std::string& what) {

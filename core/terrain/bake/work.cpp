@@ -215,6 +215,17 @@ Result<Done> WorkFolder::beginAnew() {
   return Done{};
 }
 
+Finding WorkFolder::kept() const {
+  constexpr std::uintmax_t kMB = 1000000;
+  std::uintmax_t bytes = 0;
+  std::error_code error, gone;
+  for (fs::recursive_directory_iterator entry(path_, error), end; !error && entry != end;
+       entry.increment(error))
+    if (entry->is_regular_file(gone)) bytes += entry->file_size(gone);
+  return {Severity::note, path_.string(), "", "another bake of the same, which goes on from here",
+          std::to_string(bytes / kMB + 1) + " MB of finished work; remove the folder to free the disk"};
+}
+
 std::vector<std::string> WorkFolder::journal() const {
   std::vector<std::string> lines;
   std::ifstream in(path_ / "journal");

@@ -50,6 +50,8 @@ class WorkFolder {
   std::filesystem::path pieces() const { return path_ / "pieces"; }
   bool resumed() const { return resumed_; }
 
+  /// Returns a note of how much finished work there is, and how to go on.
+  Finding kept() const;
   /// Removes all work. The caller must have opened the folder for `alone` or `join`.
   Result<Done> beginAnew();
 
