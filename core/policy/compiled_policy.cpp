@@ -6,70 +6,61 @@
 #include "membership_at.h"
 
 namespace trimtab {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
 
 template <PolicyNorm kNorm>
-double CompiledPolicy::conditionOf(const Rule& rule, const double* memberships) const {
-  const auto both = [](double a, double b) { return kNorm == PolicyNorm::minimum ? std::min(a, b) : a * b; };
-  const auto either = [](double a, double b) {
-    return kNorm == PolicyNorm::minimum ? std::max(a, b) : a + b - a * b;
+void CompiledPolicy::computeParts(double* values) const {
+  const Operands* at = operands_.data();
+  double* next = values + terms_.size() + 1;
+  const auto each = [&](std::uint32_t parts, auto&& compute) {
+    for (const Operands* const end = at + parts; at != end; ++at)
+      *next++ = compute(values[at->a], values[at->b]);
   };
-  double below[kMostConditionParts];  // the compiler allows no more steps than places
-  std::size_t depth = 0;
-  double top = 0;
-  for (const Step step : std::span(steps_).subspan(rule.firstStep, rule.steps)) switch (step.op) {
-      case Op::push:
-        below[depth++] = top;
-        [[fallthrough]];
-      case Op::first:
-        top = memberships[step.term];
-        break;
-      case Op::both_term:
-        top = both(top, memberships[step.term]);
-        break;
-      case Op::either_term:
-        top = either(top, memberships[step.term]);
-        break;
+  for (const Run run : runs_) switch (run.op) {
       case Op::both:
-        top = both(below[--depth], top);
+        each(run.parts,
+             [](double a, double b) { return kNorm == PolicyNorm::minimum ? std::min(a, b) : a * b; });
         break;
       case Op::either:
-        top = either(below[--depth], top);
+        each(run.parts, [](double a, double b) {
+          return kNorm == PolicyNorm::minimum ? std::max(a, b) : a + b - a * b;
+        });
         break;
       case Op::invert:
-        top = 1 - top;
+        each(run.parts, [](double a, double) { return 1 - a; });
         break;
       case Op::very:
-        top *= top;
+        each(run.parts, [](double a, double) { return a * a; });
         break;
       case Op::somewhat:
-        top = std::sqrt(top);
+        each(run.parts, [](double a, double) { return std::sqrt(a); });
         break;
       case Op::extremely:
-        top = top <= 0.5 ? 2 * top * top : 1 - 2 * (1 - top) * (1 - top);
+        each(run.parts, [](double a, double) { return a <= 0.5 ? 2 * a * a : 1 - 2 * (1 - a) * (1 - a); });
         break;
       case Op::seldom:
-        top = top <= 0.5 ? std::sqrt(0.5 * top) : 1 - std::sqrt(0.5 * (1 - top));
+        each(run.parts,
+             [](double a, double) { return a <= 0.5 ? std::sqrt(0.5 * a) : 1 - std::sqrt(0.5 * (1 - a)); });
         break;
     }
-  return top;
 }
 
-template <PolicyNorm kNorm>
 void CompiledPolicy::fireRules(std::uint32_t unknown, PolicyDecision& decision) const {
+  decision.unknownAsked = 0;
   for (std::size_t r = 0; r < rules_.size(); ++r) {
     const Rule& rule = rules_[r];
-    double& firing = decision.firing[r];
-    firing = 0;
-    if (!(rule.weight > 0)) continue;
-    if (const std::uint32_t missing = rule.asked & unknown)
-      decision.unknownAsked |= missing;
-    else
-      firing = rule.weight * conditionOf<kNorm>(rule, decision.membership.data());
+    const std::uint32_t missing = rule.asked & unknown;
+    decision.unknownAsked |= missing;
+    decision.firing[r] = missing ? 0 : rule.weight * decision.membership[rule.condition];
   }
 }
 
 void CompiledPolicy::decide(const SignalValues& flight, PolicyDecision& decision) const {
-  decision.membership.resize(terms_.size() + 1);
+  decision.membership.resize(terms_.size() + 1 + operands_.size());
   decision.firing.resize(rules_.size());
   std::array<double, kSignals> x;
   std::uint32_t unknown = 0;
@@ -85,19 +76,19 @@ void CompiledPolicy::decide(const SignalValues& flight, PolicyDecision& decision
             ? std::numeric_limits<double>::quiet_NaN()
             : membershipAt(term.shape, std::span(numbers_).subspan(term.first, term.count), x[term.signal]);
   }
-  decision.membership.back() = 1;
-  decision.unknownAsked = 0;
-  norm_ == PolicyNorm::minimum ? fireRules<PolicyNorm::minimum>(unknown, decision)
-                               : fireRules<PolicyNorm::product>(unknown, decision);
+  decision.membership[terms_.size()] = 1;
+  norm_ == PolicyNorm::minimum ? computeParts<PolicyNorm::minimum>(decision.membership.data())
+                               : computeParts<PolicyNorm::product>(decision.membership.data());
+  fireRules(unknown, decision);
 
   for (std::size_t l = 0; l < kLevers; ++l) {
-    double sum = 0, weight = 0, least = std::numeric_limits<double>::infinity(), most = -least;
+    double sum = 0, weight = 0, least = kInfinity, most = -kInfinity;
     for (const Setting& setting : settingsOf(l)) {
-      const double w = decision.firing[setting.rule];
+      const double w = decision.firing[setting.rule], unlessFired = w > 0 ? 0 : kInfinity;
       sum += w * setting.value;
       weight += w;
-      least = w > 0 ? std::min(least, setting.value) : least;
-      most = w > 0 ? std::max(most, setting.value) : most;
+      least = std::min(least, setting.value + unlessFired);
+      most = std::max(most, setting.value - unlessFired);
     }
     decision.target.value[l] =
         weight > 0 ? std::clamp(sum / weight, least, most) : std::numeric_limits<double>::quiet_NaN();

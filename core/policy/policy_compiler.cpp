@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numeric>
 
 #include "condition.h"
 #include "membership_at.h"
@@ -19,6 +20,7 @@ class PolicyCompiler {
     for (const PolicyTerm& term : policy_.terms) addTerm(term);
     for (std::size_t i = 0; i < policy_.rules.size(); ++i)
       addRule(policy_.rules[i], "rules." + std::to_string(i + 1));
+    arrangeParts();
     addSettings();
     if (!findings_.empty()) return findings_;
     return std::move(out_);
@@ -55,14 +57,19 @@ class PolicyCompiler {
 
   void addRule(const PolicyRule& rule, const std::string& key) {
     CompiledPolicy::Rule made{};
-    made.firstStep = static_cast<std::uint32_t>(out_.steps_.size());
-    made.weight = rule.enabled ? rule.weight : 0;
+    const std::size_t partsBefore = parts_.size();
     const auto steps = readCondition(rule.condition, where_, key);
     if (steps)
-      for (const ConditionStep& step : *steps) addStep(step, key, made);
+      addCondition(*steps, key, made);
     else
       findings_.insert(findings_.end(), steps.findings().begin(), steps.findings().end());
-    made.steps = static_cast<std::uint32_t>(out_.steps_.size()) - made.firstStep;
+    if (rule.enabled && rule.weight > 0) {
+      made.weight = rule.weight;
+    } else {
+      made = {};
+      made.condition = any();
+      parts_.resize(partsBefore);
+    }
     if (!(rule.weight >= 0 && rule.weight <= 1)) refuse(key, "a weight from 0 to 1", numberText(rule.weight));
     if (rule.settings.empty()) refuse(key, "at least one lever", "");
     std::uint32_t set = 0;
@@ -92,28 +99,68 @@ class PolicyCompiler {
     }
   }
 
-  void addStep(const ConditionStep& step, const std::string& key, CompiledPolicy::Rule& rule) {
+  /// A part of a condition whose place among the others is not known yet.
+  struct Part {
+    CompiledPolicy::Op op;
+    std::uint32_t level;  ///< above those of its operands
+    std::uint32_t a, b;   ///< terms, any(), and from there on parts in the order of parts_
+  };
+
+  std::uint32_t any() const { return static_cast<std::uint32_t>(policy_.terms.size()); }
+  std::uint32_t levelOf(std::uint32_t value) const {
+    return value <= any() ? 0 : parts_[value - any() - 1].level;
+  }
+
+  void addCondition(std::span<const ConditionStep> steps, const std::string& key,
+                    CompiledPolicy::Rule& rule) {
     using Op = CompiledPolicy::Op;
-    constexpr Op kOps[] = {Op::push, Op::both,     Op::either,    Op::invert,
-                           Op::very, Op::somewhat, Op::extremely, Op::seldom};
-    const bool both = step.kind == ConditionStep::Kind::both;
-    if (step.kind != ConditionStep::Kind::proposition) {
-      // With a term right before it, a connective needs no stack.
-      if ((both || step.kind == ConditionStep::Kind::either) && out_.steps_.back().op == Op::push)
-        out_.steps_.back().op = both ? Op::both_term : Op::either_term;
-      else
-        out_.steps_.push_back({kOps[static_cast<std::size_t>(step.kind)], 0});
-      return;
+    constexpr Op kOps[] = {Op::both,     Op::either,    Op::invert, Op::very,
+                           Op::somewhat, Op::extremely, Op::seldom};
+    constexpr auto kFirst = static_cast<std::size_t>(ConditionStep::Kind::both);
+    std::vector<std::uint32_t> values;
+    const auto pop = [&values] {
+      const std::uint32_t top = values.back();
+      values.pop_back();
+      return top;
+    };
+    for (const ConditionStep& step : steps) {
+      if (step.kind == ConditionStep::Kind::proposition) {
+        values.push_back(termOf(step, key, rule));
+        continue;
+      }
+      const Op op = kOps[static_cast<std::size_t>(step.kind) - kFirst];
+      const std::uint32_t b = pop(), a = op == Op::both || op == Op::either ? pop() : b;
+      values.push_back(any() + 1 + static_cast<std::uint32_t>(parts_.size()));
+      parts_.push_back({op, std::max(levelOf(a), levelOf(b)) + 1, a, b});
     }
-    std::size_t term = policy_.terms.size();
-    if (step.term != "any") {
-      const auto found = findTerm(step.signal, step.term);
-      if (!found) refuse(key, termsOf(step.signal), std::string(step.term));
-      term = found.value_or(term);
-      rule.asked |= 1u << static_cast<unsigned>(step.signal);
+    rule.condition = values.back();
+  }
+
+  std::uint32_t termOf(const ConditionStep& step, const std::string& key, CompiledPolicy::Rule& rule) {
+    if (step.term == "any") return any();
+    rule.asked |= 1u << static_cast<unsigned>(step.signal);
+    const auto found = findTerm(step.signal, step.term);
+    if (!found) refuse(key, termsOf(step.signal), std::string(step.term));
+    return found ? static_cast<std::uint32_t>(*found) : any();
+  }
+
+  /// Puts the parts of all conditions into an order in which few runs do the same.
+  void arrangeParts() {
+    std::vector<std::uint32_t> order(parts_.size()), place(parts_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, {},
+                             [this](std::uint32_t i) { return std::pair(parts_[i].level, parts_[i].op); });
+    const auto placed = [&](std::uint32_t value) {
+      return value <= any() ? value : place[value - any() - 1];
+    };
+    for (const std::uint32_t i : order) {
+      const Part& part = parts_[i];
+      if (out_.runs_.empty() || out_.runs_.back().op != part.op) out_.runs_.push_back({part.op, 0});
+      ++out_.runs_.back().parts;
+      out_.operands_.push_back({placed(part.a), placed(part.b)});
+      place[i] = any() + static_cast<std::uint32_t>(out_.operands_.size());
     }
-    const bool first = out_.steps_.size() == rule.firstStep;
-    out_.steps_.push_back({first ? Op::first : Op::push, static_cast<std::uint16_t>(term)});
+    for (CompiledPolicy::Rule& rule : out_.rules_) rule.condition = placed(rule.condition);
   }
 
   std::string termsOf(Signal signal) const {
@@ -126,6 +173,7 @@ class PolicyCompiler {
   const Policy& policy_;
   const std::string& where_;
   CompiledPolicy out_;
+  std::vector<Part> parts_;
   Findings findings_;
 };
 

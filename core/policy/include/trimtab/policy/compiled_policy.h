@@ -12,7 +12,7 @@ namespace trimtab {
 struct PolicyDecision {
   LeverValues target;              ///< NaN where no rule fires that sets the lever
   std::uint32_t unknownAsked = 0;  ///< bit s: an enabled rule asks for signal s, which nobody knows
-  std::vector<double> membership;  ///< of each term, NaN if its signal is unknown; then a 1 for `any`
+  std::vector<double> membership;  ///< of each term, NaN if its signal is unknown; a 1; then of conditions
   std::vector<double> firing;      ///< of each rule: membership of its condition times its weight, 0..1
 };
 
@@ -48,30 +48,21 @@ class CompiledPolicy {
     std::uint16_t count;  ///< of numbers
     std::uint32_t first;  ///< in numbers_
   };
-  /// A step of a condition in postfix order. The value on top of the stack is kept in a register: `push`
-  /// saves it below before it takes the term, and `both_term` combines it with the term without a stack,
-  /// which is what most conditions need.
-  enum class Op : std::uint8_t {
-    first,
-    push,
-    both,
-    either,
-    invert,
-    very,
-    somewhat,
-    extremely,
-    seldom,
-    both_term,
-    either_term
+  /// What is done to one or two values of PolicyDecision::membership.
+  enum class Op : std::uint8_t { both, either, invert, very, somewhat, extremely, seldom };
+  struct Operands {
+    std::uint32_t a, b;  ///< in PolicyDecision::membership; `b` counts only for `both` and `either`
   };
-  struct Step {
+  /// Parts of conditions that the same is done to. Each appends its value, in this order, so that a decision
+  /// runs through few loops and never asks what comes next.
+  struct Run {
     Op op;
-    std::uint16_t term;  ///< the number of terms stands for `any`, whose membership is 1
+    std::uint32_t parts;
   };
   struct Rule {
-    std::uint32_t firstStep, steps;
-    std::uint32_t asked;  ///< bit s: the condition asks for signal s
-    double weight;        ///< 0 if the rule is switched off
+    std::uint32_t condition;  ///< in PolicyDecision::membership
+    std::uint32_t asked;      ///< bit s: the condition asks for signal s
+    double weight;            ///< 0 if the rule is switched off; it has no parts then and asks for nothing
   };
 
   /// What a rule gives a lever.
@@ -85,14 +76,14 @@ class CompiledPolicy {
                                         firstSetting_[lever + 1] - firstSetting_[lever]);
   }
   template <PolicyNorm>
-  double conditionOf(const Rule& rule, const double* memberships) const;
-  template <PolicyNorm>
+  void computeParts(double* values) const;
   void fireRules(std::uint32_t unknown, PolicyDecision& decision) const;
 
   PolicyNorm norm_ = PolicyNorm::minimum;
   std::vector<Term> terms_;
   std::vector<double> numbers_;
-  std::vector<Step> steps_;
+  std::vector<Run> runs_;
+  std::vector<Operands> operands_;  ///< run by run
   std::vector<Rule> rules_;
   std::vector<Setting> settings_;  ///< lever by lever
   std::array<std::uint32_t, kLevers + 1> firstSetting_{};
@@ -101,8 +92,8 @@ class CompiledPolicy {
 
 /// Checks and compiles a policy. Fails with every finding, each at "WHERE: terms.SIGNAL.NAME" or "WHERE:
 /// rules.N" (from 1): shapes with a wrong count of numbers, falling or no width, not-a-number; terms that
-/// stand twice; conditions with unknown words; settings outside a lever's hard range, none, or two of one lever; weights
-/// outside 0..1; more than the limits of policy.h.
+/// stand twice; conditions with unknown words; settings outside a lever's hard range, none, or two of one
+/// lever; weights outside 0..1; more than the limits of policy.h.
 Result<CompiledPolicy> compile(const Policy& policy, const std::string& where);
 
 }  // namespace trimtab
