@@ -9,7 +9,10 @@ void applyLevers(const PolicyOutcome& policy, FrameRequest& request) {
     request.staticLod.errorPx = request.lod.screenSpaceError;
   }
   WeatherDecision& weather = request.decision.weather;
-  if (policy.moves(Lever::far_distance)) weather.farM *= policy[Lever::far_distance];
+  if (policy.moves(Lever::far_distance)) {
+    weather.farM *= policy[Lever::far_distance];
+    weather.nearFarRatio /= policy[Lever::far_distance];
+  }
   if (policy.moves(Lever::particle_density)) request.particleShare = policy[Lever::particle_density];
   MotionBlur& blur = request.decision.motion.blur;
   if (policy.moves(Lever::blur_strength)) blur.strength *= policy[Lever::blur_strength];

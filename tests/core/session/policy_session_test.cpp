@@ -88,6 +88,18 @@ TEST(PolicySession, withoutAPolicyNothingIsSetAndNothingIsAsked) {
   for (const double value : session.input().signalValues.value) EXPECT_TRUE(std::isnan(value));
 }
 
+TEST(PolicySession, aNearerFarCutHasItsOwnNearFarRatio) {
+  PolicyOutcome outcome;
+  outcome.moved = 1u << indexOf(Lever::far_distance);
+  outcome.value[indexOf(Lever::far_distance)] = 0.5;
+  FrameRequest request;
+  request.decision.weather.farM = 8000;
+  request.decision.weather.nearFarRatio = 2.0 / 8000;
+  applyLevers(outcome, request);
+  EXPECT_EQ(request.decision.weather.farM, 4000);
+  EXPECT_DOUBLE_EQ(request.decision.weather.nearFarRatio, 2.0 / 4000);
+}
+
 TEST(PolicySession, heavyFramesMoveTheLeversAndNoFasterThanTheirRates) {
   Session session(lowAndLoaded());
   double last = 1, lastScale = 1;

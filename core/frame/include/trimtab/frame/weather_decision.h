@@ -68,8 +68,8 @@ struct WeatherDecision {
   /// something may be seen at any distance, and in document D's fog, which does not use it.
   double safeFarM = kUnlimited;
   double nearFarRatio = 0;  ///< WeatherParameters::defaultNear / farM; 0 while nothing is cut
-  /// Nothing farther from the eye is drawn. In a frame request a policy may have multiplied it (applyLevers);
-  /// nearFarRatio then still has the old distance.
+  /// Nothing farther from the eye is drawn. In a frame request a policy may have multiplied it (applyLevers),
+  /// and divided nearFarRatio by as much.
   double farM = kUnlimited;
   WeatherReason reason = WeatherReason::clear;
   FarReason farReason = FarReason::clear;
