@@ -56,6 +56,7 @@ Session::Session(const ValidatedParameters& parameters) : parameters_(parameters
 void Session::setParameters(const ValidatedParameters& parameters) {
   parameters_ = parameters;
   dirty_ = true;
+  signals_.imageChanged();
   memory_.levers.restart();
   lookMemory_.levers.restart();
   if (!current_) return;
@@ -69,6 +70,7 @@ void Session::setParameters(const ValidatedParameters& parameters) {
 void Session::setGround(std::shared_ptr<const GroundHeights> ground) {
   ground_ = std::move(ground);
   dirty_ = true;
+  signals_.imageChanged();
 }
 
 /// States no longer come from a live link.

@@ -62,7 +62,12 @@ void SignalTracker::push(const AircraftState& state, std::optional<Metres> above
   values_[Signal::visibility] = std::min(weather.visibilityM, rowOf(Signal::visibility).range.high);
   values_[Signal::precipitation] = weather.density;
 
-  const Vec3 sight = directionOf(lineOfSight(state.attitude, state.head));
+  const Attitude look = lineOfSight(state.attitude, state.head);
+  if (const View now{state.position, look, weather.visibilityM}; !view_ || !restsAt(*view_, now)) {
+    view_ = now;
+    turns_ = 0;
+  }
+  const Vec3 sight = directionOf(look);
   const Vec3 head = state.head ? directionOf(*state.head) : Vec3{};
   const bool bothHeads = hasHead_ && state.head;
   if (!follows) values_[Signal::sight_rate] = values_[Signal::head_rate] = kUnknown;
@@ -80,8 +85,33 @@ void SignalTracker::push(const AircraftState& state, std::optional<Metres> above
     time_.reset();
 }
 
+bool SignalTracker::restsAt(const View& view, const View& now) {
+  constexpr double kMetres = 1, kDegrees = 0.05, kMetresPerDegree = 111320;
+  const auto within = [](Degrees a, Degrees b, double degrees) {
+    return std::abs(std::remainder(a.value() - b.value(), 360.0)) <= degrees;
+  };
+  return within(view.eye.latitude, now.eye.latitude, kMetres / kMetresPerDegree) &&
+         within(view.eye.longitude, now.eye.longitude, kMetres / kMetresPerDegree) &&
+         std::abs((view.eye.height - now.eye.height).value()) <= kMetres &&
+         within(view.sight.heading, now.sight.heading, kDegrees) &&
+         within(view.sight.pitch, now.sight.pitch, kDegrees) &&
+         within(view.sight.roll, now.sight.roll, kDegrees) && view.visibilityM == now.visibilityM;
+}
+
+void SignalTracker::countTriangles(double triangles) {
+  constexpr double kTurnsAt = 0.3;
+  constexpr int kMostTurns = 2;
+  double& value = values_[Signal::triangles];
+  const int way = (triangles > value) - (triangles < value);
+  const bool turns = way != 0 && way == -trianglesGo_;
+  if (turns && (turns_ == kMostTurns || std::abs(triangles - value) <= kTurnsAt * value)) return;
+  turns_ += turns;
+  if (way != 0) trianglesGo_ = way;
+  value = triangles;
+}
+
 void SignalTracker::finished(double workMs, double budgetMs, std::uint64_t triangles) {
-  values_[Signal::triangles] = static_cast<double>(triangles);
+  countTriangles(static_cast<double>(triangles));
   if (!(workMs > 0 && budgetMs > 0 && std::isfinite(workMs) && std::isfinite(budgetMs))) return;
   loads_[loadCount_++ % loads_.size()] = workMs / budgetMs;
   std::array<double, 9> sorted = loads_;

@@ -152,5 +152,35 @@ TEST(SignalTracker, takesTheMedianLoadSoThatASpikeDrivesNothing) {
   EXPECT_EQ(tracker.values()[Signal::load], 2) << "load that lasts counts";
 }
 
+TEST(SignalTracker, letsTrianglesTurnRoundForALargeChangeOnlyAndRestWithTheView) {
+  SignalTracker tracker;
+  const double& triangles = tracker.values().value[indexOf(Signal::triangles)];
+  double time = 0;
+  const auto image = [&](double headingDeg, std::uint64_t count) {
+    push(tracker, stateAt(time += 0.02, headingDeg));
+    tracker.finished(1, 10, count);
+    return triangles;
+  };
+  EXPECT_EQ(image(10, 1000), 1000);
+  EXPECT_EQ(image(20, 3000), 3000) << "a turn brings more into view";
+  EXPECT_EQ(image(20, 2500), 3000) << "a lever may have caused so small a change";
+  EXPECT_EQ(image(20, 3001), 3001) << "on the way that it goes any change counts";
+  EXPECT_EQ(image(20, 2000), 2000);
+  EXPECT_EQ(image(20.01, 1900), 1900);
+  EXPECT_EQ(image(20, 2600), 2600);
+  EXPECT_EQ(image(20, 1000), 2600) << "it has turned twice, and the view rests";
+  EXPECT_EQ(image(20, 2700), 2700);
+  EXPECT_EQ(image(20.1, 1000), 1000) << "the view has moved";
+  tracker.imageChanged();
+  EXPECT_EQ(image(20.1, 1100), 1100) << "other parameters, another image";
+  for (int i = 1; i < 9; ++i) {
+    AircraftState state = stateAt(time += 0.02, 20.1);
+    state.position.height = state.position.height + Metres{1.5 * i};
+    push(tracker, state);
+    tracker.finished(1, 10, i % 2 == 0 ? 500 : 1200);
+    EXPECT_EQ(triangles, i % 2 == 0 ? 500 : 1200) << "a climb is no rest";
+  }
+}
+
 }  // namespace
 }  // namespace trimtab
