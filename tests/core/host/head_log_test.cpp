@@ -136,8 +136,8 @@ TEST(HeadLog, leavesBadRowsOutWhenAsked) {
       parseHeadLog("t,heading,pitch\n0,0,0\n1,x,0\n2,0,0\n", "h", BadRows::leave_out);
   ASSERT_TRUE(unread.ok());
   EXPECT_EQ(unread->samples.size(), 2u);
-  EXPECT_FALSE(parseHeadLog(logWithBadSeconds(200, 99), "user", BadRows::leave_out).ok() &&
-               parseHeadLog("t,heading,pitch\n0,x,0\n1,x,0\n2,0,0\n", "h", BadRows::leave_out).ok())
+  EXPECT_TRUE(parseHeadLog(logWithBadSeconds(200, 99), "user", BadRows::leave_out).ok());
+  EXPECT_FALSE(parseHeadLog("t,heading,pitch\n0,x,0\n1,x,0\n2,0,0\n", "h", BadRows::leave_out).ok())
       << "a log that is mostly bad is no log";
 }
 
