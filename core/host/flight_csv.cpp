@@ -7,6 +7,7 @@
 #include "limits.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/units/number.h"
+#include "trimtab/units/text.h"
 
 namespace trimtab {
 namespace {
@@ -75,13 +76,6 @@ constexpr std::array<ColumnRule, kColumns> kRules{{
     {"view_bottom_deg", -kHalf, kHalf, false},
     {"view_top_deg", -kHalf, kHalf, false},
 }};
-
-std::string_view trimmed(std::string_view text) {
-  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
-  return text;
-}
 
 /// Cells of a line; quotes hold commas together and are taken off.
 void split(std::string_view line, std::vector<std::string_view>& cells) {

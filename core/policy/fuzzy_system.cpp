@@ -61,13 +61,6 @@ void checkNorms(const System& system, Lines& notes) {
 
 }  // namespace
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\v\f";
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
-}
-
 std::string oneLine(std::string_view reason) {
   std::string text(reason);
   std::replace_if(

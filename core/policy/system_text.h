@@ -1,6 +1,7 @@
 #pragma once
 
 #include "trimtab/policy/fuzzy_system.h"
+#include "trimtab/units/text.h"
 
 /// For the two languages of fuzzy_system.h.
 namespace trimtab::fuzzy_system {
@@ -13,8 +14,6 @@ Result<System> readMatlab(std::string_view text, const std::string& where);
 /// A reader refuses what is beyond, so that nothing takes long; policies and rule bases have less.
 inline constexpr std::size_t kMostTerms = 4096, kMostRules = 2048;
 
-/// Returns text without blanks around it.
-std::string_view trimmed(std::string_view text);
 /// Returns a reason as the one line that a comment is: control characters become blanks.
 std::string oneLine(std::string_view reason);
 /// Returns the numbers as text, with blanks between.

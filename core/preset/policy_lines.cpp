@@ -1,4 +1,5 @@
 #include "trimtab/preset/policy_lines.h"
+#include "trimtab/units/text.h"
 
 #include <algorithm>
 
@@ -6,12 +7,6 @@ namespace trimtab {
 namespace {
 
 constexpr std::string_view kOff = "off ";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r\n");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
-}
 
 std::string inLine(std::size_t index) {
   return " in line " + std::to_string(index + 1);

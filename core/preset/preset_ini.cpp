@@ -3,20 +3,14 @@
 #include "preset_text.h"
 #include "trimtab/preset/json_text.h"
 #include "trimtab/units/number.h"
+#include "trimtab/units/text.h"
 
 namespace trimtab {
 
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r";
 constexpr std::string_view kTextKeys[] = {"format",  "name",    "author",  "created",
                                           "program", "terrain", "comment", "checksum"};
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
-}
 
 /// The inverse of what an export does to a text of several lines.
 std::string unescaped(std::string_view text) {

@@ -6,16 +6,11 @@
 #include "preset_text.h"
 #include "trimtab/preset/table.h"
 #include "trimtab/units/number.h"
+#include "trimtab/units/text.h"
 
 namespace trimtab {
 
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r\n");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
-}
 
 /// The text up to the next blank, which is taken off `rest`; empty at the end.
 std::string_view nextWord(std::string_view& rest) {
