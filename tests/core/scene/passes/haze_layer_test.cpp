@@ -99,6 +99,15 @@ class HazeLayerPicture : public SceneTest {
   }
 };
 
+TEST(Air, fadesBeforeACutOfTheLayerOnlyWhereSomethingIsLeftToFade) {
+  WeatherDecision w = hazeAt(Metres{500}, 5000, 3000, Metres{1800});
+  ASSERT_EQ(w.farReason, FarReason::safe);
+  EXPECT_GE(scene::airOf(w).fadePerM * w.farM, 1e6) << "what fades could be seen";
+  w.farM *= 0.5;  // as a policy may
+  EXPECT_NEAR(double{scene::airOf(w).fadePerM} * w.farM * scene::kCutFade, 1, 1e-6)
+      << "an edge could be seen";
+}
+
 TEST_F(HazeLayerPicture, isTheOpticalDepthAtEveryPixelOfTheGround) {
   use(test::syntheticMountains());
   std::size_t partly = 0;
