@@ -35,7 +35,8 @@ void main() {
   vec3 sky = mix(haze, vec3(0.20, 0.40, 0.72), above / (above + 0.6));
   vec3 colour = mix(haze * 0.94, sky, clamp(elevation * 200.0 + 0.5, 0.0, 1.0));
 #ifdef IN_WEATHER
-  colour = mix(fog, colour, exp(-air.x * metresInFog(elevation, rise)));
+  float left = exp(-air.x * metresInFog(elevation, rise));
+  colour = colour * left + fog * (1.0 - left);
 #endif
   fragment = vec4(colour, 1.0);
 }

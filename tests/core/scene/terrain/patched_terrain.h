@@ -28,6 +28,8 @@ class PatchedTerrain final : public terrain::Database {
     info_.name = "patched";
     info_.southWest = {Degrees{p.south}, Degrees{p.west}, Metres{0}};
     info_.northEast = {Degrees{p.latitude(p.rows - 1)}, Degrees{p.longitude(p.columns - 1)}, Metres{0}};
+    const auto [low, high] = std::minmax_element(grid_.heights.begin(), grid_.heights.end());
+    info_.lowest = Metres{double{*low}}, info_.highest = Metres{double{*high}};
     info_.columns = p.columns;
     info_.rows = p.rows;
     info_.postLatitude = Degrees{p.stepLatitude};
