@@ -243,6 +243,29 @@ TEST_F(WorkbenchWindow, aPortInUseIsSaidAndTheWorkGoesOn) {
   EXPECT_TRUE(w().panels().host->connectHost().empty()) << "free again";
 }
 
+TEST_F(WorkbenchWindow, theHostDockLetsNobodyInWhoWasNotAllowed) {
+  auto& dock = *w().panels().host;
+  const auto box = [&](const char* name) -> QComboBox* {
+    for (QComboBox* each : dock.findChildren<QComboBox*>())
+      if (each->accessibleName() == QLatin1String(name)) return each;
+    return nullptr;
+  };
+  ASSERT_TRUE(box("Interface") && box("Sender"));
+  w().feed().closeHost();
+  dock.setInterface(QStringLiteral("127.0.0.1"));
+  dock.setSender(QStringLiteral("127.0.0.77"));
+  EXPECT_TRUE(dock.connectHost().empty()) << w().messages().text().toStdString();
+  EXPECT_EQ(w().feed().receiver()->senders().allowed, "127.0.0.77");
+  EXPECT_FALSE(box("Sender")->isEnabled()) << "while the link is open";
+  w().feed().closeHost();
+  dock.setSender(QStringLiteral("first"));
+  EXPECT_EQ(box("Sender")->currentIndex(), 1);
+  EXPECT_TRUE(dock.connectHost().empty());
+  EXPECT_EQ(w().feed().receiver()->senders().allowed, "first");
+  w().feed().closeHost();
+  dock.setSender(QStringLiteral("any"));
+}
+
 TEST_F(WorkbenchWindow, theHostDockListensOnTheInterfaceAndTheGroupThatAreChosen) {
   auto& dock = *w().panels().host;
   const auto field = [&](const char* name) -> QLineEdit* {

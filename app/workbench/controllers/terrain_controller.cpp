@@ -3,6 +3,7 @@
 
 #include <QFileDialog>
 #include <QFileInfo>
+#include <algorithm>
 
 #include "app/workbench/dialogs/bake_dialog.h"
 #include "app/workbench/docks/message_panel.h"
@@ -94,7 +95,8 @@ void TerrainController::use(std::shared_ptr<const terrain::Database> database, c
   at_.viewport.setTerrain(database_);
   trees_.setTrees(treesOf(*database_));
   panel_.setTerrain(summaryOf(*database_));
-  pagesReported_ = damageReported_ = 0;
+  failedPages_ = 0;
+  damageReported_.clear();
   emit opened();
   if (!findings.empty()) at_.messages.add(tr("Opened %1").arg(QFileInfo(openedFrom_).fileName()), findings);
 }
@@ -102,17 +104,20 @@ void TerrainController::use(std::shared_ptr<const terrain::Database> database, c
 /// Damage shows only while its place is read, so it is looked for after each image.
 void TerrainController::reportDamage() {
   if (!database_ || !at_.viewport.lastResult()) return;
-  if (const std::uint64_t failed = at_.viewport.lastResult()->paging.failed; failed != pagesReported_) {
-    if (failed > pagesReported_)
-      at_.messages.add(tr("The terrain stays coarser where its pages cannot be read"),
-                       at_.viewport.pageFailures());
-    pagesReported_ = failed;
+  Findings damage = database_->damage();
+  // These may also be unreadable for want of memory.
+  if (const std::uint64_t failed = at_.viewport.lastResult()->paging.failed; failed != failedPages_) {
+    failedPages_ = failed;
+    for (Finding& finding : at_.viewport.pageFailures()) damage.push_back(std::move(finding));
   }
-  if (const Findings damage = database_->damage(); damage.size() != damageReported_) {
-    at_.messages.add(tr("Some heights of the terrain are damaged; its lowest ground is drawn in their place"),
-                     damage);
-    damageReported_ = damage.size();
-  }
+  Findings fresh;
+  for (const Finding& finding : damage)
+    if (std::find(damageReported_.begin(), damageReported_.end(), finding) == damageReported_.end()) {
+      fresh.push_back(finding);
+      damageReported_.push_back(finding);
+    }
+  if (!fresh.empty())
+    at_.messages.add(tr("The terrain is damaged: its lowest ground or a coarser form is drawn there"), fresh);
 }
 
 }  // namespace trimtab::workbench

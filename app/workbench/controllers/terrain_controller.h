@@ -55,8 +55,8 @@ class TerrainController : public QObject {
   std::shared_ptr<const terrain::Database> database_;
   QString asked_;  ///< what a person asked for last; empty for the sample
   QString openedFrom_;
-  std::uint64_t pagesReported_ = 0;  ///< unreadable pages that the Messages dock has reported
-  std::size_t damageReported_ = 0;   ///< damaged heights, likewise
+  std::uint64_t failedPages_ = 0;
+  Findings damageReported_;  ///< in the Messages dock
 };
 
 }  // namespace trimtab::workbench

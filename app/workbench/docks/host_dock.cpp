@@ -16,6 +16,7 @@
 #include <QSpinBox>
 #include <QVBoxLayout>
 #include <cmath>
+#include <initializer_list>
 
 #include "app/link/link.h"
 #include "views/model/draft.h"
@@ -25,7 +26,7 @@ namespace trimtab::workbench {
 namespace {
 
 constexpr int kRefreshMs = 250;
-const QString kEvery = QStringLiteral("0.0.0.0");
+const QString kEvery = QStringLiteral("0.0.0.0"), kOwn = QString::fromLatin1(link::kOwnMachine);
 constexpr int kDefaultPort = 8004;
 constexpr auto kProtocolKey = "host.protocol";
 const QString kNone = QStringLiteral("–");
@@ -84,6 +85,7 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
       draft_(draft),
       port_(new QSpinBox(this)),
       interface_(new QComboBox(this)),
+      sender_(new QComboBox(this)),
       protocol_(new QComboBox(this)),
       group_(new QLineEdit(this)),
       reply_(new QLineEdit(this)),
@@ -97,8 +99,11 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
   port_->setAccessibleName(tr("Port"));
   port_->setToolTip(tr("UDP port this program listens on"));
   interface_->setAccessibleName(tr("Interface"));
-  interface_->setToolTip(tr("The network interface that this program listens on, and joins a group on"));
+  interface_->setToolTip(tr(
+      "The network interface that this program listens on, and joins a group on. Others can send only if it "
+      "is another one than this machine's own"));
   showInterfaces();
+  makeSender();
   group_->setPlaceholderText(tr("224.0.0.0 to 239.255.255.255; empty: none"));
   group_->setText(QSettings().value(QStringLiteral("host/group")).toString());
   group_->setToolTip(tr("A multicast group that the host sends to. Several programs may listen to one"));
@@ -118,6 +123,7 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
   form->addRow(tr("&Port"), portRow);
   qobject_cast<QLabel*>(form->labelForField(portRow))->setBuddy(port_);
   form->addRow(tr("&Interface"), interface_);
+  form->addRow(tr("&Sender"), sender_);
   form->addRow(tr("&Group"), group_);
   form->addRow(tr("P&rotocol"), protocol_);
   form->addRow(tr("Repl&y to"), reply_);
@@ -131,7 +137,9 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
   detected_ = addRow(*form, tr("Speaks"), tr("Protocol found in the packets, and who sends them"));
   rate_ = addRow(*form, tr("Rate"), tr("States per second, over the last second"));
   jitter_ = addRow(*form, tr("Jitter"), tr("Smoothed deviation of the gaps between packets"));
-  loss_ = addRow(*form, tr("Lost"), tr("Packets that are missing in the host's frame numbers"));
+  loss_ =
+      addRow(*form, tr("Lost"),
+             tr("Packets that are missing in the host's frame numbers, without those that only came late"));
   age_ = addRow(*form, tr("Last packet"), tr("Age of the newest packet"));
   decoded_ = addRow(*form, tr("To decoded, p99"), tr("From the kernel's time stamp to the decoded state"));
   picture_ = addRow(*form, tr("To image, p99"),
@@ -142,8 +150,9 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
       addRow(*form, tr("Weather ignored"),
              tr("Weather Control packets that are not drawn: for regions, for entities, and for layers other "
                 "than rain and snow"));
+  refused_ = addRow(*form, tr("Other senders"), tr("Packets that came from somebody who may not send"));
   bad_ = addRow(*form, tr("Bad packets"), tr("Packets that were refused; the first one is shown below"));
-  for (QLabel* wide : {picture_, counts_}) wide->setWordWrap(true);
+  for (QLabel* wide : {picture_, counts_, refused_}) wide->setWordWrap(true);
   firstBad_->setReadOnly(true);
   firstBad_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
   firstBad_->setLineWrapMode(QPlainTextEdit::NoWrap);
@@ -198,11 +207,41 @@ void HostDock::setPort(std::uint16_t port) {
   port_->setValue(port);
 }
 
+void HostDock::setInterface(const QString& address) {
+  if (interface_->findData(address) < 0) interface_->addItem(address, address);
+  interface_->setCurrentIndex(interface_->findData(address));
+}
+
+void HostDock::setSender(const QString& sender) {
+  if (const int at = sender_->findData(sender); at >= 0)
+    sender_->setCurrentIndex(at);
+  else
+    sender_->setEditText(sender);
+}
+
+void HostDock::makeSender() {
+  sender_->setEditable(true);
+  sender_->setInsertPolicy(QComboBox::NoInsert);
+  sender_->addItem(tr("anyone"), QString::fromLatin1(link::kAnyone));
+  sender_->addItem(tr("the first one, from then on"), QString::fromLatin1(link::kFirst));
+  sender_->setAccessibleName(tr("Sender"));
+  sender_->setToolTip(tr("Who may send: one of these, or an address. The packets of others are thrown away"));
+  setSender(QSettings().value(QStringLiteral("host/sender"), QString::fromLatin1(link::kAnyone)).toString());
+}
+
+/// What was chosen, or typed.
+std::string HostDock::senderAsked() const {
+  const QString typed = sender_->currentText().trimmed();
+  const int at = sender_->findText(typed);
+  if (typed.isEmpty()) return link::kAnyone;
+  return (at >= 0 ? sender_->itemData(at).toString() : typed).toStdString();
+}
+
 /// Every IPv4 address of this machine, with its interface's name; the one chosen last stays chosen.
 void HostDock::showInterfaces() {
   const QString chosen = interface_->count() > 0
                              ? interface_->currentData().toString()
-                             : QSettings().value(QStringLiteral("host/interface"), kEvery).toString();
+                             : QSettings().value(QStringLiteral("host/listen-on"), kOwn).toString();
   interface_->clear();
   interface_->addItem(tr("every one (%1)").arg(kEvery), kEvery);
   for (const QNetworkInterface& each : QNetworkInterface::allInterfaces()) {
@@ -212,7 +251,10 @@ void HostDock::showInterfaces() {
         interface_->addItem(QStringLiteral("%1 (%2)").arg(each.humanReadableName(), entry.ip().toString()),
                             entry.ip().toString());
   }
-  interface_->setCurrentIndex(std::max(0, interface_->findData(chosen)));
+  if (interface_->findData(kOwn) < 0) interface_->addItem(tr("this machine (%1)").arg(kOwn), kOwn);
+  // An address that is gone must not open every door.
+  const int at = interface_->findData(chosen);
+  interface_->setCurrentIndex(at >= 0 ? at : interface_->findData(kOwn));
 }
 
 void HostDock::lookUp() {
@@ -237,6 +279,7 @@ Findings HostDock::connectHost() {
   Feed::HostSettings settings;
   settings.port = static_cast<std::uint16_t>(port_->value());
   settings.bindAddress = interface_->currentData().toString().toStdString();
+  settings.sender = senderAsked();
   settings.group = group_->text().trimmed().toStdString();
   settings.protocol = draft_.active()->host.protocol;
   if (const QString reply = reply_->text().trimmed(); !reply.isEmpty()) {
@@ -257,7 +300,8 @@ Findings HostDock::connectHost() {
   QSettings().setValue(QStringLiteral("host/port"), port_->value());
   QSettings().setValue(QStringLiteral("host/reply"), reply_->text().trimmed());
   QSettings().setValue(QStringLiteral("host/group"), group_->text().trimmed());
-  QSettings().setValue(QStringLiteral("host/interface"), interface_->currentData());
+  QSettings().setValue(QStringLiteral("host/listen-on"), interface_->currentData());
+  QSettings().setValue(QStringLiteral("host/sender"), QString::fromStdString(settings.sender));
   emit connected(feed_.receiver()->port());
   return {};
 }
@@ -273,8 +317,7 @@ void HostDock::showLink() {
   const bool open = feed_.receiver() != nullptr;
   connect_->setText(open ? tr("Dis&connect") : tr("&Connect"));
   port_->setEnabled(!open);
-  for (QWidget* field :
-       {static_cast<QWidget*>(interface_), static_cast<QWidget*>(group_), static_cast<QWidget*>(reply_)})
+  for (QWidget* field : std::initializer_list<QWidget*>{interface_, sender_, group_, reply_})
     field->setEnabled(!open);
   if (open && isVisible())
     refresh_.start();
@@ -298,7 +341,9 @@ QString HostDock::stateText(double now) const {
   if (feed_.receiver() == nullptr) return tr("not connected");
   switch (feed_.session().linkState(now)) {
     case LinkState::never:
-      return tr("listening on port %1, nothing yet").arg(feed_.receiver()->port());
+      return tr("listening on port %1 of %2, nothing yet")
+          .arg(feed_.receiver()->port())
+          .arg(interface_->currentData().toString());
     case LinkState::live:
       return tr("live");
     case LinkState::silent:
@@ -334,10 +379,18 @@ void HostDock::refresh() {
   age_->setText(any && std::isfinite(age) ? tr("%1 ago").arg(milliseconds(age * 1e3)) : kNone);
   decoded_->setText(any ? p99(session.latency().decoded) : kNone);
   picture_->setText(any ? pictureText(session.latency()) : kNone);
-  counts_->setText(any ? tr("%1 received, %2 states, %3 repeated, %4 out of order, %5 dropped here")
+  counts_->setText(any ? tr("%1 received, %2 states, %3 repeated, %4 late, %5 implausible, %6 dropped here")
                              .arg(number(host.received), number(host.states), number(host.repeated),
-                                  number(host.reordered), number(feed_.receiver()->dropped()))
+                                  number(host.reordered), number(host.implausible),
+                                  number(feed_.receiver()->dropped()))
                        : kNone);
+  const link::Senders senders = any ? feed_.receiver()->senders() : link::Senders{};
+  refused_->setText(!any ? kNone
+                    : senders.refused == 0
+                        ? tr("0; allowed: %1").arg(QString::fromStdString(senders.allowed))
+                        : tr("%1, the last from %2; allowed: %3")
+                              .arg(number(senders.refused), QString::fromStdString(senders.lastRefused),
+                                   QString::fromStdString(senders.allowed)));
   jumps_->setText(any ? number(std::max(session.jumps(), host.jumps)) : kNone);
   weather_->setText(any ? tr("%1 for regions or entities, %2 for other layers")
                               .arg(number(host.regionalWeather), number(host.otherLayers))

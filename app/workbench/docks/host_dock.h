@@ -29,6 +29,9 @@ class HostDock : public QWidget {
   HostDock(Feed& feed, views::Draft& draft, QWidget* parent = nullptr);
 
   void setPort(std::uint16_t port);
+  /// Chooses the interface by its address, and who may send (see link::ReceiverOptions::sender).
+  void setInterface(const QString& address);
+  void setSender(const QString& sender);
   /// Does what the Connect button does. Returns what went wrong, and emits it as `refused` too.
   Findings connectHost();
 
@@ -42,7 +45,9 @@ class HostDock : public QWidget {
 
  private:
   QLabel* addRow(QFormLayout& form, const QString& label, const QString& toolTip);
+  void makeSender();
   void showInterfaces();
+  std::string senderAsked() const;
   /// Asks for the address of the host to reply to, so that connecting does not wait for a name server.
   void lookUp();
   void toggle();
@@ -53,14 +58,14 @@ class HostDock : public QWidget {
   Feed& feed_;
   views::Draft& draft_;
   QSpinBox* port_;
-  QComboBox *interface_, *protocol_;
+  QComboBox *interface_, *sender_, *protocol_;
   QLineEdit *group_, *reply_;
   QLabel* found_;           ///< what the look-up of the reply's host found
   QString foundName_;       ///< the name that was looked up
   QHostAddress foundHost_;  ///< its address; null if there is none
   QPushButton* connect_;
   QLabel *state_, *detected_, *rate_, *jitter_, *loss_, *age_, *decoded_, *picture_, *counts_, *jumps_, *bad_,
-      *weather_;
+      *weather_, *refused_;
   QPlainTextEdit* firstBad_;
   QTimer refresh_;  ///< runs only while a link is open and the dock is visible
 };

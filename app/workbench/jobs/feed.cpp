@@ -39,6 +39,7 @@ Findings Feed::openHost(const HostSettings& settings) {
   options.port = settings.port;
   options.bindAddress = settings.bindAddress;
   options.group = settings.group;
+  options.sender = settings.sender;
   options.protocol = settings.protocol;
   options.reply = settings.reply;
   options.wake = [this] {

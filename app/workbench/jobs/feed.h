@@ -38,8 +38,9 @@ class Feed : public QObject {
     std::uint16_t port = 0;
     HostProtocol protocol = HostProtocol::automatic;
     std::optional<link::Endpoint> reply;
-    std::string bindAddress = "0.0.0.0";  ///< of the interface to listen on
-    std::string group{};                  ///< a multicast group to join there, or empty
+    std::string bindAddress = link::kOwnMachine;  ///< of the interface to listen on
+    std::string group{};                          ///< a multicast group to join there, or empty
+    std::string sender = link::kAnyone;           ///< see link::ReceiverOptions::sender
   };
   /// Listens for a host; an earlier link is closed. If that fails, the earlier link stays open, unless both
   /// use the same port. Returns what went wrong.

@@ -226,6 +226,8 @@ void MainWindow::start(const Options& options) {
   if (!options.head.isEmpty()) c.head->open(options.head);
   if (options.listenPort) {
     panels_.host->setPort(*options.listenPort);
+    if (!options.bind.isEmpty()) panels_.host->setInterface(options.bind);
+    if (!options.from.isEmpty()) panels_.host->setSender(options.from);
     panels_.host->connectHost();
   }
   if (options.screenshot.isEmpty()) {

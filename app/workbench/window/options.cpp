@@ -27,6 +27,9 @@ Parsed parseOptions(const QStringList& arguments) {
   const QCommandLineOption terrain(
       "terrain", "Open this terrain: an elevation file, a folder, scenery or a database.", "DB");
   const QCommandLineOption listen("listen", "Listen for a host on this UDP port.", "PORT");
+  const QCommandLineOption bind("bind", "Listen on the interface of this address; 0.0.0.0: every one.",
+                                "ADDRESS");
+  const QCommandLineOption from("from", "Who may send: any, first, or an address.", "SENDER");
   const QCommandLineOption fly("fly", "Play this flight in the workbench.", "FLIGHT");
   const QCommandLineOption head(
       "head", "Line of sight: a head log, or sweep:DEG/S[/WAIT] or nod:DEG/S[/WAIT].", "LOG");
@@ -38,7 +41,8 @@ Parsed parseOptions(const QStringList& arguments) {
       "export", "Write an export (.json, .xml or .ini), together with the screenshot if there is one.",
       "OUT");
   const QCommandLineOption size("size", "Size of the window.", "WxH");
-  parser.addOptions({help, version, preset, terrain, listen, fly, head, screenshot, after, exportTo, size});
+  parser.addOptions(
+      {help, version, preset, terrain, listen, bind, from, fly, head, screenshot, after, exportTo, size});
 
   Parsed parsed;
   Options& options = parsed.options;
@@ -62,6 +66,10 @@ Parsed parseOptions(const QStringList& arguments) {
   }
   options.preset = parser.value(preset);
   options.terrain = parser.value(terrain);
+  options.bind = parser.value(bind);
+  options.from = parser.value(from);
+  if ((!options.bind.isEmpty() || !options.from.isEmpty()) && !parser.isSet(listen))
+    parsed.exitCode = complain("--bind and --from: expected --listen too");
   options.flight = parser.value(fly);
   options.head = parser.value(head);
   options.screenshot = parser.value(screenshot);

@@ -14,8 +14,10 @@ struct Options {
   QString preset;   ///< a file or the name of a shipped preset; empty: "default"
   QString terrain;  ///< an elevation file, a folder or a database; empty: the sample
   std::optional<std::uint16_t> listenPort;
-  QString head;        ///< a head log, or a sweep such as sweep:60
-  QString flight;      ///< played in this program from the start
+  QString bind,
+      from;        ///< of that port: interface and sender; empty: as they were chosen last in the dock Host
+  QString head;    ///< a head log, or a sweep such as sweep:60
+  QString flight;  ///< played in this program from the start
   QString screenshot;  ///< the file for an image of the whole window; the program ends after it
   QString exportFile;  ///< written with the screenshot, or at once without one; its ending gives the format
   double afterS = 0;   ///< seconds from the first image to the screenshot
