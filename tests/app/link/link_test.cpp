@@ -1,4 +1,4 @@
-#include "app/link/link.h"
+#include "link_support.h"
 
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
@@ -22,27 +22,6 @@
 namespace trimtab::test {
 namespace {
 
-using namespace std::chrono_literals;
-
-/// Sends the host's state of one frame to an address, from the loopback interface.
-void sendOnLoopback(const std::string& address, std::uint16_t port, std::uint32_t frame = 1) {
-  const int socket = ::socket(AF_INET, SOCK_DGRAM, 0);
-  in_addr loopback{htonl(INADDR_LOOPBACK)};
-  ::setsockopt(socket, IPPROTO_IP, IP_MULTICAST_IF, &loopback, sizeof loopback);
-  sockaddr_in to{};
-  to.sin_family = AF_INET;
-  to.sin_port = htons(port);
-  ASSERT_EQ(inet_pton(AF_INET, address.c_str(), &to.sin_addr), 1);
-  AircraftState state;
-  state.position = {Degrees{36.6}, Degrees{128.3}, Metres{1500}};
-  const auto bytes = encodeCigiHost(state, frame, 0);
-  EXPECT_EQ(
-      ::sendto(socket, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof to),
-      static_cast<ssize_t>(bytes.size()))
-      << std::strerror(errno);
-  ::close(socket);
-}
-
 /// Ten minutes of a gentle turn, ten rows a second.
 Flight aFlight() {
   Flight flight;
@@ -56,35 +35,12 @@ Flight aFlight() {
   return flight;
 }
 
-std::unique_ptr<link::Receiver> opened(link::ReceiverOptions options = {}) {
-  auto receiver = link::Receiver::open(options);
-  EXPECT_TRUE(receiver) << toString(receiver.findings());
-  return std::move(*receiver);
-}
-
 std::unique_ptr<link::FeedPlayer> playing(std::uint16_t port, link::PlayOptions options = {},
                                           Flight flight = aFlight()) {
   options.to.port = port;
   auto player = link::FeedPlayer::start(std::move(flight), options);
   EXPECT_TRUE(player) << toString(player.findings());
   return std::move(*player);
-}
-
-/// Everything received until `enough` says so, or for ten seconds.
-template <class Enough>
-std::vector<ReceivedState> gathered(link::Receiver& receiver, Enough enough) {
-  std::vector<ReceivedState> all, some;
-  const auto end = std::chrono::steady_clock::now() + 10s;
-  do {
-    std::this_thread::sleep_for(2ms);
-    receiver.take(some);
-    all.insert(all.end(), some.begin(), some.end());
-  } while (!enough(all) && std::chrono::steady_clock::now() < end);
-  return all;
-}
-
-auto count(std::size_t n) {
-  return [n](const auto& all) { return all.size() >= n; };
 }
 
 double percentile(std::vector<double> values, double p) {
