@@ -49,6 +49,19 @@ TEST_F(InstalledCore, servesAConsumerThroughPkgConfigAlsoAfterAMove) {
   EXPECT_EQ(run(program + " " + (dir_ / "export.json").string()).out, expected_);
 }
 
+TEST_F(InstalledCore, bringsLicenceSchemaAndAnExampleThatBuilds) {
+  const std::filesystem::path share = std::filesystem::path(prefix_) / "share", doc = share / "doc/trimtab";
+  for (const auto& file :
+       {doc / "LICENSE", doc / "LICENSE.MIT", doc / "integrating.md", share / "trimtab/presets/preset.schema.json",
+        share / "trimtab/presets/default.json"})
+    EXPECT_TRUE(std::filesystem::exists(file)) << file;
+  const std::string build = (dir_ / "example").string();
+  const Ran built = run("cmake -S " + (doc / "examples/follower").string() + " -B " + build +
+                        " -G Ninja -DCMAKE_PREFIX_PATH=" + prefix_ + " -DCMAKE_CXX_COMPILER=" TRIMTAB_CXX
+                        " && cmake --build " + build);
+  EXPECT_EQ(built.exitCode, 0) << built.out << built.err;
+}
+
 TEST_F(InstalledCore, bringsNoHeaderOfQtOsgGdalOrJson) {
   const Ran found = run("grep -rnE '#include *[<\"](Q[A-Z]|osg|gdal|ogr|nlohmann)' " + prefix_);
   EXPECT_EQ(found.out, "");
