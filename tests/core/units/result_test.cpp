@@ -24,6 +24,9 @@ TEST(Result, carriesAValueWithNotesOrAllErrors) {
   ASSERT_TRUE(good.ok());
   EXPECT_EQ(*good, 3);
   EXPECT_EQ(good.findings().size(), 1u);
+  Result<std::string> text(std::string("on"));
+  text->push_back('e');
+  EXPECT_EQ(*text, "one") << "a value that is ours can be changed through the arrow";
   const Result<int> bad(Findings{Finding{}, Finding{}});
   EXPECT_FALSE(bad);
   EXPECT_EQ(bad.findings().size(), 2u);

@@ -14,7 +14,7 @@ class GroundHeights {
   virtual ~GroundHeights() = default;
   /// Returns the height above mean sea level at a place (WGS 84, east positive, longitudes of any turn). It
   /// is interpolated bilinearly between the nearest samples of the most detailed surface. Returns nullopt
-  /// where there are no data. Several threads may call it at once; it does not wait for the disk.
+  /// where there are no data. Several threads may call it at once; it may wait for a block from the disk.
   virtual std::optional<Metres> heightAt(Degrees latitude, Degrees longitude) const = 0;
   /// Returns a height above mean sea level that no ground exceeds; nullopt if none is known.
   virtual std::optional<Metres> highest() const { return std::nullopt; }

@@ -41,6 +41,7 @@ class [[nodiscard]] Result {
   T& value() & { return value_.value(); }
   T&& value() && { return std::move(value_).value(); }
   const T* operator->() const { return &value_.value(); }
+  T* operator->() { return &value_.value(); }
   const T& operator*() const { return value_.value(); }
   T& operator*() { return value_.value(); }
   const Findings& findings() const { return findings_; }
