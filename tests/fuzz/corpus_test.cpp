@@ -1,7 +1,12 @@
+#include <errno.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
+#include <iostream>
 #include <random>
 #include <string>
 #include <vector>
@@ -67,12 +72,36 @@ TEST(FuzzCorpus, runsWithoutHarm) {
   for (const std::string& input : inputs) feed(input);
 }
 
+/// The fixed mutations of an ordinary run; with TRIMTAB_FUZZ_SECONDS=n other ones for so long, as
+/// tests/soak.sh asks for. TRIMTAB_FUZZ_SEED repeats those of a run that found something.
 TEST(FuzzCorpus, survivesRandomDamage) {
   const std::vector<std::string> inputs = corpus();
   ASSERT_FALSE(inputs.empty());
-  std::mt19937 random(20240501);
-  for (int i = 0; i < TRIMTAB_MUTATIONS; ++i)
-    feed(mutated(inputs[random() % inputs.size()], inputs[random() % inputs.size()], random));
+  const char* const seconds = std::getenv("TRIMTAB_FUZZ_SECONDS");
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  const char* const again = std::getenv("TRIMTAB_FUZZ_SEED");
+  const auto seed = again     ? static_cast<unsigned>(std::strtoul(again, nullptr, 10))
+                    : seconds ? std::random_device()()
+                              : 20240501U;
+  if (seconds) std::cout << "TRIMTAB_FUZZ_SEED=" << seed << std::endl;
+  std::mt19937 random(seed);
+  long count = 0;
+  double longest = 0;
+  const auto goesOn = [&] {
+    const std::chrono::duration<double> run = Clock::now() - begin;
+    return seconds ? run.count() < std::atof(seconds) : count < TRIMTAB_MUTATIONS;
+  };
+  for (; goesOn(); ++count) {
+    const std::string input =
+        mutated(inputs[random() % inputs.size()], inputs[random() % inputs.size()], random);
+    const auto start = Clock::now();
+    feed(input);
+    longest = std::max(longest, std::chrono::duration<double>(Clock::now() - start).count());
+  }
+  if (seconds)
+    std::cout << program_invocation_short_name << ": " << count << " damaged inputs, the longest took "
+              << longest << " s\n";
 }
 
 }  // namespace
