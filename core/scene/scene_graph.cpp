@@ -18,8 +18,6 @@
 namespace trimtab::scene {
 namespace {
 
-/// Of clear air: a colour is a third after 110 km.
-constexpr float kHazePerMetre = 1 / 110e3f;
 /// Texels a side of the pyramid's level that a box is held against: more see more hidden, and cost more.
 constexpr int kTestedSpan = 8;
 
@@ -234,8 +232,6 @@ struct SceneGraph::Nodes {
       state->setMode(off, osg::StateAttribute::OFF);
     Uniforms uniforms(state);
     uniforms.set("sun", Type::FLOAT_VEC3, toFloat(normalized(kTowardsSun)));
-    uniforms.set("haze", Type::FLOAT_VEC3, osg::Vec3f(kHaze[0], kHaze[1], kHaze[2]));
-    uniforms.set("hazePerMetre", Type::FLOAT, kHazePerMetre);
     uniforms.set("slots", Type::INT, kSlotUnit);
     uniforms.set("tints", Type::INT, kTintUnit);
   }

@@ -2,7 +2,7 @@
 // haze of clear air, then in weather its fog. Beyond the weather's far cut the fragment is discarded: the sky
 // shows there, and not the outline of the tiles. Only a frame that is cut has the `discard`. The distance comes
 // from a varying, because on a software rasteriser gl_FragCoord costs twice as much as the whole fog.
-uniform vec3 haze;  // sRGB
+const vec3 haze = vec3(HAZE_RED, HAZE_GREEN, HAZE_BLUE);  // sRGB
 #ifdef IN_WEATHER
 uniform vec3 fog;  // sRGB
 uniform vec3 air;  // extinction per metre, cut distance, 1 / width of its fade

@@ -13,7 +13,6 @@ in vec2 ground;
 #ifdef TINTED
 flat in vec4 tint;
 #endif
-uniform float hazePerMetre;
 out vec4 fragment;
 // A software rasteriser runs both sides of a branch and masks what each writes: what an image has not is not compiled.
 void main() {
@@ -33,5 +32,5 @@ void main() {
 #ifdef WIRE
   lit = vec3(0.05, 0.05, 0.08);
 #endif
-  fragment = vec4(throughAir(lit, exp(-length(relative) * hazePerMetre), relative), 1.0);
+  fragment = vec4(throughAir(lit, exp(-length(relative) * (1.0 / HAZE_DISTANCE)), relative), 1.0);
 }

@@ -24,7 +24,7 @@ float metresInFog(float elevation, float rise) {
 #endif
 in vec3 direction;
 uniform vec3 upInEye;
-uniform vec3 haze;
+const vec3 haze = vec3(HAZE_RED, HAZE_GREEN, HAZE_BLUE);  // sRGB
 uniform float dip;         // sine of the dip of the earth's horizon
 out vec4 fragment;
 void main() {

@@ -6,7 +6,6 @@
 in vec3 vertexPosition;
 in vec3 vertexNormal;
 in vec4 vertexColour;
-uniform float hazePerMetre;
 uniform float inGuardBand;
 #ifdef STATIC_TREE
 layout(location = 2) in vec2 treeTexture;
@@ -56,7 +55,7 @@ void main() {
   lit = mix(lit, tint.rgb * (0.25 + 0.75 * light), tint.a);
 #endif
   relative = p;
-  clearness = exp(-length(p) * hazePerMetre);
+  clearness = exp(-length(p) * (1.0 / HAZE_DISTANCE));
   ground = groundMetres(vertexPosition, slot);
   gl_Position = gl_ModelViewProjectionMatrix * vec4(p, 1.0);
 #ifdef WIRE

@@ -125,9 +125,6 @@ struct QueryPeers::Impl {
     osg::StateSet* state = root->getOrCreateStateSet();
     state->setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0, 1, true));
     state->addUniform(new osg::Uniform("sun", toFloat(normalized({0.55, -0.60, 0.58}))));
-    state->addUniform(
-        new osg::Uniform("haze", osg::Vec3f(scene::kHaze[0], scene::kHaze[1], scene::kHaze[2])));
-    state->addUniform(new osg::Uniform("hazePerMetre", 1 / 110e3f));
     state->addUniform(new osg::Uniform("inGuardBand", 1.0f));
     state->addUniform(new osg::Uniform("slots", scene::kSlotUnit));
     state->addUniform(new osg::Uniform("tints", scene::kTintUnit));

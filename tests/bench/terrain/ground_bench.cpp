@@ -144,8 +144,6 @@ void measureDrawing(Report& report, const std::shared_ptr<const GroundPyramid>& 
     glUseProgram(program);
     glUniform3f(glGetUniformLocation(program, "sun"), static_cast<float>(sun.x), static_cast<float>(sun.y),
                 static_cast<float>(sun.z));
-    glUniform3f(glGetUniformLocation(program, "haze"), 0.7f, 0.8f, 0.9f);
-    glUniform1f(glGetUniformLocation(program, "hazePerMetre"), 1 / 110e3f);
     glUniform3f(glGetUniformLocation(program, "fog"), 0.7f, 0.72f, 0.74f);
     glUniform3f(glGetUniformLocation(program, "air"), 2e-4f, 1e30f, 1);
     texture.bind(program);
