@@ -55,6 +55,8 @@ void addExperiment(CLI::App& app, int& exitCode) {
                  &experiment::runWeather},
            Named{"weather-protocol", "One ratio at several vertex counts, as published (document D)",
                  &experiment::runWeatherProtocol},
+           Named{"hold", "A budget held through head motion and weather, in four modes (beyond C and D)",
+                 &experiment::runHold},
            Named{"static-lod", "Faces by level of one tile of scenery (document E)",
                  &experiment::runStaticLod},
        }) {
@@ -65,6 +67,8 @@ void addExperiment(CLI::App& app, int& exitCode) {
       command->add_option("--host-rate", arguments->setup.hostRateHz, "Host states a second")
           ->capture_default_str()
           ->check(CLI::Range(1, 1000));
+    if (std::string_view(named.name) == "hold")
+      command->add_option("--head", arguments->setup.head, "Head log, or sweep:DEG/S; bad rows are left out");
     command->add_option("-o,--output", arguments->output, "Folder for JSON, CSV and plots");
     command->add_flag("--json", arguments->json, "One JSON document on standard output");
     command->callback([arguments, run = named.run, &exitCode] { exitCode = cli::run(*arguments, run); });

@@ -9,6 +9,7 @@
 
 #include "report.h"
 #include "trimtab/host/flight.h"
+#include "trimtab/host/head_log.h"
 #include "trimtab/preset/table.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/weather/calibrate.h"
@@ -21,6 +22,7 @@ struct Setup {
   std::shared_ptr<const terrain::Database> terrain;
   std::string terrainName;
   std::optional<Flight> flight;  ///< the places to look from; if unset, the experiment chooses them
+  std::optional<HeadLog> head;   ///< of the experiment on the budget; if unset, a scripted sweep
   TuningParameters parameters;
   std::string presetName;
   int widthPx = 1280, heightPx = 720;
@@ -69,6 +71,11 @@ struct CalibratedWeather {
   double vertices = 0;  ///< in view in clear air
 };
 Result<CalibratedWeather> calibrateWeather(const Setup& setup, const WeatherCalibration& wanted);
+
+/// What documents C and D leave open: a head sweep, a flight with a head log, one through changing weather
+/// and a steady one, in the modes *off*, *as published*, *policy* and *hold*, under a budget of 0.6 of the
+/// median image of *off*.
+Result<Report> runHold(const Setup& setup);
 
 /// Document E: the tile nearest to the published triangles, built with the published n. Needs scenery.
 Result<Report> runStaticLod(const Setup& setup);

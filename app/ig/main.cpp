@@ -8,6 +8,8 @@
 #include <string>
 
 #include "loop.h"
+#include "trimtab/hold/cost_model_file.h"
+#include "trimtab/scene/load_index.h"
 #include "trimtab/scene/renderer.h"
 #include "trimtab/terrain/format/database.h"
 
@@ -115,6 +117,8 @@ int runWith(const Options& options) {
 
   Session session(preset->parameters);
   session.setGround(*database);
+  session.setLoadIndex(scene::loadIndexOf(*database));
+  if (preset->parameters->hold.enabled) report(recallCostModel(session.hold().model(), gl->renderer));
   session.head() = std::move(head).value();
   session.keepRows(true);
   Damage damage(**database, renderer);
@@ -129,6 +133,7 @@ int runWith(const Options& options) {
                 watch ? &*watch : nullptr};
   if (options.listen || options.realtime) warmUp(run, **database);
   Summary summary = drawFrames(run);
+  if (session.parameters()->hold.enabled) report(rememberCostModel(session.hold().model(), gl->renderer));
 
   bool written = true;
   if (trace) written &= accepted(trace->finish());

@@ -76,6 +76,7 @@ void readCells(const std::vector<std::string_view>& cells, const std::vector<std
       good = parse(cell, value, expected);
     }
     if (!cell.empty() && kind == Cell::frame) flat.hasFrame = true;
+    if (!cell.empty() && kind == Cell::hold) flat.hasHold = true;
     if (!good && findings.size() < kMostFindings)
       findings.push_back({Severity::error, where, name, expected.what,
                           cell.empty() ? "nothing" : '"' + std::string(cell.substr(0, 40)) + '"'});
@@ -130,7 +131,7 @@ void appendTraceRow(std::string& text, const TraceRow& row) {
     if (kind == Cell::former) return;
     if (!first) text += ',';
     first = false;
-    if (!flat.hasFrame && kind == Cell::frame) return;
+    if ((!flat.hasFrame && kind == Cell::frame) || (!flat.hasHold && kind == Cell::hold)) return;
     if constexpr (IsOptional<std::remove_cvref_t<decltype(value)>>::value) {
       if (value) print(text, *value);
     } else {
@@ -228,7 +229,12 @@ std::vector<TraceDifference> decideAgain(const std::vector<TraceRow>& trace,
   for (std::size_t i = 0; i < trace.size(); ++i) {
     DecisionMemory memory = trace[i].before;
     const FrameDecision decided = decide(trace[i].input, parameters, memory);
-    if (decided != trace[i].decision) differences.push_back({i, trace[i].decision, decided});
+    bool same = decided == trace[i].decision;
+    if (const std::optional<HoldRecord>& hold = trace[i].hold) {
+      HoldMemory held = hold->before;
+      same = same && arbitrate(hold->given, parameters->hold, held) == hold->decision;
+    }
+    if (!same) differences.push_back({i, trace[i].decision, decided});
   }
   return differences;
 }

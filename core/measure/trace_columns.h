@@ -14,9 +14,9 @@
 /// is `Cell::optional`, so that traces without it stay readable: its field keeps its default.
 namespace trimtab::trace {
 
-/// Whether a cell may be empty; cells of the frame are all empty where no frame showed the decision. Columns
-/// that are `former` are read, but not written.
-enum class Cell { required, optional, frame, former };
+/// Whether a cell may be empty; cells of the frame are all empty where no frame showed the decision, and
+/// those of `hold` where no budget was held. Columns that are `former` are read, but not written.
+enum class Cell { required, optional, frame, hold, former };
 
 /// What a policy was given, what its levers were before, and what it set. The cells of a preset without a
 /// policy are empty, and so is the cell of a signal that nobody knows.
@@ -44,6 +44,8 @@ struct Flat {
   FlatPolicy policy;
   TraceFrame frame;
   bool hasFrame = false;
+  HoldRecord hold;
+  bool hasHold = false;
 };
 
 template <class T>
@@ -140,6 +142,33 @@ void forEachPolicyColumn(Policy& p, const Visit& visit) {
   visit("signals_unknown", Cell::optional, p.unknownAsked);
 }
 
+/// The arbitration of the image that showed the decision. What it was given is one cell, see trace_cells.h.
+template <class Record, class Visit>
+void forEachHoldColumn(Record& hold, const Visit& visit) {
+  visit("hold_given", Cell::hold, hold.given);
+  visit("hold_before", Cell::hold, hold.before);
+  auto& d = hold.decision;
+  visit("hold_reason", Cell::hold, d.reason);
+  visit("hold_asked_error_px", Cell::hold, d.asked.errorPx);
+  visit("hold_asked_render_scale", Cell::hold, d.asked.renderScale);
+  visit("hold_asked_particles", Cell::hold, d.asked.particleShare);
+  visit("hold_asked_blur", Cell::hold, d.asked.blurShare);
+  visit("hold_error_px", Cell::hold, d.held.errorPx);
+  visit("hold_render_scale", Cell::hold, d.held.renderScale);
+  visit("hold_particles", Cell::hold, d.held.particleShare);
+  visit("hold_blur", Cell::hold, d.held.blurShare);
+  visit("hold_asked_ground_ms", Cell::hold, d.askedMs.ground);
+  visit("hold_asked_weather_ms", Cell::hold, d.askedMs.weather);
+  visit("hold_asked_blur_ms", Cell::hold, d.askedMs.blur);
+  visit("hold_asked_other_ms", Cell::hold, d.askedMs.other);
+  visit("hold_ground_ms", Cell::hold, d.heldMs.ground);
+  visit("hold_weather_ms", Cell::hold, d.heldMs.weather);
+  visit("hold_blur_ms", Cell::hold, d.heldMs.blur);
+  visit("hold_other_ms", Cell::hold, d.heldMs.other);
+  visit("hold_limit_ms", Cell::hold, d.limitMs);
+  visit("hold_band_ms", Cell::hold, d.bandMs);
+}
+
 /// Calls `visit(name, cell, value)` for each column in the file's order: the one list that header, writer
 /// and reader share.
 template <class F, class Visit>
@@ -202,6 +231,7 @@ void forEachColumn(F& f, const Visit& visit) {
   forEachMotionColumn(d.motion, visit);
   forEachWeatherColumn(d.weather, visit);
   forEachPolicyColumn(f.policy, visit);
+  forEachHoldColumn(f.hold, visit);
 
   visit("triangles", Cell::frame, f.frame.counts.triangles);
   visit("vertices", Cell::frame, f.frame.counts.vertices);
@@ -276,6 +306,8 @@ inline Flat flatten(const TraceRow& row) {
   }
   f.hasFrame = row.frame.has_value();
   if (row.frame) f.frame = *row.frame;
+  f.hasHold = row.hold.has_value();
+  if (row.hold) f.hold = *row.hold;
   return f;
 }
 
@@ -298,6 +330,7 @@ inline TraceRow unflatten(Flat& f) {
       if (mu) firing.mu[firing.count++] = *mu;
   unflattenPolicy(f.policy, f.row);
   if (f.hasFrame) f.row.frame = f.frame;
+  if (f.hasHold) f.row.hold = f.hold;
   return f.row;
 }
 

@@ -25,11 +25,8 @@ namespace trimtab::scene {
 
 std::optional<TerrainForm> formDrawn(const FrameRequest& request, const terrain::Database* database) {
   if (!database) return {};
-  if (asksForTrees(request) && database->staticLod()) return TerrainForm::static_trees;
-  const bool tiles = database->index().size() > 0, patches = database->patches() != nullptr;
-  if (patches && (request.staticLod.terrain == TerrainForm::patches || !tiles)) return TerrainForm::patches;
-  if (tiles) return TerrainForm::levels;
-  return {};
+  return formDrawn(request, FormsOfTerrain{database->index().size() > 0, database->patches() != nullptr,
+                                           database->staticLod() != nullptr});
 }
 
 struct Renderer::Impl {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <random>
 #include <set>
@@ -14,6 +15,7 @@
 #include "trimtab/host/encoder.h"
 #include "trimtab/host/received_state.h"
 #include "trimtab/motion/head_motion.h"
+#include "trimtab/scene/load_index.h"
 #include "trimtab/session/session.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/weather/calibrate.h"
@@ -22,6 +24,8 @@
 /// parameter itself would not count, so nothing here reads one.
 namespace trimtab {
 namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
@@ -197,6 +201,35 @@ class ParameterEffects : public test::SceneTest {
     return seen;
   }
 
+  /// A budget held over a sweeping head in heavy rain, on a machine whose images cost what a formula says.
+  Observed holdBudget(const ValidatedParameters& parameters) {
+    Session session(parameters);
+    session.setGround(database);
+    session.setLoadIndex(scene::loadIndexOf(database));
+    Observed seen;
+    AircraftState state = packets(over(0.5, 0.2, 0)).front();
+    state.weather->severity = 5;
+    for (int i = 0; i < 150; ++i) {
+      state.time = i / 60.0;
+      state.head = Attitude{Degrees{3.0 * std::clamp(i - 40, 0, 40)}, Degrees{-5}, {}};
+      session.fly(state);
+      const FrameRequest request = *session.request(state.time, 640, 360);
+      seen["hold " + std::to_string(i)] = explain(request.hold);
+      FrameResult result;
+      result.visible.triangles = static_cast<std::uint64_t>(4e4 / request.lod.screenSpaceError.value());
+      const double slowness = i < 90 ? 1 : 0.4, pixels = request.renderScale * request.renderScale;
+      FrameCost& cost = result.cost;
+      cost.weather = request.decision.weather.density > 0 ? slowness * 12 * request.particleShare : kNan;
+      cost.blur = request.decision.motion.blur.strength > 0 ? slowness * 3 * pixels : kNan;
+      cost.draw = slowness * (2 + 16 * pixels + 2e-4 * double(result.visible.triangles)) +
+                  (std::isnan(cost.weather) ? 0 : cost.weather) + (std::isnan(cost.blur) ? 0 : cost.blur);
+      cost.gpu = cost.page = cost.symbology = kNan;
+      cost.total = cost.draw;
+      session.finished(result, state.time);
+    }
+    return seen;
+  }
+
   /// Document D's calibration on a cost that rises with the far plane and the density.
   static Observed calibrate(const ValidatedParameters& parameters) {
     Observed seen;
@@ -292,6 +325,9 @@ TEST_F(ParameterEffects, everyParameterChangesADecisionAPictureOrACount) {
         {"policy.terms", "altitude low = ramp 30000 -2000 | pitch up = ramp -90 90"},
         {"policy.rules",
          "if altitude is low and pitch is up then lod_scale = 4 | if altitude is any then lod_scale = 1"}}},
+      {"hold. measure.",
+       {{"hold.enabled", "true"}, {"weather.source", "host"}},
+       &ParameterEffects::holdBudget},
       {"lod.texture",
        {{"static_lod.terrain", "patches"}, {"lod.scale", "4"}},
        &ParameterEffects::flyOverTexture},

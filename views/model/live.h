@@ -3,10 +3,12 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "trimtab/frame/frame.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/frame/terrain_frame.h"
+#include "trimtab/hold/frame_hold.h"
 
 namespace trimtab::views {
 
@@ -23,6 +25,9 @@ struct LiveFrame {
   double fps = std::numeric_limits<double>::quiet_NaN();
   std::shared_ptr<const FrameResult> result;  ///< null until the terrain has been drawn once
   LevelsFrame levels;                         ///< of `result`: by depth if it drew patches
+  HoldDecision hold;                          ///< of `result`
+  std::optional<HoldOutcome> holdOutcome;     ///< of the prediction for `result`
+  bool newImage = false;                      ///< `result` is new
 
   /// Returns `*result`, or a result in which nothing was drawn if there is none yet.
   const FrameResult& drawn() const {

@@ -4,6 +4,7 @@
 #include <QTimer>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/link/link.h"
 #include "app/workbench/docks/message_panel.h"
@@ -11,6 +12,7 @@
 #include "image_text.h"
 #include "terrain_controller.h"
 #include "terrain_summary.h"
+#include "trimtab/hold/cost_model_file.h"
 #include "views/model/draft.h"
 
 namespace trimtab::workbench {
@@ -60,6 +62,10 @@ FrameController::FrameController(const Workplace& workplace, const TerrainContro
     onDecision();
     at_.viewport.invalidate();
   });
+}
+
+FrameController::~FrameController() {
+  if (recalled_) rememberCostModel(at_.feed.session().hold().model(), at_.viewport.gl().renderer);
 }
 
 void FrameController::setOverlays(const Overlays& overlays) {
@@ -113,9 +119,15 @@ void FrameController::onPainted() {
     fps_ = std::isfinite(fps_) ? fps_ + (1 / gap - fps_) * kRateShare : 1 / gap;
   else
     fps_ = kNan;
+  CostModel& model = at_.feed.session().hold().model();
+  if (!std::exchange(recalled_, true))
+    if (const Findings found = recallCostModel(model, at_.viewport.gl().renderer); !found.empty())
+      at_.messages.add(tr("The costs of an image are learned anew"), found);
   lastCost_ = at_.feed.session().finished(*result, link::now());
   levels_ = levelsDrawn(*result, *terrain_.database());
-  emit frameShown(liveFrame());
+  views::LiveFrame frame = liveFrame();
+  frame.newImage = true;
+  emit frameShown(frame);
   emit painted();
   // A page that was missing may have been read by then.
   if (!result->paging.settled) QTimer::singleShot(kPageWaitMs, &at_.viewport, &Viewport::invalidate);
@@ -135,6 +147,8 @@ views::LiveFrame FrameController::liveFrame() const {
   frame.fps = fps_;
   frame.result = at_.viewport.lastResult();
   if (frame.result) frame.levels = levels_;
+  if (shown_) frame.hold = shown_->hold;
+  frame.holdOutcome = at_.feed.session().hold().outcome();
   return frame;
 }
 

@@ -22,6 +22,8 @@ class FrameController : public QObject {
 
  public:
   FrameController(const Workplace& workplace, const TerrainController& terrain);
+  /// Keeps what images cost for the next start.
+  ~FrameController() override;
 
   /// The request that the viewport drew last. Nothing until the first image.
   const std::optional<FrameRequest>& shown() const { return shown_; }
@@ -56,6 +58,7 @@ class FrameController : public QObject {
   std::optional<EyePose> frozenEye_;
   std::optional<FrameRequest> shown_;
   FrameCost lastCost_;
+  bool recalled_ = false;  ///< what an earlier start learned of this machine's costs has been looked for
   LevelsFrame levels_;  ///< of the last image
   QElapsedTimer sinceImage_, sinceStart_;
   double fps_ = std::numeric_limits<double>::quiet_NaN();

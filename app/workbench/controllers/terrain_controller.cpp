@@ -11,6 +11,7 @@
 #include "app/workbench/viewport/viewport.h"
 #include "recent_files.h"
 #include "terrain_summary.h"
+#include "trimtab/scene/load_index.h"
 #include "trimtab/terrain/bake/bake.h"
 
 namespace trimtab::workbench {
@@ -92,6 +93,7 @@ void TerrainController::use(std::shared_ptr<const terrain::Database> database, c
                         .arg(info.highest.value(), 0, 'f', 0)
                         .arg(info.voidsFilled));
   at_.feed.session().setGround(database_);
+  at_.feed.session().setLoadIndex(scene::loadIndexOf(database_));
   at_.viewport.setTerrain(database_);
   trees_.setTrees(treesOf(*database_));
   panel_.setTerrain(summaryOf(*database_));

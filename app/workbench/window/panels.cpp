@@ -14,6 +14,7 @@
 #include "views/editors/bands_editor.h"
 #include "views/model/draft.h"
 #include "views/model/keys.h"
+#include "views/panels/budget_panel.h"
 #include "views/panels/culling_panel.h"
 #include "views/panels/decision_panel.h"
 #include "views/panels/motion_panel.h"
@@ -65,6 +66,7 @@ Panels makePanels(DockLayout& docks, views::Draft& draft, Feed& feed) {
   panels.symbology = docks.add("symbology", tr("Symbology"), edit, new views::SymbologyPanel(draft));
   auto* parameters = docks.add("preset", tr("Preset"), edit, new views::ParameterTable(draft));
   docks.add("decision", tr("Decision"), effect, new views::DecisionPanel(draft));
+  docks.add("budget", tr("Budget"), effect, new views::BudgetPanel(draft));
   panels.motion = docks.add("motion", tr("Head motion"), effect, new views::MotionPanel(draft));
   panels.host = docks.add("host", tr("Host"), effect, new HostDock(feed, draft));
   panels.flight = docks.add("flight", tr("Flight"), effect, new FlightDock(feed));

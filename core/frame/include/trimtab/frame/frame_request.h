@@ -5,6 +5,7 @@
 
 #include "trimtab/frame/eye_pose.h"
 #include "trimtab/frame/frame.h"
+#include "trimtab/frame/hold_decision.h"
 #include "trimtab/frame/overlays.h"
 #include "trimtab/frame/symbology_request.h"
 #include "trimtab/preset/parameters.h"
@@ -45,6 +46,8 @@ struct FrameRequest {
   double renderScale = 1;
   double particleShare = 1;  ///< the share of the drops and flakes of the weather that is drawn
   FrameDecision decision;
+  /// What the arbiter of the budget decided; the levers above and the decision already have its values.
+  HoldDecision hold;
   CullingCase method = CullingCase::proposed;
   OcclusionMethod occlusion =
       OcclusionMethod::depth_map;  ///< of levels and patches; static trees have their own
@@ -88,6 +91,18 @@ struct FrameRequest {
 inline double farCutM(const FrameRequest& request) {
   return request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited;
 }
+
+/// Sets the allowed screen-space error of levels and patches, pixels, and scales that of static trees with
+/// it.
+void setAllowedError(FrameRequest& request, double errorPx);
+
+/// The forms in which a terrain can be drawn.
+struct FormsOfTerrain {
+  bool tiles = false, patches = false, trees = false;
+};
+/// Returns the form in which a terrain is drawn: the one that the request asks for if the terrain has it,
+/// else one that it has. Unset if it has no form at all.
+std::optional<TerrainForm> formDrawn(const FrameRequest& request, const FormsOfTerrain& forms);
 
 /// Reports whether the request asks for static trees, if the terrain has them.
 inline bool asksForTrees(const FrameRequest& request) {

@@ -213,6 +213,25 @@ struct PolicyParameters {
   friend bool operator==(const PolicyParameters&, const PolicyParameters&) = default;
 };
 
+/// The arbiter that keeps a frame's predicted work time within measure.budget_ms (trimtab/hold/arbiter.h).
+struct HoldParameters {
+  bool enabled = false;
+  Ratio margin{0.08};      ///< the share of the budget that the prediction leaves free
+  Milliseconds calm{150};  ///< head-room must last so long before levers are restored
+  Ratio lookAhead{5};      ///< the views of so many coming images are counted
+  // How far the arbiter may go.
+  Pixels errorMaximum{16};
+  Ratio renderScaleMinimum{0.5};
+  Ratio particlesMinimum{0.25};
+  Ratio blurMinimum{0};
+  // The mean FLIP that each lever loses over its usual range, as `trimtab-cli leverage` measures it.
+  Ratio lossError{0.026};
+  Ratio lossRenderScale{0.022};
+  Ratio lossParticles{0.056};
+  Ratio lossBlur{0};
+  Milliseconds exposure{16};  ///< how long an image is held; 0: no error is hidden by motion
+};
+
 struct MeasureParameters {
   Milliseconds budget{16.7};  ///< the work time that a frame may take; the plots draw it as a line
 };
@@ -245,6 +264,7 @@ struct TuningParameters {
   SymbolElement symbolAltitude{.x = Ratio{0.6}, .y = Ratio{0.1}};
   SymbolElement symbolHost;
   PolicyParameters policy;
+  HoldParameters hold;
   HostParameters host;
   MeasureParameters measure;
 };

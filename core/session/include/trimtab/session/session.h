@@ -22,6 +22,7 @@
 #include "trimtab/session/air_drift.h"
 #include "trimtab/session/head_input.h"
 #include "trimtab/session/image_rate.h"
+#include "trimtab/session/motion_ahead.h"
 #include "trimtab/session/signal_tracker.h"
 
 /// Turns states into decisions and requests for images. An image generator and the workbench both use it, so
@@ -59,6 +60,8 @@ class Session {
   /// Sets what is asked for the height of the ground if the host does not send the height above it. May be
   /// null.
   void setGround(std::shared_ptr<const GroundHeights> ground);
+  /// Sets what the arbiter of the budget counts the triangles of coming views in; see FrameHold::setIndex.
+  void setLoadIndex(std::shared_ptr<const LoadIndex> index) { hold_.setIndex(std::move(index)); }
 
   // Where states come from. Each call decides each of its states exactly once, in order.
 
@@ -100,6 +103,10 @@ class Session {
   std::uint64_t jumps() const { return jumps_; }
   const Latency& latency() const { return latency_; }
 
+  /// Returns what holds the budget: its cost model, and how its predictions come out.
+  FrameHold& hold() { return hold_; }
+  const FrameHold& hold() const { return hold_; }
+
   // Images.
 
   /// Reports whether an image at `now` would differ from the last one requested: because of a packet, an
@@ -140,6 +147,7 @@ class Session {
   void decideImage(double now);
   FrameInput inputFor(const AircraftState& state) const;
   void trackSignals(FrameInput& input);
+  void holdBudget(FrameRequest& request);
   std::optional<Metres> groundBelow(const AircraftState& state) const;
   std::optional<Metres> highestGround() const;
   void follow(const AircraftState& state, double arrival);
@@ -169,6 +177,9 @@ class Session {
   AirDrift airDrift_;  ///< up to the last image requested
 
   SignalTracker signals_;  ///< pushed only if the preset has a policy
+  FrameHold hold_;
+  MotionAhead motionAhead_;                 ///< up to the last image requested
+  std::optional<HoldRecord> replayedHold_;  ///< of the row of a trace that the next image shows
   GroundVelocity groundVelocity_;
   Extrapolator extrapolator_;
   bool linked_ = false;  ///< states come from a live link, so the eye may be extrapolated

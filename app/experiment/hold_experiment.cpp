@@ -1,0 +1,147 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "hold_run.h"
+#include "trimtab/host/head_log.h"
+
+namespace trimtab::experiment {
+namespace {
+
+/// The budget of a strain, as a part of the median image of mode *off*.
+constexpr double kBudget = 0.6;
+constexpr double kFlightS = 6;
+constexpr std::size_t kMeasured = 12;
+constexpr const char* kBuiltInHead = "sweep:120/0.7/1";
+
+using Runs = std::array<HoldRun, kHoldModes.size()>;
+
+std::vector<double> ofStrain(const std::vector<double>& values, const Strain& strain) {
+  return {values.begin() + std::ptrdiff_t(strain.from), values.begin() + std::ptrdiff_t(strain.to)};
+}
+
+std::size_t changes(const std::vector<double>& values, const Strain& strain) {
+  std::size_t count = 0;
+  for (std::size_t i = strain.from; i < values.size(); ++i)
+    count += i > 0 && std::abs(values[i] / values[i - 1] - 1) > 0.01;
+  return count;
+}
+
+void addRow(Table& table, const Strain& strain, HoldMode mode, double budgetMs, const HoldRun& run,
+            const HoldRun& off) {
+  const std::vector<double> ms = ofStrain(run.ms, strain);
+  const auto over = [&](double part) {
+    return double(std::count_if(ms.begin(), ms.end(), [&](double m) { return m > part * budgetMs; })) /
+           double(ms.size());
+  };
+  std::vector<double> triangles, times;
+  double covered = 0;
+  for (const HoldOutcome& o : run.outcomes) {
+    if (o.triangles > 0) triangles.push_back(std::abs(o.predictedTriangles / o.triangles - 1));
+    times.push_back(std::abs(o.predictedMs / o.ms - 1));
+    covered += std::abs(o.predictedMs - o.ms) <= o.bandMs;
+  }
+  const auto orNone = [](const std::vector<double>& values, double value) {
+    return values.empty() ? Cell() : Cell(value);
+  };
+  const double slowest = quantileOf(ofStrain(off.ms, strain), 1) / quantileOf(ms, 1);
+  table.rows.push_back({strain.name, std::string(kHoldModes[std::size_t(mode)]), budgetMs,
+                        quantileOf(ms, 0.5), quantileOf(ms, 0.95), quantileOf(ms, 0.99), quantileOf(ms, 1),
+                        slowest, quantileOf(ms, 0.99) / budgetMs, over(1.1), meanOf(run.flip),
+                        double(changes(run.errorPx, strain)),
+                        *std::min_element(run.particles.begin(), run.particles.end()),
+                        orNone(triangles, triangles.empty() ? 0 : quantileOf(triangles, 0.5)),
+                        orNone(times, times.empty() ? 0 : quantileOf(times, 0.5)),
+                        orNone(times, times.empty() ? 0 : covered / double(times.size())), run.lookMs});
+}
+
+Plot plotOf(const Strain& strain, const Runs& runs, double budgetMs, std::size_t number) {
+  Plot plot{"hold-" + std::to_string(number) + "-frame-ms",
+            "Frame time: " + strain.name,
+            "time (s)",
+            "frame time (ms)",
+            {},
+            {}};
+  std::vector<double> times;
+  for (const AircraftState& state : strain.states) times.push_back(state.time - strain.states[0].time);
+  for (std::size_t m = 0; m < runs.size(); ++m) plot.series.push_back({kHoldModes[m], times, runs[m].ms});
+  plot.series.push_back({"budget", {times.front(), times.back()}, {budgetMs, budgetMs}});
+  return plot;
+}
+
+/// The strains that the terrain, the flight and the head allow.
+Result<std::vector<Strain>> strainsOf(const Setup& setup, std::vector<std::string>& notes) {
+  std::vector<Strain> strains;
+  const std::vector<Place> places = placesOf(setup, 1);
+  if (places.empty()) return notOverTerrain(setup);
+  GeodeticPosition eye = places[0].ground;
+  eye.height = eye.height + Feet{2000}.as<Metres>();
+  strains.push_back(sweepStrain(eye));
+  const Result<HeadLog> builtIn = parseSweep(kBuiltInHead);
+  if (!setup.head && !builtIn) return builtIn.findings();
+  const HeadLog& head = setup.head ? *setup.head : *builtIn;
+  for (const std::optional<Strain>& strain :
+       {headStrain(setup, head, kFlightS), weatherStrain(setup, kFlightS), steadyStrain(setup, kFlightS)})
+    if (strain) strains.push_back(*strain);
+  if (strains.size() == 1)
+    notes.push_back("Without a flight over the terrain for 6 s in its middle only the sweep was flown.");
+  return strains;
+}
+
+}  // namespace
+
+Result<Report> runHold(const Setup& setup) {
+  auto stage = Stage::open(setup);
+  if (!stage) return stage.findings();
+  scene::ErrorMeter meter;
+  if (const scene::GlReport gl = meter.initialize(); !gl.usable)
+    return Finding{Severity::error, "GL", "", "a usable context", gl.missing};
+  meter.setTerrain(setup.terrain);
+  Report report{"hold", "C, D: what is left open", (*stage)->machine(), {}, {}, {}, {}};
+  report.measured.columns = {
+      "strain",        "mode",         "budget_ms",      "frame_ms_median", "frame_ms_p95",
+      "frame_ms_p99",  "frame_ms_max", "slowest_gain",   "p99_over_budget", "share_over_1_1",
+      "flip_mean",     "lod_changes",  "particles_kept", "triangles_error", "ms_error",
+      "band_coverage", "request_ms"};
+  const Result<std::vector<Strain>> strains = strainsOf(setup, report.notes);
+  if (!strains) return strains.findings();
+  CostModel model;
+  for (std::size_t s = 0; s < strains->size(); ++s) {
+    const Strain& strain = (*strains)[s];
+    Runs runs;
+    double budgetMs = setup.parameters.measure.budget.value();
+    const std::size_t every = std::max<std::size_t>((strain.to - strain.from) / kMeasured, 1);
+    for (std::size_t m = 0; m < runs.size(); ++m) {
+      const auto mode = static_cast<HoldMode>(m);
+      const Result<ValidatedParameters> parameters = inMode(setup.parameters, mode, budgetMs);
+      if (!parameters) return parameters.findings();
+      const auto go = [&](double part) {
+        const double steps = double(strains->size() * runs.size());
+        return !setup.progress || setup.progress((double(s * runs.size() + m) + part) / steps,
+                                                 strain.name + ", " + kHoldModes[m]);
+      };
+      CostModel none;
+      CostModel& used = mode == HoldMode::hold ? model : none;
+      const auto run = fly(**stage, meter, setup, *parameters, strain, every, used, go);
+      if (!run) return cancelled();
+      runs[m] = *run;
+      if (mode == HoldMode::off) budgetMs = kBudget * quantileOf(ofStrain(run->ms, strain), 0.5);
+    }
+    for (std::size_t m = 0; m < runs.size(); ++m)
+      addRow(report.measured, strain, static_cast<HoldMode>(m), budgetMs, runs[m], runs[0]);
+    report.plots.push_back(plotOf(strain, runs, budgetMs, s + 1));
+  }
+  char text[300];
+  std::snprintf(
+      text, sizeof text,
+      "%s, preset %s, %d x %d. The budget is %.1f of the median image of mode off. Work time of each "
+      "image, one pass a mode; FLIP of %zu images against the finest levels. slowest_gain is the "
+      "slowest image of off over that of the mode.",
+      setup.terrainName.c_str(), setup.presetName.c_str(), setup.widthPx, setup.heightPx, kBudget, kMeasured);
+  report.notes.insert(report.notes.begin(), text);
+  return report;
+}
+
+}  // namespace trimtab::experiment

@@ -1,0 +1,161 @@
+#include "hold_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "trimtab/preset/preset.h"
+#include "trimtab/scene/data_extent.h"
+#include "trimtab/scene/load_index.h"
+
+namespace trimtab::experiment {
+namespace {
+
+constexpr double kImagesPerS = 60;
+constexpr int kSweepImagesPerS = 200;
+constexpr std::size_t kWarmUp = 60;
+/// Images between two questions whether to go on.
+constexpr std::size_t kAsked = 40;
+/// Images that a blur can reach back over.
+constexpr std::size_t kLongestTrace = 64;
+
+/// The middle of the flight, from where on it is over the terrain for so long.
+std::optional<double> middleOf(const Setup& setup, double seconds) {
+  if (!setup.flight || setup.flight->states.empty()) return std::nullopt;
+  const double begin = setup.flight->beginS(), end = setup.flight->states.back().time;
+  const double from = std::max(begin, 0.5 * (begin + end) - 0.5 * seconds);
+  const auto over = [&](double time) {
+    return scene::liesOver(setup.terrain->info(), stateAt(*setup.flight, time).position);
+  };
+  if (from + seconds > end || !over(from) || !over(from + seconds)) return std::nullopt;
+  return from;
+}
+
+template <class Change>
+std::optional<Strain> flown(const Setup& setup, const char* name, double seconds, const Change& change) {
+  const std::optional<double> from = middleOf(setup, seconds);
+  if (!from) return std::nullopt;
+  Strain strain{name, {}, kWarmUp, 0};
+  const auto images = static_cast<std::size_t>(seconds * kImagesPerS);
+  for (std::size_t i = 0; i < images; ++i) {
+    const double time = static_cast<double>(i) / kImagesPerS;
+    AircraftState state = stateAt(*setup.flight, *from + time);
+    change(state, time);
+    strain.states.push_back(state);
+  }
+  strain.to = images;
+  return strain;
+}
+
+bool blurs(const FrameRequest& request) {
+  return request.decision.motion.blur.strength > 0;
+}
+
+}  // namespace
+
+Strain sweepStrain(const GeodeticPosition& eye) {
+  constexpr std::size_t kStill = 100, kSweep = 200, kRest = 200;
+  Strain strain{"sweep of 180 degrees in 1 s", {}, kStill, kStill + kSweep};
+  for (std::size_t i = 0; i < kStill + kSweep + kRest; ++i) {
+    AircraftState state;
+    state.time = static_cast<double>(i) / kSweepImagesPerS;
+    state.packet = i;
+    state.position = eye;
+    const double part = (static_cast<double>(i) - kStill) / kSweep;
+    state.head = Attitude{Degrees{180 * std::clamp(part, 0.0, 1.0)}, {}, {}};
+    strain.states.push_back(state);
+  }
+  return strain;
+}
+
+std::optional<Strain> headStrain(const Setup& setup, const HeadLog& head, double seconds) {
+  return flown(setup, "flight with a head log", seconds, [&](AircraftState& state, double time) {
+    HeadInput input;
+    input.useLog(head);
+    input.begin(state.time - time);
+    input.apply(state, state.time);
+  });
+}
+
+std::optional<Strain> weatherStrain(const Setup& setup, double seconds) {
+  return flown(setup, "flight through weather", seconds, [&](AircraftState& state, double time) {
+    struct Phase {
+      Precipitation falls;
+      int severity;
+    };
+    constexpr std::array<Phase, 5> kPhases{{{Precipitation::none, 0},
+                                            {Precipitation::rain, 1},
+                                            {Precipitation::rain, 5},
+                                            {Precipitation::snow, 5},
+                                            {Precipitation::none, 0}}};
+    const auto at = static_cast<std::size_t>(time / seconds * double(kPhases.size()));
+    const Phase& phase = kPhases[std::min(at, kPhases.size() - 1)];
+    state.weather = HostWeather{phase.falls, phase.severity, std::nullopt};
+  });
+}
+
+std::optional<Strain> steadyStrain(const Setup& setup, double seconds) {
+  return flown(setup, "steady flight", seconds, [](AircraftState&, double) {});
+}
+
+Result<ValidatedParameters> inMode(const TuningParameters& preset, HoldMode mode, double budgetMs) {
+  TuningParameters p = preset;
+  p.measure.budget = Milliseconds{budgetMs};
+  p.weather.source = WeatherSource::host;
+  p.hold.enabled = mode == HoldMode::hold;
+  const bool published = mode == HoldMode::as_published;
+  p.motion.control = published ? MotionControl::with_restoration : MotionControl::off;
+  p.weather.ratioMode = mode == HoldMode::off ? RatioMode::off : RatioMode::adaptive;
+  if (mode == HoldMode::off || published) {
+    p.policy.enabled = false;
+  } else if (mode == HoldMode::policy && !p.policy.enabled) {
+    const Result<Preset> searcher = loadPreset("helmet-search");
+    if (!searcher) return searcher.findings();
+    p.policy = searcher->parameters.policy;
+  }
+  return validate(p);
+}
+
+std::optional<HoldRun> fly(Stage& stage, scene::ErrorMeter& meter, const Setup& setup,
+                           const ValidatedParameters& parameters, const Strain& strain, std::size_t flipEvery,
+                           CostModel& model, const std::function<bool(double part)>& go) {
+  Session session(parameters);
+  session.setGround(setup.terrain);
+  session.setLoadIndex(scene::loadIndexOf(setup.terrain));
+  session.hold().model() = model;
+  HoldRun run;
+  std::vector<double> lookMs;
+  std::vector<FrameRequest> before;
+  for (std::size_t i = 0; i < strain.states.size(); ++i) {
+    if (i % kAsked == 0 && !go(double(i) / double(strain.states.size()))) return std::nullopt;
+    const AircraftState& state = strain.states[i];
+    session.fly(state, state.time);
+    const auto start = std::chrono::steady_clock::now();
+    const FrameRequest request = *session.request(state.time, setup.widthPx, setup.heightPx);
+    lookMs.push_back(
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    const FrameResult result = stage.draw(request);
+    const FrameCost cost = session.finished(result, state.time);
+    run.ms.push_back(workMs(cost));
+    run.errorPx.push_back(request.lod.screenSpaceError.value() * request.decision.lodScale);
+    run.renderScale.push_back(request.renderScale);
+    run.particles.push_back(request.particleShare);
+    const bool predicted = request.hold.heldMs.total() > 0;
+    run.predictedMs.push_back(predicted ? request.hold.heldMs.total()
+                                        : std::numeric_limits<double>::quiet_NaN());
+    if (const auto& outcome = session.hold().outcome(); outcome && parameters->hold.enabled)
+      run.outcomes.push_back(*outcome);
+    if (flipEvery > 0 && i >= strain.from && (i - strain.from) % flipEvery == 0) {
+      const std::size_t kept = blurs(request) ? before.size() : std::min<std::size_t>(before.size(), 1);
+      run.flip.push_back(meter.measure(request, std::span(before).last(kept), nullptr).flip);
+    }
+    before.push_back(request);
+    if (before.size() > kLongestTrace) before.erase(before.begin());
+  }
+  run.lookMs = quantileOf(lookMs, 0.5);
+  model = session.hold().model();
+  return run;
+}
+
+}  // namespace trimtab::experiment

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "stage.h"
+#include "trimtab/scene/error_meter.h"
+#include "trimtab/session/session.h"
+
+/// What the experiment and the benchmark of the budget share: flights that strain the frame, drawn in four
+/// modes.
+namespace trimtab::experiment {
+
+/// States one image apart, with head and weather in them.
+struct Strain {
+  std::string name;
+  std::vector<AircraftState> states;
+  /// Images from here to `to` are those of the strain; those before warm up and those after rest.
+  std::size_t from = 0, to = 0;
+};
+
+/// The head rests, turns 180 degrees in one second in steps of 1/200 s, and rests.
+Strain sweepStrain(const GeodeticPosition& eye);
+/// A piece of the flight at 60 images a second, from its middle on, with the head of a log. Nothing if the
+/// flight is not over the terrain there.
+std::optional<Strain> headStrain(const Setup& setup, const HeadLog& head, double seconds);
+/// The same with a head that rests, while the host turns the weather from clear to light rain, heavy rain,
+/// heavy snow and clear again.
+std::optional<Strain> weatherStrain(const Setup& setup, double seconds);
+/// The same in clear air and with a head that rests.
+std::optional<Strain> steadyStrain(const Setup& setup, double seconds);
+
+enum class HoldMode { off, as_published, policy, hold };
+inline constexpr std::array<const char*, 4> kHoldModes{"off", "as_published", "policy", "hold"};
+
+/// Returns the preset in one mode: without head motion, far cut and policy; with documents C and D as
+/// published; with its policy, or that of the preset helmet-search if it has none; and with the arbiter
+/// on top of its own policy, if it has one.
+Result<ValidatedParameters> inMode(const TuningParameters& preset, HoldMode mode, double budgetMs);
+
+/// What one mode drew, by image.
+struct HoldRun {
+  std::vector<double> ms;  ///< work time
+  std::vector<double> errorPx, renderScale, particles;
+  std::vector<double> predictedMs;    ///< NaN where nothing was predicted
+  std::vector<HoldOutcome> outcomes;  ///< of predictions three images ahead
+  std::vector<double> flip;           ///< of the images that were measured
+  double lookMs = 0;                  ///< median time of session.request(), counting included
+};
+
+/// Draws the strain in one mode. Every `flipEvery`-th image is measured against its reference, 0: none. The
+/// model may be given to a later run, as a program would load it. Returns nothing if `go` returns false.
+std::optional<HoldRun> fly(Stage& stage, scene::ErrorMeter& meter, const Setup& setup,
+                           const ValidatedParameters& parameters, const Strain& strain, std::size_t flipEvery,
+                           CostModel& model, const std::function<bool(double part)>& go);
+
+}  // namespace trimtab::experiment

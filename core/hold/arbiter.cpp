@@ -1,0 +1,272 @@
+#include "trimtab/hold/arbiter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+namespace trimtab {
+namespace {
+
+/// Render scale falls by a twentieth a step, particles by an eighth: below what a still image shows.
+constexpr double kScaleStep = 0.05, kParticleStep = 0.125;
+constexpr std::size_t kMostScales = 17, kMostParticles = 9;
+/// The scale of allowed errors: place i is 2^(i / 2) times the first.
+constexpr double kFirstErrorPx = 0.125;
+constexpr std::size_t kErrorPlaces = 19;
+/// What is lowered gets this much more room than it needs, so that a load that rises on does not lower the
+/// level of detail again and again.
+constexpr double kReserve = 0.06;
+/// Head-room must win at least this part of the loss: less is not worth a change.
+constexpr double kWorthwhile = 0.02;
+constexpr double kLongestStepMs = 250;
+
+/// The settings of one lever, from what is asked for downwards, with the loss of each.
+template <std::size_t Most>
+struct Settings {
+  std::array<double, Most> value{}, loss{};
+  std::size_t size = 0;
+  void add(double v, double l) { value[size] = v, loss[size++] = l; }
+};
+
+/// Allowed errors by place: 0 is what is asked for, place i the i-th of the scale. Places before `first` are
+/// not above what is asked for.
+struct Errors {
+  std::array<double, kErrorPlaces + 1> value{}, loss{}, triangles{};
+  std::size_t first = 1, size = 1;
+};
+
+struct Choice {
+  Errors error;
+  Settings<kMostScales> scale;
+  Settings<kMostParticles> particles;
+  Settings<2> blur;
+};
+
+Choice choiceOf(const HoldGiven& given, const HoldParameters& p) {
+  Choice c;
+  const HeldLevers& asked = given.asked;
+  Errors& e = c.error;
+  e.value[0] = asked.errorPx;
+  e.triangles[0] = given.triangles[0];
+  for (std::size_t i = 1; i <= kErrorPlaces; ++i) {
+    const double errorPx = kFirstErrorPx * std::exp2(0.5 * static_cast<double>(i - 1));
+    if (errorPx > p.errorMaximum.value() * (1 + 1e-9)) break;
+    e.size = i + 1;
+    if (errorPx <= asked.errorPx) {
+      e.first = i + 1;
+      continue;
+    }
+    e.value[i] = errorPx;
+    e.triangles[i] = trianglesAt(given.triangles, asked.errorPx, errorPx);
+    // Leverage is measured over 1 to 16 px; the loss is nearly a line there.
+    e.loss[i] = p.lossError.value() * std::max(errorPx - std::max(asked.errorPx, given.unseenPx), 0.0) / 15;
+  }
+  const double leastScale = std::min(p.renderScaleMinimum.value(), asked.renderScale);
+  for (double scale = asked.renderScale; scale > leastScale - 1e-9 && c.scale.size < kMostScales;
+       scale = asked.renderScale - kScaleStep * static_cast<double>(c.scale.size))
+    c.scale.add(scale, p.lossRenderScale.value() * (asked.renderScale / scale - 1));
+  if (given.particles > 0) {
+    const double least = std::min(p.particlesMinimum.value(), asked.particleShare);
+    for (double share = asked.particleShare; share > least - 1e-9 && c.particles.size < kMostParticles;
+         share = asked.particleShare - kParticleStep * static_cast<double>(c.particles.size))
+      c.particles.add(std::max(share, 0.0), p.lossParticles.value() * (asked.particleShare - share));
+  } else {
+    c.particles.add(asked.particleShare, 0);
+  }
+  c.blur.add(asked.blurShare, 0);
+  if (given.blurs && asked.blurShare > p.blurMinimum.value())
+    c.blur.add(p.blurMinimum.value(), p.lossBlur.value() * (asked.blurShare - p.blurMinimum.value()));
+  return c;
+}
+
+HeldLevers leversAt(const Choice& c, const HoldSteps& s) {
+  return {c.error.value[s.error], c.scale.value[s.renderScale], c.particles.value[s.particles],
+          c.blur.value[s.blur]};
+}
+
+double lossAt(const Choice& c, const HoldSteps& s) {
+  return c.error.loss[s.error] + c.scale.loss[s.renderScale] + c.particles.loss[s.particles] +
+         c.blur.loss[s.blur];
+}
+
+/// The steps of the image before, as far as the levers still have them.
+HoldSteps within(const Choice& c, const HoldSteps& s) {
+  const auto least = [](std::uint8_t step, std::size_t size) {
+    return static_cast<std::uint8_t>(std::min<std::size_t>(step, size - 1));
+  };
+  const std::uint8_t error = least(s.error, c.error.size);
+  return {error < c.error.first ? std::uint8_t{0} : error, least(s.renderScale, c.scale.size),
+          least(s.particles, c.particles.size), least(s.blur, c.blur.size)};
+}
+
+class Search {
+ public:
+  Search(const HoldGiven& given, const Choice& choice) : given_(given), choice_(choice) {}
+
+  double timeAt(const HoldSteps& s) const { return predictAt(s).total(); }
+  StageTimes predictAt(const HoldSteps& s) const {
+    return predict(given_.cost, loadOf(given_, leversAt(choice_, s), choice_.error.triangles[s.error]));
+  }
+
+  /// Returns what is asked for if it takes at most `limitMs`; else, of all settings that do, the one that
+  /// loses least; of those that lose the same, the quickest. If none does, the quickest of all.
+  HoldSteps best(double limitMs) const {
+    if (timeAt({}) <= limitMs) return {};
+    HoldSteps best{}, quickest{};
+    double bestLoss = 0, bestMs = 0, quickestMs = 0;
+    bool found = false, any = false;
+    forEach([&](const HoldSteps& s) {
+      const double ms = timeAt(s);
+      if (!any || ms < quickestMs) quickest = s, quickestMs = ms, any = true;
+      if (!(ms <= limitMs)) return;
+      const double loss = lossAt(choice_, s);
+      if (found && (loss > bestLoss || (loss == bestLoss && ms >= bestMs))) return;
+      best = s, bestLoss = loss, bestMs = ms, found = true;
+    });
+    return found ? best : quickest;
+  }
+
+ private:
+  template <class Visit>
+  void forEach(const Visit& visit) const {
+    HoldSteps s;
+    const Errors& e = choice_.error;
+    for (s.error = 0; s.error < e.size;
+         s.error = static_cast<std::uint8_t>(s.error == 0 ? e.first : s.error + 1))
+      for (s.renderScale = 0; s.renderScale < choice_.scale.size; ++s.renderScale)
+        for (s.particles = 0; s.particles < choice_.particles.size; ++s.particles)
+          for (s.blur = 0; s.blur < choice_.blur.size; ++s.blur) visit(s);
+  }
+
+  const HoldGiven& given_;
+  const Choice& choice_;
+};
+
+/// Returns the steps one image nearer to `to`, which are fewer: error and blur at once, the others by one.
+HoldSteps raised(const HoldSteps& from, const HoldSteps& to) {
+  const auto one = [](std::uint8_t a, std::uint8_t b) {
+    return static_cast<std::uint8_t>(a > b ? a - 1 : b);
+  };
+  return {to.error, one(from.renderScale, to.renderScale), one(from.particles, to.particles), to.blur};
+}
+
+/// The time since the last image, milliseconds, as far as it can be believed.
+double passed(const HoldGiven& given, HoldMemory& memory) {
+  const double ms = memory.begun ? (given.timeS - memory.timeS) * 1e3 : 0;
+  if (std::isfinite(given.timeS)) memory.timeS = given.timeS;
+  return ms > 0 ? std::min(ms, kLongestStepMs) : 0;
+}
+
+bool isNumber(const HoldGiven& g) {
+  const CostCoefficients& c = g.cost;
+  double sum = g.asked.errorPx + g.asked.renderScale + g.asked.particleShare + g.asked.blurShare +
+               g.unseenPx + g.particles + g.imageMpx + g.groundMpx + c.fixed + c.perTriangle +
+               c.perGroundMpx + c.perSceneMpx + c.perParticles + c.perWeatherMpx + c.perBlurMpx + c.other;
+  for (const double triangles : g.triangles) sum += triangles;
+  return std::isfinite(sum);
+}
+
+}  // namespace
+
+double trianglesAt(const TriangleLadder& ladder, double askedPx, double errorPx) {
+  const double step = askedPx > 0 && errorPx > askedPx ? 2 * std::log2(errorPx / askedPx) : 0;
+  const double last = static_cast<double>(kErrorSteps - 1);
+  const double at = std::min(step, last);
+  const auto low = static_cast<std::size_t>(std::min(std::floor(at + 1e-6), last));
+  const std::size_t high = std::min<std::size_t>(low + 1, kErrorSteps - 1);
+  const double part = std::max(at - static_cast<double>(low), 0.0);
+  return ladder[low] + (ladder[high] - ladder[low]) * part;
+}
+
+FrameLoad loadOf(const HoldGiven& given, const HeldLevers& levers, double triangles) {
+  const double part = levers.renderScale * levers.renderScale;
+  const double asked = given.asked.particleShare;
+  return {triangles, given.groundMpx * part, given.imageMpx * part,
+          asked > 0 ? given.particles * levers.particleShare / asked : 0,
+          given.blurs && levers.blurShare > 0};
+}
+
+HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemory& memory) {
+  HoldDecision d;
+  d.asked = d.held = given.asked;
+  const double ms = passed(given, memory);
+  const bool budget = given.budgetMs > 0 && std::isfinite(given.budgetMs);
+  if (!p.enabled || !budget || !given.cost.known || !isNumber(given)) {
+    d.reason = !p.enabled ? HoldReason::off : !budget ? HoldReason::no_budget : HoldReason::cost_unknown;
+    const double timeS = memory.timeS;
+    memory = {};
+    memory.timeS = timeS;
+    return d;
+  }
+  d.limitMs = given.budgetMs * (1 - p.margin.value());
+  d.bandMs = given.cost.bandMs;
+
+  const Choice choice = choiceOf(given, p);
+  const Search search(given, choice);
+  const HoldSteps before = within(choice, memory.steps);
+  HoldSteps now = before;
+  if (!memory.begun || search.timeAt(before) > d.limitMs) {
+    now = search.best(memory.begun ? d.limitMs * (1 - kReserve) : d.limitMs);
+    d.reason = HoldReason::lowered;
+    memory.calmMs = 0;
+  } else {
+    const HoldSteps wanted = search.best(d.limitMs * (1 - kReserve));
+    const double kept = lossAt(choice, before), won = kept - lossAt(choice, wanted);
+    const bool worth = wanted == HoldSteps{} ? before != wanted : won > kWorthwhile * kept && won > 0;
+    const bool room = worth && search.timeAt(wanted) <= d.limitMs;
+    memory.calmMs = room ? memory.calmMs + ms : 0;
+    d.reason = HoldReason::held;
+    if (room && memory.calmMs >= p.calm.value()) {
+      const HoldSteps nearer = raised(before, wanted);
+      if (search.timeAt(nearer) <= d.limitMs) now = nearer, d.reason = HoldReason::restored;
+    }
+  }
+  memory.begun = true;
+  memory.steps = now;
+  d.held = leversAt(choice, now);
+  d.heldMs = search.predictAt(now);
+  d.askedMs = search.predictAt({});
+  if (now == HoldSteps{} && d.reason != HoldReason::restored) d.reason = HoldReason::fits;
+  if (d.heldMs.total() > d.limitMs) d.reason = HoldReason::out_of_reach;
+  return d;
+}
+
+double errorInMotion(double errorPx, double degreesPerS, double exposureMs, double pixelsPerRadian) {
+  const double smear = degreesPerS * std::numbers::pi / 180 * exposureMs * 1e-3 * pixelsPerRadian;
+  return smear > errorPx && std::isfinite(smear) ? std::sqrt(errorPx * smear) : errorPx;
+}
+
+std::string explain(const HoldDecision& d) {
+  char text[240] = "";
+  const auto write = [&](const char* format, auto... values) {
+    std::snprintf(text, sizeof text, format, values...);
+    return std::string(text);
+  };
+  const std::string levers = write("%.3g px, render scale %.2f, particles %.2f, blur %.2f", d.held.errorPx,
+                                   d.held.renderScale, d.held.particleShare, d.held.blurShare);
+  const std::string times = write("%.1f ms predicted for %.1f ms, %.1f ms as asked", d.heldMs.total(),
+                                  d.limitMs, d.askedMs.total());
+  switch (d.reason) {
+    case HoldReason::off:
+      return "the budget is not held";
+    case HoldReason::no_budget:
+      return "no budget: it is not a number above 0";
+    case HoldReason::cost_unknown:
+      return "the cost of an image is not known yet";
+    case HoldReason::fits:
+      return "what is asked for fits: " + times;
+    case HoldReason::lowered:
+      return "lowered to " + levers + ": " + times;
+    case HoldReason::held:
+      return "held at " + levers + ": " + times;
+    case HoldReason::restored:
+      return "restored to " + levers + ": " + times;
+    case HoldReason::out_of_reach:
+      return "out of reach at " + levers + ": " + times;
+  }
+  return "";
+}
+
+}  // namespace trimtab

@@ -1,0 +1,111 @@
+#include "trimtab/hold/cost_model_file.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <string_view>
+#include <vector>
+
+#include "trimtab/preset/file_io.h"
+#include "trimtab/preset/preset.h"
+
+namespace trimtab {
+namespace {
+
+constexpr std::string_view kHeader = "trimtab-cost-model 1";
+
+/// Visits every number of a state, in the order of the file.
+template <std::size_t N, class Fit, class Visit>
+void forEachNumber(Fit& fit, const Visit& visit) {
+  for (auto& c : fit.coefficient) visit(c);
+  for (auto& row : fit.covariance)
+    for (auto& c : row) visit(c);
+  for (auto& s : fit.scale) visit(s);
+  visit(fit.noise);
+  visit(fit.images);
+}
+template <class State, class Visit>
+void forEachNumber(State& state, const Visit& visit) {
+  forEachNumber<4>(state.ground, visit);
+  forEachNumber<2>(state.weather, visit);
+  forEachNumber<1>(state.blur, visit);
+  visit(state.other);
+  visit(state.band);
+}
+
+std::string_view takeLine(std::string_view& text) {
+  const std::size_t end = text.find('\n');
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  return line;
+}
+
+}  // namespace
+
+Result<Done> writeCostModel(const std::filesystem::path& file, const std::string& machine,
+                            const CostModel& model) {
+  std::string text = std::string(kHeader) + '\n' + machine + '\n';
+  const CostModel::State state = model.state();
+  forEachNumber(state, [&](const double& number) {
+    std::array<char, 32> cell;
+    text.append(cell.data(), std::to_chars(cell.data(), cell.data() + cell.size(), number).ptr);
+    text += '\n';
+  });
+  std::error_code ignored;  // a folder that cannot be made is found when the file is written
+  std::filesystem::create_directories(file.parent_path(), ignored);
+  return writeAtomically(file, text);
+}
+
+Result<CostModel::State> readCostModel(const std::filesystem::path& file, const std::string& machine) {
+  const Result<std::string> whole = readWhole(file);
+  if (!whole) return whole.findings();
+  std::string_view text = *whole;
+  const auto finding = [&](int line, std::string expected, std::string_view found) {
+    return Finding{Severity::warning, file.string() + ':' + std::to_string(line), "", std::move(expected),
+                   '"' + std::string(found.substr(0, 60)) + '"'};
+  };
+  if (const std::string_view header = takeLine(text); header != kHeader)
+    return finding(1, '"' + std::string(kHeader) + '"', header);
+  if (const std::string_view on = takeLine(text); on != machine)
+    return finding(2, "a model of this machine, \"" + machine + '"', on);
+  CostModel::State state;
+  int line = 2;
+  std::optional<Finding> bad;
+  forEachNumber(state, [&](double& number) {
+    ++line;
+    const std::string_view cell = takeLine(text);
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+    const bool good = error == std::errc{} && end == cell.data() + cell.size() && std::isfinite(number);
+    if (!good && !bad) bad = finding(line, "a number", cell);
+  });
+  if (!bad && !text.empty()) bad = finding(line + 1, "the end of the file", takeLine(text));
+  if (bad) return *bad;
+  return state;
+}
+
+Findings recallCostModel(CostModel& model, const std::string& machine) {
+  const std::filesystem::path file = costModelFile();
+  std::error_code error;
+  if (file.empty() || !std::filesystem::exists(file, error)) return {};
+  const Result<CostModel::State> state = readCostModel(file, machine);
+  if (state) model.restore(*state);
+  return state.findings();
+}
+
+Findings rememberCostModel(const CostModel& model, const std::string& machine) {
+  constexpr std::size_t kWorthWriting = 100;
+  const std::filesystem::path file = costModelFile();
+  if (file.empty() || model.images() < kWorthWriting) return {};
+  return writeCostModel(file, machine, model).findings();
+}
+
+std::filesystem::path costModelFile() {
+  if (const char* caches = std::getenv("XDG_CACHE_HOME"); caches != nullptr && *caches != '\0')
+    return std::filesystem::path(caches) / "trimtab" / "cost-model.txt";
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
+    return std::filesystem::path(home) / ".cache" / "trimtab" / "cost-model.txt";
+  return {};
+}
+
+}  // namespace trimtab

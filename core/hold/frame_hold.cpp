@@ -1,0 +1,152 @@
+#include "trimtab/hold/frame_hold.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace trimtab {
+namespace {
+
+StaticLodRule treeRuleOf(const FrameRequest& r) {
+  return {staticLodDistancePerError(r.staticLod, r.decision.lodScale, pixelsPerRadian(r.view)),
+          r.lod.spread.value(), r.lod.spreadFrom.value()};
+}
+
+}  // namespace
+
+void FrameHold::setIndex(std::shared_ptr<const LoadIndex> index) {
+  index_ = std::move(index);
+  measure_.reset();
+  correction_ = 1;
+  waiting_.clear();
+  requested_ = false;
+}
+
+LoadView FrameHold::viewOf(const FrameRequest& request, const ComingEye& eye) const {
+  const LocalFrame& frame = index_->frame;
+  return {{frame.fromGeodetic(eye.position), eyeAxes(frame, eye.position, eye.attitude)},
+          request.view,
+          farCutM(request)};
+}
+
+TriangleLadder FrameHold::count(const FrameRequest& request, const LoadView& view) {
+  const std::optional<TerrainForm> form =
+      formDrawn(request, {index_->tiles != nullptr, index_->patches != nullptr, index_->trees != nullptr});
+  TriangleLadder ladder;
+  ladder.fill(lastTriangles_);
+  if (!form) return ladder;
+  if (*form == TerrainForm::static_trees) {
+    if (measure_ != request.staticLod.error) {
+      measure_ = request.staticLod.error;
+      treeError_ = staticLodError(*index_->trees, *measure_);
+    }
+    ladder = countTriangles(*index_->trees, treeError_, view, treeRuleOf(request), stack_);
+    // By that rule a distance follows from the error of a node alone, so the lever moves nothing.
+    if (request.staticLod.rule == StaticDistanceRule::factor) ladder.fill(ladder.front());
+    return ladder;
+  }
+  const CutRule rule = cutKeyOf(request, view.eye.position, 1).rule;
+  return *form == TerrainForm::patches ? countTriangles(*index_->patches, view, rule, stack_)
+                                       : countTriangles(*index_->tiles, view, rule, stack_);
+}
+
+double FrameHold::groundMpx(const FrameRequest& request, const LoadView& view, const ComingEye& eye) const {
+  const Vec3 up =
+      index_->frame.ecefToLocal() * eastNorthUp(eye.position.latitude, eye.position.longitude).row[2];
+  return 1e-6 * request.view.widthPx * request.view.heightPx *
+         shareBelowHorizon(view, up, eye.position.height.value());
+}
+
+HoldGiven FrameHold::look(const FrameRequest& request, std::span<const ComingEye> coming, double budgetMs,
+                          double unseenPx) {
+  HoldGiven g;
+  Prediction prediction;
+  g.timeS = request.time;
+  g.budgetMs = budgetMs;
+  g.unseenPx = unseenPx;
+  const MotionBlur& blur = request.decision.motion.blur;
+  g.asked = {request.lod.screenSpaceError.value(), request.renderScale, request.particleShare, 1};
+  g.particles = request.decision.weather.density * request.particleShare;
+  g.blurs = blur.strength > 0;
+  g.imageMpx = 1e-6 * request.view.widthPx * request.view.heightPx;
+  if (!index_) {
+    countedNow_.fill(lastTriangles_);
+    groundNowMpx_ = g.imageMpx;
+    g.triangles = countedNow_;
+    g.groundMpx = groundNowMpx_;
+  } else {
+    const ComingEye here{request.eye, request.attitude};
+    const LoadView view = viewOf(request, here);
+    countedNow_ = count(request, view);
+    groundNowMpx_ = groundMpx(request, view, here);
+    g.triangles = countedNow_;
+    g.groundMpx = groundNowMpx_;
+    for (std::size_t i = 0; i < coming.size(); ++i) {
+      const LoadView next = viewOf(request, coming[i]);
+      const TriangleLadder ladder = count(request, next);
+      const double ground = groundMpx(request, next, coming[i]);
+      if (i + 1 == kImagesAhead) {
+        prediction.triangles = ladder;
+        for (double& triangles : prediction.triangles) triangles *= correction_;
+        prediction.groundMpx = ground;
+        prediction.known = true;
+      }
+      for (std::size_t k = 0; k < kErrorSteps; ++k) g.triangles[k] = std::max(g.triangles[k], ladder[k]);
+      g.groundMpx = std::max(g.groundMpx, ground);
+    }
+    for (double& triangles : g.triangles) triangles *= correction_;
+  }
+  g.cost = model_.coefficients(loadOf(g, g.asked, g.triangles[0]));
+  prediction.cost = g.cost;
+  prediction.known = prediction.known && g.cost.known;
+  waiting_.push_back(prediction);
+  if (waiting_.size() > kImagesAhead + 1) waiting_.pop_front();
+  return g;
+}
+
+HoldDecision FrameHold::decide(const HoldGiven& given, const HoldParameters& parameters,
+                               FrameRequest& request) {
+  const HoldDecision d = arbitrate(given, parameters, memory_);
+  given_ = given;
+  held_ = d.held;
+  requested_ = true;
+  request.hold = d;
+  if (d.reason == HoldReason::off) return d;
+  // The stages of a frame teach the model, so they are measured apart.
+  request.separateStages = true;
+  if (d.held.errorPx != request.lod.screenSpaceError.value()) setAllowedError(request, d.held.errorPx);
+  request.renderScale = d.held.renderScale;
+  request.particleShare = d.held.particleShare;
+  MotionBlur& blur = request.decision.motion.blur;
+  blur.strength *= d.held.blurShare;
+  if (!(blur.strength > 0)) blur = {};
+  return d;
+}
+
+void FrameHold::finished(const FrameResult& result, const FrameCost& cost) {
+  const auto drawn = static_cast<double>(result.visible.triangles);
+  lastTriangles_ = drawn;
+  if (!std::exchange(requested_, false)) return;
+  const double counted = trianglesAt(countedNow_, given_.asked.errorPx, held_.errorPx);
+  FrameLoad load = loadOf(given_, held_, drawn);
+  load.groundMpx = groundNowMpx_ * held_.renderScale * held_.renderScale;
+  outcome_.reset();
+  if (waiting_.size() > kImagesAhead) {
+    const Prediction& p = waiting_.front();
+    HoldOutcome o{kImagesAhead, 0, drawn, 0, 0, workMs(cost)};
+    o.predictedTriangles = trianglesAt(p.triangles, given_.asked.errorPx, held_.errorPx);
+    FrameLoad then = load;
+    then.triangles = o.predictedTriangles;
+    then.groundMpx = p.groundMpx * held_.renderScale * held_.renderScale;
+    o.predictedMs = predict(p.cost, then).total();
+    o.bandMs = p.cost.bandMs;
+    if (p.known) outcome_ = o;
+  }
+  if (counted > 0 && drawn > 0) {
+    constexpr double kGain = 0.2;
+    correction_ += kGain * (std::clamp(drawn / counted, 0.05, 4.0) - correction_);
+  }
+  model_.observe(load, cost);
+}
+
+}  // namespace trimtab

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <string>
+
+#include "trimtab/frame/hold_decision.h"
+#include "trimtab/hold/cost_model.h"
+#include "trimtab/hold/load_counter.h"
+#include "trimtab/preset/parameters.h"
+
+/// Keeps the predicted time of each image within the budget.
+///
+/// Each image, the arbiter looks at every setting of the levers that it may move, some two thousand, and
+/// takes the one that loses least among those that fit. Prediction comes first and measurement only corrects
+/// the model, so there is nothing to oscillate: Funkhouser and Sequin, "Adaptive Display Algorithm for
+/// Interactive Frame Rates During Visualization of Complex Virtual Environments", SIGGRAPH 1993. Their
+/// benefit of an object is here the loss of the image, in the mean FLIP that leverage measures.
+///
+/// Lowering acts at once. Restoring waits until head-room has lasted hold.calm_ms, and then moves render
+/// scale and particles one step an image, so that no image becomes long by it; the allowed error returns
+/// in one step, because each step of it exchanges levels.
+namespace trimtab {
+
+/// Everything that an image's arbitration depends on beside its memory, as plain numbers, so that a trace can
+/// hold it.
+struct HoldGiven {
+  double timeS = 0;  ///< on the clock of the states
+  double budgetMs = 0;
+  HeldLevers asked;            ///< by preset and policy
+  double unseenPx = 0;         ///< errorInMotion() of the error that is asked for: up to it nothing is lost
+  double particles = 0;        ///< density of what falls times asked.particleShare
+  bool blurs = false;          ///< head motion asks for blur
+  double imageMpx = 0;         ///< millions of pixels of the image
+  double groundMpx = 0;        ///< of those, millions below the horizon; the most of the views counted
+  TriangleLadder triangles{};  ///< by allowed error; the most of the views counted
+  CostCoefficients cost;
+
+  friend bool operator==(const HoldGiven&, const HoldGiven&) = default;
+};
+
+/// Where the levers are. The allowed error is at what is asked for (0) or at a place of a fixed scale, half
+/// an octave apart, so that it rests while what is asked for moves below it. The others are steps down from
+/// what is asked for.
+struct HoldSteps {
+  std::uint8_t error = 0, renderScale = 0, particles = 0, blur = 0;
+  friend bool operator==(const HoldSteps&, const HoldSteps&) = default;
+};
+
+/// What one image's arbitration remembers for the next.
+struct HoldMemory {
+  HoldSteps steps;
+  double timeS = 0;   ///< of the last image
+  double calmMs = 0;  ///< how long there has been head-room
+  bool begun = false;
+  friend bool operator==(const HoldMemory&, const HoldMemory&) = default;
+};
+
+/// One arbitration, for traces.
+struct HoldRecord {
+  HoldGiven given;
+  HoldMemory before;
+  HoldDecision decision;
+};
+
+/// Decides the levers of one image. Pure but for `memory`, allocates nothing, same bits on replay. Costs some
+/// microseconds. A budget or a cost that is unknown changes nothing that is asked for; time that stands, goes
+/// back or is not a number counts as no time.
+HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& parameters, HoldMemory& memory);
+
+/// Returns the triangles at an allowed error that may lie between two steps of a ladder, on a straight line
+/// over the error's logarithm. Below and above the ladder they are those of its ends.
+double trianglesAt(const TriangleLadder& ladder, double askedPx, double errorPx);
+
+/// Returns the load of an image under these levers.
+FrameLoad loadOf(const HoldGiven& given, const HeldLevers& levers, double triangles);
+
+/// Returns the error that may be allowed while the line of sight turns, pixels: sqrt(E max(E, m)), where E is
+/// the error allowed at rest and m the smear, the way of a point of the image during the exposure.
+///
+/// A displacement of e pixels changes a strip e wide by its whole contrast. Averaged along a smear of m > e
+/// pixels it changes a strip m wide by e / m of the contrast, so its squared error falls from e to e^2 / m.
+/// That is as much as E changes at rest if e^2 / m = E. Edges along the motion are not smeared; the loss
+/// under the same smear is measured in tests/core/hold. Rates and exposures that are not numbers count as 0.
+double errorInMotion(double errorPx, double degreesPerS, double exposureMs, double pixelsPerRadian);
+
+/// Returns the decision in words and numbers, on one line.
+std::string explain(const HoldDecision& decision);
+
+}  // namespace trimtab

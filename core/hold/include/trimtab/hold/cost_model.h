@@ -1,0 +1,71 @@
+#pragma once
+
+#include "trimtab/frame/frame.h"
+#include "trimtab/frame/hold_decision.h"
+#include "trimtab/hold/linear_cost.h"
+
+/// Predicts what an image costs on this machine, and learns it while flying.
+namespace trimtab {
+
+/// What the time of an image follows from.
+struct FrameLoad {
+  double triangles = 0;  ///< of the ground, drawn
+  double groundMpx = 0;  ///< millions of pixels of the scene that show ground
+  double sceneMpx = 0;   ///< millions of pixels of the scene, at its render scale
+  double particles = 0;  ///< density of what falls times the share that is drawn; 0: nothing falls
+  bool blurs = false;
+
+  friend bool operator==(const FrameLoad&, const FrameLoad&) = default;
+};
+
+/// The model as plain numbers, milliseconds a unit of its quantity. A prediction needs nothing else.
+struct CostCoefficients {
+  double fixed = 0, perTriangle = 0, perGroundMpx = 0, perSceneMpx = 0;
+  double perParticles = 0, perWeatherMpx = 0;
+  double perBlurMpx = 0;
+  double other = 0;
+  double bandMs = 0;   ///< the 90 % band of the image that is about to be drawn, to either side
+  bool known = false;  ///< enough images were measured to predict one
+
+  friend bool operator==(const CostCoefficients&, const CostCoefficients&) = default;
+};
+
+/// Returns the time of an image, by stage.
+StageTimes predict(const CostCoefficients& cost, const FrameLoad& load);
+
+/// Returns what a frame's work took: all of the processor's time, or the GPU's if that is longer.
+double workMs(const FrameCost& cost);
+
+/// Learns the coefficients of a machine from finished images.
+class CostModel {
+ public:
+  /// Learns from an image. What it ran and nobody measured (FrameCost::kNotMeasured) teaches nothing. Times
+  /// that are not finite or not above 0 are ignored.
+  void observe(const FrameLoad& load, const FrameCost& cost);
+  /// Returns the coefficients, with the band for an image of this load.
+  CostCoefficients coefficients(const FrameLoad& load) const;
+  /// Returns how many images it has learned from.
+  std::size_t images() const { return images_; }
+
+  struct State {
+    LinearCost<4>::State ground;
+    LinearCost<2>::State weather;
+    LinearCost<1>::State blur;
+    double other = 0;
+    double band = 0;  ///< standard deviations in the 90 % band
+  };
+  State state() const;
+  /// Takes a saved state, with some distrust (LinearCost::restore).
+  void restore(const State& state);
+
+ private:
+  LinearCost<4> ground_;
+  LinearCost<2> weather_;
+  LinearCost<1> blur_;
+  double other_ = 0, band_ = kNormalBand;
+  std::size_t images_ = 0;
+
+  static constexpr double kNormalBand = 1.645;  ///< of a normal distribution
+};
+
+}  // namespace trimtab

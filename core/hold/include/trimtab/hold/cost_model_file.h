@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "trimtab/hold/cost_model.h"
+#include "trimtab/units/result.h"
+
+/// Keeps what a machine's images cost from one run to the next.
+namespace trimtab {
+
+/// Writes a model with the name of the machine that it was learned on, such as its GL renderer. The file is
+/// the old one or the whole new one, whatever happens on the way.
+Result<Done> writeCostModel(const std::filesystem::path& file, const std::string& machine,
+                            const CostModel& model);
+/// Reads a model. Damage, and a model of another machine, are findings that name what was found; a caller
+/// then begins without one.
+Result<CostModel::State> readCostModel(const std::filesystem::path& file, const std::string& machine);
+
+/// Returns where programs keep the model: cost-model.txt in trimtab's folder of the user's caches
+/// (XDG_CACHE_HOME, else ~/.cache). Empty if there is neither.
+std::filesystem::path costModelFile();
+
+/// Gives the model what costModelFile() knows of this machine. A file that is missing is no finding; one that
+/// cannot be used is, and the model stays as it is.
+Findings recallCostModel(CostModel& model, const std::string& machine);
+/// Writes the model there, unless it has learned from too few images to be worth it. Returns what failed.
+Findings rememberCostModel(const CostModel& model, const std::string& machine);
+
+}  // namespace trimtab

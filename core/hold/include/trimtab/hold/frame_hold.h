@@ -1,0 +1,89 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "trimtab/frame/frame_request.h"
+#include "trimtab/frame/frame_result.h"
+#include "trimtab/hold/arbiter.h"
+
+/// Holds the budget over successive images: counts the load of the coming views, arbitrates, and learns what
+/// images cost. A session owns one.
+namespace trimtab {
+
+/// Where the eye of a coming image will be.
+struct ComingEye {
+  GeodeticPosition position;
+  Attitude attitude;
+};
+
+/// How a prediction made some images earlier came out, for docks and benchmarks.
+struct HoldOutcome {
+  int imagesAhead = 0;
+  double predictedTriangles = 0, triangles = 0;
+  double predictedMs = 0, bandMs = 0, ms = 0;
+};
+
+class FrameHold {
+ public:
+  /// Sets what triangles are counted in; null counts none, and the triangles of the last image are expected
+  /// again, whatever error is allowed.
+  void setIndex(std::shared_ptr<const LoadIndex> index);
+
+  /// Gathers what the arbitration of a request depends on. `coming` are the eyes of the next images, the
+  /// nearest first, and `outcomesAhead` of them counts for outcome(). `budgetMs` is the preset's, and
+  /// `unseenPx` the error that motion hides.
+  HoldGiven look(const FrameRequest& request, std::span<const ComingEye> coming, double budgetMs,
+                 double unseenPx);
+  /// Decides, and writes the levers into the request. The same `given` and memory() give the same bits.
+  HoldDecision decide(const HoldGiven& given, const HoldParameters& parameters, FrameRequest& request);
+
+  /// Learns from the image of the last request.
+  void finished(const FrameResult& result, const FrameCost& cost);
+
+  const HoldMemory& memory() const { return memory_; }
+  void setMemory(const HoldMemory& memory) { memory_ = memory; }
+  CostModel& model() { return model_; }
+  const CostModel& model() const { return model_; }
+  /// Returns how the prediction made kImagesAhead images ago for the last finished image came out; unset
+  /// before there is one.
+  const std::optional<HoldOutcome>& outcome() const { return outcome_; }
+
+  static constexpr int kImagesAhead = 3;
+
+ private:
+  TriangleLadder count(const FrameRequest& request, const LoadView& view);
+  LoadView viewOf(const FrameRequest& request, const ComingEye& eye) const;
+  double groundMpx(const FrameRequest& request, const LoadView& view, const ComingEye& eye) const;
+
+  /// A prediction that waits for its image.
+  struct Prediction {
+    TriangleLadder triangles{};
+    CostCoefficients cost;
+    double groundMpx = 0;
+    bool known = false;  ///< the motion was known, and the cost
+  };
+
+  std::shared_ptr<const LoadIndex> index_;
+  std::optional<ErrorMeasure> measure_;
+  std::vector<float> treeError_;  ///< of the trees, by `measure_`
+  std::vector<std::uint64_t> stack_;
+  CostModel model_;
+  HoldMemory memory_;
+
+  TriangleLadder countedNow_{};  ///< of the last request's own view, without the correction
+  double groundNowMpx_ = 0;
+  HoldGiven given_;
+  HeldLevers held_;
+  bool requested_ = false;
+  /// Triangles drawn over triangles counted, of recent images: what neighbours add and occlusion hides.
+  double correction_ = 1;
+  double lastTriangles_ = 0;
+  std::deque<Prediction> waiting_;
+  std::optional<HoldOutcome> outcome_;
+};
+
+}  // namespace trimtab

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace trimtab {
+
+/// Learns a time as a sum of coefficients times quantities, one image at a time: a Kalman filter whose
+/// coefficients may drift. It needs no scale of its own: the first image gives one.
+///
+/// A single image cannot move it far: an error counts as at most three standard deviations, which ignores
+/// spikes. Five such errors in a row, all too long or all too short, are a change of the machine instead, as
+/// when another program takes a core; the coefficients then become uncertain and follow within some images.
+template <std::size_t N>
+class LinearCost {
+ public:
+  using Quantities = std::array<double, N>;
+
+  /// Returns the predicted time. 0 before the first image.
+  double predict(const Quantities& x) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < N; ++i) sum += state_.coefficient[i] * x[i];
+    return sum;
+  }
+  /// Returns the standard deviation of a predicted time.
+  double deviation(const Quantities& x) const {
+    const Quantities p = covarianceTimes(x);
+    double variance = state_.noise;
+    for (std::size_t i = 0; i < N; ++i) variance += x[i] * p[i];
+    return std::sqrt(std::max(variance, 0.0));
+  }
+
+  /// Learns from a measured time. Values that are not finite, and times that are not above 0, are ignored.
+  void observe(const Quantities& x, double ms) {
+    for (const double quantity : x)
+      if (!std::isfinite(quantity)) return;
+    if (!std::isfinite(ms) || !(ms > 0)) return;
+    if (state_.images == 0) begin(x, ms);
+    ++state_.images;
+    const double error = ms - predict(x);
+    noteSpike(error, kSpike * deviation(x));
+    const double sigma = deviation(x), limit = kSpike * sigma;
+    const double counted = std::clamp(error, -limit, limit);
+    const Quantities p = covarianceTimes(x);
+    const double variance = sigma * sigma;
+    for (std::size_t i = 0; i < N; ++i)
+      state_.coefficient[i] = std::max(state_.coefficient[i] + p[i] * counted / variance, 0.0);
+    double known = 0;
+    for (std::size_t i = 0; i < N; ++i) known += x[i] * p[i];
+    for (std::size_t i = 0; i < N; ++i)
+      for (std::size_t j = 0; j < N; ++j) state_.covariance[i][j] -= p[i] * p[j] / variance;
+    for (std::size_t i = 0; i < N; ++i) drift(i);
+    state_.noise += kNoiseGain * (counted * counted - known - state_.noise);
+    state_.noise = std::max(state_.noise, kLeastNoise * ms * kLeastNoise * ms);
+  }
+
+  struct State {
+    Quantities coefficient{};
+    std::array<Quantities, N> covariance{};
+    Quantities scale{};  ///< of each coefficient, from the first image
+    double noise = 0;    ///< variance of a time around its prediction
+    double images = 0;
+  };
+  const State& state() const { return state_; }
+  /// Takes a state that was saved. Its uncertainty grows to at least a part of its coefficients, because the
+  /// machine may have changed since.
+  void restore(const State& state) {
+    state_ = state;
+    for (std::size_t i = 0; i < N; ++i)
+      state_.covariance[i][i] += kDistrust * state_.scale[i] * kDistrust * state_.scale[i];
+  }
+
+ private:
+  static constexpr double kSpike = 3, kNoiseGain = 0.05, kLeastNoise = 0.01, kDistrust = 0.2;
+  /// Drift of a coefficient in one image, as a part of its scale: the first (what is there in every image)
+  /// within some tens of images, the others within some hundreds.
+  static constexpr double kFirstDrift = 0.01, kDrift = 0.003;
+  static constexpr int kChange = 5;
+
+  void begin(const Quantities& x, double ms) {
+    for (std::size_t i = 0; i < N; ++i) {
+      state_.scale[i] = ms / static_cast<double>(N) / (x[i] > 0 ? x[i] : 1);
+      state_.coefficient[i] = x[i] > 0 ? state_.scale[i] : 0;
+      state_.covariance[i][i] = state_.scale[i] * state_.scale[i];
+    }
+    state_.noise = 0.01 * ms * ms;
+  }
+
+  Quantities covarianceTimes(const Quantities& x) const {
+    Quantities product{};
+    for (std::size_t i = 0; i < N; ++i)
+      for (std::size_t j = 0; j < N; ++j) product[i] += state_.covariance[i][j] * x[j];
+    return product;
+  }
+
+  void drift(std::size_t i) {
+    const double step = (i == 0 ? kFirstDrift : kDrift) * state_.scale[i];
+    state_.covariance[i][i] += step * step;
+    // Never less known than at the beginning. Scaling row and column keeps the matrix a covariance.
+    const double part = state_.scale[i] / std::sqrt(state_.covariance[i][i]);
+    if (!(part < 1)) return;
+    for (std::size_t j = 0; j < N; ++j) state_.covariance[i][j] *= part, state_.covariance[j][i] *= part;
+  }
+
+  void noteSpike(double error, double limit) {
+    const int sign = error > limit ? 1 : error < -limit ? -1 : 0;
+    streak_ = sign != 0 && sign * streak_ >= 0 ? streak_ + sign : sign;
+    if (std::abs(streak_) < kChange) return;
+    streak_ = 0;
+    for (std::size_t i = 0; i < N; ++i) state_.covariance[i][i] += state_.scale[i] * state_.scale[i] / 4;
+  }
+
+  State state_;
+  int streak_ = 0;
+};
+
+}  // namespace trimtab

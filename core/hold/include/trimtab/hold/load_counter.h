@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "trimtab/culling/cut_rule.h"
+#include "trimtab/culling/select_static.h"
+#include "trimtab/frame/eye_pose.h"
+#include "trimtab/frame/patch_index.h"
+#include "trimtab/frame/static_lod_index.h"
+#include "trimtab/frame/terrain_index.h"
+
+/// Counts the triangles that a view would draw, without drawing it.
+namespace trimtab {
+
+/// The ladder of allowed errors: step k is 2^(k/2) times the error that is asked for, up to 16 times.
+inline constexpr std::size_t kErrorSteps = 9;
+using TriangleLadder = std::array<double, kErrorSteps>;
+
+/// The forms in which a terrain can be drawn; those that it lacks are null. All are in one local frame.
+struct LoadIndex {
+  std::shared_ptr<const TerrainIndex> tiles;
+  std::shared_ptr<const PatchIndex> patches;
+  std::shared_ptr<const StaticLodIndex> trees;
+  LocalFrame frame;
+};
+
+struct LoadView {
+  EyePose eye;
+  ViewShape view;
+  double farM = std::numeric_limits<double>::infinity();  ///< nothing farther is drawn
+};
+
+/// Returns the triangles in the frustum for each step of the ladder, of one form. It walks only what the
+/// finest step draws, and costs some 0.1 us a node. Less than what is drawn: what neighbours add to a cut is
+/// not counted; more than what is drawn: what occlusion hides is. `stack` is working storage.
+TriangleLadder countTriangles(const TerrainIndex& index, const LoadView& view, const CutRule& rule,
+                              std::vector<std::uint64_t>& stack);
+TriangleLadder countTriangles(const PatchIndex& index, const LoadView& view, const CutRule& rule,
+                              std::vector<std::uint64_t>& stack);
+/// `error` is staticLodError() of the measure in use.
+TriangleLadder countTriangles(const StaticLodIndex& index, const std::vector<float>& error,
+                              const LoadView& view, const StaticLodRule& rule,
+                              std::vector<std::uint64_t>& stack);
+
+/// Returns the share of the image, 0..1, whose lines of sight run below the horizon of a smooth earth:
+/// where ground is drawn over flat country. `up` is the vertical at the eye, `heightM` the height above the
+/// sea.
+double shareBelowHorizon(const LoadView& view, Vec3 up, double heightM);
+
+}  // namespace trimtab

@@ -1,0 +1,189 @@
+#include "trimtab/hold/load_counter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trimtab/culling/box_distance.h"
+#include "trimtab/culling/frustum.h"
+
+namespace trimtab {
+namespace {
+
+/// Triangles by step as differences, so that a node adds to any range of steps at once.
+class Ladder {
+ public:
+  void add(std::size_t from, std::size_t to, double triangles) {
+    if (from >= to) return;
+    difference_[from] += triangles;
+    difference_[to] -= triangles;
+  }
+  TriangleLadder sums() const {
+    TriangleLadder ladder{};
+    double sum = 0;
+    for (std::size_t k = 0; k < kErrorSteps; ++k) ladder[k] = sum += difference_[k];
+    return ladder;
+  }
+
+ private:
+  std::array<double, kErrorSteps + 1> difference_{};
+};
+
+/// Returns the first step of the ladder at which an error is accepted, at most kErrorSteps. `ratio` is the
+/// square of the error over the square of what step 0 accepts.
+std::size_t firstAccepted(double ratio, double spread) {
+  if (!(ratio > 1)) return 0;
+  const double steps = std::ceil(std::log2(ratio) / spread - 1e-9);
+  return steps < static_cast<double>(kErrorSteps) ? static_cast<std::size_t>(steps) : kErrorSteps;
+}
+
+/// What a view leaves out.
+class Outside {
+ public:
+  explicit Outside(const LoadView& view)
+      : frustum_(view.eye, view.view), eye_(view.eye.position), far2_(view.farM * view.farM) {}
+  bool operator()(const Box& box) const {
+    return !frustum_.mayShow(box) || distanceSquared(box, eye_) > far2_;
+  }
+
+ private:
+  Frustum frustum_;
+  Vec3 eye_;
+  double far2_;
+};
+
+/// A node that waits, with the first step that draws its parent instead.
+std::uint64_t packed(std::uint32_t node, std::size_t below) {
+  return std::uint64_t{node} << 8 | below;
+}
+
+double ratioOf(const CutRule& rule, double error, double distance2) {
+  return spreadSquared(error * error / rule.limit(), rule.spread, rule.spreadFromM) / distance2;
+}
+
+/// Walks a tree from the nodes on the stack. `visit(node, below)` adds what a node draws below step `below`
+/// and returns the first step at which it is drawn itself; `children(node, push)` pushes its children.
+template <class BoundsOf, class Visit, class Children>
+void walk(std::vector<std::uint64_t>& stack, const LoadView& view, const BoundsOf& boundsOf,
+          const Visit& visit, const Children& children) {
+  const Outside outside(view);
+  while (!stack.empty()) {
+    const std::uint32_t node = static_cast<std::uint32_t>(stack.back() >> 8);
+    const std::size_t below = stack.back() & 0xff;
+    stack.pop_back();
+    if (outside(boundsOf(node))) continue;
+    const std::size_t first = std::min(visit(node, below), below);
+    if (first > 0) children(node, [&](std::uint32_t child) { stack.push_back(packed(child, first)); });
+  }
+}
+
+}  // namespace
+
+TriangleLadder countTriangles(const TerrainIndex& index, const LoadView& view, const CutRule& rule,
+                              std::vector<std::uint64_t>& stack) {
+  constexpr double kTriangles = 2.0 * TerrainIndex::kTileCells * TerrainIndex::kTileCells;
+  const Vec3 eye = view.eye.position;
+  Ladder ladder;
+  stack.clear();
+  for (std::uint32_t node = static_cast<std::uint32_t>(index.size()); node-- > 0;)
+    if (index.parent[node] == TerrainIndex::kNone)
+      stack.push_back(packed(node, kErrorSteps));
+    else
+      break;
+  walk(
+      stack, view, [&](std::uint32_t node) -> const Box& { return index.bounds[node]; },
+      [&](std::uint32_t node, std::size_t below) -> std::size_t {
+        const double ratio = ratioOf(rule, index.errorM[node], distanceSquared(index.bounds[node], eye));
+        const std::size_t first = index.level[node] == 0 ? 0 : firstAccepted(ratio, rule.spread);
+        ladder.add(first, below, kTriangles);
+        return first;
+      },
+      [&](std::uint32_t node, const auto& push) {
+        for (const std::uint32_t child : index.children[node])
+          if (child != TerrainIndex::kNone) push(child);
+      });
+  return ladder.sums();
+}
+
+TriangleLadder countTriangles(const PatchIndex& index, const LoadView& view, const CutRule& rule,
+                              std::vector<std::uint64_t>& stack) {
+  const Vec3 eye = view.eye.position;
+  Ladder ladder;
+  stack.clear();
+  for (const PatchIndex::Page& page : index.pages) {
+    if (page.pair != 0) break;
+    for (std::uint32_t patch = page.firstPatch; patch < page.firstPatch + page.patches; ++patch)
+      if (index.parent[patch] == PatchIndex::kNone) stack.push_back(packed(patch, kErrorSteps));
+  }
+  walk(
+      stack, view, [&](std::uint32_t patch) -> const Box& { return index.bounds[patch]; },
+      [&](std::uint32_t patch, std::size_t below) -> std::size_t {
+        const double distance2 = distanceSquared(index.bounds[patch], eye);
+        const std::span<const float> errors = index.errorM[patch];
+        const bool leaf =
+            index.children[patch][0] == PatchIndex::kNone && index.children[patch][1] == PatchIndex::kNone;
+        const std::size_t first = leaf ? 0 : firstAccepted(ratioOf(rule, errors[0], distance2), rule.spread);
+        // Each variant serves from the step that accepts it up to the next coarser one.
+        std::size_t from = first;
+        for (std::size_t v = 0; v < errors.size() && from < below; ++v) {
+          const bool last = v + 1 == errors.size();
+          const std::size_t next =
+              last ? below
+                   : std::clamp(firstAccepted(ratioOf(rule, errors[v + 1], distance2), rule.spread), from,
+                                below);
+          ladder.add(from, next, index.triangles[patch][v]);
+          from = next;
+        }
+        return first;
+      },
+      [&](std::uint32_t patch, const auto& push) {
+        for (const std::uint32_t child : index.children[patch])
+          if (child != PatchIndex::kNone) push(child);
+      });
+  return ladder.sums();
+}
+
+TriangleLadder countTriangles(const StaticLodIndex& index, const std::vector<float>& error,
+                              const LoadView& view, const StaticLodRule& rule,
+                              std::vector<std::uint64_t>& stack) {
+  const Vec3 eye = view.eye.position;
+  const double square = rule.distancePerError * rule.distancePerError;
+  Ladder ladder;
+  stack.clear();
+  for (const std::uint32_t root : index.roots) stack.push_back(packed(root, kErrorSteps));
+  walk(
+      stack, view, [&](std::uint32_t node) -> const Box& { return index.bounds[node]; },
+      [&](std::uint32_t node, std::size_t below) -> std::size_t {
+        const double e = error[node];
+        const double ratio = spreadSquared(e * e * square, rule.spread, rule.spreadFromM) /
+                             distanceSquared(index.bounds[node], eye);
+        const bool leaf = index.nodes[node].children[0] == StaticLodIndex::kNone;
+        const std::size_t first = leaf ? 0 : firstAccepted(ratio, rule.spread);
+        ladder.add(first, below, index.nodes[node].triangles);
+        return first;
+      },
+      [&](std::uint32_t node, const auto& push) {
+        for (const std::uint32_t child : index.nodes[node].children)
+          if (child != StaticLodIndex::kNone) push(child);
+      });
+  return ladder.sums();
+}
+
+double shareBelowHorizon(const LoadView& view, Vec3 up, double heightM) {
+  constexpr int kColumns = 9, kRows = 16;
+  constexpr double kEarthRadius = 6371e3;
+  const double dip = std::acos(std::clamp(kEarthRadius / (kEarthRadius + heightM), 0.0, 1.0));
+  const double sinDip = -std::sin(dip);
+  const ViewShape& v = view.view;
+  const Mat3& axes = view.eye.axes;
+  int below = 0;
+  for (int row = 0; row < kRows; ++row)
+    for (int column = 0; column < kColumns; ++column) {
+      const double x = v.left + (v.right - v.left) * (column + 0.5) / kColumns;
+      const double y = v.bottom + (v.top - v.bottom) * (row + 0.5) / kRows;
+      const Vec3 ray = axes.row[0] * x + axes.row[1] * y - axes.row[2];
+      below += dot(ray, up) < sinDip * length(ray);
+    }
+  return static_cast<double>(below) / (kColumns * kRows);
+}
+
+}  // namespace trimtab

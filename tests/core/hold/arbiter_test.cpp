@@ -1,0 +1,300 @@
+#include "trimtab/hold/arbiter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace trimtab {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+HoldParameters enabled() {
+  HoldParameters p;
+  p.enabled = true;
+  return p;
+}
+
+/// 40 ms as asked for: 10 for triangles, 20 for ground pixels, 4 for rain, 3 for blur, 3 else.
+HoldGiven given(double timeS = 0) {
+  HoldGiven g;
+  g.timeS = timeS;
+  g.budgetMs = 100;
+  g.asked = {1, 1, 1, 1};
+  g.unseenPx = 1;
+  g.particles = 1;
+  g.blurs = true;
+  g.imageMpx = 1;
+  g.groundMpx = 0.5;
+  for (std::size_t k = 0; k < kErrorSteps; ++k)
+    g.triangles[k] = 1e5 * std::exp2(-0.5 * static_cast<double>(k));
+  g.cost = {.fixed = 2,
+            .perTriangle = 1e-4,
+            .perGroundMpx = 36,
+            .perSceneMpx = 2,
+            .perParticles = 3,
+            .perWeatherMpx = 1,
+            .perBlurMpx = 3,
+            .other = 1,
+            .bandMs = 2,
+            .known = true};
+  return g;
+}
+
+/// Every setting that the arbiter may choose, written a second time and on purpose without its tables.
+struct Twin {
+  double loss = kInfinity, ms = kInfinity;
+};
+Twin leastLoss(const HoldGiven& g, const HoldParameters& p, double limitMs) {
+  Twin best;
+  std::vector<double> errors{g.asked.errorPx};
+  for (int i = 0; i < 19; ++i)
+    if (const double e = std::pow(2, i / 2.0 - 3);
+        e > g.asked.errorPx && e <= p.errorMaximum.value() * 1.000001)
+      errors.push_back(e);
+  for (const double errorPx : errors)
+    for (int s = 0; g.asked.renderScale - 0.05 * s >= p.renderScaleMinimum.value() - 1e-9; ++s)
+      for (int k = 0; g.asked.particleShare - 0.125 * k >= p.particlesMinimum.value() - 1e-9; ++k)
+        for (const double blur : {g.asked.blurShare, p.blurMinimum.value()}) {
+          const double scale = g.asked.renderScale - 0.05 * s, share = g.asked.particleShare - 0.125 * k;
+          const HeldLevers levers{errorPx, scale, share, blur};
+          const double ms =
+              predict(g.cost, loadOf(g, levers, trianglesAt(g.triangles, g.asked.errorPx, errorPx))).total();
+          if (ms > limitMs) continue;
+          const double loss =
+              p.lossError.value() * std::max(errorPx - std::max(g.unseenPx, g.asked.errorPx), 0.0) / 15 +
+              p.lossRenderScale.value() * (g.asked.renderScale / scale - 1) +
+              p.lossParticles.value() * (g.asked.particleShare - share) +
+              p.lossBlur.value() * (g.asked.blurShare - blur);
+          if (loss < best.loss) best = {loss, ms};
+        }
+  return best;
+}
+
+double lossOf(const HoldGiven& g, const HoldParameters& p, const HeldLevers& held) {
+  return p.lossError.value() * std::max(held.errorPx - std::max(g.unseenPx, g.asked.errorPx), 0.0) / 15 +
+         p.lossRenderScale.value() * (g.asked.renderScale / held.renderScale - 1) +
+         p.lossParticles.value() * (g.asked.particleShare - held.particleShare) +
+         p.lossBlur.value() * (g.asked.blurShare - held.blurShare);
+}
+
+TEST(Arbiter, leavesWhatFitsAlone) {
+  HoldMemory memory;
+  const HoldDecision d = arbitrate(given(), enabled(), memory);
+  EXPECT_EQ(d.reason, HoldReason::fits);
+  EXPECT_EQ(d.held, d.asked);
+  EXPECT_DOUBLE_EQ(d.askedMs.total(), 2 + 10 + 18 + 2 + 4 + 3 + 1);
+}
+
+TEST(Arbiter, losesAsLittleAsAnySettingThatFits) {
+  std::mt19937 random(5);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  for (int i = 0; i < 300; ++i) {
+    HoldGiven g = given();
+    g.asked = {between(0.3, 8), between(0.5, 1), between(0.25, 1), 1};
+    g.unseenPx = between(0, 10);
+    g.cost.perGroundMpx = between(0, 60);
+    g.cost.perParticles = between(0, 60);
+    g.cost.perTriangle = between(0, 5e-4);
+    g.budgetMs = between(10, 100);
+    HoldParameters p = enabled();
+    p.lossError = Ratio{between(0, 0.1)};
+    p.lossRenderScale = Ratio{between(0, 0.1)};
+    p.lossParticles = Ratio{between(0, 0.1)};
+    p.lossBlur = Ratio{between(0, 0.1)};
+    HoldMemory memory;
+    const HoldDecision d = arbitrate(g, p, memory);
+    const Twin twin = leastLoss(g, p, d.limitMs);
+    if (std::isinf(twin.loss)) {
+      EXPECT_EQ(d.reason, HoldReason::out_of_reach) << i;
+      continue;
+    }
+    EXPECT_LE(d.heldMs.total(), d.limitMs) << i;
+    EXPECT_NEAR(lossOf(g, p, d.held), twin.loss, 1e-12) << i;
+  }
+}
+
+TEST(Arbiter, lowersAtOnceAndRestoresAfterCalm) {
+  HoldMemory memory;
+  const HoldParameters p = enabled();
+  double time = 0;
+  arbitrate(given(time), p, memory);
+  HoldGiven heavy = given(time += 0.016);
+  heavy.cost.perGroundMpx = 200;
+  EXPECT_EQ(arbitrate(heavy, p, memory).reason, HoldReason::lowered);
+  int images = 0;
+  HoldDecision d;
+  do {
+    d = arbitrate(given(time += 0.016), p, memory);
+    ++images;
+  } while (d.held != d.asked && images < 100);
+  EXPECT_GE(images * 16, 150);
+  EXPECT_LE(images * 16, 250 + 16 * 11);  // render scale comes back a step an image
+}
+
+TEST(Arbiter, restoresWithoutAnyImageOverTheLimit) {
+  HoldMemory memory;
+  const HoldParameters p = enabled();
+  double time = 0;
+  for (int i = 0; i < 400; ++i) {
+    HoldGiven g = given(time += 0.016);
+    g.budgetMs = 36;
+    g.cost.perGroundMpx = i % 100 < 30 ? 120 : 36;
+    const HoldDecision d = arbitrate(g, p, memory);
+    if (d.reason != HoldReason::out_of_reach) {
+      EXPECT_LE(d.heldMs.total(), d.limitMs + 1e-9) << i;
+    }
+  }
+}
+
+TEST(Arbiter, restsWhileItsInputsRest) {
+  std::mt19937 random(11);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  for (int flight = 0; flight < 50; ++flight) {
+    HoldMemory memory;
+    HoldGiven g = given();
+    g.budgetMs = between(12, 60);
+    g.cost.perGroundMpx = between(0, 80);
+    HeldLevers last;
+    int lastChange = 0;
+    for (int i = 0; i < 400; ++i) {
+      g.timeS = i / 60.0;
+      const HoldDecision d = arbitrate(g, enabled(), memory);
+      if (d.held != last) lastChange = i;
+      last = d.held;
+    }
+    EXPECT_LE(lastChange, 30) << flight;
+  }
+}
+
+TEST(Arbiter, changesLevelsTwiceAtMostInAGlance) {
+  HoldMemory memory;
+  int changes = 0;
+  double last = 1;
+  for (int i = 0; i < 300; ++i) {
+    HoldGiven g = given(i / 100.0);
+    g.budgetMs = 44;
+    // The load rises and falls over a second while the line of sight sweeps through 180 degrees.
+    const bool sweeps = i >= 50 && i < 150;
+    const double part = sweeps ? std::sin((i - 50) / 100.0 * 3.14159) : 0;
+    for (double& triangles : g.triangles) triangles *= 1 + 2 * part;
+    g.unseenPx = errorInMotion(1, sweeps ? 180 : 0, 16, 1100);
+    HoldParameters p = enabled();
+    p.renderScaleMinimum = Ratio{1};
+    const HoldDecision d = arbitrate(g, p, memory);
+    changes += d.held.errorPx != last;
+    last = d.held.errorPx;
+  }
+  EXPECT_GT(changes, 0);
+  EXPECT_LE(changes, 2);
+}
+
+TEST(Arbiter, anUnknownBudgetOrCostChangesNothing) {
+  for (const double budget : {0.0, -5.0, kNan, kInfinity}) {
+    HoldMemory memory;
+    HoldGiven g = given();
+    g.budgetMs = budget;
+    const HoldDecision d = arbitrate(g, enabled(), memory);
+    EXPECT_EQ(d.reason, HoldReason::no_budget) << budget;
+    EXPECT_EQ(d.held, g.asked) << budget;
+  }
+  for (const auto spoil :
+       {+[](HoldGiven& g) { g.cost.known = false; }, +[](HoldGiven& g) { g.cost.fixed = kNan; },
+        +[](HoldGiven& g) { g.triangles[3] = kInfinity; }, +[](HoldGiven& g) { g.groundMpx = kNan; }}) {
+    HoldMemory memory;
+    HoldGiven g = given();
+    spoil(g);
+    const HoldDecision d = arbitrate(g, enabled(), memory);
+    EXPECT_EQ(d.reason, HoldReason::cost_unknown);
+    EXPECT_EQ(d.held, g.asked);
+  }
+}
+
+TEST(Arbiter, aBudgetBelowAnEmptySkyTakesTheQuickestSettingAndSaysSo) {
+  HoldMemory memory;
+  HoldGiven g = given();
+  g.budgetMs = 0.5;
+  const HoldDecision d = arbitrate(g, enabled(), memory);
+  EXPECT_EQ(d.reason, HoldReason::out_of_reach);
+  EXPECT_DOUBLE_EQ(d.held.errorPx, 16);
+  EXPECT_DOUBLE_EQ(d.held.renderScale, 0.5);
+  EXPECT_DOUBLE_EQ(d.held.particleShare, 0.25);
+  EXPECT_DOUBLE_EQ(d.held.blurShare, 0);
+}
+
+TEST(Arbiter, aClockThatStandsOrGoesBackNeverRestores) {
+  for (const double step : {0.0, -0.1, kNan}) {
+    HoldMemory memory;
+    HoldGiven heavy = given();
+    heavy.budgetMs = 20;
+    arbitrate(heavy, enabled(), memory);
+    HoldDecision d;
+    for (int i = 1; i < 200; ++i) d = arbitrate(given(i * step), enabled(), memory);
+    EXPECT_EQ(d.reason, HoldReason::held) << step;
+  }
+}
+
+TEST(Arbiter, neverGoesBeyondTheEngineersLimits) {
+  HoldMemory memory;
+  HoldParameters p = enabled();
+  p.errorMaximum = Pixels{3};
+  p.renderScaleMinimum = Ratio{0.8};
+  p.particlesMinimum = Ratio{0.6};
+  p.blurMinimum = Ratio{0.5};
+  HoldGiven g = given();
+  g.budgetMs = 1;
+  const HoldDecision d = arbitrate(g, p, memory);
+  EXPECT_LE(d.held.errorPx, 3);
+  EXPECT_GE(d.held.renderScale, 0.8 - 1e-12);
+  EXPECT_GE(d.held.particleShare, 0.6);
+  EXPECT_GE(d.held.blurShare, 0.5);
+}
+
+TEST(Arbiter, keepsACoarserErrorThanItsLimitIfThatIsAskedFor) {
+  HoldMemory memory;
+  HoldParameters p = enabled();
+  p.errorMaximum = Pixels{3};
+  HoldGiven g = given();
+  g.asked.errorPx = 5;
+  g.budgetMs = 1;
+  EXPECT_EQ(arbitrate(g, p, memory).held.errorPx, 5);
+}
+
+TEST(ErrorInMotion, isTheRestsErrorUntilTheSmearIsLonger) {
+  EXPECT_DOUBLE_EQ(errorInMotion(2, 0, 16, 1100), 2);
+  // 180 degrees a second for 16 ms at 1,100 pixels a radian: 55.3 pixels.
+  EXPECT_NEAR(errorInMotion(2, 180, 16, 1100), std::sqrt(2 * 55.292), 1e-3);
+  EXPECT_DOUBLE_EQ(errorInMotion(2, kNan, 16, 1100), 2);
+  EXPECT_DOUBLE_EQ(errorInMotion(2, kInfinity, 16, 1100), 2);
+  EXPECT_DOUBLE_EQ(errorInMotion(2, 180, 0, 1100), 2);
+}
+
+/// The derivation of errorInMotion, by brute force: a strip of width e changed by 1, averaged over m pixels,
+/// has the squared error e * e / m.
+TEST(ErrorInMotion, makesTheSquaredErrorUnderTheSmearThatOfRest) {
+  for (const double rest : {0.5, 1.0, 2.0, 4.0})
+    for (const double smearPx : {8.0, 30.0, 60.0}) {
+      const double e = std::sqrt(rest * smearPx);
+      constexpr double kStep = 0.01;
+      double sum = 0;
+      for (double x = -smearPx - e; x < smearPx + e; x += kStep) {
+        const double covered = std::min(x + smearPx / 2, e / 2) - std::max(x - smearPx / 2, -e / 2);
+        const double change = std::max(covered, 0.0) / smearPx;
+        sum += change * change * kStep;
+      }
+      // Triangular ends make it a little less than e^2 / m.
+      EXPECT_LE(sum, rest * 1.01);
+      EXPECT_GE(sum, rest * 0.6);
+    }
+}
+
+}  // namespace
+}  // namespace trimtab

@@ -1,0 +1,206 @@
+#include "trimtab/hold/cost_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+
+#include "trimtab/hold/cost_model_file.h"
+
+namespace trimtab {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// A machine whose images cost what a line says, with noise.
+class Machine {
+ public:
+  double slowness = 1, noise = 0.05;
+
+  FrameLoad nextLoad() {
+    FrameLoad load;
+    load.triangles = between(2e4, 1.5e5);
+    load.groundMpx = between(0.1, 0.9);
+    load.sceneMpx = 0.92;
+    load.particles = between(0, 1) < 0.3 ? between(0.2, 1) : 0;
+    load.blurs = between(0, 1) < 0.2;
+    return load;
+  }
+  FrameCost cost(const FrameLoad& load) {
+    const auto noisy = [&](double ms) { return ms * slowness * (1 + noise * normal_(random_)); };
+    FrameCost c;
+    c.decide = 0.01;
+    c.symbology = noisy(0.4);
+    c.blur = load.blurs ? noisy(3 * load.sceneMpx) : kNan;
+    c.weather = load.particles > 0 ? noisy(10 * load.particles + 2 * load.sceneMpx) : kNan;
+    c.draw =
+        noisy(ground(load)) + c.symbology + (load.blurs ? c.blur : 0) + (load.particles > 0 ? c.weather : 0);
+    c.total = c.draw + c.decide;
+    c.gpu = kNan;
+    return c;
+  }
+  static double ground(const FrameLoad& load) { return 1.5 + 8e-5 * load.triangles + 14 * load.groundMpx; }
+  double between(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+
+ private:
+  std::mt19937 random_{3};
+  std::normal_distribution<double> normal_;
+};
+
+double predictedMs(const CostModel& model, const FrameLoad& load) {
+  return predict(model.coefficients(load), load).total();
+}
+
+TEST(CostModel, knowsNothingBeforeSomeImages) {
+  Machine machine;
+  CostModel model;
+  for (int i = 0; i < 7; ++i) {
+    EXPECT_FALSE(model.coefficients({}).known);
+    const FrameLoad load = machine.nextLoad();
+    model.observe(load, machine.cost(load));
+  }
+}
+
+TEST(CostModel, predictsWhatItLearned) {
+  Machine machine;
+  CostModel model;
+  std::vector<double> errors;
+  int covered = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const FrameLoad load = machine.nextLoad();
+    const FrameCost cost = machine.cost(load);
+    if (i >= 200) {
+      const double error = predictedMs(model, load) - cost.total;
+      errors.push_back(std::abs(error) / cost.total);
+      covered += std::abs(error) <= model.coefficients(load).bandMs;
+    }
+    model.observe(load, cost);
+  }
+  std::nth_element(errors.begin(), errors.begin() + 400, errors.end());
+  EXPECT_LT(errors[400], 0.05);
+  EXPECT_GE(covered, 0.80 * 800);
+  EXPECT_LE(covered, 0.97 * 800);
+}
+
+TEST(CostModel, aSpikeMovesItLittle) {
+  Machine machine;
+  CostModel model;
+  for (int i = 0; i < 300; ++i) {
+    const FrameLoad load = machine.nextLoad();
+    model.observe(load, machine.cost(load));
+  }
+  const FrameLoad load{6e4, 0.5, 0.92, 0, false};
+  const double before = predictedMs(model, load);
+  FrameCost spike = machine.cost(load);
+  spike.draw = spike.total = 700;
+  model.observe(load, spike);
+  EXPECT_NEAR(predictedMs(model, load), before, 0.1 * before);
+}
+
+TEST(CostModel, followsAMachineThatSlowsDownWithinThirtyImages) {
+  Machine machine;
+  CostModel model;
+  for (int i = 0; i < 300; ++i) {
+    const FrameLoad load = machine.nextLoad();
+    model.observe(load, machine.cost(load));
+  }
+  machine.slowness = 2;
+  for (int i = 0; i < 30; ++i) {
+    const FrameLoad load = machine.nextLoad();
+    model.observe(load, machine.cost(load));
+  }
+  const FrameLoad load{6e4, 0.5, 0.92, 0, false};
+  EXPECT_NEAR(predictedMs(model, load), 2 * (Machine::ground(load) + 0.4), 0.2 * 2 * Machine::ground(load));
+}
+
+TEST(CostModel, timersThatLieTeachNothing) {
+  Machine machine;
+  CostModel model;
+  for (int i = 0; i < 100; ++i) {
+    const FrameLoad load = machine.nextLoad();
+    model.observe(load, machine.cost(load));
+  }
+  const FrameLoad load{6e4, 0.5, 0.92, 1, true};
+  const double before = predictedMs(model, load);
+  for (const double lie : {0.0, -3.0, kNan, std::numeric_limits<double>::infinity()}) {
+    FrameCost cost = machine.cost(load);
+    cost.total = lie;
+    model.observe(load, cost);
+    FrameLoad none = load;
+    none.triangles = lie > 0 || lie < 0 ? lie : kNan;
+    if (!(none.triangles > 0)) continue;
+    model.observe(none, machine.cost(load));
+  }
+  EXPECT_TRUE(std::isfinite(predictedMs(model, load)));
+  EXPECT_NEAR(predictedMs(model, load), before, 0.2 * before);
+  FrameCost unmeasured = machine.cost(load);
+  unmeasured.weather = kNan;
+  const std::size_t images = model.images();
+  model.observe(load, unmeasured);
+  EXPECT_EQ(model.images(), images);
+}
+
+class CostModelFile : public testing::Test {
+ protected:
+  std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "cost-model";
+  std::filesystem::path file = folder / "deep" / "model.txt";
+  void SetUp() override { std::filesystem::remove_all(folder); }
+  CostModel learned() {
+    Machine machine;
+    CostModel model;
+    for (int i = 0; i < 50; ++i) {
+      const FrameLoad load = machine.nextLoad();
+      model.observe(load, machine.cost(load));
+    }
+    return model;
+  }
+  std::string text() {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  void rewrite(const std::string& bytes) { std::ofstream(file) << bytes; }
+};
+
+TEST_F(CostModelFile, readsBackToTheBit) {
+  const CostModel model = learned();
+  ASSERT_TRUE(writeCostModel(file, "llvmpipe", model).ok());
+  const auto state = readCostModel(file, "llvmpipe");
+  ASSERT_TRUE(state.ok()) << toString(state.findings());
+  EXPECT_EQ(state->ground.coefficient, model.state().ground.coefficient);
+  EXPECT_EQ(state->ground.covariance, model.state().ground.covariance);
+  EXPECT_EQ(state->weather.coefficient, model.state().weather.coefficient);
+  EXPECT_EQ(state->other, model.state().other);
+}
+
+TEST_F(CostModelFile, ofAnotherMachineIsDistrusted) {
+  ASSERT_TRUE(writeCostModel(file, "llvmpipe", learned()).ok());
+  const auto state = readCostModel(file, "a GPU");
+  ASSERT_FALSE(state.ok());
+  EXPECT_NE(toString(state.findings()).find("llvmpipe"), std::string::npos);
+}
+
+TEST_F(CostModelFile, damageIsSaidWithItsLine) {
+  ASSERT_TRUE(writeCostModel(file, "llvmpipe", learned()).ok());
+  const std::string good = text();
+  for (const std::string& bad : {good.substr(0, good.size() / 2), std::string(), "x" + good, good + "7\n"}) {
+    rewrite(bad);
+    const auto state = readCostModel(file, "llvmpipe");
+    ASSERT_FALSE(state.ok());
+    EXPECT_NE(state.findings()[0].where.find("model.txt:"), std::string::npos);
+  }
+  std::string nan = good;
+  nan.replace(nan.find("llvmpipe\n") + 9,
+              nan.find('\n', nan.find("llvmpipe\n") + 9) - nan.find("llvmpipe\n") - 9, "nan");
+  rewrite(nan);
+  const auto state = readCostModel(file, "llvmpipe");
+  ASSERT_FALSE(state.ok());
+  EXPECT_NE(state.findings()[0].where.find(":3"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace trimtab

@@ -1,0 +1,143 @@
+#include "trimtab/hold/load_counter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "tests/core/culling/random_index.h"
+#include "tests/core/culling/random_patches.h"
+#include "tests/core/culling/random_trees.h"
+#include "tests/core/culling/view_axes.h"
+#include "trimtab/culling/select.h"
+#include "trimtab/culling/select_patches.h"
+#include "trimtab/hold/arbiter.h"
+
+namespace trimtab {
+namespace {
+
+LoadView viewAt(Vec3 eye, double heading, double pitch,
+                double farM = std::numeric_limits<double>::infinity()) {
+  return {{eye, test::axesOf(heading, pitch)}, {}, farM};
+}
+
+/// What is drawn of a cut, by the selectors that the renderer uses.
+double drawn(const LevelCut& cut, const LoadView& view) {
+  VisibleSet visible;
+  selectVisible(cut, {.eye = view.eye, .view = view.view, .farM = view.farM}, visible);
+  return static_cast<double>(visible.triangles);
+}
+
+double stepOf(std::size_t k) {
+  return std::exp2(0.5 * static_cast<double>(k));
+}
+
+/// Views from inside, above and beyond a square of so many metres.
+template <class Check>
+void forManyViews(double sizeM, const Check& check) {
+  std::mt19937 random(7);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  for (int i = 0; i < 60; ++i)
+    check(viewAt({between(-0.2, 1.2) * sizeM, between(-0.2, 1.2) * sizeM, between(200, 4000)},
+                 between(0, 360), between(-60, 30),
+                 i % 3 == 0 ? between(0.1, 1) * sizeM : std::numeric_limits<double>::infinity()));
+}
+
+TEST(LoadCounter, countsWhatTheTreesDraw) {
+  const StaticLodIndex index = test::randomTrees(4, 11);
+  const std::vector<float> error = staticLodError(index, ErrorMeasure::rms);
+  std::vector<std::uint64_t> stack;
+  double all = 0;
+  forManyViews(32000, [&](const LoadView& view) {
+    for (const double spread : {1.0, 0.8}) {
+      const StaticLodRule rule{900, spread, 5000};
+      const TriangleLadder ladder = countTriangles(index, error, view, rule, stack);
+      for (std::size_t k = 0; k < kErrorSteps; ++k) {
+        LevelCut cut;
+        // A rule of the k-th step accepts an error that much larger at the same distance.
+        selectStatic(index, error, {rule.distancePerError / stepOf(k), spread, 5000}, view.eye.position, cut);
+        EXPECT_NEAR(ladder[k], drawn(cut, view), 0.5) << k;
+        all += ladder[k];
+      }
+    }
+  });
+  EXPECT_GT(all, 1e6);
+}
+
+TEST(LoadCounter, countsTilesButForWhatNeighboursAdd) {
+  const TerrainIndex index = test::randomIndex(32, 5);
+  std::vector<std::uint64_t> stack;
+  double counted = 0, all = 0;
+  forManyViews(32000, [&](const LoadView& view) {
+    const CutRule rule{2, 1, 1100};
+    const TriangleLadder ladder = countTriangles(index, view, rule, stack);
+    for (std::size_t k = 0; k < kErrorSteps; ++k) {
+      LevelCut cut;
+      selectLevels(index, view.eye.position, {2 * stepOf(k), 1, 1100}, cut);
+      counted += ladder[k], all += drawn(cut, view);
+    }
+  });
+  EXPECT_GT(all, 1e6);
+  EXPECT_NEAR(counted / all, 0.9, 0.15);
+}
+
+TEST(LoadCounter, countsPatchesButForWhatNeighboursAdd) {
+  const PatchIndex index = test::RandomPatches::make(513, 513, 128, 8, 3, 9);
+  std::vector<std::uint64_t> stack;
+  double counted = 0, all = 0;
+  forManyViews(5120, [&](const LoadView& view) {
+    const CutRule rule{2, 1, 1100};
+    const TriangleLadder ladder = countTriangles(index, view, rule, stack);
+    for (std::size_t k = 0; k < kErrorSteps; ++k) {
+      PatchCut cut;
+      selectPatches(index, {}, view.eye.position, {2 * stepOf(k), 1, 1100}, cut);
+      counted += ladder[k], all += drawn(cut.cut, view);
+    }
+  });
+  EXPECT_GT(all, 1e5);
+  EXPECT_NEAR(counted / all, 1, 0.2);
+}
+
+TEST(LoadCounter, fallsAlongTheLadderAndOutsideTheView) {
+  const StaticLodIndex index = test::randomTrees(4, 12);
+  const std::vector<float> error = staticLodError(index, ErrorMeasure::maximum);
+  std::vector<std::uint64_t> stack;
+  const LoadView view = viewAt({16000, 16000, 1500}, 30, -10);
+  const TriangleLadder ladder = countTriangles(index, error, view, {900}, stack);
+  for (std::size_t k = 1; k < kErrorSteps; ++k) EXPECT_LE(ladder[k], ladder[k - 1]);
+  const TriangleLadder sky = countTriangles(index, error, viewAt({16000, 16000, 5000}, 30, 80), {900}, stack);
+  EXPECT_EQ(sky, TriangleLadder{});
+}
+
+TEST(LoadCounter, anEyeThatIsNoNumberIsDefined) {
+  const TerrainIndex index = test::randomIndex(8, 5);
+  std::vector<std::uint64_t> stack;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double triangles : countTriangles(index, viewAt({nan, 0, 0}, 0, 0), {2, 1, 1100}, stack))
+    EXPECT_TRUE(std::isfinite(triangles));
+}
+
+TEST(ShareBelowHorizon, isHalfWhenLevelAndAllWhenLookingDown) {
+  const Vec3 up{0, 0, 1};
+  EXPECT_NEAR(shareBelowHorizon(viewAt({0, 0, 0}, 10, 0), up, 0), 0.5, 0.07);
+  EXPECT_EQ(shareBelowHorizon(viewAt({0, 0, 0}, 10, -60), up, 100), 1);
+  EXPECT_EQ(shareBelowHorizon(viewAt({0, 0, 0}, 10, 60), up, 100), 0);
+  // From 12 km the horizon is 3.5 degrees down.
+  EXPECT_LT(shareBelowHorizon(viewAt({0, 0, 0}, 10, 0), up, 12000), 0.47);
+}
+
+TEST(TrianglesAt, liesOnTheLadderAndBetweenItsSteps) {
+  TriangleLadder ladder{};
+  for (std::size_t k = 0; k < kErrorSteps; ++k) ladder[k] = 900 - 100 * static_cast<double>(k);
+  EXPECT_DOUBLE_EQ(trianglesAt(ladder, 2, 2), 900);
+  EXPECT_NEAR(trianglesAt(ladder, 2, 4), 700, 1e-9);
+  EXPECT_NEAR(trianglesAt(ladder, 2, 2 * std::exp2(0.25)), 850, 1e-9);
+  EXPECT_NEAR(trianglesAt(ladder, 2, 640), 100, 1e-9);
+  EXPECT_DOUBLE_EQ(trianglesAt(ladder, 2, 1), 900);
+}
+
+}  // namespace
+}  // namespace trimtab

@@ -1,0 +1,171 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "tests/core/culling/random_index.h"
+#include "trimtab/measure/trace.h"
+#include "trimtab/session/motion_ahead.h"
+#include "trimtab/session/session.h"
+
+namespace trimtab {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+ValidatedParameters holding(double budgetMs) {
+  TuningParameters p;
+  p.hold.enabled = true;
+  p.measure.budget = Milliseconds{budgetMs};
+  p.weather.source = WeatherSource::host;
+  return *validate(p);
+}
+
+/// A flight over tiles, with a head that sweeps now and then and rain that comes and goes.
+AircraftState stateOf(int image) {
+  AircraftState state;
+  state.time = image / 60.0;
+  state.packet = static_cast<std::uint64_t>(image);
+  state.position = {Degrees{0.1 + image * 1e-5}, Degrees{0.1}, Metres{2500}};
+  state.attitude = {Degrees{45}, Degrees{-10}, Degrees{5 * std::sin(image / 30.0)}};
+  state.head = Attitude{Degrees{60 * std::sin(image / 20.0)}, Degrees{0}, {}};
+  state.weather =
+      HostWeather{image / 100 % 2 == 1 ? Precipitation::rain : Precipitation::none, 4, std::nullopt};
+  return state;
+}
+
+std::shared_ptr<const LoadIndex> tiles() {
+  auto index = std::make_shared<LoadIndex>();
+  index->tiles = std::make_shared<const TerrainIndex>(test::randomIndex(32, 4));
+  index->frame = LocalFrame(GeodeticPosition{});
+  return index;
+}
+
+/// A machine on which an image costs what its request asks for, with noise and now and then a spike.
+class Machine {
+ public:
+  FrameResult draw(const FrameRequest& request) {
+    FrameResult result;
+    const LoadView view{
+        {index_->frame.fromGeodetic(request.eye), eyeAxes(index_->frame, request.eye, request.attitude)},
+        request.view,
+        farCutM(request)};
+    const CutRule rule = cutKeyOf(request, view.eye.position, 1).rule;
+    // Neighbours add an eighth.
+    result.visible.triangles =
+        static_cast<std::uint64_t>(1.125 * countTriangles(*index_->tiles, view, rule, stack_).front());
+    const double pixels = request.renderScale * request.renderScale;
+    const double noise = std::normal_distribution<double>(1, 0.04)(random_);
+    FrameCost& c = result.cost;
+    c.weather = request.decision.weather.density > 0 ? 10 * request.particleShare : kNan;
+    c.blur = request.decision.motion.blur.strength > 0 ? 3 * pixels : kNan;
+    c.draw = noise * (3 + 9 * pixels + 1e-4 * static_cast<double>(result.visible.triangles)) +
+             (std::isnan(c.weather) ? 0 : c.weather) + (std::isnan(c.blur) ? 0 : c.blur);
+    if (++images_ % 97 == 0) c.draw += 80;
+    c.gpu = c.page = c.symbology = kNan;
+    c.total = c.draw;
+    return result;
+  }
+
+ private:
+  std::shared_ptr<const LoadIndex> index_ = tiles();
+  std::vector<std::uint64_t> stack_;
+  std::mt19937 random_{17};
+  int images_ = 0;
+};
+
+struct Flown {
+  std::vector<TraceRow> rows;
+  std::vector<FrameRequest> requests;
+  std::vector<double> ms;
+};
+
+Flown fly(const ValidatedParameters& parameters, int images) {
+  Session session(parameters);
+  session.setLoadIndex(tiles());
+  session.keepRows(true);
+  Machine machine;
+  Flown flown;
+  for (int i = 0; i < images; ++i) {
+    const AircraftState state = stateOf(i);
+    session.fly(state, state.time);
+    flown.requests.push_back(*session.request(state.time, 640, 360));
+    flown.ms.push_back(session.finished(machine.draw(flown.requests.back()), state.time).total);
+  }
+  session.takeRows(flown.rows, true);
+  return flown;
+}
+
+TEST(HoldSession, keepsImagesWithinTheBudgetOnceItKnowsTheirCost) {
+  const double budget = 14;
+  const Flown free = fly(holding(1000), 800), held = fly(holding(budget), 800);
+  int over = 0, overFree = 0;
+  for (std::size_t i = 100; i < held.ms.size(); ++i) {
+    over += held.ms[i] > 1.1 * budget;
+    overFree += free.ms[i] > 1.1 * budget;
+  }
+  EXPECT_GT(overFree, 300);
+  // Seven spikes, and a few images in which what falls was not known yet.
+  EXPECT_LE(over, 12);
+}
+
+TEST(HoldSession, aTraceReplaysEveryArbitrationToTheBit) {
+  const ValidatedParameters parameters = holding(14);
+  const Flown flown = fly(parameters, 300);
+  std::string text = traceHeader() + '\n';
+  for (const TraceRow& row : flown.rows) appendTraceRow(text, row);
+  const auto read = parseTrace(text, "trace");
+  ASSERT_TRUE(read.ok()) << toString(read.findings());
+  ASSERT_EQ(read->size(), flown.requests.size());
+  EXPECT_TRUE(decideAgain(*read, parameters).empty());
+  Session replay(parameters);
+  int lowered = 0;
+  for (std::size_t i = 0; i < read->size(); ++i) {
+    ASSERT_TRUE((*read)[i].hold) << i;
+    replay.replay((*read)[i]);
+    const FrameRequest request = *replay.request((*read)[i].input.state.time, 640, 360);
+    EXPECT_EQ(request.hold, flown.requests[i].hold) << i;
+    EXPECT_EQ(request.renderScale, flown.requests[i].renderScale) << i;
+    EXPECT_EQ(request.lod.screenSpaceError.value(), flown.requests[i].lod.screenSpaceError.value()) << i;
+    lowered += request.hold.held != request.hold.asked;
+  }
+  EXPECT_GT(lowered, 50);
+}
+
+TEST(HoldSession, changesNothingUnlessThePresetAsksForIt) {
+  const Flown flown = fly(*validate(TuningParameters{}), 50);
+  for (const FrameRequest& request : flown.requests) {
+    EXPECT_EQ(request.hold, HoldDecision{});
+    EXPECT_EQ(request.renderScale, 1);
+    EXPECT_FALSE(request.separateStages);
+  }
+  for (const TraceRow& row : flown.rows) EXPECT_FALSE(row.hold);
+}
+
+TEST(MotionAhead, movesOnAsItDidAcrossTheDateLineAndNorth) {
+  MotionAhead ahead;
+  EXPECT_TRUE(ahead.coming(5).empty());
+  ahead.push(0, {{Degrees{10}, Degrees{179.9995}, Metres{1000}}, {Degrees{359}, Degrees{1}, {}}});
+  ahead.push(0.01, {{Degrees{10}, Degrees{-179.9995}, Metres{1001}}, {Degrees{1}, Degrees{2}, {}}});
+  const auto coming = ahead.coming(3);
+  ASSERT_EQ(coming.size(), 3u);
+  EXPECT_NEAR(coming[2].position.longitude.value(), -179.9965, 1e-9);
+  EXPECT_NEAR(coming[2].position.height.value(), 1004, 1e-9);
+  EXPECT_NEAR(wrapped180(coming[2].attitude.heading).value(), 7, 1e-9);
+  EXPECT_NEAR(ahead.sightDegPerS(), 100 * std::hypot(2, 1), 1);
+}
+
+TEST(MotionAhead, forgetsMotionWhenTimeStandsGoesBackOrJumps) {
+  const ComingEye a{{}, {Degrees{0}, {}, {}}}, b{{}, {Degrees{5}, {}, {}}};
+  for (const double time : {1.0, 0.5, 1.3, kNan}) {
+    MotionAhead ahead;
+    ahead.push(1, a);
+    ahead.push(time, b);
+    EXPECT_TRUE(ahead.coming(5).empty()) << time;
+    EXPECT_EQ(ahead.sightDegPerS(), 0) << time;
+  }
+}
+
+}  // namespace
+}  // namespace trimtab

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "budget_panel.h"
+
+#include <QBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QListWidget>
+#include <QScrollBar>
+#include <QTableWidget>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "views/controls/parameter_lines.h"
+#include "views/model/theme.h"
+#include "views/plots/budget_plot.h"
+
+namespace trimtab::views {
+namespace {
+
+constexpr int kMostReasons = 500;
+constexpr std::size_t kMostOutcomes = 300;
+constexpr const char* kKeys[] = {
+    "hold.enabled",          "measure.budget_ms",         "hold.margin",
+    "hold.error_maximum_px", "hold.render_scale_minimum", "hold.particles_minimum",
+    "hold.calm_ms"};
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+QString percent(double share) {
+  return std::isfinite(share) ? BudgetPanel::tr("%1 %").arg(numberText(100 * share, 1))
+                              : BudgetPanel::tr("unknown");
+}
+
+}  // namespace
+
+BudgetPanel::BudgetPanel(Draft& draft, QWidget* parent)
+    : QWidget(parent),
+      draft_(draft),
+      state_(new QLabel(tr("The budget is not held: switch it on below"))),
+      residuals_(new QLabel),
+      plot_(new BudgetPlot),
+      levers_(new QTableWidget(4, 3)),
+      reasons_(new QListWidget),
+      throttle_(this, [this] { refresh(); }) {
+  QFont bold = font();
+  bold.setBold(true);
+  state_->setFont(bold);
+  for (QLabel* label : {state_, residuals_}) label->setWordWrap(true);
+  residuals_->setToolTip(
+      tr("Predictions made three images ahead, of the last 300 images: the median error of triangles and of "
+         "time, and the share of images within the 90 % band."));
+  levers_->setAccessibleName(tr("Levers of the budget"));
+  levers_->setHorizontalHeaderLabels({tr("Asked for"), tr("Held"), tr("Given")});
+  levers_->setVerticalHeaderLabels(
+      {tr("Allowed error (px)"), tr("Render scale"), tr("Particle density"), tr("Blur")});
+  levers_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+  levers_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  levers_->setSelectionMode(QAbstractItemView::NoSelection);
+  for (int row = 0; row < levers_->rowCount(); ++row)
+    for (int column = 0; column < levers_->columnCount(); ++column) {
+      auto* item = new QTableWidgetItem;
+      item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+      levers_->setItem(row, column, item);
+    }
+  const int rowHeight = fontMetrics().height() + 6;
+  levers_->verticalHeader()->setDefaultSectionSize(rowHeight);
+  levers_->setFixedHeight(rowHeight * 5 + 6);
+  levers_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  reasons_->setAccessibleName(tr("Changes by the budget"));
+  reasons_->setWordWrap(true);
+  reasons_->setResizeMode(QListView::Adjust);
+  reasons_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  reasons_->setMinimumHeight(fontMetrics().height() * 4);
+
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(6, 6, 6, 6);
+  layout->addWidget(state_);
+  layout->addWidget(plot_, 3);
+  layout->addWidget(residuals_);
+  layout->addWidget(levers_);
+  layout->addWidget(new QLabel(tr("<b>Changes</b>")));
+  layout->addWidget(reasons_, 1);
+  layout->addWidget(new ParameterLines(draft, kKeys));
+  refresh();
+}
+
+QString BudgetPanel::stateText() const {
+  return state_->text();
+}
+
+QString BudgetPanel::residualsText() const {
+  return residuals_->text();
+}
+
+void BudgetPanel::showFrame(const LiveFrame& frame) {
+  if (!frame.newImage) return;
+  shown_ = frame.hold;
+  shownMs_ = workMs(frame.cost);
+  if (shown_.reason != HoldReason::off) {
+    if (shown_.heldMs.total() > 0) plot_->append(frame, draft_.active()->measure.budget.value());
+    if (frame.holdOutcome) outcomes_.push_back(*frame.holdOutcome);
+    while (outcomes_.size() > kMostOutcomes) outcomes_.pop_front();
+  }
+  note(frame);
+  throttle_.request();
+}
+
+void BudgetPanel::note(const LiveFrame& frame) {
+  const HoldReason reason = shown_.reason;
+  const bool moves = reason == HoldReason::lowered || reason == HoldReason::restored;
+  // Levers that come back step by step are one change.
+  if (reason == noted_ && !(reason == HoldReason::lowered)) return;
+  noted_ = reason;
+  if (!moves && reason != HoldReason::out_of_reach && reason != HoldReason::fits) return;
+  const QScrollBar* bar = reasons_->verticalScrollBar();
+  const bool follow = bar->value() == bar->maximum();
+  reasons_->addItem(tr("%1 s  %2").arg(frame.time, 0, 'f', 3).arg(QString::fromStdString(explain(shown_))));
+  while (reasons_->count() > kMostReasons) delete reasons_->takeItem(0);
+  if (follow) reasons_->scrollToBottom();
+}
+
+void BudgetPanel::refresh() {
+  const HoldDecision& d = shown_;
+  if (d.reason == HoldReason::off) {
+    state_->setText(tr("The budget is not held: switch it on below"));
+  } else {
+    QString text = QString::fromStdString(explain(d));
+    text[0] = text[0].toUpper();
+    state_->setText(text);
+  }
+  const auto set = [&](int row, double asked, double held, int decimals) {
+    levers_->item(row, 0)->setText(numberText(asked, decimals));
+    levers_->item(row, 1)->setText(numberText(held, decimals));
+    levers_->item(row, 2)->setText(asked == held ? tr("nothing")
+                                                 : tr("× %1").arg(numberText(held / asked, 2)));
+  };
+  set(0, d.asked.errorPx, d.held.errorPx, 2);
+  set(1, d.asked.renderScale, d.held.renderScale, 2);
+  set(2, d.asked.particleShare, d.held.particleShare, 2);
+  set(3, d.asked.blurShare, d.held.blurShare, 2);
+
+  std::vector<double> triangles, times;
+  double within = 0;
+  for (const HoldOutcome& o : outcomes_) {
+    if (o.triangles > 0) triangles.push_back(std::abs(o.predictedTriangles / o.triangles - 1));
+    if (o.ms > 0) times.push_back(std::abs(o.predictedMs / o.ms - 1));
+    within += std::abs(o.predictedMs - o.ms) <= o.bandMs;
+  }
+  if (outcomes_.empty())
+    residuals_->setText(tr("No prediction has come due yet"));
+  else
+    residuals_->setText(tr("Three images ahead: triangles off by %1, time by %2; %3 within the 90 % band")
+                            .arg(percent(median(triangles)), percent(median(times)),
+                                 percent(within / double(outcomes_.size()))));
+  plot_->refresh();
+}
+
+}  // namespace trimtab::views

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+#include <deque>
+
+#include "trimtab/hold/frame_hold.h"
+#include "views/model/draft.h"
+#include "views/model/live.h"
+#include "views/model/throttle.h"
+
+class QLabel;
+class QListWidget;
+class QTableWidget;
+
+namespace trimtab::views {
+
+class BudgetPlot;
+
+/// The Budget dock: what the arbiter predicts and what images take, which lever gave what, and how the
+/// predictions come out.
+class BudgetPanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit BudgetPanel(Draft& draft, QWidget* parent = nullptr);
+
+  /// Shows a frame whose image was drawn. Frames between images change nothing.
+  void showFrame(const LiveFrame& frame);
+
+  QString stateText() const;
+  QString residualsText() const;
+  QTableWidget& levers() { return *levers_; }
+  QListWidget& reasons() { return *reasons_; }
+  BudgetPlot& plot() { return *plot_; }
+
+ private:
+  void refresh();
+  void note(const LiveFrame& frame);
+
+  Draft& draft_;
+  QLabel *state_, *residuals_;
+  BudgetPlot* plot_;
+  QTableWidget* levers_;
+  QListWidget* reasons_;
+  HoldDecision shown_;
+  double shownMs_ = 0, notedTime_ = 0;
+  HoldReason noted_ = HoldReason::off;
+  std::deque<HoldOutcome> outcomes_;  ///< the newest last
+  Throttle throttle_;
+};
+
+}  // namespace trimtab::views

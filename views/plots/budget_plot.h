@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+
+#include "plot.h"
+#include "views/model/live.h"
+
+namespace trimtab::views {
+
+/// The predicted time of each image by stage, stacked, with its 90 % band, beside the measured time, what
+/// would be drawn without the arbiter, and the budget; over the last seconds.
+class BudgetPlot : public Plot {
+  Q_OBJECT
+ public:
+  static constexpr double kSpanS = 15;
+
+  explicit BudgetPlot(QWidget* parent = nullptr);
+  /// Adds an image whose budget is held. A clock that goes back empties the plot.
+  void append(const LiveFrame& frame, double budgetMs);
+  void refresh();
+
+  QSize sizeHint() const override { return {320, 230}; }
+  QSize minimumSizeHint() const override { return {240, 150}; }
+
+ protected:
+  void restyle() override;
+  void resized() override { arrangeLegendAbove(); }
+
+ private:
+  std::array<QCPGraph*, 6> lines() const {
+    return {measured_, asked_, bandLow_, bandHigh_, budget_, stages_[0]};
+  }
+
+  std::array<QCPGraph*, 4> stages_{};  ///< running sums, from the bottom
+  QCPGraph *measured_, *asked_, *bandLow_, *bandHigh_, *budget_;
+  double last_ = 0;
+};
+
+}  // namespace trimtab::views
