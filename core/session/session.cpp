@@ -104,7 +104,7 @@ void Session::replay(const TraceRow& row) {
   unlink();
   if (!replayed_) memory_ = row.before;
   replayed_ = true;
-  replayedHold_ = row.hold;
+  budget_.replayed = row.hold;
   FrameInput input = row.input;
   if (!input.aboveGround && row.decision.reason != SchemeReason::altitude_unknown)
     input.aboveGround = groundBelow(input.state);
@@ -133,8 +133,8 @@ void Session::restart() {
   fresh.ground_ = std::move(ground_);
   fresh.head_ = std::move(head_);
   fresh.head_.restart();
-  fresh.hold_ = std::move(hold_);
-  fresh.hold_.setMemory({});
+  fresh.budget_.hold = std::move(budget_.hold);
+  fresh.budget_.hold.setMemory({});
   fresh.keepRows_ = keepRows_;
   fresh.rows_ = std::move(rows_);
   fresh.completeRows_ = fresh.requestedRows_ = fresh.rows_.size();
@@ -365,18 +365,18 @@ std::optional<FrameRequest> Session::request(double now, int windowWidthPx, int 
 /// row of a trace is arbitrated from what it was given.
 void Session::holdBudget(FrameRequest& request) {
   const HoldParameters& p = parameters_->hold;
-  const std::optional<HoldRecord> replayed = std::exchange(replayedHold_, std::nullopt);
+  const std::optional<HoldRecord> replayed = std::exchange(budget_.replayed, std::nullopt);
   if (!p.enabled) return;
-  motionAhead_.push(request.time, {request.eye, request.attitude});
-  const double unseenPx = errorInMotion(request.lod.screenSpaceError.value(), motionAhead_.sightDegPerS(),
+  budget_.ahead.push(request.time, {request.eye, request.attitude});
+  const double unseenPx = errorInMotion(request.lod.screenSpaceError.value(), budget_.ahead.sightDegPerS(),
                                         p.exposure.value(), pixelsPerRadian(request.view));
-  if (replayed) hold_.setMemory(replayed->before);
+  if (replayed) budget_.hold.setMemory(replayed->before);
   const auto images = static_cast<std::size_t>(p.lookAhead.value());
   const HoldGiven given = replayed ? replayed->given
-                                   : hold_.look(request, motionAhead_.coming(images),
-                                                parameters_->measure.budget.value(), unseenPx);
-  const HoldMemory before = hold_.memory();
-  const HoldDecision decision = hold_.decide(given, p, request);
+                                   : budget_.hold.look(request, budget_.ahead.coming(images),
+                                                       parameters_->measure.budget.value(), unseenPx);
+  const HoldMemory before = budget_.hold.memory();
+  const HoldDecision decision = budget_.hold.decide(given, p, request);
   if (keepRows_ && rows_.size() > completeRows_) rows_.back().hold = HoldRecord{given, before, decision};
 }
 
@@ -385,7 +385,7 @@ FrameCost Session::finished(const FrameResult& result, double now) {
   lastCost_.decide = decideMs_;
   lastCost_.total = result.cost.total + decideMs_;
   lastVertices_ = result.visible.vertices;
-  if (parameters_->hold.enabled) hold_.finished(result, lastCost_);
+  if (parameters_->hold.enabled) budget_.hold.finished(result, lastCost_);
   signals_.finished(lastCost_.total, parameters_->measure.budget.value(), result.visible.triangles);
   overBudget_ += lastCost_.total > parameters_->measure.budget.value();
   decideMs_ = 0;

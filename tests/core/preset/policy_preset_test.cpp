@@ -127,7 +127,8 @@ TEST(PolicyPreset, isNeverSlowHoweverLargeItIs) {
     const auto read = parsePreset(text + "]}}", "p");
     EXPECT_FALSE(read.findings().empty());
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-    EXPECT_LT(took.count(), 2) << rules[0].substr(0, 40) << ": validated and read, a second each";
+    // Far from what it takes; what grows with the square takes minutes.
+    EXPECT_LT(took.count(), 20) << rules[0].substr(0, 40);
   }
 }
 

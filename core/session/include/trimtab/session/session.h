@@ -61,7 +61,7 @@ class Session {
   /// null.
   void setGround(std::shared_ptr<const GroundHeights> ground);
   /// Sets what the arbiter of the budget counts the triangles of coming views in; see FrameHold::setIndex.
-  void setLoadIndex(std::shared_ptr<const LoadIndex> index) { hold_.setIndex(std::move(index)); }
+  void setLoadIndex(std::shared_ptr<const LoadIndex> index) { budget_.hold.setIndex(std::move(index)); }
 
   // Where states come from. Each call decides each of its states exactly once, in order.
 
@@ -104,8 +104,8 @@ class Session {
   const Latency& latency() const { return latency_; }
 
   /// Returns what holds the budget: its cost model, and how its predictions come out.
-  FrameHold& hold() { return hold_; }
-  const FrameHold& hold() const { return hold_; }
+  FrameHold& hold() { return budget_.hold; }
+  const FrameHold& hold() const { return budget_.hold; }
 
   // Images.
 
@@ -177,9 +177,13 @@ class Session {
   AirDrift airDrift_;  ///< up to the last image requested
 
   SignalTracker signals_;  ///< pushed only if the preset has a policy
-  FrameHold hold_;
-  MotionAhead motionAhead_;                 ///< up to the last image requested
-  std::optional<HoldRecord> replayedHold_;  ///< of the row of a trace that the next image shows
+  /// What holds the budget.
+  struct Budget {
+    FrameHold hold;
+    MotionAhead ahead;                   ///< up to the last image requested
+    std::optional<HoldRecord> replayed;  ///< of the row of a trace that the next image shows
+  };
+  Budget budget_;
   GroundVelocity groundVelocity_;
   Extrapolator extrapolator_;
   bool linked_ = false;  ///< states come from a live link, so the eye may be extrapolated
