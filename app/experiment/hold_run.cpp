@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 #include "trimtab/preset/preset.h"
 #include "trimtab/scene/data_extent.h"
@@ -17,8 +16,6 @@ constexpr int kSweepImagesPerS = 200;
 constexpr std::size_t kWarmUp = 60;
 /// Images between two questions whether to go on.
 constexpr std::size_t kAsked = 40;
-/// Images that a blur can reach back over.
-constexpr std::size_t kLongestTrace = 64;
 
 /// The middle of the flight, from where on it is over the terrain for so long.
 std::optional<double> middleOf(const Setup& setup, double seconds) {
@@ -46,10 +43,6 @@ std::optional<Strain> flown(const Setup& setup, const char* name, double seconds
   }
   strain.to = images;
   return strain;
-}
-
-bool blurs(const FrameRequest& request) {
-  return request.decision.motion.blur.strength > 0;
 }
 
 }  // namespace
@@ -141,9 +134,6 @@ std::optional<HoldRun> fly(Stage& stage, scene::ErrorMeter& meter, const Setup& 
     run.errorPx.push_back(request.lod.screenSpaceError.value() * request.decision.lodScale);
     run.renderScale.push_back(request.renderScale);
     run.particles.push_back(request.particleShare);
-    const bool predicted = request.hold.heldMs.total() > 0;
-    run.predictedMs.push_back(predicted ? request.hold.heldMs.total()
-                                        : std::numeric_limits<double>::quiet_NaN());
     if (const auto& outcome = session.hold().outcome(); outcome && parameters->hold.enabled)
       run.outcomes.push_back(*outcome);
     if (flipEvery > 0 && i >= strain.from && (i - strain.from) % flipEvery == 0) {

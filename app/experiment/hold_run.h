@@ -45,7 +45,6 @@ Result<ValidatedParameters> inMode(const TuningParameters& preset, HoldMode mode
 struct HoldRun {
   std::vector<double> ms;  ///< work time
   std::vector<double> errorPx, renderScale, particles;
-  std::vector<double> predictedMs;    ///< NaN where nothing was predicted
   std::vector<HoldOutcome> outcomes;  ///< of predictions three images ahead
   std::vector<double> flip;           ///< of the images that were measured
   double lookMs = 0;                  ///< median time of session.request(), counting included

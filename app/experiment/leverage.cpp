@@ -19,17 +19,11 @@ namespace {
 constexpr double kImageS = 1.0 / 60;
 /// How long a moment is led up to: head motion needs ten fast images for its first blur.
 constexpr double kLeadS = 1.5;
-/// Images that a blur can reach back over.
-constexpr std::size_t kLongestTrace = 64;
 /// Images that are drawn before a moment whose load is asked for: the load is the median of nine.
 constexpr int kDrawnBefore = 10;
 constexpr double kSweepDegPerS = 180, kSweepToDeg = 90;
 constexpr double kFogVisibilityM = 10000;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-bool blurs(const FrameRequest& request) {
-  return request.decision.motion.blur.strength > 0;
-}
 
 /// From side to side at a constant rate.
 Attitude sweptHead(double time) {

@@ -54,6 +54,12 @@ struct Place {
 /// level headings each.
 std::vector<Place> placesOf(const Setup& setup, std::size_t count);
 
+/// Images that a blur can reach back over at 60 images a second.
+inline constexpr std::size_t kLongestTrace = 64;
+inline bool blurs(const FrameRequest& request) {
+  return request.decision.motion.blur.strength > 0;
+}
+
 /// Returns how many pixels of two images differ in any channel.
 std::size_t differingPixels(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b);
 

@@ -9,6 +9,7 @@
 
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
+#include "trimtab/units/text.h"
 
 namespace trimtab {
 namespace {
@@ -32,13 +33,6 @@ void forEachNumber(State& state, const Visit& visit) {
   forEachNumber<1>(state.blur, visit);
   visit(state.other);
   visit(state.band);
-}
-
-std::string_view takeLine(std::string_view& text) {
-  const std::size_t end = text.find('\n');
-  const std::string_view line = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  return line;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "trimtab/culling/box_distance.h"
 #include "trimtab/culling/frustum.h"
+#include "trimtab/units/sphere.h"
 
 namespace trimtab {
 namespace {
@@ -170,9 +171,7 @@ TriangleLadder countTriangles(const StaticLodIndex& index, const std::vector<flo
 
 double shareBelowHorizon(const LoadView& view, Vec3 up, double heightM) {
   constexpr int kColumns = 9, kRows = 16;
-  constexpr double kEarthRadius = 6371e3;
-  const double dip = std::acos(std::clamp(kEarthRadius / (kEarthRadius + heightM), 0.0, 1.0));
-  const double sinDip = -std::sin(dip);
+  const double horizon = -std::sin(horizonDip(heightM));
   const ViewShape& v = view.view;
   const Mat3& axes = view.eye.axes;
   int below = 0;
@@ -181,7 +180,7 @@ double shareBelowHorizon(const LoadView& view, Vec3 up, double heightM) {
       const double x = v.left + (v.right - v.left) * (column + 0.5) / kColumns;
       const double y = v.bottom + (v.top - v.bottom) * (row + 0.5) / kRows;
       const Vec3 ray = axes.row[0] * x + axes.row[1] * y - axes.row[2];
-      below += dot(ray, up) < sinDip * length(ray);
+      below += dot(ray, up) < horizon * length(ray);
     }
   return static_cast<double>(below) / (kColumns * kRows);
 }

@@ -8,6 +8,7 @@
 #include "trace_cells.h"
 #include "trace_columns.h"
 #include "trimtab/preset/file_io.h"
+#include "trimtab/units/text.h"
 
 namespace trimtab {
 namespace {
@@ -29,15 +30,6 @@ std::vector<std::string_view> cellsOf(std::string_view line) {
     if (comma == std::string_view::npos) return cells;
     line.remove_prefix(comma + 1);
   }
-}
-
-/// Takes one line off `text`, without its line end (either kind).
-std::string_view takeLine(std::string_view& text) {
-  const std::size_t end = text.find('\n');
-  std::string_view line = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  return line;
 }
 
 constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();

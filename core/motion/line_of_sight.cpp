@@ -35,4 +35,13 @@ Attitude lineOfSight(const Attitude& aircraft, const std::optional<Attitude>& he
                              m.row[0].x * m.row[1].y - m.row[1].x * m.row[0].y))};
 }
 
+Vec3 directionOf(const Attitude& a) {
+  const double heading = a.heading.in<Radians>(), pitch = a.pitch.in<Radians>();
+  return {std::sin(heading) * std::cos(pitch), std::cos(heading) * std::cos(pitch), std::sin(pitch)};
+}
+
+double degreesBetween(Vec3 a, Vec3 b) {
+  return Radians{std::atan2(length(cross(a, b)), dot(a, b))}.as<Degrees>().value();
+}
+
 }  // namespace trimtab

@@ -20,6 +20,7 @@
 #include "scene_graph.h"
 #include "trimtab/scene/gl_report.h"
 #include "trimtab/scene/planted_defects.h"
+#include "trimtab/units/sphere.h"
 
 namespace trimtab::scene {
 
@@ -119,8 +120,7 @@ SceneView Renderer::Impl::viewOf(const FrameRequest& r) const {
   view.precipitation = precipitationView(r, local);
   // An effect without drops: for measuring what skips.clearAir saves.
   if (!view.precipitation && !r.skips.clearAir) view.precipitation.emplace();
-  constexpr double kEarthRadius = 6371e3;
-  view.horizonDip = std::acos(std::min(1.0, kEarthRadius / (kEarthRadius + r.eye.height.value())));
+  view.horizonDip = horizonDip(r.eye.height.value());
   return view;
 }
 

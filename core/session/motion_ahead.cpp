@@ -2,17 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "trimtab/motion/line_of_sight.h"
 
 namespace trimtab {
 namespace {
 
 constexpr double kLongestStepS = 0.25;
-
-Vec3 directionOf(const Attitude& a) {
-  const double heading = a.heading.in<Radians>(), pitch = a.pitch.in<Radians>();
-  return {std::sin(heading) * std::cos(pitch), std::cos(heading) * std::cos(pitch), std::sin(pitch)};
-}
 
 }  // namespace
 
@@ -27,9 +23,7 @@ void MotionAhead::push(double timeS, const ComingEye& eye) {
     step_.attitude = {wrapped180(eye.attitude.heading - last_.attitude.heading),
                       eye.attitude.pitch - last_.attitude.pitch,
                       wrapped180(eye.attitude.roll - last_.attitude.roll)};
-    const Vec3 before = directionOf(last_.attitude), now = directionOf(eye.attitude);
-    const double turned = std::atan2(length(cross(before, now)), dot(before, now));
-    rate_ = turned * 180 / std::numbers::pi / seconds;
+    rate_ = degreesBetween(directionOf(last_.attitude), directionOf(eye.attitude)) / seconds;
     if (!std::isfinite(rate_)) rate_ = 0, moves_ = false;
   }
   last_ = eye;

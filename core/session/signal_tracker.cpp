@@ -10,17 +10,6 @@ namespace {
 
 constexpr double kLongestGapS = 1, kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// The direction of an attitude: east, north, up.
-Vec3 directionOf(const Attitude& a) {
-  const double heading = a.heading.in<Radians>(), pitch = a.pitch.in<Radians>();
-  return {std::sin(heading) * std::cos(pitch), std::cos(heading) * std::cos(pitch), std::sin(pitch)};
-}
-
-/// The angle between two directions, degrees; exact for small angles too.
-double degreesBetween(Vec3 a, Vec3 b) {
-  return Radians{std::atan2(length(cross(a, b)), dot(a, b))}.as<Degrees>().value();
-}
-
 double finiteOr(double value, double otherwise) {
   return std::isfinite(value) ? value : otherwise;
 }

@@ -1,15 +1,15 @@
 #pragma once
 
+#include "trimtab/units/sphere.h"
+
 /// A layer of haze around a spherical earth: extinction is one number up to its top and 0 above. All heights
 /// are above mean sea level.
 namespace trimtab {
 
-/// What is left of a contrast at the meteorological optical range, in which visibility is reported (WMO-No.
-/// 8, volume I, chapter 9; ICAO Annex 3, appendix 3).
+/// The contrast that is left at the meteorological optical range, the distance that is reported as visibility
+/// (WMO-No. 8, volume I, chapter 9; ICAO Annex 3, appendix 3).
 inline constexpr double kOpticalRangeContrast = 0.05;
 
-/// Of the sphere that stands for the earth.
-inline constexpr double kEarthRadiusM = 6371e3;
 /// No ground on earth is higher, metres.
 inline constexpr double kHighestGroundM = 9000;
 
