@@ -9,7 +9,6 @@
 #include <QTableWidget>
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "views/controls/parameter_lines.h"
 #include "views/model/theme.h"
@@ -19,18 +18,10 @@ namespace trimtab::views {
 namespace {
 
 constexpr int kMostReasons = 500;
-constexpr std::size_t kMostOutcomes = 300;
 constexpr const char* kKeys[] = {
     "hold.enabled",          "measure.budget_ms",         "hold.margin",
     "hold.error_maximum_px", "hold.render_scale_minimum", "hold.particles_minimum",
     "hold.calm_ms"};
-
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 QString percent(double share) {
   return std::isfinite(share) ? BudgetPanel::tr("%1 %").arg(numberText(100 * share, 1))
@@ -101,14 +92,18 @@ QString BudgetPanel::residualsText() const {
 void BudgetPanel::showFrame(const LiveFrame& frame) {
   if (!frame.newImage) return;
   shown_ = frame.hold;
-  shownMs_ = workMs(frame.cost);
   if (shown_.reason != HoldReason::off) {
     if (shown_.heldMs.total() > 0) plot_->append(frame, draft_.active()->measure.budget.value());
-    if (frame.holdOutcome) outcomes_.push_back(*frame.holdOutcome);
-    while (outcomes_.size() > kMostOutcomes) outcomes_.pop_front();
+    if (frame.holdOutcome) count(*frame.holdOutcome);
   }
   note(frame);
   throttle_.request();
+}
+
+void BudgetPanel::count(const HoldOutcome& o) {
+  if (o.triangles > 0) trianglesOff_.add(std::abs(o.predictedTriangles / o.triangles - 1));
+  if (o.ms > 0) timeOff_.add(std::abs(o.predictedMs / o.ms - 1));
+  within_.add(std::abs(o.predictedMs - o.ms) <= o.bandMs);
 }
 
 void BudgetPanel::note(const LiveFrame& frame) {
@@ -145,19 +140,12 @@ void BudgetPanel::refresh() {
   set(2, d.asked.particleShare, d.held.particleShare, 2);
   set(3, d.asked.blurShare, d.held.blurShare, 2);
 
-  std::vector<double> triangles, times;
-  double within = 0;
-  for (const HoldOutcome& o : outcomes_) {
-    if (o.triangles > 0) triangles.push_back(std::abs(o.predictedTriangles / o.triangles - 1));
-    if (o.ms > 0) times.push_back(std::abs(o.predictedMs / o.ms - 1));
-    within += std::abs(o.predictedMs - o.ms) <= o.bandMs;
-  }
-  if (outcomes_.empty())
+  if (within_.size() == 0)
     residuals_->setText(tr("No prediction has come due yet"));
   else
-    residuals_->setText(tr("Three images ahead: triangles off by %1, time by %2; %3 within the 90 % band")
-                            .arg(percent(median(triangles)), percent(median(times)),
-                                 percent(within / double(outcomes_.size()))));
+    residuals_->setText(
+        tr("Three images ahead: triangles off by %1, time by %2; %3 within the 90 % band")
+            .arg(percent(trianglesOff_.median()), percent(timeOff_.median()), percent(within_.mean())));
   plot_->refresh();
 }
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <QWidget>
-#include <deque>
 
 #include "trimtab/hold/frame_hold.h"
+#include "trimtab/measure/statistics.h"
 #include "views/model/draft.h"
 #include "views/model/live.h"
 #include "views/model/throttle.h"
@@ -34,7 +34,10 @@ class BudgetPanel : public QWidget {
   BudgetPlot& plot() { return *plot_; }
 
  private:
+  static constexpr std::size_t kOutcomes = 300;
+
   void refresh();
+  void count(const HoldOutcome& outcome);
   void note(const LiveFrame& frame);
 
   Draft& draft_;
@@ -43,9 +46,9 @@ class BudgetPanel : public QWidget {
   QTableWidget* levers_;
   QListWidget* reasons_;
   HoldDecision shown_;
-  double shownMs_ = 0, notedTime_ = 0;
   HoldReason noted_ = HoldReason::off;
-  std::deque<HoldOutcome> outcomes_;  ///< the newest last
+  /// Of the predictions that came due: how far off they were, as a part, and 1 where the band held.
+  SampleWindow trianglesOff_{kOutcomes}, timeOff_{kOutcomes}, within_{kOutcomes};
   Throttle throttle_;
 };
 

@@ -28,10 +28,6 @@ class BudgetPlot : public Plot {
   void resized() override { arrangeLegendAbove(); }
 
  private:
-  std::array<QCPGraph*, 6> lines() const {
-    return {measured_, asked_, bandLow_, bandHigh_, budget_, stages_[0]};
-  }
-
   std::array<QCPGraph*, 4> stages_{};  ///< running sums, from the bottom
   QCPGraph *measured_, *asked_, *bandLow_, *bandHigh_, *budget_;
   double last_ = 0;
