@@ -234,5 +234,23 @@ TEST_F(Experiment, aFlightThatIsNotOverTheTerrainIsToldSo) {
   }
 }
 
+TEST_F(Experiment, holdFliesTheSweepInFourModesAndPredictsInOne) {
+  const auto report = runHold(setup());
+  ASSERT_TRUE(report) << toString(report.findings());
+  const Table& rows = report->measured;
+  ASSERT_EQ(rows.rows.size(), 4u);
+  for (std::size_t row = 0; row < 4; ++row) {
+    EXPECT_EQ(rows.number(row, "budget_ms"), rows.number(0, "budget_ms"));
+    EXPECT_GT(rows.number(row, "frame_ms_median"), 0);
+    EXPECT_GE(rows.number(row, "flip_mean"), 0);
+    EXPECT_EQ(std::isnan(rows.number(row, "triangles_error")), row != 3) << row;
+  }
+  EXPECT_EQ(rows.number(0, "lod_changes"), 0);
+  // The index counts what the renderer draws, three images ahead.
+  EXPECT_LT(rows.number(3, "triangles_error"), 0.25);
+  ASSERT_EQ(report->plots.size(), 1u);
+  EXPECT_THAT(report->notes.back(), HasSubstr("only the sweep"));
+}
+
 }  // namespace
 }  // namespace trimtab::experiment
