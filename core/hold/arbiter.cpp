@@ -15,8 +15,8 @@ constexpr std::size_t kMostScales = 17, kMostParticles = 9;
 /// The scale of allowed errors: place i is 2^(i / 2) times the first.
 constexpr double kFirstErrorPx = 0.125;
 constexpr std::size_t kErrorPlaces = 19;
-/// What is lowered gets this much more room than it needs, so that a load that rises on does not lower the
-/// level of detail again and again.
+/// Lowering aims this share of the limit below it, so that a load that keeps rising does not lower the level
+/// of detail again and again.
 constexpr double kReserve = 0.06;
 /// Head-room must win at least this part of the loss: less is not worth a change.
 constexpr double kWorthwhile = 0.02;

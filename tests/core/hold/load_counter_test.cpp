@@ -22,7 +22,7 @@ LoadView viewAt(Vec3 eye, double heading, double pitch,
   return {{eye, test::axesOf(heading, pitch)}, {}, farM};
 }
 
-/// What is drawn of a cut, by the selectors that the renderer uses.
+/// Returns the triangles of a cut that the renderer's selector draws.
 double drawn(const LevelCut& cut, const LoadView& view) {
   VisibleSet visible;
   selectVisible(cut, {.eye = view.eye, .view = view.view, .farM = view.farM}, visible);

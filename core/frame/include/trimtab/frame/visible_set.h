@@ -54,7 +54,7 @@ struct VisibleSet {
               backFacing = 0;                 ///< tiles of the cut, by reason
   std::uint64_t triangles = 0, vertices = 0;  ///< of the tiles drawn; degenerate triangles not counted
 
-  /// Returns the reason of a node, or other_level if the cut lacks it. It searches the whole cut.
+  /// Returns the reason of a node; other_level if the node is not in the cut. It searches the whole cut.
   CullReason reasonOf(std::uint32_t node) const;
   /// Returns the reasons of all `ofNodes` nodes of an index.
   std::vector<CullReason> reasons(std::size_t ofNodes) const;

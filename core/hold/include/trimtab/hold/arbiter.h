@@ -61,9 +61,9 @@ struct HoldRecord {
   HoldDecision decision;
 };
 
-/// Decides the levers of one image. Pure but for `memory`, allocates nothing, same bits on replay. Costs some
-/// microseconds. A budget or a cost that is unknown changes nothing that is asked for; time that stands, goes
-/// back or is not a number counts as no time.
+/// Decides the levers of one image. It is pure but for `memory`, allocates nothing and gives the same bits on
+/// replay. If the budget or the cost is unknown, the levers stay as they are asked for. Time that stands,
+/// goes back or is not a number counts as no time.
 HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& parameters, HoldMemory& memory);
 
 /// Returns the triangles at an allowed error that may lie between two steps of a ladder, on a straight line
@@ -78,8 +78,8 @@ FrameLoad loadOf(const HoldGiven& given, const HeldLevers& levers, double triang
 ///
 /// A displacement of e pixels changes a strip e wide by its whole contrast. Averaged along a smear of m > e
 /// pixels it changes a strip m wide by e / m of the contrast, so its squared error falls from e to e^2 / m.
-/// That is as much as E changes at rest if e^2 / m = E. Edges along the motion are not smeared; the loss
-/// under the same smear is measured in tests/core/hold. Rates and exposures that are not numbers count as 0.
+/// That is as much as E changes at rest if e^2 / m = E. Edges along the motion are not smeared. A test in
+/// tests/core/hold averages such a strip. Rates and exposures that are not numbers count as 0.
 double errorInMotion(double errorPx, double degreesPerS, double exposureMs, double pixelsPerRadian);
 
 /// Returns the decision in words and numbers, on one line.

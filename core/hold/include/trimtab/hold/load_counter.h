@@ -21,7 +21,7 @@ namespace trimtab {
 inline constexpr std::size_t kErrorSteps = 9;
 using TriangleLadder = std::array<double, kErrorSteps>;
 
-/// The forms in which a terrain can be drawn; those that it lacks are null. All are in one local frame.
+/// The indices of a terrain's forms, all in one local frame. A form that the terrain does not have is null.
 struct LoadIndex {
   std::shared_ptr<const TerrainIndex> tiles;
   std::shared_ptr<const PatchIndex> patches;
@@ -35,9 +35,9 @@ struct LoadView {
   double farM = std::numeric_limits<double>::infinity();  ///< nothing farther is drawn
 };
 
-/// Returns the triangles in the frustum for each step of the ladder, of one form. It walks only what the
-/// finest step draws, and costs some 0.1 us a node. Less than what is drawn: what neighbours add to a cut is
-/// not counted; more than what is drawn: what occlusion hides is. `stack` is working storage.
+/// Returns the triangles in the frustum for each step of the ladder, of one form. It visits only the nodes in
+/// the frustum that the finest step draws, and their ancestors. It does not know what neighbours add to a cut
+/// nor what occlusion hides. `stack` is working storage.
 TriangleLadder countTriangles(const TerrainIndex& index, const LoadView& view, const CutRule& rule,
                               std::vector<std::uint64_t>& stack);
 TriangleLadder countTriangles(const PatchIndex& index, const LoadView& view, const CutRule& rule,

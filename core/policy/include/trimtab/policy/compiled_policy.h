@@ -48,7 +48,7 @@ class CompiledPolicy {
     std::uint16_t count;  ///< of numbers
     std::uint32_t first;  ///< in numbers_
   };
-  /// What is done to one or two values of PolicyDecision::membership.
+  /// An operation on one or two values of PolicyDecision::membership.
   enum class Op : std::uint8_t { both, either, invert, very, somewhat, extremely, seldom };
   struct Operands {
     std::uint32_t a, b;  ///< in PolicyDecision::membership; `b` counts only for `both` and `either`
