@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <map>
 #include <random>
 #include <set>
 
+#include "tests/core/hold/formula_machine.h"
 #include "tests/core/scene/scene_test.h"
 #include "tests/core/scene/terrain/patched_terrain.h"
 #include "tests/core/scene/terrain/steep_roofs.h"
@@ -24,8 +24,6 @@
 /// parameter itself would not count, so nothing here reads one.
 namespace trimtab {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
@@ -201,28 +199,9 @@ class ParameterEffects : public test::SceneTest {
     return seen;
   }
 
-  /// What a machine's images cost, learned from a formula, so that no clock has a part in it.
-  static CostModel machine(double slowness) {
-    CostModel model;
-    std::mt19937 random(3);
-    const auto between = [&](double low, double high) {
-      return std::uniform_real_distribution<double>(low, high)(random);
-    };
-    for (int i = 0; i < 200; ++i) {
-      const FrameLoad load{between(2e3, 8e4), between(0.05, 0.2), between(0.06, 0.23), between(0.1, 1), true};
-      FrameCost cost;
-      cost.weather = slowness * 12 * load.particles;
-      cost.blur = slowness * 13 * load.sceneMpx;
-      cost.total = slowness * (2 + 70 * load.sceneMpx + 2e-4 * load.triangles) + cost.weather + cost.blur;
-      cost.gpu = kNan;
-      model.observe(load, cost);
-    }
-    return model;
-  }
-
   /// A budget held over a sweeping head in heavy rain, on a machine that becomes faster.
   Observed holdBudget(const ValidatedParameters& parameters) {
-    static const CostModel slow = machine(1), fast = machine(0.4);
+    static const CostModel slow = test::formulaMachine(1), fast = test::formulaMachine(0.4);
     Session session(parameters);
     session.setGround(database);
     session.setLoadIndex(scene::loadIndexOf(database));
