@@ -5,10 +5,11 @@ namespace trimtab {
 FrameCounters& FrameCounters::operator+=(const FrameCounters& other) {
   for (const auto counter :
        {&FrameCounters::precipitationPasses, &FrameCounters::blurPasses, &FrameCounters::symbologyDraws,
-        &FrameCounters::symbologyRedraws, &FrameCounters::hostSymbolsLeftOut, &FrameCounters::cutsSelected,
-        &FrameCounters::visibleSelected, &FrameCounters::tilesBuilt, &FrameCounters::depthMapsDrawn,
-        &FrameCounters::mapsDrawnByCpu, &FrameCounters::mapsLeftOut, &FrameCounters::horizonsBuilt,
-        &FrameCounters::horizonsMoved, &FrameCounters::horizonsLeftOut, &FrameCounters::occlusionsLeftOut})
+        &FrameCounters::particlesDrawn, &FrameCounters::symbologyRedraws, &FrameCounters::hostSymbolsLeftOut,
+        &FrameCounters::cutsSelected, &FrameCounters::visibleSelected, &FrameCounters::tilesBuilt,
+        &FrameCounters::depthMapsDrawn, &FrameCounters::mapsDrawnByCpu, &FrameCounters::mapsLeftOut,
+        &FrameCounters::horizonsBuilt, &FrameCounters::horizonsMoved, &FrameCounters::horizonsLeftOut,
+        &FrameCounters::occlusionsLeftOut})
     this->*counter += other.*counter;
   return *this;
 }

@@ -216,6 +216,14 @@ inline constexpr auto kWeatherRows = joined(
              .step = 0.5,
              .decimals = 1,
              .tier = Tier::advanced}),
+        row<&TuningParameters::weather, &WeatherParameters::precipitationForm>(
+            {.key = "weather.precipitation_form",
+             .label = "Rain and snow",
+             .help =
+                 "How rain and snow are drawn. The published effect draws every particle around the eye. The "
+                 "bounded form draws those that are wider than a pixel and bundles of the others, never more "
+                 "than an image can show, and fades when the host changes the weather.",
+             .source = "D: osgParticle::PrecipitationEffect"}),
         row<&TuningParameters::weather, &WeatherParameters::windSpeed>(
             {.key = "weather.wind_speed_mps",
              .label = "Wind",

@@ -12,6 +12,7 @@
 #include "core/scene/passes/blur_pass.h"
 #include "core/scene/passes/lines.h"
 #include "core/scene/passes/node_pass.h"
+#include "core/scene/passes/precipitation_pass.h"
 #include "core/scene/passes/symbology_pass.h"
 #include "core/scene/passes/weather_precipitation.h"
 #include "core/scene/terrain/patches/patch_drawer.h"
@@ -50,6 +51,7 @@ struct Renderer::Impl {
     FrameBuffer small;  ///< the scene before it is scaled up, if the request asks for that
     NodeTarget nodes;
     LineBuffer lineBuffer;
+    PrecipitationPass precipitation;
     BlurPass blur;
     SymbologyPass symbology;
     StageClock clock;
@@ -78,6 +80,7 @@ struct Renderer::Impl {
   SceneView viewOf(const FrameRequest& r) const;
   FrameResult prepare(const FrameRequest& r, SceneView& view);
   const FrameBuffer& scene() const { return lastScene == lastView ? gl->frame : gl->small; }
+  FrameCounters drawPrecipitation(const SceneView& view);
   FrameCounters blurScene(const FrameRequest& r);
   void scaleUp();
   FrameCounters drawSymbols(const FrameRequest& r);
@@ -119,7 +122,7 @@ SceneView Renderer::Impl::viewOf(const FrameRequest& r) const {
   }
   view.precipitation = precipitationView(r, local);
   // An effect without drops: for measuring what skips.clearAir saves.
-  if (!view.precipitation && !r.skips.clearAir) view.precipitation.emplace();
+  if (!view.precipitation && !r.skips.clearAir) view.precipitation.emplace().form = r.precipitationForm;
   view.horizonDip = horizonDip(r.eye.height.value());
   return view;
 }
@@ -145,6 +148,16 @@ FrameResult Renderer::Impl::prepare(const FrameRequest& r, SceneView& view) {
   view.lines = !lines.empty();
   result.counters.precipitationPasses = view.precipitation.has_value();
   return result;
+}
+
+/// Draws rain and snow of the bounded form; the published effect is a part of the scene.
+FrameCounters Renderer::Impl::drawPrecipitation(const SceneView& view) {
+  FrameCounters done;
+  if (!view.precipitation || view.precipitation->form != PrecipitationForm::bounded) return done;
+  gl->clock.beginPart(&FrameCost::weather);
+  done.particlesDrawn += gl->precipitation.draw(*view.precipitation, view);
+  gl->clock.endPart(&FrameCost::weather);
+  return done;
 }
 
 /// Blurs the scene, before it is scaled up, so that blur and scene cost the same number of pixels.
@@ -212,6 +225,7 @@ FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
   glBindFramebuffer(GL_FRAMEBUFFER, target.id());
   gl->graph.frame(view, target.id());
   glBindFramebuffer(GL_FRAMEBUFFER, target.id());
+  result.counters += drawPrecipitation(view);
   result.counters += blurScene(r);
   scaleUp();
   result.counters += drawSymbols(r);

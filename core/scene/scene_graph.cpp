@@ -381,8 +381,9 @@ void SceneGraph::frame(const SceneView& view, unsigned fbo) {
   show(*n.treePicture, view.treePicture);
   show(*n.sky, view.sky);
   show(*n.lines, view.lines);
-  show(*n.beforeWeather, view.precipitation.has_value());
-  show(*n.afterWeather, view.precipitation.has_value());
+  const bool effect = view.precipitation && view.precipitation->form == PrecipitationForm::effect;
+  show(*n.beforeWeather, effect);
+  show(*n.afterWeather, effect);
   n.depthCamera->setNodeMask(view.depth ? ~0u : 0u);
   if (view.depth) n.setDepthView(*view.depth, view.shape);
   setAir(view);
@@ -399,7 +400,7 @@ void SceneGraph::frame(const SceneView& view, unsigned fbo) {
   n.settleState();
   n.begun = view.nodes;
   n.viewer->frame();
-  if (view.precipitation) n.settleState();  // its modes are nobody else's
+  if (effect) n.settleState();  // its modes are nobody else's
 }
 
 }  // namespace trimtab::scene

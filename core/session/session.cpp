@@ -59,6 +59,7 @@ void Session::setParameters(const ValidatedParameters& parameters) {
   signals_.imageChanged();
   memory_.levers.restart();
   lookMemory_.levers.restart();
+  air_.fade.settle();
   if (!current_) return;
   decided_.aboveGround = groundBelow(decided_.state);
   decided_.highestGround = highestGround();
@@ -326,8 +327,8 @@ std::optional<FrameRequest> Session::request(double now, int windowWidthPx, int 
   request.eye = eye.position;
   request.velocity = velocityOf(eye);
   request.wind = windOf(eye, parameters_->weather);
-  airDrift_.advance(eye.time, eye.position, request.wind);
-  request.airDrift = airDrift_.metres();
+  air_.drift.advance(eye.time, eye.position, request.wind);
+  request.airDrift = air_.drift.metres();
   request.attitude = lineOfSight(eye.attitude, eye.head);
   request.view = viewShape(parameters_->view, windowWidthPx, windowHeightPx, eye.view);
   request.decision = decision_;
@@ -348,6 +349,9 @@ std::optional<FrameRequest> Session::request(double now, int windowWidthPx, int 
   holdBudget(request);
   request.rain = parameters_->rainLook;
   request.snow = parameters_->snowLook;
+  request.precipitationForm = parameters_->weather.precipitationForm;
+  air_.fade.advance(eye.time, decision_.weather);
+  request.fading = air_.fade.fading();
   drawnDark_ = darkAt(eye.time);
   if (parameters_->symbology.enabled)
     request.symbology =

@@ -344,7 +344,7 @@ TEST_F(ParameterEffects, everyParameterChangesADecisionAPictureOrACount) {
       {"weather.snow_light.", {{"weather.step", "snow_light"}, {"weather.clear_visibility_m", "16000"}}},
       {"weather.snow_medium.", {{"weather.step", "snow_medium"}, {"weather.clear_visibility_m", "40000"}}},
       {"weather.snow_heavy.", {{"weather.step", "snow_heavy"}, {"weather.clear_visibility_m", "90000"}}},
-      {"weather.rain. weather.wind",
+      {"weather.rain. weather.wind weather.precipitation",
        {{"weather.step", "rain_heavy"},
         {"weather.clear_visibility_m", "40000"},
         {"weather.wind_speed_mps", "15"}}},

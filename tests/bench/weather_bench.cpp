@@ -4,12 +4,14 @@
 
 #include "bench_scene.h"
 #include "row.h"
+#include "tests/shared_scene.h"
+#include "tests/support.h"
 #include "trimtab/preset/table.h"
 #include "trimtab/weather/weather.h"
 #include "weather_peer.h"
 
-/// Group `weather`: what falls beside OpenSceneGraph's own effect, what fog costs, and the fixed ratio
-/// against the adaptive one.
+/// Group `weather`: what falls, in both forms, beside OpenSceneGraph's own effect, what fog costs, and the
+/// fixed ratio against the adaptive one.
 
 namespace trimtab::bench {
 namespace {
@@ -59,6 +61,7 @@ void falling(Report& report) {
           const double without = ours.ms(r);
           r.decision.weather.precipitation = c.kind;
           r.decision.weather.density = c.density;
+          r.precipitationForm = PrecipitationForm::effect;
           return ours.ms(r) - without;
         },
         [&](int i) {
@@ -104,6 +107,7 @@ void frames(Report& report, BenchScene& bench) {
       r.time = 10 + i / 60.0;
       r.eye.height = r.eye.height + Metres{0.01 * i};
       r.decision.weather = weather;
+      r.precipitationForm = PrecipitationForm::effect;
       return bench.ms(r);
     };
   };
@@ -136,6 +140,66 @@ void frames(Report& report, BenchScene& bench) {
   }
 }
 
+/// What the bounded form adds to a frame over Kansai, beside the clear frame and beside what the published
+/// effect adds. Both fall in the same fog; dry frames in that fog are subtracted.
+void bounded(Report& report) {
+  constexpr const char* kKansai = "fg-kansai-e135n35";
+  if (!std::filesystem::exists(test::sharedDir() / "data" / kKansai)) {
+    std::cerr << "skipped: needs " << kKansai << " of the shared data\n";
+    return;
+  }
+  const auto kansai = test::bakedOnce(kKansai);
+  if (!kansai) {
+    std::cerr << toString(kansai.findings());
+    return;
+  }
+  BenchScene bench(*kansai);
+  if (!bench.ready()) return;
+  struct Case {
+    const char* name;
+    WeatherStep step;
+    double ofClear, ofEffect;  ///< goals
+  };
+  for (const Case& c : {Case{"rain_light", WeatherStep::rain_light, 0.15, 0.1},
+                        Case{"rain_heavy", WeatherStep::rain_heavy, 0.35, 0.2},
+                        Case{"snow_light", WeatherStep::snow_light, 0.15, 0.1},
+                        Case{"snow_heavy", WeatherStep::snow_heavy, 0.35, 0.2}}) {
+    const WeatherDecision wet = decided(c.step, RatioMode::off);
+    WeatherDecision dry = wet;
+    dry.precipitation = Precipitation::none;
+    dry.density = 0;
+    const auto ms = [&](int i, const WeatherDecision& weather, PrecipitationForm form) {
+      auto r = bench.request();
+      r.eye = {Degrees{35.32}, Degrees{135.8958}, Metres{400 + 0.01 * i}};
+      r.attitude.heading = Degrees{200};
+      r.velocity = Velocity{MetresPerSecond{-60}, MetresPerSecond{-20}, MetresPerSecond{0}};
+      r.time = 10 + i / 60.0;
+      r.waitForPages = true;
+      r.decision.weather = weather;
+      r.precipitationForm = form;
+      return bench.ms(r);
+    };
+    const auto added = [&](PrecipitationForm form) {
+      return [&ms, &wet, &dry, form](int i) {
+        const double without = ms(i, dry, form);
+        return ms(i, wet, form) - without;
+      };
+    };
+    const int pairs = report.quick() ? 9 : 25;
+    const Pairs beside = inTurn(pairs, added(PrecipitationForm::bounded), added(PrecipitationForm::effect));
+    const Pairs ofClear = inTurn(pairs, added(PrecipitationForm::bounded),
+                                 [&](int i) { return ms(i, {}, PrecipitationForm::bounded); });
+    const std::string what = std::string("what ") + c.name + " of the bounded form adds, Kansai, 1280 x 720";
+    report.add(ratioAtMost(c.ofClear, rowOf(ofClear, {.id = std::string("weather.bounded_") + c.name,
+                                                      .what = what,
+                                                      .peer = "the whole frame in clear air"})));
+    report.add(
+        ratioAtMost(c.ofEffect, rowOf(beside, {.id = std::string("weather.bounded_of_effect_") + c.name,
+                                               .what = what,
+                                               .peer = "what osgParticle::PrecipitationEffect adds to it"})));
+  }
+}
+
 }  // namespace
 }  // namespace trimtab::bench
 
@@ -144,6 +208,7 @@ int main(int argc, char** argv) {
   bench::Report report(argc, argv);
   if (report.wants("decisions")) bench::decisions(report);
   if (report.wants("falling")) bench::falling(report);
+  if (report.wants("bounded")) bench::bounded(report);
   const auto terrain = bench::sampleTerrain(40);
   if (!terrain) return 1;
   bench::BenchScene scene(terrain);

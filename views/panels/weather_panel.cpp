@@ -32,6 +32,7 @@ constexpr std::string_view kKeys[] = {"weather.source",
                                       "weather.ratio_mode",
                                       "weather.fixed_ratio",
                                       "weather.severity_density",
+                                      "weather.precipitation_form",
                                       "weather.wind_speed_mps",
                                       "weather.wind_from_deg"};
 
@@ -57,6 +58,8 @@ bool isWanted(std::string_view key, const TuningParameters& p) {
   if (key == "weather.fixed_ratio") return w.ratioMode == RatioMode::fixed;
   if (key == "weather.severity_density") return w.source == WeatherSource::host;
   const Precipitation falls = precipitationOf(w.step);
+  if (key == "weather.precipitation_form")
+    return falls != Precipitation::none || w.source == WeatherSource::host;
   if (key.starts_with("weather.rain.")) return falls == Precipitation::rain;
   if (key.starts_with("weather.snow.")) return falls == Precipitation::snow;
   if (key.starts_with("weather.wind_from")) return w.windSpeed.value() > 0;

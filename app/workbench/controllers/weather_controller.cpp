@@ -48,6 +48,7 @@ void WeatherController::calibrate() {
                          .arg(QString::fromStdString(at_.viewport.gl().renderer));
   stage.draw = [this, request](const WeatherDecision& weather) mutable -> std::optional<WeatherStage::Frame> {
     request.decision.weather = weather;
+    request.fading.reset();
     const auto drawn = at_.viewport.measure(request);
     if (!drawn) return std::nullopt;
     return WeatherStage::Frame{drawn->ms, drawn->tilesBuilt};

@@ -135,8 +135,10 @@ struct ReferenceKey {
   Attitude attitude;
   ViewShape view;
   WeatherDecision weather;
-  double time = 0;                   ///< only where something falls
-  std::optional<Velocity> velocity;  ///< likewise
+  double time = 0;                                                  ///< only where something falls
+  std::optional<Velocity> velocity;                                 ///< likewise
+  PrecipitationForm precipitationForm = PrecipitationForm::effect;  ///< likewise
+  std::optional<FadingPrecipitation> fading;
   std::optional<SymbologyRequest> symbology;
   TerrainForm form = TerrainForm::levels;
   friend bool operator==(const ReferenceKey&, const ReferenceKey&) = default;
@@ -144,14 +146,17 @@ struct ReferenceKey {
 
 ReferenceKey keyOf(const FrameRequest& r) {
   const WeatherDecision& w = r.decision.weather;
-  ReferenceKey key{
-      r.eye, r.attitude, r.view,      {},
-      0,     {},         r.symbology, asksForTrees(r) ? TerrainForm::static_trees : r.staticLod.terrain};
+  ReferenceKey key{r.eye,       r.attitude,
+                   r.view,      {},
+                   0,           {},
+                   {},          r.fading,
+                   r.symbology, asksForTrees(r) ? TerrainForm::static_trees : r.staticLod.terrain};
   if (w.fogged) {
     key.weather.fogged = true;
     key.weather.extinctionPerM = w.extinctionPerM;
   }
-  if (w.density > 0 && w.precipitation != Precipitation::none) {
+  if (r.fading || (w.density > 0 && w.precipitation != Precipitation::none)) {
+    key.precipitationForm = r.precipitationForm;
     key.weather.precipitation = w.precipitation;
     key.weather.density = w.density;
     key.time = r.time;

@@ -60,20 +60,27 @@ bool isFinite(Vec3 v) {
 
 std::optional<PrecipitationView> precipitationView(const FrameRequest& request, const LocalFrame& frame) {
   const WeatherDecision& weather = request.decision.weather;
-  if (weather.precipitation == Precipitation::none || !(weather.density > 0 && request.particleShare > 0))
+  const bool bounded = request.precipitationForm == PrecipitationForm::bounded;
+  FadingPrecipitation falls{weather.precipitation, weather.density, weather.density};
+  if (bounded && request.fading) falls = *request.fading;
+  if (falls.kind == Precipitation::none ||
+      !(falls.density > 0 && falls.amount > 0 && request.particleShare > 0))
     return {};
   Vec3 eye;
   if (request.velocity)
     eye = {request.velocity->east.value(), request.velocity->north.value(), -request.velocity->down.value()};
   const Mat3 toEarth = transposed(eastNorthUp(request.eye.latitude, request.eye.longitude));
   return PrecipitationView{
-      .kind = weather.precipitation,
-      .density = std::min(weather.density, 1.0),
-      .share = std::max(std::round(request.particleShare * kShareSteps), 1.0) / kShareSteps,
+      .kind = falls.kind,
+      .density = std::min(falls.density, 1.0),
+      .amount = std::min(falls.amount, 1.0),
+      .form = request.precipitationForm,
+      .share = bounded ? std::min(request.particleShare, 1.0)
+                       : std::max(std::round(request.particleShare * kShareSteps), 1.0) / kShareSteps,
       .time = request.time,
       .velocity = frame.ecefToLocal() * (toEarth * (eye - eastNorthUp(request.wind))),
       .airDrift = frame.ecefToLocal() * request.airDrift,
-      .look = weather.precipitation == Precipitation::snow ? request.snow : request.rain};
+      .look = falls.kind == Precipitation::snow ? request.snow : request.rain};
 }
 
 // The effect numbers cells from its position and shifts each one's fall by i * 0.43 + j * 0.64 of a period:
@@ -136,8 +143,9 @@ osg::Node* PrecipitationNode::node() const {
 
 void PrecipitationNode::set(const std::optional<PrecipitationView>& falling, const SceneView& view) {
   osgParticle::PrecipitationEffect& effect = *impl_->effect;
-  effect.setNodeMask(falling ? ~0u : 0u);
-  if (!falling) return;
+  const bool drawn = falling && falling->form == PrecipitationForm::effect;
+  effect.setNodeMask(drawn ? ~0u : 0u);
+  if (!drawn) return;
   impl_->shape(*falling);
 
   const osg::Vec3 cell = effect.getCellSize();

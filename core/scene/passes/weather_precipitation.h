@@ -19,8 +19,10 @@ struct SceneView;
 struct PrecipitationView {
   Precipitation kind = Precipitation::rain;
   double density = 0;  ///< 0..1, the intensity of osgParticle::PrecipitationEffect
-  double share = 1;    ///< of the particles of that intensity, those that are drawn, 0..1
-  double time = 0;     ///< seconds; the place of each drop depends on it alone
+  double amount = 0;   ///< 0..1: as the density, but for the bounded form while it fades
+  PrecipitationForm form = PrecipitationForm::bounded;
+  double share = 1;  ///< of the particles of that intensity, those that are drawn, 0..1
+  double time = 0;   ///< seconds; the place of each drop depends on it alone
   Vec3 velocity;  ///< of the eye through the air, metres per second in the local frame; drops streak along it
   Vec3 airDrift;  ///< how far the wind has carried the air, metres in the local frame
   PrecipitationLook look{};

@@ -258,7 +258,7 @@ TEST(PresetFile, readsAnExportOfVersion2) {
 TEST(ShippedPresets, areWhatTheyWouldBeSavedAs) {
   const auto names = shippedPresets();
   EXPECT_EQ(names, (std::vector<std::string_view>{"default", "as-published", "as-printed", "low-level",
-                                                   "approach", "helmet-search", "high-cruise"}));
+                                                  "approach", "helmet-search", "high-cruise"}));
   for (const std::string_view name : names) {
     const auto preset = loadPreset(std::string(name));
     ASSERT_TRUE(preset) << toString(preset.findings());
@@ -279,12 +279,12 @@ TEST(ShippedPresets, differWhereTheirNamesSay) {
     return result;
   };
   EXPECT_EQ(keys("default", "default"), std::vector<std::string>{});
-  EXPECT_EQ(
-      keys("default", "as-published"),
-      (std::vector<std::string>{"fuzzy.pitch.reading linear rounded_step", "fuzzy.hysteresis 0.05 0",
-                                "culling.occlusion auto depth_map", "static_lod.terrain levels static_trees",
-                                "static_lod.error rms as_published", "motion.frames host_states drawn",
-                                "symbology.enabled false true"}));
+  EXPECT_EQ(keys("default", "as-published"),
+            (std::vector<std::string>{
+                "fuzzy.pitch.reading linear rounded_step", "fuzzy.hysteresis 0.05 0",
+                "culling.occlusion auto depth_map", "static_lod.terrain levels static_trees",
+                "static_lod.error rms as_published", "motion.frames host_states drawn",
+                "weather.precipitation_form bounded effect", "symbology.enabled false true"}));
   EXPECT_EQ(keys("as-published", "as-printed"),
             std::vector<std::string>{"fuzzy.altitude.reading table equation_a"});
 }

@@ -24,6 +24,7 @@ class Falling : public SceneTest {
     r.method = CullingCase::view_frustum;
     r.decision.weather.precipitation = kind;
     r.decision.weather.density = density;
+    r.precipitationForm = PrecipitationForm::effect;
     r.time = 12.34;
     return r;
   }
@@ -227,6 +228,7 @@ TEST_F(Falling, isRunOnlyWhereSomethingFalls) {
 
 TEST_F(Falling, fallsWithoutTerrainToo) {
   auto r = request({Degrees{36}, Degrees{128}, Metres{1000}}, {});
+  r.precipitationForm = PrecipitationForm::effect;
   r.decision.weather.precipitation = Precipitation::snow;
   r.decision.weather.density = 1;
   EXPECT_GT(differing(picture(dry(r)), picture(r)), 10000u);

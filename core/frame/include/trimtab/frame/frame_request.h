@@ -39,6 +39,9 @@ struct FrameRequest {
   /// precipitation drifts with it.
   Vec3 airDrift;
   PrecipitationLook rain = kRainLook, snow = kSnowLook;
+  PrecipitationForm precipitationForm = PrecipitationForm::bounded;
+  /// What falls while it fades in or out; unset: what the decision says. The published effect does not fade.
+  std::optional<FadingPrecipitation> fading;
   Attitude attitude;  ///< of the view: aircraft, or aircraft and head
   ViewShape view;     ///< perspective, and the image's size
   /// The part of the image's width and height at which the scene is drawn before it is scaled up; symbols are

@@ -18,6 +18,7 @@ namespace trimtab {
 /// the sum since the renderer was made.
 struct FrameCounters {
   std::uint64_t precipitationPasses = 0, blurPasses = 0, symbologyDraws = 0;
+  std::uint64_t particlesDrawn = 0;      ///< drops and flakes of PrecipitationForm::bounded
   std::uint64_t symbologyRedraws = 0;    ///< draws whose symbols had changed
   std::uint64_t hostSymbolsLeftOut = 0;  ///< not drawn in a redraw, because they have no surface, too many
                                          ///< ancestors, or too many strokes

@@ -50,6 +50,15 @@ struct Wind {
 /// Returns the air's velocity, metres per second toward east, north and up.
 Vec3 eastNorthUp(const Wind& wind);
 
+/// Rain or snow on its way from one density to another.
+struct FadingPrecipitation {
+  Precipitation kind = Precipitation::none;
+  double density = 0;  ///< 0..1, of the particles' size and fall speed
+  double amount = 0;   ///< 0..1, of their number: on its way to the density, or to 0
+
+  friend bool operator==(const FadingPrecipitation&, const FadingPrecipitation&) = default;
+};
+
 /// A default decision is clear weather with nothing cut, which is also what the preset `default` decides.
 ///
 /// Fog is exponential: of an object's own colour exp(-extinctionPerM * distance) is left. At `visibilityM`

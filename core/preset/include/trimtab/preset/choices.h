@@ -132,5 +132,10 @@ struct ChoicesOf<RatioMode> {
   static constexpr ChoiceOption options[] = {
       {"off", "No cut"}, {"fixed", "Fixed ratio"}, {"adaptive", "By visibility (adaptive)"}};
 };
+template <>
+struct ChoicesOf<PrecipitationForm> {
+  static constexpr ChoiceOption options[] = {{"effect", "OpenSceneGraph's effect (published)"},
+                                             {"bounded", "What an image can show (bounded cost)"}};
+};
 
 }  // namespace trimtab::table

@@ -51,6 +51,9 @@ enum class AirModel { uniform, layer };
 /// How the far plane is set (document D, the two columns of Table 1): not at all, by one ratio for all
 /// weather, or by Eq. (1). In a layer of haze the last is the safe far distance.
 enum class RatioMode { off, fixed, adaptive };
+/// How rain and snow are drawn: by osgParticle::PrecipitationEffect as document D does, or by our own particles,
+/// whose cost has a bound.
+enum class PrecipitationForm { effect, bounded };
 
 // Defaults that are lists. They are constants because g++ 12 warns that a list inside a member's initialiser
 // is uninitialised.
@@ -146,6 +149,7 @@ struct WeatherParameters {
   Metres defaultNear{1};  ///< of Eq. (1)
   Ratio tolerance{0.05};  ///< within which calibration matches gain and loss, as a share of a clear frame
   Curve<Ratio> severityDensity = kSeverityDensity;
+  PrecipitationForm precipitationForm = PrecipitationForm::bounded;
   MetresPerSecond windSpeed{0};  ///< what falls drifts with it
   Degrees windFrom{270};         ///< where it comes from, clockwise from true north
 };

@@ -23,6 +23,7 @@
 #include "trimtab/session/head_input.h"
 #include "trimtab/session/image_rate.h"
 #include "trimtab/session/motion_ahead.h"
+#include "trimtab/session/precipitation_fade.h"
 #include "trimtab/session/signal_tracker.h"
 
 /// Turns states into decisions and requests for images. An image generator and the workbench both use it, so
@@ -174,7 +175,12 @@ class Session {
   HeadInput head_;
   std::optional<double> blurPicturedAt_;  ///< when the first image of the last decision was requested
   bool blurDrawn_ = false;
-  AirDrift airDrift_;  ///< up to the last image requested
+  /// What moves and falls, up to the last image requested.
+  struct Air {
+    AirDrift drift;
+    PrecipitationFade fade;
+  };
+  Air air_;
 
   SignalTracker signals_;  ///< pushed only if the preset has a policy
   /// What holds the budget.
