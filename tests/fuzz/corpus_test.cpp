@@ -72,8 +72,8 @@ TEST(FuzzCorpus, runsWithoutHarm) {
   for (const std::string& input : inputs) feed(input);
 }
 
-/// The fixed mutations of an ordinary run; with TRIMTAB_FUZZ_SECONDS=n other ones for so long.
-/// TRIMTAB_FUZZ_SEED repeats those of a run that found something.
+/// The fixed mutations of an ordinary run; with TRIMTAB_FUZZ_SECONDS=n other ones for so long, as
+/// tests/soak.sh asks for. TRIMTAB_FUZZ_SEED repeats those of a run that found something.
 TEST(FuzzCorpus, survivesRandomDamage) {
   const std::vector<std::string> inputs = corpus();
   ASSERT_FALSE(inputs.empty());
