@@ -1,42 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "policy_dock.h"
+
 #include <QAction>
-#include <QDockWidget>
 #include <QMenu>
 #include <QMenuBar>
-#include <QTabWidget>
 #include <cmath>
 #include <cstdlib>
 
-#include "gui_support.h"
-#include "tests/views/policy/policy_flight.h"
+#include "tests/views/dark_palette.h"
 #include "trimtab/host/flight.h"
-#include "views/policy/levers_view.h"
-#include "views/policy/policy_panel.h"
-#include "views/policy/signals_list.h"
-#include "views/policy/term_plot.h"
 
 namespace trimtab::test {
 namespace {
-
-class PolicyDock : public Bench {
- protected:
-  views::PolicyPanel& panel() { return *w().panels().policy; }
-  const views::PolicyPanel::Parts& parts() { return panel().parts(); }
-  double lever(Lever which) { return session().decision().policy[which]; }
-  double requestedErrorPx() { return w().controllers().frame->shown()->lod.screenSpaceError.value(); }
-  void setPolicy(std::initializer_list<std::string> terms, std::initializer_list<std::string> rules) {
-    test::setPolicy(w().draft(), terms, rules);
-    ASSERT_FALSE(w().draft().isBroken()) << toString(w().draft().findings());
-  }
-  /// Saves a screenshot to look at if TRIMTAB_SHOTS names a folder.
-  void shoot(const QString& name) {
-    const char* folder = std::getenv("TRIMTAB_SHOTS");
-    if (folder == nullptr) return;
-    QTest::qWait(500);
-    w().grab().save(QStringLiteral("%1/%2.png").arg(QLatin1String(folder), name));
-    panel().grab().save(QStringLiteral("%1/%2-dock.png").arg(QLatin1String(folder), name));
-  }
-};
 
 TEST_F(PolicyDock, aTermDraggedWhileAFlightPlaysMovesTheLeverAndTheRequest) {
   setPolicy(
@@ -91,26 +66,71 @@ TEST_F(PolicyDock, menusLeadToImportAndExport) {
   EXPECT_EQ(found, 2);
 }
 
-TEST_F(PolicyDock, isLegibleAtEverySize) {
+/// Looks at the dock in both sizes and both themes, with every page, and writes a picture of each to the
+/// folder that TRIMTAB_SHOTS names.
+class PolicyDockLook : public PolicyDock {
+ protected:
+  void TearDown() override {
+    QApplication::setPalette(light_);
+    PolicyDock::TearDown();
+  }
+  void shoot(const QString& name) {
+    const char* folder = std::getenv("TRIMTAB_SHOTS");
+    if (folder == nullptr) return;
+    QTest::qWait(500);
+    w().grab().save(QStringLiteral("%1/%2-%3x%4-%5.png")
+                        .arg(QLatin1String(folder), theme_)
+                        .arg(w().width())
+                        .arg(w().height())
+                        .arg(name));
+  }
+  /// Nothing of a page may hide behind the edge of the dock.
+  void expectWhole(const QWidget& widget, const char* what) {
+    for (const QWidget* around = widget.parentWidget(); around != nullptr; around = around->parentWidget()) {
+      const QRect inside(widget.mapTo(around, QPoint(0, 0)), widget.size());
+      EXPECT_TRUE(around->rect().contains(inside)) << what << " at " << w().width() << " x " << w().height();
+      if (around->isWindow()) break;
+    }
+  }
+  void lookAtAll(const QSize& size) {
+    w().resize(size);
+    const double climb = climbsThrough(*readFlight(sampleFlight()), 3000);
+    for (int i = 0; i < 40; ++i) {
+      w().feed().seekHere(climb + 0.25 * i);
+      QTest::qWait(20);
+    }
+    for (int page = 0; page < parts().tabs->count(); ++page) {
+      parts().tabs->setCurrentIndex(page);
+      QTest::qWait(50);
+      shoot(parts().tabs->tabText(page).section(QLatin1Char(' '), 0, 0).toLower());
+      expectWhole(*parts().tabs, "the pages");
+      if (page == 0 || size.height() >= 1000) {
+        expectWhole(*parts().plot, "the plot");
+        EXPECT_GE(parts().plot->height(), 100);
+      }
+      EXPECT_GE(parts().tabs->currentWidget()->height(), 7 * w().fontMetrics().height());
+    }
+    parts().signalsList->choose(std::nullopt);
+    QTest::qWait(50);
+    shoot(QStringLiteral("scheme"));
+    parts().signalsList->choose(Signal::speed);
+  }
+
+  const QPalette light_ = QApplication::palette();
+  QString theme_ = QStringLiteral("light");
+};
+
+TEST_F(PolicyDockLook, isWholeAtEverySizeAndInBothThemes) {
   test::setLargePolicy(w().draft());
   ASSERT_FALSE(w().draft().isBroken());
   w().dock(QStringLiteral("policy"))->raise();
   parts().signalsList->choose(Signal::speed);
   ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
-  const double climb = climbsThrough(*readFlight(sampleFlight()), 3000);
-  for (const QSize size : {QSize(1280, 720), QSize(1920, 1080)}) {
-    w().resize(size);
-    for (int i = 0; i < 40; ++i) {
-      w().feed().seekHere(climb + 0.25 * i);
-      QTest::qWait(20);
-    }
-    for (int tab = 0; tab < parts().tabs->count(); ++tab) {
-      parts().tabs->setCurrentIndex(tab);
-      shoot(QStringLiteral("policy-%1-%2").arg(size.width()).arg(tab));
-    }
-    EXPECT_GE(parts().plot->width(), parts().plot->minimumSizeHint().width());
-    EXPECT_GE(parts().plot->height(), parts().plot->minimumSizeHint().height());
-  }
+  for (const QSize size : {QSize(1280, 720), QSize(1920, 1080)}) lookAtAll(size);
+  if (std::getenv("TRIMTAB_SHOTS") == nullptr) return;
+  theme_ = QStringLiteral("dark");
+  QApplication::setPalette(darkPalette());
+  for (const QSize size : {QSize(1280, 720), QSize(1920, 1080)}) lookAtAll(size);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <ctime>
 
 #include "live_flight.h"
+#include "tests/views/dark_palette.h"
 #include "tests/views/policy/policy_flight.h"
 #include "views/controls/parameter_table.h"
 #include "views/editors/band_scale.h"
@@ -35,24 +36,6 @@ namespace {
 
 using namespace trimtab;
 using namespace trimtab::views;
-
-QPalette darkPalette() {
-  QPalette p;
-  p.setColor(QPalette::Window, QColor(45, 45, 48));
-  p.setColor(QPalette::WindowText, QColor(230, 230, 230));
-  p.setColor(QPalette::Base, QColor(30, 30, 32));
-  p.setColor(QPalette::AlternateBase, QColor(38, 38, 41));
-  p.setColor(QPalette::Text, QColor(230, 230, 230));
-  p.setColor(QPalette::Button, QColor(55, 55, 58));
-  p.setColor(QPalette::ButtonText, QColor(230, 230, 230));
-  p.setColor(QPalette::ToolTipBase, QColor(55, 55, 58));
-  p.setColor(QPalette::ToolTipText, QColor(230, 230, 230));
-  p.setColor(QPalette::Highlight, QColor(42, 110, 180));
-  p.setColor(QPalette::PlaceholderText, QColor(150, 150, 150));
-  for (const auto role : {QPalette::Text, QPalette::WindowText, QPalette::ButtonText})
-    p.setColor(QPalette::Disabled, role, QColor(128, 128, 128));
-  return p;
-}
 
 void settle(int ms = 120) {
   QElapsedTimer timer;
@@ -159,7 +142,7 @@ int main(int argc, char** argv) {
   std::setlocale(LC_NUMERIC, "C");
   if (argc < 2) return 2;
   app.setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
-  if (argc > 2) app.setPalette(darkPalette());
+  if (argc > 2) app.setPalette(test::darkPalette());
   const QDir dir(QString::fromLocal8Bit(argv[1]));
   dir.mkpath(QStringLiteral("."));
   shootPolicy(dir);

@@ -31,7 +31,7 @@ class CurvePlot : public Plot {
   void fitView();
 
   QSize sizeHint() const override { return {420, 220}; }
-  QSize minimumSizeHint() const override { return {220, 150}; }
+  QSize minimumSizeHint() const override { return {190, 150}; }
 
  signals:
   void selectedChanged(int index);

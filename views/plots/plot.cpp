@@ -26,6 +26,17 @@ void Plot::keyPressEvent(QKeyEvent* event) {
   QCustomPlot::keyPressEvent(event);
 }
 
+bool Plot::event(QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride && focusPolicy() == Qt::StrongFocus) {
+    const auto& key = *static_cast<QKeyEvent*>(event);
+    if (key.key() == Qt::Key_Home && key.modifiers() == Qt::NoModifier) {
+      event->accept();
+      return true;
+    }
+  }
+  return QCustomPlot::event(event);
+}
+
 void Plot::resizeEvent(QResizeEvent* event) {
   QCustomPlot::resizeEvent(event);
   resized();

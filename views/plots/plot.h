@@ -29,6 +29,8 @@ class Plot : public QCustomPlot {
 
   /// Calls zoomByKey() for plus and minus, and leaves any other key to QCustomPlot.
   void keyPressEvent(QKeyEvent* event) override;
+  /// Keeps Home for itself if it uses the keyboard, since Home is a command of the window too.
+  bool event(QEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void changeEvent(QEvent* event) override;
   void paintEvent(QPaintEvent* event) override;

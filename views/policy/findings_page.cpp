@@ -33,6 +33,7 @@ FindingsPage::FindingsPage(PolicyDraft& policy, QWidget* parent)
   list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   list_->setMinimumHeight(fontMetrics().height() * 4);
   list_->setToolTip(tr("Click a line, or press Enter, to go to its rule or term"));
+  setFocusProxy(list_);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(4, 4, 4, 4);
   layout->addWidget(list_);

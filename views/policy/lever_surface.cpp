@@ -34,7 +34,7 @@ QString axisText(Signal signal) {
 }  // namespace
 
 LeverSurface::LeverSurface(Draft& draft, const PolicyTrack& track, QWidget* parent)
-    : Plot(tr("A lever over two signals"), Keyboard::ignored, parent),
+    : Plot(tr("A lever over two signals"), Keyboard::used, parent),
       draft_(draft),
       track_(track),
       throttle_(
@@ -54,6 +54,8 @@ LeverSurface::LeverSurface(Draft& draft, const PolicyTrack& track, QWidget* pare
   connect(this, &QCustomPlot::mousePress, this, [this] { fitted_ = false; });
   connect(this, &QCustomPlot::mouseDoubleClick, this, &LeverSurface::fitView);
   auto* fit = new QAction(tr("Fit"), this);
+  fit->setShortcut(Qt::Key_F);
+  fit->setShortcutContext(Qt::WidgetShortcut);
   connect(fit, &QAction::triggered, this, &LeverSurface::fitView);
   addAction(fit);
   setContextMenuPolicy(Qt::ActionsContextMenu);
@@ -130,6 +132,13 @@ void LeverSurface::fitView() {
   xAxis->setRange(x.low, x.high);
   yAxis->setRange(y.low, y.high);
   throttle_.request();
+}
+
+bool LeverSurface::zoomByKey(double factor) {
+  fitted_ = false;
+  xAxis->scaleRange(factor);
+  yAxis->scaleRange(factor);
+  return true;
 }
 
 void LeverSurface::compute() {
@@ -251,26 +260,28 @@ SurfacePage::SurfacePage(Draft& draft, const PolicyTrack& track, QWidget* parent
   lever_->setCurrentIndex(static_cast<int>(Lever::screen_space_error));
   x_->setCurrentIndex(static_cast<int>(Signal::above_ground));
   y_->setCurrentIndex(static_cast<int>(Signal::speed));
-  auto* top = new QHBoxLayout;
-  const auto add = [&](QComboBox* box, const QString& label, const QString& name) {
+  auto *leverRow = new QHBoxLayout, *signalsRow = new QHBoxLayout;
+  const auto add = [&](QHBoxLayout& row, QComboBox* box, const QString& label, const QString& name) {
     auto* text = new QLabel(label);
     text->setBuddy(box);
     box->setAccessibleName(name);
     box->setToolTip(name);
-    box->setMinimumContentsLength(8);
-    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    top->addWidget(text);
-    top->addWidget(box, 1);
+    box->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+    row.addWidget(text);
+    row.addWidget(box);
     connect(box, &QComboBox::currentIndexChanged, this, &SurfacePage::choose);
   };
-  add(lever_, tr("Lever"), tr("Lever whose target is shown"));
-  add(x_, tr("over"), tr("Signal to the right"));
-  add(y_, tr("and"), tr("Signal upward"));
+  add(*leverRow, lever_, tr("Lever"), tr("Lever whose target is shown"));
+  add(*signalsRow, x_, tr("over"), tr("Signal to the right"));
+  add(*signalsRow, y_, tr("and"), tr("Signal upward"));
+  for (QHBoxLayout* row : {leverRow, signalsRow}) row->addStretch(1);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(4, 4, 4, 4);
   layout->setSpacing(4);
-  layout->addLayout(top);
+  layout->addLayout(leverRow);
+  layout->addLayout(signalsRow);
   layout->addWidget(surface_, 1);
+  setFocusProxy(lever_);
 }
 
 void SurfacePage::choose() {

@@ -27,7 +27,7 @@ class LeverSurface : public Plot {
   int trackPoints() const { return static_cast<int>(trackLine_->data()->size()); }
 
   QSize sizeHint() const override { return {420, 260}; }
-  QSize minimumSizeHint() const override { return {240, 140}; }
+  QSize minimumSizeHint() const override { return {240, 110}; }
 
  public slots:
   void fitView();
@@ -36,6 +36,7 @@ class LeverSurface : public Plot {
   void mouseMoveEvent(QMouseEvent* event) override;
   void leaveEvent(QEvent* event) override;
   void restyle() override;
+  bool zoomByKey(double factor) override;
 
  private:
   void makePlottables();

@@ -81,7 +81,7 @@ QStringList LeversView::lines() const {
 }
 
 int LeversView::rowHeight() const {
-  return 2 * fontMetrics().height() + 10;
+  return 2 * fontMetrics().height() + 7;
 }
 
 QSize LeversView::sizeHint() const {

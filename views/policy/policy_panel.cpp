@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "policy_panel.h"
 
+#include <QAction>
 #include <QBoxLayout>
 #include <QFileDialog>
 #include <QLabel>
@@ -31,6 +32,9 @@
 
 namespace trimtab::views {
 namespace {
+
+// Lines of text that the plot and the pages need, and that both need to be shown at once.
+constexpr int kLeastPlotLines = 7, kLeastPageLines = 10, kRoomyLines = 25;
 
 /// A review takes some milliseconds: it follows a drag two or three times a second.
 constexpr int kReviewMs = 400;
@@ -68,11 +72,12 @@ PolicyPanel::PolicyPanel(Draft& draft, QWidget* parent)
   upper_->setStretchFactor(1, 1);
   upper_->setChildrenCollapsible(false);
   makeTabs();
+  makeKeys();
   split_->addWidget(upper_);
   split_->addWidget(parts_.tabs);
-  split_->setStretchFactor(0, 3);
-  split_->setStretchFactor(1, 2);
   split_->setChildrenCollapsible(false);
+  right_->setMinimumHeight(kLeastPlotLines * fontMetrics().height());
+  parts_.tabs->setMinimumHeight(kLeastPageLines * fontMetrics().height());
   note_->setWordWrap(true);
   note_->hide();
   auto* layout = new QVBoxLayout(this);
@@ -83,6 +88,8 @@ PolicyPanel::PolicyPanel(Draft& draft, QWidget* parent)
   layout->addWidget(note_);
   layout->addWidget(split_, 1);
 
+  connect(split_, &QSplitter::splitterMoved, this, [this] { splitByHand_ = true; });
+  connect(parts_.tabs, &QTabWidget::currentChanged, this, &PolicyPanel::arrange);
   connect(parts_.signalsList, &SignalsList::chosenChanged, this, &PolicyPanel::choose);
   connect(policy_, &PolicyDraft::termsChanged, this, &PolicyPanel::showState);
   connect(policy_, &PolicyDraft::rulesChanged, this, &PolicyPanel::showState);
@@ -102,10 +109,16 @@ PolicyPanel::PolicyPanel(Draft& draft, QWidget* parent)
 }
 
 QWidget* PolicyPanel::makeHead() {
-  static constexpr std::array kKeys{key::kPolicyEnabled.data(), key::kPolicyNorm.data()};
-  auto* lines = new ParameterLines(draft_, kKeys);
-  lines->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
-  return lines;
+  auto* head = new QWidget;
+  auto* row = new QHBoxLayout(head);
+  row->setContentsMargins(0, 0, 0, 0);
+  const auto add = [this, row](std::string_view name, int stretch) {
+    row->addWidget(new ParameterLines(draft_, std::array{name.data()}), stretch);
+  };
+  add(key::kPolicyEnabled, 0);
+  add(key::kPolicyNorm, 1);
+  head->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+  return head;
 }
 
 QWidget* PolicyPanel::makeEmptyState() {
@@ -192,6 +205,25 @@ void PolicyPanel::makeTabs() {
   });
 }
 
+/// Ctrl+Tab goes through the pages from wherever the focus is in the dock.
+void PolicyPanel::makeKeys() {
+  for (const int by : {1, -1}) {
+    auto* step = new QAction(this);
+    if (by > 0)
+      step->setShortcut(Qt::CTRL | Qt::Key_Tab);
+    else
+      step->setShortcuts({Qt::CTRL | Qt::SHIFT | Qt::Key_Tab, Qt::CTRL | Qt::SHIFT | Qt::Key_Backtab});
+    step->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+    addAction(step);
+    connect(step, &QAction::triggered, this, [this, by] {
+      QTabWidget& pages = parts_.signalsList->chosen() ? *parts_.tabs : *parts_.scheme;
+      pages.setCurrentIndex((pages.currentIndex() + by + pages.count()) % pages.count());
+      if (parts_.signalsList->chosen()) arrange();
+      pages.currentWidget()->setFocus();
+    });
+  }
+}
+
 void PolicyPanel::choose() {
   const auto signal = parts_.signalsList->chosen();
   if (signal) {
@@ -211,6 +243,27 @@ void PolicyPanel::choose() {
   if (any_) throttle_.request();
 }
 
+/// In a low dock only the page of terms stands below its plot; the others have all the height.
+void PolicyPanel::arrange() {
+  const bool pages = !parts_.tabs->isHidden(), roomy = height() >= kRoomyLines * fontMetrics().height();
+  const bool plot = roomy || !pages || parts_.tabs->currentWidget() == parts_.terms;
+  upper_->setVisible(plot);
+  setFocusProxy(plot ? static_cast<QWidget*>(parts_.signalsList) : parts_.tabs->currentWidget());
+  if (!plot || !pages || splitByHand_) return;
+  const int upper = split_->height() * (roomy ? 42 : 50) / 100;
+  split_->setSizes({upper, split_->height() - upper});
+}
+
+QSize PolicyPanel::minimumSizeHint() const {
+  const int lines = kLeastPlotLines + kLeastPageLines + 3;
+  return {QWidget::minimumSizeHint().width(), lines * fontMetrics().height()};
+}
+
+void PolicyPanel::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  arrange();
+}
+
 std::optional<Signal> PolicyPanel::firstWithTerms() const {
   for (const SignalRow& row : kSignalRows)
     if (!policy_->termsOf(row.signal).empty()) return row.signal;
@@ -225,6 +278,7 @@ void PolicyPanel::showState() {
   head_->setVisible(!empty || draft_.parameters().policy.enabled);
   empty_->setVisible(empty);
   parts_.tabs->setVisible(!empty && parts_.signalsList->chosen().has_value());
+  arrange();
   const bool broken =
       !draft_.findingsOf(key::kPolicyTerms).empty() || !draft_.findingsOf(key::kPolicyRules).empty();
   note_->setText(tr("The policy does not hold: the last valid one keeps running. See Findings."));

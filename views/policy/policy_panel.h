@@ -63,12 +63,23 @@ class PolicyPanel : public QWidget {
   /// Writes the policy that runs. The findings say why it failed.
   Findings exportFile(const QString& file) const;
 
+  /// The least height shows the terms with their plot, or another page without it.
+  QSize minimumSizeHint() const override;
+  /// A dock scrolls a panel that is higher than this: one whose labels wrap asks for the height that it would
+  /// like, not for the least.
+  int heightForWidth(int) const override { return minimumSizeHint().height(); }
+
  public slots:
   void askAndImport();
   void askAndExport();
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
   void makeTabs();
+  void makeKeys();
+  void arrange();
   QWidget* makeHead();
   QWidget* makeEmptyState();
   void fillStartMenu(QMenu& menu);
@@ -85,6 +96,7 @@ class PolicyPanel : public QWidget {
   LiveFrame frame_;
   PolicyLive live_;
   bool any_ = false, wasEmpty_ = true, schemeShown_ = false;
+  bool splitByHand_ = false;  ///< a person has moved the handle between plot and pages
   Parts parts_;
   QStackedWidget* right_;
   QSplitter *upper_, *split_;

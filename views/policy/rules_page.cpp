@@ -5,6 +5,7 @@
 #include <QBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QLineEdit>
 #include <QScrollBar>
 #include <QToolButton>
 #include <algorithm>
@@ -23,7 +24,8 @@ RulesPage::RulesPage(PolicyDraft& policy, QWidget* parent)
       policy_(policy),
       model_(new PolicyRulesModel(policy, this)),
       table_(new QTableView),
-      note_(new QLabel) {
+      note_(new QLabel),
+      search_(new QLineEdit) {
   makeTable();
   auto* buttons = new ListButtons;
   add_ = buttons->add(tr("Add"), tr("Add a rule after the selected one (Insert)"));
@@ -31,6 +33,7 @@ RulesPage::RulesPage(PolicyDraft& policy, QWidget* parent)
   remove_ = buttons->add(tr("Remove"), tr("Remove the selected rule (Delete)"));
   up_ = buttons->add(tr("Up"), tr("Move the selected rule up (Alt+Up)"));
   down_ = buttons->add(tr("Down"), tr("Move the selected rule down (Alt+Down)"));
+  find_ = buttons->add(tr("Find"), tr("Find a rule by a part of its line (F3; Shift+F3 finds backwards)"));
   buttons->addSpace();
   QToolButton* const load =
       buttons->add(tr("Import…"), tr("Take a policy from a file of a fuzzy-logic tool"));
@@ -42,11 +45,15 @@ RulesPage::RulesPage(PolicyDraft& policy, QWidget* parent)
   layout->setContentsMargins(4, 4, 4, 4);
   layout->setSpacing(4);
   layout->addWidget(table_, 1);
+  layout->addWidget(search_);
   layout->addWidget(buttons);
   layout->addWidget(note_);
+  setFocusProxy(table_);
   makeActions();
+  makeSearch();
   connect(model_, &PolicyRulesModel::moved, this, &RulesPage::select);
   connect(&policy_.draft(), &Draft::findingsChanged, this, [this] { showNote(); });
+  connect(&policy_, &PolicyDraft::rulesChanged, this, &RulesPage::arrangeColumns);
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this, &RulesPage::showNote);
   showNote();
 }
@@ -60,8 +67,7 @@ void RulesPage::makeTable() {
   columns->setMinimumSectionSize(width("On"));
   columns->setSectionResizeMode(QHeaderView::Interactive);
   columns->resizeSection(PolicyRulesModel::kOn, width("On"));
-  columns->resizeSection(PolicyRulesModel::kCondition, width("above_ground is low and speed"));
-  columns->resizeSection(PolicyRulesModel::kSettings, width("screen_space_error = 4"));
+  columns->moveSection(PolicyRulesModel::kFires, PolicyRulesModel::kCondition);
   columns->resizeSection(PolicyRulesModel::kWeight, width("Weight"));
   columns->resizeSection(PolicyRulesModel::kFires, width("0.00 0.0"));
   table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAsNeeded);
@@ -91,14 +97,22 @@ void RulesPage::makeTable() {
   table_->setItemDelegateForColumn(PolicyRulesModel::kFires, new BarCell(table_));
 }
 
-/// The reason takes what the other columns leave, and stays wide enough to be read.
-void RulesPage::resizeEvent(QResizeEvent* event) {
-  QWidget::resizeEvent(event);
+/// Conditions and settings stand whole; what is beyond the edge is scrolled to. The reason takes what the
+/// other columns leave.
+void RulesPage::arrangeColumns() {
+  for (const int column :
+       {PolicyRulesModel::kCondition, PolicyRulesModel::kSettings, PolicyRulesModel::kReason})
+    table_->resizeColumnToContents(column);
+  const int reason = table_->columnWidth(PolicyRulesModel::kReason);
   int others =
       table_->verticalHeader()->sizeHint().width() + table_->verticalScrollBar()->sizeHint().width() + 4;
   for (int column = 0; column < PolicyRulesModel::kReason; ++column) others += table_->columnWidth(column);
-  const int least = fontMetrics().horizontalAdvance(QStringLiteral("detail that speed hides from the eye"));
-  table_->setColumnWidth(PolicyRulesModel::kReason, std::max(least, table_->width() - others));
+  table_->setColumnWidth(PolicyRulesModel::kReason, std::max(reason, table_->width() - others));
+}
+
+void RulesPage::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  arrangeColumns();
 }
 
 void RulesPage::makeActions() {
@@ -116,6 +130,53 @@ void RulesPage::makeActions() {
   action(up_, Qt::ALT | Qt::Key_Up, [this] { moveRule(-1); });
   action(down_, Qt::ALT | Qt::Key_Down, [this] { moveRule(1); });
   table_->setContextMenuPolicy(Qt::ActionsContextMenu);
+}
+
+void RulesPage::makeSearch() {
+  search_->hide();
+  search_->setPlaceholderText(tr("A part of a rule: a signal, a term, a lever, a reason"));
+  search_->setAccessibleName(tr("Find a rule"));
+  connect(find_, &QToolButton::clicked, this, [this] { findRule(1); });
+  connect(search_, &QLineEdit::returnPressed, this, [this] { findRule(1); });
+  // While it is typed, the selected rule stays as long as it has the text.
+  connect(search_, &QLineEdit::textEdited, this, [this] { selectFound(std::max(0, selected()), 1); });
+  const auto action = [](QWidget* where, const QKeySequence& keys, Qt::ShortcutContext context, auto act) {
+    auto* a = new QAction(where);
+    a->setShortcut(keys);
+    a->setShortcutContext(context);
+    where->addAction(a);
+    connect(a, &QAction::triggered, where, act);
+  };
+  action(this, Qt::Key_F3, Qt::WidgetWithChildrenShortcut, [this] { findRule(1); });
+  action(this, Qt::SHIFT | Qt::Key_F3, Qt::WidgetWithChildrenShortcut, [this] { findRule(-1); });
+  action(search_, Qt::Key_Escape, Qt::WidgetShortcut, [this] {
+    search_->hide();
+    table_->setFocus();
+    say({});
+  });
+}
+
+void RulesPage::findRule(int by) {
+  if (search_->isHidden() || search_->text().trimmed().isEmpty()) {
+    search_->show();
+    search_->setFocus();
+    search_->selectAll();
+    return;
+  }
+  selectFound(selected() + by, by);
+}
+
+void RulesPage::selectFound(int from, int by) {
+  const QString wanted = search_->text().trimmed();
+  const int count = model_->rowCount();
+  for (int i = 0; i < count && !wanted.isEmpty(); ++i) {
+    const int line = ((from + i * by) % count + count) % count;
+    const std::string& text = policy_.rules()[static_cast<std::size_t>(line)].text;
+    if (!QString::fromStdString(text).contains(wanted, Qt::CaseInsensitive)) continue;
+    select(line);
+    return say({});
+  }
+  say(wanted.isEmpty() ? QString() : tr("No rule has “%1”.").arg(wanted));
 }
 
 int RulesPage::selected() const {

@@ -8,6 +8,7 @@
 #include "policy_live.h"
 
 class QLabel;
+class QLineEdit;
 class QToolButton;
 
 namespace trimtab::views {
@@ -33,6 +34,9 @@ class RulesPage : public QWidget {
   void duplicateRule();
   void removeRule();
   void moveRule(int by);
+  /// Selects the next rule (1), or the one before (-1), whose line has the searched text. Asks for the text
+  /// if there is none.
+  void findRule(int by);
 
  signals:
   void importAsked();
@@ -44,6 +48,9 @@ class RulesPage : public QWidget {
  private:
   void makeTable();
   void makeActions();
+  void makeSearch();
+  void arrangeColumns();
+  void selectFound(int from, int by);
   void say(const QString& refusal);
   void showNote();
   PolicyRule newRule() const;
@@ -52,7 +59,8 @@ class RulesPage : public QWidget {
   PolicyRulesModel* model_;
   QTableView* table_;
   QLabel* note_;
-  QToolButton *add_, *duplicate_, *remove_, *up_, *down_;
+  QLineEdit* search_;
+  QToolButton *add_, *duplicate_, *remove_, *up_, *down_, *find_;
   Signal signal_ = Signal::above_ground;
   QString refusal_;
 };

@@ -32,11 +32,9 @@ void SharesModel::rebuild(const PolicyLive& live) {
       break;
     }
   rows_.clear();
-  for (std::size_t i = 0; i < policy_.rules.size(); ++i) {
-    const PolicyRule& rule = policy_.rules[i];
-    Row row{QStringLiteral("%1  %2").arg(i + 1).arg(QString::fromStdString(rule.condition)),
-            rule.enabled && rule.weight > 0, std::vector<double>(levers_.size() + 1, kNan),
-            std::vector<double>(levers_.size(), kNan)};
+  for (const PolicyRule& rule : policy_.rules) {
+    Row row{QString::fromStdString(rule.condition), rule.enabled && rule.weight > 0,
+            std::vector<double>(levers_.size() + 1, kNan), std::vector<double>(levers_.size(), kNan)};
     for (const LeverSetting& setting : rule.settings)
       for (std::size_t l = 0; l < levers_.size(); ++l)
         if (levers_[l] == setting.lever) row.settings[l] = setting.value;
@@ -97,10 +95,10 @@ QVariant SharesModel::data(const QModelIndex& index, int role) const {
 }
 
 QVariant SharesModel::headerData(int section, Qt::Orientation orientation, int role) const {
-  if (orientation == Qt::Vertical) return {};
+  if (orientation == Qt::Vertical) return role == Qt::DisplayRole ? QVariant(section + 1) : QVariant();
   const int lever = section - kFirstLever;
   if (role == Qt::DisplayRole) {
-    if (section == kRule) return tr("Rule");
+    if (section == kRule) return tr("If");
     if (section == kFires) return tr("Fires");
     return fromView(rowOf(levers_[static_cast<std::size_t>(lever)]).key)
         .replace(QLatin1Char('_'), QLatin1Char('\n'));
@@ -122,14 +120,17 @@ SharesView::SharesView(QWidget* parent) : QTableView(parent), model_(new SharesM
   setWordWrap(false);
   setItemDelegate(new BarCell(this));
   setHorizontalScrollMode(ScrollPerPixel);
-  verticalHeader()->hide();
+  verticalHeader()->setSectionResizeMode(QHeaderView::Fixed);
   verticalHeader()->setMinimumSectionSize(fontMetrics().height() + 2);
   verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 5);
   setMinimumHeight(fontMetrics().height() * 5);
   const auto arrange = [this] {
     const int bar = fontMetrics().horizontalAdvance(QStringLiteral("distance")) + 12;
     horizontalHeader()->setMinimumSectionSize(bar);
-    horizontalHeader()->setSectionResizeMode(SharesModel::kRule, QHeaderView::Stretch);
+    // Conditions may be longer than the dock is wide: they stand behind what the view is for, and whole.
+    horizontalHeader()->setSectionResizeMode(SharesModel::kRule, QHeaderView::ResizeToContents);
+    horizontalHeader()->moveSection(horizontalHeader()->visualIndex(SharesModel::kRule),
+                                    model_->columnCount() - 1);
     for (int column = SharesModel::kFires; column < model_->columnCount(); ++column) {
       horizontalHeader()->setSectionResizeMode(column, QHeaderView::Fixed);
       horizontalHeader()->resizeSection(column, bar);

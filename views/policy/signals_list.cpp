@@ -46,6 +46,10 @@ void SignalsModel::showLive(const PolicyLive& live) {
   }
 }
 
+void SignalsModel::useKeys(bool keys) {
+  if (std::exchange(keys_, keys) != keys) emit dataChanged(index(1, kName), index(rowCount() - 1, kName));
+}
+
 QString SignalsModel::toolTip(Signal signal) const {
   const SignalRow& row = rowOf(signal);
   QString text = QStringLiteral("<p><b>%1</b>%2</p><p>%3.</p>")
@@ -83,7 +87,8 @@ QVariant SignalsModel::data(const QModelIndex& index, int role) const {
   switch (role) {
     case Qt::DisplayRole:
       if (index.column() == kName)
-        return (used_[at] ? QStringLiteral("● ") : QStringLiteral("○ ")) + fromView(rowOf(*signal).label);
+        return (used_[at] ? QStringLiteral("● ") : QStringLiteral("○ ")) +
+               fromView(keys_ ? rowOf(*signal).key : rowOf(*signal).label);
       return known ? values_[at] : decided_ ? tr("unknown") : QStringLiteral("–");
     case Qt::AccessibleTextRole:
       if (index.column() == kName)
@@ -125,17 +130,25 @@ SignalsList::SignalsList(PolicyDraft& policy, QWidget* parent)
   horizontalHeader()->setSectionResizeMode(SignalsModel::kValue, QHeaderView::Fixed);
   setColumnWidth(SignalsModel::kValue, fontMetrics().horizontalAdvance(QStringLiteral("00,000 ft/min")) + 4);
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("● Height above")) + 12);
   setMinimumHeight(fontMetrics().height() * 5);
   choose(std::nullopt);
+  setMinimumWidth(wholeWidth());
   connect(selectionModel(), &QItemSelectionModel::currentRowChanged, this, &SignalsList::chosenChanged);
 }
 
 int SignalsList::wholeWidth() const {
+  const bool values = !isColumnHidden(SignalsModel::kValue);
   int names = 0;
   for (const SignalRow& row : kSignalRows)
-    names = std::max(names, fontMetrics().horizontalAdvance(QStringLiteral("● ") + fromView(row.label)));
-  return names + 16 + (isColumnHidden(SignalsModel::kValue) ? 0 : columnWidth(SignalsModel::kValue));
+    names = std::max(names, fontMetrics().horizontalAdvance(QStringLiteral("● ") +
+                                                            fromView(values ? row.label : row.key)));
+  return names + 16 + (values ? columnWidth(SignalsModel::kValue) : 0);
+}
+
+void SignalsList::showValues(bool shown) {
+  setColumnHidden(SignalsModel::kValue, !shown);
+  model_->useKeys(!shown);
+  setMinimumWidth(wholeWidth());
 }
 
 std::optional<Signal> SignalsList::chosen() const {
@@ -144,6 +157,16 @@ std::optional<Signal> SignalsList::chosen() const {
 
 void SignalsList::choose(std::optional<Signal> signal) {
   setCurrentIndex(model_->index(signal ? SignalsModel::rowOfSignal(*signal) : SignalsModel::kScheme, 0));
+}
+
+void SignalsList::keyboardSearch(const QString& typed) {
+  const int count = model_->rowCount(), from = std::max(0, currentIndex().row());
+  for (int i = 1; i <= count; ++i) {
+    const auto signal = SignalsModel::signalOfRow((from + i) % count);
+    if (!signal || !fromView(rowOf(*signal).label).startsWith(typed, Qt::CaseInsensitive)) continue;
+    choose(*signal);
+    return;
+  }
 }
 
 }  // namespace trimtab::views

@@ -23,6 +23,8 @@ class SignalsModel : public QAbstractTableModel {
   static int rowOfSignal(Signal signal) { return static_cast<int>(signal) + 1; }
   static std::optional<Signal> signalOfRow(int row);
   void showLive(const PolicyLive& live);
+  /// Names signals as rules do, which takes less width, or as people do.
+  void useKeys(bool keys);
 
   int rowCount(const QModelIndex& parent = {}) const override;
   int columnCount(const QModelIndex& = {}) const override { return kColumns; }
@@ -35,7 +37,7 @@ class SignalsModel : public QAbstractTableModel {
   PolicyDraft& policy_;
   std::array<QString, kSignals> values_;  ///< empty: unknown
   std::array<bool, kSignals> used_{};
-  bool decided_ = false;
+  bool decided_ = false, keys_ = false;
 };
 
 /// The list on the left of the dock.
@@ -47,9 +49,12 @@ class SignalsList : public QTableView {
   /// Returns the chosen signal; nothing for the scheme.
   std::optional<Signal> chosen() const;
   void choose(std::optional<Signal> signal);
-  /// Returns the width that shows every name and value whole; of the names alone if values are hidden.
+  /// Returns the width that shows every name, and every value if there are values.
   int wholeWidth() const;
-  void showValues(bool shown) { setColumnHidden(SignalsModel::kValue, !shown); }
+  /// Shows names and values, or only the keys of signals, which need less width.
+  void showValues(bool shown);
+  /// Goes to the next signal whose name begins with what is typed; the mark before it does not count.
+  void keyboardSearch(const QString& typed) override;
 
  signals:
   void chosenChanged();

@@ -224,7 +224,8 @@ void TermPlot::describe() {
   setAccessibleDescription(
       text +
       tr("Tab selects a point, Page Up and Page Down a term, arrow keys move the point (Shift: ten times "
-         "as far), Enter types the numbers, Insert and Delete add and remove a point."));
+         "as far; Ctrl: to a point of another term), Enter types the numbers, Insert and Delete add and "
+         "remove a point, A and Ctrl+Delete a term."));
 }
 
 void TermPlot::showLive(const PolicyLive& live) {

@@ -45,6 +45,7 @@ class TermPlot : public Plot {
   void refused(const QString& why);
   void typingAsked();           ///< the person wants to type the selected term's numbers
   void addAsked();              ///< the person wants a new term
+  void duplicateAsked();        ///< the person wants a copy of the selected term
   void removeAsked();           ///< the person wants the selected term gone
   void picturedTermsChanged();  ///< the curves were drawn anew
   void dragged();               ///< a point was moved by mouse or keys
@@ -94,6 +95,7 @@ class TermPlot : public Plot {
   double snapped(double x, bool toOthers) const;
   void moveTo(double x, double y, MergeToken token);
   void nudge(double dx, double dy);
+  void snapTo(int side);
   void insertPoint(double x, double y);
   void removePoint();
   void cancelDrag();

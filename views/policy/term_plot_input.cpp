@@ -182,6 +182,22 @@ void TermPlot::nudge(double dx, double dy) {
   moveTo(at.movesX ? roundedTo(at.x + dx, step) : at.x, roundedTo(at.y + dy, 1e-6), nudge_.token);
 }
 
+/// Moves the point to the nearest point of another term on the right (1) or left (-1).
+void TermPlot::snapTo(int side) {
+  const std::vector<TermHandle> points = handles();
+  if (handle_ < 0 || handle_ >= static_cast<int>(points.size())) return;
+  const TermHandle& at = points[static_cast<std::size_t>(handle_)];
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const std::size_t line : policy_.termsOf(signal_)) {
+    if (static_cast<int>(line) == term_) continue;
+    for (const TermHandle& other : handlesOf(*policy_.terms()[line].term, view()))
+      if (const double away = side * (other.x - at.x); !other.open && away > 0)
+        nearest = std::min(nearest, away);
+  }
+  if (!at.movesX || !std::isfinite(nearest)) return;
+  moveTo(at.x + side * nearest, at.y, policy_.draft().newToken());
+}
+
 void TermPlot::stepTerm(int by) {
   const std::vector<std::size_t> lines = policy_.termsOf(signal_);
   if (lines.empty()) return;
@@ -196,13 +212,14 @@ void TermPlot::keyPressEvent(QKeyEvent* event) {
   const double step = nudgeStep(view()) * times / 10;
   if (event->matches(QKeySequence::Copy)) return copyShape();
   if (event->matches(QKeySequence::Paste)) return pasteShape();
+  const bool control = event->modifiers() & Qt::ControlModifier;
   switch (event->key()) {
     case Qt::Key_Escape:
       return drag_.token != 0 ? cancelDrag() : event->ignore();
     case Qt::Key_Left:
-      return nudge(-step, 0);
+      return control ? snapTo(-1) : nudge(-step, 0);
     case Qt::Key_Right:
-      return nudge(step, 0);
+      return control ? snapTo(1) : nudge(step, 0);
     case Qt::Key_Up:
       return nudge(0, kMembershipStep * times);
     case Qt::Key_Down:
@@ -220,7 +237,12 @@ void TermPlot::keyPressEvent(QKeyEvent* event) {
     }
     case Qt::Key_Delete:
     case Qt::Key_Backspace:
+      if (control) return emit removeAsked();
       return removePoint();
+    case Qt::Key_A:
+      return emit addAsked();
+    case Qt::Key_D:
+      return control ? emit duplicateAsked() : event->ignore();
     case Qt::Key_Return:
     case Qt::Key_Enter:
       if (term_ >= 0) emit typingAsked();

@@ -94,6 +94,7 @@ TermsPage::TermsPage(PolicyDraft& policy, TermPlot& plot, QWidget* parent)
   layout->addWidget(buttons);
   layout->addWidget(note_);
 
+  setFocusProxy(table_);
   makeActions();
   connect(&plot_, &TermPlot::selectedChanged, this, [this](int term) {
     const int row = model_->rowOfLine(term);
@@ -112,6 +113,7 @@ TermsPage::TermsPage(PolicyDraft& policy, TermPlot& plot, QWidget* parent)
           });
   connect(&plot_, &TermPlot::refused, this, &TermsPage::say);
   connect(&plot_, &TermPlot::addAsked, this, &TermsPage::addTerm);
+  connect(&plot_, &TermPlot::duplicateAsked, this, &TermsPage::duplicateTerm);
   connect(&plot_, &TermPlot::removeAsked, this, &TermsPage::removeTerm);
   connect(&plot_, &TermPlot::dragged, this, [this] { say({}); });
   connect(&policy_.draft(), &Draft::findingsChanged, this, [this] { showNote(); });

@@ -57,7 +57,7 @@ void DockLayout::arrange() {
     front->raise();
   }
   window_.resizeDocks({edit}, {570}, Qt::Horizontal);
-  window_.resizeDocks({edit, effect}, {560, 400}, Qt::Vertical);
+  window_.resizeDocks({edit, effect}, {620, 330}, Qt::Vertical);
   window_.resizeDocks({foot}, {290}, Qt::Vertical);
   // Titles are shown whole; arrows scroll to those that do not fit.
   for (QTabBar* bar : window_.findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly)) {

@@ -48,9 +48,12 @@ void showKeys(QWidget* parent, const QMenuBar& menus) {
       "## Policy\n\n| Keys | What they do |\n|---|---|\n"
       "| Tab, Shift+Tab | next and previous point of the term |\n| Page Up, Page Down | other terms |\n"
       "| arrow keys | move the point, with Shift ten times as far |\n"
+      "| Ctrl+Left, Ctrl+Right | move the point to one of another term |\n"
       "| Enter | type the term's numbers |\n| Insert, Delete | add and remove a point, a term, a rule |\n"
+      "| A, Ctrl+Delete | in the plot add and remove a term |\n"
       "| Ctrl+C, Ctrl+V | copy a shape to another term |\n| Ctrl+D | duplicate a term or rule |\n"
-      "| F2, Space | edit a cell, switch a rule on or off |\n| Alt+Up, Alt+Down | move a rule |\n\n"
+      "| F2, Space | edit a cell, switch a rule on or off |\n| Alt+Up, Alt+Down | move a rule |\n"
+      "| F3, Shift+F3 | find a rule |\n| Ctrl+Tab, Ctrl+Shift+Tab | next and previous page |\n\n"
       "## Commands\n\n| Keys | What they do |\n|---|---|\n");
   for (const QMenu* menu : menus.findChildren<QMenu*>())
     for (const QAction* action : menu->actions()) {

@@ -3,11 +3,13 @@
 
 #include <QAction>
 #include <QActionGroup>
+#include <QApplication>
 #include <QDockWidget>
 #include <QFileInfo>
 #include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
+#include <QScrollArea>
 #include <QStyle>
 #include <QToolBar>
 
@@ -36,6 +38,28 @@ constexpr auto kCaseKey = "culling.case";
 void dress(QAction& action, const QString& iconText, const QIcon& icon = {}) {
   action.setIconText(iconText);
   if (!icon.isNull()) action.setIcon(icon);
+}
+
+/// Brings a dock to the front and the focus into it; closes it if the focus is there already.
+void goToOrClose(QDockWidget& dock) {
+  if (const QWidget* focus = QApplication::focusWidget(); focus != nullptr && dock.isAncestorOf(focus)) {
+    dock.close();
+    return;
+  }
+  dock.show();
+  dock.raise();
+  QWidget* content = dock.widget();
+  if (const auto* area = qobject_cast<QScrollArea*>(content)) content = area->widget();
+  const auto takesFocus = [content](const QWidget& widget) {
+    return content->isAncestorOf(&widget) && widget.isVisible() && widget.isEnabled() &&
+           (widget.focusPolicy() & Qt::TabFocus) != 0;
+  };
+  QWidget* next = content;
+  if (content->focusProxy() == nullptr && (content->focusPolicy() & Qt::TabFocus) == 0) {
+    do next = next->nextInFocusChain();
+    while (next != content && !takesFocus(*next));
+  }
+  next->setFocus(Qt::ShortcutFocusReason);
 }
 
 /// A tile has one colour only: either action switches the other off.
@@ -230,7 +254,7 @@ void Menus::makeViewMenu() {
               [this] {
                 if (at_.feed.source() == Feed::Source::camera) by_.flight->placeCamera();
               }},
-             {tr("Compare &two presets..."), tr("Ctrl+D"), [this] { by_.errors->compare(); }},
+             {tr("Compare &two presets..."), tr("Ctrl+Shift+D"), [this] { by_.errors->compare(); }},
              {}});
   addDocks(view);
   add(view, {{tr("Reset la&yout"), {}, [this] { emit layoutResetAsked(); }}});
@@ -274,12 +298,14 @@ void Menus::addDocks(QMenu& view) {
   QMenu& docks = *view.addMenu(tr("&Docks"));
   int number = 1;
   for (QDockWidget* each : window_.findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
-    QAction* show = each->toggleViewAction();
-    show->setShortcut(tr("Alt+%1").arg(number++));
-    connect(show, &QAction::triggered, each, [each](bool on) {
-      if (on) each->raise();
-    });
-    docks.addAction(show);
+    QAction* go = nullptr;
+    add(docks, {{each->windowTitle(), tr("Alt+%1").arg(number++), [each] { goToOrClose(*each); },
+                 tr("Goes to the dock; from inside the dock it closes it"), &go}});
+    go->setCheckable(true);
+    go->setChecked(!each->isHidden());
+    // A click toggles the mark by itself; what the dock does decides.
+    connect(go, &QAction::triggered, each, [each, go] { go->setChecked(!each->isHidden()); });
+    connect(each->toggleViewAction(), &QAction::toggled, go, &QAction::setChecked);
   }
 }
 
