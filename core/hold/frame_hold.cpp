@@ -106,7 +106,9 @@ HoldGiven FrameHold::look(const FrameRequest& request, std::span<const ComingEye
 
 HoldDecision FrameHold::decide(const HoldGiven& given, const HoldParameters& parameters,
                                FrameRequest& request) {
+  const HoldSteps before = memory_.steps;
   const HoldDecision d = arbitrate(given, parameters, memory_);
+  exchanged_ = memory_.steps != before;
   given_ = given;
   held_ = d.held;
   requested_ = true;
@@ -146,7 +148,7 @@ void FrameHold::finished(const FrameResult& result, const FrameCost& cost) {
     constexpr double kGain = 0.2;
     correction_ += kGain * (std::clamp(drawn / counted, 0.05, 4.0) - correction_);
   }
-  model_.observe(load, cost);
+  if (!exchanged_) model_.observe(load, cost);
 }
 
 }  // namespace trimtab

@@ -79,6 +79,9 @@ class FrameHold {
   HoldGiven given_;
   HeldLevers held_;
   bool requested_ = false;
+  /// The arbiter moved a lever in the last image, which then also took the time of building levels or of
+  /// resizing its target. It teaches nothing about an image at rest.
+  bool exchanged_ = false;
   /// Triangles drawn over triangles counted, of recent images: what neighbours add and occlusion hides.
   double correction_ = 1;
   double lastTriangles_ = 0;

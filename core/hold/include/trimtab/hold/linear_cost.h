@@ -45,12 +45,12 @@ class LinearCost {
     const double counted = std::clamp(error, -limit, limit);
     const Quantities p = covarianceTimes(x);
     const double variance = sigma * sigma;
-    for (std::size_t i = 0; i < N; ++i)
-      state_.coefficient[i] = std::max(state_.coefficient[i] + p[i] * counted / variance, 0.0);
+    for (std::size_t i = 0; i < N; ++i) state_.coefficient[i] += p[i] * counted / variance;
     double known = 0;
     for (std::size_t i = 0; i < N; ++i) known += x[i] * p[i];
     for (std::size_t i = 0; i < N; ++i)
       for (std::size_t j = 0; j < N; ++j) state_.covariance[i][j] -= p[i] * p[j] / variance;
+    keepCostsPositive();
     for (std::size_t i = 0; i < N; ++i) drift(i);
     state_.noise += kNoiseGain * (counted * counted - known - state_.noise);
     state_.noise = std::max(state_.noise, kLeastNoise * ms * kLeastNoise * ms);
@@ -86,6 +86,20 @@ class LinearCost {
       state_.covariance[i][i] = state_.scale[i] * state_.scale[i];
     }
     state_.noise = 0.01 * ms * ms;
+  }
+
+  /// A coefficient below 0 becomes 0, and the others take what it explained, as far as they are uncertain. Left
+  /// to themselves they would predict too much for as long as it stays at 0.
+  void keepCostsPositive() {
+    for (std::size_t pass = 0; pass < N; ++pass) {
+      const auto least = std::min_element(state_.coefficient.begin(), state_.coefficient.end());
+      if (!(*least < 0)) return;
+      const auto i = static_cast<std::size_t>(least - state_.coefficient.begin());
+      const double part = *least / state_.covariance[i][i];
+      for (std::size_t j = 0; j < N; ++j) state_.coefficient[j] -= state_.covariance[j][i] * part;
+      *least = 0;
+    }
+    for (double& coefficient : state_.coefficient) coefficient = std::max(coefficient, 0.0);
   }
 
   Quantities covarianceTimes(const Quantities& x) const {
