@@ -67,8 +67,11 @@ void addExperiment(CLI::App& app, int& exitCode) {
       command->add_option("--host-rate", arguments->setup.hostRateHz, "Host states a second")
           ->capture_default_str()
           ->check(CLI::Range(1, 1000));
-    if (std::string_view(named.name) == "hold")
+    if (std::string_view(named.name) == "hold") {
+      command->add_flag("--fixed", arguments->setup.fixedSettings,
+                        "Also fly every fixed setting of the same levers, and name the best");
       command->add_option("--head", arguments->setup.head, "Head log, or sweep:DEG/S; bad rows are left out");
+    }
     command->add_option("-o,--output", arguments->output, "Folder for JSON, CSV and plots");
     command->add_flag("--json", arguments->json, "One JSON document on standard output");
     command->callback([arguments, run = named.run, &exitCode] { exitCode = cli::run(*arguments, run); });

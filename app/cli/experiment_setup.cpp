@@ -50,6 +50,7 @@ std::optional<experiment::Setup> setupFrom(const SetupArguments& arguments) {
   setup.presetName = arguments.preset;
   setup.repeats = arguments.repeats;
   setup.hostRateHz = arguments.hostRateHz;
+  setup.fixedSettings = arguments.fixedSettings;
   return setup;
 }
 

@@ -26,9 +26,10 @@ struct Setup {
   TuningParameters parameters;
   std::string presetName;
   int widthPx = 1280, heightPx = 720;
-  int repeats = 3;          ///< frames per view, of which the median counts
-  std::size_t frames = 24;  ///< moments of the flight, for leverage
-  double hostRateHz = 200;  ///< states a second, for the experiments on head motion
+  bool fixedSettings = false;  ///< the experiment on the budget also flies every fixed setting
+  int repeats = 3;             ///< frames per view, of which the median counts
+  std::size_t frames = 24;     ///< moments of the flight, for leverage
+  double hostRateHz = 200;     ///< states a second, for the experiments on head motion
   /// Called now and then; returning false cancels.
   std::function<bool(double fraction, const std::string& what)> progress;
 };

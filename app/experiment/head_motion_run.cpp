@@ -6,6 +6,7 @@
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/host/received_state.h"
+#include "trimtab/scene/load_index.h"
 #include "trimtab/session/session.h"
 #include "trimtab/terrain/grid/progress.h"
 
@@ -22,6 +23,8 @@ bool pass(Stage& stage, const Setup& setup, const ValidatedParameters& parameter
           bool first, MotionRun& run, const auto& go) {
   Session session(parameters);
   session.setGround(setup.terrain);
+  session.setLoadIndex(scene::loadIndexOf(setup.terrain));
+  session.hold().model() = run.model;
   AircraftState state;
   state.position = eye;
   const int images = profile.images();
@@ -45,7 +48,16 @@ bool pass(Stage& stage, const Setup& setup, const ValidatedParameters& parameter
     run.blur.push_back(request->decision.motion.blur.strength);
     if (kept(i)) run.pictures.push_back(stage.shown());
   }
+  run.model = session.hold().model();
   return true;
+}
+
+Result<ValidatedParameters> inMode(const TuningParameters& preset, const MotionMode& mode, double budgetMs) {
+  TuningParameters changed = preset;
+  changed.motion.control = mode.control;
+  changed.hold.enabled = mode.holds;
+  changed.measure.budget = Milliseconds{budgetMs};
+  return validate(changed);
 }
 
 }  // namespace
@@ -58,14 +70,6 @@ std::vector<double> MotionRun::medians() const {
 
 Result<MotionRuns> flyHead(Stage& stage, const Setup& setup, const HeadProfile& profile,
                            const std::function<bool(int image)>& kept, const std::string& what) {
-  std::vector<ValidatedParameters> parameters;
-  for (const MotionMode& mode : kMotionModes) {
-    TuningParameters changed = setup.parameters;
-    changed.motion.control = mode.control;
-    const Result<ValidatedParameters> valid = validate(changed);
-    if (!valid) return valid.findings();
-    parameters.push_back(*valid);
-  }
   const std::vector<Place> places = placesOf(setup, 1);
   if (places.empty()) return notOverTerrain(setup);
   GeodeticPosition eye = places[0].ground;
@@ -73,22 +77,25 @@ Result<MotionRuns> flyHead(Stage& stage, const Setup& setup, const HeadProfile& 
 
   MotionRuns runs;
   const int passes = std::max(setup.repeats, 1);
+  const auto fly = [&](int r, std::size_t m, double budgetMs, MotionRun& run) -> Findings {
+    char text[120];
+    std::snprintf(text, sizeof text, "%s %d of %d, %s", what.c_str(), r + 1, passes, kMotionModes[m].name);
+    const auto go = [&](double part) {
+      return !setup.progress || setup.progress((r + (double(m) + part) / kMotionModes.size()) / passes, text);
+    };
+    const Result<ValidatedParameters> parameters = inMode(setup.parameters, kMotionModes[m], budgetMs);
+    if (!parameters) return parameters.findings();
+    return pass(stage, setup, *parameters, eye, profile, kept, r == 0, run, go) ? Findings{}
+                                                                                : Findings{cancelled()};
+  };
+  // The first pass builds levels and finds the budget.
+  MotionRun warm;
+  double budgetMs = setup.parameters.measure.budget.value();
+  if (const Findings findings = fly(0, 0, budgetMs, warm); !findings.empty()) return findings;
+  budgetMs = kHeldPart * quantileOf(warm.medians(), 0.5);
   for (int r = 0; r < passes; ++r)
-    for (std::size_t m = 0; m < kMotionModes.size(); ++m) {
-      char text[120];
-      std::snprintf(text, sizeof text, "%s %d of %d, %s", what.c_str(), r + 1, passes, kMotionModes[m].name);
-      const auto go = [&](double part) {
-        return !setup.progress ||
-               setup.progress((r + (double(m) + part) / kMotionModes.size()) / passes, text);
-      };
-      if (r == 0 && m == 0) {
-        MotionRun warm;
-        if (!pass(stage, setup, parameters[m], eye, profile, kept, false, warm,
-                  [&](double) { return go(0); }))
-          return cancelled();
-      }
-      if (!pass(stage, setup, parameters[m], eye, profile, kept, r == 0, runs[m], go)) return cancelled();
-    }
+    for (std::size_t m = 0; m < kMotionModes.size(); ++m)
+      if (const Findings findings = fly(r, m, budgetMs, runs[m]); !findings.empty()) return findings;
   return runs;
 }
 

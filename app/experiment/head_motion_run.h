@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "stage.h"
+#include "trimtab/hold/cost_model.h"
 
 /// What the experiments of document C share: a head that is moved over a place, in each mode of the
 /// optimizer.
@@ -19,11 +20,15 @@ inline constexpr int kImagesPerS = 200;
 struct MotionMode {
   MotionControl control;
   const char* name;
+  bool holds = false;  ///< the arbiter holds the budget
 };
-inline constexpr std::array<MotionMode, 3> kMotionModes{
+inline constexpr std::array<MotionMode, 4> kMotionModes{
     {{MotionControl::off, "before"},
      {MotionControl::lod_scale_and_blur, "lod_scale_and_blur"},
-     {MotionControl::with_restoration, "with_restoration"}}};
+     {MotionControl::with_restoration, "with_restoration"},
+     {MotionControl::off, "hold", true}}};
+/// The budget of mode *hold*, as a part of the median image of a first pass in mode *before*.
+inline constexpr double kHeldPart = 0.6;
 
 /// How a head moves: its attitude relative to the aircraft at each second from 0 on.
 struct HeadProfile {
@@ -37,6 +42,7 @@ struct MotionRun {
   std::vector<std::vector<double>> ms;  ///< by image, one for each pass
   std::vector<double> vertices, lodScale, blur;
   std::vector<std::vector<std::uint8_t>> pictures;  ///< RGBA, of the images that `kept` names
+  CostModel model;                                  ///< learned so far, for the next pass
 
   /// Returns the median of the passes, by image.
   std::vector<double> medians() const;
@@ -45,7 +51,8 @@ using MotionRuns = std::array<MotionRun, kMotionModes.size()>;
 
 /// Flies the profile in all modes, `setup.repeats` times in turns, so that a slow spell of the machine meets
 /// all of them. The eye stands 2,000 ft above the highest ground around the experiment's place, and the host
-/// sends `setup.hostRateHz` states a second. `kept` names the images whose pixels are kept.
+/// sends `setup.hostRateHz` states a second. Mode *hold* has a budget of kHeldPart. `kept` names the images
+/// whose pixels are kept.
 Result<MotionRuns> flyHead(Stage& stage, const Setup& setup, const HeadProfile& profile,
                            const std::function<bool(int image)>& kept, const std::string& what);
 

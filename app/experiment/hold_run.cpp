@@ -45,6 +45,12 @@ std::optional<Strain> flown(const Setup& setup, const char* name, double seconds
   return strain;
 }
 
+void fix(FrameRequest& request, const HeldLevers& levers) {
+  setAllowedError(request, levers.errorPx);
+  request.renderScale = levers.renderScale;
+  request.particleShare = levers.particleShare;
+}
+
 }  // namespace
 
 Strain sweepStrain(const GeodeticPosition& eye) {
@@ -111,8 +117,9 @@ Result<ValidatedParameters> inMode(const TuningParameters& preset, HoldMode mode
 }
 
 std::optional<HoldRun> fly(Stage& stage, scene::ErrorMeter& meter, const Setup& setup,
-                           const ValidatedParameters& parameters, const Strain& strain, std::size_t flipEvery,
-                           CostModel& model, const std::function<bool(double part)>& go) {
+                           const HoldFlight& flight, const Strain& strain, CostModel& model,
+                           const std::function<bool(double part)>& go) {
+  const ValidatedParameters& parameters = flight.parameters;
   Session session(parameters);
   session.setGround(setup.terrain);
   session.setLoadIndex(scene::loadIndexOf(setup.terrain));
@@ -125,9 +132,10 @@ std::optional<HoldRun> fly(Stage& stage, scene::ErrorMeter& meter, const Setup& 
     const AircraftState& state = strain.states[i];
     session.fly(state, state.time);
     const auto start = std::chrono::steady_clock::now();
-    const FrameRequest request = *session.request(state.time, setup.widthPx, setup.heightPx);
+    FrameRequest request = *session.request(state.time, setup.widthPx, setup.heightPx);
     lookMs.push_back(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    if (flight.fixed) fix(request, *flight.fixed);
     const FrameResult result = stage.draw(request);
     const FrameCost cost = session.finished(result, state.time);
     run.ms.push_back(workMs(cost));
@@ -136,9 +144,10 @@ std::optional<HoldRun> fly(Stage& stage, scene::ErrorMeter& meter, const Setup& 
     run.particles.push_back(request.particleShare);
     if (const auto& outcome = session.hold().outcome(); outcome && parameters->hold.enabled)
       run.outcomes.push_back(*outcome);
-    if (flipEvery > 0 && i >= strain.from && (i - strain.from) % flipEvery == 0) {
+    if (flight.flipEvery > 0 && i >= strain.from && (i - strain.from) % flight.flipEvery == 0) {
       const std::size_t kept = blurs(request) ? before.size() : std::min<std::size_t>(before.size(), 1);
-      run.flip.push_back(meter.measure(request, std::span(before).last(kept), nullptr).flip);
+      run.error.push_back(
+          exposedError(meter, request, std::span(before).last(kept), parameters->hold.exposure.value()));
     }
     before.push_back(request);
     if (before.size() > kLongestTrace) before.erase(before.begin());

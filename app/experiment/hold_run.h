@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "exposed_error.h"
 #include "stage.h"
 #include "trimtab/scene/error_meter.h"
 #include "trimtab/session/session.h"
@@ -46,14 +47,21 @@ struct HoldRun {
   std::vector<double> ms;  ///< work time
   std::vector<double> errorPx, renderScale, particles;
   std::vector<HoldOutcome> outcomes;  ///< of predictions three images ahead
-  std::vector<double> flip;           ///< of the images that were measured
+  std::vector<ExposedError> error;    ///< of the images that were measured
   double lookMs = 0;                  ///< median time of session.request(), counting included
 };
 
-/// Draws the strain in one mode. Every `flipEvery`-th image is measured against its reference, 0: none. The
-/// model may be given to a later run, as a program would load it. Returns nothing if `go` returns false.
+/// One way to fly a strain.
+struct HoldFlight {
+  const ValidatedParameters& parameters;
+  std::optional<HeldLevers> fixed;  ///< in place of what the preset asks for
+  std::size_t flipEvery = 0;        ///< every so many images one is measured against its reference; 0: none
+};
+
+/// Draws the strain. The model may be given to a later run, as a program would load it. Returns nothing if
+/// `go` returns false.
 std::optional<HoldRun> fly(Stage& stage, scene::ErrorMeter& meter, const Setup& setup,
-                           const ValidatedParameters& parameters, const Strain& strain, std::size_t flipEvery,
-                           CostModel& model, const std::function<bool(double part)>& go);
+                           const HoldFlight& flight, const Strain& strain, CostModel& model,
+                           const std::function<bool(double part)>& go);
 
 }  // namespace trimtab::experiment

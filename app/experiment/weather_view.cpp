@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "trimtab/frame/frame_result.h"
+#include "trimtab/scene/load_index.h"
 #include "trimtab/session/session.h"
 
 namespace trimtab::experiment {
@@ -10,6 +11,8 @@ namespace {
 
 /// Particles fall as time goes on: frames are this far apart.
 constexpr double kFrameS = 1.0 / 60;
+/// Images in which the arbiter settles on what falls now.
+constexpr int kSettles = 60;
 
 }  // namespace
 
@@ -36,6 +39,7 @@ Result<std::unique_ptr<WeatherView>> WeatherView::open(const Setup& setup) {
   session.look(state);
   view->request_ = *session.request(0, setup.widthPx, setup.heightPx);
   view->request_.decision.weather = {};
+  view->hold_.setIndex(scene::loadIndexOf(setup.terrain));
   return view;
 }
 
@@ -73,6 +77,27 @@ double WeatherView::ms(const WeatherDecision& weather) {
     if (i >= kUncounted) ms.push_back(total);
   }
   return quantileOf(ms, 0.5);
+}
+
+WeatherView::Held WeatherView::held(const WeatherDecision& weather, double budgetMs) {
+  HoldParameters parameters = preset_.hold;
+  parameters.enabled = true;
+  parameters.margin = Ratio{0};
+  hold_.setMemory({});
+  std::vector<double> ms;
+  Held held;
+  for (int i = 0; i < kSettles + repeats_; ++i) {
+    request_.time += kFrameS;
+    FrameRequest request = request_;
+    request.decision.weather = weather;
+    const HoldGiven given = hold_.look(request, {}, budgetMs, request.lod.screenSpaceError.value());
+    held.levers = hold_.decide(given, parameters, request).held;
+    const FrameResult result = stage_->draw(request);
+    hold_.finished(result, result.cost);
+    if (i >= kSettles) ms.push_back(workMs(result.cost));
+  }
+  held.ms = quantileOf(ms, 0.5);
+  return held;
 }
 
 scene::CutError WeatherView::cutError(const WeatherDecision& weather) {

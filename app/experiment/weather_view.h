@@ -9,6 +9,7 @@
 
 #include "stage.h"
 #include "trimtab/frame/frame_request.h"
+#include "trimtab/hold/frame_hold.h"
 #include "trimtab/weather/calibrate.h"
 #include "trimtab/weather/weather.h"
 
@@ -49,6 +50,13 @@ class WeatherView {
   void setError(double px);
   /// Returns the median time of a frame with this weather, milliseconds.
   double ms(const WeatherDecision& weather);
+  /// What the arbiter made of a frame.
+  struct Held {
+    double ms = 0;  ///< median work time of the frames after it has settled
+    HeldLevers levers;
+  };
+  /// Draws frames with this weather while the arbiter holds the budget.
+  Held held(const WeatherDecision& weather, double budgetMs);
   /// Returns the vertices in view in clear air.
   double vertices();
   /// Returns what the far cut of the weather changes in the image.
@@ -61,6 +69,7 @@ class WeatherView {
   std::unique_ptr<Stage> stage_;
   int repeats_ = 1;
   FrameRequest request_;
+  FrameHold hold_;
 };
 
 /// Calibrates one step of the preset on the view (document D's steps 1 to 4); nothing if `go` returns false.

@@ -102,6 +102,7 @@ TEST_F(Experiment, headMotionLowersTheLevelInTheSweepAndRestoresItOnlyWhenAsked)
   const std::size_t difference = rowOf("mean_difference_of_255");
   EXPECT_EQ(rows.number(difference, "before"), 0);
   EXPECT_GT(rows.number(difference, "with_restoration"), 0) << "the price is told";
+  EXPECT_GT(rows.number(difference, "hold"), 0) << "0.6 of the time is not held for nothing";
 }
 
 TEST_F(Experiment, aDecisionForEachNodeTestsFewerNodesAndChangesNoPixel) {
