@@ -4,6 +4,7 @@
 #include <QTimer>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "app/link/link.h"
@@ -65,7 +66,11 @@ FrameController::FrameController(const Workplace& workplace, const TerrainContro
 }
 
 FrameController::~FrameController() {
-  if (recalled_) rememberCostModel(at_.feed.session().hold().model(), at_.viewport.gl().renderer);
+  if (!recalled_) return;
+  const Findings found = rememberCostModel(at_.feed.session().hold().model(), at_.viewport.gl().renderer);
+  // There is no window any more that could show it.
+  if (!found.empty())
+    std::fprintf(stderr, "trimtab: what images cost is not remembered: %s\n", toString(found).c_str());
 }
 
 void FrameController::setOverlays(const Overlays& overlays) {
