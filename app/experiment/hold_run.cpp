@@ -12,6 +12,8 @@ namespace trimtab::experiment {
 namespace {
 
 constexpr double kImagesPerS = 60;
+/// A display of 60 images a second holds each so long.
+constexpr double kExposureMs = 16;
 constexpr int kSweepImagesPerS = 200;
 constexpr std::size_t kWarmUp = 60;
 /// Images between two questions whether to go on.
@@ -147,7 +149,7 @@ std::optional<HoldRun> fly(Stage& stage, scene::ErrorMeter& meter, const Setup& 
     if (flight.flipEvery > 0 && i >= strain.from && (i - strain.from) % flight.flipEvery == 0) {
       const std::size_t kept = blurs(request) ? before.size() : std::min<std::size_t>(before.size(), 1);
       run.error.push_back(
-          exposedError(meter, request, std::span(before).last(kept), parameters->hold.exposure.value()));
+          exposedError(meter, request, std::span(before).last(kept), kExposureMs));
     }
     before.push_back(request);
     if (before.size() > kLongestTrace) before.erase(before.begin());

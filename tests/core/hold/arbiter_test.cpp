@@ -66,8 +66,11 @@ Twin leastLoss(const HoldGiven& g, const HoldParameters& p, double limitMs) {
               predict(g.cost, loadOf(g, levers, trianglesAt(g.triangles, g.asked.errorPx, errorPx))).total();
           if (ms > limitMs) continue;
           const double loss =
-              p.lossError.value() * std::max(errorPx - std::max(g.unseenPx, g.asked.errorPx), 0.0) / 15 +
-              p.lossRenderScale.value() * (g.asked.renderScale / scale - 1) +
+              p.lossError.value() *
+                  std::max(std::pow(errorPx, 1.5) - std::pow(std::max(g.unseenPx, g.asked.errorPx), 1.5),
+                           0.0) /
+                  63 +
+              p.lossRenderScale.value() * std::pow(std::max(g.asked.renderScale / scale - 1, 0.0), 0.5) +
               p.lossParticles.value() * (g.asked.particleShare - share) +
               p.lossBlur.value() * (g.asked.blurShare - blur);
           if (loss < best.loss) best = {loss, ms};
@@ -76,8 +79,12 @@ Twin leastLoss(const HoldGiven& g, const HoldParameters& p, double limitMs) {
 }
 
 double lossOf(const HoldGiven& g, const HoldParameters& p, const HeldLevers& held) {
-  return p.lossError.value() * std::max(held.errorPx - std::max(g.unseenPx, g.asked.errorPx), 0.0) / 15 +
-         p.lossRenderScale.value() * (g.asked.renderScale / held.renderScale - 1) +
+  return p.lossError.value() *
+             std::max(std::pow(held.errorPx, 1.5) - std::pow(std::max(g.unseenPx, g.asked.errorPx), 1.5),
+                      0.0) /
+             63 +
+         p.lossRenderScale.value() *
+             std::pow(std::max(g.asked.renderScale / held.renderScale - 1, 0.0), 0.5) +
          p.lossParticles.value() * (g.asked.particleShare - held.particleShare) +
          p.lossBlur.value() * (g.asked.blurShare - held.blurShare);
 }
@@ -118,6 +125,24 @@ TEST(Arbiter, losesAsLittleAsAnySettingThatFits) {
     EXPECT_LE(d.heldMs.total(), d.limitMs) << i;
     EXPECT_NEAR(lossOf(g, p, d.held), twin.loss, 1e-12) << i;
   }
+}
+
+TEST(Arbiter, leavesRoomForItsOwnUncertainty) {
+  const auto limitAt = [](double bandMs) {
+    HoldGiven g = given();
+    g.budgetMs = 30;
+    g.cost.bandMs = bandMs;
+    HoldMemory memory;
+    return arbitrate(g, enabled(), memory).limitMs;
+  };
+  const double sure = 30 * (1 - enabled().margin.value());
+  EXPECT_DOUBLE_EQ(limitAt(0), sure);
+  EXPECT_DOUBLE_EQ(limitAt(2), sure);
+  EXPECT_NEAR(limitAt(5), 33 - 5 * 2.326 / 1.645, 1e-9) << "one image in a hundred beyond 1.1 of the budget";
+  EXPECT_DOUBLE_EQ(limitAt(1000), 0.75 * 30) << "an image need not be sure at any price";
+  EXPECT_DOUBLE_EQ(limitAt(kInfinity), sure);
+  EXPECT_DOUBLE_EQ(limitAt(kNan), sure);
+  EXPECT_DOUBLE_EQ(limitAt(-1), sure);
 }
 
 TEST(Arbiter, lowersAtOnceAndRestoresAfterCalm) {

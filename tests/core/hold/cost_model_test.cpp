@@ -118,6 +118,38 @@ TEST(CostModel, followsAMachineThatSlowsDownWithinThirtyImages) {
   EXPECT_NEAR(predictedMs(model, load), 2 * (Machine::ground(load) + 0.4), 0.2 * 2 * Machine::ground(load));
 }
 
+/// A machine that takes next to nothing for an image as such, while an arbiter moves its levers: what noise
+/// would push below 0 must not make predictions too long.
+TEST(LinearCost, staysRightWhereACoefficientIsNearZero) {
+  struct Stay {
+    double triangles, scale;  ///< ten thousands; of the picture's width and height
+    int images;
+  };
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    LinearCost<4> cost;
+    for (const Stay& stay : {Stay{22, 1, 10},
+                             {4.5, 0.5, 40},
+                             {12.6, 0.65, 50},
+                             {12.6, 0.7, 30},
+                             {7.1, 0.8, 25},
+                             {6, 0.9, 60},
+                             {6.5, 0.95, 50},
+                             {8, 0.95, 60}}) {
+      double ratio = 0;
+      for (int i = 0; i < stay.images; ++i) {
+        const double mpx = 0.92 * stay.scale * stay.scale;
+        const LinearCost<4>::Quantities x{1, stay.triangles, 0.8 * mpx, mpx};
+        const double ms = 0.2 + 1.4 * stay.triangles + 8.7 * mpx;
+        ratio += cost.predict(x) / ms / stay.images;
+        cost.observe(x, ms * (1 + 0.1 * normal(random)));
+      }
+      if (stay.images >= 25) EXPECT_NEAR(ratio, 1, 0.08) << seed << ", scale " << stay.scale;
+    }
+  }
+}
+
 TEST(CostModel, timersThatLieTeachNothing) {
   Machine machine;
   CostModel model;

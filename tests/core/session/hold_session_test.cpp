@@ -45,6 +45,10 @@ std::shared_ptr<const LoadIndex> tiles() {
 /// A machine on which an image costs what its request asks for, with noise and now and then a spike.
 class Machine {
  public:
+  double slowness = 1;       ///< of everything: another program takes a core
+  double triangleShare = 1;  ///< of those that the index counts
+  bool spikes = true;
+
   FrameResult draw(const FrameRequest& request) {
     FrameResult result;
     const LoadView view{
@@ -53,8 +57,8 @@ class Machine {
         farCutM(request)};
     const CutRule rule = cutKeyOf(request, view.eye.position, 1).rule;
     // Neighbours add an eighth.
-    result.visible.triangles =
-        static_cast<std::uint64_t>(1.125 * countTriangles(*index_->tiles, view, rule, stack_).front());
+    result.visible.triangles = static_cast<std::uint64_t>(
+        triangleShare * 1.125 * countTriangles(*index_->tiles, view, rule, stack_).front());
     const double pixels = request.renderScale * request.renderScale;
     const double noise = std::normal_distribution<double>(1, 0.04)(random_);
     FrameCost& c = result.cost;
@@ -62,7 +66,8 @@ class Machine {
     c.blur = request.decision.motion.blur.strength > 0 ? 3 * pixels : kNan;
     c.draw = noise * (3 + 9 * pixels + 1e-4 * static_cast<double>(result.visible.triangles)) +
              (std::isnan(c.weather) ? 0 : c.weather) + (std::isnan(c.blur) ? 0 : c.blur);
-    if (++images_ % 97 == 0) c.draw += 80;
+    if (spikes && ++images_ % 97 == 0) c.draw += 80;
+    c.draw *= slowness;
     c.gpu = c.page = c.symbology = kNan;
     c.total = c.draw;
     return result;
@@ -108,6 +113,69 @@ TEST(HoldSession, keepsImagesWithinTheBudgetOnceItKnowsTheirCost) {
   EXPECT_GT(overFree, 300);
   // Seven spikes, and a few images in which what falls was not known yet.
   EXPECT_LE(over, 12);
+}
+
+TEST(HoldSession, learnsNothingFromAnImageThatExchangesLevels) {
+  Session session(holding(14));
+  session.setLoadIndex(tiles());
+  Machine machine;
+  int exchanges = 0;
+  for (int i = 0; i < 400; ++i) {
+    const AircraftState state = stateOf(i);
+    session.fly(state, state.time);
+    const HoldSteps before = session.hold().memory().steps;
+    FrameResult result = machine.draw(*session.request(state.time, 640, 360));
+    const bool moved = session.hold().memory().steps != before;
+    const std::size_t learned = session.hold().model().images();
+    if (moved) result.cost.total = result.cost.draw += 300;
+    session.finished(result, state.time);
+    EXPECT_EQ(session.hold().model().images(), learned + (moved ? 0 : 1)) << i;
+    exchanges += moved;
+  }
+  EXPECT_GT(exchanges, 5);
+}
+
+/// What changes at a step of the long test: the air, the machine, or the scene.
+struct Step {
+  const char* what;
+  void (*change)(bool on, AircraftState& state, Machine& machine);
+};
+
+TEST(HoldSession, settlesAfterEveryStepAndDoesNotCycle) {
+  constexpr int kImages = 10000, kBetween = 500, kSettles = 30;
+  for (const Step& step : {
+           Step{"rest", [](bool, AircraftState&, Machine&) {}},
+           Step{
+               "weather",
+               [](bool on, AircraftState&state, Machine&) {
+                 state.weather = HostWeather{on ? Precipitation::rain : Precipitation::none, 4, std::nullopt};
+               }},
+           Step{"a slower machine", [](bool on, AircraftState&, Machine&m) { m.slowness = on ? 1.6 : 1; }},
+           Step{"more triangles", [](bool on, AircraftState&, Machine&m) { m.triangleShare = on ? 3 : 1; }},
+       }) {
+    Session session(holding(14));
+    session.setLoadIndex(tiles());
+    Machine machine;
+    machine.spikes = false;
+    HeldLevers last;
+    int late = 0, over = 0;
+    for (int i = 0; i < kImages; ++i) {
+      AircraftState state = stateOf(0);
+      state.time = i / 60.0;
+      state.packet = static_cast<std::uint64_t>(i);
+      step.change(i / kBetween % 2 == 1, state, machine);
+      session.fly(state, state.time);
+      const FrameRequest request = *session.request(state.time, 640, 360);
+      const double ms = session.finished(machine.draw(request), state.time).total;
+      const bool settled = i >= kBetween && i % kBetween >= kSettles;
+      late += settled && !(request.hold.held == last);
+      over += settled && ms > 1.1 * 14;
+      last = request.hold.held;
+    }
+    // A cycle of a second would change levers a hundred times and more.
+    EXPECT_LE(late, step.what == std::string("rest") ? 0 : 30) << step.what;
+    EXPECT_LE(over, 5) << step.what;
+  }
 }
 
 TEST(HoldSession, aTraceReplaysEveryArbitrationToTheBit) {

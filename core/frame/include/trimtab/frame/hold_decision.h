@@ -46,7 +46,7 @@ struct HoldDecision {
   HoldReason reason = HoldReason::off;
   HeldLevers asked, held;      ///< by preset and policy; by the arbiter
   StageTimes askedMs, heldMs;  ///< predicted for both
-  double limitMs = 0;          ///< the budget without its margin
+  double limitMs = 0;          ///< what a prediction may reach
   double bandMs = 0;           ///< nine of ten images take no longer and no shorter than heldMs by so much
 
   friend bool operator==(const HoldDecision&, const HoldDecision&) = default;

@@ -233,7 +233,7 @@ struct HoldParameters {
   Ratio lossRenderScale{0.022};
   Ratio lossParticles{0.056};
   Ratio lossBlur{0};
-  Milliseconds exposure{16};  ///< how long an image is held; 0: no error is hidden by motion
+  Milliseconds exposure{0};  ///< how long an image is held; 0: no error is hidden by motion
 };
 
 struct MeasureParameters {
