@@ -42,8 +42,6 @@ constexpr std::array<Shell, 5> kSnowShells{{{0.8, 4, 160, 1.1},
                                             {8, 22, 1600, 0.95},
                                             {17, 45, 2400, 0.9},
                                             {18, 70, 700, 0.93, {0.22, 0, 0.14}}}};
-/// Of the image, that the particles of a shell may cover, one over the other, at the greatest amount.
-constexpr double kMostCovered = 0.08;
 /// Width times height of a view at distance 1, 60 by 36 degrees.
 constexpr double kReferenceArea = 0.75;
 
@@ -54,9 +52,12 @@ struct Kind {
   double smeared;    ///< the least share of it that is left in a long streak
   double realSizeM;  ///< nearer particles get smaller, down to their real size
   double flutterM;   ///< how far a flake swings aside
+  /// Of the image, that the particles of a shell may cover, one over the other, at the greatest amount. Rain
+  /// is thin streaks, of which an image needs more than of flakes.
+  double mostCovered;
 };
-constexpr Kind kRain{kRainShells, 0.75, 0.30, 9, 0};
-constexpr Kind kSnow{kSnowShells, 0.95, 0.35, 7, 0.12};
+constexpr Kind kRain{kRainShells, 0.8, 0.55, 9, 0, 0.12};
+constexpr Kind kSnow{kSnowShells, 0.95, 0.35, 7, 0.12, 0.08};
 
 const Kind& kindOf(const PrecipitationView& falling) {
   return falling.kind == Precipitation::snow ? kSnow : kRain;
@@ -173,7 +174,7 @@ double Search::room(const Shell& shell) const {
   const double perMetre = pixelsPerMetre / (0.75 * shell.farM);
   const double width = std::max(2 * radiusOf(shell) * perMetre, 2.0);
   const double covered = amount * shell.count * width * (width + lengthOf(shell) * perMetre);
-  return std::min(1.0, kMostCovered * view.shape.widthPx * view.shape.heightPx / covered);
+  return std::min(1.0, kind.mostCovered * view.shape.widthPx * view.shape.heightPx / covered);
 }
 
 void Search::searchShell(const Shell& shell, std::uint64_t number) {

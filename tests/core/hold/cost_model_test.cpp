@@ -145,7 +145,9 @@ TEST(LinearCost, staysRightWhereACoefficientIsNearZero) {
         ratio += cost.predict(x) / ms / stay.images;
         cost.observe(x, ms * (1 + 0.1 * normal(random)));
       }
-      if (stay.images >= 25) EXPECT_NEAR(ratio, 1, 0.08) << seed << ", scale " << stay.scale;
+      if (stay.images >= 25) {
+        EXPECT_NEAR(ratio, 1, 0.08) << seed << ", scale " << stay.scale;
+      }
     }
   }
 }
