@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QApplication>
 #include <QComboBox>
-#include <QComboBox>
 #include <QLineEdit>
 #include <QTableView>
 #include <QWindow>
@@ -127,9 +126,9 @@ TEST_F(PolicyKeys, typeTermsInTheirTable) {
   QTest::keyClick(shapes, Qt::Key_End);
   QTest::keyClick(shapes, Qt::Key_Return);
   EXPECT_TRUE(waitFor([&] { return terms()[0].starts_with("altitude low = sigmoid "); })) << terms()[0];
-  ASSERT_TRUE(
-      waitFor([&] { return termTable().hasFocus() && termTable().findChild<QComboBox*>() == nullptr; }))
-      << "the list of shapes closes";
+  ASSERT_TRUE(waitFor([&] {
+    return termTable().hasFocus() && termTable().findChild<QComboBox*>() == nullptr;
+  })) << "the list of shapes closes";
   press(Qt::Key_Left);
   press(Qt::Key_F2);
   press(Qt::Key_A, Qt::ControlModifier);
@@ -245,11 +244,15 @@ TEST_F(PolicyKeys, followAFindingToItsRule) {
       if (parts().findings->list().item(i)->text().contains(QStringLiteral("unused"))) return true;
     return false;
   }));
-  press(Qt::Key_Home);
-  for (int i = 1; i < parts().findings->list().count(); ++i) {
-    if (parts().findings->list().currentItem()->text().contains(QStringLiteral("unused"))) break;
-    press(Qt::Key_Down);
-  }
+  const auto isUnused = [&] {
+    const QListWidgetItem* item = parts().findings->list().currentItem();
+    return item != nullptr && item->text().contains(QStringLiteral("unused"));
+  };
+  ASSERT_TRUE(waitFor([&] {
+    press(Qt::Key_Home);
+    for (int i = 1; i < parts().findings->list().count() && !isUnused(); ++i) press(Qt::Key_Down);
+    return isUnused();
+  }));
   press(Qt::Key_Return);
   EXPECT_TRUE(plot().hasFocus());
   EXPECT_EQ(plot().term(), 1);

@@ -66,6 +66,7 @@ void FindingsPage::showFindings(const Findings& findings) {
   findings_ = findings;
   std::ranges::stable_sort(findings_,
                            [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
+  const int line = list_->currentRow();
   list_->clear();
   for (const Finding& finding : findings_) {
     const QString text = tr("%1: expected %2; found %3.")
@@ -79,6 +80,8 @@ void FindingsPage::showFindings(const Findings& findings) {
     auto* item = new QListWidgetItem(tr("Nothing to remark."), list_);
     item->setForeground(quietColour(palette()));
   }
+  // A review follows each edit; who reads the list keeps the place.
+  list_->setCurrentRow(std::min(line, list_->count() - 1));
   const auto count = static_cast<int>(
       std::ranges::count_if(findings_, [](const Finding& f) { return f.severity != Severity::note; }));
   told_ = count;

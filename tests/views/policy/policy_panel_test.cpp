@@ -312,6 +312,12 @@ TEST_F(PolicyPanelTest, findingsLeadToTheirRuleOrTerm) {
   emit page.list().itemActivated(page.list().item(unused));
   EXPECT_EQ(parts().plot->signal(), Signal::roll);
   EXPECT_EQ(parts().plot->term(), 3);
+
+  page.list().setCurrentRow(1);
+  const int before = page.list().count();
+  EXPECT_TRUE(type(0, PolicyRulesModel::kCondition, "above_ground is low"));
+  EXPECT_TRUE(test::eventually([&] { return page.list().count() != before; }));
+  EXPECT_EQ(page.list().currentRow(), std::min(1, page.list().count() - 1)) << "a review keeps the place";
 }
 
 TEST_F(PolicyPanelTest, policiesComeFromFilesAndGoIntoThem) {
