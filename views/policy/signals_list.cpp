@@ -2,6 +2,7 @@
 #include "signals_list.h"
 
 #include <QHeaderView>
+#include <QScrollBar>
 #include <algorithm>
 #include <cmath>
 
@@ -142,7 +143,8 @@ int SignalsList::wholeWidth() const {
   for (const SignalRow& row : kSignalRows)
     names = std::max(names, fontMetrics().horizontalAdvance(QStringLiteral("● ") +
                                                             fromView(values ? row.label : row.key)));
-  return names + 16 + (values ? columnWidth(SignalsModel::kValue) : 0);
+  const int bar = verticalScrollBar()->sizeHint().width();
+  return names + 16 + bar + (values ? columnWidth(SignalsModel::kValue) : 0);
 }
 
 void SignalsList::showValues(bool shown) {
