@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "trimtab/hold/arbiter.h"
 #include "trimtab/measure/image_error.h"
 #include "trimtab/motion/line_of_sight.h"
 
@@ -13,14 +13,6 @@ namespace {
 
 /// Times of an exposure at which the scene is drawn: of a sweep at 180 degrees a second, some 7 px apart.
 constexpr int kMostTimes = 8;
-
-/// The way of a point at the image's centre during the exposure, in pixels.
-double smearPx(const FrameRequest& request, const FrameRequest& before, double exposureMs) {
-  const double seconds = request.time - before.time;
-  if (!(seconds > 0)) return 0;
-  const double degrees = degreesBetween(directionOf(before.attitude), directionOf(request.attitude));
-  return degrees * std::numbers::pi / 180 * pixelsPerRadian(request.view) * exposureMs * 1e-3 / seconds;
-}
 
 /// The attitude a part of the way back from `now` to `then`; a part above 1 goes beyond.
 Attitude back(const Attitude& now, const Attitude& then, double part) {
@@ -55,10 +47,13 @@ ExposedError exposedError(scene::ErrorMeter& meter, const FrameRequest& request,
   error.sharp = error.smeared = meter.measure(request, before, nullptr).flip;
   if (before.empty()) return error;
   const FrameRequest& last = before.back();
-  const double smear = smearPx(request, last, exposureMs);
+  const double seconds = request.time - last.time;
+  if (!(seconds > 0)) return error;
+  const double turned = degreesBetween(directionOf(last.attitude), directionOf(request.attitude));
+  const double smear = smearPx(turned / seconds, exposureMs, pixelsPerRadian(request.view));
   if (!(smear >= 1)) return error;
   const int times = std::clamp(static_cast<int>(std::ceil(smear)), 2, kMostTimes);
-  const double perExposure = exposureMs * 1e-3 / (request.time - last.time);
+  const double perExposure = exposureMs * 1e-3 / seconds;
   Average reference, ours;
   for (int i = 0; i < times; ++i) {
     FrameRequest at = request;

@@ -77,21 +77,25 @@ Result<MotionRuns> flyHead(Stage& stage, const Setup& setup, const HeadProfile& 
 
   MotionRuns runs;
   const int passes = std::max(setup.repeats, 1);
+  const double flights = 1.0 + passes * double(kMotionModes.size());
+  double flown = 0;
   const auto fly = [&](int r, std::size_t m, double budgetMs, MotionRun& run) -> Findings {
     char text[120];
-    std::snprintf(text, sizeof text, "%s %d of %d, %s", what.c_str(), r + 1, passes, kMotionModes[m].name);
+    std::snprintf(text, sizeof text, "%s %d of %d, %s", what.c_str(), std::max(r, 0) + 1, passes,
+                  kMotionModes[m].name);
     const auto go = [&](double part) {
-      return !setup.progress || setup.progress((r + (double(m) + part) / kMotionModes.size()) / passes, text);
+      return !setup.progress || setup.progress((flown + part) / flights, text);
     };
     const Result<ValidatedParameters> parameters = inMode(setup.parameters, kMotionModes[m], budgetMs);
     if (!parameters) return parameters.findings();
-    return pass(stage, setup, *parameters, eye, profile, kept, r == 0, run, go) ? Findings{}
-                                                                                : Findings{cancelled()};
+    if (!pass(stage, setup, *parameters, eye, profile, kept, r == 0, run, go)) return {cancelled()};
+    ++flown;
+    return {};
   };
-  // The first pass builds levels and finds the budget.
+  // A pass before the first builds levels and finds the budget.
   MotionRun warm;
   double budgetMs = setup.parameters.measure.budget.value();
-  if (const Findings findings = fly(0, 0, budgetMs, warm); !findings.empty()) return findings;
+  if (const Findings findings = fly(-1, 0, budgetMs, warm); !findings.empty()) return findings;
   budgetMs = kHeldPart * quantileOf(warm.medians(), 0.5);
   for (int r = 0; r < passes; ++r)
     for (std::size_t m = 0; m < kMotionModes.size(); ++m)

@@ -27,8 +27,6 @@ inline constexpr std::array<MotionMode, 4> kMotionModes{
      {MotionControl::lod_scale_and_blur, "lod_scale_and_blur"},
      {MotionControl::with_restoration, "with_restoration"},
      {MotionControl::off, "hold", true}}};
-/// The budget of mode *hold*, as a part of the median image of a first pass in mode *before*.
-inline constexpr double kHeldPart = 0.6;
 
 /// How a head moves: its attitude relative to the aircraft at each second from 0 on.
 struct HeadProfile {
@@ -51,8 +49,8 @@ using MotionRuns = std::array<MotionRun, kMotionModes.size()>;
 
 /// Flies the profile in all modes, `setup.repeats` times in turns, so that a slow spell of the machine meets
 /// all of them. The eye stands 2,000 ft above the highest ground around the experiment's place, and the host
-/// sends `setup.hostRateHz` states a second. Mode *hold* has a budget of kHeldPart. `kept` names the images
-/// whose pixels are kept.
+/// sends `setup.hostRateHz` states a second. Mode *hold* has a budget of kHeldPart of
+/// the median image of a first pass in mode *before*. `kept` names the images whose pixels are kept.
 Result<MotionRuns> flyHead(Stage& stage, const Setup& setup, const HeadProfile& profile,
                            const std::function<bool(int image)>& kept, const std::string& what);
 

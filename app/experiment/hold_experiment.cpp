@@ -10,8 +10,6 @@
 namespace trimtab::experiment {
 namespace {
 
-/// The budget of a strain, as a part of the median image of mode *off*.
-constexpr double kBudget = 0.6;
 constexpr double kFlightS = 6;
 constexpr std::size_t kMeasured = 6;
 constexpr std::array kFixedErrorsPx{1.0, 2.0, 4.0, 8.0};
@@ -31,10 +29,10 @@ std::size_t changes(const std::vector<double>& values, const Strain& strain) {
   return count;
 }
 
-double smearedOf(const HoldRun& run) {
-  double sum = 0;
-  for (const ExposedError& error : run.error) sum += error.smeared;
-  return run.error.empty() ? 0 : sum / double(run.error.size());
+double flipOf(const HoldRun& run, double ExposedError::*which) {
+  std::vector<double> flips;
+  for (const ExposedError& error : run.error) flips.push_back(error.*which);
+  return meanOf(flips);
 }
 
 void addRow(Table& table, const Strain& strain, const std::string& mode, double budgetMs, const HoldRun& run,
@@ -55,11 +53,10 @@ void addRow(Table& table, const Strain& strain, const std::string& mode, double 
     return values.empty() ? Cell() : Cell(value);
   };
   const double slowest = quantileOf(ofStrain(off.ms, strain), 1) / quantileOf(ms, 1);
-  double sharp = 0;
-  for (const ExposedError& error : run.error) sharp += error.sharp / double(run.error.size());
   table.rows.push_back({strain.name, mode, budgetMs, quantileOf(ms, 0.5), quantileOf(ms, 0.95),
                         quantileOf(ms, 0.99), quantileOf(ms, 1), slowest, quantileOf(ms, 0.99) / budgetMs,
-                        over(1.1), sharp, smearedOf(run), double(changes(run.errorPx, strain)),
+                        over(1.1), flipOf(run, &ExposedError::sharp), flipOf(run, &ExposedError::smeared),
+                        double(changes(run.errorPx, strain)),
                         *std::min_element(run.particles.begin(), run.particles.end()),
                         orNone(triangles, triangles.empty() ? 0 : quantileOf(triangles, 0.5)),
                         orNone(times, times.empty() ? 0 : quantileOf(times, 0.5)),
@@ -80,11 +77,15 @@ Plot plotOf(const Strain& strain, const Runs& runs, double budgetMs, std::size_t
   return plot;
 }
 
+/// What flies, and what is told meanwhile: how many flights of the strain are done, and what is flown.
 struct Desk {
   Stage& stage;
   scene::ErrorMeter& meter;
   const Setup& setup;
+  std::function<bool(double flights, const std::string& what)> go;
 };
+
+constexpr std::size_t kFixedSettings = kFixedErrorsPx.size() * kFixedScales.size();
 
 /// Flies every fixed setting of allowed error, render scale and (where something falls) particles, and says
 /// which loses least of those whose 99th percentile is at most that of mode *hold*.
@@ -97,31 +98,35 @@ bool addFixed(const Desk& desk, const Strain& strain, std::size_t every, double 
   });
   const auto parameters = inMode(desk.setup.parameters, HoldMode::off, budgetMs);
   if (!parameters) return false;
+  const std::vector<double> shares = falls ? std::vector{1.0, 0.25} : std::vector{1.0};
+  double flown = 0;
   std::string best = "none";
   double least = std::numeric_limits<double>::infinity();
   for (const double error : kFixedErrorsPx)
     for (const double scale : kFixedScales)
-      for (const double particles : falls ? std::vector{1.0, 0.25} : std::vector{1.0}) {
+      for (const double particles : shares) {
         char name[60];
         std::snprintf(name, sizeof name, falls ? "%g px, scale %g, particles %g" : "%g px, scale %g", error,
                       scale, particles);
-        const auto go = [&](double) {
-          return !desk.setup.progress || desk.setup.progress(1, strain.name + ", fixed: " + name);
+        const auto go = [&](double part) {
+          return desk.go(double(runs.size()) + (flown + part) / double(shares.size()), name);
         };
         CostModel none;
         const auto run = fly(desk.stage, desk.meter, desk.setup,
                              {*parameters, HeldLevers{error, scale, particles, 1}, every}, strain, none, go);
         if (!run) return false;
+        ++flown;
         addRow(report.measured, strain, name, budgetMs, *run, runs[0]);
-        if (quantileOf(ofStrain(run->ms, strain), 0.99) <= p99 && smearedOf(*run) < least)
-          least = smearedOf(*run), best = name;
+        const double flip = flipOf(*run, &ExposedError::smeared);
+        if (quantileOf(ofStrain(run->ms, strain), 0.99) <= p99 && flip < least) least = flip, best = name;
       }
+  const double smeared = flipOf(held, &ExposedError::smeared);
   char text[300];
   std::snprintf(
       text, sizeof text,
       "%s: of fixed settings whose 99th percentile is at most %.1f ms, as of hold, the best is %s, smeared "
       "FLIP %.4f; hold has %.4f, %.2f of it.",
-      strain.name.c_str(), p99, best.c_str(), least, smearedOf(held), smearedOf(held) / least);
+      strain.name.c_str(), p99, best.c_str(), least, smeared, smeared / least);
   report.notes.push_back(text);
   return true;
 }
@@ -162,31 +167,32 @@ Result<Report> runHold(const Setup& setup) {
   const Result<std::vector<Strain>> strains = strainsOf(setup, report.notes);
   if (!strains) return strains.findings();
   CostModel model;
+  const double most = double(kHoldModes.size() + (setup.fixedSettings ? kFixedSettings : 0));
   for (std::size_t s = 0; s < strains->size(); ++s) {
     const Strain& strain = (*strains)[s];
     Runs runs;
     double budgetMs = setup.parameters.measure.budget.value();
     const std::size_t every = std::max<std::size_t>((strain.to - strain.from) / kMeasured, 1);
+    const Desk desk{**stage, meter, setup, [&](double flights, const std::string& what) {
+                      return !setup.progress ||
+                             setup.progress((double(s) + flights / most) / double(strains->size()),
+                                            strain.name + ", " + what);
+                    }};
     for (std::size_t m = 0; m < runs.size(); ++m) {
       const auto mode = static_cast<HoldMode>(m);
       const Result<ValidatedParameters> parameters = inMode(setup.parameters, mode, budgetMs);
       if (!parameters) return parameters.findings();
-      const auto go = [&](double part) {
-        const double steps = double(strains->size() * runs.size());
-        return !setup.progress || setup.progress((double(s * runs.size() + m) + part) / steps,
-                                                 strain.name + ", " + kHoldModes[m]);
-      };
       CostModel none;
       CostModel& used = mode == HoldMode::hold ? model : none;
-      const auto run = fly(**stage, meter, setup, {*parameters, std::nullopt, every}, strain, used, go);
+      const auto run = fly(**stage, meter, setup, {*parameters, std::nullopt, every}, strain, used,
+                           [&](double part) { return desk.go(double(m) + part, kHoldModes[m]); });
       if (!run) return cancelled();
       runs[m] = *run;
-      if (mode == HoldMode::off) budgetMs = kBudget * quantileOf(ofStrain(run->ms, strain), 0.5);
+      if (mode == HoldMode::off) budgetMs = kHeldPart * quantileOf(ofStrain(run->ms, strain), 0.5);
     }
     for (std::size_t m = 0; m < runs.size(); ++m)
       addRow(report.measured, strain, kHoldModes[m], budgetMs, runs[m], runs[0]);
-    if (setup.fixedSettings && !addFixed({**stage, meter, setup}, strain, every, budgetMs, runs, report))
-      return cancelled();
+    if (setup.fixedSettings && !addFixed(desk, strain, every, budgetMs, runs, report)) return cancelled();
     report.plots.push_back(plotOf(strain, runs, budgetMs, s + 1));
   }
   char text[500];
@@ -194,10 +200,9 @@ Result<Report> runHold(const Setup& setup) {
       text, sizeof text,
       "%s, preset %s, %d x %d. The budget is %.1f of the median image of mode off. Work time of each "
       "image, one pass a mode; FLIP of %zu images against the finest levels, flip_smeared with both smeared "
-      "by "
-      "the exposure. slowest_gain is the "
-      "slowest image of off over that of the mode.",
-      setup.terrainName.c_str(), setup.presetName.c_str(), setup.widthPx, setup.heightPx, kBudget, kMeasured);
+      "by the exposure. slowest_gain is the slowest image of off over that of the mode.",
+      setup.terrainName.c_str(), setup.presetName.c_str(), setup.widthPx, setup.heightPx, kHeldPart,
+      kMeasured);
   report.notes.insert(report.notes.begin(), text);
   return report;
 }

@@ -44,6 +44,9 @@ class Stage {
   int width_ = 0, height_ = 0;
 };
 
+/// The budget that the arbiter holds in experiments, as a part of the median image without it.
+inline constexpr double kHeldPart = 0.6;
+
 /// A place and the attitude of the aircraft; its height is the highest ground within 2 km.
 struct Place {
   GeodeticPosition ground;

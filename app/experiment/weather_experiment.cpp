@@ -114,10 +114,9 @@ Result<Report> runWeather(const Setup& setup) {
       "cut_changed_pixels counts pixels that the far cut changed in the fogged picture, of 255.");
   report.notes.push_back(
       "hold_ms_ratio is the frame that the arbiter holds, without document D's cut, to the clear frame drawn "
-      "before and "
-      "after; its budget is 1.03 of the clear frame, without a margin. hold_particles is the share of the "
-      "preset's "
-      "density that it keeps.");
+      "before and after; its budget is 1.03 of the clear frame, without a margin. hold_particles is the "
+      "share "
+      "of the preset's density that it keeps.");
   for (const Fall& fall : kFalls) report.plots.push_back(plotOf(report.measured, fall.name));
   return report;
 }

@@ -256,8 +256,12 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
   return d;
 }
 
+double smearPx(double degreesPerS, double exposureMs, double pixelsPerRadian) {
+  return degreesPerS * std::numbers::pi / 180 * exposureMs * 1e-3 * pixelsPerRadian;
+}
+
 double errorInMotion(double errorPx, double degreesPerS, double exposureMs, double pixelsPerRadian) {
-  const double smear = degreesPerS * std::numbers::pi / 180 * exposureMs * 1e-3 * pixelsPerRadian;
+  const double smear = smearPx(degreesPerS, exposureMs, pixelsPerRadian);
   return smear > errorPx && std::isfinite(smear) ? std::sqrt(errorPx * smear) : errorPx;
 }
 

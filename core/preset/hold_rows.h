@@ -15,7 +15,9 @@ inline constexpr std::array kHoldRows{
     row<&TuningParameters::hold, &HoldParameters::margin>(
         {.key = "hold.margin",
          .label = "Margin",
-         .help = "The share of the budget that predictions leave free, for what no prediction sees.",
+         .help = "The share of the budget that predictions leave free, for what no prediction sees. Where "
+                 "the model "
+                 "is uncertain they leave more.",
          .hard = {0, 0.9},
          .usual = {0, 0.3},
          .step = 0.01,

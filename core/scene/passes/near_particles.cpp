@@ -16,7 +16,7 @@ namespace {
 constexpr double kExposureS = 1.0 / 40, kLongestStreakM = 0.9;
 /// A fainter particle changes no pixel that one would notice.
 constexpr double kFaintest = 0.012;
-/// Of the cells' lattice, after which it repeats.
+/// The lattice repeats after so many cells along each axis.
 constexpr std::int64_t kLatticeCells = 1 << 16;
 
 /// Many far drops or flakes that are drawn as one soft streak or spot, since each alone is narrower than a
@@ -52,8 +52,8 @@ struct Kind {
   double smeared;    ///< the least share of it that is left in a long streak
   double realSizeM;  ///< nearer particles get smaller, down to their real size
   double flutterM;   ///< how far a flake swings aside
-  /// Of the image, that the particles of a shell may cover, one over the other, at the greatest amount. Rain
-  /// is thin streaks, of which an image needs more than of flakes.
+  /// The greatest part of the image that the particles of one shell may cover; where two overlap, both count.
+  /// Rain may cover more than snow, because its streaks are thin and an image needs more of them.
   double mostCovered;
 };
 constexpr Kind kRain{kRainShells, 0.8, 0.55, 9, 0, 0.12};
@@ -168,8 +168,8 @@ double Search::lengthOf(const Shell& shell) const {
   return streakM + shell.bundle.lengthM;
 }
 
-/// What is left of the shell's count where its particles would cover too much of the image, as long streaks
-/// do.
+/// Returns the part of the shell's particles that is drawn. It is below 1 where all of them would cover too
+/// much of the image, as long streaks do.
 double Search::room(const Shell& shell) const {
   const double perMetre = pixelsPerMetre / (0.75 * shell.farM);
   const double width = std::max(2 * radiusOf(shell) * perMetre, 2.0);

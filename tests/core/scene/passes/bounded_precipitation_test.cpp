@@ -3,8 +3,7 @@
 
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/passes/weather_precipitation.h"
-#include "tests/core/scene/scene_test.h"
-#include "trimtab/frame/frame_request.h"
+#include "tests/core/scene/passes/falling_scene.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/scene/error_meter.h"
 #include "trimtab/scene/renderer.h"
@@ -12,32 +11,16 @@
 namespace trimtab {
 namespace {
 
-using test::SceneTest;
 using Pixels8 = std::vector<std::uint8_t>;
 
-constexpr std::array<Precipitation, 2> kKinds{Precipitation::rain, Precipitation::snow};
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-class BoundedPrecipitation : public SceneTest {
+class BoundedPrecipitation : public test::FallingScene {
  protected:
+  BoundedPrecipitation() : FallingScene(PrecipitationForm::bounded) {}
   void SetUp() override {
-    SceneTest::SetUp();
+    FallingScene::SetUp();
     if (offscreen) use(test::syntheticMountains());
-  }
-  FrameRequest falling(Precipitation kind, double density) const {
-    auto r = request(over(0.5, 0.5, 400), {Degrees{30}, Degrees{-5}, Degrees{0}});
-    r.method = CullingCase::view_frustum;
-    r.decision.weather.precipitation = kind;
-    r.decision.weather.density = density;
-    r.precipitationForm = PrecipitationForm::bounded;
-    r.time = 12.34;
-    return r;
-  }
-  static FrameRequest dry(FrameRequest r) {
-    r.decision.weather.precipitation = Precipitation::none;
-    r.decision.weather.density = 0;
-    r.fading.reset();
-    return r;
   }
   /// The sum of all that an image's colours differ from those in dry air.
   double seen(const FrameRequest& r) {

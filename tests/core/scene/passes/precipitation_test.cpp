@@ -4,35 +4,19 @@
 
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/passes/weather_precipitation.h"
-#include "tests/core/scene/scene_test.h"
-#include "trimtab/frame/frame_request.h"
+#include "tests/core/scene/passes/falling_scene.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/scene/renderer.h"
 
 namespace trimtab {
 namespace {
 
-using test::SceneTest;
 using Pixels8 = std::vector<std::uint8_t>;
 
-constexpr std::array<Precipitation, 2> kKinds{Precipitation::rain, Precipitation::snow};
 
-class Falling : public SceneTest {
+class Falling : public test::FallingScene {
  protected:
-  FrameRequest falling(Precipitation kind, double density, double aboveM = 400) const {
-    auto r = request(over(0.5, 0.5, aboveM), {Degrees{30}, Degrees{-5}, Degrees{0}});
-    r.method = CullingCase::view_frustum;
-    r.decision.weather.precipitation = kind;
-    r.decision.weather.density = density;
-    r.precipitationForm = PrecipitationForm::effect;
-    r.time = 12.34;
-    return r;
-  }
-  static FrameRequest dry(FrameRequest r) {
-    r.decision.weather.precipitation = Precipitation::none;
-    r.decision.weather.density = 0;
-    return r;
-  }
+  Falling() : FallingScene(PrecipitationForm::effect) {}
   /// Pixels that what falls changes, in the lower third.
   double lowerThird(const FrameRequest& r) {
     const Pixels8 wet = picture(r), without = picture(dry(r));

@@ -73,8 +73,12 @@ double trianglesAt(const TriangleLadder& ladder, double askedPx, double errorPx)
 /// Returns the load of an image under these levers.
 FrameLoad loadOf(const HoldGiven& given, const HeldLevers& levers, double triangles);
 
+/// Returns the smear, pixels: the way of a point at the image's centre during the exposure, while the line of
+/// sight turns.
+double smearPx(double degreesPerS, double exposureMs, double pixelsPerRadian);
+
 /// Returns the error that may be allowed while the line of sight turns, pixels: sqrt(E max(E, m)), where E is
-/// the error allowed at rest and m the smear, the way of a point of the image during the exposure.
+/// the error allowed at rest and m the smear.
 ///
 /// A displacement of e pixels changes a strip e wide by its whole contrast. Averaged along a smear of m > e
 /// pixels it changes a strip m wide by e / m of the contrast, so its squared error falls from e to e^2 / m.
