@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "answer.h"
 #include "html_sections.h"
 #include "html_text.h"
 #include "trimtab/frame/frame_request.h"
@@ -63,6 +64,7 @@ std::string timeTable(const ReportModel& model) {
   const Quantity& ms = *quantityOf("frame_ms");
   for (const char* rank : {"median", "p95", "p99"})
     columns.push_back({rank, "ms", "of the frame times of this row"});
+  columns.push_back({"over budget", "%", "share of the frames that are longer than the budget"});
   const auto counts = measuredOf(model, Kind::count);
   for (const Quantity* q : counts)
     columns.push_back({std::string(q->label), "", "median of the frames; beneath, the largest"});
@@ -72,6 +74,8 @@ std::string timeTable(const ReportModel& model) {
     nameCells(table, model, unit.name);
     const Summary& time = model.summary(unit, ms);
     for (const double value : {time.median, time.p95, time.p99}) table.number(value, roundedText(value));
+    const double over = answerRow(unit, model.results.budgetMs).overShare * 100;
+    table.number(over, roundedText(over));
     for (const Quantity* q : counts) {
       const auto values = finiteOf(unit, *q);
       const double median = model.summary(unit, *q).median;
@@ -177,7 +181,10 @@ std::string forest(const ReportModel& model, const std::string& flight) {
 std::string summarySection(const ReportModel& model) {
   if (model.results.units.empty())
     return section("summary", "Summary", paragraph("Nothing was measured.", "none"));
-  std::string body = timeTable(model) + errorTable(model);
+  std::string body;
+  for (const Answer& answer : answersOf(model.results))
+    body += paragraph((model.flights.size() > 1 ? answer.flight + ": " : std::string()) + answer.why);
+  body += timeTable(model) + errorTable(model);
   if (const std::string absent = absentText(model, Kind::error); !absent.empty())
     body += paragraph(absent, "none");
   return section("summary", "Summary", body);

@@ -3,6 +3,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "answer.h"
 #include "results.h"
 #include "trimtab/preset/json_text.h"
 #include "trimtab/units/number.h"
@@ -34,6 +35,21 @@ Json ratioJson(const PairedRatio& ratio) {
           {"pairs", ratio.pairs}};
 }
 
+/// What tables of results show. It is derived from the frames, and not read again.
+Json summaryJson(const AnswerRow& row) {
+  return {{"median_ms", numberJson(row.medianMs)}, {"p95_ms", numberJson(row.p95Ms)},
+          {"p99_ms", numberJson(row.p99Ms)},       {"over_budget_share", numberJson(row.overShare)},
+          {"flip_mean", numberJson(row.flip)},     {"geometric_max_px", numberJson(row.geometricPx)},
+          {"pop_p95", numberJson(row.pop)},        {"fits", row.fits}};
+}
+
+Json answerJson(const Answer& answer) {
+  return {{"flight", answer.flight},
+          {"budget_ms", numberJson(answer.budgetMs)},
+          {"best", answer.best ? nameJson(answer.rows[*answer.best].name) : Json()},
+          {"why", answer.why}};
+}
+
 /// A list of a frame's cells: row, time, quantities, repeats. Names once a unit, not once a frame.
 Json columnsJson() {
   Json columns = {"row", "time_s"};
@@ -53,8 +69,9 @@ Json frameJson(const MeasuredFrame& frame) {
   return cells;
 }
 
-Json unitJson(const Unit& unit) {
+Json unitJson(const Unit& unit, double budgetMs) {
   Json json = nameJson(unit.name);
+  json["summary"] = summaryJson(answerRow(unit, budgetMs));
   json["frames_decided"] = unit.framesDecided;
   json["worst"] = Json::array();
   for (const WorstFrame& w : unit.worst)
@@ -235,12 +252,14 @@ std::string toJson(const Results& results) {
                {"repeats", results.repeats},
                {"budget_ms", numberJson(results.budgetMs)},
                {"notes", results.notes},
+               {"answers", Json::array()},
                {"comparisons", Json::array()},
                {"units", Json::array()}};
+  for (const Answer& answer : answersOf(results)) json["answers"].push_back(answerJson(answer));
   for (const Comparison& c : results.comparisons)
     json["comparisons"].push_back(
         {{"a", nameJson(c.a)}, {"b", nameJson(c.b)}, {"frame_time", ratioJson(c.frameTime)}});
-  for (const Unit& unit : results.units) json["units"].push_back(unitJson(unit));
+  for (const Unit& unit : results.units) json["units"].push_back(unitJson(unit, results.budgetMs));
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

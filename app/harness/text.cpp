@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <vector>
 
+#include "answer.h"
+
 namespace trimtab::harness {
 namespace {
 
@@ -77,22 +79,26 @@ std::string toText(const Results& results) {
   std::string text = results.terrain + ", " + std::to_string(results.widthPx) + "x" +
                      std::to_string(results.heightPx) + ", " + std::to_string(results.repeats) +
                      (results.repeats == 1 ? " draw" : " draws") + " a frame; " + results.machine + "\n\n";
-  std::vector<Row> rows{{"flight", "preset", "case", "frames", "median ms", "p95 ms", "p99 ms", "triangles",
-                         "FLIP", "worst FLIP", "geometric px", "wrongly culled px"}};
+  std::vector<Row> rows{{"flight", "preset", "case", "frames", "median ms", "p95 ms", "p99 ms",
+                         "over budget %", "triangles", "FLIP", "worst FLIP", "geometric px", "pop",
+                         "wrongly culled px"}};
   for (const Unit& unit : results.units) {
     const auto of = [&unit](const char* key) { return summarise(unit, *quantityOf(key)); };
-    const Summary ms = of("frame_ms"), flip = of("flip");
+    const AnswerRow row = answerRow(unit, results.budgetMs);
     double wrong = 0;
     for (const MeasuredFrame& frame : unit.frames)
       wrong += static_cast<double>(frame.error.wronglyCulledPixels);
     rows.push_back({unit.name.flight, unit.name.preset, unit.name.method, std::to_string(unit.frames.size()),
-                    fixed(ms.median, 2), fixed(ms.p95, 2), fixed(ms.p99, 2), fixed(of("triangles").mean, 0),
-                    fixed(flip.mean, 5), fixed(flip.worst, 5), fixed(of("geometric_max_px").worst, 2),
+                    fixed(row.medianMs, 2), fixed(row.p95Ms, 2), fixed(row.p99Ms, 2),
+                    fixed(row.overShare * 100, 1), fixed(of("triangles").mean, 0), fixed(row.flip, 5),
+                    fixed(of("flip").worst, 5), fixed(row.geometricPx, 2), fixed(row.pop, 2),
                     fixed(wrong, 0)});
   }
   append(text, rows, 3);
   text +=
-      "Triangles and FLIP are means, geometric px the largest of all frames, wrongly culled px their sum.\n";
+      "Triangles and FLIP are means, geometric px the largest of all frames, pop (of 255) its p95, wrongly "
+      "culled px their sum.\n";
+  for (const Answer& answer : answersOf(results)) text += '\n' + answer.flight + ": " + answer.why + '\n';
   if (!results.comparisons.empty()) {
     rows = {{"flight", "this", "", "over that", "", "frame time", "95 %", "frames"}};
     for (const Comparison& c : results.comparisons)

@@ -5,8 +5,10 @@
 #include <QLabel>
 #include <QSignalSpy>
 #include <QTableWidget>
+#include <QTabWidget>
 #include <cmath>
 
+#include "app/workbench/docks/answer_page.h"
 #include "app/workbench/docks/error_dock.h"
 #include "app/workbench/docks/flight_dock.h"
 #include "app/workbench/viewport/split_view.h"
@@ -162,6 +164,7 @@ TEST_F(ErrorDock, showsMeasuredResultsAndTheCursorTakesTheViewToTheRow) {
   raise();
   dock().liveSwitch().setChecked(false);
   ASSERT_TRUE(dock().openResults(tinyResults())) << w().messages().text().toStdString();
+  dock().pages().setCurrentIndex(1);
   ASSERT_EQ(dock().plot().points().size(), 4u);
   EXPECT_TRUE(dock().report().endsWith("report.html"));
   const QPointF before = dock().plot().pixelOf(dock().plot().points()[0]);
@@ -189,6 +192,34 @@ TEST_F(ErrorDock, showsMeasuredResultsAndTheCursorTakesTheViewToTheRow) {
   w().panels().flight->seek(unit.frames[2].timeS - flight.states.front().time);
   EXPECT_TRUE(
       waitFor([&] { return std::abs(dock().timeline().cursorTime() - unit.frames[2].timeS) < 1e-9; }, 10000));
+}
+
+TEST_F(ErrorDock, theAnswerNamesTheBestPresetUnderTheBudgetOfTheDraft) {
+  EXPECT_TRUE(dock().answer().text().contains("Nothing has been measured"));
+  ASSERT_FALSE(tinyResults().isEmpty());
+  raise();
+  dock().liveSwitch().setChecked(false);
+  ASSERT_TRUE(dock().openResults(tinyResults()));
+  EXPECT_EQ(dock().pages().currentWidget(), &dock().answer());
+  QTableWidget& table = dock().answer().table();
+  ASSERT_EQ(table.rowCount(), 4);
+  EXPECT_TRUE(dock().answer().text().contains(QString("96 × 64 px"))) << dock().answer().text().toStdString();
+  const int verdict = table.columnCount() - 1;
+
+  ASSERT_TRUE(w().draft().setText("measure.budget_ms", "1000").empty());
+  EXPECT_TRUE(dock().answer().text().contains("is the best under 1,000 ms"))
+      << dock().answer().text().toStdString();
+  table.sortByColumn(verdict, Qt::AscendingOrder);
+  EXPECT_TRUE(table.item(0, verdict)->text().contains("best"));
+  EXPECT_EQ(table.item(1, verdict)->text(), "fits");
+  EXPECT_EQ(table.item(0, 5)->text(), "0") << "share over the budget";
+  table.sortByColumn(2, Qt::DescendingOrder);
+  EXPECT_GE(QLocale().toDouble(table.item(0, 2)->text()), QLocale().toDouble(table.item(3, 2)->text()));
+
+  ASSERT_TRUE(w().draft().setText("measure.budget_ms", "1").empty());
+  if (dock().results()->units.front().frames.front().cost.total > 1) {
+    EXPECT_FALSE(dock().answer().answer()->best);
+  }
 }
 
 TEST_F(ErrorDock, resultsOfAnotherFlightLeaveTheOpenOneWhereItIs) {

@@ -16,10 +16,12 @@
 #include <QPushButton>
 #include <QSplitter>
 #include <QStandardPaths>
+#include <QTabWidget>
 #include <QUrl>
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "answer_page.h"
 #include "views/model/error_run.h"
 #include "views/model/theme.h"
 
@@ -99,7 +101,9 @@ ErrorDock::ErrorDock(views::Draft& draft, DrawThread& thread, LiveMeter::Source 
       status_(new QLabel(this)),
       liveLabel_(new QLabel(this)),
       plot_(new views::ErrorPlot(this)),
-      timeline_(new views::ErrorTimeline(this)) {
+      timeline_(new views::ErrorTimeline(this)),
+      answer_(new AnswerPage(this)),
+      pages_(new QTabWidget(this)) {
   const views::ErrorRun nothing{errorList(), {}};
   for (const views::ErrorRun::Error& error : nothing.errors) errors_->addItem(titleOf(error), error.key);
   errors_->setCurrentIndex(std::max(0, errors_->findData(QLatin1String(kFirstError))));
@@ -135,6 +139,7 @@ ErrorDock::ErrorDock(views::Draft& draft, DrawThread& thread, LiveMeter::Source 
   connect(flights_, &QComboBox::currentTextChanged, this, [this](const QString& flight) {
     plot_->showFlight(flight);
     timeline_->showFlight(flight);
+    showAnswer();
     flights_->setToolTip(tr("Measured flight that the plots show: %1").arg(flight));
     emit flightShown();
   });
@@ -204,7 +209,11 @@ void ErrorDock::arrange() {
   auto* all = new QHBoxLayout(this);
   all->setContentsMargins(6, 4, 4, 4);
   all->addWidget(controls);
-  all->addWidget(plots, 1);
+  pages_->setDocumentMode(true);
+  pages_->addTab(answer_, tr("&Which preset fits"));
+  pages_->addTab(plots, tr("&Plots"));
+  pages_->setCurrentWidget(plots);
+  all->addWidget(pages_, 1);
 }
 
 void ErrorDock::setSeen(bool seen) {
@@ -234,6 +243,13 @@ void ErrorDock::showBudget() {
   const double ms = draft_.active()->measure.budget.value();
   plot_->setBudget(ms);
   timeline_->setBudget(ms);
+  if (!answer_->answer() || answer_->answer()->budgetMs != ms) showAnswer();
+}
+
+/// By the budget of the draft: what fits follows it while a person tries budgets.
+void ErrorDock::showAnswer() {
+  if (!results_ || flight().isEmpty()) return answer_->clear();
+  answer_->show(*results_, flight(), draft_.active()->measure.budget.value());
 }
 
 void ErrorDock::onMeasured(const LiveMeter::Measured& measured) {
@@ -342,6 +358,7 @@ bool ErrorDock::openResults(const QString& file) {
   results_ = std::move(read).value();
   resultsFile_ = QFileInfo(file).absoluteFilePath();
   showResults();
+  pages_->setCurrentWidget(answer_);
   return true;
 }
 

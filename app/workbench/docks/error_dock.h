@@ -19,11 +19,15 @@ class QComboBox;
 class QLabel;
 class QProgressBar;
 class QPushButton;
+class QTabWidget;
 
 namespace trimtab::workbench {
 
+class AnswerPage;
+
 /// Shows run time against error: presets as a benchmark measured them, with the live session among them, and
-/// the measured frames along the flight, with a cursor that moves with the flight.
+/// the measured frames along the flight, with a cursor that moves with the flight. A page beside the plots
+/// says which preset fits the budget best.
 class ErrorDock : public QWidget {
   Q_OBJECT
 
@@ -64,6 +68,9 @@ class ErrorDock : public QWidget {
 
   views::ErrorPlot& plot() { return *plot_; }
   views::ErrorTimeline& timeline() { return *timeline_; }
+  AnswerPage& answer() { return *answer_; }
+  /// Which page is in front: the plots or the answer.
+  QTabWidget& pages() { return *pages_; }
   LiveMeter& live() { return live_; }
   QCheckBox& liveSwitch() { return *liveOn_; }
   QComboBox& errorChoice() { return *errors_; }
@@ -82,6 +89,7 @@ class ErrorDock : public QWidget {
   void setRunning(bool running);
   void showResults();
   void showBudget();
+  void showAnswer();
   void onMeasured(const LiveMeter::Measured& measured);
   void onEnded(const ChildRun::Ended& how);
 
@@ -103,6 +111,8 @@ class ErrorDock : public QWidget {
   QLabel *status_, *liveLabel_;
   views::ErrorPlot* plot_;
   views::ErrorTimeline* timeline_;
+  AnswerPage* answer_;
+  QTabWidget* pages_;
 };
 
 }  // namespace trimtab::workbench
