@@ -235,7 +235,7 @@ std::string explain(const MotionDecision& d) {
       return "gap between states: stacks empty";
     case MotionReason::lowered:
       return write("fast for %g %s (", d.blurLimit, unit) + rate +
-             write("): LOD scale lowered to %g, blur for %.0f ms", d.lodScale, d.blur.remainingMs);
+             write("): detail lowered, LOD scale %g, blur for %.0f ms", d.lodScale, d.blur.remainingMs);
     case MotionReason::lowest:
       return write("fast for %g %s (", d.blurLimit, unit) + rate +
              write("): LOD scale stays at its largest, %g, blur for %.0f ms", d.lodScale, d.blur.remainingMs);
@@ -245,7 +245,7 @@ std::string explain(const MotionDecision& d) {
                    d.blur.remainingMs);
     case MotionReason::raised:
       return write("slow for more than %g %s (", d.restoreLimit, unit) + rate +
-             write("): LOD scale raised to %g, no blur", d.lodScale);
+             write("): detail raised, LOD scale %g, no blur", d.lodScale);
     case MotionReason::blur_stopped:
       return write("slow for more than %g %s (", d.restoreLimit, unit) + rate + "): blur stopped";
     case MotionReason::blur_ended:

@@ -48,7 +48,7 @@ TEST_F(Motion, aSweepUnderTheFreeCameraFillsStacksLowersAndRaises) {
   EXPECT_TRUE(waitFor([this] { return session().decision().motion.lodScale == 1; }));
   EXPECT_TRUE(waitFor([this] { return saw(QStringLiteral("slow for more than 5 frames")); }));
   EXPECT_TRUE(saw(QStringLiteral("fast for 10 frames (")));
-  EXPECT_TRUE(saw(QStringLiteral(" deg/s against 60.0): LOD scale lowered to 2, blur for 400 ms")));
+  EXPECT_TRUE(saw(QStringLiteral(" deg/s against 60.0): detail lowered, LOD scale 2, blur for 400 ms")));
   shoot("motion-rest");
 
   panel().sourceBox().setCurrentIndex(MotionPanel::none);

@@ -53,8 +53,8 @@ TEST(MotionPanel, listsTheReasonOfEachChangeOnceAndNothingElse) {
   MotionPanel panel(draft);
   show(panel, rates(3, 29));
   ASSERT_EQ(panel.reasons().count(), 2) << "nine more fast frames are not enough for a third";
-  EXPECT_TRUE(panel.reasons().item(0)->text().contains(QStringLiteral("lowered to 2"))) << "hidden or not";
-  EXPECT_TRUE(panel.reasons().item(1)->text().contains(QStringLiteral("lowered to 4")));
+  EXPECT_TRUE(panel.reasons().item(0)->text().contains(QStringLiteral("detail lowered, LOD scale 2"))) << "hidden or not";
+  EXPECT_TRUE(panel.reasons().item(1)->text().contains(QStringLiteral("detail lowered, LOD scale 4")));
   LiveFrame same;
   same.time = 2;
   panel.showFrame(same);

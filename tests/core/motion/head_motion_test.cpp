@@ -319,7 +319,7 @@ TEST(HeadMotion, spellsEveryReasonItsOwnWay) {
   EXPECT_EQ(toText(static_cast<MotionReason>(names.size())), "");
   Pilot pilot;
   EXPECT_EQ(explain(pilot.turns(10, kFast)),
-            "fast for 10 frames (180.0 deg/s against 60.0): LOD scale lowered to 2, blur for 400 ms");
+            "fast for 10 frames (180.0 deg/s against 60.0): detail lowered, LOD scale 2, blur for 400 ms");
 }
 
 }  // namespace
