@@ -140,14 +140,22 @@ TEST_F(MembershipEditorTest, typedValuesAreTakenOrRefusedWithAReason) {
   EXPECT_TRUE(type(1, 1, "0.55"));
   EXPECT_EQ(curve().point[1].y, 0.55);
   QSignalSpy refused(editor_.altitude().table().model(), SIGNAL(refused(QString)));
-  const char* const bad[] = {"", "high", "6000", "6001", "4000", "nan", "inf", "5250 m", "1e400"};
+  const char* const bad[] = {"", "high", "6001", "3999", "nan", "inf", "5250 m", "1e400"};
   for (const char* text : bad) EXPECT_FALSE(type(1, 0, text)) << text;
   const char* const badMemberships[] = {"", "1.0001", "-0.1", "nan", "half"};
   for (const char* text : badMemberships) EXPECT_FALSE(type(1, 1, text)) << text;
-  EXPECT_EQ(refused.count(), 14);
+  EXPECT_EQ(refused.count(), 13);
   EXPECT_TRUE(refused.at(2).at(0).toString().contains("neighbours"));
   EXPECT_EQ(curve().point[1], (CurvePoint{5250, 0.55}));
   EXPECT_EQ(draft_.undoStack().count(), 2);
+}
+
+TEST_F(MembershipEditorTest, twoPointsTypedAtOneXAreAStepAndAThirdIsRefused) {
+  EXPECT_TRUE(type(1, 0, "6000"));
+  EXPECT_EQ(curve().point[1].x, curve().point[2].x);
+  EXPECT_FALSE(draft_.isBroken());
+  EXPECT_FALSE(type(3, 0, "6000")) << "a third point at one x means nothing";
+  EXPECT_FALSE(draft_.isBroken());
 }
 
 TEST_F(MembershipEditorTest, enterTypesTheSelectedPoint) {

@@ -47,6 +47,13 @@ Range freeRange(const CurvePoints& curve, std::size_t index, const CurveSpec& sp
   return free;
 }
 
+Range typedRange(const CurvePoints& curve, std::size_t index, const CurveSpec& spec) {
+  Range typed = findRow(spec.key)->hard;
+  if (index > 0) typed.low = curve.point[index - 1].x;
+  if (index + 1 < curve.size) typed.high = curve.point[index + 1].x;
+  return typed;
+}
+
 CurvePoints withMoved(const CurvePoints& curve, std::size_t index, CurvePoint to, const CurveSpec& spec) {
   const Range free = freeRange(curve, index, spec);
   CurvePoints moved = curve;

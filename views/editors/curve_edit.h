@@ -40,6 +40,9 @@ double pointGap(const CurveSpec& spec);
 /// Returns the range into which the x of a point may be moved: a gap (pointGap) away from both neighbours and
 /// inside the hard range of the parameter.
 Range freeRange(const CurvePoints& curve, std::size_t index, const CurveSpec& spec);
+/// Returns the x that may be typed for a point: from one neighbour to the other, both included, because two
+/// points at one x are a step. A third one there is refused by validation.
+Range typedRange(const CurvePoints& curve, std::size_t index, const CurveSpec& spec);
 /// Returns the curve with one point moved to `to`, or as near to it as freeRange allows in x and 0 to 1 in
 /// membership.
 CurvePoints withMoved(const CurvePoints& curve, std::size_t index, CurvePoint to, const CurveSpec& spec);

@@ -66,11 +66,11 @@ bool CurvePointsModel::setData(const QModelIndex& index, const QVariant& value, 
   const std::size_t row = static_cast<std::size_t>(index.row());
   CurvePoints changed = curve();
   if (isX) {
-    const Range free = freeRange(changed, row, spec_);
-    if (*number < free.low || *number > free.high)
+    const Range typed = typedRange(changed, row, spec_);
+    if (*number < typed.low || *number > typed.high)
       return refuse(
           tr("%1 %2 is not between the neighbours: %3 to %4 %2.")
-              .arg(numberText(*number, 3), spec_.unit, numberText(free.low, 3), numberText(free.high, 3)));
+              .arg(numberText(*number, 3), spec_.unit, numberText(typed.low, 3), numberText(typed.high, 3)));
     changed.point[row].x = *number;
   } else {
     if (*number < 0 || *number > 1)
