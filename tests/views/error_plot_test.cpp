@@ -109,6 +109,27 @@ TEST_F(ErrorPlotTest, aLivePointOutsideWidensTheView) {
   EXPECT_TRUE(plot_.axisRect()->rect().contains(plot_.livePixel().toPoint()));
 }
 
+TEST_F(ErrorPlotTest, aLivePointOfAnotherSizeIsToldApartAndLeavesTheAxesToTheResults) {
+  const QCPRange before = plot_.yAxis->range();
+  plot_.showLive({68, {0.05, 40}, 1107, 621});
+  settle();
+  EXPECT_EQ(plot_.yAxis->range(), before);
+  plot_.select(3);
+  EXPECT_TRUE(plot_.selectedText().contains("1107 × 621 px instead of 640 × 360"))
+      << plot_.selectedText().toStdString();
+  const auto legendNames = [&](const QString& part) {
+    for (int i = 0; i < plot_.legend->itemCount(); ++i)
+      if (auto* item = qobject_cast<QCPPlottableLegendItem*>(plot_.legend->item(i)))
+        if (item->plottable()->name().contains(part)) return true;
+    return false;
+  };
+  EXPECT_TRUE(legendNames("1107 × 621"));
+  plot_.showLive({68, {0.05, 40}, 640, 360});
+  settle();
+  EXPECT_TRUE(plot_.yAxis->range().contains(68));
+  EXPECT_FALSE(legendNames("1107 × 621"));
+}
+
 TEST_F(ErrorPlotTest, keysChooseAPointAndTellItsNumbersWithUnits) {
   plot_.showLive({8, {0.05, 40}});
   plot_.setFocus();

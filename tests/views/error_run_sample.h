@@ -26,6 +26,8 @@ inline views::ErrorRun sampleRun() {
   add("fine", "none", 20, 0.02, kInfinity);
   add("fine", "proposed", 10, 0.02, 60);
   add("coarse", "proposed", 4, 0.08, 30);
+  run.widthPx = 640;
+  run.heightPx = 360;
   return run;
 }
 

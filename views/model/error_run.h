@@ -30,6 +30,7 @@ struct ErrorRun {
   };
   QVector<Error> errors;
   QVector<Series> series;
+  int widthPx = 0, heightPx = 0;  ///< of the measured images; 0 if nothing was measured
 
   QStringList flights() const;
   /// Returns the presets in the order of their first series, which is the order of their colours.

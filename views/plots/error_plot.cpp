@@ -42,8 +42,10 @@ class ErrorPlot::Tail : public QCPAbstractItem {
       painter->setPen(QPen(colour, 1.4));
       if (!before.isNull()) painter->drawLine(before, at);
       before = at;
-      const QCPScatterStyle style(QCPScatterStyle::ssDiamond, newest ? QPen(base, 1) : QPen(Qt::NoPen),
-                                  QBrush(colour), newest ? kLiveMarkerPx : kLiveMarkerPx / 3);
+      const bool hollow = newest && !plot_.liveCompares();
+      const QPen edge = hollow ? QPen(live, 2) : newest ? QPen(base, 1) : QPen(Qt::NoPen);
+      const QCPScatterStyle style(QCPScatterStyle::ssDiamond, edge, hollow ? QBrush(base) : QBrush(colour),
+                                  newest ? kLiveMarkerPx : kLiveMarkerPx / 3);
       style.applyTo(painter, QPen(colour));
       style.drawShape(painter, at);
     }
@@ -158,6 +160,20 @@ void ErrorPlot::compute() {
   if (selected_ > int(points_.size())) selected_ = -1;
 }
 
+bool ErrorPlot::liveCompares() const {
+  if (tail_.empty() || run_.widthPx == 0 || tail_.back().widthPx == 0) return true;
+  return tail_.back().widthPx == run_.widthPx && tail_.back().heightPx == run_.heightPx;
+}
+
+QString ErrorPlot::liveName() const {
+  if (liveCompares()) return tr("live");
+  return tr("live, at %1 × %2 px instead of %3 × %4")
+      .arg(tail_.back().widthPx)
+      .arg(tail_.back().heightPx)
+      .arg(run_.widthPx)
+      .arg(run_.heightPx);
+}
+
 double ErrorPlot::liveError(const LiveError& live) const {
   const ErrorRun::Error* shown = error();
   return shown != nullptr && error_ < live.errors.size() ? placeOf(*shown, live.errors[error_])
@@ -235,7 +251,10 @@ void ErrorPlot::makeLegend() {
   if (!points_.empty())
     add(tr("front"), QCPScatterStyle(QCPScatterStyle::ssNone), QPen(blend(base, ink, 0.5), 1.2, Qt::DotLine));
   if (!tail_.empty())
-    add(tr("live"), {QCPScatterStyle::ssDiamond, QPen(base, 1), QBrush(liveColour(palette())), kMarkerPx},
+    add(liveName(),
+        liveCompares()
+            ? QCPScatterStyle(QCPScatterStyle::ssDiamond, QPen(base, 1), QBrush(liveColour(palette())), kMarkerPx)
+            : QCPScatterStyle(QCPScatterStyle::ssDiamond, QPen(liveColour(palette()), 2), QBrush(base), kMarkerPx),
         Qt::NoPen);
   arrangeLegendAbove();
 }
@@ -255,7 +274,8 @@ void ErrorPlot::fit() {
     hold(p.errorLow, p.msLow);
     hold(p.errorHigh, p.msHigh);
   }
-  for (const LiveError& live : tail_) hold(liveError(live), live.ms);
+  if (points_.empty() || liveCompares())
+    for (const LiveError& live : tail_) hold(liveError(live), live.ms);
   if (budget_ > 0) {
     low = std::min(low, budget_);
     high = std::max(high, budget_);

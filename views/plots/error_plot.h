@@ -12,12 +12,14 @@ namespace trimtab::views {
 struct LiveError {
   double ms = 0;
   QVector<double> errors;
+  int widthPx = 0, heightPx = 0;  ///< of the image whose time it is; 0 if unknown
 };
 
 /// Run time against error: one point a preset and case, its marker by case and its colour by preset, at the
 /// medians of its frames; whiskers from the 5th to the 95th percentile; the front that nothing beats in both;
 /// the budget; and the live session as a point that draws a fading tail. Lower left is best whatever the
-/// error: an axis on which larger is better runs the other way.
+/// error: an axis on which larger is better runs the other way. A live point of images of another size than the
+/// results' is no match for them: it is hollow, is named with its size, and does not widen the view.
 class ErrorPlot : public Plot {
   Q_OBJECT
  public:
@@ -70,6 +72,10 @@ class ErrorPlot : public Plot {
  private:
   class Tail;
   const ErrorRun::Error* error() const;
+  /// False if the live images are of another size than the results'.
+  bool liveCompares() const;
+  /// What the legend and the numbers call the live point.
+  QString liveName() const;
   double liveError(const LiveError& live) const;
   QPointF placeLive(const LiveError& live) const;
   void compute();

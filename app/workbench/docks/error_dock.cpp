@@ -52,7 +52,7 @@ QVector<double> errorsOf(const harness::MeasuredFrame& frame) {
 }
 
 views::ErrorRun toView(const harness::Results& results) {
-  views::ErrorRun run{errorList(), {}};
+  views::ErrorRun run{errorList(), {}, results.widthPx, results.heightPx};
   for (const harness::Unit& unit : results.units) {
     views::ErrorRun::Series s{QString::fromStdString(unit.name.flight),
                               QString::fromStdString(unit.name.preset),
@@ -256,7 +256,7 @@ void ErrorDock::onMeasured(const LiveMeter::Measured& measured) {
   lastMeasured_ = measured;
   harness::MeasuredFrame frame;
   frame.error = measured.error;
-  plot_->showLive({measured.frameMs, errorsOf(frame)});
+  plot_->showLive({measured.frameMs, errorsOf(frame), measured.imageWidthPx, measured.imageHeightPx});
   liveLabel_->setText(liveText());
 }
 
@@ -365,7 +365,7 @@ bool ErrorDock::openResults(const QString& file) {
 void ErrorDock::showResults() {
   report_->setEnabled(!report().isEmpty());
   report_->setToolTip(report().isEmpty() ? tr("There is no report.html beside the results") : report());
-  const views::ErrorRun run = results_ ? toView(*results_) : views::ErrorRun{errorList(), {}};
+  const views::ErrorRun run = results_ ? toView(*results_) : views::ErrorRun{errorList(), {}, 0, 0};
   plot_->show(run);
   timeline_->show(run);
   flights_->clear();

@@ -93,6 +93,8 @@ void LiveMeter::measure() {
   const auto work = std::make_shared<Work>();
   work->generation = generation_;
   work->measured.smaller = shrink_ > 1;
+  work->measured.imageWidthPx = frame->request.view.widthPx;
+  work->measured.imageHeightPx = frame->request.view.heightPx;
   work->frame.request = pilotsPicture(frame->request, shrink_);
   for (const FrameRequest& before : frame->before)
     work->frame.before.push_back(pilotsPicture(before, shrink_));

@@ -28,7 +28,8 @@ class LiveMeter : public QObject {
     FrameError error;
     double frameMs = 0;  ///< median over the images of the last second
     double tookMs = 0;
-    int widthPx = 0, heightPx = 0;
+    int imageWidthPx = 0, imageHeightPx = 0;  ///< of the images that took `frameMs`
+    int widthPx = 0, heightPx = 0;            ///< at which the error was measured
     bool smaller = false;  ///< than the image, because measuring at full size takes too long
   };
   using Source = std::function<std::optional<Frame>()>;
