@@ -80,12 +80,20 @@ TEST_F(CullingPanelTest, showsStagesWithTheirBudgetAndLetsTheDockScroll) {
   EXPECT_EQ(budget(), draft_.active()->measure.budget.value());
   draft_.setValue("measure.budget_ms", 8.3);
   EXPECT_EQ(budget(), 8.3);
+  // The wheel scrolls the dock, also once the plot was clicked; with Ctrl it zooms.
   const double shown = plot->shown().size();
-  plot->clearFocus();
-  QWheelEvent wheel({50, 50}, plot->mapToGlobal(QPointF(50, 50)), {}, {0, -120}, Qt::NoButton, Qt::NoModifier,
-                    Qt::NoScrollPhase, false);
-  QCoreApplication::sendEvent(plot, &wheel);
+  const auto turned = [&](Qt::KeyboardModifiers keys) {
+    QWheelEvent wheel({50, 50}, plot->mapToGlobal(QPointF(50, 50)), {}, {0, -120}, Qt::NoButton, keys,
+                      Qt::NoScrollPhase, false);
+    wheel.accept();
+    static_cast<QObject*>(plot)->event(&wheel);
+    return wheel.isAccepted();
+  };
+  plot->setFocus();
+  EXPECT_FALSE(turned(Qt::NoModifier));
   EXPECT_EQ(plot->shown().size(), shown);
+  EXPECT_TRUE(turned(Qt::ControlModifier));
+  EXPECT_GT(plot->shown().size(), shown);
 }
 
 }  // namespace

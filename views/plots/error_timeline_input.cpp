@@ -55,18 +55,17 @@ void ErrorTimeline::mouseReleaseEvent(QMouseEvent*) {
   dragging_ = false;
 }
 
-void ErrorTimeline::wheelEvent(QWheelEvent* event) {
+void ErrorTimeline::zoomByWheel(QWheelEvent* event) {
   const QCPRange range = time()->range();
   const double anchor = time()->pixelToCoord(event->position().x());
   const double factor = wheelFactor(*event);
-  if (range.size() * factor < kShortestSpanS || whole_.size() == 0) return event->accept();
+  if (range.size() * factor < kShortestSpanS || whole_.size() == 0) return;
   const QCPRange zoomed =
       QCPRange(anchor - (anchor - range.lower) * factor, anchor + (range.upper - anchor) * factor)
           .bounded(whole_.lower, whole_.upper);
   for (int lane = 0; lane < 2; ++lane) time(lane)->setRange(zoomed);
   placeCursor();
   replot(QCustomPlot::rpQueuedReplot);
-  event->accept();
 }
 
 bool ErrorTimeline::zoomByKey(double factor) {

@@ -26,6 +26,12 @@ void Plot::keyPressEvent(QKeyEvent* event) {
   QCustomPlot::keyPressEvent(event);
 }
 
+void Plot::wheelEvent(QWheelEvent* event) {
+  if (!(event->modifiers() & Qt::ControlModifier)) return event->ignore();
+  zoomByWheel(event);
+  event->accept();
+}
+
 bool Plot::event(QEvent* event) {
   if (event->type() == QEvent::ShortcutOverride && focusPolicy() == Qt::StrongFocus) {
     const auto& key = *static_cast<QKeyEvent*>(event);

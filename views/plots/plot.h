@@ -27,6 +27,10 @@ class Plot : public QCustomPlot {
   /// if keys do not zoom this plot.
   virtual bool zoomByKey(double /*factor*/) { return false; }
 
+  /// Zooms where the pointer is. Called for the wheel with Ctrl; without Ctrl the wheel is left to whatever
+  /// scrolls around the plot, which it would otherwise stop at every plot.
+  virtual void zoomByWheel(QWheelEvent* event) { QCustomPlot::wheelEvent(event); }
+  void wheelEvent(QWheelEvent* event) final;
   /// Calls zoomByKey() for plus and minus, and leaves any other key to QCustomPlot.
   void keyPressEvent(QKeyEvent* event) override;
   /// Keeps Home for itself if it uses the keyboard, since Home is a command of the window too.

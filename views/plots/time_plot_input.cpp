@@ -67,11 +67,8 @@ void TimePlot::mouseReleaseEvent(QMouseEvent*) {
   panFrom_.reset();
 }
 
-void TimePlot::wheelEvent(QWheelEvent* event) {
-  // In a dock of another matter, which scrolls, the wheel is the dock's until the plot was clicked.
-  if (firstLane_ != 0 && !hasFocus()) return event->ignore();
+void TimePlot::zoomByWheel(QWheelEvent* event) {
   zoom(wheelFactor(*event), timeAxis()->pixelToCoord(event->position().x()));
-  event->accept();
 }
 
 bool TimePlot::zoomByKey(double factor) {
