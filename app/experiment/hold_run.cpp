@@ -18,6 +18,8 @@ constexpr int kSweepImagesPerS = 200;
 constexpr std::size_t kWarmUp = 60;
 /// Images between two questions whether to go on.
 constexpr std::size_t kAsked = 40;
+/// Images of a strain that show what levers lose; they lie between those that are measured afterwards.
+constexpr std::size_t kLossImages = 5;
 
 /// The middle of the flight, from where on it is over the terrain for so long.
 std::optional<double> middleOf(const Setup& setup, double seconds) {
@@ -116,6 +118,35 @@ Result<ValidatedParameters> inMode(const TuningParameters& preset, HoldMode mode
     p.policy = searcher->parameters.policy;
   }
   return validate(p);
+}
+
+void measureLosses(scene::ErrorMeter& meter, const Setup& setup, const ValidatedParameters& asked,
+                   const Strain& strain, HoldParameters& hold) {
+  Session session(asked);
+  session.setGround(setup.terrain);
+  std::vector<double> error, scale, particles;
+  for (std::size_t k = 0; k < kLossImages; ++k) {
+    const AircraftState& state =
+        strain.states[strain.from + (2 * k + 1) * (strain.to - strain.from) / (2 * kLossImages)];
+    session.fly(state, state.time);
+    const FrameRequest request = *session.request(state.time, setup.widthPx, setup.heightPx);
+    const double whole = meter.measure(request, {}, nullptr).flip;
+    const auto lost = [&](const HeldLevers& levers) {
+      FrameRequest lowered = request;
+      fix(lowered, levers);
+      return meter.measure(lowered, {}, nullptr).flip - whole;
+    };
+    const HeldLevers full{request.lod.screenSpaceError.value(), 1, 1, 1};
+    error.push_back(lost({16, 1, 1, 1}));
+    scale.push_back(lost({full.errorPx, 0.5, 1, 1}));
+    if (request.decision.weather.density > 0) particles.push_back(lost({full.errorPx, 1, 0, 1}));
+  }
+  const auto loss = [](const std::vector<double>& flips) {
+    return Ratio{std::clamp(meanOf(flips), 0.0, 1.0)};
+  };
+  hold.lossError = loss(error);
+  hold.lossRenderScale = loss(scale);
+  if (!particles.empty()) hold.lossParticles = loss(particles);
 }
 
 std::optional<HoldRun> fly(Stage& stage, scene::ErrorMeter& meter, const Setup& setup,

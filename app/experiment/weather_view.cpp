@@ -12,7 +12,7 @@ namespace {
 /// Particles fall as time goes on: frames are this far apart.
 constexpr double kFrameS = 1.0 / 60;
 /// Images in which the arbiter settles on what falls now.
-constexpr int kSettles = 60;
+constexpr int kSettles = 120;
 
 }  // namespace
 

@@ -12,15 +12,18 @@ namespace {
 /// Render scale falls by a twentieth a step, particles by an eighth: below what a still image shows.
 constexpr double kScaleStep = 0.05, kParticleStep = 0.125;
 constexpr std::size_t kMostScales = 17, kMostParticles = 9;
-/// The scale of allowed errors: place i is 2^(i / 2) times the first.
+/// The scale of allowed errors: place i is 2^(i / 8) times the first, from 1/8 to 64 px. Coarse places are
+/// half an octave apart.
 constexpr double kFirstErrorPx = 0.125;
-constexpr std::size_t kErrorPlaces = 19;
+constexpr std::size_t kErrorPlaces = 73, kCoarse = 4;
 /// Lowering aims this share of the limit below it, so that a load that keeps rising does not lower the level
 /// of detail again and again.
 constexpr double kReserve = 0.06;
 /// Head-room must win at least this part of the loss: less is not worth a change.
 constexpr double kWorthwhile = 0.02;
 constexpr double kLongestStepMs = 250;
+/// Triangles that change by more than this part from image to image belong to a view that turns.
+constexpr double kSteady = 0.01;
 
 /// The settings of one lever, from what is asked for downwards, with the loss of each.
 template <std::size_t Most>
@@ -35,6 +38,11 @@ struct Settings {
 struct Errors {
   std::array<double, kErrorPlaces + 1> value{}, loss{}, triangles{};
   std::size_t first = 1, size = 1;
+  /// Returns the place that follows one, of all or of the coarse ones.
+  std::size_t next(std::size_t place, bool fine) const {
+    const std::size_t after = place == 0 ? first : place + 1;
+    return fine ? after : (after + kCoarse - 2) / kCoarse * kCoarse + 1;
+  }
 };
 
 struct Choice {
@@ -64,7 +72,7 @@ Choice choiceOf(const HoldGiven& given, const HoldParameters& p) {
   e.value[0] = asked.errorPx;
   e.triangles[0] = given.triangles[0];
   for (std::size_t i = 1; i <= kErrorPlaces; ++i) {
-    const double errorPx = kFirstErrorPx * std::exp2(0.5 * static_cast<double>(i - 1));
+    const double errorPx = kFirstErrorPx * std::exp2(static_cast<double>(i - 1) / 8);
     if (errorPx > p.errorMaximum.value() * (1 + 1e-9)) break;
     e.size = i + 1;
     if (errorPx <= asked.errorPx) {
@@ -115,7 +123,8 @@ HoldSteps within(const Choice& c, const HoldSteps& s) {
 
 class Search {
  public:
-  Search(const HoldGiven& given, const Choice& choice) : given_(given), choice_(choice) {}
+  Search(const HoldGiven& given, const Choice& choice, bool fine)
+      : given_(given), choice_(choice), fine_(fine) {}
 
   double timeAt(const HoldSteps& s) const { return predictAt(s).total(); }
   StageTimes predictAt(const HoldSteps& s) const {
@@ -130,11 +139,11 @@ class Search {
     double bestLoss = 0, bestMs = 0, quickestMs = 0;
     bool found = false, any = false;
     forEach([&](const HoldSteps& s) {
+      const double loss = lossAt(choice_, s);
+      if (found && loss > bestLoss) return;
       const double ms = timeAt(s);
       if (!any || ms < quickestMs) quickest = s, quickestMs = ms, any = true;
-      if (!(ms <= limitMs)) return;
-      const double loss = lossAt(choice_, s);
-      if (found && (loss > bestLoss || (loss == bestLoss && ms >= bestMs))) return;
+      if (!(ms <= limitMs) || (found && loss == bestLoss && ms >= bestMs)) return;
       best = s, bestLoss = loss, bestMs = ms, found = true;
     });
     return found ? best : quickest;
@@ -145,8 +154,7 @@ class Search {
   void forEach(const Visit& visit) const {
     HoldSteps s;
     const Errors& e = choice_.error;
-    for (s.error = 0; s.error < e.size;
-         s.error = static_cast<std::uint8_t>(s.error == 0 ? e.first : s.error + 1))
+    for (s.error = 0; s.error < e.size; s.error = static_cast<std::uint8_t>(e.next(s.error, fine_)))
       for (s.renderScale = 0; s.renderScale < choice_.scale.size; ++s.renderScale)
         for (s.particles = 0; s.particles < choice_.particles.size; ++s.particles)
           for (s.blur = 0; s.blur < choice_.blur.size; ++s.blur) visit(s);
@@ -154,6 +162,7 @@ class Search {
 
   const HoldGiven& given_;
   const Choice& choice_;
+  bool fine_;
 };
 
 /// Returns the steps one image nearer to `to`, which are fewer: error and blur at once, the others by one.
@@ -171,14 +180,25 @@ double passed(const HoldGiven& given, HoldMemory& memory) {
   return ms > 0 ? std::min(ms, kLongestStepMs) : 0;
 }
 
+/// Notes the triangles of this image, and returns whether they have been steady for so long.
+bool steady(double triangles, double ms, double longMs, HoldMemory& memory) {
+  const bool rests = memory.begun && std::abs(triangles - memory.triangles) <= kSteady * memory.triangles;
+  memory.triangles = triangles;
+  memory.steadyMs = rests ? memory.steadyMs + ms : 0;
+  return memory.begun && memory.steadyMs >= longMs;
+}
+
 /// Returns what a prediction may reach: the budget without its margin, and less if the model is so uncertain
-/// that one image in a hundred would take more than 1.1 of the budget.
-double limitOf(const HoldGiven& given, const HoldParameters& p) {
+/// that one image in a hundred would take more than 1.1 of the budget. The uncertainty is averaged, because a
+/// single late image must not lower anything.
+double limitOf(const HoldGiven& given, const HoldParameters& p, HoldMemory& memory) {
   constexpr double kOver = 1.1, kLeast = 0.75;
   constexpr double kOneInAHundred = 2.326 / 1.645;  // of a normal distribution, over its 90 % band
   const double most = given.budgetMs * (1 - p.margin.value());
+  constexpr double kShare = 0.02;
   const double band = std::isfinite(given.cost.bandMs) ? std::max(given.cost.bandMs, 0.0) : 0;
-  const double sure = std::max(kOver * given.budgetMs - kOneInAHundred * band, kLeast * given.budgetMs);
+  memory.bandMs = memory.begun ? memory.bandMs + kShare * (band - memory.bandMs) : band;
+  const double sure = std::max(kOver * given.budgetMs - kOneInAHundred * memory.bandMs, kLeast * given.budgetMs);
   return std::min(most, sure);
 }
 
@@ -223,11 +243,11 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
     memory.timeS = timeS;
     return d;
   }
-  d.limitMs = limitOf(given, p);
+  d.limitMs = limitOf(given, p, memory);
   d.bandMs = given.cost.bandMs;
 
   const Choice choice = choiceOf(given, p);
-  const Search search(given, choice);
+  const Search search(given, choice, steady(given.triangles[0], ms, p.calm.value(), memory));
   const HoldSteps before = within(choice, memory.steps);
   HoldSteps now = before;
   if (!memory.begun || search.timeAt(before) > d.limitMs) {

@@ -66,6 +66,9 @@ void forEachNumber(Memory& m, const Visit& visit) {
   for (auto* step : {&m.steps.error, &m.steps.renderScale, &m.steps.particles, &m.steps.blur}) visit(*step);
   visit(m.timeS);
   visit(m.calmMs);
+  visit(m.triangles);
+  visit(m.steadyMs);
+  visit(m.bandMs);
   visit(m.begun);
 }
 

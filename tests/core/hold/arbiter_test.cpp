@@ -200,6 +200,31 @@ TEST(Arbiter, restsWhileItsInputsRest) {
   }
 }
 
+TEST(Arbiter, givesUpNoMoreThanTheBudgetAsksOnceTheViewIsSteady) {
+  std::mt19937 random(13);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  for (int view = 0; view < 50; ++view) {
+    HoldMemory memory;
+    HoldGiven g = given();
+    g.cost.perTriangle = between(1e-4, 4e-4);
+    const double asked = predict(g.cost, loadOf(g, g.asked, g.triangles[0])).total();
+    const double trianglesMs = g.cost.perTriangle * g.triangles[0];
+    g.budgetMs = asked - between(0.1, 0.7) * trianglesMs;
+    HoldParameters p = enabled();
+    p.margin = Ratio{0};
+    HoldDecision d;
+    for (int i = 0; i < 60; ++i) {
+      g.timeS = i / 60.0;
+      d = arbitrate(g, p, memory);
+    }
+    EXPECT_LE(d.heldMs.total(), d.limitMs) << view;
+    // What restoring leaves free, and one eighth of an octave of the triangles.
+    EXPECT_GE(d.heldMs.total(), d.limitMs * 0.94 - 0.084 * trianglesMs) << view;
+  }
+}
+
 TEST(Arbiter, changesLevelsTwiceAtMostInAGlance) {
   HoldMemory memory;
   int changes = 0;

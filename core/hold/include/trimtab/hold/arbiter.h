@@ -18,6 +18,11 @@
 /// Lowering acts at once. Restoring waits until head-room has lasted hold.calm_ms, and then moves render
 /// scale and particles one step an image, so that no image becomes long by it; the allowed error returns
 /// in one step, because each step of it exchanges levels.
+///
+/// While the triangles of the coming views change, the allowed error moves by half octaves, so that a glance
+/// changes levels once or twice. Once they have been steady for hold.calm_ms it moves by eighths of an octave,
+/// so that no more is given up than the budget asks: half an octave is a fifth of an image, an eighth a
+/// twentieth.
 namespace trimtab {
 
 /// Everything that an image's arbitration depends on beside its memory, as plain numbers, so that a trace can
@@ -37,9 +42,9 @@ struct HoldGiven {
   friend bool operator==(const HoldGiven&, const HoldGiven&) = default;
 };
 
-/// Where the levers are. The allowed error is at what is asked for (0) or at a place of a fixed scale, half
-/// an octave apart, so that it rests while what is asked for moves below it. The others are steps down from
-/// what is asked for.
+/// Where the levers are. The allowed error is at what is asked for (0) or at a place of a fixed scale, an
+/// eighth of an octave apart, so that it rests while what is asked for moves below it. The others are steps
+/// down from what is asked for.
 struct HoldSteps {
   std::uint8_t error = 0, renderScale = 0, particles = 0, blur = 0;
   friend bool operator==(const HoldSteps&, const HoldSteps&) = default;
@@ -50,6 +55,9 @@ struct HoldMemory {
   HoldSteps steps;
   double timeS = 0;   ///< of the last image
   double calmMs = 0;  ///< how long there has been head-room
+  double triangles = 0;  ///< of the last image, as asked for
+  double steadyMs = 0;   ///< for how long they have changed by at most a hundredth an image
+  double bandMs = 0;     ///< the model's uncertainty, averaged over some 50 images
   bool begun = false;
   friend bool operator==(const HoldMemory&, const HoldMemory&) = default;
 };
