@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/experiment/weather_view.h"
 #include "tests/support.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/preset/preset.h"
@@ -15,6 +16,7 @@
 namespace trimtab::experiment {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
 
 /// A small piece of the sample terrain, baked once.
@@ -198,6 +200,19 @@ TEST_F(Experiment, calibratesWeatherOnOneView) {
   EXPECT_THAT(toString(refused.findings()), HasSubstr("vertices in view"));
 }
 
+TEST_F(Experiment, weatherUnderABudgetKeepsWhatFitsAndLowersWhatDoesNot) {
+  const auto view = WeatherView::open(setup());
+  ASSERT_TRUE(view) << toString(view.findings());
+  const WeatherDecision rain = weatherOf((*view)->preset(), WeatherStep::rain_heavy, RatioMode::off);
+  ASSERT_GT(rain.density, 0);
+  const HeldLevers ample = (*view)->held(rain, 1e4).levers, none = (*view)->held(rain, 1e-3).levers;
+  EXPECT_EQ(ample.particleShare, 1);
+  EXPECT_EQ(ample.renderScale, 1);
+  EXPECT_GT(none.errorPx, ample.errorPx);
+  EXPECT_LT(none.renderScale, 1);
+  EXPECT_LT(none.particleShare, 1);
+}
+
 TEST_F(Experiment, stopsWhereItIsTold) {
   for (const auto& run : {&runCulling, &runCullingPerNode, &runHeadMotion, &runHeadMotionVarying, &runWeather,
                           &runWeatherProtocol}) {
@@ -250,7 +265,8 @@ TEST_F(Experiment, holdFliesTheSweepInFourModesAndPredictsInOne) {
   // The index counts what the renderer draws, three images ahead.
   EXPECT_LT(rows.number(3, "triangles_error"), 0.25);
   ASSERT_EQ(report->plots.size(), 1u);
-  EXPECT_THAT(report->notes.back(), HasSubstr("only the sweep"));
+  EXPECT_THAT(report->notes, Contains(HasSubstr("only the sweep")));
+  EXPECT_THAT(report->notes, Contains(HasSubstr("lost at 16 px")));
 }
 
 }  // namespace
