@@ -179,8 +179,7 @@ std::optional<HoldRun> fly(Stage& stage, scene::ErrorMeter& meter, const Setup& 
       run.outcomes.push_back(*outcome);
     if (flight.flipEvery > 0 && i >= strain.from && (i - strain.from) % flight.flipEvery == 0) {
       const std::size_t kept = blurs(request) ? before.size() : std::min<std::size_t>(before.size(), 1);
-      run.error.push_back(
-          exposedError(meter, request, std::span(before).last(kept), kExposureMs));
+      run.error.push_back(exposedError(meter, request, std::span(before).last(kept), kExposureMs));
     }
     before.push_back(request);
     if (before.size() > kLongestTrace) before.erase(before.begin());

@@ -42,9 +42,9 @@ inline constexpr std::array<const char*, 4> kHoldModes{"off", "as_published", "p
 /// on top of its own policy, if it has one.
 Result<ValidatedParameters> inMode(const TuningParameters& preset, HoldMode mode, double budgetMs);
 
-/// Sets what the arbiter loses by each lever to what images of the strain show: the mean FLIP lost at 16 px of
-/// allowed error, at half the render scale and without particles, as an engineer sets them by leverage over the
-/// terrain in use. `asked` asks for the images.
+/// Sets what the arbiter loses by each lever to what images of the strain show: the mean FLIP lost at 16 px
+/// of allowed error, at half the render scale and without particles, as an engineer sets them by leverage
+/// over the terrain in use. `asked` asks for the images.
 void measureLosses(scene::ErrorMeter& meter, const Setup& setup, const ValidatedParameters& asked,
                    const Strain& strain, HoldParameters& hold);
 

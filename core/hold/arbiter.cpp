@@ -198,7 +198,8 @@ double limitOf(const HoldGiven& given, const HoldParameters& p, HoldMemory& memo
   constexpr double kShare = 0.02;
   const double band = std::isfinite(given.cost.bandMs) ? std::max(given.cost.bandMs, 0.0) : 0;
   memory.bandMs = memory.begun ? memory.bandMs + kShare * (band - memory.bandMs) : band;
-  const double sure = std::max(kOver * given.budgetMs - kOneInAHundred * memory.bandMs, kLeast * given.budgetMs);
+  const double sure =
+      std::max(kOver * given.budgetMs - kOneInAHundred * memory.bandMs, kLeast * given.budgetMs);
   return std::min(most, sure);
 }
 

@@ -20,9 +20,9 @@
 /// in one step, because each step of it exchanges levels.
 ///
 /// While the triangles of the coming views change, the allowed error moves by half octaves, so that a glance
-/// changes levels once or twice. Once they have been steady for hold.calm_ms it moves by eighths of an octave,
-/// so that no more is given up than the budget asks: half an octave is a fifth of an image, an eighth a
-/// twentieth.
+/// changes levels once or twice. Once they have been steady for hold.calm_ms it moves by eighths of an
+/// octave, so that no more is given up than the budget asks: half an octave is a fifth of an image, an eighth
+/// a twentieth.
 namespace trimtab {
 
 /// Everything that an image's arbitration depends on beside its memory, as plain numbers, so that a trace can
@@ -53,8 +53,8 @@ struct HoldSteps {
 /// What one image's arbitration remembers for the next.
 struct HoldMemory {
   HoldSteps steps;
-  double timeS = 0;   ///< of the last image
-  double calmMs = 0;  ///< how long there has been head-room
+  double timeS = 0;      ///< of the last image
+  double calmMs = 0;     ///< how long there has been head-room
   double triangles = 0;  ///< of the last image, as asked for
   double steadyMs = 0;   ///< for how long they have changed by at most a hundredth an image
   double bandMs = 0;     ///< the model's uncertainty, averaged over some 50 images
