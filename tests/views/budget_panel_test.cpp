@@ -60,6 +60,24 @@ TEST_F(BudgetPanelTest, showsWhatEachLeverGives) {
   EXPECT_TRUE(panel.stateText().startsWith("Lowered")) << panel.stateText().toStdString();
 }
 
+TEST_F(BudgetPanelTest, showsTheNamesOfItsCurvesWholeInANarrowDock) {
+  for (const int widthPx : {900, 540, 320}) {
+    BudgetPlot plot;
+    plot.resize(widthPx, 300);
+    plot.show();
+    settle();
+    plot.replot();
+    for (int i = 0; i < plot.legend->itemCount(); ++i) {
+      const auto* item = qobject_cast<QCPPlottableLegendItem*>(plot.legend->item(i));
+      ASSERT_NE(item, nullptr);
+      const QString name = item->plottable()->name();
+      const int needed = QFontMetrics(item->font()).horizontalAdvance(name) + plot.legend->iconSize().width();
+      EXPECT_GE(item->rect().width(), needed) << widthPx << ' ' << name.toStdString();
+      EXPECT_TRUE(plot.rect().contains(item->rect())) << widthPx << ' ' << name.toStdString();
+    }
+  }
+}
+
 TEST_F(BudgetPanelTest, listsAChangeOnceWhileItLasts) {
   panel.showFrame(frameAt(1, HoldReason::lowered, 4));
   for (int i = 0; i < 10; ++i) panel.showFrame(frameAt(2 + i, HoldReason::held, 4));

@@ -95,6 +95,8 @@ void Plot::arrangeLegendAbove() {
   const int entry = widest + legend->iconSize().width() + legend->iconTextPadding() +
                     legend->columnSpacing() + kLegendEntryMarginPx;
   legend->setWrap(std::max(legend->itemCount() > 3 ? 2 : 1, width() / entry));
+  // The wrap alone counts for entries that are added later.
+  legend->setFillOrder(legend->fillOrder(), true);
 }
 
 void Plot::applyThemeWithLegendAbove() {
