@@ -13,6 +13,7 @@
 #include "gui_support.h"
 #include "trimtab/motion/head_motion.h"
 #include "views/controls/bar_list.h"
+#include "views/panels/budget_panel.h"
 #include "views/panels/motion_panel.h"
 
 namespace trimtab::test {
@@ -55,6 +56,27 @@ TEST_F(Motion, aSweepUnderTheFreeCameraFillsStacksLowersAndRaises) {
   emit panel().sourceBox().activated(MotionPanel::none);
   EXPECT_FALSE(session().input().state.head);
   EXPECT_TRUE(settle()) << "at rest nothing is painted";
+}
+
+TEST_F(Motion, aSweepIsRecordedAndFlownAgainWithItsLineOfSight) {
+  auto& budget = *w().findChild<views::BudgetPanel*>();
+  w().dock(QStringLiteral("motion"))->raise();
+  panel().sweepEdit().setText(QStringLiteral("180deg/1s/0.5s"));
+  panel().sourceBox().setCurrentIndex(MotionPanel::sweep);
+  emit panel().sourceBox().activated(MotionPanel::sweep);
+  budget.recordButton().click();
+  ASSERT_TRUE(waitFor([this] { return session().decision().motion.lodScale == 4; }));
+  budget.recordButton().click();
+  panel().sourceBox().setCurrentIndex(MotionPanel::none);
+  emit panel().sourceBox().activated(MotionPanel::none);
+  ASSERT_TRUE(waitFor([this] { return session().decision().motion.lodScale == 1; }));
+  w().dock(QStringLiteral("budget"))->raise();
+  ASSERT_TRUE(waitFor([&] { return budget.replayButton().isEnabled(); }));
+  budget.replayButton().click();
+  EXPECT_TRUE(waitFor([this] { return session().input().state.head.has_value(); }));
+  EXPECT_TRUE(waitFor([this] { return session().decision().motion.lodScale == 4; }));
+  EXPECT_TRUE(waitFor([&] { return budget.comparisonText().contains(QLatin1String("Flown again")); }));
+  shoot("budget-flown-again");
 }
 
 TEST_F(Motion, thePointerOverThePictureIsTheLineOfSight) {

@@ -5,6 +5,7 @@
 
 #include <QApplication>
 #include <QListWidget>
+#include <QPushButton>
 #include <QTableWidget>
 
 #include "trimtab/hold/arbiter.h"
@@ -99,6 +100,54 @@ TEST_F(BudgetPanelTest, countsAnImageOnceThoughItsDecisionIsShownAgain) {
   between.newImage = false;
   for (int i = 0; i < 5; ++i) panel.showFrame(between);
   EXPECT_EQ(panel.reasons().count(), 0);
+}
+
+TEST_F(BudgetPanelTest, recordsARunAndComparesItWithTheSameFlownAgain) {
+  std::vector<AircraftState> asked;
+  QObject::connect(&panel, &BudgetPanel::replayAsked, &panel,
+                   [&asked](const std::vector<AircraftState>& states) { asked = states; });
+  const auto fly = [&](double from, double ms, int images) {
+    for (int i = 0; i < images; ++i) {
+      LiveFrame frame = frameAt(from + i / 50.0, HoldReason::off, 1);
+      frame.input.state.time = 100 + i / 50.0;
+      frame.cost.total = ms;
+      panel.showFrame(frame);
+    }
+  };
+  panel.show();
+  settle();
+  EXPECT_FALSE(panel.replayButton().isEnabled());
+  panel.recordButton().click();
+  fly(1, 30, 101);
+  panel.recordButton().click();
+  fly(5, 99, 10);
+  settle();
+  EXPECT_EQ(panel.comparisonText(), "Recorded: 2 s, median 30 ms, p99 30 ms");
+  panel.replayButton().click();
+  ASSERT_EQ(asked.size(), 101u);
+  EXPECT_EQ(asked.back().time, 102);
+  fly(9, 20, 101);
+  settle();
+  EXPECT_EQ(panel.comparisonText(),
+            "Recorded: 2 s, median 30 ms, p99 30 ms\nFlown again: 2 s, median 20 ms, p99 20 ms");
+  fly(20, 70, 10);
+  settle();
+  EXPECT_FALSE(panel.comparisonText().contains("70")) << "the run is over";
+}
+
+TEST(RecordedRun, endsByItselfAndTakesEachStateOnce) {
+  RecordedRun run;
+  LiveFrame frame;
+  frame.cost.total = 10;
+  frame.cost.gpu = FrameCost::kNotMeasured;
+  for (const double time : {5.0, 5.0, 4.0, 6.0}) {
+    frame.input.state.time = time;
+    EXPECT_TRUE(run.add(frame));
+  }
+  EXPECT_EQ(run.images(), 2u);
+  frame.input.state.time = 5 + RecordedRun::kLongestS + 1;
+  EXPECT_FALSE(run.add(frame));
+  EXPECT_EQ(run.images(), 2u);
 }
 
 }  // namespace

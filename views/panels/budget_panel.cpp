@@ -5,6 +5,7 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QListWidget>
+#include <QPushButton>
 #include <QScrollBar>
 #include <QTableWidget>
 #include <algorithm>
@@ -28,6 +29,14 @@ QString percent(double share) {
                               : BudgetPanel::tr("unknown");
 }
 
+QString inWords(const RecordedRun& run) {
+  SampleWindow times(std::max<std::size_t>(run.images(), 1));
+  for (const double ms : run.ms()) times.add(ms);
+  return BudgetPanel::tr("%1 s, median %2 ms, p99 %3 ms")
+      .arg(numberText(run.durationS(), 1), numberText(times.median(), 1),
+           numberText(times.quantile(0.99), 1));
+}
+
 }  // namespace
 
 BudgetPanel::BudgetPanel(Draft& draft, QWidget* parent)
@@ -35,14 +44,17 @@ BudgetPanel::BudgetPanel(Draft& draft, QWidget* parent)
       draft_(draft),
       state_(new QLabel(tr("The budget is not held: switch it on below"))),
       residuals_(new QLabel),
+      comparison_(new QLabel),
       plot_(new BudgetPlot),
+      record_(new QPushButton(tr("&Record"))),
+      replay_(new QPushButton(tr("Fl&y again"))),
       levers_(new QTableWidget(4, 3)),
       reasons_(new QListWidget),
       throttle_(this, [this] { refresh(); }) {
   QFont bold = font();
   bold.setBold(true);
   state_->setFont(bold);
-  for (QLabel* label : {state_, residuals_}) label->setWordWrap(true);
+  for (QLabel* label : {state_, residuals_, comparison_}) label->setWordWrap(true);
   residuals_->setToolTip(
       tr("Predictions made three images ahead, of the last 300 images: the median error of triangles and of "
          "time, and the share of images within the 90 % band."));
@@ -73,12 +85,62 @@ BudgetPanel::BudgetPanel(Draft& draft, QWidget* parent)
   layout->setContentsMargins(6, 6, 6, 6);
   layout->addWidget(state_);
   layout->addWidget(plot_, 3);
+  layout->addLayout(makeRecorder());
   layout->addWidget(residuals_);
   layout->addWidget(levers_);
   layout->addWidget(new QLabel(tr("<b>Changes</b>")));
   layout->addWidget(reasons_, 1);
   layout->addWidget(new ParameterLines(draft, kKeys));
   refresh();
+}
+
+QLayout* BudgetPanel::makeRecorder() {
+  record_->setCheckable(true);
+  record_->setToolTip(tr("Records what is flown, with line of sight and weather, for at most %1 s")
+                          .arg(RecordedRun::kLongestS));
+  replay_->setToolTip(
+      tr("Flies what was recorded again, with the preset as it is now, and lays the recorded times over the "
+         "new"));
+  connect(record_, &QPushButton::toggled, this, &BudgetPanel::setRecording);
+  connect(replay_, &QPushButton::clicked, this, &BudgetPanel::askReplay);
+  auto* row = new QHBoxLayout;
+  row->addWidget(record_);
+  row->addWidget(replay_);
+  row->addWidget(comparison_, 1);
+  return row;
+}
+
+void BudgetPanel::setRecording(bool on) {
+  if (on) recorded_ = {}, replayed_ = {}, stage_ = Replay::none;
+  refresh();
+}
+
+void BudgetPanel::askReplay() {
+  record_->setChecked(false);
+  replayed_ = {};
+  stage_ = Replay::asked;
+  emit replayAsked(recorded_.states());
+}
+
+void BudgetPanel::addToRun(const LiveFrame& frame) {
+  if (record_->isChecked()) {
+    if (!recorded_.add(frame)) record_->setChecked(false);
+    return;
+  }
+  if (stage_ == Replay::none) return;
+  // Until the first recorded state is back, an image is still one of what was flown before.
+  const double since = frame.input.state.time - recorded_.states().front().time;
+  if (stage_ == Replay::asked && since >= 0 && since < recorded_.durationS()) {
+    stage_ = Replay::flies;
+    plot_->overlay(recorded_, frame.time - since);
+  }
+  if (stage_ != Replay::flies) return;
+  replayed_.add(frame);
+  if (since >= recorded_.durationS() || since < 0) stage_ = Replay::none;
+}
+
+QString BudgetPanel::comparisonText() const {
+  return comparison_->text();
 }
 
 QString BudgetPanel::stateText() const {
@@ -92,10 +154,9 @@ QString BudgetPanel::residualsText() const {
 void BudgetPanel::showFrame(const LiveFrame& frame) {
   if (!frame.newImage) return;
   shown_ = frame.hold;
-  if (shown_.reason != HoldReason::off) {
-    if (shown_.heldMs.total() > 0) plot_->append(frame, draft_.active()->measure.budget.value());
-    if (frame.holdOutcome) count(*frame.holdOutcome);
-  }
+  plot_->append(frame, draft_.active()->measure.budget.value());
+  if (shown_.reason != HoldReason::off && frame.holdOutcome) count(*frame.holdOutcome);
+  addToRun(frame);
   note(frame);
   throttle_.request();
 }
@@ -118,6 +179,17 @@ void BudgetPanel::note(const LiveFrame& frame) {
   reasons_->addItem(tr("%1 s  %2").arg(frame.time, 0, 'f', 3).arg(QString::fromStdString(explain(shown_))));
   while (reasons_->count() > kMostReasons) delete reasons_->takeItem(0);
   if (follow) reasons_->scrollToBottom();
+}
+
+void BudgetPanel::compare() {
+  const std::size_t images = recorded_.images() + replayed_.images();
+  if (images == comparedImages_ && !comparison_->text().isEmpty()) return;
+  comparedImages_ = images;
+  replay_->setEnabled(recorded_.images() > 1);
+  QString text =
+      recorded_.images() == 0 ? tr("Nothing is recorded") : tr("Recorded: %1").arg(inWords(recorded_));
+  if (replayed_.images() > 0) text += QLatin1Char('\n') + tr("Flown again: %1").arg(inWords(replayed_));
+  comparison_->setText(text);
 }
 
 void BudgetPanel::refresh() {
@@ -146,6 +218,7 @@ void BudgetPanel::refresh() {
     residuals_->setText(
         tr("Three images ahead: triangles off by %1, time by %2; %3 within the 90 % band")
             .arg(percent(trianglesOff_.median()), percent(timeOff_.median()), percent(within_.mean())));
+  compare();
   plot_->refresh();
 }
 

@@ -6,11 +6,12 @@
 #include "trimtab/hold/frame_hold.h"
 #include "trimtab/measure/statistics.h"
 #include "views/model/draft.h"
-#include "views/model/live.h"
+#include "views/model/recorded_run.h"
 #include "views/model/throttle.h"
 
 class QLabel;
 class QListWidget;
+class QPushButton;
 class QTableWidget;
 
 namespace trimtab::views {
@@ -18,7 +19,7 @@ namespace trimtab::views {
 class BudgetPlot;
 
 /// The Budget dock: what the arbiter predicts and what images take, which lever gave what, and how the
-/// predictions come out.
+/// predictions come out. It records what is flown, to fly it again with other settings and to compare.
 class BudgetPanel : public QWidget {
   Q_OBJECT
  public:
@@ -29,26 +30,43 @@ class BudgetPanel : public QWidget {
 
   QString stateText() const;
   QString residualsText() const;
+  QString comparisonText() const;
+  QPushButton& recordButton() { return *record_; }
+  QPushButton& replayButton() { return *replay_; }
   QTableWidget& levers() { return *levers_; }
   QListWidget& reasons() { return *reasons_; }
   BudgetPlot& plot() { return *plot_; }
 
+ signals:
+  /// These states are to be flown again, with the preset as it is now.
+  void replayAsked(const std::vector<trimtab::AircraftState>& states);
+
  private:
   static constexpr std::size_t kOutcomes = 300;
 
+  QLayout* makeRecorder();
+  void setRecording(bool on);
+  void askReplay();
+  void addToRun(const LiveFrame& frame);
+  void compare();
   void refresh();
   void count(const HoldOutcome& outcome);
   void note(const LiveFrame& frame);
 
   Draft& draft_;
-  QLabel *state_, *residuals_;
+  QLabel *state_, *residuals_, *comparison_;
   BudgetPlot* plot_;
+  QPushButton *record_, *replay_;
   QTableWidget* levers_;
   QListWidget* reasons_;
   HoldDecision shown_;
   HoldReason noted_ = HoldReason::off;
   /// Of the predictions that came due: how far off they were, as a part, and 1 where the band held.
   SampleWindow trianglesOff_{kOutcomes}, timeOff_{kOutcomes}, within_{kOutcomes};
+  RecordedRun recorded_, replayed_;
+  std::size_t comparedImages_ = 0;  ///< of both together that the comparison counts
+  /// Where the replay is: asked for, but without an image yet; flying; or there is none.
+  enum class Replay { none, asked, flies } stage_ = Replay::none;
   Throttle throttle_;
 };
 

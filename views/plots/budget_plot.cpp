@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "trimtab/hold/cost_model.h"
 #include "views/model/theme.h"
@@ -36,8 +37,9 @@ BudgetPlot::BudgetPlot(QWidget* parent)
   bandHigh_->setChannelFillGraph(bandLow_);
   asked_ = line(tr("as asked"));
   budget_ = line(tr("budget"));
+  recorded_ = line(tr("recorded"));
   measured_ = line(tr("measured"));
-  for (QCPGraph* graph : {measured_, budget_, asked_, bandHigh_}) graph->addToLegend(legend);
+  for (QCPGraph* graph : {measured_, recorded_, budget_, asked_, bandHigh_}) graph->addToLegend(legend);
   for (QCPGraph* graph : stages_) graph->addToLegend(legend);
   restyle();
 }
@@ -48,24 +50,36 @@ void BudgetPlot::append(const LiveFrame& frame, double budgetMs) {
   if (time < last_)
     for (int i = 0; i < graphCount(); ++i) graph(i)->data()->clear();
   last_ = time;
+  // A value that is not a number is a gap.
+  const bool predicted = hold.reason != HoldReason::off && hold.heldMs.total() > 0;
+  const auto orGap = [predicted](double ms) {
+    return predicted ? ms : std::numeric_limits<double>::quiet_NaN();
+  };
   double sum = 0;
   const StageTimes& s = hold.heldMs;
   const std::array<double, 4> stages{s.ground, s.weather, s.blur, s.other};
-  for (std::size_t i = 0; i < stages.size(); ++i) stages_[i]->addData(time, sum += stages[i]);
-  bandLow_->addData(time, std::max(s.total() - hold.bandMs, 0.0));
-  bandHigh_->addData(time, s.total() + hold.bandMs);
-  asked_->addData(time, hold.askedMs.total());
+  for (std::size_t i = 0; i < stages.size(); ++i) stages_[i]->addData(time, orGap(sum += stages[i]));
+  bandLow_->addData(time, orGap(std::max(s.total() - hold.bandMs, 0.0)));
+  bandHigh_->addData(time, orGap(s.total() + hold.bandMs));
+  asked_->addData(time, orGap(hold.askedMs.total()));
   budget_->addData(time, budgetMs);
   measured_->addData(time, workMs(frame.cost));
   for (int i = 0; i < graphCount(); ++i) graph(i)->data()->removeBefore(time - kSpanS);
 }
 
+void BudgetPlot::overlay(const RecordedRun& run, double atS) {
+  recorded_->data()->clear();
+  for (std::size_t i = 0; i < run.images(); ++i)
+    recorded_->addData(atS + run.states()[i].time - run.states()[0].time, run.ms()[i]);
+}
+
 void BudgetPlot::refresh() {
   double top = 1;
   std::vector<double> times;
-  for (const QCPGraph* graph : {asked_, measured_, budget_}) {
+  for (const QCPGraph* graph : {asked_, measured_, recorded_, budget_}) {
     times.clear();
-    for (const QCPGraphData& point : *graph->data()) times.push_back(point.value);
+    for (const QCPGraphData& point : *graph->data())
+      if (std::isfinite(point.value)) times.push_back(point.value);
     if (times.empty()) continue;
     // A spike does not flatten the plot: one image in fifty may leave it.
     const auto most = times.begin() + std::ptrdiff_t(double(times.size() - 1) * 0.98);
@@ -94,6 +108,7 @@ void BudgetPlot::restyle() {
   asked_->setPen(QPen(seriesColour(0, palette()), 1.5, Qt::DotLine));
   budget_->setPen(QPen(errorColour(palette()), 1.5, Qt::DashLine));
   measured_->setPen(QPen(palette().color(QPalette::Text), 1.5));
+  recorded_->setPen(QPen(seriesColour(int(stages_.size()) + 1, palette()), 1.5, Qt::DashDotLine));
   arrangeLegendAbove();
   replot(QCustomPlot::rpQueuedReplot);
 }

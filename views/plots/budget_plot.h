@@ -4,7 +4,7 @@
 #include <array>
 
 #include "plot.h"
-#include "views/model/live.h"
+#include "views/model/recorded_run.h"
 
 namespace trimtab::views {
 
@@ -16,8 +16,11 @@ class BudgetPlot : public Plot {
   static constexpr double kSpanS = 15;
 
   explicit BudgetPlot(QWidget* parent = nullptr);
-  /// Adds an image whose budget is held. A clock that goes back empties the plot.
+  /// Adds an image; predictions are shown only while its budget is held. A clock that goes back empties the
+  /// plot.
   void append(const LiveFrame& frame, double budgetMs);
+  /// Lays the times of a recorded run over those of the images from `atS` on, on the clock of the frames.
+  void overlay(const RecordedRun& run, double atS);
   void refresh();
 
   QSize sizeHint() const override { return {320, 230}; }
@@ -29,7 +32,7 @@ class BudgetPlot : public Plot {
 
  private:
   std::array<QCPGraph*, 4> stages_{};  ///< running sums, from the bottom
-  QCPGraph *measured_, *asked_, *bandLow_, *bandHigh_, *budget_;
+  QCPGraph *measured_, *asked_, *bandLow_, *bandHigh_, *budget_, *recorded_;
   double last_ = 0;
 };
 

@@ -140,6 +140,16 @@ Findings FlightDock::open(const QString& file) {
   return notes;
 }
 
+void FlightDock::fly(const std::vector<AircraftState>& states) {
+  feed_.stopUdp();
+  feed_.loadFlight({tr("recorded run").toStdString(), states});
+  file_.clear();
+  name_->setToolTip({});
+  via_->setCurrentIndex(here);
+  feed_.useHead(Feed::Head::host);
+  play();
+}
+
 void FlightDock::play() {
   if (!feed_.playback().loaded()) return emit openRequested();
   if (!overUdp()) return feed_.playHere();

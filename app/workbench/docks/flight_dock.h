@@ -25,6 +25,8 @@ class FlightDock : public QWidget {
 
   /// Returns what was wrong with the file. An error among the findings means that it was not opened.
   Findings open(const QString& file);
+  /// Plays states that were recorded here, inside this program and with their own line of sight.
+  void fly(const std::vector<AircraftState>& states);
   /// Returns the file that the open flight was read from; empty if there is none, or if the file has changed
   /// since.
   QString file() const;
