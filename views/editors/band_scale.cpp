@@ -20,7 +20,7 @@ double rounded(double value) {
 }  // namespace
 
 BandScale::BandScale(Draft& draft, QWidget* parent)
-    : QWidget(parent), draft_(draft), throttle_(this, [this] { update(); }) {
+    : QWidget(parent), draft_(draft), hand_(draft), throttle_(this, [this] { update(); }) {
   setFocusPolicy(Qt::StrongFocus);
   setMouseTracking(true);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
@@ -30,7 +30,7 @@ BandScale::BandScale(Draft& draft, QWidget* parent)
          "Delete removes "
          "one."));
   connect(&draft_, &Draft::valueChanged, this, [this](const QString& key) {
-    if (key.toStdString() == key::kBands && selected_ >= static_cast<int>(bands().size))
+    if (key.toStdString() == key::kBands && selected() >= static_cast<int>(bands().size))
       select(static_cast<int>(bands().size) - 1);
   });
   connect(&draft_, &Draft::findingsChanged, this, qOverload<>(&QWidget::update));
@@ -89,11 +89,9 @@ void BandScale::showFrame(const LiveFrame& frame) {
 }
 
 void BandScale::select(int index) {
-  index = std::clamp(index, -1, static_cast<int>(bands().size) - 1);
-  if (index == selected_) return;
-  selected_ = index;
+  if (!hand_.select(index, static_cast<int>(bands().size))) return;
   update();
-  emit selectedChanged(index);
+  emit selectedChanged(selected());
 }
 
 void BandScale::commit(const BandList& changed, MergeToken token) {
@@ -113,13 +111,13 @@ void BandScale::addBandInSelected() {
   const BandList list = bands();
   if (list.size == 0) return addBand(1);
   const std::size_t at =
-      static_cast<std::size_t>(selected_ < 0 ? static_cast<int>(list.size) - 1 : selected_);
+      static_cast<std::size_t>(selected() < 0 ? static_cast<int>(list.size) - 1 : selected());
   addBand(rounded((list.band[at].low + highOf(list, at)) / 2));
 }
 
 void BandScale::removeSelected() {
-  if (selected_ < 0) return;
-  const std::optional<BandList> removed = withoutBand(bands(), static_cast<std::size_t>(selected_));
+  if (selected() < 0) return;
+  const std::optional<BandList> removed = withoutBand(bands(), static_cast<std::size_t>(selected()));
   if (!removed) return emit refused(tr("One band stays."));
   commit(*removed, 0);
 }
@@ -129,15 +127,15 @@ void BandScale::mousePressEvent(QMouseEvent* event) {
   const int edge = edgeAt(event->position());
   if (edge < 0) return select(bandAt(totalAt(event->position().x())));
   select(edge);
-  dragToken_ = draft_.newToken();
+  hand_.beginDrag();
   dragStart_ = bands();
 }
 
 void BandScale::mouseMoveEvent(QMouseEvent* event) {
-  if (dragToken_ != 0 && selected_ >= 0)
+  if (hand_.dragging() && selected() >= 0)
     return commit(
-        withEdge(bands(), static_cast<std::size_t>(selected_), rounded(totalAt(event->position().x()))),
-        dragToken_);
+        withEdge(bands(), static_cast<std::size_t>(selected()), rounded(totalAt(event->position().x()))),
+        hand_.drag());
   setCursor(edgeAt(event->position()) >= 0 ? Qt::SplitHCursor : Qt::ArrowCursor);
   const double total = totalAt(event->position().x());
   const int band = bandAt(total);
@@ -150,7 +148,7 @@ void BandScale::mouseMoveEvent(QMouseEvent* event) {
 }
 
 void BandScale::mouseReleaseEvent(QMouseEvent*) {
-  dragToken_ = 0;
+  hand_.endDrag();
 }
 
 void BandScale::mouseDoubleClickEvent(QMouseEvent* event) {
@@ -166,7 +164,7 @@ void BandScale::contextMenuEvent(QContextMenuEvent* event) {
   QMenu menu(this);
   menu.addAction(tr("Split band here"), this, [&] { byMouse ? addBand(here) : addBandInSelected(); });
   menu.addAction(tr("Remove band"), this, &BandScale::removeSelected)
-      ->setEnabled(selected_ >= 0 && bands().size > 1);
+      ->setEnabled(selected() >= 0 && bands().size > 1);
   menu.addSeparator();
   menu.addAction(tr("Reset the bands"), this, [this] { draft_.reset(key::kBands); })
       ->setEnabled(draft_.isChanged(key::kBands));
@@ -176,10 +174,9 @@ void BandScale::contextMenuEvent(QContextMenuEvent* event) {
 void BandScale::keyPressEvent(QKeyEvent* event) {
   const double step = event->modifiers() & Qt::ShiftModifier ? 10 * kEdgeGap : kEdgeGap;
   const auto nudge = [&](double by) {
-    if (selected_ < 0) return;
-    if (nudgeToken_ == 0) nudgeToken_ = draft_.newToken();
-    const std::size_t at = static_cast<std::size_t>(selected_);
-    commit(withEdge(bands(), at, rounded(bands().band[at].low + by)), nudgeToken_);
+    if (selected() < 0) return;
+    const std::size_t at = static_cast<std::size_t>(selected());
+    commit(withEdge(bands(), at, rounded(bands().band[at].low + by)), hand_.nudge());
   };
   switch (event->key()) {
     case Qt::Key_Left:
@@ -188,43 +185,43 @@ void BandScale::keyPressEvent(QKeyEvent* event) {
     case Qt::Key_Right:
     case Qt::Key_Up:
       return nudge(step);
-    case Qt::Key_Return:
-    case Qt::Key_Enter:
-      if (selected_ >= 0) emit typingAsked();
-      return;
-    case Qt::Key_Insert:
-      return addBandInSelected();
-    case Qt::Key_Delete:
-    case Qt::Key_Backspace:
-      return removeSelected();
-    case Qt::Key_Escape:
-      if (dragToken_ == 0) return event->ignore();
-      return commit(dragStart_, std::exchange(dragToken_, 0));
     default:
+      break;
+  }
+  switch (EditHand::commandOf(*event)) {
+    case EditHand::Command::type:
+      if (selected() >= 0) emit typingAsked();
+      return;
+    case EditHand::Command::add:
+      return addBandInSelected();
+    case EditHand::Command::remove:
+      return removeSelected();
+    case EditHand::Command::cancel:
+      return hand_.dragging() ? commit(dragStart_, hand_.endDrag()) : event->ignore();
+    case EditHand::Command::none:
       return QWidget::keyPressEvent(event);
   }
 }
 
 void BandScale::keyReleaseEvent(QKeyEvent* event) {
-  if (!event->isAutoRepeat()) nudgeToken_ = 0;
+  hand_.keyReleased(*event);
   QWidget::keyReleaseEvent(event);
 }
 
 bool BandScale::focusNextPrevChild(bool next) {
-  const int to = selected_ + (next ? 1 : -1);
-  if (to < 0 || to >= static_cast<int>(bands().size)) return QWidget::focusNextPrevChild(next);
-  select(to);
+  const auto to = hand_.tabbedTo(next, static_cast<int>(bands().size));
+  if (!to) return QWidget::focusNextPrevChild(next);
+  select(*to);
   return true;
 }
 
 void BandScale::focusInEvent(QFocusEvent* event) {
-  if (event->reason() == Qt::TabFocusReason) select(0);
-  if (event->reason() == Qt::BacktabFocusReason) select(static_cast<int>(bands().size) - 1);
+  if (const auto at = EditHand::enteredAt(event->reason(), static_cast<int>(bands().size))) select(*at);
   update();
 }
 
 void BandScale::focusOutEvent(QFocusEvent*) {
-  nudgeToken_ = 0;
+  hand_.endNudge();
   update();
 }
 
@@ -308,7 +305,7 @@ void BandScale::paintEdges(QPainter& painter) {
                    right = pixelOf(std::min(BandList::kTop, low + hysteresis)).x();
       painter.fillRect(QRectF(left, t.top(), right - left, t.height()), QBrush(zone, Qt::BDiagPattern));
     }
-    const bool chosen = static_cast<int>(i) == selected_;
+    const bool chosen = static_cast<int>(i) == selected();
     painter.setPen(QPen(broken ? errorColour(palette()) : ink, chosen ? 3 : 1.6));
     painter.drawLine(QPointF(x, t.top() - 3), QPointF(x, t.bottom() + 3));
     painter.setBrush(chosen ? palette().color(QPalette::Highlight) : base);

@@ -4,6 +4,7 @@
 #include <QWidget>
 
 #include "band_edit.h"
+#include "edit_hand.h"
 #include "views/model/draft.h"
 #include "views/model/live.h"
 #include "views/model/throttle.h"
@@ -18,7 +19,7 @@ class BandScale : public QWidget {
   explicit BandScale(Draft& draft, QWidget* parent = nullptr);
 
   void showFrame(const LiveFrame& frame);
-  int selected() const { return selected_; }
+  int selected() const { return hand_.selected(); }
   void select(int index);
   void addBand(double low);
   /// Adds a band in the middle of the selected one.
@@ -60,8 +61,7 @@ class BandScale : public QWidget {
   void paintLive(QPainter& painter);
 
   Draft& draft_;
-  int selected_ = -1;
-  MergeToken dragToken_ = 0, nudgeToken_ = 0;
+  EditHand hand_;
   BandList dragStart_;
   std::optional<double> total_;
   int liveBand_ = -1;

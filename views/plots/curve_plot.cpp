@@ -13,6 +13,7 @@ CurvePlot::CurvePlot(Draft& draft, CurveSpec spec, QWidget* parent)
     : Plot(tr("%1 membership curve").arg(spec.quantity), Keyboard::used, parent),
       draft_(draft),
       spec_(std::move(spec)),
+      hand_(draft),
       liveThrottle_(this, [this] { redrawLive(); }) {
   makeItems();
   fitView();
@@ -21,7 +22,7 @@ CurvePlot::CurvePlot(Draft& draft, CurveSpec spec, QWidget* parent)
     // Readings and offsets of the same quantity bend the computed curve too.
     const qsizetype dot = static_cast<qsizetype>(spec_.key.rfind('.'));
     if (!key.startsWith(QString::fromUtf8(spec_.key.data(), dot))) return;
-    if (selected_ >= static_cast<int>(curve().size)) select(static_cast<int>(curve().size) - 1);
+    if (selected() >= static_cast<int>(curve().size)) select(static_cast<int>(curve().size) - 1);
     redraw();
   });
   connect(&draft_, &Draft::loaded, this, &CurvePlot::fitView);
@@ -109,10 +110,10 @@ bool CurvePlot::isAtFault() const {
 
 void CurvePlot::describe(const CurvePoints& shown) {
   QString text;
-  if (selected_ >= 0 && selected_ < static_cast<int>(shown.size)) {
-    const CurvePoint& p = shown.point[static_cast<std::size_t>(selected_)];
+  if (selected() >= 0 && selected() < static_cast<int>(shown.size)) {
+    const CurvePoint& p = shown.point[static_cast<std::size_t>(selected())];
     text = tr("Breakpoint %1 of %2: %3 %4, membership %5. ")
-               .arg(selected_ + 1)
+               .arg(selected() + 1)
                .arg(shown.size)
                .arg(numberText(p.x, 3), spec_.unit, numberText(p.y, 4));
   }
@@ -134,8 +135,8 @@ void CurvePlot::redraw() {
   QCPScatterStyle style = handles_->scatterStyle();
   style.setPen(QPen(editable() ? edge : blend(palette().color(QPalette::Base), edge, 0.4), 1.6));
   handles_->setScatterStyle(style);
-  if (selected_ >= 0 && selected_ < px.size() && editable())
-    chosen_->setData({px[selected_]}, {py[selected_]});
+  if (selected() >= 0 && selected() < px.size() && editable())
+    chosen_->setData({px[selected()]}, {py[selected()]});
   else
     chosen_->data()->clear();
   describe(shown);

@@ -5,6 +5,7 @@
 
 #include "plot.h"
 #include "views/editors/curve_edit.h"
+#include "views/editors/edit_hand.h"
 #include "views/model/draft.h"
 #include "views/model/live.h"
 #include "views/model/throttle.h"
@@ -19,7 +20,7 @@ class CurvePlot : public Plot {
   CurvePlot(Draft& draft, CurveSpec spec, QWidget* parent = nullptr);
 
   void showFrame(const LiveFrame& frame);
-  int selected() const { return selected_; }
+  int selected() const { return hand_.selected(); }
   /// -1: none.
   void select(int index);
   void addPoint(CurvePoint point);
@@ -72,9 +73,7 @@ class CurvePlot : public Plot {
 
   Draft& draft_;
   CurveSpec spec_;
-  int selected_ = -1;
-  MergeToken dragToken_ = 0;   ///< not 0 while a point is dragged
-  MergeToken nudgeToken_ = 0;  ///< of a key held down
+  EditHand hand_;
   CurvePoints dragStart_;
   QPointF grabOffset_;
   bool fitted_ = true;

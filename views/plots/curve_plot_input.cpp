@@ -21,12 +21,9 @@ double rounded(double value, double step) {
 }  // namespace
 
 void CurvePlot::select(int index) {
-  const int last = static_cast<int>(curve().size) - 1;
-  index = std::clamp(index, -1, last);
-  if (index == selected_) return;
-  selected_ = index;
+  if (!hand_.select(index, static_cast<int>(curve().size))) return;
   redraw();
-  emit selectedChanged(index);
+  emit selectedChanged(selected());
 }
 
 int CurvePlot::pointAt(QPointF pixel) const {
@@ -37,7 +34,7 @@ int CurvePlot::pointAt(QPointF pixel) const {
     const QPointF d = pixelOf(points.point[i]) - pixel;
     const double distance = std::hypot(d.x(), d.y());
     // At equal distance the selected one wins: it is drawn on top.
-    if (distance < best || (distance == best && static_cast<int>(i) == selected_)) {
+    if (distance < best || (distance == best && static_cast<int>(i) == selected())) {
       best = distance;
       nearest = static_cast<int>(i);
     }
@@ -62,7 +59,7 @@ void CurvePlot::mousePressEvent(QMouseEvent* event) {
   const int hit = pointAt(event->position());
   if (event->button() == Qt::LeftButton && hit >= 0 && editable()) {
     select(hit);
-    dragToken_ = draft_.newToken();
+    hand_.beginDrag();
     dragStart_ = curve();
     grabOffset_ = pixelOf(dragStart_.point[static_cast<std::size_t>(hit)]) - event->position();
     setCursor(Qt::ClosedHandCursor);
@@ -73,17 +70,17 @@ void CurvePlot::mousePressEvent(QMouseEvent* event) {
 }
 
 void CurvePlot::mouseMoveEvent(QMouseEvent* event) {
-  if (dragToken_ != 0 && selected_ >= 0) {
+  if (hand_.dragging() && selected() >= 0) {
     CurvePoint to = valueAt(event->position() + grabOffset_);
-    const CurvePoint from = dragStart_.point[static_cast<std::size_t>(selected_)];
+    const CurvePoint from = dragStart_.point[static_cast<std::size_t>(selected())];
     if (event->modifiers() & Qt::ShiftModifier) {
       // Shift keeps to the axis along which the drag has gone farther.
       const QPointF gone = pixelOf(to) - pixelOf(from);
       (std::abs(gone.x()) > std::abs(gone.y()) ? to.y : to.x) =
           std::abs(gone.x()) > std::abs(gone.y()) ? from.y : from.x;
     }
-    commit(withMoved(curve(), static_cast<std::size_t>(selected_), to, spec_), dragToken_);
-    drawHover(pixelOf(curve().point[static_cast<std::size_t>(selected_)]));
+    commit(withMoved(curve(), static_cast<std::size_t>(selected()), to, spec_), hand_.drag());
+    drawHover(pixelOf(curve().point[static_cast<std::size_t>(selected())]));
     return;
   }
   setCursor(pointAt(event->position()) >= 0 && editable() ? Qt::OpenHandCursor : Qt::ArrowCursor);
@@ -92,8 +89,8 @@ void CurvePlot::mouseMoveEvent(QMouseEvent* event) {
 }
 
 void CurvePlot::mouseReleaseEvent(QMouseEvent* event) {
-  if (dragToken_ != 0 && event->button() == Qt::LeftButton) {
-    dragToken_ = 0;
+  if (hand_.dragging() && event->button() == Qt::LeftButton) {
+    hand_.endDrag();
     setCursor(Qt::OpenHandCursor);
     return;
   }
@@ -107,8 +104,7 @@ void CurvePlot::mouseDoubleClickEvent(QMouseEvent* event) {
 }
 
 void CurvePlot::cancelDrag() {
-  const MergeToken token = std::exchange(dragToken_, 0);
-  commit(dragStart_, token);
+  commit(dragStart_, hand_.endDrag());
   setCursor(Qt::ArrowCursor);
 }
 
@@ -125,35 +121,31 @@ void CurvePlot::addPoint(CurvePoint point) {
 void CurvePlot::addPointBesideSelected() {
   const CurvePoints points = curve();
   if (points.size < 2) return;
-  const std::size_t left = std::min(static_cast<std::size_t>(std::max(selected_, 0)), points.size - 2);
+  const std::size_t left = std::min(static_cast<std::size_t>(std::max(selected(), 0)), points.size - 2);
   const CurvePoint a = points.point[left], b = points.point[left + 1];
   addPoint({rounded((a.x + b.x) / 2, pointGap(spec_)), (a.y + b.y) / 2});
 }
 
 void CurvePlot::removeSelected() {
-  if (selected_ < 0 || !editable()) return;
-  const std::optional<CurvePoints> removed = withRemoved(curve(), static_cast<std::size_t>(selected_));
+  if (selected() < 0 || !editable()) return;
+  const std::optional<CurvePoints> removed = withRemoved(curve(), static_cast<std::size_t>(selected()));
   if (!removed) return emit refused(tr("A curve keeps at least two points."));
   commit(*removed, 0);
 }
 
 void CurvePlot::nudge(double dx, double dy) {
-  if (selected_ < 0 || !editable()) return;
-  if (nudgeToken_ == 0) nudgeToken_ = draft_.newToken();
+  if (selected() < 0 || !editable()) return;
   const CurvePoints points = curve();
-  const CurvePoint from = points.point[static_cast<std::size_t>(selected_)];
-  commit(withMoved(points, static_cast<std::size_t>(selected_), {from.x + dx, rounded(from.y + dy, 1e-6)},
+  const CurvePoint from = points.point[static_cast<std::size_t>(selected())];
+  commit(withMoved(points, static_cast<std::size_t>(selected()), {from.x + dx, rounded(from.y + dy, 1e-6)},
                    spec_),
-         nudgeToken_);
+         hand_.nudge());
 }
 
 void CurvePlot::keyPressEvent(QKeyEvent* event) {
   const double times = event->modifiers() & Qt::ShiftModifier ? 10 : 1;
   const double xStep = std::max(findRow(spec_.key)->step, pointGap(spec_)) * times;
   switch (event->key()) {
-    case Qt::Key_Escape:
-      if (dragToken_ == 0) return event->ignore();
-      return cancelDrag();
     case Qt::Key_Left:
       return nudge(-xStep, 0);
     case Qt::Key_Right:
@@ -162,45 +154,47 @@ void CurvePlot::keyPressEvent(QKeyEvent* event) {
       return nudge(0, kMembershipStep * times);
     case Qt::Key_Down:
       return nudge(0, -kMembershipStep * times);
-    case Qt::Key_Insert:
-      return addPointBesideSelected();
-    case Qt::Key_Delete:
-    case Qt::Key_Backspace:
-      return removeSelected();
-    case Qt::Key_Return:
-    case Qt::Key_Enter:
-      if (selected_ >= 0) emit typingAsked();
-      return;
     case Qt::Key_Home:
       return select(0);
     case Qt::Key_End:
       return select(static_cast<int>(curve().size) - 1);
     default:
+      break;
+  }
+  switch (EditHand::commandOf(*event)) {
+    case EditHand::Command::type:
+      if (selected() >= 0) emit typingAsked();
+      return;
+    case EditHand::Command::add:
+      return addPointBesideSelected();
+    case EditHand::Command::remove:
+      return removeSelected();
+    case EditHand::Command::cancel:
+      return hand_.dragging() ? cancelDrag() : event->ignore();
+    case EditHand::Command::none:
       return Plot::keyPressEvent(event);
   }
 }
 
 void CurvePlot::keyReleaseEvent(QKeyEvent* event) {
-  // A key held down is one undo step.
-  if (!event->isAutoRepeat()) nudgeToken_ = 0;
+  hand_.keyReleased(*event);
   Plot::keyReleaseEvent(event);
 }
 
 bool CurvePlot::focusNextPrevChild(bool next) {
-  const int to = selected_ + (next ? 1 : -1);
-  if (!editable() || to < 0 || to >= static_cast<int>(curve().size)) return Plot::focusNextPrevChild(next);
-  select(to);
+  const auto to = editable() ? hand_.tabbedTo(next, static_cast<int>(curve().size)) : std::nullopt;
+  if (!to) return Plot::focusNextPrevChild(next);
+  select(*to);
   return true;
 }
 
 void CurvePlot::focusInEvent(QFocusEvent* event) {
-  if (event->reason() == Qt::TabFocusReason) select(0);
-  if (event->reason() == Qt::BacktabFocusReason) select(static_cast<int>(curve().size) - 1);
+  if (const auto at = EditHand::enteredAt(event->reason(), static_cast<int>(curve().size))) select(*at);
   Plot::focusInEvent(event);
 }
 
 void CurvePlot::focusOutEvent(QFocusEvent* event) {
-  nudgeToken_ = 0;
+  hand_.endNudge();
   Plot::focusOutEvent(event);
 }
 
@@ -218,7 +212,7 @@ void CurvePlot::contextMenuEvent(QContextMenuEvent* event) {
       menu.addAction(tr("Add point"), this, [&] { byMouse ? addPoint(here) : addPointBesideSelected(); });
   add->setEnabled(editable() && curve().size < CurvePoints::kCapacity);
   QAction* remove = menu.addAction(tr("Remove point"), this, &CurvePlot::removeSelected);
-  remove->setEnabled(editable() && selected_ >= 0 && curve().size > 2);
+  remove->setEnabled(editable() && selected() >= 0 && curve().size > 2);
   menu.addSeparator();
   QAction* reset = menu.addAction(tr("Reset this curve"), this, [this] { draft_.reset(spec_.key); });
   reset->setEnabled(draft_.isChanged(spec_.key));
