@@ -29,11 +29,10 @@ ErrorTimeline::ErrorTimeline(QWidget* parent)
   addOverlays({"cursor", "numbers"});
   auto* margins = new QCPMarginGroup(this);
   for (std::size_t i = 0; i < lanes_.size(); ++i) {
-    Lane& lane = lanes_[i];
-    lane.rect = new QCPAxisRect(this, true);
-    plotLayout()->addElement(int(i) + 1, 0, lane.rect);
-    lane.rect->setMarginGroup(QCP::msLeft | QCP::msRight, margins);
-    lane.rect->setMinimumMargins(QMargins(4, 4, 8, 2));
+    QCPAxisRect* rect = lanes_[i] = new QCPAxisRect(this, true);
+    plotLayout()->addElement(int(i) + 1, 0, rect);
+    rect->setMarginGroup(QCP::msLeft | QCP::msRight, margins);
+    rect->setMinimumMargins(QMargins(4, 4, 8, 2));
     for (QCPAxis* axis : {time(int(i)), value(int(i))}) {
       axis->setSubTicks(false);
       axis->setNumberFormat(QStringLiteral("g"));
@@ -42,19 +41,18 @@ ErrorTimeline::ErrorTimeline(QWidget* parent)
     value(int(i))->ticker()->setTickCount(3);
     value(int(i))->setNumberPrecision(4);
     time(int(i))->setNumberPrecision(7);
-    lane.cursor = addLine("cursor", lane.rect);
   }
   time(0)->setTickLabels(false);
   time(1)->setLabel(tr("Time of the flight (s)"));
   value(0)->setLabel(tr("Frame (ms)"));
 
-  budgetLine_ = addLine("main", lanes_[0].rect);
+  budgetLine_ = addLine("main", lanes_[0]);
   const QMargins padding(6, 3, 6, 3);
-  cursorText_ = addReadout("cursor", padding);
+  line_.attach(*this, "cursor", {lanes_.begin(), lanes_.end()});
   numbers_ = addReadout("numbers", padding);
   hint_ = addReadout("main", padding);
   hint_->position->setType(QCPItemPosition::ptAxisRectRatio);
-  hint_->position->setAxisRect(lanes_[0].rect);
+  hint_->position->setAxisRect(lanes_[0]);
   hint_->position->setCoords(0.5, 0.5);
   redraw();
 }
@@ -182,10 +180,8 @@ void ErrorTimeline::redraw() {
   budgetLine_->setVisible(budget_ > 0);
   putHorizontal(*budgetLine_, budget_);
   budgetLine_->setPen(QPen(errorColour(palette()), 1.4, Qt::DashLine));
-  for (Lane& lane : lanes_) lane.cursor->setPen(QPen(liveColour(palette()), 2));
-  for (QCPItemText* text : {cursorText_, hint_}) text->setFont(font());
-  cursorText_->setColor(palette().color(QPalette::Base));
-  cursorText_->setBrush(liveColour(palette()));
+  line_.setLook(QPen(liveColour(palette()), 2), palette().color(QPalette::Base), font());
+  hint_->setFont(font());
   hint_->setVisible(times_.empty());
   hint_->setText(tr("Frames of a measured flight stand here."));
   hint_->setColor(quietColour(palette()));
@@ -199,18 +195,8 @@ void ErrorTimeline::redraw() {
 
 void ErrorTimeline::placeCursor() {
   const bool shown = std::isfinite(cursor_) && !times_.empty();
-  for (Lane& lane : lanes_) {
-    lane.cursor->setVisible(shown);
-    if (shown) putVertical(*lane.cursor, cursor_);
-  }
-  cursorText_->setVisible(shown && time()->range().contains(cursor_));
-  if (shown) {
-    cursorText_->setText(timeText(cursor_));
-    const QRect rect = lanes_[0].rect->rect();
-    const bool left = time()->coordToPixel(cursor_) > rect.center().x();
-    cursorText_->setPositionAlignment((left ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignTop);
-    cursorText_->position->setCoords(time()->coordToPixel(cursor_), rect.top());
-  }
+  line_.setFlag(timeText(cursor_));
+  line_.place(shown ? std::optional(cursor_) : std::nullopt);
   setAccessibleDescription((shown ? textAt(cursor_).replace('\n', ", ") + ". " : QString()) +
                            tr("Left and right go to the frame before and after, with Shift ten frames, Home "
                               "and End to the ends, W to the next worst frame, plus and minus zoom."));
@@ -261,7 +247,7 @@ void ErrorTimeline::showNumbers(double at, QPointF pixel) {
 }
 
 QPointF ErrorTimeline::pixelOf(double at) const {
-  return {time()->coordToPixel(at), double(lanes_[0].rect->center().y())};
+  return {time()->coordToPixel(at), double(lanes_[0]->center().y())};
 }
 
 }  // namespace trimtab::views

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "plot.h"
+#include "time_cursor.h"
 #include "views/model/error_run.h"
 
 namespace trimtab::views {
@@ -58,13 +59,9 @@ class ErrorTimeline : public Plot {
   bool zoomByKey(double factor) override;
 
  private:
-  struct Lane {
-    QCPAxisRect* rect = nullptr;
-    QCPItemStraightLine* cursor = nullptr;
-  };
   bool isShown(const ErrorRun::Series& series) const;
-  QCPAxis* time(int lane = 0) const { return lanes_[std::size_t(lane)].rect->axis(QCPAxis::atBottom); }
-  QCPAxis* value(int lane) const { return lanes_[std::size_t(lane)].rect->axis(QCPAxis::atLeft); }
+  QCPAxis* time(int lane = 0) const { return lanes_[std::size_t(lane)]->axis(QCPAxis::atBottom); }
+  QCPAxis* value(int lane) const { return lanes_[std::size_t(lane)]->axis(QCPAxis::atLeft); }
   void redraw();
   void drawLines();
   void drawWorst();
@@ -83,9 +80,10 @@ class ErrorTimeline : public Plot {
   std::vector<Worst> worst_;
   QCPRange whole_;
 
-  std::array<Lane, 2> lanes_;
+  std::array<QCPAxisRect*, 2> lanes_{};
+  TimeCursor line_;  ///< at cursor_
   QCPItemStraightLine* budgetLine_;
-  QCPItemText *cursorText_, *numbers_, *hint_;
+  QCPItemText *numbers_, *hint_;
 };
 
 }  // namespace trimtab::views

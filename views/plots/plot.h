@@ -7,11 +7,15 @@
 
 namespace trimtab::views {
 
+class TimeCursor;
+
 /// What all plots of the workbench share: their name for assistive technology, the colours and fonts of the
 /// theme, the focus frame, zooming by wheel and keys, overlays that move without a replot of the rest, and
 /// the items from which budgets, cursors and readouts are made. Lives in the GUI thread.
 class Plot : public QCustomPlot {
   Q_OBJECT
+  friend class TimeCursor;
+
  public:
   enum class Keyboard { ignored, used };
 
