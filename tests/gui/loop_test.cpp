@@ -15,6 +15,7 @@
 #include "tests/app/ig_support.h"
 #include "trimtab/host/flight.h"
 #include "views/editors/membership_editor.h"
+#include "views/panels/plots_panel.h"
 #include "views/plots/curve_plot.h"
 
 namespace trimtab::test {
@@ -261,10 +262,13 @@ TEST_F(WorkbenchLoop, aHostThatFallsSilentIsSaidAndCostsNothing) {
     return false;
   };
   EXPECT_TRUE(waitFor(said));
+  using Mark = views::PlotMarks::Kind;
+  EXPECT_TRUE(w().panels().plots->marks().lasts(Mark::host_silent)) << "the plots show it too";
   w().dock("decision")->raise();
   EXPECT_TRUE(settle());
   w().feed().closeHost();
   EXPECT_EQ(w().feed().source(), workbench::Feed::Source::camera);
+  EXPECT_FALSE(w().panels().plots->marks().lasts(Mark::host_silent));
 }
 
 TEST_F(WorkbenchLoop, aFlightPlaysHereAndPausesAndScrubs) {
@@ -279,6 +283,14 @@ TEST_F(WorkbenchLoop, aFlightPlaysHereAndPausesAndScrubs) {
   ASSERT_TRUE(settle()) << "a paused flight paints nothing";
   EXPECT_EQ(w().feed().playback().position(), stopped);
   EXPECT_EQ(session().input().state.packet, std::uint64_t(std::floor(stopped * 60)) + 1);
+
+  views::PlotsPanel& plots = *w().panels().plots;
+  const std::uint64_t frame = plots.buffer().end() - 4;
+  const double state = plots.buffer().stateTime(frame);
+  plots.chooseFrame(frame);
+  EXPECT_NEAR(w().feed().playback().flight().states.front().time + w().feed().playback().position(), state,
+              1e-9)
+      << "a chosen frame takes a paused flight there";
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "app/workbench/docks/host_dock.h"
 #include "gui_support.h"
 #include "views/panels/culling_panel.h"
+#include "views/panels/plots_panel.h"
 
 namespace trimtab::test {
 namespace {
@@ -153,8 +154,11 @@ TEST_F(WorkbenchWindow, theTraceCommandIsCheckedWhileATraceIsRecorded) {
   EXPECT_FALSE(record->isChecked());
   ASSERT_TRUE(trace.start(QString::fromStdString((dir / "trace.csv").string())));
   EXPECT_TRUE(record->isChecked());
+  const views::PlotMarks& marks = w().panels().plots->marks();
+  EXPECT_TRUE(marks.lasts(views::PlotMarks::Kind::recording)) << "the plots show it";
   record->trigger();
   EXPECT_FALSE(record->isChecked());
+  EXPECT_FALSE(marks.lasts(views::PlotMarks::Kind::recording));
   EXPECT_TRUE(trace.recorded().endsWith("trace.csv"));
 }
 

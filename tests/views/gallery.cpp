@@ -99,6 +99,34 @@ void measure(Draft& draft, test::LiveFlight& flight) {
   draft.resetAll();
 }
 
+void shoot(QWidget& widget, const QSize& size, const QString& file);
+
+/// The dock Plots with its details: values, one frame explained, signals; and with marks.
+void shootPlots(PlotsPanel& plots, Draft& draft, test::LiveFlight& flight, const QDir& dir) {
+  plots.setCursors(true);
+  settle(700);
+  shoot(plots, {1280, 300}, dir.filePath(QStringLiteral("plots_values.png")));
+  shoot(plots, {680, 700}, dir.filePath(QStringLiteral("plots_cursors.png")));
+  plots.setCursors(false);
+  LiveFrame slow = flight.next(draft.active());
+  slow.cost.draw += 743 - slow.cost.total;
+  slow.cost.total = 743;
+  plots.showFrame(slow);
+  const double now = plots.buffer().time(plots.buffer().end() - 1);
+  for (int i = 0; i < 600; ++i) plots.showFrame(flight.next(draft.active()));
+  plots.mark(PlotMarks::Kind::host_silent, true, now - 30);
+  plots.mark(PlotMarks::Kind::host_silent, false, now - 15);
+  plots.mark(PlotMarks::Kind::recording, true, now - 10);
+  plots.plot().refresh(true);
+  plots.chooseSpike(1);
+  shoot(plots, {1280, 420}, dir.filePath(QStringLiteral("plots_frame.png")));
+  plots.plot().addSignal(1, Trace::altitude_ft);
+  plots.plot().addLane({{Trace::tiles_drawn, Trace::tiles_hidden, Trace::tiles_outside}});
+  shoot(plots, {640, 640}, dir.filePath(QStringLiteral("plots_signals.png")));
+  plots.savePicture(dir.filePath(QStringLiteral("plots_saved.svg")));
+  plots.plot().setLanes(standardLanes());
+}
+
 void shoot(QWidget& widget, const QSize& size, const QString& file) {
   widget.resize(size);
   widget.show();
@@ -221,9 +249,7 @@ int main(int argc, char** argv) {
   shoot(plots, {980, 300}, dir.filePath(QStringLiteral("wide_plots.png")));
   hover(plots.plot(), {200, 100});
   shoot(plots, {680, 520}, dir.filePath(QStringLiteral("plots.png")));
-  plots.setCursors(true);
-  shoot(plots, {680, 700}, dir.filePath(QStringLiteral("plots_cursors.png")));
-  plots.setCursors(false);
+  shootPlots(plots, draft, flight, dir);
   for (int i = 0; i < 60 * 3500; ++i) plots.showFrame(flight.next(draft.active()));
   for (const double span : {60.0, 600.0, 3600.0}) {
     plots.plot().setSpan(span);

@@ -3,33 +3,16 @@
 
 #include <QFileDialog>
 #include <QLineEdit>
-#include <QTableWidget>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QTimer>
 #include <cmath>
 
-#include "application.h"
-#include "live_flight.h"
+#include "plots_panel_fixture.h"
 #include "views/controls/ask_csv_file.h"
-#include "views/plots/time_plot.h"
 
 namespace trimtab::views {
 namespace {
-
-class PlotsPanelTest : public testing::Test {
- protected:
-  void SetUp() override {
-    for (int i = 0; i < 60 * 100; ++i) panel_.showFrame(flight_.next(draft_.active()));
-    test::expose(panel_, {640, 640});
-    ASSERT_TRUE(test::eventually([&] { return plot().shown().upper == newest(); }));
-  }
-  TimePlot& plot() { return panel_.plot(); }
-  double newest() const { return panel_.buffer().time(panel_.buffer().end() - 1); }
-  QString readout(int row, int column) { return panel_.readout().item(row, column)->text(); }
-
-  Draft draft_;
-  test::LiveFlight flight_{100};
-  PlotsPanel panel_{draft_};
-};
 
 TEST_F(PlotsPanelTest, followsTheNewestFrame) {
   EXPECT_DOUBLE_EQ(plot().shown().size(), 60);
@@ -54,7 +37,7 @@ TEST_F(PlotsPanelTest, panningStopsFollowingAndMovesByTheDrag) {
   const QCPRange before = plot().shown();
   const QPointF from = plot().pixelOfTime(before.center());
   test::drag(plot(), from, from + QPointF(80, 0));
-  const double secondsPerPixel = before.size() / plot().axisRect(0)->width();
+  const double secondsPerPixel = before.size() / plot().laneRect(0)->width();
   EXPECT_NEAR(before.lower - plot().shown().lower, 80 * secondsPerPixel, 2 * secondsPerPixel);
   const QCPRange held = plot().shown();
   for (int i = 0; i < 60; ++i) panel_.showFrame(flight_.next(draft_.active()));
@@ -93,29 +76,58 @@ TEST_F(PlotsPanelTest, cursorsReadFramesAndTheirDifference) {
   const std::uint64_t a = buffer.nearest(plot().cursor(0)), b = buffer.nearest(147.5);
   EXPECT_NEAR(readout(0, 3).toDouble(), buffer.time(b) - buffer.time(a), 1e-3);
   const struct {
-    int row;
+    const char* signal;
     Trace trace;
     double scale, tolerance;
-  } rows[] = {{1, Trace::altitude_membership, 1, 1e-4},
-              {2, Trace::pitch_membership, 1, 1e-4},
-              {3, Trace::total_membership, 1, 1e-4},
-              {4, Trace::triangles, 1e-3, 0.01},
-              {5, Trace::frame_ms, 1, 1e-3},
-              {6, Trace::fps, 1, 0.01},
-              {7, Trace::draw_ms, 1, 1e-3},
-              {8, Trace::cull_ms, 1, 1e-3},
-              {11, Trace::select_ms, 1, 1e-3},
-              {12, Trace::gpu_ms, 1, 1e-3},
-              {16, Trace::head_rate_degps, 1, 0.1},
-              {17, Trace::lod_scale, 1, 1e-2},
-              {18, Trace::vertices, 1e-3, 0.01}};
-  for (const auto& [row, trace, scale, tolerance] : rows) {
+  } rows[] = {{"altitude membership", Trace::altitude_membership, 1, 1e-4},
+              {"pitch membership", Trace::pitch_membership, 1, 1e-4},
+              {"total membership", Trace::total_membership, 1, 1e-4},
+              {"triangles (k)", Trace::triangles, 1e-3, 0.01},
+              {"frame (ms)", Trace::frame_ms, 1, 1e-3},
+              {"rate (fps)", Trace::fps, 1, 0.01},
+              {"cull (ms)", Trace::cull_ms, 1, 1e-3},
+              {"draw (ms)", Trace::draw_ms, 1, 1e-3},
+              {"select (ms)", Trace::select_ms, 1, 1e-3},
+              {"GPU (ms)", Trace::gpu_ms, 1, 1e-3},
+              {"head (deg/s)", Trace::head_rate_degps, 1, 0.1},
+              {"LOD scale", Trace::lod_scale, 1, 1e-2},
+              {"vertices (k)", Trace::vertices, 1e-3, 0.01}};
+  for (const auto& [signal, trace, scale, tolerance] : rows) {
+    const int row = rowOf(QString::fromUtf8(signal));
     const double at = buffer.value(trace, a) * scale, bt = buffer.value(trace, b) * scale;
     const auto number = [&](int column) { return QLocale().toDouble(readout(row, column)); };
-    EXPECT_NEAR(number(1), at, tolerance) << row;
-    EXPECT_NEAR(number(2), bt, tolerance) << row;
-    EXPECT_NEAR(number(3), bt - at, tolerance) << row;
+    EXPECT_NEAR(number(1), at, tolerance) << signal;
+    EXPECT_NEAR(number(2), bt, tolerance) << signal;
+    EXPECT_NEAR(number(3), bt - at, tolerance) << signal;
   }
+}
+
+TEST_F(PlotsPanelTest, aCursorBesideTheDataKeepsItsTimeAndHasNoValue) {
+  plot().setShown(newest() - 30, newest() + 30);
+  panel_.setCursors(true);
+  plot().moveCursor(0, newest() + 4);
+  plot().moveCursor(1, newest() + 24);
+  EXPECT_NEAR(QLocale().toDouble(readout(0, 3)), 20, 1e-3) << "20 s apart, not 0";
+  EXPECT_EQ(readout(rowOf("frame (ms)"), 1), QStringLiteral("–"));
+  EXPECT_EQ(readout(rowOf("frame (ms)"), 3), QStringLiteral("–"));
+}
+
+TEST_F(PlotsPanelTest, pausedNothingRecordedSinceIsReadDrawnOrSaved) {
+  panel_.clear();
+  addFrames(600);  // ten seconds: the right of the plot is empty
+  ASSERT_TRUE(test::eventually([&] { return plot().frameAt(newest()).has_value(); }));
+  plot().refresh(true);
+  panel_.setPaused(true);
+  const double held = newest();
+  addFrames(1200);
+  emit plot().tracked(held + 15);
+  EXPECT_TRUE(panel_.trackedText().contains("no frame")) << panel_.trackedText().toStdString();
+  draft_.setValue("measure.budget_ms", 8.3);  // draws again
+  const auto data = plot().traces().front()->data();
+  EXPECT_LE((data->constEnd() - 1)->key, held);
+  EXPECT_EQ(panel_.visibleRangeCsv().count('\n'), 601);
+  panel_.setPaused(false);
+  EXPECT_TRUE(plot().frameAt(held + 15).has_value());
 }
 
 TEST_F(PlotsPanelTest, arrowKeysMoveTheChosenCursor) {
@@ -163,7 +175,7 @@ TEST_F(PlotsPanelTest, aFrameThatTookSecondsIsNamedAndDoesNotFlattenTheOthers) {
         if (text->visible() && text->text().contains(QStringLiteral("longest"))) return text->text();
     return QString();
   };
-  const auto top = [&] { return plot().axisRect(2)->axis(QCPAxis::atLeft)->range().upper; };
+  const auto top = [&] { return plot().laneRect(2)->axis(QCPAxis::atLeft)->range().upper; };
   const double before = top();
   EXPECT_EQ(longest(), QString());
   LiveFrame slow = flight_.next(draft_.active());
@@ -175,10 +187,71 @@ TEST_F(PlotsPanelTest, aFrameThatTookSecondsIsNamedAndDoesNotFlattenTheOthers) {
   panel_.clear();
   for (int i = 0; i < 600; ++i) panel_.showFrame(flight_.next(draft_.active()));
   slow = flight_.next(draft_.active());
-  slow.cost.total = 55;
+  slow.cost.total = 45;
   panel_.showFrame(slow);
-  EXPECT_TRUE(test::eventually([&] { return top() > 55; }));
+  EXPECT_TRUE(test::eventually([&] { return top() > 45; }));
   EXPECT_EQ(longest(), QString());
+}
+
+TEST_F(PlotsPanelTest, aJumpOfTheViewDoesNotFlattenTheRatesOfTheHead) {
+  const auto top = [&] { return plot().laneRect(0)->axis(QCPAxis::atRight)->range().upper; };
+  panel_.clear();
+  LiveFrame turning = flight_.next(draft_.active());
+  for (int i = 0; i < 600; ++i) {
+    turning = flight_.next(draft_.active());
+    turning.decision.motion.rateDegPerS = i == 300 ? 50'000 : 180;
+    panel_.showFrame(turning);
+  }
+  plot().refresh(true);
+  EXPECT_LE(top(), 700);
+  plot().setRobust(false);
+  EXPECT_GE(top(), 50'000) << "the whole range is a choice";
+}
+
+TEST_F(PlotsPanelTest, legendsLieAboveTheirPlotsAndNoNameIsCut) {
+  for (const QSize size : {QSize(1000, 240), QSize(640, 240), QSize(320, 420), QSize(640, 700)}) {
+    panel_.resize(size);
+    for (int round = 0; round < 3; ++round) {
+      QCoreApplication::processEvents();
+      plot().refresh(false);
+      plot().replot(QCustomPlot::rpImmediateRefresh);
+    }
+    const QRect whole = plot().rect();
+    std::vector<QRect> taken;
+    for (std::size_t lane = 0; lane < plot().lanes().size(); ++lane)
+      taken.push_back(plot().laneRect(lane)->outerRect());
+    for (const auto* legend : plot().findChildren<QCPLegend*>()) {
+      if (!legend->visible()) continue;
+      EXPECT_TRUE(whole.contains(legend->outerRect())) << size.width();
+      for (const QRect& rect : taken) EXPECT_FALSE(rect.intersects(legend->outerRect())) << size.width();
+      for (int i = 0; i < legend->itemCount(); ++i) {
+        const QCPAbstractLegendItem* item = legend->item(i);
+        EXPECT_GE(item->outerRect().width(), item->minimumOuterSizeHint().width()) << size.width();
+        EXPECT_LE(item->outerRect().right(), whole.right()) << size.width();
+      }
+    }
+    for (std::size_t lane = 0; lane < plot().lanes().size(); ++lane)
+      EXPECT_GE(plot().laneRect(lane)->rect().height(), 40) << "room for a curve";
+  }
+}
+
+TEST_F(PlotsPanelTest, theWheelScrollsLanesThatHaveNoRoom) {
+  panel_.resize(320, 300);
+  QCoreApplication::processEvents();
+  auto* area = panel_.findChild<QScrollArea*>();
+  ASSERT_GT(area->verticalScrollBar()->maximum(), 0);
+  const double span = plot().shown().size();
+  const auto turn = [&](Qt::KeyboardModifiers keys) {
+    const QPointF at(100, 60);
+    QWheelEvent wheel(at, plot().mapToGlobal(at), {}, {0, -120}, Qt::NoButton, keys, Qt::NoScrollPhase,
+                      false);
+    QApplication::sendEvent(&plot(), &wheel);
+  };
+  turn(Qt::NoModifier);
+  EXPECT_GT(area->verticalScrollBar()->value(), 0);
+  EXPECT_EQ(plot().shown().size(), span);
+  turn(Qt::ControlModifier);
+  EXPECT_GT(plot().shown().size(), span);
 }
 
 TEST_F(PlotsPanelTest, theBudgetLineFollowsTheActivePreset) {

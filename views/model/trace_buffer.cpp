@@ -25,6 +25,13 @@ void widen(float& low, float& high, float value) {
   high = std::fmax(high, value);
 }
 
+/// What a running count has grown by; it starts over with another terrain.
+double grownBy(std::uint64_t now, std::uint64_t& before) {
+  const std::uint64_t by = now >= before ? now - before : now;
+  before = now;
+  return static_cast<double>(by);
+}
+
 }  // namespace
 
 std::string_view traceName(Trace trace) {
@@ -47,6 +54,24 @@ std::string_view traceName(Trace trace) {
                                                                 "weather_ms",
                                                                 "symbology_ms",
                                                                 "vertices",
+                                                                "altitude_ft",
+                                                                "pitch_deg",
+                                                                "dynamic_scheme",
+                                                                "band",
+                                                                "tiles_drawn",
+                                                                "tiles_outside",
+                                                                "tiles_hidden",
+                                                                "tiles_built",
+                                                                "pages_read",
+                                                                "page_read_mb",
+                                                                "pages_waiting",
+                                                                "above_ground_ft",
+                                                                "roll_deg",
+                                                                "speed_kt",
+                                                                "climb_ftpmin",
+                                                                "sight_rate_degps",
+                                                                "visibility_m",
+                                                                "load",
                                                                 "select_top_ms",
                                                                 "page_top_ms",
                                                                 "occlusion_top_ms",
@@ -56,23 +81,47 @@ std::string_view traceName(Trace trace) {
 
 TraceBuffer::TraceBuffer(std::size_t capacity)
     : capacity_(std::max(capacity / kBlock, std::size_t{2}) * kBlock) {
-  times_.resize(capacity_);
-  packets_.resize(capacity_);
-  for (auto& v : values_) v.resize(capacity_, kNone);
+  allocate();
+}
+
+void TraceBuffer::allocate() {
+  times_.assign(capacity_, 0);
+  stateTimes_.assign(capacity_, 0);
+  packets_.assign(capacity_, 0);
+  for (auto& v : values_) v.assign(capacity_, kNone);
   for (auto* blocks : {&blockLow_, &blockHigh_})
-    for (auto& v : *blocks) v.resize(capacity_ / kBlock, kNone);
+    for (auto& v : *blocks) v.assign(capacity_ / kBlock, kNone);
 }
 
 void TraceBuffer::clear() {
-  count_ = 0;
+  count_ = first_ = 0;
   timeShift_ = 0;
 }
 
+void TraceBuffer::setCapacity(std::size_t frames) {
+  TraceBuffer resized(frames);
+  if (resized.capacity_ == capacity_) return;
+  // Frames keep their numbers, and whole blocks are kept.
+  const std::uint64_t room = count_ > resized.capacity_ ? count_ - resized.capacity_ : 0;
+  resized.first_ = std::max(begin(), (room + kBlock - 1) / kBlock * kBlock);
+  for (std::uint64_t f = resized.first_; f < count_; ++f) {
+    Stored stored{time(f), stateTime(f), packet(f), {}};
+    for (std::size_t i = 0; i < kTraces; ++i) stored.values[i] = values_[i][f % capacity_];
+    resized.store(f, stored);
+  }
+  resized.count_ = count_;
+  resized.timeShift_ = timeShift_;
+  resized.tilesBuilt_ = tilesBuilt_;
+  resized.pagesRead_ = pagesRead_;
+  resized.bytesRead_ = bytesRead_;
+  *this = std::move(resized);
+}
+
 std::uint64_t TraceBuffer::begin() const {
-  if (count_ <= capacity_) return 0;
+  if (count_ <= capacity_) return first_;
   // The block being overwritten is no longer whole.
   const std::uint64_t oldest = count_ - capacity_;
-  return (oldest + kBlock - 1) / kBlock * kBlock;
+  return std::max(first_, (oldest + kBlock - 1) / kBlock * kBlock);
 }
 
 void TraceBuffer::append(const LiveFrame& frame) {
@@ -81,12 +130,10 @@ void TraceBuffer::append(const LiveFrame& frame) {
     timeShift_ += time(count_ - 1) - now;
     now = time(count_ - 1);
   }
-  const std::size_t at = count_ % capacity_, block = at / kBlock;
-  times_[at] = now;
-  packets_[at] = frame.input.state.packet;
   const FrameDecision& d = frame.decision;
   const FrameCost& cost = frame.cost;
-  const std::optional<OcclusionResolution>& depthMap = frame.drawn().depthMap;
+  const FrameResult& drawn = frame.drawn();
+  const SignalValues& signal = frame.input.signalValues;
   const auto measuredOr0 = [](double ms) { return std::isfinite(ms) ? ms : 0.0; };
   const double selectTop = measuredOr0(cost.decide) + measuredOr0(cost.select);
   const double pageTop = selectTop + measuredOr0(cost.page);
@@ -94,13 +141,13 @@ void TraceBuffer::append(const LiveFrame& frame) {
   const double measured[kTraces]{d.altitudeMembership,
                                  d.pitchMembership,
                                  d.totalMembership,
-                                 static_cast<double>(frame.drawn().visible.triangles),
+                                 static_cast<double>(drawn.visible.triangles),
                                  cost.total,
                                  frame.fps,
                                  cost.cull,
                                  cost.draw,
                                  cost.gpu,
-                                 depthMap ? depthMap->widthPx : 0.0,
+                                 drawn.depthMap ? drawn.depthMap->widthPx : 0.0,
                                  d.motion.rateDegPerS,
                                  d.lodScale,
                                  cost.select,
@@ -109,18 +156,45 @@ void TraceBuffer::append(const LiveFrame& frame) {
                                  cost.blur,
                                  cost.weather,
                                  cost.symbology,
-                                 static_cast<double>(frame.drawn().visible.vertices),
+                                 static_cast<double>(drawn.visible.vertices),
+                                 d.altitudeFt,
+                                 d.pitchDeg,
+                                 d.scheme == Scheme::dynamic ? 1.0 : 0.0,
+                                 static_cast<double>(d.band),
+                                 static_cast<double>(drawn.visible.tiles.size()),
+                                 static_cast<double>(drawn.visible.outsideFrustum),
+                                 static_cast<double>(drawn.visible.occluded),
+                                 grownBy(drawn.counters.tilesBuilt, tilesBuilt_),
+                                 grownBy(drawn.paging.pagesRead, pagesRead_),
+                                 grownBy(drawn.paging.bytesRead, bytesRead_) * 1e-6,
+                                 static_cast<double>(drawn.paging.waiting),
+                                 signal[Signal::above_ground],
+                                 signal[Signal::roll],
+                                 signal[Signal::speed],
+                                 signal[Signal::climb],
+                                 signal[Signal::sight_rate],
+                                 signal[Signal::visibility],
+                                 signal[Signal::load],
                                  selectTop,
                                  pageTop,
                                  occlusionTop,
                                  occlusionTop + measuredOr0(cost.cull)};
-  for (std::size_t i = 0; i < kTraces; ++i) {
-    const float value = static_cast<float>(measured[i]);
-    values_[i][at] = value;
-    if (at % kBlock == 0) blockLow_[i][block] = blockHigh_[i][block] = kNone;
-    widen(blockLow_[i][block], blockHigh_[i][block], value);
-  }
+  Stored stored{now, frame.input.state.time, frame.input.state.packet, {}};
+  for (std::size_t i = 0; i < kTraces; ++i) stored.values[i] = static_cast<float>(measured[i]);
+  store(count_, stored);
   ++count_;
+}
+
+void TraceBuffer::store(std::uint64_t frame, const Stored& stored) {
+  const std::size_t at = frame % capacity_, block = at / kBlock;
+  times_[at] = stored.time;
+  stateTimes_[at] = stored.stateTime;
+  packets_[at] = stored.packet;
+  for (std::size_t i = 0; i < kTraces; ++i) {
+    values_[i][at] = stored.values[i];
+    if (at % kBlock == 0) blockLow_[i][block] = blockHigh_[i][block] = kNone;
+    widen(blockLow_[i][block], blockHigh_[i][block], stored.values[i]);
+  }
 }
 
 std::uint64_t TraceBuffer::atOrAfter(double wanted) const {
@@ -140,6 +214,37 @@ std::uint64_t TraceBuffer::nearest(double wanted) const {
   if (after == begin()) return after;
   if (after == end()) return end() - 1;
   return wanted - time(after - 1) < time(after) - wanted ? after - 1 : after;
+}
+
+std::optional<std::uint64_t> TraceBuffer::at(double wanted, std::uint64_t end) const {
+  end = std::min(end, count_);
+  if (begin() >= end) return std::nullopt;
+  const std::uint64_t frame = std::min(nearest(wanted), end - 1);
+  if (!(std::abs(time(frame) - wanted) <= kReachS)) return std::nullopt;
+  return frame;
+}
+
+bool TraceBuffer::isNewImage(std::uint64_t frame) const {
+  if (frame == begin()) return true;
+  const auto differs = [&](Trace trace) { return value(trace, frame) != value(trace, frame - 1); };
+  return differs(Trace::frame_ms) || differs(Trace::draw_ms) || differs(Trace::triangles);
+}
+
+TraceBuffer::Statistics TraceBuffer::statistics(Trace trace, std::uint64_t from, std::uint64_t to) const {
+  std::vector<float> samples;
+  for (std::uint64_t f = std::max(from, begin()); f < std::min(to, count_); ++f)
+    if (const float v = value(trace, f); std::isfinite(v)) samples.push_back(v);
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  if (samples.empty()) return {kNan, kNan, kNan, kNan};
+  const auto rank = [&](double share) {
+    const auto n = static_cast<std::size_t>(std::ceil(share * static_cast<double>(samples.size())));
+    const auto at = samples.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(n, 1) - 1);
+    std::nth_element(samples.begin(), at, samples.end());
+    return static_cast<double>(*at);
+  };
+  const auto [least, largest] = std::minmax_element(samples.begin(), samples.end());
+  const double low = *least, high = *largest;
+  return {low, rank(0.5), rank(0.95), high};
 }
 
 void TraceBuffer::columns(Trace trace, std::uint64_t from, std::uint64_t to, std::size_t wanted,
@@ -172,11 +277,11 @@ void TraceBuffer::columns(Trace trace, std::uint64_t from, std::uint64_t to, std
   }
 }
 
-std::string TraceBuffer::csv(double from, double to) const {
+std::string TraceBuffer::csv(std::uint64_t from, double to, std::uint64_t end) const {
   std::string out = "time_s,packet";
   for (std::size_t i = 0; i < kCsvTraces; ++i) out.append(",").append(traceName(static_cast<Trace>(i)));
   out += '\n';
-  for (std::uint64_t f = atOrAfter(from); f < end() && time(f) <= to; ++f) {
+  for (std::uint64_t f = std::max(from, begin()); f < std::min(end, count_) && time(f) <= to; ++f) {
     appendNumber(out, time(f));
     out += ',';
     appendNumber(out, packet(f));

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,24 @@ enum class Trace : std::uint8_t {
   weather_ms,
   symbology_ms,
   vertices,
+  altitude_ft,  ///< as the decision used it
+  pitch_deg,
+  dynamic_scheme,  ///< 1 for scheme *dynamic*, 0 for *frustum*
+  band,
+  tiles_drawn,
+  tiles_outside,
+  tiles_hidden,
+  tiles_built,   ///< and uploaded, since the frame before
+  pages_read,    ///< since the frame before
+  page_read_mb,  ///< of these
+  pages_waiting,
+  above_ground_ft,  ///< this and the following are signals of a policy, unknown without one
+  roll_deg,
+  speed_kt,
+  climb_ftpmin,
+  sight_rate_degps,
+  visibility_m,
+  load,
   // Upper edges in the stack of stages, which the CSV does not have.
   select_top_ms,
   page_top_ms,
@@ -60,8 +79,8 @@ inline constexpr std::array<StackedStage, 5> kStack{{{Trace::select_ms, Trace::s
 class TraceBuffer {
  public:
   static constexpr std::size_t kBlock = 64;
-  /// Enough for ten minutes at 400 frames per second, or an hour at 66; 25 MB.
-  static constexpr std::size_t kCapacity = 240'000 / kBlock * kBlock;
+  /// Enough for five minutes at 400 frames per second, or half an hour at 66; 21 MB.
+  static constexpr std::size_t kCapacity = 120'000 / kBlock * kBlock;
 
   explicit TraceBuffer(std::size_t capacity = kCapacity);
 
@@ -69,17 +88,25 @@ class TraceBuffer {
   /// frame, so that times never fall.
   void append(const LiveFrame& frame);
   void clear();
+  /// Keeps at most this many frames from now on, the newest of those that are there among them.
+  void setCapacity(std::size_t frames);
+  std::size_t capacity() const { return capacity_; }
 
   std::uint64_t begin() const;                  ///< the oldest frame that is kept
   std::uint64_t end() const { return count_; }  ///< one past the newest
   bool empty() const { return count_ == 0; }
   double time(std::uint64_t frame) const { return times_[frame % capacity_]; }
   std::uint64_t packet(std::uint64_t frame) const { return packets_[frame % capacity_]; }
+  /// The time of the frame's state on the clock of its host or flight, seconds.
+  double stateTime(std::uint64_t frame) const { return stateTimes_[frame % capacity_]; }
   float value(Trace trace, std::uint64_t frame) const { return values_[index(trace)][frame % capacity_]; }
   /// Returns the first frame at or after `time`; end() if there is none.
   std::uint64_t atOrAfter(double time) const;
   /// Returns the frame nearest in time. The buffer must not be empty.
   std::uint64_t nearest(double time) const;
+  /// Returns the frame nearest in time of those before `end`; nothing where none is within kReachS.
+  std::optional<std::uint64_t> at(double time, std::uint64_t end) const;
+  static constexpr double kReachS = 0.5;
 
   struct Column {
     double time = 0;
@@ -90,17 +117,37 @@ class TraceBuffer {
   void columns(Trace trace, std::uint64_t from, std::uint64_t to, std::size_t columns,
                std::vector<Column>& out) const;
 
+  /// Order statistics by nearest rank over the frames from `from` up to `to`; all NaN if nothing was
+  /// measured. Costs a partial sort of them.
+  struct Statistics {
+    double least, median, p95, largest;
+  };
+  Statistics statistics(Trace trace, std::uint64_t from, std::uint64_t to) const;
+  /// Returns whether the image of this frame differs from that of the frame before. A decision between two
+  /// images makes a frame that repeats the cost of the last one.
+  bool isNewImage(std::uint64_t frame) const;
+
   /// Returns the frames with from <= time <= to as CSV in the C locale, with the fewest digits that read
   /// back. A value that was not measured is empty.
-  std::string csv(double from, double to) const;
+  std::string csv(double from, double to) const { return csv(atOrAfter(from), to, end()); }
+  /// From frame `from`, up to `to` and before frame `end`.
+  std::string csv(std::uint64_t from, double to, std::uint64_t end) const;
 
  private:
+  void allocate();
+  struct Stored {
+    double time = 0, stateTime = 0;
+    std::uint64_t packet = 0;
+    std::array<float, kTraces> values{};
+  };
+  void store(std::uint64_t frame, const Stored& stored);
   static std::size_t index(Trace trace) { return static_cast<std::size_t>(trace); }
 
   std::size_t capacity_;
-  std::uint64_t count_ = 0;
+  std::uint64_t count_ = 0, first_ = 0;  ///< frames before `first_` were given up
   double timeShift_ = 0;
-  std::vector<double> times_;
+  std::uint64_t tilesBuilt_ = 0, pagesRead_ = 0, bytesRead_ = 0;  ///< at the frame before
+  std::vector<double> times_, stateTimes_;
   std::vector<std::uint64_t> packets_;
   std::array<std::vector<float>, kTraces> values_;
   std::array<std::vector<float>, kTraces> blockLow_, blockHigh_;  ///< of complete blocks and the current one

@@ -117,7 +117,7 @@ CullingPanel::CullingPanel(Draft& draft, QWidget* parent)
 }
 
 void CullingPanel::showStages(const TraceBuffer& frames) {
-  stages_ = new TimePlot(frames, TimePlot::Lanes::stages);
+  stages_ = new TimePlot(frames, nullptr, {{{}, true}});
   stages_->setAccessibleName(tr("Stages of a frame, stacked"));
   stages_->setToolTip(tr("What each stage of a frame takes; the Plots dock has the rest"));
   stages_->setSpan(kStagesShownS);

@@ -45,6 +45,7 @@ class CullingPanel : public QWidget {
 
   /// Sets the recording of frames from which it shows the times of the stages. It must outlive this panel.
   void showStages(const TraceBuffer& frames);
+  TimePlot* stages() const { return stages_; }  ///< null until showStages
   /// Shows the overlays of the menus as buttons.
   void setActions(const QList<QAction*>& overlays);
   void showFrame(const LiveFrame& frame);

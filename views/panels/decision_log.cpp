@@ -18,12 +18,30 @@ bool isInputAtFault(SchemeReason reason) {
 
 }  // namespace
 
+bool isDecisionChange(const FrameDecision& before, const FrameDecision& now) {
+  const bool faults = isInputAtFault(now.reason) || isInputAtFault(before.reason);
+  return now.scheme != before.scheme || now.band != before.band ||
+         now.occlusionResolution != before.occlusionResolution || now.lodScale != before.lodScale ||
+         (faults && now.reason != before.reason);
+}
+
+QString changeText(const FrameDecision& before, const FrameDecision& now) {
+  QStringList said;
+  const auto schemeText = [](const FrameDecision& d) {
+    return d.scheme == Scheme::dynamic ? sizeText(d.occlusionResolution) : QStringLiteral("frustum");
+  };
+  if (schemeText(before) != schemeText(now))
+    said << QStringLiteral("%1 → %2").arg(schemeText(before), schemeText(now));
+  else if (before.band != now.band)
+    said << DecisionLog::tr("band %1").arg(now.band + 1);
+  if (before.lodScale != now.lodScale)
+    said << DecisionLog::tr("LOD scale %1 → %2").arg(before.lodScale).arg(now.lodScale);
+  if (said.isEmpty()) said << DecisionLog::tr("input at fault, or no longer");
+  return said.join(QStringLiteral(", "));
+}
+
 bool DecisionLog::isChange(const FrameDecision& d) const {
-  if (!last_) return true;
-  const bool faults = isInputAtFault(d.reason) || isInputAtFault(last_->reason);
-  return d.scheme != last_->scheme || d.band != last_->band ||
-         d.occlusionResolution != last_->occlusionResolution || d.lodScale != last_->lodScale ||
-         (faults && d.reason != last_->reason);
+  return !last_ || isDecisionChange(*last_, d);
 }
 
 void DecisionLog::append(double time, std::uint64_t packet, const FrameDecision& decision,

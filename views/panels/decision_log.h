@@ -10,9 +10,14 @@
 
 namespace trimtab::views {
 
+/// Reports whether `now` is another decision than `before`: another scheme, band, depth map size or LOD
+/// scale, or input that becomes invalid. Being held by hysteresis is none.
+bool isDecisionChange(const FrameDecision& before, const FrameDecision& now);
+/// Returns what has changed, in a few words.
+QString changeText(const FrameDecision& before, const FrameDecision& now);
+
 /// Records every change of the decision with its time and reason, the newest last; the oldest are dropped
-/// beyond a limit. Another scheme, band, depth map size or LOD scale is a change, and so is input that
-/// becomes invalid. Being held by hysteresis is none.
+/// beyond a limit.
 class DecisionLog : public QAbstractTableModel {
   Q_OBJECT
  public:

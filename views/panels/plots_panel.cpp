@@ -2,36 +2,92 @@
 #include "plots_panel.h"
 
 #include <QAction>
+#include <QActionGroup>
 #include <QBoxLayout>
 #include <QComboBox>
-#include <QHeaderView>
+#include <QFileDialog>
 #include <QLabel>
+#include <QListWidget>
+#include <QMenu>
 #include <QMessageBox>
-#include <QTableWidget>
+#include <QMimeData>
+#include <QScrollArea>
+#include <QSettings>
+#include <QSplitter>
+#include <QTabWidget>
 #include <QToolButton>
 #include <cmath>
 
+#include "decision_log.h"
+#include "frame_page.h"
+#include "plot_values.h"
 #include "views/controls/ask_csv_file.h"
 #include "views/model/theme.h"
+#include "views/plots/plot_picture.h"
 #include "views/plots/time_plot.h"
 
 namespace trimtab::views {
 
 namespace {
 // A picture of four lanes costs some ten milliseconds: a dozen a second look live and leave the core to the
-// renderer.
-constexpr int kRefreshMs = 80;
+// renderer. Statistics sort what is shown.
+constexpr int kRefreshMs = 80, kSideMs = 500;
+constexpr int kWidePx = 620;
+constexpr double kChangeReachPx = 5;
+constexpr int kTraceRole = Qt::UserRole;
+const QString kSpanKey = QStringLiteral("plots/span_s"), kLanesKey = QStringLiteral("plots/lanes"),
+              kRobustKey = QStringLiteral("plots/robust"), kFramesKey = QStringLiteral("plots/frames");
+
+/// Scrolls lanes that have no room, and tells them when there is more or less of it.
+class PlotArea : public QScrollArea {
+ public:
+  explicit PlotArea(TimePlot* plot) : plot_(plot) {
+    setFrameShape(NoFrame);
+    setWidgetResizable(true);
+    setFocusPolicy(Qt::NoFocus);
+    setWidget(plot);
+  }
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override {
+    QScrollArea::resizeEvent(event);
+    plot_->arrange();
+  }
+
+ private:
+  TimePlot* plot_;
+};
+
+/// A list whose rows can be dragged into a plot.
+class SignalList : public QListWidget {
+ protected:
+  QStringList mimeTypes() const override { return {QString::fromLatin1(TimePlot::kSignalMime)}; }
+  QMimeData* mimeData(const QList<QListWidgetItem*>& items) const override {
+    auto* carried = new QMimeData;
+    if (!items.isEmpty())
+      carried->setData(QString::fromLatin1(TimePlot::kSignalMime),
+                       items.front()->data(kTraceRole).toString().toUtf8());
+    return carried;
+  }
+};
+
 }  // namespace
 
 PlotsPanel::PlotsPanel(Draft& draft, QWidget* parent)
     : QWidget(parent),
       draft_(draft),
-      plot_(new TimePlot(buffer_)),
-      readout_(new QTableWidget),
+      plot_(new TimePlot(buffer_, &marks_, standardLanes())),
+      values_(new PlotValues(buffer_, *plot_)),
+      framePage_(new FramePage(buffer_)),
+      signalList_(new SignalList),
+      side_(new QTabWidget),
+      parts_(new QSplitter(Qt::Horizontal)),
       tracked_(new QLabel),
       span_(new QComboBox),
       throttle_(
-          this, [this] { refresh(); }, kRefreshMs) {
+          this, [this] { refresh(); }, kRefreshMs),
+      sideThrottle_(
+          side_, [this] { refreshSide(); }, kSideMs) {
   makeActions();
   for (const auto& [seconds, text] : {std::pair{10, tr("10 s")},
                                       {30, tr("30 s")},
@@ -42,67 +98,99 @@ PlotsPanel::PlotsPanel(Draft& draft, QWidget* parent)
     span_->addItem(text, seconds);
   span_->setCurrentIndex(2);
   span_->setAccessibleName(tr("Time shown"));
-  span_->setToolTip(tr("How much time the plots show"));
+  span_->setToolTip(tr("How much time the plots show; Ctrl and the wheel zoom"));
   connect(span_, &QComboBox::activated, this, [this] { plot_->setSpan(span_->currentData().toDouble()); });
 
-  QHBoxLayout* bar = new QHBoxLayout;
-  for (QAction* action : actions()) {
-    QToolButton* button = new QToolButton;
+  auto* bar = new QHBoxLayout;
+  for (QAction* action : {pause_, follow_, cursors_, details_}) {
+    auto* button = new QToolButton;
     button->setDefaultAction(action);
     button->setFocusPolicy(Qt::StrongFocus);
     bar->addWidget(button);
   }
   bar->insertWidget(2, span_);
+  auto* more = new QToolButton;
+  more->setText(tr("More"));
+  more->setPopupMode(QToolButton::InstantPopup);
+  more->setFocusPolicy(Qt::StrongFocus);
+  more->setMenu(makeMore());
+  bar->addWidget(more);
   bar->addWidget(tracked_, 1);
-
-  readout_->setAccessibleName(tr("Values at the cursors and their difference"));
-  readout_->setColumnCount(4);
-  readout_->setHorizontalHeaderLabels(
-      {tr("Trace"), QStringLiteral("A"), QStringLiteral("B"), QStringLiteral("B − A")});
-  readout_->verticalHeader()->hide();
-  readout_->verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 4);
-  readout_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
-  readout_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  readout_->setTabKeyNavigation(false);
-  readout_->setRowCount(static_cast<int>(plot_->traces().size()) + 1);
-  readout_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
-  readout_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Maximum);
-  readout_->hide();
   tracked_->setTextFormat(Qt::PlainText);
   tracked_->setMinimumWidth(10);
   tracked_->setText(QStringLiteral(" "));
 
-  QVBoxLayout* layout = new QVBoxLayout(this);
+  parts_->addWidget(new PlotArea(plot_));
+  parts_->addWidget(makeSide());
+  parts_->setStretchFactor(0, 3);
+  parts_->setStretchFactor(1, 2);
+  parts_->setChildrenCollapsible(false);
+  auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(4, 4, 4, 4);
   layout->addLayout(bar);
-  layout->addWidget(plot_, 1);
-  layout->addWidget(readout_);
+  layout->addWidget(parts_, 1);
 
   connect(plot_, &TimePlot::movedByHand, this, [this] { follow_->setChecked(false); });
   connect(plot_, &TimePlot::pauseAsked, pause_, &QAction::toggle);
   connect(plot_, &TimePlot::followAsked, this, [this] { setFollowing(true); });
-  connect(plot_, &TimePlot::cursorsMoved, this, &PlotsPanel::fillReadout);
+  connect(plot_, &TimePlot::cursorsMoved, values_, &PlotValues::fillCursors);
+  connect(plot_, &TimePlot::shownChanged, &sideThrottle_, &Throttle::request);
   connect(plot_, &TimePlot::tracked, this, &PlotsPanel::showTracked);
+  connect(plot_, &TimePlot::frameClicked, this, &PlotsPanel::chooseFrame);
+  connect(plot_, &TimePlot::spikeAsked, this, &PlotsPanel::chooseSpike);
+  connect(framePage_, &FramePage::frameAsked, this, &PlotsPanel::chooseFrame);
+  connect(framePage_, &FramePage::spikeAsked, this, &PlotsPanel::chooseSpike);
   const auto budget = [this] { plot_->setBudget(draft_.active()->measure.budget.value()); };
   connect(&draft_, &Draft::activeChanged, this, budget);
   budget();
 }
 
+QWidget* PlotsPanel::makeSide() {
+  fillSignals();
+  side_->addTab(values_, tr("Values"));
+  side_->addTab(framePage_, tr("Frame"));
+  side_->addTab(signalList_, tr("Signals"));
+  side_->setAccessibleName(tr("Details of the plots"));
+  side_->setMinimumWidth(240);
+  side_->hide();
+  connect(side_, &QTabWidget::currentChanged, &sideThrottle_, &Throttle::request);
+  return side_;
+}
+
+void PlotsPanel::fillSignals() {
+  signalList_->setAccessibleName(tr("Signals"));
+  signalList_->setToolTip(
+      tr("Drag a signal into a plot; Enter adds it to the plot that was clicked last. The "
+         "menu of a plot adds, removes and makes plots."));
+  signalList_->setDragEnabled(true);
+  for (const PlotSignal& signal : plotSignals()) {
+    auto* item = new QListWidgetItem(signal.fullName(), signalList_);
+    item->setData(kTraceRole, fromView(traceName(signal.trace)));
+  }
+  connect(signalList_, &QListWidget::itemActivated, this, [this](const QListWidgetItem* item) {
+    if (const auto trace = traceOf(item->data(kTraceRole).toString()))
+      plot_->addSignal(plot_->currentLane(), *trace);
+  });
+}
+
 void PlotsPanel::makeActions() {
-  const auto action = [this](const QString& text, const QString& tip, bool checkable) {
-    QAction* a = new QAction(text, this);
+  const auto action = [this](const QString& text, const QString& tip) {
+    auto* a = new QAction(text, this);
     a->setToolTip(tip);
-    a->setCheckable(checkable);
+    a->setCheckable(true);
     addAction(a);
     return a;
   };
-  pause_ = action(tr("Pause"), tr("Hold the picture; recording goes on (Space)"), true);
-  follow_ = action(tr("Follow"), tr("Keep the newest frame at the right edge (F)"), true);
+  pause_ = action(tr("Pause"), tr("Hold the picture; recording goes on (Space)"));
+  follow_ = action(tr("Follow"), tr("Keep the newest frame at the right edge (F)"));
   follow_->setChecked(true);
-  cursors_ = action(tr("Cursors"), tr("Two cursors, and the difference between them"), true);
-  QAction* save = action(tr("Save CSV…"), tr("Save every frame of the shown range"), false);
-  QAction* empty = action(tr("Clear"), tr("Forget all recorded frames"), false);
+  cursors_ = action(tr("Cursors"), tr("Two cursors, and the difference between them"));
+  details_ =
+      action(tr("Details"), tr("Values over the shown range, one frame explained, and signals to add"));
+  robust_ = action(tr("Robust range"), tr("A few frames far above all others do not flatten the rest"));
+  robust_->setChecked(true);
   connect(pause_, &QAction::toggled, this, [this](bool paused) {
+    plot_->hold(paused ? std::optional(buffer_.end()) : std::nullopt);
     if (!paused) throttle_.request();
   });
   connect(follow_, &QAction::toggled, this, [this](bool on) {
@@ -111,21 +199,87 @@ void PlotsPanel::makeActions() {
   });
   connect(cursors_, &QAction::toggled, this, [this](bool on) {
     plot_->setCursors(on);
-    readout_->setVisible(on);
+    if (!on) return;
+    details_->setChecked(true);
+    side_->setCurrentWidget(values_);
   });
-  connect(save, &QAction::triggered, this, &PlotsPanel::askAndSave);
-  connect(empty, &QAction::triggered, this, &PlotsPanel::clear);
+  connect(details_, &QAction::toggled, this, [this](bool on) {
+    side_->setVisible(on);
+    if (on) refreshSide();
+  });
+  connect(robust_, &QAction::toggled, plot_, &TimePlot::setRobust);
+}
+
+QMenu* PlotsPanel::makeMore() {
+  auto* menu = new QMenu(this);
+  menu->addAction(robust_);
+  lengths_ = menu->addMenu(tr("Keep"));
+  auto* group = new QActionGroup(this);
+  for (const int frames : {30'000, 120'000, 240'000, 480'000}) {
+    QAction* length =
+        lengths_->addAction(tr("%L1 frames, %2 min at 60 a second").arg(frames).arg(frames / 3600));
+    length->setCheckable(true);
+    length->setData(frames);
+    length->setChecked(std::size_t(frames) == TraceBuffer::kCapacity);
+    group->addAction(length);
+    connect(length, &QAction::triggered, this, [this, frames] { setBufferFrames(frames); });
+  }
+  menu->addAction(tr("Standard plots"), this, [this] { plot_->setLanes(standardLanes()); });
+  menu->addSeparator();
+  menu->addAction(tr("Save CSV…"), this, &PlotsPanel::askAndSave)
+      ->setToolTip(tr("Save every frame of the shown range"));
+  menu->addAction(tr("Save picture…"), this, &PlotsPanel::askAndSavePicture);
+  menu->addSeparator();
+  menu->addAction(tr("Clear"), this, &PlotsPanel::clear)->setToolTip(tr("Forget all recorded frames"));
+  return menu;
+}
+
+void PlotsPanel::setBufferFrames(int frames) {
+  for (QAction* length : lengths_->actions()) length->setChecked(length->data().toInt() == frames);
+  buffer_.setCapacity(static_cast<std::size_t>(frames));
+  throttle_.request();
+}
+
+void PlotsPanel::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  parts_->setOrientation(width() < kWidePx ? Qt::Vertical : Qt::Horizontal);
+}
+
+QTableWidget& PlotsPanel::readout() {
+  return *values_;
+}
+
+QString PlotsPanel::trackedText() const {
+  return tracked_->toolTip();
 }
 
 void PlotsPanel::showFrame(const LiveFrame& frame) {
   buffer_.append(frame);
+  noteChange(frame);
   if (!isPaused()) throttle_.request();
+}
+
+void PlotsPanel::noteChange(const LiveFrame& frame) {
+  if (lastDecision_ && isDecisionChange(*lastDecision_, frame.decision))
+    marks_.addChange(buffer_.time(buffer_.end() - 1), changeText(*lastDecision_, frame.decision));
+  lastDecision_ = frame.decision;
+}
+
+void PlotsPanel::mark(PlotMarks::Kind kind, bool on, double time) {
+  marks_.set(kind, on, time);
+  throttle_.request();
 }
 
 void PlotsPanel::refresh() {
   if (isPaused()) return;
   plot_->refresh(follow_->isChecked());
-  if (plot_->hasCursors()) fillReadout();
+  if (side_->isVisible()) sideThrottle_.request();
+}
+
+void PlotsPanel::refreshSide() {
+  if (side_->currentWidget() != values_) return;
+  values_->fillCursors();
+  values_->fillStatistics();
 }
 
 bool PlotsPanel::isPaused() const {
@@ -152,62 +306,76 @@ void PlotsPanel::setCursors(bool on) {
 
 void PlotsPanel::clear() {
   buffer_.clear();
+  marks_.clear();
+  if (isPaused()) plot_->hold(0);
+  plot_->choose({});
   plot_->refresh(follow_->isChecked());
-  fillReadout();
+  showFrameOf({});
+  refreshSide();
 }
 
-double PlotsPanel::valueAt(const TraceGraph& trace, std::uint64_t frame) const {
-  Trace which = trace.look().trace;
-  // The stacked lane draws upper edges; a person reads the stage itself.
-  if (trace.look().filled)
-    for (const StackedStage& stacked : kStack)
-      if (stacked.top == trace.look().trace) which = stacked.stage;
-  return static_cast<double>(buffer_.value(which, frame)) * trace.look().scale;
+void PlotsPanel::showFrameOf(std::optional<std::uint64_t> frame) {
+  const auto [from, to] = plot_->framesShown();
+  framePage_->show(frame, from, to, draft_.active()->measure.budget.value());
 }
 
-void PlotsPanel::fillReadout() {
-  if (!plot_->hasCursors()) return;
-  const auto cell = [this](int row, int column, const QString& text) {
-    QTableWidgetItem* item = readout_->item(row, column);
-    if (!item) readout_->setItem(row, column, item = new QTableWidgetItem);
-    if (column > 0) item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
-    item->setText(text);
-  };
-  const auto line = [&](int row, const QString& name, double a, double b, int decimals) {
-    cell(row, 0, name);
-    cell(row, 1, numberText(a, decimals));
-    cell(row, 2, numberText(b, decimals));
-    cell(row, 3, numberText(b - a, decimals));
-  };
-  if (buffer_.empty()) return line(0, tr("time (s)"), plot_->cursor(0), plot_->cursor(1), 3);
-  const std::uint64_t a = buffer_.nearest(plot_->cursor(0)), b = buffer_.nearest(plot_->cursor(1));
-  line(0, tr("time (s)"), buffer_.time(a), buffer_.time(b), 3);
-  int row = 1;
-  for (const TraceGraph* trace : plot_->traces()) {
-    const double at = valueAt(*trace, a), bt = valueAt(*trace, b);
-    readout_->setRowHidden(row, trace->look().rare && std::isnan(at) && std::isnan(bt));
-    line(row++, trace->look().fullName(), at, bt, trace->look().decimals + 1);
+void PlotsPanel::chooseFrame(std::uint64_t frame) {
+  if (frame < buffer_.begin() || frame >= buffer_.end()) return;
+  const double time = buffer_.time(frame);
+  if (!plot_->shown().contains(time)) {
+    follow_->setChecked(false);
+    plot_->setShown(time - plot_->span() / 2, time + plot_->span() / 2);
   }
+  plot_->choose(time);
+  side_->setCurrentWidget(framePage_);
+  details_->setChecked(true);
+  showFrameOf(frame);
+  emit frameChosen(buffer_.stateTime(frame));
+}
+
+void PlotsPanel::chooseSpike(int direction) {
+  const auto [from, to] = plot_->framesShown();
+  if (from == to) return;
+  const std::uint64_t start = framePage_->frame().value_or(direction > 0 ? from : to);
+  const double median = buffer_.statistics(Trace::frame_ms, from, to).median;
+  if (const auto spike =
+          nextSpike(buffer_, start, direction, plot_->end(), draft_.active()->measure.budget.value(), median))
+    chooseFrame(*spike);
 }
 
 void PlotsPanel::showTracked(double time) {
-  if (std::isnan(time) || buffer_.empty()) return tracked_->setText(QStringLiteral(" "));
-  const std::uint64_t frame = buffer_.nearest(time);
-  QStringList said{tr("%1 s").arg(numberText(buffer_.time(frame), 3))};
-  for (const TraceGraph* trace : plot_->traces())
-    said << QStringLiteral("%1 %2").arg(trace->look().name,
-                                        numberText(valueAt(*trace, frame), trace->look().decimals));
-  const QString all = said.join(QStringLiteral(" · "));
-  tracked_->setText(tracked_->fontMetrics().elidedText(all, Qt::ElideRight, tracked_->width()));
-  tracked_->setToolTip(all);
+  const auto say = [this](const QString& all) {
+    tracked_->setText(tracked_->fontMetrics().elidedText(all, Qt::ElideRight, tracked_->width()));
+    tracked_->setToolTip(all.trimmed());
+  };
+  if (std::isnan(time)) return say(QStringLiteral(" "));
+  QStringList said;
+  if (const auto frame = plot_->frameAt(time)) {
+    said << tr("%1 s").arg(numberText(buffer_.time(*frame), 3));
+    const double reach = kChangeReachPx * plot_->shown().size() / std::max(1, plot_->width());
+    if (const PlotMarks::Change* change = marks_.changeNear(time, reach)) said << change->text;
+    for (const TraceGraph* trace : plot_->traces()) {
+      const PlotSignal& signal = trace->signal();
+      said << QStringLiteral("%1 %2").arg(signal.name(),
+                                          numberText(shownValue(buffer_, signal, *frame), signal.decimals));
+    }
+  } else {
+    said << tr("%1 s").arg(numberText(time, 3)) << tr("no frame");
+  }
+  say(said.join(QStringLiteral(" · ")));
 }
 
 QString PlotsPanel::visibleRangeCsv() const {
-  return QString::fromStdString(buffer_.csv(plot_->shown().lower, plot_->shown().upper));
+  const QCPRange shown = plot_->shown();
+  return QString::fromStdString(buffer_.csv(buffer_.atOrAfter(shown.lower), shown.upper, plot_->end()));
 }
 
 Findings PlotsPanel::saveCsv(const QString& file) const {
   return writeAtomically(file.toStdString(), visibleRangeCsv().toStdString()).findings();
+}
+
+Findings PlotsPanel::savePicture(const QString& file) const {
+  return writePicture(*plot_, file);
 }
 
 void PlotsPanel::askAndSave() {
@@ -215,6 +383,37 @@ void PlotsPanel::askAndSave() {
   if (file.isEmpty()) return;
   if (const Findings findings = saveCsv(file); !findings.empty())
     QMessageBox::warning(this, tr("The frames were not saved"), QString::fromStdString(toString(findings)));
+}
+
+void PlotsPanel::askAndSavePicture() {
+  QFileDialog dialog(this, tr("Save Picture of the Plots"), {}, tr("PNG (*.png);;SVG (*.svg)"));
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.setDefaultSuffix(QStringLiteral("png"));
+  dialog.selectFile(QStringLiteral("plots.png"));
+  connect(&dialog, &QFileDialog::filterSelected, &dialog, [&dialog](const QString& filter) {
+    dialog.setDefaultSuffix(filter.startsWith(QLatin1String("SVG")) ? QStringLiteral("svg")
+                                                                    : QStringLiteral("png"));
+  });
+  if (dialog.exec() != QDialog::Accepted) return;
+  if (const Findings findings = savePicture(dialog.selectedFiles().constFirst()); !findings.empty())
+    QMessageBox::warning(this, tr("The picture was not saved"), QString::fromStdString(toString(findings)));
+}
+
+void PlotsPanel::keepIn(QSettings& settings) const {
+  settings.setValue(kSpanKey, plot_->span());
+  settings.setValue(kLanesKey, toText(plot_->lanes()));
+  settings.setValue(kRobustKey, robust_->isChecked());
+  settings.setValue(kFramesKey, qulonglong(buffer_.capacity()));
+}
+
+void PlotsPanel::readFrom(const QSettings& settings) {
+  if (const auto lanes = lanesOf(settings.value(kLanesKey).toString())) plot_->setLanes(*lanes);
+  robust_->setChecked(settings.value(kRobustKey, true).toBool());
+  if (const double span = settings.value(kSpanKey).toDouble(); span > 0) setSpan(span);
+  const int frames = settings.value(kFramesKey).toInt();
+  for (const QAction* length : lengths_->actions())
+    if (frames > 0 && std::abs(length->data().toInt() - frames) < int(TraceBuffer::kBlock))
+      setBufferFrames(length->data().toInt());
 }
 
 }  // namespace trimtab::views

@@ -69,11 +69,8 @@ void Plot::addOverlays(std::initializer_list<const char*> names) {
   }
 }
 
-void Plot::addLegendAbove() {
+QCPLegend* Plot::makeLegend() {
   auto* above = new QCPLegend;
-  plotLayout()->insertRow(0);
-  plotLayout()->addElement(0, 0, above);
-  plotLayout()->setRowStretchFactor(0, 0.001);
   above->setFillOrder(QCPLegend::foColumnsFirst);
   above->setMargins(QMargins(4, 2, 4, 0));
   above->setRowSpacing(0);
@@ -81,22 +78,34 @@ void Plot::addLegendAbove() {
   above->setIconSize(16, 12);
   // Without a maximum of its own, an empty legend would limit the width of the whole column.
   above->setMaximumSize(kUnboundedPx, kUnboundedPx);
-  legend = above;
+  return above;
+}
+
+void Plot::addLegendAbove() {
+  legend = makeLegend();
+  plotLayout()->insertRow(0);
+  plotLayout()->addElement(0, 0, legend);
+  plotLayout()->setRowStretchFactor(0, 0.001);
   setAutoAddPlottableToLegend(false);
 }
 
 void Plot::arrangeLegendAbove() {
-  legend->setVisible(legend->itemCount() > 0);
+  wrapLegend(*legend, width(), legend->itemCount() > 3 ? 2 : 1);
+}
+
+void Plot::wrapLegend(QCPLegend& entries, int widthPx, int least) const {
+  entries.setVisible(entries.itemCount() > 0);
   const QFontMetrics metrics(font());
   int widest = 0;
-  for (int i = 0; i < legend->itemCount(); ++i)
-    if (auto* item = qobject_cast<QCPPlottableLegendItem*>(legend->item(i)))
+  for (int i = 0; i < entries.itemCount(); ++i)
+    if (auto* item = qobject_cast<QCPPlottableLegendItem*>(entries.item(i)))
       widest = std::max(widest, metrics.horizontalAdvance(item->plottable()->name()));
-  const int entry = widest + legend->iconSize().width() + legend->iconTextPadding() +
-                    legend->columnSpacing() + kLegendEntryMarginPx;
-  legend->setWrap(std::max(legend->itemCount() > 3 ? 2 : 1, width() / entry));
-  // The wrap alone counts for entries that are added later.
-  legend->setFillOrder(legend->fillOrder(), true);
+  const int entry = widest + entries.iconSize().width() + entries.iconTextPadding() +
+                    entries.columnSpacing() + kLegendEntryMarginPx;
+  const int wrap = std::max(least, widthPx / entry);
+  if (wrap == entries.wrap()) return;
+  entries.setWrap(wrap);
+  entries.setFillOrder(entries.fillOrder(), true);  // what is there already is placed anew only so
 }
 
 void Plot::applyThemeWithLegendAbove() {

@@ -49,6 +49,12 @@ class Plot : public QCustomPlot {
 
   /// Adds layers above all others, lowest first, each of which can be replotted on its own.
   void addOverlays(std::initializer_list<const char*> names);
+  /// Returns a legend without a frame whose entries fill rows, to be put into a layout. Only entries that are
+  /// added by hand appear in it.
+  static QCPLegend* makeLegend();
+  /// Shows a legend if it has entries, in as many rows as this width asks for, but with at least `least`
+  /// entries in a row.
+  void wrapLegend(QCPLegend& entries, int widthPx, int least = 1) const;
   /// Replaces the legend by one above the plot, whose entries fill rows. Only entries that are added by hand
   /// appear in it.
   void addLegendAbove();

@@ -9,22 +9,23 @@
 namespace trimtab::views {
 
 namespace {
-constexpr int kLowPx = 330, kWidePx = 560;
 constexpr int kRoomForBudgetTextPx = 420;
-constexpr std::size_t kStageLane = 3;
 constexpr double kShortestSpanS = 0.05, kLongestSpanS = 3600 * 4;
-/// A frame that took longer than this many usual ones does not flatten the others: the axis ends here.
-constexpr double kMostOverUsual = 4;
+/// What reaches higher than this many times the usual does not flatten the rest: the axis ends here.
+constexpr double kMostOverUsual = 3;
+constexpr double kHeadRoom = 1.08;
 }  // namespace
 
-TimePlot::TimePlot(const TraceBuffer& buffer, Lanes lanes, QWidget* parent)
+TimePlot::TimePlot(const TraceBuffer& buffer, const PlotMarks* marks, PlotLanes lanes, QWidget* parent)
     : Plot(tr("Live plots"), Keyboard::used, parent),
       buffer_(buffer),
-      firstLane_(lanes == Lanes::all ? 0 : kStageLane) {
+      marks_(marks),
+      content_(std::move(lanes)) {
   setAccessibleDescription(
       tr("Space pauses, F follows, plus and minus zoom, the arrow keys move the view, or with cursors shown "
-         "the cursor "
-         "chosen by A or B."));
+         "the cursor chosen by A or B. W and Shift+W choose the next and the previous frame that took long. "
+         "The menu key adds and removes signals."));
+  setAcceptDrops(true);
   setNoAntialiasingOnDrag(true);
   setAutoAddPlottableToLegend(false);
   setPlottingHints(QCP::phFastPolylines | QCP::phCacheLabels);
@@ -33,142 +34,11 @@ TimePlot::TimePlot(const TraceBuffer& buffer, Lanes lanes, QWidget* parent)
   plotLayout()->clear();
   plotLayout()->setRowSpacing(2);
   addOverlays({"cursors", "tracker"});
-  if (firstLane_ == 0) {
-    makeLane(tr("Membership"), 2.6, false);
-    makeLane(tr("Triangles, vertices (k)"), 0, false);
-    makeLane(tr("Frame (ms)"), 0, true);
-  }
-  makeLane(tr("Stages (ms)"), 0, true);
-  using S = QCPScatterStyle;
-  addTrace(0, {Trace::altitude_membership, tr("altitude"), {}, 0, S::ssCircle, Qt::SolidLine, 1, 3});
-  addTrace(0, {Trace::pitch_membership, tr("pitch"), {}, 2, S::ssSquare, Qt::SolidLine, 1, 3});
-  addTrace(0, {Trace::total_membership, tr("total"), {}, 1, S::ssDiamond, Qt::SolidLine, 1, 3});
-  addTrace(
-      1, {Trace::triangles, tr("triangles"), QStringLiteral("k"), 3, S::ssTriangle, Qt::SolidLine, 1e-3, 1});
-  addTrace(2, {Trace::frame_ms, tr("frame"), QStringLiteral("ms"), 0, S::ssCircle, Qt::SolidLine, 1, 2});
-  addTrace(2, {Trace::fps, tr("rate"), tr("fps, right"), 2, S::ssSquare, Qt::SolidLine, 1, 1},
-           QStringLiteral("fps"));
-  // The highest edge first: each next one is drawn over its foot.
-  const QString stageNames[]{tr("select"), tr("page"), tr("occlusion"), tr("cull"), tr("draw")};
-  constexpr int kStageColours[]{3, 6, 1, 2, 0};
-  for (std::size_t i = kStack.size(); i-- > 0;)
-    addTrace(kStageLane, {kStack[i].top, stageNames[i], QStringLiteral("ms"), kStageColours[i], S::ssNone,
-                          Qt::SolidLine, 1, 2, true});
-  // What runs beside the stages, and parts of one of them.
-  const auto addLine = [this](Trace trace, const QString& name, int colour, S::ScatterShape shape,
-                              Qt::PenStyle pen) {
-    addTrace(kStageLane, {trace, name, QStringLiteral("ms"), colour, shape, pen, 1, 2, false, true});
-  };
-  addLine(Trace::gpu_ms, tr("GPU"), 5, S::ssCircle, Qt::SolidLine);
-  addLine(Trace::blur_ms, tr("blur"), 4, S::ssSquare, Qt::DashLine);
-  addLine(Trace::weather_ms, tr("weather"), 6, S::ssTriangle, Qt::DotLine);
-  addLine(Trace::symbology_ms, tr("symbols"), 2, S::ssDiamond, Qt::DashDotLine);
-  addTrace(0, {Trace::head_rate_degps, tr("head"), tr("deg/s, right"), 5, S::ssNone, Qt::DotLine, 1, 1},
-           tr("deg/s"));
-  addTrace(1, {Trace::lod_scale, tr("LOD scale"), tr("right"), 1, S::ssNone, Qt::DashLine, 1, 2},
-           tr("LOD scale"));
-  addTrace(1, {Trace::vertices, tr("vertices"), QStringLiteral("k"), 2, S::ssSquare, Qt::DotLine, 1e-3, 1});
-  for (std::size_t i = 0; i < 2; ++i) {
-    cursorText_[i] = new QCPItemText(this);
-    cursorText_[i]->setLayer(QStringLiteral("cursors"));
-    cursorText_[i]->setText(i == 0 ? QStringLiteral("A") : QStringLiteral("B"));
-    cursorText_[i]->setPositionAlignment(Qt::AlignHCenter | Qt::AlignBottom);
-    cursorText_[i]->position->setAxes(timeAxis(), lanes_.front().rect->axis(QCPAxis::atLeft));
-    cursorText_[i]->position->setTypeY(QCPItemPosition::ptAxisRectRatio);
-    cursorText_[i]->position->setAxisRect(lanes_.front().rect);
-    cursorText_[i]->setPadding(QMargins(4, 1, 4, 1));
-    cursorText_[i]->setVisible(false);
-  }
+  connect(this, &QCustomPlot::afterLayout, this, &TimePlot::onLaidOut);
   for (QCPMarginGroup*& group : columnMargins_) group = new QCPMarginGroup(this);
-  arrange();
+  makeLanes();
   setShown(0, span_);
   restyle();
-}
-
-void TimePlot::makeLane(const QString& title, double fixedTop, bool budget) {
-  Lane lane;
-  lane.fixedTop = fixedTop;
-  lane.rect = new QCPAxisRect(this, true);
-  plotLayout()->addElement(static_cast<int>(lanes_.size()), 0, lane.rect);
-  lane.rect->setMinimumMargins(QMargins(4, 4, 4, 2));
-  QCPAxis *time = lane.rect->axis(QCPAxis::atBottom), *left = lane.rect->axis(QCPAxis::atLeft);
-  left->setLabel(title);
-  left->ticker()->setTickCount(3);
-  left->setSubTicks(false);
-  time->setSubTicks(false);
-  time->setTickLabels(false);
-  time->ticker()->setTickCount(6);
-  time->setNumberFormat(QStringLiteral("f"));
-  lane.legend = new QCPLegend;
-  lane.rect->insetLayout()->addElement(lane.legend, Qt::AlignLeft | Qt::AlignTop);
-  lane.rect->insetLayout()->setMargins(QMargins(4, 3, 4, 3));
-  lane.legend->setLayer(QStringLiteral("legend"));
-  lane.legend->setFillOrder(QCPLayoutGrid::foColumnsFirst);
-  lane.legend->setMargins(QMargins(4, 1, 4, 1));
-  lane.legend->setIconSize(22, 10);
-  if (budget) {
-    lane.budget = addLine("main", lane.rect);
-    for (QCPItemText** text : {&lane.budgetText, &lane.longest}) {
-      *text = new QCPItemText(this);
-      (*text)->setClipAxisRect(lane.rect);
-      (*text)->position->setAxes(time, left);
-      (*text)->position->setTypeX(QCPItemPosition::ptAxisRectRatio);
-      (*text)->position->setAxisRect(lane.rect);
-    }
-    lane.budgetText->setPositionAlignment(Qt::AlignRight | Qt::AlignBottom);
-    lane.longest->position->setTypeY(QCPItemPosition::ptAxisRectRatio);
-    lane.longest->setPositionAlignment(Qt::AlignRight | Qt::AlignTop);
-  }
-  for (QCPItemStraightLine*& cursor : lane.cursor) {
-    cursor = addLine("cursors", lane.rect);
-    cursor->setVisible(false);
-  }
-  lane.tracker = addLine("tracker", lane.rect);
-  lane.tracker->setVisible(false);
-  lanes_.push_back(lane);
-}
-
-void TimePlot::arrange() {
-  // Four lanes one above the other, or two by two in a dock that is wide and low.
-  const int columns = lanes_.size() > 1 && height() < kLowPx && width() > kWidePx ? 2 : 1;
-  if (columns == columns_) return;
-  columns_ = columns;
-  for (Lane& lane : lanes_) plotLayout()->take(lane.rect);
-  plotLayout()->simplify();
-  const int rows = static_cast<int>(lanes_.size()) / columns;
-  for (int i = 0; i < static_cast<int>(lanes_.size()); ++i) {
-    // Down the first column, then down the second.
-    QCPAxisRect* rect = lanes_[static_cast<std::size_t>(i)].rect;
-    plotLayout()->addElement(i % rows, i / rows, rect);
-    rect->setMarginGroup(QCP::msLeft | QCP::msRight, columnMargins_[static_cast<std::size_t>(i / rows)]);
-    const bool lowest = i % rows == rows - 1;
-    rect->axis(QCPAxis::atBottom)->setTickLabels(lowest);
-    rect->axis(QCPAxis::atBottom)->setLabel(lowest ? tr("Time (s)") : QString());
-  }
-}
-
-void TimePlot::resizeEvent(QResizeEvent* event) {
-  arrange();
-  Plot::resizeEvent(event);
-}
-
-void TimePlot::addTrace(std::size_t lane, TraceGraph::Look look, const QString& right) {
-  if (lane < firstLane_) return;
-  const Lane& into = lanes_[lane - firstLane_];
-  QCPAxisRect* rect = into.rect;
-  QCPAxis* value = rect->axis(right.isEmpty() ? QCPAxis::atLeft : QCPAxis::atRight);
-  if (!right.isEmpty()) {
-    value->setVisible(true);
-    value->setTickLabels(true);
-    value->setSubTicks(false);
-    value->ticker()->setTickCount(3);
-    value->setLabel(right);
-  }
-  TraceGraph* graph = new TraceGraph(rect->axis(QCPAxis::atBottom), value, std::move(look));
-  // The stages' lane says their unit, and its legend has many entries.
-  if (lane == kStageLane) graph->setName(graph->look().name);
-  if (!graph->look().rare) graph->addToLegend(into.legend);
-  traces_.push_back(graph);
 }
 
 void TimePlot::restyle() {
@@ -176,29 +46,22 @@ void TimePlot::restyle() {
   const QPalette& p = palette();
   const QColor ink = p.color(QPalette::Text), base = p.color(QPalette::Base);
   for (TraceGraph* trace : traces_) trace->colour(p);
-  QColor back = base;
-  back.setAlpha(200);
   for (Lane& lane : lanes_) {
-    lane.legend->setBrush(back);
+    lane.legend->setBrush(Qt::NoBrush);
     lane.legend->setBorderPen(Qt::NoPen);
     lane.legend->setTextColor(ink);
     lane.legend->setFont(font());
-    if (lane.budget) {
-      lane.budget->setPen(QPen(errorColour(p), 1.4, Qt::DashLine));
-      for (QCPItemText* text : {lane.budgetText, lane.longest}) {
+    if (lane.budget) lane.budget->setPen(QPen(errorColour(p), 1.4, Qt::DashLine));
+    for (QCPItemText* text : {lane.budgetText, lane.longest})
+      if (text) {
         text->setColor(errorColour(p));
         text->setFont(font());
       }
-    }
-    lane.cursor[0]->setPen(QPen(ink, 1.2));
-    lane.cursor[1]->setPen(QPen(ink, 1.2, Qt::DashDotLine));
-    lane.tracker->setPen(QPen(blend(base, ink, 0.4), 1, Qt::DotLine));
   }
-  for (QCPItemText* text : cursorText_) {
-    text->setColor(base);
-    text->setBrush(ink);
-    text->setFont(font());
-  }
+  cursor_[0].setLook(QPen(ink, 1.2), base, font());
+  cursor_[1].setLook(QPen(ink, 1.2, Qt::DashDotLine), base, font());
+  chosen_.setLook(QPen(liveColour(p), 2), base, font());
+  tracker_.setLook(QPen(blend(base, ink, 0.4), 1, Qt::DotLine), std::nullopt, font());
   draw();
 }
 
@@ -213,10 +76,20 @@ void TimePlot::setBudget(double ms) {
   draw();
 }
 
+void TimePlot::setRobust(bool on) {
+  robust_ = on;
+  draw();
+}
+
+void TimePlot::hold(std::optional<std::uint64_t> end) {
+  held_ = end;
+}
+
 void TimePlot::setShown(double from, double to) {
   span_ = std::clamp(to - from, kShortestSpanS, kLongestSpanS);
   for (Lane& lane : lanes_) lane.rect->axis(QCPAxis::atBottom)->setRange(from, from + span_);
   draw();
+  emit shownChanged();
 }
 
 void TimePlot::setSpan(double seconds) {
@@ -230,8 +103,8 @@ void TimePlot::setSpan(double seconds) {
 
 void TimePlot::refresh(bool follow) {
   following_ = follow;
-  if (follow && !buffer_.empty()) {
-    const double newest = buffer_.time(buffer_.end() - 1), oldest = buffer_.time(buffer_.begin());
+  if (follow && end() > buffer_.begin()) {
+    const double newest = buffer_.time(end() - 1), oldest = buffer_.time(buffer_.begin());
     // The first frames start at the left edge.
     const double from = newest - oldest < span_ ? oldest : newest - span_;
     setShown(from, from + span_);
@@ -240,57 +113,75 @@ void TimePlot::refresh(bool follow) {
   }
 }
 
-double TimePlot::shownTop(const Lane& lane, double longest, double usual) const {
-  const double most = kMostOverUsual * std::max(usual, budget_);
-  lane.longest->setVisible(longest > most);
-  if (longest > most) {
-    lane.longest->setText(tr("longest %L1 ms ↑").arg(longest, 0, 'f', 0));
-    const QRect area = lane.rect->rect();
-    const double below = lane.legend->outerRect().bottom() - area.top();
-    lane.longest->position->setCoords(0.995, below / std::max(1, area.height()));
-  }
-  return std::clamp(longest, budget_, most);
+std::pair<std::uint64_t, std::uint64_t> TimePlot::framesShown() const {
+  const QCPRange range = shown();
+  const std::uint64_t from = std::min(buffer_.atOrAfter(range.lower), end());
+  std::uint64_t to = std::min(buffer_.atOrAfter(range.upper), end());
+  // The range is closed, as it is in the CSV.
+  while (to < end() && buffer_.time(to) <= range.upper) ++to;
+  return {from, std::max(from, to)};
+}
+
+double TimePlot::topOf(const Side& side, double atLeast, const QString& unit, QStringList& beyond) const {
+  const double most = kMostOverUsual * std::max(side.usual, atLeast);
+  if (!robust_ || most <= 0 || side.largest <= most) return std::max(side.largest, atLeast);
+  beyond << tr("longest %1 %2 ↑").arg(numberText(side.largest, 0), unit).simplified();
+  return std::max(most, atLeast);
 }
 
 void TimePlot::draw() {
   const QCPRange range = shown();
   // One frame more on each side, so that lines reach the edges.
-  std::uint64_t from = buffer_.atOrAfter(range.lower), to = buffer_.atOrAfter(range.upper);
+  auto [from, to] = framesShown();
   if (from > buffer_.begin()) --from;
-  if (to < buffer_.end()) ++to;
+  if (to < end()) ++to;
   const std::size_t columns = static_cast<std::size_t>(std::max(100, lanes_.front().rect->width() / 2));
   const double markerStep = roundStep(range.size() / 5);
-  std::array<double, 4> top{}, topRight{}, usual{};
+  struct Sides {
+    Side left, right;
+  };
+  std::vector<Sides> sides(lanes_.size());
   for (TraceGraph* trace : traces_) {
     const TraceGraph::Heights heights = trace->take(buffer_, from, to, columns, markerStep);
     const bool onRight = trace->valueAxis()->axisType() == QCPAxis::atRight;
     for (std::size_t i = 0; i < lanes_.size(); ++i)
       if (lanes_[i].rect == trace->keyAxis()->axisRect()) {
-        double& highest = (onRight ? topRight : top)[i];
-        highest = std::max(highest, heights.largest);
-        if (!onRight) usual[i] = std::max(usual[i], heights.usual);
+        Side& side = onRight ? sides[i].right : sides[i].left;
+        side.largest = std::max(side.largest, heights.largest);
+        side.usual = std::max(side.usual, heights.usual);
+        side.least = std::min(side.least, heights.least);
         if (heights.largest > 0 && !lanes_[i].legend->hasItemWithPlottable(trace))
           trace->addToLegend(lanes_[i].legend);
       }
   }
-  for (std::size_t i = 0; i < lanes_.size(); ++i) {
-    double high = lanes_[i].fixedTop;
-    if (high == 0) {
-      // Room above for the legend; the budget line stays in sight.
-      if (lanes_[i].budget) top[i] = shownTop(lanes_[i], top[i], usual[i]);
-      high = top[i] > 0 ? top[i] * 1.4 : 1;
-    }
-    lanes_[i].rect->axis(QCPAxis::atLeft)->setRange(0, high);
-    lanes_[i].rect->axis(QCPAxis::atRight)->setRange(0, topRight[i] > 0 ? topRight[i] * 1.4 : 100);
-    // In a narrow dock the legend needs the room, and so does that of the stages in any.
-    if (lanes_[i].budgetText)
-      lanes_[i].budgetText->setVisible(i + firstLane_ != kStageLane &&
-                                       width() / columns_ > kRoomForBudgetTextPx);
-  }
-  for (Lane& lane : lanes_)
-    lane.rect->axis(QCPAxis::atBottom)->setNumberPrecision(span_ < 2 ? 2 : span_ <= 25 ? 1 : 0);
+  for (std::size_t i = 0; i < lanes_.size(); ++i) drawLane(lanes_[i], sides[i].left, sides[i].right);
   placeCursors();
   replot(QCustomPlot::rpQueuedReplot);
+}
+
+void TimePlot::drawLane(Lane& lane, const Side& left, const Side& right) {
+  QStringList beyond;
+  const auto unitOn = [&](QCPAxis::AxisType type) {
+    for (const TraceGraph* trace : traces_)
+      if (trace->keyAxis()->axisRect() == lane.rect && trace->valueAxis()->axisType() == type)
+        return QString::fromUtf8(trace->signal().unit);
+    return QString();
+  };
+  const double top = topOf(left, lane.budget ? budget_ : 0, unitOn(QCPAxis::atLeft), beyond);
+  const double topRight = topOf(right, 0, unitOn(QCPAxis::atRight), beyond);
+  const auto setRange = [](QCPAxis* axis, double least, double largest) {
+    const double high = largest > least ? largest : least + 1;
+    const double room = (high - least) * (kHeadRoom - 1);
+    axis->setRange(least < 0 ? least - room : 0, high + room);
+  };
+  setRange(lane.rect->axis(QCPAxis::atLeft), left.least, top);
+  setRange(lane.rect->axis(QCPAxis::atRight), right.least, topRight);
+  lane.rect->axis(QCPAxis::atBottom)->setNumberPrecision(span_ < 2 ? 2 : span_ <= 25 ? 1 : 0);
+  const int width = this->width() / std::max(columns_, 1);
+  wrapLegend(*lane.legend, width);
+  lane.longest->setVisible(!beyond.isEmpty());
+  lane.longest->setText(beyond.join(QLatin1Char('\n')));
+  if (lane.budgetText) lane.budgetText->setVisible(width > kRoomForBudgetTextPx);
 }
 
 void TimePlot::setCursors(bool on) {
@@ -313,14 +204,19 @@ void TimePlot::moveCursor(int which, double time) {
 }
 
 void TimePlot::placeCursors() {
-  for (std::size_t i = 0; i < 2; ++i) {
-    for (Lane& lane : lanes_) {
-      lane.cursor[i]->setVisible(hasCursors());
-      if (cursors_) putVertical(*lane.cursor[i], (*cursors_)[i]);
-    }
-    cursorText_[i]->setVisible(hasCursors());
-    if (cursors_) cursorText_[i]->position->setCoords((*cursors_)[i], 1);
-  }
+  for (std::size_t i = 0; i < 2; ++i)
+    cursor_[i].place(cursors_ ? std::optional((*cursors_)[i]) : std::nullopt);
+  chosen_.place();
+}
+
+void TimePlot::choose(std::optional<double> time) {
+  chosen_.place(time);
+  layer(QStringLiteral("cursors"))->replot();
+}
+
+void TimePlot::showTracker(double time) {
+  tracker_.place(time);
+  layer(QStringLiteral("tracker"))->replot();
 }
 
 QPointF TimePlot::pixelOfTime(double time) const {

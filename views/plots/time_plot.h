@@ -6,18 +6,21 @@
 #include <vector>
 
 #include "plot.h"
+#include "time_cursor.h"
 #include "trace_graph.h"
+#include "views/model/plot_marks.h"
+#include "views/model/plot_signals.h"
 
 namespace trimtab::views {
 
-/// Four lanes against one time axis: memberships, triangles and vertices, frame time and rate, and the stages
-/// of a frame stacked; a budget line, two cursors and a tracker. It draws what a TraceBuffer holds and owns
-/// no data.
+/// Lanes against one time axis, each with the signals that a person put into it; a budget line, two cursors,
+/// a chosen frame, a tracker, and marks of what happened beside the frames. It draws what a TraceBuffer and a
+/// PlotMarks hold and owns no data.
 class TimePlot : public Plot {
   Q_OBJECT
  public:
-  enum class Lanes { all, stages };  ///< stages alone: how a dock of another matter shows what it costs
-  explicit TimePlot(const TraceBuffer& buffer, Lanes lanes = Lanes::all, QWidget* parent = nullptr);
+  /// `marks` may be null.
+  TimePlot(const TraceBuffer& buffer, const PlotMarks* marks, PlotLanes lanes, QWidget* parent = nullptr);
 
   /// Draws the buffer again; with `follow`, the newest frame is at the right edge.
   void refresh(bool follow);
@@ -26,30 +29,68 @@ class TimePlot : public Plot {
   void setSpan(double seconds);
   double span() const { return span_; }
   void setBudget(double ms);
+  /// Whether one frame far above all others leaves the axis to them; it is named then. On from the start.
+  void setRobust(bool on);
+  bool isRobust() const { return robust_; }
+  /// Shows no frame from now on that is not there yet, or all that come. Unset: all.
+  void hold(std::optional<std::uint64_t> end);
+  /// One past the newest frame that is shown.
+  std::uint64_t end() const { return held_ ? std::min(*held_, buffer_.end()) : buffer_.end(); }
+  /// The frame at a time, if one of those shown is near it.
+  std::optional<std::uint64_t> frameAt(double time) const { return buffer_.at(time, end()); }
+  /// The frames within the shown range: from `first` up to `second`.
+  std::pair<std::uint64_t, std::uint64_t> framesShown() const;
+
+  const PlotLanes& lanes() const { return content_; }
+  /// Shows other signals. All TraceGraph of before are gone.
+  void setLanes(PlotLanes lanes);
+  void addSignal(std::size_t lane, Trace trace);
+  void removeSignal(std::size_t lane, Trace trace);
+  void addLane(PlotLane lane);
+  void removeLane(std::size_t lane);
+  /// The lane that keys and lists put signals into: the one that was clicked last.
+  std::size_t currentLane() const { return current_; }
+  QCPAxisRect* laneRect(std::size_t lane) const { return lanes_[lane].rect; }
+  /// Places the lanes for the room that the parent has: one column, or two where it is wide and low.
+  void arrange();
 
   bool hasCursors() const { return cursors_.has_value(); }
   void setCursors(bool on);
   /// Time of cursor 0 (A) or 1 (B); they snap to frames when read, not when moved.
   double cursor(int which) const { return cursors_ ? (*cursors_)[static_cast<std::size_t>(which)] : 0; }
   void moveCursor(int which, double time);
+  /// Marks a frame; unset: none.
+  void choose(std::optional<double> time);
+  /// Shows where the pointer is in another plot of the same clock; NaN: nowhere. Emits nothing.
+  void showTracker(double time);
   QPointF pixelOfTime(double time) const;
 
   const std::vector<TraceGraph*>& traces() const { return traces_; }
-  QSize sizeHint() const override { return {560, firstLane_ == 0 ? 420 : 170}; }
-  QSize minimumSizeHint() const override { return {260, firstLane_ == 0 ? 190 : 130}; }
+  QSize sizeHint() const override;
+  QSize minimumSizeHint() const override;
+
+  /// What a drag of a signal carries: the name of its trace.
+  static constexpr const char* kSignalMime = "application/x-trimtab-signal";
 
  signals:
   void movedByHand();  ///< the person panned or zoomed away from the newest frame
+  void shownChanged();
   void cursorsMoved();
   void tracked(double time);  ///< NaN: the mouse left
+  void frameClicked(std::uint64_t frame);
+  void spikeAsked(int direction);  ///< 1: the next frame that took long, -1: the one before
   void pauseAsked();
   void followAsked();
+  void lanesChanged();  ///< by hand or by code; traces() are others
 
  protected:
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
   void zoomByWheel(QWheelEvent* event) override;
+  void contextMenuEvent(QContextMenuEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void leaveEvent(QEvent* event) override;
@@ -58,40 +99,54 @@ class TimePlot : public Plot {
   bool zoomByKey(double factor) override;
 
  private:
+  class Marks;
   struct Lane {
+    QCPLayoutGrid* cell = nullptr;  ///< the legend above, the axis rect below
     QCPAxisRect* rect = nullptr;
     QCPLegend* legend = nullptr;
-    QCPItemStraightLine* budget = nullptr;
+    QCPItemStraightLine* budget = nullptr;  ///< null where no time is on the left
     QCPItemText* budgetText = nullptr;
-    QCPItemText* longest = nullptr;  ///< of times, where the axis ends below it
-    std::array<QCPItemStraightLine*, 2> cursor{};
-    QCPItemStraightLine* tracker = nullptr;
-    double fixedTop = 0;  ///< 0: by what is shown
+    QCPItemText* longest = nullptr;  ///< of what reaches beyond the axis
   };
-  void arrange();
-  void makeLane(const QString& title, double fixedTop, bool budget);
-  /// With `right`, what its axis on the right is called.
-  void addTrace(std::size_t lane, TraceGraph::Look look, const QString& right = {});
+  struct Side {
+    double largest = 0, usual = 0;
+    double least = 0;  ///< below 0 where something is
+  };
+  void makeLanes();
+  void makeLane(const PlotLane& content);
+  void addStages(Lane& lane);
+  void addTrace(Lane& lane, TraceGraph::Look look, bool right);
+  void addTextsOf(Lane& lane);
+  void onLaidOut();
+  std::size_t laneAt(QPointF pixel) const;
   QCPAxis* timeAxis() const { return lanes_.front().rect->axis(QCPAxis::atBottom); }
   void draw();
-  /// Where the axis of times ends; says the longest where that is beyond.
-  double shownTop(const Lane& lane, double longest, double usual) const;
+  void drawLane(Lane& lane, const Side& left, const Side& right);
+  /// Where an axis ends; adds what reaches beyond to `beyond`.
+  double topOf(const Side& side, double atLeast, const QString& unit, QStringList& beyond) const;
   void placeCursors();
   void zoom(double factor, double anchor);
   int cursorAt(QPointF pixel) const;
+  double timeAtPixel(QPointF pixel) const;
+  double secondsPerPixel() const;
 
   const TraceBuffer& buffer_;
-  const std::size_t firstLane_;  ///< lanes before it are not shown
+  const PlotMarks* marks_;
+  PlotLanes content_;
   std::vector<Lane> lanes_;
   std::vector<TraceGraph*> traces_;
   std::array<QCPMarginGroup*, 2> columnMargins_{};
-  int columns_ = 0;
-  std::array<QCPItemText*, 2> cursorText_{};
+  int columns_ = 0, leastHeight_ = 0;
+  std::array<TimeCursor, 2> cursor_;
+  TimeCursor tracker_, chosen_;
   std::optional<std::array<double, 2>> cursors_;
+  std::optional<std::uint64_t> held_;
   double span_ = 60;
-  bool following_ = true;
+  bool following_ = true, robust_ = true;
   int draggedCursor_ = -1, keyCursor_ = 0;
+  std::size_t current_ = 0;
   std::optional<double> panFrom_;
+  bool panned_ = false;
   double budget_ = 0;
 };
 

@@ -8,15 +8,25 @@
 namespace trimtab::views {
 
 namespace {
-constexpr double kGrabPx = 7;
+constexpr double kGrabPx = 7, kPanPx = 4;
+}
+
+/// In the lane under the pointer, because lanes may stand in two columns.
+double TimePlot::timeAtPixel(QPointF pixel) const {
+  return lanes_[laneAt(pixel)].rect->axis(QCPAxis::atBottom)->pixelToCoord(pixel.x());
+}
+
+double TimePlot::secondsPerPixel() const {
+  return shown().size() / std::max(1, lanes_.front().rect->width());
 }
 
 int TimePlot::cursorAt(QPointF pixel) const {
   if (!cursors_) return -1;
   int nearest = -1;
-  double best = kGrabPx;
+  double best = kGrabPx * secondsPerPixel();
+  const double time = timeAtPixel(pixel);
   for (int i = 0; i < 2; ++i)
-    if (const double d = std::abs(pixelOfTime(cursor(i)).x() - pixel.x()); d < best) {
+    if (const double d = std::abs(cursor(i) - time); d < best) {
       best = d;
       nearest = i;
     }
@@ -31,22 +41,25 @@ void TimePlot::zoom(double factor, double anchor) {
 
 void TimePlot::mousePressEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return;
+  current_ = laneAt(event->position());
   draggedCursor_ = cursorAt(event->position());
+  panned_ = false;
   if (draggedCursor_ >= 0)
     keyCursor_ = draggedCursor_;
   else
-    panFrom_ = timeAxis()->pixelToCoord(event->position().x());
+    panFrom_ = timeAtPixel(event->position());
 }
 
 void TimePlot::mouseMoveEvent(QMouseEvent* event) {
-  const double time = timeAxis()->pixelToCoord(event->position().x());
+  const double time = timeAtPixel(event->position());
   if (draggedCursor_ >= 0) {
     moveCursor(draggedCursor_, time);
   } else if (panFrom_) {
     const double by = *panFrom_ - time;
+    // A click that trembles is no pan.
+    if (!panned_ && std::abs(by) < kPanPx * secondsPerPixel()) return;
+    panned_ = true;
     if (following_) {
-      // A click that trembles is no pan.
-      if (std::abs(timeAxis()->coordToPixel(*panFrom_) - event->position().x()) < 4) return;
       following_ = false;
       emit movedByHand();
     }
@@ -54,21 +67,20 @@ void TimePlot::mouseMoveEvent(QMouseEvent* event) {
   } else {
     setCursor(cursorAt(event->position()) >= 0 ? Qt::SplitHCursor : Qt::ArrowCursor);
   }
-  for (Lane& lane : lanes_) {
-    lane.tracker->setVisible(true);
-    putVertical(*lane.tracker, time);
-  }
-  layer(QStringLiteral("tracker"))->replot();
+  showTracker(time);
   emit tracked(time);
 }
 
-void TimePlot::mouseReleaseEvent(QMouseEvent*) {
+void TimePlot::mouseReleaseEvent(QMouseEvent* event) {
+  const bool click = panFrom_ && !panned_ && event->button() == Qt::LeftButton;
   draggedCursor_ = -1;
   panFrom_.reset();
+  if (!click) return;
+  if (const auto frame = frameAt(timeAtPixel(event->position()))) emit frameClicked(*frame);
 }
 
 void TimePlot::zoomByWheel(QWheelEvent* event) {
-  zoom(wheelFactor(*event), timeAxis()->pixelToCoord(event->position().x()));
+  zoom(wheelFactor(*event), timeAtPixel(event->position()));
 }
 
 bool TimePlot::zoomByKey(double factor) {
@@ -77,8 +89,7 @@ bool TimePlot::zoomByKey(double factor) {
 }
 
 void TimePlot::keyPressEvent(QKeyEvent* event) {
-  const double secondsPerPixel = shown().size() / std::max(1, lanes_.front().rect->width());
-  const double step = secondsPerPixel * (event->modifiers() & Qt::ShiftModifier ? 20 : 2);
+  const double step = secondsPerPixel() * (event->modifiers() & Qt::ShiftModifier ? 20 : 2);
   const auto move = [&](double by) {
     if (hasCursors()) return moveCursor(keyCursor_, cursor(keyCursor_) + by);
     if (following_) {
@@ -98,6 +109,8 @@ void TimePlot::keyPressEvent(QKeyEvent* event) {
     case Qt::Key_B:
       keyCursor_ = 1;
       return;
+    case Qt::Key_W:
+      return emit spikeAsked(event->modifiers() & Qt::ShiftModifier ? -1 : 1);
     case Qt::Key_Space:
       return emit pauseAsked();
     case Qt::Key_F:
@@ -109,9 +122,9 @@ void TimePlot::keyPressEvent(QKeyEvent* event) {
 }
 
 void TimePlot::leaveEvent(QEvent* event) {
-  for (Lane& lane : lanes_) lane.tracker->setVisible(false);
-  layer(QStringLiteral("tracker"))->replot();
-  emit tracked(std::numeric_limits<double>::quiet_NaN());
+  constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+  showTracker(kNowhere);
+  emit tracked(kNowhere);
   QCustomPlot::leaveEvent(event);
 }
 

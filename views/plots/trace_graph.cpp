@@ -20,6 +20,13 @@ TraceGraph::TraceGraph(QCPAxis* timeAxis, QCPAxis* valueAxis, Look look)
   setAntialiased(false);  // a third of the time, and hardly to be seen on steep traces
 }
 
+const PlotSignal& TraceGraph::signal() const {
+  if (look_.filled)
+    for (const StackedStage& stacked : kStack)
+      if (stacked.top == look_.trace) return signalOf(stacked.stage);
+  return signalOf(look_.trace);
+}
+
 void TraceGraph::colour(const QPalette& palette) {
   const QColor colour = seriesColour(look_.colour, palette), base = palette.color(QPalette::Base);
   setPen(QPen(colour, 1, look_.pen));
@@ -35,10 +42,12 @@ TraceGraph::Heights TraceGraph::take(const TraceBuffer& buffer, std::uint64_t fr
   // Nothing is drawn across a stretch without frames: an idle view paints none.
   const double span = columns_.size() > 1 ? columns_.back().time - columns_.front().time : 0;
   const double gap = std::max(kGapS, 4 * span / static_cast<double>(columns));
+  double least = 0;
   double last = columns_.empty() ? 0 : columns_.front().time;
   for (const TraceBuffer::Column& column : columns_) {
     const double low = column.low * look_.scale, high = column.high * look_.scale;
     if (high > 0) highs_.push_back(high);
+    if (low < least) least = low;
     if (column.time - last > gap) points_.append({(column.time + last) / 2, std::nan("")});
     last = column.time;
     // Stacked areas show their crests; lines show both ends of what a column holds.
@@ -50,15 +59,15 @@ TraceGraph::Heights TraceGraph::take(const TraceBuffer& buffer, std::uint64_t fr
   if (from < to && markerStepS > 0) {
     const double first = std::ceil(buffer.time(std::max(from, buffer.begin())) / markerStepS) * markerStepS;
     for (double t = first; t <= buffer.time(to - 1); t += markerStepS) {
-      const std::uint64_t frame = buffer.nearest(t);
+      const std::uint64_t frame = std::min(buffer.nearest(t), to - 1);
       if (const double v = buffer.value(look_.trace, frame) * look_.scale; std::isfinite(v))
         markers_.append({buffer.time(frame), v});
     }
   }
-  if (highs_.empty()) return {};
+  if (highs_.empty()) return {0, 0, least};
   const auto usual = highs_.end() - 1 - static_cast<std::ptrdiff_t>(highs_.size() / 20);
   std::nth_element(highs_.begin(), usual, highs_.end());
-  return {*std::max_element(usual, highs_.end()), *usual};
+  return {*std::max_element(usual, highs_.end()), *usual, least};
 }
 
 void TraceGraph::draw(QCPPainter* painter) {

@@ -3,7 +3,7 @@
 
 #include <qcustomplot.h>
 
-#include "views/model/trace_buffer.h"
+#include "views/model/plot_signals.h"
 
 namespace trimtab::views {
 
@@ -29,10 +29,13 @@ class TraceGraph : public QCPGraph {
 
   TraceGraph(QCPAxis* timeAxis, QCPAxis* valueAxis, Look look);
   const Look& look() const { return look_; }
+  /// What a person reads: of a stacked area, which draws its upper edge, the stage itself.
+  const PlotSignal& signal() const;
   void colour(const QPalette& palette);
   struct Heights {
     double largest = 0;
     double usual = 0;  ///< one screen column in twenty reaches higher
+    double least = 0;  ///< 0 where nothing is below
   };
   /// Draws frames from `from` up to `to`; markers at multiples of `markerStepS`.
   Heights take(const TraceBuffer& buffer, std::uint64_t from, std::uint64_t to, std::size_t columns,

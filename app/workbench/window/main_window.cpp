@@ -25,9 +25,9 @@
 #include "job_bar.h"
 #include "menus.h"
 #include "notice_bar.h"
+#include "plots_link.h"
 #include "views/panels/plots_panel.h"
 #include "views/panels/static_lod_panel.h"
-#include "views/plots/time_plot.h"
 
 namespace trimtab::workbench {
 namespace {
@@ -35,7 +35,6 @@ namespace {
 /// Raise it when docks come or go, so that no old layout is forced on new docks.
 constexpr int kLayoutVersion = 4;
 constexpr int kSavedMs = 4000, kHintMs = 8000;
-const QString kSpanKey = QStringLiteral("plots/span_s");
 const QString kGeometryKey = QStringLiteral("window/geometry"), kStateKey = QStringLiteral("window/state");
 
 }  // namespace
@@ -133,6 +132,8 @@ void MainWindow::connectParts() {
   connect(&draft_, &views::Draft::dirtyChanged, this, &MainWindow::updateTitle);
   connect(&c.document->document(), &Document::fileChanged, this, &MainWindow::updateTitle);
 
+  connectPlots(panels_, controllers_, feed_);
+
   MessagePanel* const messages = panels_.messages;
   connect(messages, &MessagePanel::errorAdded, messages, [messages] { raiseDock(*messages); });
   connect(panels_.host, &HostDock::refused, messages, &MessagePanel::add);
@@ -147,7 +148,7 @@ void MainWindow::restoreLayout() {
   const QSettings settings;
   restoreGeometry(settings.value(kGeometryKey).toByteArray());
   restoreState(settings.value(kStateKey).toByteArray(), kLayoutVersion);
-  if (const double span = settings.value(kSpanKey).toDouble(); span > 0) panels_.plots->setSpan(span);
+  panels_.plots->readFrom(settings);
 }
 
 void MainWindow::resetLayout() {
@@ -204,7 +205,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   QSettings settings;
   settings.setValue(kGeometryKey, saveGeometry());
   settings.setValue(kStateKey, saveState(kLayoutVersion));
-  settings.setValue(kSpanKey, panels_.plots->plot().span());
+  panels_.plots->keepIn(settings);
   controllers_.trace->stop();
   feed_.closeHost();
   event->accept();

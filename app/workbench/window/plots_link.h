@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace trimtab::workbench {
+
+struct Controllers;
+class Feed;
+struct Panels;
+
+/// Joins the dock Plots with the rest of the window: it marks a silent host and a running recording; the plot
+/// of the dock Culling shares its pointer and its frames; and a flight that is paused goes to the frame that
+/// a person chooses.
+void connectPlots(const Panels& panels, const Controllers& controllers, Feed& feed);
+
+}  // namespace trimtab::workbench
