@@ -53,7 +53,8 @@ TEST(MotionPanel, listsTheReasonOfEachChangeOnceAndNothingElse) {
   MotionPanel panel(draft);
   show(panel, rates(3, 29));
   ASSERT_EQ(panel.reasons().count(), 2) << "nine more fast frames are not enough for a third";
-  EXPECT_TRUE(panel.reasons().item(0)->text().contains(QStringLiteral("detail lowered, LOD scale 2"))) << "hidden or not";
+  EXPECT_TRUE(panel.reasons().item(0)->text().contains(QStringLiteral("detail lowered, LOD scale 2")))
+      << "hidden or not";
   EXPECT_TRUE(panel.reasons().item(1)->text().contains(QStringLiteral("detail lowered, LOD scale 4")));
   LiveFrame same;
   same.time = 2;
@@ -104,6 +105,20 @@ TEST(MotionPanel, takesASweepWithOrWithoutItsName) {
   EXPECT_EQ(panel.sweepText(), QStringLiteral("sweep:180deg/1s/2s"));
   panel.sweepEdit().setText(QStringLiteral(" nod:40/1s "));
   EXPECT_EQ(panel.sweepText(), QStringLiteral("nod:40/1s"));
+}
+
+TEST(MotionPlot, aJumpOfTheViewDoesNotFlattenTheSweepBeforeIt) {
+  MotionPlot plot;
+  LiveFrame frame;
+  for (int i = 0; i < 600; ++i) {
+    frame.time = i / 60.0;
+    frame.decision.motion.rateDegPerS = i == 400 ? 50'000 : 180;
+    frame.decision.motion.thresholdDegPerS = 60;
+    plot.append(frame);
+  }
+  plot.refresh();
+  EXPECT_GT(plot.yAxis->range().upper, 180);
+  EXPECT_LT(plot.yAxis->range().upper, 1000);
 }
 
 }  // namespace

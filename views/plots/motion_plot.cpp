@@ -2,6 +2,8 @@
 #include "motion_plot.h"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "views/model/theme.h"
 
@@ -50,9 +52,16 @@ void MotionPlot::append(const LiveFrame& frame) {
 }
 
 void MotionPlot::refresh() {
-  double top = 0, scale = 1;
-  for (const QCPGraph* graph : {rate_, threshold_})
-    for (const QCPGraphData& point : *graph->data()) top = std::max(top, point.value);
+  double threshold = 0, scale = 1;
+  std::vector<double> rates;
+  for (const QCPGraphData& point : *rate_->data())
+    if (std::isfinite(point.value)) rates.push_back(point.value);
+  for (const QCPGraphData& point : *threshold_->data()) threshold = std::max(threshold, point.value);
+  std::sort(rates.begin(), rates.end());
+  // A jump of the view, as of the key Home, is thousands of degrees in no time: it ends above the axis.
+  const double usual = rates.empty() ? 0 : rates[rates.size() - 1 - rates.size() / 20];
+  const double largest = rates.empty() ? 0 : rates.back();
+  const double top = std::max(threshold, std::min(largest, kMostOverUsual * std::max(usual, threshold)));
   for (const QCPGraphData& point : *scale_->data()) scale = std::max(scale, point.value);
   xAxis->setRange(last_ - kSpanS, last_);
   // Room for the legend above what moves.

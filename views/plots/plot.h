@@ -45,6 +45,9 @@ class Plot : public QCustomPlot {
 
   /// How much the wheel scales a range per notch.
   static constexpr double kWheelZoom = 0.85;
+  /// An axis ends at this many times what all but a few values keep to, so that those few do not flatten the
+  /// rest.
+  static constexpr double kMostOverUsual = 3;
   static double wheelFactor(const QWheelEvent& event);
 
   /// Adds layers above all others, lowest first, each of which can be replotted on its own.

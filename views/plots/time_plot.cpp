@@ -11,8 +11,6 @@ namespace trimtab::views {
 namespace {
 constexpr int kRoomForBudgetTextPx = 420;
 constexpr double kShortestSpanS = 0.05, kLongestSpanS = 3600 * 4;
-/// What reaches higher than this many times the usual does not flatten the rest: the axis ends here.
-constexpr double kMostOverUsual = 3;
 constexpr double kHeadRoom = 1.08;
 }  // namespace
 
