@@ -27,6 +27,7 @@
 #include "notice_bar.h"
 #include "plots_link.h"
 #include "views/panels/plots_panel.h"
+#include "views/panels/budget_strip.h"
 #include "views/panels/static_lod_panel.h"
 
 namespace trimtab::workbench {
@@ -75,6 +76,8 @@ void MainWindow::makeMiddle() {
   column->addWidget(notices_);
   column->addWidget(viewport_, 1);
   setCentralWidget(middle);
+  strip_ = new views::BudgetStrip(draft_, middle);
+  column->addWidget(strip_);
 }
 
 void MainWindow::makeControllers() {
@@ -123,6 +126,11 @@ void MainWindow::connectParts() {
           [this](const views::LiveFrame& frame) { docks_.showFrame(frame); });
   connect(c.frame.get(), &FrameController::painted, this, &MainWindow::takeScreenshotSoon);
   connect(c.terrain.get(), &TerrainController::opened, this, [this] {
+  strip_->setCosts([this](const FrameLoad& load) { return feed_.session().hold().model().coefficients(load); });
+  connect(c.frame.get(), &FrameController::frameShown, strip_, [this](const views::LiveFrame& frame) {
+    if (const auto& shown = controllers_.frame->shown())
+      strip_->showFrame(frame, 1e-6 * shown->view.widthPx * shown->view.heightPx);
+  });
     controllers_.document->setTerrainName(
         QString::fromStdString(controllers_.terrain->database()->info().name));
     updateTitle();

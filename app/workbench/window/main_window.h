@@ -12,6 +12,10 @@
 #include "panels.h"
 #include "views/model/draft.h"
 
+namespace trimtab::views {
+class BudgetStrip;
+}  // namespace trimtab::views
+
 namespace trimtab::workbench {
 
 class MessagePanel;
@@ -41,6 +45,7 @@ class MainWindow : public QMainWindow {
   Viewport& viewport() { return *viewport_; }
   MessagePanel& messages() { return *panels_.messages; }
   NoticeBar& notices() { return *notices_; }
+  views::BudgetStrip& strip() { return *strip_; }
   const Panels& panels() const { return panels_; }
   const Controllers& controllers() const { return controllers_; }
   /// Returns the dock with this object name; null if there is none.
@@ -69,6 +74,7 @@ class MainWindow : public QMainWindow {
   DrawThread measuring_;
   Viewport* viewport_ = nullptr;
   NoticeBar* notices_ = nullptr;
+  views::BudgetStrip* strip_ = nullptr;
   DockLayout docks_{*this};
   Panels panels_;
   Controllers controllers_;

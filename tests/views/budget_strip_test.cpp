@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "views/panels/budget_strip.h"
+
+#include <gtest/gtest.h>
+
+#include <QTest>
+#include <cmath>
+
+namespace trimtab::views {
+namespace {
+
+FrameCost costOf(double totalMs) {
+  FrameCost cost;
+  cost.total = totalMs;
+  cost.draw = totalMs * 0.8;
+  cost.occlusion = totalMs * 0.1;
+  cost.gpu = FrameCost::kNotMeasured;
+  return cost;
+}
+
+TEST(BudgetMinute, countsTheShareOfTheLastMinuteAndForgetsWhatIsOlder) {
+  BudgetMinute minute;
+  EXPECT_TRUE(std::isnan(minute.overShare(16)));
+  EXPECT_FALSE(minute.worstStage(16));
+  for (int i = 0; i < 100; ++i) minute.add(i, costOf(i < 50 ? 20 : 10), {});
+  EXPECT_EQ(minute.images(), 61u);
+  EXPECT_DOUBLE_EQ(minute.overShare(16), 11.0 / 61);
+  EXPECT_EQ(minute.overShare(25), 0);
+}
+
+TEST(BudgetMinute, theWorstStageIsThatOfTheImagesOverTheBudget) {
+  BudgetMinute minute;
+  for (int i = 0; i < 50; ++i) minute.add(i * 0.1, costOf(10), {});
+  FrameCost rain = costOf(40);
+  rain.weather = 30;  // a part of the drawing
+  minute.add(5, rain, {});
+  EXPECT_EQ(minute.worstStage(16)->name, "weather");
+  EXPECT_DOUBLE_EQ(minute.worstStage(16)->ms, 30);
+  EXPECT_EQ(minute.worstStage(100)->name, "drawing") << "none is over: all count";
+  EXPECT_EQ(minute.help(16, {})->lever, "particle density");
+  EXPECT_TRUE(std::isnan(minute.help(16, {})->ms));
+}
+
+TEST(BudgetMinute, knownCostsNameTheLeverThatSavesMost) {
+  BudgetMinute minute;
+  minute.add(0, costOf(20), {1e6, 1, 1, 0, false});
+  CostCoefficients triangles;
+  triangles.known = true;
+  triangles.perTriangle = 1e-5;
+  triangles.perSceneMpx = 2;
+  EXPECT_EQ(minute.help(16, triangles)->lever, "allowed error");
+  EXPECT_DOUBLE_EQ(minute.help(16, triangles)->ms, 5);
+  CostCoefficients pixels = triangles;
+  pixels.perGroundMpx = 15;
+  EXPECT_EQ(minute.help(16, pixels)->lever, "render scale");
+  EXPECT_DOUBLE_EQ(minute.help(16, pixels)->ms, 8.5);
+}
+
+TEST(BudgetStrip, saysHowMuchOfTheMinuteIsOverWhereAndWhatHelps) {
+  Draft draft;
+  ASSERT_TRUE(draft.setText("measure.budget_ms", "16").empty());
+  BudgetStrip strip(draft);
+  strip.show();
+  LiveFrame frame;
+  frame.newImage = true;
+  for (int i = 0; i < 20; ++i) {
+    frame.time = i;
+    frame.cost = costOf(i == 0 ? 20 : 10);
+    strip.showFrame(frame, 1);
+  }
+  frame.newImage = false;
+  strip.showFrame(frame, 1);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return strip.text().contains("5 % of the last minute"); }, 5000))
+      << strip.text().toStdString();
+  EXPECT_TRUE(strip.text().contains("longest stage: drawing, 16.0 ms")) << strip.text().toStdString();
+  EXPECT_TRUE(strip.text().contains("most help: allowed error"));
+  EXPECT_EQ(strip.minute().images(), 20u);
+  ASSERT_TRUE(draft.setText("measure.budget_ms", "30").empty());
+  EXPECT_TRUE(QTest::qWaitFor([&] { return strip.text().contains("Within 30"); }, 5000));
+}
+
+}  // namespace
+}  // namespace trimtab::views

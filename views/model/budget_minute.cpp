@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "budget_minute.h"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace trimtab::views {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+/// Less than this, in milliseconds, is no help.
+constexpr double kLeastMs = 0.05;
+
+QString tr(const char* text) {
+  return QCoreApplication::translate("BudgetMinute", text);
+}
+
+double orZero(double ms) {
+  return std::isnan(ms) ? 0 : ms;
+}
+
+enum Part { decide, select, occlusion, cull, ground, page, blur, weather, symbology, kParts };
+constexpr const char* kNames[kParts] = {
+    QT_TRANSLATE_NOOP("BudgetMinute", "decision"),  QT_TRANSLATE_NOOP("BudgetMinute", "selection"),
+    QT_TRANSLATE_NOOP("BudgetMinute", "occlusion"), QT_TRANSLATE_NOOP("BudgetMinute", "culling"),
+    QT_TRANSLATE_NOOP("BudgetMinute", "drawing"),   QT_TRANSLATE_NOOP("BudgetMinute", "paging"),
+    QT_TRANSLATE_NOOP("BudgetMinute", "blur"),      QT_TRANSLATE_NOOP("BudgetMinute", "weather"),
+    QT_TRANSLATE_NOOP("BudgetMinute", "symbols")};
+
+/// Parts that do not overlap: what of the drawing was measured by itself is taken out of it.
+std::array<double, kParts> partsOf(const FrameCost& cost) {
+  const double drawn = std::isfinite(cost.gpu) ? std::max(cost.gpu, orZero(cost.draw)) : orZero(cost.draw);
+  const double inside = orZero(cost.blur) + orZero(cost.weather) + orZero(cost.symbology);
+  return {orZero(cost.decide), orZero(cost.select),           orZero(cost.occlusion),
+          orZero(cost.cull),   std::max(drawn - inside, 0.0), orZero(cost.page),
+          orZero(cost.blur),   orZero(cost.weather),          orZero(cost.symbology)};
+}
+
+}  // namespace
+
+void BudgetMinute::add(double timeS, const FrameCost& cost, const FrameLoad& load) {
+  images_.push_back({timeS, cost});
+  load_ = load;
+  while (images_.front().timeS < timeS - kSpanS) images_.pop_front();
+}
+
+double BudgetMinute::overShare(double budgetMs) const {
+  const auto over = std::count_if(images_.begin(), images_.end(),
+                                  [&](const Image& image) { return image.cost.total > budgetMs; });
+  return images_.empty() ? kNan : double(over) / double(images_.size());
+}
+
+std::optional<BudgetMinute::Stage> BudgetMinute::worstStage(double budgetMs) const {
+  const bool all = !(overShare(budgetMs) > 0);
+  std::array<double, kParts> sum{};
+  std::size_t count = 0;
+  for (const Image& image : images_) {
+    if (!all && !(image.cost.total > budgetMs)) continue;
+    const std::array<double, kParts> parts = partsOf(image.cost);
+    for (std::size_t i = 0; i < kParts; ++i) sum[i] += parts[i];
+    ++count;
+  }
+  const auto worst = std::max_element(sum.begin(), sum.end());
+  if (count == 0 || !(*worst > 0)) return std::nullopt;
+  return Stage{tr(kNames[worst - sum.begin()]), *worst / double(count)};
+}
+
+std::optional<BudgetMinute::Help> BudgetMinute::help(double budgetMs, const CostCoefficients& cost) const {
+  const std::optional<Stage> worst = worstStage(budgetMs);
+  if (!worst) return std::nullopt;
+  if (cost.known) {
+    const StageTimes now = predict(cost, load_);
+    const auto saves = [&](void (*change)(FrameLoad&)) {
+      FrameLoad less = load_;
+      change(less);
+      return now.total() - predict(cost, less).total();
+    };
+    const std::array<Help, 4> helps{
+        Help{tr("allowed error"), saves([](FrameLoad& l) { l.triangles /= 2; })},
+        Help{tr("render scale"), saves([](FrameLoad& l) { l.groundMpx /= 2, l.sceneMpx /= 2; })},
+        Help{tr("particle density"), saves([](FrameLoad& l) { l.particles /= 2; })},
+        Help{tr("blur strength"), saves([](FrameLoad& l) { l.blurs = false; })}};
+    const auto best = std::max_element(helps.begin(), helps.end(),
+                                       [](const Help& a, const Help& b) { return a.ms < b.ms; });
+    if (best->ms >= kLeastMs) return *best;
+  }
+  if (worst->name == tr(kNames[weather])) return Help{tr("particle density"), kNan};
+  if (worst->name == tr(kNames[blur])) return Help{tr("blur strength"), kNan};
+  if (worst->name == tr(kNames[occlusion])) return Help{tr("occlusion"), kNan};
+  if (worst->name == tr(kNames[decide]) || worst->name == tr(kNames[symbology])) return std::nullopt;
+  return Help{tr("allowed error"), kNan};
+}
+
+}  // namespace trimtab::views
