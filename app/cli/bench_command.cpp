@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/harness/run.h"
+#include "app/harness/sweep.h"
 #include "app/harness/text.h"
 #include "commands.h"
 #include "progress.h"
@@ -22,7 +23,7 @@ namespace {
 
 struct Arguments {
   std::string terrain, output, cases = "none,view_frustum,proposed", size = "1280x720";
-  std::vector<std::string> flights, presets{"default"}, settings;
+  std::vector<std::string> flights, presets{"default"}, settings, sweeps;
   std::size_t frames = 60, repeats = 5;
   bool json = false;
 };
@@ -88,12 +89,29 @@ bool readFlights(const Arguments& arguments, harness::Plan& plan) {
 
 bool readPresets(const Arguments& arguments, harness::Plan& plan) {
   bool usable = true;
+  std::vector<harness::SweepAxis> axes;
+  for (const std::string& sweep : arguments.sweeps) {
+    Result<harness::SweepAxis> axis = harness::parseAxis(sweep);
+    report(axis.findings());
+    usable = usable && axis;
+    if (axis) axes.push_back(std::move(axis).value());
+  }
+  if (axes.size() > harness::kMostAxes) {
+    report({refused("--sweep", "at most two parameters", std::to_string(axes.size()))});
+    return false;
+  }
+  if (!usable) return false;
   for (const std::string& preset : arguments.presets) {
-    const std::optional<ValidatedParameters> parameters = parametersFor(preset, arguments.settings);
-    if (parameters)
-      plan.presets.push_back({nameOf(preset, plan.presets), *parameters});
-    else
-      usable = false;
+    const std::string name = nameOf(preset, plan.presets);
+    for (const harness::Settings& swept : harness::combinations(axes)) {
+      std::vector<std::string> settings = arguments.settings;
+      settings.insert(settings.end(), swept.begin(), swept.end());
+      const std::optional<ValidatedParameters> parameters = parametersFor(preset, settings);
+      if (parameters)
+        plan.presets.push_back({harness::sweptName(name, swept), *parameters});
+      else
+        usable = false;
+    }
   }
   return usable;
 }
@@ -144,6 +162,11 @@ void addBench(CLI::App& app, int& exitCode) {
   command->add_option("--cases", arguments->cases, "Culling cases, with commas between")
       ->capture_default_str();
   command->add_option("--set", arguments->settings, "KEY=VALUE on top of every preset; may be repeated");
+  command
+      ->add_option("--sweep", arguments->sweeps,
+                   "KEY=A,B,...: measures every preset at each of these values; once or twice")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--size", arguments->size, "Render size")->capture_default_str();
   command->add_option("--frames", arguments->frames, "Frames of each flight, evenly spread")
       ->capture_default_str()

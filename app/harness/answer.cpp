@@ -77,6 +77,10 @@ std::string noneText(const Answer& answer) {
 
 }  // namespace
 
+bool better(const AnswerRow& one, const AnswerRow& other) {
+  return std::tuple(toThreeDigits(one.flip), one.p95Ms) < std::tuple(toThreeDigits(other.flip), other.p95Ms);
+}
+
 AnswerRow answerRow(const Unit& unit, double budgetMs) {
   const auto of = [&unit](const char* key) { return summarise(unit, *quantityOf(key)); };
   const Summary ms = of("frame_ms");
@@ -101,11 +105,8 @@ Answer answerOf(const Results& results, const std::string& flight, double budget
     if (unit.name.flight != flight) continue;
     if (answer.rows.emplace_back(answerRow(unit, budgetMs)).fits) ranked.push_back(answer.rows.size() - 1);
   }
-  std::stable_sort(ranked.begin(), ranked.end(), [&](std::size_t a, std::size_t b) {
-    const AnswerRow &one = answer.rows[a], &other = answer.rows[b];
-    return std::tuple(toThreeDigits(one.flip), one.p95Ms) <
-           std::tuple(toThreeDigits(other.flip), other.p95Ms);
-  });
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [&](std::size_t a, std::size_t b) { return better(answer.rows[a], answer.rows[b]); });
   if (!ranked.empty()) answer.best = ranked.front();
   answer.why = answer.best ? bestText(answer, ranked) : noneText(answer);
   return answer;

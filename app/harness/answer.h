@@ -31,6 +31,9 @@ struct Answer {
   std::string why;  ///< whole sentences for a person: why it is the best, or how far off all are
 };
 
+/// Whether one unit is better than another if both fit: a smaller FLIP to three digits, then a shorter 95th
+/// percentile.
+bool better(const AnswerRow& one, const AnswerRow& other);
 /// Summarises one unit. If the budget is NaN, nothing fits it.
 AnswerRow answerRow(const Unit& unit, double budgetMs);
 /// Compares the units of a flight. The best one is, of those that fit, the one with the smallest FLIP to

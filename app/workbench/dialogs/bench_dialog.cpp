@@ -15,6 +15,7 @@
 #include <QSpinBox>
 #include <QVBoxLayout>
 
+#include "sweep_choice.h"
 #include "trimtab/preset/preset.h"
 #include "views/model/error_run.h"
 #include "views/model/theme.h"
@@ -35,6 +36,7 @@ BenchDialog::BenchDialog(const QString& folder, QWidget* parent)
       folder_(new QLineEdit(folder, this)),
       frames_(new QSpinBox(this)),
       repeats_(new QSpinBox(this)),
+      sweep_(new SweepChoice(this)),
       amount_(new QLabel(this)) {
   setWindowTitle(tr("Measure presets along the flight"));
   const auto add = [this](const QString& label, const QString& name) {
@@ -86,6 +88,7 @@ BenchDialog::BenchDialog(const QString& folder, QWidget* parent)
   form->addRow(tr("&Presets"), presets_);
   form->addRow({}, file);
   form->addRow(tr("Culling cases"), caseRow);
+  form->addRow(tr("S&weep"), sweep_);
   form->addRow(tr("&Size (px)"), size_);
   form->addRow(tr("&Frames"), frames_);
   form->addRow(tr("&Repeats"), repeats_);
@@ -102,6 +105,7 @@ BenchDialog::BenchDialog(const QString& folder, QWidget* parent)
   column->addWidget(buttons);
   connect(presets_, &QListWidget::itemChanged, this, &BenchDialog::check);
   for (QSpinBox* box : {frames_, repeats_}) connect(box, &QSpinBox::valueChanged, this, &BenchDialog::check);
+  connect(sweep_, &SweepChoice::changed, this, &BenchDialog::check);
   for (QLineEdit* line : {size_, folder_}) connect(line, &QLineEdit::textChanged, this, &BenchDialog::check);
   resize(560, sizeHint().height());
   check();
@@ -109,11 +113,14 @@ BenchDialog::BenchDialog(const QString& folder, QWidget* parent)
 
 void BenchDialog::check() {
   const BenchChoice chosen = choice();
-  const auto units = chosen.presets.size() * chosen.cases.size();
-  amount_->setText(tr("%L1 timed images of %L2 frames, and a reference image of each")
-                       .arg(units * chosen.frames * chosen.repeats)
-                       .arg(units * chosen.frames));
-  measure_->setEnabled(units > 0 && size_->hasAcceptableInput() && !chosen.folder.isEmpty());
+  const auto units = chosen.presets.size() * chosen.cases.size() * sweep_->presets();
+  const QString fault = sweep_->fault();
+  amount_->setText(!fault.isEmpty() ? fault
+                                    : tr("%L1 timed images of %L2 frames, and a reference image of each")
+                                          .arg(units * chosen.frames * chosen.repeats)
+                                          .arg(units * chosen.frames));
+  measure_->setEnabled(units > 0 && fault.isEmpty() && size_->hasAcceptableInput() &&
+                       !chosen.folder.isEmpty());
 }
 
 BenchChoice BenchDialog::choice() const {
@@ -127,6 +134,7 @@ BenchChoice BenchDialog::choice() const {
   choice.size = size_->text();
   choice.frames = frames_->value();
   choice.repeats = repeats_->value();
+  choice.sweeps = sweep_->sweeps();
   choice.folder = folder_->text().trimmed();
   return choice;
 }

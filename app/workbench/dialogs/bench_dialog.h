@@ -14,6 +14,8 @@ class QSpinBox;
 
 namespace trimtab::workbench {
 
+class SweepChoice;
+
 /// What `trimtab-cli bench` should measure.
 struct BenchChoice {
   static const QString kDraft;  ///< the name that means the preset that is being edited
@@ -22,7 +24,8 @@ struct BenchChoice {
   QStringList cases{QStringLiteral("view_frustum"), QStringLiteral("proposed")};
   QString size = QStringLiteral("1280x720");
   int frames = 60, repeats = 5;
-  QString folder;  ///< for the results; a measurement that was stopped there is resumed
+  QStringList sweeps;  ///< "KEY=A,B,...": each preset is measured at each of these values; at most two
+  QString folder;      ///< for the results; a measurement that was stopped there is resumed
 };
 
 /// Asks a person what to measure.
@@ -32,6 +35,7 @@ class BenchDialog : public QDialog {
  public:
   explicit BenchDialog(const QString& folder, QWidget* parent = nullptr);
   BenchChoice choice() const;
+  SweepChoice& sweep() { return *sweep_; }
 
  private:
   void check();
@@ -40,6 +44,7 @@ class BenchDialog : public QDialog {
   std::array<QCheckBox*, 3> cases_;
   QLineEdit *size_, *folder_;
   QSpinBox *frames_, *repeats_;
+  SweepChoice* sweep_;
   QLabel* amount_;
   QPushButton* measure_;
 };

@@ -22,6 +22,7 @@
 #include <cmath>
 
 #include "answer_page.h"
+#include "sweep_page.h"
 #include "views/model/error_run.h"
 #include "views/model/theme.h"
 
@@ -103,6 +104,7 @@ ErrorDock::ErrorDock(views::Draft& draft, DrawThread& thread, LiveMeter::Source 
       plot_(new views::ErrorPlot(this)),
       timeline_(new views::ErrorTimeline(this)),
       answer_(new AnswerPage(this)),
+      sweep_(new SweepPage(this)),
       pages_(new QTabWidget(this)) {
   const views::ErrorRun nothing{errorList(), {}};
   for (const views::ErrorRun::Error& error : nothing.errors) errors_->addItem(titleOf(error), error.key);
@@ -211,6 +213,7 @@ void ErrorDock::arrange() {
   all->addWidget(controls);
   pages_->setDocumentMode(true);
   pages_->addTab(answer_, tr("&Which preset fits"));
+  pages_->addTab(sweep_, tr("S&weep"));
   pages_->addTab(plots, tr("&Plots"));
   pages_->setCurrentWidget(plots);
   all->addWidget(pages_, 1);
@@ -248,8 +251,12 @@ void ErrorDock::showBudget() {
 
 /// By the budget of the draft: what fits follows it while a person tries budgets.
 void ErrorDock::showAnswer() {
-  if (!results_ || flight().isEmpty()) return answer_->clear();
+  if (!results_ || flight().isEmpty()) {
+    sweep_->clear();
+    return answer_->clear();
+  }
   answer_->show(*results_, flight(), draft_.active()->measure.budget.value());
+  sweep_->show(*answer_->answer());
 }
 
 void ErrorDock::onMeasured(const LiveMeter::Measured& measured) {
@@ -301,6 +308,7 @@ void ErrorDock::measure(const BenchChoice& choice) {
   arguments << QStringLiteral("--preset");
   for (const QString& preset : choice.presets)
     arguments << (preset == BenchChoice::kDraft ? inputs->draft : preset);
+  for (const QString& sweep : choice.sweeps) arguments << QStringLiteral("--sweep") << sweep;
   arguments << QStringLiteral("--cases") << choice.cases.join(QLatin1Char(','))  //
             << QStringLiteral("--size") << choice.size                           //
             << QStringLiteral("--frames") << QString::number(choice.frames)      //
@@ -358,7 +366,8 @@ bool ErrorDock::openResults(const QString& file) {
   results_ = std::move(read).value();
   resultsFile_ = QFileInfo(file).absoluteFilePath();
   showResults();
-  pages_->setCurrentWidget(answer_);
+  // A sweep has the answer in it.
+  pages_->setCurrentWidget(sweep_->sweeps() > 0 ? static_cast<QWidget*>(sweep_) : answer_);
   return true;
 }
 

@@ -24,6 +24,7 @@ class QTabWidget;
 namespace trimtab::workbench {
 
 class AnswerPage;
+class SweepPage;
 
 /// Shows run time against error: presets as a benchmark measured them, with the live session among them, and
 /// the measured frames along the flight, with a cursor that moves with the flight. A page beside the plots
@@ -69,7 +70,8 @@ class ErrorDock : public QWidget {
   views::ErrorPlot& plot() { return *plot_; }
   views::ErrorTimeline& timeline() { return *timeline_; }
   AnswerPage& answer() { return *answer_; }
-  /// Which page is in front: the plots or the answer.
+  SweepPage& sweep() { return *sweep_; }
+  /// Which page is in front: the answer, the sweep or the plots.
   QTabWidget& pages() { return *pages_; }
   LiveMeter& live() { return live_; }
   QCheckBox& liveSwitch() { return *liveOn_; }
@@ -112,6 +114,7 @@ class ErrorDock : public QWidget {
   views::ErrorPlot* plot_;
   views::ErrorTimeline* timeline_;
   AnswerPage* answer_;
+  SweepPage* sweep_;
   QTabWidget* pages_;
 };
 

@@ -98,6 +98,25 @@ TEST_F(BenchCommand, printsOneDocumentAndKeepsReportTableAndPictures) {
   EXPECT_EQ(withoutTimes(dir / "other"), withoutTimes(dir / "out"));
 }
 
+TEST_F(BenchCommand, sweepsTwoParametersAndAnswersWhichFits) {
+  const test::ScratchDir dir;
+  const std::string sweep = cli() + " bench --terrain " + database() + " --flight " + flight() +
+                            " --cases proposed --size 64x48 --frames 2 --repeats 1 -o " +
+                            (dir / "out").string() + " --sweep lod.screen_space_error_px=1,8";
+  const test::Ran ran = test::run(sweep + " --sweep lod.level_spread=1,1.5 --json");
+  ASSERT_EQ(ran.exitCode, 0) << ran.err;
+  const auto results = parseResults(ran.out, "standard output");
+  ASSERT_TRUE(results) << toString(results.findings());
+  ASSERT_EQ(results->units.size(), 4u);
+  EXPECT_EQ(results->units[1].name.preset, "default lod.screen_space_error_px=1 lod.level_spread=1.5");
+  EXPECT_LT(results->units[2].frames[0].counts.triangles, results->units[0].frames[0].counts.triangles);
+  EXPECT_THAT(ran.out, HasSubstr("\"over_budget_share\""));
+
+  const std::string more = " --sweep fuzzy.hysteresis=0 --sweep lod.level_spread=1";
+  EXPECT_THAT(test::run(sweep + more).err, HasSubstr("at most two parameters"));
+  EXPECT_THAT(test::run(sweep + " --sweep fuzzy.hysteresis=").err, HasSubstr("--sweep"));
+}
+
 TEST_F(BenchCommand, goesOnWhereItWasKilled) {
   const test::ScratchDir dir;
   ASSERT_EQ(test::run(command(dir / "whole")).exitCode, 0);

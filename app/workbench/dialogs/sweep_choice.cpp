@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sweep_choice.h"
+
+#include <QComboBox>
+#include <QCompleter>
+#include <QGridLayout>
+#include <QLineEdit>
+#include <cmath>
+
+#include "app/harness/sweep.h"
+#include "trimtab/preset/table.h"
+#include "views/model/theme.h"
+
+namespace trimtab::workbench {
+namespace {
+
+constexpr int kProposed = 5;
+
+/// A few values from end to end of the usual range, as a slider would reach them; all names of a choice.
+QStringList proposed(const ParameterRow& row) {
+  QStringList values;
+  for (const ChoiceOption& choice : row.choices) values << views::fromView(choice.name);
+  if (!values.isEmpty()) return values;
+  const bool logarithmic = row.logarithmic && row.usual.low > 0;
+  for (int i = 0; i < kProposed; ++i) {
+    const double part = double(i) / (kProposed - 1);
+    const double value = logarithmic ? row.usual.low * std::pow(row.usual.high / row.usual.low, part)
+                                     : row.usual.low + (row.usual.high - row.usual.low) * part;
+    const QString text =
+        QString::number(std::stod(QString::number(value, 'f', row.whole ? 0 : row.decimals).toStdString()));
+    if (!values.contains(text)) values << text;
+  }
+  return values;
+}
+
+bool isSwept(const ParameterRow& row) {
+  return row.kind == Kind::scalar || row.kind == Kind::choice;
+}
+
+}  // namespace
+
+SweepChoice::SweepChoice(QWidget* parent) : QWidget(parent) {
+  auto* grid = new QGridLayout(this);
+  grid->setContentsMargins(0, 0, 0, 0);
+  int line = 0;
+  for (Axis& axis : axes_) {
+    axis = {new QComboBox(this), new QLineEdit(this)};
+    axis.key->addItem(tr("no parameter"), QString());
+    for (const ParameterRow& row : parameterRows())
+      if (isSwept(row))
+        axis.key->addItem(
+            QStringLiteral("%1  (%2)").arg(views::fromView(row.label), views::fromView(row.key)),
+            views::fromView(row.key));
+    axis.key->setEditable(true);
+    axis.key->setInsertPolicy(QComboBox::NoInsert);
+    axis.key->completer()->setFilterMode(Qt::MatchContains);
+    axis.key->completer()->setCompletionMode(QCompleter::PopupCompletion);
+    axis.key->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    axis.key->setMinimumContentsLength(24);
+    axis.key->setAccessibleName(line == 0 ? tr("First parameter to sweep") : tr("Second parameter to sweep"));
+    axis.values->setPlaceholderText(tr("values with commas between"));
+    axis.values->setAccessibleName(line == 0 ? tr("Values of the first parameter")
+                                             : tr("Values of the second parameter"));
+    grid->addWidget(axis.key, line, 0);
+    grid->addWidget(axis.values, line++, 1);
+    connect(axis.key, &QComboBox::currentIndexChanged, this, [this, &axis] {
+      propose(axis);
+      emit changed();
+    });
+    connect(axis.values, &QLineEdit::textChanged, this, &SweepChoice::changed);
+  }
+  grid->setColumnStretch(0, 3);
+  grid->setColumnStretch(1, 2);
+}
+
+void SweepChoice::propose(const Axis& axis) {
+  const ParameterRow* const row = findRow(axis.key->currentData().toString().toStdString());
+  axis.values->setEnabled(row != nullptr);
+  axis.values->setText(row == nullptr ? QString() : proposed(*row).join(QStringLiteral(", ")));
+}
+
+void SweepChoice::choose(std::size_t axis, const QString& key, const QString& values) {
+  axes_[axis].key->setCurrentIndex(axes_[axis].key->findData(key));
+  if (!values.isEmpty()) axes_[axis].values->setText(values);
+}
+
+QStringList SweepChoice::valuesOf(const Axis& axis) const {
+  QStringList values;
+  for (const QString& value : axis.values->text().split(QLatin1Char(','))) values << value.trimmed();
+  return values;
+}
+
+QStringList SweepChoice::sweeps() const {
+  QStringList sweeps;
+  for (const Axis& axis : axes_)
+    if (const QString key = axis.key->currentData().toString(); !key.isEmpty())
+      sweeps << key + QLatin1Char('=') + valuesOf(axis).join(QLatin1Char(','));
+  return sweeps;
+}
+
+int SweepChoice::presets() const {
+  int count = 1;
+  for (const Axis& axis : axes_)
+    if (!axis.key->currentData().toString().isEmpty()) count *= int(valuesOf(axis).size());
+  return count;
+}
+
+QString SweepChoice::fault() const {
+  if (axes_[0].key->currentIndex() == axes_[1].key->currentIndex() && axes_[0].key->currentIndex() > 0)
+    return tr("Both parameters to sweep are the same");
+  for (const QString& sweep : sweeps()) {
+    const Result<harness::SweepAxis> axis = harness::parseAxis(sweep.toStdString());
+    if (!axis)
+      return tr("%1: %2 expected").arg(sweep, QString::fromStdString(axis.findings().front().expected));
+    const ParameterRow& row = *findRow(axis->key);
+    for (const std::string& text : axis->values) {
+      const Result<ParameterValue> value = parseValue(row, text);
+      const double* const number = value ? std::get_if<double>(&*value) : nullptr;
+      if (!value || (number != nullptr && !(*number >= row.hard.low && *number <= row.hard.high)))
+        return tr("%1 is no value of %2").arg(QString::fromStdString(text), views::fromView(row.label));
+    }
+  }
+  return {};
+}
+
+}  // namespace trimtab::workbench
