@@ -125,6 +125,25 @@ TEST_F(BoundedPrecipitation, isSeenLessWithLessDensityAndASmallerShare) {
   }
 }
 
+/// The published effect covers nearly every pixel with flakes, so that heavy snow is a noise without a view.
+TEST_F(BoundedPrecipitation, heavySnowLeavesMostOfTheImageToSee) {
+  const auto coveredShare = [this](PrecipitationForm form) {
+    auto r = falling(Precipitation::snow, 1);
+    r.precipitationForm = form;
+    constexpr int kSeen = 8;
+    const Pixels8 snow = picture(r), without = picture(dry(r));
+    std::size_t covered = 0;
+    for (std::size_t i = 0; i < snow.size(); i += 4)
+      covered += std::abs(int{snow[i + 1]} - without[i + 1]) > kSeen;
+    return 4.0 * static_cast<double>(covered) / static_cast<double>(snow.size());
+  };
+  const double bounded = coveredShare(PrecipitationForm::bounded),
+               effect = coveredShare(PrecipitationForm::effect);
+  EXPECT_GT(bounded, 0.01);
+  EXPECT_LT(bounded, 0.25);
+  EXPECT_GT(effect, 2 * bounded) << "or this test shows nothing";
+}
+
 TEST_F(BoundedPrecipitation, fadesInWithoutAStepAndOutAlike) {
   for (const Precipitation kind : kKinds) {
     auto r = falling(kind, 1);
