@@ -4,16 +4,20 @@
 #include <QDockWidget>
 #include <QLabel>
 #include <QSignalSpy>
-#include <QTableWidget>
 #include <QTabWidget>
+#include <QTableWidget>
 #include <cmath>
 
+#include "app/workbench/dialogs/sweep_choice.h"
 #include "app/workbench/docks/answer_page.h"
 #include "app/workbench/docks/error_dock.h"
 #include "app/workbench/docks/flight_dock.h"
+#include "app/workbench/docks/sweep_page.h"
 #include "app/workbench/viewport/split_view.h"
 #include "gui_support.h"
 #include "trimtab/preset/preset.h"
+#include "views/panels/budget_strip.h"
+#include "views/plots/sweep_plot.h"
 
 namespace trimtab::test {
 namespace {
@@ -164,7 +168,7 @@ TEST_F(ErrorDock, showsMeasuredResultsAndTheCursorTakesTheViewToTheRow) {
   raise();
   dock().liveSwitch().setChecked(false);
   ASSERT_TRUE(dock().openResults(tinyResults())) << w().messages().text().toStdString();
-  dock().pages().setCurrentIndex(1);
+  dock().pages().setCurrentIndex(2);
   ASSERT_EQ(dock().plot().points().size(), 4u);
   EXPECT_TRUE(dock().report().endsWith("report.html"));
   const QPointF before = dock().plot().pixelOf(dock().plot().points()[0]);
@@ -220,6 +224,82 @@ TEST_F(ErrorDock, theAnswerNamesTheBestPresetUnderTheBudgetOfTheDraft) {
   if (dock().results()->units.front().frames.front().cost.total > 1) {
     EXPECT_FALSE(dock().answer().answer()->best);
   }
+}
+
+/// Writes results of these presets: the first one takes 30 ms a frame, and each next one half of that, with
+/// twice the FLIP.
+QString resultsOf(const std::vector<std::string>& presets, const std::filesystem::path& file) {
+  harness::Results results;
+  results.terrain = "made up";
+  results.widthPx = 640;
+  results.heightPx = 360;
+  results.budgetMs = 16.7;
+  double ms = 60, flip = 0.005;
+  for (const std::string& preset : presets) {
+    harness::Unit& unit = results.units.emplace_back();
+    unit.name = {"circuit", preset, "proposed"};
+    harness::MeasuredFrame frame;
+    frame.cost.total = ms /= 2;
+    frame.error.flip = flip *= 2;
+    unit.frames.push_back(frame);
+  }
+  std::ofstream(file) << harness::toJson(results);
+  return QString::fromStdString(file.string());
+}
+
+TEST_F(ErrorDock, aSweepOfOneParameterIsALineAndOfTwoAMap) {
+  const ScratchDir dir;
+  ASSERT_TRUE(w().draft().setText("measure.budget_ms", "16.7").empty());
+  ASSERT_TRUE(
+      dock().openResults(resultsOf({"mine lod.screen_space_error_px=1", "mine lod.screen_space_error_px=2",
+                                    "mine lod.screen_space_error_px=4"},
+                                   dir / "line.json")));
+  EXPECT_EQ(dock().pages().currentWidget(), &dock().sweep());
+  const QCPGraph& times = dock().sweep().plot().times();
+  ASSERT_EQ(times.data()->size(), 3);
+  EXPECT_EQ(times.data()->at(1)->value, 15);
+  EXPECT_TRUE(dock().sweep().text().contains("px=2")) << dock().sweep().text().toStdString();
+
+  const std::string two = "mine lod.screen_space_error_px=1 lod.level_spread=";
+  ASSERT_TRUE(dock().openResults(resultsOf({two + "1", two + "2"}, dir / "map.json")));
+  QTableWidget& map = dock().sweep().map();
+  ASSERT_EQ(map.rowCount(), 1);
+  ASSERT_EQ(map.columnCount(), 2);
+  EXPECT_TRUE(map.item(0, 0)->text().contains("✕")) << map.item(0, 0)->text().toStdString();
+  EXPECT_TRUE(map.item(0, 1)->text().contains("★ 15")) << map.item(0, 1)->text().toStdString();
+  EXPECT_NE(map.item(0, 0)->background(), map.item(0, 1)->background());
+
+  ASSERT_TRUE(dock().openResults(resultsOf({"default"}, dir / "none.json")));
+  EXPECT_EQ(dock().pages().currentWidget(), &dock().answer());
+  EXPECT_EQ(dock().sweep().sweeps(), 0u);
+}
+
+TEST_F(ErrorDock, theDialogProposesValuesToSweepAndSaysWhatIsWrongWithThem) {
+  workbench::BenchDialog dialog("/nowhere");
+  workbench::SweepChoice& sweep = dialog.sweep();
+  EXPECT_TRUE(sweep.sweeps().isEmpty());
+  EXPECT_EQ(sweep.presets(), 1);
+  sweep.choose(0, "lod.screen_space_error_px");
+  EXPECT_EQ(sweep.presets(), 5) << sweep.sweeps().join(' ').toStdString();
+  EXPECT_EQ(sweep.fault(), "");
+  sweep.choose(0, "lod.screen_space_error_px", "1, 2, 4");
+  sweep.choose(1, "fuzzy.hysteresis", "0, 0.05");
+  EXPECT_EQ(sweep.presets(), 6);
+  EXPECT_EQ(dialog.choice().sweeps,
+            (QStringList{"lod.screen_space_error_px=1,2,4", "fuzzy.hysteresis=0,0.05"}));
+  for (const char* bad : {"1, x", "1,,2", "1, 1", "-5"}) {
+    sweep.choose(1, "fuzzy.hysteresis", bad);
+    EXPECT_FALSE(sweep.fault().isEmpty()) << bad;
+  }
+  sweep.choose(1, "lod.screen_space_error_px", "1");
+  EXPECT_TRUE(sweep.fault().contains("same"));
+}
+
+TEST_F(ErrorDock, theStripBelowTheViewSaysHowTheBudgetIsKept) {
+  look(-9);
+  EXPECT_TRUE(waitFor([&] { return w().strip().text().contains("of the last minute"); }, 10000))
+      << w().strip().text().toStdString();
+  EXPECT_TRUE(w().strip().text().contains("longest stage")) << w().strip().text().toStdString();
 }
 
 TEST_F(ErrorDock, resultsOfAnotherFlightLeaveTheOpenOneWhereItIs) {
@@ -320,7 +400,7 @@ class SplitViewTest : public ErrorDock {
     ASSERT_TRUE(waitFor([&] { return view().comparisons() > 0; }, 120000))
         << w().messages().text().toStdString();
   }
-  SplitView& view() { return *w().controllers().errors->splitView(); }
+  SplitView& view() { return w().controllers().errors->splitView(); }
   /// Waits until both sides show the presets that were chosen last.
   void choose(const QString& left, const QString& right) {
     ASSERT_TRUE(view().choose(SplitView::left, left));
@@ -328,7 +408,7 @@ class SplitViewTest : public ErrorDock {
     ASSERT_TRUE(waitFor([&] { return view().upToDate(); }, 120000));
   }
   QImage black() const {
-    QImage image = window->controllers().errors->splitView()->heatMap().map();
+    QImage image = window->controllers().errors->splitView().heatMap().map();
     image.fill(Qt::black);
     return image;
   }
@@ -376,7 +456,8 @@ TEST_F(SplitViewTest, followsTheFrameAndRestsWhenHiddenOrNothingMoves) {
   ASSERT_TRUE(compared(view()));
   ASSERT_TRUE(waitFor([&] { return view().pictures().picture(0) != before; }, 60000));
   EXPECT_GT(view().comparisons(), standing);
-  view().hide();
+  view().setOverViewport(false);
+  w().dock("plots")->raise();
   QTest::qWait(1500);
   const std::uint64_t hidden = view().comparisons();
   look(-10);
@@ -407,7 +488,9 @@ TEST_F(SplitViewTest, whatWasMeasuredOfAnOldChoiceIsNotShownAsTheNew) {
 
 TEST_F(ErrorDock, theSplitViewSaysWhatIsMissingWhereNothingCanBeDrawn) {
   workbench::DrawThread thread;
-  SplitView view(thread, w().draft(), [] { return std::nullopt; });
+  QWidget viewport;
+  SplitView view(
+      thread, w().draft(), [] { return std::nullopt; }, viewport);
   EXPECT_TRUE(view.status().text().contains("Open a terrain"));
   emit thread.failed({{Severity::error, "EGL", "", "a surfaceless or device display", "none"}});
   EXPECT_TRUE(view.status().text().contains("surfaceless or device display"))
@@ -415,7 +498,73 @@ TEST_F(ErrorDock, theSplitViewSaysWhatIsMissingWhereNothingCanBeDrawn) {
   EXPECT_FALSE(view.busy());
 }
 
+TEST_F(SplitViewTest, staysInTheWindowAndSaysWhatItWaitsFor) {
+  EXPECT_TRUE(w().dock("compare")->isAncestorOf(&view())) << "another window would be buried by a click";
+  EXPECT_FALSE(view().isWindow());
+  EXPECT_FALSE(view().status().text().contains("Open a terrain")) << view().status().text().toStdString();
+}
+
+TEST_F(SplitViewTest, aViewAtRestIsComparedAtItsFullSizeHoweverLongThatTakes) {
+  view().setLongestMs(0);
+  look(-14);
+  ASSERT_TRUE(compared(view()));
+  look(-15);
+  ASSERT_TRUE(waitFor([&] { return view().upToDate(); }, 120000));
+  const ViewShape& shown = w().controllers().frame->shown()->view;
+  const QSize size(shown.widthPx, shown.heightPx);
+  EXPECT_EQ(view().pictures().picture(0).size(), size);
+  EXPECT_FALSE(view().overlay().old());
+}
+
+TEST_F(SplitViewTest, symbolsHideNoDifferenceUnlessAPersonWantsThem) {
+  const ScratchDir dir;
+  Preset preset;
+  preset.name = "symbols";
+  preset.parameters = w().draft().parameters();
+  preset.parameters.symbology.enabled = !preset.parameters.symbology.enabled;
+  const Result<std::string> text = presetText(preset);
+  ASSERT_TRUE(text);
+  std::ofstream(dir / "symbols.json") << *text;
+  choose(SplitView::kDraft, QString::fromStdString((dir / "symbols.json").string()));
+  EXPECT_EQ(view().heatMap().largest(), 0);
+  view().setSymbols(true);
+  ASSERT_TRUE(waitFor([&] { return view().upToDate(); }, 120000));
+  EXPECT_GT(view().heatMap().largest(), 0.1);
+}
+
+TEST_F(SplitViewTest, overTheViewportTheDividerMovesAndTheViewBelowStillTurns) {
+  workbench::SplitPicture& over = view().overlay();
+  ASSERT_TRUE(waitFor([&] { return view().upToDate(); }, 120000));
+  ASSERT_TRUE(over.isVisible());
+  EXPECT_EQ(over.size(), w().viewport().size());
+  const QPoint middle = over.rect().center();
+  QTest::mousePress(&over, Qt::LeftButton, Qt::NoModifier, middle);
+  QTest::mouseMove(&over, middle + QPoint(over.width() / 4, 0));
+  QTest::mouseRelease(&over, Qt::LeftButton, Qt::NoModifier, middle + QPoint(over.width() / 4, 0));
+  EXPECT_NEAR(over.divider(), 0.75, 0.02);
+
+  EXPECT_TRUE(over.valuesAt(middle).contains("pixel ")) << over.valuesAt(middle).toStdString();
+  EXPECT_TRUE(over.valuesAt(middle).contains("FLIP"));
+  view().flicker();
+  EXPECT_EQ(over.form(), workbench::SplitPicture::Form::left);
+  view().flicker();
+  EXPECT_EQ(over.form(), workbench::SplitPicture::Form::right);
+  view().toggleDifference();
+  EXPECT_EQ(over.form(), workbench::SplitPicture::Form::difference);
+
+  const double heading = w().viewport().camera().attitude().heading.value();
+  const QPoint from(over.width() / 4, over.height() / 4);
+  QTest::mousePress(&over, Qt::LeftButton, Qt::NoModifier, from);
+  QTest::mouseMove(&over, from + QPoint(60, 0));
+  QTest::mouseRelease(&over, Qt::LeftButton, Qt::NoModifier, from + QPoint(60, 0));
+  EXPECT_NE(w().viewport().camera().attitude().heading.value(), heading);
+  EXPECT_TRUE(over.old()) << "images of another view would hide the live one";
+  view().setOverViewport(false);
+  EXPECT_FALSE(over.isVisible());
+}
+
 TEST_F(SplitViewTest, theDividerMovesByHandAndKeys) {
+  view().setOverViewport(false);
   workbench::SplitPicture& pictures = view().pictures();
   pictures.setFocus();
   QTest::keyClick(&pictures, Qt::Key_Right);

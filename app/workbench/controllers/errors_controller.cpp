@@ -82,10 +82,12 @@ ErrorsController::ErrorsController(const Workplace& workplace, DrawThread& measu
   connect(&by_.terrain, &TerrainController::opened, this, &ErrorsController::onTerrainOpened);
   connect(&by_.frame, &FrameController::replaced, this, &ErrorsController::remember);
   connect(&by_.frame, &FrameController::painted, this, &ErrorsController::onPainted);
-}
-
-ErrorsController::~ErrorsController() {
-  delete split_;
+  const auto source = [this]() -> std::optional<SplitView::Frame> {
+    if (!by_.frame.shown() || !at_.feed.session().hasState()) return std::nullopt;
+    return SplitView::Frame{at_.feed.session().input().state, *by_.frame.shown()};
+  };
+  split_ = new SplitView(measuring_, at_.draft, source, at_.viewport);
+  connect(split_, &SplitView::refused, &at_.messages, &MessagePanel::add);
 }
 
 void ErrorsController::attach() {
@@ -93,6 +95,7 @@ void ErrorsController::attach() {
     dock_->setSeen(seen);
     followFlight();
   });
+  connect(dockOf(*split_), &QDockWidget::visibilityChanged, split_, &SplitView::setSeen);
 }
 
 void ErrorsController::askOpenResults() {
@@ -141,14 +144,14 @@ void ErrorsController::remember(const FrameRequest& before) {
 
 void ErrorsController::onPainted() {
   dock_->painted(by_.frame.clock(), by_.frame.lastCost().total);
-  if (split_ != nullptr) split_->painted();
+  split_->painted();
   followFlight();
 }
 
 void ErrorsController::onTerrainOpened() {
   measuring_.setTerrain(by_.terrain.database());
   dock_->restartLive();
-  if (split_ != nullptr) split_->setTerrain(by_.terrain.database());
+  split_->setTerrain(by_.terrain.database());
 }
 
 void ErrorsController::followFlight() {
@@ -185,18 +188,8 @@ void ErrorsController::seekFlight(double timeS) {
 }
 
 void ErrorsController::compare() {
-  if (split_ == nullptr) {
-    const auto source = [this]() -> std::optional<SplitView::Frame> {
-      if (!by_.frame.shown() || !at_.feed.session().hasState()) return std::nullopt;
-      return SplitView::Frame{at_.feed.session().input().state, *by_.frame.shown()};
-    };
-    split_ = new SplitView(measuring_, at_.draft, source, &at_.window);
-    split_->setTerrain(by_.terrain.database());
-    connect(split_, &SplitView::refused, &at_.messages, &MessagePanel::add);
-  }
-  split_->show();
-  split_->raise();
-  split_->activateWindow();
+  raiseDock(*split_);
+  split_->setOverViewport(true);
 }
 
 }  // namespace trimtab::workbench

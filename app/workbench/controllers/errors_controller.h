@@ -34,19 +34,18 @@ class ErrorsController : public QObject {
     const RunInputs& inputs;
   };
   ErrorsController(const Workplace& workplace, DrawThread& measuring, const Neighbours& neighbours);
-  ~ErrorsController() override;
 
   /// The window docks it after the controllers are made; call `attach` then.
   ErrorDock& dock() { return *dock_; }
-  /// Follows whether a person can see the dock: nothing is measured live while nobody does.
+  /// Compares two presets on the frame that is shown; the window docks it too.
+  SplitView& splitView() { return *split_; }
+  /// Follows whether a person can see the docks: nothing is measured live while nobody does.
   void attach();
   void askOpenResults();
   void askAndMeasure();
   bool openResults(const QString& file);
-  /// Opens the window in which two presets draw the same frame.
+  /// Lets two presets draw the frame of the viewport, and raises the dock that says how they differ.
   void compare();
-  /// Null until `compare` was called.
-  SplitView* splitView() const { return split_; }
 
  signals:
   /// A short hint for the status bar.

@@ -6,6 +6,7 @@
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "views/model/theme.h"
 
@@ -13,15 +14,33 @@ namespace trimtab::workbench {
 namespace {
 
 constexpr double kNudge = 0.01, kLeap = 0.1;
-constexpr int kGapPx = 4, kHandlePx = 9;
+constexpr int kGapPx = 4, kHandlePx = 9, kMarginPx = 6;
+
+QString colourText(QRgb colour) {
+  return QStringLiteral("%1 %2 %3").arg(qRed(colour)).arg(qGreen(colour)).arg(qBlue(colour));
+}
 
 }  // namespace
 
 SplitPicture::SplitPicture(QWidget* parent) : QWidget(parent) {
   setFocusPolicy(Qt::StrongFocus);
+  setMouseTracking(true);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
   setAccessibleName(tr("Two presets on one frame"));
   describe();
+}
+
+void SplitPicture::layOverParent() {
+  over_ = true;
+  // A click means the view below; the divider is reached by the tabulator key.
+  setFocusPolicy(Qt::TabFocus);
+  parentWidget()->installEventFilter(this);
+  setGeometry(parentWidget()->rect());
+}
+
+bool SplitPicture::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == parentWidget() && event->type() == QEvent::Resize) setGeometry(parentWidget()->rect());
+  return QWidget::eventFilter(watched, event);
 }
 
 void SplitPicture::describe() {
@@ -31,99 +50,181 @@ void SplitPicture::describe() {
           .arg(names_[0])
           .arg(std::lround(divider_ * 100))
           .arg(names_[1]));
-  setCursor(beside_ || pictures_[0].isNull() ? Qt::ArrowCursor : Qt::SplitHCursor);
+  update();
 }
 
-void SplitPicture::show(const QImage& left, const QImage& right) {
-  pictures_ = {left, right};
+void SplitPicture::show(ComparedImages compared) {
+  compared_ = std::move(compared);
   describe();
+}
+
+void SplitPicture::setOld(bool old, const QString& text) {
+  if (old == old_ && text == oldText_) return;
+  old_ = old;
+  oldText_ = text;
   update();
 }
 
 void SplitPicture::setNames(const QString& left, const QString& right) {
   names_ = {left, right};
   describe();
-  update();
 }
 
-void SplitPicture::setBeside(bool beside) {
-  beside_ = beside;
+void SplitPicture::setForm(Form form) {
+  form_ = form;
   describe();
-  update();
 }
 
 void SplitPicture::setDivider(double share) {
   divider_ = std::clamp(share, 0.0, 1.0);
   describe();
-  update();
 }
 
-QRect SplitPicture::pictureRect() const {
-  QRect rect({}, pictures_[0].size().scaled(size(), Qt::KeepAspectRatio));
-  rect.moveCenter(this->rect().center());
+QRect SplitPicture::pictureRect(const QRect& within) const {
+  QRect rect({}, compared_.images[0].size().scaled(within.size(), Qt::KeepAspectRatio));
+  rect.moveCenter(within.center());
   return rect;
+}
+
+int SplitPicture::dividerX() const {
+  const QRect whole = pictureRect(rect());
+  return whole.left() + int(std::lround(whole.width() * divider_));
+}
+
+std::vector<SplitPicture::Part> SplitPicture::parts() const {
+  const QRect whole = pictureRect(rect());
+  const auto& [a, b] = compared_.images;
+  switch (form_) {
+    case Form::left:
+      return {{&a, whole, whole, names_[0]}};
+    case Form::right:
+      return {{&b, whole, whole, names_[1]}};
+    case Form::difference:
+      return {{&compared_.map, whole, whole, tr("FLIP: %1 against %2").arg(names_[0], names_[1])}};
+    case Form::beside: {
+      const int half = (width() - kGapPx) / 2;
+      const QRect first = pictureRect({0, 0, half, height()}),
+                  second = pictureRect({half + kGapPx, 0, half, height()});
+      return {{&a, first, first, names_[0]}, {&b, second, second, names_[1]}};
+    }
+    case Form::divided:
+      break;
+  }
+  const int at = dividerX();
+  return {{&a, whole, {whole.topLeft(), QPoint(at - 1, whole.bottom())}, names_[0]},
+          {&b, whole, {QPoint(at, whole.top()), whole.bottomRight()}, names_[1]}};
+}
+
+void SplitPicture::paintPlate(QPainter& painter, const QString& text, Qt::Corner corner,
+                              const QRect& within) const {
+  if (text.isEmpty()) return;
+  const QFontMetrics metrics(font());
+  const QString fits = metrics.elidedText(text, Qt::ElideRight, within.width() - 4 * kMarginPx);
+  QRect box(QPoint(), QSize(metrics.horizontalAdvance(fits) + 12, metrics.height() + 6));
+  const QRect inner = within.adjusted(kMarginPx, kMarginPx, -kMarginPx, -kMarginPx);
+  if (corner == Qt::TopLeftCorner) box.moveTopLeft(inner.topLeft());
+  if (corner == Qt::TopRightCorner) box.moveTopRight(inner.topRight());
+  if (corner == Qt::BottomRightCorner) box.moveBottomRight(inner.bottomRight());
+  painter.fillRect(box, QColor(0, 0, 0, 190));
+  painter.setPen(Qt::white);
+  painter.drawText(box, Qt::AlignCenter, fits);
+}
+
+void SplitPicture::paintDivider(QPainter& painter) const {
+  const QRect whole = pictureRect(rect());
+  const int x = dividerX();
+  for (const auto& [colour, wide] : {std::pair{Qt::black, 4}, {Qt::white, 2}}) {
+    painter.setPen(QPen(colour, wide));
+    painter.drawLine(x, whole.top(), x, whole.bottom());
+  }
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setBrush(Qt::white);
+  painter.setPen(Qt::black);
+  painter.drawEllipse(QPoint(x, whole.center().y()), kHandlePx, kHandlePx);
 }
 
 void SplitPicture::paintEvent(QPaintEvent*) {
   QPainter painter(this);
-  painter.fillRect(rect(), palette().color(QPalette::Base));
-  if (pictures_[0].isNull() || pictures_[1].isNull()) {
+  if (over_ && (old_ || empty())) return paintPlate(painter, oldText_, Qt::TopRightCorner, rect());
+  painter.fillRect(rect(), over_ ? QColor(Qt::black) : palette().color(QPalette::Base));
+  if (empty()) {
     painter.setPen(palette().color(QPalette::Text));
     painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap,
                      tr("The images appear here as soon as they are drawn."));
     return views::paintFocusFrame(*this);
   }
   painter.setRenderHint(QPainter::SmoothPixmapTransform);
-  std::array<QRect, 2> to, clip;
-  if (beside_) {
-    for (int side = 0; side < 2; ++side) {
-      const QRect half(side * (width() + kGapPx) / 2, 0, (width() - kGapPx) / 2, height());
-      QRect at({}, pictures_[std::size_t(side)].size().scaled(half.size(), Qt::KeepAspectRatio));
-      at.moveCenter(half.center());
-      to[std::size_t(side)] = clip[std::size_t(side)] = at;
-    }
-  } else {
-    const QRect whole = pictureRect();
-    const int at = whole.left() + int(std::lround(whole.width() * divider_));
-    to = {whole, whole};
-    clip[0] = QRect(whole.left(), whole.top(), at - whole.left(), whole.height());
-    clip[1] = QRect(at, whole.top(), whole.right() + 1 - at, whole.height());
-  }
-  const QFontMetrics metrics(font());
-  for (std::size_t side = 0; side < 2; ++side) {
-    painter.setClipRect(clip[side]);
-    painter.drawImage(to[side], pictures_[side]);
-    const QSize label(metrics.horizontalAdvance(names_[side]) + 12, metrics.height() + 6);
-    QRect box(QPoint(clip[side].left() + 6, clip[side].top() + 6), label);
-    if (side == 1) box.moveRight(clip[side].right() - 6);
-    painter.fillRect(box, QColor(0, 0, 0, 170));
-    painter.setPen(Qt::white);
-    painter.drawText(box, Qt::AlignCenter, names_[side]);
+  bool first = true;
+  for (const Part& part : parts()) {
+    painter.setClipRect(part.seen);
+    painter.drawImage(part.whole, *part.image);
+    const bool right = form_ == Form::divided && !std::exchange(first, false);
+    paintPlate(painter, part.name, right ? Qt::TopRightCorner : Qt::TopLeftCorner, part.seen);
   }
   painter.setClipping(false);
-  if (!beside_) {
-    const int x = clip[1].left();
-    painter.setPen(QPen(Qt::black, 4));
-    painter.drawLine(x, to[0].top(), x, to[0].bottom());
-    painter.setPen(QPen(Qt::white, 2));
-    painter.drawLine(x, to[0].top(), x, to[0].bottom());
-    painter.setRenderHint(QPainter::Antialiasing);
-    painter.setBrush(Qt::white);
-    painter.setPen(Qt::black);
-    painter.drawEllipse(QPoint(x, to[0].center().y()), kHandlePx, kHandlePx);
-  }
+  if (form_ == Form::divided) paintDivider(painter);
+  if (pointer_) paintPlate(painter, valuesAt(*pointer_), Qt::BottomRightCorner, rect());
   views::paintFocusFrame(*this);
 }
 
+std::optional<QPoint> SplitPicture::pixelAt(QPointF place) const {
+  if (empty() || (over_ && old_)) return std::nullopt;
+  const QSize size = compared_.images[0].size();
+  for (const Part& part : parts()) {
+    if (!part.seen.contains(place.toPoint())) continue;
+    const QPointF at = place - part.whole.topLeft();
+    return QPoint(std::clamp(int(at.x() * size.width() / part.whole.width()), 0, size.width() - 1),
+                  std::clamp(int(at.y() * size.height() / part.whole.height()), 0, size.height() - 1));
+  }
+  return std::nullopt;
+}
+
+QString SplitPicture::valuesAt(QPointF place) const {
+  const std::optional<QPoint> at = pixelAt(place);
+  if (!at) return {};
+  const auto& [a, b] = compared_.images;
+  QString text = tr("pixel %1, %2:  %3  %4;  %5  %6")
+                     .arg(at->x())
+                     .arg(at->y())
+                     .arg(names_[0], colourText(a.pixel(*at)), names_[1], colourText(b.pixel(*at)));
+  const std::size_t index =
+      std::size_t(a.height() - 1 - at->y()) * std::size_t(a.width()) + std::size_t(at->x());
+  if (index < compared_.flip.size())
+    text += tr(";  FLIP %1").arg(views::numberText(double(compared_.flip[index]), 3));
+  return text;
+}
+
+bool SplitPicture::nearDivider(QPointF place) const {
+  return form_ == Form::divided && !empty() && !(over_ && old_) &&
+         (!over_ || std::abs(place.x() - dividerX()) <= kHandlePx);
+}
+
 void SplitPicture::mousePressEvent(QMouseEvent* event) {
+  dragging_ = event->button() == Qt::LeftButton && nearDivider(event->position());
+  if (!dragging_) return event->setAccepted(!over_);
   setFocus(Qt::MouseFocusReason);
   mouseMoveEvent(event);
 }
 
 void SplitPicture::mouseMoveEvent(QMouseEvent* event) {
-  if (beside_ || pictures_[0].isNull() || !(event->buttons() & Qt::LeftButton)) return;
-  const QRect whole = pictureRect();
+  pointer_ = event->position();
+  setCursor(dragging_ || nearDivider(*pointer_) ? Qt::SplitHCursor
+            : over_                             ? parentWidget()->cursor().shape()
+                                                : Qt::ArrowCursor);
+  update();
+  if (!dragging_) return event->setAccepted(!over_);
+  const QRect whole = pictureRect(rect());
   setDivider((event->position().x() - whole.left()) / std::max(1, whole.width()));
+}
+
+void SplitPicture::mouseReleaseEvent(QMouseEvent* event) {
+  if (!std::exchange(dragging_, false)) event->setAccepted(!over_);
+}
+
+void SplitPicture::leaveEvent(QEvent* event) {
+  QWidget::leaveEvent(event);
+  pointer_.reset();
+  update();
 }
 
 void SplitPicture::keyPressEvent(QKeyEvent* event) {

@@ -4,18 +4,16 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QHBoxLayout>
-#include <QHeaderView>
 #include <QLabel>
-#include <QSplitter>
+#include <QScrollArea>
 #include <QTableWidget>
 #include <QVBoxLayout>
 #include <algorithm>
-#include <cmath>
-#include <span>
+#include <utility>
 
 #include "app/workbench/jobs/live_meter.h"
+#include "split_work.h"
 #include "trimtab/frame/frame_request.h"
-#include "trimtab/frame/frame_result.h"
 #include "trimtab/measure/image_error.h"
 #include "trimtab/terrain/format/database.h"
 #include "views/model/error_run.h"
@@ -25,21 +23,17 @@ namespace trimtab::workbench {
 namespace {
 
 constexpr int kSoonMs = 60, kPeriodMs = 300;
+/// A view that has rested for so long is drawn once more at its full size.
+constexpr int kRestMs = 400;
 constexpr int kMostOfTime = 2;
-constexpr double kLongestMs = 1500, kQuickMs = 250;
+constexpr double kQuickMs = 250;
 constexpr int kSmallest = 4;
 constexpr std::size_t kRemembered = 16;
 
-enum Column {
-  flipColumn,
-  ssimColumn,
-  psnrColumn,
-  maxPxColumn,
-  meanPxColumn,
-  trianglesColumn,
-  msColumn,
-  kColumns
-};
+/// Whether both requests of one preset give the same image, apart from what moves by itself.
+bool sameView(const FrameRequest& a, const FrameRequest& b) {
+  return a.eye == b.eye && a.attitude == b.attitude && a.view == b.view && a.decision == b.decision;
+}
 
 QImage imageOf(const std::vector<std::uint8_t>& rgba, int width, int height) {
   if (rgba.size() != std::size_t(width) * std::size_t(height) * 4) return {};
@@ -54,82 +48,40 @@ QImage imageOf(const std::vector<std::uint8_t>& rgba, int width, int height) {
 const QString SplitView::kDraft = QStringLiteral("draft"),
               SplitView::kReference = QStringLiteral("reference");
 
-/// Both sides' pictures, made on the measuring thread.
-struct SplitView::Work {
-  struct One {
-    std::vector<FrameRequest> requests;  ///< the last one is measured
-    QString label;
-    bool reference = false;
-    FrameError error;
-    scene::ErrorPictures pictures;
-    void measure(scene::ErrorMeter& meter) {
-      error = meter.measure(requests.back(), std::span(requests).first(requests.size() - 1), &pictures);
-    }
-    const std::vector<std::uint8_t>& shown() const { return reference ? pictures.reference : pictures.ours; }
-  };
-  std::array<One, 2> sides;
-  std::uint64_t generation = 0;
-  int widthPx = 0, heightPx = 0;
-  std::vector<float> map;
-  double flip = 0, largest = 0, ssim = 0, psnr = 0, tookMs = 0;
-};
-
-SplitView::SplitView(DrawThread& thread, views::Draft& draft, Source source, QWidget* parent)
-    : QWidget(parent, Qt::Window),
-      thread_(thread),
+SplitView::SplitView(DrawThread& thread, views::Draft& draft, Source source, QWidget& viewport)
+    : thread_(thread),
       draft_(draft),
       source_(std::move(source)),
       form_(new QComboBox(this)),
-      pictures_(new SplitPicture(this)),
-      heat_(new HeatMap(this)),
-      numbers_(new QTableWidget(3, kColumns, this)),
+      symbolsOn_(new QCheckBox(tr("S&ymbols"), this)),
+      overOn_(new QCheckBox(tr("In the &viewport"), this)),
+      inDock_(new QWidget(this)),
+      pictures_(new SplitPicture(inDock_)),
+      overlay_(new SplitPicture(&viewport)),
+      heat_(new HeatMap(inDock_)),
+      numbers_(new QTableWidget(this)),
       status_(new QLabel(this)) {
-  setWindowTitle(tr("Compare two presets – Trimtab"));
   setObjectName(QStringLiteral("split_view"));
   choices_ = {makeChoice(left, kDraft), makeChoice(right, kReference)};
-  form_->addItems({tr("one image, divided"), tr("side by side")});
+  form_->addItems(
+      {tr("divided"), tr("side by side"), tr("left alone"), tr("right alone"), tr("differences")});
   form_->setAccessibleName(tr("Arrangement of the images"));
-
-  auto* top = new QHBoxLayout;
-  const auto add = [&](const QString& text, QComboBox* box) {
-    auto* label = new QLabel(text, this);
-    label->setBuddy(box);
-    top->addWidget(label);
-    top->addWidget(box, 1);
-  };
-  add(tr("&Left"), choices_[left]);
-  add(tr("&Right"), choices_[right]);
-  add(tr("&Shown as"), form_);
-
-  numbers_->setHorizontalHeaderLabels({tr("FLIP"), tr("SSIM"), tr("PSNR (dB)"),
-                                       tr("Geometric,\nlargest (px)"), tr("Geometric,\nmean (px)"),
-                                       tr("Triangles"), tr("Frame (ms)")});
-  numbers_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  numbers_->setAccessibleName(tr("Errors and cost of both"));
-  numbers_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
-  numbers_->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  numbers_->setSelectionMode(QAbstractItemView::NoSelection);
-  numbers_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  numbers_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-  numbers_->setToolTip(
-      tr("The first two rows compare with the reference; the third row compares the right image "
-         "with the left one"));
+  symbolsOn_->setToolTip(
+      tr("Draws symbology too. It covers the terrain, and differs wherever presets place it "
+         "differently"));
+  overOn_->setToolTip(
+      tr("Shows both presets over the viewport, at its full size, as soon as the view rests"));
   status_->setWordWrap(true);
-
-  auto* middle = new QSplitter(Qt::Horizontal, this);
-  middle->addWidget(pictures_);
-  middle->addWidget(heat_);
-  middle->setStretchFactor(0, 3);
-  middle->setStretchFactor(1, 2);
-  auto* column = new QVBoxLayout(this);
-  column->addLayout(top);
-  column->addWidget(middle, 1);
-  column->addWidget(numbers_);
-  column->addWidget(status_);
-  resize(1240, 640);
+  overlay_->setObjectName(QStringLiteral("split_overlay"));
+  overlay_->layOverParent();
+  overlay_->hide();
+  makeNumbers();
+  arrange();
 
   connect(form_, &QComboBox::currentIndexChanged, this,
-          [this](int index) { pictures_->setBeside(index == 1); });
+          [this](int index) { setForm(SplitPicture::Form(index)); });
+  connect(symbolsOn_, &QCheckBox::toggled, this, &SplitView::setSymbols);
+  connect(overOn_, &QCheckBox::toggled, this, &SplitView::setOverViewport);
   connect(&draft_, &views::Draft::activeChanged, this, [this] {
     for (const Side side : {left, right})
       if (sides_[side].name == kDraft) choose(side, kDraft);
@@ -141,6 +93,97 @@ SplitView::SplitView(DrawThread& thread, views::Draft& draft, Source source, QWi
   choose(right, kReference);
   status_->setText(tr("Open a terrain to compare presets over it."));
   if (!thread_.usable()) sayMissing(thread_.missing());
+}
+
+SplitView::~SplitView() {
+  delete overlay_.data();
+}
+
+void SplitView::arrange() {
+  auto* inner = new QWidget;
+  auto* top = new QHBoxLayout;
+  const auto add = [&](const QString& text, QComboBox* box) {
+    auto* label = new QLabel(text, inner);
+    label->setBuddy(box);
+    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    box->setMinimumContentsLength(8);
+    top->addWidget(label);
+    top->addWidget(box, 1);
+  };
+  add(tr("&Left"), choices_[left]);
+  add(tr("&Right"), choices_[right]);
+  add(tr("&Shown as"), form_);
+  top->addWidget(symbolsOn_);
+  top->addWidget(overOn_);
+  auto* images = new QHBoxLayout(inDock_);
+  images->setContentsMargins(0, 0, 0, 0);
+  images->addWidget(pictures_, 3);
+  images->addWidget(heat_, 2);
+  auto* column = new QVBoxLayout(inner);
+  column->addLayout(top);
+  column->addWidget(inDock_, 1);
+  column->addWidget(numbers_);
+  column->addWidget(status_);
+  column->addStretch();
+  // At the foot of the window every dock would have to be as tall as this one.
+  auto* area = new QScrollArea(this);
+  area->setFrameShape(QFrame::NoFrame);
+  area->setWidgetResizable(true);
+  area->setWidget(inner);
+  auto* all = new QVBoxLayout(this);
+  all->setContentsMargins(0, 0, 0, 0);
+  all->addWidget(area);
+}
+
+void SplitView::setForm(SplitPicture::Form form) {
+  form_->setCurrentIndex(int(form));
+  pictures_->setForm(form);
+  overlay_->setForm(form);
+}
+
+void SplitView::flicker() {
+  setForm(overlay_->form() == SplitPicture::Form::left ? SplitPicture::Form::right
+                                                       : SplitPicture::Form::left);
+}
+
+void SplitView::toggleDifference() {
+  setForm(overlay_->form() == SplitPicture::Form::difference ? SplitPicture::Form::divided
+                                                             : SplitPicture::Form::difference);
+}
+
+void SplitView::setSymbols(bool on) {
+  if (on == symbols_) return;
+  symbols_ = on;
+  symbolsOn_->setChecked(on);
+  ++generation_;
+  changed_ = true;
+  wake();
+}
+
+void SplitView::setSeen(bool seen) {
+  const bool before = active();
+  seen_ = seen;
+  activityChanged(before);
+}
+
+void SplitView::setOverViewport(bool over) {
+  if (over == over_) return;
+  const bool before = active();
+  over_ = over;
+  overOn_->setChecked(over);
+  overlay_->setVisible(over);
+  overlay_->raise();
+  inDock_->setVisible(!over);
+  activityChanged(before);
+  emit overViewportChanged(over);
+}
+
+/// Whoever looks again sees presets without a past, so that equal ones have equal memories.
+void SplitView::activityChanged(bool before) {
+  if (!active()) return timer_.stop();
+  if (before) return;
+  restart(left);
+  restart(right);
 }
 
 void SplitView::restart(Side side) {
@@ -159,34 +202,30 @@ void SplitView::restart(Side side) {
 void SplitView::setTerrain(std::shared_ptr<const terrain::Database> terrain) {
   terrain_ = std::move(terrain);
   ++generation_;
+  shownShrink_ = 0;
+  if (terrain_ && thread_.usable())
+    status_->setText(tr("Both presets are drawn as soon as they are looked at."));
   restart(left);
   restart(right);
-}
-
-void SplitView::showEvent(QShowEvent* event) {
-  QWidget::showEvent(event);
-  restart(left);
-  restart(right);
-}
-
-void SplitView::hideEvent(QHideEvent* event) {
-  timer_.stop();
-  QWidget::hideEvent(event);
 }
 
 void SplitView::painted() {
-  if (!isVisible()) return;
-  follow();
+  if (!active() || !follow()) return;
+  // Only a view that rests is worth a large image.
+  if (std::exchange(refining_, false) && !busy_) timer_.stop();
   changed_ = true;
   wake();
 }
 
-/// Decides what was shown: memory, and with it hysteresis and head motion, go along.
-void SplitView::follow() {
+/// Decides what was shown: memory, and with it hysteresis and head motion, go along. Returns whether the
+/// image differs from the one before, apart from what moves by itself, such as rain.
+bool SplitView::follow() {
   std::optional<Frame> frame = source_();
-  if (!frame) return;
+  if (!frame) return false;
   const bool back = last_ && frame->state.time < last_->state.time;
   const bool same = last_ && frame->state == last_->state;
+  const bool blurs = frame->shown.decision.motion.blur.strength > 0;
+  const bool samePicture = same && !blurs && sameView(frame->shown, last_->shown);
   last_ = std::move(frame);
   for (Chosen& side : sides_) {
     if (!side.session) continue;
@@ -199,12 +238,24 @@ void SplitView::follow() {
     side.recent.push_back(requestOf(*side.session));
     if (side.recent.size() > kRemembered) side.recent.pop_front();
   }
+  return !samePicture;
 }
 
 void SplitView::wake() {
-  if (!isVisible() || !terrain_ || !changed_ || busy_ || timer_.isActive()) return;
+  showAge();
+  if (!active() || !terrain_ || busy_ || timer_.isActive()) return;
+  refining_ = !changed_ && shownShrink_ > 1;
+  if (!changed_ && !refining_) return;
   const qint64 due = sinceLast_.isValid() ? gapMs_ - sinceLast_.elapsed() : 0;
-  timer_.start(int(std::max<qint64>(due, kSoonMs)));
+  timer_.start(refining_ ? kRestMs : int(std::max<qint64>(due, kSoonMs)));
+}
+
+/// Over the viewport old images are not shown: the live one is there.
+void SplitView::showAge() {
+  const bool old = changed_ || comparisons_ == 0 || shownShrink_ == 0;
+  overlay_->setOld(old, !terrain_
+                            ? tr("Open a terrain to compare presets over it")
+                            : tr("comparing %1 with %2 …").arg(sides_[left].label, sides_[right].label));
 }
 
 /// What this preset would show of the last frame: one camera and one size, whatever view it asks for.
@@ -220,9 +271,10 @@ FrameRequest SplitView::requestOf(Session& side) const {
 }
 
 void SplitView::compare() {
-  if (!isVisible() || busy_ || !terrain_ || !thread_.usable()) return;
+  if (!active() || busy_ || !terrain_ || !thread_.usable()) return;
   if (!last_) follow();
   if (!last_) return;
+  const int shrink = std::exchange(refining_, false) ? 1 : shrink_;
   changed_ = false;
   const auto work = std::make_shared<Work>();
   work->generation = generation_;
@@ -234,10 +286,12 @@ void SplitView::compare() {
     // A reference has the air of the preset it is held against.
     const Chosen& decides = one.reference ? sides_[side == left ? right : left] : chosen;
     if (decides.recent.empty())
-      one.requests = {pilotsPicture(last_->shown, shrink_)};
+      one.requests = {pilotsPicture(last_->shown, shrink)};
     else
       for (const FrameRequest& request : decides.recent)
-        one.requests.push_back(pilotsPicture(request, shrink_));
+        one.requests.push_back(pilotsPicture(request, shrink));
+    if (!symbols_)
+      for (FrameRequest& request : one.requests) request.symbology.reset();
   }
   busy_ = true;
   sinceLast_.start();
@@ -263,12 +317,13 @@ void SplitView::compare() {
         work->tookMs = double(timer.nsecsElapsed()) * 1e-6;
       },
       this,
-      [this, work] {
+      [this, work, shrink] {
         busy_ = false;
-        if (work->tookMs > kLongestMs) shrink_ = std::min(shrink_ * 2, kSmallest);
+        if (shrink == shrink_ && work->tookMs > longestMs_) shrink_ = std::min(shrink_ * 2, kSmallest);
         if (work->tookMs < kQuickMs) shrink_ = std::max(shrink_ / 2, 1);
         if (work->generation == generation_) {
           ++comparisons_;
+          shownShrink_ = shrink;
           showWork(*work);
           emit compared();
         }
@@ -288,58 +343,19 @@ void SplitView::showWork(const Work& work) {
   const auto image = [&](Side side) {
     return imageOf(work.sides[side].shown(), work.widthPx, work.heightPx);
   };
-  pictures_->setNames(work.sides[left].label, work.sides[right].label);
-  pictures_->show(image(left), image(right));
-  heat_->show(heatImage(work.map, work.widthPx, work.heightPx), work.flip, work.largest);
+  const ComparedImages compared{
+      {image(left), image(right)}, heatImage(work.map, work.widthPx, work.heightPx), work.map};
+  for (SplitPicture* shown : {pictures_, overlay_.data()}) {
+    shown->setNames(work.sides[left].label, work.sides[right].label);
+    shown->show(compared);
+  }
+  heat_->show(compared.map, work.flip, work.largest);
   fill(work);
-  status_->setText(tr("Measured in %1 at %L2 × %L3 px; errors of left and right against the reference.")
+  status_->setText(tr("Measured in %1 at %L2 × %L3 px%4; errors of left and right against the reference.")
                        .arg(views::msText(work.tookMs))
                        .arg(work.widthPx)
-                       .arg(work.heightPx));
-}
-
-void SplitView::fill(const Work& work) {
-  const auto put = [this](int row, Column column, const QString& text) {
-    auto* item = new QTableWidgetItem(text);
-    item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
-    numbers_->setItem(row, column, item);
-  };
-  const auto errors = [&](int row, double flipError, double ssim, double psnr) {
-    put(row, flipColumn, views::numberText(flipError, 4));
-    put(row, ssimColumn, views::numberText(ssim, 5));
-    put(row, psnrColumn, std::isinf(psnr) ? tr("∞ (equal)") : views::numberText(psnr, 2));
-  };
-  QStringList names;
-  for (const Side side : {left, right}) {
-    const Work::One& one = work.sides[side];
-    names << (side == left ? tr("Left: %1") : tr("Right: %1")).arg(one.label);
-    const FrameError equal{0, 0, 0, INFINITY, 1, 0, 0, 0};
-    const FrameError& error = one.reference ? equal : one.error;
-    errors(side, error.flip, error.ssim, error.psnrDb);
-    put(side, maxPxColumn, views::numberText(error.geometricMaxPx, 2));
-    put(side, meanPxColumn, views::numberText(error.geometricMeanPx, 3));
-    const FrameResult& drawn = one.reference ? one.pictures.drawnReference : one.pictures.drawn;
-    put(side, trianglesColumn, QLocale().toString(qulonglong(drawn.visible.triangles)));
-    put(side, msColumn, views::numberText(drawn.cost.total, 1));
-  }
-  names << tr("Right compared with left");
-  errors(2, work.flip, work.ssim, work.psnr);
-  const auto ratio = [&](double a, double b) {
-    return a > 0 && b > 0 ? QStringLiteral("× %1").arg(views::numberText(b / a, 2)) : QStringLiteral("–");
-  };
-  const auto drawnOf = [&](Side side) -> const FrameResult& {
-    const Work::One& one = work.sides[side];
-    return one.reference ? one.pictures.drawnReference : one.pictures.drawn;
-  };
-  put(2, maxPxColumn, QStringLiteral("–"));
-  put(2, meanPxColumn, QStringLiteral("–"));
-  put(2, trianglesColumn,
-      ratio(double(drawnOf(left).visible.triangles), double(drawnOf(right).visible.triangles)));
-  put(2, msColumn, ratio(drawnOf(left).cost.total, drawnOf(right).cost.total));
-  numbers_->setVerticalHeaderLabels(names);
-  int height = numbers_->horizontalHeader()->height() + 2 * numbers_->frameWidth();
-  for (int row = 0; row < numbers_->rowCount(); ++row) height += numbers_->rowHeight(row);
-  numbers_->setFixedHeight(height);
+                       .arg(work.heightPx)
+                       .arg(shownShrink_ > 1 ? tr(", smaller while the view moves") : QString()));
 }
 
 }  // namespace trimtab::workbench

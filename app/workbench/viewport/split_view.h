@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QElapsedTimer>
+#include <QPointer>
 #include <QTimer>
 #include <QWidget>
 #include <array>
@@ -27,8 +28,9 @@ class QTableWidget;
 namespace trimtab::workbench {
 
 /// Compares two presets on the frame that the viewport shows: both images, where and how much they differ,
-/// and what each costs. Each preset decides for itself, along the states that were shown while the window was
-/// open. The images are drawn on the measuring thread, and only while the window is visible.
+/// and what each costs. Each preset decides for itself, along the states that were shown while it was on. The
+/// images are drawn on the measuring thread, and only while a person sees them: in this dock, or over the
+/// viewport. While the view moves they may be smaller; once it rests they are as large as the image.
 class SplitView : public QWidget {
   Q_OBJECT
 
@@ -41,7 +43,24 @@ class SplitView : public QWidget {
   using Source = std::function<std::optional<Frame>()>;
   enum Side { left, right };
 
-  SplitView(DrawThread& thread, views::Draft& draft, Source source, QWidget* parent = nullptr);
+  SplitView(DrawThread& thread, views::Draft& draft, Source source, QWidget& viewport);
+  ~SplitView() override;
+
+  /// Sets whether a person can see the dock. It cannot find out itself, because Qt calls a dock behind other
+  /// tabs visible.
+  void setSeen(bool seen);
+  /// Shows the images over the viewport, where both have its size, instead of in the dock.
+  void setOverViewport(bool over);
+  bool overViewport() const { return over_; }
+  void setForm(SplitPicture::Form form);
+  /// Shows one image alone, and the other one at the next call.
+  void flicker();
+  /// Shows the map of the differences, and the divided image at the next call.
+  void toggleDifference();
+  /// Symbols are left out unless this is on: they are drawn over both images, and would hide what differs.
+  void setSymbols(bool on);
+  /// Images that take longer than this to compare are smaller while the view moves, milliseconds.
+  void setLongestMs(double ms) { longestMs_ = ms; }
 
   void setTerrain(std::shared_ptr<const terrain::Database> terrain);
   /// Call this after the viewport has painted.
@@ -50,22 +69,20 @@ class SplitView : public QWidget {
   bool choose(Side side, const QString& name);
   static const QString kDraft, kReference;
 
-  /// Whether the window shows the current frame with the current presets.
-  bool upToDate() const { return !changed_ && !busy_; }
+  /// Whether the current frame is shown with the current presets, at its full size.
+  bool upToDate() const { return !changed_ && !busy_ && shownShrink_ == 1; }
   bool busy() const { return busy_; }
   const QLabel& status() const { return *status_; }
   std::uint64_t comparisons() const { return comparisons_; }
   const HeatMap& heatMap() const { return *heat_; }
   SplitPicture& pictures() { return *pictures_; }
+  SplitPicture& overlay() { return *overlay_; }
   QTableWidget& numbers() { return *numbers_; }
 
  signals:
   void compared();
   void refused(const QString& what, const trimtab::Findings& findings);
-
- protected:
-  void showEvent(QShowEvent* event) override;
-  void hideEvent(QHideEvent* event) override;
+  void overViewportChanged(bool over);
 
  private:
   struct Chosen {
@@ -79,9 +96,14 @@ class SplitView : public QWidget {
   QComboBox* makeChoice(Side side, const QString& name);
   void askFile(Side side);
   void addFileChoice(const QString& file);
+  void arrange();
+  void makeNumbers();
+  bool active() const { return seen_ || over_; }
+  void activityChanged(bool before);
   void restart(Side side);
-  void follow();
+  bool follow();
   void wake();
+  void showAge();
   void compare();
   FrameRequest requestOf(Session& side) const;
   void sayMissing(const Findings& missing);
@@ -96,14 +118,19 @@ class SplitView : public QWidget {
   std::optional<Frame> last_;
   QTimer timer_;
   QElapsedTimer sinceLast_;
-  int gapMs_ = 0;  ///< from the start of one comparison to the start of the next
-  int shrink_ = 1;
-  bool changed_ = false, busy_ = false;
+  int gapMs_ = 0;        ///< from the start of one comparison to the start of the next
+  double longestMs_ = 1500;
+  int shrink_ = 1;       ///< of images while the view moves: width and height are divided by this
+  int shownShrink_ = 0;  ///< of the images that are shown; 0 while there are none
+  bool changed_ = false, busy_ = false, refining_ = false, seen_ = false, over_ = false, symbols_ = false;
   std::uint64_t comparisons_ = 0, generation_ = 0;  ///< a result of an earlier generation is dropped
 
   std::array<QComboBox*, 2> choices_;
   QComboBox* form_;
+  QCheckBox *symbolsOn_, *overOn_;
+  QWidget* inDock_;  ///< the images and the map, while they are not over the viewport
   SplitPicture* pictures_;
+  QPointer<SplitPicture> overlay_;  ///< the viewport owns it
   HeatMap* heat_;
   QTableWidget* numbers_;
   QLabel* status_;

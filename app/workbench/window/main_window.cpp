@@ -22,12 +22,13 @@
 #include "app/workbench/docks/flight_dock.h"
 #include "app/workbench/docks/host_dock.h"
 #include "app/workbench/docks/message_panel.h"
+#include "app/workbench/viewport/split_view.h"
 #include "job_bar.h"
 #include "menus.h"
 #include "notice_bar.h"
 #include "plots_link.h"
-#include "views/panels/plots_panel.h"
 #include "views/panels/budget_strip.h"
+#include "views/panels/plots_panel.h"
 #include "views/panels/static_lod_panel.h"
 
 namespace trimtab::workbench {
@@ -75,9 +76,9 @@ void MainWindow::makeMiddle() {
   viewport_ = new Viewport(middle);
   column->addWidget(notices_);
   column->addWidget(viewport_, 1);
-  setCentralWidget(middle);
   strip_ = new views::BudgetStrip(draft_, middle);
   column->addWidget(strip_);
+  setCentralWidget(middle);
 }
 
 void MainWindow::makeControllers() {
@@ -100,6 +101,7 @@ void MainWindow::makeControllers() {
   const auto inputs = [this](const QString& folder) { return controllers_.inputs->write(folder); };
   panels_.experiments = docks_.add("experiments", tr("Experiments"), foot, new ExperimentsDock(inputs));
   docks_.add("errors", tr("Run time against error"), foot, &c.errors->dock());
+  docks_.add("compare", tr("Compare"), foot, &c.errors->splitView());
   c.errors->attach();
 }
 
@@ -124,13 +126,13 @@ void MainWindow::connectParts() {
   const Controllers& c = controllers_;
   connect(c.frame.get(), &FrameController::frameShown, this,
           [this](const views::LiveFrame& frame) { docks_.showFrame(frame); });
-  connect(c.frame.get(), &FrameController::painted, this, &MainWindow::takeScreenshotSoon);
-  connect(c.terrain.get(), &TerrainController::opened, this, [this] {
   strip_->setCosts([this](const FrameLoad& load) { return feed_.session().hold().model().coefficients(load); });
   connect(c.frame.get(), &FrameController::frameShown, strip_, [this](const views::LiveFrame& frame) {
     if (const auto& shown = controllers_.frame->shown())
       strip_->showFrame(frame, 1e-6 * shown->view.widthPx * shown->view.heightPx);
   });
+  connect(c.frame.get(), &FrameController::painted, this, &MainWindow::takeScreenshotSoon);
+  connect(c.terrain.get(), &TerrainController::opened, this, [this] {
     controllers_.document->setTerrainName(
         QString::fromStdString(controllers_.terrain->database()->info().name));
     updateTitle();

@@ -17,6 +17,7 @@
 #include "app/workbench/controllers/recent_files.h"
 #include "app/workbench/docks/flight_dock.h"
 #include "app/workbench/jobs/feed.h"
+#include "app/workbench/viewport/split_view.h"
 #include "app/workbench/viewport/viewport.h"
 #include "help.h"
 #include "trimtab/preset/preset.h"
@@ -254,8 +255,8 @@ void Menus::makeViewMenu() {
               [this] {
                 if (at_.feed.source() == Feed::Source::camera) by_.flight->placeCamera();
               }},
-             {tr("Compare &two presets..."), tr("Ctrl+Shift+D"), [this] { by_.errors->compare(); }},
              {}});
+  addComparison(view);
   addDocks(view);
   add(view, {{tr("Reset la&yout"), {}, [this] { emit layoutResetAsked(); }}});
   auto* bar = window_.addToolBar(tr("View"));
@@ -264,6 +265,25 @@ void Menus::makeViewMenu() {
   bar->addActions({wireframe, bounds, byReason, byLevel, freeze});
   panels_.terrain->setActions(terrainActions_, {byLevel, wireframe, bounds, voids, squares});
   panels_.culling->setActions({byReason, bounds, freeze});
+}
+
+void Menus::addComparison(QMenu& view) {
+  SplitView& split = by_.errors->splitView();
+  QMenu& menu = *view.addMenu(tr("Compare &two presets"));
+  QAction* over = nullptr;
+  add(menu, {{tr("In the &viewport"),
+              tr("Ctrl+Shift+D"),
+              {},
+              tr("Both presets draw the image that is shown"),
+              &over},
+             {tr("&Flicker between both"), Qt::Key_F8, [&split] { split.flicker(); }},
+             {tr("&Differences"), Qt::Key_F7, [&split] { split.toggleDifference(); }}});
+  over->setCheckable(true);
+  connect(over, &QAction::triggered, &split, [this, &split](bool on) {
+    if (on) return by_.errors->compare();
+    split.setOverViewport(false);
+  });
+  connect(&split, &SplitView::overViewportChanged, over, &QAction::setChecked);
 }
 
 void Menus::addCases(QMenu& view) {

@@ -50,6 +50,7 @@ class Menus : public QObject {
   void makeHelpMenu();
   void addPresetMenus(QMenu& file);
   void addCases(QMenu& view);
+  void addComparison(QMenu& view);
   void addDocks(QMenu& view);
   void fillRecentMenu(QMenu& recent);
 
