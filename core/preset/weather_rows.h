@@ -243,37 +243,37 @@ inline constexpr auto kWeatherRows = joined(
              .step = 5,
              .decimals = 1}),
         row<&TuningParameters::rainLight, &WeatherStepParameters::visibilityShare>(
-            visibilityShare("weather.rain_light.visibility_share", "Light rain: visibility")),
+            visibilityShare("weather.rain_light.visibility_share", "Light rain: share of visibility")),
         row<&TuningParameters::rainLight, &WeatherStepParameters::density>(
             density("weather.rain_light.density", "Light rain: density")),
         row<&TuningParameters::rainLight, &WeatherStepParameters::farStretch>(
             farStretch("weather.rain_light.far_stretch", "Light rain: far plane")),
         row<&TuningParameters::rainMedium, &WeatherStepParameters::visibilityShare>(
-            visibilityShare("weather.rain_medium.visibility_share", "Medium rain: visibility")),
+            visibilityShare("weather.rain_medium.visibility_share", "Medium rain: share of visibility")),
         row<&TuningParameters::rainMedium, &WeatherStepParameters::density>(
             density("weather.rain_medium.density", "Medium rain: density")),
         row<&TuningParameters::rainMedium, &WeatherStepParameters::farStretch>(
             farStretch("weather.rain_medium.far_stretch", "Medium rain: far plane")),
         row<&TuningParameters::rainHeavy, &WeatherStepParameters::visibilityShare>(
-            visibilityShare("weather.rain_heavy.visibility_share", "Heavy rain: visibility")),
+            visibilityShare("weather.rain_heavy.visibility_share", "Heavy rain: share of visibility")),
         row<&TuningParameters::rainHeavy, &WeatherStepParameters::density>(
             density("weather.rain_heavy.density", "Heavy rain: density")),
         row<&TuningParameters::rainHeavy, &WeatherStepParameters::farStretch>(
             farStretch("weather.rain_heavy.far_stretch", "Heavy rain: far plane")),
         row<&TuningParameters::snowLight, &WeatherStepParameters::visibilityShare>(
-            visibilityShare("weather.snow_light.visibility_share", "Light snow: visibility")),
+            visibilityShare("weather.snow_light.visibility_share", "Light snow: share of visibility")),
         row<&TuningParameters::snowLight, &WeatherStepParameters::density>(
             density("weather.snow_light.density", "Light snow: density")),
         row<&TuningParameters::snowLight, &WeatherStepParameters::farStretch>(
             farStretch("weather.snow_light.far_stretch", "Light snow: far plane")),
         row<&TuningParameters::snowMedium, &WeatherStepParameters::visibilityShare>(
-            visibilityShare("weather.snow_medium.visibility_share", "Medium snow: visibility")),
+            visibilityShare("weather.snow_medium.visibility_share", "Medium snow: share of visibility")),
         row<&TuningParameters::snowMedium, &WeatherStepParameters::density>(
             density("weather.snow_medium.density", "Medium snow: density")),
         row<&TuningParameters::snowMedium, &WeatherStepParameters::farStretch>(
             farStretch("weather.snow_medium.far_stretch", "Medium snow: far plane")),
         row<&TuningParameters::snowHeavy, &WeatherStepParameters::visibilityShare>(
-            visibilityShare("weather.snow_heavy.visibility_share", "Heavy snow: visibility")),
+            visibilityShare("weather.snow_heavy.visibility_share", "Heavy snow: share of visibility")),
         row<&TuningParameters::snowHeavy, &WeatherStepParameters::density>(
             density("weather.snow_heavy.density", "Heavy snow: density")),
         row<&TuningParameters::snowHeavy, &WeatherStepParameters::farStretch>(

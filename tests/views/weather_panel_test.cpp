@@ -71,6 +71,7 @@ TEST_F(WeatherPanelTest, saysWhatTheHostSaysWhoeverDecides) {
 
 TEST_F(WeatherPanelTest, listsWhatEachStepMeansAsTheDraftStands) {
   EXPECT_EQ(step(0, 1), "unlimited");
+  EXPECT_EQ(step(0, 3), "0") << "a density of nothing is a number too";
   EXPECT_EQ(step(0, 4), "no cut");
   EXPECT_EQ(step(3, 1), "4,000");
   EXPECT_EQ(step(3, 2), "2.16");

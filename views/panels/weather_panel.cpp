@@ -217,6 +217,7 @@ void WeatherPanel::makeLines(QGridLayout& grid) {
   int gridRow = 0;
   const auto add = [&](std::string_view key) {
     lines_.push_back(new ParameterLine(draft_, *findRow(key), grid, gridRow));
+    lines_.back()->setCompact(true);
     gridRow += 2;
   };
   for (const std::string_view key : kKeys) add(key);
@@ -252,7 +253,7 @@ void WeatherPanel::showSteps() {
     const QString texts[] = {stepLabel(p.weather.step),
                              d.fogged ? numberText(d.visibilityM, 0) : tr("unlimited"),
                              d.fogged ? numberText(d.visibilityM / kNauticalMile, 2) : QString(),
-                             d.density > 0 ? numberText(d.density, 3) : QString(),
+                             numberText(d.density, 3),
                              cut ? numberText(d.farM, 0) : tr("no cut"),
                              cut ? ratioText(d.nearFarRatio) : QString()};
     for (int c = 0; c < steps_->columnCount(); ++c) {
