@@ -2,6 +2,7 @@
 #include "views/model/draft.h"
 
 #include <QSignalSpy>
+#include <algorithm>
 #include <limits>
 
 #include "application.h"
@@ -151,12 +152,69 @@ TEST(Draft, resetAllIsOneStepBackToTheBase) {
       << "the base, not the default, is what it is held against";
   draft.setValue("fuzzy.hysteresis", 0.04);
   draft.setValue("lod.scale", 4.0);
-  draft.resetAll();
+  draft.resetAll(Reference::base);
   EXPECT_EQ(draft.undoStack().count(), 3);
   EXPECT_EQ(draft.value("fuzzy.hysteresis"), ParameterValue{0.0});
   draft.undoStack().undo();
   EXPECT_EQ(draft.value("fuzzy.hysteresis"), ParameterValue{0.04});
   EXPECT_EQ(draft.value("lod.scale"), ParameterValue{4.0});
+}
+
+TEST(Draft, anUntouchedPresetDiffersFromNothingAndResetsToItself) {
+  Draft draft;
+  draft.load(*loadPreset("as-published"));
+  EXPECT_TRUE(std::ranges::none_of(parameterRows(),
+                                   [&](const ParameterRow& row) { return draft.isChanged(row.key); }));
+  EXPECT_TRUE(draft.isChanged("fuzzy.hysteresis", Reference::base));
+  EXPECT_TRUE(draft.isChanged("fuzzy.hysteresis", Reference::defaults));
+  EXPECT_FALSE(draft.isChanged("fuzzy.hysteresis", Reference::pinned)) << "nothing is pinned";
+  draft.resetAll();
+  EXPECT_EQ(draft.undoStack().count(), 0);
+  draft.setValue("fuzzy.hysteresis", 0.04);
+  draft.reset("fuzzy.hysteresis");
+  EXPECT_EQ(draft.value("fuzzy.hysteresis"), ParameterValue{0.0});
+  draft.reset("fuzzy.hysteresis", Reference::defaults);
+  EXPECT_EQ(draft.value("fuzzy.hysteresis"), ParameterValue{0.05});
+}
+
+TEST(Draft, savingMakesItsValuesThoseOfTheFile) {
+  Draft draft;
+  draft.setValue("lod.scale", 4.0);
+  QSignalSpy references(&draft, &Draft::referencesChanged);
+  draft.markSaved();
+  EXPECT_EQ(references.count(), 1);
+  EXPECT_FALSE(draft.isDirty());
+  EXPECT_FALSE(draft.isChanged("lod.scale"));
+  draft.undoStack().undo();
+  EXPECT_TRUE(draft.isChanged("lod.scale")) << "the file has the later value";
+}
+
+TEST(Draft, aPinnedSnapshotIsAReferenceUntilItIsUnpinned) {
+  Draft draft;
+  TuningParameters kept = draft.parameters();
+  draft.setValue("lod.scale", 4.0);
+  draft.pin("snapshot A", kept);
+  EXPECT_TRUE(draft.isChanged("lod.scale", Reference::pinned));
+  EXPECT_EQ(draft.referenceName(Reference::pinned), "snapshot A");
+  draft.resetAll(Reference::pinned);
+  EXPECT_EQ(draft.undoStack().undoText(), "Reset All to snapshot A");
+  EXPECT_EQ(draft.value("lod.scale"), ParameterValue{1.0});
+  draft.unpin();
+  EXPECT_EQ(draft.reference(Reference::pinned), nullptr);
+}
+
+TEST(Draft, aStepHasItsValuesBeforeAndAfterAndTheTimeOfItsLastEdit) {
+  Draft draft;
+  const QDateTime start = QDateTime::currentDateTime();
+  const MergeToken token = draft.newToken();
+  draft.setValue("lod.scale", 2.0, token);
+  draft.setValue("lod.scale", 3.0, token);
+  const Step step = draft.step(0);
+  ASSERT_EQ(step.changes.size(), 1u);
+  EXPECT_EQ(step.text, "Change LOD scale");
+  EXPECT_EQ(step.changes[0].before, ParameterValue{1.0});
+  EXPECT_EQ(step.changes[0].after, ParameterValue{3.0});
+  EXPECT_GE(step.when, start);
 }
 
 TEST(Draft, loadingStartsACleanHistory) {

@@ -152,6 +152,62 @@ TEST_F(ParameterTableTest, resetOfOneAndOfAll) {
   EXPECT_EQ(editor<QComboBox>("fuzzy.combination").currentIndex(), 1);
 }
 
+TEST_F(ParameterTableTest, anUntouchedPresetReadsAsUnchangedAndResetAllKeepsIt) {
+  draft_.load(*loadPreset("as-published"));
+  EXPECT_EQ(table_.summary(), "nothing differs.");
+  table_.changedOnly().setChecked(true);
+  EXPECT_TRUE(table_.visibleKeys().empty());
+  draft_.setValue("lod.scale", 3.0);
+  EXPECT_EQ(table_.summary(), "1 parameter differs.");
+  EXPECT_EQ(table_.visibleKeys(), std::vector<std::string_view>{"lod.scale"});
+  for (QPushButton* button : table_.findChildren<QPushButton*>())
+    if (button->text() == "Reset all") button->click();
+  EXPECT_EQ(numberOf(draft_, "fuzzy.hysteresis"), 0) << "as published, not as the program's default";
+  EXPECT_EQ(numberOf(draft_, "lod.scale"), 1);
+}
+
+TEST_F(ParameterTableTest, aRowShowsTheValuesOfFileBaseAndDefaultsAndGoesBackToEach) {
+  test::expose(table_, {800, 760});
+  Preset mine = *loadPreset("as-published");
+  mine.base = "as-published";
+  mine.parameters.scheme.hysteresis = Membership{0.02};
+  draft_.load(mine);
+  draft_.setValue("fuzzy.hysteresis", 0.04);
+  ParameterLine& line = *table_.line("fuzzy.hysteresis");
+  const struct {
+    Reference of;
+    const char* text;
+    double value;
+  } columns[] = {{Reference::base, "0", 0}, {Reference::defaults, "0.05", 0.05}, {Reference::file, "0.02", 0.02}};
+  for (const auto& [of, text, value] : columns) {
+    QToolButton& button = *line.valueButton(of);
+    EXPECT_TRUE(button.isVisible() && button.isEnabled()) << text;
+    EXPECT_EQ(button.text(), text);
+    button.click();
+    EXPECT_EQ(numberOf(draft_, "fuzzy.hysteresis"), value);
+    EXPECT_FALSE(button.isEnabled()) << text;
+  }
+  draft_.markSaved();
+  EXPECT_EQ(line.valueButton(Reference::file)->text(), "0.02");
+  draft_.load(Preset{});
+  EXPECT_FALSE(line.valueButton(Reference::base)->isVisible()) << "the same as the defaults";
+}
+
+TEST_F(ParameterTableTest, comparesWithWhatIsChosen) {
+  draft_.load(*loadPreset("as-published"));
+  QComboBox& with = table_.comparedWith();
+  const int defaults = with.findData(int(Reference::defaults));
+  with.setCurrentIndex(defaults);
+  emit with.activated(defaults);
+  EXPECT_NE(table_.summary(), "nothing differs.");
+  EXPECT_TRUE(table_.line("fuzzy.hysteresis")->resetButton()->isEnabled());
+  table_.line("fuzzy.hysteresis")->resetButton()->click();
+  EXPECT_EQ(numberOf(draft_, "fuzzy.hysteresis"), 0.05);
+  EXPECT_EQ(with.findData(int(Reference::pinned)), -1);
+  draft_.pin("snapshot A", draft_.parameters());
+  EXPECT_GE(with.findData(int(Reference::pinned)), 0);
+}
+
 TEST_F(ParameterTableTest, slidersSpanTheUsualRangeAndDragInOneStep) {
   ParameterSlider slider(draft_, "lod.scale");
   test::expose(slider, {300, 30});

@@ -6,6 +6,7 @@
 #include <QGridLayout>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMenu>
 #include <QToolButton>
 
 #include "choice_box.h"
@@ -13,32 +14,15 @@
 #include "parameter_slider.h"
 #include "views/model/keys.h"
 #include "views/model/theme.h"
+#include "views/model/value_text.h"
 
 namespace trimtab::views {
 
 namespace {
 
-QString valueText(const ParameterRow& row, const ParameterValue& value) {
-  switch (row.kind) {
-    case Kind::flag:
-      return std::get<bool>(value) ? QObject::tr("on") : QObject::tr("off");
-    case Kind::choice:
-      return fromView(row.choices[std::get<ChoiceIndex>(value).index].label);
-    case Kind::curve:
-      return QObject::tr("%1 points").arg(std::get<CurvePoints>(value).size);
-    case Kind::bands:
-      return QObject::tr("%1 bands").arg(std::get<BandList>(value).size);
-    case Kind::rules:
-      return QObject::tr("%1 rules").arg(std::get<RuleList>(value).size);
-    case Kind::lines:
-      return QObject::tr("%1 lines").arg(std::get<TextLines>(value).line.size());
-    case Kind::scalar:
-      break;
-  }
-  const QString unit =
-      row.unit.empty() ? QString() : (row.unit == "°" ? QString() : QStringLiteral(" ")) + fromView(row.unit);
-  return exactText(std::get<double>(value)) + unit;
-}
+/// Longer values are shortened in their column, in digits; the tool tip has them whole.
+constexpr int kWidestValue = 14;
+constexpr std::array kColumns{Reference::file, Reference::base, Reference::defaults};
 
 }  // namespace
 
@@ -47,7 +31,6 @@ ParameterLine::ParameterLine(Draft& draft, const ParameterRow& row, QGridLayout&
       draft_(draft),
       row_(row),
       label_(new QLabel),
-      default_(new QLabel),
       problem_(new QLabel),
       editor_(makeEditor()),
       field_(editor_),
@@ -76,24 +59,65 @@ ParameterLine::ParameterLine(Draft& draft, const ParameterRow& row, QGridLayout&
   label_->setBuddy(editor_);
   label_->setWordWrap(true);
   label_->setMinimumWidth(label_->fontMetrics().horizontalAdvance(QStringLiteral("membership offset")));
-
-  default_->setMinimumWidth(default_->fontMetrics().horizontalAdvance(QStringLiteral("0.00001")));
-  for (QWidget* widget : {static_cast<QWidget*>(label_), static_cast<QWidget*>(default_), field_})
-    widget->setToolTip(help);
+  for (QWidget* widget : {static_cast<QWidget*>(label_), field_}) widget->setToolTip(help);
+  makeValues();
   reset_->setText(QStringLiteral("↺"));
   reset_->setAutoRaise(true);
   reset_->setFocusPolicy(Qt::StrongFocus);
-  connect(reset_, &QToolButton::clicked, this, [this] { draft_.reset(row_.key); });
+  connect(reset_, &QToolButton::clicked, this, [this] { draft_.reset(row_.key, reference_); });
+  for (QWidget* widget : {static_cast<QWidget*>(label_), static_cast<QWidget*>(reset_)}) {
+    widget->setContextMenuPolicy(Qt::CustomContextMenu);
+    connect(widget, &QWidget::customContextMenuRequested, this,
+            [this, widget](const QPoint& at) { showResets(widget->mapToGlobal(at)); });
+  }
   problem_->setWordWrap(true);
   problem_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   problem_->hide();
 
   grid.addWidget(label_, gridRow, 0, Qt::AlignVCenter);
   grid.addWidget(field_, gridRow, 1, Qt::AlignVCenter);
-  grid.addWidget(default_, gridRow, 2, Qt::AlignVCenter);
-  grid.addWidget(reset_, gridRow, 3, Qt::AlignVCenter);
-  grid.addWidget(problem_, gridRow + 1, 0, 1, 4);
+  grid.addWidget(reset_, gridRow, 2, Qt::AlignVCenter);
+  for (std::size_t i = 0; i < kValues; ++i)
+    grid.addWidget(values_[i], gridRow, 3 + int(i), Qt::AlignVCenter);
+  grid.addWidget(problem_, gridRow + 1, 0, 1, 6);
+  connect(&draft_, &Draft::referencesChanged, this, [this] {
+    readValues();
+    refresh();
+  });
+  readValues();
   refresh();
+}
+
+void ParameterLine::makeValues() {
+  for (std::size_t i = 0; i < kValues; ++i) {
+    auto* button = values_[i] = new QToolButton;
+    button->setAutoRaise(true);
+    button->setFocusPolicy(Qt::StrongFocus);
+    connect(button, &QToolButton::clicked, this, [this, i] { draft_.reset(row_.key, kColumns[i]); });
+  }
+}
+
+void ParameterLine::compareWith(Reference reference) {
+  reference_ = reference;
+  readValues();
+  refresh();
+}
+
+/// The same values as in the columns of a wide line, for a narrow one and for whoever looks for a menu.
+void ParameterLine::showResets(const QPoint& at) {
+  QMenu menu(label_);
+  const auto add = [&](Reference to) {
+    const TuningParameters* values = draft_.reference(to);
+    if (!values) return;
+    const QString text =
+        tr("Back to %1: %2").arg(draft_.referenceName(to), shortText(row_, row_.get(*values)));
+    menu.addAction(text, this, [this, to] { draft_.reset(row_.key, to); })
+        ->setEnabled(draft_.isChanged(row_.key, to));
+  };
+  for (const Reference to : kColumns)
+    if (to != Reference::base || draft_.hasOwnBase()) add(to);
+  add(Reference::pinned);
+  menu.exec(at);
 }
 
 QWidget* ParameterLine::makeEditor() {
@@ -172,19 +196,48 @@ void ParameterLine::setVisible(bool visible) {
   visible_ = visible;
   label_->setVisible(visible);
   field_->setVisible(visible);
-  default_->setVisible(visible && !compact_);
   reset_->setVisible(visible);
+  showValues();
   problem_->setVisible(visible && !problem_->text().isEmpty());
 }
 
 void ParameterLine::setCompact(bool compact) {
   compact_ = compact;
-  default_->setVisible(visible_ && !compact_);
+  showValues();
+}
+
+/// A base that has the defaults' values would repeat their column.
+void ParameterLine::showValues() {
+  for (std::size_t i = 0; i < kValues; ++i)
+    values_[i]->setVisible(visible_ && !compact_ && (kColumns[i] != Reference::base || draft_.hasOwnBase()));
+}
+
+/// Reads the values of the references, which no edit changes.
+void ParameterLine::readValues() {
+  const QString name = fromView(row_.label);
+  const int widest = label_->fontMetrics().horizontalAdvance(QLatin1Char('0')) * kWidestValue;
+  QStringList said;
+  for (std::size_t i = 0; i < kValues; ++i) {
+    const ParameterValue value = row_.get(*draft_.reference(kColumns[i]));
+    const QString of = draft_.referenceName(kColumns[i]), text = shortText(row_, value);
+    values_[i]->setText(label_->fontMetrics().elidedText(text, Qt::ElideRight, widest));
+    values_[i]->setAccessibleName(tr("%1 back to %2: %3").arg(name, of, text));
+    values_[i]->setToolTip(tr("A click goes back to %1: %2").arg(of, text));
+    if (kColumns[i] != Reference::base || draft_.hasOwnBase())
+      said << tr("%1: %2").arg(of, QString::fromStdString(toText(row_, value)));
+  }
+  reset_->setToolTip(tr("Reset %1 to %2. A right click offers each of these:\n%3")
+                         .arg(name, draft_.referenceName(reference_), said.join(QLatin1Char('\n'))));
+  reset_->setAccessibleName(tr("Reset %1").arg(name));
+  showValues();
 }
 
 void ParameterLine::refresh() {
-  State now{draft_.isChanged(row_.key), valueText(row_, row_.get(draft_.baseline())), refusal_,
-            errorColour(label_->palette())};
+  State now;
+  now.changed = draft_.isChanged(row_.key, reference_);
+  for (std::size_t i = 0; i < kValues; ++i) now.differs[i] = draft_.isChanged(row_.key, kColumns[i]);
+  now.problem = refusal_;
+  now.colour = errorColour(label_->palette());
   if (const Findings findings = draft_.findingsOf(row_.key); now.problem.isEmpty() && !findings.empty()) {
     QStringList said;
     for (const Finding& f : findings)
@@ -201,13 +254,8 @@ void ParameterLine::refresh() {
       QStringLiteral("<span style='color:%1'>●</span> ").arg(seriesColour(1, label_->palette()).name());
   label_->setText(now.changed ? mark + QStringLiteral("<b>%1</b>").arg(name) : name);
   label_->setAccessibleName(now.changed ? tr("%1, changed").arg(fromView(row_.label)) : fromView(row_.label));
-  default_->setText(now.baseline);
-  default_->setToolTip(
-      tr("Default: %1").arg(QString::fromStdString(toText(row_, row_.get(draft_.baseline())))));
-  setTextColour(*default_, quietColour(default_->palette()));
+  for (std::size_t i = 0; i < kValues; ++i) values_[i]->setEnabled(now.differs[i]);
   reset_->setEnabled(now.changed);
-  reset_->setToolTip(tr("Reset %1 to %2").arg(fromView(row_.label), now.baseline));
-  reset_->setAccessibleName(tr("Reset %1").arg(fromView(row_.label)));
   problem_->setText(now.problem);
   setTextColour(*problem_, now.colour);
   problem_->setVisible(visible_ && !now.problem.isEmpty());

@@ -4,18 +4,20 @@
 #include <QColor>
 #include <QObject>
 #include <QString>
+#include <array>
 
 #include "views/model/draft.h"
 
 class QGridLayout;
 class QLabel;
+class QPoint;
 class QToolButton;
 class QWidget;
 
 namespace trimtab::views {
 
-/// One row of a parameter panel: changed mark and label, editor for its kind, default, reset button and
-/// findings.
+/// One row of a parameter panel: changed mark and label, editor for its kind, the values that it can go back
+/// to, and findings. A click on one of these values goes back to it.
 class ParameterLine : public QObject {
   Q_OBJECT
  public:
@@ -24,11 +26,16 @@ class ParameterLine : public QObject {
 
   const ParameterRow& row() const { return row_; }
   QWidget* editor() const { return editor_; }
+  /// Goes back to what the line is compared with.
   QToolButton* resetButton() const { return reset_; }
+  /// Shows the value of a reference and goes back to it: the file, the base or the defaults.
+  QToolButton* valueButton(Reference of) const { return values_[static_cast<std::size_t>(of)]; }
+  /// Chooses what the changed mark compares with and the reset button goes back to; at first the file.
+  void compareWith(Reference reference);
   QString problem() const;
   bool matches(const QString& search) const;
   void setVisible(bool visible);
-  /// In a compact line, for a narrow dock, only the tool tips show the default.
+  /// In a compact line, for a narrow dock, only tool tips and the context menu show these values.
   void setCompact(bool compact);
   bool isVisible() const { return visible_; }
   void refresh();
@@ -39,22 +46,30 @@ class ParameterLine : public QObject {
 
  private:
   QWidget* makeEditor();
+  void makeValues();
+  void readValues();
+  void showValues();
+  void showResets(const QPoint& at);
   void refuse(const QString& why);
 
   Draft& draft_;
   const ParameterRow& row_;
-  QLabel *label_, *default_, *problem_;
+  static constexpr std::size_t kValues = 3;  ///< file, base and defaults
+  QLabel *label_, *problem_;
+  std::array<QToolButton*, kValues> values_{};
   QWidget *editor_,
       *field_;  ///< the editor, and the widget in the grid that holds it and its slider or button
   QToolButton* reset_;
   QString refusal_;
   struct State {
     bool changed = false;
-    QString baseline, problem;
+    std::array<bool, kValues> differs{};
+    QString problem;
     QColor colour;
     friend bool operator==(const State&, const State&) = default;
   };
   State shown_;
+  Reference reference_ = Reference::file;
   bool visible_ = true, compact_ = false;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QWidget>
+#include <array>
 #include <vector>
 
 #include "views/model/draft.h"
@@ -27,6 +28,9 @@ class ParameterTable : public QWidget {
   QLineEdit& search() { return *search_; }
   QComboBox& tier() { return *tier_; }
   QCheckBox& changedOnly() { return *changedOnly_; }
+  /// Chooses what the marks, the filter "Changed" and "Reset all" compare with.
+  QComboBox& comparedWith() { return *comparedWith_; }
+  QString summary() const;
   /// Returns the line of a key; null if there is none.
   ParameterLine* line(std::string_view key) const;
   std::vector<std::string_view> visibleKeys() const;
@@ -41,9 +45,15 @@ class ParameterTable : public QWidget {
   struct Group {
     QString name;
     QToolButton* header = nullptr;
+    std::array<QLabel*, 3> columns{};  ///< the titles of the values that a line can go back to
     std::vector<ParameterLine*> lines;
   };
   void makeBar();
+  void makeHeader(QGridLayout& grid, int gridRow, const QString& name);
+  void fillReferences();
+  Reference reference() const;
+  void fitColumns();
+  void showColumns();
   void makeLines(QGridLayout& grid);
   void filter();
   void summarise();
@@ -51,7 +61,7 @@ class ParameterTable : public QWidget {
 
   Draft& draft_;
   QLineEdit* search_;
-  QComboBox* tier_;
+  QComboBox *tier_, *comparedWith_;
   QCheckBox* changedOnly_;
   QPushButton* resetAll_;
   QLabel *summary_, *nothing_;

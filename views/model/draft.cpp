@@ -68,15 +68,18 @@ class Draft::Edit : public QUndoCommand {
     const Changes& later = static_cast<const Edit*>(other)->changes_;
     if (!std::ranges::equal(changes_, later, {}, &Change::row, &Change::row)) return false;
     for (std::size_t i = 0; i < changes_.size(); ++i) changes_[i].after = later[i].after;
+    when_ = QDateTime::currentDateTime();
     setObsolete(
         std::ranges::all_of(changes_, [](const Change& change) { return change.before == change.after; }));
     return true;
   }
+  Step step() const { return {text(), when_, changes_}; }
 
  private:
   Draft& draft_;
   Changes changes_;
   MergeToken token_;
+  QDateTime when_ = QDateTime::currentDateTime();
 };
 
 Draft::Draft(QObject* parent) : QObject(parent), active_(defaultParameters()) {
@@ -97,9 +100,43 @@ ParameterValue Draft::value(std::string_view key) const {
   return row->get(preset_.parameters);
 }
 
-bool Draft::isChanged(std::string_view key) const {
+const TuningParameters* Draft::reference(Reference which) const {
+  static const TuningParameters kDefaults;
+  switch (which) {
+    case Reference::file:
+      return &file_;
+    case Reference::base:
+      return &base_;
+    case Reference::pinned:
+      return pinned_ ? &pinned_->values : nullptr;
+    case Reference::defaults:
+      break;
+  }
+  return &kDefaults;
+}
+
+QString Draft::referenceName(Reference which) const {
+  switch (which) {
+    case Reference::file:
+      return tr("the file");
+    case Reference::base:
+      return tr("the base");
+    case Reference::pinned:
+      return pinned_ ? pinned_->name : tr("no snapshot");
+    case Reference::defaults:
+      break;
+  }
+  return tr("the defaults");
+}
+
+Step Draft::step(int index) const {
+  return static_cast<const Edit*>(stack_.command(index))->step();
+}
+
+bool Draft::isChanged(std::string_view key, Reference from) const {
   const ParameterRow* row = findRow(key);
-  return row && row->get(preset_.parameters) != row->get(baseline_);
+  const TuningParameters* values = reference(from);
+  return row && values && row->get(preset_.parameters) != row->get(*values);
 }
 
 Findings Draft::setValue(std::string_view key, const ParameterValue& value, MergeToken token) {
@@ -135,16 +172,19 @@ Findings Draft::setText(std::string_view key, std::string_view typed, MergeToken
   return parsed ? setValue(key, *parsed, token) : parsed.findings();
 }
 
-void Draft::reset(std::string_view key) {
+void Draft::reset(std::string_view key, Reference to) {
   const ParameterRow* row = findRow(key);
+  const TuningParameters* values = reference(to);
   Q_ASSERT(row);
-  const ParameterValue before = row->get(preset_.parameters), after = row->get(baseline_);
+  if (!values) return;
+  const ParameterValue before = row->get(preset_.parameters), after = row->get(*values);
   if (before != after)
     stack_.push(new Edit(*this, {{row, before, after}}, tr("Reset %1").arg(fromView(row->label)), 0));
 }
 
-void Draft::resetAll() {
-  takeAll(baseline_, tr("Reset All Parameters"));
+void Draft::resetAll(Reference to) {
+  if (const TuningParameters* values = reference(to))
+    takeAll(*values, tr("Reset All to %1").arg(referenceName(to)));
 }
 
 void Draft::takeParameters(const TuningParameters& parameters, const QString& undoText) {
@@ -163,13 +203,32 @@ void Draft::takeAll(const TuningParameters& to, const QString& what) {
 void Draft::load(const Preset& preset) {
   preset_ = preset;
   const Result<TuningParameters> base = baseParameters(preset);
-  baseline_ = base ? *base : *defaultParameters();
+  base_ = base ? *base : *defaultParameters();
+  ownBase_ = !sameValues(base_, *reference(Reference::defaults));
+  file_ = preset.parameters;
   stack_.clear();
   check();
   emit loaded();
+  emit referencesChanged();
   std::vector<const ParameterRow*> rows;
   for (const ParameterRow& row : parameterRows()) rows.push_back(&row);
   announce(rows);
+}
+
+void Draft::markSaved() {
+  file_ = preset_.parameters;
+  stack_.setClean();
+  emit referencesChanged();
+}
+
+void Draft::pin(const QString& name, const TuningParameters& values) {
+  pinned_ = {name, values};
+  emit referencesChanged();
+}
+
+void Draft::unpin() {
+  if (!std::exchange(pinned_, std::nullopt)) return;
+  emit referencesChanged();
 }
 
 void Draft::describe(const std::string& name, const std::string& description) {

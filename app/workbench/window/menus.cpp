@@ -205,7 +205,18 @@ void Menus::makeEditMenu() {
   redo->setShortcuts({tr("Ctrl+Shift+Z"), tr("Ctrl+Y")});
   dress(*redo, tr("Redo"), icon(QStyle::SP_ArrowForward));
   edit.addActions({undo, redo});
-  add(edit, {{}, {tr("Reset &all parameters to the base preset"), {}, [this] { at_.draft.resetAll(); }}});
+  add(edit, {{},
+             {tr("Reset &all parameters to the file"),
+              {},
+              [this] { at_.draft.resetAll(views::Reference::file); },
+              tr("Back to the values of the preset as it was opened or saved last")},
+             {tr("Reset all parameters to the &base"),
+              {},
+              [this] { at_.draft.resetAll(views::Reference::base); },
+              tr("Back to the values of the preset that the file names as its base")},
+             {tr("Reset all parameters to the &defaults"), {}, [this] {
+                at_.draft.resetAll(views::Reference::defaults);
+              }}});
   auto* bar = window_.addToolBar(tr("Edit"));
   bar->setObjectName(QStringLiteral("edit_toolbar"));
   // The actions' texts name the step that they undo, so buttons of their own keep the toolbar's width.

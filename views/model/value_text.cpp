@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "value_text.h"
+
+#include <QCoreApplication>
+#include <QStringList>
+
+#include "views/model/theme.h"
+
+namespace trimtab::views {
+namespace {
+
+QString tr(const char* text) {
+  return QCoreApplication::translate("trimtab::views::ValueText", text);
+}
+
+bool isList(const ParameterRow& row) {
+  return row.kind == Kind::curve || row.kind == Kind::bands || row.kind == Kind::rules ||
+         row.kind == Kind::lines;
+}
+
+/// Returns the entries of a list, each as files spell it.
+QStringList entriesOf(const ParameterRow& row, const ParameterValue& value) {
+  QStringList entries;
+  if (const TextLines* lines = std::get_if<TextLines>(&value)) {
+    for (const std::string& line : lines->line) entries << QString::fromStdString(line);
+    return entries;
+  }
+  return QString::fromStdString(toText(row, value)).split(QLatin1Char(' '), Qt::SkipEmptyParts);
+}
+
+/// Returns the entries of `these` that `those` lacks, as often as it lacks them.
+QString onlyIn(const QStringList& these, QStringList those) {
+  QStringList only;
+  for (const QString& entry : these)
+    if (!those.removeOne(entry)) only << entry;
+  return only.isEmpty() ? QStringLiteral("–") : only.join(QStringLiteral("  "));
+}
+
+}  // namespace
+
+QString shortText(const ParameterRow& row, const ParameterValue& value) {
+  switch (row.kind) {
+    case Kind::flag:
+      return std::get<bool>(value) ? tr("on") : tr("off");
+    case Kind::choice:
+      return fromView(row.choices[std::get<ChoiceIndex>(value).index].label);
+    case Kind::curve:
+      return tr("%1 points").arg(std::get<CurvePoints>(value).size);
+    case Kind::bands:
+      return tr("%1 bands").arg(std::get<BandList>(value).size);
+    case Kind::rules:
+      return tr("%1 rules").arg(std::get<RuleList>(value).size);
+    case Kind::lines:
+      return tr("%1 lines").arg(std::get<TextLines>(value).line.size());
+    case Kind::scalar:
+      break;
+  }
+  const QString unit =
+      row.unit.empty() ? QString() : (row.unit == "°" ? QString() : QStringLiteral(" ")) + fromView(row.unit);
+  return exactText(std::get<double>(value)) + unit;
+}
+
+BeforeAfter changeText(const Change& change) {
+  const ParameterRow& row = *change.row;
+  if (!isList(row)) return {shortText(row, change.before), shortText(row, change.after)};
+  const QStringList before = entriesOf(row, change.before), after = entriesOf(row, change.after);
+  const BeforeAfter said{onlyIn(before, after), onlyIn(after, before)};
+  // The same entries in another order.
+  if (said.before == said.after)
+    return {before.join(QStringLiteral("  ")), after.join(QStringLiteral("  "))};
+  return said;
+}
+
+QString stepText(const Step& step) {
+  QStringList lines;
+  for (const Change& change : step.changes) {
+    const BeforeAfter text = changeText(change);
+    lines << tr("%1: %2 → %3").arg(fromView(change.row->label), text.before, text.after);
+  }
+  return lines.join(QLatin1Char('\n'));
+}
+
+}  // namespace trimtab::views
