@@ -10,6 +10,7 @@
 #include <QPushButton>
 #include <QStandardPaths>
 
+#include "app/workbench/controllers/export_target.h"
 #include "app/workbench/window/notice_bar.h"
 #include "gui_support.h"
 #include "trimtab/terrain/synthetic/sample.h"
@@ -143,6 +144,45 @@ TEST_F(WorkbenchFiles, anExportNamesItsTerrainAndWhatDependsOnTheMachine) {
   EXPECT_NE(pinned.find("\"culling.occlusion\": \"horizon\""), std::string::npos);
   EXPECT_EQ(w().draft().parameters().culling.occlusion, OcclusionMethod::automatic) << "the draft stays";
   EXPECT_TRUE(loadPreset((dir / "e.json").string()));
+}
+
+TEST_F(WorkbenchFiles, anExportAgainGoesToTheLastTargetOfThisPresetWithoutAQuestion) {
+  workbench::DocumentController& document = *w().controllers().document;
+  ASSERT_TRUE(document.saveTo(path(dir / "mine.json")));
+  workbench::rememberTarget(path(dir / "mine.json"), {path(dir / "ig.ini"), ExportFormat::ini, "me", "Mine.", {}});
+  ASSERT_TRUE(document.open(path(dir / "mine.json"))) << "as in a later run";
+  edit();
+  QTest::keyClick(&w(), Qt::Key_E, Qt::ControlModifier);
+  ASSERT_TRUE(std::filesystem::exists(dir / "ig.ini")) << w().messages().text().toStdString();
+  EXPECT_EQ(loadPreset((dir / "ig.ini").string())->parameters.scheme.hysteresis.value(), 0.04);
+  EXPECT_NE(readFile(dir / "ig.ini").find("Mine."), std::string::npos);
+  ASSERT_TRUE(document.saveTo(path(dir / "other.json")));
+  EXPECT_EQ(workbench::targetOf(path(dir / "other.json"))->file, path(dir / "ig.ini"));
+  std::filesystem::remove(dir / "ig.ini");
+  document.startFrom("default");
+  bool asked = false;
+  QTimer::singleShot(200, qApp, [&] {
+    asked = QApplication::activeModalWidget() != nullptr;
+    if (asked) QApplication::activeModalWidget()->close();
+  });
+  QTest::keyClick(&w(), Qt::Key_E, Qt::ControlModifier);
+  EXPECT_TRUE(asked) << "another preset has no target yet";
+  EXPECT_FALSE(std::filesystem::exists(dir / "ig.ini"));
+}
+
+TEST_F(WorkbenchFiles, aSavedPresetHasItsFilesNameUnlessItHasAnother) {
+  workbench::DocumentController& document = *w().controllers().document;
+  const auto nameSavedAs = [&](const char* file) {
+    EXPECT_TRUE(document.saveTo(path(dir / file)));
+    return loadPreset((dir / file).string())->name;
+  };
+  w().draft().load(Preset{});
+  EXPECT_EQ(nameSavedAs("first.json"), "first");
+  EXPECT_EQ(nameSavedAs("second.json"), "second");
+  document.startFrom("as-published");
+  EXPECT_EQ(nameSavedAs("third.json"), "third");
+  w().draft().describe("Kansai, winter", "");
+  EXPECT_EQ(nameSavedAs("fourth.json"), "Kansai, winter");
 }
 
 TEST_F(WorkbenchFiles, asksBeforeEditsAreLost) {

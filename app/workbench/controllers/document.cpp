@@ -25,6 +25,7 @@ namespace {
 constexpr int kCopyAfterMs = 1500;
 /// Some editors save in several steps: the file is read once they are done.
 constexpr int kLookAfterMs = 150;
+constexpr auto kUntitled = "untitled";
 
 QString recoveryFolder() {
   return QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) + QStringLiteral("/recovery");
@@ -65,6 +66,14 @@ Preset movedTo(Preset preset, const QString& folder) {
   }
   preset.folder = folder.toStdString();
   return preset;
+}
+
+/// Returns the name under which a preset is saved. One that a person gave it stays; one that came from the
+/// file before, or from what the preset was made of, becomes the file's.
+std::string nameIn(const QString& file, const std::string& name, const QString& before) {
+  const bool given = !name.empty() && name != kUntitled && !isShipped(name) &&
+                     QString::fromStdString(name) != QFileInfo(before).completeBaseName();
+  return given ? name : QFileInfo(file).completeBaseName().toStdString();
 }
 
 std::string readAll(const QString& file) {
@@ -114,7 +123,7 @@ void Document::startFrom(const QString& shipped) {
   Result<Preset> base = loadPreset(shipped.toStdString());
   Preset fresh = base ? *base : Preset{};
   fresh.base = base ? shipped.toStdString() : std::string();
-  fresh.name = "untitled";
+  fresh.name = kUntitled;
   fresh.description.clear();
   draft_.load(fresh);
   dropCopy();
@@ -123,11 +132,14 @@ void Document::startFrom(const QString& shipped) {
 
 Result<Done> Document::save(const QString& file) {
   const QString absolute = QFileInfo(file).absoluteFilePath();
-  const Result<std::string> text = presetText(movedTo(draft_.preset(), QFileInfo(absolute).absolutePath()));
+  Preset saved = movedTo(draft_.preset(), QFileInfo(absolute).absolutePath());
+  saved.name = nameIn(absolute, saved.name, file_);
+  const Result<std::string> text = presetText(saved);
   if (!text) return text.findings();
   const Result<Done> written = writeAtomically(absolute.toStdString(), *text);
   if (!written) return written.findings();
-  draft_.undoStack().setClean();
+  draft_.describe(saved.name, saved.description);
+  draft_.markSaved();
   dropCopy();
   become(absolute);
   return Done{};

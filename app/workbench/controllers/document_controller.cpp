@@ -9,6 +9,7 @@
 #include "app/workbench/docks/message_panel.h"
 #include "app/workbench/viewport/viewport.h"
 #include "app/workbench/window/notice_bar.h"
+#include "export_target.h"
 #include "recent_files.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/preset/file_io.h"
@@ -29,6 +30,15 @@ QString presetFilter() {
 DocumentController::DocumentController(const Workplace& workplace, NoticeBar& notices)
     : at_(workplace), notices_(notices), document_(workplace.draft) {
   connect(&document_, &Document::changedOnDisk, this, &DocumentController::onChangedOnDisk);
+  // Another preset has another target, or none; saved under another name it is still the same preset.
+  connect(&at_.draft, &views::Draft::loaded, this, [this] { target_.reset(); });
+  connect(&document_, &Document::fileChanged, this, [this] {
+    if (document_.file().isEmpty()) return;
+    if (target_)
+      rememberTarget(document_.file(), *target_);
+    else
+      target_ = targetOf(document_.file());
+  });
 }
 
 bool DocumentController::open(const QString& nameOrFile) {
@@ -120,6 +130,7 @@ bool DocumentController::exportTo(const QString& file, ExportFormat format, cons
     return false;
   }
   at_.messages.note(tr("Exported to %1").arg(absolute));
+  emit exported(absolute);
   return true;
 }
 
@@ -127,14 +138,31 @@ void DocumentController::askExport() {
   std::optional<OcclusionMethod> chosen;
   if (at_.draft.active()->culling.occlusion == OcclusionMethod::automatic)
     if (const auto& last = at_.viewport.lastResult()) chosen = last->occlusion;
-  ExportDialog dialog(chosen, &at_.window);
+  ExportDialog dialog(chosen, target_, &at_.window);
   if (dialog.exec() != QDialog::Accepted) return;
   QFileDialog files(&at_.window, tr("Export preset"), {}, dialog.fileFilter());
   files.setAcceptMode(QFileDialog::AcceptSave);
   files.setDefaultSuffix(dialog.suffix());
-  if (files.exec() == QDialog::Accepted)
-    exportTo(files.selectedFiles().constFirst(), dialog.format(), dialog.author(), dialog.comment(),
-             dialog.pinned());
+  if (target_ && target_->format == dialog.format()) files.selectFile(target_->file);
+  if (files.exec() != QDialog::Accepted) return;
+  const ExportTarget target{files.selectedFiles().constFirst(), dialog.format(), dialog.author(),
+                            dialog.comment(), dialog.pinned()};
+  if (!exportTo(target)) return;
+  target_ = target;
+  if (!document_.file().isEmpty()) rememberTarget(document_.file(), target);
+}
+
+void DocumentController::exportAgain() {
+  if (target_)
+    exportTo(*target_);
+  else
+    askExport();
+}
+
+bool DocumentController::exportTo(const ExportTarget& target) {
+  const bool automatic = at_.draft.active()->culling.occlusion == OcclusionMethod::automatic;
+  return exportTo(target.file, target.format, target.author, target.comment,
+                  automatic ? target.pinned : std::nullopt);
 }
 
 void DocumentController::offerRecovery() {

@@ -6,6 +6,7 @@
 
 #include "app/workbench/dialogs/export_dialog.h"
 #include "document.h"
+#include "export_target.h"
 #include "workplace.h"
 
 namespace trimtab::workbench {
@@ -40,7 +41,10 @@ class DocumentController : public QObject {
   void askOpen();
   void openOverEdits(const QString& nameOrFile);
   void startFrom(const QString& shipped);
+  /// Asks for format, comment and file, exports, and remembers all of it for exportAgain().
   void askExport();
+  /// Exports to the preset's last target without a question; asks if there is none.
+  void exportAgain();
   /// Asks what to do with unsaved edits. Returns false if the person cancels, or if saving fails.
   bool mayLoseEdits();
   /// Offers the edits that programs left behind which ended without saving.
@@ -48,14 +52,17 @@ class DocumentController : public QObject {
 
  signals:
   void saved(const QString& file);
+  void exported(const QString& file);
 
  private:
   void onChangedOnDisk(bool gone);
+  bool exportTo(const ExportTarget& target);
 
   Workplace at_;
   NoticeBar& notices_;
   Document document_;
   QString terrainName_;
+  std::optional<ExportTarget> target_;  ///< of the preset's last export
 };
 
 }  // namespace trimtab::workbench

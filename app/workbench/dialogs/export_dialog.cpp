@@ -19,7 +19,8 @@ const QString kAuthorKey = QStringLiteral("export/author");
 
 }  // namespace
 
-ExportDialog::ExportDialog(std::optional<OcclusionMethod> chosen, QWidget* parent)
+ExportDialog::ExportDialog(std::optional<OcclusionMethod> chosen, const std::optional<ExportTarget>& before,
+                           QWidget* parent)
     : QDialog(parent),
       format_(new QComboBox(this)),
       author_(new QLineEdit(this)),
@@ -31,6 +32,10 @@ ExportDialog::ExportDialog(std::optional<OcclusionMethod> chosen, QWidget* paren
   format_->addItem(tr("FlightGear property list (XML)"), int(ExportFormat::xml));
   format_->addItem(tr("Flat INI"), int(ExportFormat::ini));
   author_->setText(QSettings().value(kAuthorKey, qEnvironmentVariable("USER")).toString());
+  if (before) {
+    format_->setCurrentIndex(format_->findData(int(before->format)));
+    comment_->setPlainText(before->comment);
+  }
   comment_->setPlaceholderText(tr("What this preset is for"));
   comment_->setMinimumWidth(380);
   comment_->setTabChangesFocus(true);
@@ -46,6 +51,7 @@ ExportDialog::ExportDialog(std::optional<OcclusionMethod> chosen, QWidget* paren
   form->addRow(tr("Co&mment"), comment_);
   form->addRow(pin_);
   pin_->setVisible(chosen_.has_value());
+  pin_->setChecked(before && before->pinned);
   if (chosen_) {
     const ParameterRow& row = *findRow("culling.occlusion");
     pin_->setText(tr("&Pin hidden ground to “%1”")

@@ -4,6 +4,7 @@
 #include <QDialog>
 #include <optional>
 
+#include "app/workbench/controllers/export_target.h"
 #include "trimtab/preset/preset.h"
 
 class QCheckBox;
@@ -19,9 +20,10 @@ class ExportDialog : public QDialog {
   Q_OBJECT
 
  public:
-  /// `chosen` is what the automatic choice uses in the current view; unset if the choice is not automatic, or if
+  /// `before` fills the fields as they were at the last export. `chosen` is what the automatic choice uses in the current view; unset if the choice is not automatic, or if
   /// no method pays there.
-  explicit ExportDialog(std::optional<OcclusionMethod> chosen, QWidget* parent = nullptr);
+  explicit ExportDialog(std::optional<OcclusionMethod> chosen, const std::optional<ExportTarget>& before,
+                        QWidget* parent = nullptr);
   ExportFormat format() const;
   QString author() const;
   QString comment() const;

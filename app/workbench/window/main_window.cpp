@@ -112,6 +112,8 @@ void MainWindow::makeStatusBar() {
   connect(controllers_.flight.get(), &FlightController::sourceTextChanged, source, &QLabel::setText);
   connect(controllers_.document.get(), &DocumentController::saved, this,
           [this](const QString& file) { statusBar()->showMessage(tr("Saved %1").arg(file), kSavedMs); });
+  connect(controllers_.document.get(), &DocumentController::exported, this,
+          [this](const QString& file) { statusBar()->showMessage(tr("Exported %1").arg(file), kSavedMs); });
   connect(controllers_.errors.get(), &ErrorsController::hint, this,
           [this](const QString& text) { statusBar()->showMessage(text, kHintMs); });
 }
