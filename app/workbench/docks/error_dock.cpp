@@ -150,7 +150,7 @@ ErrorDock::ErrorDock(views::Draft& draft, DrawThread& thread, LiveMeter::Source 
   connect(logarithmic_, &QCheckBox::toggled, plot_, &views::ErrorPlot::setLogarithmic);
   connect(plot_, &views::ErrorPlot::logarithmicChanged, logarithmic_, &QCheckBox::setChecked);
   connect(liveOn_, &QCheckBox::toggled, this, [this](bool on) {
-    live_.setOn(on && seen_);
+    live_.setOn(on && (seen_ || watched_));
     if (!on) restartLive();
     liveLabel_->setText(liveText());
   });
@@ -221,7 +221,12 @@ void ErrorDock::arrange() {
 
 void ErrorDock::setSeen(bool seen) {
   seen_ = seen;
-  live_.setOn(seen && liveOn_->isChecked());
+  live_.setOn((seen_ || watched_) && liveOn_->isChecked());
+}
+
+void ErrorDock::setWatched(bool watched) {
+  watched_ = watched;
+  setSeen(seen_);
 }
 
 QString ErrorDock::flight() const {

@@ -46,6 +46,8 @@ class ErrorDock : public QWidget {
   /// Sets whether a person can see it. It cannot find out itself, because Qt calls a dock behind other tabs
   /// visible.
   void setSeen(bool seen);
+  /// Measures live although nobody sees this dock, because another one shows the results.
+  void setWatched(bool watched);
   /// Call this after the viewport has painted. `time` is in seconds.
   void painted(double time, double frameMs);
   /// Forgets what was measured live, because it can no longer be compared: another terrain was opened, or
@@ -104,7 +106,7 @@ class ErrorDock : public QWidget {
   QString measuring_;
   std::optional<harness::Results> results_;
   std::optional<LiveMeter::Measured> lastMeasured_;
-  bool seen_ = false;
+  bool seen_ = false, watched_ = false;
 
   QComboBox *errors_, *flights_, *cases_;
   QCheckBox *logarithmic_, *liveOn_;

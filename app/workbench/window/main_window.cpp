@@ -16,6 +16,7 @@
 #include <QVBoxLayout>
 #include <cstdio>
 
+#include "app/workbench/docks/changes_dock.h"
 #include "app/workbench/docks/dock_of.h"
 #include "app/workbench/docks/error_dock.h"
 #include "app/workbench/docks/experiments_dock.h"
@@ -145,6 +146,10 @@ void MainWindow::connectParts() {
   connect(&c.document->document(), &Document::fileChanged, this, &MainWindow::updateTitle);
 
   connectPlots(panels_, controllers_, feed_);
+  connect(&c.errors->dock().live(), &LiveMeter::measured, panels_.changes,
+          [this](const LiveMeter::Measured& m) { panels_.changes->snapshots().addError(m.error.flip); });
+  connect(dockOf(*panels_.changes), &QDockWidget::visibilityChanged, panels_.changes, &ChangesDock::setSeen);
+  connect(panels_.changes, &ChangesDock::errorsWanted, &c.errors->dock(), &ErrorDock::setWatched);
 
   MessagePanel* const messages = panels_.messages;
   connect(messages, &MessagePanel::errorAdded, messages, [messages] { raiseDock(*messages); });

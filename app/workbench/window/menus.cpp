@@ -15,6 +15,7 @@
 
 #include "app/workbench/controllers/controllers.h"
 #include "app/workbench/controllers/recent_files.h"
+#include "app/workbench/docks/changes_dock.h"
 #include "app/workbench/docks/flight_dock.h"
 #include "app/workbench/jobs/feed.h"
 #include "app/workbench/viewport/split_view.h"
@@ -26,6 +27,7 @@
 #include "views/model/theme.h"
 #include "views/panels/culling_panel.h"
 #include "views/panels/rules_panel.h"
+#include "views/panels/snapshots_panel.h"
 #include "views/panels/terrain_panel.h"
 #include "views/policy/policy_panel.h"
 #include "views/policy/scheme_page.h"
@@ -222,6 +224,7 @@ void Menus::makeEditMenu() {
              {tr("Reset all parameters to the &defaults"), {}, [this] {
                 at_.draft.resetAll(views::Reference::defaults);
               }}});
+  addSnapshots(edit);
   auto* bar = window_.addToolBar(tr("Edit"));
   bar->setObjectName(QStringLiteral("edit_toolbar"));
   // The actions' texts name the step that they undo, so buttons of their own keep the toolbar's width.
@@ -232,6 +235,21 @@ void Menus::makeEditMenu() {
     connect(action, &QAction::changed, button, [button, action] { button->setToolTip(action->toolTip()); });
     connect(button, &QAction::triggered, action, &QAction::trigger);
     bar->addAction(button);
+  }
+}
+
+void Menus::addSnapshots(QMenu& edit) {
+  QMenu& menu = *edit.addMenu(tr("&Snapshots"));
+  views::Snapshots& snapshots = panels_.changes->snapshots();
+  for (int slot = 0; slot < views::Snapshots::kCount; ++slot) {
+    const QString letter = snapshots.title(slot);
+    const int key = Qt::Key_F1 + views::kFirstSnapshotKey - 1 + slot;
+    add(menu, {{tr("Switch to snapshot &%1").arg(letter),
+                QKeySequence(key),
+                [&snapshots, slot] { snapshots.switchTo(slot); },
+                tr("An empty one keeps the preset as it is now")},
+               {tr("Keep as snapshot %1").arg(letter), QKeySequence(int(Qt::ShiftModifier) | key),
+                [&snapshots, slot] { snapshots.keep(slot); }}});
   }
 }
 

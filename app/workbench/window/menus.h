@@ -45,6 +45,7 @@ class Menus : public QObject {
   QAction* addOverlay(QMenu& view, const QString& text, const QString& keys, bool Overlays::*flag);
   void makeFileMenu();
   void makeEditMenu();
+  void addSnapshots(QMenu& edit);
   void makeViewMenu();
   void makeFlightMenu();
   void makeHelpMenu();

@@ -3,8 +3,8 @@
 
 #include <QDockWidget>
 #include <QObject>
-#include <QUndoView>
 
+#include "app/workbench/docks/changes_dock.h"
 #include "app/workbench/docks/dock_of.h"
 #include "app/workbench/docks/flight_dock.h"
 #include "app/workbench/docks/host_dock.h"
@@ -27,13 +27,6 @@
 
 namespace trimtab::workbench {
 namespace {
-
-QUndoView* makeHistory(views::Draft& draft) {
-  auto* history = new QUndoView(&draft.undoStack());
-  history->setEmptyLabel(QObject::tr("as opened"));
-  history->setAccessibleName(QObject::tr("History of edits"));
-  return history;
-}
 
 /// Some parameters have an editor of their own in another dock.
 void connectEditors(const views::ParameterTable& parameters, views::PolicyPanel& policy,
@@ -73,7 +66,7 @@ Panels makePanels(DockLayout& docks, views::Draft& draft, Feed& feed) {
   QObject::connect(budget, &views::BudgetPanel::replayAsked, panels.flight, &FlightDock::fly);
   panels.plots = docks.add("plots", tr("Plots"), foot, new views::PlotsPanel(draft));
   panels.messages = docks.add("messages", tr("Messages"), foot, new MessagePanel);
-  docks.add("history", tr("History"), foot, makeHistory(draft));
+  panels.changes = docks.add("history", tr("Changes"), foot, new ChangesDock(draft));
   panels.culling->showStages(panels.plots->buffer());
   connectEditors(*parameters, *panels.policy, *panels.bands);
   return panels;

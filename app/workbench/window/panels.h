@@ -16,6 +16,7 @@ class WeatherPanel;
 
 namespace trimtab::workbench {
 
+class ChangesDock;
 class DockLayout;
 class ExperimentsDock;
 class Feed;
@@ -37,6 +38,7 @@ struct Panels {
   FlightDock* flight = nullptr;
   views::PlotsPanel* plots = nullptr;
   MessagePanel* messages = nullptr;
+  ChangesDock* changes = nullptr;
   ExperimentsDock* experiments = nullptr;  ///< made by the window, because it needs controllers
 };
 

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+
+#include "views/model/draft.h"
+
+class QLabel;
+class QTableView;
+
+namespace trimtab::views {
+
+class ChangesModel;
+
+/// The Changes dock: every edit with the values before and after it and its time. It is the history too: a
+/// click or Enter on a row goes back, or forward, to it.
+class ChangesPanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit ChangesPanel(Draft& draft, QWidget* parent = nullptr);
+
+  QTableView& table() { return *table_; }
+  QString summary() const;
+
+ private:
+  void setUpTable();
+  void goTo(const QModelIndex& index);
+  void copy();
+  void summarise();
+
+  Draft& draft_;
+  ChangesModel* model_;
+  QTableView* table_;
+  QLabel* summary_;
+};
+
+}  // namespace trimtab::views
