@@ -134,5 +134,17 @@ TEST_F(BandsEditorTest, theInsetSaysWhyThereIsNoDepthMap) {
       test::eventually([&] { return inset->accessibleDescription() == "No depth map: scheme is frustum"; }));
 }
 
+TEST_F(BandsEditorTest, theFilesEdgesStayBehindThoseThatAreDragged) {
+  const QPoint old = edge(1).toPoint();
+  const auto picture = [&] { return scale().grab(QRect(old - QPoint(6, 30), QSize(13, 60))).toImage(); };
+  drag(scale(), edge(1), scale().pixelOf(0.7));
+  scale().select(0);
+  const QImage behind = picture();
+  QTest::mouseMove(&scale(), old + QPoint(20, 0));
+  EXPECT_TRUE(scale().toolTip().contains("file: ")) << scale().toolTip().toStdString();
+  draft_.markSaved();
+  EXPECT_NE(picture(), behind) << "the file has the new edge now";
+}
+
 }  // namespace
 }  // namespace trimtab::views

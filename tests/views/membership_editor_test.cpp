@@ -231,5 +231,44 @@ TEST(Throttle, refreshesAtMostOnceAPeriodAndNotWhileHidden) {
   EXPECT_LE(refreshes, now + 1) << "idle";
 }
 
+TEST_F(MembershipEditorTest, theFilesCurveAndAPinnedOneStayBehindWhatIsDragged) {
+  EXPECT_FALSE(plot().ghosts().isShown(Reference::file)) << "nothing was changed";
+  drag(plot(), pixel(1), pixel(1) + QPointF(20, -40));
+  EXPECT_TRUE(plot().ghosts().isShown(Reference::file));
+  EXPECT_FALSE(plot().ghosts().isShown(Reference::pinned));
+  draft_.pin("snapshot A", draft_.parameters());
+  EXPECT_FALSE(plot().ghosts().isShown(Reference::pinned)) << "it is the same curve";
+  drag(plot(), pixel(2), pixel(2) + QPointF(0, -40));
+  EXPECT_TRUE(plot().ghosts().isShown(Reference::pinned));
+  EXPECT_FALSE(editor_.pitch().plot().ghosts().isShown(Reference::file)) << "only where it differs";
+  draft_.resetAll();
+  EXPECT_FALSE(plot().ghosts().isShown(Reference::file));
+}
+
+TEST_F(MembershipEditorTest, severalPointsAreMovedNudgedAndRemovedTogether) {
+  const CurvePoints before = curve();
+  plot().select(1);
+  QTest::mouseClick(&plot(), Qt::LeftButton, Qt::ControlModifier, pixel(2).toPoint());
+  EXPECT_EQ(plot().group(), (std::vector<std::size_t>{1, 2}));
+  drag(plot(), pixel(1), pixel(1) + QPointF(8, 0));
+  const double by = curve().point[1].x - before.point[1].x;
+  EXPECT_GT(by, 0);
+  EXPECT_NEAR(curve().point[2].x - before.point[2].x, by, 1e-9);
+  EXPECT_EQ(curve().point[0], before.point[0]);
+  EXPECT_EQ(draft_.undoStack().count(), 1);
+  plot().setFocus();
+  QTest::keyClick(&plot(), Qt::Key_Left);
+  EXPECT_LT(curve().point[2].x - before.point[2].x, by);
+  drag(plot(), pixel(2), pixel(2) + QPointF(2000, 0));
+  EXPECT_LT(curve().point[2].x, curve().point[3].x) << "the others stop the group";
+  EXPECT_NEAR(curve().point[2].x - curve().point[1].x, before.point[2].x - before.point[1].x, 1e-9);
+  QTest::keyClick(&plot(), Qt::Key_Delete);
+  EXPECT_EQ(curve().size, before.size - 2);
+  QTest::keyClick(&plot(), Qt::Key_A, Qt::ControlModifier);
+  EXPECT_EQ(plot().group().size(), curve().size);
+  QTest::keyClick(&plot(), Qt::Key_Delete);
+  EXPECT_EQ(curve().size, before.size - 2) << "two points stay";
+}
+
 }  // namespace
 }  // namespace trimtab::views

@@ -9,6 +9,7 @@
 
 #include "views/model/keys.h"
 #include "views/model/theme.h"
+#include "views/plots/ghosts.h"
 
 namespace trimtab::views {
 
@@ -34,6 +35,7 @@ BandScale::BandScale(Draft& draft, QWidget* parent)
       select(static_cast<int>(bands().size) - 1);
   });
   connect(&draft_, &Draft::findingsChanged, this, qOverload<>(&QWidget::update));
+  connect(&draft_, &Draft::referencesChanged, this, qOverload<>(&QWidget::update));
 }
 
 BandList BandScale::bands() const {
@@ -140,11 +142,13 @@ void BandScale::mouseMoveEvent(QMouseEvent* event) {
   const double total = totalAt(event->position().x());
   const int band = bandAt(total);
   const BandList list = bands();
-  setToolTip(band < 0 ? tr("Total membership %1: view-frustum culling alone").arg(numberText(total, 2))
-                      : tr("Total membership %1: depth map %2 × %3 px")
-                            .arg(numberText(total, 2))
-                            .arg(list.band[static_cast<std::size_t>(band)].widthPx)
-                            .arg(list.band[static_cast<std::size_t>(band)].heightPx));
+  const QString here = band < 0
+                           ? tr("Total membership %1: view-frustum culling alone").arg(numberText(total, 2))
+                           : tr("Total membership %1: depth map %2 × %3 px")
+                                 .arg(numberText(total, 2))
+                                 .arg(list.band[static_cast<std::size_t>(band)].widthPx)
+                                 .arg(list.band[static_cast<std::size_t>(band)].heightPx);
+  setToolTip(here + ghostsText());
 }
 
 void BandScale::mouseReleaseEvent(QMouseEvent*) {
@@ -229,6 +233,7 @@ void BandScale::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   paintBands(painter);
+  paintGhosts(painter);
   paintEdges(painter);
   paintLive(painter);
   painter.end();
@@ -275,6 +280,33 @@ void BandScale::paintBands(QPainter& painter) {
   }
   painter.setPen(blend(base, ink, 0.5));
   painter.drawRect(t);
+}
+
+/// Edges of the file and of a pinned snapshot, where the draft has others.
+void BandScale::paintGhosts(QPainter& painter) {
+  const QRectF t = track();
+  for (const Reference which : kGhosts) {
+    if (!draft_.isChanged(key::kBands, which)) continue;
+    painter.setPen(ghostPen(which, palette()));
+    const ParameterValue list = findRow(key::kBands)->get(*draft_.reference(which));
+    for (const Band& band : std::get<BandList>(list).span()) {
+      const double x = pixelOf(band.low).x();
+      painter.drawLine(QPointF(x, t.top() - 5), QPointF(x, t.bottom() + 5));
+    }
+  }
+}
+
+QString BandScale::ghostsText() const {
+  QString text;
+  for (const Reference which : kGhosts) {
+    if (!draft_.isChanged(key::kBands, which)) continue;
+    QStringList edges;
+    const ParameterValue list = findRow(key::kBands)->get(*draft_.reference(which));
+    for (const Band& band : std::get<BandList>(list).span()) edges << numberText(band.low, 3);
+    text += QLatin1Char('\n') + (which == Reference::pinned ? tr("Dash-dotted, %1: %2") : tr("Dotted, %1: %2"))
+                                    .arg(ghostName(which, draft_), edges.join(QStringLiteral(", ")));
+  }
+  return text;
 }
 
 void BandScale::paintEdges(QPainter& painter) {

@@ -57,6 +57,8 @@ class BandScale : public QWidget {
   int edgeAt(QPointF pixel) const;
   int bandAt(double total) const;
   void paintBands(QPainter& painter);
+  void paintGhosts(QPainter& painter);
+  QString ghostsText() const;
   void paintEdges(QPainter& painter);
   void paintLive(QPainter& painter);
 

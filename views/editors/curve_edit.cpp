@@ -80,6 +80,34 @@ std::optional<Inserted> withInserted(const CurvePoints& curve, CurvePoint point,
   return inserted;
 }
 
+CurvePoints withAllMoved(const CurvePoints& curve, std::span<const std::size_t> indexes, CurvePoint by,
+                         const CurveSpec& spec) {
+  const auto isMoved = [&](std::size_t i) { return std::ranges::find(indexes, i) != indexes.end(); };
+  for (const std::size_t i : indexes) {
+    // A neighbour that moves too keeps its distance.
+    Range free = freeRange(curve, i, spec);
+    const Range hard = findRow(spec.key)->hard;
+    if (i > 0 && isMoved(i - 1)) free.low = hard.low;
+    if (i + 1 < curve.size && isMoved(i + 1)) free.high = hard.high;
+    const CurvePoint& from = curve.point[i];
+    by.x = std::clamp(by.x, std::min(free.low - from.x, 0.0), std::max(free.high - from.x, 0.0));
+    by.y = std::clamp(by.y, std::min(-from.y, 0.0), std::max(1 - from.y, 0.0));
+  }
+  CurvePoints moved = curve;
+  for (const std::size_t i : indexes) {
+    moved.point[i].x += by.x;
+    // Without the dust of adding hundredths.
+    moved.point[i].y = std::clamp(std::round((moved.point[i].y + by.y) * 1e6) / 1e6, 0.0, 1.0);
+  }
+  return moved;
+}
+
+std::optional<CurvePoints> withAllRemoved(const CurvePoints& curve, std::span<const std::size_t> indexes) {
+  std::optional<CurvePoints> left = curve;
+  for (std::size_t i = indexes.size(); i-- > 0 && left;) left = withRemoved(*left, indexes[i]);
+  return left;
+}
+
 std::optional<CurvePoints> withRemoved(const CurvePoints& curve, std::size_t index) {
   if (curve.size <= 2 || index >= curve.size) return std::nullopt;
   CurvePoints removed = curve;

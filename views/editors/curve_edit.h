@@ -4,6 +4,7 @@
 #include <QString>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "trimtab/frame/frame.h"
@@ -46,6 +47,10 @@ Range typedRange(const CurvePoints& curve, std::size_t index, const CurveSpec& s
 /// Returns the curve with one point moved to `to`, or as near to it as freeRange allows in x and 0 to 1 in
 /// membership.
 CurvePoints withMoved(const CurvePoints& curve, std::size_t index, CurvePoint to, const CurveSpec& spec);
+/// Returns the curve with several points, in rising order, moved by the same amount: by `by`, or as far as
+/// every one of them may go.
+CurvePoints withAllMoved(const CurvePoints& curve, std::span<const std::size_t> indexes, CurvePoint by,
+                         const CurveSpec& spec);
 struct Inserted {
   CurvePoints curve;
   std::size_t index = 0;  ///< of the new point
@@ -55,5 +60,7 @@ struct Inserted {
 std::optional<Inserted> withInserted(const CurvePoints& curve, CurvePoint point, const CurveSpec& spec);
 /// Returns the curve without one point. Returns nullopt if the curve has only two points.
 std::optional<CurvePoints> withRemoved(const CurvePoints& curve, std::size_t index);
+/// Does the same for several points, in rising order. Returns nullopt if fewer than two would be left.
+std::optional<CurvePoints> withAllRemoved(const CurvePoints& curve, std::span<const std::size_t> indexes);
 
 }  // namespace trimtab::views

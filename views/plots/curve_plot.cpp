@@ -26,6 +26,7 @@ CurvePlot::CurvePlot(Draft& draft, CurveSpec spec, QWidget* parent)
     redraw();
   });
   connect(&draft_, &Draft::loaded, this, &CurvePlot::fitView);
+  connect(&draft_, &Draft::referencesChanged, this, &CurvePlot::redraw);
   connect(&draft_, &Draft::findingsChanged, this, [this] {
     if (isAtFault() != shownAtFault_) redraw();
   });
@@ -34,6 +35,7 @@ CurvePlot::CurvePlot(Draft& draft, CurveSpec spec, QWidget* parent)
 void CurvePlot::makeItems() {
   // The operating point and the hover value move on layers of their own, without a replot of the rest.
   addOverlays({"live", "hover"});
+  ghosts_.emplace(*this, draft_);
   xAxis->setLabel(tr("%1 (%2)").arg(spec_.quantity, spec_.unit));
   yAxis->setLabel(tr("Membership"));
   yAxis->setRange(-0.06, 1.1);
@@ -68,6 +70,7 @@ void CurvePlot::makeItems() {
 void CurvePlot::restyle() {
   applyTheme(*this);
   const QPalette& p = palette();
+  ghosts_->restyle(p);
   const QColor base = p.color(QPalette::Base), curve = seriesColour(0, p), live = liveColour(p);
   points_->setPen(QPen(blend(base, p.color(QPalette::Text), 0.6), 1, Qt::DashLine));
   effective_->setPen(QPen(curve, 2.2));
@@ -119,7 +122,8 @@ void CurvePlot::describe(const CurvePoints& shown) {
   }
   setAccessibleDescription(
       text + tr("Tab selects a breakpoint, arrow keys move it (Shift: ten times as far), Enter types "
-                "its values, Insert adds one, Delete removes it."));
+                "its values, Insert adds one, Delete removes it. Ctrl+A or Ctrl and a click select several, "
+                "which move and go together."));
 }
 
 void CurvePlot::redraw() {
@@ -135,10 +139,9 @@ void CurvePlot::redraw() {
   QCPScatterStyle style = handles_->scatterStyle();
   style.setPen(QPen(editable() ? edge : blend(palette().color(QPalette::Base), edge, 0.4), 1.6));
   handles_->setScatterStyle(style);
-  if (selected() >= 0 && selected() < px.size() && editable())
-    chosen_->setData({px[selected()]}, {py[selected()]});
-  else
-    chosen_->data()->clear();
+  chosen_->data()->clear();
+  if (editable())
+    for (const std::size_t i : group()) chosen_->addData(px[qsizetype(i)], py[qsizetype(i)]);
   describe(shown);
 
   // The curve's own lines, constant beyond its ends; drawn only where the reading makes something else of
@@ -182,6 +185,23 @@ void CurvePlot::redrawEffective(const CurvePoints& shown) {
   }
   effective_->setData(at, y, true);
   points_->setVisible(apart > 1e-6);
+  redrawGhosts(at, y);
+}
+
+void CurvePlot::redrawGhosts(const QVector<double>& at, const QVector<double>& now) {
+  for (const Reference which : kGhosts) {
+    QVector<Ghosts::Line> lines;
+    if (const TuningParameters* values = draft_.reference(which)) {
+      Ghosts::Line line;
+      double apart = 0;
+      for (qsizetype i = 0; i < at.size(); ++i) {
+        line << QPointF(at[i], spec_.evaluate(*values, at[i]));
+        apart = std::max(apart, std::abs(line.back().y() - now[i]));
+      }
+      if (apart > 1e-6) lines << line;
+    }
+    ghosts_->show(which, lines);
+  }
 }
 
 void CurvePlot::showFrame(const LiveFrame& frame) {

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <optional>
+#include <set>
+#include <vector>
 
+#include "ghosts.h"
 #include "plot.h"
 #include "views/editors/curve_edit.h"
 #include "views/editors/edit_hand.h"
@@ -21,8 +24,13 @@ class CurvePlot : public Plot {
 
   void showFrame(const LiveFrame& frame);
   int selected() const { return hand_.selected(); }
-  /// -1: none.
+  /// Selects one point alone; -1: none.
   void select(int index);
+  /// Adds a point to the selection, or takes it out.
+  void toggle(int index);
+  void selectAll();
+  /// Returns the selected points in rising order: they move and go together.
+  std::vector<std::size_t> group() const;
   void addPoint(CurvePoint point);
   /// In the middle of the selected point and the next one.
   void addPointBesideSelected();
@@ -30,6 +38,8 @@ class CurvePlot : public Plot {
   /// Where a breakpoint is, in this widget's coordinates.
   QPointF pixelOf(CurvePoint point) const;
   void fitView();
+  /// What file and pinned snapshot have in place of this curve.
+  const Ghosts& ghosts() const { return *ghosts_; }
 
   QSize sizeHint() const override { return {420, 220}; }
   QSize minimumSizeHint() const override { return {190, 150}; }
@@ -55,11 +65,13 @@ class CurvePlot : public Plot {
   void resized() override { redraw(); }
 
  private:
+  void follow(int index);
   void makeItems();
   bool isAtFault() const;
   void describe(const CurvePoints& shown);
   void redraw();
   void redrawEffective(const CurvePoints& shown);
+  void redrawGhosts(const QVector<double>& at, const QVector<double>& now);
   void placeLive();
   void redrawLive();
   void drawHover(const std::optional<QPointF>& at);
@@ -73,7 +85,8 @@ class CurvePlot : public Plot {
 
   Draft& draft_;
   CurveSpec spec_;
-  EditHand hand_;
+  EditHand hand_;         ///< selects the point that tables and descriptions follow
+  std::set<int> beside_;  ///< points selected beside it
   CurvePoints dragStart_;
   QPointF grabOffset_;
   bool fitted_ = true;
@@ -81,6 +94,7 @@ class CurvePlot : public Plot {
   std::optional<CurvePoint> live_;
   Throttle liveThrottle_;
 
+  std::optional<Ghosts> ghosts_;
   QCPGraph* points_ = nullptr;     ///< the straight lines between breakpoints
   QCPGraph* effective_ = nullptr;  ///< what is computed
   QCPGraph* handles_ = nullptr;

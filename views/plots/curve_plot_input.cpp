@@ -21,9 +21,49 @@ double rounded(double value, double step) {
 }  // namespace
 
 void CurvePlot::select(int index) {
-  if (!hand_.select(index, static_cast<int>(curve().size))) return;
+  const int count = static_cast<int>(curve().size);
+  if (!hand_.select(index, count) && beside_.empty()) return;
+  beside_.clear();
   redraw();
   emit selectedChanged(selected());
+}
+
+/// Makes another of the selected points the one that is followed.
+void CurvePlot::follow(int index) {
+  beside_.insert(selected());
+  beside_.erase(index);
+  hand_.select(index, static_cast<int>(curve().size));
+}
+
+void CurvePlot::toggle(int index) {
+  if (selected() < 0) return select(index);
+  if (index == selected()) {
+    if (beside_.empty()) return select(-1);
+    const int next = *beside_.begin();
+    beside_.erase(beside_.begin());
+    hand_.select(next, static_cast<int>(curve().size));
+  } else if (beside_.erase(index) == 0) {
+    follow(index);
+  }
+  redraw();
+  emit selectedChanged(selected());
+}
+
+void CurvePlot::selectAll() {
+  const int count = static_cast<int>(curve().size);
+  if (selected() < 0) hand_.select(0, count);
+  for (int i = 0; i < count; ++i)
+    if (i != selected()) beside_.insert(i);
+  redraw();
+  emit selectedChanged(selected());
+}
+
+std::vector<std::size_t> CurvePlot::group() const {
+  std::set<int> all = beside_;
+  if (selected() >= 0) all.insert(selected());
+  const int count = static_cast<int>(curve().size);
+  std::erase_if(all, [&](int i) { return i >= count; });
+  return {all.begin(), all.end()};
 }
 
 int CurvePlot::pointAt(QPointF pixel) const {
@@ -58,7 +98,11 @@ void CurvePlot::commit(const CurvePoints& changed, MergeToken token) {
 void CurvePlot::mousePressEvent(QMouseEvent* event) {
   const int hit = pointAt(event->position());
   if (event->button() == Qt::LeftButton && hit >= 0 && editable()) {
-    select(hit);
+    if (event->modifiers() & Qt::ControlModifier) return toggle(hit);
+    if (beside_.contains(hit))
+      follow(hit);
+    else if (hit != selected())
+      select(hit);
     hand_.beginDrag();
     dragStart_ = curve();
     grabOffset_ = pixelOf(dragStart_.point[static_cast<std::size_t>(hit)]) - event->position();
@@ -79,7 +123,11 @@ void CurvePlot::mouseMoveEvent(QMouseEvent* event) {
       (std::abs(gone.x()) > std::abs(gone.y()) ? to.y : to.x) =
           std::abs(gone.x()) > std::abs(gone.y()) ? from.y : from.x;
     }
-    commit(withMoved(curve(), static_cast<std::size_t>(selected()), to, spec_), hand_.drag());
+    const std::vector<std::size_t> moved = group();
+    if (moved.size() > 1)
+      commit(withAllMoved(dragStart_, moved, {to.x - from.x, to.y - from.y}, spec_), hand_.drag());
+    else
+      commit(withMoved(curve(), static_cast<std::size_t>(selected()), to, spec_), hand_.drag());
     drawHover(pixelOf(curve().point[static_cast<std::size_t>(selected())]));
     return;
   }
@@ -128,14 +176,17 @@ void CurvePlot::addPointBesideSelected() {
 
 void CurvePlot::removeSelected() {
   if (selected() < 0 || !editable()) return;
-  const std::optional<CurvePoints> removed = withRemoved(curve(), static_cast<std::size_t>(selected()));
+  const std::optional<CurvePoints> removed = withAllRemoved(curve(), group());
   if (!removed) return emit refused(tr("A curve keeps at least two points."));
   commit(*removed, 0);
+  select(selected());
 }
 
 void CurvePlot::nudge(double dx, double dy) {
   if (selected() < 0 || !editable()) return;
   const CurvePoints points = curve();
+  if (const std::vector<std::size_t> moved = group(); moved.size() > 1)
+    return commit(withAllMoved(points, moved, {dx, dy}, spec_), hand_.nudge());
   const CurvePoint from = points.point[static_cast<std::size_t>(selected())];
   commit(withMoved(points, static_cast<std::size_t>(selected()), {from.x + dx, rounded(from.y + dy, 1e-6)},
                    spec_),
@@ -146,6 +197,9 @@ void CurvePlot::keyPressEvent(QKeyEvent* event) {
   const double times = event->modifiers() & Qt::ShiftModifier ? 10 : 1;
   const double xStep = std::max(findRow(spec_.key)->step, pointGap(spec_)) * times;
   switch (event->key()) {
+    case Qt::Key_A:
+      if (!(event->modifiers() & Qt::ControlModifier)) return Plot::keyPressEvent(event);
+      return selectAll();
     case Qt::Key_Left:
       return nudge(-xStep, 0);
     case Qt::Key_Right:
@@ -211,8 +265,10 @@ void CurvePlot::contextMenuEvent(QContextMenuEvent* event) {
   QAction* add =
       menu.addAction(tr("Add point"), this, [&] { byMouse ? addPoint(here) : addPointBesideSelected(); });
   add->setEnabled(editable() && curve().size < CurvePoints::kCapacity);
-  QAction* remove = menu.addAction(tr("Remove point"), this, &CurvePlot::removeSelected);
+  QAction* remove = menu.addAction(group().size() > 1 ? tr("Remove points") : tr("Remove point"), this,
+                                   &CurvePlot::removeSelected);
   remove->setEnabled(editable() && selected() >= 0 && curve().size > 2);
+  menu.addAction(tr("Select all points"), this, &CurvePlot::selectAll)->setEnabled(editable());
   menu.addSeparator();
   QAction* reset = menu.addAction(tr("Reset this curve"), this, [this] { draft_.reset(spec_.key); });
   reset->setEnabled(draft_.isChanged(spec_.key));

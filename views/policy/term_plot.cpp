@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trimtab/preset/policy_lines.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
@@ -23,6 +24,7 @@ QColor TermPlot::colourOf(std::size_t place, const QPalette& palette) {
 TermPlot::TermPlot(PolicyDraft& policy, const PolicyTrack& track, QWidget* parent)
     : Plot(tr("Terms of a signal"), Keyboard::used, parent), policy_(policy), track_(track) {
   makeItems();
+  readGhosts();
   restyle();
   connect(&policy_, &PolicyDraft::termsChanged, this, [this] {
     if (termAt(term_) == nullptr) select(-1);
@@ -31,11 +33,16 @@ TermPlot::TermPlot(PolicyDraft& policy, const PolicyTrack& track, QWidget* paren
   });
   connect(&policy_.draft(), &Draft::findingsChanged, this, [this] { drawPoints(); });
   connect(&policy_.draft(), &Draft::loaded, this, &TermPlot::fitView);
+  connect(&policy_.draft(), &Draft::referencesChanged, this, [this] {
+    readGhosts();
+    redraw();
+  });
 }
 
 void TermPlot::makeItems() {
   addOverlays({"live", "hover"});
   addLegendAbove();
+  ghosts_.emplace(*this, policy_.draft());
   yAxis->setLabel(tr("Membership"));
   yAxis->setRange(kTrailLow, kTop);
   const QSharedPointer<QCPAxisTickerFixed> ticks(new QCPAxisTickerFixed);
@@ -72,6 +79,7 @@ void TermPlot::makeItems() {
 
 void TermPlot::restyle() {
   applyThemeWithLegendAbove();
+  ghosts_->restyle(this->palette());
   const QPalette& palette = this->palette();
   const QColor base = palette.color(QPalette::Base), ink = palette.color(QPalette::Text),
                live = liveColour(palette);
@@ -164,6 +172,8 @@ void TermPlot::drawCurves() {
   const QCPRange range = xAxis->range();
   const int steps = std::max(200, axisRect()->width());
   const QColor base = palette().color(QPalette::Base);
+  QVector<double> even;
+  for (int s = 0; s <= steps; ++s) even << range.lower + range.size() * s / steps;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     QCPGraph& curve = *p.curves[qsizetype(i)];
     const PolicyTerm& term = *policy_.terms()[lines[i]].term;
@@ -175,7 +185,7 @@ void TermPlot::drawCurves() {
     p.marks[qsizetype(i)]->setScatterStyle({QCPScatterStyle::ssDiamond, QPen(base, 1), QBrush(colour), 12});
     QVector<double> at, y;
     if (isSound(term)) {
-      for (int s = 0; s <= steps; ++s) at << range.lower + range.size() * s / steps;
+      at = even;
       for (const TermHandle& handle : handlesOf(term, {range.lower, range.upper}))
         if (range.contains(handle.x))
           at << std::nextafter(handle.x, -kInfinity) << handle.x << std::nextafter(handle.x, kInfinity);
@@ -184,9 +194,36 @@ void TermPlot::drawCurves() {
     }
     curve.setData(at, y, true);
   }
+  drawGhosts(even);
   parts_.empty->setVisible(lines.empty());
   parts_.empty->setText(tr("%1 has no terms. “Add” makes one.").arg(fromView(rowOf(signal_).label)));
   arrangeLegendAbove();
+}
+
+void TermPlot::readGhosts() {
+  for (std::size_t i = 0; i < kGhosts.size(); ++i) {
+    ghostTerms_[i].clear();
+    const TuningParameters* values = policy_.draft().reference(kGhosts[i]);
+    if (!values) continue;
+    if (const auto policy = policyOf(values->policy)) ghostTerms_[i] = policy->terms;
+  }
+}
+
+/// A term is a ghost unless the draft has the very same one.
+void TermPlot::drawGhosts(const QVector<double>& at) {
+  const std::vector<std::size_t> lines = policy_.termsOf(signal_);
+  for (std::size_t i = 0; i < kGhosts.size(); ++i) {
+    QVector<Ghosts::Line> drawn;
+    for (const PolicyTerm& term : ghostTerms_[i]) {
+      const bool same = std::ranges::any_of(
+          lines, [&](std::size_t line) { return *policy_.terms()[line].term == term; });
+      if (term.signal != signal_ || same || !isSound(term)) continue;
+      Ghosts::Line line;
+      for (const double x : at) line << QPointF(x, membershipOf(term, x));
+      drawn << line;
+    }
+    ghosts_->show(kGhosts[i], drawn);
+  }
 }
 
 void TermPlot::drawPoints() {

@@ -6,6 +6,7 @@
 #include "policy_draft.h"
 #include "policy_live.h"
 #include "term_edit.h"
+#include "views/plots/ghosts.h"
 #include "views/plots/plot.h"
 
 namespace trimtab::views {
@@ -29,6 +30,8 @@ class TermPlot : public Plot {
   QPointF pixelOf(double x, double y) const;
   void showLive(const PolicyLive& live);
   Range view() const { return {xAxis->range().lower, xAxis->range().upper}; }
+  /// Terms of the signal that file and pinned snapshot have otherwise.
+  const Ghosts& ghosts() const { return *ghosts_; }
   /// Returns the colour of a term of this signal, by its place among them.
   static QColor colourOf(std::size_t place, const QPalette& palette);
 
@@ -84,6 +87,8 @@ class TermPlot : public Plot {
   void makeItems();
   void redraw();
   void drawCurves();
+  void readGhosts();
+  void drawGhosts(const QVector<double>& at);
   void drawPoints();
   void describe();
   void placeLive();
@@ -109,6 +114,8 @@ class TermPlot : public Plot {
   bool fitted_ = true;
   double value_ = std::numeric_limits<double>::quiet_NaN();
   std::uint64_t drawnTrack_ = 0;
+  std::optional<Ghosts> ghosts_;
+  std::array<std::vector<PolicyTerm>, 2> ghostTerms_;  ///< of all signals, in the order of kGhosts
   Parts parts_;
 };
 

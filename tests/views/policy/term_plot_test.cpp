@@ -225,5 +225,17 @@ TEST_F(TermPlotTest, theOperatingPointAndItsTrailFollowTheFlight) {
   EXPECT_TRUE(value.data(Qt::ToolTipRole).toString().contains(QStringLiteral("there is no head")));
 }
 
+TEST_F(TermPlotTest, theFilesTermStaysBehindTheOneThatIsDragged) {
+  draft_.markSaved();
+  EXPECT_FALSE(plot().ghosts().isShown(Reference::file));
+  drag(plot(), pixel(0), pixel(0) + QPointF(25, 0));
+  EXPECT_TRUE(plot().ghosts().isShown(Reference::file));
+  draft_.pin("snapshot A", draft_.parameters());
+  EXPECT_FALSE(plot().ghosts().isShown(Reference::pinned)) << "it has the same term";
+  draft_.undoStack().undo();
+  EXPECT_FALSE(plot().ghosts().isShown(Reference::file));
+  EXPECT_TRUE(plot().ghosts().isShown(Reference::pinned));
+}
+
 }  // namespace
 }  // namespace trimtab::views
