@@ -149,7 +149,8 @@ TEST_F(WorkbenchFiles, anExportNamesItsTerrainAndWhatDependsOnTheMachine) {
 TEST_F(WorkbenchFiles, anExportAgainGoesToTheLastTargetOfThisPresetWithoutAQuestion) {
   workbench::DocumentController& document = *w().controllers().document;
   ASSERT_TRUE(document.saveTo(path(dir / "mine.json")));
-  workbench::rememberTarget(path(dir / "mine.json"), {path(dir / "ig.ini"), ExportFormat::ini, "me", "Mine.", {}});
+  workbench::rememberTarget(path(dir / "mine.json"),
+                            {path(dir / "ig.ini"), ExportFormat::ini, "me", "Mine.", {}});
   ASSERT_TRUE(document.open(path(dir / "mine.json"))) << "as in a later run";
   edit();
   QTest::keyClick(&w(), Qt::Key_E, Qt::ControlModifier);

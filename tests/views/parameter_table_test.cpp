@@ -178,7 +178,8 @@ TEST_F(ParameterTableTest, aRowShowsTheValuesOfFileBaseAndDefaultsAndGoesBackToE
     Reference of;
     const char* text;
     double value;
-  } columns[] = {{Reference::base, "0", 0}, {Reference::defaults, "0.05", 0.05}, {Reference::file, "0.02", 0.02}};
+  } columns[] = {
+      {Reference::base, "0", 0}, {Reference::defaults, "0.05", 0.05}, {Reference::file, "0.02", 0.02}};
   for (const auto& [of, text, value] : columns) {
     QToolButton& button = *line.valueButton(of);
     EXPECT_TRUE(button.isVisible() && button.isEnabled()) << text;

@@ -77,8 +77,7 @@ ParameterLine::ParameterLine(Draft& draft, const ParameterRow& row, QGridLayout&
   grid.addWidget(label_, gridRow, 0, Qt::AlignVCenter);
   grid.addWidget(field_, gridRow, 1, Qt::AlignVCenter);
   grid.addWidget(reset_, gridRow, 2, Qt::AlignVCenter);
-  for (std::size_t i = 0; i < kValues; ++i)
-    grid.addWidget(values_[i], gridRow, 3 + int(i), Qt::AlignVCenter);
+  for (std::size_t i = 0; i < kValues; ++i) grid.addWidget(values_[i], gridRow, 3 + int(i), Qt::AlignVCenter);
   grid.addWidget(problem_, gridRow + 1, 0, 1, 6);
   connect(&draft_, &Draft::referencesChanged, this, [this] {
     readValues();

@@ -88,9 +88,9 @@ void ParameterTable::makeBar() {
   tier_->setToolTip(tr("Basic parameters, or the advanced ones too. A search looks through all."));
   changedOnly_->setToolTip(tr("Only parameters that differ from what they are compared with"));
   comparedWith_->setAccessibleName(tr("What the parameters are compared with"));
-  comparedWith_->setToolTip(
-      tr("What the marks, “Changed” and “Reset all” compare with: the preset as it was opened or saved last,\n"
-         "the base that it names, the program's defaults, or a pinned snapshot"));
+  comparedWith_->setToolTip(tr(
+      "What the marks, “Changed” and “Reset all” compare with: the preset as it was opened or saved last,\n"
+      "the base that it names, the program's defaults, or a pinned snapshot"));
   resetAll_->setAutoDefault(false);
   summary_->setWordWrap(true);
   connect(search_, &QLineEdit::textChanged, this, &ParameterTable::filter);
@@ -243,9 +243,8 @@ void ParameterTable::changed(const QString& key) {
 
 void ParameterTable::summarise() {
   const Reference against = reference();
-  const auto changedCount = std::ranges::count_if(parameterRows(), [&](const ParameterRow& row) {
-    return draft_.isChanged(row.key, against);
-  });
+  const auto changedCount = std::ranges::count_if(
+      parameterRows(), [&](const ParameterRow& row) { return draft_.isChanged(row.key, against); });
   const auto errors = std::ranges::count_if(draft_.findings(),
                                             [](const Finding& f) { return f.severity == Severity::error; });
   QString text = changedCount == 0   ? tr("nothing differs.")

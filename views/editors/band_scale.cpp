@@ -303,8 +303,9 @@ QString BandScale::ghostsText() const {
     QStringList edges;
     const ParameterValue list = findRow(key::kBands)->get(*draft_.reference(which));
     for (const Band& band : std::get<BandList>(list).span()) edges << numberText(band.low, 3);
-    text += QLatin1Char('\n') + (which == Reference::pinned ? tr("Dash-dotted, %1: %2") : tr("Dotted, %1: %2"))
-                                    .arg(ghostName(which, draft_), edges.join(QStringLiteral(", ")));
+    text +=
+        QLatin1Char('\n') + (which == Reference::pinned ? tr("Dash-dotted, %1: %2") : tr("Dotted, %1: %2"))
+                                .arg(ghostName(which, draft_), edges.join(QStringLiteral(", ")));
   }
   return text;
 }

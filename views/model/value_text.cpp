@@ -66,8 +66,7 @@ BeforeAfter changeText(const Change& change) {
   const QStringList before = entriesOf(row, change.before), after = entriesOf(row, change.after);
   const BeforeAfter said{onlyIn(before, after), onlyIn(after, before)};
   // The same entries in another order.
-  if (said.before == said.after)
-    return {before.join(QStringLiteral("  ")), after.join(QStringLiteral("  "))};
+  if (said.before == said.after) return {before.join(QStringLiteral("  ")), after.join(QStringLiteral("  "))};
   return said;
 }
 

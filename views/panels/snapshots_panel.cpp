@@ -27,7 +27,10 @@ QToolButton* makeButton(const QString& text, const QString& tip, bool checkable)
 }  // namespace
 
 SnapshotsPanel::SnapshotsPanel(Draft& draft, Snapshots& snapshots, QWidget* parent)
-    : QWidget(parent), snapshots_(snapshots), throttle_(this, [this] { refreshResults(); }, kResultsMs) {
+    : QWidget(parent),
+      snapshots_(snapshots),
+      throttle_(
+          this, [this] { refreshResults(); }, kResultsMs) {
   auto* grid = new QGridLayout(this);
   grid->setContentsMargins(6, 4, 6, 4);
   grid->setColumnStretch(1, 1);
@@ -42,14 +45,17 @@ SnapshotsPanel::SnapshotsPanel(Draft& draft, Snapshots& snapshots, QWidget* pare
 void SnapshotsPanel::makeLine(QGridLayout& grid, int slot) {
   const QString letter = snapshots_.title(slot);
   Line& l = line(slot);
-  l.go = makeButton(letter, tr("Switch to snapshot %1 (F%2). An empty one keeps the preset as it is now.")
-                                .arg(letter)
-                                .arg(kFirstSnapshotKey + slot), true);
-  l.keep = makeButton(tr("Keep"), tr("Keep the preset as it is now as snapshot %1 (Shift+F%2)")
-                                      .arg(letter)
-                                      .arg(kFirstSnapshotKey + slot), false);
-  l.pin = makeButton(tr("Pin"), tr("Show snapshot %1 behind curves and bands, and compare with it").arg(letter),
-                     true);
+  l.go = makeButton(letter,
+                    tr("Switch to snapshot %1 (F%2). An empty one keeps the preset as it is now.")
+                        .arg(letter)
+                        .arg(kFirstSnapshotKey + slot),
+                    true);
+  l.keep = makeButton(
+      tr("Keep"),
+      tr("Keep the preset as it is now as snapshot %1 (Shift+F%2)").arg(letter).arg(kFirstSnapshotKey + slot),
+      false);
+  l.pin = makeButton(tr("Pin"),
+                     tr("Show snapshot %1 behind curves and bands, and compare with it").arg(letter), true);
   l.forget = makeButton(tr("Forget"), tr("Empty snapshot %1").arg(letter), false);
   l.name = new QLineEdit;
   l.name->setPlaceholderText(tr("Name of snapshot %1").arg(letter));
@@ -100,14 +106,16 @@ void SnapshotsPanel::refresh() {
 QString SnapshotsPanel::measuredText(int slot) const {
   const double ms = snapshots_.medianMs(slot), error = snapshots_.medianError(slot);
   if (std::isnan(ms)) return tr("no image yet");
-  QString text = tr("frame %1 ms over %2 images").arg(ms, 0, 'f', ms < 10 ? 2 : 1).arg(snapshots_.images(slot));
+  QString text =
+      tr("frame %1 ms over %2 images").arg(ms, 0, 'f', ms < 10 ? 2 : 1).arg(snapshots_.images(slot));
   text += std::isnan(error) ? tr(", error not measured") : tr(", FLIP %1").arg(numberText(error, 4));
   return text;
 }
 
 void SnapshotsPanel::refreshResults() {
   for (int slot = 0; slot < Snapshots::kCount; ++slot) {
-    QString text = tr("empty: %1 keeps the preset as it is now").arg(QStringLiteral("F%1").arg(kFirstSnapshotKey + slot));
+    QString text = tr("empty: %1 keeps the preset as it is now")
+                       .arg(QStringLiteral("F%1").arg(kFirstSnapshotKey + slot));
     if (snapshots_.isKept(slot)) {
       const int differing = snapshots_.differingFromFile(slot);
       text = differing == 0 ? tr("as the file; ") : tr("%1 from the file; ").arg(differing);

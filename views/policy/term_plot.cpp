@@ -215,8 +215,8 @@ void TermPlot::drawGhosts(const QVector<double>& at) {
   for (std::size_t i = 0; i < kGhosts.size(); ++i) {
     QVector<Ghosts::Line> drawn;
     for (const PolicyTerm& term : ghostTerms_[i]) {
-      const bool same = std::ranges::any_of(
-          lines, [&](std::size_t line) { return *policy_.terms()[line].term == term; });
+      const bool same =
+          std::ranges::any_of(lines, [&](std::size_t line) { return *policy_.terms()[line].term == term; });
       if (term.signal != signal_ || same || !isSound(term)) continue;
       Ghosts::Line line;
       for (const double x : at) line << QPointF(x, membershipOf(term, x));

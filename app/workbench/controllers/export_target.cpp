@@ -23,7 +23,9 @@ std::vector<Remembered> read() {
     settings.setArrayIndex(i);
     ExportTarget target{settings.value("file").toString(),
                         static_cast<ExportFormat>(settings.value("format").toInt()),
-                        settings.value("author").toString(), settings.value("comment").toString(), {}};
+                        settings.value("author").toString(),
+                        settings.value("comment").toString(),
+                        {}};
     if (settings.contains("pinned"))
       target.pinned = static_cast<OcclusionMethod>(settings.value("pinned").toInt());
     all.push_back({settings.value("preset").toString(), target});

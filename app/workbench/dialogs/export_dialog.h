@@ -20,8 +20,8 @@ class ExportDialog : public QDialog {
   Q_OBJECT
 
  public:
-  /// `before` fills the fields as they were at the last export. `chosen` is what the automatic choice uses in the current view; unset if the choice is not automatic, or if
-  /// no method pays there.
+  /// `before` fills the fields as they were at the last export. `chosen` is what the automatic choice uses in
+  /// the current view; unset if the choice is not automatic, or if no method pays there.
   explicit ExportDialog(std::optional<OcclusionMethod> chosen, const std::optional<ExportTarget>& before,
                         QWidget* parent = nullptr);
   ExportFormat format() const;
