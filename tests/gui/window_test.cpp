@@ -95,14 +95,14 @@ TEST_F(WorkbenchWindow, frozenCullingKeepsItsTilesWhileTheViewFliesOnAndSaysSo) 
   const auto before = drawn();
   command(w(), "Freeze culling")->trigger();
   ASSERT_TRUE(settle());
-  EXPECT_TRUE(w().viewport().overlayContents().frozen);
+  EXPECT_TRUE(w().viewport().overlayContents().banner.contains("FROZEN"));
   w().viewport().camera().look(Degrees{120}, Degrees{0});
   w().feed().look(w().viewport().camera());
   ASSERT_TRUE(settle());
   EXPECT_EQ(drawn(), before);
   command(w(), "Freeze culling")->trigger();
   ASSERT_TRUE(settle());
-  EXPECT_FALSE(w().viewport().overlayContents().frozen);
+  EXPECT_TRUE(w().viewport().overlayContents().banner.isEmpty());
   EXPECT_NE(drawn(), before);
 }
 

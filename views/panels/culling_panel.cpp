@@ -220,7 +220,7 @@ void CullingPanel::refresh() {
   reasons_->setBars(
       {bar(tr("drawn"), f.visible.tiles.size(), tr(" (%1 triangles)").arg(count(f.visible.triangles)), 2),
        bar(tr("outside the frustum"), f.visible.outsideFrustum, {}, 1),
-       bar(tr("hidden"), f.visible.occluded, {}, 3),
+       bar(tr("occluded"), f.visible.occluded, {}, 3),
        bar(tr("beyond visibility"), f.visible.beyondVisibility, {}, 4),
        bar(tr("facing away"), f.visible.backFacing, {}, 0)});
   work_->setText(tr("Cuts chosen %1, views %2; horizons built %3, moved along %4, left out %5; depth maps "

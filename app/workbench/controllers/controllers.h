@@ -9,6 +9,7 @@
 #include "flight_controller.h"
 #include "frame_controller.h"
 #include "head_controller.h"
+#include "observer_controller.h"
 #include "run_inputs.h"
 #include "symbology_controller.h"
 #include "terrain_controller.h"
@@ -21,6 +22,7 @@ namespace trimtab::workbench {
 struct Controllers {
   std::unique_ptr<DocumentController> document;
   std::unique_ptr<TerrainController> terrain;
+  std::unique_ptr<ObserverController> observer;
   std::unique_ptr<FrameController> frame;
   std::unique_ptr<CullingController> culling;
   std::unique_ptr<FlightController> flight;

@@ -39,7 +39,10 @@ CullingController::CullingController(const Workplace& workplace, FrameController
   connect(&at_.viewport, &Viewport::nodePicked, this, &CullingController::showPicked);
   connect(&at_.viewport, &Viewport::depthMapRead, this, &CullingController::showDepthMap);
   connect(&at_.viewport, &Viewport::horizonRead, this, &CullingController::showHorizon);
-  connect(&terrain_, &TerrainController::opened, this, [this] { setFrozen(false); });
+  connect(&terrain_, &TerrainController::opened, this, [this] { outline(std::nullopt); });
+  // The outline is the picture of what the dock says, so it shows while the dock does.
+  connect(dockOf(panel_), &QDockWidget::visibilityChanged, this,
+          [this](bool visible) { frame_.setOutline(visible ? picked_ : std::nullopt); });
   readMapWhileSeen(bands_);
   readMapWhileSeen(panel_);
 }
@@ -62,17 +65,6 @@ void CullingController::setTreeOverlay(int depth, bool picture) {
   overlays.treeDepth = depth;
   overlays.treePicture = picture;
   frame_.setOverlays(overlays);
-}
-
-void CullingController::setFrozen(bool frozen) {
-  const auto& shown = frame_.shown();
-  if (frozen && shown && terrain_.database()) {
-    const LocalFrame& local = terrain_.database()->index().frame;
-    frame_.setFrozenEye(EyePose{local.fromGeodetic(shown->eye), eyeAxes(local, shown->eye, shown->attitude)});
-  } else {
-    frame_.setFrozenEye(std::nullopt);
-  }
-  emit frozenChanged(frozen);
 }
 
 void CullingController::showHorizon(const std::vector<float>& elevationDeg) {
@@ -101,12 +93,19 @@ void CullingController::showDepthMap(const QImage& grey) {
   panel_.showMap(grey, caption);
 }
 
+void CullingController::outline(const std::optional<Box>& box) {
+  picked_ = box;
+  frame_.setOutline(box);
+}
+
 void CullingController::showPicked(std::uint32_t node) {
   panel_.endPicking();
+  outline(std::nullopt);
   const auto& last = at_.viewport.lastResult();
   if (!terrain_.database() || !last || !frame_.shown()) return panel_.showPicked(std::nullopt);
   const auto found = scene::describeNode(node, *terrain_.database(), *frame_.shown(), *last);
   if (!found) return panel_.showPicked(std::nullopt);
+  outline(found->bounds);
   panel_.showPicked(views::PickedNode{.form = views::fromView(found->form),
                                       .number = node,
                                       .level = found->level,

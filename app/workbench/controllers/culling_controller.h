@@ -4,9 +4,11 @@
 #include <QImage>
 #include <QObject>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "trimtab/frame/overlays.h"
+#include "trimtab/frame/terrain_index.h"
 #include "workplace.h"
 
 class QDockWidget;
@@ -21,7 +23,7 @@ namespace trimtab::workbench {
 class FrameController;
 class TerrainController;
 
-/// Shows what culling does: overlays in the image, frozen culling, what the occlusion method saw, and what a
+/// Shows what culling does: overlays in the image, what the occlusion method saw, and what a
 /// picked node is.
 class CullingController : public QObject {
   Q_OBJECT
@@ -33,24 +35,20 @@ class CullingController : public QObject {
   void setOverlay(bool Overlays::*flag, bool on);
   /// Static trees: draws one level by itself (-1: each node by its distance), and document E's picture.
   void setTreeOverlay(int depth, bool picture);
-  /// While frozen, culling and levels of detail keep to the view of this moment. Opening another terrain
-  /// ends it.
-  void setFrozen(bool frozen);
-
- signals:
-  void frozenChanged(bool frozen);
 
  private:
   void readMapWhileSeen(const QWidget& content);
   void showDepthMap(const QImage& grey);
   void showHorizon(const std::vector<float>& elevationDeg);
   void showPicked(std::uint32_t node);
+  void outline(const std::optional<Box>& box);
 
   Workplace at_;
   FrameController& frame_;
   const TerrainController& terrain_;
   views::CullingPanel& panel_;
   views::BandsEditor& bands_;
+  std::optional<Box> picked_;
 };
 
 }  // namespace trimtab::workbench

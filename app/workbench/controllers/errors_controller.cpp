@@ -83,8 +83,8 @@ ErrorsController::ErrorsController(const Workplace& workplace, DrawThread& measu
   connect(&by_.frame, &FrameController::replaced, this, &ErrorsController::remember);
   connect(&by_.frame, &FrameController::painted, this, &ErrorsController::onPainted);
   const auto source = [this]() -> std::optional<SplitView::Frame> {
-    if (!by_.frame.shown() || !at_.feed.session().hasState()) return std::nullopt;
-    return SplitView::Frame{at_.feed.session().input().state, *by_.frame.shown()};
+    if (!by_.frame.shown() || !by_.frame.session().hasState()) return std::nullopt;
+    return SplitView::Frame{by_.frame.session().input().state, *by_.frame.shown()};
   };
   split_ = new SplitView(measuring_, at_.draft, source, at_.viewport);
   connect(split_, &SplitView::refused, &at_.messages, &MessagePanel::add);

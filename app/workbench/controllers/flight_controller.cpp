@@ -4,6 +4,7 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <algorithm>
+#include <utility>
 
 #include "app/link/link.h"
 #include "app/workbench/docks/dock_of.h"
@@ -12,9 +13,10 @@
 #include "app/workbench/docks/message_panel.h"
 #include "app/workbench/jobs/feed.h"
 #include "app/workbench/viewport/viewport.h"
-#include "frame_controller.h"
+#include "observer_controller.h"
 #include "recent_files.h"
 #include "terrain_controller.h"
+#include "trimtab/motion/line_of_sight.h"
 #include "trimtab/scene/data_extent.h"
 
 namespace trimtab::workbench {
@@ -24,10 +26,11 @@ constexpr double kCameraAboveFt = 1500, kCameraClearM = 4000, kCameraPitchDeg = 
 
 }  // namespace
 
-FlightController::FlightController(const Workplace& workplace, const FrameController& frame,
+FlightController::FlightController(const Workplace& workplace, const ObserverController& observer,
                                    const TerrainController& terrain, FlightDock& flight, HostDock& host)
-    : at_(workplace), frame_(frame), terrain_(terrain), flight_(flight), host_(host) {
-  connect(&at_.viewport, &Viewport::cameraMoved, this, [this] { at_.feed.look(at_.viewport.camera()); });
+    : at_(workplace), observer_(observer), terrain_(terrain), flight_(flight), host_(host) {
+  connect(&at_.viewport, &Viewport::cameraMoved, this, &FlightController::cameraMoved);
+  connect(&observer_, &ObserverController::changed, this, &FlightController::showSource);
   connect(&terrain_, &TerrainController::opened, this, &FlightController::placeCamera);
   connect(&at_.feed, &Feed::sourceChanged, this, &FlightController::showSource);
   connect(&at_.feed, &Feed::flightChanged, this, &FlightController::showSource);
@@ -79,44 +82,55 @@ void FlightController::placeCamera() {
       terrain_.database()->highestWithin(place.latitude, place.longitude, Metres{kCameraClearM});
   place.height = (ground ? *ground : info.highest) + Feet{kCameraAboveFt}.as<Metres>();
   at_.viewport.camera().place(place, {Degrees{0}, Degrees{kCameraPitchDeg}, Degrees{0}});
+  cameraMoved();
+}
+
+void FlightController::cameraMoved() {
+  if (observer_.apart()) return at_.viewport.invalidate();
   at_.feed.look(at_.viewport.camera());
 }
 
+/// The camera starts where the aircraft was, with level wings. The observer's stays where it is.
+void FlightController::takeSeat() {
+  const Session& session = at_.feed.session();
+  if (!session.hasState()) return;
+  const AircraftState eye = session.eyeState(link::now());
+  const Attitude sight = lineOfSight(eye.attitude, eye.head);
+  FreeCamera seat;
+  seat.place(eye.position, {sight.heading, sight.pitch, Degrees{0}});
+  if (!observer_.apart()) at_.viewport.camera().place(seat.position(), seat.attitude());
+  at_.feed.look(seat);
+}
+
 void FlightController::showSource() {
-  const Feed::Source source = at_.feed.source();
-  // The camera starts where the aircraft was, with level wings.
-  if (const auto& shown = frame_.shown();
-      source == Feed::Source::camera && shown && !at_.viewport.cameraEnabled()) {
-    at_.viewport.camera().place(shown->eye, {shown->attitude.heading, shown->attitude.pitch, Degrees{0}});
-    at_.feed.look(at_.viewport.camera());
-  }
-  at_.viewport.setCameraEnabled(source == Feed::Source::camera);
-  switch (source) {
-    case Feed::Source::camera:
-      return emit sourceTextChanged(tr("free camera"));
-    case Feed::Source::flight:
-      return emit sourceTextChanged(at_.feed.playback().playing() ? tr("flight") : tr("flight, paused"));
-    case Feed::Source::host:
-      return showLink();
-  }
+  const Feed::Source before = std::exchange(source_, at_.feed.source());
+  if (source_ == Feed::Source::camera && before != source_) takeSeat();
+  at_.viewport.setCameraEnabled(source_ == Feed::Source::camera || observer_.apart());
+  emit sourceTextChanged(sourceText());
 }
 
 void FlightController::showLink() {
-  if (at_.feed.receiver() == nullptr) {
-    if (at_.feed.source() == Feed::Source::host) emit sourceTextChanged({});
-    return;
+  if (at_.feed.source() == Feed::Source::host &&
+      at_.feed.session().linkState(link::now()) == LinkState::silent)
+    at_.messages.note(
+        tr("The host on port %1 fell silent; the image stands still").arg(at_.feed.receiver()->port()));
+  showSource();
+}
+
+QString FlightController::sourceText() const {
+  const link::Receiver* const receiver = at_.feed.receiver();
+  switch (source_) {
+    case Feed::Source::flight:
+      return at_.feed.playback().playing() ? tr("flight") : tr("flight, paused");
+    case Feed::Source::camera:
+      return receiver ? tr("free camera, listening on port %1").arg(receiver->port()) : tr("free camera");
+    case Feed::Source::host:
+      break;
   }
-  const std::uint16_t port = at_.feed.receiver()->port();
-  switch (at_.feed.session().linkState(link::now())) {
-    case LinkState::never:
-      return emit sourceTextChanged(tr("free camera, listening on port %1").arg(port));
-    case LinkState::live:
-    case LinkState::jumped:
-      return emit sourceTextChanged(tr("host on port %1").arg(port));
-    case LinkState::silent:
-      at_.messages.note(tr("The host on port %1 fell silent; the image stands still").arg(port));
-      return emit sourceTextChanged(tr("host on port %1 is SILENT").arg(port));
-  }
+  if (receiver == nullptr) return {};
+  return at_.feed.session().linkState(link::now()) == LinkState::silent
+             ? tr("host on port %1 is SILENT").arg(receiver->port())
+             : tr("host on port %1").arg(receiver->port());
 }
 
 }  // namespace trimtab::workbench

@@ -4,13 +4,14 @@
 #include <QObject>
 #include <QString>
 
+#include "app/workbench/jobs/feed.h"
 #include "workplace.h"
 
 namespace trimtab::workbench {
 
 class FlightDock;
-class FrameController;
 class HostDock;
+class ObserverController;
 class TerrainController;
 
 /// Who moves the aircraft: a host, a flight that is played here, or the free camera.
@@ -18,8 +19,8 @@ class FlightController : public QObject {
   Q_OBJECT
 
  public:
-  FlightController(const Workplace& workplace, const FrameController& frame, const TerrainController& terrain,
-                   FlightDock& flight, HostDock& host);
+  FlightController(const Workplace& workplace, const ObserverController& observer,
+                   const TerrainController& terrain, FlightDock& flight, HostDock& host);
 
   /// Opens a flight, a capture or a trace. Returns false and reports in the Messages dock if it cannot be
   /// read; the flight stays as it was.
@@ -27,7 +28,8 @@ class FlightController : public QObject {
   void askOpen();
   void playOrPause();
   void connectOrDisconnectHost();
-  /// Puts the free camera over the terrain. Nobody sees that while a host or a flight moves the aircraft.
+  /// Puts the free camera over the terrain: the pilot's eye, or the observer's while it is apart. Nobody sees
+  /// that while a host or a flight moves the view.
   void placeCamera();
 
   FlightDock& flightDock() const { return flight_; }
@@ -37,14 +39,18 @@ class FlightController : public QObject {
   void sourceTextChanged(const QString& text);
 
  private:
+  void cameraMoved();
+  void takeSeat();
   void showSource();
   void showLink();
+  QString sourceText() const;
 
   Workplace at_;
-  const FrameController& frame_;
+  const ObserverController& observer_;
   const TerrainController& terrain_;
   FlightDock& flight_;
   HostDock& host_;
+  Feed::Source source_ = Feed::Source::camera;  ///< when it was shown last
 };
 
 }  // namespace trimtab::workbench

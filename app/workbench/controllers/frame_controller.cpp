@@ -10,7 +10,9 @@
 #include "app/link/link.h"
 #include "app/workbench/docks/message_panel.h"
 #include "app/workbench/jobs/feed.h"
+#include "app/workbench/viewport/box_outline.h"
 #include "image_text.h"
+#include "observer_controller.h"
 #include "terrain_controller.h"
 #include "terrain_summary.h"
 #include "trimtab/hold/cost_model_file.h"
@@ -31,7 +33,8 @@ constexpr int kPageWaitMs = 15;
 /// Returns the largest size inside the widget at which pixels are square in the view. A preset gives both
 /// fields of view, so a widget of another shape would stretch the image. Returns the widget's own size if
 /// that stretches by at most a hundredth, which nobody sees.
-QSize squarePixels(const TuningParameters& parameters, const Session& session, QSize widget) {
+QSize squarePixels(const Session& session, QSize widget) {
+  const TuningParameters& parameters = *session.parameters();
   if (parameters.view.renderSize != RenderSize::fit || !session.hasState() || widget.isEmpty()) return widget;
   const ViewShape view =
       viewShape(parameters.view, widget.width(), widget.height(), session.input().state.view);
@@ -43,10 +46,23 @@ QSize squarePixels(const TuningParameters& parameters, const Session& session, Q
   return fits.expandedTo({1, 1});
 }
 
+/// Returns the request without the overlays that only the observer sees. Those of static trees stay, because
+/// the form and the levels of the terrain depend on them.
+FrameRequest pilotsOwn(FrameRequest request) {
+  Overlays& all = request.overlays;
+  Overlays kept;
+  kept.treeDepth = all.treeDepth;
+  kept.treePicture = all.treePicture;
+  kept.textureSquares = all.textureSquares;
+  all = kept;
+  return request;
+}
+
 }  // namespace
 
-FrameController::FrameController(const Workplace& workplace, const TerrainController& terrain)
-    : at_(workplace), terrain_(terrain) {
+FrameController::FrameController(const Workplace& workplace, const TerrainController& terrain,
+                                 ObserverController& observer)
+    : at_(workplace), terrain_(terrain), observer_(observer) {
   sinceStart_.start();
   Viewport& viewport = at_.viewport;
   viewport.setSource([this](int widthPx, int heightPx) { return picture(widthPx, heightPx); });
@@ -58,6 +74,7 @@ FrameController::FrameController(const Workplace& workplace, const TerrainContro
   connect(&at_.feed, &Feed::statesArrived, &viewport, &Viewport::invalidate);
   connect(&at_.feed, &Feed::flightChanged, &viewport, &Viewport::invalidate);
   connect(&at_.feed, &Feed::decisionChanged, this, &FrameController::onDecision);
+  connect(&observer_, &ObserverController::changed, this, &FrameController::onDecision);
   connect(&at_.draft, &views::Draft::activeChanged, this, [this] {
     at_.feed.session().setParameters(at_.draft.active());
     onDecision();
@@ -78,39 +95,55 @@ void FrameController::setOverlays(const Overlays& overlays) {
   at_.viewport.invalidate();
 }
 
-void FrameController::setFrozenEye(const std::optional<EyePose>& eye) {
-  frozenEye_ = eye;
+void FrameController::setOutline(const std::optional<Box>& box) {
+  if (!outlined_ && !box) return;
+  outlined_ = box;
   at_.viewport.invalidate();
+}
+
+const Session& FrameController::session() const {
+  return observer_.pilot();
 }
 
 std::optional<Picture> FrameController::picture(int widthPx, int heightPx) {
   const double now = link::now();
-  Session& session = at_.feed.session();
   at_.feed.advance(now);
-  const QSize square = squarePixels(*session.parameters(), session, {widthPx, heightPx});
-  std::optional<FrameRequest> request = session.request(now, square.width(), square.height());
+  std::optional<FrameRequest> request = observer_.request(now, squarePixels(session(), {widthPx, heightPx}));
   if (!request) return std::nullopt;
   request->overlays = overlays_;
-  request->frozenEye = frozenEye_;
   if (shown_) emit replaced(*shown_);
   shown_ = request;
 
   Picture picture;
   const auto& last = at_.viewport.lastResult();
   const Legend legend = legendOf(*request, last && last->patches, *terrain_.database());
-  picture.request = std::move(*request);
-  picture.overlay.frozen = frozenEye_.has_value();
+  picture.overlay.banner = observer_.banner();
   picture.overlay.legendTitle = legend.title;
   picture.overlay.legend = legend.entries;
-  picture.again = at_.feed.movesOnItsOwn(now);
-  picture.hud = [this, eye = session.eyeState(now)] { return hud(eye); };
+  picture.again = observer_.movesOnItsOwn(now);
+  if (observer_.apart()) {
+    if (observer_.detached()) picture.pilot = pilotsOwn(*request);
+    picture.request = observer_.seen(*request);
+    AircraftState eye;
+    eye.position = picture.request.eye;
+    eye.attitude = picture.request.attitude;
+    picture.hud = [this, eye] { return hud(eye); };
+  } else {
+    picture.request = std::move(*request);
+    picture.hud = [this, eye = session().eyeState(now)] { return hud(eye); };
+  }
+  if (outlined_) {
+    const FrameRequest& r = picture.request;
+    const LocalFrame& local = terrain_.database()->index().frame;
+    picture.overlay.outline =
+        outlineOf(*outlined_, {local.fromGeodetic(r.eye), eyeAxes(local, r.eye, r.attitude)}, r.view);
+  }
   return picture;
 }
 
 QString FrameController::hud(const AircraftState& eye) const {
   HudFacts facts{eye, at_.viewport.lastResult().get(), terrain_.database().get(), fps_, {}};
-  if (at_.feed.source() == Feed::Source::camera)
-    facts.cameraSpeed = MetresPerSecond{at_.viewport.camera().speedMps()};
+  if (at_.viewport.cameraEnabled()) facts.cameraSpeed = MetresPerSecond{at_.viewport.camera().speedMps()};
   return hudText(facts);
 }
 
@@ -128,7 +161,7 @@ void FrameController::onPainted() {
   if (!std::exchange(recalled_, true))
     if (const Findings found = recallCostModel(model, at_.viewport.gl().renderer); !found.empty())
       at_.messages.add(tr("The costs of an image are learned anew"), found);
-  lastCost_ = at_.feed.session().finished(*result, link::now());
+  lastCost_ = observer_.frozen() ? result->cost : at_.feed.session().finished(*result, link::now());
   levels_ = levelsDrawn(*result, *terrain_.database());
   views::LiveFrame frame = liveFrame();
   frame.newImage = true;
@@ -140,20 +173,20 @@ void FrameController::onPainted() {
 
 /// Between two images: the decision is new; the result and its cost are the last image's.
 void FrameController::onDecision() {
-  if (at_.feed.session().hasState()) emit frameShown(liveFrame());
+  if (session().hasState()) emit frameShown(liveFrame());
 }
 
 views::LiveFrame FrameController::liveFrame() const {
   views::LiveFrame frame;
   frame.time = clock();
-  frame.input = at_.feed.session().input();
-  frame.decision = at_.feed.session().decision();
+  frame.input = session().input();
+  frame.decision = session().decision();
   frame.cost = lastCost_;
   frame.fps = fps_;
   frame.result = at_.viewport.lastResult();
   if (frame.result) frame.levels = levels_;
   if (shown_) frame.hold = shown_->hold;
-  frame.holdOutcome = at_.feed.session().hold().outcome();
+  frame.holdOutcome = session().hold().outcome();
   return frame;
 }
 

@@ -12,8 +12,13 @@
 #include "views/model/live.h"
 #include "workplace.h"
 
+namespace trimtab {
+class Session;
+}
+
 namespace trimtab::workbench {
 
+class ObserverController;
 class TerrainController;
 
 /// Asks the session for each image that the viewport draws, and shows every frame to the docks.
@@ -21,12 +26,14 @@ class FrameController : public QObject {
   Q_OBJECT
 
  public:
-  FrameController(const Workplace& workplace, const TerrainController& terrain);
+  FrameController(const Workplace& workplace, const TerrainController& terrain, ObserverController& observer);
   /// Keeps what images cost for the next start.
   ~FrameController() override;
 
-  /// The request that the viewport drew last. Nothing until the first image.
+  /// The pilot's request for the image that the viewport drew last. Nothing until the first image.
   const std::optional<FrameRequest>& shown() const { return shown_; }
+  /// The session that decided it: while frozen a copy, which stays as it was.
+  const Session& session() const;
   /// What the last image cost.
   const FrameCost& lastCost() const { return lastCost_; }
   /// Seconds since the window was made: the clock of LiveFrame::time.
@@ -34,8 +41,8 @@ class FrameController : public QObject {
 
   const Overlays& overlays() const { return overlays_; }
   void setOverlays(const Overlays& overlays);
-  /// Culling and levels of detail keep to this eye while the view moves on. Nothing: they follow the view.
-  void setFrozenEye(const std::optional<EyePose>& eye);
+  /// Outlines a box of the terrain's local frame, in front of everything.
+  void setOutline(const std::optional<Box>& box);
 
  signals:
   /// A new image is about to be asked for; `before` is the request that it replaces.
@@ -54,12 +61,13 @@ class FrameController : public QObject {
 
   Workplace at_;
   const TerrainController& terrain_;
+  ObserverController& observer_;
   Overlays overlays_;
-  std::optional<EyePose> frozenEye_;
+  std::optional<Box> outlined_;
   std::optional<FrameRequest> shown_;
   FrameCost lastCost_;
   bool recalled_ = false;  ///< what an earlier start learned of this machine's costs has been looked for
-  LevelsFrame levels_;  ///< of the last image
+  LevelsFrame levels_;     ///< of the last image
   QElapsedTimer sinceImage_, sinceStart_;
   double fps_ = std::numeric_limits<double>::quiet_NaN();
 };

@@ -36,7 +36,6 @@ void WeatherController::calibrate() {
     return at_.messages.note(tr("Open a terrain first: the weather is calibrated over an image of it"));
   FrameRequest request = *frame_.shown();
   request.overlays = {};
-  request.frozenEye.reset();
   request.decision.motion = {};
   WeatherStage stage;
   stage.farthestM = farthestM(request.eye, terrain_.database()->info());

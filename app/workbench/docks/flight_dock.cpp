@@ -41,16 +41,20 @@ FlightDock::FlightDock(Feed& feed, QWidget* parent)
       where_(new QLabel(this)),
       play_(new QPushButton(this)),
       stop_(new QPushButton(this)),
+      close_(new QPushButton(tr("&Close"), this)),
       scrub_(new QSlider(Qt::Horizontal, this)),
       speed_(new QDoubleSpinBox(this)),
       loop_(new QCheckBox(tr("&Loop"), this)),
       via_(new QComboBox(this)) {
   auto* open = new QPushButton(tr("&Open..."), this);
   connect(open, &QPushButton::clicked, this, &FlightDock::openRequested);
+  close_->setToolTip(tr("Closes the flight: the free camera starts where the aircraft was"));
+  connect(close_, &QPushButton::clicked, this, &FlightDock::close);
   auto* top = new QHBoxLayout;
   name_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   top->addWidget(name_, 1);
   top->addWidget(open);
+  top->addWidget(close_);
 
   stop_->setIcon(style()->standardIcon(QStyle::SP_MediaStop));
   stop_->setToolTip(tr("Back to the start"));
@@ -150,6 +154,12 @@ void FlightDock::fly(const std::vector<AircraftState>& states) {
   play();
 }
 
+void FlightDock::close() {
+  file_.clear();
+  name_->setToolTip({});
+  feed_.loadFlight({});
+}
+
 void FlightDock::play() {
   if (!feed_.playback().loaded()) return emit openRequested();
   if (!overUdp()) return feed_.playHere();
@@ -206,6 +216,7 @@ void FlightDock::showState() {
                      : tr("no flight"));
   stop_->setEnabled(loaded);
   scrub_->setEnabled(loaded);
+  close_->setEnabled(loaded);
   const bool on = playing();
   play_->setText(on ? tr("&Pause") : tr("&Play"));
   play_->setIcon(style()->standardIcon(on ? QStyle::SP_MediaPause : QStyle::SP_MediaPlay));

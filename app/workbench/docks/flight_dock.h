@@ -30,6 +30,8 @@ class FlightDock : public QWidget {
   /// Returns the file that the open flight was read from; empty if there is none, or if the file has changed
   /// since.
   QString file() const;
+  /// Closes the flight; the free camera starts where the aircraft was.
+  void close();
   void play();
   void pause();
   void stop();  ///< pauses and returns to the start
@@ -55,7 +57,7 @@ class FlightDock : public QWidget {
 
   Feed& feed_;
   QLabel *name_, *time_, *where_;
-  QPushButton *play_, *stop_;
+  QPushButton *play_, *stop_, *close_;
   QSlider* scrub_;
   QDoubleSpinBox* speed_;
   QCheckBox* loop_;

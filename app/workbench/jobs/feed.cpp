@@ -53,7 +53,10 @@ Findings Feed::openHost(const HostSettings& settings) {
   pauseHere();
   receiver_ = std::move(opened).value();
   settings_ = settings;
+  setSource(Source::camera);
   session_.restart();
+  // Until the first packet the camera is free, and its images need a state.
+  if (camera_) lookAt(link::now());
   lastDecision_.reset();
   lastLink_ = LinkState::never;
   lastJumps_ = 0;

@@ -30,7 +30,6 @@ bool samePicture(const FrameRequest& a, const FrameRequest& b) {
 
 FrameRequest pilotsPicture(FrameRequest request, int shrink) {
   request.overlays = {};
-  request.frozenEye.reset();
   request.view.widthPx = std::max(request.view.widthPx / shrink, 16);
   request.view.heightPx = std::max(request.view.heightPx / shrink, 16);
   return request;

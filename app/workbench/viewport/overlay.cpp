@@ -4,11 +4,13 @@
 #include <QFontMetrics>
 #include <QObject>
 #include <QPainter>
+#include <utility>
 
 namespace trimtab::workbench {
 namespace {
 
 constexpr int kMargin = 8;
+constexpr double kInsetPart = 3.5;  ///< of the image's width and height, the inset has one in so many
 const QColor kPlate(0, 0, 0, 150);
 
 QFont scaled(QFont font, double factor) {
@@ -35,19 +37,43 @@ void paintShape(QPainter& painter, Shape shape, const QRectF& box, const QColor&
   }
 }
 
-void paintFreezeBanner(QPainter& painter, const QRect& area) {
+void paintBanner(QPainter& painter, const QRect& area, const QString& text) {
   const QFont font = scaled(painter.font(), 1.2);
-  const QFontMetrics metrics(font);
-  const QString text =
-      QObject::tr("CULLING FROZEN - the view flies on, tiles stay as they were (Ctrl+F ends it)");
-  const QString fits = metrics.elidedText(text, Qt::ElideRight, area.width() - 4 * kMargin);
-  QRect plate(0, 0, metrics.horizontalAdvance(fits) + 4 * kMargin, metrics.height() + 2 * kMargin);
-  plate.moveTo(area.center().x() - plate.width() / 2, area.top() + kMargin);
+  const QRect words = QFontMetrics(font).boundingRect(
+      area.adjusted(3 * kMargin, 2 * kMargin, -3 * kMargin, 0), Qt::AlignHCenter | Qt::TextWordWrap, text);
+  const QRect plate = words.adjusted(-2 * kMargin, -kMargin, 2 * kMargin, kMargin);
   painter.save();
   painter.setFont(font);
   painter.fillRect(plate, QColor(190, 60, 0, 230));
   painter.setPen(Qt::white);
-  painter.drawText(plate, Qt::AlignCenter, fits);
+  painter.drawText(words, Qt::AlignHCenter | Qt::TextWordWrap, text);
+  painter.restore();
+}
+
+/// Dark under light, so that it shows on snow and on water.
+void paintOutline(QPainter& painter, const QRectF& image, const QList<QLineF>& edges) {
+  painter.save();
+  painter.setClipRect(image);
+  const auto place = [&image](const QPointF& part) {
+    return image.topLeft() + QPointF(part.x() * image.width(), part.y() * image.height());
+  };
+  for (const auto& [colour, width] : {std::pair{QColor(0, 0, 0, 200), 4.0}, {QColor(Qt::white), 2.0}}) {
+    painter.setPen(QPen(colour, width));
+    for (const QLineF& edge : edges) painter.drawLine(place(edge.p1()), place(edge.p2()));
+  }
+  painter.restore();
+}
+
+void paintInsetFrame(QPainter& painter, const QRect& inset) {
+  const QFontMetrics metrics(painter.font());
+  const QString title = QObject::tr("The pilot's view");
+  painter.save();
+  painter.setBrush(Qt::NoBrush);
+  painter.setPen(QPen(Qt::white, 2));
+  painter.drawRect(inset);
+  QRect plate(inset.topLeft(), QSize(metrics.horizontalAdvance(title) + 2 * kMargin, metrics.height() + 4));
+  painter.fillRect(plate, kPlate);
+  painter.drawText(plate, Qt::AlignCenter, title);
   painter.restore();
 }
 
@@ -100,10 +126,18 @@ void paintNotice(QPainter& painter, const QRect& area, const QString& text) {
 
 }  // namespace
 
+QRect insetIn(const QRect& area, const QSize& pixels, const QFontMetrics& metrics) {
+  QRect inset({}, pixels.scaled(area.size() / kInsetPart, Qt::KeepAspectRatio));
+  inset.moveBottomLeft(area.bottomLeft() + QPoint(kMargin, -(metrics.height() + 3 * kMargin)));
+  return inset;
+}
+
 void paintOverlay(QPainter& painter, const QRect& area, const OverlayContents& contents) {
   painter.setRenderHint(QPainter::Antialiasing);
   if (!contents.notice.isEmpty()) return paintNotice(painter, area, contents.notice);
-  if (contents.frozen) paintFreezeBanner(painter, area);
+  if (!contents.outline.isEmpty()) paintOutline(painter, contents.image, contents.outline);
+  if (!contents.inset.isEmpty()) paintInsetFrame(painter, contents.inset);
+  if (!contents.banner.isEmpty()) paintBanner(painter, area, contents.banner);
   if (!contents.legend.isEmpty()) paintLegend(painter, area, contents.legendTitle, contents.legend);
   paintHud(painter, area, contents.hud);
 }

@@ -90,6 +90,7 @@ void Viewport::releaseGl() {
   makeCurrent();
   fixedSize_.reset();
   unseen_.reset();
+  pilots_.reset();
   renderer_->release();
   renderer_.reset();
   doneCurrent();
@@ -174,9 +175,12 @@ void Viewport::paintGL() {
   if (renderer_ != nullptr && terrain_ != nullptr && source_)
     picture = source_(pixels.width(), pixels.height());
   if (picture) {
-    picture->request.wholeHorizon = !depthMapWanted_.empty();
+    FrameRequest& described = picture->pilot ? *picture->pilot : picture->request;
+    described.wholeHorizon = !depthMapWanted_.empty();
     drawPicture(*picture, pixels.width(), pixels.height());
     placePicture(*picture, pixels);
+    picture->overlay.image = pictureAt_;
+    showInset(picture->overlay);
     if (picture->hud) picture->overlay.hud = picture->hud();
   } else {
     QOpenGLFunctions& gl = *context()->functions();
@@ -185,7 +189,7 @@ void Viewport::paintGL() {
   }
   again_ = camera_.moving() || (picture && picture->again);
   unreported_ = picture.has_value();
-  shownOverlay_ = picture ? std::move(picture->overlay) : OverlayContents{notice_, false, {}, {}, {}};
+  shownOverlay_ = picture ? std::move(picture->overlay) : OverlayContents{.notice = notice_};
   paintOverlays();
 }
 
@@ -209,16 +213,17 @@ void Viewport::drawPicture(const Picture& picture, int widthPx, int heightPx) {
   }
   QOpenGLExtraFunctions& gl = *context()->extraFunctions();
   const QSize wanted(picture.request.view.widthPx, picture.request.view.heightPx), have(widthPx, heightPx);
+  if (picture.pilot)
+    drawPilot(*picture.pilot);
+  else
+    pilots_.reset();
   if (wanted == have) {
     fixedSize_.reset();
-    result_ =
-        std::make_shared<const FrameResult>(renderer_->draw(picture.request, defaultFramebufferObject()));
-    readDepthMap();
+    drawImage(picture, defaultFramebufferObject());
   } else {
     if (fixedSize_ == nullptr || fixedSize_->size() != wanted)
       fixedSize_ = std::make_unique<QOpenGLFramebufferObject>(wanted);
-    result_ = std::make_shared<const FrameResult>(renderer_->draw(picture.request, fixedSize_->handle()));
-    readDepthMap();
+    drawImage(picture, fixedSize_->handle());
     gl.glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
     gl.glDisable(GL_SCISSOR_TEST);
     gl.glClearColor(0, 0, 0, 1);
@@ -229,6 +234,36 @@ void Viewport::drawPicture(const Picture& picture, int widthPx, int heightPx) {
                          to.top() + to.height(), GL_COLOR_BUFFER_BIT, GL_LINEAR);
   }
   if (pickAt_) readPicked(wanted);
+  gl.glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
+}
+
+void Viewport::drawPilot(const FrameRequest& request) {
+  const QSize size(request.view.widthPx, request.view.heightPx);
+  if (pilots_ == nullptr || pilots_->size() != size)
+    pilots_ = std::make_unique<QOpenGLFramebufferObject>(size);
+  result_ = std::make_shared<const FrameResult>(renderer_->draw(request, pilots_->handle()));
+  readDepthMap();
+}
+
+void Viewport::drawImage(const Picture& picture, unsigned framebuffer) {
+  FrameResult result = renderer_->draw(picture.request, framebuffer);
+  if (picture.pilot) return;
+  result_ = std::make_shared<const FrameResult>(std::move(result));
+  readDepthMap();
+}
+
+/// Copies the pilot's image over the observer's, which is in the widget already.
+void Viewport::showInset(OverlayContents& overlay) {
+  if (pilots_ == nullptr) return;
+  overlay.inset = insetIn(pictureAt_.toRect(), pilots_->size(), QFontMetrics(font()));
+  const double scale = devicePixelRatioF();
+  const QRect to(QPoint(int(overlay.inset.left() * scale),
+                        int((height() - overlay.inset.top() - overlay.inset.height()) * scale)),
+                 overlay.inset.size() * scale);
+  QOpenGLExtraFunctions& gl = *context()->extraFunctions();
+  gl.glBindFramebuffer(GL_READ_FRAMEBUFFER, pilots_->handle());
+  gl.glBlitFramebuffer(0, 0, pilots_->width(), pilots_->height(), to.left(), to.top(), to.left() + to.width(),
+                       to.top() + to.height(), GL_COLOR_BUFFER_BIT, GL_LINEAR);
   gl.glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
 }
 

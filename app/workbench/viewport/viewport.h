@@ -25,6 +25,9 @@ class SymbologyEditor;
 /// What the next image is made of. The viewport asks for it once per paint.
 struct Picture {
   FrameRequest request;
+  /// If set, `request` shows what an observer sees of this one, which is drawn too, as an inset; `lastResult`
+  /// and the depth maps are this one's.
+  std::optional<FrameRequest> pilot;
   OverlayContents overlay;
   std::function<QString()> hud;  ///< called once the image is drawn; `lastResult` is its result by then
   bool again = false;            ///< something moves on its own: paint again as soon as the display is ready
@@ -102,6 +105,9 @@ class Viewport : public QOpenGLWidget {
  private:
   void releaseGl();
   void drawPicture(const Picture& picture, int widthPx, int heightPx);
+  void drawPilot(const FrameRequest& request);
+  void drawImage(const Picture& picture, unsigned framebuffer);
+  void showInset(OverlayContents& overlay);
   void readDepthMap();
   void readPicked(QSize picture);
   void paintOverlays();
@@ -112,7 +118,7 @@ class Viewport : public QOpenGLWidget {
   Source source_;
   OverlayContents shownOverlay_;
   std::unique_ptr<scene::Renderer> renderer_;
-  std::unique_ptr<QOpenGLFramebufferObject> fixedSize_, unseen_;
+  std::unique_ptr<QOpenGLFramebufferObject> fixedSize_, unseen_, pilots_;
   std::shared_ptr<const terrain::Database> terrain_;
   bool terrainChanged_ = false;
   scene::GlReport gl_;

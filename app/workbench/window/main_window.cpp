@@ -87,9 +87,10 @@ void MainWindow::makeControllers() {
   Controllers& c = controllers_;
   c.document = std::make_unique<DocumentController>(at, *notices_);
   c.terrain = std::make_unique<TerrainController>(at, *panels_.terrain, *panels_.staticLod);
-  c.frame = std::make_unique<FrameController>(at, *c.terrain);
+  c.observer = std::make_unique<ObserverController>(at, *c.terrain);
+  c.frame = std::make_unique<FrameController>(at, *c.terrain, *c.observer);
   c.culling = std::make_unique<CullingController>(at, *c.frame, *c.terrain, *panels_.culling, *panels_.bands);
-  c.flight = std::make_unique<FlightController>(at, *c.frame, *c.terrain, *panels_.flight, *panels_.host);
+  c.flight = std::make_unique<FlightController>(at, *c.observer, *c.terrain, *panels_.flight, *panels_.host);
   c.head = std::make_unique<HeadController>(at, *panels_.motion);
   c.symbology = std::make_unique<SymbologyController>(at, *panels_.symbology);
   c.weather = std::make_unique<WeatherController>(at, *c.frame, *c.terrain, *panels_.weather);

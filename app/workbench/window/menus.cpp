@@ -274,20 +274,38 @@ void Menus::makeViewMenu() {
       "Draws static trees with squares of an eighth of a texture, so that one sees how textures lie on each\n"
       "level; needs a terrain baked from scenery with --keep-texture"));
   makeExclusive(byReason, byLevel);
-  QAction* freeze = nullptr;
-  add(view, {{tr("&Freeze culling"),
-              tr("Ctrl+F"),
-              {},
-              tr("Tiles and levels stay as they are now while the view flies on"),
-              &freeze}});
+  QAction *freeze = nullptr, *detach = nullptr;
+  add(view,
+      {{tr("&Freeze culling"),
+        tr("Ctrl+F"),
+        {},
+        tr("Decision, levels and visible set stay as they are now; keys and mouse fly the view"),
+        &freeze},
+       {tr("D&etach from the pilot's eye"),
+        tr("Ctrl+Shift+F"),
+        {},
+        tr("The pilot's eye goes on deciding and culling; keys and mouse fly a second eye that looks at it"),
+        &detach}});
   freeze->setCheckable(true);
-  connect(freeze, &QAction::toggled, by_.culling.get(), &CullingController::setFrozen);
-  connect(by_.culling.get(), &CullingController::frozenChanged, freeze, &QAction::setChecked);
+  detach->setCheckable(true);
+  dress(*detach, tr("Detach"));
+  ObserverController* const observer = by_.observer.get();
+  connect(freeze, &QAction::toggled, observer, &ObserverController::setFrozen);
+  connect(observer, &ObserverController::frozenChanged, freeze, &QAction::setChecked);
+  connect(detach, &QAction::toggled, observer, &ObserverController::setDetached);
+  connect(observer, &ObserverController::detachedChanged, detach, &QAction::setChecked);
+  // Where somebody looks at culling from outside, the colours are what there is to see.
+  connect(observer, &ObserverController::detachedChanged, byReason,
+          [byReason, byLevel, ours = false](bool on) mutable {
+            const bool wanted = on && !byLevel->isChecked() && !byReason->isChecked();
+            if (wanted || (!on && ours)) byReason->setChecked(on);
+            ours = on && (ours || wanted);
+          });
   view.addSeparator();
   addCases(view);
   add(view, {{tr("&Place the camera over the terrain"), Qt::Key_Home,
               [this] {
-                if (at_.feed.source() == Feed::Source::camera) by_.flight->placeCamera();
+                if (at_.viewport.cameraEnabled()) by_.flight->placeCamera();
               }},
              {}});
   addComparison(view);
@@ -296,9 +314,9 @@ void Menus::makeViewMenu() {
   auto* bar = window_.addToolBar(tr("View"));
   bar->setObjectName(QStringLiteral("view_toolbar"));
   bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
-  bar->addActions({wireframe, bounds, byReason, byLevel, freeze});
+  bar->addActions({wireframe, bounds, byReason, byLevel, freeze, detach});
   panels_.terrain->setActions(terrainActions_, {byLevel, wireframe, bounds, voids, squares});
-  panels_.culling->setActions({byReason, bounds, freeze});
+  panels_.culling->setActions({byReason, bounds, freeze, detach});
 }
 
 void Menus::addComparison(QMenu& view) {
@@ -367,6 +385,7 @@ void Menus::makeFlightMenu() {
   FlightController& flight = *by_.flight;
   add(*window_.menuBar()->addMenu(tr("F&light")),
       {{tr("&Open flight..."), tr("Ctrl+L"), [&] { flight.askOpen(); }},
+       {tr("C&lose flight"), {}, [&] { flight.flightDock().close(); }},
        {tr("&Play or pause"), Qt::Key_F5, [&] { flight.playOrPause(); }},
        {tr("&Back to the start"), tr("Shift+F5"), [&] { flight.flightDock().stop(); }},
        {tr("&Measure presets along it..."), tr("Ctrl+M"), [this] { by_.errors->askAndMeasure(); }},

@@ -90,13 +90,14 @@ std::optional<NodeDescription> describeNode(std::uint32_t node, const terrain::D
   found.errorPx = found.errorM / std::max(found.distanceM, view.nearM) * pixelsPerRadian(view);
   measureInImage(described->box, eye, view, found);
   found.reason = result.visible.reasonOf(node);
+  found.bounds = described->box;
   return found;
 }
 
 std::string_view inWords(CullReason reason) {
   constexpr std::array<std::string_view, 6> kWords{"drawn",
                                                    "outside the frustum",
-                                                   "hidden by ground in front of it",
+                                                   "occluded by ground in front of it",
                                                    "beyond visibility",
                                                    "all of it faces away",
                                                    "another level is drawn in its place"};

@@ -6,6 +6,7 @@
 
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
+#include "trimtab/frame/terrain_index.h"
 #include "trimtab/terrain/format/database.h"
 
 /// What a person wants to know about one node of the terrain that they picked in the image.
@@ -20,6 +21,7 @@ struct NodeDescription {
   double errorPx = 0;                ///< `errorM` seen at that distance, but not nearer than the near plane
   double widthPx = 0, heightPx = 0;  ///< of its bounding box in the image, cut off at the image's edges
   CullReason reason = CullReason::other_level;
+  Box bounds{};  ///< metres, local frame of the terrain
 };
 
 /// Describes a node of the frame that `request` and `result` belong to. Returns nothing if the terrain has no

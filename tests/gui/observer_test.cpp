@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QDockWidget>
+#include <QLabel>
+#include <QMenuBar>
+#include <QPushButton>
+#include <QStatusBar>
+#include <cmath>
+
+#include "app/workbench/docks/flight_dock.h"
+#include "gui_support.h"
+#include "trimtab/host/flight.h"
+#include "views/controls/bar_list.h"
+#include "views/model/live.h"
+#include "views/panels/culling_panel.h"
+
+namespace trimtab::test {
+namespace {
+
+using workbench::Feed;
+
+/// A window in which a flight, a host or the camera is the pilot, and an observer looks on.
+class Observer : public Bench {
+ protected:
+  void SetUp() override {
+    Bench::SetUp();
+    QObject::connect(w().controllers().frame.get(), &workbench::FrameController::frameShown, &w(),
+                     [this](const views::LiveFrame& frame) { told_ = frame; });
+  }
+  QAction* command(const QString& text) {
+    for (const QMenu* menu : w().menuBar()->findChildren<QMenu*>())
+      for (QAction* action : menu->actions())
+        if (action->text().remove('&').startsWith(text)) return action;
+    ADD_FAILURE() << "no command " << text.toStdString();
+    return nullptr;
+  }
+  void openFlight() {
+    ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
+    flight_ = *readFlight(sampleFlight());
+  }
+  void seek(double altitudeFt) { w().feed().seekHere(climbsThrough(flight_, altitudeFt)); }
+  GeodeticPosition camera() { return w().viewport().camera().position(); }
+  /// Holds a key of the camera down for some images.
+  void fly(Qt::Key key) {
+    QTest::keyPress(&w().viewport(), key);
+    const std::uint64_t before = paints();
+    EXPECT_TRUE(waitFor([&] { return paints() > before + 2; }, 10000));
+    QTest::keyRelease(&w().viewport(), key);
+    EXPECT_TRUE(settle());
+  }
+  bool statusSays(const QString& text) {
+    for (const QLabel* label : w().statusBar()->findChildren<QLabel*>())
+      if (label->text().contains(text)) return true;
+    return false;
+  }
+  bool drawsTerrain() { return w().viewport().overlayContents().notice.isEmpty(); }
+
+  Flight flight_;
+  views::LiveFrame told_;  ///< what the docks were shown last
+};
+
+TEST_F(Observer, aHostThatNeverComesLeavesTheImageAndTheCameraOfAPausedFlight) {
+  openFlight();
+  w().controllers().flight->playOrPause();
+  ASSERT_TRUE(waitFor([&] { return w().feed().playback().position() > 0.2; }));
+  w().controllers().flight->playOrPause();
+  listen();
+  w().feed().closeHost();
+  command("Wireframe")->trigger();
+  ASSERT_TRUE(settle());
+  EXPECT_TRUE(drawsTerrain()) << w().viewport().overlayContents().notice.toStdString();
+  const GeodeticPosition before = camera();
+  fly(Qt::Key_PageUp);
+  EXPECT_GT(camera().height.value(), before.height.value());
+  EXPECT_EQ(session().input().state.position, camera());
+}
+
+TEST_F(Observer, aHostThatNeverComesLeavesTheImageOfTheFreeCamera) {
+  listen();
+  command("Wireframe")->trigger();
+  ASSERT_TRUE(settle());
+  EXPECT_TRUE(drawsTerrain()) << w().viewport().overlayContents().notice.toStdString();
+  EXPECT_TRUE(statusSays("listening"));
+  w().feed().closeHost();
+  EXPECT_FALSE(statusSays("listening"));
+  EXPECT_TRUE(statusSays("free camera"));
+}
+
+TEST_F(Observer, frozenTheDecisionAndTheVisibleSetStayWhateverFlies) {
+  openFlight();
+  seek(3500);
+  ASSERT_TRUE(settle());
+  const FrameDecision decided = session().decision();
+  const auto visible = last().visible.reason;
+  const std::uint64_t triangles = last().visible.triangles;
+  command("Freeze culling")->trigger();
+  seek(7500);
+  ASSERT_TRUE(settle());
+  ASSERT_NE(session().decision(), decided) << "the flight leads on";
+  EXPECT_EQ(told_.decision, decided);
+  EXPECT_EQ(w().controllers().frame->shown()->decision, decided);
+  EXPECT_EQ(last().visible.reason, visible);
+  EXPECT_EQ(last().visible.triangles, triangles);
+  w().controllers().flight->flightDock().play();
+  ASSERT_TRUE(waitFor([&] { return w().feed().playback().position() > climbsThrough(flight_, 7500) + 0.2; }));
+  w().controllers().flight->flightDock().pause();
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(told_.decision, decided);
+  EXPECT_EQ(last().visible.triangles, triangles);
+  command("Freeze culling")->trigger();
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(told_.decision, session().decision());
+  EXPECT_NE(last().visible.triangles, triangles);
+}
+
+TEST_F(Observer, frozenKeysAndHomeFlyTheViewBesideAPausedFlight) {
+  openFlight();
+  seek(4500);
+  ASSERT_TRUE(settle());
+  const GeodeticPosition pilot = session().input().state.position;
+  command("Freeze culling")->trigger();
+  ASSERT_TRUE(settle());
+  const QImage before = w().viewport().grabFramebuffer();
+  const GeodeticPosition from = camera();
+  EXPECT_EQ(from, pilot) << "the view does not jump";
+  fly(Qt::Key_PageUp);
+  EXPECT_GT(camera().height.value(), from.height.value());
+  EXPECT_NE(w().viewport().grabFramebuffer(), before);
+  const GeodeticPosition high = camera();
+  command("Place the camera")->trigger();
+  EXPECT_NE(camera(), high);
+  EXPECT_EQ(session().input().state.position, pilot) << "the pilot's eye stays";
+  command("Freeze culling")->trigger();
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(w().controllers().frame->shown()->eye, pilot);
+  EXPECT_FALSE(w().viewport().cameraEnabled());
+}
+
+TEST_F(Observer, aClosedFlightLeavesAFreeCameraWhereItWas) {
+  openFlight();
+  seek(4500);
+  ASSERT_TRUE(settle());
+  const GeodeticPosition there = session().input().state.position;
+  command("Close flight")->trigger();
+  EXPECT_FALSE(w().feed().playback().loaded());
+  EXPECT_EQ(w().feed().source(), Feed::Source::camera);
+  EXPECT_TRUE(w().controllers().flight->flightDock().file().isEmpty());
+  EXPECT_EQ(camera(), there);
+  ASSERT_TRUE(settle());
+  EXPECT_TRUE(drawsTerrain());
+  fly(Qt::Key_PageUp);
+  EXPECT_GT(camera().height.value(), there.height.value());
+}
+
+TEST_F(Observer, theLegendAndTheDockNameAReasonAlike) {
+  w().dock("culling")->raise();
+  command("Colour by reason")->trigger();
+  ASSERT_TRUE(settle());
+  const auto& legend = w().viewport().overlayContents().legend;
+  ASSERT_EQ(legend.size(), 5);
+  for (const auto* list : w().panels().culling->findChildren<views::BarList*>()) {
+    if (!list->accessibleName().startsWith("Nodes")) continue;
+    for (const auto& entry : legend)
+      EXPECT_TRUE(list->accessibleDescription().contains(entry.text)) << entry.text.toStdString();
+    return;
+  }
+  FAIL() << "no list of reasons";
+}
+
+TEST_F(Observer, frozenAnEditDecidesTheSameMomentAgain) {
+  openFlight();
+  seek(3500);
+  ASSERT_TRUE(settle());
+  command("Freeze culling")->trigger();
+  seek(7500);
+  ASSERT_TRUE(settle());
+  const double frozenFt = told_.decision.altitudeFt;
+  const std::uint64_t triangles = last().visible.triangles;
+  ASSERT_TRUE(w().draft().setText("lod.screen_space_error_px", "40").empty());
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(told_.decision.altitudeFt, frozenFt);
+  EXPECT_LT(last().visible.triangles, triangles);
+  w().draft().undoStack().undo();
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(last().visible.triangles, triangles);
+}
+
+TEST_F(Observer, detachedThePilotDecidesAndCullsOnAsIfNobodyLooked) {
+  openFlight();
+  seek(7500);
+  ASSERT_TRUE(settle());
+  const auto there = last().visible.reason;
+  const std::uint64_t triangles = last().visible.triangles;
+  const FrameDecision decided = told_.decision;
+  seek(4000);
+  ASSERT_TRUE(settle());
+  command("Detach")->trigger();
+  ASSERT_TRUE(settle());
+  EXPECT_TRUE(w().viewport().overlayContents().banner.contains("DETACHED"));
+  const GeodeticPosition outside = camera();
+  fly(Qt::Key_S);
+  EXPECT_NE(camera(), outside);
+  seek(7500);
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(told_.decision, decided);
+  EXPECT_EQ(last().visible.reason, there);
+  EXPECT_EQ(last().visible.triangles, triangles);
+  EXPECT_NE(camera(), session().input().state.position);
+  command("Detach")->trigger();
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(last().visible.reason, there);
+  EXPECT_TRUE(w().viewport().overlayContents().banner.isEmpty());
+  EXPECT_TRUE(w().viewport().overlayContents().inset.isEmpty());
+}
+
+TEST_F(Observer, detachedTheInsetIsThePilotsImage) {
+  ASSERT_TRUE(settle());
+  const GeodeticPosition seat = camera();
+  const QImage whole = w().viewport().grabFramebuffer();
+  command("Detach")->trigger();
+  ASSERT_TRUE(settle());
+  EXPECT_NE(camera(), seat);
+  const QRect inset = w().viewport().overlayContents().inset;
+  ASSERT_GT(inset.width(), 100);
+  const QImage seen = w().viewport().grabFramebuffer().copy(inset.adjusted(4, 30, -4, -30));
+  const QRectF part(4.0 / inset.width(), 30.0 / inset.height(), 1 - 8.0 / inset.width(),
+                    1 - 60.0 / inset.height());
+  const QRect from(int(part.x() * whole.width()), int(part.y() * whole.height()),
+                   int(part.width() * whole.width()), int(part.height() * whole.height()));
+  const QImage expected =
+      whole.copy(from).scaled(seen.size(), Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+  double difference = 0;
+  for (int y = 0; y < seen.height(); ++y)
+    for (int x = 0; x < seen.width(); ++x)
+      difference += std::abs(qGray(seen.pixel(x, y)) - qGray(expected.pixel(x, y)));
+  EXPECT_LT(difference / (double(seen.width()) * seen.height()), 6) << "grey levels of 255";
+  command("Detach")->trigger();
+  EXPECT_EQ(camera(), seat) << "back in the seat";
+}
+
+TEST_F(Observer, detachingColoursTheNodesByReasonAndComingBackEndsIt) {
+  QAction* const byReason = command("Colour by reason");
+  command("Detach")->trigger();
+  EXPECT_TRUE(byReason->isChecked());
+  command("Detach")->trigger();
+  EXPECT_FALSE(byReason->isChecked());
+  command("Colour by level")->trigger();
+  command("Detach")->trigger();
+  EXPECT_FALSE(byReason->isChecked()) << "what was chosen stays";
+}
+
+TEST_F(Observer, aPickedNodeIsOutlinedWhileTheDockThatDescribesItShows) {
+  ASSERT_TRUE(settle());
+  auto& panel = *w().panels().culling;
+  w().dock("culling")->raise();
+  ASSERT_TRUE(waitFor([&] { return panel.isVisible(); }));
+  const auto pickAt = [&](double down) {
+    for (QPushButton* button : panel.findChildren<QPushButton*>())
+      if (button->text().contains("Pick")) button->click();
+    workbench::Viewport& view = w().viewport();
+    QTest::mouseClick(&view, Qt::LeftButton, {}, QPoint(view.width() / 2, int(view.height() * down)));
+    ASSERT_TRUE(waitFor([&] { return !panel.picking(); }));
+    ASSERT_TRUE(settle());
+  };
+  const auto& shown = w().viewport().overlayContents();
+  pickAt(0.75);
+  ASSERT_FALSE(shown.outline.isEmpty());
+  QRectF around;
+  for (const QLineF& edge : shown.outline) around |= QRectF(edge.p1(), edge.p2()).normalized();
+  EXPECT_TRUE(around.contains(0.5, 0.75)) << "the box holds the pixel that was picked";
+  w().dock("decision")->raise();
+  EXPECT_TRUE(waitFor([&] { return shown.outline.isEmpty(); }, 5000));
+  w().dock("culling")->raise();
+  EXPECT_TRUE(waitFor([&] { return !shown.outline.isEmpty(); }, 5000));
+  pickAt(0.02);
+  EXPECT_TRUE(shown.outline.isEmpty()) << "the sky is no node";
+}
+
+}  // namespace
+}  // namespace trimtab::test
