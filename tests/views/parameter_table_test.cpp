@@ -10,6 +10,7 @@
 #include <set>
 
 #include "application.h"
+#include "views/controls/note_line.h"
 #include "views/controls/number_box.h"
 #include "views/controls/parameter_line.h"
 #include "views/controls/parameter_slider.h"
@@ -109,6 +110,33 @@ TEST_F(ParameterTableTest, textThatIsNoNumberOrOutOfRangeIsRefusedAndShown) {
   EXPECT_EQ(draft_.undoStack().count(), 0);
   type(editor<NumberBox>("view.near_m"), "2");
   EXPECT_TRUE(table_.line("view.near_m")->problem().isEmpty()) << "a good value takes the message away";
+}
+
+TEST_F(ParameterTableTest, aRefusalMovesNoControlAndGivesWayToThePointer) {
+  const auto places = [&] {
+    std::vector<QPoint> all;
+    for (const std::string_view key : table_.visibleKeys())
+      all.push_back(table_.line(key)->editor()->mapTo(&table_, QPoint()));
+    return all;
+  };
+  table_.tier().setCurrentIndex(1);
+  QTest::qWait(20);
+  const auto before = places();
+  type(editor<NumberBox>("fuzzy.hysteresis"), "nonsense");
+  QTest::qWait(20);
+  ASSERT_FALSE(table_.line("fuzzy.hysteresis")->problem().isEmpty());
+  EXPECT_EQ(places(), before);
+  NoteBubble* bubble = nullptr;
+  for (NoteBubble* each : table_.findChildren<NoteBubble*>())
+    if (each->isVisible()) bubble = each;
+  ASSERT_NE(bubble, nullptr) << "the refusal is in sight";
+  EXPECT_FALSE(bubble->geometry().intersects(editor<NumberBox>("fuzzy.hysteresis").parentWidget()->geometry()));
+  QEnterEvent enter({}, {}, {});
+  QCoreApplication::sendEvent(bubble, &enter);
+  EXPECT_FALSE(bubble->isVisible()) << "what it covers can be reached";
+  editor<NumberBox>("fuzzy.hysteresis").clearFocus();
+  editor<NumberBox>("fuzzy.hysteresis").setFocus();
+  EXPECT_TRUE(bubble->isVisible()) << "the focus brings it back";
 }
 
 TEST_F(ParameterTableTest, aNumberThatTheBoxCannotShowExactlyIsNotTouchedByLookingAtIt) {

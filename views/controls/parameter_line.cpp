@@ -10,6 +10,7 @@
 #include <QToolButton>
 
 #include "choice_box.h"
+#include "note_line.h"
 #include "number_box.h"
 #include "parameter_slider.h"
 #include "views/model/keys.h"
@@ -31,7 +32,6 @@ ParameterLine::ParameterLine(Draft& draft, const ParameterRow& row, QGridLayout&
       draft_(draft),
       row_(row),
       label_(new QLabel),
-      problem_(new QLabel),
       editor_(makeEditor()),
       field_(editor_),
       reset_(new QToolButton) {
@@ -70,15 +70,12 @@ ParameterLine::ParameterLine(Draft& draft, const ParameterRow& row, QGridLayout&
     connect(widget, &QWidget::customContextMenuRequested, this,
             [this, widget](const QPoint& at) { showResets(widget->mapToGlobal(at)); });
   }
-  problem_->setWordWrap(true);
-  problem_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  problem_->hide();
 
   grid.addWidget(label_, gridRow, 0, Qt::AlignVCenter);
   grid.addWidget(field_, gridRow, 1, Qt::AlignVCenter);
   grid.addWidget(reset_, gridRow, 2, Qt::AlignVCenter);
   for (std::size_t i = 0; i < kValues; ++i) grid.addWidget(values_[i], gridRow, 3 + int(i), Qt::AlignVCenter);
-  grid.addWidget(problem_, gridRow + 1, 0, 1, 6);
+  problem_ = new NoteBubble(*field_);
   connect(&draft_, &Draft::referencesChanged, this, [this] {
     readValues();
     refresh();
@@ -197,7 +194,6 @@ void ParameterLine::setVisible(bool visible) {
   field_->setVisible(visible);
   reset_->setVisible(visible);
   showValues();
-  problem_->setVisible(visible && !problem_->text().isEmpty());
 }
 
 void ParameterLine::setCompact(bool compact) {
@@ -255,9 +251,7 @@ void ParameterLine::refresh() {
   label_->setAccessibleName(now.changed ? tr("%1, changed").arg(fromView(row_.label)) : fromView(row_.label));
   for (std::size_t i = 0; i < kValues; ++i) values_[i]->setEnabled(now.differs[i]);
   reset_->setEnabled(now.changed);
-  problem_->setText(now.problem);
-  setTextColour(*problem_, now.colour);
-  problem_->setVisible(visible_ && !now.problem.isEmpty());
+  problem_->say(now.problem, now.colour);
 }
 
 }  // namespace trimtab::views

@@ -16,12 +16,14 @@ class QWidget;
 
 namespace trimtab::views {
 
+class NoteBubble;
+
 /// One row of a parameter panel: changed mark and label, editor for its kind, the values that it can go back
 /// to, and findings. A click on one of these values goes back to it.
 class ParameterLine : public QObject {
   Q_OBJECT
  public:
-  /// Fills two rows of the grid from `gridRow` on. Its widgets belong to the grid's widget.
+  /// Fills one row of the grid. Its widgets belong to the grid's widget.
   ParameterLine(Draft& draft, const ParameterRow& row, QGridLayout& grid, int gridRow);
 
   const ParameterRow& row() const { return row_; }
@@ -55,7 +57,8 @@ class ParameterLine : public QObject {
   Draft& draft_;
   const ParameterRow& row_;
   static constexpr std::size_t kValues = 3;  ///< file, base and defaults
-  QLabel *label_, *problem_;
+  QLabel* label_;
+  NoteBubble* problem_;
   std::array<QToolButton*, kValues> values_{};
   QWidget *editor_,
       *field_;  ///< the editor, and the widget in the grid that holds it and its slider or button

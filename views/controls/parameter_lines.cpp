@@ -38,7 +38,7 @@ ParameterLines::ParameterLines(Draft& draft, const std::vector<const ParameterRo
     auto* line = new ParameterLine(draft, *row, *grid, gridRow);
     line->setCompact(true);
     lines_.push_back(line);
-    gridRow += 2;
+    ++gridRow;
   }
   connect(&draft, &Draft::findingsChanged, this, [this] {
     for (ParameterLine* line : lines_) line->refresh();

@@ -176,7 +176,7 @@ void ParameterTable::makeLines(QGridLayout& grid) {
     auto* const line = new ParameterLine(draft_, row, grid, gridRow);
     connect(line, &ParameterLine::editorAsked, this, &ParameterTable::editorAsked);
     groups_.back().lines.push_back(line);
-    gridRow += 2;
+    ++gridRow;
   }
   nothing_->setAlignment(Qt::AlignCenter);
   grid.addWidget(nothing_, gridRow++, 0, 1, 6);

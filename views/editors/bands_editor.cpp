@@ -10,8 +10,10 @@
 #include "band_scale.h"
 #include "views/controls/choice_box.h"
 #include "views/controls/list_table.h"
+#include "views/controls/note_line.h"
 #include "views/controls/number_box.h"
 #include "views/model/bands_model.h"
+#include "views/model/depth_map_reason.h"
 #include "views/model/keys.h"
 #include "views/model/theme.h"
 #include "views/plots/depth_map_inset.h"
@@ -25,7 +27,7 @@ BandsEditor::BandsEditor(Draft& draft, QWidget* parent)
       model_(new BandsModel(draft, this)),
       table_(new QTableView),
       inset_(new DepthMapInset),
-      note_(new QLabel) {
+      note_(new NoteLine) {
   QHBoxLayout* top = new QHBoxLayout;
   NumberBox* hysteresis = new NumberBox(draft, key::kHysteresis);
   QLabel* hysteresisLabel = new QLabel(tr("&Hysteresis ±"));
@@ -57,8 +59,6 @@ BandsEditor::BandsEditor(Draft& draft, QWidget* parent)
   upperLayout->addWidget(scale_);
   upperLayout->addWidget(table_, 1);
   upperLayout->addWidget(buttons);
-  note_->setWordWrap(true);
-  note_->hide();
   upperLayout->addWidget(note_);
 
   QSplitter* split = new QSplitter(Qt::Vertical);
@@ -72,11 +72,14 @@ BandsEditor::BandsEditor(Draft& draft, QWidget* parent)
 
   throttle_ = new Throttle(this, [this] {
     model_->setLiveBand(decision_.band);
-    if (mapDrawn_) return;
-    inset_->setReason(decision_.scheme == Scheme::frustum ? tr("No depth map: scheme is frustum")
-                                                          : tr("No depth map was drawn in the last frame"));
+    // The scheme is this dock's own choice; what else leaves the place empty is chosen in Culling.
+    const bool ownChoice = decision_.scheme == Scheme::frustum &&
+                           draft_.active()->culling.method == CullingCase::proposed;
+    inset_->setLead(why_.isEmpty() || ownChoice ? QString() : tr("Go to Culling"));
+    if (!mapDrawn_) inset_->setReason(why_);
   });
   inset_->setReason(tr("No depth map yet: nothing has been drawn"));
+  connect(inset_, &DepthMapInset::leadFollowed, this, &BandsEditor::cullingAsked);
 
   connect(scale_, &BandScale::selectedChanged, this, [this](int index) {
     if (index < 0)
@@ -103,7 +106,8 @@ BandsEditor::BandsEditor(Draft& draft, QWidget* parent)
 
 void BandsEditor::showFrame(const LiveFrame& frame) {
   decision_ = frame.decision;
-  mapDrawn_ = frame.drawn().depthMap.has_value();
+  why_ = whyNoDepthMap(frame, *draft_.active());
+  mapDrawn_ = frame.drawn().depthMap || frame.drawn().horizon;
   scale_->showFrame(frame);
   throttle_->request();
 }
@@ -136,9 +140,7 @@ void BandsEditor::showNote() {
                     QString::fromStdString(findings.front().found));
     if (findings.front().severity != Severity::error) colour = warningColour(palette());
   }
-  note_->setText(text);
-  setTextColour(*note_, colour);
-  note_->setVisible(!text.isEmpty());
+  note_->say(text, colour);
   remove_->setEnabled(scale_->selected() >= 0);
 }
 

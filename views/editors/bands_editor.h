@@ -7,7 +7,6 @@
 #include "views/model/draft.h"
 #include "views/model/live.h"
 
-class QLabel;
 class QTableView;
 class QToolButton;
 
@@ -16,6 +15,7 @@ namespace trimtab::views {
 class BandScale;
 class BandsModel;
 class DepthMapInset;
+class NoteLine;
 class Throttle;
 
 /// The Depth map dock: bands with edges to drag, their sizes, the hysteresis, and the live depth map.
@@ -32,6 +32,9 @@ class BandsEditor : public QWidget {
   void showDepthMap(const QImage& image, const QString& caption);
   void clearDepthMap();
 
+ signals:
+  void cullingAsked();  ///< the person wants the choices that leave this dock without a depth map
+
  private:
   void showNote();
   void say(const QString& refusal);
@@ -41,10 +44,11 @@ class BandsEditor : public QWidget {
   BandsModel* model_;
   QTableView* table_;
   DepthMapInset* inset_;
-  QLabel* note_;
+  NoteLine* note_;
   QToolButton* remove_;
   Throttle* throttle_;
   QString refusal_;
+  QString why_;  ///< there is no depth map; empty if there is one
   FrameDecision decision_;
   bool mapDrawn_ = false;
 };

@@ -9,6 +9,7 @@
 
 #include "views/controls/choice_box.h"
 #include "views/controls/list_table.h"
+#include "views/controls/note_line.h"
 #include "views/model/curve_points_model.h"
 #include "views/model/keys.h"
 #include "views/model/theme.h"
@@ -48,9 +49,7 @@ CurveEditor::CurveEditor(Draft& draft, const CurveSpec& spec, const QList<QWidge
   split->setStretchFactor(1, 0);
   split->setSizes({10000, side->minimumSizeHint().width()});
   split->setChildrenCollapsible(false);
-  note_ = new QLabel;
-  note_->setWordWrap(true);
-  note_->hide();
+  note_ = new NoteLine;
 
   QVBoxLayout* layout = new QVBoxLayout(this);
   layout->setContentsMargins(4, 4, 4, 4);
@@ -103,9 +102,7 @@ void CurveEditor::showNote() {
     text = tr("This reading does not use the breakpoints. Choose another reading to edit them.");
     colour = quietColour(palette());
   }
-  note_->setText(text);
-  setTextColour(*note_, colour);
-  note_->setVisible(!text.isEmpty());
+  note_->say(text, colour);
   const bool editable = spec_.usesPoints(draft_.parameters());
   add_->setEnabled(editable);
   remove_->setEnabled(editable && plot_->selected() >= 0);

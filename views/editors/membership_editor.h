@@ -7,13 +7,13 @@
 #include "views/model/draft.h"
 #include "views/model/live.h"
 
-class QLabel;
 class QTableView;
 class QToolButton;
 
 namespace trimtab::views {
 
 class CurvePlot;
+class NoteLine;
 
 /// Edits one membership curve: its reading, the plot, and a table of the breakpoints.
 class CurveEditor : public QWidget {
@@ -32,7 +32,7 @@ class CurveEditor : public QWidget {
   CurveSpec spec_;
   CurvePlot* plot_;
   QTableView* table_;
-  QLabel* note_;
+  NoteLine* note_;
   QToolButton *add_, *remove_;
   QString refusal_;
 };

@@ -14,6 +14,7 @@
 #include "rule_edit.h"
 #include "views/controls/choice_box.h"
 #include "views/controls/list_table.h"
+#include "views/controls/note_line.h"
 #include "views/model/keys.h"
 #include "views/model/rules_model.h"
 #include "views/model/theme.h"
@@ -68,7 +69,7 @@ RulesEditor::RulesEditor(Draft& draft, QWidget* parent)
       draft_(draft),
       model_(new RulesModel(draft, this)),
       table_(new QTableView),
-      note_(new QLabel) {
+      note_(new NoteLine) {
   auto* combination = new ChoiceBox(draft, key::kCombination);
   auto* label = new QLabel(tr("&Total is"));
   label->setBuddy(combination);
@@ -97,7 +98,6 @@ RulesEditor::RulesEditor(Draft& draft, QWidget* parent)
       tr("Export…"), tr("Write rules and membership curves as FuzzyLite (.fll) or MATLAB (.fis)"));
   connect(load, &QToolButton::clicked, this, &RulesEditor::importAsked);
   connect(save, &QToolButton::clicked, this, &RulesEditor::exportAsked);
-  note_->setWordWrap(true);
 
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(4, 4, 4, 4);
@@ -181,7 +181,7 @@ void RulesEditor::moveRule(int by) {
 }
 
 QString RulesEditor::note() const {
-  return note_->isHidden() ? QString() : note_->text();
+  return note_->text();
 }
 
 void RulesEditor::say(const QString& refusal) {
@@ -202,9 +202,7 @@ void RulesEditor::showNote() {
     text = tr("The total does not come from these rules. Choose “Rule base” above to use them.");
     colour = quietColour(palette());
   }
-  note_->setText(text);
-  setTextColour(*note_, colour);
-  note_->setVisible(!text.isEmpty());
+  note_->say(text, colour);
   const int at = selected(), count = model_->rowCount();
   duplicate_->setEnabled(at >= 0);
   remove_->setEnabled(at >= 0);

@@ -7,12 +7,12 @@
 
 #include "views/model/draft.h"
 
-class QLabel;
 class QTableView;
 class QToolButton;
 
 namespace trimtab::views {
 
+class NoteLine;
 class RulesModel;
 
 /// Edits the rule base of Eq. (2): conditions in combo boxes, weight and output typed; rules are added,
@@ -45,7 +45,7 @@ class RulesEditor : public QWidget {
   Draft& draft_;
   RulesModel* model_;
   QTableView* table_;
-  QLabel* note_;
+  NoteLine* note_;
   QToolButton *add_, *duplicate_, *remove_, *up_, *down_;
   QString refusal_;
 };

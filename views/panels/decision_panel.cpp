@@ -18,6 +18,7 @@
 #include "views/controls/ask_csv_file.h"
 #include "views/controls/bar_list.h"
 #include "views/editors/rule_edit.h"
+#include "views/model/depth_map_reason.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
@@ -40,7 +41,7 @@ DecisionPanel::DecisionPanel(Draft& draft, QWidget* parent)
   scheme_->setWordWrap(true);
   reason_->setWordWrap(true);
   reason_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
-  reason_->setMinimumHeight(2 * fontMetrics().lineSpacing());
+  reason_->setMinimumHeight(3 * fontMetrics().lineSpacing());
   reason_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
   memberships_->setAccessibleName(tr("Memberships"));
   rules_->setAccessibleName(tr("Firing of the rules"));
@@ -134,7 +135,10 @@ void DecisionPanel::refresh() {
                                                    .arg(d.occlusionResolution->widthPx)
                                                    .arg(d.occlusionResolution->heightPx)
                                              : tr("Dynamic"));
-    reason_->setText(QString::fromStdString(explain(d, draft_.active())));
+    QString reason = QString::fromStdString(explain(d, draft_.active()));
+    if (d.occlusionResolution && frame_.result)
+      if (const QString why = whyNoDepthMap(frame_, p); !why.isEmpty()) reason += QStringLiteral(". ") + why;
+    reason_->setText(reason);
   }
   std::vector<double> edges;
   for (const Band& band : p.scheme.bands.span()) edges.push_back(band.low);

@@ -218,7 +218,7 @@ void WeatherPanel::makeLines(QGridLayout& grid) {
   const auto add = [&](std::string_view key) {
     lines_.push_back(new ParameterLine(draft_, *findRow(key), grid, gridRow));
     lines_.back()->setCompact(true);
-    gridRow += 2;
+    ++gridRow;
   };
   for (const std::string_view key : kKeys) add(key);
   for (const ParameterRow& row : parameterRows())

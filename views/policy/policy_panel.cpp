@@ -78,7 +78,12 @@ PolicyPanel::PolicyPanel(Draft& draft, QWidget* parent)
   split_->setChildrenCollapsible(false);
   right_->setMinimumHeight(kLeastPlotLines * fontMetrics().height());
   parts_.tabs->setMinimumHeight(kLeastPageLines * fontMetrics().height());
+  note_->setText(tr("The policy does not hold: the last valid one keeps running. See Findings."));
   note_->setWordWrap(true);
+  // It keeps its place while nothing is wrong, so that no control moves when something is.
+  QSizePolicy keepsPlace = note_->sizePolicy();
+  keepsPlace.setRetainSizeWhenHidden(true);
+  note_->setSizePolicy(keepsPlace);
   note_->hide();
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(4, 4, 4, 2);
@@ -281,7 +286,6 @@ void PolicyPanel::showState() {
   arrange();
   const bool broken =
       !draft_.findingsOf(key::kPolicyTerms).empty() || !draft_.findingsOf(key::kPolicyRules).empty();
-  note_->setText(tr("The policy does not hold: the last valid one keeps running. See Findings."));
   note_->setVisible(broken);
   setTextColour(*note_, errorColour(palette()));
 }

@@ -4,7 +4,6 @@
 #include <QAction>
 #include <QBoxLayout>
 #include <QHeaderView>
-#include <QLabel>
 #include <QLineEdit>
 #include <QScrollBar>
 #include <QToolButton>
@@ -14,6 +13,7 @@
 #include "kept_text_cell.h"
 #include "policy_rules_model.h"
 #include "views/controls/list_table.h"
+#include "views/controls/note_line.h"
 #include "views/model/keys.h"
 #include "views/model/theme.h"
 
@@ -24,7 +24,7 @@ RulesPage::RulesPage(PolicyDraft& policy, QWidget* parent)
       policy_(policy),
       model_(new PolicyRulesModel(policy, this)),
       table_(new QTableView),
-      note_(new QLabel),
+      note_(new NoteLine),
       search_(new QLineEdit) {
   makeTable();
   auto* buttons = new ListButtons;
@@ -40,7 +40,6 @@ RulesPage::RulesPage(PolicyDraft& policy, QWidget* parent)
   QToolButton* const save = buttons->add(tr("Export…"), tr("Write the policy that runs to such a file"));
   connect(load, &QToolButton::clicked, this, &RulesPage::importAsked);
   connect(save, &QToolButton::clicked, this, &RulesPage::exportAsked);
-  note_->setWordWrap(true);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(4, 4, 4, 4);
   layout->setSpacing(4);
@@ -242,7 +241,7 @@ void RulesPage::moveRule(int by) {
 }
 
 QString RulesPage::note() const {
-  return note_->isHidden() ? QString() : note_->text();
+  return note_->text();
 }
 
 void RulesPage::say(const QString& refusal) {
@@ -253,9 +252,7 @@ void RulesPage::say(const QString& refusal) {
 void RulesPage::showNote() {
   QString text = refusal_;
   if (text.isEmpty()) text = sentences(policy_.draft().findingsOf(key::kPolicyRules));
-  note_->setText(text);
-  setTextColour(*note_, errorColour(palette()));
-  note_->setVisible(!text.isEmpty());
+  note_->say(text, errorColour(palette()));
   const int at = selected(), count = model_->rowCount();
   duplicate_->setEnabled(at >= 0);
   remove_->setEnabled(at >= 0);

@@ -7,12 +7,12 @@
 #include "policy_draft.h"
 #include "policy_live.h"
 
-class QLabel;
 class QLineEdit;
 class QToolButton;
 
 namespace trimtab::views {
 
+class NoteLine;
 class PolicyRulesModel;
 
 /// The rules of the policy to edit, with buttons. Each edit is one undo step.
@@ -58,7 +58,7 @@ class RulesPage : public QWidget {
   PolicyDraft& policy_;
   PolicyRulesModel* model_;
   QTableView* table_;
-  QLabel* note_;
+  NoteLine* note_;
   QLineEdit* search_;
   QToolButton *add_, *duplicate_, *remove_, *up_, *down_, *find_;
   Signal signal_ = Signal::above_ground;

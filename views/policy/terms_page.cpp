@@ -5,7 +5,6 @@
 #include <QBoxLayout>
 #include <QComboBox>
 #include <QHeaderView>
-#include <QLabel>
 #include <QTimer>
 #include <QToolButton>
 
@@ -14,6 +13,7 @@
 #include "term_plot.h"
 #include "terms_model.h"
 #include "views/controls/list_table.h"
+#include "views/controls/note_line.h"
 #include "views/model/keys.h"
 #include "views/model/theme.h"
 
@@ -53,7 +53,7 @@ TermsPage::TermsPage(PolicyDraft& policy, TermPlot& plot, QWidget* parent)
       plot_(plot),
       model_(new TermsModel(policy, this)),
       table_(new QTableView),
-      note_(new QLabel) {
+      note_(new NoteLine) {
   setUpListTable(*table_, model_, tr("Terms"), tr("00.0"));
   const auto width = [this](const char* sample) {
     return fontMetrics().horizontalAdvance(QLatin1String(sample)) + 16;
@@ -86,7 +86,6 @@ TermsPage::TermsPage(PolicyDraft& policy, TermPlot& plot, QWidget* parent)
   buttons->addSpace();
   copy_ = buttons->add(tr("Copy shape"), tr("Copy the selected term's shape (Ctrl+C)"));
   paste_ = buttons->add(tr("Paste shape"), tr("Give the selected term the copied shape (Ctrl+V)"));
-  note_->setWordWrap(true);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(4, 4, 4, 4);
   layout->setSpacing(4);
@@ -187,7 +186,7 @@ void TermsPage::typeNumbers() {
 }
 
 QString TermsPage::note() const {
-  return note_->isHidden() ? QString() : note_->text();
+  return note_->text();
 }
 
 void TermsPage::say(const QString& refusal) {
@@ -198,9 +197,7 @@ void TermsPage::say(const QString& refusal) {
 void TermsPage::showNote() {
   QString text = refusal_;
   if (text.isEmpty()) text = sentences(policy_.draft().findingsOf(key::kPolicyTerms));
-  note_->setText(text);
-  setTextColour(*note_, errorColour(palette()));
-  note_->setVisible(!text.isEmpty());
+  note_->say(text, errorColour(palette()));
   const bool any = selectedLine() >= 0;
   for (QToolButton* button : {duplicate_, remove_, copy_, paste_}) button->setEnabled(any);
 }

@@ -7,11 +7,11 @@
 #include "policy_draft.h"
 #include "policy_live.h"
 
-class QLabel;
 class QToolButton;
 
 namespace trimtab::views {
 
+class NoteLine;
 class TermPlot;
 class TermsModel;
 
@@ -42,7 +42,7 @@ class TermsPage : public QWidget {
   TermPlot& plot_;
   TermsModel* model_;
   QTableView* table_;
-  QLabel* note_;
+  NoteLine* note_;
   QToolButton *add_, *duplicate_, *remove_, *copy_, *paste_;
   QString refusal_;
 };

@@ -73,6 +73,12 @@ ErrorsController::ErrorsController(const Workplace& workplace, DrawThread& measu
   connect(dock_, &ErrorDock::sought, this, &ErrorsController::seekFlight);
   connect(dock_, &ErrorDock::flightShown, this, &ErrorsController::followFlight);
   connect(dock_, &ErrorDock::comparisonAsked, this, &ErrorsController::compare);
+  connect(dock_, &ErrorDock::flightAsked, &by_.flight, &FlightController::askOpen);
+  const auto showMissing = [this] { dock_->setMissing(missing()); };
+  connect(&at_.feed, &Feed::flightChanged, dock_, showMissing);
+  connect(&by_.terrain, &TerrainController::opened, dock_, showMissing);
+  connect(&by_.trace, &TraceController::recordingChanged, dock_, showMissing);
+  showMissing();
   connect(&measuring_, &DrawThread::failed, this, [this](const Findings& findings) {
     at_.messages.add(tr("Errors cannot be measured live"), findings);
     dock_->liveSwitch().setChecked(false);
@@ -112,6 +118,13 @@ bool ErrorsController::openResults(const QString& file) {
   const bool opened = dock_->openResults(file);
   if (opened) raiseDock(*dock_);
   return opened;
+}
+
+/// Returns what measuring needs and how to get it; empty if nothing is missing.
+QString ErrorsController::missing() const {
+  if (!by_.terrain.database()) return tr("Measuring needs an open terrain: Ctrl+T opens one.");
+  if (at_.feed.playback().loaded() || !by_.trace.recorded().isEmpty()) return {};
+  return tr("Measuring needs a flight. Open one, or fly and record a trace (Ctrl+R), which is then measured.");
 }
 
 /// Without an open flight, the trace that was recorded last is measured.

@@ -59,6 +59,7 @@ class ErrorsController : public QObject {
   void followFlight();
   void seekFlight(double timeS);
   QString whyNotMeasured() const;
+  QString missing() const;
 
   Workplace at_;
   DrawThread& measuring_;

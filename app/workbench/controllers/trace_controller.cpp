@@ -46,9 +46,9 @@ void TraceController::stop() {
   at_.feed.session().keepRows(false);
   const Result<Done> closed = writer_->close();
   writer_.reset();
+  if (closed) recorded_ = file_;
   emit recordingChanged(false);
   if (!closed) return at_.messages.add(tr("The trace is not complete"), closed.findings());
-  recorded_ = file_;
   at_.messages.note(tr("Trace recorded: %L1 rows").arg(count_));
 }
 

@@ -98,6 +98,7 @@ ErrorDock::ErrorDock(views::Draft& draft, DrawThread& thread, LiveMeter::Source 
       open_(new QPushButton(tr("Open re&sults..."), this)),
       report_(new QPushButton(tr("Open repor&t"), this)),
       compare_(new QPushButton(tr("&Compare two..."), this)),
+      openFlight_(new QPushButton(tr("&Open a flight..."), this)),
       progress_(new QProgressBar(this)),
       status_(new QLabel(this)),
       liveLabel_(new QLabel(this)),
@@ -158,6 +159,7 @@ ErrorDock::ErrorDock(views::Draft& draft, DrawThread& thread, LiveMeter::Source 
   connect(open_, &QPushButton::clicked, this, &ErrorDock::askOpenResults);
   connect(report_, &QPushButton::clicked, this, &ErrorDock::openReport);
   connect(compare_, &QPushButton::clicked, this, &ErrorDock::comparisonAsked);
+  connect(openFlight_, &QPushButton::clicked, this, &ErrorDock::flightAsked);
   connect(timeline_, &views::ErrorTimeline::sought, this, &ErrorDock::sought);
   connect(&live_, &LiveMeter::measured, this, &ErrorDock::onMeasured);
   connect(&child_, &ChildRun::progressed, this, [this](int percent, const QString& what) {
@@ -199,6 +201,7 @@ void ErrorDock::arrange() {
   grid->addWidget(open_, row++, 1);
   grid->addWidget(report_, row, 0);
   grid->addWidget(compare_, row++, 1);
+  grid->addWidget(openFlight_, row++, 0, 1, 2);
   grid->addWidget(progress_, row++, 0, 1, 2);
   grid->addWidget(status_, row++, 0, 1, 2);
   grid->addWidget(liveLabel_, row++, 0, 1, 2);
@@ -299,7 +302,17 @@ void ErrorDock::setRunning(bool running) {
   open_->setEnabled(!running);
 }
 
+void ErrorDock::setMissing(const QString& what) {
+  if (status_->text() == missing_) status_->setText(what);
+  missing_ = what;
+  openFlight_->setVisible(!what.isEmpty());
+}
+
 void ErrorDock::askAndMeasure() {
+  if (!missing_.isEmpty()) {
+    status_->setText(missing_);
+    return openFlight_->setFocus();
+  }
   BenchDialog dialog(newFolder(), this);
   if (dialog.exec() == QDialog::Accepted) measure(dialog.choice());
 }

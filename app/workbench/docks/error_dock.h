@@ -56,6 +56,9 @@ class ErrorDock : public QWidget {
   /// Moves the cursor to this time on the flight's own clock, seconds. NaN hides it, because nothing flies.
   void followFlight(double timeS);
 
+  /// Says what measuring needs and does not have; empty if it has all. While something is missing nothing is
+  /// asked, and a button offers a flight.
+  void setMissing(const QString& what);
   void askAndMeasure();
   void measure(const BenchChoice& choice);
   void cancel();
@@ -87,6 +90,7 @@ class ErrorDock : public QWidget {
   void sought(double timeS);  ///< the person moved the cursor to this time of the flight
   void flightShown();         ///< another measured flight is shown, or other results of the same
   void comparisonAsked();
+  void flightAsked();  ///< the person wants to open one to measure along
 
  private:
   void arrange();
@@ -103,14 +107,14 @@ class ErrorDock : public QWidget {
   ChildRun child_;
   QTemporaryDir folder_;
   QString resultsFile_;  ///< what is shown, or will be shown once it is measured
-  QString measuring_;
+  QString measuring_, missing_;
   std::optional<harness::Results> results_;
   std::optional<LiveMeter::Measured> lastMeasured_;
   bool seen_ = false, watched_ = false;
 
   QComboBox *errors_, *flights_, *cases_;
   QCheckBox *logarithmic_, *liveOn_;
-  QPushButton *measure_, *open_, *report_, *compare_;
+  QPushButton *measure_, *open_, *report_, *compare_, *openFlight_;
   QProgressBar* progress_;
   QLabel *status_, *liveLabel_;
   views::ErrorPlot* plot_;

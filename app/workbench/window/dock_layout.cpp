@@ -59,15 +59,15 @@ void DockLayout::arrange() {
   window_.resizeDocks({edit}, {570}, Qt::Horizontal);
   window_.resizeDocks({edit, effect}, {620, 330}, Qt::Vertical);
   window_.resizeDocks({foot}, {290}, Qt::Vertical);
-  // Titles are shown whole; arrows scroll to those that do not fit.
-  for (QTabBar* bar : window_.findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly)) {
-    bar->setElideMode(Qt::ElideNone);
-    bar->setUsesScrollButtons(true);
-  }
 }
 
 void DockLayout::showFrame(const views::LiveFrame& frame) const {
   for (const auto& show : viewers_) show(frame);
+}
+
+void showWholeTitles(QTabBar& bar) {
+  bar.setElideMode(Qt::ElideNone);
+  bar.setUsesScrollButtons(true);
 }
 
 }  // namespace trimtab::workbench

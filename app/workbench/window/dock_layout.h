@@ -9,6 +9,7 @@
 
 class QDockWidget;
 class QMainWindow;
+class QTabBar;
 class QWidget;
 
 namespace trimtab::workbench {
@@ -45,5 +46,8 @@ class DockLayout {
   std::vector<Dock> docks_;
   std::vector<std::function<void(const views::LiveFrame&)>> viewers_;
 };
+
+/// Titles of tabs are shown whole; arrows scroll to those that do not fit.
+void showWholeTitles(QTabBar& bar);
 
 }  // namespace trimtab::workbench

@@ -23,17 +23,23 @@ JobBar::JobBar(TerrainJob& job, QWidget* parent)
   hide();
   connect(cancel, &QPushButton::clicked, &job, &TerrainJob::cancel);
   connect(&job, &TerrainJob::started, this, [this](const QString& what) {
-    what_->setText(what);
+    say(what);
     progress_->setValue(0);
     show();
   });
   connect(&job, &TerrainJob::progressed, this, [this](double fraction, const QString& what) {
     progress_->setValue(static_cast<int>(fraction * 100));
-    if (!what.isEmpty()) what_->setText(what);
+    if (!what.isEmpty()) say(what);
   });
   connect(&job, &TerrainJob::cancelled, this, &QWidget::hide);
   connect(&job, &TerrainJob::failed, this, &QWidget::hide);
   connect(&job, &TerrainJob::opened, this, &QWidget::hide);
+}
+
+/// The label only grows while a job runs: a status bar lays out late, and would cut a longer text meanwhile.
+void JobBar::say(const QString& what) {
+  what_->setText(what);
+  what_->setMinimumWidth(std::max(what_->minimumWidth(), what_->sizeHint().width()));
 }
 
 }  // namespace trimtab::workbench

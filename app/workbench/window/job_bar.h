@@ -19,6 +19,8 @@ class JobBar : public QWidget {
   explicit JobBar(TerrainJob& job, QWidget* parent = nullptr);
 
  private:
+  void say(const QString& what);
+
   QLabel* what_;
   QProgressBar* progress_;
 };

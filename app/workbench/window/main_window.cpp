@@ -11,6 +11,7 @@
 #include <QMimeData>
 #include <QSettings>
 #include <QStatusBar>
+#include <QTabBar>
 #include <QTabWidget>
 #include <QTimer>
 #include <QVBoxLayout>
@@ -73,12 +74,11 @@ void MainWindow::makeMiddle() {
   auto* column = new QVBoxLayout(middle);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
-  notices_ = new NoticeBar(middle);
   viewport_ = new Viewport(middle);
-  column->addWidget(notices_);
   column->addWidget(viewport_, 1);
   strip_ = new views::BudgetStrip(draft_, middle);
   column->addWidget(strip_);
+  notices_ = new NoticeBar(middle);
   setCentralWidget(middle);
 }
 
@@ -212,6 +212,12 @@ void MainWindow::dropEvent(QDropEvent* event) {
   event->acceptProposedAction();
 }
 
+/// Qt makes bars of tabs whenever docks come together, also when a layout is restored.
+void MainWindow::childEvent(QChildEvent* event) {
+  QMainWindow::childEvent(event);
+  if (auto* bar = event->polished() ? qobject_cast<QTabBar*>(event->child()) : nullptr) showWholeTitles(*bar);
+}
+
 void MainWindow::changeEvent(QEvent* event) {
   QMainWindow::changeEvent(event);
   if (event->type() == QEvent::WindowStateChange) feed_.setPicturesDrawn(!isMinimized());
@@ -233,7 +239,10 @@ void MainWindow::start(const Options& options) {
   const Controllers& c = controllers_;
   options_ = options;
   screenshotDue_ = options.afterS >= 0 && !options.screenshot.isEmpty();
-  if (options.window) resize(*options.window);
+  if (options.window) {
+    setWindowState(windowState() & ~(Qt::WindowMaximized | Qt::WindowFullScreen));
+    resize(*options.window);
+  }
   show();
   viewport_->setFocus();
   if (!options.preset.isEmpty()) c.document->open(options.preset);

@@ -3,19 +3,18 @@
 
 #include <QAction>
 #include <QActionGroup>
-#include <QApplication>
 #include <QDockWidget>
 #include <QFileInfo>
 #include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
-#include <QScrollArea>
 #include <QStyle>
 #include <QToolBar>
 
 #include "app/workbench/controllers/controllers.h"
 #include "app/workbench/controllers/recent_files.h"
 #include "app/workbench/docks/changes_dock.h"
+#include "app/workbench/docks/dock_of.h"
 #include "app/workbench/docks/flight_dock.h"
 #include "app/workbench/jobs/feed.h"
 #include "app/workbench/viewport/split_view.h"
@@ -41,28 +40,6 @@ constexpr auto kCaseKey = "culling.case";
 void dress(QAction& action, const QString& iconText, const QIcon& icon = {}) {
   action.setIconText(iconText);
   if (!icon.isNull()) action.setIcon(icon);
-}
-
-/// Brings a dock to the front and the focus into it; closes it if the focus is there already.
-void goToOrClose(QDockWidget& dock) {
-  if (const QWidget* focus = QApplication::focusWidget(); focus != nullptr && dock.isAncestorOf(focus)) {
-    dock.close();
-    return;
-  }
-  dock.show();
-  dock.raise();
-  QWidget* content = dock.widget();
-  if (const auto* area = qobject_cast<QScrollArea*>(content)) content = area->widget();
-  const auto takesFocus = [content](const QWidget& widget) {
-    return content->isAncestorOf(&widget) && widget.isVisible() && widget.isEnabled() &&
-           (widget.focusPolicy() & Qt::TabFocus) != 0;
-  };
-  QWidget* next = content;
-  if (content->focusProxy() == nullptr && (content->focusPolicy() & Qt::TabFocus) == 0) {
-    do next = next->nextInFocusChain();
-    while (next != content && !takesFocus(*next));
-  }
-  next->setFocus(Qt::ShortcutFocusReason);
 }
 
 /// A tile has one colour only: either action switches the other off.
@@ -371,7 +348,9 @@ void Menus::addDocks(QMenu& view) {
   int number = 1;
   for (QDockWidget* each : window_.findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
     QAction* go = nullptr;
-    add(docks, {{each->windowTitle(), tr("Alt+%1").arg(number++), [each] { goToOrClose(*each); },
+    const QKeySequence key(number <= 9 ? tr("Alt+%1").arg(number) : QString());
+    ++number;
+    add(docks, {{each->windowTitle(), key, [each] { goToOrClose(*each); },
                  tr("Goes to the dock; from inside the dock it closes it"), &go}});
     go->setCheckable(true);
     go->setChecked(!each->isHidden());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "notice_bar.h"
 
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
@@ -19,6 +20,17 @@ NoticeBar::NoticeBar(QWidget* parent) : QFrame(parent), label_(new QLabel(this))
   layout->addWidget(label_, 1);
   layout->addLayout(buttons_);
   hide();
+  parent->installEventFilter(this);
+}
+
+bool NoticeBar::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Resize) place();
+  return QFrame::eventFilter(watched, event);
+}
+
+void NoticeBar::place() {
+  const int widthPx = parentWidget()->width();
+  setGeometry(0, 0, widthPx, std::max(heightForWidth(widthPx), minimumSizeHint().height()));
 }
 
 void NoticeBar::ask(const QString& id, const QString& text, std::vector<Answer> answers) {
@@ -49,6 +61,9 @@ void NoticeBar::showFirst() {
       if (act) act();
     });
   }
+  layout()->activate();
+  place();
+  raise();
 }
 
 }  // namespace trimtab::workbench

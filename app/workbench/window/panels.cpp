@@ -69,6 +69,8 @@ Panels makePanels(DockLayout& docks, views::Draft& draft, Feed& feed) {
   panels.changes = docks.add("history", tr("Changes"), foot, new ChangesDock(draft));
   panels.culling->showStages(panels.plots->buffer());
   connectEditors(*parameters, *panels.policy, *panels.bands);
+  QObject::connect(panels.bands, &views::BandsEditor::cullingAsked, panels.culling,
+                   [culling = panels.culling] { goTo(*dockOf(*culling)); });
   return panels;
 }
 

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QDockWidget>
+#include <QLabel>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QScrollBar>
+#include <QTabBar>
+#include <QTimer>
+#include <QWheelEvent>
+
+#include "app/workbench/docks/error_dock.h"
+#include "app/workbench/window/notice_bar.h"
+#include "gui_support.h"
+#include "views/plots/curve_plot.h"
+#include "views/plots/depth_map_inset.h"
+
+namespace trimtab::test {
+namespace {
+
+class WorkbenchLayout : public Bench {
+ protected:
+  void restart(std::optional<QSize> size) {
+    w().draft().undoStack().setClean();
+    w().close();
+    window.reset();
+    window = std::make_unique<workbench::MainWindow>();
+    workbench::Options options;
+    options.terrain = QString::fromStdString(sampleTerrain().string());
+    options.window = size;
+    window->start(options);
+    QTest::qWait(50);
+  }
+  QPushButton* button(const QWidget& within, const QString& text) {
+    for (QPushButton* each : within.findChildren<QPushButton*>())
+      if (each->text().remove('&').contains(text) && each->isVisible()) return each;
+    return nullptr;
+  }
+};
+
+TEST_F(WorkbenchLayout, altAndANumberRaiseADockBehindAnother) {
+  w().activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&w()));
+  QDockWidget &policy = *w().dock("policy"), &front = *w().dock("depth_map");
+  QTest::keyClick(&w(), Qt::Key_1, Qt::AltModifier);
+  ASSERT_TRUE(policy.isAncestorOf(QApplication::focusWidget()));
+  front.raise();
+  QTest::qWait(20);
+  QTest::keyClick(&w(), Qt::Key_1, Qt::AltModifier);
+  QTest::qWait(20);
+  EXPECT_TRUE(policy.isVisible());
+  EXPECT_FALSE(policy.visibleRegion().isEmpty()) << "it was behind, so the key raises it";
+  QTest::keyClick(&w(), Qt::Key_1, Qt::AltModifier);
+  EXPECT_TRUE(policy.isHidden()) << "from inside, the key closes it";
+}
+
+TEST_F(WorkbenchLayout, afterARestartTabsHaveWholeTitles) {
+  ASSERT_NO_FATAL_FAILURE(restart({}));
+  const auto bars = w().findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly);
+  ASSERT_FALSE(bars.isEmpty());
+  for (const QTabBar* bar : bars) EXPECT_EQ(bar->elideMode(), Qt::ElideNone);
+}
+
+TEST_F(WorkbenchLayout, aSizeThatIsAskedForHoldsThoughTheLastWindowWasMaximised) {
+  w().setWindowState(Qt::WindowMaximized);
+  ASSERT_NO_FATAL_FAILURE(restart(QSize(1000, 700)));
+  EXPECT_FALSE(w().isMaximized());
+  EXPECT_EQ(w().size(), QSize(1000, 700));
+}
+
+TEST_F(WorkbenchLayout, aQuestionMovesNoControl) {
+  ASSERT_TRUE(settle());
+  const QRect before = w().viewport().geometry();
+  w().notices().ask("test", "Shall this question move the image?", {{"No", {}}});
+  QTest::qWait(20);
+  EXPECT_TRUE(w().notices().isVisible());
+  EXPECT_EQ(w().viewport().geometry(), before);
+  EXPECT_TRUE(w().viewport().parentWidget()->rect().contains(w().notices().geometry()));
+  button(w().notices(), "No")->click();
+  EXPECT_FALSE(w().notices().isVisible());
+}
+
+TEST_F(WorkbenchLayout, anEmptyDepthMapSaysWhoServesInsteadAndLeadsThere) {
+  QDockWidget& bands = *w().dock("depth_map");
+  bands.show();
+  bands.raise();
+  auto* const inset = bands.findChild<views::DepthMapInset*>();
+  const auto why = [&] { return inset->accessibleDescription(); };
+  ASSERT_TRUE(w().draft().setText("culling.case", "view_frustum").empty());
+  ASSERT_TRUE(waitFor([&] { return why().contains("Culling case"); })) << why().toStdString();
+  QPushButton* const lead = button(*inset, "Culling");
+  ASSERT_NE(lead, nullptr);
+  lead->click();
+  QTest::qWait(20);
+  EXPECT_FALSE(w().dock("culling")->visibleRegion().isEmpty());
+}
+
+TEST_F(WorkbenchLayout, measuringWithoutAFlightIsRefusedBeforeItAsksAnything) {
+  const int messages = w().messages().count();
+  bool asked = false;
+  QTimer::singleShot(200, [&] {
+    if (QWidget* modal = QApplication::activeModalWidget()) {
+      asked = true;
+      modal->close();
+    }
+  });
+  w().controllers().errors->askAndMeasure();
+  QTest::qWait(250);
+  EXPECT_FALSE(asked) << "no dialog whose answers would be thrown away";
+  EXPECT_EQ(w().messages().count(), messages);
+  QDockWidget& dock = *w().dock("errors");
+  EXPECT_NE(button(dock, "Open a flight"), nullptr) << "the dock says how to get one";
+  const auto labels = dock.findChildren<QLabel*>();
+  EXPECT_TRUE(std::any_of(labels.begin(), labels.end(), [](const QLabel* label) {
+    return label->text().contains("needs a flight");
+  }));
+  ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
+  dock.raise();
+  QTest::qWait(20);
+  EXPECT_EQ(button(dock, "Open a flight"), nullptr);
+}
+
+TEST_F(WorkbenchLayout, theWheelOverAPlotScrollsTheDockThatHoldsIt) {
+  w().resize(1280, 720);
+  QDockWidget& dock = *w().dock("policy");
+  dock.show();
+  dock.raise();
+  QTest::qWait(50);
+  auto* const plot = dock.findChild<views::CurvePlot*>();
+  ASSERT_NE(plot, nullptr);
+  QScrollBar* bar = nullptr;
+  for (QWidget* holder = plot->parentWidget(); bar == nullptr && holder != &dock; holder = holder->parentWidget())
+    if (auto* area = qobject_cast<QScrollArea*>(holder); area != nullptr && area->verticalScrollBar()->maximum() > 0)
+      bar = area->verticalScrollBar();
+  ASSERT_NE(bar, nullptr) << "the dock is higher than its place";
+  const auto shown = [&] { return plot->axisRect()->axis(QCPAxis::atBottom)->range().size(); };
+  const double before = shown();
+  const QPointF at = QRectF(plot->axisRect()->rect()).center();
+  const auto turn = [&](Qt::KeyboardModifiers keys) {
+    QWheelEvent wheel(at, plot->mapToGlobal(at), {}, {0, -120}, Qt::NoButton, keys, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(plot, &wheel);
+  };
+  turn(Qt::NoModifier);
+  EXPECT_GT(bar->value(), 0);
+  EXPECT_EQ(shown(), before);
+  const int scrolled = bar->value();
+  turn(Qt::ControlModifier);
+  EXPECT_NE(shown(), before) << "with Ctrl the wheel zooms";
+  EXPECT_EQ(bar->value(), scrolled);
+}
+
+}  // namespace
+}  // namespace trimtab::test
