@@ -60,6 +60,7 @@ class Bench : public ::testing::Test {
     options.terrain = QString::fromStdString(sampleTerrain().string());
     options.window = QSize(1400, 900);
     window->start(options);
+    window->showEveryDock();
     ASSERT_TRUE(waitFor([this] { return window->viewport().lastResult() != nullptr; }))
         << window->messages().text().toStdString();
   }

@@ -18,6 +18,7 @@
 #include <algorithm>
 
 #include "app/workbench/docks/host_dock.h"
+#include "app/workbench/window/workspaces.h"
 #include "gui_support.h"
 #include "views/panels/culling_panel.h"
 #include "views/panels/plots_panel.h"
@@ -210,7 +211,7 @@ TEST_F(WorkbenchWindow, aWindowOfAnotherShapeDoesNotStretchThePicture) {
   EXPECT_NEAR(width / shown.height(), wanted, 0.02);
 }
 
-TEST_F(WorkbenchWindow, floatingADockKeepsThePictureAndResetLayoutBringsItBack) {
+TEST_F(WorkbenchWindow, floatingADockKeepsThePictureAndAResetOfTheWorkspaceBringsItBack) {
   ASSERT_TRUE(settle());
   const std::size_t tiles = last().visible.tiles.size();
   for (const char* name :
@@ -225,7 +226,7 @@ TEST_F(WorkbenchWindow, floatingADockKeepsThePictureAndResetLayoutBringsItBack) 
   const QImage picture = w().viewport().grabFramebuffer();
   EXPECT_NE(picture.pixelColor(picture.width() / 2, 5),
             picture.pixelColor(picture.width() / 2, picture.height() - 60));
-  w().resetLayout();
+  w().workspaces().reset();
   ASSERT_TRUE(settle());
   EXPECT_FALSE(w().dock("policy")->isFloating());
   EXPECT_TRUE(w().dock("policy")->isVisible());

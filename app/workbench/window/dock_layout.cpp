@@ -6,7 +6,7 @@
 #include <QScrollArea>
 #include <QTabBar>
 #include <algorithm>
-#include <utility>
+#include <array>
 
 namespace trimtab::workbench {
 namespace {
@@ -30,35 +30,101 @@ void DockLayout::addDock(const char* name, const QString& title, Place place, QW
   docks_.push_back({dock, place});
 }
 
-void DockLayout::arrange() {
-  window_.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+QDockWidget* DockLayout::find(const char* name) const {
+  const auto at = std::find_if(docks_.begin(), docks_.end(), [name](const Dock& dock) {
+    return dock.widget->objectName() == QLatin1String(name);
+  });
+  return at == docks_.end() ? nullptr : at->widget;
+}
+
+void DockLayout::arrange(const Arrangement& wanted) {
+  window_.setCorner(Qt::BottomRightCorner,
+                    wanted.wideFoot ? Qt::BottomDockWidgetArea : Qt::RightDockWidgetArea);
   for (const Dock& each : docks_) {
     each.widget->setFloating(false);
-    each.widget->show();
     // Qt cannot split a dock off while it is in a group of tabs.
     window_.removeDockWidget(each.widget);
   }
-  const auto first = [this](Place place) {
-    return std::find_if(docks_.begin(), docks_.end(), [place](const Dock& d) { return d.place == place; })
-        ->widget;
+  const QList<QDockWidget*> right = put(wanted.right, Qt::RightDockWidgetArea, Qt::Vertical),
+                            foot = put(wanted.foot, Qt::BottomDockWidgetArea, Qt::Horizontal);
+  std::vector<QDockWidget*> shown;
+  for (const auto* groups : {&wanted.right, &wanted.foot})
+    for (const Arrangement::Group& group : *groups)
+      for (const char* name : group.docks) shown.push_back(find(name));
+  hideAtHome(shown);
+  const auto size = [&](const QList<QDockWidget*>& fronts, const std::vector<Arrangement::Group>& groups,
+                        Qt::Orientation along, double lengthPx, double depthPx) {
+    if (fronts.isEmpty()) return;
+    QList<int> lengths;
+    for (const Arrangement::Group& group : groups) lengths << static_cast<int>(group.share * lengthPx);
+    window_.resizeDocks(fronts, lengths, along);
+    window_.resizeDocks({fronts.first()}, {static_cast<int>(depthPx)},
+                        along == Qt::Vertical ? Qt::Horizontal : Qt::Vertical);
+    for (QDockWidget* front : fronts) front->raise();
   };
-  QDockWidget *edit = first(Place::edit), *effect = first(Place::effect), *foot = first(Place::foot);
-  window_.addDockWidget(Qt::RightDockWidgetArea, edit);
-  window_.splitDockWidget(edit, effect, Qt::Vertical);
-  window_.addDockWidget(Qt::BottomDockWidgetArea, foot);
-  for (const auto& [front, place] :
-       {std::pair{edit, Place::edit}, {effect, Place::effect}, {foot, Place::foot}}) {
-    QDockWidget* last = front;
-    for (const Dock& each : docks_) {
-      if (each.place != place) continue;
-      if (each.widget != front) window_.tabifyDockWidget(std::exchange(last, each.widget), each.widget);
-      each.widget->show();
-    }
-    front->raise();
+  const double widthPx = window_.width(), heightPx = window_.height();
+  size(right, wanted.right, Qt::Vertical, heightPx, wanted.rightShare * widthPx);
+  size(foot, wanted.foot, Qt::Horizontal, widthPx, wanted.footShare * heightPx);
+}
+
+/// Returns the front dock of each group.
+QList<QDockWidget*> DockLayout::put(const std::vector<Arrangement::Group>& groups, Qt::DockWidgetArea area,
+                                    Qt::Orientation along) {
+  QList<QDockWidget*> fronts;
+  for (const Arrangement::Group& group : groups) {
+    QDockWidget* const front = find(group.docks.front());
+    if (fronts.isEmpty())
+      window_.addDockWidget(area, front);
+    else
+      window_.splitDockWidget(fronts.last(), front, along);
+    fronts << front;
   }
-  window_.resizeDocks({edit}, {570}, Qt::Horizontal);
-  window_.resizeDocks({edit, effect}, {620, 330}, Qt::Vertical);
-  window_.resizeDocks({foot}, {290}, Qt::Vertical);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    QDockWidget* last = fronts[qsizetype(i)];
+    for (const char* name : groups[i].docks) {
+      QDockWidget* const dock = find(name);
+      if (dock != last) window_.tabifyDockWidget(last, dock);
+      dock->show();
+      last = dock;
+    }
+  }
+  return fronts;
+}
+
+/// A hidden dock keeps its place among the tabs, so that it appears there when a person asks for it.
+void DockLayout::hideAtHome(const std::vector<QDockWidget*>& shown) {
+  const auto isShown = [&](const QDockWidget* dock) {
+    return std::find(shown.begin(), shown.end(), dock) != shown.end();
+  };
+  std::array<QDockWidget*, 3> home{};
+  for (const Dock& each : docks_)
+    if (QDockWidget*& at = home[std::size_t(each.place)]; at == nullptr && isShown(each.widget))
+      at = each.widget;
+  for (const Dock& each : docks_) {
+    if (isShown(each.widget)) continue;
+    QDockWidget*& at = home[std::size_t(each.place)];
+    if (at != nullptr)
+      window_.tabifyDockWidget(at, each.widget);
+    else
+      window_.addDockWidget(
+          each.place == Place::foot ? Qt::BottomDockWidgetArea : Qt::RightDockWidgetArea, each.widget);
+    if (at == nullptr) at = each.widget;
+    each.widget->hide();
+  }
+}
+
+void DockLayout::arrangeAll() {
+  Arrangement all{{{{}, 0.62}, {{}, 0.38}}, {{{}, 1}}, 0.41, 0.32, false};
+  // The names are read here only, while the docks hold them.
+  std::vector<QByteArray> names;
+  for (const Dock& each : docks_) names.push_back(each.widget->objectName().toLatin1());
+  for (std::size_t i = 0; i < docks_.size(); ++i) {
+    Arrangement::Group& group = docks_[i].place == Place::foot ? all.foot.front()
+                                : docks_[i].place == Place::edit ? all.right.front()
+                                                                 : all.right.back();
+    group.docks.push_back(names[i].constData());
+  }
+  arrange(all);
 }
 
 void DockLayout::showFrame(const views::LiveFrame& frame) const {

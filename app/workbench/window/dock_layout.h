@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QList>
 #include <QString>
 #include <functional>
 #include <vector>
@@ -14,8 +15,20 @@ class QWidget;
 
 namespace trimtab::workbench {
 
-/// The docks of a window and where they stand: what an engineer edits at the upper right, what it does below
-/// that, and the history of a run at the foot. Docks of one place are tabs, the first one in front.
+/// Where docks stand: groups of tabs on the right, from top to bottom, and at the foot, from left to right.
+struct Arrangement {
+  struct Group {
+    std::vector<const char*> docks;  ///< object names; the first one is in front
+    double share = 1;                ///< of the column's height or the foot's width
+  };
+  std::vector<Group> right, foot;
+  double rightShare = 0.4, footShare = 0.35;  ///< of the window's width and height
+  bool wideFoot = false;                      ///< the foot runs under the docks on the right
+};
+
+/// The docks of a window and where they stand. What an engineer edits is at home at the upper right, what it
+/// does below that, and the history of a run at the foot. An arrangement shows some of them; the others wait
+/// hidden where they are at home.
 class DockLayout {
  public:
   enum class Place { edit, effect, foot };
@@ -31,8 +44,10 @@ class DockLayout {
       viewers_.push_back([content](const views::LiveFrame& frame) { content->showFrame(frame); });
     return content;
   }
-  /// Puts every dock back to where it stands in a new window.
-  void arrange();
+  /// Sizes are those of the window as it is now.
+  void arrange(const Arrangement& wanted);
+  /// Shows every dock where it is at home, as tabs.
+  void arrangeAll();
   void showFrame(const views::LiveFrame& frame) const;
 
  private:
@@ -41,6 +56,10 @@ class DockLayout {
     Place place;
   };
   void addDock(const char* name, const QString& title, Place place, QWidget* content);
+  QDockWidget* find(const char* name) const;
+  QList<QDockWidget*> put(const std::vector<Arrangement::Group>& groups, Qt::DockWidgetArea area,
+                          Qt::Orientation along);
+  void hideAtHome(const std::vector<QDockWidget*>& shown);
 
   QMainWindow& window_;
   std::vector<Dock> docks_;

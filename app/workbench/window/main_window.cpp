@@ -8,6 +8,7 @@
 #include <QDropEvent>
 #include <QFileInfo>
 #include <QLabel>
+#include <QMenuBar>
 #include <QMimeData>
 #include <QSettings>
 #include <QStatusBar>
@@ -32,14 +33,14 @@
 #include "views/panels/budget_strip.h"
 #include "views/panels/plots_panel.h"
 #include "views/panels/static_lod_panel.h"
+#include "workspace_bar.h"
+#include "workspaces.h"
 
 namespace trimtab::workbench {
 namespace {
 
-/// Raise it when docks come or go, so that no old layout is forced on new docks.
-constexpr int kLayoutVersion = 4;
 constexpr int kSavedMs = 4000, kHintMs = 8000;
-const QString kGeometryKey = QStringLiteral("window/geometry"), kStateKey = QStringLiteral("window/state");
+const QString kGeometryKey = QStringLiteral("window/geometry");
 
 }  // namespace
 
@@ -54,7 +55,7 @@ MainWindow::MainWindow() {
   makeStatusBar();
   makeMenus();
   connectParts();
-  restoreLayout();
+  restoreSize();
   updateTitle();
 }
 
@@ -104,6 +105,7 @@ void MainWindow::makeControllers() {
   panels_.experiments = docks_.add("experiments", tr("Experiments"), foot, new ExperimentsDock(inputs));
   docks_.add("errors", tr("Run time against error"), foot, &c.errors->dock());
   docks_.add("compare", tr("Compare"), foot, &c.errors->splitView());
+  workspaces_ = new Workspaces(*this, docks_);
   c.errors->attach();
 }
 
@@ -123,7 +125,9 @@ void MainWindow::makeStatusBar() {
 void MainWindow::makeMenus() {
   const Workplace at{draft_, feed_, *viewport_, *panels_.messages, *this};
   auto* menus = new Menus(*this, at, controllers_, panels_);
-  connect(menus, &Menus::layoutResetAsked, this, &MainWindow::resetLayout);
+  connect(menus, &Menus::everyDockAsked, this, &MainWindow::showEveryDock);
+  // Beside the menus, where it costs the image no height.
+  menuBar()->setCornerWidget(new WorkspaceBar(*workspaces_, menus->workspaces(), messages(), this));
 }
 
 void MainWindow::connectParts() {
@@ -159,19 +163,11 @@ void MainWindow::connectParts() {
   connect(panels_.experiments, &ExperimentsDock::refused, messages, &MessagePanel::add);
 }
 
-void MainWindow::restoreLayout() {
-  docks_.arrange();
+void MainWindow::restoreSize() {
   resize(1600, 1000);
-  defaultLayout_ = saveState(kLayoutVersion);
   const QSettings settings;
   restoreGeometry(settings.value(kGeometryKey).toByteArray());
-  restoreState(settings.value(kStateKey).toByteArray(), kLayoutVersion);
   panels_.plots->readFrom(settings);
-}
-
-void MainWindow::resetLayout() {
-  restoreState(defaultLayout_, kLayoutVersion);
-  docks_.arrange();
 }
 
 void MainWindow::updateTitle() {
@@ -188,7 +184,10 @@ void MainWindow::openAny(const QString& path) {
   const QString ending = info.suffix().toLower();
   if (info.isFile() && info.fileName() == QLatin1String("results.json"))
     controllers_.errors->openResults(path);
-  else if (info.isFile() && ending == QLatin1String("json"))
+  else if (info.isFile() && path.endsWith(QLatin1String(".workspace.json"))) {
+    if (const Findings findings = workspaces_->readFrom(path); !findings.empty())
+      messages().add(tr("The workspace cannot be used: %1").arg(path), findings);
+  } else if (info.isFile() && ending == QLatin1String("json"))
     controllers_.document->openOverEdits(path);
   else if (info.isFile() && (ending == QLatin1String("csv") || ending == QLatin1String("pcap")))
     controllers_.flight->open(path);
@@ -228,7 +227,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   controllers_.document->document().dropCopy();
   QSettings settings;
   settings.setValue(kGeometryKey, saveGeometry());
-  settings.setValue(kStateKey, saveState(kLayoutVersion));
+  workspaces_->keep();
   panels_.plots->keepIn(settings);
   controllers_.trace->stop();
   feed_.closeHost();
@@ -243,6 +242,7 @@ void MainWindow::start(const Options& options) {
     setWindowState(windowState() & ~(Qt::WindowMaximized | Qt::WindowFullScreen));
     resize(*options.window);
   }
+  workspaces_->begin();
   show();
   viewport_->setFocus();
   if (!options.preset.isEmpty()) c.document->open(options.preset);

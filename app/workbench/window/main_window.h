@@ -20,6 +20,7 @@ namespace trimtab::workbench {
 
 class MessagePanel;
 class NoticeBar;
+class Workspaces;
 
 /// The workbench's window: the viewport in the middle, docks around it, menus above. It makes the parts and
 /// owns them; the controllers do the work.
@@ -37,8 +38,8 @@ class MainWindow : public QMainWindow {
   /// Opens a preset, a flight or measured results, by the ending of the file's name; anything else as
   /// terrain.
   void openAny(const QString& path);
-  /// Puts every dock back to where it stands in a new window.
-  void resetLayout();
+  /// Shows every dock where it is at home, as tabs.
+  void showEveryDock() { docks_.arrangeAll(); }
 
   views::Draft& draft() { return draft_; }
   Feed& feed() { return feed_; }
@@ -46,6 +47,7 @@ class MainWindow : public QMainWindow {
   MessagePanel& messages() { return *panels_.messages; }
   NoticeBar& notices() { return *notices_; }
   views::BudgetStrip& strip() { return *strip_; }
+  Workspaces& workspaces() { return *workspaces_; }
   const Panels& panels() const { return panels_; }
   const Controllers& controllers() const { return controllers_; }
   /// Returns the dock with this object name; null if there is none.
@@ -64,7 +66,7 @@ class MainWindow : public QMainWindow {
   void makeMenus();
   void makeStatusBar();
   void connectParts();
-  void restoreLayout();
+  void restoreSize();
   void updateTitle();
   void takeScreenshotSoon();
   void takeScreenshot();
@@ -76,10 +78,10 @@ class MainWindow : public QMainWindow {
   Viewport* viewport_ = nullptr;
   NoticeBar* notices_ = nullptr;
   views::BudgetStrip* strip_ = nullptr;
+  Workspaces* workspaces_ = nullptr;
   DockLayout docks_{*this};
   Panels panels_;
   Controllers controllers_;
-  QByteArray defaultLayout_;
   Options options_;
   bool screenshotDue_ = false;
 };

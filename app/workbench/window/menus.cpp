@@ -240,13 +240,14 @@ QAction* Menus::addOverlay(QMenu& view, const QString& text, const QString& keys
 
 void Menus::makeViewMenu() {
   QMenu& view = *window_.menuBar()->addMenu(tr("&View"));
-  QAction* wireframe = addOverlay(view, tr("&Wireframe"), tr("Ctrl+1"), &Overlays::wireframe);
-  QAction* bounds = addOverlay(view, tr("Tile &bounds"), tr("Ctrl+2"), &Overlays::tileBounds);
-  QAction* byReason = addOverlay(view, tr("Colour by &reason"), tr("Ctrl+3"), &Overlays::colourByReason);
-  QAction* byLevel = addOverlay(view, tr("Colour by &level"), tr("Ctrl+4"), &Overlays::colourByLevel);
-  QAction* voids = addOverlay(view, tr("Filled &voids"), tr("Ctrl+5"), &Overlays::voids);
+  QAction* wireframe = addOverlay(view, tr("&Wireframe"), tr("Ctrl+Shift+1"), &Overlays::wireframe);
+  QAction* bounds = addOverlay(view, tr("Tile &bounds"), tr("Ctrl+Shift+2"), &Overlays::tileBounds);
+  QAction* byReason =
+      addOverlay(view, tr("Colour by &reason"), tr("Ctrl+Shift+3"), &Overlays::colourByReason);
+  QAction* byLevel = addOverlay(view, tr("Colour by &level"), tr("Ctrl+Shift+4"), &Overlays::colourByLevel);
+  QAction* voids = addOverlay(view, tr("Filled &voids"), tr("Ctrl+Shift+5"), &Overlays::voids);
   voids->setToolTip(tr("Highlights posts that the sources leave open; visible where patches are drawn"));
-  QAction* squares = addOverlay(view, tr("Te&xture squares"), tr("Ctrl+6"), &Overlays::textureSquares);
+  QAction* squares = addOverlay(view, tr("Te&xture squares"), tr("Ctrl+Shift+6"), &Overlays::textureSquares);
   squares->setToolTip(tr(
       "Draws static trees with squares of an eighth of a texture, so that one sees how textures lie on each\n"
       "level; needs a terrain baked from scenery with --keep-texture"));
@@ -287,7 +288,7 @@ void Menus::makeViewMenu() {
              {}});
   addComparison(view);
   addDocks(view);
-  add(view, {{tr("Reset la&yout"), {}, [this] { emit layoutResetAsked(); }}});
+  workspaces_ = view.addMenu(tr("Wor&kspaces"));
   auto* bar = window_.addToolBar(tr("View"));
   bar->setObjectName(QStringLiteral("view_toolbar"));
   bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
@@ -345,6 +346,7 @@ void Menus::addCases(QMenu& view) {
 
 void Menus::addDocks(QMenu& view) {
   QMenu& docks = *view.addMenu(tr("&Docks"));
+  docks.setObjectName(QStringLiteral("docks"));
   int number = 1;
   for (QDockWidget* each : window_.findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
     QAction* go = nullptr;
@@ -358,6 +360,7 @@ void Menus::addDocks(QMenu& view) {
     connect(go, &QAction::triggered, each, [each, go] { go->setChecked(!each->isHidden()); });
     connect(each->toggleViewAction(), &QAction::toggled, go, &QAction::setChecked);
   }
+  add(docks, {{}, {tr("Show &every dock"), {}, [this] { emit everyDockAsked(); }}});
 }
 
 void Menus::makeFlightMenu() {

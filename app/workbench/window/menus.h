@@ -29,8 +29,11 @@ class Menus : public QObject {
   Menus(QMainWindow& window, const Workplace& workplace, const Controllers& controllers,
         const Panels& panels);
 
+  /// The menu that the workspaces fill.
+  QMenu& workspaces() { return *workspaces_; }
+
  signals:
-  void layoutResetAsked();
+  void everyDockAsked();
 
  private:
   /// One line of a menu. Without a text it is a separator.
@@ -59,6 +62,7 @@ class Menus : public QObject {
   Workplace at_;
   const Controllers& by_;
   Panels panels_;
+  QMenu* workspaces_ = nullptr;
   QList<QAction*> terrainActions_;  ///< the File menu commands that the Terrain dock has as buttons
 };
 

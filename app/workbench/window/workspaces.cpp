@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "workspaces.h"
+
+#include <QFileInfo>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QMainWindow>
+#include <QSettings>
+#include <algorithm>
+#include <array>
+
+#include "dock_layout.h"
+#include "trimtab/preset/file_io.h"
+#include "trimtab/preset/preset.h"
+
+namespace trimtab::workbench {
+namespace {
+
+/// Raise it when docks come or go, so that no old layout is forced on new docks.
+constexpr int kDocksVersion = 5;
+constexpr auto kVersionKey = "trimtab_workspace", kNameKey = "name", kStateKey = "docks";
+
+struct Shipped {
+  const char* name;
+  Arrangement docks;
+};
+
+/// What each job needs, at 1280x720.
+const std::array<Shipped, 5>& shippedList() {
+  static const std::array<Shipped, 5> list{{
+      {QT_TRANSLATE_NOOP("Workspaces", "Fly"),
+       {{{{"decision"}, 0.62}, {{"flight", "motion", "symbology"}, 0.38}}, {{{"plots"}, 1}}, 0.32, 0.34}},
+      {QT_TRANSLATE_NOOP("Workspaces", "Tune"),
+       {{{{"policy", "depth_map", "weather", "preset"}, 1}},
+        {{{"budget", "decision", "plots", "history"}, 1}},
+        0.46,
+        0.42}},
+      {QT_TRANSLATE_NOOP("Workspaces", "Measure"),
+       {{{{"flight", "preset"}, 1}}, {{{"errors", "experiments"}, 1}}, 0.36, 0.52, true}},
+      {QT_TRANSLATE_NOOP("Workspaces", "Terrain"),
+       {{{{"terrain", "culling", "static_lod"}, 1}}, {{{"messages"}, 1}}, 0.42, 0.24}},
+      {QT_TRANSLATE_NOOP("Workspaces", "Connect"),
+       {{{{"host"}, 0.66}, {{"flight"}, 0.34}}, {{{"plots", "messages"}, 1}}, 0.4, 0.34}},
+  }};
+  return list;
+}
+
+Findings refusal(const QString& where, const char* expected, const QString& found) {
+  return {{Severity::error, where.toStdString(), {}, expected, found.toStdString()}};
+}
+
+}  // namespace
+
+std::size_t Workspaces::shipped() {
+  return shippedList().size();
+}
+
+Workspaces::Workspaces(QMainWindow& window, DockLayout& docks)
+    : QObject(&window), window_(window), docks_(docks) {
+  for (const Shipped& each : shippedList()) all_.push_back({tr(each.name), {}, {}});
+}
+
+QStringList Workspaces::names() const {
+  QStringList names;
+  for (const Workspace& each : all_) names << each.name;
+  return names;
+}
+
+void Workspaces::show(int index) {
+  if (index < 0 || std::size_t(index) >= all_.size()) return;
+  all_[std::size_t(current_)].left = window_.saveState(kDocksVersion);
+  apply(index);
+}
+
+void Workspaces::apply(int index) {
+  current_ = index;
+  const Workspace& wanted = all_[std::size_t(index)];
+  const bool asLeft = !wanted.left.isEmpty() && window_.restoreState(wanted.left, kDocksVersion);
+  if (!asLeft && (wanted.saved.isEmpty() || !window_.restoreState(wanted.saved, kDocksVersion)))
+    docks_.arrange(shippedList()[std::min(std::size_t(index), shipped() - 1)].docks);
+  emit currentChanged(index);
+}
+
+void Workspaces::reset() {
+  all_[std::size_t(current_)].left.clear();
+  apply(current_);
+}
+
+void Workspaces::add(const QString& name, const QByteArray& state) {
+  all_[std::size_t(current_)].left = window_.saveState(kDocksVersion);
+  auto at = std::find_if(all_.begin(), all_.end(), [&](const Workspace& each) { return each.name == name; });
+  if (at == all_.end()) at = all_.insert(at, {name, {}, {}});
+  at->saved = state;
+  at->left.clear();
+  emit listChanged();
+  apply(static_cast<int>(at - all_.begin()));
+}
+
+Findings Workspaces::saveAs(const QString& name) {
+  const QString plain = name.trimmed();
+  const qsizetype at = names().indexOf(plain);
+  if (plain.isEmpty() || (at >= 0 && ships(int(at))))
+    return refusal(tr("workspace"), "a name that does not ship", plain);
+  add(plain, window_.saveState(kDocksVersion));
+  return {};
+}
+
+void Workspaces::remove(int index) {
+  if (index < 0 || ships(index) || std::size_t(index) >= all_.size()) return;
+  all_.erase(all_.begin() + index);
+  if (current_ > index) --current_;
+  else if (current_ == index) apply(0);
+  emit listChanged();
+}
+
+Findings Workspaces::writeTo(const QString& file) const {
+  const QJsonObject object{
+      {QLatin1String(kVersionKey), kDocksVersion},
+      {QLatin1String(kNameKey), all_[std::size_t(current_)].name},
+      {QLatin1String(kStateKey), QString::fromLatin1(window_.saveState(kDocksVersion).toBase64())}};
+  return writeAtomically(file.toStdString(), QJsonDocument(object).toJson().toStdString()).findings();
+}
+
+Findings Workspaces::readFrom(const QString& file) {
+  const Result<std::string> text = readWhole(file.toStdString());
+  if (!text) return text.findings();
+  const QJsonObject object = QJsonDocument::fromJson(QByteArray::fromStdString(*text)).object();
+  if (object[QLatin1String(kVersionKey)].toInt() != kDocksVersion)
+    return refusal(file, "a workspace of this version of the program",
+                   object.isEmpty() ? tr("another file") : tr("another version"));
+  const QByteArray state =
+      QByteArray::fromBase64(object[QLatin1String(kStateKey)].toString().toLatin1());
+  const QByteArray before = window_.saveState(kDocksVersion);
+  if (state.isEmpty() || !window_.restoreState(state, kDocksVersion)) {
+    window_.restoreState(before, kDocksVersion);
+    return refusal(file, "places of docks", tr("bytes that are none"));
+  }
+  window_.restoreState(before, kDocksVersion);
+  QString name = object[QLatin1String(kNameKey)].toString().trimmed();
+  if (name.isEmpty()) name = QFileInfo(file).completeBaseName();
+  if (const qsizetype at = names().indexOf(name); at >= 0 && ships(int(at)))
+    name = tr("%1 of %2").arg(name, QFileInfo(file).completeBaseName());
+  add(name, state);
+  return {};
+}
+
+void Workspaces::begin() {
+  QSettings settings;
+  const int count = settings.beginReadArray(QStringLiteral("workspaces"));
+  for (int i = 0; i < count; ++i) {
+    settings.setArrayIndex(i);
+    const QByteArray left = settings.value(QStringLiteral("left")).toByteArray();
+    if (std::size_t(i) < shipped()) {
+      all_[std::size_t(i)].left = left;
+      continue;
+    }
+    all_.push_back({settings.value(QStringLiteral("name")).toString(),
+                    settings.value(QStringLiteral("saved")).toByteArray(), left});
+  }
+  settings.endArray();
+  emit listChanged();
+  apply(std::clamp(settings.value(QStringLiteral("workspace"), current_).toInt(), 0, int(all_.size()) - 1));
+}
+
+void Workspaces::keep() {
+  all_[std::size_t(current_)].left = window_.saveState(kDocksVersion);
+  QSettings settings;
+  settings.beginWriteArray(QStringLiteral("workspaces"), int(all_.size()));
+  for (std::size_t i = 0; i < all_.size(); ++i) {
+    settings.setArrayIndex(int(i));
+    settings.setValue(QStringLiteral("name"), all_[i].name);
+    settings.setValue(QStringLiteral("saved"), all_[i].saved);
+    settings.setValue(QStringLiteral("left"), all_[i].left);
+  }
+  settings.endArray();
+  settings.setValue(QStringLiteral("workspace"), current_);
+}
+
+}  // namespace trimtab::workbench

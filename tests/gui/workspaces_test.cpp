@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QAbstractButton>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QFile>
+#include <QLabel>
+#include <QTabBar>
+#include <QTextDocument>
+#include <QToolBar>
+
+#include "app/workbench/docks/dock_of.h"
+#include "app/workbench/window/workspaces.h"
+#include "gui_support.h"
+
+namespace trimtab::test {
+namespace {
+
+QString plainText(const QLabel& label) {
+  if (!Qt::mightBeRichText(label.text())) return QString(label.text()).remove('&');
+  QTextDocument document;
+  document.setHtml(label.text());
+  return document.toPlainText();
+}
+
+/// Words in sight that their own widget cuts off.
+QStringList cutWords(const QWidget& window) {
+  QStringList cut;
+  const auto seen = [](const QWidget* each) { return each->isVisible() && !each->visibleRegion().isEmpty(); };
+  for (const QLabel* label : window.findChildren<QLabel*>()) {
+    if (!seen(label) || label->text().isEmpty()) continue;
+    int widest = 0;
+    const QStringList parts = plainText(*label).split(label->wordWrap() ? QLatin1Char(' ') : QLatin1Char('\n'));
+    for (const QString& part : parts)
+      widest = std::max(widest, label->fontMetrics().horizontalAdvance(part));
+    if (widest > label->contentsRect().width() + 1) cut << "label: " + label->text();
+  }
+  for (const QAbstractButton* button : window.findChildren<QAbstractButton*>()) {
+    if (!seen(button) || button->text().isEmpty()) continue;
+    const int wanted = button->fontMetrics().horizontalAdvance(QString(button->text()).remove('&'));
+    if (wanted > button->width()) cut << "button: " + button->text();
+  }
+  for (const QTabBar* bar : window.findChildren<QTabBar*>()) {
+    if (!seen(bar) || bar->count() == 0) continue;
+    int whole = 0;
+    for (int i = 0; i < bar->count(); ++i) whole += bar->tabRect(i).width();
+    if (whole > bar->width()) cut << QString("tabs from %1 on: %2 of %3 px").arg(bar->tabText(0)).arg(bar->width()).arg(whole);
+  }
+  return cut;
+}
+
+class WorkbenchWorkspaces : public Bench {
+ protected:
+  workbench::Workspaces& spaces() { return w().workspaces(); }
+  bool front(const char* name) { return workbench::isInFront(*w().dock(name)); }
+  void press(Qt::Key key) {
+    QTest::keyClick(&w(), key, Qt::ControlModifier);
+    QTest::qWait(40);
+  }
+  void SetUp() override {
+    Bench::SetUp();
+    w().resize(1280, 720);
+    w().activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&w()));
+    for (int i = 0; i < 5; ++i) {
+      spaces().show(i);
+      spaces().reset();
+    }
+  }
+};
+
+TEST_F(WorkbenchWorkspaces, ctrlAndANumberShowWhatEachJobNeedsWithoutACutWord) {
+  const std::vector<std::vector<const char*>> needed = {{"decision", "flight", "plots"},
+                                                        {"policy", "budget"},
+                                                        {"errors", "flight"},
+                                                        {"terrain", "messages"},
+                                                        {"host", "flight", "plots"}};
+  for (int i = 0; i < 5; ++i) {
+    press(Qt::Key(Qt::Key_1 + i));
+    EXPECT_EQ(spaces().current(), i);
+    EXPECT_EQ(w().size(), QSize(1280, 720)) << "nothing widens the window";
+    for (const char* name : needed[std::size_t(i)])
+      EXPECT_TRUE(front(name)) << name << " in " << spaces().names()[i].toStdString();
+    EXPECT_GE(w().viewport().width(), 400);
+    EXPECT_GE(w().viewport().height(), 180);
+    EXPECT_EQ(cutWords(w()).join("\n").toStdString(), "") << spaces().names()[i].toStdString();
+  }
+}
+
+TEST_F(WorkbenchWorkspaces, aWorkspaceKeepsHowItWasLeftUntilItIsReset) {
+  press(Qt::Key_2);
+  w().dock("budget")->close();
+  press(Qt::Key_1);
+  EXPECT_FALSE(front("policy"));
+  press(Qt::Key_2);
+  EXPECT_TRUE(front("policy"));
+  EXPECT_TRUE(w().dock("budget")->isHidden());
+  w().close();
+  window.reset();
+  window = std::make_unique<workbench::MainWindow>();
+  workbench::Options options;
+  options.terrain = QString::fromStdString(sampleTerrain().string());
+  window->start(options);
+  QTest::qWait(50);
+  EXPECT_EQ(spaces().current(), 1) << "over a restart too";
+  EXPECT_TRUE(w().dock("budget")->isHidden());
+  spaces().reset();
+  QTest::qWait(40);
+  EXPECT_TRUE(front("budget"));
+}
+
+TEST_F(WorkbenchWorkspaces, aDockThatIsAskedForAppearsWhereItIsAtHome) {
+  press(Qt::Key_1);
+  ASSERT_TRUE(w().dock("messages")->isHidden());
+  w().messages().add("Something failed", {{Severity::error, "here", "", "this", "that"}});
+  QTest::qWait(40);
+  EXPECT_TRUE(front("messages")) << "an error is never out of sight";
+  EXPECT_FALSE(w().tabifiedDockWidgets(w().dock("messages")).isEmpty());
+}
+
+TEST_F(WorkbenchWorkspaces, ownWorkspacesAreSavedRemovedAndSharedAsFiles) {
+  const ScratchDir dir;
+  press(Qt::Key_4);
+  w().dock("host")->show();
+  EXPECT_FALSE(spaces().saveAs("Tune").empty()) << "a name that ships";
+  ASSERT_TRUE(spaces().saveAs("Night").empty());
+  EXPECT_EQ(spaces().current(), 5);
+  w().dock("host")->close();
+  spaces().reset();
+  EXPECT_FALSE(w().dock("host")->isHidden()) << "as it was saved";
+  const QString file = QString::fromStdString((dir / "night.workspace.json").string());
+  EXPECT_TRUE(spaces().writeTo(file).empty());
+  spaces().remove(5);
+  EXPECT_EQ(spaces().names().size(), 5);
+  EXPECT_EQ(spaces().current(), 0);
+  w().openAny(file);
+  EXPECT_EQ(spaces().names().last(), "Night");
+  EXPECT_FALSE(w().dock("host")->isHidden());
+  spaces().remove(5);
+}
+
+TEST_F(WorkbenchWorkspaces, aFileThatIsNoneIsRefusedAndChangesNothing) {
+  const ScratchDir dir;
+  press(Qt::Key_3);
+  for (const char* text : {"", "{}", "[1, 2]", "{\"trimtab_workspace\": 5, \"docks\": \"AAAA\"}",
+                           "{\"trimtab_workspace\": 4000, \"docks\": \"AAAA\"}"}) {
+    const QString file = QString::fromStdString((dir / "bad.workspace.json").string());
+    QFile to(file);
+    ASSERT_TRUE(to.open(QIODevice::WriteOnly));
+    to.write(text);
+    to.close();
+    EXPECT_FALSE(spaces().readFrom(file).empty()) << text;
+    EXPECT_EQ(spaces().names().size(), 5) << text;
+    EXPECT_TRUE(front("errors")) << text;
+  }
+}
+
+}  // namespace
+}  // namespace trimtab::test
