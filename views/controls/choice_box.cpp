@@ -3,6 +3,7 @@
 
 #include <QWheelEvent>
 
+#include "parameter_of.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
@@ -13,6 +14,7 @@ ChoiceBox::ChoiceBox(Draft& draft, std::string_view key, QWidget* parent) : QCom
   for (const ChoiceOption& option : row->choices) addItem(fromView(option.label));
   setFocusPolicy(Qt::StrongFocus);
   setAccessibleName(fromView(row->label));
+  markParameter(*this, key);
   setToolTip(helpText(*row));
   setSizeAdjustPolicy(QComboBox::AdjustToContents);
   setMinimumContentsLength(8);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "choice_box.h"
+#include "parameter_of.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
@@ -44,6 +45,7 @@ NumberBox::NumberBox(Draft& draft, std::string_view key, QWidget* parent)
   setKeyboardTracking(false);
   setFocusPolicy(Qt::StrongFocus);
   setAccessibleName(fromView(row_->label));
+  markParameter(*this, row_->key);
   setToolTip(helpText(*row_));
   if (!row_->unit.empty())
     setSuffix((row_->unit == "°" ? QString() : QStringLiteral(" ")) + fromView(row_->unit));

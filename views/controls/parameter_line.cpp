@@ -12,6 +12,7 @@
 #include "choice_box.h"
 #include "note_line.h"
 #include "number_box.h"
+#include "parameter_of.h"
 #include "parameter_slider.h"
 #include "views/model/keys.h"
 #include "views/model/theme.h"
@@ -60,6 +61,8 @@ ParameterLine::ParameterLine(Draft& draft, const ParameterRow& row, QGridLayout&
   label_->setWordWrap(true);
   label_->setMinimumWidth(label_->fontMetrics().horizontalAdvance(QStringLiteral("membership offset")));
   for (QWidget* widget : {static_cast<QWidget*>(label_), field_}) widget->setToolTip(help);
+  for (QWidget* widget : {static_cast<QWidget*>(label_), field_, editor_, static_cast<QWidget*>(reset_)})
+    markParameter(*widget, row.key);
   makeValues();
   reset_->setText(QStringLiteral("↺"));
   reset_->setAutoRaise(true);

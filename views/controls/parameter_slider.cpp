@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "choice_box.h"
+#include "parameter_of.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
@@ -27,6 +28,7 @@ ParameterSlider::ParameterSlider(Draft& draft, std::string_view key, QWidget* pa
   setFocusPolicy(Qt::StrongFocus);
   setMinimumWidth(40);
   setAccessibleName(tr("%1, slider").arg(fromView(row_->label)));
+  markParameter(*this, row_->key);
   setToolTip(helpText(*row_));
   read();
   connect(&draft_, &Draft::valueChanged, this, [this](const QString& changed) {

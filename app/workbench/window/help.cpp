@@ -10,8 +10,6 @@
 #include <QTextBrowser>
 #include <QVBoxLayout>
 
-#include "trimtab/preset/preset.h"
-
 namespace trimtab::workbench {
 namespace {
 
@@ -70,10 +68,6 @@ void showKeys(QWidget* parent, const QMenuBar& menus) {
                        QString(action->text()).remove('&').remove(QStringLiteral("...")));
     }
   showText(parent, QObject::tr("Keys and mouse"), text);
-}
-
-void showReference(QWidget* parent) {
-  showText(parent, QObject::tr("Parameter reference"), QString::fromStdString(parameterReference()));
 }
 
 void showAbout(QWidget* parent, const scene::GlReport& gl) {

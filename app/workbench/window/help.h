@@ -12,7 +12,6 @@ namespace trimtab::workbench {
 
 /// Lists what the mouse and the keys do; the commands' shortcuts come from the menus.
 void showKeys(QWidget* parent, const QMenuBar& menus);
-void showReference(QWidget* parent);
 void showAbout(QWidget* parent, const scene::GlReport& gl);
 
 }  // namespace trimtab::workbench

@@ -7,7 +7,6 @@
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFileInfo>
-#include <QLabel>
 #include <QMenuBar>
 #include <QMimeData>
 #include <QSettings>
@@ -30,6 +29,7 @@
 #include "menus.h"
 #include "notice_bar.h"
 #include "plots_link.h"
+#include "status_strip.h"
 #include "views/panels/budget_strip.h"
 #include "views/panels/plots_panel.h"
 #include "views/panels/static_lod_panel.h"
@@ -110,10 +110,14 @@ void MainWindow::makeControllers() {
 }
 
 void MainWindow::makeStatusBar() {
-  auto* source = new QLabel(this);
+  auto* strip = new StatusStrip(feed_, draft_, this);
   statusBar()->addPermanentWidget(new JobBar(controllers_.terrain->job(), this));
-  statusBar()->addPermanentWidget(source);
-  connect(controllers_.flight.get(), &FlightController::sourceTextChanged, source, &QLabel::setText);
+  statusBar()->addPermanentWidget(strip);
+  connect(controllers_.flight.get(), &FlightController::sourceTextChanged, strip, &StatusStrip::showSource);
+  connect(controllers_.trace.get(), &TraceController::recordingChanged, strip, &StatusStrip::showRecording);
+  connect(controllers_.frame.get(), &FrameController::frameShown, strip, &StatusStrip::showFrame);
+  connect(workspaces_, &Workspaces::currentChanged, strip,
+          [this, strip](int index) { strip->showWorkspace(workspaces_->names()[index]); });
   connect(controllers_.document.get(), &DocumentController::saved, this,
           [this](const QString& file) { statusBar()->showMessage(tr("Saved %1").arg(file), kSavedMs); });
   connect(controllers_.document.get(), &DocumentController::exported, this,

@@ -3,6 +3,7 @@
 
 #include <QAction>
 #include <QActionGroup>
+#include <QApplication>
 #include <QDockWidget>
 #include <QFileInfo>
 #include <QMainWindow>
@@ -19,7 +20,11 @@
 #include "app/workbench/jobs/feed.h"
 #include "app/workbench/viewport/split_view.h"
 #include "app/workbench/viewport/viewport.h"
+#include "appearance.h"
 #include "help.h"
+#include "palette.h"
+#include "palette_entries.h"
+#include "reference.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/preset/table.h"
 #include "views/model/draft.h"
@@ -189,6 +194,8 @@ void Menus::makeEditMenu() {
   redo->setShortcuts({tr("Ctrl+Shift+Z"), tr("Ctrl+Y")});
   dress(*redo, tr("Redo"), icon(QStyle::SP_ArrowForward));
   edit.addActions({undo, redo});
+  auto* const palette = new Palette([this] { return paletteEntries(window_, by_, panels_); }, &window_);
+  add(edit, {{}, {tr("&Find anything..."), tr("Ctrl+K"), [palette] { palette->begin(); }}});
   add(edit, {{},
              {tr("Reset &all parameters to the file"),
               {},
@@ -289,6 +296,7 @@ void Menus::makeViewMenu() {
   addComparison(view);
   addDocks(view);
   workspaces_ = view.addMenu(tr("Wor&kspaces"));
+  addAppearances(*view.addMenu(tr("&Colours")));
   auto* bar = window_.addToolBar(tr("View"));
   bar->setObjectName(QStringLiteral("view_toolbar"));
   bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
@@ -376,10 +384,15 @@ void Menus::makeFlightMenu() {
 }
 
 void Menus::makeHelpMenu() {
+  auto* const reference = new Reference(&window_);
   add(*window_.menuBar()->addMenu(tr("&Help")),
-      {{tr("&Keys and mouse"), QKeySequence::HelpContents,
-        [this] { showKeys(&window_, *window_.menuBar()); }},
-       {tr("&Parameter reference"), tr("Shift+F1"), [this] { showReference(&window_); }},
+      {{tr("&What is this control?"), QKeySequence::HelpContents,
+        [this, reference] {
+          if (!reference->explain(QApplication::focusWidget())) showKeys(&window_, *window_.menuBar());
+        },
+        tr("Shows the entry of the control that has the focus")},
+       {tr("&Keys and mouse"), tr("Ctrl+F1"), [this] { showKeys(&window_, *window_.menuBar()); }},
+       {tr("&Parameter reference"), tr("Shift+F1"), [reference] { reference->look({}); }},
        {},
        {tr("&About Trimtab"), {}, [this] { showAbout(&window_, at_.viewport.gl()); }}});
 }

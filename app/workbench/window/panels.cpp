@@ -57,7 +57,7 @@ Panels makePanels(DockLayout& docks, views::Draft& draft, Feed& feed) {
   panels.staticLod = docks.add("static_lod", tr("Static LOD"), edit, new views::StaticLodPanel(draft));
   panels.weather = docks.add("weather", tr("Weather"), edit, new views::WeatherPanel(draft));
   panels.symbology = docks.add("symbology", tr("Symbology"), edit, new views::SymbologyPanel(draft));
-  auto* parameters = docks.add("preset", tr("Preset"), edit, new views::ParameterTable(draft));
+  panels.parameters = docks.add("preset", tr("Preset"), edit, new views::ParameterTable(draft));
   docks.add("decision", tr("Decision"), effect, new views::DecisionPanel(draft));
   auto* budget = docks.add("budget", tr("Budget"), effect, new views::BudgetPanel(draft));
   panels.motion = docks.add("motion", tr("Head motion"), effect, new views::MotionPanel(draft));
@@ -68,7 +68,7 @@ Panels makePanels(DockLayout& docks, views::Draft& draft, Feed& feed) {
   panels.messages = docks.add("messages", tr("Messages"), foot, new MessagePanel);
   panels.changes = docks.add("history", tr("Changes"), foot, new ChangesDock(draft));
   panels.culling->showStages(panels.plots->buffer());
-  connectEditors(*parameters, *panels.policy, *panels.bands);
+  connectEditors(*panels.parameters, *panels.policy, *panels.bands);
   QObject::connect(panels.bands, &views::BandsEditor::cullingAsked, panels.culling,
                    [culling = panels.culling] { goTo(*dockOf(*culling)); });
   return panels;

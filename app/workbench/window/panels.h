@@ -6,6 +6,7 @@ class BandsEditor;
 class CullingPanel;
 class Draft;
 class MotionPanel;
+class ParameterTable;
 class PlotsPanel;
 class PolicyPanel;
 class StaticLodPanel;
@@ -34,6 +35,7 @@ struct Panels {
   views::WeatherPanel* weather = nullptr;
   views::SymbologyPanel* symbology = nullptr;
   views::MotionPanel* motion = nullptr;
+  views::ParameterTable* parameters = nullptr;
   HostDock* host = nullptr;
   FlightDock* flight = nullptr;
   views::PlotsPanel* plots = nullptr;

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "palette_entries.h"
+
+#include <QAction>
+#include <QDockWidget>
+#include <QFileInfo>
+#include <QLineEdit>
+#include <QMainWindow>
+#include <QMenu>
+#include <QMenuBar>
+
+#include "app/workbench/controllers/controllers.h"
+#include "app/workbench/controllers/recent_files.h"
+#include "app/workbench/docks/dock_of.h"
+#include "panels.h"
+#include "trimtab/preset/preset.h"
+#include "trimtab/preset/table.h"
+#include "views/controls/parameter_line.h"
+#include "views/controls/parameter_table.h"
+#include "views/model/theme.h"
+
+namespace trimtab::workbench {
+namespace {
+
+using Entries = std::vector<PaletteEntry>;
+
+QString plain(QString text) {
+  return text.remove('&').remove(QStringLiteral("..."));
+}
+
+/// The menu of the docks is left out: it closes a dock that has the focus, and docks have entries of their own.
+void addCommands(Entries& to, const QList<QAction*>& actions, const QString& path) {
+  for (QAction* action : actions) {
+    if (action->isSeparator() || !action->isEnabled()) continue;
+    if (const QMenu* menu = action->menu()) {
+      if (menu->objectName() != QLatin1String("docks"))
+        addCommands(to, menu->actions(), path + plain(action->text()) + QStringLiteral(" › "));
+      continue;
+    }
+    to.push_back({path + plain(action->text()), QObject::tr("command"),
+                  action->shortcut().toString(QKeySequence::NativeText), [action] { action->trigger(); }});
+  }
+}
+
+void addDocks(Entries& to, QMainWindow& window) {
+  int number = 0;
+  for (QDockWidget* dock : window.findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
+    ++number;
+    to.push_back({dock->windowTitle(), QObject::tr("dock"),
+                  number <= 9 ? QStringLiteral("Alt+%1").arg(number) : QString(), [dock] { goTo(*dock); }});
+  }
+}
+
+void addParameters(Entries& to, views::ParameterTable& table) {
+  for (const ParameterRow& row : parameterRows())
+    to.push_back({QStringLiteral("%1 (%2)").arg(views::fromView(row.label), views::fromView(row.key)),
+                  QObject::tr("parameter"),
+                  {},
+                  [&table, &row] {
+                    raiseDock(table);
+                    table.search().setText(views::fromView(row.key));
+                    if (views::ParameterLine* line = table.line(row.key)) line->editor()->setFocus();
+                  }});
+}
+
+void addRecent(Entries& to, const QString& kind, const QString& shown,
+               const std::function<void(const QString&)>& open) {
+  for (const QString& path : recentFiles(kind))
+    if (QFileInfo::exists(path))
+      to.push_back({QFileInfo(path).fileName(), shown, QFileInfo(path).path(), [open, path] { open(path); }});
+}
+
+}  // namespace
+
+std::vector<PaletteEntry> paletteEntries(QMainWindow& window, const Controllers& by, const Panels& panels) {
+  Entries entries;
+  addCommands(entries, window.menuBar()->actions(), {});
+  addDocks(entries, window);
+  addParameters(entries, *panels.parameters);
+  for (const std::string_view name : shippedPresets())
+    entries.push_back({views::fromView(name), QObject::tr("preset"), QObject::tr("ships"),
+                       [&by, name] { by.document->openOverEdits(views::fromView(name)); }});
+  addRecent(entries, QStringLiteral("preset"), QObject::tr("preset"),
+            [&by](const QString& path) { by.document->openOverEdits(path); });
+  addRecent(entries, QStringLiteral("terrain"), QObject::tr("terrain"),
+            [&by](const QString& path) { by.terrain->open(path); });
+  addRecent(entries, QStringLiteral("flight"), QObject::tr("flight"),
+            [&by](const QString& path) { by.flight->open(path); });
+  return entries;
+}
+
+}  // namespace trimtab::workbench

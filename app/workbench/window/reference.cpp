@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reference.h"
+
+#include <QDockWidget>
+#include <QLineEdit>
+#include <QTextBrowser>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "app/workbench/docks/dock_of.h"
+#include "trimtab/preset/preset.h"
+#include "trimtab/preset/table.h"
+#include "views/controls/choice_box.h"
+#include "views/controls/parameter_of.h"
+#include "views/model/theme.h"
+
+namespace trimtab::workbench {
+namespace {
+
+bool holds(const ParameterRow& row, const QStringList& words) {
+  return std::all_of(words.begin(), words.end(), [&](const QString& word) {
+    for (const std::string_view text : {row.label, row.key, row.help, row.source})
+      if (views::fromView(text).contains(word, Qt::CaseInsensitive)) return true;
+    return false;
+  });
+}
+
+QString nameOf(const QWidget& control) {
+  if (!control.accessibleName().isEmpty()) return control.accessibleName();
+  const QString text = control.property("text").toString();
+  return QString(text).remove('&');
+}
+
+}  // namespace
+
+Reference::Reference(QWidget* parent)
+    : QDialog(parent), search_(new QLineEdit(this)), text_(new QTextBrowser(this)) {
+  setWindowTitle(tr("Parameter reference"));
+  resize(860, 640);
+  search_->setPlaceholderText(tr("Words of a name, key, explanation or source"));
+  search_->setAccessibleName(tr("Search the reference"));
+  search_->setClearButtonEnabled(true);
+  text_->setAccessibleName(tr("Reference"));
+  text_->setOpenExternalLinks(true);
+  auto* column = new QVBoxLayout(this);
+  column->addWidget(search_);
+  column->addWidget(text_, 1);
+  connect(search_, &QLineEdit::textChanged, this, &Reference::find);
+}
+
+void Reference::look(const QString& words) {
+  search_->setText(words);
+  find(words);
+  begin();
+  search_->setFocus();
+  search_->selectAll();
+}
+
+void Reference::find(const QString& words) {
+  const QStringList list = words.split(QLatin1Char(' '), Qt::SkipEmptyParts);
+  if (list.isEmpty()) return text_->setMarkdown(QString::fromStdString(parameterReference()));
+  QString html;
+  for (const ParameterRow& row : parameterRows())
+    if (holds(row, list)) html += views::helpText(row) + QStringLiteral("<hr>");
+  text_->setHtml(html.isEmpty() ? tr("<p>No parameter holds these words.</p>") : html);
+}
+
+bool Reference::explain(const QWidget* control) {
+  if (control == nullptr) return false;
+  if (const QString key = views::parameterOf(control); !key.isEmpty()) {
+    look(key);
+    return true;
+  }
+  QString toolTip;
+  for (const QWidget* at = control; at != nullptr && toolTip.isEmpty() && !at->isWindow(); at = at->parentWidget())
+    toolTip = at->toolTip();
+  const QString name = nameOf(*control);
+  if (toolTip.isEmpty() && name.isEmpty()) return false;
+  QString html = QStringLiteral("<h3>%1</h3><p>%2</p>").arg(name.toHtmlEscaped(), toolTip);
+  if (const QDockWidget* dock = dockOf(*control))
+    html += tr("<p>In the dock <b>%1</b>.</p>").arg(dock->windowTitle().toHtmlEscaped());
+  search_->clear();
+  text_->setHtml(html);
+  begin();
+  return true;
+}
+
+void Reference::begin() {
+  show();
+  raise();
+  activateWindow();
+}
+
+}  // namespace trimtab::workbench

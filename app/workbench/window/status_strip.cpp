@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "status_strip.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <cmath>
+
+#include "app/link/link.h"
+#include "app/workbench/jobs/feed.h"
+#include "views/model/draft.h"
+#include "views/model/theme.h"
+
+namespace trimtab::workbench {
+namespace {
+
+constexpr int kAgesMs = 500;
+constexpr double kBudgetGapS = 0.25;  ///< a figure that changes faster cannot be read
+
+}  // namespace
+
+StatusStrip::StatusStrip(const Feed& feed, const views::Draft& draft, QWidget* parent)
+    : QWidget(parent), feed_(feed), draft_(draft) {
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(14);
+  workspace_ = addPlace(tr("Workspace"), tr("Connect"), tr("Workspace; Ctrl+1 to Ctrl+5 show others"));
+  budget_ = addPlace(tr("Frame time and budget"), tr("over: 8,888.8 of 88.8 ms"),
+                     tr("Time of the last image, and the budget (measure.budget_ms)"));
+  recording_ = addPlace(tr("Recording"), tr("● trace"), tr("A trace is being recorded (Ctrl+R)"));
+  source_ = addPlace(tr("Who moves the aircraft"), tr("host on port 88888 is SILENT, 888.8 s ago"),
+                     tr("Who moves the aircraft, and when a host was heard last"));
+  source_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  ages_.setInterval(kAgesMs);
+  connect(&ages_, &QTimer::timeout, this, &StatusStrip::showAge);
+  connect(&feed_, &Feed::linkChanged, this, &StatusStrip::showAge);
+}
+
+QLabel* StatusStrip::addPlace(const QString& name, const QString& widest, const QString& toolTip) {
+  auto* label = new QLabel(this);
+  label->setAccessibleName(name);
+  label->setToolTip(toolTip);
+  label->setMinimumWidth(label->fontMetrics().horizontalAdvance(widest) + 4);
+  layout()->addWidget(label);
+  return label;
+}
+
+void StatusStrip::showFrame(const views::LiveFrame& frame) {
+  const bool soon = frame.time >= shownAt_ && frame.time < shownAt_ + kBudgetGapS;
+  if (!frame.newImage || soon || !std::isfinite(frame.cost.total)) return;
+  shownAt_ = frame.time;
+  const double ms = draft_.active()->measure.budget.value();
+  const bool over = frame.cost.total > ms;
+  // Words say it too, not the colour alone.
+  budget_->setText((over ? tr("over: %1 of %2 ms") : tr("%1 of %2 ms"))
+                       .arg(views::numberText(frame.cost.total, 1), views::numberText(ms, 1)));
+  views::setTextColour(*budget_, over ? views::errorColour(palette()) : palette().color(QPalette::WindowText));
+}
+
+void StatusStrip::showWorkspace(const QString& name) {
+  workspace_->setText(name);
+}
+
+void StatusStrip::showRecording(bool recording) {
+  recording_->setText(recording ? tr("● trace") : QString());
+  views::setTextColour(*recording_, views::errorColour(palette()));
+}
+
+void StatusStrip::showSource(const QString& text) {
+  sourceText_ = text;
+  showAge();
+}
+
+void StatusStrip::showAge() {
+  const bool open = feed_.receiver() != nullptr;
+  if (open && !ages_.isActive()) ages_.start();
+  if (!open) ages_.stop();
+  const double now = link::now(), age = open ? feed_.session().packetAge(now) : NAN;
+  source_->setText(std::isfinite(age) ? tr("%1, %2 s ago").arg(sourceText_, views::numberText(age, 1))
+                                      : sourceText_);
+  const bool silent = open && feed_.session().linkState(now) == LinkState::silent;
+  views::setTextColour(*source_,
+                       silent ? views::errorColour(palette()) : palette().color(QPalette::WindowText));
+}
+
+}  // namespace trimtab::workbench

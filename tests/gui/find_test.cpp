@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QDockWidget>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenuBar>
+#include <QTextBrowser>
+#include <QTreeWidget>
+
+#include "app/workbench/docks/dock_of.h"
+#include "app/workbench/window/appearance.h"
+#include "app/workbench/window/fuzzy_match.h"
+#include "app/workbench/window/palette.h"
+#include "app/workbench/window/reference.h"
+#include "app/workbench/window/status_strip.h"
+#include "gui_support.h"
+#include "views/controls/number_box.h"
+#include "views/controls/parameter_of.h"
+#include "views/model/theme.h"
+
+namespace trimtab::test {
+namespace {
+
+using workbench::fuzzyScore;
+
+TEST(FuzzyMatch, findsLettersInTheirOrderAndPrefersWordsThatBeginWithThem) {
+  EXPECT_FALSE(fuzzyScore(u"xyz", u"Wireframe"));
+  EXPECT_FALSE(fuzzyScore(u"fw", u"Wireframe")) << "their order counts";
+  EXPECT_TRUE(fuzzyScore(u"WF", u"Wireframe")) << "case does not";
+  EXPECT_TRUE(fuzzyScore(u"", u"anything"));
+  EXPECT_TRUE(fuzzyScore(u"dep map", u"Depth map"));
+  EXPECT_GT(*fuzzyScore(u"dm", u"Depth map"), *fuzzyScore(u"dm", u"Admit"));
+  EXPECT_GT(*fuzzyScore(u"plots", u"Plots"), *fuzzyScore(u"plots", u"Policy lots"));
+  EXPECT_GT(*fuzzyScore(u"host", u"Host"), *fuzzyScore(u"host", u"Host protocol of a packet"));
+}
+
+class WorkbenchFind : public Bench {
+ protected:
+  void SetUp() override {
+    Bench::SetUp();
+    w().activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&w()));
+    palette_ = w().findChild<workbench::Palette*>();
+    ASSERT_NE(palette_, nullptr);
+  }
+  void find(const char* typed) {
+    w().activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&w()));
+    QTest::keyClick(&w(), Qt::Key_K, Qt::ControlModifier);
+    ASSERT_TRUE(waitFor([&] { return palette_->isVisible() && palette_->input().hasFocus(); }, 5000));
+    QTest::keyClicks(&palette_->input(), typed);
+  }
+  void run() {
+    QTest::keyClick(&palette_->input(), Qt::Key_Return);
+    QTest::qWait(30);
+  }
+  QString row(int column) { return palette_->list().currentItem()->text(column); }
+
+  workbench::Palette* palette_ = nullptr;
+};
+
+TEST_F(WorkbenchFind, ctrlKFindsCommandsParametersDocksAndPresetsByKeysAlone) {
+  ASSERT_NO_FATAL_FAILURE(find("wirefr"));
+  EXPECT_TRUE(row(0).endsWith("Wireframe")) << row(0).toStdString();
+  EXPECT_EQ(row(2), "Ctrl+Shift+1") << "with its shortcut";
+  run();
+  EXPECT_FALSE(palette_->isVisible());
+  EXPECT_TRUE(w().controllers().frame->overlays().wireframe);
+
+  ASSERT_NO_FATAL_FAILURE(find("fuzzy.hyst"));
+  EXPECT_EQ(row(1), "parameter");
+  run();
+  EXPECT_TRUE(workbench::isInFront(*w().dock("preset")));
+  EXPECT_TRUE(waitFor(
+      [] { return views::parameterOf(QApplication::focusWidget()) == QLatin1String("fuzzy.hysteresis"); },
+      5000));
+
+  w().dock("host")->close();
+  ASSERT_NO_FATAL_FAILURE(find("host"));
+  while (row(1) != "dock") {
+    const auto* before = palette_->list().currentItem();
+    QTest::keyClick(&palette_->input(), Qt::Key_Down);
+    ASSERT_NE(palette_->list().currentItem(), before);
+  }
+  run();
+  EXPECT_TRUE(workbench::isInFront(*w().dock("host")));
+
+  ASSERT_NO_FATAL_FAILURE(find("as-publ"));
+  EXPECT_EQ(row(1), "preset");
+  run();
+  EXPECT_EQ(w().controllers().document->document().title(), "as-published");
+
+  ASSERT_NO_FATAL_FAILURE(find("zzzzqqq"));
+  EXPECT_EQ(palette_->list().topLevelItemCount(), 0);
+  run();
+  EXPECT_TRUE(palette_->isVisible()) << "nothing to run";
+  QTest::keyClick(&palette_->input(), Qt::Key_Escape);
+  EXPECT_FALSE(palette_->isVisible());
+}
+
+TEST_F(WorkbenchFind, f1OnAControlShowsItsEntryAndTheReferenceIsSearched) {
+  QDockWidget& dock = *w().dock("preset");
+  dock.show();
+  dock.raise();
+  views::NumberBox* box = nullptr;
+  for (views::NumberBox* each : dock.findChildren<views::NumberBox*>())
+    if (views::parameterOf(each) == "fuzzy.hysteresis") box = each;
+  ASSERT_NE(box, nullptr);
+  box->setFocus();
+  QTest::keyClick(&w(), Qt::Key_F1);
+  auto* const reference = w().findChild<workbench::Reference*>();
+  ASSERT_NE(reference, nullptr);
+  EXPECT_TRUE(reference->isVisible());
+  EXPECT_TRUE(reference->text().toPlainText().contains("fuzzy.hysteresis"));
+  EXPECT_FALSE(reference->text().toPlainText().contains("weather.visibility"));
+  reference->search().setText("visibility weather");
+  EXPECT_FALSE(reference->text().toPlainText().contains("fuzzy.hysteresis"));
+  EXPECT_TRUE(reference->text().toPlainText().contains("visibility", Qt::CaseInsensitive));
+  reference->search().setText("no such words at all");
+  EXPECT_TRUE(reference->text().toPlainText().contains("No parameter"));
+  reference->close();
+  w().activateWindow();
+  w().viewport().setFocus();
+}
+
+TEST_F(WorkbenchFind, theStripSaysWorkspaceBudgetRecordingAndHostWithoutMovingOneAnother) {
+  auto* const strip = w().findChild<workbench::StatusStrip*>();
+  ASSERT_NE(strip, nullptr);
+  const auto place = [&](const char* name) -> QLabel* {
+    for (QLabel* each : strip->findChildren<QLabel*>())
+      if (each->accessibleName() == QLatin1String(name)) return each;
+    return nullptr;
+  };
+  QLabel *recording = place("Recording"), *source = place("Who moves the aircraft");
+  ASSERT_TRUE(recording && source && place("Workspace"));
+  ASSERT_TRUE(waitFor([&] { return place("Frame time and budget")->text().contains("ms"); }));
+  const QRect before = source->geometry();
+  const ScratchDir dir;
+  auto& trace = *w().controllers().trace;
+  ASSERT_TRUE(trace.start(QString::fromStdString((dir / "trace.csv").string())));
+  EXPECT_TRUE(recording->text().contains("trace"));
+  trace.stop();
+  EXPECT_EQ(recording->text(), "");
+  listen();
+  EXPECT_TRUE(waitFor([&] { return source->text().contains("listening"); }));
+  w().feed().closeHost();
+  EXPECT_EQ(source->geometry(), before);
+}
+
+TEST_F(WorkbenchFind, lightAndDarkAreChosenWithinTheProgram) {
+  workbench::apply(workbench::Appearance::dark);
+  EXPECT_TRUE(views::isDark(w().palette()));
+  workbench::apply(workbench::Appearance::light);
+  EXPECT_FALSE(views::isDark(w().palette()));
+  workbench::apply(workbench::Appearance::system);
+}
+
+}  // namespace
+}  // namespace trimtab::test
