@@ -110,9 +110,8 @@ TEST_F(WorkbenchLayout, measuringWithoutAFlightIsRefusedBeforeItAsksAnything) {
   QDockWidget& dock = *w().dock("errors");
   EXPECT_NE(button(dock, "Open a flight"), nullptr) << "the dock says how to get one";
   const auto labels = dock.findChildren<QLabel*>();
-  EXPECT_TRUE(std::any_of(labels.begin(), labels.end(), [](const QLabel* label) {
-    return label->text().contains("needs a flight");
-  }));
+  EXPECT_TRUE(std::any_of(labels.begin(), labels.end(),
+                          [](const QLabel* label) { return label->text().contains("needs a flight"); }));
   ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
   dock.raise();
   QTest::qWait(20);
@@ -128,8 +127,10 @@ TEST_F(WorkbenchLayout, theWheelOverAPlotScrollsTheDockThatHoldsIt) {
   auto* const plot = dock.findChild<views::CurvePlot*>();
   ASSERT_NE(plot, nullptr);
   QScrollBar* bar = nullptr;
-  for (QWidget* holder = plot->parentWidget(); bar == nullptr && holder != &dock; holder = holder->parentWidget())
-    if (auto* area = qobject_cast<QScrollArea*>(holder); area != nullptr && area->verticalScrollBar()->maximum() > 0)
+  for (QWidget* holder = plot->parentWidget(); bar == nullptr && holder != &dock;
+       holder = holder->parentWidget())
+    if (auto* area = qobject_cast<QScrollArea*>(holder);
+        area != nullptr && area->verticalScrollBar()->maximum() > 0)
       bar = area->verticalScrollBar();
   ASSERT_NE(bar, nullptr) << "the dock is higher than its place";
   const auto shown = [&] { return plot->axisRect()->axis(QCPAxis::atBottom)->range().size(); };

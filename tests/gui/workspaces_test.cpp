@@ -29,9 +29,9 @@ QStringList cutWords(const QWidget& window) {
   for (const QLabel* label : window.findChildren<QLabel*>()) {
     if (!seen(label) || label->text().isEmpty()) continue;
     int widest = 0;
-    const QStringList parts = plainText(*label).split(label->wordWrap() ? QLatin1Char(' ') : QLatin1Char('\n'));
-    for (const QString& part : parts)
-      widest = std::max(widest, label->fontMetrics().horizontalAdvance(part));
+    const QStringList parts =
+        plainText(*label).split(label->wordWrap() ? QLatin1Char(' ') : QLatin1Char('\n'));
+    for (const QString& part : parts) widest = std::max(widest, label->fontMetrics().horizontalAdvance(part));
     if (widest > label->contentsRect().width() + 1) cut << "label: " + label->text();
   }
   for (const QAbstractButton* button : window.findChildren<QAbstractButton*>()) {
@@ -43,7 +43,8 @@ QStringList cutWords(const QWidget& window) {
     if (!seen(bar) || bar->count() == 0) continue;
     int whole = 0;
     for (int i = 0; i < bar->count(); ++i) whole += bar->tabRect(i).width();
-    if (whole > bar->width()) cut << QString("tabs from %1 on: %2 of %3 px").arg(bar->tabText(0)).arg(bar->width()).arg(whole);
+    if (whole > bar->width())
+      cut << QString("tabs from %1 on: %2 of %3 px").arg(bar->tabText(0)).arg(bar->width()).arg(whole);
   }
   return cut;
 }

@@ -130,7 +130,8 @@ TEST_F(ParameterTableTest, aRefusalMovesNoControlAndGivesWayToThePointer) {
   for (NoteBubble* each : table_.findChildren<NoteBubble*>())
     if (each->isVisible()) bubble = each;
   ASSERT_NE(bubble, nullptr) << "the refusal is in sight";
-  EXPECT_FALSE(bubble->geometry().intersects(editor<NumberBox>("fuzzy.hysteresis").parentWidget()->geometry()));
+  EXPECT_FALSE(
+      bubble->geometry().intersects(editor<NumberBox>("fuzzy.hysteresis").parentWidget()->geometry()));
   QEnterEvent enter({}, {}, {});
   QCoreApplication::sendEvent(bubble, &enter);
   EXPECT_FALSE(bubble->isVisible()) << "what it covers can be reached";

@@ -79,8 +79,8 @@ void NoteBubble::enterEvent(QEnterEvent* event) {
 void NoteBubble::place() {
   if (text().isEmpty() || !control_ || !control_->isVisibleTo(parentWidget())) return hide();
   const QRect beside = control_->geometry();
-  const int widthPx = std::max(beside.width(), std::min(parentWidget()->width() - beside.left(),
-                                                        sizeHint().width()));
+  const int widthPx =
+      std::max(beside.width(), std::min(parentWidget()->width() - beside.left(), sizeHint().width()));
   const int heightPx = heightForWidth(widthPx);
   const int above = beside.top() - heightPx;
   setGeometry(beside.left(), above >= 0 ? above : beside.bottom() + 1, widthPx, heightPx);
@@ -92,8 +92,7 @@ void NoteBubble::onFocus(const QWidget* now) {
   if (now == nullptr || !control_ || text().isEmpty()) return;
   if (now == control_ || control_->isAncestorOf(now)) return place();
   const QRect there(now->mapTo(now->window(), QPoint()), now->size());
-  if (isVisible() && now->window() == window() &&
-      there.intersects(QRect(mapTo(window(), QPoint()), size())))
+  if (isVisible() && now->window() == window() && there.intersects(QRect(mapTo(window(), QPoint()), size())))
     hide();
 }
 

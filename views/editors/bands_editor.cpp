@@ -73,8 +73,8 @@ BandsEditor::BandsEditor(Draft& draft, QWidget* parent)
   throttle_ = new Throttle(this, [this] {
     model_->setLiveBand(decision_.band);
     // The scheme is this dock's own choice; what else leaves the place empty is chosen in Culling.
-    const bool ownChoice = decision_.scheme == Scheme::frustum &&
-                           draft_.active()->culling.method == CullingCase::proposed;
+    const bool ownChoice =
+        decision_.scheme == Scheme::frustum && draft_.active()->culling.method == CullingCase::proposed;
     inset_->setLead(why_.isEmpty() || ownChoice ? QString() : tr("Go to Culling"));
     if (!mapDrawn_) inset_->setReason(why_);
   });

@@ -3,8 +3,8 @@
 
 #include <QObject>
 
-#include "trimtab/preset/choices.h"
 #include "theme.h"
+#include "trimtab/preset/choices.h"
 
 namespace trimtab::views {
 namespace {
@@ -19,8 +19,10 @@ QString whoServes(OcclusionMethod method, const CullingParameters& culling) {
   if (method != OcclusionMethod::horizon)
     return QObject::tr("No depth map: near here one hid next to nothing, so that it is left out.");
   return culling.occlusion == OcclusionMethod::automatic
-             ? QObject::tr("No depth map: the horizon serves, because Occlusion is automatic and it costs less here.")
-             : QObject::tr("No depth map: the horizon serves, because Occlusion is “%1”.").arg(labelOf(culling.occlusion));
+             ? QObject::tr(
+                   "No depth map: the horizon serves, because Occlusion is automatic and it costs less here.")
+             : QObject::tr("No depth map: the horizon serves, because Occlusion is “%1”.")
+                   .arg(labelOf(culling.occlusion));
 }
 
 }  // namespace

@@ -252,9 +252,10 @@ void ErrorPlot::makeLegend() {
     add(tr("front"), QCPScatterStyle(QCPScatterStyle::ssNone), QPen(blend(base, ink, 0.5), 1.2, Qt::DotLine));
   if (!tail_.empty())
     add(liveName(),
-        liveCompares()
-            ? QCPScatterStyle(QCPScatterStyle::ssDiamond, QPen(base, 1), QBrush(liveColour(palette())), kMarkerPx)
-            : QCPScatterStyle(QCPScatterStyle::ssDiamond, QPen(liveColour(palette()), 2), QBrush(base), kMarkerPx),
+        liveCompares() ? QCPScatterStyle(QCPScatterStyle::ssDiamond, QPen(base, 1),
+                                         QBrush(liveColour(palette())), kMarkerPx)
+                       : QCPScatterStyle(QCPScatterStyle::ssDiamond, QPen(liveColour(palette()), 2),
+                                         QBrush(base), kMarkerPx),
         Qt::NoPen);
   arrangeLegendAbove();
 }

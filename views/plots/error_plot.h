@@ -18,8 +18,8 @@ struct LiveError {
 /// Run time against error: one point a preset and case, its marker by case and its colour by preset, at the
 /// medians of its frames; whiskers from the 5th to the 95th percentile; the front that nothing beats in both;
 /// the budget; and the live session as a point that draws a fading tail. Lower left is best whatever the
-/// error: an axis on which larger is better runs the other way. A live point of images of another size than the
-/// results' is no match for them: it is hollow, is named with its size, and does not widen the view.
+/// error: an axis on which larger is better runs the other way. A live point of images of another size than
+/// the results' is no match for them: it is hollow, is named with its size, and does not widen the view.
 class ErrorPlot : public Plot {
   Q_OBJECT
  public:

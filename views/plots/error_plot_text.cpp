@@ -14,7 +14,8 @@ QString ErrorPlot::selectedText() const {
   if (selected_ == int(points_.size())) {
     if (tail_.empty()) return {};
     return tr("%1\n%2: %3\nframe time: %4 (median of a second)")
-        .arg(liveName(), shown->label, textOf(*shown, tail_.back().errors.value(error_)), msText(tail_.back().ms));
+        .arg(liveName(), shown->label, textOf(*shown, tail_.back().errors.value(error_)),
+             msText(tail_.back().ms));
   }
   const Point& p = points_[std::size_t(selected_)];
   const ErrorRun::Series& s = run_.series[p.series];

@@ -84,8 +84,8 @@ void CullingController::showDepthMap(const QImage& grey) {
   const QString size = tr("%1 × %2 px").arg(grey.width()).arg(grey.height());
   const QString caption =
       isWhiteAllOver(grey) ? tr("%1: nothing in this view is covered").arg(size)
-      : horizon            ? tr("No depth map: the horizon serves. What it covers of the view, %1, is grey").arg(size)
-                           : tr("Depth map %1: black is at %2 m, white at %3 km")
+      : horizon ? tr("No depth map: the horizon serves. What it covers of the view, %1, is grey").arg(size)
+                : tr("Depth map %1: black is at %2 m, white at %3 km")
                       .arg(size)
                       .arg(scene::DistanceImage::kNearestM)
                       .arg(scene::DistanceImage::kFarthestM / 1000);

@@ -124,7 +124,8 @@ bool ErrorsController::openResults(const QString& file) {
 QString ErrorsController::missing() const {
   if (!by_.terrain.database()) return tr("Measuring needs an open terrain: Ctrl+T opens one.");
   if (at_.feed.playback().loaded() || !by_.trace.recorded().isEmpty()) return {};
-  return tr("Measuring needs a flight. Open one, or fly and record a trace (Ctrl+R), which is then measured.");
+  return tr(
+      "Measuring needs a flight. Open one, or fly and record a trace (Ctrl+R), which is then measured.");
 }
 
 /// Without an open flight, the trace that was recorded last is measured.

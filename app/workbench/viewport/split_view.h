@@ -118,7 +118,7 @@ class SplitView : public QWidget {
   std::optional<Frame> last_;
   QTimer timer_;
   QElapsedTimer sinceLast_;
-  int gapMs_ = 0;        ///< from the start of one comparison to the start of the next
+  int gapMs_ = 0;  ///< from the start of one comparison to the start of the next
   double longestMs_ = 1500;
   int shrink_ = 1;       ///< of images while the view moves: width and height are divided by this
   int shownShrink_ = 0;  ///< of the images that are shown; 0 while there are none

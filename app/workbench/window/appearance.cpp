@@ -26,12 +26,19 @@ constexpr Colours kDark{0xff2b2b2e, 0xff1e1e20, 0xff262629, 0xffe6e6e6, 0xff3838
 
 QPalette paletteOf(const Colours& c) {
   QPalette palette(QColor::fromRgb(c.button), QColor::fromRgb(c.window));
-  for (const auto& [role, colour] :
-       {std::pair{QPalette::Window, c.window}, {QPalette::Base, c.base}, {QPalette::AlternateBase, c.alternate},
-        {QPalette::WindowText, c.text}, {QPalette::Text, c.text}, {QPalette::ButtonText, c.text},
-        {QPalette::Button, c.button}, {QPalette::PlaceholderText, c.quiet}, {QPalette::Highlight, c.highlight},
-        {QPalette::HighlightedText, c.highlighted}, {QPalette::Link, c.link}, {QPalette::ToolTipBase, c.tip},
-        {QPalette::ToolTipText, c.tipText}})
+  for (const auto& [role, colour] : {std::pair{QPalette::Window, c.window},
+                                     {QPalette::Base, c.base},
+                                     {QPalette::AlternateBase, c.alternate},
+                                     {QPalette::WindowText, c.text},
+                                     {QPalette::Text, c.text},
+                                     {QPalette::ButtonText, c.text},
+                                     {QPalette::Button, c.button},
+                                     {QPalette::PlaceholderText, c.quiet},
+                                     {QPalette::Highlight, c.highlight},
+                                     {QPalette::HighlightedText, c.highlighted},
+                                     {QPalette::Link, c.link},
+                                     {QPalette::ToolTipBase, c.tip},
+                                     {QPalette::ToolTipText, c.tipText}})
     palette.setColor(role, QColor::fromRgb(colour));
   for (const QPalette::ColorRole role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText})
     palette.setColor(QPalette::Disabled, role, QColor::fromRgb(c.quiet));
@@ -45,8 +52,9 @@ void apply(Appearance appearance) {
   // A desktop's style may paint with colours of its own, whatever the palette says.
   const QString style = appearance == Appearance::system ? desktopStyle : QStringLiteral("fusion");
   if (QApplication::style()->name() != style) QApplication::setStyle(style);
-  const QPalette palette = appearance == Appearance::system ? QPalette()
-                           : paletteOf(appearance == Appearance::dark ? kDark : kLight);
+  const QPalette palette = appearance == Appearance::system
+                               ? QPalette()
+                               : paletteOf(appearance == Appearance::dark ? kDark : kLight);
   QApplication::setPalette(palette);
   QToolTip::setPalette(appearance == Appearance::system ? QApplication::palette() : palette);
 }

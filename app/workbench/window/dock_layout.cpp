@@ -106,8 +106,8 @@ void DockLayout::hideAtHome(const std::vector<QDockWidget*>& shown) {
     if (at != nullptr)
       window_.tabifyDockWidget(at, each.widget);
     else
-      window_.addDockWidget(
-          each.place == Place::foot ? Qt::BottomDockWidgetArea : Qt::RightDockWidgetArea, each.widget);
+      window_.addDockWidget(each.place == Place::foot ? Qt::BottomDockWidgetArea : Qt::RightDockWidgetArea,
+                            each.widget);
     if (at == nullptr) at = each.widget;
     each.widget->hide();
   }
@@ -119,7 +119,7 @@ void DockLayout::arrangeAll() {
   std::vector<QByteArray> names;
   for (const Dock& each : docks_) names.push_back(each.widget->objectName().toLatin1());
   for (std::size_t i = 0; i < docks_.size(); ++i) {
-    Arrangement::Group& group = docks_[i].place == Place::foot ? all.foot.front()
+    Arrangement::Group& group = docks_[i].place == Place::foot   ? all.foot.front()
                                 : docks_[i].place == Place::edit ? all.right.front()
                                                                  : all.right.back();
     group.docks.push_back(names[i].constData());

@@ -138,7 +138,8 @@ void MainWindow::connectParts() {
   const Controllers& c = controllers_;
   connect(c.frame.get(), &FrameController::frameShown, this,
           [this](const views::LiveFrame& frame) { docks_.showFrame(frame); });
-  strip_->setCosts([this](const FrameLoad& load) { return feed_.session().hold().model().coefficients(load); });
+  strip_->setCosts(
+      [this](const FrameLoad& load) { return feed_.session().hold().model().coefficients(load); });
   connect(c.frame.get(), &FrameController::frameShown, strip_, [this](const views::LiveFrame& frame) {
     if (const auto& shown = controllers_.frame->shown())
       strip_->showFrame(frame, 1e-6 * shown->view.widthPx * shown->view.heightPx);

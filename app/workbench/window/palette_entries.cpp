@@ -28,7 +28,8 @@ QString plain(QString text) {
   return text.remove('&').remove(QStringLiteral("..."));
 }
 
-/// The menu of the docks is left out: it closes a dock that has the focus, and docks have entries of their own.
+/// The menu of the docks is left out: it closes a dock that has the focus, and docks have entries of their
+/// own.
 void addCommands(Entries& to, const QList<QAction*>& actions, const QString& path) {
   for (QAction* action : actions) {
     if (action->isSeparator() || !action->isEnabled()) continue;

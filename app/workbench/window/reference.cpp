@@ -72,7 +72,8 @@ bool Reference::explain(const QWidget* control) {
     return true;
   }
   QString toolTip;
-  for (const QWidget* at = control; at != nullptr && toolTip.isEmpty() && !at->isWindow(); at = at->parentWidget())
+  for (const QWidget* at = control; at != nullptr && toolTip.isEmpty() && !at->isWindow();
+       at = at->parentWidget())
     toolTip = at->toolTip();
   const QString name = nameOf(*control);
   if (toolTip.isEmpty() && name.isEmpty()) return false;

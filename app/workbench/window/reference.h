@@ -18,8 +18,8 @@ class Reference : public QDialog {
   /// Shows the parameters that hold every word in name, key, help or source; without a word the whole
   /// reference.
   void look(const QString& words);
-  /// Shows what a control sets or does: the entry of its parameter, or its name and tool tip. Returns false if
-  /// nothing is known about it.
+  /// Shows what a control sets or does: the entry of its parameter, or its name and tool tip. Returns false
+  /// if nothing is known about it.
   bool explain(const QWidget* control);
   QLineEdit& search() { return *search_; }
   QTextBrowser& text() { return *text_; }

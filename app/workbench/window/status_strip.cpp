@@ -53,7 +53,8 @@ void StatusStrip::showFrame(const views::LiveFrame& frame) {
   // Words say it too, not the colour alone.
   budget_->setText((over ? tr("over: %1 of %2 ms") : tr("%1 of %2 ms"))
                        .arg(views::numberText(frame.cost.total, 1), views::numberText(ms, 1)));
-  views::setTextColour(*budget_, over ? views::errorColour(palette()) : palette().color(QPalette::WindowText));
+  views::setTextColour(*budget_,
+                       over ? views::errorColour(palette()) : palette().color(QPalette::WindowText));
 }
 
 void StatusStrip::showWorkspace(const QString& name) {

@@ -36,7 +36,7 @@ const std::array<Shipped, 5>& shippedList() {
         0.46,
         0.42}},
       {QT_TRANSLATE_NOOP("Workspaces", "Measure"),
-       {{{{"flight", "preset"}, 1}}, {{{"errors", "experiments"}, 1}}, 0.36, 0.52, true}},
+       {{{{"flight", "preset"}, 1}}, {{{"errors", "experiments", "compare"}, 1}}, 0.36, 0.52, true}},
       {QT_TRANSLATE_NOOP("Workspaces", "Terrain"),
        {{{{"terrain", "culling", "static_lod"}, 1}}, {{{"messages"}, 1}}, 0.42, 0.24}},
       {QT_TRANSLATE_NOOP("Workspaces", "Connect"),
@@ -108,8 +108,10 @@ Findings Workspaces::saveAs(const QString& name) {
 void Workspaces::remove(int index) {
   if (index < 0 || ships(index) || std::size_t(index) >= all_.size()) return;
   all_.erase(all_.begin() + index);
-  if (current_ > index) --current_;
-  else if (current_ == index) apply(0);
+  if (current_ > index)
+    --current_;
+  else if (current_ == index)
+    apply(0);
   emit listChanged();
 }
 
@@ -128,8 +130,7 @@ Findings Workspaces::readFrom(const QString& file) {
   if (object[QLatin1String(kVersionKey)].toInt() != kDocksVersion)
     return refusal(file, "a workspace of this version of the program",
                    object.isEmpty() ? tr("another file") : tr("another version"));
-  const QByteArray state =
-      QByteArray::fromBase64(object[QLatin1String(kStateKey)].toString().toLatin1());
+  const QByteArray state = QByteArray::fromBase64(object[QLatin1String(kStateKey)].toString().toLatin1());
   const QByteArray before = window_.saveState(kDocksVersion);
   if (state.isEmpty() || !window_.restoreState(state, kDocksVersion)) {
     window_.restoreState(before, kDocksVersion);
