@@ -12,7 +12,7 @@
 #include "app/workbench/window/notice_bar.h"
 #include "gui_support.h"
 #include "views/plots/curve_plot.h"
-#include "views/plots/depth_map_inset.h"
+#include "views/insets/depth_map_inset.h"
 
 namespace trimtab::test {
 namespace {

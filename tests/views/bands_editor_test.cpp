@@ -9,7 +9,7 @@
 #include "views/controls/number_box.h"
 #include "views/editors/band_scale.h"
 #include "views/model/bands_model.h"
-#include "views/plots/depth_map_inset.h"
+#include "views/insets/depth_map_inset.h"
 
 namespace trimtab::views {
 namespace {

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "views/plots/horizon_inset.h"
+#include "views/insets/horizon_inset.h"
 #include "views/plots/time_plot.h"
 
 namespace trimtab::views {

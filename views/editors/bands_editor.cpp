@@ -16,7 +16,7 @@
 #include "views/model/depth_map_reason.h"
 #include "views/model/keys.h"
 #include "views/model/theme.h"
-#include "views/plots/depth_map_inset.h"
+#include "views/insets/depth_map_inset.h"
 
 namespace trimtab::views {
 

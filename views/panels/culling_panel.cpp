@@ -11,8 +11,8 @@
 #include "views/controls/bar_list.h"
 #include "views/controls/parameter_lines.h"
 #include "views/model/theme.h"
-#include "views/plots/depth_map_inset.h"
-#include "views/plots/horizon_inset.h"
+#include "views/insets/depth_map_inset.h"
+#include "views/insets/horizon_inset.h"
 #include "views/plots/time_plot.h"
 
 namespace trimtab::views {

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QLabel>
+#include <QSignalSpy>
+#include <cmath>
+
+#include "app/workbench/viewport/split_view.h"
+#include "error_dock.h"
+#include "trimtab/preset/preset.h"
+
+namespace trimtab::test {
+namespace {
+
+using workbench::SplitView;
+
+class SplitViewTest : public ErrorDock {
+ protected:
+  void SetUp() override {
+    ErrorDock::SetUp();
+    if (HasFatalFailure()) return;
+    w().controllers().errors->compare();
+    ASSERT_TRUE(waitFor([&] { return view().comparisons() > 0; }, 120000))
+        << w().messages().text().toStdString();
+  }
+  bool compared(SplitView& view,
+                std::uint64_t more = 1){SplitView & view(){return w().controllers().errors->splitView();
+}
+  /// Waits until both sides show the presets that were chosen last.
+  void choose(const QString& left, const QString& right) {
+  ASSERT_TRUE(view().choose(SplitView::left, left));
+  ASSERT_TRUE(view().choose(SplitView::right, right));
+  ASSERT_TRUE(waitFor([&] { return view().upToDate(); }, 120000));
+}
+QImage black() const {
+  QImage image = window->controllers().errors->splitView().heatMap().map();
+  image.fill(Qt::black);
+  return image;
+}
+};
+
+TEST_F(SplitViewTest, equalPresetsHaveABlackMapAndOthersShowWhereTheyDiffer) {
+  const ScratchDir dir;
+  TuningParameters coarse = w().draft().parameters();
+  Preset preset;
+  preset.name = "coarse";
+  preset.parameters = coarse;
+  preset.parameters.lod.screenSpaceError = Pixels{64};
+  const Result<std::string> text = presetText(preset);
+  ASSERT_TRUE(text);
+  std::ofstream(dir / "coarse.json") << *text;
+  const QString file = QString::fromStdString((dir / "coarse.json").string());
+
+  choose(SplitView::kDraft, "default");
+  EXPECT_EQ(view().heatMap().largest(), 0);
+  EXPECT_EQ(view().heatMap().map(), black());
+  EXPECT_FALSE(view().heatMap().map().isNull());
+  EXPECT_EQ(view().pictures().picture(0), view().pictures().picture(1));
+
+  choose(SplitView::kDraft, file);
+  EXPECT_GT(view().heatMap().largest(), 0.05);
+  EXPECT_NE(view().heatMap().map(), black());
+  EXPECT_NE(view().pictures().picture(0), view().pictures().picture(1));
+  const auto number = [&](int row, int column) {
+    return QLocale().toDouble(view().numbers().item(row, column)->text());
+  };
+  EXPECT_GT(number(1, 0), number(0, 0)) << "FLIP against the reference";
+  EXPECT_LT(number(1, 5), number(0, 5)) << "triangles";
+  EXPECT_GT(number(0, 6), 0) << "ms";
+
+  choose(SplitView::kReference, SplitView::kReference);
+  EXPECT_EQ(view().heatMap().map(), black());
+}
+
+TEST_F(SplitViewTest, followsTheFrameAndRestsWhenHiddenOrNothingMoves) {
+  ASSERT_TRUE(settle());
+  QTest::qWait(3000);
+  const std::uint64_t standing = view().comparisons();
+  const QImage before = view().pictures().picture(0);
+  look(-20);
+  ASSERT_TRUE(compared(view()));
+  ASSERT_TRUE(waitFor([&] { return view().pictures().picture(0) != before; }, 60000));
+  EXPECT_GT(view().comparisons(), standing);
+  view().setOverViewport(false);
+  w().dock("plots")->raise();
+  QTest::qWait(1500);
+  const std::uint64_t hidden = view().comparisons();
+  look(-10);
+  QTest::qWait(2000);
+  ASSERT_TRUE(waitFor([&] { return !view().busy(); }, 60000));
+  EXPECT_LE(view().comparisons(), hidden + 1);  // one may have been under way
+  const std::uint64_t later = view().comparisons();
+  look(-12);
+  QTest::qWait(1500);
+  EXPECT_EQ(view().comparisons(), later);
+}
+
+TEST_F(SplitViewTest, whatWasMeasuredOfAnOldChoiceIsNotShownAsTheNew) {
+  ASSERT_TRUE(settle());
+  choose("default", SplitView::kReference);
+  ASSERT_TRUE(view().choose(SplitView::left, "as-printed"));
+  ASSERT_TRUE(waitFor([&] { return view().busy(); }, 20000));
+  ASSERT_TRUE(view().choose(SplitView::left, "as-published"));
+  EXPECT_EQ(view().numbers().verticalHeaderItem(0)->text(), "Left: default") << "that is still what is shown";
+  std::optional<bool> whole;
+  QObject::connect(&view(), &SplitView::compared, &view(), [&] {
+    if (!whole) whole = view().upToDate();
+  });
+  ASSERT_TRUE(waitFor([&] { return whole.has_value(); }, 120000));
+  EXPECT_TRUE(*whole);
+  EXPECT_EQ(view().numbers().verticalHeaderItem(0)->text(), "Left: as-published");
+}
+
+TEST_F(ErrorDock, theSplitViewSaysWhatIsMissingWhereNothingCanBeDrawn) {
+  workbench::DrawThread thread;
+  QWidget viewport;
+  SplitView view(
+      thread, w().draft(), [] { return std::nullopt; }, viewport);
+  EXPECT_TRUE(view.status().text().contains("Open a terrain"));
+  emit thread.failed({{Severity::error, "EGL", "", "a surfaceless or device display", "none"}});
+  EXPECT_TRUE(view.status().text().contains("surfaceless or device display"))
+      << view.status().text().toStdString();
+  EXPECT_FALSE(view.busy());
+}
+
+TEST_F(SplitViewTest, staysInTheWindowAndSaysWhatItWaitsFor) {
+  EXPECT_TRUE(w().dock("compare")->isAncestorOf(&view())) << "another window would be buried by a click";
+  EXPECT_FALSE(view().isWindow());
+  EXPECT_FALSE(view().status().text().contains("Open a terrain")) << view().status().text().toStdString();
+}
+
+TEST_F(SplitViewTest, aViewAtRestIsComparedAtItsFullSizeHoweverLongThatTakes) {
+  view().setLongestMs(0);
+  look(-14);
+  ASSERT_TRUE(compared(view()));
+  look(-15);
+  ASSERT_TRUE(waitFor([&] { return view().upToDate(); }, 120000));
+  const ViewShape& shown = w().controllers().frame->shown()->view;
+  const QSize size(shown.widthPx, shown.heightPx);
+  EXPECT_EQ(view().pictures().picture(0).size(), size);
+  EXPECT_FALSE(view().overlay().old());
+}
+
+TEST_F(SplitViewTest, symbolsHideNoDifferenceUnlessAPersonWantsThem) {
+  const ScratchDir dir;
+  Preset preset;
+  preset.name = "symbols";
+  preset.parameters = w().draft().parameters();
+  preset.parameters.symbology.enabled = !preset.parameters.symbology.enabled;
+  const Result<std::string> text = presetText(preset);
+  ASSERT_TRUE(text);
+  std::ofstream(dir / "symbols.json") << *text;
+  choose(SplitView::kDraft, QString::fromStdString((dir / "symbols.json").string()));
+  EXPECT_EQ(view().heatMap().largest(), 0);
+  view().setSymbols(true);
+  ASSERT_TRUE(waitFor([&] { return view().upToDate(); }, 120000));
+  EXPECT_GT(view().heatMap().largest(), 0.1);
+}
+
+TEST_F(SplitViewTest, overTheViewportTheDividerMovesAndTheViewBelowStillTurns) {
+  workbench::SplitPicture& over = view().overlay();
+  ASSERT_TRUE(waitFor([&] { return view().upToDate(); }, 120000));
+  ASSERT_TRUE(over.isVisible());
+  EXPECT_EQ(over.size(), w().viewport().size());
+  const QPoint middle = over.rect().center();
+  QTest::mousePress(&over, Qt::LeftButton, Qt::NoModifier, middle);
+  QTest::mouseMove(&over, middle + QPoint(over.width() / 4, 0));
+  QTest::mouseRelease(&over, Qt::LeftButton, Qt::NoModifier, middle + QPoint(over.width() / 4, 0));
+  EXPECT_NEAR(over.divider(), 0.75, 0.02);
+
+  EXPECT_TRUE(over.valuesAt(middle).contains("pixel ")) << over.valuesAt(middle).toStdString();
+  EXPECT_TRUE(over.valuesAt(middle).contains("FLIP"));
+  view().flicker();
+  EXPECT_EQ(over.form(), workbench::SplitPicture::Form::left);
+  view().flicker();
+  EXPECT_EQ(over.form(), workbench::SplitPicture::Form::right);
+  view().toggleDifference();
+  EXPECT_EQ(over.form(), workbench::SplitPicture::Form::difference);
+
+  const double heading = w().viewport().camera().attitude().heading.value();
+  const QPoint from(over.width() / 4, over.height() / 4);
+  QTest::mousePress(&over, Qt::LeftButton, Qt::NoModifier, from);
+  QTest::mouseMove(&over, from + QPoint(60, 0));
+  QTest::mouseRelease(&over, Qt::LeftButton, Qt::NoModifier, from + QPoint(60, 0));
+  EXPECT_NE(w().viewport().camera().attitude().heading.value(), heading);
+  EXPECT_TRUE(over.old()) << "images of another view would hide the live one";
+  view().setOverViewport(false);
+  EXPECT_FALSE(over.isVisible());
+}
+
+TEST_F(SplitViewTest, theDividerMovesByHandAndKeys) {
+  view().setOverViewport(false);
+  workbench::SplitPicture& pictures = view().pictures();
+  pictures.setFocus();
+  QTest::keyClick(&pictures, Qt::Key_Right);
+  EXPECT_NEAR(pictures.divider(), 0.51, 1e-9);
+  QTest::keyClick(&pictures, Qt::Key_Home);
+  EXPECT_EQ(pictures.divider(), 0);
+  const QPoint middle = pictures.rect().center();
+  QTest::mousePress(&pictures, Qt::LeftButton, Qt::NoModifier, middle);
+  QTest::mouseRelease(&pictures, Qt::LeftButton, Qt::NoModifier, middle);
+  EXPECT_NEAR(pictures.divider(), 0.5, 0.02);
+  EXPECT_FALSE(view().choose(SplitView::left, "/nowhere/preset.json"));
+  EXPECT_TRUE(w().messages().text().contains("cannot be compared"));
+}
+
+}  // namespace
+}  // namespace trimtab::test
