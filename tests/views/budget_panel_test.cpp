@@ -69,7 +69,7 @@ TEST_F(BudgetPanelTest, showsTheNamesOfItsCurvesWholeInANarrowDock) {
     settle();
     plot.replot();
     for (int i = 0; i < plot.legend->itemCount(); ++i) {
-      const auto* item = qobject_cast<QCPPlottableLegendItem*>(plot.legend->item(i));
+      auto* item = qobject_cast<QCPPlottableLegendItem*>(plot.legend->item(i));
       ASSERT_NE(item, nullptr);
       const QString name = item->plottable()->name();
       const int needed = QFontMetrics(item->font()).horizontalAdvance(name) + plot.legend->iconSize().width();
