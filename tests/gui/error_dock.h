@@ -27,10 +27,6 @@ class ErrorDock : public Bench {
     camera.place(camera.position(), attitude);
     w().feed().look(camera);
   }
-  bool compared(SplitView& view, std::uint64_t more = 1) {
-    const std::uint64_t before = view.comparisons();
-    return waitFor([&] { return view.comparisons() >= before + more; }, 120000);
-  }
 };
 
 }  // namespace trimtab::test
