@@ -7,6 +7,7 @@
 #include <QListWidget>
 #include <QPushButton>
 #include <QTableWidget>
+#include <QTest>
 
 #include "trimtab/hold/arbiter.h"
 #include "views/plots/budget_plot.h"
@@ -31,8 +32,9 @@ LiveFrame frameAt(double time, HoldReason reason, double heldPx) {
   return frame;
 }
 
+/// Waits longer than a panel lets pass between two refreshes.
 void settle() {
-  for (int i = 0; i < 20; ++i) QApplication::processEvents(QEventLoop::AllEvents, 20);
+  QTest::qWait(150);
 }
 
 class BudgetPanelTest : public testing::Test {
@@ -68,14 +70,17 @@ TEST_F(BudgetPanelTest, showsTheNamesOfItsCurvesWholeInANarrowDock) {
     plot.show();
     settle();
     plot.replot();
-    for (int i = 0; i < plot.legend->itemCount(); ++i) {
-      auto* item = qobject_cast<QCPPlottableLegendItem*>(plot.legend->item(i));
-      ASSERT_NE(item, nullptr);
+    int names = 0;
+    for (int i = 0; i < plot.legend->elementCount(); ++i) {
+      auto* item = qobject_cast<QCPPlottableLegendItem*>(plot.legend->elementAt(i));
+      if (item == nullptr) continue;  // the last row of a grid may have empty places
+      ++names;
       const QString name = item->plottable()->name();
       const int needed = QFontMetrics(item->font()).horizontalAdvance(name) + plot.legend->iconSize().width();
       EXPECT_GE(item->rect().width(), needed) << widthPx << ' ' << name.toStdString();
       EXPECT_TRUE(plot.rect().contains(item->rect())) << widthPx << ' ' << name.toStdString();
     }
+    EXPECT_EQ(names, 9);
   }
 }
 
