@@ -224,8 +224,9 @@ TEST_F(PlotsPanelTest, legendsLieAboveTheirPlotsAndNoNameIsCut) {
       if (!legend->visible()) continue;
       EXPECT_TRUE(whole.contains(legend->outerRect())) << size.width();
       for (const QRect& rect : taken) EXPECT_FALSE(rect.intersects(legend->outerRect())) << size.width();
-      for (int i = 0; i < legend->itemCount(); ++i) {
-        const QCPAbstractLegendItem* item = legend->item(i);
+      for (int i = 0; i < legend->elementCount(); ++i) {
+        const auto* item = qobject_cast<QCPAbstractLegendItem*>(legend->elementAt(i));
+        if (item == nullptr) continue;
         EXPECT_GE(item->outerRect().width(), item->minimumOuterSizeHint().width()) << size.width();
         EXPECT_LE(item->outerRect().right(), whole.right()) << size.width();
       }

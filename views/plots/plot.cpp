@@ -97,8 +97,9 @@ void Plot::wrapLegend(QCPLegend& entries, int widthPx, int least) const {
   entries.setVisible(entries.itemCount() > 0);
   const QFontMetrics metrics(font());
   int widest = 0;
-  for (int i = 0; i < entries.itemCount(); ++i)
-    if (auto* item = qobject_cast<QCPPlottableLegendItem*>(entries.item(i)))
+  // Places of the grid may be empty, also before the last entry.
+  for (int i = 0; i < entries.elementCount(); ++i)
+    if (auto* item = qobject_cast<QCPPlottableLegendItem*>(entries.elementAt(i)))
       widest = std::max(widest, metrics.horizontalAdvance(item->plottable()->name()));
   const int entry = widest + entries.iconSize().width() + entries.iconTextPadding() +
                     entries.columnSpacing() + kLegendEntryMarginPx;
