@@ -102,13 +102,13 @@ TEST_F(BenchCommand, sweepsTwoParametersAndAnswersWhichFits) {
   const test::ScratchDir dir;
   const std::string sweep = cli() + " bench --terrain " + database() + " --flight " + flight() +
                             " --cases proposed --size 64x48 --frames 2 --repeats 1 -o " +
-                            (dir / "out").string() + " --sweep lod.screen_space_error_px=1,8";
+                            (dir / "out").string() + " --sweep lod.screen_space_error_px=0.25,16";
   const test::Ran ran = test::run(sweep + " --sweep lod.level_spread=1,1.5 --json");
   ASSERT_EQ(ran.exitCode, 0) << ran.err;
   const auto results = parseResults(ran.out, "standard output");
   ASSERT_TRUE(results) << toString(results.findings());
   ASSERT_EQ(results->units.size(), 4u);
-  EXPECT_EQ(results->units[1].name.preset, "default lod.screen_space_error_px=1 lod.level_spread=1.5");
+  EXPECT_EQ(results->units[1].name.preset, "default lod.screen_space_error_px=0.25 lod.level_spread=1.5");
   EXPECT_LT(results->units[2].frames[0].counts.triangles, results->units[0].frames[0].counts.triangles);
   EXPECT_THAT(ran.out, HasSubstr("\"over_budget_share\""));
 
