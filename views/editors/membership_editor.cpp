@@ -66,7 +66,8 @@ CurveEditor::CurveEditor(Draft& draft, const CurveSpec& spec, const QList<QWidge
   });
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& current) {
-            if (current.isValid()) plot_->select(current.row());
+            // The row that follows the plot's selection must not make one point of several.
+            if (current.isValid() && current.row() != plot_->selected()) plot_->select(current.row());
           });
   connect(plot_, &CurvePlot::typingAsked, this, [this] {
     table_->setFocus();
