@@ -148,9 +148,9 @@ TEST_F(WorkbenchFind, theStripSaysWorkspaceBudgetRecordingAndHostWithoutMovingOn
 
 TEST_F(WorkbenchFind, lightAndDarkAreChosenWithinTheProgram) {
   workbench::apply(workbench::Appearance::dark);
-  EXPECT_TRUE(views::isDark(w().palette()));
+  EXPECT_TRUE(waitFor([&] { return views::isDark(w().palette()); }, 2000));
   workbench::apply(workbench::Appearance::light);
-  EXPECT_FALSE(views::isDark(w().palette()));
+  EXPECT_TRUE(waitFor([&] { return !views::isDark(w().palette()); }, 2000));
   workbench::apply(workbench::Appearance::system);
 }
 

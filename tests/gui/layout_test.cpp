@@ -2,16 +2,12 @@
 #include <QDockWidget>
 #include <QLabel>
 #include <QPushButton>
-#include <QScrollArea>
-#include <QScrollBar>
 #include <QTabBar>
 #include <QTimer>
-#include <QWheelEvent>
 
 #include "app/workbench/docks/error_dock.h"
 #include "app/workbench/window/notice_bar.h"
 #include "gui_support.h"
-#include "views/plots/curve_plot.h"
 #include "views/insets/depth_map_inset.h"
 
 namespace trimtab::test {
@@ -116,37 +112,6 @@ TEST_F(WorkbenchLayout, measuringWithoutAFlightIsRefusedBeforeItAsksAnything) {
   dock.raise();
   QTest::qWait(20);
   EXPECT_EQ(button(dock, "Open a flight"), nullptr);
-}
-
-TEST_F(WorkbenchLayout, theWheelOverAPlotScrollsTheDockThatHoldsIt) {
-  w().resize(1280, 720);
-  QDockWidget& dock = *w().dock("policy");
-  dock.show();
-  dock.raise();
-  QTest::qWait(50);
-  auto* const plot = dock.findChild<views::CurvePlot*>();
-  ASSERT_NE(plot, nullptr);
-  QScrollBar* bar = nullptr;
-  for (QWidget* holder = plot->parentWidget(); bar == nullptr && holder != &dock;
-       holder = holder->parentWidget())
-    if (auto* area = qobject_cast<QScrollArea*>(holder);
-        area != nullptr && area->verticalScrollBar()->maximum() > 0)
-      bar = area->verticalScrollBar();
-  ASSERT_NE(bar, nullptr) << "the dock is higher than its place";
-  const auto shown = [&] { return plot->axisRect()->axis(QCPAxis::atBottom)->range().size(); };
-  const double before = shown();
-  const QPointF at = QRectF(plot->axisRect()->rect()).center();
-  const auto turn = [&](Qt::KeyboardModifiers keys) {
-    QWheelEvent wheel(at, plot->mapToGlobal(at), {}, {0, -120}, Qt::NoButton, keys, Qt::NoScrollPhase, false);
-    QApplication::sendEvent(plot, &wheel);
-  };
-  turn(Qt::NoModifier);
-  EXPECT_GT(bar->value(), 0);
-  EXPECT_EQ(shown(), before);
-  const int scrolled = bar->value();
-  turn(Qt::ControlModifier);
-  EXPECT_NE(shown(), before) << "with Ctrl the wheel zooms";
-  EXPECT_EQ(bar->value(), scrolled);
 }
 
 }  // namespace

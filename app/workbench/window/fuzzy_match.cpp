@@ -8,7 +8,7 @@ namespace trimtab::workbench {
 namespace {
 
 constexpr int kNone = -1000000;
-constexpr int kLetter = 4, kWordStart = 12, kFollows = 10;
+constexpr int kLetter = 4, kWordStart = 12, kFollows = 12;
 
 bool beginsWord(QStringView text, qsizetype at) {
   return text[at].isLetterOrNumber() && (at == 0 || !text[at - 1].isLetterOrNumber());

@@ -29,7 +29,7 @@ struct Shipped {
 const std::array<Shipped, 5>& shippedList() {
   static const std::array<Shipped, 5> list{{
       {QT_TRANSLATE_NOOP("Workspaces", "Fly"),
-       {{{{"decision"}, 0.62}, {{"flight", "motion", "symbology"}, 0.38}}, {{{"plots"}, 1}}, 0.32, 0.34}},
+       {{{{"decision"}, 0.62}, {{"flight", "motion", "symbology"}, 0.38}}, {{{"plots"}, 1}}, 0.32, 0.4}},
       {QT_TRANSLATE_NOOP("Workspaces", "Tune"),
        {{{{"policy", "depth_map", "weather", "preset"}, 1}},
         {{{"budget", "decision", "plots", "history"}, 1}},
@@ -40,7 +40,7 @@ const std::array<Shipped, 5>& shippedList() {
       {QT_TRANSLATE_NOOP("Workspaces", "Terrain"),
        {{{{"terrain", "culling", "static_lod"}, 1}}, {{{"messages"}, 1}}, 0.42, 0.24}},
       {QT_TRANSLATE_NOOP("Workspaces", "Connect"),
-       {{{{"host"}, 0.66}, {{"flight"}, 0.34}}, {{{"plots", "messages"}, 1}}, 0.4, 0.34}},
+       {{{{"host"}, 0.66}, {{"flight"}, 0.34}}, {{{"plots", "messages"}, 1}}, 0.4, 0.4}},
   }};
   return list;
 }
