@@ -272,6 +272,7 @@ TEST_F(Observer, aPickedNodeIsOutlinedWhileTheDockThatDescribesItShows) {
   w().dock("culling")->hide();
   EXPECT_TRUE(waitFor([&] { return shown.outline.isEmpty(); }, 5000));
   w().dock("culling")->show();
+  w().dock("culling")->raise();
   EXPECT_TRUE(waitFor([&] { return !shown.outline.isEmpty(); }, 5000));
   pickAt(0.02);
   EXPECT_TRUE(shown.outline.isEmpty()) << "the sky is no node";
