@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "curve_points_model.h"
 
+#include <algorithm>
+
 #include "theme.h"
 
 namespace trimtab::views {
@@ -72,6 +74,9 @@ bool CurvePointsModel::setData(const QModelIndex& index, const QVariant& value, 
           tr("%1 %2 is not between the neighbours: %3 to %4 %2.")
               .arg(numberText(*number, 3), spec_.unit, numberText(typed.low, 3), numberText(typed.high, 3)));
     changed.point[row].x = *number;
+    if (std::ranges::count(changed.span(), *number, &CurvePoint::x) > 2)
+      return refuse(tr("Two points at %1 %2 are a step; a third there means nothing.")
+                        .arg(numberText(*number, 3), spec_.unit));
   } else {
     if (*number < 0 || *number > 1)
       return refuse(tr("A membership is 0 to 1, not %1.").arg(numberText(*number, 6)));

@@ -253,28 +253,42 @@ void TraceBuffer::columns(Trace trace, std::uint64_t from, std::uint64_t to, std
   from = std::max(from, begin());
   to = std::min(to, end());
   if (from >= to || wanted == 0) return;
-  const std::size_t i = index(trace);
   const std::uint64_t each = std::max<std::uint64_t>(1, (to - from + wanted - 1) / wanted);
   const bool byBlock = each >= 2 * kBlock;
   // Whole multiples from frame 0 on, so that a column keeps its frames while the picture scrolls.
   const std::uint64_t width = byBlock ? each / kBlock * kBlock : each;
   for (std::uint64_t f = from / width * width; f < to; f += width) {
-    const std::uint64_t first = std::max(f, from), last = std::min(f + width, to);
-    Column column{time(first + (last - first) / 2), kNone, kNone};
-    std::uint64_t g = first;
-    while (g < last) {
-      if (byBlock && g % kBlock == 0 && g + kBlock <= last) {
-        const std::size_t block = g % capacity_ / kBlock;
-        column.low = std::fmin(column.low, blockLow_[i][block]);
-        column.high = std::fmax(column.high, blockHigh_[i][block]);
-        g += kBlock;
-      } else {
-        widen(column.low, column.high, values_[i][g % capacity_]);
-        ++g;
-      }
+    const std::uint64_t last = std::min(f + width, to);
+    // A stretch without frames is never inside a column, where nobody would see it.
+    for (std::uint64_t first = std::max(f, from); first < last;) {
+      const std::uint64_t end = byBlock ? last : gapAfter(first, last);
+      out.push_back(column(trace, first, end));
+      first = end;
     }
-    out.push_back(column);
   }
+}
+
+std::uint64_t TraceBuffer::gapAfter(std::uint64_t first, std::uint64_t last) const {
+  std::uint64_t f = first + 1;
+  while (f < last && time(f) - time(f - 1) <= kGapS) ++f;
+  return f;
+}
+
+TraceBuffer::Column TraceBuffer::column(Trace trace, std::uint64_t first, std::uint64_t last) const {
+  const std::size_t i = index(trace);
+  Column column{time(first + (last - first) / 2), kNone, kNone};
+  for (std::uint64_t f = first; f < last;) {
+    if (f % kBlock == 0 && f + kBlock <= last) {
+      const std::size_t block = f % capacity_ / kBlock;
+      column.low = std::fmin(column.low, blockLow_[i][block]);
+      column.high = std::fmax(column.high, blockHigh_[i][block]);
+      f += kBlock;
+    } else {
+      widen(column.low, column.high, values_[i][f % capacity_]);
+      ++f;
+    }
+  }
+  return column;
 }
 
 std::string TraceBuffer::csv(std::uint64_t from, double to, std::uint64_t end) const {

@@ -107,6 +107,8 @@ class TraceBuffer {
   /// Returns the frame nearest in time of those before `end`; nothing where none is within kReachS.
   std::optional<std::uint64_t> at(double time, std::uint64_t end) const;
   static constexpr double kReachS = 0.5;
+  /// Frames farther apart than this have a stretch without frames between them.
+  static constexpr double kGapS = 1;
 
   struct Column {
     double time = 0;
@@ -135,6 +137,9 @@ class TraceBuffer {
 
  private:
   void allocate();
+  Column column(Trace trace, std::uint64_t first, std::uint64_t last) const;
+  /// The first frame after `first` that comes more than kGapS after the one before; `last` if none does.
+  std::uint64_t gapAfter(std::uint64_t first, std::uint64_t last) const;
   struct Stored {
     double time = 0, stateTime = 0;
     std::uint64_t packet = 0;

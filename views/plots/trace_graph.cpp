@@ -8,10 +8,6 @@
 
 namespace trimtab::views {
 
-namespace {
-constexpr double kGapS = 1;
-}
-
 TraceGraph::TraceGraph(QCPAxis* timeAxis, QCPAxis* valueAxis, Look look)
     : QCPGraph(timeAxis, valueAxis), look_(std::move(look)) {
   setName(look_.fullName());
@@ -41,7 +37,7 @@ TraceGraph::Heights TraceGraph::take(const TraceBuffer& buffer, std::uint64_t fr
   highs_.clear();
   // Nothing is drawn across a stretch without frames: an idle view paints none.
   const double span = columns_.size() > 1 ? columns_.back().time - columns_.front().time : 0;
-  const double gap = std::max(kGapS, 4 * span / static_cast<double>(columns));
+  const double gap = std::max(TraceBuffer::kGapS, 4 * span / static_cast<double>(columns));
   double least = 0;
   double last = columns_.empty() ? 0 : columns_.front().time;
   for (const TraceBuffer::Column& column : columns_) {
