@@ -15,6 +15,8 @@ constexpr int kLegendEntryMarginPx = 8;
 }  // namespace
 
 Plot::Plot(const QString& accessibleName, Keyboard keyboard, QWidget* parent) : QCustomPlot(parent) {
+  // QCustomPlot keeps every event of the mouse; what the wheel scrolls is around the plot.
+  setAttribute(Qt::WA_NoMousePropagation, false);
   setAccessibleName(accessibleName);
   setFocusPolicy(keyboard == Keyboard::used ? Qt::StrongFocus : Qt::ClickFocus);
   setMouseTracking(true);
