@@ -95,7 +95,7 @@ TEST_F(Motion, thePointerOverThePictureIsTheLineOfSight) {
   EXPECT_TRUE(view.hasMouseTracking());
   // From edge to edge in half a second, as fast as events come; again where the machine was too busy to draw
   // meanwhile.
-  const auto lowered = [this] { return saw(QStringLiteral("LOD scale lowered")); };
+  const auto lowered = [this] { return saw(QStringLiteral("detail lowered")); };
   for (int sweep = 0; sweep < 20 && !lowered(); ++sweep) {
     const double start = link::now();
     for (double t = 0; t < 0.5; t = link::now() - start) {
