@@ -12,6 +12,11 @@ namespace {
 
 class WorkbenchChanges : public Bench {
  protected:
+  void SetUp() override {
+    Bench::SetUp();
+    w().activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&w()));
+  }
   views::Snapshots& snapshots() { return w().panels().changes->snapshots(); }
   double scale() { return w().draft().parameters().lod.scale.value(); }
   void look(double pitchDeg) {

@@ -153,6 +153,8 @@ TEST_F(WorkbenchFiles, anExportAgainGoesToTheLastTargetOfThisPresetWithoutAQuest
                             {path(dir / "ig.ini"), ExportFormat::ini, "me", "Mine.", {}});
   ASSERT_TRUE(document.open(path(dir / "mine.json"))) << "as in a later run";
   edit();
+  w().activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&w()));
   QTest::keyClick(&w(), Qt::Key_E, Qt::ControlModifier);
   ASSERT_TRUE(std::filesystem::exists(dir / "ig.ini")) << w().messages().text().toStdString();
   EXPECT_EQ(loadPreset((dir / "ig.ini").string())->parameters.scheme.hysteresis.value(), 0.04);
