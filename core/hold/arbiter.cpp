@@ -188,18 +188,20 @@ bool steady(double triangles, double ms, double longMs, HoldMemory& memory) {
   return memory.begun && memory.steadyMs >= longMs;
 }
 
+/// Averages the model's uncertainty into the memory, because a single late image must not lower anything.
+void noteBand(double bandMs, HoldMemory& memory) {
+  constexpr double kShare = 0.02;
+  const double band = std::isfinite(bandMs) ? std::max(bandMs, 0.0) : 0;
+  memory.bandMs = memory.begun ? memory.bandMs + kShare * (band - memory.bandMs) : band;
+}
+
 /// Returns what a prediction may reach: the budget without its margin, and less if the model is so uncertain
-/// that one image in a hundred would take more than 1.1 of the budget. The uncertainty is averaged, because a
-/// single late image must not lower anything.
-double limitOf(const HoldGiven& given, const HoldParameters& p, HoldMemory& memory) {
+/// that one image in a hundred would take more than 1.1 of the budget.
+double limitOf(double budgetMs, double bandMs, const HoldParameters& p) {
   constexpr double kOver = 1.1, kLeast = 0.75;
   constexpr double kOneInAHundred = 2.326 / 1.645;  // of a normal distribution, over its 90 % band
-  const double most = given.budgetMs * (1 - p.margin.value());
-  constexpr double kShare = 0.02;
-  const double band = std::isfinite(given.cost.bandMs) ? std::max(given.cost.bandMs, 0.0) : 0;
-  memory.bandMs = memory.begun ? memory.bandMs + kShare * (band - memory.bandMs) : band;
-  const double sure =
-      std::max(kOver * given.budgetMs - kOneInAHundred * memory.bandMs, kLeast * given.budgetMs);
+  const double most = budgetMs * (1 - p.margin.value());
+  const double sure = std::max(kOver * budgetMs - kOneInAHundred * bandMs, kLeast * budgetMs);
   return std::min(most, sure);
 }
 
@@ -244,7 +246,8 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
     memory.timeS = timeS;
     return d;
   }
-  d.limitMs = limitOf(given, p, memory);
+  noteBand(given.cost.bandMs, memory);
+  d.limitMs = limitOf(given.budgetMs, memory.bandMs, p);
   d.bandMs = given.cost.bandMs;
 
   const Choice choice = choiceOf(given, p);

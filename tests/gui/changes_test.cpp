@@ -19,13 +19,6 @@ class WorkbenchChanges : public Bench {
   }
   views::Snapshots& snapshots() { return w().panels().changes->snapshots(); }
   double scale() { return w().draft().parameters().lod.scale.value(); }
-  void look(double pitchDeg) {
-    workbench::FreeCamera& camera = w().viewport().camera();
-    Attitude attitude = camera.attitude();
-    attitude.pitch = Degrees{pitchDeg};
-    camera.place(camera.position(), attitude);
-    w().feed().look(camera);
-  }
 };
 
 TEST_F(WorkbenchChanges, aKeySwitchesSnapshotsAndTheirImagesAreMeasured) {

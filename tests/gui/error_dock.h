@@ -20,13 +20,6 @@ class ErrorDock : public Bench {
     const std::uint64_t before = measurements();
     return waitFor([&] { return measurements() >= before + more; }, 90000);
   }
-  void look(double pitchDeg) {
-    workbench::FreeCamera& camera = w().viewport().camera();
-    Attitude attitude = camera.attitude();
-    attitude.pitch = Degrees{pitchDeg};
-    camera.place(camera.position(), attitude);
-    w().feed().look(camera);
-  }
 };
 
 }  // namespace trimtab::test

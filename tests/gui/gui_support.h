@@ -83,6 +83,14 @@ class Bench : public ::testing::Test {
     EXPECT_TRUE(findings.empty()) << toString(findings);
     return window->feed().receiver()->port();
   }
+  /// Turns the free camera up or down.
+  void look(double pitchDeg) {
+    workbench::FreeCamera& camera = w().viewport().camera();
+    Attitude attitude = camera.attitude();
+    attitude.pitch = Degrees{pitchDeg};
+    camera.place(camera.position(), attitude);
+    w().feed().look(camera);
+  }
   /// Waits until nothing is painted for a while.
   bool settle() {
     for (int i = 0; i < 200; ++i) {

@@ -21,9 +21,9 @@ class NoteLine : public QLabel {
   void keepPlace();
 };
 
-/// A sentence about one control, painted over what is beside that control instead of moving it. It stays
-/// while the sentence holds, but gives way as soon as the pointer or the focus comes to what it covers; the
-/// pointer or the focus on the control brings it back.
+/// Shows a sentence about one control, such as a refusal, in a bubble over the neighbouring widgets, so that
+/// nothing moves. The bubble is hidden while the pointer or the focus is on a widget that it covers, and is
+/// shown again when either returns to the control. An empty sentence removes it.
 class NoteBubble : public QLabel {
   Q_OBJECT
  public:

@@ -23,9 +23,9 @@ struct PlotSignal {
   /// The name, with its unit if it has one.
   QString fullName() const;
 };
-/// Returns all of them, those of one matter together.
+/// Returns all signals, grouped by subject.
 std::span<const PlotSignal> plotSignals();
-/// Of a trace that is in the CSV.
+/// Returns the signal that plots this trace, which must be a column of the CSV.
 const PlotSignal& signalOf(Trace trace);
 /// Returns the value that a person reads for this signal in a frame.
 inline double shownValue(const TraceBuffer& buffer, const PlotSignal& signal, std::uint64_t frame) {
@@ -42,9 +42,10 @@ struct PlotLane {
 using PlotLanes = std::vector<PlotLane>;
 /// Returns memberships, triangles and vertices, frame time and rate, and stages.
 PlotLanes standardLanes();
-/// As settings keep lanes: names of traces (traceName) between blanks, lanes between semicolons. Unknown
-/// names are left out; nothing is returned if no lane is left.
+/// Returns lanes as the text that settings keep: names of traces (traceName), separated by blanks, and lanes
+/// by semicolons.
 QString toText(const PlotLanes& lanes);
+/// Reads such a text. It ignores unknown names, and returns nothing if no lane is left.
 std::optional<PlotLanes> lanesOf(const QString& text);
 /// Returns the trace with this name, if it is a signal.
 std::optional<Trace> traceOf(const QString& name);

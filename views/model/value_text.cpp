@@ -28,7 +28,8 @@ QStringList entriesOf(const ParameterRow& row, const ParameterValue& value) {
   return QString::fromStdString(toText(row, value)).split(QLatin1Char(' '), Qt::SkipEmptyParts);
 }
 
-/// Returns the entries of `these` that `those` lacks, as often as it lacks them.
+/// Returns the entries that are in `these` but not in `those`. An entry that occurs three times in the first
+/// list and once in the second is returned twice.
 QString onlyIn(const QStringList& these, QStringList those) {
   QStringList only;
   for (const QString& entry : these)

@@ -9,11 +9,11 @@
 
 namespace trimtab::views {
 
-/// What is drawn of the file, and of a pinned snapshot, behind what is edited.
+/// An editor draws the values of the file, and those of a pinned snapshot, behind the values that are edited.
 inline constexpr std::array kGhosts{Reference::file, Reference::pinned};
-/// Returns the pen of one of them: dotted for the file, dash-dotted for the snapshot.
+/// Returns the pen for one of the two: dotted for the file, dash-dotted for the snapshot.
 QPen ghostPen(Reference which, const QPalette& palette);
-/// Returns how a legend calls it: "file", or the name of the snapshot.
+/// Returns its name in a legend: "file", or the name of the snapshot.
 QString ghostName(Reference which, const Draft& draft);
 
 /// The curves that file and snapshot have where those of a plot differ from them. A corner of the plot names

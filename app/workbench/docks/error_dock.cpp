@@ -257,7 +257,7 @@ void ErrorDock::showBudget() {
   if (!answer_->answer() || answer_->answer()->budgetMs != ms) showAnswer();
 }
 
-/// By the budget of the draft: what fits follows it while a person tries budgets.
+/// Judges the results by the draft's budget, so that the best preset is named anew as a person changes it.
 void ErrorDock::showAnswer() {
   if (!results_ || flight().isEmpty()) {
     sweep_->clear();

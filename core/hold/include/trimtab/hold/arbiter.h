@@ -9,7 +9,7 @@
 
 /// Keeps the predicted time of each image within the budget.
 ///
-/// Each image, the arbiter looks at every setting of the levers that it may move, some two thousand, and
+/// Each image, the arbiter looks at every setting of the levers that it may move, some thousands, and
 /// takes the one that loses least among those that fit. Prediction comes first and measurement only corrects
 /// the model, so there is nothing to oscillate: Funkhouser and Sequin, "Adaptive Display Algorithm for
 /// Interactive Frame Rates During Visualization of Complex Virtual Environments", SIGGRAPH 1993. Their
@@ -21,8 +21,7 @@
 ///
 /// While the triangles of the coming views change, the allowed error moves by half octaves, so that a glance
 /// changes levels once or twice. Once they have been steady for hold.calm_ms it moves by eighths of an
-/// octave, so that no more is given up than the budget asks: half an octave is a fifth of an image, an eighth
-/// a twentieth.
+/// octave, so that no more is given up than the budget asks.
 namespace trimtab {
 
 /// Everything that an image's arbitration depends on beside its memory, as plain numbers, so that a trace can
