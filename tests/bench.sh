@@ -20,24 +20,32 @@ log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 fail() { tail -40 "$log" >&2; echo "$1 failed" >&2; exit 1; }
 { bash resources/install-packages.sh && cmake --preset release; } >"$log" 2>&1 || fail configuring
-groups=$(cat build/bench.list)
+groups=$(cut -d' ' -f1 build/bench.list)
 if [ -n "$only" ]; then
   case $only in *.*) options+=(--only "${only#*.}"); only=${only%%.*} ;; esac
-  grep -qx "$only" build/bench.list || { echo "no group $only; there are: $(echo $groups)" >&2; exit 2; }
+  grep -qx "$only" <<<"$groups" || { echo "no group $only; there are: $(echo $groups)" >&2; exit 2; }
   groups=$only
 fi
 cmake --build build --target $(printf 'bench_%s ' $groups) >"$log" 2>&1 || fail building
 
 rows=() status=0
 ended() { echo "bench_$1 ended with status $2" >&2; status=1; }
+# Runs a group's program, under an X server of its own if it needs one and there is none.
+run_group() {
+  local command=(build/bin/bench_"$1" "${options[@]}")
+  if [ -z "${DISPLAY:-}" ] && grep -qx "$1 display" build/bench.list; then
+    command=(xvfb-run -a -s "-screen 0 1920x1200x24" "${command[@]}")
+  fi
+  timeout 1200 "${command[@]}" </dev/null
+}
 for group in $groups; do
   echo "measuring $group" >&2
   if [ -z "$json" ]; then
-    timeout 1200 build/bin/bench_"$group" "${options[@]}" </dev/null || ended "$group" $?
+    run_group "$group" || ended "$group" $?
     continue
   fi
   # The programs print one row a line, between the document's first and last line.
-  output=$(timeout 1200 build/bin/bench_"$group" "${options[@]}" </dev/null) || ended "$group" $?
+  output=$(run_group "$group") || ended "$group" $?
   while read -r row; do
     [[ $row == '{"id"'* ]] && rows+=("${row%,}")
   done <<<"$output"

@@ -21,7 +21,7 @@
 namespace trimtab::cli {
 namespace {
 
-struct Arguments {
+struct BenchOptions {
   std::string terrain, output, cases = "none,view_frustum,proposed", size = "1280x720";
   std::vector<std::string> flights, presets{"default"}, settings, sweeps;
   std::size_t frames = 60, repeats = 5;
@@ -60,7 +60,7 @@ std::string nameOf(const std::string& text, const std::vector<Named>& others) {
   return stem.empty() ? text : stem;
 }
 
-bool readFlights(const Arguments& arguments, harness::Plan& plan) {
+bool readFlights(const BenchOptions& arguments, harness::Plan& plan) {
   bool usable = true;
   for (const std::string& file : arguments.flights) {
     Result<Flight> flight = readFlight(file);
@@ -87,7 +87,7 @@ bool readFlights(const Arguments& arguments, harness::Plan& plan) {
   return usable;
 }
 
-bool readPresets(const Arguments& arguments, harness::Plan& plan) {
+bool readPresets(const BenchOptions& arguments, harness::Plan& plan) {
   bool usable = true;
   std::vector<harness::SweepAxis> axes;
   for (const std::string& sweep : arguments.sweeps) {
@@ -98,6 +98,10 @@ bool readPresets(const Arguments& arguments, harness::Plan& plan) {
   }
   if (axes.size() > harness::kMostAxes) {
     report({refused("--sweep", "at most two parameters", std::to_string(axes.size()))});
+    return false;
+  }
+  if (axes.size() == 2 && axes[0].key == axes[1].key) {
+    report({{Severity::error, "--sweep", axes[0].key, "each parameter once", "twice"}});
     return false;
   }
   if (!usable) return false;
@@ -116,7 +120,7 @@ bool readPresets(const Arguments& arguments, harness::Plan& plan) {
   return usable;
 }
 
-int run(const Arguments& arguments) {
+int run(const BenchOptions& arguments) {
   const Interruptible guard;
   harness::Plan plan;
   plan.version = TRIMTAB_VERSION;
@@ -147,7 +151,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 void addBench(CLI::App& app, int& exitCode) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<BenchOptions>();
   CLI::App* command =
       app.add_subcommand("bench", "Run time against error, over flights x presets x culling cases");
   command->footer(

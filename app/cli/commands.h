@@ -27,5 +27,7 @@ void addWeather(CLI::App& app, int& exitCode);
 
 /// Prints findings on standard error, one per line, with their severity.
 void report(const Findings& findings);
+/// Writes a text to a file, or to standard output if `output` is empty or "-". Returns the exit code.
+int writeOut(const std::string& output, const std::string& text);
 
 }  // namespace trimtab::cli

@@ -23,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct DecideOptions {
   std::string preset = "default", flight;
   std::vector<std::string> settings;
   std::optional<double> altitudeFt, pitchDeg, aboveGroundFt;
@@ -50,7 +50,7 @@ TraceRow decidedRow(Session& session, const Feed& feed) {
 
 /// The altitude is the one that the preset's reference asks for, unless the height above ground is given
 /// apart.
-Result<Decided> decideOne(const Options& options, const ValidatedParameters& parameters) {
+Result<Decided> decideOne(const DecideOptions& options, const ValidatedParameters& parameters) {
   Findings findings;
   // What a flight's row may say.
   const auto check = [&findings](const char* option, std::optional<double> value, double low, double high,
@@ -189,7 +189,7 @@ std::size_t changes(const std::vector<TraceRow>& rows) {
   return count;
 }
 
-void printJson(const Options& options, const Decided& decided, const ValidatedParameters& parameters) {
+void printJson(const DecideOptions& options, const Decided& decided, const ValidatedParameters& parameters) {
   if (options.flight.empty()) {
     Json document = toJson(decided.rows.front(), parameters);
     document["policy_rules"] = ruleTexts(parameters);
@@ -233,7 +233,7 @@ void printFiredRules(const TraceRow& row, const ValidatedParameters& parameters)
   }
 }
 
-void printText(const Options& options, const Decided& decided, const ValidatedParameters& parameters) {
+void printText(const DecideOptions& options, const Decided& decided, const ValidatedParameters& parameters) {
   if (options.flight.empty()) {
     std::cout << explain(decided.rows.front().decision, parameters) << '\n';
     printFiredRules(decided.rows.front(), parameters);
@@ -252,7 +252,7 @@ void printText(const Options& options, const Decided& decided, const ValidatedPa
   std::fflush(stdout);
 }
 
-int run(const Options& options) {
+int run(const DecideOptions& options) {
   const std::optional<ValidatedParameters> parameters = parametersFor(options.preset, options.settings);
   if (!parameters) return kRefused;
   const Result<Decided> decided =
@@ -272,7 +272,7 @@ int run(const Options& options) {
 }  // namespace
 
 void addDecide(CLI::App& app, int& exitCode) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DecideOptions>();
   CLI::App* command =
       app.add_subcommand("decide", "Decide scheme and depth-map size for one state or for a flight");
   command->add_option("--preset", options->preset, "A shipped preset's name or a preset file")

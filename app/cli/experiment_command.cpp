@@ -11,7 +11,7 @@
 namespace trimtab::cli {
 namespace {
 
-struct Arguments {
+struct ExperimentOptions {
   SetupArguments setup;
   std::string output;
   bool json = false;
@@ -19,7 +19,7 @@ struct Arguments {
 
 using Run = Result<experiment::Report> (*)(const experiment::Setup&);
 
-int run(const Arguments& arguments, Run experiment) {
+int run(const ExperimentOptions& arguments, Run experiment) {
   const Interruptible guard;
   const std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
   if (!setup || !mayWriteTo(arguments.output)) return kRefused;
@@ -60,7 +60,7 @@ void addExperiment(CLI::App& app, int& exitCode) {
            Named{"static-lod", "Faces by level of one tile of scenery (document E)",
                  &experiment::runStaticLod},
        }) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<ExperimentOptions>();
     CLI::App* command = group->add_subcommand(named.name, named.what);
     arguments->setup.addTo(*command);
     if (std::string_view(named.name).starts_with("head-motion"))

@@ -15,7 +15,7 @@ namespace trimtab::cli {
 
 namespace {
 
-struct Options {
+struct FuzzyOptions {
   std::string preset = "default", file, output, format;
   std::vector<std::string> settings;
 };
@@ -49,7 +49,7 @@ Result<TuningParameters> readPolicy(std::string_view text, const std::string& wh
 constexpr Part kPolicy{policyText, readPolicy};
 
 /// By --format, else by the file's ending.
-std::optional<RuleFormat> formatOf(const Options& options, const std::string& file) {
+std::optional<RuleFormat> formatOf(const FuzzyOptions& options, const std::string& file) {
   if (!options.format.empty()) return options.format == "fis" ? RuleFormat::matlab : RuleFormat::fuzzylite;
   const auto format = ruleFormatOf(file);
   if (!format)
@@ -57,17 +57,7 @@ std::optional<RuleFormat> formatOf(const Options& options, const std::string& fi
   return format;
 }
 
-int writeOut(const std::string& output, const std::string& text) {
-  if (output == "-") {
-    std::cout << text << std::flush;
-    return std::cout ? kDone : kRefused;
-  }
-  const auto written = writeAtomically(output, text);
-  report(written.findings());
-  return written ? kDone : kRefused;
-}
-
-int exportPart(const Part& part, const Options& options) {
+int exportPart(const Part& part, const FuzzyOptions& options) {
   const auto format = formatOf(options, options.output);
   if (!format) return kUsage;
   const auto parameters = parametersFor(options.preset, options.settings);
@@ -78,7 +68,7 @@ int exportPart(const Part& part, const Options& options) {
   return text ? writeOut(options.output, *text) : kRefused;
 }
 
-int importPart(const Part& part, const Options& options) {
+int importPart(const Part& part, const FuzzyOptions& options) {
   const auto format = formatOf(options, options.file);
   if (!format) return kUsage;
   const auto base = loadPreset(options.preset);
@@ -101,7 +91,7 @@ int importPart(const Part& part, const Options& options) {
 }
 
 void addPart(CLI::App& preset, int& exitCode, const char* name, const char* what, const Part& part) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<FuzzyOptions>();
   CLI::App* const fuzzy = preset.add_subcommand(name, what);
   fuzzy->require_subcommand(1);
   const auto formatOption = [options](CLI::App* command) {

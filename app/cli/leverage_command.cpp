@@ -11,14 +11,14 @@
 namespace trimtab::cli {
 namespace {
 
-struct Arguments {
+struct LeverageOptions {
   SetupArguments setup;
   std::size_t frames = 24;
   std::string output;
   bool json = false;
 };
 
-int run(const Arguments& arguments) {
+int run(const LeverageOptions& arguments) {
   const Interruptible guard;
   std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
   if (!setup || !mayWriteTo(arguments.output)) return kRefused;
@@ -42,7 +42,7 @@ void addLeverage(CLI::App& app, int& exitCode) {
       "Each lever goes from one end of its usual range to the other with all others at rest. A lever that "
       "has "
       "nothing to do in the flight is measured under the condition that it is for, which its row names.");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<LeverageOptions>();
   arguments->setup.addTo(*command);
   command->get_option("--flight")->required()->description("The flight");
   command->add_option("--frames", arguments->frames, "Frames of the flight, evenly spread")

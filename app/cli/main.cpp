@@ -4,12 +4,23 @@
 #include <iostream>
 
 #include "commands.h"
+#include "trimtab/preset/preset.h"
 #include "trimtab/units/labelled.h"
 
 namespace trimtab::cli {
 
 void report(const Findings& findings) {
   std::cerr << labelled(findings);
+}
+
+int writeOut(const std::string& output, const std::string& text) {
+  if (output.empty() || output == "-") {
+    std::cout << text << std::flush;
+    return std::cout ? kDone : kRefused;
+  }
+  const auto written = writeAtomically(output, text);
+  report(written.findings());
+  return written ? kDone : kRefused;
 }
 
 namespace {

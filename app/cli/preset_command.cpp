@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct PresetOptions {
   std::vector<std::string> files, settings;
   std::string left, right, output, format;
   Provenance provenance;
@@ -44,7 +44,7 @@ Json toJson(const Findings& findings) {
   return list;
 }
 
-int check(const Options& options) {
+int check(const PresetOptions& options) {
   bool good = true;
   Json files = Json::array();
   for (const std::string& file : options.files) {
@@ -73,18 +73,8 @@ std::string timestamp() {
   return text;
 }
 
-int writeOut(const std::string& output, const std::string& text) {
-  if (output.empty() || output == "-") {
-    std::cout << text << std::flush;
-    return std::cout ? kDone : kRefused;
-  }
-  const auto written = writeAtomically(output, text);
-  report(written.findings());
-  return written ? kDone : kRefused;
-}
-
 /// Uses --format, else the file's ending, else JSON, and warns if the ending says something else.
-ExportFormat exportFormat(const Options& options) {
+ExportFormat exportFormat(const PresetOptions& options) {
   const std::string ending =
       options.output == "-" ? "" : std::filesystem::path(options.output).extension().string();
   const bool known = ending == ".json" || ending == ".xml" || ending == ".ini";
@@ -97,7 +87,7 @@ ExportFormat exportFormat(const Options& options) {
   return format == "xml" ? ExportFormat::xml : format == "ini" ? ExportFormat::ini : ExportFormat::json;
 }
 
-int exportPreset(Options options) {
+int exportPreset(PresetOptions options) {
   auto preset = loadPreset(options.left);
   if (!preset) {
     report(preset.findings());
@@ -132,7 +122,7 @@ int exportPreset(Options options) {
   return writeOut(options.output, exportText(*validated, name, options.provenance, exportFormat(options)));
 }
 
-int diff(const Options& options) {
+int diff(const PresetOptions& options) {
   const auto left = loadPreset(options.left), right = loadPreset(options.right);
   if (!left || !right) {
     report(left.findings());
@@ -153,7 +143,7 @@ int diff(const Options& options) {
 }  // namespace
 
 void addPreset(CLI::App& app, int& exitCode) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PresetOptions>();
   CLI::App* const preset = app.add_subcommand("preset", "Check, export, compare and exchange presets");
   preset->require_subcommand(1);
 

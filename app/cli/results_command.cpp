@@ -13,7 +13,7 @@
 namespace trimtab::cli {
 namespace {
 
-struct Arguments {
+struct ResultsOptions {
   std::vector<std::string> folders;
   std::string output;
   bool json = false;
@@ -60,7 +60,7 @@ Findings mismatch(const harness::Results& first, const harness::Results& run, co
   return findings;
 }
 
-int run(const Arguments& arguments) {
+int run(const ResultsOptions& arguments) {
   std::optional<harness::Results> all;
   Findings findings;
   for (const std::string& folder : arguments.folders) {
@@ -93,7 +93,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 void addResults(CLI::App& app, int& exitCode) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ResultsOptions>();
   CLI::App* command = app.add_subcommand(
       "results", "Several runs of bench, of one machine and size, as one table and one plot");
   command->add_option("folders", arguments->folders, "Folders of bench, or their results.json")->required();

@@ -15,7 +15,7 @@
 namespace trimtab::cli {
 namespace {
 
-struct Arguments {
+struct WeatherOptions {
   SetupArguments setup;
   std::vector<std::string> steps;
   double vertices = 0;
@@ -71,7 +71,7 @@ void printJson(const experiment::CalibratedWeather& calibrated) {
   std::cout << nlohmann::ordered_json{{"vertices", calibrated.vertices}, {"steps", steps}}.dump(2) << '\n';
 }
 
-int calibrate(const Arguments& arguments) {
+int calibrate(const WeatherOptions& arguments) {
   const Interruptible guard;
   const auto loaded = loadPreset(arguments.setup.preset);
   const std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
@@ -112,7 +112,7 @@ void addWeather(CLI::App& app, int& exitCode) {
                                                   "Measure what each weather step costs and what the far cut "
                                                   "saves, and move the far plane out until both "
                                                   "match");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<WeatherOptions>();
   arguments->setup.addTo(*command);
   std::vector<std::string> names;
   for (const WeatherStep step : stepsOf({})) names.push_back(nameOf(step));

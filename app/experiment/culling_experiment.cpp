@@ -26,7 +26,7 @@ constexpr std::array<Case, 4> kCases{{{CullingCase::none, OcclusionMethod::depth
                                       {CullingCase::proposed, OcclusionMethod::horizon, "ours"}}};
 
 /// One case at one altitude over all views.
-struct Sums {
+struct AltitudeSums {
   std::vector<double> ms, triangles, vertices;
   double differing = 0;
 };
@@ -89,7 +89,7 @@ Result<Report> runCulling(const Setup& setup) {
   const std::vector<Place> places = placesOf(setup, 20);
   if (places.empty()) return notOverTerrain(setup);
 
-  std::array<std::array<Sums, kCases.size()>, kAltitudesFt.size()> sums;
+  std::array<std::array<AltitudeSums, kCases.size()>, kAltitudesFt.size()> sums;
   double eyeFt = 0;
   for (std::size_t a = 0; a < kAltitudesFt.size(); ++a)
     for (std::size_t p = 0; p < places.size(); ++p) {
@@ -104,7 +104,7 @@ Result<Report> runCulling(const Setup& setup) {
         request.method = kCases[c].method;
         request.occlusion = kCases[c].occlusion;
         FrameResult last;
-        Sums& s = sums[a][c];
+        AltitudeSums& s = sums[a][c];
         s.ms.push_back((*stage)->medianMs(request, setup.repeats, last));
         s.triangles.push_back(double(last.visible.triangles));
         s.vertices.push_back(double(last.visible.vertices));
@@ -122,7 +122,7 @@ Result<Report> runCulling(const Setup& setup) {
                              "triangles_ratio", "frame_ms_ratio", "differing_pixels"};
   for (std::size_t c = 0; c < kCases.size(); ++c)
     for (std::size_t a = 0; a < kAltitudesFt.size(); ++a) {
-      const Sums &s = sums[a][c], &plain = sums[a][0];
+      const AltitudeSums &s = sums[a][c], &plain = sums[a][0];
       const double ms = quantileOf(s.ms, 0.5);
       report.measured.rows.push_back({kAltitudesFt[a], kCases[c].name, std::round(meanOf(s.triangles)),
                                       std::round(meanOf(s.vertices)), ms, 1000 / ms,

@@ -13,7 +13,7 @@
 namespace trimtab::experiment {
 namespace {
 
-constexpr std::array<double, 4> kAltitudesFt{500, 2000, 5000, 8000};
+constexpr std::array<double, 4> kNodeAltitudesFt{500, 2000, 5000, 8000};
 /// Level, and a climb at which the altitude alone decides between the schemes.
 constexpr std::array<double, 2> kPitchesDeg{0, 26};
 /// Farther than any node is drawn.
@@ -62,7 +62,7 @@ Plot loopsOf(const char* file, const char* title, const char* label, const Table
   return plot;
 }
 
-struct Sums {
+struct NodeSums {
   std::vector<double> ms, triangles, texels;
   double differing = 0, frames = 0;
 };
@@ -82,12 +82,12 @@ Result<Report> runCullingPerNode(const Setup& setup) {
   Report report{"culling-per-node", "A: Figure 2, lines 4 to 12", (*stage)->machine(), {}, {}, {}, {}};
   report.measured.columns = {"terrain",    "pitch_deg", "altitude_ft", "decision",        "maps_drawn",
                              "map_texels", "triangles", "frame_ms",    "differing_pixels"};
-  const double steps = double(forms.size() * kPitchesDeg.size() * kAltitudesFt.size() * places.size());
+  const double steps = double(forms.size() * kPitchesDeg.size() * kNodeAltitudesFt.size() * places.size());
   double done = 0;
   for (const TerrainForm form : forms)
     for (const double pitch : kPitchesDeg)
-      for (const double altitude : kAltitudesFt) {
-        std::array<Sums, kLoops.size()> sums;
+      for (const double altitude : kNodeAltitudesFt) {
+        std::array<NodeSums, kLoops.size()> sums;
         for (const Place& place : places) {
           char what[96];
           std::snprintf(what, sizeof what, "%s, %.0f degrees, %.0f ft", nameOf(form).c_str(), pitch,
@@ -112,7 +112,7 @@ Result<Report> runCullingPerNode(const Setup& setup) {
               request.decision = decided(altitude);
             }
             FrameResult last;
-            Sums& s = sums[loop];
+            NodeSums& s = sums[loop];
             s.ms.push_back((*stage)->medianMs(request, setup.repeats, last));
             s.triangles.push_back(double(last.visible.triangles));
             const OcclusionResolution map = last.depthMap.value_or(OcclusionResolution{});
@@ -122,7 +122,7 @@ Result<Report> runCullingPerNode(const Setup& setup) {
           }
         }
         for (std::size_t loop = 0; loop < kLoops.size(); ++loop) {
-          const Sums& s = sums[loop];
+          const NodeSums& s = sums[loop];
           report.measured.rows.push_back({nameOf(form), pitch, altitude, std::string(kLoops[loop]), s.frames,
                                           std::round(meanOf(s.texels)), std::round(meanOf(s.triangles)),
                                           quantileOf(s.ms, 0.5), s.differing});

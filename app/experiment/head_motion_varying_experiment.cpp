@@ -62,7 +62,7 @@ double changes(const std::vector<double>& values) {
   return count;
 }
 
-void addRows(Table& table, const std::string& form, const MotionRuns& runs) {
+void addVaryingRows(Table& table, const std::string& form, const MotionRuns& runs) {
   const auto row = [&](const char* quantity, const auto& valueOf) {
     addRow(table, form, quantity, runs, valueOf);
   };
@@ -112,7 +112,7 @@ Result<Report> runHeadMotionVarying(const Setup& setup) {
     const auto runs = flyHead(
         **stage, over, profile, [](int) { return false; }, "varying motion over " + name);
     if (!runs) return runs.findings();
-    addRows(report.measured, name, *runs);
+    addVaryingRows(report.measured, name, *runs);
     const double before = rapidDrops((*runs)[1].medians()), after = rapidDrops((*runs)[2].medians());
     char text[240];
     std::snprintf(

@@ -17,7 +17,7 @@ constexpr double kExposureMs = 16;
 constexpr int kSweepImagesPerS = 200;
 constexpr std::size_t kWarmUp = 60;
 /// Images between two questions whether to go on.
-constexpr std::size_t kAsked = 40;
+constexpr std::size_t kAskedStates = 40;
 /// Images of a strain that show what levers lose; they lie between those that are measured afterwards.
 constexpr std::size_t kLossImages = 5;
 
@@ -161,7 +161,7 @@ std::optional<HoldRun> fly(Stage& stage, scene::ErrorMeter& meter, const Setup& 
   std::vector<double> lookMs;
   std::vector<FrameRequest> before;
   for (std::size_t i = 0; i < strain.states.size(); ++i) {
-    if (i % kAsked == 0 && !go(double(i) / double(strain.states.size()))) return std::nullopt;
+    if (i % kAskedStates == 0 && !go(double(i) / double(strain.states.size()))) return std::nullopt;
     const AircraftState& state = strain.states[i];
     session.fly(state, state.time);
     const auto start = std::chrono::steady_clock::now();

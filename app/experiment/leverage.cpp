@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <limits>
 
 #include "stage.h"
 #include "trimtab/fuzzy/bands.h"
@@ -12,6 +11,7 @@
 #include "trimtab/scene/error_meter.h"
 #include "trimtab/session/lever_request.h"
 #include "trimtab/session/session.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab::experiment {
 namespace {
@@ -23,7 +23,6 @@ constexpr double kLeadS = 1.5;
 constexpr int kDrawnBefore = 10;
 constexpr double kSweepDegPerS = 180, kSweepToDeg = 90;
 constexpr double kFogVisibilityM = 10000;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// From side to side at a constant rate.
 Attitude sweptHead(double time) {

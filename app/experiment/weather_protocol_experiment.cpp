@@ -12,7 +12,7 @@
 namespace trimtab::experiment {
 namespace {
 
-constexpr int kMostTrials = 8;
+constexpr int kMostProtocolTrials = 8;
 
 /// A row of the published protocol: where the ratio was calibrated, and where it is applied.
 struct Trial {
@@ -89,7 +89,7 @@ Result<Report> runWeatherProtocol(const Setup& setup) {
         std::snprintf(what, sizeof what, "calibrating %s %s at %.0f vertices", kDensities[d], fall.name,
                       vertices);
         view.setError(views[vertices].first);
-        const auto found = calibrateOn(view, setup, view.preset(), fall.steps[d], kMostTrials, go);
+        const auto found = calibrateOn(view, setup, view.preset(), fall.steps[d], kMostProtocolTrials, go);
         if (!found) return cancelled();
         calibrations[{vertices, fall.steps[d]}] = *found;
       }

@@ -7,18 +7,17 @@
 
 #include "app/plot/svg.h"
 #include "html_model.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab::harness {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// What was not measured is worse than whatever was.
 double orWorst(double value) {
   return std::isnan(value) ? kInfinity : value;
 }
 
-/// Rounded as a person sees it: a difference that nobody reads decides nothing.
+/// Rounds a value as a person sees it, because a difference that nobody reads decides nothing.
 double toThreeDigits(double value) {
   if (!std::isfinite(value) || value == 0) return orWorst(value);
   const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2);
@@ -40,7 +39,7 @@ std::string percentText(double share) {
   return plot::decimal(share * 100, share > 0 && share < 0.1 ? 1 : 0) + " %";
 }
 
-/// "default (proposed)".
+/// Names a unit, such as "default (proposed)".
 std::string nameText(const AnswerRow& row) {
   return row.name.preset + " (" + caseText(row.name.method) + ')';
 }
@@ -51,14 +50,14 @@ std::string bestText(const Answer& answer, const std::vector<std::size_t>& ranke
                      " ms: " + percentText(1 - best.overShare) + " of its frames are within it (p95 " +
                      roundedText(best.p95Ms) + " ms)";
   if (ranked.size() == 1) return text + ", and nothing else fits.";
-  text += ". Of the " + std::to_string(ranked.size()) + " that fit, ";
+  const std::string fitting = " of the " + std::to_string(ranked.size()) + " that fit";
   const AnswerRow& next = answer.rows[ranked[1]];
   if (toThreeDigits(next.flip) != toThreeDigits(best.flip))
-    return text + "it has the smallest FLIP, " + roundedText(best.flip) + "; " + nameText(next) +
-           " follows with " + roundedText(next.flip) + '.';
-  const std::string flip =
-      std::isnan(best.flip) ? "none has a FLIP" : "others have its FLIP, " + roundedText(best.flip);
-  return text + flip + "; it has the shortest p95 of these, and " + nameText(next) + " follows with " +
+    return text + ". It has the smallest FLIP" + fitting + ", " + roundedText(best.flip) + "; " +
+           nameText(next) + " follows with " + roundedText(next.flip) + '.';
+  text += std::isnan(best.flip) ? ". None" + fitting + " has a FLIP"
+                                : ". It shares the smallest FLIP" + fitting + ", " + roundedText(best.flip);
+  return text + "; it has the shortest p95 of these, and " + nameText(next) + " follows with " +
          roundedText(next.p95Ms) + " ms.";
 }
 
@@ -70,7 +69,7 @@ std::string noneText(const Answer& answer) {
         return std::tuple(orWorst(a.p95Ms), orWorst(a.flip)) < std::tuple(orWorst(b.p95Ms), orWorst(b.flip));
       });
   return "None fits " + roundedText(answer.budgetMs) +
-         " ms: of each, more than 5 % of the frames are longer. " + nameText(closest) +
+         " ms, because more than 5 % of the frames of each are longer. " + nameText(closest) +
          " comes closest, with a p95 of " + roundedText(closest.p95Ms) + " ms and " +
          percentText(closest.overShare) + " of its frames over the budget.";
 }

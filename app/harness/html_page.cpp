@@ -25,10 +25,8 @@ constexpr Link kSections[]{{"pareto", "Frame time against error"},
                            {"ratios", "Paired comparisons"},
                            {"worst", "Worst frames"}};
 
-std::string join(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text.empty() ? "none" : text;
+std::string orNone(const std::vector<std::string>& words) {
+  return words.empty() ? "none" : joined(words);
 }
 
 /// What no picture may lose, told before anything else.
@@ -50,7 +48,7 @@ std::string defects(const ReportModel& model) {
     const std::string of = counted(frames, "frame");
     html += bad == 0 ? paragraph("No " + std::string(q.label) + " in " + of + ".", "fine")
                      : paragraph("\xe2\x9a\xa0 " + std::string(q.label) + ": " + wholeText(sum) + " in " +
-                                     std::to_string(bad) + " of " + of + " (" + join(units) +
+                                     std::to_string(bad) + " of " + of + " (" + joined(units) +
                                      "). Culling must never change a pixel.",
                                  "alarm");
   }
@@ -69,9 +67,9 @@ std::string headSection(const ReportModel& model) {
   const auto fact = [&](const char* name, const std::string& text) {
     html += std::string("<dt>") + name + "</dt><dd>" + escaped(text) + "</dd>\n";
   };
-  fact("flights", join(model.flights));
-  fact("presets", join(model.presets));
-  fact("cases", join(cases));
+  fact("flights", orNone(model.flights));
+  fact("presets", orNone(model.presets));
+  fact("cases", orNone(cases));
   std::size_t frames = 0;
   for (const Unit& unit : r.units) frames += unit.frames.size();
   fact("pictures", std::to_string(r.widthPx) + " x " + std::to_string(r.heightPx) + " px, " +

@@ -7,11 +7,11 @@
 #include "html_sections.h"
 #include "html_text.h"
 #include "report.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab::harness {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kFrameMs = "frame_ms";
 constexpr std::size_t kLabelledOneByOne = 5;  ///< so few points are named by preset and case
 

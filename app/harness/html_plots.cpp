@@ -1,18 +1,16 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "app/experiment/stage.h"
 #include "app/plot/svg.h"
 #include "html_sections.h"
 #include "html_text.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab::harness {
 namespace {
 
 using Kind = Quantity::Kind;
-
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 std::vector<const Quantity*> stagesOf(const ReportModel& model) {
   std::vector<const Quantity*> stages;
@@ -104,7 +102,7 @@ std::string stageTable(const ReportModel& model) {
 }
 
 struct Range {
-  double low = kInf, high = -kInf;
+  double low = kInfinity, high = -kInfinity;
   bool infinite = false, absent = false;
   bool empty() const { return high < low; }
 };
@@ -132,8 +130,8 @@ plot::Plot alongFlight(const ReportModel& model, const std::string& flight, cons
   const double room = 0.04 * (range.high - range.low);
   plot.yFrom = fromZero ? std::min(0.0, range.low) : range.low - room;
   plot.yTo = range.high + room;
-  plot.xFrom = kInf;
-  plot.xTo = -kInf;
+  plot.xFrom = kInfinity;
+  plot.xTo = -kInfinity;
   plot::Series worst{"worst", {}, {}, plot::Series::Draw::points};
   for (const std::string& method : model.cases) {
     const Unit* unit = model.unit(flight, preset, method);
@@ -170,7 +168,7 @@ std::string alongFlight(const ReportModel& model, const std::string& flight) {
     if (range.empty() && !range.infinite) continue;  // the summary says what was not measured
     if (range.empty() || (range.low == range.high && !range.infinite)) {
       still += (still.empty() ? "" : "; ") + std::string(q.label) + ' ' +
-               (range.empty() ? roundedText(kInf) : numberText(range.low, q)) +
+               (range.empty() ? roundedText(kInfinity) : numberText(range.low, q)) +
                (q.unit.empty() ? std::string() : ' ' + std::string(q.unit));
       continue;
     }

@@ -177,19 +177,13 @@ std::string numbersOf(const MeasuredFrame& frame) {
   return html + "</dl>\n";
 }
 
-std::string join(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 std::string entry(const Pictures& pictures, const Shown& shown) {
   std::vector<std::string> names;
   for (const Unit* unit : shown.units) names.push_back(unitText(unit->name));
-  std::string html = "<article>\n<h3>" + plot::escaped(join(shown.why)) + ": " +
+  std::string html = "<article>\n<h3>" + plot::escaped(joined(shown.why)) + ": " +
                      plot::escaped(shown.units[0]->name.flight) + " at " +
                      plot::escaped(roundedText(shown.frame->timeS)) + " s</h3>\n" +
-                     paragraph(join(names), "units") + "<div class=\"three\">\n" +
+                     paragraph(joined(names), "units") + "<div class=\"three\">\n" +
                      figure(pictures, shown.worst->reference, "reference") +
                      figure(pictures, shown.worst->ours, "this preset") +
                      figure(pictures, shown.worst->difference, "difference") + "</div>\n";

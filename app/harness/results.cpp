@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <utility>
 
+#include "trimtab/units/not_finite.h"
 #include "trimtab/units/number.h"
 
 namespace trimtab::harness {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 template <auto Group, auto Field>
 double fieldOf(const MeasuredFrame& frame) {

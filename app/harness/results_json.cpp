@@ -6,6 +6,7 @@
 #include "answer.h"
 #include "results.h"
 #include "trimtab/preset/json_text.h"
+#include "trimtab/units/not_finite.h"
 #include "trimtab/units/number.h"
 
 namespace trimtab::harness {
@@ -13,7 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kFormat = "trimtab-bench";
 constexpr int kVersion = 1;
 /// Doubles count exactly up to here.

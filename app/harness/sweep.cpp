@@ -26,7 +26,7 @@ SweptName takeApart(const std::string& name) {
   return parts;
 }
 
-std::size_t indexOf(const std::vector<std::string>& values, const std::string& value) {
+std::size_t placeOf(const std::vector<std::string>& values, const std::string& value) {
   return static_cast<std::size_t>(std::find(values.begin(), values.end(), value) - values.begin());
 }
 
@@ -48,7 +48,7 @@ Result<SweepAxis> parseAxis(std::string_view text) {
     const std::size_t end = std::min(text.find(',', at), text.size());
     std::string value(text.substr(at, end - at));
     if (value.empty() || value.find(' ') != std::string::npos) return refuse("values without blanks");
-    if (indexOf(axis.values, value) < axis.values.size()) return refuse("each value once");
+    if (placeOf(axis.values, value) < axis.values.size()) return refuse("each value once");
     axis.values.push_back(std::move(value));
     at = end + 1;
   }
@@ -93,7 +93,7 @@ std::vector<Sweep> sweepsOf(const Answer& answer) {
     }
     for (std::size_t i = 0; i < name.settings.size(); ++i) {
       std::vector<std::string>& values = sweep->axes[i].values;
-      if (indexOf(values, name.settings[i].second) == values.size())
+      if (placeOf(values, name.settings[i].second) == values.size())
         values.push_back(name.settings[i].second);
     }
   }
@@ -105,9 +105,9 @@ std::vector<Sweep> sweepsOf(const Answer& answer) {
     const SweptName name = takeApart(answer.rows[i].name.preset);
     const auto sweep = sweepOf(name, answer.rows[i].name.method);
     if (name.settings.empty() || sweep == sweeps.end()) continue;
-    std::size_t at = indexOf(sweep->axes[0].values, name.settings[0].second);
+    std::size_t at = placeOf(sweep->axes[0].values, name.settings[0].second);
     if (sweep->axes.size() > 1)
-      at = at * sweep->axes[1].values.size() + indexOf(sweep->axes[1].values, name.settings[1].second);
+      at = at * sweep->axes[1].values.size() + placeOf(sweep->axes[1].values, name.settings[1].second);
     sweep->rows[at] = i;
   }
   return sweeps;

@@ -15,7 +15,7 @@ double extent(const std::vector<double>& values, std::size_t i) {
 /// plot.
 void addWhiskers(std::vector<double>& values, const Plot& plot, bool logarithmic,
                  std::vector<double> Series::*lows, std::vector<double> Series::*highs) {
-  constexpr double kFarthest = 1.5;
+  constexpr double kBeyondValues = 1.5;
   double smallest = std::numeric_limits<double>::infinity(), largest = 0;
   for (const double v : values) {
     if (!std::isfinite(v)) continue;
@@ -24,9 +24,9 @@ void addWhiskers(std::vector<double>& values, const Plot& plot, bool logarithmic
   }
   for (const Series& s : plot.series) {
     for (const double high : s.*highs)
-      if (std::isfinite(high)) values.push_back(std::min(high, largest * kFarthest));
+      if (std::isfinite(high)) values.push_back(std::min(high, largest * kBeyondValues));
     for (const double low : s.*lows)
-      if (std::isfinite(low)) values.push_back(logarithmic ? std::max(low, smallest / kFarthest) : low);
+      if (std::isfinite(low)) values.push_back(logarithmic ? std::max(low, smallest / kBeyondValues) : low);
   }
 }
 

@@ -28,8 +28,8 @@ class BoxUnion {
   }
   Box box() const {
     if (zero_ == 0) return all_;
-    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-    return {kNan, kNan, kNan, kNan, kNan, kNan};
+    constexpr float kNanF = std::numeric_limits<float>::quiet_NaN();
+    return {kNanF, kNanF, kNanF, kNanF, kNanF, kNanF};
   }
 
  private:

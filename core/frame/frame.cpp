@@ -51,6 +51,20 @@ ViewShape scaledShape(ViewShape view, double scale) {
   return view;
 }
 
+ViewShape filledShape(ViewShape view) {
+  const double wider =
+      double(view.widthPx) / view.heightPx * (view.top - view.bottom) / (view.right - view.left);
+  if (!(wider > 0 && std::isfinite(wider))) return view;
+  if (wider > 1) {
+    view.left *= wider;
+    view.right *= wider;
+  } else {
+    view.bottom /= wider;
+    view.top /= wider;
+  }
+  return view;
+}
+
 ViewShape viewShape(const ViewParameters& parameters, int windowWidthPx, int windowHeightPx,
                     const std::optional<HostView>& host) {
   const HostView asked = parameters.source == ViewSource::host && host ? *host : HostView{};

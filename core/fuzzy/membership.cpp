@@ -1,13 +1,11 @@
 #include "trimtab/fuzzy/membership.h"
+#include "trimtab/units/not_finite.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace trimtab {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Points whose x is at most `x`.
 std::size_t pointsUpTo(const CurvePoints& curve, double x) {

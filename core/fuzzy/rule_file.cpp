@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "trimtab/fuzzy/membership.h"
 #include "trimtab/preset/rules.h"
 #include "trimtab/preset/table.h"
+#include "trimtab/units/not_finite.h"
 #include "trimtab/units/number.h"
 
 namespace trimtab {
@@ -18,7 +18,6 @@ using fuzzy_system::System;
 using fuzzy_system::Term;
 using fuzzy_system::Variable;
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
 /// What a tool that writes three decimals makes of two that add up to 1.
 constexpr double kRounding = 0.0011;
 
@@ -86,7 +85,7 @@ double complementError(const CurvePoints& a, const CurvePoints& b) {
   double worst = 0;
   for (const CurvePoints* const curve : {&a, &b})
     for (const CurvePoint& p : curve->span())
-      for (const double x : {p.x, std::nextafter(p.x, -kInf)})
+      for (const double x : {p.x, std::nextafter(p.x, -kInfinity)})
         worst = std::max(worst, std::abs(curveValue(a, x) + curveValue(b, x) - 1));
   return worst;
 }

@@ -1,4 +1,5 @@
 #include "trimtab/measure/paired_ratio.h"
+#include "trimtab/units/not_finite.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +31,6 @@ std::size_t medianIntervalCut(std::size_t n) {
 }
 
 PairedRatio pairedRatio(std::span<const double> a, std::span<const double> b) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> ratios;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
     if (std::isfinite(a[i]) && std::isfinite(b[i]) && a[i] > 0 && b[i] >= 0) ratios.push_back(b[i] / a[i]);
@@ -48,13 +48,11 @@ PairedRatio pairedRatio(std::span<const double> a, std::span<const double> b) {
 }
 
 PairedDifference pairedDifference(std::span<const double> a, std::span<const double> b) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::vector<double> differences;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
     if (std::isfinite(a[i]) && std::isfinite(b[i])) differences.push_back(b[i] - a[i]);
   const std::size_t n = differences.size();
   if (n == 0) {
-    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     return {kNan, kNan, kNan, 0};
   }
   std::sort(differences.begin(), differences.end());

@@ -2,19 +2,18 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <vector>
 
 #include "image_kernels.h"
 #include "picture_span.h"
 #include "trimtab/measure/image_error.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab {
 namespace {
 
 constexpr int kWindow = 11, kStrip = 256;
 constexpr std::size_t kPitch = kStrip + kSimdSlack;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 SsimFilter gaussian() {
   std::array<double, 6> weights{};
@@ -71,9 +70,9 @@ class Rows {
 }  // namespace
 
 double ssim(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b, int width, int height) {
-  if (!holdsPicture(a, width, height, 1) || !holdsPicture(b, width, height, 1)) return kNaN;
+  if (!holdsPicture(a, width, height, 1) || !holdsPicture(b, width, height, 1)) return kNan;
   const int columns = width - kWindow + 1, rows = height - kWindow + 1;
-  if (columns <= 0 || rows <= 0) return kNaN;
+  if (columns <= 0 || rows <= 0) return kNan;
   const SsimFilter filter = gaussian();
   double total = 0;
   for (int column = 0; column < columns; column += kStrip) {
@@ -95,7 +94,7 @@ double ssim(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b, in
 }
 
 double ssimOfLuma(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b, int width, int height) {
-  if (!holdsPicture(a, width, height, 4) || !holdsPicture(b, width, height, 4)) return kNaN;
+  if (!holdsPicture(a, width, height, 4) || !holdsPicture(b, width, height, 4)) return kNan;
   const std::size_t pixels = a.size() / 4;
   std::vector<std::uint8_t> luma(2 * pixels);
   imageKernels().luma(a.data(), pixels, luma.data());

@@ -1,15 +1,11 @@
 #include "trimtab/measure/statistics.h"
+#include "trimtab/units/not_finite.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace trimtab {
-namespace {
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-}
-
 SampleWindow::SampleWindow(std::size_t capacity) : ring_(std::max<std::size_t>(capacity, 1)) {
   sorted_.reserve(ring_.size());
 }

@@ -1,4 +1,5 @@
 #include "trimtab/policy/compiled_policy.h"
+#include "trimtab/units/not_finite.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,12 +7,6 @@
 #include "membership_at.h"
 
 namespace trimtab {
-namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
-
 template <PolicyNorm kNorm>
 void CompiledPolicy::computeParts(double* values) const {
   const Operands* at = operands_.data();

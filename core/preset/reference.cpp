@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "trimtab/preset/preset.h"
 #include "trimtab/preset/rules.h"
 #include "trimtab/units/number.h"
@@ -120,21 +122,38 @@ std::string rulesBetweenParameters() {
   return text + "\n";
 }
 
-constexpr std::string_view kSources =
-    "## Sources\n\n"
-    "* A: C. J. Lee, K. C. Park, K. Kim: Dynamic Culling Scheme for Graphic Rendering System of Flight "
-    "Simulator\n"
-    "* B: C. Lee, S. Kang, K. Kim: Dynamic Culling Scheme Based on Altitude for Real-Time Rendering System "
-    "(in Korean, 2015)\n"
-    "* C: J. H. Lim, C. J. Lee, K. H. Kim, K. Kim: Preventing Rendering Speed Degradation for Helmet Mounted "
-    "Display Simulation\n"
-    "* D: Y. Cha, J. Kim, K. Kim: Adaptive Culling Mechanism for Weather Phenomena Effect in Flight "
-    "Simulator "
-    "(in Korean, 2014)\n"
-    "* E: World Custom Scenery Project: Creating better scenery, Static Level-of-Detail for FlightGear (the "
-    "page names no author)\n";
+constexpr std::pair<char, std::string_view> kDocuments[] = {
+    {'A',
+     "C. J. Lee, K. C. Park, K. Kim: Dynamic Culling Scheme for Graphic Rendering System of Flight "
+     "Simulator"},
+    {'B',
+     "C. Lee, S. Kang, K. Kim: Dynamic Culling Scheme Based on Altitude for Real-Time Rendering System (in "
+     "Korean, 2015)"},
+    {'C',
+     "J. H. Lim, C. J. Lee, K. H. Kim, K. Kim: Preventing Rendering Speed Degradation for Helmet Mounted "
+     "Display Simulation"},
+    {'D',
+     "Y. Cha, J. Kim, K. Kim: Adaptive Culling Mechanism for Weather Phenomena Effect in Flight Simulator "
+     "(in "
+     "Korean, 2014)"},
+    {'E',
+     "World Custom Scenery Project: Creating better scenery, Static Level-of-Detail for FlightGear (the page "
+     "names no author)"}};
+
+std::string sources() {
+  std::string text = "## Sources\n\n";
+  for (const auto& [letter, document] : kDocuments)
+    text += "* " + std::string(1, letter) + ": " + std::string(document) + "\n";
+  return text;
+}
 
 }  // namespace
+
+std::string_view documentOf(char letter) {
+  for (const auto& [known, document] : kDocuments)
+    if (known == letter) return document;
+  return {};
+}
 
 std::string parameterReference() {
   std::string text =
@@ -151,7 +170,7 @@ std::string parameterReference() {
     }
     text += describe(row);
   }
-  return text + ruleBase() + rulesBetweenParameters() + std::string(kSources);
+  return text + ruleBase() + rulesBetweenParameters() + sources();
 }
 
 }  // namespace trimtab

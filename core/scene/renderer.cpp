@@ -24,6 +24,11 @@
 #include "trimtab/units/sphere.h"
 
 namespace trimtab::scene {
+namespace {
+
+constexpr ViewShape kNoImage{.widthPx = 0, .heightPx = 0};
+
+}  // namespace
 
 std::optional<TerrainForm> formDrawn(const FrameRequest& request, const terrain::Database* database) {
   if (!database) return {};
@@ -40,7 +45,8 @@ struct Renderer::Impl {
   TerrainDrawer* terrain = nullptr;  ///< that drew the last image; null: no terrain
   FrameCounters counters;            ///< since this renderer was made
 
-  ViewShape lastView, lastScene;   ///< the last image's, and the size at which its scene was drawn
+  /// The last image's, and the size at which its scene was drawn; without pixels before the first image.
+  ViewShape lastView = kNoImage, lastScene = kNoImage;
   std::optional<SceneView> shown;  ///< the last image's
   std::vector<LineVertex> lines;
 
@@ -293,6 +299,7 @@ GlReport Renderer::initialize() {
 
 void Renderer::release() {
   impl_->shown.reset();
+  impl_->lastView = impl_->lastScene = kNoImage;
   impl_->terrain = nullptr;
   for (TerrainDrawer* form : impl_->forms()) form->release();
   impl_->gl.reset();

@@ -107,10 +107,6 @@ osg::Matrixd reversedProjection(const ViewShape& v) {
   return m;
 }
 
-osg::Vec3f toFloat(Vec3 v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
 osg::Vec4f tangentsOf(const ViewShape& v) {
   return {static_cast<float>(v.left), static_cast<float>(v.right), static_cast<float>(v.bottom),
           static_cast<float>(v.top)};
@@ -154,6 +150,10 @@ double halfDiagonal(const ViewShape& v, int widthPx, int heightPx) {
 }
 
 }  // namespace
+
+osg::Vec3f toFloat(Vec3 v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
 
 struct SceneGraph::Nodes {
   osg::ref_ptr<osgViewer::Viewer> viewer = new osgViewer::Viewer;

@@ -8,7 +8,13 @@
 #include "core/scene/passes/weather_precipitation.h"
 #include "trimtab/culling/select.h"
 
+namespace osg {
+class Vec3f;
+}
+
 namespace trimtab::scene {
+
+osg::Vec3f toFloat(Vec3 v);
 
 /// What the graph calls, in the order of a frame; raw GL is allowed inside. Each call gets the program in
 /// use.

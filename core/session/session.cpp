@@ -3,19 +3,18 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "trimtab/host/motion.h"
 #include "trimtab/motion/line_of_sight.h"
 #include "trimtab/policy/compiled_policy.h"
 #include "trimtab/session/lever_request.h"
+#include "trimtab/units/not_finite.h"
 #include "trimtab/weather/weather.h"
 
 namespace trimtab {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// Waiting kernel times are dropped beyond this, when nobody draws and nobody says so.
 constexpr std::size_t kMostWaiting = 8192;
 /// How long a jump is shown.
@@ -317,7 +316,7 @@ std::optional<Velocity> Session::velocityOf(const AircraftState& state) const {
   return state.velocity ? state.velocity : groundVelocity_.velocity();
 }
 
-std::optional<FrameRequest> Session::request(double now, int windowWidthPx, int windowHeightPx) {
+std::optional<FrameRequest> Session::request(double now, int windowWidthPx, int windowHeightPx, ViewFit fit) {
   if (!current_) return std::nullopt;
   imageRate_.add(now);
   if (decidesImages()) decideImage(now);
@@ -331,6 +330,8 @@ std::optional<FrameRequest> Session::request(double now, int windowWidthPx, int 
   request.airDrift = air_.drift.metres();
   request.attitude = lineOfSight(eye.attitude, eye.head);
   request.view = viewShape(parameters_->view, windowWidthPx, windowHeightPx, eye.view);
+  if (fit == ViewFit::fill && parameters_->view.renderSize == RenderSize::fit)
+    request.view = filledShape(request.view);
   request.decision = decision_;
   MotionBlur& blur = request.decision.motion.blur;
   if (blur.strength > 0) {

@@ -23,6 +23,18 @@ if(TRIMTAB_CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${TRIMTAB_CCACHE})
 endif()
 
+# A compiler spends most of its time here on headers, so it reads eight sources of one target at once where their names
+# allow it: names in unnamed namespaces must differ then. Off, each source is compiled alone, which shows a missing
+# #include.
+option(TRIMTAB_TOGETHER "Compile sources eight at a time" ON)
+function(trimtab_together TARGET)
+  set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ${TRIMTAB_TOGETHER} UNITY_BUILD_BATCH_SIZE 8)
+  if(TRIMTAB_TOGETHER AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # g++ takes an included source for a header, in which such members would be wrong.
+    target_compile_options(${TARGET} PRIVATE -Wno-subobject-linkage)
+  endif()
+endfunction()
+
 # trimtab_module(NAME SOURCES file... [DEPENDS target...] [PRIVATE target...])
 #
 # A room of core/ as a static library trimtab_NAME. What others may use is in its folder include/ and is included as
@@ -46,17 +58,21 @@ function(trimtab_folder NAME)
   target_compile_features(trimtab_${NAME} PUBLIC cxx_std_20)
 endfunction()
 
-# trimtab_test(NAME SOURCES file... LIBS target... [DISPLAY] [HEADERS_OF test])
+# trimtab_test(NAME SOURCES file... LIBS target... [DISPLAY] [SEPARATE] [HEADERS_OF test])
 #
-# One GoogleTest program, build/bin/NAME, listed for tests/run.sh. DISPLAY: it needs an X server. All programs share the
+# One GoogleTest program, build/bin/NAME, listed for tests/run.sh. DISPLAY: it needs an X server. SEPARATE: names in its
+# sources collide, so that they are not compiled together. All programs share the
 # precompiled headers of test_house, or of the test that HEADERS_OF names. Most of a test's time to build is spent on
 # headers and on optimising code that runs once, hence -O1; what is tested is compiled as users get it.
 # Tests find real data by sharedDir() (tests/support.h), and skip with a message where there is none.
 function(trimtab_test NAME)
-  cmake_parse_arguments(T "DISPLAY" "HEADERS_OF" "SOURCES;LIBS" ${ARGN})
+  cmake_parse_arguments(T "DISPLAY;SEPARATE" "HEADERS_OF" "SOURCES;LIBS" ${ARGN})
   add_executable(${NAME} ${T_SOURCES})
   target_link_libraries(${NAME} PRIVATE ${T_LIBS} trimtab_warnings trimtab_test_support GTest::gmock GTest::gtest_main)
   target_compile_options(${NAME} PRIVATE $<$<CONFIG:Release>:-O1>)
+  if(NOT T_SEPARATE)
+    trimtab_together(${NAME})
+  endif()
   if(NOT T_HEADERS_OF)
     set(T_HEADERS_OF test_house)
   endif()

@@ -160,7 +160,7 @@ TEST_F(IgLink, sleepsWhenNobodySends) {
   IgProcess ig = listen({"--watch"});
   ASSERT_NE(ig.port(), 0) << ig.err();
   play(ig, test::weavingFlight(10), WireProtocol::cigi3, 10);
-  const double share = ig.share(2);
+  const double share = ig.share(2, 0.01);
   std::cout << "idle: " << share * 100 << " % of a core" << std::endl;
   EXPECT_LT(share, 0.01);
   ig.signal(SIGINT);

@@ -131,10 +131,11 @@ class IgProcess {
       if (i >= 14) ticks += std::stod(field);
     return ticks / static_cast<double>(::sysconf(_SC_CLK_TCK));
   }
-  /// The share of a core that it takes when left alone: the least of three stretches of so many seconds.
-  double share(int seconds) const {
+  /// The share of a core that it takes when left alone: of three stretches of so many seconds the first one
+  /// below `idle`, else the least.
+  double share(int seconds, double idle) const {
     double least = 1;
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3 && least >= idle; ++i) {
       const double before = cpuSeconds();
       std::this_thread::sleep_for(std::chrono::seconds(seconds));
       least = std::min(least, (cpuSeconds() - before) / seconds);

@@ -45,7 +45,7 @@ TEST(IgWindow, movesTheEyeBetweenPacketsAndStandsStillWhenTheHostIsSilent) {
   ASSERT_TRUE(ig.until([&] { return (*player)->finished(); }));
   std::this_thread::sleep_for(
       std::chrono::milliseconds(1500));  // host.silence_after_ms, and a picture under load
-  const double share = ig.share(2);
+  const double share = ig.share(2, 0.01);
   std::cout << "idle in a window: " << share * 100 << " % of a core" << std::endl;
   EXPECT_LT(share, 0.01);
   ig.signal(SIGTERM);

@@ -9,12 +9,10 @@
 #include "trimtab/fuzzy/bands.h"
 #include "trimtab/fuzzy/combination.h"
 #include "trimtab/fuzzy/membership.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab::stress {
 namespace {
-
-constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// A line between the neighbours of x, by the other of the two formulas: y = (a (bx - x) + b (x - ax)) / (bx
 /// - ax).
@@ -56,7 +54,7 @@ std::vector<double> around(double x) {
 
 /// Where to look at a curve: every point and its surroundings, between, and beyond both ends.
 std::vector<double> placesOf(const CurvePoints& curve, std::mt19937_64& random) {
-  std::vector<double> places{-kInf, kInf, 0.0, -0.0, 5e-324, -5e-324};
+  std::vector<double> places{-kInfinity, kInfinity, 0.0, -0.0, 5e-324, -5e-324};
   for (const CurvePoint& p : curve.span())
     for (const double x : around(p.x)) places.push_back(x);
   const double low = curve.point[0].x, high = curve.point[curve.size - 1].x;
@@ -192,7 +190,7 @@ TEST(MembershipStress, whatIsNoNumberStaysNone) {
     for (int i = 0; i < 200; ++i) {
       const AltitudeParameters p = altitudeOf(randomCurve(random, false), reading);
       none.require(std::isnan(altitudeMembership(p, kNan)));
-      for (const double x : {-kInf, kInf, -1e308, 1e308, 5e-324, -0.0}) {
+      for (const double x : {-kInfinity, kInfinity, -1e308, 1e308, 5e-324, -0.0}) {
         const double y = altitudeMembership(p, x);
         none.require(y >= 0 && y <= 1);
       }

@@ -13,17 +13,18 @@
 #include "trimtab/decision/decide.h"
 #include "trimtab/host/decoder.h"
 #include "trimtab/host/encoder.h"
+#include "trimtab/units/not_finite.h"
 
 /// What hosts must not be able to do: put something that is no number into a decision or an eye.
 namespace trimtab::stress {
 namespace {
 
-constexpr double kMax = std::numeric_limits<double>::max(), kInf = HUGE_VAL;
+constexpr double kMax = std::numeric_limits<double>::max();
 
 std::vector<double> extremes() {
   std::vector<double> all{0,   5e-324, 1e-310, 2.3e-308, 1e-45,  1.5e-38, 1e-6, 0.5,
                           1,   89.9,   90,     90.00005, 180,    360,     361,  1e3,
-                          1e4, 1e6,    1e7,    1e15,     3.4e38, 1e39,    kMax, kInf};
+                          1e4, 1e6,    1e7,    1e15,     3.4e38, 1e39,    kMax, kInfinity};
   for (const double x : std::vector<double>(all)) all.push_back(-x);
   all.push_back(std::nan(""));
   return all;

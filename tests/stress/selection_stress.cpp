@@ -18,9 +18,9 @@
 namespace trimtab::stress {
 namespace {
 
-class Dice {
+class ViewDice {
  public:
-  explicit Dice(std::uint64_t seed) : random_(seed) {}
+  explicit ViewDice(std::uint64_t seed) : random_(seed) {}
   double unit() { return std::uniform_real_distribution<double>(0, 1)(random_); }
   double signedUnit() { return 2 * unit() - 1; }
   /// From a millimetre to 10,000 km, evenly by magnitude.
@@ -59,7 +59,7 @@ float outward(Quad x, float side) {
 }
 
 /// A box that a point touches: at a corner, an edge, a face or inside.
-Box boxAt(Quad3 p, Dice& dice, double size) {
+Box boxAt(Quad3 p, ViewDice& dice, double size) {
   Box b;
   const auto side = [&](Quad x, float& low, float& high) {
     const double kind = dice.unit();
@@ -81,7 +81,7 @@ Quad distanceTwin(const Box& b, Vec3 p) {
 }
 
 /// A point of the picture at a depth: in it, or exactly on its border.
-Quad3 inPicture(const EyePose& eye, const ViewShape& v, Dice& dice, Quad depth) {
+Quad3 inPicture(const EyePose& eye, const ViewShape& v, ViewDice& dice, Quad depth) {
   const auto place = [&dice](double low, double high) -> Quad {
     const double kind = dice.unit();
     if (kind < 0.3) return low;
@@ -94,7 +94,7 @@ Quad3 inPicture(const EyePose& eye, const ViewShape& v, Dice& dice, Quad depth) 
 }
 
 TEST(SelectionStress, theFrustumNeverDropsWhatIsInThePicture) {
-  Dice dice(21);
+  ViewDice dice(21);
   Case inside("selection", "frustum: a box that holds a vertex seen in the picture", 0, "dropped",
               "conservative: a box may be dropped only when no point of it can show");
   Case outside("selection", "frustum: a small box well outside", 0, "kept",
@@ -136,7 +136,7 @@ TEST(SelectionStress, theFrustumNeverDropsWhatIsInThePicture) {
 }
 
 TEST(SelectionStress, distancesToBoxesHold) {
-  Dice dice(22);
+  ViewDice dice(22);
   Case box("selection", "squared distance to a box, relative", 5 * kU, "",
            "a difference rounds once and counts twice, its square once, two sums of positive terms");
   Case beyond("selection", "beyond the far distance", 0, "violations",
@@ -169,7 +169,7 @@ TerrainIndex oneSplit(const Box& box, float error) {
 }
 
 TEST(SelectionStress, levelsSplitWhereTheirErrorIsTooLarge) {
-  Dice dice(23);
+  ViewDice dice(23);
   Case tie("selection", "level split: distance from the tie at which it differs, relative", 7 * kU, "",
            "thirteen roundings of squares, by half for the distance");
   LevelCut cut;
@@ -193,7 +193,7 @@ TEST(SelectionStress, levelsSplitWhereTheirErrorIsTooLarge) {
 }
 
 TEST(SelectionStress, staticNodesSplitWhereTheViewerIsTooNear) {
-  Dice dice(24);
+  ViewDice dice(24);
   Case tie("selection", "static node: distance from the tie at which it differs, relative", 7 * kU, "",
            "thirteen roundings of squares, by half for the distance");
   Case broken("selection", "cuts by an eye that is no number", 0, "violations",
@@ -234,7 +234,7 @@ TEST(SelectionStress, staticNodesSplitWhereTheViewerIsTooNear) {
 }
 
 TEST(SelectionStress, theDepthMapHidesOnlyWhatIsBehindIt) {
-  Dice dice(25);
+  ViewDice dice(25);
   Case hidden("selection", "depth map: a box called hidden that exact arithmetic sees", 0, "violations",
               "conservative: each texel that the exact projection touches must be nearer than the box's "
               "nearest corner");
@@ -284,7 +284,7 @@ TEST(SelectionStress, theDepthMapHidesOnlyWhatIsBehindIt) {
 }
 
 TEST(SelectionStress, viewsHaveTheTangentsOfTheirAngles) {
-  Dice dice(26);
+  ViewDice dice(26);
   Case tangent(
       "projection", "tangents of half-angles up to 89 degrees, relative", (2 * 89.1 + 2) * kU, "",
       "two roundings of the angle count x / (sin x cos x) = 89 times at 89 degrees; the tangent's own two");

@@ -8,8 +8,8 @@
 #include "application.h"
 #include "views/controls/number_box.h"
 #include "views/editors/band_scale.h"
-#include "views/model/bands_model.h"
 #include "views/insets/depth_map_inset.h"
+#include "views/model/bands_model.h"
 
 namespace trimtab::views {
 namespace {
@@ -144,6 +144,27 @@ TEST_F(BandsEditorTest, theFilesEdgesStayBehindThoseThatAreDragged) {
   EXPECT_TRUE(scale().toolTip().contains("file: ")) << scale().toolTip().toStdString();
   draft_.markSaved();
   EXPECT_NE(picture(), behind) << "the file has the new edge now";
+}
+
+TEST_F(BandsEditorTest, edgesAreTheDecimalsThatPeopleType) {
+  ASSERT_TRUE(type(1, BandsModel::kFrom, "0.56"));
+  scale().select(1);
+  QTest::keyClick(&scale(), Qt::Key_Right);
+  EXPECT_EQ(bandsOf(draft_).band[1].low, 0.57) << "57 * 0.01 is 0.5700000000000001";
+}
+
+TEST_F(BandsEditorTest, aRowIsSelectedAgainAfterTheScaleSelectedNone) {
+  QTableView& table = editor_.table();
+  const auto click = [&] {
+    const QRect cell = table.visualRect(table.model()->index(1, BandsModel::kFrom));
+    QTest::mouseClick(table.viewport(), Qt::LeftButton, {}, cell.center());
+  };
+  click();
+  ASSERT_EQ(scale().selected(), 1);
+  scale().select(-1);
+  EXPECT_FALSE(table.currentIndex().isValid());
+  click();
+  EXPECT_EQ(scale().selected(), 1);
 }
 
 }  // namespace

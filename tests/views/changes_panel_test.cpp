@@ -86,5 +86,16 @@ TEST_F(ChangesPanelTest, aStepOfManyParametersNamesEach) {
   EXPECT_EQ(QApplication::clipboard()->text().count('\n'), 5);
 }
 
+TEST(ChangesModel, aNameWithAPlaceholderIsShownAsItIs) {
+  Draft draft;
+  ChangesModel model(draft);
+  TuningParameters other = draft.parameters();
+  findRow("lod.scale")->set(other, 4.0);
+  findRow("host.extrapolate")->set(other, false);
+  draft.takeParameters(other, "Switch to A, 50 %2");
+  EXPECT_EQ(model.data(model.index(1, ChangesModel::kWhat), Qt::DisplayRole).toString(),
+            "Switch to A, 50 %2 (2 parameters)");
+}
+
 }  // namespace
 }  // namespace trimtab::views

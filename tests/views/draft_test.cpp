@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "views/model/draft.h"
 
+#include <QLocale>
 #include <QSignalSpy>
 #include <algorithm>
-#include <limits>
 
 #include "application.h"
+#include "trimtab/units/not_finite.h"
 #include "views/model/keys.h"
+#include "views/model/theme.h"
 
 namespace trimtab::views {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(ViewKeys, areRowsOfTheTable) {
   for (const std::string_view key :
@@ -98,7 +97,7 @@ TEST(Draft, refusesWhatIsOutsideTheHardRange) {
   const struct {
     const char* key;
     double value;
-  } refused[] = {{"fuzzy.hysteresis", -0.01}, {"fuzzy.hysteresis", 1.01}, {"fuzzy.hysteresis", kNaN},
+  } refused[] = {{"fuzzy.hysteresis", -0.01}, {"fuzzy.hysteresis", 1.01}, {"fuzzy.hysteresis", kNan},
                  {"lod.scale", kInfinity},    {"lod.scale", -kInfinity},  {"view.width_px", 640.5}};
   Draft draft;
   for (const auto& [key, value] : refused) {
@@ -237,6 +236,15 @@ TEST(Draft, isCleanAgainWhenUndoReturnsToWhatWasSaved) {
   EXPECT_TRUE(draft.isDirty());
   draft.undoStack().undo();
   EXPECT_FALSE(draft.isDirty());
+}
+
+TEST(NumberText, minusZeroIsZeroInEveryLocale) {
+  const QLocale before;
+  for (const QLocale::Language language : {QLocale::C, QLocale::Swedish}) {
+    QLocale::setDefault(QLocale(language));
+    EXPECT_EQ(numberText(-0.001, 2), "0") << language;
+  }
+  QLocale::setDefault(before);
 }
 
 }  // namespace

@@ -5,12 +5,11 @@
 
 #include "application.h"
 #include "error_run_sample.h"
+#include "trimtab/units/not_finite.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 class ErrorPlotTest : public testing::Test {
  protected:

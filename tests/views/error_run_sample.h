@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <limits>
-
+#include "trimtab/units/not_finite.h"
 #include "views/model/error_run.h"
 
 namespace trimtab::test {
@@ -10,7 +9,6 @@ namespace trimtab::test {
 /// Eleven frames of two presets in two cases; FLIP and PSNR. "fine" is slow and good, "coarse" quick and bad;
 /// "fine" without culling is slower still and no better.
 inline views::ErrorRun sampleRun() {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   views::ErrorRun run;
   run.errors = {{"flip", "FLIP", "", true}, {"psnr_db", "PSNR", "dB", false}};
   const auto add = [&](const char* preset, const char* method, double ms, double flip, double psnr) {

@@ -3,14 +3,14 @@
 
 #include <QSignalSpy>
 #include <cmath>
+#include <utility>
 
 #include "application.h"
 #include "error_run_sample.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab::views {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 class ErrorTimelineTest : public testing::Test {
  protected:
@@ -102,6 +102,34 @@ TEST_F(ErrorTimelineTest, survivesFramesThatWereNotMeasuredAndMarksThatAreNotThe
   QTest::keyClick(&line_, Qt::Key_Right);
   QTest::keyClick(&line_, Qt::Key_W);
   EXPECT_TRUE(std::isnan(line_.cursorTime()));
+}
+
+TEST_F(ErrorTimelineTest, keysZoomNoFartherThanTheWheelDoes) {
+  const auto shown = [&] { return line_.axisRect(0)->axis(QCPAxis::atBottom)->range(); };
+  const QCPRange whole = shown();
+  for (int i = 0; i < 60; ++i) QTest::keyClick(&line_, Qt::Key_Plus);
+  EXPECT_LT(shown().size(), 0.2);
+  EXPECT_GE(shown().size(), 0.1);
+  for (int i = 0; i < 60; ++i) QTest::keyClick(&line_, Qt::Key_Minus);
+  EXPECT_NEAR(shown().lower, whole.lower, 1e-9);
+  EXPECT_NEAR(shown().upper, whole.upper, 1e-9);
+}
+
+TEST_F(ErrorTimelineTest, showsFrameTimesWithoutAnError) {
+  line_.showError(-1);  // of a list that is empty
+  line_.follow(108);
+  EXPECT_GT(line_.graphCount(), 0);
+  EXPECT_FALSE(line_.accessibleDescription().contains("FLIP"));
+  line_.showError(0);
+  EXPECT_TRUE(line_.accessibleDescription().contains("FLIP"));
+}
+
+TEST_F(ErrorTimelineTest, tellsOfTheNearestFrame) {
+  for (const auto& [at, says] :
+       {std::pair{90.0, "100 s"}, {104.9, "104 s"}, {105.0, "104 s"}, {105.1, "106 s"}, {400.0, "120 s"}}) {
+    line_.follow(at);
+    EXPECT_TRUE(line_.accessibleDescription().startsWith(says)) << at;
+  }
 }
 
 }  // namespace

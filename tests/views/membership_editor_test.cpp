@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "views/editors/membership_editor.h"
 
+#include <QContextMenuEvent>
 #include <QSignalSpy>
 #include <QTableView>
+#include <QTimer>
 #include <cmath>
 
 #include "application.h"
@@ -268,6 +270,36 @@ TEST_F(MembershipEditorTest, severalPointsAreMovedNudgedAndRemovedTogether) {
   EXPECT_EQ(plot().group().size(), curve().size);
   QTest::keyClick(&plot(), Qt::Key_Delete);
   EXPECT_EQ(curve().size, before.size - 2) << "two points stay";
+}
+
+TEST_F(MembershipEditorTest, theMenuOfOneOfSeveralPointsKeepsThem) {
+  plot().select(1);
+  plot().toggle(2);
+  const auto openAt = [&](std::size_t point) {
+    QTimer::singleShot(0, &plot(), [] {
+      if (QWidget* menu = QApplication::activePopupWidget()) menu->close();
+    });
+    const QPoint at = pixel(point).toPoint();
+    QContextMenuEvent event(QContextMenuEvent::Mouse, at, plot().mapToGlobal(at));
+    QApplication::sendEvent(&plot(), &event);
+  };
+  openAt(2);
+  EXPECT_EQ(plot().group(), (std::vector<std::size_t>{1, 2}));
+  openAt(0);
+  EXPECT_EQ(plot().group(), std::vector<std::size_t>{0}) << "another point is selected alone";
+}
+
+TEST(Throttle, whatIsAskedForWhileTheWindowIsMinimisedFollowsWhenItIsBack) {
+  QWidget window, *probe = new QWidget(&window);
+  int refreshes = 0;
+  auto* counted = new Throttle(probe, [&] { ++refreshes; });
+  test::expose(window, {100, 100});
+  window.setWindowState(Qt::WindowMinimized);
+  counted->request();
+  QTest::qWait(100);
+  EXPECT_EQ(refreshes, 0);
+  window.setWindowState(Qt::WindowNoState);
+  EXPECT_TRUE(test::eventually([&] { return refreshes == 1; }));
 }
 
 }  // namespace

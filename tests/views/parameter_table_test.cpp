@@ -10,9 +10,12 @@
 #include <set>
 
 #include "application.h"
+#include "trimtab/preset/preset.h"
+#include "views/controls/choice_box.h"
 #include "views/controls/note_line.h"
 #include "views/controls/number_box.h"
 #include "views/controls/parameter_line.h"
+#include "views/controls/parameter_lines.h"
 #include "views/controls/parameter_slider.h"
 
 namespace trimtab::views {
@@ -273,6 +276,22 @@ TEST_F(ParameterTableTest, theWheelDoesNotChangeWhatIsMerelyScrolledPast) {
   EXPECT_EQ(numberOf(draft_, "lod.scale"), 1);
 }
 
+TEST_F(ParameterTableTest, toolTipsNameTheDocumentsThatTheyCite) {
+  const auto tip = [](const char* key) { return helpText(*findRow(key)); };
+  const QString both = tip("fuzzy.altitude.reading");
+  EXPECT_TRUE(both.contains("A: C. J. Lee, K. C. Park, K. Kim: Dynamic Culling Scheme for Graphic"))
+      << both.toStdString();
+  EXPECT_TRUE(both.contains("B: C. Lee, S. Kang, K. Kim"));
+  EXPECT_FALSE(both.contains("C: J. H. Lim"));
+  EXPECT_TRUE(tip("motion.blur_frames").contains("Helmet Mounted"));
+  for (const ParameterRow& row : parameterRows())
+    if (!row.source.empty() && row.source[0] >= 'A' && row.source[0] <= 'E' &&
+        (row.source.size() == 1 || row.source[1] == ':' || row.source[1] == ',')) {
+      EXPECT_TRUE(helpText(row).contains("<br>" + QString(QChar(row.source[0])) + ": ")) << row.key;
+    }
+  EXPECT_TRUE(documentOf('F').empty());
+}
+
 TEST_F(ParameterTableTest, tabReachesEveryEditor) {
   table_.activateWindow();
   table_.tier().setCurrentIndex(1);
@@ -286,6 +305,33 @@ TEST_F(ParameterTableTest, tabReachesEveryEditor) {
   }
   for (const ParameterRow& row : parameterRows())
     EXPECT_TRUE(reached.contains(table_.line(row.key)->editor())) << row.key;
+}
+
+TEST_F(ParameterTableTest, arrowsGoToTheDecimalsThatPeopleType) {
+  draft_.setValue("measure.budget_ms", 0.2);
+  NumberBox& box = editor<NumberBox>("measure.budget_ms");
+  box.stepUp();
+  EXPECT_EQ(numberOf(draft_, "measure.budget_ms"), 0.3) << "3 * 0.1 is 0.30000000000000004";
+  EXPECT_EQ(box.text(), "0.3 ms");
+}
+
+TEST(ParameterLines, aGoodValueTakesTheRefusalAway) {
+  Draft draft;
+  constexpr const char* kKeys[] = {"view.near_m"};
+  ParameterLines lines(draft, kKeys);
+  test::expose(lines, {420, 80});
+  const auto type = [&](const QString& text) {
+    auto* line = lines.findChild<NumberBox*>()->findChild<QLineEdit*>();
+    line->setFocus();
+    line->selectAll();
+    QTest::keyClicks(line, text);
+    QTest::keyClick(line, Qt::Key_Return);
+  };
+  const auto* said = lines.findChild<NoteBubble*>();
+  type("-3");
+  EXPECT_TRUE(said->text().contains("refused")) << said->text().toStdString();
+  type("2");
+  EXPECT_TRUE(said->text().isEmpty()) << said->text().toStdString();
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "plots_panel_fixture.h"
 #include "views/controls/ask_csv_file.h"
+#include "views/panels/plot_values.h"
 
 namespace trimtab::views {
 namespace {
@@ -286,6 +287,31 @@ TEST(AskCsvFile, aNameWithoutAnEndingGetsOne) {
     static_cast<QDialog*>(dialog)->accept();
   });
   EXPECT_EQ(askCsvFile(&parent, "Save", "frames.csv"), QDir::tempPath() + "/no-such-trimtab-table.csv");
+}
+
+TEST_F(PlotsPanelTest, aSignalThatIsMeasuredBelowZeroIsInTheLegend) {
+  plot().setLanes({{{Trace::altitude_ft, Trace::climb_ftpmin}}});
+  panel_.clear();
+  for (int i = 0; i < 60; ++i) {
+    LiveFrame frame = flight_.next(draft_.active());
+    frame.input.signalValues[Signal::climb] = -800;
+    panel_.showFrame(frame);
+  }
+  plot().refresh(true);
+  bool named = false;
+  for (const auto* legend : plot().findChildren<QCPLegend*>())
+    for (int i = 0; i < legend->elementCount(); ++i)
+      if (auto* item = qobject_cast<QCPPlottableLegendItem*>(legend->elementAt(i)))
+        named = named || item->plottable()->name().contains("climb");
+  EXPECT_TRUE(named);
+}
+
+TEST_F(PlotsPanelTest, clearEmptiesTheRangeBesideTheValues) {
+  panel_.setCursors(true);
+  ASSERT_NE(readout(0, PlotValues::kLeast), "–");
+  panel_.clear();
+  EXPECT_EQ(readout(0, PlotValues::kLeast), "–");
+  EXPECT_EQ(readout(0, PlotValues::kLargest), "–");
 }
 
 }  // namespace

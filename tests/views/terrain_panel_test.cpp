@@ -6,15 +6,13 @@
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QTableView>
-#include <limits>
 
 #include "application.h"
 #include "tests/support.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab::views {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TerrainSummary someTerrain() {
   return {.name = QStringLiteral("andes<1>"),

@@ -56,9 +56,11 @@ void BarList::paintEvent(QPaintEvent*) {
     painter.drawText(QRectF(0, y, names, line), Qt::AlignLeft | Qt::AlignVCenter, bar.name);
     painter.drawText(QRectF(track.right() + 8, y, texts, line), Qt::AlignLeft | Qt::AlignVCenter, bar.text);
     painter.fillRect(track, base);
-    painter.fillRect(QRectF(track.left(), track.top(),
-                            track.width() * std::clamp(bar.value / bar.top, 0.0, 1.0), track.height()),
-                     colour);
+    // A value that is not a number, such as 0 of 0, has no bar.
+    const double share = bar.value / bar.top;
+    if (share > 0)
+      painter.fillRect(
+          QRectF(track.left(), track.top(), track.width() * std::min(share, 1.0), track.height()), colour);
     painter.setPen(ink);
     for (const double tick : bar.ticks) {
       const double x = track.left() + track.width() * tick / bar.top;

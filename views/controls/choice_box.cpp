@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "choice_box.h"
 
+#include <QRegularExpression>
 #include <QWheelEvent>
 
 #include "parameter_of.h"
+#include "trimtab/preset/preset.h"
 #include "views/model/theme.h"
+#include "views/model/value_text.h"
 
 namespace trimtab::views {
 
@@ -38,13 +41,30 @@ void ChoiceBox::wheelEvent(QWheelEvent* event) {
     event->ignore();
 }
 
+namespace {
+
+/// Authors and titles of the documents whose letters a source cites, such as "A, B: Table 2".
+QString documentsOf(std::string_view source) {
+  static const QRegularExpression letter(QStringLiteral("(?:^|[,;] )([A-E])(?=[,:;]|$)"));
+  QString html;
+  for (auto all = letter.globalMatch(fromView(source)); all.hasNext();) {
+    const QString cited = all.next().captured(1);
+    html +=
+        QStringLiteral("<br>%1: %2").arg(cited, fromView(documentOf(cited[0].toLatin1())).toHtmlEscaped());
+  }
+  return html.isEmpty() ? html : QStringLiteral("<small>%1</small>").arg(html);
+}
+
+}  // namespace
+
 QString helpText(const ParameterRow& row) {
   QString html = QStringLiteral("<p><b>%1</b></p><p>%2</p>")
                      .arg(fromView(row.label).toHtmlEscaped(), fromView(row.help).toHtmlEscaped());
-  if (!row.source.empty()) html += QObject::tr("<p>Source: %1</p>").arg(fromView(row.source).toHtmlEscaped());
-  const QString unit = row.unit.empty() ? QString() : QStringLiteral(" ") + fromView(row.unit);
+  if (!row.source.empty())
+    html +=
+        QObject::tr("<p>Source: %1%2</p>").arg(fromView(row.source).toHtmlEscaped(), documentsOf(row.source));
   const auto range = [&](const Range& r) {
-    return QObject::tr("%1 to %2%3").arg(numberText(r.low, 9), numberText(r.high, 9), unit);
+    return QObject::tr("%1 to %2%3").arg(numberText(r.low, 9), numberText(r.high, 9), unitAfter(row));
   };
   if (row.kind == Kind::scalar) {
     html += QObject::tr("<p>Range: %1").arg(range(row.hard));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "list_table.h"
 
+#include <QAction>
 #include <QBoxLayout>
 #include <QHeaderView>
 #include <QTableView>
@@ -41,6 +42,16 @@ QToolButton* ListButtons::add(const QString& text, const QString& tip) {
 
 void ListButtons::addSpace() {
   spaced_ = true;
+}
+
+void addCommand(QTableView& table, QToolButton& button, const QKeySequence& key, std::function<void()> act) {
+  auto* action = new QAction(button.text(), &table);
+  action->setShortcut(key);
+  action->setShortcutContext(Qt::WidgetShortcut);
+  table.addAction(action);
+  table.setContextMenuPolicy(Qt::ActionsContextMenu);
+  QObject::connect(&button, &QToolButton::clicked, action, &QAction::trigger);
+  QObject::connect(action, &QAction::triggered, &table, std::move(act));
 }
 
 }  // namespace trimtab::views

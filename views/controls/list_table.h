@@ -3,9 +3,11 @@
 
 #include <QString>
 #include <QWidget>
+#include <functional>
 
 class QAbstractItemModel;
 class QHBoxLayout;
+class QKeySequence;
 class QTableView;
 class QToolButton;
 
@@ -28,5 +30,8 @@ class ListButtons : public QWidget {
   QHBoxLayout* row_;
   bool spaced_ = false;
 };
+
+/// Makes a button, a key of the table, and an entry in the table's menu do the same.
+void addCommand(QTableView& table, QToolButton& button, const QKeySequence& key, std::function<void()> act);
 
 }  // namespace trimtab::views

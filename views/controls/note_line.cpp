@@ -75,7 +75,8 @@ void NoteBubble::enterEvent(QEnterEvent* event) {
   hide();
 }
 
-/// Above the control, so that the next one stays in sight; below it where there is no room above.
+/// Places the bubble above the control, so that the next control stays in sight, or below it if there is no
+/// room above.
 void NoteBubble::place() {
   if (text().isEmpty() || !control_ || !control_->isVisibleTo(parentWidget())) return hide();
   const QRect beside = control_->geometry();

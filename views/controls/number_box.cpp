@@ -8,13 +8,15 @@
 
 #include "choice_box.h"
 #include "parameter_of.h"
+#include "views/model/rounded.h"
 #include "views/model/theme.h"
+#include "views/model/value_text.h"
 
 namespace trimtab::views {
 
 namespace {
 
-/// Text in the person's locale as the table's C locale text.
+/// Returns text in the person's locale as text in the C locale, which the table of parameters reads.
 std::string inC(const QString& typed) {
   QString text = typed.trimmed();
   text.replace(QChar(0x2212), QLatin1Char('-'));
@@ -38,7 +40,7 @@ Result<ParameterValue> parseTyped(const ParameterRow& row, const QString& text, 
 NumberBox::NumberBox(Draft& draft, std::string_view key, QWidget* parent)
     : QDoubleSpinBox(parent), draft_(draft), row_(findRow(key)) {
   Q_ASSERT(row_ && row_->kind == Kind::scalar);
-  // As many decimals as a double may need: the text below shows only those that are there.
+  // The box keeps as many decimals as a double may need; textFromValue() shows only those that are there.
   setDecimals(20);
   setRange(row_->hard.low, row_->hard.high);
   setSingleStep(row_->step);
@@ -47,8 +49,7 @@ NumberBox::NumberBox(Draft& draft, std::string_view key, QWidget* parent)
   setAccessibleName(fromView(row_->label));
   markParameter(*this, row_->key);
   setToolTip(helpText(*row_));
-  if (!row_->unit.empty())
-    setSuffix((row_->unit == "°" ? QString() : QStringLiteral(" ")) + fromView(row_->unit));
+  setSuffix(unitAfter(*row_));
   setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("0.0000 ms")) + 32);
   read();
   connect(&draft_, &Draft::valueChanged, this, [this](const QString& changed) {
@@ -76,10 +77,10 @@ void NumberBox::stepBy(int steps) {
   if (!row_->logarithmic) {
     // To the step's own grid, so that 0.1 + 0.1 + 0.1 is 0.3.
     const double grid = std::round(value() / row_->step) + steps;
-    setValue(grid * row_->step);
+    setValue(withoutDust(grid * row_->step));
   } else {
     const double now = std::abs(value());
-    setValue(value() + steps * (now > 0 ? roundStep(now / 5) : row_->step));
+    setValue(withoutDust(value() + steps * (now > 0 ? roundStep(now / 5) : row_->step)));
   }
 }
 
@@ -117,10 +118,9 @@ QValidator::State NumberBox::validate(QString& text, int&) const {
 }
 
 void NumberBox::fixup(QString& text) const {
-  const QString unit = row_->unit.empty() ? QString() : QStringLiteral(" ") + fromView(row_->unit);
   emit refused(tr("“%1” was refused: expected a%2 number from %3 to %4%5.")
                    .arg(text, row_->whole ? tr(" whole") : QString(), numberText(row_->hard.low, 9),
-                        numberText(row_->hard.high, 9), unit));
+                        numberText(row_->hard.high, 9), unitAfter(*row_)));
   text = textFromValue(value()) + suffix();
 }
 

@@ -22,7 +22,7 @@ namespace trimtab::views {
 
 namespace {
 
-/// Longer values are shortened in their column, in digits; the tool tip has them whole.
+/// Values with more digits are shortened in their column; the tool tip has them whole.
 constexpr int kWidestValue = 14;
 constexpr std::array kColumns{Reference::file, Reference::base, Reference::defaults};
 
@@ -79,6 +79,9 @@ ParameterLine::ParameterLine(Draft& draft, const ParameterRow& row, QGridLayout&
   grid.addWidget(reset_, gridRow, 2, Qt::AlignVCenter);
   for (std::size_t i = 0; i < kValues; ++i) grid.addWidget(values_[i], gridRow, 3 + int(i), Qt::AlignVCenter);
   problem_ = new NoteBubble(*field_);
+  connect(&draft_, &Draft::valueChanged, this, [this](const QString& key) {
+    if (key.toStdString() == row_.key) refusal_.clear();
+  });
   connect(&draft_, &Draft::referencesChanged, this, [this] {
     readValues();
     refresh();
@@ -102,7 +105,7 @@ void ParameterLine::compareWith(Reference reference) {
   refresh();
 }
 
-/// The same values as in the columns of a wide line, for a narrow one and for whoever looks for a menu.
+/// Offers the values that the columns of a wide line show in a menu.
 void ParameterLine::showResets(const QPoint& at) {
   QMenu menu(label_);
   const auto add = [&](Reference to) {

@@ -19,7 +19,8 @@ namespace trimtab::views {
 class NoteBubble;
 
 /// One row of a parameter panel: changed mark and label, editor for its kind, the values that it can go back
-/// to, and findings. A click on one of these values goes back to it.
+/// to, and findings. A click on one of these values goes back to it. What was refused is shown until the
+/// parameter has another value.
 class ParameterLine : public QObject {
   Q_OBJECT
  public:
@@ -40,8 +41,8 @@ class ParameterLine : public QObject {
   /// In a compact line, for a narrow dock, only tool tips and the context menu show these values.
   void setCompact(bool compact);
   bool isVisible() const { return visible_; }
+  /// Reads the draft's value and findings again. Call it on Draft::findingsChanged.
   void refresh();
-  void clearRefusal() { refusal_.clear(); }
 
  signals:
   void editorAsked(const QString& key);  ///< the person wants the editor of a curve, bands or rules

@@ -43,10 +43,6 @@ ParameterLines::ParameterLines(Draft& draft, const std::vector<const ParameterRo
   connect(&draft, &Draft::findingsChanged, this, [this] {
     for (ParameterLine* line : lines_) line->refresh();
   });
-  connect(&draft, &Draft::valueChanged, this, [this](const QString& key) {
-    for (ParameterLine* line : lines_)
-      if (key.toStdString() == line->row().key) line->refresh();
-  });
 }
 
 }  // namespace trimtab::views

@@ -8,6 +8,7 @@
 
 #include "choice_box.h"
 #include "parameter_of.h"
+#include "views/model/rounded.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
@@ -49,15 +50,12 @@ double ParameterSlider::toValue(int position) const {
   if (row_->logarithmic && low > 0) {
     value = low * std::pow(high / low, part);
     // Two to three digits are as fine as a slider can be.
-    const double grid = roundStep(value / 50);
-    value = std::round(value / grid) * grid;
+    value = roundedTo(value, roundStep(value / 50));
   } else {
-    value = low + (high - low) * part;
-    value = std::round(value / row_->step) * row_->step;
+    value = roundedTo(low + (high - low) * part, row_->step);
   }
   if (row_->whole) value = std::round(value);
-  // The text of the rounded number, so that 3 x 0.1 is 0.3 and not its neighbour.
-  return std::clamp(QString::number(value, 'g', 12).toDouble(), low, high);
+  return std::clamp(value, low, high);
 }
 
 int ParameterSlider::toPosition(double value) const {

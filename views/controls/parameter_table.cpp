@@ -69,10 +69,10 @@ ParameterTable::ParameterTable(Draft& draft, QWidget* parent)
   layout->addLayout(compared);
   layout->addWidget(area, 1);
 
-  connect(&draft_, &Draft::valueChanged, this, &ParameterTable::changed);
   connect(&draft_, &Draft::findingsChanged, this, [this] {
     for (const Group& group : groups_)
       for (ParameterLine* line : group.lines) line->refresh();
+    if (changedOnly_->isChecked()) filter();
     summarise();
   });
   connect(&draft_, &Draft::referencesChanged, this, &ParameterTable::fillReferences);
@@ -234,11 +234,6 @@ void ParameterTable::filter() {
   }
   nothing_->setVisible(!any);
   showColumns();
-}
-
-void ParameterTable::changed(const QString& key) {
-  if (ParameterLine* changedLine = line(key.toStdString())) changedLine->clearRefusal();
-  if (changedOnly_->isChecked()) filter();
 }
 
 void ParameterTable::summarise() {

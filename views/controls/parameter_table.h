@@ -57,7 +57,6 @@ class ParameterTable : public QWidget {
   void makeLines(QGridLayout& grid);
   void filter();
   void summarise();
-  void changed(const QString& key);
 
   Draft& draft_;
   QLineEdit* search_;

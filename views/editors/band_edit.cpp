@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "views/model/rounded.h"
+
 namespace trimtab::views {
 
 double highOf(const BandList& bands, std::size_t index) {
@@ -11,7 +13,7 @@ double highOf(const BandList& bands, std::size_t index) {
 
 Range freeEdgeRange(const BandList& bands, std::size_t index) {
   const double below = index > 0 ? bands.band[index - 1].low : 0;
-  return {below + kEdgeGap, highOf(bands, index) - kEdgeGap};
+  return {withoutDust(below + kEdgeGap), withoutDust(highOf(bands, index) - kEdgeGap)};
 }
 
 BandList withEdge(const BandList& bands, std::size_t index, double low) {
@@ -27,13 +29,14 @@ std::optional<InsertedBand> withBand(const BandList& bands, double low) {
   while (index < bands.size && bands.band[index].low <= low) ++index;
   const double below = index > 0 ? bands.band[index - 1].low : 0;
   const double above = index < bands.size ? bands.band[index].low : BandList::kTop;
-  if (above - below < 2 * kEdgeGap) return std::nullopt;
+  const double least = withoutDust(below + kEdgeGap), most = withoutDust(above - kEdgeGap);
+  if (least > most) return std::nullopt;
   InsertedBand inserted{bands, index};
   BandList& b = inserted.bands;
   for (std::size_t i = b.size; i > index; --i) b.band[i] = b.band[i - 1];
   ++b.size;
   b.band[index] = index > 0 ? b.band[index - 1] : index + 1 < b.size ? b.band[index + 1] : Band{0, 320, 240};
-  b.band[index].low = std::clamp(low, below + kEdgeGap, above - kEdgeGap);
+  b.band[index].low = std::clamp(low, least, most);
   return inserted;
 }
 

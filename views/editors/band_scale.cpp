@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "views/model/keys.h"
+#include "views/model/rounded.h"
 #include "views/model/theme.h"
 #include "views/plots/ghosts.h"
 
@@ -15,9 +16,6 @@ namespace trimtab::views {
 
 namespace {
 constexpr double kGrabPx = 8;
-double rounded(double value) {
-  return std::round(value / kEdgeGap) * kEdgeGap;
-}
 }  // namespace
 
 BandScale::BandScale(Draft& draft, QWidget* parent)
@@ -28,8 +26,7 @@ BandScale::BandScale(Draft& draft, QWidget* parent)
   setAccessibleName(tr("Depth-map bands by total membership"));
   setAccessibleDescription(
       tr("Tab selects a band edge, arrow keys move it (Shift: ten times as far), Insert splits a band, "
-         "Delete removes "
-         "one."));
+         "Delete removes one."));
   connect(&draft_, &Draft::valueChanged, this, [this](const QString& key) {
     if (key.toStdString() == key::kBands && selected() >= static_cast<int>(bands().size))
       select(static_cast<int>(bands().size) - 1);
@@ -49,7 +46,7 @@ QSize BandScale::minimumSizeHint() const {
   return {200, sizeHint().height()};
 }
 
-/// The live label stands above it, the tick labels below.
+/// The live label is above the track, and the tick labels are below it.
 QRectF BandScale::track() const {
   const double line = fontMetrics().height();
   return {10, line + 10, width() - 20.0, 2.6 * line};
@@ -114,7 +111,7 @@ void BandScale::addBandInSelected() {
   if (list.size == 0) return addBand(1);
   const std::size_t at =
       static_cast<std::size_t>(selected() < 0 ? static_cast<int>(list.size) - 1 : selected());
-  addBand(rounded((list.band[at].low + highOf(list, at)) / 2));
+  addBand(roundedTo((list.band[at].low + highOf(list, at)) / 2, kEdgeGap));
 }
 
 void BandScale::removeSelected() {
@@ -135,9 +132,9 @@ void BandScale::mousePressEvent(QMouseEvent* event) {
 
 void BandScale::mouseMoveEvent(QMouseEvent* event) {
   if (hand_.dragging() && selected() >= 0)
-    return commit(
-        withEdge(bands(), static_cast<std::size_t>(selected()), rounded(totalAt(event->position().x()))),
-        hand_.drag());
+    return commit(withEdge(bands(), static_cast<std::size_t>(selected()),
+                           roundedTo(totalAt(event->position().x()), kEdgeGap)),
+                  hand_.drag());
   setCursor(edgeAt(event->position()) >= 0 ? Qt::SplitHCursor : Qt::ArrowCursor);
   const double total = totalAt(event->position().x());
   const int band = bandAt(total);
@@ -158,11 +155,11 @@ void BandScale::mouseReleaseEvent(QMouseEvent*) {
 void BandScale::mouseDoubleClickEvent(QMouseEvent* event) {
   if (event->button() == Qt::LeftButton && edgeAt(event->position()) < 0 &&
       track().contains(event->position()))
-    addBand(rounded(totalAt(event->position().x())));
+    addBand(roundedTo(totalAt(event->position().x()), kEdgeGap));
 }
 
 void BandScale::contextMenuEvent(QContextMenuEvent* event) {
-  const double here = rounded(totalAt(event->pos().x()));
+  const double here = roundedTo(totalAt(event->pos().x()), kEdgeGap);
   const bool byMouse = event->reason() == QContextMenuEvent::Mouse;
   if (byMouse) select(bandAt(here));
   QMenu menu(this);
@@ -180,7 +177,7 @@ void BandScale::keyPressEvent(QKeyEvent* event) {
   const auto nudge = [&](double by) {
     if (selected() < 0) return;
     const std::size_t at = static_cast<std::size_t>(selected());
-    commit(withEdge(bands(), at, rounded(bands().band[at].low + by)), hand_.nudge());
+    commit(withEdge(bands(), at, roundedTo(bands().band[at].low + by, kEdgeGap)), hand_.nudge());
   };
   switch (event->key()) {
     case Qt::Key_Left:
@@ -267,7 +264,7 @@ void BandScale::paintBands(QPainter& painter) {
     if (metrics.horizontalAdvance(text) < cell.width() - 4) {
       painter.drawText(cell, Qt::AlignCenter, text);
     } else if (metrics.height() < cell.width()) {
-      // Narrow cells carry their text upright.
+      // The text of a narrow cell runs upward.
       painter.save();
       painter.translate(cell.center());
       painter.rotate(-90);
@@ -282,7 +279,7 @@ void BandScale::paintBands(QPainter& painter) {
   painter.drawRect(t);
 }
 
-/// Edges of the file and of a pinned snapshot, where the draft has others.
+/// Draws the edges of the file and of a pinned snapshot, if the draft has others.
 void BandScale::paintGhosts(QPainter& painter) {
   const QRectF t = track();
   for (const Reference which : kGhosts) {

@@ -12,11 +12,11 @@
 #include "views/controls/list_table.h"
 #include "views/controls/note_line.h"
 #include "views/controls/number_box.h"
+#include "views/insets/depth_map_inset.h"
 #include "views/model/bands_model.h"
 #include "views/model/depth_map_reason.h"
 #include "views/model/keys.h"
 #include "views/model/theme.h"
-#include "views/insets/depth_map_inset.h"
 
 namespace trimtab::views {
 
@@ -30,7 +30,7 @@ BandsEditor::BandsEditor(Draft& draft, QWidget* parent)
       note_(new NoteLine) {
   QHBoxLayout* top = new QHBoxLayout;
   NumberBox* hysteresis = new NumberBox(draft, key::kHysteresis);
-  QLabel* hysteresisLabel = new QLabel(tr("&Hysteresis ±"));
+  QLabel* hysteresisLabel = new QLabel(tr("Hysteresi&s ±"));
   hysteresisLabel->setBuddy(hysteresis);
   ChoiceBox* combination = new ChoiceBox(draft, key::kCombination);
   QLabel* combinationLabel = new QLabel(tr("&Total is"));
@@ -72,7 +72,8 @@ BandsEditor::BandsEditor(Draft& draft, QWidget* parent)
 
   throttle_ = new Throttle(this, [this] {
     model_->setLiveBand(decision_.band);
-    // The scheme is this dock's own choice; what else leaves the place empty is chosen in Culling.
+    // The scheme frustum follows from the bands of this dock; any other reason is changed in the dock
+    // Culling.
     const bool ownChoice =
         decision_.scheme == Scheme::frustum && draft_.active()->culling.method == CullingCase::proposed;
     inset_->setLead(why_.isEmpty() || ownChoice ? QString() : tr("Go to Culling"));
@@ -82,8 +83,9 @@ BandsEditor::BandsEditor(Draft& draft, QWidget* parent)
   connect(inset_, &DepthMapInset::leadFollowed, this, &BandsEditor::cullingAsked);
 
   connect(scale_, &BandScale::selectedChanged, this, [this](int index) {
+    // Without a current row, a click on the row that was selected last selects it again.
     if (index < 0)
-      table_->clearSelection();
+      table_->selectionModel()->clear();
     else
       table_->setCurrentIndex(model_->index(index, std::max(0, table_->currentIndex().column())));
     showNote();

@@ -7,6 +7,7 @@
 
 #include "trimtab/fuzzy/membership.h"
 #include "views/model/keys.h"
+#include "views/model/rounded.h"
 
 namespace trimtab::views {
 
@@ -42,8 +43,9 @@ double pointGap(const CurveSpec& spec) {
 
 Range freeRange(const CurvePoints& curve, std::size_t index, const CurveSpec& spec) {
   Range free = findRow(spec.key)->hard;
-  if (index > 0) free.low = std::max(free.low, curve.point[index - 1].x + pointGap(spec));
-  if (index + 1 < curve.size) free.high = std::min(free.high, curve.point[index + 1].x - pointGap(spec));
+  if (index > 0) free.low = std::max(free.low, withoutDust(curve.point[index - 1].x + pointGap(spec)));
+  if (index + 1 < curve.size)
+    free.high = std::min(free.high, withoutDust(curve.point[index + 1].x - pointGap(spec)));
   return free;
 }
 
@@ -95,9 +97,8 @@ CurvePoints withAllMoved(const CurvePoints& curve, std::span<const std::size_t> 
   }
   CurvePoints moved = curve;
   for (const std::size_t i : indexes) {
-    moved.point[i].x += by.x;
-    // Without the dust of adding hundredths.
-    moved.point[i].y = std::clamp(std::round((moved.point[i].y + by.y) * 1e6) / 1e6, 0.0, 1.0);
+    moved.point[i].x = withoutDust(moved.point[i].x + by.x);
+    moved.point[i].y = std::clamp(withoutDust(moved.point[i].y + by.y), 0.0, 1.0);
   }
   return moved;
 }

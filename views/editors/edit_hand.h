@@ -10,18 +10,18 @@ class QKeyEvent;
 
 namespace trimtab::views {
 
-/// What hand and keys do to a row of things that are edited one at a time, such as the points of a curve or
-/// the edges of bands: one of them is selected, a drag is one undo step, and so is a key held down.
+/// Keeps which one of a row of things is selected, such as the points of a curve or the edges of bands, and
+/// makes a drag, or a key held down, one undo step.
 class EditHand {
  public:
   explicit EditHand(Draft& draft) : draft_(draft) {}
 
-  int selected() const { return selected_; }  ///< -1: none
+  int selected() const { return selected_; }  ///< -1 if none is
   /// Selects one of `count`, or none for -1, and returns whether that is another than before.
   bool select(int index, int count);
-  /// The neighbour that Tab or Shift+Tab goes to; nothing if the focus moves on to another widget.
+  /// Returns the neighbour that Tab or Shift+Tab goes to; nothing if the focus goes on to another widget.
   std::optional<int> tabbedTo(bool forward, int count) const;
-  /// The one that the focus enters at; nothing if it comes by other ways than Tab.
+  /// Returns the one at which Tab or Shift+Tab enters the widget; nothing for any other reason.
   static std::optional<int> enteredAt(Qt::FocusReason reason, int count);
 
   void beginDrag() { drag_ = draft_.newToken(); }
@@ -30,13 +30,13 @@ class EditHand {
   /// Ends the drag and returns its token, with which an edit can still take it back.
   MergeToken endDrag();
 
-  /// The token of the key that is held down.
+  /// Returns the token of the key that is held down.
   MergeToken nudge();
   void endNudge() { nudge_ = 0; }
   void keyReleased(const QKeyEvent& event);
 
   enum class Command { none, type, add, remove, cancel };
-  /// What a key asks for, beside the arrows, that all such editors have in common.
+  /// Returns what a key other than an arrow asks for in all such editors.
   static Command commandOf(const QKeyEvent& event);
 
  private:

@@ -58,8 +58,9 @@ CurveEditor::CurveEditor(Draft& draft, const CurveSpec& spec, const QList<QWidge
   layout->addWidget(note_);
 
   connect(plot_, &CurvePlot::selectedChanged, this, [this](int index) {
+    // Without a current row, a click on the row that was selected last selects it again.
     if (index < 0)
-      table_->clearSelection();
+      table_->selectionModel()->clear();
     else
       table_->setCurrentIndex(table_->model()->index(index, std::max(0, table_->currentIndex().column())));
     showNote();

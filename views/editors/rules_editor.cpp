@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rules_editor.h"
 
-#include <QAction>
 #include <QBoxLayout>
 #include <QComboBox>
 #include <QHeaderView>
@@ -71,7 +70,7 @@ RulesEditor::RulesEditor(Draft& draft, QWidget* parent)
       table_(new QTableView),
       note_(new NoteLine) {
   auto* combination = new ChoiceBox(draft, key::kCombination);
-  auto* label = new QLabel(tr("&Total is"));
+  auto* label = new QLabel(tr("Total &is"));
   label->setBuddy(combination);
   auto* top = new QHBoxLayout;
   top->addWidget(label);
@@ -119,20 +118,11 @@ RulesEditor::RulesEditor(Draft& draft, QWidget* parent)
 }
 
 void RulesEditor::makeActions() {
-  const auto action = [this](QToolButton* button, const QKeySequence& keys, auto act) {
-    auto* a = new QAction(button->text(), table_);
-    a->setShortcut(keys);
-    a->setShortcutContext(Qt::WidgetShortcut);
-    table_->addAction(a);
-    connect(a, &QAction::triggered, this, act);
-    connect(button, &QToolButton::clicked, this, act);
-  };
-  action(add_, Qt::Key_Insert, [this] { addRule(); });
-  action(duplicate_, Qt::CTRL | Qt::Key_D, [this] { duplicateRule(); });
-  action(remove_, Qt::Key_Delete, [this] { removeRule(); });
-  action(up_, Qt::ALT | Qt::Key_Up, [this] { moveRule(-1); });
-  action(down_, Qt::ALT | Qt::Key_Down, [this] { moveRule(1); });
-  table_->setContextMenuPolicy(Qt::ActionsContextMenu);
+  addCommand(*table_, *add_, Qt::Key_Insert, [this] { addRule(); });
+  addCommand(*table_, *duplicate_, Qt::CTRL | Qt::Key_D, [this] { duplicateRule(); });
+  addCommand(*table_, *remove_, Qt::Key_Delete, [this] { removeRule(); });
+  addCommand(*table_, *up_, Qt::ALT | Qt::Key_Up, [this] { moveRule(-1); });
+  addCommand(*table_, *down_, Qt::ALT | Qt::Key_Down, [this] { moveRule(1); });
 }
 
 int RulesEditor::selected() const {

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <QWidget>
-#include <functional>
-#include <optional>
 
 #include "views/model/draft.h"
 

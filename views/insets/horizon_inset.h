@@ -7,14 +7,15 @@
 
 namespace trimtab::views {
 
-/// The ground's horizon all round the eye as a profile: elevation over bearing, north in the middle of the
-/// width, with the view's share of it marked. Or the reason why there is none.
+/// Shows the ground's horizon all round the eye as a profile: elevation over bearing, with north in the
+/// middle of the width and the view's share of it marked. If there is no horizon, it shows the reason.
 class HorizonInset : public QWidget {
   Q_OBJECT
  public:
   explicit HorizonInset(QWidget* parent = nullptr);
 
-  /// `elevationDeg`: evenly round from south by west, north and east; NaN where nothing bounds the sky.
+  /// Shows a profile. The bearings of `elevationDeg` are evenly spaced from south by west, north and east; an
+  /// elevation is NaN where no ground bounds the sky.
   void setProfile(std::vector<float> elevationDeg, double headingDeg, double fovDeg);
   void setReason(const QString& why);
 

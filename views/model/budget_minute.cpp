@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab::views {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// Less than this, in milliseconds, is no help.
 constexpr double kLeastMs = 0.05;
 
@@ -30,7 +30,8 @@ constexpr const char* kNames[kParts] = {
     QT_TRANSLATE_NOOP("BudgetMinute", "blur"),      QT_TRANSLATE_NOOP("BudgetMinute", "weather"),
     QT_TRANSLATE_NOOP("BudgetMinute", "symbols")};
 
-/// Parts that do not overlap: what of the drawing was measured by itself is taken out of it.
+/// Returns the times of parts that do not overlap: what was measured by itself within the drawing is
+/// subtracted from it.
 std::array<double, kParts> partsOf(const FrameCost& cost) {
   const double drawn = std::isfinite(cost.gpu) ? std::max(cost.gpu, orZero(cost.draw)) : orZero(cost.draw);
   const double inside = orZero(cost.blur) + orZero(cost.weather) + orZero(cost.symbology);

@@ -12,30 +12,16 @@
 
 namespace trimtab::views {
 
-ChangesModel::ChangesModel(Draft& draft, QObject* parent) : QAbstractTableModel(parent), draft_(draft) {
-  rows_ = draft_.undoStack().count() + 1;
+ChangesModel::ChangesModel(Draft& draft, QObject* parent) : RowsModel(parent), draft_(draft) {
+  follow();
   connect(&draft_.undoStack(), &QUndoStack::indexChanged, this, &ChangesModel::follow);
   connect(&draft_, &Draft::referencesChanged, this, &ChangesModel::follow);
 }
 
 /// A step after an undo replaces all that were undone, so the count alone does not say which rows are new:
-/// all are asked for again, which costs only those in sight.
+/// the view asks for all of them again, which costs only those in sight.
 void ChangesModel::follow() {
-  const int now = draft_.undoStack().count() + 1;
-  if (now < rows_) {
-    beginRemoveRows({}, now, rows_ - 1);
-    rows_ = now;
-    endRemoveRows();
-  } else if (now > rows_) {
-    beginInsertRows({}, rows_, now - 1);
-    rows_ = now;
-    endInsertRows();
-  }
-  emit dataChanged(index(0, 0), index(rows_ - 1, kWhen));
-}
-
-int ChangesModel::rowCount(const QModelIndex& parent) const {
-  return parent.isValid() ? 0 : rows_;
+  refreshRows(draft_.undoStack().count() + 1);
 }
 
 QString ChangesModel::cell(int row, int column) const {
@@ -49,7 +35,7 @@ QString ChangesModel::cell(int row, int column) const {
   const bool one = step.changes.size() == 1;
   if (column == kWhat) {
     const QString text = one ? fromView(step.changes.front().row->label)
-                             : tr("%1 (%2 parameters)").arg(step.text).arg(step.changes.size());
+                             : tr("%1 (%2 parameters)").arg(step.text, QString::number(step.changes.size()));
     return saved ? tr("%1, saved").arg(text) : text;
   }
   QStringList texts;
@@ -62,14 +48,16 @@ QString ChangesModel::cell(int row, int column) const {
 }
 
 QVariant ChangesModel::data(const QModelIndex& index, int role) const {
-  if (!index.isValid() || index.row() >= rows_) return {};
+  if (!index.isValid() || index.row() >= rows()) return {};
   const int row = index.row();
   switch (role) {
     case Qt::DisplayRole:
       return cell(row, index.column());
-    case Qt::ToolTipRole:
+    case Qt::ToolTipRole: {
       if (row == 0) return tr("A click goes back to the preset as it was opened.");
-      return draft_.step(row - 1).text + QLatin1Char('\n') + stepText(draft_.step(row - 1));
+      const Step step = draft_.step(row - 1);
+      return step.text + QLatin1Char('\n') + stepText(step);
+    }
     case Qt::FontRole: {
       QFont font;
       font.setBold(row == currentRow());

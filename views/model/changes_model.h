@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QAbstractTableModel>
-
-#include "views/model/draft.h"
+#include "draft.h"
+#include "rows_model.h"
 
 namespace trimtab::views {
 
 /// The steps of the undo stack as a table: what was changed, from what to what, and when. Row 0 is the preset
 /// as it was opened, row N the draft after N steps; rows after the current one are undone steps.
-class ChangesModel : public QAbstractTableModel {
+class ChangesModel : public RowsModel {
   Q_OBJECT
  public:
   enum Column { kWhat, kBefore, kAfter, kWhen };
 
   explicit ChangesModel(Draft& draft, QObject* parent = nullptr);
 
-  int rowCount(const QModelIndex& parent = {}) const override;
   int columnCount(const QModelIndex& = {}) const override { return kWhen + 1; }
   QVariant data(const QModelIndex& index, int role) const override;
   QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
@@ -30,7 +28,6 @@ class ChangesModel : public QAbstractTableModel {
   QString cell(int row, int column) const;
 
   Draft& draft_;
-  int rows_ = 1;
 };
 
 }  // namespace trimtab::views

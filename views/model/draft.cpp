@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draft.h"
-#include "views/model/theme.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "views/model/theme.h"
 
 namespace trimtab::views {
 
@@ -19,8 +20,8 @@ std::string rangeText(const ParameterRow& row) {
   return said;
 }
 
-/// What no draft may hold, because no editor could show or store it. Everything else is the validator's to
-/// judge.
+/// Returns why a value is refused because no editor could show or store it. The validator judges everything
+/// else.
 Findings refusals(const ParameterRow& row, const ParameterValue& value) {
   const auto refuse = [&](std::string expected, std::string found) {
     return Findings{{Severity::error, "", std::string(row.key), std::move(expected), std::move(found)}};

@@ -46,7 +46,7 @@ QString titleOf(const ErrorRun::Error& error) {
 }
 
 QString textOf(const ErrorRun::Error& error, double value) {
-  if (std::isinf(value)) return QCoreApplication::translate("ErrorRun", "∞ (equal pictures)");
+  if (std::isinf(value)) return QCoreApplication::translate("ErrorRun", "∞ (equal images)");
   const QString number = digits(value);
   return error.unit.isEmpty() || std::isnan(value) ? number : number + QLatin1Char(' ') + error.unit;
 }

@@ -6,7 +6,6 @@
 #include <QStringList>
 #include <QVector>
 
-class QCustomPlot;
 class QPalette;
 
 namespace trimtab::views {
@@ -45,7 +44,7 @@ double placeOf(const ErrorRun::Error& error, double value);
 
 /// Returns the label with the unit, for axes and choices.
 QString titleOf(const ErrorRun::Error& error);
-/// Returns the value with its unit to three digits; "equal" if there is no difference, "–" for NaN.
+/// Returns the value with its unit to three digits; "∞ (equal images)" for an infinity, "–" for NaN.
 QString textOf(const ErrorRun::Error& error, double value);
 QString msText(double ms);
 /// Returns the colour of the preset with this place in ErrorRun::presets(), which is never that of the live

@@ -94,7 +94,7 @@ QVariant TerrainLevelsModel::headerData(int section, Qt::Orientation orientation
       {QT_TR_NOOP("Surface (m)"),
        QT_TR_NOOP("Largest vertical distance from the bilinear surface between the posts, measured")},
       {QT_TR_NOOP("kB"), QT_TR_NOOP("On disk; – where meshes are made when they are drawn")},
-      {QT_TR_NOOP("Drawn now"), QT_TR_NOOP("Nodes in the picture, and their triangles")}};
+      {QT_TR_NOOP("Drawn now"), QT_TR_NOOP("Nodes in the image, and their triangles")}};
   if (orientation != Qt::Horizontal || section < 0 || section >= kColumns) return {};
   if (role == Qt::DisplayRole) return tr(kHeadings[section].text);
   if (role == Qt::ToolTipRole) return tr(kHeadings[section].tip);

@@ -93,7 +93,7 @@ QString numberText(double value, int decimals) {
     while (text.endsWith(QLatin1Char('0'))) text.chop(1);
     if (text.endsWith(point)) text.chop(point.size());
   }
-  return text == QStringLiteral("-0") ? QStringLiteral("0") : text;
+  return text == locale.negativeSign() + QLatin1Char('0') ? QStringLiteral("0") : text;
 }
 
 QString exactText(double value) {

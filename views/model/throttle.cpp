@@ -22,15 +22,18 @@ const QElapsedTimer& beat() {
 Throttle::Throttle(QWidget* widget, std::function<void()> refresh, int periodMs)
     : QObject(widget), widget_(widget), refresh_(std::move(refresh)), periodMs_(periodMs) {
   timer_.setSingleShot(true);
-  timer_.setTimerType(Qt::PreciseTimer);  // a beat met early would be met twice
+  // A timer that fires shortly before a beat would be started for the same beat again.
+  timer_.setTimerType(Qt::PreciseTimer);
   connect(&timer_, &QTimer::timeout, this, &Throttle::fire);
   widget->installEventFilter(this);
 }
 
 void Throttle::request() {
   wanted_ = true;
-  if (timer_.isActive() || !widget_->isVisible() || widget_->window()->isMinimized()) return;
-  // After a rest at once; else on the beat that all share.
+  if (timer_.isActive() || !widget_->isVisible()) return;
+  // Only the window itself hears that it is no longer minimised.
+  if (widget_->window()->isMinimized()) return widget_->window()->installEventFilter(this);
+  // The first request after a rest is served at once, any other on the beat that all share.
   const bool rested = !sinceLast_.isValid() || sinceLast_.elapsed() >= kRestPeriods * periodMs_;
   timer_.start(rested ? 0 : periodMs_ - static_cast<int>(beat().elapsed() % periodMs_));
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "trimtab/units/not_finite.h"
+
 namespace trimtab::views {
 
 namespace {
@@ -234,7 +236,6 @@ TraceBuffer::Statistics TraceBuffer::statistics(Trace trace, std::uint64_t from,
   std::vector<float> samples;
   for (std::uint64_t f = std::max(from, begin()); f < std::min(to, count_); ++f)
     if (const float v = value(trace, f); std::isfinite(v)) samples.push_back(v);
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   if (samples.empty()) return {kNan, kNan, kNan, kNan};
   const auto rank = [&](double share) {
     const auto n = static_cast<std::size_t>(std::ceil(share * static_cast<double>(samples.size())));
@@ -259,7 +260,7 @@ void TraceBuffer::columns(Trace trace, std::uint64_t from, std::uint64_t to, std
   const std::uint64_t width = byBlock ? each / kBlock * kBlock : each;
   for (std::uint64_t f = from / width * width; f < to; f += width) {
     const std::uint64_t last = std::min(f + width, to);
-    // A stretch without frames is never inside a column, where nobody would see it.
+    // A gap between frames is never inside a column, where nobody would see it.
     for (std::uint64_t first = std::max(f, from); first < last;) {
       const std::uint64_t end = byBlock ? last : gapAfter(first, last);
       out.push_back(column(trace, first, end));

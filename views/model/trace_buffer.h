@@ -97,17 +97,17 @@ class TraceBuffer {
   bool empty() const { return count_ == 0; }
   double time(std::uint64_t frame) const { return times_[frame % capacity_]; }
   std::uint64_t packet(std::uint64_t frame) const { return packets_[frame % capacity_]; }
-  /// The time of the frame's state on the clock of its host or flight, seconds.
+  /// Returns the time of the frame's state on the clock of its host or flight, seconds.
   double stateTime(std::uint64_t frame) const { return stateTimes_[frame % capacity_]; }
   float value(Trace trace, std::uint64_t frame) const { return values_[index(trace)][frame % capacity_]; }
   /// Returns the first frame at or after `time`; end() if there is none.
   std::uint64_t atOrAfter(double time) const;
   /// Returns the frame nearest in time. The buffer must not be empty.
   std::uint64_t nearest(double time) const;
-  /// Returns the frame nearest in time of those before `end`; nothing where none is within kReachS.
+  /// Returns the frame nearest in time of those before `end`; nothing if none is within kReachS.
   std::optional<std::uint64_t> at(double time, std::uint64_t end) const;
   static constexpr double kReachS = 0.5;
-  /// Frames farther apart than this have a stretch without frames between them.
+  /// Frames that are farther apart than this, seconds, have a gap between them.
   static constexpr double kGapS = 1;
 
   struct Column {
@@ -132,13 +132,14 @@ class TraceBuffer {
   /// Returns the frames with from <= time <= to as CSV in the C locale, with the fewest digits that read
   /// back. A value that was not measured is empty.
   std::string csv(double from, double to) const { return csv(atOrAfter(from), to, end()); }
-  /// From frame `from`, up to `to` and before frame `end`.
+  /// Does the same for the frames from number `from` on that are not later than `to` and come before `end`.
   std::string csv(std::uint64_t from, double to, std::uint64_t end) const;
 
  private:
   void allocate();
   Column column(Trace trace, std::uint64_t first, std::uint64_t last) const;
-  /// The first frame after `first` that comes more than kGapS after the one before; `last` if none does.
+  /// Returns the first frame after `first` that comes more than kGapS after the one before; `last` if none
+  /// does.
   std::uint64_t gapAfter(std::uint64_t first, std::uint64_t last) const;
   struct Stored {
     double time = 0, stateTime = 0;

@@ -56,9 +56,11 @@ QString shortText(const ParameterRow& row, const ParameterValue& value) {
     case Kind::scalar:
       break;
   }
-  const QString unit =
-      row.unit.empty() ? QString() : (row.unit == "°" ? QString() : QStringLiteral(" ")) + fromView(row.unit);
-  return exactText(std::get<double>(value)) + unit;
+  return exactText(std::get<double>(value)) + unitAfter(row);
+}
+
+QString unitAfter(const ParameterRow& row) {
+  return row.unit.empty() || row.unit == "°" ? fromView(row.unit) : QLatin1Char(' ') + fromView(row.unit);
 }
 
 BeforeAfter changeText(const Change& change) {

@@ -10,6 +10,8 @@ namespace trimtab::views {
 
 /// Returns a value as short as a cell of a table needs it: "0.05", "4 ft", "on", "Horizon" or "3 points".
 QString shortText(const ParameterRow& row, const ParameterValue& value);
+/// Returns the unit as it stands behind a number: after a blank, but for degrees; empty for a pure number.
+QString unitAfter(const ParameterRow& row);
 
 struct BeforeAfter {
   QString before, after;

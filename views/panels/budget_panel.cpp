@@ -4,9 +4,7 @@
 #include <QBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
-#include <QListWidget>
 #include <QPushButton>
-#include <QScrollBar>
 #include <QTableWidget>
 #include <algorithm>
 #include <cmath>
@@ -18,8 +16,7 @@
 namespace trimtab::views {
 namespace {
 
-constexpr int kMostReasons = 500;
-constexpr const char* kKeys[] = {
+constexpr const char* kBudgetKeys[] = {
     "hold.enabled",          "measure.budget_ms",         "hold.margin",
     "hold.error_maximum_px", "hold.render_scale_minimum", "hold.particles_minimum",
     "hold.calm_ms"};
@@ -49,7 +46,7 @@ BudgetPanel::BudgetPanel(Draft& draft, QWidget* parent)
       record_(new QPushButton(tr("&Record"))),
       replay_(new QPushButton(tr("Fl&y again"))),
       levers_(new QTableWidget(4, 3)),
-      reasons_(new QListWidget),
+      reasons_(new ReasonList),
       throttle_(this, [this] { refresh(); }) {
   QFont bold = font();
   bold.setBold(true);
@@ -76,10 +73,6 @@ BudgetPanel::BudgetPanel(Draft& draft, QWidget* parent)
   levers_->setFixedHeight(rowHeight * 5 + 6);
   levers_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   reasons_->setAccessibleName(tr("Changes by the budget"));
-  reasons_->setWordWrap(true);
-  reasons_->setResizeMode(QListView::Adjust);
-  reasons_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  reasons_->setMinimumHeight(fontMetrics().height() * 4);
 
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(6, 6, 6, 6);
@@ -90,7 +83,7 @@ BudgetPanel::BudgetPanel(Draft& draft, QWidget* parent)
   layout->addWidget(levers_);
   layout->addWidget(new QLabel(tr("<b>Changes</b>")));
   layout->addWidget(reasons_, 1);
-  layout->addWidget(new ParameterLines(draft, kKeys));
+  layout->addWidget(new ParameterLines(draft, kBudgetKeys));
   refresh();
 }
 
@@ -171,14 +164,10 @@ void BudgetPanel::note(const LiveFrame& frame) {
   const HoldReason reason = shown_.reason;
   const bool moves = reason == HoldReason::lowered || reason == HoldReason::restored;
   // Levers that come back step by step are one change.
-  if (reason == noted_ && !(reason == HoldReason::lowered)) return;
+  if (reason == noted_ && reason != HoldReason::lowered) return;
   noted_ = reason;
   if (!moves && reason != HoldReason::out_of_reach && reason != HoldReason::fits) return;
-  const QScrollBar* bar = reasons_->verticalScrollBar();
-  const bool follow = bar->value() == bar->maximum();
-  reasons_->addItem(tr("%1 s  %2").arg(frame.time, 0, 'f', 3).arg(QString::fromStdString(explain(shown_))));
-  while (reasons_->count() > kMostReasons) delete reasons_->takeItem(0);
-  if (follow) reasons_->scrollToBottom();
+  reasons_->add(frame.time, explain(shown_));
 }
 
 void BudgetPanel::compare() {

@@ -5,12 +5,12 @@
 
 #include "trimtab/hold/frame_hold.h"
 #include "trimtab/measure/statistics.h"
+#include "views/controls/reason_list.h"
 #include "views/model/draft.h"
 #include "views/model/recorded_run.h"
 #include "views/model/throttle.h"
 
 class QLabel;
-class QListWidget;
 class QPushButton;
 class QTableWidget;
 
@@ -18,8 +18,8 @@ namespace trimtab::views {
 
 class BudgetPlot;
 
-/// The Budget dock: what the arbiter predicts and what images take, which lever gave what, and how the
-/// predictions come out. It records what is flown, to fly it again with other settings and to compare.
+/// The Budget dock: what the arbiter predicts and what images take, how much each lever was changed, and how
+/// exact the predictions are. It records what is flown, to fly it again with other settings and to compare.
 class BudgetPanel : public QWidget {
   Q_OBJECT
  public:
@@ -58,14 +58,15 @@ class BudgetPanel : public QWidget {
   BudgetPlot* plot_;
   QPushButton *record_, *replay_;
   QTableWidget* levers_;
-  QListWidget* reasons_;
+  ReasonList* reasons_;
   HoldDecision shown_;
   HoldReason noted_ = HoldReason::off;
-  /// Of the predictions that came due: how far off they were, as a part, and 1 where the band held.
+  /// These samples are of predictions that came due: how far off they were, as a share, and 1 if the measured
+  /// time was within the band.
   SampleWindow trianglesOff_{kOutcomes}, timeOff_{kOutcomes}, within_{kOutcomes};
   RecordedRun recorded_, replayed_;
-  std::size_t comparedImages_ = 0;  ///< of both together that the comparison counts
-  /// Where the replay is: asked for, but without an image yet; flying; or there is none.
+  std::size_t comparedImages_ = 0;  ///< the images of both runs that the comparison counts
+  /// The state of the replay: there is none, it was asked for and has no image yet, or it is flown.
   enum class Replay { none, asked, flies } stage_ = Replay::none;
   Throttle throttle_;
 };

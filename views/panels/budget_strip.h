@@ -11,7 +11,7 @@
 
 namespace trimtab::views {
 
-/// One line that says all day how the budget is kept: the share of the last minute's images that were over
+/// One line that always says how the budget is kept: the share of the last minute's images that were over
 /// it, the stage that takes longest, and the lever that would help most. It changes at most once a second,
 /// and costs nothing while nothing is drawn.
 class BudgetStrip : public QFrame {

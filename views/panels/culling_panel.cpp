@@ -10,16 +10,16 @@
 
 #include "views/controls/bar_list.h"
 #include "views/controls/parameter_lines.h"
-#include "views/model/theme.h"
 #include "views/insets/depth_map_inset.h"
 #include "views/insets/horizon_inset.h"
+#include "views/model/theme.h"
 #include "views/plots/time_plot.h"
 
 namespace trimtab::views {
 namespace {
 
 constexpr double kStagesShownS = 20;
-constexpr const char* kKeys[] = {"culling.case", "culling.occlusion", "culling.back_faces"};
+constexpr const char* kCullingKeys[] = {"culling.case", "culling.occlusion", "culling.back_faces"};
 
 QString count(std::uint64_t n) {
   return numberText(static_cast<double>(n), 0);
@@ -30,7 +30,7 @@ QString metres(double m) {
                    : CullingPanel::tr("%1 km").arg(numberText(m / 1000, 1));
 }
 
-/// `size`: empty, or with a comma before it.
+/// `size` is empty, or begins with a comma.
 QString whatServes(OcclusionMethod method, const QString& size) {
   switch (method) {
     case OcclusionMethod::depth_map:
@@ -65,7 +65,7 @@ QString textOf(const PickedNode& node) {
   text += row(CullingPanel::tr("Reason"), node.reason);
   text += row(CullingPanel::tr("Triangles"), count(node.triangles));
   text += row(CullingPanel::tr("Distance"), metres(node.distanceM));
-  text += row(CullingPanel::tr("In the picture"),
+  text += row(CullingPanel::tr("In the image"),
               CullingPanel::tr("%1 × %2 px").arg(numberText(node.widthPx, 0), numberText(node.heightPx, 0)));
   text +=
       row(CullingPanel::tr("Stated error"),
@@ -92,14 +92,14 @@ CullingPanel::CullingPanel(Draft& draft, QWidget* parent)
   picked_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
   reasons_->setAccessibleName(tr("Nodes of the cut, by why they are drawn or not"));
   pick_->setCheckable(true);
-  pick_->setToolTip(tr("Click into the picture, and read what stands there"));
+  pick_->setToolTip(tr("Click into the image, and read what is there"));
   work_->setToolTip(tr("Since the terrain was opened. Work whose result is known is left out."));
   connect(pick_, &QPushButton::toggled, this, &CullingPanel::pickingChanged);
-  map_->setReason(tr("The depth map, or the picture as the horizon covers it, shows here while it works."));
+  map_->setReason(tr("The depth map, or the image as the horizon covers it, shows here while it works."));
 
   auto* layout = layout_ = new QVBoxLayout(this);
   layout->setContentsMargins(6, 6, 6, 6);
-  layout->addWidget(new ParameterLines(draft, kKeys));
+  layout->addWidget(new ParameterLines(draft, kCullingKeys));
   layout->addLayout(overlayRow_);
   layout->addWidget(new QLabel(tr("<b>Nodes of the cut, by reason</b>")));
   layout->addWidget(reasons_);
@@ -169,7 +169,7 @@ QString CullingPanel::whyNoHorizon() const {
 
 void CullingPanel::showPicked(std::optional<PickedNode> node) {
   picked_->setText(node ? textOf(*node)
-                        : tr("Nothing is picked. The sky is no node; the picture must show terrain there."));
+                        : tr("Nothing is picked. The sky is no node; the image must show terrain there."));
 }
 
 bool CullingPanel::picking() const {
@@ -216,7 +216,7 @@ void CullingPanel::refresh() {
     return BarList::Bar{name,   static_cast<double>(nodes), all, count(nodes) + more, {},
                         colour, f.tilesInCut == 0};
   };
-  // The colours of the picture where it is coloured by reason, as near as the palette has them.
+  // These are the colours of an image that is coloured by reason, as near as the palette has them.
   reasons_->setBars(
       {bar(tr("drawn"), f.visible.tiles.size(), tr(" (%1 triangles)").arg(count(f.visible.triangles)), 2),
        bar(tr("outside the frustum"), f.visible.outsideFrustum, {}, 1),

@@ -55,7 +55,8 @@ DecisionPanel::DecisionPanel(Draft& draft, QWidget* parent)
   view_->setAlternatingRowColors(true);
   view_->verticalHeader()->hide();
   view_->verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 4);
-  view_->horizontalHeader()->setStretchLastSection(true);
+  view_->horizontalHeader()->setStretchLastSection(false);
+  view_->horizontalHeader()->setSectionResizeMode(DecisionLog::kReason, QHeaderView::ResizeToContents);
   view_->horizontalHeader()->setHighlightSections(false);
   const auto width = [this](const char* sample) {
     return fontMetrics().horizontalAdvance(QLatin1String(sample)) + 14;

@@ -18,7 +18,7 @@ namespace trimtab::views {
 namespace {
 
 constexpr int kFrameRole = Qt::UserRole;
-/// The median frame over many is that of the newest of them: sorting more would be felt.
+/// Medians are of at most so many of the newest frames: sorting more would take a time that a person notices.
 constexpr std::uint64_t kMostSorted = 20'000;
 constexpr double kOverMedian = 1.5;
 

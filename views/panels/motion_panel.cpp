@@ -5,9 +5,7 @@
 #include <QComboBox>
 #include <QLabel>
 #include <QLineEdit>
-#include <QListWidget>
 #include <QPushButton>
-#include <QScrollBar>
 #include <algorithm>
 
 #include "trimtab/motion/head_motion.h"
@@ -19,11 +17,10 @@
 namespace trimtab::views {
 namespace {
 
-constexpr int kMostReasons = 500;
-/// The rows worth having beside what they do; the Preset dock has all.
-constexpr const char* kKeys[] = {"motion.control",      "motion.frames",         "motion.dwell",
-                                 "motion.blur_frames",  "motion.restore_frames", "motion.blur_duration_ms",
-                                 "motion.blur_strength"};
+/// The parameters that are worth having beside their effect; the Preset dock has all.
+constexpr const char* kMotionKeys[] = {
+    "motion.control",        "motion.frames",           "motion.dwell",        "motion.blur_frames",
+    "motion.restore_frames", "motion.blur_duration_ms", "motion.blur_strength"};
 
 QString stackText(const MotionStack& stack, double limit, bool ms, bool more) {
   const QString of = more ? MotionPanel::tr("> %1").arg(numberText(limit, 1)) : numberText(limit, 1);
@@ -37,16 +34,16 @@ MotionPanel::MotionPanel(Draft& draft, QWidget* parent)
     : QWidget(parent),
       draft_(draft),
       source_(new QComboBox),
-      open_(new QPushButton(tr("Open &log…"))),
+      open_(new QPushButton(tr("&Open log…"))),
       name_(new QLabel),
       state_(new QLabel(tr("No frame has been decided yet"))),
       sweep_(new QLineEdit(QStringLiteral("180deg/1s/2s"))),
       bars_(new BarList),
       plot_(new MotionPlot),
-      reasons_(new QListWidget),
+      reasons_(new ReasonList),
       throttle_(this, [this] { refresh(); }) {
   source_->addItems({tr("as the host says"), tr("a recorded log"), tr("a sweep"),
-                     tr("the pointer over the picture"), tr("none: straight ahead")});
+                     tr("the pointer over the image"), tr("none: straight ahead")});
   source_->setAccessibleName(tr("Line of sight"));
   sweep_->setAccessibleName(tr("Sweep"));
   sweep_->setToolTip(
@@ -59,11 +56,6 @@ MotionPanel::MotionPanel(Draft& draft, QWidget* parent)
   state_->setFont(bold);
   bars_->setAccessibleName(tr("Stacks, LOD scale and blur"));
   reasons_->setAccessibleName(tr("Changes by head motion"));
-  reasons_->setWordWrap(true);
-  reasons_->setResizeMode(QListView::Adjust);
-  reasons_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  reasons_->setSelectionMode(QAbstractItemView::ExtendedSelection);
-  reasons_->setMinimumHeight(fontMetrics().height() * 5);
 
   auto* top = new QHBoxLayout;
   top->addWidget(new QLabel(tr("Line of sight")));
@@ -79,7 +71,7 @@ MotionPanel::MotionPanel(Draft& draft, QWidget* parent)
   layout->addWidget(plot_, 2);
   layout->addWidget(new QLabel(tr("<b>Changes</b>")));
   layout->addWidget(reasons_, 1);
-  layout->addWidget(new ParameterLines(draft, kKeys));
+  layout->addWidget(new ParameterLines(draft, kMotionKeys));
 
   connect(source_, &QComboBox::activated, this, [this](int source) {
     showWidgetsOf(static_cast<Source>(source));
@@ -111,9 +103,8 @@ QString MotionPanel::stateText() const {
 
 void MotionPanel::setSource(Source source, const QString& name) {
   source_->setCurrentIndex(source);
-  showWidgetsOf(source);
   name_->setText(source == log ? name : QString());
-  name_->setVisible(source == log);
+  showWidgetsOf(source);
 }
 
 void MotionPanel::showWidgetsOf(Source source) {
@@ -123,27 +114,17 @@ void MotionPanel::showWidgetsOf(Source source) {
 }
 
 void MotionPanel::showFrame(const LiveFrame& frame) {
-  frame_ = frame;
   any_ = true;
   plot_->append(frame);
-  if (frame.decision.motion != noted_) {
-    noted_ = frame.decision.motion;
-    if (changesState(noted_.reason)) note(frame);
+  if (frame.decision.motion != motion_) {
+    motion_ = frame.decision.motion;
+    if (changesState(motion_.reason)) reasons_->add(frame.time, explain(motion_));
   }
   throttle_.request();
 }
 
-void MotionPanel::note(const LiveFrame& frame) {
-  const QScrollBar* bar = reasons_->verticalScrollBar();
-  const bool follow = bar->value() == bar->maximum();
-  reasons_->addItem(
-      tr("%1 s  %2").arg(frame.time, 0, 'f', 3).arg(QString::fromStdString(explain(frame.decision.motion))));
-  while (reasons_->count() > kMostReasons) delete reasons_->takeItem(0);
-  if (follow) reasons_->scrollToBottom();
-}
-
 void MotionPanel::refresh() {
-  const MotionDecision& m = frame_.decision.motion;
+  const MotionDecision& m = motion_;
   if (any_) {
     if (m.reason == MotionReason::off)
       state_->setText(tr("Head motion is off"));
@@ -160,7 +141,7 @@ void MotionPanel::refresh() {
                   .text = stackText(m.blurStack, m.blurLimit, m.limitsInMs, false),
                   .ticks = {},
                   .colour = 5});
-  // It fires above its limit, so the bar reaches one frame farther.
+  // This stack acts above its limit, so the bar reaches one frame farther.
   bars.push_back({.name = tr("LODRestoreStack"),
                   .value = filled(m.restoreStack),
                   .top = m.restoreLimit + 1,

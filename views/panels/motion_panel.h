@@ -2,9 +2,8 @@
 #pragma once
 
 #include <QWidget>
-#include <deque>
-#include <vector>
 
+#include "views/controls/reason_list.h"
 #include "views/model/draft.h"
 #include "views/model/live.h"
 #include "views/model/throttle.h"
@@ -12,7 +11,6 @@
 class QComboBox;
 class QLabel;
 class QLineEdit;
-class QListWidget;
 class QPushButton;
 
 namespace trimtab::views {
@@ -49,7 +47,6 @@ class MotionPanel : public QWidget {
  private:
   void refresh();
   void showWidgetsOf(Source source);
-  void note(const LiveFrame& frame);
 
   Draft& draft_;
   QComboBox* source_;
@@ -58,9 +55,8 @@ class MotionPanel : public QWidget {
   QLineEdit* sweep_;
   BarList* bars_;
   MotionPlot* plot_;
-  QListWidget* reasons_;
-  LiveFrame frame_;
-  MotionDecision noted_;
+  ReasonList* reasons_;
+  MotionDecision motion_;  ///< of the last frame
   bool any_ = false;
   Throttle throttle_;
 };

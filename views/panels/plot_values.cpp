@@ -3,15 +3,13 @@
 
 #include <QHeaderView>
 #include <cmath>
-#include <limits>
 
+#include "trimtab/units/not_finite.h"
 #include "views/model/theme.h"
 #include "views/plots/time_plot.h"
 
 namespace trimtab::views {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 QString textOf(double value, int decimals) {
   return std::isfinite(value) ? numberText(value, decimals) : QStringLiteral("–");
@@ -38,8 +36,10 @@ PlotValues::PlotValues(const TraceBuffer& buffer, const TimePlot& plot, QWidget*
 
 void PlotValues::put(int row, int column, const QString& text) {
   QTableWidgetItem* cell = item(row, column);
-  if (!cell) setItem(row, column, cell = new QTableWidgetItem);
-  if (column > kSignal) cell->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  if (!cell) {
+    setItem(row, column, cell = new QTableWidgetItem);
+    if (column > kSignal) cell->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  }
   cell->setText(text);
 }
 
@@ -76,10 +76,8 @@ void PlotValues::fillCursors() {
 
 void PlotValues::fillStatistics() {
   const auto [from, to] = plot_.framesShown();
-  if (from < to) {
-    put(0, kLeast, textOf(buffer_.time(from), 3));
-    put(0, kLargest, textOf(buffer_.time(to - 1), 3));
-  }
+  put(0, kLeast, textOf(from < to ? buffer_.time(from) : kNan, 3));
+  put(0, kLargest, textOf(from < to ? buffer_.time(to - 1) : kNan, 3));
   int row = 1;
   for (const TraceGraph* trace : plot_.traces()) {
     const PlotSignal& signal = trace->signal();

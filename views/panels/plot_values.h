@@ -9,8 +9,8 @@ namespace trimtab::views {
 
 class TimePlot;
 
-/// The values of every signal in a TimePlot: at its two cursors with their difference, and over the shown
-/// range. A cursor where no frame is near has no values, and its own time.
+/// Shows the values of every signal in a TimePlot: at its two cursors with their difference, and over the
+/// shown range. A cursor that no frame is near has its own time and no values.
 class PlotValues : public QTableWidget {
   Q_OBJECT
  public:
@@ -18,7 +18,7 @@ class PlotValues : public QTableWidget {
 
   PlotValues(const TraceBuffer& buffer, const TimePlot& plot, QWidget* parent = nullptr);
   void fillCursors();
-  /// Costs a partial sort of the shown frames for each signal: not for every image.
+  /// Sorts a part of the shown frames for each signal, so do not call it for every image.
   void fillStatistics();
 
  private:

@@ -29,8 +29,8 @@
 namespace trimtab::views {
 
 namespace {
-// A picture of four lanes costs some ten milliseconds: a dozen a second look live and leave the core to the
-// renderer. Statistics sort what is shown.
+// Drawing four lanes takes some ten milliseconds. A dozen times a second looks live and leaves the processor
+// to the renderer. Statistics sort the frames that are shown.
 constexpr int kRefreshMs = 80, kSideMs = 500;
 constexpr int kWidePx = 620;
 constexpr double kChangeReachPx = 5;
@@ -38,7 +38,7 @@ constexpr int kTraceRole = Qt::UserRole;
 const QString kSpanKey = QStringLiteral("plots/span_s"), kLanesKey = QStringLiteral("plots/lanes"),
               kRobustKey = QStringLiteral("plots/robust"), kFramesKey = QStringLiteral("plots/frames");
 
-/// Scrolls lanes that have no room, and tells them when there is more or less of it.
+/// Scrolls lanes that have no room, and arranges them again when its size changes.
 class PlotArea : public QScrollArea {
  public:
   explicit PlotArea(TimePlot* plot) : plot_(plot) {
@@ -181,7 +181,7 @@ void PlotsPanel::makeActions() {
     addAction(a);
     return a;
   };
-  pause_ = action(tr("Pause"), tr("Hold the picture; recording goes on (Space)"));
+  pause_ = action(tr("Pause"), tr("Hold the plots; recording goes on (Space)"));
   follow_ = action(tr("Follow"), tr("Keep the newest frame at the right edge (F)"));
   follow_->setChecked(true);
   cursors_ = action(tr("Cursors"), tr("Two cursors, and the difference between them"));
@@ -212,6 +212,7 @@ void PlotsPanel::makeActions() {
 
 QMenu* PlotsPanel::makeMore() {
   auto* menu = new QMenu(this);
+  menu->setToolTipsVisible(true);
   menu->addAction(robust_);
   lengths_ = menu->addMenu(tr("Keep"));
   auto* group = new QActionGroup(this);

@@ -28,7 +28,8 @@ QString filters() {
   return QObject::tr("Fuzzy rules (*.fll *.fis);;FuzzyLite Language (*.fll);;MATLAB fuzzy system (*.fis)");
 }
 
-/// Findings of a file, after `done` where it was taken all the same.
+/// Shows the findings of a file, if there are any: under the title `failed` if one is an error, else under
+/// `done`.
 void tell(QWidget* parent, const QString& failed, const QString& done, const Findings& findings) {
   if (findings.empty()) return;
   const QString text = QString::fromStdString(toString(findings));

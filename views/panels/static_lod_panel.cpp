@@ -61,7 +61,7 @@ StaticLodPanel::StaticLodPanel(Draft& draft, QWidget* parent)
       body_(new QWidget),
       drawn_(new BarList),
       single_(new QCheckBox(tr("Show &one level, whatever the distance"))),
-      picture_(new QCheckBox(tr("As document &E's picture"))),
+      picture_(new QCheckBox(tr("As &document E's picture"))),
       slider_(new QSlider(Qt::Horizontal)),
       throttle_(this, [this] { refresh(); }) {
   for (QLabel* label : {state_, level_}) label->setWordWrap(true);

@@ -8,11 +8,11 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QVBoxLayout>
-#include <algorithm>
 #include <string>
 
 #include "views/controls/choice_box.h"
 #include "views/controls/number_box.h"
+#include "views/controls/parameter_of.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
@@ -24,7 +24,7 @@ const ParameterRow& rowOf(std::string_view key) {
   return *row;
 }
 
-/// Keys live as long as the table.
+/// Returns the key of a parameter, which lives as long as the table of parameters.
 std::string_view keyOf(std::string_view prefix, const char* field) {
   return rowOf(std::string(prefix) + field).key;
 }
@@ -33,6 +33,7 @@ QCheckBox* flagBox(Draft& draft, std::string_view key) {
   const ParameterRow& row = rowOf(key);
   auto* box = new QCheckBox(fromView(row.label));
   box->setToolTip(helpText(row));
+  markParameter(*box, row.key);
   QObject::connect(box, &QCheckBox::toggled, box, [&draft, &row](bool on) { draft.setValue(row.key, on); });
   return box;
 }
@@ -54,13 +55,13 @@ SymbologyPanel::SymbologyPanel(Draft& draft, QWidget* parent)
       counts_(new QLabel),
       table_(new QWidget),
       throttle_(this, [this] {
-        counts_->setText(tr("Drawn in %L1 pictures, made anew %L2 times")
+        counts_->setText(tr("Drawn in %L1 images, made anew %L2 times")
                              .arg(frame_.drawn().counters.symbologyDraws)
                              .arg(frame_.drawn().counters.symbologyRedraws));
       }) {
   place_->setCheckable(true);
   place_->setToolTip(
-      tr("Drag symbols in the picture, or their corners to resize them; arrow keys move the chosen one "
+      tr("Drag symbols in the image, or their corners to resize them; arrow keys move the chosen one "
          "by a pixel, with Shift by ten. Esc ends it."));
   connect(place_, &QPushButton::toggled, this, &SymbologyPanel::placingChanged);
   counts_->setToolTip(

@@ -19,9 +19,9 @@
 namespace trimtab::views {
 namespace {
 
-constexpr const char* kKeys[] = {"static_lod.terrain", "lod.screen_space_error_px", "lod.scale",
-                                 "lod.level_spread",   "lod.level_spread_from_m",   "lod.texture",
-                                 "terrain.cache_mb"};
+constexpr const char* kTerrainKeys[] = {"static_lod.terrain", "lod.screen_space_error_px", "lod.scale",
+                                        "lod.level_spread",   "lod.level_spread_from_m",   "lod.texture",
+                                        "terrain.cache_mb"};
 
 QString megabytes(std::uint64_t bytes) {
   return TerrainPanel::tr("%1 MB").arg(
@@ -74,8 +74,8 @@ TerrainPanel::TerrainPanel(Draft& draft, QWidget* parent)
   summary_->setTextFormat(Qt::RichText);
   summary_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
   paging_->setToolTip(
-      tr("Patches are read from disk by a thread of their own, those first whose absence costs the picture "
-         "most. No picture waits for them: land is drawn coarser until they are there."));
+      tr("Patches are read from disk by a thread of their own, those first whose absence costs the image "
+         "most. No image waits for them: land is drawn coarser until they are there."));
   bar_->setRange(0, 1000);
   bar_->setAccessibleName(tr("Progress of opening or baking"));
   cancel_->setToolTip(tr("Stops; a bake goes on from there when it is started again"));
@@ -106,7 +106,7 @@ TerrainPanel::TerrainPanel(Draft& draft, QWidget* parent)
   layout->addLayout(fileRow_);
   layout->addWidget(jobLine_);
   layout->addWidget(summary_);
-  layout->addWidget(new ParameterLines(draft, kKeys));
+  layout->addWidget(new ParameterLines(draft, kTerrainKeys));
   layout->addLayout(overlayRow_);
   layout->addWidget(drawn_);
   layout->addWidget(table_);

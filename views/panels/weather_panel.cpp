@@ -20,21 +20,21 @@ namespace {
 constexpr double kNauticalMile = 1852;
 constexpr int kSteps = 7;
 
-/// What the dock edits always, and what it edits when it counts.
-constexpr std::string_view kKeys[] = {"weather.source",
-                                      "weather.step",
-                                      "weather.visibility_from",
-                                      "weather.typed_visibility_m",
-                                      "weather.clear_visibility_m",
-                                      "weather.haze",
-                                      "weather.air",
-                                      "weather.layer_top_m",
-                                      "weather.ratio_mode",
-                                      "weather.fixed_ratio",
-                                      "weather.severity_density",
-                                      "weather.precipitation_form",
-                                      "weather.wind_speed_mps",
-                                      "weather.wind_from_deg"};
+/// The parameters that the dock edits beside those of the steps; isWanted() says which are shown.
+constexpr std::string_view kWeatherKeys[] = {"weather.source",
+                                             "weather.step",
+                                             "weather.visibility_from",
+                                             "weather.typed_visibility_m",
+                                             "weather.clear_visibility_m",
+                                             "weather.haze",
+                                             "weather.air",
+                                             "weather.layer_top_m",
+                                             "weather.ratio_mode",
+                                             "weather.fixed_ratio",
+                                             "weather.severity_density",
+                                             "weather.precipitation_form",
+                                             "weather.wind_speed_mps",
+                                             "weather.wind_from_deg"};
 
 std::string_view stepName(WeatherStep step) {
   return table::ChoicesOf<WeatherStep>::options[static_cast<std::size_t>(step)].name;
@@ -43,7 +43,7 @@ QString stepLabel(WeatherStep step) {
   return fromView(table::ChoicesOf<WeatherStep>::options[static_cast<std::size_t>(step)].label);
 }
 
-/// "weather.rain_light." for the keys of a step's own group.
+/// Returns the prefix of the keys in a step's own group, such as "weather.rain_light.".
 std::string groupPrefix(WeatherStep step) {
   return "weather." + std::string(stepName(step)) + ".";
 }
@@ -63,7 +63,7 @@ bool isWanted(std::string_view key, const TuningParameters& p) {
   if (key.starts_with("weather.rain.")) return falls == Precipitation::rain;
   if (key.starts_with("weather.snow.")) return falls == Precipitation::snow;
   if (key.starts_with("weather.wind_from")) return w.windSpeed.value() > 0;
-  for (const std::string_view always : kKeys)
+  for (const std::string_view always : kWeatherKeys)
     if (key == always) return true;
   if (!key.starts_with(groupPrefix(w.step))) return false;
   if (key.ends_with(".visibility_share")) return !typed;
@@ -188,7 +188,6 @@ WeatherPanel::WeatherPanel(Draft& draft, QWidget* parent)
 
   connect(&draft_, &Draft::valueChanged, this, [this](const QString& key) {
     if (!key.startsWith(QStringLiteral("weather."))) return;
-    if (ParameterLine* changed = line(key.toStdString())) changed->clearRefusal();
     showLines();
     showSteps();
   });
@@ -220,7 +219,7 @@ void WeatherPanel::makeLines(QGridLayout& grid) {
     lines_.back()->setCompact(true);
     ++gridRow;
   };
-  for (const std::string_view key : kKeys) add(key);
+  for (const std::string_view key : kWeatherKeys) add(key);
   for (const ParameterRow& row : parameterRows())
     if (row.key.starts_with("weather.") && row.key.find('.', 8) != std::string_view::npos) add(row.key);
 }

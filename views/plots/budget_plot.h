@@ -8,8 +8,8 @@
 
 namespace trimtab::views {
 
-/// The predicted time of each image by stage, stacked, with its 90 % band, beside the measured time, what
-/// would be drawn without the arbiter, and the budget; over the last seconds.
+/// Shows the last seconds: the predicted time of each image by stage, stacked, with its 90 % band, beside the
+/// measured time, what would be drawn without the arbiter, and the budget.
 class BudgetPlot : public Plot {
   Q_OBJECT
  public:

@@ -18,8 +18,9 @@ struct ContourPoint {
   double x = 0, y = 0;
 };
 
-/// Where the surface passes `level`, as straight pieces through cells, by linear interpolation along their
-/// edges (marching squares; a saddle is told by its mean). In samples.
+/// Returns where the surface passes `level`, in samples: straight pieces through cells, by linear
+/// interpolation along their edges (marching squares). In a saddle the mean of the four corners says which
+/// corners are joined.
 std::vector<std::pair<ContourPoint, ContourPoint>> contour(const SampledSurface& surface, double level);
 
 }  // namespace trimtab::views

@@ -2,9 +2,9 @@
 #include "curve_plot.h"
 
 #include <cmath>
-#include <limits>
 
 #include "trimtab/fuzzy/membership.h"
+#include "trimtab/units/not_finite.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
@@ -144,8 +144,8 @@ void CurvePlot::redraw() {
     for (const std::size_t i : group()) chosen_->addData(px[qsizetype(i)], py[qsizetype(i)]);
   describe(shown);
 
-  // The curve's own lines, constant beyond its ends; drawn only where the reading makes something else of
-  // them.
+  // The straight lines between the points are constant beyond the ends. redrawEffective() shows them only if
+  // the reading computes another curve.
   const QCPRange range = xAxis->range();
   const double beyond = range.size() + std::abs(range.center()) + 1;
   if (!px.isEmpty()) {
@@ -166,14 +166,13 @@ void CurvePlot::redrawEffective(const CurvePoints& shown) {
   const QCPRange range = xAxis->range();
   const int labelWidth = fontMetrics().horizontalAdvance(QStringLiteral("-00000 "));
   xAxis->ticker()->setTickCount(std::clamp(axisRect()->width() / labelWidth, 2, 8));
-  // Sampled by pixel, and on both sides of every place where a reading may jump.
+  // The curve is sampled at each pixel, and on both sides of every place where a reading may jump.
   QVector<double> at;
   const int steps = std::max(200, axisRect()->width());
   for (int i = 0; i <= steps; ++i) at.append(range.lower + range.size() * i / steps);
   QVector<double> jumps{0, parameters.altitude.maximum.value(), parameters.pitch.limit.value(),
                         -parameters.pitch.limit.value()};
   for (const CurvePoint& p : shown.span()) jumps.append(p.x);
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const double x : jumps)
     if (range.contains(x)) at << std::nextafter(x, -kInfinity) << x << std::nextafter(x, kInfinity);
   std::sort(at.begin(), at.end());

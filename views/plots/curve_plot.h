@@ -15,8 +15,8 @@
 
 namespace trimtab::views {
 
-/// A membership curve whose breakpoints are dragged, added, removed and nudged; the live operating point
-/// rides on what the chosen reading really computes.
+/// Shows a membership curve whose breakpoints are dragged, added, removed and moved by keys. The live
+/// operating point lies on the curve that the chosen reading computes.
 class CurvePlot : public Plot {
   Q_OBJECT
  public:
@@ -24,7 +24,7 @@ class CurvePlot : public Plot {
 
   void showFrame(const LiveFrame& frame);
   int selected() const { return hand_.selected(); }
-  /// Selects one point alone; -1: none.
+  /// Selects one point alone, or none for -1.
   void select(int index);
   /// Adds a point to the selection, or takes it out.
   void toggle(int index);
@@ -32,13 +32,13 @@ class CurvePlot : public Plot {
   /// Returns the selected points in rising order: they move and go together.
   std::vector<std::size_t> group() const;
   void addPoint(CurvePoint point);
-  /// In the middle of the selected point and the next one.
+  /// Adds a point in the middle between the selected one and the next one.
   void addPointBesideSelected();
   void removeSelected();
-  /// Where a breakpoint is, in this widget's coordinates.
+  /// Returns where a breakpoint is, in this widget's coordinates.
   QPointF pixelOf(CurvePoint point) const;
   void fitView();
-  /// What file and pinned snapshot have in place of this curve.
+  /// Returns the curves that the file and the pinned snapshot have in place of this one.
   const Ghosts& ghosts() const { return *ghosts_; }
 
   QSize sizeHint() const override { return {420, 220}; }
@@ -86,7 +86,7 @@ class CurvePlot : public Plot {
   Draft& draft_;
   CurveSpec spec_;
   EditHand hand_;         ///< selects the point that tables and descriptions follow
-  std::set<int> beside_;  ///< points selected beside it
+  std::set<int> beside_;  ///< other points that are selected
   CurvePoints dragStart_;
   QPointF grabOffset_;
   bool fitted_ = true;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "curve_plot.h"
+#include "views/model/rounded.h"
 #include "views/model/theme.h"
 
 /// CurvePlot's mouse and keyboard.
@@ -13,10 +14,6 @@ namespace {
 
 constexpr double kGrabPx = 10;
 constexpr double kMembershipStep = 0.01;
-
-double rounded(double value, double step) {
-  return std::round(value / step) * step;
-}
 
 }  // namespace
 
@@ -83,11 +80,11 @@ int CurvePlot::pointAt(QPointF pixel) const {
 }
 
 CurvePoint CurvePlot::valueAt(QPointF pixel) const {
-  // As round as the screen can show: no drag ends at 4987.3341 ft.
+  // Values are as round as the screen can show, so that no drag ends at 4987.3341 ft.
   const double xStep =
       std::max(pointGap(spec_), roundStep(xAxis->range().size() / std::max(1, axisRect()->width())));
-  return {rounded(xAxis->pixelToCoord(pixel.x()), xStep),
-          std::clamp(rounded(yAxis->pixelToCoord(pixel.y()), kMembershipStep), 0.0, 1.0)};
+  return {roundedTo(xAxis->pixelToCoord(pixel.x()), xStep),
+          std::clamp(roundedTo(yAxis->pixelToCoord(pixel.y()), kMembershipStep), 0.0, 1.0)};
 }
 
 void CurvePlot::commit(const CurvePoints& changed, MergeToken token) {
@@ -171,7 +168,7 @@ void CurvePlot::addPointBesideSelected() {
   if (points.size < 2) return;
   const std::size_t left = std::min(static_cast<std::size_t>(std::max(selected(), 0)), points.size - 2);
   const CurvePoint a = points.point[left], b = points.point[left + 1];
-  addPoint({rounded((a.x + b.x) / 2, pointGap(spec_)), (a.y + b.y) / 2});
+  addPoint({roundedTo((a.x + b.x) / 2, pointGap(spec_)), withoutDust((a.y + b.y) / 2)});
 }
 
 void CurvePlot::removeSelected() {
@@ -188,8 +185,8 @@ void CurvePlot::nudge(double dx, double dy) {
   if (const std::vector<std::size_t> moved = group(); moved.size() > 1)
     return commit(withAllMoved(points, moved, {dx, dy}, spec_), hand_.nudge());
   const CurvePoint from = points.point[static_cast<std::size_t>(selected())];
-  commit(withMoved(points, static_cast<std::size_t>(selected()), {from.x + dx, rounded(from.y + dy, 1e-6)},
-                   spec_),
+  commit(withMoved(points, static_cast<std::size_t>(selected()),
+                   {withoutDust(from.x + dx), withoutDust(from.y + dy)}, spec_),
          hand_.nudge());
 }
 
@@ -259,7 +256,9 @@ void CurvePlot::leaveEvent(QEvent* event) {
 
 void CurvePlot::contextMenuEvent(QContextMenuEvent* event) {
   const bool byMouse = event->reason() == QContextMenuEvent::Mouse;
-  if (byMouse && pointAt(event->pos()) >= 0) select(pointAt(event->pos()));
+  const int hit = pointAt(event->pos());
+  // A click on one of several selected points keeps them, so that the menu can remove them together.
+  if (byMouse && hit >= 0 && hit != selected() && !beside_.contains(hit)) select(hit);
   QMenu menu(this);
   const CurvePoint here = valueAt(event->pos());
   QAction* add =

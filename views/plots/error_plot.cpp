@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "trimtab/measure/statistics.h"
+#include "trimtab/units/not_finite.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
@@ -23,7 +24,7 @@ QCPScatterStyle::ScatterShape shapeOf(const QString& method) {
 
 }  // namespace
 
-/// The live point, and where it has been, paler the longer ago.
+/// Draws the live point and the places where it has been, which are the paler the longer ago they were.
 class ErrorPlot::Tail : public QCPAbstractItem {
  public:
   explicit Tail(ErrorPlot& plot) : QCPAbstractItem(&plot), plot_(plot) { setClipToAxisRect(true); }
@@ -189,7 +190,6 @@ QPointF ErrorPlot::pixelOf(const Point& point) const {
 }
 
 QPointF ErrorPlot::livePixel() const {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   return tail_.empty() ? QPointF(kNan, kNan) : placeLive(tail_.back());
 }
 
@@ -232,7 +232,7 @@ void ErrorPlot::drawFront() {
       QPen(blend(palette().color(QPalette::Base), palette().color(QPalette::Text), 0.5), 1.2, Qt::DotLine));
 }
 
-/// Presets by colour, cases by shape: fewer entries than one a point.
+/// Names presets by colour and cases by shape, which takes fewer entries than one for each point.
 void ErrorPlot::makeLegend() {
   const QColor ink = palette().color(QPalette::Text), base = palette().color(QPalette::Base);
   const auto add = [this](const QString& name, const QCPScatterStyle& style, const QPen& line) {
@@ -262,7 +262,6 @@ void ErrorPlot::makeLegend() {
 
 void ErrorPlot::fit() {
   const ErrorRun::Error* shown = error();
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double left = kInfinity, right = -kInfinity, low = kInfinity, high = -kInfinity;
   const auto hold = [&](double x, double y) {
     if (!std::isfinite(x) || !std::isfinite(y)) return;

@@ -8,18 +8,19 @@
 
 namespace trimtab::views {
 
-/// A live measurement: the session's frame time, and errors in the order of ErrorRun::errors.
+/// A live measurement: the session's frame time, and its errors in the order of ErrorRun::errors.
 struct LiveError {
   double ms = 0;
   QVector<double> errors;
   int widthPx = 0, heightPx = 0;  ///< of the image whose time it is; 0 if unknown
 };
 
-/// Run time against error: one point a preset and case, its marker by case and its colour by preset, at the
-/// medians of its frames; whiskers from the 5th to the 95th percentile; the front that nothing beats in both;
-/// the budget; and the live session as a point that draws a fading tail. Lower left is best whatever the
-/// error: an axis on which larger is better runs the other way. A live point of images of another size than
-/// the results' is no match for them: it is hollow, is named with its size, and does not widen the view.
+/// Shows run time against error. Each preset in each case is a point at the medians of its frames, with its
+/// marker by case, its colour by preset, and whiskers from the 5th to the 95th percentile. The front joins
+/// the points that no other beats in both. A line is the budget, and the live session is a point with a
+/// fading tail. Lower left is best whatever the error: an axis on which larger is better runs the other way.
+/// A live point of images of another size than the results' cannot be compared with them: it is hollow, is
+/// named with its size, and does not widen the view.
 class ErrorPlot : public Plot {
   Q_OBJECT
  public:
@@ -36,7 +37,7 @@ class ErrorPlot : public Plot {
   void show(const ErrorRun& run);
   /// Shows one flight, or the first if none has that name.
   void showFlight(const QString& flight);
-  /// Index into ErrorRun::errors.
+  /// Shows the error with this index in ErrorRun::errors.
   void showError(int error);
   void setLogarithmic(bool on);
   bool logarithmic() const { return yAxis->scaleType() == QCPAxis::stLogarithmic; }
@@ -47,7 +48,7 @@ class ErrorPlot : public Plot {
   const std::vector<Point>& points() const { return points_; }
   const std::deque<LiveError>& tail() const { return tail_; }
   int selected() const { return selected_; }
-  /// Shows the numbers of a point, -1: none; points().size() is the live one.
+  /// Shows the numbers of a point; points().size() is the live one, and -1 shows none.
   void select(int point);
   QString selectedText() const;
   QPointF pixelOf(const Point& point) const;
@@ -72,9 +73,9 @@ class ErrorPlot : public Plot {
  private:
   class Tail;
   const ErrorRun::Error* error() const;
-  /// False if the live images are of another size than the results'.
+  /// Reports whether the live images have the size of the results', or one of the sizes is unknown.
   bool liveCompares() const;
-  /// What the legend and the numbers call the live point.
+  /// Returns what the legend and the numbers call the live point.
   QString liveName() const;
   double liveError(const LiveError& live) const;
   QPointF placeLive(const LiveError& live) const;

@@ -7,13 +7,13 @@
 namespace trimtab::views {
 namespace {
 
-constexpr double kGrabPx = 12;
+constexpr double kPointGrabPx = 12;
 
 }  // namespace
 
 int ErrorPlot::pointAt(QPointF pixel) const {
   int nearest = -1;
-  double best = kGrabPx;
+  double best = kPointGrabPx;
   const auto look = [&](QPointF at, int which) {
     const double d = std::hypot(at.x() - pixel.x(), at.y() - pixel.y());
     if (d < best) {

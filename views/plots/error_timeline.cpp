@@ -3,15 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "trimtab/units/not_finite.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kHeadRoom = 1.15;
+constexpr double kTimelineHeadRoom = 1.15;
 constexpr double kWorstPx = 9;
 constexpr std::array kPens{Qt::SolidLine, Qt::DashLine, Qt::DashDotLine, Qt::DotLine};
 
@@ -61,6 +60,10 @@ bool ErrorTimeline::isShown(const ErrorRun::Series& s) const {
   return s.flight == flight_ && s.method == method_;
 }
 
+const ErrorRun::Error* ErrorTimeline::error() const {
+  return error_ >= 0 && error_ < run_.errors.size() ? &run_.errors[error_] : nullptr;
+}
+
 void ErrorTimeline::show(const ErrorRun& run) {
   run_ = run;
   if (!run_.flights().contains(flight_)) flight_ = run_.flights().value(0);
@@ -94,22 +97,22 @@ void ErrorTimeline::drawLines() {
   const QStringList presets = run_.presets();
   std::array<double, 2> low{0, 0}, high{0, 0};
   times_.clear();
-  const ErrorRun::Error* error = error_ >= 0 && error_ < run_.errors.size() ? &run_.errors[error_] : nullptr;
+  const ErrorRun::Error* shown = error();
   bool first = true;
   for (const ErrorRun::Series& s : run_.series) {
     if (!isShown(s)) continue;
     times_.insert(times_.end(), s.timeS.begin(), s.timeS.end());
     const int preset = int(presets.indexOf(s.preset));
     for (int lane = 0; lane < 2; ++lane) {
-      if (lane == 1 && (error == nullptr || error_ >= s.errors.size())) continue;
+      if (lane == 1 && (shown == nullptr || error_ >= s.errors.size())) continue;
       QVector<double> y = lane == 0 ? s.ms : s.errors[error_];
       for (double& v : y) {
-        if (lane == 1) v = placeOf(*error, v);
+        if (lane == 1) v = placeOf(*shown, v);
         if (!std::isfinite(v)) {
           v = kNan;
           continue;
         }
-        if (lane == 1 && !error->largerIsWorse) low[1] = first ? v : std::min(low[1], v);
+        if (lane == 1 && !shown->largerIsWorse) low[1] = first ? v : std::min(low[1], v);
         high[std::size_t(lane)] = lane == 1 && first ? v : std::max(high[std::size_t(lane)], v);
         if (lane == 1) first = false;
       }
@@ -123,10 +126,11 @@ void ErrorTimeline::drawLines() {
   std::sort(times_.begin(), times_.end());
   times_.erase(std::unique(times_.begin(), times_.end()), times_.end());
   if (budget_ > 0) high[0] = std::max(high[0], budget_);
-  value(0)->setRange(0, high[0] > 0 ? high[0] * kHeadRoom : 1);
-  const double room = high[1] > low[1] ? (high[1] - low[1]) * (kHeadRoom - 1) : std::max(high[1], 1.0) * 0.1;
+  value(0)->setRange(0, high[0] > 0 ? high[0] * kTimelineHeadRoom : 1);
+  const double room =
+      high[1] > low[1] ? (high[1] - low[1]) * (kTimelineHeadRoom - 1) : std::max(high[1], 1.0) * 0.1;
   value(1)->setRange(low[1] > 0 ? low[1] - room : 0, high[1] + room);
-  value(1)->setLabel(error != nullptr ? titleOf(*error) : tr("Error"));
+  value(1)->setLabel(shown != nullptr ? titleOf(*shown) : tr("Error"));
   if (whole_.size() == 0 && !times_.empty()) {
     const double margin = std::max(0.02 * (times_.back() - times_.front()), 0.5);
     whole_ = QCPRange(times_.front() - margin, times_.back() + margin);
@@ -136,18 +140,18 @@ void ErrorTimeline::drawLines() {
 
 void ErrorTimeline::drawWorst() {
   const QStringList presets = run_.presets();
+  const ErrorRun::Error* shown = error();
   worst_.clear();
   bool named = false;
   for (int i = 0; i < run_.series.size(); ++i) {
     const ErrorRun::Series& s = run_.series[i];
     if (!isShown(s)) continue;
     for (int lane = 0; lane < 2; ++lane) {
-      if (lane == 1 && error_ >= s.errors.size()) continue;
+      if (lane == 1 && (shown == nullptr || error_ >= s.errors.size())) continue;
       QVector<double> x, y;
       for (const ErrorRun::Mark& mark : s.worst) {
         if (mark.frame < 0 || mark.frame >= s.timeS.size()) continue;
-        const double v =
-            lane == 0 ? s.ms[mark.frame] : placeOf(run_.errors[error_], s.errors[error_][mark.frame]);
+        const double v = lane == 0 ? s.ms[mark.frame] : placeOf(*shown, s.errors[error_][mark.frame]);
         if (lane == 0) worst_.push_back({i, mark.frame});
         if (!std::isfinite(v)) continue;
         x << s.timeS[mark.frame];
@@ -183,7 +187,7 @@ void ErrorTimeline::redraw() {
   line_.setLook(QPen(liveColour(palette()), 2), palette().color(QPalette::Base), font());
   hint_->setFont(font());
   hint_->setVisible(times_.empty());
-  hint_->setText(tr("Frames of a measured flight stand here."));
+  hint_->setText(tr("Frames of a measured flight are shown here."));
   hint_->setColor(quietColour(palette()));
   hint_->setPositionAlignment(Qt::AlignCenter);
   const int labelWidth = QFontMetrics(font()).horizontalAdvance(QStringLiteral("00000  "));
@@ -221,17 +225,19 @@ void ErrorTimeline::seek(double at) {
 }
 
 QString ErrorTimeline::textAt(double at) const {
-  const auto nearest = std::min_element(
-      times_.begin(), times_.end(), [at](double a, double b) { return std::abs(a - at) < std::abs(b - at); });
-  if (nearest == times_.end() || error_ >= run_.errors.size()) return {};
+  const ErrorRun::Error* shown = error();
+  if (times_.empty() || shown == nullptr) return {};
+  auto nearest = std::lower_bound(times_.begin(), times_.end(), at);
+  if (nearest == times_.end() || (nearest != times_.begin() && at - *(nearest - 1) <= *nearest - at))
+    --nearest;
   QStringList lines{timeText(*nearest)};
   for (const ErrorRun::Series& s : run_.series) {
     if (!isShown(s)) continue;
     const qsizetype frame = s.timeS.indexOf(*nearest);
     if (frame < 0 || error_ >= s.errors.size()) continue;
-    QString line = tr("%1: %2, %3 %4")
-                       .arg(s.preset, msText(s.ms[frame]), run_.errors[error_].label,
-                            textOf(run_.errors[error_], s.errors[error_][frame]));
+    QString line =
+        tr("%1: %2, %3 %4")
+            .arg(s.preset, msText(s.ms[frame]), shown->label, textOf(*shown, s.errors[error_][frame]));
     for (const ErrorRun::Mark& mark : s.worst)
       if (mark.frame == frame && !mark.why.isEmpty()) line += tr(" (%1)").arg(mark.why);
     lines << line;

@@ -10,9 +10,9 @@
 
 namespace trimtab::views {
 
-/// The frames of one flight along time: frame time above, error below, a line a preset in one culling case;
-/// the worst frames marked. Its cursor is where the flight stands, and takes it elsewhere when it is dragged
-/// or moved by keys.
+/// Shows the frames of one flight along time: frame time above and error below, a line for each preset in one
+/// culling case, with marks at the worst frames. The cursor is where the flight is; dragging it, or moving it
+/// by keys, moves the flight.
 class ErrorTimeline : public Plot {
   Q_OBJECT
  public:
@@ -26,18 +26,18 @@ class ErrorTimeline : public Plot {
   void show(const ErrorRun& run);
   void showFlight(const QString& flight);
   void showError(int error);
-  /// As ErrorRun spells it; the last one of the run where there is none of that name.
+  /// Shows a culling case by its name in ErrorRun; the last one of the run if none has that name.
   void showMethod(const QString& method);
   void setBudget(double ms);
 
-  /// The flight's clock, seconds; NaN: no flight, no cursor. Tells nobody.
+  /// Moves the cursor to a time on the flight's clock, in seconds, without a signal. NaN hides it.
   void follow(double time);
   double cursorTime() const { return cursor_; }
-  /// Moves the cursor and says so.
+  /// Moves the cursor and emits `sought`.
   void seek(double time);
 
   QPointF pixelOf(double time) const;
-  /// In order of time.
+  /// Returns the worst frames that are shown, in order of time.
   const std::vector<Worst>& worst() const { return worst_; }
   const ErrorRun& run() const { return run_; }
 
@@ -60,6 +60,8 @@ class ErrorTimeline : public Plot {
 
  private:
   bool isShown(const ErrorRun::Series& series) const;
+  /// Returns the error that is shown; null if the run has none with that index.
+  const ErrorRun::Error* error() const;
   QCPAxis* time(int lane = 0) const { return lanes_[std::size_t(lane)]->axis(QCPAxis::atBottom); }
   QCPAxis* value(int lane) const { return lanes_[std::size_t(lane)]->axis(QCPAxis::atLeft); }
   void redraw();
@@ -68,6 +70,7 @@ class ErrorTimeline : public Plot {
   void placeCursor();
   void showNumbers(double atTime, QPointF pixel);
   QString textAt(double atTime) const;
+  void zoom(double factor, double anchor);
   void stepFrames(int frames);
   void stepWorst(int direction);
 

@@ -55,10 +55,8 @@ void ErrorTimeline::mouseReleaseEvent(QMouseEvent*) {
   dragging_ = false;
 }
 
-void ErrorTimeline::zoomByWheel(QWheelEvent* event) {
+void ErrorTimeline::zoom(double factor, double anchor) {
   const QCPRange range = time()->range();
-  const double anchor = time()->pixelToCoord(event->position().x());
-  const double factor = wheelFactor(*event);
   if (range.size() * factor < kShortestSpanS || whole_.size() == 0) return;
   const QCPRange zoomed =
       QCPRange(anchor - (anchor - range.lower) * factor, anchor + (range.upper - anchor) * factor)
@@ -68,11 +66,12 @@ void ErrorTimeline::zoomByWheel(QWheelEvent* event) {
   replot(QCustomPlot::rpQueuedReplot);
 }
 
+void ErrorTimeline::zoomByWheel(QWheelEvent* event) {
+  zoom(wheelFactor(*event), time()->pixelToCoord(event->position().x()));
+}
+
 bool ErrorTimeline::zoomByKey(double factor) {
-  const double middle = time()->range().contains(cursor_) ? cursor_ : time()->range().center();
-  for (int lane = 0; lane < 2; ++lane) time(lane)->scaleRange(factor, middle);
-  placeCursor();
-  replot(QCustomPlot::rpQueuedReplot);
+  zoom(factor, time()->range().contains(cursor_) ? cursor_ : time()->range().center());
   return true;
 }
 

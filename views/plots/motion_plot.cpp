@@ -8,10 +8,16 @@
 #include "views/model/theme.h"
 
 namespace trimtab::views {
+namespace {
+
+constexpr double kMotionHeadRoom = 1.1;
+
+}  // namespace
 
 MotionPlot::MotionPlot(QWidget* parent) : Plot(tr("Head motion over time"), Keyboard::ignored, parent) {
   setPlottingHints(QCP::phFastPolylines | QCP::phCacheLabels);
   setNotAntialiasedElements(QCP::aeAxes | QCP::aeGrid | QCP::aeFills);
+  addLegendAbove();
   xAxis->setLabel(tr("Time (s)"));
   yAxis->setLabel(tr("Rate (deg/s)"));
   yAxis2->setLabel(tr("LOD scale"));
@@ -30,11 +36,7 @@ MotionPlot::MotionPlot(QWidget* parent) : Plot(tr("Head motion over time"), Keyb
   threshold_->setName(tr("threshold"));
   rate_ = addGraph();
   rate_->setName(tr("rate"));
-  legend->setVisible(true);
-  legend->setFillOrder(QCPLayoutGrid::foColumnsFirst);
-  legend->setMargins(QMargins(4, 1, 4, 1));
-  legend->setIconSize(22, 10);
-  axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignLeft | Qt::AlignTop);
+  for (QCPGraph* graph : {rate_, threshold_, scale_, blur_}) graph->addToLegend();
   restyle();
 }
 
@@ -58,20 +60,19 @@ void MotionPlot::refresh() {
     if (std::isfinite(point.value)) rates.push_back(point.value);
   for (const QCPGraphData& point : *threshold_->data()) threshold = std::max(threshold, point.value);
   std::sort(rates.begin(), rates.end());
-  // A jump of the view, as of the key Home, is thousands of degrees in no time: it ends above the axis.
+  // A jump of the view, as the key Home makes one, is thousands of degrees in no time and leaves the axis.
   const double usual = rates.empty() ? 0 : rates[rates.size() - 1 - rates.size() / 20];
   const double largest = rates.empty() ? 0 : rates.back();
   const double top = std::max(threshold, std::min(largest, kMostOverUsual * std::max(usual, threshold)));
   for (const QCPGraphData& point : *scale_->data()) scale = std::max(scale, point.value);
   xAxis->setRange(last_ - kSpanS, last_);
-  // Room for the legend above what moves.
-  yAxis->setRange(0, std::max(top, 1.0) * 1.35);
-  yAxis2->setRange(0, std::max(scale, 4.0) * 1.35);
+  yAxis->setRange(0, std::max(top, 1.0) * kMotionHeadRoom);
+  yAxis2->setRange(0, std::max(scale, 4.0) * kMotionHeadRoom);
   replot(QCustomPlot::rpQueuedReplot);
 }
 
 void MotionPlot::restyle() {
-  applyTheme(*this);
+  applyThemeWithLegendAbove();
   rate_->setPen(QPen(seriesColour(0, palette()), 1.5));
   threshold_->setPen(QPen(errorColour(palette()), 1.5, Qt::DashLine));
   scale_->setPen(QPen(seriesColour(1, palette()), 2));
@@ -79,6 +80,7 @@ void MotionPlot::restyle() {
   shade.setAlpha(60);
   blur_->setPen(Qt::NoPen);
   blur_->setBrush(shade);
+  arrangeLegendAbove();
   replot(QCustomPlot::rpQueuedReplot);
 }
 

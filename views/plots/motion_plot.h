@@ -6,15 +6,15 @@
 
 namespace trimtab::views {
 
-/// Rate of the line of sight against its threshold, LOD scale, and the time that is blurred, over the last
-/// seconds.
+/// Shows the last seconds: the rate of the line of sight against its threshold, the LOD scale, and the time
+/// that is blurred.
 class MotionPlot : public Plot {
   Q_OBJECT
  public:
   static constexpr double kSpanS = 15;
 
   explicit MotionPlot(QWidget* parent = nullptr);
-  /// A clock that goes back empties the plot.
+  /// Adds a frame. A clock that goes back empties the plot.
   void append(const LiveFrame& frame);
   void refresh();
 
@@ -23,6 +23,7 @@ class MotionPlot : public Plot {
 
  protected:
   void restyle() override;
+  void resized() override { arrangeLegendAbove(); }
 
  private:
   QCPGraph *rate_, *threshold_, *scale_, *blur_;

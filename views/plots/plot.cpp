@@ -10,7 +10,7 @@ namespace trimtab::views {
 namespace {
 
 constexpr int kUnboundedPx = 100000;
-constexpr int kLegendEntryMarginPx = 8;
+constexpr int kLegendEntryMarginPx = 8, kColourScalePx = 12;
 
 }  // namespace
 
@@ -93,6 +93,7 @@ void Plot::addLegendAbove() {
 
 void Plot::arrangeLegendAbove() {
   wrapLegend(*legend, width(), legend->itemCount() > 3 ? 2 : 1);
+  replot(rpQueuedReplot);
 }
 
 void Plot::wrapLegend(QCPLegend& entries, int widthPx, int least) const {
@@ -108,13 +109,38 @@ void Plot::wrapLegend(QCPLegend& entries, int widthPx, int least) const {
   const int wrap = std::max(least, widthPx / entry);
   if (wrap == entries.wrap()) return;
   entries.setWrap(wrap);
-  entries.setFillOrder(entries.fillOrder(), true);  // what is there already is placed anew only so
+  // Only this places the entries that are there already anew.
+  entries.setFillOrder(entries.fillOrder(), true);
 }
 
 void Plot::applyThemeWithLegendAbove() {
   applyTheme(*this);
   legend->setBorderPen(Qt::NoPen);
   legend->setBrush(Qt::NoBrush);
+}
+
+QCPColorScale* Plot::addColourScale(const QCPColorGradient& gradient) {
+  auto* scale = new QCPColorScale(this);
+  scale->setGradient(gradient);
+  scale->setBarWidth(kColourScalePx);
+  scale->setRangeDrag(false);
+  scale->setRangeZoom(false);
+  plotLayout()->addElement(0, 1, scale);
+  auto* margins = new QCPMarginGroup(this);
+  axisRect()->setMarginGroup(QCP::msTop | QCP::msBottom, margins);
+  scale->setMarginGroup(QCP::msTop | QCP::msBottom, margins);
+  return scale;
+}
+
+void Plot::applyThemeTo(QCPColorScale& scale) const {
+  const QColor base = palette().color(QPalette::Base), ink = palette().color(QPalette::Text);
+  QCPAxis& axis = *scale.axis();
+  axis.setTickPen(blend(base, ink, 0.55));
+  axis.setSubTickPen(blend(base, ink, 0.55));
+  axis.setLabelColor(ink);
+  axis.setTickLabelColor(ink);
+  axis.setTickLabelFont(font());
+  axis.setLabelFont(font());
 }
 
 QCPItemText* Plot::addReadout(const char* layerName, const QMargins& padding) {

@@ -61,10 +61,16 @@ class Plot : public QCustomPlot {
   /// Replaces the legend by one above the plot, whose entries fill rows. Only entries that are added by hand
   /// appear in it.
   void addLegendAbove();
-  /// Shows the legend above the plot if it has entries, wrapped to the width of the plot.
+  /// Shows the legend above the plot if it has entries, wrapped to the width of the plot, and draws again.
   void arrangeLegendAbove();
   /// Applies the colours of the theme to all axes and removes the frame of the legend above the plot.
   void applyThemeWithLegendAbove();
+
+  /// Adds a colour scale to the right of the axes and as high as they are. The mouse does not change its
+  /// range.
+  QCPColorScale* addColourScale(const QCPColorGradient& gradient);
+  /// Gives a colour scale, which applyTheme() does not reach, the colours of the theme and the font.
+  void applyThemeTo(QCPColorScale& scale) const;
 
   /// Returns a hidden text whose position is in pixels of this widget and which no axis rect clips.
   QCPItemText* addReadout(const char* layerName, const QMargins& padding);

@@ -9,22 +9,17 @@
 namespace trimtab::views {
 namespace {
 
-constexpr double kHeadRoom = 1.08;
-/// So few points are marked one by one.
+constexpr double kReportHeadRoom = 1.08;
+/// Lines of at most so many points have a marker at each.
 constexpr qsizetype kMarkedPoints = 24;
 
 }  // namespace
 
-ReportPlot::ReportPlot(QWidget* parent) : Plot(tr("Plot of the experiment"), Keyboard::ignored, parent) {
+ReportPlot::ReportPlot(QWidget* parent)
+    : Plot(tr("Plot of the experiment"), Keyboard::ignored, parent), group_(new QCPBarsGroup(this)) {
   setMinimumHeight(100);
   setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
-  auto* above = new QCPLegend;
-  plotLayout()->insertRow(0);
-  plotLayout()->addElement(0, 0, above);
-  above->setFillOrder(QCPLegend::foColumnsFirst);
-  above->setWrap(2);
-  plotLayout()->setRowStretchFactor(0, 0.001);
-  legend = above;
+  addLegendAbove();
   clear();
 }
 
@@ -43,8 +38,8 @@ void ReportPlot::show(const ReportPlotData& report) {
     addLines();
   else
     addBars();
-  applyTheme(*this);
-  legend->setVisible(!data_.series.isEmpty());
+  applyThemeWithLegendAbove();
+  arrangeLegendAbove();
   replot(QCustomPlot::rpQueuedReplot);
 }
 
@@ -53,6 +48,7 @@ void ReportPlot::addLines() {
     const ReportPlotData::Series& s = data_.series[i];
     QCPGraph* graph = addGraph();
     graph->setName(s.name);
+    graph->addToLegend();
     graph->setData(s.x, s.y);
     const QColor colour = seriesColour(i, palette());
     graph->setPen(QPen(colour, 1.5));
@@ -60,8 +56,10 @@ void ReportPlot::addLines() {
       graph->setScatterStyle(QCPScatterStyle(
           static_cast<QCPScatterStyle::ScatterShape>(QCPScatterStyle::ssCircle + i % 6), colour, 7));
   }
+  if (data_.series.isEmpty()) return;
   rescaleAxes();
-  yAxis->setRange(std::min(0.0, yAxis->range().lower), yAxis->range().upper * kHeadRoom);
+  const QCPRange values = yAxis->range();
+  yAxis->setRange(std::min(0.0, values.lower), std::max(0.0, values.upper) * kReportHeadRoom);
 }
 
 void ReportPlot::addBars() {
@@ -69,13 +67,13 @@ void ReportPlot::addBars() {
   for (int i = 0; i < data_.categories.size(); ++i)
     names->addTick(i + 1, QString(data_.categories[i]).replace(QLatin1Char(' '), QLatin1Char('\n')));
   xAxis->setTicker(names);
-  auto* group = new QCPBarsGroup(this);
   double smallest = 0, largest = 0;
   for (int i = 0; i < data_.series.size(); ++i) {
     const ReportPlotData::Series& s = data_.series[i];
     auto* bars = new QCPBars(xAxis, yAxis);
     bars->setName(s.name);
-    bars->setBarsGroup(group);
+    bars->addToLegend();
+    bars->setBarsGroup(group_);
     bars->setWidth(0.8 / double(data_.series.size()));
     const QColor colour = seriesColour(i, palette());
     bars->setPen(QPen(colour));
@@ -88,7 +86,7 @@ void ReportPlot::addBars() {
     }
   }
   xAxis->setRange(0.4, double(data_.categories.size()) + 0.6);
-  yAxis->setRange(smallest * kHeadRoom, largest > 0 ? largest * kHeadRoom : 1);
+  yAxis->setRange(smallest * kReportHeadRoom, largest > 0 ? largest * kReportHeadRoom : 1);
 }
 
 }  // namespace trimtab::views

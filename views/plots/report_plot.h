@@ -9,7 +9,7 @@
 
 namespace trimtab::views {
 
-/// Lines over numbers, or bars side by side over categories; labels carry the units.
+/// What a ReportPlot shows: lines over numbers, or bars side by side over categories. Labels have the units.
 struct ReportPlotData {
   struct Series {
     QString name;
@@ -20,7 +20,7 @@ struct ReportPlotData {
   QVector<Series> series;
 };
 
-/// One plot of a report that is finished: nothing in it moves.
+/// Shows one plot of a finished report.
 class ReportPlot : public Plot {
   Q_OBJECT
  public:
@@ -30,12 +30,14 @@ class ReportPlot : public Plot {
 
  protected:
   void restyle() override { show(data_); }
+  void resized() override { arrangeLegendAbove(); }
 
  private:
   void addLines();
   void addBars();
 
   ReportPlotData data_;
+  QCPBarsGroup* group_;  ///< puts the bars of a category side by side
 };
 
 }  // namespace trimtab::views

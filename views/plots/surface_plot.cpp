@@ -4,23 +4,22 @@
 #include <QAction>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "cividis.h"
 #include "contour.h"
 #include "trimtab/fuzzy/bands.h"
 #include "trimtab/fuzzy/combination.h"
 #include "trimtab/fuzzy/membership.h"
+#include "trimtab/units/not_finite.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
 
 namespace {
 
-// A third of a millisecond to compute; finer than the picture's own interpolation shows.
+// So many take a third of a millisecond to compute, and the colour map interpolates between them.
 constexpr int kColumns = 241, kRows = 161;
 constexpr std::size_t kLongestTrack = 4000;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Whether two sets of parameters have the same surface and bands.
 bool sameSurface(const TuningParameters& a, const TuningParameters& b) {
@@ -85,17 +84,9 @@ void SurfacePlot::makePlottables() {
   map_->setGradient(cividis());
   map_->setDataRange({0, BandList::kTop});
   map_->setName(tr("Total"));
-  scale_ = new QCPColorScale(this);
-  scale_->setGradient(cividis());
+  scale_ = addColourScale(cividis());
   scale_->setDataRange({0, BandList::kTop});
-  scale_->setBarWidth(12);
-  scale_->setRangeDrag(false);
-  scale_->setRangeZoom(false);
-  scale_->axis()->setLabel(tr("Total and depth map"));
-  plotLayout()->addElement(0, 1, scale_);
-  auto* margins = new QCPMarginGroup(this);
-  axisRect()->setMarginGroup(QCP::msTop | QCP::msBottom, margins);
-  scale_->setMarginGroup(QCP::msTop | QCP::msBottom, margins);
+  scale_->axis()->setLabel(tr("Total and depth map (px)"));
 
   const auto curve = [this](const QString& name, const char* layerName, const QColor& ink, double width) {
     auto* made = new QCPCurve(xAxis, yAxis);
@@ -124,10 +115,7 @@ void SurfacePlot::makePlottables() {
 
 void SurfacePlot::restyle() {
   applyTheme(*this);
-  scale_->axis()->setLabelColor(palette().color(QPalette::Text));
-  scale_->axis()->setTickLabelColor(palette().color(QPalette::Text));
-  scale_->axis()->setTickLabelFont(font());
-  scale_->axis()->setLabelFont(font());
+  applyThemeTo(*scale_);
   hover_->setColor(palette().color(QPalette::ToolTipText));
   hover_->setBrush(palette().color(QPalette::ToolTipBase));
   hover_->setFont(font());
@@ -144,7 +132,6 @@ void SurfacePlot::compute() {
   const TuningParameters& p = *draft_.active();
   shown_ = p;
   ++computed_;
-  everComputed_ = true;
   const QCPRange x = xAxis->range(), y = yAxis->range();
   QCPColorMapData* const cells = map_->data();
   if (cells->keySize() != kColumns || cells->valueSize() != kRows) cells->setSize(kColumns, kRows);
@@ -165,7 +152,6 @@ void SurfacePlot::compute() {
       totals[next++] = total;
     }
   }
-  map_->setDataRange({0, BandList::kTop});
   drawEdges(totals);
 
   QSharedPointer<QCPAxisTickerText> ticks(new QCPAxisTickerText);
@@ -197,7 +183,7 @@ void SurfacePlot::drawEdges(const std::vector<double>& totals) {
 }
 
 double SurfacePlot::totalAt(double altitudeFt, double pitchDeg) const {
-  if (!everComputed_ || !xAxis->range().contains(altitudeFt) || !yAxis->range().contains(pitchDeg))
+  if (computed_ == 0 || !xAxis->range().contains(altitudeFt) || !yAxis->range().contains(pitchDeg))
     return kNan;
   return combine(shown_.scheme.combination, shown_.scheme.rules,
                  altitudeMembership(shown_.altitude, altitudeFt), pitchMembership(shown_.pitch, pitchDeg))
@@ -207,21 +193,21 @@ double SurfacePlot::totalAt(double altitudeFt, double pitchDeg) const {
 void SurfacePlot::showFrame(const LiveFrame& frame) {
   const FrameDecision& d = frame.decision;
   if (d.reason == SchemeReason::invalid_input || d.reason == SchemeReason::altitude_unknown) return;
-  decision_ = d;
-  any_ = true;
-  const bool moved = track_.empty() || std::abs(track_.back().x - d.altitudeFt) > 15 ||
-                     std::abs(track_.back().y - d.pitchDeg) > 0.15;
+  const CurvePoint now{d.altitudeFt, d.pitchDeg};
+  now_ = now;
+  const bool moved =
+      track_.empty() || std::abs(track_.back().x - now.x) > 15 || std::abs(track_.back().y - now.y) > 0.15;
   if (moved) {
     if (track_.size() == kLongestTrack)
       track_.erase(track_.begin(), track_.begin() + static_cast<std::ptrdiff_t>(kLongestTrack / 4));
-    track_.push_back({d.altitudeFt, d.pitchDeg});
+    track_.push_back(now);
     trackMoved_ = true;
   }
   liveThrottle_.request();
 }
 
 void SurfacePlot::showLive() {
-  if (!any_) return;
+  if (!now_) return;
   if (trackMoved_) {
     trackMoved_ = false;
     QVector<QCPCurveData> points;
@@ -229,14 +215,14 @@ void SurfacePlot::showLive() {
     for (const CurvePoint& p : track_) points.append({static_cast<double>(points.size()), p.x, p.y});
     for (QCPCurve* curve : {trackHalo_, trackLine_}) curve->data()->set(points, true);
   }
-  live_->setData({decision_.altitudeFt}, {decision_.pitchDeg});
+  live_->setData({now_->x}, {now_->y});
   layer(QStringLiteral("live"))->replot();
 }
 
 void SurfacePlot::clearTrack() {
   track_.clear();
   trackMoved_ = true;
-  if (any_) liveThrottle_.request();
+  if (now_) liveThrottle_.request();
 }
 
 void SurfacePlot::mouseMoveEvent(QMouseEvent* event) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "plot.h"
@@ -10,22 +11,22 @@
 
 namespace trimtab::views {
 
-/// The decision as a surface over altitude and pitch: total membership by colour, the bands' edges as lines,
-/// the flight's track and the last frame's place on it. Of the active parameters, whatever their combination
-/// and readings; computed anew only when one of them or the view changes. Drag and wheel move the view,
-/// double click fits it.
+/// Shows the decision as a surface over altitude and pitch: total membership by colour, the bands' edges as
+/// lines, the flight's track and the last frame's place on it. It uses the active parameters, whatever their
+/// combination and readings, and is computed anew only when one of them or the view changes. Dragging moves
+/// the view, the wheel with Ctrl zooms it, and a double click fits it.
 class SurfacePlot : public Plot {
   Q_OBJECT
  public:
   explicit SurfacePlot(Draft& draft, QWidget* parent = nullptr);
   void showFrame(const LiveFrame& frame);
 
-  /// Total membership that is drawn at a place; NaN outside.
+  /// Returns the total membership that is drawn at a place; NaN outside the view.
   double totalAt(double altitudeFt, double pitchDeg) const;
-  /// Points of the lines of the bands' edges, apart by NaN.
+  /// Returns the points of the lines of the bands' edges; NaN parts the lines.
   const QCPCurve& edges() const { return *edges_; }
   const std::vector<CurvePoint>& track() const { return track_; }
-  /// How often the surface was computed.
+  /// Returns how often the surface was computed.
   int computed() const { return computed_; }
   QString hoverText() const { return hover_->text(); }
 
@@ -50,11 +51,10 @@ class SurfacePlot : public Plot {
   QCPCurve *edgesHalo_, *edges_, *trackHalo_, *trackLine_;
   QCPGraph* live_;
   QCPItemText* hover_;
-  TuningParameters shown_;  ///< that the surface was computed of
-  bool everComputed_ = false;
+  TuningParameters shown_;  ///< from which the surface was computed
   int computed_ = 0;
-  FrameDecision decision_;
-  bool any_ = false, trackMoved_ = false;
+  std::optional<CurvePoint> now_;  ///< altitude and pitch of the last frame
+  bool trackMoved_ = false;
   std::vector<CurvePoint> track_;
   Throttle surfaceThrottle_, liveThrottle_;
 };

@@ -30,6 +30,7 @@ class SweepPlot : public Plot {
 
  protected:
   void restyle() override;
+  void resized() override { arrangeLegendAbove(); }
 
  private:
   QCPGraph *ms_, *flip_, *budget_, *best_;

@@ -44,7 +44,7 @@ void TimeCursor::place(std::optional<double> time) {
   const QCPRange shown = flag_->position->keyAxis()->range();
   flag_->setVisible(flagged_ && time && shown.contains(*time));
   if (!time) return;
-  // Towards the middle, so that no edge cuts it.
+  // The flag is on the side of the middle, so that no edge cuts it.
   const bool left = *time > shown.center();
   flag_->setPositionAlignment((left ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignTop);
   flag_->position->setCoords(*time, 0);

@@ -123,7 +123,8 @@ std::pair<std::uint64_t, std::uint64_t> TimePlot::framesShown() const {
 double TimePlot::topOf(const Side& side, double atLeast, const QString& unit, QStringList& beyond) const {
   const double most = kMostOverUsual * std::max(side.usual, atLeast);
   if (!robust_ || most <= 0 || side.largest <= most) return std::max(side.largest, atLeast);
-  beyond << tr("longest %1 %2 ↑").arg(numberText(side.largest, 0), unit).simplified();
+  const QString text = unit == QStringLiteral("ms") ? tr("longest %1 %2 ↑") : tr("largest %1 %2 ↑");
+  beyond << text.arg(numberText(side.largest, side.largest < 10 ? 2 : 0), unit).simplified();
   return std::max(most, atLeast);
 }
 
@@ -148,8 +149,8 @@ void TimePlot::draw() {
         side.largest = std::max(side.largest, heights.largest);
         side.usual = std::max(side.usual, heights.usual);
         side.least = std::min(side.least, heights.least);
-        if (heights.largest > 0 && !lanes_[i].legend->hasItemWithPlottable(trace))
-          trace->addToLegend(lanes_[i].legend);
+        const bool measured = heights.largest > 0 || heights.least < 0;
+        if (measured && !lanes_[i].legend->hasItemWithPlottable(trace)) trace->addToLegend(lanes_[i].legend);
       }
   }
   for (std::size_t i = 0; i < lanes_.size(); ++i) drawLane(lanes_[i], sides[i].left, sides[i].right);

@@ -13,55 +13,56 @@
 
 namespace trimtab::views {
 
-/// Lanes against one time axis, each with the signals that a person put into it; a budget line, two cursors,
-/// a chosen frame, a tracker, and marks of what happened beside the frames. It draws what a TraceBuffer and a
-/// PlotMarks hold and owns no data.
+/// Shows lanes against one time axis, each with the signals that a person put into it; a budget line, two
+/// cursors, a chosen frame, a tracker, and marks of what happened beside the frames. It draws what a
+/// TraceBuffer and a PlotMarks hold and owns no data.
 class TimePlot : public Plot {
   Q_OBJECT
  public:
   /// `marks` may be null.
   TimePlot(const TraceBuffer& buffer, const PlotMarks* marks, PlotLanes lanes, QWidget* parent = nullptr);
 
-  /// Draws the buffer again; with `follow`, the newest frame is at the right edge.
+  /// Draws the buffer again. With `follow`, the newest frame is at the right edge.
   void refresh(bool follow);
   QCPRange shown() const { return timeAxis()->range(); }
   void setShown(double from, double to);
   void setSpan(double seconds);
   double span() const { return span_; }
   void setBudget(double ms);
-  /// Whether one frame far above all others leaves the axis to them; it is named then. On from the start.
+  /// Chooses whether a few values far above all others are cut off by the axis, and the largest is named; on
+  /// from the start.
   void setRobust(bool on);
   bool isRobust() const { return robust_; }
-  /// Shows no frame from now on that is not there yet, or all that come. Unset: all.
+  /// Shows only frames before this one from now on; all that come if it is unset.
   void hold(std::optional<std::uint64_t> end);
-  /// One past the newest frame that is shown.
+  /// Returns one past the newest frame that may be shown.
   std::uint64_t end() const { return held_ ? std::min(*held_, buffer_.end()) : buffer_.end(); }
-  /// The frame at a time, if one of those shown is near it.
+  /// Returns the frame at a time; nothing if none of those that may be shown is near it.
   std::optional<std::uint64_t> frameAt(double time) const { return buffer_.at(time, end()); }
-  /// The frames within the shown range: from `first` up to `second`.
+  /// Returns the frames within the shown range: from `first` up to `second`.
   std::pair<std::uint64_t, std::uint64_t> framesShown() const;
 
   const PlotLanes& lanes() const { return content_; }
-  /// Shows other signals. All TraceGraph of before are gone.
+  /// Shows other signals. The graphs of `traces()` are made anew.
   void setLanes(PlotLanes lanes);
   void addSignal(std::size_t lane, Trace trace);
   void removeSignal(std::size_t lane, Trace trace);
   void addLane(PlotLane lane);
   void removeLane(std::size_t lane);
-  /// The lane that keys and lists put signals into: the one that was clicked last.
+  /// Returns the lane that keys and lists put signals into: the one that was clicked last.
   std::size_t currentLane() const { return current_; }
   QCPAxisRect* laneRect(std::size_t lane) const { return lanes_[lane].rect; }
-  /// Places the lanes for the room that the parent has: one column, or two where it is wide and low.
+  /// Places the lanes in the room that the parent has: in one column, or in two if it is wide and low.
   void arrange();
 
   bool hasCursors() const { return cursors_.has_value(); }
   void setCursors(bool on);
-  /// Time of cursor 0 (A) or 1 (B); they snap to frames when read, not when moved.
+  /// Returns the time of cursor 0 (A) or 1 (B); 0 while there are none. It may lie between two frames.
   double cursor(int which) const { return cursors_ ? (*cursors_)[static_cast<std::size_t>(which)] : 0; }
   void moveCursor(int which, double time);
-  /// Marks a frame; unset: none.
+  /// Marks the frame at a time; none if it is unset.
   void choose(std::optional<double> time);
-  /// Shows where the pointer is in another plot of the same clock; NaN: nowhere. Emits nothing.
+  /// Shows where the pointer is in another plot of the same clock, without a signal. NaN hides it.
   void showTracker(double time);
   QPointF pixelOfTime(double time) const;
 
@@ -122,7 +123,7 @@ class TimePlot : public Plot {
   QCPAxis* timeAxis() const { return lanes_.front().rect->axis(QCPAxis::atBottom); }
   void draw();
   void drawLane(Lane& lane, const Side& left, const Side& right);
-  /// Where an axis ends; adds what reaches beyond to `beyond`.
+  /// Returns where an axis ends, and adds to `beyond` the text that names a value beyond it.
   double topOf(const Side& side, double atLeast, const QString& unit, QStringList& beyond) const;
   void placeCursors();
   void zoom(double factor, double anchor);

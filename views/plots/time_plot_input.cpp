@@ -8,10 +8,10 @@
 namespace trimtab::views {
 
 namespace {
-constexpr double kGrabPx = 7, kPanPx = 4;
+constexpr double kTimeGrabPx = 7, kPanPx = 4;
 }
 
-/// In the lane under the pointer, because lanes may stand in two columns.
+/// Asks the lane under the pointer, because lanes may be in two columns.
 double TimePlot::timeAtPixel(QPointF pixel) const {
   return lanes_[laneAt(pixel)].rect->axis(QCPAxis::atBottom)->pixelToCoord(pixel.x());
 }
@@ -23,7 +23,7 @@ double TimePlot::secondsPerPixel() const {
 int TimePlot::cursorAt(QPointF pixel) const {
   if (!cursors_) return -1;
   int nearest = -1;
-  double best = kGrabPx * secondsPerPixel();
+  double best = kTimeGrabPx * secondsPerPixel();
   const double time = timeAtPixel(pixel);
   for (int i = 0; i < 2; ++i)
     if (const double d = std::abs(cursor(i) - time); d < best) {

@@ -159,7 +159,7 @@ void TimePlot::addTextsOf(Lane& lane) {
 }
 
 void TimePlot::addStages(Lane& lane) {
-  // The highest edge first: each next one is drawn over its foot.
+  // The highest area comes first, and each next one is drawn over its lower part.
   constexpr int kStageColours[]{3, 6, 1, 2, 0};
   for (std::size_t i = kStack.size(); i-- > 0;) {
     const PlotSignal& signal = signalOf(kStack[i].stage);
@@ -168,7 +168,7 @@ void TimePlot::addStages(Lane& lane) {
               QCPScatterStyle::ssNone, Qt::SolidLine, 1, signal.decimals, true},
              false);
   }
-  // What runs beside the stages, and parts of one of them.
+  // These run beside the stages, or are parts of one of them.
   constexpr int kColour[]{5, 4, 6, 2};
   std::size_t at = 0;
   for (const Trace trace : {Trace::gpu_ms, Trace::blur_ms, Trace::weather_ms, Trace::symbology_ms}) {
@@ -193,7 +193,7 @@ void TimePlot::addTrace(Lane& lane, TraceGraph::Look look, bool right) {
 }
 
 void TimePlot::arrange() {
-  // One above the other, or in two columns where the dock is wide and too low for that.
+  // The lanes are one above the other, or in two columns if the dock is wide and too low for that.
   const QSize room = parentWidget() ? parentWidget()->size() : size();
   const int count = static_cast<int>(lanes_.size());
   const int columns =
@@ -204,7 +204,7 @@ void TimePlot::arrange() {
   plotLayout()->simplify();
   const int rows = (count + columns - 1) / columns;
   for (int i = 0; i < count; ++i) {
-    // Down the first column, then down the second.
+    // They fill the first column from the top, then the second.
     const Lane& lane = lanes_[static_cast<std::size_t>(i)];
     plotLayout()->addElement(i % rows, i / rows, lane.cell);
     lane.rect->setMarginGroup(QCP::msLeft | QCP::msRight, columnMargins_[static_cast<std::size_t>(i / rows)]);
@@ -219,7 +219,8 @@ QSize TimePlot::minimumSizeHint() const {
   return {260, std::max(leastHeight_, 120)};
 }
 
-/// Legends need more rows in a narrow dock; what holds the plots must know, to scroll them.
+/// Legends need more rows in a narrow dock. The scroll area around the plot learns the height from its size
+/// hint.
 void TimePlot::onLaidOut() {
   const int least = plotLayout()->minimumOuterSizeHint().height();
   if (least == leastHeight_) return;

@@ -31,8 +31,8 @@ void TimePlot::Marks::drawSpan(QCPPainter* painter, const PlotMarks::Span& span,
   const QFontMetrics metrics(plot_.font());
   const double width = metrics.horizontalAdvance(text) + 6;
   if (width > shape.width() && to < area.right()) return;
-  const double left = std::clamp(from, double(area.left()), area.right() - width);
-  // Silence is said at the foot, recording at the top, so that neither covers the other.
+  const double left = std::max(double(area.left()), std::min(from, area.right() - width));
+  // Silence is named at the bottom and a recording at the top, so that neither text covers the other.
   const double top = silent ? area.bottom() - metrics.height() - kTickPx : area.top() + kBarPx;
   QColor back = plot_.palette().color(QPalette::Base);
   back.setAlpha(220);

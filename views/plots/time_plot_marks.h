@@ -5,11 +5,11 @@
 
 namespace trimtab::views {
 
-/// What happened beside the frames, over one lane: a hatched stretch where the host was silent, a bar along
-/// the top while a trace was recorded, a tick at the foot for each change of the decision.
+/// Draws over one lane what happened beside the frames: a hatched stretch where the host was silent, a bar
+/// along the top while a trace was recorded, and a tick at the bottom for each change of the decision.
 class TimePlot::Marks : public QCPAbstractItem {
  public:
-  /// The first lane says in words what a stretch is.
+  /// Only the first lane names a stretch in words.
   Marks(TimePlot& plot, const PlotMarks& marks, QCPAxisRect* lane, bool first);
   double selectTest(const QPointF&, bool, QVariant*) const override { return -1; }
 

@@ -11,9 +11,9 @@ namespace trimtab::views {
 TraceGraph::TraceGraph(QCPAxis* timeAxis, QCPAxis* valueAxis, Look look)
     : QCPGraph(timeAxis, valueAxis), look_(std::move(look)) {
   setName(look_.fullName());
-  setAdaptiveSampling(false);  // columns() has done it
+  setAdaptiveSampling(false);  // TraceBuffer::columns() has sampled already
   setSelectable(QCP::stNone);
-  setAntialiased(false);  // a third of the time, and hardly to be seen on steep traces
+  setAntialiased(false);  // takes a third of the time, and steep traces hardly show a difference
 }
 
 const PlotSignal& TraceGraph::signal() const {
@@ -53,8 +53,11 @@ TraceGraph::Heights TraceGraph::take(const TraceBuffer& buffer, std::uint64_t fr
   data()->set(points_, true);
   markers_.clear();
   if (from < to && markerStepS > 0) {
-    const double first = std::ceil(buffer.time(std::max(from, buffer.begin())) / markerStepS) * markerStepS;
-    for (double t = first; t <= buffer.time(to - 1); t += markerStepS) {
+    // The frames beside the view may be hours away from it.
+    const QCPRange view = keyAxis()->range();
+    const double first = std::max(buffer.time(std::max(from, buffer.begin())), view.lower);
+    const double end = std::min(buffer.time(to - 1), view.upper);
+    for (double t = std::ceil(first / markerStepS) * markerStepS; t <= end; t += markerStepS) {
       const std::uint64_t frame = std::min(buffer.nearest(t), to - 1);
       if (const double v = buffer.value(look_.trace, frame) * look_.scale; std::isfinite(v))
         markers_.append({buffer.time(frame), v});

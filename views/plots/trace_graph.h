@@ -7,8 +7,8 @@
 
 namespace trimtab::views {
 
-/// One trace against time: extremes by screen column, and a few markers of its own shape, so that colour is
-/// not the only thing that tells traces apart.
+/// Draws one trace against time: the extremes of each screen column, and a few markers of its own shape, so
+/// that traces differ by more than their colour.
 class TraceGraph : public QCPGraph {
   Q_OBJECT
  public:
@@ -29,7 +29,8 @@ class TraceGraph : public QCPGraph {
 
   TraceGraph(QCPAxis* timeAxis, QCPAxis* valueAxis, Look look);
   const Look& look() const { return look_; }
-  /// What a person reads: of a stacked area, which draws its upper edge, the stage itself.
+  /// Returns the signal whose values a person reads. For a stacked area, whose graph is its upper edge, this
+  /// is the stage.
   const PlotSignal& signal() const;
   void colour(const QPalette& palette);
   struct Heights {
@@ -37,7 +38,7 @@ class TraceGraph : public QCPGraph {
     double usual = 0;  ///< one screen column in twenty reaches higher
     double least = 0;  ///< 0 where nothing is below
   };
-  /// Draws frames from `from` up to `to`; markers at multiples of `markerStepS`.
+  /// Takes the frames from `from` up to `to`, with markers at multiples of `markerStepS` within the view.
   Heights take(const TraceBuffer& buffer, std::uint64_t from, std::uint64_t to, std::size_t columns,
                double markerStepS);
 

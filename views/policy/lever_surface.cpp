@@ -11,15 +11,15 @@
 
 #include "term_edit.h"
 #include "trimtab/preset/policy_lines.h"
+#include "trimtab/units/not_finite.h"
 #include "views/model/theme.h"
 #include "views/plots/cividis.h"
 
 namespace trimtab::views {
 namespace {
 
-// Some four milliseconds to compute for 40 rules; the picture interpolates between.
+// So many take some four milliseconds to compute for 40 rules, and the colour map interpolates between them.
 constexpr int kColumns = 121, kRows = 81, kSurfaceMs = 200;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// Another signal that moves by less than this part of its range leaves the surface as it is.
 constexpr double kSteady = 0.01;
 
@@ -76,15 +76,7 @@ void LeverSurface::makePlottables() {
   QCPColorGradient gradient = cividis();
   gradient.setNanHandling(QCPColorGradient::nhTransparent);
   map_->setGradient(gradient);
-  scale_ = new QCPColorScale(this);
-  scale_->setGradient(gradient);
-  scale_->setBarWidth(12);
-  scale_->setRangeDrag(false);
-  scale_->setRangeZoom(false);
-  plotLayout()->addElement(0, 1, scale_);
-  auto* margins = new QCPMarginGroup(this);
-  axisRect()->setMarginGroup(QCP::msTop | QCP::msBottom, margins);
-  scale_->setMarginGroup(QCP::msTop | QCP::msBottom, margins);
+  scale_ = addColourScale(gradient);
   const auto curve = [this](const QColor& ink, double width) {
     auto* made = new QCPCurve(xAxis, yAxis);
     made->setLayer(QStringLiteral("live"));
@@ -106,11 +98,7 @@ void LeverSurface::makePlottables() {
 
 void LeverSurface::restyle() {
   applyTheme(*this);
-  const QColor ink = palette().color(QPalette::Text);
-  scale_->axis()->setLabelColor(ink);
-  scale_->axis()->setTickLabelColor(ink);
-  scale_->axis()->setTickLabelFont(font());
-  scale_->axis()->setLabelFont(font());
+  applyThemeTo(*scale_);
   empty_->setColor(quietColour(palette()));
   empty_->setFont(font());
   replot(rpQueuedReplot);
@@ -192,8 +180,8 @@ void LeverSurface::compute() {
 double LeverSurface::targetAt(double x, double y) const {
   if (!xAxis->range().contains(x) || !yAxis->range().contains(y)) return kNan;
   SignalValues place = around_;
-  place[x_] = x;
   place[y_] = y;
+  place[x_] = x;
   PolicyDecision decision;
   compiled_.decide(place, decision);
   return decision.target[lever_];

@@ -6,14 +6,13 @@
 #include <QToolTip>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "trimtab/units/not_finite.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMostRules = 4;
 
 /// Where a value lies on the bar, 0..1.
@@ -167,8 +166,7 @@ bool LeversView::event(QEvent* event) {
   QToolTip::showText(
       help.globalPos(),
       tr("<p><b>%1</b>: %2.</p><p>It is %3.</p><p>Hard limits %4 to %5, usually %6 to %7 (shaded). Neutral "
-         "(dotted): "
-         "%8. %9</p>")
+         "(dotted): %8. %9</p>")
           .arg(fromView(row.label), fromView(row.means), bars_[static_cast<std::size_t>(at)].why,
                leverText(row.lever, row.hard.low), leverText(row.lever, row.hard.high),
                numberText(row.usual.low, 2), leverText(row.lever, row.usual.high),

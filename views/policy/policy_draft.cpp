@@ -69,7 +69,11 @@ void PolicyDraft::readTerms() {
     PolicyParameters one;
     one.terms.line = {text};
     const auto policy = policyOf(one);
-    read.push_back({text, policy ? std::optional(policy->terms.front()) : std::nullopt});
+    TermLine line;
+    line.text = text;
+    if (policy) line.term = policy->terms.front();
+    line.sound = line.term && isSound(*line.term);
+    read.push_back(std::move(line));
   }
   terms_ = std::move(read);
 }

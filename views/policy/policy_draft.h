@@ -19,6 +19,7 @@ class PolicyDraft : public QObject {
   struct TermLine {
     std::string text;
     std::optional<PolicyTerm> term;  ///< none if the line cannot be read
+    bool sound = false;              ///< whether there is a term whose membership can be computed
   };
   struct RuleLine {
     std::string text;

@@ -36,7 +36,10 @@ class PolicyTrack {
   /// Adds a frame's signals unless the last sample is younger than a tenth of a second. A clock that goes
   /// back, or a gap of some seconds, begins anew.
   void push(double time, const SignalValues& flight);
-  void clear() { samples_.clear(); }
+  void clear() {
+    samples_.clear();
+    ++revision_;
+  }
   const std::deque<Sample>& samples() const { return samples_; }
   /// Counts changes, so that a plot knows whether it has to draw.
   std::uint64_t revision() const { return revision_; }

@@ -176,6 +176,7 @@ void PolicyPanel::makeTabs() {
   Parts& p = parts_;
   p.tabs = new QTabWidget;
   p.tabs->setDocumentMode(true);
+  p.tabs->setAccessibleName(tr("Pages of the policy"));
   p.terms = new TermsPage(*policy_, *p.plot);
   p.rules = new RulesPage(*policy_);
   p.levers = new LeversView;

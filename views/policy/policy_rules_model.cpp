@@ -3,9 +3,9 @@
 
 #include <QMimeData>
 #include <cmath>
-#include <limits>
 
 #include "bar_cell.h"
+#include "trimtab/units/not_finite.h"
 #include "trimtab/units/number.h"
 #include "views/model/theme.h"
 
@@ -13,7 +13,6 @@ namespace trimtab::views {
 namespace {
 
 const QString kMime = QStringLiteral("application/x-trimtab-policy-rule");
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 

@@ -115,20 +115,11 @@ void RulesPage::resizeEvent(QResizeEvent* event) {
 }
 
 void RulesPage::makeActions() {
-  const auto action = [this](QToolButton* button, const QKeySequence& keys, auto act) {
-    auto* a = new QAction(button->text(), table_);
-    a->setShortcut(keys);
-    a->setShortcutContext(Qt::WidgetShortcut);
-    table_->addAction(a);
-    connect(a, &QAction::triggered, this, act);
-    connect(button, &QToolButton::clicked, this, act);
-  };
-  action(add_, Qt::Key_Insert, [this] { addRule(); });
-  action(duplicate_, Qt::CTRL | Qt::Key_D, [this] { duplicateRule(); });
-  action(remove_, Qt::Key_Delete, [this] { removeRule(); });
-  action(up_, Qt::ALT | Qt::Key_Up, [this] { moveRule(-1); });
-  action(down_, Qt::ALT | Qt::Key_Down, [this] { moveRule(1); });
-  table_->setContextMenuPolicy(Qt::ActionsContextMenu);
+  addCommand(*table_, *add_, Qt::Key_Insert, [this] { addRule(); });
+  addCommand(*table_, *duplicate_, Qt::CTRL | Qt::Key_D, [this] { duplicateRule(); });
+  addCommand(*table_, *remove_, Qt::Key_Delete, [this] { removeRule(); });
+  addCommand(*table_, *up_, Qt::ALT | Qt::Key_Up, [this] { moveRule(-1); });
+  addCommand(*table_, *down_, Qt::ALT | Qt::Key_Down, [this] { moveRule(1); });
 }
 
 void RulesPage::makeSearch() {

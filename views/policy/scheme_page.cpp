@@ -27,6 +27,7 @@ SchemePage::SchemePage(Draft& draft, QWidget* parent)
       rules_(new RulesPanel(draft)),
       surface_(new SurfacePlot(draft)) {
   setDocumentMode(true);
+  setAccessibleName(tr("Scheme of documents A and B"));
   addTab(scrollable(memberships_), tr("Memberships"));
   addTab(scrollable(rules_), tr("Rules"));
   addTab(surface_, tr("Surface"));

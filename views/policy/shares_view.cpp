@@ -4,15 +4,13 @@
 #include <QHeaderView>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "bar_cell.h"
+#include "trimtab/units/not_finite.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 bool same(double a, double b) {
   return a == b || (std::isnan(a) && std::isnan(b));

@@ -5,15 +5,14 @@
 #include <QRegularExpression>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "trimtab/units/not_finite.h"
 #include "trimtab/units/number.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// The membership one deviation from the mean, half-way to the slope's handle of a bell, and at the slope's
 /// handle of a sigmoid, which is two units of its exponent from the middle.
 const double kAtDeviation = std::exp(-0.5);
@@ -300,12 +299,6 @@ Range viewOf(Signal signal, const std::vector<PolicyTerm>& terms) {
   // Beyond the range of a signal nothing happens.
   return {std::max(low - margin, std::min(low, whole.low)),
           std::min(high + margin, std::max(high, whole.high))};
-}
-
-double roundedTo(double value, double step) {
-  if (step >= 1) return std::round(value / step) * step;
-  const double parts = std::round(1 / step);  // 57 * 0.01 is not 0.57
-  return std::round(value * parts) / parts;
 }
 
 double nudgeStep(Range view) {

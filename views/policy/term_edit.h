@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "trimtab/policy/policy.h"
+#include "views/model/rounded.h"
 
 /// What the editor of terms does to their numbers; no widgets here.
 namespace trimtab::views {
@@ -48,11 +49,9 @@ Range viewOf(Signal signal, const std::vector<PolicyTerm>& terms);
 /// Returns the step by which keys move a point in a view of this size: a round number.
 double nudgeStep(Range view);
 
-/// Returns the multiple of a round step that is nearest to a value, as the double that people would type.
-double roundedTo(double value, double step);
-
-/// Returns numbers as people type them, "-inf 0 500 1500", and the inverse with what was expected.
+/// Returns the numbers of a term as people type them: "-inf 0 500 1500".
 QString numbersText(const PolicyTerm& term);
+/// Reads such numbers; returns nothing if a word is no number.
 std::optional<std::vector<double>> readNumbers(const QString& text);
 /// Returns which numbers a shape takes, in words.
 QString numbersHelp(TermShape shape);

@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "trimtab/preset/policy_lines.h"
+#include "trimtab/units/not_finite.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
 namespace {
 
 constexpr double kTop = 1.1, kTrailLow = -0.24, kTrailHigh = -0.05, kTrailS = 10;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -28,8 +28,10 @@ TermPlot::TermPlot(PolicyDraft& policy, const PolicyTrack& track, QWidget* paren
   restyle();
   connect(&policy_, &PolicyDraft::termsChanged, this, [this] {
     if (termAt(term_) == nullptr) select(-1);
-    if (fitted_ && drag_.token == 0 && nudge_.token == 0) fitView();
-    redraw();
+    if (fitted_ && drag_.token == 0 && nudge_.token == 0)
+      fitView();
+    else
+      redraw();
   });
   connect(&policy_.draft(), &Draft::findingsChanged, this, [this] { drawPoints(); });
   connect(&policy_.draft(), &Draft::loaded, this, &TermPlot::fitView);
@@ -176,7 +178,8 @@ void TermPlot::drawCurves() {
   for (int s = 0; s <= steps; ++s) even << range.lower + range.size() * s / steps;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     QCPGraph& curve = *p.curves[qsizetype(i)];
-    const PolicyTerm& term = *policy_.terms()[lines[i]].term;
+    const PolicyDraft::TermLine& line = policy_.terms()[lines[i]];
+    const PolicyTerm& term = *line.term;
     const bool selected = static_cast<int>(lines[i]) == term_;
     const QColor colour = colourOf(i, palette());
     static constexpr Qt::PenStyle kDashes[] = {Qt::SolidLine, Qt::DashLine, Qt::DashDotLine};
@@ -184,7 +187,7 @@ void TermPlot::drawCurves() {
     curve.setName(QString::fromStdString(term.name));
     p.marks[qsizetype(i)]->setScatterStyle({QCPScatterStyle::ssDiamond, QPen(base, 1), QBrush(colour), 12});
     QVector<double> at, y;
-    if (isSound(term)) {
+    if (line.sound) {
       at = even;
       for (const TermHandle& handle : handlesOf(term, {range.lower, range.upper}))
         if (range.contains(handle.x))
@@ -206,6 +209,7 @@ void TermPlot::readGhosts() {
     const TuningParameters* values = policy_.draft().reference(kGhosts[i]);
     if (!values) continue;
     if (const auto policy = policyOf(values->policy)) ghostTerms_[i] = policy->terms;
+    std::erase_if(ghostTerms_[i], [](const PolicyTerm& term) { return !isSound(term); });
   }
 }
 
@@ -217,7 +221,7 @@ void TermPlot::drawGhosts(const QVector<double>& at) {
     for (const PolicyTerm& term : ghostTerms_[i]) {
       const bool same =
           std::ranges::any_of(lines, [&](std::size_t line) { return *policy_.terms()[line].term == term; });
-      if (term.signal != signal_ || same || !isSound(term)) continue;
+      if (term.signal != signal_ || same) continue;
       Ghosts::Line line;
       for (const double x : at) line << QPointF(x, membershipOf(term, x));
       drawn << line;
@@ -307,12 +311,12 @@ void TermPlot::drawTrail() {
   drawnTrack_ = track_.revision();
   QVector<QCPCurveData> points;
   if (!track_.samples().empty() && std::isfinite(value_)) {
-    const double now = track_.samples().back().time;
-    for (const PolicyTrack::Sample& sample : track_.samples()) {
-      const double age = now - sample.time, x = sample.flight[signal_];
-      if (age <= kTrailS)
-        points << QCPCurveData(double(points.size()), x,
-                               kTrailHigh + (kTrailLow - kTrailHigh) * age / kTrailS);
+    const auto& samples = track_.samples();
+    for (auto sample = samples.rbegin(); sample != samples.rend(); ++sample) {
+      const double age = samples.back().time - sample->time;
+      if (age > kTrailS) break;
+      points << QCPCurveData(double(points.size()), sample->flight[signal_],
+                             kTrailHigh + (kTrailLow - kTrailHigh) * age / kTrailS);
     }
   }
   parts_.trail->data()->set(points, true);

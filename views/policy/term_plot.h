@@ -30,7 +30,7 @@ class TermPlot : public Plot {
   QPointF pixelOf(double x, double y) const;
   void showLive(const PolicyLive& live);
   Range view() const { return {xAxis->range().lower, xAxis->range().upper}; }
-  /// Terms of the signal that file and pinned snapshot have otherwise.
+  /// Returns the terms of the signal that differ in the file and the pinned snapshot.
   const Ghosts& ghosts() const { return *ghosts_; }
   /// Returns the colour of a term of this signal, by its place among them.
   static QColor colourOf(std::size_t place, const QPalette& palette);
@@ -69,7 +69,7 @@ class TermPlot : public Plot {
   bool zoomByKey(double factor) override;
 
  private:
-  /// What the plot is made of.
+  /// The graphs and items of the plot.
   struct Parts {
     QList<QCPGraph*> curves, marks;
     QCPGraph *points = nullptr, *chosen = nullptr;
@@ -115,7 +115,8 @@ class TermPlot : public Plot {
   double value_ = std::numeric_limits<double>::quiet_NaN();
   std::uint64_t drawnTrack_ = 0;
   std::optional<Ghosts> ghosts_;
-  std::array<std::vector<PolicyTerm>, 2> ghostTerms_;  ///< of all signals, in the order of kGhosts
+  /// The sound terms of all signals, in the order of kGhosts.
+  std::array<std::vector<PolicyTerm>, 2> ghostTerms_;
   Parts parts_;
 };
 

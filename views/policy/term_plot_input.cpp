@@ -48,8 +48,8 @@ int TermPlot::curveAt(QPointF pixel) const {
   int nearest = -1;
   double best = kCurvePx;
   for (const std::size_t line : policy_.termsOf(signal_)) {
+    if (!policy_.terms()[line].sound) continue;
     const PolicyTerm& term = *policy_.terms()[line].term;
-    if (!isSound(term)) continue;
     // Steep flanks are hit from the side.
     for (double dx = -kCurvePx; dx <= kCurvePx; dx += 1) {
       const double y = membershipOf(term, xAxis->pixelToCoord(pixel.x() + dx));
@@ -71,7 +71,7 @@ double TermPlot::snapped(double x, bool toOthers) const {
         if (!other.open && std::abs(xAxis->coordToPixel(other.x) - xAxis->coordToPixel(x)) < kSnapPx)
           return other.x;
     }
-  // As round as the screen can show: no drag ends at 4987.3341 ft.
+  // Values are as round as the screen can show, so that no drag ends at 4987.3341 ft.
   return roundedTo(x, roundStep(xAxis->range().size() / std::max(1, axisRect()->width())));
 }
 
@@ -146,7 +146,9 @@ void TermPlot::mouseDoubleClickEvent(QMouseEvent* event) {
 
 void TermPlot::cancelDrag() {
   const Move drag = std::exchange(drag_, {});
-  policy_.putTerm(static_cast<std::size_t>(term_), drag.start, QString(), drag.token);
+  // A key may have removed the term meanwhile.
+  if (termAt(term_) != nullptr)
+    policy_.putTerm(static_cast<std::size_t>(term_), drag.start, QString(), drag.token);
   setCursor(Qt::ArrowCursor);
 }
 
@@ -297,8 +299,8 @@ void TermPlot::say(const std::optional<QPointF>& at) {
     }
     text += signalText(signal_, x);
     for (const std::size_t line : policy_.termsOf(signal_)) {
+      if (!policy_.terms()[line].sound) continue;
       const PolicyTerm& term = *policy_.terms()[line].term;
-      if (!isSound(term)) continue;
       const double mu = membershipOf(term, x);
       if (mu >= 0.005 || static_cast<int>(line) == term_)
         text += QStringLiteral("\n%1 %2").arg(QString::fromStdString(term.name), QString::number(mu, 'f', 2));

@@ -51,9 +51,9 @@ void TermsModel::showLive(const PolicyLive& live) {
   const double x = live.decided ? live.flight[signal_] : std::numeric_limits<double>::quiet_NaN();
   const Range range = rowOf(signal_).range;
   for (int row = 0; row < rowCount(); ++row) {
-    const auto& term = lineAt(row).term;
-    const double now = term && !std::isnan(x) && isSound(*term)
-                           ? shownShare(membershipOf(*term, std::clamp(x, range.low, range.high)))
+    const PolicyDraft::TermLine& line = lineAt(row);
+    const double now = line.sound && !std::isnan(x)
+                           ? shownShare(membershipOf(*line.term, std::clamp(x, range.low, range.high)))
                            : std::numeric_limits<double>::quiet_NaN();
     double& shown = memberships_[static_cast<std::size_t>(row)];
     if (now == shown || (std::isnan(now) && std::isnan(shown))) continue;
@@ -63,7 +63,9 @@ void TermsModel::showLive(const PolicyLive& live) {
 }
 
 QVariant TermsModel::data(const QModelIndex& index, int role) const {
-  if (!index.isValid() || index.row() >= static_cast<int>(lines_.size())) return {};
+  // The plot hears of a term that was removed before this model does, and the table asks meanwhile.
+  const int asked = index.isValid() ? lineOf(index.row()) : -1;
+  if (asked < 0 || static_cast<std::size_t>(asked) >= policy_.terms().size()) return {};
   const PolicyDraft::TermLine& line = lineAt(index.row());
   const double now = memberships_[static_cast<std::size_t>(index.row())];
   if (role == Qt::DisplayRole || role == Qt::EditRole) {
@@ -84,7 +86,7 @@ QVariant TermsModel::data(const QModelIndex& index, int role) const {
   if (role == kBarColourRole && line.term)
     return TermPlot::colourOf(static_cast<std::size_t>(index.row()), QPalette());
   if (role == kBarRole && index.column() == kNow && !std::isnan(now)) return now;
-  if (role == Qt::ForegroundRole && (!line.term || !isSound(*line.term))) return errorColour(QPalette());
+  if (role == Qt::ForegroundRole && !line.sound) return errorColour(QPalette());
   if (role == Qt::ToolTipRole) {
     if (!line.term) return tr("This line cannot be read: %1").arg(QString::fromStdString(line.text));
     const QString unit = fromView(rowOf(signal_).unit);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "terms_page.h"
 
-#include <QAction>
 #include <QBoxLayout>
 #include <QComboBox>
 #include <QHeaderView>
@@ -120,20 +119,11 @@ TermsPage::TermsPage(PolicyDraft& policy, TermPlot& plot, QWidget* parent)
 }
 
 void TermsPage::makeActions() {
-  const auto action = [this](QToolButton* button, const QKeySequence& keys, auto act) {
-    auto* a = new QAction(button->text(), table_);
-    a->setShortcut(keys);
-    a->setShortcutContext(Qt::WidgetShortcut);
-    table_->addAction(a);
-    connect(a, &QAction::triggered, this, act);
-    connect(button, &QToolButton::clicked, this, act);
-  };
-  action(add_, Qt::Key_Insert, [this] { addTerm(); });
-  action(duplicate_, Qt::CTRL | Qt::Key_D, [this] { duplicateTerm(); });
-  action(remove_, Qt::Key_Delete, [this] { removeTerm(); });
-  action(copy_, QKeySequence::Copy, [this] { plot_.copyShape(); });
-  action(paste_, QKeySequence::Paste, [this] { plot_.pasteShape(); });
-  table_->setContextMenuPolicy(Qt::ActionsContextMenu);
+  addCommand(*table_, *add_, Qt::Key_Insert, [this] { addTerm(); });
+  addCommand(*table_, *duplicate_, Qt::CTRL | Qt::Key_D, [this] { duplicateTerm(); });
+  addCommand(*table_, *remove_, Qt::Key_Delete, [this] { removeTerm(); });
+  addCommand(*table_, *copy_, QKeySequence::Copy, [this] { plot_.copyShape(); });
+  addCommand(*table_, *paste_, QKeySequence::Paste, [this] { plot_.pasteShape(); });
 }
 
 int TermsPage::selectedLine() const {

@@ -137,6 +137,9 @@ struct ReferenceKey {
   WeatherDecision weather;
   double time = 0;                                                  ///< only where something falls
   std::optional<Velocity> velocity;                                 ///< likewise
+  Wind wind;                                                        ///< likewise
+  Vec3 airDrift;                                                    ///< likewise
+  PrecipitationLook rain, snow;                                     ///< likewise
   PrecipitationForm precipitationForm = PrecipitationForm::effect;  ///< likewise
   std::optional<FadingPrecipitation> fading;
   std::optional<SymbologyRequest> symbology;
@@ -146,14 +149,17 @@ struct ReferenceKey {
 
 ReferenceKey keyOf(const FrameRequest& r) {
   const WeatherDecision& w = r.decision.weather;
-  ReferenceKey key{r.eye,       r.attitude,
-                   r.view,      {},
-                   0,           {},
-                   {},          r.fading,
-                   r.symbology, asksForTrees(r) ? TerrainForm::static_trees : r.staticLod.terrain};
+  ReferenceKey key;
+  key.eye = r.eye;
+  key.attitude = r.attitude;
+  key.view = r.view;
+  key.fading = r.fading;
+  key.symbology = r.symbology;
+  key.form = asksForTrees(r) ? TerrainForm::static_trees : r.staticLod.terrain;
   if (w.fogged) {
     key.weather.fogged = true;
     key.weather.extinctionPerM = w.extinctionPerM;
+    key.weather.layerTopM = w.layerTopM;
   }
   if (r.fading || (w.density > 0 && w.precipitation != Precipitation::none)) {
     key.precipitationForm = r.precipitationForm;
@@ -161,6 +167,10 @@ ReferenceKey keyOf(const FrameRequest& r) {
     key.weather.density = w.density;
     key.time = r.time;
     key.velocity = r.velocity;
+    key.wind = r.wind;
+    key.airDrift = r.airDrift;
+    key.rain = r.rain;
+    key.snow = r.snow;
   }
   return key;
 }

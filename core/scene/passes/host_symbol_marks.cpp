@@ -14,7 +14,7 @@
 namespace trimtab::scene {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 constexpr double kThinnestPx = 1;
 constexpr double kCapital = 0.7;  ///< share of a text's font size; the rest is descenders and padding
 
@@ -41,7 +41,8 @@ struct Affine {
 };
 
 Affine placeOf(const HostSymbol& s) {
-  const double turn = static_cast<double>(s.rotationDeg) * kDegree, c = std::cos(turn), n = std::sin(turn);
+  const double turn = static_cast<double>(s.rotationDeg) * kRadiansPerDegree, c = std::cos(turn),
+               n = std::sin(turn);
   const double u = s.scaleU, v = s.scaleV;
   return {{c * u, n * u}, {-n * v, c * v}, {s.u, s.v}};
 }
@@ -218,7 +219,7 @@ void Marker::circle(const HostArc& arc) {
   const int sides =
       static_cast<int>(std::ceil(std::clamp(4.5 * std::sqrt(radiusPx), 12.0, 240.0) * sweep / 360));
   const auto on = [&](double radius, int i) {
-    const double turn = (start + sweep * i / sides) * kDegree;
+    const double turn = (start + sweep * i / sides) * kRadiansPerDegree;
     return toPixels_.at(arc.u + radius * std::cos(turn), arc.v + radius * std::sin(turn));
   };
   for (int i = 0; i < sides; ++i) {

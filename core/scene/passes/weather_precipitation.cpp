@@ -48,10 +48,6 @@ float fraction(double x) {
   return std::isfinite(x) ? static_cast<float>(x - std::floor(x)) : 0.f;
 }
 
-osg::Vec3f toFloat(Vec3 v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
 bool isFinite(Vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }

@@ -1,8 +1,8 @@
 #include "trimtab/terrain/format/level_report.h"
+#include "trimtab/units/not_finite.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace trimtab::terrain {
 
@@ -32,7 +32,6 @@ std::vector<LevelReport> levelsOf(const PatchTerrain& patches) {
 }
 
 std::vector<LevelReport> levelsOf(const TerrainIndex& tiles) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr std::uint64_t kTrianglesPerTile = 2 * TerrainIndex::kTileCells * TerrainIndex::kTileCells;
   std::vector<LevelReport> levels;
   for (const TerrainIndex::Level& level : tiles.levels) {

@@ -1,20 +1,18 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "app/experiment/published.h"
 #include "app/experiment/report.h"
 #include "tests/support.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab::experiment {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Cells of a CSV without quotes; lines that begin with # are comments.
 std::vector<std::vector<std::string>> readCsv(const std::filesystem::path& file) {

@@ -3,15 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "app/harness/text.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab::harness {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// A unit of a hundred frames: `over` of them take 20 ms, the others 10 ms.
 Unit unitOf(const char* preset, int over, double flip, const char* method = "proposed") {
@@ -60,9 +58,10 @@ TEST(Answer, theBestFitsAndHasTheSmallestFlip) {
   ASSERT_EQ(answer.rows.size(), 3u);
   ASSERT_TRUE(answer.best);
   EXPECT_EQ(answer.rows[*answer.best].name.preset, "middle");
-  EXPECT_EQ(answer.why,
-            "middle (proposed) is the best under 16.7 ms: 97 % of its frames are within it (p95 10 ms). Of the 2 "
-            "that fit, it has the smallest FLIP, 0.0112; coarse (proposed) follows with 0.0213.");
+  EXPECT_EQ(
+      answer.why,
+      "middle (proposed) is the best under 16.7 ms: 97 % of its frames are within it (p95 10 ms). It has the "
+      "smallest FLIP of the 2 that fit, 0.0112; coarse (proposed) follows with 0.0213.");
 }
 
 TEST(Answer, aDifferenceOfFlipThatNobodyReadsLeavesItToTheTime) {

@@ -1,13 +1,13 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <limits>
 #include <pugixml.hpp>
 #include <sstream>
 
 #include "app/harness/report.h"
 #include "app/harness/run.h"
 #include "report_results.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab::harness {
 namespace {
@@ -15,9 +15,6 @@ namespace {
 using test_results::results;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 struct Page {
   std::string text;
@@ -251,16 +248,16 @@ TEST(HtmlReport, whatIsNoNumberIsBlankAndNeverNan) {
       if (!q.whole) q.set(frame, kNan);
     frame.timeS = kNan;
   }
-  r.units[2].frames[0].error.psnrDb = kInf;
-  r.units[2].frames[1].error.flip = -kInf;
-  r.units[3].frames[2].cost.total = kInf;
+  r.units[2].frames[0].error.psnrDb = kInfinity;
+  r.units[2].frames[1].error.flip = -kInfinity;
+  r.units[3].frames[2].cost.total = kInfinity;
   r.budgetMs = kNan;
   r.comparisons = {{r.units[0].name, r.units[1].name, {kNan, kNan, kNan, 0}},
-                   {r.units[0].name, r.units[2].name, {1.2, 0, kInf, 3}}};
+                   {r.units[0].name, r.units[2].name, {1.2, 0, kInfinity, 3}}};
   const Page page = pageOf(r, dir.path());
   const auto errors = cellsOf(tableOf(page, "summary", 1));
   EXPECT_TRUE(std::isnan(valueOf(errors[1], "FLIP")));
-  EXPECT_EQ(valueOf(errors[0], "PSNR"), kInf);
+  EXPECT_EQ(valueOf(errors[0], "PSNR"), kInfinity);
   EXPECT_TRUE(std::isfinite(valueOf(errors[2], "PSNR"))) << "one equal picture does not make the rest equal";
   for (const auto& found :
        page.document.select_nodes("//text()[not(ancestor::script) and not(ancestor::style)] | "

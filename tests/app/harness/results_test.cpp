@@ -10,11 +10,10 @@
 #include <random>
 #include <set>
 
+#include "trimtab/units/not_finite.h"
+
 namespace trimtab::harness {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Any bits at all, so that every kind of number is met.
 double anyDouble(std::mt19937_64& random) {

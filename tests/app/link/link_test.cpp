@@ -292,13 +292,14 @@ TEST(Link, costsNothingWhileNoHostSends) {
     return static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec) * 1e-6 +
            static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec);
   };
+  constexpr double kIdle = 0.01;
   double least = 1;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3 && least >= kIdle; ++i) {
     const double before = used();
     std::this_thread::sleep_for(1s);
     least = std::min(least, used() - before);
   }
-  EXPECT_LT(least, 0.01);
+  EXPECT_LT(least, kIdle);
 }
 
 TEST(Link, tapsEveryDatagramBadOnesToo) {

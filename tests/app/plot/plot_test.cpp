@@ -3,20 +3,17 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <limits>
 #include <pugixml.hpp>
 
 #include "app/plot/svg.h"
 #include "tests/support.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab::plot {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 pugi::xml_document parsed(const std::string& svg) {
   pugi::xml_document document;
@@ -96,10 +93,10 @@ TEST(Scatter, aLogarithmicAxisSpacesDecadesEvenlyAndKeepsZeroApart) {
 }
 
 TEST(Scatter, whatIsNoNumberIsNoPointAndWhiskersMayBeAbsent) {
-  Plot plot{"f", "t", "x", "y", {}, {{"s", {1, kNan, 3, kInf}, {1, 2, 3, 4}, Series::Draw::joined}}};
+  Plot plot{"f", "t", "x", "y", {}, {{"s", {1, kNan, 3, kInfinity}, {1, 2, 3, 4}, Series::Draw::joined}}};
   plot.legend = false;
   plot.series[0].yLow = {0.5, 0.5, kNan, 1};
-  plot.series[0].yHigh = {1.5, kInf, kNan, kInf};
+  plot.series[0].yHigh = {1.5, kInfinity, kNan, kInfinity};
   const std::string svg = toSvg(plot);
   EXPECT_EQ(marksX(parsed(svg)).size(), 2u);
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
@@ -153,8 +150,8 @@ TEST(Rows, anIntervalWithoutEndRunsToTheEdge) {
   Plot plot{"f", "t", "ratio", "", {"a"}, {{"r", {}, {1.1}, Series::Draw::points}}};
   plot.kind = Plot::Kind::rows;
   plot.logX = true;
-  plot.series[0].xLow = {-kInf};
-  plot.series[0].xHigh = {kInf};
+  plot.series[0].xLow = {-kInfinity};
+  plot.series[0].xHigh = {kInfinity};
   plot.guides = {{Guide::Axis::x, 1, "equal"}};
   const std::string svg = toSvg(plot);
   EXPECT_THAT(svg, Not(HasSubstr("inf")));

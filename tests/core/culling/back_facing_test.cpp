@@ -1,4 +1,5 @@
 #include "trimtab/culling/back_facing.h"
+#include "trimtab/units/not_finite.h"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +15,7 @@
 namespace trimtab {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kInfinityF = std::numeric_limits<float>::infinity();
 
 Vec3 anyDirection(std::mt19937& random) {
   std::normal_distribution<double> normal;
@@ -107,8 +107,8 @@ TEST(FacesAway, isFalseForWhatIsNotANumberAndForAnEyeInsideTheBox) {
   EXPECT_FALSE(facesAway(cone, box, {0, 0, -0.5}));
   EXPECT_FALSE(facesAway(cone, box, {kNan, 0, -500}));
   const auto nan = static_cast<float>(kNan);
-  for (const Box& bad : {Box{nan, 0, 0, 1, 1, 1}, Box{0, 0, 0, 1, 1, nan}, Box{0, 0, 0, kInfinity, 1, 1},
-                         Box{-kInfinity, -kInfinity, -kInfinity, kInfinity, kInfinity, kInfinity}})
+  for (const Box& bad : {Box{nan, 0, 0, 1, 1, 1}, Box{0, 0, 0, 1, 1, nan}, Box{0, 0, 0, kInfinityF, 1, 1},
+                         Box{-kInfinityF, -kInfinityF, -kInfinityF, kInfinityF, kInfinityF, kInfinityF}})
     EXPECT_FALSE(facesAway(cone, bad, {0, 0, -500}));
 }
 

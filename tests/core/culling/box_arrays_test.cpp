@@ -91,14 +91,14 @@ TEST(BlockTest, agreesOnBoxesThatTouchAPlane) {
 }
 
 TEST(BlockTest, dropsNothingThatIsInfiniteOrNoNumberUnlessTheExactTestDoes) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity(),
-                  kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kInf32 = std::numeric_limits<float>::infinity(),
+                  kNan32 = std::numeric_limits<float>::quiet_NaN();
   std::mt19937 random(3);
   for (int view = 0; view < 20; ++view) {
     std::vector<Box> boxes = randomBoxes(random, 130, 1e4f, 500);
-    boxes[7] = {-kInfinity, -kInfinity, -kInfinity, kInfinity, kInfinity, kInfinity};
-    boxes[70] = {0, 0, 0, kInfinity, 10, 10};
-    boxes[129] = {kNan, 0, 0, 1, 1, 1};
+    boxes[7] = {-kInf32, -kInf32, -kInf32, kInf32, kInf32, kInf32};
+    boxes[70] = {0, 0, 0, kInf32, 10, 10};
+    boxes[129] = {kNan32, 0, 0, 1, 1, 1};
     const EyePose eye{{0, 0, 100}, anyAxes(random)};
     compare(boxes, eye, {});
     const BoxArrays arrays = arraysOf(boxes);

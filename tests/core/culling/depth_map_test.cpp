@@ -20,7 +20,7 @@ using Ground = test::DepthGround;
 using Truth = test::PixelOwners;
 using View = test::DepthView;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNanF = std::numeric_limits<float>::quiet_NaN();
 
 struct Tally {
   std::size_t nearer = 0, covered = 0, coverable = 0, hidden = 0, wrong = 0, trulyHidden = 0;
@@ -179,7 +179,7 @@ TEST(DepthMap, neverHidesAMeshThatIsNotOfNumbers) {
   DepthMesh mesh = ground.mesh(14);
   ASSERT_EQ(map.test(mesh), DepthFate::hidden);
   const float inf = std::numeric_limits<float>::infinity();
-  for (const float bad : {kNan, inf, -inf}) {
+  for (const float bad : {kNanF, inf, -inf}) {
     std::vector<Box> parts{{0, 0, 0, 1, 1, 1}, {0, 0, 0, 1, 1, bad}};
     mesh.setBoxes(parts);
     EXPECT_EQ(map.test(mesh), DepthFate::seen) << bad;

@@ -11,7 +11,7 @@
 namespace trimtab {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNanF = std::numeric_limits<float>::quiet_NaN();
 
 Box boxAt(double x, double y, double z, double half) {
   const auto f = [](double v) { return static_cast<float>(v); };
@@ -121,10 +121,10 @@ TEST_F(DepthPyramidTest, seesThroughASingleHole) {
 
 TEST_F(DepthPyramidTest, hidesNothingByWhatIsNotANumber) {
   const Box behind = boxAt(0, 1200, 0, 100);
-  eye.position.x = double{kNan};
+  eye.position.x = double{kNanF};
   EXPECT_FALSE(pyramid.isHidden(behind, eye, view));
   eye = {{}, test::axesOf(0)};
-  std::fill(depths.begin(), depths.end(), kNan);
+  std::fill(depths.begin(), depths.end(), kNanF);
   pyramid.build(depths, 64, 48);
   EXPECT_FALSE(pyramid.isHidden(behind, eye, view));
   EXPECT_FALSE(DepthPyramid{}.isHidden(behind, eye, view)) << "no map";

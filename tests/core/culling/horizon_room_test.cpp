@@ -7,14 +7,12 @@
 #include "lod_ground.h"
 #include "trimtab/culling/moving_horizon.h"
 #include "trimtab/units/geodesy.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab {
 namespace {
 
 using test::LodGround;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN(),
-                 kInfinity = std::numeric_limits<double>::infinity();
 
 LodGround& ground() {
   static LodGround ground(16, 30, 11);

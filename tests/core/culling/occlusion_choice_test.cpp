@@ -38,7 +38,7 @@ struct Machine {
   }
 };
 
-struct Flight {
+struct PlannedFlight {
   int frames = 4000;
   double triangles = 180e3;
   double stepM = 5, turn = 0.01;  ///< a frame
@@ -54,7 +54,7 @@ struct Total {
 };
 
 /// Flies with the choice, and with each fixed choice.
-Total fly(const Flight& flight) {
+Total fly(const PlannedFlight& flight) {
   Total total;
   std::mt19937 random(11);
   std::normal_distribution<double> normal(0, 1);
@@ -102,8 +102,8 @@ double shareOf(const Total& total, Method method) {
          static_cast<double>(total.methods.end() - middle);
 }
 
-Flight still(Machine machine) {
-  Flight flight;
+PlannedFlight still(Machine machine) {
+  PlannedFlight flight;
   flight.machine = [machine](int) { return machine; };
   return flight;
 }
@@ -120,7 +120,7 @@ TEST(OcclusionChoice, findsTheFastestOfMethodsThatCostTheSame) {
 
 TEST(OcclusionChoice, forgivesAMethodWhatItsVeryFirstFrameMakesForGood) {
   int served = 0;
-  Flight flight;
+  PlannedFlight flight;
   flight.machine = [&served](int) {
     const double once = served == 0 ? 400 : 2;
     return Machine{6, 6e-5, {{0.3, once, 0.8}, {9, 9, 0.1}, {9, 9, 0.1}}};
@@ -172,7 +172,7 @@ TEST(OcclusionChoice, isNotMisledByATimeToDrawThatIsNotOfTriangles) {
 }
 
 TEST(OcclusionChoice, followsAChangeOfWhatPays) {
-  Flight flight;
+  PlannedFlight flight;
   flight.machine = [](int i) {
     const double share = i % 2000 < 1000 ? 0 : 0.8;  // plain, mountains, plain, mountains
     return Machine{6, 6e-5, {{1, 2, share}, {2, 3, share}, {2, 2, share}}};
@@ -199,7 +199,7 @@ TEST(OcclusionChoice, isNeverMuchSlowerThanTheBestFixedChoice) {
       base.ways.push_back({cost, cost * (1 + 3 * unit(random)), unit(random)});
     }
     const double waves = 4 * unit(random), swing = unit(random), phase = 6.28 * unit(random);
-    Flight flight;
+    PlannedFlight flight;
     flight.noise = series % 3 == 0 ? 0 : 0.05;
     flight.turn = 0.05 * unit(random);
     flight.machine = [=](int i) {
@@ -216,7 +216,7 @@ TEST(OcclusionChoice, isNeverMuchSlowerThanTheBestFixedChoice) {
 
 TEST(OcclusionChoice, losesABoundedShareToTryingWhateverChanges) {
   // Everything changes in every frame, and trying is dear.
-  Flight flight = still({6, 6e-5, {{5, 20, 0.1}, {8, 30, 0.1}, {9, 9, 0.1}}});
+  PlannedFlight flight = still({6, 6e-5, {{5, 20, 0.1}, {8, 30, 0.1}, {9, 9, 0.1}}});
   flight.stepM = 1000;
   flight.turn = 1;
   flight.rule = [](int i) { return static_cast<std::uint64_t>(i); };
@@ -228,7 +228,7 @@ TEST(OcclusionChoice, losesABoundedShareToTryingWhateverChanges) {
 TEST(OcclusionChoice, triesAgainAfterABoundedTimeWayOrTurn) {
   const Machine plain{10, 4e-5, {{0.5, 1, 0}, {0.5, 1, 0}, {0.5, 1, 0}}};
   const auto trials = [&](double stepM, double turn) {
-    Flight flight = still(plain);
+    PlannedFlight flight = still(plain);
     flight.frames = 400;  // some seven seconds
     flight.stepM = stepM;
     flight.turn = turn;
@@ -243,7 +243,7 @@ TEST(OcclusionChoice, triesAgainAfterABoundedTimeWayOrTurn) {
 /// What costs next to nothing to try would be tried at every turn.
 TEST(OcclusionChoice, triesLessOftenWhatNeverPays) {
   const Machine sea{5, 1e-6, {{0.02, 0.02, 0}, {0.02, 0.02, 0}, {0.02, 0.02, 0}}};
-  Flight flight = still(sea);
+  PlannedFlight flight = still(sea);
   flight.turn = 0;
   flight.frames = 2000;
   const Total total = fly(flight);
@@ -256,7 +256,7 @@ TEST(OcclusionChoice, triesLessOftenWhatNeverPays) {
 TEST(OcclusionChoice, seldomTriesWhatCouldNotWinItsOwnCost) {
   const Machine mountains{6, 7e-5, {{0.15, 1.5, 0.75}, {2.2, 3.2, 0.81}, {2, 2, 0.79}}};
   for (const bool sameRule : {true, false}) {
-    Flight flight = still(mountains);
+    PlannedFlight flight = still(mountains);
     flight.turn = 0.002;
     flight.noise = 0.05;
     if (!sameRule) flight.rule = [](int i) -> std::uint64_t { return static_cast<std::uint64_t>(i / 60); };
@@ -269,7 +269,7 @@ TEST(OcclusionChoice, seldomTriesWhatCouldNotWinItsOwnCost) {
 }
 
 TEST(OcclusionChoice, findsWhatHadNoHopeOnceThereIsMuchLeftToHide) {
-  Flight flight;
+  PlannedFlight flight;
   flight.triangles = 250e3;
   flight.machine = [&flight](int i) {
     const bool later = 2 * i >= flight.frames;
@@ -377,7 +377,7 @@ TEST(OcclusionChoice, learnsNothingFromWhatIsNotANumber) {
 
 TEST(OcclusionChoice, isAFunctionOfWhatItWasTold) {
   const auto once = [] {
-    Flight flight = still({6, 6e-5, {{0.3, 2, 0.5}, {0.8, 3, 0.6}, {1.5, 1.5, 0.7}}});
+    PlannedFlight flight = still({6, 6e-5, {{0.3, 2, 0.5}, {0.8, 3, 0.6}, {1.5, 1.5, 0.7}}});
     flight.noise = 0.1;
     return fly(flight).methods;
   };

@@ -7,13 +7,13 @@
 
 #include "random_index.h"
 #include "trimtab/culling/frustum.h"
+#include "trimtab/units/not_finite.h"
 
 /// Views and boxes that no one should send: nothing may be left out wrongly.
 namespace trimtab {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity(),
+constexpr float kInfinityF = std::numeric_limits<float>::infinity(),
                 kNoNumber = std::numeric_limits<float>::quiet_NaN();
 constexpr Mat3 kNorth{{Vec3{1, 0, 0}, Vec3{0, 0, 1}, Vec3{0, -1, 0}}};
 constexpr Mat3 kSouth{{Vec3{-1, 0, 0}, Vec3{0, 0, 1}, Vec3{0, 1, 0}}};
@@ -43,8 +43,8 @@ void expectExact(const LevelCut& cut, const TerrainIndex& index, const EyePose& 
 
 TEST(DegenerateSelection, boxesThatAreInfiniteOrNoNumbersAreNeverLeftOut) {
   for (const Box& bad :
-       {Box{kNoNumber, 0, 0, 1, 1, 1}, Box{0, 0, 0, 1, 1, kNoNumber}, Box{0, 0, 0, kInfinity, 1, 1},
-        Box{0, -kInfinity, 0, 1, kInfinity, 1}, Box{-kInfinity, -kInfinity, -kInfinity, 0, 0, 0},
+       {Box{kNoNumber, 0, 0, 1, 1, 1}, Box{0, 0, 0, 1, 1, kNoNumber}, Box{0, 0, 0, kInfinityF, 1, 1},
+        Box{0, -kInfinityF, 0, 1, kInfinityF, 1}, Box{-kInfinityF, -kInfinityF, -kInfinityF, 0, 0, 0},
         Box{kNoNumber, kNoNumber, kNoNumber, kNoNumber, kNoNumber, kNoNumber}}) {
     TerrainIndex index = test::randomIndex(32, 5);
     LevelCut cut = cutOf(index);

@@ -1,9 +1,9 @@
 #include "trimtab/culling/select_patches.h"
+#include "trimtab/units/not_finite.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "patch_fixpoint.h"
@@ -12,12 +12,10 @@
 namespace trimtab {
 namespace {
 
-constexpr std::uint32_t kNone = PatchIndex::kNone;
+constexpr std::uint32_t kNoNode = PatchIndex::kNone;
 using test::distance;
 using Fixpoint = test::PatchFixpoint;
-constexpr double kPixelsPerRadian = 1100;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kPatchPxPerRadian = 1100;
 
 struct Shape {
   std::uint32_t columns, rows, rootCells, leafCells;
@@ -65,8 +63,8 @@ TEST_P(PatchCutOf, isTheSmallestThatSatisfiesEveryoneWithThePagesThatAreThere) {
     const Vec3 eye = randomEye();
     const double px = 1 * std::pow(1.12, i % 30), scale = i % 7 == 0 ? 4 : 1;
     const auto resident = i % 3 == 0 ? std::vector<std::uint8_t>{} : randomPages(i % 3 == 1 ? 0.9 : 0.5);
-    selectPatches(index, resident, eye, {px, scale, kPixelsPerRadian}, cut);
-    const Fixpoint expected(index, resident, eye, px * scale / kPixelsPerRadian);
+    selectPatches(index, resident, eye, {px, scale, kPatchPxPerRadian}, cut);
+    const Fixpoint expected(index, resident, eye, px * scale / kPatchPxPerRadian);
     ASSERT_EQ(drawn(), expected.drawn);
     ASSERT_EQ(cut.heldBack, expected.heldBack);
     std::set<std::uint32_t> pages;
@@ -82,7 +80,7 @@ TEST_P(PatchCutOf, isTheSmallestThatSatisfiesEveryoneWithThePagesThatAreThere) {
 TEST_P(PatchCutOf, coversEverythingOnceAndNeighboursShareWholeSides) {
   for (int i = 0; i < 30; ++i) {
     const auto resident = randomPages(0.7);
-    selectPatches(index, resident, randomEye(), {4, 1, kPixelsPerRadian}, cut);
+    selectPatches(index, resident, randomEye(), {4, 1, kPatchPxPerRadian}, cut);
     std::vector<int> covered(index.size());
     for (const TileDraw& tile : cut.cut.tiles) {
       ++covered[tile.node];
@@ -92,15 +90,15 @@ TEST_P(PatchCutOf, coversEverythingOnceAndNeighboursShareWholeSides) {
     std::vector<char> below(index.size());
     for (std::size_t p = index.size(); p-- > 0;)
       for (const std::uint32_t child : index.children[p])
-        if (child != kNone) below[p] |= covered[child] || below[child];
+        if (child != kNoNode) below[p] |= covered[child] || below[child];
     for (std::size_t p = 0; p < index.size(); ++p) {
       const PatchIndex::Diamond& d = index.diamonds[index.diamond[p]];
       ASSERT_FALSE(below[p] && covered[p]) << "twice";
       for (const std::uint32_t half : d.patches)
-        ASSERT_TRUE(half == kNone || below[half] == below[p]) << "halved by itself";
+        ASSERT_TRUE(half == kNoNode || below[half] == below[p]) << "halved by itself";
       if (below[p] || covered[p]) continue;
       bool above = false;
-      for (std::uint32_t a = index.parent[p]; a != kNone; a = index.parent[a]) above |= covered[a] != 0;
+      for (std::uint32_t a = index.parent[p]; a != kNoNode; a = index.parent[a]) above |= covered[a] != 0;
       ASSERT_TRUE(above) << "a hole";
     }
   }
@@ -110,8 +108,8 @@ TEST_P(PatchCutOf, keepsThePromisedErrorAndTheCoarsestVariantThatDoes) {
   std::set<int> variants;
   for (int i = 0; i < 40; ++i) {
     const Vec3 eye = randomEye();
-    const double tolerance = 3.0 / kPixelsPerRadian, spread = i % 4 == 1 ? 0.6 : i % 4 == 3 ? 1.7 : 1;
-    selectPatches(index, {}, eye, {3, 1, kPixelsPerRadian, spread, 1500}, cut);
+    const double tolerance = 3.0 / kPatchPxPerRadian, spread = i % 4 == 1 ? 0.6 : i % 4 == 3 ? 1.7 : 1;
+    selectPatches(index, {}, eye, {3, 1, kPatchPxPerRadian, spread, 1500}, cut);
     EXPECT_EQ(cut.heldBack, 0u);
     for (const TileDraw& tile : cut.cut.tiles) {
       const auto error = index.errorM[tile.node];
@@ -119,7 +117,7 @@ TEST_P(PatchCutOf, keepsThePromisedErrorAndTheCoarsestVariantThatDoes) {
       const double most = tolerance * 1500 * std::pow(far / 1500, 1 / spread) * (1 + 1e-12);
       variants.insert(tile.variant.number);
       ASSERT_LT(tile.variant.number, index.variants());
-      if (index.children[tile.node] != std::array{kNone, kNone} || tile.variant.number > 0) {
+      if (index.children[tile.node] != std::array{kNoNode, kNoNode} || tile.variant.number > 0) {
         ASSERT_LE(error[tile.variant.number], most);
       }
       if (tile.variant.number + 1u < index.variants()) {
@@ -134,20 +132,20 @@ TEST_P(PatchCutOf, saysWhatThePictureLacksInPixelsCoarsePagesFirst) {
   const auto resident = randomPages(0.5);
   for (int i = 0; i < 20; ++i) {
     const Vec3 eye = randomEye();
-    selectPatches(index, resident, eye, {2, 1, kPixelsPerRadian}, cut);
+    selectPatches(index, resident, eye, {2, 1, kPatchPxPerRadian}, cut);
     std::vector<float> error(index.pages.size(), -1);
     for (const PageWant& want : cut.wants) error[want.page] = want.errorPx;
-    const Fixpoint expected(index, resident, eye, 2 / kPixelsPerRadian);
+    const Fixpoint expected(index, resident, eye, 2 / kPatchPxPerRadian);
     for (std::size_t d = 0; d < index.diamonds.size(); ++d) {
       if (!expected.wanted[d]) continue;
       for (const std::uint32_t patch : index.diamonds[d].patches) {
-        if (patch == kNone) continue;
+        if (patch == kNoNode) continue;
         const double e = double{index.errorM[patch][0]} / distance(index.bounds[patch], eye);
         for (const std::uint32_t child : index.children[patch]) {
-          if (child == kNone) continue;
+          if (child == kNoNode) continue;
           ASSERT_LE(error[index.page[child]], error[index.page[patch]]);
-          if (e * kPixelsPerRadian > 2) {
-            ASSERT_GE(error[index.page[child]], e * kPixelsPerRadian * (1 - 1e-6));
+          if (e * kPatchPxPerRadian > 2) {
+            ASSERT_GE(error[index.page[child]], e * kPatchPxPerRadian * (1 - 1e-6));
           }
         }
       }
@@ -162,10 +160,10 @@ TEST_P(PatchCutOf, doesNotDependOnWhatWasChosenBeforeOrOnWhichTerrain) {
   for (int i = 0; i < 30; ++i) {
     const Vec3 eye = randomEye();
     const auto resident = randomPages(0.8);
-    if (i % 5 == 0) selectPatches(other, {}, eye, {1, 1, kPixelsPerRadian}, cut);
-    selectPatches(index, resident, eye, {3, 1, kPixelsPerRadian}, cut);
+    if (i % 5 == 0) selectPatches(other, {}, eye, {1, 1, kPatchPxPerRadian}, cut);
+    selectPatches(index, resident, eye, {3, 1, kPatchPxPerRadian}, cut);
     PatchCut fresh;
-    selectPatches(index, resident, eye, {3, 1, kPixelsPerRadian}, fresh);
+    selectPatches(index, resident, eye, {3, 1, kPatchPxPerRadian}, fresh);
     ASSERT_EQ(cut.cut.tiles.size(), fresh.cut.tiles.size());
     ASSERT_EQ(cut.heldBack, fresh.heldBack);
     ASSERT_EQ(cut.wants.size(), fresh.wants.size());
@@ -184,7 +182,7 @@ TEST_P(PatchCutOf, isDrawnInAnOrderThatIsTheIndexsOwn) {
   // Any two patches stand in the same order in all cuts: so no order is ever met the other way round.
   std::set<std::pair<std::uint32_t, std::uint32_t>> before;
   for (int i = 0; i < 10; ++i) {
-    selectPatches(index, {}, randomEye(), {10, 1, kPixelsPerRadian}, cut);
+    selectPatches(index, {}, randomEye(), {10, 1, kPatchPxPerRadian}, cut);
     for (std::size_t a = 0; a < cut.cut.tiles.size(); ++a)
       for (std::size_t b = a + 1; b < std::min(a + 20, cut.cut.tiles.size()); ++b) {
         const auto pair = std::pair(cut.cut.tiles[a].node, cut.cut.tiles[b].node);
@@ -198,13 +196,13 @@ TEST_P(PatchCutOf, neverGetsCoarserAnywhereByAPageMore) {
   for (int i = 0; i < 20; ++i) {
     const Vec3 eye = randomEye();
     auto resident = randomPages(0.5);
-    selectPatches(index, resident, eye, {2, 1, kPixelsPerRadian}, cut);
+    selectPatches(index, resident, eye, {2, 1, kPatchPxPerRadian}, cut);
     std::vector<char> covered(index.size());
     for (const TileDraw& tile : cut.cut.tiles) covered[tile.node] = 1;
     for (std::size_t p = 0; p < index.size(); ++p)
-      if (index.parent[p] != kNone && covered[index.parent[p]]) covered[p] = 1;
+      if (index.parent[p] != kNoNode && covered[index.parent[p]]) covered[p] = 1;
     for (int more = 0; more < 5; ++more) resident[random() % resident.size()] = 1;
-    selectPatches(index, resident, eye, {2, 1, kPixelsPerRadian}, cut);
+    selectPatches(index, resident, eye, {2, 1, kPatchPxPerRadian}, cut);
     for (const TileDraw& tile : cut.cut.tiles) ASSERT_TRUE(covered[tile.node]);
   }
 }
@@ -218,7 +216,7 @@ TEST_P(PatchCutOf, isFinerWhereAPageOfRootsIsLost) {
     std::vector<std::uint8_t> resident(index.pages.size(), 1);
     resident[roots[random() % roots.size()]] = 0;
     const Vec3 eye = randomEye();
-    selectPatches(index, resident, eye, {4, 1, kPixelsPerRadian}, cut);
+    selectPatches(index, resident, eye, {4, 1, kPatchPxPerRadian}, cut);
     const auto nodes = drawn();
     std::size_t lost = 0;
     for (const std::uint32_t node : nodes) {
@@ -231,7 +229,7 @@ TEST_P(PatchCutOf, isFinerWhereAPageOfRootsIsLost) {
     // It is a cut like any: each diamond whole or halved, and those that it stands on halved.
     std::set<std::uint32_t> above;
     for (std::uint32_t node : nodes)
-      for (node = index.parent[node]; node != kNone; node = index.parent[node])
+      for (node = index.parent[node]; node != kNoNode; node = index.parent[node])
         above.insert(index.diamond[node]);
     for (const std::uint32_t node : nodes) EXPECT_FALSE(above.contains(index.diamond[node])) << node;
     // The finer pages of what is lost come before all others.
@@ -244,22 +242,22 @@ TEST_P(PatchCutOf, isFinerWhereAPageOfRootsIsLost) {
 
 TEST_P(PatchCutOf, isTheRootsForAnEyeThatIsNotANumberOrNotAnywhere) {
   std::size_t roots = 0;
-  for (const std::uint32_t parent : index.parent) roots += parent == kNone;
+  for (const std::uint32_t parent : index.parent) roots += parent == kNoNode;
   for (const double bad : {kNan, kInfinity, -kInfinity, 1e300})
     for (const Vec3 eye : {Vec3{bad, 0, 0}, Vec3{0, bad, 0}, Vec3{0, 0, bad}, Vec3{bad, bad, bad}})
       for (const double px : {2.0, 0.0}) {
-        selectPatches(index, {}, eye, {px, 1, kPixelsPerRadian}, cut);
+        selectPatches(index, {}, eye, {px, 1, kPatchPxPerRadian}, cut);
         ASSERT_EQ(cut.cut.tiles.size(), roots);
       }
   for (const double px : {kNan, kInfinity}) {
-    selectPatches(index, {}, {1000, 1000, 3000}, {px, 1, kPixelsPerRadian}, cut);
+    selectPatches(index, {}, {1000, 1000, 3000}, {px, 1, kPatchPxPerRadian}, cut);
     EXPECT_EQ(cut.cut.tiles.size(), roots);
     EXPECT_EQ(cut.cut.tiles[0].variant.number, std::get<1>(GetParam()) - 1);
   }
 }
 
 TEST_P(PatchCutOf, isWholeWithoutATolerance) {
-  selectPatches(index, {}, {1000, 1000, 30000}, {0, 1, kPixelsPerRadian}, cut);
+  selectPatches(index, {}, {1000, 1000, 30000}, {0, 1, kPatchPxPerRadian}, cut);
   const Fixpoint expected(index, {}, {1000, 1000, 30000}, 0);
   EXPECT_EQ(drawn(), expected.drawn);
   EXPECT_GT(drawn().size(), index.size() / 3);
@@ -267,10 +265,10 @@ TEST_P(PatchCutOf, isWholeWithoutATolerance) {
 
 TEST_P(PatchCutOf, halvesAroundAnEyeThatIsInside) {
   for (std::uint32_t leaf = static_cast<std::uint32_t>(index.size()) - 1; leaf > index.size() - 20; --leaf) {
-    if (!(index.errorM[leaf][0] > 0) || index.children[leaf] != std::array{kNone, kNone}) continue;
+    if (!(index.errorM[leaf][0] > 0) || index.children[leaf] != std::array{kNoNode, kNoNode}) continue;
     const Box& b = index.bounds[leaf];
     selectPatches(index, {}, {0.5 * (b.minX + b.maxX), 0.5 * (b.minY + b.maxY), 0.5 * (b.minZ + b.maxZ)},
-                  {1e9, 1, kPixelsPerRadian}, cut);
+                  {1e9, 1, kPatchPxPerRadian}, cut);
     const auto nodes = drawn();
     EXPECT_TRUE(std::binary_search(nodes.begin(), nodes.end(), leaf));
   }
@@ -282,7 +280,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, PatchCutOf,
 
 TEST(PatchCut, isEmptyWithoutPatches) {
   PatchCut cut;
-  selectPatches({}, {}, {}, {1, 1, kPixelsPerRadian}, cut);
+  selectPatches({}, {}, {}, {1, 1, kPatchPxPerRadian}, cut);
   EXPECT_TRUE(cut.cut.tiles.empty());
   EXPECT_TRUE(cut.wants.empty());
 }
@@ -291,7 +289,7 @@ TEST(PatchVisible, countsTheTrianglesOfTheVariantsThatAreDrawn) {
   const PatchIndex index = test::randomPatches(900, 700, 512, 16, 3, 3);
   PatchCut cut;
   EyePose eye{{3000, 3000, 1500}, {}};
-  selectPatches(index, {}, eye.position, {4, 1, kPixelsPerRadian}, cut);
+  selectPatches(index, {}, eye.position, {4, 1, kPatchPxPerRadian}, cut);
   VisibleSet visible;
   std::vector<std::uint8_t> hidden(cut.cut.tiles.size());
   for (std::size_t i = 0; i < hidden.size(); i += 5) hidden[i] = 1;

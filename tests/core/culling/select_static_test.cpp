@@ -1,4 +1,5 @@
 #include "trimtab/culling/select_static.h"
+#include "trimtab/units/not_finite.h"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +15,7 @@ namespace {
 
 using test::axesOf;
 
-constexpr double kPixelsPerRadian = 1100;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kTreePxPerRadian = 1100;
 
 class StaticCutOf : public testing::TestWithParam<unsigned> {
  protected:
@@ -169,10 +169,10 @@ TEST(StaticDistance, followsThePictureOrAFixedFactorAndTheScale) {
   StaticLodParameters p;
   p.errorPx = Pixels{2};
   p.distancePerError = Ratio{300};
-  EXPECT_DOUBLE_EQ(staticLodDistancePerError(p, 1, kPixelsPerRadian), 550);
-  EXPECT_DOUBLE_EQ(staticLodDistancePerError(p, 4, kPixelsPerRadian), 137.5) << "a larger scale is coarser";
+  EXPECT_DOUBLE_EQ(staticLodDistancePerError(p, 1, kTreePxPerRadian), 550);
+  EXPECT_DOUBLE_EQ(staticLodDistancePerError(p, 4, kTreePxPerRadian), 137.5) << "a larger scale is coarser";
   p.rule = StaticDistanceRule::factor;
-  EXPECT_DOUBLE_EQ(staticLodDistancePerError(p, 1, kPixelsPerRadian), 300);
+  EXPECT_DOUBLE_EQ(staticLodDistancePerError(p, 1, kTreePxPerRadian), 300);
   EXPECT_DOUBLE_EQ(staticLodDistancePerError(p, 1, 9999), 300) << "whatever the picture";
   EXPECT_DOUBLE_EQ(staticLodDistancePerError(p, 3, 9999), 100);
 }

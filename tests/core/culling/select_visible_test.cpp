@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "random_index.h"
+#include "trimtab/units/not_finite.h"
 #include "view_axes.h"
 
 namespace trimtab {
@@ -119,8 +120,6 @@ TEST(VisibleSet, dropsWhatLiesWhollyBeyondTheVisibilityAndNothingNearer) {
 TEST(VisibleSet, cutsNothingAtAVisibilityThatIsNoNumberOrInfinite) {
   const TerrainIndex index = test::randomIndex(16, 2);
   const LevelCut cut = wholeCut(index);
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN(),
-                   kInfinity = std::numeric_limits<double>::infinity();
   VisibleSet visible;
   for (const double farM : {kNan, kInfinity}) {
     selectVisible(cut, {.eye = {{8000, 8000, 5000}, axesOf(0, -40, 0)}, .farM = farM}, visible);

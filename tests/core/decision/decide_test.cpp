@@ -7,12 +7,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <limits>
 #include <new>
 #include <random>
 #include <string>
 
 #include "trimtab/preset/preset.h"
+#include "trimtab/units/not_finite.h"
 
 namespace {
 /// Allocations by this program so far.
@@ -35,8 +35,6 @@ void* operator new(std::size_t size) {
 namespace trimtab {
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 const TuningParameters kDefaults;
 
 ValidatedParameters valid(const TuningParameters& p) {
@@ -165,10 +163,10 @@ TEST(Decide, refusesWhatIsNotANumberAndLeavesTheMemoryAlone) {
   const ValidatedParameters p = defaultParameters();
   for (const auto& [altitude, pitch] : {std::pair{kNan, 0.0},
                                         {0.0, kNan},
-                                        {kInf, 0.0},
-                                        {-kInf, 0.0},
-                                        {0.0, kInf},
-                                        {0.0, -kInf},
+                                        {kInfinity, 0.0},
+                                        {-kInfinity, 0.0},
+                                        {0.0, kInfinity},
+                                        {0.0, -kInfinity},
                                         {kNan, kNan}}) {
     DecisionMemory memory{2};
     const FrameDecision d = decide(flying(altitude, pitch), p, memory);

@@ -1,16 +1,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <utility>
 
 #include "trimtab/frame/frame.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
 double tanDeg(double degrees) {
   return std::tan(degrees * std::numbers::pi / 180);
 }
@@ -63,6 +62,37 @@ TEST(ViewShape, followsTheHostOnlyWhereThePresetSaysSo) {
             viewShape(ViewParameters{}, 640, 480, std::nullopt));
 }
 
+TEST(ViewShape, growsAtTwoSidesToFillAWindow) {
+  const ViewShape square{.widthPx = 600, .heightPx = 600, .left = -0.5, .right = 1, .bottom = -1, .top = 0.5};
+  EXPECT_EQ(filledShape(square), square) << "it fills already";
+  ViewShape wide = square;
+  wide.widthPx = 1800;
+  const ViewShape wider = filledShape(wide);
+  EXPECT_EQ(wider.left, -1.5);
+  EXPECT_EQ(wider.right, 3);
+  EXPECT_EQ(wider.bottom, -1);
+  EXPECT_EQ(wider.top, 0.5);
+  ViewShape high = square;
+  high.heightPx = 1200;
+  const ViewShape higher = filledShape(high);
+  EXPECT_EQ(higher.left, -0.5);
+  EXPECT_EQ(higher.right, 1);
+  EXPECT_EQ(higher.bottom, -2);
+  EXPECT_EQ(higher.top, 1);
+  for (const ViewShape& filled : {wider, higher})
+    EXPECT_EQ(filled.widthPx / (filled.right - filled.left), filled.heightPx / (filled.top - filled.bottom))
+        << "pixels are square";
+  // Nothing fits these, so they stay.
+  for (const auto& [left, right] : {std::pair{0.5, 0.5}, {1.0, -1.0}, {std::nan(""), 1.0}}) {
+    ViewShape odd = square;
+    odd.left = left;
+    odd.right = right;
+    const ViewShape same = filledShape(odd);
+    EXPECT_EQ(same.right, odd.right);
+    EXPECT_EQ(same.top, odd.top);
+  }
+}
+
 TEST(ViewShape, completesWhatTheHostLeavesOut) {
   HostView asked;
   asked.right = Degrees{45};
@@ -82,7 +112,7 @@ TEST(ViewShape, ignoresHalfAnglesThatMakeNoView) {
   const ViewShape preset = viewShape(fromHost(), 640, 480, std::nullopt);
   for (const HostView& bad :
        {half(20, -20, -10, 10), half(0, 0, -10, 10), half(-90, 20, -10, 10), half(-20, 120, -10, 10),
-        half(kNan, 20, -10, 10), half(-20, kInf, -10, 10), half(-kInf, 20, -10, 10)}) {
+        half(kNan, 20, -10, 10), half(-20, kInfinity, -10, 10), half(-kInfinity, 20, -10, 10)}) {
     const ViewShape shape = viewShape(fromHost(), 640, 480, bad);
     EXPECT_EQ(shape.left, preset.left);
     EXPECT_EQ(shape.right, preset.right);
@@ -94,7 +124,7 @@ TEST(ViewShape, ignoresHalfAnglesThatMakeNoView) {
 }
 
 TEST(ViewShape, ignoresANearPlaneThatIsNone) {
-  for (const double bad : {0.0, -1.0, kNan, kInf, -kInf}) {
+  for (const double bad : {0.0, -1.0, kNan, kInfinity, -kInfinity}) {
     HostView asked;
     asked.nearDistance = Metres{bad};
     EXPECT_EQ(viewShape(fromHost(), 640, 480, asked).nearM, 1);

@@ -1,4 +1,5 @@
 #include "trimtab/fuzzy/membership.h"
+#include "trimtab/units/not_finite.h"
 
 #include <gtest/gtest.h>
 
@@ -14,9 +15,6 @@
 
 namespace trimtab {
 namespace {
-
-constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Copied from, not made in place: g++ 12 takes a default made in a function for uninitialised.
 const AltitudeParameters kTable;
@@ -132,12 +130,12 @@ TEST(Membership, isNotANumberWhereTheInputIsNone) {
 TEST(Membership, hasTheCurvesEndsAtInfinity) {
   for (const AltitudeReading r :
        {AltitudeReading::table, AltitudeReading::equation_a, AltitudeReading::equation_b}) {
-    EXPECT_EQ(altitudeMembership(reading(r), -kInf), 1);
-    EXPECT_EQ(altitudeMembership(reading(r), kInf), 0);
+    EXPECT_EQ(altitudeMembership(reading(r), -kInfinity), 1);
+    EXPECT_EQ(altitudeMembership(reading(r), kInfinity), 0);
   }
   for (const PitchParameters& p : {kLine, roundedStep()}) {
-    EXPECT_EQ(pitchMembership(p, -kInf), 1);
-    EXPECT_EQ(pitchMembership(p, kInf), 0);
+    EXPECT_EQ(pitchMembership(p, -kInfinity), 1);
+    EXPECT_EQ(pitchMembership(p, kInfinity), 0);
   }
 }
 
@@ -169,8 +167,8 @@ TEST(CurveValue, isExactAtEveryPointAndContinuousAnUlpBeside) {
   const AltitudeParameters& p = kTable;
   for (const CurvePoint& point : p.curve.span()) {
     EXPECT_EQ(curveValue(p.curve, point.x), point.y);
-    EXPECT_NEAR(curveValue(p.curve, std::nextafter(point.x, -kInf)), point.y, 1e-15);
-    EXPECT_NEAR(curveValue(p.curve, std::nextafter(point.x, kInf)), point.y, 1e-15);
+    EXPECT_NEAR(curveValue(p.curve, std::nextafter(point.x, -kInfinity)), point.y, 1e-15);
+    EXPECT_NEAR(curveValue(p.curve, std::nextafter(point.x, kInfinity)), point.y, 1e-15);
   }
 }
 

@@ -1,17 +1,14 @@
 #include "trimtab/hold/arbiter.h"
+#include "trimtab/units/not_finite.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 #include <vector>
 
 namespace trimtab {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 HoldParameters enabled() {
   HoldParameters p;

@@ -9,11 +9,10 @@
 #include <random>
 
 #include "trimtab/hold/cost_model_file.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// A machine whose images cost what a line says, with noise.
 class Machine {

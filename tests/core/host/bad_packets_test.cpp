@@ -1,17 +1,15 @@
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <random>
 
 #include "host_support.h"
 #include "tests/support.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab::test {
 namespace {
 
 using Bytes = std::vector<std::byte>;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(),
-                 kInf = std::numeric_limits<double>::infinity();
 
 struct BadPacket {
   const char* name;
@@ -41,16 +39,16 @@ const std::vector<BadPacket>& badPackets() {
       {"little-endian native-fdm", [] { return native(0, std::uint32_t{24U << 24U}); },
        "byte 0: native-fdm version"},
       {"latitude beyond the pole", [] { return native(16, 1.6); }, "byte 16: latitude: expected -90"},
-      {"latitude no number", [] { return native(16, kNaN); }, "byte 16: latitude: expected -90"},
-      {"longitude infinite", [] { return native(8, kInf); }, "byte 8: longitude"},
+      {"latitude no number", [] { return native(16, kNan); }, "byte 16: latitude: expected -90"},
+      {"longitude infinite", [] { return native(8, kInfinity); }, "byte 8: longitude"},
       {"longitude in degrees", [] { return native(8, 128.0); }, "byte 8: longitude"},
-      {"altitude no number", [] { return native(24, kNaN); }, "byte 24: altitude"},
+      {"altitude no number", [] { return native(24, kNan); }, "byte 24: altitude"},
       {"altitude beyond space", [] { return native(24, 1e9); }, "byte 24: altitude"},
-      {"roll infinite", [] { return native(36, static_cast<float>(-kInf)); }, "byte 36: phi"},
+      {"roll infinite", [] { return native(36, static_cast<float>(-kInfinity)); }, "byte 36: phi"},
       {"pitch beyond vertical", [] { return native(40, 1.7F); }, "byte 40: theta"},
-      {"heading no number", [] { return native(44, static_cast<float>(kNaN)); }, "byte 44: psi"},
+      {"heading no number", [] { return native(44, static_cast<float>(kNan)); }, "byte 44: psi"},
       {"visibility negative", [] { return native(364, -1.0F); }, "byte 364: visibility"},
-      {"agl no number", [] { return native(32, static_cast<float>(kNaN)); }, "byte 32: agl"},
+      {"agl no number", [] { return native(32, static_cast<float>(kNan)); }, "byte 32: agl"},
       {"CIGI 4", [] { return cigi(2, std::uint8_t{4}); }, "byte 2: CIGI major version: expected 3, found 4"},
       {"an image generator's message", [] { return encodeCigiStartOfFrame(1, 0, 0); },
        "byte 0: CIGI packet id"},
@@ -61,8 +59,8 @@ const std::vector<BadPacket>& badPackets() {
       {"ownship attached", [] { return cigi(28, std::uint8_t{5}); }, "byte 28: attach state"},
       {"CIGI latitude", [] { return cigi(48, 90.5); }, "byte 48: latitude"},
       {"CIGI latitude big-endian", [] { return cigi(48, -90.5, ByteOrder::big); }, "byte 48: latitude"},
-      {"CIGI longitude", [] { return cigi(56, kNaN); }, "byte 56: longitude"},
-      {"CIGI altitude", [] { return cigi(64, -kInf); }, "byte 64: altitude"},
+      {"CIGI longitude", [] { return cigi(56, kNan); }, "byte 56: longitude"},
+      {"CIGI altitude", [] { return cigi(64, -kInfinity); }, "byte 64: altitude"},
       {"CIGI yaw", [] { return cigi(44, 1e9F); }, "byte 44: yaw"},
       {"CIGI head pitch", [] { return cigi(72 + 24, 100.0F); }, "byte 96: view pitch"},
       {"CIGI near plane", [] { return cigi(104 + 8, 0.0F); }, "byte 112: near plane"},
@@ -72,7 +70,7 @@ const std::vector<BadPacket>& badPackets() {
       {"severity beyond its scale", [] { return cigi(224 + 7, std::uint8_t{6U << 2U}); },
        "byte 231: severity: expected 0..5, found 6"},
       {"layer visibility", [] { return cigi(224 + 12, -1.0F); }, "byte 236: layer visibility"},
-      {"layer visibility no number", [] { return cigi(224 + 12, static_cast<float>(kNaN)); },
+      {"layer visibility no number", [] { return cigi(224 + 12, static_cast<float>(kNan)); },
        "byte 236: layer visibility"},
       {"nothing", [] { return Bytes{}; }, "byte 0: datagram"},
       {"one byte", [] { return Bytes(1, std::byte{1}); }, "byte 0: datagram"},

@@ -10,7 +10,8 @@ namespace trimtab::test {
 namespace {
 
 using Bytes = std::vector<std::byte>;
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
+constexpr float kNanF = std::numeric_limits<float>::quiet_NaN(),
+                kInfinityF = std::numeric_limits<float>::infinity();
 
 /// The message of a state, followed by packets.
 Bytes message(std::uint32_t frame, const Bytes& packets, ByteOrder order = ByteOrder::big) {
@@ -206,26 +207,26 @@ const std::vector<Hostile>& hostile() {
        "byte 76: attach type of a symbol surface: expected a view"},
       {"billboard of an entity", [=] { return with(surface(), 4, std::uint8_t{4}); }, "byte 76: attach type"},
       {"surface inside out", [=] { return with(surface(), 8, 2.0F); }, "byte 80: symbol surface"},
-      {"surface no number", [=] { return with(surface(), 12, kNaN); }, "byte 84: right"},
+      {"surface no number", [=] { return with(surface(), 12, kNanF); }, "byte 84: right"},
       {"no coordinates", [=] { return with(surface(), 44, 0.0F); }, "byte 112: symbol surface"},
       {"coordinates beyond all", [=] { return with(surface(), 44, 3e38F); }, "byte 116: max u"},
       {"half a point", [=] { return with(lines(), 1, std::uint8_t{24 + 8 * 5 + 4}); }, nullptr},
       {"primitive", [=] { return with(lines(), 4, std::uint8_t{7}); },
        "byte 76: primitive type: expected 0..6, found 7"},
       {"line width", [=] { return with(lines(), 8, -1.0F); }, "byte 80: line width"},
-      {"point no number", [=] { return with(lines(), 16, kNaN); }, "byte 88: vertex u"},
-      {"point infinite", [=] { return with(lines(), 28, kInf); }, "byte 100: vertex v"},
+      {"point no number", [=] { return with(lines(), 16, kNanF); }, "byte 88: vertex u"},
+      {"point infinite", [=] { return with(lines(), 28, kInfinityF); }, "byte 100: vertex v"},
       {"half a circle", [=] { return with(circles(), 1, std::uint8_t{32}); },
        "byte 73: size of a symbol packet: expected 16 and a multiple of 24, found 32"},
       {"radius", [=] { return with(circles(), 24, 1e30F); }, "byte 96: radius"},
       {"radius below 0", [=] { return with(circles(), 24, -1.0F); }, "byte 96: radius"},
-      {"angle", [=] { return with(circles(), 32, kInf); }, "byte 104: start angle"},
+      {"angle", [=] { return with(circles(), 32, kInfinityF); }, "byte 104: start angle"},
       {"text without end", [=] { return with(text(), 15, std::uint8_t{'D'}); },
        "byte 87: text: expected a zero byte at its end"},
       {"text of no length", [=] { return with(text(), 1, std::uint8_t{8}); },
        "byte 73: size of a symbol packet: expected more than 12"},
       {"alignment", [=] { return with(text(), 4, std::uint8_t{9}); }, "byte 76: alignment"},
-      {"font size", [=] { return with(text(), 8, kNaN); }, "byte 80: font size"},
+      {"font size", [=] { return with(text(), 8, kNanF); }, "byte 80: font size"},
       {"symbol not defined", control, "byte 74: symbol: expected one that is defined, found 6"},
       {"clone of nothing",
        [] { return Bytes{std::byte{33}, std::byte{8}, {}, std::byte{1}, {}, {}, {}, std::byte{2}}; },
@@ -262,7 +263,7 @@ TEST(HostileSymbols, controlsWithNumbersThatNobodyMeansChangeNothing) {
   const auto before = decoder.symbols();
   std::uint32_t frame = 1;
   for (const std::size_t offset : {12, 16, 20, 24, 32, 36})
-    for (const float value : {kNaN, kInf, -kInf, 1e30F}) {
+    for (const float value : {kNanF, kInfinityF, -kInfinityF, 1e30F}) {
       Bytes control = packetsOf(symbol(6));
       control.erase(control.begin(), control.begin() + kEmptyLines);
       ++frame;
@@ -318,7 +319,7 @@ TEST(DarkSymbols, areThoseInTheDarkPartOfTheirFlash) {
   EXPECT_EQ(darkSymbols(all, 10.49), Ids{3});
   EXPECT_EQ(darkSymbols(all, 10.51), (Ids{2, 3}));
   EXPECT_EQ(darkSymbols(all, 12), Ids{3});
-  EXPECT_EQ(darkSymbols(all, kNaN), Ids{3});
+  EXPECT_EQ(darkSymbols(all, kNanF), Ids{3});
 }
 
 }  // namespace

@@ -163,11 +163,11 @@ TEST(GeometricError, saturatesAtTheWindowAndAtTheEdge) {
 
 TEST(GeometricError, takesAnyNumbers) {
   const ViewShape view = viewOf(64, 48);
-  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kNanF = std::numeric_limits<float>::quiet_NaN();
   const auto picture = pictureOf(view, ground(100));
   const auto clean = geometricError(picture, picture, view);
   EXPECT_EQ(clean.maxPx, 0);
-  for (const float odd : {kNan, -5.0f, 0.0f, kSky, -kSky}) {
+  for (const float odd : {kNanF, -5.0f, 0.0f, kSky, -kSky}) {
     auto spoilt = picture;
     spoilt[10 * 64 + 30] = odd;  // of ground: as if nothing were there
     for (const GeometricError& error :

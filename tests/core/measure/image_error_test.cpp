@@ -18,7 +18,7 @@ constexpr SimdLevel kLevels[] = {SimdLevel::portable, SimdLevel::avx2, SimdLevel
 
 /// Runs `check` on every level that this machine has.
 template <class Check>
-void onEveryPath(const Check& check) {
+void withEveryPath(const Check& check) {
   const ImageKernels* usual = &imageKernels();
   int ran = 0;
   for (const SimdLevel level : kLevels)
@@ -75,7 +75,7 @@ double ssimByTheBook(const std::vector<std::uint8_t>& a, const std::vector<std::
 }
 
 TEST(Psnr, isThatOfTheDefinition) {
-  onEveryPath([] {
+  withEveryPath([] {
     for (const PicturePair& p : test::picturePairs()) {
       double squares = 0;
       for (std::size_t i = 0; i < p.test.rgba.size(); ++i)
@@ -103,7 +103,7 @@ TEST(Psnr, isThatOfImageMagick) {
 }
 
 TEST(Psnr, sumsDoNotOverflowAndAlphaIsIgnored) {
-  onEveryPath([] {
+  withEveryPath([] {
     Picture black(5000, 2300), white(5000, 2300);
     for (std::size_t i = 0; i < white.rgba.size(); ++i) white.rgba[i] = i % 4 == 3 ? 77 : 255;
     EXPECT_EQ(psnrDb(black.rgba, white.rgba, 5000, 2300), 0);
@@ -114,7 +114,7 @@ TEST(Psnr, sumsDoNotOverflowAndAlphaIsIgnored) {
 }
 
 TEST(Ssim, isThatOfTheDefinition) {
-  onEveryPath([] {
+  withEveryPath([] {
     for (const PicturePair& p : test::picturePairs()) {
       const int width = p.reference.width, height = p.reference.height;
       if (width < 11 || height < 11) continue;
@@ -144,7 +144,7 @@ TEST(Ssim, isThatOfAnotherLibrary) {
 }
 
 TEST(Ssim, widthsAroundTheVectors) {
-  onEveryPath([] {
+  withEveryPath([] {
     for (int width = 11; width < 60; width += 3) {
       const Picture p = test::landscape(width, 17, 5), q = test::landscape(width, 17, 2);
       const auto a = lumaOf(p), b = lumaOf(q);
@@ -154,7 +154,7 @@ TEST(Ssim, widthsAroundTheVectors) {
 }
 
 TEST(Ssim, equalPicturesAreExactlyOne) {
-  onEveryPath([] {
+  withEveryPath([] {
     for (const PicturePair& p : test::picturePairs())
       if (p.reference.width >= 11 && p.reference.height >= 11) {
         EXPECT_EQ(ssimOfLuma(p.test.rgba, p.test.rgba, p.test.width, p.test.height), 1) << p.name;

@@ -1,17 +1,14 @@
 #include "trimtab/measure/paired_ratio.h"
+#include "trimtab/units/not_finite.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 #include <vector>
 
 namespace trimtab {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Exact: Pascal's triangle in whole numbers. Chance that the interval from the k-th smallest to the k-th
 /// largest of n values holds the median.

@@ -1,4 +1,5 @@
 #include "trimtab/measure/statistics.h"
+#include "trimtab/units/not_finite.h"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +14,6 @@
 
 namespace trimtab {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(SampleWindow, hasNoStatisticsWhileEmpty) {
   const SampleWindow window(10);

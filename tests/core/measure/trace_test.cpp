@@ -6,17 +6,16 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <random>
 #include <sstream>
 
 #include "tests/support.h"
 #include "trimtab/measure/cost_stages.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 const TuningParameters kDefaults;
 
 /// Any finite double, by its bits: every exponent, denormals and negative zero too.

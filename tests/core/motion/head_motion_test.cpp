@@ -1,9 +1,9 @@
 #include "trimtab/motion/head_motion.h"
+#include "trimtab/units/not_finite.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <set>
 #include <string>
 #include <utility>
@@ -12,9 +12,6 @@
 
 namespace trimtab {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using test::Pilot;
 

@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <random>
 #include <string>
 
 #include "pilot.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab {
 namespace {
 
 using test::Pilot;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Document C's semantics read off the history as a whole, frame by frame from the start.
 class Twin {

@@ -7,12 +7,10 @@
 
 #include "tests/core/policy/random_policy.h"
 #include "trimtab/policy/compiled_policy.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(),
-                 kInf = std::numeric_limits<double>::infinity();
 
 LeverValues neutral() {
   LeverValues values;
@@ -35,7 +33,7 @@ TEST(LeverDrive, takesTheFirstTargetsAtOnceAndNoJumpAfterwards) {
   EXPECT_DOUBLE_EQ(drive.follow(10.5, target, neutral())[Lever::lod_scale], 4 / std::sqrt(2) / 2)
       << "a gap is a quarter second";
   EXPECT_EQ(drive.follow(10.75, target, neutral())[Lever::lod_scale], 1);
-  target[Lever::lod_scale] = kNaN;
+  target[Lever::lod_scale] = kNan;
   EXPECT_EQ(drive.follow(11, target, neutral())[Lever::lod_scale], 1) << "the neutral value";
 }
 
@@ -61,7 +59,7 @@ TEST(LeverDrive, standsWhileTimeStandsGoesBackOrIsNotANumber) {
   LeverValues target = neutral();
   drive.follow(100, target, neutral());
   target[Lever::render_scale] = 0.5;
-  for (const double time : {100.0, 99.0, 98.0, kNaN, kInf, -kInf})
+  for (const double time : {100.0, 99.0, 98.0, kNan, kInfinity, -kInfinity})
     EXPECT_EQ(drive.follow(time, target, neutral())[Lever::render_scale], 1) << time;
   EXPECT_LT(drive.follow(98.1, target, neutral())[Lever::render_scale], 1)
       << "it goes on from where time is now";

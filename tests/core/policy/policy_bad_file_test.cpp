@@ -8,57 +8,57 @@
 namespace trimtab {
 namespace {
 
-struct Language {
+struct BadLanguage {
   RuleFormat format;
   const char* ending;
   std::string good;
 };
 
-const Language kLanguages[] = {{RuleFormat::fuzzylite, "f.fll",
-                                "Engine: e\n"
-                                "InputVariable: speed\n"
-                                "  enabled: true\n"
-                                "  range: 0 1500\n"
-                                "  lock-range: true\n"
-                                "  term: fast Ramp 100 200\n"
-                                "  term: step Discrete 10 0 10 1 20 0.5\n"
-                                "OutputVariable: lod_scale\n"
-                                "  lock-range: false\n"
-                                "  defuzzifier: WeightedAverage TakagiSugeno\n"
-                                "  default: nan\n"
-                                "  term: coarse Constant 4\n"
-                                "RuleBlock: r\n"
-                                "  conjunction: Minimum\n"
-                                "  disjunction: Maximum\n"
-                                "  activation: General\n"
-                                "  rule: if speed is fast then lod_scale is coarse with 0.5\n"
-                                "  # rule: if speed is step then lod_scale is coarse  # off\n"},
-                               {RuleFormat::matlab, "f.fis",
-                                "[System]\n"
-                                "Name='e'\n"
-                                "Type='sugeno'\n"
-                                "AndMethod='min'\n"
-                                "OrMethod='max'\n"
-                                "DefuzzMethod='wtaver'\n"
-                                "[Input1]\n"
-                                "Name='speed'\n"
-                                "Range=[0 1500]\n"
-                                "NumMFs=2\n"
-                                "MF1='fast':'rampmf',[100 200]\n"
-                                "MF2='step':'discretemf',[10 0 10 1 20 0.5]\n"
-                                "[Output1]\n"
-                                "Name='lod_scale'\n"
-                                "MF1='coarse':'constant',[4]\n"
-                                "[Rules]\n"
-                                "1, 1 (0.5) : 1\n"
-                                "% rule: 2, 1 (1) : 1\n"}};
+const BadLanguage kBadLanguages[] = {{RuleFormat::fuzzylite, "f.fll",
+                                      "Engine: e\n"
+                                      "InputVariable: speed\n"
+                                      "  enabled: true\n"
+                                      "  range: 0 1500\n"
+                                      "  lock-range: true\n"
+                                      "  term: fast Ramp 100 200\n"
+                                      "  term: step Discrete 10 0 10 1 20 0.5\n"
+                                      "OutputVariable: lod_scale\n"
+                                      "  lock-range: false\n"
+                                      "  defuzzifier: WeightedAverage TakagiSugeno\n"
+                                      "  default: nan\n"
+                                      "  term: coarse Constant 4\n"
+                                      "RuleBlock: r\n"
+                                      "  conjunction: Minimum\n"
+                                      "  disjunction: Maximum\n"
+                                      "  activation: General\n"
+                                      "  rule: if speed is fast then lod_scale is coarse with 0.5\n"
+                                      "  # rule: if speed is step then lod_scale is coarse  # off\n"},
+                                     {RuleFormat::matlab, "f.fis",
+                                      "[System]\n"
+                                      "Name='e'\n"
+                                      "Type='sugeno'\n"
+                                      "AndMethod='min'\n"
+                                      "OrMethod='max'\n"
+                                      "DefuzzMethod='wtaver'\n"
+                                      "[Input1]\n"
+                                      "Name='speed'\n"
+                                      "Range=[0 1500]\n"
+                                      "NumMFs=2\n"
+                                      "MF1='fast':'rampmf',[100 200]\n"
+                                      "MF2='step':'discretemf',[10 0 10 1 20 0.5]\n"
+                                      "[Output1]\n"
+                                      "Name='lod_scale'\n"
+                                      "MF1='coarse':'constant',[4]\n"
+                                      "[Rules]\n"
+                                      "1, 1 (0.5) : 1\n"
+                                      "% rule: 2, 1 (1) : 1\n"}};
 
 /// What of the good file is replaced, with what, and what is said of it: nothing if it is good too.
 struct Row {
   const char *from, *to, *finding;
 };
 
-void check(const Language& language, const std::vector<Row>& rows) {
+void check(const BadLanguage& language, const std::vector<Row>& rows) {
   ASSERT_TRUE(readPolicyFile(language.good, language.ending, language.format));
   for (const Row& row : rows) {
     std::string text = language.good;
@@ -75,7 +75,7 @@ void check(const Language& language, const std::vector<Row>& rows) {
 }
 
 TEST(BadPolicyFile, inFuzzyLiteLanguageIsRefusedWithLineExpectedAndFound) {
-  check(kLanguages[0],
+  check(kBadLanguages[0],
         {{"100 200", "200 100", ""},
          {"Engine: e", "# by hand", ""},
          {"Minimum", "none", ""},
@@ -139,7 +139,7 @@ TEST(BadPolicyFile, inFuzzyLiteLanguageIsRefusedWithLineExpectedAndFound) {
          {"with 0.5", "with 1.5", "f.fll:17: rules.1: expected a weight from 0 to 1, found 1.5"},
          {"with 0.5", "with 0.5 0.5", "f.fll:17: rule: expected the end of the line, found 0.5"},
          {"is step", "is gone", "f.fll:18: rules.2: expected a term of speed: fast, step, found gone"}});
-  std::string joint = kLanguages[0].good;
+  std::string joint = kBadLanguages[0].good;
   joint.replace(joint.find("Minimum"), 7, "none");
   joint.replace(joint.find("is fast then"), 7, "is fast and speed is step");
   EXPECT_EQ(toString(readFuzzyLite(joint, "f").findings()),
@@ -148,7 +148,7 @@ TEST(BadPolicyFile, inFuzzyLiteLanguageIsRefusedWithLineExpectedAndFound) {
 
 TEST(BadPolicyFile, inMatlabsLanguageIsRefusedWithLineExpectedAndFound) {
   check(
-      kLanguages[1],
+      kBadLanguages[1],
       {{"rampmf',[100 200", "linzmf',[200,100", ""},
        {"'step'", "'my step'", ""},
        {"1, 1 (0.5) : 1", "0, 1 (0.5) : 1", ""},
@@ -202,7 +202,7 @@ TEST(BadPolicyFile, inMatlabsLanguageIsRefusedWithLineExpectedAndFound) {
 /// Each is refused, or read, within a second, and by a hundred findings at most.
 TEST(BadPolicyFile, isNeverSlowHoweverLargeItIs) {
   const std::string million(1000000, 'x'), deep(1000000, '('), blanks(1000000, ' ');
-  for (const Language& language : kLanguages) {
+  for (const BadLanguage& language : kBadLanguages) {
     const bool fll = language.format == RuleFormat::fuzzylite;
     const std::string term = fll ? "100 200" : "[100 200]", rule = fll ? "speed is fast" : "1, 1 (0.5) : 1";
     const auto with = [&](const std::string& from, const std::string& to) {
@@ -241,7 +241,7 @@ TEST(BadPolicyFile, isNeverSlowHoweverLargeItIs) {
 
 TEST(BadPolicyFile, isRefusedOrReadWhateverByteIsWrong) {
   std::mt19937_64 random(24);
-  for (const Language& language : kLanguages)
+  for (const BadLanguage& language : kBadLanguages)
     for (std::size_t at = 0; at < language.good.size(); ++at) {
       const auto cut = readPolicyFile(language.good.substr(0, at), "f", language.format);
       EXPECT_TRUE(cut.ok() || !cut.findings().empty());

@@ -2,17 +2,17 @@
 
 #include <cfloat>
 #include <cmath>
-#include <limits>
 
 #include "tests/core/fuzzy/fuzzylite_oracle.h"
 #include "tests/core/policy/policy_oracle.h"
 #include "tests/core/policy/random_policy.h"
 #include "trimtab/policy/compiled_policy.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab {
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity(), kTiny = 5e-324;
+constexpr double kTiny = 5e-324;
 
 PolicyTerm termOf(const std::string& shape, const std::string& name = "t") {
   auto read = readShape(shape, "test");
@@ -111,11 +111,12 @@ TEST(PolicyEdges, haveTheTwinsValueAtEveryCornerBesideItAndFarAway) {
     Policy policy;
     policy.terms = {term};
     ASSERT_TRUE(compile(policy, "test")) << shapeText(term);
-    std::vector<double> at{0,     -0.0,   kTiny, -kTiny, 1e-308,  -1e-308, 1,       -1,
-                           1e300, -1e300, kInf,  -kInf,  DBL_MAX, DBL_MIN, -DBL_MAX};
+    std::vector<double> at{0,     -0.0,   kTiny,     -kTiny,     1e-308,  -1e-308, 1,       -1,
+                           1e300, -1e300, kInfinity, -kInfinity, DBL_MAX, DBL_MIN, -DBL_MAX};
     for (const double n : term.numbers)
       for (const double x : {n, n + 1, n - 1, n * 0.999, n * 1.001, n / 2})
-        for (const double y : {x, std::nextafter(x, kInf), std::nextafter(x, -kInf)}) at.push_back(y);
+        for (const double y : {x, std::nextafter(x, kInfinity), std::nextafter(x, -kInfinity)})
+          at.push_back(y);
     for (const double x : at) {
       if (std::isnan(x)) continue;
       const double mu = membershipOf(term, x);
@@ -165,7 +166,7 @@ TEST(PolicyEdges, beyondASignalsRangeAreThoseOfItsEnd) {
       for (const SignalRow& row : kSignalRows) {
         atEnd[row.signal] = high ? row.range.high : row.range.low;
         far[row.signal] = high ? DBL_MAX : -DBL_MAX;
-        further[row.signal] = high ? kInf : -kInf;
+        further[row.signal] = high ? kInfinity : -kInfinity;
       }
       compiled->decide(atEnd, end);
       for (const SignalValues& values : {far, further}) {

@@ -95,6 +95,25 @@ TEST(PolicyFile, comesBackFromBothLanguages) {
     }
 }
 
+TEST(PolicyFile, isNotWrittenIfItCouldNotBeRead) {
+  const auto withCondition = [](const std::string& condition) {
+    Policy policy;
+    policy.terms = {{Signal::altitude, "low", TermShape::ramp, {2000, 1000}}};
+    policy.rules = {{condition, {{Lever::lod_scale, 2}}, 1, true, ""}};
+    return policy;
+  };
+  // Each `or` becomes an `and` between two negated terms.
+  std::string most = "low";
+  for (int i = 0; i < 31; ++i) most += " or altitude is low";
+  const Policy longest = withCondition("not (altitude is " + most + ")");
+  ASSERT_TRUE(compile(longest, "p")) << toString(compile(longest, "p").findings());
+  for (const Language& language : kLanguages) {
+    EXPECT_FALSE(policyFileText(longest, "p", language.format));
+    EXPECT_FALSE(policyFileText(Policy{}, "p", language.format)) << "no rules";
+    EXPECT_TRUE(policyFileText(withCondition("not altitude is low"), "p", language.format));
+  }
+}
+
 TEST(PolicyFile, isReadAfterFuzzyliteHasConvertedIt) {
   if (!test::fuzzylitePresent()) GTEST_SKIP() << "needs the fuzzylite program";
   std::mt19937_64 random(14);

@@ -12,7 +12,7 @@
 namespace trimtab {
 namespace {
 
-PolicyTerm term(Signal signal, const char* name, const char* shape) {
+PolicyTerm reviewTerm(Signal signal, const char* name, const char* shape) {
   auto read = readShape(shape, "test");
   EXPECT_TRUE(read) << toString(read.findings());
   PolicyTerm made = read ? *read : PolicyTerm{};
@@ -33,8 +33,8 @@ Policy policyOf(std::vector<PolicyTerm> terms, std::initializer_list<const char*
 }
 
 std::vector<PolicyTerm> lowAndHigh() {
-  return {term(Signal::above_ground, "low", "ramp 2000 1000"),
-          term(Signal::above_ground, "high", "ramp 1000 2000")};
+  return {reviewTerm(Signal::above_ground, "low", "ramp 2000 1000"),
+          reviewTerm(Signal::above_ground, "high", "ramp 1000 2000")};
 }
 
 /// The findings of one key, as text.
@@ -79,11 +79,11 @@ TEST(ReviewPolicy, findsARuleThatCanNeverFire) {
     bool never;
   };
   std::vector<PolicyTerm> terms = lowAndHigh();
-  terms.push_back(term(Signal::above_ground, "deep", "trapezoid -5000 -4000 -3000 -2000"));
-  terms.push_back(term(Signal::above_ground, "at_hover", "gaussian 90 1"));
-  terms.push_back(term(Signal::speed, "beyond", "gaussian 9000 100"));
-  terms.push_back(term(Signal::speed, "fast", "sigmoid 300 0.1"));
-  terms.push_back(term(Signal::above_ground, "sea", "ramp 30 20"));
+  terms.push_back(reviewTerm(Signal::above_ground, "deep", "trapezoid -5000 -4000 -3000 -2000"));
+  terms.push_back(reviewTerm(Signal::above_ground, "at_hover", "gaussian 90 1"));
+  terms.push_back(reviewTerm(Signal::speed, "beyond", "gaussian 9000 100"));
+  terms.push_back(reviewTerm(Signal::speed, "fast", "sigmoid 300 0.1"));
+  terms.push_back(reviewTerm(Signal::above_ground, "sea", "ramp 30 20"));
   for (const Case& c : {Case{"above_ground is low", false},
                         {"above_ground is low and above_ground is high", false},
                         {"above_ground is deep", true},
@@ -107,8 +107,8 @@ TEST(ReviewPolicy, findsARuleThatCanNeverFire) {
 
 TEST(ReviewPolicy, namesTheRegionThatNoRuleCovers) {
   std::vector<PolicyTerm> terms = lowAndHigh();
-  terms.push_back(term(Signal::speed, "slow", "ramp 200 100"));
-  terms.push_back(term(Signal::speed, "fast", "ramp 100 200"));
+  terms.push_back(reviewTerm(Signal::speed, "slow", "ramp 200 100"));
+  terms.push_back(reviewTerm(Signal::speed, "fast", "ramp 100 200"));
   Policy policy = policyOf(terms, {"if above_ground is low then lod_scale = 1",
                                    "if above_ground is high and speed is slow then lod_scale = 1.5"});
   const std::string found = of(reviewPolicy(policy), "rules");
@@ -121,7 +121,7 @@ TEST(ReviewPolicy, namesTheRegionThatNoRuleCovers) {
 
 TEST(ReviewPolicy, findsTwoRulesThatFight) {
   std::vector<PolicyTerm> terms = lowAndHigh();
-  terms.push_back(term(Signal::speed, "fast", "ramp 200 400"));
+  terms.push_back(reviewTerm(Signal::speed, "fast", "ramp 200 400"));
   const Policy fight = policyOf(terms, {"if above_ground is low then screen_space_error = 1",
                                         "if speed is fast then screen_space_error = 16"});
   const std::string found = of(reviewPolicy(fight), "rules.1");

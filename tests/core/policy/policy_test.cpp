@@ -1,16 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "tests/core/policy/random_policy.h"
 #include "trimtab/policy/compiled_policy.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab {
 namespace {
-
-constexpr double kInf = std::numeric_limits<double>::infinity(),
-                 kNaN = std::numeric_limits<double>::quiet_NaN();
 
 PolicyTerm term(Signal signal, const char* name, const char* shape) {
   auto read = readShape(shape, "test");
@@ -33,8 +30,8 @@ double at(const char* shape, double x) {
 
 TEST(PolicyTerms, haveTheValuesOfTheirFormulas) {
   EXPECT_EQ(at("points 0 0 10 1 20 0.5", 5), 0.5);
-  EXPECT_EQ(at("points 0 0 10 1 20 0.5", -kInf), 0);
-  EXPECT_EQ(at("points 0 0 10 1 20 0.5", kInf), 0.5);
+  EXPECT_EQ(at("points 0 0 10 1 20 0.5", -kInfinity), 0);
+  EXPECT_EQ(at("points 0 0 10 1 20 0.5", kInfinity), 0.5);
   EXPECT_EQ(at("points 0 0.25 10 0.25 10 1 20 1", 10), 1) << "at a step the later point counts";
   EXPECT_EQ(at("points 0 0.25 10 0.25 10 1 20 1", std::nextafter(10.0, 0.0)), 0.25);
   EXPECT_EQ(at("triangle 0 10 20", 10), 1);
@@ -43,29 +40,29 @@ TEST(PolicyTerms, haveTheValuesOfTheirFormulas) {
   EXPECT_EQ(at("triangle 0 20 20", 20), 1);
   EXPECT_EQ(at("triangle 0 10 20", 20), 0);
   EXPECT_EQ(at("trapezoid -inf 0 10 20", -1e300), 1);
-  EXPECT_EQ(at("trapezoid 0 10 20 inf", kInf), 1);
+  EXPECT_EQ(at("trapezoid 0 10 20 inf", kInfinity), 1);
   EXPECT_EQ(at("trapezoid 0 10 10 20", 10), 1);
   EXPECT_EQ(at("ramp 10 20", 12.5), 0.25);
   EXPECT_EQ(at("ramp 20 10", 12.5), 0.75);
-  EXPECT_EQ(at("ramp 20 10", kInf), 0);
+  EXPECT_EQ(at("ramp 20 10", kInfinity), 0);
   EXPECT_NEAR(at("gaussian 5 2", 7), std::exp(-0.5), 1e-15);
   EXPECT_EQ(at("gaussian 5 1e-12", 5), 1);
   EXPECT_EQ(at("gaussian 5 1e-12", 6), 0);
   EXPECT_EQ(at("bell 5 2 3", 7), 0.5);
-  EXPECT_EQ(at("bell 5 2 3", kInf), 0);
+  EXPECT_EQ(at("bell 5 2 3", kInfinity), 0);
   EXPECT_EQ(at("sigmoid 5 2", 5), 0.5);
-  EXPECT_EQ(at("sigmoid 5 2", -kInf), 0);
-  EXPECT_EQ(at("sigmoid 5 -2", -kInf), 1);
+  EXPECT_EQ(at("sigmoid 5 2", -kInfinity), 0);
+  EXPECT_EQ(at("sigmoid 5 -2", -kInfinity), 1);
   for (const char* shape :
        {"points 0 0 1 1", "triangle 0 1 2", "ramp 0 1", "gaussian 0 1", "bell 0 1 1", "sigmoid 0 1"})
-    EXPECT_TRUE(std::isnan(at(shape, kNaN))) << shape;
+    EXPECT_TRUE(std::isnan(at(shape, kNan))) << shape;
 }
 
 TEST(PolicyTerms, stayBetweenZeroAndOneForAnyNumbersThatCompile) {
   std::mt19937_64 random(3);
   for (int i = 0; i < 300; ++i)
     for (const PolicyTerm& each : test::randomPolicy(random, {}).terms)
-      for (const double x : {-kInf, -1e300, -1.0, 0.0, 1e-300, 1.0, 777.7, 1e300, kInf}) {
+      for (const double x : {-kInfinity, -1e300, -1.0, 0.0, 1e-300, 1.0, 777.7, 1e300, kInfinity}) {
         const double mu = membershipOf(each, x);
         ASSERT_TRUE(mu >= 0 && mu <= 1) << shapeText(each) << " at " << x;
       }
@@ -131,7 +128,7 @@ TEST(PolicyRules, bindNotBeforeAndBeforeOr) {
     signals[Signal::speed] = speed;
     PolicyDecision d;
     if (compiled) compiled->decide(signals, d);
-    return d.firing.empty() ? kNaN : d.firing[0];
+    return d.firing.empty() ? kNan : d.firing[0];
   };
   EXPECT_EQ(value("above_ground is low or above_ground is high and speed is fast", 1000, 200), 1);
   EXPECT_EQ(value("(above_ground is low or above_ground is high) and speed is fast", 1000, 200), 0);
@@ -157,10 +154,10 @@ TEST(PolicyRules, neverLeaveWhatTheRulesThatFireAskFor) {
     ASSERT_TRUE(compiled) << toString(compiled.findings());
     for (int k = 0; k < 20; ++k) {
       SignalValues signals = test::randomSignals(random, policy);
-      if (k % 5 == 4) signals.value[static_cast<std::size_t>(k) % kSignals] = k % 2 ? kInf : kNaN;
+      if (k % 5 == 4) signals.value[static_cast<std::size_t>(k) % kSignals] = k % 2 ? kInfinity : kNan;
       compiled->decide(signals, d);
       for (const LeverRow& row : kLeverRows) {
-        double least = kInf, most = -kInf;
+        double least = kInfinity, most = -kInfinity;
         for (std::size_t r = 0; r < policy.rules.size(); ++r)
           for (const LeverSetting& s : policy.rules[r].settings)
             if (s.lever == row.lever && d.firing[r] > 0)

@@ -20,7 +20,7 @@ struct Format {
 constexpr Format kFormats[] = {
     {ExportFormat::json, "json"}, {ExportFormat::xml, "xml"}, {ExportFormat::ini, "ini"}};
 
-std::string exported(const TuningParameters& parameters, ExportFormat format) {
+std::string exportedText(const TuningParameters& parameters, ExportFormat format) {
   return exportText(*validate(parameters), "tuned; \"best\" <\\n>",
                     {"A & B", "2024-05-06T07:08:09Z", "test", "T", "two\nlines; # = [x]"}, format);
 }
@@ -40,7 +40,7 @@ TEST(ReadExport, givesTheSameBitsInEveryFormat) {
     if (!validate(parameters)) continue;
     ++made;
     for (const auto& [format, ending] : kFormats) {
-      const auto read = parsePreset(exported(parameters, format), ending);
+      const auto read = parsePreset(exportedText(parameters, format), ending);
       ASSERT_TRUE(read) << toString(read.findings());
       EXPECT_TRUE(sameBits(read->parameters, parameters)) << ending;
       EXPECT_EQ(read->name, "tuned; \"best\" <\\n>");
@@ -51,7 +51,7 @@ TEST(ReadExport, givesTheSameBitsInEveryFormat) {
 
 TEST(ReadExport, refusesAnyChangedByte) {
   for (const auto& [format, ending] : kFormats) {
-    const std::string good = exported({}, format);
+    const std::string good = exportedText({}, format);
     for (std::size_t at = 0; at < good.size(); at += 37) {
       std::string bad = good;
       bad[at] = static_cast<char>(bad[at] ^ 4);
@@ -62,11 +62,11 @@ TEST(ReadExport, refusesAnyChangedByte) {
 
 /// The seal holds, so that only the value is wrong.
 TEST(ReadExport, namesLineKeyExpectedAndFoundOfABadValue) {
-  struct Bad {
+  struct BadValue {
     ExportFormat format;
     const char *from, *to, *key, *expected, *found;
   };
-  const Bad bad[] = {
+  const BadValue bad[] = {
       {ExportFormat::ini, "lod.scale = 1\n", "lod.scale = 101\n", "lod.scale", "0.05 to 100", "101"},
       {ExportFormat::ini, "lod.scale = 1\n", "lod.scale = x\n", "lod.scale", "a number", "x"},
       {ExportFormat::ini, "culling.occlusion = auto", "culling.occlusion = best", "culling.occlusion",
@@ -85,8 +85,8 @@ TEST(ReadExport, namesLineKeyExpectedAndFoundOfABadValue) {
       {ExportFormat::xml, "<low type=\"double\">0.1<", "<low type=\"double\">x<", "fuzzy.bands_px",
        "bands as low:WIDTHxHEIGHT", "x:320x240"},
   };
-  for (const Bad& row : bad) {
-    const auto read = parsePreset(sealed(replaced(exported({}, row.format), row.from, row.to)), "file");
+  for (const BadValue& row : bad) {
+    const auto read = parsePreset(sealed(replaced(exportedText({}, row.format), row.from, row.to)), "file");
     EXPECT_FALSE(read && validate(read->parameters)) << row.to;
     ASSERT_FALSE(read.findings().empty()) << row.to;
     const Finding& f = read.findings()[0];
@@ -99,7 +99,7 @@ TEST(ReadExport, namesLineKeyExpectedAndFoundOfABadValue) {
 }
 
 TEST(ReadExport, refusesWhatAnXmlReaderCouldBeAbusedWith) {
-  const std::string good = exported({}, ExportFormat::xml);
+  const std::string good = exportedText({}, ExportFormat::xml);
   const std::string head = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
   std::string laughs = "<!DOCTYPE PropertyList [<!ENTITY a \"ha\">";
   for (char c = 'b'; c <= 'k'; ++c) {

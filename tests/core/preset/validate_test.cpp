@@ -2,18 +2,15 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "random_parameters.h"
 #include "trimtab/preset/table.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Findings findingsOf(const TuningParameters& parameters) {
   return validate(parameters).findings();

@@ -3,17 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "tests/support.h"
 #include "trimtab/host/received_state.h"
 #include "trimtab/motion/head_motion.h"
 #include "trimtab/session/session.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 AircraftState level(double time) {
   AircraftState state;

@@ -1,18 +1,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "tests/core/culling/random_index.h"
 #include "trimtab/measure/trace.h"
 #include "trimtab/session/motion_ahead.h"
 #include "trimtab/session/session.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 ValidatedParameters holding(double budgetMs) {
   TuningParameters p;

@@ -42,7 +42,7 @@ ValidatedParameters lowAndLoaded() {
   });
 }
 
-AircraftState stateAt(double time, double heightM) {
+AircraftState flownAt(double time, double heightM) {
   AircraftState state;
   state.time = time;
   state.packet = static_cast<std::uint64_t>(time * 60);
@@ -62,7 +62,7 @@ TEST(PolicySession, setsWhatTheRequestAsksFor) {
   Session session(lowAndLoaded());
   const auto ground = std::make_shared<FlatGround>();
   session.setGround(ground);
-  session.fly(stateAt(1, 300));
+  session.fly(flownAt(1, 300));
   EXPECT_GT(ground->asked, 0) << "a rule asks for the height above ground";
   const auto request = session.request(1, 640, 360);
   ASSERT_TRUE(request);
@@ -78,7 +78,7 @@ TEST(PolicySession, withoutAPolicyNothingIsSetAndNothingIsAsked) {
   Session session(defaultParameters());
   const auto ground = std::make_shared<FlatGround>();
   session.setGround(ground);
-  session.fly(stateAt(1, 300));
+  session.fly(flownAt(1, 300));
   const auto request = session.request(1, 640, 360);
   ASSERT_TRUE(request);
   EXPECT_EQ(request->renderScale, 1);
@@ -105,7 +105,7 @@ TEST(PolicySession, heavyFramesMoveTheLeversAndNoFasterThanTheirRates) {
   double last = 1, lastScale = 1;
   for (int i = 1; i <= 120; ++i) {
     const double time = i / 60.0;
-    session.fly(stateAt(time, 5000));
+    session.fly(flownAt(time, 5000));
     const auto request = session.request(time, 640, 360);
     session.finished(resultCosting(i < 60 ? 50 : 5), time);
     const double scale = request->decision.lodScale;
@@ -130,7 +130,7 @@ TEST(PolicySession, aTraceIsDecidedAgainToTheBit) {
   session.keepRows(true);
   for (int i = 1; i <= 400; ++i) {
     const double time = i / 60.0;
-    session.fly(stateAt(time, 900 + 700 * std::sin(time)));
+    session.fly(flownAt(time, 900 + 700 * std::sin(time)));
     session.request(time, 640, 360);
     session.finished(resultCosting(10 + 20 * std::sin(i * 0.7) * std::sin(i * 0.01)), time);
   }
@@ -159,7 +159,7 @@ TEST(PolicySession, survivesWhatHostsSend) {
   double time = 0;
   for (const double value : bad)
     for (int field = 0; field < 6; ++field) {
-      AircraftState state = stateAt(time += 0.016, 5000);
+      AircraftState state = flownAt(time += 0.016, 5000);
       switch (field) {
         case 0:
           state.position.height = Metres{value};

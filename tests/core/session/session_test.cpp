@@ -10,11 +10,10 @@
 
 #include "tests/support.h"
 #include "trimtab/frame/ground_heights.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Flat ground at a height; counts how often it is asked.
 class FlatGround : public GroundHeights {

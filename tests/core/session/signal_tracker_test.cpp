@@ -1,4 +1,5 @@
 #include "trimtab/session/signal_tracker.h"
+#include "trimtab/units/not_finite.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +8,6 @@
 
 namespace trimtab {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(),
-                 kInf = std::numeric_limits<double>::infinity();
 
 AircraftState stateAt(double time, double headingDeg = 0, double pitchDeg = 0) {
   AircraftState state;
@@ -100,7 +98,7 @@ TEST(SignalTracker, reachesAStepAlikeAtAnyHostRate) {
 }
 
 TEST(SignalTracker, beginsAnewAfterAGapAndWhereTimeGoesBack) {
-  for (const double next : {12.5, 3.0, kNaN, kInf}) {
+  for (const double next : {12.5, 3.0, kNan, kInfinity}) {
     SignalTracker tracker;
     push(tracker, stateAt(10, 0));
     push(tracker, stateAt(10.1, 10));
@@ -126,9 +124,9 @@ TEST(SignalTracker, ignoresTheSameMomentTwice) {
 TEST(SignalTracker, callsWhatIsNotANumberUnknownAndRecovers) {
   SignalTracker tracker;
   push(tracker, stateAt(1));
-  AircraftState bad = stateAt(1.1, kNaN, kNaN);
-  bad.position.height = Metres{kInf};
-  bad.airspeed = Knots{kNaN};
+  AircraftState bad = stateAt(1.1, kNan, kNan);
+  bad.position.height = Metres{kInfinity};
+  bad.airspeed = Knots{kNan};
   push(tracker, bad);
   for (const Signal s : {Signal::altitude, Signal::pitch, Signal::speed, Signal::sight_rate})
     EXPECT_TRUE(std::isnan(tracker.values()[s])) << rowOf(s).key;
@@ -145,8 +143,8 @@ TEST(SignalTracker, takesTheMedianLoadSoThatASpikeDrivesNothing) {
   tracker.finished(500, 16, 2000);
   EXPECT_EQ(tracker.values()[Signal::load], 0.5);
   EXPECT_EQ(tracker.values()[Signal::triangles], 2000);
-  for (const double work : {0.0, -1.0, kNaN, kInf}) tracker.finished(work, 16, 1);
-  for (const double budget : {0.0, -1.0, kNaN, kInf}) tracker.finished(8, budget, 1);
+  for (const double work : {0.0, -1.0, kNan, kInfinity}) tracker.finished(work, 16, 1);
+  for (const double budget : {0.0, -1.0, kNan, kInfinity}) tracker.finished(8, budget, 1);
   EXPECT_EQ(tracker.values()[Signal::load], 0.5);
   for (int i = 0; i < 5; ++i) tracker.finished(32, 16, 1);
   EXPECT_EQ(tracker.values()[Signal::load], 2) << "load that lasts counts";

@@ -3,17 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "trimtab/decision/decide.h"
+#include "trimtab/units/not_finite.h"
 #include "trimtab/weather/weather.h"
 
 namespace trimtab::test {
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity(),
-                 kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRadius = kEarthRadiusM;
 
 /// The height of the point at distance `t` along a ray.
@@ -50,7 +48,7 @@ TEST(HazeLayer, isAsLongAlongARayAsSmallStepsFindIt) {
 TEST(HazeLayer, neitherJumpsAtALevelRayNorAtTheTop) {
   for (const double top : {200.0, 2000.0})
     for (const double eye : {0.0, 199.999, 200.0, 200.001, 1999.0, 2000.0, 2001.0})
-      for (const double length : {100.0, 40e3, kInf}) {
+      for (const double length : {100.0, 40e3, kInfinity}) {
         const double level = lengthInLayer(eye, 0, length, top);
         ASSERT_TRUE(std::isfinite(level) && level >= 0 && level <= length);
         for (const double rise : {-1e-9, 1e-9})
@@ -81,7 +79,7 @@ TEST(HazeLayer, hidesAtTheSafeDistanceWhateverTheRay) {
     const double rise = chord / (2 * (kRadius + climbed) * distance);
     if (std::abs(rise) > 1) continue;
     const double left = std::exp(-sigma * lengthInLayer(climbed, rise, distance, top));
-    const double behind = std::exp(-sigma * lengthInLayer(climbed, rise, kInf, top));
+    const double behind = std::exp(-sigma * lengthInLayer(climbed, rise, kInfinity, top));
     ASSERT_LE(left, 1 / 255.0) << visibility << " m, top " << top << ", eye " << climbed << ", ground "
                                << ground << " at " << distance;
     ASSERT_LE(behind, left);
@@ -101,20 +99,20 @@ TEST(SafeFarDistance, isDefinedForEveryInput) {
   const double inside = std::log(256.0) / one;
   for (const Case& c : {
            Case{"in the layer, as all ground", one, 3000, 100, 2000, inside},
-           Case{"a layer without a top", one, kInf, 100, 9000, inside},
-           Case{"visibility 0", kInf, 3000, 100, 2000, 0},
-           Case{"no haze", 0, 3000, 100, 2000, kInf},
-           Case{"negative extinction", -1, 3000, 100, 2000, kInf},
-           Case{"huge visibility", 1e-30, 3000, 100, 2000, kInf},
-           Case{"extinction that is no number", kNaN, 3000, 100, 2000, kInf},
-           Case{"top that is no number", one, kNaN, 100, 2000, kInf},
-           Case{"eye that is no number", one, 3000, kNaN, 2000, kInf},
-           Case{"ground that is no number", one, 3000, 100, kNaN, kInf},
-           Case{"eye infinitely high", one, 3000, kInf, 2000, kInf},
-           Case{"eye infinitely low", one, 3000, -kInf, 2000, inside},
-           Case{"ground infinitely high", one, 3000, 100, kInf, kInf},
-           Case{"no layer", one, -kInf, 100, 2000, kInf},
-           Case{"eye above the layer, ground too", one, 3000, 5000, 4000, kInf},
+           Case{"a layer without a top", one, kInfinity, 100, 9000, inside},
+           Case{"visibility 0", kInfinity, 3000, 100, 2000, 0},
+           Case{"no haze", 0, 3000, 100, 2000, kInfinity},
+           Case{"negative extinction", -1, 3000, 100, 2000, kInfinity},
+           Case{"huge visibility", 1e-30, 3000, 100, 2000, kInfinity},
+           Case{"extinction that is no number", kNan, 3000, 100, 2000, kInfinity},
+           Case{"top that is no number", one, kNan, 100, 2000, kInfinity},
+           Case{"eye that is no number", one, 3000, kNan, 2000, kInfinity},
+           Case{"ground that is no number", one, 3000, 100, kNan, kInfinity},
+           Case{"eye infinitely high", one, 3000, kInfinity, 2000, kInfinity},
+           Case{"eye infinitely low", one, 3000, -kInfinity, 2000, inside},
+           Case{"ground infinitely high", one, 3000, 100, kInfinity, kInfinity},
+           Case{"no layer", one, -kInfinity, 100, 2000, kInfinity},
+           Case{"eye above the layer, ground too", one, 3000, 5000, 4000, kInfinity},
            Case{"eye above the layer, ground below it", one, 2000, 3900, 900, inside * 3},
            Case{"eye in the layer, ground above it", one, 2000, 900, 3900, inside * 3},
        })

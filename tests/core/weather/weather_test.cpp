@@ -1,16 +1,13 @@
 #include "trimtab/weather/weather.h"
 
 #include <cmath>
-#include <limits>
 
 #include "tests/support.h"
 #include "trimtab/decision/decide.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab::test {
 namespace {
-
-constexpr double kInf = std::numeric_limits<double>::infinity(),
-                 kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TuningParameters inStep(WeatherStep step) {
   TuningParameters p;
@@ -41,7 +38,7 @@ TEST(Weather, ofTheDefaultPresetIsClearWithNothingCut) {
 
 TEST(Weather, isDecidedThoughTheAircraftIsNowhere) {
   AircraftState state;
-  state.attitude.pitch = Degrees{kNaN};
+  state.attitude.pitch = Degrees{kNan};
   DecisionMemory memory;
   const ValidatedParameters parameters = validate(inStep(WeatherStep::rain_heavy)).value();
   EXPECT_EQ(decide({state, {}, {}, {}, {}}, parameters, memory).weather.precipitation, Precipitation::rain);
@@ -53,7 +50,7 @@ TEST(Weather, leavesTheContrastThresholdAtTheVisibility) {
       EXPECT_NEAR(std::exp(-extinction(visibility, threshold) * visibility), threshold, 1e-12);
   EXPECT_NEAR(extinction(1000, 0.02) * 1000, 3.912, 5e-4) << "Koschmieder's constant";
   EXPECT_NEAR(extinction(1000, 0.05) * 1000, 2.996, 5e-4) << "that of the meteorological optical range";
-  EXPECT_EQ(extinction(kInf, 0.02), 0);
+  EXPECT_EQ(extinction(kInfinity, 0.02), 0);
 }
 
 struct StepCase {
@@ -101,7 +98,7 @@ TEST(Weather, takesTheTypedVisibilityInEveryStep) {
 }
 
 TEST(Weather, refusesATypedVisibilityOutsideItsRange) {
-  for (const double bad : {0.0, -5.0, 9.99, 1.01e6, kInf, kNaN}) {
+  for (const double bad : {0.0, -5.0, 9.99, 1.01e6, kInfinity, kNan}) {
     TuningParameters p;
     p.weather.typedVisibility = Metres{bad};
     const auto result = validate(p);
@@ -127,13 +124,13 @@ TEST(Weather, cutsByTheModeOfTheRatio) {
   p.weather.step = WeatherStep::snow_heavy;
   EXPECT_NEAR(decideWeather(AircraftState{}, p).farM, 10000, 1e-9) << "one ratio for all weather";
   p.weather.step = WeatherStep::clear;
-  EXPECT_EQ(decideWeather(AircraftState{}, p).farM, kInf)
+  EXPECT_EQ(decideWeather(AircraftState{}, p).farM, kInfinity)
       << "clear rows of Table 1 are equal in both columns";
 
   p = inStep(WeatherStep::rain_medium);
   p.weather.ratioMode = RatioMode::off;
   d = decideWeather(AircraftState{}, p);
-  EXPECT_EQ(d.farM, kInf);
+  EXPECT_EQ(d.farM, kInfinity);
   EXPECT_EQ(d.nearFarRatio, 0);
   EXPECT_TRUE(d.fogged);
 }
@@ -190,11 +187,11 @@ TEST(HostWeather, fallsBackToThePresetUntilTheHostSpeaks) {
 }
 
 TEST(HostWeather, ofUnusableVisibilityIsDefined) {
-  for (const double bad : {0.0, -1.0, -kInf, kNaN}) {
+  for (const double bad : {0.0, -1.0, -kInfinity, kNan}) {
     SCOPED_TRACE(bad);
     WeatherDecision d = decideWeather(saying({}, Metres{bad}), byHost());
     EXPECT_FALSE(d.fogged);
-    EXPECT_EQ(d.farM, kInf);
+    EXPECT_EQ(d.farM, kInfinity);
     EXPECT_EQ(d.reason, WeatherReason::invalid_visibility);
     d = decideWeather(saying(HostWeather{Precipitation::rain, 5, Metres{bad}}, Metres{bad}), byHost());
     EXPECT_EQ(d.visibilityM, 4000) << "that of the preset's heavy rain";
@@ -212,9 +209,9 @@ TEST(HostWeather, ofUnusableVisibilityIsDefined) {
     EXPECT_EQ(d.farM, c.drawn);
     EXPECT_EQ(d.reason, WeatherReason::visibility_limited);
   }
-  const WeatherDecision unlimited = decideWeather(saying({}, Metres{kInf}), byHost());
+  const WeatherDecision unlimited = decideWeather(saying({}, Metres{kInfinity}), byHost());
   EXPECT_FALSE(unlimited.fogged);
-  EXPECT_EQ(unlimited.farM, kInf);
+  EXPECT_EQ(unlimited.farM, kInfinity);
 }
 
 TEST(HostWeather, ofSeverityOutsideItsScaleIsHeldToIt) {
@@ -266,7 +263,7 @@ TEST(StepParameters, betweenStepsLieOnLines) {
   p.rainHeavy.density = Ratio{0.8};
   EXPECT_EQ(at(0.9).visibilityShare.value(), 0.1) << "held beyond the densest";
   EXPECT_EQ(stepParametersAt(p, Precipitation::none, 0.5).visibilityShare.value(), 1);
-  EXPECT_EQ(at(kNaN).visibilityShare.value(), 1);
+  EXPECT_EQ(at(kNan).visibilityShare.value(), 1);
   // Steps out of order or of one density: still a number for every density.
   p.rainLight.density = p.rainMedium.density = Ratio{0.5};
   p.rainHeavy.density = Ratio{0.2};

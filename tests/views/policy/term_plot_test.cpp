@@ -2,6 +2,7 @@
 #include "views/policy/term_plot.h"
 
 #include <QApplication>
+#include <QCheckBox>
 #include <QClipboard>
 #include <QLineEdit>
 #include <QSignalSpy>
@@ -10,6 +11,9 @@
 
 #include "policy_flight.h"
 #include "tests/views/application.h"
+#include "views/controls/parameter_of.h"
+#include "views/panels/symbology_panel.h"
+#include "views/policy/policy_live.h"
 #include "views/policy/policy_panel.h"
 #include "views/policy/signals_list.h"
 #include "views/policy/terms_model.h"
@@ -235,6 +239,30 @@ TEST_F(TermPlotTest, theFilesTermStaysBehindTheOneThatIsDragged) {
   draft_.undoStack().undo();
   EXPECT_FALSE(plot().ghosts().isShown(Reference::file));
   EXPECT_TRUE(plot().ghosts().isShown(Reference::pinned));
+}
+
+TEST_F(TermPlotTest, escapeAfterTheDraggedTermWasRemovedChangesNothing) {
+  draft_.setValue("policy.terms", TextLines{{"above_ground low = triangle 500 1500 2500"}});
+  plot().select(0);
+  drag(plot(), pixel(1), pixel(1) + QPointF(20, 0), false);
+  press(plot(), Qt::Key_Delete, Qt::ControlModifier);
+  ASSERT_TRUE(draft_.parameters().policy.terms.line.empty());
+  press(plot(), Qt::Key_Escape);
+  EXPECT_TRUE(draft_.parameters().policy.terms.line.empty());
+}
+
+TEST(PolicyTrack, aClearedTrackIsDrawnAgain) {
+  PolicyTrack track;
+  track.push(1, {});
+  const std::uint64_t drawn = track.revision();
+  track.clear();
+  EXPECT_NE(track.revision(), drawn);
+}
+
+TEST(SymbologyPanel, helpFindsTheParameterOfACheckBox) {
+  Draft draft;
+  SymbologyPanel panel(draft);
+  EXPECT_EQ(parameterOf(&panel.showBox(0)), "symbology.pitch_ladder.show");
 }
 
 }  // namespace

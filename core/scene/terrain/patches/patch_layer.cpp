@@ -18,22 +18,22 @@ struct SlotData {
 };
 static_assert(sizeof(SlotData) == 32);
 
-constexpr MeshPool::Layout kLayout{.vertexBytes = sizeof(PatchVertex),
-                                   .indexBytes = sizeof(std::uint16_t),
-                                   .slotBytes = sizeof(SlotData),
-                                   .block = PatchLayer::kBlock,
-                                   .indexBlock = 32,
-                                   .leastBlocks = 1024,
-                                   .leastIndexBlocks = 2048,
-                                   .growth = 2};
-constexpr std::array kAttributes{
+constexpr MeshPool::Layout kPatchLayout{.vertexBytes = sizeof(PatchVertex),
+                                        .indexBytes = sizeof(std::uint16_t),
+                                        .slotBytes = sizeof(SlotData),
+                                        .block = PatchLayer::kBlock,
+                                        .indexBlock = 32,
+                                        .leastBlocks = 1024,
+                                        .leastIndexBlocks = 2048,
+                                        .growth = 2};
+constexpr std::array kPatchAttributes{
     VertexAttribute{0, 3, GL_FLOAT, false, offsetof(PatchVertex, x)},
     VertexAttribute{1, 3, GL_BYTE, true, offsetof(PatchVertex, normal)},
     VertexAttribute{2, 2, GL_UNSIGNED_SHORT, false, offsetof(PatchVertex, column)}};
 
 }  // namespace
 
-PatchLayer::PatchLayer() : pool_(kLayout, [this] { attach(); }) {
+PatchLayer::PatchLayer() : pool_(kPatchLayout, [this] { attach(); }) {
   glGenVertexArrays(1, &vertexArray_);
   glGenBuffers(1, &tintBuffer_);
   glGenTextures(1, &tintTexture_);
@@ -48,7 +48,7 @@ PatchLayer::~PatchLayer() {
 void PatchLayer::attach() {
   glBindVertexArray(vertexArray_);
   glBindBuffer(GL_ARRAY_BUFFER, pool_.vertexBuffer());
-  if (pool_.vertexBuffer() != 0) defineAttributes(kAttributes, sizeof(PatchVertex));
+  if (pool_.vertexBuffer() != 0) defineAttributes(kPatchAttributes, sizeof(PatchVertex));
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, pool_.indexBuffer());
   glBindVertexArray(0);
   glBindBuffer(GL_ARRAY_BUFFER, 0);
@@ -110,8 +110,8 @@ void PatchLayer::draw(std::span<const TileDraw> patches) {
       const std::uint32_t first = mesh->firstIndex[patch.variant.number];
       const std::uint32_t count = mesh->firstIndex[patch.variant.number + 1u] - first;
       if (count > 0)
-        surface_.add(mesh->place.indexBlock * kLayout.indexBlock + first, count,
-                     mesh->place.block * kLayout.block, patch.bothSides);
+        surface_.add(mesh->place.indexBlock * kPatchLayout.indexBlock + first, count,
+                     mesh->place.block * kPatchLayout.block, patch.bothSides);
     }
   surface_.draw(vertexArray_, GL_UNSIGNED_SHORT);
 }
@@ -126,7 +126,7 @@ void PatchLayer::setTints(std::span<const TileDraw> patches, std::span<const std
 }
 
 std::size_t PatchLayer::bytesOf(std::size_t vertices, std::size_t indices) {
-  return kLayout.bytes(kLayout.blocksOf(vertices), kLayout.indexBlocksOf(indices));
+  return kPatchLayout.bytes(kPatchLayout.blocksOf(vertices), kPatchLayout.indexBlocksOf(indices));
 }
 
 }  // namespace trimtab::scene

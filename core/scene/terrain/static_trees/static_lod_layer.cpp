@@ -19,22 +19,22 @@ struct TexturedVertex {
   std::array<float, 2> texture;
 };
 
-constexpr MeshPool::Layout kLayout{.vertexBytes = sizeof(StaticLodVertex),
-                                   .indexBytes = sizeof(std::uint32_t),
-                                   .slotBytes = 4 * sizeof(std::int32_t),
-                                   .block = StaticLodLayer::kBlock,
-                                   .indexBlock = 64,
-                                   .leastBlocks = 4096,
-                                   .leastIndexBlocks = 4096,
-                                   .growth = 1.5};
+constexpr MeshPool::Layout kTreeLayout{.vertexBytes = sizeof(StaticLodVertex),
+                                       .indexBytes = sizeof(std::uint32_t),
+                                       .slotBytes = 4 * sizeof(std::int32_t),
+                                       .block = StaticLodLayer::kBlock,
+                                       .indexBlock = 64,
+                                       .leastBlocks = 4096,
+                                       .leastIndexBlocks = 4096,
+                                       .growth = 1.5};
 
 MeshPool::Layout layoutFor(bool textured) {
-  MeshPool::Layout layout = kLayout;
+  MeshPool::Layout layout = kTreeLayout;
   if (textured) layout.vertexBytes = sizeof(TexturedVertex);
   return layout;
 }
 
-constexpr std::array kAttributes{
+constexpr std::array kTreeAttributes{
     VertexAttribute{0, 3, GL_FLOAT, false, offsetof(StaticLodVertex, x)},
     VertexAttribute{1, 3, GL_BYTE, true, offsetof(StaticLodVertex, normal)},
     VertexAttribute{3, 4, GL_UNSIGNED_BYTE, true, offsetof(StaticLodVertex, colour)}};
@@ -71,7 +71,7 @@ void collectEdges(const terrain::StaticLodTile& tile, const terrain::StaticLodRa
 }  // namespace
 
 StaticLodLayer::StaticLodLayer(std::size_t keptBytes)
-    : keptBytes_(keptBytes), pool_(kLayout, [this] { attach(); }) {
+    : keptBytes_(keptBytes), pool_(kTreeLayout, [this] { attach(); }) {
   for (GLuint* array : {&array_, &numberedArray_, &edgeArray_}) glGenVertexArrays(1, array);
   glGenBuffers(1, &dataBuffer_);
 }
@@ -117,7 +117,7 @@ void StaticLodLayer::attach() {
     glDisableVertexAttribArray(kTexture[0].index);
     if (pool_.vertexBuffer() != 0) {
       const std::size_t bytes = layoutFor(textured_).vertexBytes;
-      defineAttributes(kAttributes, bytes);
+      defineAttributes(kTreeAttributes, bytes);
       if (textured_) defineAttributes(kTexture, bytes);
     }
     if (array != edgeArray_) glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, pool_.indexBuffer());
@@ -186,8 +186,8 @@ void StaticLodLayer::addCommands(MultiDraw& draw, std::span<const TileDraw> node
     const Place& place = placeOf(node.node);
     const terrain::StaticLodRange range = terrain_->ranges[node.node];
     if (place.blocks > 0)
-      draw.add(place.indexBlock * kLayout.indexBlock + 3 * range.firstTriangle, 3 * range.triangles,
-               place.block * kLayout.block);
+      draw.add(place.indexBlock * kTreeLayout.indexBlock + 3 * range.firstTriangle, 3 * range.triangles,
+               place.block * kTreeLayout.block);
   }
 }
 
@@ -231,7 +231,7 @@ void StaticLodLayer::drawEdges(std::span<const TileDraw> nodes, bool locked) {
     const std::size_t first = locked ? static_cast<std::size_t>(edges.free) * sizeof(std::uint32_t) : 0;
     glDrawElementsBaseVertex(GL_LINES, locked ? edges.locked : edges.free, GL_UNSIGNED_INT,
                              reinterpret_cast<const void*>(first),
-                             static_cast<GLint>(place.block * kLayout.block));
+                             static_cast<GLint>(place.block * kTreeLayout.block));
   }
   glBindVertexArray(0);
 }

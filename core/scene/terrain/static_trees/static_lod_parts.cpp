@@ -11,12 +11,12 @@
 namespace trimtab::scene {
 namespace {
 
-constexpr float kInfinite = std::numeric_limits<float>::infinity();
+constexpr float kUnbounded = std::numeric_limits<float>::infinity();
 
 /// From the tile's origin to the terrain's frame, rounded outwards.
 Box placed(const Box& box, const std::int32_t* origin) {
-  const auto down = [](double v) { return std::nextafter(static_cast<float>(v), -kInfinite); };
-  const auto up = [](double v) { return std::nextafter(static_cast<float>(v), kInfinite); };
+  const auto down = [](double v) { return std::nextafter(static_cast<float>(v), -kUnbounded); };
+  const auto up = [](double v) { return std::nextafter(static_cast<float>(v), kUnbounded); };
   const double x = 16.0 * origin[0], y = 16.0 * origin[1], z = 16.0 * origin[2];
   return {down(x + box.minX), down(y + box.minY), down(z + box.minZ),
           up(x + box.maxX),   up(y + box.maxY),   up(z + box.maxZ)};

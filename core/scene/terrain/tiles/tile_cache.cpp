@@ -21,10 +21,11 @@ constexpr std::size_t kOccluderBytes = kOccluderVertices * sizeof(OccluderVertex
 constexpr std::size_t kPartBytes = kParts * sizeof(PartBox);
 
 using terrain::TileVertex;
-constexpr std::array kAttributes{VertexAttribute{0, 3, GL_FLOAT, false, offsetof(TileVertex, x)},
-                                 VertexAttribute{1, 3, GL_BYTE, true, offsetof(TileVertex, normal)},
-                                 VertexAttribute{2, 1, GL_UNSIGNED_BYTE, false, offsetof(TileVertex, slope)},
-                                 VertexAttribute{3, 4, GL_UNSIGNED_BYTE, true, offsetof(TileVertex, colour)}};
+constexpr std::array kTileAttributes{
+    VertexAttribute{0, 3, GL_FLOAT, false, offsetof(TileVertex, x)},
+    VertexAttribute{1, 3, GL_BYTE, true, offsetof(TileVertex, normal)},
+    VertexAttribute{2, 1, GL_UNSIGNED_BYTE, false, offsetof(TileVertex, slope)},
+    VertexAttribute{3, 4, GL_UNSIGNED_BYTE, true, offsetof(TileVertex, colour)}};
 
 /// A vertex array with its own index buffer.
 GLuint makeArray(const std::vector<std::uint16_t>& indices, GLuint& indexBuffer) {
@@ -81,7 +82,7 @@ bool TileCache::grow() {
   // Some may have been replaced even so.
   glBindVertexArray(vertexArray_);
   glBindBuffer(GL_ARRAY_BUFFER, vertexBuffer_);
-  defineAttributes(kAttributes, kVertexBytes);
+  defineAttributes(kTileAttributes, kVertexBytes);
   glBindVertexArray(occluderArray_);
   glBindBuffer(GL_ARRAY_BUFFER, occluderBuffer_);
   glEnableVertexAttribArray(0);

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -12,14 +11,12 @@
 #include "trimtab/scene/renderer.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
+#include "trimtab/units/not_finite.h"
 
 /// Views that no aircraft has and terrains that nobody bakes: nothing crashes, what is left out has no pixel,
 /// and the next picture is as if they had never been.
 namespace trimtab {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Nothing at all, or static trees alone.
 class BareTerrain final : public terrain::Database {
@@ -102,10 +99,10 @@ class DegenerateViews : public test::CullingTruth {
     add("half the sky", [](R& r) { r.view.left = -1e6, r.view.right = 1e6; });
     add("an endless field of view", [](R& r) { r.view.left = -kInfinity, r.view.right = kInfinity; });
     add("field of view not a number",
-        [](R& r) { r.view.left = r.view.right = r.view.bottom = r.view.top = kNaN; });
-    for (const double near : {0.0, -1.0, 1e-30, 1e7, kNaN, kInfinity})
+        [](R& r) { r.view.left = r.view.right = r.view.bottom = r.view.top = kNan; });
+    for (const double near : {0.0, -1.0, 1e-30, 1e7, kNan, kInfinity})
       add("near plane", [near](R& r) { r.view.nearM = near; });
-    for (const double angle : {kNaN, kInfinity, -kInfinity, 1e300, 7e5}) {
+    for (const double angle : {kNan, kInfinity, -kInfinity, 1e300, 7e5}) {
       add("heading", [angle](R& r) { r.attitude.heading = Degrees{angle}; });
       add("pitch", [angle](R& r) { r.attitude.pitch = Degrees{angle}; });
       add("roll", [angle](R& r) { r.attitude.roll = Degrees{angle}; });
@@ -113,7 +110,7 @@ class DegenerateViews : public test::CullingTruth {
     }
     for (const double pitch : {90.0, -90.0, 180.0})
       add("straight", [pitch](R& r) { r.attitude = {Degrees{}, Degrees{pitch}, Degrees{}}; });
-    for (const double place : {kNaN, kInfinity, -kInfinity, 1e300}) {
+    for (const double place : {kNan, kInfinity, -kInfinity, 1e300}) {
       add("latitude", [place](R& r) { r.eye.latitude = Degrees{place}; });
       add("longitude", [place](R& r) { r.eye.longitude = Degrees{place}; });
       add("height", [place](R& r) { r.eye.height = Metres{place}; });
@@ -143,11 +140,11 @@ class DegenerateViews : public test::CullingTruth {
       r.eye = {Degrees{-36.4}, Degrees{-51.5}, Metres{1000}};
       r.attitude.pitch = Degrees{-90};
     });
-    for (const double error : {0.0, 1e-12, 1e12, kInfinity, kNaN, -1.0})
+    for (const double error : {0.0, 1e-12, 1e12, kInfinity, kNan, -1.0})
       add("error of levels", [error](R& r) { r.lod.screenSpaceError = r.staticLod.errorPx = Pixels{error}; });
-    for (const double scale : {1e-9, 1e9, kNaN})
+    for (const double scale : {1e-9, 1e9, kNan})
       add("scale of levels", [scale](R& r) { r.decision.lodScale = scale; });
-    for (const double far : {0.0, 1e-3, kNaN})
+    for (const double far : {0.0, 1e-3, kNan})
       add("visibility", [far](R& r) {
         r.decision.weather = {.fogged = true, .visibilityM = far, .extinctionPerM = 1e-3, .farM = far};
       });

@@ -275,6 +275,35 @@ TEST_F(ErrorMeter, repeatsExactlyInAnyOrder) {
   for (std::size_t i = runs.size(); i-- > 0;) EXPECT_TRUE(same(measureRun(runs[i]), first[i])) << i;
 }
 
+TEST_F(ErrorMeter, whatFallsIsMeasuredAgainstItsOwnReference) {
+  measureOver(test::syntheticMountains());
+  std::mt19937 random(6);
+  auto r = anyRequest(random);
+  r.time = 20;
+  r.lod.screenSpaceError = Pixels{6};
+  r.decision.weather = {.precipitation = Precipitation::snow,
+                        .density = 1,
+                        .fogged = true,
+                        .visibilityM = 9000,
+                        .extinctionPerM = 4e-4,
+                        .farM = 8000};
+  std::vector<FrameRequest> requests(6, r);
+  requests[1].wind = {MetresPerSecond{40}, Degrees{90}, MetresPerSecond{}};
+  requests[2].airDrift = {17, 5, 3};
+  requests[3].snow.red = Ratio{0.1};
+  requests[4].snow.size = Ratio{3};
+  requests[5].decision.weather.layerTopM = r.eye.height.value() + 30;
+  std::vector<FrameError> kept, fresh;
+  for (const FrameRequest& each : requests) kept.push_back(measure(each));
+  for (const FrameRequest& each : requests) {
+    meter.release();
+    ASSERT_TRUE(meter.initialize().usable);
+    meter.setTerrain(database);
+    fresh.push_back(measure(each));
+  }
+  for (std::size_t i = 0; i < requests.size(); ++i) EXPECT_TRUE(same(kept[i], fresh[i])) << i;
+}
+
 // Near where it hid next to nothing a horizon is not built: what was measured before must not decide what is
 // drawn.
 TEST_F(ErrorMeter, repeatsExactlyWhereAHorizonHidesLittle) {

@@ -10,7 +10,7 @@
 namespace trimtab {
 namespace {
 
-constexpr std::uint32_t kNoNode = scene::Renderer::kNoNode;
+constexpr std::uint32_t kSkyNode = scene::Renderer::kNoNode;
 
 using PlantedDefects = test::ErrorMeterTest;
 
@@ -39,7 +39,7 @@ TEST_F(PlantedDefects, findsATileThatIsLeftOut) {
   picture(r);
   std::map<std::uint32_t, std::uint64_t> owned;
   for (const std::uint32_t node : renderer.readNodes())
-    if (node != kNoNode) ++owned[node];
+    if (node != kSkyNode) ++owned[node];
   for (const auto& [node, pixels] : owned) {
     plant(meter, {.culledNode = node});
     EXPECT_EQ(measure(r).wronglyCulledPixels, pixels);
@@ -54,7 +54,7 @@ TEST_F(PlantedDefects, areNotTheReferences) {
   r.lod.screenSpaceError = Pixels{1e-6};
   const auto reference = picture(scene::referenceOf(r));
   const std::uint32_t node = renderer.readNodes()[100 * kWidth + 320];
-  ASSERT_NE(node, kNoNode);
+  ASSERT_NE(node, kSkyNode);
   plant(meter, {.culledNode = node});
   scene::ErrorPictures pictures;
   EXPECT_GT(measure(r, nullptr, &pictures).wronglyCulledPixels, 0u);
@@ -73,7 +73,7 @@ TEST_F(PlantedDefects, findsANodeOfStaticTreesThatIsLeftOut) {
   picture(r);
   const auto nodes = renderer.readNodes();
   const std::uint32_t node = nodes[100 * kWidth + 320];
-  ASSERT_NE(node, kNoNode);
+  ASSERT_NE(node, kSkyNode);
   plant(meter, {.culledNode = node});
   EXPECT_EQ(measure(r).wronglyCulledPixels,
             static_cast<std::uint64_t>(std::count(nodes.begin(), nodes.end(), node)));

@@ -7,13 +7,12 @@
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/scene/error_meter.h"
 #include "trimtab/scene/renderer.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab {
 namespace {
 
 using Pixels8 = std::vector<std::uint8_t>;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 class BoundedPrecipitation : public test::FallingScene {
  protected:

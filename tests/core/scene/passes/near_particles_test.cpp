@@ -9,13 +9,13 @@
 
 #include "core/scene/passes/weather_precipitation.h"
 #include "core/scene/scene_graph.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab::scene {
 namespace {
 
 constexpr std::array<Precipitation, 2> kKinds{Precipitation::rain, Precipitation::snow};
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN(),
-                 kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 PrecipitationView falling(Precipitation kind, double density = 1) {
   PrecipitationView view;

@@ -109,6 +109,18 @@ TEST_F(RenderScale, leavesSymbolsSharp) {
   EXPECT_EQ(other, 0u);
 }
 
+TEST_F(RenderScale, noDistancesAreReadBeforeThereIsAnImage) {
+  scene::Renderer fresh;
+  EXPECT_TRUE(fresh.readDistances().empty());
+  ASSERT_TRUE(fresh.initialize().usable);
+  EXPECT_TRUE(fresh.readDistances().empty());
+  fresh.setTerrain(database);
+  EXPECT_TRUE(fresh.readDistances().empty());
+  renderer.release();
+  ASSERT_TRUE(renderer.initialize().usable);
+  EXPECT_TRUE(renderer.readDistances().empty()) << "the images of an earlier context are gone";
+}
+
 TEST_F(RenderScale, distancesAndNodesAreReadAtTheImagesSize) {
   picture(ofMountains(1));
   const auto whole = renderer.readDistances();

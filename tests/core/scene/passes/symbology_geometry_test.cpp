@@ -11,11 +11,12 @@
 #include "core/scene/passes/stroke_font.h"
 #include "core/scene/passes/symbology_canvas.h"
 #include "trimtab/preset/table.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab::scene {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kPi = std::numbers::pi;
 
 ViewShape viewOf(int width, int height, double horizontalDeg, double verticalDeg) {
   ViewShape v;
@@ -45,7 +46,7 @@ SymbologyRequest only(SymbologyRequest r, Symbol symbol) {
   return r;
 }
 
-SymbologyDrawing drawn(const SymbologyRequest& r, const ViewShape& view = kView) {
+SymbologyDrawing linesOf(const SymbologyRequest& r, const ViewShape& view = kView) {
   SymbologyDrawing d;
   drawSymbology(r, view, d);
   return d;
@@ -84,7 +85,7 @@ TEST(Symbology, putsTheHorizonBarOnTheHorizon) {
   std::uniform_real_distribution<double> turn(0, 360), nod(-14, 14), bank(-180, 180);
   for (int i = 0; i < 300; ++i) {
     const Attitude a = attitude(turn(random), nod(random), bank(random));
-    const auto d = drawn(quantised(only(requestOf(a), Symbol::pitch_ladder), kView));
+    const auto d = linesOf(quantised(only(requestOf(a), Symbol::pitch_ladder), kView));
     // The two longest lines are the horizon's; every point of them has elevation 0.
     std::vector<SymbolStroke> strokes = d.strokes;
     ASSERT_GE(strokes.size(), 2u);
@@ -106,7 +107,7 @@ TEST(Symbology, putsLadderBarsAtTheirElevation) {
   for (const double roll : {0.0, 35.0, -120.0, 180.0})
     for (const double pitch : {-60.0, -20.0, 3.0, 47.0}) {
       const Attitude a = attitude(359.7, pitch, roll);
-      const auto d = drawn(only(requestOf(a), Symbol::pitch_ladder));
+      const auto d = linesOf(only(requestOf(a), Symbol::pitch_ladder));
       const double h = a.heading.in<Radians>();
       int bars = 0;
       for (int elevation = -80; elevation <= 80; elevation += 5) {
@@ -143,7 +144,7 @@ TEST(Symbology, putsTheFlightPathMarkerWhereTheAircraftFliesTo) {
     auto r = only(requestOf(a), Symbol::flight_path);
     r.state.velocity =
         Velocity{MetresPerSecond{120 * n}, MetresPerSecond{120 * e}, MetresPerSecond{120 * down}};
-    const auto d = drawn(quantised(r, kView));
+    const auto d = linesOf(quantised(r, kView));
     const Pixel at = project(a, kView, n, e, down);
     if (!at.inFront || at.x < 60 || at.x > 1220 || at.y < 60 || at.y > 660) continue;
     ++seen;
@@ -158,7 +159,7 @@ TEST(Symbology, putsTheFlightPathMarkerWhereTheAircraftFliesTo) {
 
 TEST(Symbology, marksTheNoseAndTheLineOfSightWhenTheHeadIsTurned) {
   const Attitude aircraft = attitude(350, 4, 10), view = attitude(5, -3, 6);
-  const auto nose = drawn(only(requestOf(aircraft, view), Symbol::aircraft_reference));
+  const auto nose = linesOf(only(requestOf(aircraft, view), Symbol::aircraft_reference));
   const double h = aircraft.heading.in<Radians>(), p = aircraft.pitch.in<Radians>();
   const Pixel at = project(view, kView, std::cos(p) * std::cos(h), std::cos(p) * std::sin(h), -std::sin(p));
   ASSERT_EQ(nose.strokes.size(), 6u);
@@ -168,21 +169,21 @@ TEST(Symbology, marksTheNoseAndTheLineOfSightWhenTheHeadIsTurned) {
   ViewShape aside = kView;  // the picture's middle is not where the eye looks
   aside.left *= 0.5;
   aside.top *= 1.5;
-  const auto cue = drawn(only(requestOf(aircraft, view), Symbol::line_of_sight), aside);
+  const auto cue = linesOf(only(requestOf(aircraft, view), Symbol::line_of_sight), aside);
   ASSERT_GE(cue.strokes.size(), 4u);
   const double x = 1280 * -aside.left / (aside.right - aside.left),
                y = 720 * -aside.bottom / (aside.top - aside.bottom);
   EXPECT_NEAR(0.5 * (cue.strokes[0].x1 + cue.strokes[2].x1), x, 0.1);
   EXPECT_NEAR(0.5 * (cue.strokes[1].y1 + cue.strokes[3].y1), y, 0.1);
   // Ahead, no way back is needed.
-  EXPECT_EQ(drawn(only(requestOf(view), Symbol::line_of_sight)).strokes.size(), 4u);
+  EXPECT_EQ(linesOf(only(requestOf(view), Symbol::line_of_sight)).strokes.size(), 4u);
 }
 
 TEST(Symbology, pointsBackToTheNoseWhereverTheHeadLooks) {
   for (const double heading : {-170.0, -90.0, 40.0, 120.0})
     for (const double pitch : {-60.0, 20.0}) {
       const auto d =
-          drawn(only(requestOf(attitude(0, 0, 0), attitude(heading, pitch, 0)), Symbol::line_of_sight));
+          linesOf(only(requestOf(attitude(0, 0, 0), attitude(heading, pitch, 0)), Symbol::line_of_sight));
       const SymbolStroke& pointer = d.strokes[d.strokes.size() - 3];
       const double h = heading * kPi / 180, p = pitch * kPi / 180;
       // The nose (north) in the view's right and up.
@@ -199,16 +200,16 @@ TEST(Symbology, keepsReadoutsInThePictureWhenFixedToTheHeadAndInTheCockpitOtherw
     return std::pair{0.5 * (b.left + b.right), 0.5 * (b.bottom + b.top)};
   };
   const std::size_t i = static_cast<std::size_t>(Symbol::altitude);
-  const auto straight = drawn(only(requestOf(attitude(0, 0, 0)), Symbol::altitude)).box[i];
-  const auto head = drawn(r).box[i];
+  const auto straight = linesOf(only(requestOf(attitude(0, 0, 0)), Symbol::altitude)).box[i];
+  const auto head = linesOf(r).box[i];
   EXPECT_EQ(middle(head), middle(straight));
   r.setup.general.frame = SymbologyFrame::aircraft;
-  const auto aircraft = drawn(r).box[i];
+  const auto aircraft = linesOf(r).box[i];
   // The box's middle by hand: a direction of the cockpit, seen from a head turned right by ten degrees.
   const double azimuth = std::atan(0.6 * kView.right) - 10 * kPi / 180;
   EXPECT_NEAR(middle(aircraft).first, 640 + 640 * std::tan(azimuth) / kView.right, 4);
   r.state.view = attitude(120, 0, 0);
-  EXPECT_TRUE(drawn(r).strokes.empty()) << "the cockpit is behind";
+  EXPECT_TRUE(linesOf(r).strokes.empty()) << "the cockpit is behind";
 }
 
 /// The number that a symbol's strokes write cannot be read back here; but equal numbers draw equal strokes.
@@ -247,13 +248,13 @@ TEST(Symbology, hasNoFlightPathAtRest) {
   auto r = only(requestOf(attitude(0, 0, 0)), Symbol::flight_path);
   for (const double speed : {0.0, 0.5, kNan, std::numeric_limits<double>::infinity()}) {
     r.state.velocity = Velocity{MetresPerSecond{speed}, {}, {}};
-    EXPECT_TRUE(drawn(r).strokes.empty()) << speed;
-    EXPECT_TRUE(drawn(quantised(r, kView)).strokes.empty()) << speed;
+    EXPECT_TRUE(linesOf(r).strokes.empty()) << speed;
+    EXPECT_TRUE(linesOf(quantised(r, kView)).strokes.empty()) << speed;
   }
   r.state.velocity = Velocity{MetresPerSecond{1.5}, {}, {}};
-  EXPECT_FALSE(drawn(r).strokes.empty());
+  EXPECT_FALSE(linesOf(r).strokes.empty());
   r.state.velocity = Velocity{MetresPerSecond{-50}, {}, {}};
-  EXPECT_TRUE(drawn(r).strokes.empty()) << "backwards: behind the eye";
+  EXPECT_TRUE(linesOf(r).strokes.empty()) << "backwards: behind the eye";
 }
 
 TEST(Symbology, staysInThePictureAndFiniteAtEveryAttitude) {
@@ -263,21 +264,21 @@ TEST(Symbology, staysInThePictureAndFiniteAtEveryAttitude) {
         for (const SymbologyFrame frame : {SymbologyFrame::head, SymbologyFrame::aircraft}) {
           auto r = requestOf(attitude(heading, pitch, roll), attitude(heading + 170, -pitch, roll));
           r.setup.general.frame = frame;
-          for (const auto& d : {drawn(r), drawn(requestOf(attitude(heading, pitch, roll)))})
+          for (const auto& d : {linesOf(r), linesOf(requestOf(attitude(heading, pitch, roll)))})
             for (const SymbolStroke& s : d.strokes)
               for (const float c : {s.x0, s.x1, s.y0, s.y1}) {
                 ASSERT_TRUE(std::isfinite(c));
                 ASSERT_GE(c, -5);
                 ASSERT_LE(c, 1285);
               }
-          EXPECT_FALSE(drawn(requestOf(attitude(heading, pitch, roll))).strokes.empty());
+          EXPECT_FALSE(linesOf(requestOf(attitude(heading, pitch, roll))).strokes.empty());
         }
 }
 
 TEST(Symbology, drawsTheSameLadderOverTheTopOfALoop) {
   // Through the vertical the heading turns round and the wings roll over; the view does not jump.
-  const auto before = drawn(only(requestOf(attitude(30, 89.9999, 0)), Symbol::pitch_ladder));
-  const auto after = drawn(only(requestOf(attitude(210, 89.9999, 180)), Symbol::pitch_ladder));
+  const auto before = linesOf(only(requestOf(attitude(30, 89.9999, 0)), Symbol::pitch_ladder));
+  const auto after = linesOf(only(requestOf(attitude(210, 89.9999, 180)), Symbol::pitch_ladder));
   EXPECT_NEAR(longest(before), longest(after), 0.1);
   const auto nearest = [&](const SymbolStroke& s, const SymbologyDrawing& d) {
     double least = 1e9;
@@ -296,7 +297,7 @@ TEST(Symbology, drawsTheSameLadderOverTheTopOfALoop) {
 
 TEST(Symbology, writesHeadingsAcrossNorth) {
   const auto at = [](double heading) {
-    return drawn(only(requestOf(attitude(heading, 0, 0)), Symbol::heading_tape));
+    return linesOf(only(requestOf(attitude(heading, 0, 0)), Symbol::heading_tape));
   };
   EXPECT_TRUE(same(at(0), at(360)));
   EXPECT_TRUE(same(at(-0.75), at(359.25)));
@@ -315,38 +316,38 @@ TEST(Symbology, writesHeadingsAcrossNorth) {
 TEST(Symbology, showsDashesForWhatIsNotKnown) {
   auto r = only(requestOf(attitude(0, 0, 0)), Symbol::airspeed);
   r.state.speed.reset();
-  const auto unknown = drawn(r);
+  const auto unknown = linesOf(r);
   EXPECT_FALSE(unknown.strokes.empty());
   r.state.speed = Knots{kNan};
-  EXPECT_TRUE(same(drawn(r), unknown));
-  EXPECT_TRUE(same(drawn(quantised(r, kView)), unknown));
+  EXPECT_TRUE(same(linesOf(r), unknown));
+  EXPECT_TRUE(same(linesOf(quantised(r, kView)), unknown));
   r.state.speed = Knots{0};
-  EXPECT_FALSE(same(drawn(r), unknown)) << "at rest the speed is known";
-  const auto calibrated = drawn(r);
+  EXPECT_FALSE(same(linesOf(r), unknown)) << "at rest the speed is known";
+  const auto calibrated = linesOf(r);
   r.state.groundSpeed = true;
-  EXPECT_FALSE(same(drawn(r), calibrated)) << "and says which one it is";
+  EXPECT_FALSE(same(linesOf(r), calibrated)) << "and says which one it is";
   auto lost = requestOf(attitude(kNan, 0, 0));
-  EXPECT_TRUE(drawn(lost).strokes.empty());
-  EXPECT_TRUE(drawn(quantised(lost, kView)).strokes.empty());
+  EXPECT_TRUE(linesOf(lost).strokes.empty());
+  EXPECT_TRUE(linesOf(quantised(lost, kView)).strokes.empty());
 }
 
 TEST(Symbology, obeysPlaceAndSize) {
   auto r = only(requestOf(attitude(0, 0, 0)), Symbol::airspeed);
   SymbolElement& e = r.setup.element[static_cast<std::size_t>(Symbol::airspeed)];
   const std::size_t i = static_cast<std::size_t>(Symbol::airspeed);
-  const SymbolBox base = drawn(r).box[i];
+  const SymbolBox base = linesOf(r).box[i];
   e.x = Ratio{0.4};
   e.y = Ratio{-0.5};
-  const SymbolBox moved = drawn(r).box[i];
+  const SymbolBox moved = linesOf(r).box[i];
   EXPECT_NEAR(moved.left - base.left, 640, 0.01);
   EXPECT_NEAR(moved.bottom - base.bottom, -0.6 * 360, 0.01);
   e.size = Ratio{2};
-  const SymbolBox larger = drawn(r).box[i];
+  const SymbolBox larger = linesOf(r).box[i];
   EXPECT_NEAR(larger.right - larger.left, 2 * (moved.right - moved.left), 0.01);
   // Symbols of the world, too, by what they are moved.
   auto ladder = only(requestOf(attitude(0, 0, 0)), Symbol::aircraft_reference);
   ladder.setup.element[static_cast<std::size_t>(Symbol::aircraft_reference)].x = Ratio{0.25};
-  EXPECT_NEAR(drawn(ladder).strokes[0].x0, 640 + 160, 0.01);
+  EXPECT_NEAR(linesOf(ladder).strokes[0].x0, 640 + 160, 0.01);
 }
 
 TEST(SymbologyCanvas, keepsWhatIsBeforeTheEyeOfALineThatPassesIt) {

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <limits>
 
 #include "core/scene/passes/weather_air.h"
 #include "tests/core/scene/scene_test.h"
@@ -7,6 +6,7 @@
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/scene/overlay_colours.h"
 #include "trimtab/scene/weather_cut_error.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab {
 namespace {
@@ -14,8 +14,6 @@ namespace {
 using test::SceneTest;
 using Pixels8 = std::vector<std::uint8_t>;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN(),
-                 kInfinity = std::numeric_limits<double>::infinity();
 /// What is left of a contrast at the visibility; 0.02 is 5 of 255 levels.
 constexpr double kThreshold = 0.02;
 
@@ -37,7 +35,7 @@ std::array<double, 3> fogLevels(double extinction) {
   return levels;
 }
 
-int largestStep(const Pixels8& rgba, std::size_t a, std::size_t b) {
+int largestStepIn(const Pixels8& rgba, std::size_t a, std::size_t b) {
   int most = 0;
   for (std::size_t c = 0; c < 3; ++c)
     most = std::max(most, std::abs(int{rgba[4 * a + c]} - int{rgba[4 * b + c]}));
@@ -144,7 +142,7 @@ TEST_F(Weather, isTheFormulaInTheSkyAndGreyAllOverInThickFog) {
     EXPECT_GT(sky, std::size_t{kWidth} * kHeight / 4);
     if (visibility > 50) continue;
     for (std::size_t i = 1; i < metres.size(); ++i)
-      ASSERT_LE(largestStep(shown, 0, i), 1) << "a wall of grey";
+      ASSERT_LE(largestStepIn(shown, 0, i), 1) << "a wall of grey";
   }
 }
 
@@ -209,7 +207,7 @@ TEST_F(Weather, showsTheSameRidgeAsClearAirUpToTheCutAndNothingBeyond) {
         gone += std::isfinite(d);
         // Where the ground stops for the cut's sake, nothing marks the place.
         if (i >= kWidth && std::isfinite(cut[i - kWidth]) && double{cut[i - kWidth]} > 0.97 * farM)
-          edge = std::max(edge, largestStep(shown, i, i - kWidth));
+          edge = std::max(edge, largestStepIn(shown, i, i - kWidth));
       }
     }
     EXPECT_EQ(wrong, 0u) << farM;
@@ -237,7 +235,7 @@ TEST_F(Weather, hasNoLineAtTheHorizonAtAnyVisibility) {
       for (std::size_t i = kWidth; i < metres.size(); ++i) {
         if (!std::isinf(metres[i])) continue;
         const double below = double{metres[i - kWidth]};
-        const int step = largestStep(shown, i, i - kWidth);
+        const int step = largestStepIn(shown, i, i - kWidth);
         if (std::isinf(below))
           sky = std::max(sky, step);
         else  // no more than what the fog leaves of the last ground
@@ -278,7 +276,7 @@ TEST_F(Weather, isDefinedAtVisibilitiesThatAreNone) {
   const Pixels8 clear = picture(r);
   r.decision.weather = fog(0, 0);
   const Pixels8 nothing = picture(r);
-  for (std::size_t i = 1; i < nothing.size() / 4; ++i) ASSERT_LE(largestStep(nothing, 0, i), 1);
+  for (std::size_t i = 1; i < nothing.size() / 4; ++i) ASSERT_LE(largestStepIn(nothing, 0, i), 1);
   r.decision.weather = fog(kNan, kNan);
   EXPECT_EQ(differing(clear, picture(r)), 0u);
   r.decision.weather = fog(kInfinity);

@@ -13,8 +13,8 @@ namespace {
 
 using scene::BoxLids;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinityF = std::numeric_limits<float>::infinity();
+constexpr float kNanF = std::numeric_limits<float>::quiet_NaN();
 
 /// Of the lid over a place of the plan; -infinity where it is not over it. In doubles, by its triangles.
 double heightOver(const MeshRelief& lid, double x, double y) {
@@ -148,11 +148,11 @@ TEST(BoxLids, ofBoundsThatAreNoPlacesAreNeverHidden) {
     box.*side = value;
     tiles.push_back({.mesh = lids.of(node++, box)});
   };
-  for (const float value : {kNan, kInfinity, -kInfinity})
+  for (const float value : {kNanF, kInfinityF, -kInfinityF})
     for (float Box::*side : {&Box::minX, &Box::minY, &Box::maxX, &Box::maxY, &Box::maxZ}) with(side, value);
   tiles.push_back(
-      {.mesh = lids.of(node++, {-kInfinity, -kInfinity, -kInfinity, kInfinity, kInfinity, kInfinity})});
-  tiles.push_back({.mesh = lids.of(node++, {-kInfinity, -kInfinity, 0, kInfinity, kInfinity, 100})});
+      {.mesh = lids.of(node++, {-kInfinityF, -kInfinityF, -kInfinityF, kInfinityF, kInfinityF, kInfinityF})});
+  tiles.push_back({.mesh = lids.of(node++, {-kInfinityF, -kInfinityF, 0, kInfinityF, kInfinityF, 100})});
   // What the eye stands in.
   tiles.push_back({.mesh = lids.of(node++, {-100, -100, 0, 100, 100, 100})});
   Horizon horizon;

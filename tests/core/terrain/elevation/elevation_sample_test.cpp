@@ -6,10 +6,11 @@
 #include <limits>
 #include <vector>
 
+#include "trimtab/units/not_finite.h"
+
 namespace trimtab::terrain {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 /// Beyond the raster of 6 x 5 posts by more than one, beyond what integers hold, and no numbers at all.
 constexpr double kFarAway[] = {-1.001, 6.001, -1e19, 1e19, -1e300, 1e300, -kInfinity, kInfinity, kNone};

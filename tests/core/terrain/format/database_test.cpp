@@ -2,16 +2,13 @@
 #include <GeographicLib/LocalCartesian.hpp>
 
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "tests/core/terrain/elevation/rasters.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab::terrain {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(),
-                 kInfinity = std::numeric_limits<double>::infinity();
 
 class MadeDatabase : public ::testing::Test {
  protected:
@@ -57,13 +54,13 @@ TEST_F(MadeDatabase, hasNoHeightOutsideOrWithoutANumber) {
   EXPECT_TRUE(database->heightAt(Degrees{inLat}, Degrees{inLon}));
   EXPECT_TRUE(database->heightAt(Degrees{inLat}, Degrees{inLon + 360}));
   EXPECT_TRUE(database->heightAt(Degrees{inLat}, Degrees{inLon - 720}));
-  for (const double bad : {kNaN, kInfinity, -kInfinity, 48.0, 51.0, 1e300})
+  for (const double bad : {kNan, kInfinity, -kInfinity, 48.0, 51.0, 1e300})
     EXPECT_FALSE(database->heightAt(Degrees{bad}, Degrees{inLon}));
-  for (const double bad : {kNaN, kInfinity, -kInfinity, 9.9, 11.0, -170.0})
+  for (const double bad : {kNan, kInfinity, -kInfinity, 9.9, 11.0, -170.0})
     EXPECT_FALSE(database->heightAt(Degrees{inLat}, Degrees{bad}));
-  for (const double bad : {kNaN, -1.0})
+  for (const double bad : {kNan, -1.0})
     EXPECT_FALSE(database->highestWithin(Degrees{inLat}, Degrees{inLon}, Metres{bad}));
-  EXPECT_FALSE(database->highestWithin(Degrees{kNaN}, Degrees{inLon}, Metres{1000}));
+  EXPECT_FALSE(database->highestWithin(Degrees{kNan}, Degrees{inLon}, Metres{1000}));
   EXPECT_FALSE(database->highestWithin(Degrees{inLat}, Degrees{kInfinity}, Metres{1000}));
   EXPECT_FALSE(database->highestWithin(Degrees{40}, Degrees{inLon}, Metres{1000}));
 }

@@ -13,7 +13,7 @@
 namespace trimtab::terrain {
 namespace {
 
-constexpr std::uint32_t kCells = TerrainIndex::kTileCells;
+constexpr std::uint32_t kTileCells = TerrainIndex::kTileCells;
 constexpr int kSide = TileMesh::kSide;
 
 std::array<std::int64_t, 3> absolute(const TileMesh& mesh, std::size_t vertex) {
@@ -75,8 +75,8 @@ TEST_F(Levels, havePostsInOnePlaceInAllTilesAndLevels) {
   for (std::uint32_t node = 0; node < index.size(); ++node) {
     database_->buildTile(node, mesh);
     const TilePosts tile(index, posts_, node);
-    for (std::uint32_t j = 0; j <= kCells; ++j)
-      for (std::uint32_t i = 0; i <= kCells; ++i) {
+    for (std::uint32_t j = 0; j <= kTileCells; ++j)
+      for (std::uint32_t i = 0; i <= kTileCells; ++i) {
         const auto at = absolute(mesh, j * kSide + i);
         const auto [entry, fresh] = known.insert({{tile.row(j), tile.column(i)}, at});
         if (!fresh) ++again;
@@ -141,16 +141,16 @@ TEST_F(Levels, errorIsTheLargestDistanceOfAPostByBruteForce) {
     const TilePosts tile(index, posts_, node);
     const auto stride = static_cast<int>(1u << tile.level);
     double worst = 0;
-    for (std::uint32_t r = tile.row(0); r <= tile.row(kCells); ++r)
-      for (std::uint32_t c = tile.column(0); c <= tile.column(kCells); ++c) {
+    for (std::uint32_t r = tile.row(0); r <= tile.row(kTileCells); ++r)
+      for (std::uint32_t c = tile.column(0); c <= tile.column(kTileCells); ++c) {
         Vec3 p;
         oracle.Forward(posts_.latitude(r), posts_.longitude(c), height(r, c), p.x, p.y, p.z, m);
         const Vec3 up{m[2], m[5], m[8]};
         double nearest = 1e9;
         const int i0 = static_cast<int>(c - tile.column(0)) / stride,
                   j0 = static_cast<int>(r - tile.row(0)) / stride;
-        for (int j = std::max(0, j0 - 1); j <= std::min<int>(kCells - 1, j0 + 1); ++j)
-          for (int i = std::max(0, i0 - 1); i <= std::min<int>(kCells - 1, i0 + 1); ++i)
+        for (int j = std::max(0, j0 - 1); j <= std::min<int>(kTileCells - 1, j0 + 1); ++j)
+          for (int i = std::max(0, i0 - 1); i <= std::min<int>(kTileCells - 1, i0 + 1); ++i)
             for (const auto& t : trianglesOf(i, j))
               if (const auto d = alongUp(p, up, place(mesh, t[0][0], t[0][1]), place(mesh, t[1][0], t[1][1]),
                                          place(mesh, t[2][0], t[2][1])))
@@ -215,10 +215,10 @@ void Levels::checkSlopes() {
         loosest = std::max(loosest, byte / 16.0);
       }
     };
-    for (int j = 0; j < static_cast<int>(kCells); ++j)
-      for (int i = 0; i < static_cast<int>(kCells); ++i)
+    for (int j = 0; j < static_cast<int>(kTileCells); ++j)
+      for (int i = 0; i < static_cast<int>(kTileCells); ++i)
         for (const auto& t : trianglesOf(i, j)) check(t);
-    constexpr int kLast = static_cast<int>(kCells);
+    constexpr int kLast = static_cast<int>(kTileCells);
     for (int k = 0; k < kLast; k += 2) {
       check({{{k, 0}, {k + 2, 0}, {k + 1, 1}}});
       check({{{k, kLast}, {k + 2, kLast}, {k + 1, kLast - 1}}});

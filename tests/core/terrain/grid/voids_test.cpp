@@ -20,7 +20,7 @@ HeightGrid plane(std::uint32_t columns, std::uint32_t rows) {
       grid.heights.push_back(static_cast<float>(100 + 3.0 * c - 2.0 * r));
   return grid;
 }
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNanF = std::numeric_limits<float>::quiet_NaN();
 
 TEST(FillVoids, leavesGroundWithoutVoidsAlone) {
   HeightGrid grid = plane(40, 30);
@@ -34,7 +34,7 @@ TEST(FillVoids, continuesASlopeThroughAHole) {
   const auto whole = grid.heights;
   std::uint64_t made = 0;
   for (std::uint32_t r = 30; r < 62; ++r)
-    for (std::uint32_t c = 40; c < 75; ++c) grid.heights[r * 120 + c] = kNaN, ++made;
+    for (std::uint32_t c = 40; c < 75; ++c) grid.heights[r * 120 + c] = kNanF, ++made;
   EXPECT_EQ(test::fillVoids(grid), made);
   // A plane is its own membrane; the rest of the sweeps may be a few metres of the 135 m across the hole.
   for (std::size_t i = 0; i < whole.size(); ++i) ASSERT_NEAR(grid.heights[i], whole[i], 4) << i;
@@ -43,7 +43,7 @@ TEST(FillVoids, continuesASlopeThroughAHole) {
 TEST(FillVoids, staysWithinTheHeightsAround) {
   HeightGrid grid = plane(77, 91);
   for (std::size_t i = 0; i < grid.heights.size(); ++i)
-    if ((i * 2654435761u >> 7) % 3 != 0 || i % 77 > 50) grid.heights[i] = kNaN;
+    if ((i * 2654435761u >> 7) % 3 != 0 || i % 77 > 50) grid.heights[i] = kNanF;
   float low = 1e9f, high = -1e9f;
   for (const float h : grid.heights)
     if (!std::isnan(h)) low = std::min(low, h), high = std::max(high, h);
@@ -56,14 +56,14 @@ TEST(FillVoids, staysWithinTheHeightsAround) {
 
 TEST(FillVoids, makesSeaOfNothing) {
   HeightGrid grid = plane(9, 7);
-  std::fill(grid.heights.begin(), grid.heights.end(), kNaN);
+  std::fill(grid.heights.begin(), grid.heights.end(), kNanF);
   EXPECT_EQ(test::fillVoids(grid), 63u);
   for (const float h : grid.heights) EXPECT_EQ(h, 0);
 }
 
 TEST(FillVoids, fillsFromASinglePost) {
   HeightGrid grid = plane(33, 65);
-  std::fill(grid.heights.begin(), grid.heights.end(), kNaN);
+  std::fill(grid.heights.begin(), grid.heights.end(), kNanF);
   grid.heights[700] = 42;
   EXPECT_EQ(test::fillVoids(grid), 33u * 65 - 1);
   for (const float h : grid.heights) ASSERT_NEAR(h, 42, 1e-3);
@@ -81,7 +81,7 @@ std::vector<float> membrane(std::uint32_t columns, std::uint32_t rows, std::vect
       for (std::uint32_t y = 2 * r; y < std::min(2 * r + 2, rows); ++y)
         for (std::uint32_t x = 2 * c; x < std::min(2 * c + 2, columns); ++x)
           if (const float h = heights[y * columns + x]; !empty(h)) sum += h, count += 1;
-      coarse.push_back(count > 0 ? sum / count : kNaN);
+      coarse.push_back(count > 0 ? sum / count : kNanF);
     }
   coarse = membrane(across, up, std::move(coarse));
   std::vector<std::uint32_t> voids;
@@ -141,7 +141,7 @@ TEST(FillVoids, isTheWholeMembraneToTheBitWhateverTheShape) {
       grid.heights[i] += static_cast<float>(i * 2654435761u % 97);
       if (shape.isVoid(static_cast<double>(i % shape.columns) / shape.columns,
                        static_cast<double>(i / shape.columns) / shape.rows))
-        grid.heights[i] = kNaN, ++voids;
+        grid.heights[i] = kNanF, ++voids;
     }
     const std::vector<float> expected = membrane(shape.columns, shape.rows, grid.heights);
     // Through a file of coarse levels as well as through memory.
@@ -173,7 +173,7 @@ TEST(FillVoids, saysWhereAFileFailedAndStopsWhenToldTo) {
   VoidFill fill{40, 90, {}, {}, "/nowhere at all", 0, {}};
   fill.read = [](std::uint32_t, std::uint32_t, std::span<float> heights) -> Result<Done> {
     std::fill(heights.begin(), heights.end(), 1.0f);
-    heights[5] = kNaN;
+    heights[5] = kNanF;
     return Done{};
   };
   fill.write = [](std::uint32_t, std::uint32_t, std::span<const float>) -> Result<Done> { return Done{}; };

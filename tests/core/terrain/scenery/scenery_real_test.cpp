@@ -38,15 +38,15 @@ double bucketArea(const SceneryMesh& mesh) {
   return (bucket.east - bucket.west).value() * (bucket.north - bucket.south).value();
 }
 
-struct Set {
+struct RealSet {
   const char* folder;
   std::size_t tiles, airports, missing;
   double millions, degenerateShare;  ///< as the data's own description has them
 };
-const Set kSets[] = {{"fg-kansai-e135n35", 25, 2, 0, 2.24, 0},
-                     {"fg-debian-iceland-reykjanes", 22, 3, 2, 1.42, 409.0 / 1420},
-                     {"fg-debian-hawaii-bigisland", 69, 16, 0, 0.72, 300.0 / 720},
-                     {"fg-cologne", 4, 2, 1, 0.61, 259.0 / 610}};
+const RealSet kSets[] = {{"fg-kansai-e135n35", 25, 2, 0, 2.24, 0},
+                         {"fg-debian-iceland-reykjanes", 22, 3, 2, 1.42, 409.0 / 1420},
+                         {"fg-debian-hawaii-bigisland", 69, 16, 0, 0.72, 300.0 / 720},
+                         {"fg-cologne", 4, 2, 1, 0.61, 259.0 / 610}};
 
 /// Read once for all tests.
 const Result<terrain::Scenery>& sceneryOf(const char* folder) {
@@ -56,7 +56,7 @@ const Result<terrain::Scenery>& sceneryOf(const char* folder) {
 }
 
 TEST(RealScenery, hasTheTrianglesThatASecondReaderCounts) {
-  for (const Set& set : kSets) {
+  for (const RealSet& set : kSets) {
     TRIMTAB_NEEDS_SHARED("data/" + std::string(set.folder));
     const auto& scenery = sceneryOf(set.folder);
     ASSERT_TRUE(scenery);
@@ -106,7 +106,7 @@ TEST(RealScenery, readsTheUnzippedTileOfCologne) {
 TEST(RealScenery, tilesItsBucketsExactly) {
   const std::set<std::string> twice{"2582137", "2582177", "2582185", "2582200", "400238", "400246"};
   std::size_t exact = 0;
-  for (const Set& set : kSets) {
+  for (const RealSet& set : kSets) {
     TRIMTAB_NEEDS_SHARED("data/" + std::string(set.folder));
     const auto& scenery = sceneryOf(set.folder);
     ASSERT_TRUE(scenery);
@@ -198,7 +198,7 @@ TEST(RealScenery, hasTheTrianglesHeightsAtItsPosts) {
 TEST(RealScenery, hasNoMaterialWithoutAColour) {
   const auto unknown = terrain::materialColour("NeverHeardOf");
   std::set<std::string> materials;
-  for (const Set& set : kSets) {
+  for (const RealSet& set : kSets) {
     TRIMTAB_NEEDS_SHARED("data/" + std::string(set.folder));
     const auto& scenery = sceneryOf(set.folder);
     for (const SceneryMesh& mesh : scenery->tiles)

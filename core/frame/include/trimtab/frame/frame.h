@@ -81,6 +81,16 @@ double pixelsPerRadian(const ViewShape& view);
 /// A scale that is not between 0 and 1 counts as 1, which changes nothing.
 ViewShape scaledShape(ViewShape view, double scale);
 
+/// Which field of view an image has in a window of another shape than the preset's.
+enum class ViewFit {
+  preset,  ///< the preset's, so that a pixel may be wider than high
+  fill     ///< that of filledShape, where the window gives the image's size (RenderSize::fit)
+};
+
+/// Returns the perspective with square pixels that fills the same width and height and contains this one: the
+/// field of view grows at two opposite sides.
+ViewShape filledShape(ViewShape view);
+
 /// Returns the shape of a view from the parameters, the window's size (for RenderSize::fit) and the view that
 /// the host asks for.
 ViewShape viewShape(const ViewParameters& parameters, int windowWidthPx, int windowHeightPx,

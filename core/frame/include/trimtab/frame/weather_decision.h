@@ -10,7 +10,7 @@
 #include "trimtab/units/linear.h"
 
 /// Holds what the weather of a frame is decided to be. core/weather decides it, and the renderer's passes
-/// draw it.
+/// draw it. resources/docs/glossary.md says what document D is.
 namespace trimtab {
 
 enum class Precipitation : std::uint8_t { none, rain, snow };
@@ -20,21 +20,22 @@ enum class WeatherReason : std::uint8_t {
   clear,               ///< nothing falls, and nothing limits the view
   haze,                ///< nothing falls, and the visibility is the preset's `clearVisibility`
   step,                ///< both come from the preset's `step`
-  typed,               ///< the preset's `step` says what falls; the visibility is its `typedVisibility`
-  host,                ///< the host said it; if it said only what falls, the preset has the visibility
-  host_said_nothing,   ///< the host has not spoken of weather yet, so both come from the preset's `step`
-  invalid_visibility,  ///< the host's visibility is no number above 0, so it is the preset's for what the
-                       ///< host says falls
-  visibility_limited   ///< the host's visibility is clamped to the range that can be drawn
+  typed,               ///< as `step`, but the visibility is the preset's `typedVisibility`
+  host,                ///< the host said it; without a visibility from the host, the preset's for what falls
+                       ///< counts, and if the host said nothing of precipitation, nothing falls
+  host_said_nothing,   ///< the host has not spoken of weather yet, so both come from the preset
+  invalid_visibility,  ///< no visibility that the host sent is a number above 0, so the preset's for what
+                       ///< falls counts
+  visibility_limited   ///< the host's visibility is clamped to the range that can be drawn (decideWeather)
 };
 
 /// Says why the far plane is where it is.
 enum class FarReason : std::uint8_t {
-  off,        ///< the ratio mode is off
+  off,        ///< nothing is cut, because the preset's `ratioMode` is off
   clear,      ///< nothing is cut, because no fog would hide the edge
   fixed,      ///< the preset's `fixedRatio` sets it
   visible,    ///< it lies at the visibility, by Eq. (1) of document D
-  stretched,  ///< it lies farther, by the `farStretch` of what falls, which a calibration finds
+  stretched,  ///< it lies at the visibility times the `farStretch` of what falls, which a calibration finds
   safe,       ///< it lies where nothing can be seen any more: at `safeFarM`
   unbounded   ///< there is none, because something may be seen through the air at any distance
 };
@@ -50,20 +51,21 @@ struct Wind {
 /// Returns the air's velocity, metres per second toward east, north and up.
 Vec3 eastNorthUp(const Wind& wind);
 
-/// Rain or snow on its way from one density to another.
+/// Rain or snow that begins, changes or ends over some seconds (PrecipitationFade).
 struct FadingPrecipitation {
-  Precipitation kind = Precipitation::none;
-  double density = 0;  ///< 0..1, of the particles' size and fall speed
-  double amount = 0;   ///< 0..1, of their number: on its way to the density, or to 0
+  Precipitation kind = Precipitation::none;  ///< what falls at this moment; an old kind ends before a new one
+  double density = 0;  ///< 0..1, gives the particles their size and fall speed; it changes at once
+  double amount = 0;   ///< 0..1, gives their number; it moves to the density, or to 0 where the kind ends
 
   friend bool operator==(const FadingPrecipitation&, const FadingPrecipitation&) = default;
 };
 
 /// A default decision is clear weather with nothing cut, which is also what the preset `default` decides.
 ///
-/// Fog is exponential: of an object's own colour exp(-extinctionPerM * distance) is left. At `visibilityM`
-/// that share is the contrast threshold (WeatherParameters) and not 0. So a pass that cuts there must fade
-/// colours to the fog's before `farM`, or an edge shows, unless `farM` is at least `safeFarM`.
+/// Fog is exponential: the share exp(-extinctionPerM * distance) of an object's own colour is left. At
+/// `visibilityM` this share is the contrast threshold and not 0: WeatherParameters::contrastThreshold in
+/// AirModel::uniform, kOpticalRangeContrast (haze_layer.h) in AirModel::layer. So a pass that cuts at `farM`
+/// must fade colours to the fog's before it, or an edge shows, unless `farM` is at least `safeFarM`.
 struct WeatherDecision {
   static constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
@@ -72,13 +74,13 @@ struct WeatherDecision {
   bool fogged = false;              ///< if false, draw without fog, whatever visibility and extinction say
   double visibilityM = kUnlimited;  ///< distance from the eye, not depth along the view's axis
   double extinctionPerM = 0;        ///< -ln(contrast threshold) / visibilityM
-  double layerTopM = kUnlimited;    ///< above mean sea level; only below it there is fog
-  /// Beyond it no channel of any pixel can differ by more than 1/255 (safeFarM in weather.h); unlimited where
-  /// something may be seen at any distance, and in document D's fog, which does not use it.
+  double layerTopM = kUnlimited;    ///< there is fog only below this height above mean sea level
+  /// What lies farther from the eye can change no channel of any pixel by more than 1/255 (haze_layer.h). It
+  /// is unlimited if something may be seen at any distance, and in AirModel::uniform, which does not use it.
   double safeFarM = kUnlimited;
   double nearFarRatio = 0;  ///< WeatherParameters::defaultNear / farM; 0 while nothing is cut
-  /// Nothing farther from the eye is drawn. In a frame request a policy may have multiplied it (applyLevers),
-  /// and divided nearFarRatio by as much.
+  /// Nothing farther from the eye is drawn. In a frame request a policy may have multiplied it and divided
+  /// nearFarRatio by the same factor (applyLevers).
   double farM = kUnlimited;
   WeatherReason reason = WeatherReason::clear;
   FarReason farReason = FarReason::clear;
@@ -86,13 +88,14 @@ struct WeatherDecision {
   friend bool operator==(const WeatherDecision&, const WeatherDecision&) = default;
 };
 
-/// These return the name that traces, the command line and the workbench show, and an empty one for a value
-/// outside the enumeration.
+/// Returns the name that traces, the command line and the workbench show; an empty one for a value outside
+/// the enumeration.
 constexpr std::string_view toText(Precipitation precipitation) {
   constexpr std::string_view kNames[] = {"none", "rain", "snow"};
   const auto at = static_cast<std::size_t>(precipitation);
   return at < std::size(kNames) ? kNames[at] : std::string_view{};
 }
+/// Does the same for where the weather comes from.
 constexpr std::string_view toText(WeatherReason reason) {
   constexpr std::string_view kNames[] = {"clear",
                                          "haze",
@@ -105,6 +108,7 @@ constexpr std::string_view toText(WeatherReason reason) {
   const auto at = static_cast<std::size_t>(reason);
   return at < std::size(kNames) ? kNames[at] : std::string_view{};
 }
+/// Does the same for why the far plane is where it is.
 constexpr std::string_view toText(FarReason reason) {
   constexpr std::string_view kNames[] = {"off",       "clear", "fixed",    "visible",
                                          "stretched", "safe",  "unbounded"};

@@ -6,23 +6,35 @@
 #include "trimtab/policy/fuzzy_system.h"
 #include "trimtab/policy/policy.h"
 
-/// Exchanges policies with fuzzy-logic tools: each signal that has terms is an input, each lever that a rule
-/// sets is an output, a weighted average of constants, which is what CompiledPolicy::decide computes.
+/// Exchanges policies with fuzzy-logic tools. Each signal that has terms or stands in a rule is an input.
+/// Each lever that a rule sets is an output: a weighted average of constants, which CompiledPolicy::decide
+/// computes too.
 namespace trimtab {
 
-/// Returns the text of a file. A negated group is written by De Morgan's laws, as both languages negate
-/// single terms only; both norms obey them. Switched-off rules and reasons become comments, which
-/// readPolicyFile() reads back. Fails as compile() does, and in MATLAB's language for each rule that its
-/// numbers cannot say: `and` mixed with `or`, a signal named twice, hedges other than one after `not`.
-/// `name`, reduced to letters, digits and _, becomes the engine's.
+/// Returns the text of a file. Both languages negate single terms only, so a negated group is written by De
+/// Morgan's laws: "not (a or b)" becomes "not a and not b". Both values of PolicyNorm obey these laws, so the
+/// policy decides the same. Switched-off rules and the reasons of rules become comments, which
+/// readPolicyFile() reads back.
+///
+/// Refuses what compile() and readPolicyFile() refuse. MATLAB's rules are numbers, so for that language it
+/// also refuses, with one finding each, rules that mix `and` with `or`, name a signal twice, or give a term
+/// hedges other than one of very, somewhat, extremely and seldom, or very twice, each with or without `not`
+/// before it.
+///
+/// `name` stands in the findings. It also becomes the engine's name, with _ for each character that is
+/// neither a letter nor a digit of ASCII; an empty one becomes "policy".
 Result<std::string> policyFileText(const Policy& policy, const std::string& name, RuleFormat format);
 
-/// Is the inverse, for this program's files and what fuzzylite makes of them. Everything that a policy cannot
-/// say is refused with file, line, expected and found, one finding each: unknown signals and levers, other
-/// shapes, outputs that are no constants, other norms and defuzzifiers. The policy that it returns compiles.
+/// Reads such a text, also if fuzzylite has read and written it since. The policy decides as the written one
+/// did, but its terms stand in the order of the signals, and a negated group comes back as negated terms.
+///
+/// Everything that a policy cannot say is refused with file, line, expected and found, one finding each:
+/// unknown signals and levers, other shapes, outputs that are no constants or have a default, other norms and
+/// defuzzifiers, a file without rules. `where` is the file's name in the findings. The policy that it returns
+/// compiles.
 Result<Policy> readPolicyFile(std::string_view text, const std::string& where, RuleFormat format);
 
-/// The same, in one language.
+/// Are the same two functions for one language each.
 inline Result<std::string> toFuzzyLite(const Policy& policy, const std::string& name) {
   return policyFileText(policy, name, RuleFormat::fuzzylite);
 }

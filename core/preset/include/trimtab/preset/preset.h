@@ -63,6 +63,9 @@ std::vector<Difference> differences(const TuningParameters& left, const TuningPa
 /// Return the JSON schema of preset files and the reference page (Markdown), made from the table.
 std::string presetSchema();
 std::string parameterReference();
+/// Returns authors and title of a document, `A` to `E`, which sources of parameters cite; empty for another
+/// letter.
+std::string_view documentOf(char letter);
 
 /// Writes a file beside the target and renames it, so that there is the old file or the new one, never half
 /// of either.

@@ -11,8 +11,9 @@ namespace trimtab {
 /// Computes SHA-256 (FIPS 180-4) of bytes that are added in pieces.
 class Sha256 {
  public:
+  /// Adds any number of bytes.
   void add(std::string_view bytes);
-  /// Returns 64 lower-case hexadecimal digits. Nothing may be added afterwards.
+  /// Ends the sum and returns it as 64 lower-case hexadecimal digits. Call it once, after the last add().
   std::string hex();
 
  private:

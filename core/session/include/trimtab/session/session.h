@@ -122,7 +122,8 @@ class Session {
   AircraftState eyeState(double now) const;
   /// Returns the request for the image of `now`; nothing before the first state. Packets received so far
   /// count as shown by it. The remaining time of a blur runs from the first image of its decision.
-  std::optional<FrameRequest> request(double now, int windowWidthPx, int windowHeightPx);
+  std::optional<FrameRequest> request(double now, int windowWidthPx, int windowHeightPx,
+                                      ViewFit fit = ViewFit::preset);
   /// Call this when the requested image is finished. It completes trace rows, latencies and the cost that the
   /// next input holds, and returns that cost with `decide` filled in.
   FrameCost finished(const FrameResult& result, double now);

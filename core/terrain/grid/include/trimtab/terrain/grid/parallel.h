@@ -15,13 +15,21 @@
 
 namespace trimtab::terrain {
 
-/// Long work calls this now and then, on any thread; if it returns false, the work stops and is discarded.
+/// An item of long work calls this now and then, on the thread that runs the item. If it returns false, the
+/// item should return early, and the caller of the loop discards the results of all items.
 using GoesOn = std::function<bool()>;
 
-/// Calls `work(i, goesOn)` for 0 <= i < count on up to 16 cores, and returns when all calls have ended. Calls
-/// `carryOn(fraction done)` on the calling thread: between items, when its work calls `goesOn`, and while it
-/// waits for others. If `carryOn` returns false, the remaining items are skipped and the result is false. The
-/// first exception of `work` is rethrown after all threads have ended.
+/// Calls `work(i, goesOn)` once for each 0 <= i < count, in no certain order, on the calling thread and on up
+/// to 15 others, at most one per core. It starts these threads in each call, or fewer if the system refuses
+/// some, and returns when all have ended. Without items it calls nothing and returns true.
+///
+/// Only the calling thread calls `carryOn`, with the share of items that are done, 0..1: after each of its
+/// own items, whenever such an item calls `goesOn`, and every 50 ms while it waits for the other threads. If
+/// `carryOn` returns false, items that have not begun are skipped, `goesOn` returns false from then on, and
+/// the result is false, even if every item was done already. `carryOn` may be empty.
+///
+/// If `work` or `carryOn` throws, the loop stops in the same way, and the first exception is rethrown after
+/// all threads have ended.
 inline bool forEachParallel(std::uint32_t count,
                             const std::function<void(std::uint32_t, const GoesOn&)>& work,
                             const std::function<bool(double)>& carryOn = {}) {
@@ -89,7 +97,7 @@ inline bool forEachParallel(std::uint32_t count,
   return !stop;
 }
 
-/// The same for short work that does not check for cancellation.
+/// Does the same with `work(i)`, for short items that do not ask whether to go on.
 template <class Work>
 requires std::is_invocable_v<const Work&, std::uint32_t>
 bool forEachParallel(std::uint32_t count, const Work& work, const std::function<bool(double)>& carryOn = {}) {
