@@ -14,8 +14,7 @@ class WorkbenchChanges : public Bench {
  protected:
   void SetUp() override {
     Bench::SetUp();
-    w().activateWindow();
-    ASSERT_TRUE(QTest::qWaitForWindowActive(&w()));
+    ASSERT_NO_FATAL_FAILURE(activate());
   }
   views::Snapshots& snapshots() { return w().panels().changes->snapshots(); }
   double scale() { return w().draft().parameters().lod.scale.value(); }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+
 #include "app/workbench/docks/error_dock.h"
 #include "gui_support.h"
 
@@ -19,6 +21,14 @@ class ErrorDock : public Bench {
   bool measured(std::uint64_t more = 1) {
     const std::uint64_t before = measurements();
     return waitFor([&] { return measurements() >= before + more; }, 90000);
+  }
+  /// Whether nothing is measured for longer than the pause between two measurements: a second, or four times
+  /// as long as the last one took.
+  bool rests() {
+    const auto& last = dock().lastMeasured();
+    const int pauseMs = std::max(1000, last ? int(4 * last->tookMs) : 0);
+    const std::uint64_t before = measurements();
+    return !waitFor([&] { return dock().live().busy() || measurements() > before; }, pauseMs + 300);
   }
 };
 

@@ -73,7 +73,7 @@ TEST_F(ExperimentsDock, runsOverThePresetAsItStandsAndKeepsTheResultsWhenCancell
   dock().run();
   ASSERT_TRUE(dock().running());
   dock().cancel();
-  ASSERT_TRUE(waitFor([&] { return ended; }, 20000));
+  ASSERT_TRUE(waitFor([&] { return ended; }));
   EXPECT_FALSE(dock().running());
   EXPECT_EQ(dock().report()->name, "culling");
 }

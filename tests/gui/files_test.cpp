@@ -153,8 +153,7 @@ TEST_F(WorkbenchFiles, anExportAgainGoesToTheLastTargetOfThisPresetWithoutAQuest
                             {path(dir / "ig.ini"), ExportFormat::ini, "me", "Mine.", {}});
   ASSERT_TRUE(document.open(path(dir / "mine.json"))) << "as in a later run";
   edit();
-  w().activateWindow();
-  ASSERT_TRUE(QTest::qWaitForWindowActive(&w()));
+  ASSERT_NO_FATAL_FAILURE(activate());
   QTest::keyClick(&w(), Qt::Key_E, Qt::ControlModifier);
   ASSERT_TRUE(std::filesystem::exists(dir / "ig.ini")) << w().messages().text().toStdString();
   EXPECT_EQ(loadPreset((dir / "ig.ini").string())->parameters.scheme.hysteresis.value(), 0.04);
@@ -163,13 +162,9 @@ TEST_F(WorkbenchFiles, anExportAgainGoesToTheLastTargetOfThisPresetWithoutAQuest
   EXPECT_EQ(workbench::targetOf(path(dir / "other.json"))->file, path(dir / "ig.ini"));
   std::filesystem::remove(dir / "ig.ini");
   document.startFrom("default");
-  bool asked = false;
-  QTimer::singleShot(200, qApp, [&] {
-    asked = QApplication::activeModalWidget() != nullptr;
-    if (asked) QApplication::activeModalWidget()->close();
-  });
+  DialogCloser dialogs;
   QTest::keyClick(&w(), Qt::Key_E, Qt::ControlModifier);
-  EXPECT_TRUE(asked) << "another preset has no target yet";
+  EXPECT_GT(dialogs.closed(), 0) << "another preset has no target yet";
   EXPECT_FALSE(std::filesystem::exists(dir / "ig.ini"));
 }
 
@@ -263,12 +258,11 @@ TEST_F(WorkbenchFiles, aFileChangedByAnotherProgramIsSaidAndReloadedOnRequest) {
   EXPECT_EQ(hysteresis(), 0.03);
   // Writing the same bytes again, and our own saves, must not raise the question.
   ASSERT_TRUE(writeAtomically(dir / "p.json", readFile(dir / "p.json")));
-  QTest::qWait(600);
-  EXPECT_EQ(noticeButton(w(), "Reload"), nullptr);
+  const auto asks = [&] { return noticeButton(w(), "Reload") != nullptr; };
+  EXPECT_FALSE(waitFor(asks, 400));
   edit();
   ASSERT_TRUE(w().controllers().document->saveTo(path(dir / "p.json")));
-  QTest::qWait(400);
-  EXPECT_EQ(noticeButton(w(), "Reload"), nullptr);
+  EXPECT_FALSE(waitFor(asks, 400));
 }
 
 TEST_F(WorkbenchFiles, bakingCanBeCancelledAndTheOldTerrainStays) {

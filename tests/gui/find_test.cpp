@@ -2,11 +2,9 @@
 #include <QDockWidget>
 #include <QLabel>
 #include <QLineEdit>
-#include <QMenuBar>
 #include <QTextBrowser>
 #include <QTreeWidget>
 
-#include "app/workbench/docks/dock_of.h"
 #include "app/workbench/window/appearance.h"
 #include "app/workbench/window/fuzzy_match.h"
 #include "app/workbench/window/palette.h"
@@ -37,21 +35,22 @@ class WorkbenchFind : public Bench {
  protected:
   void SetUp() override {
     Bench::SetUp();
-    w().activateWindow();
-    ASSERT_TRUE(QTest::qWaitForWindowActive(&w()));
+    if (HasFatalFailure()) return;
+    ASSERT_NO_FATAL_FAILURE(activate());
     palette_ = w().findChild<workbench::Palette*>();
     ASSERT_NE(palette_, nullptr);
   }
   void find(const char* typed) {
-    w().activateWindow();
-    ASSERT_TRUE(QTest::qWaitForWindowActive(&w()));
+    ASSERT_NO_FATAL_FAILURE(activate());
     QTest::keyClick(&w(), Qt::Key_K, Qt::ControlModifier);
-    ASSERT_TRUE(waitFor([&] { return palette_->isVisible() && palette_->input().hasFocus(); }, 5000));
+    ASSERT_TRUE(waitFor([&] { return palette_->isVisible() && palette_->input().hasFocus(); }));
     QTest::keyClicks(&palette_->input(), typed);
   }
+  /// Runs the current entry. The palette stays where there is none; else the window has the keys again.
   void run() {
     QTest::keyClick(&palette_->input(), Qt::Key_Return);
-    QTest::qWait(30);
+    EXPECT_TRUE(
+        waitFor([&] { return palette_->isVisible() || QApplication::activeWindow() == window.get(); }));
   }
   QString row(int column) { return palette_->list().currentItem()->text(column); }
 
@@ -69,10 +68,9 @@ TEST_F(WorkbenchFind, ctrlKFindsCommandsParametersDocksAndPresetsByKeysAlone) {
   ASSERT_NO_FATAL_FAILURE(find("fuzzy.hyst"));
   EXPECT_EQ(row(1), "parameter");
   run();
-  EXPECT_TRUE(workbench::isInFront(*w().dock("preset")));
+  EXPECT_TRUE(comesToFront("preset"));
   EXPECT_TRUE(waitFor(
-      [] { return views::parameterOf(QApplication::focusWidget()) == QLatin1String("fuzzy.hysteresis"); },
-      5000));
+      [] { return views::parameterOf(QApplication::focusWidget()) == QLatin1String("fuzzy.hysteresis"); }));
 
   w().dock("host")->close();
   ASSERT_NO_FATAL_FAILURE(find("host"));
@@ -82,7 +80,7 @@ TEST_F(WorkbenchFind, ctrlKFindsCommandsParametersDocksAndPresetsByKeysAlone) {
     ASSERT_NE(palette_->list().currentItem(), before);
   }
   run();
-  EXPECT_TRUE(workbench::isInFront(*w().dock("host")));
+  EXPECT_TRUE(comesToFront("host"));
 
   ASSERT_NO_FATAL_FAILURE(find("as-publ"));
   EXPECT_EQ(row(1), "preset");
@@ -148,9 +146,9 @@ TEST_F(WorkbenchFind, theStripSaysWorkspaceBudgetRecordingAndHostWithoutMovingOn
 
 TEST_F(WorkbenchFind, lightAndDarkAreChosenWithinTheProgram) {
   workbench::apply(workbench::Appearance::dark);
-  EXPECT_TRUE(waitFor([&] { return views::isDark(w().palette()); }, 2000));
+  EXPECT_TRUE(waitFor([&] { return views::isDark(w().palette()); }));
   workbench::apply(workbench::Appearance::light);
-  EXPECT_TRUE(waitFor([&] { return !views::isDark(w().palette()); }, 2000));
+  EXPECT_TRUE(waitFor([&] { return !views::isDark(w().palette()); }));
   workbench::apply(workbench::Appearance::system);
 }
 

@@ -3,12 +3,19 @@
 
 #include <gtest/gtest.h>
 
+#include <QAction>
 #include <QApplication>
+#include <QDockWidget>
+#include <QMenu>
+#include <QMenuBar>
 #include <QMimeData>
 #include <QTest>
+#include <QTimer>
 #include <functional>
 #include <memory>
+#include <optional>
 
+#include "app/workbench/docks/dock_of.h"
 #include "app/workbench/docks/message_panel.h"
 #include "app/workbench/window/main_window.h"
 #include "tests/support.h"
@@ -22,6 +29,26 @@ namespace trimtab::test {
 inline bool waitFor(const std::function<bool()>& condition, int limitMs = 60000) {
   return QTest::qWaitFor(condition, limitMs);
 }
+
+/// Closes every modal dialog that opens while it lives. A test that expects none cannot hang on one, and a
+/// test that expects one need not know how long it takes to open.
+class DialogCloser {
+ public:
+  DialogCloser() {
+    QObject::connect(&timer_, &QTimer::timeout, &timer_, [this] {
+      QWidget* const dialog = QApplication::activeModalWidget();
+      if (dialog == nullptr) return;
+      ++closed_;
+      dialog->close();
+    });
+    timer_.start(20);
+  }
+  int closed() const { return closed_; }
+
+ private:
+  QTimer timer_;
+  int closed_ = 0;
+};
 
 /// The sample terrain, 60 km wide with posts 120 m apart: the shipped flight stays over it. It is baked once
 /// per test program.
@@ -55,11 +82,7 @@ inline double climbsThrough(const Flight& flight, double altitudeFt) {
 class Bench : public ::testing::Test {
  protected:
   void SetUp() override {
-    window = std::make_unique<workbench::MainWindow>();
-    workbench::Options options;
-    options.terrain = QString::fromStdString(sampleTerrain().string());
-    options.window = QSize(1400, 900);
-    window->start(options);
+    open(QSize(1400, 900));
     window->showEveryDock();
     ASSERT_TRUE(waitFor([this] { return window->viewport().lastResult() != nullptr; }))
         << window->messages().text().toStdString();
@@ -68,7 +91,53 @@ class Bench : public ::testing::Test {
     if (window) window->draft().undoStack().setClean();
     window.reset();
   }
+  /// Opens the window over the sample terrain, in this size or in the one that was kept.
+  void open(std::optional<QSize> size) {
+    window = std::make_unique<workbench::MainWindow>();
+    workbench::Options options;
+    options.terrain = QString::fromStdString(sampleTerrain().string());
+    options.window = size;
+    window->start(options);
+  }
+  /// Closes the window as a person does, and opens another one as the next run of the program would. Its
+  /// terrain may still be opening when this returns.
+  void restart(std::optional<QSize> size = {}) {
+    window->draft().undoStack().setClean();
+    ASSERT_TRUE(window->close());
+    window.reset();
+    open(size);
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(window.get(), 60000));
+  }
   workbench::MainWindow& w() { return *window; }
+  /// Makes the window the one that hears the keys.
+  void activate() {
+    window->activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(window.get(), 60000));
+    ASSERT_TRUE(waitFor([this] { return QApplication::activeWindow() == window.get(); }));
+  }
+  /// Waits until a person can see the dock.
+  bool comesToFront(const char* dock) {
+    return waitFor([this, dock] { return workbench::isInFront(*window->dock(QString::fromLatin1(dock))); });
+  }
+  /// Returns the commands of all menus.
+  QList<QAction*> commands() const {
+    QList<QAction*> all;
+    for (const QMenu* menu : window->menuBar()->findChildren<QMenu*>()) all += menu->actions();
+    return all;
+  }
+  /// Returns the command whose text begins so. If there is none, the test fails, and this returns null.
+  QAction* command(const QString& text) const {
+    for (QAction* action : commands())
+      if (action->text().remove('&').startsWith(text)) return action;
+    ADD_FAILURE() << "no command " << text.toStdString();
+    return nullptr;
+  }
+  /// Runs a command of the menus.
+  void trigger(const QString& text) const {
+    QAction* const action = command(text);
+    ASSERT_NE(action, nullptr);
+    action->trigger();
+  }
   /// The result of the newest image, or an empty one while a terrain just opened has no image yet.
   const FrameResult& last() const {
     static const FrameResult none;

@@ -3,8 +3,9 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QTabBar>
-#include <QTimer>
+#include <algorithm>
 
+#include "app/workbench/docks/dock_of.h"
 #include "app/workbench/docks/error_dock.h"
 #include "app/workbench/window/notice_bar.h"
 #include "gui_support.h"
@@ -15,17 +16,6 @@ namespace {
 
 class WorkbenchLayout : public Bench {
  protected:
-  void restart(std::optional<QSize> size) {
-    w().draft().undoStack().setClean();
-    w().close();
-    window.reset();
-    window = std::make_unique<workbench::MainWindow>();
-    workbench::Options options;
-    options.terrain = QString::fromStdString(sampleTerrain().string());
-    options.window = size;
-    window->start(options);
-    QTest::qWait(50);
-  }
   QPushButton* button(const QWidget& within, const QString& text) {
     for (QPushButton* each : within.findChildren<QPushButton*>())
       if (each->text().remove('&').contains(text) && each->isVisible()) return each;
@@ -34,40 +24,37 @@ class WorkbenchLayout : public Bench {
 };
 
 TEST_F(WorkbenchLayout, altAndANumberRaiseADockBehindAnother) {
-  w().activateWindow();
-  ASSERT_TRUE(QTest::qWaitForWindowActive(&w()));
+  ASSERT_NO_FATAL_FAILURE(activate());
   QDockWidget &policy = *w().dock("policy"), &front = *w().dock("depth_map");
   QTest::keyClick(&w(), Qt::Key_1, Qt::AltModifier);
   ASSERT_TRUE(policy.isAncestorOf(QApplication::focusWidget()));
   front.raise();
-  QTest::qWait(20);
+  ASSERT_TRUE(waitFor([&] { return workbench::isInFront(front) && !workbench::isInFront(policy); }));
   QTest::keyClick(&w(), Qt::Key_1, Qt::AltModifier);
-  QTest::qWait(20);
-  EXPECT_TRUE(policy.isVisible());
-  EXPECT_FALSE(policy.visibleRegion().isEmpty()) << "it was behind, so the key raises it";
+  EXPECT_TRUE(comesToFront("policy")) << "it was behind, so the key raises it";
   QTest::keyClick(&w(), Qt::Key_1, Qt::AltModifier);
   EXPECT_TRUE(policy.isHidden()) << "from inside, the key closes it";
 }
 
 TEST_F(WorkbenchLayout, afterARestartTabsHaveWholeTitles) {
-  ASSERT_NO_FATAL_FAILURE(restart({}));
-  const auto bars = w().findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly);
-  ASSERT_FALSE(bars.isEmpty());
-  for (const QTabBar* bar : bars) EXPECT_EQ(bar->elideMode(), Qt::ElideNone);
+  ASSERT_NO_FATAL_FAILURE(restart());
+  const auto bars = [&] { return w().findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly); };
+  ASSERT_TRUE(waitFor([&] { return !bars().isEmpty(); }));
+  for (const QTabBar* bar : bars()) EXPECT_EQ(bar->elideMode(), Qt::ElideNone);
 }
 
 TEST_F(WorkbenchLayout, aSizeThatIsAskedForHoldsThoughTheLastWindowWasMaximised) {
   w().setWindowState(Qt::WindowMaximized);
   ASSERT_NO_FATAL_FAILURE(restart(QSize(1000, 700)));
-  EXPECT_FALSE(w().isMaximized());
-  EXPECT_EQ(w().size(), QSize(1000, 700));
+  EXPECT_TRUE(waitFor([&] { return !w().isMaximized() && w().size() == QSize(1000, 700); }, 20000))
+      << w().width() << " x " << w().height();
 }
 
 TEST_F(WorkbenchLayout, aQuestionMovesNoControl) {
   ASSERT_TRUE(settle());
   const QRect before = w().viewport().geometry();
   w().notices().ask("test", "Shall this question move the image?", {{"No", {}}});
-  QTest::qWait(20);
+  QCoreApplication::processEvents();  // layouts that the question may ask for
   EXPECT_TRUE(w().notices().isVisible());
   EXPECT_EQ(w().viewport().geometry(), before);
   EXPECT_TRUE(w().viewport().parentWidget()->rect().contains(w().notices().geometry()));
@@ -86,32 +73,27 @@ TEST_F(WorkbenchLayout, anEmptyDepthMapSaysWhoServesInsteadAndLeadsThere) {
   QPushButton* const lead = button(*inset, "Culling");
   ASSERT_NE(lead, nullptr);
   lead->click();
-  QTest::qWait(20);
-  EXPECT_FALSE(w().dock("culling")->visibleRegion().isEmpty());
+  EXPECT_TRUE(comesToFront("culling"));
 }
 
 TEST_F(WorkbenchLayout, measuringWithoutAFlightIsRefusedBeforeItAsksAnything) {
   const int messages = w().messages().count();
-  bool asked = false;
-  QTimer::singleShot(200, [&] {
-    if (QWidget* modal = QApplication::activeModalWidget()) {
-      asked = true;
-      modal->close();
-    }
-  });
+  DialogCloser dialogs;
   w().controllers().errors->askAndMeasure();
-  QTest::qWait(250);
-  EXPECT_FALSE(asked) << "no dialog whose answers would be thrown away";
+  EXPECT_TRUE(comesToFront("errors"));
+  EXPECT_EQ(dialogs.closed(), 0) << "no dialog whose answers would be thrown away";
+  EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
   EXPECT_EQ(w().messages().count(), messages);
   QDockWidget& dock = *w().dock("errors");
-  EXPECT_NE(button(dock, "Open a flight"), nullptr) << "the dock says how to get one";
+  EXPECT_TRUE(waitFor([&] { return button(dock, "Open a flight") != nullptr; }))
+      << "the dock says how to get one";
   const auto labels = dock.findChildren<QLabel*>();
   EXPECT_TRUE(std::any_of(labels.begin(), labels.end(),
                           [](const QLabel* label) { return label->text().contains("needs a flight"); }));
   ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
   dock.raise();
-  QTest::qWait(20);
-  EXPECT_EQ(button(dock, "Open a flight"), nullptr);
+  ASSERT_TRUE(comesToFront("errors"));
+  EXPECT_TRUE(waitFor([&] { return button(dock, "Open a flight") == nullptr; }));
 }
 
 }  // namespace

@@ -275,16 +275,19 @@ TEST_F(WorkbenchLoop, aFlightPlaysHereAndPausesAndScrubs) {
   ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
   w().feed().seekHere(climb(6000));
   EXPECT_NEAR(session().decision().altitudeFt, 6000, 60);
+  // However slowly images are drawn, some of the flight are among the newest frames of the plots.
+  views::PlotsPanel& plots = *w().panels().plots;
   w().feed().playHere();
   const double from = w().feed().playback().position();
-  ASSERT_TRUE(waitFor([&] { return w().feed().playback().position() > from + 0.5; }));
+  const std::uint64_t first = plots.buffer().end();
+  ASSERT_TRUE(waitFor(
+      [&] { return w().feed().playback().position() > from + 0.5 && plots.buffer().end() > first + 8; }));
   w().feed().pauseHere();
   const double stopped = w().feed().playback().position();
   ASSERT_TRUE(settle()) << "a paused flight paints nothing";
   EXPECT_EQ(w().feed().playback().position(), stopped);
   EXPECT_EQ(session().input().state.packet, std::uint64_t(std::floor(stopped * 60)) + 1);
 
-  views::PlotsPanel& plots = *w().panels().plots;
   const std::uint64_t frame = plots.buffer().end() - 4;
   const double state = plots.buffer().stateTime(frame);
   plots.chooseFrame(frame);

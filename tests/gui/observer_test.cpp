@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <QAction>
 #include <QDockWidget>
 #include <QLabel>
-#include <QMenuBar>
 #include <QPushButton>
 #include <QStatusBar>
 #include <cmath>
@@ -26,13 +26,6 @@ class Observer : public Bench {
     QObject::connect(w().controllers().frame.get(), &workbench::FrameController::frameShown, &w(),
                      [this](const views::LiveFrame& frame) { told_ = frame; });
   }
-  QAction* command(const QString& text) {
-    for (const QMenu* menu : w().menuBar()->findChildren<QMenu*>())
-      for (QAction* action : menu->actions())
-        if (action->text().remove('&').startsWith(text)) return action;
-    ADD_FAILURE() << "no command " << text.toStdString();
-    return nullptr;
-  }
   void openFlight() {
     ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
     flight_ = *readFlight(sampleFlight());
@@ -43,7 +36,7 @@ class Observer : public Bench {
   void fly(Qt::Key key) {
     QTest::keyPress(&w().viewport(), key);
     const std::uint64_t before = paints();
-    EXPECT_TRUE(waitFor([&] { return paints() > before + 2; }, 10000));
+    EXPECT_TRUE(waitFor([&] { return paints() > before + 2; }));
     QTest::keyRelease(&w().viewport(), key);
     EXPECT_TRUE(settle());
   }
@@ -65,7 +58,7 @@ TEST_F(Observer, aHostThatNeverComesLeavesTheImageAndTheCameraOfAPausedFlight) {
   w().controllers().flight->playOrPause();
   listen();
   w().feed().closeHost();
-  command("Wireframe")->trigger();
+  trigger("Wireframe");
   ASSERT_TRUE(settle());
   EXPECT_TRUE(drawsTerrain()) << w().viewport().overlayContents().notice.toStdString();
   const GeodeticPosition before = camera();
@@ -76,7 +69,7 @@ TEST_F(Observer, aHostThatNeverComesLeavesTheImageAndTheCameraOfAPausedFlight) {
 
 TEST_F(Observer, aHostThatNeverComesLeavesTheImageOfTheFreeCamera) {
   listen();
-  command("Wireframe")->trigger();
+  trigger("Wireframe");
   ASSERT_TRUE(settle());
   EXPECT_TRUE(drawsTerrain()) << w().viewport().overlayContents().notice.toStdString();
   EXPECT_TRUE(statusSays("listening"));
@@ -92,7 +85,7 @@ TEST_F(Observer, frozenTheDecisionAndTheVisibleSetStayWhateverFlies) {
   const FrameDecision decided = session().decision();
   const auto visible = last().visible.reason;
   const std::uint64_t triangles = last().visible.triangles;
-  command("Freeze culling")->trigger();
+  trigger("Freeze culling");
   seek(7500);
   ASSERT_TRUE(settle());
   ASSERT_NE(session().decision(), decided) << "the flight leads on";
@@ -106,7 +99,7 @@ TEST_F(Observer, frozenTheDecisionAndTheVisibleSetStayWhateverFlies) {
   ASSERT_TRUE(settle());
   EXPECT_EQ(told_.decision, decided);
   EXPECT_EQ(last().visible.triangles, triangles);
-  command("Freeze culling")->trigger();
+  trigger("Freeze culling");
   ASSERT_TRUE(settle());
   EXPECT_EQ(told_.decision, session().decision());
   EXPECT_NE(last().visible.triangles, triangles);
@@ -117,7 +110,7 @@ TEST_F(Observer, frozenKeysAndHomeFlyTheViewBesideAPausedFlight) {
   seek(4500);
   ASSERT_TRUE(settle());
   const GeodeticPosition pilot = session().input().state.position;
-  command("Freeze culling")->trigger();
+  trigger("Freeze culling");
   ASSERT_TRUE(settle());
   const QImage before = w().viewport().grabFramebuffer();
   const GeodeticPosition from = camera();
@@ -126,10 +119,10 @@ TEST_F(Observer, frozenKeysAndHomeFlyTheViewBesideAPausedFlight) {
   EXPECT_GT(camera().height.value(), from.height.value());
   EXPECT_NE(w().viewport().grabFramebuffer(), before);
   const GeodeticPosition high = camera();
-  command("Place the camera")->trigger();
+  trigger("Place the camera");
   EXPECT_NE(camera(), high);
   EXPECT_EQ(session().input().state.position, pilot) << "the pilot's eye stays";
-  command("Freeze culling")->trigger();
+  trigger("Freeze culling");
   ASSERT_TRUE(settle());
   EXPECT_EQ(w().controllers().frame->shown()->eye, pilot);
   EXPECT_FALSE(w().viewport().cameraEnabled());
@@ -140,7 +133,7 @@ TEST_F(Observer, aClosedFlightLeavesAFreeCameraWhereItWas) {
   seek(4500);
   ASSERT_TRUE(settle());
   const GeodeticPosition there = session().input().state.position;
-  command("Close flight")->trigger();
+  trigger("Close flight");
   EXPECT_FALSE(w().feed().playback().loaded());
   EXPECT_EQ(w().feed().source(), Feed::Source::camera);
   EXPECT_TRUE(w().controllers().flight->flightDock().file().isEmpty());
@@ -153,7 +146,7 @@ TEST_F(Observer, aClosedFlightLeavesAFreeCameraWhereItWas) {
 
 TEST_F(Observer, theLegendAndTheDockNameAReasonAlike) {
   w().dock("culling")->raise();
-  command("Colour by reason")->trigger();
+  trigger("Colour by reason");
   ASSERT_TRUE(settle());
   const auto& legend = w().viewport().overlayContents().legend;
   ASSERT_EQ(legend.size(), 5);
@@ -170,7 +163,7 @@ TEST_F(Observer, frozenAnEditDecidesTheSameMomentAgain) {
   openFlight();
   seek(3500);
   ASSERT_TRUE(settle());
-  command("Freeze culling")->trigger();
+  trigger("Freeze culling");
   seek(7500);
   ASSERT_TRUE(settle());
   const double frozenFt = told_.decision.altitudeFt;
@@ -193,7 +186,7 @@ TEST_F(Observer, detachedThePilotDecidesAndCullsOnAsIfNobodyLooked) {
   const FrameDecision decided = told_.decision;
   seek(4000);
   ASSERT_TRUE(settle());
-  command("Detach")->trigger();
+  trigger("Detach");
   ASSERT_TRUE(settle());
   EXPECT_TRUE(w().viewport().overlayContents().banner.contains("DETACHED"));
   const GeodeticPosition outside = camera();
@@ -207,7 +200,7 @@ TEST_F(Observer, detachedThePilotDecidesAndCullsOnAsIfNobodyLooked) {
   EXPECT_EQ(last().visible.reason, there);
   EXPECT_EQ(last().visible.triangles, triangles);
   EXPECT_NE(camera(), session().input().state.position);
-  command("Detach")->trigger();
+  trigger("Detach");
   ASSERT_TRUE(settle());
   EXPECT_EQ(last().visible.reason, there);
   EXPECT_TRUE(w().viewport().overlayContents().banner.isEmpty());
@@ -218,7 +211,7 @@ TEST_F(Observer, detachedTheInsetIsThePilotsImage) {
   ASSERT_TRUE(settle());
   const GeodeticPosition seat = camera();
   const QImage whole = w().viewport().grabFramebuffer();
-  command("Detach")->trigger();
+  trigger("Detach");
   ASSERT_TRUE(settle());
   EXPECT_NE(camera(), seat);
   const QRect inset = w().viewport().overlayContents().inset;
@@ -235,18 +228,19 @@ TEST_F(Observer, detachedTheInsetIsThePilotsImage) {
     for (int x = 0; x < seen.width(); ++x)
       difference += std::abs(qGray(seen.pixel(x, y)) - qGray(expected.pixel(x, y)));
   EXPECT_LT(difference / (double(seen.width()) * seen.height()), 6) << "grey levels of 255";
-  command("Detach")->trigger();
+  trigger("Detach");
   EXPECT_EQ(camera(), seat) << "back in the seat";
 }
 
 TEST_F(Observer, detachingColoursTheNodesByReasonAndComingBackEndsIt) {
   QAction* const byReason = command("Colour by reason");
-  command("Detach")->trigger();
+  ASSERT_NE(byReason, nullptr);
+  trigger("Detach");
   EXPECT_TRUE(byReason->isChecked());
-  command("Detach")->trigger();
+  trigger("Detach");
   EXPECT_FALSE(byReason->isChecked());
-  command("Colour by level")->trigger();
-  command("Detach")->trigger();
+  trigger("Colour by level");
+  trigger("Detach");
   EXPECT_FALSE(byReason->isChecked()) << "what was chosen stays";
 }
 
@@ -270,10 +264,10 @@ TEST_F(Observer, aPickedNodeIsOutlinedWhileTheDockThatDescribesItShows) {
   for (const QLineF& edge : shown.outline) around |= QRectF(edge.p1(), edge.p2()).normalized();
   EXPECT_TRUE(around.contains(0.5, 0.75)) << "the box holds the pixel that was picked";
   w().dock("culling")->hide();
-  EXPECT_TRUE(waitFor([&] { return shown.outline.isEmpty(); }, 5000));
+  EXPECT_TRUE(waitFor([&] { return shown.outline.isEmpty(); }));
   w().dock("culling")->show();
   w().dock("culling")->raise();
-  EXPECT_TRUE(waitFor([&] { return !shown.outline.isEmpty(); }, 5000));
+  EXPECT_TRUE(waitFor([&] { return !shown.outline.isEmpty(); }));
   pickAt(0.02);
   EXPECT_TRUE(shown.outline.isEmpty()) << "the sky is no node";
 }

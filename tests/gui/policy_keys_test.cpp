@@ -25,8 +25,7 @@ class PolicyKeys : public PolicyDock {
  protected:
   void SetUp() override {
     PolicyDock::SetUp();
-    w().activateWindow();
-    ASSERT_TRUE(QTest::qWaitForWindowActive(&w()));
+    ASSERT_NO_FATAL_FAILURE(activate());
     setPolicy({"altitude low = ramp 5000 4000", "altitude high = points 4000 0 5000 0.5 6000 1",
                "speed fast = ramp 200 400"},
               {"if altitude is low then screen_space_error = 2 # near ground",

@@ -129,7 +129,9 @@ class WeatherOnTheBench : public Bench {
 /// Saves a screenshot to look at if TRIMTAB_SHOTS names a folder.
 void shoot(QWidget& widget, const char* name) {
   const QString folder = qEnvironmentVariable("TRIMTAB_SHOTS");
-  if (!folder.isEmpty()) widget.grab().save(folder + "/" + name + ".png");
+  if (folder.isEmpty()) return;
+  QTest::qWait(300);
+  widget.grab().save(folder + "/" + name + ".png");
 }
 
 TEST_F(WeatherOnTheBench, anEditChangesThePictureAndItsCounters) {
@@ -141,11 +143,9 @@ TEST_F(WeatherOnTheBench, anEditChangesThePictureAndItsCounters) {
   EXPECT_GT(last().counters.precipitationPasses, 0u);
   EXPECT_LT(last().visible.triangles, before.visible.triangles) << "cut at 4 km";
   w().dock("weather")->raise();
-  QTest::qWait(300);
   shoot(w(), "weather-rain-heavy");
   w().draft().setText("weather.step", "snow_medium");
   ASSERT_TRUE(drawnIn(Precipitation::snow));
-  QTest::qWait(300);
   shoot(w(), "weather-snow-medium");
   w().draft().setText("weather.step", "clear");
   ASSERT_TRUE(drawnIn(Precipitation::none));

@@ -5,13 +5,13 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <QAction>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QEventLoop>
 #include <QFile>
 #include <QLabel>
 #include <QLineEdit>
-#include <QMenuBar>
 #include <QProcess>
 #include <QPushButton>
 #include <QTimer>
@@ -39,13 +39,6 @@ void idle(int ms) {
   loop.exec();
 }
 
-QAction* command(workbench::MainWindow& window, const QString& text) {
-  for (const QMenu* menu : window.menuBar()->findChildren<QMenu*>())
-    for (QAction* action : menu->actions())
-      if (action->text().remove('&').startsWith(text)) return action;
-  return nullptr;
-}
-
 class WorkbenchWindow : public Bench {};
 
 TEST_F(WorkbenchWindow, idleCostsNothing) {
@@ -53,15 +46,16 @@ TEST_F(WorkbenchWindow, idleCostsNothing) {
   const QString hud = w().viewport().overlayContents().hud;
   EXPECT_TRUE(hud.contains("triangles")) << "figures are of the picture they stand on: " << hud.toStdString();
   const std::uint64_t before = paints();
+  constexpr double kIdle = 0.01;
   double least = 1;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3 && least >= kIdle; ++i) {
     const double cpu = cpuSeconds();
     constexpr int kSeconds = 2;
     idle(kSeconds * 1000);
     least = std::min(least, (cpuSeconds() - cpu) / kSeconds);
   }
   EXPECT_EQ(paints(), before) << "no host, no input: no repaint";
-  EXPECT_LT(least, 0.01) << "share of a core";
+  EXPECT_LT(least, kIdle) << "share of a core";
 }
 
 TEST_F(WorkbenchWindow, anEmptySkySaysThatTheEyeIsNotOverTheTerrain) {
@@ -94,14 +88,14 @@ TEST_F(WorkbenchWindow, frozenCullingKeepsItsTilesWhileTheViewFliesOnAndSaysSo) 
   ASSERT_TRUE(settle());
   const auto drawn = [&] { return last().visible.reason; };
   const auto before = drawn();
-  command(w(), "Freeze culling")->trigger();
+  trigger("Freeze culling");
   ASSERT_TRUE(settle());
   EXPECT_TRUE(w().viewport().overlayContents().banner.contains("FROZEN"));
   w().viewport().camera().look(Degrees{120}, Degrees{0});
   w().feed().look(w().viewport().camera());
   ASSERT_TRUE(settle());
   EXPECT_EQ(drawn(), before);
-  command(w(), "Freeze culling")->trigger();
+  trigger("Freeze culling");
   ASSERT_TRUE(settle());
   EXPECT_TRUE(w().viewport().overlayContents().banner.isEmpty());
   EXPECT_NE(drawn(), before);
@@ -112,9 +106,7 @@ TEST_F(WorkbenchWindow, theCullingCaseIsSwitchedLiveAndCanBeUndone) {
   const QImage proposed = w().viewport().grabFramebuffer();
   const auto triangles = [&] { return last().visible.triangles; };
   const auto fewest = triangles();
-  QAction* none = command(w(), "No culling");
-  ASSERT_NE(none, nullptr);
-  none->trigger();
+  ASSERT_NO_FATAL_FAILURE(trigger("No culling"));
   EXPECT_EQ(w().draft().parameters().culling.method, CullingCase::none);
   ASSERT_TRUE(settle());
   EXPECT_GT(triangles(), fewest);
@@ -149,7 +141,8 @@ TEST_F(WorkbenchWindow, aClickDescribesThePickedNodeAndEndsPicking) {
 
 TEST_F(WorkbenchWindow, theTraceCommandIsCheckedWhileATraceIsRecorded) {
   const ScratchDir dir;
-  QAction* const record = command(w(), "Record trace");
+  QAction* const record = command("Record trace");
+  ASSERT_NE(record, nullptr);
   auto& trace = *w().controllers().trace;
   EXPECT_FALSE(trace.start("/proc/nowhere/trace.csv"));
   EXPECT_FALSE(record->isChecked());
@@ -196,6 +189,7 @@ TEST_F(WorkbenchWindow, aFixedRenderSizeIsDrawnAtThatSizeAndScaledIntoTheWindow)
 }
 
 TEST_F(WorkbenchWindow, aWindowOfAnotherShapeDoesNotStretchThePicture) {
+  w().controllers().frame->setFills(false);
   // 60 by 36 degrees has square pixels at tan 30 : tan 18; a view twice as high is narrower than any layout
   // of the docks.
   ASSERT_TRUE(w().draft().setText("view.horizontal_fov_deg", "40").empty());
@@ -209,6 +203,7 @@ TEST_F(WorkbenchWindow, aWindowOfAnotherShapeDoesNotStretchThePicture) {
   const double width = shown.width() - 2 * left;
   const double wanted = std::tan(20 * M_PI / 180) / std::tan(35 * M_PI / 180);
   EXPECT_NEAR(width / shown.height(), wanted, 0.02);
+  w().controllers().frame->setFills(true);
 }
 
 TEST_F(WorkbenchWindow, floatingADockKeepsThePictureAndAResetOfTheWorkspaceBringsItBack) {
@@ -218,7 +213,7 @@ TEST_F(WorkbenchWindow, floatingADockKeepsThePictureAndAResetOfTheWorkspaceBring
        {"policy", "depth_map", "decision", "host", "flight", "plots", "preset", "messages", "history"}) {
     QDockWidget* dock = w().dock(name);
     ASSERT_NE(dock, nullptr) << name;
-    ASSERT_NE(command(w(), dock->windowTitle()), nullptr) << name << " is in the View menu";
+    ASSERT_NE(command(dock->windowTitle()), nullptr) << name << " is in the View menu";
     dock->setFloating(true);
   }
   ASSERT_TRUE(settle());

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QAbstractButton>
-#include <QComboBox>
 #include <QDockWidget>
 #include <QFile>
 #include <QLabel>
 #include <QTabBar>
 #include <QTextDocument>
-#include <QToolBar>
+#include <algorithm>
 
 #include "app/workbench/docks/dock_of.h"
 #include "app/workbench/window/workspaces.h"
@@ -53,15 +52,12 @@ class WorkbenchWorkspaces : public Bench {
  protected:
   workbench::Workspaces& spaces() { return w().workspaces(); }
   bool front(const char* name) { return workbench::isInFront(*w().dock(name)); }
-  void press(Qt::Key key) {
-    QTest::keyClick(&w(), key, Qt::ControlModifier);
-    QTest::qWait(40);
-  }
+  void press(Qt::Key key) { QTest::keyClick(&w(), key, Qt::ControlModifier); }
   void SetUp() override {
     Bench::SetUp();
+    if (HasFatalFailure()) return;
     w().resize(1280, 720);
-    w().activateWindow();
-    ASSERT_TRUE(QTest::qWaitForWindowActive(&w()));
+    ASSERT_NO_FATAL_FAILURE(activate());
     for (int i = 0; i < 5; ++i) {
       spaces().show(i);
       spaces().reset();
@@ -78,12 +74,14 @@ TEST_F(WorkbenchWorkspaces, ctrlAndANumberShowWhatEachJobNeedsWithoutACutWord) {
   for (int i = 0; i < 5; ++i) {
     press(Qt::Key(Qt::Key_1 + i));
     EXPECT_EQ(spaces().current(), i);
-    EXPECT_EQ(w().size(), QSize(1280, 720)) << "nothing widens the window";
     for (const char* name : needed[std::size_t(i)])
-      EXPECT_TRUE(front(name)) << name << " in " << spaces().names()[i].toStdString();
+      EXPECT_TRUE(comesToFront(name)) << name << " in " << spaces().names()[i].toStdString();
+    EXPECT_TRUE(waitFor([&] { return cutWords(w()).isEmpty(); }, 20000))
+        << spaces().names()[i].toStdString() << '\n'
+        << cutWords(w()).join("\n").toStdString();
+    EXPECT_EQ(w().size(), QSize(1280, 720)) << "nothing widens the window";
     EXPECT_GE(w().viewport().width(), 400);
     EXPECT_GE(w().viewport().height(), 180);
-    EXPECT_EQ(cutWords(w()).join("\n").toStdString(), "") << spaces().names()[i].toStdString();
   }
 }
 
@@ -91,30 +89,22 @@ TEST_F(WorkbenchWorkspaces, aWorkspaceKeepsHowItWasLeftUntilItIsReset) {
   press(Qt::Key_2);
   w().dock("budget")->close();
   press(Qt::Key_1);
-  EXPECT_FALSE(front("policy"));
+  EXPECT_TRUE(waitFor([&] { return !front("policy"); }));
   press(Qt::Key_2);
-  EXPECT_TRUE(front("policy"));
+  EXPECT_TRUE(comesToFront("policy"));
   EXPECT_TRUE(w().dock("budget")->isHidden());
-  w().close();
-  window.reset();
-  window = std::make_unique<workbench::MainWindow>();
-  workbench::Options options;
-  options.terrain = QString::fromStdString(sampleTerrain().string());
-  window->start(options);
-  QTest::qWait(50);
+  ASSERT_NO_FATAL_FAILURE(restart());
   EXPECT_EQ(spaces().current(), 1) << "over a restart too";
   EXPECT_TRUE(w().dock("budget")->isHidden());
   spaces().reset();
-  QTest::qWait(40);
-  EXPECT_TRUE(front("budget"));
+  EXPECT_TRUE(comesToFront("budget"));
 }
 
 TEST_F(WorkbenchWorkspaces, aDockThatIsAskedForAppearsWhereItIsAtHome) {
   press(Qt::Key_1);
   ASSERT_TRUE(w().dock("messages")->isHidden());
   w().messages().add("Something failed", {{Severity::error, "here", "", "this", "that"}});
-  QTest::qWait(40);
-  EXPECT_TRUE(front("messages")) << "an error is never out of sight";
+  EXPECT_TRUE(comesToFront("messages")) << "an error is never out of sight";
   EXPECT_FALSE(w().tabifiedDockWidgets(w().dock("messages")).isEmpty());
 }
 
@@ -151,7 +141,7 @@ TEST_F(WorkbenchWorkspaces, aFileThatIsNoneIsRefusedAndChangesNothing) {
     to.close();
     EXPECT_FALSE(spaces().readFrom(file).empty()) << text;
     EXPECT_EQ(spaces().names().size(), 5) << text;
-    EXPECT_TRUE(front("errors")) << text;
+    EXPECT_TRUE(comesToFront("errors")) << text;
   }
 }
 

@@ -176,7 +176,7 @@ void DocumentController::offerRecovery() {
                        at_.messages.add(tr("The edits cannot be recovered"), back.findings());
                    }},
                   {tr("&Discard"), [found] { Document::discard(found); }},
-                  {tr("&Later"), {}}});
+                  {tr("Later"), {}}});
   }
 }
 

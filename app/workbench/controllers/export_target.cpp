@@ -2,33 +2,46 @@
 #include "export_target.h"
 
 #include <QSettings>
+#include <iterator>
 #include <vector>
+
+#include "trimtab/preset/choices.h"
 
 namespace trimtab::workbench {
 namespace {
 
 const QString kTargets = QStringLiteral("export/targets");
 constexpr int kKept = 20;
+constexpr int kFormats = int(ExportFormat::ini) + 1;
+constexpr int kMethods = int(std::size(table::ChoicesOf<OcclusionMethod>::options));
 
 struct Remembered {
   QString presetFile;
   ExportTarget target;
 };
 
+/// Reads an enumeration with `count` values; nothing if the settings hold none of them.
+template <class E>
+std::optional<E> choiceIn(const QVariant& value, int count) {
+  bool isNumber = false;
+  const int number = value.toInt(&isNumber);
+  if (!isNumber || number < 0 || number >= count) return std::nullopt;
+  return static_cast<E>(number);
+}
+
+/// A target that another version of the program wrote and this one cannot repeat is left out.
 std::vector<Remembered> read() {
   QSettings settings;
   std::vector<Remembered> all;
   const int size = settings.beginReadArray(kTargets);
   for (int i = 0; i < size; ++i) {
     settings.setArrayIndex(i);
-    ExportTarget target{settings.value("file").toString(),
-                        static_cast<ExportFormat>(settings.value("format").toInt()),
-                        settings.value("author").toString(),
-                        settings.value("comment").toString(),
-                        {}};
-    if (settings.contains("pinned"))
-      target.pinned = static_cast<OcclusionMethod>(settings.value("pinned").toInt());
-    all.push_back({settings.value("preset").toString(), target});
+    const auto format = choiceIn<ExportFormat>(settings.value("format"), kFormats);
+    const auto pinned = choiceIn<OcclusionMethod>(settings.value("pinned"), kMethods);
+    if (!format || (settings.contains("pinned") && !pinned)) continue;
+    all.push_back({settings.value("preset").toString(),
+                   {settings.value("file").toString(), *format, settings.value("author").toString(),
+                    settings.value("comment").toString(), pinned}});
   }
   return all;
 }

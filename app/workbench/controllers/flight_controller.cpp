@@ -16,7 +16,6 @@
 #include "observer_controller.h"
 #include "recent_files.h"
 #include "terrain_controller.h"
-#include "trimtab/motion/line_of_sight.h"
 #include "trimtab/scene/data_extent.h"
 
 namespace trimtab::workbench {
@@ -31,7 +30,7 @@ FlightController::FlightController(const Workplace& workplace, const ObserverCon
     : at_(workplace), observer_(observer), terrain_(terrain), flight_(flight), host_(host) {
   connect(&at_.viewport, &Viewport::cameraMoved, this, &FlightController::cameraMoved);
   connect(&observer_, &ObserverController::changed, this, &FlightController::showSource);
-  connect(&terrain_, &TerrainController::opened, this, &FlightController::placeCamera);
+  connect(&terrain_, &TerrainController::opened, this, [this] { placeCamera(); });
   connect(&at_.feed, &Feed::sourceChanged, this, &FlightController::showSource);
   connect(&at_.feed, &Feed::flightChanged, this, &FlightController::showSource);
   connect(&at_.feed, &Feed::linkChanged, this, &FlightController::showLink);
@@ -73,6 +72,11 @@ void FlightController::connectOrDisconnectHost() {
     host_.connectHost();
 }
 
+void FlightController::listen(std::uint16_t port) {
+  host_.setPort(port);
+  host_.connectHost();
+}
+
 /// The camera stands south of the middle, above the ground there, and looks north over the terrain.
 void FlightController::placeCamera() {
   if (!terrain_.database()) return;
@@ -81,7 +85,11 @@ void FlightController::placeCamera() {
   const std::optional<Metres> ground =
       terrain_.database()->highestWithin(place.latitude, place.longitude, Metres{kCameraClearM});
   place.height = (ground ? *ground : info.highest) + Feet{kCameraAboveFt}.as<Metres>();
-  at_.viewport.camera().place(place, {Degrees{0}, Degrees{kCameraPitchDeg}, Degrees{0}});
+  placeCamera(place, {Degrees{0}, Degrees{kCameraPitchDeg}, Degrees{0}});
+}
+
+void FlightController::placeCamera(const GeodeticPosition& position, const Attitude& attitude) {
+  at_.viewport.camera().place(position, attitude);
   cameraMoved();
 }
 
@@ -94,12 +102,11 @@ void FlightController::cameraMoved() {
 void FlightController::takeSeat() {
   const Session& session = at_.feed.session();
   if (!session.hasState()) return;
-  const AircraftState eye = session.eyeState(link::now());
-  const Attitude sight = lineOfSight(eye.attitude, eye.head);
-  FreeCamera seat;
-  seat.place(eye.position, {sight.heading, sight.pitch, Degrees{0}});
-  if (!observer_.apart()) at_.viewport.camera().place(seat.position(), seat.attitude());
-  at_.feed.look(seat);
+  const Seat seat = seatOf(session);
+  FreeCamera camera;
+  camera.place(seat.position, seat.attitude);
+  if (!observer_.apart()) at_.viewport.camera().place(seat.position, seat.attitude);
+  at_.feed.look(camera);
 }
 
 void FlightController::showSource() {

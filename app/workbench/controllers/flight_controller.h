@@ -28,9 +28,12 @@ class FlightController : public QObject {
   void askOpen();
   void playOrPause();
   void connectOrDisconnectHost();
+  /// Listens for a host on this port, on the interface that was chosen last.
+  void listen(std::uint16_t port);
   /// Puts the free camera over the terrain: the pilot's eye, or the observer's while it is apart. Nobody sees
   /// that while a host or a flight moves the view.
   void placeCamera();
+  void placeCamera(const GeodeticPosition& position, const Attitude& attitude);
 
   FlightDock& flightDock() const { return flight_; }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "frame_controller.h"
 
+#include <QSettings>
 #include <QTimer>
 #include <algorithm>
 #include <cmath>
@@ -16,12 +17,13 @@
 #include "terrain_controller.h"
 #include "terrain_summary.h"
 #include "trimtab/hold/cost_model_file.h"
+#include "trimtab/units/not_finite.h"
 #include "views/model/draft.h"
 
 namespace trimtab::workbench {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+const QString kFillsKey = QStringLiteral("viewport/fills");
 /// A longer gap between two images is no frame rate: they are drawn on demand.
 constexpr double kLongestRateGapS = 0.5;
 /// Each image moves the displayed rate by this share of the way to its own.
@@ -62,7 +64,10 @@ FrameRequest pilotsOwn(FrameRequest request) {
 
 FrameController::FrameController(const Workplace& workplace, const TerrainController& terrain,
                                  ObserverController& observer)
-    : at_(workplace), terrain_(terrain), observer_(observer) {
+    : at_(workplace),
+      terrain_(terrain),
+      observer_(observer),
+      fit_(QSettings().value(kFillsKey, true).toBool() ? ViewFit::fill : ViewFit::preset) {
   sinceStart_.start();
   Viewport& viewport = at_.viewport;
   viewport.setSource([this](int widthPx, int heightPx) { return picture(widthPx, heightPx); });
@@ -95,6 +100,12 @@ void FrameController::setOverlays(const Overlays& overlays) {
   at_.viewport.invalidate();
 }
 
+void FrameController::setFills(bool fills) {
+  fit_ = fills ? ViewFit::fill : ViewFit::preset;
+  QSettings().setValue(kFillsKey, fills);
+  at_.viewport.invalidate();
+}
+
 void FrameController::setOutline(const std::optional<Box>& box) {
   if (!outlined_ && !box) return;
   outlined_ = box;
@@ -108,7 +119,9 @@ const Session& FrameController::session() const {
 std::optional<Picture> FrameController::picture(int widthPx, int heightPx) {
   const double now = link::now();
   at_.feed.advance(now);
-  std::optional<FrameRequest> request = observer_.request(now, squarePixels(session(), {widthPx, heightPx}));
+  const QSize widget(widthPx, heightPx);
+  std::optional<FrameRequest> request =
+      observer_.request(now, fills() ? widget : squarePixels(session(), widget), fit_);
   if (!request) return std::nullopt;
   request->overlays = overlays_;
   if (shown_) emit replaced(*shown_);

@@ -41,6 +41,10 @@ class FrameController : public QObject {
 
   const Overlays& overlays() const { return overlays_; }
   void setOverlays(const Overlays& overlays);
+  /// Whether the image fills the viewport, so that its field of view grows beyond the preset's at two sides.
+  /// If not, it has the preset's, with bars where the viewport has another shape. Kept in the settings.
+  bool fills() const { return fit_ == ViewFit::fill; }
+  void setFills(bool fills);
   /// Outlines a box of the terrain's local frame, in front of everything.
   void setOutline(const std::optional<Box>& box);
 
@@ -63,6 +67,7 @@ class FrameController : public QObject {
   const TerrainController& terrain_;
   ObserverController& observer_;
   Overlays overlays_;
+  ViewFit fit_;
   std::optional<Box> outlined_;
   std::optional<FrameRequest> shown_;
   FrameCost lastCost_;

@@ -13,15 +13,16 @@
 
 namespace trimtab::workbench {
 
-using Panel = views::MotionPanel;
+using views::MotionPanel;
 
 namespace {
 constexpr int kRowsInQuestion = 3;  ///< bad rows that the question names
 }
 
-HeadController::HeadController(const Workplace& workplace, Panel& panel) : at_(workplace), panel_(panel) {
-  connect(&panel_, &Panel::openLogAsked, this, &HeadController::askOpen);
-  connect(&panel_, &Panel::sourceAsked, this, &HeadController::use);
+HeadController::HeadController(const Workplace& workplace, MotionPanel& panel)
+    : at_(workplace), panel_(panel) {
+  connect(&panel_, &MotionPanel::openLogAsked, this, &HeadController::askOpen);
+  connect(&panel_, &MotionPanel::sourceAsked, this, &HeadController::use);
   connect(&at_.viewport, &Viewport::pointed, this,
           [this](QPointF place) { at_.feed.point(place.x(), place.y()); });
   connect(&at_.feed, &Feed::headChanged, this, &HeadController::showSource);
@@ -29,12 +30,12 @@ HeadController::HeadController(const Workplace& workplace, Panel& panel) : at_(w
 
 void HeadController::use(int source) {
   switch (source) {
-    case Panel::sweep:
+    case MotionPanel::sweep:
       open(panel_.sweepText());
       return;
-    case Panel::pointer:
+    case MotionPanel::pointer:
       return at_.feed.useHead(Feed::Head::pointer);
-    case Panel::none:
+    case MotionPanel::none:
       return at_.feed.useHead(Feed::Head::none);
     default:
       return at_.feed.useHead(Feed::Head::host);
@@ -46,20 +47,20 @@ void HeadController::showSource() {
   at_.viewport.setPointerWanted(head.source() == Feed::Head::pointer);
   switch (head.source()) {
     case Feed::Head::host:
-      return panel_.setSource(Panel::host, {});
+      return panel_.setSource(MotionPanel::host, {});
     case Feed::Head::pointer:
-      return panel_.setSource(Panel::pointer, {});
+      return panel_.setSource(MotionPanel::pointer, {});
     case Feed::Head::none:
-      return panel_.setSource(Panel::none, {});
+      return panel_.setSource(MotionPanel::none, {});
     case Feed::Head::log:
       break;
   }
   const QString name = QString::fromStdString(head.log().name);
-  if (isSweep(head.log().name)) return panel_.setSource(Panel::sweep, name);
-  panel_.setSource(Panel::log, tr("%1: %L2 samples, %3 s")
-                                   .arg(name)
-                                   .arg(head.log().samples.size())
-                                   .arg(head.log().durationS(), 0, 'f', 1));
+  if (isSweep(head.log().name)) return panel_.setSource(MotionPanel::sweep, name);
+  panel_.setSource(MotionPanel::log, tr("%1: %L2 samples, %3 s")
+                                         .arg(name)
+                                         .arg(head.log().samples.size())
+                                         .arg(head.log().durationS(), 0, 'f', 1));
 }
 
 bool HeadController::open(const QString& fileOrSweep) {

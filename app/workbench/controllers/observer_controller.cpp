@@ -26,6 +26,12 @@ GeodeticPosition moved(const GeodeticPosition& from, Vec3 eastNorthUpM) {
 
 }  // namespace
 
+Seat seatOf(const Session& session) {
+  const AircraftState eye = session.eyeState(link::now());
+  const Attitude sight = lineOfSight(eye.attitude, eye.head);
+  return {eye.position, {sight.heading, sight.pitch, Degrees{0}}};
+}
+
 ObserverController::ObserverController(const Workplace& workplace, const TerrainController& terrain)
     : at_(workplace), terrain_(terrain) {
   connect(&terrain_, &TerrainController::opened, this, [this] {
@@ -80,16 +86,15 @@ void ObserverController::setFrozen(bool frozen) {
 /// already.
 void ObserverController::leave(bool behind) {
   if (!behind && at_.feed.source() == Feed::Source::camera) return;
-  const AircraftState eye = at_.feed.session().eyeState(link::now());
-  const Attitude sight = lineOfSight(eye.attitude, eye.head);
-  if (!behind) return at_.viewport.camera().place(eye.position, {sight.heading, sight.pitch, Degrees{0}});
-  const double heading = sight.heading.in<Radians>();
+  const Seat seat = seatOf(at_.feed.session());
+  if (!behind) return at_.viewport.camera().place(seat.position, seat.attitude);
+  const double heading = seat.attitude.heading.in<Radians>();
   GeodeticPosition place =
-      moved(eye.position, {-std::sin(heading) * kBehindM, -std::cos(heading) * kBehindM, kAboveM});
+      moved(seat.position, {-std::sin(heading) * kBehindM, -std::cos(heading) * kBehindM, kAboveM});
   if (const auto ground =
           terrain_.database()->highestWithin(place.latitude, place.longitude, Metres{kBehindM}))
     place.height = std::max(place.height, *ground + Metres{kClearM});
-  at_.viewport.camera().place(place, {sight.heading, Degrees{kPitchDeg}, Degrees{0}});
+  at_.viewport.camera().place(place, {seat.attitude.heading, Degrees{kPitchDeg}, Degrees{0}});
 }
 
 /// A free camera becomes the pilot's eye again: where it is now, or in the place that was left.
@@ -100,12 +105,12 @@ void ObserverController::comeBack(bool toTheSeat) {
   at_.feed.look(at_.viewport.camera());
 }
 
-std::optional<FrameRequest> ObserverController::request(double now, QSize size) {
+std::optional<FrameRequest> ObserverController::request(double now, QSize size, ViewFit fit) {
   Session& live = at_.feed.session();
-  if (!frozen_) return live.request(now, size.width(), size.height());
+  if (!frozen_) return live.request(now, size.width(), size.height(), fit);
   live.noPicture();
   if (!frozen_->request)
-    frozen_->request = frozen_->session.request(frozen_->at, size.width(), size.height());
+    frozen_->request = frozen_->session.request(frozen_->at, size.width(), size.height(), fit);
   return frozen_->request;
 }
 

@@ -13,6 +13,14 @@ namespace trimtab::workbench {
 
 class TerrainController;
 
+/// A place for a free camera: with level wings.
+struct Seat {
+  GeodeticPosition position;
+  Attitude attitude;
+};
+/// Returns the pilot's seat: where the eye of this session is now, and where it looks.
+Seat seatOf(const Session& session);
+
 /// Lets the engineer leave the pilot's eye and look at what it decides and culls, from a free camera.
 /// Detached, the pilot's eye (host, flight or camera) goes on. Frozen, its decision, its levels and its
 /// visible set stay as they were, whatever flies; the live session goes on as if no window showed it.
@@ -36,7 +44,7 @@ class ObserverController : public QObject {
   const Session& pilot() const;
   /// Returns the pilot's request for an image of `size`; nothing before the first state. While frozen it is
   /// the same each time, in the size that it had first.
-  std::optional<FrameRequest> request(double now, QSize size);
+  std::optional<FrameRequest> request(double now, QSize size, ViewFit fit);
   /// Returns the request for what the observer sees of the pilot's: its cut and its visible set, from the
   /// free camera. Symbols, blur and streaks of rain belong to the pilot's eye and are left out.
   FrameRequest seen(const FrameRequest& pilot) const;

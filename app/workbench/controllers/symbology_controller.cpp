@@ -8,20 +8,20 @@
 
 namespace trimtab::workbench {
 
-using Panel = views::SymbologyPanel;
+using views::SymbologyPanel;
 
-SymbologyController::SymbologyController(const Workplace& workplace, Panel& panel)
+SymbologyController::SymbologyController(const Workplace& workplace, SymbologyPanel& panel)
     : editor_(workplace.draft) {
   Viewport& viewport = workplace.viewport;
   viewport.setSymbologyEditor(&editor_);
-  connect(&panel, &Panel::placingChanged, this, [this, &viewport](bool on) {
+  connect(&panel, &SymbologyPanel::placingChanged, this, [this, &viewport](bool on) {
     editor_.setActive(on);
     if (on) viewport.setFocus();
   });
-  connect(&panel, &Panel::selected, &editor_, [this](int symbol) {
+  connect(&panel, &SymbologyPanel::selected, &editor_, [this](int symbol) {
     if (editor_.active()) editor_.select(symbol);
   });
-  connect(&editor_, &SymbologyEditor::selectionChanged, &panel, &Panel::setSelected);
+  connect(&editor_, &SymbologyEditor::selectionChanged, &panel, &SymbologyPanel::setSelected);
   connect(&editor_, &SymbologyEditor::ended, &panel, [&panel] { panel.placeButton().setChecked(false); });
 }
 

@@ -83,6 +83,7 @@ void TerrainController::askBake() {
 void TerrainController::use(std::shared_ptr<const terrain::Database> database, const Findings& findings) {
   database_ = std::move(database);
   openedFrom_ = QString::fromStdString(job_.source().string());
+  askedFor_ = asked_;
   if (!asked_.isEmpty()) rememberRecent(QStringLiteral("terrain"), asked_);
   const terrain::TerrainInfo& info = database_->info();
   at_.messages.note(tr("Terrain %1: %L2 × %L3 posts, %L4 to %L5 m, %L6 voids filled")

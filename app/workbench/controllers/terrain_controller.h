@@ -38,6 +38,8 @@ class TerrainController : public QObject {
   const std::shared_ptr<const terrain::Database>& database() const { return database_; }
   /// The file or folder that the open terrain comes from.
   const QString& openedFrom() const { return openedFrom_; }
+  /// What a person opened to see this terrain: a file, a folder, or a database; empty for the sample.
+  const QString& askedFor() const { return askedFor_; }
 
  signals:
   /// Another terrain is open; the viewport and the session have it.
@@ -54,7 +56,7 @@ class TerrainController : public QObject {
   TerrainJob job_;
   std::shared_ptr<const terrain::Database> database_;
   QString asked_;  ///< what a person asked for last; empty for the sample
-  QString openedFrom_;
+  QString openedFrom_, askedFor_;
   std::uint64_t failedPages_ = 0;
   Findings damageReported_;  ///< in the Messages dock
 };

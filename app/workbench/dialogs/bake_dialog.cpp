@@ -45,7 +45,7 @@ BakeDialog::BakeDialog(QWidget* parent)
       sources_(new QListWidget(this)),
       imagery_(new QLineEdit(this)),
       output_(new QLineEdit(this)),
-      ownError_(new QCheckBox(tr("Error of the &finest patches"), this)),
+      ownError_(new QCheckBox(tr("Error of the fi&nest patches"), this)),
       error_(new QDoubleSpinBox(this)),
       memory_(new QSpinBox(this)),
       note_(new QLabel(this)) {
@@ -57,7 +57,7 @@ BakeDialog::BakeDialog(QWidget* parent)
          "finest one is used, and borders are blended. A folder adds all files in it."));
   sources_->setMinimumHeight(110);
   auto* files = new QPushButton(tr("Add &files..."), this);
-  auto* folder = new QPushButton(tr("Add f&older..."), this);
+  auto* folder = new QPushButton(tr("Add fo&lder..."), this);
   auto* remove = new QPushButton(tr("&Remove"), this);
   connect(files, &QPushButton::clicked, this, &BakeDialog::addFiles);
   connect(folder, &QPushButton::clicked, this, &BakeDialog::addFolder);

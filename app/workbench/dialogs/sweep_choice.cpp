@@ -63,8 +63,9 @@ SweepChoice::SweepChoice(QWidget* parent) : QWidget(parent) {
                                              : tr("Values of the second parameter"));
     grid->addWidget(axis.key, line, 0);
     grid->addWidget(axis.values, line++, 1);
-    connect(axis.key, &QComboBox::currentIndexChanged, this, [this, &axis] {
-      propose(axis);
+    axis.values->setEnabled(false);
+    connect(axis.key, &QComboBox::editTextChanged, this, [this, &axis] {
+      readKey(axis);
       emit changed();
     });
     connect(axis.values, &QLineEdit::textChanged, this, &SweepChoice::changed);
@@ -73,8 +74,32 @@ SweepChoice::SweepChoice(QWidget* parent) : QWidget(parent) {
   grid->setColumnStretch(1, 2);
 }
 
+/// Returns the key of the parameter that the field names by its entry in the list or by its key; empty if it
+/// names none on purpose, and nothing if no parameter is called so. The index does not say it: it stays where
+/// it was while a person types.
+std::optional<QString> SweepChoice::keyOf(const Axis& axis) {
+  const QString text = axis.key->currentText().trimmed();
+  if (text.isEmpty()) return QString();
+  int index = axis.key->findText(text, Qt::MatchFixedString);
+  if (index < 0) index = axis.key->findData(text, Qt::UserRole, Qt::MatchFixedString);
+  if (index < 0) return std::nullopt;
+  return axis.key->itemData(index).toString();
+}
+
+/// Marks a field that names no parameter; proposes values where it names another one than before.
+void SweepChoice::readKey(Axis& axis) {
+  const std::optional<QString> key = keyOf(axis);
+  const QPalette& colours = palette();
+  views::setTextColour(*axis.key->lineEdit(),
+                       key ? colours.color(QPalette::Text) : views::errorColour(colours));
+  axis.key->setToolTip(key ? QString() : tr("No parameter is called this: choose one of the list"));
+  if (!key || *key == axis.proposedFor) return;
+  axis.proposedFor = *key;
+  propose(axis);
+}
+
 void SweepChoice::propose(const Axis& axis) {
-  const ParameterRow* const row = findRow(axis.key->currentData().toString().toStdString());
+  const ParameterRow* const row = findRow(axis.proposedFor.toStdString());
   axis.values->setEnabled(row != nullptr);
   axis.values->setText(row == nullptr ? QString() : proposed(*row).join(QStringLiteral(", ")));
 }
@@ -93,7 +118,7 @@ QStringList SweepChoice::valuesOf(const Axis& axis) const {
 QStringList SweepChoice::sweeps() const {
   QStringList sweeps;
   for (const Axis& axis : axes_)
-    if (const QString key = axis.key->currentData().toString(); !key.isEmpty())
+    if (const QString key = keyOf(axis).value_or(QString()); !key.isEmpty())
       sweeps << key + QLatin1Char('=') + valuesOf(axis).join(QLatin1Char(','));
   return sweeps;
 }
@@ -101,12 +126,14 @@ QStringList SweepChoice::sweeps() const {
 int SweepChoice::presets() const {
   int count = 1;
   for (const Axis& axis : axes_)
-    if (!axis.key->currentData().toString().isEmpty()) count *= int(valuesOf(axis).size());
+    if (!keyOf(axis).value_or(QString()).isEmpty()) count *= int(valuesOf(axis).size());
   return count;
 }
 
 QString SweepChoice::fault() const {
-  if (axes_[0].key->currentIndex() == axes_[1].key->currentIndex() && axes_[0].key->currentIndex() > 0)
+  for (const Axis& axis : axes_)
+    if (!keyOf(axis)) return tr("No parameter is called “%1”").arg(axis.key->currentText().trimmed());
+  if (keyOf(axes_[0]) == keyOf(axes_[1]) && !keyOf(axes_[0])->isEmpty())
     return tr("Both parameters to sweep are the same");
   for (const QString& sweep : sweeps()) {
     const Result<harness::SweepAxis> axis = harness::parseAxis(sweep.toStdString());

@@ -4,6 +4,7 @@
 #include <QStringList>
 #include <QWidget>
 #include <array>
+#include <optional>
 
 class QComboBox;
 class QLineEdit;
@@ -21,7 +22,7 @@ class SweepChoice : public QWidget {
   QStringList sweeps() const;
   /// Returns into how many presets one preset becomes; 1 without a sweep.
   int presets() const;
-  /// Returns what is wrong with the values; empty if nothing is.
+  /// Returns what is wrong with the parameters or their values; empty if nothing is.
   QString fault() const;
   /// Chooses a parameter as a person would; proposes values of its usual range unless some are given.
   void choose(std::size_t axis, const QString& key, const QString& values = {});
@@ -33,8 +34,11 @@ class SweepChoice : public QWidget {
   struct Axis {
     QComboBox* key;
     QLineEdit* values;
+    QString proposedFor{};  ///< the key to which the values belong
   };
+  static std::optional<QString> keyOf(const Axis& axis);
   QStringList valuesOf(const Axis& axis) const;
+  void readKey(Axis& axis);
   void propose(const Axis& axis);
 
   std::array<Axis, 2> axes_;

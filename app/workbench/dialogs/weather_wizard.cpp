@@ -111,7 +111,7 @@ WeatherWizard::WeatherWizard(views::Draft& draft, WeatherStage stage, QWidget* p
   frames_->setValue(5);
   frames_->setSuffix(tr(" frames"));
   frames_->setToolTip(tr("Frames per measurement; their median counts. Choose more if other programs run"));
-  auto* framesLabel = new QLabel(tr("&Median of"), this);
+  auto* framesLabel = new QLabel(tr("Media&n of"), this);
   framesLabel->setBuddy(frames_);
 
   table_->setHorizontalHeaderLabels({tr("Weather"), tr("Outcome"), tr("Loss\n(ms)"), tr("Loss\n(fps)"),

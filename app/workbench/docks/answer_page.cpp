@@ -14,7 +14,7 @@
 namespace trimtab::workbench {
 namespace {
 
-enum Column { preset, culling, median, p95, p99, over, flip, geometric, pop, verdict, kColumns };
+enum AnswerColumn { preset, culling, median, p95, p99, over, flip, geometric, pop, verdict, kAnswerColumns };
 
 /// Sorts by its number, so that 9 comes before 10. What was not measured comes last.
 class Number : public QTableWidgetItem {
@@ -52,11 +52,11 @@ AnswerPage::AnswerPage(QWidget* parent)
     : QWidget(parent),
       why_(new QLabel(this)),
       measured_(new QLabel(this)),
-      table_(new QTableWidget(0, kColumns, this)) {
+      table_(new QTableWidget(0, kAnswerColumns, this)) {
   table_->setHorizontalHeaderLabels({tr("Preset"), tr("Culling"), tr("Median\n(ms)"), tr("p95\n(ms)"),
                                      tr("p99\n(ms)"), tr("Over\nbudget (%)"), tr("FLIP\n(mean)"),
                                      tr("Geometric\nlargest (px)"), tr("Pop p95\n(of 255)"), tr("Verdict")});
-  const char* const hints[kColumns] = {
+  const char* const hints[kAnswerColumns] = {
       QT_TR_NOOP("The preset"),
       QT_TR_NOOP("The culling case in which it was drawn"),
       QT_TR_NOOP("Half of the frames take no longer"),
@@ -69,7 +69,7 @@ AnswerPage::AnswerPage(QWidget* parent)
           "By how much the image jumps from frame to frame beyond the reference; 95 % of the frames jump "
           "no more"),
       QT_TR_NOOP("Whether the preset fits, and which of those that fit has the smallest FLIP")};
-  for (int column = 0; column < kColumns; ++column)
+  for (int column = 0; column < kAnswerColumns; ++column)
     table_->horizontalHeaderItem(column)->setToolTip(tr(hints[column]));
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
@@ -127,7 +127,7 @@ void AnswerPage::fill() {
     table_->setItem(i, preset, new QTableWidgetItem(QString::fromStdString(row.name.preset)));
     table_->setItem(i, culling,
                     new QTableWidgetItem(views::methodText(QString::fromStdString(row.name.method))));
-    const auto put = [&](Column column, double value) {
+    const auto put = [&](AnswerColumn column, double value) {
       table_->setItem(i, column, new Number(value, digits(value)));
     };
     put(median, row.medianMs);
@@ -138,7 +138,7 @@ void AnswerPage::fill() {
     put(geometric, row.geometricPx);
     put(pop, row.pop);
     table_->setItem(i, verdict, verdictOf(row, best));
-    for (int column = 0; column < kColumns; ++column) {
+    for (int column = 0; column < kAnswerColumns; ++column) {
       QTableWidgetItem& cell = *table_->item(i, column);
       if (best)
         cell.setBackground(

@@ -19,6 +19,7 @@
 #include <QTabWidget>
 #include <QUrl>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 
 #include "answer_page.h"
@@ -97,8 +98,8 @@ ErrorDock::ErrorDock(views::Draft& draft, DrawThread& thread, LiveMeter::Source 
       measure_(new QPushButton(this)),
       open_(new QPushButton(tr("Open re&sults..."), this)),
       report_(new QPushButton(tr("Open repor&t"), this)),
-      compare_(new QPushButton(tr("&Compare two..."), this)),
-      openFlight_(new QPushButton(tr("&Open a flight..."), this)),
+      compare_(new QPushButton(tr("Compare two..."), this)),
+      openFlight_(new QPushButton(tr("Open a flight..."), this)),
       progress_(new QProgressBar(this)),
       status_(new QLabel(this)),
       liveLabel_(new QLabel(this)),
@@ -151,7 +152,7 @@ ErrorDock::ErrorDock(views::Draft& draft, DrawThread& thread, LiveMeter::Source 
   connect(logarithmic_, &QCheckBox::toggled, plot_, &views::ErrorPlot::setLogarithmic);
   connect(plot_, &views::ErrorPlot::logarithmicChanged, logarithmic_, &QCheckBox::setChecked);
   connect(liveOn_, &QCheckBox::toggled, this, [this](bool on) {
-    live_.setOn(on && (seen_ || watched_));
+    measureIfWanted();
     if (!on) restartLive();
     liveLabel_->setText(liveText());
   });
@@ -215,21 +216,25 @@ void ErrorDock::arrange() {
   all->setContentsMargins(6, 4, 4, 4);
   all->addWidget(controls);
   pages_->setDocumentMode(true);
-  pages_->addTab(answer_, tr("&Which preset fits"));
-  pages_->addTab(sweep_, tr("S&weep"));
-  pages_->addTab(plots, tr("&Plots"));
+  pages_->addTab(answer_, tr("Which preset fits"));
+  pages_->addTab(sweep_, tr("Sweep"));
+  pages_->addTab(plots, tr("Plots"));
   pages_->setCurrentWidget(plots);
   all->addWidget(pages_, 1);
 }
 
 void ErrorDock::setSeen(bool seen) {
   seen_ = seen;
-  live_.setOn((seen_ || watched_) && liveOn_->isChecked());
+  measureIfWanted();
 }
 
 void ErrorDock::setWatched(bool watched) {
   watched_ = watched;
-  setSeen(seen_);
+  measureIfWanted();
+}
+
+void ErrorDock::measureIfWanted() {
+  live_.setOn((seen_ || watched_) && liveOn_->isChecked());
 }
 
 QString ErrorDock::flight() const {

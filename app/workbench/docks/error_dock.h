@@ -94,6 +94,7 @@ class ErrorDock : public QWidget {
 
  private:
   void arrange();
+  void measureIfWanted();
   void setRunning(bool running);
   void showResults();
   void showBudget();

@@ -170,6 +170,9 @@ ExperimentsDock::ExperimentsDock(Source source, QWidget* parent)
 
   connect(run_, &QPushButton::clicked, this, [this] { running() ? cancel() : run(); });
   connect(save_, &QPushButton::clicked, this, &ExperimentsDock::save);
+  connect(which_, &QComboBox::currentIndexChanged, this, [this] {
+    if (status_->text() == refusal_) status_->setText(hint());
+  });
   connect(plots_, &QComboBox::currentIndexChanged, this, &ExperimentsDock::showPlot);
   connect(&child_, &ChildRun::progressed, this, [this](int percent, const QString& what) {
     progress_->setValue(percent);
@@ -186,27 +189,27 @@ void ExperimentsDock::setRunning(bool running) {
   for (QWidget* input :
        {static_cast<QWidget*>(which_), static_cast<QWidget*>(size_), static_cast<QWidget*>(repeats_)})
     input->setEnabled(!running);
-  if (!running && !report_)
-    status_->setText(
-        tr("Runs over the open terrain, the open flight and the current preset, on this machine. Other "
-           "programs disturb the times."));
+  if (!running && !report_) status_->setText(hint());
+}
+
+QString ExperimentsDock::hint() const {
+  if (report_) return {};
+  return tr(
+      "Runs over the open terrain, the open flight and the current preset, on this machine. Other programs "
+      "disturb the times.");
 }
 
 void ExperimentsDock::run() {
   if (running()) return;
   const std::optional<ExperimentInputs> inputs = source_(folder_.path());
-  if (!inputs) {
-    emit refused(tr("The experiment cannot be started"),
-                 {{Severity::error, "Experiments", {}, "an open terrain", "none"}});
-    return;
-  }
+  if (!inputs)
+    return refuse(tr(
+        "Not started: an experiment needs an open terrain (Ctrl+T opens one), and the dock Messages says if "
+        "its input could not be written."));
   const QString command = which_->currentData().toString();
   const bool leverage = command == QLatin1String(kLeverage);
-  if (leverage && inputs->flight.isEmpty()) {
-    emit refused(tr("The experiment cannot be started"),
-                 {{Severity::error, "Experiments", {}, "an open flight for leverage", "none"}});
-    return;
-  }
+  if (leverage && inputs->flight.isEmpty())
+    return refuse(tr("Not started: leverage is measured along a flight. Ctrl+L opens one."));
   QStringList arguments;
   if (!leverage) arguments << QStringLiteral("experiment");
   arguments << command << QStringLiteral("--terrain") << inputs->terrain << QStringLiteral("--preset")
@@ -216,6 +219,12 @@ void ExperimentsDock::run() {
   setRunning(true);
   status_->setText(tr("Starting…"));
   child_.start(arguments);
+}
+
+/// What a person has to do first stands here, where the person looks: the Messages dock would cover it.
+void ExperimentsDock::refuse(const QString& why) {
+  refusal_ = why;
+  status_->setText(why);
 }
 
 void ExperimentsDock::cancel() {

@@ -36,7 +36,8 @@ class ExperimentsDock : public QWidget {
   Q_OBJECT
 
  public:
-  /// Writes what exists only in memory into the folder. Returns nothing if no terrain is open.
+  /// Writes what exists only in memory into the folder. Returns nothing if no terrain is open, or if writing
+  /// fails, which it reports.
   using Source = std::function<std::optional<ExperimentInputs>(const QString& folder)>;
 
   explicit ExperimentsDock(Source source, QWidget* parent = nullptr);
@@ -56,11 +57,14 @@ class ExperimentsDock : public QWidget {
   void showPlot(int index);
   void save();
   void setRunning(bool running);
+  void refuse(const QString& why);
+  QString hint() const;
 
   Source source_;
   ChildRun child_;
   QTemporaryDir folder_;
   std::optional<experiment::Report> report_;
+  QString refusal_;  ///< why the last run was not started; empty before the first refusal
 
   QComboBox *which_, *plots_;
   QLineEdit* size_;

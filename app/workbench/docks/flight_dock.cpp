@@ -41,12 +41,12 @@ FlightDock::FlightDock(Feed& feed, QWidget* parent)
       where_(new QLabel(this)),
       play_(new QPushButton(this)),
       stop_(new QPushButton(this)),
-      close_(new QPushButton(tr("&Close"), this)),
+      close_(new QPushButton(tr("Close"), this)),
       scrub_(new QSlider(Qt::Horizontal, this)),
       speed_(new QDoubleSpinBox(this)),
-      loop_(new QCheckBox(tr("&Loop"), this)),
+      loop_(new QCheckBox(tr("Loop"), this)),
       via_(new QComboBox(this)) {
-  auto* open = new QPushButton(tr("&Open..."), this);
+  auto* open = new QPushButton(tr("Open..."), this);
   connect(open, &QPushButton::clicked, this, &FlightDock::openRequested);
   close_->setToolTip(tr("Closes the flight: the free camera starts where the aircraft was"));
   connect(close_, &QPushButton::clicked, this, &FlightDock::close);
@@ -218,7 +218,7 @@ void FlightDock::showState() {
   scrub_->setEnabled(loaded);
   close_->setEnabled(loaded);
   const bool on = playing();
-  play_->setText(on ? tr("&Pause") : tr("&Play"));
+  play_->setText(on ? tr("Pause") : tr("Play"));
   play_->setIcon(style()->standardIcon(on ? QStyle::SP_MediaPause : QStyle::SP_MediaPlay));
   if (on && isVisible())
     refresh_.start();

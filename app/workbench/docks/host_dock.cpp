@@ -25,7 +25,7 @@
 namespace trimtab::workbench {
 namespace {
 
-constexpr int kRefreshMs = 250;
+constexpr int kHostRefreshMs = 250;
 const QString kEvery = QStringLiteral("0.0.0.0"), kOwn = QString::fromLatin1(link::kOwnMachine);
 constexpr int kDefaultPort = 8004;
 constexpr auto kProtocolKey = "host.protocol";
@@ -47,7 +47,7 @@ QString milliseconds(double ms) {
   return std::isfinite(ms) ? QStringLiteral("%L1 ms").arg(ms, 0, 'f', 2) : kNone;
 }
 
-QString p99(const SampleWindow& samples) {
+QString p99Of(const SampleWindow& samples) {
   if (samples.size() == 0) return kNone;
   return HostDock::tr("%1  (median %2, largest %3)")
       .arg(milliseconds(samples.quantile(0.99)), milliseconds(samples.median()),
@@ -172,7 +172,7 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(scroll);
 
-  refresh_.setInterval(kRefreshMs);
+  refresh_.setInterval(kHostRefreshMs);
   connect(&refresh_, &QTimer::timeout, this, &HostDock::refresh);
   connect(connect_, &QPushButton::clicked, this, &HostDock::toggle);
   connect(&feed_, &Feed::linkChanged, this, &HostDock::showLink);
@@ -377,7 +377,7 @@ void HostDock::refresh() {
   else
     loss_->setText(host.lost ? number(*host.lost) : kNone);
   age_->setText(any && std::isfinite(age) ? tr("%1 ago").arg(milliseconds(age * 1e3)) : kNone);
-  decoded_->setText(any ? p99(session.latency().decoded) : kNone);
+  decoded_->setText(any ? p99Of(session.latency().decoded) : kNone);
   picture_->setText(any ? pictureText(session.latency()) : kNone);
   counts_->setText(any ? tr("%1 received, %2 states, %3 repeated, %4 late, %5 implausible, %6 dropped here")
                              .arg(number(host.received), number(host.states), number(host.repeated),

@@ -15,7 +15,7 @@ namespace trimtab::workbench {
 namespace {
 
 constexpr int kMostRows = 1000;
-enum Column { kWhat, kWhere, kKey, kExpected, kFound, kColumns };
+enum MessageColumn { kWhat, kWhere, kKey, kExpected, kFound, kMessageColumns };
 
 QStyle::StandardPixmap iconOf(Severity severity) {
   switch (severity) {
@@ -43,7 +43,7 @@ QString severityText(Severity severity) {
 
 QString rowText(const QTreeWidgetItem& item) {
   QStringList cells;
-  for (int column = 0; column < kColumns; ++column) cells << item.text(column);
+  for (int column = 0; column < kMessageColumns; ++column) cells << item.text(column);
   while (!cells.isEmpty() && cells.last().isEmpty()) cells.removeLast();
   return (item.parent() != nullptr ? QStringLiteral("\t") : QString()) + cells.join('\t');
 }
@@ -51,7 +51,7 @@ QString rowText(const QTreeWidgetItem& item) {
 }  // namespace
 
 MessagePanel::MessagePanel(QWidget* parent) : QWidget(parent), tree_(new QTreeWidget(this)) {
-  tree_->setColumnCount(kColumns);
+  tree_->setColumnCount(kMessageColumns);
   tree_->setHeaderLabels({tr("Message"), tr("Where"), tr("Key"), tr("Expected"), tr("Found")});
   tree_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   tree_->setUniformRowHeights(true);
@@ -91,7 +91,7 @@ void MessagePanel::add(const QString& headline, const Findings& findings) {
               QString::fromStdString(finding.key), QString::fromStdString(finding.expected),
               QString::fromStdString(finding.found)});
     row->setIcon(kWhat, style()->standardIcon(iconOf(finding.severity)));
-    for (int column = 0; column < kColumns; ++column)
+    for (int column = 0; column < kMessageColumns; ++column)
       row->setToolTip(column, QString::fromStdString(toString(finding)));
   }
   tree_->insertTopLevelItem(0, top);

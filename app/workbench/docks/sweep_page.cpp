@@ -10,9 +10,9 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "trimtab/preset/table.h"
+#include "trimtab/units/not_finite.h"
 #include "views/model/error_run.h"
 #include "views/model/theme.h"
 #include "views/plots/cividis.h"
@@ -20,8 +20,6 @@
 
 namespace trimtab::workbench {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// The parameter's label with its unit.
 QString titleOf(const harness::SweepAxis& axis) {
@@ -133,12 +131,11 @@ void SweepPage::showSweep() {
                      : tr("★ %1 has the smallest FLIP of what fits %2.")
                            .arg(QString::fromStdString(answer_.rows[best].name.preset), budget));
   quantity_->setVisible(sweep.axes.size() > 1);
-  sweep.axes.size() > 1 ? showMap(sweep) : showLine(sweep);
+  sweep.axes.size() > 1 ? showMap(sweep, best) : showLine(sweep, best);
 }
 
-void SweepPage::showLine(const harness::Sweep& sweep) {
+void SweepPage::showLine(const harness::Sweep& sweep, std::size_t best) {
   views::SweepLine line{titleOf(sweep.axes[0]), valuesOf(sweep.axes[0]), {}, {}, answer_.budgetMs, -1};
-  const std::size_t best = bestOf(sweep, answer_);
   for (const std::size_t row : sweep.rows) {
     const bool measured = row != harness::Sweep::kNotMeasured;
     if (measured && row == best) line.best = line.ms.size();
@@ -169,7 +166,7 @@ double SweepPage::valueOf(std::size_t row) const {
   return kNan;
 }
 
-void SweepPage::showMap(const harness::Sweep& sweep) {
+void SweepPage::showMap(const harness::Sweep& sweep, std::size_t best) {
   const auto down = sweep.axes[0].values.size(), across = sweep.axes[1].values.size();
   map_->setRowCount(int(down));
   map_->setColumnCount(int(across));
@@ -183,20 +180,19 @@ void SweepPage::showMap(const harness::Sweep& sweep) {
     if (const double value = valueOf(row); std::isfinite(value))
       low = std::min(low, value), high = std::max(high, value);
   QCPColorGradient gradient = views::cividis();
-  const std::size_t best = bestOf(sweep, answer_);
   for (std::size_t i = 0; i < down; ++i)
     for (std::size_t j = 0; j < across; ++j) {
       const std::size_t row = sweep.at(i, j);
       const double value = valueOf(row);
-      const bool fits = row != harness::Sweep::kNotMeasured && answer_.rows[row].fits;
+      const bool timed = row != harness::Sweep::kNotMeasured && !std::isnan(answer_.rows[row].p95Ms);
+      const bool fits = timed && answer_.rows[row].fits;
       const QString number =
           std::isnan(value) ? QStringLiteral("–") : views::textOf({{}, {}, {}, true}, value);
-      auto* cell = new QTableWidgetItem((row == best ? tr("★ %1")
-                                         : fits      ? tr("%1")
-                                                     : tr("✕ %1"))
-                                            .arg(number));
+      auto* cell = new QTableWidgetItem(!timed || (fits && row != best) ? number
+                                        : fits                          ? tr("★ %1").arg(number)
+                                                                        : tr("✕ %1").arg(number));
       cell->setTextAlignment(Qt::AlignCenter);
-      cell->setToolTip(fits ? tr("fits the budget") : tr("over the budget"));
+      cell->setToolTip(!timed ? tr("not measured") : fits ? tr("fits the budget") : tr("over the budget"));
       if (std::isfinite(value)) {
         const QColor colour(gradient.color(value, QCPRange(low, std::max(high, low + 1e-12))));
         cell->setBackground(colour);

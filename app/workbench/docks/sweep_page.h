@@ -39,8 +39,9 @@ class SweepPage : public QWidget {
   enum class Quantity { p95, median, over, flip, geometric, pop };
 
   void showSweep();
-  void showLine(const harness::Sweep& sweep);
-  void showMap(const harness::Sweep& sweep);
+  /// `best` is the row that is marked, or Sweep::kNotMeasured.
+  void showLine(const harness::Sweep& sweep, std::size_t best);
+  void showMap(const harness::Sweep& sweep, std::size_t best);
   double valueOf(std::size_t row) const;
 
   harness::Answer answer_;

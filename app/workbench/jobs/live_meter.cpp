@@ -20,12 +20,6 @@ constexpr double kLongestMs = 400, kQuickMs = 100;
 constexpr int kSmallest = 4;
 constexpr double kWindowS = 1;
 
-/// Whether both requests of one preset give the same image, apart from what moves by itself, such as rain.
-bool samePicture(const FrameRequest& a, const FrameRequest& b) {
-  return a.eye == b.eye && a.attitude == b.attitude && a.view == b.view && a.decision == b.decision &&
-         a.method == b.method;
-}
-
 }  // namespace
 
 FrameRequest pilotsPicture(FrameRequest request, int shrink) {
@@ -33,6 +27,11 @@ FrameRequest pilotsPicture(FrameRequest request, int shrink) {
   request.view.widthPx = std::max(request.view.widthPx / shrink, 16);
   request.view.heightPx = std::max(request.view.heightPx / shrink, 16);
   return request;
+}
+
+bool sameImage(const FrameRequest& a, const FrameRequest& b) {
+  return a.eye == b.eye && a.attitude == b.attitude && a.view == b.view && a.decision == b.decision &&
+         a.method == b.method;
 }
 
 LiveMeter::LiveMeter(DrawThread& thread, Source source, QObject* parent)
@@ -82,7 +81,7 @@ void LiveMeter::measure() {
   if (QGuiApplication::mouseButtons() != Qt::NoButton) return timer_.start(kRetryMs);
   changed_ = false;
   std::optional<Frame> frame = source_();
-  if (!frame || (last_ && samePicture(last_->request, frame->request))) return;
+  if (!frame || (last_ && sameImage(last_->request, frame->request))) return;
   last_ = frame;
   struct Work {
     Frame frame;

@@ -4,13 +4,15 @@
 #include <QFontMetrics>
 #include <QObject>
 #include <QPainter>
+#include <algorithm>
 #include <utility>
 
 namespace trimtab::workbench {
 namespace {
 
 constexpr int kMargin = 8;
-constexpr double kInsetPart = 3.5;  ///< of the image's width and height, the inset has one in so many
+/// The inset's width and height are at most those of the area divided by this.
+constexpr double kInsetPart = 3.5;
 const QColor kPlate(0, 0, 0, 150);
 
 QFont scaled(QFont font, double factor) {
@@ -77,6 +79,11 @@ void paintInsetFrame(QPainter& painter, const QRect& inset) {
   painter.restore();
 }
 
+/// How far from the bottom of the image whatever stands over the line of numbers ends.
+int aboveHud(const QFontMetrics& metrics) {
+  return metrics.height() + 3 * kMargin;
+}
+
 void paintLegend(QPainter& painter, const QRect& area, const QString& title,
                  const QList<LegendEntry>& entries) {
   const QFontMetrics metrics(painter.font());
@@ -85,7 +92,7 @@ void paintLegend(QPainter& painter, const QRect& area, const QString& title,
   for (const LegendEntry& entry : entries)
     width = std::max(width, mark + kMargin + metrics.horizontalAdvance(entry.text));
   QRect plate(0, 0, width + 2 * kMargin, line * int(entries.size() + 1) + 2 * kMargin);
-  plate.moveBottomRight(area.bottomRight() - QPoint(kMargin, kMargin));
+  plate.moveBottomRight(area.bottomRight() - QPoint(kMargin, aboveHud(metrics)));
   painter.save();
   painter.fillRect(plate, kPlate);
   painter.setPen(Qt::white);
@@ -128,7 +135,7 @@ void paintNotice(QPainter& painter, const QRect& area, const QString& text) {
 
 QRect insetIn(const QRect& area, const QSize& pixels, const QFontMetrics& metrics) {
   QRect inset({}, pixels.scaled(area.size() / kInsetPart, Qt::KeepAspectRatio));
-  inset.moveBottomLeft(area.bottomLeft() + QPoint(kMargin, -(metrics.height() + 3 * kMargin)));
+  inset.moveBottomLeft(area.bottomLeft() + QPoint(kMargin, -aboveHud(metrics)));
   return inset;
 }
 

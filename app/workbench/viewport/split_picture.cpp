@@ -14,7 +14,7 @@ namespace trimtab::workbench {
 namespace {
 
 constexpr double kNudge = 0.01, kLeap = 0.1;
-constexpr int kGapPx = 4, kHandlePx = 9, kMarginPx = 6;
+constexpr int kPaneGapPx = 4, kHandlePx = 9, kMarginPx = 6;
 
 QString colourText(QRgb colour) {
   return QStringLiteral("%1 %2 %3").arg(qRed(colour)).arg(qGreen(colour)).arg(qBlue(colour));
@@ -102,9 +102,9 @@ std::vector<SplitPicture::Part> SplitPicture::parts() const {
     case Form::difference:
       return {{&compared_.map, whole, whole, tr("FLIP: %1 against %2").arg(names_[0], names_[1])}};
     case Form::beside: {
-      const int half = (width() - kGapPx) / 2;
+      const int half = (width() - kPaneGapPx) / 2;
       const QRect first = pictureRect({0, 0, half, height()}),
-                  second = pictureRect({half + kGapPx, 0, half, height()});
+                  second = pictureRect({half + kPaneGapPx, 0, half, height()});
       return {{&a, first, first, names_[0]}, {&b, second, second, names_[1]}};
     }
     case Form::divided:
@@ -163,7 +163,7 @@ void SplitPicture::paintEvent(QPaintEvent*) {
   }
   painter.setClipping(false);
   if (form_ == Form::divided) paintDivider(painter);
-  if (pointer_) paintPlate(painter, valuesAt(*pointer_), Qt::BottomRightCorner, rect());
+  paintPlate(painter, pointerText(), Qt::BottomRightCorner, rect());
   views::paintFocusFrame(*this);
 }
 
@@ -194,6 +194,10 @@ QString SplitPicture::valuesAt(QPointF place) const {
   return text;
 }
 
+QString SplitPicture::pointerText() const {
+  return pointer_ ? valuesAt(*pointer_) : QString();
+}
+
 bool SplitPicture::nearDivider(QPointF place) const {
   return form_ == Form::divided && !empty() && !(over_ && old_) &&
          (!over_ || std::abs(place.x() - dividerX()) <= kHandlePx);
@@ -207,11 +211,12 @@ void SplitPicture::mousePressEvent(QMouseEvent* event) {
 }
 
 void SplitPicture::mouseMoveEvent(QMouseEvent* event) {
+  const QString before = pointerText();
   pointer_ = event->position();
   setCursor(dragging_ || nearDivider(*pointer_) ? Qt::SplitHCursor
             : over_                             ? parentWidget()->cursor().shape()
                                                 : Qt::ArrowCursor);
-  update();
+  if (pointerText() != before) update();
   if (!dragging_) return event->setAccepted(!over_);
   const QRect whole = pictureRect(rect());
   setDivider((event->position().x() - whole.left()) / std::max(1, whole.width()));
@@ -223,8 +228,9 @@ void SplitPicture::mouseReleaseEvent(QMouseEvent* event) {
 
 void SplitPicture::leaveEvent(QEvent* event) {
   QWidget::leaveEvent(event);
+  const QString before = pointerText();
   pointer_.reset();
-  update();
+  if (!before.isEmpty()) update();
 }
 
 void SplitPicture::keyPressEvent(QKeyEvent* event) {

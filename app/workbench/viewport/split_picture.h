@@ -72,6 +72,7 @@ class SplitPicture : public QWidget {
   bool empty() const { return compared_.images[0].isNull() || compared_.images[1].isNull(); }
   bool nearDivider(QPointF place) const;
   std::optional<QPoint> pixelAt(QPointF place) const;
+  QString pointerText() const;
   void paintDivider(QPainter& painter) const;
   void paintPlate(QPainter& painter, const QString& text, Qt::Corner corner, const QRect& within) const;
   void describe();

@@ -30,11 +30,6 @@ constexpr double kQuickMs = 250;
 constexpr int kSmallest = 4;
 constexpr std::size_t kRemembered = 16;
 
-/// Whether both requests of one preset give the same image, apart from what moves by itself.
-bool sameView(const FrameRequest& a, const FrameRequest& b) {
-  return a.eye == b.eye && a.attitude == b.attitude && a.view == b.view && a.decision == b.decision;
-}
-
 QImage imageOf(const std::vector<std::uint8_t>& rgba, int width, int height) {
   if (rgba.size() != std::size_t(width) * std::size_t(height) * 4) return {};
   // Opaque whatever the drawing left in alpha.
@@ -54,7 +49,7 @@ SplitView::SplitView(DrawThread& thread, views::Draft& draft, Source source, QWi
       source_(std::move(source)),
       form_(new QComboBox(this)),
       symbolsOn_(new QCheckBox(tr("S&ymbols"), this)),
-      overOn_(new QCheckBox(tr("In the &viewport"), this)),
+      overOn_(new QCheckBox(tr("In the viewport"), this)),
       inDock_(new QWidget(this)),
       pictures_(new SplitPicture(inDock_)),
       overlay_(new SplitPicture(&viewport)),
@@ -110,7 +105,7 @@ void SplitView::arrange() {
     top->addWidget(label);
     top->addWidget(box, 1);
   };
-  add(tr("&Left"), choices_[left]);
+  add(tr("Left"), choices_[left]);
   add(tr("&Right"), choices_[right]);
   add(tr("&Shown as"), form_);
   top->addWidget(symbolsOn_);
@@ -225,7 +220,7 @@ bool SplitView::follow() {
   const bool back = last_ && frame->state.time < last_->state.time;
   const bool same = last_ && frame->state == last_->state;
   const bool blurs = frame->shown.decision.motion.blur.strength > 0;
-  const bool samePicture = same && !blurs && sameView(frame->shown, last_->shown);
+  const bool rests = same && !blurs && sameImage(frame->shown, last_->shown);
   last_ = std::move(frame);
   for (Chosen& side : sides_) {
     if (!side.session) continue;
@@ -238,7 +233,7 @@ bool SplitView::follow() {
     side.recent.push_back(requestOf(*side.session));
     if (side.recent.size() > kRemembered) side.recent.pop_front();
   }
-  return !samePicture;
+  return !rests;
 }
 
 void SplitView::wake() {
@@ -252,10 +247,9 @@ void SplitView::wake() {
 
 /// Over the viewport old images are not shown: the live one is there.
 void SplitView::showAge() {
-  const bool old = changed_ || comparisons_ == 0 || shownShrink_ == 0;
-  overlay_->setOld(old, !terrain_
-                            ? tr("Open a terrain to compare presets over it")
-                            : tr("comparing %1 with %2 …").arg(sides_[left].label, sides_[right].label));
+  overlay_->setOld(changed_ || shownShrink_ == 0,
+                   terrain_ ? tr("comparing %1 with %2 …").arg(sides_[left].label, sides_[right].label)
+                            : tr("Open a terrain to compare presets over it"));
 }
 
 /// What this preset would show of the last frame: one camera and one size, whatever view it asks for.

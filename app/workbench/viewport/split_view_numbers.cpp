@@ -63,24 +63,19 @@ void SplitView::fill(const Work& work) {
     errors(side, error.flip, error.ssim, error.psnrDb);
     put(side, maxPxColumn, views::numberText(error.geometricMaxPx, 2));
     put(side, meanPxColumn, views::numberText(error.geometricMeanPx, 3));
-    const FrameResult& drawn = one.reference ? one.pictures.drawnReference : one.pictures.drawn;
-    put(side, trianglesColumn, QLocale().toString(qulonglong(drawn.visible.triangles)));
-    put(side, msColumn, views::numberText(drawn.cost.total, 1));
+    put(side, trianglesColumn, QLocale().toString(qulonglong(one.drawn().visible.triangles)));
+    put(side, msColumn, views::numberText(one.drawn().cost.total, 1));
   }
   names << tr("Right compared with left");
   errors(2, work.flip, work.ssim, work.psnr);
   const auto ratio = [&](double a, double b) {
     return a > 0 && b > 0 ? QStringLiteral("× %1").arg(views::numberText(b / a, 2)) : QStringLiteral("–");
   };
-  const auto drawnOf = [&](Side side) -> const FrameResult& {
-    const Work::One& one = work.sides[side];
-    return one.reference ? one.pictures.drawnReference : one.pictures.drawn;
-  };
+  const FrameResult &first = work.sides[left].drawn(), &second = work.sides[right].drawn();
   put(2, maxPxColumn, QStringLiteral("–"));
   put(2, meanPxColumn, QStringLiteral("–"));
-  put(2, trianglesColumn,
-      ratio(double(drawnOf(left).visible.triangles), double(drawnOf(right).visible.triangles)));
-  put(2, msColumn, ratio(drawnOf(left).cost.total, drawnOf(right).cost.total));
+  put(2, trianglesColumn, ratio(double(first.visible.triangles), double(second.visible.triangles)));
+  put(2, msColumn, ratio(first.cost.total, second.cost.total));
   numbers_->setVerticalHeaderLabels(names);
   int height = numbers_->horizontalHeader()->height() + 2 * numbers_->frameWidth();
   for (int row = 0; row < numbers_->rowCount(); ++row) height += numbers_->rowHeight(row);

@@ -24,6 +24,7 @@ struct SplitView::Work {
     void measure(scene::ErrorMeter& meter) {
       error = meter.measure(requests.back(), std::span(requests).first(requests.size() - 1), &pictures);
     }
+    const FrameResult& drawn() const { return reference ? pictures.drawnReference : pictures.drawn; }
     const std::vector<std::uint8_t>& shown() const { return reference ? pictures.reference : pictures.ours; }
   };
   std::array<One, 2> sides;

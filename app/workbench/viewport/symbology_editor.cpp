@@ -12,7 +12,7 @@
 namespace trimtab::workbench {
 namespace {
 
-constexpr double kMargin = 6, kHandle = 8;  ///< of a box round its symbol; of a corner's square
+constexpr double kBoxMargin = 6, kHandle = 8;  ///< of a box round its symbol; of a corner's square
 constexpr int kBoxes = static_cast<int>(kSymbols);
 static_assert(views::SymbologyPanel::kSymbols == kBoxes);
 
@@ -68,7 +68,9 @@ QRectF SymbologyEditor::boxOf(int symbol) const {
   const double x = place_.width() / view_.widthPx, y = place_.height() / view_.heightPx;
   const QPointF topLeft(place_.left() + double{box.left} * x, place_.bottom() - double{box.top} * y);
   const QPointF bottomRight(place_.left() + double{box.right} * x, place_.bottom() - double{box.bottom} * y);
-  return QRectF(topLeft, bottomRight).adjusted(-kMargin, -kMargin, kMargin, kMargin).intersected(place_);
+  return QRectF(topLeft, bottomRight)
+      .adjusted(-kBoxMargin, -kBoxMargin, kBoxMargin, kBoxMargin)
+      .intersected(place_);
 }
 
 bool SymbologyEditor::atCorner(QPointF at, int symbol) const {

@@ -20,13 +20,17 @@ QScrollArea* scrollable(QWidget* content) {
   return area;
 }
 
+Qt::DockWidgetArea areaOf(DockLayout::Place place) {
+  return place == DockLayout::Place::foot ? Qt::BottomDockWidgetArea : Qt::RightDockWidgetArea;
+}
+
 }  // namespace
 
 void DockLayout::addDock(const char* name, const QString& title, Place place, QWidget* content) {
   auto* dock = new QDockWidget(title, &window_);
   dock->setObjectName(QLatin1String(name));
   dock->setWidget(place == Place::foot ? content : scrollable(content));
-  window_.addDockWidget(place == Place::foot ? Qt::BottomDockWidgetArea : Qt::RightDockWidgetArea, dock);
+  window_.addDockWidget(areaOf(place), dock);
   docks_.push_back({dock, place});
 }
 
@@ -47,11 +51,7 @@ void DockLayout::arrange(const Arrangement& wanted) {
   }
   const QList<QDockWidget*> right = put(wanted.right, Qt::RightDockWidgetArea, Qt::Vertical),
                             foot = put(wanted.foot, Qt::BottomDockWidgetArea, Qt::Horizontal);
-  std::vector<QDockWidget*> shown;
-  for (const auto* groups : {&wanted.right, &wanted.foot})
-    for (const Arrangement::Group& group : *groups)
-      for (const char* name : group.docks) shown.push_back(find(name));
-  hideAtHome(shown);
+  hideAtHome();
   const auto size = [&](const QList<QDockWidget*>& fronts, const std::vector<Arrangement::Group>& groups,
                         Qt::Orientation along, double lengthPx, double depthPx) {
     if (fronts.isEmpty()) return;
@@ -92,23 +92,20 @@ QList<QDockWidget*> DockLayout::put(const std::vector<Arrangement::Group>& group
 }
 
 /// A hidden dock keeps its place among the tabs, so that it appears there when a person asks for it.
-void DockLayout::hideAtHome(const std::vector<QDockWidget*>& shown) {
-  const auto isShown = [&](const QDockWidget* dock) {
-    return std::find(shown.begin(), shown.end(), dock) != shown.end();
-  };
+void DockLayout::hideAtHome() {
   std::array<QDockWidget*, 3> home{};
   for (const Dock& each : docks_)
-    if (QDockWidget*& at = home[std::size_t(each.place)]; at == nullptr && isShown(each.widget))
+    if (QDockWidget*& at = home[std::size_t(each.place)]; at == nullptr && !each.widget->isHidden())
       at = each.widget;
   for (const Dock& each : docks_) {
-    if (isShown(each.widget)) continue;
+    if (!each.widget->isHidden()) continue;
     QDockWidget*& at = home[std::size_t(each.place)];
-    if (at != nullptr)
+    if (at != nullptr) {
       window_.tabifyDockWidget(at, each.widget);
-    else
-      window_.addDockWidget(each.place == Place::foot ? Qt::BottomDockWidgetArea : Qt::RightDockWidgetArea,
-                            each.widget);
-    if (at == nullptr) at = each.widget;
+    } else {
+      window_.addDockWidget(areaOf(each.place), each.widget);
+      at = each.widget;
+    }
     each.widget->hide();
   }
 }

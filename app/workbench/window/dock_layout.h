@@ -59,7 +59,7 @@ class DockLayout {
   QDockWidget* find(const char* name) const;
   QList<QDockWidget*> put(const std::vector<Arrangement::Group>& groups, Qt::DockWidgetArea area,
                           Qt::Orientation along);
-  void hideAtHome(const std::vector<QDockWidget*>& shown);
+  void hideAtHome();
 
   QMainWindow& window_;
   std::vector<Dock> docks_;

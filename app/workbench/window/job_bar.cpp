@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
+#include <algorithm>
 
 #include "app/workbench/jobs/terrain_job.h"
 
@@ -31,15 +32,20 @@ JobBar::JobBar(TerrainJob& job, QWidget* parent)
     progress_->setValue(static_cast<int>(fraction * 100));
     if (!what.isEmpty()) say(what);
   });
-  connect(&job, &TerrainJob::cancelled, this, &QWidget::hide);
-  connect(&job, &TerrainJob::failed, this, &QWidget::hide);
-  connect(&job, &TerrainJob::opened, this, &QWidget::hide);
+  connect(&job, &TerrainJob::cancelled, this, &JobBar::end);
+  connect(&job, &TerrainJob::failed, this, &JobBar::end);
+  connect(&job, &TerrainJob::opened, this, &JobBar::end);
 }
 
 /// The label only grows while a job runs: a status bar lays out late, and would cut a longer text meanwhile.
 void JobBar::say(const QString& what) {
   what_->setText(what);
   what_->setMinimumWidth(std::max(what_->minimumWidth(), what_->sizeHint().width()));
+}
+
+void JobBar::end() {
+  hide();
+  what_->setMinimumWidth(0);
 }
 
 }  // namespace trimtab::workbench

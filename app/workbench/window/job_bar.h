@@ -20,6 +20,7 @@ class JobBar : public QWidget {
 
  private:
   void say(const QString& what);
+  void end();
 
   QLabel* what_;
   QProgressBar* progress_;

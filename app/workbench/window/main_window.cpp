@@ -15,8 +15,11 @@
 #include <QTabWidget>
 #include <QTimer>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cstdio>
 
+#include "app/workbench/controllers/file_kind.h"
+#include "app/workbench/controllers/recent_files.h"
 #include "app/workbench/docks/changes_dock.h"
 #include "app/workbench/docks/dock_of.h"
 #include "app/workbench/docks/error_dock.h"
@@ -29,10 +32,15 @@
 #include "menus.h"
 #include "notice_bar.h"
 #include "plots_link.h"
+#include "session_keeper.h"
 #include "status_strip.h"
 #include "views/panels/budget_strip.h"
 #include "views/panels/plots_panel.h"
+#include "views/panels/rules_panel.h"
 #include "views/panels/static_lod_panel.h"
+#include "views/policy/policy_panel.h"
+#include "views/policy/scheme_page.h"
+#include "welcome.h"
 #include "workspace_bar.h"
 #include "workspaces.h"
 
@@ -40,6 +48,7 @@ namespace trimtab::workbench {
 namespace {
 
 constexpr int kSavedMs = 4000, kHintMs = 8000;
+constexpr qsizetype kWelcomed = 3;
 const QString kGeometryKey = QStringLiteral("window/geometry");
 
 }  // namespace
@@ -106,6 +115,7 @@ void MainWindow::makeControllers() {
   docks_.add("errors", tr("Run time against error"), foot, &c.errors->dock());
   docks_.add("compare", tr("Compare"), foot, &c.errors->splitView());
   workspaces_ = new Workspaces(*this, docks_);
+  sessions_ = new SessionKeeper(at, controllers_, *workspaces_);
   c.errors->attach();
 }
 
@@ -128,8 +138,9 @@ void MainWindow::makeStatusBar() {
 
 void MainWindow::makeMenus() {
   const Workplace at{draft_, feed_, *viewport_, *panels_.messages, *this};
-  auto* menus = new Menus(*this, at, controllers_, panels_);
+  auto* menus = new Menus(*this, at, controllers_, panels_, *sessions_);
   connect(menus, &Menus::everyDockAsked, this, &MainWindow::showEveryDock);
+  connect(menus, &Menus::welcomeAsked, this, &MainWindow::welcome);
   // Beside the menus, where it costs the image no height.
   menuBar()->setCornerWidget(new WorkspaceBar(*workspaces_, menus->workspaces(), messages(), this));
 }
@@ -185,19 +196,45 @@ void MainWindow::updateTitle() {
 }
 
 void MainWindow::openAny(const QString& path) {
-  const QFileInfo info(path);
-  const QString ending = info.suffix().toLower();
-  if (info.isFile() && info.fileName() == QLatin1String("results.json"))
-    controllers_.errors->openResults(path);
-  else if (info.isFile() && path.endsWith(QLatin1String(".workspace.json"))) {
-    if (const Findings findings = workspaces_->readFrom(path); !findings.empty())
-      messages().add(tr("The workspace cannot be used: %1").arg(path), findings);
-  } else if (info.isFile() && ending == QLatin1String("json"))
-    controllers_.document->openOverEdits(path);
-  else if (info.isFile() && (ending == QLatin1String("csv") || ending == QLatin1String("pcap")))
-    controllers_.flight->open(path);
-  else
-    controllers_.terrain->open(path);
+  const Controllers& c = controllers_;
+  switch (fileKindOf(path)) {
+    case FileKind::results:
+      c.errors->openResults(path);
+      return;
+    case FileKind::workspace:
+      if (const Findings findings = workspaces_->readFrom(path); !findings.empty())
+        messages().add(tr("The workspace cannot be used: %1").arg(path), findings);
+      return;
+    case FileKind::session:
+      sessions_->open(path);
+      return;
+    case FileKind::preset:
+      return c.document->openOverEdits(path);
+    case FileKind::rules:
+      return importRules(path);
+    case FileKind::head_log:
+      c.head->open(path);
+      return;
+    case FileKind::flight:
+      c.flight->open(path);
+      return;
+    case FileKind::terrain:
+      return c.terrain->open(path);
+  }
+}
+
+/// A file of fuzzy logic is a policy, or the curves and rules of documents A and B: the endings are the same.
+void MainWindow::importRules(const QString& path) {
+  const auto failed = [](const Findings& findings) {
+    return std::any_of(findings.begin(), findings.end(),
+                       [](const Finding& finding) { return finding.severity == Severity::error; });
+  };
+  Findings asPolicy = panels_.policy->importFile(path);
+  if (!failed(asPolicy)) return messages().add(tr("The policy was imported: %1").arg(path), asPolicy);
+  const Findings asRules = panels_.policy->parts().scheme->rules().importFile(path);
+  if (!failed(asRules)) return messages().add(tr("The rules were imported: %1").arg(path), asRules);
+  asPolicy.insert(asPolicy.end(), asRules.begin(), asRules.end());
+  messages().add(tr("%1 is neither a policy nor the rules of documents A and B").arg(path), asPolicy);
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
@@ -230,6 +267,7 @@ void MainWindow::changeEvent(QEvent* event) {
 void MainWindow::closeEvent(QCloseEvent* event) {
   if (!controllers_.document->mayLoseEdits()) return event->ignore();
   controllers_.document->document().dropCopy();
+  sessions_->keepLast();
   QSettings settings;
   settings.setValue(kGeometryKey, saveGeometry());
   workspaces_->keep();
@@ -263,11 +301,42 @@ void MainWindow::start(const Options& options) {
     if (!options.from.isEmpty()) panels_.host->setSender(options.from);
     panels_.host->connectHost();
   }
+  for (const QString& file : options.files) openAny(file);
+  if (options.welcome && Welcome::shownAtStart()) welcome();
   if (options.screenshot.isEmpty()) {
     if (!options.exportFile.isEmpty())
       c.document->exportTo(options.exportFile, exportFormatOf(options.exportFile), {}, {});
     c.document->offerRecovery();
   }
+}
+
+void MainWindow::welcome() {
+  const auto nameOf = [](const QString& path) { return QFileInfo(path).fileName(); };
+  Welcome::Group again{tr("Go on"), {}};
+  if (const QString last = SessionKeeper::lastFile(); QFileInfo::exists(last))
+    again.ways.push_back({tr("Where you left off"),
+                          tr("terrain, preset, flight and workspace of the last time"),
+                          [this, last] { sessions_->open(last); }});
+  for (const QString& path : recentFiles(QStringLiteral("session")).mid(0, kWelcomed))
+    if (QFileInfo::exists(path))
+      again.ways.push_back({nameOf(path), path, [this, path] { sessions_->open(path); }});
+  Welcome::Group open{
+      tr("Open or import"),
+      {{tr("A terrain"), tr("elevation files, scenery or a database"),
+        [this] { controllers_.terrain->askOpenFolder(); }},
+       {tr("A preset"), tr("a JSON file of this program"), [this] { controllers_.document->askOpen(); }},
+       {tr("A session"), tr("what was saved together"), [this] { sessions_->askOpen(); }}}};
+  Welcome::Group begin{
+      tr("Begin"),
+      {{tr("The sample terrain"), tr("60 km of mountains with the camera over them"),
+        [this] { controllers_.terrain->openSample(); }},
+       {tr("A host"), tr("listen to a flight simulator over UDP: workspace Connect"),
+        [this] {
+          workspaces_->show(int(workspaces_->names().indexOf(tr("Connect"))));
+          goTo(*dockOf(*panels_.host));
+        }},
+       {tr("A flight"), tr("a recorded flight or capture"), [this] { controllers_.flight->askOpen(); }}}};
+  (new Welcome({again, begin, open}, this))->open();
 }
 
 void MainWindow::takeScreenshotSoon() {

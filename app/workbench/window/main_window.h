@@ -20,6 +20,7 @@ namespace trimtab::workbench {
 
 class MessagePanel;
 class NoticeBar;
+class SessionKeeper;
 class Workspaces;
 
 /// The workbench's window: the viewport in the middle, docks around it, menus above. It makes the parts and
@@ -35,8 +36,7 @@ class MainWindow : public QMainWindow {
   void start(const Options& options);
   /// Keeps a copy of unsaved edits and completes a trace. For an end of the program that asks no questions.
   void keepUnsavedEdits();
-  /// Opens a preset, a flight or measured results, by the ending of the file's name; anything else as
-  /// terrain.
+  /// Opens whatever a file or folder is (fileKindOf).
   void openAny(const QString& path);
   /// Shows every dock where it is at home, as tabs.
   void showEveryDock() { docks_.arrangeAll(); }
@@ -48,6 +48,7 @@ class MainWindow : public QMainWindow {
   NoticeBar& notices() { return *notices_; }
   views::BudgetStrip& strip() { return *strip_; }
   Workspaces& workspaces() { return *workspaces_; }
+  SessionKeeper& sessions() { return *sessions_; }
   const Panels& panels() const { return panels_; }
   const Controllers& controllers() const { return controllers_; }
   /// Returns the dock with this object name; null if there is none.
@@ -65,6 +66,8 @@ class MainWindow : public QMainWindow {
   void makeControllers();
   void makeMenus();
   void makeStatusBar();
+  void welcome();
+  void importRules(const QString& path);
   void connectParts();
   void restoreSize();
   void updateTitle();
@@ -79,6 +82,7 @@ class MainWindow : public QMainWindow {
   NoticeBar* notices_ = nullptr;
   views::BudgetStrip* strip_ = nullptr;
   Workspaces* workspaces_ = nullptr;
+  SessionKeeper* sessions_ = nullptr;
   DockLayout docks_{*this};
   Panels panels_;
   Controllers controllers_;

@@ -25,6 +25,7 @@
 #include "palette.h"
 #include "palette_entries.h"
 #include "reference.h"
+#include "session_keeper.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/preset/table.h"
 #include "views/model/draft.h"
@@ -61,8 +62,13 @@ void makeExclusive(QAction* one, QAction* other) {
 }  // namespace
 
 Menus::Menus(QMainWindow& window, const Workplace& workplace, const Controllers& controllers,
-             const Panels& panels)
-    : QObject(&window), window_(window), at_(workplace), by_(controllers), panels_(panels) {
+             const Panels& panels, SessionKeeper& sessions)
+    : QObject(&window),
+      window_(window),
+      at_(workplace),
+      by_(controllers),
+      panels_(panels),
+      sessions_(sessions) {
   makeFileMenu();
   makeEditMenu();
   makeViewMenu();
@@ -132,8 +138,14 @@ void Menus::makeFileMenu() {
               tr("Turns elevation, scenery and imagery into one folder that opens at once"), &bake},
              {tr("Open sa&mple terrain"), {}, [&] { terrain.openSample(); }},
              {},
-             {tr("Record tra&ce..."), tr("Ctrl+R"), [this] { by_.trace->askOrStop(); }, {}, &trace},
+             {tr("Recor&d trace..."), tr("Ctrl+R"), [this] { by_.trace->askOrStop(); }, {}, &trace},
              {tr("Open measured resu&lts..."), {}, [this] { by_.errors->askOpenResults(); }},
+             {},
+             {tr("Open sess&ion..."),
+              {},
+              [this] { sessions_.askOpen(); },
+              tr("Terrain, preset, flight, host, workspace and views that were saved together")},
+             {tr("Sa&ve session as..."), {}, [this] { sessions_.askSave(); }},
              {},
              {tr("&Quit"), tr("Ctrl+Q"), [this] { window_.close(); }}});
 
@@ -154,10 +166,12 @@ void Menus::makeFileMenu() {
 
 void Menus::addPresetMenus(QMenu& file) {
   QMenu& shipped = *file.addMenu(tr("Open s&hipped preset"));
+  shipped.setObjectName(QStringLiteral("shipped"));
   for (const std::string_view name : shippedPresets())
     add(shipped,
         {{views::fromView(name), {}, [this, name] { by_.document->openOverEdits(views::fromView(name)); }}});
   QMenu& recent = *file.addMenu(tr("&Recent"));
+  recent.setObjectName(QStringLiteral("recent"));
   connect(&recent, &QMenu::aboutToShow, this, [this, &recent] { fillRecentMenu(recent); });
 }
 
@@ -177,6 +191,7 @@ void Menus::fillRecentMenu(QMenu& recent) {
           [this](const QString& path) { by_.document->openOverEdits(path); });
   addKind(QStringLiteral("terrain"), tr("Terrain"), [this](const QString& path) { by_.terrain->open(path); });
   addKind(QStringLiteral("flight"), tr("Flights"), [this](const QString& path) { by_.flight->open(path); });
+  addKind(QStringLiteral("session"), tr("Sessions"), [this](const QString& path) { sessions_.open(path); });
   if (recent.isEmpty()) recent.addAction(tr("nothing yet"))->setEnabled(false);
   recent.setToolTipsVisible(true);
 }
@@ -191,7 +206,8 @@ void Menus::makeEditMenu() {
   redo->setShortcuts({tr("Ctrl+Shift+Z"), tr("Ctrl+Y")});
   dress(*redo, tr("Redo"), icon(QStyle::SP_ArrowForward));
   edit.addActions({undo, redo});
-  auto* const palette = new Palette([this] { return paletteEntries(window_, by_, panels_); }, &window_);
+  auto* const palette =
+      new Palette([this] { return paletteEntries(window_, by_, panels_, sessions_); }, &window_);
   add(edit, {{}, {tr("&Find anything..."), tr("Ctrl+K"), [palette] { palette->begin(); }}});
   add(edit, {{},
              {tr("Reset &all parameters to the file"),
@@ -284,15 +300,26 @@ void Menus::makeViewMenu() {
           });
   view.addSeparator();
   addCases(view);
-  add(view, {{tr("&Place the camera over the terrain"), Qt::Key_Home,
-              [this] {
+  add(view, {{tr("&Place the camera over the terrain"), Qt::Key_Home, [this] {
                 if (at_.viewport.cameraEnabled()) by_.flight->placeCamera();
-              }},
-             {}});
+              }}});
+  sessions_.fillMenu(*view.addMenu(tr("Kept v&iews")));
+  QAction* fills = nullptr;
+  add(view,
+      {{tr("F&ill the viewport"),
+        {},
+        {},
+        tr("On: the image fills its place, and its field of view grows beyond the preset's at two sides\n"
+           "Off: the field of view is the preset's, with bars where the viewport has another shape"),
+        &fills},
+       {}});
+  fills->setCheckable(true);
+  fills->setChecked(by_.frame->fills());
+  connect(fills, &QAction::toggled, by_.frame.get(), &FrameController::setFills);
   addComparison(view);
   addDocks(view);
   workspaces_ = view.addMenu(tr("Wor&kspaces"));
-  addAppearances(*view.addMenu(tr("&Colours")));
+  addAppearances(*view.addMenu(tr("C&olours")));
   auto* bar = window_.addToolBar(tr("View"));
   bar->setObjectName(QStringLiteral("view_toolbar"));
   bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
@@ -389,6 +416,7 @@ void Menus::makeHelpMenu() {
         tr("Shows the entry of the control that has the focus")},
        {tr("&Keys and mouse"), tr("Ctrl+F1"), [this] { showKeys(&window_, *window_.menuBar()); }},
        {tr("&Parameter reference"), tr("Shift+F1"), [reference] { reference->look({}); }},
+       {tr("W&elcome page"), {}, [this] { emit welcomeAsked(); }},
        {},
        {tr("&About Trimtab"), {}, [this] { showAbout(&window_, at_.viewport.gl()); }}});
 }

@@ -19,6 +19,7 @@ class QMenu;
 namespace trimtab::workbench {
 
 struct Controllers;
+class SessionKeeper;
 
 /// The window's commands. Each is written down once, in a table for its menu; toolbars, the docks' buttons,
 /// shortcuts and the help on keys come from there.
@@ -26,14 +27,15 @@ class Menus : public QObject {
   Q_OBJECT
 
  public:
-  Menus(QMainWindow& window, const Workplace& workplace, const Controllers& controllers,
-        const Panels& panels);
+  Menus(QMainWindow& window, const Workplace& workplace, const Controllers& controllers, const Panels& panels,
+        SessionKeeper& sessions);
 
   /// The menu that the workspaces fill.
   QMenu& workspaces() { return *workspaces_; }
 
  signals:
   void everyDockAsked();
+  void welcomeAsked();
 
  private:
   /// One line of a menu. Without a text it is a separator.
@@ -62,6 +64,7 @@ class Menus : public QObject {
   Workplace at_;
   const Controllers& by_;
   Panels panels_;
+  SessionKeeper& sessions_;
   QMenu* workspaces_ = nullptr;
   QList<QAction*> terrainActions_;  ///< the File menu commands that the Terrain dock has as buttons
 };

@@ -2,6 +2,7 @@
 #include "options.h"
 
 #include <QCommandLineParser>
+#include <QFileInfo>
 #include <cstdio>
 
 namespace trimtab::workbench {
@@ -41,6 +42,8 @@ Parsed parseOptions(const QStringList& arguments) {
       "export", "Write an export (.json, .xml or .ini), together with the screenshot if there is one.",
       "OUT");
   const QCommandLineOption size("size", "Size of the window.", "WxH");
+  parser.addPositionalArgument(
+      "FILE", "Open it: a session, preset, terrain, flight, head log, rules or results.", "[FILE...]");
   parser.addOptions(
       {help, version, preset, terrain, listen, bind, from, fly, head, screenshot, after, exportTo, size});
 
@@ -60,8 +63,12 @@ Parsed parseOptions(const QStringList& arguments) {
     parsed.exitCode = kDone;
     return parsed;
   }
-  if (!parser.positionalArguments().isEmpty()) {
-    parsed.exitCode = complain("unexpected argument: " + parser.positionalArguments().first());
+  for (const QString& file : parser.positionalArguments()) {
+    if (QFileInfo::exists(file)) {
+      options.files << file;
+      continue;
+    }
+    parsed.exitCode = complain("no such file or folder: " + file);
     return parsed;
   }
   options.preset = parser.value(preset);
@@ -93,6 +100,7 @@ Parsed parseOptions(const QStringList& arguments) {
     else
       parsed.exitCode = complain("--size: expected WxH of at least 320x200, found " + parser.value(size));
   }
+  options.welcome = arguments.size() < 2;
   return parsed;
 }
 

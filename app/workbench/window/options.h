@@ -18,9 +18,11 @@ struct Options {
       from;        ///< of that port: interface and sender; empty: as they were chosen last in the dock Host
   QString head;    ///< a head log, or a sweep such as sweep:60
   QString flight;  ///< played in this program from the start
-  QString screenshot;  ///< the file for an image of the whole window; the program ends after it
-  QString exportFile;  ///< written with the screenshot, or at once without one; its ending gives the format
-  double afterS = 0;   ///< seconds from the first image to the screenshot
+  QStringList files;     ///< opened by what they are (fileKindOf), after all of the above
+  bool welcome = false;  ///< nothing is asked for, so the welcome page may be shown
+  QString screenshot;    ///< the file for an image of the whole window; the program ends after it
+  QString exportFile;    ///< written with the screenshot, or at once without one; its ending gives the format
+  double afterS = 0;     ///< seconds from the first image to the screenshot
   std::optional<QSize> window;
 };
 

@@ -8,11 +8,13 @@
 #include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
+#include <QPointer>
 
 #include "app/workbench/controllers/controllers.h"
 #include "app/workbench/controllers/recent_files.h"
 #include "app/workbench/docks/dock_of.h"
 #include "panels.h"
+#include "session_keeper.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/preset/table.h"
 #include "views/controls/parameter_line.h"
@@ -28,18 +30,27 @@ QString plain(QString text) {
   return text.remove('&').remove(QStringLiteral("..."));
 }
 
-/// The menu of the docks is left out: it closes a dock that has the focus, and docks have entries of their
-/// own.
+/// What these menus hold has entries of its own. The menu of the docks would also close a dock that has the
+/// focus.
+bool isListedElsewhere(const QMenu& menu) {
+  const QString name = menu.objectName();
+  return name == QLatin1String("docks") || name == QLatin1String("shipped") ||
+         name == QLatin1String("recent");
+}
+
+/// An entry may outlive its action: menus of recent files and of workspaces are filled anew.
 void addCommands(Entries& to, const QList<QAction*>& actions, const QString& path) {
   for (QAction* action : actions) {
     if (action->isSeparator() || !action->isEnabled()) continue;
     if (const QMenu* menu = action->menu()) {
-      if (menu->objectName() != QLatin1String("docks"))
+      if (!isListedElsewhere(*menu))
         addCommands(to, menu->actions(), path + plain(action->text()) + QStringLiteral(" › "));
       continue;
     }
     to.push_back({path + plain(action->text()), QObject::tr("command"),
-                  action->shortcut().toString(QKeySequence::NativeText), [action] { action->trigger(); }});
+                  action->shortcut().toString(QKeySequence::NativeText), [action = QPointer(action)] {
+                    if (action) action->trigger();
+                  }});
   }
 }
 
@@ -73,7 +84,8 @@ void addRecent(Entries& to, const QString& kind, const QString& shown,
 
 }  // namespace
 
-std::vector<PaletteEntry> paletteEntries(QMainWindow& window, const Controllers& by, const Panels& panels) {
+std::vector<PaletteEntry> paletteEntries(QMainWindow& window, const Controllers& by, const Panels& panels,
+                                         SessionKeeper& sessions) {
   Entries entries;
   addCommands(entries, window.menuBar()->actions(), {});
   addDocks(entries, window);
@@ -87,6 +99,8 @@ std::vector<PaletteEntry> paletteEntries(QMainWindow& window, const Controllers&
             [&by](const QString& path) { by.terrain->open(path); });
   addRecent(entries, QStringLiteral("flight"), QObject::tr("flight"),
             [&by](const QString& path) { by.flight->open(path); });
+  addRecent(entries, QStringLiteral("session"), QObject::tr("session"),
+            [&sessions](const QString& path) { sessions.open(path); });
   return entries;
 }
 

@@ -11,10 +11,11 @@ namespace trimtab::workbench {
 
 struct Controllers;
 struct Panels;
+class SessionKeeper;
 
 /// Everything that the palette of a window finds now: its menus' commands that are enabled, its docks, every
 /// parameter, the presets that ship, and the files that were opened lately.
 std::vector<PaletteEntry> paletteEntries(QMainWindow& window, const Controllers& controllers,
-                                         const Panels& panels);
+                                         const Panels& panels, SessionKeeper& sessions);
 
 }  // namespace trimtab::workbench

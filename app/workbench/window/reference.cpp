@@ -45,12 +45,16 @@ Reference::Reference(QWidget* parent)
   auto* column = new QVBoxLayout(this);
   column->addWidget(search_);
   column->addWidget(text_, 1);
-  connect(search_, &QLineEdit::textChanged, this, &Reference::find);
+  connect(search_, &QLineEdit::textChanged, this, [this](const QString& words) {
+    if (!explaining_) find(words);
+  });
 }
 
 void Reference::look(const QString& words) {
-  search_->setText(words);
-  find(words);
+  if (search_->text() == words)
+    find(words);
+  else
+    search_->setText(words);
   begin();
   search_->setFocus();
   search_->selectAll();
@@ -77,10 +81,16 @@ bool Reference::explain(const QWidget* control) {
     toolTip = at->toolTip();
   const QString name = nameOf(*control);
   if (toolTip.isEmpty() && name.isEmpty()) return false;
+  if (!Qt::mightBeRichText(toolTip))
+    toolTip = toolTip.toHtmlEscaped().replace(QLatin1Char('\n'), QStringLiteral("<br>"));
   QString html = QStringLiteral("<h3>%1</h3><p>%2</p>").arg(name.toHtmlEscaped(), toolTip);
   if (const QDockWidget* dock = dockOf(*control))
     html += tr("<p>In the dock <b>%1</b>.</p>").arg(dock->windowTitle().toHtmlEscaped());
+  // An empty search would show the whole reference first. The box's own signals stay on: its clear button
+  // follows them.
+  explaining_ = true;
   search_->clear();
+  explaining_ = false;
   text_->setHtml(html);
   begin();
   return true;

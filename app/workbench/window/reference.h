@@ -30,6 +30,7 @@ class Reference : public QDialog {
 
   QLineEdit* search_;
   QTextBrowser* text_;
+  bool explaining_ = false;
 };
 
 }  // namespace trimtab::workbench

@@ -145,22 +145,34 @@ Findings Workspaces::readFrom(const QString& file) {
   return {};
 }
 
+/// Returns the name that the settings have: what ships is not translated there.
+QString Workspaces::keptName(std::size_t index) const {
+  return index < shipped() ? QString::fromLatin1(shippedList()[index].name) : all_[index].name;
+}
+
 void Workspaces::begin() {
+  const auto indexOf = [this](const QString& name) {
+    std::size_t index = 0;
+    while (index < all_.size() && keptName(index) != name) ++index;
+    return index;
+  };
   QSettings settings;
   const int count = settings.beginReadArray(QStringLiteral("workspaces"));
   for (int i = 0; i < count; ++i) {
     settings.setArrayIndex(i);
-    const QByteArray left = settings.value(QStringLiteral("left")).toByteArray();
-    if (std::size_t(i) < shipped()) {
-      all_[std::size_t(i)].left = left;
-      continue;
-    }
-    all_.push_back({settings.value(QStringLiteral("name")).toString(),
-                    settings.value(QStringLiteral("saved")).toByteArray(), left});
+    const QString name = settings.value(QStringLiteral("name")).toString();
+    const QByteArray saved = settings.value(QStringLiteral("saved")).toByteArray(),
+                     left = settings.value(QStringLiteral("left")).toByteArray();
+    if (const std::size_t at = indexOf(name); at < all_.size())
+      all_[at].left = left;
+    else if (!saved.isEmpty())
+      all_.push_back({name, saved, left});
+    // Else it is one that shipped with an earlier version.
   }
   settings.endArray();
   emit listChanged();
-  apply(std::clamp(settings.value(QStringLiteral("workspace"), current_).toInt(), 0, int(all_.size()) - 1));
+  const std::size_t last = indexOf(settings.value(QStringLiteral("workspace")).toString());
+  apply(last < all_.size() ? int(last) : current_);
 }
 
 void Workspaces::keep() {
@@ -169,12 +181,12 @@ void Workspaces::keep() {
   settings.beginWriteArray(QStringLiteral("workspaces"), int(all_.size()));
   for (std::size_t i = 0; i < all_.size(); ++i) {
     settings.setArrayIndex(int(i));
-    settings.setValue(QStringLiteral("name"), all_[i].name);
+    settings.setValue(QStringLiteral("name"), keptName(i));
     settings.setValue(QStringLiteral("saved"), all_[i].saved);
     settings.setValue(QStringLiteral("left"), all_[i].left);
   }
   settings.endArray();
-  settings.setValue(QStringLiteral("workspace"), current_);
+  settings.setValue(QStringLiteral("workspace"), keptName(std::size_t(current_)));
 }
 
 }  // namespace trimtab::workbench

@@ -5,7 +5,6 @@
 #include <QObject>
 #include <QString>
 #include <QStringList>
-#include <optional>
 #include <vector>
 
 #include "trimtab/units/result.h"
@@ -58,6 +57,7 @@ class Workspaces : public QObject {
   };
   static std::size_t shipped();
   void apply(int index);
+  QString keptName(std::size_t index) const;
   void add(const QString& name, const QByteArray& state);
 
   QMainWindow& window_;

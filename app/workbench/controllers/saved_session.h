@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QString>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "trimtab/units/geodesy.h"
+#include "trimtab/units/result.h"
+
+namespace trimtab::workbench {
+
+/// A place of the free camera to which a person wants to come back.
+struct SavedView {
+  QString name;
+  GeodeticPosition position;
+  Attitude attitude;
+
+  friend bool operator==(const SavedView&, const SavedView&) = default;
+};
+
+/// What was open in the workbench, so that one file opens all of it again. It names files and holds none of
+/// them. It says on which port to listen but not on which interface: a file from somebody else must not open
+/// this machine to a network.
+struct SavedSession {
+  QString terrain;                          ///< a file or folder; empty: the sample terrain
+  QString preset;                           ///< a file, or the name of a shipped preset
+  QString flight;                           ///< a file; empty: none
+  double flightPositionS = 0;               ///< seconds from the flight's start
+  std::optional<std::uint16_t> listenPort;  ///< set if a host was listened for
+  QString workspace;                        ///< its name
+  std::optional<SavedView> eye;             ///< where the free camera stood; its name is empty
+  std::vector<SavedView> views;             ///< the views that were kept
+
+  friend bool operator==(const SavedSession&, const SavedSession&) = default;
+};
+
+/// The ending of a session's file.
+inline constexpr auto kSessionEnding = ".session.json";
+
+/// Writes a session atomically. Files in the session's own folder and below are named relative to it, so that
+/// the folder can be moved.
+Result<Done> writeSession(const QString& file, const SavedSession& session);
+/// Reads a session; its files become absolute paths, whether they exist or not. An entry that is missing
+/// keeps its default, but a view must have all of its numbers. Refused are entries of another type and
+/// numbers outside their range.
+Result<SavedSession> readSession(const QString& file);
+
+}  // namespace trimtab::workbench

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QCommandLinkButton>
+#include <QFile>
+#include <QFileInfo>
+
+#include "app/workbench/controllers/file_kind.h"
+#include "app/workbench/controllers/saved_session.h"
+#include "app/workbench/docks/flight_dock.h"
+#include "app/workbench/window/session_keeper.h"
+#include "app/workbench/window/welcome.h"
+#include "app/workbench/window/workspaces.h"
+#include "gui_support.h"
+#include "trimtab/policy/policy_file.h"
+
+namespace trimtab::test {
+namespace {
+
+using workbench::FileKind;
+using workbench::fileKindOf;
+using workbench::SavedSession;
+
+QString pathIn(const ScratchDir& dir, const std::string& name) {
+  return QString::fromStdString((dir / name).string());
+}
+
+TEST(SavedSessionFile, comesBackAndMovesWithItsFolder) {
+  const ScratchDir dir;
+  std::filesystem::create_directories(dir / "here" / "flights");
+  SavedSession session;
+  session.terrain = "/terrains/alps";
+  session.preset = pathIn(dir, "here/mine.json");
+  session.flight = pathIn(dir, "here/flights/low.csv");
+  session.flightPositionS = 12.5;
+  session.listenPort = 8004;
+  session.workspace = "Tune";
+  session.eye = {{}, {Degrees{-89.5}, Degrees{180}, Metres{4000}}, {Degrees{359}, Degrees{-90}, Degrees{}}};
+  session.views = {
+      {"the \"ridge\"", {Degrees{46}, Degrees{8}, Metres{-3}}, {Degrees{1}, Degrees{2}, Degrees{3}}}};
+  const QString file = pathIn(dir, "here/day.session.json");
+  ASSERT_TRUE(workbench::writeSession(file, session));
+  const auto back = workbench::readSession(file);
+  ASSERT_TRUE(back) << toString(back.findings());
+  EXPECT_EQ(*back, session);
+
+  std::filesystem::rename(dir / "here", dir / "there");
+  const auto moved = workbench::readSession(pathIn(dir, "there/day.session.json"));
+  ASSERT_TRUE(moved) << toString(moved.findings());
+  EXPECT_EQ(moved->flight, pathIn(dir, "there/flights/low.csv"));
+  EXPECT_EQ(moved->terrain, session.terrain) << "outside the folder nothing moves";
+
+  session.preset = "as-published";
+  ASSERT_TRUE(workbench::writeSession(pathIn(dir, "there/day.session.json"), session));
+  EXPECT_EQ(workbench::readSession(pathIn(dir, "there/day.session.json"))->preset, "as-published");
+}
+
+TEST(SavedSessionFile, namesWhatIsWrong) {
+  const ScratchDir dir;
+  const QString file = pathIn(dir, "bad.session.json");
+  const struct {
+    const char *text, *says;
+  } cases[] = {
+      {"", "JSON"},
+      {"{\n\"trimtab_session\": 1,\n\"views\": [}", ":3"},
+      {"{}", "trimtab_session"},
+      {R"({"trimtab_session": 9})", "found 9"},
+      {R"({"trimtab_session": 1, "terrain": 7})", "terrain: expected a text, found 7"},
+      {R"({"trimtab_session": 1, "listen_port": 99999})", "listen_port: expected a number from 1 to 65535"},
+      {R"({"trimtab_session": 1, "listen_port": "8004"})", "listen_port"},
+      {R"({"trimtab_session": 1, "flight_position_s": -1})", "flight_position_s"},
+      {R"({"trimtab_session": 1, "eye": []})", "eye: expected an object"},
+      {R"({"trimtab_session": 1, "eye": {"latitude_deg": 91}})", "eye.latitude_deg"},
+      {R"({"trimtab_session": 1, "views": [{"name": "a"}]})", "views[0].height_m"},
+      {R"({"trimtab_session": 1, "views": 3})", "views: expected a list"},
+  };
+  for (const auto& c : cases) {
+    writeFile(dir / "bad.session.json", c.text);
+    const auto read = workbench::readSession(file);
+    ASSERT_FALSE(read) << c.text;
+    EXPECT_NE(toString(read.findings()).find(c.says), std::string::npos)
+        << c.text << ": " << toString(read.findings());
+  }
+  EXPECT_FALSE(workbench::readSession(pathIn(dir, "none.session.json")));
+  EXPECT_FALSE(workbench::writeSession(pathIn(dir, "no/folder/x.session.json"), {}));
+}
+
+TEST(FileKinds, areToldByNameAndFirstLine) {
+  const ScratchDir dir;
+  const auto kindOf = [&](const std::string& name, const std::string& text) {
+    writeFile(dir / name, text);
+    return fileKindOf(pathIn(dir, name));
+  };
+  EXPECT_EQ(kindOf("results.json", "{}"), FileKind::results);
+  EXPECT_EQ(kindOf("a.workspace.json", "{}"), FileKind::workspace);
+  EXPECT_EQ(kindOf("a.session.json", "{}"), FileKind::session);
+  EXPECT_EQ(kindOf("a.JSON", "{}"), FileKind::preset);
+  EXPECT_EQ(kindOf("a.fll", ""), FileKind::rules);
+  EXPECT_EQ(kindOf("a.FIS", ""), FileKind::rules);
+  EXPECT_EQ(kindOf("a.pcap", ""), FileKind::flight);
+  EXPECT_EQ(kindOf("a.csv", "# a comment\ntime_s,latitude_deg,longitude_deg,heading_deg\n"),
+            FileKind::flight);
+  EXPECT_EQ(kindOf("a.csv", "time_s,head_heading_deg,head_pitch_deg\n"), FileKind::head_log);
+  EXPECT_EQ(kindOf("a.txt", "timestamp viewpoint yaw pitch roll\n"), FileKind::head_log);
+  EXPECT_EQ(kindOf("a.csv", ""), FileKind::flight);
+  EXPECT_EQ(kindOf("a.tif", ""), FileKind::terrain);
+  EXPECT_EQ(fileKindOf(QString::fromStdString(dir.path().string())), FileKind::terrain);
+  EXPECT_EQ(fileKindOf(pathIn(dir, "gone.json")), FileKind::terrain) << "which says that it is not there";
+}
+
+class WorkbenchSession : public Bench {
+ protected:
+  workbench::SessionKeeper& sessions() { return w().sessions(); }
+  const workbench::FlightDock& flight() { return w().controllers().flight->flightDock(); }
+  ScratchDir dir;
+};
+
+TEST_F(WorkbenchSession, aFileOpensAllOfItAgain) {
+  workbench::FreeCamera& camera = w().viewport().camera();
+  const GeodeticPosition ridge{camera.position().latitude, camera.position().longitude, Metres{2500}};
+  w().controllers().flight->placeCamera(ridge, {Degrees{123}, Degrees{-20}, Degrees{}});
+  sessions().keepView("ridge");
+  w().controllers().document->open("as-published");
+  w().workspaces().show(3);
+  ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
+  w().controllers().flight->flightDock().seek(30);
+  const QString file = pathIn(dir, "day.session.json");
+  ASSERT_TRUE(sessions().saveTo(file)) << w().messages().text().toStdString();
+
+  w().controllers().document->open("default");
+  w().workspaces().show(0);
+  w().controllers().flight->flightDock().close();
+  sessions().forgetView(0);
+  w().controllers().flight->placeCamera();
+  EXPECT_TRUE(sessions().views().empty());
+  const auto* before = w().controllers().terrain->database().get();
+  w().openAny(file);
+  ASSERT_TRUE(waitFor([&] { return w().controllers().terrain->database().get() != before; }));
+  EXPECT_TRUE(w().controllers().document->document().title().contains("as-published"));
+  EXPECT_EQ(w().workspaces().current(), 3);
+  EXPECT_EQ(flight().file(), QFileInfo(QString::fromStdString(sampleFlight())).absoluteFilePath());
+  EXPECT_NEAR(flight().position(), 30, 0.5);
+  ASSERT_EQ(sessions().views().size(), 1u);
+  EXPECT_EQ(sessions().views()[0].name, "ridge");
+  EXPECT_EQ(camera.position(), ridge);
+  EXPECT_EQ(camera.attitude().heading.value(), 123);
+}
+
+TEST_F(WorkbenchSession, keepsTheLastOneForTheNextStart) {
+  sessions().keepView("start");
+  ASSERT_NO_FATAL_FAILURE(restart());
+  EXPECT_TRUE(sessions().views().empty()) << "nobody asked for it yet";
+  ASSERT_TRUE(QFileInfo::exists(workbench::SessionKeeper::lastFile()));
+  ASSERT_TRUE(sessions().open(workbench::SessionKeeper::lastFile()));
+  ASSERT_EQ(sessions().views().size(), 1u);
+  EXPECT_EQ(sessions().views()[0].name, "start");
+}
+
+TEST_F(WorkbenchSession, viewsAreKeptReplacedAndForgotten) {
+  workbench::FreeCamera& camera = w().viewport().camera();
+  const GeodeticPosition first = camera.position();
+  sessions().keepView("a");
+  sessions().keepView("b");
+  camera.place({first.latitude, first.longitude, first.height + Metres{100}}, camera.attitude());
+  sessions().keepView("b");
+  ASSERT_EQ(sessions().views().size(), 2u);
+  sessions().goToView(0);
+  EXPECT_EQ(camera.position(), first);
+  trigger("b");
+  EXPECT_EQ(camera.position().height, first.height + Metres{100});
+  sessions().forgetView(0);
+  sessions().forgetView(7);
+  ASSERT_EQ(sessions().views().size(), 1u);
+  EXPECT_EQ(sessions().views()[0].name, "b");
+}
+
+TEST_F(WorkbenchSession, aDamagedFileChangesNothing) {
+  const QString title = w().windowTitle();
+  const int workspace = w().workspaces().current();
+  const QString file = pathIn(dir, "bad.session.json");
+  writeFile(dir / "bad.session.json", R"({"trimtab_session": 1, "preset": "as-published", "views": 3})");
+  EXPECT_FALSE(sessions().open(file));
+  EXPECT_EQ(w().windowTitle(), title);
+  EXPECT_EQ(w().workspaces().current(), workspace);
+  EXPECT_TRUE(w().messages().text().contains("views"));
+}
+
+TEST_F(WorkbenchSession, headLogsAndRulesCanBeDropped) {
+  writeFile(dir / "head.txt", "timestamp yaw pitch roll\n0 0 0 0\n0.1 0.1 0.05 0\n0.2 0.2 0.05 0\n");
+  drop(dir / "head.txt");
+  EXPECT_EQ(session().head().source(), HeadInput::Source::log) << w().messages().text().toStdString();
+  Policy policy;
+  policy.terms = {{Signal::altitude, "low", TermShape::ramp, {2000, 1000}}};
+  policy.rules = {{"altitude is low", {{Lever::lod_scale, 2}}, 1, true, ""}};
+  writeFile(dir / "policy.fll", *toFuzzyLite(policy, "p"));
+  drop(dir / "policy.fll");
+  EXPECT_FALSE(w().draft().parameters().policy.rules.line.empty()) << w().messages().text().toStdString();
+  EXPECT_TRUE(w().draft().isDirty());
+}
+
+TEST_F(WorkbenchSession, theImageFillsItsPlaceUnlessTheLetterboxIsChosen) {
+  const auto wanted = [&] { return w().viewport().size() * w().viewport().devicePixelRatioF(); };
+  const auto drawn = [&] {
+    const auto& shown = w().controllers().frame->shown();
+    return shown ? QSize(shown->view.widthPx, shown->view.heightPx) : QSize();
+  };
+  w().resize(1500, 800);
+  ASSERT_TRUE(waitFor([&] { return drawn() == wanted(); }));
+  const ViewShape filled = w().controllers().frame->shown()->view;
+  EXPECT_NEAR(filled.widthPx / (filled.right - filled.left), filled.heightPx / (filled.top - filled.bottom),
+              1e-6)
+      << "pixels are square";
+  QAction* const fills = command("Fill the viewport");
+  ASSERT_NE(fills, nullptr);
+  EXPECT_TRUE(fills->isChecked());
+  fills->trigger();
+  const ViewParameters& own = w().draft().active()->view;
+  const ViewShape preset = viewShape(own, 1, 1, {});
+  ASSERT_TRUE(waitFor([&] { return w().controllers().frame->shown()->view.right == preset.right; }));
+  EXPECT_NE(drawn(), wanted());
+  fills->trigger();
+  ASSERT_TRUE(waitFor([&] { return drawn() == wanted(); }));
+}
+
+TEST_F(WorkbenchSession, theWelcomePageTakesOneWayAndCloses) {
+  sessions().saveTo(pathIn(dir, "night.session.json"));
+  trigger("Welcome page");
+  const auto page = [&] { return w().findChild<workbench::Welcome*>(); };
+  ASSERT_NE(page(), nullptr);
+  QStringList ways;
+  for (const auto* way : page()->findChildren<QCommandLinkButton*>()) ways << way->text();
+  for (const char* wanted : {"night.session.json", "The sample terrain", "A host", "A flight", "A terrain"})
+    EXPECT_TRUE(ways.contains(QString::fromLatin1(wanted)))
+        << wanted << " in " << ways.join(", ").toStdString();
+  if (const QString shots = qEnvironmentVariable("TRIMTAB_SHOTS"); !shots.isEmpty()) {
+    QTest::qWait(500);
+    page()->grab().save(shots + "/welcome.png");
+  }
+  for (auto* way : page()->findChildren<QCommandLinkButton*>())
+    if (way->text() == QLatin1String("A host")) {
+      way->click();
+      break;
+    }
+  EXPECT_EQ(w().workspaces().names()[w().workspaces().current()], "Connect");
+  EXPECT_TRUE(waitFor([&] { return page() == nullptr; }));
+}
+
+}  // namespace
+}  // namespace trimtab::test

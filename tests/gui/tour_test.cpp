@@ -1,0 +1,449 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QSignalSpy>
+#include <QtWidgets>
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <iostream>
+#include <tuple>
+
+#include "app/workbench/docks/answer_page.h"
+#include "app/workbench/docks/error_dock.h"
+#include "app/workbench/docks/flight_dock.h"
+#include "app/workbench/viewport/split_view.h"
+#include "app/workbench/window/palette.h"
+#include "app/workbench/window/workspaces.h"
+#include "gui_support.h"
+#include "trimtab/preset/preset.h"
+#include "views/controls/parameter_of.h"
+#include "views/editors/band_scale.h"
+#include "views/editors/membership_editor.h"
+#include "views/model/bands_model.h"
+#include "views/panels/plots_panel.h"
+#include "views/plots/curve_plot.h"
+#include "views/plots/time_plot.h"
+#include "views/policy/policy_panel.h"
+#include "views/policy/rules_page.h"
+
+namespace trimtab::test {
+namespace {
+
+/// Returns the text of a button, tab or menu as a person would say it.
+QString plain(QString text) {
+  return text.remove(QLatin1Char('&')).remove(QStringLiteral("...")).remove(QChar(0x2026));
+}
+
+/// The hand of a person. Each click, drag, typed text and chord of keys is one step. It reaches only what a
+/// person could: it fails where a widget is hidden, scrolled away, covered, or blocked by a dialog.
+class Hand {
+ public:
+  explicit Hand(QWidget& window) : window_(window) {
+    // A timer does not fire within its own slot; the second one notices a dialog over a dialog.
+    for (QTimer& timer : timers_) {
+      QObject::connect(&timer, &QTimer::timeout, &timer, [this] { answer(); });
+      timer.start(20);
+    }
+  }
+  /// Forgets the steps of the task before, and what a failed one left open.
+  void begin() {
+    steps_.clear();
+    awaited_.clear();
+    if (QWidget* const popup = QApplication::activePopupWidget()) popup->close();
+  }
+  const QStringList& steps() const { return steps_; }
+  bool answered() const { return awaited_.empty() && current_ == nullptr; }
+  /// Presses the button of the mouse, moves it in steps if it is to go anywhere, and lets it go.
+  void drag(QWidget& on, QPoint from, QPoint to, const QString& what) {
+    steps_ << what;
+    if (!inReach(on, from)) return fail(what);
+    QTest::mousePress(&on, Qt::LeftButton, {}, from);
+    for (int i = 1; i <= 8 && from != to; ++i) QTest::mouseMove(&on, from + (to - from) * i / 8);
+    QTest::mouseRelease(&on, Qt::LeftButton, {}, to);
+    QCoreApplication::processEvents();
+  }
+  void click(QWidget& on, QPoint at, const QString& what) { drag(on, at, at, what); }
+  /// Clicks the button, tab, list of choices (by its accessible name) or entry of the open menu.
+  void press(QWidget& within, const QString& text) {
+    QWidget* on = nullptr;
+    QPoint place;
+    const auto look = [&](QWidget& widget, const QString& says, QPoint at) {
+      if (plain(says) != text || !inReach(widget, at)) return;
+      on = &widget;
+      place = at;
+    };
+    const auto found = [&] {
+      for (auto* each : within.findChildren<QAbstractButton*>())
+        look(*each, each->text(), each->rect().center());
+      for (auto* each : within.findChildren<QComboBox*>())
+        look(*each, each->accessibleName(), each->rect().center());
+      for (auto* each : within.findChildren<QTabBar*>())
+        for (int i = 0; i < each->count(); ++i) look(*each, each->tabText(i), each->tabRect(i).center());
+      if (auto* const menu = qobject_cast<QMenu*>(QApplication::activePopupWidget()))
+        for (QAction* each : menu->actions()) look(*menu, each->text(), menu->actionGeometry(each).center());
+      return on != nullptr;
+    };
+    if (!waitFor(found)) return fail(text);
+    click(*on, place, text);
+  }
+  /// Opens a list of choices and clicks one.
+  void choose(QWidget& within, const QString& name, const QString& text) {
+    press(within, name);
+    auto* const popup = QApplication::activePopupWidget();
+    auto* const list = popup != nullptr ? popup->findChild<QAbstractItemView*>() : nullptr;
+    if (list == nullptr) return fail(text);
+    steps_ << text;
+    const auto rows =
+        list->model()->match(list->model()->index(0, 0), Qt::DisplayRole, text, 1, Qt::MatchExactly);
+    const auto chosen = [&] {
+      const QPoint at = list->visualRect(rows.value(0)).center();
+      if (inReach(*list->viewport(), at)) QTest::mouseClick(list->viewport(), Qt::LeftButton, {}, at);
+      return !list->isVisible();
+    };
+    // A list takes no click so soon after the one that opened it as a program can give it.
+    if (!waitFor(chosen)) fail(text);
+  }
+  void key(QKeyCombination keys) {
+    steps_ << QKeySequence(keys).toString();
+    if (!takesKeys()) return fail(steps_.last());
+    QTest::keyClick(QGuiApplication::focusWindow(), keys.key(), keys.keyboardModifiers());
+    QCoreApplication::processEvents();
+  }
+  void type(const QString& text) {
+    steps_ << text;
+    for (const QChar letter : text)
+      if (takesKeys()) QTest::keyClick(QGuiApplication::focusWindow(), letter.toLatin1());
+  }
+  /// Does this in the next dialog, which a later step opens and waits for.
+  void inDialog(std::function<void(QWidget&)> act) { awaited_.push_back(std::move(act)); }
+  /// Types the name of a file into the next dialog, and Enter.
+  void inFileDialog(const std::filesystem::path& file) {
+    inDialog([this, name = QString::fromStdString(file.string())](QWidget& dialog) {
+      auto* const line = dialog.findChild<QLineEdit*>(QStringLiteral("fileNameEdit"));
+      if (line == nullptr) return fail(dialog.windowTitle());
+      steps_ << "name of a file";
+      QTest::keyClicks(line, name);
+      steps_ << "Return";
+      QTest::keyClick(line, Qt::Key_Return);
+    });
+  }
+
+ private:
+  static void fail(const QString& what) { ADD_FAILURE() << "out of reach: " << what.toStdString(); }
+  static bool inReach(const QWidget& on, QPoint at) {
+    const QWidget *modal = QApplication::activeModalWidget(), *popup = QApplication::activePopupWidget();
+    if (popup != nullptr ? popup != on.window() : modal != nullptr && modal != on.window()) return false;
+    const QWidget* const hit = on.window()->childAt(on.mapTo(on.window(), at));
+    return on.isVisible() && (hit == &on || on.isAncestorOf(hit) || (hit == nullptr && on.isWindow()));
+  }
+  /// Gives the keys to the window in front, as a window manager does: under a test there is none.
+  bool takesKeys() {
+    QWidget* front = QApplication::activeModalWidget();
+    if (front == nullptr) front = QApplication::activeWindow();
+    if (front == nullptr || !front->isVisible()) front = &window_;
+    if (QApplication::activeWindow() != front) front->activateWindow();
+    return waitFor([&] { return QApplication::activeWindow() == front && QGuiApplication::focusWindow(); });
+  }
+  /// Does in a dialog what was meant for it. One that stays open, or that nobody awaits, would keep the
+  /// program in it for ever: it is closed, and the test fails.
+  void answer() {
+    const QPointer<QWidget> dialog = QApplication::activeModalWidget();
+    if (dialog == nullptr || dialog == current_) return;
+    if (current_ == nullptr && !awaited_.empty()) {
+      const auto act = std::move(awaited_.front());
+      awaited_.pop_front();
+      current_ = dialog;
+      act(*dialog);
+      current_ = nullptr;
+    }
+    if (dialog == nullptr || !dialog->isVisible()) return;
+    ADD_FAILURE() << "the dialog stays open: " << dialog->windowTitle().toStdString();
+    dialog->close();
+  }
+
+  QWidget& window_;
+  QStringList steps_;
+  std::deque<std::function<void(QWidget&)>> awaited_;
+  QWidget* current_ = nullptr;
+  std::array<QTimer, 2> timers_;
+};
+
+/// What an engineer does in a day, one task after another in one window; methods of the program only look at
+/// what came of it. TRIMTAB_SHOTS names a folder for a screenshot of each task; TRIMTAB_SHOT_SIZE is WxH.
+class Tour : public Bench {
+ protected:
+  void SetUp() override {
+    QCoreApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
+    window = std::make_unique<workbench::MainWindow>();
+    hand_.emplace(w());
+  }
+  void takeTheTour() {
+    using Task = std::tuple<const char*, int, void (Tour::*)()>;
+    const Task tasks[] = {{"first-minute", 3, &Tour::firstMinute},
+                          {"curve-and-parameter", 7, &Tour::curveAndParameter},
+                          {"band-of-the-depth-map", 5, &Tour::bandOfTheDepthMap},
+                          {"freeze-and-detach", 6, &Tour::freezeAndDetach},
+                          {"head-sweep", 6, &Tour::headSweep},
+                          {"heavy-rain", 5, &Tour::heavyRain},
+                          {"plots", 8, &Tour::plots},
+                          {"compare-two-presets", 7, &Tour::compareTwoPresets},
+                          {"measure-a-flight", 17, &Tour::measureAFlight},
+                          {"switch-off-a-rule", 5, &Tour::switchOffARule},
+                          {"export-and-again", 5, &Tour::exportAndAgain},
+                          {"record-and-replay", 9, &Tour::recordAndReplay}};
+    QString table = QStringLiteral("task | clicks and keys | at most\n");
+    int number = 0;
+    for (const auto& [name, most, run] : tasks) {
+      SCOPED_TRACE(name);
+      shot_ = QStringLiteral("tour-%1-%2.png").arg(++number, 2, 10, QLatin1Char('0')).arg(name);
+      hand_->begin();
+      (this->*run)();
+      shoot();
+      EXPECT_TRUE(hand_->answered()) << "a dialog has not come";
+      const auto count = hand_->steps().size();
+      EXPECT_LE(count, most) << hand_->steps().join(QStringLiteral(", ")).toStdString();
+      table += QStringLiteral("%1 | %2 | %3\n").arg(name).arg(count).arg(most);
+      if (last().visible.triangles == 0) break;  // nothing works without an image
+    }
+    std::cout << table.toStdString() << std::flush;
+  }
+  /// Saves the task's screenshot: at its end, unless the task has more to show before.
+  void shoot() {
+    const QString folder = qEnvironmentVariable("TRIMTAB_SHOTS");
+    if (folder.isEmpty() || shot_.isEmpty()) return;
+    EXPECT_TRUE(w().grab().save(folder + QLatin1Char('/') + shot_)) << folder.toStdString();
+    shot_.clear();
+  }
+  /// Presses the keys that the menus show beside a command.
+  void keysOf(const char* text) {
+    const QAction* const action = command(QString::fromLatin1(text));
+    ASSERT_TRUE(action != nullptr && action->isEnabled() && !action->shortcut().isEmpty()) << text;
+    hand_->key(action->shortcut()[0]);
+  }
+  /// Clicks the button of a workspace, unless it is the current one.
+  void workspace(const QString& name) {
+    if (w().workspaces().names()[w().workspaces().current()] != name) hand_->press(*w().menuBar(), name);
+  }
+  /// Clicks the tab of a dock, unless the dock is in front.
+  void front(const char* name) {
+    QDockWidget& dock = *w().dock(QString::fromLatin1(name));
+    if (!workbench::isInFront(dock)) hand_->press(w(), dock.windowTitle());
+    EXPECT_TRUE(comesToFront(name)) << name;
+  }
+  void turnTheView() {
+    const QPoint middle = w().viewport().rect().center();
+    const Attitude before = sight();
+    hand_->drag(w().viewport(), middle, middle + QPoint(-120, 20), "the view");
+    EXPECT_NE(sight(), before);
+  }
+  /// Clicks the box at the left of a row.
+  void clickBox(QAbstractItemView& list, const QModelIndex& item, const QString& what) {
+    const QRect row = list.visualRect(item);
+    hand_->click(*list.viewport(), {row.left() + 10, row.center().y()}, what);
+  }
+  Attitude sight() { return w().viewport().camera().attitude(); }
+  QString banner() { return w().viewport().overlayContents().banner; }
+
+  void firstMinute() {
+    const QStringList sides = qEnvironmentVariable("TRIMTAB_SHOT_SIZE", "1280x720").split(QLatin1Char('x'));
+    workbench::Options options;
+    options.terrain = QString::fromStdString(sampleTerrain().string());
+    options.window = QSize(sides.value(0).toInt(), sides.value(1).toInt());
+    options.welcome = true;
+    hand_->inDialog([this](QWidget& welcome) { hand_->press(welcome, "Close"); });
+    w().start(options);
+    ASSERT_TRUE(waitFor([&] { return hand_->answered() && w().viewport().lastResult() != nullptr; }))
+        << w().messages().text().toStdString();
+    workspace("Tune");
+    const std::uint64_t painted = paints();
+    turnTheView();
+    EXPECT_EQ(session().input().state.attitude, sight());
+    EXPECT_TRUE(waitFor([&] { return paints() > painted; }));
+  }
+  void curveAndParameter() {
+    views::CurvePlot& plot = w().findChild<views::MembershipEditor*>()->altitude().plot();
+    hand_->drag(plot, plot.pixelOf({5000, 0.6}).toPoint(), plot.pixelOf({4600, 0.5}).toPoint(), "a point");
+    const CurvePoints curve = w().draft().parameters().altitude.curve;
+    EXPECT_NEAR(curve.point[1].x, 4600, 60);
+    EXPECT_NEAR(curve.point[1].y, 0.5, 0.03);
+    keysOf("Find anything");
+    auto* const palette = w().findChild<workbench::Palette*>();
+    ASSERT_TRUE(waitFor([&] { return palette->isVisible() && palette->input().hasFocus(); }));
+    hand_->type("screen-space error");
+    hand_->key(Qt::Key_Return);
+    ASSERT_TRUE(waitFor([] { return views::parameterOf(QApplication::focusWidget()).startsWith("lod.s"); }));
+    hand_->key(Qt::CTRL | Qt::Key_A);
+    hand_->type("4");
+    hand_->key(Qt::Key_Return);
+    EXPECT_EQ(w().draft().parameters().lod.screenSpaceError.value(), 4);
+  }
+  void bandOfTheDepthMap() {
+    front("depth_map");
+    const QDockWidget& dock = *w().dock("depth_map");
+    auto& scale = *dock.findChild<views::BandScale*>();
+    hand_->drag(scale, scale.pixelOf(1.0).toPoint(), scale.pixelOf(1.2).toPoint(), "an edge");
+    auto& table = *dock.findChild<QTableView*>();
+    const QModelIndex width = table.model()->index(2, views::BandsModel::kWidth);
+    hand_->click(*table.viewport(), table.visualRect(width).center(), "a width");
+    hand_->type("512");
+    hand_->key(Qt::Key_Return);
+    const Band& band = w().draft().parameters().scheme.bands.band[2];
+    EXPECT_NEAR(band.low, 1.2, 0.03);
+    EXPECT_EQ(band.widthPx, 512);
+  }
+  void freezeAndDetach() {
+    ASSERT_TRUE(settle());
+    const auto seen = last().visible.reason;
+    hand_->press(w(), "Freeze culling");
+    EXPECT_TRUE(waitFor([this] { return banner().contains("FROZEN"); }));
+    turnTheView();
+    EXPECT_TRUE(settle());
+    EXPECT_EQ(last().visible.reason, seen) << "frozen";
+    hand_->press(w(), "Freeze culling");
+    EXPECT_TRUE(waitFor([this] { return banner().isEmpty(); }) && settle());
+    EXPECT_NE(last().visible.reason, seen);
+    const GeodeticPosition seat = w().viewport().camera().position();
+    hand_->press(w(), "Detach");
+    EXPECT_TRUE(waitFor([this] { return banner().contains("DETACHED"); }));
+    turnTheView();
+    EXPECT_TRUE(settle());
+    shoot();
+    hand_->press(w(), "Detach");
+    EXPECT_TRUE(waitFor([this] { return banner().isEmpty(); }));
+    EXPECT_EQ(w().viewport().camera().position(), seat) << "back in the seat";
+  }
+  void headSweep() {
+    workspace("Fly");
+    front("motion");
+    QDockWidget& dock = *w().dock("motion");
+    hand_->choose(dock, "Line of sight", "a sweep");
+    EXPECT_TRUE(waitFor([this] { return session().decision().motion.lodScale > 1; }));
+    shoot();
+    hand_->choose(dock, "Line of sight", "as the host says");
+    EXPECT_FALSE(session().input().state.head);
+    EXPECT_TRUE(settle()) << "the head rests";
+  }
+  void heavyRain() {
+    workspace("Tune");
+    front("weather");
+    hand_->choose(*w().dock("weather"), "Weather", "Heavy rain");
+    EXPECT_EQ(w().draft().parameters().weather.step, WeatherStep::rain_heavy);
+    EXPECT_TRUE(waitFor([this] { return last().counters.precipitationPasses > 0; }));
+    shoot();
+    keysOf("Undo");
+    EXPECT_TRUE(waitFor([this] { return last().counters.precipitationPasses == 0; }));
+  }
+  void plots() {
+    front("plots");
+    views::PlotsPanel& panel = *w().panels().plots;
+    hand_->press(panel, "Details");
+    hand_->press(panel, "Signals");
+    QListWidget& list = panel.signalList();
+    const QList<QListWidgetItem*> band = list.findItems("band", Qt::MatchExactly);
+    ASSERT_EQ(band.size(), 1);
+    hand_->click(*list.viewport(), list.visualItemRect(band.front()).center(), "band");
+    hand_->key(Qt::Key_Return);
+    EXPECT_EQ(std::ranges::count(panel.plot().lanes().front().traces, views::Trace::band), 1);
+    hand_->choose(panel, "Time shown", "10 s");
+    EXPECT_NEAR(panel.plot().span(), 10, 1e-6);
+    hand_->press(panel, "Pause");
+    EXPECT_TRUE(panel.isPaused());
+  }
+  void compareTwoPresets() {
+    workbench::SplitView& split = w().controllers().errors->splitView();
+    using Form = workbench::SplitPicture::Form;
+    keysOf("In the viewport");
+    EXPECT_TRUE(split.overViewport() && comesToFront("compare"));
+    hand_->choose(split, "Preset on the right", "as-published");
+    ASSERT_TRUE(waitFor([&] { return split.comparisons() > 0 && split.upToDate(); }))
+        << w().messages().text().toStdString();
+    EXPECT_GT(split.heatMap().largest(), 0);
+    EXPECT_EQ(split.numbers().verticalHeaderItem(1)->text(), "Right: as-published");
+    keysOf("Flicker between both");
+    EXPECT_EQ(split.overlay().form(), Form::left);
+    keysOf("Flicker between both");
+    EXPECT_EQ(split.overlay().form(), Form::right);
+    keysOf("Differences");
+    EXPECT_EQ(split.overlay().form(), Form::difference);
+    shoot();
+    keysOf("In the viewport");
+    EXPECT_FALSE(split.overViewport());
+  }
+  void measureAFlight() {
+    hand_->inFileDialog(sampleFlight());
+    keysOf("Open flight");
+    ASSERT_TRUE(w().feed().playback().loaded()) << w().messages().text().toStdString();
+    hand_->inDialog([this](QWidget& dialog) {
+      auto& presets = *dialog.findChild<QListWidget*>();
+      for (int i = 0; i < presets.count(); ++i)
+        if (const QString name = presets.item(i)->text(); name != "default" && !name.startsWith("the draft"))
+          clickBox(presets, presets.model()->index(i, 0), name);
+      // The underlined letters of Size, Frames and Repeats select what these fields have.
+      for (const auto& [to, text] : {std::pair{Qt::Key_S, "96x64"}, {Qt::Key_F, "2"}, {Qt::Key_R, "1"}}) {
+        hand_->key(Qt::ALT | to);
+        hand_->type(text);
+      }
+      hand_->press(dialog, "Measure");
+    });
+    workbench::ErrorDock& dock = w().controllers().errors->dock();
+    QSignalSpy ended(&dock, &workbench::ErrorDock::finished);
+    keysOf("Measure presets along it");
+    ASSERT_TRUE(waitFor([&] { return !ended.isEmpty(); }, 180000));
+    ASSERT_TRUE(ended.front().front().toBool()) << w().messages().text().toStdString();
+    EXPECT_TRUE(comesToFront("errors") && dock.answer().isVisible()) << "the answer is there to read";
+    EXPECT_EQ(dock.answer().table().rowCount(), 4) << "two presets in two culling cases";
+  }
+  void switchOffARule() {
+    workspace("Tune");
+    front("policy");
+    views::PolicyPanel& panel = *w().panels().policy;
+    hand_->press(panel, "Start from");
+    hand_->press(panel, "low-level");
+    hand_->press(panel, "Rules");
+    QTableView& table = panel.parts().rules->table();
+    clickBox(table, table.model()->index(0, 0), "a rule");
+    const PolicyParameters& policy = w().draft().parameters().policy;
+    EXPECT_TRUE(policy.enabled && !w().draft().isBroken());
+    ASSERT_FALSE(policy.rules.line.empty());
+    EXPECT_TRUE(policy.rules.line.front().starts_with("off ")) << policy.rules.line.front();
+  }
+  void exportAndAgain() {
+    const std::filesystem::path file = dir_ / "tour.json";
+    hand_->inDialog([this](QWidget& dialog) { hand_->press(dialog, "OK"); });
+    hand_->inFileDialog(file);
+    keysOf("Export for an image generator");
+    ASSERT_TRUE(std::filesystem::remove(file)) << w().messages().text().toStdString();
+    keysOf("Export again");
+    const auto exported = loadPreset(file.string());
+    ASSERT_TRUE(exported) << toString(exported.findings());
+    EXPECT_TRUE(differences(exported->parameters, w().draft().parameters()).empty());
+  }
+  void recordAndReplay() {
+    const std::filesystem::path file = dir_ / "tour.csv";
+    const QString name = QString::fromStdString(file.string());
+    const workbench::FlightPlayback& playback = w().feed().playback();
+    keysOf("Play or pause");
+    hand_->inFileDialog(file);
+    keysOf("Record trace");
+    const double from = playback.position();
+    ASSERT_TRUE(waitFor([&] { return playback.position() > from + 1; }));
+    shoot();
+    keysOf("Record trace");
+    EXPECT_EQ(w().controllers().trace->recorded(), name);
+    hand_->inFileDialog(file);
+    keysOf("Open flight");
+    EXPECT_EQ(w().controllers().flight->flightDock().file(), name) << w().messages().text().toStdString();
+    keysOf("Play or pause");
+    EXPECT_TRUE(waitFor([&] { return playback.playing() && playback.position() > 0.2; }));
+  }
+
+  std::optional<Hand> hand_;
+  QString shot_;  ///< the name of this task's screenshot; empty once it is saved
+  const ScratchDir dir_;
+};
+
+TEST_F(Tour, everyTaskOfATuningEngineerTakesFewClicksAndKeys) {
+  takeTheTour();
+}
+
+}  // namespace
+}  // namespace trimtab::test
