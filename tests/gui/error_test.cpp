@@ -2,7 +2,11 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDockWidget>
+#include <QListWidget>
+#include <QPushButton>
+#include <QSettings>
 #include <QSignalSpy>
+#include <QSpinBox>
 #include <QTabWidget>
 #include <QTableWidget>
 #include <cmath>
@@ -268,6 +272,34 @@ TEST_F(ErrorDock, theDialogProposesValuesToSweepAndSaysWhatIsWrongWithThem) {
   }
   sweep.choose(1, "lod.screen_space_error_px", "1");
   EXPECT_TRUE(sweep.fault().contains("same"));
+}
+
+TEST_F(ErrorDock, theDialogBeginsWithWhatWasMeasuredLast) {
+  const ScratchDir dir;
+  const QString own = QString::fromStdString((dir / "own.json").string());
+  writeFile(dir / "own.json", exportText(defaultParameters(), "own", {}, ExportFormat::json));
+  {
+    workbench::BenchDialog first("/nowhere");
+    auto& list = *first.findChild<QListWidget*>();
+    const auto press = [&](const char* text) {
+      for (auto* button : first.findChildren<QPushButton*>())
+        if (button->text().remove('&') == QLatin1String(text)) button->click();
+    };
+    press("All");
+    EXPECT_EQ(first.choice().presets.size(), list.count());
+    press("None");
+    EXPECT_TRUE(first.choice().presets.isEmpty());
+    list.item(list.count() - 1)->setCheckState(Qt::Checked);
+    first.findChildren<QSpinBox*>().front()->setValue(7);
+    first.accept();
+    QSettings().setValue("bench/presets", QStringList{workbench::BenchChoice::kDraft, own, "/gone.json"});
+  }
+  const workbench::BenchChoice again = workbench::BenchDialog("/nowhere").choice();
+  EXPECT_EQ(again.presets, (QStringList{workbench::BenchChoice::kDraft, own}));
+  EXPECT_EQ(again.frames, 7);
+  QSettings().remove("bench");
+  EXPECT_EQ(workbench::BenchDialog("/nowhere").choice().presets,
+            (QStringList{"default", workbench::BenchChoice::kDraft}));
 }
 
 TEST_F(ErrorDock, theStripBelowTheViewSaysHowTheBudgetIsKept) {

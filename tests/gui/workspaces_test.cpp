@@ -10,6 +10,8 @@
 #include "app/workbench/docks/dock_of.h"
 #include "app/workbench/window/workspaces.h"
 #include "gui_support.h"
+#include "views/panels/plots_panel.h"
+#include "views/plots/time_plot.h"
 
 namespace trimtab::test {
 namespace {
@@ -127,6 +129,22 @@ TEST_F(WorkbenchWorkspaces, ownWorkspacesAreSavedRemovedAndSharedAsFiles) {
   EXPECT_EQ(spaces().names().last(), "Night");
   EXPECT_FALSE(w().dock("host")->isHidden());
   spaces().remove(5);
+}
+
+TEST_F(WorkbenchWorkspaces, eachKeepsItsPlots) {
+  views::TimePlot& plot = w().panels().plots->plot();
+  press(Qt::Key_2);
+  const auto usual = plot.lanes();
+  plot.setLanes({{{views::Trace::triangles}}});
+  press(Qt::Key_1);
+  plot.setLanes(usual);
+  press(Qt::Key_2);
+  ASSERT_EQ(plot.lanes().size(), 1u);
+  EXPECT_EQ(plot.lanes().front().traces, std::vector{views::Trace::triangles});
+  ASSERT_NO_FATAL_FAILURE(restart());
+  EXPECT_EQ(w().panels().plots->plot().lanes().size(), 1u) << "over restarts too";
+  spaces().show(0);
+  EXPECT_EQ(w().panels().plots->plot().lanes().size(), usual.size());
 }
 
 TEST_F(WorkbenchWorkspaces, aFileThatIsNoneIsRefusedAndChangesNothing) {

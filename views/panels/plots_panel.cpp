@@ -404,13 +404,19 @@ void PlotsPanel::keepIn(QSettings& settings) const {
   settings.setValue(kSpanKey, plot_->span());
   settings.setValue(kLanesKey, toText(plot_->lanes()));
   settings.setValue(kRobustKey, robust_->isChecked());
-  settings.setValue(kFramesKey, qulonglong(buffer_.capacity()));
 }
 
 void PlotsPanel::readFrom(const QSettings& settings) {
   if (const auto lanes = lanesOf(settings.value(kLanesKey).toString())) plot_->setLanes(*lanes);
   robust_->setChecked(settings.value(kRobustKey, true).toBool());
   if (const double span = settings.value(kSpanKey).toDouble(); span > 0) setSpan(span);
+}
+
+void PlotsPanel::keepLengthIn(QSettings& settings) const {
+  settings.setValue(kFramesKey, qulonglong(buffer_.capacity()));
+}
+
+void PlotsPanel::readLengthFrom(const QSettings& settings) {
   const int frames = settings.value(kFramesKey).toInt();
   for (const QAction* length : lengths_->actions())
     if (frames > 0 && std::abs(length->data().toInt() - frames) < int(TraceBuffer::kBlock))

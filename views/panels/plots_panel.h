@@ -59,9 +59,12 @@ class PlotsPanel : public QWidget {
   Findings savePicture(const QString& file) const;
   void clear();
 
-  /// Keeps the signals of the plots, the time shown, the range and the length of the recording; reads them.
+  /// Keeps the signals of the plots, the time shown and the range; reads those that are there.
   void keepIn(QSettings& settings) const;
   void readFrom(const QSettings& settings);
+  /// Does the same for the length of the recording. Another length empties it.
+  void keepLengthIn(QSettings& settings) const;
+  void readLengthFrom(const QSettings& settings);
 
  signals:
   /// A person chose a frame, whose state has this time on the clock of its host or flight.

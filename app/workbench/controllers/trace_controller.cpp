@@ -7,6 +7,7 @@
 #include "app/workbench/docks/message_panel.h"
 #include "app/workbench/jobs/feed.h"
 #include "frame_controller.h"
+#include "recent_files.h"
 
 namespace trimtab::workbench {
 
@@ -46,7 +47,11 @@ void TraceController::stop() {
   at_.feed.session().keepRows(false);
   const Result<Done> closed = writer_->close();
   writer_.reset();
-  if (closed) recorded_ = file_;
+  if (closed) {
+    recorded_ = file_;
+    // A trace can be flown.
+    rememberRecent(QStringLiteral("flight"), QFileInfo(file_).absoluteFilePath());
+  }
   emit recordingChanged(false);
   if (!closed) return at_.messages.add(tr("The trace is not complete"), closed.findings());
   at_.messages.note(tr("Trace recorded: %L1 rows").arg(count_));

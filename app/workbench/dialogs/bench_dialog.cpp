@@ -12,8 +12,10 @@
 #include <QListWidget>
 #include <QPushButton>
 #include <QRegularExpressionValidator>
+#include <QSettings>
 #include <QSpinBox>
 #include <QVBoxLayout>
+#include <utility>
 
 #include "sweep_choice.h"
 #include "trimtab/preset/preset.h"
@@ -29,50 +31,84 @@ constexpr const char* kCases[] = {"none", "view_frustum", "proposed"};
 
 const QString BenchChoice::kDraft = QStringLiteral("draft");
 
+namespace {
+
+const QString kPresets = QStringLiteral("bench/presets"), kCaseNames = QStringLiteral("bench/cases"),
+              kSize = QStringLiteral("bench/size"), kFrames = QStringLiteral("bench/frames"),
+              kRepeats = QStringLiteral("bench/repeats");
+
+BenchChoice lastChoice() {
+  const QSettings settings;
+  BenchChoice last;
+  last.presets = settings.value(kPresets, last.presets).toStringList();
+  last.cases = settings.value(kCaseNames, last.cases).toStringList();
+  last.size = settings.value(kSize, last.size).toString();
+  last.frames = settings.value(kFrames, last.frames).toInt();
+  last.repeats = settings.value(kRepeats, last.repeats).toInt();
+  return last;
+}
+
+}  // namespace
+
 BenchDialog::BenchDialog(const QString& folder, QWidget* parent)
     : QDialog(parent),
       presets_(new QListWidget(this)),
-      size_(new QLineEdit(BenchChoice().size, this)),
+      size_(new QLineEdit(this)),
       folder_(new QLineEdit(folder, this)),
       frames_(new QSpinBox(this)),
       repeats_(new QSpinBox(this)),
       sweep_(new SweepChoice(this)),
       amount_(new QLabel(this)) {
   setWindowTitle(tr("Measure presets along the flight"));
-  const auto add = [this](const QString& label, const QString& name) {
+  const BenchChoice last = lastChoice();
+  const auto add = [this](const QString& label, const QString& name, bool chosen) {
     auto* item = new QListWidgetItem(label, presets_);
     item->setData(Qt::UserRole, name);
     item->setFlags(item->flags() | Qt::ItemIsUserCheckable);
-    item->setCheckState(Qt::Checked);
+    item->setCheckState(chosen ? Qt::Checked : Qt::Unchecked);
   };
+  QStringList files = last.presets;
   for (const std::string_view shipped : shippedPresets()) {
     const QString name = views::fromView(shipped);
-    add(name, name);
+    add(name, name, files.removeAll(name) > 0);
   }
-  add(tr("the draft, as it is now"), BenchChoice::kDraft);
+  add(tr("the draft, as it is now"), BenchChoice::kDraft, files.removeAll(BenchChoice::kDraft) > 0);
+  for (const QString& path : files)
+    if (QFileInfo::exists(path)) add(QFileInfo(path).completeBaseName(), path, true);
   presets_->setAccessibleName(tr("Presets"));
   presets_->setMaximumHeight(130);
   auto* file = new QPushButton(tr("&Add a preset..."), this);
   connect(file, &QPushButton::clicked, this, [this, add] {
     for (const QString& name :
          QFileDialog::getOpenFileNames(this, tr("Add presets"), {}, tr("Presets (*.json)")))
-      add(QFileInfo(name).completeBaseName(), name);
+      add(QFileInfo(name).completeBaseName(), name, true);
   });
+  auto* presetRow = new QHBoxLayout;
+  presetRow->addWidget(file);
+  for (const auto& [text, state] : {std::pair{tr("A&ll"), Qt::Checked}, {tr("&None"), Qt::Unchecked}}) {
+    auto* all = new QPushButton(text, this);
+    connect(all, &QPushButton::clicked, this, [this, state = state] {
+      for (int i = 0; i < presets_->count(); ++i) presets_->item(i)->setCheckState(state);
+    });
+    presetRow->addWidget(all);
+  }
+  presetRow->addStretch(1);
 
   auto* caseRow = new QHBoxLayout;
   for (std::size_t i = 0; i < cases_.size(); ++i) {
     cases_[i] = new QCheckBox(views::methodText(QLatin1String(kCases[i])), this);
-    cases_[i]->setChecked(BenchChoice().cases.contains(QLatin1String(kCases[i])));
+    cases_[i]->setChecked(last.cases.contains(QLatin1String(kCases[i])));
     caseRow->addWidget(cases_[i]);
     connect(cases_[i], &QCheckBox::toggled, this, &BenchDialog::check);
   }
+  size_->setText(last.size);
   size_->setValidator(new QRegularExpressionValidator(
       QRegularExpression(QStringLiteral("[1-9][0-9]{1,4}x[1-9][0-9]{1,4}")), size_));
   frames_->setRange(2, 100000);
-  frames_->setValue(BenchChoice().frames);
+  frames_->setValue(last.frames);
   frames_->setToolTip(tr("The frames are spread evenly over the flight"));
   repeats_->setRange(1, 1000);
-  repeats_->setValue(BenchChoice().repeats);
+  repeats_->setValue(last.repeats);
   repeats_->setToolTip(tr("How often each frame is drawn and timed; the median counts"));
   folder_->setToolTip(tr("To resume a measurement that was stopped, name its folder again"));
   auto* browse = new QPushButton(tr("&Browse..."), this);
@@ -86,7 +122,7 @@ BenchDialog::BenchDialog(const QString& folder, QWidget* parent)
 
   auto* form = new QFormLayout;
   form->addRow(tr("&Presets"), presets_);
-  form->addRow({}, file);
+  form->addRow({}, presetRow);
   form->addRow(tr("Culling cases"), caseRow);
   form->addRow(tr("S&weep"), sweep_);
   form->addRow(tr("&Size (px)"), size_);
@@ -123,8 +159,20 @@ void BenchDialog::check() {
                        !chosen.folder.isEmpty());
 }
 
+void BenchDialog::accept() {
+  const BenchChoice chosen = choice();
+  QSettings settings;
+  settings.setValue(kPresets, chosen.presets);
+  settings.setValue(kCaseNames, chosen.cases);
+  settings.setValue(kSize, chosen.size);
+  settings.setValue(kFrames, chosen.frames);
+  settings.setValue(kRepeats, chosen.repeats);
+  QDialog::accept();
+}
+
 BenchChoice BenchDialog::choice() const {
   BenchChoice choice;
+  choice.presets.clear();
   choice.cases.clear();
   for (int i = 0; i < presets_->count(); ++i)
     if (presets_->item(i)->checkState() == Qt::Checked)

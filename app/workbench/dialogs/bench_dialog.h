@@ -20,7 +20,7 @@ class SweepChoice;
 struct BenchChoice {
   static const QString kDraft;  ///< the name that means the preset that is being edited
 
-  QStringList presets;  ///< shipped names, files, or kDraft
+  QStringList presets{QStringLiteral("default"), kDraft};  ///< shipped names, files, or kDraft
   QStringList cases{QStringLiteral("view_frustum"), QStringLiteral("proposed")};
   QString size = QStringLiteral("1280x720");
   int frames = 60, repeats = 5;
@@ -28,13 +28,14 @@ struct BenchChoice {
   QString folder;      ///< for the results; a measurement that was stopped there is resumed
 };
 
-/// Asks a person what to measure.
+/// Asks a person what to measure. It begins with what was measured last.
 class BenchDialog : public QDialog {
   Q_OBJECT
 
  public:
   explicit BenchDialog(const QString& folder, QWidget* parent = nullptr);
   BenchChoice choice() const;
+  void accept() override;
   SweepChoice& sweep() { return *sweep_; }
 
  private:

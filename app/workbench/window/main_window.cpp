@@ -49,6 +49,7 @@ namespace {
 
 constexpr int kSavedMs = 4000, kHintMs = 8000;
 constexpr qsizetype kWelcomed = 3;
+const QString kPlotsGroup = QStringLiteral("workspace_plots/");
 const QString kGeometryKey = QStringLiteral("window/geometry");
 
 }  // namespace
@@ -167,6 +168,7 @@ void MainWindow::connectParts() {
   connect(&c.document->document(), &Document::fileChanged, this, &MainWindow::updateTitle);
 
   connectPlots(panels_, controllers_, feed_);
+  connect(workspaces_, &Workspaces::currentChanged, this, &MainWindow::showPlotsOf);
   connect(&c.errors->dock().live(), &LiveMeter::measured, panels_.changes,
           [this](const LiveMeter::Measured& m) { panels_.changes->snapshots().addError(m.error.flip); });
   connect(dockOf(*panels_.changes), &QDockWidget::visibilityChanged, panels_.changes, &ChangesDock::setSeen);
@@ -184,6 +186,23 @@ void MainWindow::restoreSize() {
   const QSettings settings;
   restoreGeometry(settings.value(kGeometryKey).toByteArray());
   panels_.plots->readFrom(settings);
+  panels_.plots->readLengthFrom(settings);
+}
+
+/// Each workspace has its plots; one that was never left takes over those that are shown.
+void MainWindow::showPlotsOf(int workspace) {
+  keepPlots();
+  plotsOf_ = workspaces_->names()[workspace];
+  QSettings settings;
+  settings.beginGroup(kPlotsGroup + plotsOf_);
+  if (!settings.childGroups().isEmpty()) panels_.plots->readFrom(settings);
+}
+
+void MainWindow::keepPlots() const {
+  if (plotsOf_.isEmpty()) return;
+  QSettings settings;
+  settings.beginGroup(kPlotsGroup + plotsOf_);
+  panels_.plots->keepIn(settings);
 }
 
 void MainWindow::updateTitle() {
@@ -271,7 +290,9 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   QSettings settings;
   settings.setValue(kGeometryKey, saveGeometry());
   workspaces_->keep();
+  keepPlots();
   panels_.plots->keepIn(settings);
+  panels_.plots->keepLengthIn(settings);
   controllers_.trace->stop();
   feed_.closeHost();
   event->accept();
@@ -329,7 +350,12 @@ void MainWindow::welcome() {
   Welcome::Group begin{
       tr("Begin"),
       {{tr("The sample terrain"), tr("60 km of mountains with the camera over them"),
-        [this] { controllers_.terrain->openSample(); }},
+        [this] {
+          // At a start with nothing to open it is open already, or opening.
+          TerrainController& terrain = *controllers_.terrain;
+          const bool there = terrain.database() || terrain.job().running();
+          if (!there || !terrain.askedFor().isEmpty()) terrain.openSample();
+        }},
        {tr("A host"), tr("listen to a flight simulator over UDP: workspace Connect"),
         [this] {
           workspaces_->show(int(workspaces_->names().indexOf(tr("Connect"))));

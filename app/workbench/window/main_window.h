@@ -70,6 +70,8 @@ class MainWindow : public QMainWindow {
   void importRules(const QString& path);
   void connectParts();
   void restoreSize();
+  void showPlotsOf(int workspace);
+  void keepPlots() const;
   void updateTitle();
   void takeScreenshotSoon();
   void takeScreenshot();
@@ -87,6 +89,7 @@ class MainWindow : public QMainWindow {
   Panels panels_;
   Controllers controllers_;
   Options options_;
+  QString plotsOf_;  ///< the workspace whose plots are shown; empty at first
   bool screenshotDue_ = false;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "palette_entries.h"
 
+#include <QAbstractSpinBox>
 #include <QAction>
 #include <QDockWidget>
 #include <QFileInfo>
@@ -63,6 +64,13 @@ void addDocks(Entries& to, QMainWindow& window) {
   }
 }
 
+/// Gives the focus to an editor, so that what is typed next takes the place of its value.
+void begin(QWidget& editor) {
+  editor.setFocus();
+  if (auto* number = qobject_cast<QAbstractSpinBox*>(&editor)) number->selectAll();
+  if (auto* text = qobject_cast<QLineEdit*>(&editor)) text->selectAll();
+}
+
 void addParameters(Entries& to, views::ParameterTable& table) {
   for (const ParameterRow& row : parameterRows())
     to.push_back({QStringLiteral("%1 (%2)").arg(views::fromView(row.label), views::fromView(row.key)),
@@ -71,7 +79,8 @@ void addParameters(Entries& to, views::ParameterTable& table) {
                   [&table, &row] {
                     raiseDock(table);
                     table.search().setText(views::fromView(row.key));
-                    if (views::ParameterLine* line = table.line(row.key)) line->editor()->setFocus();
+                    // As by the Tab key, which selects the number.
+                    if (views::ParameterLine* line = table.line(row.key)) begin(*line->editor());
                   }});
 }
 
