@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cstdlib>
 #include <ctime>
 #include <iostream>
@@ -24,11 +23,6 @@ struct PresetOptions {
   bool json = false;
 };
 
-bool anyError(const Findings& findings) {
-  return std::any_of(findings.begin(), findings.end(),
-                     [](const Finding& f) { return f.severity == Severity::error; });
-}
-
 void printJson(const Json& document) {
   std::cout << document.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
 }
@@ -49,7 +43,7 @@ int check(const PresetOptions& options) {
   Json files = Json::array();
   for (const std::string& file : options.files) {
     const Findings findings = loadPreset(file).findings();
-    const bool fileIsGood = !anyError(findings);
+    const bool fileIsGood = !hasError(findings);
     good = good && fileIsGood;
     if (options.json) {
       files.push_back({{"file", file}, {"ok", fileIsGood}, {"findings", toJson(findings)}});

@@ -174,8 +174,7 @@ int printSceneryInfo(const std::filesystem::path& path, bool json) {
   report(scenery.findings());
   if (!scenery) return kRefused;
   // What can be read is told all the same.
-  const bool whole = std::none_of(scenery.findings().begin(), scenery.findings().end(),
-                                  [](const Finding& f) { return f.severity == Severity::error; });
+  const bool whole = !hasError(scenery.findings());
   std::map<std::string, std::uint64_t> materials;
   Json meshes = Json::array();
   for (const terrain::SceneryMesh& mesh : scenery->tiles) {

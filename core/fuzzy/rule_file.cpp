@@ -298,9 +298,7 @@ Result<TuningParameters> parametersOf(const System& system, const std::string& w
                                    [](const fuzzy_system::Rule& r) { return r.enabled; });
   if (count < 1 || count > static_cast<std::ptrdiff_t>(RuleList::kCapacity))
     refuse(where, "rules", "1 to " + std::to_string(RuleList::kCapacity) + " rules", std::to_string(count));
-  if (std::any_of(findings.begin(), findings.end(),
-                  [](const Finding& f) { return f.severity == Severity::error; }))
-    return findings;
+  if (hasError(findings)) return findings;
 
   RuleList rules;
   for (const fuzzy_system::Rule& written : system.rules) {
@@ -325,9 +323,7 @@ Result<TuningParameters> parametersOf(const System& system, const std::string& w
       f.where = where;
       findings.push_back(std::move(f));
     }
-  if (std::any_of(findings.begin(), findings.end(),
-                  [](const Finding& f) { return f.severity == Severity::error; }))
-    return findings;
+  if (hasError(findings)) return findings;
   return {std::move(p), std::move(findings)};
 }
 

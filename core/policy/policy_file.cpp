@@ -205,7 +205,7 @@ Result<std::string> policyFileText(const Policy& policy, const std::string& name
   auto text = fuzzy_system::systemText(system, format);
   // By De Morgan's laws a condition grows, so it may be longer than what can be read.
   Findings findings = text ? readPolicyFile(*text, name, format).findings() : text.findings();
-  if (findings.empty()) return text;
+  if (!hasError(findings)) return text;
   for (Finding& f : findings) f.where = name;
   return findings;
 }

@@ -20,11 +20,6 @@ constexpr int kLongestBaseChain = 8;
 
 Result<Preset> load(const std::string& nameOrFile, const std::filesystem::path& folder, int depth);
 
-bool anyError(const Findings& findings) {
-  return std::any_of(findings.begin(), findings.end(),
-                     [](const Finding& f) { return f.severity == Severity::error; });
-}
-
 /// Insertions, deletions and replacements between two keys.
 std::size_t editDistance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -88,14 +83,14 @@ class Reader {
     for (const RawParameter& member : file->members)
       if (const auto [at, isNew] = top_.emplace(member.key, member); !isNew)
         refuse(member.where, member.key, "each member once", "it a second time");
-    if (anyError(findings_) || !readFormat()) return findings_;
+    if (hasError(findings_) || !readFormat()) return findings_;
     if (isExport_ && !sealHolds()) return findings_;
     const int version = readVersion();
     if (version == 0) return findings_;
     readTexts();
     readBase();
     readParameters(version, std::move(file.value().parameters));
-    if (anyError(findings_)) return findings_;
+    if (hasError(findings_)) return findings_;
     for (Finding& f : ruleFindings(preset_.parameters)) addPlaced(std::move(f));
     return {std::move(preset_), std::move(findings_)};
   }
@@ -269,7 +264,7 @@ Result<TuningParameters> baseParameters(const Preset& preset) {
 }
 
 Result<std::string> presetText(const Preset& preset) {
-  if (Findings broken = rangeFindings(preset.parameters); anyError(broken)) return broken;
+  if (Findings broken = rangeFindings(preset.parameters); hasError(broken)) return broken;
   const Result<TuningParameters> base = baseParameters(preset);
   if (!base) return base.findings();
   std::string text = "{\n  \"format\": \"trimtab-preset\",\n  \"version\": " + std::to_string(kPresetVersion);

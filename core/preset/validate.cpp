@@ -296,8 +296,7 @@ std::vector<RuleText> ruleTexts() {
 
 Result<ValidatedParameters> validate(const TuningParameters& parameters) {
   Findings findings = rangeFindings(parameters);
-  const auto isError = [](const Finding& f) { return f.severity == Severity::error; };
-  if (std::any_of(findings.begin(), findings.end(), isError)) return findings;
+  if (hasError(findings)) return findings;
   Findings broken = ruleFindings(parameters);
   findings.insert(findings.end(), broken.begin(), broken.end());
   if (!broken.empty()) return findings;

@@ -1,6 +1,13 @@
 #include "trimtab/units/result.h"
 
+#include <algorithm>
+
 namespace trimtab {
+
+bool hasError(const Findings& findings) {
+  return std::any_of(findings.begin(), findings.end(),
+                     [](const Finding& f) { return f.severity == Severity::error; });
+}
 
 std::string toString(const Finding& f) {
   std::string text = f.where;

@@ -172,6 +172,22 @@ TEST_F(WorkbenchSession, viewsAreKeptReplacedAndForgotten) {
   EXPECT_EQ(sessions().views()[0].name, "b");
 }
 
+TEST_F(WorkbenchSession, aViewThatIsKeptInFlightIsThePilots) {
+  ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
+  const GeodeticPosition left = w().viewport().camera().position();
+  w().panels().flight->play();
+  ASSERT_TRUE(waitFor([&] { return flight().position() > 1; }));
+  w().panels().flight->pause();
+  ASSERT_FALSE(w().viewport().cameraEnabled());
+  sessions().keepView("cockpit");
+  ASSERT_EQ(sessions().views().size(), 1u);
+  EXPECT_EQ(sessions().views()[0].position, workbench::seatOf(session()).position);
+  EXPECT_NE(sessions().views()[0].position, left);
+  sessions().goToView(0);
+  EXPECT_EQ(w().viewport().camera().position(), left) << "the flight moves the view";
+  EXPECT_TRUE(w().messages().text().contains("detach it"));
+}
+
 TEST_F(WorkbenchSession, aDamagedFileChangesNothing) {
   const QString title = w().windowTitle();
   const int workspace = w().workspaces().current();

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <tuple>
 
+#include "app/workbench/controllers/recent_files.h"
 #include "app/workbench/docks/answer_page.h"
 #include "app/workbench/docks/error_dock.h"
 #include "app/workbench/docks/flight_dock.h"
@@ -283,6 +284,7 @@ class Tour : public Bench {
     shoot();
     keysOf("Record trace");
     EXPECT_EQ(w().controllers().trace->recorded(), name);
+    EXPECT_EQ(workbench::recentFiles("flight").value(0), name);
     hand_->inFileDialog(file);
     keysOf("Open flight");
     EXPECT_EQ(w().controllers().flight->flightDock().file(), name) << w().messages().text().toStdString();

@@ -5,7 +5,6 @@
 #include <QFileDialog>
 #include <QMessageBox>
 #include <QSplitter>
-#include <algorithm>
 
 #include "trimtab/fuzzy/rule_file.h"
 #include "trimtab/preset/file_io.h"
@@ -20,10 +19,6 @@ Finding unknownEnding(const QString& file) {
   return {Severity::error, file.toStdString(), "", "a file that ends in .fll or .fis", "another ending"};
 }
 
-bool anyError(const Findings& findings) {
-  return std::ranges::any_of(findings, [](const Finding& f) { return f.severity == Severity::error; });
-}
-
 QString filters() {
   return QObject::tr("Fuzzy rules (*.fll *.fis);;FuzzyLite Language (*.fll);;MATLAB fuzzy system (*.fis)");
 }
@@ -33,7 +28,7 @@ QString filters() {
 void tell(QWidget* parent, const QString& failed, const QString& done, const Findings& findings) {
   if (findings.empty()) return;
   const QString text = QString::fromStdString(toString(findings));
-  if (anyError(findings))
+  if (hasError(findings))
     QMessageBox::warning(parent, failed, text);
   else
     QMessageBox::information(parent, done, text);

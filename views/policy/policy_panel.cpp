@@ -12,7 +12,6 @@
 #include <QSplitter>
 #include <QStackedWidget>
 #include <QTabWidget>
-#include <algorithm>
 #include <array>
 
 #include "findings_page.h"
@@ -42,9 +41,8 @@ constexpr int kReviewMs = 400;
 void tell(QWidget* parent, const QString& failed, const QString& done, const Findings& findings) {
   if (findings.empty()) return;
   const QString text = QString::fromStdString(toString(findings));
-  const bool error =
-      std::ranges::any_of(findings, [](const Finding& f) { return f.severity == Severity::error; });
-  error ? QMessageBox::warning(parent, failed, text) : QMessageBox::information(parent, done, text);
+  hasError(findings) ? QMessageBox::warning(parent, failed, text)
+                     : QMessageBox::information(parent, done, text);
 }
 
 }  // namespace

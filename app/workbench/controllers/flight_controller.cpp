@@ -3,7 +3,6 @@
 
 #include <QFileDialog>
 #include <QFileInfo>
-#include <algorithm>
 #include <utility>
 
 #include "app/link/link.h"
@@ -44,8 +43,7 @@ FlightController::FlightController(const Workplace& workplace, const ObserverCon
 bool FlightController::open(const QString& file) {
   const QString path = QFileInfo(file).absoluteFilePath();
   const Findings findings = flight_.open(path);
-  const auto isError = [](const Finding& finding) { return finding.severity == Severity::error; };
-  if (std::any_of(findings.begin(), findings.end(), isError)) {
+  if (hasError(findings)) {
     at_.messages.add(tr("The flight cannot be opened: %1").arg(file), findings);
     return false;
   }

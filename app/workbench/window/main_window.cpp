@@ -15,7 +15,6 @@
 #include <QTabWidget>
 #include <QTimer>
 #include <QVBoxLayout>
-#include <algorithm>
 #include <cstdio>
 
 #include "app/workbench/controllers/file_kind.h"
@@ -244,14 +243,10 @@ void MainWindow::openAny(const QString& path) {
 
 /// A file of fuzzy logic is a policy, or the curves and rules of documents A and B: the endings are the same.
 void MainWindow::importRules(const QString& path) {
-  const auto failed = [](const Findings& findings) {
-    return std::any_of(findings.begin(), findings.end(),
-                       [](const Finding& finding) { return finding.severity == Severity::error; });
-  };
   Findings asPolicy = panels_.policy->importFile(path);
-  if (!failed(asPolicy)) return messages().add(tr("The policy was imported: %1").arg(path), asPolicy);
+  if (!hasError(asPolicy)) return messages().add(tr("The policy was imported: %1").arg(path), asPolicy);
   const Findings asRules = panels_.policy->parts().scheme->rules().importFile(path);
-  if (!failed(asRules)) return messages().add(tr("The rules were imported: %1").arg(path), asRules);
+  if (!hasError(asRules)) return messages().add(tr("The rules were imported: %1").arg(path), asRules);
   asPolicy.insert(asPolicy.end(), asRules.begin(), asRules.end());
   messages().add(tr("%1 is neither a policy nor the rules of documents A and B").arg(path), asPolicy);
 }

@@ -133,7 +133,9 @@ void SessionKeeper::keepLast() {
 
 void SessionKeeper::keepView(const QString& name) {
   const FreeCamera& camera = at_.viewport.camera();
-  const SavedView view{name, camera.position(), camera.attitude()};
+  const Seat seat =
+      at_.viewport.cameraEnabled() ? Seat{camera.position(), camera.attitude()} : seatOf(at_.feed.session());
+  const SavedView view{name, seat.position, seat.attitude};
   const auto same =
       std::find_if(views_.begin(), views_.end(), [&](const SavedView& each) { return each.name == name; });
   if (same != views_.end())

@@ -37,7 +37,8 @@ class SessionKeeper : public QObject {
 
   SavedSession current() const;
   const std::vector<SavedView>& views() const { return views_; }
-  /// Keeps where the camera is now. A view of the same name is replaced.
+  /// Keeps the view that is shown now: the camera's, or the pilot's while a host or a flight moves it. A view
+  /// of the same name is replaced.
   void keepView(const QString& name);
   void forgetView(std::size_t index);
   /// Puts the camera there; while a host or a flight moves the view, says how to detach it.

@@ -1,6 +1,5 @@
 #include "ground.h"
 
-#include <algorithm>
 #include <sstream>
 
 #include "trimtab/terrain/bake/bake.h"
@@ -72,9 +71,7 @@ Result<Done> GroundBake::join(std::uint32_t parts, const fs::path& file, const P
   for (const fs::path& image : sources_.images)
     if (const auto opened = GroundImage::open(image)) keep(opened.findings());
   keep(aboutCover(sources_.images, all));
-  if (std::any_of(notes.begin(), notes.end(),
-                  [](const Finding& finding) { return finding.severity == Severity::error; }))
-    return notes;
+  if (hasError(notes)) return notes;
   if (auto done = joinGround(shares, file, progress); !done) return done;
   return Result<Done>(Done{}, std::move(notes));
 }

@@ -144,9 +144,7 @@ Result<std::vector<fs::path>> sourceFiles(const std::vector<fs::path>& sources) 
     findings.insert(findings.end(), files.findings().begin(), files.findings().end());
     if (files) all.insert(all.end(), files->begin(), files->end());
   }
-  if (std::any_of(findings.begin(), findings.end(),
-                  [](const Finding& f) { return f.severity == Severity::error; }))
-    return findings;
+  if (hasError(findings)) return findings;
   return all;
 }
 

@@ -23,6 +23,9 @@ struct Finding {
 
 using Findings = std::vector<Finding>;
 
+/// Reports whether at least one of the findings is an error.
+bool hasError(const Findings& findings);
+
 /// Returns "where: key: expected ..., found ..." on one line, for terminals and message boxes.
 std::string toString(const Finding& finding);
 std::string toString(const Findings& findings);
