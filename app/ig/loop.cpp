@@ -98,6 +98,9 @@ class Loop {
     const double end = link::now();
     run_.damage.look(result.paging.failed);
     stages_.add(run_.session.finished(result, end));
+    // Where images follow one another at once, time saved later is time spent now.
+    if (run_.options.listen || run_.options.realtime)
+      run_.renderer.buildAhead(run_.session.nodesAhead(*request), run_.session.aheadMs());
     const double ms = (end - start) * 1e3;
     frameMs_.add(ms);
     lastFrame_ = end;

@@ -12,6 +12,10 @@ StaticLodRule treeRuleOf(const FrameRequest& r) {
           r.lod.spread.value(), r.lod.spreadFrom.value()};
 }
 
+std::optional<TerrainForm> formOf(const FrameRequest& r, const LoadIndex& index) {
+  return formDrawn(r, {index.tiles != nullptr, index.patches != nullptr, index.trees != nullptr});
+}
+
 }  // namespace
 
 void FrameHold::setIndex(std::shared_ptr<const LoadIndex> index) {
@@ -29,18 +33,22 @@ LoadView FrameHold::viewOf(const FrameRequest& request, const ComingEye& eye) co
           farCutM(request)};
 }
 
+const std::vector<float>& FrameHold::treeErrorOf(ErrorMeasure measure) {
+  if (measure_ != measure) {
+    measure_ = measure;
+    treeError_ = staticLodError(*index_->trees, measure);
+  }
+  return treeError_;
+}
+
 TriangleLadder FrameHold::count(const FrameRequest& request, const LoadView& view) {
-  const std::optional<TerrainForm> form =
-      formDrawn(request, {index_->tiles != nullptr, index_->patches != nullptr, index_->trees != nullptr});
+  const std::optional<TerrainForm> form = formOf(request, *index_);
   TriangleLadder ladder;
   ladder.fill(lastTriangles_);
   if (!form) return ladder;
   if (*form == TerrainForm::static_trees) {
-    if (measure_ != request.staticLod.error) {
-      measure_ = request.staticLod.error;
-      treeError_ = staticLodError(*index_->trees, *measure_);
-    }
-    ladder = countTriangles(*index_->trees, treeError_, view, treeRuleOf(request), stack_);
+    ladder = countTriangles(*index_->trees, treeErrorOf(request.staticLod.error), view, treeRuleOf(request),
+                            stack_);
     // By that rule a distance follows from the error of a node alone, so the lever moves nothing.
     if (request.staticLod.rule == StaticDistanceRule::factor) ladder.fill(ladder.front());
     return ladder;
@@ -123,6 +131,34 @@ HoldDecision FrameHold::decide(const HoldGiven& given, const HoldParameters& par
   blur.strength *= d.held.blurShare;
   if (!(blur.strength > 0)) blur = {};
   return d;
+}
+
+/// Adds what a view draws with so many times the request's allowed error.
+void FrameHold::collect(const FrameRequest& request, const LoadView& view, double errorScale) {
+  if (formOf(request, *index_) == TerrainForm::static_trees) {
+    StaticLodRule rule = treeRuleOf(request);
+    rule.distancePerError /= errorScale;
+    return collectNodes(*index_->trees, treeErrorOf(request.staticLod.error), view, rule, stack_,
+                        nodesAhead_);
+  }
+  CutRule rule = cutKeyOf(request, view.eye.position, 1).rule;
+  rule.maxErrorPx *= errorScale;
+  collectNodes(*index_->tiles, view, rule, stack_, nodesAhead_);
+}
+
+std::span<const std::uint32_t> FrameHold::nodesAhead(const FrameRequest& drawn,
+                                                     std::span<const ComingEye> coming) {
+  nodesAhead_.clear();
+  const std::optional<TerrainForm> form = index_ ? formOf(drawn, *index_) : std::nullopt;
+  if (!form || *form == TerrainForm::patches || drawn.frozenEye) return {};
+  const ComingEye here{drawn.eye, drawn.attitude};
+  const LoadView last = viewOf(drawn, coming.empty() ? here : coming.back());
+  collect(drawn, last, 1);
+  if (drawn.hold.reason == HoldReason::off) return nodesAhead_;
+  collect(drawn, last, 2);
+  if (memory_.calmMs > 0 && held_.errorPx > given_.asked.errorPx)
+    collect(drawn, viewOf(drawn, here), given_.asked.errorPx / held_.errorPx);
+  return nodesAhead_;
 }
 
 void FrameHold::finished(const FrameResult& result, const FrameCost& cost) {

@@ -77,17 +77,16 @@ void walk(std::vector<std::uint64_t>& stack, const LoadView& view, const BoundsO
   }
 }
 
-}  // namespace
-
-TriangleLadder countTriangles(const TerrainIndex& index, const LoadView& view, const CutRule& rule,
-                              std::vector<std::uint64_t>& stack) {
-  constexpr double kTriangles = 2.0 * TerrainIndex::kTileCells * TerrainIndex::kTileCells;
+/// Walks the tiles in view that a step below `steps` draws, and their ancestors. Steps `first` to `below`
+/// draw a tile; none if `first` is not less.
+template <class Draw>
+void walkTiles(const TerrainIndex& index, const LoadView& view, const CutRule& rule, std::size_t steps,
+               std::vector<std::uint64_t>& stack, const Draw& draw) {
   const Vec3 eye = view.eye.position;
-  Ladder ladder;
   stack.clear();
   for (std::uint32_t node = static_cast<std::uint32_t>(index.size()); node-- > 0;)
     if (index.parent[node] == TerrainIndex::kNone)
-      stack.push_back(packed(node, kErrorSteps));
+      stack.push_back(packed(node, steps));
     else
       break;
   walk(
@@ -95,14 +94,62 @@ TriangleLadder countTriangles(const TerrainIndex& index, const LoadView& view, c
       [&](std::uint32_t node, std::size_t below) -> std::size_t {
         const double ratio = ratioOf(rule, index.errorM[node], distanceSquared(index.bounds[node], eye));
         const std::size_t first = index.level[node] == 0 ? 0 : firstAccepted(ratio, rule.spread);
-        ladder.add(first, below, kTriangles);
+        draw(node, first, below);
         return first;
       },
       [&](std::uint32_t node, const auto& push) {
         for (const std::uint32_t child : index.children[node])
           if (child != TerrainIndex::kNone) push(child);
       });
+}
+
+/// Walks nodes of static trees likewise.
+template <class Draw>
+void walkTrees(const StaticLodIndex& index, const std::vector<float>& error, const LoadView& view,
+               const StaticLodRule& rule, std::size_t steps, std::vector<std::uint64_t>& stack,
+               const Draw& draw) {
+  const Vec3 eye = view.eye.position;
+  const double square = rule.distancePerError * rule.distancePerError;
+  stack.clear();
+  for (const std::uint32_t root : index.roots) stack.push_back(packed(root, steps));
+  walk(
+      stack, view, [&](std::uint32_t node) -> const Box& { return index.bounds[node]; },
+      [&](std::uint32_t node, std::size_t below) -> std::size_t {
+        const double e = error[node];
+        const double ratio = spreadSquared(e * e * square, rule.spread, rule.spreadFromM) /
+                             distanceSquared(index.bounds[node], eye);
+        const bool leaf = index.nodes[node].children[0] == StaticLodIndex::kNone;
+        const std::size_t first = leaf ? 0 : firstAccepted(ratio, rule.spread);
+        draw(node, first, below);
+        return first;
+      },
+      [&](std::uint32_t node, const auto& push) {
+        for (const std::uint32_t child : index.nodes[node].children)
+          if (child != StaticLodIndex::kNone) push(child);
+      });
+}
+
+/// Collects what step 0 draws.
+auto collector(std::vector<std::uint32_t>& nodes) {
+  return [&nodes](std::uint32_t node, std::size_t first, std::size_t below) {
+    if (first < below) nodes.push_back(node);
+  };
+}
+
+}  // namespace
+
+TriangleLadder countTriangles(const TerrainIndex& index, const LoadView& view, const CutRule& rule,
+                              std::vector<std::uint64_t>& stack) {
+  constexpr double kTriangles = 2.0 * TerrainIndex::kTileCells * TerrainIndex::kTileCells;
+  Ladder ladder;
+  walkTiles(index, view, rule, kErrorSteps, stack,
+            [&](std::uint32_t, std::size_t first, std::size_t below) { ladder.add(first, below, kTriangles); });
   return ladder.sums();
+}
+
+void collectNodes(const TerrainIndex& index, const LoadView& view, const CutRule& rule,
+                  std::vector<std::uint64_t>& stack, std::vector<std::uint32_t>& nodes) {
+  walkTiles(index, view, rule, 1, stack, collector(nodes));
 }
 
 TriangleLadder countTriangles(const PatchIndex& index, const LoadView& view, const CutRule& rule,
@@ -146,27 +193,18 @@ TriangleLadder countTriangles(const PatchIndex& index, const LoadView& view, con
 TriangleLadder countTriangles(const StaticLodIndex& index, const std::vector<float>& error,
                               const LoadView& view, const StaticLodRule& rule,
                               std::vector<std::uint64_t>& stack) {
-  const Vec3 eye = view.eye.position;
-  const double square = rule.distancePerError * rule.distancePerError;
   Ladder ladder;
-  stack.clear();
-  for (const std::uint32_t root : index.roots) stack.push_back(packed(root, kErrorSteps));
-  walk(
-      stack, view, [&](std::uint32_t node) -> const Box& { return index.bounds[node]; },
-      [&](std::uint32_t node, std::size_t below) -> std::size_t {
-        const double e = error[node];
-        const double ratio = spreadSquared(e * e * square, rule.spread, rule.spreadFromM) /
-                             distanceSquared(index.bounds[node], eye);
-        const bool leaf = index.nodes[node].children[0] == StaticLodIndex::kNone;
-        const std::size_t first = leaf ? 0 : firstAccepted(ratio, rule.spread);
-        ladder.add(first, below, index.nodes[node].triangles);
-        return first;
-      },
-      [&](std::uint32_t node, const auto& push) {
-        for (const std::uint32_t child : index.nodes[node].children)
-          if (child != StaticLodIndex::kNone) push(child);
-      });
+  walkTrees(index, error, view, rule, kErrorSteps, stack,
+            [&](std::uint32_t node, std::size_t first, std::size_t below) {
+              ladder.add(first, below, index.nodes[node].triangles);
+            });
   return ladder.sums();
+}
+
+void collectNodes(const StaticLodIndex& index, const std::vector<float>& error, const LoadView& view,
+                  const StaticLodRule& rule, std::vector<std::uint64_t>& stack,
+                  std::vector<std::uint32_t>& nodes) {
+  walkTrees(index, error, view, rule, 1, stack, collector(nodes));
 }
 
 double shareBelowHorizon(const LoadView& view, Vec3 up, double heightM) {

@@ -1,6 +1,7 @@
 #include "trimtab/scene/renderer.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -321,6 +322,16 @@ FrameResult Renderer::draw(const FrameRequest& request, unsigned fbo) {
   FrameRequest whole = request;
   whole.method = CullingCase::none;
   return impl_->draw(whole, fbo);
+}
+
+std::size_t Renderer::buildAhead(std::span<const std::uint32_t> nodes, double withinMs) {
+  if (!impl_->gl || !impl_->terrain || !(withinMs > 0)) return 0;
+  const auto whole = std::chrono::duration<double, std::milli>(std::min(withinMs, 1e6));
+  const auto deadline = std::chrono::steady_clock::now() +
+                        std::chrono::duration_cast<std::chrono::steady_clock::duration>(whole);
+  const std::size_t built = impl_->terrain->buildAhead(nodes, deadline);
+  impl_->counters.tilesBuiltAhead += built;
+  return built;
 }
 
 std::vector<float> Renderer::readDistances() {

@@ -371,8 +371,8 @@ std::optional<FrameRequest> Session::request(double now, int windowWidthPx, int 
 void Session::holdBudget(FrameRequest& request) {
   const HoldParameters& p = parameters_->hold;
   const std::optional<HoldRecord> replayed = std::exchange(budget_.replayed, std::nullopt);
-  if (!p.enabled) return;
   budget_.ahead.push(request.time, {request.eye, request.attitude});
+  if (!p.enabled) return;
   const double unseenPx = errorInMotion(request.lod.screenSpaceError.value(), budget_.ahead.sightDegPerS(),
                                         p.exposure.value(), pixelsPerRadian(request.view));
   if (replayed) budget_.hold.setMemory(replayed->before);
@@ -383,6 +383,16 @@ void Session::holdBudget(FrameRequest& request) {
   const HoldMemory before = budget_.hold.memory();
   const HoldDecision decision = budget_.hold.decide(given, p, request);
   if (keepRows_ && rows_.size() > completeRows_) rows_.back().hold = HoldRecord{given, before, decision};
+}
+
+std::span<const std::uint32_t> Session::nodesAhead(const FrameRequest& drawn) {
+  const auto images = static_cast<std::size_t>(parameters_->hold.lookAhead.value());
+  return budget_.hold.nodesAhead(drawn, budget_.ahead.coming(images));
+}
+
+double Session::aheadMs() const {
+  const double budget = parameters_->measure.budget.value();
+  return std::max((budget - workMs(lastCost_)) / 2, budget / 50);
 }
 
 FrameCost Session::finished(const FrameResult& result, double now) {

@@ -84,6 +84,7 @@ class BenchScene {
     return renderer_.draw(r, offscreen_->framebuffer());
   }
   std::optional<Metres> highestGround() const { return database_ ? database_->highest() : std::nullopt; }
+  scene::Renderer& renderer() { return renderer_; }
   double ms(const FrameRequest& r) { return draw(r).cost.total; }
 
  private:

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <vector>
 
 #include "free_camera.h"
@@ -66,6 +67,8 @@ class Viewport : public QOpenGLWidget {
   /// Draws an image that nobody sees and times it. Returns nothing without terrain, or without a GL context
   /// that can draw it.
   std::optional<Measured> measure(const FrameRequest& request);
+  /// Builds meshes for coming images, for so long (Renderer::buildAhead).
+  void buildAhead(std::span<const std::uint32_t> nodes, double withinMs);
   /// While anybody wants it, `depthMapRead` reports the depth maps that were drawn, and `horizonRead` the
   /// horizons that were used, at most ten per second. Each `who` is counted on its own.
   void setDepthMapWanted(const QObject* who, bool wanted);

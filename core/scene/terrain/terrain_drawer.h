@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -68,6 +69,10 @@ class TerrainDrawer {
   /// Selects the nodes to draw, removes those that are known to be hidden, and uploads the rest. What `frame`
   /// refers to must live until the frame is drawn.
   virtual PreparedTerrain prepare(const FrameInProgress& frame) = 0;
+  /// Builds meshes of nodes for coming frames, in order, until `deadline`; see Renderer::buildAhead.
+  virtual std::size_t buildAhead(std::span<const std::uint32_t>, std::chrono::steady_clock::time_point) {
+    return 0;
+  }
   /// Reports what the finished frame cost.
   virtual void finished(const FrameResult&) {}
   /// Draws the image's surface. Afterwards `visible` is complete.

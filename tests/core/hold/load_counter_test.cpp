@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -99,6 +100,48 @@ TEST(LoadCounter, countsPatchesButForWhatNeighboursAdd) {
   });
   EXPECT_GT(all, 1e5);
   EXPECT_NEAR(counted / all, 1, 0.2);
+}
+
+TEST(LoadCounter, namesTheNodesThatTheTreesDraw) {
+  const StaticLodIndex index = test::randomTrees(4, 11);
+  const std::vector<float> error = staticLodError(index, ErrorMeasure::rms);
+  std::vector<std::uint64_t> stack;
+  std::size_t named = 0;
+  forManyViews(32000, [&](const LoadView& view) {
+    LevelCut cut;
+    selectStatic(index, error, {900, 1, 5000}, view.eye.position, cut);
+    VisibleSet visible;
+    selectVisible(cut, {.eye = view.eye, .view = view.view, .farM = view.farM}, visible);
+    std::vector<std::uint32_t> drawn, nodes;
+    for (const TileDraw& node : visible.tiles) drawn.push_back(node.node);
+    collectNodes(index, error, view, {900, 1, 5000}, stack, nodes);
+    std::sort(drawn.begin(), drawn.end());
+    std::sort(nodes.begin(), nodes.end());
+    EXPECT_EQ(nodes, drawn);
+    named += nodes.size();
+  });
+  EXPECT_GT(named, 1000u);
+}
+
+TEST(LoadCounter, namesTheTilesThatItCounts) {
+  const TerrainIndex index = test::randomIndex(32, 5);
+  std::vector<std::uint64_t> stack;
+  std::size_t alike = 0, all = 0;
+  forManyViews(32000, [&](const LoadView& view) {
+    const CutRule rule{2, 1, 1100};
+    std::vector<std::uint32_t> nodes;
+    collectNodes(index, view, rule, stack, nodes);
+    EXPECT_EQ(2048.0 * static_cast<double>(nodes.size()), countTriangles(index, view, rule, stack).front());
+    LevelCut cut;
+    selectLevels(index, view.eye.position, rule, cut);
+    std::vector<std::uint8_t> inCut(index.size());
+    for (const TileDraw& tile : cut.tiles) inCut[tile.node] = 1;
+    // Neighbours split some of them further.
+    for (const std::uint32_t node : nodes) alike += inCut[node];
+    all += nodes.size();
+  });
+  EXPECT_GT(all, 100u);
+  EXPECT_GT(static_cast<double>(alike), 0.8 * static_cast<double>(all));
 }
 
 TEST(LoadCounter, fallsAlongTheLadderAndOutsideTheView) {

@@ -3,6 +3,7 @@
 #include "scene_test.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/scene/renderer.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab {
 namespace {
@@ -85,6 +86,36 @@ TEST_F(Renderer, drawsIntoTheFramebufferItIsGiven) {
   EXPECT_EQ(differing(small, second.readPixels(kWidth, kHeight)), 0u)
       << "two renderers, two contexts, one process";
   second.release();
+}
+
+TEST_F(Renderer, buildsAheadWhatAComingImageDraws) {
+  use(test::syntheticMountains());
+  auto r = request(over(0.5, 0.5, 400), {});
+  r.method = CullingCase::none;
+  const auto first = renderer.draw(r, offscreen->framebuffer());
+  r.attitude.heading = Degrees{120};
+  setAllowedError(r, 8);
+  const auto expected = [&] {  // as another renderer, which built nothing ahead, draws it
+    scene::Renderer other;
+    EXPECT_TRUE(other.initialize().usable);
+    other.setTerrain(database);
+    const FrameResult drawn = other.draw(r, offscreen->framebuffer());
+    const auto pixels = other.readPixels(kWidth, kHeight);
+    other.release();
+    return std::pair(drawn, pixels);
+  }();
+  std::vector<std::uint32_t> nodes;
+  for (const TileDraw& tile : expected.first.visible.tiles) nodes.push_back(tile.node);
+  EXPECT_EQ(renderer.buildAhead(nodes, 0), 0u);
+  EXPECT_EQ(renderer.buildAhead(nodes, kNan), 0u);
+  // One at least, and then the time is over.
+  EXPECT_GE(renderer.buildAhead(nodes, 1e-6), 0u);
+  renderer.buildAhead(nodes, 1e9);
+  EXPECT_EQ(renderer.buildAhead(nodes, 1e9), 0u) << "they are there already";
+  const auto second = renderer.draw(r, offscreen->framebuffer());
+  EXPECT_GT(second.counters.tilesBuiltAhead, 10u);
+  EXPECT_EQ(second.counters.tilesBuilt, first.counters.tilesBuilt);
+  EXPECT_EQ(differing(expected.second, renderer.readPixels(kWidth, kHeight)), 0u);
 }
 
 TEST_F(Renderer, doesNotRepeatWorkThatNothingAsksFor) {

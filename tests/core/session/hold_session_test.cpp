@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -111,6 +112,58 @@ TEST(HoldSession, keepsImagesWithinTheBudgetOnceItKnowsTheirCost) {
   EXPECT_GT(overFree, 300);
   // Seven spikes, and a few images in which what falls was not known yet.
   EXPECT_LE(over, 12);
+}
+
+TEST(HoldSession, namesTheNodesOfComingImages) {
+  for (const bool holds : {false, true}) {
+    TuningParameters p;
+    p.hold.enabled = holds;
+    p.measure.budget = Milliseconds{14};
+    p.lod.screenSpaceError = Pixels{0.25};
+    Session session(*validate(p));
+    const std::shared_ptr<const LoadIndex> index = tiles();
+    EXPECT_TRUE(session.nodesAhead({}).empty()) << "no terrain is known";
+    session.setLoadIndex(index);
+    Machine machine;
+    FrameRequest request;
+    for (int i = 0; i < 60; ++i) {
+      session.fly(stateOf(i), i / 60.0);
+      request = *session.request(i / 60.0, 640, 360);
+      session.finished(machine.draw(request), i / 60.0);
+    }
+    const std::span<const std::uint32_t> ahead = session.nodesAhead(request);
+    const std::vector<std::uint32_t> named(ahead.begin(), ahead.end());
+    // The view that is five images ahead, and while the budget is held its coarser levels.
+    session.fly(stateOf(64), 64 / 60.0);
+    const FrameRequest later = *session.request(64 / 60.0, 640, 360);
+    const auto drawnBy = [&](double errorPx) {
+      std::vector<std::uint64_t> stack;
+      std::vector<std::uint32_t> nodes;
+      const Vec3 eye = index->frame.fromGeodetic(later.eye);
+      CutRule rule = cutKeyOf(request, eye, 1).rule;
+      rule.maxErrorPx = errorPx;
+      collectNodes(*index->tiles, {{eye, eyeAxes(index->frame, later.eye, later.attitude)}, later.view}, rule,
+                   stack, nodes);
+      return nodes;
+    };
+    const auto shareNamed = [&](const std::vector<std::uint32_t>& nodes) {
+      const auto found = std::count_if(nodes.begin(), nodes.end(), [&](std::uint32_t node) {
+        return std::find(named.begin(), named.end(), node) != named.end();
+      });
+      return static_cast<double>(found) / static_cast<double>(nodes.size());
+    };
+    const double errorPx = request.lod.screenSpaceError.value();
+    EXPECT_GT(shareNamed(drawnBy(errorPx)), 0.9) << holds;
+    if (holds) {
+      EXPECT_GT(shareNamed(drawnBy(2 * errorPx)), 0.9);
+    } else {
+      EXPECT_LT(shareNamed(drawnBy(2 * errorPx)), 0.9);
+    }
+    request.frozenEye.emplace();
+    EXPECT_TRUE(session.nodesAhead(request).empty());
+    EXPECT_GE(session.aheadMs(), 14.0 / 50);
+    EXPECT_LE(session.aheadMs(), 7);
+  }
 }
 
 TEST(HoldSession, learnsNothingFromAnImageThatExchangesLevels) {

@@ -135,13 +135,17 @@ void StaticLodLayer::attach() {
   glBindBuffer(GL_ARRAY_BUFFER, 0);
 }
 
+std::size_t StaticLodLayer::bytesOf(std::uint32_t tile) const {
+  const terrain::StaticLodTile& source = terrain_->tiles[tile];
+  const MeshPool::Layout layout = layoutFor(textured_);
+  return layout.bytes(layout.blocksOf(source.vertices.size()), layout.indexBlocksOf(source.indices.size()));
+}
+
 bool StaticLodLayer::upload(std::uint32_t at) {
   const terrain::StaticLodTile& source = terrain_->tiles[at];
   const std::size_t vertices = source.vertices.size(), indices = source.indices.size();
   if (vertices == 0 || indices == 0) return false;
-  const MeshPool::Layout layout = layoutFor(textured_);
-  const std::size_t needed = layout.bytes(layout.blocksOf(vertices), layout.indexBlocksOf(indices));
-  while (bytes() + needed > keptBytes_ && dropOldest()) {
+  while (bytes() + bytesOf(at) > keptBytes_ && dropOldest()) {
   }
   std::optional<MeshPool::Place> place;
   while (!(place = pool_.take(vertices, indices)))
@@ -173,6 +177,18 @@ std::size_t StaticLodLayer::prepare(std::span<const TileDraw> nodes, bool anew) 
   std::size_t uploaded = 0;
   for (const TileDraw& node : nodes)
     if (const std::uint32_t tile = tileOf(node); places_[tile].blocks == 0) uploaded += upload(tile);
+  return uploaded;
+}
+
+std::size_t StaticLodLayer::buildAhead(std::span<const std::uint32_t> nodes,
+                                       std::chrono::steady_clock::time_point deadline) {
+  std::size_t uploaded = 0;
+  for (const std::uint32_t node : nodes) {
+    const std::uint32_t tile = terrain_->index.nodes[node].tile;
+    if (places_[tile].blocks > 0) continue;
+    if (std::chrono::steady_clock::now() >= deadline) break;
+    if (bytes() + bytesOf(tile) <= keptBytes_) uploaded += upload(tile);
+  }
   return uploaded;
 }
 

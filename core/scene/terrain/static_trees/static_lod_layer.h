@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -37,6 +38,10 @@ class StaticLodLayer {
   /// number of tiles uploaded. Nodes of a tile for which there is no memory are not drawn.
   std::size_t prepare(std::span<const TileDraw> nodes, bool anew = false);
 
+  /// Uploads tiles of nodes in order until `deadline`, for coming frames, as far as there is room without
+  /// giving up others. Returns how many.
+  std::size_t buildAhead(std::span<const std::uint32_t> nodes, std::chrono::steady_clock::time_point deadline);
+
   /// One multi-draw, in order. The program in use reads attributes 0 position, 1 normal, 2 texture
   /// coordinates (0 where the terrain kept none), 3 colour.
   void draw(std::span<const TileDraw> nodes);
@@ -66,6 +71,7 @@ class StaticLodLayer {
 
   void drop(std::uint32_t tile);
   bool dropOldest();
+  std::size_t bytesOf(std::uint32_t tile) const;
   bool upload(std::uint32_t tile);
   void attach();
   const Place& placeOf(std::uint32_t node) const;

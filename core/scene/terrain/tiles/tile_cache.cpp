@@ -147,6 +147,22 @@ std::size_t TileCache::prepare(std::span<const TileDraw> tiles, bool anew) {
   return built;
 }
 
+std::size_t TileCache::buildAhead(std::span<const std::uint32_t> nodes,
+                                  std::chrono::steady_clock::time_point deadline) {
+  std::size_t built = 0;
+  for (const std::uint32_t node : nodes) {
+    if (slotOfNode_[node] == kNoSlot) {
+      if (std::chrono::steady_clock::now() >= deadline) break;
+      const std::uint32_t slot = takeSlot();
+      if (slot == kNoSlot) break;
+      fill(slot, node);
+      ++built;
+    }
+    slots_[slotOfNode_[node]].lastUse = frame_;
+  }
+  return built;
+}
+
 void TileCache::setTints(std::span<const TileDraw> tiles, std::span<const std::uint32_t> colours) {
   for (std::size_t i = 0; i < tiles.size(); ++i)
     if (const std::uint32_t slot = slotOfNode_[tiles[i].node]; slot != kNoSlot) tints_[slot] = colours[i];

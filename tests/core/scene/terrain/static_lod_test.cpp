@@ -216,6 +216,16 @@ TEST_F(StaticTrees, fillTheCountsThatPlotsAndTracesRead) {
   EXPECT_EQ(levels.visible.reason.size(), levels.tilesInCut);
 }
 
+TEST_F(StaticTrees, areUploadedAheadForAComingImage) {
+  use(treeMountains());
+  auto r = treeRequest(over(0.5, 0.5, 300), {Degrees{0}, Degrees{-5}, Degrees{0}});
+  const auto first = renderer.draw(r, offscreen->framebuffer());
+  EXPECT_GT(renderer.buildAhead(trees().roots, 1e9), 0u);
+  EXPECT_EQ(renderer.buildAhead(trees().roots, 1e9), 0u);
+  r.attitude.heading = Degrees{180};
+  EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).counters.tilesBuilt, first.counters.tilesBuilt);
+}
+
 TEST_F(StaticTrees, areUploadedOnFirstUseAndSelectedOnlyAnew) {
   use(treeMountains());
   auto r = treeRequest(over(0.5, 0.5, 300), {Degrees{0}, Degrees{-5}, Degrees{0}});

@@ -23,6 +23,7 @@ struct FrameCounters {
   std::uint64_t hostSymbolsLeftOut = 0;  ///< not drawn in a redraw, because they have no surface, too many
                                          ///< ancestors, or too many strokes
   std::uint64_t cutsSelected = 0, visibleSelected = 0, tilesBuilt = 0;
+  std::uint64_t tilesBuiltAhead = 0;  ///< between images (Renderer::buildAhead), and not in tilesBuilt
   std::uint64_t depthMapsDrawn = 0;  ///< by the GPU
   std::uint64_t mapsDrawnByCpu = 0;  ///< depth maps that the processor drew
   std::uint64_t mapsLeftOut = 0;     ///< of these not drawn, because near here one hid next to nothing

@@ -44,6 +44,13 @@ class FrameHold {
   /// Learns from the image of the last request.
   void finished(const FrameResult& result, const FrameCost& cost);
 
+  /// Names the nodes of tiles or of static trees that coming images may draw, the likeliest first:
+  /// those of the view after `drawn` that is farthest ahead, the same at twice the allowed error, to which the
+  /// arbiter may have to go, and while there is head-room those of the error that was asked for, to which it
+  /// returns in one step. A name may come twice. `drawn` is the last request as it was drawn. It stays valid
+  /// until the next call.
+  std::span<const std::uint32_t> nodesAhead(const FrameRequest& drawn, std::span<const ComingEye> coming);
+
   const HoldMemory& memory() const { return memory_; }
   void setMemory(const HoldMemory& memory) { memory_ = memory; }
   CostModel& model() { return model_; }
@@ -56,6 +63,8 @@ class FrameHold {
 
  private:
   TriangleLadder count(const FrameRequest& request, const LoadView& view);
+  const std::vector<float>& treeErrorOf(ErrorMeasure measure);
+  void collect(const FrameRequest& request, const LoadView& view, double errorScale);
   LoadView viewOf(const FrameRequest& request, const ComingEye& eye) const;
   double groundMpx(const FrameRequest& request, const LoadView& view, const ComingEye& eye) const;
 
@@ -71,6 +80,7 @@ class FrameHold {
   std::optional<ErrorMeasure> measure_;
   std::vector<float> treeError_;  ///< of the trees, by `measure_`
   std::vector<std::uint64_t> stack_;
+  std::vector<std::uint32_t> nodesAhead_;
   CostModel model_;
   HoldMemory memory_;
 

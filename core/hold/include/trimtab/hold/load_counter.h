@@ -14,7 +14,7 @@
 #include "trimtab/frame/static_lod_index.h"
 #include "trimtab/frame/terrain_index.h"
 
-/// Counts the triangles that a view would draw, without drawing it.
+/// Counts the triangles that a view would draw, and names its nodes, without drawing it.
 namespace trimtab {
 
 /// The ladder of allowed errors: step k is 2^(k/2) times the error that is asked for, up to 16 times.
@@ -46,6 +46,13 @@ TriangleLadder countTriangles(const PatchIndex& index, const LoadView& view, con
 TriangleLadder countTriangles(const StaticLodIndex& index, const std::vector<float>& error,
                               const LoadView& view, const StaticLodRule& rule,
                               std::vector<std::uint64_t>& stack);
+
+/// Appends the nodes that a view draws, as step 0 of the ladder counts them.
+void collectNodes(const TerrainIndex& index, const LoadView& view, const CutRule& rule,
+                  std::vector<std::uint64_t>& stack, std::vector<std::uint32_t>& nodes);
+void collectNodes(const StaticLodIndex& index, const std::vector<float>& error, const LoadView& view,
+                  const StaticLodRule& rule, std::vector<std::uint64_t>& stack,
+                  std::vector<std::uint32_t>& nodes);
 
 /// Returns the share of the image, 0..1, whose lines of sight run below the horizon of a smooth earth:
 /// where ground is drawn over flat country. `up` is the vertical at the eye, `heightM` the height above the

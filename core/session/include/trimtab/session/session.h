@@ -127,6 +127,12 @@ class Session {
   /// Call this when the requested image is finished. It completes trace rows, latencies and the cost that the
   /// next input holds, and returns that cost with `decide` filled in.
   FrameCost finished(const FrameResult& result, double now);
+  /// Names the nodes that the next images may draw and `drawn`, the last request as it was drawn, may not have
+  /// (FrameHold::nodesAhead). Renderer::buildAhead takes them, for the time of aheadMs().
+  std::span<const std::uint32_t> nodesAhead(const FrameRequest& drawn);
+  /// Returns how long building ahead may take after the last image: half of what it left of the budget,
+  /// milliseconds, but at least a fiftieth of the budget, so that it also goes on while images are late.
+  double aheadMs() const;
   /// Returns how many finished images took longer to make than measure.budget_ms.
   std::uint64_t overBudget() const { return overBudget_; }
   /// Call this if no image will show what has arrived, as while a window is hidden. Rows and latencies then

@@ -1,0 +1,119 @@
+#include <memory>
+
+#include "bench_scene.h"
+#include "row.h"
+#include "trimtab/preset/table.h"
+#include "trimtab/scene/load_index.h"
+#include "trimtab/session/session.h"
+
+/// Group `hold`: what holding a budget costs, and what building ahead of the images wins.
+
+namespace trimtab::bench {
+namespace {
+
+constexpr double kImageS = 1.0 / 60, kAheadMs = 4;
+
+/// A preset that holds a budget which every image fits, so that the arbiter only looks.
+ValidatedParameters looking() {
+  TuningParameters p = *defaultParameters();
+  p.hold.enabled = true;
+  p.measure.budget = Milliseconds{1000};
+  return *validate(p);
+}
+
+/// An aircraft 2,000 ft above the ground in the middle of the terrain, at 120 m/s to the north.
+class Flight {
+ public:
+  explicit Flight(const std::shared_ptr<const terrain::Database>& terrain, BenchScene& bench)
+      : bench_(bench), session_(looking()) {
+    session_.setGround(terrain);
+    session_.setLoadIndex(scene::loadIndexOf(terrain));
+    const FrameRequest start = bench.request();
+    state_.position = start.eye;
+    state_.attitude = start.attitude;
+  }
+  FrameRequest next() {
+    state_.time += kImageS;
+    state_.position.latitude = state_.position.latitude + Degrees{120 * kImageS / 111e3};
+    session_.fly(state_, state_.time);
+    return *session_.request(state_.time, BenchScene::kWidth, BenchScene::kHeight);
+  }
+  FrameResult draw(const FrameRequest& request) {
+    const FrameResult result = bench_.draw(request);
+    session_.finished(result, state_.time);
+    return result;
+  }
+  Session& session() { return session_; }
+
+ private:
+  BenchScene& bench_;
+  Session session_;
+  AircraftState state_;
+};
+
+/// The first image after the allowed error has doubled, over terrain of which nothing is on the GPU yet but
+/// what the images before it drew.
+double firstAtTwiceTheError(const std::shared_ptr<const terrain::Database>& terrain, BenchScene& bench,
+                            bool ahead) {
+  bench.use(terrain);
+  Flight flight(terrain, bench);
+  for (int i = 0; i < 30; ++i) {
+    const FrameRequest request = flight.next();
+    flight.draw(request);
+    if (ahead) bench.renderer().buildAhead(flight.session().nodesAhead(request), kAheadMs);
+  }
+  FrameRequest coarser = flight.next();
+  setAllowedError(coarser, 2 * coarser.lod.screenSpaceError.value());
+  return flight.draw(coarser).cost.total;
+}
+
+void exchange(Report& report, const std::shared_ptr<const terrain::Database>& terrain, BenchScene& bench) {
+  const Pairs pairs = inTurn(
+      report.quick() ? 3 : 9, [&](int) { return firstAtTwiceTheError(terrain, bench, true); },
+      [&](int) { return firstAtTwiceTheError(terrain, bench, false); });
+  report.add(ratioAtMost(
+      0.9, rowOf(pairs, {.id = "hold.exchange",
+                         .what = "first image at twice the allowed error, 1280 x 720, after 30 images with "
+                                 "4 ms each of building ahead",
+                         .peer = "the same without building ahead"})));
+}
+
+void look(Report& report, const std::shared_ptr<const terrain::Database>& terrain, BenchScene& bench) {
+  Flight flight(terrain, bench);
+  const FrameResult drawn = flight.draw(flight.next());
+  // The requests of images that follow one another; only the first one's image is drawn.
+  const double request = leastSeconds(report.quick() ? 50 : 400, [&] {
+    keep(flight.next());
+    flight.session().finished(drawn, 0);
+  });
+  FrameRequest last = flight.next();
+  const double names = leastSeconds(report.quick() ? 50 : 400, [&] {
+    keep(flight.session().nodesAhead(last).size());
+  });
+  const double image = drawn.cost.total;
+  const auto add = [&](const char* id, const char* what, double seconds) {
+    report.add(ratioAtMost(0.02, {.id = id,
+                                  .what = what,
+                                  .value = 1e3 * seconds,
+                                  .unit = "ms",
+                                  .peer = "the image, 1280 x 720",
+                                  .peerValue = image,
+                                  .peerFrom = "run"}));
+  };
+  add("hold.look", "a decision, a request, and the load of six views counted for nine settings", request);
+  add("hold.ahead", "the nodes of coming images named", names);
+}
+
+}  // namespace
+}  // namespace trimtab::bench
+
+int main(int argc, char** argv) {
+  using namespace trimtab;
+  bench::Report report(argc, argv);
+  const auto terrain = bench::sampleTerrain(40);
+  if (!terrain) return 1;
+  bench::BenchScene scene(terrain);
+  if (report.wants("exchange") && scene.ready()) bench::exchange(report, terrain, scene);
+  if (report.wants("look") && scene.ready()) bench::look(report, terrain, scene);
+  return report.finish();
+}
