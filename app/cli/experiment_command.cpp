@@ -68,8 +68,17 @@ void addExperiment(CLI::App& app, int& exitCode) {
           ->capture_default_str()
           ->check(CLI::Range(1, 1000));
     if (std::string_view(named.name) == "hold") {
-      command->add_flag("--fixed", arguments->setup.fixedSettings,
+      experiment::HoldSetup& hold = arguments->setup.hold;
+      command->add_flag("--fixed", hold.fixedSettings,
                         "Also fly every fixed setting of the same levers, and name the best");
+      command
+          ->add_option("--budget", hold.budgetMs, "Budget, ms; 0.6 of the median image without it if unset")
+          ->check(CLI::PositiveNumber);
+      command->add_option("--seconds", hold.flightS, "Seconds of the flight, from its middle")
+          ->capture_default_str()
+          ->check(CLI::Range(2, 600));
+      command->add_option("--strain", hold.strain, "Only this strain: sweep, head log, weather, or steady")
+          ->check(CLI::IsMember({"sweep", "head log", "weather", "steady"}));
       command->add_option("--head", arguments->setup.head, "Head log, or sweep:DEG/S; bad rows are left out");
     }
     command->add_option("-o,--output", arguments->output, "Folder for JSON, CSV and plots");

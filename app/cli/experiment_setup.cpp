@@ -34,12 +34,13 @@ std::optional<experiment::Setup> setupFrom(const SetupArguments& arguments) {
     usable = flight && usable;
     if (flight) setup.flight = std::move(flight).value();
   }
+  setup.hold = arguments.hold;
   if (!arguments.head.empty()) {
     Result<HeadLog> head = isSweep(arguments.head) ? parseSweep(arguments.head)
                                                    : readHeadLog(arguments.head, BadRows::leave_out);
     report(head.findings());
     usable = head && usable;
-    if (head) setup.head = std::move(head).value();
+    if (head) setup.hold.head = std::move(head).value();
   }
   const auto terrain = terrain::openOrBake(arguments.terrain, terrain::cacheFolder(), setup.progress);
   report(terrain.findings());
@@ -50,7 +51,6 @@ std::optional<experiment::Setup> setupFrom(const SetupArguments& arguments) {
   setup.presetName = arguments.preset;
   setup.repeats = arguments.repeats;
   setup.hostRateHz = arguments.hostRateHz;
-  setup.fixedSettings = arguments.fixedSettings;
   return setup;
 }
 

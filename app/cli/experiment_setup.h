@@ -15,7 +15,7 @@ struct SetupArguments {
   std::vector<std::string> settings;
   int repeats = 3;
   double hostRateHz = 200;
-  bool fixedSettings = false;
+  experiment::HoldSetup hold;
   std::string head;  ///< a log or a sweep; empty: none
 
   void addTo(CLI::App& command);

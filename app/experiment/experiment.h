@@ -18,18 +18,27 @@
 /// of its own, current on the calling thread.
 namespace trimtab::experiment {
 
+/// What the experiment on the budget flies.
+struct HoldSetup {
+  std::optional<HeadLog> head;     ///< if unset, a scripted sweep
+  std::optional<double> budgetMs;  ///< if unset, 0.6 of the median image of mode *off*
+  double flightS = 6;              ///< seconds of the flight, from its middle
+  /// Of the strains only those whose name contains this: "sweep", "head log", "weather" or "steady".
+  std::string strain;
+  bool fixedSettings = false;  ///< also flies every fixed setting
+};
+
 struct Setup {
   std::shared_ptr<const terrain::Database> terrain;
   std::string terrainName;
   std::optional<Flight> flight;  ///< the places to look from; if unset, the experiment chooses them
-  std::optional<HeadLog> head;   ///< of the experiment on the budget; if unset, a scripted sweep
   TuningParameters parameters;
   std::string presetName;
   int widthPx = 1280, heightPx = 720;
-  bool fixedSettings = false;  ///< the experiment on the budget also flies every fixed setting
-  int repeats = 3;             ///< frames per view, of which the median counts
-  std::size_t frames = 24;     ///< moments of the flight, for leverage
-  double hostRateHz = 200;     ///< states a second, for the experiments on head motion
+  HoldSetup hold;
+  int repeats = 3;          ///< frames per view, of which the median counts
+  std::size_t frames = 24;  ///< moments of the flight, for leverage
+  double hostRateHz = 200;  ///< states a second, for the experiments on head motion
   /// Called now and then; returning false cancels.
   std::function<bool(double fraction, const std::string& what)> progress;
 };

@@ -6,11 +6,11 @@
 
 #include "hold_run.h"
 #include "trimtab/host/head_log.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab::experiment {
 namespace {
 
-constexpr double kFlightS = 6;
 constexpr std::size_t kMeasured = 6;
 constexpr std::array kFixedErrorsPx{1.0, 2.0, 4.0, 8.0};
 constexpr std::array kFixedScales{1.0, 0.7, 0.5};
@@ -27,6 +27,27 @@ std::size_t changes(const std::vector<double>& values, const Strain& strain) {
   for (std::size_t i = strain.from; i < values.size(); ++i)
     count += i > 0 && std::abs(values[i] / values[i - 1] - 1) > 0.01;
   return count;
+}
+
+/// What came of the levers after the strain.
+struct Settling {
+  double ms;                 ///< from the end of the strain until they stay; NaN without images after it
+  double slowestOverMedian;  ///< of the images until then, over the median of those that follow
+};
+Settling settlingOf(const HoldRun& run, const Strain& strain) {
+  const std::size_t end = run.ms.size();
+  if (strain.to >= end) return {kNan, kNan};
+  const auto isFinal = [&](std::size_t i) {
+    return std::abs(run.errorPx[i] / run.errorPx.back() - 1) < 0.01 &&
+           std::abs(run.renderScale[i] - run.renderScale.back()) < 0.01 &&
+           std::abs(run.particles[i] - run.particles.back()) < 0.01;
+  };
+  std::size_t settled = end;
+  while (settled > strain.to && isFinal(settled - 1)) --settled;
+  const auto at = [&](std::size_t i) { return run.ms.begin() + std::ptrdiff_t(i); };
+  const double seconds = strain.states[settled].time - strain.states[strain.to].time;
+  return {1e3 * seconds, *std::max_element(at(strain.to), at(settled) + 1) /
+                             quantileOf(std::vector<double>(at(settled), at(end)), 0.5)};
 }
 
 double flipOf(const HoldRun& run, double ExposedError::*which) {
@@ -53,14 +74,27 @@ void addRow(Table& table, const Strain& strain, const std::string& mode, double 
     return values.empty() ? Cell() : Cell(value);
   };
   const double slowest = quantileOf(ofStrain(off.ms, strain), 1) / quantileOf(ms, 1);
-  table.rows.push_back({strain.name, mode, budgetMs, quantileOf(ms, 0.5), quantileOf(ms, 0.95),
-                        quantileOf(ms, 0.99), quantileOf(ms, 1), slowest, quantileOf(ms, 0.99) / budgetMs,
-                        over(1.1), flipOf(run, &ExposedError::sharp), flipOf(run, &ExposedError::smeared),
+  const Settling settling = settlingOf(run, strain);
+  table.rows.push_back({strain.name,
+                        mode,
+                        budgetMs,
+                        quantileOf(ms, 0.5),
+                        quantileOf(ms, 0.95),
+                        quantileOf(ms, 0.99),
+                        quantileOf(ms, 1),
+                        slowest,
+                        quantileOf(ms, 0.99) / budgetMs,
+                        over(1.1),
+                        flipOf(run, &ExposedError::sharp),
+                        flipOf(run, &ExposedError::smeared),
                         double(changes(run.errorPx, strain)),
                         *std::min_element(run.particles.begin(), run.particles.end()),
                         orNone(triangles, triangles.empty() ? 0 : quantileOf(triangles, 0.5)),
                         orNone(times, times.empty() ? 0 : quantileOf(times, 0.5)),
-                        orNone(times, times.empty() ? 0 : covered / double(times.size())), run.lookMs});
+                        orNone(times, times.empty() ? 0 : covered / double(times.size())),
+                        run.lookMs,
+                        std::isnan(settling.ms) ? Cell() : Cell(settling.ms),
+                        std::isnan(settling.ms) ? Cell() : Cell(settling.slowestOverMedian)});
 }
 
 Plot plotOf(const Strain& strain, const Runs& runs, double budgetMs, std::size_t number) {
@@ -150,13 +184,22 @@ Result<std::vector<Strain>> strainsOf(const Setup& setup, std::vector<std::strin
   eye.height = eye.height + Feet{2000}.as<Metres>();
   strains.push_back(sweepStrain(eye));
   const Result<HeadLog> builtIn = parseSweep(kBuiltInHead);
-  if (!setup.head && !builtIn) return builtIn.findings();
-  const HeadLog& head = setup.head ? *setup.head : *builtIn;
+  if (!setup.hold.head && !builtIn) return builtIn.findings();
+  const HeadLog& head = setup.hold.head ? *setup.hold.head : *builtIn;
+  const double seconds = setup.hold.flightS;
   for (const std::optional<Strain>& strain :
-       {headStrain(setup, head, kFlightS), weatherStrain(setup, kFlightS), steadyStrain(setup, kFlightS)})
+       {headStrain(setup, head, seconds), weatherStrain(setup, seconds), steadyStrain(setup, seconds)})
     if (strain) strains.push_back(*strain);
-  if (strains.size() == 1)
-    notes.push_back("Without a flight over the terrain for 6 s in its middle only the sweep was flown.");
+  char text[120];
+  std::snprintf(text, sizeof text,
+                "Without a flight over the terrain for %g s in its middle only the sweep was flown.",
+                seconds);
+  if (strains.size() == 1) notes.push_back(text);
+  std::erase_if(strains, [&](const Strain& strain) {
+    return strain.name.find(setup.hold.strain) == std::string::npos;
+  });
+  if (strains.empty())
+    return Finding{Severity::error, "strain", {}, "a flight over the terrain for so many seconds", text};
   return strains;
 }
 
@@ -171,13 +214,14 @@ Result<Report> runHold(const Setup& setup) {
   meter.setTerrain(setup.terrain);
   Report report{"hold", "C, D: what is left open", (*stage)->machine(), {}, {}, {}, {}};
   report.measured.columns = {
-      "strain",       "mode",           "budget_ms",       "frame_ms_median", "frame_ms_p95",  "frame_ms_p99",
-      "frame_ms_max", "slowest_gain",   "p99_over_budget", "share_over_1_1",  "flip_mean",     "flip_smeared",
-      "lod_changes",  "particles_kept", "triangles_error", "ms_error",        "band_coverage", "request_ms"};
+      "strain",       "mode",          "budget_ms",    "frame_ms_median", "frame_ms_p95",
+      "frame_ms_p99", "frame_ms_max",  "slowest_gain", "p99_over_budget", "share_over_1_1",
+      "flip_mean",    "flip_smeared",  "lod_changes",  "particles_kept",  "triangles_error",
+      "ms_error",     "band_coverage", "request_ms",   "settled_ms",      "settling_max_over_median"};
   const Result<std::vector<Strain>> strains = strainsOf(setup, report.notes);
   if (!strains) return strains.findings();
   CostModel model;
-  const double most = double(kHoldModes.size() + (setup.fixedSettings ? kFixedSettings : 0));
+  const double most = double(kHoldModes.size() + (setup.hold.fixedSettings ? kFixedSettings : 0));
   for (std::size_t s = 0; s < strains->size(); ++s) {
     const Strain& strain = (*strains)[s];
     Runs runs;
@@ -203,21 +247,29 @@ Result<Report> runHold(const Setup& setup) {
                            [&](double part) { return desk.go(double(m) + part, kHoldModes[m]); });
       if (!run) return cancelled();
       runs[m] = *run;
-      if (mode == HoldMode::off) budgetMs = kHeldPart * quantileOf(ofStrain(run->ms, strain), 0.5);
+      if (mode == HoldMode::off)
+        budgetMs = setup.hold.budgetMs.value_or(kHeldPart * quantileOf(ofStrain(run->ms, strain), 0.5));
     }
     for (std::size_t m = 0; m < runs.size(); ++m)
       addRow(report.measured, strain, kHoldModes[m], budgetMs, runs[m], runs[0]);
-    if (setup.fixedSettings && !addFixed(desk, strain, every, budgetMs, runs, report)) return cancelled();
+    if (setup.hold.fixedSettings && !addFixed(desk, strain, every, budgetMs, runs, report))
+      return cancelled();
     report.plots.push_back(plotOf(strain, runs, budgetMs, s + 1));
   }
-  char text[500];
+  char budget[60];
+  if (setup.hold.budgetMs)
+    std::snprintf(budget, sizeof budget, "%g ms", *setup.hold.budgetMs);
+  else
+    std::snprintf(budget, sizeof budget, "%g of the median image of mode off", kHeldPart);
+  char text[600];
   std::snprintf(
       text, sizeof text,
-      "%s, preset %s, %d x %d. The budget is %.1f of the median image of mode off. Work time of each "
-      "image, one pass a mode; FLIP of %zu images against the finest levels, flip_smeared with both smeared "
-      "by the exposure. slowest_gain is the slowest image of off over that of the mode.",
-      setup.terrainName.c_str(), setup.presetName.c_str(), setup.widthPx, setup.heightPx, kHeldPart,
-      kMeasured);
+      "%s, preset %s, %d x %d. The budget is %s. Work time of each image, "
+      "one pass a mode; FLIP of %zu images against the finest levels, flip_smeared with both smeared by the "
+      "exposure. slowest_gain is the slowest image of off over that of the mode. settled_ms is the time "
+      "from "
+      "the end of the strain until the levers stay.",
+      setup.terrainName.c_str(), setup.presetName.c_str(), setup.widthPx, setup.heightPx, budget, kMeasured);
   report.notes.insert(report.notes.begin(), text);
   return report;
 }

@@ -21,7 +21,8 @@ constexpr std::size_t kErrorPlaces = 73, kCoarse = 4;
 constexpr double kReserve = 0.06;
 /// Head-room must win at least this part of the loss: less is not worth a change.
 constexpr double kWorthwhile = 0.02;
-constexpr double kLongestStepMs = 250;
+/// No image counts for more than this part of the calm that restoring waits for, however far the clock jumps.
+constexpr double kMostOfCalm = 1.0 / 3;
 /// Triangles that change by more than this part from image to image belong to a view that turns.
 constexpr double kSteady = 0.01;
 
@@ -174,10 +175,10 @@ HoldSteps raised(const HoldSteps& from, const HoldSteps& to) {
 }
 
 /// The time since the last image, milliseconds, as far as it can be believed.
-double passed(const HoldGiven& given, HoldMemory& memory) {
+double passed(const HoldGiven& given, double calmMs, HoldMemory& memory) {
   const double ms = memory.begun ? (given.timeS - memory.timeS) * 1e3 : 0;
   if (std::isfinite(given.timeS)) memory.timeS = given.timeS;
-  return ms > 0 ? std::min(ms, kLongestStepMs) : 0;
+  return ms > 0 ? std::min(ms, kMostOfCalm * calmMs) : 0;
 }
 
 /// Notes the triangles of this image, and returns whether they have been steady for so long.
@@ -237,7 +238,7 @@ FrameLoad loadOf(const HoldGiven& given, const HeldLevers& levers, double triang
 HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemory& memory) {
   HoldDecision d;
   d.asked = d.held = given.asked;
-  const double ms = passed(given, memory);
+  const double ms = passed(given, p.calm.value(), memory);
   const bool budget = given.budgetMs > 0 && std::isfinite(given.budgetMs);
   if (!p.enabled || !budget || !given.cost.known || !isNumber(given)) {
     d.reason = !p.enabled ? HoldReason::off : !budget ? HoldReason::no_budget : HoldReason::cost_unknown;

@@ -1,6 +1,7 @@
 #include "trimtab/hold/cost_model_file.h"
 
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -75,11 +76,14 @@ Result<CostModel::State> readCostModel(const std::filesystem::path& file, const 
   });
   if (!bad && !text.empty()) bad = finding(line + 1, "the end of the file", takeLine(text));
   if (bad) return *bad;
+  if (!state.ground.canBe() || !state.weather.canBe() || !state.blur.canBe() || state.other < 0 ||
+      state.band < 0)
+    return finding(3, "a model that was learned: costs and variances of at least 0", "other numbers");
   return state;
 }
 
 Findings recallCostModel(CostModel& model, const std::string& machine) {
-  const std::filesystem::path file = costModelFile();
+  const std::filesystem::path file = costModelFile(machine);
   std::error_code error;
   if (file.empty() || !std::filesystem::exists(file, error)) return {};
   const Result<CostModel::State> state = readCostModel(file, machine);
@@ -89,16 +93,21 @@ Findings recallCostModel(CostModel& model, const std::string& machine) {
 
 Findings rememberCostModel(const CostModel& model, const std::string& machine) {
   constexpr std::size_t kWorthWriting = 100;
-  const std::filesystem::path file = costModelFile();
+  const std::filesystem::path file = costModelFile(machine);
   if (file.empty() || model.images() < kWorthWriting) return {};
   return writeCostModel(file, machine, model).findings();
 }
 
-std::filesystem::path costModelFile() {
+std::filesystem::path costModelFile(const std::string& machine) {
+  constexpr std::size_t kLongest = 100;
+  std::string name = machine.substr(0, kLongest);
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '-';
+  const std::filesystem::path inCaches = std::filesystem::path("trimtab") / ("cost-model-" + name + ".txt");
   if (const char* caches = std::getenv("XDG_CACHE_HOME"); caches != nullptr && *caches != '\0')
-    return std::filesystem::path(caches) / "trimtab" / "cost-model.txt";
+    return caches / inCaches;
   if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
-    return std::filesystem::path(home) / ".cache" / "trimtab" / "cost-model.txt";
+    return std::filesystem::path(home) / ".cache" / inCaches;
   return {};
 }
 

@@ -142,8 +142,9 @@ TriangleLadder countTriangles(const TerrainIndex& index, const LoadView& view, c
                               std::vector<std::uint64_t>& stack) {
   constexpr double kTriangles = 2.0 * TerrainIndex::kTileCells * TerrainIndex::kTileCells;
   Ladder ladder;
-  walkTiles(index, view, rule, kErrorSteps, stack,
-            [&](std::uint32_t, std::size_t first, std::size_t below) { ladder.add(first, below, kTriangles); });
+  walkTiles(index, view, rule, kErrorSteps, stack, [&](std::uint32_t, std::size_t first, std::size_t below) {
+    ladder.add(first, below, kTriangles);
+  });
   return ladder.sums();
 }
 

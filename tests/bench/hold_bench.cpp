@@ -87,9 +87,8 @@ void look(Report& report, const std::shared_ptr<const terrain::Database>& terrai
     flight.session().finished(drawn, 0);
   });
   FrameRequest last = flight.next();
-  const double names = leastSeconds(report.quick() ? 50 : 400, [&] {
-    keep(flight.session().nodesAhead(last).size());
-  });
+  const double names =
+      leastSeconds(report.quick() ? 50 : 400, [&] { keep(flight.session().nodesAhead(last).size()); });
   const double image = drawn.cost.total;
   const auto add = [&](const char* id, const char* what, double seconds) {
     report.add(ratioAtMost(0.02, {.id = id,

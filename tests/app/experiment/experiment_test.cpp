@@ -262,6 +262,18 @@ TEST_F(Experiment, holdFliesTheSweepInFourModesAndPredictsInOne) {
     EXPECT_EQ(std::isnan(rows.number(row, "triangles_error")), row != 3) << row;
   }
   EXPECT_EQ(rows.number(0, "lod_changes"), 0);
+  EXPECT_EQ(rows.number(0, "settled_ms"), 0) << "nothing was lowered";
+  EXPECT_LE(rows.number(3, "settled_ms"), 1000) << "the sweep rests for a second";
+  // Another budget, and only what was asked for.
+  experiment::Setup other = setup();
+  other.hold.budgetMs = 500;
+  other.hold.strain = "sweep";
+  const auto generous = runHold(other);
+  ASSERT_TRUE(generous) << toString(generous.findings());
+  EXPECT_EQ(generous->measured.number(3, "budget_ms"), 500);
+  EXPECT_EQ(generous->measured.number(3, "lod_changes"), 0);
+  other.hold.strain = "steady";
+  EXPECT_FALSE(runHold(other)) << "there is no flight";
   // The index counts what the renderer draws, three images ahead.
   EXPECT_LT(rows.number(3, "triangles_error"), 0.25);
   ASSERT_EQ(report->plots.size(), 1u);

@@ -289,6 +289,17 @@ TEST(Arbiter, aClockThatStandsOrGoesBackNeverRestores) {
   }
 }
 
+TEST(Arbiter, aClockThatJumpsAheadDoesNotRestore) {
+  HoldMemory memory;
+  HoldGiven heavy = given();
+  heavy.budgetMs = 20;
+  arbitrate(heavy, enabled(), memory);
+  // Two jumps of an hour are not calm; three images are.
+  EXPECT_EQ(arbitrate(given(3600), enabled(), memory).reason, HoldReason::held);
+  EXPECT_EQ(arbitrate(given(7200), enabled(), memory).reason, HoldReason::held);
+  EXPECT_EQ(arbitrate(given(7200.3), enabled(), memory).reason, HoldReason::restored);
+}
+
 TEST(Arbiter, neverGoesBeyondTheEngineersLimits) {
   HoldMemory memory;
   HoldParameters p = enabled();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -215,6 +216,51 @@ TEST_F(CostModelFile, ofAnotherMachineIsDistrusted) {
   const auto state = readCostModel(file, "a GPU");
   ASSERT_FALSE(state.ok());
   EXPECT_NE(toString(state.findings()).find("llvmpipe"), std::string::npos);
+}
+
+TEST_F(CostModelFile, numbersThatNoModelCanHaveAreRefused) {
+  const CostModel::State good = learned().state();
+  ASSERT_TRUE(good.ground.canBe() && good.weather.canBe() && good.blur.canBe());
+  const auto refused = [&](const auto& spoil) {
+    CostModel::State state = good;
+    spoil(state);
+    CostModel model;
+    model.restore(state);
+    EXPECT_TRUE(writeCostModel(file, "llvmpipe", model).ok());
+    return !readCostModel(file, "llvmpipe").ok();
+  };
+  EXPECT_FALSE(refused([](CostModel::State&) {}));
+  EXPECT_TRUE(refused([](CostModel::State& s) { s.ground.coefficient[1] = -1e-6; }));
+  EXPECT_TRUE(refused([](CostModel::State& s) { s.ground.noise = -1; }));
+  EXPECT_TRUE(refused([](CostModel::State& s) { s.weather.noise = 0; }));
+  EXPECT_TRUE(refused([](CostModel::State& s) { s.ground.covariance[0][0] = -1e6; }));
+  EXPECT_TRUE(refused([](CostModel::State& s) { s.ground.covariance[0][1] *= 1.5; }));
+  EXPECT_TRUE(
+      refused([](CostModel::State& s) { s.ground.covariance[0][1] = s.ground.covariance[1][0] = 1e9; }));
+  EXPECT_TRUE(refused([](CostModel::State& s) { s.other = -1; }));
+}
+
+TEST_F(CostModelFile, everyMachineKeepsItsOwn) {
+  const char* const set = std::getenv("XDG_CACHE_HOME");
+  const std::string before = set ? set : "";
+  ::setenv("XDG_CACHE_HOME", folder.c_str(), 1);
+  Machine machine;
+  CostModel model, other;
+  for (int i = 0; i < 150; ++i) {
+    const FrameLoad load = machine.nextLoad();
+    model.observe(load, machine.cost(load));
+  }
+  EXPECT_TRUE(recallCostModel(other, "GPU/one (rev 2)").empty())
+      << "nothing is there yet, which is no finding";
+  EXPECT_TRUE(rememberCostModel(model, "GPU/one (rev 2)").empty());
+  EXPECT_TRUE(rememberCostModel(model, "llvmpipe").empty());
+  EXPECT_NE(costModelFile("GPU/one (rev 2)"), costModelFile("llvmpipe"));
+  EXPECT_EQ(costModelFile("GPU/one (rev 2)").parent_path(), costModelFile("llvmpipe").parent_path());
+  EXPECT_TRUE(recallCostModel(other, "GPU/one (rev 2)").empty());
+  EXPECT_EQ(other.state().ground.coefficient, model.state().ground.coefficient);
+  EXPECT_TRUE(rememberCostModel(learned(), "new").empty());
+  EXPECT_FALSE(std::filesystem::exists(costModelFile("new"))) << "50 images are not worth it";
+  set ? ::setenv("XDG_CACHE_HOME", before.c_str(), 1) : ::unsetenv("XDG_CACHE_HOME");
 }
 
 TEST_F(CostModelFile, damageIsSaidWithItsLine) {

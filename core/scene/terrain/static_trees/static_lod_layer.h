@@ -40,7 +40,8 @@ class StaticLodLayer {
 
   /// Uploads tiles of nodes in order until `deadline`, for coming frames, as far as there is room without
   /// giving up others. Returns how many.
-  std::size_t buildAhead(std::span<const std::uint32_t> nodes, std::chrono::steady_clock::time_point deadline);
+  std::size_t buildAhead(std::span<const std::uint32_t> nodes,
+                         std::chrono::steady_clock::time_point deadline);
 
   /// One multi-draw, in order. The program in use reads attributes 0 position, 1 normal, 2 texture
   /// coordinates (0 where the terrain kept none), 3 colour.

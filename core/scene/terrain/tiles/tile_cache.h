@@ -37,7 +37,8 @@ class TileCache {
   std::size_t prepare(std::span<const TileDraw> tiles, bool anew = false);
 
   /// Builds tiles that lack a slot, in order, until `deadline`, for coming frames. Returns how many.
-  std::size_t buildAhead(std::span<const std::uint32_t> nodes, std::chrono::steady_clock::time_point deadline);
+  std::size_t buildAhead(std::span<const std::uint32_t> nodes,
+                         std::chrono::steady_clock::time_point deadline);
 
   /// Draws tiles in order; those without a slot are skipped. The program in use reads attributes 0 position,
   /// 1 normal, 2 slope, 3 colour.

@@ -13,13 +13,13 @@ namespace trimtab {
 /// the old one or the whole new one, whatever happens on the way.
 Result<Done> writeCostModel(const std::filesystem::path& file, const std::string& machine,
                             const CostModel& model);
-/// Reads a model. Damage, and a model of another machine, are findings that name what was found; a caller
-/// then begins without one.
+/// Reads a model. Damage, numbers that no model can have, and a model of another machine are findings that
+/// name what was found; a caller then begins without one.
 Result<CostModel::State> readCostModel(const std::filesystem::path& file, const std::string& machine);
 
-/// Returns where programs keep the model: cost-model.txt in trimtab's folder of the user's caches
-/// (XDG_CACHE_HOME, else ~/.cache). Empty if there is neither.
-std::filesystem::path costModelFile();
+/// Returns where programs keep the model of a machine: a file of its own, named after it, in trimtab's folder
+/// of the user's caches (XDG_CACHE_HOME, else ~/.cache). Empty if there is neither.
+std::filesystem::path costModelFile(const std::string& machine);
 
 /// Gives the model what costModelFile() knows of this machine. A file that is missing is no finding; one that
 /// cannot be used is, and the model stays as it is.

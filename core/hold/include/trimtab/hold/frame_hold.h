@@ -45,10 +45,10 @@ class FrameHold {
   void finished(const FrameResult& result, const FrameCost& cost);
 
   /// Names the nodes of tiles or of static trees that coming images may draw, the likeliest first:
-  /// those of the view after `drawn` that is farthest ahead, the same at twice the allowed error, to which the
-  /// arbiter may have to go, and while there is head-room those of the error that was asked for, to which it
-  /// returns in one step. A name may come twice. `drawn` is the last request as it was drawn. It stays valid
-  /// until the next call.
+  /// those of the view after `drawn` that is farthest ahead, the same at twice the allowed error, to which
+  /// the arbiter may have to go, and while there is head-room those of the error that was asked for, to which
+  /// it returns in one step. A name may come twice. `drawn` is the last request as it was drawn. It stays
+  /// valid until the next call.
   std::span<const std::uint32_t> nodesAhead(const FrameRequest& drawn, std::span<const ComingEye> coming);
 
   const HoldMemory& memory() const { return memory_; }

@@ -62,6 +62,24 @@ class LinearCost {
     Quantities scale{};  ///< of each coefficient, from the first image
     double noise = 0;    ///< variance of a time around its prediction
     double images = 0;
+
+    /// Reports whether it can have been learned: costs, scales and variances are at least 0, no covariance
+    /// exceeds what its variances allow, and if it has learned, a time has a variance.
+    bool canBe() const {
+      const auto isBelow = [](double low, double value) { return !(low <= value) || !std::isfinite(value); };
+      if (isBelow(0, noise) || isBelow(0, images) || (images > 0 && noise == 0)) return false;
+      for (std::size_t i = 0; i < N; ++i) {
+        if (isBelow(0, coefficient[i]) || isBelow(0, scale[i]) || isBelow(0, covariance[i][i])) return false;
+        for (std::size_t j = 0; j < i; ++j) {
+          const double both = covariance[i][i] * covariance[j][j],
+                       square = covariance[i][j] * covariance[i][j];
+          // Rounding may leave them a little apart.
+          if (isBelow(square, both * (1 + 1e-6)) && square > 1e-12 * both) return false;
+          if (std::abs(covariance[i][j] - covariance[j][i]) > 1e-6 * std::sqrt(both)) return false;
+        }
+      }
+      return true;
+    }
   };
   const State& state() const { return state_; }
   /// Takes a state that was saved. Its uncertainty grows to at least a part of its coefficients, because the
@@ -88,8 +106,8 @@ class LinearCost {
     state_.noise = 0.01 * ms * ms;
   }
 
-  /// A coefficient below 0 becomes 0, and the others take what it explained, as far as they are uncertain. Left
-  /// to themselves they would predict too much for as long as it stays at 0.
+  /// A coefficient below 0 becomes 0, and the others take what it explained, as far as they are uncertain.
+  /// Left to themselves they would predict too much for as long as it stays at 0.
   void keepCostsPositive() {
     for (std::size_t pass = 0; pass < N; ++pass) {
       const auto least = std::min_element(state_.coefficient.begin(), state_.coefficient.end());
