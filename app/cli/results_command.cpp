@@ -1,6 +1,4 @@
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -8,6 +6,7 @@
 #include "app/harness/report.h"
 #include "app/harness/text.h"
 #include "commands.h"
+#include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
 
 namespace trimtab::cli {
@@ -21,9 +20,9 @@ struct ResultsOptions {
 
 Result<harness::Results> readResults(const std::filesystem::path& folder) {
   const std::filesystem::path file = std::filesystem::is_directory(folder) ? folder / "results.json" : folder;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return Finding{Severity::error, file.string(), {}, "the results of a bench run", "no such file"};
-  return harness::parseResults(std::string(std::istreambuf_iterator<char>(in), {}), file.string());
+  const Result<std::string> text = readWhole(file);
+  if (!text) return text.findings();
+  return harness::parseResults(*text, file.string());
 }
 
 /// Units of all runs side by side. Flights are told apart by their terrain too.

@@ -27,7 +27,7 @@ void onSignal(int) {
   if (::write(signalPipe[1], &byte, 1) < 0) _exit(130);
 }
 
-/// SIGINT and SIGTERM end the event loop; what an async handler may do is one write.
+/// SIGINT, SIGTERM and SIGHUP (a terminal that is lost) end the event loop; what an async handler may do is one write.
 void endOnSignals(QApplication& app, trimtab::workbench::MainWindow& window) {
   if (::socketpair(AF_UNIX, SOCK_STREAM, 0, signalPipe) != 0) return;
   auto* notifier = new QSocketNotifier(signalPipe[0], QSocketNotifier::Read, &app);
@@ -40,6 +40,7 @@ void endOnSignals(QApplication& app, trimtab::workbench::MainWindow& window) {
   action.sa_flags = SA_RESTART;
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
+  ::sigaction(SIGHUP, &action, nullptr);
 }
 
 /// While QApplication is made: Qt would abort where there is no display to be had.

@@ -56,6 +56,7 @@ class Review {
 
   Findings run() {
     unusedTerms();
+    rulesWithoutWeight();
     rulesThatNeverFire();
     collectPairs();
     const PolicySamples samples(policy_, asked_);
@@ -93,6 +94,13 @@ class Review {
             "a rule that asks for the term",
             inAny ? "only rules that are switched off or have no weight" : "none");
     }
+  }
+
+  /// A rule of weight 0 looks like one that works.
+  void rulesWithoutWeight() {
+    for (std::size_t r = 0; r < policy_.rules.size(); ++r)
+      if (policy_.rules[r].enabled && !(policy_.rules[r].weight > 0))
+        add(Severity::warning, ruleKey(r), "a weight above 0, or a rule that is switched off", "weight 0");
   }
 
   /// Each rule by itself, over its own signals, where a region is found sooner than among all signals.

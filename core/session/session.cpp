@@ -148,10 +148,13 @@ std::optional<Metres> Session::groundBelow(const AircraftState& state) const {
   const CompiledPolicy* const policy = parameters_.policy();
   const bool asked = parameters_->altitude.reference == AltitudeReference::above_ground ||
                      (policy != nullptr && policy->asks(Signal::above_ground));
-  if (!asked || !ground_) return std::nullopt;
-  const std::optional<Metres> ground = ground_->heightAt(state.position.latitude, state.position.longitude);
-  if (!ground) return std::nullopt;
-  return state.position.height - *ground;
+  return asked ? heightOverTerrain(state) : std::nullopt;
+}
+
+std::optional<Metres> Session::heightOverTerrain(const AircraftState& state) const {
+  const std::optional<Metres> ground =
+      ground_ ? ground_->heightAt(state.position.latitude, state.position.longitude) : std::nullopt;
+  return ground ? std::optional(state.position.height - *ground) : std::nullopt;
 }
 
 /// Only if the decision wants it, so that traces of other presets do not depend on the terrain.
@@ -173,8 +176,10 @@ FrameInput Session::inputFor(const AircraftState& state) const {
 /// Derives the signals of the policy, if there is one, from the state that is about to be decided.
 void Session::trackSignals(FrameInput& input) {
   if (parameters_.policy() == nullptr) return;
-  signals_.push(input.state, input.aboveGround, velocityOf(input.state),
-                decideWeather(input.state, *parameters_));
+  // An engineer sees the signal before a rule asks for it.
+  const std::optional<Metres> aboveGround =
+      input.aboveGround ? input.aboveGround : heightOverTerrain(input.state);
+  signals_.push(input.state, aboveGround, velocityOf(input.state), decideWeather(input.state, *parameters_));
   input.signalValues = signals_.values();
 }
 

@@ -93,6 +93,34 @@ TEST_F(IgTrust, fliesOnWhenATerrainIsCutShort) {
   EXPECT_TRUE(fs::exists(dir_ / "trace.csv"));
 }
 
+TEST_F(IgTrust, hearsOnlyTheAddressAndTheSenderThatItWasGiven) {
+  for (const bool allowed : {true, false}) {
+    IgProcess ig(arguments(test::smallTerrain(), {"--listen", "0", "--bind", "127.0.0.2", "--from",
+                                                  allowed ? "127.0.0.1" : "127.0.0.3"}));
+    const std::uint16_t port = ig.port();
+    ASSERT_NE(port, 0);
+    EXPECT_NE(ig.err().find("of 127.0.0.2"), std::string::npos) << ig.err();
+    link::PlayOptions here, elsewhere;
+    here.to.address = "127.0.0.2";
+    here.to.port = elsewhere.to.port = port;
+    const auto other = link::FeedPlayer::start(test::weavingFlight(1), elsewhere);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    EXPECT_FALSE(fs::exists(dir_ / "trace.csv.part") && fs::file_size(dir_ / "trace.csv.part") > 5000);
+    const auto player = link::FeedPlayer::start(test::weavingFlight(30), here);
+    ASSERT_TRUE(player);
+    const auto flies = [&] {
+      return fs::exists(dir_ / "trace.csv.part") && fs::file_size(dir_ / "trace.csv.part") > 5000;
+    };
+    if (allowed)
+      EXPECT_TRUE(ig.until(flies));
+    else
+      std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    ig.signal(SIGTERM);
+    EXPECT_EQ(ig.end(), allowed ? 0 : 1) << "without a packet there is no image for a screenshot" << ig.err();
+    EXPECT_EQ(ig.summary()["packets"].get<int>() > 0, allowed);
+  }
+}
+
 TEST_F(IgTrust, endsAlikeHoweverItIsAskedToStop) {
   for (const std::vector<int>& signals :
        std::vector<std::vector<int>>{{SIGINT}, {SIGTERM}, {SIGHUP}, {SIGTERM, SIGTERM}, {SIGHUP, SIGTERM}}) {

@@ -223,6 +223,20 @@ TEST(PresetCommand, waitsForNoPipeThatNobodyFills) {
   }
 }
 
+TEST(TrimtabCli, waitsForNoPipeAsTerrainOrResults) {
+  const test::ScratchDir dir;
+  const std::string pipe = (dir / "pipe").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const auto& [command, found] :
+       {std::pair{"terrain bake " + pipe + " -o " + (dir / "db").string(), "a pipe or a device"},
+        {"terrain bake /dev/zero -o " + (dir / "db").string(), "a pipe or a device"},
+        {"results " + pipe, "a pipe that ends"}}) {
+    const Ran ran = test::run("timeout 20 " + test::program("trimtab-cli").string() + " " + command);
+    EXPECT_EQ(ran.exitCode, 1) << command;
+    EXPECT_THAT(ran.err, HasSubstr(found)) << command;
+  }
+}
+
 TEST(PresetCommand, saysWhenStandardOutputIsFull) {
   const std::string cli = test::program("trimtab-cli").string();
   for (const char* command :

@@ -50,7 +50,7 @@ struct Fixed {
                     levers[row.lever]);
       text += value;
     }
-    return text;
+    return text.empty() ? "default" : text;
   }
 };
 
@@ -62,32 +62,29 @@ struct Drawn {
   double meanFlip() const { return experiment::meanOf(flip); }
 };
 
-/// All settings that a policy is compared with: the allowed error over its usual range, alone and with one
-/// value of each other lever that the policy moves.
+/// All settings that a policy is compared with: each allowed error of its usual range with each value of
+/// every other lever that the policy moves. The first is the preset without its policy, which is `default`.
 std::vector<Fixed> gridFor(const CompiledPolicy& policy, bool quick) {
-  std::vector<Fixed> grid;
-  const auto with = [&](double errorPx, std::optional<Lever> lever = {}, double value = 0) {
-    Fixed fixed;
-    fixed.levers[Lever::screen_space_error] = errorPx;
-    if (lever) fixed.levers[*lever] = value;
-    grid.push_back(fixed);
-  };
   const std::vector<double> errors =
       quick ? std::vector<double>{1, 2, 4, 8} : std::vector<double>{1, 1.4, 2, 2.8, 4, 5.6, 8, 11, 16};
-  for (const double error : errors) with(error);
-  const auto both = [&](Lever lever, std::initializer_list<double> values) {
+  std::vector<Fixed> grid;
+  for (const double error : errors) grid.emplace_back().levers[Lever::screen_space_error] = error;
+  const auto multiply = [&](Lever lever, std::initializer_list<double> values) {
     if (!policy.moves(lever)) return;
+    const std::size_t before = grid.size();
     for (const double value : values)
-      for (const double error : {1.0, 2.0, 4.0}) {
-        if (quick && error != 2) continue;
-        with(error, lever, value);
+      for (std::size_t i = 0; i < before; ++i) {
+        Fixed fixed = grid[i];
+        fixed.levers[lever] = value;
+        grid.push_back(fixed);
       }
   };
-  both(Lever::render_scale, {0.9, 0.75, 0.5});
-  both(Lever::lod_scale, {2, 4});
-  both(Lever::far_distance, {0.75, 0.5});
-  both(Lever::particle_density, {0.5, 0.25, 0});
-  both(Lever::blur_strength, {0.5, 0});
+  multiply(Lever::render_scale, {0.9, 0.75, 0.5});
+  multiply(Lever::lod_scale, {2, 4});
+  multiply(Lever::far_distance, {0.75, 0.5});
+  multiply(Lever::particle_density, {0.5, 0.25, 0});
+  multiply(Lever::blur_strength, {0.5, 0});
+  grid.insert(grid.begin(), Fixed{});
   return grid;
 }
 
@@ -295,7 +292,7 @@ void compare(Report& report, const std::string& name) {
   }
   const CompiledPolicy& policy = *valid->policy();
   const std::vector<Fixed> grid = gridFor(policy, report.quick());
-  std::vector<Held> flips, times;
+  std::vector<Held> flips, times, defaults;
   std::vector<std::string> names;
   for (const Scene& scene : scenesFor(name)) {
     const auto drawn = Comparison(scene, preset->parameters, report.quick()).draw(policy, grid);
@@ -305,8 +302,16 @@ void compare(Report& report, const std::string& name) {
     const auto p95 = [](const Drawn& d) { return d.p95(); };
     flips.push_back(bestFixed(drawn, grid, flip, p95));
     times.push_back(bestFixed(drawn, grid, p95, flip));
+    char text[80];
+    std::snprintf(text, sizeof text, "FLIP %.4f, default %.4f", flip(drawn[0]), flip(drawn[1]));
+    defaults.push_back({p95(drawn[0]), p95(drawn[1]), text});
   }
   if (names.empty()) return;
+  Row beside = rowOver("policies." + name + ".default",
+                       "95th percentile of the frame time, beside the preset default on the same flights",
+                       "ms", defaults, names);
+  beside.peer = "default";
+  report.add(ratioAtMost(1, beside));
   report.add(ratioAtMost(
       1, rowOver("policies." + name + ".p95",
                  "95th percentile of the frame time, against the fastest fixed setting of no worse mean FLIP",

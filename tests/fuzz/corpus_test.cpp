@@ -1,5 +1,6 @@
 #include <errno.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
@@ -34,6 +35,15 @@ void feed(const std::string& input) {
   const std::vector<std::uint8_t> exact(input.begin(), input.end());
   LLVMFuzzerTestOneInput(exact.data(), exact.size());
 }
+
+/// The most memory that the program has had at once.
+std::size_t mostMemoryKb() {
+  struct rusage usage = {};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss);
+}
+/// What one large input may add.
+constexpr std::size_t kRoomKb = 64 << 10;
 
 /// What damage looks like: changed, lost, repeated and moved bytes, and pieces of another input.
 std::string mutated(std::string input, const std::string& other, std::mt19937& random) {
@@ -88,6 +98,7 @@ TEST(FuzzCorpus, survivesRandomDamage) {
   std::mt19937 random(seed);
   long count = 0;
   double longest = 0;
+  std::size_t settledKb = 0;  // once caches are full
   const auto goesOn = [&] {
     const std::chrono::duration<double> run = Clock::now() - begin;
     return seconds ? run.count() < std::atof(seconds) : count < TRIMTAB_MUTATIONS;
@@ -98,10 +109,17 @@ TEST(FuzzCorpus, survivesRandomDamage) {
     const auto start = Clock::now();
     feed(input);
     longest = std::max(longest, std::chrono::duration<double>(Clock::now() - start).count());
+    if (settledKb == 0 && seconds &&
+        Clock::now() - begin > std::chrono::duration<double>(std::atof(seconds) / 10))
+      settledKb = mostMemoryKb();
   }
-  if (seconds)
-    std::cout << program_invocation_short_name << ": " << count << " damaged inputs, the longest took "
-              << longest << " s\n";
+  if (!seconds) return;
+  const std::size_t kb = mostMemoryKb();
+  std::cout << program_invocation_short_name << ": " << count << " damaged inputs, the longest took "
+            << longest << " s, most memory " << kb / 1024 << " MiB, " << settledKb / 1024
+            << " MiB after a tenth of the time\n";
+  EXPECT_LT(longest, 1) << "s";
+  EXPECT_LT(kb, settledKb + settledKb / 4 + kRoomKb) << "memory grows";
 }
 
 }  // namespace

@@ -165,7 +165,7 @@ void addStamps(const fs::path& file, std::set<std::string>& seen, std::vector<st
   std::string stamp = stampOf(file);
   if (!seen.insert(stamp).second) return;
   stamps.push_back(std::move(stamp));
-  if (isScenery(file)) return;
+  if (isScenery(file) || neverEnds(file)) return;
   std::vector<fs::path> files;
   {
     const GdalErrors quiet;

@@ -54,4 +54,10 @@ void useGdal() {
   });
 }
 
+bool neverEnds(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  return is_fifo(status) || is_socket(status) || is_character_file(status);
+}
+
 }  // namespace trimtab::terrain

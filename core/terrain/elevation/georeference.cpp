@@ -257,6 +257,8 @@ std::string whatItIs(const fs::path& file, const GdalErrors& errors) {
 }  // namespace
 
 Result<PlacedRaster> openRaster(const fs::path& file, GdalErrors& errors, RasterKind kind) {
+  if (neverEnds(file))
+    return about(Severity::error, file, "", "a raster that GDAL can read", "a pipe or a device");
   // A DTED profile carries a sum that GDAL leaves unread unless it is asked to.
   CPLSetThreadLocalConfigOption("DTED_VERIFY_CHECKSUM", "YES");
   Findings notes;

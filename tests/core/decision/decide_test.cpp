@@ -259,9 +259,19 @@ TEST(Decide, isPureButForItsMemory) {
 TEST(Decide, doesNotAllocate) {
   TuningParameters rules = kDefaults;
   rules.scheme.combination = Combination::rules;
-  for (const ValidatedParameters& p : {defaultParameters(), valid(rules)}) {
+  TuningParameters policy = kDefaults;
+  policy.policy.enabled = true;
+  policy.policy.terms.line = {"altitude low = ramp 8000 2000", "pitch down = ramp 0 -20"};
+  policy.policy.rules.line = {"if altitude is low and not pitch is down then screen_space_error = 4",
+                              "if pitch is down then lod_scale = 2, particle_density = 0.5"};
+  for (const ValidatedParameters& p : {defaultParameters(), valid(rules), valid(policy)}) {
     DecisionMemory memory;
-    const FrameInput inputs[] = {flying(3000, 1), flying(9000, 29), flying(kNan, 0), flying(6500, -12)};
+    FrameInput inputs[] = {flying(3000, 1), flying(9000, 29), flying(kNan, 0), flying(6500, -12)};
+    for (FrameInput& input : inputs) {
+      input.signalValues[Signal::altitude] = input.state.position.height.as<Feet>().value();
+      input.signalValues[Signal::pitch] = input.state.attitude.pitch.value();
+    }
+    decide(inputs[0], p, memory);  // a thread's first decision makes its working storage
     const std::size_t before = allocations;
     for (const FrameInput& input : inputs) decide(input, p, memory);
     EXPECT_EQ(allocations, before);

@@ -67,7 +67,8 @@ TEST(LeverDrive, standsWhileTimeStandsGoesBackOrIsNotANumber) {
   EXPECT_EQ(drive.follow(5, target, neutral())[Lever::render_scale], 0.5);
 }
 
-/// 10,000 random rule bases: steps, ramps, noise and rest on every signal.
+/// 10,000 random rule bases: a step, a ramp, noise and rest on every signal, and one that nobody knows for a
+/// while.
 TEST(LeverDrive, keepsRangeAndRateAndRestsForAnyRuleBase) {
   std::mt19937_64 random(17);
   std::normal_distribution<double> noise;
@@ -81,10 +82,17 @@ TEST(LeverDrive, keepsRangeAndRateAndRestsForAnyRuleBase) {
     SignalValues signals = test::randomSignals(random, policy);
     LeverValues last;
     double t = 1e9 * noise(random);
-    for (int frame = 0; frame < 40; ++frame) {
-      if (frame == 10) signals = test::randomSignals(random, policy);  // a step
+    const SignalValues end = test::randomSignals(random, policy);
+    SignalValues begin;
+    const std::size_t unknown = random() % kSignalRows.size();
+    for (int frame = 0; frame < 50; ++frame) {
+      if (frame == 10) signals = begin = test::randomSignals(random, policy);  // a step
+      if (frame >= 30 && frame <= 40)                                          // a ramp
+        for (std::size_t s = 0; s < kSignalRows.size(); ++s)
+          signals.value[s] = begin.value[s] + (end.value[s] - begin.value[s]) * (frame - 30) / 10;
       SignalValues noisy = signals;
-      if (frame < 30)
+      if (frame >= 15 && frame < 20) noisy.value[unknown] = kNan;
+      if (frame < 40)
         for (const SignalRow& row : kSignalRows)
           noisy[row.signal] += 0.01 * noise(random) * std::min(row.range.high - row.range.low, 1e5);
       const double dt = frame % 7 == 6 ? 0.2 : 0.016;

@@ -73,6 +73,16 @@ TEST(ReviewPolicy, findsATermThatNobodyUses) {
   EXPECT_NE(of(reviewPolicy(policy), "terms.above_ground.high").find("switched off"), std::string::npos);
 }
 
+TEST(ReviewPolicy, findsARuleOfWeightZeroUnlessItIsSwitchedOff) {
+  Policy policy = policyOf(lowAndHigh(), {"if above_ground is low then lod_scale = 1",
+                                          "if above_ground is high then lod_scale = 1.5"});
+  EXPECT_EQ(of(reviewPolicy(policy), "rules.2"), "");
+  policy.rules[1].weight = 0;
+  EXPECT_NE(of(reviewPolicy(policy), "rules.2").find("weight 0"), std::string::npos);
+  policy.rules[1].enabled = false;
+  EXPECT_EQ(of(reviewPolicy(policy), "rules.2"), "");
+}
+
 TEST(ReviewPolicy, findsARuleThatCanNeverFire) {
   struct Case {
     const char* condition;

@@ -74,6 +74,17 @@ TEST(PolicySession, setsWhatTheRequestAsksFor) {
   EXPECT_NE(explain(session.decision(), session.parameters()).find("Load unknown"), std::string::npos);
 }
 
+TEST(PolicySession, knowsTheHeightAboveGroundBeforeARuleAsksForIt) {
+  Session session(with([](TuningParameters& p) {
+    p.policy.terms.line = {"load high = ramp 0.5 2"};
+    p.policy.rules.line = {"if load is high then lod_scale = 4"};
+  }));
+  session.setGround(std::make_shared<FlatGround>());
+  session.fly(flownAt(1, 300));
+  EXPECT_DOUBLE_EQ(session.input().signalValues[Signal::above_ground], Metres{100}.as<Feet>().value());
+  EXPECT_FALSE(session.input().aboveGround) << "no decision depends on it";
+}
+
 TEST(PolicySession, withoutAPolicyNothingIsSetAndNothingIsAsked) {
   Session session(defaultParameters());
   const auto ground = std::make_shared<FlatGround>();

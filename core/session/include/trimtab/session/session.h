@@ -156,6 +156,7 @@ class Session {
   FrameInput inputFor(const AircraftState& state) const;
   void trackSignals(FrameInput& input);
   void holdBudget(FrameRequest& request);
+  std::optional<Metres> heightOverTerrain(const AircraftState& state) const;
   std::optional<Metres> groundBelow(const AircraftState& state) const;
   std::optional<Metres> highestGround() const;
   void follow(const AircraftState& state, double arrival);

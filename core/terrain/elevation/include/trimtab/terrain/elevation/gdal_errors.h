@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "trimtab/units/result.h"
@@ -33,5 +34,8 @@ class GdalErrors {
 
 /// Registers GDAL's drivers, once per process, and limits its block cache.
 void useGdal();
+
+/// Tells whether a name is that of a pipe, a socket or a device, for which GDAL would wait for ever.
+bool neverEnds(const std::filesystem::path& file);
 
 }  // namespace trimtab::terrain
