@@ -208,7 +208,7 @@ TEST_F(BenchCommand, putsSeveralRunsIntoOneTableAndOnePlot) {
             0);
   const test::Ran unlike = test::run(results + ' ' + (dir / "small").string() + ' ' + (dir / "no").string());
   EXPECT_EQ(unlike.exitCode, 1);
-  for (const char* said : {"96x64", "64x48", "no such file"}) EXPECT_THAT(unlike.err, HasSubstr(said));
+  for (const char* said : {"96x64", "64x48", "No such file"}) EXPECT_THAT(unlike.err, HasSubstr(said));
 }
 
 TEST_F(BenchCommand, tellsAllThatIsWrongWithItsInput) {
