@@ -23,7 +23,8 @@ struct HoldSetup {
   std::optional<HeadLog> head;     ///< if unset, a scripted sweep
   std::optional<double> budgetMs;  ///< if unset, 0.6 of the median image of mode *off*
   double flightS = 6;              ///< seconds of the flight, from its middle
-  /// Of the strains only those whose name contains this: "sweep", "head log", "weather" or "steady".
+  /// A word from the name of the one strain to fly: "sweep", "head log", "weather" or "steady". If empty, all
+  /// strains are flown.
   std::string strain;
   bool fixedSettings = false;  ///< also flies every fixed setting
 };

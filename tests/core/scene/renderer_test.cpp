@@ -108,8 +108,7 @@ TEST_F(Renderer, buildsAheadWhatAComingImageDraws) {
   for (const TileDraw& tile : expected.first.visible.tiles) nodes.push_back(tile.node);
   EXPECT_EQ(renderer.buildAhead(nodes, 0), 0u);
   EXPECT_EQ(renderer.buildAhead(nodes, kNan), 0u);
-  // One at least, and then the time is over.
-  EXPECT_GE(renderer.buildAhead(nodes, 1e-6), 0u);
+  EXPECT_LT(renderer.buildAhead(nodes, 1e-6), nodes.size()) << "a nanosecond is over before all are built";
   renderer.buildAhead(nodes, 1e9);
   EXPECT_EQ(renderer.buildAhead(nodes, 1e9), 0u) << "they are there already";
   const auto second = renderer.draw(r, offscreen->framebuffer());
