@@ -78,7 +78,7 @@ std::string toJson(const Leverage& leverage);
 Result<Leverage> parseLeverage(std::string_view json, const std::string& where);
 /// Returns the rows as a table of people's words, with plots, for whoever shows experiments.
 Report toReport(const Leverage& leverage);
-/// Returns one SVG: bars of milliseconds won beside bars of FLIP lost.
+/// Returns one SVG: bars of milliseconds won, of FLIP lost and of geometric pixels lost, with intervals.
 std::string toSvg(const Leverage& leverage);
 /// Writes leverage.json, leverage.csv and leverage.svg, each atomically.
 Result<Done> writeLeverage(const std::filesystem::path& folder, const Leverage& leverage);

@@ -174,12 +174,15 @@ Report toReport(const Leverage& leverage) {
     for (const LeverageRow& row : leverage.rows) {
       plot.categories.emplace_back(rowOf(row.lever).label);
       series.y.push_back((row.*of).median);
+      series.yLow.push_back((row.*of).low);
+      series.yHigh.push_back((row.*of).high);
     }
     plot.series.push_back(std::move(series));
     report.plots.push_back(std::move(plot));
   };
   bars("leverage-ms", "Time that each lever can win", "won (ms a frame)", &LeverageRow::wonMs);
   bars("leverage-flip", "Image that each lever can lose", "lost (FLIP)", &LeverageRow::flipLost);
+  bars("leverage-pixels", "Geometry that each lever can lose", "lost (px)", &LeverageRow::geometricPxLost);
   return report;
 }
 
@@ -188,8 +191,9 @@ std::string toSvg(const Leverage& leverage) {
       "Leverage: " + leverage.flight + " over " + leverage.terrain + ", preset " + leverage.preset,
       {{"median of the frames", 0}, {"95 % interval", plot::Series::kInk, 0}},
       {barsOf(leverage, "time won (ms a frame)", &LeverageRow::wonMs),
-       barsOf(leverage, "image lost (FLIP, 0 to 1)", &LeverageRow::flipLost)},
-      2);
+       barsOf(leverage, "image lost (FLIP, 0 to 1)", &LeverageRow::flipLost),
+       barsOf(leverage, "geometry lost (px)", &LeverageRow::geometricPxLost)},
+      3);
 }
 
 Result<Done> writeLeverage(const std::filesystem::path& folder, const Leverage& leverage) {

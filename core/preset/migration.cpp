@@ -110,7 +110,23 @@ constexpr void (*kMigrations[])(const TuningParameters&, std::vector<RawParamete
     fromVersion1, fromVersion2};
 static_assert(std::size(kMigrations) == kPresetVersion - 1, "each older version needs its migration");
 
+/// What an image generator did before a parameter existed, where the parameter's default does otherwise.
+struct FormerBehaviour {
+  std::string_view key, value;
+};
+constexpr FormerBehaviour kFormerBehaviours[] = {{"weather.precipitation_form", "effect"}};
+
 }  // namespace
+
+void keepFormerBehaviour(std::vector<RawParameter>& parameters, const std::string& where, Findings& notes) {
+  for (const FormerBehaviour& former : kFormerBehaviours) {
+    const auto has = [&](const RawParameter& p) { return p.key == former.key; };
+    if (std::any_of(parameters.begin(), parameters.end(), has)) continue;
+    parameters.push_back({std::string(former.key), '"' + std::string(former.value) + '"', where});
+    notes.push_back({Severity::note, where, std::string(former.key), "every parameter in an export",
+                     "an export older than it; " + std::string(former.value) + " is used, as it was then"});
+  }
+}
 
 void migrate(int fromVersion, const TuningParameters& base, std::vector<RawParameter>& parameters,
              Findings& notes) {

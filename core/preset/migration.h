@@ -22,4 +22,9 @@ struct RawParameter {
 void migrate(int fromVersion, const TuningParameters& base, std::vector<RawParameter>& parameters,
              Findings& notes);
 
+/// Adds to the parameters of an export those that are younger than it and whose default would draw another
+/// image than the program that wrote it, with a note for each. A preset says only what differs from its base
+/// and follows the program; an export is what an image generator was accepted with. `where` is its file.
+void keepFormerBehaviour(std::vector<RawParameter>& parameters, const std::string& where, Findings& notes);
+
 }  // namespace trimtab

@@ -188,6 +188,7 @@ class Reader {
     const RawParameter* const all = member("parameters");
     if (isJson_ && (!all || !json::isObject(all->value))) return refuseMember("parameters", "an object");
     migrate(version, preset_.parameters, raw, findings_);
+    if (isExport_) keepFormerBehaviour(raw, where_, findings_);
     for (const RawParameter& parameter : raw) readParameter(parameter);
     for (const ParameterRow& row : parameterRows())
       if (isExport_ && !places_.contains(std::string(row.key)))

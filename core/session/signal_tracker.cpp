@@ -54,7 +54,7 @@ void SignalTracker::push(const AircraftState& state, std::optional<Metres> above
   const Attitude look = lineOfSight(state.attitude, state.head);
   if (const View now{state.position, look, weather.visibilityM}; !view_ || !restsAt(*view_, now)) {
     view_ = now;
-    turns_ = 0;
+    loadLoop_.turns = trianglesLoop_.turns = 0;
   }
   const Vec3 sight = directionOf(look);
   const Vec3 head = state.head ? directionOf(*state.head) : Vec3{};
@@ -87,27 +87,32 @@ bool SignalTracker::restsAt(const View& view, const View& now) {
          within(view.sight.roll, now.sight.roll, kDegrees) && view.visibilityM == now.visibilityM;
 }
 
-void SignalTracker::countTriangles(double triangles) {
-  constexpr double kTurnsAt = 0.3;
+/// Whether the signal follows; notes the way and the turn if it does.
+bool SignalTracker::mayChange(double from, double to, double band, bool risesAlways, Loop& loop) {
   constexpr int kMostTurns = 2;
-  double& value = values_[Signal::triangles];
-  const int way = (triangles > value) - (triangles < value);
-  const bool turns = way != 0 && way == -trianglesGo_;
-  if (turns && (turns_ == kMostTurns || std::abs(triangles - value) <= kTurnsAt * value)) return;
-  turns_ += turns;
-  if (way != 0) trianglesGo_ = way;
-  value = triangles;
+  const int way = (to > from) - (to < from);
+  if (way != 0 && way == -loop.goes) {
+    if (std::abs(to - from) <= band * from) return false;
+    const bool spent = loop.turns >= kMostTurns;
+    if (spent && !(risesAlways && way > 0)) return false;
+    ++loop.turns;
+  }
+  if (way != 0) loop.goes = way;
+  return true;
 }
 
 void SignalTracker::finished(double workMs, double budgetMs, std::uint64_t triangles) {
-  countTriangles(static_cast<double>(triangles));
+  constexpr double kTrianglesBand = 0.3, kLoadBand = 0.15;
+  const double counted = static_cast<double>(triangles);
+  if (mayChange(values_[Signal::triangles], counted, kTrianglesBand, false, trianglesLoop_))
+    values_[Signal::triangles] = counted;
   if (!(workMs > 0 && budgetMs > 0 && std::isfinite(workMs) && std::isfinite(budgetMs))) return;
   loads_[loadCount_++ % loads_.size()] = workMs / budgetMs;
   std::array<double, 9> sorted = loads_;
   const std::size_t count = std::min(loadCount_, sorted.size());
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<std::ptrdiff_t>(count));
-  values_[Signal::load] = *middle;
+  if (mayChange(values_[Signal::load], *middle, kLoadBand, true, loadLoop_)) values_[Signal::load] = *middle;
 }
 
 }  // namespace trimtab

@@ -85,7 +85,7 @@ TEST_F(ExperimentsDock, showsWhatEachLeverIsWorthInTheFlight) {
   ASSERT_TRUE(dock().report());
   EXPECT_EQ(dock().report()->name, "leverage");
   EXPECT_EQ(dock().report()->measured.rows.size(), 7u);
-  EXPECT_EQ(dock().report()->plots.size(), 2u);
+  EXPECT_EQ(dock().report()->plots.size(), 3u);
   const QList<QTableWidget*> tables = dock().findChildren<QTableWidget*>();
   EXPECT_EQ(std::max(tables[0]->rowCount(), tables[1]->rowCount()), 7);
   EXPECT_EQ(std::min(tables[0]->rowCount(), tables[1]->rowCount()), 0) << "no document has published it";

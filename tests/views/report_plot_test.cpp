@@ -36,6 +36,29 @@ TEST(ReportPlot, barsThatAreShownAgainLeaveNothingBehind) {
   EXPECT_EQ(plot.findChildren<QCPBarsGroup*>().size(), 1);
 }
 
+TEST(ReportPlot, barsHaveTheirIntervalsAndRoomForThem) {
+  ReportPlot plot;
+  plot.show({"Title",
+             "Lever",
+             "won (ms)",
+             {"a", "b", "c", "d"},
+             {{"won", {}, {4, 5, qQNaN(), 1}, {3, qQNaN(), 1, -2}, {12, qQNaN(), 2, 3}}}});
+  const auto whiskers = plot.axisRect()->plottables();
+  QCPErrorBars* found = nullptr;
+  for (QCPAbstractPlottable* plottable : whiskers)
+    if (auto* bars = qobject_cast<QCPErrorBars*>(plottable)) found = bars;
+  ASSERT_NE(found, nullptr);
+  ASSERT_EQ(found->dataCount(), 3) << "a value that is not known has neither bar nor whisker";
+  const auto data = found->data();
+  EXPECT_EQ(data->at(0).errorMinus, 1);
+  EXPECT_EQ(data->at(0).errorPlus, 8);
+  EXPECT_EQ(data->at(1).errorMinus, 0) << "a bar whose interval is unknown has none";
+  EXPECT_EQ(data->at(2).errorMinus, 3);
+  EXPECT_TRUE(plot.yAxis->range().contains(12));
+  EXPECT_TRUE(plot.yAxis->range().contains(-2));
+  EXPECT_EQ(plot.legend->itemCount(), 1);
+}
+
 TEST(ReportPlot, linesBelowZeroAreInsideTheAxis) {
   ReportPlot plot;
   plot.show({"Title", "Distance (m)", "Difference (ms)", {}, {{"a", {0, 1}, {-5, -1}}}});

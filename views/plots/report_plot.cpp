@@ -81,12 +81,29 @@ void ReportPlot::addBars() {
     for (int k = 0; k < s.y.size(); ++k) {
       if (!std::isfinite(s.y[k])) continue;
       bars->addData(k + 1, s.y[k]);
-      largest = std::max(largest, s.y[k]);
-      smallest = std::min(smallest, s.y[k]);
+      const bool interval = k < s.low.size() && std::isfinite(s.low[k]) && std::isfinite(s.high[k]);
+      largest = std::max(largest, interval ? std::max(s.y[k], s.high[k]) : s.y[k]);
+      smallest = std::min(smallest, interval ? std::min(s.y[k], s.low[k]) : s.y[k]);
     }
+    if (!s.low.isEmpty()) addIntervals(bars, s);
   }
   xAxis->setRange(0.4, double(data_.categories.size()) + 0.6);
   yAxis->setRange(smallest * kReportHeadRoom, largest > 0 ? largest * kReportHeadRoom : 1);
+}
+
+void ReportPlot::addIntervals(QCPBars* bars, const ReportPlotData::Series& series) {
+  QVector<double> below, above;
+  for (int k = 0; k < series.y.size(); ++k) {
+    if (!std::isfinite(series.y[k])) continue;
+    const bool known = std::isfinite(series.low[k]) && std::isfinite(series.high[k]);
+    below << (known ? series.y[k] - series.low[k] : 0);
+    above << (known ? series.high[k] - series.y[k] : 0);
+  }
+  auto* whiskers = new QCPErrorBars(xAxis, yAxis);
+  whiskers->removeFromLegend();
+  whiskers->setDataPlottable(bars);
+  whiskers->setData(below, above);
+  whiskers->setPen(QPen(palette().color(QPalette::Text), 1.5));
 }
 
 }  // namespace trimtab::views

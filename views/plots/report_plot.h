@@ -14,6 +14,8 @@ struct ReportPlotData {
   struct Series {
     QString name;
     QVector<double> x, y;  ///< NaN breaks a line
+    /// Ends of the interval of each bar; empty: none. A pair that is not finite is an interval unknown.
+    QVector<double> low{}, high{};
   };
   QString title, xLabel, yLabel;
   QStringList categories;  ///< empty: lines
@@ -35,6 +37,8 @@ class ReportPlot : public Plot {
  private:
   void addLines();
   void addBars();
+  /// Adds whiskers to bars, which have one place for each finite value of the series.
+  void addIntervals(QCPBars* bars, const ReportPlotData::Series& series);
 
   ReportPlotData data_;
   QCPBarsGroup* group_;  ///< puts the bars of a category side by side

@@ -91,7 +91,9 @@ views::ReportPlotData toView(const experiment::Plot& plot) {
   for (const std::string& category : plot.categories) data.categories << QString::fromStdString(category);
   for (const experiment::Series& s : plot.series)
     data.series.append({QString::fromStdString(s.name), QVector<double>(s.x.begin(), s.x.end()),
-                        QVector<double>(s.y.begin(), s.y.end())});
+                        QVector<double>(s.y.begin(), s.y.end()),
+                        QVector<double>(s.yLow.begin(), s.yLow.end()),
+                        QVector<double>(s.yHigh.begin(), s.yHigh.end())});
   return data;
 }
 

@@ -83,5 +83,38 @@ INSTANTIATE_TEST_SUITE_P(Presets, GoldenDecisions, testing::ValuesIn(kCases),
                            return name;
                          });
 
+/// The memberships every ten seconds of the flight, each as a hexadecimal number, which has every bit.
+std::string membershipBits(const Flight& flight, const char* name, const ValidatedParameters& parameters) {
+  std::string text;
+  DecisionMemory memory;
+  double next = 0;
+  for (const AircraftState& state : flight.states) {
+    FrameInput input;
+    input.state = state;
+    input.aboveGround = state.aboveGround;
+    const FrameDecision d = decide(input, parameters, memory);
+    if (state.time < next) continue;
+    next = state.time + 10;
+    char line[160];
+    std::snprintf(line, sizeof line, "%s %8.3f s  %a %a %a\n", name, state.time, d.altitudeMembership,
+                  d.pitchMembership, d.totalMembership);
+    text += line;
+  }
+  return text;
+}
+
+// The file was written by the program as it was before it had policies, and is never written again.
+TEST(PublishedReadings, haveEveryBitThatTheyHadBeforePolicies) {
+  const Result<Flight> flight = readFlight(test::sourceDir() / "resources/flights/yecheon-circuit.csv");
+  ASSERT_TRUE(flight.ok()) << toString(flight.findings());
+  std::string bits;
+  for (const char* name : {"as-published", "as-printed"}) {
+    const Result<Preset> preset = loadPreset(name);
+    ASSERT_TRUE(preset.ok()) << toString(preset.findings());
+    bits += membershipBits(*flight, name, *validate(preset->parameters));
+  }
+  EXPECT_EQ(bits, test::readFile(test::sourceDir() / "tests/golden/yecheon-circuit.bits.txt"));
+}
+
 }  // namespace
 }  // namespace trimtab

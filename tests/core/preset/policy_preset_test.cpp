@@ -138,9 +138,11 @@ TEST(PolicyPreset, isEmptyInOldFilesOfEveryFormat) {
   for (const auto& entry :
        std::filesystem::directory_iterator(test::sourceDir() / "tests/data/presets/old")) {
     const std::string text = test::readFile(entry.path());
-    EXPECT_THAT(text, ::testing::Not(HasSubstr("\"policy."))) << entry.path();
-    const std::size_t at = text.find("\"version\": ");
-    versions.insert(text.substr(at + 11, 1));
+    EXPECT_THAT(text, ::testing::Not(HasSubstr("policy."))) << entry.path();
+    if (entry.path().extension() == ".json") {
+      const std::size_t at = text.find("\"version\": ");
+      versions.insert(text.substr(at + 11, 1));
+    }
     const auto preset = loadPreset(entry.path().string());
     ASSERT_TRUE(preset) << toString(preset.findings());
     EXPECT_EQ(preset->parameters.policy, PolicyParameters{}) << entry.path();

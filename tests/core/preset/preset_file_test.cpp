@@ -255,6 +255,23 @@ TEST(PresetFile, readsAnExportOfVersion2) {
     }
 }
 
+// Whole exports of as-published, written before presets had a policy, a budget and precipitation of their
+// own, and before head motion could count images.
+TEST(PresetFile, readsExportsOfVersion3ThatAreOlderThanPolicies) {
+  TuningParameters published = loadPreset("as-published")->parameters;
+  published.motion.frames = TuningParameters{}.motion.frames;
+  published.staticLod.error = ErrorMeasure::rms;
+  for (const char* ending : {"json", "xml", "ini"}) {
+    const auto exported = loadPreset((data() / (std::string("old/export-version-3.") + ending)).string());
+    ASSERT_TRUE(exported) << toString(exported.findings());
+    for (const ParameterRow& row : parameterRows())
+      EXPECT_TRUE(sameBits(row.get(exported->parameters), row.get(published))) << ending << ' ' << row.key;
+    EXPECT_FALSE(exported->parameters.policy.enabled);
+    EXPECT_EQ(exported->parameters.weather.precipitationForm, PrecipitationForm::effect)
+        << "as it fell then, not as it falls by default now";
+  }
+}
+
 TEST(ShippedPresets, areWhatTheyWouldBeSavedAs) {
   const auto names = shippedPresets();
   EXPECT_EQ(names, (std::vector<std::string_view>{"default", "as-published", "as-printed", "low-level",

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <random>
 
 #include "tests/support.h"
 #include "trimtab/frame/frame_result.h"
@@ -131,6 +132,48 @@ TEST(PolicySession, heavyFramesMoveTheLeversAndNoFasterThanTheirRates) {
   }
   EXPECT_DOUBLE_EQ(last, 1) << "detail comes back after the load is gone";
   EXPECT_DOUBLE_EQ(lastScale, 1);
+}
+
+/// The load follows the lever that the load sets: half the picture's size takes a quarter of the time, so
+/// that a steep rule asks for both sizes in turn. Work time has noise and spikes.
+TEST(PolicySession, aLeverThatFollowsTheLoadComesToRestWithTheView) {
+  const ValidatedParameters parameters = with([](TuningParameters& p) {
+    p.policy.terms.line = {"load high = ramp 0.95 1.05"};
+    p.policy.rules.line = {"if load is high then render_scale = 0.5, lod_scale = 4"};
+  });
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0, 0.08);
+  std::size_t moves = 0;
+  for (const double fullMs : {9.0, 15.0, 17.0, 25.0, 40.0, 80.0}) {
+    Session session(parameters);
+    double scale = 1;
+    int changedAt = 0;
+    for (int i = 1; i <= 1200; ++i) {
+      AircraftState state = flownAt(1, 5000);
+      state.time = i / 60.0;
+      session.fly(state);
+      const auto request = session.request(state.time, 640, 360);
+      moves += request->renderScale != scale;
+      if (request->renderScale != scale) changedAt = i;
+      scale = request->renderScale;
+      const double spike = random() % 40 == 0 ? 5 : 1;
+      const double other = i > 600 ? 1.5 : 1;  // another program takes a part of the machine
+      session.finished(
+          resultCosting(fullMs * other * scale * scale * std::max(0.1, 1 + noise(random)) * spike),
+          state.time);
+      if (i == 600) {
+        EXPECT_LT(changedAt, 400) << fullMs << " ms: the lever does not rest";
+      }
+    }
+    EXPECT_LT(changedAt, 1000) << fullMs << " ms: the lever does not rest after the load has changed";
+    if (fullMs > 20) {
+      EXPECT_LT(scale, 0.8) << fullMs;
+    }
+    if (fullMs < 10) {
+      EXPECT_EQ(scale, 1) << fullMs;
+    }
+  }
+  EXPECT_GT(moves, 50u);
 }
 
 /// Measured load and all: a trace holds what the policy was given.

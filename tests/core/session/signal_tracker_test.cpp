@@ -180,5 +180,26 @@ TEST(SignalTracker, letsTrianglesTurnRoundForALargeChangeOnlyAndRestWithTheView)
   }
 }
 
+TEST(SignalTracker, letsTheLoadTurnRoundBeyondItsNoiseAndOnlyRiseOnceTheViewRests) {
+  SignalTracker tracker;
+  const double& load = tracker.values().value[indexOf(Signal::load)];
+  double time = 0;
+  const auto nine = [&](double headingDeg, double workMs) {
+    push(tracker, stateAt(time += 0.02, headingDeg));
+    for (int i = 0; i < 9; ++i) tracker.finished(workMs, 10, 1000);
+    return load;
+  };
+  EXPECT_EQ(nine(10, 10), 1);
+  EXPECT_EQ(nine(10, 12), 1.2);
+  EXPECT_EQ(nine(10, 11), 1.2) << "noise";
+  EXPECT_EQ(nine(10, 13), 1.3) << "on the way that it goes any change counts";
+  EXPECT_EQ(nine(10, 6), 0.6) << "turned once";
+  EXPECT_EQ(nine(10, 9), 0.9) << "turned twice";
+  EXPECT_EQ(nine(10, 6), 0.9) << "the view rests: a lever that follows the load would swing";
+  EXPECT_EQ(nine(10, 20), 2) << "another program may take the machine";
+  EXPECT_EQ(nine(10, 6), 2);
+  EXPECT_EQ(nine(11, 6), 0.6) << "the view has moved";
+}
+
 }  // namespace
 }  // namespace trimtab

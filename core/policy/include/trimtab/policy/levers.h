@@ -126,7 +126,7 @@ inline constexpr std::array kLeverRows{
              "Render scale",
              "",
              1,
-             {0.25, 1},
+             {0.5, 1},
              {0.5, 1},
              CostOf::rises,
              false,

@@ -13,11 +13,13 @@ namespace trimtab {
 /// own time stamps: steps may be irregular, angles may wrap, and time that goes back or stands for a second
 /// begins anew.
 ///
-/// The triangles of an image depend on the levers that a rule may set from them, and jump where many nodes
-/// change their level at once. So that such a lever does not swing, the signal follows at once the way that
-/// it goes, and turns round only if the count is three tenths away. While the view rests (it stays within a
-/// metre and a twentieth of a degree of where the rest began) it turns twice at most, and then the lever
-/// rests too.
+/// Load and triangles of an image depend on the levers that a rule may set from them: work time has noise,
+/// and triangles jump where many nodes change their level at once. So that such a lever does not swing, these
+/// two signals follow at once the way that they go, and turn round only for a change beyond a band: three
+/// tenths of the triangles, 15 % of the load. While the view rests (it stays within a metre and a twentieth
+/// of a degree of where the rest began) each turns twice at most. After that the triangles stay as they are
+/// and the load may only rise, because another program may take the machine; so a lever that follows them
+/// comes to rest for any rules.
 class SignalTracker {
  public:
   /// Adds a state, with the height above ground, the velocity and the weather that its decision uses.
@@ -29,7 +31,7 @@ class SignalTracker {
   /// Says that something other than the view has changed what an image has: the parameters, the terrain.
   void imageChanged() {
     view_.reset();
-    turns_ = trianglesGo_ = 0;
+    loadLoop_ = trianglesLoop_ = {};
   }
   /// Returns the signals after the last state and image.
   const SignalValues& values() const { return values_; }
@@ -45,7 +47,12 @@ class SignalTracker {
   };
   static bool restsAt(const View& view, const View& now);
   void filter(Signal signal, double value, double dt);
-  void countTriangles(double triangles);
+  /// What keeps a signal from swinging with a lever that follows it.
+  struct Loop {
+    int goes = 0;   ///< -1 or 1, the way of the last change
+    int turns = 0;  ///< of that way while the view rests
+  };
+  static bool mayChange(double from, double to, double band, bool risesAlways, Loop& loop);
 
   SignalValues values_;
   std::optional<double> time_;  ///< of the last state
@@ -54,8 +61,7 @@ class SignalTracker {
   std::array<double, 9> loads_{};
   std::size_t loadCount_ = 0;
   std::optional<View> view_;
-  int trianglesGo_ = 0;  ///< -1 or 1, the way of their last change
-  int turns_ = 0;        ///< of that way while the view rests
+  Loop loadLoop_, trianglesLoop_;
 };
 
 }  // namespace trimtab
