@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <memory>
+#include <utility>
 
 #include "hold_run.h"
 #include "trimtab/host/head_log.h"
@@ -97,24 +99,39 @@ void addRow(Table& table, const Strain& strain, const std::string& mode, double 
                         std::isnan(settling.ms) ? Cell() : Cell(settling.slowestOverMedian)});
 }
 
-Plot plotOf(const Strain& strain, const Runs& runs, double budgetMs, std::size_t number) {
-  Plot plot{"hold-" + std::to_string(number) + "-frame-ms",
-            "Frame time: " + strain.name,
-            "time (s)",
-            "frame time (ms)",
-            {},
-            {}};
+/// One number of each image over the strain, a line a mode.
+Plot linesOf(const Strain& strain, const Runs& runs, std::vector<double> HoldRun::*of) {
+  Plot plot;
+  plot.xLabel = "time (s)";
   std::vector<double> times;
   for (const AircraftState& state : strain.states) times.push_back(state.time - strain.states[0].time);
-  for (std::size_t m = 0; m < runs.size(); ++m) plot.series.push_back({kHoldModes[m], times, runs[m].ms});
-  plot.series.push_back({"budget", {times.front(), times.back()}, {budgetMs, budgetMs}});
+  for (std::size_t m = 0; m < runs.size(); ++m) plot.series.push_back({kHoldModes[m], times, runs[m].*of});
   return plot;
+}
+
+void addPlots(const Strain& strain, const Runs& runs, double budgetMs, std::size_t number, Report& report) {
+  const std::string file = "hold-" + std::to_string(number);
+  Plot ms = linesOf(strain, runs, &HoldRun::ms);
+  ms.file = file + "-frame-ms";
+  ms.title = "Frame time: " + strain.name;
+  ms.yLabel = "frame time (ms)";
+  const std::vector<double>& times = ms.series[0].x;
+  ms.series.push_back({"budget", {times.front(), times.back()}, {budgetMs, budgetMs}});
+  Plot error = linesOf(strain, runs, &HoldRun::errorPx);
+  error.file = file + "-error";
+  error.title = "Allowed error times LOD scale: " + strain.name;
+  error.yLabel = "allowed error (px)";
+  Plot scale = linesOf(strain, runs, &HoldRun::renderScale);
+  scale.file = file + "-render-scale";
+  scale.title = "Render scale: " + strain.name;
+  scale.yLabel = "render scale";
+  for (Plot* plot : {&ms, &error, &scale}) report.plots.push_back(std::move(*plot));
 }
 
 /// What flies, and what is told meanwhile: how many flights of the strain are done, and what is flown.
 struct Desk {
-  Stage& stage;
-  scene::ErrorMeter& meter;
+  Stage& stage;  ///< of mode *off*
+  Referee& referee;
   const Setup& setup;
   std::function<bool(double flights, const std::string& what)> go;
 };
@@ -143,11 +160,11 @@ bool addFixed(const Desk& desk, const Strain& strain, std::size_t every, double 
         std::snprintf(name, sizeof name, falls ? "%g px, scale %g, particles %g" : "%g px, scale %g", error,
                       scale, particles);
         const auto go = [&](double part) {
-          return desk.go(double(runs.size()) + (flown + part) / double(shares.size()), name);
+          return desk.go(double(1 + runs.size()) + (flown + part) / double(shares.size()), name);
         };
-        CostModel none;
-        const auto run = fly(desk.stage, desk.meter, desk.setup,
-                             {*parameters, HeldLevers{error, scale, particles, 1}, every}, strain, none, go);
+        HoldPilot pilot(desk.stage, desk.referee, desk.setup,
+                        {*parameters, HeldLevers{error, scale, particles, 1}, every}, strain, {});
+        const auto run = fly(pilot, strain, go);
         if (!run) return false;
         ++flown;
         addRow(report.measured, strain, name, budgetMs, *run, runs[0]);
@@ -173,6 +190,33 @@ std::string lossNote(const Strain& strain, const HoldParameters& hold) {
                 strain.name.c_str(), hold.lossError.value(), hold.lossRenderScale.value(),
                 hold.lossParticles.value());
   return text;
+}
+
+/// Flies the strain in all modes, image by image in turns, so that what else the machine does meets all of
+/// them; each mode draws with a renderer of its own. `model` is what mode *hold* begins with, and learns.
+Result<Runs> flyInTurns(const std::array<std::unique_ptr<Stage>, kHoldModes.size()>& stages, const Desk& desk,
+                        const Strain& strain, const TuningParameters& preset, std::size_t every,
+                        double budgetMs, CostModel& model) {
+  std::vector<std::unique_ptr<HoldPilot>> pilots;
+  for (std::size_t m = 0; m < stages.size(); ++m) {
+    const auto mode = static_cast<HoldMode>(m);
+    const Result<ValidatedParameters> parameters = inMode(preset, mode, budgetMs);
+    if (!parameters) return parameters.findings();
+    pilots.push_back(std::make_unique<HoldPilot>(*stages[m], desk.referee, desk.setup,
+                                                 HoldFlight{*parameters, std::nullopt, every}, strain,
+                                                 mode == HoldMode::hold ? model : CostModel{}));
+  }
+  for (std::size_t i = 0; i < strain.states.size(); ++i) {
+    if (i % kAskedStates == 0) {
+      const double part = double(i) / double(strain.states.size());
+      if (!desk.go(1 + part * double(pilots.size()), "all modes in turns")) return cancelled();
+    }
+    for (std::size_t k = 0; k < pilots.size(); ++k) pilots[(i + k) % pilots.size()]->drawNext();
+  }
+  Runs runs;
+  for (std::size_t m = 0; m < runs.size(); ++m) runs[m] = pilots[m]->run();
+  model = pilots[std::size_t(HoldMode::hold)]->model();
+  return runs;
 }
 
 /// The strains that the terrain, the flight and the head allow.
@@ -206,13 +250,15 @@ Result<std::vector<Strain>> strainsOf(const Setup& setup, std::vector<std::strin
 }  // namespace
 
 Result<Report> runHold(const Setup& setup) {
-  auto stage = Stage::open(setup);
-  if (!stage) return stage.findings();
-  scene::ErrorMeter meter;
-  if (const scene::GlReport gl = meter.initialize(); !gl.usable)
-    return Finding{Severity::error, "GL", "", "a usable context", gl.missing};
-  meter.setTerrain(setup.terrain);
-  Report report{"hold", "C, D: what is left open", (*stage)->machine(), {}, {}, {}, {}};
+  std::array<std::unique_ptr<Stage>, kHoldModes.size()> stages;
+  for (std::unique_ptr<Stage>& stage : stages) {
+    auto opened = Stage::open(setup);
+    if (!opened) return opened.findings();
+    stage = std::move(opened).value();
+  }
+  const auto referee = Referee::open(setup);
+  if (!referee) return referee.findings();
+  Report report{"hold", "C, D: what is left open", stages[0]->machine(), {}, {}, {}, {}};
   report.measured.columns = {
       "strain",       "mode",          "budget_ms",    "frame_ms_median", "frame_ms_p95",
       "frame_ms_p99", "frame_ms_max",  "slowest_gain", "p99_over_budget", "share_over_1_1",
@@ -221,54 +267,52 @@ Result<Report> runHold(const Setup& setup) {
   const Result<std::vector<Strain>> strains = strainsOf(setup, report.notes);
   if (!strains) return strains.findings();
   CostModel model;
-  const double most = double(kHoldModes.size() + (setup.hold.fixedSettings ? kFixedSettings : 0));
+  const double most = double(1 + kHoldModes.size() + (setup.hold.fixedSettings ? kFixedSettings : 0));
   for (std::size_t s = 0; s < strains->size(); ++s) {
     const Strain& strain = (*strains)[s];
-    Runs runs;
     TuningParameters preset = setup.parameters;
     double budgetMs = preset.measure.budget.value();
     const auto plain = inMode(preset, HoldMode::off, budgetMs);
     if (!plain) return plain.findings();
-    measureLosses(meter, setup, *plain, strain, preset.hold);
+    measureLosses((*referee)->meter(), setup, *plain, strain, preset.hold);
     report.notes.push_back(lossNote(strain, preset.hold));
     const std::size_t every = std::max<std::size_t>((strain.to - strain.from) / kMeasured, 1);
-    const Desk desk{**stage, meter, setup, [&](double flights, const std::string& what) {
+    const Desk desk{*stages[0], **referee, setup, [&](double flights, const std::string& what) {
                       return !setup.progress ||
                              setup.progress((double(s) + flights / most) / double(strains->size()),
                                             strain.name + ", " + what);
                     }};
-    for (std::size_t m = 0; m < runs.size(); ++m) {
-      const auto mode = static_cast<HoldMode>(m);
-      const Result<ValidatedParameters> parameters = inMode(preset, mode, budgetMs);
-      if (!parameters) return parameters.findings();
-      CostModel none;
-      CostModel& used = mode == HoldMode::hold ? model : none;
-      const auto run = fly(**stage, meter, setup, {*parameters, std::nullopt, every}, strain, used,
-                           [&](double part) { return desk.go(double(m) + part, kHoldModes[m]); });
+    if (setup.hold.budgetMs) {
+      budgetMs = *setup.hold.budgetMs;
+    } else {
+      HoldPilot pilot(*stages[0], **referee, setup, {*plain, std::nullopt, 0}, strain, {});
+      const auto run = fly(pilot, strain, [&](double part) { return desk.go(part, "to find the budget"); });
       if (!run) return cancelled();
-      runs[m] = *run;
-      if (mode == HoldMode::off)
-        budgetMs = setup.hold.budgetMs.value_or(kHeldPart * quantileOf(ofStrain(run->ms, strain), 0.5));
+      budgetMs = kHeldPart * quantileOf(ofStrain(run->ms, strain), 0.5);
     }
+    const Result<Runs> flown = flyInTurns(stages, desk, strain, preset, every, budgetMs, model);
+    if (!flown) return flown.findings();
+    const Runs& runs = *flown;
     for (std::size_t m = 0; m < runs.size(); ++m)
       addRow(report.measured, strain, kHoldModes[m], budgetMs, runs[m], runs[0]);
     if (setup.hold.fixedSettings && !addFixed(desk, strain, every, budgetMs, runs, report))
       return cancelled();
-    report.plots.push_back(plotOf(strain, runs, budgetMs, s + 1));
+    addPlots(strain, runs, budgetMs, s + 1, report);
   }
   char budget[60];
   if (setup.hold.budgetMs)
     std::snprintf(budget, sizeof budget, "%g ms", *setup.hold.budgetMs);
   else
     std::snprintf(budget, sizeof budget, "%g of the median image of mode off", kHeldPart);
-  char text[600];
+  char text[800];
   std::snprintf(
       text, sizeof text,
       "%s, preset %s, %d x %d. The budget is %s. Work time of each image, "
-      "one pass a mode; FLIP of %zu images against the finest levels, flip_smeared with both smeared by the "
+      "the modes in turns image by image, each with a renderer of its own that builds ahead between images; "
+      "FLIP of %zu images against the finest levels, flip_smeared with both smeared by the "
       "exposure. slowest_gain is the slowest image of off over that of the mode. settled_ms is the time "
       "from "
-      "the end of the strain until the levers stay.",
+      "the end of the strain until the levers stay. Fixed settings fly one after the other.",
       setup.terrainName.c_str(), setup.presetName.c_str(), setup.widthPx, setup.heightPx, budget, kMeasured);
   report.notes.insert(report.notes.begin(), text);
   return report;

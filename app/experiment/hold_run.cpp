@@ -16,8 +16,6 @@ constexpr double kImagesPerS = 60;
 constexpr double kExposureMs = 16;
 constexpr int kSweepImagesPerS = 200;
 constexpr std::size_t kWarmUp = 60;
-/// Images between two questions whether to go on.
-constexpr std::size_t kAskedStates = 40;
 /// Images of a strain that show what levers lose; they lie between those that are measured afterwards.
 constexpr std::size_t kLossImages = 5;
 
@@ -149,44 +147,78 @@ void measureLosses(scene::ErrorMeter& meter, const Setup& setup, const Validated
   if (!particles.empty()) hold.lossParticles = loss(particles);
 }
 
-std::optional<HoldRun> fly(Stage& stage, scene::ErrorMeter& meter, const Setup& setup,
-                           const HoldFlight& flight, const Strain& strain, CostModel& model,
+Result<std::unique_ptr<Referee>> Referee::open(const Setup& setup) {
+  auto offscreen = scene::Offscreen::create(setup.widthPx, setup.heightPx);
+  if (!offscreen) return offscreen.findings();
+  std::unique_ptr<Referee> referee(new Referee);
+  referee->offscreen_ = std::move(offscreen).value();
+  if (const scene::GlReport gl = referee->meter().initialize(); !gl.usable)
+    return Finding{Severity::error, "OpenGL", {}, "what the renderer needs", gl.missing};
+  referee->meter_.setTerrain(setup.terrain);
+  return {std::move(referee)};
+}
+
+Referee::~Referee() {
+  meter().release();
+}
+
+scene::ErrorMeter& Referee::meter() {
+  offscreen_->makeCurrent();
+  return meter_;
+}
+
+HoldPilot::HoldPilot(Stage& stage, Referee& referee, const Setup& setup, const HoldFlight& flight,
+                     const Strain& strain, const CostModel& model)
+    : stage_(stage),
+      referee_(referee),
+      setup_(setup),
+      flight_(flight),
+      strain_(strain),
+      session_(flight.parameters) {
+  session_.setGround(setup.terrain);
+  session_.setLoadIndex(scene::loadIndexOf(setup.terrain));
+  session_.hold().model() = model;
+}
+
+void HoldPilot::drawNext() {
+  const std::size_t i = next_++;
+  const AircraftState& state = strain_.states[i];
+  session_.fly(state, state.time);
+  const auto start = std::chrono::steady_clock::now();
+  FrameRequest request = *session_.request(state.time, setup_.widthPx, setup_.heightPx);
+  lookMs_.push_back(
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+  if (flight_.fixed) fix(request, *flight_.fixed);
+  const FrameResult result = stage_.draw(request);
+  const FrameCost cost = session_.finished(result, state.time);
+  stage_.buildAhead(session_.nodesAhead(request), session_.aheadMs());
+  run_.ms.push_back(workMs(cost));
+  run_.errorPx.push_back(request.lod.screenSpaceError.value() * request.decision.lodScale);
+  run_.renderScale.push_back(request.renderScale);
+  run_.particles.push_back(request.particleShare);
+  if (const auto& outcome = session_.hold().outcome(); outcome && flight_.parameters->hold.enabled)
+    run_.outcomes.push_back(*outcome);
+  if (flight_.flipEvery > 0 && i >= strain_.from && (i - strain_.from) % flight_.flipEvery == 0) {
+    const std::size_t kept = blurs(request) ? before_.size() : std::min<std::size_t>(before_.size(), 1);
+    run_.error.push_back(exposedError(referee_.meter(), request, std::span(before_).last(kept), kExposureMs));
+  }
+  before_.push_back(request);
+  if (before_.size() > kLongestTrace) before_.erase(before_.begin());
+}
+
+HoldRun HoldPilot::run() const {
+  HoldRun run = run_;
+  run.lookMs = quantileOf(lookMs_, 0.5);
+  return run;
+}
+
+std::optional<HoldRun> fly(HoldPilot& pilot, const Strain& strain,
                            const std::function<bool(double part)>& go) {
-  const ValidatedParameters& parameters = flight.parameters;
-  Session session(parameters);
-  session.setGround(setup.terrain);
-  session.setLoadIndex(scene::loadIndexOf(setup.terrain));
-  session.hold().model() = model;
-  HoldRun run;
-  std::vector<double> lookMs;
-  std::vector<FrameRequest> before;
   for (std::size_t i = 0; i < strain.states.size(); ++i) {
     if (i % kAskedStates == 0 && !go(double(i) / double(strain.states.size()))) return std::nullopt;
-    const AircraftState& state = strain.states[i];
-    session.fly(state, state.time);
-    const auto start = std::chrono::steady_clock::now();
-    FrameRequest request = *session.request(state.time, setup.widthPx, setup.heightPx);
-    lookMs.push_back(
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
-    if (flight.fixed) fix(request, *flight.fixed);
-    const FrameResult result = stage.draw(request);
-    const FrameCost cost = session.finished(result, state.time);
-    run.ms.push_back(workMs(cost));
-    run.errorPx.push_back(request.lod.screenSpaceError.value() * request.decision.lodScale);
-    run.renderScale.push_back(request.renderScale);
-    run.particles.push_back(request.particleShare);
-    if (const auto& outcome = session.hold().outcome(); outcome && parameters->hold.enabled)
-      run.outcomes.push_back(*outcome);
-    if (flight.flipEvery > 0 && i >= strain.from && (i - strain.from) % flight.flipEvery == 0) {
-      const std::size_t kept = blurs(request) ? before.size() : std::min<std::size_t>(before.size(), 1);
-      run.error.push_back(exposedError(meter, request, std::span(before).last(kept), kExposureMs));
-    }
-    before.push_back(request);
-    if (before.size() > kLongestTrace) before.erase(before.begin());
+    pilot.drawNext();
   }
-  run.lookMs = quantileOf(lookMs, 0.5);
-  model = session.hold().model();
-  return run;
+  return pilot.run();
 }
 
 }  // namespace trimtab::experiment

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "exposed_error.h"
 #include "stage.h"
 #include "trimtab/scene/error_meter.h"
+#include "trimtab/scene/offscreen.h"
 #include "trimtab/session/session.h"
 
 /// What the experiment and the benchmark of the budget share: flights that strain the frame, drawn in four
@@ -48,6 +50,25 @@ Result<ValidatedParameters> inMode(const TuningParameters& preset, HoldMode mode
 void measureLosses(scene::ErrorMeter& meter, const Setup& setup, const ValidatedParameters& asked,
                    const Strain& strain, HoldParameters& hold);
 
+/// Images between two questions whether to go on.
+inline constexpr std::size_t kAskedStates = 40;
+
+/// The error meter of an experiment that draws with several renderers, in a GL context of its own.
+class Referee {
+ public:
+  static Result<std::unique_ptr<Referee>> open(const Setup& setup);
+  ~Referee();
+  Referee(const Referee&) = delete;
+  Referee& operator=(const Referee&) = delete;
+  /// Returns the meter with its context current.
+  scene::ErrorMeter& meter();
+
+ private:
+  Referee() = default;
+  std::unique_ptr<scene::Offscreen> offscreen_;
+  scene::ErrorMeter meter_;
+};
+
 /// What one mode drew, by image.
 struct HoldRun {
   std::vector<double> ms;  ///< work time
@@ -59,15 +80,41 @@ struct HoldRun {
 
 /// One way to fly a strain.
 struct HoldFlight {
-  const ValidatedParameters& parameters;
+  ValidatedParameters parameters;
   std::optional<HeldLevers> fixed;  ///< in place of what the preset asks for
   std::size_t flipEvery = 0;        ///< every so many images one is measured against its reference; 0: none
 };
 
-/// Draws the strain. The model may be given to a later run, as a program would load it. Returns nothing if
-/// `go` returns false.
-std::optional<HoldRun> fly(Stage& stage, scene::ErrorMeter& meter, const Setup& setup,
-                           const HoldFlight& flight, const Strain& strain, CostModel& model,
+/// Flies a strain in one mode, image by image, with a session of its own. Between two images it builds meshes
+/// for coming ones, as the image generator does.
+class HoldPilot {
+ public:
+  /// `stage` draws this mode alone, so that no other mode has built its levels. What is passed lives longer.
+  HoldPilot(Stage& stage, Referee& referee, const Setup& setup, const HoldFlight& flight,
+            const Strain& strain, const CostModel& model);
+  /// Draws the next image of the strain.
+  void drawNext();
+  /// Returns what was drawn so far.
+  HoldRun run() const;
+  /// Returns the model, which a later flight may begin with, as a program would load it.
+  const CostModel& model() const { return session_.hold().model(); }
+
+ private:
+  Stage& stage_;
+  Referee& referee_;
+  const Setup& setup_;
+  HoldFlight flight_;
+  const Strain& strain_;
+  Session session_;
+  HoldRun run_;
+  std::vector<double> lookMs_;
+  std::vector<FrameRequest> before_;
+  std::size_t next_ = 0;
+};
+
+/// Draws a whole strain. Returns nothing if `go` returns false.
+/// It is asked every kAskedStates images.
+std::optional<HoldRun> fly(HoldPilot& pilot, const Strain& strain,
                            const std::function<bool(double part)>& go);
 
 }  // namespace trimtab::experiment

@@ -43,10 +43,12 @@ Result<std::unique_ptr<Stage>> Stage::open(const Setup& setup) {
 }
 
 Stage::~Stage() {
+  offscreen_->makeCurrent();
   renderer_.release();
 }
 
 FrameResult Stage::draw(const FrameRequest& request) {
+  offscreen_->makeCurrent();
   if (request.view.widthPx != width_ || request.view.heightPx != height_) {
     width_ = request.view.widthPx;
     height_ = request.view.heightPx;
@@ -59,7 +61,13 @@ FrameResult Stage::draw(const FrameRequest& request) {
   return renderer_.draw(measured, offscreen_->framebuffer());
 }
 
+void Stage::buildAhead(std::span<const std::uint32_t> nodes, double withinMs) {
+  offscreen_->makeCurrent();
+  renderer_.buildAhead(nodes, withinMs);
+}
+
 void Stage::setTerrain(std::shared_ptr<const terrain::Database> terrain) {
+  offscreen_->makeCurrent();
   renderer_.setTerrain(std::move(terrain));
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ class Stage {
   Stage& operator=(const Stage&) = delete;
 
   FrameResult draw(const FrameRequest& request);
+  /// Builds meshes for coming images, as Renderer::buildAhead does.
+  void buildAhead(std::span<const std::uint32_t> nodes, double withinMs);
   /// Replaces the terrain and discards pages of the former one.
   void setTerrain(std::shared_ptr<const terrain::Database> terrain);
   /// Returns the median milliseconds of `repeats` frames, after one frame that is not counted. `last`

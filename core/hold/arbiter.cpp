@@ -17,10 +17,13 @@ constexpr std::size_t kMostScales = 17, kMostParticles = 9;
 constexpr double kFirstErrorPx = 0.125;
 constexpr std::size_t kErrorPlaces = 73, kCoarse = 4;
 /// Lowering aims this share of the limit below it, so that a load that keeps rising does not lower the level
-/// of detail again and again.
-constexpr double kReserve = 0.06;
+/// of detail again and again. In a steady view no load rises.
+constexpr double kTurningReserve = 0.06, kSteadyReserve = 0.03;
 /// Head-room must win at least this part of the loss: less is not worth a change.
-constexpr double kWorthwhile = 0.02;
+constexpr double kWorthwhile = 0.1;
+/// While the view turns, the allowed error returns only after head-room for so long, which is longer than a
+/// glance lasts: the next view may need what this one does not.
+constexpr double kTurningCalmMs = 1000;
 /// No image counts for more than this part of the calm that restoring waits for, however far the clock jumps.
 constexpr double kMostOfCalm = 1.0 / 3;
 /// Triangles that change by more than this part from image to image belong to a view that turns.
@@ -166,12 +169,14 @@ class Search {
   bool fine_;
 };
 
-/// Returns the steps one image nearer to `to`, which are fewer: error and blur at once, the others by one.
-HoldSteps raised(const HoldSteps& from, const HoldSteps& to) {
+/// Returns the steps one image nearer to `to`, which are fewer: blur at once, the error too if it may return,
+/// the others by one.
+HoldSteps raised(const HoldSteps& from, const HoldSteps& to, bool errorReturns) {
   const auto one = [](std::uint8_t a, std::uint8_t b) {
     return static_cast<std::uint8_t>(a > b ? a - 1 : b);
   };
-  return {to.error, one(from.renderScale, to.renderScale), one(from.particles, to.particles), to.blur};
+  return {errorReturns ? to.error : from.error, one(from.renderScale, to.renderScale),
+          one(from.particles, to.particles), to.blur};
 }
 
 /// The time since the last image, milliseconds, as far as it can be believed.
@@ -252,23 +257,26 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
   d.bandMs = given.cost.bandMs;
 
   const Choice choice = choiceOf(given, p);
-  const Search search(given, choice, steady(given.triangles[0], ms, p.calm.value(), memory));
+  const bool rests = steady(given.triangles[0], ms, p.calm.value(), memory);
+  const double aim = d.limitMs * (1 - (rests ? kSteadyReserve : kTurningReserve));
+  const Search search(given, choice, rests);
   const HoldSteps before = within(choice, memory.steps);
   HoldSteps now = before;
   if (!memory.begun || search.timeAt(before) > d.limitMs) {
-    now = search.best(memory.begun ? d.limitMs * (1 - kReserve) : d.limitMs);
+    now = search.best(memory.begun ? aim : d.limitMs);
     d.reason = HoldReason::lowered;
     memory.calmMs = 0;
   } else {
-    const HoldSteps wanted = search.best(d.limitMs * (1 - kReserve));
+    const HoldSteps wanted = search.best(aim);
     const double kept = lossAt(choice, before), won = kept - lossAt(choice, wanted);
     const bool worth = wanted == HoldSteps{} ? before != wanted : won > kWorthwhile * kept && won > 0;
     const bool room = worth && search.timeAt(wanted) <= d.limitMs;
     memory.calmMs = room ? memory.calmMs + ms : 0;
     d.reason = HoldReason::held;
     if (room && memory.calmMs >= p.calm.value()) {
-      const HoldSteps nearer = raised(before, wanted);
-      if (search.timeAt(nearer) <= d.limitMs) now = nearer, d.reason = HoldReason::restored;
+      const HoldSteps nearer = raised(before, wanted, rests || memory.calmMs >= kTurningCalmMs);
+      if (nearer != before && search.timeAt(nearer) <= d.limitMs)
+        now = nearer, d.reason = HoldReason::restored;
     }
   }
   memory.begun = true;
