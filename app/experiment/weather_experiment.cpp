@@ -70,9 +70,12 @@ Result<Report> runWeather(const Setup& setup) {
         if (setup.progress && !setup.progress(done / runs, what)) return cancelled();
         const double clearMs = view.ms({});
         if (d == 0) {
+          const WeatherView::Held held = view.held({}, clearMs * kHeld);
+          const double heldRatio = 2 * held.ms / (clearMs + view.ms({}));
           report.measured.rows.push_back({reached, fall.name, "clear", 1000 / clearMs, 1000 / clearMs,
-                                          clearMs, clearMs, 1.0, Cell(), Cell(), Cell(), 0.0, 0.0, 1.0,
-                                          Cell(), Cell(), Cell(), "nothing falls, nothing is cut"});
+                                          clearMs, clearMs, 1.0, Cell(), Cell(), Cell(), 0.0, 0.0, heldRatio,
+                                          Cell(), held.levers.errorPx, held.levers.renderScale,
+                                          "nothing falls, nothing is cut"});
           continue;
         }
         const WeatherStep step = fall.steps[d];
