@@ -3,11 +3,11 @@
 
 #include <QBoxLayout>
 #include <QFileDialog>
-#include <QMessageBox>
 #include <QSplitter>
 
 #include "trimtab/fuzzy/rule_file.h"
 #include "trimtab/preset/file_io.h"
+#include "views/controls/tell_findings.h"
 #include "views/editors/rule_viewer.h"
 #include "views/editors/rules_editor.h"
 
@@ -15,23 +15,8 @@ namespace trimtab::views {
 
 namespace {
 
-Finding unknownEnding(const QString& file) {
-  return {Severity::error, file.toStdString(), "", "a file that ends in .fll or .fis", "another ending"};
-}
-
 QString filters() {
   return QObject::tr("Fuzzy rules (*.fll *.fis);;FuzzyLite Language (*.fll);;MATLAB fuzzy system (*.fis)");
-}
-
-/// Shows the findings of a file, if there are any: under the title `failed` if one is an error, else under
-/// `done`.
-void tell(QWidget* parent, const QString& failed, const QString& done, const Findings& findings) {
-  if (findings.empty()) return;
-  const QString text = QString::fromStdString(toString(findings));
-  if (hasError(findings))
-    QMessageBox::warning(parent, failed, text);
-  else
-    QMessageBox::information(parent, done, text);
 }
 
 }  // namespace
@@ -60,7 +45,7 @@ void RulesPanel::showFrame(const LiveFrame& frame) {
 
 Findings RulesPanel::importFile(const QString& file) {
   const auto format = ruleFormatOf(file.toStdString());
-  if (!format) return {unknownEnding(file)};
+  if (!format) return {unknownRuleEnding(file)};
   const Result<std::string> text = readWhole(file.toStdString());
   if (!text) return text.findings();
   const Result<TuningParameters> read = readRuleFile(*text, file.toStdString(), *format, draft_.parameters());
@@ -71,7 +56,7 @@ Findings RulesPanel::importFile(const QString& file) {
 
 Findings RulesPanel::exportFile(const QString& file) const {
   const auto format = ruleFormatOf(file.toStdString());
-  if (!format) return {unknownEnding(file)};
+  if (!format) return {unknownRuleEnding(file)};
   const Result<std::string> text = ruleFileText(*draft_.active(), draft_.preset().name, *format);
   if (!text) return text.findings();
   if (const auto written = writeAtomically(file.toStdString(), *text); !written) return written.findings();
@@ -81,7 +66,7 @@ Findings RulesPanel::exportFile(const QString& file) const {
 void RulesPanel::askAndImport() {
   const QString file = QFileDialog::getOpenFileName(this, tr("Import Rules"), {}, filters());
   if (file.isEmpty()) return;
-  tell(this, tr("The rules were not imported"), tr("The rules were imported"), importFile(file));
+  tellFindings(this, tr("The rules were not imported"), tr("The rules were imported"), importFile(file));
 }
 
 void RulesPanel::askAndExport() {
@@ -90,8 +75,8 @@ void RulesPanel::askAndExport() {
   dialog.setDefaultSuffix(QStringLiteral("fll"));
   dialog.selectFile(QStringLiteral("rules.fll"));
   if (dialog.exec() != QDialog::Accepted) return;
-  tell(this, tr("The rules were not exported"), tr("The rules were exported"),
-       exportFile(dialog.selectedFiles().constFirst()));
+  tellFindings(this, tr("The rules were not exported"), tr("The rules were exported"),
+               exportFile(dialog.selectedFiles().constFirst()));
 }
 
 }  // namespace trimtab::views

@@ -8,6 +8,7 @@
 #include "trimtab/policy/policy_file.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
+#include "views/controls/tell_findings.h"
 
 namespace trimtab::views {
 namespace {
@@ -31,13 +32,6 @@ const Language* languageOf(const QString& file) {
   return nullptr;
 }
 
-Finding unknownEnding(const QString& file) {
-  std::string endings;
-  for (const Language& language : kLanguages)
-    endings += (endings.empty() ? "a file that ends in ." : " or .") + std::string(language.ending);
-  return {Severity::error, file.toStdString(), "", endings, "another ending"};
-}
-
 }  // namespace
 
 QString policyFileFilters() {
@@ -53,7 +47,7 @@ QString policyFileFilters() {
 
 Result<Policy> readPolicyFile(const QString& file) {
   const Language* language = languageOf(file);
-  if (language == nullptr) return unknownEnding(file);
+  if (language == nullptr) return unknownRuleEnding(file);
   const Result<std::string> text = readWhole(file.toStdString());
   if (!text) return text.findings();
   return language->read(*text, file.toStdString());
@@ -61,7 +55,7 @@ Result<Policy> readPolicyFile(const QString& file) {
 
 Findings writePolicyFile(const QString& file, const Policy& policy, const std::string& name) {
   const Language* language = languageOf(file);
-  if (language == nullptr) return {unknownEnding(file)};
+  if (language == nullptr) return {unknownRuleEnding(file)};
   const Result<std::string> text = language->write(policy, name);
   if (!text) return text.findings();
   if (const auto written = writeAtomically(file.toStdString(), *text); !written) return written.findings();

@@ -6,7 +6,6 @@
 #include <QFileDialog>
 #include <QLabel>
 #include <QMenu>
-#include <QMessageBox>
 #include <QPushButton>
 #include <QScrollArea>
 #include <QSplitter>
@@ -26,6 +25,7 @@
 #include "terms_page.h"
 #include "trimtab/preset/policy_lines.h"
 #include "views/controls/parameter_lines.h"
+#include "views/controls/tell_findings.h"
 #include "views/model/keys.h"
 #include "views/model/theme.h"
 
@@ -37,13 +37,6 @@ constexpr int kLeastPlotLines = 7, kLeastPageLines = 10, kRoomyLines = 25;
 
 /// A review takes some milliseconds: it follows a drag two or three times a second.
 constexpr int kReviewMs = 400;
-
-void tell(QWidget* parent, const QString& failed, const QString& done, const Findings& findings) {
-  if (findings.empty()) return;
-  const QString text = QString::fromStdString(toString(findings));
-  hasError(findings) ? QMessageBox::warning(parent, failed, text)
-                     : QMessageBox::information(parent, done, text);
-}
 
 }  // namespace
 
@@ -372,7 +365,7 @@ Findings PolicyPanel::exportFile(const QString& file) const {
 void PolicyPanel::askAndImport() {
   const QString file = QFileDialog::getOpenFileName(this, tr("Import Policy"), {}, policyFileFilters());
   if (file.isEmpty()) return;
-  tell(this, tr("The policy was not imported"), tr("The policy was imported"), importFile(file));
+  tellFindings(this, tr("The policy was not imported"), tr("The policy was imported"), importFile(file));
 }
 
 void PolicyPanel::askAndExport() {
@@ -381,8 +374,8 @@ void PolicyPanel::askAndExport() {
   dialog.setDefaultSuffix(QStringLiteral("fll"));
   dialog.selectFile(QStringLiteral("policy.fll"));
   if (dialog.exec() != QDialog::Accepted) return;
-  tell(this, tr("The policy was not exported"), tr("The policy was exported"),
-       exportFile(dialog.selectedFiles().constFirst()));
+  tellFindings(this, tr("The policy was not exported"), tr("The policy was exported"),
+               exportFile(dialog.selectedFiles().constFirst()));
 }
 
 }  // namespace trimtab::views
