@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "trimtab/host/motion.h"
@@ -37,17 +38,9 @@ bool samePose(const AircraftState& a, const AircraftState& b) {
 }  // namespace
 
 std::string_view toText(LinkState state) {
-  switch (state) {
-    case LinkState::never:
-      return "never";
-    case LinkState::live:
-      return "live";
-    case LinkState::silent:
-      return "silent";
-    case LinkState::jumped:
-      return "jumped";
-  }
-  return "";
+  constexpr std::string_view kNames[] = {"never", "live", "silent", "jumped"};
+  const auto at = static_cast<std::size_t>(state);
+  return at < std::size(kNames) ? kNames[at] : std::string_view{};
 }
 
 Session::Session(const ValidatedParameters& parameters) : parameters_(parameters) {}
@@ -55,7 +48,7 @@ Session::Session(const ValidatedParameters& parameters) : parameters_(parameters
 void Session::setParameters(const ValidatedParameters& parameters) {
   parameters_ = parameters;
   dirty_ = true;
-  signals_.imageChanged();
+  signals_.tracker.imageChanged();
   memory_.levers.restart();
   lookMemory_.levers.restart();
   air_.fade.settle();
@@ -70,7 +63,7 @@ void Session::setParameters(const ValidatedParameters& parameters) {
 void Session::setGround(std::shared_ptr<const GroundHeights> ground) {
   ground_ = std::move(ground);
   dirty_ = true;
-  signals_.imageChanged();
+  signals_.tracker.imageChanged();
 }
 
 /// States no longer come from a live link.
@@ -112,7 +105,7 @@ void Session::replay(const TraceRow& row) {
 }
 
 void Session::look(const AircraftState& state) {
-  if (!looking_) lookMemory_ = {}, groundVelocity_.restart(), signals_.restart();
+  if (!looking_) lookMemory_ = {}, groundVelocity_.restart(), signals_.tracker.restart();
   const bool stands = looking_ && state.position == current_->state.position;
   looking_ = true;
   unlink();
@@ -135,6 +128,7 @@ void Session::restart() {
   fresh.head_.restart();
   fresh.budget_.hold = std::move(budget_.hold);
   fresh.budget_.hold.setMemory({});
+  fresh.signals_.watched = signals_.watched;
   fresh.keepRows_ = keepRows_;
   fresh.rows_ = std::move(rows_);
   fresh.completeRows_ = fresh.requestedRows_ = fresh.rows_.size();
@@ -173,14 +167,17 @@ FrameInput Session::inputFor(const AircraftState& state) const {
   return input;
 }
 
-/// Derives the signals of the policy, if there is one, from the state that is about to be decided.
+/// Derives the signals, if there is a policy or somebody watches, from the state that is about to be decided.
 void Session::trackSignals(FrameInput& input) {
-  if (parameters_.policy() == nullptr) return;
-  // An engineer sees the signal before a rule asks for it.
-  const std::optional<Metres> aboveGround =
-      input.aboveGround ? input.aboveGround : heightOverTerrain(input.state);
-  signals_.push(input.state, aboveGround, velocityOf(input.state), decideWeather(input.state, *parameters_));
-  input.signalValues = signals_.values();
+  std::optional<SignalValues>& watched = signals_.watched;
+  if (!replaysSignals(input)) {
+    if (parameters_.policy() == nullptr && !watched) return;
+    // An engineer sees the signal before a rule asks for it.
+    signals_.tracker.push(input.state, input.aboveGround ? input.aboveGround : heightOverTerrain(input.state),
+                          velocityOf(input.state), decideWeather(input.state, *parameters_));
+    if (parameters_.policy() != nullptr) input.signalValues = signals_.tracker.values();
+  }
+  if (watched) watched = replaysSignals(input) ? input.signalValues : signals_.tracker.values();
 }
 
 /// Link bookkeeping of one packet: clock, silence, jumps, velocity.
@@ -205,8 +202,8 @@ void Session::decideNext(FrameInput input, double kernelTime) {
   ++packets_;
   const DecisionMemory before = memory_;
   const auto start = std::chrono::steady_clock::now();
-  if (looking) signals_.restart();
-  if (!replaysSignals(input)) trackSignals(input);
+  if (looking) signals_.tracker.restart();
+  trackSignals(input);
   decision_ = decide(input, parameters_, memory_);
   decideMs_ += millisecondsSince(start);
   if (looking) groundVelocity_.restart();
@@ -406,7 +403,7 @@ FrameCost Session::finished(const FrameResult& result, double now) {
   lastCost_.total = result.cost.total + decideMs_;
   lastVertices_ = result.visible.vertices;
   if (parameters_->hold.enabled) budget_.hold.finished(result, lastCost_);
-  signals_.finished(lastCost_.total, parameters_->measure.budget.value(), result.visible.triangles);
+  signals_.tracker.finished(lastCost_.total, parameters_->measure.budget.value(), result.visible.triangles);
   overBudget_ += lastCost_.total > parameters_->measure.budget.value();
   decideMs_ = 0;
   if (!inPicture_.empty()) {

@@ -188,7 +188,7 @@ double LeverSurface::targetAt(double x, double y) const {
 }
 
 void LeverSurface::showLive(const PolicyLive& live) {
-  if (live.decided) flight_ = live.flight;
+  if (live.seen) flight_ = live.flight;
   const bool moved = std::any_of(kSignalRows.begin(), kSignalRows.end(), [&](const SignalRow& row) {
     if (row.signal == x_ || row.signal == y_ || !compiled_.asks(row.signal)) return false;
     const Range view = viewOf(row.signal, policy_.terms);

@@ -11,6 +11,7 @@ namespace trimtab::views {
 
 /// What the active policy makes of the last frame, for all parts of the dock.
 struct PolicyLive {
+  bool seen = false;      ///< whether a frame was shown, so that `flight` is of it
   bool decided = false;   ///< whether a policy is switched on and a frame was decided
   bool matches = false;   ///< whether it is the policy of the draft: rule i is line i
   SignalValues flight;    ///< NaN: unknown

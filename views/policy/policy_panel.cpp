@@ -292,7 +292,7 @@ void PolicyPanel::addFirstTerm() {
 void PolicyPanel::showFrame(const LiveFrame& frame) {
   frame_ = frame;
   any_ = true;
-  if (draft_.active().policy() != nullptr) track_.push(frame.time, frame.input.signalValues);
+  track_.push(frame.time, frame.input.signalValues);
   parts_.scheme->showFrame(frame);
   throttle_.request();
 }
@@ -305,10 +305,11 @@ void PolicyPanel::readActive() {
 
 void PolicyPanel::refresh() {
   live_.compiled = draft_.active().policy();
+  live_.seen = any_;
+  if (any_) live_.flight = frame_.input.signalValues;
   live_.decided = any_ && live_.compiled != nullptr;
   live_.matches = !draft_.isBroken();
   if (live_.decided) {
-    live_.flight = frame_.input.signalValues;
     live_.outcome = frame_.decision.policy;
     live_.compiled->decide(live_.flight, live_.decision);
   }

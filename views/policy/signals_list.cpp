@@ -36,10 +36,10 @@ int SignalsModel::rowCount(const QModelIndex& parent) const {
 }
 
 void SignalsModel::showLive(const PolicyLive& live) {
-  const bool other = std::exchange(decided_, live.decided) != live.decided;
+  const bool other = std::exchange(seen_, live.seen) != live.seen;
   for (const SignalRow& row : kSignalRows) {
     const double value = live.flight[row.signal];
-    QString text = live.decided && !std::isnan(value) ? signalText(row.signal, value) : QString();
+    QString text = live.seen && !std::isnan(value) ? signalText(row.signal, value) : QString();
     QString& shown = values_[indexOf(row.signal)];
     if (text == shown && !other) continue;
     shown = std::move(text);
@@ -61,8 +61,8 @@ QString SignalsModel::toolTip(Signal signal) const {
   text += tr("<p>Terms: %1. %2</p>")
               .arg(policy_.termsOf(signal).size())
               .arg(used_[indexOf(signal)] ? tr("Rules ask for it.") : tr("No rule asks for it."));
-  if (!decided_)
-    text += tr("<p>Signals are derived while the policy is switched on.</p>");
+  if (!seen_)
+    text += tr("<p>Signals are known from the first image on.</p>");
   else if (values_[indexOf(signal)].isEmpty())
     text += tr("<p>Unknown: %1.%2</p>")
                 .arg(fromView(row.unknown), signal == Signal::above_ground && !used_[indexOf(signal)]
@@ -90,7 +90,7 @@ QVariant SignalsModel::data(const QModelIndex& index, int role) const {
       if (index.column() == kName)
         return (used_[at] ? QStringLiteral("● ") : QStringLiteral("○ ")) +
                fromView(keys_ ? rowOf(*signal).key : rowOf(*signal).label);
-      return known ? values_[at] : decided_ ? tr("unknown") : QStringLiteral("–");
+      return known ? values_[at] : seen_ ? tr("unknown") : QStringLiteral("–");
     case Qt::AccessibleTextRole:
       if (index.column() == kName)
         return fromView(rowOf(*signal).label) + (used_[at] ? tr(", used by rules") : QString());

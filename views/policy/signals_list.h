@@ -37,7 +37,7 @@ class SignalsModel : public QAbstractTableModel {
   PolicyDraft& policy_;
   std::array<QString, kSignals> values_;  ///< empty: unknown
   std::array<bool, kSignals> used_{};
-  bool decided_ = false, keys_ = false;
+  bool seen_ = false, keys_ = false;
 };
 
 /// The list on the left of the dock.

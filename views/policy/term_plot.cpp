@@ -270,7 +270,7 @@ void TermPlot::describe() {
 }
 
 void TermPlot::showLive(const PolicyLive& live) {
-  const double now = live.decided ? live.flight[signal_] : std::numeric_limits<double>::quiet_NaN();
+  const double now = live.seen ? live.flight[signal_] : std::numeric_limits<double>::quiet_NaN();
   const bool same = now == value_ || (std::isnan(now) && std::isnan(value_));
   if (same && drawnTrack_ == track_.revision()) return;
   value_ = now;

@@ -48,7 +48,7 @@ const PolicyDraft::TermLine& TermsModel::lineAt(int row) const {
 }
 
 void TermsModel::showLive(const PolicyLive& live) {
-  const double x = live.decided ? live.flight[signal_] : std::numeric_limits<double>::quiet_NaN();
+  const double x = live.seen ? live.flight[signal_] : std::numeric_limits<double>::quiet_NaN();
   const Range range = rowOf(signal_).range;
   for (int row = 0; row < rowCount(); ++row) {
     const PolicyDraft::TermLine& line = lineAt(row);

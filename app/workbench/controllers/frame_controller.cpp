@@ -195,6 +195,7 @@ views::LiveFrame FrameController::liveFrame() const {
   views::LiveFrame frame;
   frame.time = clock();
   frame.input = session().input();
+  frame.input.signalValues = session().signalValues();
   frame.decision = session().decision();
   frame.cost = lastCost_;
   frame.fps = fps_;

@@ -23,6 +23,7 @@ bool sameChoice(const FrameDecision& a, const FrameDecision& b) {
 }  // namespace
 
 Feed::Feed(const ValidatedParameters& parameters, QObject* parent) : QObject(parent), session_(parameters) {
+  session_.watchSignals();
   silence_.setSingleShot(true);
   connect(&silence_, &QTimer::timeout, this, [this] {
     lastLink_ = session_.linkState(link::now());

@@ -100,6 +100,22 @@ TEST(PolicySession, withoutAPolicyNothingIsSetAndNothingIsAsked) {
   for (const double value : session.input().signalValues.value) EXPECT_TRUE(std::isnan(value));
 }
 
+TEST(PolicySession, whoWatchesSeesTheSignalsOfAPresetWithoutAPolicy) {
+  Session session(defaultParameters());
+  session.setGround(std::make_shared<FlatGround>());
+  session.watchSignals();
+  session.fly(flownAt(1, 300));
+  EXPECT_DOUBLE_EQ(session.signalValues()[Signal::above_ground], Metres{100}.as<Feet>().value());
+  for (const double value : session.input().signalValues.value)
+    EXPECT_TRUE(std::isnan(value)) << "no decision and no trace depends on them";
+  session.restart();
+  session.fly(flownAt(2, 300));
+  EXPECT_FALSE(std::isnan(session.signalValues()[Signal::altitude])) << "after a restart too";
+  session.setParameters(lowAndLoaded());
+  session.fly(flownAt(3, 300));
+  EXPECT_EQ(session.signalValues()[Signal::altitude], session.input().signalValues[Signal::altitude]);
+}
+
 TEST(PolicySession, aNearerFarCutHasItsOwnNearFarRatio) {
   PolicyOutcome outcome;
   outcome.moved = 1u << indexOf(Lever::far_distance);

@@ -108,6 +108,12 @@ class Session {
   FrameHold& hold() { return budget_.hold; }
   const FrameHold& hold() const { return budget_.hold; }
 
+  /// Derives the signals also while the preset has no policy, for whoever shows them. They cost a height from
+  /// the terrain for each state; decisions and traces do not depend on it.
+  void watchSignals() { signals_.watched.emplace(); }
+  /// Returns the signals of the last decided state. Unknown without a policy, unless somebody watches.
+  SignalValues signalValues() const { return signals_.watched.value_or(decided_.signalValues); }
+
   // Images.
 
   /// Reports whether an image at `now` would differ from the last one requested: because of a packet, an
@@ -127,8 +133,8 @@ class Session {
   /// Call this when the requested image is finished. It completes trace rows, latencies and the cost that the
   /// next input holds, and returns that cost with `decide` filled in.
   FrameCost finished(const FrameResult& result, double now);
-  /// Names the nodes that the next images may draw and `drawn`, the last request as it was drawn, may not have
-  /// (FrameHold::nodesAhead). Renderer::buildAhead takes them, for the time of aheadMs().
+  /// Names the nodes that the next images may draw and `drawn`, the last request as it was drawn, may not
+  /// have (FrameHold::nodesAhead). Renderer::buildAhead takes them, for the time of aheadMs().
   std::span<const std::uint32_t> nodesAhead(const FrameRequest& drawn);
   /// Returns how long building ahead may take after the last image: half of what it left of the budget,
   /// milliseconds, but at least a fiftieth of the budget, so that it also goes on while images are late.
@@ -190,7 +196,11 @@ class Session {
   };
   Air air_;
 
-  SignalTracker signals_;  ///< pushed only if the preset has a policy
+  struct Signals {
+    SignalTracker tracker;                ///< pushed only if the preset has a policy or somebody watches
+    std::optional<SignalValues> watched;  ///< if unset, nobody watches
+  };
+  Signals signals_;
   /// What holds the budget.
   struct Budget {
     FrameHold hold;
