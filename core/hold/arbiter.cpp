@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -296,6 +297,37 @@ double smearPx(double degreesPerS, double exposureMs, double pixelsPerRadian) {
 double errorInMotion(double errorPx, double degreesPerS, double exposureMs, double pixelsPerRadian) {
   const double smear = smearPx(degreesPerS, exposureMs, pixelsPerRadian);
   return smear > errorPx && std::isfinite(smear) ? std::sqrt(errorPx * smear) : errorPx;
+}
+
+HoldGains gainsOf(const HoldGiven& given, const HoldDecision& d, const HoldParameters& p) {
+  constexpr std::size_t kHeld = 4;
+  if (d.held == d.asked || !isNumber(given)) return {};
+  // Bit i says that lever i is lowered.
+  std::array<double, 1u << kHeld> ms{};
+  for (unsigned lowered = 0; lowered < ms.size(); ++lowered) {
+    const auto of = [lowered](unsigned bit, double asked, double held) {
+      return (lowered >> bit & 1u) != 0 ? held : asked;
+    };
+    const HeldLevers levers{
+        of(0, d.asked.errorPx, d.held.errorPx), of(1, d.asked.renderScale, d.held.renderScale),
+        of(2, d.asked.particleShare, d.held.particleShare), of(3, d.asked.blurShare, d.held.blurShare)};
+    const double triangles = trianglesAt(given.triangles, d.asked.errorPx, levers.errorPx);
+    ms[lowered] = predict(given.cost, loadOf(given, levers, triangles)).total();
+  }
+  // Among four levers, n are lowered before a given one in n! (3 - n)! of 4! orders.
+  constexpr std::array<double, kHeld> kWeight{6.0 / 24, 2.0 / 24, 2.0 / 24, 6.0 / 24};
+  std::array<double, kHeld> won{};
+  for (unsigned lever = 0; lever < kHeld; ++lever)
+    for (unsigned before = 0; before < ms.size(); ++before) {
+      if ((before >> lever & 1u) != 0) continue;
+      won[lever] +=
+          kWeight[static_cast<std::size_t>(std::popcount(before))] * (ms[before] - ms[before | 1u << lever]);
+    }
+  const double freePx = std::max(d.asked.errorPx, given.unseenPx);
+  return {{won[0], p.lossError.value() * errorLoss(d.held.errorPx, freePx)},
+          {won[1], p.lossRenderScale.value() * scaleLoss(d.held.renderScale, d.asked.renderScale)},
+          {won[2], p.lossParticles.value() * (d.asked.particleShare - d.held.particleShare)},
+          {won[3], p.lossBlur.value() * (d.asked.blurShare - d.held.blurShare)}};
 }
 
 std::string explain(const HoldDecision& d) {

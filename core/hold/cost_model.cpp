@@ -41,6 +41,12 @@ double workMs(const FrameCost& cost) {
   return std::isfinite(cost.gpu) ? std::max(cost.gpu, cost.total) : cost.total;
 }
 
+StageTimes stagesOf(const FrameCost& cost) {
+  const double other = orZero(cost.decide) + orZero(cost.page) + orZero(cost.symbology);
+  const double weather = orZero(cost.weather), blur = orZero(cost.blur);
+  return {std::max(workMs(cost) - other - weather - blur, 0.0), weather, blur, other};
+}
+
 void CostModel::observe(const FrameLoad& load, const FrameCost& cost) {
   const double work = workMs(cost);
   if (!std::isfinite(work) || !(work > 0)) return;

@@ -6,10 +6,12 @@
 #include <QMessageBox>
 #include <QMouseEvent>
 #include <QPushButton>
+#include <QTableWidget>
 #include <cmath>
 #include <cstdlib>
 
 #include "app/link/link.h"
+#include "app/workbench/window/workspaces.h"
 #include "gui_support.h"
 #include "trimtab/motion/head_motion.h"
 #include "views/controls/bar_list.h"
@@ -79,6 +81,41 @@ TEST_F(Motion, aSweepIsRecordedAndFlownAgainWithItsLineOfSight) {
   }));
   EXPECT_TRUE(waitFor([&] { return budget.comparisonText().contains(QLatin1String("Flown again")); }));
   shoot("budget-flown-again");
+}
+
+TEST_F(Motion, theDockBudgetSaysWhatHeldTheFrameAndWhatEachLeverGave) {
+  auto& budget = *w().findChild<views::BudgetPanel*>();
+  w().resize(1280, 720);
+  w().workspaces().show(1);
+  w().workspaces().reset();
+  w().dock(QStringLiteral("budget"))->raise();
+  panel().sweepEdit().setText(QStringLiteral("180deg/1s/0.5s"));
+  panel().sourceBox().setCurrentIndex(MotionPanel::sweep);
+  emit panel().sourceBox().activated(MotionPanel::sweep);
+  const auto flies = [&](std::uint64_t images) {
+    const std::uint64_t from = paints();
+    return waitFor([&, from] { return paints() >= from + images; });
+  };
+  ASSERT_TRUE(flies(60));
+  const double ms = w().controllers().frame->lastCost().total;
+  ASSERT_TRUE(
+      w().draft()
+          .setText("measure.budget_ms", QString::number(std::max(0.6 * ms, 0.2), 'f', 1).toStdString())
+          .empty());
+  budget.recordButton().click();
+  ASSERT_TRUE(flies(100));
+  budget.recordButton().click();
+  budget.modeChoice().setCurrentIndex(3);
+  budget.replayButton().click();
+  EXPECT_TRUE(w().draft().parameters().hold.enabled);
+  const auto gave = [&](int row) { return QLocale().toDouble(budget.levers().item(row, 2)->text()); };
+  EXPECT_TRUE(waitFor([&] { return gave(0) + gave(1) > 0; })) << budget.stateText().toStdString();
+  EXPECT_TRUE(waitFor([&] { return budget.residualsText().contains(QLatin1String("Three images")); }));
+  EXPECT_GT(budget.reasons().count(), 0);
+  QTest::qWait(1000);
+  shoot("budget-held");
+  if (const char* folder = std::getenv("TRIMTAB_SHOTS"))
+    budget.grab().save(QStringLiteral("%1/budget-held-panel.png").arg(QLatin1String(folder)));
 }
 
 TEST_F(Motion, thePointerOverThePictureIsTheLineOfSight) {

@@ -28,6 +28,8 @@ LiveFrame frameAt(double time, HoldReason reason, double heldPx) {
   frame.hold.askedMs = {20, 4, 0, 0.5};
   frame.hold.limitMs = 15.4;
   frame.hold.bandMs = 1.5;
+  frame.holdGains.error = {6, 0.0041};
+  frame.holdGains.renderScale = {3.96, 0.0105};
   frame.holdOutcome = HoldOutcome{3, 110, 100, 14, 1.5, 15};
   return frame;
 }
@@ -61,6 +63,69 @@ TEST_F(BudgetPanelTest, showsWhatEachLeverGives) {
   EXPECT_EQ(panel.levers().item(1, 1)->text(), "0.8");
   EXPECT_EQ(panel.levers().item(2, 2)->text(), "nothing");
   EXPECT_TRUE(panel.stateText().startsWith("Lowered")) << panel.stateText().toStdString();
+}
+
+TEST_F(BudgetPanelTest, saysHowManyMillisecondsEachLeverTakesOff) {
+  panel.showFrame(frameAt(1, HoldReason::lowered, 4));
+  panel.show();
+  settle();
+  EXPECT_EQ(panel.levers().item(0, 2)->text(), "6");
+  EXPECT_EQ(panel.levers().item(1, 2)->text(), "3.96");
+  EXPECT_EQ(panel.levers().item(1, 3)->text(), "0.0105");
+  EXPECT_EQ(panel.levers().item(3, 2)->text(), "nothing");
+  ASSERT_EQ(panel.reasons().count(), 1);
+  const QString change = panel.reasons().item(0)->text();
+  EXPECT_TRUE(change.contains("allowed error takes off 6 ms, render scale takes off 4 ms"))
+      << change.toStdString();
+  EXPECT_FALSE(change.contains("blur takes")) << change.toStdString();
+}
+
+TEST_F(BudgetPanelTest, stacksPredictedAndMeasuredStagesOnOneScaleAndShowsHowFarOffTheyWere) {
+  BudgetPlot& plot = panel.plot();
+  for (int i = 0; i < 20; ++i) {
+    LiveFrame frame = frameAt(i / 10.0, HoldReason::held, 4);
+    frame.cost.weather = 3;
+    frame.cost.decide = 1;
+    panel.showFrame(frame);
+  }
+  const auto last = [](const QCPGraph* graph) { return (graph->data()->constEnd() - 1)->value; };
+  EXPECT_DOUBLE_EQ(last(plot.predicted()[0]), 12);
+  EXPECT_DOUBLE_EQ(last(plot.predicted()[3]), 14.5);
+  EXPECT_DOUBLE_EQ(last(plot.measured()[0]), 11);
+  EXPECT_DOUBLE_EQ(last(plot.measured()[1]), 14);
+  EXPECT_DOUBLE_EQ(last(plot.measured()[3]), 15);
+  EXPECT_NEAR(last(&plot.off()), 100 * (14.0 / 15 - 1), 1e-9);
+  plot.refresh();
+  EXPECT_EQ(plot.predicted()[0]->valueAxis()->range(), plot.measured()[0]->valueAxis()->range());
+  EXPECT_NE(plot.predicted()[0]->valueAxis(), plot.measured()[0]->valueAxis());
+  plot.append(frameAt(2, HoldReason::off, 4), 16.7);
+  EXPECT_TRUE(std::isnan(last(plot.predicted()[0])));
+  EXPECT_TRUE(std::isnan(last(&plot.off()))) << "what is not held is not predicted";
+  EXPECT_DOUBLE_EQ(last(plot.measured()[3]), 15) << "but it is measured";
+}
+
+TEST_F(BudgetPanelTest, fliesARunAgainUnderAnotherModeAsOneUndoStep) {
+  panel.recordButton().click();
+  for (int i = 0; i < 3; ++i) {
+    LiveFrame frame = frameAt(i, HoldReason::off, 1);
+    frame.input.state.time = 100 + i;
+    panel.showFrame(frame);
+  }
+  panel.recordButton().click();
+  panel.show();
+  settle();
+  EXPECT_FALSE(draft.parameters().hold.enabled);
+  panel.modeChoice().setCurrentIndex(3);
+  panel.replayButton().click();
+  EXPECT_TRUE(draft.parameters().hold.enabled);
+  EXPECT_EQ(draft.undoStack().count(), 1);
+  panel.modeChoice().setCurrentIndex(1);
+  panel.replayButton().click();
+  EXPECT_FALSE(draft.parameters().hold.enabled);
+  EXPECT_FALSE(draft.parameters().policy.enabled);
+  panel.modeChoice().setCurrentIndex(0);
+  panel.replayButton().click();
+  EXPECT_EQ(draft.undoStack().count(), 2) << "nothing to switch";
 }
 
 TEST_F(BudgetPanelTest, showsTheNamesOfItsCurvesWholeInANarrowDock) {

@@ -26,6 +26,7 @@ struct LiveFrame {
   std::shared_ptr<const FrameResult> result;  ///< null until the terrain has been drawn once
   LevelsFrame levels;                         ///< of `result`: by depth if it drew patches
   HoldDecision hold;                          ///< of `result`
+  HoldGains holdGains;                        ///< what each lever of `hold` gives
   std::optional<HoldOutcome> holdOutcome;     ///< of the prediction for `result`
   bool newImage = false;                      ///< `result` is new
 

@@ -2,6 +2,7 @@
 #include "budget_panel.h"
 
 #include <QBoxLayout>
+#include <QComboBox>
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
@@ -10,6 +11,7 @@
 #include <cmath>
 
 #include "views/controls/parameter_lines.h"
+#include "views/model/keys.h"
 #include "views/model/theme.h"
 #include "views/plots/budget_plot.h"
 
@@ -24,6 +26,42 @@ constexpr const char* kBudgetKeys[] = {
 QString percent(double share) {
   return std::isfinite(share) ? BudgetPanel::tr("%1 %").arg(numberText(100 * share, 1))
                               : BudgetPanel::tr("unknown");
+}
+
+/// What a recorded run can be flown again under.
+struct ReplayMode {
+  const char* name;
+  std::optional<bool> policy, hold;  ///< unset: as the preset has it
+};
+constexpr ReplayMode kReplayModes[] = {
+    {QT_TRANSLATE_NOOP("BudgetPanel", "as the preset is now"), std::nullopt, std::nullopt},
+    {QT_TRANSLATE_NOOP("BudgetPanel", "without policy and budget"), false, false},
+    {QT_TRANSLATE_NOOP("BudgetPanel", "with the policy alone"), true, false},
+    {QT_TRANSLATE_NOOP("BudgetPanel", "with the budget held"), std::nullopt, true}};
+
+/// A lever of the arbiter: its place in decisions and gains, and how it is written.
+struct LeverLine {
+  double HeldLevers::*value;
+  LeverGain HoldGains::*gain;
+  const char* name;  ///< as a part of a sentence
+  int decimals;
+};
+constexpr LeverLine kLeverLines[] = {
+    {&HeldLevers::errorPx, &HoldGains::error, QT_TRANSLATE_NOOP("BudgetPanel", "allowed error"), 2},
+    {&HeldLevers::renderScale, &HoldGains::renderScale, QT_TRANSLATE_NOOP("BudgetPanel", "render scale"), 2},
+    {&HeldLevers::particleShare, &HoldGains::particles, QT_TRANSLATE_NOOP("BudgetPanel", "particles"), 2},
+    {&HeldLevers::blurShare, &HoldGains::blur, QT_TRANSLATE_NOOP("BudgetPanel", "blur"), 2}};
+enum LeverColumn { kAsked, kHeld, kWon, kLost, kLeverColumns };
+
+/// Says what the lowered levers take off, as the end of a sentence: "render scale takes off 2.1 ms". Empty if
+/// none is lowered.
+QString wonText(const HoldDecision& d, const HoldGains& gains) {
+  QStringList parts;
+  for (const LeverLine& lever : kLeverLines)
+    if (d.held.*lever.value != d.asked.*lever.value)
+      parts << BudgetPanel::tr("%1 takes off %2 ms")
+                   .arg(BudgetPanel::tr(lever.name), numberText((gains.*lever.gain).ms, 1));
+  return parts.join(QStringLiteral(", "));
 }
 
 QString inWords(const RecordedRun& run) {
@@ -45,8 +83,9 @@ BudgetPanel::BudgetPanel(Draft& draft, QWidget* parent)
       plot_(new BudgetPlot),
       record_(new QPushButton(tr("&Record"))),
       replay_(new QPushButton(tr("Fl&y again"))),
-      levers_(new QTableWidget(4, 3)),
+      levers_(new QTableWidget(int(std::size(kLeverLines)), kLeverColumns)),
       reasons_(new ReasonList),
+      mode_(new QComboBox),
       throttle_(this, [this] { refresh(); }) {
   QFont bold = font();
   bold.setBold(true);
@@ -56,7 +95,13 @@ BudgetPanel::BudgetPanel(Draft& draft, QWidget* parent)
       tr("Predictions made three images ahead, of the last 300 images: the median error of triangles and of "
          "time, and the share of images within the 90 % band."));
   levers_->setAccessibleName(tr("Levers of the budget"));
-  levers_->setHorizontalHeaderLabels({tr("Asked for"), tr("Held"), tr("Given")});
+  levers_->setHorizontalHeaderLabels({tr("Asked for"), tr("Held"), tr("Takes off (ms)"), tr("Loses (FLIP)")});
+  levers_->horizontalHeaderItem(kWon)->setToolTip(
+      tr("What the lever takes off the predicted time. The levers of an image add up to the difference "
+         "between what is asked for and what is held."));
+  levers_->horizontalHeaderItem(kLost)->setToolTip(
+      tr("What the image loses by the lever, as the mean FLIP that the preset's hold.loss_ parameters rate. "
+         "Of all settings that fit the budget, the arbiter chooses the one that loses least."));
   levers_->setVerticalHeaderLabels(
       {tr("Allowed error (px)"), tr("Render scale"), tr("Particle density"), tr("Blur")});
   levers_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
@@ -77,12 +122,12 @@ BudgetPanel::BudgetPanel(Draft& draft, QWidget* parent)
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(6, 6, 6, 6);
   layout->addWidget(state_);
-  layout->addWidget(plot_, 3);
+  layout->addWidget(plot_);
   layout->addLayout(makeRecorder());
   layout->addWidget(residuals_);
   layout->addWidget(levers_);
   layout->addWidget(new QLabel(tr("<b>Changes</b>")));
-  layout->addWidget(reasons_, 1);
+  layout->addWidget(reasons_);
   layout->addWidget(new ParameterLines(draft, kBudgetKeys));
   refresh();
 }
@@ -96,11 +141,30 @@ QLayout* BudgetPanel::makeRecorder() {
          "new"));
   connect(record_, &QPushButton::toggled, this, &BudgetPanel::setRecording);
   connect(replay_, &QPushButton::clicked, this, &BudgetPanel::askReplay);
+  mode_->setAccessibleName(tr("Fly again"));
+  mode_->setToolTip(tr("What is switched on or off before the run is flown again; Undo takes it back"));
+  mode_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  mode_->setMinimumContentsLength(16);
+  for (const ReplayMode& mode : kReplayModes) mode_->addItem(tr(mode.name));
   auto* row = new QHBoxLayout;
   row->addWidget(record_);
   row->addWidget(replay_);
-  row->addWidget(comparison_, 1);
-  return row;
+  row->addWidget(mode_, 1);
+  auto* column = new QVBoxLayout;
+  column->addLayout(row);
+  column->addWidget(comparison_);
+  return column;
+}
+
+void BudgetPanel::switchTo(int mode) {
+  const ReplayMode& wanted = kReplayModes[std::clamp(mode, 0, int(std::size(kReplayModes)) - 1)];
+  std::vector<Draft::KeyValue> values;
+  const auto add = [&](std::string_view key, std::optional<bool> on) {
+    if (on && draft_.value(key) != ParameterValue{*on}) values.push_back({key, *on});
+  };
+  add(key::kPolicyEnabled, wanted.policy);
+  add("hold.enabled", wanted.hold);
+  if (!values.empty()) draft_.setValues(values, tr("Fly Again %1").arg(tr(wanted.name)));
 }
 
 void BudgetPanel::setRecording(bool on) {
@@ -112,6 +176,7 @@ void BudgetPanel::askReplay() {
   record_->setChecked(false);
   replayed_ = {};
   stage_ = Replay::asked;
+  switchTo(mode_->currentIndex());
   emit replayAsked(recorded_.states());
 }
 
@@ -147,6 +212,7 @@ QString BudgetPanel::residualsText() const {
 void BudgetPanel::showFrame(const LiveFrame& frame) {
   if (!frame.newImage) return;
   shown_ = frame.hold;
+  gains_ = frame.holdGains;
   plot_->append(frame, draft_.active()->measure.budget.value());
   if (shown_.reason != HoldReason::off && frame.holdOutcome) count(*frame.holdOutcome);
   addToRun(frame);
@@ -167,7 +233,9 @@ void BudgetPanel::note(const LiveFrame& frame) {
   if (reason == noted_ && reason != HoldReason::lowered) return;
   noted_ = reason;
   if (!moves && reason != HoldReason::out_of_reach && reason != HoldReason::fits) return;
-  reasons_->add(frame.time, explain(shown_));
+  std::string text = explain(shown_);
+  if (const QString won = wonText(shown_, frame.holdGains); !won.isEmpty()) text += "; " + won.toStdString();
+  reasons_->add(frame.time, text);
 }
 
 void BudgetPanel::compare() {
@@ -181,6 +249,21 @@ void BudgetPanel::compare() {
   comparison_->setText(text);
 }
 
+void BudgetPanel::refreshLevers() {
+  const HoldDecision& d = shown_;
+  const bool off = d.reason == HoldReason::off;
+  for (int row = 0; row < int(std::size(kLeverLines)); ++row) {
+    const LeverLine& lever = kLeverLines[row];
+    const double asked = d.asked.*lever.value, held = d.held.*lever.value;
+    const LeverGain& gain = gains_.*lever.gain;
+    const bool lowered = asked != held;
+    levers_->item(row, kAsked)->setText(off ? tr("–") : numberText(asked, lever.decimals));
+    levers_->item(row, kHeld)->setText(off ? tr("–") : numberText(held, lever.decimals));
+    levers_->item(row, kWon)->setText(lowered ? numberText(gain.ms, 2) : tr("nothing"));
+    levers_->item(row, kLost)->setText(lowered ? numberText(gain.loss, 4) : tr("nothing"));
+  }
+}
+
 void BudgetPanel::refresh() {
   const HoldDecision& d = shown_;
   if (d.reason == HoldReason::off) {
@@ -190,17 +273,7 @@ void BudgetPanel::refresh() {
     text[0] = text[0].toUpper();
     state_->setText(text);
   }
-  const auto set = [&](int row, double asked, double held, int decimals) {
-    levers_->item(row, 0)->setText(numberText(asked, decimals));
-    levers_->item(row, 1)->setText(numberText(held, decimals));
-    levers_->item(row, 2)->setText(asked == held ? tr("nothing")
-                                                 : tr("× %1").arg(numberText(held / asked, 2)));
-  };
-  set(0, d.asked.errorPx, d.held.errorPx, 2);
-  set(1, d.asked.renderScale, d.held.renderScale, 2);
-  set(2, d.asked.particleShare, d.held.particleShare, 2);
-  set(3, d.asked.blurShare, d.held.blurShare, 2);
-
+  refreshLevers();
   if (within_.size() == 0)
     residuals_->setText(tr("No prediction has come due yet"));
   else

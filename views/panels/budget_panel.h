@@ -10,6 +10,7 @@
 #include "views/model/recorded_run.h"
 #include "views/model/throttle.h"
 
+class QComboBox;
 class QLabel;
 class QPushButton;
 class QTableWidget;
@@ -33,6 +34,8 @@ class BudgetPanel : public QWidget {
   QString comparisonText() const;
   QPushButton& recordButton() { return *record_; }
   QPushButton& replayButton() { return *replay_; }
+  /// Chooses what flies again: the preset as it is, or with policy and budget switched.
+  QComboBox& modeChoice() { return *mode_; }
   QTableWidget& levers() { return *levers_; }
   QListWidget& reasons() { return *reasons_; }
   BudgetPlot& plot() { return *plot_; }
@@ -52,6 +55,8 @@ class BudgetPanel : public QWidget {
   void refresh();
   void count(const HoldOutcome& outcome);
   void note(const LiveFrame& frame);
+  void refreshLevers();
+  void switchTo(int mode);
 
   Draft& draft_;
   QLabel *state_, *residuals_, *comparison_;
@@ -59,7 +64,9 @@ class BudgetPanel : public QWidget {
   QPushButton *record_, *replay_;
   QTableWidget* levers_;
   ReasonList* reasons_;
+  QComboBox* mode_;
   HoldDecision shown_;
+  HoldGains gains_;
   HoldReason noted_ = HoldReason::off;
   /// These samples are of predictions that came due: how far off they were, as a share, and 1 if the measured
   /// time was within the band.

@@ -8,8 +8,10 @@
 
 namespace trimtab::views {
 
-/// Shows the last seconds: the predicted time of each image by stage, stacked, with its 90 % band, beside the
-/// measured time, what would be drawn without the arbiter, and the budget.
+/// Shows the last seconds in three plots: the predicted time of each image by stage, stacked, with its 90 %
+/// band and what would be drawn without the arbiter; the measured time by stage on the same scale, with a
+/// recorded run laid over it; and by how much the predictions that came due were off. They are beside each
+/// other where there is the width for that, else below each other.
 class BudgetPlot : public Plot {
   Q_OBJECT
  public:
@@ -23,17 +25,35 @@ class BudgetPlot : public Plot {
   void overlay(const RecordedRun& run, double atS);
   void refresh();
 
-  QSize sizeHint() const override { return {320, 230}; }
-  QSize minimumSizeHint() const override { return {240, 150}; }
+  /// The graphs of one kind of time, by stage: running sums, from the bottom.
+  using Stack = std::array<QCPGraph*, 4>;
+  const Stack& predicted() const { return predicted_; }
+  const Stack& measured() const { return measured_; }
+  /// The share, percent, by which predictions were too long; they were made three images before.
+  const QCPGraph& off() const { return *off_; }
+
+  QSize sizeHint() const override { return {320, minimumSizeHint().height() + 50}; }
+  QSize minimumSizeHint() const override;
 
  protected:
   void restyle() override;
-  void resized() override { arrangeLegendAbove(); }
+  void resized() override;
 
  private:
-  std::array<QCPGraph*, 4> stages_{};  ///< running sums, from the bottom
-  QCPGraph *measured_, *asked_, *bandLow_, *bandHigh_, *budget_, *recorded_;
-  double last_ = 0;
+  enum Part : std::size_t { predictedPart, measuredPart, offPart, kParts };
+  void makeParts();
+  Stack makeStack(Part part);
+  QCPGraph* makeLine(Part part, const QString& name = {});
+  void arrangeParts();
+  void addStack(const Stack& stack, double time, const StageTimes& times, bool known);
+
+  std::array<QCPAxisRect*, kParts> parts_{};
+  QCPLayoutGrid* grid_ = nullptr;
+  bool wide_ = false;
+  Stack predicted_{}, measured_{};
+  QCPGraph *total_, *asked_, *bandLow_, *bandHigh_, *budget_, *recorded_, *measuredBudget_;
+  QCPGraph *off_, *offLow_, *offHigh_, *none_;
+  double begin_ = 0, last_ = 0;  ///< when the plot began, and the newest image
 };
 
 }  // namespace trimtab::views

@@ -201,7 +201,10 @@ views::LiveFrame FrameController::liveFrame() const {
   frame.fps = fps_;
   frame.result = at_.viewport.lastResult();
   if (frame.result) frame.levels = levels_;
-  if (shown_) frame.hold = shown_->hold;
+  if (shown_) {
+    frame.hold = shown_->hold;
+    frame.holdGains = gainsOf(session().hold().given(), frame.hold, session().parameters()->hold);
+  }
   frame.holdOutcome = session().hold().outcome();
   return frame;
 }

@@ -124,6 +124,33 @@ TEST(Arbiter, losesAsLittleAsAnySettingThatFits) {
   }
 }
 
+TEST(Arbiter, saysWhatEachLeverTakesOffAndTheyAddUp) {
+  const HoldParameters p = enabled();
+  HoldGiven g = given();
+  HoldDecision d;
+  d.asked = d.held = g.asked;
+  EXPECT_EQ(gainsOf(g, d, p), HoldGains{}) << "nothing is lowered";
+  // A single lever gives all of the difference.
+  d.held.particleShare = 0.5;
+  HoldGains gains = gainsOf(g, d, p);
+  EXPECT_DOUBLE_EQ(gains.particles.ms, 1.5);
+  EXPECT_DOUBLE_EQ(gains.particles.loss, p.lossParticles.value() / 2);
+  EXPECT_EQ(gains.error, LeverGain{});
+  // Render scale 0.5 draws a quarter of the pixels: 15 of 20 ms of the ground, and of blur and weather the
+  // mean of what they take in each order.
+  d.held = {2, 0.5, 0.5, 0};
+  gains = gainsOf(g, d, p);
+  EXPECT_DOUBLE_EQ(gains.error.ms, 5) << "its triangles have no other lever";
+  EXPECT_NEAR(gains.renderScale.ms, 0.75 * (18 + 2 + 1) + 0.5 * 0.75 * 3, 1e-9);
+  EXPECT_NEAR(gains.blur.ms, 0.5 * (3 + 0.75), 1e-9);
+  const double all = gains.error.ms + gains.renderScale.ms + gains.particles.ms + gains.blur.ms;
+  const double held =
+      predict(g.cost, loadOf(g, d.held, trianglesAt(g.triangles, d.asked.errorPx, d.held.errorPx))).total();
+  EXPECT_NEAR(all, 40 - held, 1e-9);
+  g.cost.fixed = kNan;
+  EXPECT_EQ(gainsOf(g, d, p), HoldGains{});
+}
+
 TEST(Arbiter, leavesRoomForItsOwnUncertainty) {
   const auto limitAt = [](double bandMs) {
     HoldGiven g = given();

@@ -94,6 +94,24 @@ double smearPx(double degreesPerS, double exposureMs, double pixelsPerRadian);
 /// tests/core/hold averages such a strip. Rates and exposures that are not numbers count as 0.
 double errorInMotion(double errorPx, double degreesPerS, double exposureMs, double pixelsPerRadian);
 
+/// What lowering one lever takes off an image, and what the image loses by it.
+struct LeverGain {
+  double ms = 0;    ///< of the predicted time
+  double loss = 0;  ///< mean FLIP, as the parameters rate the lever
+  friend bool operator==(const LeverGain&, const LeverGain&) = default;
+};
+
+struct HoldGains {
+  LeverGain error, renderScale, particles, blur;
+  friend bool operator==(const HoldGains&, const HoldGains&) = default;
+};
+
+/// Returns what each lever of a decision gives; all 0 while none is lowered. The times of all levers add up
+/// to askedMs - heldMs. Levers share some of it, since a smaller image also has less weather to draw:
+/// each gets the mean of what it takes off in every order in which the levers could have been lowered
+/// (Shapley, "A Value for n-Person Games", 1953). `given` and `parameters` are those of the decision.
+HoldGains gainsOf(const HoldGiven& given, const HoldDecision& decision, const HoldParameters& parameters);
+
 /// Returns the decision in words and numbers, on one line.
 std::string explain(const HoldDecision& decision);
 

@@ -36,6 +36,10 @@ StageTimes predict(const CostCoefficients& cost, const FrameLoad& load);
 /// Returns what a frame's work took: all of the processor's time, or the GPU's if that is longer.
 double workMs(const FrameCost& cost);
 
+/// Returns the work of an image by stage, as it was measured; NaN if it was not. Weather and blur that nobody
+/// measured apart count as ground.
+StageTimes stagesOf(const FrameCost& cost);
+
 /// Learns the coefficients of a machine from finished images.
 class CostModel {
  public:

@@ -59,6 +59,9 @@ class FrameHold {
   /// before there is one.
   const std::optional<HoldOutcome>& outcome() const { return outcome_; }
 
+  /// Returns what the last decision was made from.
+  const HoldGiven& given() const { return given_; }
+
   static constexpr int kImagesAhead = 3;
 
  private:
