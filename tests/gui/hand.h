@@ -44,6 +44,18 @@ class Hand {
     QTest::mouseRelease(&on, Qt::LeftButton, {}, to);
     QCoreApplication::processEvents();
   }
+  /// Drags by the system's drag and drop, which keeps the program in it from the first moves to the drop.
+  void carry(QWidget& on, QPoint from, QPoint to, const QString& what) {
+    steps_ << what;
+    if (!inReach(on, from)) return fail(what);
+    for (int i = 2; i <= 10; ++i)
+      QTimer::singleShot(40 * i, &on,
+                         [&on, from, to, i] { QTest::mouseMove(&on, from + (to - from) * i / 10); });
+    QTimer::singleShot(440, &on, [&on, to] { QTest::mouseRelease(&on, Qt::LeftButton, {}, to); });
+    QTest::mousePress(&on, Qt::LeftButton, {}, from);
+    QTest::mouseMove(&on, from + (to - from) / 10);
+    QTest::qWait(600);
+  }
   void click(QWidget& on, QPoint at, const QString& what) { drag(on, at, at, what); }
   /// Clicks the button, tab, list of choices (by its accessible name) or entry of the open menu.
   void press(QWidget& within, const QString& text) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "hand.h"
 #include "policy_dock.h"
 
 #include <QAction>
@@ -7,6 +8,8 @@
 
 #include "tests/views/dark_palette.h"
 #include "trimtab/host/flight.h"
+#include "views/policy/policy_rules_model.h"
+#include "views/policy/rules_page.h"
 
 namespace trimtab::test {
 namespace {
@@ -54,6 +57,34 @@ TEST_F(PolicyDock, aTermDraggedWhileAFlightPlaysMovesTheLeverAndTheRequest) {
   w().draft().undoStack().undo();
   EXPECT_TRUE(waitFor([&] { return std::abs(requestedErrorPx() - 2) < 0.01; })) << "undone";
   EXPECT_TRUE(settle()) << "at rest nothing is painted";
+}
+
+TEST_F(PolicyDock, aRuleIsDraggedToAnotherPlaceByTheMouse) {
+  const std::vector<std::string> rules{"if altitude is low then screen_space_error = 2",
+                                       "if altitude is high then screen_space_error = 8",
+                                       "if altitude is high then lod_scale = 2"};
+  setPolicy({"altitude low = ramp 5000 4000", "altitude high = ramp 4000 5000"}, rules);
+  w().dock(QStringLiteral("policy"))->raise();
+  parts().signalsList->choose(Signal::altitude);
+  parts().tabs->setCurrentWidget(parts().rules);
+  QTableView& table = parts().rules->table();
+  ASSERT_TRUE(waitFor([&] { return !table.visibleRegion().isEmpty(); }));
+  const int steps = w().draft().undoStack().index();
+  const auto rowAt = [&](int row, int fromTopPx) {
+    const QRect cell = table.visualRect(table.model()->index(row, views::PolicyRulesModel::kCondition));
+    return QPoint(cell.left() + 30, fromTopPx < 0 ? cell.bottom() + fromTopPx : cell.top() + fromTopPx);
+  };
+  Hand hand(w());
+  hand.carry(*table.viewport(), rowAt(0, 8), rowAt(2, -1), "the first rule");
+  const auto now = [&] { return w().draft().parameters().policy.rules.line; };
+  EXPECT_EQ(now(), (std::vector<std::string>{rules[1], rules[2], rules[0]})) << "below the last one";
+  EXPECT_EQ(w().draft().undoStack().index(), steps + 1) << "one drag is one step";
+  EXPECT_EQ(table.currentIndex().row(), 2) << "it stays selected";
+  hand.carry(*table.viewport(), rowAt(2, 8), rowAt(1, 1), "the last rule");
+  EXPECT_EQ(now(), (std::vector<std::string>{rules[1], rules[0], rules[2]})) << "between two others";
+  w().draft().undoStack().undo();
+  w().draft().undoStack().undo();
+  EXPECT_EQ(now(), rules);
 }
 
 TEST_F(PolicyDock, menusLeadToImportAndExport) {
