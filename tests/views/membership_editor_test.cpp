@@ -272,6 +272,39 @@ TEST_F(MembershipEditorTest, severalPointsAreMovedNudgedAndRemovedTogether) {
   EXPECT_EQ(curve().size, before.size - 2) << "two points stay";
 }
 
+TEST_F(MembershipEditorTest, aRectangleDrawnOverEmptySpaceSelectsThePointsWithinToMoveThemTogether) {
+  const CurvePoints before = curve();
+  ASSERT_GE(before.size, 4u);
+  const auto around = [&](std::size_t first, std::size_t last) {
+    const QPointF a = pixel(first), b = pixel(last);
+    return std::pair{QPointF(std::min(a.x(), b.x()) - 14, std::min(a.y(), b.y()) - 14),
+                     QPointF(std::max(a.x(), b.x()) + 14, std::max(a.y(), b.y()) + 14)};
+  };
+  plot().select(0);
+  const auto [from, to] = around(1, 2);
+  drag(plot(), from, to);
+  EXPECT_EQ(plot().group(), (std::vector<std::size_t>{1, 2}));
+  EXPECT_EQ(curve(), before) << "selecting moves nothing";
+  EXPECT_EQ(draft_.undoStack().count(), 0);
+  drag(plot(), pixel(2), pixel(2) + QPointF(8, 0));
+  EXPECT_GT(curve().point[1].x, before.point[1].x);
+  EXPECT_GT(curve().point[2].x, before.point[2].x);
+  EXPECT_EQ(draft_.undoStack().count(), 1) << "they move in one step";
+  draft_.undoStack().undo();
+  EXPECT_EQ(curve(), before);
+
+  const auto [third, end] = around(3, 3);
+  QTest::mousePress(&plot(), Qt::LeftButton, Qt::ControlModifier, third.toPoint());
+  QTest::mouseMove(&plot(), end.toPoint());
+  QTest::mouseRelease(&plot(), Qt::LeftButton, Qt::ControlModifier, end.toPoint());
+  EXPECT_EQ(plot().group(), (std::vector<std::size_t>{1, 2, 3})) << "Ctrl adds to what is selected";
+  QTest::mousePress(&plot(), Qt::LeftButton, Qt::NoModifier, from.toPoint());
+  QTest::mouseMove(&plot(), to.toPoint());
+  QTest::keyClick(&plot(), Qt::Key_Escape);
+  QTest::mouseRelease(&plot(), Qt::LeftButton, Qt::NoModifier, to.toPoint());
+  EXPECT_TRUE(plot().group().empty()) << "Escape gives up the rectangle";
+}
+
 TEST_F(MembershipEditorTest, theMenuOfOneOfSeveralPointsKeepsThem) {
   plot().select(1);
   plot().toggle(2);

@@ -121,9 +121,10 @@ void CurvePlot::describe(const CurvePoints& shown) {
                .arg(numberText(p.x, 3), spec_.unit, numberText(p.y, 4));
   }
   setAccessibleDescription(
-      text + tr("Tab selects a breakpoint, arrow keys move it (Shift: ten times as far), Enter types "
-                "its values, Insert adds one, Delete removes it. Ctrl+A or Ctrl and a click select several, "
-                "which move and go together."));
+      text +
+      tr("Tab selects a breakpoint, arrow keys move it (Shift: ten times as far), Enter types "
+         "its values, Insert adds one, Delete removes it. Ctrl+A, Ctrl and a click, or a rectangle drawn "
+         "over empty space select several, which move and go together."));
 }
 
 void CurvePlot::redraw() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QRubberBand>
 #include <optional>
 #include <set>
 #include <vector>
@@ -15,8 +16,9 @@
 
 namespace trimtab::views {
 
-/// Shows a membership curve whose breakpoints are dragged, added, removed and moved by keys. The live
-/// operating point lies on the curve that the chosen reading computes.
+/// Shows a membership curve whose breakpoints are dragged, added, removed and moved by keys. A
+/// rectangle that is drawn over empty space selects the points within. The live operating point lies on the
+/// curve that the chosen reading computes.
 class CurvePlot : public Plot {
   Q_OBJECT
  public:
@@ -29,6 +31,8 @@ class CurvePlot : public Plot {
   /// Adds a point to the selection, or takes it out.
   void toggle(int index);
   void selectAll();
+  /// Selects the points within a rectangle of this widget, beside those that are selected with `add`.
+  void selectWithin(const QRect& area, bool add = false);
   /// Returns the selected points in rising order: they move and go together.
   std::vector<std::size_t> group() const;
   void addPoint(CurvePoint point);
@@ -89,6 +93,8 @@ class CurvePlot : public Plot {
   std::set<int> beside_;  ///< other points that are selected
   CurvePoints dragStart_;
   QPointF grabOffset_;
+  QRubberBand band_{QRubberBand::Rectangle, this};  ///< shown while a rectangle is drawn over empty space
+  QPoint bandFrom_;
   bool fitted_ = true;
   bool shownAtFault_ = false;
   std::optional<CurvePoint> live_;

@@ -55,6 +55,22 @@ void CurvePlot::selectAll() {
   emit selectedChanged(selected());
 }
 
+void CurvePlot::selectWithin(const QRect& area, bool add) {
+  const CurvePoints points = curve();
+  const int count = static_cast<int>(points.size);
+  if (!add) hand_.select(-1, count), beside_.clear();
+  for (int i = 0; i < count; ++i) {
+    if (!area.contains(pixelOf(points.point[static_cast<std::size_t>(i)]).toPoint()) || i == selected())
+      continue;
+    if (selected() < 0)
+      hand_.select(i, count);
+    else
+      beside_.insert(i);
+  }
+  redraw();
+  emit selectedChanged(selected());
+}
+
 std::vector<std::size_t> CurvePlot::group() const {
   std::set<int> all = beside_;
   if (selected() >= 0) all.insert(selected());
@@ -106,7 +122,12 @@ void CurvePlot::mousePressEvent(QMouseEvent* event) {
     setCursor(Qt::ClosedHandCursor);
     return;
   }
-  if (event->button() == Qt::LeftButton && hit < 0) select(-1);
+  if (event->button() == Qt::LeftButton && hit < 0) {
+    if (!(event->modifiers() & Qt::ControlModifier)) select(-1);
+    bandFrom_ = event->position().toPoint();
+    band_.setGeometry(QRect(bandFrom_, QSize()));
+    band_.setVisible(editable());
+  }
   Plot::mousePressEvent(event);
 }
 
@@ -128,6 +149,10 @@ void CurvePlot::mouseMoveEvent(QMouseEvent* event) {
     drawHover(pixelOf(curve().point[static_cast<std::size_t>(selected())]));
     return;
   }
+  if (!band_.isHidden()) {
+    band_.setGeometry(QRect(bandFrom_, event->position().toPoint()).normalized());
+    return;
+  }
   setCursor(pointAt(event->position()) >= 0 && editable() ? Qt::OpenHandCursor : Qt::ArrowCursor);
   drawHover(event->position());
   Plot::mouseMoveEvent(event);
@@ -138,6 +163,11 @@ void CurvePlot::mouseReleaseEvent(QMouseEvent* event) {
     hand_.endDrag();
     setCursor(Qt::OpenHandCursor);
     return;
+  }
+  if (!band_.isHidden() && event->button() == Qt::LeftButton) {
+    band_.hide();
+    if (band_.width() > 2 || band_.height() > 2)
+      selectWithin(band_.geometry(), event->modifiers() & Qt::ControlModifier);
   }
   Plot::mouseReleaseEvent(event);
 }
@@ -221,6 +251,7 @@ void CurvePlot::keyPressEvent(QKeyEvent* event) {
     case EditHand::Command::remove:
       return removeSelected();
     case EditHand::Command::cancel:
+      if (!band_.isHidden()) return band_.hide();
       return hand_.dragging() ? cancelDrag() : event->ignore();
     case EditHand::Command::none:
       return Plot::keyPressEvent(event);
