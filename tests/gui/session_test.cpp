@@ -5,6 +5,7 @@
 
 #include "app/workbench/controllers/file_kind.h"
 #include "app/workbench/controllers/saved_session.h"
+#include "app/workbench/docks/changes_dock.h"
 #include "app/workbench/docks/flight_dock.h"
 #include "app/workbench/window/session_keeper.h"
 #include "app/workbench/window/welcome.h"
@@ -36,6 +37,9 @@ TEST(SavedSessionFile, comesBackAndMovesWithItsFolder) {
   session.eye = {{}, {Degrees{-89.5}, Degrees{180}, Metres{4000}}, {Degrees{359}, Degrees{-90}, Degrees{}}};
   session.views = {
       {"the \"ridge\"", {Degrees{46}, Degrees{8}, Metres{-3}}, {Degrees{1}, Degrees{2}, Degrees{3}}}};
+  const auto values = QString::fromStdString(
+      R"({"format":"trimtab-preset","name":"C","parameters":{"lod.scale":3},"version":3})");
+  session.snapshots = {{{2, "far", values}}};
   const QString file = pathIn(dir, "here/day.session.json");
   ASSERT_TRUE(workbench::writeSession(file, session));
   const auto back = workbench::readSession(file);
@@ -71,6 +75,11 @@ TEST(SavedSessionFile, namesWhatIsWrong) {
       {R"({"trimtab_session": 1, "eye": {"latitude_deg": 91}})", "eye.latitude_deg"},
       {R"({"trimtab_session": 1, "views": [{"name": "a"}]})", "views[0].height_m"},
       {R"({"trimtab_session": 1, "views": 3})", "views: expected a list"},
+      {R"({"trimtab_session": 1, "snapshots": [{"slot": "D", "preset": {}}]})", "snapshots[0].slot"},
+      {R"({"trimtab_session": 1, "snapshots": [{"slot": "A", "preset": 1}]})", "snapshots[0].preset"},
+      {R"({"trimtab_session": 1, "snapshots": [{"slot": "A", "preset": {"format": "trimtab-preset",
+           "version": 3, "name": "", "parameters": {"lod.screen_space_error_px": -1}}}]})",
+       "lod.screen_space_error_px"},
   };
   for (const auto& c : cases) {
     writeFile(dir / "bad.session.json", c.text);
@@ -146,12 +155,22 @@ TEST_F(WorkbenchSession, aFileOpensAllOfItAgain) {
 
 TEST_F(WorkbenchSession, keepsTheLastOneForTheNextStart) {
   sessions().keepView("start");
+  ASSERT_TRUE(w().draft().setText("lod.screen_space_error_px", "7").empty());
+  w().panels().changes->snapshots().keep(1);
+  w().panels().changes->snapshots().rename(1, "coarse");
   ASSERT_NO_FATAL_FAILURE(restart());
   EXPECT_TRUE(sessions().views().empty()) << "nobody asked for it yet";
   ASSERT_TRUE(QFileInfo::exists(workbench::SessionKeeper::lastFile()));
   ASSERT_TRUE(sessions().open(workbench::SessionKeeper::lastFile()));
   ASSERT_EQ(sessions().views().size(), 1u);
   EXPECT_EQ(sessions().views()[0].name, "start");
+  views::Snapshots& snapshots = w().panels().changes->snapshots();
+  EXPECT_FALSE(snapshots.isKept(0));
+  ASSERT_TRUE(snapshots.isKept(1));
+  EXPECT_EQ(snapshots.name(1), "coarse");
+  EXPECT_NE(w().draft().parameters().lod.screenSpaceError.value(), 7) << "unsaved edits are the preset's";
+  snapshots.switchTo(1);
+  EXPECT_EQ(w().draft().parameters().lod.screenSpaceError.value(), 7);
 }
 
 TEST_F(WorkbenchSession, viewsAreKeptReplacedAndForgotten) {

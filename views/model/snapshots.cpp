@@ -48,6 +48,13 @@ void Snapshots::forget(int slot) {
   emit changed();
 }
 
+void Snapshots::restore(int slot, const QString& name, const TuningParameters& values) {
+  forget(slot);
+  at(slot).name = name;
+  at(slot).values = values;
+  emit changed();
+}
+
 void Snapshots::begin(int slot) {
   at(slot).frameMs.clear();
   at(slot).error.clear();

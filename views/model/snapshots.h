@@ -13,8 +13,8 @@
 namespace trimtab::views {
 
 /// Three snapshots of the draft, A, B and C, to switch between while the image is live, with what the images
-/// have cost and how wrong they were since the switch. A switch is one undo step of the draft. Snapshots last
-/// as long as the program, also when another preset is loaded.
+/// have cost and how wrong they were since the switch. A switch is one undo step of the draft. Snapshots stay
+/// when another preset is loaded; sessions keep them from one run to the next.
 class Snapshots : public QObject {
   Q_OBJECT
  public:
@@ -22,7 +22,9 @@ class Snapshots : public QObject {
 
   explicit Snapshots(Draft& draft, QObject* parent = nullptr);
 
-  bool isKept(int slot) const { return at(slot).values.has_value(); }
+  bool isKept(int slot) const { return values(slot) != nullptr; }
+  /// Returns the values of the slot; null if it is empty.
+  const TuningParameters* values(int slot) const { return at(slot).values ? &*at(slot).values : nullptr; }
   /// Returns its letter, and the name that the person gave it: "A" or "A, far cut".
   QString title(int slot) const;
   const QString& name(int slot) const { return at(slot).name; }
@@ -33,6 +35,8 @@ class Snapshots : public QObject {
   /// Gives the draft the values of the slot. An empty slot keeps the draft's values instead.
   void switchTo(int slot);
   void forget(int slot);
+  /// Fills a slot as it was in an earlier run. The draft stays as it is.
+  void restore(int slot, const QString& name, const TuningParameters& values);
   /// Returns the slot whose values the draft has since the last switch or keep(); -1 once it was edited.
   int active() const { return active_; }
   /// Returns the slot that is the draft's pinned reference; -1 if none is.

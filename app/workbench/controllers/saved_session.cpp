@@ -11,6 +11,7 @@
 
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
+#include "views/model/snapshots.h"
 
 namespace trimtab::workbench {
 namespace {
@@ -54,6 +55,22 @@ class Reader {
     }
     return all;
   }
+  SavedSnapshot snapshot() {
+    const QString letter = text("slot");
+    SavedSnapshot read{letter.size() == 1 ? letter[0].unicode() - 'A' : -1, text("name"), {}};
+    if (read.slot < 0 || read.slot >= views::Snapshots::kCount)
+      refuse("slot", QStringLiteral("a letter from A to %1").arg(QChar('A' + views::Snapshots::kCount - 1)),
+             letter);
+    const QJsonValue preset = object_.value(QLatin1String("preset"));
+    if (!preset.isObject()) refuse("preset", "an object", preset);
+    const QByteArray text = QJsonDocument(preset.toObject()).toJson(QJsonDocument::Compact);
+    read.preset = QString::fromUtf8(text);
+    const auto parsed =
+        parsePreset(read.preset.toStdString(), (file_ + ' ' + place_ + "preset").toStdString());
+    if (!parsed && preset.isObject())
+      findings_.insert(findings_.end(), parsed.findings().begin(), parsed.findings().end());
+    return read;
+  }
   SavedView view() {
     return {text("name"),
             {Degrees{number("latitude_deg", -90, 90)}, Degrees{number("longitude_deg", -180, 180)},
@@ -74,6 +91,13 @@ class Reader {
   QString file_, place_;
   Findings& findings_;
 };
+
+QJsonObject toJson(const SavedSnapshot& snapshot) {
+  QJsonObject object{{"slot", QString(QChar('A' + snapshot.slot))},
+                     {"preset", QJsonDocument::fromJson(snapshot.preset.toUtf8()).object()}};
+  if (!snapshot.name.isEmpty()) object["name"] = snapshot.name;
+  return object;
+}
 
 QJsonObject toJson(const SavedView& view) {
   QJsonObject object{
@@ -111,6 +135,11 @@ Result<Done> writeSession(const QString& file, const SavedSession& session) {
   QJsonArray views;
   for (const SavedView& view : session.views) views.append(toJson(view));
   object["views"] = views;
+  if (session.snapshots) {
+    QJsonArray snapshots;
+    for (const SavedSnapshot& snapshot : *session.snapshots) snapshots.append(toJson(snapshot));
+    object["snapshots"] = snapshots;
+  }
   return writeAtomically(QFileInfo(file).absoluteFilePath().toStdString(),
                          QJsonDocument(object).toJson().toStdString());
 }
@@ -146,6 +175,10 @@ Result<SavedSession> readSession(const QString& file) {
   session.workspace = in.text("workspace");
   if (in.has("eye")) session.eye = in.object("eye").view();
   for (Reader& view : in.objects("views")) session.views.push_back(view.view());
+  if (in.has("snapshots")) {
+    session.snapshots.emplace();
+    for (Reader& each : in.objects("snapshots")) session.snapshots->push_back(each.snapshot());
+  }
   if (!findings.empty()) return findings;
   return session;
 }

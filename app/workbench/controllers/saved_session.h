@@ -20,9 +20,18 @@ struct SavedView {
   friend bool operator==(const SavedView&, const SavedView&) = default;
 };
 
+/// A snapshot of the preset that a person kept.
+struct SavedSnapshot {
+  int slot = 0;    ///< 0 is A
+  QString name;    ///< as the person gave it; may be empty
+  QString preset;  ///< its values, as presetText() writes them
+
+  friend bool operator==(const SavedSnapshot&, const SavedSnapshot&) = default;
+};
+
 /// What was open in the workbench, so that one file opens all of it again. It names files and holds none of
-/// them. It says on which port to listen but not on which interface: a file from somebody else must not open
-/// this machine to a network.
+/// them; only snapshots, which are in no file, are in it with their values. It says on which port to listen
+/// but not on which interface: a file from somebody else must not open this machine to a network.
 struct SavedSession {
   QString terrain;                          ///< a file or folder; empty: the sample terrain
   QString preset;                           ///< a file, or the name of a shipped preset
@@ -32,6 +41,8 @@ struct SavedSession {
   QString workspace;                        ///< its name
   std::optional<SavedView> eye;             ///< where the free camera stood; its name is empty
   std::vector<SavedView> views;             ///< the views that were kept
+  /// The snapshots that were kept; unset in files of earlier versions.
+  std::optional<std::vector<SavedSnapshot>> snapshots;
 
   friend bool operator==(const SavedSession&, const SavedSession&) = default;
 };
@@ -43,7 +54,8 @@ inline constexpr auto kSessionEnding = ".session.json";
 /// the folder can be moved.
 Result<Done> writeSession(const QString& file, const SavedSession& session);
 /// Reads a session; its files become absolute paths, whether they exist or not. An entry that is missing
-/// keeps its default, but a view must have all of its numbers. Refused are entries of another type and
+/// keeps its default, but a view must have all of its numbers. A snapshot may break rules between parameters,
+/// as a draft may. Refused are entries of another type and
 /// numbers outside their range.
 Result<SavedSession> readSession(const QString& file);
 

@@ -115,7 +115,7 @@ void MainWindow::makeControllers() {
   docks_.add("errors", tr("Run time against error"), foot, &c.errors->dock());
   docks_.add("compare", tr("Compare"), foot, &c.errors->splitView());
   workspaces_ = new Workspaces(*this, docks_);
-  sessions_ = new SessionKeeper(at, controllers_, *workspaces_);
+  sessions_ = new SessionKeeper(at, controllers_, *workspaces_, panels_.changes->snapshots());
   c.errors->attach();
 }
 

@@ -17,6 +17,7 @@
 #include "app/workbench/viewport/viewport.h"
 #include "trimtab/preset/preset.h"
 #include "views/model/draft.h"
+#include "views/model/snapshots.h"
 #include "workspaces.h"
 
 namespace trimtab::workbench {
@@ -32,8 +33,12 @@ QString sessionFilter() {
 }  // namespace
 
 SessionKeeper::SessionKeeper(const Workplace& workplace, const Controllers& controllers,
-                             Workspaces& workspaces)
-    : QObject(&workplace.window), at_(workplace), by_(controllers), workspaces_(workspaces) {
+                             Workspaces& workspaces, views::Snapshots& snapshots)
+    : QObject(&workplace.window),
+      at_(workplace),
+      by_(controllers),
+      workspaces_(workspaces),
+      snapshots_(snapshots) {
   // A terrain that was opened has placed the camera by now.
   connect(by_.terrain.get(), &TerrainController::opened, this, [this] {
     if (placeSoon_) place(*placeSoon_);
@@ -63,6 +68,16 @@ SavedSession SessionKeeper::current() const {
   const FreeCamera& camera = at_.viewport.camera();
   session.eye = SavedView{{}, camera.position(), camera.attitude()};
   session.views = views_;
+  session.snapshots.emplace();
+  for (int slot = 0; slot < views::Snapshots::kCount; ++slot) {
+    const TuningParameters* const values = snapshots_.values(slot);
+    if (values == nullptr) continue;
+    Preset preset;
+    preset.name = snapshots_.title(slot).toStdString();
+    preset.parameters = *values;
+    if (const Result<std::string> text = presetText(preset))
+      session.snapshots->push_back({slot, snapshots_.name(slot), QString::fromStdString(*text)});
+  }
   return session;
 }
 
@@ -90,6 +105,7 @@ bool SessionKeeper::open(const QString& file) {
     at_.feed.closeHost();
   views_ = session.views;
   emit viewsChanged();
+  if (session.snapshots) restore(*session.snapshots);
   placeSoon_ = session.eye;
   if (session.terrain.isEmpty())
     by_.terrain->openSample();
@@ -108,7 +124,8 @@ bool SessionKeeper::saveTo(const QString& file) {
   at_.messages.note(tr("The session is saved: %1").arg(file_));
   if (at_.draft.isDirty())
     at_.messages.note(
-        tr("The session names the preset; its unsaved edits are not in it (Ctrl+S saves them)"));
+        tr("The session names the preset; its unsaved edits are not in it (Ctrl+S saves them, Shift+F9 keeps "
+           "them as snapshot A)"));
   return true;
 }
 
@@ -161,6 +178,13 @@ void SessionKeeper::goToView(std::size_t index) {
 
 void SessionKeeper::place(const SavedView& view) {
   by_.flight->placeCamera(view.position, view.attitude);
+}
+
+void SessionKeeper::restore(const std::vector<SavedSnapshot>& snapshots) {
+  for (int slot = 0; slot < views::Snapshots::kCount; ++slot) snapshots_.forget(slot);
+  for (const SavedSnapshot& each : snapshots)
+    if (const auto preset = parsePreset(each.preset.toStdString(), each.name.toStdString()))
+      snapshots_.restore(each.slot, each.name, preset->parameters);
 }
 
 void SessionKeeper::askViewName() {

@@ -11,6 +11,10 @@
 
 class QMenu;
 
+namespace trimtab::views {
+class Snapshots;
+}
+
 namespace trimtab::workbench {
 
 struct Controllers;
@@ -22,7 +26,8 @@ class SessionKeeper : public QObject {
   Q_OBJECT
 
  public:
-  SessionKeeper(const Workplace& workplace, const Controllers& controllers, Workspaces& workspaces);
+  SessionKeeper(const Workplace& workplace, const Controllers& controllers, Workspaces& workspaces,
+                views::Snapshots& snapshots);
 
   /// Opens a session. Asks first whether unsaved edits may be lost. What cannot be opened is reported in the
   /// Messages dock, and the rest is opened. Returns false if the file is no session, or if the person
@@ -52,12 +57,14 @@ class SessionKeeper : public QObject {
 
  private:
   void place(const SavedView& view);
+  void restore(const std::vector<SavedSnapshot>& snapshots);
   void askViewName();
   void showViews(QMenu& menu);
 
   Workplace at_;
   const Controllers& by_;
   Workspaces& workspaces_;
+  views::Snapshots& snapshots_;
   QString file_;  ///< that was opened or saved last; empty if none was
   std::vector<SavedView> views_;
   std::optional<SavedView> placeSoon_;  ///< once the session's terrain is open
