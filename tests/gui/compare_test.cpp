@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QDockWidget>
 #include <QLabel>
+#include <QScrollBar>
 #include <QTableWidget>
 #include <fstream>
 
 #include "app/workbench/viewport/split_view.h"
+#include "app/workbench/window/workspaces.h"
 #include "error_dock.h"
 #include "trimtab/preset/preset.h"
 
@@ -221,6 +223,45 @@ TEST_F(SplitViewTest, overTheViewportTheDividerMovesAndTheViewBelowStillTurns) {
       << "images of another view would hide the live one";
   view().setOverViewport(false);
   EXPECT_FALSE(over.isVisible());
+}
+
+TEST_F(SplitViewTest, whenItEndsTheDocksAreAsTheyWereBefore) {
+  workbench::ErrorsController& errors = *w().controllers().errors;
+  errors.endComparison();
+  w().workspaces().show(1);
+  w().workspaces().reset();
+  w().dock("decision")->raise();
+  ASSERT_TRUE(comesToFront("decision"));
+  ASSERT_TRUE(w().dock("compare")->isHidden());
+  trigger("In the viewport");
+  ASSERT_TRUE(comesToFront("compare"));
+  EXPECT_TRUE(view().overViewport());
+  trigger("In the viewport");
+  EXPECT_TRUE(comesToFront("decision"));
+  EXPECT_TRUE(w().dock("compare")->isHidden());
+  w().workspaces().show(2);
+  w().workspaces().reset();
+  ASSERT_TRUE(comesToFront("errors"));
+  trigger("In the viewport");
+  ASSERT_TRUE(comesToFront("compare"));
+  trigger("In the viewport");
+  EXPECT_TRUE(comesToFront("errors"));
+  EXPECT_FALSE(w().dock("compare")->isHidden()) << "it is one of this workspace's docks";
+}
+
+TEST_F(SplitViewTest, fitsIntoTheFootOfTheSmallestWindow) {
+  view().setOverViewport(false);
+  w().resize(1280, 720);
+  w().workspaces().show(1);
+  w().workspaces().reset();
+  trigger("In the viewport");
+  ASSERT_TRUE(comesToFront("compare"));
+  ASSERT_TRUE(waitFor([&] { return view().upToDate(); }, 120000));
+  QTest::qWait(200);
+  for (const auto* bar : view().findChildren<QScrollBar*>()) {
+    const bool sideways = bar->orientation() == Qt::Horizontal && bar->isVisible();
+    EXPECT_FALSE(sideways) << "scrolls by " << bar->maximum() << " px";
+  }
 }
 
 TEST_F(SplitViewTest, theDividerMovesByHandAndKeys) {

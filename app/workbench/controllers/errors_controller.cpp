@@ -5,6 +5,7 @@
 #include <QDockWidget>
 #include <QFile>
 #include <QFileInfo>
+#include <QMainWindow>
 #include <QRegularExpression>
 #include <limits>
 
@@ -202,8 +203,26 @@ void ErrorsController::seekFlight(double timeS) {
 }
 
 void ErrorsController::compare() {
+  QDockWidget* const dock = dockOf(*split_);
+  if (dock != nullptr && !isInFront(*dock)) {
+    compareWasHidden_ = dock->isHidden();
+    dock->show();
+    if (const auto* window = qobject_cast<QMainWindow*>(dock->parentWidget()))
+      for (QDockWidget* other : window->tabifiedDockWidgets(dock))
+        if (isInFront(*other)) coveredByCompare_ = other;
+  }
   raiseDock(*split_);
   split_->setOverViewport(true);
+}
+
+void ErrorsController::endComparison() {
+  split_->setOverViewport(false);
+  QDockWidget* const dock = dockOf(*split_);
+  // A person who went to another dock meanwhile, or moved this one, has arranged the docks by hand.
+  if (dock == nullptr || !coveredByCompare_ || !isInFront(*dock)) return;
+  coveredByCompare_->raise();
+  if (compareWasHidden_) dock->hide();
+  coveredByCompare_.clear();
 }
 
 }  // namespace trimtab::workbench

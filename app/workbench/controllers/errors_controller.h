@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QObject>
+#include <QPointer>
 #include <QString>
 #include <deque>
 #include <optional>
@@ -11,6 +12,8 @@
 #include "run_inputs.h"
 #include "trimtab/frame/frame_request.h"
 #include "workplace.h"
+
+class QDockWidget;
 
 namespace trimtab::workbench {
 
@@ -46,6 +49,8 @@ class ErrorsController : public QObject {
   bool openResults(const QString& file);
   /// Lets two presets draw the frame of the viewport, and raises the dock that says how they differ.
   void compare();
+  /// Shows the viewport alone again, and puts the docks as they were before compare().
+  void endComparison();
 
  signals:
   /// A short hint for the status bar.
@@ -68,6 +73,8 @@ class ErrorsController : public QObject {
   QString hinted_;                        ///< what `seekFlight` reported last
   ErrorDock* dock_;
   SplitView* split_ = nullptr;
+  QPointer<QDockWidget> coveredByCompare_;  ///< the dock that was in front in its place
+  bool compareWasHidden_ = false;
 };
 
 }  // namespace trimtab::workbench

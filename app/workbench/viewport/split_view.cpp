@@ -96,7 +96,7 @@ SplitView::~SplitView() {
 
 void SplitView::arrange() {
   auto* inner = new QWidget;
-  auto* top = new QHBoxLayout;
+  auto *top = new QHBoxLayout, *switches = new QHBoxLayout;
   const auto add = [&](const QString& text, QComboBox* box) {
     auto* label = new QLabel(text, inner);
     label->setBuddy(box);
@@ -108,14 +108,16 @@ void SplitView::arrange() {
   add(tr("Left"), choices_[left]);
   add(tr("&Right"), choices_[right]);
   add(tr("&Shown as"), form_);
-  top->addWidget(symbolsOn_);
-  top->addWidget(overOn_);
+  switches->addWidget(overOn_);
+  switches->addWidget(symbolsOn_);
+  switches->addStretch(1);
   auto* images = new QHBoxLayout(inDock_);
   images->setContentsMargins(0, 0, 0, 0);
   images->addWidget(pictures_, 3);
   images->addWidget(heat_, 2);
   auto* column = new QVBoxLayout(inner);
   column->addLayout(top);
+  column->addLayout(switches);
   column->addWidget(inDock_, 1);
   column->addWidget(numbers_);
   column->addWidget(status_);

@@ -340,9 +340,9 @@ void Menus::addComparison(QMenu& view) {
              {tr("&Flicker between both"), Qt::Key_F8, [&split] { split.flicker(); }},
              {tr("&Differences"), Qt::Key_F7, [&split] { split.toggleDifference(); }}});
   over->setCheckable(true);
-  connect(over, &QAction::triggered, &split, [this, &split](bool on) {
+  connect(over, &QAction::triggered, &split, [this](bool on) {
     if (on) return by_.errors->compare();
-    split.setOverViewport(false);
+    by_.errors->endComparison();
   });
   connect(&split, &SplitView::overViewportChanged, over, &QAction::setChecked);
 }
