@@ -11,8 +11,10 @@
 #include <QStandardPaths>
 
 #include "app/workbench/controllers/export_target.h"
+#include "app/workbench/controllers/recent_files.h"
 #include "app/workbench/window/notice_bar.h"
 #include "gui_support.h"
+#include "hand.h"
 #include "trimtab/terrain/synthetic/sample.h"
 
 namespace trimtab::test {
@@ -166,6 +168,39 @@ TEST_F(WorkbenchFiles, anExportAgainGoesToTheLastTargetOfThisPresetWithoutAQuest
   QTest::keyClick(&w(), Qt::Key_E, Qt::ControlModifier);
   EXPECT_GT(dialogs.closed(), 0) << "another preset has no target yet";
   EXPECT_FALSE(std::filesystem::exists(dir / "ig.ini"));
+}
+
+TEST_F(WorkbenchFiles, anExportAsksInOneDialogOnceItsTargetIsKnown) {
+  workbench::DocumentController& document = *w().controllers().document;
+  ASSERT_TRUE(document.saveTo(path(dir / "mine.json")));
+  workbench::rememberTarget(path(dir / "mine.json"),
+                            {path(dir / "ig.ini"), ExportFormat::ini, "me", "Mine.", {}});
+  ASSERT_TRUE(document.open(path(dir / "mine.json")));
+  Hand hand(w());
+  hand.inDialog([&](QWidget& dialog) {
+    auto* const format = dialog.findChild<QComboBox*>();
+    format->setCurrentIndex(1);
+    const auto* const file = dialog.findChild<QLineEdit*>(QStringLiteral("file"));
+    ASSERT_NE(file, nullptr);
+    EXPECT_EQ(file->text(), path(dir / "ig.xml")) << "another format is another file";
+    hand.press(dialog, "OK");
+  });
+  document.askExport();
+  EXPECT_TRUE(hand.answered());
+  EXPECT_TRUE(std::filesystem::exists(dir / "ig.xml")) << w().messages().text().toStdString();
+  EXPECT_EQ(workbench::targetOf(path(dir / "mine.json"))->format, ExportFormat::xml);
+}
+
+TEST_F(WorkbenchFiles, aFlightIsLookedForWhereTheLastOneWas) {
+  QSettings().remove(QStringLiteral("recent/flight"));
+  EXPECT_EQ(QFileInfo(workbench::folderOfRecent("flight")).canonicalFilePath(),
+            QFileInfo(QString::fromStdString(sampleFlight())).canonicalPath())
+      << "the flights that ship";
+  EXPECT_EQ(workbench::folderOfRecent("nothing"), QString());
+  writeFile(dir / "low.csv", "");
+  workbench::rememberRecent("flight", path(dir / "low.csv"));
+  workbench::rememberRecent("flight", "/gone/high.csv");
+  EXPECT_EQ(workbench::folderOfRecent("flight"), path(dir.path())) << "a folder that is gone is no help";
 }
 
 TEST_F(WorkbenchFiles, aSavedPresetHasItsFilesNameUnlessItHasAnother) {

@@ -2,6 +2,7 @@
 #include <QDropEvent>
 #include <QListWidget>
 #include <QMimeData>
+#include <QPushButton>
 #include <QSettings>
 #include <QTemporaryDir>
 #include <QXmlStreamReader>
@@ -103,6 +104,14 @@ TEST_F(PlotsContent, anySignalGoesIntoAnyPlotAndStatisticsFollow) {
   for (int row = 0; row < list.count(); ++row)
     if (list.item(row)->text() == "pitch (deg)") emit list.itemActivated(list.item(row));
   EXPECT_EQ(plot().lanes()[4].traces.back(), Trace::pitch_deg) << "into the plot that was made last";
+  auto* const add = list.parentWidget()->findChild<QPushButton*>();
+  ASSERT_NE(add, nullptr);
+  EXPECT_FALSE(add->isEnabled()) << "no signal is selected";
+  for (int row = 0; row < list.count(); ++row)
+    if (list.item(row)->text() == "roll (deg)") list.setCurrentRow(row);
+  add->click();
+  EXPECT_EQ(plot().lanes()[4].traces.back(), Trace::roll_deg);
+  plot().removeSignal(4, Trace::roll_deg);
   plot().replot(QCustomPlot::rpImmediateRefresh);
   QMimeData dragged;
   dragged.setData(TimePlot::kSignalMime, "speed_kt");

@@ -11,6 +11,7 @@
 #include <QMenu>
 #include <QMessageBox>
 #include <QMimeData>
+#include <QPushButton>
 #include <QScrollArea>
 #include <QSettings>
 #include <QSplitter>
@@ -146,15 +147,37 @@ PlotsPanel::PlotsPanel(Draft& draft, QWidget* parent)
 }
 
 QWidget* PlotsPanel::makeSide() {
-  fillSignals();
   side_->addTab(values_, tr("Values"));
   side_->addTab(framePage_, tr("Frame"));
-  side_->addTab(signalList_, tr("Signals"));
+  side_->addTab(makeSignals(), tr("Signals"));
   side_->setAccessibleName(tr("Details of the plots"));
   side_->setMinimumWidth(240);
   side_->hide();
   connect(side_, &QTabWidget::currentChanged, &sideThrottle_, &Throttle::request);
   return side_;
+}
+
+QWidget* PlotsPanel::makeSignals() {
+  fillSignals();
+  auto* add = new QPushButton(tr("&Add signal"));
+  add->setToolTip(tr("Add the selected signal to the plot that was clicked last"));
+  add->setAutoDefault(false);
+  add->setEnabled(false);
+  connect(signalList_, &QListWidget::currentRowChanged, add, [add](int row) { add->setEnabled(row >= 0); });
+  connect(add, &QPushButton::clicked, this, [this] { addSignal(signalList_->currentItem()); });
+  auto* page = new QWidget;
+  auto* layout = new QVBoxLayout(page);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(4);
+  layout->addWidget(signalList_, 1);
+  layout->addWidget(add);
+  return page;
+}
+
+void PlotsPanel::addSignal(const QListWidgetItem* item) {
+  if (item == nullptr) return;
+  if (const auto trace = traceOf(item->data(kTraceRole).toString()))
+    plot_->addSignal(plot_->currentLane(), *trace);
 }
 
 void PlotsPanel::fillSignals() {
@@ -167,10 +190,7 @@ void PlotsPanel::fillSignals() {
     auto* item = new QListWidgetItem(signal.fullName(), signalList_);
     item->setData(kTraceRole, fromView(traceName(signal.trace)));
   }
-  connect(signalList_, &QListWidget::itemActivated, this, [this](const QListWidgetItem* item) {
-    if (const auto trace = traceOf(item->data(kTraceRole).toString()))
-      plot_->addSignal(plot_->currentLane(), *trace);
-  });
+  connect(signalList_, &QListWidget::itemActivated, this, &PlotsPanel::addSignal);
 }
 
 void PlotsPanel::makeActions() {

@@ -12,6 +12,7 @@ class QAction;
 class QComboBox;
 class QLabel;
 class QListWidget;
+class QListWidgetItem;
 class QMenu;
 class QSettings;
 class QSplitter;
@@ -75,6 +76,8 @@ class PlotsPanel : public QWidget {
   QMenu* makeMore();
   QWidget* makeSide();
   void fillSignals();
+  QWidget* makeSignals();
+  void addSignal(const QListWidgetItem* item);
   void refresh();
   void refreshSide();
   void noteChange(const LiveFrame& frame);

@@ -140,13 +140,15 @@ void DocumentController::askExport() {
     if (const auto& last = at_.viewport.lastResult()) chosen = last->occlusion;
   ExportDialog dialog(chosen, target_, &at_.window);
   if (dialog.exec() != QDialog::Accepted) return;
-  QFileDialog files(&at_.window, tr("Export preset"), {}, dialog.fileFilter());
-  files.setAcceptMode(QFileDialog::AcceptSave);
-  files.setDefaultSuffix(dialog.suffix());
-  if (target_ && target_->format == dialog.format()) files.selectFile(target_->file);
-  if (files.exec() != QDialog::Accepted) return;
-  const ExportTarget target{files.selectedFiles().constFirst(), dialog.format(), dialog.author(),
-                            dialog.comment(), dialog.pinned()};
+  QString file = dialog.file();
+  if (file.isEmpty()) {
+    QFileDialog files(&at_.window, tr("Export preset"), {}, dialog.fileFilter());
+    files.setAcceptMode(QFileDialog::AcceptSave);
+    files.setDefaultSuffix(dialog.suffix());
+    if (files.exec() != QDialog::Accepted) return;
+    file = files.selectedFiles().constFirst();
+  }
+  const ExportTarget target{file, dialog.format(), dialog.author(), dialog.comment(), dialog.pinned()};
   if (!exportTo(target)) return;
   target_ = target;
   if (!document_.file().isEmpty()) rememberTarget(document_.file(), target);

@@ -54,8 +54,9 @@ bool FlightController::open(const QString& file) {
 }
 
 void FlightController::askOpen() {
-  const QString file = QFileDialog::getOpenFileName(&at_.window, tr("Open flight"), {},
-                                                    tr("Flights and captures (*.csv *.pcap);;All files (*)"));
+  const QString file =
+      QFileDialog::getOpenFileName(&at_.window, tr("Open flight"), folderOfRecent(QStringLiteral("flight")),
+                                   tr("Flights and captures (*.csv *.pcap);;All files (*)"));
   if (!file.isEmpty()) open(file);
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "recent_files.h"
 
+#include <QCoreApplication>
+#include <QDir>
+#include <QFileInfo>
 #include <QSettings>
 
 namespace trimtab::workbench {
@@ -23,6 +26,15 @@ void rememberRecent(const QString& kind, const QString& path) {
 
 QStringList recentFiles(const QString& kind) {
   return QSettings().value(keyOf(kind)).toStringList();
+}
+
+QString folderOfRecent(const QString& kind) {
+  for (const QString& path : recentFiles(kind))
+    if (const QFileInfo file(path); file.exists()) return file.path();
+  if (kind != QLatin1String("flight")) return {};
+  // The program is run from the tree in which it was built.
+  const QDir shipped(QCoreApplication::applicationDirPath() + QStringLiteral("/../../resources/flights"));
+  return shipped.exists() ? shipped.canonicalPath() : QString();
 }
 
 }  // namespace trimtab::workbench

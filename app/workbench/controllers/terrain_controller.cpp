@@ -60,7 +60,7 @@ void TerrainController::openSample() {
 
 void TerrainController::askOpenFile() {
   const QString picked = QFileDialog::getOpenFileName(
-      &at_.window, tr("Open terrain"), {},
+      &at_.window, tr("Open terrain"), folderOfRecent(QStringLiteral("terrain")),
       tr("Elevation and scenery (*.tif *.tiff *.hgt *.dt0 *.dt1 *.dt2 *.img *.zip *.btg *.btg.gz *.stg);;"
          "All files (*)"));
   if (!picked.isEmpty()) open(picked);

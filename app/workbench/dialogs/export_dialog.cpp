@@ -4,10 +4,13 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
+#include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
+#include <QHBoxLayout>
 #include <QLineEdit>
 #include <QPlainTextEdit>
+#include <QPushButton>
 #include <QSettings>
 
 #include "views/model/theme.h"
@@ -23,11 +26,13 @@ ExportDialog::ExportDialog(std::optional<OcclusionMethod> chosen, const std::opt
                            QWidget* parent)
     : QDialog(parent),
       format_(new QComboBox(this)),
+      file_(new QLineEdit(this)),
       author_(new QLineEdit(this)),
       comment_(new QPlainTextEdit(this)),
       chosen_(chosen),
       pin_(new QCheckBox(this)) {
   setWindowTitle(tr("Export preset"));
+  file_->setObjectName(QStringLiteral("file"));
   format_->addItem(tr("JSON"), int(ExportFormat::json));
   format_->addItem(tr("FlightGear property list (XML)"), int(ExportFormat::xml));
   format_->addItem(tr("Flat INI"), int(ExportFormat::ini));
@@ -36,6 +41,12 @@ ExportDialog::ExportDialog(std::optional<OcclusionMethod> chosen, const std::opt
     format_->setCurrentIndex(format_->findData(int(before->format)));
     comment_->setPlainText(before->comment);
   }
+  // Another format is another file: its ending follows, unless the person gave it an ending of its own.
+  connect(format_, &QComboBox::currentIndexChanged, this, [this] {
+    const QFileInfo info(file_->text());
+    if (QStringList{"json", "xml", "ini"}.contains(info.suffix()))
+      file_->setText(info.path() + QLatin1Char('/') + info.completeBaseName() + QLatin1Char('.') + suffix());
+  });
   comment_->setPlaceholderText(tr("What this preset is for"));
   comment_->setMinimumWidth(380);
   comment_->setTabChangesFocus(true);
@@ -49,6 +60,10 @@ ExportDialog::ExportDialog(std::optional<OcclusionMethod> chosen, const std::opt
   form->addRow(tr("&Format"), format_);
   form->addRow(tr("&Author"), author_);
   form->addRow(tr("Co&mment"), comment_);
+  if (before)
+    form->addRow(tr("Fi&le"), makeFile(before->file));
+  else
+    file_->hide();
   form->addRow(pin_);
   pin_->setVisible(chosen_.has_value());
   pin_->setChecked(before && before->pinned);
@@ -61,6 +76,31 @@ ExportDialog::ExportDialog(std::optional<OcclusionMethod> chosen, const std::opt
            "Pinned, the image generator uses what this machine uses in the current view."));
   }
   form->addRow(buttons);
+}
+
+QLayout* ExportDialog::makeFile(const QString& file) {
+  file_->setText(file);
+  file_->setAccessibleName(tr("File of the export"));
+  file_->setToolTip(tr("The file of the last export, which is replaced; empty: you are asked for another"));
+  auto* choose = new QPushButton(tr("C&hoose…"), this);
+  choose->setAutoDefault(false);
+  connect(choose, &QPushButton::clicked, this, &ExportDialog::askFile);
+  auto* row = new QHBoxLayout;
+  row->addWidget(file_, 1);
+  row->addWidget(choose);
+  return row;
+}
+
+void ExportDialog::askFile() {
+  QFileDialog files(this, tr("Export preset"), {}, fileFilter());
+  files.setAcceptMode(QFileDialog::AcceptSave);
+  files.setDefaultSuffix(suffix());
+  files.selectFile(file());
+  if (files.exec() == QDialog::Accepted) file_->setText(files.selectedFiles().constFirst());
+}
+
+QString ExportDialog::file() const {
+  return file_->text().trimmed();
 }
 
 ExportFormat ExportDialog::format() const {

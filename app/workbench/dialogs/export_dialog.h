@@ -15,7 +15,8 @@ class QPlainTextEdit;
 namespace trimtab::workbench {
 
 /// Asks for what an export contains beside the parameters: format, author and comment, and whether what the
-/// automatic choice of hidden ground chose here is pinned. The author is remembered in the user's settings.
+/// automatic choice of hidden ground chose here is pinned; and after the first export also for the file, so
+/// that another dialog is needed only for a new one. The author is remembered in the user's settings.
 class ExportDialog : public QDialog {
   Q_OBJECT
 
@@ -29,11 +30,18 @@ class ExportDialog : public QDialog {
   QString comment() const;
   /// Returns the method to write in place of the automatic choice; unset if that stays.
   std::optional<OcclusionMethod> pinned() const;
+  /// Returns the file of the last export, or what the person made of it; empty if it is still to be asked
+  /// for.
+  QString file() const;
   QString suffix() const;
   QString fileFilter() const;
 
  private:
+  QLayout* makeFile(const QString& file);
+  void askFile();
+
   QComboBox* format_;
+  QLineEdit* file_;
   QLineEdit* author_;
   QPlainTextEdit* comment_;
   std::optional<OcclusionMethod> chosen_;
