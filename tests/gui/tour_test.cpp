@@ -29,11 +29,14 @@ namespace trimtab::test {
 namespace {
 
 /// Does in one window what an engineer does in a day, task by task; methods of the program only look at what
-/// came of it. TRIMTAB_SHOTS names a folder for a screenshot of each task; TRIMTAB_SHOT_SIZE is WxH.
+/// came of it. TRIMTAB_SHOTS names a folder for a screenshot of each task and of each workspace;
+/// TRIMTAB_SHOT_SIZE is WxH, TRIMTAB_SHOT_THEME light or dark.
 class Tour : public Bench {
  protected:
   void SetUp() override {
     QCoreApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
+    if (const QString theme = qEnvironmentVariable("TRIMTAB_SHOT_THEME"); !theme.isEmpty())
+      QSettings().setValue(QStringLiteral("window/appearance"), theme == QLatin1String("dark") ? 2 : 1);
     window = std::make_unique<workbench::MainWindow>();
     hand_.emplace(w());
   }
@@ -66,6 +69,19 @@ class Tour : public Bench {
       if (last().visible.triangles == 0) break;  // nothing works without an image
     }
     std::cout << table.toStdString() << std::flush;
+    shootWorkspaces();
+  }
+  /// Saves a screenshot of each workspace as it ships, while the flight plays.
+  void shootWorkspaces() {
+    if (qEnvironmentVariable("TRIMTAB_SHOTS").isEmpty()) return;
+    for (int i = 0; w().workspaces().ships(i); ++i) {
+      w().workspaces().show(i);
+      w().workspaces().reset();
+      QTest::qWait(2500);
+      const QString name = w().workspaces().names()[i].toLower();
+      shot_ = QStringLiteral("workspace-%1-%2.png").arg(i + 1).arg(name);
+      shoot();
+    }
   }
   /// Saves the task's screenshot: at its end, unless the task has more to show before.
   void shoot() {
