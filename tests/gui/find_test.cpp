@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <QCheckBox>
 #include <QDockWidget>
 #include <QLabel>
 #include <QLineEdit>
+#include <QPushButton>
 #include <QTextBrowser>
 #include <QTreeWidget>
 
+#include "app/workbench/docks/flight_dock.h"
 #include "app/workbench/window/appearance.h"
 #include "app/workbench/window/fuzzy_match.h"
 #include "app/workbench/window/palette.h"
@@ -142,6 +145,47 @@ TEST_F(WorkbenchFind, theStripSaysWorkspaceBudgetRecordingAndHostWithoutMovingOn
   EXPECT_TRUE(waitFor([&] { return source->text().contains("listening"); }));
   w().feed().closeHost();
   EXPECT_EQ(source->geometry(), before);
+}
+
+/// By how much a check box that is off, and the symbols of the buttons to play, stand out from what is around
+/// them: the largest difference of their grey values, 0..255.
+int contrastOf(QWidget& widget, QRect area) {
+  const QImage picture = widget.grab(area).toImage().convertToFormat(QImage::Format_Grayscale8);
+  int least = 255, most = 0;
+  for (int y = 0; y < picture.height(); ++y)
+    for (int x = 0; x < picture.width(); ++x) {
+      const int grey = qGray(picture.pixel(x, y));
+      least = std::min(least, grey);
+      most = std::max(most, grey);
+    }
+  return most - least;
+}
+
+class Colours : public Bench {
+ protected:
+  void TearDown() override {
+    workbench::apply(workbench::Appearance::system);
+    Bench::TearDown();
+  }
+};
+
+TEST_F(Colours, boxesAndSymbolsAreSeenInBothThemes) {
+  w().dock("flight")->raise();
+  ASSERT_TRUE(comesToFront("flight"));
+  for (const auto theme : {workbench::Appearance::dark, workbench::Appearance::light}) {
+    workbench::apply(theme);
+    QCoreApplication::processEvents();
+    auto* const box = w().panels().flight->findChild<QCheckBox*>();
+    ASSERT_FALSE(box->isChecked());
+    EXPECT_GE(contrastOf(*box, {0, 0, box->height(), box->height()}), 60) << int(theme);
+    for (auto* button : w().panels().flight->findChildren<QPushButton*>()) {
+      if (button->icon().isNull()) continue;
+      // Beside a text, the symbol is left of the middle.
+      const int side = button->height() - 8;
+      const int left = button->text().isEmpty() ? button->width() / 2 - side / 2 : side / 2;
+      EXPECT_GE(contrastOf(*button, {left, 4, side, side}), 60) << int(theme);
+    }
+  }
 }
 
 TEST_F(WorkbenchFind, lightAndDarkAreChosenWithinTheProgram) {

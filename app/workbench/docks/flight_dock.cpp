@@ -10,6 +10,7 @@
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QPainter>
 #include <QPushButton>
 #include <QSlider>
 #include <QStyle>
@@ -20,7 +21,7 @@
 namespace trimtab::workbench {
 namespace {
 
-constexpr int kRefreshMs = 100;
+constexpr int kRefreshMs = 100, kSymbolPx = 16;
 constexpr int kScrubSteps = 10000;
 
 QString clock(double seconds) {
@@ -56,7 +57,7 @@ FlightDock::FlightDock(Feed& feed, QWidget* parent)
   top->addWidget(open);
   top->addWidget(close_);
 
-  stop_->setIcon(style()->standardIcon(QStyle::SP_MediaStop));
+  stop_->setIcon(symbol(QStyle::SP_MediaStop));
   stop_->setToolTip(tr("Back to the start"));
   stop_->setAccessibleName(tr("Stop"));
   scrub_->setRange(0, kScrubSteps);
@@ -144,6 +145,23 @@ Findings FlightDock::open(const QString& file) {
   return notes;
 }
 
+/// Styles draw these symbols in black, which nobody sees on a dark button.
+QIcon FlightDock::symbol(QStyle::StandardPixmap which) const {
+  QPixmap drawn =
+      style()->standardIcon(which, nullptr, this).pixmap(QSize(kSymbolPx, kSymbolPx), devicePixelRatio());
+  QPainter painter(&drawn);
+  painter.setCompositionMode(QPainter::CompositionMode_SourceIn);
+  painter.fillRect(drawn.rect(), palette().color(QPalette::ButtonText));
+  return drawn;
+}
+
+void FlightDock::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() != QEvent::PaletteChange && event->type() != QEvent::StyleChange) return;
+  stop_->setIcon(symbol(QStyle::SP_MediaStop));
+  showState();
+}
+
 void FlightDock::fly(const std::vector<AircraftState>& states) {
   feed_.stopUdp();
   feed_.loadFlight({tr("recorded run").toStdString(), states});
@@ -219,7 +237,7 @@ void FlightDock::showState() {
   close_->setEnabled(loaded);
   const bool on = playing();
   play_->setText(on ? tr("Pause") : tr("Play"));
-  play_->setIcon(style()->standardIcon(on ? QStyle::SP_MediaPause : QStyle::SP_MediaPlay));
+  play_->setIcon(symbol(on ? QStyle::SP_MediaPause : QStyle::SP_MediaPlay));
   if (on && isVisible())
     refresh_.start();
   else

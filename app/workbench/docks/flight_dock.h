@@ -2,6 +2,8 @@
 #pragma once
 
 #include <QDateTime>
+#include <QIcon>
+#include <QStyle>
 #include <QTimer>
 #include <QWidget>
 
@@ -46,10 +48,12 @@ class FlightDock : public QWidget {
   void refused(const QString& what, const trimtab::Findings& findings);
 
  protected:
+  void changeEvent(QEvent* event) override;
   void showEvent(QShowEvent* event) override;
   void hideEvent(QHideEvent* event) override;
 
  private:
+  QIcon symbol(QStyle::StandardPixmap which) const;
   enum Via { here, udpCigi, udpNativeFdm };
   bool overUdp() const;
   void showState();

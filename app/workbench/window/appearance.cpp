@@ -4,9 +4,12 @@
 #include <QActionGroup>
 #include <QApplication>
 #include <QMenu>
+#include <QPainter>
 #include <QPalette>
+#include <QProxyStyle>
 #include <QSettings>
-#include <QStyle>
+#include <QStyleFactory>
+#include <QStyleOption>
 #include <QToolTip>
 #include <array>
 #include <utility>
@@ -45,13 +48,50 @@ QPalette paletteOf(const Colours& c) {
   return palette;
 }
 
+/// Fusion outlines boxes with a colour darker than the window, which nobody sees on a dark one: this style
+/// outlines them with a part of the text's colour.
+class SeenBoxes : public QProxyStyle {
+ public:
+  SeenBoxes() : QProxyStyle(QStringLiteral("fusion")) {}
+  void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
+                     const QWidget* widget) const override {
+    QProxyStyle::drawPrimitive(element, option, painter, widget);
+    const bool round = element == PE_IndicatorRadioButton;
+    if (!round && element != PE_IndicatorCheckBox && element != PE_IndicatorItemViewItemCheck) return;
+    const auto group = (option->state & State_Enabled) ? QPalette::Active : QPalette::Disabled;
+    QColor outline = option->palette.color(group, QPalette::Text);
+    outline.setAlphaF(0.6F);
+    painter->save();
+    painter->setRenderHint(QPainter::Antialiasing, round);
+    painter->setPen(outline);
+    painter->setBrush(Qt::NoBrush);
+    const QRect box = option->rect.adjusted(0, 0, -1, -1);
+    round ? painter->drawEllipse(box) : painter->drawRect(box);
+    painter->restore();
+  }
+};
+
+/// The style of the program: that of the desktop, Fusion, or Fusion for dark colours.
+QStyle* styleOf(Appearance appearance, const QString& desktopStyle) {
+  switch (appearance) {
+    case Appearance::system:
+      return QStyleFactory::create(desktopStyle);
+    case Appearance::light:
+      return QStyleFactory::create(QStringLiteral("fusion"));
+    case Appearance::dark:
+      break;
+  }
+  return new SeenBoxes;
+}
+
 }  // namespace
 
 void apply(Appearance appearance) {
   static const QString desktopStyle = QApplication::style()->name();
+  static Appearance applied = Appearance::system;
   // A desktop's style may paint with colours of its own, whatever the palette says.
-  const QString style = appearance == Appearance::system ? desktopStyle : QStringLiteral("fusion");
-  if (QApplication::style()->name() != style) QApplication::setStyle(style);
+  if (std::exchange(applied, appearance) != appearance)
+    QApplication::setStyle(styleOf(appearance, desktopStyle));
   const QPalette palette = appearance == Appearance::system
                                ? QPalette()
                                : paletteOf(appearance == Appearance::dark ? kDark : kLight);
