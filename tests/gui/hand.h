@@ -40,7 +40,7 @@ class Hand {
     steps_ << what;
     if (!inReach(on, from)) return fail(what);
     QTest::mousePress(&on, Qt::LeftButton, {}, from);
-    for (int i = 1; i <= 8 && from != to; ++i) QTest::mouseMove(&on, from + (to - from) * i / 8);
+    for (int i = 1; i <= 8 && from != to; ++i) QTest::mouseMove(&on, from + (to - from) * i / 8, kMoveMs);
     QTest::mouseRelease(&on, Qt::LeftButton, {}, to);
     QCoreApplication::processEvents();
   }
@@ -130,6 +130,8 @@ class Hand {
   }
 
  private:
+  /// A mouse reports some 100 times a second; faster moves would turn the view faster than anybody can.
+  static constexpr int kMoveMs = 10;
   static void fail(const QString& what) { ADD_FAILURE() << "out of reach: " << what.toStdString(); }
   static bool inReach(const QWidget& on, QPoint at) {
     const QWidget *modal = QApplication::activeModalWidget(), *popup = QApplication::activePopupWidget();

@@ -51,7 +51,7 @@ class Tour : public Bench {
                           {"plots", 8, &Tour::plots},
                           {"compare-two-presets", 7, &Tour::compareTwoPresets},
                           {"measure-a-flight", 11, &Tour::measureAFlight},
-                          {"switch-off-a-rule", 5, &Tour::switchOffARule},
+                          {"switch-off-a-rule", 6, &Tour::switchOffARule},
                           {"export-and-again", 5, &Tour::exportAndAgain},
                           {"record-and-replay", 9, &Tour::recordAndReplay}};
     QString table = QStringLiteral("task | clicks and keys | at most\n");
@@ -74,6 +74,12 @@ class Tour : public Bench {
   /// Saves a screenshot of each workspace as it ships, while the flight plays.
   void shootWorkspaces() {
     if (qEnvironmentVariable("TRIMTAB_SHOTS").isEmpty()) return;
+    front("plots");
+    hand_->press(*w().panels().plots, "Details");
+    hand_->press(*w().panels().plots, "Pause");
+    ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
+    w().feed().seekHere(60);
+    w().feed().playHere();
     for (int i = 0; w().workspaces().ships(i); ++i) {
       w().workspaces().show(i);
       w().workspaces().reset();
@@ -262,6 +268,7 @@ class Tour : public Bench {
     ASSERT_TRUE(waitFor([&] { return !ended.isEmpty(); }, 180000));
     ASSERT_TRUE(ended.front().front().toBool()) << w().messages().text().toStdString();
     EXPECT_TRUE(comesToFront("errors") && dock.answer().isVisible()) << "the answer is there to read";
+    EXPECT_EQ(w().workspaces().current(), workbench::Workspaces::kMeasure) << "where there is the width";
     EXPECT_EQ(dock.answer().table().rowCount(), 4) << "two presets in two culling cases";
   }
   void switchOffARule() {

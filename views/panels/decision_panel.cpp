@@ -55,16 +55,16 @@ DecisionPanel::DecisionPanel(Draft& draft, QWidget* parent)
   view_->setAlternatingRowColors(true);
   view_->verticalHeader()->hide();
   view_->verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 4);
-  view_->horizontalHeader()->setStretchLastSection(false);
-  view_->horizontalHeader()->setSectionResizeMode(DecisionLog::kReason, QHeaderView::ResizeToContents);
+  // A reason that is longer than its place ends in an ellipsis; its tool tip and the copy have all of it.
+  view_->horizontalHeader()->setSectionResizeMode(DecisionLog::kReason, QHeaderView::Stretch);
   view_->horizontalHeader()->setHighlightSections(false);
   const auto width = [this](const char* sample) {
     return fontMetrics().horizontalAdvance(QLatin1String(sample)) + 14;
   };
-  view_->setColumnWidth(DecisionLog::kTime, width("00000.000"));
-  view_->setColumnWidth(DecisionLog::kPacket, width("00000000"));
-  view_->setColumnWidth(DecisionLog::kScheme, width("dynamic "));
-  view_->setColumnWidth(DecisionLog::kDepthMap, width("Depth map "));
+  view_->setColumnWidth(DecisionLog::kTime, width("0000.000"));
+  view_->setColumnWidth(DecisionLog::kPacket, width("Packet"));
+  view_->setColumnWidth(DecisionLog::kScheme, width("dynamic"));
+  view_->setColumnWidth(DecisionLog::kDepthMap, width("Depth map"));
   view_->setMinimumHeight(fontMetrics().height() * 6);
 
   QAction* copy = new QAction(tr("Copy"), view_);

@@ -74,7 +74,8 @@ void Plot::addOverlays(std::initializer_list<const char*> names) {
 QCPLegend* Plot::makeLegend() {
   auto* above = new QCPLegend;
   above->setFillOrder(QCPLegend::foColumnsFirst);
-  above->setMargins(QMargins(4, 2, 4, 0));
+  // Below, letters with descenders need a little more than QCustomPlot gives a row.
+  above->setMargins(QMargins(4, 2, 4, 3));
   above->setRowSpacing(0);
   above->setColumnSpacing(6);
   above->setIconSize(16, 12);

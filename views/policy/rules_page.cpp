@@ -68,7 +68,7 @@ void RulesPage::makeTable() {
   columns->resizeSection(PolicyRulesModel::kOn, width("On"));
   columns->moveSection(PolicyRulesModel::kFires, PolicyRulesModel::kCondition);
   columns->resizeSection(PolicyRulesModel::kWeight, width("Weight"));
-  columns->resizeSection(PolicyRulesModel::kFires, width("0.00 0.0"));
+  columns->resizeSection(PolicyRulesModel::kFires, width("0.00 0"));
   table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAsNeeded);
   table_->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
   table_->setMinimumWidth(width("above_ground is low and speed is fast 0.00"));

@@ -111,6 +111,7 @@ void ErrorsController::askOpenResults() {
 }
 
 void ErrorsController::askAndMeasure() {
+  if (const QDockWidget* const dock = dockOf(*dock_); dock != nullptr && dock->isHidden()) emit placeWanted();
   raiseDock(*dock_);
   dock_->askAndMeasure();
 }

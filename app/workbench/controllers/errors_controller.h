@@ -55,6 +55,8 @@ class ErrorsController : public QObject {
  signals:
   /// A short hint for the status bar.
   void hint(const QString& text);
+  /// Presets are to be measured, and the current workspace does not have the dock for their results.
+  void placeWanted();
 
  private:
   std::optional<ErrorDock::Inputs> benchInputs(const QString& folder);

@@ -186,16 +186,22 @@ void ErrorDock::arrange() {
   auto* grid = new QGridLayout(controls);
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setVerticalSpacing(3);
-  int row = 0;
+  // Choices have all the width that their names leave: a flight's name is long.
+  auto* choices = new QGridLayout;
+  choices->setVerticalSpacing(3);
+  choices->setColumnStretch(1, 1);
   const auto named = [&](const QString& text, QComboBox* box) {
     auto* label = new QLabel(text, controls);
     label->setBuddy(box);
-    grid->addWidget(label, row, 0);
-    grid->addWidget(box, row++, 1);
+    const int at = choices->rowCount();
+    choices->addWidget(label, at, 0);
+    choices->addWidget(box, at, 1);
   };
   named(tr("Erro&r"), errors_);
   named(tr("Fl&ight"), flights_);
   named(tr("C&ase"), cases_);
+  int row = 0;
+  grid->addLayout(choices, row++, 0, 1, 2);
   grid->addWidget(logarithmic_, row, 0);
   grid->addWidget(liveOn_, row++, 1);
   grid->addWidget(measure_, row, 0);

@@ -58,8 +58,9 @@ MessagePanel::MessagePanel(QWidget* parent) : QWidget(parent), tree_(new QTreeWi
   tree_->setAccessibleName(tr("Messages"));
   // A headline spans all columns, so the first holds a severity only: what was found must be in sight.
   tree_->header()->resizeSection(kWhat, 120);
-  tree_->header()->resizeSection(kWhere, 260);
-  tree_->header()->resizeSection(kExpected, 240);
+  // The others share the width, so that none is beyond the edge; a tool tip has the whole of each.
+  for (const int column : {kWhere, kKey, kExpected, kFound})
+    tree_->header()->setSectionResizeMode(column, QHeaderView::Stretch);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(tree_);

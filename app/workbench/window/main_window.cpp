@@ -117,6 +117,9 @@ void MainWindow::makeControllers() {
   workspaces_ = new Workspaces(*this, docks_);
   sessions_ = new SessionKeeper(at, controllers_, *workspaces_, panels_.changes->snapshots());
   c.errors->attach();
+  // Results are a wide table, for which the other workspaces have no place.
+  connect(c.errors.get(), &ErrorsController::placeWanted, workspaces_,
+          [this] { workspaces_->show(Workspaces::kMeasure); });
 }
 
 void MainWindow::makeStatusBar() {

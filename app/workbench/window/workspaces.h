@@ -23,6 +23,8 @@ class Workspaces : public QObject {
  public:
   Workspaces(QMainWindow& window, DockLayout& docks);
 
+  static constexpr int kMeasure = 2;  ///< the one that ships for measuring
+
   QStringList names() const;
   int current() const { return current_; }
   bool ships(int index) const { return std::size_t(index) < shipped(); }
