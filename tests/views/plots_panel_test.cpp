@@ -209,6 +209,17 @@ TEST_F(PlotsPanelTest, aJumpOfTheViewDoesNotFlattenTheRatesOfTheHead) {
   EXPECT_GE(top(), 50'000) << "the whole range is a choice";
 }
 
+TEST_F(PlotsPanelTest, aJumpBesideTheFirstFewTurnsOfTheHeadDoesNotFlattenThem) {
+  panel_.clear();
+  for (int i = 0; i < 600; ++i) {
+    LiveFrame frame = flight_.next(draft_.active());
+    frame.decision.motion.rateDegPerS = i == 100 ? 50'000 : i >= 200 && i < 206 ? 180 : 0;
+    panel_.showFrame(frame);
+  }
+  plot().refresh(true);
+  EXPECT_LE(plot().laneRect(0)->axis(QCPAxis::atRight)->range().upper, 700);
+}
+
 TEST_F(PlotsPanelTest, legendsLieAboveTheirPlotsAndNoNameIsCut) {
   for (const QSize size : {QSize(1000, 240), QSize(640, 240), QSize(320, 420), QSize(640, 700)}) {
     panel_.resize(size);

@@ -10,7 +10,7 @@ namespace trimtab::views {
 namespace {
 
 constexpr int kUnboundedPx = 100000;
-constexpr int kLegendEntryMarginPx = 8, kColourScalePx = 12;
+constexpr int kDescenderPx = 2, kLegendEntryMarginPx = 8, kColourScalePx = 12;
 
 }  // namespace
 
@@ -74,8 +74,7 @@ void Plot::addOverlays(std::initializer_list<const char*> names) {
 QCPLegend* Plot::makeLegend() {
   auto* above = new QCPLegend;
   above->setFillOrder(QCPLegend::foColumnsFirst);
-  // Below, letters with descenders need a little more than QCustomPlot gives a row.
-  above->setMargins(QMargins(4, 2, 4, 3));
+  above->setMargins(QMargins(4, 2, 4, 0));
   above->setRowSpacing(0);
   above->setColumnSpacing(6);
   above->setIconSize(16, 12);
@@ -103,8 +102,11 @@ void Plot::wrapLegend(QCPLegend& entries, int widthPx, int least) const {
   int widest = 0;
   // Places of the grid may be empty, also before the last entry.
   for (int i = 0; i < entries.elementCount(); ++i)
-    if (auto* item = qobject_cast<QCPPlottableLegendItem*>(entries.elementAt(i)))
+    if (auto* item = qobject_cast<QCPPlottableLegendItem*>(entries.elementAt(i))) {
       widest = std::max(widest, metrics.horizontalAdvance(item->plottable()->name()));
+      // QCustomPlot clips an entry to its height, in which letters with descenders do not always fit.
+      item->setMargins(QMargins(0, 0, 0, kDescenderPx));
+    }
   const int entry = widest + entries.iconSize().width() + entries.iconTextPadding() +
                     entries.columnSpacing() + kLegendEntryMarginPx;
   const int wrap = std::max(least, widthPx / entry);

@@ -43,6 +43,8 @@ void TimePlot::restyle() {
   applyTheme(*this);
   const QPalette& p = palette();
   const QColor ink = p.color(QPalette::Text), base = p.color(QPalette::Base);
+  QColor back = base;
+  back.setAlpha(200);
   for (TraceGraph* trace : traces_) trace->colour(p);
   for (Lane& lane : lanes_) {
     lane.legend->setBrush(Qt::NoBrush);
@@ -54,6 +56,7 @@ void TimePlot::restyle() {
       if (text) {
         text->setColor(errorColour(p));
         text->setFont(font());
+        text->setBrush(back);
       }
   }
   cursor_[0].setLook(QPen(ink, 1.2), base, font());

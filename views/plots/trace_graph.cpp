@@ -64,7 +64,9 @@ TraceGraph::Heights TraceGraph::take(const TraceBuffer& buffer, std::uint64_t fr
     }
   }
   if (highs_.empty()) return {0, 0, least};
-  const auto usual = highs_.end() - 1 - static_cast<std::ptrdiff_t>(highs_.size() / 20);
+  // Where few columns have a value, as when a head has turned once, two of them may be above it too.
+  const std::size_t above = std::max(highs_.size() / 20, std::min<std::size_t>(highs_.size() / 3, 2));
+  const auto usual = highs_.end() - 1 - static_cast<std::ptrdiff_t>(above);
   std::nth_element(highs_.begin(), usual, highs_.end());
   return {*std::max_element(usual, highs_.end()), *usual, least};
 }

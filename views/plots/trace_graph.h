@@ -35,7 +35,7 @@ class TraceGraph : public QCPGraph {
   void colour(const QPalette& palette);
   struct Heights {
     double largest = 0;
-    double usual = 0;  ///< one screen column in twenty reaches higher
+    double usual = 0;  ///< one screen column in twenty reaches higher, of few columns up to two
     double least = 0;  ///< 0 where nothing is below
   };
   /// Takes the frames from `from` up to `to`, with markers at multiples of `markerStepS` within the view.

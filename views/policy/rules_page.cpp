@@ -103,10 +103,17 @@ void RulesPage::arrangeColumns() {
        {PolicyRulesModel::kCondition, PolicyRulesModel::kSettings, PolicyRulesModel::kReason})
     table_->resizeColumnToContents(column);
   const int reason = table_->columnWidth(PolicyRulesModel::kReason);
-  int others =
-      table_->verticalHeader()->sizeHint().width() + table_->verticalScrollBar()->sizeHint().width() + 4;
+  const QScrollBar& bar = *table_->verticalScrollBar();
+  int others = table_->verticalHeader()->sizeHint().width() + 2 * table_->frameWidth() +
+               (bar.isVisible() ? bar.sizeHint().width() : 0);
   for (int column = 0; column < PolicyRulesModel::kReason; ++column) others += table_->columnWidth(column);
-  table_->setColumnWidth(PolicyRulesModel::kReason, std::max(reason, table_->width() - others));
+  const int rest = table_->width() - others;
+  // Less than a word of the reason would be a cut one: the condition takes the place.
+  const int word = fontMetrics().horizontalAdvance(tr("Reason")) + 14;
+  if (rest > 0 && rest < word)
+    table_->setColumnWidth(PolicyRulesModel::kCondition,
+                           table_->columnWidth(PolicyRulesModel::kCondition) + rest);
+  table_->setColumnWidth(PolicyRulesModel::kReason, std::max(reason, rest));
 }
 
 void RulesPage::resizeEvent(QResizeEvent* event) {

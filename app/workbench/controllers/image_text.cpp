@@ -77,8 +77,7 @@ QString hudText(const HudFacts& facts) {
     parts << QObject::tr("not over the terrain");
   if (std::isfinite(facts.fps)) parts << QObject::tr("%1 fps").arg(facts.fps, 0, 'f', 0);
   if (facts.cameraSpeed)
-    parts
-        << QObject::tr("free camera, keys move it at %L1 kt").arg(facts.cameraSpeed->in<Knots>(), 0, 'f', 0);
+    parts << QObject::tr("camera, %L1 kt by keys").arg(facts.cameraSpeed->in<Knots>(), 0, 'f', 0);
   return parts.join(QStringLiteral("   "));
 }
 

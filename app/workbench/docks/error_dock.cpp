@@ -189,6 +189,7 @@ void ErrorDock::arrange() {
   // Choices have all the width that their names leave: a flight's name is long.
   auto* choices = new QGridLayout;
   choices->setVerticalSpacing(3);
+  choices->setHorizontalSpacing(6);
   choices->setColumnStretch(1, 1);
   const auto named = [&](const QString& text, QComboBox* box) {
     auto* label = new QLabel(text, controls);

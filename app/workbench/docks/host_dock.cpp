@@ -93,6 +93,7 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
       connect_(new QPushButton(this)),
       firstBad_(new QPlainTextEdit(this)) {
   auto* form = new QFormLayout;
+  form->setVerticalSpacing(3);
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
   port_->setRange(1, 65535);
   port_->setValue(QSettings().value(QStringLiteral("host/port"), kDefaultPort).toInt());

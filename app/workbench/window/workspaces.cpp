@@ -40,7 +40,7 @@ const std::array<Shipped, 5>& shippedList() {
       {QT_TRANSLATE_NOOP("Workspaces", "Terrain"),
        {{{{"terrain", "culling", "static_lod"}, 1}}, {{{"messages"}, 1}}, 0.42, 0.24}},
       {QT_TRANSLATE_NOOP("Workspaces", "Connect"),
-       {{{{"host"}, 0.75}, {{"flight"}, 0.25}}, {{{"plots", "messages"}, 1}}, 0.4, 0.4}},
+       {{{{"host"}, 0.72}, {{"flight"}, 0.28}}, {{{"plots", "messages"}, 1}}, 0.4, 0.4}},
   }};
   return list;
 }
