@@ -72,7 +72,7 @@ TEST(BudgetStrip, saysHowMuchOfTheMinuteIsOverWhereAndWhatHelps) {
   strip.showFrame(frame, 1);
   EXPECT_TRUE(QTest::qWaitFor([&] { return strip.text().contains("5 % of the last minute"); }, 5000))
       << strip.text().toStdString();
-  EXPECT_TRUE(strip.text().contains("longest stage: drawing, 16 ms")) << strip.text().toStdString();
+  EXPECT_TRUE(strip.text().contains("longest: drawing, 16 ms")) << strip.text().toStdString();
   EXPECT_TRUE(strip.text().contains("most help: allowed error"));
   EXPECT_EQ(strip.minute().images(), 20u);
   ASSERT_TRUE(draft.setText("measure.budget_ms", "30").empty());

@@ -52,10 +52,10 @@ void BudgetStrip::refresh() {
                             .arg(msText(budgetMs), numberText(share * 100, share < 0.1 ? 1 : 0))
                       : tr("Within %1: all of the last minute").arg(msText(budgetMs)));
   if (const auto stage = minute_.worstStage(budgetMs))
-    parts << tr("longest stage: %1, %2").arg(stage->name, msText(stage->ms));
+    parts << tr("longest: %1, %2").arg(stage->name, msText(stage->ms));
   if (const auto help = minute_.help(budgetMs, costs_ ? costs_(load_) : CostCoefficients{}))
     parts << (std::isnan(help->ms) ? tr("most help: %1").arg(help->lever)
-                                   : tr("most help: %1, about −%2").arg(help->lever, msText(help->ms)));
+                                   : tr("most help: %1, −%2").arg(help->lever, msText(help->ms)));
   text_ = parts.join(QStringLiteral("  ·  "));
   setAccessibleDescription(text_);
   setToolTip(

@@ -129,7 +129,7 @@ SignalsList::SignalsList(PolicyDraft& policy, QWidget* parent)
   horizontalHeader()->hide();
   horizontalHeader()->setSectionResizeMode(SignalsModel::kName, QHeaderView::Stretch);
   horizontalHeader()->setSectionResizeMode(SignalsModel::kValue, QHeaderView::Fixed);
-  setColumnWidth(SignalsModel::kValue, fontMetrics().horizontalAdvance(QStringLiteral("00,000 ft/min")) + 4);
+  setColumnWidth(SignalsModel::kValue, fontMetrics().horizontalAdvance(QStringLiteral("0,000.0 deg/s")) + 4);
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   setMinimumHeight(fontMetrics().height() * 5);
   choose(std::nullopt);

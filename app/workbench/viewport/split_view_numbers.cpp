@@ -28,9 +28,8 @@ enum Column {
 void SplitView::makeNumbers() {
   numbers_->setRowCount(3);
   numbers_->setColumnCount(kColumns);
-  numbers_->setHorizontalHeaderLabels({tr("FLIP"), tr("SSIM"), tr("PSNR (dB)"),
-                                       tr("Geometric,\nlargest (px)"), tr("Geometric,\nmean (px)"),
-                                       tr("Triangles"), tr("Frame (ms)")});
+  numbers_->setHorizontalHeaderLabels({tr("FLIP"), tr("SSIM"), tr("PSNR (dB)"), tr("Geometric\nmax (px)"),
+                                       tr("Geometric\nmean (px)"), tr("Triangles"), tr("Frame (ms)")});
   numbers_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   numbers_->setAccessibleName(tr("Errors and cost of both"));
   numbers_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
