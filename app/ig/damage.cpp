@@ -5,10 +5,17 @@
 namespace trimtab::ig {
 
 void Damage::look(std::uint64_t failedPages) {
-  tell(database_.damage());
+  tell(database_->damage());
   if (failedPages == failedPages_) return;
   failedPages_ = failedPages;
   tell(renderer_.pageFailures());
+}
+
+void Damage::setDatabase(std::shared_ptr<const terrain::Database> database) {
+  database_ = std::move(database);
+  failedPages_ = 0;
+  before_ += told_.size();
+  told_.clear();
 }
 
 void Damage::tell(const Findings& findings) {

@@ -7,6 +7,7 @@
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/scene/data_extent.h"
+#include "trimtab/scene/load_index.h"
 #include "trimtab/scene/offscreen.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/units/labelled.h"
@@ -27,6 +28,7 @@ class Loop {
     if (run_.options.listen) begin();
     while (!run_.wake.stop() && !enough()) {
       const double start = link::now();
+      if (run_.health) run_.health->look(start, summary_.frames, summary_.terrainReloads, run_.session);
       const bool news = run_.feed.advance(run_.session, start);
       bool stale = false;
       if (!run_.surface.handleEvents(stale)) break;
@@ -60,17 +62,45 @@ class Loop {
   void sleep() {
     const double now = link::now();
     double seconds = run_.feed.dueIn(now);
-    if (run_.watch) seconds = std::fmin(seconds, PresetWatch::kPeriodS);
+    if (run_.watch) seconds = std::fmin(seconds, FileWatch::kPeriodS);
+    if (run_.health) seconds = std::fmin(seconds, std::fmax(run_.health->dueIn(now), 0));
     const LinkState link = run_.session.linkState(now);
     const bool moving = link == LinkState::live || link == LinkState::jumped || run_.session.unsettled();
     if (run_.surface.hasViewer() && moving) seconds = std::fmin(seconds, kViewerPeriodS);
     run_.wake.wait(seconds, run_.surface.eventFd());
   }
 
-  /// Whether a changed preset took effect. A refused one is reported and changes nothing.
+  /// Whether a changed preset or terrain took effect.
   bool reloaded(double now) {
-    if (!run_.watch || now - lastWatch_ < PresetWatch::kPeriodS) return false;
+    if (!run_.watch || now - lastWatch_ < FileWatch::kPeriodS) return false;
     lastWatch_ = now;
+    const bool terrain = terrainReloaded();
+    return presetReloaded() || terrain;
+  }
+
+  /// Whether another terrain took the place of the last one. The image stands still while it opens. A refused
+  /// one is reported and changes nothing.
+  bool terrainReloaded() {
+    if (!run_.terrainWatch->changed()) return false;
+    const auto database = openDatabase(run_.options.terrain);
+    report(database.findings());
+    if (!database) {
+      ++summary_.terrainsRefused;
+      std::cerr << "warning: " << run_.options.terrain.string() << ": refused; the last terrain stays"
+                << std::endl;
+      return false;
+    }
+    ++summary_.terrainReloads;
+    run_.renderer.setTerrain(*database);
+    run_.session.setGround(*database);
+    run_.session.setLoadIndex(scene::loadIndexOf(*database));
+    run_.damage.setDatabase(*database);
+    std::cerr << "note: " << run_.options.terrain.string() << ": loaded again" << std::endl;
+    return true;
+  }
+
+  /// Whether a changed preset took effect. A refused one is reported and changes nothing.
+  bool presetReloaded() {
     const std::optional<Result<ActivePreset>> changed = run_.watch->poll();
     if (!changed) return false;
     report(changed->findings());
@@ -167,6 +197,21 @@ void warmUp(const Run& run, const terrain::Database& database) {
     run.renderer.draw(request, run.surface.framebuffer());
   }
   run.surface.present();
+}
+
+Result<std::shared_ptr<const terrain::Database>> openDatabase(const std::filesystem::path& folder) {
+  std::error_code error;
+  // A link that leads elsewhere meanwhile must not mix the files of two databases.
+  const std::filesystem::path place =
+      std::filesystem::is_symlink(folder, error) ? std::filesystem::canonical(folder, error) : folder;
+  if (!error && terrain::isDatabase(place)) return terrain::Database::open(place);
+  return Finding{
+      Severity::error,
+      folder.string(),
+      {},
+      "the folder of a baked terrain database; bake elevation or scenery with `trimtab-cli terrain "
+      "bake`",
+      std::filesystem::exists(folder, error) ? "something else" : "nothing"};
 }
 
 Summary drawFrames(const Run& run) {

@@ -8,6 +8,8 @@
 
 #include "damage.h"
 #include "feed.h"
+#include "file_watch.h"
+#include "health.h"
 #include "preset_watch.h"
 #include "surface.h"
 #include "trace_file.h"
@@ -29,12 +31,14 @@ struct Run {
   Feed& feed;
   Damage& damage;
   TraceFile* trace = nullptr;
-  PresetWatch* watch = nullptr;  ///< made before the preset is loaded, so that no change is missed
+  Health* health = nullptr;
+  PresetWatch* watch = nullptr;       ///< made before the preset is loaded, so that no change is missed
+  FileWatch* terrainWatch = nullptr;  ///< made before the terrain is opened
 };
 
 struct Summary {
   std::uint64_t frames = 0, packets = 0, decisionChanges = 0, jumps = 0, presetReloads = 0,
-                presetsRefused = 0;
+                presetsRefused = 0, terrainReloads = 0, terrainsRefused = 0;
   std::uint64_t damagedPlaces = 0;  ///< of the terrain, that were read for an image
   std::uint64_t depthMapsDrawn = 0, horizonsBuilt = 0, overBudget = 0;
   double firstFrameTime = 0;  ///< link::now() when the first image was finished; 0: none
@@ -55,6 +59,9 @@ Summary drawFrames(const Run& run);
 
 /// Draws the last image again and writes it: after a swap of buffers its pixels are undefined.
 Result<Done> takeScreenshot(const Run& run, const Summary& summary, const std::filesystem::path& file);
+
+/// Opens a baked database. The IG bakes nothing itself, so that it needs no GDAL.
+Result<std::shared_ptr<const terrain::Database>> openDatabase(const std::filesystem::path& folder);
 
 /// Returns the summary in one line for people.
 std::string summaryLine(const Summary& summary, const Feed& feed);

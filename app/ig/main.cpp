@@ -12,6 +12,7 @@
 #include "trimtab/scene/load_index.h"
 #include "trimtab/scene/renderer.h"
 #include "trimtab/terrain/format/database.h"
+#include "trimtab/terrain/format/store.h"
 
 namespace trimtab::ig {
 namespace {
@@ -44,19 +45,6 @@ class SummaryOutput {
   std::FILE* file_;
 };
 
-/// Opens a baked database. The IG bakes nothing itself, so that it needs no GDAL.
-Result<std::shared_ptr<const terrain::Database>> openDatabase(const std::filesystem::path& folder) {
-  if (terrain::isDatabase(folder)) return terrain::Database::open(folder);
-  std::error_code error;
-  return Finding{
-      Severity::error,
-      folder.string(),
-      {},
-      "the folder of a baked terrain database; bake elevation or scenery with `trimtab-cli terrain "
-      "bake`",
-      std::filesystem::exists(folder, error) ? "something else" : "nothing"};
-}
-
 Result<Done> checkWatch(const Options& options) {
   std::error_code error;
   if (!options.watch || std::filesystem::is_regular_file(options.preset, error)) return Done{};
@@ -88,7 +76,9 @@ int runWith(const Options& options) {
   std::optional<PresetWatch> watch;
   if (options.watch) watch.emplace(options.preset);
   const Result<ActivePreset> preset = loadActivePreset(options.preset);
-  const Result<std::shared_ptr<const terrain::Database>> database = openDatabase(options.terrain);
+  std::optional<FileWatch> terrainWatch;
+  if (options.watch) terrainWatch.emplace(options.terrain / terrain::kManifestName);
+  Result<std::shared_ptr<const terrain::Database>> database = openDatabase(options.terrain);
   Result<std::unique_ptr<Feed>> feed = openFeed(options, wake);
   Result<HeadInput> head = openHeadInput(options);
   bool usable = accepted(preset);
@@ -103,6 +93,12 @@ int runWith(const Options& options) {
     usable = accepted(opened);
     if (usable) trace.emplace(std::move(opened).value());
   }
+  std::optional<Health> health;
+  if (usable && !options.health.empty()) {
+    Result<Health> opened = Health::open(options.health);
+    usable = accepted(opened);
+    if (usable) health.emplace(std::move(opened).value());
+  }
   if (!usable) return kRefused;
 
   Result<std::unique_ptr<Surface>> surface = options.headless
@@ -113,15 +109,16 @@ int runWith(const Options& options) {
   const Result<scene::GlReport> gl = initialized(renderer);
   if (!accepted(gl)) return kRefused;
   if (gl->software) std::cerr << "note: OpenGL by software: " << gl->renderer << std::endl;
-  renderer.setTerrain(*database);
+  std::shared_ptr<const terrain::Database> ground = std::move(database).value();
+  renderer.setTerrain(ground);
 
   Session session(preset->parameters);
-  session.setGround(*database);
-  session.setLoadIndex(scene::loadIndexOf(*database));
+  session.setGround(ground);
+  session.setLoadIndex(scene::loadIndexOf(ground));
   if (preset->parameters->hold.enabled) report(recallCostModel(session.hold().model(), gl->renderer));
   session.head() = std::move(head).value();
   session.keepRows(true);
-  Damage damage(**database, renderer);
+  Damage damage(ground, renderer);
   const Run run{options,
                 wake,
                 session,
@@ -130,13 +127,17 @@ int runWith(const Options& options) {
                 **feed,
                 damage,
                 trace ? &*trace : nullptr,
-                watch ? &*watch : nullptr};
-  if (options.listen || options.realtime) warmUp(run, **database);
+                health ? &*health : nullptr,
+                watch ? &*watch : nullptr,
+                terrainWatch ? &*terrainWatch : nullptr};
+  if (options.listen || options.realtime) warmUp(run, *ground);
+  ground.reset();  // it is closed when another one takes its place
   Summary summary = drawFrames(run);
   if (session.parameters()->hold.enabled) report(rememberCostModel(session.hold().model(), gl->renderer));
 
   bool written = true;
   if (trace) written &= accepted(trace->finish());
+  if (health) written &= accepted(health->finish());
   if (!options.screenshot.empty()) written &= accepted(takeScreenshot(run, summary, options.screenshot));
   summary.damagedPlaces = damage.places();
   written &= accepted(

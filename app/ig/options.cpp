@@ -70,7 +70,11 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   app.add_option("--frames", options.frames, "end after so many frames; 0: no end");
   app.add_option("--trace", options.trace, "write every decided packet to this CSV file");
   app.add_option("--screenshot", options.screenshot, "write the last frame to this PNG file");
-  app.add_flag("--watch", options.watch, "load the preset again whenever its file changes");
+  app.add_option("--health", options.health,
+                 "write memory, handles, threads, GL objects and latency to this CSV file every ten seconds");
+  app.add_flag(
+      "--watch", options.watch,
+      "load the preset again whenever its file changes, and the terrain whenever another one is there");
   app.add_flag("--json", options.json, "print the summary as JSON");
   listen->excludes(flight);
   try {

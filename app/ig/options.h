@@ -27,7 +27,7 @@ struct Options {
   bool headless = false;
   int width = 1280, height = 720;
   std::uint64_t frames = 0;  ///< 0: until the flight ends or a signal comes
-  std::filesystem::path trace, screenshot;
+  std::filesystem::path trace, screenshot, health;
   bool watch = false;
   bool json = false;
 };

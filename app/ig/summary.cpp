@@ -61,6 +61,8 @@ std::string summaryJson(const Summary& s, const Feed& feed, const Options& optio
   json["horizons_built"] = s.horizonsBuilt;
   json["over_budget"] = s.overBudget;
   json["preset_reloads"] = s.presetReloads;
+  json["terrain_reloads"] = s.terrainReloads;
+  json["terrains_refused"] = s.terrainsRefused;
   json["damaged_places"] = s.damagedPlaces;
   json["presets_refused"] = s.presetsRefused;
   json["first_frame_unix_s"] =

@@ -111,6 +111,9 @@ TEST_F(IgInputs, badOnesAreRefusedWithFileAndReason) {
       {"screenshot nowhere",
        [&](Arguments& a) { a.more += " --screenshot " + (dir_ / "no" / "s.png").string(); },
        {"s.png"}},
+      {"health nowhere",
+       [&](Arguments& a) { a.more += " --health " + (dir_ / "no" / "h.csv").string(); },
+       {"h.csv"}},
       {"nothing to watch", [&](Arguments& a) { a.more += " --watch"; }, {"--watch", "default"}},
   };
   for (const Case& c : cases) {

@@ -6,6 +6,7 @@
 
 #include "app/link/link.h"
 #include "ig_support.h"
+#include "tests/csv_cells.h"
 #include "trimtab/host/flight.h"
 
 namespace trimtab {
@@ -20,13 +21,11 @@ class IgLink : public ::testing::Test {
   void writePreset(const ValidatedParameters& parameters) const {
     ASSERT_TRUE(writeAtomically(dir_ / "preset.json", test::exported(parameters)));
   }
-  IgProcess listen(std::vector<std::string> more = {}) const {
-    std::vector<std::string> arguments{"--preset",   (dir_ / "preset.json").string(),
-                                       "--terrain",  test::smallTerrain().string(),
-                                       "--listen",   "0",
-                                       "--trace",    (dir_ / "trace.csv").string(),
-                                       "--headless", "--size",
-                                       "320x200",    "--json"};
+  IgProcess listen(std::vector<std::string> more = {},
+                   const std::filesystem::path& terrain = test::smallTerrain()) const {
+    std::vector<std::string> arguments{
+        "--preset", (dir_ / "preset.json").string(), "--terrain",  terrain.string(), "--listen", "0",
+        "--trace",  (dir_ / "trace.csv").string(),   "--headless", "--size",         "320x200",  "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return IgProcess(arguments);
   }
@@ -146,6 +145,53 @@ TEST_F(IgLink, watchTakesAChangedExportAndKeepsTheLastGoodOne) {
     EXPECT_NEAR(trace[i].decision.totalMembership, totals[i / 20], 1e-4) << i;
   EXPECT_EQ(ig.summary()["preset_reloads"], 2);
   EXPECT_EQ(ig.summary()["presets_refused"], 2);
+}
+
+TEST_F(IgLink, watchFollowsALinkToAnotherTerrainAndKeepsTheLastGoodOne) {
+  const std::filesystem::path link = dir_ / "terrain", broken = dir_ / "broken";
+  const auto lead = [&](const std::filesystem::path& to) {
+    std::filesystem::create_directory_symlink(to, dir_ / "next");
+    std::filesystem::rename(dir_ / "next", link);
+  };
+  std::filesystem::copy(test::smallTerrain(), dir_ / "other", std::filesystem::copy_options::recursive);
+  std::filesystem::create_directory(broken);
+  test::writeFile(broken / "manifest.json", "{");
+  lead(test::smallTerrain());
+  IgProcess ig = listen({"--watch", "--health", (dir_ / "health.csv").string()}, link);
+  ASSERT_NE(ig.port(), 0) << ig.err();
+  play(ig, test::weavingFlight(20), WireProtocol::cigi3, 20);
+  lead(dir_ / "other");
+  ASSERT_TRUE(ig.says("terrain: loaded again")) << ig.err();
+  // What it was opened from is not needed any more, and the new one is read when it is drawn.
+  play(ig, test::weavingFlight(20), WireProtocol::cigi3, 40);
+  lead(broken);
+  ASSERT_TRUE(ig.says("the last terrain stays")) << ig.err();
+  play(ig, test::weavingFlight(20), WireProtocol::cigi3, 60);
+  const auto opened = [&](const std::string& folder) {
+    for (const auto& entry :
+         std::filesystem::directory_iterator("/proc/" + std::to_string(ig.pid()) + "/fd")) {
+      std::error_code gone;
+      if (std::filesystem::read_symlink(entry.path(), gone).string().find(folder) != std::string::npos)
+        return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(opened((dir_ / "other").string()));
+  EXPECT_FALSE(opened(test::smallTerrain().string())) << "the terrain before is closed";
+  ig.signal(SIGINT);
+  ASSERT_EQ(ig.end(), 0) << ig.err();
+  EXPECT_EQ(ig.summary()["terrain_reloads"], 1);
+  EXPECT_EQ(ig.summary()["terrains_refused"], 1);
+  std::istringstream health(test::readFile(dir_ / "health.csv"));
+  std::string head, row;
+  ASSERT_TRUE(std::getline(health, head) && std::getline(health, row)) << "the first row is there at once";
+  const std::vector<std::string> names = test::csvCells(head), cells = test::csvCells(row);
+  ASSERT_EQ(names.size(), cells.size()) << head << '\n' << row;
+  for (const char* column : {"memory_kb", "handles", "threads", "gl_objects", "gl_programs", "gl_textures"}) {
+    const auto at = std::find(names.begin(), names.end(), column) - names.begin();
+    ASSERT_LT(at, std::ssize(names)) << column;
+    EXPECT_GT(std::stod(cells[static_cast<std::size_t>(at)]), 0) << column << '\n' << row;
+  }
 }
 
 TEST_F(IgLink, watchSeesAnExportThatChangesWhileTheProgramMakesItselfReady) {
