@@ -148,6 +148,34 @@ TEST_F(IgTrust, endsAlikeHoweverItIsAskedToStop) {
   }
 }
 
+TEST_F(IgTrust, keepsTheTraceOfARunThatWasKilled) {
+  const fs::path part = dir_ / "trace.csv.part";
+  std::string rows;
+  {
+    std::vector<std::string> more = flying();
+    more.push_back("--realtime");
+    test::writeFile(dir_ / "flight.csv", flightCsv(test::weavingFlight(3000)));
+    IgProcess ig(arguments(test::smallTerrain(), more));
+    ASSERT_TRUE(ig.until([&] { return fs::exists(part) && fs::file_size(part) > 5000; }));
+    ig.signal(SIGKILL);
+    EXPECT_EQ(ig.end(), 128 + SIGKILL);
+    rows = test::readFile(part);
+  }
+  test::writeFile(dir_ / "flight.csv", flightCsv(test::weavingFlight(20)));
+  {
+    IgProcess next(arguments(test::smallTerrain(), flying()));
+    EXPECT_EQ(next.end(), 1);
+    EXPECT_NE(next.err().find("trace.csv.part"), std::string::npos) << next.err();
+    EXPECT_EQ(test::readFile(part), rows);
+    EXPECT_FALSE(fs::exists(dir_ / "picture.png")) << "it is refused before the first image";
+  }
+  EXPECT_TRUE(readTrace(part)) << "it reads as it is";
+  fs::rename(part, dir_ / "kept.csv");
+  IgProcess last(arguments(test::smallTerrain(), flying()));
+  EXPECT_EQ(last.end(), 0) << last.err();
+  EXPECT_EQ(readTrace(dir_ / "trace.csv")->size(), 20u);
+}
+
 TEST_F(IgTrust, waitsForNoPipeAsAPreset) {
   ASSERT_EQ(::mkfifo((dir_ / "pipe").c_str(), 0600), 0);
   std::vector<std::string> all = arguments(test::smallTerrain(), {"--flight", (dir_ / "pipe").string()});

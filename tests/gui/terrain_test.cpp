@@ -12,6 +12,7 @@
 #include <QToolButton>
 #include <atomic>
 #include <chrono>
+#include <fstream>
 #include <future>
 #include <thread>
 
@@ -75,6 +76,43 @@ TEST_F(TerrainDock, showsTheLevelsThatThePictureIsMadeOf) {
   wire->click();
   EXPECT_TRUE(wire->isChecked());
   EXPECT_TRUE(waitFor([&] { return paints() > before; }));
+}
+
+TEST_F(TerrainDock, saysOnceThatWhatIsFlownOverIsDamaged) {
+  for (const char* file : {"heights.f32", "patches.pages"}) {
+    SCOPED_TRACE(file);
+    const std::filesystem::path copy = dir_ / (std::string("of-") + file);
+    std::filesystem::copy(sampleTerrain(), copy, std::filesystem::copy_options::recursive);
+    {
+      // Blocks and pages; what a database needs to be opened comes behind them.
+      std::fstream damaged(copy / file, std::ios::binary | std::ios::in | std::ios::out);
+      for (std::uintmax_t at = 200; at < std::filesystem::file_size(copy / file) * 4 / 10; at += 5000) {
+        damaged.seekg(static_cast<std::streamoff>(at));
+        const int byte = damaged.get();
+        damaged.seekp(static_cast<std::streamoff>(at));
+        damaged.put(static_cast<char>(byte ^ 4));
+      }
+    }
+    const bool patches = std::string(file) == "patches.pages";
+    ASSERT_TRUE(w().draft().setText("static_lod.terrain", patches ? "patches" : "levels").empty());
+    const auto count = [&](const char* text) { return w().messages().text().count(QLatin1String(text)); };
+    const auto before = count("The terrain is damaged");
+    w().controllers().terrain->open(QString::fromStdString(copy.string()));
+    ASSERT_TRUE(waitFor([&] { return count("The terrain is damaged") > before; }))
+        << w().messages().text().toStdString();
+    EXPECT_TRUE(w().messages().text().contains(QLatin1String(file)));
+    EXPECT_TRUE(w().messages().text().contains(QStringLiteral("checksum")));
+    // Each place is said once, however often it is drawn.
+    ASSERT_TRUE(settle());
+    const auto lines = count(file);
+    for (const double pitch : {-5.0, -6.0, -5.0, -6.0}) look(pitch);
+    ASSERT_TRUE(settle());
+    const QString text = w().messages().text();
+    look(-5);
+    ASSERT_TRUE(settle());
+    EXPECT_EQ(w().messages().text(), text);
+    EXPECT_GT(lines, 0);
+  }
 }
 
 TEST_F(TerrainDock, drawsPatchesWhereThePresetSaysSo) {

@@ -20,6 +20,7 @@
 #include "app/workbench/docks/host_dock.h"
 #include "app/workbench/window/workspaces.h"
 #include "gui_support.h"
+#include "trimtab/measure/trace.h"
 #include "views/panels/culling_panel.h"
 #include "views/panels/plots_panel.h"
 
@@ -146,14 +147,22 @@ TEST_F(WorkbenchWindow, theTraceCommandIsCheckedWhileATraceIsRecorded) {
   auto& trace = *w().controllers().trace;
   EXPECT_FALSE(trace.start("/proc/nowhere/trace.csv"));
   EXPECT_FALSE(record->isChecked());
+  writeFile(dir / "trace.csv", "the old one");
+  writeFile(dir / "cut.csv.part", "a trace\nthat was cut off");
+  EXPECT_FALSE(trace.start(QString::fromStdString((dir / "cut.csv").string())));
+  EXPECT_TRUE(w().messages().text().contains("cut.csv.part"));
+  EXPECT_EQ(readFile(dir / "cut.csv.part"), "a trace\nthat was cut off");
   ASSERT_TRUE(trace.start(QString::fromStdString((dir / "trace.csv").string())));
   EXPECT_TRUE(record->isChecked());
+  EXPECT_EQ(readFile(dir / "trace.csv"), "the old one") << "until the new one is whole";
   const views::PlotMarks& marks = w().panels().plots->marks();
   EXPECT_TRUE(marks.lasts(views::PlotMarks::Kind::recording)) << "the plots show it";
   record->trigger();
   EXPECT_FALSE(record->isChecked());
   EXPECT_FALSE(marks.lasts(views::PlotMarks::Kind::recording));
   EXPECT_TRUE(trace.recorded().endsWith("trace.csv"));
+  EXPECT_TRUE(isTraceFile(dir / "trace.csv"));
+  EXPECT_FALSE(std::filesystem::exists(dir / "trace.csv.part"));
 }
 
 TEST_F(WorkbenchWindow, mouseAndKeysFlyTheCameraWhileNoHostDoes) {

@@ -17,7 +17,7 @@ TraceController::TraceController(const Workplace& workplace, const FrameControll
 
 bool TraceController::start(const QString& file) {
   stop();
-  Result<TraceWriter> writer = TraceWriter::open(file.toStdString());
+  Result<TraceFile> writer = TraceFile::open(file.toStdString());
   if (!writer) {
     at_.messages.add(tr("The trace cannot be written: %1").arg(file), writer.findings());
     emit recordingChanged(false);
@@ -37,7 +37,7 @@ void TraceController::write(bool all) {
   if (!writer_) return;
   rows_.clear();
   at_.feed.session().takeRows(rows_, all);
-  for (const TraceRow& row : rows_) writer_->write(row);
+  writer_->write(rows_);
   count_ += rows_.size();
 }
 
@@ -45,7 +45,7 @@ void TraceController::stop() {
   if (!writer_) return;
   write(true);
   at_.feed.session().keepRows(false);
-  const Result<Done> closed = writer_->close();
+  const Result<Done> closed = writer_->finish();
   writer_.reset();
   if (closed) {
     recorded_ = file_;

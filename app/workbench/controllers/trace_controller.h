@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "trimtab/measure/trace.h"
+#include "trimtab/measure/trace_file.h"
 #include "workplace.h"
 
 namespace trimtab::workbench {
@@ -22,7 +22,7 @@ class TraceController : public QObject {
   TraceController(const Workplace& workplace, const FrameController& frame);
 
   /// Starts a trace, after stopping one that is being recorded. Returns false and reports in the Messages
-  /// dock if the file cannot be written.
+  /// dock if the file cannot be written. A file of that name stays until the trace is whole (TraceFile).
   bool start(const QString& file);
   /// Writes the rows that are left and closes the file. Does nothing if no trace is being recorded.
   void stop();
@@ -38,7 +38,7 @@ class TraceController : public QObject {
   void write(bool all);
 
   Workplace at_;
-  std::optional<TraceWriter> writer_;
+  std::optional<TraceFile> writer_;
   std::vector<TraceRow> rows_;
   std::uint64_t count_ = 0;
   QString file_, recorded_;

@@ -1,6 +1,8 @@
 #include "trimtab/measure/trace.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <bit>
@@ -11,6 +13,7 @@
 
 #include "tests/support.h"
 #include "trimtab/measure/cost_stages.h"
+#include "trimtab/measure/trace_file.h"
 #include "trimtab/units/not_finite.h"
 
 namespace trimtab {
@@ -275,6 +278,63 @@ TEST(TraceWriter, writesWhatReadTraceReads) {
   ASSERT_TRUE(read.ok()) << toString(read.findings());
   ASSERT_EQ(read->size(), 2u);
   expectSame(row, read->at(1));
+}
+
+TEST(TraceFile, keepsTheOldFileUntilTheNewOneIsWhole) {
+  test::ScratchDir dir;
+  const std::filesystem::path file = dir / "trace.csv", part = dir / "trace.csv.part";
+  test::writeFile(file, "the old one");
+  Result<TraceFile> trace = TraceFile::open(file);
+  ASSERT_TRUE(trace) << toString(trace.findings());
+  std::mt19937_64 random(12);
+  const std::vector<TraceRow> rows(2, anyRow(random));
+  trace->write(rows);
+  EXPECT_EQ(test::readFile(file), "the old one");
+  EXPECT_EQ(readTrace(part)->size(), 2u) << "a crash leaves it";
+  ASSERT_TRUE(trace->finish());
+  EXPECT_EQ(readTrace(file)->size(), 2u);
+  EXPECT_FALSE(std::filesystem::exists(part));
+}
+
+TEST(TraceFile, refusesToWriteOverATraceThatWasCutOff) {
+  test::ScratchDir dir;
+  const std::filesystem::path file = dir / "trace.csv", part = dir / "trace.csv.part";
+  const std::string rows = traceHeader() + "\n1,2";
+  test::writeFile(part, rows);
+  const Result<TraceFile> trace = TraceFile::open(file);
+  EXPECT_FALSE(trace);
+  EXPECT_NE(toString(trace.findings()).find("trace.csv.part"), std::string::npos);
+  EXPECT_EQ(test::readFile(part), rows);
+  test::writeFile(part, traceHeader() + "\n");
+  EXPECT_TRUE(TraceFile::open(file)) << "nothing is lost with a header";
+  std::filesystem::create_directory(dir / "folder");
+  for (const std::filesystem::path& no : {dir / "folder", std::filesystem::path("/dev/null")})
+    EXPECT_FALSE(TraceFile::open(no)) << no;
+}
+
+TEST(TraceFile, keepsTheWholeRowsWhenTheDiskIsFull) {
+  test::ScratchDir dir;
+  // As on a full disk, no more than that can be written.
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto old = ::signal(SIGXFSZ, SIG_IGN);
+  rlimit most = before;
+  most.rlim_cur = 30000;
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &most), 0);
+  Result<TraceFile> trace = TraceFile::open(dir / "trace.csv");
+  std::mt19937_64 random(3);
+  const std::vector<TraceRow> rows(100, anyRow(random));
+  trace->write(rows);
+  const Result<Done> done = trace->finish();
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  ::signal(SIGXFSZ, old);
+  EXPECT_FALSE(done);
+  EXPECT_NE(toString(done.findings()).find("trace.csv.part"), std::string::npos) << toString(done.findings());
+  EXPECT_FALSE(std::filesystem::exists(dir / "trace.csv"));
+  const Result<std::vector<TraceRow>> kept = readTrace(dir / "trace.csv.part");
+  ASSERT_TRUE(kept) << toString(kept.findings());
+  ASSERT_FALSE(kept->empty());
+  expectSame(rows[0], kept->back());
 }
 
 TEST(TraceWriter, saysWhenAFileCannotBeOpenedOrTheDiskIsFull) {
