@@ -117,7 +117,9 @@ Result<Store> Store::open(const fs::path& folder, const Plan& plan, const std::s
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
     return Finding{Severity::error, folder.string(), "", "a folder for the results", "a file"};
   for (const char* name : {"results.json", "frames.csv", "report.html", kParts})
-    if (fs::exists(folder / name, error))
+    // An empty folder is left of a run that was stopped before it wrote its plan.
+    if (fs::exists(folder / name, error) &&
+        !(std::string_view(name) == kParts && fs::is_empty(folder / name, error)))
       return Finding{Severity::error, (folder / name).string(), "",
                      "a new folder, or that of a run that was stopped", "a file without its plan.json"};
   fs::create_directories(folder / kParts, error);

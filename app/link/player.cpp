@@ -137,7 +137,8 @@ void UdpPlayer::send(AircraftState state, double flightS, Clock::duration elapse
   const auto attempt = [&] {
     return ::send(socket_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
   };
-  if (attempt() < 0 && errno == ECONNREFUSED) static_cast<void>(attempt());
+  if (attempt() < 0 && (errno == ECONNREFUSED || errno == EINTR)) static_cast<void>(attempt());
+  // What the system has no room for is lost, as on a full line; the receiver sees it by the frame numbers.
   ++sent_;
 }
 

@@ -162,7 +162,9 @@ void UdpReceiver::run() {
       wait.tv_nsec = left > 0 ? left % 1000000000 : 0;
     }
     const int ready = ::ppoll(polled.data(), polled.size(), reply_ ? &wait : nullptr, nullptr);
-    if (ready < 0 && errno != EINTR) return;
+    // The system may be short of memory for a moment; a thread that ended would look like a silent host.
+    constexpr auto kAfterFailure = std::chrono::milliseconds(10);
+    if (ready < 0 && errno != EINTR) std::this_thread::sleep_for(kAfterFailure);
     if (ready <= 0) continue;
     if (polled[1].revents != 0) return;
     // A flood must not keep Start of Frame or the end waiting.
@@ -323,7 +325,8 @@ Result<std::unique_ptr<Receiver>> Receiver::open(const ReceiverOptions& options)
     return failure("port " + port + " at " + options.bindAddress, std::strerror(errno));
   }
   socklen_t size = sizeof address;
-  ::getsockname(socket.get(), reinterpret_cast<sockaddr*>(&address), &size);
+  if (::getsockname(socket.get(), reinterpret_cast<sockaddr*>(&address), &size) != 0)
+    return failure("the number of the port", std::strerror(errno));
   return std::unique_ptr<Receiver>(std::make_unique<UdpReceiver>(std::move(socket), std::move(stop),
                                                                  ntohs(address.sin_port), options, reply,
                                                                  Gate(options.sender, only, group)));

@@ -2,9 +2,12 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <sys/mman.h>
+#include <sys/socket.h>
 #include <sys/syscall.h>
 #include <sys/uio.h>
 #include <unistd.h>
@@ -78,6 +81,15 @@ int opened(int folder, const char* path, int flags, mode_t mode) {
               [&](const Call&) { return ::syscall(SYS_openat, folder, path, flags, mode); });
 }
 
+/// The C library's own streams are opened without open().
+FILE* openedStream(const char* name, const char* path, const char* mode) {
+  using Function = FILE* (*)(const char*, const char*);
+  const auto real = reinterpret_cast<Function>(::dlsym(RTLD_NEXT, name));
+  return call(std::string_view(path), static_cast<FILE*>(nullptr),
+              [&](const Call&) { return real(path, mode); });
+}
+constexpr std::string_view kAnySocket = kSockets;
+
 }  // namespace
 
 const char* nameOf(Way way) {
@@ -89,6 +101,9 @@ void watch(const std::filesystem::path& folder) {
   disturbed = -1;
   done = false;
   count = 0;
+}
+void stop() {
+  count = -1;
 }
 void disturb(long number, Way way) {
   wanted = way;
@@ -190,5 +205,51 @@ void* mmap(void* at, size_t size, int protection, int flags, int handle, off_t o
 }
 void* mmap64(void* at, size_t size, int protection, int flags, int handle, off_t offset) noexcept {
   return mmap(at, size, protection, flags, handle, offset);
+}
+FILE* fopen(const char* path, const char* mode) {
+  return openedStream("fopen", path, mode);
+}
+FILE* fopen64(const char* path, const char* mode) {
+  return openedStream("fopen64", path, mode);
+}
+int socket(int domain, int type, int protocol) noexcept {
+  return call(kAnySocket, -1, [&](const Call&) { return ::syscall(SYS_socket, domain, type, protocol); });
+}
+int bind(int handle, const sockaddr* address, socklen_t size) noexcept {
+  return call(handle, -1, [&](const Call&) { return ::syscall(SYS_bind, handle, address, size); });
+}
+int connect(int handle, const sockaddr* address, socklen_t size) {
+  return call(handle, -1, [&](const Call&) { return ::syscall(SYS_connect, handle, address, size); });
+}
+int getsockname(int handle, sockaddr* address, socklen_t* size) noexcept {
+  return call(handle, -1, [&](const Call&) { return ::syscall(SYS_getsockname, handle, address, size); });
+}
+int setsockopt(int handle, int level, int option, const void* value, socklen_t size) noexcept {
+  return call(handle, -1,
+              [&](const Call&) { return ::syscall(SYS_setsockopt, handle, level, option, value, size); });
+}
+ssize_t recvmsg(int handle, msghdr* message, int flags) {
+  return call(handle, ssize_t{-1}, [&](const Call& c) {
+    iovec& part = message->msg_iov[0];
+    part.iov_len = c.shortened(part.iov_len);
+    return ::syscall(SYS_recvmsg, handle, message, flags);
+  });
+}
+ssize_t send(int handle, const void* bytes, size_t size, int flags) {
+  return call(handle, ssize_t{-1}, [&](const Call& c) {
+    return ::syscall(SYS_sendto, handle, bytes, c.shortened(size), flags, nullptr, 0);
+  });
+}
+ssize_t sendto(int handle, const void* bytes, size_t size, int flags, const sockaddr* to, socklen_t toSize) {
+  return call(handle, ssize_t{-1}, [&](const Call& c) {
+    return ::syscall(SYS_sendto, handle, bytes, c.shortened(size), flags, to, toSize);
+  });
+}
+int ppoll(pollfd* polled, nfds_t number, const timespec* wait, const sigset_t* mask) {
+  // The system call changes the time that it is given.
+  timespec left = wait ? *wait : timespec{};
+  return call(polled[0].fd, -1, [&](const Call&) {
+    return ::syscall(SYS_ppoll, polled, number, wait ? &left : nullptr, mask, _NSIG / 8);
+  });
 }
 }

@@ -3,8 +3,8 @@
 #include <filesystem>
 
 /// Makes chosen calls of the C library fail, for a program that links faults.cpp: its functions take the
-/// place of the library's. Only calls on files below the watched folder count, each once, in the order in
-/// which they come.
+/// place of the library's. Only calls on files below the watched folder count, or on sockets, each once, in
+/// the order in which they come.
 namespace trimtab::test::faults {
 
 enum class Way {
@@ -21,6 +21,10 @@ const char* nameOf(Way way);
 
 /// From now on calls on this folder and what is in it are counted.
 void watch(const std::filesystem::path& folder);
+/// In place of a folder: from now on calls on sockets are counted, and waits for them.
+inline constexpr const char* kSockets = "socket:";
+/// Calls are no longer counted.
+void stop();
 /// Disturbs the call of this number, counted from 0 at watch(). A way that the call cannot fail in changes
 /// nothing.
 void disturb(long call, Way way);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "trimtab/preset/file_io.h"
+#include "trimtab/preset/unfinished.h"
 #include "trimtab/terrain/elevation/georeference.h"
 #include "trimtab/terrain/grid/post_grid.h"
 #include "trimtab/terrain/grid/progress.h"
@@ -48,8 +49,9 @@ Result<Done> write(const fs::path& tif, const Shape& shape, const std::array<dou
                    const std::function<bool(std::uint32_t, std::uint32_t, std::span<T>)>& fill) {
   useGdal();
   GdalErrors errors;
-  const fs::path unfinished =
-      tif.parent_path() / ("." + tif.filename().string() + ".part-" + std::to_string(::getpid()));
+  clearUnfinished(tif);
+  fs::path unfinished = partPrefix(tif);
+  unfinished += std::to_string(::getpid());
   const auto gone = [&](Finding why) {
     std::error_code ignored;
     fs::remove(unfinished, ignored);
@@ -60,6 +62,7 @@ Result<Done> write(const fs::path& tif, const Shape& shape, const std::array<dou
   };
   {
     const Dataset data = created(unfinished, shape, corner);
+    const UnfinishedLock lock(unfinished);
     if (!data) return failed("GDAL gives no reason");
     prepare(*data);
     const auto rows = static_cast<std::uint32_t>(shape.height);

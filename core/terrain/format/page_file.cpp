@@ -11,6 +11,7 @@
 #include <mutex>
 #include <string>
 
+#include "trimtab/preset/unfinished.h"
 #include "trimtab/terrain/format/store.h"
 #include "trimtab/terrain/format/stored_file.h"
 
@@ -118,7 +119,7 @@ class StoredPages final : public PageFile {
 class FileWriter final : public PageFileWriter {
  public:
   FileWriter(fs::path file, fs::path unfinished, int handle)
-      : file_(std::move(file)), unfinished_(std::move(unfinished)), handle_(handle) {}
+      : file_(std::move(file)), unfinished_(std::move(unfinished)), handle_(handle), lock_(unfinished_) {}
   ~FileWriter() override {
     if (handle_ < 0) return;
     ::close(handle_);
@@ -180,6 +181,7 @@ class FileWriter final : public PageFileWriter {
 
   fs::path file_, unfinished_;
   int handle_;
+  UnfinishedLock lock_;
   std::mutex mutex_;
   std::uint64_t end_ = sizeof(Header);
   std::vector<Entry> entries_;
@@ -231,9 +233,9 @@ Result<std::shared_ptr<const PageFile>> PageFile::open(const fs::path& file) {
 
 Result<std::unique_ptr<PageFileWriter>> PageFileWriter::create(const fs::path& file) {
   static std::atomic<unsigned> count{0};
-  const fs::path unfinished =
-      file.parent_path() / ("." + file.filename().string() + ".part-" + std::to_string(::getpid()) + "-" +
-                            std::to_string(count++));
+  clearUnfinished(file);
+  fs::path unfinished = partPrefix(file);
+  unfinished += std::to_string(::getpid()) + "-" + std::to_string(count++);
   const int handle = ::open(unfinished.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (handle < 0) return wrong(file, "", "a file that can be written", std::strerror(errno));
   return std::unique_ptr<PageFileWriter>(std::make_unique<FileWriter>(file, unfinished, handle));

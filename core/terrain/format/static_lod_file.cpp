@@ -1,12 +1,10 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <fstream>
 
-#include "trimtab/preset/file_io.h"
+#include "trimtab/preset/preset.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
 #include "trimtab/terrain/format/store.h"
 
@@ -251,30 +249,18 @@ std::string faultOf(const StaticLodTerrain& terrain) {
 
 Result<Done> writeStaticLod(const fs::path& file, const StaticLodTerrain& terrain) {
   Writer body;
+  // In front of the body in one piece, so that there is no second copy of it.
+  body.bytes.assign(kHeaderBytes, '\0');
   const bool textured = isTextured(terrain);
   write(body, terrain, textured);
+  const std::string_view behind = std::string_view(body.bytes).substr(kHeaderBytes);
   Writer header;
   header.bytes.assign(kMagic.data(), kMagic.size());
   header.number(textured ? kTexturedVersion : kVersion);
-  header.number(std::uint64_t{body.bytes.size()});
-  header.number(checksum(body.bytes));
-
-  fs::path unfinished = file;
-  unfinished += ".part-" + std::to_string(::getpid());
-  std::error_code error;
-  std::ofstream out(unfinished, std::ios::binary);
-  out.write(header.bytes.data(), static_cast<std::streamsize>(header.bytes.size()));
-  out.write(body.bytes.data(), static_cast<std::streamsize>(body.bytes.size()));
-  out.close();
-  if (!out) {
-    const std::string reason = std::strerror(errno);
-    fs::remove(unfinished, error);
-    return wrong(file, "", "room to write " + std::to_string(kHeaderBytes + body.bytes.size()) + " bytes",
-                 reason);
-  }
-  auto done = putInPlace(unfinished, file);
-  if (!done) fs::remove(unfinished, error);
-  return done;
+  header.number(std::uint64_t{behind.size()});
+  header.number(checksum(behind));
+  std::copy(header.bytes.begin(), header.bytes.end(), body.bytes.begin());
+  return writeAtomically(file, body.bytes);
 }
 
 Result<std::shared_ptr<const StaticLodTerrain>> readStaticLod(const fs::path& file) {

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "trimtab/preset/file_io.h"
+#include "trimtab/preset/unfinished.h"
 #include "trimtab/terrain/static_lod/level.h"
 
 namespace trimtab::terrain {
@@ -44,9 +46,12 @@ struct List {
 /// Removes an unfinished folder unless it was put in place.
 class UnfinishedFolder {
  public:
-  explicit UnfinishedFolder(const fs::path& output)
-      : path_(output.has_filename() ? output : output.parent_path()) {
-    path_ += ".part-" + std::to_string(::getpid());
+  explicit UnfinishedFolder(const fs::path& output) : path_(partPrefix(output)) {
+    clearUnfinished(output);
+    path_ += std::to_string(::getpid());
+    std::error_code ignored;
+    fs::create_directories(path_, ignored);
+    lock_.emplace(path_);
   }
   ~UnfinishedFolder() {
     std::error_code ignored;
@@ -58,6 +63,7 @@ class UnfinishedFolder {
 
  private:
   fs::path path_;
+  std::optional<UnfinishedLock> lock_;
 };
 
 Result<Done> makeFolder(const fs::path& folder) {

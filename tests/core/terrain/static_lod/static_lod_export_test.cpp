@@ -142,6 +142,8 @@ TEST(StaticLodExport, writesTheSameBytesAgain) {
   const auto trees = treesOf(tileWithAirport(), 200);
   ASSERT_TRUE(trees);
   const test::ScratchDir dir;
+  fs::create_directories(dir / ".a.part-4000000/w120n30");
+  test::writeFile(dir / ".a.part-4000000/w120n30/1.btg.gz", "of a program that was killed");
   for (const char* name : {"a", "b/"})
     ASSERT_TRUE(exportScenery(*trees, {1, dir / name, {}}, "trees")) << name;
   std::size_t files = 0;
@@ -152,6 +154,8 @@ TEST(StaticLodExport, writesTheSameBytesAgain) {
     EXPECT_EQ(test::readFile(entry.path()), test::readFile(other)) << other;
   }
   EXPECT_EQ(files, 3u);
+  EXPECT_EQ(std::distance(fs::directory_iterator(dir.path()), fs::directory_iterator()), 2)
+      << "litter is taken away";
 }
 
 TEST(StaticLodExport, usesWideIndicesForTilesOfManyVertices) {
