@@ -81,6 +81,23 @@ TEST_F(ResumedBake, isTheSameKilledAtRandomMoments) {
   EXPECT_GT(killed, 3);
 }
 
+TEST_F(ResumedBake, namesTheWorkThatItLeavesAndWhatItTakes) {
+  options_.progress = [](double fraction, const std::string&) { return fraction < 0.9; };
+  const auto cancelled = bake(options_);
+  ASSERT_FALSE(cancelled);
+  const auto named = [&](const Findings& findings) {
+    return std::count_if(findings.begin(), findings.end(), [&](const Finding& f) {
+      return f.severity == Severity::note && f.where == (dir_ / ".db.work").string() &&
+             f.found.find(" MB of finished work; remove the folder") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(named(cancelled.findings()), 1) << toString(cancelled.findings());
+  fs::remove_all(dir_ / ".db.work");
+  options_.progress = [](double, const std::string&) { return false; };
+  EXPECT_EQ(named(bake(options_).findings()), 0) << "nothing is finished yet";
+  EXPECT_FALSE(fs::exists(dir_ / ".db.work"));
+}
+
 TEST_F(ResumedBake, makesDamagedPiecesAgain) {
   options_.progress = [](double fraction, const std::string&) { return fraction < 0.9; };
   ASSERT_FALSE(bake(options_));

@@ -5,10 +5,23 @@
 namespace trimtab::terrain {
 namespace {
 
-class DamagedDatabase : public BakeFixture {};
+/// A database with every file that one without scenery can have.
+class DamagedDatabase : public BakeFixture {
+ protected:
+  DamagedDatabase() {
+    test::RasterRecipe picture;
+    picture.columns = 90;
+    picture.rows = 70;
+    picture.bands = 3;
+    picture.type = GDT_Byte;
+    picture.value = [](int c, int r, int band) { return (c * 3 + r * 5 + band * 70) % 256; };
+    options_.imagery = test::writeRaster(dir_ / "rgb.tif", picture);
+  }
+};
 
 TEST_F(DamagedDatabase, findsAFlippedByteInAnyFile) {
   ASSERT_TRUE(bake(options_));
+  for (const char* name : {kImageName, kImageSumsName}) ASSERT_TRUE(fs::exists(dir_ / "db" / name)) << name;
   for (const std::string& name : test::namesIn(dir_ / "db")) {
     const fs::path file = dir_ / "db" / name;
     const std::string whole = test::readFile(file);
@@ -57,6 +70,24 @@ TEST_F(DamagedDatabase, tellsNoHeightWhereItsRowsAreDamaged) {
   EXPECT_EQ(damage[0].where, file.string());
   EXPECT_NE(damage[0].key.find("rows 0 to"), std::string::npos);
   EXPECT_NE(damage[0].expected.find("checksum"), std::string::npos);
+}
+
+TEST_F(DamagedDatabase, saysThatItsColoursAreDamagedWhenATileIsBuiltOfThem) {
+  ASSERT_TRUE(bake(options_));
+  const fs::path file = dir_ / "db" / kImageName;
+  const std::string whole = test::readFile(file);
+  std::string bytes = whole;
+  bytes[100] = static_cast<char>(bytes[100] ^ 16);
+  test::writeFile(file, bytes);
+  const auto opened = Database::open(dir_ / "db");
+  ASSERT_TRUE(opened) << toString(opened.findings());
+  EXPECT_TRUE((*opened)->damage().empty());
+  TileMesh mesh;
+  (*opened)->buildTile(0, mesh);
+  const Findings damage = (*opened)->damage();
+  ASSERT_EQ(damage.size(), 1u) << toString(damage);
+  EXPECT_EQ(damage[0].where, file.string());
+  EXPECT_NE(damage[0].key.find("rows 0 to"), std::string::npos);
 }
 
 /// What a copy over an open database does: it cuts a file short and then fills it again.
