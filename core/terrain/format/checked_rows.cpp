@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "trimtab/terrain/format/store.h"
+#include "trimtab/terrain/format/unchecked.h"
 
 namespace trimtab::terrain {
 
@@ -70,6 +71,7 @@ std::shared_ptr<const CheckedRows::Block> CheckedRows::readBlock(std::uint32_t n
   };
   if (const auto read = file_->read(at, *block); !read)
     return damaged(read.findings()[0].expected, read.findings()[0].found);
+  if (Unchecked::any()) return block;
   if (const std::uint64_t sum = sumOf(*block); sum != sums_[number])
     return damaged("checksum " + hexadecimal(sums_[number]), hexadecimal(sum));
   if (sound_ && !sound_(*block)) return damaged("heights within those of the manifest", "others");

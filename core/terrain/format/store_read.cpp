@@ -11,6 +11,7 @@
 #include "trimtab/terrain/format/patch_store.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
 #include "trimtab/terrain/format/store.h"
+#include "trimtab/terrain/format/unchecked.h"
 #include "trimtab/terrain/grid/post_geometry.h"
 #include "trimtab/units/number.h"
 
@@ -105,6 +106,7 @@ struct Files {
   bool whole(const StoredFile& stored, const char* name, std::span<std::byte> into) {
     const auto read = stored.read(0, into);
     findings.insert(findings.end(), read.findings().begin(), read.findings().end());
+    if (read && Unchecked::any()) return true;
     return read && compare(name, checksum({reinterpret_cast<const char*>(into.data()), into.size()}));
   }
   bool compare(const char* name, std::uint64_t sum) {
