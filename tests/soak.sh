@@ -102,7 +102,7 @@ tenth() {
   awk -F, -v name="$1" -v from="$2" -v what="$3" -v s="$seconds" '
     NR == 1 { for (i = 1; i <= NF; ++i) if ($i == name) c = i; if (!c) exit 1 }
     NR > 1 && $c != "" && $1 >= s * from / 10 && $1 < s * (from + 1) / 10 { n++; sum += $c; if ($c > most) most = $c }
-    END { if (!n) exit 1; printf "%.10g\n", what == "mean" ? sum / n : most }' "$out/health.csv"
+    END { if (!n) exit 1; printf "%.6g\n", what == "mean" ? sum / n : most }' "$out/health.csv"
 }
 compare() { awk -v a="$1" -v b="$2" -v f="$3" 'BEGIN { print b <= f * a ? "good" : "BAD" }'; }
 m0=$(tenth memory_kb 1 mean) m1=$(tenth memory_kb 9 mean)
