@@ -26,7 +26,7 @@ seconds=$(awk -v h="$hours" 'BEGIN { printf "%d", h * 3600 }')
 out=out/soak
 rm -rf "$out" && mkdir -p "$out"
 build=build
-programs=$(grep -o 'trimtab_fuzzer([a-z_]*' tests/fuzz/CMakeLists.txt | grep -v 'fuzzer(NAME' | sed 's/.*(/test_fuzz_/' | sort -u)
+programs=$(grep -o '^ *trimtab_fuzzer([a-z_][a-z_]*' tests/fuzz/CMakeLists.txt | sed 's/.*(/test_fuzz_/' | sort -u)
 bash resources/install-packages.sh
 { cmake --preset release && cmake --build "$build" --target trimtab-ig trimtab-cli ${fuzz:+$programs}; } >"$out/build.log" 2>&1 ||
   { tail -30 "$out/build.log" >&2; exit 1; }
@@ -102,7 +102,7 @@ tenth() {
   awk -F, -v name="$1" -v from="$2" -v what="$3" -v s="$seconds" '
     NR == 1 { for (i = 1; i <= NF; ++i) if ($i == name) c = i; if (!c) exit 1 }
     NR > 1 && $c != "" && $1 >= s * from / 10 && $1 < s * (from + 1) / 10 { n++; sum += $c; if ($c > most) most = $c }
-    END { if (!n) exit 1; printf "%.6g\n", what == "mean" ? sum / n : most }' "$out/health.csv"
+    END { if (!n) exit 1; printf what == "mean" ? "%.2f\n" : "%d\n", what == "mean" ? sum / n : most }' "$out/health.csv"
 }
 compare() { awk -v a="$1" -v b="$2" -v f="$3" 'BEGIN { print b <= f * a ? "good" : "BAD" }'; }
 m0=$(tenth memory_kb 1 mean) m1=$(tenth memory_kb 9 mean)

@@ -54,22 +54,30 @@ double processorMs() {
   return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
 }
 
-/// Flies east from a place whose terrain is in memory; milliseconds of processor time from image to image.
-std::vector<double> flight(BenchScene& scene, TerrainForm form, std::uint64_t& read) {
-  scene.use(nullptr);
-  scene.use(opened());
-  FrameRequest r = place(scene, form, 0);
-  r.waitForPages = true;
-  scene.draw(r);
-  std::vector<double> ms;
-  for (int i = 0; i < kFrames; ++i) {
-    const double before = processorMs();
-    const FrameResult result = scene.draw(place(scene, form, kStepDeg * i));
-    ms.push_back(processorMs() - before);
-    read += !result.paging.settled;
+/// A flight east with a database of its own, from a place whose terrain is in memory.
+class Flight {
+ public:
+  Flight(BenchScene& scene, TerrainForm form) : scene_(scene), form_(form) {
+    scene_.use(opened());
+    FrameRequest r = place(scene_, form_, 0);
+    r.waitForPages = true;
+    scene_.draw(r);
   }
-  return ms;
-}
+  /// Draws the next image; milliseconds of processor time.
+  double next() {
+    const double before = processorMs();
+    const FrameResult result = scene_.draw(place(scene_, form_, kStepDeg * image_++));
+    reading_ += !result.paging.settled;
+    return processorMs() - before;
+  }
+  std::uint64_t reading() const { return reading_; }
+
+ private:
+  BenchScene& scene_;
+  TerrainForm form_;
+  int image_ = 0;
+  std::uint64_t reading_ = 0;  ///< images while pages were read
+};
 
 template <class Work>
 auto unchecked(const Work& work) {
@@ -77,7 +85,8 @@ auto unchecked(const Work& work) {
   return work();
 }
 
-void measure(Report& report, BenchScene& scene, TerrainForm form, const std::string& name) {
+void measure(Report& report, BenchScene& scene, BenchScene& other, TerrainForm form,
+             const std::string& name) {
   if (report.wants("first_" + name)) {
     const Pairs pairs = inTurn(
         report.quick() ? 7 : 21, [&](int) { return firstImageMs(scene, form); },
@@ -88,16 +97,20 @@ void measure(Report& report, BenchScene& scene, TerrainForm form, const std::str
                            .peer = "the same without comparing checksums"})));
   }
   if (report.wants("flight_" + name)) {
+    // Image by image in turn, and each of both first in half of the pairs: what other programs do meanwhile
+    // is the same for both.
     Pairs pairs;
     std::uint64_t reading = 0;
-    for (int turn = 0; turn < (report.quick() ? 2 : 6); ++turn) {
-      const auto with = [&] { return flight(scene, form, reading); };
-      // Each of both is first in half of the turns.
-      const auto first = turn % 2 == 0 ? with() : unchecked(with);
-      const auto second = turn % 2 == 0 ? unchecked(with) : with();
-      const auto& [a, b] = turn % 2 == 0 ? std::tie(first, second) : std::tie(second, first);
-      pairs.a.insert(pairs.a.end(), a.begin(), a.end());
-      pairs.b.insert(pairs.b.end(), b.begin(), b.end());
+    for (int turn = 0; turn < (report.quick() ? 1 : 4); ++turn) {
+      Flight with(scene, form);
+      Flight without = unchecked([&] { return Flight(other, form); });
+      for (int i = 0; i < kFrames; ++i) {
+        const bool first = (i + turn) % 2 == 0;
+        if (first) pairs.a.push_back(with.next());
+        pairs.b.push_back(without.next());
+        if (!first) pairs.a.push_back(with.next());
+      }
+      reading += with.reading();
     }
     const PairedRatio ratio = pairedRatio(pairs.b, pairs.a);
     char interval[64];
@@ -122,14 +135,14 @@ int measureAll(Report& report) {
     options.output = folder;
     if (!terrain::writeSample(tif, {}) || !terrain::bake(options)) return 1;
   }
-  BenchScene scene(nullptr);
-  if (!scene.ready()) {
+  BenchScene scene(nullptr), other(nullptr);
+  if (!scene.ready() || !other.ready()) {
     std::cerr << "no context\n";
     return 1;
   }
-  scene.draw(scene.request());
-  measure(report, scene, TerrainForm::levels, "levels");
-  measure(report, scene, TerrainForm::patches, "patches");
+  for (BenchScene* each : {&scene, &other}) each->draw(each->request());
+  measure(report, scene, other, TerrainForm::levels, "levels");
+  measure(report, scene, other, TerrainForm::patches, "patches");
   return report.finish();
 }
 

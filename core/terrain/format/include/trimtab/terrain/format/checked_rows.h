@@ -88,6 +88,7 @@ class CheckedRows {
   std::uint32_t rows_, perBlock_;
   std::vector<std::uint64_t> sums_;
   Sound sound_;
+  bool unchecked_;  ///< see Unchecked
   std::size_t mostBlocks_;
   mutable std::mutex mutex_;
   mutable std::vector<Slot> slots_;

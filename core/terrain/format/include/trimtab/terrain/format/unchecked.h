@@ -4,9 +4,9 @@
 
 namespace trimtab::terrain {
 
-/// While one of these lives, bytes of databases are used without comparing them with their checksums, so that
-/// a benchmark can measure what the comparison costs (tests/bench/trust_bench.cpp). No program and no option
-/// makes one: damage would reach an image without a word.
+/// A database that is opened while one of these lives uses bytes without comparing them with their checksums,
+/// so that a benchmark can measure what the comparison costs (tests/bench/trust_bench.cpp). No program and no
+/// option makes one: damage would reach an image without a word.
 class Unchecked {
  public:
   Unchecked() { ++living(); }
