@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "limits.h"
 #include "trimtab/host/head_log.h"
 #include "trimtab/preset/file_io.h"
 
@@ -321,8 +322,9 @@ Result<HeadLog> Reader::finished() {
   double longest = 0;
   std::size_t gaps = 0;
   for (const Row& row : rows_) {
-    const HeadSample sample{row.time - rows_.front().time, row.angle[kHeading], row.angle[kPitch],
-                            row.angle[kRoll]};
+    // Unwinding may round a pitch of a quarter turn beyond it.
+    const HeadSample sample{row.time - rows_.front().time, row.angle[kHeading],
+                            limits::clampedPitch(row.angle[kPitch]), row.angle[kRoll]};
     if (!log.samples.empty() && sample.timeS - log.samples.back().timeS > log.gapS) {
       ++gaps;
       longest = std::max(longest, sample.timeS - log.samples.back().timeS);

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "preset_text.h"
 #include "trimtab/preset/json_text.h"
@@ -41,7 +43,9 @@ Result<std::string> jsonOf(const std::string& key, std::string_view plain) {
     return json::valueText(*row, *value);
   }
   const bool isText = std::find(std::begin(kTextKeys), std::end(kTextKeys), key) != std::end(kTextKeys);
-  return !isText && readNumber(plain) ? std::string(plain) : json::stringText(plain);
+  const std::optional<double> number = isText ? std::nullopt : readNumber(plain);
+  // Not as it is written: "8." and "inf" are numbers here and none in JSON.
+  return number && std::isfinite(*number) ? numberText(*number) : json::stringText(plain);
 }
 
 Result<PresetText> readIniExport(std::string_view text, const std::string& where) {

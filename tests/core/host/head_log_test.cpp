@@ -52,6 +52,13 @@ TEST(HeadLog, unwindsWhatWrapsAndTurnsTheShortWay) {
   EXPECT_EQ(headAt(log, 0.05).heading, Degrees{0});
 }
 
+TEST(HeadLog, unwindsAQuarterTurnToAQuarterTurnAtMost) {
+  const HeadLog log =
+      parsed("t,heading_deg,pitch_deg\n0,0,-0.05\n0.1,0,45.3\n0.2,0,450\n0.3,0,0.1\n0.4,0,-450\n");
+  for (const HeadSample& sample : log.samples) EXPECT_LE(std::abs(sample.pitchDeg), 90) << sample.timeS;
+  EXPECT_NEAR(log.samples[2].pitchDeg, 90, 1e-9);
+}
+
 TEST(HeadLog, exchangesTheColumnsOfMv360sMisleadingHeaders) {
   const std::string text =
       "timestamp viewpoint yaw pitch roll\n0.0 0 0.1 6.2 0\n0.1 0 6.2 1.0 0\n0.2 0 0.1 2.5 0\n";

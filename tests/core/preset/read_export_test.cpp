@@ -49,6 +49,20 @@ TEST(ReadExport, givesTheSameBitsInEveryFormat) {
   }
 }
 
+// A number of INI that JSON does not have must not make the saved preset unreadable.
+TEST(ReadExport, keepsUnknownKeysWithNumbersThatOnlyIniHas) {
+  for (const char* number : {"8.", ".5", "1e5", "inf", "nan", "-0", "08"}) {
+    const std::string ini = std::string("[export]\nformat = trimtab-preset\nversion = 3\nname = n\n") +
+                            "[parameters]\nno.such_key = " + number + "\n";
+    const auto read = parsePreset(ini, "p.ini");
+    ASSERT_TRUE(read) << number << toString(read.findings());
+    ASSERT_TRUE(read->unknown.contains("no.such_key"));
+    const auto again = parsePreset(*presetText(*read), "p.json");
+    ASSERT_TRUE(again) << number << toString(again.findings());
+    EXPECT_EQ(again->unknown, read->unknown) << number;
+  }
+}
+
 TEST(ReadExport, refusesAnyChangedByte) {
   for (const auto& [format, ending] : kFormats) {
     const std::string good = exportedText({}, format);
