@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <optional>
 
-#include "limits.h"
 #include "trimtab/host/head_log.h"
 #include "trimtab/preset/file_io.h"
 
@@ -322,9 +321,9 @@ Result<HeadLog> Reader::finished() {
   double longest = 0;
   std::size_t gaps = 0;
   for (const Row& row : rows_) {
-    // Unwinding may round a pitch of a quarter turn beyond it.
-    const HeadSample sample{row.time - rows_.front().time, row.angle[kHeading],
-                            limits::clampedPitch(row.angle[kPitch]), row.angle[kRoll]};
+    // Radians and unwinding round, so that a pitch of a quarter turn may pass it by a little.
+    const double pitch = std::clamp(row.angle[kPitch], -90.0, 90.0);
+    const HeadSample sample{row.time - rows_.front().time, row.angle[kHeading], pitch, row.angle[kRoll]};
     if (!log.samples.empty() && sample.timeS - log.samples.back().timeS > log.gapS) {
       ++gaps;
       longest = std::max(longest, sample.timeS - log.samples.back().timeS);

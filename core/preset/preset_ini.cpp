@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <cmath>
-#include <optional>
 
 #include "preset_text.h"
 #include "trimtab/preset/json_text.h"
@@ -43,9 +41,9 @@ Result<std::string> jsonOf(const std::string& key, std::string_view plain) {
     return json::valueText(*row, *value);
   }
   const bool isText = std::find(std::begin(kTextKeys), std::end(kTextKeys), key) != std::end(kTextKeys);
-  const std::optional<double> number = isText ? std::nullopt : readNumber(plain);
-  // Not as it is written: "8." and "inf" are numbers here and none in JSON.
-  return number && std::isfinite(*number) ? numberText(*number) : json::stringText(plain);
+  // What reads as a number but is none in JSON, as "8." and "nan", is kept as a text.
+  const bool isNumber = !isText && readNumber(plain) && json::checkSyntax(plain, key);
+  return isNumber ? std::string(plain) : json::stringText(plain);
 }
 
 Result<PresetText> readIniExport(std::string_view text, const std::string& where) {
