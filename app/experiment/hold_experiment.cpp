@@ -219,14 +219,32 @@ Result<Runs> flyInTurns(const std::array<std::unique_ptr<Stage>, kHoldModes.size
   return runs;
 }
 
+/// 2,000 ft above a place.
+GeodeticPosition eyeAbove(const Place& place) {
+  GeodeticPosition eye = place.ground;
+  eye.height = eye.height + Feet{2000}.as<Metres>();
+  return eye;
+}
+
+/// Returns what a program would load at its start: the model after a sweep from another place than that of
+/// the strains. Nothing if the person cancels.
+std::optional<CostModel> learned(Stage& stage, const Desk& desk) {
+  const std::vector<Place> places = placesOf(desk.setup, 3);
+  const auto parameters =
+      inMode(desk.setup.parameters, HoldMode::hold, desk.setup.parameters.measure.budget.value());
+  if (places.empty() || !parameters) return CostModel{};
+  const Strain strain = sweepStrain(eyeAbove(places.back()));
+  HoldPilot pilot(stage, desk.referee, desk.setup, {*parameters, std::nullopt, 0}, strain, {});
+  if (!fly(pilot, strain, [&](double) { return desk.go(0, "to learn what images cost"); })) return {};
+  return pilot.model();
+}
+
 /// The strains that the terrain, the flight and the head allow.
 Result<std::vector<Strain>> strainsOf(const Setup& setup, std::vector<std::string>& notes) {
   std::vector<Strain> strains;
   const std::vector<Place> places = placesOf(setup, 1);
   if (places.empty()) return notOverTerrain(setup);
-  GeodeticPosition eye = places[0].ground;
-  eye.height = eye.height + Feet{2000}.as<Metres>();
-  strains.push_back(sweepStrain(eye));
+  strains.push_back(sweepStrain(eyeAbove(places[0])));
   const Result<HeadLog> builtIn = parseSweep(kBuiltInHead);
   if (!setup.hold.head && !builtIn) return builtIn.findings();
   const HeadLog& head = setup.hold.head ? *setup.hold.head : *builtIn;
@@ -266,7 +284,12 @@ Result<Report> runHold(const Setup& setup) {
       "ms_error",     "band_coverage", "request_ms",   "settled_ms",      "settling_max_over_median"};
   const Result<std::vector<Strain>> strains = strainsOf(setup, report.notes);
   if (!strains) return strains.findings();
-  CostModel model;
+  const auto first = learned(*stages[std::size_t(HoldMode::hold)],
+                             {*stages[0], **referee, setup, [&](double, const std::string& what) {
+                                return !setup.progress || setup.progress(0, what);
+                              }});
+  if (!first) return cancelled();
+  CostModel model = *first;
   const double most = double(1 + kHoldModes.size() + (setup.hold.fixedSettings ? kFixedSettings : 0));
   for (std::size_t s = 0; s < strains->size(); ++s) {
     const Strain& strain = (*strains)[s];
@@ -304,7 +327,7 @@ Result<Report> runHold(const Setup& setup) {
     std::snprintf(budget, sizeof budget, "%g ms", *setup.hold.budgetMs);
   else
     std::snprintf(budget, sizeof budget, "%g of the median image of mode off", kHeldPart);
-  char text[800];
+  char text[900];
   std::snprintf(
       text, sizeof text,
       "%s, preset %s, %d x %d. The budget is %s. Work time of each image, "
@@ -312,7 +335,8 @@ Result<Report> runHold(const Setup& setup) {
       "FLIP of %zu images against the finest levels, flip_smeared with both smeared by the "
       "exposure. slowest_gain is the slowest image of off over that of the mode. settled_ms is the time "
       "from "
-      "the end of the strain until the levers stay. Fixed settings fly one after the other.",
+      "the end of the strain until the levers stay. The model of hold has flown a sweep from another place "
+      "before. Fixed settings fly one after the other.",
       setup.terrainName.c_str(), setup.presetName.c_str(), setup.widthPx, setup.heightPx, budget, kMeasured);
   report.notes.insert(report.notes.begin(), text);
   return report;

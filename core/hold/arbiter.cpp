@@ -23,8 +23,9 @@ constexpr double kTurningReserve = 0.06, kSteadyReserve = 0.03;
 /// Head-room must win at least this part of the loss: less is not worth a change.
 constexpr double kWorthwhile = 0.1;
 /// While the view turns, the allowed error returns only after head-room for so long, which is longer than a
-/// glance lasts: the next view may need what this one does not.
-constexpr double kTurningCalmMs = 1000;
+/// glance lasts, because the next view may need what this one does not; or if the image takes less than this
+/// part of the limit, because then too much was given up.
+constexpr double kTurningCalmMs = 1000, kAmple = 0.75;
 /// No image counts for more than this part of the calm that restoring waits for, however far the clock jumps.
 constexpr double kMostOfCalm = 1.0 / 3;
 /// Triangles that change by more than this part from image to image belong to a view that turns.
@@ -275,7 +276,8 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
     memory.calmMs = room ? memory.calmMs + ms : 0;
     d.reason = HoldReason::held;
     if (room && memory.calmMs >= p.calm.value()) {
-      const HoldSteps nearer = raised(before, wanted, rests || memory.calmMs >= kTurningCalmMs);
+      const bool ample = search.timeAt(before) < kAmple * d.limitMs;
+      const HoldSteps nearer = raised(before, wanted, rests || ample || memory.calmMs >= kTurningCalmMs);
       if (nearer != before && search.timeAt(nearer) <= d.limitMs)
         now = nearer, d.reason = HoldReason::restored;
     }

@@ -17,8 +17,8 @@
 ///
 /// Lowering acts at once. Restoring waits until head-room has lasted hold.calm_ms, and then moves render
 /// scale and particles one step an image, so that no image becomes long by it; the allowed error returns
-/// in one step, because each step of it exchanges levels, and while the view turns only after a second, so
-/// that a glance does not exchange them twice.
+/// in one step, because each step of it exchanges levels, and while the view turns only after a second or if
+/// the image takes less than three quarters of the limit, so that a glance does not exchange them twice.
 ///
 /// While the triangles of the coming views change, the allowed error moves by half octaves, so that a glance
 /// changes levels once or twice. Once they have been steady for hold.calm_ms it moves by eighths of an
