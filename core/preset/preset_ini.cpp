@@ -46,6 +46,10 @@ Result<std::string> jsonOf(const std::string& key, std::string_view plain) {
   return isNumber ? std::string(plain) : json::stringText(plain);
 }
 
+std::string keyOf(std::string_view plain) {
+  return json::readString(json::stringText(plain)).value_or(std::string());
+}
+
 Result<PresetText> readIniExport(std::string_view text, const std::string& where) {
   PresetText file;
   Findings findings;
@@ -71,7 +75,7 @@ Result<PresetText> readIniExport(std::string_view text, const std::string& where
       refuse("", "key = value");
       continue;
     }
-    const std::string key(trimmed(line.substr(0, equals)));
+    const std::string key = keyOf(trimmed(line.substr(0, equals)));
     const std::string_view value = trimmed(line.substr(equals + 1));
     if (section == "provenance") continue;
     const bool isParameter = section == "parameters";

@@ -31,6 +31,10 @@ Result<PresetText> readIniExport(std::string_view text, const std::string& where
 /// decides: a parameter of this version has its own form; anything else is a number or a string.
 Result<std::string> jsonOf(const std::string& key, std::string_view plain);
 
+/// Returns a key of a format that may hold any bytes as a preset can hold it: bytes that are not UTF-8 become
+/// U+FFFD.
+std::string keyOf(std::string_view plain);
+
 /// Returns a line of TextLines so that ` | ` may stand between it and others.
 std::string lineAsText(std::string_view line);
 

@@ -91,7 +91,7 @@ class Reader {
     constexpr std::string_view kExport = "export.", kProvenance = "export.provenance.";
     if (key.starts_with(kProvenance)) return;
     const bool isMember = key.starts_with(kExport) || key == "checksum";
-    const std::string name = key.starts_with(kExport) ? key.substr(kExport.size()) : key;
+    const std::string name = keyOf(key.starts_with(kExport) ? key.substr(kExport.size()) : key);
     const Result<std::string> asJson = jsonOf(name, plain);
     if (asJson) {
       (isMember ? file_.members : file_.parameters)

@@ -112,6 +112,20 @@ TEST(ReadExport, keepsUnknownValuesInATextThatCanBeReadAgain) {
   }
 }
 
+// As bytes the first key sorts behind the second, as UTF-8 before it.
+TEST(ReadExport, keepsUnknownKeysThatAreNoUtf8InATextThatIsSavedToItself) {
+  const auto read = parsePreset(
+      "[export]\nformat = trimtab-preset\nversion = 3\nname = n\n\n[parameters]\nlater\xfe.a = "
+      "1\nlater\xc3.b = 2\n",
+      "e.ini");
+  ASSERT_TRUE(read) << toString(read.findings());
+  const auto saved = presetText(*read);
+  ASSERT_TRUE(saved);
+  const auto again = parsePreset(*saved, "saved");
+  ASSERT_TRUE(again) << *saved;
+  EXPECT_EQ(*presetText(*again), *saved);
+}
+
 TEST(ReadExport, refusesWhatAnXmlReaderCouldBeAbusedWith) {
   const std::string good = exportedText({}, ExportFormat::xml);
   const std::string head = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
