@@ -277,8 +277,8 @@ TEST(Arbiter, whileTheViewTurnsTheErrorReturnsAfterASecondUnlessThereIsAmpleRoom
     double load;  ///< before, over that afterwards
     double afterMs;
   };
-  for (const Case& c : {Case{true, 1.2, 1000}, Case{true, 3, enabled().calm.value()},
-                        Case{false, 1.2, enabled().calm.value()}}) {
+  for (const Case& c : {Case{true, 1.7, 1000}, Case{true, 8, enabled().calm.value()},
+                        Case{false, 1.7, enabled().calm.value()}}) {
     HoldMemory memory;
     double returnedMs = 0;
     for (int i = 0; i < 300 && returnedMs == 0; ++i) {
