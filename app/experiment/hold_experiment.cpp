@@ -77,6 +77,7 @@ void addRow(Table& table, const Strain& strain, const std::string& mode, double 
   };
   const double slowest = quantileOf(ofStrain(off.ms, strain), 1) / quantileOf(ms, 1);
   const Settling settling = settlingOf(run, strain);
+  const double limit = quantileOf(ofStrain(run.limitMs, strain), 0.5);
   table.rows.push_back({strain.name,
                         mode,
                         budgetMs,
@@ -96,7 +97,8 @@ void addRow(Table& table, const Strain& strain, const std::string& mode, double 
                         orNone(times, times.empty() ? 0 : covered / double(times.size())),
                         run.lookMs,
                         std::isnan(settling.ms) ? Cell() : Cell(settling.ms),
-                        std::isnan(settling.ms) ? Cell() : Cell(settling.slowestOverMedian)});
+                        std::isnan(settling.ms) ? Cell() : Cell(settling.slowestOverMedian),
+                        limit > 0 ? Cell(limit / budgetMs) : Cell()});
 }
 
 /// One number of each image over the strain, a line a mode.
@@ -278,10 +280,11 @@ Result<Report> runHold(const Setup& setup) {
   if (!referee) return referee.findings();
   Report report{"hold", "C, D: what is left open", stages[0]->machine(), {}, {}, {}, {}};
   report.measured.columns = {
-      "strain",       "mode",          "budget_ms",    "frame_ms_median", "frame_ms_p95",
-      "frame_ms_p99", "frame_ms_max",  "slowest_gain", "p99_over_budget", "share_over_1_1",
-      "flip_mean",    "flip_smeared",  "lod_changes",  "particles_kept",  "triangles_error",
-      "ms_error",     "band_coverage", "request_ms",   "settled_ms",      "settling_max_over_median"};
+      "strain",           "mode",          "budget_ms",    "frame_ms_median", "frame_ms_p95",
+      "frame_ms_p99",     "frame_ms_max",  "slowest_gain", "p99_over_budget", "share_over_1_1",
+      "flip_mean",        "flip_smeared",  "lod_changes",  "particles_kept",  "triangles_error",
+      "ms_error",         "band_coverage", "request_ms",   "settled_ms",      "settling_max_over_median",
+      "limit_over_budget"};
   const Result<std::vector<Strain>> strains = strainsOf(setup, report.notes);
   if (!strains) return strains.findings();
   const auto first = learned(*stages[std::size_t(HoldMode::hold)],

@@ -196,6 +196,7 @@ void HoldPilot::drawNext() {
   run_.errorPx.push_back(request.lod.screenSpaceError.value() * request.decision.lodScale);
   run_.renderScale.push_back(request.renderScale);
   run_.particles.push_back(request.particleShare);
+  run_.limitMs.push_back(request.hold.limitMs);
   if (const auto& outcome = session_.hold().outcome(); outcome && flight_.parameters->hold.enabled)
     run_.outcomes.push_back(*outcome);
   if (flight_.flipEvery > 0 && i >= strain_.from && (i - strain_.from) % flight_.flipEvery == 0) {

@@ -73,6 +73,7 @@ class Referee {
 struct HoldRun {
   std::vector<double> ms;  ///< work time
   std::vector<double> errorPx, renderScale, particles;
+  std::vector<double> limitMs;        ///< what the arbiter let a prediction reach; 0 without it
   std::vector<HoldOutcome> outcomes;  ///< of predictions three images ahead
   std::vector<ExposedError> error;    ///< of the images that were measured
   double lookMs = 0;                  ///< median time of session.request(), counting included

@@ -104,7 +104,11 @@ HoldGiven FrameHold::look(const FrameRequest& request, std::span<const ComingEye
     }
     for (double& triangles : g.triangles) triangles *= correction_;
   }
-  g.cost = model_.coefficients(loadOf(g, g.asked, g.triangles[0]));
+  // The band is that of an image as it is likely to be drawn. What is asked for may be far from all that was
+  // drawn lately, and its band so wide that the arbiter would give up what it need not.
+  const HeldLevers likely = memory_.begun && held_.renderScale > 0 ? held_ : g.asked;
+  g.cost = model_.coefficients(loadOf(
+      g, likely, trianglesAt(g.triangles, g.asked.errorPx, std::max(likely.errorPx, g.asked.errorPx))));
   prediction.cost = g.cost;
   prediction.known = prediction.known && g.cost.known;
   waiting_.push_back(prediction);
