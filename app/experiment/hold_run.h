@@ -114,7 +114,7 @@ class HoldPilot {
 };
 
 /// Draws a whole strain. Returns nothing if `go` returns false.
-/// It is asked every kAskedStates images.
+/// `go` is asked every kAskedStates images.
 std::optional<HoldRun> fly(HoldPilot& pilot, const Strain& strain,
                            const std::function<bool(double part)>& go);
 

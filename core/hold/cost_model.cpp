@@ -52,9 +52,8 @@ void CostModel::observe(const FrameLoad& load, const FrameCost& cost) {
   if (!std::isfinite(work) || !(work > 0)) return;
   const bool falls = load.particles > 0;
   if ((falls && std::isnan(cost.weather)) || (load.blurs && std::isnan(cost.blur))) return;
-  const double other = orZero(cost.decide) + orZero(cost.page) + orZero(cost.symbology);
-  const double ground = work - other - (falls ? cost.weather : 0) - (load.blurs ? cost.blur : 0);
-  if (!(ground > 0)) return;
+  const StageTimes took = stagesOf(cost);
+  if (!(took.ground > 0)) return;
 
   const CostCoefficients before = coefficients(load);
   if (before.known) {
@@ -64,11 +63,12 @@ void CostModel::observe(const FrameLoad& load, const FrameCost& cost) {
     constexpr double kStep = 0.02;
     band_ = std::clamp(band_ + kStep * (error > before.bandMs ? 0.9 : -0.1) * band_, 0.3, 10.0);
   }
-  ground_.observe(groundOf(load), ground);
+  ground_.observe(groundOf(load), took.ground);
   if (falls) weather_.observe(weatherOf(load), cost.weather);
   if (load.blurs) blur_.observe(blurOf(load), cost.blur);
   // Like a median: a long upload now and then does not count as what every image takes.
-  const double step = images_ == 0 ? other : std::clamp(other - other_, -0.5 * other_, 0.5 * other_ + 0.01);
+  const double step =
+      images_ == 0 ? took.other : std::clamp(took.other - other_, -0.5 * other_, 0.5 * other_ + 0.01);
   other_ += images_ == 0 ? step : 0.05 * step;
   ++images_;
 }

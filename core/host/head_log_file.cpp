@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "limits.h"
 #include "trimtab/host/head_log.h"
 #include "trimtab/preset/file_io.h"
 
@@ -322,8 +323,8 @@ Result<HeadLog> Reader::finished() {
   std::size_t gaps = 0;
   for (const Row& row : rows_) {
     // Radians and unwinding round, so that a pitch of a quarter turn may pass it by a little.
-    const double pitch = std::clamp(row.angle[kPitch], -90.0, 90.0);
-    const HeadSample sample{row.time - rows_.front().time, row.angle[kHeading], pitch, row.angle[kRoll]};
+    const HeadSample sample{row.time - rows_.front().time, row.angle[kHeading],
+                            limits::clampedPitch(row.angle[kPitch]), row.angle[kRoll]};
     if (!log.samples.empty() && sample.timeS - log.samples.back().timeS > log.gapS) {
       ++gaps;
       longest = std::max(longest, sample.timeS - log.samples.back().timeS);

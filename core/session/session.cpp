@@ -172,8 +172,9 @@ void Session::trackSignals(FrameInput& input) {
   std::optional<SignalValues>& watched = signals_.watched;
   if (!replaysSignals(input)) {
     if (parameters_.policy() == nullptr && !watched) return;
-    // An engineer sees the signal before a rule asks for it.
-    signals_.tracker.push(input.state, input.aboveGround ? input.aboveGround : heightOverTerrain(input.state),
+    // Whoever watches sees the height before a rule asks for it.
+    signals_.tracker.push(input.state,
+                          watched && !input.aboveGround ? heightOverTerrain(input.state) : input.aboveGround,
                           velocityOf(input.state), decideWeather(input.state, *parameters_));
     if (parameters_.policy() != nullptr) input.signalValues = signals_.tracker.values();
   }

@@ -14,7 +14,7 @@
 namespace trimtab::bench {
 namespace {
 
-/// Of a flight at 600 kt and 60 images a second: 5.1 m an image.
+/// The eye moves 5.1 m from image to image, as at 600 kt and 60 images a second.
 constexpr int kFrames = 600;
 constexpr double kStepDeg = 5.1 / 89400;
 
@@ -47,7 +47,8 @@ double firstImageMs(BenchScene& scene, TerrainForm form) {
   return (monotonicSeconds() - start) * 1e3;
 }
 
-/// Of all threads, those that read and check among them; what other programs do adds little to it.
+/// Returns the processor time of all threads, also those that read and check. Other programs add little to
+/// it.
 double processorMs() {
   timespec t{};
   ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);

@@ -147,8 +147,8 @@ TEST_F(WorkbenchFind, theStripSaysWorkspaceBudgetRecordingAndHostWithoutMovingOn
   EXPECT_EQ(source->geometry(), before);
 }
 
-/// By how much a check box that is off, and the symbols of the buttons to play, stand out from what is around
-/// them: the largest difference of their grey values, 0..255.
+/// Measures how far a check box that is off, and the symbols of the buttons to play, stand out from what is
+/// around them: the largest difference of their grey values, 0..255.
 int contrastOf(QWidget& widget, QRect area) {
   const QImage picture = widget.grab(area).toImage().convertToFormat(QImage::Format_Grayscale8);
   int least = 255, most = 0;

@@ -11,7 +11,7 @@
 #include "trimtab/terrain/format/page_file.h"
 #include "trimtab/terrain/format/store.h"
 
-/// What is read at a start and while flying.
+/// These tests read what a program reads at its start and while it flies.
 namespace trimtab {
 namespace {
 

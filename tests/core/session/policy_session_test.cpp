@@ -80,9 +80,13 @@ TEST(PolicySession, knowsTheHeightAboveGroundBeforeARuleAsksForIt) {
     p.policy.terms.line = {"load high = ramp 0.5 2"};
     p.policy.rules.line = {"if load is high then lod_scale = 4"};
   }));
-  session.setGround(std::make_shared<FlatGround>());
+  const auto ground = std::make_shared<FlatGround>();
+  session.setGround(ground);
   session.fly(flownAt(1, 300));
-  EXPECT_DOUBLE_EQ(session.input().signalValues[Signal::above_ground], Metres{100}.as<Feet>().value());
+  EXPECT_EQ(ground->asked, 0) << "nobody needs the height";
+  session.watchSignals();
+  session.fly(flownAt(2, 300));
+  EXPECT_DOUBLE_EQ(session.signalValues()[Signal::above_ground], Metres{100}.as<Feet>().value());
   EXPECT_FALSE(session.input().aboveGround) << "no decision depends on it";
 }
 

@@ -111,7 +111,7 @@ class Session {
   /// Derives the signals also while the preset has no policy, for whoever shows them. They cost a height from
   /// the terrain for each state; decisions and traces do not depend on it.
   void watchSignals() { signals_.watched.emplace(); }
-  /// Returns the signals of the last decided state. Unknown without a policy, unless somebody watches.
+  /// Returns the signals of the last decided state. They are unknown without a policy, unless somebody watches.
   SignalValues signalValues() const { return signals_.watched.value_or(decided_.signalValues); }
 
   // Images.
