@@ -70,12 +70,11 @@ Result<Report> runWeather(const Setup& setup) {
         if (setup.progress && !setup.progress(done / runs, what)) return cancelled();
         const double clearMs = view.ms({});
         if (d == 0) {
-          const WeatherView::Held held = view.held({}, clearMs * kHeld);
-          const double heldRatio = 2 * held.ms / (clearMs + view.ms({}));
+          const WeatherView::Held held = view.held({}, kHeld);
           report.measured.rows.push_back({reached, fall.name, "clear", 1000 / clearMs, 1000 / clearMs,
-                                          clearMs, clearMs, 1.0, Cell(), Cell(), Cell(), 0.0, 0.0, heldRatio,
-                                          Cell(), held.levers.errorPx, held.levers.renderScale,
-                                          "nothing falls, nothing is cut"});
+                                          clearMs, clearMs, 1.0, Cell(), Cell(), Cell(), 0.0, 0.0,
+                                          held.ofClear.median, Cell(), held.levers.errorPx,
+                                          held.levers.renderScale, "nothing falls, nothing is cut"});
           continue;
         }
         const WeatherStep step = fall.steps[d];
@@ -88,15 +87,11 @@ Result<Report> runWeather(const Setup& setup) {
         const double ms = costsTooMuch(*found) ? found->strongestMs : found->matchedMs;
         const WeatherDecision weather = weatherOf(tunedBy(*found, view.preset()), step, RatioMode::adaptive);
         const scene::CutError lost = view.cutError(weather);
-        // The budget is the clear frame's time, as nearly as the experiment calls equal.
-        const double before = view.ms({});
-        const WeatherView::Held held =
-            view.held(weatherOf(view.preset(), step, RatioMode::off), before * kHeld);
-        const double clear = (before + view.ms({})) / 2;
+        const WeatherView::Held held = view.held(weatherOf(view.preset(), step, RatioMode::off), kHeld);
         report.measured.rows.push_back(
             {reached, fall.name, kDensities[d], 1000 / fixedMs, 1000 / ms, found->uncutMs, ms,
              ms / found->clearMs, weather.farM / 1000, weather.visibilityM / 1000, found->density,
-             double(lost.changed), double(lost.largest), held.ms / clear, held.levers.particleShare,
+             double(lost.changed), double(lost.largest), held.ofClear.median, held.levers.particleShare,
              held.levers.errorPx, held.levers.renderScale, std::string(toText(found->outcome))});
       }
   }
@@ -116,10 +111,9 @@ Result<Report> runWeather(const Setup& setup) {
   report.notes.push_back(
       "cut_changed_pixels counts pixels that the far cut changed in the fogged picture, of 255.");
   report.notes.push_back(
-      "hold_ms_ratio is the frame that the arbiter holds, without document D's cut, to the clear frame drawn "
-      "before and after; its budget is 1.03 of the clear frame, without a margin. hold_particles is the "
-      "share "
-      "of the preset's density that it keeps.");
+      "hold_ms_ratio is the median frame that the arbiter holds, without document D's cut, over the clear "
+      "frame, drawn in turns; its budget is 1.03 of the clear frame, without margin and caution. "
+      "hold_particles is the share of the preset's density that it keeps.");
   for (const Fall& fall : kFalls) report.plots.push_back(plotOf(report.measured, fall.name));
   return report;
 }

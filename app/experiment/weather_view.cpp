@@ -1,5 +1,6 @@
 #include "weather_view.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "trimtab/frame/frame_result.h"
@@ -13,6 +14,10 @@ namespace {
 constexpr double kFrameS = 1.0 / 60;
 /// Images in which the arbiter settles on what falls now.
 constexpr int kSettles = 120;
+/// What was just built, compiled or grown, or drawn by another renderer, is no frame's cost.
+constexpr int kUncounted = 3;
+/// Clear and held frames are drawn in turns of so many.
+constexpr int kTurns = 4, kTurn = 9;
 
 }  // namespace
 
@@ -22,11 +27,13 @@ Result<std::unique_ptr<WeatherView>> WeatherView::open(const Setup& setup) {
   view->preset_.motion.control = MotionControl::off;
   const Result<ValidatedParameters> parameters = validate(view->preset_);
   if (!parameters) return parameters.findings();
-  auto stage = Stage::open(setup);
-  if (!stage) return stage.findings();
+  for (std::unique_ptr<Stage>* place : {&view->stage_, &view->heldStage_}) {
+    auto stage = Stage::open(setup);
+    if (!stage) return stage.findings();
+    *place = std::move(*stage);
+  }
   const std::vector<Place> places = placesOf(setup, 1);
   if (places.empty()) return notOverTerrain(setup);
-  view->stage_ = std::move(*stage);
   view->repeats_ = setup.repeats;
 
   const Place& place = places[0];
@@ -69,8 +76,6 @@ double WeatherView::reach(double vertices, double& reached) {
 double WeatherView::ms(const WeatherDecision& weather) {
   request_.decision.weather = weather;
   std::vector<double> ms;
-  // What was just built, compiled or grown is no frame's cost.
-  constexpr int kUncounted = 3;
   for (int i = 0; i < kUncounted + repeats_; ++i) {
     request_.time += kFrameS;
     const double total = stage_->draw(request_).cost.total;
@@ -79,24 +84,47 @@ double WeatherView::ms(const WeatherDecision& weather) {
   return quantileOf(ms, 0.5);
 }
 
-WeatherView::Held WeatherView::held(const WeatherDecision& weather, double budgetMs) {
+WeatherView::Held WeatherView::held(const WeatherDecision& weather, double overClear) {
   HoldParameters parameters = preset_.hold;
   parameters.enabled = true;
-  parameters.margin = Ratio{0};
+  // Document D compares medians, so the median is what is held.
+  parameters.margin = parameters.caution = Ratio{0};
   hold_.setMemory({});
-  std::vector<double> ms;
+  std::vector<double> clearMs, heldMs;
   Held held;
-  for (int i = 0; i < kSettles + repeats_; ++i) {
-    request_.time += kFrameS;
-    FrameRequest request = request_;
-    request.decision.weather = weather;
-    const HoldGiven given = hold_.look(request, {}, budgetMs, request.lod.screenSpaceError.value());
-    held.levers = hold_.decide(given, parameters, request).held;
-    const FrameResult result = stage_->draw(request);
-    hold_.finished(result, result.cost);
-    if (i >= kSettles) ms.push_back(workMs(result.cost));
+  double budgetMs = 0;
+  const auto drawClear = [&] {
+    std::vector<double> ms;
+    for (int i = 0; i < kUncounted + kTurn; ++i) {
+      request_.time += kFrameS;
+      FrameRequest request = request_;
+      request.decision.weather = {};
+      const double work = workMs(stage_->draw(request).cost);
+      if (i >= kUncounted) ms.push_back(work);
+    }
+    budgetMs = overClear * quantileOf(ms, 0.5);
+    clearMs.insert(clearMs.end(), ms.begin(), ms.end());
+  };
+  const auto drawHeld = [&](int images) {
+    for (int i = 0; i < images; ++i) {
+      request_.time += kFrameS;
+      FrameRequest request = request_;
+      request.decision.weather = weather;
+      const HoldGiven given = hold_.look(request, {}, budgetMs, request.lod.screenSpaceError.value());
+      held.levers = hold_.decide(given, parameters, request).held;
+      const FrameResult result = heldStage_->draw(request);
+      hold_.finished(result, result.cost);
+      if (i >= images - kTurn) heldMs.push_back(workMs(result.cost));
+    }
+  };
+  drawClear();
+  drawHeld(kSettles);
+  clearMs.clear(), heldMs.clear();
+  for (int turn = 0; turn < kTurns; ++turn) {
+    drawClear();
+    drawHeld(kUncounted + kTurn);
   }
-  held.ms = quantileOf(ms, 0.5);
+  held.ofClear = pairedRatio(clearMs, heldMs);
   return held;
 }
 

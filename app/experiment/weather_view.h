@@ -10,6 +10,7 @@
 #include "stage.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/hold/frame_hold.h"
+#include "trimtab/measure/paired_ratio.h"
 #include "trimtab/weather/calibrate.h"
 #include "trimtab/weather/weather.h"
 
@@ -52,11 +53,13 @@ class WeatherView {
   double ms(const WeatherDecision& weather);
   /// What the arbiter made of a frame.
   struct Held {
-    double ms = 0;  ///< median work time of the frames after it has settled
+    PairedRatio ofClear;  ///< its work time over that of the clear frame
     HeldLevers levers;
   };
-  /// Draws frames with this weather while the arbiter holds the budget.
-  Held held(const WeatherDecision& weather, double budgetMs);
+  /// Lets the arbiter hold the median frame of this weather to `overClear` times the clear frame. Once it has
+  /// settled, some held and some clear frames are drawn in turns and compared. Either kind has a renderer of
+  /// its own, so that neither finds the other's levels.
+  Held held(const WeatherDecision& weather, double overClear);
   /// Returns the vertices in view in clear air.
   double vertices();
   /// Returns what the far cut of the weather changes in the image.
@@ -66,7 +69,7 @@ class WeatherView {
   WeatherView() = default;
 
   TuningParameters preset_;
-  std::unique_ptr<Stage> stage_;
+  std::unique_ptr<Stage> stage_, heldStage_;
   int repeats_ = 1;
   FrameRequest request_;
   FrameHold hold_;

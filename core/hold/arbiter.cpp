@@ -13,10 +13,8 @@ namespace {
 /// Render scale falls by a twentieth a step, particles by an eighth: below what a still image shows.
 constexpr double kScaleStep = 0.05, kParticleStep = 0.125;
 constexpr std::size_t kMostScales = 17, kMostParticles = 9;
-/// The scale of allowed errors: place i is 2^(i / 8) times the first, from 1/8 to 64 px. Coarse places are
-/// half an octave apart.
-constexpr double kFirstErrorPx = 0.125;
-constexpr std::size_t kErrorPlaces = 73, kCoarse = 4;
+/// Coarse places of the scale of allowed errors are half an octave apart.
+constexpr std::size_t kCoarse = kPlacesPerOctave / 2;
 /// Lowering aims this share of the limit below it, so that a load that keeps rising does not lower the level
 /// of detail again and again. In a steady view no load rises.
 constexpr double kTurningReserve = 0.06, kSteadyReserve = 0.03;
@@ -78,7 +76,7 @@ Choice choiceOf(const HoldGiven& given, const HoldParameters& p) {
   e.value[0] = asked.errorPx;
   e.triangles[0] = given.triangles[0];
   for (std::size_t i = 1; i <= kErrorPlaces; ++i) {
-    const double errorPx = kFirstErrorPx * std::exp2(static_cast<double>(i - 1) / 8);
+    const double errorPx = kFirstErrorPx * std::exp2(static_cast<double>(i - 1) / double{kPlacesPerOctave});
     if (errorPx > p.errorMaximum.value() * (1 + 1e-9)) break;
     e.size = i + 1;
     if (errorPx <= asked.errorPx) {
@@ -204,12 +202,12 @@ void noteBand(double bandMs, HoldMemory& memory) {
 }
 
 /// Returns what a prediction may reach: the budget without its margin, and less if the model is so uncertain
-/// that one image in a hundred would take more than 1.1 of the budget.
+/// that an image which is late by hold.caution bands would take more than 1.1 of the budget. Of a normal
+/// distribution one image in a hundred is later than 1.41 of its 90 % bands (2.326 / 1.645).
 double limitOf(double budgetMs, double bandMs, const HoldParameters& p) {
   constexpr double kOver = 1.1, kLeast = 0.75;
-  constexpr double kOneInAHundred = 2.326 / 1.645;  // of a normal distribution, over its 90 % band
   const double most = budgetMs * (1 - p.margin.value());
-  const double sure = std::max(kOver * budgetMs - kOneInAHundred * bandMs, kLeast * budgetMs);
+  const double sure = std::max(kOver * budgetMs - p.caution.value() * bandMs, kLeast * budgetMs);
   return std::min(most, sure);
 }
 
@@ -225,9 +223,10 @@ bool isNumber(const HoldGiven& g) {
 }  // namespace
 
 double trianglesAt(const TriangleLadder& ladder, double askedPx, double errorPx) {
-  const double step = askedPx > 0 && errorPx > askedPx ? 2 * std::log2(errorPx / askedPx) : 0;
-  const double last = static_cast<double>(kErrorSteps - 1);
-  const double at = std::min(step, last);
+  const double places =
+      askedPx > 0 && errorPx > askedPx ? double{kPlacesPerOctave} * std::log2(errorPx / askedPx) : 0;
+  const double toNext = placesToNext(askedPx), last = static_cast<double>(kErrorSteps - 1);
+  const double at = std::min(places < toNext ? places / toNext : 1 + places - toNext, last);
   const auto low = static_cast<std::size_t>(std::min(std::floor(at + 1e-6), last));
   const std::size_t high = std::min<std::size_t>(low + 1, kErrorSteps - 1);
   const double part = std::max(at - static_cast<double>(low), 0.0);

@@ -66,11 +66,17 @@ void CostModel::observe(const FrameLoad& load, const FrameCost& cost) {
   ground_.observe(groundOf(load), took.ground);
   if (falls) weather_.observe(weatherOf(load), cost.weather);
   if (load.blurs) blur_.observe(blurOf(load), cost.blur);
-  // Like a median: a long upload now and then does not count as what every image takes.
-  const double step =
-      images_ == 0 ? took.other : std::clamp(took.other - other_, -0.5 * other_, 0.5 * other_ + 0.01);
-  other_ += images_ == 0 ? step : 0.05 * step;
+  noteOther(took.other);
   ++images_;
+}
+
+/// Of the first images the shortest counts, because the longer ones built and uploaded what the others found.
+/// Then it is like a median: a long upload now and then is not what every image takes.
+void CostModel::noteOther(double ms) {
+  if (otherImages_ < kFewestImages)
+    other_ = otherImages_++ == 0 ? ms : std::min(other_, ms);
+  else
+    other_ += 0.05 * std::clamp(ms - other_, -0.5 * other_, 0.5 * other_ + 0.01);
 }
 
 CostCoefficients CostModel::coefficients(const FrameLoad& load) const {
@@ -102,6 +108,7 @@ void CostModel::restore(const State& state) {
   weather_.restore(state.weather);
   blur_.restore(state.blur);
   other_ = state.other;
+  otherImages_ = kFewestImages;
   band_ = state.band;
 }
 

@@ -46,16 +46,17 @@ TriangleLadder FrameHold::count(const FrameRequest& request, const LoadView& vie
   TriangleLadder ladder;
   ladder.fill(lastTriangles_);
   if (!form) return ladder;
+  const double askedPx = request.lod.screenSpaceError.value();
   if (*form == TerrainForm::static_trees) {
     ladder = countTriangles(*index_->trees, treeErrorOf(request.staticLod.error), view, treeRuleOf(request),
-                            stack_);
+                            askedPx, stack_);
     // By that rule a distance follows from the error of a node alone, so the lever moves nothing.
     if (request.staticLod.rule == StaticDistanceRule::factor) ladder.fill(ladder.front());
     return ladder;
   }
   const CutRule rule = cutKeyOf(request, view.eye.position, 1).rule;
-  return *form == TerrainForm::patches ? countTriangles(*index_->patches, view, rule, stack_)
-                                       : countTriangles(*index_->tiles, view, rule, stack_);
+  return *form == TerrainForm::patches ? countTriangles(*index_->patches, view, rule, askedPx, stack_)
+                                       : countTriangles(*index_->tiles, view, rule, askedPx, stack_);
 }
 
 double FrameHold::groundMpx(const FrameRequest& request, const LoadView& view, const ComingEye& eye) const {

@@ -29,13 +29,22 @@ class Ladder {
   std::array<double, kErrorSteps + 1> difference_{};
 };
 
-/// Returns the first step of the ladder at which an error is accepted, at most kErrorSteps. `ratio` is the
-/// square of the error over the square of what step 0 accepts.
-std::size_t firstAccepted(double ratio, double spread) {
-  if (!(ratio > 1)) return 0;
-  const double steps = std::ceil(std::log2(ratio) / spread - 1e-9);
-  return steps < static_cast<double>(kErrorSteps) ? static_cast<std::size_t>(steps) : kErrorSteps;
-}
+/// Finds the first step of the ladder at which an error is accepted.
+class Accepted {
+ public:
+  Accepted(double askedPx, double spread)
+      : toNext_(placesToNext(askedPx)), places_(0.5 * double{kPlacesPerOctave} / spread) {}
+  /// Returns it, at most kErrorSteps. `ratio` is the square of the error over the square of what step 0
+  /// accepts.
+  std::size_t operator()(double ratio) const {
+    if (!(ratio > 1)) return 0;
+    const double step = 1 + std::max(std::ceil(std::log2(ratio) * places_ - toNext_ - 1e-9), 0.0);
+    return step < static_cast<double>(kErrorSteps) ? static_cast<std::size_t>(step) : kErrorSteps;
+  }
+
+ private:
+  double toNext_, places_;
+};
 
 /// What a view leaves out.
 class Outside {
@@ -80,9 +89,10 @@ void walk(std::vector<std::uint64_t>& stack, const LoadView& view, const BoundsO
 /// Walks the tiles in view that a step below `steps` draws, and their ancestors. Steps `first` to `below`
 /// draw a tile; none if `first` is not less.
 template <class Draw>
-void walkTiles(const TerrainIndex& index, const LoadView& view, const CutRule& rule, std::size_t steps,
-               std::vector<std::uint64_t>& stack, const Draw& draw) {
+void walkTiles(const TerrainIndex& index, const LoadView& view, const CutRule& rule, double askedPx,
+               std::size_t steps, std::vector<std::uint64_t>& stack, const Draw& draw) {
   const Vec3 eye = view.eye.position;
+  const Accepted accepted(askedPx, rule.spread);
   stack.clear();
   for (std::uint32_t node = static_cast<std::uint32_t>(index.size()); node-- > 0;)
     if (index.parent[node] == TerrainIndex::kNone)
@@ -93,7 +103,7 @@ void walkTiles(const TerrainIndex& index, const LoadView& view, const CutRule& r
       stack, view, [&](std::uint32_t node) -> const Box& { return index.bounds[node]; },
       [&](std::uint32_t node, std::size_t below) -> std::size_t {
         const double ratio = ratioOf(rule, index.errorM[node], distanceSquared(index.bounds[node], eye));
-        const std::size_t first = index.level[node] == 0 ? 0 : firstAccepted(ratio, rule.spread);
+        const std::size_t first = index.level[node] == 0 ? 0 : accepted(ratio);
         draw(node, first, below);
         return first;
       },
@@ -106,9 +116,10 @@ void walkTiles(const TerrainIndex& index, const LoadView& view, const CutRule& r
 /// Walks nodes of static trees likewise.
 template <class Draw>
 void walkTrees(const StaticLodIndex& index, const std::vector<float>& error, const LoadView& view,
-               const StaticLodRule& rule, std::size_t steps, std::vector<std::uint64_t>& stack,
-               const Draw& draw) {
+               const StaticLodRule& rule, double askedPx, std::size_t steps,
+               std::vector<std::uint64_t>& stack, const Draw& draw) {
   const Vec3 eye = view.eye.position;
+  const Accepted accepted(askedPx, rule.spread);
   const double square = rule.distancePerError * rule.distancePerError;
   stack.clear();
   for (const std::uint32_t root : index.roots) stack.push_back(packed(root, steps));
@@ -119,7 +130,7 @@ void walkTrees(const StaticLodIndex& index, const std::vector<float>& error, con
         const double ratio = spreadSquared(e * e * square, rule.spread, rule.spreadFromM) /
                              distanceSquared(index.bounds[node], eye);
         const bool leaf = index.nodes[node].children[0] == StaticLodIndex::kNone;
-        const std::size_t first = leaf ? 0 : firstAccepted(ratio, rule.spread);
+        const std::size_t first = leaf ? 0 : accepted(ratio);
         draw(node, first, below);
         return first;
       },
@@ -128,6 +139,9 @@ void walkTrees(const StaticLodIndex& index, const std::vector<float>& error, con
           if (child != StaticLodIndex::kNone) push(child);
       });
 }
+
+/// The error that is asked for, where only step 0 counts and no other place is looked at.
+constexpr double kNoScale = 1;
 
 /// Collects what step 0 draws.
 auto collector(std::vector<std::uint32_t>& nodes) {
@@ -138,24 +152,30 @@ auto collector(std::vector<std::uint32_t>& nodes) {
 
 }  // namespace
 
+double placesToNext(double errorPx) {
+  const double place = double{kPlacesPerOctave} * std::log2(errorPx / kFirstErrorPx);
+  return std::isfinite(place) ? std::floor(place) + 1 - place : 1;
+}
+
 TriangleLadder countTriangles(const TerrainIndex& index, const LoadView& view, const CutRule& rule,
-                              std::vector<std::uint64_t>& stack) {
+                              double askedPx, std::vector<std::uint64_t>& stack) {
   constexpr double kTriangles = 2.0 * TerrainIndex::kTileCells * TerrainIndex::kTileCells;
   Ladder ladder;
-  walkTiles(index, view, rule, kErrorSteps, stack, [&](std::uint32_t, std::size_t first, std::size_t below) {
-    ladder.add(first, below, kTriangles);
-  });
+  walkTiles(
+      index, view, rule, askedPx, kErrorSteps, stack,
+      [&](std::uint32_t, std::size_t first, std::size_t below) { ladder.add(first, below, kTriangles); });
   return ladder.sums();
 }
 
 void collectNodes(const TerrainIndex& index, const LoadView& view, const CutRule& rule,
                   std::vector<std::uint64_t>& stack, std::vector<std::uint32_t>& nodes) {
-  walkTiles(index, view, rule, 1, stack, collector(nodes));
+  walkTiles(index, view, rule, kNoScale, 1, stack, collector(nodes));
 }
 
 TriangleLadder countTriangles(const PatchIndex& index, const LoadView& view, const CutRule& rule,
-                              std::vector<std::uint64_t>& stack) {
+                              double askedPx, std::vector<std::uint64_t>& stack) {
   const Vec3 eye = view.eye.position;
+  const Accepted accepted(askedPx, rule.spread);
   Ladder ladder;
   stack.clear();
   for (const PatchIndex::Page& page : index.pages) {
@@ -170,15 +190,13 @@ TriangleLadder countTriangles(const PatchIndex& index, const LoadView& view, con
         const std::span<const float> errors = index.errorM[patch];
         const bool leaf =
             index.children[patch][0] == PatchIndex::kNone && index.children[patch][1] == PatchIndex::kNone;
-        const std::size_t first = leaf ? 0 : firstAccepted(ratioOf(rule, errors[0], distance2), rule.spread);
+        const std::size_t first = leaf ? 0 : accepted(ratioOf(rule, errors[0], distance2));
         // Each variant serves from the step that accepts it up to the next coarser one.
         std::size_t from = first;
         for (std::size_t v = 0; v < errors.size() && from < below; ++v) {
           const bool last = v + 1 == errors.size();
           const std::size_t next =
-              last ? below
-                   : std::clamp(firstAccepted(ratioOf(rule, errors[v + 1], distance2), rule.spread), from,
-                                below);
+              last ? below : std::clamp(accepted(ratioOf(rule, errors[v + 1], distance2)), from, below);
           ladder.add(from, next, index.triangles[patch][v]);
           from = next;
         }
@@ -192,10 +210,10 @@ TriangleLadder countTriangles(const PatchIndex& index, const LoadView& view, con
 }
 
 TriangleLadder countTriangles(const StaticLodIndex& index, const std::vector<float>& error,
-                              const LoadView& view, const StaticLodRule& rule,
+                              const LoadView& view, const StaticLodRule& rule, double askedPx,
                               std::vector<std::uint64_t>& stack) {
   Ladder ladder;
-  walkTrees(index, error, view, rule, kErrorSteps, stack,
+  walkTrees(index, error, view, rule, askedPx, kErrorSteps, stack,
             [&](std::uint32_t node, std::size_t first, std::size_t below) {
               ladder.add(first, below, index.nodes[node].triangles);
             });
@@ -205,7 +223,7 @@ TriangleLadder countTriangles(const StaticLodIndex& index, const std::vector<flo
 void collectNodes(const StaticLodIndex& index, const std::vector<float>& error, const LoadView& view,
                   const StaticLodRule& rule, std::vector<std::uint64_t>& stack,
                   std::vector<std::uint32_t>& nodes) {
-  walkTrees(index, error, view, rule, 1, stack, collector(nodes));
+  walkTrees(index, error, view, rule, kNoScale, 1, stack, collector(nodes));
 }
 
 double shareBelowHorizon(const LoadView& view, Vec3 up, double heightM) {

@@ -22,6 +22,16 @@ inline constexpr std::array kHoldRows{
          .usual = {0, 0.3},
          .step = 0.01,
          .decimals = 2}),
+    row<&TuningParameters::hold, &HoldParameters::caution>(
+        {.key = "hold.caution",
+         .label = "Caution",
+         .help = "An image that takes longer than predicted by so many of the model's 90 % bands still ends "
+                 "within 1.1 of the budget. 1.41 lets one image in a hundred end later. 0 holds the median "
+                 "image to the budget.",
+         .hard = {0, 5},
+         .usual = {0, 2},
+         .step = 0.05,
+         .decimals = 2}),
     row<&TuningParameters::hold, &HoldParameters::calm>(
         {.key = "hold.calm_ms",
          .label = "Calm before restoring",

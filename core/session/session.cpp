@@ -105,7 +105,8 @@ void Session::replay(const TraceRow& row) {
 }
 
 void Session::look(const AircraftState& state) {
-  if (!looking_) lookMemory_ = {}, groundVelocity_.restart(), signals_.tracker.restart();
+  if (!looking_ || isJump(current_->state.position, state.position, state.time - current_->state.time, false))
+    lookMemory_ = {}, groundVelocity_.restart(), signals_.tracker.restart();
   const bool stands = looking_ && state.position == current_->state.position;
   looking_ = true;
   unlink();

@@ -18,12 +18,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace {
 
+/// Returns the files of the corpus; with TRIMTAB_FUZZ_FILES=TEXT those whose name contains TEXT, such as one
+/// protocol's.
 std::vector<std::string> corpus() {
+  const char* const wanted = std::getenv("TRIMTAB_FUZZ_FILES");
   std::vector<std::filesystem::path> files;
   std::istringstream folders(TRIMTAB_CORPUS);
   for (std::string folder; std::getline(folders, folder, ':');)
     for (const auto& entry : std::filesystem::directory_iterator(folder))
-      if (entry.is_regular_file()) files.push_back(entry.path());
+      if (entry.is_regular_file() &&
+          (!wanted || entry.path().filename().string().find(wanted) != std::string::npos))
+        files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   std::vector<std::string> inputs;
   for (const auto& file : files) inputs.push_back(trimtab::test::readFile(file));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QComboBox>
 #include <QListWidget>
 #include <QPushButton>
 #include <QTableWidget>
@@ -203,6 +204,43 @@ TEST_F(BudgetPanelTest, recordsARunAndComparesItWithTheSameFlownAgain) {
   fly(20, 70, 10);
   settle();
   EXPECT_FALSE(panel.comparisonText().contains("70")) << "the run is over";
+}
+
+TEST_F(BudgetPanelTest, fliesAgainUnderEachModeOfTheExperimentAndUndoTakesItBack) {
+  struct Mode {
+    MotionControl headMotion;
+    RatioMode weatherCut;
+    bool policy, hold;
+  };
+  constexpr Mode kModes[] = {{MotionControl::off, RatioMode::off, false, false},
+                             {MotionControl::with_restoration, RatioMode::adaptive, false, false},
+                             {MotionControl::off, RatioMode::adaptive, true, false},
+                             {MotionControl::off, RatioMode::adaptive, true, true}};
+  panel.show();
+  panel.recordButton().click();
+  for (int i = 0; i < 5; ++i) {
+    LiveFrame frame = frameAt(i, HoldReason::off, 1);
+    frame.input.state.time = i;
+    panel.showFrame(frame);
+  }
+  panel.recordButton().click();
+  settle();
+  auto* choice = panel.findChild<QComboBox*>();
+  ASSERT_NE(choice, nullptr);
+  ASSERT_EQ(choice->count(), 5);
+  for (int i = 0; i < 4; ++i) {
+    choice->setCurrentIndex(i + 1);
+    panel.replayButton().click();
+    const TuningParameters& p = draft.parameters();
+    const std::string name = choice->currentText().toStdString();
+    EXPECT_EQ(p.motion.control, kModes[i].headMotion) << name;
+    EXPECT_EQ(p.weather.ratioMode, kModes[i].weatherCut) << name;
+    EXPECT_EQ(p.policy.enabled, kModes[i].policy) << name;
+    EXPECT_EQ(p.hold.enabled, kModes[i].hold) << name;
+  }
+  while (draft.undoStack().canUndo()) draft.undoStack().undo();
+  EXPECT_FALSE(draft.isDirty());
+  EXPECT_EQ(draft.parameters().motion.control, TuningParameters{}.motion.control);
 }
 
 TEST(RecordedRun, endsByItselfAndTakesEachStateOnce) {

@@ -21,23 +21,32 @@ namespace {
 constexpr const char* kBudgetKeys[] = {
     "hold.enabled",          "measure.budget_ms",         "hold.margin",
     "hold.error_maximum_px", "hold.render_scale_minimum", "hold.particles_minimum",
-    "hold.calm_ms"};
+    "hold.calm_ms",          "hold.caution",
+};
 
 QString percent(double share) {
   return std::isfinite(share) ? BudgetPanel::tr("%1 %").arg(numberText(100 * share, 1))
                               : BudgetPanel::tr("unknown");
 }
 
-/// What a recorded run can be flown again under.
+/// What a recorded run can be flown again under: as the preset is, or in a mode of `trimtab-cli experiment
+/// hold`. What is unset stays as the preset has it.
 struct ReplayMode {
   const char* name;
-  std::optional<bool> policy, hold;  ///< unset: as the preset has it
+  std::optional<bool> policy, hold;
+  std::optional<MotionControl> headMotion;
+  std::optional<RatioMode> weatherCut;
 };
 constexpr ReplayMode kReplayModes[] = {
-    {QT_TRANSLATE_NOOP("BudgetPanel", "as the preset is now"), std::nullopt, std::nullopt},
-    {QT_TRANSLATE_NOOP("BudgetPanel", "without policy and budget"), false, false},
-    {QT_TRANSLATE_NOOP("BudgetPanel", "with the policy alone"), true, false},
-    {QT_TRANSLATE_NOOP("BudgetPanel", "with the budget held"), std::nullopt, true}};
+    {QT_TRANSLATE_NOOP("BudgetPanel", "as the preset is now"), {}, {}, {}, {}},
+    {QT_TRANSLATE_NOOP("BudgetPanel", "with nothing switched on"), false, false, MotionControl::off,
+     RatioMode::off},
+    {QT_TRANSLATE_NOOP("BudgetPanel", "as published (C and D)"), false, false,
+     MotionControl::with_restoration, RatioMode::adaptive},
+    {QT_TRANSLATE_NOOP("BudgetPanel", "with the policy alone"), true, false, MotionControl::off,
+     RatioMode::adaptive},
+    {QT_TRANSLATE_NOOP("BudgetPanel", "with the budget held"), std::nullopt, true, MotionControl::off,
+     RatioMode::adaptive}};
 
 /// A lever of the arbiter: its place in decisions and gains, and how it is written.
 struct LeverLine {
@@ -159,11 +168,13 @@ QLayout* BudgetPanel::makeRecorder() {
 void BudgetPanel::switchTo(int mode) {
   const ReplayMode& wanted = kReplayModes[std::clamp(mode, 0, int(std::size(kReplayModes)) - 1)];
   std::vector<Draft::KeyValue> values;
-  const auto add = [&](std::string_view key, std::optional<bool> on) {
-    if (on && draft_.value(key) != ParameterValue{*on}) values.push_back({key, *on});
+  const auto add = [&](std::string_view key, const ParameterValue& value) {
+    if (draft_.value(key) != value) values.push_back({key, value});
   };
-  add(key::kPolicyEnabled, wanted.policy);
-  add("hold.enabled", wanted.hold);
+  if (wanted.policy) add(key::kPolicyEnabled, *wanted.policy);
+  if (wanted.hold) add("hold.enabled", *wanted.hold);
+  if (wanted.headMotion) add("motion.control", ChoiceIndex{std::size_t(*wanted.headMotion)});
+  if (wanted.weatherCut) add("weather.ratio_mode", ChoiceIndex{std::size_t(*wanted.weatherCut)});
   if (!values.empty()) draft_.setValues(values, tr("Fly Again %1").arg(tr(wanted.name)));
 }
 

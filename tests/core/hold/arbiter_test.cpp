@@ -27,8 +27,7 @@ HoldGiven given(double timeS = 0) {
   g.blurs = true;
   g.imageMpx = 1;
   g.groundMpx = 0.5;
-  for (std::size_t k = 0; k < kErrorSteps; ++k)
-    g.triangles[k] = 1e5 * std::exp2(-0.5 * static_cast<double>(k));
+  for (std::size_t k = 0; k < kErrorSteps; ++k) g.triangles[k] = 1e5 * std::exp2(-static_cast<double>(k) / 8);
   g.cost = {.fixed = 2,
             .perTriangle = 1e-4,
             .perGroundMpx = 36,
@@ -152,18 +151,22 @@ TEST(Arbiter, saysWhatEachLeverTakesOffAndTheyAddUp) {
 }
 
 TEST(Arbiter, leavesRoomForItsOwnUncertainty) {
-  const auto limitAt = [](double bandMs) {
+  const auto limitAt = [](double bandMs, double caution = enabled().caution.value()) {
     HoldGiven g = given();
     g.budgetMs = 30;
     g.cost.bandMs = bandMs;
+    HoldParameters p = enabled();
+    p.caution = Ratio{caution};
     HoldMemory memory;
-    return arbitrate(g, enabled(), memory).limitMs;
+    return arbitrate(g, p, memory).limitMs;
   };
   const double sure = 30 * (1 - enabled().margin.value());
   EXPECT_DOUBLE_EQ(limitAt(0), sure);
   EXPECT_DOUBLE_EQ(limitAt(2), sure);
-  EXPECT_NEAR(limitAt(5), 33 - 5 * 2.326 / 1.645, 1e-9) << "one image in a hundred beyond 1.1 of the budget";
+  EXPECT_NEAR(limitAt(5), 33 - 5 * 2.326 / 1.645, 0.02) << "one image in a hundred beyond 1.1 of the budget";
   EXPECT_DOUBLE_EQ(limitAt(1000), 0.75 * 30) << "an image need not be sure at any price";
+  EXPECT_DOUBLE_EQ(limitAt(5, 2), 33 - 5 * 2);
+  EXPECT_DOUBLE_EQ(limitAt(1000, 0), sure) << "without caution half of the images may be late";
   EXPECT_DOUBLE_EQ(limitAt(kInfinity), sure);
   EXPECT_DOUBLE_EQ(limitAt(kNan), sure);
   EXPECT_DOUBLE_EQ(limitAt(-1), sure);

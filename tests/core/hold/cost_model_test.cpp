@@ -152,6 +152,59 @@ TEST(LinearCost, staysRightWhereACoefficientIsNearZero) {
   }
 }
 
+/// Rests at one load, then at a smaller one and at the first again, of a machine on which three coefficients
+/// are 0: what is learned must lead each prediction towards what is measured.
+TEST(LinearCost, learnsWhileSeveralCoefficientsAreAtZero) {
+  LinearCost<4> cost;
+  const auto stay = [&](double triangles, double ms) {
+    double before = 0;
+    for (int i = 0; i < 120; ++i) {
+      const LinearCost<4>::Quantities x{1, triangles, 0.11, 0.23};
+      const double off = std::abs(cost.predict(x) / ms - 1);
+      if (i > 1) {
+        EXPECT_LE(off, before + 1e-9) << "image " << i << " at " << triangles;
+      }
+      before = off;
+      cost.observe(x, ms);
+    }
+    EXPECT_LT(before, 0.02) << triangles;
+  };
+  stay(19, 62);
+  stay(4.5, 13.5);
+  stay(12.6, 36);
+  stay(19, 46);
+}
+
+/// The first image of a program builds and uploads what the others find.
+TEST(LinearCost, forgetsAFirstImageThatTookMuchLonger) {
+  const LinearCost<2>::Quantities x{1, 10};
+  LinearCost<2> with, without;
+  with.observe(x, 240);
+  for (int i = 0; i < 20; ++i) with.observe(x, 40), without.observe(x, 40);
+  EXPECT_EQ(with.state().coefficient, without.state().coefficient);
+  EXPECT_EQ(with.state().covariance, without.state().covariance);
+}
+
+TEST(CostModel, whatTheFirstImagePagedIsNotWhatEveryImageTakes) {
+  Machine machine;
+  CostModel model;
+  for (int i = 0; i < 12; ++i) {
+    const FrameLoad load = machine.nextLoad();
+    FrameCost cost = machine.cost(load);
+    cost.page = i == 0 ? 20 : 0.1;
+    if (i == 0) cost.total += 20;
+    model.observe(load, cost);
+  }
+  EXPECT_LT(model.coefficients({}).other, 1);
+  CostModel later;
+  later.restore(model.state());
+  const FrameLoad load = machine.nextLoad();
+  FrameCost cost = machine.cost(load);
+  cost.page = 20, cost.total += 20;
+  later.observe(load, cost);
+  EXPECT_LT(later.coefficients({}).other, 1);
+}
+
 TEST(CostModel, timersThatLieTeachNothing) {
   Machine machine;
   CostModel model;

@@ -30,8 +30,15 @@ double drawn(const LevelCut& cut, const LoadView& view) {
   return static_cast<double>(visible.triangles);
 }
 
-double stepOf(std::size_t k) {
-  return std::exp2(0.5 * static_cast<double>(k));
+/// Not on the scale, so that the first step to it is a part of a place.
+constexpr double kAskedPx = 1.3;
+
+/// The allowed error of a step: what is asked for, then the places of the scale above it, written once more.
+double errorOf(std::size_t k) {
+  if (k == 0) return kAskedPx;
+  double px = 0.125;
+  while (px <= kAskedPx) px *= std::exp2(0.125);
+  return px * std::exp2(0.125 * static_cast<double>(k - 1));
 }
 
 /// Views from inside, above and beyond a square of so many metres.
@@ -55,11 +62,12 @@ TEST(LoadCounter, countsWhatTheTreesDraw) {
   forManyViews(32000, [&](const LoadView& view) {
     for (const double spread : {1.0, 0.8}) {
       const StaticLodRule rule{900, spread, 5000};
-      const TriangleLadder ladder = countTriangles(index, error, view, rule, stack);
+      const TriangleLadder ladder = countTriangles(index, error, view, rule, kAskedPx, stack);
       for (std::size_t k = 0; k < kErrorSteps; ++k) {
         LevelCut cut;
         // A rule of the k-th step accepts an error that much larger at the same distance.
-        selectStatic(index, error, {rule.distancePerError / stepOf(k), spread, 5000}, view.eye.position, cut);
+        selectStatic(index, error, {rule.distancePerError * kAskedPx / errorOf(k), spread, 5000},
+                     view.eye.position, cut);
         EXPECT_NEAR(ladder[k], drawn(cut, view), 0.5) << k;
         all += ladder[k];
       }
@@ -73,11 +81,11 @@ TEST(LoadCounter, countsTilesButForWhatNeighboursAdd) {
   std::vector<std::uint64_t> stack;
   double counted = 0, all = 0;
   forManyViews(32000, [&](const LoadView& view) {
-    const CutRule rule{2, 1, 1100};
-    const TriangleLadder ladder = countTriangles(index, view, rule, stack);
+    const CutRule rule{kAskedPx, 1, 1100};
+    const TriangleLadder ladder = countTriangles(index, view, rule, kAskedPx, stack);
     for (std::size_t k = 0; k < kErrorSteps; ++k) {
       LevelCut cut;
-      selectLevels(index, view.eye.position, {2 * stepOf(k), 1, 1100}, cut);
+      selectLevels(index, view.eye.position, {errorOf(k), 1, 1100}, cut);
       counted += ladder[k], all += drawn(cut, view);
     }
   });
@@ -90,11 +98,11 @@ TEST(LoadCounter, countsPatchesButForWhatNeighboursAdd) {
   std::vector<std::uint64_t> stack;
   double counted = 0, all = 0;
   forManyViews(5120, [&](const LoadView& view) {
-    const CutRule rule{2, 1, 1100};
-    const TriangleLadder ladder = countTriangles(index, view, rule, stack);
+    const CutRule rule{kAskedPx, 1, 1100};
+    const TriangleLadder ladder = countTriangles(index, view, rule, kAskedPx, stack);
     for (std::size_t k = 0; k < kErrorSteps; ++k) {
       PatchCut cut;
-      selectPatches(index, {}, view.eye.position, {2 * stepOf(k), 1, 1100}, cut);
+      selectPatches(index, {}, view.eye.position, {errorOf(k), 1, 1100}, cut);
       counted += ladder[k], all += drawn(cut.cut, view);
     }
   });
@@ -131,7 +139,8 @@ TEST(LoadCounter, namesTheTilesThatItCounts) {
     const CutRule rule{2, 1, 1100};
     std::vector<std::uint32_t> nodes;
     collectNodes(index, view, rule, stack, nodes);
-    EXPECT_EQ(2048.0 * static_cast<double>(nodes.size()), countTriangles(index, view, rule, stack).front());
+    EXPECT_EQ(2048.0 * static_cast<double>(nodes.size()),
+              countTriangles(index, view, rule, 2, stack).front());
     LevelCut cut;
     selectLevels(index, view.eye.position, rule, cut);
     std::vector<std::uint8_t> inCut(index.size());
@@ -149,9 +158,13 @@ TEST(LoadCounter, fallsAlongTheLadderAndOutsideTheView) {
   const std::vector<float> error = staticLodError(index, ErrorMeasure::maximum);
   std::vector<std::uint64_t> stack;
   const LoadView view = viewAt({16000, 16000, 1500}, 30, -10);
-  const TriangleLadder ladder = countTriangles(index, error, view, {900}, stack);
-  for (std::size_t k = 1; k < kErrorSteps; ++k) EXPECT_LE(ladder[k], ladder[k - 1]);
-  const TriangleLadder sky = countTriangles(index, error, viewAt({16000, 16000, 5000}, 30, 80), {900}, stack);
+  const TriangleLadder ladder = countTriangles(index, error, view, {900}, kAskedPx, stack);
+  // A node half in view may have more triangles than those of its children that are in view.
+  for (std::size_t k = 1; k < kErrorSteps; ++k) EXPECT_LE(ladder[k], 1.02 * ladder[k - 1]);
+  for (std::size_t k = kPlacesPerOctave; k < kErrorSteps; ++k)
+    EXPECT_LT(ladder[k], ladder[k - kPlacesPerOctave]);
+  const TriangleLadder sky =
+      countTriangles(index, error, viewAt({16000, 16000, 5000}, 30, 80), {900}, kAskedPx, stack);
   EXPECT_EQ(sky, TriangleLadder{});
 }
 
@@ -159,7 +172,7 @@ TEST(LoadCounter, anEyeThatIsNoNumberIsDefined) {
   const TerrainIndex index = test::randomIndex(8, 5);
   std::vector<std::uint64_t> stack;
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const double triangles : countTriangles(index, viewAt({nan, 0, 0}, 0, 0), {2, 1, 1100}, stack))
+  for (const double triangles : countTriangles(index, viewAt({nan, 0, 0}, 0, 0), {2, 1, 1100}, 2, stack))
     EXPECT_TRUE(std::isfinite(triangles));
 }
 
@@ -174,12 +187,24 @@ TEST(ShareBelowHorizon, isHalfWhenLevelAndAllWhenLookingDown) {
 
 TEST(TrianglesAt, liesOnTheLadderAndBetweenItsSteps) {
   TriangleLadder ladder{};
-  for (std::size_t k = 0; k < kErrorSteps; ++k) ladder[k] = 900 - 100 * static_cast<double>(k);
-  EXPECT_DOUBLE_EQ(trianglesAt(ladder, 2, 2), 900);
-  EXPECT_NEAR(trianglesAt(ladder, 2, 4), 700, 1e-9);
-  EXPECT_NEAR(trianglesAt(ladder, 2, 2 * std::exp2(0.25)), 850, 1e-9);
-  EXPECT_NEAR(trianglesAt(ladder, 2, 640), 100, 1e-9);
-  EXPECT_DOUBLE_EQ(trianglesAt(ladder, 2, 1), 900);
+  for (std::size_t k = 0; k < kErrorSteps; ++k) ladder[k] = 9000 - 100 * static_cast<double>(k);
+  EXPECT_DOUBLE_EQ(trianglesAt(ladder, 2, 2), 9000);
+  EXPECT_NEAR(trianglesAt(ladder, 2, 4), 8200, 1e-9);
+  EXPECT_NEAR(trianglesAt(ladder, 2, 2 * std::exp2(0.3125)), 8750, 1e-9);
+  EXPECT_NEAR(trianglesAt(ladder, 2, 640), 9000 - 100.0 * (kErrorSteps - 1), 1e-9);
+  EXPECT_DOUBLE_EQ(trianglesAt(ladder, 2, 1), 9000);
+  // From an error between two places the first step is shorter than a place.
+  for (std::size_t k = 0; k < kErrorSteps; ++k)
+    EXPECT_NEAR(trianglesAt(ladder, kAskedPx, errorOf(k)), ladder[k], 1e-6) << k;
+  EXPECT_NEAR(trianglesAt(ladder, kAskedPx, std::sqrt(kAskedPx * errorOf(1))), 8950, 1e-6);
+}
+
+TEST(TrianglesAt, placesToNextLieAboveNoneAndAtMostOne) {
+  EXPECT_DOUBLE_EQ(placesToNext(1), 1);
+  EXPECT_NEAR(placesToNext(kAskedPx), 8 * std::log2(errorOf(1) / kAskedPx), 1e-9);
+  EXPECT_DOUBLE_EQ(placesToNext(0.125 * std::exp2(7.0 / 16)), 0.5);
+  for (const double px : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})
+    EXPECT_EQ(placesToNext(px), 1) << px;
 }
 
 }  // namespace

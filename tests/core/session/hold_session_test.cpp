@@ -56,8 +56,8 @@ class Machine {
         farCutM(request)};
     const CutRule rule = cutKeyOf(request, view.eye.position, 1).rule;
     // Neighbours add an eighth.
-    result.visible.triangles = static_cast<std::uint64_t>(
-        triangleShare * 1.125 * countTriangles(*index_->tiles, view, rule, stack_).front());
+    const double counted = countTriangles(*index_->tiles, view, rule, 1, stack_).front();
+    result.visible.triangles = static_cast<std::uint64_t>(triangleShare * 1.125 * counted);
     const double pixels = request.renderScale * request.renderScale;
     const double noise = std::normal_distribution<double>(1, 0.04)(random_);
     FrameCost& c = result.cost;

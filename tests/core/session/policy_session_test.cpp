@@ -59,6 +59,25 @@ FrameResult resultCosting(double ms) {
   return result;
 }
 
+TEST(PolicySession, aCameraSetDownElsewhereHasNotTurnedOrFlownThere) {
+  Session session(lowAndLoaded());
+  session.watchSignals();
+  for (int i = 0; i < 5; ++i) session.look(flownAt(1 + i / 60.0, 3000));
+  const double turning = session.signalValues()[Signal::sight_rate];
+  EXPECT_GT(turning, 1);
+  EXPECT_LT(turning, 60);
+  AircraftState home = flownAt(1 + 5 / 60.0, 3000);
+  home.position.latitude = home.position.latitude + Degrees{0.5};
+  home.attitude.heading = home.attitude.heading + Degrees{170};
+  session.look(home);
+  EXPECT_TRUE(std::isnan(session.signalValues()[Signal::sight_rate]));
+  EXPECT_TRUE(std::isnan(session.signalValues()[Signal::speed]));
+  home.time += 1 / 60.0;
+  home.attitude.heading = home.attitude.heading + Degrees{0.5};
+  session.look(home);
+  EXPECT_NEAR(session.signalValues()[Signal::sight_rate], 30, 5);
+}
+
 TEST(PolicySession, setsWhatTheRequestAsksFor) {
   Session session(lowAndLoaded());
   const auto ground = std::make_shared<FlatGround>();

@@ -74,8 +74,8 @@ struct HoldRecord {
 /// goes back or is not a number counts as no time.
 HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& parameters, HoldMemory& memory);
 
-/// Returns the triangles at an allowed error that may lie between two steps of a ladder, on a straight line
-/// over the error's logarithm. Below and above the ladder they are those of its ends.
+/// Returns the triangles at an allowed error, exact on the ladder's steps. Between two steps they lie on a
+/// straight line over the error's logarithm. Below and above the ladder they are those of its ends.
 double trianglesAt(const TriangleLadder& ladder, double askedPx, double errorPx);
 
 /// Returns the load of an image under these levers.

@@ -63,11 +63,13 @@ class CostModel {
   void restore(const State& state);
 
  private:
+  void noteOther(double ms);
+
   LinearCost<4> ground_;
   LinearCost<2> weather_;
   LinearCost<1> blur_;
   double other_ = 0, band_ = kNormalBand;
-  std::size_t images_ = 0;
+  std::size_t images_ = 0, otherImages_ = 0;
 
   static constexpr double kNormalBand = 1.645;  ///< of a normal distribution
 };

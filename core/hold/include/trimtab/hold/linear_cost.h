@@ -8,7 +8,8 @@
 namespace trimtab {
 
 /// Learns a time as a sum of coefficients times quantities, one image at a time: a Kalman filter whose
-/// coefficients may drift. It needs no scale of its own: the first image gives one.
+/// coefficients may drift. It needs no scale of its own: the first image gives one. A first image that takes
+/// more than twice as long as one of the next built what they find, and is forgotten.
 ///
 /// A single image cannot move it far: an error counts as at most three standard deviations, which ignores
 /// spikes. Five such errors in a row, all too long or all too short, are a change of the machine instead, as
@@ -37,7 +38,7 @@ class LinearCost {
     for (const double quantity : x)
       if (!std::isfinite(quantity)) return;
     if (!std::isfinite(ms) || !(ms > 0)) return;
-    if (state_.images == 0) begin(x, ms);
+    if (state_.images == 0 || (state_.images < kFirst && ms < firstMs_ / 2)) begin(x, ms);
     ++state_.images;
     const double error = ms - predict(x);
     noteSpike(error, kSpike * deviation(x));
@@ -96,8 +97,11 @@ class LinearCost {
   /// within some tens of images, the others within some hundreds.
   static constexpr double kFirstDrift = 0.01, kDrift = 0.003;
   static constexpr int kChange = 5;
+  static constexpr double kFirst = 8;  ///< images among which the first may be forgotten
 
   void begin(const Quantities& x, double ms) {
+    state_ = {};
+    firstMs_ = ms;
     for (std::size_t i = 0; i < N; ++i) {
       state_.scale[i] = ms / static_cast<double>(N) / (x[i] > 0 ? x[i] : 1);
       state_.coefficient[i] = x[i] > 0 ? state_.scale[i] : 0;
@@ -106,18 +110,23 @@ class LinearCost {
     state_.noise = 0.01 * ms * ms;
   }
 
-  /// A coefficient below 0 becomes 0, and the others take what it explained, as far as they are uncertain.
-  /// Left to themselves they would predict too much for as long as it stays at 0.
+  /// A coefficient below 0 becomes 0, and the others become what they are most likely to be if it is 0. Left
+  /// to themselves they would predict too much for as long as it stays there.
   void keepCostsPositive() {
+    std::array<Quantities, N> p = state_.covariance;  // given that some coefficients are 0
+    Quantities& c = state_.coefficient;
     for (std::size_t pass = 0; pass < N; ++pass) {
-      const auto least = std::min_element(state_.coefficient.begin(), state_.coefficient.end());
-      if (!(*least < 0)) return;
-      const auto i = static_cast<std::size_t>(least - state_.coefficient.begin());
-      const double part = *least / state_.covariance[i][i];
-      for (std::size_t j = 0; j < N; ++j) state_.coefficient[j] -= state_.covariance[j][i] * part;
-      *least = 0;
+      const auto i = static_cast<std::size_t>(std::min_element(c.begin(), c.end()) - c.begin());
+      if (!(c[i] < 0) || !(p[i][i] > 0)) break;
+      const Quantities column = p[i];
+      const double part = c[i] / column[i];
+      for (std::size_t j = 0; j < N; ++j) {
+        c[j] -= column[j] * part;
+        for (std::size_t k = 0; k < N; ++k) p[j][k] -= column[j] * column[k] / column[i];
+      }
+      c[i] = 0;
     }
-    for (double& coefficient : state_.coefficient) coefficient = std::max(coefficient, 0.0);
+    for (double& coefficient : c) coefficient = std::max(coefficient, 0.0);
   }
 
   Quantities covarianceTimes(const Quantities& x) const {
@@ -145,6 +154,7 @@ class LinearCost {
   }
 
   State state_;
+  double firstMs_ = 0;
   int streak_ = 0;
 };
 

@@ -17,9 +17,17 @@
 /// Counts the triangles that a view would draw, and names its nodes, without drawing it.
 namespace trimtab {
 
-/// The ladder of allowed errors: step k is 2^(k/2) times the error that is asked for, up to 16 times.
-inline constexpr std::size_t kErrorSteps = 9;
+/// The scale of allowed errors: place i is 2^(i/8) times the first, from 1/8 to 64 px.
+inline constexpr double kFirstErrorPx = 0.125;
+inline constexpr std::size_t kErrorPlaces = 73, kPlacesPerOctave = 8;
+
+/// The ladder of allowed errors: step 0 is the error that is asked for, the others are the places of the
+/// scale above it, over four octaves.
+inline constexpr std::size_t kErrorSteps = 2 + 4 * kPlacesPerOctave;
 using TriangleLadder = std::array<double, kErrorSteps>;
+
+/// Returns how far the first place above an error is, in places: above 0 and at most 1.
+double placesToNext(double errorPx);
 
 /// The indices of a terrain's forms, all in one local frame. A form that the terrain does not have is null.
 struct LoadIndex {
@@ -37,14 +45,15 @@ struct LoadView {
 
 /// Returns the triangles in the frustum for each step of the ladder, of one form. It visits only the nodes in
 /// the frustum that the finest step draws, and their ancestors. It does not know what neighbours add to a cut
-/// nor what occlusion hides. `stack` is working storage.
+/// nor what occlusion hides. `askedPx` is the error that the rule allows, which places the ladder on the
+/// scale. `stack` is working storage.
 TriangleLadder countTriangles(const TerrainIndex& index, const LoadView& view, const CutRule& rule,
-                              std::vector<std::uint64_t>& stack);
+                              double askedPx, std::vector<std::uint64_t>& stack);
 TriangleLadder countTriangles(const PatchIndex& index, const LoadView& view, const CutRule& rule,
-                              std::vector<std::uint64_t>& stack);
+                              double askedPx, std::vector<std::uint64_t>& stack);
 /// `error` is staticLodError() of the measure in use.
 TriangleLadder countTriangles(const StaticLodIndex& index, const std::vector<float>& error,
-                              const LoadView& view, const StaticLodRule& rule,
+                              const LoadView& view, const StaticLodRule& rule, double askedPx,
                               std::vector<std::uint64_t>& stack);
 
 /// Appends the nodes that a view draws, as step 0 of the ladder counts them.

@@ -51,8 +51,8 @@ enum class AirModel { uniform, layer };
 /// How the far plane is set (document D, the two columns of Table 1): not at all, by one ratio for all
 /// weather, or by Eq. (1). In a layer of haze the last is the safe far distance.
 enum class RatioMode { off, fixed, adaptive };
-/// How rain and snow are drawn: by osgParticle::PrecipitationEffect as document D does, or by our own particles,
-/// whose cost has a bound.
+/// How rain and snow are drawn: by osgParticle::PrecipitationEffect as document D does, or by our own
+/// particles, whose cost has a bound.
 enum class PrecipitationForm { effect, bounded };
 
 // Defaults that are lists. They are constants because g++ 12 warns that a list inside a member's initialiser
@@ -221,6 +221,7 @@ struct PolicyParameters {
 struct HoldParameters {
   bool enabled = false;
   Ratio margin{0.08};      ///< the share of the budget that the prediction leaves free
+  Ratio caution{1.41};     ///< how many of the model's 90 % bands stay below 1.1 of the budget
   Milliseconds calm{150};  ///< head-room must last so long before levers are restored
   Ratio lookAhead{5};      ///< the views of so many coming images are counted
   // How far the arbiter may go.

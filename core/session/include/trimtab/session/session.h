@@ -76,7 +76,8 @@ class Session {
   /// decided with.
   void replay(const TraceRow& row);
   /// Receives the state of a free camera, whose time is `now`. It is decided with a memory of its own and
-  /// counts neither as a packet nor as a trace row.
+  /// counts neither as a packet nor as a trace row. A camera that is set down farther away than it can have
+  /// flown begins anew there, so that its place and its turn count as no motion.
   void look(const AircraftState& state);
   /// Forgets states, memory, link and latencies, for a new host or a new flight.
   void restart();
