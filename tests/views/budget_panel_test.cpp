@@ -116,7 +116,7 @@ TEST_F(BudgetPanelTest, fliesARunAgainUnderAnotherModeAsOneUndoStep) {
   panel.show();
   settle();
   EXPECT_FALSE(draft.parameters().hold.enabled);
-  panel.modeChoice().setCurrentIndex(3);
+  panel.modeChoice().setCurrentIndex(4);
   panel.replayButton().click();
   EXPECT_TRUE(draft.parameters().hold.enabled);
   EXPECT_EQ(draft.undoStack().count(), 1);
@@ -225,14 +225,13 @@ TEST_F(BudgetPanelTest, fliesAgainUnderEachModeOfTheExperimentAndUndoTakesItBack
   }
   panel.recordButton().click();
   settle();
-  auto* choice = panel.findChild<QComboBox*>();
-  ASSERT_NE(choice, nullptr);
-  ASSERT_EQ(choice->count(), 5);
+  QComboBox& choice = panel.modeChoice();
+  ASSERT_EQ(choice.count(), 5);
   for (int i = 0; i < 4; ++i) {
-    choice->setCurrentIndex(i + 1);
+    choice.setCurrentIndex(i + 1);
     panel.replayButton().click();
     const TuningParameters& p = draft.parameters();
-    const std::string name = choice->currentText().toStdString();
+    const std::string name = choice.currentText().toStdString();
     EXPECT_EQ(p.motion.control, kModes[i].headMotion) << name;
     EXPECT_EQ(p.weather.ratioMode, kModes[i].weatherCut) << name;
     EXPECT_EQ(p.policy.enabled, kModes[i].policy) << name;
