@@ -99,7 +99,7 @@ void look(Report& report, const std::shared_ptr<const terrain::Database>& terrai
                                   .peerValue = image,
                                   .peerFrom = "run"}));
   };
-  add("hold.look", "a decision, a request, and the load of six views counted for nine settings", request);
+  add("hold.look", "a decision, a request, and the load of six views counted for every allowed error", request);
   add("hold.ahead", "the nodes of coming images named", names);
 }
 
