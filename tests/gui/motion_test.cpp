@@ -105,7 +105,7 @@ TEST_F(Motion, theDockBudgetSaysWhatHeldTheFrameAndWhatEachLeverGave) {
   budget.recordButton().click();
   ASSERT_TRUE(flies(100));
   budget.recordButton().click();
-  budget.modeChoice().setCurrentIndex(3);
+  budget.modeChoice().setCurrentText(QStringLiteral("with the budget held"));
   budget.replayButton().click();
   EXPECT_TRUE(w().draft().parameters().hold.enabled);
   const auto gave = [&](int row) { return QLocale().toDouble(budget.levers().item(row, 2)->text()); };

@@ -116,7 +116,7 @@ TEST_F(BudgetPanelTest, fliesARunAgainUnderAnotherModeAsOneUndoStep) {
   panel.show();
   settle();
   EXPECT_FALSE(draft.parameters().hold.enabled);
-  panel.modeChoice().setCurrentIndex(4);
+  panel.modeChoice().setCurrentText("with the budget held");
   panel.replayButton().click();
   EXPECT_TRUE(draft.parameters().hold.enabled);
   EXPECT_EQ(draft.undoStack().count(), 1);
