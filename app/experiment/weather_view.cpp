@@ -16,7 +16,7 @@ constexpr double kFrameS = 1.0 / 60;
 constexpr int kSettles = 120;
 /// What was just built, compiled or grown, or drawn by another renderer, is no frame's cost.
 constexpr int kUncounted = 3;
-/// Clear and held frames are drawn in turns of so many.
+/// Clear and held frames are drawn in so many turns each, of so many frames that count.
 constexpr int kTurns = 4, kTurn = 9;
 
 }  // namespace
@@ -73,15 +73,19 @@ double WeatherView::reach(double vertices, double& reached) {
   return error;
 }
 
-double WeatherView::ms(const WeatherDecision& weather) {
+std::vector<double> WeatherView::drawn(const WeatherDecision& weather, int frames) {
   request_.decision.weather = weather;
   std::vector<double> ms;
-  for (int i = 0; i < kUncounted + repeats_; ++i) {
+  for (int i = 0; i < kUncounted + frames; ++i) {
     request_.time += kFrameS;
-    const double total = stage_->draw(request_).cost.total;
-    if (i >= kUncounted) ms.push_back(total);
+    const double work = workMs(stage_->draw(request_).cost);
+    if (i >= kUncounted) ms.push_back(work);
   }
-  return quantileOf(ms, 0.5);
+  return ms;
+}
+
+double WeatherView::ms(const WeatherDecision& weather) {
+  return quantileOf(drawn(weather, repeats_), 0.5);
 }
 
 WeatherView::Held WeatherView::held(const WeatherDecision& weather, double overClear) {
@@ -94,14 +98,7 @@ WeatherView::Held WeatherView::held(const WeatherDecision& weather, double overC
   Held held;
   double budgetMs = 0;
   const auto drawClear = [&] {
-    std::vector<double> ms;
-    for (int i = 0; i < kUncounted + kTurn; ++i) {
-      request_.time += kFrameS;
-      FrameRequest request = request_;
-      request.decision.weather = {};
-      const double work = workMs(stage_->draw(request).cost);
-      if (i >= kUncounted) ms.push_back(work);
-    }
+    const std::vector<double> ms = drawn({}, kTurn);
     budgetMs = overClear * quantileOf(ms, 0.5);
     clearMs.insert(clearMs.end(), ms.begin(), ms.end());
   };

@@ -49,7 +49,7 @@ class WeatherView {
   double reach(double vertices, double& reached);
   /// Sets the screen-space error of tiled levels and of static trees, in pixels.
   void setError(double px);
-  /// Returns the median time of a frame with this weather, milliseconds.
+  /// Returns the median work time of a frame with this weather, milliseconds.
   double ms(const WeatherDecision& weather);
   /// What the arbiter made of a frame.
   struct Held {
@@ -67,6 +67,8 @@ class WeatherView {
 
  private:
   WeatherView() = default;
+  /// Draws so many frames with this weather, and some before that do not count; returns their work times.
+  std::vector<double> drawn(const WeatherDecision& weather, int frames);
 
   TuningParameters preset_;
   std::unique_ptr<Stage> stage_, heldStage_;

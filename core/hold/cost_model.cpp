@@ -70,8 +70,8 @@ void CostModel::observe(const FrameLoad& load, const FrameCost& cost) {
   ++images_;
 }
 
-/// Of the first images the shortest counts, because the longer ones built and uploaded what the others found.
-/// Then it is like a median: a long upload now and then is not what every image takes.
+/// The shortest of the first images counts, because the longer ones built and uploaded what it found. After
+/// them the value moves like a median: a long upload now and then is not what every image takes.
 void CostModel::noteOther(double ms) {
   if (otherImages_ < kFewestImages)
     other_ = otherImages_++ == 0 ? ms : std::min(other_, ms);

@@ -27,8 +27,8 @@ bool growBuffer(unsigned& buffer, std::size_t before, std::size_t after) {
   GLuint larger = 0;
   glGenBuffers(1, &larger);
   glBindBuffer(GL_COPY_WRITE_BUFFER, larger);
-  // It is written in parts for as long as it lives. As a GL_STATIC_DRAW buffer of glBufferData it lost parts of
-  // what was written into it: NVIDIA H200, driver 580.159, patches and static trees with holes.
+  // It is written in parts for as long as it lives. As a GL_STATIC_DRAW buffer of glBufferData it lost some of
+  // them on an NVIDIA H200 with driver 580.159, and patches had holes.
   glBufferStorage(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(after), nullptr, GL_DYNAMIC_STORAGE_BIT);
   if (glGetError() != GL_NO_ERROR) {
     glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
