@@ -1,3 +1,4 @@
+#include <malloc.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -16,6 +17,11 @@
 
 namespace trimtab::ig {
 namespace {
+
+/// Freed blocks of this size, in bytes, return to the system. By itself glibc keeps blocks up to the largest
+/// that was ever freed, and so what terrains leave behind: the mean of memory is 310 MB then instead of 252
+/// while six presets take turns every 2 s and two terrains every 14 s, and it grows for hours.
+constexpr int kReturnedBlock = 512 << 10;
 
 /// Whether there is a value; findings are told either way.
 template <class T>
@@ -153,6 +159,7 @@ int runWith(const Options& options) {
 }  // namespace trimtab::ig
 
 int main(int argc, char** argv) {
+  ::mallopt(M_MMAP_THRESHOLD, trimtab::ig::kReturnedBlock);
   int exitCode = trimtab::ig::kDone;
   const std::optional<trimtab::ig::Options> options = trimtab::ig::parseOptions(argc, argv, exitCode);
   if (!options) return exitCode;

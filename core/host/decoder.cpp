@@ -1,5 +1,7 @@
 #include "trimtab/host/decoder.h"
 
+#include <algorithm>
+
 #include "cigi3.h"
 #include "frame_order.h"
 #include "limits.h"
@@ -14,13 +16,14 @@ namespace {
 std::string hex(std::span<const std::byte> bytes) {
   constexpr std::size_t kMost = 256;
   constexpr char kDigits[] = "0123456789abcdef";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size() && i < kMost; ++i) {
-    if (i > 0) text += ' ';
+  const std::size_t count = std::min(bytes.size(), kMost);
+  std::string text(count * 3, ' ');
+  for (std::size_t i = 0; i < count; ++i) {
     const auto b = std::to_integer<unsigned>(bytes[i]);
-    text += kDigits[b >> 4U];
-    text += kDigits[b & 15U];
+    text[i * 3] = kDigits[b >> 4U];
+    text[i * 3 + 1] = kDigits[b & 15U];
   }
+  if (count > 0) text.pop_back();
   return text;
 }
 

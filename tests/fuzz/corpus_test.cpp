@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <iomanip>
 #include <iostream>
 #include <random>
 #include <string>
@@ -37,7 +38,8 @@ std::vector<std::string> corpus() {
 
 /// Runs one input from memory of exactly its size, so that a sanitizer sees a read beyond.
 void feed(const std::string& input) {
-  const std::vector<std::uint8_t> exact(input.begin(), input.end());
+  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(input.data());
+  const std::vector<std::uint8_t> exact(bytes, bytes + input.size());
   LLVMFuzzerTestOneInput(exact.data(), exact.size());
 }
 
@@ -87,42 +89,51 @@ TEST(FuzzCorpus, runsWithoutHarm) {
   for (const std::string& input : inputs) feed(input);
 }
 
-/// The fixed mutations of an ordinary run; with TRIMTAB_FUZZ_SECONDS=n other ones for so long, as
-/// tests/soak.sh asks for. TRIMTAB_FUZZ_SEED repeats those of a run that found something.
+/// Returns what the environment says under this name; 0 if unset.
+double numberOf(const char* name) {
+  const char* const text = std::getenv(name);
+  return text ? std::atof(text) : 0;
+}
+
+/// An ordinary run tries the fixed mutations of one seed. With TRIMTAB_FUZZ_COUNT=n it tries n other ones,
+/// and with TRIMTAB_FUZZ_SECONDS=n other ones for so long, as tests/soak.sh asks for. TRIMTAB_FUZZ_SEED
+/// repeats those of a run that found something.
 TEST(FuzzCorpus, survivesRandomDamage) {
   const std::vector<std::string> inputs = corpus();
   ASSERT_FALSE(inputs.empty());
-  const char* const seconds = std::getenv("TRIMTAB_FUZZ_SECONDS");
+  const double seconds = numberOf("TRIMTAB_FUZZ_SECONDS"), wanted = numberOf("TRIMTAB_FUZZ_COUNT");
+  const bool ordinary = seconds <= 0 && wanted <= 0;
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
   const char* const again = std::getenv("TRIMTAB_FUZZ_SEED");
-  const auto seed = again     ? static_cast<unsigned>(std::strtoul(again, nullptr, 10))
-                    : seconds ? std::random_device()()
-                              : 20240501U;
-  if (seconds) std::cout << "TRIMTAB_FUZZ_SEED=" << seed << std::endl;
+  const auto seed = again      ? static_cast<unsigned>(std::strtoul(again, nullptr, 10))
+                    : ordinary ? 20240501U
+                               : std::random_device()();
+  if (!ordinary) std::cout << "TRIMTAB_FUZZ_SEED=" << seed << std::endl;
   std::mt19937 random(seed);
-  long count = 0;
-  double longest = 0;
+  double count = 0, longest = 0;
   std::size_t settledKb = 0;  // once caches are full
-  const auto goesOn = [&] {
-    const std::chrono::duration<double> run = Clock::now() - begin;
-    return seconds ? run.count() < std::atof(seconds) : count < TRIMTAB_MUTATIONS;
+  const auto since = [](Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
   };
-  for (; goesOn(); ++count) {
+  const auto share = [&] {
+    if (seconds > 0) return since(begin) / seconds;
+    return count / (ordinary ? TRIMTAB_MUTATIONS : wanted);
+  };
+  for (; share() < 1; ++count) {
     const std::string input =
         mutated(inputs[random() % inputs.size()], inputs[random() % inputs.size()], random);
     const auto start = Clock::now();
     feed(input);
-    longest = std::max(longest, std::chrono::duration<double>(Clock::now() - start).count());
-    if (settledKb == 0 && seconds &&
-        Clock::now() - begin > std::chrono::duration<double>(std::atof(seconds) / 10))
-      settledKb = mostMemoryKb();
+    longest = std::max(longest, since(start));
+    if (settledKb == 0 && share() > 0.1) settledKb = mostMemoryKb();
   }
-  if (!seconds) return;
+  if (ordinary) return;
   const std::size_t kb = mostMemoryKb();
-  std::cout << program_invocation_short_name << ": " << count << " damaged inputs, the longest took "
-            << longest << " s, most memory " << kb / 1024 << " MiB, " << settledKb / 1024
-            << " MiB after a tenth of the time\n";
+  std::cout << program_invocation_short_name << ": " << std::fixed << std::setprecision(0) << count
+            << " damaged inputs, the longest took " << std::defaultfloat << std::setprecision(2) << longest
+            << " s, most memory " << kb / 1024 << " MiB, " << settledKb / 1024
+            << " MiB after a tenth of the run\n";
   EXPECT_LT(longest, 1) << "s";
   EXPECT_LT(kb, settledKb + settledKb / 4 + kRoomKb) << "memory grows";
 }
