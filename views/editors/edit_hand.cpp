@@ -9,7 +9,43 @@ namespace trimtab::views {
 
 bool EditHand::select(int index, int count) {
   const int before = std::exchange(selected_, std::clamp(index, -1, count - 1));
-  return selected_ != before;
+  const bool alone = std::exchange(beside_, {}).empty();
+  return selected_ != before || !alone;
+}
+
+void EditHand::follow(int index) {
+  if (selected_ >= 0) beside_.insert(selected_);
+  beside_.erase(index);
+  selected_ = index;
+}
+
+void EditHand::toggle(int index) {
+  if (index == selected_)
+    selected_ = beside_.empty() ? -1 : beside_.extract(beside_.begin()).value();
+  else if (beside_.erase(index) == 0)
+    follow(index);
+}
+
+void EditHand::selectAll(int count) {
+  if (selected_ < 0 && count > 0) selected_ = 0;
+  for (int i = 0; i < count; ++i)
+    if (i != selected_) beside_.insert(i);
+}
+
+void EditHand::selectThese(const std::vector<int>& indexes, bool add) {
+  if (!add) selected_ = -1, beside_.clear();
+  for (const int i : indexes) {
+    if (selected_ < 0)
+      selected_ = i;
+    else if (i != selected_)
+      beside_.insert(i);
+  }
+}
+
+std::vector<std::size_t> EditHand::group(int count) const {
+  std::set<int> all = beside_;
+  all.insert(selected_);
+  return {all.lower_bound(0), all.lower_bound(count)};
 }
 
 std::optional<int> EditHand::tabbedTo(bool forward, int count) const {

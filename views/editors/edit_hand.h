@@ -3,6 +3,8 @@
 
 #include <Qt>
 #include <optional>
+#include <set>
+#include <vector>
 
 #include "views/model/draft.h"
 
@@ -10,15 +12,27 @@ class QKeyEvent;
 
 namespace trimtab::views {
 
-/// Keeps which one of a row of things is selected, such as the points of a curve or the edges of bands, and
-/// makes a drag, or a key held down, one undo step.
+/// Keeps which of a row of things are selected, such as the points of a curve or the edges of bands, and
+/// makes a drag, or a key held down, one undo step. Tables and descriptions follow one of those that are
+/// selected; the others move and go with it.
 class EditHand {
  public:
   explicit EditHand(Draft& draft) : draft_(draft) {}
 
-  int selected() const { return selected_; }  ///< -1 if none is
-  /// Selects one of `count`, or none for -1, and returns whether that is another than before.
+  int selected() const { return selected_; }  ///< the one that is followed; -1 if none is selected
+  /// Selects one of `count` alone, or none for -1, and returns whether the selection was another before.
   bool select(int index, int count);
+  bool isSelected(int index) const { return index >= 0 && (index == selected_ || beside_.contains(index)); }
+  /// Makes another one the one that is followed; all that are selected stay so.
+  void follow(int index);
+  /// Adds one to the selection, or takes it out.
+  void toggle(int index);
+  /// Selects all of `count`.
+  void selectAll(int count);
+  /// Selects these, beside those that are selected with `add`.
+  void selectThese(const std::vector<int>& indexes, bool add);
+  /// Returns those of the first `count` that are selected, in rising order.
+  std::vector<std::size_t> group(int count) const;
   /// Returns the neighbour that Tab or Shift+Tab goes to; nothing if the focus goes on to another widget.
   std::optional<int> tabbedTo(bool forward, int count) const;
   /// Returns the one at which Tab or Shift+Tab enters the widget; nothing for any other reason.
@@ -33,6 +47,8 @@ class EditHand {
   /// Returns the token of the key that is held down.
   MergeToken nudge();
   void endNudge() { nudge_ = 0; }
+  /// Reports whether a drag goes on, or a key is held down.
+  bool moving() const { return drag_ != 0 || nudge_ != 0; }
   void keyReleased(const QKeyEvent& event);
 
   enum class Command { none, type, add, remove, cancel };
@@ -42,6 +58,7 @@ class EditHand {
  private:
   Draft& draft_;
   int selected_ = -1;
+  std::set<int> beside_;             ///< the others that are selected
   MergeToken drag_ = 0, nudge_ = 0;  ///< 0: neither
 };
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QRubberBand>
 #include <optional>
-#include <set>
 #include <vector>
 
 #include "ghosts.h"
 #include "plot.h"
+#include "views/editors/area_band.h"
 #include "views/editors/curve_edit.h"
 #include "views/editors/edit_hand.h"
 #include "views/model/draft.h"
@@ -34,7 +33,7 @@ class CurvePlot : public Plot {
   /// Selects the points within a rectangle of this widget, beside those that are selected with `add`.
   void selectWithin(const QRect& area, bool add = false);
   /// Returns the selected points in rising order: they move and go together.
-  std::vector<std::size_t> group() const;
+  std::vector<std::size_t> group() const { return hand_.group(static_cast<int>(curve().size)); }
   void addPoint(CurvePoint point);
   /// Adds a point in the middle between the selected one and the next one.
   void addPointBesideSelected();
@@ -69,7 +68,7 @@ class CurvePlot : public Plot {
   void resized() override { redraw(); }
 
  private:
-  void follow(int index);
+  void showSelection();
   void makeItems();
   bool isAtFault() const;
   void describe(const CurvePoints& shown);
@@ -89,12 +88,10 @@ class CurvePlot : public Plot {
 
   Draft& draft_;
   CurveSpec spec_;
-  EditHand hand_;         ///< selects the point that tables and descriptions follow
-  std::set<int> beside_;  ///< other points that are selected
+  EditHand hand_;
   CurvePoints dragStart_;
   QPointF grabOffset_;
-  QRubberBand band_{QRubberBand::Rectangle, this};  ///< shown while a rectangle is drawn over empty space
-  QPoint bandFrom_;
+  AreaBand band_{this};
   bool fitted_ = true;
   bool shownAtFault_ = false;
   std::optional<CurvePoint> live_;

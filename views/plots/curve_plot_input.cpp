@@ -17,66 +17,32 @@ constexpr double kMembershipStep = 0.01;
 
 }  // namespace
 
-void CurvePlot::select(int index) {
-  const int count = static_cast<int>(curve().size);
-  if (!hand_.select(index, count) && beside_.empty()) return;
-  beside_.clear();
+void CurvePlot::showSelection() {
   redraw();
   emit selectedChanged(selected());
 }
 
-/// Makes another of the selected points the one that is followed.
-void CurvePlot::follow(int index) {
-  beside_.insert(selected());
-  beside_.erase(index);
-  hand_.select(index, static_cast<int>(curve().size));
+void CurvePlot::select(int index) {
+  if (hand_.select(index, static_cast<int>(curve().size))) showSelection();
 }
 
 void CurvePlot::toggle(int index) {
-  if (selected() < 0) return select(index);
-  if (index == selected()) {
-    if (beside_.empty()) return select(-1);
-    const int next = *beside_.begin();
-    beside_.erase(beside_.begin());
-    hand_.select(next, static_cast<int>(curve().size));
-  } else if (beside_.erase(index) == 0) {
-    follow(index);
-  }
-  redraw();
-  emit selectedChanged(selected());
+  hand_.toggle(index);
+  showSelection();
 }
 
 void CurvePlot::selectAll() {
-  const int count = static_cast<int>(curve().size);
-  if (selected() < 0) hand_.select(0, count);
-  for (int i = 0; i < count; ++i)
-    if (i != selected()) beside_.insert(i);
-  redraw();
-  emit selectedChanged(selected());
+  hand_.selectAll(static_cast<int>(curve().size));
+  showSelection();
 }
 
 void CurvePlot::selectWithin(const QRect& area, bool add) {
   const CurvePoints points = curve();
-  const int count = static_cast<int>(points.size);
-  if (!add) hand_.select(-1, count), beside_.clear();
-  for (int i = 0; i < count; ++i) {
-    if (!area.contains(pixelOf(points.point[static_cast<std::size_t>(i)]).toPoint()) || i == selected())
-      continue;
-    if (selected() < 0)
-      hand_.select(i, count);
-    else
-      beside_.insert(i);
-  }
-  redraw();
-  emit selectedChanged(selected());
-}
-
-std::vector<std::size_t> CurvePlot::group() const {
-  std::set<int> all = beside_;
-  if (selected() >= 0) all.insert(selected());
-  const int count = static_cast<int>(curve().size);
-  std::erase_if(all, [&](int i) { return i >= count; });
-  return {all.begin(), all.end()};
+  std::vector<int> within;
+  for (std::size_t i = 0; i < points.size; ++i)
+    if (area.contains(pixelOf(points.point[i]).toPoint())) within.push_back(static_cast<int>(i));
+  hand_.selectThese(within, add);
+  showSelection();
 }
 
 int CurvePlot::pointAt(QPointF pixel) const {
@@ -112,10 +78,7 @@ void CurvePlot::mousePressEvent(QMouseEvent* event) {
   const int hit = pointAt(event->position());
   if (event->button() == Qt::LeftButton && hit >= 0 && editable()) {
     if (event->modifiers() & Qt::ControlModifier) return toggle(hit);
-    if (beside_.contains(hit))
-      follow(hit);
-    else if (hit != selected())
-      select(hit);
+    hand_.isSelected(hit) ? hand_.follow(hit) : select(hit);
     hand_.beginDrag();
     dragStart_ = curve();
     grabOffset_ = pixelOf(dragStart_.point[static_cast<std::size_t>(hit)]) - event->position();
@@ -124,9 +87,7 @@ void CurvePlot::mousePressEvent(QMouseEvent* event) {
   }
   if (event->button() == Qt::LeftButton && hit < 0) {
     if (!(event->modifiers() & Qt::ControlModifier)) select(-1);
-    bandFrom_ = event->position().toPoint();
-    band_.setGeometry(QRect(bandFrom_, QSize()));
-    band_.setVisible(editable());
+    if (editable()) band_.begin(*event);
   }
   Plot::mousePressEvent(event);
 }
@@ -149,10 +110,7 @@ void CurvePlot::mouseMoveEvent(QMouseEvent* event) {
     drawHover(pixelOf(curve().point[static_cast<std::size_t>(selected())]));
     return;
   }
-  if (!band_.isHidden()) {
-    band_.setGeometry(QRect(bandFrom_, event->position().toPoint()).normalized());
-    return;
-  }
+  if (band_.drawn()) return band_.drawTo(*event);
   setCursor(pointAt(event->position()) >= 0 && editable() ? Qt::OpenHandCursor : Qt::ArrowCursor);
   drawHover(event->position());
   Plot::mouseMoveEvent(event);
@@ -164,11 +122,8 @@ void CurvePlot::mouseReleaseEvent(QMouseEvent* event) {
     setCursor(Qt::OpenHandCursor);
     return;
   }
-  if (!band_.isHidden() && event->button() == Qt::LeftButton) {
-    band_.hide();
-    if (band_.width() > 2 || band_.height() > 2)
-      selectWithin(band_.geometry(), event->modifiers() & Qt::ControlModifier);
-  }
+  if (band_.drawn() && event->button() == Qt::LeftButton)
+    if (const auto area = band_.end()) selectWithin(*area, event->modifiers() & Qt::ControlModifier);
   Plot::mouseReleaseEvent(event);
 }
 
@@ -251,7 +206,7 @@ void CurvePlot::keyPressEvent(QKeyEvent* event) {
     case EditHand::Command::remove:
       return removeSelected();
     case EditHand::Command::cancel:
-      if (!band_.isHidden()) return band_.hide();
+      if (band_.drawn()) return band_.hide();
       return hand_.dragging() ? cancelDrag() : event->ignore();
     case EditHand::Command::none:
       return Plot::keyPressEvent(event);
@@ -289,7 +244,7 @@ void CurvePlot::contextMenuEvent(QContextMenuEvent* event) {
   const bool byMouse = event->reason() == QContextMenuEvent::Mouse;
   const int hit = pointAt(event->pos());
   // A click on one of several selected points keeps them, so that the menu can remove them together.
-  if (byMouse && hit >= 0 && hit != selected() && !beside_.contains(hit)) select(hit);
+  if (byMouse && hit >= 0 && !hand_.isSelected(hit)) select(hit);
   QMenu menu(this);
   const CurvePoint here = valueAt(event->pos());
   QAction* add =

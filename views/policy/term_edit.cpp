@@ -199,6 +199,43 @@ PolicyTerm withHandleAt(const PolicyTerm& term, std::size_t handle, double x, do
   return moved;
 }
 
+PolicyTerm withHandlesMoved(const PolicyTerm& term, const std::vector<std::size_t>& handles, double dx,
+                            double dy, double gap) {
+  PolicyTerm moved = term;
+  std::vector<double>& n = moved.numbers;
+  const auto isMoved = [&](std::size_t handle) {
+    return std::ranges::find(handles, handle) != handles.end();
+  };
+  const auto isMiddle =
+      term.shape == TermShape::gaussian || term.shape == TermShape::bell || term.shape == TermShape::sigmoid;
+  if (isMiddle && isMoved(0)) {
+    n[0] = withoutDust(n[0] + dx);
+    return moved;
+  }
+  if (isMiddle || (term.shape == TermShape::ramp && handles.size() < 2)) {
+    const std::vector<TermHandle> from = handlesOf(term, {});
+    for (const std::size_t i : handles)
+      moved = withHandleAt(moved, i, withoutDust(from[i].x + dx), withoutDust(from[i].y + dy), gap);
+    return moved;
+  }
+  const std::size_t stride = term.shape == TermShape::points ? 2 : 1, count = n.size() / stride;
+  for (const std::size_t i : handles) {
+    const double x = n[stride * i];
+    // A neighbour that moves too keeps its distance.
+    const bool free = dx > 0 ? i + 1 == count || isMoved(i + 1) : i == 0 || isMoved(i - 1);
+    if (!free && std::isfinite(x)) {
+      const double room = withHandleAt(term, i, x + dx, 0, gap).numbers[stride * i] - x;
+      dx = dx > 0 ? std::clamp(room, 0.0, dx) : std::clamp(room, dx, 0.0);
+    }
+    if (stride == 2) dy = std::clamp(dy, -n[2 * i + 1], 1 - n[2 * i + 1]);
+  }
+  for (const std::size_t i : handles) {
+    n[stride * i] = withoutDust(n[stride * i] + dx);
+    if (stride == 2) n[2 * i + 1] = std::clamp(withoutDust(n[2 * i + 1] + dy), 0.0, 1.0);
+  }
+  return moved;
+}
+
 PolicyTerm withShape(const PolicyTerm& term, TermShape shape, Range view) {
   if (shape == term.shape) return term;
   const double unit = std::max(roundStep((view.high - view.low) / 1000), 1e-9);

@@ -28,6 +28,12 @@ std::vector<TermHandle> handlesOf(const PolicyTerm& term, Range view);
 /// them, so that every result compiles. What the point does not move along is ignored.
 PolicyTerm withHandleAt(const PolicyTerm& term, std::size_t handle, double x, double y, double gap);
 
+/// Returns the term with several points moved together by (dx, dy), or by as much as the first that meets a
+/// neighbour or an end of the membership allows. A foot at infinity stays there; points that give a width go
+/// with their middle.
+PolicyTerm withHandlesMoved(const PolicyTerm& term, const std::vector<std::size_t>& handles, double dx,
+                            double dy, double gap);
+
 /// Returns the term in another shape with about the same feet, tops and half-way points.
 PolicyTerm withShape(const PolicyTerm& term, TermShape shape, Range view);
 

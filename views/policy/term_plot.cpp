@@ -22,13 +22,16 @@ QColor TermPlot::colourOf(std::size_t place, const QPalette& palette) {
 }
 
 TermPlot::TermPlot(PolicyDraft& policy, const PolicyTrack& track, QWidget* parent)
-    : Plot(tr("Terms of a signal"), Keyboard::used, parent), policy_(policy), track_(track) {
+    : Plot(tr("Terms of a signal"), Keyboard::used, parent),
+      policy_(policy),
+      track_(track),
+      hand_(policy.draft()) {
   makeItems();
   readGhosts();
   restyle();
   connect(&policy_, &PolicyDraft::termsChanged, this, [this] {
     if (termAt(term_) == nullptr) select(-1);
-    if (fitted_ && drag_.token == 0 && nudge_.token == 0)
+    if (fitted_ && !hand_.moving())
       fitView();
     else
       redraw();
@@ -101,14 +104,16 @@ void TermPlot::restyle() {
 void TermPlot::setSignal(Signal signal) {
   if (signal == signal_ && term_ >= 0) return redraw();
   signal_ = signal;
-  term_ = handle_ = -1;
-  drag_ = nudge_ = {};
+  term_ = -1;
+  hand_.select(-1, 0);
+  hand_.endDrag();
+  hand_.endNudge();
   drawnTrack_ = 0;
   const std::vector<std::size_t> terms = policy_.termsOf(signal);
   if (!terms.empty()) term_ = static_cast<int>(terms.front());
   value_ = std::numeric_limits<double>::quiet_NaN();
   fitView();
-  emit selectedChanged(term_, handle_);
+  emit selectedChanged(term_, handle());
 }
 
 void TermPlot::fitView() {
@@ -243,11 +248,9 @@ void TermPlot::drawPoints() {
   QVector<double> x, y;
   for (const TermHandle& handle : points) x << handle.x, y << handle.y;
   parts_.points->setData(x, y);
-  if (handle_ >= static_cast<int>(points.size())) handle_ = -1;
-  if (handle_ >= 0)
-    parts_.chosen->setData({x[handle_]}, {y[handle_]});
-  else
-    parts_.chosen->data()->clear();
+  if (handle() >= static_cast<int>(points.size())) hand_.select(-1, 0);
+  parts_.chosen->data()->clear();
+  for (const std::size_t i : group()) parts_.chosen->addData(points[i].x, points[i].y);
   describe();
   replot(rpQueuedReplot);
 }
@@ -257,16 +260,18 @@ void TermPlot::describe() {
   if (const PolicyTerm* term = termAt(term_)) {
     text = tr("%1, %2. ").arg(QString::fromStdString(term->name), QString::fromStdString(shapeText(*term)));
     const std::vector<TermHandle> points = handles();
-    if (handle_ >= 0 && handle_ < static_cast<int>(points.size())) {
-      const TermHandle& at = points[static_cast<std::size_t>(handle_)];
+    if (handle() >= 0 && handle() < static_cast<int>(points.size())) {
+      const TermHandle& at = points[static_cast<std::size_t>(handle())];
       text += tr("%1: %2, membership %3. ").arg(at.name, signalText(signal_, at.x), numberText(at.y, 3));
     }
+    if (const std::size_t count = group().size(); count > 1)
+      text += tr("%1 points are selected. ").arg(count);
   }
   setAccessibleDescription(
       text +
-      tr("Tab selects a point, Page Up and Page Down a term, arrow keys move the point (Shift: ten times "
-         "as far; Ctrl: to a point of another term), Enter types the numbers, Insert and Delete add and "
-         "remove a point, A and Ctrl+Delete a term."));
+      tr("Tab selects a point, Ctrl+A all of them, Page Up and Page Down a term; arrow keys move what is "
+         "selected (Shift: ten times as far; Ctrl: to a point of another term), Enter types the numbers, "
+         "Insert and Delete add and remove a point, A and Ctrl+Delete a term."));
 }
 
 void TermPlot::showLive(const PolicyLive& live) {

@@ -6,13 +6,16 @@
 #include "policy_draft.h"
 #include "policy_live.h"
 #include "term_edit.h"
+#include "views/editors/area_band.h"
+#include "views/editors/edit_hand.h"
 #include "views/plots/ghosts.h"
 #include "views/plots/plot.h"
 
 namespace trimtab::views {
 
 /// The terms of one signal as curves. The characteristic points of the selected term are dragged, nudged and
-/// snapped; a mark rides on each curve at the live value, whose last seconds run out below the axis.
+/// snapped, one of them or several together; a rectangle that is drawn over empty space selects those within.
+/// A mark rides on each curve at the live value, whose last seconds run out below the axis.
 class TermPlot : public Plot {
   Q_OBJECT
  public:
@@ -22,8 +25,11 @@ class TermPlot : public Plot {
   void setSignal(Signal signal);
   /// Returns the selected term's line in the draft and its point; -1 for none.
   int term() const { return term_; }
-  int handle() const { return handle_; }
+  int handle() const { return hand_.selected(); }
+  /// Selects a term and one of its points alone.
   void select(int term, int handle = -1);
+  /// Returns the selected points in rising order: they move and go together.
+  std::vector<std::size_t> group() const { return hand_.group(static_cast<int>(handles().size())); }
   /// Returns the points of the selected term.
   std::vector<TermHandle> handles() const;
   /// Returns where a place is, in this widget's coordinates.
@@ -40,6 +46,7 @@ class TermPlot : public Plot {
 
  public slots:
   void fitView();
+  void selectAll();
   void copyShape();
   void pasteShape();
 
@@ -77,11 +84,10 @@ class TermPlot : public Plot {
     QCPItemStraightLine *live = nullptr, *limits[2] = {nullptr, nullptr};
     QCPItemText *liveText = nullptr, *readout = nullptr, *empty = nullptr;
   };
-  /// A drag or a key that is held down: one undo step.
-  struct Move {
-    MergeToken token = 0;
+  /// What a drag began with.
+  struct Drag {
     PolicyTerm start;
-    QPointF offset;
+    QPointF offset;  ///< from the mouse to the point, pixels
   };
 
   void makeItems();
@@ -98,7 +104,11 @@ class TermPlot : public Plot {
   int handleAt(QPointF pixel) const;
   int curveAt(QPointF pixel) const;
   double snapped(double x, bool toOthers) const;
+  void showSelection();
+  void selectWithin(const QRect& area, bool add);
   void moveTo(double x, double y, MergeToken token);
+  void moveBy(const PolicyTerm& from, double dx, double dy, MergeToken token);
+  void put(const PolicyTerm& moved, MergeToken token);
   void nudge(double dx, double dy);
   void snapTo(int side);
   void insertPoint(double x, double y);
@@ -109,8 +119,10 @@ class TermPlot : public Plot {
   PolicyDraft& policy_;
   const PolicyTrack& track_;
   Signal signal_ = Signal::altitude;
-  int term_ = -1, handle_ = -1;
-  Move drag_, nudge_;
+  int term_ = -1;
+  EditHand hand_;
+  Drag drag_;
+  AreaBand band_{this};
   bool fitted_ = true;
   double value_ = std::numeric_limits<double>::quiet_NaN();
   std::uint64_t drawnTrack_ = 0;

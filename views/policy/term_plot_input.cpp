@@ -15,17 +15,35 @@ namespace {
 constexpr double kGrabPx = 10, kCurvePx = 7, kSnapPx = 6;
 constexpr double kMembershipStep = 0.01;
 
+/// Returns what stays between two points of a term in this view.
+double gapIn(Range view) {
+  return roundStep((view.high - view.low) / 2000);
+}
+
 }  // namespace
 
 void TermPlot::select(int term, int handle) {
   if (termAt(term) == nullptr) term = -1;
   if (term < 0) handle = -1;
-  if (term == term_ && handle == handle_) return;
+  const bool another = term != term_;
   term_ = term;
-  handle_ = handle;
-  drawCurves();
+  const bool moved = hand_.select(handle, static_cast<int>(handles().size()));
+  if (another) drawCurves();
+  if (another || moved) showSelection();
+}
+
+void TermPlot::showSelection() {
   drawPoints();
-  emit selectedChanged(term_, handle_);
+  emit selectedChanged(term_, handle());
+}
+
+void TermPlot::selectWithin(const QRect& area, bool add) {
+  std::vector<int> within;
+  const std::vector<TermHandle> points = handles();
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (area.contains(pixelOf(points[i].x, points[i].y).toPoint())) within.push_back(static_cast<int>(i));
+  hand_.selectThese(within, add);
+  showSelection();
 }
 
 int TermPlot::handleAt(QPointF pixel) const {
@@ -36,7 +54,7 @@ int TermPlot::handleAt(QPointF pixel) const {
     const QPointF d = pixelOf(points[i].x, points[i].y) - pixel;
     const double distance = std::hypot(d.x(), d.y());
     // At equal distance the selected one wins: it is drawn on top.
-    if (distance < best || (distance == best && static_cast<int>(i) == handle_)) {
+    if (distance < best || (distance == best && static_cast<int>(i) == handle())) {
       best = distance;
       nearest = static_cast<int>(i);
     }
@@ -75,50 +93,78 @@ double TermPlot::snapped(double x, bool toOthers) const {
   return roundedTo(x, roundStep(xAxis->range().size() / std::max(1, axisRect()->width())));
 }
 
+void TermPlot::put(const PolicyTerm& moved, MergeToken token) {
+  const PolicyTerm& term = *termAt(term_);
+  if (moved == term) return;
+  policy_.putTerm(static_cast<std::size_t>(term_), moved,
+                  tr("Move %1").arg(QString::fromStdString(term.name)), token);
+  emit dragged();
+}
+
+/// Moves the point that is followed to a place.
 void TermPlot::moveTo(double x, double y, MergeToken token) {
   const PolicyTerm* term = termAt(term_);
-  if (term == nullptr || handle_ < 0) return;
-  const double gap = roundStep(xAxis->range().size() / 2000);
-  const PolicyTerm moved =
-      withHandleAt(*term, static_cast<std::size_t>(handle_), x, std::clamp(y, 0.0, 1.0), gap);
-  if (moved == *term) return;
-  policy_.putTerm(static_cast<std::size_t>(term_), moved,
-                  tr("Move %1").arg(QString::fromStdString(term->name)), token);
-  emit dragged();
+  if (term == nullptr || handle() < 0) return;
+  put(withHandleAt(*term, static_cast<std::size_t>(handle()), x, std::clamp(y, 0.0, 1.0), gapIn(view())),
+      token);
+}
+
+/// Moves all selected points by as much as the first that has no room allows.
+void TermPlot::moveBy(const PolicyTerm& from, double dx, double dy, MergeToken token) {
+  if (termAt(term_) != nullptr) put(withHandlesMoved(from, group(), dx, dy, gapIn(view())), token);
 }
 
 void TermPlot::mousePressEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return Plot::mousePressEvent(event);
+  const bool control = event->modifiers() & Qt::ControlModifier;
   int hit = handleAt(event->position());
   if (hit < 0) {
     const int curve = curveAt(event->position());
-    select(curve, -1);
+    if (curve >= 0 || !control) select(curve >= 0 ? curve : term_, -1);
     hit = curve >= 0 ? handleAt(event->position()) : -1;
   }
-  if (hit < 0) return Plot::mousePressEvent(event);
-  select(term_, hit);
+  if (hit < 0) {
+    if (term_ >= 0) band_.begin(*event);
+    return Plot::mousePressEvent(event);
+  }
+  if (control) {
+    hand_.toggle(hit);
+    return showSelection();
+  }
+  if (hand_.isSelected(hit)) {
+    hand_.follow(hit);
+    drawPoints();
+  } else {
+    select(term_, hit);
+  }
   const TermHandle at = handles()[static_cast<std::size_t>(hit)];
-  drag_ = {policy_.draft().newToken(), *termAt(term_), pixelOf(at.x, at.y) - event->position()};
+  hand_.beginDrag();
+  drag_ = {*termAt(term_), pixelOf(at.x, at.y) - event->position()};
   setCursor(Qt::ClosedHandCursor);
 }
 
 void TermPlot::mouseMoveEvent(QMouseEvent* event) {
-  if (drag_.token != 0 && handle_ >= 0) {
+  if (hand_.dragging() && handle() >= 0) {
     const QPointF to = event->position() + drag_.offset;
     const std::vector<TermHandle> from = handlesOf(drag_.start, view());
     double x = snapped(xAxis->pixelToCoord(to.x()), !(event->modifiers() & Qt::AltModifier));
     double y = roundedTo(yAxis->pixelToCoord(to.y()), kMembershipStep);
-    if (event->modifiers() & Qt::ShiftModifier && handle_ < static_cast<int>(from.size())) {
+    if (handle() >= static_cast<int>(from.size())) return;
+    const TermHandle& start = from[static_cast<std::size_t>(handle())];
+    if (event->modifiers() & Qt::ShiftModifier) {
       // Shift keeps to the axis along which the drag has gone farther.
-      const TermHandle& start = from[static_cast<std::size_t>(handle_)];
       const QPointF gone = to - pixelOf(start.x, start.y);
       (std::abs(gone.x()) > std::abs(gone.y()) ? y : x) =
           std::abs(gone.x()) > std::abs(gone.y()) ? start.y : start.x;
     }
-    moveTo(x, y, drag_.token);
+    if (group().size() > 1)
+      moveBy(drag_.start, x - start.x, y - start.y, hand_.drag());
+    else
+      moveTo(x, y, hand_.drag());
     say(event->position());
     return;
   }
+  if (band_.drawn()) return band_.drawTo(*event);
   setCursor(handleAt(event->position()) >= 0  ? Qt::OpenHandCursor
             : curveAt(event->position()) >= 0 ? Qt::PointingHandCursor
                                               : Qt::ArrowCursor);
@@ -127,11 +173,13 @@ void TermPlot::mouseMoveEvent(QMouseEvent* event) {
 }
 
 void TermPlot::mouseReleaseEvent(QMouseEvent* event) {
-  if (drag_.token != 0 && event->button() == Qt::LeftButton) {
-    drag_ = {};
+  if (hand_.dragging() && event->button() == Qt::LeftButton) {
+    hand_.endDrag();
     setCursor(Qt::OpenHandCursor);
     return;
   }
+  if (band_.drawn() && event->button() == Qt::LeftButton)
+    if (const auto area = band_.end()) selectWithin(*area, event->modifiers() & Qt::ControlModifier);
   Plot::mouseReleaseEvent(event);
 }
 
@@ -145,10 +193,10 @@ void TermPlot::mouseDoubleClickEvent(QMouseEvent* event) {
 }
 
 void TermPlot::cancelDrag() {
-  const Move drag = std::exchange(drag_, {});
+  const MergeToken drag = hand_.endDrag();
   // A key may have removed the term meanwhile.
   if (termAt(term_) != nullptr)
-    policy_.putTerm(static_cast<std::size_t>(term_), drag.start, QString(), drag.token);
+    policy_.putTerm(static_cast<std::size_t>(term_), drag_.start, QString(), drag);
   setCursor(Qt::ArrowCursor);
 }
 
@@ -167,28 +215,40 @@ void TermPlot::insertPoint(double x, double y) {
 void TermPlot::removePoint() {
   const PolicyTerm* term = termAt(term_);
   if (term == nullptr) return;
-  if (handle_ < 0) return emit removeAsked();
-  const auto removed = withoutPoint(*term, static_cast<std::size_t>(handle_));
-  if (!removed)
+  if (handle() < 0) return emit removeAsked();
+  const std::vector<std::size_t> gone = group();
+  std::optional<PolicyTerm> left = *term;
+  for (std::size_t i = gone.size(); i-- > 0 && left;) left = withoutPoint(*left, gone[i]);
+  if (!left)
     return emit refused(term->shape == TermShape::points ? tr("Two points stay.")
                                                          : tr("The points of this shape belong together."));
-  policy_.putTerm(static_cast<std::size_t>(term_), *removed, tr("Remove Point"));
+  policy_.putTerm(static_cast<std::size_t>(term_), *left,
+                  gone.size() > 1 ? tr("Remove Points") : tr("Remove Point"));
+  select(term_, std::min(handle(), static_cast<int>(handles().size()) - 1));
 }
 
 void TermPlot::nudge(double dx, double dy) {
   const std::vector<TermHandle> points = handles();
-  if (handle_ < 0 || handle_ >= static_cast<int>(points.size())) return;
-  const TermHandle& at = points[static_cast<std::size_t>(handle_)];
-  if (nudge_.token == 0) nudge_.token = policy_.draft().newToken();
+  if (handle() < 0 || handle() >= static_cast<int>(points.size())) return;
+  const TermHandle& at = points[static_cast<std::size_t>(handle())];
   const double step = nudgeStep(view()) / 100;
-  moveTo(at.movesX ? roundedTo(at.x + dx, step) : at.x, roundedTo(at.y + dy, 1e-6), nudge_.token);
+  const double x = at.movesX ? roundedTo(at.x + dx, step) : at.x, y = roundedTo(at.y + dy, 1e-6);
+  if (group().size() > 1)
+    moveBy(*termAt(term_), x - at.x, y - at.y, hand_.nudge());
+  else
+    moveTo(x, y, hand_.nudge());
+}
+
+void TermPlot::selectAll() {
+  hand_.selectAll(static_cast<int>(handles().size()));
+  showSelection();
 }
 
 /// Moves the point to the nearest point of another term on the right (1) or left (-1).
 void TermPlot::snapTo(int side) {
   const std::vector<TermHandle> points = handles();
-  if (handle_ < 0 || handle_ >= static_cast<int>(points.size())) return;
-  const TermHandle& at = points[static_cast<std::size_t>(handle_)];
+  if (handle() < 0 || handle() >= static_cast<int>(points.size())) return;
+  const TermHandle& at = points[static_cast<std::size_t>(handle())];
   double nearest = std::numeric_limits<double>::infinity();
   for (const std::size_t line : policy_.termsOf(signal_)) {
     if (static_cast<int>(line) == term_) continue;
@@ -197,7 +257,11 @@ void TermPlot::snapTo(int side) {
         nearest = std::min(nearest, away);
   }
   if (!at.movesX || !std::isfinite(nearest)) return;
-  moveTo(at.x + side * nearest, at.y, policy_.draft().newToken());
+  const MergeToken step = policy_.draft().newToken();
+  if (group().size() > 1)
+    moveBy(*termAt(term_), side * nearest, 0, step);
+  else
+    moveTo(at.x + side * nearest, at.y, step);
 }
 
 void TermPlot::stepTerm(int by) {
@@ -217,7 +281,8 @@ void TermPlot::keyPressEvent(QKeyEvent* event) {
   const bool control = event->modifiers() & Qt::ControlModifier;
   switch (event->key()) {
     case Qt::Key_Escape:
-      return drag_.token != 0 ? cancelDrag() : event->ignore();
+      if (band_.drawn()) return band_.hide();
+      return hand_.dragging() ? cancelDrag() : event->ignore();
     case Qt::Key_Left:
       return control ? snapTo(-1) : nudge(-step, 0);
     case Qt::Key_Right:
@@ -233,7 +298,7 @@ void TermPlot::keyPressEvent(QKeyEvent* event) {
     case Qt::Key_Insert: {
       const std::vector<TermHandle> points = handles();
       if (points.size() < 2) return insertPoint(xAxis->range().center(), 0.5);
-      const std::size_t left = std::min(static_cast<std::size_t>(std::max(handle_, 0)), points.size() - 2);
+      const std::size_t left = std::min(static_cast<std::size_t>(std::max(handle(), 0)), points.size() - 2);
       return insertPoint((points[left].x + points[left + 1].x) / 2,
                          (points[left].y + points[left + 1].y) / 2);
     }
@@ -242,7 +307,7 @@ void TermPlot::keyPressEvent(QKeyEvent* event) {
       if (control) return emit removeAsked();
       return removePoint();
     case Qt::Key_A:
-      return emit addAsked();
+      return control ? selectAll() : emit addAsked();
     case Qt::Key_D:
       return control ? emit duplicateAsked() : event->ignore();
     case Qt::Key_Return:
@@ -261,20 +326,19 @@ void TermPlot::keyPressEvent(QKeyEvent* event) {
 }
 
 void TermPlot::keyReleaseEvent(QKeyEvent* event) {
-  // A key held down is one undo step.
-  if (!event->isAutoRepeat()) nudge_ = {};
+  hand_.keyReleased(*event);
   Plot::keyReleaseEvent(event);
 }
 
 bool TermPlot::focusNextPrevChild(bool next) {
-  const int to = handle_ + (next ? 1 : -1);
-  if (term_ < 0 || to < 0 || to >= static_cast<int>(handles().size())) return Plot::focusNextPrevChild(next);
-  select(term_, to);
+  const auto to = term_ >= 0 ? hand_.tabbedTo(next, static_cast<int>(handles().size())) : std::nullopt;
+  if (!to) return Plot::focusNextPrevChild(next);
+  select(term_, *to);
   return true;
 }
 
 void TermPlot::focusOutEvent(QFocusEvent* event) {
-  nudge_ = {};
+  hand_.endNudge();
   Plot::focusOutEvent(event);
 }
 
@@ -289,7 +353,7 @@ void TermPlot::say(const std::optional<QPointF>& at) {
   parts_.readout->setVisible(shown);
   if (shown) {
     const std::vector<TermHandle> points = handles();
-    const int grabbed = drag_.token != 0 ? handle_ : handleAt(*at);
+    const int grabbed = hand_.dragging() ? handle() : handleAt(*at);
     QString text;
     double x = xAxis->pixelToCoord(at->x());
     if (grabbed >= 0 && grabbed < static_cast<int>(points.size())) {
@@ -354,7 +418,10 @@ void TermPlot::contextMenuEvent(QContextMenuEvent* event) {
       },
       points);
   add(
-      tr("Remove point"), [this] { removePoint(); }, points && handle_ >= 0);
+      group().size() > 1 ? tr("Remove points") : tr("Remove point"), [this] { removePoint(); },
+      points && handle() >= 0);
+  add(
+      tr("Select all points"), [this] { selectAll(); }, term != nullptr);
   menu.addSeparator();
   add(
       tr("Show all terms"), [this] { fitView(); }, true);

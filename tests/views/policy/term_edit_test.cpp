@@ -79,6 +79,46 @@ TEST(TermEdit, noMoveMakesATermThatDoesNotCompile) {
   }
 }
 
+TEST(TermEdit, pointsThatMoveTogetherKeepTheirDistances) {
+  const auto moved = [](const char* shape, std::vector<std::size_t> handles, double dx, double dy = 0) {
+    return shapeText(withHandlesMoved(term(shape), handles, dx, dy, 1));
+  };
+  EXPECT_EQ(moved("points 0 0.2 100 0.8 300 0", {0, 1}, 50, 0.1), "points 50 0.3 150 0.9 300 0");
+  EXPECT_EQ(moved("points 0 0.2 100 0.8 300 0", {0, 1}, 1000, 1), "points 199 0.4 299 1 300 0")
+      << "as far as the first that meets something";
+  EXPECT_EQ(moved("points 0 0.2 100 0.8 300 0", {1, 2}, -1000), "points 0 0.2 1 0.8 201 0");
+  EXPECT_EQ(moved("points 0 0.2 100 0.8 300 0", {0, 2}, 1000), "points 99 0.2 100 0.8 399 0");
+  EXPECT_EQ(moved("triangle 100 300 500", {0, 1, 2}, -250), "triangle -150 50 250");
+  EXPECT_EQ(moved("trapezoid -inf 0 200 400", {0, 1, 2}, 50), "trapezoid -inf 50 250 400");
+  EXPECT_EQ(moved("trapezoid 0 100 200 400", {1, 2}, 500), "trapezoid 0 299 399 400");
+  EXPECT_EQ(moved("ramp 400 200", {0, 1}, 100), "ramp 500 300");
+  EXPECT_EQ(moved("ramp 400 200", {1}, 1000), "ramp 400 399");
+  EXPECT_EQ(moved("gaussian 300 100", {0, 1}, 30), "gaussian 330 100") << "the width goes with its middle";
+  EXPECT_EQ(moved("bell 300 100 2", {0, 1, 2}, 30, 0.2), "bell 330 100 2");
+  EXPECT_EQ(moved("sigmoid 300 0.02", {0, 1}, -30), "sigmoid 270 0.02");
+}
+
+TEST(TermEdit, noPointsThatMoveTogetherMakeATermThatDoesNotCompile) {
+  for (const char* shape : kShapes) {
+    const PolicyTerm t = term(shape);
+    const std::size_t count = handlesOf(t, kView).size();
+    for (std::size_t set = 0; set < std::size_t{1} << count; ++set) {
+      std::vector<std::size_t> handles;
+      for (std::size_t i = 0; i < count; ++i)
+        if (set >> i & 1) handles.push_back(i);
+      for (const double dx : {-1e6, -250.0, -1.0, 0.0, 0.3, 40.0, 1e6})
+        for (const double dy : {-2.0, 0.0, 0.3}) {
+          const PolicyTerm moved = withHandlesMoved(t, handles, dx, dy, 0.5);
+          EXPECT_TRUE(isSound(moved))
+              << shape << " points " << set << " by " << dx << ", " << dy << ": " << shapeText(moved);
+          if (handles.empty()) {
+            EXPECT_EQ(moved, t);
+          }
+        }
+    }
+  }
+}
+
 TEST(TermEdit, everyShapeBecomesEveryOtherAndStaysAboutWhereItWas) {
   for (const char* from : kShapes)
     for (std::size_t to = 0; to < kTermShapes.size(); ++to) {

@@ -139,6 +139,50 @@ TEST_F(TermPlotTest, theKeyboardSelectsNudgesAddsAndRemoves) {
   EXPECT_EQ(line(0), "above_ground low = points 0 1 1000 0");
 }
 
+TEST_F(TermPlotTest, severalPointsMoveAndGoTogether) {
+  draft_.setValue("policy.terms", TextLines{{"above_ground low = points 0 1 500 0.5 1000 0.25 2000 0",
+                                             "speed fast = ramp 200 400"}});
+  const std::string before = line(0);
+  plot().select(0, 1);
+  draft_.undoStack().clear();
+  using Group = std::vector<std::size_t>;
+  QTest::mouseClick(&plot(), Qt::LeftButton, Qt::ControlModifier, pixel(2).toPoint());
+  EXPECT_EQ(plot().group(), (Group{1, 2}));
+  EXPECT_EQ(plot().handle(), 2) << "the last one that was clicked is followed";
+  EXPECT_TRUE(plot().accessibleDescription().contains("2 points are selected"));
+  const std::vector<TermHandle> from = plot().handles();
+  drag(plot(), pixel(1), pixel(1) + QPointF(30, 0));
+  const std::vector<TermHandle> to = plot().handles();
+  EXPECT_GT(to[1].x, from[1].x);
+  EXPECT_DOUBLE_EQ(to[2].x - to[1].x, 500);
+  EXPECT_EQ(to[0].x, 0);
+  EXPECT_EQ(to[3].x, 2000);
+  EXPECT_EQ(draft_.undoStack().index(), 1) << "one drag is one step";
+  draft_.undoStack().undo();
+  EXPECT_EQ(line(0), before);
+
+  plot().setFocus();
+  press(plot(), Qt::Key_Down);
+  EXPECT_EQ(line(0), "above_ground low = points 0 1 500 0.49 1000 0.24 2000 0");
+  QTest::mouseClick(&plot(), Qt::LeftButton, Qt::ControlModifier, pixel(1).toPoint());
+  EXPECT_EQ(plot().group(), Group{2}) << "a second click takes it out";
+
+  // A rectangle from between the curve and the axis takes the first two points.
+  drag(plot(), plot().pixelOf(600, 0.02), plot().pixelOf(-100, 1.05));
+  EXPECT_EQ(plot().group(), (Group{0, 1}));
+  press(plot(), Qt::Key_Delete);
+  EXPECT_EQ(line(0), "above_ground low = points 1000 0.24 2000 0");
+  press(plot(), Qt::Key_A, Qt::ControlModifier);
+  EXPECT_EQ(plot().group(), (Group{0, 1}));
+  QSignalSpy refused(&plot(), &TermPlot::refused);
+  press(plot(), Qt::Key_Delete);
+  EXPECT_EQ(refused.count(), 1) << "two points stay";
+  press(plot(), Qt::Key_Right);
+  EXPECT_NEAR(plot().handles()[1].x - plot().handles()[0].x, 1000, 1e-9);
+  QTest::mouseClick(&plot(), Qt::LeftButton, Qt::NoModifier, plot().pixelOf(600, 0.6).toPoint());
+  EXPECT_EQ(plot().group(), Group{});
+}
+
 TEST_F(TermPlotTest, aShapeIsCopiedToAnotherTerm) {
   plot().setFocus();
   plot().select(1);
