@@ -85,6 +85,58 @@ TEST_F(WorkbenchWindow, manyChangesMakeOnePaintAndHiddenNone) {
   EXPECT_TRUE(waitFor([&] { return paints() > before; }));
 }
 
+/// Measures how long each image of a widget takes until it is on the display, and how long the widget then
+/// waits until the next one, though that is asked for at once.
+class ImageGaps : public QObject {
+ public:
+  struct Gap {
+    double tookMs, waitedMs;
+  };
+  explicit ImageGaps(workbench::Viewport& viewport) {
+    viewport.installEventFilter(this);
+    connect(&viewport, &workbench::Viewport::painted, this, [this, &viewport] {
+      tookMs_ = elapsedMs();
+      since_.start();
+      viewport.invalidate();
+    });
+  }
+  std::vector<Gap> gaps;
+
+ private:
+  double elapsedMs() const { return double(since_.nsecsElapsed()) * 1e-6; }
+  bool eventFilter(QObject*, QEvent* event) override {
+    if (event->type() != QEvent::Paint) return false;
+    if (tookMs_ > 0) gaps.push_back({tookMs_, elapsedMs()});
+    tookMs_ = 0;
+    since_.start();
+    return false;
+  }
+  QElapsedTimer since_;
+  double tookMs_ = 0;
+};
+
+TEST_F(WorkbenchWindow, aControlThatTheMouseHoldsGoesBeforeTheImages) {
+  ASSERT_TRUE(settle());
+  QWidget& control = *w().statusBar();
+  constexpr std::size_t kImages = 12;
+  constexpr double kTimerMs = 2;  // whole milliseconds, and a timer may end one early
+  {
+    QTest::mousePress(&control, Qt::LeftButton);
+    ImageGaps held(w().viewport());
+    w().viewport().invalidate();
+    ASSERT_TRUE(waitFor([&] { return held.gaps.size() >= kImages; })) << "the image follows nevertheless";
+    for (const ImageGaps::Gap& gap : held.gaps) EXPECT_GE(gap.waitedMs, gap.tookMs - kTimerMs);
+  }
+  QTest::mouseRelease(&control, Qt::LeftButton);
+  ASSERT_TRUE(settle());
+  ImageGaps free(w().viewport());
+  w().viewport().invalidate();
+  ASSERT_TRUE(waitFor([&] { return free.gaps.size() >= kImages; }));
+  EXPECT_TRUE(std::ranges::any_of(free.gaps, [](const ImageGaps::Gap& gap) {
+    return gap.waitedMs < gap.tookMs - kTimerMs;
+  })) << "nobody holds anything: the next image comes at once";
+}
+
 TEST_F(WorkbenchWindow, frozenCullingKeepsItsTilesWhileTheViewFliesOnAndSaysSo) {
   ASSERT_TRUE(settle());
   const auto drawn = [&] { return last().visible.reason; };

@@ -60,7 +60,12 @@ Viewport::Viewport(QWidget* parent) : QOpenGLWidget(parent), notice_(tr("No terr
   setMinimumSize(320, 200);
   setAccessibleName(tr("Terrain view"));
   setAttribute(Qt::WA_AcceptTouchEvents, false);
+  qApp->installEventFilter(this);
   connect(this, &QOpenGLWidget::frameSwapped, this, [this] {
+    if (unreported_) {
+      tookMs_ = sincePaint_.elapsed();
+      sinceShown_.start();
+    }
     report();
     if (std::exchange(again_, false)) paintAgain();
   });
@@ -107,7 +112,21 @@ void Viewport::setTerrain(std::shared_ptr<const terrain::Database> database) {
 void Viewport::invalidate() {
   if (dirty_) return;
   dirty_ = true;
-  if (isVisible()) update();
+  if (!isVisible()) return;
+  const qint64 wait = controlHeld_ && sinceShown_.isValid() ? tookMs_ - sinceShown_.elapsed() : 0;
+  if (wait <= 1) return update();
+  QTimer::singleShot(wait, Qt::PreciseTimer, this, qOverload<>(&QWidget::update));
+}
+
+bool Viewport::eventFilter(QObject* watched, QEvent* event) {
+  // A drag of data ends without a release; the next move says that no button is down.
+  if (watched->isWidgetType() && watched != this) {
+    if (event->type() == QEvent::MouseButtonPress)
+      controlHeld_ = true;
+    else if (event->type() == QEvent::MouseButtonRelease || event->type() == QEvent::MouseMove)
+      controlHeld_ = static_cast<QMouseEvent*>(event)->buttons() != Qt::NoButton;
+  }
+  return QOpenGLWidget::eventFilter(watched, event);
 }
 
 void Viewport::showEvent(QShowEvent* event) {

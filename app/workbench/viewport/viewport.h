@@ -35,8 +35,9 @@ struct Picture {
 };
 
 /// Shows the terrain that scene::Renderer draws. It paints on demand only: any number of calls of
-/// `invalidate` give one paint, and nothing is painted while it is hidden. Without terrain it says how to
-/// open some.
+/// `invalidate` give one paint, and nothing is painted while it is hidden. While the mouse holds a control
+/// elsewhere, such as a point of a curve, the control goes first: after an image the viewport waits for as
+/// long as the image took. Without terrain it says how to open some.
 class Viewport : public QOpenGLWidget {
   Q_OBJECT
 
@@ -104,6 +105,7 @@ class Viewport : public QOpenGLWidget {
   void wheelEvent(QWheelEvent* event) override;
   void focusOutEvent(QFocusEvent* event) override;
   void showEvent(QShowEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   void releaseGl();
@@ -135,7 +137,10 @@ class Viewport : public QOpenGLWidget {
   QPointF lastMouse_;
   QString notice_;
   QElapsedTimer sinceMove_, sinceDepthMap_, sincePaint_;
-  bool unreported_ = false;  ///< `painted` has not been emitted for the last image
+  bool controlHeld_ = false;  ///< the mouse holds a control that is not this widget
+  qint64 tookMs_ = 0;         ///< the last image, until it was on the display
+  QElapsedTimer sinceShown_;  ///< since then
+  bool unreported_ = false;   ///< `painted` has not been emitted for the last image
   std::uint64_t paints_ = 0;
 };
 
