@@ -121,7 +121,7 @@ bool readPresets(const BenchOptions& arguments, harness::Plan& plan) {
 }
 
 int run(const BenchOptions& arguments) {
-  const Interruptible guard;
+  stopWhenAsked();
   harness::Plan plan;
   plan.version = TRIMTAB_VERSION;
   plan.frames = arguments.frames;

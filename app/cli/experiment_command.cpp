@@ -20,9 +20,11 @@ struct ExperimentOptions {
 using Run = Result<experiment::Report> (*)(const experiment::Setup&);
 
 int run(const ExperimentOptions& arguments, Run experiment) {
-  const Interruptible guard;
+  stopWhenAsked();
+  // Opening the terrain may bake it first.
+  if (!mayWriteTo(arguments.output)) return kRefused;
   const std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
-  if (!setup || !mayWriteTo(arguments.output)) return kRefused;
+  if (!setup) return kRefused;
   const Result<experiment::Report> done = experiment(*setup);
   report(done.findings());
   if (!done || isDamaged(*setup)) return kRefused;

@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <cstdio>
 #include <mutex>
 #include <utility>
@@ -13,20 +14,34 @@ namespace trimtab::cli {
 namespace {
 
 /// Takes datagrams on the receiver's thread and hands them over, so that a slow disk does not hold it up.
+/// While the disk stands still, it keeps kMostBytes and drops what comes then.
 class Inbox {
  public:
   void put(CapturedDatagram datagram) {
     const std::lock_guard lock(mutex_);
+    if (bytes_ + datagram.bytes.size() > kMostBytes) {
+      ++dropped_;
+      return;
+    }
+    bytes_ += datagram.bytes.size();
     datagrams_.push_back(std::move(datagram));
   }
   std::vector<CapturedDatagram> take() {
     const std::lock_guard lock(mutex_);
+    bytes_ = 0;
     return std::exchange(datagrams_, {});
+  }
+  std::uint64_t dropped() const {
+    const std::lock_guard lock(mutex_);
+    return dropped_;
   }
 
  private:
-  std::mutex mutex_;
+  static constexpr std::size_t kMostBytes = std::size_t{256} << 20;
+  mutable std::mutex mutex_;
   std::vector<CapturedDatagram> datagrams_;
+  std::size_t bytes_ = 0;
+  std::uint64_t dropped_ = 0;
 };
 
 int refuse(const Findings& findings) {
@@ -78,6 +93,9 @@ int recordFeed(const FeedOptions& options) {
   }
   const auto written = recording.finish();
   if (!written) return refuse(written.findings());
+  if (inbox.dropped() > 0)
+    report({{Severity::warning, options.out, "", "a disk that keeps up",
+             std::to_string(inbox.dropped()) + " datagrams that had to be dropped"}});
   report(written.findings());
   std::fprintf(stderr, "%llu datagrams recorded in %s\n", static_cast<unsigned long long>(recording.size()),
                options.out.c_str());

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <thread>
 
+#include "app/link/stop_signals.h"
+
 namespace trimtab::cli {
 namespace {
 
@@ -24,14 +26,7 @@ const char* protocolText(WireProtocol protocol) {
 }  // namespace
 
 void catchStop() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { stopped = 1; };
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
-  struct sigaction before {};
-  ::sigaction(SIGHUP, nullptr, &before);
-  // nohup has the signal ignored, and means it.
-  if (before.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);
+  onStopSignals([](int) { stopped = 1; });
 }
 
 bool isStopped() {

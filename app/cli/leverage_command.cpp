@@ -19,9 +19,10 @@ struct LeverageOptions {
 };
 
 int run(const LeverageOptions& arguments) {
-  const Interruptible guard;
+  stopWhenAsked();
+  if (!mayWriteTo(arguments.output)) return kRefused;
   std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
-  if (!setup || !mayWriteTo(arguments.output)) return kRefused;
+  if (!setup) return kRefused;
   setup->frames = arguments.frames;
   const Result<experiment::Leverage> done = experiment::measureLeverage(*setup);
   report(done.findings());

@@ -5,6 +5,8 @@
 #include <iomanip>
 #include <iostream>
 
+#include "app/link/stop_signals.h"
+
 namespace trimtab::cli {
 namespace {
 
@@ -13,12 +15,9 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 }  // namespace
 
-Interruptible::Interruptible() : before_(std::signal(SIGINT, [](int) { interrupted = true; })) {
+void stopWhenAsked() {
   interrupted = false;
-}
-
-Interruptible::~Interruptible() {
-  std::signal(SIGINT, before_);
+  onStopSignals([](int) { interrupted = true; });
 }
 
 std::function<bool(double, const std::string&)> progressLines() {

@@ -1,26 +1,16 @@
 #pragma once
 
-#include <csignal>
 #include <functional>
 #include <string>
 
 namespace trimtab::cli {
 
-/// While it exists, SIGINT asks the work to stop instead of ending the program, so that no half-written file
-/// is left.
-class Interruptible {
- public:
-  Interruptible();
-  ~Interruptible();
-  Interruptible(const Interruptible&) = delete;
-  Interruptible& operator=(const Interruptible&) = delete;
-
- private:
-  void (*before_)(int);
-};
+/// From now on a request to stop (app/link/stop_signals.h) asks the work to stop instead of ending the
+/// program, so that no half-written file is left.
+void stopWhenAsked();
 
 /// Returns a function that prints progress on standard error, at most a few lines per second. It returns
-/// false once SIGINT has come.
+/// false once the program was asked to stop.
 std::function<bool(double fraction, const std::string& what)> progressLines();
 
 }  // namespace trimtab::cli

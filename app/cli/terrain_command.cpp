@@ -35,7 +35,7 @@ void addTerrain(CLI::App& app, int& exitCode) {
       ->capture_default_str()
       ->check(CLI::Range(5.0, 2000.0));
   makeSample->callback([sample, &exitCode] {
-    const Interruptible guard;
+    stopWhenAsked();
     sample->options.progress = progressLines();
     const auto done = terrain::writeSample(sample->output, sample->options);
     report(done.findings());
@@ -62,7 +62,7 @@ void addTerrain(CLI::App& app, int& exitCode) {
       ->capture_default_str()
       ->check(CLI::Range(1.0, 2000.0));
   makeCountry->callback([country, &exitCode] {
-    const Interruptible guard;
+    stopWhenAsked();
     country->options.progress = progressLines();
     const auto done = terrain::writeCountry(country->output, country->options);
     report(done.findings());
@@ -90,7 +90,7 @@ void addTerrain(CLI::App& app, int& exitCode) {
       ->capture_default_str()
       ->check(CLI::Range(1.0, 2000.0));
   makePicture->callback([picture, &exitCode] {
-    const Interruptible guard;
+    stopWhenAsked();
     picture->options.progress = progressLines();
     const auto done = terrain::writeLandPicture(picture->elevation, picture->output, picture->options);
     report(done.findings());
@@ -148,7 +148,7 @@ void addTerrain(CLI::App& app, int& exitCode) {
                                            "share its folder");
   makeBake->add_flag("--join", bake->join, "Make the database of what all parts made")->excludes(part);
   makeBake->callback([bake, &exitCode] {
-    const Interruptible guard;
+    stopWhenAsked();
     terrain::BakeOptions options;
     options.sources.assign(bake->sources.begin(), bake->sources.end());
     options.output = bake->output;

@@ -3,9 +3,9 @@
 
 #include "commands.h"
 #include "progress.h"
-#include "trimtab/units/number.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/static_lod/export.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab::cli {
 
@@ -57,7 +57,7 @@ void addTerrainExport(CLI::App& terrain, int& exitCode) {
                    "Folder to write, for FlightGear's --fg-scenery; it must not exist or be empty")
       ->required();
   write->callback([btg, &exitCode] {
-    const Interruptible guard;
+    stopWhenAsked();
     btg->options.progress = progressLines();
     exitCode = exportBtg(*btg);
   });

@@ -72,14 +72,14 @@ void printJson(const experiment::CalibratedWeather& calibrated) {
 }
 
 int calibrate(const WeatherOptions& arguments) {
-  const Interruptible guard;
-  const auto loaded = loadPreset(arguments.setup.preset);
-  const std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
-  if (!loaded || !setup) return kRefused;
+  stopWhenAsked();
   if (!arguments.output.empty()) {
     const std::filesystem::path folder = std::filesystem::absolute(arguments.output).parent_path();
     if (const auto writable = canWriteIn(folder); !writable) return report(writable.findings()), kRefused;
   }
+  const auto loaded = loadPreset(arguments.setup.preset);
+  const std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
+  if (!loaded || !setup) return kRefused;
   experiment::WeatherCalibration wanted{stepsOf(arguments.steps), {}};
   if (arguments.vertices > 0) wanted.vertices = arguments.vertices;
   const auto calibrated = experiment::calibrateWeather(*setup, wanted);

@@ -148,7 +148,7 @@ class Loop {
       if (lastBand_ && *lastBand_ != row.decision.band) ++summary_.decisionChanges;
       lastBand_ = row.decision.band;
     }
-    if (run_.trace) run_.trace->write(rows_);
+    if (run_.trace) report(run_.trace->write(rows_).findings());
   }
 
   Summary finishedSummary() {

@@ -10,6 +10,7 @@
 
 #include "loop.h"
 #include "trimtab/hold/cost_model_file.h"
+#include "trimtab/preset/file_io.h"
 #include "trimtab/scene/load_index.h"
 #include "trimtab/scene/renderer.h"
 #include "trimtab/terrain/format/database.h"
@@ -59,14 +60,8 @@ Result<Done> checkWatch(const Options& options) {
 
 /// Told before the first frame, not after the last one.
 Result<Done> checkScreenshot(const Options& options) {
-  std::error_code error;
-  const std::filesystem::path folder = options.screenshot.parent_path();
-  if (folder.empty() || std::filesystem::is_directory(folder, error)) return Done{};
-  return Finding{Severity::error,
-                 options.screenshot.string(),
-                 {},
-                 "a folder to write to",
-                 folder.string() + ", which is none"};
+  if (options.screenshot.empty()) return Done{};
+  return canWriteIn(std::filesystem::absolute(options.screenshot).parent_path());
 }
 
 Result<scene::GlReport> initialized(scene::Renderer& renderer) {

@@ -1,7 +1,9 @@
 #include "options.h"
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <iostream>
 #include <map>
 
@@ -83,7 +85,10 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   } catch (const CLI::ParseError& error) {
     exitCode = app.exit(error) == 0 ? kDone : kUsage;
     // Help or version that a full disk took.
-    if (exitCode == kDone && (std::fflush(stdout) != 0 || !std::cout)) exitCode = kRefused;
+    if (exitCode == kDone && (std::fflush(stdout) != 0 || !std::cout.flush())) {
+      std::cerr << "error: standard output: expected to be written, found " << std::strerror(errno) << '\n';
+      exitCode = kRefused;
+    }
     return std::nullopt;
   }
   return options;

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "app/link/stop_signals.h"
+
 namespace trimtab::ig {
 namespace {
 
@@ -47,22 +49,11 @@ void onSignal(int number) {
   postTo(signalFd);
 }
 
-void catchSignals() {
-  struct sigaction action {};
-  action.sa_handler = onSignal;
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
-  struct sigaction before {};
-  ::sigaction(SIGHUP, nullptr, &before);
-  // nohup has the signal ignored, and means it.
-  if (before.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);
-}
-
 }  // namespace
 
 Wake::Wake() : fd_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
   signalFd = fd_;
-  catchSignals();
+  onStopSignals(onSignal);
   // Whoever reads our output may leave; the trace and the screenshot are written all the same.
   ::signal(SIGPIPE, SIG_IGN);
 }

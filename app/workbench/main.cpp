@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "app/link/stop_signals.h"
 #include "app/workbench/viewport/gl_setup.h"
 #include "app/workbench/window/main_window.h"
 #include "app/workbench/window/options.h"
@@ -27,7 +28,7 @@ void onSignal(int) {
   if (::write(signalPipe[1], &byte, 1) < 0) _exit(130);
 }
 
-/// SIGINT, SIGTERM and SIGHUP (a terminal that is lost) end the event loop; what an async handler may do is one write.
+/// A request to stop ends the event loop; the handler itself does no more than one write.
 void endOnSignals(QApplication& app, trimtab::workbench::MainWindow& window) {
   if (::socketpair(AF_UNIX, SOCK_STREAM, 0, signalPipe) != 0) return;
   auto* notifier = new QSocketNotifier(signalPipe[0], QSocketNotifier::Read, &app);
@@ -35,12 +36,7 @@ void endOnSignals(QApplication& app, trimtab::workbench::MainWindow& window) {
     window.keepUnsavedEdits();
     app.exit(0);
   });
-  struct sigaction action = {};
-  action.sa_handler = onSignal;
-  action.sa_flags = SA_RESTART;
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
-  ::sigaction(SIGHUP, &action, nullptr);
+  trimtab::onStopSignals(onSignal, SA_RESTART);
 }
 
 /// While QApplication is made: Qt would abort where there is no display to be had.

@@ -57,8 +57,12 @@ Result<TraceFile> TraceFile::open(const fs::path& file) {
   return TraceFile(file, std::move(writer).value());
 }
 
-void TraceFile::write(std::span<const TraceRow> rows) {
+Result<Done> TraceFile::write(std::span<const TraceRow> rows) {
+  if (full_) return Done{};
   for (const TraceRow& row : rows) writer_.write(row);
+  full_ = !writer_.good();
+  if (!full_) return Done{};
+  return unusable(partOf(file_), "room for more rows", "a full disk: no further row is recorded");
 }
 
 Result<Done> TraceFile::finish() {

@@ -221,8 +221,10 @@ Result<Done> reachDisk(const std::filesystem::path& fileOrFolder) {
 }
 
 Result<Done> canWriteIn(const std::filesystem::path& folder) {
+  constexpr const char* kPrefix = ".trimtab-";
+  clearLitter(folder, kPrefix);
   std::string name;
-  const Descriptor made(createUnfinished(folder, ".trimtab-", name));
+  const Descriptor made(createUnfinished(folder, kPrefix, name));
   if (!made.isOpen()) return refused(folder, "a folder that can be written", errno);
   ::unlink(name.c_str());
   return Done{};

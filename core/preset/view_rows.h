@@ -14,7 +14,7 @@ inline constexpr std::array kViewRows{
          .source = "A, B: comparison of culling"}),
     row<&TuningParameters::culling, &CullingParameters::occlusion>(
         {.key = "culling.occlusion",
-         .label = "Hidden ground",
+         .label = "Occlusion culling",
          .help =
              "What proves that ground is hidden, where the scheme is dynamic. Automatic: whichever costs the "
              "frame least as measured on this machine, or none where it would not pay. Published depth map: "

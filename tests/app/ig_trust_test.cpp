@@ -176,6 +176,16 @@ TEST_F(IgTrust, keepsTheTraceOfARunThatWasKilled) {
   EXPECT_EQ(readTrace(dir_ / "trace.csv")->size(), 20u);
 }
 
+TEST_F(IgTrust, refusesAScreenshotThatCannotBeWrittenBeforeItFlies) {
+  test::writeFile(dir_ / "flight.csv", flightCsv(test::weavingFlight(1)));
+  IgProcess ig({"--preset", "default", "--terrain", test::smallTerrain().string(), "--flight",
+                (dir_ / "flight.csv").string(), "--headless", "--screenshot", "/proc/shot.png", "--trace",
+                (dir_ / "trace.csv").string()});
+  EXPECT_EQ(ig.end(), 1);
+  EXPECT_NE(ig.err().find("/proc"), std::string::npos) << ig.err();
+  EXPECT_FALSE(fs::exists(dir_ / "trace.csv"));
+}
+
 TEST_F(IgTrust, waitsForNoPipeAsAPreset) {
   ASSERT_EQ(::mkfifo((dir_ / "pipe").c_str(), 0600), 0);
   std::vector<std::string> all = arguments(test::smallTerrain(), {"--flight", (dir_ / "pipe").string()});

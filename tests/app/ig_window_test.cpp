@@ -30,6 +30,28 @@ TEST(IgWindow, showsWhatTheHeadlessOneDraws) {
   EXPECT_EQ(compared.exitCode, 0) << compared.err << " of 120000 pixels differ";
 }
 
+TEST(IgWindow, aKeyEndsItAsASignalDoes) {
+  const test::ScratchDir dir;
+  test::writeFile(dir / "flight.csv", flightCsv(test::weavingFlight(2000, 10)));
+  IgProcess ig({"--preset", "default", "--terrain", test::smallTerrain().string(), "--flight",
+                (dir / "flight.csv").string(), "--realtime", "--size", "160x90", "--trace",
+                (dir / "trace.csv").string(), "--screenshot", (dir / "last.png").string()});
+  const test::Ran found = test::run("timeout 60 xdotool search --sync --onlyvisible --pid " +
+                                    std::to_string(ig.pid()) + " --name trimtab-ig");
+  ASSERT_EQ(found.exitCode, 0) << found.err << ig.err();
+  ASSERT_TRUE(ig.until([&] {
+    std::error_code error;
+    return std::filesystem::file_size(dir / "trace.csv.part", error) > 5000 && !error;
+  }));
+  const std::string window = found.out.substr(0, found.out.find('\n'));
+  EXPECT_EQ(test::run("xdotool key --window " + window + " q").exitCode, 0);
+  EXPECT_EQ(ig.end(), 0) << ig.err();
+  EXPECT_TRUE(std::filesystem::exists(dir / "last.png"));
+  const Result<std::vector<TraceRow>> rows = readTrace(dir / "trace.csv");
+  ASSERT_TRUE(rows) << toString(rows.findings());
+  EXPECT_LT(rows->size(), 2000u) << "the flight was not over";
+}
+
 TEST(IgWindow, movesTheEyeBetweenPacketsAndStandsStillWhenTheHostIsSilent) {
   const test::ScratchDir dir;
   IgProcess ig({"--preset", "default", "--terrain", test::smallTerrain().string(), "--listen", "0", "--size",

@@ -28,8 +28,8 @@
 #include "trimtab/terrain/bake/cache.h"
 #include "views/controls/parameter_line.h"
 #include "views/controls/parameter_table.h"
+#include "views/editors/curve_plot.h"
 #include "views/editors/membership_editor.h"
-#include "views/plots/curve_plot.h"
 #include "views/policy/policy_panel.h"
 #include "views/policy/scheme_page.h"
 

@@ -11,15 +11,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace trimtab;
   static const test::ScratchDir dir;
   static const bool copied = [] {
-    for (const char* name : {"heights.f32", "nodes.f32", "slopes.u8"})
-      std::filesystem::copy(test::sourceDir() / "tests/data/terrain/version-1" / name, dir / name);
+    std::filesystem::copy(test::sourceDir() / "tests/data/terrain/version-1", dir / "1");
+    std::filesystem::copy(test::sourceDir() / "tests/data/terrain/version-2", dir / "2");
     return true;
   }();
   std::string text(reinterpret_cast<const char*>(data), size);
+  const std::filesystem::path folder = dir / (text.find("heights.sums") == std::string::npos ? "1" : "2");
   const std::size_t place = terrain::manifestChecksumPlace(text);
   if (copied && place != std::string::npos) text.replace(place, 16, terrain::manifestChecksum(text, place));
-  test::writeFile(dir / "manifest.json", text);
-  const auto database = terrain::Database::open(dir.path());
+  test::writeFile(folder / "manifest.json", text);
+  const auto database = terrain::Database::open(folder);
   if (!database && database.findings().empty()) std::abort();
   if (!database) return 0;
   terrain::TileMesh mesh;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QCheckBox>
+#include <QDialog>
 #include <QDockWidget>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QTextBrowser>
+#include <QTimer>
 #include <QTreeWidget>
+#include <QWhatsThis>
 
 #include "app/workbench/docks/flight_dock.h"
 #include "app/workbench/window/appearance.h"
@@ -17,6 +20,8 @@
 #include "views/controls/number_box.h"
 #include "views/controls/parameter_of.h"
 #include "views/model/theme.h"
+#include "views/panels/plots_panel.h"
+#include "views/plots/time_plot.h"
 
 namespace trimtab::test {
 namespace {
@@ -121,6 +126,35 @@ TEST_F(WorkbenchFind, f1OnAControlShowsItsEntryAndTheReferenceIsSearched) {
   reference->close();
   w().activateWindow();
   w().viewport().setFocus();
+}
+
+TEST_F(WorkbenchFind, f1SaysWhatAnyControlDoesInADialogToo) {
+  auto* const reference = w().findChild<workbench::Reference*>();
+  w().viewport().setFocus();
+  ASSERT_TRUE(reference->explain(&w().viewport()));
+  EXPECT_TRUE(reference->text().toPlainText().contains("Terrain view"));
+  auto* const plots = w().findChild<views::PlotsPanel*>();
+  ASSERT_TRUE(reference->explain(plots->findChild<views::TimePlot*>()));
+  EXPECT_TRUE(reference->text().toPlainText().contains("In the dock Plots"))
+      << reference->text().toPlainText().toStdString();
+  EXPECT_GT(reference->text().toPlainText().size(), 60) << "more than its name";
+  reference->close();
+
+  QDialog dialog(&w());
+  auto* const box = new QCheckBox("Keep it", &dialog);
+  box->setToolTip("Keeps what is there.");
+  QString said;
+  QTimer::singleShot(0, &dialog, [&] {
+    box->setFocus();
+    QTest::keyClick(box, Qt::Key_F1);
+    for (QWidget* each : QApplication::topLevelWidgets())
+      if (each->isVisible() && each->inherits("QWhatsThat")) said = "shown";
+    QWhatsThis::hideText();
+    dialog.reject();
+  });
+  dialog.exec();
+  EXPECT_EQ(said, "shown");
+  EXPECT_FALSE(reference->isVisible());
 }
 
 TEST_F(WorkbenchFind, theStripSaysWorkspaceBudgetRecordingAndHostWithoutMovingOneAnother) {

@@ -76,6 +76,20 @@ TEST_F(WorkbenchLayout, anEmptyDepthMapSaysWhoServesInsteadAndLeadsThere) {
   EXPECT_TRUE(comesToFront("culling"));
 }
 
+TEST_F(WorkbenchLayout, aDepthMapThatTheHorizonReplacesIsSaidSo) {
+  QDockWidget& bands = *w().dock("depth_map");
+  bands.show();
+  bands.raise();
+  auto* const inset = bands.findChild<views::DepthMapInset*>();
+  ASSERT_TRUE(w().draft().setText("culling.occlusion", "horizon").empty());
+  ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
+  w().feed().seekHere(climbsThrough(*readFlight(sampleFlight()), 2000));
+  ASSERT_TRUE(waitFor([&] { return inset->accessibleDescription().contains("the horizon serves"); }))
+      << inset->accessibleDescription().toStdString();
+  EXPECT_TRUE(inset->accessibleDescription().contains("What it covers of the view"))
+      << "and its picture is there in place of the map's";
+}
+
 TEST_F(WorkbenchLayout, measuringWithoutAFlightIsRefusedBeforeItAsksAnything) {
   const int messages = w().messages().count();
   DialogCloser dialogs;

@@ -14,9 +14,9 @@
 #include "gui_support.h"
 #include "tests/app/ig_support.h"
 #include "trimtab/host/flight.h"
+#include "views/editors/curve_plot.h"
 #include "views/editors/membership_editor.h"
 #include "views/panels/plots_panel.h"
-#include "views/plots/curve_plot.h"
 
 namespace trimtab::test {
 namespace {

@@ -11,12 +11,18 @@
 #include <cstdlib>
 
 #include "app/link/link.h"
+#include "app/workbench/docks/flight_dock.h"
 #include "app/workbench/window/workspaces.h"
 #include "gui_support.h"
 #include "trimtab/motion/head_motion.h"
 #include "views/controls/bar_list.h"
 #include "views/panels/budget_panel.h"
+#include "views/panels/frame_page.h"
 #include "views/panels/motion_panel.h"
+#include "views/panels/plots_panel.h"
+#include "views/plots/budget_plot.h"
+#include "views/plots/motion_plot.h"
+#include "views/plots/time_plot.h"
 
 namespace trimtab::test {
 namespace {
@@ -116,6 +122,42 @@ TEST_F(Motion, theDockBudgetSaysWhatHeldTheFrameAndWhatEachLeverGave) {
   shoot("budget-held");
   if (const char* folder = std::getenv("TRIMTAB_SHOTS"))
     budget.grab().save(QStringLiteral("%1/budget-held-panel.png").arg(QLatin1String(folder)));
+}
+
+TEST_F(Motion, plotsOnTheClockOfTheFramesShareThePointerAndExplainAFrame) {
+  ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
+  auto* const plots = w().findChild<views::PlotsPanel*>();
+  views::ClockPlot* const others[] = {&w().findChild<views::BudgetPanel*>()->plot(),
+                                      &w().findChild<views::MotionPanel*>()->plot()};
+  for (views::ClockPlot* plot : others) {
+    workbench::raiseDock(*plot);
+    w().controllers().flight->flightDock().play();
+    const std::uint64_t before = plots->buffer().end();
+    ASSERT_TRUE(waitFor([&] { return plots->buffer().end() > before + 20; }));
+    w().controllers().flight->flightDock().pause();
+    ASSERT_TRUE(settle());
+    ASSERT_FALSE(plot->visibleRegion().isEmpty());
+    const std::uint64_t frame = plots->buffer().end() - 10;
+    const double time = plots->buffer().time(frame);
+    QTest::qWait(300);  // the plot is drawn some times a second
+    const QPoint at(int(std::lround(plot->xAxis->coordToPixel(time))), plot->xAxis->axisRect()->center().y());
+    QTest::mouseMove(plot, at);
+    const double secondsPerPx = plot->xAxis->range().size() / plot->xAxis->axisRect()->width();
+    for (const views::ClockPlot* each :
+         {static_cast<views::ClockPlot*>(&plots->plot()), others[0], others[1]}) {
+      ASSERT_TRUE(waitFor([&] { return each->tracker().has_value(); }, 5000))
+          << each->accessibleName().toStdString();
+      EXPECT_NEAR(*each->tracker(), time, secondsPerPx);
+    }
+    QTest::mouseClick(plot, Qt::LeftButton, {}, at);
+    const std::optional<std::uint64_t> explained = plots->findChild<views::FramePage*>()->frame();
+    ASSERT_TRUE(explained);
+    EXPECT_NEAR(plots->buffer().time(*explained), time, secondsPerPx + 0.2);
+    EXPECT_FALSE(plots->visibleRegion().isEmpty()) << "the dock with the explanation is in front";
+    QTest::mouseMove(plot, QPoint(1, 1));
+    EXPECT_TRUE(waitFor([&] { return !plots->plot().tracker(); }, 5000))
+        << "beside the axes there is no time";
+  }
 }
 
 TEST_F(Motion, thePointerOverThePictureIsTheLineOfSight) {

@@ -6,6 +6,7 @@
 #include <QStatusBar>
 #include <cmath>
 
+#include "app/link/link.h"
 #include "app/workbench/docks/flight_dock.h"
 #include "gui_support.h"
 #include "trimtab/host/flight.h"
@@ -103,6 +104,48 @@ TEST_F(Observer, frozenTheDecisionAndTheVisibleSetStayWhateverFlies) {
   ASSERT_TRUE(settle());
   EXPECT_EQ(told_.decision, session().decision());
   EXPECT_NE(last().visible.triangles, triangles);
+}
+
+TEST_F(Observer, frozenADecisionOutlivesItsHostAndTheCameraClimbsBesideIt) {
+  const std::uint16_t port = listen();
+  Result<Flight> flight = readFlight(sampleFlight());
+  ASSERT_TRUE(flight);
+  link::PlayOptions options;
+  options.to = {"127.0.0.1", port};
+  options.startS = climbsThrough(*flight, 3500);
+  auto host = link::FeedPlayer::start(*flight, options);
+  ASSERT_TRUE(host) << toString(host.findings());
+  ASSERT_TRUE(waitFor([&] { return w().feed().source() == Feed::Source::host; }));
+  ASSERT_TRUE(waitFor([&] { return w().viewport().lastResult() && told_.decision == session().decision(); }));
+  trigger("Freeze culling");
+  // Pages that are still on their way when it freezes come in later.
+  std::uint64_t triangles = 0, unchanged = 0;
+  const auto counted = QObject::connect(&w().viewport(), &workbench::Viewport::painted, &w(), [&] {
+    unchanged = last().visible.triangles == triangles ? unchanged + 1 : 0;
+    triangles = last().visible.triangles;
+  });
+  ASSERT_TRUE(waitFor([&] { return unchanged > 20; }));
+  QObject::disconnect(counted);
+  const FrameDecision decided = told_.decision;
+  const std::uint64_t packets = session().packets();
+  EXPECT_TRUE(waitFor([&] { return session().packets() > packets + 20; })) << "the host flies on";
+  EXPECT_EQ(told_.decision, decided);
+
+  const GeodeticPosition before = camera();
+  QTest::keyPress(&w().viewport(), Qt::Key_PageUp);
+  EXPECT_TRUE(waitFor([&] { return camera().height.value() > before.height.value(); }))
+      << "a host does not keep the keys";
+  QTest::keyRelease(&w().viewport(), Qt::Key_PageUp);
+  host->reset();
+  w().feed().closeHost();
+  w().viewport().camera().place({before.latitude, before.longitude, Metres{9000}}, {});
+  w().feed().look(w().viewport().camera());
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(told_.decision, decided) << "it is of the moment that was frozen, not of the camera";
+  EXPECT_EQ(last().visible.triangles, triangles);
+  trigger("Freeze culling");
+  ASSERT_TRUE(settle());
+  EXPECT_NE(told_.decision, decided);
 }
 
 TEST_F(Observer, frozenKeysAndHomeFlyTheViewBesideAPausedFlight) {

@@ -14,13 +14,14 @@
 #include "app/workbench/window/workspaces.h"
 #include "gui_support.h"
 #include "hand.h"
+#include "tests/app/ig_support.h"
 #include "trimtab/preset/preset.h"
 #include "views/controls/parameter_of.h"
 #include "views/editors/band_scale.h"
+#include "views/editors/curve_plot.h"
 #include "views/editors/membership_editor.h"
 #include "views/model/bands_model.h"
 #include "views/panels/plots_panel.h"
-#include "views/plots/curve_plot.h"
 #include "views/plots/time_plot.h"
 #include "views/policy/policy_panel.h"
 #include "views/policy/rules_page.h"
@@ -289,8 +290,12 @@ class Tour : public Bench {
     hand_->inDialog([this](QWidget& dialog) { hand_->press(dialog, "OK"); });
     hand_->inFileDialog(file);
     keysOf("Export for an image generator");
-    ASSERT_TRUE(std::filesystem::remove(file)) << w().messages().text().toStdString();
+    ASSERT_TRUE(std::filesystem::exists(file)) << w().messages().text().toStdString();
+    const IgProcess ig({"--preset", file.string(), "--terrain", sampleTerrain().string(), "--listen", "0",
+                        "--headless", "--size", "160x90", "--watch"});
+    ASSERT_NE(ig.port(), 0) << ig.err();
     keysOf("Export again");
+    EXPECT_TRUE(ig.says("loaded again")) << ig.err();
     const auto exported = loadPreset(file.string());
     ASSERT_TRUE(exported) << toString(exported.findings());
     EXPECT_TRUE(differences(exported->parameters, w().draft().parameters()).empty());

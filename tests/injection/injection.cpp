@@ -1,5 +1,6 @@
 #include "injection.h"
 
+#include <sched.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -59,6 +60,11 @@ ChildRun runDisturbed(const fs::path& watched, long call, Way way,
   if (child == 0) {
     ::alarm(60);
     ::close(ends[0]);
+    // On one processor a bake has one thread, so that a call has the same number in each run.
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(::sched_getcpu(), &one);
+    ::sched_setaffinity(0, sizeof one, &one);
     std::string found;
     faults::watch(watched);
     faults::disturb(call, way);

@@ -48,8 +48,7 @@ TEST_F(Injection, ofReadingARecordingAndATrace) {
          }});
   reads("reading a trace", {[](const fs::path& folder) {
                               auto trace = TraceFile::open(folder / "t.csv");
-                              trace->write(std::vector<TraceRow>(3));
-                              EXPECT_TRUE(trace->finish());
+                              EXPECT_TRUE(trace->write(std::vector<TraceRow>(3)) && trace->finish());
                             },
                             [](const fs::path& folder) -> Result<std::string> {
                               const auto rows = readTrace(folder / "t.csv");

@@ -68,8 +68,12 @@ TEST_F(Injection, ofATrace) {
                      auto trace = TraceFile::open(folder / "t.csv");
                      if (!trace) return trace.findings();
                      const std::vector<TraceRow> row(1);
-                     for (int i = 0; i < 3; ++i) trace->write(row);
+                     Findings why;
+                     for (int i = 0; i < 3; ++i)
+                       if (const auto written = trace->write(row); !written) why = written.findings();
                      const auto done = trace->finish();
+                     if (!why.empty() && done)
+                       return {{Severity::error, "t.csv", "", "no whole trace", "one without its rows"}};
                      return done ? Findings{} : done.findings();
                    },
                    .mayStay = [](const std::string& file) { return file == "t.csv.part"; },

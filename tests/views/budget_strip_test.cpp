@@ -56,6 +56,20 @@ TEST(BudgetMinute, knownCostsNameTheLeverThatSavesMost) {
   EXPECT_NEAR(minute.help(16, pixels)->ms, 8.5, 1e-9);
 }
 
+TEST(BudgetMinute, noLeverSavesMoreThanTheImageTookForIt) {
+  BudgetMinute minute;
+  FrameCost cost = costOf(20);
+  cost.blur = 3;
+  cost.weather = 2;
+  minute.add(0, cost, {1000, 1, 1, 1, true});
+  CostCoefficients overrated;
+  overrated.known = true;
+  overrated.perBlurMpx = 5;
+  overrated.perTriangle = 1e-3;
+  EXPECT_EQ(minute.help(16, overrated)->lever, "blur strength");
+  EXPECT_DOUBLE_EQ(minute.help(16, overrated)->ms, 3) << "not 5";
+}
+
 TEST(BudgetStrip, saysHowMuchOfTheMinuteIsOverWhereAndWhatHelps) {
   Draft draft;
   ASSERT_TRUE(draft.setText("measure.budget_ms", "16").empty());

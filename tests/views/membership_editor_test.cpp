@@ -9,8 +9,8 @@
 
 #include "application.h"
 #include "live_flight.h"
+#include "views/editors/curve_plot.h"
 #include "views/model/keys.h"
-#include "views/plots/curve_plot.h"
 
 namespace trimtab::views {
 namespace {

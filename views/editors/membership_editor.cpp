@@ -7,13 +7,13 @@
 #include <QTableView>
 #include <QToolButton>
 
+#include "curve_plot.h"
 #include "views/controls/choice_box.h"
 #include "views/controls/list_table.h"
 #include "views/controls/note_line.h"
 #include "views/model/curve_points_model.h"
 #include "views/model/keys.h"
 #include "views/model/theme.h"
-#include "views/plots/curve_plot.h"
 
 namespace trimtab::views {
 

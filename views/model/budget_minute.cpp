@@ -22,6 +22,11 @@ double orZero(double ms) {
   return std::isnan(ms) ? 0 : ms;
 }
 
+/// Bounds a saving by what was measured, if that was measured.
+double atMost(double measuredMs, double savesMs) {
+  return std::isnan(measuredMs) ? savesMs : std::min(measuredMs, savesMs);
+}
+
 enum Part { decide, select, occlusion, cull, ground, page, blur, weather, symbology, kParts };
 constexpr const char* kNames[kParts] = {
     QT_TRANSLATE_NOOP("BudgetMinute", "decision"),  QT_TRANSLATE_NOOP("BudgetMinute", "selection"),
@@ -73,11 +78,15 @@ std::optional<BudgetMinute::Help> BudgetMinute::help(double budgetMs, const Cost
   const std::optional<Stage> worst = worstStage(budgetMs);
   if (!worst) return std::nullopt;
   if (cost.known) {
+    const FrameCost& last = images_.back().cost;
     const StageTimes now = predict(cost, load_);
     const auto saves = [&](void (*change)(FrameLoad&)) {
       FrameLoad less = load_;
       change(less);
-      return now.total() - predict(cost, less).total();
+      const StageTimes then = predict(cost, less);
+      return atMost(stagesOf(last).ground, now.ground - then.ground) +
+             atMost(last.weather, now.weather - then.weather) + atMost(last.blur, now.blur - then.blur) +
+             now.other - then.other;
     };
     const std::array<Help, 4> helps{
         Help{tr("allowed error"), saves([](FrameLoad& l) { l.triangles /= 2; })},

@@ -21,7 +21,8 @@ class BudgetMinute {
     QString name;
     double ms = 0;
   };
-  /// A lever, and about how much half of what it scales would save. NaN: the machine's costs are not known.
+  /// A lever, and about how much half of what it scales would save: of each stage at most what the last image
+  /// took for it. NaN: the machine's costs are not known.
   struct Help {
     QString lever;
     double ms = 0;

@@ -20,8 +20,9 @@ QString whoServes(OcclusionMethod method, const CullingParameters& culling) {
     return QObject::tr("No depth map: near here one hid next to nothing, so that it is left out.");
   return culling.occlusion == OcclusionMethod::automatic
              ? QObject::tr(
-                   "No depth map: the horizon serves, because Occlusion is automatic and it costs less here.")
-             : QObject::tr("No depth map: the horizon serves, because Occlusion is “%1”.")
+                   "No depth map: the horizon serves, because Occlusion culling is automatic and it costs "
+                   "less here.")
+             : QObject::tr("No depth map: the horizon serves, because Occlusion culling is “%1”.")
                    .arg(labelOf(culling.occlusion));
 }
 

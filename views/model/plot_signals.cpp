@@ -34,7 +34,7 @@ constexpr std::array kSignals{
     PlotSignal{Trace::vertices, "vertices", "k", 1e-3, 1},
     PlotSignal{Trace::tiles_drawn, "nodes drawn", "", 1, 0},
     PlotSignal{Trace::tiles_outside, "nodes outside", "", 1, 0},
-    PlotSignal{Trace::tiles_hidden, "nodes hidden", "", 1, 0},
+    PlotSignal{Trace::tiles_hidden, "nodes occluded", "", 1, 0},
     PlotSignal{Trace::tiles_built, "nodes uploaded", "", 1, 0},
     PlotSignal{Trace::pages_read, "pages read", "", 1, 0},
     PlotSignal{Trace::page_read_mb, "read from disk", "MB", 1, 2},

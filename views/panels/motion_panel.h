@@ -38,6 +38,7 @@ class MotionPanel : public QWidget {
   QLineEdit& sweepEdit() { return *sweep_; }
   QListWidget& reasons() { return *reasons_; }
   BarList& bars() { return *bars_; }
+  MotionPlot& plot() { return *plot_; }
   QString stateText() const;
 
  signals:

@@ -27,7 +27,7 @@ double mostOf(std::vector<double>& values) {
 }  // namespace
 
 BudgetPlot::BudgetPlot(QWidget* parent)
-    : Plot(tr("Predicted and measured frame time"), Keyboard::ignored, parent) {
+    : ClockPlot(tr("Predicted and measured frame time"), Keyboard::ignored, parent) {
   setPlottingHints(QCP::phFastPolylines | QCP::phCacheLabels);
   setNotAntialiasedElements(QCP::aeAxes | QCP::aeGrid | QCP::aeFills);
   addLegendAbove();
@@ -49,6 +49,8 @@ BudgetPlot::BudgetPlot(QWidget* parent)
   offHigh_->setChannelFillGraph(offLow_);
   for (QCPGraph* graph : {total_, recorded_, budget_, asked_, bandHigh_}) graph->addToLegend(legend);
   for (QCPGraph* graph : predicted_) graph->addToLegend(legend);
+  addOverlays({"tracker"});
+  trackIn({parts_.begin(), parts_.end()});
   arrangeParts();
   restyle();
 }
@@ -188,6 +190,7 @@ void BudgetPlot::refresh() {
 
 void BudgetPlot::restyle() {
   applyThemeWithLegendAbove();
+  styleTracker();
   for (const Stack* stack : {&predicted_, &measured_})
     for (std::size_t i = 0; i < stack->size(); ++i) {
       QColor fill = seriesColour(int(i) + 1, palette());

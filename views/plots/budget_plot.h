@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "plot.h"
+#include "clock_plot.h"
 #include "views/model/recorded_run.h"
 
 namespace trimtab::views {
@@ -12,7 +12,7 @@ namespace trimtab::views {
 /// band and what would be drawn without the arbiter; the measured time by stage on the same scale, with a
 /// recorded run laid over it; and by how much the predictions that came due were off. They are beside each
 /// other where there is the width for that, else below each other.
-class BudgetPlot : public Plot {
+class BudgetPlot : public ClockPlot {
   Q_OBJECT
  public:
   static constexpr double kSpanS = 15;

@@ -14,7 +14,7 @@ constexpr double kMotionHeadRoom = 1.1;
 
 }  // namespace
 
-MotionPlot::MotionPlot(QWidget* parent) : Plot(tr("Head motion over time"), Keyboard::ignored, parent) {
+MotionPlot::MotionPlot(QWidget* parent) : ClockPlot(tr("Head motion over time"), Keyboard::ignored, parent) {
   setPlottingHints(QCP::phFastPolylines | QCP::phCacheLabels);
   setNotAntialiasedElements(QCP::aeAxes | QCP::aeGrid | QCP::aeFills);
   addLegendAbove();
@@ -37,6 +37,8 @@ MotionPlot::MotionPlot(QWidget* parent) : Plot(tr("Head motion over time"), Keyb
   rate_ = addGraph();
   rate_->setName(tr("rate"));
   for (QCPGraph* graph : {rate_, threshold_, scale_, blur_}) graph->addToLegend();
+  addOverlays({"tracker"});
+  trackIn({axisRect()});
   restyle();
 }
 
@@ -73,6 +75,7 @@ void MotionPlot::refresh() {
 
 void MotionPlot::restyle() {
   applyThemeWithLegendAbove();
+  styleTracker();
   rate_->setPen(QPen(seriesColour(0, palette()), 1.5));
   threshold_->setPen(QPen(errorColour(palette()), 1.5, Qt::DashLine));
   scale_->setPen(QPen(seriesColour(1, palette()), 2));

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "plot.h"
+#include "clock_plot.h"
 #include "views/model/live.h"
 
 namespace trimtab::views {
 
 /// Shows the last seconds: the rate of the line of sight against its threshold, the LOD scale, and the time
 /// that is blurred.
-class MotionPlot : public Plot {
+class MotionPlot : public ClockPlot {
   Q_OBJECT
  public:
   static constexpr double kSpanS = 15;

@@ -4,8 +4,10 @@
 #include <qcustomplot.h>
 
 #include <QBuffer>
+#include <QFileInfo>
 #include <QList>
 #include <QPaintEngine>
+#include <QPixmap>
 #include <algorithm>
 #include <optional>
 #include <string_view>
@@ -201,17 +203,29 @@ QByteArray svgOf(QCustomPlot& plot) {
          "\" viewBox=\"0 0 " + width + ' ' + height + "\">\n" + device.engine.body + "</svg>\n";
 }
 
-Findings writePicture(QCustomPlot& plot, const QString& file) {
-  QByteArray bytes;
-  if (file.endsWith(QLatin1String(".svg"), Qt::CaseInsensitive)) {
-    bytes = svgOf(plot);
-  } else {
-    QBuffer buffer(&bytes);
-    buffer.open(QIODevice::WriteOnly);
-    plot.toPixmap(0, 0, kPngScale).save(&buffer, "PNG");
-  }
+namespace {
+
+Findings write(const QByteArray& bytes, const QString& file) {
   return writeAtomically(file.toStdString(), std::string_view(bytes.constData(), std::size_t(bytes.size())))
       .findings();
+}
+
+}  // namespace
+
+Findings writePicture(QCustomPlot& plot, const QString& file) {
+  if (file.endsWith(QLatin1String(".svg"), Qt::CaseInsensitive)) return write(svgOf(plot), file);
+  return writePixmap(plot.toPixmap(0, 0, kPngScale), file);
+}
+
+Findings writePixmap(const QPixmap& picture, const QString& file) {
+  QByteArray bytes;
+  QBuffer buffer(&bytes);
+  buffer.open(QIODevice::WriteOnly);
+  const QByteArray ending = QFileInfo(file).suffix().toUpper().toLatin1();
+  if (!picture.save(&buffer, ending.isEmpty() ? "PNG" : ending.constData()))
+    return {
+        {Severity::error, file.toStdString(), {}, "a name that ends in .png or .jpg", ending.toStdString()}};
+  return write(bytes, file);
 }
 
 }  // namespace trimtab::views

@@ -7,6 +7,7 @@
 #include "trimtab/units/result.h"
 
 class QCustomPlot;
+class QPixmap;
 
 namespace trimtab::views {
 
@@ -14,5 +15,7 @@ namespace trimtab::views {
 QByteArray svgOf(QCustomPlot& plot);
 /// Writes a plot as it is shown: as SVG if the name ends so, else as PNG with twice as many pixels.
 Findings writePicture(QCustomPlot& plot, const QString& file);
+/// Writes a picture in the format that the name's ending says, or as PNG if it has none.
+Findings writePixmap(const QPixmap& picture, const QString& file);
 
 }  // namespace trimtab::views

@@ -15,7 +15,7 @@ constexpr double kHeadRoom = 1.08;
 }  // namespace
 
 TimePlot::TimePlot(const TraceBuffer& buffer, const PlotMarks* marks, PlotLanes lanes, QWidget* parent)
-    : Plot(tr("Live plots"), Keyboard::used, parent),
+    : ClockPlot(tr("Live plots"), Keyboard::used, parent),
       buffer_(buffer),
       marks_(marks),
       content_(std::move(lanes)) {
@@ -62,7 +62,7 @@ void TimePlot::restyle() {
   cursor_[0].setLook(QPen(ink, 1.2), base, font());
   cursor_[1].setLook(QPen(ink, 1.2, Qt::DashDotLine), base, font());
   chosen_.setLook(QPen(liveColour(p), 2), base, font());
-  tracker_.setLook(QPen(blend(base, ink, 0.4), 1, Qt::DotLine), std::nullopt, font());
+  styleTracker();
   draw();
 }
 
@@ -214,11 +214,6 @@ void TimePlot::placeCursors() {
 void TimePlot::choose(std::optional<double> time) {
   chosen_.place(time);
   layer(QStringLiteral("cursors"))->replot();
-}
-
-void TimePlot::showTracker(double time) {
-  tracker_.place(time);
-  layer(QStringLiteral("tracker"))->replot();
 }
 
 QPointF TimePlot::pixelOfTime(double time) const {

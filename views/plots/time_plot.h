@@ -5,8 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "plot.h"
-#include "time_cursor.h"
+#include "clock_plot.h"
 #include "trace_graph.h"
 #include "views/model/plot_marks.h"
 #include "views/model/plot_signals.h"
@@ -16,7 +15,7 @@ namespace trimtab::views {
 /// Shows lanes against one time axis, each with the signals that a person put into it; a budget line, two
 /// cursors, a chosen frame, a tracker, and marks of what happened beside the frames. It draws what a
 /// TraceBuffer and a PlotMarks hold and owns no data.
-class TimePlot : public Plot {
+class TimePlot : public ClockPlot {
   Q_OBJECT
  public:
   /// `marks` may be null.
@@ -62,8 +61,6 @@ class TimePlot : public Plot {
   void moveCursor(int which, double time);
   /// Marks the frame at a time; none if it is unset.
   void choose(std::optional<double> time);
-  /// Shows where the pointer is in another plot of the same clock, without a signal. NaN hides it.
-  void showTracker(double time);
   QPointF pixelOfTime(double time) const;
 
   const std::vector<TraceGraph*>& traces() const { return traces_; }
@@ -77,7 +74,6 @@ class TimePlot : public Plot {
   void movedByHand();  ///< the person panned or zoomed away from the newest frame
   void shownChanged();
   void cursorsMoved();
-  void tracked(double time);  ///< NaN: the mouse left
   void frameClicked(std::uint64_t frame);
   void spikeAsked(int direction);  ///< 1: the next frame that took long, -1: the one before
   void pauseAsked();
@@ -94,7 +90,6 @@ class TimePlot : public Plot {
   void dropEvent(QDropEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
-  void leaveEvent(QEvent* event) override;
   void restyle() override;
   void resized() override { draw(); }
   bool zoomByKey(double factor) override;
@@ -139,7 +134,7 @@ class TimePlot : public Plot {
   std::array<QCPMarginGroup*, 2> columnMargins_{};
   int columns_ = 0, leastHeight_ = 0;
   std::array<TimeCursor, 2> cursor_;
-  TimeCursor tracker_, chosen_;
+  TimeCursor chosen_;
   std::optional<std::array<double, 2>> cursors_;
   std::optional<std::uint64_t> held_;
   double span_ = 60;

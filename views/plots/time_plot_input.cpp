@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
-#include <limits>
 
 #include "time_plot.h"
 
@@ -119,13 +118,6 @@ void TimePlot::keyPressEvent(QKeyEvent* event) {
     default:
       return Plot::keyPressEvent(event);
   }
-}
-
-void TimePlot::leaveEvent(QEvent* event) {
-  constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
-  showTracker(kNowhere);
-  emit tracked(kNowhere);
-  QCustomPlot::leaveEvent(event);
 }
 
 }  // namespace trimtab::views

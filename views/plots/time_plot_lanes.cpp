@@ -83,7 +83,7 @@ void TimePlot::makeLanes() {
   cursor_[1].setFlag(QStringLiteral("B"));
   chosen_.attach(*this, "cursors", rects);
   chosen_.setFlag(tr("frame"));
-  tracker_.attach(*this, "tracker", rects);
+  trackIn(rects);
   arrange();
 }
 

@@ -37,7 +37,8 @@ void TraceController::write(bool all) {
   if (!writer_) return;
   rows_.clear();
   at_.feed.session().takeRows(rows_, all);
-  writer_->write(rows_);
+  if (const Result<Done> written = writer_->write(rows_); !written)
+    at_.messages.add(tr("The trace is no longer recorded"), written.findings());
   count_ += rows_.size();
 }
 

@@ -69,7 +69,7 @@ ExportDialog::ExportDialog(std::optional<OcclusionMethod> chosen, const std::opt
   pin_->setChecked(before && before->pinned);
   if (chosen_) {
     const ParameterRow& row = *findRow("culling.occlusion");
-    pin_->setText(tr("&Pin hidden ground to “%1”")
+    pin_->setText(tr("&Pin occlusion culling to “%1”")
                       .arg(views::fromView(row.choices[static_cast<std::size_t>(*chosen_)].label)));
     pin_->setToolTip(
         tr("The automatic choice depends on the machine: each measures which method costs least. "

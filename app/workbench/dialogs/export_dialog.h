@@ -15,8 +15,8 @@ class QPlainTextEdit;
 namespace trimtab::workbench {
 
 /// Asks for what an export contains beside the parameters: format, author and comment, and whether what the
-/// automatic choice of hidden ground chose here is pinned; and after the first export also for the file, so
-/// that another dialog is needed only for a new one. The author is remembered in the user's settings.
+/// automatic choice of occlusion culling chose here is pinned; and after the first export also for the file,
+/// so that another dialog is needed only for a new one. The author is remembered in the user's settings.
 class ExportDialog : public QDialog {
   Q_OBJECT
 

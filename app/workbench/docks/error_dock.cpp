@@ -24,6 +24,7 @@
 
 #include "answer_page.h"
 #include "sweep_page.h"
+#include "trimtab/preset/file_io.h"
 #include "views/model/error_run.h"
 #include "views/model/theme.h"
 
@@ -382,16 +383,9 @@ bool ErrorDock::openResults(const QString& file) {
     emit refused(tr("The results cannot be opened: %1").arg(file), findings);
     return false;
   };
-  QFile from(file);
-  if (!from.open(QIODevice::ReadOnly))
-    return refuse({{Severity::error,
-                    file.toStdString(),
-                    {},
-                    "a file that can be read",
-                    from.errorString().toStdString()}});
-  const QByteArray bytes = from.readAll();
-  Result<harness::Results> read = harness::parseResults(
-      std::string_view(bytes.constData(), std::size_t(bytes.size())), file.toStdString());
+  const Result<std::string> bytes = readWhole(file.toStdString(), kLargestRecording);
+  if (!bytes) return refuse(bytes.findings());
+  Result<harness::Results> read = harness::parseResults(*bytes, file.toStdString());
   if (!read) return refuse(read.findings());
   results_ = std::move(read).value();
   resultsFile_ = QFileInfo(file).absoluteFilePath();

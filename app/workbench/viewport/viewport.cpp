@@ -60,6 +60,9 @@ Viewport::Viewport(QWidget* parent) : QOpenGLWidget(parent), notice_(tr("No terr
   setMinimumSize(320, 200);
   setAccessibleName(tr("Terrain view"));
   setAttribute(Qt::WA_AcceptTouchEvents, false);
+  later_.setSingleShot(true);
+  later_.setTimerType(Qt::PreciseTimer);
+  connect(&later_, &QTimer::timeout, this, qOverload<>(&QWidget::update));
   qApp->installEventFilter(this);
   connect(this, &QOpenGLWidget::frameSwapped, this, [this] {
     if (unreported_) {
@@ -112,18 +115,33 @@ void Viewport::setTerrain(std::shared_ptr<const terrain::Database> database) {
 void Viewport::invalidate() {
   if (dirty_) return;
   dirty_ = true;
-  if (!isVisible()) return;
-  const qint64 wait = controlHeld_ && sinceShown_.isValid() ? tookMs_ - sinceShown_.elapsed() : 0;
-  if (wait <= 1) return update();
-  QTimer::singleShot(wait, Qt::PreciseTimer, this, qOverload<>(&QWidget::update));
+  if (isVisible()) update();
+}
+
+/// Returns how long the next image is to wait, so that controls answer in between.
+qint64 Viewport::controlsFirstMs() const {
+  constexpr qint64 kMostMs = 100;
+  const qint64 pause = std::min(tookMs_, kMostMs);
+  const bool inUse = controlHeld_ || (sinceInput_.isValid() && sinceInput_.elapsed() < pause);
+  return inUse && sinceShown_.isValid() ? pause - sinceShown_.elapsed() : 0;
+}
+
+void Viewport::paintEvent(QPaintEvent* event) {
+  const qint64 wait = controlsFirstMs();
+  // The display shows the old image meanwhile; one of another size would be stretched.
+  if (wait <= 1 || size() != paintedSize_) return QOpenGLWidget::paintEvent(event);
+  if (!later_.isActive()) later_.start(int(wait));
 }
 
 bool Viewport::eventFilter(QObject* watched, QEvent* event) {
-  // A drag of data ends without a release; the next move says that no button is down.
   if (watched->isWidgetType() && watched != this) {
-    if (event->type() == QEvent::MouseButtonPress)
+    const auto type = event->type();
+    if (type == QEvent::MouseButtonPress || type == QEvent::MouseButtonRelease || type == QEvent::KeyPress)
+      sinceInput_.start();
+    // A drag of data ends without a release; the next move says that no button is down.
+    if (type == QEvent::MouseButtonPress)
       controlHeld_ = true;
-    else if (event->type() == QEvent::MouseButtonRelease || event->type() == QEvent::MouseMove)
+    else if (type == QEvent::MouseButtonRelease || type == QEvent::MouseMove)
       controlHeld_ = static_cast<QMouseEvent*>(event)->buttons() != Qt::NoButton;
   }
   return QOpenGLWidget::eventFilter(watched, event);
@@ -179,6 +197,8 @@ void Viewport::paintGL() {
   dirty_ = false;
   ++paints_;
   sincePaint_.start();
+  paintedSize_ = size();
+  later_.stop();
   if (camera_.moving()) {
     const double step = sinceMove_.isValid() ? double(sinceMove_.nsecsElapsed()) * 1e-9 : 1.0 / 60;
     sinceMove_.start();

@@ -5,6 +5,7 @@
 #include <QImage>
 #include <QOpenGLWidget>
 #include <QRectF>
+#include <QTimer>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -35,9 +36,9 @@ struct Picture {
 };
 
 /// Shows the terrain that scene::Renderer draws. It paints on demand only: any number of calls of
-/// `invalidate` give one paint, and nothing is painted while it is hidden. While the mouse holds a control
-/// elsewhere, such as a point of a curve, the control goes first: after an image the viewport waits for as
-/// long as the image took. Without terrain it says how to open some.
+/// `invalidate` give one paint, and nothing is painted while it is hidden. Controls go first: while the mouse
+/// holds one, such as a point of a curve, and just after a click or a key elsewhere, the viewport waits after
+/// an image for as long as the image took, at most 100 ms. Without terrain it says how to open some.
 class Viewport : public QOpenGLWidget {
   Q_OBJECT
 
@@ -105,6 +106,7 @@ class Viewport : public QOpenGLWidget {
   void wheelEvent(QWheelEvent* event) override;
   void focusOutEvent(QFocusEvent* event) override;
   void showEvent(QShowEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
@@ -119,6 +121,7 @@ class Viewport : public QOpenGLWidget {
   void placePicture(const Picture& picture, QSize pixels);
   void report();
   void paintAgain();
+  qint64 controlsFirstMs() const;
 
   Source source_;
   OverlayContents shownOverlay_;
@@ -138,8 +141,11 @@ class Viewport : public QOpenGLWidget {
   QString notice_;
   QElapsedTimer sinceMove_, sinceDepthMap_, sincePaint_;
   bool controlHeld_ = false;  ///< the mouse holds a control that is not this widget
+  QElapsedTimer sinceInput_;  ///< since the last click or key elsewhere
   qint64 tookMs_ = 0;         ///< the last image, until it was on the display
+  QSize paintedSize_;         ///< the widget's, of the last image
   QElapsedTimer sinceShown_;  ///< since then
+  QTimer later_;              ///< runs while an image waits
   bool unreported_ = false;   ///< `painted` has not been emitted for the last image
   std::uint64_t paints_ = 0;
 };

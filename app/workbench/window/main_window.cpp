@@ -37,6 +37,7 @@
 #include "views/panels/plots_panel.h"
 #include "views/panels/rules_panel.h"
 #include "views/panels/static_lod_panel.h"
+#include "views/plots/plot_picture.h"
 #include "views/policy/policy_panel.h"
 #include "views/policy/scheme_page.h"
 #include "welcome.h"
@@ -370,7 +371,7 @@ void MainWindow::takeScreenshotSoon() {
 }
 
 void MainWindow::takeScreenshot() {
-  bool good = grab().save(options_.screenshot);
+  bool good = views::writePixmap(grab(), options_.screenshot).empty();
   if (!good)
     std::fprintf(stderr, "trimtab: the screenshot cannot be saved: %s\n", qPrintable(options_.screenshot));
   if (!options_.exportFile.isEmpty())

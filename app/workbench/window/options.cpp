@@ -3,12 +3,20 @@
 
 #include <QCommandLineParser>
 #include <QFileInfo>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 
 namespace trimtab::workbench {
 namespace {
 
-constexpr int kDone = 0, kUsage = 2;
+constexpr int kDone = 0, kRefused = 1, kUsage = 2;
+
+int print(const QString& text) {
+  if (std::fputs(qPrintable(text), stdout) >= 0 && std::fflush(stdout) == 0) return kDone;
+  std::fprintf(stderr, "trimtab: standard output cannot be written: %s\n", std::strerror(errno));
+  return kRefused;
+}
 
 int complain(const QString& text) {
   std::fprintf(stderr, "trimtab: %s\n", qPrintable(text));
@@ -54,13 +62,11 @@ Parsed parseOptions(const QStringList& arguments) {
     return parsed;
   }
   if (parser.isSet(help)) {
-    std::fputs(qPrintable(parser.helpText().replace("<executable_name>", "trimtab")), stdout);
-    parsed.exitCode = kDone;
+    parsed.exitCode = print(parser.helpText().replace("<executable_name>", "trimtab"));
     return parsed;
   }
   if (parser.isSet(version)) {
-    std::puts("trimtab " TRIMTAB_VERSION);
-    parsed.exitCode = kDone;
+    parsed.exitCode = print(QStringLiteral("trimtab " TRIMTAB_VERSION "\n"));
     return parsed;
   }
   for (const QString& file : parser.positionalArguments()) {

@@ -104,6 +104,8 @@ std::vector<PaletteEntry> paletteEntries(QMainWindow& window, const Controllers&
                        [&by, name] { by.document->openOverEdits(views::fromView(name)); }});
   addRecent(entries, QStringLiteral("preset"), QObject::tr("preset"),
             [&by](const QString& path) { by.document->openOverEdits(path); });
+  entries.push_back({QObject::tr("The sample terrain"), QObject::tr("terrain"), QObject::tr("ships"),
+                     [&by] { by.terrain->openSample(); }});
   addRecent(entries, QStringLiteral("terrain"), QObject::tr("terrain"),
             [&by](const QString& path) { by.terrain->open(path); });
   addRecent(entries, QStringLiteral("flight"), QObject::tr("flight"),

@@ -59,11 +59,11 @@ Panels makePanels(DockLayout& docks, views::Draft& draft, Feed& feed) {
   panels.symbology = docks.add("symbology", tr("Symbology"), edit, new views::SymbologyPanel(draft));
   panels.parameters = docks.add("preset", tr("Preset"), edit, new views::ParameterTable(draft));
   docks.add("decision", tr("Decision"), effect, new views::DecisionPanel(draft));
-  auto* budget = docks.add("budget", tr("Budget"), effect, new views::BudgetPanel(draft));
+  panels.budget = docks.add("budget", tr("Budget"), effect, new views::BudgetPanel(draft));
   panels.motion = docks.add("motion", tr("Head motion"), effect, new views::MotionPanel(draft));
   panels.host = docks.add("host", tr("Host"), effect, new HostDock(feed, draft));
   panels.flight = docks.add("flight", tr("Flight"), effect, new FlightDock(feed));
-  QObject::connect(budget, &views::BudgetPanel::replayAsked, panels.flight, &FlightDock::fly);
+  QObject::connect(panels.budget, &views::BudgetPanel::replayAsked, panels.flight, &FlightDock::fly);
   panels.plots = docks.add("plots", tr("Plots"), foot, new views::PlotsPanel(draft));
   panels.messages = docks.add("messages", tr("Messages"), foot, new MessagePanel);
   panels.changes = docks.add("history", tr("Changes"), foot, new ChangesDock(draft));

@@ -3,6 +3,7 @@
 
 namespace trimtab::views {
 class BandsEditor;
+class BudgetPanel;
 class CullingPanel;
 class Draft;
 class MotionPanel;
@@ -35,6 +36,7 @@ struct Panels {
   views::WeatherPanel* weather = nullptr;
   views::SymbologyPanel* symbology = nullptr;
   views::MotionPanel* motion = nullptr;
+  views::BudgetPanel* budget = nullptr;
   views::ParameterTable* parameters = nullptr;
   HostDock* host = nullptr;
   FlightDock* flight = nullptr;

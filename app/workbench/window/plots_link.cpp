@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plots_link.h"
 
+#include <array>
+
 #include "app/link/link.h"
 #include "app/workbench/controllers/controllers.h"
 #include "app/workbench/docks/dock_of.h"
 #include "app/workbench/jobs/feed.h"
 #include "panels.h"
+#include "views/panels/budget_panel.h"
 #include "views/panels/culling_panel.h"
+#include "views/panels/motion_panel.h"
 #include "views/panels/plots_panel.h"
+#include "views/plots/budget_plot.h"
+#include "views/plots/motion_plot.h"
 #include "views/plots/time_plot.h"
 
 namespace trimtab::workbench {
@@ -27,12 +33,20 @@ void connectPlots(const Panels& panels, const Controllers& controllers, Feed& fe
       controllers.trace.get(), &TraceController::recordingChanged, plots,
       [plots, frames](bool recording) { plots->mark(Mark::recording, recording, frames->clock()); });
   views::TimePlot* const stages = panels.culling->stages();
-  QObject::connect(stages, &views::TimePlot::tracked, &plots->plot(), &views::TimePlot::showTracker);
-  QObject::connect(&plots->plot(), &views::TimePlot::tracked, stages, &views::TimePlot::showTracker);
-  QObject::connect(stages, &views::TimePlot::frameClicked, plots, [plots](std::uint64_t frame) {
+  const std::array<views::ClockPlot*, 4> all{&plots->plot(), stages, &panels.budget->plot(),
+                                             &panels.motion->plot()};
+  for (views::ClockPlot* from : all)
+    for (views::ClockPlot* to : all)
+      if (from != to) QObject::connect(from, &views::ClockPlot::tracked, to, &views::ClockPlot::showTracker);
+  const auto explain = [plots](std::uint64_t frame) {
     raiseDock(*plots);
     plots->chooseFrame(frame);
-  });
+  };
+  QObject::connect(stages, &views::TimePlot::frameClicked, plots, explain);
+  for (views::ClockPlot* other : {all[2], all[3]})
+    QObject::connect(other, &views::ClockPlot::timeClicked, plots, [plots, explain](double time) {
+      if (const auto frame = plots->plot().frameAt(time)) explain(*frame);
+    });
   QObject::connect(plots, &views::PlotsPanel::frameChosen, &feed, [&feed](double time) {
     const FlightPlayback& flight = feed.playback();
     if (feed.source() != Feed::Source::flight || flight.playing() || !flight.loaded()) return;

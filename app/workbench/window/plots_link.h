@@ -7,9 +7,9 @@ struct Controllers;
 class Feed;
 struct Panels;
 
-/// Joins the dock Plots with the rest of the window: it marks a silent host and a running recording; the plot
-/// of the dock Culling shares its pointer and its frames; and a flight that is paused goes to the frame that
-/// a person chooses.
+/// Joins the dock Plots with the rest of the window: it marks a silent host and a running recording; the
+/// plots of the docks Culling, Budget and Head motion share its pointer, and a click on one of them explains
+/// the frame in Plots; and a flight that is paused goes to the frame that a person chooses.
 void connectPlots(const Panels& panels, const Controllers& controllers, Feed& feed);
 
 }  // namespace trimtab::workbench

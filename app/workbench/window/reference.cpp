@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reference.h"
 
+#include <QApplication>
 #include <QDockWidget>
+#include <QKeyEvent>
 #include <QLineEdit>
 #include <QTextBrowser>
 #include <QVBoxLayout>
+#include <QWhatsThis>
 #include <algorithm>
 
 #include "app/workbench/docks/dock_of.h"
@@ -31,6 +34,24 @@ QString nameOf(const QWidget& control) {
   return QString(text).remove('&');
 }
 
+/// Returns the name of a control, what its tool tip or its description says, and its dock; empty if neither
+/// is known. What has no text of its own has that of what it is in.
+QString explanationOf(const QWidget& control) {
+  QString text;
+  for (const QWidget* at = &control; at != nullptr && text.isEmpty() && !at->isWindow();
+       at = at->parentWidget())
+    text = at->toolTip().isEmpty() ? at->accessibleDescription() : at->toolTip();
+  const QString name = nameOf(control);
+  if (text.isEmpty() && name.isEmpty()) return {};
+  if (!Qt::mightBeRichText(text))
+    text = text.toHtmlEscaped().replace(QLatin1Char('\n'), QStringLiteral("<br>"));
+  QString html = QStringLiteral("<h3>%1</h3>").arg(name.toHtmlEscaped());
+  if (!text.isEmpty()) html += QStringLiteral("<p>%1</p>").arg(text);
+  if (const QDockWidget* dock = dockOf(control))
+    html += Reference::tr("<p>In the dock <b>%1</b>.</p>").arg(dock->windowTitle().toHtmlEscaped());
+  return html;
+}
+
 }  // namespace
 
 Reference::Reference(QWidget* parent)
@@ -45,6 +66,7 @@ Reference::Reference(QWidget* parent)
   auto* column = new QVBoxLayout(this);
   column->addWidget(search_);
   column->addWidget(text_, 1);
+  qApp->installEventFilter(this);
   connect(search_, &QLineEdit::textChanged, this, [this](const QString& words) {
     if (!explaining_) find(words);
   });
@@ -75,17 +97,8 @@ bool Reference::explain(const QWidget* control) {
     look(key);
     return true;
   }
-  QString toolTip;
-  for (const QWidget* at = control; at != nullptr && toolTip.isEmpty() && !at->isWindow();
-       at = at->parentWidget())
-    toolTip = at->toolTip();
-  const QString name = nameOf(*control);
-  if (toolTip.isEmpty() && name.isEmpty()) return false;
-  if (!Qt::mightBeRichText(toolTip))
-    toolTip = toolTip.toHtmlEscaped().replace(QLatin1Char('\n'), QStringLiteral("<br>"));
-  QString html = QStringLiteral("<h3>%1</h3><p>%2</p>").arg(name.toHtmlEscaped(), toolTip);
-  if (const QDockWidget* dock = dockOf(*control))
-    html += tr("<p>In the dock <b>%1</b>.</p>").arg(dock->windowTitle().toHtmlEscaped());
+  const QString html = explanationOf(*control);
+  if (html.isEmpty()) return false;
   // An empty search would show the whole reference first. The box's own signals stay on: its clear button
   // follows them.
   explaining_ = true;
@@ -94,6 +107,17 @@ bool Reference::explain(const QWidget* control) {
   text_->setHtml(html);
   begin();
   return true;
+}
+
+bool Reference::eventFilter(QObject* watched, QEvent* event) {
+  const auto* const control = qobject_cast<QWidget*>(watched);
+  if (event->type() == QEvent::KeyPress && static_cast<QKeyEvent*>(event)->key() == Qt::Key_F1 &&
+      control != nullptr && QApplication::activeModalWidget() != nullptr) {
+    if (const QString html = explanationOf(*control); !html.isEmpty())
+      QWhatsThis::showText(control->mapToGlobal(QPoint(0, control->height())), html);
+    return true;
+  }
+  return QDialog::eventFilter(watched, event);
 }
 
 void Reference::begin() {

@@ -19,10 +19,14 @@ class Reference : public QDialog {
   /// reference.
   void look(const QString& words);
   /// Shows what a control sets or does: the entry of its parameter, or its name and tool tip. Returns false
-  /// if nothing is known about it.
+  /// if nothing is known about it. F1 in a modal dialog shows the same beside the control, because no other
+  /// window can be reached then.
   bool explain(const QWidget* control);
   QLineEdit& search() { return *search_; }
   QTextBrowser& text() { return *text_; }
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   void find(const QString& words);

@@ -24,11 +24,13 @@ bool holdsNothingElse(const std::filesystem::path& folder) {
       kManifestName, kHeightsName, kHeightSumsName, kImageName,  kImageSumsName, kNodesName,
       kSlopesName,   kConesName,   kPatchesName,    kGroundName, kStaticLodName};
   constexpr std::string_view kBegins = "{\n  \"format\": \"trimtab-terrain\"";
+  std::error_code error;
+  // A pipe would never give its first byte.
+  if (!std::filesystem::is_regular_file(folder / kManifestName, error)) return false;
   std::string begins(kBegins.size(), 0);
   std::ifstream(folder / kManifestName, std::ios::binary)
       .read(begins.data(), static_cast<std::streamsize>(begins.size()));
   if (begins != kBegins) return false;
-  std::error_code error;
   using Entries = std::filesystem::directory_iterator;
   for (auto entry = Entries(folder, error); !error && entry != Entries(); entry.increment(error)) {
     std::error_code unseen;

@@ -14,6 +14,16 @@ test::Ran experimentBy(const std::string& arguments) {
   return test::run(test::program("trimtab-cli").string() + " experiment " + arguments);
 }
 
+TEST(ExperimentCommand, refusesAFolderForResultsBeforeItOpensTheTerrain) {
+  for (const char* command : {"experiment culling", "leverage"}) {
+    const test::Ran ran = test::run(test::program("trimtab-cli").string() + " " + command +
+                                    " --terrain /no/such/terrain -o /proc/results");
+    EXPECT_EQ(ran.exitCode, 1);
+    EXPECT_NE(ran.err.find("/proc/results"), std::string::npos) << ran.err;
+    EXPECT_EQ(ran.err.find("/no/such/terrain"), std::string::npos) << ran.err;
+  }
+}
+
 TEST(ExperimentCommand, printsOneDocumentAndWritesTablesAndPlots) {
   const test::ScratchDir dir;
   const std::string tif = (dir / "sample.tif").string(), database = (dir / "db").string();

@@ -161,6 +161,33 @@ TEST(FeedCommand, refusesATargetBeforeItListens) {
   }
 }
 
+TEST(FeedCommand, hearsOnlyTheInterfaceAndTheSenderThatItWasGiven) {
+  for (const bool allowed : {true, false}) {
+    ScratchDir dir;
+    const std::string port = freePort();
+    Background recorder(
+        {program("trimtab-cli").string(), "feed", "record", "--listen", port, "--bind", "127.0.0.2", "--from",
+         allowed ? "127.0.0.1" : "127.0.0.3", "-o", (dir / "out.csv").string()},
+        dir / "err");
+    waitFor(dir / "err", "listening");
+    const auto playTo = [&](const std::string& address) {
+      return run(cli() + " feed play " + aFlight(dir) + " --to " + address + ":" + port +
+                 " --protocol native-fdm --speed 8")
+          .exitCode;
+    };
+    EXPECT_EQ(playTo("127.0.0.1"), 0);
+    EXPECT_EQ(playTo("127.0.0.2"), 0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    EXPECT_EQ(recorder.end(SIGTERM), allowed ? 0 : 1);
+    EXPECT_EQ(std::filesystem::exists(dir / "out.csv"), allowed);
+    if (!allowed) continue;
+    const Result<Flight> heard = readFlight((dir / "out.csv").string()), sent = readFlight(aFlight(dir));
+    ASSERT_TRUE(heard && sent);
+    EXPECT_GT(heard->states.size(), 0u);
+    EXPECT_LE(heard->states.size(), sent->states.size()) << "the other interface is deaf";
+  }
+}
+
 TEST(FeedCommand, sendsAHeadAsViewControl) {
   ScratchDir dir;
   const std::string port = freePort();

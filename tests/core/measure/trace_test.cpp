@@ -288,7 +288,7 @@ TEST(TraceFile, keepsTheOldFileUntilTheNewOneIsWhole) {
   ASSERT_TRUE(trace) << toString(trace.findings());
   std::mt19937_64 random(12);
   const std::vector<TraceRow> rows(2, anyRow(random));
-  trace->write(rows);
+  ASSERT_TRUE(trace->write(rows));
   EXPECT_EQ(test::readFile(file), "the old one");
   EXPECT_EQ(readTrace(part)->size(), 2u) << "a crash leaves it";
   ASSERT_TRUE(trace->finish());
@@ -324,10 +324,12 @@ TEST(TraceFile, keepsTheWholeRowsWhenTheDiskIsFull) {
   Result<TraceFile> trace = TraceFile::open(dir / "trace.csv");
   std::mt19937_64 random(3);
   const std::vector<TraceRow> rows(100, anyRow(random));
-  trace->write(rows);
+  const Result<Done> written = trace->write(rows), again = trace->write(rows);
   const Result<Done> done = trace->finish();
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
   ::signal(SIGXFSZ, old);
+  EXPECT_NE(toString(written.findings()).find("room for more rows"), std::string::npos);
+  EXPECT_TRUE(again) << "it is said once";
   EXPECT_FALSE(done);
   EXPECT_NE(toString(done.findings()).find("trace.csv.part"), std::string::npos) << toString(done.findings());
   EXPECT_FALSE(std::filesystem::exists(dir / "trace.csv"));

@@ -221,7 +221,11 @@ TEST(ReadWhole, refusesWhatIsTooLargeBeforeItReadsIt) {
 
 TEST(CanWriteIn, leavesNothingAndSaysWhyNot) {
   const ScratchDir dir;
+  test::writeFile(dir / ".trimtab-abc123", "");
+  test::writeFile(dir / ".trimtab-settings", "mine");
   EXPECT_TRUE(canWriteIn(dir.path()));
+  EXPECT_FALSE(std::filesystem::exists(dir / ".trimtab-abc123")) << "a killed program left it";
+  EXPECT_TRUE(std::filesystem::exists(dir / ".trimtab-settings"));
   EXPECT_TRUE(makeWritable(dir / "a/b"));
   EXPECT_TRUE(std::filesystem::is_empty(dir / "a/b"));
   EXPECT_THAT(toString(canWriteIn(dir / "none").findings()), HasSubstr("No such file"));

@@ -55,6 +55,8 @@ class TraceWriter {
  public:
   static Result<TraceWriter> open(const std::filesystem::path& file);
   void write(const TraceRow& row);
+  /// Reports whether all rows so far reached the file.
+  bool good() const { return stream_.good(); }
   Result<Done> close();
 
  private:

@@ -14,7 +14,8 @@ class TraceFile {
   /// Refuses what finish() could not replace, and a `FILE.part` with rows: it may be all that is left of a
   /// flight.
   static Result<TraceFile> open(const std::filesystem::path& file);
-  void write(std::span<const TraceRow> rows);
+  /// Fails once, as soon as rows no longer reach the file; from then on rows are dropped, and finish() fails.
+  Result<Done> write(std::span<const TraceRow> rows);
   /// Gives the trace its name. If it fails, the findings say where the rows are.
   Result<Done> finish();
 
@@ -23,6 +24,7 @@ class TraceFile {
       : file_(std::move(file)), writer_(std::move(writer)) {}
   std::filesystem::path file_;
   TraceWriter writer_;
+  bool full_ = false;
 };
 
 }  // namespace trimtab

@@ -4,14 +4,14 @@
 #include <optional>
 #include <vector>
 
-#include "ghosts.h"
-#include "plot.h"
-#include "views/editors/area_band.h"
-#include "views/editors/curve_edit.h"
-#include "views/editors/edit_hand.h"
+#include "area_band.h"
+#include "curve_edit.h"
+#include "edit_hand.h"
 #include "views/model/draft.h"
 #include "views/model/live.h"
 #include "views/model/throttle.h"
+#include "views/plots/ghosts.h"
+#include "views/plots/plot.h"
 
 namespace trimtab::views {
 
