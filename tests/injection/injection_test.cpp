@@ -1,8 +1,11 @@
 #include "injection.h"
 #include "tests/core/terrain/elevation/rasters.h"
+#include "tests/core/terrain/static_lod/static_lod_support.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/terrain/bake/bake.h"
 #include "trimtab/terrain/format/database.h"
+#include "trimtab/terrain/scenery/scenery.h"
+#include "trimtab/terrain/static_lod/export.h"
 
 namespace trimtab {
 namespace {
@@ -49,6 +52,39 @@ class BakeInjection : public Injection {
 TEST_F(BakeInjection, ofABake) {
   writes("bake",
          {[](const fs::path&) {}, [&](const fs::path& folder) { return bakeIn(folder); }, isWork, 97});
+}
+
+TEST_F(BakeInjection, ofABakeWithImagery) {
+  test::RasterRecipe picture;
+  picture.columns = 40;
+  picture.rows = 34;
+  picture.bands = 3;
+  picture.type = GDT_Byte;
+  picture.value = [](int c, int r, int band) { return (c * 3 + r * 5 + band * 70) % 256; };
+  options_.imagery = test::writeRaster(source_ / "rgb.tif", picture);
+  writes("bake with imagery",
+         {[](const fs::path&) {}, [&](const fs::path& folder) { return bakeIn(folder); }, isWork, 211});
+}
+
+TEST_F(Injection, ofAnExportOfScenery) {
+  const auto trees =
+      test::built({test::tin(std::to_string(terrain::bucketAt(Degrees{36.001}, Degrees{128.001}).index),
+                             test::TinOptions())},
+                  200);
+  ASSERT_TRUE(trees) << toString(trees.findings());
+  writes("export of scenery",
+         {.begin = [](const fs::path&) {},
+          .work = [&](const fs::path& folder) -> Findings {
+            const auto done = terrain::exportScenery(**trees, {0, folder / "out", {}}, "trees");
+            return done ? Findings{} : done.findings();
+          },
+          .mayStay = [](const std::string& name) { return name.starts_with(".out.part-"); },
+          // A folder that holds something is refused, so a whole export is put away.
+          .between =
+              [](const fs::path& folder) {
+                fs::remove_all(folder / "out");
+                return std::string();
+              }});
 }
 
 TEST_F(BakeInjection, ofABakeInPlaceOfAnotherDatabase) {
