@@ -61,7 +61,13 @@ Result<Done> checkWatch(const Options& options) {
 /// Told before the first frame, not after the last one.
 Result<Done> checkScreenshot(const Options& options) {
   if (options.screenshot.empty()) return Done{};
-  return canWriteIn(std::filesystem::absolute(options.screenshot).parent_path());
+  const std::filesystem::path folder = std::filesystem::absolute(options.screenshot).parent_path();
+  const Result<Done> writable = canWriteIn(folder);
+  if (writable) return writable;
+  Finding why = writable.findings().front();
+  why.where = options.screenshot.string();
+  why.found = folder.string() + ", " + why.found;
+  return why;
 }
 
 Result<scene::GlReport> initialized(scene::Renderer& renderer) {
