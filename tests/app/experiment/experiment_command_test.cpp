@@ -15,7 +15,7 @@ test::Ran experimentBy(const std::string& arguments) {
 }
 
 TEST(ExperimentCommand, refusesAFolderForResultsBeforeItOpensTheTerrain) {
-  for (const char* command : {"experiment culling", "leverage"}) {
+  for (const char* command : {"experiment culling", "leverage --flight none.csv"}) {
     const test::Ran ran = test::run(test::program("trimtab-cli").string() + " " + command +
                                     " --terrain /no/such/terrain -o /proc/results");
     EXPECT_EQ(ran.exitCode, 1);
