@@ -58,11 +58,11 @@ Result<TraceFile> TraceFile::open(const fs::path& file) {
 }
 
 Result<Done> TraceFile::write(std::span<const TraceRow> rows) {
-  if (full_) return Done{};
+  if (failed_) return Done{};
   for (const TraceRow& row : rows) writer_.write(row);
-  full_ = !writer_.good();
-  if (!full_) return Done{};
-  return unusable(partOf(file_), "room for more rows", "a full disk: no further row is recorded");
+  failed_ = !writer_.good();
+  if (!failed_) return Done{};
+  return unusable(partOf(file_), "room for more rows", "that writing failed: no further row is recorded");
 }
 
 Result<Done> TraceFile::finish() {

@@ -55,13 +55,7 @@ TEST_F(BakeInjection, ofABake) {
 }
 
 TEST_F(BakeInjection, ofABakeWithImagery) {
-  test::RasterRecipe picture;
-  picture.columns = 40;
-  picture.rows = 34;
-  picture.bands = 3;
-  picture.type = GDT_Byte;
-  picture.value = [](int c, int r, int band) { return (c * 3 + r * 5 + band * 70) % 256; };
-  options_.imagery = test::writeRaster(source_ / "rgb.tif", picture);
+  options_.imagery = test::writeRaster(source_ / "rgb.tif", test::anyColours(40, 34));
   writes("bake with imagery",
          {[](const fs::path&) {}, [&](const fs::path& folder) { return bakeIn(folder); }, isWork, 211});
 }

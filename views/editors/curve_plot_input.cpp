@@ -97,10 +97,9 @@ void CurvePlot::mouseMoveEvent(QMouseEvent* event) {
     CurvePoint to = valueAt(event->position() + grabOffset_);
     const CurvePoint from = dragStart_.point[static_cast<std::size_t>(selected())];
     if (event->modifiers() & Qt::ShiftModifier) {
-      // Shift keeps to the axis along which the drag has gone farther.
-      const QPointF gone = pixelOf(to) - pixelOf(from);
-      (std::abs(gone.x()) > std::abs(gone.y()) ? to.y : to.x) =
-          std::abs(gone.x()) > std::abs(gone.y()) ? from.y : from.x;
+      const QPointF kept =
+          EditHand::straightened({from.x, from.y}, {to.x, to.y}, pixelOf(to) - pixelOf(from));
+      to = {kept.x(), kept.y()};
     }
     const std::vector<std::size_t> moved = group();
     if (moved.size() > 1)

@@ -3,6 +3,7 @@
 
 #include <QKeyEvent>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace trimtab::views {
@@ -58,6 +59,11 @@ std::optional<int> EditHand::enteredAt(Qt::FocusReason reason, int count) {
   if (reason == Qt::TabFocusReason) return 0;
   if (reason == Qt::BacktabFocusReason) return count - 1;
   return std::nullopt;
+}
+
+QPointF EditHand::straightened(QPointF from, QPointF to, QPointF gonePx) {
+  if (std::abs(gonePx.x()) > std::abs(gonePx.y())) return {to.x(), from.y()};
+  return {from.x(), to.y()};
 }
 
 MergeToken EditHand::endDrag() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QPointF>
 #include <Qt>
 #include <optional>
 #include <set>
@@ -50,6 +51,9 @@ class EditHand {
   /// Reports whether a drag goes on, or a key is held down.
   bool moving() const { return drag_ != 0 || nudge_ != 0; }
   void keyReleased(const QKeyEvent& event);
+
+  /// Returns where a drag ends that keeps to one axis, the one along which it has gone farther on the screen.
+  static QPointF straightened(QPointF from, QPointF to, QPointF gonePx);
 
   enum class Command { none, type, add, remove, cancel };
   /// Returns what a key other than an arrow asks for in all such editors.

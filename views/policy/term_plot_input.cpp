@@ -147,20 +147,16 @@ void TermPlot::mouseMoveEvent(QMouseEvent* event) {
   if (hand_.dragging() && handle() >= 0) {
     const QPointF to = event->position() + drag_.offset;
     const std::vector<TermHandle> from = handlesOf(drag_.start, view());
-    double x = snapped(xAxis->pixelToCoord(to.x()), !(event->modifiers() & Qt::AltModifier));
-    double y = roundedTo(yAxis->pixelToCoord(to.y()), kMembershipStep);
+    QPointF at(snapped(xAxis->pixelToCoord(to.x()), !(event->modifiers() & Qt::AltModifier)),
+               roundedTo(yAxis->pixelToCoord(to.y()), kMembershipStep));
     if (handle() >= static_cast<int>(from.size())) return;
     const TermHandle& start = from[static_cast<std::size_t>(handle())];
-    if (event->modifiers() & Qt::ShiftModifier) {
-      // Shift keeps to the axis along which the drag has gone farther.
-      const QPointF gone = to - pixelOf(start.x, start.y);
-      (std::abs(gone.x()) > std::abs(gone.y()) ? y : x) =
-          std::abs(gone.x()) > std::abs(gone.y()) ? start.y : start.x;
-    }
+    if (event->modifiers() & Qt::ShiftModifier)
+      at = EditHand::straightened({start.x, start.y}, at, to - pixelOf(start.x, start.y));
     if (group().size() > 1)
-      moveBy(drag_.start, x - start.x, y - start.y, hand_.drag());
+      moveBy(drag_.start, at.x() - start.x, at.y() - start.y, hand_.drag());
     else
-      moveTo(x, y, hand_.drag());
+      moveTo(at.x(), at.y(), hand_.drag());
     say(event->position());
     return;
   }

@@ -122,7 +122,7 @@ void Viewport::invalidate() {
 qint64 Viewport::controlsFirstMs() const {
   constexpr qint64 kMostMs = 100;
   const qint64 pause = std::min(tookMs_, kMostMs);
-  const bool inUse = controlHeld_ || (sinceInput_.isValid() && sinceInput_.elapsed() < pause);
+  const bool inUse = controlHeld_ || (sinceClick_.isValid() && sinceClick_.elapsed() < pause);
   return inUse && sinceShown_.isValid() ? pause - sinceShown_.elapsed() : 0;
 }
 
@@ -136,8 +136,7 @@ void Viewport::paintEvent(QPaintEvent* event) {
 bool Viewport::eventFilter(QObject* watched, QEvent* event) {
   if (watched->isWidgetType() && watched != this) {
     const auto type = event->type();
-    if (type == QEvent::MouseButtonPress || type == QEvent::MouseButtonRelease || type == QEvent::KeyPress)
-      sinceInput_.start();
+    if (type == QEvent::MouseButtonPress || type == QEvent::MouseButtonRelease) sinceClick_.start();
     // A drag of data ends without a release; the next move says that no button is down.
     if (type == QEvent::MouseButtonPress)
       controlHeld_ = true;

@@ -37,7 +37,7 @@ struct Picture {
 
 /// Shows the terrain that scene::Renderer draws. It paints on demand only: any number of calls of
 /// `invalidate` give one paint, and nothing is painted while it is hidden. Controls go first: while the mouse
-/// holds one, such as a point of a curve, and just after a click or a key elsewhere, the viewport waits after
+/// holds one, such as a point of a curve, and just after a click elsewhere, the viewport waits after
 /// an image for as long as the image took, at most 100 ms. Without terrain it says how to open some.
 class Viewport : public QOpenGLWidget {
   Q_OBJECT
@@ -141,7 +141,7 @@ class Viewport : public QOpenGLWidget {
   QString notice_;
   QElapsedTimer sinceMove_, sinceDepthMap_, sincePaint_;
   bool controlHeld_ = false;  ///< the mouse holds a control that is not this widget
-  QElapsedTimer sinceInput_;  ///< since the last click or key elsewhere
+  QElapsedTimer sinceClick_;  ///< since the last click elsewhere
   qint64 tookMs_ = 0;         ///< the last image, until it was on the display
   QSize paintedSize_;         ///< the widget's, of the last image
   QElapsedTimer sinceShown_;  ///< since then

@@ -35,6 +35,17 @@ struct RasterRecipe {
   std::function<double(int, int, int)> value = [](int, int, int) { return 100.0; };
 };
 
+/// Imagery of many colours.
+inline RasterRecipe anyColours(int columns, int rows) {
+  RasterRecipe picture;
+  picture.columns = columns;
+  picture.rows = rows;
+  picture.bands = 3;
+  picture.type = GDT_Byte;
+  picture.value = [](int c, int r, int band) { return (c * 3 + r * 5 + band * 70) % 256; };
+  return picture;
+}
+
 inline std::filesystem::path writeRaster(const std::filesystem::path& file, const RasterRecipe& recipe) {
   GDALAllRegister();
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");

@@ -8,15 +8,7 @@ namespace {
 /// A database with every file that one without scenery can have.
 class DamagedDatabase : public BakeFixture {
  protected:
-  DamagedDatabase() {
-    test::RasterRecipe picture;
-    picture.columns = 90;
-    picture.rows = 70;
-    picture.bands = 3;
-    picture.type = GDT_Byte;
-    picture.value = [](int c, int r, int band) { return (c * 3 + r * 5 + band * 70) % 256; };
-    options_.imagery = test::writeRaster(dir_ / "rgb.tif", picture);
-  }
+  DamagedDatabase() { options_.imagery = test::writeRaster(dir_ / "rgb.tif", test::anyColours(90, 70)); }
 };
 
 TEST_F(DamagedDatabase, findsAFlippedByteInAnyFile) {

@@ -24,7 +24,7 @@ class TraceFile {
       : file_(std::move(file)), writer_(std::move(writer)) {}
   std::filesystem::path file_;
   TraceWriter writer_;
-  bool full_ = false;
+  bool failed_ = false;
 };
 
 }  // namespace trimtab
