@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Flies an IG for hours while everything changes, and feeds damaged inputs to every reader; writes one page,
-# out/soak/report.txt. Options: --hours N (default 2; 0.05 is three minutes), --no-fuzz (flies only)
+# out/soak/report.txt. Options: --hours N (default 2; 0.05 is three minutes), --no-fuzz (flies only),
+# --sanitize (the readers are built with the address and the undefined-behaviour sanitizer, in build-asan)
 #
 # The IG follows a host at 60 Hz; every ten seconds its preset is another one (weather, head motion, symbols, tiles or patches,
 # culling), and every seventy its terrain is the other one of two. It writes its memory, handles, threads, GL objects and latency
@@ -11,12 +12,13 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 export LC_NUMERIC=C
 
-usage() { echo "usage: tests/soak.sh [--hours N] [--no-fuzz]" >&2; exit 2; }
-hours=2 fuzz=yes
+usage() { echo "usage: tests/soak.sh [--hours N] [--no-fuzz | --sanitize]" >&2; exit 2; }
+hours=2 fuzz=yes sanitize=
 while [ $# -gt 0 ]; do
   case $1 in
     --hours) [ $# -ge 2 ] || usage; hours=$2; shift 2 ;;
     --no-fuzz) fuzz=; shift ;;
+    --sanitize) sanitize=yes; shift ;;
     *) usage ;;
   esac
 done
@@ -25,10 +27,12 @@ seconds=$(awk -v h="$hours" 'BEGIN { printf "%d", h * 3600 }')
 
 out=out/soak
 rm -rf "$out" && mkdir -p "$out"
-build=build
+build=build readers=build readers_preset=release
+[ -z "$sanitize" ] || readers=build-asan readers_preset=asan
 programs=$(grep -o '^ *trimtab_fuzzer([a-z_][a-z_]*' tests/fuzz/CMakeLists.txt | sed 's/.*(/test_fuzz_/' | sort -u)
 bash resources/install-packages.sh
-{ cmake --preset release && cmake --build "$build" --target trimtab-ig trimtab-cli ${fuzz:+$programs}; } >"$out/build.log" 2>&1 ||
+build() { cmake --preset "$1" && cmake --build --preset "$1" --target "${@:2}"; }
+{ build release trimtab-ig trimtab-cli && { [ -z "$fuzz" ] || build "$readers_preset" $programs; }; } >"$out/build.log" 2>&1 ||
   { tail -30 "$out/build.log" >&2; exit 1; }
 
 cli=$build/bin/trimtab-cli
@@ -72,7 +76,7 @@ children+=("$!")
 if [ -n "$fuzz" ]; then
   share=$((seconds / $(echo "$programs" | wc -w)))
   (for program in $programs; do
-    TRIMTAB_FUZZ_SECONDS=$share "$build/bin/$program" --gtest_filter='*RandomDamage' >"$out/$program.log" 2>&1 ||
+    TRIMTAB_FUZZ_SECONDS=$share "$readers/bin/$program" --gtest_filter='*RandomDamage' >"$out/$program.log" 2>&1 ||
       echo "$program failed: $out/$program.log"
   done) >"$out/fuzz.failed" &
   fuzzer=$!

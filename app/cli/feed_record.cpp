@@ -1,9 +1,7 @@
-#include <cstdint>
+#include <cstddef>
 #include <cstdio>
-#include <mutex>
-#include <utility>
-#include <vector>
 
+#include "app/link/inbox.h"
 #include "app/link/recording.h"
 #include "commands.h"
 #include "feed_work.h"
@@ -13,36 +11,8 @@
 namespace trimtab::cli {
 namespace {
 
-/// Takes datagrams on the receiver's thread and hands them over, so that a slow disk does not hold it up.
-/// While the disk stands still, it keeps kMostBytes and drops what comes then.
-class Inbox {
- public:
-  void put(CapturedDatagram datagram) {
-    const std::lock_guard lock(mutex_);
-    if (bytes_ + datagram.bytes.size() > kMostBytes) {
-      ++dropped_;
-      return;
-    }
-    bytes_ += datagram.bytes.size();
-    datagrams_.push_back(std::move(datagram));
-  }
-  std::vector<CapturedDatagram> take() {
-    const std::lock_guard lock(mutex_);
-    bytes_ = 0;
-    return std::exchange(datagrams_, {});
-  }
-  std::uint64_t dropped() const {
-    const std::lock_guard lock(mutex_);
-    return dropped_;
-  }
-
- private:
-  static constexpr std::size_t kMostBytes = std::size_t{256} << 20;
-  mutable std::mutex mutex_;
-  std::vector<CapturedDatagram> datagrams_;
-  std::size_t bytes_ = 0;
-  std::uint64_t dropped_ = 0;
-};
+/// What waits for a disk that stands still; what comes then is dropped.
+constexpr std::size_t kMostWaitingBytes = std::size_t{256} << 20;
 
 int refuse(const Findings& findings) {
   report(findings);
@@ -60,7 +30,7 @@ int recordFeed(const FeedOptions& options) {
     recording.discard();
     return refuse(receiver.findings());
   }
-  Inbox inbox;
+  link::Inbox inbox(kMostWaitingBytes);
   const std::string port = std::to_string((*receiver)->port());
   (*receiver)->tap([&inbox, own = "127.0.0.1:" + port](const Datagram& d) {
     inbox.put({d.arrival, d.from, own, {d.bytes.begin(), d.bytes.end()}});

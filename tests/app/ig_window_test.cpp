@@ -4,6 +4,8 @@
 #include "ig_support.h"
 #include "trimtab/host/flight.h"
 
+#include <X11/Xlib.h>  // last: its macros are words that others use
+
 namespace trimtab {
 namespace {
 
@@ -30,7 +32,8 @@ TEST(IgWindow, showsWhatTheHeadlessOneDraws) {
   EXPECT_EQ(compared.exitCode, 0) << compared.err << " of 120000 pixels differ";
 }
 
-TEST(IgWindow, aKeyEndsItAsASignalDoes) {
+/// Starts a flight in a window, ends it by `end`, which gets the window, and looks at what is left.
+void isLeftInGoodOrder(const std::function<void(::Window)>& end) {
   const test::ScratchDir dir;
   test::writeFile(dir / "flight.csv", flightCsv(test::weavingFlight(2000, 10)));
   IgProcess ig({"--preset", "default", "--terrain", test::smallTerrain().string(), "--flight",
@@ -43,13 +46,33 @@ TEST(IgWindow, aKeyEndsItAsASignalDoes) {
     std::error_code error;
     return std::filesystem::file_size(dir / "trace.csv.part", error) > 5000 && !error;
   }));
-  const std::string window = found.out.substr(0, found.out.find('\n'));
-  EXPECT_EQ(test::run("xdotool key --window " + window + " q").exitCode, 0);
+  end(std::stoul(found.out));
   EXPECT_EQ(ig.end(), 0) << ig.err();
   EXPECT_TRUE(std::filesystem::exists(dir / "last.png"));
   const Result<std::vector<TraceRow>> rows = readTrace(dir / "trace.csv");
   ASSERT_TRUE(rows) << toString(rows.findings());
   EXPECT_LT(rows->size(), 2000u) << "the flight was not over";
+}
+
+TEST(IgWindow, aKeyEndsItAsASignalDoes) {
+  isLeftInGoodOrder([](::Window window) {
+    EXPECT_EQ(test::run("xdotool key --window " + std::to_string(window) + " q").exitCode, 0);
+  });
+}
+
+TEST(IgWindow, theButtonOfTheWindowManagerEndsItToo) {
+  isLeftInGoodOrder([](::Window window) {
+    Display* const display = XOpenDisplay(nullptr);
+    ASSERT_TRUE(display);
+    XEvent event{};
+    event.xclient.type = ClientMessage;
+    event.xclient.window = window;
+    event.xclient.message_type = XInternAtom(display, "WM_PROTOCOLS", False);
+    event.xclient.format = 32;
+    event.xclient.data.l[0] = static_cast<long>(XInternAtom(display, "WM_DELETE_WINDOW", False));
+    EXPECT_NE(XSendEvent(display, window, False, NoEventMask, &event), 0);
+    XCloseDisplay(display);
+  });
 }
 
 TEST(IgWindow, movesTheEyeBetweenPacketsAndStandsStillWhenTheHostIsSilent) {

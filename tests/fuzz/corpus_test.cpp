@@ -24,12 +24,17 @@ namespace {
 std::vector<std::string> corpus() {
   const char* const wanted = std::getenv("TRIMTAB_FUZZ_FILES");
   std::vector<std::filesystem::path> files;
-  std::istringstream folders(TRIMTAB_CORPUS);
-  for (std::string folder; std::getline(folders, folder, ':');)
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-      if (entry.is_regular_file() &&
-          (!wanted || entry.path().filename().string().find(wanted) != std::string::npos))
-        files.push_back(entry.path());
+  const auto take = [&](const std::filesystem::path& file) {
+    if (std::filesystem::is_regular_file(file) &&
+        (!wanted || file.filename().string().find(wanted) != std::string::npos))
+      files.push_back(file);
+  };
+  std::istringstream places(TRIMTAB_CORPUS);
+  for (std::string place; std::getline(places, place, ':');)
+    if (std::filesystem::is_directory(place))
+      for (const auto& entry : std::filesystem::directory_iterator(place)) take(entry.path());
+    else
+      take(place);
   std::sort(files.begin(), files.end());
   std::vector<std::string> inputs;
   for (const auto& file : files) inputs.push_back(trimtab::test::readFile(file));

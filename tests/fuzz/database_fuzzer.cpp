@@ -16,10 +16,11 @@ namespace {
 using namespace trimtab;
 namespace fs = std::filesystem;
 
-const char* const kFiles[] = {terrain::kHeightsName, terrain::kHeightSumsName, terrain::kNodesName,
-                              terrain::kSlopesName,  terrain::kConesName,      terrain::kPatchesName,
-                              terrain::kGroundName,  terrain::kManifestName};
-constexpr std::size_t kRowBytes = 20 * sizeof(float);  // of tests/data/terrain/version-2
+const char* const kFiles[] = {terrain::kHeightsName,  terrain::kHeightSumsName, terrain::kNodesName,
+                              terrain::kSlopesName,   terrain::kConesName,      terrain::kPatchesName,
+                              terrain::kGroundName,   terrain::kManifestName,   terrain::kImageName,
+                              terrain::kImageSumsName};
+constexpr std::size_t kRowBytes = 20 * 4;  // heights and colours of tests/data/terrain/version-2
 
 /// Makes the sums of a page file right.
 void sealPages(std::string& bytes) {
@@ -42,14 +43,16 @@ void setSum(std::string& manifest, const std::string& name, std::uint64_t sum) {
 /// Writes a file with the sums that it needs to be believed.
 void believe(const fs::path& folder, const std::string& name, std::string bytes) {
   std::string manifest = test::readFile(folder / terrain::kManifestName);
-  if (name == terrain::kHeightsName) {
+  if (name == terrain::kHeightsName || name == terrain::kImageName) {
+    const char* const sumsName =
+        name == terrain::kImageName ? terrain::kImageSumsName : terrain::kHeightSumsName;
     terrain::CheckedRows::Sums sums(kRowBytes);
     sums.add(std::as_bytes(std::span(bytes)));
     const std::vector<std::uint64_t> all = sums.finish();
     const std::string text(reinterpret_cast<const char*>(all.data()), all.size() * 8);
-    test::writeFile(folder / terrain::kHeightSumsName, text);
-    for (const char* of : {terrain::kHeightsName, terrain::kHeightSumsName})
-      setSum(manifest, of, terrain::checksum(text));
+    test::writeFile(folder / sumsName, text);
+    setSum(manifest, name, terrain::checksum(text));
+    setSum(manifest, sumsName, terrain::checksum(text));
   } else if (name == terrain::kPatchesName || name == terrain::kGroundName) {
     sealPages(bytes);
     std::uint64_t sum = 0;

@@ -103,6 +103,14 @@ TEST_F(WorkbenchFind, ctrlKFindsCommandsParametersDocksAndPresetsByKeysAlone) {
   EXPECT_FALSE(palette_->isVisible());
 }
 
+TEST_F(WorkbenchFind, ctrlKOpensTheFlightsThatShip) {
+  ASSERT_NO_FATAL_FAILURE(find("kansai-valley"));
+  EXPECT_EQ(row(0), "kansai-valley.csv");
+  EXPECT_EQ(row(2), "ships");
+  run();
+  EXPECT_TRUE(waitFor([&] { return w().feed().source() == workbench::Feed::Source::flight; }));
+}
+
 TEST_F(WorkbenchFind, f1OnAControlShowsItsEntryAndTheReferenceIsSearched) {
   QDockWidget& dock = *w().dock("preset");
   dock.show();

@@ -289,6 +289,9 @@ TEST_F(WorkbenchLoop, aFlightPlaysHereAndPausesAndScrubs) {
   EXPECT_EQ(session().input().state.packet, std::uint64_t(std::floor(stopped * 60)) + 1);
 
   const std::uint64_t frame = plots.buffer().end() - 4;
+  EXPECT_EQ(plots.buffer().value(views::Trace::allowed_error_px, frame),
+            static_cast<float>(session().parameters()->lod.screenSpaceError.value()));
+  EXPECT_EQ(plots.buffer().value(views::Trace::render_scale, frame), 1.0f);
   const double state = plots.buffer().stateTime(frame);
   plots.chooseFrame(frame);
   EXPECT_NEAR(w().feed().playback().flight().states.front().time + w().feed().playback().position(), state,

@@ -262,7 +262,8 @@ TEST_F(WorkbenchSession, theWelcomePageTakesOneWayAndCloses) {
   ASSERT_NE(page(), nullptr);
   QStringList ways;
   for (const auto* way : page()->findChildren<QCommandLinkButton*>()) ways << way->text();
-  for (const char* wanted : {"night.session.json", "The sample terrain", "A host", "A flight", "A terrain"})
+  for (const char* wanted :
+       {"night.session.json", "The sample terrain", "The sample flight", "A host", "A flight", "A terrain"})
     EXPECT_TRUE(ways.contains(QString::fromLatin1(wanted)))
         << wanted << " in " << ways.join(", ").toStdString();
   if (const QString shots = qEnvironmentVariable("TRIMTAB_SHOTS"); !shots.isEmpty()) {

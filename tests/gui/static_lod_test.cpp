@@ -42,7 +42,7 @@ TEST_F(StaticLodDock, tellsOfTreesAndDrawsThemByDistanceByLevelAndAsDocumentEsPi
 
   auto* picture = panel().findChildren<QCheckBox*>().back();
   picture->setChecked(true);
-  ASSERT_TRUE(waitFor([this] { return legend().contains(QStringLiteral("Document E")); }));
+  ASSERT_TRUE(waitFor([this] { return legend().contains(QStringLiteral("published picture")); }));
   for (QSlider* slider : panel().findChildren<QSlider*>())
     if (slider->accessibleName().startsWith(QStringLiteral("Level"))) slider->setValue(1);
   const auto only = [this](std::size_t depth) {

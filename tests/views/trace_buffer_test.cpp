@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <sstream>
 
@@ -119,7 +120,8 @@ TEST(TraceBuffer, csvHoldsExactlyTheFramesOfTheRange) {
       "gpu_ms,depth_map_width_px,head_rate_degps,lod_scale,select_ms,page_ms,occlusion_ms,blur_ms,"
       "weather_ms,symbology_ms,vertices,altitude_ft,pitch_deg,dynamic_scheme,band,tiles_drawn,tiles_outside,"
       "tiles_hidden,tiles_built,pages_read,page_read_mb,pages_waiting,above_ground_ft,roll_deg,speed_kt,"
-      "climb_ftpmin,sight_rate_degps,visibility_m,load");
+      "climb_ftpmin,sight_rate_degps,visibility_m,load,allowed_error_px,render_scale,particle_density,"
+      "blur_strength,far_km,predicted_ms,as_asked_ms");
   int frame = 21;
   while (std::getline(lines, line)) {
     std::istringstream cells(line);
@@ -205,6 +207,31 @@ TEST(TraceBuffer, countsWhatWasPagedAndUploadedSinceTheFrameBefore) {
   EXPECT_EQ(buffer.value(Trace::tiles_built, 1), 0);
   EXPECT_EQ(buffer.value(Trace::pages_read, 2), 1);
   EXPECT_EQ(buffer.value(Trace::tiles_built, 2), 2);
+}
+
+TEST(TraceBuffer, recordsTheLeversAsDrawnAndWhatTheArbiterPredicted) {
+  TraceBuffer buffer(128);
+  buffer.append(frameAt(0, 10));
+  LiveFrame frame = frameAt(1, 10);
+  frame.levers = {2.5, 0.75, 0.4, 0.3, 12'500};
+  frame.hold.limitMs = 15;
+  frame.hold.heldMs = {9, 3, 1, 0.5};
+  frame.hold.askedMs = {20, 4, 1, 0.5};
+  buffer.append(frame);
+  frame.levers.farM = std::numeric_limits<double>::infinity();
+  frame.hold.limitMs = 0;
+  frame.time = 2;
+  buffer.append(frame);
+  const Trace levers[]{Trace::allowed_error_px, Trace::render_scale, Trace::particle_density,
+                       Trace::blur_strength,    Trace::far_km,       Trace::predicted_ms,
+                       Trace::as_asked_ms};
+  const float expected[]{2.5f, 0.75f, 0.4f, 0.3f, 12.5f, 13.5f, 25.5f};
+  for (std::size_t i = 0; i < std::size(levers); ++i) {
+    EXPECT_TRUE(std::isnan(buffer.value(levers[i], 0))) << traceName(levers[i]) << " before the first image";
+    EXPECT_EQ(buffer.value(levers[i], 1), expected[i]) << traceName(levers[i]);
+  }
+  EXPECT_TRUE(std::isnan(buffer.value(Trace::far_km, 2))) << "no cut";
+  EXPECT_TRUE(std::isnan(buffer.value(Trace::predicted_ms, 2))) << "no budget";
 }
 
 TEST(TraceBuffer, stacksTheStagesUpToTheWholeFrame) {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "choice_box.h"
 
-#include <QRegularExpression>
 #include <QWheelEvent>
 
 #include "parameter_of.h"
-#include "trimtab/preset/preset.h"
 #include "views/model/theme.h"
 #include "views/model/value_text.h"
 
@@ -41,28 +39,12 @@ void ChoiceBox::wheelEvent(QWheelEvent* event) {
     event->ignore();
 }
 
-namespace {
-
-/// Authors and titles of the documents whose letters a source cites, such as "A, B: Table 2".
-QString documentsOf(std::string_view source) {
-  static const QRegularExpression letter(QStringLiteral("(?:^|[,;] )([A-E])(?=[,:;]|$)"));
-  QString html;
-  for (auto all = letter.globalMatch(fromView(source)); all.hasNext();) {
-    const QString cited = all.next().captured(1);
-    html +=
-        QStringLiteral("<br>%1: %2").arg(cited, fromView(documentOf(cited[0].toLatin1())).toHtmlEscaped());
-  }
-  return html.isEmpty() ? html : QStringLiteral("<small>%1</small>").arg(html);
-}
-
-}  // namespace
-
 QString helpText(const ParameterRow& row) {
   QString html = QStringLiteral("<p><b>%1</b></p><p>%2</p>")
                      .arg(fromView(row.label).toHtmlEscaped(), fromView(row.help).toHtmlEscaped());
   if (!row.source.empty())
-    html +=
-        QObject::tr("<p>Source: %1%2</p>").arg(fromView(row.source).toHtmlEscaped(), documentsOf(row.source));
+    html += QObject::tr("<p>Source: %1%2</p>")
+                .arg(fromView(row.source).toHtmlEscaped(), documentsHtml(row.source));
   const auto range = [&](const Range& r) {
     return QObject::tr("%1 to %2%3").arg(numberText(r.low, 9), numberText(r.high, 9), unitAfter(row));
   };

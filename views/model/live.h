@@ -12,6 +12,18 @@
 
 namespace trimtab::views {
 
+/// The levers as an image was drawn, after policy and arbiter; NaN before the first one.
+struct DrawnLevers {
+  double errorPx = kUnknown;      ///< allowed screen-space error
+  double renderScale = kUnknown;  ///< part of the image's width and height
+  double particles = kUnknown;    ///< density of what falls, 0 to 1
+  double blur = kUnknown;         ///< strength, 0 to 1
+  double farM = kUnknown;         ///< distance beyond which no terrain is drawn; infinite without such a cut
+
+ private:
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+};
+
 /// One frame as the docks see it: what came in, what was decided, and what drawing the last image did.
 ///
 /// Widgets receive it through `showFrame(const LiveFrame&)`, which is cheap enough for every frame: they
@@ -25,6 +37,7 @@ struct LiveFrame {
   double fps = std::numeric_limits<double>::quiet_NaN();
   std::shared_ptr<const FrameResult> result;  ///< null until the terrain has been drawn once
   LevelsFrame levels;                         ///< of `result`: by depth if it drew patches
+  DrawnLevers levers;                         ///< of `result`
   HoldDecision hold;                          ///< of `result`
   HoldGains holdGains;                        ///< what each lever of `hold` gives
   std::optional<HoldOutcome> holdOutcome;     ///< of the prediction for `result`

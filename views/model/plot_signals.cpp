@@ -49,6 +49,13 @@ constexpr std::array kSignals{
     PlotSignal{Trace::sight_rate_degps, "line of sight", "deg/s", 1, 1, true},
     PlotSignal{Trace::visibility_m, "visibility", "m", 1, 0, true},
     PlotSignal{Trace::load, "load", "", 1, 2, true},
+    PlotSignal{Trace::allowed_error_px, "allowed error", "px", 1, 2},
+    PlotSignal{Trace::render_scale, "render scale", "", 1, 2},
+    PlotSignal{Trace::particle_density, "particle density", "", 1, 2},
+    PlotSignal{Trace::blur_strength, "blur strength", "", 1, 2},
+    PlotSignal{Trace::far_km, "far cut", "km", 1, 1, true},
+    PlotSignal{Trace::predicted_ms, "predicted", "ms", 1, 2, true},
+    PlotSignal{Trace::as_asked_ms, "predicted as asked", "ms", 1, 2, true},
 };
 static_assert(kSignals.size() == kCsvTraces, "each recorded value can be plotted");
 

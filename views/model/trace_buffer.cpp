@@ -34,6 +34,14 @@ double grownBy(std::uint64_t now, std::uint64_t& before) {
   return static_cast<double>(by);
 }
 
+double finiteOrNan(double value) {
+  return std::isfinite(value) ? value : kNone;
+}
+/// Without a budget or a known cost nothing is predicted.
+double predictedOrNan(const HoldDecision& hold, const StageTimes& times) {
+  return hold.limitMs > 0 ? times.total() : kNone;
+}
+
 }  // namespace
 
 std::string_view traceName(Trace trace) {
@@ -74,6 +82,13 @@ std::string_view traceName(Trace trace) {
                                                                 "sight_rate_degps",
                                                                 "visibility_m",
                                                                 "load",
+                                                                "allowed_error_px",
+                                                                "render_scale",
+                                                                "particle_density",
+                                                                "blur_strength",
+                                                                "far_km",
+                                                                "predicted_ms",
+                                                                "as_asked_ms",
                                                                 "select_top_ms",
                                                                 "page_top_ms",
                                                                 "occlusion_top_ms",
@@ -177,6 +192,13 @@ void TraceBuffer::append(const LiveFrame& frame) {
                                  signal[Signal::sight_rate],
                                  signal[Signal::visibility],
                                  signal[Signal::load],
+                                 frame.levers.errorPx,
+                                 frame.levers.renderScale,
+                                 frame.levers.particles,
+                                 frame.levers.blur,
+                                 finiteOrNan(frame.levers.farM * 1e-3),
+                                 predictedOrNan(frame.hold, frame.hold.heldMs),
+                                 predictedOrNan(frame.hold, frame.hold.askedMs),
                                  selectTop,
                                  pageTop,
                                  occlusionTop,

@@ -52,6 +52,13 @@ enum class Trace : std::uint8_t {
   sight_rate_degps,
   visibility_m,
   load,
+  allowed_error_px,  ///< this and the following are levers as they were drawn
+  render_scale,
+  particle_density,
+  blur_strength,
+  far_km,
+  predicted_ms,  ///< this and the following are of the arbiter, unknown without one
+  as_asked_ms,
   // Upper edges in the stack of stages, which the CSV does not have.
   select_top_ms,
   page_top_ms,

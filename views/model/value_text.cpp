@@ -2,8 +2,10 @@
 #include "value_text.h"
 
 #include <QCoreApplication>
+#include <QRegularExpression>
 #include <QStringList>
 
+#include "trimtab/preset/preset.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
@@ -57,6 +59,17 @@ QString shortText(const ParameterRow& row, const ParameterValue& value) {
       break;
   }
   return exactText(std::get<double>(value)) + unitAfter(row);
+}
+
+QString documentsHtml(std::string_view source) {
+  static const QRegularExpression letter(QStringLiteral("(?:^|[,;] )([A-E])(?=[,:;]|$)"));
+  QString html;
+  for (auto all = letter.globalMatch(fromView(source)); all.hasNext();) {
+    const QString cited = all.next().captured(1);
+    html +=
+        QStringLiteral("<br>%1: %2").arg(cited, fromView(documentOf(cited[0].toLatin1())).toHtmlEscaped());
+  }
+  return html.isEmpty() ? html : QStringLiteral("<small>%1</small>").arg(html);
 }
 
 QString unitAfter(const ParameterRow& row) {

@@ -13,6 +13,10 @@ QString shortText(const ParameterRow& row, const ParameterValue& value);
 /// Returns the unit as it stands behind a number: after a blank, but for degrees; empty for a pure number.
 QString unitAfter(const ParameterRow& row);
 
+/// Returns authors and title of each document whose letter a source cites, such as "A, B: Table 2", as lines
+/// of rich text; empty if it cites none.
+QString documentsHtml(std::string_view source);
+
 struct BeforeAfter {
   QString before, after;
 };

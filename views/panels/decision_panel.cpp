@@ -40,7 +40,9 @@ DecisionPanel::DecisionPanel(Draft& draft, QWidget* parent)
   scheme_->setFont(large);
   scheme_->setWordWrap(true);
   reason_->setWordWrap(true);
-  reason_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  reason_->setTextFormat(Qt::RichText);
+  reason_->setTextInteractionFlags(Qt::TextBrowserInteraction);
+  connect(reason_, &QLabel::linkActivated, this, &DecisionPanel::cullingAsked);
   reason_->setMinimumHeight(3 * fontMetrics().lineSpacing());
   reason_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
   memberships_->setAccessibleName(tr("Memberships"));
@@ -136,9 +138,11 @@ void DecisionPanel::refresh() {
                                                    .arg(d.occlusionResolution->widthPx)
                                                    .arg(d.occlusionResolution->heightPx)
                                              : tr("Dynamic"));
-    QString reason = QString::fromStdString(explain(d, draft_.active()));
+    QString reason = QString::fromStdString(explain(d, draft_.active())).toHtmlEscaped();
     if (d.occlusionResolution && frame_.result)
-      if (const QString why = whyNoDepthMap(frame_, p); !why.isEmpty()) reason += QStringLiteral(". ") + why;
+      if (const QString why = whyNoDepthMap(frame_, p); !why.isEmpty())
+        reason +=
+            QStringLiteral(". %1 <a href='culling'>%2</a>").arg(why.toHtmlEscaped(), tr("Go to Culling"));
     reason_->setText(reason);
   }
   std::vector<double> edges;

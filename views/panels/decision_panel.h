@@ -30,6 +30,9 @@ class DecisionPanel : public QWidget {
   void copyLog();  ///< copies the selected rows, or all if none is selected
   void clearLog();
 
+ signals:
+  void cullingAsked();  ///< the person wants the choices that leave the image without a depth map
+
  private:
   void refresh();
   void askAndSave();

@@ -10,6 +10,7 @@
 #include "views/controls/bar_list.h"
 #include "views/controls/parameter_lines.h"
 #include "views/model/theme.h"
+#include "views/model/value_text.h"
 
 namespace trimtab::views {
 namespace {
@@ -33,7 +34,7 @@ QString comparison(const StaticLodSummary& ours) {
         .arg(name, theirs, here);
   };
   QString text = QStringLiteral("<table>");
-  text += row({}, StaticLodPanel::tr("<b>Document E</b>"), StaticLodPanel::tr("<b>This terrain</b>"));
+  text += row({}, StaticLodPanel::tr("<b>Published</b>"), StaticLodPanel::tr("<b>This terrain</b>"));
   text += row(StaticLodPanel::tr("Tiles"), QStringLiteral("1"), count(ours.tiles));
   text += row(StaticLodPanel::tr("Triangles"), count(published.triangles), count(ours.sourceTriangles));
   text +=
@@ -61,25 +62,28 @@ StaticLodPanel::StaticLodPanel(Draft& draft, QWidget* parent)
       body_(new QWidget),
       drawn_(new BarList),
       single_(new QCheckBox(tr("Show &one level, whatever the distance"))),
-      picture_(new QCheckBox(tr("As &document E's picture"))),
+      picture_(new QCheckBox(tr("As in the &published picture"))),
       slider_(new QSlider(Qt::Horizontal)),
       throttle_(this, [this] { refresh(); }) {
   for (QLabel* label : {state_, level_}) label->setWordWrap(true);
   table_->setTextFormat(Qt::RichText);
   table_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
-  table_->setToolTip(tr(
-      "A face that several nodes have is one different face. Document E does not say whether n is the most "
-      "or the least of a leaf. For its example n as the most makes 16 leaves and 5 levels, and n as the "
-      "least makes 8 leaves and the published 4. Trees here use n as the most."));
+  table_->setToolTip(
+      tr("<p>A face that several nodes have is one different face. The document does not say whether n is "
+         "the "
+         "most or the least of a leaf. For its example n as the most makes 16 leaves and 5 levels, and n as "
+         "the least makes 8 leaves and the published 4. Trees here use n as the most.%1</p>")
+          .arg(documentsHtml("E")));
   drawn_->setAccessibleName(tr("Triangles drawn, by level"));
   slider_->setAccessibleName(tr("Level, from the roots to the leaves"));
   slider_->setPageStep(1);
   slider_->setTickPosition(QSlider::TicksBelow);
   slider_->setTickInterval(1);
   single_->setToolTip(tr("All trees at one level; leaves where a tree ends above it"));
-  picture_->setToolTip(tr(
-      "Faces light grey, edges red, edges that may not change in their level black: borders between nodes, "
-      "tiles and holes"));
+  picture_->setToolTip(
+      tr("<p>Faces light grey, edges red, edges that may not change in their level black: borders between "
+         "nodes, tiles and holes.%1</p>")
+          .arg(documentsHtml("E")));
 
   auto* inside = new QVBoxLayout(body_);
   inside->setContentsMargins(0, 0, 0, 0);

@@ -13,6 +13,7 @@
 #include "trimtab/weather/weather.h"
 #include "views/controls/parameter_line.h"
 #include "views/model/theme.h"
+#include "views/model/value_text.h"
 
 namespace trimtab::views {
 namespace {
@@ -131,7 +132,8 @@ WeatherPanel::WeatherPanel(Draft& draft, QWidget* parent)
   values->setColumnStretch(1, 1);
   visibility_ = addValue(*values, tr("Visibility"), tr("How far one sees from the eye"));
   density_ = addValue(*values, tr("Density"), tr("Intensity of the particles, 0 to 1"));
-  ratio_ = addValue(*values, tr("Near-far ratio"), tr("Default near over far plane (document D, Eq. 1)"));
+  ratio_ = addValue(*values, tr("Near-far ratio"),
+                    tr("Default near over far plane, Eq. (1)%1").arg(documentsHtml("D: Eq. (1)")));
   far_ = addValue(*values, tr("Far plane"), tr("Nothing farther from the eye is drawn"));
   cut_ =
       addValue(*values, tr("Cut away"), tr("Tiles that lie wholly beyond the far plane and are not drawn"));

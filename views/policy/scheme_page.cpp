@@ -4,6 +4,7 @@
 #include <QScrollArea>
 
 #include "views/editors/membership_editor.h"
+#include "views/model/value_text.h"
 #include "views/panels/rules_panel.h"
 #include "views/plots/surface_plot.h"
 
@@ -27,12 +28,13 @@ SchemePage::SchemePage(Draft& draft, QWidget* parent)
       rules_(new RulesPanel(draft)),
       surface_(new SurfacePlot(draft)) {
   setDocumentMode(true);
-  setAccessibleName(tr("Scheme of documents A and B"));
+  setAccessibleName(tr("Culling scheme by altitude and pitch"));
   addTab(scrollable(memberships_), tr("Memberships"));
   addTab(scrollable(rules_), tr("Rules"));
   addTab(surface_, tr("Surface"));
-  setTabToolTip(0, tr("Altitude and pitch curves of documents A and B"));
-  setTabToolTip(1, tr("The rule base of Eq. (2), and what each rule does now"));
+  setTabToolTip(0, tr("Altitude and pitch curves%1").arg(documentsHtml("A, B: Table 1")));
+  setTabToolTip(
+      1, tr("The rule base of Eq. (2), and what each rule does now%1").arg(documentsHtml("A, B: Eq. (2)")));
   setTabToolTip(2, tr("The total membership over altitude and pitch"));
 }
 

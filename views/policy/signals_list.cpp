@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "views/model/theme.h"
+#include "views/model/value_text.h"
 
 namespace trimtab::views {
 
@@ -75,12 +76,12 @@ QVariant SignalsModel::data(const QModelIndex& index, int role) const {
   if (!index.isValid()) return {};
   const auto signal = signalOfRow(index.row());
   if (!signal) {
-    if (role == Qt::DisplayRole && index.column() == kName) return tr("Scheme (A, B)");
-    if (role == Qt::AccessibleTextRole) return tr("Scheme of documents A and B");
+    if (role == Qt::DisplayRole && index.column() == kName) return tr("Culling scheme");
+    if (role == Qt::AccessibleTextRole) return tr("Culling scheme by altitude and pitch");
     if (role == Qt::ToolTipRole)
-      return tr(
-          "<p><b>Scheme of documents A and B</b></p><p>Altitude and pitch curves, rules and surface that "
-          "choose the culling scheme and the size of the depth map.</p>");
+      return tr("<p><b>Culling scheme</b></p><p>Altitude and pitch curves, rules and surface that choose "
+                "the culling scheme and the size of the depth map.%1</p>")
+          .arg(documentsHtml("A, B"));
     return {};
   }
   const std::size_t at = indexOf(*signal);

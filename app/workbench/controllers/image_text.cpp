@@ -45,7 +45,8 @@ QList<LegendEntry> treePictureLegend() {
 Legend legendOf(const FrameRequest& request, bool patches, const terrain::Database& terrain) {
   const Overlays& overlays = request.overlays;
   const auto trees = terrain.staticLod();
-  if (overlays.treePicture && trees) return {QObject::tr("Document E's picture"), treePictureLegend()};
+  if (overlays.treePicture && trees)
+    return {QObject::tr("As in the published picture of static LOD"), treePictureLegend()};
   if (overlays.textureSquares && trees && !terrain::hasTexture(*trees))
     return {QObject::tr("This terrain kept no texture coordinates: bake it with --keep-texture"), {}};
   if (overlays.colourByReason) return {QObject::tr("Why a tile is drawn or not"), reasonLegend()};

@@ -28,13 +28,20 @@ QStringList recentFiles(const QString& kind) {
   return QSettings().value(keyOf(kind)).toStringList();
 }
 
+QStringList shippedFlights() {
+  // The program is run from the tree in which it was built.
+  const QDir folder(QCoreApplication::applicationDirPath() + QStringLiteral("/../../resources/flights"));
+  QStringList paths;
+  for (const QFileInfo& file : folder.entryInfoList({QStringLiteral("*.csv")}, QDir::Files, QDir::Name))
+    paths.append(file.canonicalFilePath());
+  return paths;
+}
+
 QString folderOfRecent(const QString& kind) {
   for (const QString& path : recentFiles(kind))
     if (const QFileInfo file(path); file.exists()) return file.path();
-  if (kind != QLatin1String("flight")) return {};
-  // The program is run from the tree in which it was built.
-  const QDir shipped(QCoreApplication::applicationDirPath() + QStringLiteral("/../../resources/flights"));
-  return shipped.exists() ? shipped.canonicalPath() : QString();
+  const QStringList shipped = kind == QLatin1String("flight") ? shippedFlights() : QStringList();
+  return shipped.isEmpty() ? QString() : QFileInfo(shipped.first()).path();
 }
 
 }  // namespace trimtab::workbench

@@ -13,5 +13,7 @@ void rememberRecent(const QString& kind, const QString& path);
 QString folderOfRecent(const QString& kind);
 /// Returns at most eight paths, the newest first. Files that are gone by now are among them.
 QStringList recentFiles(const QString& kind);
+/// Returns the paths of the flights that ship, by name; none if their folder is not there.
+QStringList shippedFlights();
 
 }  // namespace trimtab::workbench

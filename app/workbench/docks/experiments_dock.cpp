@@ -22,26 +22,28 @@
 
 #include "app/experiment/leverage.h"
 #include "views/model/theme.h"
+#include "views/model/value_text.h"
 #include "views/plots/report_plot.h"
 
 namespace trimtab::workbench {
 namespace {
 
 struct Named {
-  const char *command, *label;
+  const char *command, *label, *documents;
 };
 constexpr char kLeverage[] = "leverage";
 constexpr Named kExperiments[] = {
-    {"culling", QT_TRANSLATE_NOOP("ExperimentsDock", "Culling: none, view frustum, proposed (A, B)")},
-    {"culling-per-node", QT_TRANSLATE_NOOP("ExperimentsDock", "Culling: decided by frame or by node (A)")},
-    {"head-motion", QT_TRANSLATE_NOOP("ExperimentsDock", "Head motion: a sweep of 180° in 1 s (C)")},
+    {"culling", QT_TRANSLATE_NOOP("ExperimentsDock", "Culling: none, view frustum, proposed"), "A, B"},
+    {"culling-per-node", QT_TRANSLATE_NOOP("ExperimentsDock", "Culling: decided by frame or by node"), "A"},
+    {"head-motion", QT_TRANSLATE_NOOP("ExperimentsDock", "Head motion: a sweep of 180° in 1 s"), "C"},
     {"head-motion-varying",
-     QT_TRANSLATE_NOOP("ExperimentsDock", "Head motion: turns and nods of varying speed (C)")},
-    {"weather", QT_TRANSLATE_NOOP("ExperimentsDock", "Weather: fixed and adaptive ratio (D)")},
-    {"weather-protocol",
-     QT_TRANSLATE_NOOP("ExperimentsDock", "Weather: one ratio at several vertex counts (D)")},
-    {"static-lod", QT_TRANSLATE_NOOP("ExperimentsDock", "Static LOD: faces by level (E)")},
-    {kLeverage, QT_TRANSLATE_NOOP("ExperimentsDock", "Leverage: what each lever is worth in this flight")},
+     QT_TRANSLATE_NOOP("ExperimentsDock", "Head motion: turns and nods of varying speed"), "C"},
+    {"weather", QT_TRANSLATE_NOOP("ExperimentsDock", "Weather: fixed and adaptive ratio"), "D"},
+    {"weather-protocol", QT_TRANSLATE_NOOP("ExperimentsDock", "Weather: one ratio at several vertex counts"),
+     "D"},
+    {"static-lod", QT_TRANSLATE_NOOP("ExperimentsDock", "Static LOD: faces by level"), "E"},
+    {kLeverage, QT_TRANSLATE_NOOP("ExperimentsDock", "Leverage: what each lever is worth in this flight"),
+     ""},
 };
 
 QTableWidget* makeTable(const QString& name, QWidget* parent) {
@@ -115,7 +117,12 @@ ExperimentsDock::ExperimentsDock(Source source, QWidget* parent)
       measured_(makeTable(tr("Measured rows"), this)),
       plot_(new views::ReportPlot(this)),
       notes_(new QPlainTextEdit(this)) {
-  for (const Named& each : kExperiments) which_->addItem(tr(each.label), QLatin1String(each.command));
+  for (const Named& each : kExperiments) {
+    which_->addItem(tr(each.label), QLatin1String(each.command));
+    which_->setItemData(which_->count() - 1,
+                        QStringLiteral("%1%2").arg(tr(each.label), views::documentsHtml(each.documents)),
+                        Qt::ToolTipRole);
+  }
   which_->setAccessibleName(tr("Experiment"));
   which_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   size_->setValidator(new QRegularExpressionValidator(
@@ -172,7 +179,12 @@ ExperimentsDock::ExperimentsDock(Source source, QWidget* parent)
 
   connect(run_, &QPushButton::clicked, this, [this] { running() ? cancel() : run(); });
   connect(save_, &QPushButton::clicked, this, &ExperimentsDock::save);
-  connect(which_, &QComboBox::currentIndexChanged, this, [this] {
+  const auto explain = [this] {
+    which_->setToolTip(which_->itemData(which_->currentIndex(), Qt::ToolTipRole).toString());
+  };
+  explain();
+  connect(which_, &QComboBox::currentIndexChanged, this, [this, explain] {
+    explain();
     if (status_->text() == refusal_) status_->setText(hint());
   });
   connect(plots_, &QComboBox::currentIndexChanged, this, &ExperimentsDock::showPlot);

@@ -245,14 +245,15 @@ void MainWindow::openAny(const QString& path) {
   }
 }
 
-/// A file of fuzzy logic is a policy, or the curves and rules of documents A and B: the endings are the same.
+/// A file of fuzzy logic is a policy, or the curves and rules of the culling scheme: the endings are the
+/// same.
 void MainWindow::importRules(const QString& path) {
   Findings asPolicy = panels_.policy->importFile(path);
   if (!hasError(asPolicy)) return messages().add(tr("The policy was imported: %1").arg(path), asPolicy);
   const Findings asRules = panels_.policy->parts().scheme->rules().importFile(path);
   if (!hasError(asRules)) return messages().add(tr("The rules were imported: %1").arg(path), asRules);
   asPolicy.insert(asPolicy.end(), asRules.begin(), asRules.end());
-  messages().add(tr("%1 is neither a policy nor the rules of documents A and B").arg(path), asPolicy);
+  messages().add(tr("%1 is neither a policy nor the rules of the culling scheme").arg(path), asPolicy);
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
@@ -346,21 +347,29 @@ void MainWindow::welcome() {
         [this] { controllers_.terrain->askOpenFolder(); }},
        {tr("A preset"), tr("a JSON file of this program"), [this] { controllers_.document->askOpen(); }},
        {tr("A session"), tr("what was saved together"), [this] { sessions_->askOpen(); }}}};
+  const auto openSample = [this] {
+    // At a start with nothing to open it is open already, or opening.
+    TerrainController& terrain = *controllers_.terrain;
+    const bool there = terrain.database() || terrain.job().running();
+    if (!there || !terrain.askedFor().isEmpty()) terrain.openSample();
+  };
   Welcome::Group begin{
       tr("Begin"),
-      {{tr("The sample terrain"), tr("60 km of mountains with the camera over them"),
-        [this] {
-          // At a start with nothing to open it is open already, or opening.
-          TerrainController& terrain = *controllers_.terrain;
-          const bool there = terrain.database() || terrain.job().running();
-          if (!there || !terrain.askedFor().isEmpty()) terrain.openSample();
-        }},
+      {{tr("The sample terrain"), tr("60 km of mountains with the camera over them"), openSample},
        {tr("A host"), tr("listen to a flight simulator over UDP: workspace Connect"),
         [this] {
           workspaces_->show(int(workspaces_->names().indexOf(tr("Connect"))));
           goTo(*dockOf(*panels_.host));
         }},
        {tr("A flight"), tr("a recorded flight or capture"), [this] { controllers_.flight->askOpen(); }}}};
+  for (const QString& path : shippedFlights())
+    if (nameOf(path) == QLatin1String("yecheon-circuit.csv"))
+      begin.ways.insert(begin.ways.begin() + 1,
+                        {tr("The sample flight"), tr("a circuit over the sample terrain, played here"),
+                         [this, openSample, path] {
+                           openSample();
+                           controllers_.flight->open(path);
+                         }});
   (new Welcome({again, begin, open}, this))->open();
 }
 

@@ -84,11 +84,15 @@ void addParameters(Entries& to, views::ParameterTable& table) {
                   }});
 }
 
+void addFile(Entries& to, const QString& path, const QString& shown, const QString& hint,
+             const std::function<void(const QString&)>& open) {
+  to.push_back({QFileInfo(path).fileName(), shown, hint, [open, path] { open(path); }});
+}
+
 void addRecent(Entries& to, const QString& kind, const QString& shown,
                const std::function<void(const QString&)>& open) {
   for (const QString& path : recentFiles(kind))
-    if (QFileInfo::exists(path))
-      to.push_back({QFileInfo(path).fileName(), shown, QFileInfo(path).path(), [open, path] { open(path); }});
+    if (QFileInfo::exists(path)) addFile(to, path, shown, QFileInfo(path).path(), open);
 }
 
 }  // namespace
@@ -108,8 +112,10 @@ std::vector<PaletteEntry> paletteEntries(QMainWindow& window, const Controllers&
                      [&by] { by.terrain->openSample(); }});
   addRecent(entries, QStringLiteral("terrain"), QObject::tr("terrain"),
             [&by](const QString& path) { by.terrain->open(path); });
-  addRecent(entries, QStringLiteral("flight"), QObject::tr("flight"),
-            [&by](const QString& path) { by.flight->open(path); });
+  const auto openFlight = [&by](const QString& path) { by.flight->open(path); };
+  for (const QString& path : shippedFlights())
+    addFile(entries, path, QObject::tr("flight"), QObject::tr("ships"), openFlight);
+  addRecent(entries, QStringLiteral("flight"), QObject::tr("flight"), openFlight);
   addRecent(entries, QStringLiteral("session"), QObject::tr("session"),
             [&sessions](const QString& path) { sessions.open(path); });
   return entries;

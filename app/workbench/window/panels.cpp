@@ -58,7 +58,7 @@ Panels makePanels(DockLayout& docks, views::Draft& draft, Feed& feed) {
   panels.weather = docks.add("weather", tr("Weather"), edit, new views::WeatherPanel(draft));
   panels.symbology = docks.add("symbology", tr("Symbology"), edit, new views::SymbologyPanel(draft));
   panels.parameters = docks.add("preset", tr("Preset"), edit, new views::ParameterTable(draft));
-  docks.add("decision", tr("Decision"), effect, new views::DecisionPanel(draft));
+  auto* const decision = docks.add("decision", tr("Decision"), effect, new views::DecisionPanel(draft));
   panels.budget = docks.add("budget", tr("Budget"), effect, new views::BudgetPanel(draft));
   panels.motion = docks.add("motion", tr("Head motion"), effect, new views::MotionPanel(draft));
   panels.host = docks.add("host", tr("Host"), effect, new HostDock(feed, draft));
@@ -69,8 +69,9 @@ Panels makePanels(DockLayout& docks, views::Draft& draft, Feed& feed) {
   panels.changes = docks.add("history", tr("Changes"), foot, new ChangesDock(draft));
   panels.culling->showStages(panels.plots->buffer());
   connectEditors(*panels.parameters, *panels.policy, *panels.bands);
-  QObject::connect(panels.bands, &views::BandsEditor::cullingAsked, panels.culling,
-                   [culling = panels.culling] { goTo(*dockOf(*culling)); });
+  const auto toCulling = [culling = panels.culling] { goTo(*dockOf(*culling)); };
+  QObject::connect(panels.bands, &views::BandsEditor::cullingAsked, panels.culling, toCulling);
+  QObject::connect(decision, &views::DecisionPanel::cullingAsked, panels.culling, toCulling);
   return panels;
 }
 

@@ -13,6 +13,7 @@
 #include <random>
 #include <thread>
 
+#include "app/link/inbox.h"
 #include "tests/support.h"
 #include "trimtab/host/encoder.h"
 #include "trimtab/host/flight.h"
@@ -316,6 +317,22 @@ TEST(Link, tapsEveryDatagramBadOnesToo) {
   ASSERT_EQ(gathered(*receiver, count(1)).size(), 1U);
   receiver->tap(nullptr);
   EXPECT_THAT(sizes, testing::ElementsAre(7, 408));
+}
+
+TEST(Inbox, keepsWhatFitsAndCountsTheRest) {
+  link::Inbox inbox(1000);
+  const auto datagram = [](std::size_t bytes, double arrival) {
+    return CapturedDatagram{arrival, "127.0.0.1:1", "127.0.0.1:2", std::vector<std::byte>(bytes)};
+  };
+  for (const std::size_t bytes : {600, 401, 400, 1}) inbox.put(datagram(bytes, static_cast<double>(bytes)));
+  EXPECT_EQ(inbox.dropped(), 2u);
+  const std::vector<CapturedDatagram> first = inbox.take();
+  ASSERT_EQ(first.size(), 2u);
+  EXPECT_EQ(first[0].bytes.size(), 600u);
+  EXPECT_EQ(first[1].bytes.size(), 400u);
+  inbox.put(datagram(1000, 0));
+  EXPECT_EQ(inbox.take().size(), 1u) << "what was taken makes room";
+  EXPECT_EQ(inbox.dropped(), 2u);
 }
 
 TEST(Endpoint, isAddressAndPort) {
