@@ -89,7 +89,26 @@ void StaticLodLayer::setTerrain(std::shared_ptr<const terrain::StaticLodTerrain>
   edges_.assign(terrain_ ? terrain_->index.size() : 0, {});
   textured_ = terrain_ && terrain::hasTexture(*terrain_);
   pool_.clear(layoutFor(textured_));
+  frame_ = 0;
   ++placesNumber_;
+}
+
+/// Makes room for all tiles that are kept, in the second frame, so that buffers need not grow in flight,
+/// which makes an image late. The first image is not held up by it.
+void StaticLodLayer::makeRoom() {
+  const MeshPool::Layout layout = layoutFor(textured_);
+  std::size_t blocks = 0, indexBlocks = 0;
+  for (const terrain::StaticLodTile& tile : terrain_->tiles) {
+    blocks += layout.blocksOf(tile.vertices.size());
+    indexBlocks += layout.indexBlocksOf(tile.indices.size());
+  }
+  const double all = static_cast<double>(std::max<std::size_t>(layout.bytes(blocks, indexBlocks), 1));
+  const double share = std::min(1.0, static_cast<double>(keptBytes_) / all);
+  const auto kept = [share](std::size_t bytes) {
+    return static_cast<std::size_t>(share * static_cast<double>(bytes));
+  };
+  pool_.reserve(kept(blocks * layout.block * layout.vertexBytes),
+                kept(indexBlocks * layout.indexBlock * layout.indexBytes));
 }
 
 void StaticLodLayer::drop(std::uint32_t tile) {
@@ -168,7 +187,7 @@ bool StaticLodLayer::upload(std::uint32_t at) {
 }
 
 std::size_t StaticLodLayer::prepare(std::span<const TileDraw> nodes, bool anew) {
-  ++frame_;
+  if (++frame_ == 2) makeRoom();
   const auto tileOf = [this](const TileDraw& node) { return terrain_->index.nodes[node.node].tile; };
   if (anew)
     for (const TileDraw& node : nodes) drop(tileOf(node));

@@ -72,6 +72,7 @@ class StaticLodLayer {
 
   void drop(std::uint32_t tile);
   bool dropOldest();
+  void makeRoom();
   std::size_t bytesOf(std::uint32_t tile) const;
   bool upload(std::uint32_t tile);
   void attach();

@@ -12,9 +12,9 @@ namespace trimtab::scene {
 namespace {
 
 constexpr std::uint32_t kFirstSlots = 256;
-/// Beyond this many slots (178 MB) the longest unused are given up instead; a frame that needs more still
+/// Beyond this many slots (89 MB) the longest unused are given up instead; a frame that needs more still
 /// gets them.
-constexpr std::uint32_t kKeptSlots = 8192;
+constexpr std::uint32_t kKeptSlots = 4096;
 constexpr std::size_t kVertexBytes = sizeof(terrain::TileVertex);
 constexpr std::size_t kSlotBytes = TileCache::kVerticesPerTile * kVertexBytes;
 constexpr std::size_t kOccluderBytes = kOccluderVertices * sizeof(OccluderVertex);
@@ -49,7 +49,7 @@ TileCache::TileCache() : indices_(makeTileIndices()) {
   occluderArray_ = makeArray(occluder, occluderIndexBuffer_);
   for (GLuint* buffer : {&slotBuffer_, &tintBuffer_}) glGenBuffers(1, buffer);
   for (GLuint* texture : {&slotTexture_, &tintTexture_, &partTexture_}) glGenTextures(1, texture);
-  grow();
+  growTo(kFirstSlots);
 }
 
 TileCache::~TileCache() {
@@ -65,7 +65,16 @@ void TileCache::setDatabase(std::shared_ptr<const terrain::Database> database) {
   slotOfNode_.assign(database_ ? database_->index().size() : 0, kNoSlot);
   for (Slot& slot : slots_) slot = {};
   used_ = 0;
+  frame_ = 0;
   ++places_;
+}
+
+/// To grow in flight makes an image late, on an NVIDIA H200 by 8 ms, because the buffer is copied. So the
+/// second image makes room for all tiles that are kept; the first one is not held up by that. Where there is
+/// no memory for it, the buffer grows as far as it can.
+void TileCache::makeRoom() {
+  const std::size_t wanted = std::min<std::size_t>(slotOfNode_.size(), kKeptSlots);
+  if (wanted > slots_.size()) growTo(wanted);
 }
 
 std::size_t TileCache::bytes() const {
@@ -73,9 +82,8 @@ std::size_t TileCache::bytes() const {
 }
 
 /// False where there is no memory for more: the slots are those that there were.
-bool TileCache::grow() {
+bool TileCache::growTo(std::size_t after) {
   const std::size_t before = slots_.size();
-  const std::size_t after = before == 0 ? kFirstSlots : before * 2;
   const bool grown = growBuffer(vertexBuffer_, before * kSlotBytes, after * kSlotBytes) &&
                      growBuffer(occluderBuffer_, before * kOccluderBytes, after * kOccluderBytes) &&
                      growBuffer(partBuffer_, before * kPartBytes, after * kPartBytes);
@@ -104,7 +112,7 @@ bool TileCache::grow() {
 
 std::uint32_t TileCache::takeSlot() {
   if (used_ < slots_.size()) return used_++;
-  if (slots_.size() < kKeptSlots && grow()) return used_++;
+  if (slots_.size() < kKeptSlots && growTo(2 * slots_.size())) return used_++;
   const auto oldest = std::min_element(slots_.begin(), slots_.end(),
                                        [](const Slot& a, const Slot& b) { return a.lastUse < b.lastUse; });
   if (oldest != slots_.end() && oldest->lastUse < frame_) {
@@ -112,7 +120,7 @@ std::uint32_t TileCache::takeSlot() {
     ++places_;
     return static_cast<std::uint32_t>(oldest - slots_.begin());
   }
-  return slots_.size() >= kKeptSlots && grow() ? used_++ : kNoSlot;
+  return slots_.size() >= kKeptSlots && growTo(2 * slots_.size()) ? used_++ : kNoSlot;
 }
 
 void TileCache::fill(std::uint32_t slot, std::uint32_t node) {
@@ -130,7 +138,7 @@ void TileCache::fill(std::uint32_t slot, std::uint32_t node) {
 }
 
 std::size_t TileCache::prepare(std::span<const TileDraw> tiles, bool anew) {
-  ++frame_;
+  if (++frame_ == 2) makeRoom();
   std::size_t built = 0;
   // First the tiles that are there, so that none of them is given up for another of the same frame.
   for (const TileDraw& tile : tiles)

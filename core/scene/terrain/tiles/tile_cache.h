@@ -14,9 +14,10 @@
 
 namespace trimtab::scene {
 
-/// Keeps tiles' vertices on the GPU: slots of one growing buffer, filled on first use; the slot that was
-/// unused for longest is given up first. Shaders read where a slot's tile lies from a buffer texture by
-/// gl_VertexID, so a frame uploads nothing per tile.
+/// Keeps tiles' vertices on the GPU: slots of one buffer, filled on first use; the slot that was unused for
+/// longest is given up first. From the second frame on it has room for all tiles of the terrain, or for 89 MB
+/// of them. Shaders read where a slot's tile lies from a buffer texture by gl_VertexID, so a frame uploads
+/// nothing per tile.
 ///
 /// All calls need the context current.
 class TileCache {
@@ -69,7 +70,8 @@ class TileCache {
   };
 
   std::uint32_t takeSlot();
-  bool grow();
+  void makeRoom();
+  bool growTo(std::size_t after);
   void fill(std::uint32_t slot, std::uint32_t node);
 
   std::shared_ptr<const terrain::Database> database_;

@@ -47,6 +47,32 @@ TEST_F(GpuMemory, tilesGiveUpOthersAndThenGoWithout) {
   EXPECT_EQ(glGetError(), GL_NO_ERROR);
 }
 
+TEST_F(GpuMemory, noBufferGrowsAfterTheSecondImage) {
+  offscreen->makeCurrent();
+  const auto terrain = test::syntheticMountains();
+  scene::TileCache cache;
+  cache.setDatabase(terrain);
+  const std::vector<TileDraw> all = tilesFrom(0, static_cast<std::uint32_t>(terrain->index().size()));
+  ASSERT_GT(all.size(), 256u) << "more than there is room for at first";
+  for (int image = 0; image < 2; ++image) cache.prepare(std::span(all).first(1));
+  const scene::ScarceMemory scarce(1);
+  EXPECT_EQ(cache.prepare(all), all.size() - 1);
+
+  const test::TreeTerrain trees(terrain);
+  const auto source = trees.staticLod();
+  std::vector<TileDraw> nodes;
+  for (std::uint32_t node = 0; node < source->index.size(); ++node) nodes.push_back({node});
+  scene::StaticLodLayer layer;
+  layer.setTerrain(source);
+  std::size_t uploaded = 0;
+  {
+    const scene::ScarceMemory plenty(std::size_t{1} << 40);
+    for (int image = 0; image < 2; ++image) uploaded += layer.prepare(std::span(nodes).first(1));
+  }
+  uploaded += layer.prepare(nodes);
+  EXPECT_EQ(uploaded, source->tiles.size());
+}
+
 TEST_F(GpuMemory, picturesOfTilesAreThoseOfBeforeOnceThereIsMemoryAgain) {
   use(test::syntheticMountains());
   auto r = request(over(0.5, 0.5, 300), {Degrees{30}, Degrees{-8}, Degrees{0}});
