@@ -104,11 +104,11 @@ TEST_F(WorkbenchFind, ctrlKFindsCommandsParametersDocksAndPresetsByKeysAlone) {
 }
 
 TEST_F(WorkbenchFind, ctrlKOpensTheFlightsThatShip) {
-  ASSERT_NO_FATAL_FAILURE(find("kansai-valley"));
-  EXPECT_EQ(row(0), "kansai-valley.csv");
+  ASSERT_NO_FATAL_FAILURE(find("yecheon-circ"));
+  EXPECT_EQ(row(0), "yecheon-circuit.csv");
   EXPECT_EQ(row(2), "ships");
   run();
-  EXPECT_TRUE(waitFor([&] { return w().feed().source() == workbench::Feed::Source::flight; }));
+  EXPECT_TRUE(waitFor([&] { return !w().feed().playback().flight().states.empty(); }));
 }
 
 TEST_F(WorkbenchFind, f1OnAControlShowsItsEntryAndTheReferenceIsSearched) {
@@ -236,6 +236,16 @@ TEST_F(WorkbenchFind, lightAndDarkAreChosenWithinTheProgram) {
   workbench::apply(workbench::Appearance::light);
   EXPECT_TRUE(waitFor([&] { return !views::isDark(w().palette()); }));
   workbench::apply(workbench::Appearance::system);
+}
+
+TEST_F(WorkbenchFind, theNextRunHasTheColoursThatWereChosen) {
+  trigger("Dark");
+  EXPECT_TRUE(waitFor([&] { return views::isDark(w().palette()); }));
+  workbench::apply(workbench::Appearance::system);  // as a new program begins
+  ASSERT_NO_FATAL_FAILURE(restart());
+  EXPECT_TRUE(waitFor([&] { return views::isDark(w().palette()); }));
+  EXPECT_TRUE(command("Dark")->isChecked());
+  trigger("As the desktop");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <QAccessible>
 #include <QDockWidget>
 #include <QLabel>
 #include <QPushButton>
@@ -88,6 +89,25 @@ TEST_F(WorkbenchLayout, aDepthMapThatTheHorizonReplacesIsSaidSo) {
       << inset->accessibleDescription().toStdString();
   EXPECT_TRUE(inset->accessibleDescription().contains("What it covers of the view"))
       << "and its picture is there in place of the map's";
+}
+
+TEST_F(WorkbenchLayout, aScreenReaderHasANameForWhateverTheKeyboardReaches) {
+  QStringList nameless;
+  for (QWidget* each : w().findChildren<QWidget*>()) {
+    if ((each->focusPolicy() & Qt::TabFocus) == 0 || each->focusProxy() != nullptr || each->isHidden())
+      continue;
+    // The line of a spin box and the list of a combo box are parts of it.
+    if (each->objectName().startsWith(QLatin1String("qt_spinbox")) || each->inherits("QComboBoxListView"))
+      continue;
+    const QAccessibleInterface* const spoken = QAccessible::queryAccessibleInterface(each);
+    if (spoken == nullptr || !spoken->text(QAccessible::Name).trimmed().isEmpty()) continue;
+    const QWidget* dock = each;
+    while (dock != nullptr && qobject_cast<const QDockWidget*>(dock) == nullptr) dock = dock->parentWidget();
+    nameless << QStringLiteral("%1 in %2")
+                    .arg(QString::fromLatin1(each->metaObject()->className()),
+                         dock != nullptr ? dock->windowTitle() : QStringLiteral("the window"));
+  }
+  EXPECT_TRUE(nameless.isEmpty()) << nameless.join("\n").toStdString();
 }
 
 TEST_F(WorkbenchLayout, measuringWithoutAFlightIsRefusedBeforeItAsksAnything) {

@@ -279,5 +279,17 @@ TEST_F(WorkbenchSession, theWelcomePageTakesOneWayAndCloses) {
   EXPECT_TRUE(waitFor([&] { return page() == nullptr; }));
 }
 
+TEST_F(WorkbenchSession, theWelcomePageFliesTheSampleFlight) {
+  trigger("Welcome page");
+  for (auto* way : w().findChild<workbench::Welcome*>()->findChildren<QCommandLinkButton*>())
+    if (way->text() == QLatin1String("The sample flight")) {
+      way->click();
+      break;
+    }
+  EXPECT_TRUE(waitFor([&] { return w().feed().playback().position() > 0.2; }));
+  EXPECT_TRUE(waitFor([&] { return w().controllers().terrain->askedFor().isEmpty(); }))
+      << "over the terrain that is in the program";
+}
+
 }  // namespace
 }  // namespace trimtab::test

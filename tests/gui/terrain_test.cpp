@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "app/workbench/dialogs/bake_dialog.h"
+#include "app/workbench/window/job_bar.h"
 #include "gui_support.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/terrain/bake/bake.h"
@@ -239,6 +240,24 @@ TEST(TerrainJob, waitsForNoCancelledWorkButEndsItBeforeTheNext) {
     thirdBegun.get_future().wait();
   }
   EXPECT_TRUE(thirdEnded);
+}
+
+TEST(JobBar, showsHowFarAJobIsAndCancelsIt) {
+  using Opened = Result<std::shared_ptr<const terrain::Database>>;
+  workbench::TerrainJob job;
+  workbench::JobBar bar(job);
+  EXPECT_FALSE(bar.isVisible());
+  std::atomic<bool> ended{false};
+  job.start("Opening", {}, [&](const terrain::Progress& progress) -> Opened {
+    while (progress(0.4, "reading heights")) std::this_thread::yield();
+    ended = true;
+    return Finding{Severity::note, "job", "", "", ""};
+  });
+  const auto* const done = bar.findChild<QProgressBar*>();
+  ASSERT_TRUE(waitFor([&] { return bar.isVisible() && done->value() == 40; }));
+  EXPECT_EQ(bar.findChild<QLabel*>()->text(), "reading heights");
+  QTest::mouseClick(bar.findChild<QPushButton*>(), Qt::LeftButton);
+  EXPECT_TRUE(waitFor([&] { return !bar.isVisible() && !job.running() && ended; }));
 }
 
 }  // namespace

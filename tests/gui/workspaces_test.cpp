@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QAbstractButton>
+#include <QComboBox>
 #include <QDockWidget>
 #include <QFile>
+#include <QHeaderView>
 #include <QLabel>
+#include <QStyleOptionComboBox>
 #include <QTabBar>
 #include <QTextDocument>
 #include <algorithm>
@@ -46,6 +49,24 @@ QStringList cutWords(const QWidget& window) {
     for (int i = 0; i < bar->count(); ++i) whole += bar->tabRect(i).width();
     if (whole > bar->width())
       cut << QString("tabs from %1 on: %2 of %3 px").arg(bar->tabText(0)).arg(bar->width()).arg(whole);
+  }
+  for (const QHeaderView* header : window.findChildren<QHeaderView*>()) {
+    if (!seen(header) || header->orientation() != Qt::Horizontal || header->model() == nullptr) continue;
+    for (int i = 0; i < header->count(); ++i) {
+      const QString text = header->model()->headerData(i, Qt::Horizontal).toString();
+      if (!header->isSectionHidden(i) &&
+          header->fontMetrics().horizontalAdvance(text) > header->sectionSize(i))
+        cut << "heading: " + text;
+    }
+  }
+  for (const QComboBox* box : window.findChildren<QComboBox*>()) {
+    if (!seen(box)) continue;
+    QStyleOptionComboBox option;
+    option.initFrom(box);
+    const int room =
+        box->style()->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, box).width();
+    if (box->fontMetrics().horizontalAdvance(box->currentText()) > room)
+      cut << "choice: " + box->currentText();
   }
   return cut;
 }

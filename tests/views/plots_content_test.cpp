@@ -145,6 +145,18 @@ TEST_F(PlotsContent, plotsAreKeptWithTheSettings) {
   other.readFrom(settings);
   EXPECT_EQ(other.plot().lanes(), plot().lanes());
   EXPECT_EQ(other.plot().span(), 300);
+  const auto length = [](PlotsPanel& panel, std::size_t least) {
+    for (QAction* action : panel.findChildren<QAction*>())
+      if (action->isCheckable() && action->data().toULongLong() >= least) return action;
+    return static_cast<QAction*>(nullptr);
+  };
+  QAction* const longest = length(panel_, 2 * panel_.buffer().capacity());
+  ASSERT_NE(longest, nullptr);
+  longest->trigger();
+  EXPECT_NE(panel_.buffer().capacity(), other.buffer().capacity());
+  panel_.keepLengthIn(settings);
+  other.readLengthFrom(settings);
+  EXPECT_EQ(panel_.buffer().capacity(), other.buffer().capacity());
   settings.setValue("plots/lanes", "no_such_signal;;");
   other.readFrom(settings);
   EXPECT_EQ(other.plot().lanes(), plot().lanes()) << "what nobody can read changes nothing";

@@ -8,11 +8,11 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QToolButton>
 #include <algorithm>
 
 #include "parameter_line.h"
+#include "views/controls/scrollable.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
@@ -48,10 +48,7 @@ ParameterTable::ParameterTable(Draft& draft, QWidget* parent)
   grid->setContentsMargins(4, 4, 4, 4);
   grid->setColumnStretch(1, 1);
   makeLines(*grid);
-  QScrollArea* area = new QScrollArea;
-  area->setWidget(content);
-  area->setWidgetResizable(true);
-  area->setFrameShape(QFrame::NoFrame);
+  QScrollArea* area = scrollable(content, tr("Parameters"));
   area->setHorizontalScrollBarPolicy(Qt::ScrollBarAsNeeded);
   area->setFocusPolicy(Qt::NoFocus);
 

@@ -7,7 +7,6 @@
 #include <QLabel>
 #include <QMenu>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QSplitter>
 #include <QStackedWidget>
 #include <QTabWidget>
@@ -25,6 +24,7 @@
 #include "terms_page.h"
 #include "trimtab/preset/policy_lines.h"
 #include "views/controls/parameter_lines.h"
+#include "views/controls/scrollable.h"
 #include "views/controls/tell_findings.h"
 #include "views/model/keys.h"
 #include "views/model/theme.h"
@@ -174,10 +174,7 @@ void PolicyPanel::makeTabs() {
   p.shares = new SharesView;
   p.surface = new SurfacePage(draft_, track_);
   p.findings = new FindingsPage(*policy_);
-  auto* levers = new QScrollArea;
-  levers->setFrameShape(QFrame::NoFrame);
-  levers->setWidgetResizable(true);
-  levers->setWidget(p.levers);
+  auto* levers = scrollable(p.levers, tr("Levers"));
   p.tabs->addTab(p.terms, tr("Terms"));
   p.tabs->addTab(p.rules, tr("Rules"));
   p.tabs->addTab(levers, tr("Levers"));

@@ -1,26 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scheme_page.h"
 
-#include <QScrollArea>
-
+#include "views/controls/scrollable.h"
 #include "views/editors/membership_editor.h"
 #include "views/model/value_text.h"
 #include "views/panels/rules_panel.h"
 #include "views/plots/surface_plot.h"
 
 namespace trimtab::views {
-namespace {
-
-/// Curves above each other ask for more height than a small window has.
-QScrollArea* scrollable(QWidget* content) {
-  auto* area = new QScrollArea;
-  area->setFrameShape(QFrame::NoFrame);
-  area->setWidgetResizable(true);
-  area->setWidget(content);
-  return area;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 SchemePage::SchemePage(Draft& draft, QWidget* parent)
     : QTabWidget(parent),
@@ -29,8 +17,8 @@ SchemePage::SchemePage(Draft& draft, QWidget* parent)
       surface_(new SurfacePlot(draft)) {
   setDocumentMode(true);
   setAccessibleName(tr("Culling scheme by altitude and pitch"));
-  addTab(scrollable(memberships_), tr("Memberships"));
-  addTab(scrollable(rules_), tr("Rules"));
+  addTab(scrollable(memberships_, tr("Memberships")), tr("Memberships"));
+  addTab(scrollable(rules_, tr("Rules")), tr("Rules"));
   addTab(surface_, tr("Surface"));
   setTabToolTip(0, tr("Altitude and pitch curves%1").arg(documentsHtml("A, B: Table 1")));
   setTabToolTip(

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "changes_dock.h"
 
-#include <QScrollArea>
-
+#include "views/controls/scrollable.h"
 #include "views/panels/changes_panel.h"
 #include "views/panels/snapshots_panel.h"
 
@@ -14,10 +13,7 @@ ChangesDock::ChangesDock(views::Draft& draft, QWidget* parent)
       changes_(new views::ChangesPanel(draft)),
       panel_(new views::SnapshotsPanel(draft, snapshots_)) {
   addWidget(changes_);
-  auto* area = new QScrollArea;
-  area->setWidget(panel_);
-  area->setWidgetResizable(true);
-  area->setFrameShape(QFrame::NoFrame);
+  auto* area = views::scrollable(panel_, tr("Snapshots"));
   area->setFocusPolicy(Qt::NoFocus);
   addWidget(area);
   setChildrenCollapsible(false);

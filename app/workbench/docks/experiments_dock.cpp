@@ -135,6 +135,7 @@ ExperimentsDock::ExperimentsDock(Source source, QWidget* parent)
   repeats_->setToolTip(tr("Frames per view; their median counts"));
   repeats_->setAccessibleName(tr("Frames per view"));
   notes_->setReadOnly(true);
+  notes_->setAccessibleName(tr("Notes"));
   machine_->setWordWrap(true);
   status_->setWordWrap(true);
   save_->setEnabled(false);

@@ -11,7 +11,6 @@
 #include <QNetworkInterface>
 #include <QPlainTextEdit>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QSettings>
 #include <QSpinBox>
 #include <QVBoxLayout>
@@ -19,6 +18,7 @@
 #include <initializer_list>
 
 #include "app/link/link.h"
+#include "views/controls/scrollable.h"
 #include "views/model/draft.h"
 #include "views/model/theme.h"
 
@@ -165,10 +165,7 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
   column->addLayout(form);
   column->addWidget(firstBad_);
   column->addStretch(1);
-  auto* scroll = new QScrollArea(this);
-  scroll->setWidget(content);
-  scroll->setWidgetResizable(true);
-  scroll->setFrameShape(QFrame::NoFrame);
+  auto* scroll = views::scrollable(content, tr("Host"));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(scroll);

@@ -5,7 +5,6 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QScrollArea>
 #include <QTableWidget>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -16,6 +15,7 @@
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/measure/image_error.h"
 #include "trimtab/terrain/format/database.h"
+#include "views/controls/scrollable.h"
 #include "views/model/error_run.h"
 #include "views/model/theme.h"
 
@@ -123,10 +123,7 @@ void SplitView::arrange() {
   column->addWidget(status_);
   column->addStretch();
   // At the foot of the window every dock would have to be as tall as this one.
-  auto* area = new QScrollArea(this);
-  area->setFrameShape(QFrame::NoFrame);
-  area->setWidgetResizable(true);
-  area->setWidget(inner);
+  auto* area = views::scrollable(inner, tr("Compare"));
   auto* all = new QVBoxLayout(this);
   all->setContentsMargins(0, 0, 0, 0);
   all->addWidget(area);

@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dock_layout.h"
+#include "views/controls/scrollable.h"
 
 #include <QDockWidget>
 #include <QMainWindow>
-#include <QScrollArea>
 #include <QTabBar>
 #include <algorithm>
 #include <array>
 
 namespace trimtab::workbench {
 namespace {
-
-/// Editors stacked in one column would ask for more height than a small screen has.
-QScrollArea* scrollable(QWidget* content) {
-  auto* area = new QScrollArea;
-  area->setFrameShape(QFrame::NoFrame);
-  area->setWidgetResizable(true);
-  area->setWidget(content);
-  return area;
-}
 
 Qt::DockWidgetArea areaOf(DockLayout::Place place) {
   return place == DockLayout::Place::foot ? Qt::BottomDockWidgetArea : Qt::RightDockWidgetArea;
@@ -29,7 +20,7 @@ Qt::DockWidgetArea areaOf(DockLayout::Place place) {
 void DockLayout::addDock(const char* name, const QString& title, Place place, QWidget* content) {
   auto* dock = new QDockWidget(title, &window_);
   dock->setObjectName(QLatin1String(name));
-  dock->setWidget(place == Place::foot ? content : scrollable(content));
+  dock->setWidget(place == Place::foot ? content : views::scrollable(content, title));
   window_.addDockWidget(areaOf(place), dock);
   docks_.push_back({dock, place});
 }
@@ -131,6 +122,7 @@ void DockLayout::showFrame(const views::LiveFrame& frame) const {
 void showWholeTitles(QTabBar& bar) {
   bar.setElideMode(Qt::ElideNone);
   bar.setUsesScrollButtons(true);
+  bar.setAccessibleName(QObject::tr("Docks"));
 }
 
 }  // namespace trimtab::workbench

@@ -368,7 +368,7 @@ void MainWindow::welcome() {
                         {tr("The sample flight"), tr("a circuit over the sample terrain, played here"),
                          [this, openSample, path] {
                            openSample();
-                           controllers_.flight->open(path);
+                           if (controllers_.flight->open(path)) controllers_.flight->playOrPause();
                          }});
   (new Welcome({again, begin, open}, this))->open();
 }

@@ -19,7 +19,11 @@ constexpr int kBudgetMs = 250;  ///< a figure that changes faster cannot be read
 }  // namespace
 
 StatusStrip::StatusStrip(const Feed& feed, const views::Draft& draft, QWidget* parent)
-    : QWidget(parent), feed_(feed), draft_(draft), budgets_(this, [this] { showBudget(); }, kBudgetMs) {
+    : QWidget(parent),
+      feed_(feed),
+      draft_(draft),
+      budgets_(
+          this, [this] { showBudget(); }, kBudgetMs) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(14);

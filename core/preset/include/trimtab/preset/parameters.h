@@ -222,7 +222,7 @@ struct HoldParameters {
   bool enabled = false;
   Ratio margin{0.08};      ///< the share of the budget that the prediction leaves free
   Ratio caution{1.41};     ///< how many of the model's 90 % bands stay below 1.1 of the budget
-  Milliseconds calm{150};  ///< head-room must last so long before levers are restored
+  Milliseconds calm{120};  ///< head-room must last so long before levers are restored
   Ratio lookAhead{5};      ///< the views of so many coming images are counted
   // How far the arbiter may go.
   Pixels errorMaximum{16};
