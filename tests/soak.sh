@@ -22,6 +22,7 @@ while [ $# -gt 0 ]; do
     *) usage ;;
   esac
 done
+[ -n "$fuzz" ] || [ -z "$sanitize" ] || usage
 seconds=$(awk -v h="$hours" 'BEGIN { printf "%d", h * 3600 }')
 [ "$seconds" -ge 60 ] || { echo "--hours: at least 0.017, a minute" >&2; exit 2; }
 
@@ -98,6 +99,7 @@ failed=0
 note() { echo "$2  $1" >>"$out/report.txt"; [ "$2" = good ] || failed=1; }
 {
   echo "Soak of $hours hours, $(date -u +%Y-%m-%d), $(nproc) cores, commit $(git rev-parse --short HEAD 2>/dev/null || echo none)"
+  [ -z "$sanitize" ] || echo "The readers were built with the address and the undefined-behaviour sanitizer."
   echo
 } >"$out/report.txt"
 [ "$code" -eq 0 ] && note "the IG ended with 0" good || note "the IG ended with $code: $out/ig.err" BAD

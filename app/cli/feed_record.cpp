@@ -11,7 +11,7 @@
 namespace trimtab::cli {
 namespace {
 
-/// What waits for a disk that stands still; what comes then is dropped.
+/// At most so many bytes wait for a slow disk; datagrams beyond them are dropped.
 constexpr std::size_t kMostWaitingBytes = std::size_t{256} << 20;
 
 int refuse(const Findings& findings) {

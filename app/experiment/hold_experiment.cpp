@@ -175,11 +175,18 @@ bool addFixed(const Desk& desk, const Strain& strain, std::size_t every, double 
       }
   const double smeared = flipOf(held, &ExposedError::smeared);
   char text[300];
-  std::snprintf(
-      text, sizeof text,
-      "%s: of fixed settings whose 99th percentile is at most %.1f ms, as of hold, the best is %s, smeared "
-      "FLIP %.4f; hold has %.4f, %.2f of it.",
-      strain.name.c_str(), p99, best.c_str(), least, smeared, smeared / least);
+  if (std::isinf(least))
+    std::snprintf(
+        text, sizeof text,
+        "%s: no fixed setting has a 99th percentile of at most %.1f ms, as hold has, whose smeared FLIP is "
+        "%.4f.",
+        strain.name.c_str(), p99, smeared);
+  else
+    std::snprintf(
+        text, sizeof text,
+        "%s: of fixed settings whose 99th percentile is at most %.1f ms, as of hold, the best is %s, "
+        "smeared FLIP %.4f; hold has %.4f, %.2f of it.",
+        strain.name.c_str(), p99, best.c_str(), least, smeared, smeared / least);
   report.notes.push_back(text);
   return true;
 }

@@ -24,6 +24,10 @@ constexpr double kWorthwhile = 0.1;
 /// glance lasts, because the next view may need what this one does not; or if the image takes less than this
 /// part of the limit, because then too much was given up.
 constexpr double kTurningCalmMs = 1000, kAmple = 0.75;
+/// A restoration that is taken back within so long was too early; one that lasts for so long was not.
+constexpr double kTooEarlyMs = 1000, kLastsMs = 4000, kMostPatience = 32;
+/// Settings whose times differ by less are alike.
+constexpr double kAlike = 1.03;
 /// No image counts for more than this part of the calm that restoring waits for, however far the clock jumps.
 constexpr double kMostOfCalm = 1.0 / 3;
 /// Triangles that change by more than this part from image to image belong to a view that turns.
@@ -194,6 +198,17 @@ bool steady(double triangles, double ms, double longMs, HoldMemory& memory) {
   return memory.begun && memory.steadyMs >= longMs;
 }
 
+/// Follows how long the last restoration has lasted. One that lasts ends the patience at once, and a view
+/// that turns halves it every `calmMs`.
+void bePatient(bool rests, double ms, double calmMs, HoldMemory& memory) {
+  memory.restoredMs += ms;
+  if (memory.restoredMs >= kLastsMs && std::isfinite(memory.restoredMs)) {
+    memory.patience = 1;
+    memory.restoredMs = kInfinity;
+  }
+  if (!rests) memory.patience = std::max(1.0, memory.patience * std::exp2(-ms / calmMs));
+}
+
 /// Averages the model's uncertainty into the memory, because a single late image must not lower anything.
 void noteBand(double bandMs, HoldMemory& memory) {
   constexpr double kShare = 0.02;
@@ -263,10 +278,17 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
   const Search search(given, choice, rests);
   const HoldSteps before = within(choice, memory.steps);
   HoldSteps now = before;
+  bePatient(rests, ms, p.calm.value(), memory);
   if (!memory.begun || search.timeAt(before) > d.limitMs) {
     now = search.best(memory.begun ? aim : d.limitMs);
+    // Where nothing fits, a setting that is next to no quicker is not worth a change.
+    if (memory.begun && search.timeAt(now) > d.limitMs &&
+        search.timeAt(before) <= kAlike * search.timeAt(now))
+      now = before;
     d.reason = HoldReason::lowered;
     memory.calmMs = 0;
+    if (memory.restoredMs < kTooEarlyMs) memory.patience = std::min(2 * memory.patience, kMostPatience);
+    memory.restoredMs = kInfinity;
   } else {
     const HoldSteps wanted = search.best(aim);
     const double kept = lossAt(choice, before), won = kept - lossAt(choice, wanted);
@@ -274,11 +296,11 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
     const bool room = worth && search.timeAt(wanted) <= d.limitMs;
     memory.calmMs = room ? memory.calmMs + ms : 0;
     d.reason = HoldReason::held;
-    if (room && memory.calmMs >= p.calm.value()) {
-      const bool ample = search.timeAt(before) < kAmple * d.limitMs;
+    const bool ample = search.timeAt(before) < kAmple * d.limitMs;
+    if (room && memory.calmMs >= p.calm.value() * (ample ? 1 : memory.patience)) {
       const HoldSteps nearer = raised(before, wanted, rests || ample || memory.calmMs >= kTurningCalmMs);
       if (nearer != before && search.timeAt(nearer) <= d.limitMs)
-        now = nearer, d.reason = HoldReason::restored;
+        now = nearer, d.reason = HoldReason::restored, memory.restoredMs = 0;
     }
   }
   memory.begun = true;

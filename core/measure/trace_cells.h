@@ -70,6 +70,8 @@ void forEachNumber(Memory& m, const Visit& visit) {
   visit(m.steadyMs);
   visit(m.bandMs);
   visit(m.begun);
+  visit(m.restoredMs);
+  visit(m.patience);
 }
 
 /// Several numbers with ; between.

@@ -8,7 +8,8 @@ if(TRIMTAB_WERROR)
   target_compile_options(trimtab_warnings INTERFACE -Werror)
 endif()
 if(TRIMTAB_SANITIZE)
-  add_compile_options(-fsanitize=${TRIMTAB_SANITIZE} -fno-omit-frame-pointer)
+  # Without the second option a program that did something undefined says so and ends well.
+  add_compile_options(-fsanitize=${TRIMTAB_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${TRIMTAB_SANITIZE})
 endif()
 # Replays are compared bit for bit between programs, so no target may contract a*b+c on its own.

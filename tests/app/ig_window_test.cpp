@@ -32,8 +32,9 @@ TEST(IgWindow, showsWhatTheHeadlessOneDraws) {
   EXPECT_EQ(compared.exitCode, 0) << compared.err << " of 120000 pixels differ";
 }
 
-/// Starts a flight in a window, ends it by `end`, which gets the window, and looks at what is left.
-void isLeftInGoodOrder(const std::function<void(::Window)>& end) {
+/// Starts a flight in a window and ends it by `end`, which gets the window. Picture and trace must be whole
+/// then.
+void expectGoodOrderAfter(const std::function<void(::Window)>& end) {
   const test::ScratchDir dir;
   test::writeFile(dir / "flight.csv", flightCsv(test::weavingFlight(2000, 10)));
   IgProcess ig({"--preset", "default", "--terrain", test::smallTerrain().string(), "--flight",
@@ -55,13 +56,13 @@ void isLeftInGoodOrder(const std::function<void(::Window)>& end) {
 }
 
 TEST(IgWindow, aKeyEndsItAsASignalDoes) {
-  isLeftInGoodOrder([](::Window window) {
+  expectGoodOrderAfter([](::Window window) {
     EXPECT_EQ(test::run("xdotool key --window " + std::to_string(window) + " q").exitCode, 0);
   });
 }
 
 TEST(IgWindow, theButtonOfTheWindowManagerEndsItToo) {
-  isLeftInGoodOrder([](::Window window) {
+  expectGoodOrderAfter([](::Window window) {
     Display* const display = XOpenDisplay(nullptr);
     ASSERT_TRUE(display);
     XEvent event{};

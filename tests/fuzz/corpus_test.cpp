@@ -10,6 +10,7 @@
 #include <iomanip>
 #include <iostream>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -30,11 +31,13 @@ std::vector<std::string> corpus() {
       files.push_back(file);
   };
   std::istringstream places(TRIMTAB_CORPUS);
-  for (std::string place; std::getline(places, place, ':');)
+  for (std::string place; std::getline(places, place, ':');) {
+    if (!std::filesystem::exists(place)) throw std::runtime_error("the corpus has no " + place);
     if (std::filesystem::is_directory(place))
       for (const auto& entry : std::filesystem::directory_iterator(place)) take(entry.path());
     else
       take(place);
+  }
   std::sort(files.begin(), files.end());
   std::vector<std::string> inputs;
   for (const auto& file : files) inputs.push_back(trimtab::test::readFile(file));

@@ -244,10 +244,10 @@ TEST(TerrainJob, waitsForNoCancelledWorkButEndsItBeforeTheNext) {
 
 TEST(JobBar, showsHowFarAJobIsAndCancelsIt) {
   using Opened = Result<std::shared_ptr<const terrain::Database>>;
+  std::atomic<bool> ended{false};
   workbench::TerrainJob job;
   workbench::JobBar bar(job);
   EXPECT_FALSE(bar.isVisible());
-  std::atomic<bool> ended{false};
   job.start("Opening", {}, [&](const terrain::Progress& progress) -> Opened {
     while (progress(0.4, "reading heights")) std::this_thread::yield();
     ended = true;

@@ -2,7 +2,7 @@
 #include "views/panels/decision_panel.h"
 
 #include <QClipboard>
-#include <QLabel>
+#include <QPushButton>
 #include <QSignalSpy>
 #include <QTableView>
 #include <QTest>
@@ -67,29 +67,22 @@ TEST_F(DecisionPanelTest, inputThatStopsMakingSenseIsAChange) {
 }
 
 TEST_F(DecisionPanelTest, leadsToTheChoicesThatLeaveTheImageWithoutADepthMap) {
-  QLabel* reason = nullptr;
-  for (QLabel* label : panel_.findChildren<QLabel*>())
-    if (label->textInteractionFlags().testFlag(Qt::LinksAccessibleByKeyboard)) reason = label;
-  ASSERT_NE(reason, nullptr);
+  auto* const lead = panel_.findChild<QPushButton*>();
+  ASSERT_NE(lead, nullptr);
   LiveFrame frame;
   frame.decision = decide(test::inputAt(6000, 0), draft_.active(), memory_);
   FrameResult drawn;
-  drawn.depthMap = frame.decision.occlusionResolution;
-  frame.result = std::make_shared<const FrameResult>(drawn);
-  panel_.showFrame(frame);
-  ASSERT_TRUE(test::eventually([&] { return reason->text().contains("6000 ft"); }));
-  EXPECT_FALSE(reason->text().contains("Culling")) << "a depth map was drawn";
-  drawn.depthMap.reset();
   drawn.occlusion = OcclusionMethod::horizon;
   frame.result = std::make_shared<const FrameResult>(drawn);
   panel_.showFrame(frame);
-  ASSERT_TRUE(test::eventually([&] { return reason->text().contains("Go to Culling"); }));
-  EXPECT_TRUE(reason->text().contains("No depth map: the horizon serves"));
+  ASSERT_TRUE(test::eventually([&] { return lead->isVisible(); }));
   QSignalSpy asked(&panel_, &DecisionPanel::cullingAsked);
-  for (int y = 4; y < reason->height() && asked.isEmpty(); y += 6)
-    for (int x = 4; x < reason->width() && asked.isEmpty(); x += 12)
-      QTest::mouseClick(reason, Qt::LeftButton, {}, {x, y});
-  EXPECT_EQ(asked.size(), 1) << "a click on the link";
+  QTest::mouseClick(lead, Qt::LeftButton);
+  EXPECT_EQ(asked.size(), 1);
+  drawn.depthMap = frame.decision.occlusionResolution;
+  frame.result = std::make_shared<const FrameResult>(drawn);
+  panel_.showFrame(frame);
+  EXPECT_TRUE(test::eventually([&] { return !lead->isVisible(); })) << "a depth map was drawn";
 }
 
 TEST_F(DecisionPanelTest, recordsWhileHidden) {

@@ -12,7 +12,8 @@
 
 namespace trimtab::views {
 
-/// The levers as an image was drawn, after policy and arbiter; NaN before the first one.
+/// The levers with which the pilot's image was drawn, after policy and arbiter; NaN before the first one. A
+/// detached or frozen observer's image has no blur, whatever is said here.
 struct DrawnLevers {
   double errorPx = kUnknown;      ///< allowed screen-space error
   double renderScale = kUnknown;  ///< part of the image's width and height

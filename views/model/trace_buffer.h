@@ -86,7 +86,7 @@ inline constexpr std::array<StackedStage, 5> kStack{{{Trace::select_ms, Trace::s
 class TraceBuffer {
  public:
   static constexpr std::size_t kBlock = 64;
-  /// Enough for five minutes at 400 frames per second, or half an hour at 66; 21 MB.
+  /// Enough for five minutes at 400 frames per second, or half an hour at 66; 27 MB.
   static constexpr std::size_t kCapacity = 120'000 / kBlock * kBlock;
 
   explicit TraceBuffer(std::size_t capacity = kCapacity);

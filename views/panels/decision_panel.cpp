@@ -8,6 +8,7 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QMessageBox>
+#include <QPushButton>
 #include <QScrollBar>
 #include <QTableView>
 #include <QToolButton>
@@ -28,6 +29,7 @@ DecisionPanel::DecisionPanel(Draft& draft, QWidget* parent)
       draft_(draft),
       scheme_(new QLabel(tr("No frame has been decided yet"))),
       reason_(new QLabel),
+      lead_(new QPushButton(tr("Go to Culling"))),
       count_(new QLabel),
       memberships_(new BarList),
       rules_(new BarList),
@@ -40,11 +42,11 @@ DecisionPanel::DecisionPanel(Draft& draft, QWidget* parent)
   scheme_->setFont(large);
   scheme_->setWordWrap(true);
   reason_->setWordWrap(true);
-  reason_->setTextFormat(Qt::RichText);
-  reason_->setTextInteractionFlags(Qt::TextBrowserInteraction);
-  connect(reason_, &QLabel::linkActivated, this, &DecisionPanel::cullingAsked);
+  reason_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
   reason_->setMinimumHeight(3 * fontMetrics().lineSpacing());
   reason_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  lead_->hide();
+  connect(lead_, &QPushButton::clicked, this, &DecisionPanel::cullingAsked);
   memberships_->setAccessibleName(tr("Memberships"));
   rules_->setAccessibleName(tr("Firing of the rules"));
 
@@ -100,6 +102,7 @@ DecisionPanel::DecisionPanel(Draft& draft, QWidget* parent)
   layout->setContentsMargins(6, 6, 6, 6);
   layout->addWidget(scheme_);
   layout->addWidget(reason_);
+  layout->addWidget(lead_, 0, Qt::AlignLeft);
   layout->addWidget(memberships_);
   layout->addWidget(rules_);
   layout->addLayout(logBar);
@@ -138,12 +141,10 @@ void DecisionPanel::refresh() {
                                                    .arg(d.occlusionResolution->widthPx)
                                                    .arg(d.occlusionResolution->heightPx)
                                              : tr("Dynamic"));
-    QString reason = QString::fromStdString(explain(d, draft_.active())).toHtmlEscaped();
-    if (d.occlusionResolution && frame_.result)
-      if (const QString why = whyNoDepthMap(frame_, p); !why.isEmpty())
-        reason +=
-            QStringLiteral(". %1 <a href='culling'>%2</a>").arg(why.toHtmlEscaped(), tr("Go to Culling"));
-    reason_->setText(reason);
+    const QString reason = QString::fromStdString(explain(d, draft_.active()));
+    const QString why = d.occlusionResolution && frame_.result ? whyNoDepthMap(frame_, p) : QString();
+    reason_->setText(why.isEmpty() ? reason : reason + QStringLiteral(". ") + why);
+    lead_->setVisible(!why.isEmpty());
   }
   std::vector<double> edges;
   for (const Band& band : p.scheme.bands.span()) edges.push_back(band.low);

@@ -8,6 +8,7 @@
 #include "views/model/throttle.h"
 
 class QLabel;
+class QPushButton;
 class QTableView;
 
 namespace trimtab::views {
@@ -38,7 +39,9 @@ class DecisionPanel : public QWidget {
   void askAndSave();
 
   Draft& draft_;
-  QLabel *scheme_, *reason_, *count_;
+  QLabel *scheme_, *reason_;
+  QPushButton* lead_;
+  QLabel* count_;
   BarList *memberships_, *rules_;
   DecisionLog* log_;
   QTableView* view_;

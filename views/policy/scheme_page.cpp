@@ -8,8 +8,6 @@
 #include "views/plots/surface_plot.h"
 
 namespace trimtab::views {
-namespace {}  // namespace
-
 SchemePage::SchemePage(Draft& draft, QWidget* parent)
     : QTabWidget(parent),
       memberships_(new MembershipEditor(draft)),

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dock_layout.h"
-#include "views/controls/scrollable.h"
 
 #include <QDockWidget>
 #include <QMainWindow>
 #include <QTabBar>
 #include <algorithm>
 #include <array>
+
+#include "views/controls/scrollable.h"
 
 namespace trimtab::workbench {
 namespace {
@@ -119,7 +120,7 @@ void DockLayout::showFrame(const views::LiveFrame& frame) const {
   for (const auto& show : viewers_) show(frame);
 }
 
-void showWholeTitles(QTabBar& bar) {
+void arrangeTabs(QTabBar& bar) {
   bar.setElideMode(Qt::ElideNone);
   bar.setUsesScrollButtons(true);
   bar.setAccessibleName(QObject::tr("Docks"));

@@ -66,7 +66,8 @@ class DockLayout {
   std::vector<std::function<void(const views::LiveFrame&)>> viewers_;
 };
 
-/// Titles of tabs are shown whole; arrows scroll to those that do not fit.
-void showWholeTitles(QTabBar& bar);
+/// Shows the titles of docks that share a place whole, with arrows to those that do not fit, and names the
+/// bar.
+void arrangeTabs(QTabBar& bar);
 
 }  // namespace trimtab::workbench

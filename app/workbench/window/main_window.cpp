@@ -275,7 +275,7 @@ void MainWindow::dropEvent(QDropEvent* event) {
 /// Qt makes bars of tabs whenever docks come together, also when a layout is restored.
 void MainWindow::childEvent(QChildEvent* event) {
   QMainWindow::childEvent(event);
-  if (auto* bar = event->polished() ? qobject_cast<QTabBar*>(event->child()) : nullptr) showWholeTitles(*bar);
+  if (auto* bar = event->polished() ? qobject_cast<QTabBar*>(event->child()) : nullptr) arrangeTabs(*bar);
 }
 
 void MainWindow::changeEvent(QEvent* event) {
@@ -368,7 +368,7 @@ void MainWindow::welcome() {
                         {tr("The sample flight"), tr("a circuit over the sample terrain, played here"),
                          [this, openSample, path] {
                            openSample();
-                           if (controllers_.flight->open(path)) controllers_.flight->playOrPause();
+                           if (controllers_.flight->open(path)) feed_.playHere();
                          }});
   (new Welcome({again, begin, open}, this))->open();
 }

@@ -92,7 +92,8 @@ void addFile(Entries& to, const QString& path, const QString& shown, const QStri
 void addRecent(Entries& to, const QString& kind, const QString& shown,
                const std::function<void(const QString&)>& open) {
   for (const QString& path : recentFiles(kind))
-    if (QFileInfo::exists(path)) addFile(to, path, shown, QFileInfo(path).path(), open);
+    if (QFileInfo::exists(path) && !shippedFlights().contains(path))
+      addFile(to, path, shown, QFileInfo(path).path(), open);
 }
 
 }  // namespace

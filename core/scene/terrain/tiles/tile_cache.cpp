@@ -112,7 +112,8 @@ bool TileCache::growTo(std::size_t after) {
 
 std::uint32_t TileCache::takeSlot() {
   if (used_ < slots_.size()) return used_++;
-  if (slots_.size() < kKeptSlots && growTo(2 * slots_.size())) return used_++;
+  const std::size_t more = std::max<std::size_t>(kFirstSlots, 2 * slots_.size());
+  if (slots_.size() < kKeptSlots && growTo(std::min<std::size_t>(kKeptSlots, more))) return used_++;
   const auto oldest = std::min_element(slots_.begin(), slots_.end(),
                                        [](const Slot& a, const Slot& b) { return a.lastUse < b.lastUse; });
   if (oldest != slots_.end() && oldest->lastUse < frame_) {
@@ -120,7 +121,7 @@ std::uint32_t TileCache::takeSlot() {
     ++places_;
     return static_cast<std::uint32_t>(oldest - slots_.begin());
   }
-  return slots_.size() >= kKeptSlots && growTo(2 * slots_.size()) ? used_++ : kNoSlot;
+  return slots_.size() >= kKeptSlots && growTo(more) ? used_++ : kNoSlot;
 }
 
 void TileCache::fill(std::uint32_t slot, std::uint32_t node) {

@@ -73,6 +73,17 @@ TEST_F(GpuMemory, noBufferGrowsAfterTheSecondImage) {
   EXPECT_EQ(uploaded, source->tiles.size());
 }
 
+TEST_F(GpuMemory, tilesComeOnceThereIsAnyMemory) {
+  offscreen->makeCurrent();
+  auto none = std::make_unique<scene::ScarceMemory>(1);
+  scene::TileCache cache;
+  cache.setDatabase(test::syntheticMountains());
+  const auto tiles = tilesFrom(0, 4);
+  for (int image = 0; image < 3; ++image) EXPECT_EQ(cache.prepare(tiles), 0u);
+  none.reset();
+  EXPECT_EQ(cache.prepare(tiles), 4u);
+}
+
 TEST_F(GpuMemory, picturesOfTilesAreThoseOfBeforeOnceThereIsMemoryAgain) {
   use(test::syntheticMountains());
   auto r = request(over(0.5, 0.5, 300), {Degrees{30}, Degrees{-8}, Degrees{0}});

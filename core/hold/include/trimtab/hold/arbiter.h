@@ -6,6 +6,7 @@
 #include "trimtab/hold/cost_model.h"
 #include "trimtab/hold/load_counter.h"
 #include "trimtab/preset/parameters.h"
+#include "trimtab/units/not_finite.h"
 
 /// Keeps the predicted time of each image within the budget.
 ///
@@ -18,7 +19,9 @@
 /// Lowering acts at once. Restoring waits until head-room has lasted hold.calm_ms, and then moves render
 /// scale and particles one step an image, so that no image becomes long by it; the allowed error returns
 /// in one step, because each step of it exchanges levels, and while the view turns only after a second or if
-/// the image takes less than three quarters of the limit, so that a glance does not exchange them twice.
+/// the image takes less than three quarters of the limit, so that a glance does not exchange them twice. A
+/// restoration that is taken back within a second makes the next one wait twice as long, up to 32 times,
+/// until one has lasted for four seconds or the view turns.
 ///
 /// While the triangles of the coming views change, the allowed error moves by half octaves, so that a glance
 /// changes levels once or twice. Once they have been steady for hold.calm_ms it moves by eighths of an
@@ -59,6 +62,8 @@ struct HoldMemory {
   double steadyMs = 0;   ///< for how long they have changed by at most a hundredth an image
   double bandMs = 0;     ///< the model's uncertainty, averaged over some 50 images
   bool begun = false;
+  double restoredMs = kInfinity;  ///< how long ago a lever was restored; infinite once it was lowered again
+  double patience = 1;            ///< restoring waits for so many times hold.calm_ms
   friend bool operator==(const HoldMemory&, const HoldMemory&) = default;
 };
 
