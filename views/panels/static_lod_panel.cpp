@@ -70,9 +70,8 @@ StaticLodPanel::StaticLodPanel(Draft& draft, QWidget* parent)
   table_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
   table_->setToolTip(
       tr("<p>A face that several nodes have is one different face. The document does not say whether n is "
-         "the "
-         "most or the least of a leaf. For its example n as the most makes 16 leaves and 5 levels, and n as "
-         "the least makes 8 leaves and the published 4. Trees here use n as the most.%1</p>")
+         "the most or the least of a leaf. For its example n as the most makes 16 leaves and 5 levels, and n "
+         "as the least makes 8 leaves and the published 4. Trees here use n as the most.%1</p>")
           .arg(documentsHtml("E")));
   drawn_->setAccessibleName(tr("Triangles drawn, by level"));
   slider_->setAccessibleName(tr("Level, from the roots to the leaves"));

@@ -8,6 +8,7 @@
 #include "views/plots/surface_plot.h"
 
 namespace trimtab::views {
+
 SchemePage::SchemePage(Draft& draft, QWidget* parent)
     : QTabWidget(parent),
       memberships_(new MembershipEditor(draft)),

@@ -90,9 +90,9 @@ void addFile(Entries& to, const QString& path, const QString& shown, const QStri
 }
 
 void addRecent(Entries& to, const QString& kind, const QString& shown,
-               const std::function<void(const QString&)>& open) {
+               const std::function<void(const QString&)>& open, const QStringList& listed = {}) {
   for (const QString& path : recentFiles(kind))
-    if (QFileInfo::exists(path) && !shippedFlights().contains(path))
+    if (QFileInfo::exists(path) && !listed.contains(path))
       addFile(to, path, shown, QFileInfo(path).path(), open);
 }
 
@@ -114,9 +114,10 @@ std::vector<PaletteEntry> paletteEntries(QMainWindow& window, const Controllers&
   addRecent(entries, QStringLiteral("terrain"), QObject::tr("terrain"),
             [&by](const QString& path) { by.terrain->open(path); });
   const auto openFlight = [&by](const QString& path) { by.flight->open(path); };
-  for (const QString& path : shippedFlights())
+  const QStringList shipped = shippedFlights();
+  for (const QString& path : shipped)
     addFile(entries, path, QObject::tr("flight"), QObject::tr("ships"), openFlight);
-  addRecent(entries, QStringLiteral("flight"), QObject::tr("flight"), openFlight);
+  addRecent(entries, QStringLiteral("flight"), QObject::tr("flight"), openFlight, shipped);
   addRecent(entries, QStringLiteral("session"), QObject::tr("session"),
             [&sessions](const QString& path) { sessions.open(path); });
   return entries;

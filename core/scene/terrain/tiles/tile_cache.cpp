@@ -69,7 +69,7 @@ void TileCache::setDatabase(std::shared_ptr<const terrain::Database> database) {
   ++places_;
 }
 
-/// To grow in flight makes an image late, on an NVIDIA H200 by 8 ms, because the buffer is copied. So the
+/// To grow in flight makes an image late, on an NVIDIA H200 by 8 ms, because the buffer is made anew. So the
 /// second image makes room for all tiles that are kept; the first one is not held up by that. Where there is
 /// no memory for it, the buffer grows as far as it can.
 void TileCache::makeRoom() {
