@@ -26,11 +26,6 @@ class Eye : public QObject {
   using Condition = std::function<bool()>;
 
   explicit Eye(workbench::MainWindow& window) {
-    // The viewport is a part of the window and reports each flush of the whole. The docks of a new image are
-    // filled before this is called, so that the figures are too long rather than too short.
-    connect(&window.viewport(), &QOpenGLWidget::frameSwapped, this, [this] {
-      if (std::exchange(painted_, false) && flushed_) flushed_();
-    });
     connect(&window.viewport(), &workbench::Viewport::painted, this, [this] {
       const double now = monotonicSeconds();
       if (lastImage_ > 0) gapsMs_.push_back(1e3 * (now - lastImage_));
@@ -92,11 +87,19 @@ class Eye : public QObject {
     if (event->type() != QEvent::Paint || widget_ == nullptr || !object->isWidgetType()) return false;
     const auto* painting = static_cast<const QWidget*>(object);
     if (painting != widget_ && !widget_->isAncestorOf(painting)) return false;
-    painted_ = painted_ || condition_();
+    // What is painted is sent before the next event is handled.
+    if (!painted_ && condition_()) {
+      painted_ = true;
+      QMetaObject::invokeMethod(this, &Eye::onFlushed, Qt::QueuedConnection);
+    }
     return false;
   }
 
  private:
+  void onFlushed() {
+    if (std::exchange(painted_, false) && flushed_) flushed_();
+  }
+
   std::mt19937 random_{7};
   const QWidget* widget_ = nullptr;
   Condition condition_;

@@ -48,6 +48,22 @@ class SplitViewTest : public ErrorDock {
   }
 };
 
+TEST_F(SplitViewTest, theComparisonLiesOverTheImageOnTheDisplay) {
+  auto* const overlay = w().findChild<QWidget*>("split_overlay");
+  ASSERT_NE(overlay, nullptr);
+  ASSERT_TRUE(overlay->isVisible());
+  choose(SplitView::kDraft, "default");
+  const auto seen = [&] {
+    return onDisplay(*overlay) == overlay->grab().toImage().convertToFormat(QImage::Format_RGB32);
+  };
+  EXPECT_TRUE(waitFor(seen, 5000));
+  w().viewport().invalidate();
+  ASSERT_TRUE(settle());
+  EXPECT_TRUE(seen()) << "the next image does not cover it";
+  view().setOverViewport(false);
+  EXPECT_TRUE(waitFor([&] { return !seen(); }, 5000)) << "the image of the viewport is back";
+}
+
 TEST_F(SplitViewTest, equalPresetsHaveABlackMapAndOthersShowWhereTheyDiffer) {
   const ScratchDir dir;
   TuningParameters coarse = w().draft().parameters();

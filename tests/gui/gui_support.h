@@ -9,6 +9,7 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QMimeData>
+#include <QScreen>
 #include <QTest>
 #include <QTimer>
 #include <functional>
@@ -28,6 +29,15 @@ namespace trimtab::test {
 /// Runs the event loop until the condition holds. Returns false if it does not hold within the limit.
 inline bool waitFor(const std::function<bool()>& condition, int limitMs = 60000) {
   return QTest::qWaitFor(condition, limitMs);
+}
+
+/// Returns what the display shows in the place of a widget, of its window or what lies over it.
+inline QImage onDisplay(const QWidget& widget) {
+  const QRect at(widget.mapTo(widget.window(), QPoint()), widget.size());
+  return widget.screen()
+      ->grabWindow(widget.window()->winId(), at.x(), at.y(), at.width(), at.height())
+      .toImage()
+      .convertToFormat(QImage::Format_RGB32);
 }
 
 /// Closes every modal dialog that opens while it lives. A test that expects none cannot hang on one, and a

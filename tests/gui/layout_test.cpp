@@ -4,6 +4,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QTabBar>
+#include <QWindow>
 #include <algorithm>
 
 #include "app/workbench/docks/dock_of.h"
@@ -23,6 +24,30 @@ class WorkbenchLayout : public Bench {
     return nullptr;
   }
 };
+
+TEST_F(WorkbenchLayout, theDisplayShowsTheImageAndDocksAreSentWithoutOpenGl) {
+  ASSERT_TRUE(settle());
+  // The line of text at the bottom shows milliseconds, which differ from image to image.
+  const auto upper = [](const QImage& image) { return image.copy(0, 0, image.width(), image.height() / 2); };
+  const QImage drawn = w().viewport().grabFramebuffer().convertToFormat(QImage::Format_RGB32);
+  EXPECT_TRUE(waitFor([&] { return upper(onDisplay(w().viewport())) == upper(drawn); }, 5000));
+  EXPECT_EQ(w().windowHandle()->surfaceType(), QSurface::RasterSurface);
+}
+
+TEST_F(WorkbenchLayout, aQuestionLiesOverTheImageOnTheDisplay) {
+  ASSERT_TRUE(settle());
+  w().notices().ask("test", "Is this question seen?", {{"Yes", {}}});
+  const auto seen = [&] {
+    return onDisplay(w().notices()) == w().notices().grab().toImage().convertToFormat(QImage::Format_RGB32);
+  };
+  EXPECT_TRUE(waitFor(seen, 5000));
+  const QImage question = onDisplay(w().notices());
+  w().viewport().invalidate();
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(onDisplay(w().notices()), question) << "the next image does not cover it";
+  button(w().notices(), "Yes")->click();
+  EXPECT_TRUE(waitFor([&] { return onDisplay(w().notices()) != question; }, 5000)) << "the image is back";
+}
 
 TEST_F(WorkbenchLayout, altAndANumberRaiseADockBehindAnother) {
   ASSERT_NO_FATAL_FAILURE(activate());

@@ -2,27 +2,13 @@
 #include "throttle.h"
 
 #include <QEvent>
+#include <algorithm>
 
 namespace trimtab::views {
-namespace {
-
-constexpr int kRestPeriods = 3;
-
-const QElapsedTimer& beat() {
-  static const QElapsedTimer timer = [] {
-    QElapsedTimer started;
-    started.start();
-    return started;
-  }();
-  return timer;
-}
-
-}  // namespace
 
 Throttle::Throttle(QWidget* widget, std::function<void()> refresh, int periodMs)
     : QObject(widget), widget_(widget), refresh_(std::move(refresh)), periodMs_(periodMs) {
   timer_.setSingleShot(true);
-  // A timer that fires shortly before a beat would be started for the same beat again.
   timer_.setTimerType(Qt::PreciseTimer);
   connect(&timer_, &QTimer::timeout, this, &Throttle::fire);
   widget->installEventFilter(this);
@@ -33,9 +19,9 @@ void Throttle::request() {
   if (timer_.isActive() || !widget_->isVisible()) return;
   // Only the window itself hears that it is no longer minimised.
   if (widget_->window()->isMinimized()) return widget_->window()->installEventFilter(this);
-  // The first request after a rest is served at once, any other on the beat that all share.
-  const bool rested = !sinceLast_.isValid() || sinceLast_.elapsed() >= kRestPeriods * periodMs_;
-  timer_.start(rested ? 0 : periodMs_ - static_cast<int>(beat().elapsed() % periodMs_));
+  const int sinceMs =
+      sinceLast_.isValid() ? int(std::min<qint64>(sinceLast_.elapsed(), periodMs_)) : periodMs_;
+  timer_.start(periodMs_ - sinceMs);
 }
 
 bool Throttle::eventFilter(QObject* watched, QEvent* event) {

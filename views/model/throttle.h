@@ -10,9 +10,7 @@
 namespace trimtab::views {
 
 /// Turns any number of requests into at most one call per `periodMs`, and none while `widget` cannot be seen;
-/// one call follows when it is shown again. It costs nothing without requests. All throttles of one period
-/// fire together, because a window with OpenGL in it is composed and sent again for each widget that changes
-/// on its own.
+/// one call follows when it is shown again. It costs nothing without requests.
 class Throttle : public QObject {
   Q_OBJECT
  public:

@@ -11,6 +11,8 @@ namespace trimtab::workbench {
 
 void prepareGl() {
   QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
+  // The viewport has a window of its own; the docks beside it need none.
+  QCoreApplication::setAttribute(Qt::AA_DontCreateNativeWidgetSiblings);
   QSurfaceFormat format;
   format.setRenderableType(QSurfaceFormat::OpenGL);
   format.setVersion(4, 5);

@@ -32,6 +32,7 @@ SplitPicture::SplitPicture(QWidget* parent) : QWidget(parent) {
 
 void SplitPicture::layOverParent() {
   over_ = true;
+  setAttribute(Qt::WA_NativeWindow);  // the viewport would cover any other (GlWidget)
   // A click means the view below; the divider is reached by the tabulator key.
   setFocusPolicy(Qt::TabFocus);
   parentWidget()->installEventFilter(this);

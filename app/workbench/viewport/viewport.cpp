@@ -55,7 +55,7 @@ void prepareForPainter(QOpenGLExtraFunctions& gl, QSize pixels) {
 
 }  // namespace
 
-Viewport::Viewport(QWidget* parent) : QOpenGLWidget(parent), notice_(tr("No terrain yet")) {
+Viewport::Viewport(QWidget* parent) : GlWidget(parent), notice_(tr("No terrain yet")) {
   setFocusPolicy(Qt::StrongFocus);
   setMinimumSize(320, 200);
   setAccessibleName(tr("Terrain view"));
@@ -64,7 +64,7 @@ Viewport::Viewport(QWidget* parent) : QOpenGLWidget(parent), notice_(tr("No terr
   later_.setTimerType(Qt::PreciseTimer);
   connect(&later_, &QTimer::timeout, this, qOverload<>(&QWidget::update));
   qApp->installEventFilter(this);
-  connect(this, &QOpenGLWidget::frameSwapped, this, [this] {
+  connect(this, &GlWidget::frameSwapped, this, [this] {
     if (unreported_) {
       tookMs_ = sincePaint_.elapsed();
       sinceShown_.start();
@@ -129,7 +129,7 @@ qint64 Viewport::controlsFirstMs() const {
 void Viewport::paintEvent(QPaintEvent* event) {
   const qint64 wait = controlsFirstMs();
   // The display shows the old image meanwhile; one of another size would be stretched.
-  if (wait <= 1 || size() != paintedSize_) return QOpenGLWidget::paintEvent(event);
+  if (wait <= 1 || size() != paintedSize_) return GlWidget::paintEvent(event);
   if (!later_.isActive()) later_.start(int(wait));
 }
 
@@ -143,11 +143,11 @@ bool Viewport::eventFilter(QObject* watched, QEvent* event) {
     else if (type == QEvent::MouseButtonRelease || type == QEvent::MouseMove)
       controlHeld_ = static_cast<QMouseEvent*>(event)->buttons() != Qt::NoButton;
   }
-  return QOpenGLWidget::eventFilter(watched, event);
+  return GlWidget::eventFilter(watched, event);
 }
 
 void Viewport::showEvent(QShowEvent* event) {
-  QOpenGLWidget::showEvent(event);
+  GlWidget::showEvent(event);
   update();
 }
 
@@ -179,7 +179,7 @@ void Viewport::setPicking(bool on) {
 
 /// Reads which node owns the clicked pixel of the image that was just drawn.
 void Viewport::readPicked(QSize picture) {
-  const QRect at = letterbox(picture, size() * devicePixelRatioF());
+  const QRect at = letterbox(picture, sizePx());
   const QPointF place = *std::exchange(pickAt_, std::nullopt) * devicePixelRatioF();
   const double across = (place.x() - at.left()) / at.width(),
                up = (height() * devicePixelRatioF() - place.y() - at.top()) / at.height();
@@ -208,7 +208,7 @@ void Viewport::paintGL() {
     emit cameraMoved();  // it stands now
   }
 
-  const QSize pixels = size() * devicePixelRatioF();
+  const QSize pixels = sizePx();
   std::optional<Picture> picture;
   if (renderer_ != nullptr && terrain_ != nullptr && source_)
     picture = source_(pixels.width(), pixels.height());
@@ -257,12 +257,12 @@ void Viewport::drawPicture(const Picture& picture, int widthPx, int heightPx) {
     pilots_.reset();
   if (wanted == have) {
     fixedSize_.reset();
-    drawImage(picture, defaultFramebufferObject());
+    drawImage(picture, framebuffer());
   } else {
     if (fixedSize_ == nullptr || fixedSize_->size() != wanted)
       fixedSize_ = std::make_unique<QOpenGLFramebufferObject>(wanted);
     drawImage(picture, fixedSize_->handle());
-    gl.glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
+    bindFramebuffer();
     gl.glDisable(GL_SCISSOR_TEST);
     gl.glClearColor(0, 0, 0, 1);
     gl.glClear(GL_COLOR_BUFFER_BIT);
@@ -272,7 +272,7 @@ void Viewport::drawPicture(const Picture& picture, int widthPx, int heightPx) {
                          to.top() + to.height(), GL_COLOR_BUFFER_BIT, GL_LINEAR);
   }
   if (pickAt_) readPicked(wanted);
-  gl.glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
+  bindFramebuffer();
 }
 
 void Viewport::drawPilot(const FrameRequest& request) {
@@ -302,7 +302,7 @@ void Viewport::showInset(OverlayContents& overlay) {
   gl.glBindFramebuffer(GL_READ_FRAMEBUFFER, pilots_->handle());
   gl.glBlitFramebuffer(0, 0, pilots_->width(), pilots_->height(), to.left(), to.top(), to.left() + to.width(),
                        to.top() + to.height(), GL_COLOR_BUFFER_BIT, GL_LINEAR);
-  gl.glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
+  bindFramebuffer();
 }
 
 std::optional<Viewport::Measured> Viewport::measure(const FrameRequest& request) {
@@ -319,7 +319,7 @@ std::optional<Viewport::Measured> Viewport::measure(const FrameRequest& request)
   const FrameResult result = renderer_->draw(request, unseen_->handle());
   gl.glFinish();
   const double ms = double(timer.nsecsElapsed()) * 1e-6;
-  gl.glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
+  bindFramebuffer();
   doneCurrent();
   return Measured{ms, result.counters.tilesBuilt};
 }
@@ -350,7 +350,7 @@ void Viewport::readDepthMap() {
 /// Paints on a device of its own: while the window is grabbed, Qt redirects a painter on the widget itself
 /// away from GL.
 void Viewport::paintOverlays() {
-  const QSize pixels = size() * devicePixelRatioF();
+  const QSize pixels = sizePx();
   prepareForPainter(*context()->extraFunctions(), pixels);
   QOpenGLPaintDevice device(pixels);
   device.setDevicePixelRatio(devicePixelRatioF());
@@ -383,18 +383,18 @@ void Viewport::keyPressEvent(QKeyEvent* event) {
   if (editor_ != nullptr && editor_->key(*event)) return;
   if (!cameraEnabled_ || event->modifiers() & (Qt::ControlModifier | Qt::AltModifier) ||
       !camera_.press(event->key()))
-    return QOpenGLWidget::keyPressEvent(event);
+    return GlWidget::keyPressEvent(event);
   invalidate();
 }
 
 void Viewport::keyReleaseEvent(QKeyEvent* event) {
   if (event->isAutoRepeat()) return;
-  if (!camera_.release(event->key())) QOpenGLWidget::keyReleaseEvent(event);
+  if (!camera_.release(event->key())) GlWidget::keyReleaseEvent(event);
 }
 
 void Viewport::focusOutEvent(QFocusEvent* event) {
   camera_.releaseAll();
-  QOpenGLWidget::focusOutEvent(event);
+  GlWidget::focusOutEvent(event);
 }
 
 void Viewport::setPointerWanted(bool wanted) {

@@ -3,7 +3,6 @@
 
 #include <QElapsedTimer>
 #include <QImage>
-#include <QOpenGLWidget>
 #include <QRectF>
 #include <QTimer>
 #include <functional>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "free_camera.h"
+#include "gl_widget.h"
 #include "overlay.h"
 #include "trimtab/scene/renderer.h"
 #include "trimtab/terrain/format/database.h"
@@ -39,7 +39,7 @@ struct Picture {
 /// `invalidate` give one paint, and nothing is painted while it is hidden. Controls go first: while the mouse
 /// holds one, such as a point of a curve, and just after a click elsewhere, the viewport waits after
 /// an image for as long as the image took, at most 100 ms. Without terrain it says how to open some.
-class Viewport : public QOpenGLWidget {
+class Viewport : public GlWidget {
   Q_OBJECT
 
  public:

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gl_widget.h"
+
+#include <QOpenGLContext>
+#include <QOpenGLFramebufferObject>
+#include <QOpenGLFunctions>
+#include <QPainter>
+#include <QWindow>
+
+namespace trimtab::workbench {
+
+GlWidget::GlWidget(QWidget* parent) : QWidget(parent) {
+  // The widgets around this one stay without windows of their own.
+  setAttribute(Qt::WA_DontCreateNativeAncestors);
+  setAttribute(Qt::WA_NativeWindow);
+  setAttribute(Qt::WA_PaintOnScreen);
+  setAttribute(Qt::WA_NoSystemBackground);
+  setAttribute(Qt::WA_OpaquePaintEvent);
+  windowHandle()->setSurfaceType(QSurface::OpenGLSurface);
+  hidden_.create();
+}
+
+GlWidget::~GlWidget() {
+  if (context_ == nullptr) return;
+  makeCurrent();
+  framebuffer_.reset();
+  doneCurrent();
+}
+
+/// Makes what is missing: context, framebuffer, and what the image needs. Returns false if there is no
+/// OpenGL.
+bool GlWidget::begin() {
+  if (failed_) return false;
+  const bool first = context_ == nullptr;
+  if (first) {
+    context_ = std::make_unique<QOpenGLContext>();
+    context_->setShareContext(QOpenGLContext::globalShareContext());
+    failed_ = !context_->create();
+    if (failed_) {
+      context_.reset();
+      return false;
+    }
+  }
+  makeCurrent();
+  const QSize wanted = sizePx().expandedTo({1, 1});
+  if (framebuffer_ == nullptr || framebuffer_->size() != wanted)
+    framebuffer_ =
+        std::make_unique<QOpenGLFramebufferObject>(wanted, QOpenGLFramebufferObject::CombinedDepthStencil);
+  if (first) initializeGL();
+  bindFramebuffer();
+  return true;
+}
+
+void GlWidget::makeCurrent() {
+  if (context_ == nullptr) return;
+  QSurface* surface = &hidden_;
+  if (windowHandle() != nullptr && windowHandle()->handle() != nullptr) surface = windowHandle();
+  context_->makeCurrent(surface);
+  if (framebuffer_ != nullptr) bindFramebuffer();
+}
+
+void GlWidget::doneCurrent() {
+  if (context_ != nullptr) context_->doneCurrent();
+}
+
+void GlWidget::bindFramebuffer() {
+  framebuffer_->bind();
+}
+
+unsigned GlWidget::framebuffer() const {
+  return framebuffer_ != nullptr ? framebuffer_->handle() : 0;
+}
+
+QImage GlWidget::grabFramebuffer() {
+  if (!begin()) return {};
+  paintGL();
+  QImage image = framebuffer_->toImage();
+  doneCurrent();
+  image.setDevicePixelRatio(devicePixelRatioF());
+  return image;
+}
+
+void GlWidget::paintEvent(QPaintEvent*) {
+  QPoint ignored;
+  if (redirected(&ignored) != nullptr) {  // a picture is taken of the window
+    const QImage image = grabFramebuffer();
+    QPainter(this).drawImage(0, 0, image);
+    return;
+  }
+  if (!windowHandle()->isExposed() || !begin()) return;
+  paintGL();
+  context_->functions()->glDisable(GL_SCISSOR_TEST);
+  QOpenGLFramebufferObject::blitFramebuffer(nullptr, framebuffer_.get());
+  context_->swapBuffers(windowHandle());
+  emit frameSwapped();
+}
+
+void GlWidget::resizeEvent(QResizeEvent*) {
+  update();
+}
+
+}  // namespace trimtab::workbench
