@@ -18,7 +18,9 @@
 #include "error_dock.h"
 #include "trimtab/preset/preset.h"
 #include "views/panels/budget_strip.h"
+#include "views/panels/plots_panel.h"
 #include "views/plots/sweep_plot.h"
+#include "views/plots/time_plot.h"
 
 namespace trimtab::test {
 namespace {
@@ -153,6 +155,31 @@ TEST_F(ErrorDock, measuringLeavesThePictureAsItIs) {
   w().dock("plots")->raise();
   ASSERT_TRUE(settle());
   EXPECT_TRUE(picture() == before);
+}
+
+TEST_F(ErrorDock, aPlotOfFlipHasItMeasuredWhileItIsInSight) {
+  views::PlotsPanel& plots = *w().panels().plots;
+  ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
+  w().dock("plots")->show();
+  w().dock("plots")->raise();
+  ASSERT_TRUE(waitFor([&] { return !dock().live().isOn(); })) << "nobody wants it yet";
+  plots.plot().addSignal(0, views::Trace::flip);
+  ASSERT_TRUE(dock().live().isOn());
+  // Each image is a frame of the plots.
+  const auto newest = [&] {
+    w().viewport().invalidate();
+    return plots.buffer().value(views::Trace::flip, plots.buffer().end() - 1);
+  };
+  EXPECT_TRUE(
+      waitFor([&] { return dock().lastMeasured() && newest() == float(dock().lastMeasured()->error.flip); }));
+  dock().liveSwitch().setChecked(false);
+  dock().restartLive();
+  EXPECT_TRUE(waitFor([&] { return std::isnan(newest()); })) << "what was measured is of another image";
+  dock().liveSwitch().setChecked(true);
+  ASSERT_TRUE(dock().live().isOn());
+  w().dock("policy")->show();
+  w().dock("plots")->hide();
+  EXPECT_TRUE(waitFor([&] { return !dock().live().isOn(); })) << "nobody sees the plot";
 }
 
 TEST_F(ErrorDock, showsMeasuredResultsAndTheCursorTakesTheViewToTheRow) {

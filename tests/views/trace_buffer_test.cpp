@@ -121,7 +121,7 @@ TEST(TraceBuffer, csvHoldsExactlyTheFramesOfTheRange) {
       "weather_ms,symbology_ms,vertices,altitude_ft,pitch_deg,dynamic_scheme,band,tiles_drawn,tiles_outside,"
       "tiles_hidden,tiles_built,pages_read,page_read_mb,pages_waiting,above_ground_ft,roll_deg,speed_kt,"
       "climb_ftpmin,sight_rate_degps,visibility_m,load,allowed_error_px,render_scale,particle_density,"
-      "blur_strength,far_km,predicted_ms,as_asked_ms");
+      "blur_strength,far_km,predicted_ms,as_asked_ms,flip");
   int frame = 21;
   while (std::getline(lines, line)) {
     std::istringstream cells(line);
@@ -209,7 +209,7 @@ TEST(TraceBuffer, countsWhatWasPagedAndUploadedSinceTheFrameBefore) {
   EXPECT_EQ(buffer.value(Trace::tiles_built, 2), 2);
 }
 
-TEST(TraceBuffer, recordsTheLeversAsDrawnAndWhatTheArbiterPredicted) {
+TEST(TraceBuffer, recordsTheLeversAsDrawnWhatTheArbiterPredictedAndWhatWasMeasured) {
   TraceBuffer buffer(128);
   buffer.append(frameAt(0, 10));
   LiveFrame frame = frameAt(1, 10);
@@ -217,6 +217,7 @@ TEST(TraceBuffer, recordsTheLeversAsDrawnAndWhatTheArbiterPredicted) {
   frame.hold.limitMs = 15;
   frame.hold.heldMs = {9, 3, 1, 0.5};
   frame.hold.askedMs = {20, 4, 1, 0.5};
+  frame.flip = 0.0625;
   buffer.append(frame);
   frame.levers.farM = std::numeric_limits<double>::infinity();
   frame.hold.limitMs = 0;
@@ -224,8 +225,8 @@ TEST(TraceBuffer, recordsTheLeversAsDrawnAndWhatTheArbiterPredicted) {
   buffer.append(frame);
   const Trace levers[]{Trace::allowed_error_px, Trace::render_scale, Trace::particle_density,
                        Trace::blur_strength,    Trace::far_km,       Trace::predicted_ms,
-                       Trace::as_asked_ms};
-  const float expected[]{2.5f, 0.75f, 0.4f, 0.3f, 12.5f, 13.5f, 25.5f};
+                       Trace::as_asked_ms,      Trace::flip};
+  const float expected[]{2.5f, 0.75f, 0.4f, 0.3f, 12.5f, 13.5f, 25.5f, 0.0625f};
   for (std::size_t i = 0; i < std::size(levers); ++i) {
     EXPECT_TRUE(std::isnan(buffer.value(levers[i], 0))) << traceName(levers[i]) << " before the first image";
     EXPECT_EQ(buffer.value(levers[i], 1), expected[i]) << traceName(levers[i]);

@@ -42,7 +42,9 @@ struct LiveFrame {
   HoldDecision hold;                          ///< of `result`
   HoldGains holdGains;                        ///< what each lever of `hold` gives
   std::optional<HoldOutcome> holdOutcome;     ///< of the prediction for `result`
-  bool newImage = false;                      ///< `result` is new
+  double flip =
+      std::numeric_limits<double>::quiet_NaN();  ///< of the last image whose error was measured live
+  bool newImage = false;                         ///< `result` is new
 
   /// Returns `*result`, or a result in which nothing was drawn if there is none yet.
   const FrameResult& drawn() const {

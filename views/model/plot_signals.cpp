@@ -56,6 +56,7 @@ constexpr std::array kSignals{
     PlotSignal{Trace::far_km, "far cut", "km", 1, 1, true},
     PlotSignal{Trace::predicted_ms, "predicted", "ms", 1, 2, true},
     PlotSignal{Trace::as_asked_ms, "predicted as asked", "ms", 1, 2, true},
+    PlotSignal{Trace::flip, "FLIP", "", 1, 4, true},
 };
 static_assert(kSignals.size() == kCsvTraces, "each recorded value can be plotted");
 

@@ -59,6 +59,7 @@ enum class Trace : std::uint8_t {
   far_km,
   predicted_ms,  ///< this and the following are of the arbiter, unknown without one
   as_asked_ms,
+  flip,  ///< of the last image whose error was measured live
   // Upper edges in the stack of stages, which the CSV does not have.
   select_top_ms,
   page_top_ms,

@@ -42,6 +42,8 @@ class TimePlot : public ClockPlot {
   std::pair<std::uint64_t, std::uint64_t> framesShown() const;
 
   const PlotLanes& lanes() const { return content_; }
+  /// Whether a lane has this signal.
+  bool shows(Trace trace) const;
   /// Shows other signals. The graphs of `traces()` are made anew.
   void setLanes(PlotLanes lanes);
   void addSignal(std::size_t lane, Trace trace);

@@ -34,6 +34,11 @@ void TimePlot::setLanes(PlotLanes lanes) {
   emit lanesChanged();
 }
 
+bool TimePlot::shows(Trace trace) const {
+  return std::ranges::any_of(
+      content_, [&](const PlotLane& lane) { return std::ranges::count(lane.traces, trace) > 0; });
+}
+
 void TimePlot::addSignal(std::size_t lane, Trace trace) {
   if (lane >= content_.size() || std::ranges::count(content_[lane].traces, trace) > 0) return;
   PlotLanes lanes = content_;

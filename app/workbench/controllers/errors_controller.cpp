@@ -71,6 +71,7 @@ ErrorsController::ErrorsController(const Workplace& workplace, DrawThread& measu
   dock_ = new ErrorDock(at_.draft, measuring_, live,
                         [this](const QString& folder) { return benchInputs(folder); });
   connect(dock_, &ErrorDock::refused, &at_.messages, &MessagePanel::add);
+  connect(dock_, &ErrorDock::flipChanged, &by_.frame, &FrameController::setMeasuredFlip);
   connect(dock_, &ErrorDock::sought, this, &ErrorsController::seekFlight);
   connect(dock_, &ErrorDock::flightShown, this, &ErrorsController::followFlight);
   connect(dock_, &ErrorDock::comparisonAsked, this, &ErrorsController::compare);

@@ -209,6 +209,7 @@ views::LiveFrame FrameController::liveFrame() const {
     frame.hold = shown_->hold;
     frame.holdGains = gainsOf(session().hold().given(), frame.hold, session().parameters()->hold);
   }
+  frame.flip = flip_;
   frame.holdOutcome = session().hold().outcome();
   return frame;
 }

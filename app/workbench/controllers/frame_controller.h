@@ -45,6 +45,8 @@ class FrameController : public QObject {
   /// If not, it has the preset's, with bars where the viewport has another shape. Kept in the settings.
   bool fills() const { return fit_ == ViewFit::fill; }
   void setFills(bool fills);
+  /// Shows the docks the FLIP that was measured of an image; NaN if none is known any more.
+  void setMeasuredFlip(double flip) { flip_ = flip; }
   /// Outlines a box of the terrain's local frame, in front of everything.
   void setOutline(const std::optional<Box>& box);
 
@@ -74,7 +76,7 @@ class FrameController : public QObject {
   bool recalled_ = false;  ///< what an earlier start learned of this machine's costs has been looked for
   LevelsFrame levels_;     ///< of the last image
   QElapsedTimer sinceImage_, sinceStart_;
-  double fps_ = std::numeric_limits<double>::quiet_NaN();
+  double fps_ = std::numeric_limits<double>::quiet_NaN(), flip_ = fps_;
 };
 
 }  // namespace trimtab::workbench

@@ -236,13 +236,16 @@ void ErrorDock::setSeen(bool seen) {
   measureIfWanted();
 }
 
-void ErrorDock::setWatched(bool watched) {
-  watched_ = watched;
+void ErrorDock::setWatched(const QObject* who, bool watched) {
+  if (watched)
+    watchers_.insert(who);
+  else
+    watchers_.erase(who);
   measureIfWanted();
 }
 
 void ErrorDock::measureIfWanted() {
-  live_.setOn((seen_ || watched_) && liveOn_->isChecked());
+  live_.setOn((seen_ || !watchers_.empty()) && liveOn_->isChecked());
 }
 
 QString ErrorDock::flight() const {
@@ -256,6 +259,7 @@ void ErrorDock::painted(double time, double frameMs) {
 void ErrorDock::restartLive() {
   plot_->clearLive();
   lastMeasured_.reset();
+  emit flipChanged(FrameError::kNotMeasured);
   live_.forget();
 }
 
@@ -282,6 +286,7 @@ void ErrorDock::showAnswer() {
 
 void ErrorDock::onMeasured(const LiveMeter::Measured& measured) {
   lastMeasured_ = measured;
+  emit flipChanged(measured.error.flip);
   harness::MeasuredFrame frame;
   frame.error = measured.error;
   plot_->showLive({measured.frameMs, errorsOf(frame), measured.imageWidthPx, measured.imageHeightPx});

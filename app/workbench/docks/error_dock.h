@@ -5,6 +5,7 @@
 #include <QWidget>
 #include <functional>
 #include <optional>
+#include <set>
 
 #include "app/harness/results.h"
 #include "app/workbench/dialogs/bench_dialog.h"
@@ -46,8 +47,9 @@ class ErrorDock : public QWidget {
   /// Sets whether a person can see it. It cannot find out itself, because Qt calls a dock behind other tabs
   /// visible.
   void setSeen(bool seen);
-  /// Measures live although nobody sees this dock, because another one shows the results.
-  void setWatched(bool watched);
+  /// Measures live although nobody sees this dock, because another one shows the results. Each `who` is
+  /// counted on its own.
+  void setWatched(const QObject* who, bool watched);
   /// Call this after the viewport has painted. `time` is in seconds.
   void painted(double time, double frameMs);
   /// Forgets what was measured live, because it can no longer be compared: another terrain was opened, or
@@ -90,7 +92,8 @@ class ErrorDock : public QWidget {
   void sought(double timeS);  ///< the person moved the cursor to this time of the flight
   void flightShown();         ///< another measured flight is shown, or other results of the same
   void comparisonAsked();
-  void flightAsked();  ///< the person wants to open one to measure along
+  void flipChanged(double flip);  ///< of the image that was measured last; NaN once that is forgotten
+  void flightAsked();             ///< the person wants to open one to measure along
 
  private:
   void arrange();
@@ -111,7 +114,8 @@ class ErrorDock : public QWidget {
   QString measuring_, missing_;
   std::optional<harness::Results> results_;
   std::optional<LiveMeter::Measured> lastMeasured_;
-  bool seen_ = false, watched_ = false;
+  bool seen_ = false;
+  std::set<const QObject*> watchers_;
 
   QComboBox *errors_, *flights_, *cases_;
   QCheckBox *logarithmic_, *liveOn_;

@@ -175,7 +175,8 @@ void MainWindow::connectParts() {
   connect(&c.errors->dock().live(), &LiveMeter::measured, panels_.changes,
           [this](const LiveMeter::Measured& m) { panels_.changes->snapshots().addError(m.error.flip); });
   connect(dockOf(*panels_.changes), &QDockWidget::visibilityChanged, panels_.changes, &ChangesDock::setSeen);
-  connect(panels_.changes, &ChangesDock::errorsWanted, &c.errors->dock(), &ErrorDock::setWatched);
+  connect(panels_.changes, &ChangesDock::errorsWanted, &c.errors->dock(),
+          [this](bool wanted) { controllers_.errors->dock().setWatched(panels_.changes, wanted); });
 
   MessagePanel* const messages = panels_.messages;
   connect(messages, &MessagePanel::errorAdded, messages, [messages] { raiseDock(*messages); });

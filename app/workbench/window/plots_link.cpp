@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plots_link.h"
 
+#include <QDockWidget>
 #include <array>
 
 #include "app/link/link.h"
 #include "app/workbench/controllers/controllers.h"
 #include "app/workbench/docks/dock_of.h"
+#include "app/workbench/docks/error_dock.h"
 #include "app/workbench/jobs/feed.h"
 #include "panels.h"
 #include "views/panels/budget_panel.h"
@@ -38,6 +40,12 @@ void connectPlots(const Panels& panels, const Controllers& controllers, Feed& fe
   for (views::ClockPlot* from : all)
     for (views::ClockPlot* to : all)
       if (from != to) QObject::connect(from, &views::ClockPlot::tracked, to, &views::ClockPlot::showTracker);
+  QDockWidget* const dock = dockOf(*plots);
+  const auto measure = [plots, dock, errors = &controllers.errors->dock()] {
+    errors->setWatched(plots, isInFront(*dock) && plots->plot().shows(views::Trace::flip));
+  };
+  QObject::connect(dock, &QDockWidget::visibilityChanged, plots, measure);
+  QObject::connect(&plots->plot(), &views::TimePlot::lanesChanged, plots, measure);
   const auto explain = [plots](std::uint64_t frame) {
     raiseDock(*plots);
     plots->chooseFrame(frame);

@@ -124,7 +124,7 @@ struct ChoicesOf<VisibilitySource> {
 };
 template <>
 struct ChoicesOf<AirModel> {
-  static constexpr ChoiceOption options[] = {{"uniform", "Fog as in document D"},
+  static constexpr ChoiceOption options[] = {{"uniform", "Even fog (published)"},
                                              {"layer", "Haze layer (optical range)"}};
 };
 template <>
