@@ -191,7 +191,7 @@ void HoldPilot::drawNext() {
   if (flight_.fixed) fix(request, *flight_.fixed);
   const FrameResult result = stage_.draw(request);
   const FrameCost cost = session_.finished(result, state.time);
-  stage_.buildAhead(session_.nodesAhead(request), session_.aheadMs());
+  session_.builtAhead(stage_.buildAhead(session_.nodesAhead(request), session_.aheadMs()).left);
   run_.ms.push_back(workMs(cost));
   run_.errorPx.push_back(request.lod.screenSpaceError.value() * request.decision.lodScale);
   run_.renderScale.push_back(request.renderScale);

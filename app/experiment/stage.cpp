@@ -61,9 +61,9 @@ FrameResult Stage::draw(const FrameRequest& request) {
   return renderer_.draw(measured, offscreen_->framebuffer());
 }
 
-void Stage::buildAhead(std::span<const std::uint32_t> nodes, double withinMs) {
+scene::BuiltAhead Stage::buildAhead(std::span<const std::uint32_t> nodes, double withinMs) {
   offscreen_->makeCurrent();
-  renderer_.buildAhead(nodes, withinMs);
+  return renderer_.buildAhead(nodes, withinMs);
 }
 
 void Stage::setTerrain(std::shared_ptr<const terrain::Database> terrain) {

@@ -25,7 +25,7 @@ class Stage {
 
   FrameResult draw(const FrameRequest& request);
   /// Builds meshes for coming images, as Renderer::buildAhead does.
-  void buildAhead(std::span<const std::uint32_t> nodes, double withinMs);
+  scene::BuiltAhead buildAhead(std::span<const std::uint32_t> nodes, double withinMs);
   /// Replaces the terrain and discards pages of the former one.
   void setTerrain(std::shared_ptr<const terrain::Database> terrain);
   /// Returns the median milliseconds of `repeats` frames, after one frame that is not counted. `last`

@@ -130,7 +130,8 @@ class Loop {
     stages_.add(run_.session.finished(result, end));
     // Where images follow one another at once, time saved later is time spent now.
     if (run_.options.listen || run_.options.realtime)
-      run_.renderer.buildAhead(run_.session.nodesAhead(*request), run_.session.aheadMs());
+      run_.session.builtAhead(
+          run_.renderer.buildAhead(run_.session.nodesAhead(*request), run_.session.aheadMs()).left);
     const double ms = (end - start) * 1e3;
     frameMs_.add(ms);
     lastFrame_ = end;

@@ -26,6 +26,8 @@ constexpr double kWorthwhile = 0.1;
 constexpr double kTurningCalmMs = 1000, kAmple = 0.75;
 /// A restoration that is taken back within so long was too early; one that lasts for so long was not.
 constexpr double kTooEarlyMs = 1000, kLastsMs = 4000, kMostPatience = 32;
+/// The allowed error waits no longer for meshes.
+constexpr double kMostBuildingMs = 2000;
 /// Settings whose times differ by less are alike.
 constexpr double kAlike = 1.03;
 /// No image counts for more than this part of the calm that restoring waits for, however far the clock jumps.
@@ -80,7 +82,7 @@ Choice choiceOf(const HoldGiven& given, const HoldParameters& p) {
   e.value[0] = asked.errorPx;
   e.triangles[0] = given.triangles[0];
   for (std::size_t i = 1; i <= kErrorPlaces; ++i) {
-    const double errorPx = kFirstErrorPx * std::exp2(static_cast<double>(i - 1) / double{kPlacesPerOctave});
+    const double errorPx = errorAtPlace(static_cast<std::uint8_t>(i), asked.errorPx);
     if (errorPx > p.errorMaximum.value() * (1 + 1e-9)) break;
     e.size = i + 1;
     if (errorPx <= asked.errorPx) {
@@ -237,6 +239,10 @@ bool isNumber(const HoldGiven& g) {
 
 }  // namespace
 
+double errorAtPlace(std::uint8_t place, double askedPx) {
+  return place == 0 ? askedPx : kFirstErrorPx * std::exp2((place - 1) / double{kPlacesPerOctave});
+}
+
 double trianglesAt(const TriangleLadder& ladder, double askedPx, double errorPx) {
   const double places =
       askedPx > 0 && errorPx > askedPx ? double{kPlacesPerOctave} * std::log2(errorPx / askedPx) : 0;
@@ -287,6 +293,7 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
       now = before;
     d.reason = HoldReason::lowered;
     memory.calmMs = 0;
+    memory.wantedError = now.error;
     if (memory.restoredMs < kTooEarlyMs) memory.patience = std::min(2 * memory.patience, kMostPatience);
     memory.restoredMs = kInfinity;
   } else {
@@ -295,10 +302,13 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
     const bool worth = wanted == HoldSteps{} ? before != wanted : won > kWorthwhile * kept && won > 0;
     const bool room = worth && search.timeAt(wanted) <= d.limitMs;
     memory.calmMs = room ? memory.calmMs + ms : 0;
+    memory.wantedError = room ? wanted.error : before.error;
     d.reason = HoldReason::held;
     const bool ample = search.timeAt(before) < kAmple * d.limitMs;
     if (room && memory.calmMs >= p.calm.value() * (ample ? 1 : memory.patience)) {
-      const HoldSteps nearer = raised(before, wanted, rests || ample || memory.calmMs >= kTurningCalmMs);
+      const bool built = given.meshesLeft <= 0 || memory.calmMs >= kMostBuildingMs;
+      const bool stays = rests || ample || memory.calmMs >= kTurningCalmMs;
+      const HoldSteps nearer = raised(before, wanted, built && stays);
       if (nearer != before && search.timeAt(nearer) <= d.limitMs)
         now = nearer, d.reason = HoldReason::restored, memory.restoredMs = 0;
     }

@@ -23,6 +23,7 @@ void FrameHold::setIndex(std::shared_ptr<const LoadIndex> index) {
   measure_.reset();
   correction_ = 1;
   waiting_.clear();
+  meshesLeft_ = 0;
   requested_ = false;
 }
 
@@ -73,6 +74,7 @@ HoldGiven FrameHold::look(const FrameRequest& request, std::span<const ComingEye
   g.timeS = request.time;
   g.budgetMs = budgetMs;
   g.unseenPx = unseenPx;
+  g.meshesLeft = static_cast<double>(meshesLeft_);
   const MotionBlur& blur = request.decision.motion.blur;
   g.asked = {request.lod.screenSpaceError.value(), request.renderScale, request.particleShare, 1};
   g.particles = request.decision.weather.density * request.particleShare;
@@ -160,9 +162,9 @@ std::span<const std::uint32_t> FrameHold::nodesAhead(const FrameRequest& drawn,
   const LoadView last = viewOf(drawn, coming.empty() ? here : coming.back());
   collect(drawn, last, 1);
   if (drawn.hold.reason == HoldReason::off) return nodesAhead_;
+  if (memory_.wantedError != memory_.steps.error)
+    collect(drawn, last, errorAtPlace(memory_.wantedError, given_.asked.errorPx) / held_.errorPx);
   collect(drawn, last, 2);
-  if (memory_.calmMs > 0 && held_.errorPx > given_.asked.errorPx)
-    collect(drawn, viewOf(drawn, here), given_.asked.errorPx / held_.errorPx);
   return nodesAhead_;
 }
 

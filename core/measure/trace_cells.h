@@ -54,6 +54,7 @@ void forEachNumber(Given& g, const Visit& visit) {
     visit(*number);
   visit(g.blurs);
   for (auto& triangles : g.triangles) visit(triangles);
+  visit(g.meshesLeft);
   auto& c = g.cost;
   for (auto* number : {&c.fixed, &c.perTriangle, &c.perGroundMpx, &c.perSceneMpx, &c.perParticles,
                        &c.perWeatherMpx, &c.perBlurMpx, &c.other, &c.bandMs})
@@ -72,6 +73,7 @@ void forEachNumber(Memory& m, const Visit& visit) {
   visit(m.begun);
   visit(m.restoredMs);
   visit(m.patience);
+  visit(m.wantedError);
 }
 
 /// Several numbers with ; between.

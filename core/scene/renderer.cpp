@@ -324,14 +324,15 @@ FrameResult Renderer::draw(const FrameRequest& request, unsigned fbo) {
   return impl_->draw(whole, fbo);
 }
 
-std::size_t Renderer::buildAhead(std::span<const std::uint32_t> nodes, double withinMs) {
-  if (!impl_->gl || !impl_->terrain || !(withinMs > 0)) return 0;
+BuiltAhead Renderer::buildAhead(std::span<const std::uint32_t> nodes, double withinMs) {
+  if (!impl_->gl || !impl_->terrain) return {};
+  if (!(withinMs > 0)) withinMs = 0;
   const auto whole = std::chrono::duration<double, std::milli>(std::min(withinMs, 1e6));
   const auto deadline = std::chrono::steady_clock::now() +
                         std::chrono::duration_cast<std::chrono::steady_clock::duration>(whole);
-  const std::size_t built = impl_->terrain->buildAhead(nodes, deadline);
-  impl_->counters.tilesBuiltAhead += built;
-  return built;
+  const BuiltAhead ahead = impl_->terrain->buildAhead(nodes, deadline);
+  impl_->counters.tilesBuiltAhead += ahead.built;
+  return ahead;
 }
 
 std::vector<float> Renderer::readDistances() {

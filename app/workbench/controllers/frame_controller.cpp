@@ -183,7 +183,8 @@ void FrameController::onPainted() {
   // A page that was missing may have been read by then.
   if (!result->paging.settled) QTimer::singleShot(kPageWaitMs, &at_.viewport, &Viewport::invalidate);
   if (shown_ && !observer_.frozen())
-    at_.viewport.buildAhead(at_.feed.session().nodesAhead(*shown_), session().aheadMs());
+    at_.feed.session().builtAhead(
+        at_.viewport.buildAhead(at_.feed.session().nodesAhead(*shown_), session().aheadMs()).left);
 }
 
 /// Between two images: the decision is new; the result and its cost are the last image's.

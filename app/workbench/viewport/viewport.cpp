@@ -324,12 +324,13 @@ std::optional<Viewport::Measured> Viewport::measure(const FrameRequest& request)
   return Measured{ms, result.counters.tilesBuilt};
 }
 
-void Viewport::buildAhead(std::span<const std::uint32_t> nodes, double withinMs) {
-  if (renderer_ == nullptr || terrainChanged_ || nodes.empty()) return;
+scene::BuiltAhead Viewport::buildAhead(std::span<const std::uint32_t> nodes, double withinMs) {
+  if (renderer_ == nullptr || terrainChanged_ || nodes.empty()) return {};
   const bool current = QOpenGLContext::currentContext() == context();
   if (!current) makeCurrent();
-  renderer_->buildAhead(nodes, withinMs);
+  const scene::BuiltAhead ahead = renderer_->buildAhead(nodes, withinMs);
   if (!current) doneCurrent();
+  return ahead;
 }
 
 void Viewport::readDepthMap() {

@@ -70,7 +70,7 @@ class Viewport : public GlWidget {
   /// that can draw it.
   std::optional<Measured> measure(const FrameRequest& request);
   /// Builds meshes for coming images, for so long (Renderer::buildAhead).
-  void buildAhead(std::span<const std::uint32_t> nodes, double withinMs);
+  scene::BuiltAhead buildAhead(std::span<const std::uint32_t> nodes, double withinMs);
   /// While anybody wants it, `depthMapRead` reports the depth maps that were drawn, and `horizonRead` the
   /// horizons that were used, at most ten per second. Each `who` is counted on its own.
   void setDepthMapWanted(const QObject* who, bool wanted);

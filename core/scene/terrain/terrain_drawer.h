@@ -12,6 +12,7 @@
 #include "trimtab/culling/horizon.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
+#include "trimtab/scene/built_ahead.h"
 #include "trimtab/scene/distance_image.h"
 #include "trimtab/scene/planted_defects.h"
 #include "trimtab/terrain/format/database.h"
@@ -70,8 +71,8 @@ class TerrainDrawer {
   /// refers to must live until the frame is drawn.
   virtual PreparedTerrain prepare(const FrameInProgress& frame) = 0;
   /// Builds meshes of nodes for coming frames, in order, until `deadline`; see Renderer::buildAhead.
-  virtual std::size_t buildAhead(std::span<const std::uint32_t>, std::chrono::steady_clock::time_point) {
-    return 0;
+  virtual BuiltAhead buildAhead(std::span<const std::uint32_t>, std::chrono::steady_clock::time_point) {
+    return {};
   }
   /// Reports what the finished frame cost.
   virtual void finished(const FrameResult&) {}

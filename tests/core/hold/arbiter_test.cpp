@@ -7,39 +7,13 @@
 #include <random>
 #include <vector>
 
+#include "arbiter_input.h"
+
 namespace trimtab {
 namespace {
 
-HoldParameters enabled() {
-  HoldParameters p;
-  p.enabled = true;
-  return p;
-}
-
-/// 40 ms as asked for: 10 for triangles, 20 for ground pixels, 4 for rain, 3 for blur, 3 else.
-HoldGiven given(double timeS = 0) {
-  HoldGiven g;
-  g.timeS = timeS;
-  g.budgetMs = 100;
-  g.asked = {1, 1, 1, 1};
-  g.unseenPx = 1;
-  g.particles = 1;
-  g.blurs = true;
-  g.imageMpx = 1;
-  g.groundMpx = 0.5;
-  for (std::size_t k = 0; k < kErrorSteps; ++k) g.triangles[k] = 1e5 * std::exp2(-static_cast<double>(k) / 8);
-  g.cost = {.fixed = 2,
-            .perTriangle = 1e-4,
-            .perGroundMpx = 36,
-            .perSceneMpx = 2,
-            .perParticles = 3,
-            .perWeatherMpx = 1,
-            .perBlurMpx = 3,
-            .other = 1,
-            .bandMs = 2,
-            .known = true};
-  return g;
-}
+using test::enabled;
+using test::given;
 
 /// Every setting that the arbiter may choose, written a second time and on purpose without its tables.
 struct Twin {
@@ -172,39 +146,6 @@ TEST(Arbiter, leavesRoomForItsOwnUncertainty) {
   EXPECT_DOUBLE_EQ(limitAt(-1), sure);
 }
 
-TEST(Arbiter, lowersAtOnceAndRestoresAfterCalm) {
-  HoldMemory memory;
-  const HoldParameters p = enabled();
-  double time = 0;
-  arbitrate(given(time), p, memory);
-  HoldGiven heavy = given(time += 0.016);
-  heavy.cost.perGroundMpx = 200;
-  EXPECT_EQ(arbitrate(heavy, p, memory).reason, HoldReason::lowered);
-  int images = 0;
-  HoldDecision d;
-  do {
-    d = arbitrate(given(time += 0.016), p, memory);
-    ++images;
-  } while (d.held != d.asked && images < 100);
-  EXPECT_GE(images * 16, 150);
-  EXPECT_LE(images * 16, 250 + 16 * 11);  // render scale comes back a step an image
-}
-
-TEST(Arbiter, restoresWithoutAnyImageOverTheLimit) {
-  HoldMemory memory;
-  const HoldParameters p = enabled();
-  double time = 0;
-  for (int i = 0; i < 400; ++i) {
-    HoldGiven g = given(time += 0.016);
-    g.budgetMs = 36;
-    g.cost.perGroundMpx = i % 100 < 30 ? 120 : 36;
-    const HoldDecision d = arbitrate(g, p, memory);
-    if (d.reason != HoldReason::out_of_reach) {
-      EXPECT_LE(d.heldMs.total(), d.limitMs + 1e-9) << i;
-    }
-  }
-}
-
 TEST(Arbiter, restsWhileItsInputsRest) {
   std::mt19937 random(11);
   const auto between = [&](double low, double high) {
@@ -225,36 +166,6 @@ TEST(Arbiter, restsWhileItsInputsRest) {
     }
     EXPECT_LE(lastChange, 30) << flight;
   }
-}
-
-/// A machine that is now quicker and now slower, by more than the arbiter's reserve: without patience the
-/// levers would go back and forth for as long as the view rests.
-TEST(Arbiter, restoresLessOftenWhereRestoringHadToBeTakenBack) {
-  HoldMemory memory;
-  int changes = 0, early = 0;
-  HeldLevers last;
-  for (int i = 0; i < 60 * 60; ++i) {
-    HoldGiven g = given(i / 60.0);
-    g.budgetMs = 33;
-    g.cost.perTriangle *= i % 40 < 20 ? 1.15 : 1;
-    g.cost.perGroundMpx *= i % 40 < 20 ? 1.15 : 1;
-    const HoldDecision d = arbitrate(g, enabled(), memory);
-    changes += i > 0 && d.held != last;
-    if (i == 60 * 10) early = changes;
-    last = d.held;
-  }
-  EXPECT_GT(changes, 2) << "at first it tries";
-  EXPECT_LE(changes, 16);
-  EXPECT_EQ(changes - early, 0) << "head-room that never lasts is left alone";
-  // Once there is ample room, restoring waits no longer than at first.
-  double returnedMs = 0;
-  for (int i = 0; i < 120 && returnedMs == 0; ++i) {
-    HoldGiven g = given(60 + i / 60.0);
-    g.budgetMs = 200;
-    if (arbitrate(g, enabled(), memory).held.errorPx == 1) returnedMs = i * 1000 / 60.0;
-  }
-  EXPECT_GT(returnedMs, 0);
-  EXPECT_LE(returnedMs, 2 * enabled().calm.value());
 }
 
 TEST(Arbiter, goesBackAndForthBetweenNoSettingsThatTakeTheSameTime) {
@@ -320,34 +231,6 @@ TEST(Arbiter, changesLevelsTwiceAtMostInAGlance) {
   }
   EXPECT_GT(changes, 0);
   EXPECT_LE(changes, 2);
-}
-
-TEST(Arbiter, whileTheViewTurnsTheErrorReturnsAfterASecondUnlessThereIsAmpleRoom) {
-  struct Case {
-    bool turns;
-    double load;  ///< before, over that afterwards
-    double afterMs;
-  };
-  for (const Case& c : {Case{true, 1.7, 1000}, Case{true, 8, enabled().calm.value()},
-                        Case{false, 1.7, enabled().calm.value()}}) {
-    HoldMemory memory;
-    double returnedMs = 0;
-    for (int i = 0; i < 300 && returnedMs == 0; ++i) {
-      HoldGiven g = given(i / 100.0);
-      g.budgetMs = 44;
-      for (double& triangles : g.triangles)
-        triangles *= (i < 50 ? c.load : 1) * (c.turns && i % 2 == 1 ? 1.02 : 1);
-      HoldParameters p = enabled();
-      p.renderScaleMinimum = Ratio{1};
-      const HoldDecision d = arbitrate(g, p, memory);
-      if (i < 50) {
-        EXPECT_GT(d.held.errorPx, 1) << c.load;
-      } else if (d.held.errorPx == 1) {
-        returnedMs = (i - 50) * 10;
-      }
-    }
-    EXPECT_NEAR(returnedMs, c.afterMs, 25) << c.turns << ' ' << c.load;
-  }
 }
 
 TEST(Arbiter, anUnknownBudgetOrCostChangesNothing) {

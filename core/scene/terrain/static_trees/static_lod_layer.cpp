@@ -200,16 +200,18 @@ std::size_t StaticLodLayer::prepare(std::span<const TileDraw> nodes, bool anew) 
   return uploaded;
 }
 
-std::size_t StaticLodLayer::buildAhead(std::span<const std::uint32_t> nodes,
-                                       std::chrono::steady_clock::time_point deadline) {
-  std::size_t uploaded = 0;
+BuiltAhead StaticLodLayer::buildAhead(std::span<const std::uint32_t> nodes,
+                                      std::chrono::steady_clock::time_point deadline) {
+  BuiltAhead ahead;
   for (const std::uint32_t node : nodes) {
     const std::uint32_t tile = terrain_->index.nodes[node].tile;
-    if (places_[tile].blocks > 0) continue;
-    if (std::chrono::steady_clock::now() >= deadline) break;
-    if (bytes() + bytesOf(tile) <= keptBytes_) uploaded += upload(tile);
+    if (places_[tile].blocks > 0 || bytes() + bytesOf(tile) > keptBytes_) continue;
+    if (ahead.left > 0 || std::chrono::steady_clock::now() >= deadline)
+      ++ahead.left;
+    else
+      ahead.built += upload(tile);
   }
-  return uploaded;
+  return ahead;
 }
 
 const StaticLodLayer::Place& StaticLodLayer::placeOf(std::uint32_t node) const {

@@ -9,6 +9,7 @@
 #include "core/scene/gl/mesh_pool.h"
 #include "core/scene/gl/multi_draw.h"
 #include "trimtab/culling/select.h"
+#include "trimtab/scene/built_ahead.h"
 
 namespace trimtab::terrain {
 struct StaticLodTerrain;
@@ -39,9 +40,8 @@ class StaticLodLayer {
   std::size_t prepare(std::span<const TileDraw> nodes, bool anew = false);
 
   /// Uploads tiles of nodes in order until `deadline`, for coming frames, as far as there is room without
-  /// giving up others. Returns how many.
-  std::size_t buildAhead(std::span<const std::uint32_t> nodes,
-                         std::chrono::steady_clock::time_point deadline);
+  /// giving up others.
+  BuiltAhead buildAhead(std::span<const std::uint32_t> nodes, std::chrono::steady_clock::time_point deadline);
 
   /// One multi-draw, in order. The program in use reads attributes 0 position, 1 normal, 2 texture
   /// coordinates (0 where the terrain kept none), 3 colour.

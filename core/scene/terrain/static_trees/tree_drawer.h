@@ -17,8 +17,8 @@ class TreeDrawer final : public TerrainDrawer {
   void plant(const Defects& defects) override { culling_.plant(defects); }
 
   PreparedTerrain prepare(const FrameInProgress& frame) override;
-  std::size_t buildAhead(std::span<const std::uint32_t> nodes,
-                         std::chrono::steady_clock::time_point deadline) override {
+  BuiltAhead buildAhead(std::span<const std::uint32_t> nodes,
+                        std::chrono::steady_clock::time_point deadline) override {
     return gl_->layer.buildAhead(nodes, deadline);
   }
   /// Draws all visible nodes. With a depth map it draws the near ones, then the far ones that they do not

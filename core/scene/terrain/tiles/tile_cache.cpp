@@ -156,20 +156,23 @@ std::size_t TileCache::prepare(std::span<const TileDraw> tiles, bool anew) {
   return built;
 }
 
-std::size_t TileCache::buildAhead(std::span<const std::uint32_t> nodes,
-                                  std::chrono::steady_clock::time_point deadline) {
-  std::size_t built = 0;
+BuiltAhead TileCache::buildAhead(std::span<const std::uint32_t> nodes,
+                                 std::chrono::steady_clock::time_point deadline) {
+  BuiltAhead ahead;
   for (const std::uint32_t node : nodes) {
     if (slotOfNode_[node] == kNoSlot) {
-      if (std::chrono::steady_clock::now() >= deadline) break;
+      if (ahead.left > 0 || std::chrono::steady_clock::now() >= deadline) {
+        ++ahead.left;
+        continue;
+      }
       const std::uint32_t slot = takeSlot();
       if (slot == kNoSlot) break;
       fill(slot, node);
-      ++built;
+      ++ahead.built;
     }
     slots_[slotOfNode_[node]].lastUse = frame_;
   }
-  return built;
+  return ahead;
 }
 
 void TileCache::setTints(std::span<const TileDraw> tiles, std::span<const std::uint32_t> colours) {

@@ -10,6 +10,7 @@
 #include "core/scene/occlusion/occluder.h"
 #include "tile_indices.h"
 #include "trimtab/culling/select.h"
+#include "trimtab/scene/built_ahead.h"
 #include "trimtab/terrain/format/database.h"
 
 namespace trimtab::scene {
@@ -37,9 +38,8 @@ class TileCache {
   /// up, and tiles beyond that have none.
   std::size_t prepare(std::span<const TileDraw> tiles, bool anew = false);
 
-  /// Builds tiles that lack a slot, in order, until `deadline`, for coming frames. Returns how many.
-  std::size_t buildAhead(std::span<const std::uint32_t> nodes,
-                         std::chrono::steady_clock::time_point deadline);
+  /// Builds tiles that lack a slot, in order, until `deadline`, for coming frames.
+  BuiltAhead buildAhead(std::span<const std::uint32_t> nodes, std::chrono::steady_clock::time_point deadline);
 
   /// Draws tiles in order; those without a slot are skipped. The program in use reads attributes 0 position,
   /// 1 normal, 2 slope, 3 colour.

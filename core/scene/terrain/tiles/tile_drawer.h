@@ -21,8 +21,8 @@ class TileDrawer final : public TerrainDrawer {
 
   PreparedTerrain prepare(const FrameInProgress& frame) override;
   void finished(const FrameResult& result) override { occlusion_.finished(result); }
-  std::size_t buildAhead(std::span<const std::uint32_t> nodes,
-                         std::chrono::steady_clock::time_point deadline) override {
+  BuiltAhead buildAhead(std::span<const std::uint32_t> nodes,
+                        std::chrono::steady_clock::time_point deadline) override {
     return gl_->tiles.buildAhead(nodes, deadline);
   }
   // The depth map's passes, if `prepare` set a depth view.

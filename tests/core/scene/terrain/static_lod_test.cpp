@@ -220,8 +220,9 @@ TEST_F(StaticTrees, areUploadedAheadForAComingImage) {
   use(treeMountains());
   auto r = treeRequest(over(0.5, 0.5, 300), {Degrees{0}, Degrees{-5}, Degrees{0}});
   const auto first = renderer.draw(r, offscreen->framebuffer());
-  EXPECT_GT(renderer.buildAhead(trees().roots, 1e9), 0u);
-  EXPECT_EQ(renderer.buildAhead(trees().roots, 1e9), 0u);
+  EXPECT_GT(renderer.buildAhead(trees().roots, 0).left, 0u);
+  EXPECT_GT(renderer.buildAhead(trees().roots, 1e9).built, 0u);
+  EXPECT_EQ(renderer.buildAhead(trees().roots, 0).left, 0u);
   r.attitude.heading = Degrees{180};
   EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).counters.tilesBuilt, first.counters.tilesBuilt);
 }

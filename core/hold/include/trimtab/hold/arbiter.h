@@ -19,7 +19,8 @@
 /// Lowering acts at once. Restoring waits until head-room has lasted hold.calm_ms, and then moves render
 /// scale and particles one step an image, so that no image becomes long by it; the allowed error returns
 /// in one step, because each step of it exchanges levels, and while the view turns only after a second or if
-/// the image takes less than three quarters of the limit, so that a glance does not exchange them twice. A
+/// the image takes less than three quarters of the limit, so that a glance does not exchange them twice. It
+/// also waits until the meshes that it needs are built (Renderer::buildAhead), for at most two seconds. A
 /// restoration that is taken back within a second makes the next one wait twice as long, up to 32 times,
 /// until one has lasted for four seconds or the view turns.
 ///
@@ -40,6 +41,7 @@ struct HoldGiven {
   double imageMpx = 0;         ///< millions of pixels of the image
   double groundMpx = 0;        ///< of those, millions below the horizon; the most of the views counted
   TriangleLadder triangles{};  ///< by allowed error; the most of the views counted
+  double meshesLeft = 0;       ///< named by FrameHold::nodesAhead, that there was no time to build
   CostCoefficients cost;
 
   friend bool operator==(const HoldGiven&, const HoldGiven&) = default;
@@ -64,6 +66,7 @@ struct HoldMemory {
   bool begun = false;
   double restoredMs = kInfinity;  ///< how long ago a lever was restored; infinite once it was lowered again
   double patience = 1;            ///< restoring waits for so many times hold.calm_ms
+  std::uint8_t wantedError = 0;   ///< the place of the allowed error that there is head-room for
   friend bool operator==(const HoldMemory&, const HoldMemory&) = default;
 };
 
@@ -78,6 +81,9 @@ struct HoldRecord {
 /// replay. If the budget or the cost is unknown, the levers stay as they are asked for. Time that stands,
 /// goes back or is not a number counts as no time.
 HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& parameters, HoldMemory& memory);
+
+/// Returns the allowed error at a place of HoldSteps::error, pixels.
+double errorAtPlace(std::uint8_t place, double askedPx);
 
 /// Returns the triangles at an allowed error, exact on the ladder's steps. Between two steps they lie on a
 /// straight line over the error's logarithm. Below and above the ladder they are those of its ends.

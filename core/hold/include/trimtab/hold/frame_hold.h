@@ -45,11 +45,13 @@ class FrameHold {
   void finished(const FrameResult& result, const FrameCost& cost);
 
   /// Names the nodes of tiles or of static trees that coming images may draw, the likeliest first:
-  /// those of the view after `drawn` that is farthest ahead, the same at twice the allowed error, to which
-  /// the arbiter may have to go, and while there is head-room those of the error that was asked for, to which
-  /// it returns in one step. A name may come twice. `drawn` is the last request as it was drawn. It stays
-  /// valid until the next call.
+  /// those of the view after `drawn` that is farthest ahead; while there is head-room the same at the allowed
+  /// error to which the arbiter will return in one step; and the same at twice the error, to which it may
+  /// have to go. A name may come twice. `drawn` is the last request as it was drawn. It stays valid until the
+  /// next call.
   std::span<const std::uint32_t> nodesAhead(const FrameRequest& drawn, std::span<const ComingEye> coming);
+  /// Tells how many of these names there was no time for. Without this the arbiter waits for none.
+  void setMeshesLeft(std::size_t left) { meshesLeft_ = left; }
 
   const HoldMemory& memory() const { return memory_; }
   void setMemory(const HoldMemory& memory) { memory_ = memory; }
@@ -89,6 +91,7 @@ class FrameHold {
 
   TriangleLadder countedNow_{};  ///< of the last request's own view, without the correction
   double groundNowMpx_ = 0;
+  std::size_t meshesLeft_ = 0;
   HoldGiven given_;
   HeldLevers held_;
   bool requested_ = false;

@@ -8,6 +8,7 @@
 
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
+#include "trimtab/scene/built_ahead.h"
 #include "trimtab/scene/distance_image.h"
 #include "trimtab/scene/gl_report.h"
 #include "trimtab/terrain/format/database.h"
@@ -58,9 +59,9 @@ class Renderer {
   /// Builds and uploads meshes that coming images will draw, so that those do not take the time: in order, of
   /// the nodes that lack one, as Session::nodesAhead names them. It stops after `withinMs` (milliseconds) and
   /// finishes the mesh that it has begun: a tile's takes about 0.1 ms, that of a tile of static trees takes
-  /// milliseconds. Call it between images, with the context current. It changes no image. Returns how many
-  /// meshes were built. Patches are read ahead by draw().
-  std::size_t buildAhead(std::span<const std::uint32_t> nodes, double withinMs);
+  /// milliseconds. Call it between images, with the context current. It changes no image. Patches are read
+  /// ahead by draw().
+  BuiltAhead buildAhead(std::span<const std::uint32_t> nodes, double withinMs);
 
   /// Returns the distance from the eye to the terrain that each pixel of the last image shows, metres;
   /// infinity where it shows none. The size is the image's at any render scale, and row 0 is at the bottom.

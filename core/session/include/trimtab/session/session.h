@@ -112,7 +112,8 @@ class Session {
   /// Derives the signals also while the preset has no policy, for whoever shows them. They cost a height from
   /// the terrain for each state; decisions and traces do not depend on it.
   void watchSignals() { signals_.watched.emplace(); }
-  /// Returns the signals of the last decided state. They are unknown without a policy, unless somebody watches.
+  /// Returns the signals of the last decided state. They are unknown without a policy, unless somebody
+  /// watches.
   SignalValues signalValues() const { return signals_.watched.value_or(decided_.signalValues); }
 
   // Images.
@@ -137,6 +138,9 @@ class Session {
   /// Names the nodes that the next images may draw and `drawn`, the last request as it was drawn, may not
   /// have (FrameHold::nodesAhead). Renderer::buildAhead takes them, for the time of aheadMs().
   std::span<const std::uint32_t> nodesAhead(const FrameRequest& drawn);
+  /// Tells for how many of these names there was no time (scene::BuiltAhead::left): the arbiter restores no
+  /// level of detail before its meshes are there.
+  void builtAhead(std::size_t left) { budget_.hold.setMeshesLeft(left); }
   /// Returns how long building ahead may take after the last image: half of what it left of the budget,
   /// milliseconds, but at least a fiftieth of the budget, so that it also goes on while images are late.
   double aheadMs() const;
