@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <malloc.h>
 #include <signal.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -18,8 +17,6 @@
 #include "app/workbench/window/options.h"
 
 namespace {
-
-constexpr int kLargestKeptBlock = 32 << 20;
 
 int signalPipe[2] = {-1, -1};
 
@@ -68,10 +65,6 @@ int main(int argc, char** argv) {
     return 1;
   }
 
-  // Qt copies the whole window's raster image at each flush that has news; fresh pages for it were a sixth of
-  // the program's time. Freed blocks of that size are kept instead.
-  ::mallopt(M_MMAP_THRESHOLD, kLargestKeptBlock);
-  ::mallopt(M_TRIM_THRESHOLD, 4 * kLargestKeptBlock);
   prepareGl();
   qInstallMessageHandler(endOnFatal);
   QApplication app(argc, argv);

@@ -96,14 +96,8 @@ std::span<const std::uint8_t> MovingHorizon::hidden(const Frame& frame, const Su
   if (coming.there && coming.horizon.isDone() && holds(coming, frame, tree)) {
     builds_[standing_].there = false;
     standing_ = 1 - standing_;
-  } else if (holds(builds_[standing_], frame, tree)) {
-    prepareNext(frame, tree, fill);
-  } else if (onlyRuleChanged(frame) && ++waited_ <= kMostWait) {
-    prepareFirst(frame, tree, fill);
-    return {};
-  } else {
-    if (coming.there && coming.rule == frame.rule && !coming.horizon.isDone() &&
-        coming.horizon.region().holds(frame.eye))
+  } else if (!holds(builds_[standing_], frame, tree)) {
+    if (coming.there && !coming.horizon.isDone() && coming.horizon.region().holds(frame.eye))
       coming.horizon.step(std::numeric_limits<std::size_t>::max() / 2);
     else
       coming.there = false;
@@ -115,32 +109,10 @@ std::span<const std::uint8_t> MovingHorizon::hidden(const Frame& frame, const Su
     }
     builds_[standing_].there = false;
     standing_ = 1 - standing_;
+  } else {
+    prepareNext(frame, tree, fill);
   }
-  waited_ = 0;
   return verdicts(frame);
-}
-
-/// Whether the eye goes on as before under another LOD rule.
-bool MovingHorizon::onlyRuleChanged(const Frame& frame) const {
-  const Build &standing = builds_[standing_], &coming = builds_[1 - standing_];
-  return standing.there && standing.rule != frame.rule && standing.settings == frame.settings &&
-         (standing.horizon.region().holds(frame.eye) || (coming.there && coming.rule == frame.rule));
-}
-
-/// Takes a step of the first horizon of a new LOD rule, or begins it. Its region begins here, because a
-/// coarser cut may be done in fewer frames.
-void MovingHorizon::prepareFirst(const Frame& frame, const SurfaceTree& tree, const Fill& fill) {
-  Build& coming = builds_[1 - standing_];
-  if (coming.there && !coming.horizon.isDone() && coming.rule == frame.rule &&
-      coming.settings == frame.settings)
-    stepShare(coming);
-  else
-    begin(coming, regionAhead(frame.eye, 0, 2 * kFrames + kSpareFrames), frame, tree, fill);
-}
-
-/// Builds as much of a horizon as brings it to its end in kFrames frames, if it is as much work as the last.
-void MovingHorizon::stepShare(Build& coming) const {
-  coming.horizon.step(builds_[standing_].horizon.work() * 11 / (10 * kFrames) + 16);
 }
 
 void MovingHorizon::prepareNext(const Frame& frame, const SurfaceTree& tree, const Fill& fill) {
@@ -152,7 +124,7 @@ void MovingHorizon::prepareNext(const Frame& frame, const SurfaceTree& tree, con
       // If the eye slowed down, turned or has gone past, it never reaches the region.
       if (!coming.horizon.region().holds(regionAhead(frame.eye, kFrames, kFrames).to)) coming.there = false;
     } else {
-      stepShare(coming);
+      coming.horizon.step(standing.horizon.work() * 11 / (10 * kFrames) + 16);
     }
     return;
   }

@@ -185,11 +185,11 @@ HoldSteps raised(const HoldSteps& from, const HoldSteps& to, bool errorReturns) 
           one(from.particles, to.particles), to.blur};
 }
 
-/// The time since the last image, milliseconds, as far as it can be believed.
-double passed(const HoldGiven& given, double calmMs, HoldMemory& memory) {
+/// The time since the last image, milliseconds; 0 if the clock stands, goes back or is not a number.
+double passed(const HoldGiven& given, HoldMemory& memory) {
   const double ms = memory.begun ? (given.timeS - memory.timeS) * 1e3 : 0;
   if (std::isfinite(given.timeS)) memory.timeS = given.timeS;
-  return ms > 0 ? std::min(ms, kMostOfCalm * calmMs) : 0;
+  return ms > 0 ? ms : 0;
 }
 
 /// Notes the triangles of this image, and returns whether they have been steady for so long.
@@ -265,7 +265,7 @@ FrameLoad loadOf(const HoldGiven& given, const HeldLevers& levers, double triang
 HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemory& memory) {
   HoldDecision d;
   d.asked = d.held = given.asked;
-  const double ms = passed(given, p.calm.value(), memory);
+  const double passedMs = passed(given, memory), ms = std::min(passedMs, kMostOfCalm * p.calm.value());
   const bool budget = given.budgetMs > 0 && std::isfinite(given.budgetMs);
   if (!p.enabled || !budget || !given.cost.known || !isNumber(given)) {
     d.reason = !p.enabled ? HoldReason::off : !budget ? HoldReason::no_budget : HoldReason::cost_unknown;
@@ -294,6 +294,7 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
     d.reason = HoldReason::lowered;
     memory.calmMs = 0;
     memory.wantedError = now.error;
+    memory.waitedMs = 0;
     if (memory.restoredMs < kTooEarlyMs) memory.patience = std::min(2 * memory.patience, kMostPatience);
     memory.restoredMs = kInfinity;
   } else {
@@ -303,10 +304,12 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
     const bool room = worth && search.timeAt(wanted) <= d.limitMs;
     memory.calmMs = room ? memory.calmMs + ms : 0;
     memory.wantedError = room ? wanted.error : before.error;
+    const bool waits = memory.wantedError != before.error && given.meshesLeft > 0;
+    memory.waitedMs = waits ? memory.waitedMs + passedMs : 0;
     d.reason = HoldReason::held;
     const bool ample = search.timeAt(before) < kAmple * d.limitMs;
     if (room && memory.calmMs >= p.calm.value() * (ample ? 1 : memory.patience)) {
-      const bool built = given.meshesLeft <= 0 || memory.calmMs >= kMostBuildingMs;
+      const bool built = !waits || memory.waitedMs >= kMostBuildingMs;
       const bool stays = rests || ample || memory.calmMs >= kTurningCalmMs;
       const HoldSteps nearer = raised(before, wanted, built && stays);
       if (nearer != before && search.timeAt(nearer) <= d.limitMs)

@@ -164,7 +164,8 @@ std::span<const std::uint32_t> FrameHold::nodesAhead(const FrameRequest& drawn,
   if (drawn.hold.reason == HoldReason::off) return nodesAhead_;
   if (memory_.wantedError != memory_.steps.error)
     collect(drawn, last, errorAtPlace(memory_.wantedError, given_.asked.errorPx) / held_.errorPx);
-  collect(drawn, last, 2);
+  else
+    collect(drawn, last, 2);
   return nodesAhead_;
 }
 

@@ -74,6 +74,7 @@ void forEachNumber(Memory& m, const Visit& visit) {
   visit(m.restoredMs);
   visit(m.patience);
   visit(m.wantedError);
+  visit(m.waitedMs);
 }
 
 /// Several numbers with ; between.

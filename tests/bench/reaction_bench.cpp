@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -284,9 +283,7 @@ int main(int argc, char** argv) {
   std::filesystem::create_directories(terrain::cacheFolder().parent_path());
   std::filesystem::create_directory_symlink(baked, terrain::cacheFolder());
 
-  // Memory, GL and names are as in the main function of trimtab.
-  ::mallopt(M_MMAP_THRESHOLD, 32 << 20);
-  ::mallopt(M_TRIM_THRESHOLD, 4 * (32 << 20));
+  // GL and names are as in the main function of trimtab.
   workbench::prepareGl();
   QApplication app(argc, argv);
   std::setlocale(LC_NUMERIC, "C");

@@ -5,6 +5,7 @@
 #include <QTableWidget>
 #include <fstream>
 
+#include "app/workbench/viewport/split_picture.h"
 #include "app/workbench/viewport/split_view.h"
 #include "app/workbench/window/workspaces.h"
 #include "error_dock.h"
@@ -62,6 +63,22 @@ TEST_F(SplitViewTest, theComparisonLiesOverTheImageOnTheDisplay) {
   EXPECT_TRUE(seen()) << "the next image does not cover it";
   view().setOverViewport(false);
   EXPECT_TRUE(waitFor([&] { return !seen(); }, 5000)) << "the image of the viewport is back";
+}
+
+TEST_F(SplitViewTest, whileImagesAreOldTheLiveViewIsOnTheDisplay) {
+  auto* const overlay = w().findChild<workbench::SplitPicture*>("split_overlay");
+  ASSERT_NE(overlay, nullptr);
+  choose(SplitView::kDraft, "default");
+  const auto left = [](const QImage& image) {
+    return image.copy(0, 0, image.width() / 2, image.height() / 2).convertToFormat(QImage::Format_RGB32);
+  };
+  const QImage live = left(w().viewport().grabFramebuffer());
+  EXPECT_TRUE(waitFor([&] { return left(onDisplay(w().viewport())) != live; }, 5000))
+      << "the comparison has a name at its corner";
+  overlay->setOld(true, "comparing");
+  ASSERT_TRUE(settle());
+  EXPECT_TRUE(waitFor([&] { return left(onDisplay(w().viewport())) == live; }, 5000));
+  EXPECT_TRUE(overlay->isVisible()) << "its text is still there";
 }
 
 TEST_F(SplitViewTest, equalPresetsHaveABlackMapAndOthersShowWhereTheyDiffer) {

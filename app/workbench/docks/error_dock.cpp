@@ -245,7 +245,9 @@ void ErrorDock::setWatched(const QObject* who, bool watched) {
 }
 
 void ErrorDock::measureIfWanted() {
-  live_.setOn((seen_ || !watchers_.empty()) && liveOn_->isChecked());
+  const bool wanted = (seen_ || !watchers_.empty()) && liveOn_->isChecked();
+  live_.setOn(wanted);
+  if (!wanted) emit flipChanged(FrameError::kNotMeasured);
 }
 
 QString ErrorDock::flight() const {

@@ -92,8 +92,9 @@ class ErrorDock : public QWidget {
   void sought(double timeS);  ///< the person moved the cursor to this time of the flight
   void flightShown();         ///< another measured flight is shown, or other results of the same
   void comparisonAsked();
-  void flipChanged(double flip);  ///< of the image that was measured last; NaN once that is forgotten
-  void flightAsked();             ///< the person wants to open one to measure along
+  /// FLIP of the image that was measured last; NaN once that is forgotten, or nothing is measured any more.
+  void flipChanged(double flip);
+  void flightAsked();  ///< the person wants to open one to measure along
 
  private:
   void arrange();

@@ -10,7 +10,6 @@
 namespace trimtab::workbench {
 
 void prepareGl() {
-  QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
   // The viewport has a window of its own; the docks beside it need none.
   QCoreApplication::setAttribute(Qt::AA_DontCreateNativeWidgetSiblings);
   QSurfaceFormat format;
@@ -42,7 +41,7 @@ void nameApplication() {
   QCoreApplication::setOrganizationName(QStringLiteral("Trimtab"));
   QCoreApplication::setApplicationName(QStringLiteral("trimtab"));
   QCoreApplication::setApplicationVersion(QStringLiteral(TRIMTAB_VERSION));
-  // A caret that blinks makes the whole window be put together twice a second: idle must cost nothing.
+  // A caret that blinks is painted twice a second: idle must cost nothing.
   QApplication::setCursorFlashTime(0);
   QGuiApplication::setWindowIcon(QIcon(QStringLiteral(":/trimtab/icons/trimtab.png")));
 }

@@ -5,8 +5,8 @@
 
 namespace trimtab::workbench {
 
-/// Sets the surface format that OSG's GL2 build needs, and contexts that survive a floating dock. Call it
-/// before QApplication is made.
+/// Sets the surface format that OSG's GL2 build needs, and that only the viewport has a native window. Call
+/// it before QApplication is made.
 void prepareGl();
 /// Returns what is wrong with the display's OpenGL; empty if nothing is. Call it after QApplication is made.
 QString checkGl();

@@ -34,14 +34,13 @@ bool GlWidget::begin() {
   const bool first = context_ == nullptr;
   if (first) {
     context_ = std::make_unique<QOpenGLContext>();
-    context_->setShareContext(QOpenGLContext::globalShareContext());
     failed_ = !context_->create();
     if (failed_) {
       context_.reset();
       return false;
     }
   }
-  makeCurrent();
+  if (!makeCurrent()) return false;
   const QSize wanted = sizePx().expandedTo({1, 1});
   if (framebuffer_ == nullptr || framebuffer_->size() != wanted)
     framebuffer_ =
@@ -51,12 +50,13 @@ bool GlWidget::begin() {
   return true;
 }
 
-void GlWidget::makeCurrent() {
-  if (context_ == nullptr) return;
+bool GlWidget::makeCurrent() {
+  if (context_ == nullptr) return false;
   QSurface* surface = &hidden_;
   if (windowHandle() != nullptr && windowHandle()->handle() != nullptr) surface = windowHandle();
-  context_->makeCurrent(surface);
+  if (!context_->makeCurrent(surface)) return false;
   if (framebuffer_ != nullptr) bindFramebuffer();
+  return true;
 }
 
 void GlWidget::doneCurrent() {
@@ -89,10 +89,19 @@ void GlWidget::paintEvent(QPaintEvent*) {
   }
   if (!windowHandle()->isExposed() || !begin()) return;
   paintGL();
+  send();
+  emit frameSwapped();
+}
+
+void GlWidget::showAgain() {
+  if (framebuffer_ != nullptr && windowHandle()->isExposed() && makeCurrent()) send();
+}
+
+/// Copies the framebuffer to the window. The context is current.
+void GlWidget::send() {
   context_->functions()->glDisable(GL_SCISSOR_TEST);
   QOpenGLFramebufferObject::blitFramebuffer(nullptr, framebuffer_.get());
   context_->swapBuffers(windowHandle());
-  emit frameSwapped();
 }
 
 void GlWidget::resizeEvent(QResizeEvent*) {

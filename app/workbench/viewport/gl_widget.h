@@ -26,8 +26,9 @@ class GlWidget : public QWidget {
 
   /// Null until the first image is due.
   QOpenGLContext* context() const { return context_.get(); }
-  /// Makes the context current, also while the widget is hidden, and binds the framebuffer.
-  void makeCurrent();
+  /// Makes the context current, also while the widget is hidden, and binds the framebuffer. Returns false if
+  /// it cannot.
+  bool makeCurrent();
   void doneCurrent();
   /// Draws an image and returns it. It is null if there is no OpenGL.
   QImage grabFramebuffer();
@@ -46,6 +47,8 @@ class GlWidget : public QWidget {
   void bindFramebuffer();
   /// Returns the name of the framebuffer, for what does not use Qt.
   unsigned framebuffer() const;
+  /// Sends the last image once more, as after another window lay over it.
+  void showAgain();
   QSize sizePx() const { return size() * devicePixelRatioF(); }
 
   QPaintEngine* paintEngine() const override { return nullptr; }
@@ -54,6 +57,7 @@ class GlWidget : public QWidget {
 
  private:
   bool begin();
+  void send();
 
   QOffscreenSurface hidden_;  ///< stands in for the window while that does not exist
   std::unique_ptr<QOpenGLContext> context_;

@@ -37,10 +37,23 @@ void SplitPicture::layOverParent() {
   setFocusPolicy(Qt::TabFocus);
   parentWidget()->installEventFilter(this);
   setGeometry(parentWidget()->rect());
+  cover();
+}
+
+/// Over its parent, whose window lies below this one, this is as large as what it shows.
+void SplitPicture::cover() {
+  if (!over_) return;
+  if (seesThrough())
+    setMask(plateRect(oldText_, Qt::TopRightCorner, rect()));
+  else
+    clearMask();
 }
 
 bool SplitPicture::eventFilter(QObject* watched, QEvent* event) {
-  if (watched == parentWidget() && event->type() == QEvent::Resize) setGeometry(parentWidget()->rect());
+  if (watched == parentWidget() && event->type() == QEvent::Resize) {
+    setGeometry(parentWidget()->rect());
+    cover();
+  }
   return QWidget::eventFilter(watched, event);
 }
 
@@ -56,6 +69,7 @@ void SplitPicture::describe() {
 
 void SplitPicture::show(ComparedImages compared) {
   compared_ = std::move(compared);
+  cover();
   describe();
 }
 
@@ -63,6 +77,7 @@ void SplitPicture::setOld(bool old, const QString& text) {
   if (old == old_ && text == oldText_) return;
   old_ = old;
   oldText_ = text;
+  cover();
   update();
 }
 
@@ -116,9 +131,7 @@ std::vector<SplitPicture::Part> SplitPicture::parts() const {
           {&b, whole, {QPoint(at, whole.top()), whole.bottomRight()}, names_[1]}};
 }
 
-void SplitPicture::paintPlate(QPainter& painter, const QString& text, Qt::Corner corner,
-                              const QRect& within) const {
-  if (text.isEmpty()) return;
+QRect SplitPicture::plateRect(const QString& text, Qt::Corner corner, const QRect& within) const {
   const QFontMetrics metrics(font());
   const QString fits = metrics.elidedText(text, Qt::ElideRight, within.width() - 4 * kMarginPx);
   QRect box(QPoint(), QSize(metrics.horizontalAdvance(fits) + 12, metrics.height() + 6));
@@ -126,9 +139,17 @@ void SplitPicture::paintPlate(QPainter& painter, const QString& text, Qt::Corner
   if (corner == Qt::TopLeftCorner) box.moveTopLeft(inner.topLeft());
   if (corner == Qt::TopRightCorner) box.moveTopRight(inner.topRight());
   if (corner == Qt::BottomRightCorner) box.moveBottomRight(inner.bottomRight());
+  return box;
+}
+
+void SplitPicture::paintPlate(QPainter& painter, const QString& text, Qt::Corner corner,
+                              const QRect& within) const {
+  if (text.isEmpty()) return;
+  const QRect box = plateRect(text, corner, within);
   painter.fillRect(box, QColor(0, 0, 0, 190));
   painter.setPen(Qt::white);
-  painter.drawText(box, Qt::AlignCenter, fits);
+  painter.drawText(box, Qt::AlignCenter,
+                   QFontMetrics(font()).elidedText(text, Qt::ElideRight, within.width() - 4 * kMarginPx));
 }
 
 void SplitPicture::paintDivider(QPainter& painter) const {
@@ -146,7 +167,7 @@ void SplitPicture::paintDivider(QPainter& painter) const {
 
 void SplitPicture::paintEvent(QPaintEvent*) {
   QPainter painter(this);
-  if (over_ && (old_ || empty())) return paintPlate(painter, oldText_, Qt::TopRightCorner, rect());
+  if (seesThrough()) return paintPlate(painter, oldText_, Qt::TopRightCorner, rect());
   painter.fillRect(rect(), over_ ? QColor(Qt::black) : palette().color(QPalette::Base));
   if (empty()) {
     painter.setPen(palette().color(QPalette::Text));
@@ -169,7 +190,7 @@ void SplitPicture::paintEvent(QPaintEvent*) {
 }
 
 std::optional<QPoint> SplitPicture::pixelAt(QPointF place) const {
-  if (empty() || (over_ && old_)) return std::nullopt;
+  if (empty() || seesThrough()) return std::nullopt;
   const QSize size = compared_.images[0].size();
   for (const Part& part : parts()) {
     if (!part.seen.contains(place.toPoint())) continue;
@@ -200,7 +221,7 @@ QString SplitPicture::pointerText() const {
 }
 
 bool SplitPicture::nearDivider(QPointF place) const {
-  return form_ == Form::divided && !empty() && !(over_ && old_) &&
+  return form_ == Form::divided && !empty() && !seesThrough() &&
          (!over_ || std::abs(place.x() - dividerX()) <= kHandlePx);
 }
 

@@ -28,7 +28,8 @@ class SplitPicture : public QWidget {
 
   explicit SplitPicture(QWidget* parent = nullptr);
 
-  /// Makes it lie over its parent, as large as that, and see through where it shows nothing.
+  /// Makes it lie over its parent, a GlWidget, as large as that. While it has no image to show, only its text
+  /// covers the parent.
   void layOverParent();
   void show(ComparedImages compared);
   /// Over a parent, old images are not shown: the live view below them is, with `text` at its edge.
@@ -69,11 +70,14 @@ class SplitPicture : public QWidget {
   std::vector<Part> parts() const;
   QRect pictureRect(const QRect& within) const;
   int dividerX() const;
+  void cover();
+  bool seesThrough() const { return over_ && (old_ || empty()); }
   bool empty() const { return compared_.images[0].isNull() || compared_.images[1].isNull(); }
   bool nearDivider(QPointF place) const;
   std::optional<QPoint> pixelAt(QPointF place) const;
   QString pointerText() const;
   void paintDivider(QPainter& painter) const;
+  QRect plateRect(const QString& text, Qt::Corner corner, const QRect& within) const;
   void paintPlate(QPainter& painter, const QString& text, Qt::Corner corner, const QRect& within) const;
   void describe();
 

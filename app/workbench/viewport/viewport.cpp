@@ -75,13 +75,16 @@ Viewport::Viewport(QWidget* parent) : GlWidget(parent), notice_(tr("No terrain y
 }
 
 Viewport::~Viewport() {
-  // The context may die before or after this object: stop listening first, then free with it current.
-  if (context() != nullptr) disconnect(context(), nullptr, this, nullptr);
-  releaseGl();
+  if (renderer_ == nullptr) return;
+  makeCurrent();
+  fixedSize_.reset();
+  unseen_.reset();
+  pilots_.reset();
+  renderer_->release();
+  doneCurrent();
 }
 
 void Viewport::initializeGL() {
-  connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, &Viewport::releaseGl, Qt::DirectConnection);
   renderer_ = std::make_unique<scene::Renderer>();
   gl_ = renderer_->initialize();
   terrainChanged_ = true;
@@ -91,17 +94,6 @@ void Viewport::initializeGL() {
                   .arg(QString::fromStdString(gl_.missing), QString::fromStdString(gl_.renderer)));
     emit glFailed(QString::fromStdString(gl_.missing));
   }
-}
-
-void Viewport::releaseGl() {
-  if (renderer_ == nullptr) return;
-  makeCurrent();
-  fixedSize_.reset();
-  unseen_.reset();
-  pilots_.reset();
-  renderer_->release();
-  renderer_.reset();
-  doneCurrent();
 }
 
 void Viewport::setTerrain(std::shared_ptr<const terrain::Database> database) {
@@ -127,10 +119,14 @@ qint64 Viewport::controlsFirstMs() const {
 }
 
 void Viewport::paintEvent(QPaintEvent* event) {
+  QPoint ignored;
+  const bool fits = sizePx() == paintedPx_ && redirected(&ignored) == nullptr;
+  // Nothing changed: the place was covered and is seen again.
+  if (fits && !dirty_) return showAgain();
   const qint64 wait = controlsFirstMs();
-  // The display shows the old image meanwhile; one of another size would be stretched.
-  if (wait <= 1 || size() != paintedSize_) return GlWidget::paintEvent(event);
-  if (!later_.isActive()) later_.start(int(wait));
+  if (!fits || wait <= 1) return GlWidget::paintEvent(event);
+  if (later_.isActive()) return showAgain();
+  later_.start(int(wait));
 }
 
 bool Viewport::eventFilter(QObject* watched, QEvent* event) {
@@ -196,7 +192,7 @@ void Viewport::paintGL() {
   dirty_ = false;
   ++paints_;
   sincePaint_.start();
-  paintedSize_ = size();
+  paintedPx_ = sizePx();
   later_.stop();
   if (camera_.moving()) {
     const double step = sinceMove_.isValid() ? double(sinceMove_.nsecsElapsed()) * 1e-9 : 1.0 / 60;

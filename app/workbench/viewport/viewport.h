@@ -110,7 +110,6 @@ class Viewport : public GlWidget {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  void releaseGl();
   void drawPicture(const Picture& picture, int widthPx, int heightPx);
   void drawPilot(const FrameRequest& request);
   void drawImage(const Picture& picture, unsigned framebuffer);
@@ -143,7 +142,7 @@ class Viewport : public GlWidget {
   bool controlHeld_ = false;  ///< the mouse holds a control that is not this widget
   QElapsedTimer sinceClick_;  ///< since the last click elsewhere
   qint64 tookMs_ = 0;         ///< the last image, until it was on the display
-  QSize paintedSize_;         ///< the widget's, of the last image
+  QSize paintedPx_;           ///< the widget's size, of the last image
   QElapsedTimer sinceShown_;  ///< since then
   QTimer later_;              ///< runs while an image waits
   bool unreported_ = false;   ///< `painted` has not been emitted for the last image

@@ -83,16 +83,12 @@ HorizonMemory::Result HorizonMemory::find(OcclusionGround& ground, Vec3 eye,
   });
   const bool atOnce = moving_.fromScratch() != scratch;
   number_ += atOnce || before != &horizon();
-  const bool pending = hidden.empty() && !frame.tiles.empty();
-  if (!pending && (!samePlace || grown)) {
+  if (!samePlace || grown) {
     const auto count = static_cast<std::size_t>(std::count(hidden.begin(), hidden.end(), std::uint8_t{1}));
     hidLittle_ = isLittle(count, hidden.size()) && !SurfaceShare::isMany(lacked_, nodes);
   }
   key_ = key;
-  return {.hidden = hidden,
-          .pending = pending,
-          .moved = !pending && !samePlace && !atOnce,
-          .built = moving_.built() - built};
+  return {.hidden = hidden, .moved = !samePlace && !atOnce, .built = moving_.built() - built};
 }
 
 }  // namespace trimtab::scene

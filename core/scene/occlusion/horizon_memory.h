@@ -18,11 +18,10 @@ class HorizonMemory {
   /// What one frame found, and the work that it did.
   struct Result {
     /// One flag per tile of the cut, in its order: 1 if it is proven hidden, whatever the view direction.
-    /// Empty if the horizon was left out, cannot be built or is not ready. Valid until the next call.
+    /// Empty if the horizon was left out or cannot be built. Valid until the next call.
     std::span<const std::uint8_t> hidden;
     bool noGraph = false;     ///< no horizon can be built, because a place may have two heights
     bool leftOut = false;     ///< not looked for, because near here a horizon hid next to nothing
-    bool pending = false;     ///< the horizon of a new LOD rule is being built
     bool moved = false;       ///< a horizon that was built for an earlier eye position was used
     std::uint64_t built = 0;  ///< horizons begun in this frame
   };

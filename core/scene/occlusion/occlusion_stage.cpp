@@ -65,7 +65,7 @@ void OcclusionStage::plant(const Defects& defects) {
 void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, bool gpuDrawsMaps) {
   serves_.reset();
   hidden_ = {};
-  chosen_ = pending_ = false;
+  chosen_ = false;
   eye_ = eye;
   view_ = request.view;
   refusal_ = ground_.refusal(eye, request.view);
@@ -95,7 +95,6 @@ void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, bool
                     .whole = request.wholeHorizon},
                    request.skips, alone);
   hidden_ = found.hidden;
-  pending_ = found.pending;
   counters_.horizonsBuilt = found.built;
   counters_.horizonsMoved = found.moved;
   counters_.horizonsLeftOut = found.leftOut;
@@ -195,7 +194,7 @@ std::span<const std::uint8_t> OcclusionStage::hiddenByMap(const FrameRequest& re
 
 void OcclusionStage::finished(const FrameResult& result) {
   if (!chosen_) return;
-  if ((ground_.share().lacksMany() || pending_) && ++unlearnt_ < kUnlearntFrames) return;
+  if (ground_.share().lacksMany() && ++unlearnt_ < kUnlearntFrames) return;
   unlearnt_ = 0;
   const auto or0 = [](double ms) { return std::isfinite(ms) ? ms : 0; };
   const FrameCost& cost = result.cost;

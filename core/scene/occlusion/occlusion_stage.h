@@ -108,9 +108,8 @@ class OcclusionStage {
   FrameCounters counters_;
   HorizonMemory memory_;
   OcclusionChoice choice_;
-  bool chosen_ = false;   ///< choice_ chose the method of this frame
-  bool pending_ = false;  ///< its horizon is not ready
-  int unlearnt_ = 0;      ///< successive frames that choice_ did not learn from
+  bool chosen_ = false;  ///< choice_ chose the method of this frame
+  int unlearnt_ = 0;     ///< successive frames that choice_ did not learn from
   Defects defects_;
   std::vector<std::uint8_t> planted_;  ///< hidden_ and the node that is culled by mistake
   int subpixelBits_ = 4;

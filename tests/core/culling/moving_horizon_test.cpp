@@ -133,52 +133,6 @@ TEST(MovingHorizon, hidesOnlyWhatTheSurfaceAsDrawnHidesWhileLevelsChange) {
     }
 }
 
-TEST(MovingHorizon, afterAChangeOfTheLodRuleNoImagePaysAWholeHorizon) {
-  const SurfaceTree tree = SurfaceTree::of(ground().index());
-  MovingHorizon moving;
-  LevelCut cut;
-  std::vector<HorizonTile> tiles;
-  const Path path = straight(ground(), 60, 5.1, 0.4);
-  double highest = -1e9;
-  for (int f = 0; f < 160; ++f) highest = std::max(highest, ground().sourceAt(path(f).x, path(f).y));
-  std::uint64_t cuts = 0;
-  int frame = 0, wrong = 0;
-  /// Draws a frame under a rule; returns whether a horizon was used.
-  const auto draw = [&](std::uint64_t rule, double errorOverDistance) {
-    Vec3 eye = path(frame++);
-    eye.z += highest;
-    selectLevels(ground().index(), eye, {errorOverDistance, 1, 1}, cut);
-    ground().draw(cut);
-    tiles = ground().tiles(cut);
-    const auto hidden = moving.hidden({.eye = eye,
-                                       .cut = ++cuts,
-                                       .rule = rule,
-                                       .tiles = cut.tiles,
-                                       .errorOverDistance = errorOverDistance,
-                                       .settings = {.columns = 512}},
-                                      tree, [&](std::vector<HorizonTile>& to) { to = tiles; });
-    for (std::size_t t = 0; t < hidden.size(); ++t)
-      wrong += hidden[t] != 0 && !ground().isCovered(eye, ground().pointOf(cut.tiles[t].node, 0.5, 0.5));
-    return !hidden.empty();
-  };
-  for (int i = 0; i < 30; ++i) EXPECT_TRUE(draw(1, 0.004));
-  const std::uint64_t before = moving.fromScratch();
-  int waited = 0;
-  while (waited < 100 && !draw(2, 0.008)) ++waited;
-  std::printf("a new rule: %d frames without a horizon\n", waited);
-  EXPECT_GT(waited, 1);
-  EXPECT_LE(waited, MovingHorizon::kMostWait);
-  EXPECT_EQ(moving.fromScratch(), before) << "it was built over frames";
-  EXPECT_TRUE(draw(2, 0.008));
-
-  int without = 0;
-  for (std::uint64_t rule = 3; rule < 103; ++rule) without += !draw(rule, 0.004 + 1e-5 * double(rule));
-  std::printf("a rule that changes in every frame: %d of 100 frames without a horizon\n", without);
-  EXPECT_GE(without, 90) << "next to no frame pays a whole horizon";
-  EXPECT_LE(without, 100 - 100 / (MovingHorizon::kMostWait + 1)) << "and it is not waited for without end";
-  EXPECT_EQ(wrong, 0);
-}
-
 TEST(MovingHorizon, holdsThroughTurnsStopsClimbsAndJumps) {
   const double side = ground().sideM();
   const std::vector<std::pair<const char*, Path>> paths{

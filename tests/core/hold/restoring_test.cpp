@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "arbiter_input.h"
 
@@ -44,6 +43,24 @@ TEST(Arbiter, theErrorReturnsOnceItsMeshesAreThereOrAfterTwoSeconds) {
     EXPECT_NEAR(g.timeS, std::min(builtS, 2.0), 0.04);
     EXPECT_EQ(d.held.renderScale, 1) << "it did not wait";
   }
+}
+
+TEST(Arbiter, waitsForMeshesByTheClockWhateverTheCalmAndTheRate) {
+  for (const double calmMs : {0.0, 10.0, 120.0})
+    for (const double imageS : {0.004, 0.07}) {
+      HoldParameters p = enabled();
+      p.calm = Milliseconds{calmMs};
+      HoldMemory memory;
+      HoldGiven g = given();
+      g.budgetMs = 20;
+      HoldDecision d = arbitrate(g, p, memory);
+      while (d.held.errorPx > d.asked.errorPx && g.timeS < 20) {
+        g = given(g.timeS + imageS);
+        g.meshesLeft = 1;
+        d = arbitrate(g, p, memory);
+      }
+      EXPECT_NEAR(g.timeS, 2, 2 * imageS + 1e-9) << calmMs;
+    }
 }
 
 TEST(Arbiter, restoresWithoutAnyImageOverTheLimit) {

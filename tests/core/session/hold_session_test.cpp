@@ -133,7 +133,9 @@ TEST(HoldSession, namesTheNodesOfComingImages) {
     }
     const std::span<const std::uint32_t> ahead = session.nodesAhead(request);
     const std::vector<std::uint32_t> named(ahead.begin(), ahead.end());
-    // The view that is five images ahead, and while the budget is held its coarser levels.
+    // The view that is five images ahead, and while the budget is held its levels to come.
+    const HoldMemory memory = session.hold().memory();
+    const double asked = session.hold().given().asked.errorPx;
     session.fly(stateOf(64), 64 / 60.0);
     const FrameRequest later = *session.request(64 / 60.0, 640, 360);
     const auto drawnBy = [&](double errorPx) {
@@ -155,10 +157,14 @@ TEST(HoldSession, namesTheNodesOfComingImages) {
     const double errorPx = request.lod.screenSpaceError.value();
     EXPECT_GT(shareNamed(drawnBy(errorPx)), 0.9) << holds;
     if (holds) {
-      EXPECT_GT(shareNamed(drawnBy(2 * errorPx)), 0.9);
+      const bool returns = memory.wantedError != memory.steps.error;
+      EXPECT_GT(shareNamed(drawnBy(returns ? errorAtPlace(memory.wantedError, asked) : 2 * errorPx)), 0.9);
     } else {
       EXPECT_LT(shareNamed(drawnBy(2 * errorPx)), 0.9);
     }
+    session.builtAhead(7);
+    session.request(65 / 60.0, 640, 360);
+    EXPECT_EQ(session.hold().given().meshesLeft, holds ? 7 : 0);
     request.frozenEye.emplace();
     EXPECT_TRUE(session.nodesAhead(request).empty());
     EXPECT_GE(session.aheadMs(), 14.0 / 50);

@@ -154,16 +154,13 @@ TEST_F(HorizonScene, isNotBuiltAgainNearWhereItHidNextToNothing) {
   r.eye.height = start + Metres{70};
   draw(2, 4, "19 m from there");
   r.lod.screenSpaceError = Pixels{3.5};
-  picture(r, &result);
-  EXPECT_FALSE(result.horizon) << "that of other levels is built over some images";
-  for (int i = 0; i < MovingHorizon::kMostWait && !result.horizon; ++i) picture(r, &result);
-  // An eye that has come to rest is given a horizon of its place alone, once.
-  draw(4, 4, "other levels");
+  draw(3, 4, "other levels");
   r.skips.littleHidden = false;
   r.eye.height = start + Metres{75};
   const std::uint64_t moved = result.counters.horizonsMoved;
-  draw(4, 4, "5 m on, switched off");
+  draw(3, 4, "5 m on, switched off");
   EXPECT_EQ(result.counters.horizonsMoved, moved + 1) << "the last one holds here too";
+  // An eye that has come to rest is given a horizon of its place alone, once.
   draw(4, 4, "the same place, switched off");
   draw(4, 4, "again");
 }

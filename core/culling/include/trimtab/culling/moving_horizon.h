@@ -15,9 +15,7 @@ namespace trimtab {
 ///
 /// One horizon is in use; its validity region lies around the predicted path of the eye. Meanwhile the next
 /// horizon is built for the region after that, a share of it in each frame. If the eye goes elsewhere, a
-/// horizon is built at once. If only the LOD rule changes, the next one is built over frames too, and nothing
-/// is hidden meanwhile: a whole build takes longer than many an image, and the rule changes just when there
-/// is no time for it.
+/// horizon is built at once, so that every frame has a valid one.
 ///
 /// The LOD cut may change while a horizon is in use. When the build of a horizon begins, every tile that the
 /// LOD rule may split or join before the eye has left the validity region is marked, and its occluder bound
@@ -53,8 +51,7 @@ class MovingHorizon {
   using Fill = std::function<void(std::vector<HorizonTile>&)>;
 
   /// Returns one flag per tile of the frame, in order: 1 if it is proven hidden. All are 0 if the eye is not
-  /// a number. Returns none while the first horizon of a new LOD rule is being built, for at most kMostWait
-  /// frames. The result is valid until the next call. Call clear() first if the index behind `tree` has
+  /// a number. The result is valid until the next call. Call clear() first if the index behind `tree` has
   /// changed.
   std::span<const std::uint8_t> hidden(const Frame& frame, const SurfaceTree& tree, const Fill& fill);
   /// Discards all horizons and the eye's motion.
@@ -72,8 +69,6 @@ class MovingHorizon {
   /// The number of frames in which a horizon is built, after the one that begins it. With a spare frame these
   /// are all frames in which the horizon before it is used, so that all frames cost alike.
   static constexpr int kFrames = 10;
-  /// After so many frames without a horizon one is built at once, though the LOD rule goes on changing.
-  static constexpr int kMostWait = 2 * kFrames;
 
  private:
   struct Build {
@@ -102,14 +97,10 @@ class MovingHorizon {
   bool carry(Build& build, const Frame& frame, const SurfaceTree& tree);
   ValidityRegion regionAhead(Vec3 eye, double firstFrame, double lastFrame) const;
   void prepareNext(const Frame& frame, const SurfaceTree& tree, const Fill& fill);
-  bool onlyRuleChanged(const Frame& frame) const;
-  void prepareFirst(const Frame& frame, const SurfaceTree& tree, const Fill& fill);
-  void stepShare(Build& coming) const;
   std::span<const std::uint8_t> verdicts(const Frame& frame);
 
   std::array<Build, 2> builds_;
-  std::size_t standing_ = 0;    ///< the build in use, or that of the LOD rule before
-  int waited_ = 0;              ///< frames since a build was in use
+  std::size_t standing_ = 0;    ///< the build in use
   bool moving_ = false;         ///< lastEye_ is known
   Vec3 lastEye_, step_, turn_;  ///< step_ in metres per frame, turn_ per frame squared
   std::vector<std::uint8_t> verdicts_;

@@ -67,6 +67,7 @@ struct HoldMemory {
   double restoredMs = kInfinity;  ///< how long ago a lever was restored; infinite once it was lowered again
   double patience = 1;            ///< restoring waits for so many times hold.calm_ms
   std::uint8_t wantedError = 0;   ///< the place of the allowed error that there is head-room for
+  double waitedMs = 0;            ///< how long that has waited for its meshes
   friend bool operator==(const HoldMemory&, const HoldMemory&) = default;
 };
 
