@@ -45,6 +45,27 @@ TEST(Arbiter, theErrorReturnsOnceItsMeshesAreThereOrAfterTwoSeconds) {
   }
 }
 
+TEST(Arbiter, aFinerCutThatIsQuickerWaitsForItsMeshesToo) {
+  HoldMemory memory;
+  HoldGiven g = given();
+  g.budgetMs = 30;
+  HoldDecision d = arbitrate(g, enabled(), memory);
+  ASSERT_GT(d.held.errorPx, d.asked.errorPx);
+  // A sliver of ground, into which coarse nodes reach and fine ones do not.
+  std::reverse(g.triangles.begin(), g.triangles.end());
+  for (double& triangles : g.triangles) triangles *= 12;
+  g.groundMpx = 0.1;
+  g.meshesLeft = 1;
+  const double coarse = d.held.errorPx;
+  for (int i = 0; i < 20; ++i) {
+    g.timeS += 0.016;
+    EXPECT_EQ(arbitrate(g, enabled(), memory).held.errorPx, coarse) << i;
+  }
+  g.timeS += 0.016;
+  g.meshesLeft = 0;
+  EXPECT_LT(arbitrate(g, enabled(), memory).held.errorPx, coarse);
+}
+
 TEST(Arbiter, waitsForMeshesByTheClockWhateverTheCalmAndTheRate) {
   for (const double calmMs : {0.0, 10.0, 120.0})
     for (const double imageS : {0.004, 0.07}) {
